@@ -1,0 +1,61 @@
+/* Floor 0. What every module may lean on: input errors, timers with log events, expressions, small dense algebra. */
+#pragma once
+#include "compat.h"
+
+#define MORTISE_VERSION   "0.1.0"
+#define MORTISE_MAX_ORDER 8 /* highest polynomial order of a cell */
+#define MORTISE_NAME      64
+
+/* ---- input errors (base/error.c) ------------------------------------------------------------------------------- */
+
+/* Error code of wrong user input: main turns it into exit status 1 without a traceback. */
+#define MORTISE_ERR_INPUT PETSC_ERR_USER_INPUT
+
+/* Record one sentence about wrong input, printed once by rank 0 as "mortise: <sentence>", and return MORTISE_ERR_INPUT.
+   Every rank must come here alike (input is replicated). Use: PetscCheckInput(cond, "…", …). */
+PetscErrorCode ErrorInput(const char *format, ...) PETSC_ATTRIBUTE_FORMAT(1, 2);
+#define PetscCheckInput(cond, ...) \
+  do { \
+    if (PetscUnlikely(!(cond))) return ErrorInput(__VA_ARGS__); \
+  } while (0)
+
+/* Install the error handler that keeps quiet about input errors and prints PETSc's traceback for all others. */
+PetscErrorCode ErrorHandlerPush(void);
+
+/* ---- stages (base/log.c): a PetscLogEvent and accumulated wall seconds each ------------------------------------- */
+
+typedef enum { STAGE_MESH, STAGE_SETUP, STAGE_ASSEMBLE, STAGE_CONTACT, STAGE_FACTOR, STAGE_SOLVE, STAGE_ESTIMATE, STAGE_TRANSFER, STAGE_OUTPUT, NUM_STAGES } Stage;
+extern const char *const StageNames[NUM_STAGES]; /* keys of "time" in summary.json */
+PetscErrorCode StageRegister(void);
+PetscErrorCode StageBegin(Stage);
+PetscErrorCode StageEnd(Stage);
+PetscReal      StageSeconds(Stage);
+
+/* ---- expressions in X, Y, Z, t (base/expression.c, on muParser) -------------------------------------------------- */
+
+typedef struct _p_Expression *Expression;
+
+/* Parse a number or an expression in X, Y, Z (reference position), t (pseudo-time) and pi. key names the scene key in messages.
+   A text that is no expression is an input error that quotes key, text and the parser's reason. */
+PetscErrorCode ExpressionCreate(const char *key, const char *text, Expression *);
+PetscErrorCode ExpressionEvaluate(Expression, const PetscReal X[3], PetscReal t, PetscReal *value);
+PetscBool      ExpressionIsConstant(Expression);
+PetscErrorCode ExpressionDestroy(Expression *);
+
+/* Piecewise linear amplitude in t; num = 0 means the ramp 0,0 1,1. Constant beyond its ends. */
+typedef struct {
+  PetscInt   num;   /* number of (t, value) pairs */
+  PetscReal *pairs; /* [num][2], owned */
+} Amplitude;
+PetscReal AmplitudeEvaluate(const Amplitude *, PetscReal t);
+
+/* ---- small dense algebra (base/tensor.c and inline) -------------------------------------------------------------- */
+
+static inline PetscReal Det3(const PetscReal F[9])
+{
+  return F[0] * (F[4] * F[8] - F[5] * F[7]) - F[1] * (F[3] * F[8] - F[5] * F[6]) + F[2] * (F[3] * F[7] - F[4] * F[6]);
+}
+static inline PetscReal Dot3(const PetscReal a[3], const PetscReal b[3])
+{
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}

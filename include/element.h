@@ -1,0 +1,36 @@
+/* Floor 1. One-dimensional bases and quadrature on [0,1], from which every tensor-product cell is made.
+   Reference cells are [0,1]^dim; nodes and quadrature points are numbered lexicographically, x fastest. */
+#pragma once
+#include "base.h"
+
+/* Nodal Lagrange basis on the Gauss-Lobatto points of [0,1], tabulated at Gauss points. Cached: never free. */
+typedef struct {
+  PetscInt         order;      /* p >= 1 */
+  PetscInt         num_nodes;  /* p + 1 */
+  PetscInt         num_points; /* quadrature points */
+  const PetscReal *nodes;      /* [num_nodes] Gauss-Lobatto points in [0,1] */
+  const PetscReal *points;     /* [num_points] Gauss points in [0,1] */
+  const PetscReal *weights;    /* [num_points], sum 1 */
+  const PetscReal *B;          /* [num_points][num_nodes] values */
+  const PetscReal *D;          /* [num_points][num_nodes] derivatives */
+} Basis1D;
+
+/* Table of order `order` (1..MORTISE_MAX_ORDER) at `num_points` Gauss points (1..MORTISE_MAX_ORDER+4). Not collective. */
+PetscErrorCode Basis1DGet(PetscInt order, PetscInt num_points, const Basis1D **);
+
+/* Gauss-Lobatto nodes of order p on [0,1]; [p+1], cached. */
+PetscErrorCode ElementGetNodes(PetscInt order, const PetscReal **nodes);
+
+/* Values (and derivatives unless NULL) of the p+1 Lagrange functions of order p at xi; exact 0/1 at the nodes. */
+PetscErrorCode ElementEvaluate1D(PetscInt order, PetscReal xi, PetscReal value[], PetscReal derivative[]);
+
+/* Values [n] and gradients [n][dim] (unless NULL) of the n = (p+1)^dim tensor functions at xi[dim]. */
+PetscErrorCode ElementEvaluate(PetscInt dim, PetscInt order, const PetscReal xi[], PetscReal value[], PetscReal gradient[]);
+
+/* Legendre polynomials 0..degree on [0,1] at xi: P_0 = 1, P_n(1) = 1; and derivatives unless NULL. */
+PetscErrorCode ElementLegendre(PetscInt degree, PetscReal xi, PetscReal value[], PetscReal derivative[]);
+
+static inline PetscInt ElementNumNodes(PetscInt dim, PetscInt order)
+{
+  return dim == 1 ? order + 1 : dim == 2 ? (order + 1) * (order + 1) : (order + 1) * (order + 1) * (order + 1);
+}

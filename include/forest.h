@@ -1,0 +1,116 @@
+/* Floor 1. The refinement forest: replicated compact trees over a coarse mesh of quads or hexes, and the leaf DMPlex of each rank.
+   A Forest is immutable: ForestAdapt returns a new one. All global tables below are identical on every rank, whatever their number.
+
+   Leaves are numbered in depth-first order, coarse cell by coarse cell. An *entity* is a vertex, edge, face (3-D) or cell of some leaf.
+   Every entity of dimension d has a *frame* (its own reference coordinates in [0,1]^d), the same for all leaves that share it, and a
+   closure table of 3^d entries in tensor order: index sum_i t_i 3^i, t_i = 0 low side, 1 inside, 2 high side; the middle one is the
+   entity itself. Each entry has an orientation code that maps the owner's tangential axes to the frame of the sub-entity:
+     edges:  bit 0: reversed;
+     faces:  bit 2: the two axes are swapped, then bit 0 / bit 1: first / second *frame* axis reversed.
+   ForestOrient() applies it. Cell entities: frame = axes of the coarse cell. */
+#pragma once
+#include "base.h"
+
+typedef struct _p_Forest *Forest;
+
+#define FOREST_MAX_LEVEL 20 /* splits per direction */
+
+typedef struct {
+  char     file[PETSC_MAX_PATH_LEN]; /* .msh 2.2 or 4.1 */
+  PetscInt dim;                      /* 2 or 3 */
+  PetscInt refine;                   /* uniform refinements at once */
+} ForestSpec;
+
+/* Replicated description of the coarse mesh as read. */
+typedef struct {
+  PetscInt dim, num_cells, num_vertices, geometry_order;
+  PetscInt num_bodies;      /* physical groups of dimension dim */
+  PetscInt num_boundaries;  /* physical groups of dimension dim-1 */
+  char (*body_name)[MORTISE_NAME];     /* [num_bodies] */
+  char (*boundary_name)[MORTISE_NAME]; /* [num_boundaries], at most 64 */
+  PetscInt  *cell_vertices; /* [num_cells][2^dim] lexicographic */
+  PetscReal *cell_geometry; /* [num_cells][(q+1)^dim][3] positions at equispaced nodes, lexicographic, q = geometry_order */
+  PetscInt  *cell_body;     /* [num_cells] index of the body, -1: in none (input error reported by the scene with the cell's place) */
+} CoarseMesh;
+
+/* Read-only views of a forest's tables, borrowed, valid while the forest lives. */
+typedef struct {
+  PetscInt        dim;
+  PetscInt        revision;      /* grows by one at each adaptation */
+  PetscInt        num_leaves;    /* on all ranks */
+  const PetscInt *leaf_root;     /* [num_leaves] coarse cell */
+  const PetscInt *leaf_lo;       /* [num_leaves][3] low corner in units of 2^-FOREST_MAX_LEVEL of the coarse cell */
+  const int8_t *leaf_level;   /* [num_leaves][3] splits so far in each direction; extent = 2^(FOREST_MAX_LEVEL-level) */
+  const PetscInt *leaf_body;     /* [num_leaves] */
+  const PetscMPIInt *leaf_rank;  /* [num_leaves] owner, from the METIS partition */
+
+  PetscInt         num_entities; /* ids: vertices, then edges, then faces (3-D), then cells; cell of leaf l is first[dim] + l */
+  PetscInt         first[5];     /* [dim+2] first id of each dimension; first[dim+1] = num_entities */
+  const PetscInt  *closure_offset; /* [num_entities] start in the two arrays below; 3^d entries */
+  const PetscInt  *closure;        /* entity ids in tensor order */
+  const int8_t *orientation;    /* orientation codes, one for each closure entry */
+  const PetscInt  *parent;         /* [num_entities] entity in whose interior this one hangs, or -1. Its own parent may hang too. */
+  const int8_t *parent_place;   /* [num_entities][3] place in the parent's frame, per parent axis: 0 lower half, 1 upper half, 2 whole, 3 at the middle */
+  const PetscInt  *facet_leaf;     /* [num_facets][2] leaves that have this facet (entity of dimension dim-1, from first[dim-1]) as a whole one, -1: none */
+  const uint64_t  *boundary;       /* [num_entities] bit b: the entity lies in the closure of a leaf facet of boundary group b */
+  const PetscInt  *entity_leaf;    /* [num_entities] lowest leaf with this entity in its closure: its rank owns the entity */
+} ForestTables;
+
+/* What to do with each leaf, declared here because the forest consumes it. */
+typedef struct {
+  int8_t *split;   /* [num_leaves] bit d: split in direction d; 0: keep */
+  int8_t *coarsen; /* [num_leaves] nonzero: may merge with its siblings if all of them agree and closure permits */
+} MarkList;
+
+/* Relation of the leaves of a new forest to those of the one it came from. */
+typedef struct {
+  PetscInt  num;       /* leaves of the new forest */
+  PetscInt *old_first; /* [num] first old leaf that overlaps */
+  PetscInt *old_count; /* [num] how many: 1 same or refined, >1 merged */
+} ForestMap;
+
+/* Read the mesh of spec on rank 0, replicate it, refine uniformly, partition. Input errors: file missing or not gmsh 2.2/4.1, mixed dimensions,
+   no cells of dimension dim, inverted cell (number and centre), cell shapes other than quad/hex after conversion (triangles/tetrahedra are converted).
+   Collective. */
+PetscErrorCode ForestCreate(MPI_Comm, const ForestSpec *, Forest *);
+/* Same from a coarse mesh in memory (tests, boxes); takes ownership of the arrays of mesh; facets: num_facets boundary facets by their
+   2^(dim-1) vertices and bit mask of boundary groups. Collective. */
+PetscErrorCode ForestCreateFromCoarse(MPI_Comm, CoarseMesh *mesh, PetscInt num_facets, const PetscInt facet_vertices[], const uint64_t facet_groups[], PetscInt refine, Forest *);
+PetscErrorCode ForestDestroy(Forest *);
+PetscErrorCode ForestView(Forest, PetscViewer);
+
+PetscErrorCode ForestGetCoarse(Forest, const CoarseMesh **);
+PetscErrorCode ForestGetTables(Forest, const ForestTables **);
+MPI_Comm       ForestComm(Forest);
+
+/* New forest: splits, merges where permitted, 1-irregular closure (also across edges; conflicting anisotropic splits forced), repartition.
+   leaf_weight[num_leaves] of the *old* leaves (NULL: 1) is inherited for METIS; contact couplings: num_pairs pairs of old leaves that face each
+   other, added to the graph (may be 0/NULL). Collective. */
+PetscErrorCode ForestAdapt(Forest, const MarkList *, const PetscReal leaf_weight[], PetscInt num_pairs, const PetscInt pairs[][2], Forest *adapted, ForestMap *map);
+PetscErrorCode ForestMapDestroy(ForestMap *);
+
+/* Leaf DMPlex of this rank: owned leaves, one ghost layer (leaves that share an entity with an owned one or with its parents), and recursively
+   parent entities and their closures. Point SF set (owner: rank of entity_leaf), labels: one DMLabel per boundary group name on facets, "body" on
+   cells. Cones oriented validly. point_entity[num_points]: entity id of each DMPlex point; points are numbered cells (owned first, then ghosts),
+   vertices, then other dimensions. The DM and point_entity belong to the forest (built at first call). Collective. */
+PetscErrorCode ForestGetLeafDM(Forest, DM *, PetscInt *num_owned_cells, PetscInt *num_points, const PetscInt **point_entity);
+
+/* Exact position (polynomial geometry of the coarse cell) of the point xi in [0,1]^dim of a leaf. Not collective. */
+PetscErrorCode ForestMapPoint(Forest, PetscInt leaf, const PetscReal xi[], PetscReal X[3]);
+
+/* Map coordinates xi (owner's tangential axes, d of them) to the sub-entity's frame by its orientation code, in place order as documented above. */
+static inline void ForestOrient(PetscInt d, int8_t code, const PetscReal xi[], PetscReal eta[])
+{
+  if (d == 0) return;
+  if (d == 1) {
+    eta[0] = (code & 1) ? 1 - xi[0] : xi[0];
+    return;
+  }
+  if (d == 3) {
+    for (PetscInt i = 0; i < 3; ++i) eta[i] = xi[i];
+    return;
+  }
+  const PetscReal a = (code & 4) ? xi[1] : xi[0], b = (code & 4) ? xi[0] : xi[1];
+  eta[0] = (code & 1) ? 1 - a : a;
+  eta[1] = (code & 2) ? 1 - b : b;
+}

@@ -1,0 +1,53 @@
+/* Floor 2. The hp finite element space on the leaves of a forest: orders by the minimum rule, numbering, hanging-node and order constraints.
+
+   A *node* is a scalar location (vertex, or interior Gauss-Lobatto point of an edge, face or cell); the field has dim components at each.
+   Local nodes: those of all entities of this rank's leaf DMPlex; dof of node i, component c: local vector entry i*dim + c. A node is *free* of hanging
+   constraints ("true") or *hanging* (its row lists true nodes). Cell rows are resolved to true nodes.
+   Nodes may carry a frame (skew supports): the dofs of such a node are components along the rows of its frame. Gather and Scatter
+   speak Cartesian components to the cells, so nobody else sees frames. */
+#pragma once
+#include "element.h"
+#include "forest.h"
+
+typedef struct _p_HPSpace *HPSpace;
+
+/* Local tables, borrowed. Cells: owned first, then ghosts. */
+typedef struct {
+  PetscInt        dim, num_nodes, num_cells, num_owned_cells;
+  const PetscInt *cell_leaf;  /* [num_cells] */
+  const PetscInt *cell_order; /* [num_cells] */
+  const PetscInt *cell_row;   /* [num_cells+1] offsets into cell_master */
+  const PetscInt *cell_master;/* true local nodes a cell depends on; count n_m = cell_row[c+1]-cell_row[c] */
+  const PetscInt *cell_weight;/* [num_cells] offset of the dense matrix [(p+1)^dim][n_m] in weight, -1: the masters are the cell's nodes in lexicographic order */
+  const PetscReal *weight;
+  const PetscInt *node_entity;/* [num_nodes] global entity id */
+  const PetscInt *node_hang;  /* [num_nodes+1] offsets of a hanging node's row (empty: true node) */
+  const PetscInt *hang_master;/* true local nodes */
+  const PetscReal *hang_weight;
+  const PetscReal *X;         /* [num_nodes][3] reference positions: the hp interpolant of the exact geometry, hanging nodes included */
+  const PetscInt *point_node; /* [num_points+1] first node of each DMPlex point */
+} HPTables;
+
+/* Space with leaf_order[num_leaves] (replicated) cell orders; on entities in the closure of facets with a bit of linear_groups the order is 1 (contact faces).
+   Numbers nodes and computes rows. Collective. */
+PetscErrorCode HPSpaceCreate(Forest, const int8_t leaf_order[], uint64_t linear_groups, HPSpace *);
+/* Prescribed dofs: fixed[num_nodes] bit c: component c (in the node's frame) is prescribed; frames: num_frames nodes and their 3x3 rows.
+   Hanging nodes must not be marked. `inactive` nodes (NULL: none; of rigid bodies) carry no unknowns: all dofs prescribed.
+   Builds the local and global section, the DM's default constraints with bias, and vectors. Collective. */
+PetscErrorCode HPSpaceSetUp(HPSpace, const int8_t fixed[], PetscInt num_frames, const PetscInt frame_node[], const PetscReal frame[][9]);
+PetscErrorCode HPSpaceDestroy(HPSpace *);
+PetscErrorCode HPSpaceView(HPSpace, PetscViewer);
+PetscErrorCode HPSpaceGetTables(HPSpace, const HPTables **);
+PetscErrorCode HPSpaceGetForest(HPSpace, Forest *);
+PetscErrorCode HPSpaceGetDM(HPSpace, DM *); /* leaf DM clone with section and constraints */
+/* Global index of each local dof, [num_nodes*dim]: -1 prescribed or hanging. Numbering of the space's own global vector. */
+PetscErrorCode HPSpaceGetGlobalDofs(HPSpace, const PetscInt **);
+PetscErrorCode HPSpaceGetFrame(HPSpace, PetscInt node, const PetscReal **frame); /* NULL: Cartesian */
+PetscErrorCode HPSpaceGetOrder(HPSpace, PetscInt entity, PetscInt *order); /* order of a global entity in this rank's chart */
+
+/* Cartesian nodal values [n][dim] of cell from a local array of true dofs (hanging entries of the array are not read). */
+PetscErrorCode HPSpaceGather(HPSpace, PetscInt cell, const PetscReal local[], PetscReal values[]);
+/* Add P^T r to the local array (true dofs). */
+PetscErrorCode HPSpaceScatterAdd(HPSpace, PetscInt cell, const PetscReal r[], PetscReal local[]);
+/* K_m = P^T K P: true dofs of the cell, in order masters x components (frames applied); work at least (n*dim)^2. dofs: local dof indices [n_m*dim]. */
+PetscErrorCode HPSpaceTransformMatrix(HPSpace, PetscInt cell, const PetscReal K[], PetscReal Km[], PetscInt dofs[], PetscInt *num_dofs);

@@ -1,0 +1,60 @@
+/* Floor 1. Pointwise constitutive laws: one file and one table row each. A law always sees a 3x3 deformation gradient.
+   Stress-like quantities are in the user's unit of stress. Components of F, P: row-major, P[3*i+J]. */
+#pragma once
+#include "base.h"
+
+typedef enum { VOLUMETRIC_QUADRATIC, VOLUMETRIC_SIMO, VOLUMETRIC_LOG } Volumetric; /* U = kappa/2 (J-1)^2 | kappa/2 ((J^2-1)/2 - ln J) | NHc of docs/theory.md */
+typedef enum { FORMULATION_AUTO, FORMULATION_DISPLACEMENT, FORMULATION_MIXED } Formulation; /* auto: mixed from nu = 0.45 up */
+extern const char *const VolumetricNames[];  /* PETSc enum name arrays */
+extern const char *const FormulationNames[];
+
+#define MATERIAL_MAX_PARAMETERS 8
+
+typedef struct _MaterialLaw MaterialLaw; /* a row of the table of laws */
+
+typedef struct {
+  char               name[MORTISE_NAME]; /* the user's name of the material */
+  const MaterialLaw *law;                /* row of the table, never NULL after set-up */
+  PetscReal          mu, lambda, kappa;  /* derived from whichever pair was given; shear modulus, Lame's first, bulk modulus */
+  PetscReal          parameter[MATERIAL_MAX_PARAMETERS]; /* law's own (mooney_rivlin: c1, c2, kappa) */
+  Volumetric         volumetric;
+  Formulation        formulation;
+  PetscBool          mixed; /* resolved by MaterialSetUp: pressure is an independent field, condensed in the cell */
+} MaterialSpec;
+
+/* One named parameter of a law, for -list, -help and the checks. */
+typedef struct {
+  const char *name, *unit, *help;
+  PetscReal   min, max; /* admissible open interval */
+} MaterialParameter;
+
+/* Pointwise response at n points, structure of arrays with stride n: F[9][n] -> W[n], P[9][n], A[81][n] (A[9*a+b] = dP_a/dF_b, symmetric).
+   With `part` ISOCHORIC, the volumetric energy kappa/2 g(J)^2 is left out (mixed formulation adds it through its projection);
+   outputs that are NULL are skipped. Points with det F <= 0 set *bad to PETSC_TRUE (numerical status, no error). */
+typedef enum { MATERIAL_FULL, MATERIAL_ISOCHORIC } MaterialPart;
+typedef PetscErrorCode (*MaterialKernel)(const MaterialSpec *, MaterialPart part, PetscInt n, const PetscReal *F, PetscReal *W, PetscReal *P, PetscReal *A, PetscBool *bad);
+
+struct _MaterialLaw {
+  const char              *name, *help;
+  const MaterialParameter *parameters; /* ended by name NULL */
+  PetscBool                small;      /* linear law of small kinematics */
+  PetscBool                rigid;      /* cells are not assembled */
+  PetscErrorCode (*setup)(MaterialSpec *);
+  MaterialKernel           evaluate; /* NULL for rigid */
+};
+
+/* The table of laws, ended by name NULL; and look-up by name (NULL when unknown). */
+extern const MaterialLaw MaterialLaws[];
+const MaterialLaw *MaterialLawFind(const char *name);
+
+/* Complete a spec from parameters given by name: `names[i]`, `values[i]`, i < num. Checks which sets are complete (E,nu | mu,kappa | mu,lambda |
+   the law's own), ranges (E > 0, -1 < nu < 0.5, nu = 0.5 only as an error that suggests mixed with nu < 0.5; moduli positive), names unknown
+   parameters with the nearest known one, resolves `mixed`. Messages start with "material.<name>.<parameter>". */
+PetscErrorCode MaterialSetUp(MaterialSpec *, PetscInt num, const char *const names[], const PetscReal values[]);
+
+PetscErrorCode MaterialEvaluate(const MaterialSpec *, MaterialPart, PetscInt n, const PetscReal *F, PetscReal *W, PetscReal *P, PetscReal *A, PetscBool *bad);
+
+/* Volumetric measure g(J) with U(J) = kappa/2 g(J)^2 and its first two derivatives: J-1 (quadratic), ln J (log: with lambda for kappa),
+   sign(J-1) sqrt((J^2-1)/2 - ln J) (simo; series near 1). The independent pressure field is pi = modulus * Proj g; Cauchy pressure -pi g'(J) . */
+void      MaterialVolumetric(const MaterialSpec *, PetscReal J, PetscReal g[3]);
+PetscReal MaterialVolumetricModulus(const MaterialSpec *);

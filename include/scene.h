@@ -1,0 +1,62 @@
+/* Floor 4. The scene: one YAML file plus command-line overrides -> checked specs of the modules that consume them. Immutable after SceneSetUp. */
+#pragma once
+#include "contact.h"
+#include "forest.h"
+#include "mechanics.h"
+
+typedef struct {
+  PetscReal end, step, step_min, step_max; /* pseudo-time */
+  PetscInt  max_steps;
+} LoadSpec;
+
+typedef enum { ADAPT_H, ADAPT_P, ADAPT_HP } AdaptStrategy;
+typedef struct {
+  PetscReal     tolerance; /* relative; 0: no adaptation */
+  PetscInt      max_passes, max_cells;
+  PetscReal     fraction;  /* Dörfler share of the squared estimate to mark */
+  PetscReal     coarsen;   /* cells below this share of the mean squared indicator may merge */
+  AdaptStrategy strategy;
+} AdaptSpec;
+
+typedef struct {
+  char      directory[PETSC_MAX_PATH_LEN];
+  PetscBool fields, segments; /* write fields.xdmf; write segments */
+} OutputSpec;
+
+typedef struct {
+  char      name[MORTISE_NAME];
+  PetscReal X[3];
+} ProbeSpec;
+
+typedef struct {
+  char           file[PETSC_MAX_PATH_LEN]; /* the scene file as given */
+  char           title[256];
+  ForestSpec     mesh;
+  MechanicsSpec  mechanics;
+  PetscInt       num_materials;
+  MaterialSpec  *materials;
+  BodySpec      *bodies;      /* in the order of the mesh's bodies */
+  BoundarySpec  *boundaries;
+  PetscInt       num_contacts;
+  ContactSpec   *contacts;
+  LoadSpec       load;
+  AdaptSpec      adapt;
+  OutputSpec     output;
+  PetscInt       num_probes;
+  ProbeSpec     *probes;
+} SceneData;
+
+typedef struct _p_Scene *Scene;
+
+/* Read the scene named in the arguments (first argument that does not start with '-' ) and the overrides; validate everything that needs no mesh;
+   mesh a .geo with gmsh into a temporary file (rank 0); read the coarse mesh into *forest and validate names, bodies, contact pairs, orders against it.
+   Every wrong input is one sentence (ErrorInput). Collective. */
+PetscErrorCode SceneCreate(MPI_Comm, int argc, char **argv, Scene *);
+PetscErrorCode SceneSetUp(Scene, Forest *forest);
+PetscErrorCode SceneGetData(Scene, const SceneData **);
+PetscErrorCode SceneDestroy(Scene *);
+PetscBool      SceneCheckOnly(Scene); /* -check given */
+
+/* The manual (-help) and the catalogue (-list), made from the option table and the tables of laws; written to stdout by rank 0. */
+PetscErrorCode ScenePrintHelp(MPI_Comm);
+PetscErrorCode ScenePrintList(MPI_Comm);
