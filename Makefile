@@ -1,10 +1,28 @@
-# mortise: adaptive mortar contact. `make demo` and `make test` do everything on a fresh Debian 12 machine.
-#   make [DEBUG=1] [PORTABLE=1] [PETSC_DIR=… PETSC_ARCH=…]
+# mortise: contact between bodies that deform a lot. `make demo` and `make test` do everything on a Debian 12 machine
+# that has git and make: they install what is missing, build, and run.
+#   make [DEBUG=1] [PORTABLE=1] [PETSC_DIR=… PETSC_ARCH=…] [BUILD=…]
+#   DEBUG=1     address and undefined sanitizers          PORTABLE=1  no -march=native (for a cluster's head node)
+# Every combination has its own build directory and program, so changing a flag never mixes objects.
 
 MODULES ?= base element material forest hp mechanics contact scene problem solve estimate transfer output diagnose app
-BUILD   ?= build$(if $(DEBUG),-debug)
+VARIANT := $(if $(DEBUG),-debug)$(if $(PORTABLE),-portable)$(if $(PETSC_DIR),-$(notdir $(PETSC_DIR))$(if $(PETSC_ARCH),-$(PETSC_ARCH)))
+BUILD   ?= build$(VARIANT)
+PROGRAM ?= bin/mortise$(VARIANT)
 CC      := mpicc
 TRIPLET := $(shell gcc -dumpmachine 2>/dev/null)
+
+# Runs as root in a container, more ranks than cores, several runs side by side: all fine for small tests.
+export OMPI_ALLOW_RUN_AS_ROOT := 1
+export OMPI_ALLOW_RUN_AS_ROOT_CONFIRM := 1
+export OMPI_MCA_rmaps_base_oversubscribe := 1
+export OMPI_MCA_hwloc_base_binding_policy := none
+export OPENBLAS_NUM_THREADS := 1
+export OMP_NUM_THREADS := 1
+export ASAN_OPTIONS := detect_leaks=0
+
+# The first python that has what scripts and tests need: the one in PATH, else Debian's. Looked for only where used.
+PYTHON = $(shell for p in python3 /usr/bin/python3; do \
+  $$p -c 'import importlib.util as u, sys; sys.exit(not all(map(u.find_spec, ("pytest", "h5py", "matplotlib", "numpy"))))' 2>/dev/null && echo $$p && break; done)
 
 # PETSc: PETSC_DIR/PETSC_ARCH when given, else pkg-config, else Debian's prefix layout.
 ifdef PETSC_DIR
@@ -29,20 +47,26 @@ else
 endif
 CFLAGS   := -std=gnu11 $(OPT) -Wall -Wextra -Wshadow -Wstrict-prototypes -Wno-unused-parameter -Werror -fno-math-errno -MMD -MP
 CPPFLAGS := -Iinclude $(addprefix -Isrc/,$(MODULES)) $(PETSC_CFLAGS) $(HDF5_CFLAGS)
-LDLIBS   := $(PETSC_LIBS) -lmetis -ldmumps -lsmumps -lmumps_common $(HDF5_LIBS) -lmuparser -lcjson -lyaml -lopenblas -lm
+LDLIBS   := -Wl,--as-needed $(PETSC_LIBS) -lmetis -ldmumps -lsmumps -lmumps_common $(HDF5_LIBS) -lmuparser -lcjson -lyaml -lopenblas -lm
 
 SOURCES := $(foreach m,$(MODULES),$(wildcard src/$(m)/*.c))
 OBJECTS := $(SOURCES:src/%.c=$(BUILD)/%.o)
 LIBRARY := $(BUILD)/libmortise.a
 LIBOBJS := $(filter-out $(BUILD)/app/main.o,$(OBJECTS))
 UNITS   := $(patsubst tests/unit/%.c,$(BUILD)/unit/%,$(wildcard tests/unit/test_*.c))
+BENCHES := $(patsubst tests/bench/%.c,$(BUILD)/bench/%,$(wildcard tests/bench/*.c))
+TRACKED  = $(shell git ls-files '*.c' '*.h')
 
-.PHONY: all unit
-all: bin/mortise
+.PHONY: all units unit bootstrap demo run-demo test run-test verify run-verify chart bench run-bench format format-check lint floors sizes docs clean FORCE
+all: $(PROGRAM)
 
-bin/mortise: $(BUILD)/app/main.o $(LIBRARY)
-	@mkdir -p bin
+$(BUILD)/mortise: $(BUILD)/app/main.o $(LIBRARY)
 	$(CC) $(CFLAGS) -o $@ $^ $(LDLIBS)
+
+# bin/ follows whichever build directory was made last.
+$(PROGRAM): $(BUILD)/mortise FORCE
+	@mkdir -p $(@D)
+	@cmp -s $< $@ || cp $< $@
 
 $(LIBRARY): $(LIBOBJS)
 	@rm -f $@
@@ -56,7 +80,69 @@ $(BUILD)/unit/%: tests/unit/%.c $(LIBRARY)
 	@mkdir -p $(@D)
 	$(CC) $(CFLAGS) $(CPPFLAGS) -o $@ $< $(LIBRARY) -lcmocka $(LDLIBS)
 
+$(BUILD)/bench/%: tests/bench/%.c $(LIBRARY)
+	@mkdir -p $(@D)
+	$(CC) $(CFLAGS) $(CPPFLAGS) -o $@ $< $(LIBRARY) $(LDLIBS)
+
+units: $(UNITS)
 unit: $(UNITS)
 	@for t in $(UNITS); do echo "== $$t"; $$t || exit 1; done
 
--include $(OBJECTS:.o=.d) $(UNITS:=.d)
+# ---- what a newcomer types: `bootstrap` first, then a second make that finds the compiler ------------------------------
+
+bootstrap:
+	@scripts/bootstrap
+
+demo: bootstrap
+	@$(MAKE) --no-print-directory -j2 all
+	@$(MAKE) --no-print-directory run-demo
+run-demo:
+	$(PROGRAM) inputs/hertz2d.yml -output_directory out/hertz2d
+	$(PYTHON) scripts/plot out/hertz2d
+
+# One runner for unit programs (on 1, 2 and where it matters 3 ranks) and cases: its last line is the count.
+PYTEST = MORTISE=$(abspath $(PROGRAM)) MORTISE_BUILD=$(abspath $(BUILD)) $(PYTHON) -B -m pytest -c tests/pytest.ini --rootdir tests -q --durations=5
+test: bootstrap
+	@$(MAKE) --no-print-directory -j2 all units
+	@$(MAKE) --no-print-directory run-test
+run-test:
+	@$(PYTEST) -m "not slow" tests/unit tests/verify
+
+verify: bootstrap
+	@$(MAKE) --no-print-directory -j2 all units
+	@$(MAKE) --no-print-directory run-verify
+run-verify:
+	@$(PYTEST) tests/unit tests/verify tests/stability
+
+chart: bootstrap
+	@$(MAKE) --no-print-directory -j2 all
+	@MORTISE=$(abspath $(PROGRAM)) scripts/chart
+
+bench: bootstrap
+	@$(MAKE) --no-print-directory -j2 all run-bench
+run-bench: $(BENCHES)
+	@for b in $(BENCHES); do echo "== $$b"; $$b || exit 1; done
+	@if [ -e scripts/bench ]; then MORTISE=$(abspath $(PROGRAM)) scripts/bench; fi
+
+# ---- care of the source ------------------------------------------------------------------------------------------------
+
+format:
+	clang-format -i $(TRACKED)
+format-check:
+	clang-format --dry-run -Werror $(TRACKED)
+floors:
+	scripts/floors
+lint: format-check floors
+	bash -n scripts/bootstrap .ci/run
+	scripts/sizes --check
+sizes:
+	scripts/sizes
+
+# The manual is the program's own -help; docs/options.txt keeps it readable without building.
+docs: all
+	$(PROGRAM) -help > docs/options.txt
+
+clean:
+	rm -rf build build-* bin out tests/.pytest_cache
+
+-include $(OBJECTS:.o=.d) $(UNITS:=.d) $(BENCHES:=.d)

@@ -1,0 +1,37 @@
+"""Runs every cmocka program of tests/unit on 1 and 2 ranks, so that one closing line counts unit tests and cases alike.
+
+By name: test_*_serial.c on one rank only, test_*_mpi.c also on 3 ranks. Programs are built by `make units`.
+"""
+import os
+import pathlib
+import subprocess
+
+import pytest
+
+HERE = pathlib.Path(__file__).resolve().parent
+BUILD = pathlib.Path(os.environ.get("MORTISE_BUILD", HERE.parent.parent / "build"))
+SECONDS = 240  # a rank that fails an assertion may leave the others waiting: that is a failure, not a hang
+
+
+def runs():
+    for source in sorted(HERE.glob("test_*.c")):
+        name = source.stem
+        ranks = (1,) if name.endswith("_serial") else (1, 2, 3) if name.endswith("_mpi") else (1, 2)
+        yield from ((name, n) for n in ranks)
+
+
+@pytest.mark.parametrize("name,ranks", runs())
+def test_unit(name, ranks, tmp_path):
+    command = [str(BUILD / "unit" / name)]
+    if ranks > 1:
+        command = ["mpiexec", "-n", str(ranks)] + command
+    # Own process group, so that a timeout ends the ranks too.
+    process = subprocess.Popen(command, cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, start_new_session=True)
+    try:
+        output, _ = process.communicate(timeout=SECONDS)
+    except subprocess.TimeoutExpired:
+        os.killpg(process.pid, 9)
+        output, _ = process.communicate()
+        pytest.fail(f"{name} on {ranks} ranks: no end after {SECONDS} s\n{output}", pytrace=False)
+    if process.returncode:
+        pytest.fail(f"{name} on {ranks} ranks: exit {process.returncode}\n{output}", pytrace=False)

@@ -1,0 +1,100 @@
+"""What the cases lean on: run a scene with bin/mortise and read what it left.
+
+    def test_patch(run):
+        result = run("inputs/patch.yml", "-order", 2, ranks=2)
+        assert result.returncode == 0 and result.summary["status"] == "converged"
+"""
+import csv
+import json
+import os
+import pathlib
+import subprocess
+import xml.etree.ElementTree
+
+import pytest
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
+PROGRAM = pathlib.Path(os.environ.get("MORTISE", ROOT / "bin" / "mortise"))
+
+
+class Result:
+    """One run: exit status, screen output, and the files of its output directory, read when asked for."""
+
+    def __init__(self, command, returncode, stdout, stderr, directory):
+        self.command, self.returncode, self.stdout, self.stderr, self.directory = command, returncode, stdout, stderr, directory
+
+    def __repr__(self):  # what pytest shows when an assertion on a result fails
+        return f"<{' '.join(self.command)}: exit {self.returncode}\n{self.stdout[-3000:]}\n{self.stderr[-3000:]}>"
+
+    @property
+    def summary(self):
+        """summary.json as a dict."""
+        return json.loads((self.directory / "summary.json").read_text())
+
+    def table(self, name):
+        """A csv table as a list of {column: float}."""
+        with open(self.directory / name, newline="") as file:
+            return [{key: float(value) for key, value in row.items()} for row in csv.DictReader(file)]
+
+    @property
+    def adapt(self):
+        return self.table("adapt.csv")
+
+    @property
+    def history(self):
+        return self.table("history.csv")
+
+    def states(self, grid="bulk"):
+        """(time, {name: array}) for each written state of a grid, as fields.xdmf lists them; X are the points, conn the cells."""
+        import h5py
+
+        out = []
+        root = xml.etree.ElementTree.parse(self.directory / "fields.xdmf").getroot()
+        for state in root.findall(f"Domain/Grid[@Name='{grid}']/Grid"):
+            data = {}
+            for item in state.iter("DataItem"):
+                file, path = item.text.strip().split(":")
+                with h5py.File(self.directory / file) as h5:
+                    data[path.rsplit("/", 1)[1]] = h5[path][...]
+            out.append((float(state.find("Time").get("Value")), data))
+        return out
+
+
+def execute(command, timeout=600, env=None):
+    """Run a command in its own process group; a timeout ends all its ranks and fails the test."""
+    process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, start_new_session=True, cwd=ROOT,
+                               env=None if env is None else {**os.environ, **env})
+    try:
+        stdout, stderr = process.communicate(timeout=timeout)
+    except subprocess.TimeoutExpired:
+        os.killpg(process.pid, 9)
+        stdout, stderr = process.communicate()
+        pytest.fail(f"{' '.join(command)}: no end after {timeout} s\n{stdout[-3000:]}\n{stderr[-3000:]}", pytrace=False)
+    return process.returncode, stdout, stderr
+
+
+@pytest.fixture
+def run(tmp_path):
+    """run(scene, *options, ranks=1, timeout=600, text=None) -> Result.
+
+    scene: path (relative: to the repository), or with text= the name under which that YAML text is written to the test's
+    own directory first. Options are passed as they are. Each run of a test gets its own output directory.
+    """
+    count = 0
+
+    def start(scene, *options, ranks=1, timeout=600, text=None, env=None):
+        nonlocal count
+        count += 1
+        if text is not None:
+            path = tmp_path / scene
+            path.write_text(text)
+        else:
+            path = ROOT / scene
+            assert path.exists(), f"no scene {path}"
+        directory = tmp_path / f"out{count}"
+        command = [str(PROGRAM), str(path), "-output_directory", str(directory)] + [str(option) for option in options]
+        if ranks > 1:
+            command = ["mpiexec", "-n", str(ranks)] + command
+        return Result(command, *execute(command, timeout, env), directory)
+
+    return start
