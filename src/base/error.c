@@ -1,0 +1,39 @@
+/* Wrong input is told once, in one sentence; every other error keeps PETSc's traceback. */
+#include "base.h"
+#include <stdarg.h>
+#include <stdio.h>
+
+PetscErrorCode ErrorInput(const char *format, ...)
+{
+  PetscMPIInt rank = 0, initialized = 0, finalized = 0;
+  va_list     arguments;
+
+  /* No PetscCall here: this is the origin of an error, and it must work before PetscInitialize as well. */
+  MPI_Initialized(&initialized);
+  MPI_Finalized(&finalized);
+  if (initialized && !finalized) MPI_Comm_rank(PetscInitializeCalled ? PETSC_COMM_WORLD : MPI_COMM_WORLD, &rank);
+  if (rank == 0) {
+    fputs("mortise: ", stderr);
+    va_start(arguments, format);
+    vfprintf(stderr, format, arguments);
+    va_end(arguments);
+    fputc('\n', stderr);
+    fflush(stderr);
+  }
+  return MORTISE_ERR_INPUT;
+}
+
+/* PETSc calls the handler once per PetscCall level, with PETSC_ERROR_REPEAT from the second on: the code alone decides. */
+static PetscErrorCode ErrorHandler_Private(MPI_Comm comm, int line, const char *function, const char *file, PetscErrorCode code, PetscErrorType type,
+                                           const char *message, void *context)
+{
+  if (code == MORTISE_ERR_INPUT) return code;
+  return PetscTraceBackErrorHandler(comm, line, function, file, code, type, message, context);
+}
+
+PetscErrorCode ErrorHandlerPush(void)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscPushErrorHandler(ErrorHandler_Private, NULL));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
