@@ -39,7 +39,7 @@ typedef struct _p_Expression *Expression;
    A text that is no expression is an input error that quotes key, text and the parser's reason. */
 PetscErrorCode ExpressionCreate(const char *key, const char *text, Expression *);
 PetscErrorCode ExpressionEvaluate(Expression, const PetscReal X[3], PetscReal t, PetscReal *value);
-PetscBool      ExpressionIsConstant(Expression);
+PetscBool      ExpressionUsesTime(Expression); /* t occurs in it */
 PetscErrorCode ExpressionDestroy(Expression *);
 
 /* Piecewise linear amplitude in t; num = 0 means the ramp 0,0 1,1. Constant beyond its ends. */

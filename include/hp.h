@@ -47,6 +47,8 @@ PetscErrorCode HPSpaceGetOrder(HPSpace, PetscInt entity, PetscInt *order); /* or
 
 /* Cartesian nodal values [n][dim] of cell from a local array of true dofs (hanging entries of the array are not read). */
 PetscErrorCode HPSpaceGather(HPSpace, PetscInt cell, const PetscReal local[], PetscReal values[]);
+/* Reference positions [n][dim] of the cell's nodes. */
+PetscErrorCode HPSpaceGatherPositions(HPSpace, PetscInt cell, PetscReal X[]);
 /* Add P^T r to the local array (true dofs). */
 PetscErrorCode HPSpaceScatterAdd(HPSpace, PetscInt cell, const PetscReal r[], PetscReal local[]);
 /* K_m = P^T K P: true dofs of the cell, in order masters x components (frames applied); work at least (n*dim)^2. dofs: local dof indices [n_m*dim]. */

@@ -42,3 +42,56 @@ typedef struct {
   PetscInt            num_boundaries;
   const BoundarySpec *boundaries;
 } MechanicsSpec;
+
+/* ---- the bulk of one mesh (mechanics.c, support.c, load.c, integrate.c) ------------------------------------------------ */
+
+typedef struct _p_Mechanics *Mechanics;
+
+/* Which dofs of the space are prescribed, by the scene's boundaries and rigid bodies. Fills fixed[num_nodes] (bit c: component c in the node's frame)
+   and the frames of nodes with skew supports; arrays are freed by MechanicsSupportsDestroy. Collective on nothing: input is replicated. */
+typedef struct {
+  int8_t   *fixed;
+  PetscInt  num_frames, *frame_node;
+  PetscReal (*frame)[9];
+  int8_t   *cause; /* [num_nodes][3] boundary index that prescribes this component, -1 none, -2 rigid body */
+} Supports;
+PetscErrorCode MechanicsSupportsCreate(HPSpace, const MechanicsSpec *, Supports *);
+PetscErrorCode MechanicsSupportsDestroy(Supports *);
+
+/* After HPSpaceSetUp. Takes a reference to nothing: space, spec and supports must outlive it. */
+PetscErrorCode MechanicsCreate(HPSpace, const MechanicsSpec *, const Supports *, Mechanics *);
+PetscErrorCode MechanicsDestroy(Mechanics *);
+
+/* Pseudo-time: evaluates dead loads and prescribed values. */
+PetscErrorCode MechanicsSetTime(Mechanics, PetscReal t);
+/* Write the prescribed dofs of time t into a local array of dofs; other entries stay. */
+PetscErrorCode MechanicsPrescribe(Mechanics, PetscReal local[]);
+
+/* Results of a bulk integration on this rank (sums and minima over its own cells). */
+typedef struct {
+  PetscReal energy;  /* strain energy */
+  PetscReal min_det; /* smallest det F */
+  PetscBool bad;     /* some det F <= 0: residual must not be used (numerical status) */
+} MechanicsStatus;
+
+/* Add the residual (internal minus external forces) at displacement u (local array, prescribed dofs set) to r (local array, prescribed dofs included: reactions). */
+PetscErrorCode MechanicsResidual(Mechanics, const PetscReal u[], PetscReal r[], MechanicsStatus *);
+
+/* Receives K[num][num] for local dofs. */
+typedef PetscErrorCode (*MatrixSink)(void *context, PetscInt num, const PetscInt dofs[], const PetscReal K[]);
+/* Tangent at u with the stored pressure (NULL: consistent with u); remembers the linearised pressure for MechanicsUpdatePressure. */
+PetscErrorCode MechanicsTangent(Mechanics, const PetscReal u[], const PetscReal pressure[], MatrixSink, void *context, PetscBool *bad);
+
+/* Element pressures: num coefficients on this rank, cell after cell. */
+PetscErrorCode MechanicsNumPressure(Mechanics, PetscInt *num);
+/* pressure += step * (linearised pressure at the last tangent + its derivative . du - pressure), du local array. */
+PetscErrorCode MechanicsUpdatePressure(Mechanics, const PetscReal du[], PetscReal step, PetscReal pressure[]);
+/* The pressure that u implies. */
+PetscErrorCode MechanicsConsistentPressure(Mechanics, const PetscReal u[], PetscReal pressure[]);
+
+/* Sum of residual entries r (local array, as returned by MechanicsResidual plus contact) over what each boundary prescribes: force of the support on the body,
+   Cartesian; reaction[num_boundaries][3], this rank's part. */
+PetscErrorCode MechanicsReactions(Mechanics, const PetscReal r[], PetscReal reaction[][3]);
+
+/* Point values in cell at np reference points: F, P [np][9] and strain energy density W (NULL: skip). Owned and ghost cells (a ghost's pressure is consistent with u). */
+PetscErrorCode MechanicsPoints(Mechanics, PetscInt cell, PetscInt np, const PetscReal xi[], const PetscReal u[], PetscReal F[], PetscReal P[], PetscReal W[]);

@@ -45,3 +45,41 @@ PetscErrorCode FacetTraction(PetscInt dim, Model, PetscInt order, const PetscRea
 /* Follower pressure p[np] against the outward normal; `side` (+1/-1) makes the normal of the tangent order outward. Residual and exact tangent
    [n*d][n*d] (NULL: skip) at current positions x[n][d]. Small kinematics: call with x = X and no tangent. */
 PetscErrorCode FacetPressure(PetscInt dim, Model, PetscInt order, const PetscReal *x, PetscInt side, const PetscReal *pressure, PetscReal *residual, PetscReal *tangent);
+
+/* ---- the bulk of one mesh ------------------------------------------------------------------------------------------------ */
+
+/* Owned cells of one law and order, kept contiguous. */
+typedef struct {
+  CellKernel kernel; /* owned */
+  PetscInt   order, num_cells, n, m, batch; /* nodes and pressure coefficients of a cell; cells per call */
+  PetscInt  *cells;            /* owned [num_cells] local cells */
+  PetscReal *X;                /* owned [num_cells][n][dim] */
+  PetscInt   pressure;         /* first coefficient in the pressure array */
+} CellGroup;
+
+/* A facet that carries a load. */
+typedef struct {
+  PetscInt cell, side, boundary; /* side = 2*direction + (high side) */
+} LoadFacet;
+
+struct _p_Mechanics {
+  HPSpace              space;    /* borrowed */
+  const MechanicsSpec *spec;     /* borrowed */
+  const Supports      *supports; /* borrowed */
+  PetscInt             dim, num_groups, num_pressure, num_facets;
+  CellGroup           *groups;    /* owned */
+  PetscInt            *cell_group, *cell_index; /* owned [num_cells] group (-1: rigid) and position in it (-1: ghost) */
+  LoadFacet           *facets;    /* owned */
+  PetscReal            t;
+  PetscReal           *dead;      /* owned local array: dead loads at t, negative as in the residual; NULL: none */
+  PetscReal           *linear, *dpressure; /* owned: linearised pressure and derivative of the last tangent; dpressure holds [m][n*dim] cell by cell */
+  PetscReal           *work;      /* owned batch buffers */
+  PetscInt             work_size;
+};
+
+PetscErrorCode MechanicsLoadFacets_Private(Mechanics);
+PetscErrorCode MechanicsDeadLoads_Private(Mechanics);
+/* Follower pressures: add to r (NULL: skip) and to the sink (NULL: skip). */
+PetscErrorCode MechanicsFollowers_Private(Mechanics, const PetscReal u[], PetscReal r[], MatrixSink, void *context);
+/* value of an expression times the amplitude; an expression that speaks of t itself takes the amplitude only when one is given. */
+PetscErrorCode MechanicsValue_Private(Expression, const Amplitude *, const PetscReal X[3], PetscReal t, PetscReal *value);

@@ -1,0 +1,54 @@
+/* Private to hp. */
+#pragma once
+#include "hp.h"
+
+struct _p_HPSpace {
+  Forest              forest;          /* borrowed */
+  const ForestTables *tables;          /* borrowed */
+  PetscInt            dim, num_points; /* points of the leaf DMPlex */
+  const PetscInt     *point_entity;    /* borrowed [num_points] */
+  PetscInt           *entity_point;    /* owned [num_entities], -1 where the entity is not in this rank's chart */
+  int8_t             *entity_order;    /* owned [num_entities], by the minimum rule */
+  DM                  dm;              /* owned: clone of the leaf DM with section and constraints */
+  HPTables            view;            /* what HPSpaceGetTables shows; arrays below own its memory */
+  PetscInt           *point_node, *node_entity, *cell_leaf, *cell_order, *cell_row, *cell_master, *cell_weight, *node_hang, *hang_master;
+  PetscReal          *weight, *hang_weight, *X;
+  PetscInt           *global_dof; /* owned [num_nodes*dim], -1 constrained */
+  PetscInt            num_frames;
+  PetscInt           *node_frame; /* owned [num_nodes] index into frame or -1; NULL: no frames */
+  PetscReal (*frame)[9];          /* owned [num_frames] rows are the directions of the dofs */
+  PetscReal *work;                /* owned, gather and transform */
+};
+
+/* A sparse row under construction: true local nodes and weights. */
+typedef struct {
+  PetscInt   num, size;
+  PetscInt  *node;
+  PetscReal *weight;
+} HPRow;
+
+/* order.c: entity_order from leaf orders. */
+PetscErrorCode HPSpaceOrders_Private(HPSpace, const int8_t leaf_order[], uint64_t linear_groups);
+/* node.c: numbering, positions of nodes. */
+PetscErrorCode HPSpaceNodes_Private(HPSpace, PetscInt num_owned_cells);
+PetscErrorCode HPSpacePositions_Private(HPSpace);
+/* constraint.c: rows of hanging nodes and cells. */
+PetscErrorCode HPSpaceRows_Private(HPSpace);
+PetscErrorCode HPRowReset_Private(HPRow *);
+PetscErrorCode HPRowDestroy_Private(HPRow *);
+PetscErrorCode HPRowAccumulate_Private(HPSpace, PetscInt entity, const PetscReal xi[], PetscReal scale, HPRow *);
+/* section.c: sections and default constraints. */
+PetscErrorCode HPSpaceSections_Private(HPSpace, const int8_t fixed[]);
+
+static inline PetscInt HPEntityDim_Private(const ForestTables *t, PetscInt entity)
+{
+  PetscInt d = 0;
+  while (entity >= t->first[d + 1]) ++d;
+  return d;
+}
+
+static inline PetscInt HPNodesOfEntity_Private(PetscInt d, PetscInt order)
+{
+  const PetscInt n = order - 1;
+  return d == 0 ? 1 : d == 1 ? n : d == 2 ? n * n : n * n * n;
+}

@@ -1,0 +1,61 @@
+/* Orders of edges and faces by the minimum rule. */
+#include "hpimpl.h"
+
+static PetscBool Lower_Private(int8_t *order, int8_t to)
+{
+  if (*order <= to) return PETSC_FALSE;
+  *order = to;
+  return PETSC_TRUE;
+}
+
+/* One sweep of: a part of an entity's closure has at most the entity's order. Edges of faces matter as well as faces of cells:
+   a face lowered by a hanging neighbour must lower its edges, or its tensor basis could not follow them. */
+static PetscBool SweepClosures_Private(const ForestTables *t, int8_t *order)
+{
+  PetscBool changed = PETSC_FALSE;
+  /* first[3] ends the two-dimensional entities: faces in 3-D, cells in 2-D (first[dim+1] = num_entities). */
+  for (PetscInt e = t->first[2]; e < t->num_entities; ++e) {
+    const PetscInt  n  = e < t->first[3] ? 9 : 27;
+    const PetscInt *cl = t->closure + t->closure_offset[e];
+    for (PetscInt i = 0; i < n; ++i) {
+      if (cl[i] >= t->first[1] && Lower_Private(&order[cl[i]], order[e])) changed = PETSC_TRUE;
+    }
+  }
+  return changed;
+}
+
+/* One sweep of: a hanging entity and the one it hangs on share their order, the lower of the two. */
+static PetscBool SweepParents_Private(const ForestTables *t, int8_t *order)
+{
+  PetscBool changed = PETSC_FALSE;
+  for (PetscInt e = t->first[1]; e < t->first[t->dim]; ++e) {
+    const PetscInt parent = t->parent[e];
+    if (parent < 0) continue;
+    if (Lower_Private(&order[parent], order[e])) changed = PETSC_TRUE;
+    if (Lower_Private(&order[e], order[parent])) changed = PETSC_TRUE;
+  }
+  return changed;
+}
+
+PetscErrorCode HPSpaceOrders_Private(HPSpace hp, const int8_t leaf_order[], uint64_t linear_groups)
+{
+  const ForestTables *t = hp->tables;
+  int8_t             *order;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(t->num_entities, &hp->entity_order));
+  order = hp->entity_order;
+  for (PetscInt e = 0; e < t->first[t->dim]; ++e) order[e] = MORTISE_MAX_ORDER;
+  for (PetscInt l = 0; l < t->num_leaves; ++l) {
+    PetscCheckInput(leaf_order[l] >= 1 && leaf_order[l] <= MORTISE_MAX_ORDER, "order: %d is out of range, allowed are 1 to %d", (int)leaf_order[l], MORTISE_MAX_ORDER);
+    order[t->first[t->dim] + l] = leaf_order[l];
+  }
+  for (PetscInt e = t->first[1]; e < t->first[t->dim]; ++e) {
+    if (t->boundary[e] & linear_groups) order[e] = 1;
+  }
+  for (PetscBool changed = PETSC_TRUE; changed;) {
+    changed = SweepClosures_Private(t, order);
+    if (SweepParents_Private(t, order)) changed = PETSC_TRUE;
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

@@ -1,0 +1,179 @@
+/* Sums over the cells: residual, tangent, element pressures, point values. */
+#include "mechanicsimpl.h"
+
+/* Buffers of one batch, cut from the work array. */
+typedef struct {
+  PetscReal *u, *r, *K, *consistent, *energy, *min_det;
+} Buffers;
+
+static Buffers CutBuffers_Private(Mechanics m, const CellGroup *g)
+{
+  const PetscInt nd = g->n * m->dim;
+  Buffers        b;
+  b.u          = m->work;
+  b.r          = b.u + g->batch * nd;
+  b.K          = b.r + g->batch * nd;
+  b.consistent = b.K + g->batch * nd * nd;
+  b.energy     = b.consistent + g->batch * g->m;
+  b.min_det    = b.energy + g->batch;
+  return b;
+}
+
+static PetscErrorCode GatherBatch_Private(Mechanics m, const CellGroup *g, PetscInt first, PetscInt nc, const PetscReal u[], PetscReal *values)
+{
+  PetscFunctionBegin;
+  for (PetscInt i = 0; i < nc; ++i) PetscCall(HPSpaceGather(m->space, g->cells[first + i], u, values + i * g->n * m->dim));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode GroupResidual_Private(Mechanics m, const CellGroup *g, const PetscReal u[], PetscReal r[], MechanicsStatus *status)
+{
+  const Buffers  b  = CutBuffers_Private(m, g);
+  const PetscInt nd = g->n * m->dim;
+
+  PetscFunctionBegin;
+  for (PetscInt first = 0; first < g->num_cells; first += g->batch) {
+    CellBatch batch = {.nc = PetscMin(g->batch, g->num_cells - first), .X = g->X + first * nd, .u = b.u, .energy = b.energy, .residual = b.r, .min_det = b.min_det};
+    PetscCall(GatherBatch_Private(m, g, first, batch.nc, u, b.u));
+    PetscCall(CellKernelEvaluate(g->kernel, &batch));
+    for (PetscInt i = 0; i < batch.nc; ++i) status->min_det = PetscMin(status->min_det, b.min_det[i]);
+    if (batch.bad) {
+      status->bad = PETSC_TRUE;
+      continue;
+    }
+    for (PetscInt i = 0; i < batch.nc; ++i) {
+      status->energy += b.energy[i];
+      PetscCall(HPSpaceScatterAdd(m->space, g->cells[first + i], b.r + i * nd, r));
+    }
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode MechanicsResidual(Mechanics m, const PetscReal u[], PetscReal r[], MechanicsStatus *status)
+{
+  PetscFunctionBegin;
+  status->energy  = 0;
+  status->min_det = PETSC_MAX_REAL;
+  status->bad     = PETSC_FALSE;
+  for (PetscInt g = 0; g < m->num_groups; ++g) PetscCall(GroupResidual_Private(m, &m->groups[g], u, r, status));
+  if (m->dead) {
+    const HPTables *v;
+    PetscCall(HPSpaceGetTables(m->space, &v));
+    for (PetscInt i = 0; i < v->num_nodes * m->dim; ++i) r[i] += m->dead[i];
+  }
+  PetscCall(MechanicsFollowers_Private(m, u, r, NULL, NULL));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode SendMatrix_Private(Mechanics m, PetscInt cell, const PetscReal K[], PetscReal *Km, PetscInt *dofs, MatrixSink sink, void *context)
+{
+  PetscInt num;
+
+  PetscFunctionBegin;
+  PetscCall(HPSpaceTransformMatrix(m->space, cell, K, Km, dofs, &num));
+  PetscCall(sink(context, num, dofs, Km));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Most masters of any owned cell. */
+static PetscErrorCode MostMasters_Private(Mechanics m, PetscInt *most)
+{
+  const HPTables *v;
+
+  PetscFunctionBegin;
+  PetscCall(HPSpaceGetTables(m->space, &v));
+  *most = 1;
+  for (PetscInt c = 0; c < v->num_cells; ++c) *most = PetscMax(*most, v->cell_row[c + 1] - v->cell_row[c]);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode MechanicsTangent(Mechanics m, const PetscReal u[], const PetscReal pressure[], MatrixSink sink, void *context, PetscBool *bad)
+{
+  PetscInt   most, *dofs;
+  PetscReal *Km, *dpressure = m->dpressure;
+
+  PetscFunctionBegin;
+  *bad = PETSC_FALSE;
+  PetscCall(MostMasters_Private(m, &most));
+  PetscCall(PetscMalloc2(most * m->dim, &dofs, most * m->dim * most * m->dim, &Km));
+  for (PetscInt ig = 0; ig < m->num_groups; ++ig) {
+    const CellGroup *g  = &m->groups[ig];
+    const Buffers    b  = CutBuffers_Private(m, g);
+    const PetscInt   nd = g->n * m->dim;
+    for (PetscInt first = 0; first < g->num_cells; first += g->batch) {
+      CellBatch batch = {.nc = PetscMin(g->batch, g->num_cells - first), .X = g->X + first * nd, .u = b.u, .tangent = b.K};
+      PetscCall(GatherBatch_Private(m, g, first, batch.nc, u, b.u));
+      if (g->m) {
+        batch.pressure   = pressure ? pressure + g->pressure + first * g->m : NULL;
+        batch.consistent = m->linear + g->pressure + first * g->m;
+        batch.dpressure  = dpressure + first * g->m * nd;
+      }
+      PetscCall(CellKernelEvaluate(g->kernel, &batch));
+      if (batch.bad) *bad = PETSC_TRUE;
+      else
+        for (PetscInt i = 0; i < batch.nc; ++i) PetscCall(SendMatrix_Private(m, g->cells[first + i], b.K + i * nd * nd, Km, dofs, sink, context));
+    }
+    dpressure += g->num_cells * g->m * nd;
+  }
+  PetscCall(PetscFree2(dofs, Km));
+  PetscCall(MechanicsFollowers_Private(m, u, NULL, sink, context));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode MechanicsUpdatePressure(Mechanics m, const PetscReal du[], PetscReal step, PetscReal pressure[])
+{
+  const PetscReal *dpressure = m->dpressure;
+
+  PetscFunctionBegin;
+  for (PetscInt ig = 0; ig < m->num_groups; ++ig) {
+    const CellGroup *g  = &m->groups[ig];
+    const PetscInt   nd = g->n * m->dim;
+    for (PetscInt i = 0; i < g->num_cells && g->m; ++i) {
+      PetscCall(HPSpaceGather(m->space, g->cells[i], du, m->work));
+      for (PetscInt a = 0; a < g->m; ++a, dpressure += nd) {
+        PetscReal target = m->linear[g->pressure + i * g->m + a];
+        for (PetscInt k = 0; k < nd; ++k) target += dpressure[k] * m->work[k];
+        pressure[g->pressure + i * g->m + a] += step * (target - pressure[g->pressure + i * g->m + a]);
+      }
+    }
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode MechanicsConsistentPressure(Mechanics m, const PetscReal u[], PetscReal pressure[])
+{
+  PetscFunctionBegin;
+  for (PetscInt ig = 0; ig < m->num_groups; ++ig) {
+    const CellGroup *g  = &m->groups[ig];
+    const Buffers    b  = CutBuffers_Private(m, g);
+    const PetscInt   nd = g->n * m->dim;
+    for (PetscInt first = 0; first < g->num_cells && g->m; first += g->batch) {
+      CellBatch batch = {.nc = PetscMin(g->batch, g->num_cells - first), .X = g->X + first * nd, .u = b.u, .consistent = pressure + g->pressure + first * g->m};
+      PetscCall(GatherBatch_Private(m, g, first, batch.nc, u, b.u));
+      PetscCall(CellKernelEvaluate(g->kernel, &batch));
+    }
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode MechanicsPoints(Mechanics m, PetscInt cell, PetscInt np, const PetscReal xi[], const PetscReal u[], PetscReal F[], PetscReal P[], PetscReal W[])
+{
+  const CellGroup *g;
+  PetscReal       *X, *values, consistent[64];
+  PetscBool        bad;
+
+  PetscFunctionBegin;
+  PetscCheck(m->cell_group[cell] >= 0, PETSC_COMM_SELF, PETSC_ERR_ARG_WRONG, "cell %" PetscInt_FMT " is rigid: it has no stress", cell);
+  g = &m->groups[m->cell_group[cell]];
+  X = m->work;
+  values = X + g->n * m->dim;
+  PetscCall(HPSpaceGatherPositions(m->space, cell, X));
+  PetscCall(HPSpaceGather(m->space, cell, u, values));
+  if (g->m) {
+    CellBatch batch = {.nc = 1, .X = X, .u = values, .consistent = consistent};
+    PetscCheck(g->m <= 64, PETSC_COMM_SELF, PETSC_ERR_ARG_OUTOFRANGE, "%" PetscInt_FMT " pressure coefficients in a cell", g->m);
+    PetscCall(CellKernelEvaluate(g->kernel, &batch));
+  }
+  PetscCall(CellKernelPoints(g->kernel, np, xi, X, values, g->m ? consistent : NULL, F, P, W, &bad));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

@@ -1,0 +1,246 @@
+/* Loads: dead tractions and body forces (evaluated once for each time), follower pressures. */
+#include "mechanicsimpl.h"
+
+#define MOST_FACET_NODES  ((MORTISE_MAX_ORDER + 1) * (MORTISE_MAX_ORDER + 1))
+#define MOST_FACET_POINTS ((MORTISE_MAX_ORDER + 2) * (MORTISE_MAX_ORDER + 2))
+
+/* Sign that makes the normal of the tangent order (edge tangent; first x second tangent) point outward. */
+static PetscInt OutwardSign_Private(PetscInt side)
+{
+  return (side / 2 == 1 ? -1 : 1) * (side % 2 ? 1 : -1);
+}
+
+static PetscBool HasLoad_Private(const BoundarySpec *b)
+{
+  return (PetscBool)(b->pressure || b->traction[0] || b->traction[1] || b->traction[2]);
+}
+
+/* Closure index of a side of a leaf: 1 in every direction but the side's. */
+static PetscInt SideIndex_Private(PetscInt dim, PetscInt side)
+{
+  PetscInt index = 0, stride = 1;
+  for (PetscInt d = 0; d < dim; ++d, stride *= 3) index += (d == side / 2 ? 2 * (side % 2) : 1) * stride;
+  return index;
+}
+
+PetscErrorCode MechanicsLoadFacets_Private(Mechanics m)
+{
+  const HPTables     *v;
+  const ForestTables *t;
+  Forest              forest;
+
+  PetscFunctionBegin;
+  PetscCall(HPSpaceGetTables(m->space, &v));
+  PetscCall(HPSpaceGetForest(m->space, &forest));
+  PetscCall(ForestGetTables(forest, &t));
+  for (PetscInt pass = 0; pass < 2; ++pass) {
+    m->num_facets = 0;
+    for (PetscInt c = 0; c < v->num_owned_cells; ++c) {
+      const PetscInt *cl = t->closure + t->closure_offset[t->first[t->dim] + v->cell_leaf[c]];
+      if (m->cell_group[c] < 0) continue;
+      for (PetscInt side = 0; side < 2 * m->dim; ++side) {
+        const uint64_t groups = t->boundary[cl[SideIndex_Private(m->dim, side)]];
+        for (PetscInt b = 0; groups && b < m->spec->num_boundaries; ++b) {
+          if (!((groups >> m->spec->boundaries[b].group) & 1) || !HasLoad_Private(&m->spec->boundaries[b])) continue;
+          if (pass) m->facets[m->num_facets] = (LoadFacet){c, side, b};
+          m->num_facets++;
+        }
+      }
+    }
+    if (!pass) PetscCall(PetscMalloc1(m->num_facets, &m->facets));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Trace nodes of a side in lexicographic order of the remaining directions; returns their number. */
+static PetscInt TraceNodes_Private(PetscInt dim, PetscInt order, PetscInt side, PetscInt nodes[])
+{
+  const PetscInt n = order + 1, d = side / 2, fixed = side % 2 ? order : 0;
+  PetscInt       num = 0;
+  for (PetscInt i = 0; i < ElementNumNodes(dim, order); ++i) {
+    const PetscInt index[3] = {i % n, (i / n) % n, i / (n * n)};
+    if (index[d] == fixed) nodes[num++] = i;
+  }
+  return num;
+}
+
+static void TakeTrace_Private(PetscInt dim, PetscInt num, const PetscInt nodes[], const PetscReal *cell, PetscReal *trace)
+{
+  for (PetscInt i = 0; i < num; ++i)
+    for (PetscInt c = 0; c < dim; ++c) trace[i * dim + c] = cell[nodes[i] * dim + c];
+}
+
+static void PutTrace_Private(PetscInt dim, PetscInt num, const PetscInt nodes[], const PetscReal *trace, PetscReal *cell)
+{
+  for (PetscInt i = 0; i < num; ++i)
+    for (PetscInt c = 0; c < dim; ++c) cell[nodes[i] * dim + c] = trace[i * dim + c];
+}
+
+static PetscErrorCode FacetTraction_Private(Mechanics m, const LoadFacet *f, PetscReal *work)
+{
+  const CellGroup    *g = &m->groups[m->cell_group[f->cell]];
+  const BoundarySpec *b = &m->spec->boundaries[f->boundary];
+  const PetscReal    *X = g->X + m->cell_index[f->cell] * g->n * m->dim;
+  PetscInt            nodes[MOST_FACET_NODES], num = TraceNodes_Private(m->dim, g->order, f->side, nodes), np = FacetNumPoints(m->dim, g->order);
+  PetscReal           trace[3 * MOST_FACET_NODES], r[3 * MOST_FACET_NODES], position[MOST_FACET_POINTS][3], traction[MOST_FACET_POINTS][3], normal[MOST_FACET_POINTS][3], dA[MOST_FACET_POINTS];
+
+  PetscFunctionBegin;
+  TakeTrace_Private(m->dim, num, nodes, X, trace);
+  PetscCall(FacetQuadrature(m->dim, m->spec->model, g->order, trace, position[0], dA, normal[0]));
+  PetscCall(PetscMemzero(traction, sizeof(traction)));
+  for (PetscInt q = 0; q < np; ++q) {
+    for (PetscInt c = 0; c < m->dim; ++c) {
+      if (b->traction[c]) PetscCall(MechanicsValue_Private(b->traction[c], &b->amplitude, position[q], m->t, &traction[q][c]));
+    }
+  }
+  PetscCall(FacetTraction(m->dim, m->spec->model, g->order, trace, traction[0], r));
+  PetscCall(PetscArrayzero(work, g->n * m->dim));
+  PutTrace_Private(m->dim, num, nodes, r, work);
+  PetscCall(HPSpaceScatterAdd(m->space, f->cell, work, m->dead));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* r -= int N f dV of one cell, p+2 Gauss points in each direction. */
+static PetscErrorCode CellForce_Private(Mechanics m, const CellGroup *g, const BodySpec *body, const PetscReal *X, PetscReal *r)
+{
+  const Basis1D *basis;
+  PetscReal      value[(MORTISE_MAX_ORDER + 1) * MOST_FACET_NODES], gradient[3 * (MORTISE_MAX_ORDER + 1) * MOST_FACET_NODES];
+  PetscInt       points = 1;
+
+  PetscFunctionBegin;
+  PetscCall(Basis1DGet(g->order, g->order + 2, &basis));
+  for (PetscInt d = 0; d < m->dim; ++d) points *= basis->num_points;
+  for (PetscInt q = 0; q < points; ++q) {
+    PetscReal xi[3], J[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1}, x[3] = {0, 0, 0}, weight = 1, f;
+    for (PetscInt d = 0, i = q; d < m->dim; ++d, i /= basis->num_points) {
+      xi[d] = basis->points[i % basis->num_points];
+      weight *= basis->weights[i % basis->num_points];
+      for (PetscInt c = 0; c < m->dim; ++c) J[3 * c + d] = 0;
+    }
+    PetscCall(ElementEvaluate(m->dim, g->order, xi, value, gradient));
+    for (PetscInt i = 0; i < g->n; ++i) {
+      for (PetscInt c = 0; c < m->dim; ++c) {
+        x[c] += value[i] * X[i * m->dim + c];
+        for (PetscInt d = 0; d < m->dim; ++d) J[3 * c + d] += gradient[i * m->dim + d] * X[i * m->dim + c];
+      }
+    }
+    weight *= Det3(J);
+    if (m->spec->model == MODEL_AXISYMMETRIC) weight *= 2 * PETSC_PI * x[0];
+    for (PetscInt c = 0; c < m->dim; ++c) {
+      if (!body->force[c]) continue;
+      PetscCall(MechanicsValue_Private(body->force[c], &body->amplitude, x, m->t, &f));
+      for (PetscInt i = 0; i < g->n; ++i) r[i * m->dim + c] -= weight * f * value[i];
+    }
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode BodyForces_Private(Mechanics m, PetscReal *work)
+{
+  const HPTables     *v;
+  const ForestTables *t;
+  Forest              forest;
+
+  PetscFunctionBegin;
+  PetscCall(HPSpaceGetTables(m->space, &v));
+  PetscCall(HPSpaceGetForest(m->space, &forest));
+  PetscCall(ForestGetTables(forest, &t));
+  for (PetscInt c = 0; c < v->num_owned_cells; ++c) {
+    const BodySpec *body = &m->spec->bodies[t->leaf_body[v->cell_leaf[c]]];
+    if (m->cell_group[c] < 0 || !(body->force[0] || body->force[1] || body->force[2])) continue;
+    const CellGroup *g = &m->groups[m->cell_group[c]];
+    PetscCall(PetscArrayzero(work, g->n * m->dim));
+    PetscCall(CellForce_Private(m, g, body, g->X + m->cell_index[c] * g->n * m->dim, work));
+    PetscCall(HPSpaceScatterAdd(m->space, c, work, m->dead));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscBool AnyDeadLoad_Private(Mechanics m)
+{
+  for (PetscInt b = 0; b < m->spec->num_boundaries; ++b) {
+    const BoundarySpec *s = &m->spec->boundaries[b];
+    if (s->traction[0] || s->traction[1] || s->traction[2]) return PETSC_TRUE;
+  }
+  for (PetscInt b = 0; b < m->spec->num_bodies; ++b) {
+    const BodySpec *s = &m->spec->bodies[b];
+    if (s->force[0] || s->force[1] || s->force[2]) return PETSC_TRUE;
+  }
+  return PETSC_FALSE;
+}
+
+PetscErrorCode MechanicsDeadLoads_Private(Mechanics m)
+{
+  const HPTables *v;
+  PetscReal      *work;
+
+  PetscFunctionBegin;
+  if (!AnyDeadLoad_Private(m)) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(HPSpaceGetTables(m->space, &v));
+  if (!m->dead) PetscCall(PetscMalloc1(v->num_nodes * m->dim, &m->dead));
+  PetscCall(PetscArrayzero(m->dead, v->num_nodes * m->dim));
+  PetscCall(PetscMalloc1(3 * (MORTISE_MAX_ORDER + 1) * MOST_FACET_NODES, &work));
+  for (PetscInt i = 0; i < m->num_facets; ++i) {
+    const BoundarySpec *b = &m->spec->boundaries[m->facets[i].boundary];
+    if (b->traction[0] || b->traction[1] || b->traction[2]) PetscCall(FacetTraction_Private(m, &m->facets[i], work));
+  }
+  PetscCall(BodyForces_Private(m, work));
+  PetscCall(PetscFree(work));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Follower pressure on one facet: residual into r, tangent (full cell matrix in K) when asked. Small kinematics: the load stays on the reference facet. */
+static PetscErrorCode FacetFollower_Private(Mechanics m, const LoadFacet *f, const PetscReal u[], PetscReal *values, PetscReal *r, PetscReal *K)
+{
+  const CellGroup    *g = &m->groups[m->cell_group[f->cell]];
+  const BoundarySpec *b = &m->spec->boundaries[f->boundary];
+  const PetscReal    *X = g->X + m->cell_index[f->cell] * g->n * m->dim;
+  PetscInt            nodes[MOST_FACET_NODES], num = TraceNodes_Private(m->dim, g->order, f->side, nodes), np = FacetNumPoints(m->dim, g->order), size = num * m->dim, nd = g->n * m->dim;
+  PetscReal           trace[3 * MOST_FACET_NODES], rt[3 * MOST_FACET_NODES], position[MOST_FACET_POINTS][3], normal[MOST_FACET_POINTS][3], dA[MOST_FACET_POINTS], pressure[MOST_FACET_POINTS], *Kt = NULL;
+
+  PetscFunctionBegin;
+  TakeTrace_Private(m->dim, num, nodes, X, trace);
+  PetscCall(FacetQuadrature(m->dim, m->spec->model, g->order, trace, position[0], dA, normal[0]));
+  for (PetscInt q = 0; q < np; ++q) PetscCall(MechanicsValue_Private(b->pressure, &b->amplitude, position[q], m->t, &pressure[q]));
+  if (m->spec->kinematics == KINEMATICS_FINITE) {
+    PetscCall(HPSpaceGather(m->space, f->cell, u, values));
+    for (PetscInt i = 0; i < num; ++i)
+      for (PetscInt c = 0; c < m->dim; ++c) trace[i * m->dim + c] += values[nodes[i] * m->dim + c];
+    if (K) PetscCall(PetscMalloc1(size * size, &Kt));
+  }
+  PetscCall(FacetPressure(m->dim, m->spec->model, g->order, trace, OutwardSign_Private(f->side), pressure, rt, Kt));
+  PetscCall(PetscArrayzero(r, nd));
+  PutTrace_Private(m->dim, num, nodes, rt, r);
+  if (K) PetscCall(PetscArrayzero(K, nd * nd));
+  for (PetscInt i = 0; Kt && i < size; ++i) {
+    for (PetscInt j = 0; j < size; ++j) K[(nodes[i / m->dim] * m->dim + i % m->dim) * nd + nodes[j / m->dim] * m->dim + j % m->dim] = Kt[i * size + j];
+  }
+  PetscCall(PetscFree(Kt));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode MechanicsFollowers_Private(Mechanics m, const PetscReal u[], PetscReal r[], MatrixSink sink, void *context)
+{
+  const HPTables *v;
+
+  PetscFunctionBegin;
+  PetscCall(HPSpaceGetTables(m->space, &v));
+  for (PetscInt i = 0; i < m->num_facets; ++i) {
+    const LoadFacet *f = &m->facets[i];
+    if (!m->spec->boundaries[f->boundary].pressure) continue;
+    const PetscInt nd = m->groups[m->cell_group[f->cell]].n * m->dim, most = m->dim * (v->cell_row[f->cell + 1] - v->cell_row[f->cell]);
+    PetscReal     *work, *values, *K = NULL, *Km = NULL;
+    PetscInt      *dofs, num;
+    PetscCall(PetscMalloc3(nd, &work, nd, &values, most, &dofs));
+    if (sink) PetscCall(PetscMalloc2(nd * nd, &K, most * most, &Km));
+    PetscCall(FacetFollower_Private(m, f, u, values, work, K));
+    if (r) PetscCall(HPSpaceScatterAdd(m->space, f->cell, work, r));
+    if (sink) {
+      PetscCall(HPSpaceTransformMatrix(m->space, f->cell, K, Km, dofs, &num));
+      PetscCall(sink(context, num, dofs, Km));
+      PetscCall(PetscFree2(K, Km));
+    }
+    PetscCall(PetscFree3(work, values, dofs));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

@@ -1,0 +1,122 @@
+/* Life cycle of the bulk: owned cells grouped by law and order so that kernels see long contiguous batches. */
+#include "mechanicsimpl.h"
+
+static PetscInt FindGroup_Private(Mechanics m, const MaterialSpec *const *material, const MaterialSpec *wanted, PetscInt order)
+{
+  for (PetscInt g = 0; g < m->num_groups; ++g) {
+    if (material[g] == wanted && m->groups[g].order == order) return g;
+  }
+  return -1;
+}
+
+/* Group of every local cell (ghosts too: MechanicsPoints serves them), counts of owned cells. */
+static PetscErrorCode Groups_Private(Mechanics m, const HPTables *v, const ForestTables *t)
+{
+  const MaterialSpec **material;
+  const PetscInt       most = m->spec->num_bodies * MORTISE_MAX_ORDER;
+
+  PetscFunctionBegin;
+  PetscCall(PetscCalloc1(most, &m->groups));
+  PetscCall(PetscMalloc1(most, &material));
+  PetscCall(PetscMalloc2(v->num_cells, &m->cell_group, v->num_cells, &m->cell_index));
+  for (PetscInt c = 0; c < v->num_cells; ++c) {
+    const MaterialSpec *mine = m->spec->bodies[t->leaf_body[v->cell_leaf[c]]].material;
+    m->cell_group[c] = m->cell_index[c] = -1;
+    if (mine->law->rigid) continue;
+    PetscInt g = FindGroup_Private(m, material, mine, v->cell_order[c]);
+    if (g < 0) {
+      g                  = m->num_groups++;
+      material[g]        = mine;
+      m->groups[g].order = v->cell_order[c];
+      PetscCall(CellKernelCreate(m->dim, m->spec->model, m->spec->kinematics, v->cell_order[c], mine, &m->groups[g].kernel));
+      CellKernelSizes(m->groups[g].kernel, &m->groups[g].n, &m->groups[g].m, &m->groups[g].batch);
+    }
+    m->cell_group[c] = g;
+    if (c < v->num_owned_cells) m->cell_index[c] = m->groups[g].num_cells++;
+  }
+  PetscCall(PetscFree(material));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode FillGroups_Private(Mechanics m, const HPTables *v)
+{
+  PetscInt dpressure = 0;
+
+  PetscFunctionBegin;
+  for (PetscInt g = 0; g < m->num_groups; ++g) {
+    CellGroup     *group = &m->groups[g];
+    const PetscInt nd    = group->n * m->dim, per_cell = 2 * nd + nd * nd + 3 * group->m + 4;
+    PetscCall(PetscMalloc2(group->num_cells, &group->cells, group->num_cells * nd, &group->X));
+    group->pressure = m->num_pressure;
+    m->num_pressure += group->num_cells * group->m;
+    dpressure += group->num_cells * group->m * nd;
+    m->work_size = PetscMax(m->work_size, group->batch * per_cell);
+  }
+  for (PetscInt c = 0; c < v->num_owned_cells; ++c) {
+    if (m->cell_group[c] < 0) continue;
+    CellGroup *group                   = &m->groups[m->cell_group[c]];
+    group->cells[m->cell_index[c]] = c;
+    PetscCall(HPSpaceGatherPositions(m->space, c, group->X + m->cell_index[c] * group->n * m->dim));
+  }
+  PetscCall(PetscMalloc2(m->num_pressure, &m->linear, dpressure, &m->dpressure));
+  PetscCall(PetscMalloc1(m->work_size, &m->work));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode MechanicsCreate(HPSpace space, const MechanicsSpec *spec, const Supports *supports, Mechanics *mechanics)
+{
+  const HPTables     *v;
+  const ForestTables *t;
+  Forest              forest;
+  Mechanics           m;
+
+  PetscFunctionBegin;
+  PetscCall(PetscNew(&m));
+  m->space    = space;
+  m->spec     = spec;
+  m->supports = supports;
+  PetscCall(HPSpaceGetTables(space, &v));
+  PetscCall(HPSpaceGetForest(space, &forest));
+  PetscCall(ForestGetTables(forest, &t));
+  m->dim = v->dim;
+  PetscCall(Groups_Private(m, v, t));
+  PetscCall(FillGroups_Private(m, v));
+  PetscCall(MechanicsLoadFacets_Private(m));
+  *mechanics = m;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode MechanicsDestroy(Mechanics *mechanics)
+{
+  Mechanics m = *mechanics;
+
+  PetscFunctionBegin;
+  if (!m) PetscFunctionReturn(PETSC_SUCCESS);
+  for (PetscInt g = 0; g < m->num_groups; ++g) {
+    PetscCall(CellKernelDestroy(&m->groups[g].kernel));
+    PetscCall(PetscFree2(m->groups[g].cells, m->groups[g].X));
+  }
+  PetscCall(PetscFree(m->groups));
+  PetscCall(PetscFree2(m->cell_group, m->cell_index));
+  PetscCall(PetscFree(m->facets));
+  PetscCall(PetscFree(m->dead));
+  PetscCall(PetscFree2(m->linear, m->dpressure));
+  PetscCall(PetscFree(m->work));
+  PetscCall(PetscFree(*mechanics));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode MechanicsSetTime(Mechanics m, PetscReal t)
+{
+  PetscFunctionBegin;
+  m->t = t;
+  PetscCall(MechanicsDeadLoads_Private(m));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode MechanicsNumPressure(Mechanics m, PetscInt *num)
+{
+  PetscFunctionBegin;
+  *num = m->num_pressure;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

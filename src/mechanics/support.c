@@ -1,0 +1,286 @@
+/* Supports: which dofs are prescribed, in which frame, by whom, and their values. */
+#include "mechanicsimpl.h"
+
+const char *const ModelNames[]      = {"plane_strain", "axisymmetric", "3d", "Model", "MODEL_", NULL};
+const char *const KinematicsNames[] = {"finite", "small", "Kinematics", "KINEMATICS_", NULL};
+
+PetscErrorCode MechanicsValue_Private(Expression expression, const Amplitude *amplitude, const PetscReal X[3], PetscReal t, PetscReal *value)
+{
+  PetscFunctionBegin;
+  PetscCall(ExpressionEvaluate(expression, X, t, value));
+  if (amplitude->num > 0 || !ExpressionUsesTime(expression)) *value *= AmplitudeEvaluate(amplitude, t);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Directions prescribed at one node so far: orthonormal, and who asked for each. */
+typedef struct {
+  PetscInt  num;
+  PetscReal direction[3][3];
+  int8_t    cause[3];
+} NodeSupport;
+
+/* Add the part of a direction that is new. */
+static void AddDirection_Private(PetscInt dim, const PetscReal direction[3], int8_t cause, NodeSupport *s)
+{
+  PetscReal v[3] = {direction[0], direction[1], direction[2]};
+  if (s->num == dim) return;
+  for (PetscInt k = 0; k < s->num; ++k) {
+    const PetscReal along = Dot3(v, s->direction[k]);
+    for (PetscInt c = 0; c < 3; ++c) v[c] -= along * s->direction[k][c];
+  }
+  const PetscReal length = PetscSqrtReal(Dot3(v, v));
+  if (length < 1e-6) return;
+  for (PetscInt c = 0; c < 3; ++c) s->direction[s->num][c] = v[c] / length;
+  s->cause[s->num++] = cause;
+}
+
+/* Outward normal of a leaf facet from its corners (2-D: edge, 3-D: the mean of a bilinear face). */
+static PetscErrorCode FacetNormal_Private(Forest forest, const ForestTables *t, PetscInt facet, PetscReal normal[3])
+{
+  const PetscInt  leaf = t->facet_leaf[2 * (facet - t->first[t->dim - 1])], *cl = t->closure + t->closure_offset[t->first[t->dim] + leaf];
+  PetscInt        index = 0, direction = 0;
+  PetscReal       corner[4][3], a[3], b[3] = {0, 0, 1};
+
+  PetscFunctionBegin;
+  while (cl[index] != facet) ++index;
+  PetscInt high = 0;
+  for (PetscInt d = 0, j = index; d < t->dim; ++d, j /= 3) {
+    if (j % 3 != 1) {
+      direction = d;
+      high      = j % 3 == 2;
+    }
+  }
+  for (PetscInt k = 0; k < 1 << (t->dim - 1); ++k) {
+    PetscReal xi[3] = {0, 0, 0};
+    for (PetscInt d = 0, bit = 0; d < t->dim; ++d) xi[d] = d == direction ? high : (k >> bit++) & 1;
+    PetscCall(ForestMapPoint(forest, leaf, xi, corner[k]));
+  }
+  for (PetscInt c = 0; c < 3; ++c) {
+    a[c] = t->dim == 2 ? corner[1][c] - corner[0][c] : corner[3][c] - corner[0][c];
+    if (t->dim == 3) b[c] = corner[2][c] - corner[1][c];
+  }
+  const PetscReal sign = (direction == 1 ? -1 : 1) * (high ? 1 : -1);
+  for (PetscInt c = 0; c < 3; ++c) normal[c] = sign * (a[(c + 1) % 3] * b[(c + 2) % 3] - a[(c + 2) % 3] * b[(c + 1) % 3]);
+  const PetscReal length = PetscSqrtReal(Dot3(normal, normal));
+  for (PetscInt c = 0; c < 3; ++c) normal[c] /= length;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The normal of a flat boundary group; an input error when it is not flat. Replicated: every rank sees all facets. */
+static PetscErrorCode GroupNormal_Private(HPSpace space, const BoundarySpec *b, PetscReal normal[3])
+{
+  Forest              forest;
+  const ForestTables *t;
+  PetscBool           found = PETSC_FALSE;
+
+  PetscFunctionBegin;
+  PetscCall(HPSpaceGetForest(space, &forest));
+  PetscCall(ForestGetTables(forest, &t));
+  for (PetscInt f = t->first[t->dim - 1]; f < t->first[t->dim]; ++f) {
+    const PetscInt *leaf = t->facet_leaf + 2 * (f - t->first[t->dim - 1]);
+    PetscReal       n[3];
+    if (!((t->boundary[f] >> b->group) & 1) || leaf[0] < 0 || leaf[1] >= 0 || t->parent[f] >= 0) continue;
+    PetscCall(FacetNormal_Private(forest, t, f, n));
+    if (!found) PetscCall(PetscArraycpy(normal, n, 3));
+    found = PETSC_TRUE;
+    PetscCheckInput(Dot3(n, normal) > 1 - 1e-6, "boundary.%s.fix: normal needs a flat face, but the normals of this one turn; split it into flat groups or fix x, y, z", b->name);
+  }
+  PetscCheckInput(found, "boundary.%s: the group has no facets on the boundary of a body", b->name);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode BoundaryDirections_Private(PetscInt dim, const BoundarySpec *b, int8_t cause, const PetscReal normal[3], NodeSupport *s)
+{
+  PetscFunctionBegin;
+  for (PetscInt c = 0; c < dim; ++c) {
+    PetscReal unit[3] = {0, 0, 0};
+    unit[c]           = 1;
+    if (b->fix[c] || b->displacement[c] || b->rotation) AddDirection_Private(dim, unit, cause, s);
+  }
+  if (b->fix_normal) AddDirection_Private(dim, normal, cause, s);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscBool IsUnit_Private(const PetscReal v[3])
+{
+  PetscInt ones = 0;
+  for (PetscInt c = 0; c < 3; ++c) {
+    if (PetscAbsReal(PetscAbsReal(v[c]) - 1) < 1e-12) ++ones;
+    else if (PetscAbsReal(v[c]) > 1e-12) return PETSC_FALSE;
+  }
+  return (PetscBool)(ones == 1);
+}
+
+/* Turn the directions of a node into fixed components: axis-aligned ones need no frame. */
+static void NodeResult_Private(PetscInt dim, PetscInt node, NodeSupport *s, Supports *out)
+{
+  PetscBool aligned = PETSC_TRUE;
+  for (PetscInt k = 0; k < s->num; ++k) aligned = (PetscBool)(aligned && IsUnit_Private(s->direction[k]));
+  for (PetscInt k = 0; k < s->num; ++k) {
+    PetscInt c = k;
+    if (aligned)
+      for (c = 0; PetscAbsReal(s->direction[k][c]) < 0.5;) ++c;
+    out->fixed[node] |= (int8_t)(1 << c);
+    out->cause[3 * node + c] = s->cause[k];
+  }
+  if (aligned) return;
+  const PetscInt given = s->num;
+  for (PetscInt c = 0; c < dim; ++c) {
+    PetscReal unit[3] = {0, 0, 0};
+    unit[c]           = 1;
+    AddDirection_Private(dim, unit, -1, s);
+  }
+  s->num                             = given;
+  out->frame_node[out->num_frames] = node;
+  for (PetscInt k = 0; k < 3; ++k)
+    for (PetscInt c = 0; c < 3; ++c) out->frame[out->num_frames][3 * k + c] = k < dim ? s->direction[k][c] : (PetscReal)(k == c);
+  out->num_frames++;
+}
+
+/* Nodes of rigid bodies: all components prescribed. */
+static PetscErrorCode RigidNodes_Private(HPSpace space, const HPTables *v, const ForestTables *t, const MechanicsSpec *spec, Supports *out)
+{
+  PetscFunctionBegin;
+  for (PetscInt c = 0; c < v->num_cells; ++c) {
+    const PetscInt body = t->leaf_body[v->cell_leaf[c]];
+    if (!spec->bodies[body].material->law->rigid) continue;
+    for (PetscInt k = v->cell_row[c]; k < v->cell_row[c + 1]; ++k) {
+      const PetscInt n = v->cell_master[k];
+      out->fixed[n]    = (int8_t)((1 << v->dim) - 1);
+      for (PetscInt a = 0; a < v->dim; ++a) out->cause[3 * n + a] = (int8_t)(-2 - body);
+    }
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode MechanicsSupportsCreate(HPSpace space, const MechanicsSpec *spec, Supports *out)
+{
+  const HPTables     *v;
+  const ForestTables *t;
+  Forest              forest;
+  PetscReal (*normal)[3];
+
+  PetscFunctionBegin;
+  PetscCall(HPSpaceGetTables(space, &v));
+  PetscCall(HPSpaceGetForest(space, &forest));
+  PetscCall(ForestGetTables(forest, &t));
+  PetscCall(PetscMemzero(out, sizeof(*out)));
+  PetscCall(PetscCalloc1(v->num_nodes, &out->fixed));
+  PetscCall(PetscMalloc1(3 * v->num_nodes, &out->cause));
+  PetscCall(PetscMalloc2(v->num_nodes, &out->frame_node, v->num_nodes, &out->frame));
+  PetscCall(PetscMalloc1(spec->num_boundaries, &normal));
+  for (PetscInt i = 0; i < 3 * v->num_nodes; ++i) out->cause[i] = -1;
+  for (PetscInt b = 0; b < spec->num_boundaries; ++b) {
+    if (spec->boundaries[b].fix_normal) PetscCall(GroupNormal_Private(space, &spec->boundaries[b], normal[b]));
+  }
+  for (PetscInt n = 0; n < v->num_nodes; ++n) {
+    const PetscInt entity = v->node_entity[n];
+    NodeSupport    s      = {0};
+    if (t->parent[entity] >= 0 || !t->boundary[entity]) continue;
+    for (PetscInt b = 0; b < spec->num_boundaries; ++b) {
+      if ((t->boundary[entity] >> spec->boundaries[b].group) & 1) PetscCall(BoundaryDirections_Private(v->dim, &spec->boundaries[b], (int8_t)b, normal[b], &s));
+    }
+    if (s.num) NodeResult_Private(v->dim, n, &s, out);
+  }
+  PetscCall(PetscFree(normal));
+  PetscCall(RigidNodes_Private(space, v, t, spec, out));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode MechanicsSupportsDestroy(Supports *s)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscFree(s->fixed));
+  PetscCall(PetscFree(s->cause));
+  PetscCall(PetscFree2(s->frame_node, s->frame));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Displacement of point X under a rotation by angle (degrees) about an axis through a point. */
+static void RotationValue_Private(const BoundarySpec *b, PetscReal degrees, const PetscReal X[3], PetscReal u[3])
+{
+  const PetscReal angle = degrees * PETSC_PI / 180, cosine = PetscCosReal(angle), sine = PetscSinReal(angle);
+  const PetscInt  i = (b->rotation_axis + 1) % 3, j = (b->rotation_axis + 2) % 3;
+  const PetscReal ri = X[i] - b->rotation_point[i], rj = X[j] - b->rotation_point[j];
+
+  u[b->rotation_axis] = 0;
+  u[i]                = cosine * ri - sine * rj - ri;
+  u[j]                = sine * ri + cosine * rj - rj;
+}
+
+/* Cartesian displacement that a boundary prescribes at X; unprescribed components 0. A rotation comes first, translations are added. */
+static PetscErrorCode BoundaryValue_Private(const BoundarySpec *b, PetscInt dim, const PetscReal X[3], PetscReal t, PetscReal u[3])
+{
+  PetscFunctionBegin;
+  u[0] = u[1] = u[2] = 0;
+  if (b->rotation) {
+    PetscReal degrees;
+    PetscCall(MechanicsValue_Private(b->rotation_angle, &b->amplitude, X, t, &degrees));
+    RotationValue_Private(b, degrees, X, u);
+  }
+  for (PetscInt c = 0; c < dim; ++c) {
+    PetscReal value;
+    if (!b->displacement[c]) continue;
+    PetscCall(MechanicsValue_Private(b->displacement[c], &b->amplitude, X, t, &value));
+    u[c] += value;
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode BodyMotion_Private(const BodySpec *body, PetscInt dim, PetscReal t, PetscReal u[3])
+{
+  const PetscReal origin[3] = {0, 0, 0};
+
+  PetscFunctionBegin;
+  for (PetscInt c = 0; c < dim; ++c) {
+    u[c] = 0;
+    if (body->motion[c]) PetscCall(MechanicsValue_Private(body->motion[c], &body->amplitude, origin, t, &u[c]));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode MechanicsPrescribe(Mechanics m, PetscReal local[])
+{
+  const HPTables *v;
+
+  PetscFunctionBegin;
+  PetscCall(HPSpaceGetTables(m->space, &v));
+  for (PetscInt n = 0; n < v->num_nodes; ++n) {
+    const PetscReal *frame;
+    if (!m->supports->fixed[n]) continue;
+    PetscCall(HPSpaceGetFrame(m->space, n, &frame));
+    for (PetscInt c = 0; c < m->dim; ++c) {
+      const PetscInt cause = m->supports->cause[3 * n + c];
+      PetscReal      u[3];
+      if (!((m->supports->fixed[n] >> c) & 1)) continue;
+      if (cause <= -2) PetscCall(BodyMotion_Private(&m->spec->bodies[-2 - cause], m->dim, m->t, u));
+      else PetscCall(BoundaryValue_Private(&m->spec->boundaries[cause], m->dim, v->X + 3 * n, m->t, u));
+      if (!frame) local[n * m->dim + c] = u[c];
+      else {
+        local[n * m->dim + c] = 0;
+        for (PetscInt a = 0; a < m->dim; ++a) local[n * m->dim + c] += frame[3 * c + a] * u[a];
+      }
+    }
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode MechanicsReactions(Mechanics m, const PetscReal r[], PetscReal reaction[][3])
+{
+  const HPTables *v;
+
+  PetscFunctionBegin;
+  PetscCall(HPSpaceGetTables(m->space, &v));
+  for (PetscInt b = 0; b < m->spec->num_boundaries; ++b) reaction[b][0] = reaction[b][1] = reaction[b][2] = 0;
+  for (PetscInt n = 0; n < v->num_nodes; ++n) {
+    const PetscReal *frame;
+    if (!m->supports->fixed[n]) continue;
+    PetscCall(HPSpaceGetFrame(m->space, n, &frame));
+    for (PetscInt c = 0; c < m->dim; ++c) {
+      const PetscInt cause = m->supports->cause[3 * n + c];
+      if (!((m->supports->fixed[n] >> c) & 1) || cause < 0) continue;
+      for (PetscInt a = 0; a < m->dim; ++a) reaction[cause][a] += (frame ? frame[3 * c + a] : (PetscReal)(a == c)) * r[n * m->dim + c];
+    }
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
