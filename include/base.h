@@ -40,6 +40,7 @@ typedef struct _p_Expression *Expression;
 PetscErrorCode ExpressionCreate(const char *key, const char *text, Expression *);
 PetscErrorCode ExpressionEvaluate(Expression, const PetscReal X[3], PetscReal t, PetscReal *value);
 PetscBool      ExpressionUsesTime(Expression); /* t occurs in it */
+const char    *ExpressionText(Expression);     /* as given; borrowed */
 PetscErrorCode ExpressionDestroy(Expression *);
 
 /* Piecewise linear amplitude in t; num = 0 means the ramp 0,0 1,1. Constant beyond its ends. */
