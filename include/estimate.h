@@ -1,0 +1,20 @@
+/* Floor 6. Residual error estimate per leaf and marking (docs/theory.md, error estimation). */
+#pragma once
+#include "problem.h"
+
+typedef struct {
+  PetscInt   num_leaves;
+  PetscReal *eta2;     /* owned [num_leaves] squared indicator of each leaf, replicated, unit: energy */
+  PetscReal  total;    /* sqrt of the sum */
+  PetscReal  norm;     /* energy-like norm of the solution: sqrt(2 * strain energy) */
+  PetscReal  relative; /* total / sqrt(norm^2 + total^2) */
+  PetscReal  part[5];  /* squared shares: interior, jumps, boundary, contact, incompressibility */
+} Estimate;
+
+/* Indicators at a converged state. Collective. */
+PetscErrorCode EstimateCompute(Problem, const State *, Estimate *);
+PetscErrorCode EstimateDestroy(Estimate *);
+/* Bulk (Dörfler) marking by spec->fraction, isotropic splits; coarsening of leaves whose eta2 is below spec->coarsen^2 times the mean; never more than
+   spec->max_cells leaves expected. The list is freed by MarkListDestroy. *num_marked: leaves to split. Not collective (input is replicated). */
+PetscErrorCode EstimateMark(const Estimate *, const AdaptSpec *, Forest, MarkList *, PetscInt *num_marked);
+PetscErrorCode MarkListDestroy(MarkList *);

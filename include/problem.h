@@ -1,0 +1,101 @@
+/* Floor 5. One scene on one mesh: bulk + contact, the layout of unknowns (u, z), residual and tangent. Defines State.
+
+   Global vector: on each rank first its free displacement dofs (numbering of the HPSpace), then its multipliers: z_j, the contact pressure at nonmortar
+   node j. Residual rows: forces for u; for z_j the complementarity  R_j = w0_j [ z_j - max(0, z_j - c_j gt_j / w_j) ]  (unit: force), c_j = E / w0_j
+   with w0_j the reference tributary length (area) of the node. Tangent: exact, active set as decided by the residual. */
+#pragma once
+#include "scene.h"
+
+typedef struct _p_Problem *Problem;
+
+/* Everything that evolves, besides the forest. */
+typedef struct {
+  Vec        x;            /* owned: global (u, z) of the problem it belongs to */
+  PetscInt   num_pressure;
+  PetscReal *pressure;     /* owned [num_pressure] element pressures of this rank */
+  PetscReal  t;            /* pseudo-time of this state */
+  PetscInt   num_leaves;
+  int8_t    *leaf_order;   /* owned [num_leaves], replicated */
+} State;
+
+PetscErrorCode StateCreate(Problem, State *);
+PetscErrorCode StateCopy(const State *from, State *to); /* same problem */
+PetscErrorCode StateDestroy(State *);
+
+/* Initial cell orders of a scene on a forest, [num_leaves], to be freed by the caller. */
+PetscErrorCode ProblemInitialOrders(const SceneData *, Forest, int8_t **leaf_order);
+
+/* Collective. Scene data and forest must outlive the problem. */
+PetscErrorCode ProblemCreate(const SceneData *, Forest, const int8_t leaf_order[], Problem *);
+PetscErrorCode ProblemDestroy(Problem *);
+
+PetscErrorCode ProblemGetScene(Problem, const SceneData **);
+PetscErrorCode ProblemGetForest(Problem, Forest *);
+PetscErrorCode ProblemGetSpace(Problem, HPSpace *);
+PetscErrorCode ProblemGetMechanics(Problem, Mechanics *);
+PetscErrorCode ProblemCreateVector(Problem, Vec *);
+PetscErrorCode ProblemGetMatrix(Problem, Mat *);
+
+/* Prescribed motion: SetTime fixes the target; Jump applies it at once (no lift); otherwise the part not yet applied enters the next linear solve. */
+PetscErrorCode ProblemSetTime(Problem, PetscReal t);
+PetscErrorCode ProblemJump(Problem);
+
+/* Local displacement array (Cartesian frames applied only through HPSpaceGather): free dofs from x, prescribed dofs as applied so far. local[num_nodes*dim]. */
+PetscErrorCode ProblemLocalDisplacement(Problem, Vec x, PetscReal local[]);
+/* Write a local array's free dofs into x (owned entries). */
+PetscErrorCode ProblemSetDisplacement(Problem, const PetscReal local[], Vec x);
+
+/* ---- contact, replicated surface tables ------------------------------------------------------------------------------------ */
+
+typedef struct {
+  PetscInt         num_nodes, num_edges;
+  const PetscInt  *node_entity;  /* [num_nodes] global vertex entity */
+  const PetscInt  *edges;        /* [num_edges][2], body to the left */
+  const PetscInt  *edge_leaf;    /* [num_edges] */
+  const PetscReal *X;            /* [num_nodes][2] */
+  const PetscReal *x;            /* [num_nodes][2] at the last evaluation */
+} SurfaceView;
+
+typedef struct {
+  const ContactSpec *spec;
+  SurfaceView        nonmortar, mortar;
+  const PetscReal   *z, *gap, *weight; /* [nonmortar.num_nodes] multiplier, gt_j, w_j at the last evaluation (replicated) */
+  const PetscBool   *active;           /* [nonmortar.num_nodes] as the residual decided */
+  const PetscBool   *has_multiplier;   /* [nonmortar.num_nodes] */
+  ContactPair        pair;             /* segments of this rank's nonmortar edges */
+  PetscReal          area, min_gap;    /* totals over ranks */
+} ContactView;
+
+PetscErrorCode ProblemGetContact(Problem, PetscInt pair, const ContactView **);
+/* Set the multipliers of a pair from nodal values [nonmortar.num_nodes] (replicated) in x. */
+PetscErrorCode ProblemSetMultipliers(Problem, PetscInt pair, const PetscReal z[], Vec x);
+/* Refresh the candidate search at x; between Newton iterations only. */
+PetscErrorCode ProblemSearch(Problem, Vec x);
+
+/* ---- residual and tangent --------------------------------------------------------------------------------------------------- */
+
+typedef struct {
+  PetscReal energy;      /* strain energy */
+  PetscReal min_det;     /* smallest det F */
+  PetscReal force_norm;  /* norm of the forces at prescribed dofs and of external loads: the scale of the residual */
+  PetscInt  num_active;  /* active contact nodes */
+  PetscBool bad;         /* outside the domain: det F <= 0 or a failed projection */
+} ProblemStatus;
+
+/* R(x) with the prescribed motion as applied. Deterministic function of x. Collective; status is the same on every rank. */
+PetscErrorCode ProblemResidual(Problem, Vec x, Vec r, ProblemStatus *);
+/* dR/dx with the stored element pressures in the geometric stiffness (NULL: consistent). When lift is given, the change of R that the remaining
+   prescribed motion makes to first order is added to it. Assembles the problem's matrix. */
+PetscErrorCode ProblemTangent(Problem, Vec x, const PetscReal pressure[], Vec lift, PetscBool *bad);
+/* Active-set passes against the last tangent: given the solution dx of tangent . dx = -rhs, decide anew which constraints are active, rewrite their rows in the
+   matrix and the right-hand side. *changed: number of nodes that switched (all ranks). */
+PetscErrorCode ProblemSwitchActiveSet(Problem, Vec x, Vec dx, Vec rhs, PetscInt *changed);
+/* x += step dx, prescribed motion and element pressures likewise. */
+PetscErrorCode ProblemUpdate(Problem, Vec x, Vec dx, PetscReal step, PetscReal pressure[]);
+/* Undo: prescribed motion applied so far goes back by the same step. */
+PetscErrorCode ProblemPrescribedFraction(Problem, PetscReal *remaining);
+
+/* Forces of the supports at x: reaction[num_boundaries][3]; contact force and moment about the origin on the nonmortar side: force[num_contacts][3], moment[num_contacts][3]; all ranks.
+   Evaluates the residual. */
+PetscErrorCode ProblemForces(Problem, Vec x, PetscReal reaction[][3], PetscReal force[][3], PetscReal moment[][3], ProblemStatus *);
+PetscErrorCode ProblemNumDofs(Problem, PetscInt *free_dofs); /* global: u and z */
