@@ -8,6 +8,7 @@ typedef struct _p_Writer *Writer;
 typedef enum { CELL_POLYLINE2, CELL_QUAD4, CELL_HEX8 } CellShape; /* VTK/XDMF vertex order is applied by the writer; conn comes lexicographic */
 
 /* Open directory/fields.xdmf for a new series (directory must exist). The index is rewritten (to a temporary, then renamed) after each state: readable at any time. Collective. */
+/* Index and fields_KKKK.h5 of an earlier series in the same directory are removed, so that what is there belongs together. */
 PetscErrorCode WriterCreate(MPI_Comm, const char *directory, Writer *);
 PetscErrorCode WriterDestroy(Writer *);
 /* Begin state number k (0, 1, …) at XDMF time `time` (strictly increasing), with scalar attributes. One file directory/fields_KKKK.h5, collective parallel HDF5, chunked + shuffle + deflate. */
@@ -25,3 +26,10 @@ typedef struct _p_Table *Table;
 PetscErrorCode TableCreate(MPI_Comm, const char *path, PetscInt n, const char *const names[], Table *);
 PetscErrorCode TableRow(Table, const PetscReal values[]);
 PetscErrorCode TableDestroy(Table *);
+
+/* ---- summary (output/replace.c) ---------------------------------------------------------------------------------------- */
+
+/* Write a JSON document (rank 0's; others may pass NULL) to path: to a temporary, then renamed, so that a reader never sees half of it. Numbers that are not
+   finite become null. Collective. */
+struct cJSON;
+PetscErrorCode SummaryWrite(MPI_Comm, const char *path, const struct cJSON *document);

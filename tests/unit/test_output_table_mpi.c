@@ -1,0 +1,109 @@
+/* Tables and documents: a row is in the file as soon as it was written; a replaced file is whole; a place that cannot be written is an error on all ranks. */
+#include "output.h"
+#include <cjson/cJSON.h>
+#include <cmocka.h>
+#include <stdlib.h>
+#include <unistd.h>
+
+static char        directory[] = "/tmp/mortise-table-XXXXXX", path[PETSC_MAX_PATH_LEN];
+static PetscMPIInt rank;
+
+/* The file's text on rank 0; "" elsewhere. */
+static const char *Text(void)
+{
+  static char text[4096];
+  size_t      n = 0;
+
+  if (rank == 0) {
+    FILE *file = fopen(path, "r");
+
+    assert_non_null(file);
+    n = fread(text, 1, sizeof(text) - 1, file);
+    fclose(file);
+  }
+  text[n] = 0;
+  return text;
+}
+
+static void RowsAreThereAtOnce(void **unused)
+{
+  const char *const names[] = {"t", "cells", "error"};
+  const PetscReal   first[] = {0.1, 123456789, 1.0 / 3}, second[] = {0.2, 2e10, -1e-300};
+  Table             t;
+
+  snprintf(path, sizeof(path), "%s/a.csv", directory);
+  assert_int_equal(TableCreate(PETSC_COMM_WORLD, path, 3, names, &t), 0);
+  if (rank == 0) assert_string_equal(Text(), "t,cells,error\n");
+  assert_int_equal(TableRow(t, first), 0);
+  if (rank == 0) assert_string_equal(Text(), "t,cells,error\n0.1,123456789,0.333333333333\n");
+  assert_int_equal(TableRow(t, second), 0);
+  if (rank == 0) assert_string_equal(Text(), "t,cells,error\n0.1,123456789,0.333333333333\n0.2,20000000000,-1e-300\n");
+  assert_int_equal(TableDestroy(&t), 0);
+  assert_null(t);
+}
+
+static void DocumentIsReplaced(void **unused)
+{
+  char temporary[PETSC_MAX_PATH_LEN + 8];
+
+  snprintf(path, sizeof(path), "%s/summary.json", directory);
+  snprintf(temporary, sizeof(temporary), "%s.tmp", path);
+  for (int turn = 0; turn < 2; turn++) {
+    cJSON *document = rank ? NULL : cJSON_CreateObject(), *back;
+
+    if (rank == 0) {
+      cJSON_AddStringToObject(document, "status", turn ? "converged" : "diverged, at some length");
+      cJSON_AddNumberToObject(document, "energy", 0.1 + 0.2);
+      cJSON_AddNumberToObject(document, "error", NAN);
+    }
+    assert_int_equal(SummaryWrite(PETSC_COMM_WORLD, path, document), 0);
+    cJSON_Delete(document);
+    if (rank) continue;
+    assert_non_null(back = cJSON_Parse(Text()));
+    assert_string_equal(cJSON_GetObjectItem(back, "status")->valuestring, turn ? "converged" : "diverged, at some length");
+    assert_true(cJSON_GetObjectItem(back, "energy")->valuedouble == 0.1 + 0.2); /* all digits */
+    assert_true(cJSON_IsNull(cJSON_GetObjectItem(back, "error")));
+    cJSON_Delete(back);
+    assert_int_not_equal(access(temporary, F_OK), 0);
+  }
+}
+
+static void UnwritablePlaceFailsOnAllRanks(void **unused)
+{
+  const char *const names[]  = {"t"};
+  cJSON            *document = rank ? NULL : cJSON_CreateObject();
+  Table             t;
+
+  assert_int_equal(PetscPushErrorHandler(PetscReturnErrorHandler, NULL), 0);
+  assert_int_equal(TableCreate(PETSC_COMM_WORLD, "/nowhere/at/all.csv", 1, names, &t), PETSC_ERR_FILE_WRITE);
+  assert_int_equal(SummaryWrite(PETSC_COMM_WORLD, "/nowhere/at/all.json", document), PETSC_ERR_FILE_WRITE);
+  /* A device that is always full: the row does not fit. */
+  assert_int_equal(TableCreate(PETSC_COMM_WORLD, "/dev/full", 1, names, &t), PETSC_ERR_FILE_WRITE);
+  assert_int_equal(PetscPopErrorHandler(), 0);
+  cJSON_Delete(document);
+}
+
+static int Begin(void **unused)
+{
+  if (rank == 0 && !mkdtemp(directory)) return 1;
+  return MPI_Bcast(directory, sizeof(directory), MPI_CHAR, 0, PETSC_COMM_WORLD);
+}
+
+static int End(void **unused)
+{
+  MPI_Barrier(PETSC_COMM_WORLD);
+  return rank == 0 ? PetscRMTree(directory) != 0 : 0;
+}
+
+int main(int argc, char **argv)
+{
+  const struct CMUnitTest tests[] = {cmocka_unit_test(RowsAreThereAtOnce), cmocka_unit_test(DocumentIsReplaced),
+                                     cmocka_unit_test(UnwritablePlaceFailsOnAllRanks)};
+  int                     failed;
+
+  if (PetscInitialize(&argc, &argv, NULL, NULL)) return 1;
+  MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
+  failed = cmocka_run_group_tests(tests, Begin, End);
+  if (PetscFinalize()) return 1;
+  return failed;
+}
