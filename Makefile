@@ -9,6 +9,7 @@ VARIANT := $(if $(DEBUG),-debug)$(if $(PORTABLE),-portable)$(if $(PETSC_DIR),-$(
 BUILD   ?= build$(VARIANT)
 PROGRAM ?= bin/mortise$(VARIANT)
 CC      := mpicc
+Q       := $(if $(V),,@)# V=1 shows the commands
 TRIPLET := $(shell gcc -dumpmachine 2>/dev/null)
 
 # Runs as root in a container, more ranks than cores, several runs side by side: all fine for small tests.
@@ -16,6 +17,8 @@ export OMPI_ALLOW_RUN_AS_ROOT := 1
 export OMPI_ALLOW_RUN_AS_ROOT_CONFIRM := 1
 export OMPI_MCA_rmaps_base_oversubscribe := 1
 export OMPI_MCA_hwloc_base_binding_policy := none
+export OMPI_MCA_pml := ob1
+export OMPI_MCA_btl := self,vader
 export OPENBLAS_NUM_THREADS := 1
 export OMP_NUM_THREADS := 1
 export ASAN_OPTIONS := detect_leaks=0
@@ -37,6 +40,11 @@ else
   PETSC_CFLAGS := -I$(PETSC_PREFIX)/include
   PETSC_LIBS   := -L$(PETSC_PREFIX)/lib -lpetsc_real
 endif
+# The loader looks symbols up in the order of the libraries, and Debian's PETSc brings a hundred: those with the most symbols first take
+# 12 of 41 ms off every start.
+ifndef PETSC_DIR
+  LOAD_FIRST := $(wildcard $(foreach l,teuchosparameterlist ml ifpack epetra epetraext teuchoscomm,/usr/lib/$(TRIPLET)/libtrilinos_$(l).so.[0-9]*.[0-9]*))
+endif
 HDF5_CFLAGS := $(shell pkg-config --cflags hdf5-openmpi 2>/dev/null)
 HDF5_LIBS   := $(or $(shell pkg-config --libs hdf5-openmpi 2>/dev/null),-lhdf5)
 
@@ -45,9 +53,9 @@ ifdef DEBUG
 else
   OPT := -O3 -g $(if $(PORTABLE),,-march=native)
 endif
-CFLAGS   := -std=gnu11 $(OPT) -Wall -Wextra -Wshadow -Wstrict-prototypes -Wno-unused-parameter -Werror -fno-math-errno -MMD -MP
+CFLAGS   := -std=gnu11 $(OPT) -Wall -Wextra -Wshadow -Wstrict-prototypes -Wno-unused-parameter -Wno-format-truncation -Werror -fno-math-errno -MMD -MP
 CPPFLAGS := -Iinclude $(addprefix -Isrc/,$(MODULES)) $(PETSC_CFLAGS) $(HDF5_CFLAGS)
-LDLIBS   := -Wl,--as-needed $(PETSC_LIBS) -lmetis -ldmumps -lsmumps -lmumps_common $(HDF5_LIBS) -lmuparser -lcjson -lyaml -lopenblas -lm
+LDLIBS   := -Wl,--no-as-needed -lopenblas $(LOAD_FIRST) -Wl,--as-needed $(PETSC_LIBS) -lmetis -ldmumps -lsmumps -lmumps_common $(HDF5_LIBS) -lmuparser -lcjson -lyaml -lm
 
 SOURCES := $(foreach m,$(MODULES),$(wildcard src/$(m)/*.c))
 OBJECTS := $(SOURCES:src/%.c=$(BUILD)/%.o)
@@ -61,7 +69,8 @@ TRACKED  = $(shell git ls-files '*.c' '*.h')
 all: $(PROGRAM)
 
 $(BUILD)/mortise: $(BUILD)/app/main.o $(LIBRARY)
-	$(CC) $(CFLAGS) -o $@ $^ $(LDLIBS)
+	@echo "  LINK $@"
+	$(Q)$(CC) $(CFLAGS) -o $@ $^ $(LDLIBS)
 
 # bin/ follows whichever build directory was made last.
 $(PROGRAM): $(BUILD)/mortise FORCE
@@ -70,19 +79,23 @@ $(PROGRAM): $(BUILD)/mortise FORCE
 
 $(LIBRARY): $(LIBOBJS)
 	@rm -f $@
-	ar rcs $@ $^
+	$(Q)ar rcs $@ $^
 
 $(BUILD)/%.o: src/%.c Makefile
 	@mkdir -p $(@D)
-	$(CC) $(CFLAGS) $(CPPFLAGS) -c -o $@ $<
+	@echo "  CC   $<"
+	$(Q)$(CC) $(CFLAGS) $(CPPFLAGS) -c -o $@ $<
 
+# cmocka.h wants these two before it, whatever order clang-format gives the includes.
 $(BUILD)/unit/%: tests/unit/%.c $(LIBRARY)
 	@mkdir -p $(@D)
-	$(CC) $(CFLAGS) $(CPPFLAGS) -o $@ $< $(LIBRARY) -lcmocka $(LDLIBS)
+	@echo "  CC   $<"
+	$(Q)$(CC) $(CFLAGS) $(CPPFLAGS) -include stdarg.h -include setjmp.h -o $@ $< $(LIBRARY) -lcmocka $(LDLIBS)
 
 $(BUILD)/bench/%: tests/bench/%.c $(LIBRARY)
 	@mkdir -p $(@D)
-	$(CC) $(CFLAGS) $(CPPFLAGS) -o $@ $< $(LIBRARY) $(LDLIBS)
+	@echo "  CC   $<"
+	$(Q)$(CC) $(CFLAGS) $(CPPFLAGS) -o $@ $< $(LIBRARY) $(LDLIBS)
 
 units: $(UNITS)
 unit: $(UNITS)
