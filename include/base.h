@@ -60,3 +60,10 @@ static inline PetscReal Dot3(const PetscReal a[3], const PetscReal b[3])
 {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
+
+/* ---- lanes: several numbers in one register, each of another point or cell (GCC vector extension, portable) --------- */
+
+#pragma GCC diagnostic ignored "-Wpsabi" /* lanes never cross a translation unit by value */
+#define NUM_LANES 8
+typedef PetscReal Lanes __attribute__((vector_size(NUM_LANES * sizeof(PetscReal)), may_alias));
+typedef PetscReal LanesAny __attribute__((vector_size(NUM_LANES * sizeof(PetscReal)), may_alias, aligned(sizeof(PetscReal)))); /* in memory of any alignment */
