@@ -110,11 +110,12 @@ PetscErrorCode IndexGridEnd(Index index)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* The grid named first comes last: VTK takes all collections, meshio's TimeSeriesReader only the last one, and the bulk is written first. */
 PetscErrorCode IndexText(Index index, OutputText *text)
 {
   PetscFunctionBegin;
   PetscCall(OutputTextPrint(text, "<?xml version=\"1.0\"?>\n<Xdmf Version=\"3.0\">\n  <Domain>\n"));
-  for (PetscInt i = 0; i < index->num; i++) {
+  for (PetscInt i = index->num - 1; i >= 0; i--) {
     IndexSeries *series = &index->series[i];
 
     PetscCall(OutputTextPrint(text, "    <Grid Name=\"%s\" GridType=\"Collection\" CollectionType=\"Temporal\">\n%s    </Grid>\n", series->name,
