@@ -58,3 +58,5 @@ PetscErrorCode MaterialEvaluate(const MaterialSpec *, MaterialPart, PetscInt n, 
    sign(J-1) sqrt((J^2-1)/2 - ln J) (simo; series near 1). The independent pressure field is pi = modulus * Proj g; Cauchy pressure -pi g'(J) . */
 void      MaterialVolumetric(const MaterialSpec *, PetscReal J, PetscReal g[3]);
 PetscReal MaterialVolumetricModulus(const MaterialSpec *);
+/* The same at n points from J-1, which loses no digits near 1: g[n], dg[n], ddg[n]. */
+void MaterialVolumetricPoints(const MaterialSpec *, PetscInt n, const PetscReal *J_minus_1, PetscReal *g, PetscReal *dg, PetscReal *ddg);

@@ -1,0 +1,30 @@
+/* The table of laws: one row each. A new law is a file, a row here, and its documentation follows from the row. */
+#include "materialimpl.h"
+
+const char *const VolumetricNames[]  = {"quadratic", "simo", "log", "Volumetric", "VOLUMETRIC_", NULL};
+const char *const FormulationNames[] = {"auto", "displacement", "mixed", "Formulation", "FORMULATION_", NULL};
+
+const MaterialLaw MaterialLaws[] = {
+    {"neo_hookean", "compressible neo-Hookean solid", MaterialElasticParameters, PETSC_FALSE, PETSC_FALSE, MaterialSetUpElastic, MaterialNeoHookean},
+    {"mooney_rivlin", "Mooney-Rivlin solid", MaterialMooneyRivlinParameters, PETSC_FALSE, PETSC_FALSE, MaterialMooneyRivlinSetUp, MaterialMooneyRivlin},
+    {"linear", "linear isotropic elasticity, small kinematics", MaterialElasticParameters, PETSC_TRUE, PETSC_FALSE, MaterialLinearSetUp, MaterialLinear},
+    {"rigid", "rigid body that moves as told", MaterialRigidParameters, PETSC_FALSE, PETSC_TRUE, MaterialRigidSetUp, NULL},
+    {NULL, NULL, NULL, PETSC_FALSE, PETSC_FALSE, NULL, NULL},
+};
+
+const MaterialLaw *MaterialLawFind(const char *name)
+{
+  for (const MaterialLaw *law = MaterialLaws; law->name; law++) {
+    if (!strcmp(law->name, name)) return law;
+  }
+  return NULL;
+}
+
+PetscErrorCode MaterialEvaluate(const MaterialSpec *spec, MaterialPart part, PetscInt n, const PetscReal *F, PetscReal *W, PetscReal *P, PetscReal *A,
+                                PetscBool *bad)
+{
+  PetscFunctionBegin;
+  PetscCheck(spec->law->evaluate, PETSC_COMM_SELF, PETSC_ERR_ARG_WRONGSTATE, "Material %s (%s) has no stress", spec->name, spec->law->name);
+  PetscCall(spec->law->evaluate(spec, part, n, F, W, P, A, bad));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

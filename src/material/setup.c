@@ -1,0 +1,136 @@
+/* From parameters as the user names them to a complete spec, or to a sentence that says what is wrong. */
+#include "materialimpl.h"
+#include <ctype.h>
+
+const MaterialParameter MaterialElasticParameters[] = {
+    {"E", "stress", "Young's modulus", 0, PETSC_MAX_REAL},
+    {"nu", "1", "Poisson's ratio", -1, 0.5},
+    {"mu", "stress", "shear modulus", 0, PETSC_MAX_REAL},
+    {"kappa", "stress", "bulk modulus", 0, PETSC_MAX_REAL},
+    {"lambda", "stress", "Lame's first parameter", PETSC_MIN_REAL, PETSC_MAX_REAL},
+    {NULL, NULL, NULL, 0, 0},
+};
+
+/* Edits (insert, delete, replace) from a to b, capitals not counted; names are short. */
+static PetscInt Distance_Private(const char *a, const char *b)
+{
+  PetscInt row[MORTISE_NAME + 1];
+  PetscInt na = PetscMin((PetscInt)strlen(a), MORTISE_NAME), nb = PetscMin((PetscInt)strlen(b), MORTISE_NAME);
+
+  for (PetscInt j = 0; j <= nb; j++) row[j] = j;
+  for (PetscInt i = 1; i <= na; i++) {
+    PetscInt diagonal = row[0];
+
+    row[0] = i;
+    for (PetscInt j = 1; j <= nb; j++) {
+      const PetscInt replace = diagonal + (tolower((unsigned char)a[i - 1]) != tolower((unsigned char)b[j - 1]));
+
+      diagonal = row[j];
+      row[j]   = PetscMin(replace, 1 + PetscMin(row[j], row[j - 1]));
+    }
+  }
+  return row[nb];
+}
+
+/* An unknown parameter: name the nearest and all known ones. */
+static PetscErrorCode Unknown_Private(const MaterialSpec *spec, const char *name)
+{
+  const MaterialParameter *known = spec->law->parameters, *nearest = known;
+  char                     list[256] = "";
+
+  PetscFunctionBegin;
+  PetscCheckInput(known->name, "material.%s.%s: the law %s takes no parameters", spec->name, name, spec->law->name);
+  for (const MaterialParameter *p = known; p->name; p++) {
+    if (Distance_Private(name, p->name) < Distance_Private(name, nearest->name)) nearest = p;
+    PetscCall(PetscStrlcat(list, p == known ? "" : ", ", sizeof(list)));
+    PetscCall(PetscStrlcat(list, p->name, sizeof(list)));
+  }
+  PetscFunctionReturn(ErrorInput("material.%s.%s: unknown; nearest known: %s (%s has %s)", spec->name, name, nearest->name, spec->law->name, list));
+}
+
+static PetscErrorCode CheckRange_Private(const MaterialSpec *spec, const MaterialParameter *p, PetscReal value)
+{
+  PetscFunctionBegin;
+  PetscCheckInput(strcmp(p->name, "nu") || value != 0.5,
+                  "material.%s.nu: 0.5 is the incompressible limit; take nu below 0.5 (0.4999, say) with formulation: mixed", spec->name);
+  if (p->max < PETSC_MAX_REAL)
+    PetscCheckInput(value > p->min && value < p->max, "material.%s.%s: %g is not between %g and %g", spec->name, p->name, (double)value, (double)p->min,
+                    (double)p->max);
+  if (p->min > PETSC_MIN_REAL)
+    PetscCheckInput(value > p->min && value < p->max, "material.%s.%s: %g is not a finite number above %g", spec->name, p->name, (double)value, (double)p->min);
+  PetscCheckInput(value > p->min && value < p->max, "material.%s.%s: %g is not a finite number", spec->name, p->name, (double)value);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The elastic pairs E,nu | mu,kappa | mu,lambda; exactly one of them. */
+PetscErrorCode MaterialSetUpElastic(MaterialSpec *spec)
+{
+  static const int8_t pairs[3][2] = {
+      {0, 1}, /* E, nu */
+      {2, 3}, /* mu, kappa */
+      {2, 4}  /* mu, lambda */
+  };
+  PetscReal *v    = spec->parameter;
+  PetscInt   pair = -1;
+
+  PetscFunctionBegin;
+  for (PetscInt k = 0; k < 3; k++) {
+    if (!PetscIsNanReal(v[pairs[k][0]]) && !PetscIsNanReal(v[pairs[k][1]])) pair = k;
+  }
+  if (pair < 0) {
+    const PetscInt missing = !PetscIsNanReal(v[0])                            ? 1
+                             : !PetscIsNanReal(v[1])                          ? 0
+                             : !PetscIsNanReal(v[2])                          ? 3
+                             : !PetscIsNanReal(v[3]) || !PetscIsNanReal(v[4]) ? 2
+                                                                              : 0;
+
+    PetscFunctionReturn(ErrorInput("material.%s.%s: missing; %s needs E and nu, or mu and kappa, or mu and lambda", spec->name,
+                                   MaterialElasticParameters[missing].name, spec->law->name));
+  }
+  for (PetscInt k = 0; k < 5; k++) {
+    PetscCheckInput(PetscIsNanReal(v[k]) || k == pairs[pair][0] || k == pairs[pair][1],
+                    "material.%s.%s: one parameter too many; %s takes E and nu, or mu and kappa, or mu and lambda", spec->name,
+                    MaterialElasticParameters[k].name, spec->law->name);
+  }
+  spec->mu     = pair == 0 ? v[0] / (2 * (1 + v[1])) : v[2];
+  spec->lambda = pair == 0 ? v[0] * v[1] / ((1 + v[1]) * (1 - 2 * v[1])) : pair == 1 ? v[3] - 2 * v[2] / 3 : v[4];
+  spec->kappa  = pair == 1 ? v[3] : pair == 0 ? v[0] / (3 * (1 - 2 * v[1])) : v[4] + 2 * v[2] / 3;
+  PetscCheckInput(spec->kappa > 0, "material.%s.lambda: %g gives the bulk modulus %g, which must be positive", spec->name, (double)v[4], (double)spec->kappa);
+  v[0] = 9 * spec->kappa * spec->mu / (3 * spec->kappa + spec->mu);
+  v[1] = pair == 0 ? v[1] : (3 * spec->kappa - 2 * spec->mu) / (2 * (3 * spec->kappa + spec->mu));
+  v[2] = spec->mu;
+  v[3] = spec->kappa;
+  v[4] = spec->lambda;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* `mixed`: as told, or from nu = 0.45 up. NHc's modulus of the pressure is lambda, which must not vanish then. */
+static PetscErrorCode ResolveMixed_Private(MaterialSpec *spec)
+{
+  const PetscReal nu = (3 * spec->kappa - 2 * spec->mu) / (2 * (3 * spec->kappa + spec->mu));
+
+  PetscFunctionBegin;
+  spec->mixed =
+      spec->formulation == FORMULATION_MIXED || (spec->formulation == FORMULATION_AUTO && !spec->law->rigid && nu >= 0.45 - 1e-12) ? PETSC_TRUE : PETSC_FALSE;
+  PetscCheckInput(!spec->mixed || MaterialVolumetricModulus(spec) > 0, "material.%s.formulation: mixed with volumetric: log needs lambda above 0, which is %g",
+                  spec->name, (double)spec->lambda);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode MaterialSetUp(MaterialSpec *spec, PetscInt num, const char *const names[], const PetscReal values[])
+{
+  PetscFunctionBegin;
+  PetscCheck(spec->law, PETSC_COMM_SELF, PETSC_ERR_ARG_WRONGSTATE, "Material %s has no law", spec->name);
+  for (PetscInt k = 0; k < MATERIAL_MAX_PARAMETERS; k++) spec->parameter[k] = (PetscReal)NAN;
+  for (PetscInt i = 0; i < num; i++) {
+    PetscInt k = 0;
+
+    while (spec->law->parameters[k].name && strcmp(spec->law->parameters[k].name, names[i])) k++;
+    if (!spec->law->parameters[k].name) PetscCall(Unknown_Private(spec, names[i]));
+    PetscCall(CheckRange_Private(spec, &spec->law->parameters[k], values[i]));
+    spec->parameter[k] = values[i];
+  }
+  PetscCall(spec->law->setup(spec));
+  PetscCall(ResolveMixed_Private(spec));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

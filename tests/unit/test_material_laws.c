@@ -1,0 +1,249 @@
+/* Stress and energy of cases.md O-01, tangent against central differences, objectivity, symmetry, small strains, volumetric measure. */
+#include "material.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+
+#include <cmocka.h>
+
+#include "near.h"
+
+#define OK(call) assert_int_equal(call, 0)
+
+typedef struct {
+  const char *law;
+  Volumetric  volumetric;
+  PetscInt    num;
+  const char *names[3];
+  PetscReal   values[3];
+  PetscReal   W, P[4]; /* P11, P12, P21, P33 */
+} Row;
+
+/* cases.md O-01 */
+static const Row rows[] = {
+    {"neo_hookean", VOLUMETRIC_LOG, 2, {"mu", "lambda"}, {1, 2}, 0.147591766098, {0.4943538338, 0.2024829125, 0.1798664768, 0.2282784872}},
+    {"neo_hookean", VOLUMETRIC_SIMO, 2, {"mu", "kappa"}, {1, 50}, 0.315349668375, {4.0652953955, -0.0760681971, -0.4919977784, 4.4054403799}},
+    {"neo_hookean", VOLUMETRIC_QUADRATIC, 2, {"mu", "kappa"}, {1, 50}, 0.320524161883, {4.2260656643, -0.0880255949, -0.521585792, 4.5926565725}},
+    {"mooney_rivlin", VOLUMETRIC_QUADRATIC, 3, {"c1", "c2", "kappa"}, {.3, .2, 50}, 0.330987571105, {4.2318835549, -0.0589440653, -0.4902377314, 4.597179224}},
+    {"mooney_rivlin", VOLUMETRIC_SIMO, 3, {"c1", "c2", "kappa"}, {.3, .2, 50}, 0, {0}},
+    {"linear", VOLUMETRIC_QUADRATIC, 2, {"mu", "kappa"}, {1, 50}, 0, {0}},
+};
+#define NUM_ROWS PETSC_STATIC_ARRAY_LENGTH(rows)
+
+static const PetscReal F1[9]  = {1.2, .15, -.1, .05, .9, .2, -.08, .12, 1.05};
+static const PetscReal one[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+
+static void SpecMake(const Row *row, MaterialSpec *spec)
+{
+  PetscMemzero(spec, sizeof(*spec));
+  PetscStrncpy(spec->name, "test", sizeof(spec->name));
+  spec->law        = MaterialLawFind(row->law);
+  spec->volumetric = row->volumetric;
+  assert_non_null(spec->law);
+  OK(MaterialSetUp(spec, row->num, row->names, row->values));
+}
+
+static void Evaluate(const MaterialSpec *spec, MaterialPart part, const PetscReal F[9], PetscReal *W, PetscReal *P, PetscReal *A)
+{
+  PetscBool bad = PETSC_FALSE;
+
+  OK(MaterialEvaluate(spec, part, 1, F, W, P, A, &bad));
+  assert_false(bad);
+}
+
+/* Printed digits end at 1e-10 absolute for P (values up to 5) and 1e-12 for W. */
+static void PointValuesOfO01(void **state)
+{
+  for (size_t i = 0; i < 4; i++) {
+    MaterialSpec spec;
+    PetscReal    W, P[9];
+
+    SpecMake(&rows[i], &spec);
+    Evaluate(&spec, MATERIAL_FULL, F1, &W, P, NULL);
+    assert_near(W, rows[i].W, 1e-12);
+    assert_near(P[0], rows[i].P[0], 1e-10);
+    assert_near(P[1], rows[i].P[1], 1e-10);
+    assert_near(P[3], rows[i].P[2], 1e-10);
+    assert_near(P[8], rows[i].P[3], 1e-10);
+  }
+}
+
+/* dW/dF = P and dP/dF = A, fourth-order differences with step 1e-3: 1e-8 of the modulus. A is symmetric. */
+static void DerivativesAgree(void **state)
+{
+  const PetscReal h = 1e-3, modulus = 50;
+
+  for (size_t i = 0; i < NUM_ROWS; i++) {
+    for (int part = 0; part < 2; part++) {
+      MaterialSpec spec;
+      PetscReal    P[9], A[81], w[4], p[4][9];
+
+      SpecMake(&rows[i], &spec);
+      Evaluate(&spec, (MaterialPart)part, F1, NULL, P, A);
+      for (int b = 0; b < 9; b++) {
+        for (int s = 0; s < 4; s++) {
+          PetscReal F[9];
+
+          PetscMemcpy(F, F1, sizeof(F));
+          F[b] += h * (s < 2 ? s - 2 : s - 1);
+          Evaluate(&spec, (MaterialPart)part, F, &w[s], p[s], NULL);
+        }
+        assert_near(P[b], (w[0] - 8 * w[1] + 8 * w[2] - w[3]) / (12 * h), 1e-9 * modulus);
+        for (int a = 0; a < 9; a++) {
+          assert_near(A[9 * a + b], (p[0][a] - 8 * p[1][a] + 8 * p[2][a] - p[3][a]) / (12 * h), 1e-9 * modulus);
+          assert_near(A[9 * a + b], A[9 * b + a], 1e-13 * modulus);
+        }
+      }
+    }
+  }
+}
+
+/* At F = 1: no energy, no stress, and A = lambda 1 (x) 1 + mu (transposed identities). */
+static void ReferenceIsStressFree(void **state)
+{
+  for (size_t i = 0; i < NUM_ROWS; i++) {
+    MaterialSpec spec;
+    PetscReal    W, P[9], A[81];
+
+    SpecMake(&rows[i], &spec);
+    Evaluate(&spec, MATERIAL_FULL, one, &W, P, A);
+    assert_true(W == 0);
+    for (int a = 0; a < 9; a++) {
+      assert_near(P[a], 0, 1e-15);
+      for (int b = 0; b < 9; b++) {
+        const int i0 = a / 3, J = a % 3, k = b / 3, L = b % 3;
+
+        assert_near(A[9 * a + b], spec.lambda * (i0 == J) * (k == L) + spec.mu * ((i0 == k) * (J == L) + (i0 == L) * (J == k)), 1e-13);
+      }
+    }
+  }
+}
+
+/* P(Q F) = Q P(F), W(Q F) = W(F) for a rotation Q by 0.7 about (1,2,2)/3. */
+static void LawsAreObjective(void **state)
+{
+  const PetscReal n[3] = {1. / 3, 2. / 3, 2. / 3}, c = PetscCosReal(0.7), s = PetscSinReal(0.7);
+  const PetscReal spin[9] = {0, -n[2], n[1], n[2], 0, -n[0], -n[1], n[0], 0};
+  PetscReal       Q[9], QF[9] = {0};
+
+  for (int i = 0; i < 9; i++) Q[i] = c * one[i] + s * spin[i] + (1 - c) * n[i / 3] * n[i % 3];
+  for (int i = 0; i < 27; i++) QF[i / 3] += Q[3 * (i / 9) + i % 3] * F1[3 * (i % 3) + i / 3 % 3];
+  for (size_t i = 0; i < NUM_ROWS; i++) {
+    MaterialSpec spec;
+    PetscReal    W, P[9], WQ, PQ[9];
+
+    SpecMake(&rows[i], &spec);
+    if (spec.law->small) continue;
+    Evaluate(&spec, MATERIAL_FULL, F1, &W, P, NULL);
+    Evaluate(&spec, MATERIAL_FULL, QF, &WQ, PQ, NULL);
+    assert_near(WQ, W, 1e-13);
+    for (int a = 0; a < 9; a++) {
+      PetscReal sum = 0;
+
+      for (int m = 0; m < 3; m++) sum += Q[3 * (a / 3) + m] * P[3 * m + a % 3];
+      assert_near(PQ[a], sum, 1e-12);
+    }
+  }
+}
+
+/* Strain 1e-6: P agrees with linear elasticity to second order (1e-11 of the modulus, that is 1e-5 of P), and W to its leading order. */
+static void SmallStrainsKeepTheirDigits(void **state)
+{
+  const PetscReal grad[9] = {3, 1, -2, 2, -1, 4, 1, -3, 2}, e = 1e-6;
+  PetscReal       F[9];
+
+  for (int k = 0; k < 9; k++) F[k] = one[k] + e * grad[k];
+  for (size_t i = 0; i < NUM_ROWS; i++) {
+    MaterialSpec spec;
+    PetscReal    W, P[9], energy = 0;
+
+    SpecMake(&rows[i], &spec);
+    Evaluate(&spec, MATERIAL_FULL, F, &W, P, NULL);
+    for (int a = 0; a < 9; a++) {
+      const PetscReal stress = e * (spec.lambda * (grad[0] + grad[4] + grad[8]) * one[a] + spec.mu * (grad[a] + grad[3 * (a % 3) + a / 3]));
+
+      assert_near(P[a], stress, 2e-11 * (10 * spec.kappa + 40 * spec.mu));
+      energy += 0.5 * stress * e * grad[a];
+    }
+    assert_near(W / energy, 1, 1e-4);
+  }
+}
+
+/* Many points at once, any count, equal the points one by one; det F <= 0 is reported and disturbs no other point. */
+static void BatchesEqualPoints(void **state)
+{
+  enum { N = 21 };
+
+  for (size_t i = 0; i < NUM_ROWS; i++) {
+    MaterialSpec spec;
+    PetscReal    F[9 * N], W[N], P[9 * N], A[81 * N], w, p[9], a[81];
+    PetscBool    bad = PETSC_FALSE;
+
+    SpecMake(&rows[i], &spec);
+    for (int q = 0; q < N; q++) {
+      for (int k = 0; k < 9; k++) F[k * N + q] = F1[k] + 0.01 * q * (k == q % 9);
+    }
+    OK(MaterialEvaluate(&spec, MATERIAL_FULL, N, F, W, P, A, &bad));
+    assert_false(bad);
+    for (int q = 0; q < N; q++) {
+      PetscReal f[9];
+
+      for (int k = 0; k < 9; k++) f[k] = F[k * N + q];
+      Evaluate(&spec, MATERIAL_FULL, f, &w, p, a);
+      assert_near(W[q], w, 1e-14);
+      for (int k = 0; k < 9; k++) assert_near(P[k * N + q], p[k], 1e-13);
+      for (int k = 0; k < 81; k++) assert_near(A[k * N + q], a[k], 1e-12);
+    }
+    if (spec.law->small) continue;
+    for (int k = 0; k < 9; k++) F[k * N + 17] = -one[k];
+    OK(MaterialEvaluate(&spec, MATERIAL_FULL, N, F, W, P, NULL, &bad));
+    assert_true(bad);
+    for (int k = 0; k < 9; k++) F[k * N + 17] = F1[k];
+    bad = PETSC_FALSE;
+    OK(MaterialEvaluate(&spec, MATERIAL_FULL, N, F, W, NULL, NULL, &bad));
+    assert_false(bad);
+  }
+}
+
+/* m/2 g^2 is the volumetric energy; derivatives by differences, also across the switch between series and formula. */
+static void VolumetricMeasure(void **state)
+{
+  const PetscReal where[] = {0.5, 0.8, 0.9, 0.9000001, 0.97, 1 - 1e-6, 1, 1 + 1e-9, 1.05, 1.0999999, 1.1, 1.4, 3}, h = 1e-3;
+
+  for (size_t i = 0; i < 3; i++) {
+    MaterialSpec spec;
+
+    SpecMake(&rows[i], &spec);
+    for (size_t k = 0; k < PETSC_STATIC_ARRAY_LENGTH(where); k++) {
+      const PetscReal J = where[k], root = PetscPowReal(J, 1. / 3), F[9] = {root, 0, 0, 0, root, 0, 0, 0, root};
+      PetscReal       g[3], s[4][3], full, isochoric;
+
+      MaterialVolumetric(&spec, J, g);
+      for (int j = 0; j < 4; j++) MaterialVolumetric(&spec, J + h * (j < 2 ? j - 2 : j - 1), s[j]);
+      assert_near(g[1], (s[0][0] - 8 * s[1][0] + 8 * s[2][0] - s[3][0]) / (12 * h), 1e-9);
+      assert_near(g[2], (s[0][1] - 8 * s[1][1] + 8 * s[2][1] - s[3][1]) / (12 * h), 1e-9);
+      Evaluate(&spec, MATERIAL_FULL, F, &full, NULL, NULL);
+      Evaluate(&spec, MATERIAL_ISOCHORIC, F, &isochoric, NULL, NULL);
+      assert_near(full - isochoric, 0.5 * MaterialVolumetricModulus(&spec) * g[0] * g[0], 1e-12);
+    }
+    PetscReal g[3];
+    MaterialVolumetric(&spec, 1, g);
+    assert_true(g[0] == 0 && g[1] == 1);
+  }
+}
+
+int main(int argc, char **argv)
+{
+  const struct CMUnitTest tests[] = {cmocka_unit_test(PointValuesOfO01),
+                                     cmocka_unit_test(DerivativesAgree),
+                                     cmocka_unit_test(ReferenceIsStressFree),
+                                     cmocka_unit_test(LawsAreObjective),
+                                     cmocka_unit_test(SmallStrainsKeepTheirDigits),
+                                     cmocka_unit_test(BatchesEqualPoints),
+                                     cmocka_unit_test(VolumetricMeasure)};
+
+  if (PetscInitialize(&argc, &argv, NULL, NULL)) return 1;
+  const int failed = cmocka_run_group_tests(tests, NULL, NULL);
+  return PetscFinalize() || failed;
+}

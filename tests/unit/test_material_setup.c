@@ -1,0 +1,143 @@
+/* Which parameters a material takes, what follows from them, and the sentence wrong ones get. */
+#include "material.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+
+#include <cmocka.h>
+
+#include "near.h"
+#include <stdio.h>
+#include <unistd.h>
+
+#define OK(call) assert_int_equal(call, 0)
+
+static MaterialSpec spec;
+static char         said[1024];
+
+/* MaterialSetUp with what it prints caught in `said`. */
+static PetscErrorCode Try(const char *law, PetscInt num, const char *const names[], const PetscReal values[])
+{
+  FILE          *file = tmpfile();
+  const int      keep = dup(STDERR_FILENO);
+  PetscErrorCode code;
+  size_t         length;
+
+  spec.law = MaterialLawFind(law);
+  assert_non_null(spec.law);
+  fflush(stderr);
+  dup2(fileno(file), STDERR_FILENO);
+  code = MaterialSetUp(&spec, num, names, values);
+  fflush(stderr);
+  dup2(keep, STDERR_FILENO);
+  close(keep);
+  rewind(file);
+  length       = fread(said, 1, sizeof(said) - 1, file);
+  said[length] = 0;
+  fclose(file);
+  return code;
+}
+
+static int Fresh(void **state)
+{
+  PetscMemzero(&spec, sizeof(spec));
+  PetscStrncpy(spec.name, "rubber", sizeof(spec.name));
+  return 0;
+}
+
+#define NAMES(...) ((const char *const[]){__VA_ARGS__})
+#define VALUES(...) ((const PetscReal[]){__VA_ARGS__})
+#define REFUSED(sentence, law, num, names, values)                                                                                                             \
+  do {                                                                                                                                                         \
+    assert_int_equal(Try(law, num, names, values), MORTISE_ERR_INPUT);                                                                                         \
+    assert_string_equal(said, "mortise: material.rubber." sentence "\n");                                                                                      \
+  } while (0)
+
+static void PairsAreEquivalent(void **state)
+{
+  OK(Try("neo_hookean", 2, NAMES("E", "nu"), VALUES(2.8, 0.4)));
+  assert_near(spec.mu, 1, 1e-15);
+  assert_near(spec.lambda, 4, 1e-14);
+  assert_near(spec.kappa, 14. / 3, 1e-14);
+  assert_string_equal(said, "");
+  OK(Try("neo_hookean", 2, NAMES("kappa", "mu"), VALUES(14. / 3, 1)));
+  assert_near(spec.lambda, 4, 1e-14);
+  assert_near(spec.parameter[0], 2.8, 1e-14);
+  OK(Try("linear", 2, NAMES("mu", "lambda"), VALUES(1, 4)));
+  assert_near(spec.kappa, 14. / 3, 1e-14);
+  assert_near(spec.parameter[1], 0.4, 1e-15);
+  OK(Try("mooney_rivlin", 3, NAMES("c1", "c2", "kappa"), VALUES(.3, .2, 50)));
+  assert_near(spec.mu, 1, 1e-15);
+  assert_near(spec.kappa, 50, 0);
+  OK(Try("rigid", 0, NULL, NULL));
+  assert_false(spec.mixed);
+}
+
+static void MixedIsResolved(void **state)
+{
+  OK(Try("neo_hookean", 2, NAMES("E", "nu"), VALUES(1, 0.44)));
+  assert_false(spec.mixed);
+  OK(Try("neo_hookean", 2, NAMES("E", "nu"), VALUES(1, 0.45)));
+  assert_true(spec.mixed);
+  spec.formulation = FORMULATION_DISPLACEMENT;
+  OK(Try("neo_hookean", 2, NAMES("E", "nu"), VALUES(1, 0.49)));
+  assert_false(spec.mixed);
+  spec.formulation = FORMULATION_MIXED;
+  OK(Try("neo_hookean", 2, NAMES("E", "nu"), VALUES(1, 0.1)));
+  assert_true(spec.mixed);
+}
+
+static void WrongValuesAreRefused(void **state)
+{
+  REFUSED("E: -1 is not a finite number above 0", "neo_hookean", 2, NAMES("E", "nu"), VALUES(-1, 0.3));
+  REFUSED("mu: 0 is not a finite number above 0", "neo_hookean", 2, NAMES("mu", "kappa"), VALUES(0, 1));
+  REFUSED("nu: 0.6 is not between -1 and 0.5", "neo_hookean", 2, NAMES("E", "nu"), VALUES(1, 0.6));
+  REFUSED("nu: 0.5 is the incompressible limit; take nu below 0.5 (0.4999, say) with formulation: mixed", "neo_hookean", 2, NAMES("E", "nu"), VALUES(1, 0.5));
+  REFUSED("E: nan is not a finite number above 0", "neo_hookean", 2, NAMES("E", "nu"), VALUES((PetscReal)NAN, 0.3));
+  REFUSED("lambda: -1 gives the bulk modulus -0.333333, which must be positive", "neo_hookean", 2, NAMES("mu", "lambda"), VALUES(1, -1));
+  REFUSED("c1: shear modulus 2 (c1 + c2) = -0.2 must be positive", "mooney_rivlin", 3, NAMES("c1", "c2", "kappa"), VALUES(.1, -.2, 5));
+}
+
+static void WrongSetsAreRefused(void **state)
+{
+  REFUSED("Nu: unknown; nearest known: nu (neo_hookean has E, nu, mu, kappa, lambda)", "neo_hookean", 2, NAMES("E", "Nu"), VALUES(1, 0.3));
+  REFUSED("kapa: unknown; nearest known: kappa (mooney_rivlin has c1, c2, kappa)", "mooney_rivlin", 1, NAMES("kapa"), VALUES(1));
+  REFUSED("E: the law rigid takes no parameters", "rigid", 1, NAMES("E"), VALUES(1));
+  REFUSED("nu: missing; neo_hookean needs E and nu, or mu and kappa, or mu and lambda", "neo_hookean", 1, NAMES("E"), VALUES(1));
+  REFUSED("E: missing; linear needs E and nu, or mu and kappa, or mu and lambda", "linear", 0, NULL, NULL);
+  REFUSED("c2: missing; mooney_rivlin needs c1, c2 and kappa", "mooney_rivlin", 2, NAMES("c1", "kappa"), VALUES(1, 2));
+  REFUSED("mu: one parameter too many; neo_hookean takes E and nu, or mu and kappa, or mu and lambda", "neo_hookean", 3, NAMES("E", "nu", "mu"),
+          VALUES(1, 0.3, 2));
+}
+
+static void WrongVariantsAreRefused(void **state)
+{
+  spec.volumetric = VOLUMETRIC_LOG;
+  REFUSED("volumetric: mooney_rivlin knows quadratic and simo, not log", "mooney_rivlin", 3, NAMES("c1", "c2", "kappa"), VALUES(1, 1, 9));
+  REFUSED("volumetric: linear has no other volumetric law than quadratic", "linear", 2, NAMES("E", "nu"), VALUES(1, 0.3));
+  spec.formulation = FORMULATION_MIXED;
+  REFUSED("formulation: mixed with volumetric: log needs lambda above 0, which is -0.1", "neo_hookean", 2, NAMES("mu", "lambda"), VALUES(1, -0.1));
+}
+
+static void TableIsComplete(void **state)
+{
+  assert_null(MaterialLawFind("neohookean"));
+  for (const MaterialLaw *law = MaterialLaws; law->name; law++) {
+    assert_ptr_equal(MaterialLawFind(law->name), law);
+    assert_non_null(law->help);
+    assert_non_null(law->parameters);
+    assert_true(law->rigid || law->evaluate);
+  }
+}
+
+int main(int argc, char **argv)
+{
+  const struct CMUnitTest tests[] = {cmocka_unit_test_setup(PairsAreEquivalent, Fresh),      cmocka_unit_test_setup(MixedIsResolved, Fresh),
+                                     cmocka_unit_test_setup(WrongValuesAreRefused, Fresh),   cmocka_unit_test_setup(WrongSetsAreRefused, Fresh),
+                                     cmocka_unit_test_setup(WrongVariantsAreRefused, Fresh), cmocka_unit_test_setup(TableIsComplete, Fresh)};
+
+  if (PetscInitialize(&argc, &argv, NULL, NULL) || ErrorHandlerPush()) return 1;
+  const int failed = cmocka_run_group_tests(tests, NULL, NULL);
+  return PetscFinalize() || failed;
+}
