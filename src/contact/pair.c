@@ -1,0 +1,146 @@
+/* The contact pair: life cycle, and the evaluation loop over the edges of the last search. */
+#include "contactimpl.h"
+
+PetscErrorCode ContactPairCreate(PetscBool axisymmetric, PetscBool node_to_segment, ContactPair *pair)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscNew(pair));
+  (*pair)->axisymmetric    = axisymmetric;
+  (*pair)->node_to_segment = node_to_segment;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode ContactPairDestroy(ContactPair *pair)
+{
+  ContactPair p = *pair;
+
+  PetscFunctionBegin;
+  if (!p) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(PetscFree2(p->prev, p->next));
+  PetscCall(PetscFree(p->listed));
+  PetscCall(PetscFree(p->start));
+  PetscCall(PetscFree(p->candidate));
+  PetscCall(PetscFree(p->normal));
+  PetscCall(PetscFree(p->segment));
+  PetscCall(PetscFree(p->output));
+  PetscCall(PetscFree2(p->first_segment, p->first_node));
+  PetscCall(PetscFree(p->node));
+  PetscCall(PetscFree(p->ids));
+  PetscCall(PetscFree(p->result));
+  PetscCall(PetscFree(p->real));
+  PetscCall(PetscFree(p->work));
+  PetscCall(PetscFree(*pair));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode ContactPairGetSegments(ContactPair pair, PetscInt *num, const ContactSegment **segments)
+{
+  PetscFunctionBegin;
+  *num      = pair->num_segments;
+  *segments = pair->output;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode ContactPairGetNormals(ContactPair pair, const PetscReal **normals)
+{
+  PetscFunctionBegin;
+  *normals = pair->normal;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Room for the results of all edges that have segments: integers, reals, one edge's work space. */
+static PetscErrorCode ReserveResults_Private(ContactPair pair, PetscBool derivatives, PetscBool hessian)
+{
+  PetscInt ids = 0, real = 0, work = 0;
+
+  PetscFunctionBegin;
+  for (PetscInt i = 0; i < pair->num_listed; i++) {
+    const PetscInt mortar = pair->first_node[i + 1] - pair->first_node[i], n = 2 * (4 + mortar);
+
+    if (mortar == 0) continue;
+    ids += 4 + mortar;
+    real += (derivatives ? 4 * n : 0) + (hessian ? n * n : 0);
+    work = PetscMax(work, (CONTACT_MOMENTS + 1 + n) * n);
+  }
+  PetscCall(ContactGrow(ids, sizeof(PetscInt), &pair->size_ids, &pair->ids));
+  PetscCall(ContactGrow(real, sizeof(PetscReal), &pair->size_real, &pair->real));
+  PetscCall(ContactGrow(work, sizeof(PetscReal), &pair->size_work, &pair->work));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Hand a result its storage and its list of nodes; advances *ids and *real. */
+static void PrepareResult_Private(const EvaluateContext *ctx, PetscInt slot, ContactEdge *out, PetscInt **ids, PetscReal **real)
+{
+  const ContactPair pair = ctx->pair;
+  const PetscInt   *edge = &ctx->nonmortar->edges[2 * pair->listed[slot]], mortar = pair->first_node[slot + 1] - pair->first_node[slot];
+  const PetscInt    own = 2 + (pair->prev[edge[0]] >= 0) + (pair->next[edge[1]] >= 0), n = 2 * (own + mortar);
+
+  out->edge    = pair->listed[slot];
+  out->node[0] = edge[0];
+  out->node[1] = edge[1];
+  out->num     = own + mortar;
+  out->nodes   = *ids;
+  for (PetscInt i = 0; i < mortar; i++) (*ids)[own + i] = ~pair->node[pair->first_node[slot] + i];
+  *ids += own + mortar;
+  out->dgap = out->dweight = out->hessian = NULL;
+  if (ctx->derivatives) {
+    out->dgap    = *real;
+    out->dweight = *real + 2 * n;
+    *real += 4 * n;
+  }
+  if (ctx->hessian) {
+    out->hessian = *real;
+    *real += n * n;
+  }
+}
+
+/* Loop over listed edges; the results of edges without contribution are dropped. *failed on anything that is not a number. */
+static PetscErrorCode EvaluateEdges_Private(const EvaluateContext *ctx, PetscBool *failed)
+{
+  ContactPair pair = ctx->pair;
+  PetscInt   *ids  = pair->ids;
+  PetscReal  *real = pair->real;
+
+  PetscFunctionBegin;
+  for (PetscInt i = 0; i < pair->num_listed; i++) {
+    ContactEdge *out = &pair->result[pair->num_results];
+    PetscBool    use;
+
+    if (pair->first_node[i + 1] == pair->first_node[i]) continue;
+    PrepareResult_Private(ctx, i, out, &ids, &real);
+    if (pair->node_to_segment)
+      ContactNodeEdge(ctx, i, out, &use);
+    else
+      ContactMortarEdge(ctx, i, out, &use);
+    if (!use) continue;
+    if (PetscIsInfOrNanReal(out->gap[0]) || PetscIsInfOrNanReal(out->gap[1])) *failed = PETSC_TRUE;
+    pair->num_results++;
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode ContactPairEvaluate(ContactPair pair, const ContactSurface *nonmortar, const ContactSurface *mortar, const PetscReal z[], PetscBool derivatives,
+                                   PetscBool hessian, PetscInt *num, const ContactEdge **edges, PetscBool *failed)
+{
+  const EvaluateContext ctx = {pair, nonmortar, mortar, z, derivatives || hessian ? PETSC_TRUE : PETSC_FALSE, hessian};
+
+  PetscFunctionBegin;
+  PetscCheck(nonmortar->num_nodes == pair->num_nodes && nonmortar->num_edges == pair->num_edges && mortar->num_nodes == pair->num_mortar_nodes &&
+                 mortar->num_edges == pair->num_mortar_edges,
+             PETSC_COMM_SELF, PETSC_ERR_ORDER, "surfaces differ from those of the last ContactPairSearch: search again after the mesh changes");
+  PetscCheck(!hessian || z || pair->num_listed == 0, PETSC_COMM_SELF, PETSC_ERR_ARG_NULL, "the Hessian of sum_j z_j gt_j needs z");
+  *failed           = PETSC_FALSE;
+  *num              = 0;
+  *edges            = pair->result;
+  pair->num_results = pair->num_segments = 0;
+  PetscCall(ContactNormalsBuild(pair, nonmortar, failed));
+  if (*failed) PetscFunctionReturn(PETSC_SUCCESS);
+  if (pair->node_to_segment)
+    PetscCall(ContactNodeHitsBuild(pair, nonmortar, mortar));
+  else
+    PetscCall(ContactSegmentsBuild(pair, nonmortar, mortar));
+  PetscCall(ReserveResults_Private(pair, ctx.derivatives, hessian));
+  PetscCall(EvaluateEdges_Private(&ctx, failed));
+  *num = pair->num_results;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

@@ -1,0 +1,187 @@
+/* Chains of edges, random contact configurations and assembled results for the contact tests. Lower body: nonmortar, its top runs towards -x.
+   Upper body: mortar, its bottom runs towards +x. */
+#pragma once
+#include "contact.h"
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#define CHECK_CALL(...) assert_int_equal((int)(__VA_ARGS__), 0)
+
+typedef struct {
+  ContactSurface s;
+  PetscInt      *edges;
+  PetscReal     *x, *mirror;
+} Chain;
+
+static inline void ChainCreate(Chain *c, PetscInt num_nodes, PetscBool closed)
+{
+  const PetscInt ne = closed ? num_nodes : num_nodes - 1;
+
+  c->edges  = calloc((size_t)(2 * ne), sizeof(PetscInt));
+  c->x      = calloc((size_t)(2 * num_nodes), sizeof(PetscReal));
+  c->mirror = calloc((size_t)(2 * num_nodes), sizeof(PetscReal));
+  for (PetscInt e = 0; e < ne; e++) c->edges[2 * e] = e, c->edges[2 * e + 1] = (e + 1) % num_nodes;
+  c->s = (ContactSurface){num_nodes, ne, c->edges, c->x, c->mirror};
+}
+
+static inline void ChainDestroy(Chain *c)
+{
+  free(c->edges);
+  free(c->x);
+  free(c->mirror);
+}
+
+/* Straight chain from a to b, equal edges. */
+static inline void ChainLine(Chain *c, PetscInt num_nodes, PetscReal ax, PetscReal ay, PetscReal bx, PetscReal by)
+{
+  ChainCreate(c, num_nodes, PETSC_FALSE);
+  for (PetscInt i = 0; i < num_nodes; i++) {
+    const PetscReal t = (PetscReal)i / (PetscReal)(num_nodes - 1);
+
+    c->x[2 * i]     = ax + t * (bx - ax);
+    c->x[2 * i + 1] = ay + t * (by - ay);
+  }
+}
+
+static inline void ChainMove(Chain *c, PetscReal angle, PetscReal dx, PetscReal dy)
+{
+  const PetscReal cs = cos(angle), sn = sin(angle);
+
+  for (PetscInt i = 0; i < c->s.num_nodes; i++) {
+    const PetscReal x = c->x[2 * i], y = c->x[2 * i + 1], mx = c->mirror[2 * i], my = c->mirror[2 * i + 1];
+
+    c->x[2 * i]          = cs * x - sn * y + dx;
+    c->x[2 * i + 1]      = sn * x + cs * y + dy;
+    c->mirror[2 * i]     = cs * mx - sn * my;
+    c->mirror[2 * i + 1] = sn * mx + cs * my;
+  }
+}
+
+/* Deterministic random numbers in (-1, 1). */
+static inline PetscReal Random(uint64_t *state)
+{
+  *state = *state * 6364136223846793005ULL + 1442695040888963407ULL;
+  return (PetscReal)(*state >> 11) / (PetscReal)(1ULL << 52) - 1;
+}
+
+/* Random curved, tilted, non-matching pair near x in [0, 1], distance about `gap`, nonmortar partly covered. */
+static inline void RandomPair(uint64_t *seed, PetscInt nodes_n, PetscInt nodes_m, PetscReal gap, Chain *nonmortar, Chain *mortar)
+{
+  const PetscReal curve = 0.1 * Random(seed), bump = 0.03 * Random(seed), tilt = 0.1 * Random(seed);
+  const PetscReal left = 0.15 * Random(seed), right = 1 + 0.15 * Random(seed);
+
+  ChainLine(nonmortar, nodes_n, 1, 0, 0, 0);
+  ChainLine(mortar, nodes_m, left, gap, right, gap);
+  for (PetscInt i = 0; i < nodes_n; i++) {
+    PetscReal *x = &nonmortar->x[2 * i];
+
+    x[0] += 0.2 / (PetscReal)nodes_n * Random(seed);
+    x[1] += curve * x[0] * (1 - x[0]) * 4 + 0.01 * Random(seed);
+  }
+  for (PetscInt i = 0; i < nodes_m; i++) {
+    PetscReal *x = &mortar->x[2 * i];
+
+    x[0] += 0.2 / (PetscReal)nodes_m * Random(seed);
+    x[1] += curve * x[0] * (1 - x[0]) * 4 + bump * sin(7 * x[0]) + tilt * (x[0] - 0.5) + 0.01 * Random(seed);
+  }
+}
+
+/* Assembled results. Unknowns: nonmortar nodes, then mortar nodes, 2 each. */
+typedef struct {
+  PetscInt   nn, nm, size;
+  PetscReal *gap, *weight;   /* [nn] */
+  PetscReal *dgap, *dweight; /* [nn][size] */
+  PetscReal *gradient;       /* [size] of S = sum z gap */
+  PetscReal *hessian;        /* [size][size] */
+  PetscReal  area, min_gap, S;
+  PetscInt   num;
+  PetscBool  failed;
+} Sum;
+
+static inline void SumCreate(Sum *s, PetscInt nn, PetscInt nm)
+{
+  s->nn       = nn;
+  s->nm       = nm;
+  s->size     = 2 * (nn + nm);
+  s->gap      = calloc((size_t)nn, sizeof(PetscReal));
+  s->weight   = calloc((size_t)nn, sizeof(PetscReal));
+  s->dgap     = calloc((size_t)(nn * s->size), sizeof(PetscReal));
+  s->dweight  = calloc((size_t)(nn * s->size), sizeof(PetscReal));
+  s->gradient = calloc((size_t)s->size, sizeof(PetscReal));
+  s->hessian  = calloc((size_t)(s->size * s->size), sizeof(PetscReal));
+}
+
+static inline void SumDestroy(Sum *s)
+{
+  free(s->gap);
+  free(s->weight);
+  free(s->dgap);
+  free(s->dweight);
+  free(s->gradient);
+  free(s->hessian);
+}
+
+static inline void SumAdd(Sum *s, const ContactEdge *e, const PetscReal z[], PetscBool derivatives, PetscBool hessian)
+{
+  const PetscInt n = 2 * e->num;
+
+  for (int j = 0; j < 2; j++) {
+    s->gap[e->node[j]] += e->gap[j];
+    s->weight[e->node[j]] += e->weight[j];
+    if (z) s->S += z[e->node[j]] * e->gap[j];
+  }
+  s->area += e->area;
+  s->min_gap = PetscMin(s->min_gap, e->min_gap);
+  for (PetscInt a = 0; a < n; a++) {
+    const PetscInt na = e->nodes[a / 2], row = 2 * (na >= 0 ? na : s->nn + ~na) + a % 2;
+
+    for (int j = 0; j < 2 && derivatives; j++) {
+      s->dgap[e->node[j] * s->size + row] += e->dgap[j * n + a];
+      s->dweight[e->node[j] * s->size + row] += e->dweight[j * n + a];
+      if (z) s->gradient[row] += z[e->node[j]] * e->dgap[j * n + a];
+    }
+    for (PetscInt b = 0; b < n && hessian; b++) {
+      const PetscInt nb = e->nodes[b / 2], col = 2 * (nb >= 0 ? nb : s->nn + ~nb) + b % 2;
+
+      s->hessian[row * s->size + col] += e->hessian[a * n + b];
+    }
+  }
+}
+
+/* Evaluate the pair and assemble. */
+static inline void SumEvaluate(Sum *s, ContactPair pair, const Chain *nonmortar, const Chain *mortar, const PetscReal z[], PetscBool derivatives,
+                               PetscBool hessian)
+{
+  const ContactEdge *edges;
+
+  memset(s->gap, 0, (size_t)s->nn * sizeof(PetscReal));
+  memset(s->weight, 0, (size_t)s->nn * sizeof(PetscReal));
+  memset(s->dgap, 0, (size_t)(s->nn * s->size) * sizeof(PetscReal));
+  memset(s->dweight, 0, (size_t)(s->nn * s->size) * sizeof(PetscReal));
+  memset(s->gradient, 0, (size_t)s->size * sizeof(PetscReal));
+  memset(s->hessian, 0, (size_t)(s->size * s->size) * sizeof(PetscReal));
+  s->area = s->S = 0;
+  s->min_gap     = PETSC_MAX_REAL;
+  CHECK_CALL(ContactPairEvaluate(pair, &nonmortar->s, &mortar->s, z, derivatives, hessian, &s->num, &edges, &s->failed));
+  for (PetscInt i = 0; i < s->num; i++) SumAdd(s, &edges[i], z, derivatives, hessian);
+}
+
+/* Search over all nonmortar edges. */
+static inline void SearchAll(ContactPair pair, const Chain *nonmortar, const Chain *mortar, PetscReal distance, PetscReal margin)
+{
+  PetscInt *list = malloc((size_t)nonmortar->s.num_edges * sizeof(PetscInt));
+
+  for (PetscInt e = 0; e < nonmortar->s.num_edges; e++) list[e] = e;
+  CHECK_CALL(ContactPairSearch(pair, &nonmortar->s, &mortar->s, nonmortar->s.num_edges, list, distance, margin));
+  free(list);
+}
+
+/* Unknown i of both chains. */
+static inline PetscReal *Unknown(Chain *nonmortar, Chain *mortar, PetscInt i)
+{
+  return i < 2 * nonmortar->s.num_nodes ? &nonmortar->x[i] : &mortar->x[i - 2 * nonmortar->s.num_nodes];
+}
