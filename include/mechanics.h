@@ -70,6 +70,7 @@ PetscErrorCode MechanicsPrescribe(Mechanics, PetscReal local[]);
 /* Results of a bulk integration on this rank (sums and minima over its own cells). */
 typedef struct {
   PetscReal energy;  /* strain energy */
+  PetscReal scale2;  /* sum over cells and loads of squared nodal forces: what a small residual is small against */
   PetscReal min_det; /* smallest det F */
   PetscBool bad;     /* some det F <= 0: residual must not be used (numerical status) */
 } MechanicsStatus;

@@ -77,7 +77,7 @@ PetscErrorCode ProblemSearch(Problem, Vec x);
 typedef struct {
   PetscReal energy;      /* strain energy */
   PetscReal min_det;     /* smallest det F */
-  PetscReal force_norm;  /* norm of the forces at prescribed dofs and of external loads: the scale of the residual */
+  PetscReal scale;       /* root of the summed squared nodal forces of cells and loads: the residual is small against it */
   PetscInt  num_active;  /* active contact nodes */
   PetscBool bad;         /* outside the domain: det F <= 0 or a failed projection */
 } ProblemStatus;
@@ -90,10 +90,13 @@ PetscErrorCode ProblemTangent(Problem, Vec x, const PetscReal pressure[], Vec li
 /* Active-set passes against the last tangent: given the solution dx of tangent . dx = -rhs, decide anew which constraints are active, rewrite their rows in the
    matrix and the right-hand side. *changed: number of nodes that switched (all ranks). */
 PetscErrorCode ProblemSwitchActiveSet(Problem, Vec x, Vec dx, Vec rhs, PetscInt *changed);
-/* x += step dx, prescribed motion and element pressures likewise. */
-PetscErrorCode ProblemUpdate(Problem, Vec x, Vec dx, PetscReal step, PetscReal pressure[]);
-/* Undo: prescribed motion applied so far goes back by the same step. */
-PetscErrorCode ProblemPrescribedFraction(Problem, PetscReal *remaining);
+/* A Newton step: Begin remembers where it starts; Move sets x = start + step dx and the prescribed motion likewise (may be called again with a shorter step)
+   and refreshes the contact search; Accept updates the element pressures for the step taken. */
+PetscErrorCode ProblemStepBegin(Problem, Vec x, Vec dx);
+PetscErrorCode ProblemStepMove(Problem, Vec dx, PetscReal step, Vec x);
+PetscErrorCode ProblemStepAccept(Problem, PetscReal step, PetscReal pressure[]);
+/* Largest part of the prescribed motion not yet applied, in the user's unit of length; 0 when the target is reached. */
+PetscErrorCode ProblemPending(Problem, PetscReal *remaining);
 
 /* Forces of the supports at x: reaction[num_boundaries][3]; contact force and moment about the origin on the nonmortar side: force[num_contacts][3], moment[num_contacts][3]; all ranks.
    Evaluates the residual. */

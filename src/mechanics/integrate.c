@@ -43,6 +43,7 @@ static PetscErrorCode GroupResidual_Private(Mechanics m, const CellGroup *g, con
     }
     for (PetscInt i = 0; i < batch.nc; ++i) {
       status->energy += b.energy[i];
+      for (PetscInt k = 0; k < nd; ++k) status->scale2 += PetscSqr(b.r[i * nd + k]);
       PetscCall(HPSpaceScatterAdd(m->space, g->cells[first + i], b.r + i * nd, r));
     }
   }
@@ -53,13 +54,17 @@ PetscErrorCode MechanicsResidual(Mechanics m, const PetscReal u[], PetscReal r[]
 {
   PetscFunctionBegin;
   status->energy  = 0;
+  status->scale2  = 0;
   status->min_det = PETSC_MAX_REAL;
   status->bad     = PETSC_FALSE;
   for (PetscInt g = 0; g < m->num_groups; ++g) PetscCall(GroupResidual_Private(m, &m->groups[g], u, r, status));
   if (m->dead) {
     const HPTables *v;
     PetscCall(HPSpaceGetTables(m->space, &v));
-    for (PetscInt i = 0; i < v->num_nodes * m->dim; ++i) r[i] += m->dead[i];
+    for (PetscInt i = 0; i < v->num_nodes * m->dim; ++i) {
+      r[i] += m->dead[i];
+      status->scale2 += PetscSqr(m->dead[i]);
+    }
   }
   PetscCall(MechanicsFollowers_Private(m, u, r, NULL, NULL));
   PetscFunctionReturn(PETSC_SUCCESS);

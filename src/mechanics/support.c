@@ -138,7 +138,7 @@ static void NodeResult_Private(PetscInt dim, PetscInt node, NodeSupport *s, Supp
 }
 
 /* Nodes of rigid bodies: all components prescribed. */
-static PetscErrorCode RigidNodes_Private(HPSpace space, const HPTables *v, const ForestTables *t, const MechanicsSpec *spec, Supports *out)
+static PetscErrorCode RigidNodes_Private(const HPTables *v, const ForestTables *t, const MechanicsSpec *spec, Supports *out)
 {
   PetscFunctionBegin;
   for (PetscInt c = 0; c < v->num_cells; ++c) {
@@ -183,7 +183,7 @@ PetscErrorCode MechanicsSupportsCreate(HPSpace space, const MechanicsSpec *spec,
     if (s.num) NodeResult_Private(v->dim, n, &s, out);
   }
   PetscCall(PetscFree(normal));
-  PetscCall(RigidNodes_Private(space, v, t, spec, out));
+  PetscCall(RigidNodes_Private(v, t, spec, out));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -1,0 +1,24 @@
+/* Floor 6. Nonlinear and linear solution of one problem at one pseudo-time. */
+#pragma once
+#include "problem.h"
+
+typedef struct _p_Solver *Solver;
+
+typedef struct {
+  PetscBool     converged;
+  const char   *reason;        /* why not, in words */
+  PetscInt      iterations;    /* tangent assemblies */
+  PetscInt      linear_solves; /* factorisations, active-set passes included */
+  PetscReal     residual, scale;
+  ProblemStatus status;
+} SolverReport;
+
+/* SNES of the registered type "contactnewton" over the problem's residual and tangent. Options: snes_*, ksp_*, pc_*, mat_mumps_*, and
+   -solve_rtol (1e-10: residual against the nodal forces), -solve_max_it (25), -solve_active_set_passes (10), -solve_cuts (6). Collective. */
+PetscErrorCode SolverCreate(Problem, Solver *);
+PetscErrorCode SolverDestroy(Solver *);
+PetscErrorCode SolverGetSNES(Solver, SNES *);
+
+/* Solve at the problem's current time, starting from state (x, pressure), which is changed. The prescribed motion not yet applied enters the first linear
+   solve. Failure is a report, not an error: the state is then of no use (restore a copy). */
+PetscErrorCode SolverSolve(Solver, State *, SolverReport *);

@@ -1,0 +1,175 @@
+/* Places of the unknowns in the problem's vector, and the matrix with room for bulk and contact. */
+#include "problemimpl.h"
+
+static PetscInt RankOf_Private(Problem p, PetscInt u)
+{
+  PetscMPIInt r = 0;
+  while (u >= p->u_start[r + 1]) ++r;
+  return r;
+}
+
+PetscErrorCode ProblemLayout_Private(Problem p)
+{
+  const HPTables *v;
+  const PetscInt *global;
+  PetscInt       *counts;
+  DM              dm;
+
+  PetscFunctionBegin;
+  PetscCall(HPSpaceGetTables(p->space, &v));
+  PetscCall(HPSpaceGetGlobalDofs(p->space, &global));
+  PetscCall(HPSpaceGetDM(p->space, &dm));
+  PetscCall(DMCreateGlobalVector(dm, &p->u_global));
+  PetscCall(VecGetLocalSize(p->u_global, &p->num_u));
+  PetscCall(PetscMalloc2(p->size + 1, &p->u_start, p->size + 1, &p->p_start));
+  PetscCall(PetscMalloc1(p->size, &counts));
+  PetscCallMPI(MPI_Allgather(&p->num_u, 1, MPIU_INT, counts, 1, MPIU_INT, p->comm));
+  p->u_start[0] = 0;
+  for (PetscMPIInt r = 0; r < p->size; ++r) p->u_start[r + 1] = p->u_start[r] + counts[r];
+  PetscCall(ContactNumber_Private(p, counts)); /* appends the multipliers of each rank */
+  p->p_start[0] = 0;
+  for (PetscMPIInt r = 0; r < p->size; ++r) p->p_start[r + 1] = p->p_start[r] + counts[r];
+  p->num_z    = counts[p->rank] - p->num_u;
+  p->start    = p->p_start[p->rank];
+  p->num_dofs = p->p_start[p->size];
+  PetscCall(PetscFree(counts));
+  PetscCall(PetscMalloc1(v->num_nodes * p->dim, &p->index));
+  for (PetscInt i = 0; i < v->num_nodes * p->dim; ++i) {
+    p->index[i] = global[i];
+    if (global[i] < 0) continue;
+    const PetscInt r = RankOf_Private(p, global[i]);
+    p->index[i]      = global[i] - p->u_start[r] + p->p_start[r];
+  }
+  for (PetscInt i = 0; i < p->num_contacts; ++i) {
+    Contact            *c = &p->contacts[i];
+    const ForestTables *t;
+    PetscCall(ForestGetTables(p->forest, &t));
+    for (PetscInt n = 0; n < c->side[0].num_nodes; ++n) {
+      if (c->zdof[n] >= 0) c->zdof[n] += p->p_start[t->leaf_rank[t->entity_leaf[c->side[0].node_entity[n]]]];
+    }
+    PetscCall(SurfaceIndices_Private(p, &c->side[0]));
+    PetscCall(SurfaceIndices_Private(p, &c->side[1]));
+  }
+  PetscCall(VecCreate(p->comm, &p->prototype));
+  PetscCall(VecSetSizes(p->prototype, p->num_u + p->num_z, PETSC_DETERMINE));
+  PetscCall(VecSetType(p->prototype, VECSTANDARD));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* node -> local cells that depend on it, CSR. */
+static PetscErrorCode NodeCells_Private(const HPTables *v, PetscInt **offset, PetscInt **cells)
+{
+  PetscInt *o, *l;
+
+  PetscFunctionBegin;
+  PetscCall(PetscCalloc1(v->num_nodes + 2, &o));
+  PetscCall(PetscMalloc1(v->cell_row[v->num_cells], &l));
+  for (PetscInt k = 0; k < v->cell_row[v->num_cells]; ++k) ++o[v->cell_master[k] + 2];
+  for (PetscInt n = 0; n < v->num_nodes; ++n) o[n + 2] += o[n + 1];
+  for (PetscInt c = 0; c < v->num_cells; ++c) {
+    for (PetscInt k = v->cell_row[c]; k < v->cell_row[c + 1]; ++k) l[o[v->cell_master[k] + 1]++] = c;
+  }
+  *offset = o;
+  *cells  = l;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Exact counts of the bulk's entries in the rows of this rank. */
+static PetscErrorCode CountBulk_Private(Problem p, PetscInt diagonal[], PetscInt other[])
+{
+  const HPTables *v;
+  PetscInt       *offset, *cells, *stamp;
+
+  PetscFunctionBegin;
+  PetscCall(HPSpaceGetTables(p->space, &v));
+  PetscCall(NodeCells_Private(v, &offset, &cells));
+  PetscCall(PetscMalloc1(v->num_nodes, &stamp));
+  for (PetscInt n = 0; n < v->num_nodes; ++n) stamp[n] = -1;
+  for (PetscInt n = 0; n < v->num_nodes; ++n) {
+    PetscInt count[2] = {0, 0};
+    for (PetscInt i = offset[n]; i < offset[n + 1]; ++i) {
+      for (PetscInt k = v->cell_row[cells[i]]; k < v->cell_row[cells[i] + 1]; ++k) {
+        const PetscInt m = v->cell_master[k];
+        if (stamp[m] == n) continue;
+        stamp[m] = n;
+        for (PetscInt c = 0; c < p->dim; ++c) {
+          const PetscInt col = p->index[m * p->dim + c];
+          if (col >= 0) ++count[col < p->start || col >= p->p_start[p->rank + 1]];
+        }
+      }
+    }
+    for (PetscInt c = 0; c < p->dim; ++c) {
+      const PetscInt row = p->index[n * p->dim + c] - p->start;
+      if (p->index[n * p->dim + c] < 0 || row < 0 || row >= p->num_u) continue;
+      diagonal[row] += count[0];
+      other[row] += count[1];
+    }
+  }
+  PetscCall(PetscFree(stamp));
+  PetscCall(PetscFree(offset));
+  PetscCall(PetscFree(cells));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Upper bound of the contact entries, counted; without counters they are written as explicit zeros. */
+static PetscErrorCode ContactPattern_Private(Problem p, PetscInt diagonal[], PetscInt other[])
+{
+  PetscInt  *dofs;
+  PetscReal *zeros;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(MOST_PATTERN_DOFS, &dofs));
+  for (PetscInt i = 0; i < p->num_contacts; ++i) {
+    const Contact *c = &p->contacts[i];
+    for (PetscInt e = 0; e < c->side[0].num_edges && c->pattern_offset; ++e) {
+      const PetscInt num = ContactPatternDofs_Private(c, e, dofs);
+      if (!diagonal) {
+        PetscCall(PetscCalloc1(num * num, &zeros));
+        PetscCall(MatSetValues(p->matrix, num, dofs, num, dofs, zeros, ADD_VALUES));
+        PetscCall(PetscFree(zeros));
+        continue;
+      }
+      for (PetscInt a = 0; a < num; ++a) {
+        const PetscInt row = dofs[a] - p->start;
+        if (row < 0 || row >= p->num_u + p->num_z) continue;
+        for (PetscInt b = 0; b < num; ++b) {
+          if (dofs[b] >= p->start && dofs[b] < p->p_start[p->rank + 1]) ++diagonal[row];
+          else ++other[row];
+        }
+      }
+    }
+  }
+  PetscCall(PetscFree(dofs));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode ProblemMatrix_Private(Problem p)
+{
+  const PetscInt rows = p->num_u + p->num_z;
+  PetscInt      *diagonal, *other;
+
+  PetscFunctionBegin;
+  PetscCall(MatDestroy(&p->matrix));
+  PetscCall(PetscCalloc2(rows, &diagonal, rows, &other));
+  PetscCall(CountBulk_Private(p, diagonal, other));
+  PetscCall(ContactPattern_Private(p, diagonal, other));
+  for (PetscInt i = 0; i < rows; ++i) {
+    diagonal[i] = PetscMin(diagonal[i] + 1, rows);
+    other[i]    = PetscMin(other[i], p->num_dofs - rows);
+  }
+  PetscCall(MatCreate(p->comm, &p->matrix));
+  PetscCall(MatSetSizes(p->matrix, rows, rows, PETSC_DETERMINE, PETSC_DETERMINE));
+  PetscCall(MatSetType(p->matrix, MATAIJ));
+  PetscCall(MatXAIJSetPreallocation(p->matrix, 1, diagonal, other, NULL, NULL));
+  /* Contact across ranks may reach rows whose owner could not foresee it. */
+  PetscCall(MatSetOption(p->matrix, MAT_NEW_NONZERO_ALLOCATION_ERR, PETSC_FALSE));
+  PetscCall(PetscFree2(diagonal, other));
+  PetscCall(ContactPattern_Private(p, NULL, NULL));
+  for (PetscInt i = 0; i < p->num_contacts; ++i) {
+    const Contact *c = &p->contacts[i];
+    for (PetscInt j = 0; j < c->side[0].num_nodes; ++j) {
+      if (c->zlocal[j] >= 0) PetscCall(MatSetValue(p->matrix, c->zdof[j], c->zdof[j], 0.0, ADD_VALUES));
+    }
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

@@ -1,0 +1,320 @@
+/* Life cycle of a problem, its vectors, prescribed motion, views. */
+#include "problemimpl.h"
+
+PetscErrorCode ProblemInitialOrders(const SceneData *scene, Forest forest, int8_t **leaf_order)
+{
+  const ForestTables *t;
+
+  PetscFunctionBegin;
+  PetscCall(ForestGetTables(forest, &t));
+  PetscCall(PetscMalloc1(t->num_leaves, leaf_order));
+  for (PetscInt l = 0; l < t->num_leaves; ++l) (*leaf_order)[l] = (int8_t)scene->bodies[t->leaf_body[l]].order;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Boundary groups that are contact faces: their facets have order 1. */
+static uint64_t LinearGroups_Private(const SceneData *scene)
+{
+  uint64_t groups = 0;
+  for (PetscInt i = 0; i < scene->num_contacts; ++i) groups |= ((uint64_t)1 << scene->contacts[i].nonmortar) | ((uint64_t)1 << scene->contacts[i].mortar);
+  return groups;
+}
+
+static PetscErrorCode Vectors_Private(Problem p)
+{
+  const HPTables *v;
+
+  PetscFunctionBegin;
+  PetscCall(HPSpaceGetTables(p->space, &v));
+  PetscCall(VecCreateSeq(PETSC_COMM_SELF, v->num_nodes * p->dim, &p->u_local));
+  PetscCall(VecDuplicate(p->u_local, &p->r_local));
+  PetscCall(PetscCalloc4(v->num_nodes * p->dim, &p->target, v->num_nodes * p->dim, &p->applied, v->num_nodes * p->dim, &p->increment, v->num_nodes * p->dim, &p->start_applied));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode ProblemCreate(const SceneData *scene, Forest forest, const int8_t leaf_order[], Problem *problem)
+{
+  const ForestTables *t;
+  Problem             p;
+
+  PetscFunctionBegin;
+  PetscCall(StageBegin(STAGE_SETUP));
+  PetscCall(PetscNew(&p));
+  p->scene  = scene;
+  p->forest = forest;
+  p->comm   = ForestComm(forest);
+  PetscCallMPI(MPI_Comm_rank(p->comm, &p->rank));
+  PetscCallMPI(MPI_Comm_size(p->comm, &p->size));
+  PetscCall(ForestGetTables(forest, &t));
+  p->dim = t->dim;
+  PetscCall(PetscMalloc1(t->num_leaves, &p->leaf_order));
+  PetscCall(PetscArraycpy(p->leaf_order, leaf_order, t->num_leaves));
+  PetscCall(HPSpaceCreate(forest, leaf_order, LinearGroups_Private(scene), &p->space));
+  PetscCall(MechanicsSupportsCreate(p->space, &scene->mechanics, &p->supports));
+  PetscCall(HPSpaceSetUp(p->space, p->supports.fixed, p->supports.num_frames, p->supports.frame_node, (const PetscReal(*)[9])p->supports.frame));
+  PetscCall(MechanicsCreate(p->space, &scene->mechanics, &p->supports, &p->mechanics));
+  p->num_contacts = scene->num_contacts;
+  PetscCall(PetscCalloc1(p->num_contacts, &p->contacts));
+  for (PetscInt i = 0; i < p->num_contacts; ++i) PetscCall(ContactCreate_Private(p, &scene->contacts[i], &p->contacts[i]));
+  PetscCall(Vectors_Private(p));
+  PetscCall(ProblemLayout_Private(p));
+  PetscCall(ProblemCreateVector(p, &p->start_x));
+  PetscCall(StageEnd(STAGE_SETUP));
+  *problem = p;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode ProblemDestroy(Problem *problem)
+{
+  Problem p = *problem;
+
+  PetscFunctionBegin;
+  if (!p) PetscFunctionReturn(PETSC_SUCCESS);
+  for (PetscInt i = 0; i < p->num_contacts; ++i) PetscCall(ContactDestroy_Private(&p->contacts[i]));
+  PetscCall(PetscFree(p->contacts));
+  PetscCall(PetscFree(p->leaf_order));
+  PetscCall(PetscFree(p->index));
+  PetscCall(PetscFree2(p->u_start, p->p_start));
+  PetscCall(PetscFree4(p->target, p->applied, p->increment, p->start_applied));
+  PetscCall(PetscFree2(p->work_index, p->work_value));
+  PetscCall(VecDestroy(&p->u_global));
+  PetscCall(VecDestroy(&p->u_local));
+  PetscCall(VecDestroy(&p->r_local));
+  PetscCall(VecDestroy(&p->prototype));
+  PetscCall(VecDestroy(&p->start_x));
+  PetscCall(MatDestroy(&p->matrix));
+  PetscCall(MechanicsDestroy(&p->mechanics));
+  PetscCall(MechanicsSupportsDestroy(&p->supports));
+  PetscCall(HPSpaceDestroy(&p->space));
+  PetscCall(PetscFree(*problem));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode ProblemGetScene(Problem p, const SceneData **scene)
+{
+  PetscFunctionBegin;
+  *scene = p->scene;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode ProblemGetForest(Problem p, Forest *forest)
+{
+  PetscFunctionBegin;
+  *forest = p->forest;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode ProblemGetSpace(Problem p, HPSpace *space)
+{
+  PetscFunctionBegin;
+  *space = p->space;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode ProblemGetMechanics(Problem p, Mechanics *mechanics)
+{
+  PetscFunctionBegin;
+  *mechanics = p->mechanics;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode ProblemCreateVector(Problem p, Vec *x)
+{
+  PetscFunctionBegin;
+  PetscCall(VecDuplicate(p->prototype, x));
+  PetscCall(VecSet(*x, 0));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode ProblemGetMatrix(Problem p, Mat *matrix)
+{
+  PetscFunctionBegin;
+  if (!p->matrix) PetscCall(ProblemMatrix_Private(p));
+  *matrix = p->matrix;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode ProblemNumDofs(Problem p, PetscInt *num)
+{
+  PetscFunctionBegin;
+  *num = p->num_dofs;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode ProblemSetTime(Problem p, PetscReal t)
+{
+  PetscFunctionBegin;
+  p->t = t;
+  PetscCall(MechanicsSetTime(p->mechanics, t));
+  PetscCall(MechanicsPrescribe(p->mechanics, p->target));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode ProblemJump(Problem p)
+{
+  const HPTables *v;
+
+  PetscFunctionBegin;
+  PetscCall(HPSpaceGetTables(p->space, &v));
+  PetscCall(PetscArraycpy(p->applied, p->target, v->num_nodes * p->dim));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode ProblemPending(Problem p, PetscReal *remaining)
+{
+  const HPTables *v;
+
+  PetscFunctionBegin;
+  *remaining = 0;
+  PetscCall(HPSpaceGetTables(p->space, &v));
+  for (PetscInt i = 0; i < v->num_nodes * p->dim; ++i) *remaining = PetscMax(*remaining, PetscAbsReal(p->target[i] - p->applied[i]));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, remaining, 1, MPIU_REAL, MPI_MAX, p->comm));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The displacement part of a vector, seen as a vector of the space, filled into a local array with given prescribed values. */
+static PetscErrorCode FillLocal_Private(Problem p, Vec x, const PetscReal prescribed[], PetscReal local[])
+{
+  const HPTables  *v;
+  const PetscReal *array;
+  Vec              ul;
+  DM               dm;
+
+  PetscFunctionBegin;
+  PetscCall(HPSpaceGetTables(p->space, &v));
+  PetscCall(HPSpaceGetDM(p->space, &dm));
+  PetscCall(PetscArraycpy(local, prescribed, v->num_nodes * p->dim));
+  PetscCall(VecCreateSeqWithArray(PETSC_COMM_SELF, 1, v->num_nodes * p->dim, local, &ul));
+  PetscCall(VecGetArrayRead(x, &array));
+  PetscCall(VecPlaceArray(p->u_global, array));
+  PetscCall(DMGlobalToLocalBegin(dm, p->u_global, INSERT_VALUES, ul));
+  PetscCall(DMGlobalToLocalEnd(dm, p->u_global, INSERT_VALUES, ul));
+  PetscCall(VecResetArray(p->u_global));
+  PetscCall(VecRestoreArrayRead(x, &array));
+  PetscCall(VecDestroy(&ul));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode ProblemLocalDisplacement(Problem p, Vec x, PetscReal local[])
+{
+  PetscFunctionBegin;
+  PetscCall(FillLocal_Private(p, x, p->applied, local));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode ProblemIncrement_Private(Problem p, Vec dx, PetscReal share)
+{
+  const HPTables *v;
+  PetscReal      *pending;
+
+  PetscFunctionBegin;
+  PetscCall(HPSpaceGetTables(p->space, &v));
+  PetscCall(PetscMalloc1(v->num_nodes * p->dim, &pending));
+  for (PetscInt i = 0; i < v->num_nodes * p->dim; ++i) pending[i] = share * (p->target[i] - p->applied[i]);
+  PetscCall(FillLocal_Private(p, dx, pending, p->increment));
+  PetscCall(PetscFree(pending));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode ProblemSetDisplacement(Problem p, const PetscReal local[], Vec x)
+{
+  const HPTables *v;
+  PetscReal      *array;
+
+  PetscFunctionBegin;
+  PetscCall(HPSpaceGetTables(p->space, &v));
+  PetscCall(VecGetArray(x, &array));
+  for (PetscInt i = 0; i < v->num_nodes * p->dim; ++i) {
+    const PetscInt row = p->index[i] - p->start;
+    if (p->index[i] >= 0 && row >= 0 && row < p->num_u) array[row] = local[i];
+  }
+  PetscCall(VecRestoreArray(x, &array));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode ProblemGetContact(Problem p, PetscInt pair, const ContactView **view)
+{
+  PetscFunctionBegin;
+  *view = &p->contacts[pair].view;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode ProblemSetMultipliers(Problem p, PetscInt pair, const PetscReal z[], Vec x)
+{
+  const Contact *c = &p->contacts[pair];
+  PetscReal     *array;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetArray(x, &array));
+  for (PetscInt j = 0; j < c->side[0].num_nodes; ++j) {
+    if (c->zlocal[j] >= 0) array[c->zlocal[j]] = z[j];
+  }
+  PetscCall(VecRestoreArray(x, &array));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode ProblemStepBegin(Problem p, Vec x, Vec dx)
+{
+  const HPTables *v;
+
+  PetscFunctionBegin;
+  PetscCall(HPSpaceGetTables(p->space, &v));
+  PetscCall(ProblemIncrement_Private(p, dx, 1.0));
+  PetscCall(VecCopy(x, p->start_x));
+  PetscCall(PetscArraycpy(p->start_applied, p->applied, v->num_nodes * p->dim));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode ProblemStepMove(Problem p, Vec dx, PetscReal step, Vec x)
+{
+  const HPTables *v;
+
+  PetscFunctionBegin;
+  PetscCall(HPSpaceGetTables(p->space, &v));
+  PetscCall(VecWAXPY(x, step, dx, p->start_x));
+  for (PetscInt i = 0; i < v->num_nodes * p->dim; ++i) p->applied[i] = step == 1 ? p->target[i] : p->start_applied[i] + step * (p->target[i] - p->start_applied[i]);
+  PetscCall(ProblemSearch(p, x));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode ProblemStepAccept(Problem p, PetscReal step, PetscReal pressure[])
+{
+  PetscFunctionBegin;
+  PetscCall(MechanicsUpdatePressure(p->mechanics, p->increment, step, pressure));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode StateCreate(Problem p, State *s)
+{
+  const ForestTables *t;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMemzero(s, sizeof(*s)));
+  PetscCall(ForestGetTables(p->forest, &t));
+  PetscCall(ProblemCreateVector(p, &s->x));
+  PetscCall(MechanicsNumPressure(p->mechanics, &s->num_pressure));
+  PetscCall(PetscCalloc1(s->num_pressure, &s->pressure));
+  s->num_leaves = t->num_leaves;
+  PetscCall(PetscMalloc1(s->num_leaves, &s->leaf_order));
+  PetscCall(PetscArraycpy(s->leaf_order, p->leaf_order, s->num_leaves));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode StateCopy(const State *from, State *to)
+{
+  PetscFunctionBegin;
+  PetscCall(VecCopy(from->x, to->x));
+  PetscCall(PetscArraycpy(to->pressure, from->pressure, from->num_pressure));
+  PetscCall(PetscArraycpy(to->leaf_order, from->leaf_order, from->num_leaves));
+  to->t = from->t;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode StateDestroy(State *s)
+{
+  PetscFunctionBegin;
+  PetscCall(VecDestroy(&s->x));
+  PetscCall(PetscFree(s->pressure));
+  PetscCall(PetscFree(s->leaf_order));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

@@ -1,0 +1,108 @@
+/* Private to problem. */
+#pragma once
+#include "problem.h"
+
+/* One side of a contact pair: small, replicated on every rank (a curve in two dimensions). */
+typedef struct {
+  PetscInt   num_nodes, num_edges;
+  PetscInt  *node_entity; /* [num_nodes] */
+  PetscInt  *edges;       /* [num_edges][2] body to the left */
+  PetscInt  *edge_leaf;   /* [num_edges] */
+  PetscInt  *node_edge;   /* [num_nodes][2] edges at the node, -1: none */
+  PetscReal *X, *x, *du;  /* [num_nodes][2] reference and current position; increment under discussion */
+  PetscReal *mirror;      /* [num_nodes][2] normal of the symmetry plane at an end, else 0 */
+  PetscReal *frame;       /* [num_nodes][4] rows: directions of the dofs */
+  PetscInt  *dof;         /* [num_nodes][2] index in the problem's vector, -1: prescribed */
+  PetscInt  *local;       /* [num_nodes] local node on this rank or -1 */
+  PetscBool *owned;       /* [num_nodes] this rank owns the node */
+  PetscReal *force;       /* [num_nodes][2] contact force at the last residual */
+} Surface;
+
+typedef struct {
+  const ContactSpec *spec;
+  ContactPair        pair;
+  Surface            side[2]; /* 0 nonmortar, 1 mortar */
+  ContactView        view;
+  PetscInt          *zdof;   /* [n] index in the problem's vector, -1: no multiplier */
+  PetscInt          *zlocal; /* [n] position in this rank's part of the vector, -1: not here */
+  PetscReal         *z, *gap, *weight, *w0, *c; /* [n] */
+  PetscReal         *change;                    /* [n] work: change of gt_j at fixed measure under an increment */
+  PetscReal         *lift;                      /* [n] the same for the prescribed motion still to come */
+  PetscInt          *result;                    /* [num_edges] position of an edge in `edges`, -1: not evaluated here */
+  PetscBool         *active, *has_multiplier;
+  PetscInt           num_listed, *listed; /* nonmortar edges this rank evaluates */
+  PetscBool         *mine;                /* [num_edges] */
+  PetscReal          distance;            /* search distance */
+  PetscInt           num_edges;           /* results of the last evaluation */
+  const ContactEdge *edges;
+  ContactEdge       *frozen;  /* small kinematics: linearised once at the reference positions */
+  PetscReal         *gap0;    /* [n] reference gaps, small kinematics */
+  PetscInt          *pattern_offset, *pattern; /* [num_edges+1]: nodes each edge has room for in the matrix */
+} Contact;
+
+struct _p_Problem {
+  const SceneData *scene;
+  Forest           forest;
+  MPI_Comm         comm;
+  PetscMPIInt      rank, size;
+  PetscInt         dim;
+  HPSpace          space;
+  Supports         supports;
+  Mechanics        mechanics;
+  PetscInt         num_contacts;
+  Contact         *contacts;
+  int8_t          *leaf_order;
+
+  /* layout */
+  PetscInt  num_u, num_z, start;   /* this rank's displacement dofs and multipliers, first index */
+  PetscInt *u_start, *p_start;     /* [size+1] ranges of the space's and the problem's numbering */
+  PetscInt *index;                 /* [num_nodes*dim] local dof -> problem index or -1 */
+  Vec       u_global, u_local, r_local, prototype;
+  PetscReal *target, *applied;     /* [num_nodes*dim] prescribed values */
+  PetscReal *increment;            /* [num_nodes*dim] of the Newton step under discussion */
+  PetscReal *start_applied;        /* [num_nodes*dim] applied where the Newton step starts */
+  Vec        start_x;
+  PetscInt  num_dofs;
+
+  Mat       matrix;
+  PetscBool lifting;
+  Vec       lift;
+  PetscReal t;
+  PetscInt *work_index;
+  PetscReal *work_value;
+  PetscInt  work_size;
+};
+
+PetscErrorCode ProblemLayout_Private(Problem);
+PetscErrorCode ProblemMatrix_Private(Problem);
+PetscErrorCode ProblemWork_Private(Problem, PetscInt size);
+/* increment (local array) = free dofs of dx + share of the prescribed motion still to come. */
+PetscErrorCode ProblemIncrement_Private(Problem, Vec dx, PetscReal share);
+
+PetscErrorCode SurfaceCreate_Private(Problem, PetscInt group, Surface *);
+PetscErrorCode SurfaceDestroy_Private(Surface *);
+PetscErrorCode SurfaceIndices_Private(Problem, Surface *);
+/* Cartesian values at the nodes from a local array of dofs, added to base (NULL: 0); replicated. */
+PetscErrorCode SurfaceGather_Private(Problem, const Surface *, const PetscReal local[], const PetscReal base[], PetscReal values[]);
+
+PetscErrorCode ContactCreate_Private(Problem, const ContactSpec *, Contact *);
+PetscErrorCode ContactDestroy_Private(Contact *);
+PetscErrorCode ContactNumber_Private(Problem, PetscInt counts[]); /* multipliers of each rank, contacts' zdof as offsets in the rank's block */
+PetscErrorCode ContactEvaluate_Private(Problem, Contact *, Vec x, const PetscReal local[], PetscBool derivatives, PetscBool hessian, PetscBool *failed);
+PetscErrorCode ContactForces_Private(Problem, Contact *, PetscReal r[]);
+PetscErrorCode ContactRows_Private(Problem, const Contact *, PetscReal r[]);
+/* tangent.c: blocks of the last evaluation into the matrix: Hessian and columns (added), then rows (inserted). */
+PetscErrorCode ContactBlocks_Private(Problem, Contact *);
+PetscErrorCode ContactInsertRow_Private(Problem, Contact *, PetscInt node);
+/* Change of every node's weighted gap, at fixed measure, under a local array of increments. */
+PetscErrorCode ContactChange_Private(Problem, Contact *, const PetscReal increment[], PetscReal change[]);
+/* pattern.c: room in the matrix for what edges may meet until the next search. */
+PetscErrorCode ContactGrowPattern_Private(Contact *);
+PetscBool      ContactPatternHolds_Private(const Contact *);
+/* Indices in the problem's vector of everything in the pattern of one edge; returns their number. */
+PetscInt       ContactPatternDofs_Private(const Contact *, PetscInt edge, PetscInt dofs[]);
+
+#define MOST_PATTERN_DOFS 4096
+#define NO_NODE(e, a) ((a) >= 2 && (a) < 4 && (e)->nodes[a] == -1) /* an outer neighbour that is not there */
+#define NODE_SIDE(id)  ((id) < 0)
+#define NODE_INDEX(id) ((id) < 0 ? ~(id) : (id))

@@ -1,0 +1,109 @@
+/* The residual: bulk forces, contact forces, complementarity; supports and contact resultants from the same sums. */
+#include "problemimpl.h"
+
+PetscErrorCode ProblemSearch(Problem p, Vec x)
+{
+  PetscReal *local;
+
+  PetscFunctionBegin;
+  if (!p->num_contacts || p->scene->mechanics.kinematics == KINEMATICS_SMALL) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(StageBegin(STAGE_CONTACT));
+  PetscCall(VecGetArray(p->u_local, &local));
+  PetscCall(ProblemLocalDisplacement(p, x, local));
+  for (PetscInt i = 0; i < p->num_contacts; ++i) {
+    Contact       *c = &p->contacts[i];
+    ContactSurface side[2];
+    for (PetscInt k = 0; k < 2; ++k) {
+      PetscCall(SurfaceGather_Private(p, &c->side[k], local, c->side[k].X, c->side[k].x));
+      side[k] = (ContactSurface){c->side[k].num_nodes, c->side[k].num_edges, c->side[k].edges, c->side[k].x, c->side[k].mirror};
+    }
+    PetscCall(ContactPairSearch(c->pair, &side[0], &side[1], c->num_listed, c->listed, c->distance, 0.1 * c->distance));
+  }
+  PetscCall(VecRestoreArray(p->u_local, &local));
+  PetscCall(StageEnd(STAGE_CONTACT));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Bulk and contact forces into the local array r, status summed over ranks. u: local array. */
+static PetscErrorCode LocalForces_Private(Problem p, Vec x, const PetscReal u[], PetscReal r[], ProblemStatus *status)
+{
+  MechanicsStatus bulk;
+  PetscBool       failed = PETSC_FALSE;
+  const HPTables *v;
+
+  PetscFunctionBegin;
+  PetscCall(HPSpaceGetTables(p->space, &v));
+  PetscCall(PetscArrayzero(r, v->num_nodes * p->dim));
+  PetscCall(StageBegin(STAGE_ASSEMBLE));
+  PetscCall(MechanicsResidual(p->mechanics, u, r, &bulk));
+  PetscCall(StageEnd(STAGE_ASSEMBLE));
+  PetscCall(StageBegin(STAGE_CONTACT));
+  status->num_active = 0;
+  for (PetscInt i = 0; i < p->num_contacts; ++i) {
+    Contact *c = &p->contacts[i];
+    PetscCall(ContactEvaluate_Private(p, c, x, u, PETSC_TRUE, PETSC_FALSE, &failed));
+    PetscCall(ContactForces_Private(p, c, r));
+    for (PetscInt j = 0; j < c->side[0].num_nodes; ++j) status->num_active += c->active[j];
+  }
+  PetscCall(StageEnd(STAGE_CONTACT));
+  PetscReal sum[3] = {bulk.energy, bulk.scale2, bulk.bad || failed};
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 3, MPIU_REAL, MPI_SUM, p->comm));
+  PetscCallMPI(MPI_Allreduce(&bulk.min_det, &status->min_det, 1, MPIU_REAL, MPI_MIN, p->comm));
+  status->energy = sum[0];
+  status->scale  = PetscSqrtReal(sum[1]);
+  status->bad    = (PetscBool)(sum[2] > 0);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode ProblemResidual(Problem p, Vec x, Vec r, ProblemStatus *status)
+{
+  PetscReal *u, *local, *array;
+  DM         dm;
+
+  PetscFunctionBegin;
+  PetscCall(HPSpaceGetDM(p->space, &dm));
+  PetscCall(VecGetArray(p->u_local, &u));
+  PetscCall(VecGetArray(p->r_local, &local));
+  PetscCall(ProblemLocalDisplacement(p, x, u));
+  PetscCall(LocalForces_Private(p, x, u, local, status));
+  PetscCall(VecRestoreArray(p->u_local, &u));
+  PetscCall(VecRestoreArray(p->r_local, &local));
+  PetscCall(VecGetArray(r, &array));
+  PetscCall(VecPlaceArray(p->u_global, array));
+  PetscCall(VecSet(p->u_global, 0));
+  PetscCall(DMLocalToGlobalBegin(dm, p->r_local, ADD_VALUES, p->u_global));
+  PetscCall(DMLocalToGlobalEnd(dm, p->r_local, ADD_VALUES, p->u_global));
+  PetscCall(VecResetArray(p->u_global));
+  for (PetscInt i = 0; i < p->num_contacts; ++i) PetscCall(ContactRows_Private(p, &p->contacts[i], array));
+  PetscCall(VecRestoreArray(r, &array));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode ProblemForces(Problem p, Vec x, PetscReal reaction[][3], PetscReal force[][3], PetscReal moment[][3], ProblemStatus *status)
+{
+  PetscReal *u, *r;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetArray(p->u_local, &u));
+  PetscCall(VecGetArray(p->r_local, &r));
+  PetscCall(ProblemLocalDisplacement(p, x, u));
+  PetscCall(LocalForces_Private(p, x, u, r, status));
+  if (reaction) {
+    PetscCall(MechanicsReactions(p->mechanics, r, reaction));
+    PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, reaction, (PetscMPIInt)(3 * p->scene->mechanics.num_boundaries), MPIU_REAL, MPI_SUM, p->comm));
+  }
+  PetscCall(VecRestoreArray(p->u_local, &u));
+  PetscCall(VecRestoreArray(p->r_local, &r));
+  for (PetscInt i = 0; i < p->num_contacts; ++i) {
+    const Surface *s = &p->contacts[i].side[0];
+    PetscReal      f[3] = {0, 0, 0}, m[3] = {0, 0, 0};
+    for (PetscInt n = 0; n < s->num_nodes; ++n) {
+      f[0] += s->force[2 * n];
+      f[1] += s->force[2 * n + 1];
+      m[2] += s->x[2 * n] * s->force[2 * n + 1] - s->x[2 * n + 1] * s->force[2 * n];
+    }
+    if (force) PetscCall(PetscArraycpy(force[i], f, 3));
+    if (moment) PetscCall(PetscArraycpy(moment[i], m, 3));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

@@ -1,0 +1,156 @@
+/* The nonlinear iteration as a SNES type: semi-smooth Newton with a contact-aware predictor.
+
+   In each iteration the prescribed motion still to come enters the linear solve, and the active set is iterated against that same
+   linearisation before the state is updated (docs/theory.md, solution). There is no merit function: a step is shortened only when it
+   would leave the domain (det F <= 0), and the rest of the prescribed motion then stays for the next iteration. */
+#include "solveimpl.h"
+#include <petsc/private/snesimpl.h>
+
+/* Solve tangent . dx = -(r + lift) with the active set iterated. */
+static PetscErrorCode LinearStep_Private(SNES snes, Solver s, Vec x, Vec dx, PetscBool *ok)
+{
+  KSP                ksp;
+  KSPConvergedReason reason;
+  Mat                A;
+  PetscInt           changed = 1;
+
+  PetscFunctionBegin;
+  PetscCall(SNESGetKSP(snes, &ksp));
+  PetscCall(ProblemGetMatrix(s->problem, &A));
+  for (PetscInt pass = 0; pass <= s->passes && changed; ++pass) {
+    PetscCall(StageBegin(STAGE_FACTOR));
+    PetscCall(KSPSetOperators(ksp, A, A));
+    PetscCall(KSPSetUp(ksp));
+    PetscCall(StageEnd(STAGE_FACTOR));
+    PetscCall(StageBegin(STAGE_SOLVE));
+    PetscCall(KSPSolve(ksp, s->rhs, dx));
+    PetscCall(StageEnd(STAGE_SOLVE));
+    ++s->report->linear_solves;
+    PetscCall(KSPGetConvergedReason(ksp, &reason));
+    PetscReal norm;
+    PetscCall(VecNorm(dx, NORM_2, &norm));
+    *ok = (PetscBool)(reason >= 0 && !PetscIsInfOrNanReal(norm));
+    if (!*ok) PetscFunctionReturn(PETSC_SUCCESS);
+    changed = 0;
+    if (pass < s->passes) PetscCall(ProblemSwitchActiveSet(s->problem, x, dx, s->rhs, &changed));
+    if (changed) PetscCall(PetscInfo(snes, "active-set pass %" PetscInt_FMT ": %" PetscInt_FMT " nodes switched\n", pass, changed));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* x += step dx with the longest step 1, 1/2, … that stays in the domain; residual there. */
+static PetscErrorCode Step_Private(SNES snes, Solver s, Vec x, Vec dx, Vec r)
+{
+  PetscReal step = 1;
+
+  PetscFunctionBegin;
+  PetscCall(ProblemStepBegin(s->problem, x, dx));
+  for (PetscInt cut = 0; cut <= s->cuts; ++cut, step *= 0.5) {
+    PetscCall(ProblemStepMove(s->problem, dx, step, x));
+    PetscCall(SNESComputeFunction(snes, x, r));
+    if (!s->report->status.bad) break;
+    PetscCall(PetscInfo(snes, "step %g leaves the domain\n", (double)step));
+  }
+  if (!s->report->status.bad) PetscCall(ProblemStepAccept(s->problem, step, s->pressure));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode Finish_Private(SNES snes, Solver s, SNESConvergedReason reason, const char *words)
+{
+  PetscFunctionBegin;
+  snes->reason         = reason;
+  s->report->converged = (PetscBool)(reason > 0);
+  s->report->reason    = words;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Converged when the residual is small against the nodal forces and nothing prescribed is left. */
+static PetscErrorCode Converged_Private(Solver s, PetscReal norm, PetscBool *yes)
+{
+  PetscReal pending;
+
+  PetscFunctionBegin;
+  PetscCall(ProblemPending(s->problem, &pending));
+  *yes = (PetscBool)(pending == 0 && norm <= s->rtol * s->report->status.scale);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* PETSc's finite-difference test of the tangent at x (-snes_test_jacobian), on a matrix whose pattern already fits x. */
+static PetscErrorCode Test_Private(SNES snes, Solver s, Vec x)
+{
+  Mat       A;
+  PetscBool bad;
+
+  PetscFunctionBegin;
+  PetscCall(ProblemTangent(s->problem, x, NULL, NULL, &bad));
+  PetscCall(ProblemGetMatrix(s->problem, &A));
+  PetscCall(SNESSetJacobian(snes, A, A, NULL, NULL));
+  PetscCall(SNESComputeJacobian(snes, x, A, A));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode SNESSolve_ContactNewton(SNES snes)
+{
+  Solver    s  = NULL;
+  Vec       x  = snes->vec_sol, r = snes->vec_func, dx = snes->vec_sol_update;
+  PetscReal norm, first = 0;
+  PetscBool done, ok, bad;
+
+  PetscFunctionBegin;
+  PetscCall(SNESGetApplicationContext(snes, &s));
+  snes->iter = 0;
+  PetscCall(ProblemSearch(s->problem, x));
+  PetscCall(SNESComputeFunction(snes, x, r));
+  if (s->report->status.bad) {
+    PetscCall(Finish_Private(snes, s, SNES_DIVERGED_FUNCTION_DOMAIN, "the start of the step has an inverted cell"));
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
+  for (;; ++snes->iter) {
+    PetscCall(VecNorm(r, NORM_2, &norm));
+    snes->norm          = norm;
+    s->report->residual = norm;
+    s->report->scale    = s->report->status.scale;
+    PetscCall(SNESMonitor(snes, snes->iter, norm));
+    PetscCall(Converged_Private(s, norm, &done));
+    if (done) {
+      PetscCall(Finish_Private(snes, s, SNES_CONVERGED_FNORM_RELATIVE, ""));
+      break;
+    }
+    if (snes->iter == 1) first = norm;
+    if (snes->iter == s->max_it) {
+      PetscCall(Finish_Private(snes, s, SNES_DIVERGED_MAX_IT, "Newton did not converge within -solve_max_it iterations"));
+      break;
+    }
+    if (PetscIsInfOrNanReal(norm) || (snes->iter > 3 && norm > 1e4 * first)) {
+      PetscCall(Finish_Private(snes, s, SNES_DIVERGED_DTOL, "the Newton residual grew"));
+      break;
+    }
+    if (s->test) PetscCall(Test_Private(snes, s, x));
+    ++s->report->iterations;
+    PetscCall(VecZeroEntries(s->lift));
+    PetscCall(ProblemTangent(s->problem, x, s->pressure, s->lift, &bad));
+    PetscCall(VecWAXPY(s->rhs, 1.0, r, s->lift));
+    PetscCall(VecScale(s->rhs, -1.0));
+    PetscCall(LinearStep_Private(snes, s, x, dx, &ok));
+    if (!ok) {
+      PetscCall(Finish_Private(snes, s, SNES_DIVERGED_LINEAR_SOLVE, "the tangent is singular"));
+      break;
+    }
+    PetscCall(Step_Private(snes, s, x, dx, r));
+    if (s->report->status.bad) {
+      PetscCall(Finish_Private(snes, s, SNES_DIVERGED_FUNCTION_DOMAIN, "every step along the Newton direction inverts a cell"));
+      break;
+    }
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SNESCreate_ContactNewton(SNES snes)
+{
+  PetscFunctionBegin;
+  snes->ops->solve                  = SNESSolve_ContactNewton;
+  snes->usesksp                     = PETSC_TRUE;
+  snes->usesnpc                     = PETSC_FALSE;
+  snes->alwayscomputesfinalresidual = PETSC_TRUE;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

@@ -1,0 +1,99 @@
+/* Life cycle of the solver; the functions SNES calls. */
+#include "solveimpl.h"
+
+static PetscErrorCode Function_Private(SNES snes, Vec x, Vec r, void *context)
+{
+  Solver s = (Solver)context;
+
+  PetscFunctionBegin;
+  PetscCall(ProblemResidual(s->problem, x, r, &s->report->status));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Called only by PETSc's Jacobian test, which needs the exact derivative of the residual: consistent pressures, no lift. */
+static PetscErrorCode Jacobian_Private(SNES snes, Vec x, Mat J, Mat P, void *context)
+{
+  Solver    s = (Solver)context;
+  PetscBool bad;
+
+  PetscFunctionBegin;
+  PetscCall(ProblemTangent(s->problem, x, NULL, NULL, &bad));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode Options_Private(Solver s)
+{
+  PetscFunctionBegin;
+  s->rtol   = 1e-10;
+  s->max_it = 25;
+  s->passes = 10;
+  s->cuts   = 6;
+  PetscOptionsBegin(PetscObjectComm((PetscObject)s->snes), NULL, "Solver", NULL);
+  PetscCall(PetscOptionsReal("-solve_rtol", "Residual against the root of the summed squared nodal forces", NULL, s->rtol, &s->rtol, NULL));
+  PetscCall(PetscOptionsInt("-solve_max_it", "Newton iterations before a step is given up", NULL, s->max_it, &s->max_it, NULL));
+  PetscCall(PetscOptionsInt("-solve_active_set_passes", "Active-set passes against one linearisation", NULL, s->passes, &s->passes, NULL));
+  PetscCall(PetscOptionsInt("-solve_cuts", "Halvings of a Newton step that leaves the domain", NULL, s->cuts, &s->cuts, NULL));
+  PetscOptionsEnd();
+  PetscCall(PetscOptionsHasName(NULL, NULL, "-snes_test_jacobian", &s->test));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SolverCreate(Problem problem, Solver *solver)
+{
+  Solver s;
+  Mat    A;
+  Vec    r;
+
+  PetscFunctionBegin;
+  PetscCall(PetscNew(&s));
+  s->problem = problem;
+  PetscCall(SNESRegister("contactnewton", SNESCreate_ContactNewton));
+  PetscCall(ProblemCreateVector(problem, &r));
+  PetscCall(SNESCreate(PetscObjectComm((PetscObject)r), &s->snes));
+  PetscCall(Options_Private(s));
+  PetscCall(SNESSetType(s->snes, "contactnewton"));
+  PetscCall(SNESSetApplicationContext(s->snes, s));
+  PetscCall(SolverLinear_Private(s));
+  PetscCall(SNESSetFromOptions(s->snes));
+  PetscCall(SNESSetFunction(s->snes, r, Function_Private, s));
+  PetscCall(VecDestroy(&r));
+  PetscCall(ProblemGetMatrix(problem, &A));
+  PetscCall(SNESSetJacobian(s->snes, A, A, Jacobian_Private, s));
+  PetscCall(ProblemCreateVector(problem, &s->lift));
+  PetscCall(VecDuplicate(s->lift, &s->rhs));
+  *solver = s;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SolverDestroy(Solver *solver)
+{
+  Solver s = *solver;
+
+  PetscFunctionBegin;
+  if (!s) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(SNESDestroy(&s->snes));
+  PetscCall(VecDestroy(&s->lift));
+  PetscCall(VecDestroy(&s->rhs));
+  PetscCall(PetscFree(*solver));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SolverGetSNES(Solver s, SNES *snes)
+{
+  PetscFunctionBegin;
+  *snes = s->snes;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SolverSolve(Solver s, State *state, SolverReport *report)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscMemzero(report, sizeof(*report)));
+  report->reason = "";
+  s->report      = report;
+  s->pressure    = state->pressure;
+  PetscCall(SNESSolve(s->snes, NULL, state->x));
+  s->report   = NULL;
+  s->pressure = NULL;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
