@@ -1,0 +1,231 @@
+/* The scene against its mesh: names of groups, every cell in a body, every body held, contact pairs of two surfaces. */
+#include "sceneimpl.h"
+
+/* What one pass over the facets of the mesh finds. */
+typedef struct {
+  const CoarseMesh   *mesh;
+  const ForestTables *forest;
+  PetscInt           *num_facets;   /* [num_boundaries] outer facets of each group */
+  PetscBool          *inner;        /* [num_boundaries] some facet of the group lies between two cells */
+  PetscBool          *body_touches; /* [num_bodies][num_boundaries] the group has a facet of the body */
+  uint64_t           *cell_groups;  /* [num_cells] groups of the outer facets of each coarse cell */
+} Facets;
+
+static PetscErrorCode FacetsCreate_Private(Forest forest, Facets *f)
+{
+  const ForestTables *t;
+  PetscInt            nb;
+
+  PetscFunctionBegin;
+  PetscCall(ForestGetCoarse(forest, &f->mesh));
+  PetscCall(ForestGetTables(forest, &f->forest));
+  t  = f->forest;
+  nb = f->mesh->num_boundaries;
+  PetscCall(PetscCalloc4(nb, &f->num_facets, nb, &f->inner, f->mesh->num_bodies * nb, &f->body_touches, f->mesh->num_cells, &f->cell_groups));
+  for (PetscInt e = t->first[t->dim - 1]; e < t->first[t->dim]; ++e) {
+    const PetscInt *leaf  = t->facet_leaf + 2 * (e - t->first[t->dim - 1]);
+    const PetscBool outer = leaf[0] < 0 || leaf[1] < 0 ? PETSC_TRUE : PETSC_FALSE;
+    if (!t->boundary[e]) continue;
+    for (PetscInt g = 0; g < nb; ++g) {
+      if (!(t->boundary[e] >> g & 1)) continue;
+      f->num_facets[g] += outer;
+      if (!outer) f->inner[g] = PETSC_TRUE;
+      for (int side = 0; side < 2; ++side)
+        if (leaf[side] >= 0) f->body_touches[t->leaf_body[leaf[side]] * nb + g] = PETSC_TRUE;
+    }
+    for (int side = 0; side < 2; ++side)
+      if (leaf[side] >= 0) f->cell_groups[t->leaf_root[leaf[side]]] |= t->boundary[e];
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscInt Index_Private(const char *name, PetscInt num, char (*names)[MORTISE_NAME])
+{
+  for (PetscInt i = 0; i < num; ++i)
+    if (!strcmp(name, names[i])) return i;
+  return -1;
+}
+
+/* "a, b, c" or "none" */
+static PetscErrorCode List_Private(PetscInt num, char (*names)[MORTISE_NAME], size_t capacity, char list[])
+{
+  PetscFunctionBegin;
+  PetscCall(PetscStrncpy(list, num ? "" : "none", capacity));
+  for (PetscInt i = 0; i < num; ++i) {
+    if (i) PetscCall(PetscStrlcat(list, ", ", capacity));
+    PetscCall(PetscStrlcat(list, names[i], capacity));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode FindGroup_Private(const CoarseMesh *m, const char *where, const char *name, PetscInt *group)
+{
+  char list[2048];
+
+  PetscFunctionBegin;
+  *group = Index_Private(name, m->num_boundaries, m->boundary_name);
+  if (*group >= 0) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(List_Private(m->num_boundaries, m->boundary_name, sizeof(list), list));
+  PetscCheckInput(Index_Private(name, m->num_bodies, m->body_name) < 0, "%s: '%s' is a body of the mesh, not one of its boundary groups: %s", where, name,
+                  list);
+  PetscCall(ErrorInput("%s: the mesh has no boundary group '%s'; it has: %s", where, name, list));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- bodies ------------------------------------------------------------------------------------------------------------------------- */
+
+static PetscErrorCode CheckCells_Private(Scene s, const CoarseMesh *m)
+{
+  PetscInt nodes = 1;
+
+  PetscFunctionBegin;
+  for (PetscInt d = 0; d < m->dim; ++d) nodes *= m->geometry_order + 1;
+  for (PetscInt c = 0; c < m->num_cells; ++c) {
+    const PetscReal *X         = m->cell_geometry + 3 * nodes * c;
+    PetscReal        centre[3] = {0, 0, 0}, scale = 0;
+    for (PetscInt i = 0; i < 3 * nodes; ++i) {
+      centre[i % 3] += X[i] / nodes;
+      scale = PetscMax(scale, PetscAbsReal(X[i]));
+    }
+    PetscCheckInput(m->cell_body[c] >= 0, "mesh: cell %d at (%g, %g, %g) is in no physical group of dimension %d, so in no body", (int)c, (double)centre[0],
+                    (double)centre[1], (double)centre[2], (int)m->dim);
+    for (PetscInt i = 0; i < nodes; ++i) {
+      PetscCheckInput(m->dim == 3 || PetscAbsReal(X[3 * i + 2]) <= 1e-8 * scale,
+                      "model is two-dimensional, but cell %d of the mesh at (%g, %g, %g) does not lie in the plane z = 0", (int)c, (double)centre[0],
+                      (double)centre[1], (double)centre[2]);
+      PetscCheckInput(s->data.mechanics.model != MODEL_AXISYMMETRIC || X[3 * i] >= -1e-8 * scale,
+                      "model is axisymmetric, but cell %d of the mesh at (%g, %g) reaches radius x = %g < 0", (int)c, (double)centre[0], (double)centre[1],
+                      (double)X[3 * i]);
+    }
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode MatchBodies_Private(Scene s, const CoarseMesh *m)
+{
+  char list[2048];
+
+  PetscFunctionBegin;
+  PetscCall(PetscCalloc1(m->num_bodies, &s->data.bodies));
+  PetscCall(List_Private(m->num_bodies, m->body_name, sizeof(list), list));
+  for (PetscInt i = 0; i < s->num_bodies; ++i) {
+    const BodyEntry *b     = &s->body[i];
+    PetscInt         index = Index_Private(b->spec.name, m->num_bodies, m->body_name);
+    PetscCheckInput(index >= 0, "%s: the mesh has no physical group '%s' of dimension %d; it has: %s", NodeWhere(b->node), b->spec.name, (int)m->dim, list);
+    s->data.bodies[index] = b->spec;
+  }
+  for (PetscInt i = 0; i < m->num_bodies; ++i)
+    PetscCheckInput(s->data.bodies[i].material, "%s: body '%s' of the mesh has no material; add body: {%s: {material: ...}}", s->root->origin, m->body_name[i],
+                    m->body_name[i]);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- boundaries, pairs, supports ------------------------------------------------------------------------------------------------------ */
+
+static PetscErrorCode MatchBoundaries_Private(Scene s, const Facets *f)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscCalloc1(s->num_boundaries, &s->data.boundaries));
+  for (PetscInt i = 0; i < s->num_boundaries; ++i) {
+    BoundaryEntry *b = &s->boundary[i];
+    PetscCall(FindGroup_Private(f->mesh, NodeWhere(b->node), b->spec.name, &b->spec.group));
+    PetscCheckInput(f->num_facets[b->spec.group] || f->inner[b->spec.group], "%s: the group has no facets", NodeWhere(b->node));
+    PetscCheckInput(!b->spec.pressure || !f->inner[b->spec.group], "%s.pressure: a facet of this group lies between two cells and has no outward normal",
+                    NodeWhere(b->node));
+    s->data.boundaries[i] = b->spec;
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode MatchContacts_Private(Scene s, const Facets *f)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscCalloc1(s->data.num_contacts, &s->data.contacts));
+  for (PetscInt i = 0; i < s->data.num_contacts; ++i) {
+    ContactEntry *c        = &s->contact[i];
+    PetscInt      group[2] = {-1, -1};
+    PetscCall(FindGroup_Private(f->mesh, NodeWhere(NodeFind(c->node, "nonmortar")), c->nonmortar, &group[0]));
+    PetscCall(FindGroup_Private(f->mesh, NodeWhere(NodeFind(c->node, "mortar")), c->mortar, &group[1]));
+    for (int side = 0; side < 2; ++side) {
+      const char *name = side ? c->mortar : c->nonmortar;
+      PetscCheckInput(!f->inner[group[side]], "%s: '%s' lies between two cells; a contact surface must be a free one", NodeWhere(c->node), name);
+      PetscCheckInput(f->num_facets[group[side]], "%s: '%s' has no facets", NodeWhere(c->node), name);
+    }
+    for (PetscInt cell = 0; cell < f->mesh->num_cells; ++cell)
+      PetscCheckInput(!(f->cell_groups[cell] >> group[0] & 1) || !(f->cell_groups[cell] >> group[1] & 1),
+                      "%s: '%s' and '%s' share cell %d; the sides of a pair must have cells of their own", NodeWhere(c->node), c->nonmortar, c->mortar,
+                      (int)cell);
+    c->spec.nonmortar   = group[0];
+    c->spec.mortar      = group[1];
+    s->data.contacts[i] = c->spec;
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Does a displacement condition, a contact pair or its own rigidity hold the body by itself? */
+static PetscBool HoldsItself_Private(Scene s, const PetscBool *touches, PetscInt body)
+{
+  for (PetscInt i = 0; i < s->num_boundaries; ++i) {
+    const BoundarySpec *b = &s->data.boundaries[i];
+    if (!touches[b->group]) continue;
+    if (b->rotation || b->fix_normal) return PETSC_TRUE;
+    for (int c = 0; c < 3; ++c)
+      if (b->fix[c] || b->displacement[c]) return PETSC_TRUE;
+  }
+  for (PetscInt i = 0; i < s->data.num_contacts; ++i)
+    if (touches[s->data.contacts[i].nonmortar] || touches[s->data.contacts[i].mortar]) return PETSC_TRUE;
+  return s->data.bodies[body].material->law->rigid;
+}
+
+/* A body must be held by a condition of its own, or grow together with one that is. */
+static PetscErrorCode CheckHeld_Private(Scene s, const Facets *f)
+{
+  const ForestTables *t   = f->forest;
+  const PetscInt      num = f->mesh->num_bodies;
+  PetscBool          *held, changed = PETSC_TRUE;
+  PetscInt            loose = -1;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(num, &held));
+  for (PetscInt body = 0; body < num; ++body) held[body] = HoldsItself_Private(s, f->body_touches + body * f->mesh->num_boundaries, body);
+  while (changed) {
+    changed = PETSC_FALSE;
+    for (PetscInt e = 0; e < t->first[t->dim] - t->first[t->dim - 1]; ++e) {
+      const PetscInt *leaf = t->facet_leaf + 2 * e;
+      if (leaf[0] < 0 || leaf[1] < 0 || held[t->leaf_body[leaf[0]]] == held[t->leaf_body[leaf[1]]]) continue;
+      held[t->leaf_body[leaf[0]]] = held[t->leaf_body[leaf[1]]] = changed = PETSC_TRUE;
+    }
+  }
+  for (PetscInt body = num - 1; body >= 0; --body)
+    if (!held[body]) loose = body;
+  PetscCall(PetscFree(held));
+  PetscCheckInput(loose < 0, "%s: nothing holds body '%s': none of its boundary groups has fix, displacement or rotation, and it is in no contact pair",
+                  s->root->origin, f->mesh->body_name[loose]);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode Check_Private(Scene s, const Facets *f)
+{
+  PetscFunctionBegin;
+  PetscCall(MatchBoundaries_Private(s, f));
+  PetscCall(MatchContacts_Private(s, f));
+  PetscCall(CheckHeld_Private(s, f));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SceneCheckMesh(Scene s, Forest forest)
+{
+  const CoarseMesh *mesh;
+  Facets            f;
+  PetscErrorCode    status;
+
+  PetscFunctionBegin;
+  PetscCall(ForestGetCoarse(forest, &mesh));
+  PetscCall(CheckCells_Private(s, mesh)); /* before any table is indexed by bodies */
+  PetscCall(MatchBodies_Private(s, mesh));
+  PetscCall(FacetsCreate_Private(forest, &f));
+  status = Check_Private(s, &f);
+  PetscCall(PetscFree4(f.num_facets, f.inner, f.body_touches, f.cell_groups));
+  PetscCall(status);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

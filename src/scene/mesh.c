@@ -1,0 +1,236 @@
+/* A .geo becomes a .msh by the program gmsh, run on rank 0 in a temporary directory; a .msh is taken as it is. */
+#include "sceneimpl.h"
+#include <ctype.h>
+#include <errno.h>
+#include <fcntl.h>
+#include <spawn.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#define MESH_MAX_PARAMETERS 64
+#define MESSAGE_LENGTH 512
+
+extern char **environ;
+
+/* What rank 0 tells the others: a sentence about wrong input, "" if all is well. */
+typedef struct {
+  char message[PETSC_MAX_PATH_LEN + MESSAGE_LENGTH];
+  char file[PETSC_MAX_PATH_LEN], temporary[PETSC_MAX_PATH_LEN];
+} MeshResult;
+
+static PetscBool HasSuffix_Private(const char *file, const char *suffix)
+{
+  size_t n = strlen(file), k = strlen(suffix);
+  return n > k && !strcmp(file + n - k, suffix) ? PETSC_TRUE : PETSC_FALSE;
+}
+
+/* First error that gmsh wrote, without its prefix. */
+static void FirstError_Private(const char *log, char *message, size_t capacity)
+{
+  char  line[MESSAGE_LENGTH];
+  FILE *f = fopen(log, "r");
+
+  message[0] = 0;
+  while (f && fgets(line, sizeof(line), f)) {
+    char *text = strstr(line, "Error");
+    if (!text) continue;
+    text += 5;
+    text += strspn(text, " :");
+    text[strcspn(text, "\r\n")] = 0;
+    (void)snprintf(message, capacity, "%s", text);
+    break;
+  }
+  if (f) (void)fclose(f);
+}
+
+/* Run a program without a shell, both outputs to log. Returns errno of the start, and the program's exit status. */
+static int Run_Private(char *const argv[], const char *log, int *status)
+{
+  posix_spawn_file_actions_t actions;
+  pid_t                      pid;
+  int                        error;
+
+  posix_spawn_file_actions_init(&actions);
+  posix_spawn_file_actions_addopen(&actions, 0, "/dev/null", O_RDONLY, 0);
+  posix_spawn_file_actions_addopen(&actions, 1, log, O_WRONLY | O_CREAT | O_TRUNC, 0600);
+  posix_spawn_file_actions_adddup2(&actions, 1, 2);
+  error = posix_spawnp(&pid, argv[0], &actions, NULL, argv, environ);
+  posix_spawn_file_actions_destroy(&actions);
+  if (error) return error;
+  while (waitpid(pid, status, 0) < 0)
+    if (errno != EINTR) return errno;
+  return 0;
+}
+
+/* Cells in an ASCII .msh 4.1: highest dimension, and whether there are simplices of it. */
+static void Scan_Private(const char *file, PetscInt *dim, PetscBool *simplices)
+{
+  static const int simplex[] = {2, 4, 9, 11, 20, 21, 22, 23, 24, 25, 29, 30, 31}; /* gmsh's types of triangles and tetrahedra */
+  char             line[256];
+  long             blocks, d, tag, type, num;
+  FILE            *f = fopen(file, "r");
+
+  *dim       = 0;
+  *simplices = PETSC_FALSE;
+  while (f && fgets(line, sizeof(line), f) && strncmp(line, "$Elements", 9)) continue;
+  if (f && fscanf(f, "%ld %*s %*s %*s ", &blocks) == 1) {
+    for (; blocks > 0 && fscanf(f, "%ld %ld %ld %ld ", &d, &tag, &type, &num) == 4; --blocks) {
+      if (num > 0 && d > *dim) *dim = (PetscInt)d, *simplices = PETSC_FALSE;
+      for (size_t i = 0; i < sizeof(simplex) / sizeof(simplex[0]); ++i)
+        if (num > 0 && d == *dim && type == simplex[i]) *simplices = PETSC_TRUE;
+      for (int c = 0; num > 0 && (c = getc(f)) != EOF;)
+        if (c == '\n') --num;
+    }
+  }
+  if (f) (void)fclose(f);
+}
+
+/* Does the .geo speak of the constant? Files it includes are not looked into: then the answer is yes. */
+static PetscBool Declares_Private(const char *file, const char *constant)
+{
+  char      line[4096];
+  PetscBool found = PETSC_FALSE;
+  size_t    n     = strlen(constant);
+  FILE     *f     = fopen(file, "r");
+
+  while (f && !found && fgets(line, sizeof(line), f)) {
+    if (strstr(line, "Include") || strstr(line, "Merge")) found = PETSC_TRUE;
+    for (const char *s = line; !found && (s = strstr(s, constant)); ++s) {
+      char before = s == line ? ' ' : s[-1], after = s[n];
+      if (!isalnum((unsigned char)before) && before != '_' && !isalnum((unsigned char)after) && after != '_') found = PETSC_TRUE;
+    }
+  }
+  if (f) (void)fclose(f);
+  return found;
+}
+
+/* gmsh on the .geo; subdivide: ask for quads or hexes from triangles or tetrahedra. A sentence in r->message when it fails. */
+static void Gmsh_Private(Scene s, const char *geo, PetscBool subdivide, MeshResult *r)
+{
+  char        order[16], log[PETSC_MAX_PATH_LEN + 16], reason[MESSAGE_LENGTH];
+  const char *argv[32 + 3 * MESH_MAX_PARAMETERS];
+  int         n = 0, status = 0, error;
+  PetscInt    dim       = s->data.mesh.dim;
+  SceneNode  *parameter = NodeFind(NodeFind(s->root, "mesh"), "parameter");
+
+  (void)snprintf(order, sizeof(order), "%d", (int)s->mesh_order);
+  (void)snprintf(log, sizeof(log), "%s/log", r->temporary);
+  const char *fixed[] = {"gmsh", dim == 2 ? "-2" : "-3", "-order", order, "-format", "msh41", "-v", "2", "-nt", "1", "-o", r->file};
+  for (size_t i = 0; i < sizeof(fixed) / sizeof(fixed[0]); ++i) argv[n++] = fixed[i];
+  for (SceneNode *p = parameter ? parameter->first : NULL; p; p = p->next) {
+    argv[n++] = "-setnumber";
+    argv[n++] = p->key;
+    argv[n++] = p->text;
+  }
+  if (subdivide) {
+    const char *more[] = {"-setnumber", "Mesh.RecombineAll", dim == 2 ? "1" : "0", "-setnumber", "Mesh.SubdivisionAlgorithm", dim == 2 ? "1" : "2"};
+    for (int i = 0; i < 6; ++i) argv[n++] = more[i];
+  }
+  argv[n++] = geo;
+  argv[n]   = NULL;
+  error     = Run_Private((char *const *)(const void *)argv, log, &status);
+  FirstError_Private(log, reason, sizeof(reason));
+  if (error == ENOENT)
+    (void)snprintf(r->message, sizeof(r->message), "mesh.file %s needs the program gmsh, which is not installed (or not in PATH); install it or give a .msh",
+                   geo);
+  else if (error)
+    (void)snprintf(r->message, sizeof(r->message), "mesh.file %s: gmsh could not be started: %s", geo, strerror(error));
+  else if (status || reason[0])
+    (void)snprintf(r->message, sizeof(r->message), "gmsh rejects mesh.file %s: %s", geo, reason[0] ? reason : "it failed without saying why");
+}
+
+static void Generate_Private(Scene s, const char *geo, MeshResult *r)
+{
+  const char *base = getenv("TMPDIR");
+  PetscInt    dim;
+  PetscBool   simplices;
+
+  (void)snprintf(r->temporary, sizeof(r->temporary), "%s/mortise-XXXXXX", base && base[0] ? base : "/tmp");
+  if (!mkdtemp(r->temporary)) {
+    (void)snprintf(r->message, sizeof(r->message), "no temporary directory for the mesh can be made: %s: %s", r->temporary, strerror(errno));
+    r->temporary[0] = 0;
+    return;
+  }
+  (void)snprintf(r->file, sizeof(r->file), "%.*s/mesh.msh", (int)sizeof(r->file) - 16, r->temporary);
+  Gmsh_Private(s, geo, PETSC_FALSE, r);
+  if (r->message[0]) return;
+  Scan_Private(r->file, &dim, &simplices);
+  if (simplices && dim == s->data.mesh.dim) {
+    Gmsh_Private(s, geo, PETSC_TRUE, r);
+    if (r->message[0]) return;
+    Scan_Private(r->file, &dim, &simplices);
+  }
+  if (dim < s->data.mesh.dim)
+    (void)snprintf(r->message, sizeof(r->message), "model is %s, but mesh.file %s has no cells of dimension %d (or no physical group of them)",
+                   s->data.mesh.dim == 3 ? "3d" : "two-dimensional", geo, (int)s->data.mesh.dim);
+}
+
+static void Find_Private(Scene s, MeshResult *r)
+{
+  const SceneNode *mesh      = NodeFind(s->root, "mesh");
+  const SceneNode *parameter = NodeFind(mesh, "parameter");
+  const char      *where     = NodeWhere(NodeFind(mesh, "file"));
+  PetscBool        geo       = HasSuffix_Private(s->mesh_file, ".geo");
+  struct stat      info;
+
+  (void)snprintf(r->file, sizeof(r->file), "%s%s", s->mesh_file[0] == '/' ? "" : s->directory, s->mesh_file);
+  if (!geo && !HasSuffix_Private(s->mesh_file, ".msh"))
+    (void)snprintf(r->message, sizeof(r->message), "%s is '%.300s'; its name must end in .geo or .msh", where, s->mesh_file);
+  else if (stat(r->file, &info))
+    (void)snprintf(r->message, sizeof(r->message), "%s: there is no file %s", where, r->file);
+  else if (!S_ISREG(info.st_mode) || access(r->file, R_OK))
+    (void)snprintf(r->message, sizeof(r->message), "%s: %s cannot be read", where, r->file);
+  else if (!geo && parameter)
+    (void)snprintf(r->message, sizeof(r->message), "%s: only a .geo has parameters, mesh.file is %s", NodeWhere(parameter), s->mesh_file);
+  for (SceneNode *p = geo && parameter && !r->message[0] ? parameter->first : NULL; p && !r->message[0]; p = p->next)
+    if (!Declares_Private(r->file, p->key)) (void)snprintf(r->message, sizeof(r->message), "%s: %s declares no such constant", NodeWhere(p), r->file);
+}
+
+PetscErrorCode SceneMakeMesh(Scene s)
+{
+  const SceneNode *parameter = NodeFind(NodeFind(s->root, "mesh"), "parameter");
+  MeshResult       r;
+  PetscMPIInt      rank;
+  PetscReal        value;
+
+  PetscFunctionBegin;
+  PetscCheckInput(NodeCount(parameter) <= MESH_MAX_PARAMETERS, "%s: at most %d constants", NodeWhere(parameter), MESH_MAX_PARAMETERS);
+  for (SceneNode *p = parameter ? parameter->first : NULL; p; p = p->next)
+    PetscCheckInput(OptionParseReal(p->text, &value), "%s is '%s'; it must be a number", NodeWhere(p), p->text);
+  PetscCall(PetscMemzero(&r, sizeof(r)));
+  PetscCallMPI(MPI_Comm_rank(s->comm, &rank));
+  if (rank == 0) {
+    Find_Private(s, &r);
+    if (!r.message[0] && HasSuffix_Private(r.file, ".geo")) {
+      char geo[PETSC_MAX_PATH_LEN];
+      PetscCall(PetscStrncpy(geo, r.file, sizeof(geo)));
+      Generate_Private(s, geo, &r);
+    }
+  }
+  PetscCallMPI(MPI_Bcast(&r, (PetscMPIInt)sizeof(r), MPI_CHAR, 0, s->comm));
+  PetscCall(PetscStrncpy(s->temporary, r.temporary, sizeof(s->temporary)));
+  PetscCall(PetscStrncpy(s->data.mesh.file, r.file, sizeof(s->data.mesh.file)));
+  PetscCheckInput(!r.message[0], "%s", r.message);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SceneRemoveMesh(Scene s)
+{
+  PetscMPIInt rank;
+
+  PetscFunctionBegin;
+  if (!s->temporary[0]) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCallMPI(MPI_Comm_rank(s->comm, &rank));
+  if (rank == 0) {
+    static const char *const files[] = {"mesh.msh", "log"};
+    char                     path[PETSC_MAX_PATH_LEN + 16];
+    for (int i = 0; i < 2; ++i) {
+      (void)snprintf(path, sizeof(path), "%s/%s", s->temporary, files[i]);
+      (void)unlink(path);
+    }
+    (void)rmdir(s->temporary);
+  }
+  s->temporary[0] = 0;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

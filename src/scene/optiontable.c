@@ -1,0 +1,175 @@
+/* One row per key of a scene: name, type, unit, default, range, help. Parsing, checks and -help are made from it. */
+#include "sceneimpl.h"
+
+#define TEXT_(x) #x
+#define TEXT(x) TEXT_(x)
+#define SCENE(f) offsetof(struct _p_Scene, f), sizeof(((struct _p_Scene *)0)->f)
+#define MAT(f) offsetof(MaterialEntry, f), sizeof(((MaterialEntry *)0)->f)
+#define BODY(f) offsetof(BodyEntry, f), sizeof(((BodyEntry *)0)->f)
+#define BOUND(f) offsetof(BoundaryEntry, f), sizeof(((BoundaryEntry *)0)->f)
+#define PAIR(f) offsetof(ContactEntry, f), sizeof(((ContactEntry *)0)->f)
+#define PROBE(f) offsetof(ProbeEntry, f), sizeof(((ProbeEntry *)0)->f)
+#define NOWHERE 0, 0
+#define ORDERS "[1," TEXT(MORTISE_MAX_ORDER) "]"
+#define ANY "(-inf,inf)"
+#define POSITIVE "(0,inf)"
+#define NOT_BELOW "[0,inf)"
+
+const Option Options[] = {
+    {"title", KEY_TEXT, "", "", "", "what the scene shows; default: name of the file", SCENE(data.title)},
+
+    {"mesh.file", KEY_TEXT, "", NULL, "", ".geo: meshed by gmsh; .msh (2.2, 4.1): read as it is; relative to the scene file", SCENE(mesh_file)},
+    {"mesh.order", KEY_INT, "", "2", "[1,4]", "geometry order asked of gmsh for a .geo", SCENE(mesh_order)},
+    {"mesh.refine", KEY_INT, "", "0", "[0,12]", "uniform refinements before the first solve", SCENE(data.mesh.refine)},
+    {"mesh.parameter.<constant>", KEY_PARAMETER, "", "", ANY, "value of a constant that the .geo declares with DefineConstant", NOWHERE},
+
+    {"model", KEY_WORD, "", NULL, "plane_strain|axisymmetric|3d", "axisymmetric: x = r, y = z", SCENE(data.mechanics.model)},
+    {"kinematics", KEY_WORD, "", "finite", "finite|small", "small: geometry and material are linear (law: linear)", SCENE(data.mechanics.kinematics)},
+    {"order", KEY_INT, "", "1", ORDERS, "displacement order p of the cells", SCENE(order)},
+
+    {"body.<name>.material", KEY_TEXT, "", NULL, "", "a name under material; <name>: physical group of top dimension", BODY(material)},
+    {"body.<name>.order", KEY_INT, "", "", ORDERS, "displacement order of this body's cells; default: order", BODY(spec.order)},
+    {"body.<name>.motion.<axis>", KEY_EXPRESSION, "length", "", ANY, "translation of a rigid body", BODY(spec.motion)},
+    {"body.<name>.force.<axis>", KEY_EXPRESSION, "force/volume", "", ANY, "dead force per reference volume", BODY(spec.force)},
+    {"body.<name>.amplitude", KEY_AMPLITUDE, "", "[0,0, 1,1]", "t rising", "t0,v0, t1,v1, ...: multiplies motion and force, piecewise linear in t",
+     BODY(spec.amplitude)},
+
+    {"material.<name>.law", KEY_TEXT, "", NULL, "", "name of a law; bin/mortise -list shows them", MAT(law)},
+    {"material.<name>.volumetric", KEY_WORD, "", "quadratic", "quadratic|simo|log",
+     "U(J): kappa/2 (J-1)^2 | kappa/2 ((J^2-1)/2 - ln J) | -mu ln J + lambda/2 (ln J)^2 with mu/2 (I1-3)", MAT(volumetric)},
+    {"material.<name>.formulation", KEY_WORD, "", "auto", "auto|displacement|mixed", "mixed: pressure is a field of its own; auto: mixed from nu = 0.45 up",
+     MAT(formulation)},
+    {"material.<name>.<parameter>", KEY_PARAMETER, "", "", ANY, "a parameter of the law (E, nu, mu, ...); bin/mortise -list shows them with units and ranges",
+     NOWHERE},
+
+    {"boundary.<name>.displacement.<axis>", KEY_EXPRESSION, "length", "", ANY,
+     "prescribed displacement; components not given stay free; <name>: physical group of one dimension less", BOUND(spec.displacement)},
+    {"boundary.<name>.fix", KEY_AXES, "", "", "letters of xyz, or normal", "no displacement in these directions; normal: of a flat face of any direction",
+     BOUND(spec.fix)},
+    {"boundary.<name>.rotation.axis", KEY_WORD, "", "z", "x|y|z", "axis of a prescribed finite rotation", BOUND(rotation_axis)},
+    {"boundary.<name>.rotation.angle", KEY_EXPRESSION, "degrees", "", ANY, "angle of the rotation", BOUND(spec.rotation_angle)},
+    {"boundary.<name>.rotation.point.<axis>", KEY_REAL, "length", "0", ANY, "a point of the axis", BOUND(spec.rotation_point)},
+    {"boundary.<name>.pressure", KEY_EXPRESSION, "stress", "", ANY, "follower load against the outward normal", BOUND(spec.pressure)},
+    {"boundary.<name>.traction.<axis>", KEY_EXPRESSION, "force/area", "", ANY, "dead load per reference area", BOUND(spec.traction)},
+    {"boundary.<name>.amplitude", KEY_AMPLITUDE, "", "[0,0, 1,1]", "t rising",
+     "t0,v0, t1,v1, ...: multiplies the values of this boundary, piecewise linear in t", BOUND(spec.amplitude)},
+
+    {"contact.<pair>.nonmortar", KEY_TEXT, "", NULL, "", "physical group that carries the multiplier", PAIR(nonmortar)},
+    {"contact.<pair>.mortar", KEY_TEXT, "", NULL, "", "physical group opposite", PAIR(mortar)},
+    {"contact.<pair>.friction", KEY_REAL, "", "0", NOT_BELOW, "coefficient of friction; not built yet: 0 only", PAIR(spec.friction)},
+    {"contact.<pair>.order", KEY_WORD, "", "1", "1|full", "order of the contact faces; full (that of the cells) is not built yet", PAIR(order)},
+    {"contact.<pair>.search", KEY_REAL, "edges", "0", NOT_BELOW, "distance of the search, in multiples of the larger edge; 0: automatic", PAIR(spec.search)},
+    {"contact.<pair>.node_to_segment", KEY_BOOL, "", "false", "", "node-to-segment contact, for comparison only", PAIR(spec.node_to_segment)},
+
+    {"load.end", KEY_REAL, "pseudo-time", "1", POSITIVE, "t runs from 0 to here", SCENE(data.load.end)},
+    {"load.step", KEY_REAL, "pseudo-time", "", POSITIVE, "first step; default: end/10", SCENE(data.load.step)},
+    {"load.step_min", KEY_REAL, "pseudo-time", "", POSITIVE, "a smaller step is given up; default: step/1024", SCENE(data.load.step_min)},
+    {"load.step_max", KEY_REAL, "pseudo-time", "", POSITIVE, "steps grow to this size; default: step", SCENE(data.load.step_max)},
+    {"load.max_steps", KEY_INT, "", "10000", "[1,1000000]", "more load steps are given up", SCENE(data.load.max_steps)},
+
+    {"adapt.tolerance", KEY_REAL, "", "0", "[0,1)", "relative estimated error to reach, in the energy-like norm; 0: no adaptation",
+     SCENE(data.adapt.tolerance)},
+    {"adapt.max_passes", KEY_INT, "", "10", "[0,100]", "adaptive passes at each load step", SCENE(data.adapt.max_passes)},
+    {"adapt.max_cells", KEY_INT, "", "200000", "[1,100000000]", "no refinement beyond this number of cells", SCENE(data.adapt.max_cells)},
+    {"adapt.fraction", KEY_REAL, "", "0.5", "(0,1]", "share of the squared estimate that the cells to be refined carry", SCENE(data.adapt.fraction)},
+    {"adapt.coarsen", KEY_REAL, "", "0", "[0,1)", "cells below this share of the mean squared indicator may merge; 0: none", SCENE(data.adapt.coarsen)},
+    {"adapt.strategy", KEY_WORD, "", "h", "h|p|hp", "what adaptation changes; p and hp are not built yet", SCENE(data.adapt.strategy)},
+
+    {"output.directory", KEY_TEXT, "", "", "", "relative to the working directory; default: out/<name of the scene>", SCENE(data.output.directory)},
+    {"output.fields", KEY_BOOL, "", "true", "", "write fields.xdmf and its HDF5 files", SCENE(data.output.fields)},
+    {"output.segments", KEY_BOOL, "", "false", "", "write the contact segments too", SCENE(data.output.segments)},
+
+    {"probe.<name>.<axis>", KEY_REAL, "length", "0", ANY, "reference point whose fields go to history.csv and summary.json", PROBE(spec.X)},
+    {NULL, KEY_TEXT, NULL, NULL, NULL, NULL, NOWHERE},
+};
+
+static PetscErrorCode PrintRow_Private(MPI_Comm comm, const Option *row)
+{
+  static const char *const kinds[] = {"text", "", "integer", "number", "true|false", "number or expression", "list of numbers", "", "number"};
+  char                     key[128], kind[160];
+  const char              *axis = strstr(row->pattern, "<axis>");
+
+  PetscFunctionBegin;
+  if (axis)
+    PetscCall(PetscSNPrintf(key, sizeof(key), "%.*s<x|y|z>", (int)(axis - row->pattern), row->pattern));
+  else
+    PetscCall(PetscStrncpy(key, row->pattern, sizeof(key)));
+  PetscCall(PetscSNPrintf(kind, sizeof(kind), "%s%s%s", kinds[row->type], kinds[row->type][0] && row->range[0] ? " " : "",
+                          strcmp(row->range, ANY) ? row->range : ""));
+  PetscCall(PetscPrintf(comm, "  %-39s %s%s%s%s%s%s\n", key, kind, row->unit[0] ? " [" : "", row->unit, row->unit[0] ? "]" : "",
+                        row->fallback ? (row->fallback[0] ? "; default " : "") : "; must be given", row->fallback ? row->fallback : ""));
+  PetscCall(PetscPrintf(comm, "  %-39s   %s\n", "", row->help));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode ScenePrintHelp(MPI_Comm comm)
+{
+  char section[MORTISE_NAME] = "";
+
+  PetscFunctionBegin;
+  PetscCall(PetscPrintf(comm,
+                        "mortise %s: adaptive mortar contact of bodies that deform a lot\n\n"
+                        "  mortise SCENE.yml [options]     solve; mpiexec -n 4 mortise ... on four processes\n"
+                        "  mortise SCENE.yml -check        read the scene and the mesh, say what would be solved, solve nothing\n"
+                        "  mortise -help                   this text\n"
+                        "  mortise -list                   models, laws with their parameters, boundary kinds\n\n"
+                        "Keys of a scene. Any of them can be set on the command line, which wins over the file: material.rubber.E is -material_rubber_E.\n"
+                        "Expressions are in X, Y, Z (reference position), t (pseudo-time) and pi: \"0.1*Y*sin(pi*t)\". The program is free of units: use any\n"
+                        "consistent set; a word in [] names the kind of quantity.\n",
+                        MORTISE_VERSION));
+  for (const Option *row = Options; row->pattern; ++row) {
+    size_t n = strcspn(row->pattern, ".");
+    if (strncmp(section, row->pattern, n) || section[n]) {
+      PetscCall(PetscPrintf(comm, "\n"));
+      PetscCall(PetscSNPrintf(section, sizeof(section), "%.*s", (int)n, row->pattern));
+    }
+    PetscCall(PrintRow_Private(comm, row));
+  }
+  PetscCall(PetscPrintf(
+      comm, "\nOptions of PETSc work as everywhere: -snes_monitor, -snes_rtol 1e-10, -log_view, ...\n"
+            "Exit status: 0 converged to the end; 1 bad input, nothing was solved; 2 the solver gave up; 3 stopped by a signal or a time limit.\n"));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode PrintLaws_Private(MPI_Comm comm)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscPrintf(comm, "\nmaterial laws (material.<name>.law) and their parameters\n"));
+  for (const MaterialLaw *law = MaterialLaws; law->name; ++law) {
+    PetscCall(PetscPrintf(comm, "  %-14s %s\n", law->name, law->help));
+    for (const MaterialParameter *p = law->parameters; p && p->name; ++p) {
+      char lo[32] = "-inf", hi[32] = "inf";
+      if (p->min > -1e30) (void)snprintf(lo, sizeof(lo), "%g", (double)p->min);
+      if (p->max < 1e30) (void)snprintf(hi, sizeof(hi), "%g", (double)p->max);
+      PetscCall(PetscPrintf(comm, "    %-12s (%s,%s)%s%s%s  %s\n", p->name, lo, hi, p->unit && p->unit[0] ? " [" : "", p->unit ? p->unit : "",
+                            p->unit && p->unit[0] ? "]" : "", p->help));
+    }
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode ScenePrintList(MPI_Comm comm)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscPrintf(comm, "models (model)\n"
+                              "  plane_strain   two dimensions, per unit thickness\n"
+                              "  axisymmetric   x = r, y = z; forces of the full revolution\n"
+                              "  3d             three dimensions (contact there is not built yet)\n"
+                              "\nkinematics\n"
+                              "  finite         large displacements and strains\n"
+                              "  small          geometry and material linear (law: linear)\n"));
+  PetscCall(PrintLaws_Private(comm));
+  PetscCall(PetscPrintf(comm, "\nboundary kinds (boundary.<name>)\n"
+                              "  displacement   {x, y, z}: prescribed, components not given stay free\n"
+                              "  fix            letters of xyz, or normal\n"
+                              "  rotation       {axis, angle, point}: finite rotation in degrees\n"
+                              "  pressure       follower, against the outward normal\n"
+                              "  traction       {x, y, z}: dead, per reference area\n"
+                              "\nbody kinds (body.<name>)\n"
+                              "  material       deformable, or moved by motion {x, y, z} when its law is rigid\n"
+                              "  force          {x, y, z}: dead, per reference volume\n"
+                              "\ncontact (contact.<pair>)\n"
+                              "  mortar         dual multipliers on the nonmortar side, frictionless\n"
+                              "  node_to_segment  for comparison only\n"));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

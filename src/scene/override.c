@@ -1,0 +1,258 @@
+/* The command line: which options are keys of the scene, what path each one means (names may contain '_'), and the nearest known key. */
+#include "sceneimpl.h"
+
+/* ---- nearest names ------------------------------------------------------------------------------------------------------------ */
+
+/* Levenshtein distance of two texts of at most 255 characters. */
+static PetscInt Distance_Private(const char *a, const char *b)
+{
+  PetscInt row[256], na = (PetscInt)strlen(a), nb = (PetscInt)strlen(b);
+
+  if (na > 255 || nb > 255) return 1000;
+  for (PetscInt j = 0; j <= nb; ++j) row[j] = j;
+  for (PetscInt i = 1; i <= na; ++i) {
+    PetscInt corner = row[0];
+    row[0]          = i;
+    for (PetscInt j = 1; j <= nb; ++j) {
+      PetscInt up = row[j], change = corner + (a[i - 1] != b[j - 1]);
+      row[j] = PetscMin(change, PetscMin(up, row[j - 1]) + 1);
+      corner = up;
+    }
+  }
+  return row[nb];
+}
+
+const char *NearestName(const char *name, PetscInt num, const char *const names[])
+{
+  const char *best     = "";
+  PetscInt    distance = PETSC_MAX_INT;
+
+  for (PetscInt i = 0; i < num; ++i) {
+    PetscInt d = Distance_Private(name, names[i]);
+    if (d < distance) best = names[i], distance = d;
+  }
+  return best;
+}
+
+typedef struct {
+  const char *path; /* what was asked */
+  char        separator;
+  PetscInt    num; /* its words, when they can be told (separator '.'), else 0 */
+  char        words[OPTION_DEPTH][MORTISE_NAME];
+  PetscInt    distance;
+  char       *nearest;
+  size_t      capacity;
+} Search;
+
+static void Offer_Private(Search *s, PetscInt num, const char *const keys[])
+{
+  char     text[512] = "";
+  size_t   n         = 0;
+  PetscInt d;
+
+  for (PetscInt i = 0; i < num && n < sizeof(text); ++i) n += (size_t)snprintf(text + n, sizeof(text) - n, "%.*s%s", i ? 1 : 0, &s->separator, keys[i]);
+  d = Distance_Private(s->path, text);
+  if (s->num && num > s->num && !strcmp(s->words[s->num - 1], keys[num - 1])) d = PetscMin(d, 2); /* right word in the wrong place */
+  if (d >= s->distance) return;
+  s->distance = d;
+  (void)snprintf(s->nearest, s->capacity, "%s", text);
+}
+
+/* Offer all paths of the row below keys[depth], names taken from the tree. */
+static void Expand_Private(Search *s, PetscInt num, char words[OPTION_DEPTH][MORTISE_NAME], PetscInt depth, const char *keys[], const SceneNode *at)
+{
+  static const char *const axes[3] = {"x", "y", "z"};
+  const char              *word    = words[depth];
+
+  if (depth == s->num && s->num) Offer_Private(s, depth, keys);
+  if (depth == num) {
+    Offer_Private(s, num, keys);
+    return;
+  }
+  if (word[0] != '<') {
+    keys[depth] = word;
+    Expand_Private(s, num, words, depth + 1, keys, NodeFind(at, word));
+  } else if (!strcmp(word, "<axis>")) {
+    for (int c = 0; c < 3; ++c) {
+      keys[depth] = axes[c];
+      Expand_Private(s, num, words, depth + 1, keys, NULL);
+    }
+  } else if (!strcmp(word, "<parameter>")) {
+    for (const MaterialLaw *law = MaterialLaws; law->name; ++law) {
+      for (const MaterialParameter *p = law->parameters; p && p->name; ++p) {
+        keys[depth] = p->name;
+        Expand_Private(s, num, words, depth + 1, keys, NULL);
+      }
+    }
+  } else {
+    for (SceneNode *child = at ? at->first : NULL; child; child = child->next) {
+      keys[depth] = child->key;
+      Expand_Private(s, num, words, depth + 1, keys, child);
+    }
+    if (!at) {
+      keys[depth] = word;
+      Expand_Private(s, num, words, depth + 1, keys, NULL);
+    }
+  }
+}
+
+PetscErrorCode OptionNearest(const SceneNode *root, const char *path, char separator, size_t capacity, char nearest[])
+{
+  Search s;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMemzero(&s, sizeof(s)));
+  s.path      = path;
+  s.separator = separator;
+  s.num       = separator == '.' ? OptionSplit(path, s.words) : 0;
+  s.distance  = PETSC_MAX_INT;
+  s.nearest   = nearest;
+  s.capacity  = capacity;
+  nearest[0]  = 0;
+  for (const Option *row = Options; row->pattern; ++row) {
+    char        words[OPTION_DEPTH][MORTISE_NAME];
+    const char *keys[OPTION_DEPTH];
+    PetscInt    num = OptionSplit(row->pattern, words);
+    Expand_Private(&s, num, words, 0, keys, root);
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- from -a_b_c to a.b.c ------------------------------------------------------------------------------------------------------ */
+
+typedef struct {
+  PetscInt known, literal; /* names that the scene has; characters of fixed words */
+  PetscInt num;
+  char     keys[OPTION_DEPTH][MORTISE_NAME];
+  KeyType  type;
+} Match;
+
+/* Only boundaries, probes and constants of the mesh may get a new name on the command line. */
+static PetscBool MayBeNew_Private(const Match *m, const char *word)
+{
+  if (!strcmp(word, "<constant>")) return PETSC_TRUE;
+  return !strcmp(m->keys[0], "boundary") || !strcmp(m->keys[0], "probe") ? PETSC_TRUE : PETSC_FALSE;
+}
+
+/* Match words[depth..] with s; at: node of the tree reached so far, NULL if it is not there. Keeps the best in *best. */
+static void Match_Private(PetscInt num, char words[OPTION_DEPTH][MORTISE_NAME], PetscInt depth, const char *s, const SceneNode *at, Match *m, Match *best)
+{
+  const char *word   = words[depth];
+  size_t      length = strlen(s);
+
+  for (size_t n = 1; n <= length; ++n) { /* the word takes n characters, then comes '_' or the end */
+    PetscBool  fixed = word[0] != '<' ? PETSC_TRUE : PETSC_FALSE, good;
+    SceneNode *child;
+    Match      old = *m;
+    if ((s[n] && s[n] != '_') || n >= MORTISE_NAME) continue;
+    (void)snprintf(m->keys[depth], MORTISE_NAME, "%.*s", (int)n, s);
+    child = NodeFind(at, m->keys[depth]);
+    if (fixed)
+      good = !strcmp(word, m->keys[depth]) ? PETSC_TRUE : PETSC_FALSE;
+    else if (!strcmp(word, "<axis>"))
+      good = n == 1 && s[0] >= 'x' && s[0] <= 'z' ? PETSC_TRUE : PETSC_FALSE;
+    else if (!strcmp(word, "<parameter>"))
+      good = OptionKnowsParameter(m->keys[depth]);
+    else
+      good = child || MayBeNew_Private(m, word) ? PETSC_TRUE : PETSC_FALSE;
+    if (good) {
+      if (fixed)
+        m->literal += (PetscInt)n;
+      else if (child)
+        m->known += (PetscInt)n; /* the longest known name wins */
+      if (depth + 1 == num && !s[n]) {
+        m->num = num;
+        if (!best->num || m->known > best->known || (m->known == best->known && m->literal > best->literal)) *best = *m;
+      } else if (depth + 1 < num && s[n])
+        Match_Private(num, words, depth + 1, s + n + 1, child, m, best);
+    }
+    *m = old;
+  }
+}
+
+/* Value of a list: "[0,0, 1,1]" or "0,0,1,1". */
+static PetscErrorCode SetList_Private(SceneNode *list, const char *value)
+{
+  char      *copy, *item, *rest;
+  SceneNode *node;
+
+  PetscFunctionBegin;
+  PetscCall(PetscStrallocpy(value, &copy));
+  for (item = strtok_r(copy, "[], ", &rest); item; item = strtok_r(NULL, "[], ", &rest)) {
+    PetscCall(NodeCreate(list, "", NODE_SCALAR, list->origin, 0, &node));
+    PetscCall(NodeSetText(node, item));
+  }
+  PetscCall(PetscFree(copy));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode Set_Private(SceneNode *root, const Match *m, const char *value)
+{
+  SceneNode *at = root;
+
+  PetscFunctionBegin;
+  for (PetscInt i = 0; i < m->num; ++i) {
+    NodeKind   kind  = i + 1 < m->num ? NODE_MAP : m->type == KEY_AMPLITUDE ? NODE_LIST : NODE_SCALAR;
+    SceneNode *child = NodeFind(at, m->keys[i]);
+    if (!child) PetscCall(NodeCreate(at, m->keys[i], kind, root->origin, 0, &child));
+    if (kind == NODE_MAP) child->kind = NODE_MAP; /* an empty section becomes a map */
+    at = child;
+  }
+  at->kind = m->type == KEY_AMPLITUDE ? NODE_LIST : NODE_SCALAR;
+  at->line = 0;
+  for (SceneNode *child = at->first, *next; child; child = next) {
+    next = child->next;
+    PetscCall(NodeDestroy(&child));
+  }
+  at->first = at->last = NULL;
+  at->quoted           = PETSC_TRUE;
+  if (at->kind == NODE_LIST)
+    PetscCall(SetList_Private(at, value));
+  else
+    PetscCall(NodeSetText(at, value));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode Override_Private(SceneNode *root, const char *name, const char *value)
+{
+  Match best, m;
+  char  nearest[256];
+
+  PetscFunctionBegin;
+  PetscCall(PetscMemzero(&best, sizeof(best)));
+  for (const Option *row = Options; row->pattern; ++row) {
+    char     words[OPTION_DEPTH][MORTISE_NAME];
+    PetscInt num = OptionSplit(row->pattern, words);
+    PetscCall(PetscMemzero(&m, sizeof(m)));
+    m.type = row->type;
+    Match_Private(num, words, 0, name, root, &m, &best);
+  }
+  if (!best.num) {
+    PetscCall(OptionNearest(root, name, '_', sizeof(nearest), nearest));
+    PetscCall(ErrorInput("command line: -%.200s is not a key of this scene; the nearest one is -%s", name, nearest));
+  }
+  PetscCheckInput(value, "command line: -%s needs a value", name);
+  PetscCall(Set_Private(root, &best, value));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode OptionsOverride(SceneNode *root, int argc, char **argv)
+{
+  PetscFunctionBegin;
+  for (int i = 1; i < argc; ++i) {
+    const char *name = argv[i], *value = NULL;
+    PetscBool   next;
+    char        option[1024];
+    if (name[0] != '-') continue;
+    while (*name == '-') ++name;
+    if (!OptionIsTopKey(name, strcspn(name, "_"))) continue;
+    if (i + 1 < argc) { /* a value may be a negative number, but not an option */
+      PetscCall(PetscOptionsValidKey(argv[i + 1], &next));
+      if (!next) value = argv[++i];
+    }
+    PetscCall(Override_Private(root, name, value));
+    PetscCall(PetscSNPrintf(option, sizeof(option), "-%s", name));
+    PetscCall(PetscOptionsClearValue(NULL, option));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

@@ -1,0 +1,216 @@
+/* Tree -> SceneData and the entries of the sections: everything that can be read and checked without the mesh. */
+#include "sceneimpl.h"
+
+static const char *Stem_Private(const char *file, char stem[MORTISE_NAME])
+{
+  const char *base = strrchr(file, '/') ? strrchr(file, '/') + 1 : file, *dot = strrchr(base, '.');
+
+  (void)snprintf(stem, MORTISE_NAME, "%.*s", (int)(dot ? dot - base : (long)strlen(base)), base);
+  return stem;
+}
+
+static PetscErrorCode ReadGeneral_Private(Scene s)
+{
+  SceneData *d = &s->data;
+  char       stem[MORTISE_NAME];
+
+  PetscFunctionBegin;
+  PetscCall(OptionsRead("", s->root, 3, s));
+  d->mesh.dim = d->mechanics.model == MODEL_3D ? 3 : 2;
+  if (!d->title[0]) PetscCall(PetscStrncpy(d->title, Stem_Private(d->file, stem), sizeof(d->title)));
+  if (!d->output.directory[0]) PetscCall(PetscSNPrintf(d->output.directory, sizeof(d->output.directory), "out/%s", Stem_Private(d->file, stem)));
+  if (d->load.step == 0) d->load.step = d->load.end / 10;
+  if (d->load.step_max == 0) d->load.step_max = d->load.step;
+  if (d->load.step_min == 0) d->load.step_min = d->load.step / 1024;
+  PetscCheckInput(d->load.step <= d->load.end, "%s: load.step is %g, but load.end only %g", s->root->origin, (double)d->load.step, (double)d->load.end);
+  PetscCheckInput(d->load.step_min <= d->load.step && d->load.step <= d->load.step_max, "%s: load.step is %g; it must lie between step_min %g and step_max %g",
+                  s->root->origin, (double)d->load.step, (double)d->load.step_min, (double)d->load.step_max);
+  PetscCheckInput(d->adapt.strategy == ADAPT_H, "%s: p and hp are not built yet; allowed: h", NodeWhere(NodeFind(NodeFind(s->root, "adapt"), "strategy")));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- materials -------------------------------------------------------------------------------------------------------------------- */
+
+static PetscErrorCode Law_Private(const SceneNode *node, const char *name, const MaterialLaw **law)
+{
+  static const char *const later[]   = {"hgo", "j2"}; /* named by the contract with users */
+  char                     list[512] = "";
+
+  PetscFunctionBegin;
+  *law = MaterialLawFind(name);
+  if (*law) PetscFunctionReturn(PETSC_SUCCESS);
+  for (const MaterialLaw *row = MaterialLaws; row->name; ++row) {
+    if (list[0]) PetscCall(PetscStrlcat(list, ", ", sizeof(list)));
+    PetscCall(PetscStrlcat(list, row->name, sizeof(list)));
+  }
+  for (int i = 0; i < 2; ++i) PetscCheckInput(strcmp(name, later[i]), "%s: law %s is not built yet; built are: %s", NodeWhere(node), name, list);
+  PetscCall(ErrorInput("%s is '%.64s', which is no law; allowed: %s", NodeWhere(node), name, list));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Laws first: a law that is not built yet brings keys with it that the table does not know. */
+static PetscErrorCode CheckLaws_Private(const SceneNode *root)
+{
+  const SceneNode *materials = NodeFind(root, "material");
+
+  PetscFunctionBegin;
+  for (SceneNode *node = materials && materials->kind == NODE_MAP ? materials->first : NULL; node; node = node->next) {
+    const MaterialLaw *law;
+    const SceneNode   *name = node->kind == NODE_MAP ? NodeFind(node, "law") : NULL;
+    if (name && name->kind == NODE_SCALAR && !NodeIsEmpty(name)) PetscCall(Law_Private(name, name->text, &law));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode ReadMaterial_Private(Scene s, SceneNode *node, MaterialEntry *m)
+{
+  const char *names[64];
+  PetscReal   values[64];
+  PetscInt    num   = 0;
+  PetscBool   small = s->data.mechanics.kinematics == KINEMATICS_SMALL ? PETSC_TRUE : PETSC_FALSE;
+
+  PetscFunctionBegin;
+  m->node = node;
+  PetscCall(PetscStrncpy(m->spec.name, node->key, MORTISE_NAME));
+  PetscCall(OptionsRead("material", node, s->data.mesh.dim, m));
+  PetscCall(Law_Private(NodeFind(node, "law"), m->law, &m->spec.law));
+  m->spec.volumetric  = (Volumetric)m->volumetric;
+  m->spec.formulation = (Formulation)m->formulation;
+  for (SceneNode *child = node->first; child; child = child->next) {
+    if (!OptionKnowsParameter(child->key)) continue;
+    PetscCheckInput(OptionParseReal(child->text, &values[num]), "%s is '%s'; it must be a number", NodeWhere(child), child->text);
+    PetscCheckInput(num < 63, "%s has too many parameters", NodeWhere(node));
+    names[num++] = child->key;
+  }
+  PetscCheckInput(!(m->spec.law->rigid || m->spec.law->small) || !NodeFind(node, "volumetric"), "%s: law %s has no volumetric energy to choose",
+                  NodeWhere(NodeFind(node, "volumetric")), m->law);
+  PetscCheckInput(!m->spec.law->rigid || !NodeFind(node, "formulation"), "%s: a rigid body has no formulation", NodeWhere(NodeFind(node, "formulation")));
+  PetscCheckInput(!m->spec.law->small || small, "%s: law %s is for small strains; set kinematics: small or take another law (neo_hookean)",
+                  NodeWhere(NodeFind(node, "law")), m->law);
+  PetscCheckInput(m->spec.law->small || m->spec.law->rigid || !small, "%s: kinematics: small needs law: linear, not %s", NodeWhere(NodeFind(node, "law")),
+                  m->law);
+  PetscCall(MaterialSetUp(&m->spec, num, names, values));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- bodies, boundaries, contacts, probes ------------------------------------------------------------------------------------------- */
+
+static PetscErrorCode ReadBody_Private(Scene s, SceneNode *node, BodyEntry *b)
+{
+  const char *names[64];
+  PetscInt    num = s->data.num_materials;
+  PetscBool   rigid;
+
+  PetscFunctionBegin;
+  b->node       = node;
+  b->spec.order = s->order;
+  PetscCall(PetscStrncpy(b->spec.name, node->key, MORTISE_NAME));
+  PetscCall(OptionsRead("body", node, s->data.mesh.dim, b));
+  for (PetscInt i = 0; i < num; ++i) {
+    if (i < 64) names[i] = s->material[i].spec.name;
+    if (strcmp(s->material[i].spec.name, b->material)) continue;
+    s->material[i].used = PETSC_TRUE;
+    b->spec.material    = &s->data.materials[i];
+  }
+  PetscCheckInput(b->spec.material, "%s is '%s', which is not under material%s%s", NodeWhere(NodeFind(node, "material")), b->material,
+                  num ? "; the nearest name is " : "", NearestName(b->material, PetscMin(num, 64), names));
+  rigid = b->spec.material->law->rigid;
+  PetscCheckInput(rigid || !NodeFind(node, "motion"), "%s: only a rigid body moves as told, and material %s is %s; prescribe a boundary instead",
+                  NodeWhere(NodeFind(node, "motion")), b->material, b->spec.material->law->name);
+  PetscCheckInput(!rigid || !NodeFind(node, "force"), "%s: a rigid body moves as told and takes no force", NodeWhere(NodeFind(node, "force")));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode CheckRotation_Private(Scene s, const SceneNode *rotation, BoundaryEntry *b)
+{
+  PetscFunctionBegin;
+  b->spec.rotation      = PETSC_TRUE;
+  b->spec.rotation_axis = b->rotation_axis;
+  PetscCheckInput(b->spec.rotation_angle, "%s.angle must be given, in degrees", NodeWhere(rotation));
+  PetscCheckInput(s->data.mesh.dim == 3 || b->rotation_axis == 2, "%s: a two-dimensional model turns about z only", NodeWhere(rotation));
+  PetscCheckInput(s->data.mechanics.model != MODEL_AXISYMMETRIC, "%s: an axisymmetric model cannot turn", NodeWhere(rotation));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode ReadBoundary_Private(Scene s, SceneNode *node, BoundaryEntry *b)
+{
+  const SceneNode *rotation = NodeFind(node, "rotation");
+  PetscBool        any      = PETSC_FALSE;
+
+  PetscFunctionBegin;
+  b->node       = node;
+  b->spec.group = -1;
+  PetscCall(PetscStrncpy(b->spec.name, node->key, MORTISE_NAME));
+  PetscCall(OptionsRead("boundary", node, s->data.mesh.dim, b));
+  if (rotation) PetscCall(CheckRotation_Private(s, rotation, b));
+  for (int c = 0; c < 3; ++c) {
+    PetscCheckInput(!b->spec.displacement[c] || !b->spec.fix[c], "%s: %c is both fixed and displaced", NodeWhere(node), 'x' + c);
+    PetscCheckInput(!rotation || (!b->spec.fix[c] && !b->spec.displacement[c]), "%s prescribes all displacements; take fix and displacement away",
+                    NodeWhere(rotation));
+    PetscCheckInput(!b->spec.fix_normal || !b->spec.displacement[c], "%s: fix: normal and displacement cannot be combined", NodeWhere(node));
+    if (b->spec.displacement[c] || b->spec.fix[c] || b->spec.traction[c]) any = PETSC_TRUE;
+  }
+  PetscCheckInput(!rotation || !b->spec.fix_normal, "%s prescribes all displacements; take fix away", NodeWhere(rotation));
+  PetscCheckInput(any || rotation || b->spec.fix_normal || b->spec.pressure,
+                  "%s prescribes nothing; it needs one of displacement, fix, rotation, pressure, traction", NodeWhere(node));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode ReadContact_Private(Scene s, SceneNode *node, ContactEntry *c)
+{
+  PetscFunctionBegin;
+  c->node = node;
+  PetscCall(PetscStrncpy(c->spec.name, node->key, MORTISE_NAME));
+  PetscCall(OptionsRead("contact", node, s->data.mesh.dim, c));
+  c->spec.order = 1;
+  PetscCheckInput(c->order == 0, "%s: contact faces of full order are not built yet; allowed: 1", NodeWhere(NodeFind(node, "order")));
+  PetscCheckInput(c->spec.friction == 0, "%s is %g: friction is not built yet; allowed: 0", NodeWhere(NodeFind(node, "friction")), (double)c->spec.friction);
+  PetscCheckInput(strcmp(c->nonmortar, c->mortar), "%s: both sides are '%s'; a pair needs two different surfaces", NodeWhere(node), c->mortar);
+  PetscCheckInput(s->data.mesh.dim == 2, "%s: contact in three dimensions is not built yet", NodeWhere(node));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode ReadProbe_Private(Scene s, SceneNode *node, ProbeEntry *p)
+{
+  PetscFunctionBegin;
+  p->node = node;
+  PetscCall(PetscStrncpy(p->spec.name, node->key, MORTISE_NAME));
+  PetscCall(OptionsRead("probe", node, s->data.mesh.dim, p));
+  PetscCheckInput(NodeCount(node), "%s needs coordinates x, y%s", NodeWhere(node), s->data.mesh.dim == 3 ? ", z" : "");
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Allocate an entry per child of a section and read each. */
+#define READ_SECTION(s, section, num, array, reader)                                                                                                           \
+  do {                                                                                                                                                         \
+    const SceneNode *map_ = NodeFind((s)->root, section);                                                                                                      \
+    PetscInt         i_   = 0;                                                                                                                                 \
+    (num)                 = NodeCount(map_);                                                                                                                   \
+    PetscCall(PetscCalloc1(num, &(array)));                                                                                                                    \
+    for (SceneNode *node_ = map_ ? map_->first : NULL; node_; node_ = node_->next) PetscCall(reader(s, node_, &(array)[i_++]));                                \
+  } while (0)
+
+PetscErrorCode SceneRead(Scene s, int argc, char **argv)
+{
+  SceneData *d = &s->data;
+
+  PetscFunctionBegin;
+  for (int pass = 0; pass < 2; ++pass) { /* the file alone, then with the command line */
+    if (pass) PetscCall(OptionsOverride(s->root, argc, argv));
+    PetscCall(CheckLaws_Private(s->root));
+    PetscCall(OptionsCheckTree(s->root));
+  }
+  PetscCall(ReadGeneral_Private(s));
+  READ_SECTION(s, "material", d->num_materials, s->material, ReadMaterial_Private);
+  PetscCall(PetscMalloc1(d->num_materials, &d->materials));
+  for (PetscInt i = 0; i < d->num_materials; ++i) d->materials[i] = s->material[i].spec;
+  READ_SECTION(s, "body", s->num_bodies, s->body, ReadBody_Private);
+  READ_SECTION(s, "boundary", s->num_boundaries, s->boundary, ReadBoundary_Private);
+  READ_SECTION(s, "contact", d->num_contacts, s->contact, ReadContact_Private);
+  READ_SECTION(s, "probe", d->num_probes, s->probe, ReadProbe_Private);
+  PetscCall(PetscMalloc1(d->num_probes, &d->probes));
+  for (PetscInt i = 0; i < d->num_probes; ++i) d->probes[i] = s->probe[i].spec;
+  PetscCheckInput(s->num_bodies, "%s: there is no body; each physical group of the mesh needs a line under body: name: {material: ...}", s->root->origin);
+  for (PetscInt i = 0; i < d->num_materials; ++i) PetscCheckInput(s->material[i].used, "%s is used by no body", NodeWhere(s->material[i].node));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

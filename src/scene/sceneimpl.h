@@ -1,0 +1,129 @@
+/* Private to scene: the tree of keys, the option table and the objects it fills. */
+#pragma once
+#include "scene.h"
+
+/* ---- the tree of keys (yaml.c) ------------------------------------------------------------------------------------------ */
+
+typedef enum { NODE_SCALAR, NODE_LIST, NODE_MAP } NodeKind;
+
+typedef struct _SceneNode SceneNode;
+struct _SceneNode {
+  NodeKind    kind;
+  char       *key;    /* owned; "" for the root and for items of a list */
+  char       *text;   /* owned; value of a scalar, else NULL */
+  PetscBool   quoted; /* the scalar stood in quotes */
+  PetscInt    line;   /* in the file, from 1; 0: from the command line */
+  const char *origin; /* borrowed; name of the file */
+  SceneNode  *parent, *first, *last, *next;
+};
+
+/* Parse YAML text into *root (a map). Errors name origin, line and column. *root is to be destroyed also after an error. Not collective. */
+PetscErrorCode SceneParse(const char *origin, const char *text, size_t length, SceneNode **root);
+PetscErrorCode NodeCreate(SceneNode *parent, const char *key, NodeKind, const char *origin, PetscInt line, SceneNode **);
+PetscErrorCode NodeDestroy(SceneNode **);
+PetscErrorCode NodeSetText(SceneNode *, const char *text);
+SceneNode     *NodeFind(const SceneNode *map, const char *key); /* child or NULL; map may be NULL */
+PetscInt       NodeCount(const SceneNode *);                    /* children; NULL: 0 */
+PetscBool      NodeIsEmpty(const SceneNode *);                  /* `key:` with nothing after it */
+const char    *NodeWhere(const SceneNode *);                    /* "file:line: a.b.c" in a buffer that lives until the eighth next call */
+
+/* ---- the option table (optiontable.c) ----------------------------------------------------------------------------------- */
+
+typedef enum { KEY_TEXT, KEY_WORD, KEY_INT, KEY_REAL, KEY_BOOL, KEY_EXPRESSION, KEY_AMPLITUDE, KEY_AXES, KEY_PARAMETER } KeyType;
+
+#define OPTION_DEPTH 8 /* keys above each other */
+
+/* One row: what -help prints, what parsing and checks do. Pattern: keys joined by '.', <name> stands for any name, <axis> for x, y or z,
+   <parameter> for a parameter of a law. Range: an interval "[1,8]", "(0,inf)", or words "small|finite" (their order is that of the enum). */
+typedef struct {
+  const char *pattern;
+  KeyType     type;
+  const char *unit;     /* in the user's own symbols: length, stress, … */
+  const char *fallback; /* default as text; NULL: the key must be given; "": absent */
+  const char *range, *help;
+  size_t      offset, size; /* place in the object of its section; size of a text */
+} Option;
+
+extern const Option Options[]; /* ended by pattern NULL */
+
+/* Where a section of the table stores: the scene itself, or one of these per name. */
+typedef struct {
+  MaterialSpec spec;
+  char         law[MORTISE_NAME];
+  int          volumetric, formulation;
+  SceneNode   *node; /* borrowed */
+  PetscBool    used;
+} MaterialEntry;
+
+typedef struct {
+  BodySpec   spec;
+  char       material[MORTISE_NAME];
+  SceneNode *node;
+} BodyEntry;
+
+typedef struct {
+  BoundarySpec spec;
+  int          rotation_axis;
+  SceneNode   *node;
+} BoundaryEntry;
+
+typedef struct {
+  ContactSpec spec;
+  char        nonmortar[MORTISE_NAME], mortar[MORTISE_NAME];
+  int         order;
+  SceneNode  *node;
+} ContactEntry;
+
+typedef struct {
+  ProbeSpec  spec;
+  SceneNode *node;
+} ProbeEntry;
+
+struct _p_Scene {
+  MPI_Comm  comm;
+  SceneData data; /* what others see; its arrays are owned here */
+  PetscBool check;
+
+  SceneNode *root;                          /* owned */
+  char      *text;                          /* owned; the file */
+  char       mesh_file[PETSC_MAX_PATH_LEN]; /* as written in the scene */
+  PetscInt   mesh_order, order;
+  PetscBool  setup;
+  char       directory[PETSC_MAX_PATH_LEN]; /* of the scene file, with '/' at its end */
+  char       temporary[PETSC_MAX_PATH_LEN]; /* directory of the generated mesh, "" when none; rank 0 removes it */
+
+  MaterialEntry *material; /* [data.num_materials] */
+  BodyEntry     *body;     /* [num_bodies] in file order */
+  BoundaryEntry *boundary;
+  ContactEntry  *contact;
+  ProbeEntry    *probe;
+  PetscInt       num_bodies, num_boundaries;
+};
+
+/* Every key of the tree is in the table and has the right shape. Not collective. */
+PetscErrorCode OptionsCheckTree(const SceneNode *root);
+/* Read all rows of a section ("" for those without names) from its node (NULL: defaults) into object. dim 2: a z component is an error. */
+PetscErrorCode OptionsRead(const char *section, const SceneNode *, PetscInt dim, void *object);
+/* A number as text, finite, whole text. */
+PetscBool OptionParseReal(const char *text, PetscReal *);
+/* Put the options of the command line that are scene keys into the tree and take them out of PETSc's global database. */
+PetscErrorCode OptionsOverride(SceneNode *root, int argc, char **argv);
+/* Whether s is one of the keys at the top of a scene, s not necessarily ended by 0. */
+PetscBool OptionIsTopKey(const char *s, size_t length);
+/* Nearest known key to path ('.' or '_' between its words, as separator says). */
+PetscErrorCode OptionNearest(const SceneNode *root, const char *path, char separator, size_t capacity, char nearest[]);
+PetscBool      OptionKnowsParameter(const char *name); /* of any law of the table of laws */
+/* Nearest of a list of names. */
+const char *NearestName(const char *name, PetscInt num, const char *const names[]);
+/* Split "a.b.c" into words; returns how many. */
+PetscInt OptionSplit(const char *pattern, char words[OPTION_DEPTH][MORTISE_NAME]);
+
+/* ---- the rest --------------------------------------------------------------------------------------------------------------- */
+
+/* Fill data and entries from the tree and the command line (read.c); everything that needs no mesh is checked. */
+PetscErrorCode SceneRead(Scene, int argc, char **argv);
+/* Mesh the .geo, or take the .msh as it is: data.mesh.file is set (mesh.c). Collective. */
+PetscErrorCode SceneMakeMesh(Scene);
+PetscErrorCode SceneRemoveMesh(Scene);
+/* Match names with the groups of the mesh, fill data.bodies, boundaries, contacts, and check them (check.c). Collective. */
+PetscErrorCode SceneCheckMesh(Scene, Forest);
