@@ -1,0 +1,48 @@
+/* Private to app: what a run holds. */
+#pragma once
+#include "diagnose.h"
+#include "estimate.h"
+#include "output.h"
+#include "solve.h"
+#include "transfer.h"
+
+/* The part of a run that lives on one mesh; replaced as a whole at each adaptation. */
+typedef struct {
+  Forest  forest;
+  Problem problem;
+  Solver  solver;
+  State   state;    /* being computed */
+  State   accepted; /* at the end of the last accepted load step */
+} Level;
+
+typedef struct {
+  MPI_Comm         comm;
+  Scene            scene;
+  const SceneData *data;
+  Level            level;
+  Estimate         estimate;
+  PetscBool        estimated;
+  Balance          balance;
+  Probes           probes;
+  Writer           writer;
+  History          history;
+  Monitor          monitor;
+  PetscInt         load_steps, step_cuts, adapt_passes, newton_iterations, passes_in_step, iterations_in_step, cuts_in_step, states;
+  PetscLogDouble   start;
+  const char      *failure; /* why the run gave up, NULL while it goes on */
+  ReportRow        last;
+} App;
+
+/* loadstep.c: all load steps; app->failure is set when the solver gives up. Collective. */
+PetscErrorCode AppRun(App *);
+/* adaptstep.c: after a solution at the current time, refine and solve again until the tolerance or a limit is met. */
+PetscErrorCode AppAdapt(App *, PetscBool *ok);
+/* Bring level.state from its time to t on the current mesh, in as many pieces as it takes; *ok false when even the smallest failed.
+   max_pieces: give up beyond. */
+PetscErrorCode AppAdvance(App *, PetscReal t, PetscBool *ok);
+PetscErrorCode AppEstimate(App *);
+/* Fields, tables and screen of the state just computed. */
+PetscErrorCode AppReportPass(App *, PetscInt iterations, PetscBool accepted);
+
+PetscErrorCode LevelCreate(const SceneData *, Forest, const int8_t leaf_order[], PetscReal t, Level *);
+PetscErrorCode LevelDestroy(Level *);

@@ -1,0 +1,28 @@
+/* Everything bound to one mesh. */
+#include "appimpl.h"
+
+/* Takes the forest over. The states start at rest at time t. */
+PetscErrorCode LevelCreate(const SceneData *data, Forest forest, const int8_t leaf_order[], PetscReal t, Level *level)
+{
+  PetscFunctionBegin;
+  level->forest = forest;
+  PetscCall(ProblemCreate(data, forest, leaf_order, &level->problem));
+  PetscCall(ProblemSetTime(level->problem, t));
+  PetscCall(ProblemJump(level->problem));
+  PetscCall(SolverCreate(level->problem, &level->solver));
+  PetscCall(StateCreate(level->problem, &level->state));
+  PetscCall(StateCreate(level->problem, &level->accepted));
+  level->state.t = level->accepted.t = t;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode LevelDestroy(Level *level)
+{
+  PetscFunctionBegin;
+  PetscCall(StateDestroy(&level->state));
+  PetscCall(StateDestroy(&level->accepted));
+  PetscCall(SolverDestroy(&level->solver));
+  PetscCall(ProblemDestroy(&level->problem));
+  PetscCall(ForestDestroy(&level->forest));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

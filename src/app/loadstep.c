@@ -1,0 +1,122 @@
+/* The load steps: advance pseudo-time, cut on failure, grow on ease; adapt at each new time; report what was accepted. */
+#include "appimpl.h"
+
+#define EASY_ITERATIONS 6   /* a step that took no more Newton iterations lets the next one grow */
+#define GROWTH          1.5
+#define ROUND_OFF       1e-12
+
+/* One attempt from the accepted state of this mesh to time t. */
+static PetscErrorCode Attempt_Private(App *app, PetscReal t, SolverReport *report)
+{
+  Level *l = &app->level;
+
+  PetscFunctionBegin;
+  PetscCall(ProblemSetTime(l->problem, t));
+  PetscCall(SolverSolve(l->solver, &l->state, report));
+  app->newton_iterations += report->iterations;
+  app->iterations_in_step += report->iterations;
+  if (report->converged) l->state.t = t;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Back to a state and its time. */
+static PetscErrorCode Restore_Private(App *app, const State *from)
+{
+  PetscFunctionBegin;
+  PetscCall(StateCopy(from, &app->level.state));
+  PetscCall(ProblemSetTime(app->level.problem, from->t));
+  PetscCall(ProblemJump(app->level.problem));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode AppAdvance(App *app, PetscReal t, PetscBool *ok)
+{
+  Level       *l = &app->level;
+  PetscReal    dt = t - l->state.t;
+  State        start;
+  SolverReport report;
+
+  PetscFunctionBegin;
+  *ok = PETSC_TRUE;
+  PetscCall(StateCreate(l->problem, &start));
+  while (*ok && l->state.t < t - ROUND_OFF * app->data->load.end) {
+    const PetscReal next = PetscMin(t, l->state.t + dt);
+    PetscCall(StateCopy(&l->state, &start));
+    PetscCall(Attempt_Private(app, next, &report));
+    if (report.converged) continue;
+    PetscCall(Restore_Private(app, &start));
+    dt *= 0.5;
+    ++app->step_cuts;
+    ++app->cuts_in_step;
+    PetscCall(PetscInfo(NULL, "step to t = %g cut: %s\n", (double)next, report.reason));
+    if (dt < app->data->load.step_min) {
+      app->failure = report.reason;
+      *ok          = PETSC_FALSE;
+    }
+  }
+  PetscCall(StateDestroy(&start));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* One accepted load step of at most dt: the first piece that converges, then adaptation at its time. */
+static PetscErrorCode LoadStep_Private(App *app, PetscReal *dt, PetscBool *ok)
+{
+  Level          *l   = &app->level;
+  const PetscReal end = app->data->load.end, t0 = l->accepted.t;
+  SolverReport    report;
+
+  PetscFunctionBegin;
+  app->iterations_in_step = app->cuts_in_step = app->passes_in_step = 0;
+  for (;;) {
+    PetscReal t = t0 + *dt;
+    if (t > end - ROUND_OFF * end) t = end;
+    PetscCall(Attempt_Private(app, t, &report));
+    *ok = report.converged;
+    if (*ok) break;
+    PetscCall(Restore_Private(app, &l->accepted));
+    *dt *= 0.5;
+    ++app->step_cuts;
+    ++app->cuts_in_step;
+    if (*dt >= app->data->load.step_min) continue;
+    app->failure = report.reason;
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
+  const PetscBool easy = (PetscBool)(report.iterations <= EASY_ITERATIONS && app->cuts_in_step == 0);
+  PetscCall(AppAdapt(app, ok));
+  if (easy) *dt = PetscMin(GROWTH * *dt, app->data->load.step_max);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode Accept_Private(App *app, PetscReal t0)
+{
+  Level *l = &app->level;
+
+  PetscFunctionBegin;
+  PetscCall(StateCopy(&l->state, &l->accepted));
+  ++app->load_steps;
+  app->last.dt                = l->state.t - t0;
+  app->last.step              = app->load_steps;
+  app->last.newton_iterations = app->iterations_in_step;
+  app->last.step_cuts         = app->cuts_in_step;
+  PetscCall(HistoryStep(app->history, &app->last, &app->balance, l->problem, &l->state));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode AppRun(App *app)
+{
+  const LoadSpec *load = &app->data->load;
+  PetscReal       dt   = load->step;
+  PetscBool       ok   = PETSC_TRUE;
+
+  PetscFunctionBegin;
+  while (ok && app->level.accepted.t < load->end) {
+    const PetscReal t0 = app->level.accepted.t;
+    if (app->load_steps == load->max_steps) {
+      app->failure = "load.max_steps was reached before load.end";
+      break;
+    }
+    PetscCall(LoadStep_Private(app, &dt, &ok));
+    if (ok) PetscCall(Accept_Private(app, t0));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
