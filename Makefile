@@ -63,7 +63,7 @@ LIBRARY := $(BUILD)/libmortise.a
 LIBOBJS := $(filter-out $(BUILD)/app/main.o,$(OBJECTS))
 UNITS   := $(patsubst tests/unit/%.c,$(BUILD)/unit/%,$(wildcard tests/unit/test_*.c))
 BENCHES := $(patsubst tests/bench/%.c,$(BUILD)/bench/%,$(wildcard tests/bench/*.c))
-TRACKED  = $(shell git ls-files '*.c' '*.h')
+TRACKED  = $(wildcard $(shell git ls-files '*.c' '*.h'))
 
 .PHONY: all units unit bootstrap demo run-demo test run-test verify run-verify chart bench run-bench format format-check lint floors sizes docs clean FORCE
 all: $(PROGRAM)

@@ -1,21 +1,25 @@
-/* Floor 7. Files of a run: HDF5 + XDMF field files, csv tables, summary.json. */
+/* Floor 8. Files of a run: HDF5 + XDMF field files, csv tables, summary.json. */
 #pragma once
-#include "base.h"
+#include "diagnose.h"
 
 /* ---- field files (output/writer.c): fields.xdmf + one HDF5 file per state -------------------------------------------- */
 
 typedef struct _p_Writer *Writer;
 typedef enum { CELL_POLYLINE2, CELL_QUAD4, CELL_HEX8 } CellShape; /* VTK/XDMF vertex order is applied by the writer; conn comes lexicographic */
 
-/* Open directory/fields.xdmf for a new series (directory must exist). The index is rewritten (to a temporary, then renamed) after each state: readable at any time. Collective. */
+/* Open directory/fields.xdmf for a new series (directory must exist). The index is rewritten (to a temporary, then renamed) after each state: readable at any
+ * time. Collective. */
 /* Index and fields_KKKK.h5 of an earlier series in the same directory are removed, so that what is there belongs together. */
 PetscErrorCode WriterCreate(MPI_Comm, const char *directory, Writer *);
 PetscErrorCode WriterDestroy(Writer *);
-/* Begin state number k (0, 1, …) at XDMF time `time` (strictly increasing), with scalar attributes. One file directory/fields_KKKK.h5, collective parallel HDF5, chunked + shuffle + deflate. */
+/* Begin state number k (0, 1, …) at XDMF time `time` (strictly increasing), with scalar attributes. One file directory/fields_KKKK.h5, collective parallel
+ * HDF5, chunked + shuffle + deflate. */
 PetscErrorCode WriterBegin(Writer, PetscReal time, PetscInt step, PetscInt pass, PetscReal load_time);
-/* This rank's part of a grid: points X[np][3] and cells conn[nc][2^d], local point numbers, lexicographic. Parts of ranks are concatenated in rank order; ranks may have none. */
+/* This rank's part of a grid: points X[np][3] and cells conn[nc][2^d], local point numbers, lexicographic. Parts of ranks are concatenated in rank order; ranks
+ * may have none. */
 PetscErrorCode WriterGrid(Writer, const char *grid, CellShape, PetscInt np, const PetscReal *X, PetscInt nc, const PetscInt *conn);
-/* A field of the last grid: at points ([np][ncomp]) or cells ([nc][ncomp]); ncomp 1 (Scalar), 3 (Vector), 6 (Tensor6: xx xy xz yy yz zz), integer-valued fields as PetscReal. */
+/* A field of the last grid: at points ([np][ncomp]) or cells ([nc][ncomp]); ncomp 1 (Scalar), 3 (Vector), 6 (Tensor6: xx xy xz yy yz zz), integer-valued fields
+ * as PetscReal. */
 PetscErrorCode WriterField(Writer, const char *name, PetscBool at_cells, PetscInt ncomp, const PetscReal *data);
 PetscErrorCode WriterEnd(Writer); /* flush, attribute "complete", close, rewrite the index */
 
@@ -23,9 +27,9 @@ PetscErrorCode WriterEnd(Writer); /* flush, attribute "complete", close, rewrite
 
 /* csv with named columns, written by rank 0, flushed after each row. Columns: names[n]; rows: values[n], %.12g. */
 typedef struct _p_Table *Table;
-PetscErrorCode TableCreate(MPI_Comm, const char *path, PetscInt n, const char *const names[], Table *);
-PetscErrorCode TableRow(Table, const PetscReal values[]);
-PetscErrorCode TableDestroy(Table *);
+PetscErrorCode           TableCreate(MPI_Comm, const char *path, PetscInt n, const char *const names[], Table *);
+PetscErrorCode           TableRow(Table, const PetscReal values[]);
+PetscErrorCode           TableDestroy(Table *);
 
 /* ---- summary (output/replace.c) ---------------------------------------------------------------------------------------- */
 
@@ -33,3 +37,79 @@ PetscErrorCode TableDestroy(Table *);
    finite become null. Collective. */
 struct cJSON;
 PetscErrorCode SummaryWrite(MPI_Comm, const char *path, const struct cJSON *document);
+
+/* ---- fields of a state (output/state.c, stress.c, contactgrid.c) ------------------------------------------------------------ */
+
+/* Write one state as the grids below. Points stand at reference positions; `displacement` moves them. error: from estimate (NULL: 0). Evaluates the residual,
+   so that the contact tables belong to this state. Collective.
+
+   bulk: owned cells of all ranks, each cell of order p cut into p^dim pieces at its Gauss-Lobatto nodes. Two layouts, one for a whole run:
+     - a scene that only ever has cells of order 1 shares points between the cells of a rank, and stress-like fields are per cell (value at its centre);
+     - any other scene gives each cell its own (p+1)^dim points, and stress-like fields are per point, continuous within a cell only.
+   Stress-like fields are evaluated at the p^dim Gauss points, where derivatives of the solution are most accurate (and the pressure of mixed cells lives),
+   and extended over the cell by polynomials of degree p-1 in each direction. They are: pressure (-tr(sigma)/3), stress (Cauchy: xx xy xz yy yz zz), von_mises,
+   J. In rigid bodies the stress is 0 and J is 1. In small kinematics sigma is the linear law's stress and J = 1 + tr(grad u). Points: displacement. Cells:
+   order, level (largest number of halvings of its coarse cell in a direction), body, rank, error (square root of the indicator), cell (leaf).
+
+   contact: nonmortar edges of all pairs. Points: displacement, gap (gt_j/w_j; 0 where status is -1), contact_pressure (z_j), status (0 open, 1 in contact, -1
+   faces nothing or carries no multiplier), normal. Cells: pair (index), cell (leaf).
+
+   segments (only with OutputSpec.segments): a quad for each segment, between the part of the nonmortar edge and the part of the mortar edge that see each
+   other. Points: displacement. Cells: pair, edge, mortar_edge. */
+PetscErrorCode OutputWriteState(Writer, Problem, const State *, const Estimate *, PetscReal series_time, PetscInt step, PetscInt pass);
+/* The contact and segments grids of it; tables as of the last evaluation. Collective. */
+PetscErrorCode OutputWriteContact(Writer, Problem);
+
+/* Cauchy stress sigma[6] (xx xy xz yy yz zz) and J (NULL: skip) from F and first Piola stress P, row-major. */
+void OutputCauchy(Kinematics, const PetscReal F[9], const PetscReal P[9], PetscReal sigma[6], PetscReal *J);
+/* Stress-like values of one cell: 7 numbers (sigma, J) at its p^dim Gauss points, samples[p^dim][7]; rigid bodies: zero stress, J = 1. u: local displacement
+ * array. */
+PetscErrorCode OutputSampleCell(Problem, PetscInt cell, const PetscReal u[], PetscReal samples[]);
+/* Extension of num components from the p^dim Gauss points to the (p+1)^dim Gauss-Lobatto nodes, lexicographic, components fastest. work: as long as nodal. */
+PetscErrorCode OutputExtend(PetscInt dim, PetscInt order, PetscInt num, const PetscReal samples[], PetscReal nodal[], PetscReal work[]);
+
+/* ---- probes (output/probe.c) --------------------------------------------------------------------------------------------- */
+
+/* The scene's probes, found once in the coarse mesh (exact geometry): places survive adaptation. A point outside all cells by more than 1 % of a cell is an
+   input error that names the probe; one that lies outside by less is moved onto the cell. Not collective (input is replicated). */
+typedef struct _p_Probes *Probes;
+PetscErrorCode            ProbesCreate(const SceneData *, Forest, Probes *);
+PetscErrorCode            ProbesDestroy(Probes *);
+/* Coarse cell and place in it, xi[3] in [0,1]. */
+PetscErrorCode ProbesGetPlace(Probes, PetscInt probe, PetscInt *root, PetscReal xi[3]);
+/* displacement[num][3], Cauchy stress[num][6] (NULL: skip) of all probes, on all ranks. Collective. */
+PetscErrorCode ProbesEvaluate(Probes, Problem, Vec x, PetscReal displacement[][3], PetscReal stress[][6]);
+
+/* ---- history.csv and adapt.csv (output/history.c) ------------------------------------------------------------------------ */
+
+/* Columns of adapt.csv: step, pass, t, cells, dofs, newton_iterations, active_nodes, estimated_error, estimate, energy, min_det, min_gap, contact_force,
+   seconds, accepted. Columns of history.csv: step, t, dt, passes, step_cuts, cells … seconds as above, force_imbalance, moment_imbalance, support_imbalance,
+   then reaction.<boundary>.x … for boundaries with supports, contact.<pair>.force.x …, contact.<pair>.moment (3-D: .x .y .z), .max_pressure, .area, .radius
+   (2-D), .active_nodes, .min_gap, probe.<name>.displacement.x …, probe.<name>.stress.xx … (those of model_3d: 6; plane: xx xy yy zz). Names as in summary.json.
+ */
+typedef struct _p_History *History;
+PetscErrorCode HistoryCreate(MPI_Comm, const SceneData *, Probes, History *); /* opens both in the output directory, which must exist. Collective. */
+PetscErrorCode HistoryPass(History, const ReportRow *);                       /* a row of adapt.csv. Collective. */
+PetscErrorCode HistoryStep(History, const ReportRow *, const Balance *, Problem, const State *); /* a row of history.csv. Collective. */
+PetscErrorCode HistoryDestroy(History *);
+
+/* ---- summary.json (output/summary.c) ------------------------------------------------------------------------------------- */
+
+typedef struct {
+  const char     *status, *reason; /* "converged", "failed", "stopped"; why, or "" */
+  PetscReal       t, seconds;      /* pseudo-time reached; wall time so far */
+  PetscInt        load_steps, step_cuts, adapt_passes, newton_iterations, active_set_changes;
+  Problem         problem;  /* of the last accepted state; NULL: nothing was solved */
+  const State    *state;    /* with problem */
+  const Balance  *balance;  /* with problem; NULL: no figures */
+  const Estimate *estimate; /* NULL: not estimated */
+  Probes          probes;   /* NULL: none */
+} RunSummary;
+
+/* Write summary.json into the scene's output directory (docs/manual: keys). Unknown figures are null. peak_memory_mb is the sum over ranks,
+   peak_memory_rank_mb the largest of one; times are the largest of any rank. Collective. */
+PetscErrorCode OutputSummary(MPI_Comm, const SceneData *, const RunSummary *);
+/* Make the directory and its parents; an input error when that is impossible. Collective. */
+PetscErrorCode OutputDirectoryCreate(MPI_Comm, const char *path);
+/* Does this boundary hold something (fix, displacement, rotation)? Then it has a reaction. */
+PetscBool BoundarySupports(const BoundarySpec *);

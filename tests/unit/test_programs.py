@@ -1,6 +1,7 @@
 """Runs every cmocka program of tests/unit on 1 and 2 ranks, so that one closing line counts unit tests and cases alike.
 
-By name: test_*_serial.c on one rank only, test_*_mpi.c also on 3 ranks. Programs are built by `make units`.
+By name: test_*_serial.c on one rank only, test_*_mpi.c also on 3 ranks; tests of modules that never communicate on one rank unless they say _mpi.
+Programs are built by `make units`.
 """
 import os
 import pathlib
@@ -10,13 +11,15 @@ import pytest
 
 HERE = pathlib.Path(__file__).resolve().parent
 BUILD = pathlib.Path(os.environ.get("MORTISE_BUILD", HERE.parent.parent / "build"))
+POINTWISE = ("base", "element", "material")
 SECONDS = 240  # a rank that fails an assertion may leave the others waiting: that is a failure, not a hang
 
 
 def runs():
     for source in sorted(HERE.glob("test_*.c")):
         name = source.stem
-        ranks = (1,) if name.endswith("_serial") else (1, 2, 3) if name.endswith("_mpi") else (1, 2)
+        alone = name.endswith("_serial") or name.split("_")[1] in POINTWISE
+        ranks = (1, 2, 3) if name.endswith("_mpi") else (1,) if alone else (1, 2)
         yield from ((name, n) for n in ranks)
 
 
