@@ -54,6 +54,7 @@ typedef struct {
   const PetscInt  *edge_leaf;    /* [num_edges] */
   const PetscReal *X;            /* [num_nodes][2] */
   const PetscReal *x;            /* [num_nodes][2] at the last evaluation */
+  const PetscReal *force;        /* [num_nodes][2] contact force at the last residual */
 } SurfaceView;
 
 typedef struct {

@@ -161,7 +161,7 @@ static PetscErrorCode Reserve_Private(PetscInt needed, PetscInt *size, size_t un
 }
 
 /* Masters of a cell that is not simple: union of the rows of its nodes, and the dense matrix. */
-static PetscErrorCode ConstrainedCell_Private(HPSpace hp, PetscInt cell, PetscInt n, const PetscReal *nodes, HPRow rows[2], HPRow *masters, PetscReal **dense, PetscInt *size)
+static PetscErrorCode ConstrainedCell_Private(HPSpace hp, PetscInt cell, PetscInt n, const PetscReal *nodes, HPRow *rows, HPRow *masters, PetscReal **dense, PetscInt *size)
 {
   PetscFunctionBegin;
   PetscCall(HPRowReset_Private(masters));

@@ -95,7 +95,7 @@ static void View_Private(Contact *c)
   SurfaceView *sv[2] = {&v->nonmortar, &v->mortar};
   for (PetscInt k = 0; k < 2; ++k) {
     const Surface *s = &c->side[k];
-    *sv[k]           = (SurfaceView){s->num_nodes, s->num_edges, s->node_entity, s->edges, s->edge_leaf, s->X, s->x};
+    *sv[k]           = (SurfaceView){s->num_nodes, s->num_edges, s->node_entity, s->edges, s->edge_leaf, s->X, s->x, s->force};
   }
   v->spec           = c->spec;
   v->z              = c->z;
