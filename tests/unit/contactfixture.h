@@ -9,6 +9,8 @@
 
 #include <cmocka.h>
 
+#include "near.h"
+
 #define CHECK_CALL(...) assert_int_equal((int)(__VA_ARGS__), 0)
 
 typedef struct {
@@ -184,4 +186,25 @@ static inline void SearchAll(ContactPair pair, const Chain *nonmortar, const Cha
 static inline PetscReal *Unknown(Chain *nonmortar, Chain *mortar, PetscInt i)
 {
   return i < 2 * nonmortar->s.num_nodes ? &nonmortar->x[i] : &mortar->x[i - 2 * nonmortar->s.num_nodes];
+}
+
+#define CONTACT_TEST_MAIN(title, ...)                                                                                                                          \
+  int main(int argc, char **argv)                                                                                                                              \
+  {                                                                                                                                                            \
+    const struct CMUnitTest tests[] = {__VA_ARGS__};                                                                                                           \
+    int                     failures;                                                                                                                          \
+                                                                                                                                                               \
+    if (PetscInitialize(&argc, &argv, NULL, NULL)) return 1;                                                                                                   \
+    failures = cmocka_run_group_tests_name(title, tests, NULL, NULL);                                                                                          \
+    return PetscFinalize() ? 1 : failures;                                                                                                                     \
+  }
+
+/* One evaluation: pair created, searched, evaluated into s (created here). Destroy both. */
+static inline void EvaluateOnce(Chain *nonmortar, Chain *mortar, PetscBool axisymmetric, PetscBool nts, PetscReal distance, const PetscReal z[],
+                                ContactPair *pair, Sum *s)
+{
+  CHECK_CALL(ContactPairCreate(axisymmetric, nts, pair));
+  SearchAll(*pair, nonmortar, mortar, distance, 0);
+  SumCreate(s, nonmortar->s.num_nodes, mortar->s.num_nodes);
+  SumEvaluate(s, *pair, nonmortar, mortar, z, PETSC_TRUE, z ? PETSC_TRUE : PETSC_FALSE);
 }

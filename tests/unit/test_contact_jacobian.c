@@ -4,7 +4,7 @@
 enum { NN = 6, NM = 7 };
 
 typedef struct {
-  PetscBool axisymmetric, nts, mirror, folded;
+  PetscBool axisymmetric, nts, mirror, folded, closed;
   PetscReal gap, radius;
 } Kind;
 
@@ -36,6 +36,11 @@ static void MakePair(const Kind *kind, uint64_t *seed, Chain *nonmortar, Chain *
   PetscReal angle = kind->axisymmetric ? 0.3 * Random(seed) : 3 * Random(seed);
 
   RandomPair(seed, NN, NM, kind->gap, nonmortar, mortar);
+  if (kind->closed) { /* a triangle, top edge first: each node's two neighbours are the other two */
+    ChainDestroy(nonmortar);
+    ChainCreate(nonmortar, 3, PETSC_TRUE);
+    memcpy(nonmortar->x, (const PetscReal[6]){1, 0, 0, 0.02, 0.5 + 0.2 * Random(seed), -0.6}, 6 * sizeof(PetscReal));
+  }
   if (kind->mirror) nonmortar->mirror[0] = nonmortar->mirror[2 * NN - 2] = 1;
   if (kind->folded) { /* pull the middle node of the mortar side back over its neighbour */
     mortar->x[2 * 3] -= 0.3;
@@ -48,7 +53,7 @@ static void MakePair(const Kind *kind, uint64_t *seed, Chain *nonmortar, Chain *
 static void Compare(Errors *err, const Sum *exact, const PetscReal gap[4][NN], const PetscReal weight[4][NN], PetscReal *const gradient[4], PetscInt i,
                     PetscReal h, const PetscReal scale[3])
 {
-  for (PetscInt j = 0; j < NN; j++) {
+  for (PetscInt j = 0; j < exact->nn; j++) {
     const PetscReal g[4] = {gap[0][j], gap[1][j], gap[2][j], gap[3][j]}, w[4] = {weight[0][j], weight[1][j], weight[2][j], weight[3][j]};
 
     err->gradient = PetscMax(err->gradient, PetscAbsReal(Difference(g, h) - exact->dgap[j * exact->size + i]) / scale[0]);
@@ -83,15 +88,15 @@ static void CheckSeed(const Kind *kind, uint64_t seed, Errors *err)
   for (int j = 0; j < NN; j++) z[j] = Random(&seed);
   CHECK_CALL(ContactPairCreate(kind->axisymmetric, kind->nts, &pair));
   SearchAll(pair, &nonmortar, &mortar, 0.6, 1e-3);
-  SumCreate(&exact, NN, NM);
+  SumCreate(&exact, nonmortar.s.num_nodes, NM);
   SumEvaluate(&exact, pair, &nonmortar, &mortar, z, PETSC_TRUE, PETSC_TRUE);
   signature = Signature(pair);
   assert_false(exact.failed);
-  assert_true(exact.num >= NN / 2);
-  scale[0] = Largest(exact.dgap, NN * exact.size);
-  scale[1] = PetscMax(1e-3, Largest(exact.dweight, NN * exact.size));
+  assert_true(exact.num >= (kind->closed ? 1 : NN / 2));
+  scale[0] = Largest(exact.dgap, exact.nn * exact.size);
+  scale[1] = PetscMax(1e-3, Largest(exact.dweight, exact.nn * exact.size));
   scale[2] = Largest(exact.hessian, exact.size * exact.size);
-  for (int m = 0; m < 4; m++) SumCreate(&moved[m], NN, NM);
+  for (int m = 0; m < 4; m++) SumCreate(&moved[m], exact.nn, NM);
   for (PetscInt i = 0; i < exact.size; i++) {
     PetscReal *x = Unknown(&nonmortar, &mortar, i), x0 = *x;
     PetscBool  kink = PETSC_FALSE;
@@ -100,8 +105,8 @@ static void CheckSeed(const Kind *kind, uint64_t seed, Errors *err)
       *x = x0 + (m < 2 ? m - 2 : m - 1) * h;
       SumEvaluate(&moved[m], pair, &nonmortar, &mortar, z, PETSC_TRUE, PETSC_FALSE);
       if (Signature(pair) != signature) kink = PETSC_TRUE;
-      memcpy(gap[m], moved[m].gap, sizeof(gap[m]));
-      memcpy(weight[m], moved[m].weight, sizeof(weight[m]));
+      memcpy(gap[m], moved[m].gap, (size_t)exact.nn * sizeof(PetscReal));
+      memcpy(weight[m], moved[m].weight, (size_t)exact.nn * sizeof(PetscReal));
       gradient[m] = moved[m].gradient;
     }
     *x = x0;
@@ -163,19 +168,16 @@ static void Folded(void **state)
   CheckKind("folded mortar side", &(Kind){.gap = 0.05, .folded = PETSC_TRUE}, 60);
 }
 
+static void Closed(void **state)
+{
+  CheckKind("closed nonmortar triangle", &(Kind){.gap = 0.05, .closed = PETSC_TRUE}, 30);
+}
+
 static void NodeToSegment(void **state)
 {
   CheckKind("node to segment", &(Kind){.gap = 0.03, .nts = PETSC_TRUE}, 60);
   CheckKind("node to segment, axisymmetric", &(Kind){.gap = 0.03, .nts = PETSC_TRUE, .axisymmetric = PETSC_TRUE, .radius = 0.7}, 60);
 }
 
-int main(int argc, char **argv)
-{
-  const struct CMUnitTest tests[] = {cmocka_unit_test(Plane), cmocka_unit_test(Mirror), cmocka_unit_test(Axisymmetric), cmocka_unit_test(Folded),
-                                     cmocka_unit_test(NodeToSegment)};
-  int                     failures;
-
-  if (PetscInitialize(&argc, &argv, NULL, NULL)) return 1;
-  failures = cmocka_run_group_tests_name("contact: derivatives", tests, NULL, NULL);
-  return PetscFinalize() ? 1 : failures;
-}
+CONTACT_TEST_MAIN("contact: derivatives", cmocka_unit_test(Plane), cmocka_unit_test(Mirror), cmocka_unit_test(Axisymmetric), cmocka_unit_test(Folded),
+                  cmocka_unit_test(Closed), cmocka_unit_test(NodeToSegment))

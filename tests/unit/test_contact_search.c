@@ -1,0 +1,239 @@
+/* Search: same pairs as brute force, margin kept, layers told apart, large sliding, n log n, time. */
+#include "contactfixture.h"
+#include <petsctime.h>
+
+static void Cleanup(Chain *nonmortar, Chain *mortar, ContactPair *pair, Sum *s)
+{
+  CHECK_CALL(ContactPairDestroy(pair));
+  ChainDestroy(nonmortar);
+  ChainDestroy(mortar);
+  SumDestroy(s);
+}
+
+/* Gap along the ray from parameter l of edge e to mortar edge m by solving x + g nhat = c + tau (d - c); false: not hit or not facing. */
+static PetscBool Hit(const Chain *nonmortar, const Chain *mortar, const PetscReal *normal, PetscInt e, PetscReal l, PetscInt m, PetscReal *g)
+{
+  const PetscInt   a = nonmortar->edges[2 * e], b = nonmortar->edges[2 * e + 1];
+  const PetscReal *c = &mortar->x[2 * mortar->edges[2 * m]], *d = &mortar->x[2 * mortar->edges[2 * m + 1]];
+  const PetscReal *xa = &nonmortar->x[2 * a], *xb = &nonmortar->x[2 * b];
+  const PetscReal  x[2] = {(1 - l) * xa[0] + l * xb[0], (1 - l) * xa[1] + l * xb[1]};
+  const PetscReal  n[2] = {(1 - l) * normal[2 * a] + l * normal[2 * b], (1 - l) * normal[2 * a + 1] + l * normal[2 * b + 1]};
+  const PetscReal  E[2] = {d[0] - c[0], d[1] - c[1]}, t[2] = {xb[0] - xa[0], xb[1] - xa[1]};
+  const PetscReal  det = -n[0] * E[1] + E[0] * n[1], r[2] = {c[0] - x[0], c[1] - x[1]};
+  const PetscReal  s = (-r[0] * E[1] + E[0] * r[1]) / det, tau = (n[0] * r[1] - n[1] * r[0]) / det;
+
+  *g = s * hypot(n[0], n[1]);
+  return tau >= 0 && tau <= 1 && t[0] * E[0] + t[1] * E[1] < -0.1 * hypot(t[0], t[1]) * hypot(E[0], E[1]) ? PETSC_TRUE : PETSC_FALSE;
+}
+
+/* Sample points of every edge: covered by a facing mortar edge within `distance` if and only if one is there; by that one when there is just one. */
+static void CheckBrute(Chain *nonmortar, Chain *mortar, PetscReal distance, uint64_t *rng, PetscInt *samples, PetscInt *covered)
+{
+  ContactPair           pair;
+  Sum                   s;
+  const ContactSegment *seg;
+  const PetscReal      *normal;
+  PetscInt              num;
+
+  EvaluateOnce(nonmortar, mortar, PETSC_FALSE, PETSC_FALSE, distance, NULL, &pair, &s);
+  CHECK_CALL(ContactPairGetSegments(pair, &num, &seg));
+  CHECK_CALL(ContactPairGetNormals(pair, &normal));
+  for (PetscInt i = 0; i < 20 * nonmortar->s.num_edges; i++) {
+    const PetscInt  e    = i / 20;
+    const PetscReal l    = 0.5 + 0.499 * Random(rng);
+    PetscInt        near = 0, all = 0, only = -1, got = -1;
+
+    for (PetscInt m = 0; m < mortar->s.num_edges; m++) {
+      PetscReal g;
+
+      if (!Hit(nonmortar, mortar, normal, e, l, m, &g)) continue;
+      near += PetscAbsReal(g) < distance;
+      if (PetscAbsReal(g) < 2 * distance) all++, only = m;
+    }
+    for (PetscInt k = 0; k < num; k++)
+      if (seg[k].edge == e && seg[k].xi[0] <= 2 * l - 1 && 2 * l - 1 <= seg[k].xi[1]) got = seg[k].mortar_edge;
+    if (near > 0) assert_true(got >= 0);
+    if (near > 0 && all == 1) assert_int_equal(got, only);
+    if (all == 0) assert_int_equal(got, -1);
+    *covered += got >= 0;
+    (*samples)++;
+  }
+  CHECK_CALL(ContactPairDestroy(&pair));
+  SumDestroy(&s);
+}
+
+static void BruteForce(void **state)
+{
+  PetscInt samples = 0, covered = 0;
+
+  for (uint64_t seed = 1; seed <= 60; seed++) {
+    uint64_t rng = seed * 13;
+    Chain    nonmortar, mortar;
+
+    RandomPair(&rng, 20, 31, 0.05, &nonmortar, &mortar);
+    for (PetscInt i = 0; i < 31; i++) mortar.x[2 * i + 1] += 0.1 * (1 + sin(9 * mortar.x[2 * i] + (PetscReal)seed)); /* partly out of reach */
+    if (seed % 2) mortar.x[20] -= 0.05, mortar.x[21] += 0.02;                                                        /* and folded */
+    CheckBrute(&nonmortar, &mortar, 0.12, &rng, &samples, &covered);
+    ChainDestroy(&nonmortar);
+    ChainDestroy(&mortar);
+  }
+  print_message("%d samples, %d covered\n", (int)samples, (int)covered);
+  assert_true(covered > samples / 4 && covered < samples * 9 / 10);
+}
+
+/* Candidates with a margin: nodes moved by up to the margin give, bit for bit, what a new search gives. */
+static void Margin(void **state)
+{
+  for (uint64_t seed = 1; seed <= 40; seed++) {
+    const PetscReal margin = 0.04;
+    uint64_t        rng    = seed * 1717;
+    Chain           nonmortar, mortar;
+    ContactPair     pair, fresh;
+    Sum             s, t;
+
+    RandomPair(&rng, 9, 11, 0.03, &nonmortar, &mortar);
+    CHECK_CALL(ContactPairCreate(PETSC_FALSE, PETSC_FALSE, &pair));
+    SearchAll(pair, &nonmortar, &mortar, 0.5, margin);
+    for (PetscInt i = 0; i < 2 * (9 + 11); i++) *Unknown(&nonmortar, &mortar, i) += margin / sqrt(2) * (i % 2 ? 0.2 : 1) * Random(&rng);
+    SumCreate(&s, 9, 11);
+    SumEvaluate(&s, pair, &nonmortar, &mortar, NULL, PETSC_TRUE, PETSC_FALSE);
+    EvaluateOnce(&nonmortar, &mortar, PETSC_FALSE, PETSC_FALSE, 0.5, NULL, &fresh, &t);
+    for (int j = 0; j < 9; j++) assert_true(s.gap[j] == t.gap[j] && s.weight[j] == t.weight[j]);
+    CHECK_CALL(ContactPairDestroy(&fresh));
+    SumDestroy(&t);
+    Cleanup(&nonmortar, &mortar, &pair, &s);
+  }
+}
+
+/* Mortar: two thin closed bars above each other, all their sides listed. The near bar's near side is met, open or penetrated, never its far side
+   nor the bar behind. */
+static void Layers(void **state)
+{
+  for (int k = 0; k < 4; k++) {
+    const PetscReal       gap = (const PetscReal[]){0.02, 0, -0.004, -0.008}[k], thick = 0.01;
+    Chain                 nonmortar, mortar;
+    ContactPair           pair;
+    Sum                   s;
+    const ContactSegment *seg;
+    PetscInt              num;
+
+    ChainLine(&nonmortar, 12, 1, 0, 0, 0);
+    ChainCreate(&mortar, 16, PETSC_TRUE);
+    for (int bar = 0; bar < 2; bar++) /* bottom -0.2 .. 1.2 in three edges, then top backwards */
+      for (int i = 0; i < 4; i++) {
+        const PetscInt lower = 8 * bar + i, upper = 8 * bar + 7 - i;
+
+        mortar.x[2 * lower] = mortar.x[2 * upper] = -0.2 + 1.4 * i / 3;
+        mortar.x[2 * lower + 1]                   = gap + 0.03 * bar;
+        mortar.x[2 * upper + 1]                   = gap + 0.03 * bar + thick;
+      }
+    mortar.edges[2 * 7 + 1]  = 0;
+    mortar.edges[2 * 15 + 1] = 8;
+    EvaluateOnce(&nonmortar, &mortar, PETSC_FALSE, PETSC_FALSE, 0.5, NULL, &pair, &s);
+    CHECK_CALL(ContactPairGetSegments(pair, &num, &seg));
+    for (PetscInt i = 0; i < num; i++) assert_true(seg[i].mortar_edge < 3);
+    for (int j = 0; j < 12; j++) assert_near(s.gap[j], gap * s.weight[j], 1e-15);
+    assert_near(s.area, 1, 1e-14);
+    Cleanup(&nonmortar, &mortar, &pair, &s);
+  }
+}
+
+/* A short block slides over a long one, ten times its length in 100 steps, search at every step: always fully covered at the exact gap. */
+static void LargeSliding(void **state)
+{
+  Chain       nonmortar, mortar;
+  ContactPair pair;
+  Sum         s;
+
+  ChainLine(&nonmortar, 9, 1, 0, 0, 0);
+  ChainLine(&mortar, 190, -1, -0.01, 12.5, -0.01);
+  CHECK_CALL(ContactPairCreate(PETSC_FALSE, PETSC_FALSE, &pair));
+  SumCreate(&s, 9, 190);
+  for (int step = 0; step < 100; step++) {
+    SearchAll(pair, &nonmortar, &mortar, 0.1, 0.02);
+    ChainMove(&nonmortar, 0, 0.1, 0);
+    SearchAll(pair, &nonmortar, &mortar, 0.1, 0.02);
+    SumEvaluate(&s, pair, &nonmortar, &mortar, NULL, PETSC_TRUE, PETSC_FALSE);
+    assert_near(s.area, 1, 1e-13);
+    for (int j = 0; j < 9; j++) assert_near(s.gap[j], -0.01 * s.weight[j], 1e-13);
+  }
+  Cleanup(&nonmortar, &mortar, &pair, &s);
+}
+
+static PetscLogDouble Now(void)
+{
+  PetscLogDouble t = 0;
+
+  CHECK_CALL(PetscTime(&t));
+  return t;
+}
+
+static void Wave(Chain *c, PetscReal height)
+{
+  for (PetscInt i = 0; i < c->s.num_nodes; i++) c->x[2 * i + 1] = height + 0.1 * sin(6 * c->x[2 * i]);
+}
+
+/* Seconds of the search (best of 3) for n nonmortar and about n mortar edges. */
+static PetscLogDouble SearchTime(PetscInt n, ContactPair pair, Chain *nonmortar, Chain *mortar)
+{
+  PetscLogDouble best = 1e9;
+
+  ChainLine(nonmortar, n + 1, 1, 0, 0, 0);
+  ChainLine(mortar, n + n / 7, 0, 0, 1, 0);
+  Wave(nonmortar, 0);
+  Wave(mortar, 0.1 / (PetscReal)n);
+  for (int k = 0; k < 3; k++) {
+    const PetscLogDouble start = Now();
+
+    SearchAll(pair, nonmortar, mortar, 2 / (PetscReal)n, 0.5 / (PetscReal)n);
+    best = PetscMin(best, Now() - start);
+  }
+  return best;
+}
+
+/* 100 000 edges well below a second; 16 times the edges in much less than 16^2 times the time. Prints the cost of the evaluation. */
+static void Time(void **state)
+{
+  PetscLogDouble t[2];
+  PetscReal     *z;
+
+  for (int k = 0; k < 2; k++) {
+    const PetscInt        n = k ? 100000 : 6250;
+    Chain                 nonmortar, mortar;
+    ContactPair           pair;
+    const ContactEdge    *edges;
+    const ContactSegment *seg;
+    PetscInt              num, num_seg;
+    PetscBool             failed;
+
+    CHECK_CALL(ContactPairCreate(PETSC_FALSE, PETSC_FALSE, &pair));
+    t[k] = SearchTime(n, pair, &nonmortar, &mortar);
+    print_message("search, %6d edges: %.3f s\n", (int)n, t[k]);
+    z = malloc((size_t)(n + 1) * sizeof(PetscReal));
+    for (PetscInt j = 0; j <= n; j++) z[j] = 1;
+    for (int mode = 0; k == 0 && mode < 3; mode++) {
+      PetscLogDouble best = 1e9;
+
+      for (int r = 0; r < 5; r++) {
+        const PetscLogDouble start = Now();
+
+        CHECK_CALL(ContactPairEvaluate(pair, &nonmortar.s, &mortar.s, z, mode > 0, mode > 1, &num, &edges, &failed));
+        best = PetscMin(best, Now() - start);
+      }
+      CHECK_CALL(ContactPairGetSegments(pair, &num_seg, &seg));
+      assert_int_equal(num, n);
+      print_message("%-28s %.2f us per edge, %.2f us per segment\n",
+                    (const char *const[]){"values:", "values + gradients:", "values + gradients + Hessian:"}[mode], 1e6 * best / (double)num,
+                    1e6 * best / (double)num_seg);
+    }
+    free(z);
+    CHECK_CALL(ContactPairDestroy(&pair));
+    ChainDestroy(&nonmortar);
+    ChainDestroy(&mortar);
+  }
+  assert_true(t[1] < 5);
+  assert_true(t[1] < 60 * t[0]);
+}
+
+CONTACT_TEST_MAIN("contact: search", cmocka_unit_test(BruteForce), cmocka_unit_test(Margin), cmocka_unit_test(Layers), cmocka_unit_test(LargeSliding),
+                  cmocka_unit_test(Time))
