@@ -96,3 +96,10 @@ PetscErrorCode MechanicsReactions(Mechanics, const PetscReal r[], PetscReal reac
 
 /* Point values in cell at np reference points: F, P [np][9] and strain energy density W (NULL: skip). Owned and ghost cells (a ghost's pressure is consistent with u). */
 PetscErrorCode MechanicsPoints(Mechanics, PetscInt cell, PetscInt np, const PetscReal xi[], const PetscReal u[], PetscReal F[], PetscReal P[], PetscReal W[]);
+
+/* Where the coefficients of an owned cell lie in the pressure array; num 0: not mixed, rigid, or a ghost. */
+PetscErrorCode MechanicsPressureRange(Mechanics, PetscInt cell, PetscInt *first, PetscInt *num);
+/* The pressure field of a cell of this order at np reference points xi[np][dim]: complete polynomials of degree order-1 times coefficients. Not collective. */
+PetscErrorCode MechanicsPressureEvaluate(PetscInt dim, PetscInt order, PetscInt np, const PetscReal xi[], const PetscReal pressure[], PetscReal values[]);
+/* Coefficients of the weighted least squares fit to values[np]; the points must determine it (order points in each direction do). Not collective. */
+PetscErrorCode MechanicsPressureProject(PetscInt dim, PetscInt order, PetscInt np, const PetscReal xi[], const PetscReal weights[], const PetscReal values[], PetscReal pressure[]);

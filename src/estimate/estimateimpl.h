@@ -1,0 +1,97 @@
+/* Private to estimate. The traction defect of a facet is sum over its sides of (P N - T): a jump inside, P N - T on the boundary.
+   It is sampled at Gauss points of the *finest* facets, where both neighbours evaluate their own P: so hanging facets need nothing special. */
+#pragma once
+#include "estimate.h"
+
+enum { PART_INTERIOR, PART_JUMP, PART_BOUNDARY, PART_CONTACT, PART_VOLUME, NUM_PARTS };
+
+/* How a leaf sees a facet: tangential coordinate k of its side is start[k] + slope[k] * eta[axis[k]], eta in the facet's frame. */
+typedef struct {
+  PetscInt  cell; /* local cell, -1: nobody, or a rigid body */
+  PetscInt  side; /* 2*direction + (high side) */
+  PetscInt  axis[2];
+  PetscReal start[2], slope[2];
+} FacetSide;
+
+typedef struct {
+  PetscInt  facet;               /* index from first[dim-1] */
+  PetscInt  order;               /* of the trace: the facet entity's */
+  PetscInt  first_point, num_1d; /* num_1d^(dim-1) Gauss points from first_point */
+  PetscInt  fixed;               /* bits 0..dim-1: prescribed components; bit 3: the normal one */
+  uint64_t  groups;              /* boundary groups */
+  PetscBool loaded;              /* some group carries a load */
+  FacetSide side[2];
+} FacetPlace;
+
+/* Facets that touch an owned, deformable cell and are not wholly prescribed. */
+typedef struct {
+  PetscInt    num, num_points, most_points; /* most_points: at facets of one cell */
+  FacetPlace *facets;                       /* owned */
+  PetscInt   *cell_first;                   /* owned [num_cells+1] into cell_facet */
+  PetscInt   *cell_facet;                   /* owned: 2*facet + side */
+} FacetList;
+
+/* Which contact edge a facet is, and what presses on it; replicated, built from the views of the problem. */
+typedef struct {
+  const ContactView *view;
+  const PetscReal   *normal;        /* nodal normals, nonmortar side */
+  PetscInt          *facet_edge[2]; /* owned [num_facets] edge of the nonmortar, mortar side, or -1 */
+  PetscInt          *segment_first; /* owned [mortar num_edges + 1] */
+  ContactSegment    *segments;      /* owned, of all ranks, by mortar edge */
+} ContactTerm;
+
+typedef struct {
+  Kinematics   kinematics;
+  Model        model;
+  PetscInt     num;
+  ContactTerm *terms; /* owned */
+} ContactTerms;
+
+/* What the sums run over. The caller owns everything but facets, which EstimateBulk_Private makes and frees. */
+typedef struct {
+  HPSpace              space;
+  Mechanics            mechanics;
+  const MechanicsSpec *spec;
+  const HPTables      *v;
+  const ForestTables  *t;
+  const ContactTerms  *contact; /* NULL: none */
+  PetscReal            time;
+  const PetscReal     *u; /* local array of displacement dofs */
+  FacetList            facets;
+  PetscReal (*defect)[3]; /* [facets.num_points] */
+  PetscReal (*normal)[3]; /* [facets.num_points] outward of side 0's cell */
+  PetscReal *dA;          /* [facets.num_points] weight times reference area */
+  PetscReal *eta2;        /* [num_leaves] sums of this rank */
+  PetscReal  part[NUM_PARTS], energy;
+} EstimateSum;
+
+/* Fill space, mechanics, spec, contact, time, u, eta2 (zeroed); get this rank's sums. Not collective. */
+PetscErrorCode EstimateBulk_Private(EstimateSum *);
+
+/* indicator.c: position [3] (third 0 in the plane) and Jacobian dX/dxi (third direction: unit) of a cell with nodes X[n][dim] */
+PetscErrorCode EstimateGeometry_Private(PetscInt dim, PetscInt order, const PetscReal X[], const PetscReal xi[], PetscReal position[3], PetscReal J[9]);
+/* facet.c */
+PetscErrorCode FacetListCreate_Private(const EstimateSum *, FacetList *);
+PetscErrorCode FacetListDestroy_Private(FacetList *);
+void           FacetSidePoint_Private(const FacetSide *, PetscInt dim, const PetscReal eta[], PetscReal xi[3]);
+/* jump.c: reference points of a cell's facets, xi[...][dim]; then the defects at them; then the sums */
+PetscErrorCode EstimateTracePoints_Private(const EstimateSum *, PetscInt cell, PetscReal xi[]);
+PetscErrorCode EstimateTraces_Private(EstimateSum *, PetscInt cell, const PetscReal X[], const PetscReal xi[], const PetscReal F[], const PetscReal P[]);
+PetscErrorCode EstimateFacets_Private(EstimateSum *, const PetscReal height[][3]);
+/* contactterm.c */
+PetscErrorCode ContactTermsCreate_Private(Problem, ContactTerms *);
+PetscErrorCode ContactTermsDestroy_Private(ContactTerms *);
+PetscBool      ContactTermsHave_Private(const ContactTerms *, PetscInt facet);
+/* Add the contact traction (per reference area) on a facet at reference position X. */
+void ContactTermsTraction_Private(const ContactTerms *, PetscInt facet, const PetscReal X[3], PetscReal T[3]);
+/* Complementarity: int z+ g+ + mu p/h |g-|^2 on the nonmortar edges of owned leaves. */
+PetscErrorCode EstimateComplementarity_Private(EstimateSum *, const PetscReal height[][3]);
+
+/* value of an expression times the amplitude, as mechanics reads it: an expression that speaks of t itself takes the amplitude only when one is given. */
+static inline PetscErrorCode EstimateValue_Private(Expression expression, const Amplitude *amplitude, const PetscReal X[3], PetscReal t, PetscReal *value)
+{
+  PetscFunctionBegin;
+  PetscCall(ExpressionEvaluate(expression, X, t, value));
+  if (amplitude->num > 0 || !ExpressionUsesTime(expression)) *value *= AmplitudeEvaluate(amplitude, t);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

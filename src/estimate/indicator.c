@@ -1,0 +1,377 @@
+/* The residual estimate: sums over cells (equilibrium inside, incompressibility), then over facets, then over ranks.
+
+     eta_K^2 = h^2/(p^2 mu) |Div P + B|^2 + 1/2 sum h/(p mu) |[P N]|^2 + sum h/(p mu) |P N - T|^2 + contact + w |g - Proj g|^2
+
+   (docs/theory.md, error estimation). Div P is exact for the polynomial through the values of P at the (p+1)^dim Gauss points. */
+#include "estimateimpl.h"
+
+#define MOST_1D (MORTISE_MAX_ORDER + 1)
+
+/* Gauss points of a cell of one order, and the derivative of the Lagrange polynomials through them. */
+typedef struct {
+  PetscInt   order, n1, num; /* n1 = order+1 points in each direction */
+  PetscReal *xi, *weight;    /* owned [num][dim], [num] */
+  PetscReal *N, *G;          /* owned [num][n], [num][n][dim] displacement basis and its gradient */
+  PetscReal  D[MOST_1D][MOST_1D];
+} VolumeTable;
+
+/* Buffers of one cell. */
+typedef struct {
+  PetscReal *X, *xi, *F, *P, *W, *J, *position, *weight, *g;
+} CellWork;
+
+/* Derivatives at the points x[n] of the Lagrange polynomials through them, by barycentric weights. */
+static void LagrangeDerivative_Private(PetscInt n, const PetscReal x[], PetscReal D[][MOST_1D])
+{
+  PetscReal w[MOST_1D];
+
+  for (PetscInt j = 0; j < n; ++j) {
+    w[j] = 1;
+    for (PetscInt k = 0; k < n; ++k)
+      if (k != j) w[j] *= x[j] - x[k];
+  }
+  for (PetscInt i = 0; i < n; ++i) {
+    D[i][i] = 0;
+    for (PetscInt j = 0; j < n; ++j) {
+      if (i == j) continue;
+      D[i][j] = w[i] / (w[j] * (x[i] - x[j]));
+      D[i][i] -= D[i][j];
+    }
+  }
+}
+
+static PetscErrorCode TableCreate_Private(PetscInt dim, PetscInt order, VolumeTable *table)
+{
+  const PetscInt n = ElementNumNodes(dim, order);
+  const Basis1D *gauss;
+
+  PetscFunctionBegin;
+  if (table->order) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(Basis1DGet(order, order + 1, &gauss));
+  table->order = order;
+  table->n1    = order + 1;
+  table->num   = n; /* as many points as nodes */
+  PetscCall(PetscMalloc4(n * dim, &table->xi, n, &table->weight, n * n, &table->N, n * n * dim, &table->G));
+  for (PetscInt q = 0; q < n; ++q) {
+    table->weight[q] = 1;
+    for (PetscInt d = 0, i = q; d < dim; ++d, i /= table->n1) {
+      table->xi[q * dim + d] = gauss->points[i % table->n1];
+      table->weight[q] *= gauss->weights[i % table->n1];
+    }
+    PetscCall(ElementEvaluate(dim, order, table->xi + q * dim, table->N + q * n, table->G + q * n * dim));
+  }
+  LagrangeDerivative_Private(table->n1, gauss->points, table->D);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static void Geometry_Private(PetscInt dim, PetscInt n, const PetscReal X[], const PetscReal N[], const PetscReal G[], PetscReal position[3], PetscReal J[9])
+{
+  for (PetscInt k = 0; k < 9; ++k) J[k] = k % 4 == 0 && k / 3 >= dim;
+  position[0] = position[1] = position[2] = 0;
+  for (PetscInt i = 0; i < n; ++i) {
+    for (PetscInt c = 0; c < dim; ++c) {
+      position[c] += N[i] * X[i * dim + c];
+      for (PetscInt d = 0; d < dim; ++d) J[3 * c + d] += G[i * dim + d] * X[i * dim + c];
+    }
+  }
+}
+
+PetscErrorCode EstimateGeometry_Private(PetscInt dim, PetscInt order, const PetscReal X[], const PetscReal xi[], PetscReal position[3], PetscReal J[9])
+{
+  PetscReal N[MOST_1D * MOST_1D * MOST_1D], G[3 * MOST_1D * MOST_1D * MOST_1D];
+
+  PetscFunctionBegin;
+  PetscCall(ElementEvaluate(dim, order, xi, N, G));
+  Geometry_Private(dim, ElementNumNodes(dim, order), X, N, G, position, J);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Mean length of the cell's edges in each direction. */
+static void Height_Private(PetscInt dim, PetscInt order, const PetscReal X[], PetscReal height[3])
+{
+  const PetscInt stride[3] = {order, order * (order + 1), order * (order + 1) * (order + 1)}, edges = 1 << (dim - 1);
+
+  for (PetscInt d = 0; d < dim; ++d) {
+    height[d] = 0;
+    for (PetscInt corner = 0; corner < 1 << dim; ++corner) {
+      if ((corner >> d) & 1) continue;
+      PetscInt  node   = 0;
+      PetscReal square = 0;
+      for (PetscInt a = 0; a < dim; ++a) node += ((corner >> a) & 1) * stride[a];
+      for (PetscInt c = 0; c < dim; ++c) square += PetscSqr(X[(node + stride[d]) * dim + c] - X[node * dim + c]);
+      height[d] += PetscSqrtReal(square) / edges;
+    }
+  }
+}
+
+/* Div P at Gauss point q: derivative of the tensor Lagrange polynomial, mapped by J^-1; axisymmetric: plus (P_rR - P_tt)/R, P_zR/R. */
+static void Divergence_Private(PetscInt dim, Model model, const VolumeTable *table, PetscInt q, const PetscReal *P, const PetscReal J[9], const PetscReal X[3],
+                               PetscReal div[3])
+{
+  const PetscReal det = Det3(J);
+
+  div[0] = div[1] = div[2] = 0;
+  for (PetscInt d = 0, stride = 1; d < dim; ++d, stride *= table->n1) {
+    const PetscInt i = q / stride % table->n1, a = (d + 1) % 3, b = (d + 2) % 3;
+    PetscReal      gradient[3], dP[9] = {0};
+    for (PetscInt c = 0; c < 3; ++c) { /* row d of J^-1: grad xi_d */
+      const PetscInt k = (c + 1) % 3, l = (c + 2) % 3;
+      gradient[c] = (J[3 * k + a] * J[3 * l + b] - J[3 * l + a] * J[3 * k + b]) / det;
+    }
+    for (PetscInt j = 0; j < table->n1; ++j) {
+      const PetscReal *p = P + 9 * (q + (j - i) * stride), D = table->D[i][j];
+      for (PetscInt k = 0; k < 3 * dim; ++k) dP[k] += D * p[k];
+    }
+    for (PetscInt c = 0; c < dim; ++c) div[c] += Dot3(dP + 3 * c, gradient);
+  }
+  if (model == MODEL_AXISYMMETRIC) {
+    div[0] += (P[9 * q] - P[9 * q + 8]) / X[0];
+    div[1] += P[9 * q + 3] / X[0];
+  }
+}
+
+/* Weighted square of Div P + B over a cell. */
+static PetscErrorCode Interior_Private(const EstimateSum *sum, const BodySpec *body, const VolumeTable *table, const CellWork *w, PetscReal *square)
+{
+  const PetscInt dim = sum->v->dim;
+
+  PetscFunctionBegin;
+  *square = 0;
+  for (PetscInt q = 0; q < table->num; ++q) {
+    PetscReal r[3], force;
+    Divergence_Private(dim, sum->spec->model, table, q, w->P, w->J + 9 * q, w->position + 3 * q, r);
+    for (PetscInt c = 0; c < dim; ++c) {
+      if (!body->force[c]) continue;
+      PetscCall(EstimateValue_Private(body->force[c], &body->amplitude, w->position + 3 * q, sum->time, &force));
+      r[c] += force;
+    }
+    *square += w->weight[q] * Dot3(r, r);
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The part of g(J) that the pressure space does not see, squared and weighted: the residual of the pressure's equation g = pi/modulus. */
+static PetscErrorCode Volume_Private(const EstimateSum *sum, const MaterialSpec *material, const VolumeTable *table, CellWork *w, PetscReal *square)
+{
+  PetscReal coefficient[MOST_1D * MOST_1D * MOST_1D], *projected = w->g + table->num, g[3];
+
+  PetscFunctionBegin;
+  for (PetscInt q = 0; q < table->num; ++q) {
+    const PetscReal *F = w->F + 9 * q;
+    if (sum->spec->kinematics == KINEMATICS_FINITE)
+      MaterialVolumetric(material, Det3(F), g);
+    else
+      g[0] = F[0] + F[4] + F[8] - 3; /* every law is linear there */
+    w->g[q] = g[0];
+  }
+  PetscCall(MechanicsPressureProject(sum->v->dim, table->order, table->num, table->xi, w->weight, w->g, coefficient));
+  PetscCall(MechanicsPressureEvaluate(sum->v->dim, table->order, table->num, table->xi, coefficient, projected));
+  *square = 0;
+  for (PetscInt q = 0; q < table->num; ++q) *square += w->weight[q] * PetscSqr(w->g[q] - projected[q]);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Modulus of the pressure's residual: the volumetric stiffness while it is small, then the shear modulus: a volume error that the pressure space does
+   not see is answered by shear, however stiff the material is against its mean (robust as kappa/mu grows). */
+static PetscReal VolumeWeight_Private(const MaterialSpec *material, Kinematics kinematics)
+{
+  const PetscReal kappa = kinematics == KINEMATICS_FINITE ? MaterialVolumetricModulus(material) : material->kappa;
+  return 2 * material->mu * kappa / (2 * material->mu + kappa);
+}
+
+static PetscErrorCode OwnedCell_Private(EstimateSum *sum, PetscInt cell, const VolumeTable *table, CellWork *w, const PetscReal height[3])
+{
+  const PetscInt      dim = sum->v->dim, n = table->num, leaf = sum->v->cell_leaf[cell];
+  const BodySpec     *body     = &sum->spec->bodies[sum->t->leaf_body[leaf]];
+  const MaterialSpec *material = body->material;
+  PetscReal           h        = height[0], square;
+
+  PetscFunctionBegin;
+  for (PetscInt q = 0; q < n; ++q) {
+    Geometry_Private(dim, n, w->X, table->N + q * n, table->G + q * n * dim, w->position + 3 * q, w->J + 9 * q);
+    w->weight[q] = table->weight[q] * Det3(w->J + 9 * q);
+    if (sum->spec->model == MODEL_AXISYMMETRIC) w->weight[q] *= 2 * PETSC_PI * w->position[3 * q];
+    sum->energy += w->weight[q] * w->W[q];
+  }
+  for (PetscInt d = 1; d < dim; ++d) h = PetscMin(h, height[d]);
+  PetscCall(Interior_Private(sum, body, table, w, &square));
+  square *= PetscSqr(h / table->order) / material->mu;
+  sum->eta2[leaf] += square;
+  sum->part[PART_INTERIOR] += square;
+  if (!material->mixed) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(Volume_Private(sum, material, table, w, &square));
+  square *= VolumeWeight_Private(material, sum->spec->kinematics);
+  sum->eta2[leaf] += square;
+  sum->part[PART_VOLUME] += square;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* One call of the material for all points of a cell: Gauss points first (owned cells), then those of its facets. */
+static PetscErrorCode Cell_Private(EstimateSum *sum, PetscInt cell, VolumeTable tables[], CellWork *w, PetscReal height[][3])
+{
+  const PetscInt  dim = sum->v->dim, order = sum->v->cell_order[cell];
+  const PetscBool owned = (PetscBool)(cell < sum->v->num_owned_cells);
+  VolumeTable    *table = &tables[order];
+  PetscInt        num = 0, traces = 0;
+
+  PetscFunctionBegin;
+  for (PetscInt i = sum->facets.cell_first[cell]; i < sum->facets.cell_first[cell + 1]; ++i) {
+    const PetscInt n1 = sum->facets.facets[sum->facets.cell_facet[i] / 2].num_1d;
+    traces += dim == 2 ? n1 : n1 * n1;
+  }
+  if (!owned && !traces) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(TableCreate_Private(dim, order, table));
+  PetscCall(HPSpaceGatherPositions(sum->space, cell, w->X));
+  if (owned) {
+    num = table->num;
+    PetscCall(PetscArraycpy(w->xi, table->xi, num * dim));
+    Height_Private(dim, order, w->X, height[cell]);
+  }
+  PetscCall(EstimateTracePoints_Private(sum, cell, w->xi + num * dim));
+  PetscCall(MechanicsPoints(sum->mechanics, cell, num + traces, w->xi, sum->u, w->F, w->P, w->W));
+  if (owned) PetscCall(OwnedCell_Private(sum, cell, table, w, height[cell]));
+  PetscCall(EstimateTraces_Private(sum, cell, w->X, w->xi + num * dim, w->F + 9 * num, w->P + 9 * num));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode WorkCreate_Private(const EstimateSum *sum, CellWork *w)
+{
+  PetscInt most = 0;
+
+  PetscFunctionBegin;
+  for (PetscInt c = 0; c < sum->v->num_cells; ++c) most = PetscMax(most, ElementNumNodes(sum->v->dim, sum->v->cell_order[c]));
+  const PetscInt points = most + sum->facets.most_points;
+  PetscCall(PetscMalloc5(3 * most, &w->X, 3 * points, &w->xi, 9 * points, &w->F, 9 * points, &w->P, points, &w->W));
+  PetscCall(PetscMalloc4(9 * most, &w->J, 3 * most, &w->position, most, &w->weight, 2 * most, &w->g));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode WorkDestroy_Private(CellWork *w)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscFree5(w->X, w->xi, w->F, w->P, w->W));
+  PetscCall(PetscFree4(w->J, w->position, w->weight, w->g));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode Cells_Private(EstimateSum *sum, PetscReal height[][3])
+{
+  VolumeTable tables[MORTISE_MAX_ORDER + 1] = {0};
+  CellWork    w;
+
+  PetscFunctionBegin;
+  PetscCall(WorkCreate_Private(sum, &w));
+  for (PetscInt c = 0; c < sum->v->num_cells; ++c) {
+    const BodySpec *body = &sum->spec->bodies[sum->t->leaf_body[sum->v->cell_leaf[c]]];
+    if (!body->material->law->rigid) PetscCall(Cell_Private(sum, c, tables, &w, height));
+  }
+  for (PetscInt p = 1; p <= MORTISE_MAX_ORDER; ++p) {
+    if (tables[p].order) PetscCall(PetscFree4(tables[p].xi, tables[p].weight, tables[p].N, tables[p].G));
+  }
+  PetscCall(WorkDestroy_Private(&w));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode EstimateBulk_Private(EstimateSum *sum)
+{
+  Forest forest;
+  PetscReal(*height)[3];
+
+  PetscFunctionBegin;
+  PetscCall(HPSpaceGetTables(sum->space, &sum->v));
+  PetscCall(HPSpaceGetForest(sum->space, &forest));
+  PetscCall(ForestGetTables(forest, &sum->t));
+  sum->energy = 0;
+  PetscCall(PetscArrayzero(sum->part, NUM_PARTS));
+  PetscCall(FacetListCreate_Private(sum, &sum->facets));
+  PetscCall(PetscCalloc3(sum->facets.num_points, &sum->defect, sum->facets.num_points, &sum->normal, sum->facets.num_points, &sum->dA));
+  PetscCall(PetscCalloc1(sum->v->num_owned_cells, &height));
+  PetscCall(Cells_Private(sum, height));
+  PetscCall(EstimateFacets_Private(sum, height));
+  if (sum->contact) PetscCall(EstimateComplementarity_Private(sum, height));
+  PetscCall(PetscFree(height));
+  PetscCall(PetscFree3(sum->defect, sum->normal, sum->dA));
+  PetscCall(FacetListDestroy_Private(&sum->facets));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* eta2, shares and energy over all ranks. */
+static PetscErrorCode Reduce_Private(MPI_Comm comm, EstimateSum *sum, Estimate *e)
+{
+  PetscReal *buffer;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(e->num_leaves + NUM_PARTS + 1, &buffer));
+  PetscCall(PetscArraycpy(buffer, sum->eta2, e->num_leaves));
+  PetscCall(PetscArraycpy(buffer + e->num_leaves, sum->part, NUM_PARTS));
+  buffer[e->num_leaves + NUM_PARTS] = sum->energy;
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, buffer, (PetscMPIInt)(e->num_leaves + NUM_PARTS + 1), MPIU_REAL, MPI_SUM, comm));
+  PetscCall(PetscArraycpy(e->eta2, buffer, e->num_leaves));
+  PetscCall(PetscArraycpy(e->part, buffer + e->num_leaves, NUM_PARTS));
+  const PetscReal energy = buffer[e->num_leaves + NUM_PARTS];
+  PetscCall(PetscFree(buffer));
+  e->total = 0;
+  for (PetscInt l = 0; l < e->num_leaves; ++l) e->total += e->eta2[l];
+  e->total    = PetscSqrtReal(e->total);
+  e->norm     = PetscSqrtReal(2 * PetscMax(energy, 0));
+  e->relative = e->total > 0 ? e->total / PetscSqrtReal(PetscSqr(e->norm) + PetscSqr(e->total)) : 0;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Contact views show the last evaluation: evaluate at the state. */
+static PetscErrorCode Refresh_Private(Problem problem, Vec x)
+{
+  ProblemStatus status;
+  Vec           r;
+
+  PetscFunctionBegin;
+  PetscCall(ProblemCreateVector(problem, &r));
+  PetscCall(ProblemResidual(problem, x, r, &status));
+  PetscCall(VecDestroy(&r));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode EstimateCompute(Problem problem, const State *state, Estimate *e)
+{
+  const SceneData *scene;
+  const HPTables  *v;
+  Forest           forest;
+  ContactTerms     contact;
+  EstimateSum      sum = {.time = state->t};
+  PetscReal       *u;
+
+  PetscFunctionBegin;
+  PetscCall(StageBegin(STAGE_ESTIMATE));
+  PetscCall(ProblemGetScene(problem, &scene));
+  PetscCall(ProblemGetForest(problem, &forest));
+  PetscCall(ProblemGetSpace(problem, &sum.space));
+  PetscCall(ProblemGetMechanics(problem, &sum.mechanics));
+  PetscCall(HPSpaceGetTables(sum.space, &v));
+  sum.spec = &scene->mechanics;
+  if (scene->num_contacts) {
+    PetscCall(Refresh_Private(problem, state->x));
+    PetscCall(ContactTermsCreate_Private(problem, &contact));
+    sum.contact = &contact;
+  }
+  e->num_leaves = state->num_leaves;
+  PetscCall(PetscMalloc1(v->num_nodes * v->dim, &u));
+  PetscCall(PetscMalloc1(e->num_leaves, &e->eta2));
+  PetscCall(PetscCalloc1(e->num_leaves, &sum.eta2));
+  PetscCall(ProblemLocalDisplacement(problem, state->x, u));
+  sum.u = u;
+  PetscCall(EstimateBulk_Private(&sum));
+  PetscCall(Reduce_Private(ForestComm(forest), &sum, e));
+  PetscCall(PetscFree(u));
+  PetscCall(PetscFree(sum.eta2));
+  if (scene->num_contacts) PetscCall(ContactTermsDestroy_Private(&contact));
+  PetscCall(StageEnd(STAGE_ESTIMATE));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode EstimateDestroy(Estimate *e)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscFree(e->eta2));
+  PetscCall(PetscMemzero(e, sizeof(*e)));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

@@ -1,0 +1,181 @@
+/* Old cells go to the ranks whose new leaves they overlap. Leaf ownership is replicated: everybody knows who needs what, in which order. */
+#include "transferimpl.h"
+
+PetscErrorCode TransferContextSetUp_Private(TransferContext *c)
+{
+  Forest old_forest, new_forest;
+
+  PetscFunctionBegin;
+  PetscCall(HPSpaceGetForest(c->old_space, &old_forest));
+  PetscCall(HPSpaceGetForest(c->new_space, &new_forest));
+  PetscCall(HPSpaceGetTables(c->old_space, &c->old_v));
+  PetscCall(HPSpaceGetTables(c->new_space, &c->new_v));
+  PetscCall(ForestGetTables(old_forest, &c->old_t));
+  PetscCall(ForestGetTables(new_forest, &c->new_t));
+  c->comm = ForestComm(new_forest);
+  PetscCallMPI(MPI_Comm_rank(c->comm, &c->rank));
+  PetscCallMPI(MPI_Comm_size(c->comm, &c->size));
+  PetscCheck(c->map->num == c->new_t->num_leaves, c->comm, PETSC_ERR_ARG_INCOMP, "map of %" PetscInt_FMT " leaves for a forest of %" PetscInt_FMT, c->map->num,
+             c->new_t->num_leaves);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Complete polynomials of degree order-1. */
+PetscInt TransferNumPressure_Private(const TransferContext *c, PetscInt body, PetscInt order)
+{
+  if (!c->spec || !c->spec->bodies[body].material->mixed) return 0;
+  return c->old_t->dim == 2 ? order * (order + 1) / 2 : order * (order + 1) * (order + 2) / 6;
+}
+
+/* Displacement and pressure numbers of an old leaf. */
+static PetscErrorCode LeafSize_Private(const TransferContext *c, PetscBool with_pressure, PetscInt leaf, PetscInt *num)
+{
+  PetscInt order;
+
+  PetscFunctionBegin;
+  PetscCall(HPSpaceGetOrder(c->old_space, c->old_t->first[c->old_t->dim] + leaf, &order));
+  *num = ElementNumNodes(c->old_t->dim, order) * c->old_t->dim;
+  if (with_pressure) *num += TransferNumPressure_Private(c, c->old_t->leaf_body[leaf], order);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* One journey: an old leaf to a rank. */
+typedef struct {
+  PetscInt    leaf;
+  PetscMPIInt from, to;
+} Journey;
+
+/* Journeys that begin or end here, by increasing leaf. A leaf's new ones are consecutive, so remembering the last leaf sent to each rank avoids doubles. */
+static PetscErrorCode Journeys_Private(const TransferContext *c, PetscInt *num, Journey **journeys)
+{
+  PetscInt *last, size = 0;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(c->size, &last));
+  for (PetscInt pass = 0; pass < 2; ++pass) {
+    *num = 0;
+    for (PetscMPIInt r = 0; r < c->size; ++r) last[r] = -1;
+    for (PetscInt l = 0; l < c->map->num; ++l) {
+      const PetscMPIInt to = c->new_t->leaf_rank[l];
+      for (PetscInt k = c->map->old_first[l]; k < c->map->old_first[l] + c->map->old_count[l]; ++k) {
+        const PetscMPIInt from = c->old_t->leaf_rank[k];
+        if (k <= last[to]) continue;
+        last[to] = k;
+        if (to != c->rank && from != c->rank) continue;
+        if (pass) (*journeys)[*num] = (Journey){k, from, to};
+        ++*num;
+      }
+    }
+    size = *num;
+    if (!pass) PetscCall(PetscMalloc1(size, journeys));
+  }
+  PetscCall(PetscFree(last));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Numbers per partner and their offsets; counts[2][size], offsets[2][size+1]: 0 sent, 1 received. */
+static PetscErrorCode Counts_Private(const TransferContext *c, PetscBool with_pressure, PetscInt num, const Journey journeys[], PetscMPIInt *counts,
+                                     PetscMPIInt *offsets)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscArrayzero(counts, 2 * c->size));
+  for (PetscInt i = 0; i < num; ++i) {
+    PetscInt n;
+    PetscCall(LeafSize_Private(c, with_pressure, journeys[i].leaf, &n));
+    if (journeys[i].from == c->rank) counts[journeys[i].to] += (PetscMPIInt)n;
+    if (journeys[i].to == c->rank) counts[c->size + journeys[i].from] += (PetscMPIInt)n;
+  }
+  for (PetscInt k = 0; k < 2; ++k) {
+    PetscMPIInt *o = offsets + k * (c->size + 1);
+    o[0]           = 0;
+    for (PetscMPIInt r = 0; r < c->size; ++r) o[r + 1] = o[r] + counts[k * c->size + r];
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode Pack_Private(const TransferContext *c, const PetscInt leaf_cell[], PetscInt leaf, const PetscReal u[], PetscBool with_pressure,
+                                   const PetscReal pressure[], PetscReal to[])
+{
+  PetscInt displacements, first, num;
+
+  PetscFunctionBegin;
+  PetscCall(LeafSize_Private(c, PETSC_FALSE, leaf, &displacements));
+  PetscCall(HPSpaceGather(c->old_space, leaf_cell[leaf], u, to));
+  if (!with_pressure) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(MechanicsPressureRange(c->old_mechanics, leaf_cell[leaf], &first, &num));
+  PetscCall(PetscArraycpy(to + displacements, pressure + first, num));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode Send_Private(const TransferContext *c, PetscInt num, const Journey journeys[], const PetscMPIInt offsets[], const PetscReal u[],
+                                   PetscBool with_pressure, const PetscReal pressure[], PetscReal buffer[])
+{
+  PetscInt    *leaf_cell;
+  PetscMPIInt *next;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc2(c->old_t->num_leaves, &leaf_cell, c->size, &next));
+  for (PetscInt i = 0; i < c->old_v->num_owned_cells; ++i) leaf_cell[c->old_v->cell_leaf[i]] = i;
+  PetscCall(PetscArraycpy(next, offsets, c->size));
+  for (PetscInt i = 0; i < num; ++i) {
+    PetscInt n;
+    if (journeys[i].from != c->rank) continue;
+    PetscCall(Pack_Private(c, leaf_cell, journeys[i].leaf, u, with_pressure, pressure, buffer + next[journeys[i].to]));
+    PetscCall(LeafSize_Private(c, with_pressure, journeys[i].leaf, &n));
+    next[journeys[i].to] += (PetscMPIInt)n;
+  }
+  PetscCall(PetscFree2(leaf_cell, next));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode Place_Private(const TransferContext *c, PetscBool with_pressure, PetscInt num, const Journey journeys[], const PetscMPIInt offsets[],
+                                    PetscInt offset[])
+{
+  PetscMPIInt *next;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(c->size, &next));
+  PetscCall(PetscArraycpy(next, offsets, c->size));
+  for (PetscInt l = 0; l < c->old_t->num_leaves; ++l) offset[l] = -1;
+  for (PetscInt i = 0; i < num; ++i) {
+    PetscInt n;
+    if (journeys[i].to != c->rank) continue;
+    PetscCall(LeafSize_Private(c, with_pressure, journeys[i].leaf, &n));
+    offset[journeys[i].leaf] = next[journeys[i].from];
+    next[journeys[i].from] += (PetscMPIInt)n;
+  }
+  PetscCall(PetscFree(next));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode OldCellsFetch_Private(const TransferContext *c, const PetscReal u[], PetscBool with_pressure, const PetscReal pressure[], OldCells *old)
+{
+  Journey     *journeys;
+  PetscInt     num;
+  PetscMPIInt *counts, *offsets;
+  PetscReal   *send;
+
+  PetscFunctionBegin;
+  PetscCall(Journeys_Private(c, &num, &journeys));
+  PetscCall(PetscMalloc2(2 * c->size, &counts, 2 * (c->size + 1), &offsets));
+  PetscCall(Counts_Private(c, with_pressure, num, journeys, counts, offsets));
+  PetscMPIInt *received = offsets + c->size + 1;
+  PetscCall(PetscMalloc1(offsets[c->size], &send));
+  PetscCall(PetscMalloc1(c->old_t->num_leaves, &old->offset));
+  PetscCall(PetscMalloc1(received[c->size], &old->values));
+  PetscCall(Send_Private(c, num, journeys, offsets, u, with_pressure, pressure, send));
+  PetscCall(Place_Private(c, with_pressure, num, journeys, received, old->offset));
+  PetscCallMPI(MPI_Alltoallv(send, counts, offsets, MPIU_REAL, old->values, counts + c->size, received, MPIU_REAL, c->comm));
+  PetscCall(PetscFree(send));
+  PetscCall(PetscFree2(counts, offsets));
+  PetscCall(PetscFree(journeys));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode OldCellsDestroy_Private(OldCells *old)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscFree(old->offset));
+  PetscCall(PetscFree(old->values));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

@@ -1,0 +1,69 @@
+/* The whole state from one live problem to another. */
+#include "transferimpl.h"
+
+/* Contact views show the last evaluation: evaluate the old problem at the state. */
+static PetscErrorCode Refresh_Private(Problem problem, Vec x)
+{
+  ProblemStatus status;
+  Vec           r;
+
+  PetscFunctionBegin;
+  PetscCall(ProblemCreateVector(problem, &r));
+  PetscCall(ProblemResidual(problem, x, r, &status));
+  PetscCall(VecDestroy(&r));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode Multipliers_Private(const TransferContext *c, Problem old_problem, Problem new_problem, PetscInt num_pairs, Vec x)
+{
+  PetscFunctionBegin;
+  for (PetscInt i = 0; i < num_pairs; ++i) {
+    const ContactView *from, *to;
+    PetscReal         *z;
+    PetscCall(ProblemGetContact(old_problem, i, &from));
+    PetscCall(ProblemGetContact(new_problem, i, &to));
+    PetscCall(PetscMalloc1(to->nonmortar.num_nodes, &z));
+    PetscCall(TransferMultiplier_Private(c->old_t, &from->nonmortar, from->z, from->has_multiplier, c->new_t, &to->nonmortar, c->map, z));
+    PetscCall(ProblemSetMultipliers(new_problem, i, z, x));
+    PetscCall(PetscFree(z));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode TransferState(Problem old_problem, const State *from, Problem new_problem, const ForestMap *map, State *to)
+{
+  TransferContext  c = {.map = map};
+  OldCells         old;
+  const SceneData *scene;
+  PetscReal       *u;
+  PetscInt         num_pressure;
+
+  PetscFunctionBegin;
+  PetscCall(StageBegin(STAGE_TRANSFER));
+  PetscCall(ProblemGetScene(old_problem, &scene));
+  PetscCall(ProblemGetSpace(old_problem, &c.old_space));
+  PetscCall(ProblemGetSpace(new_problem, &c.new_space));
+  PetscCall(ProblemGetMechanics(old_problem, &c.old_mechanics));
+  PetscCall(ProblemGetMechanics(new_problem, &c.new_mechanics));
+  c.spec = &scene->mechanics;
+  PetscCall(TransferContextSetUp_Private(&c));
+  PetscCall(MechanicsNumPressure(c.new_mechanics, &num_pressure));
+  PetscCheck(to->num_pressure == num_pressure, PETSC_COMM_SELF, PETSC_ERR_ARG_INCOMP, "state holds %" PetscInt_FMT " pressures, its problem %" PetscInt_FMT,
+             to->num_pressure, num_pressure);
+
+  PetscCall(PetscMalloc1(c.old_v->num_nodes * c.old_v->dim, &u));
+  PetscCall(ProblemLocalDisplacement(old_problem, from->x, u));
+  PetscCall(OldCellsFetch_Private(&c, u, PETSC_TRUE, from->pressure, &old));
+  PetscCall(PetscFree(u));
+  PetscCall(PetscCalloc1(c.new_v->num_nodes * c.new_v->dim, &u));
+  PetscCall(TransferDisplacement_Private(&c, &old, u));
+  PetscCall(ProblemSetDisplacement(new_problem, u, to->x));
+  PetscCall(PetscFree(u));
+  PetscCall(TransferPressure_Private(&c, &old, to->pressure));
+  PetscCall(OldCellsDestroy_Private(&old));
+
+  if (scene->num_contacts) PetscCall(Refresh_Private(old_problem, from->x));
+  PetscCall(Multipliers_Private(&c, old_problem, new_problem, scene->num_contacts, to->x));
+  PetscCall(StageEnd(STAGE_TRANSFER));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

@@ -1,0 +1,39 @@
+/* Private to transfer. Fields live in root coordinates: a leaf is a dyadic box of its coarse cell, so that a point of a new leaf has exact
+   coordinates in the old leaf that contains it, and no geometry is inverted. */
+#pragma once
+#include "transfer.h"
+
+/* What travels: the old displacement (and pressure, if mechanics are given). Borrowed. */
+typedef struct {
+  HPSpace              old_space, new_space;
+  Mechanics            old_mechanics, new_mechanics; /* NULL: displacements only */
+  const MechanicsSpec *spec;                         /* NULL without mechanics */
+  const ForestMap     *map;
+  const HPTables      *old_v, *new_v;
+  const ForestTables  *old_t, *new_t;
+  PetscMPIInt          rank, size;
+  MPI_Comm             comm;
+} TransferContext;
+
+/* Tensor nodal displacements [(p+1)^dim][dim], then pressure coefficients, of every old leaf that overlaps an owned new one. */
+typedef struct {
+  PetscInt  *offset; /* owned [old num_leaves] into values, -1: not here */
+  PetscReal *values; /* owned */
+} OldCells;
+
+/* Completes the tables of a context. */
+PetscErrorCode TransferContextSetUp_Private(TransferContext *);
+/* exchange.c: with_pressure (alike on all ranks): pressure coefficients travel too. Collective. */
+PetscErrorCode OldCellsFetch_Private(const TransferContext *, const PetscReal u[], PetscBool with_pressure, const PetscReal pressure[], OldCells *);
+PetscErrorCode OldCellsDestroy_Private(OldCells *);
+/* solution.c: old coordinates xi of the point `place` of a new leaf; PETSC_FALSE: outside. */
+PetscBool TransferPlace_Private(const TransferContext *, PetscInt new_leaf, const PetscReal place[], PetscInt old_leaf, PetscReal xi[3]);
+/* Dofs of the new space's true nodes owned here, in the frames of the new space; other entries of local stay. Not collective. */
+PetscErrorCode TransferDisplacement_Private(const TransferContext *, const OldCells *, PetscReal local[]);
+/* pressure.c: coefficients of the new mixed cells owned here. Not collective. */
+PetscErrorCode TransferPressure_Private(const TransferContext *, const OldCells *, PetscReal pressure[]);
+/* Pressure coefficients of a leaf of this order and body. */
+PetscInt TransferNumPressure_Private(const TransferContext *, PetscInt body, PetscInt order);
+/* multiplier.c: z on the new nonmortar nodes from the old ones; has_multiplier: where old values mean something. Replicated input and output. */
+PetscErrorCode TransferMultiplier_Private(const ForestTables *old_t, const SurfaceView *old_view, const PetscReal z[], const PetscBool has_multiplier[],
+                                          const ForestTables *new_t, const SurfaceView *new_view, const ForestMap *, PetscReal new_z[]);
