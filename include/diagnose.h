@@ -1,16 +1,66 @@
-/* Floor 7. What a run prints: header, a line per adaptive pass and load step, progress bar. */
+/* Floor 7. Figures of a state (balances of force and moment, zones of contact) and what a run prints. The files of a run (output, floor 8) report the same
+   figures, so that screen, tables and summary agree. */
 #pragma once
-#include "problem.h"
+#include "estimate.h"
+
+/* ---- figures of a state (diagnose/balance.c, zone.c) ------------------------------------------------------------------ */
+
+/* One contact pair; sides: 0 nonmortar, 1 mortar. In two dimensions forces have two components and moments one, the last (about z). */
+typedef struct {
+  PetscReal force[2][3];      /* total contact force on each side; axisymmetric: over the full revolution */
+  PetscReal moment[2][3];     /* its moment about the origin, in the current configuration */
+  PetscReal force_imbalance;  /* |sum over both sides| / sum of |nodal forces| of the nonmortar side; 0 without contact */
+  PetscReal moment_imbalance; /* |sum over both sides| / (that sum * diameter of the nonmortar side) */
+  PetscReal max_pressure;     /* largest multiplier */
+  PetscReal area;             /* in contact: sum of the tributary lengths (areas) of active nodes */
+  PetscReal radius;           /* two dimensions: largest |x| of a touching point, see BalanceZone; 0 without contact */
+  PetscReal min_gap, max_gap; /* over covered nodes, gt_j / w_j; negative: penetration. 0 when nothing is covered */
+  PetscInt  active_nodes, covered_nodes;
+} PairFigures;
+
+typedef struct {
+  PetscInt num_boundaries, num_contacts;
+  PetscReal (*reaction)[3];        /* owned [num_boundaries] force of each support on the body */
+  PairFigures  *pair;              /* owned [num_contacts] */
+  PetscReal     load[3];           /* resultant of dead loads, body forces and follower pressures; axisymmetric: the axial component, others 0 */
+  PetscReal     force_imbalance;   /* largest of the pairs (O-90) */
+  PetscReal     moment_imbalance;  /* largest of the pairs (O-90) */
+  PetscReal     support_imbalance; /* |supports + loads + contact with rigid bodies| / sum of their magnitudes; axisymmetric: axial component */
+  ProblemStatus status;
+} Balance;
+
+/* Figures at a state of this problem, the same on every rank. Evaluates the residual. Collective. */
+PetscErrorCode BalanceCompute(Problem, const State *, Balance *);
+PetscErrorCode BalanceDestroy(Balance *);
+/* The zone of contact alone: max_pressure to covered_nodes above, from the tables of a view. Not collective.
+   radius: the zone ends between its last active node and the next one. There the square of the pressure is extended linearly to zero (the pressure between
+   smooth bodies falls with the root of the distance), at most to the next node; where it does not fall, the zone ends in the middle of the edge. */
+PetscErrorCode BalanceZone(const ContactView *, PairFigures *);
 
 /* Figures of one pass or accepted step, also the rows of adapt.csv and history.csv. */
 typedef struct {
-  PetscInt  step, pass, cells, dofs, newton_iterations, active_nodes, step_cuts;
-  PetscReal t, dt, estimated_error, energy, min_det, min_gap, contact_force, seconds, force_imbalance, moment_imbalance;
+  PetscInt  step, pass, cells, dofs;
+  PetscInt  newton_iterations; /* on the way to this row: of one pass; in history.csv of the whole step */
+  PetscInt  active_nodes;
+  PetscInt  step_cuts; /* of this step so far */
+  PetscReal t, dt, estimated_error /* relative; NaN: not estimated */, estimate /* absolute */, energy, min_det, min_gap, contact_force, seconds;
+  PetscReal force_imbalance, moment_imbalance, support_imbalance;
   PetscBool accepted;
 } ReportRow;
 
+/* Fill what problem, state, estimate (NULL: none) and balance know: t, cells, dofs, active_nodes, estimated_error, estimate, energy, min_det, min_gap,
+   contact_force (sum of the magnitudes over pairs), imbalances. The rest is the caller's. Not collective. */
+PetscErrorCode ReportRowFill(Problem, const State *, const Estimate *, const Balance *, ReportRow *);
+
+/* ---- what a run prints (diagnose/monitor.c) -------------------------------------------------------------------------- */
+
 typedef struct _p_Monitor *Monitor;
+/* Decides whether standard output is a terminal of this run's first rank; starts the clock. Collective. */
 PetscErrorCode MonitorCreate(MPI_Comm, const SceneData *, Monitor *);
-PetscErrorCode MonitorHeader(Monitor, Problem);              /* version, scene, model, cells, dofs, ranks */
-PetscErrorCode MonitorRow(Monitor, const ReportRow *);       /* one line; on a terminal a bar with the time left below it */
+PetscErrorCode MonitorHeader(Monitor, Problem);        /* version, scene, model, cells, dofs, ranks; names of the columns */
+PetscErrorCode MonitorRow(Monitor, const ReportRow *); /* one line; on a terminal a bar with the time left below it */
+/* Erase the bar, before something else is printed (no effect when there is none). */
+PetscErrorCode MonitorHide(Monitor);
+/* What was computed, estimated error, where results are. status as in summary.json; reason may be empty; last accepted row, NULL: none. */
+PetscErrorCode MonitorFooter(Monitor, const char *status, const char *reason, const ReportRow *last);
 PetscErrorCode MonitorDestroy(Monitor *);

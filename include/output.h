@@ -38,24 +38,26 @@ PetscErrorCode           TableDestroy(Table *);
 struct cJSON;
 PetscErrorCode SummaryWrite(MPI_Comm, const char *path, const struct cJSON *document);
 
-/* ---- fields of a state (output/state.c, stress.c, contactgrid.c) ------------------------------------------------------------ */
+/* ---- fields of a state (output/state.c, stress.c, contactgrid.c) -------------------------------------------------------- */
 
-/* Write one state as the grids below. Points stand at reference positions; `displacement` moves them. error: from estimate (NULL: 0). Evaluates the residual,
-   so that the contact tables belong to this state. Collective.
+/* Write one state as the grids below. Points stand at reference positions; `displacement` moves them. estimate NULL: error is 0. Evaluates the residual when
+   there is contact, so that its tables belong to this state. Collective.
 
-   bulk: owned cells of all ranks, each cell of order p cut into p^dim pieces at its Gauss-Lobatto nodes. Two layouts, one for a whole run:
-     - a scene that only ever has cells of order 1 shares points between the cells of a rank, and stress-like fields are per cell (value at its centre);
-     - any other scene gives each cell its own (p+1)^dim points, and stress-like fields are per point, continuous within a cell only.
-   Stress-like fields are evaluated at the p^dim Gauss points, where derivatives of the solution are most accurate (and the pressure of mixed cells lives),
-   and extended over the cell by polynomials of degree p-1 in each direction. They are: pressure (-tr(sigma)/3), stress (Cauchy: xx xy xz yy yz zz), von_mises,
-   J. In rigid bodies the stress is 0 and J is 1. In small kinematics sigma is the linear law's stress and J = 1 + tr(grad u). Points: displacement. Cells:
-   order, level (largest number of halvings of its coarse cell in a direction), body, rank, error (square root of the indicator), cell (leaf).
+   Grid bulk: owned cells of all ranks, each cell of order p cut into p^dim pieces at its Gauss-Lobatto nodes. Two layouts, one for a whole run:
+   - A scene that only ever has cells of order 1 shares points between the cells of a rank; stress-like fields are per cell (value at its centre).
+   - Any other scene gives each cell its own (p+1)^dim points; stress-like fields are per point, continuous within a cell only.
+   - Per point: displacement. Per cell: order, level (largest number of halvings of the coarse cell in one direction), body, rank, error (square root of the
+     indicator), cell (number of the leaf).
+   - Stress-like: pressure (-tr(sigma)/3), stress (Cauchy: xx xy xz yy yz zz), von_mises, J. They are evaluated at the p^dim Gauss points, where derivatives
+     of the solution are most accurate (and the pressure of mixed cells lives), and extended over the cell by polynomials of degree p-1 in each direction. In
+     rigid bodies the stress is 0 and J is 1; in small kinematics sigma is the linear law's stress and J = 1 + tr(grad u).
 
-   contact: nonmortar edges of all pairs. Points: displacement, gap (gt_j/w_j; 0 where status is -1), contact_pressure (z_j), status (0 open, 1 in contact, -1
-   faces nothing or carries no multiplier), normal. Cells: pair (index), cell (leaf).
+   Grid contact: nonmortar edges of all pairs.
+   - Per point: displacement, gap (gt_j/w_j; 0 where status is -1), pressure (of contact: z_j), status (0 open, 1 in contact, -1 faces nothing or carries no
+     multiplier), normal. Per cell: pair (index), cell (leaf).
 
-   segments (only with OutputSpec.segments): a quad for each segment, between the part of the nonmortar edge and the part of the mortar edge that see each
-   other. Points: displacement. Cells: pair, edge, mortar_edge. */
+   Grid segments, with OutputSpec.segments: a quad for each segment, between the parts of the nonmortar and of the mortar edge that see each other.
+   - Per point: displacement. Per cell: pair, edge, mortar_edge. */
 PetscErrorCode OutputWriteState(Writer, Problem, const State *, const Estimate *, PetscReal series_time, PetscInt step, PetscInt pass);
 /* The contact and segments grids of it; tables as of the last evaluation. Collective. */
 PetscErrorCode OutputWriteContact(Writer, Problem);
@@ -83,10 +85,12 @@ PetscErrorCode ProbesEvaluate(Probes, Problem, Vec x, PetscReal displacement[][3
 /* ---- history.csv and adapt.csv (output/history.c) ------------------------------------------------------------------------ */
 
 /* Columns of adapt.csv: step, pass, t, cells, dofs, newton_iterations, active_nodes, estimated_error, estimate, energy, min_det, min_gap, contact_force,
-   seconds, accepted. Columns of history.csv: step, t, dt, passes, step_cuts, cells … seconds as above, force_imbalance, moment_imbalance, support_imbalance,
-   then reaction.<boundary>.x … for boundaries with supports, contact.<pair>.force.x …, contact.<pair>.moment (3-D: .x .y .z), .max_pressure, .area, .radius
-   (2-D), .active_nodes, .min_gap, probe.<name>.displacement.x …, probe.<name>.stress.xx … (those of model_3d: 6; plane: xx xy yy zz). Names as in summary.json.
- */
+   seconds, accepted. Columns of history.csv, names as in summary.json:
+   - step, t, dt, pass (of the accepted solution), step_cuts, cells, dofs, newton_iterations, active_nodes, estimated_error, energy, min_det, min_gap,
+     contact_force, contact_imbalance, moment_imbalance, support_imbalance, seconds;
+   - reaction.<boundary>.x … for boundaries with supports;
+   - contact.<pair>.force.x …, .moment (3-D: .moment.x …), .max_pressure, .area, .radius (2-D), .active_nodes, .min_gap;
+   - probe.<name>.displacement.x …, .stress.xx … (2-D: xx xy yy zz). */
 typedef struct _p_History *History;
 PetscErrorCode HistoryCreate(MPI_Comm, const SceneData *, Probes, History *); /* opens both in the output directory, which must exist. Collective. */
 PetscErrorCode HistoryPass(History, const ReportRow *);                       /* a row of adapt.csv. Collective. */

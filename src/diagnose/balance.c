@@ -1,0 +1,181 @@
+/* Balances of a state: what supports, loads and contact exert, and how well it adds up. Every sum here vanishes in exact equilibrium: contact forces of the two
+   sides, their moments in the current configuration (O-90 of docs), and all forces on the deformable bodies together. */
+#include "diagnose.h"
+
+static PetscReal Norm_Private(const PetscReal a[3])
+{
+  return PetscSqrtReal(Dot3(a, a));
+}
+
+/* Diagonal of the box around a curve, current configuration. */
+static PetscReal Diameter_Private(const SurfaceView *s)
+{
+  PetscReal lo[2] = {PETSC_MAX_REAL, PETSC_MAX_REAL}, hi[2] = {PETSC_MIN_REAL, PETSC_MIN_REAL};
+
+  for (PetscInt n = 0; n < s->num_nodes; ++n) {
+    for (PetscInt c = 0; c < 2; ++c) {
+      lo[c] = PetscMin(lo[c], s->x[2 * n + c]);
+      hi[c] = PetscMax(hi[c], s->x[2 * n + c]);
+    }
+  }
+  return s->num_nodes ? PetscSqrtReal(PetscSqr(hi[0] - lo[0]) + PetscSqr(hi[1] - lo[1])) : 0;
+}
+
+/* Resultant and moment about the origin of nodal forces; returns the sum of their magnitudes. Two dimensions. */
+static PetscReal SideForces_Private(const SurfaceView *s, PetscReal force[3], PetscReal moment[3])
+{
+  PetscReal sum = 0;
+
+  for (PetscInt c = 0; c < 3; ++c) force[c] = moment[c] = 0;
+  for (PetscInt n = 0; n < s->num_nodes; ++n) {
+    const PetscReal *f = s->force + 2 * n, *x = s->x + 2 * n;
+    force[0] += f[0];
+    force[1] += f[1];
+    moment[2] += x[0] * f[1] - x[1] * f[0];
+    sum += PetscSqrtReal(f[0] * f[0] + f[1] * f[1]);
+  }
+  return sum;
+}
+
+/* Axisymmetric: radial forces are no vectors in space, only the axial ones have to balance, and no moment can arise. */
+static void Imbalance_Private(Model model, const ContactView *v, PairFigures *f)
+{
+  PetscReal       force[3], moment[3], sum[2];
+  const PetscBool ring = (PetscBool)(model == MODEL_AXISYMMETRIC);
+
+  sum[0] = SideForces_Private(&v->nonmortar, f->force[0], f->moment[0]);
+  sum[1] = SideForces_Private(&v->mortar, f->force[1], f->moment[1]);
+  for (PetscInt c = 0; c < 3; ++c) {
+    force[c]  = ring && c == 0 ? 0 : f->force[0][c] + f->force[1][c];
+    moment[c] = ring ? 0 : f->moment[0][c] + f->moment[1][c];
+  }
+  f->force_imbalance  = sum[0] > 0 ? Norm_Private(force) / sum[0] : 0;
+  f->moment_imbalance = sum[0] > 0 ? Norm_Private(moment) / (sum[0] * Diameter_Private(&v->nonmortar)) : 0;
+}
+
+/* Resultant of all loads: minus the sum of the bulk residual over all dofs, because internal forces alone sum to zero. */
+static PetscErrorCode Loads_Private(Problem problem, Vec x, Model model, PetscReal load[3])
+{
+  Mechanics       mechanics;
+  MechanicsStatus status;
+  HPSpace         space;
+  Forest          forest;
+  const HPTables *v;
+  PetscReal      *u, *r;
+
+  PetscFunctionBegin;
+  PetscCall(ProblemGetMechanics(problem, &mechanics));
+  PetscCall(ProblemGetSpace(problem, &space));
+  PetscCall(ProblemGetForest(problem, &forest));
+  PetscCall(HPSpaceGetTables(space, &v));
+  PetscCall(PetscCalloc2(v->num_nodes * v->dim, &u, v->num_nodes * v->dim, &r));
+  PetscCall(ProblemLocalDisplacement(problem, x, u));
+  PetscCall(MechanicsResidual(mechanics, u, r, &status));
+  load[0] = load[1] = load[2] = 0;
+  for (PetscInt n = 0; n < v->num_nodes; ++n) {
+    const PetscReal *q, *f = r + n * v->dim;
+    PetscCall(HPSpaceGetFrame(space, n, &q));
+    for (PetscInt c = 0; c < v->dim; ++c) {
+      for (PetscInt a = 0; a < v->dim; ++a) load[a] -= (q ? q[3 * c + a] : (PetscReal)(a == c)) * f[c];
+    }
+  }
+  PetscCall(PetscFree2(u, r));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, load, 3, MPIU_REAL, MPI_SUM, ForestComm(forest)));
+  if (model == MODEL_AXISYMMETRIC) load[0] = 0;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Is the body behind a contact surface rigid? */
+static PetscBool Rigid_Private(const MechanicsSpec *spec, const ForestTables *t, const SurfaceView *s)
+{
+  return (PetscBool)(s->num_edges && spec->bodies[t->leaf_body[s->edge_leaf[0]]].material->law->rigid);
+}
+
+/* All forces on the deformable bodies: supports, loads, and contact with rigid bodies (contact between deformable ones is internal). */
+static void Supports_Private(const MechanicsSpec *spec, const ForestTables *t, const ContactView *const view[], Balance *b)
+{
+  const PetscInt first = spec->model == MODEL_AXISYMMETRIC ? 1 : 0;
+  PetscReal      total[3], magnitude = Norm_Private(b->load);
+
+  for (PetscInt c = 0; c < 3; ++c) total[c] = b->load[c];
+  for (PetscInt i = 0; i < b->num_boundaries; ++i) {
+    magnitude += Norm_Private(b->reaction[i]);
+    for (PetscInt c = first; c < 3; ++c) total[c] += b->reaction[i][c];
+  }
+  for (PetscInt i = 0; i < b->num_contacts; ++i) {
+    const PetscBool rigid[2] = {Rigid_Private(spec, t, &view[i]->nonmortar), Rigid_Private(spec, t, &view[i]->mortar)};
+    for (PetscInt k = 0; k < 2; ++k) {
+      if (rigid[k] || !rigid[1 - k]) continue;
+      magnitude += Norm_Private(b->pair[i].force[k]);
+      for (PetscInt c = first; c < 3; ++c) total[c] += b->pair[i].force[k][c];
+    }
+  }
+  b->support_imbalance = magnitude > 0 ? Norm_Private(total) / magnitude : 0;
+}
+
+PetscErrorCode BalanceCompute(Problem problem, const State *state, Balance *b)
+{
+  const SceneData    *scene;
+  const ForestTables *t;
+  const ContactView **view;
+  Forest              forest;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMemzero(b, sizeof(*b)));
+  PetscCall(ProblemGetScene(problem, &scene));
+  PetscCall(ProblemGetForest(problem, &forest));
+  PetscCall(ForestGetTables(forest, &t));
+  b->num_boundaries = scene->mechanics.num_boundaries;
+  b->num_contacts   = scene->num_contacts;
+  PetscCall(PetscCalloc2(b->num_boundaries, &b->reaction, b->num_contacts, &b->pair));
+  PetscCall(PetscMalloc1(b->num_contacts, &view));
+  PetscCall(ProblemForces(problem, state->x, b->reaction, NULL, NULL, &b->status));
+  for (PetscInt i = 0; i < b->num_contacts; ++i) {
+    PetscCall(ProblemGetContact(problem, i, &view[i]));
+    PetscCall(BalanceZone(view[i], &b->pair[i]));
+    Imbalance_Private(scene->mechanics.model, view[i], &b->pair[i]);
+    b->force_imbalance  = PetscMax(b->force_imbalance, b->pair[i].force_imbalance);
+    b->moment_imbalance = PetscMax(b->moment_imbalance, b->pair[i].moment_imbalance);
+  }
+  PetscCall(Loads_Private(problem, state->x, scene->mechanics.model, b->load));
+  Supports_Private(&scene->mechanics, t, view, b);
+  PetscCall(PetscFree(view));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode BalanceDestroy(Balance *b)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscFree2(b->reaction, b->pair));
+  b->num_boundaries = b->num_contacts = 0;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode ReportRowFill(Problem problem, const State *state, const Estimate *estimate, const Balance *b, ReportRow *row)
+{
+  const ForestTables *t;
+  Forest              forest;
+
+  PetscFunctionBegin;
+  PetscCall(ProblemGetForest(problem, &forest));
+  PetscCall(ForestGetTables(forest, &t));
+  PetscCall(ProblemNumDofs(problem, &row->dofs));
+  row->t                 = state->t;
+  row->cells             = t->num_leaves;
+  row->active_nodes      = 0;
+  row->contact_force     = 0;
+  row->min_gap           = b->num_contacts ? PETSC_MAX_REAL : 0;
+  row->energy            = b->status.energy;
+  row->min_det           = b->status.min_det;
+  row->estimated_error   = estimate ? estimate->relative : NAN;
+  row->estimate          = estimate ? estimate->total : NAN;
+  row->force_imbalance   = b->force_imbalance;
+  row->moment_imbalance  = b->moment_imbalance;
+  row->support_imbalance = b->support_imbalance;
+  for (PetscInt i = 0; i < b->num_contacts; ++i) {
+    row->active_nodes += b->pair[i].active_nodes;
+    row->contact_force += Norm_Private(b->pair[i].force[0]);
+    row->min_gap = PetscMin(row->min_gap, b->pair[i].min_gap);
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

@@ -1,0 +1,200 @@
+/* What a run prints: header, one line per adaptive pass and load step, closing lines. On a terminal a bar below the lines shows how far pseudo-time has come
+   and how long the rest may take; into a file or a pipe nothing of it goes. */
+#include "diagnose.h"
+#include <petsctime.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#define BAR_WIDTH 32
+
+struct _p_Monitor {
+  MPI_Comm         comm;
+  const SceneData *scene;    /* borrowed */
+  PetscBool        terminal; /* rank 0 only */
+  PetscBool        shown;    /* the bar stands on the last line */
+  PetscLogDouble   start;
+  PetscInt         steps, cuts, iterations; /* accepted steps, their cuts, Newton iterations of all rows */
+  PetscReal        t;                       /* accepted pseudo-time */
+};
+
+PetscErrorCode MonitorCreate(MPI_Comm comm, const SceneData *scene, Monitor *monitor)
+{
+  Monitor     m;
+  PetscMPIInt rank;
+  const char *kind = getenv("TERM");
+
+  PetscFunctionBegin;
+  PetscCall(PetscNew(&m));
+  m->comm  = comm;
+  m->scene = scene;
+  PetscCallMPI(MPI_Comm_rank(comm, &rank));
+  m->terminal = (PetscBool)(rank == 0 && isatty(fileno(PETSC_STDOUT)) && kind && strcmp(kind, "dumb"));
+  PetscCall(PetscTime(&m->start));
+  *monitor = m;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode MonitorDestroy(Monitor *monitor)
+{
+  PetscFunctionBegin;
+  if (!*monitor) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(MonitorHide(*monitor));
+  PetscCall(PetscFree(*monitor));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- the bar ------------------------------------------------------------------------------------------------------------- */
+
+PetscErrorCode MonitorHide(Monitor m)
+{
+  PetscFunctionBegin;
+  if (m->shown) {
+    fputs("\r\033[K", PETSC_STDOUT);
+    fflush(PETSC_STDOUT);
+  }
+  m->shown = PETSC_FALSE;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* A duration for people: 12 s, 3 min 20 s, 2 h 05 min. */
+static void Duration_Private(PetscReal seconds, char text[], size_t size)
+{
+  const long s = (long)(seconds + 0.5);
+
+  if (s < 60)
+    snprintf(text, size, "%ld s", s);
+  else if (s < 3600)
+    snprintf(text, size, "%ld min %02ld s", s / 60, s % 60);
+  else
+    snprintf(text, size, "%ld h %02ld min", s / 3600, s % 3600 / 60);
+}
+
+static PetscInt TerminalWidth_Private(void)
+{
+  struct winsize size;
+
+  return ioctl(fileno(PETSC_STDOUT), TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : 80;
+}
+
+/* Time left: the accepted part of pseudo-time taken for the part of the work done. The cursor stays at the start of the line, so that whatever else prints
+   begins there. A line too long for the terminal would wrap and could not be erased: it is cut. */
+static PetscErrorCode MonitorShow_Private(Monitor m)
+{
+  const PetscReal done = PetscMin(1., m->t / m->scene->load.end);
+  PetscLogDouble  now;
+  char            bar[BAR_WIDTH + 1], left[64] = "time left not known yet", spent[32], line[256];
+
+  PetscFunctionBegin;
+  if (!m->terminal) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(PetscTime(&now));
+  for (PetscInt i = 0; i < BAR_WIDTH; ++i) bar[i] = i < (PetscInt)(done * BAR_WIDTH + 0.5) ? '#' : '.';
+  bar[BAR_WIDTH] = 0;
+  Duration_Private(now - m->start, spent, sizeof(spent));
+  if (done > 0) {
+    char rest[32];
+    Duration_Private((now - m->start) * (1 - done) / done, rest, sizeof(rest));
+    snprintf(left, sizeof(left), "about %s left", rest);
+  }
+  snprintf(line, sizeof(line), "[%s] %3.0f %%, %s, %s", bar, 100 * (double)done, spent, left);
+  fprintf(PETSC_STDOUT, "\r\033[K%.*s\r", (int)TerminalWidth_Private() - 1, line);
+  fflush(PETSC_STDOUT);
+  m->shown = PETSC_TRUE;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- lines --------------------------------------------------------------------------------------------------------------- */
+
+static const char *FileName_Private(const char *path)
+{
+  const char *slash = strrchr(path, '/');
+  return slash ? slash + 1 : path;
+}
+
+PetscErrorCode MonitorHeader(Monitor m, Problem problem)
+{
+  const SceneData    *scene = m->scene;
+  const ForestTables *t;
+  Forest              forest;
+  PetscInt            dofs, low = MORTISE_MAX_ORDER, high = 1;
+  PetscMPIInt         size;
+  char                orders[32], model[MORTISE_NAME];
+
+  PetscFunctionBegin;
+  PetscCall(ProblemGetForest(problem, &forest));
+  PetscCall(ForestGetTables(forest, &t));
+  PetscCall(ProblemNumDofs(problem, &dofs));
+  PetscCallMPI(MPI_Comm_size(m->comm, &size));
+  for (PetscInt b = 0; b < scene->mechanics.num_bodies; ++b) {
+    if (scene->mechanics.bodies[b].material->law->rigid) continue;
+    low  = PetscMin(low, scene->mechanics.bodies[b].order);
+    high = PetscMax(high, scene->mechanics.bodies[b].order);
+  }
+  if (low >= high)
+    snprintf(orders, sizeof(orders), "%d", (int)high);
+  else
+    snprintf(orders, sizeof(orders), "%d to %d", (int)low, (int)high);
+  PetscCall(PetscStrncpy(model, ModelNames[scene->mechanics.model], sizeof(model)));
+  for (char *c = model; *c; ++c) *c = *c == '_' ? ' ' : *c;
+  PetscCall(PetscPrintf(m->comm, "mortise " MORTISE_VERSION ": %s%s%s\n", scene->title, scene->title[0] ? ", " : "", FileName_Private(scene->file)));
+  PetscCall(PetscPrintf(m->comm, "%s, %s kinematics, units of the scene; %" PetscInt_FMT " cells of order %s, %" PetscInt_FMT " dofs, %d %s\n", model,
+                        KinematicsNames[scene->mechanics.kinematics], t->num_leaves, orders, dofs, size, size == 1 ? "process" : "processes"));
+  PetscCall(PetscPrintf(m->comm, "%5s %4s %11s %8s %9s %6s %6s %10s %12s %8s\n", "step", "pass", "t", "cells", "dofs", "newton", "active", "error", "force",
+                        "seconds"));
+  fflush(PETSC_STDOUT);
+  PetscCall(MonitorShow_Private(m));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode MonitorRow(Monitor m, const ReportRow *row)
+{
+  char error[16] = "-", force[16] = "-", end[48] = "";
+
+  PetscFunctionBegin;
+  PetscCall(MonitorHide(m));
+  if (!PetscIsNanReal(row->estimated_error)) snprintf(error, sizeof(error), "%.3e", (double)row->estimated_error);
+  if (m->scene->num_contacts) snprintf(force, sizeof(force), "%.5e", (double)row->contact_force);
+  if (row->accepted && row->step_cuts)
+    snprintf(end, sizeof(end), "  accepted, %d %s", (int)row->step_cuts, row->step_cuts == 1 ? "cut" : "cuts");
+  else if (row->accepted)
+    snprintf(end, sizeof(end), "  accepted");
+  PetscCall(PetscPrintf(
+      m->comm, "%5" PetscInt_FMT " %4" PetscInt_FMT " %11.5g %8" PetscInt_FMT " %9" PetscInt_FMT " %6" PetscInt_FMT " %6" PetscInt_FMT " %10s %12s %8.2f%s\n",
+      row->step, row->pass, (double)row->t, row->cells, row->dofs, row->newton_iterations, row->active_nodes, error, force, (double)row->seconds, end));
+  fflush(PETSC_STDOUT);
+  m->iterations += row->newton_iterations;
+  if (row->accepted) {
+    m->steps++;
+    m->cuts += row->step_cuts;
+    m->t = row->t;
+  }
+  PetscCall(MonitorShow_Private(m));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode MonitorFooter(Monitor m, const char *status, const char *reason, const ReportRow *last)
+{
+  PetscLogDouble now;
+  char           spent[32];
+
+  PetscFunctionBegin;
+  PetscCall(MonitorHide(m));
+  PetscCall(PetscTime(&now));
+  if (now - m->start < 60)
+    snprintf(spent, sizeof(spent), "%.2f s", (double)(now - m->start));
+  else
+    Duration_Private(now - m->start, spent, sizeof(spent));
+  PetscCall(PetscPrintf(m->comm, "%s%s%s: %" PetscInt_FMT " load %s to t = %g of %g, %" PetscInt_FMT " Newton iterations, %" PetscInt_FMT " step %s, %s\n",
+                        status, reason[0] ? ", " : "", reason, m->steps, m->steps == 1 ? "step" : "steps", (double)m->t, (double)m->scene->load.end,
+                        m->iterations, m->cuts, m->cuts == 1 ? "cut" : "cuts", spent));
+  if (last) {
+    if (PetscIsNanReal(last->estimated_error))
+      PetscCall(PetscPrintf(m->comm, "strain energy %.8g, error not estimated\n", (double)last->energy));
+    else
+      PetscCall(
+          PetscPrintf(m->comm, "strain energy %.8g, estimated error %.3g %% in the energy norm\n", (double)last->energy, 100 * (double)last->estimated_error));
+  }
+  PetscCall(PetscPrintf(m->comm, "results in %s: summary.json, history.csv, adapt.csv%s\n", m->scene->output.directory,
+                        m->scene->output.fields ? ", fields.xdmf" : ""));
+  fflush(PETSC_STDOUT);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

@@ -1,0 +1,69 @@
+/* The zone of contact of one pair: its area, its edge, pressures and gaps, from the replicated nodal tables. */
+#include "diagnose.h"
+
+static PetscBool Covered_Private(const ContactView *v, PetscInt node)
+{
+  return (PetscBool)(v->has_multiplier[node] && v->weight[node] > 0);
+}
+
+/* Distance from the active node a, towards the inactive node that is `length` away, at which the zone ends; behind: the neighbour of a on the other side, -1:
+ * none. */
+static PetscReal Reach_Private(const ContactView *v, PetscInt a, PetscInt behind, PetscReal length)
+{
+  PetscReal fall;
+
+  if (behind < 0 || !v->active[behind]) return length / 2;
+  const PetscReal *x = v->nonmortar.x, back = PetscSqrtReal(PetscSqr(x[2 * a] - x[2 * behind]) + PetscSqr(x[2 * a + 1] - x[2 * behind + 1]));
+  fall = (PetscSqr(v->z[behind]) - PetscSqr(v->z[a])) / back;
+  if (!(fall > 0)) return length / 2;
+  return PetscMin(length, PetscSqr(v->z[a]) / fall);
+}
+
+/* Largest |x| of the zone: active nodes, and its ends on edges with one active node. neighbour[node][0]: node before, [1]: after along the surface. */
+static PetscErrorCode Radius_Private(const ContactView *v, PetscReal *radius)
+{
+  const SurfaceView *s = &v->nonmortar;
+  PetscInt(*neighbour)[2];
+
+  PetscFunctionBegin;
+  *radius = 0;
+  PetscCall(PetscMalloc1(s->num_nodes, &neighbour));
+  for (PetscInt n = 0; n < s->num_nodes; ++n) neighbour[n][0] = neighbour[n][1] = -1;
+  for (PetscInt e = 0; e < s->num_edges; ++e) {
+    neighbour[s->edges[2 * e]][1]     = s->edges[2 * e + 1];
+    neighbour[s->edges[2 * e + 1]][0] = s->edges[2 * e];
+  }
+  for (PetscInt n = 0; n < s->num_nodes; ++n) {
+    if (!v->active[n]) continue;
+    *radius = PetscMax(*radius, PetscAbsReal(s->x[2 * n]));
+    for (PetscInt k = 0; k < 2; ++k) {
+      const PetscInt next = neighbour[n][k];
+      if (next < 0 || v->active[next]) continue;
+      const PetscReal d[2] = {s->x[2 * next] - s->x[2 * n], s->x[2 * next + 1] - s->x[2 * n + 1]}, length = PetscSqrtReal(d[0] * d[0] + d[1] * d[1]);
+      if (!(length > 0)) continue;
+      *radius = PetscMax(*radius, PetscAbsReal(s->x[2 * n] + d[0] / length * Reach_Private(v, n, neighbour[n][1 - k], length)));
+    }
+  }
+  PetscCall(PetscFree(neighbour));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode BalanceZone(const ContactView *v, PairFigures *f)
+{
+  PetscFunctionBegin;
+  f->max_pressure = f->area = f->min_gap = f->max_gap = 0;
+  f->active_nodes = f->covered_nodes = 0;
+  for (PetscInt n = 0; n < v->nonmortar.num_nodes; ++n) {
+    if (!Covered_Private(v, n)) continue;
+    const PetscReal gap = v->gap[n] / v->weight[n];
+    f->min_gap          = f->covered_nodes ? PetscMin(f->min_gap, gap) : gap;
+    f->max_gap          = f->covered_nodes ? PetscMax(f->max_gap, gap) : gap;
+    f->covered_nodes++;
+    f->max_pressure = PetscMax(f->max_pressure, v->z[n]);
+    if (!v->active[n]) continue;
+    f->active_nodes++;
+    f->area += v->weight[n];
+  }
+  PetscCall(Radius_Private(v, &f->radius));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

@@ -1,0 +1,203 @@
+/* history.csv and adapt.csv: what happened, one row per accepted load step and per adaptive pass. */
+#include "output.h"
+
+#define COLUMN_NAME (2 * MORTISE_NAME)
+
+struct _p_History {
+  const SceneData *scene;  /* borrowed */
+  Probes           probes; /* borrowed, may be NULL */
+  Table            adapt, history;
+  PetscInt         num;    /* columns of history.csv */
+  PetscReal       *values; /* owned [num] */
+};
+
+static const char *const adapt_columns[] = {"step",     "pass",   "t",       "cells",   "dofs",          "newton_iterations", "active_nodes", "estimated_error",
+                                            "estimate", "energy", "min_det", "min_gap", "contact_force", "seconds",           "accepted"};
+static const char *const step_columns[]  = {"step",
+                                            "t",
+                                            "dt",
+                                            "pass",
+                                            "step_cuts",
+                                            "cells",
+                                            "dofs",
+                                            "newton_iterations",
+                                            "active_nodes",
+                                            "estimated_error",
+                                            "energy",
+                                            "min_det",
+                                            "min_gap",
+                                            "contact_force",
+                                            "contact_imbalance",
+                                            "moment_imbalance",
+                                            "support_imbalance",
+                                            "seconds"};
+static const char *const axis_name[]     = {"x", "y", "z"};
+static const char *const stress_name[]   = {"xx", "xy", "xz", "yy", "yz", "zz"};
+static const char *const zone_name[]     = {"max_pressure", "area", "radius", "active_nodes", "min_gap"};
+
+/* Columns of a table under construction. With names NULL they are counted only; a value is put beside its name, so that both cannot drift apart. */
+typedef struct {
+  PetscInt num;
+  char (*names)[COLUMN_NAME];
+  PetscReal *values;
+} Columns;
+
+/* Name: kind.owner, then .what and .component where not NULL. */
+static PetscErrorCode Column_Private(Columns *c, PetscReal value, const char *kind, const char *owner, const char *what, const char *component)
+{
+  PetscFunctionBegin;
+  if (c->names) {
+    PetscCall(PetscSNPrintf(c->names[c->num], COLUMN_NAME, "%s.%s%s%s%s%s", kind, owner, what ? "." : "", what ? what : "", component ? "." : "",
+                            component ? component : ""));
+  }
+  if (c->values) c->values[c->num] = value;
+  c->num++;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode PairColumns_Private(Columns *c, PetscInt dim, const char *name, const PairFigures *f)
+{
+  const PetscReal zone[] = {f->max_pressure, f->area, f->radius, (PetscReal)f->active_nodes, f->min_gap};
+
+  PetscFunctionBegin;
+  for (PetscInt a = 0; a < dim; ++a) PetscCall(Column_Private(c, f->force[0][a], "contact", name, "force", axis_name[a]));
+  for (PetscInt a = dim == 2 ? 2 : 0; a < 3; ++a) PetscCall(Column_Private(c, f->moment[0][a], "contact", name, "moment", dim == 2 ? NULL : axis_name[a]));
+  for (PetscInt k = 0; k < 5; ++k) {
+    if (k == 2 && dim == 3) continue;
+    PetscCall(Column_Private(c, zone[k], "contact", name, zone_name[k], NULL));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* All columns after the fixed ones. balance, displacement and stress may be NULL: names only. */
+static PetscErrorCode Columns_Private(const SceneData *scene, PetscInt num_probes, const Balance *balance, PetscReal displacement[][3], PetscReal stress[][6],
+                                      Columns *c)
+{
+  const PetscInt    dim  = scene->mechanics.model == MODEL_3D ? 3 : 2;
+  const PairFigures none = {0};
+
+  PetscFunctionBegin;
+  for (PetscInt b = 0; b < scene->mechanics.num_boundaries; ++b) {
+    const BoundarySpec *spec = &scene->mechanics.boundaries[b];
+    if (!BoundarySupports(spec)) continue;
+    for (PetscInt a = 0; a < dim; ++a) PetscCall(Column_Private(c, balance ? balance->reaction[b][a] : 0, "reaction", spec->name, NULL, axis_name[a]));
+  }
+  for (PetscInt i = 0; i < scene->num_contacts; ++i) PetscCall(PairColumns_Private(c, dim, scene->contacts[i].name, balance ? &balance->pair[i] : &none));
+  for (PetscInt i = 0; i < num_probes; ++i) {
+    const char *name = scene->probes[i].name;
+    for (PetscInt a = 0; a < dim; ++a) PetscCall(Column_Private(c, displacement ? displacement[i][a] : 0, "probe", name, "displacement", axis_name[a]));
+    for (PetscInt k = 0; k < 6; ++k) {
+      if (dim == 2 && (k == 2 || k == 4)) continue;
+      PetscCall(Column_Private(c, stress ? stress[i][k] : 0, "probe", name, "stress", stress_name[k]));
+    }
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Open history.csv: fixed columns, then those of the scene. */
+static PetscErrorCode OpenHistory_Private(MPI_Comm comm, History h)
+{
+  const PetscInt fixed = (PetscInt)PETSC_STATIC_ARRAY_LENGTH(step_columns), num_probes = h->probes ? h->scene->num_probes : 0;
+  char           path[PETSC_MAX_PATH_LEN];
+  const char   **names;
+  Columns        c = {0};
+
+  PetscFunctionBegin;
+  PetscCall(Columns_Private(h->scene, num_probes, NULL, NULL, NULL, &c));
+  h->num = fixed + c.num;
+  PetscCall(PetscMalloc1(h->num, &h->values));
+  PetscCall(PetscMalloc2(c.num, &c.names, h->num, &names));
+  c.num = 0;
+  PetscCall(Columns_Private(h->scene, num_probes, NULL, NULL, NULL, &c));
+  for (PetscInt i = 0; i < h->num; ++i) names[i] = i < fixed ? step_columns[i] : c.names[i - fixed];
+  PetscCall(PetscSNPrintf(path, sizeof(path), "%s/history.csv", h->scene->output.directory));
+  PetscCall(TableCreate(comm, path, h->num, names, &h->history));
+  PetscCall(PetscFree2(c.names, names));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode HistoryCreate(MPI_Comm comm, const SceneData *scene, Probes probes, History *history)
+{
+  History h;
+  char    path[PETSC_MAX_PATH_LEN];
+
+  PetscFunctionBegin;
+  PetscCall(PetscNew(&h));
+  *history  = h;
+  h->scene  = scene;
+  h->probes = probes;
+  PetscCall(PetscSNPrintf(path, sizeof(path), "%s/adapt.csv", scene->output.directory));
+  PetscCall(TableCreate(comm, path, (PetscInt)PETSC_STATIC_ARRAY_LENGTH(adapt_columns), adapt_columns, &h->adapt));
+  PetscCall(OpenHistory_Private(comm, h));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode HistoryDestroy(History *history)
+{
+  PetscFunctionBegin;
+  if (!*history) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(TableDestroy(&(*history)->adapt));
+  PetscCall(TableDestroy(&(*history)->history));
+  PetscCall(PetscFree((*history)->values));
+  PetscCall(PetscFree(*history));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Order of adapt_columns. */
+PetscErrorCode HistoryPass(History h, const ReportRow *r)
+{
+  const PetscReal values[] = {(PetscReal)r->step,
+                              (PetscReal)r->pass,
+                              r->t,
+                              (PetscReal)r->cells,
+                              (PetscReal)r->dofs,
+                              (PetscReal)r->newton_iterations,
+                              (PetscReal)r->active_nodes,
+                              r->estimated_error,
+                              r->estimate,
+                              r->energy,
+                              r->min_det,
+                              r->min_gap,
+                              r->contact_force,
+                              r->seconds,
+                              r->accepted ? 1. : 0.};
+
+  PetscFunctionBegin;
+  PetscCall(TableRow(h->adapt, values));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Order of step_columns. */
+PetscErrorCode HistoryStep(History h, const ReportRow *r, const Balance *balance, Problem problem, const State *state)
+{
+  const PetscReal fixed[]   = {(PetscReal)r->step,
+                               r->t,
+                               r->dt,
+                               (PetscReal)r->pass,
+                               (PetscReal)r->step_cuts,
+                               (PetscReal)r->cells,
+                               (PetscReal)r->dofs,
+                               (PetscReal)r->newton_iterations,
+                               (PetscReal)r->active_nodes,
+                               r->estimated_error,
+                               r->energy,
+                               r->min_det,
+                               r->min_gap,
+                               r->contact_force,
+                               r->force_imbalance,
+                               r->moment_imbalance,
+                               r->support_imbalance,
+                               r->seconds};
+  const PetscInt  num_fixed = (PetscInt)PETSC_STATIC_ARRAY_LENGTH(fixed), num_probes = h->probes ? h->scene->num_probes : 0;
+  Columns         c = {0, NULL, h->values + num_fixed};
+  PetscReal(*displacement)[3], (*stress)[6];
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc2(num_probes, &displacement, num_probes, &stress));
+  if (num_probes) PetscCall(ProbesEvaluate(h->probes, problem, state->x, displacement, stress));
+  PetscCall(PetscArraycpy(h->values, fixed, num_fixed));
+  PetscCall(Columns_Private(h->scene, num_probes, balance, displacement, stress, &c));
+  PetscCall(TableRow(h->history, h->values));
+  PetscCall(PetscFree2(displacement, stress));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

@@ -1,0 +1,250 @@
+/* summary.json: the figures of a run, also of one that failed. Keys are the contract with users; a figure that is not known is null. */
+#include "output.h"
+#include <cjson/cJSON.h>
+#include <errno.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+
+/* Everything that needs all ranks, gathered before rank 0 writes. */
+typedef struct {
+  PetscReal   seconds[NUM_STAGES];
+  PetscReal   memory[2]; /* MB: sum over ranks, largest of one */
+  PetscInt    cells, dofs, order_min, order_max;
+  PetscMPIInt ranks;
+  PetscInt    num_probes;
+  PetscReal (*displacement)[3], (*stress)[6]; /* owned [num_probes] */
+} Gathered;
+
+static PetscInt Dim_Private(const SceneData *scene)
+{
+  return scene->mechanics.model == MODEL_3D ? 3 : 2;
+}
+
+/* ---- pieces of JSON --------------------------------------------------------------------------------------------------------- */
+
+/* NaN and infinity have no number in JSON. */
+static cJSON *Number_Private(PetscReal value)
+{
+  return PetscIsInfOrNanReal(value) ? cJSON_CreateNull() : cJSON_CreateNumber((double)value);
+}
+
+static void AddNumber_Private(cJSON *object, const char *key, PetscReal value)
+{
+  cJSON_AddItemToObject(object, key, Number_Private(value));
+}
+
+static void AddArray_Private(cJSON *object, const char *key, PetscInt num, const PetscReal values[])
+{
+  cJSON *array = cJSON_AddArrayToObject(object, key);
+  for (PetscInt i = 0; i < num; ++i) cJSON_AddItemToArray(array, Number_Private(values[i]));
+}
+
+/* One number (about z) in two dimensions, three in space. */
+static void AddMoment_Private(cJSON *object, const char *key, PetscInt dim, const PetscReal moment[3])
+{
+  AddArray_Private(object, key, dim == 2 ? 1 : 3, dim == 2 ? moment + 2 : moment);
+}
+
+/* ---- sections --------------------------------------------------------------------------------------------------------------- */
+
+static void AddEstimate_Private(cJSON *root, const Estimate *e)
+{
+  static const char *const part[] = {"interior", "jumps", "boundary", "contact", "incompressibility"};
+
+  AddNumber_Private(root, "estimated_error", e ? e->relative : NAN);
+  if (!e) return;
+  cJSON *object = cJSON_AddObjectToObject(root, "estimate");
+  AddNumber_Private(object, "total", e->total);
+  AddNumber_Private(object, "norm", e->norm);
+  for (PetscInt i = 0; i < 5; ++i) AddNumber_Private(object, part[i], PetscSqrtReal(e->part[i]));
+}
+
+static void AddPair_Private(cJSON *contact, PetscInt dim, const char *name, const PairFigures *f)
+{
+  cJSON *pair = cJSON_AddObjectToObject(contact, name);
+
+  AddArray_Private(pair, "force", dim, f->force[0]);
+  AddMoment_Private(pair, "moment", dim, f->moment[0]);
+  AddArray_Private(pair, "mortar_force", dim, f->force[1]);
+  AddMoment_Private(pair, "mortar_moment", dim, f->moment[1]);
+  AddNumber_Private(pair, "force_imbalance", f->force_imbalance);
+  AddNumber_Private(pair, "moment_imbalance", f->moment_imbalance);
+  AddNumber_Private(pair, "max_pressure", f->max_pressure);
+  AddNumber_Private(pair, "area", f->area);
+  if (dim == 2) AddNumber_Private(pair, "radius", f->radius);
+  AddNumber_Private(pair, "active_nodes", (PetscReal)f->active_nodes);
+  AddNumber_Private(pair, "covered_nodes", (PetscReal)f->covered_nodes);
+  AddNumber_Private(pair, "min_gap", f->min_gap);
+  AddNumber_Private(pair, "max_gap", f->max_gap);
+}
+
+static void AddForces_Private(cJSON *root, const SceneData *scene, const Balance *b)
+{
+  const PetscInt dim      = Dim_Private(scene);
+  cJSON         *reaction = cJSON_AddObjectToObject(root, "reaction"), *contact;
+
+  for (PetscInt i = 0; b && i < b->num_boundaries; ++i) {
+    if (BoundarySupports(&scene->mechanics.boundaries[i])) AddArray_Private(reaction, scene->mechanics.boundaries[i].name, dim, b->reaction[i]);
+  }
+  contact = cJSON_AddObjectToObject(root, "contact");
+  for (PetscInt i = 0; b && i < b->num_contacts; ++i) AddPair_Private(contact, dim, scene->contacts[i].name, &b->pair[i]);
+  if (!b) return;
+  cJSON *balance = cJSON_AddObjectToObject(root, "balance");
+  AddArray_Private(balance, "load", dim, b->load);
+  AddNumber_Private(balance, "contact_force", b->force_imbalance);
+  AddNumber_Private(balance, "contact_moment", b->moment_imbalance);
+  AddNumber_Private(balance, "supports", b->support_imbalance);
+}
+
+static void AddProbes_Private(cJSON *root, const SceneData *scene, const Gathered *g)
+{
+  const PetscInt dim    = Dim_Private(scene);
+  cJSON         *probes = cJSON_AddObjectToObject(root, "probe");
+
+  for (PetscInt i = 0; i < g->num_probes; ++i) {
+    cJSON *probe = cJSON_AddObjectToObject(probes, scene->probes[i].name);
+    AddArray_Private(probe, "displacement", dim, g->displacement[i]);
+    AddArray_Private(probe, "stress", 6, g->stress[i]);
+  }
+}
+
+static void AddTimes_Private(cJSON *root, PetscReal total, const Gathered *g)
+{
+  cJSON *time = cJSON_AddObjectToObject(root, "time");
+
+  AddNumber_Private(time, "total", total);
+  for (PetscInt s = 0; s < NUM_STAGES; ++s) AddNumber_Private(time, StageNames[s], g->seconds[s]);
+  AddNumber_Private(root, "peak_memory_mb", g->memory[0]);
+  AddNumber_Private(root, "peak_memory_rank_mb", g->memory[1]);
+}
+
+static cJSON *Document_Private(const SceneData *scene, const RunSummary *s, const Gathered *g)
+{
+  const char     *slash = strrchr(scene->file, '/');
+  const PetscReal nan   = NAN;
+  cJSON          *root  = cJSON_CreateObject();
+
+  cJSON_AddStringToObject(root, "mortise", MORTISE_VERSION);
+  cJSON_AddStringToObject(root, "scene", slash ? slash + 1 : scene->file);
+  cJSON_AddStringToObject(root, "title", scene->title);
+  cJSON_AddStringToObject(root, "status", s->status);
+  cJSON_AddStringToObject(root, "reason", s->reason ? s->reason : "");
+  AddNumber_Private(root, "t", s->t);
+  cJSON_AddStringToObject(root, "model", ModelNames[scene->mechanics.model]);
+  AddNumber_Private(root, "ranks", (PetscReal)g->ranks);
+  AddNumber_Private(root, "load_steps", (PetscReal)s->load_steps);
+  AddNumber_Private(root, "step_cuts", (PetscReal)s->step_cuts);
+  AddNumber_Private(root, "adapt_passes", (PetscReal)s->adapt_passes);
+  AddNumber_Private(root, "newton_iterations", (PetscReal)s->newton_iterations);
+  AddNumber_Private(root, "active_set_changes", (PetscReal)s->active_set_changes);
+  AddNumber_Private(root, "cells", s->problem ? (PetscReal)g->cells : nan);
+  AddNumber_Private(root, "dofs", s->problem ? (PetscReal)g->dofs : nan);
+  AddNumber_Private(root, "order_min", s->problem ? (PetscReal)g->order_min : nan);
+  AddNumber_Private(root, "order_max", s->problem ? (PetscReal)g->order_max : nan);
+  AddEstimate_Private(root, s->estimate);
+  AddNumber_Private(root, "energy", s->balance ? s->balance->status.energy : nan);
+  AddNumber_Private(root, "min_det", s->balance ? s->balance->status.min_det : nan);
+  AddForces_Private(root, scene, s->balance);
+  AddProbes_Private(root, scene, g);
+  AddTimes_Private(root, s->seconds, g);
+  return root;
+}
+
+/* ---- gathering -------------------------------------------------------------------------------------------------------------- */
+
+static PetscErrorCode GatherRun_Private(MPI_Comm comm, Gathered *g)
+{
+  struct rusage usage;
+
+  PetscFunctionBegin;
+  PetscCallMPI(MPI_Comm_size(comm, &g->ranks));
+  for (PetscInt s = 0; s < NUM_STAGES; ++s) g->seconds[s] = StageSeconds((Stage)s);
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, g->seconds, NUM_STAGES, MPIU_REAL, MPI_MAX, comm));
+  PetscCheck(getrusage(RUSAGE_SELF, &usage) == 0, PETSC_COMM_SELF, PETSC_ERR_SYS, "getrusage: %s", strerror(errno));
+  g->memory[0] = g->memory[1] = (PetscReal)usage.ru_maxrss / 1024; /* Linux counts kB */
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &g->memory[0], 1, MPIU_REAL, MPI_SUM, comm));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &g->memory[1], 1, MPIU_REAL, MPI_MAX, comm));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Cells, dofs, orders of deformable cells, probes. */
+static PetscErrorCode GatherState_Private(const SceneData *scene, const RunSummary *s, Gathered *g)
+{
+  const ForestTables *t;
+  Forest              forest;
+
+  PetscFunctionBegin;
+  PetscCall(ProblemGetForest(s->problem, &forest));
+  PetscCall(ForestGetTables(forest, &t));
+  PetscCall(ProblemNumDofs(s->problem, &g->dofs));
+  g->cells     = t->num_leaves;
+  g->order_min = MORTISE_MAX_ORDER;
+  for (PetscInt leaf = 0; leaf < t->num_leaves; ++leaf) {
+    if (scene->mechanics.bodies[t->leaf_body[leaf]].material->law->rigid) continue;
+    g->order_min = PetscMin(g->order_min, s->state->leaf_order[leaf]);
+    g->order_max = PetscMax(g->order_max, s->state->leaf_order[leaf]);
+  }
+  if (!s->probes) PetscFunctionReturn(PETSC_SUCCESS);
+  g->num_probes = scene->num_probes;
+  PetscCall(PetscMalloc2(g->num_probes, &g->displacement, g->num_probes, &g->stress));
+  PetscCall(ProbesEvaluate(s->probes, s->problem, s->state->x, g->displacement, g->stress));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode OutputSummary(MPI_Comm comm, const SceneData *scene, const RunSummary *s)
+{
+  Gathered    g = {0};
+  PetscMPIInt rank;
+  char        path[PETSC_MAX_PATH_LEN];
+  cJSON      *document = NULL;
+
+  PetscFunctionBegin;
+  PetscCallMPI(MPI_Comm_rank(comm, &rank));
+  PetscCall(GatherRun_Private(comm, &g));
+  if (s->problem) PetscCall(GatherState_Private(scene, s, &g));
+  if (rank == 0) document = Document_Private(scene, s, &g);
+  PetscCall(PetscSNPrintf(path, sizeof(path), "%s/summary.json", scene->output.directory));
+  PetscCall(SummaryWrite(comm, path, document));
+  cJSON_Delete(document);
+  PetscCall(PetscFree2(g.displacement, g.stress));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscBool BoundarySupports(const BoundarySpec *b)
+{
+  PetscBool any = (PetscBool)(b->fix_normal || b->rotation);
+
+  for (PetscInt c = 0; c < 3; ++c) any = (PetscBool)(any || b->fix[c] || b->displacement[c]);
+  return any;
+}
+
+/* mkdir -p; errno, 0 when the directory is there. */
+static int MakeDirectory_Private(const char *path)
+{
+  char        part[PETSC_MAX_PATH_LEN];
+  struct stat kind;
+
+  if (snprintf(part, sizeof(part), "%s", path) >= (int)sizeof(part)) return ENAMETOOLONG;
+  for (char *c = part + 1; *c; ++c) {
+    if (*c != '/') continue;
+    *c = 0;
+    if (mkdir(part, 0777) && errno != EEXIST) return errno;
+    *c = '/';
+  }
+  if (mkdir(part, 0777) && errno != EEXIST) return errno;
+  if (stat(part, &kind)) return errno;
+  return S_ISDIR(kind.st_mode) ? 0 : ENOTDIR;
+}
+
+PetscErrorCode OutputDirectoryCreate(MPI_Comm comm, const char *path)
+{
+  PetscMPIInt rank;
+  int         failed = 0;
+
+  PetscFunctionBegin;
+  PetscCallMPI(MPI_Comm_rank(comm, &rank));
+  if (rank == 0) failed = MakeDirectory_Private(path);
+  PetscCallMPI(MPI_Bcast(&failed, 1, MPI_INT, 0, comm));
+  PetscCheckInput(!failed, "output.directory: cannot make %s: %s", path, strerror(failed));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
