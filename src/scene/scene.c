@@ -22,7 +22,11 @@ static PetscErrorCode FindFile_Private(int argc, char **argv, const char **file)
     if (IsYAML_Private(argv[i]) && strncmp(argv[i - 1], "-options_file", 13)) at = i;
   if (!at && argc > 1 && argv[1][0] != '-') at = 1;
   PetscCheckInput(at, "no scene given; run: mortise SCENE.yml [options], or mortise -help");
-  PetscCheckInput(at + 1 >= argc || argv[at + 1][0] == '-', "'%s' after the scene is neither an option nor its value; one run solves one scene", argv[at + 1]);
+  for (int i = at + 1; i < argc; ++i) {
+    PetscBool stray = i == at + 1 && argv[i][0] != '-' ? PETSC_TRUE : PETSC_FALSE;
+    if (IsYAML_Private(argv[i]) && (argv[i - 1][0] != '-' || !strcmp(argv[i - 1], "-check"))) stray = PETSC_TRUE;
+    PetscCheckInput(!stray, "'%s' after the scene is neither an option nor its value; one run solves one scene", argv[i]);
+  }
   *file = argv[at];
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -1,0 +1,260 @@
+"""Wrong input: exit status 1, one sentence that names key, value and what is allowed, nothing solved and no output directory made."""
+import os
+import pathlib
+import re
+import shutil
+
+import pytest
+
+
+
+def square(first, y):
+    """Points, curves, surface first .. first+3 of the square [0,1] x [y,y+1]; curves: bottom, right, top, left."""
+    p = range(first, first + 4)
+    return (f"Point({p[0]}) = {{0, {y}, 0}}; Point({p[1]}) = {{1, {y}, 0}}; Point({p[2]}) = {{1, {y + 1}, 0}}; Point({p[3]}) = {{0, {y + 1}, 0}};\n"
+            f"Line({p[0]}) = {{{p[0]}, {p[1]}}}; Line({p[1]}) = {{{p[1]}, {p[2]}}}; Line({p[2]}) = {{{p[2]}, {p[3]}}}; Line({p[3]}) = {{{p[3]}, {p[0]}}};\n"
+            f"Curve Loop({first}) = {{{p[0]}:{p[3]}}}; Plane Surface({first}) = {{{first}}};\n"
+            f"Transfinite Curve {{{p[0]}:{p[3]}}} = n + 1;\nTransfinite Surface {{{first}}};\nRecombine Surface {{{first}}};\n")
+
+
+GEO = "DefineConstant[ n = 2 ];\n" + square(1, 0) + square(11, 1) + """Physical Surface("lower", 1) = {1};
+Physical Surface("upper", 2) = {11};
+Physical Curve("bottom", 3) = {1};
+Physical Curve("lower_top", 4) = {3};
+Physical Curve("lower_side", 5) = {2};
+Physical Curve("upper_bottom", 6) = {11};
+Physical Curve("top", 7) = {13};
+"""
+
+SCENE = """title: two squares
+mesh: {file: squares.geo, order: 1}
+model: plane_strain
+kinematics: finite
+order: 1
+body:
+  lower: {material: rubber}
+  upper: {material: rubber}
+material:
+  rubber: {law: neo_hookean, E: 1, nu: 0.3}
+boundary:
+  bottom: {fix: xy}
+  top: {displacement: {x: 0, y: -0.05}}
+contact:
+  pair: {nonmortar: upper_bottom, mortar: lower_top, friction: 0}
+load: {end: 1, step: 0.5}
+"""
+
+
+@pytest.fixture
+def check(run, tmp_path):
+    """check(edits, *options, geo=GEO): run SCENE with its texts replaced by -check."""
+    (tmp_path / "tmp").mkdir()
+
+    def start(edits=(), *options, geo=GEO, ranks=1, env=None):
+        text = SCENE
+        for old, new in edits:
+            assert old in text
+            text = text.replace(old, new)
+        if geo is not None:
+            (tmp_path / "squares.geo").write_text(geo)
+        result = run("squares.yml", "-check", *options, text=text, ranks=ranks, env={"TMPDIR": str(tmp_path / "tmp"), **(env or {})})
+        assert not list((tmp_path / "tmp").glob("mortise-*")), "the temporary mesh was left behind"
+        return result
+
+    return start
+
+
+def refused(result, *words):
+    assert result.returncode == 1, result
+    lines = [line for line in result.stderr.splitlines() if line.startswith("mortise: ")]
+    assert len(lines) == 1, result
+    assert "PETSC ERROR" not in result.stderr, result
+    for word in words:
+        assert re.search(word, lines[0]), f"{word!r} is not in: {lines[0]}"
+    assert not result.directory.exists()
+
+
+def test_good(check):
+    result = check()
+    assert result.returncode == 0, result
+    assert not result.directory.exists()
+    for word in ("two squares", "rubber", "upper_bottom", "plane strain"):
+        assert word in result.stdout
+
+
+def test_good_on_two_ranks(check):
+    assert check(ranks=2).returncode == 0
+
+
+@pytest.mark.parametrize("edit,words", [
+    # keys
+    (("order: 1\nbody", "ordr: 1\nbody"), [r"squares.yml:5: ordr is not a key", "nearest one is order"]),
+    (("nu: 0.3", "nu: 0.3, laww: x"), ["material.rubber.laww", "material.rubber.law"]),
+    (("friction: 0", "frction: 0"), ["contact.pair.frction", "contact.pair.friction"]),
+    (("load:", "tolerance: 0.1\nload:"), ["tolerance", "adapt.tolerance"]),
+    (("order: 1\nbody", "order: 1\norder: 2\nbody"), ["order is given twice, in lines 5 and 6"]),
+    (("E: 1,", "E: 1, E: 2,"), ["material.rubber.E is given twice"]),
+    (("{law: neo_hookean, E", "{E"), ["material.rubber.law must be given"]),
+    (("model: plane_strain\n", ""), ["model must be given", "plane_strain"]),
+    (("mesh: {file: squares.geo, order: 1}\n", ""), ["mesh.file must be given"]),
+    # shapes and types
+    (("E: 1,", "E: {a: 1},"), ["material.rubber.E must be a number", "map"]),
+    (("E: 1,", "E: one,"), ["material.rubber.E is 'one'", "number"]),
+    (("E: 1,", "E: 1.5.2,"), ["material.rubber.E is '1.5.2'", "number"]),
+    (("E: 1,", "E: ,"), ["material.rubber.E must be a number", "empty"]),
+    (("E: 1,", "E: nan,"), ["material.rubber.E is 'nan'"]),
+    (("  rubber: {law: neo_hookean, E: 1, nu: 0.3}", "  rubber: 5"), ["material.rubber must be a map of keys"]),
+    (("order: 1\nbody", "order: 1.5\nbody"), ["order is '1.5'", "integer"]),
+    (("order: 1\nbody", "order: [1, 2]\nbody"), ["order must be an integer", "list"]),
+    (("step: 0.5", "step: 0.5, max_steps: many"), ["load.max_steps is 'many'", "integer"]),
+    (("step: 0.5}", "step: 0.5}\noutput: {fields: perhaps}"), ["output.fields is 'perhaps'", "true, false"]),
+    (("fix: xy", "fix: xw"), ["boundary.bottom.fix is 'xw'", "normal"]),
+    (("fix: xy", "fix: xyz"), ["boundary.bottom.fix is 'xyz'", "no z"]),
+    (("y: -0.05", "z: -0.05"), ["boundary.top.displacement.z", "no z"]),
+    (("y: -0.05", "y: '-0.05*s'"), ["boundary.top.displacement.y", "-0.05\\*s", "X, Y, Z, t"]),
+    (("y: -0.05}", "y: -0.05}, amplitude: [0, 0, 1]"), ["boundary.top.amplitude", "pairs"]),
+    (("y: -0.05}", "y: -0.05}, amplitude: [0, 0, 0, 1]"), ["boundary.top.amplitude", "rise"]),
+    (("y: -0.05}", "y: -0.05}, amplitude: 3"), ["boundary.top.amplitude must be a list"]),
+    (("fix: xy", "fix: xy, displacement: {x: 1}"), ["boundary.bottom", "x is both fixed and displaced"]),
+    (("bottom: {fix: xy}", "bottom: {}"), ["boundary.bottom prescribes nothing"]),
+    # ranges
+    (("order: 1\nbody", "order: 9\nbody"), ["order is 9", r"\[1,8\]"]),
+    (("order: 1\nbody", "order: 0\nbody"), ["order is 0", r"\[1,8\]"]),
+    (("upper: {material: rubber}", "upper: {material: rubber, order: 99}"), ["body.upper.order is 99", r"\[1,8\]"]),
+    (("nu: 0.3", "nu: 0.5"), ["material.rubber.nu", "0.5"]),
+    (("nu: 0.3", "nu: 0.7"), ["material.rubber.nu", "0.7"]),
+    (("E: 1,", "E: -1,"), ["material.rubber.E", "-1"]),
+    (("nu: 0.3", "mu: 0.3"), ["material.rubber"]),
+    (("step: 0.5", "step: 5"), ["load.step is 5", "load.end"]),
+    (("step: 0.5", "step: -1"), ["load.step is -1", "inf"]),
+    (("load:", "adapt: {fraction: 2}\nload:"), ["adapt.fraction is 2", r"\(0,1\]"]),
+    (("model: plane_strain", "model: plane_stress"), ["model is 'plane_stress'", "plane_strain"]),
+    (("law: neo_hookean", "law: neohookean"), ["material.rubber.law is 'neohookean'", "neo_hookean"]),
+    (("kinematics: finite", "kinematics: small"), ["small", "law: linear"]),
+    (("law: neo_hookean", "law: linear"), ["law linear", "small"]),
+    # not built yet
+    (("friction: 0", "friction: 0.3"), ["contact.pair.friction is 0.3", "not built yet"]),
+    (("friction: 0", "order: full"), ["contact.pair.order", "not built yet"]),
+    (("load:", "adapt: {strategy: hp}\nload:"), ["adapt.strategy", "not built yet"]),
+    (("{law: neo_hookean, E: 1, nu: 0.3}", "{law: hgo, c: 1, kappa: 2, k1: 1, k2: 1, fiber: {a: {angle: 29}}}"), ["law hgo is not built yet"]),
+    (("{law: neo_hookean, E: 1, nu: 0.3}", "{law: j2, E: 1, nu: 0.3, yield: 1}"), ["law j2 is not built yet"]),
+    # the file
+    (("body:\n", "body: [\n"), [r"squares.yml:\d+:\d+: not valid YAML"]),
+    (("title: two", "title: \"two"), [r"squares.yml:\d+:\d+: not valid YAML"]),
+    ((SCENE, ""), ["empty"]),
+    ((SCENE, "# nothing\n"), ["empty"]),
+    ((SCENE, "- a\n- b\n"), ["map of keys"]),
+    ((SCENE, SCENE + "---\n" + SCENE), ["second document"]),
+    # names
+    (("upper: {material: rubber}", "upper: {material: ruber}"), ["body.upper.material is 'ruber'", "rubber"]),
+    (("  upper: {material: rubber}\n", ""), ["body 'upper'", "no material"]),
+    (("  upper: {material: rubber}\n", "  upper: {}\n"), ["body.upper.material must be given"]),
+    (("  upper:", "  uper:"), ["'uper'", "lower, upper|upper, lower"]),
+    (("boundary:\n", "boundary:\n  tip: {fix: x}\n"), ["boundary.tip", "no boundary group 'tip'", "upper_bottom"]),
+    (("mortar: lower_top", "mortar: lower_tip"), ["contact.pair.mortar", "'lower_tip'", "lower_top"]),
+    (("boundary:\n", "boundary:\n  upper: {fix: x}\n"), ["'upper' is a body"]),
+    (("material:\n", "material:\n  steel: {law: neo_hookean, E: 2, nu: 0.3}\n"), ["material.steel is used by no body"]),
+    # pairs and supports
+    (("mortar: lower_top", "mortar: upper_bottom"), ["both sides are 'upper_bottom'"]),
+    (("nonmortar: upper_bottom", "nonmortar: lower_side"), ["'lower_side' and 'lower_top' share cell"]),
+    (("contact:\n  pair: {nonmortar: upper_bottom, mortar: lower_top, friction: 0}\n", ""), None),  # both held: good
+    # mesh
+    (("squares.geo", "circles.geo"), ["no file .*circles.geo"]),
+    (("squares.geo", "squares.stl"), [r"mesh.file is 'squares.stl'", r"\.geo or \.msh"]),
+    (("order: 1}", "order: 1, parameter: {k: 3}}"), ["mesh.parameter.k", "no such constant"]),
+    (("order: 1}", "order: 1, parameter: {n: x}}"), ["mesh.parameter.n is 'x'", "number"]),
+    (("order: 1}", "order: 77}"), ["mesh.order is 77"]),
+])
+def test_refused(check, edit, words):
+    result = check([edit])
+    if words is None:
+        assert result.returncode == 0, result
+    else:
+        refused(result, *words)
+
+
+def test_nothing_holds(check):
+    refused(check([("  top: {displacement: {x: 0, y: -0.05}}\n", ""), ("contact:\n  pair: {nonmortar: upper_bottom, mortar: lower_top, friction: 0}\n", "")]),
+            "nothing holds body 'upper'")
+
+
+def test_three_dimensions_of_a_plane_mesh(check):
+    refused(check([("plane_strain", "3d"), ("contact:\n  pair: {nonmortar: upper_bottom, mortar: lower_top, friction: 0}\n", "")]), "model is 3d", "dimension 3")
+
+
+def test_plane_model_of_a_mesh_in_space(check):
+    refused(check(geo=GEO.replace("{0, 0, 0}", "{0, 0, 1}")), "two-dimensional", "z = 0")
+
+
+def test_negative_radius(check):
+    refused(check([("plane_strain", "axisymmetric")], geo=GEO.replace("{0, 0, 0}", "{-1, 0, 0}")), "axisymmetric", "radius")
+
+
+def test_contact_in_three_dimensions(check):
+    refused(check([("plane_strain", "3d")]), "three dimensions", "not built yet")
+
+
+def test_cell_in_no_body(check):
+    bad = GEO + "Mesh.SaveAll = 1;\n"
+    refused(check(geo=bad.replace('Physical Surface("upper", 2) = {11};\n', "")), "cell|upper")
+
+
+def test_gmsh_rejects(check):
+    refused(check(geo=GEO + "Line(99) = {77, 78};\n"), "gmsh rejects", "squares.geo")
+
+
+def test_gmsh_syntax(check):
+    refused(check(geo="foo bar;\n"), "gmsh rejects", "bar|foo")
+
+
+def test_gmsh_missing(check, tmp_path):
+    programs = tmp_path / "bin"  # all that MPI itself needs, no gmsh
+    programs.mkdir()
+    if shutil.which("orted"):
+        (programs / "orted").symlink_to(shutil.which("orted"))
+    refused(check(env={"PATH": str(programs)}), "gmsh, which is not installed")
+
+
+def test_mesh_is_garbage(check, tmp_path):
+    (tmp_path / "noise.msh").write_bytes(os.urandom(300))
+    refused(check([("file: squares.geo", "file: noise.msh")]), "noise.msh")
+
+
+def test_inverted_cell(check, tmp_path):
+    (tmp_path / "bow.msh").write_text('$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n2\n1 3 "bottom"\n2 1 "lower"\n$EndPhysicalNames\n$Nodes\n4\n'
+                                      '1 0 0 0\n2 1 0 0\n3 0 1 0\n4 1 1 0\n$EndNodes\n$Elements\n2\n1 1 2 3 1 1 2\n2 3 2 1 1 1 2 3 4\n$EndElements\n')
+    text = [("file: squares.geo", "file: bow.msh"), ("  upper: {material: rubber}\n", ""), ("  top: {displacement: {x: 0, y: -0.05}}\n", ""),
+            ("contact:\n  pair: {nonmortar: upper_bottom, mortar: lower_top, friction: 0}\n", "")]
+    refused(check(text), "inverted|cell")
+
+
+def test_output_cannot_be_written(check):
+    refused(check([("load:", "output: {directory: out}\nload:")], "-output_directory", str(pathlib.Path(__file__)) + "/out"), "output.directory", "written")
+
+
+@pytest.mark.parametrize("options,words", [
+    (["-material_ruber_E", "2"], ["-material_ruber_E", "-material_rubber_E"]),
+    (["-material_rubber_E", "x"], ["command line: material.rubber.E is 'x'"]),
+    (["-adapt_tolernce", "1"], ["-adapt_tolernce", "-adapt_tolerance"]),
+    (["-order"], ["-order needs a value"]),
+    (["second.yml"], ["second.yml"]),
+])
+def test_command_line(check, options, words):
+    refused(check((), *options), *words)
+
+
+def test_command_line_wins(check):
+    result = check((), "-material_rubber_E", "26", "-order", "3", "-boundary_bottom_fix", "y", "-mesh_parameter_n", "3")
+    assert result.returncode == 0, result
+    assert "mu = 10," in result.stdout and "order 3" in result.stdout and "fix y" in result.stdout
+
+
+def test_no_scene(run, tmp_path):
+    result = run("missing.yml", "-check", text="")
+    refused(result, "empty")
+    (tmp_path / "missing.yml").unlink()
+
+
+def test_triangles_become_quads(check):
+    result = check(geo=re.sub(r"(Recombine|Transfinite) Surface .*", "", GEO))
+    assert result.returncode == 0, result
