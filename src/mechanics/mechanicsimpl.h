@@ -83,3 +83,60 @@ PetscErrorCode MechanicsDeadLoads_Private(Mechanics);
 PetscErrorCode MechanicsFollowers_Private(Mechanics, const PetscReal u[], PetscReal r[], MatrixSink, void *context);
 /* value of an expression times the amplitude; an expression that speaks of t itself takes the amplitude only when one is given. */
 PetscErrorCode MechanicsValue_Private(Expression, const Amplitude *, const PetscReal X[3], PetscReal t, PetscReal *value);
+
+/* ---- inside the cell kernel (cell.c, cellfield.c, cellpressure.c, celltangent.c): NUM_LANES cells at a time, one in each lane ---- */
+
+#define INLINE static inline __attribute__((always_inline, unused))
+
+/* Shapes: n nodes, q = n points, d = dim, r = num_derivatives (d; with hoop strain 3, the third "derivative" being the value itself), m pressures.
+   Nodal fields are stored by component, [d][n]; point fields [..][q]. Points form slabs (a 3-D layer): F, W, P hold slab after slab, [slab][9][points of a slab]. */
+struct _p_CellKernel {
+  PetscInt       dim, order, n1, num_nodes, num_points, num_pressure, num_derivatives, num_slabs, slab_points;
+  PetscBool      small, mixed, hoop;
+  MaterialSpec   material; /* a copy; the linear law in small kinematics */
+  const Basis1D *basis;
+  PetscReal     *weight;   /* owned [q] quadrature weights */
+  PetscReal     *legendre; /* owned [q][m] pressure functions */
+  PetscReal     *pairs;    /* owned [n1][n1][2][2][n1]: products of (value | derivative) of functions a and b at the 1-D points */
+  void          *arena;    /* owned: memory of all lanes below */
+  Lanes         *X, *u;               /* [d][n] */
+  Lanes         *gradient;            /* [d][r][q] by reference coordinates; later fluxes of the same shape */
+  Lanes         *layer;               /* [3][n] scratch of the tensor contractions */
+  Lanes         *inverse;             /* [d*d][q] d xi_r / d X_J */
+  Lanes         *hoop_inverse;        /* [q] 1/R */
+  Lanes         *volume;              /* [q] weight times reference volume */
+  Lanes         *F, *P, *W, *A;       /* [9], [9], [1] over all points; A: [81] over one slab */
+  Lanes         *measure;             /* [4][q] J-1, g, g', g'' */
+  Lanes         *mass;                /* [m][m] Cholesky factor of the pressure mass matrix */
+  Lanes         *moment, *coefficient, *stored; /* [m] int q g; consistent and stored pressure coefficients */
+  Lanes         *coupling;            /* [m][d][n] b, then L^-1 b */
+  Lanes         *reference_tangent;   /* [d*d][r*r][q] A pulled back to reference coordinates, times volume */
+  Lanes         *layer_tangent;       /* [d*d][r*r][n1*n1] */
+  Lanes         *tile;                /* [n1*d][n1*d] */
+};
+
+/* cellfield.c */
+PetscErrorCode CellKernelGeometry_Private(CellKernel);                              /* X -> inverse, volume, hoop_inverse */
+void           CellKernelDeformation_Private(CellKernel, Lanes *min_det);           /* u -> F, measure[0] when mixed */
+void           CellKernelFlux_Private(CellKernel, Lanes *flux);                     /* P -> flux [d][r][q] */
+void           CellKernelGradient_Private(CellKernel, const Lanes *field, Lanes *gradient); /* [d][n] -> [d][r][q] */
+void           CellKernelIntegrate_Private(CellKernel, const Lanes *flux, Lanes *result);   /* [d][r][q] -> [d][n] */
+void           CellKernelPullBack_Private(CellKernel, PetscInt q, const Lanes T[9], Lanes *flux); /* flux [d][r][q] at q of a stress-like T, times volume */
+/* cellpressure.c */
+void CellKernelProject_Private(CellKernel);                                      /* measure -> mass, moment, coefficient */
+void CellKernelAddPressure_Private(CellKernel);                                  /* P += pi g' cof */
+void CellKernelAddPressureTangent_Private(CellKernel, PetscInt slab, const Lanes *coefficient); /* A += pi (g'' cof (x) cof + g' dcof/dF) */
+void CellKernelCouple_Private(CellKernel, PetscInt num_cells, PetscReal *dpressure); /* coupling; dpressure [num_cells][m][n*d] unless NULL */
+/* celltangent.c */
+void CellKernelTangentSlab_Private(CellKernel, PetscInt slab);                        /* A of a slab -> reference_tangent */
+void CellKernelTangent_Private(CellKernel, PetscInt num_cells, PetscReal *tangent); /* reference_tangent, coupling -> tangent [num_cells][n*d][n*d] */
+
+/* cof F = J F^-T. */
+INLINE void CellCofactor(const Lanes F[9], Lanes cof[9])
+{
+  for (int k = 0; k < 9; k++) {
+    const int i1 = (k / 3 + 1) % 3, i2 = (k / 3 + 2) % 3, J1 = (k % 3 + 1) % 3, J2 = (k % 3 + 2) % 3;
+
+    cof[k] = F[3 * i1 + J1] * F[3 * i2 + J2] - F[3 * i1 + J2] * F[3 * i2 + J1];
+  }
+}

@@ -1,0 +1,225 @@
+/* Residual, tangent and energy of batches of cells. Several cells are integrated at once, one in each lane; the law sees all their points as one batch. */
+#include "mechanicsimpl.h"
+
+static PetscErrorCode TablesCreate_Private(CellKernel k)
+{
+  const Basis1D *b  = k->basis;
+  const PetscInt n1 = k->n1, m = k->num_pressure;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc3(k->num_points, &k->weight, k->num_points * m, &k->legendre, n1 * n1 * n1 * 4, &k->pairs));
+  for (PetscInt q = 0; q < k->num_points; q++) {
+    const PetscInt index[3] = {q % n1, q / n1 % n1, q / (n1 * n1)};
+    PetscReal      value[3][MORTISE_MAX_ORDER + 1];
+    PetscInt       l = 0;
+
+    k->weight[q] = 1;
+    for (PetscInt c = 0; c < k->dim; c++) {
+      k->weight[q] *= b->weights[index[c]];
+      PetscCall(ElementLegendre(k->order - 1, b->points[index[c]], value[c], NULL));
+    }
+    for (PetscInt z = 0; m && z < (k->dim == 3 ? k->order : 1); z++) {
+      for (PetscInt y = 0; y + z < k->order; y++) {
+        for (PetscInt x = 0; x + y + z < k->order; x++) k->legendre[q * m + l++] = value[0][x] * value[1][y] * (k->dim == 3 ? value[2][z] : 1);
+      }
+    }
+  }
+  for (PetscInt i = 0; i < n1 * n1 * 4 * n1; i++) {
+    const PetscInt q = i % n1, s = i / n1 % 2, r = i / n1 / 2 % 2, fb = i / n1 / 4 % n1, fa = i / n1 / 4 / n1;
+
+    k->pairs[i] = (r ? b->D : b->B)[q * n1 + fa] * (s ? b->D : b->B)[q * n1 + fb];
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* One block of memory, aligned to lanes, cut into the arrays of the kernel. */
+static PetscErrorCode ArenaCreate_Private(CellKernel k)
+{
+  const size_t n = k->num_nodes, q = k->num_points, d = k->dim, r = k->num_derivatives, m = k->num_pressure, n1 = k->n1, slab = k->slab_points;
+  const struct {
+    Lanes **array;
+    size_t  num;
+  } parts[] = {
+      {&k->X, d * n},
+      {&k->u, d * n},
+      {&k->gradient, d * r * q},
+      {&k->layer, 3 * n},
+      {&k->inverse, d * d * q},
+      {&k->hoop_inverse, k->hoop ? q : 0},
+      {&k->volume, q},
+      {&k->F, 9 * q},
+      {&k->P, 9 * q},
+      {&k->W, q},
+      {&k->A, 81 * slab},
+      {&k->measure, m ? 4 * q : 0},
+      {&k->mass, m * m},
+      {&k->moment, m},
+      {&k->coefficient, m},
+      {&k->stored, m},
+      {&k->coupling, m * d * n},
+      {&k->reference_tangent, d * d * r * r * q},
+      {&k->layer_tangent, d * d * r * r * n1 * n1},
+      {&k->tile, n1 * d * n1 * d},
+  };
+  size_t total = 1;
+  Lanes *start;
+
+  PetscFunctionBegin;
+  for (size_t i = 0; i < PETSC_STATIC_ARRAY_LENGTH(parts); i++) total += parts[i].num;
+  PetscCall(PetscMalloc(total * sizeof(Lanes), &k->arena));
+  start = (Lanes *)(((uintptr_t)k->arena + sizeof(Lanes) - 1) / sizeof(Lanes) * sizeof(Lanes));
+  for (size_t i = 0; i < PETSC_STATIC_ARRAY_LENGTH(parts); i++) {
+    *parts[i].array = start;
+    start += parts[i].num;
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode CellKernelCreate(PetscInt dim, Model model, Kinematics kinematics, PetscInt order, const MaterialSpec *material, CellKernel *kernel)
+{
+  CellKernel k;
+
+  PetscFunctionBegin;
+  PetscCheck(dim == (model == MODEL_3D ? 3 : 2), PETSC_COMM_SELF, PETSC_ERR_ARG_INCOMP, "Model and dimension %" PetscInt_FMT " disagree", dim);
+  PetscCheck(!material->law->rigid, PETSC_COMM_SELF, PETSC_ERR_ARG_WRONGSTATE, "Cells of rigid material %s are not assembled", material->name);
+  PetscCheckInput(!material->law->small || kinematics == KINEMATICS_SMALL, "material.%s.law: %s needs kinematics: small", material->name, material->law->name);
+  PetscCall(PetscNew(&k));
+  k->dim             = dim;
+  k->order           = order;
+  k->n1              = order + 1;
+  k->num_nodes       = ElementNumNodes(dim, order);
+  k->num_points      = k->num_nodes;
+  k->small           = kinematics == KINEMATICS_SMALL ? PETSC_TRUE : PETSC_FALSE;
+  k->hoop            = model == MODEL_AXISYMMETRIC ? PETSC_TRUE : PETSC_FALSE;
+  k->mixed           = material->mixed;
+  k->num_derivatives = k->hoop ? 3 : dim;
+  k->num_pressure    = !k->mixed ? 0 : dim == 2 ? order * (order + 1) / 2 : order * (order + 1) * (order + 2) / 6;
+  k->num_slabs       = dim == 3 && order > 1 ? k->n1 : 1;
+  k->slab_points     = k->num_points / k->num_slabs;
+  k->material        = *material;
+  if (k->small) { /* small kinematics: every law is its linearisation */
+    k->material.law        = MaterialLawFind("linear");
+    k->material.volumetric = VOLUMETRIC_QUADRATIC;
+  }
+  PetscCall(Basis1DGet(order, k->n1, &k->basis));
+  PetscCall(TablesCreate_Private(k));
+  PetscCall(ArenaCreate_Private(k));
+  *kernel = k;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode CellKernelDestroy(CellKernel *kernel)
+{
+  PetscFunctionBegin;
+  if (!*kernel) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(PetscFree3((*kernel)->weight, (*kernel)->legendre, (*kernel)->pairs));
+  PetscCall(PetscFree((*kernel)->arena));
+  PetscCall(PetscFree(*kernel));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* best_batch: a multiple of the lanes for which a tangent batch stays within about 2 MB. */
+void CellKernelSizes(CellKernel k, PetscInt *num_nodes, PetscInt *num_pressure, PetscInt *best_batch)
+{
+  const PetscInt size = k->num_nodes * k->dim;
+
+  if (num_nodes) *num_nodes = k->num_nodes;
+  if (num_pressure) *num_pressure = k->num_pressure;
+  if (best_batch) *best_batch = NUM_LANES * PetscMax(1, PetscMin(8, 32768 / (size * size)));
+}
+
+/* Nodal values [cells][n][d] to lanes [d][n]; lanes beyond num repeat the last cell. */
+static void Load_Private(PetscInt num, PetscInt n, PetscInt d, const PetscReal *values, Lanes *lanes)
+{
+  for (PetscInt l = 0; l < NUM_LANES; l++) {
+    const PetscReal *cell = values + PetscMin(l, num - 1) * n * d;
+
+    for (PetscInt node = 0; node < n; node++) {
+      for (PetscInt c = 0; c < d; c++) lanes[c * n + node][l] = cell[node * d + c];
+    }
+  }
+}
+
+static void Store_Private(PetscInt num, PetscInt n, PetscInt d, const Lanes *lanes, PetscReal *values)
+{
+  for (PetscInt l = 0; l < num; l++) {
+    for (PetscInt node = 0; node < n; node++) {
+      for (PetscInt c = 0; c < d; c++) values[(l * n + node) * d + c] = lanes[c * n + node][l];
+    }
+  }
+}
+
+/* The law at all points: F -> W, P, and slab by slab A, which is pulled back at once while it is in cache. */
+static PetscErrorCode Law_Private(CellKernel k, PetscBool tangent, const Lanes *pressure)
+{
+  const PetscInt     slab = k->slab_points, count = slab * NUM_LANES;
+  const MaterialPart part = k->mixed ? MATERIAL_ISOCHORIC : MATERIAL_FULL;
+  PetscBool          bad  = PETSC_FALSE; /* det F was tested before */
+
+  PetscFunctionBegin;
+  for (PetscInt s = 0; s < k->num_slabs; s++) {
+    PetscReal *F = (PetscReal *)&k->F[s * 9 * slab], *P = (PetscReal *)&k->P[s * 9 * slab], *W = (PetscReal *)&k->W[s * slab], *A = (PetscReal *)k->A;
+
+    PetscCall(MaterialEvaluate(&k->material, part, count, F, W, P, tangent ? A : NULL, &bad));
+    if (tangent && k->mixed) CellKernelAddPressureTangent_Private(k, s, pressure);
+    if (tangent) CellKernelTangentSlab_Private(k, s);
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* int W_iso + 1/(2 modulus) pi . M pi, where M pi = modulus int q g. */
+static void Energy_Private(CellKernel k, PetscInt num, PetscReal *energy)
+{
+  Lanes sum = {0};
+
+  for (PetscInt q = 0; q < k->num_points; q++) sum += k->volume[q] * k->W[q];
+  for (PetscInt i = 0; i < k->num_pressure; i++) sum += 0.5 * k->moment[i] * k->coefficient[i];
+  for (PetscInt l = 0; l < num; l++) energy[l] = sum[l];
+}
+
+/* Everything that is asked of cells first .. first+num-1 of the batch. */
+static PetscErrorCode Chunk_Private(CellKernel k, CellBatch *b, PetscInt first, PetscInt num)
+{
+  const PetscInt  n = k->num_nodes, d = k->dim, m = k->num_pressure, size = n * d;
+  const PetscBool tangent = b->tangent ? PETSC_TRUE : PETSC_FALSE, couple = m && (b->tangent || b->dpressure) ? PETSC_TRUE : PETSC_FALSE;
+  const Lanes    *pressure = k->coefficient;
+  Lanes           min_det;
+  PetscBool       bad = PETSC_FALSE;
+
+  PetscFunctionBegin;
+  Load_Private(num, n, d, b->X + first * size, k->X);
+  Load_Private(num, n, d, b->u + first * size, k->u);
+  PetscCall(CellKernelGeometry_Private(k));
+  CellKernelDeformation_Private(k, &min_det);
+  for (PetscInt l = 0; l < num; l++) {
+    if (b->min_det) b->min_det[first + l] = min_det[l];
+    if (!k->small && !(min_det[l] > 0)) bad = PETSC_TRUE;
+  }
+  if (bad) b->bad = PETSC_TRUE;
+  if (bad) PetscFunctionReturn(PETSC_SUCCESS);
+  if (k->mixed) CellKernelProject_Private(k);
+  if (b->consistent && m) Store_Private(num, m, 1, k->coefficient, b->consistent + first * m);
+  if (k->mixed && b->pressure) {
+    Load_Private(num, m, 1, b->pressure + first * m, k->stored);
+    pressure = k->stored;
+  }
+  if (b->energy || b->residual || tangent) PetscCall(Law_Private(k, tangent, pressure));
+  if (b->energy) Energy_Private(k, num, b->energy + first);
+  if (b->residual) {
+    if (k->mixed) CellKernelAddPressure_Private(k);
+    CellKernelFlux_Private(k, k->gradient);
+    CellKernelIntegrate_Private(k, k->gradient, k->u);
+    Store_Private(num, n, d, k->u, b->residual + first * size);
+  }
+  if (couple) CellKernelCouple_Private(k, num, b->dpressure ? b->dpressure + first * m * size : NULL);
+  if (tangent) CellKernelTangent_Private(k, num, b->tangent + first * size * size);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode CellKernelEvaluate(CellKernel k, CellBatch *b)
+{
+  PetscFunctionBegin;
+  b->bad = PETSC_FALSE;
+  for (PetscInt first = 0; first < b->nc; first += NUM_LANES) PetscCall(Chunk_Private(k, b, first, PetscMin(NUM_LANES, b->nc - first)));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

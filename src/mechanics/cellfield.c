@@ -1,0 +1,306 @@
+/* From nodal values to points and back, by contraction with one-dimensional tables one direction after the other (sum factorisation):
+   O(p^(d+1)) operations a cell and field. The inner functions take n1 = p+1 as a constant for the usual orders, so that they unroll. */
+#include "mechanicsimpl.h"
+
+/* One xy-layer f[n1*n1] at its points: derivative by x, derivative by y, value. */
+INLINE void LayerGradient_Private(const PetscInt n1, const PetscReal *B, const PetscReal *D, const Lanes *f, Lanes *gx, Lanes *gy, Lanes *v)
+{
+  Lanes b[(MORTISE_MAX_ORDER + 1) * (MORTISE_MAX_ORDER + 1)], e[(MORTISE_MAX_ORDER + 1) * (MORTISE_MAX_ORDER + 1)];
+
+  for (PetscInt y = 0; y < n1; y++) {
+    for (PetscInt q = 0; q < n1; q++) {
+      Lanes value = B[q * n1] * f[y * n1], slope = D[q * n1] * f[y * n1];
+
+      for (PetscInt x = 1; x < n1; x++) {
+        value += B[q * n1 + x] * f[y * n1 + x];
+        slope += D[q * n1 + x] * f[y * n1 + x];
+      }
+      b[y * n1 + q] = value;
+      e[y * n1 + q] = slope;
+    }
+  }
+  for (PetscInt qy = 0; qy < n1; qy++) {
+    for (PetscInt q = 0; q < n1; q++) {
+      Lanes x = {0}, y = {0}, w = {0};
+
+      for (PetscInt j = 0; j < n1; j++) {
+        x += B[qy * n1 + j] * e[j * n1 + q];
+        y += D[qy * n1 + j] * b[j * n1 + q];
+        w += B[qy * n1 + j] * b[j * n1 + q];
+      }
+      gx[qy * n1 + q] = x;
+      gy[qy * n1 + q] = y;
+      if (v) v[qy * n1 + q] = w;
+    }
+  }
+}
+
+/* The transpose: f = sum over the layer's points of gx dN/dx + gy dN/dy + v N. */
+INLINE void LayerIntegrate_Private(const PetscInt n1, const PetscReal *B, const PetscReal *D, const Lanes *gx, const Lanes *gy, const Lanes *v, Lanes *f)
+{
+  Lanes b[(MORTISE_MAX_ORDER + 1) * (MORTISE_MAX_ORDER + 1)], e[(MORTISE_MAX_ORDER + 1) * (MORTISE_MAX_ORDER + 1)];
+
+  for (PetscInt y = 0; y < n1; y++) {
+    for (PetscInt q = 0; q < n1; q++) {
+      Lanes slope = {0}, value = {0};
+
+      for (PetscInt j = 0; j < n1; j++) {
+        slope += B[j * n1 + y] * gx[j * n1 + q];
+        value += D[j * n1 + y] * gy[j * n1 + q];
+        if (v) value += B[j * n1 + y] * v[j * n1 + q];
+      }
+      e[y * n1 + q] = slope;
+      b[y * n1 + q] = value;
+    }
+  }
+  for (PetscInt y = 0; y < n1; y++) {
+    for (PetscInt x = 0; x < n1; x++) {
+      Lanes sum = {0};
+
+      for (PetscInt q = 0; q < n1; q++) sum += D[q * n1 + x] * e[y * n1 + q] + B[q * n1 + x] * b[y * n1 + q];
+      f[y * n1 + x] = sum;
+    }
+  }
+}
+
+/* Gradient of one field over the whole cell, [r][q]. 3-D: layers first, then along z. */
+INLINE void FieldGradient_Private(const PetscInt n1, PetscInt dim, PetscInt r, const PetscReal *B, const PetscReal *D, const Lanes *f, Lanes *layer, Lanes *g)
+{
+  const PetscInt n2 = n1 * n1, n3 = n2 * n1;
+
+  if (dim == 2) {
+    LayerGradient_Private(n1, B, D, f, g, g + n2, r == 3 ? g + 2 * n2 : NULL);
+    return;
+  }
+  for (PetscInt z = 0; z < n1; z++) LayerGradient_Private(n1, B, D, f + z * n2, layer + z * n2, layer + n3 + z * n2, layer + 2 * n3 + z * n2);
+  for (PetscInt c = 0; c < 3; c++) {
+    const PetscReal *T = c == 2 ? D : B;
+
+    for (PetscInt qz = 0; qz < n1; qz++) {
+      for (PetscInt q = 0; q < n2; q++) {
+        Lanes sum = T[qz * n1] * layer[c * n3 + q];
+
+        for (PetscInt z = 1; z < n1; z++) sum += T[qz * n1 + z] * layer[c * n3 + z * n2 + q];
+        g[c * n3 + qz * n2 + q] = sum;
+      }
+    }
+  }
+}
+
+INLINE void FieldIntegrate_Private(const PetscInt n1, PetscInt dim, PetscInt r, const PetscReal *B, const PetscReal *D, const Lanes *g, Lanes *layer, Lanes *f)
+{
+  const PetscInt n2 = n1 * n1, n3 = n2 * n1;
+
+  if (dim == 2) {
+    LayerIntegrate_Private(n1, B, D, g, g + n2, r == 3 ? g + 2 * n2 : NULL, f);
+    return;
+  }
+  for (PetscInt c = 0; c < 3; c++) {
+    const PetscReal *T = c == 2 ? D : B;
+
+    for (PetscInt z = 0; z < n1; z++) {
+      for (PetscInt q = 0; q < n2; q++) {
+        Lanes sum = T[z] * g[c * n3 + q];
+
+        for (PetscInt qz = 1; qz < n1; qz++) sum += T[qz * n1 + z] * g[c * n3 + qz * n2 + q];
+        layer[c * n3 + z * n2 + q] = sum;
+      }
+    }
+  }
+  for (PetscInt z = 0; z < n1; z++) LayerIntegrate_Private(n1, B, D, layer + z * n2, layer + n3 + z * n2, layer + 2 * n3 + z * n2, f + z * n2);
+}
+
+void CellKernelGradient_Private(CellKernel k, const Lanes *field, Lanes *gradient)
+{
+  const PetscInt   dim = k->dim, r = k->num_derivatives, n = k->num_nodes;
+  const PetscReal *B = k->basis->B, *D = k->basis->D;
+
+  for (PetscInt c = 0; c < dim; c++) {
+    const Lanes *f = field + c * n;
+    Lanes       *g = gradient + c * r * n;
+
+    switch (k->order) {
+    case 1:
+      FieldGradient_Private(2, dim, r, B, D, f, k->layer, g);
+      break;
+    case 2:
+      FieldGradient_Private(3, dim, r, B, D, f, k->layer, g);
+      break;
+    case 3:
+      FieldGradient_Private(4, dim, r, B, D, f, k->layer, g);
+      break;
+    case 4:
+      FieldGradient_Private(5, dim, r, B, D, f, k->layer, g);
+      break;
+    default:
+      FieldGradient_Private(k->n1, dim, r, B, D, f, k->layer, g);
+    }
+  }
+}
+
+void CellKernelIntegrate_Private(CellKernel k, const Lanes *flux, Lanes *result)
+{
+  const PetscInt   dim = k->dim, r = k->num_derivatives, n = k->num_nodes;
+  const PetscReal *B = k->basis->B, *D = k->basis->D;
+
+  for (PetscInt c = 0; c < dim; c++) {
+    const Lanes *g = flux + c * r * n;
+    Lanes       *f = result + c * n;
+
+    switch (k->order) {
+    case 1:
+      FieldIntegrate_Private(2, dim, r, B, D, g, k->layer, f);
+      break;
+    case 2:
+      FieldIntegrate_Private(3, dim, r, B, D, g, k->layer, f);
+      break;
+    case 3:
+      FieldIntegrate_Private(4, dim, r, B, D, g, k->layer, f);
+      break;
+    case 4:
+      FieldIntegrate_Private(5, dim, r, B, D, g, k->layer, f);
+      break;
+    default:
+      FieldIntegrate_Private(k->n1, dim, r, B, D, g, k->layer, f);
+    }
+  }
+}
+
+/* Inverse of a 3x3 Jacobian G[i][r] = dX_i/dxi_r as inv[r][J]; returns the determinant. */
+INLINE Lanes Invert3_Private(const Lanes G[9], Lanes inv[9])
+{
+  Lanes cof[9], det;
+
+  CellCofactor(G, cof);
+  det = G[0] * cof[0] + G[1] * cof[1] + G[2] * cof[2];
+  for (int i = 0; i < 3; i++) {
+    for (int r = 0; r < 3; r++) inv[3 * r + i] = cof[3 * i + r] / det;
+  }
+  return det;
+}
+
+PetscErrorCode CellKernelGeometry_Private(CellKernel k)
+{
+  const PetscInt nq = k->num_points, d = k->dim, r = k->num_derivatives;
+  Lanes         *G        = k->gradient;
+  PetscBool      inverted = PETSC_FALSE;
+
+  PetscFunctionBegin;
+  CellKernelGradient_Private(k, k->X, G);
+  for (PetscInt q = 0; q < nq; q++) {
+    Lanes det;
+
+    if (d == 3) {
+      Lanes local[9], inv[9];
+
+      for (int c = 0; c < 9; c++) local[c] = G[c * nq + q];
+      det = Invert3_Private(local, inv);
+      for (int c = 0; c < 9; c++) k->inverse[c * nq + q] = inv[c];
+    } else {
+      const Lanes a = G[q], b = G[nq + q], c = G[r * nq + q], e = G[(r + 1) * nq + q];
+
+      det                    = a * e - b * c;
+      k->inverse[q]          = e / det;
+      k->inverse[nq + q]     = -b / det;
+      k->inverse[2 * nq + q] = -c / det;
+      k->inverse[3 * nq + q] = a / det;
+    }
+    k->volume[q] = k->weight[q] * det;
+    if (k->hoop) {
+      const Lanes R = G[2 * nq + q];
+
+      k->hoop_inverse[q] = 1 / R;
+      k->volume[q] *= 2 * PETSC_PI * R;
+    }
+    for (int l = 0; l < NUM_LANES; l++) inverted = inverted || !(k->volume[q][l] > 0) ? PETSC_TRUE : PETSC_FALSE;
+  }
+  PetscCheck(!inverted, PETSC_COMM_SELF, PETSC_ERR_ARG_WRONG, "A cell of order %" PetscInt_FMT " is inverted, or lies beyond the axis, in the reference mesh",
+             k->order);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* H = grad u at point q: H_iJ = sum_r du_i/dxi_r dxi_r/dX_J; hoop: H_33 = u_r / R. */
+INLINE void DisplacementGradient_Private(CellKernel k, const int d, PetscInt q, Lanes H[9])
+{
+  const PetscInt nq = k->num_points, nr = k->num_derivatives;
+
+  for (int c = 0; c < 9; c++) H[c] = (Lanes){0};
+  for (int i = 0; i < d; i++) {
+    for (int r = 0; r < d; r++) {
+      const Lanes g = k->gradient[(i * nr + r) * nq + q];
+
+      for (int J = 0; J < d; J++) H[3 * i + J] += g * k->inverse[(r * d + J) * nq + q];
+    }
+  }
+  if (d == 2 && k->hoop) H[8] = k->gradient[2 * nq + q] * k->hoop_inverse[q];
+}
+
+/* F, and J - 1 = tr H + tr cof H + det H (small: tr H) free of cancellation. */
+INLINE void Deformation_Private(CellKernel k, const int d, Lanes *min_det)
+{
+  const PetscInt slab  = k->slab_points;
+  Lanes          least = {0};
+
+  for (PetscInt q = 0; q < k->num_points; q++) {
+    Lanes *F = k->F + (q / slab) * 9 * slab + q % slab, H[9], cof[9], jm1, det;
+
+    DisplacementGradient_Private(k, d, q, H);
+    CellCofactor(H, cof);
+    jm1 = H[0] + H[4] + H[8];
+    det = 1 + (jm1 + (cof[0] + cof[4] + cof[8]) + (H[0] * cof[0] + H[1] * cof[1] + H[2] * cof[2]));
+    if (!k->small) jm1 = jm1 + (cof[0] + cof[4] + cof[8]) + (H[0] * cof[0] + H[1] * cof[1] + H[2] * cof[2]);
+    if (k->mixed) k->measure[q] = jm1;
+    for (int c = 0; c < 9; c++) F[c * slab] = H[c] + (c % 4 == 0 ? 1 : 0);
+    /* A lane that is not a number stays so: every comparison with it is false. */
+    for (int l = 0; l < NUM_LANES; l++) least[l] = q == 0 || !(det[l] >= least[l]) ? det[l] : least[l];
+  }
+  *min_det = least;
+}
+
+void CellKernelDeformation_Private(CellKernel k, Lanes *min_det)
+{
+  CellKernelGradient_Private(k, k->u, k->gradient);
+  if (k->dim == 3)
+    Deformation_Private(k, 3, min_det);
+  else
+    Deformation_Private(k, 2, min_det);
+}
+
+INLINE void PullBack_Private(CellKernel k, const int d, PetscInt q, const Lanes T[9], Lanes *flux)
+{
+  const PetscInt nq = k->num_points, nr = k->num_derivatives;
+
+  for (int i = 0; i < d; i++) {
+    for (int r = 0; r < d; r++) {
+      Lanes sum = {0};
+
+      for (int J = 0; J < d; J++) sum += T[3 * i + J] * k->inverse[(r * d + J) * nq + q];
+      flux[(i * nr + r) * nq + q] = sum * k->volume[q];
+    }
+  }
+  if (d == 2 && k->hoop) {
+    flux[2 * nq + q] = T[8] * k->hoop_inverse[q] * k->volume[q];
+    flux[5 * nq + q] = (Lanes){0};
+  }
+}
+
+void CellKernelPullBack_Private(CellKernel k, PetscInt q, const Lanes T[9], Lanes *flux)
+{
+  if (k->dim == 3)
+    PullBack_Private(k, 3, q, T, flux);
+  else
+    PullBack_Private(k, 2, q, T, flux);
+}
+
+void CellKernelFlux_Private(CellKernel k, Lanes *flux)
+{
+  const PetscInt slab = k->slab_points;
+
+  for (PetscInt q = 0; q < k->num_points; q++) {
+    const Lanes *P = k->P + (q / slab) * 9 * slab + q % slab;
+    Lanes        T[9];
+
+    for (int c = 0; c < 9; c++) T[c] = P[c * slab];
+    CellKernelPullBack_Private(k, q, T, flux);
+  }
+}

@@ -1,0 +1,114 @@
+/* Deformation gradient, stress and energy density at single points of one cell, for output and estimation. */
+#include "mechanicsimpl.h"
+
+#define MOST_NODES ((MORTISE_MAX_ORDER + 1) * (MORTISE_MAX_ORDER + 1) * (MORTISE_MAX_ORDER + 1))
+
+/* inv[r][J] = dxi_r/dX_J of G[J][r] (dim x dim); returns the determinant. */
+static PetscReal Invert_Private(PetscInt dim, const PetscReal G[9], PetscReal inv[9])
+{
+  PetscReal det;
+
+  if (dim == 2) {
+    det    = G[0] * G[3] - G[1] * G[2];
+    inv[0] = G[3] / det;
+    inv[1] = -G[1] / det;
+    inv[2] = -G[2] / det;
+    inv[3] = G[0] / det;
+    return det;
+  }
+  det = Det3(G);
+  for (int i = 0; i < 3; i++) {
+    for (int j = 0; j < 3; j++) {
+      const int i1 = (i + 1) % 3, i2 = (i + 2) % 3, j1 = (j + 1) % 3, j2 = (j + 2) % 3;
+
+      inv[3 * j + i] = (G[3 * i1 + j1] * G[3 * i2 + j2] - G[3 * i1 + j2] * G[3 * i2 + j1]) / det;
+    }
+  }
+  return det;
+}
+
+/* grad u at xi, embedded in 3x3. */
+static PetscErrorCode PointGradient_Private(CellKernel k, const PetscReal *xi, const PetscReal *X, const PetscReal *u, PetscReal H[9])
+{
+  const PetscInt d = k->dim;
+  PetscReal      value[MOST_NODES], gradient[3 * MOST_NODES], G[9] = {0}, g[9] = {0}, inv[9], R = 0, ur = 0;
+
+  PetscFunctionBegin;
+  PetscCall(ElementEvaluate(d, k->order, xi, value, gradient));
+  for (PetscInt node = 0; node < k->num_nodes; node++) {
+    for (PetscInt i = 0; i < d; i++) {
+      for (PetscInt r = 0; r < d; r++) {
+        G[i * d + r] += X[node * d + i] * gradient[node * d + r];
+        g[i * d + r] += u[node * d + i] * gradient[node * d + r];
+      }
+    }
+    R += value[node] * X[node * d];
+    ur += value[node] * u[node * d];
+  }
+  Invert_Private(d, G, inv);
+  PetscCall(PetscArrayzero(H, 9));
+  for (PetscInt i = 0; i < d; i++) {
+    for (PetscInt r = 0; r < d; r++) {
+      for (PetscInt J = 0; J < d; J++) H[3 * i + J] += g[i * d + r] * inv[r * d + J];
+    }
+  }
+  /* On the axis the hoop strain is the limit u_r/R -> du_r/dR. */
+  if (k->hoop) H[8] = R > 0 ? ur / R : H[0];
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The pressure field at xi, functions in the order of TablesCreate_Private (cell.c). */
+static PetscErrorCode PointPressure_Private(CellKernel k, const PetscReal *xi, const PetscReal *coefficient, PetscReal *pi)
+{
+  PetscReal v[3][MORTISE_MAX_ORDER + 1] = {{0}};
+  PetscInt  l                           = 0;
+
+  PetscFunctionBegin;
+  v[2][0] = 1;
+  for (PetscInt c = 0; c < k->dim; c++) PetscCall(ElementLegendre(k->order - 1, xi[c], v[c], NULL));
+  for (PetscInt z = 0; z < (k->dim == 3 ? k->order : 1); z++) {
+    for (PetscInt y = 0; y + z < k->order; y++) {
+      for (PetscInt x = 0; x + y + z < k->order; x++) *pi += coefficient[l++] * v[0][x] * v[1][y] * v[2][z];
+    }
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* P += pi g'(J) cof F, W += pi^2 / (2 modulus); small: g = tr eps. */
+static PetscErrorCode AddPointPressure_Private(CellKernel k, const PetscReal *xi, const PetscReal *coefficient, const PetscReal F[9], PetscReal P[9],
+                                               PetscReal *W)
+{
+  PetscReal pi = 0, cof[9], g[3];
+
+  PetscFunctionBegin;
+  PetscCall(PointPressure_Private(k, xi, coefficient, &pi));
+  MaterialVolumetric(&k->material, k->small ? 1 : Det3(F), g);
+  for (int a = 0; a < 9; a++) {
+    const int i1 = (a / 3 + 1) % 3, i2 = (a / 3 + 2) % 3, J1 = (a % 3 + 1) % 3, J2 = (a % 3 + 2) % 3;
+
+    cof[a] = k->small ? (a % 4 == 0) : F[3 * i1 + J1] * F[3 * i2 + J2] - F[3 * i1 + J2] * F[3 * i2 + J1];
+    P[a] += pi * g[1] * cof[a];
+  }
+  *W += pi * pi / (2 * MaterialVolumetricModulus(&k->material));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode CellKernelPoints(CellKernel k, PetscInt np, const PetscReal *xi, const PetscReal *X, const PetscReal *u, const PetscReal *pressure, PetscReal *F,
+                                PetscReal *P, PetscReal *W, PetscBool *bad)
+{
+  PetscFunctionBegin;
+  PetscCheck(!k->mixed || pressure, PETSC_COMM_SELF, PETSC_ERR_ARG_NULL, "A mixed cell needs its pressure coefficients");
+  *bad = PETSC_FALSE;
+  for (PetscInt q = 0; q < np; q++) {
+    PetscReal f[9], p[9], w;
+
+    PetscCall(PointGradient_Private(k, xi + q * k->dim, X, u, f));
+    for (int c = 0; c < 9; c += 4) f[c] += 1;
+    PetscCall(MaterialEvaluate(&k->material, k->mixed ? MATERIAL_ISOCHORIC : MATERIAL_FULL, 1, f, &w, p, NULL, bad));
+    if (k->mixed) PetscCall(AddPointPressure_Private(k, xi + q * k->dim, pressure, f, p, &w));
+    if (F) PetscCall(PetscArraycpy(F + 9 * q, f, 9));
+    if (P) PetscCall(PetscArraycpy(P + 9 * q, p, 9));
+    if (W) W[q] = w;
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
