@@ -2,9 +2,9 @@
 #pragma once
 #include "compat.h"
 
-#define MORTISE_VERSION   "0.1.0"
+#define MORTISE_VERSION "0.1.0"
 #define MORTISE_MAX_ORDER 8 /* highest polynomial order of a cell */
-#define MORTISE_NAME      64
+#define MORTISE_NAME 64
 
 /* ---- input errors (base/error.c) ------------------------------------------------------------------------------- */
 
@@ -14,9 +14,9 @@
 /* Record one sentence about wrong input, printed once by rank 0 as "mortise: <sentence>", and return MORTISE_ERR_INPUT.
    Every rank must come here alike (input is replicated). Use: PetscCheckInput(cond, "…", …). */
 PetscErrorCode ErrorInput(const char *format, ...) PETSC_ATTRIBUTE_FORMAT(1, 2);
-#define PetscCheckInput(cond, ...) \
-  do { \
-    if (PetscUnlikely(!(cond))) return ErrorInput(__VA_ARGS__); \
+#define PetscCheckInput(cond, ...)                                                                                                                             \
+  do {                                                                                                                                                         \
+    if (PetscUnlikely(!(cond))) return ErrorInput(__VA_ARGS__);                                                                                                \
   } while (0)
 
 /* Install the error handler that keeps quiet about input errors and prints PETSc's traceback for all others. */
@@ -24,12 +24,23 @@ PetscErrorCode ErrorHandlerPush(void);
 
 /* ---- stages (base/log.c): a PetscLogEvent and accumulated wall seconds each ------------------------------------- */
 
-typedef enum { STAGE_MESH, STAGE_SETUP, STAGE_ASSEMBLE, STAGE_CONTACT, STAGE_FACTOR, STAGE_SOLVE, STAGE_ESTIMATE, STAGE_TRANSFER, STAGE_OUTPUT, NUM_STAGES } Stage;
+typedef enum {
+  STAGE_MESH,
+  STAGE_SETUP,
+  STAGE_ASSEMBLE,
+  STAGE_CONTACT,
+  STAGE_FACTOR,
+  STAGE_SOLVE,
+  STAGE_ESTIMATE,
+  STAGE_TRANSFER,
+  STAGE_OUTPUT,
+  NUM_STAGES
+} Stage;
 extern const char *const StageNames[NUM_STAGES]; /* keys of "time" in summary.json */
-PetscErrorCode StageRegister(void);
-PetscErrorCode StageBegin(Stage);
-PetscErrorCode StageEnd(Stage);
-PetscReal      StageSeconds(Stage);
+PetscErrorCode           StageRegister(void);
+PetscErrorCode           StageBegin(Stage);
+PetscErrorCode           StageEnd(Stage);
+PetscReal                StageSeconds(Stage);
 
 /* ---- expressions in X, Y, Z, t (base/expression.c, on muParser) -------------------------------------------------- */
 

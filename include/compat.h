@@ -1,7 +1,7 @@
 /* Differences between PETSc 3.18 (Debian 12) and current releases, all of them, in this one place. */
 #pragma once
-#include <petscsnes.h>
 #include <petscdmplex.h>
+#include <petscsnes.h>
 #include <stdint.h>
 
 #ifndef PETSC_SUCCESS

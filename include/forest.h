@@ -24,36 +24,36 @@ typedef struct {
 /* Replicated description of the coarse mesh as read. */
 typedef struct {
   PetscInt dim, num_cells, num_vertices, geometry_order;
-  PetscInt num_bodies;      /* physical groups of dimension dim */
-  PetscInt num_boundaries;  /* physical groups of dimension dim-1 */
+  PetscInt num_bodies;                 /* physical groups of dimension dim */
+  PetscInt num_boundaries;             /* physical groups of dimension dim-1 */
   char (*body_name)[MORTISE_NAME];     /* [num_bodies] */
   char (*boundary_name)[MORTISE_NAME]; /* [num_boundaries], at most 64 */
-  PetscInt  *cell_vertices; /* [num_cells][2^dim] lexicographic */
-  PetscReal *cell_geometry; /* [num_cells][(q+1)^dim][3] positions at equispaced nodes, lexicographic, q = geometry_order */
-  PetscInt  *cell_body;     /* [num_cells] index of the body, -1: in none (input error reported by the scene with the cell's place) */
+  PetscInt  *cell_vertices;            /* [num_cells][2^dim] lexicographic */
+  PetscReal *cell_geometry;            /* [num_cells][(q+1)^dim][3] positions at equispaced nodes, lexicographic, q = geometry_order */
+  PetscInt  *cell_body;                /* [num_cells] index of the body, -1: in none (input error reported by the scene with the cell's place) */
 } CoarseMesh;
 
 /* Read-only views of a forest's tables, borrowed, valid while the forest lives. */
 typedef struct {
-  PetscInt        dim;
-  PetscInt        revision;      /* grows by one at each adaptation */
-  PetscInt        num_leaves;    /* on all ranks */
-  const PetscInt *leaf_root;     /* [num_leaves] coarse cell */
-  const PetscInt *leaf_lo;       /* [num_leaves][3] low corner in units of 2^-FOREST_MAX_LEVEL of the coarse cell */
-  const int8_t *leaf_level;   /* [num_leaves][3] splits so far in each direction; extent = 2^(FOREST_MAX_LEVEL-level) */
-  const PetscInt *leaf_body;     /* [num_leaves] */
+  PetscInt           dim;
+  PetscInt           revision;   /* grows by one at each adaptation */
+  PetscInt           num_leaves; /* on all ranks */
+  const PetscInt    *leaf_root;  /* [num_leaves] coarse cell */
+  const PetscInt    *leaf_lo;    /* [num_leaves][3] low corner in units of 2^-FOREST_MAX_LEVEL of the coarse cell */
+  const int8_t      *leaf_level; /* [num_leaves][3] splits so far in each direction; extent = 2^(FOREST_MAX_LEVEL-level) */
+  const PetscInt    *leaf_body;  /* [num_leaves] */
   const PetscMPIInt *leaf_rank;  /* [num_leaves] owner, from the METIS partition */
 
-  PetscInt         num_entities; /* ids: vertices, then edges, then faces (3-D), then cells; cell of leaf l is first[dim] + l */
-  PetscInt         first[5];     /* [dim+2] first id of each dimension; first[dim+1] = num_entities */
-  const PetscInt  *closure_offset; /* [num_entities] start in the two arrays below; 3^d entries */
-  const PetscInt  *closure;        /* entity ids in tensor order */
-  const int8_t *orientation;    /* orientation codes, one for each closure entry */
-  const PetscInt  *parent;         /* [num_entities] entity in whose interior this one hangs, or -1. Its own parent may hang too. */
-  const int8_t *parent_place;   /* [num_entities][3] place in the parent's frame, per parent axis: 0 lower half, 1 upper half, 2 whole, 3 at the middle */
-  const PetscInt  *facet_leaf;     /* [num_facets][2] leaves that have this facet (entity of dimension dim-1, from first[dim-1]) as a whole one, -1: none */
-  const uint64_t  *boundary;       /* [num_entities] bit b: the entity lies in the closure of a leaf facet of boundary group b */
-  const PetscInt  *entity_leaf;    /* [num_entities] lowest leaf with this entity in its closure: its rank owns the entity */
+  PetscInt        num_entities;   /* ids: vertices, then edges, then faces (3-D), then cells; cell of leaf l is first[dim] + l */
+  PetscInt        first[5];       /* [dim+2] first id of each dimension; first[dim+1] = num_entities */
+  const PetscInt *closure_offset; /* [num_entities] start in the two arrays below; 3^d entries */
+  const PetscInt *closure;        /* entity ids in tensor order */
+  const int8_t   *orientation;    /* orientation codes, one for each closure entry */
+  const PetscInt *parent;         /* [num_entities] entity in whose interior this one hangs, or -1. Its own parent may hang too. */
+  const int8_t   *parent_place;   /* [num_entities][3] place in the parent's frame, per parent axis: 0 lower half, 1 upper half, 2 whole, 3 at the middle */
+  const PetscInt *facet_leaf;     /* [num_facets][2] leaves that have this facet (entity of dimension dim-1, from first[dim-1]) as a whole one, -1: none */
+  const uint64_t *boundary;       /* [num_entities] bit b: the entity lies in the closure of a leaf facet of boundary group b */
+  const PetscInt *entity_leaf;    /* [num_entities] lowest leaf with this entity in its closure: its rank owns the entity */
 } ForestTables;
 
 /* What to do with each leaf, declared here because the forest consumes it. */
@@ -75,7 +75,8 @@ typedef struct {
 PetscErrorCode ForestCreate(MPI_Comm, const ForestSpec *, Forest *);
 /* Same from a coarse mesh in memory (tests, boxes); takes ownership of the arrays of mesh; facets: num_facets boundary facets by their
    2^(dim-1) vertices and bit mask of boundary groups. Collective. */
-PetscErrorCode ForestCreateFromCoarse(MPI_Comm, CoarseMesh *mesh, PetscInt num_facets, const PetscInt facet_vertices[], const uint64_t facet_groups[], PetscInt refine, Forest *);
+PetscErrorCode ForestCreateFromCoarse(MPI_Comm, CoarseMesh *mesh, PetscInt num_facets, const PetscInt facet_vertices[], const uint64_t facet_groups[],
+                                      PetscInt refine, Forest *);
 PetscErrorCode ForestDestroy(Forest *);
 PetscErrorCode ForestView(Forest, PetscViewer);
 
@@ -86,7 +87,8 @@ MPI_Comm       ForestComm(Forest);
 /* New forest: splits, merges where permitted, 1-irregular closure (also across edges; conflicting anisotropic splits forced), repartition.
    leaf_weight[num_leaves] of the *old* leaves (NULL: 1) is inherited for METIS; contact couplings: num_pairs pairs of old leaves that face each
    other, added to the graph (may be 0/NULL). Collective. */
-PetscErrorCode ForestAdapt(Forest, const MarkList *, const PetscReal leaf_weight[], PetscInt num_pairs, const PetscInt pairs[][2], Forest *adapted, ForestMap *map);
+PetscErrorCode ForestAdapt(Forest, const MarkList *, const PetscReal leaf_weight[], PetscInt num_pairs, const PetscInt pairs[][2], Forest *adapted,
+                           ForestMap *map);
 PetscErrorCode ForestMapDestroy(ForestMap *);
 
 /* Leaf DMPlex of this rank: owned leaves, one ghost layer (leaves that share an entity with an owned one or with its parents), and recursively

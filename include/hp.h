@@ -14,18 +14,19 @@ typedef struct _p_HPSpace *HPSpace;
 /* Local tables, borrowed. Cells: owned first, then ghosts. */
 typedef struct {
   PetscInt        dim, num_nodes, num_cells, num_owned_cells;
-  const PetscInt *cell_leaf;  /* [num_cells] */
-  const PetscInt *cell_order; /* [num_cells] */
-  const PetscInt *cell_row;   /* [num_cells+1] offsets into cell_master */
-  const PetscInt *cell_master;/* true local nodes a cell depends on; count n_m = cell_row[c+1]-cell_row[c] */
-  const PetscInt *cell_weight;/* [num_cells] offset of the dense matrix [(p+1)^dim][n_m] in weight, -1: the masters are the cell's nodes in lexicographic order */
+  const PetscInt *cell_leaf;   /* [num_cells] */
+  const PetscInt *cell_order;  /* [num_cells] */
+  const PetscInt *cell_row;    /* [num_cells+1] offsets into cell_master */
+  const PetscInt *cell_master; /* true local nodes a cell depends on; count n_m = cell_row[c+1]-cell_row[c] */
+  const PetscInt
+      *cell_weight; /* [num_cells] offset of the dense matrix [(p+1)^dim][n_m] in weight, -1: the masters are the cell's nodes in lexicographic order */
   const PetscReal *weight;
-  const PetscInt *node_entity;/* [num_nodes] global entity id */
-  const PetscInt *node_hang;  /* [num_nodes+1] offsets of a hanging node's row (empty: true node) */
-  const PetscInt *hang_master;/* true local nodes */
+  const PetscInt  *node_entity; /* [num_nodes] global entity id */
+  const PetscInt  *node_hang;   /* [num_nodes+1] offsets of a hanging node's row (empty: true node) */
+  const PetscInt  *hang_master; /* true local nodes */
   const PetscReal *hang_weight;
-  const PetscReal *X;         /* [num_nodes][3] reference positions: the hp interpolant of the exact geometry, hanging nodes included */
-  const PetscInt *point_node; /* [num_points+1] first node of each DMPlex point */
+  const PetscReal *X;          /* [num_nodes][3] reference positions: the hp interpolant of the exact geometry, hanging nodes included */
+  const PetscInt  *point_node; /* [num_points+1] first node of each DMPlex point */
 } HPTables;
 
 /* Space with leaf_order[num_leaves] (replicated) cell orders; on entities in the closure of facets with a bit of linear_groups the order is 1 (contact faces).
@@ -43,7 +44,7 @@ PetscErrorCode HPSpaceGetDM(HPSpace, DM *); /* leaf DM clone with section and co
 /* Global index of each local dof, [num_nodes*dim]: -1 prescribed or hanging. Numbering of the space's own global vector. */
 PetscErrorCode HPSpaceGetGlobalDofs(HPSpace, const PetscInt **);
 PetscErrorCode HPSpaceGetFrame(HPSpace, PetscInt node, const PetscReal **frame); /* NULL: Cartesian */
-PetscErrorCode HPSpaceGetOrder(HPSpace, PetscInt entity, PetscInt *order); /* order of a global entity in this rank's chart */
+PetscErrorCode HPSpaceGetOrder(HPSpace, PetscInt entity, PetscInt *order);       /* order of a global entity in this rank's chart */
 
 /* Cartesian nodal values [n][dim] of cell from a local array of true dofs (hanging entries of the array are not read). */
 PetscErrorCode HPSpaceGather(HPSpace, PetscInt cell, const PetscReal local[], PetscReal values[]);

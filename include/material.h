@@ -3,9 +3,13 @@
 #pragma once
 #include "base.h"
 
-typedef enum { VOLUMETRIC_QUADRATIC, VOLUMETRIC_SIMO, VOLUMETRIC_LOG } Volumetric; /* U = kappa/2 (J-1)^2 | kappa/2 ((J^2-1)/2 - ln J) | NHc of docs/theory.md */
+typedef enum {
+  VOLUMETRIC_QUADRATIC,
+  VOLUMETRIC_SIMO,
+  VOLUMETRIC_LOG
+} Volumetric; /* U = kappa/2 (J-1)^2 | kappa/2 ((J^2-1)/2 - ln J) | NHc of docs/theory.md */
 typedef enum { FORMULATION_AUTO, FORMULATION_DISPLACEMENT, FORMULATION_MIXED } Formulation; /* auto: mixed from nu = 0.45 up */
-extern const char *const VolumetricNames[];  /* PETSc enum name arrays */
+extern const char *const VolumetricNames[];                                                 /* PETSc enum name arrays */
 extern const char *const FormulationNames[];
 
 #define MATERIAL_MAX_PARAMETERS 8
@@ -13,9 +17,9 @@ extern const char *const FormulationNames[];
 typedef struct _MaterialLaw MaterialLaw; /* a row of the table of laws */
 
 typedef struct {
-  char               name[MORTISE_NAME]; /* the user's name of the material */
-  const MaterialLaw *law;                /* row of the table, never NULL after set-up */
-  PetscReal          mu, lambda, kappa;  /* derived from whichever pair was given; shear modulus, Lame's first, bulk modulus */
+  char               name[MORTISE_NAME];                 /* the user's name of the material */
+  const MaterialLaw *law;                                /* row of the table, never NULL after set-up */
+  PetscReal          mu, lambda, kappa;                  /* derived from whichever pair was given; shear modulus, Lame's first, bulk modulus */
   PetscReal          parameter[MATERIAL_MAX_PARAMETERS]; /* law's own (mooney_rivlin: c1, c2, kappa) */
   Volumetric         volumetric;
   Formulation        formulation;
@@ -32,7 +36,8 @@ typedef struct {
    With `part` ISOCHORIC, the volumetric energy kappa/2 g(J)^2 is left out (mixed formulation adds it through its projection);
    outputs that are NULL are skipped. Points with det F <= 0 set *bad to PETSC_TRUE (numerical status, no error). */
 typedef enum { MATERIAL_FULL, MATERIAL_ISOCHORIC } MaterialPart;
-typedef PetscErrorCode (*MaterialKernel)(const MaterialSpec *, MaterialPart part, PetscInt n, const PetscReal *F, PetscReal *W, PetscReal *P, PetscReal *A, PetscBool *bad);
+typedef PetscErrorCode (*MaterialKernel)(const MaterialSpec *, MaterialPart part, PetscInt n, const PetscReal *F, PetscReal *W, PetscReal *P, PetscReal *A,
+                                         PetscBool *bad);
 
 struct _MaterialLaw {
   const char              *name, *help;
@@ -40,12 +45,12 @@ struct _MaterialLaw {
   PetscBool                small;      /* linear law of small kinematics */
   PetscBool                rigid;      /* cells are not assembled */
   PetscErrorCode (*setup)(MaterialSpec *);
-  MaterialKernel           evaluate; /* NULL for rigid */
+  MaterialKernel evaluate; /* NULL for rigid */
 };
 
 /* The table of laws, ended by name NULL; and look-up by name (NULL when unknown). */
 extern const MaterialLaw MaterialLaws[];
-const MaterialLaw *MaterialLawFind(const char *name);
+const MaterialLaw       *MaterialLawFind(const char *name);
 
 /* Complete a spec from parameters given by name: `names[i]`, `values[i]`, i < num. Checks which sets are complete (E,nu | mu,kappa | mu,lambda |
    the law's own), ranges (E > 0, -1 < nu < 0.5, nu = 0.5 only as an error that suggests mixed with nu < 0.5; moduli positive), names unknown

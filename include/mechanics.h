@@ -15,14 +15,14 @@ typedef struct {
   PetscInt   group;              /* bit in ForestTables.boundary */
   Expression displacement[3];
   PetscBool  fix[3];
-  PetscBool  fix_normal;         /* flat face of any direction: u.N = 0 */
-  PetscBool  rotation;           /* finite rotation about the axis through point, degrees, expression of t */
+  PetscBool  fix_normal; /* flat face of any direction: u.N = 0 */
+  PetscBool  rotation;   /* finite rotation about the axis through point, degrees, expression of t */
   PetscInt   rotation_axis;
   Expression rotation_angle;
   PetscReal  rotation_point[3];
-  Expression pressure;           /* follower, against the outward normal; current area */
-  Expression traction[3];        /* dead, per reference area */
-  Amplitude  amplitude;          /* multiplies displacement, rotation, pressure, traction that are constants in t */
+  Expression pressure;    /* follower, against the outward normal; current area */
+  Expression traction[3]; /* dead, per reference area */
+  Amplitude  amplitude;   /* multiplies displacement, rotation, pressure, traction that are constants in t */
 } BoundarySpec;
 
 typedef struct {
@@ -50,10 +50,10 @@ typedef struct _p_Mechanics *Mechanics;
 /* Which dofs of the space are prescribed, by the scene's boundaries and rigid bodies. Fills fixed[num_nodes] (bit c: component c in the node's frame)
    and the frames of nodes with skew supports; arrays are freed by MechanicsSupportsDestroy. Collective on nothing: input is replicated. */
 typedef struct {
-  int8_t   *fixed;
-  PetscInt  num_frames, *frame_node;
+  int8_t  *fixed;
+  PetscInt num_frames, *frame_node;
   PetscReal (*frame)[9];
-  int8_t   *cause; /* [num_nodes][3] boundary index that prescribes this component, -1 none, -2 rigid body */
+  int8_t *cause; /* [num_nodes][3] boundary index that prescribes this component, -1 none, -2 rigid body */
 } Supports;
 PetscErrorCode MechanicsSupportsCreate(HPSpace, const MechanicsSpec *, Supports *);
 PetscErrorCode MechanicsSupportsDestroy(Supports *);
@@ -75,7 +75,8 @@ typedef struct {
   PetscBool bad;     /* some det F <= 0: residual must not be used (numerical status) */
 } MechanicsStatus;
 
-/* Add the residual (internal minus external forces) at displacement u (local array, prescribed dofs set) to r (local array, prescribed dofs included: reactions). */
+/* Add the residual (internal minus external forces) at displacement u (local array, prescribed dofs set) to r (local array, prescribed dofs included:
+ * reactions). */
 PetscErrorCode MechanicsResidual(Mechanics, const PetscReal u[], PetscReal r[], MechanicsStatus *);
 
 /* Receives K[num][num] for local dofs. */
@@ -94,7 +95,8 @@ PetscErrorCode MechanicsConsistentPressure(Mechanics, const PetscReal u[], Petsc
    Cartesian; reaction[num_boundaries][3], this rank's part. */
 PetscErrorCode MechanicsReactions(Mechanics, const PetscReal r[], PetscReal reaction[][3]);
 
-/* Point values in cell at np reference points: F, P [np][9] and strain energy density W (NULL: skip). Owned and ghost cells (a ghost's pressure is consistent with u). */
+/* Point values in cell at np reference points: F, P [np][9] and strain energy density W (NULL: skip). Owned and ghost cells (a ghost's pressure is consistent
+ * with u). */
 PetscErrorCode MechanicsPoints(Mechanics, PetscInt cell, PetscInt np, const PetscReal xi[], const PetscReal u[], PetscReal F[], PetscReal P[], PetscReal W[]);
 
 /* Where the coefficients of an owned cell lie in the pressure array; num 0: not mixed, rigid, or a ghost. */
@@ -102,4 +104,5 @@ PetscErrorCode MechanicsPressureRange(Mechanics, PetscInt cell, PetscInt *first,
 /* The pressure field of a cell of this order at np reference points xi[np][dim]: complete polynomials of degree order-1 times coefficients. Not collective. */
 PetscErrorCode MechanicsPressureEvaluate(PetscInt dim, PetscInt order, PetscInt np, const PetscReal xi[], const PetscReal pressure[], PetscReal values[]);
 /* Coefficients of the weighted least squares fit to values[np]; the points must determine it (order points in each direction do). Not collective. */
-PetscErrorCode MechanicsPressureProject(PetscInt dim, PetscInt order, PetscInt np, const PetscReal xi[], const PetscReal weights[], const PetscReal values[], PetscReal pressure[]);
+PetscErrorCode MechanicsPressureProject(PetscInt dim, PetscInt order, PetscInt np, const PetscReal xi[], const PetscReal weights[], const PetscReal values[],
+                                        PetscReal pressure[]);

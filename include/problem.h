@@ -10,12 +10,12 @@ typedef struct _p_Problem *Problem;
 
 /* Everything that evolves, besides the forest. */
 typedef struct {
-  Vec        x;            /* owned: global (u, z) of the problem it belongs to */
+  Vec        x; /* owned: global (u, z) of the problem it belongs to */
   PetscInt   num_pressure;
-  PetscReal *pressure;     /* owned [num_pressure] element pressures of this rank */
-  PetscReal  t;            /* pseudo-time of this state */
+  PetscReal *pressure; /* owned [num_pressure] element pressures of this rank */
+  PetscReal  t;        /* pseudo-time of this state */
   PetscInt   num_leaves;
-  int8_t    *leaf_order;   /* owned [num_leaves], replicated */
+  int8_t    *leaf_order; /* owned [num_leaves], replicated */
 } State;
 
 PetscErrorCode StateCreate(Problem, State *);
@@ -49,12 +49,12 @@ PetscErrorCode ProblemSetDisplacement(Problem, const PetscReal local[], Vec x);
 
 typedef struct {
   PetscInt         num_nodes, num_edges;
-  const PetscInt  *node_entity;  /* [num_nodes] global vertex entity */
-  const PetscInt  *edges;        /* [num_edges][2], body to the left */
-  const PetscInt  *edge_leaf;    /* [num_edges] */
-  const PetscReal *X;            /* [num_nodes][2] */
-  const PetscReal *x;            /* [num_nodes][2] at the last evaluation */
-  const PetscReal *force;        /* [num_nodes][2] contact force at the last residual */
+  const PetscInt  *node_entity; /* [num_nodes] global vertex entity */
+  const PetscInt  *edges;       /* [num_edges][2], body to the left */
+  const PetscInt  *edge_leaf;   /* [num_edges] */
+  const PetscReal *X;           /* [num_nodes][2] */
+  const PetscReal *x;           /* [num_nodes][2] at the last evaluation */
+  const PetscReal *force;       /* [num_nodes][2] contact force at the last residual */
 } SurfaceView;
 
 typedef struct {
@@ -76,11 +76,11 @@ PetscErrorCode ProblemSearch(Problem, Vec x);
 /* ---- residual and tangent --------------------------------------------------------------------------------------------------- */
 
 typedef struct {
-  PetscReal energy;      /* strain energy */
-  PetscReal min_det;     /* smallest det F */
-  PetscReal scale;       /* root of the summed squared nodal forces of cells and loads: the residual is small against it */
-  PetscInt  num_active;  /* active contact nodes */
-  PetscBool bad;         /* outside the domain: det F <= 0 or a failed projection */
+  PetscReal energy;     /* strain energy */
+  PetscReal min_det;    /* smallest det F */
+  PetscReal scale;      /* root of the summed squared nodal forces of cells and loads: the residual is small against it */
+  PetscInt  num_active; /* active contact nodes */
+  PetscBool bad;        /* outside the domain: det F <= 0 or a failed projection */
 } ProblemStatus;
 
 /* R(x) with the prescribed motion as applied. Deterministic function of x. Collective; status is the same on every rank. */
@@ -99,7 +99,7 @@ PetscErrorCode ProblemStepAccept(Problem, PetscReal step, PetscReal pressure[]);
 /* Largest part of the prescribed motion not yet applied, in the user's unit of length; 0 when the target is reached. */
 PetscErrorCode ProblemPending(Problem, PetscReal *remaining);
 
-/* Forces of the supports at x: reaction[num_boundaries][3]; contact force and moment about the origin on the nonmortar side: force[num_contacts][3], moment[num_contacts][3]; all ranks.
-   Evaluates the residual. */
+/* Forces of the supports at x: reaction[num_boundaries][3]; contact force and moment about the origin on the nonmortar side: force[num_contacts][3],
+   moment[num_contacts][3]; all ranks. Evaluates the residual. */
 PetscErrorCode ProblemForces(Problem, Vec x, PetscReal reaction[][3], PetscReal force[][3], PetscReal moment[][3], ProblemStatus *);
 PetscErrorCode ProblemNumDofs(Problem, PetscInt *free_dofs); /* global: u and z */

@@ -36,7 +36,8 @@ PetscErrorCode AppReportPass(App *app, PetscInt iterations, PetscBool accepted)
   PetscCall(StageBegin(STAGE_OUTPUT));
   /* Passes at one load time follow each other a little apart: readers want times that grow. */
   const PetscReal apart = 1e-6 * app->data->load.end;
-  PetscCall(OutputWriteState(app->writer, l->problem, &l->state, app->estimated ? &app->estimate : NULL, l->state.t + apart * app->passes_in_step, app->load_steps + 1, app->passes_in_step));
+  PetscCall(OutputWriteState(app->writer, l->problem, &l->state, app->estimated ? &app->estimate : NULL, l->state.t + apart * app->passes_in_step,
+                             app->load_steps + 1, app->passes_in_step));
   PetscCall(StageEnd(STAGE_OUTPUT));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

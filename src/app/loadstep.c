@@ -1,9 +1,9 @@
 /* The load steps: advance pseudo-time, cut on failure, grow on ease; adapt at each new time; report what was accepted. */
 #include "appimpl.h"
 
-#define EASY_ITERATIONS 6   /* a step that took no more Newton iterations lets the next one grow */
-#define GROWTH          1.5
-#define ROUND_OFF       1e-12
+#define EASY_ITERATIONS 6 /* a step that took no more Newton iterations lets the next one grow */
+#define GROWTH 1.5
+#define ROUND_OFF 1e-12
 
 /* One attempt from the accepted state of this mesh to time t. */
 static PetscErrorCode Attempt_Private(App *app, PetscReal t, SolverReport *report)
@@ -31,7 +31,7 @@ static PetscErrorCode Restore_Private(App *app, const State *from)
 
 PetscErrorCode AppAdvance(App *app, PetscReal t, PetscBool *ok)
 {
-  Level       *l = &app->level;
+  Level       *l  = &app->level;
   PetscReal    dt = t - l->state.t;
   State        start;
   SolverReport report;

@@ -32,7 +32,8 @@ static PetscErrorCode Summarise_Private(App *app)
     if (app->balance.reaction) PetscCall(BalanceDestroy(&app->balance));
     PetscCall(BalanceCompute(app->level.problem, &app->level.accepted, &app->balance));
   }
-  RunSummary summary = {.status = status, .reason = app->failure ? app->failure : "", .t = app->level.accepted.t, .seconds = now - app->start, .load_steps = app->load_steps};
+  RunSummary summary = {
+      .status = status, .reason = app->failure ? app->failure : "", .t = app->level.accepted.t, .seconds = now - app->start, .load_steps = app->load_steps};
   summary.step_cuts         = app->step_cuts;
   summary.adapt_passes      = app->adapt_passes;
   summary.newton_iterations = app->newton_iterations;
@@ -97,9 +98,12 @@ static PetscErrorCode Main_Private(int argc, char **argv, PetscBool *gave_up)
 {
   PetscFunctionBegin;
   PetscCall(StageRegister());
-  if (Asked_Private(argc, argv, "-help")) PetscCall(ScenePrintHelp(PETSC_COMM_WORLD));
-  else if (Asked_Private(argc, argv, "-list")) PetscCall(ScenePrintList(PETSC_COMM_WORLD));
-  else PetscCall(Solve_Private(argc, argv, gave_up));
+  if (Asked_Private(argc, argv, "-help"))
+    PetscCall(ScenePrintHelp(PETSC_COMM_WORLD));
+  else if (Asked_Private(argc, argv, "-list"))
+    PetscCall(ScenePrintList(PETSC_COMM_WORLD));
+  else
+    PetscCall(Solve_Private(argc, argv, gave_up));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -108,7 +112,7 @@ int main(int argc, char **argv)
   PetscBool      gave_up = PETSC_FALSE;
   PetscErrorCode ierr;
 
-  ierr = PetscInitialize(&argc, &argv, NULL, NULL);
+  ierr = AppInitialize(&argc, &argv);
   if (ierr) return 2;
   ierr = ErrorHandlerPush();
   if (!ierr) ierr = Main_Private(argc, argv, &gave_up);

@@ -46,9 +46,12 @@ static PetscErrorCode RowAdd_Private(HPRow *row, PetscInt node, PetscReal weight
 static void ToParent_Private(PetscInt parent_dim, const int8_t place[3], const PetscReal xi[], PetscReal eta[3])
 {
   for (PetscInt a = 0, k = 0; a < parent_dim; ++a) {
-    if (place[a] == 3) eta[a] = 0.5;
-    else if (place[a] == 2) eta[a] = xi[k++];
-    else eta[a] = 0.5 * (xi[k++] + place[a]);
+    if (place[a] == 3)
+      eta[a] = 0.5;
+    else if (place[a] == 2)
+      eta[a] = xi[k++];
+    else
+      eta[a] = 0.5 * (xi[k++] + place[a]);
   }
 }
 
@@ -68,7 +71,8 @@ PetscErrorCode HPRowAccumulate_Private(HPSpace hp, PetscInt entity, const PetscR
     PetscCall(HPRowAccumulate_Private(hp, parent, eta, scale, row));
     PetscFunctionReturn(PETSC_SUCCESS);
   }
-  PetscCheck(hp->entity_point[entity] >= 0, PETSC_COMM_SELF, PETSC_ERR_PLIB, "entity %" PetscInt_FMT " is needed as a master but is not in this rank's chart", entity);
+  PetscCheck(hp->entity_point[entity] >= 0, PETSC_COMM_SELF, PETSC_ERR_PLIB, "entity %" PetscInt_FMT " is needed as a master but is not in this rank's chart",
+             entity);
   if (d == 0) {
     PetscCall(RowAdd_Private(row, hp->point_node[hp->entity_point[entity]], scale));
     PetscFunctionReturn(PETSC_SUCCESS);
@@ -161,7 +165,8 @@ static PetscErrorCode Reserve_Private(PetscInt needed, PetscInt *size, size_t un
 }
 
 /* Masters of a cell that is not simple: union of the rows of its nodes, and the dense matrix. */
-static PetscErrorCode ConstrainedCell_Private(HPSpace hp, PetscInt cell, PetscInt n, const PetscReal *nodes, HPRow *rows, HPRow *masters, PetscReal **dense, PetscInt *size)
+static PetscErrorCode ConstrainedCell_Private(HPSpace hp, PetscInt cell, PetscInt n, const PetscReal *nodes, HPRow *rows, HPRow *masters, PetscReal **dense,
+                                              PetscInt *size)
 {
   PetscFunctionBegin;
   PetscCall(HPRowReset_Private(masters));
@@ -179,7 +184,8 @@ static PetscErrorCode ConstrainedCell_Private(HPSpace hp, PetscInt cell, PetscIn
       }
       for (PetscInt k = 0; k < rows->num; ++k) {
         PetscInt m = 0;
-        if (!pass) PetscCall(RowAdd_Private(masters, rows->node[k], 0.0));
+        if (!pass)
+          PetscCall(RowAdd_Private(masters, rows->node[k], 0.0));
         else {
           while (masters->node[m] != rows->node[k]) ++m;
           (*dense)[i * masters->num + m] += rows->weight[k];
@@ -192,8 +198,8 @@ static PetscErrorCode ConstrainedCell_Private(HPSpace hp, PetscInt cell, PetscIn
 
 static PetscErrorCode CellRows_Private(HPSpace hp)
 {
-  HPTables  *v    = &hp->view;
-  HPRow      row  = {0}, masters = {0};
+  HPTables  *v   = &hp->view;
+  HPRow      row = {0}, masters = {0};
   PetscInt   size = 0, wsize = 0, dsize = 0, used = 0, wused = 0;
   PetscReal *dense = NULL;
 
@@ -212,7 +218,8 @@ static PetscErrorCode CellRows_Private(HPSpace hp)
       hp->cell_master[used + i] = node;
     }
     hp->cell_weight[c] = -1;
-    if (i == n) used += n;
+    if (i == n)
+      used += n;
     else {
       PetscCall(ConstrainedCell_Private(hp, c, n, nodes, &row, &masters, &dense, &dsize));
       PetscCall(Reserve_Private(used + masters.num, &size, sizeof(PetscInt), &hp->cell_master));
@@ -254,8 +261,8 @@ static PetscErrorCode HangingNodeRow_Private(HPSpace hp, PetscInt entity, PetscI
 
 static PetscErrorCode HangingRows_Private(HPSpace hp)
 {
-  HPTables *v    = &hp->view;
-  HPRow     row  = {0};
+  HPTables *v     = &hp->view;
+  HPRow     row   = {0};
   PetscInt  msize = 0, wsize = 0, used = 0;
 
   PetscFunctionBegin;

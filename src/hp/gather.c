@@ -11,7 +11,8 @@ static inline void NodeValue_Private(HPSpace hp, PetscInt node, const PetscReal 
 {
   const PetscReal *q = Frame_Private(hp, node), *dof = local + node * hp->dim;
   for (PetscInt c = 0; c < hp->dim; ++c) {
-    if (!q) value[c] = dof[c];
+    if (!q)
+      value[c] = dof[c];
     else {
       value[c] = 0;
       for (PetscInt k = 0; k < hp->dim; ++k) value[c] += q[3 * k + c] * dof[k];
@@ -24,7 +25,8 @@ static inline void NodeAdd_Private(HPSpace hp, PetscInt node, const PetscReal r[
   const PetscReal *q   = Frame_Private(hp, node);
   PetscReal       *dof = local + node * hp->dim;
   for (PetscInt k = 0; k < hp->dim; ++k) {
-    if (!q) dof[k] += r[k];
+    if (!q)
+      dof[k] += r[k];
     else
       for (PetscInt c = 0; c < hp->dim; ++c) dof[k] += q[3 * k + c] * r[c];
   }
@@ -62,7 +64,8 @@ PetscErrorCode HPSpaceGatherPositions(HPSpace hp, PetscInt cell, PetscReal X[])
   PetscFunctionBegin;
   for (PetscInt i = 0; i < n; ++i) {
     for (PetscInt c = 0; c < d; ++c) {
-      if (v->cell_weight[cell] < 0) X[i * d + c] = v->X[3 * master[i] + c];
+      if (v->cell_weight[cell] < 0)
+        X[i * d + c] = v->X[3 * master[i] + c];
       else {
         const PetscReal *w = v->weight + v->cell_weight[cell] + i * nm;
         X[i * d + c]       = 0;
@@ -150,8 +153,10 @@ PetscErrorCode HPSpaceTransformMatrix(HPSpace hp, PetscInt cell, const PetscReal
   const PetscInt *master = v->cell_master + v->cell_row[cell];
 
   PetscFunctionBegin;
-  if (v->cell_weight[cell] < 0) PetscCall(PetscArraycpy(Km, K, n * d * n * d));
-  else PetscCall(Congruence_Private(d, n, nm, v->weight + v->cell_weight[cell], K, hp->work, Km));
+  if (v->cell_weight[cell] < 0)
+    PetscCall(PetscArraycpy(Km, K, n * d * n * d));
+  else
+    PetscCall(Congruence_Private(d, n, nm, v->weight + v->cell_weight[cell], K, hp->work, Km));
   for (PetscInt m = 0; m < nm; ++m) {
     const PetscReal *q = Frame_Private(hp, master[m]);
     if (q) Rotate_Private(d, nm * d, m, q, Km);

@@ -78,8 +78,9 @@ PetscErrorCode HPSpaceView(HPSpace hp, PetscViewer viewer)
     high = PetscMax(high, hp->cell_order[c]);
   }
   PetscCall(PetscViewerASCIIPushSynchronized(viewer));
-  PetscCall(PetscViewerASCIISynchronizedPrintf(viewer, "hp space: %" PetscInt_FMT " cells, %" PetscInt_FMT " nodes (%" PetscInt_FMT " hanging), orders %" PetscInt_FMT " to %" PetscInt_FMT "\n", hp->view.num_owned_cells,
-                                               hp->view.num_nodes, hanging, low, high));
+  PetscCall(PetscViewerASCIISynchronizedPrintf(
+      viewer, "hp space: %" PetscInt_FMT " cells, %" PetscInt_FMT " nodes (%" PetscInt_FMT " hanging), orders %" PetscInt_FMT " to %" PetscInt_FMT "\n",
+      hp->view.num_owned_cells, hp->view.num_nodes, hanging, low, high));
   PetscCall(PetscViewerFlush(viewer));
   PetscCall(PetscViewerASCIIPopSynchronized(viewer));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -3,8 +3,8 @@
 
 PetscErrorCode HPSpaceNodes_Private(HPSpace hp, PetscInt num_owned_cells)
 {
-  const ForestTables *t = hp->tables;
-  HPTables           *v = &hp->view;
+  const ForestTables *t         = hp->tables;
+  HPTables           *v         = &hp->view;
   PetscInt            num_cells = 0;
 
   PetscFunctionBegin;
@@ -12,7 +12,7 @@ PetscErrorCode HPSpaceNodes_Private(HPSpace hp, PetscInt num_owned_cells)
   for (PetscInt e = 0; e < t->num_entities; ++e) hp->entity_point[e] = -1;
   hp->point_node[0] = 0;
   for (PetscInt i = 0; i < hp->num_points; ++i) {
-    const PetscInt e = hp->point_entity[i];
+    const PetscInt e      = hp->point_entity[i];
     hp->entity_point[e]   = i;
     hp->point_node[i + 1] = hp->point_node[i] + HPNodesOfEntity_Private(HPEntityDim_Private(t, e), hp->entity_order[e]);
     if (e >= t->first[t->dim]) ++num_cells;

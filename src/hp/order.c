@@ -47,7 +47,8 @@ PetscErrorCode HPSpaceOrders_Private(HPSpace hp, const int8_t leaf_order[], uint
   order = hp->entity_order;
   for (PetscInt e = 0; e < t->first[t->dim]; ++e) order[e] = MORTISE_MAX_ORDER;
   for (PetscInt l = 0; l < t->num_leaves; ++l) {
-    PetscCheckInput(leaf_order[l] >= 1 && leaf_order[l] <= MORTISE_MAX_ORDER, "order: %d is out of range, allowed are 1 to %d", (int)leaf_order[l], MORTISE_MAX_ORDER);
+    PetscCheckInput(leaf_order[l] >= 1 && leaf_order[l] <= MORTISE_MAX_ORDER, "order: %d is out of range, allowed are 1 to %d", (int)leaf_order[l],
+                    MORTISE_MAX_ORDER);
     order[t->first[t->dim] + l] = leaf_order[l];
   }
   for (PetscInt e = t->first[1]; e < t->first[t->dim]; ++e) {

@@ -63,7 +63,7 @@ static PetscErrorCode GlobalDofs_Private(HPSpace hp, const int8_t fixed[])
     if (offset < 0) offset = -(offset + 1);
     for (PetscInt n = hp->point_node[p]; n < hp->point_node[p + 1]; ++n) {
       for (PetscInt c = 0; c < hp->dim; ++c) {
-        const PetscBool constrained = (PetscBool)(IsHanging_Private(hp, n) || (fixed && (fixed[n] >> c) & 1));
+        const PetscBool constrained     = (PetscBool)(IsHanging_Private(hp, n) || (fixed && (fixed[n] >> c) & 1));
         hp->global_dof[n * hp->dim + c] = constrained ? -1 : offset++;
       }
     }

@@ -33,7 +33,8 @@ static PetscErrorCode GroupResidual_Private(Mechanics m, const CellGroup *g, con
 
   PetscFunctionBegin;
   for (PetscInt first = 0; first < g->num_cells; first += g->batch) {
-    CellBatch batch = {.nc = PetscMin(g->batch, g->num_cells - first), .X = g->X + first * nd, .u = b.u, .energy = b.energy, .residual = b.r, .min_det = b.min_det};
+    CellBatch batch = {
+        .nc = PetscMin(g->batch, g->num_cells - first), .X = g->X + first * nd, .u = b.u, .energy = b.energy, .residual = b.r, .min_det = b.min_det};
     PetscCall(GatherBatch_Private(m, g, first, batch.nc, u, b.u));
     PetscCall(CellKernelEvaluate(g->kernel, &batch));
     for (PetscInt i = 0; i < batch.nc; ++i) status->min_det = PetscMin(status->min_det, b.min_det[i]);
@@ -70,11 +71,16 @@ PetscErrorCode MechanicsResidual(Mechanics m, const PetscReal u[], PetscReal r[]
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode SendMatrix_Private(Mechanics m, PetscInt cell, const PetscReal K[], PetscReal *Km, PetscInt *dofs, MatrixSink sink, void *context)
+static PetscErrorCode SendMatrix_Private(Mechanics m, PetscInt cell, PetscInt nd, PetscReal K[], PetscReal *Km, PetscInt *dofs, MatrixSink sink, void *context)
 {
   PetscInt num;
 
   PetscFunctionBegin;
+  if (m->free_share[cell] > 0) {
+    PetscReal trace = 0;
+    for (PetscInt i = 0; i < nd; ++i) trace += K[i * nd + i];
+    for (PetscInt i = 0; i < nd; ++i) K[i * nd + i] += m->free_share[cell] * trace / nd;
+  }
   PetscCall(HPSpaceTransformMatrix(m->space, cell, K, Km, dofs, &num));
   PetscCall(sink(context, num, dofs, Km));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -114,9 +120,10 @@ PetscErrorCode MechanicsTangent(Mechanics m, const PetscReal u[], const PetscRea
         batch.dpressure  = dpressure + first * g->m * nd;
       }
       PetscCall(CellKernelEvaluate(g->kernel, &batch));
-      if (batch.bad) *bad = PETSC_TRUE;
+      if (batch.bad)
+        *bad = PETSC_TRUE;
       else
-        for (PetscInt i = 0; i < batch.nc; ++i) PetscCall(SendMatrix_Private(m, g->cells[first + i], b.K + i * nd * nd, Km, dofs, sink, context));
+        for (PetscInt i = 0; i < batch.nc; ++i) PetscCall(SendMatrix_Private(m, g->cells[first + i], nd, b.K + i * nd * nd, Km, dofs, sink, context));
     }
     dpressure += g->num_cells * g->m * nd;
   }
@@ -169,8 +176,8 @@ PetscErrorCode MechanicsPoints(Mechanics m, PetscInt cell, PetscInt np, const Pe
 
   PetscFunctionBegin;
   PetscCheck(m->cell_group[cell] >= 0, PETSC_COMM_SELF, PETSC_ERR_ARG_WRONG, "cell %" PetscInt_FMT " is rigid: it has no stress", cell);
-  g = &m->groups[m->cell_group[cell]];
-  X = m->work;
+  g      = &m->groups[m->cell_group[cell]];
+  X      = m->work;
   values = X + g->n * m->dim;
   PetscCall(HPSpaceGatherPositions(m->space, cell, X));
   PetscCall(HPSpaceGather(m->space, cell, u, values));

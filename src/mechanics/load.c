@@ -1,7 +1,7 @@
 /* Loads: dead tractions and body forces (evaluated once for each time), follower pressures. */
 #include "mechanicsimpl.h"
 
-#define MOST_FACET_NODES  ((MORTISE_MAX_ORDER + 1) * (MORTISE_MAX_ORDER + 1))
+#define MOST_FACET_NODES ((MORTISE_MAX_ORDER + 1) * (MORTISE_MAX_ORDER + 1))
 #define MOST_FACET_POINTS ((MORTISE_MAX_ORDER + 2) * (MORTISE_MAX_ORDER + 2))
 
 /* Sign that makes the normal of the tangent order (edge tangent; first x second tangent) point outward. */
@@ -82,7 +82,8 @@ static PetscErrorCode FacetTraction_Private(Mechanics m, const LoadFacet *f, Pet
   const BoundarySpec *b = &m->spec->boundaries[f->boundary];
   const PetscReal    *X = g->X + m->cell_index[f->cell] * g->n * m->dim;
   PetscInt            nodes[MOST_FACET_NODES], num = TraceNodes_Private(m->dim, g->order, f->side, nodes), np = FacetNumPoints(m->dim, g->order);
-  PetscReal           trace[3 * MOST_FACET_NODES], r[3 * MOST_FACET_NODES], position[MOST_FACET_POINTS][3], traction[MOST_FACET_POINTS][3], normal[MOST_FACET_POINTS][3], dA[MOST_FACET_POINTS];
+  PetscReal trace[3 * MOST_FACET_NODES], r[3 * MOST_FACET_NODES], position[MOST_FACET_POINTS][3], traction[MOST_FACET_POINTS][3], normal[MOST_FACET_POINTS][3],
+      dA[MOST_FACET_POINTS];
 
   PetscFunctionBegin;
   TakeTrace_Private(m->dim, num, nodes, X, trace);
@@ -195,8 +196,10 @@ static PetscErrorCode FacetFollower_Private(Mechanics m, const LoadFacet *f, con
   const CellGroup    *g = &m->groups[m->cell_group[f->cell]];
   const BoundarySpec *b = &m->spec->boundaries[f->boundary];
   const PetscReal    *X = g->X + m->cell_index[f->cell] * g->n * m->dim;
-  PetscInt            nodes[MOST_FACET_NODES], num = TraceNodes_Private(m->dim, g->order, f->side, nodes), np = FacetNumPoints(m->dim, g->order), size = num * m->dim, nd = g->n * m->dim;
-  PetscReal           trace[3 * MOST_FACET_NODES], rt[3 * MOST_FACET_NODES], position[MOST_FACET_POINTS][3], normal[MOST_FACET_POINTS][3], dA[MOST_FACET_POINTS], pressure[MOST_FACET_POINTS], *Kt = NULL;
+  PetscInt nodes[MOST_FACET_NODES], num = TraceNodes_Private(m->dim, g->order, f->side, nodes), np = FacetNumPoints(m->dim, g->order), size = num * m->dim,
+                                    nd = g->n * m->dim;
+  PetscReal trace[3 * MOST_FACET_NODES], rt[3 * MOST_FACET_NODES], position[MOST_FACET_POINTS][3], normal[MOST_FACET_POINTS][3], dA[MOST_FACET_POINTS],
+      pressure[MOST_FACET_POINTS], *Kt = NULL;
 
   PetscFunctionBegin;
   TakeTrace_Private(m->dim, num, nodes, X, trace);

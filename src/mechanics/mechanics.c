@@ -45,7 +45,7 @@ static PetscErrorCode FillGroups_Private(Mechanics m, const HPTables *v)
   PetscFunctionBegin;
   for (PetscInt g = 0; g < m->num_groups; ++g) {
     CellGroup     *group = &m->groups[g];
-    const PetscInt nd    = group->n * m->dim, per_cell = 2 * nd + nd * nd + 3 * group->m + 4;
+    const PetscInt nd = group->n * m->dim, per_cell = 2 * nd + nd * nd + 3 * group->m + 4;
     PetscCall(PetscMalloc2(group->num_cells, &group->cells, group->num_cells * nd, &group->X));
     group->pressure = m->num_pressure;
     m->num_pressure += group->num_cells * group->m;
@@ -54,7 +54,7 @@ static PetscErrorCode FillGroups_Private(Mechanics m, const HPTables *v)
   }
   for (PetscInt c = 0; c < v->num_owned_cells; ++c) {
     if (m->cell_group[c] < 0) continue;
-    CellGroup *group                   = &m->groups[m->cell_group[c]];
+    CellGroup *group               = &m->groups[m->cell_group[c]];
     group->cells[m->cell_index[c]] = c;
     PetscCall(HPSpaceGatherPositions(m->space, c, group->X + m->cell_index[c] * group->n * m->dim));
   }
@@ -82,6 +82,7 @@ PetscErrorCode MechanicsCreate(HPSpace space, const MechanicsSpec *spec, const S
   PetscCall(Groups_Private(m, v, t));
   PetscCall(FillGroups_Private(m, v));
   PetscCall(MechanicsLoadFacets_Private(m));
+  PetscCall(MechanicsFreeBodies_Private(m));
   *mechanics = m;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -100,6 +101,7 @@ PetscErrorCode MechanicsDestroy(Mechanics *mechanics)
   PetscCall(PetscFree2(m->cell_group, m->cell_index));
   PetscCall(PetscFree(m->facets));
   PetscCall(PetscFree(m->dead));
+  PetscCall(PetscFree(m->free_share));
   PetscCall(PetscFree2(m->linear, m->dpressure));
   PetscCall(PetscFree(m->work));
   PetscCall(PetscFree(*mechanics));

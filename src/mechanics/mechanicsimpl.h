@@ -10,12 +10,12 @@ typedef struct _p_CellKernel *CellKernel;
    NULL outputs are skipped. */
 typedef struct {
   PetscInt         nc;
-  const PetscReal *X;        /* [nc][n][d] reference positions */
-  const PetscReal *u;        /* [nc][n][d] displacements */
-  const PetscReal *pressure; /* [nc][m] stored pressure coefficients: enter the geometric stiffness only. NULL: the consistent ones are used */
-  PetscReal       *energy;   /* [nc] */
-  PetscReal       *residual; /* [nc][n*d] dE/du, row node*d + component; a function of u alone */
-  PetscReal       *tangent;  /* [nc][n*d][n*d] symmetric, full; exact derivative of residual when pressure is NULL or consistent */
+  const PetscReal *X;          /* [nc][n][d] reference positions */
+  const PetscReal *u;          /* [nc][n][d] displacements */
+  const PetscReal *pressure;   /* [nc][m] stored pressure coefficients: enter the geometric stiffness only. NULL: the consistent ones are used */
+  PetscReal       *energy;     /* [nc] */
+  PetscReal       *residual;   /* [nc][n*d] dE/du, row node*d + component; a function of u alone */
+  PetscReal       *tangent;    /* [nc][n*d][n*d] symmetric, full; exact derivative of residual when pressure is NULL or consistent */
   PetscReal       *consistent; /* [nc][m] pressure coefficients that u implies: modulus * M^-1 int q g(J) */
   PetscReal       *dpressure;  /* [nc][m][n*d] derivative of consistent with respect to u */
   PetscReal       *min_det;    /* [nc] smallest det F over the quadrature points */
@@ -31,30 +31,33 @@ PetscErrorCode CellKernelDestroy(CellKernel *);
 void           CellKernelSizes(CellKernel, PetscInt *num_nodes, PetscInt *num_pressure, PetscInt *best_batch);
 PetscErrorCode CellKernelEvaluate(CellKernel, CellBatch *);
 
-/* Point values for output and estimation at given reference points xi[np][dim] of one cell with nodes X, u ([n][dim]) and pressure coefficients (mixed, else NULL):
-   F[np][9], P[np][9] (with the pressure field's volumetric part), J, weight-free. */
-PetscErrorCode CellKernelPoints(CellKernel, PetscInt np, const PetscReal *xi, const PetscReal *X, const PetscReal *u, const PetscReal *pressure, PetscReal *F, PetscReal *P, PetscReal *W, PetscBool *bad);
+/* Point values for output and estimation at given reference points xi[np][dim] of one cell with nodes X, u ([n][dim]) and pressure coefficients (mixed, else
+   NULL): F[np][9], P[np][9] (with the pressure field's volumetric part), J, weight-free. */
+PetscErrorCode CellKernelPoints(CellKernel, PetscInt np, const PetscReal *xi, const PetscReal *X, const PetscReal *u, const PetscReal *pressure, PetscReal *F,
+                                PetscReal *P, PetscReal *W, PetscBool *bad);
 
 /* ---- facets (facet.c): loads on one facet, given by its (p+1)^(dim-1) trace nodes ------------------------------------ */
 
 /* Dead traction: r[node*d+c] = - int t_c N_node dA over the reference facet; traction at quadrature points by callback-free arrays:
    FacetQuadrature gives the reference positions first. All facets use p+2 Gauss points per direction. Axisymmetric: weight 2 pi R (follower: 2 pi r). */
 PetscInt       FacetNumPoints(PetscInt dim, PetscInt order);
-PetscErrorCode FacetQuadrature(PetscInt dim, Model, PetscInt order, const PetscReal *X, PetscReal *position /* [np][3] */, PetscReal *dA /* [np] weight*area */, PetscReal *normal /* [np][3] unit, not oriented: sign by tangent order */);
+PetscErrorCode FacetQuadrature(PetscInt dim, Model, PetscInt order, const PetscReal *X, PetscReal *position /* [np][3] */, PetscReal *dA /* [np] weight*area */,
+                               PetscReal *normal /* [np][3] unit, not oriented: sign by tangent order */);
 PetscErrorCode FacetTraction(PetscInt dim, Model, PetscInt order, const PetscReal *X, const PetscReal *traction /* [np][3] */, PetscReal *residual);
 /* Follower pressure p[np] against the outward normal; `side` (+1/-1) makes the normal of the tangent order outward. Residual and exact tangent
    [n*d][n*d] (NULL: skip) at current positions x[n][d]. Small kinematics: call with x = X and no tangent. */
-PetscErrorCode FacetPressure(PetscInt dim, Model, PetscInt order, const PetscReal *x, PetscInt side, const PetscReal *pressure, PetscReal *residual, PetscReal *tangent);
+PetscErrorCode FacetPressure(PetscInt dim, Model, PetscInt order, const PetscReal *x, PetscInt side, const PetscReal *pressure, PetscReal *residual,
+                             PetscReal *tangent);
 
 /* ---- the bulk of one mesh ------------------------------------------------------------------------------------------------ */
 
 /* Owned cells of one law and order, kept contiguous. */
 typedef struct {
-  CellKernel kernel; /* owned */
+  CellKernel kernel;                        /* owned */
   PetscInt   order, num_cells, n, m, batch; /* nodes and pressure coefficients of a cell; cells per call */
-  PetscInt  *cells;            /* owned [num_cells] local cells */
-  PetscReal *X;                /* owned [num_cells][n][dim] */
-  PetscInt   pressure;         /* first coefficient in the pressure array */
+  PetscInt  *cells;                         /* owned [num_cells] local cells */
+  PetscReal *X;                             /* owned [num_cells][n][dim] */
+  PetscInt   pressure;                      /* first coefficient in the pressure array */
 } CellGroup;
 
 /* A facet that carries a load. */
@@ -67,18 +70,21 @@ struct _p_Mechanics {
   const MechanicsSpec *spec;     /* borrowed */
   const Supports      *supports; /* borrowed */
   PetscInt             dim, num_groups, num_pressure, num_facets;
-  CellGroup           *groups;    /* owned */
+  CellGroup           *groups;                  /* owned */
   PetscInt            *cell_group, *cell_index; /* owned [num_cells] group (-1: rigid) and position in it (-1: ghost) */
-  LoadFacet           *facets;    /* owned */
+  LoadFacet           *facets;                  /* owned */
   PetscReal            t;
-  PetscReal           *dead;      /* owned local array: dead loads at t, negative as in the residual; NULL: none */
+  PetscReal           *dead;               /* owned local array: dead loads at t, negative as in the residual; NULL: none */
   PetscReal           *linear, *dpressure; /* owned: linearised pressure and derivative of the last tangent; dpressure holds [m][n*dim] cell by cell */
-  PetscReal           *work;      /* owned batch buffers */
+  PetscReal           *free_share;         /* owned [num_owned_cells] diagonal of cells of unsupported bodies relative to their stiffness, else 0 */
+  PetscReal           *work;               /* owned batch buffers */
   PetscInt             work_size;
 };
 
 PetscErrorCode MechanicsLoadFacets_Private(Mechanics);
 PetscErrorCode MechanicsDeadLoads_Private(Mechanics);
+/* free.c: free_share. Collective. */
+PetscErrorCode MechanicsFreeBodies_Private(Mechanics);
 /* Follower pressures: add to r (NULL: skip) and to the sink (NULL: skip). */
 PetscErrorCode MechanicsFollowers_Private(Mechanics, const PetscReal u[], PetscReal r[], MatrixSink, void *context);
 /* value of an expression times the amplitude; an expression that speaks of t itself takes the amplitude only when one is given. */
@@ -89,46 +95,47 @@ PetscErrorCode MechanicsValue_Private(Expression, const Amplitude *, const Petsc
 #define INLINE static inline __attribute__((always_inline, unused))
 
 /* Shapes: n nodes, q = n points, d = dim, r = num_derivatives (d; with hoop strain 3, the third "derivative" being the value itself), m pressures.
-   Nodal fields are stored by component, [d][n]; point fields [..][q]. Points form slabs (a 3-D layer): F, W, P hold slab after slab, [slab][9][points of a slab]. */
+   Nodal fields are stored by component, [d][n]; point fields [..][q]. Points form slabs (a 3-D layer): F, W, P hold slab after slab, [slab][9][points of a
+   slab]. */
 struct _p_CellKernel {
   PetscInt       dim, order, n1, num_nodes, num_points, num_pressure, num_derivatives, num_slabs, slab_points;
   PetscBool      small, mixed, hoop;
   MaterialSpec   material; /* a copy; the linear law in small kinematics */
   const Basis1D *basis;
-  PetscReal     *weight;   /* owned [q] quadrature weights */
-  PetscReal     *legendre; /* owned [q][m] pressure functions */
-  PetscReal     *pairs;    /* owned [n1][n1][2][2][n1]: products of (value | derivative) of functions a and b at the 1-D points */
-  void          *arena;    /* owned: memory of all lanes below */
-  Lanes         *X, *u;               /* [d][n] */
-  Lanes         *gradient;            /* [d][r][q] by reference coordinates; later fluxes of the same shape */
-  Lanes         *layer;               /* [3][n] scratch of the tensor contractions */
-  Lanes         *inverse;             /* [d*d][q] d xi_r / d X_J */
-  Lanes         *hoop_inverse;        /* [q] 1/R */
-  Lanes         *volume;              /* [q] weight times reference volume */
-  Lanes         *F, *P, *W, *A;       /* [9], [9], [1] over all points; A: [81] over one slab */
-  Lanes         *measure;             /* [4][q] J-1, g, g', g'' */
-  Lanes         *mass;                /* [m][m] Cholesky factor of the pressure mass matrix */
+  PetscReal     *weight;                        /* owned [q] quadrature weights */
+  PetscReal     *legendre;                      /* owned [q][m] pressure functions */
+  PetscReal     *pairs;                         /* owned [n1][n1][2][2][n1]: products of (value | derivative) of functions a and b at the 1-D points */
+  void          *arena;                         /* owned: memory of all lanes below */
+  Lanes         *X, *u;                         /* [d][n] */
+  Lanes         *gradient;                      /* [d][r][q] by reference coordinates; later fluxes of the same shape */
+  Lanes         *layer;                         /* [3][n] scratch of the tensor contractions */
+  Lanes         *inverse;                       /* [d*d][q] d xi_r / d X_J */
+  Lanes         *hoop_inverse;                  /* [q] 1/R */
+  Lanes         *volume;                        /* [q] weight times reference volume */
+  Lanes         *F, *P, *W, *A;                 /* [9], [9], [1] over all points; A: [81] over one slab */
+  Lanes         *measure;                       /* [4][q] J-1, g, g', g'' */
+  Lanes         *mass;                          /* [m][m] Cholesky factor of the pressure mass matrix */
   Lanes         *moment, *coefficient, *stored; /* [m] int q g; consistent and stored pressure coefficients */
-  Lanes         *coupling;            /* [m][d][n] b, then L^-1 b */
-  Lanes         *reference_tangent;   /* [d*d][r*r][q] A pulled back to reference coordinates, times volume */
-  Lanes         *layer_tangent;       /* [d*d][r*r][n1*n1] */
-  Lanes         *tile;                /* [n1*d][n1*d] */
+  Lanes         *coupling;                      /* [m][d][n] b, then L^-1 b */
+  Lanes         *reference_tangent;             /* [d*d][r*r][q] A pulled back to reference coordinates, times volume */
+  Lanes         *layer_tangent;                 /* [d*d][r*r][n1*n1] */
+  Lanes         *tile;                          /* [n1*d][n1*d] */
 };
 
 /* cellfield.c */
-PetscErrorCode CellKernelGeometry_Private(CellKernel);                              /* X -> inverse, volume, hoop_inverse */
-void           CellKernelDeformation_Private(CellKernel, Lanes *min_det);           /* u -> F, measure[0] when mixed */
-void           CellKernelFlux_Private(CellKernel, Lanes *flux);                     /* P -> flux [d][r][q] */
-void           CellKernelGradient_Private(CellKernel, const Lanes *field, Lanes *gradient); /* [d][n] -> [d][r][q] */
-void           CellKernelIntegrate_Private(CellKernel, const Lanes *flux, Lanes *result);   /* [d][r][q] -> [d][n] */
+PetscErrorCode CellKernelGeometry_Private(CellKernel);                                            /* X -> inverse, volume, hoop_inverse */
+void           CellKernelDeformation_Private(CellKernel, Lanes *min_det);                         /* u -> F, measure[0] when mixed */
+void           CellKernelFlux_Private(CellKernel, Lanes *flux);                                   /* P -> flux [d][r][q] */
+void           CellKernelGradient_Private(CellKernel, const Lanes *field, Lanes *gradient);       /* [d][n] -> [d][r][q] */
+void           CellKernelIntegrate_Private(CellKernel, const Lanes *flux, Lanes *result);         /* [d][r][q] -> [d][n] */
 void           CellKernelPullBack_Private(CellKernel, PetscInt q, const Lanes T[9], Lanes *flux); /* flux [d][r][q] at q of a stress-like T, times volume */
 /* cellpressure.c */
-void CellKernelProject_Private(CellKernel);                                      /* measure -> mass, moment, coefficient */
-void CellKernelAddPressure_Private(CellKernel);                                  /* P += pi g' cof */
+void CellKernelProject_Private(CellKernel);                                                     /* measure -> mass, moment, coefficient */
+void CellKernelAddPressure_Private(CellKernel);                                                 /* P += pi g' cof */
 void CellKernelAddPressureTangent_Private(CellKernel, PetscInt slab, const Lanes *coefficient); /* A += pi (g'' cof (x) cof + g' dcof/dF) */
-void CellKernelCouple_Private(CellKernel, PetscInt num_cells, PetscReal *dpressure); /* coupling; dpressure [num_cells][m][n*d] unless NULL */
+void CellKernelCouple_Private(CellKernel, PetscInt num_cells, PetscReal *dpressure);            /* coupling; dpressure [num_cells][m][n*d] unless NULL */
 /* celltangent.c */
-void CellKernelTangentSlab_Private(CellKernel, PetscInt slab);                        /* A of a slab -> reference_tangent */
+void CellKernelTangentSlab_Private(CellKernel, PetscInt slab);                      /* A of a slab -> reference_tangent */
 void CellKernelTangent_Private(CellKernel, PetscInt num_cells, PetscReal *tangent); /* reference_tangent, coupling -> tangent [num_cells][n*d][n*d] */
 
 /* cof F = J F^-T. */

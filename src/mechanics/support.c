@@ -37,9 +37,9 @@ static void AddDirection_Private(PetscInt dim, const PetscReal direction[3], int
 /* Outward normal of a leaf facet from its corners (2-D: edge, 3-D: the mean of a bilinear face). */
 static PetscErrorCode FacetNormal_Private(Forest forest, const ForestTables *t, PetscInt facet, PetscReal normal[3])
 {
-  const PetscInt  leaf = t->facet_leaf[2 * (facet - t->first[t->dim - 1])], *cl = t->closure + t->closure_offset[t->first[t->dim] + leaf];
-  PetscInt        index = 0, direction = 0;
-  PetscReal       corner[4][3], a[3], b[3] = {0, 0, 1};
+  const PetscInt leaf = t->facet_leaf[2 * (facet - t->first[t->dim - 1])], *cl = t->closure + t->closure_offset[t->first[t->dim] + leaf];
+  PetscInt       index = 0, direction = 0;
+  PetscReal      corner[4][3], a[3], b[3] = {0, 0, 1};
 
   PetscFunctionBegin;
   while (cl[index] != facet) ++index;
@@ -83,7 +83,8 @@ static PetscErrorCode GroupNormal_Private(HPSpace space, const BoundarySpec *b, 
     PetscCall(FacetNormal_Private(forest, t, f, n));
     if (!found) PetscCall(PetscArraycpy(normal, n, 3));
     found = PETSC_TRUE;
-    PetscCheckInput(Dot3(n, normal) > 1 - 1e-6, "boundary.%s.fix: normal needs a flat face, but the normals of this one turn; split it into flat groups or fix x, y, z", b->name);
+    PetscCheckInput(Dot3(n, normal) > 1 - 1e-6,
+                    "boundary.%s.fix: normal needs a flat face, but the normals of this one turn; split it into flat groups or fix x, y, z", b->name);
   }
   PetscCheckInput(found, "boundary.%s: the group has no facets on the boundary of a body", b->name);
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -105,8 +106,10 @@ static PetscBool IsUnit_Private(const PetscReal v[3])
 {
   PetscInt ones = 0;
   for (PetscInt c = 0; c < 3; ++c) {
-    if (PetscAbsReal(PetscAbsReal(v[c]) - 1) < 1e-12) ++ones;
-    else if (PetscAbsReal(v[c]) > 1e-12) return PETSC_FALSE;
+    if (PetscAbsReal(PetscAbsReal(v[c]) - 1) < 1e-12)
+      ++ones;
+    else if (PetscAbsReal(v[c]) > 1e-12)
+      return PETSC_FALSE;
   }
   return (PetscBool)(ones == 1);
 }
@@ -130,7 +133,7 @@ static void NodeResult_Private(PetscInt dim, PetscInt node, NodeSupport *s, Supp
     unit[c]           = 1;
     AddDirection_Private(dim, unit, -1, s);
   }
-  s->num                             = given;
+  s->num                           = given;
   out->frame_node[out->num_frames] = node;
   for (PetscInt k = 0; k < 3; ++k)
     for (PetscInt c = 0; c < 3; ++c) out->frame[out->num_frames][3 * k + c] = k < dim ? s->direction[k][c] : (PetscReal)(k == c);
@@ -158,7 +161,7 @@ PetscErrorCode MechanicsSupportsCreate(HPSpace space, const MechanicsSpec *spec,
   const HPTables     *v;
   const ForestTables *t;
   Forest              forest;
-  PetscReal (*normal)[3];
+  PetscReal(*normal)[3];
 
   PetscFunctionBegin;
   PetscCall(HPSpaceGetTables(space, &v));
@@ -253,9 +256,12 @@ PetscErrorCode MechanicsPrescribe(Mechanics m, PetscReal local[])
       const PetscInt cause = m->supports->cause[3 * n + c];
       PetscReal      u[3];
       if (!((m->supports->fixed[n] >> c) & 1)) continue;
-      if (cause <= -2) PetscCall(BodyMotion_Private(&m->spec->bodies[-2 - cause], m->dim, m->t, u));
-      else PetscCall(BoundaryValue_Private(&m->spec->boundaries[cause], m->dim, v->X + 3 * n, m->t, u));
-      if (!frame) local[n * m->dim + c] = u[c];
+      if (cause <= -2)
+        PetscCall(BodyMotion_Private(&m->spec->bodies[-2 - cause], m->dim, m->t, u));
+      else
+        PetscCall(BoundaryValue_Private(&m->spec->boundaries[cause], m->dim, v->X + 3 * n, m->t, u));
+      if (!frame)
+        local[n * m->dim + c] = u[c];
       else {
         local[n * m->dim + c] = 0;
         for (PetscInt a = 0; a < m->dim; ++a) local[n * m->dim + c] += frame[3 * c + a] * u[a];

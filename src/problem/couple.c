@@ -47,7 +47,7 @@ static PetscErrorCode HasMultiplier_Private(Problem p, Contact *c)
   PetscFunctionBegin;
   PetscCall(ForestGetTables(p->forest, &t));
   for (PetscInt n = 0; n < s->num_nodes; ++n) {
-    const PetscInt edge  = s->node_edge[2 * n] >= 0 ? s->node_edge[2 * n] : s->node_edge[2 * n + 1];
+    const PetscInt  edge  = s->node_edge[2 * n] >= 0 ? s->node_edge[2 * n] : s->node_edge[2 * n + 1];
     const PetscBool rigid = p->scene->bodies[t->leaf_body[s->edge_leaf[edge]]].material->law->rigid;
     c->has_multiplier[n]  = (PetscBool)(rigid || s->dof[2 * n] != 3);
   }
@@ -227,7 +227,7 @@ static void Activity_Private(Contact *c)
 {
   for (PetscInt j = 0; j < c->side[0].num_nodes; ++j) {
     const PetscBool covered = (PetscBool)(c->weight[j] > COVERED * c->w0[j]);
-    c->active[j] = (PetscBool)(c->has_multiplier[j] && covered && c->z[j] - c->c[j] * c->gap[j] / c->weight[j] > 0);
+    c->active[j]            = (PetscBool)(c->has_multiplier[j] && covered && c->z[j] - c->c[j] * c->gap[j] / c->weight[j] > 0);
   }
 }
 

@@ -133,8 +133,10 @@ static PetscErrorCode ContactPattern_Private(Problem p, PetscInt diagonal[], Pet
         const PetscInt row = dofs[a] - p->start;
         if (row < 0 || row >= p->num_u + p->num_z) continue;
         for (PetscInt b = 0; b < num; ++b) {
-          if (dofs[b] >= p->start && dofs[b] < p->p_start[p->rank + 1]) ++diagonal[row];
-          else ++other[row];
+          if (dofs[b] >= p->start && dofs[b] < p->p_start[p->rank + 1])
+            ++diagonal[row];
+          else
+            ++other[row];
         }
       }
     }

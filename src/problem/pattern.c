@@ -47,7 +47,8 @@ static PetscErrorCode AppendAround_Private(const Surface *s, PetscInt node, Pets
   PetscFunctionBegin;
   PetscCall(Append_Private(list, num, size, from, ~node));
   for (PetscInt which = 0; which < 2; ++which) {
-    for (PetscInt k = 0, n = Neighbour_Private(s, node, which); k < depth && n >= 0; ++k, n = Neighbour_Private(s, n, which)) PetscCall(Append_Private(list, num, size, from, ~n));
+    for (PetscInt k = 0, n = Neighbour_Private(s, node, which); k < depth && n >= 0; ++k, n = Neighbour_Private(s, n, which))
+      PetscCall(Append_Private(list, num, size, from, ~n));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -62,14 +63,17 @@ PetscErrorCode ContactGrowPattern_Private(Contact *c)
   for (PetscInt edge = 0; edge < ne; ++edge) {
     offset[edge] = num;
     if (c->pattern_offset) {
-      for (PetscInt k = c->pattern_offset[edge]; k < c->pattern_offset[edge + 1]; ++k) PetscCall(Append_Private(&list, &num, &size, offset[edge], c->pattern[k]));
+      for (PetscInt k = c->pattern_offset[edge]; k < c->pattern_offset[edge + 1]; ++k)
+        PetscCall(Append_Private(&list, &num, &size, offset[edge], c->pattern[k]));
     }
     if (c->result[edge] < 0) continue;
     const ContactEdge *e = &c->edges[c->result[edge]];
     for (PetscInt a = 0; a < e->num; ++a) {
       if (NO_NODE(e, a)) continue;
-      if (!NODE_SIDE(e->nodes[a])) PetscCall(Append_Private(&list, &num, &size, offset[edge], e->nodes[a]));
-      else PetscCall(AppendAround_Private(&c->side[1], NODE_INDEX(e->nodes[a]), 2, &list, &num, &size, offset[edge]));
+      if (!NODE_SIDE(e->nodes[a]))
+        PetscCall(Append_Private(&list, &num, &size, offset[edge], e->nodes[a]));
+      else
+        PetscCall(AppendAround_Private(&c->side[1], NODE_INDEX(e->nodes[a]), 2, &list, &num, &size, offset[edge]));
     }
   }
   offset[ne] = num;

@@ -28,7 +28,8 @@ static PetscErrorCode Vectors_Private(Problem p)
   PetscCall(HPSpaceGetTables(p->space, &v));
   PetscCall(VecCreateSeq(PETSC_COMM_SELF, v->num_nodes * p->dim, &p->u_local));
   PetscCall(VecDuplicate(p->u_local, &p->r_local));
-  PetscCall(PetscCalloc4(v->num_nodes * p->dim, &p->target, v->num_nodes * p->dim, &p->applied, v->num_nodes * p->dim, &p->increment, v->num_nodes * p->dim, &p->start_applied));
+  PetscCall(PetscCalloc4(v->num_nodes * p->dim, &p->target, v->num_nodes * p->dim, &p->applied, v->num_nodes * p->dim, &p->increment, v->num_nodes * p->dim,
+                         &p->start_applied));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -272,7 +273,8 @@ PetscErrorCode ProblemStepMove(Problem p, Vec dx, PetscReal step, Vec x)
   PetscFunctionBegin;
   PetscCall(HPSpaceGetTables(p->space, &v));
   PetscCall(VecWAXPY(x, step, dx, p->start_x));
-  for (PetscInt i = 0; i < v->num_nodes * p->dim; ++i) p->applied[i] = step == 1 ? p->target[i] : p->start_applied[i] + step * (p->target[i] - p->start_applied[i]);
+  for (PetscInt i = 0; i < v->num_nodes * p->dim; ++i)
+    p->applied[i] = step == 1 ? p->target[i] : p->start_applied[i] + step * (p->target[i] - p->start_applied[i]);
   PetscCall(ProblemSearch(p, x));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -23,8 +23,8 @@ typedef struct {
   ContactPair        pair;
   Surface            side[2]; /* 0 nonmortar, 1 mortar */
   ContactView        view;
-  PetscInt          *zdof;   /* [n] index in the problem's vector, -1: no multiplier */
-  PetscInt          *zlocal; /* [n] position in this rank's part of the vector, -1: not here */
+  PetscInt          *zdof;                      /* [n] index in the problem's vector, -1: no multiplier */
+  PetscInt          *zlocal;                    /* [n] position in this rank's part of the vector, -1: not here */
   PetscReal         *z, *gap, *weight, *w0, *c; /* [n] */
   PetscReal         *change;                    /* [n] work: change of gt_j at fixed measure under an increment */
   PetscReal         *lift;                      /* [n] the same for the prescribed motion still to come */
@@ -35,8 +35,8 @@ typedef struct {
   PetscReal          distance;            /* search distance */
   PetscInt           num_edges;           /* results of the last evaluation */
   const ContactEdge *edges;
-  ContactEdge       *frozen;  /* small kinematics: linearised once at the reference positions */
-  PetscReal         *gap0;    /* [n] reference gaps, small kinematics */
+  ContactEdge       *frozen;                   /* small kinematics: linearised once at the reference positions */
+  PetscReal         *gap0;                     /* [n] reference gaps, small kinematics */
   PetscInt          *pattern_offset, *pattern; /* [num_edges+1]: nodes each edge has room for in the matrix */
 } Contact;
 
@@ -54,23 +54,23 @@ struct _p_Problem {
   int8_t          *leaf_order;
 
   /* layout */
-  PetscInt  num_u, num_z, start;   /* this rank's displacement dofs and multipliers, first index */
-  PetscInt *u_start, *p_start;     /* [size+1] ranges of the space's and the problem's numbering */
-  PetscInt *index;                 /* [num_nodes*dim] local dof -> problem index or -1 */
-  Vec       u_global, u_local, r_local, prototype;
-  PetscReal *target, *applied;     /* [num_nodes*dim] prescribed values */
-  PetscReal *increment;            /* [num_nodes*dim] of the Newton step under discussion */
-  PetscReal *start_applied;        /* [num_nodes*dim] applied where the Newton step starts */
+  PetscInt   num_u, num_z, start; /* this rank's displacement dofs and multipliers, first index */
+  PetscInt  *u_start, *p_start;   /* [size+1] ranges of the space's and the problem's numbering */
+  PetscInt  *index;               /* [num_nodes*dim] local dof -> problem index or -1 */
+  Vec        u_global, u_local, r_local, prototype;
+  PetscReal *target, *applied; /* [num_nodes*dim] prescribed values */
+  PetscReal *increment;        /* [num_nodes*dim] of the Newton step under discussion */
+  PetscReal *start_applied;    /* [num_nodes*dim] applied where the Newton step starts */
   Vec        start_x;
-  PetscInt  num_dofs;
+  PetscInt   num_dofs;
 
-  Mat       matrix;
-  PetscBool lifting;
-  Vec       lift;
-  PetscReal t;
-  PetscInt *work_index;
+  Mat        matrix;
+  PetscBool  lifting;
+  Vec        lift;
+  PetscReal  t;
+  PetscInt  *work_index;
   PetscReal *work_value;
-  PetscInt  work_size;
+  PetscInt   work_size;
 };
 
 PetscErrorCode ProblemLayout_Private(Problem);
@@ -100,9 +100,9 @@ PetscErrorCode ContactChange_Private(Problem, Contact *, const PetscReal increme
 PetscErrorCode ContactGrowPattern_Private(Contact *);
 PetscBool      ContactPatternHolds_Private(const Contact *);
 /* Indices in the problem's vector of everything in the pattern of one edge; returns their number. */
-PetscInt       ContactPatternDofs_Private(const Contact *, PetscInt edge, PetscInt dofs[]);
+PetscInt ContactPatternDofs_Private(const Contact *, PetscInt edge, PetscInt dofs[]);
 
 #define MOST_PATTERN_DOFS 4096
 #define NO_NODE(e, a) ((a) >= 2 && (a) < 4 && (e)->nodes[a] == -1) /* an outer neighbour that is not there */
-#define NODE_SIDE(id)  ((id) < 0)
+#define NODE_SIDE(id) ((id) < 0)
 #define NODE_INDEX(id) ((id) < 0 ? ~(id) : (id))

@@ -95,7 +95,7 @@ PetscErrorCode ProblemForces(Problem p, Vec x, PetscReal reaction[][3], PetscRea
   PetscCall(VecRestoreArray(p->u_local, &u));
   PetscCall(VecRestoreArray(p->r_local, &r));
   for (PetscInt i = 0; i < p->num_contacts; ++i) {
-    const Surface *s = &p->contacts[i].side[0];
+    const Surface *s    = &p->contacts[i].side[0];
     PetscReal      f[3] = {0, 0, 0}, m[3] = {0, 0, 0};
     for (PetscInt n = 0; n < s->num_nodes; ++n) {
       f[0] += s->force[2 * n];

@@ -4,16 +4,16 @@
 /* Ends of a leaf's side in the order that keeps the body on the left. */
 static PetscErrorCode EdgeVertices_Private(const ForestTables *t, PetscInt facet, PetscInt leaf, PetscInt vertex[2])
 {
-  const PetscInt *cl = t->closure + t->closure_offset[t->first[2] + leaf];
+  const PetscInt *cl    = t->closure + t->closure_offset[t->first[2] + leaf];
   PetscInt        index = 0;
 
   PetscFunctionBegin;
   while (cl[index] != facet) ++index;
-  const PetscInt direction = index % 3 == 1 ? 1 : 0, high = (direction == 0 ? index % 3 : index / 3) == 2;
-  const PetscInt stride = direction == 0 ? 3 : 1, base = index - stride; /* the two ends lie one stride below and above */
-  const PetscBool keep  = (PetscBool)((direction == 0) == (high == 1));
-  vertex[0]             = cl[keep ? base : index + stride];
-  vertex[1]             = cl[keep ? index + stride : base];
+  const PetscInt  direction = index % 3 == 1 ? 1 : 0, high = (direction == 0 ? index % 3 : index / 3) == 2;
+  const PetscInt  stride = direction == 0 ? 3 : 1, base = index - stride; /* the two ends lie one stride below and above */
+  const PetscBool keep = (PetscBool)((direction == 0) == (high == 1));
+  vertex[0]            = cl[keep ? base : index + stride];
+  vertex[1]            = cl[keep ? index + stride : base];
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -34,7 +34,7 @@ static PetscErrorCode SurfaceTopology_Private(const ForestTables *t, PetscInt gr
     PetscCall(EdgeVertices_Private(t, f, leaf[0], vertex));
     for (PetscInt k = 0; k < 2; ++k) {
       if (number[vertex[k]] < 0) {
-        number[vertex[k]]               = s->num_nodes;
+        number[vertex[k]]              = s->num_nodes;
         s->node_entity[s->num_nodes++] = vertex[k];
       }
       s->edges[2 * s->num_edges + k] = number[vertex[k]];
@@ -53,7 +53,8 @@ static PetscErrorCode SurfaceNeighbours_Private(Surface *s)
   for (PetscInt e = 0; e < s->num_edges; ++e) {
     for (PetscInt k = 0; k < 2; ++k) {
       const PetscInt n = s->edges[2 * e + k];
-      PetscCheckInput(s->node_edge[2 * n + (k == 0)] < 0, "contact: a surface branches at one of its points, or runs through it twice; give its parts names of their own");
+      PetscCheckInput(s->node_edge[2 * n + (k == 0)] < 0,
+                      "contact: a surface branches at one of its points, or runs through it twice; give its parts names of their own");
       s->node_edge[2 * n + (k == 0)] = e; /* 0: the edge that ends here, 1: the one that begins */
     }
   }

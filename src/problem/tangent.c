@@ -15,7 +15,7 @@ PetscErrorCode ProblemWork_Private(Problem p, PetscInt size)
 /* A cell's matrix: free rows and columns to the matrix, columns of prescribed dofs times their motion to the lift. */
 static PetscErrorCode CellSink_Private(void *context, PetscInt num, const PetscInt dofs[], const PetscReal K[])
 {
-  Problem   p        = (Problem)context;
+  Problem   p          = (Problem)context;
   PetscBool prescribed = PETSC_FALSE;
 
   PetscFunctionBegin;
@@ -94,8 +94,10 @@ static PetscErrorCode EdgeHessian_Private(Problem p, const Contact *c, const Con
 PetscErrorCode ContactBlocks_Private(Problem p, Contact *c)
 {
   PetscFunctionBegin;
-  if (p->lifting) PetscCall(ContactChange_Private(p, c, p->increment, c->lift));
-  else PetscCall(PetscArrayzero(c->lift, c->side[0].num_nodes));
+  if (p->lifting)
+    PetscCall(ContactChange_Private(p, c, p->increment, c->lift));
+  else
+    PetscCall(PetscArrayzero(c->lift, c->side[0].num_nodes));
   for (PetscInt i = 0; i < c->num_edges; ++i) {
     const ContactEdge *e = &c->edges[i];
     const PetscInt     n = 2 * e->num;
@@ -122,7 +124,7 @@ PetscErrorCode ContactBlocks_Private(Problem p, Contact *c)
    The whole pattern is written, so that a switch leaves nothing of the other form behind. */
 PetscErrorCode ContactInsertRow_Private(Problem p, Contact *c, PetscInt j)
 {
-  const Surface *s = &c->side[0];
+  const Surface *s   = &c->side[0];
   PetscInt       num = 0, *dofs;
   PetscReal     *values;
 
@@ -140,7 +142,7 @@ PetscErrorCode ContactInsertRow_Private(Problem p, Contact *c, PetscInt j)
   for (PetscInt k = 0; c->active[j] && k < 2; ++k) {
     const PetscInt edge = s->node_edge[2 * j + k];
     if (edge < 0 || c->result[edge] < 0) continue;
-    const ContactEdge *e = &c->edges[c->result[edge]];
+    const ContactEdge *e   = &c->edges[c->result[edge]];
     const PetscInt     row = e->node[0] == j ? 0 : 1, n = 2 * e->num;
     const PetscReal    factor = c->w0[j] * c->c[j] / c->weight[j], mean = c->gap[j] / c->weight[j];
     PetscCall(ProblemWork_Private(p, n));
@@ -148,7 +150,8 @@ PetscErrorCode ContactInsertRow_Private(Problem p, Contact *c, PetscInt j)
       if (NO_NODE(e, a)) continue;
       const Surface  *side = &c->side[NODE_SIDE(e->nodes[a])];
       const PetscInt  node = NODE_INDEX(e->nodes[a]);
-      const PetscReal g[2] = {e->dgap[row * n + 2 * a] - mean * e->dweight[row * n + 2 * a], e->dgap[row * n + 2 * a + 1] - mean * e->dweight[row * n + 2 * a + 1]};
+      const PetscReal g[2] = {e->dgap[row * n + 2 * a] - mean * e->dweight[row * n + 2 * a],
+                              e->dgap[row * n + 2 * a + 1] - mean * e->dweight[row * n + 2 * a + 1]};
       for (PetscInt d = 0; d < 2; ++d) {
         if (side->dof[2 * node + d] < 0) continue;
         PetscCall(PetscFindInt(side->dof[2 * node + d], num, dofs, &at));
@@ -186,16 +189,18 @@ static PetscErrorCode ReadyMatrix_Private(Problem p)
     }
   }
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &ok, 1, MPI_INT, MPI_MIN, p->comm));
-  if (!ok) PetscCall(ProblemMatrix_Private(p));
-  else PetscCall(MatZeroEntries(p->matrix));
+  if (!ok)
+    PetscCall(ProblemMatrix_Private(p));
+  else
+    PetscCall(MatZeroEntries(p->matrix));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode ProblemTangent(Problem p, Vec x, const PetscReal pressure[], Vec lift, PetscBool *bad)
 {
-  PetscReal *local;
-  PetscBool  failed = PETSC_FALSE;
-  HPSpace    space  = p->space;
+  PetscReal      *local;
+  PetscBool       failed = PETSC_FALSE;
+  HPSpace         space  = p->space;
   const HPTables *v;
 
   PetscFunctionBegin;
@@ -229,7 +234,7 @@ PetscErrorCode ProblemTangent(Problem p, Vec x, const PetscReal pressure[], Vec 
   }
   p->lifting = PETSC_FALSE;
   p->lift    = NULL;
-  int any = *bad || failed;
+  int any    = *bad || failed;
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &any, 1, MPI_INT, MPI_MAX, p->comm));
   *bad = (PetscBool)any;
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -91,8 +91,8 @@ static PetscErrorCode Test_Private(SNES snes, Solver s, Vec x)
 
 static PetscErrorCode SNESSolve_ContactNewton(SNES snes)
 {
-  Solver    s  = NULL;
-  Vec       x  = snes->vec_sol, r = snes->vec_func, dx = snes->vec_sol_update;
+  Solver    s = NULL;
+  Vec       x = snes->vec_sol, r = snes->vec_func, dx = snes->vec_sol_update;
   PetscReal norm, first = 0;
   PetscBool done, ok, bad;
 

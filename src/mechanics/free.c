@@ -1,0 +1,180 @@
+/* Bodies that no support holds (before contact closes, or in the directions contact leaves free).
+
+   Their tangent gets a small diagonal, FREE_BODY_STIFFNESS of the cells' own stiffness weighted by the cell's share of the body's volume, so that the
+   first linear solve has one solution; the residual is left alone, hence no force of it survives in the result. Newton's method converges
+   linearly with that small factor instead of quadratically in the free directions. */
+#include "mechanicsimpl.h"
+#include <petscblaslapack.h>
+
+#define FREE_BODY_STIFFNESS 1e-6
+#define MOST_MODES 6
+
+/* Rigid motions at X along a direction: translations and rotations (plane: 2 + 1; axisymmetric: along the axis; space: 3 + 3), rotations about the
+   body's centre over its size. Returns their number. */
+static PetscInt Modes_Private(Model model, const PetscReal X[3], const PetscReal centre[3], PetscReal size, const PetscReal n[3], PetscReal a[MOST_MODES])
+{
+  const PetscReal r[3] = {(X[0] - centre[0]) / size, (X[1] - centre[1]) / size, (X[2] - centre[2]) / size};
+  if (model == MODEL_AXISYMMETRIC) {
+    a[0] = n[1];
+    return 1;
+  }
+  const PetscReal about[3] = {r[1] * n[2] - r[2] * n[1], r[2] * n[0] - r[0] * n[2], r[0] * n[1] - r[1] * n[0]};
+  const PetscInt  dim      = model == MODEL_3D ? 3 : 2;
+  for (PetscInt c = 0; c < dim; ++c) a[c] = n[c];
+  for (PetscInt c = 0; c < 2 * dim - 3; ++c) a[dim + c] = about[dim == 3 ? c : 2];
+  return 3 * dim - 3;
+}
+
+/* Bodies that share vertices of the mesh move together: root of each body's group. */
+static PetscErrorCode Joined_Private(const CoarseMesh *mesh, PetscInt root[])
+{
+  PetscInt *body;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(mesh->num_vertices, &body));
+  for (PetscInt v = 0; v < mesh->num_vertices; ++v) body[v] = -1;
+  for (PetscInt b = 0; b < mesh->num_bodies; ++b) root[b] = b;
+  for (PetscInt i = 0; i < mesh->num_cells << mesh->dim; ++i) {
+    PetscInt b = mesh->cell_body[i >> mesh->dim], *first = &body[mesh->cell_vertices[i]];
+    if (*first < 0) *first = b;
+    PetscInt other = *first;
+    while (root[b] != b) b = root[b];
+    while (root[other] != other) other = root[other];
+    root[PetscMax(b, other)] = PetscMin(b, other);
+  }
+  for (PetscInt b = 0; b < mesh->num_bodies; ++b) {
+    while (root[b] != root[root[b]]) root[b] = root[root[b]];
+  }
+  PetscCall(PetscFree(body));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Does a positive semidefinite matrix have full rank? */
+static PetscErrorCode FullRank_Private(PetscInt n, PetscReal *A, PetscBool *full)
+{
+  PetscReal    w[MOST_MODES], work[64];
+  PetscBLASInt size = (PetscBLASInt)n, lwork = 64, info;
+
+  PetscFunctionBegin;
+  PetscCallBLAS("LAPACKsyev", LAPACKsyev_("N", "U", &size, A, &size, w, work, &lwork, &info));
+  PetscCheck(!info, PETSC_COMM_SELF, PETSC_ERR_LIB, "eigenvalues of a %" PetscInt_FMT "-square matrix: LAPACK says %d", n, (int)info);
+  *full = (PetscBool)(w[n - 1] > 0 && w[0] > 1e-10 * w[n - 1]);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Volume of a cell by its quadrature (without the revolution). */
+static PetscErrorCode CellVolume_Private(PetscInt dim, PetscInt order, PetscInt n, const PetscReal *X, PetscReal *volume)
+{
+  const Basis1D *basis;
+  PetscReal      value[729], gradient[3 * 729];
+  PetscInt       points = 1;
+
+  PetscFunctionBegin;
+  PetscCall(Basis1DGet(order, order + 1, &basis));
+  for (PetscInt d = 0; d < dim; ++d) points *= basis->num_points;
+  *volume = 0;
+  for (PetscInt q = 0; q < points; ++q) {
+    PetscReal xi[3], J[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1}, weight = 1;
+    for (PetscInt d = 0, i = q; d < dim; ++d, i /= basis->num_points) {
+      xi[d] = basis->points[i % basis->num_points];
+      weight *= basis->weights[i % basis->num_points];
+      for (PetscInt c = 0; c < dim; ++c) J[3 * c + d] = 0;
+    }
+    PetscCall(ElementEvaluate(dim, order, xi, value, gradient));
+    for (PetscInt i = 0; i < n; ++i)
+      for (PetscInt c = 0; c < dim; ++c)
+        for (PetscInt d = 0; d < dim; ++d) J[3 * c + d] += gradient[i * dim + d] * X[i * dim + c];
+    *volume += weight * Det3(J);
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Gram matrices of the rigid motions that supports see, [bodies][36]; extents first. */
+static PetscErrorCode Gram_Private(Mechanics m, const PetscInt root[], const PetscReal centre[3], PetscReal size, PetscReal *gram)
+{
+  const HPTables     *v;
+  const ForestTables *t;
+  Forest              forest;
+  PetscInt           *body;
+
+  PetscFunctionBegin;
+  PetscCall(HPSpaceGetTables(m->space, &v));
+  PetscCall(HPSpaceGetForest(m->space, &forest));
+  PetscCall(ForestGetTables(forest, &t));
+  PetscCall(PetscMalloc1(v->num_nodes, &body));
+  for (PetscInt n = 0; n < v->num_nodes; ++n) body[n] = -1;
+  for (PetscInt c = 0; c < v->num_owned_cells; ++c) {
+    for (PetscInt k = v->cell_row[c]; k < v->cell_row[c + 1]; ++k) body[v->cell_master[k]] = root[t->leaf_body[v->cell_leaf[c]]];
+  }
+  for (PetscInt n = 0; n < v->num_nodes; ++n) {
+    const PetscReal *frame;
+    if (body[n] < 0 || !m->supports->fixed[n]) continue;
+    PetscCall(HPSpaceGetFrame(m->space, n, &frame));
+    for (PetscInt k = 0; k < m->dim; ++k) {
+      PetscReal a[MOST_MODES], direction[3] = {0, 0, 0};
+      if (!((m->supports->fixed[n] >> k) & 1)) continue;
+      for (PetscInt c = 0; c < m->dim; ++c) direction[c] = frame ? frame[3 * k + c] : (PetscReal)(c == k);
+      const PetscInt num = Modes_Private(m->spec->model, v->X + 3 * n, centre, size, direction, a);
+      for (PetscInt i = 0; i < num; ++i)
+        for (PetscInt j = 0; j < num; ++j) gram[36 * body[n] + i * num + j] += a[i] * a[j];
+    }
+  }
+  PetscCall(PetscFree(body));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode MechanicsFreeBodies_Private(Mechanics m)
+{
+  const HPTables     *v;
+  const ForestTables *t;
+  const CoarseMesh   *mesh;
+  Forest              forest;
+  MPI_Comm            comm;
+  PetscReal *gram, *volume, lo[3] = {PETSC_MAX_REAL, PETSC_MAX_REAL, PETSC_MAX_REAL}, hi[3] = {PETSC_MIN_REAL, PETSC_MIN_REAL, PETSC_MIN_REAL}, centre[3],
+                            size = 0;
+  PetscInt *root, nb = m->spec->num_bodies, modes;
+
+  PetscFunctionBegin;
+  PetscCall(HPSpaceGetTables(m->space, &v));
+  PetscCall(HPSpaceGetForest(m->space, &forest));
+  PetscCall(ForestGetTables(forest, &t));
+  PetscCall(ForestGetCoarse(forest, &mesh));
+  comm             = ForestComm(forest);
+  const PetscInt q = mesh->geometry_order + 1, nodes = mesh->num_cells * q * q * (m->dim == 3 ? q : 1);
+  for (PetscInt i = 0; i < nodes; ++i) {
+    for (PetscInt c = 0; c < 3; ++c) {
+      lo[c] = PetscMin(lo[c], mesh->cell_geometry[3 * i + c]);
+      hi[c] = PetscMax(hi[c], mesh->cell_geometry[3 * i + c]);
+    }
+  }
+  for (PetscInt c = 0; c < 3; ++c) {
+    centre[c] = 0.5 * (lo[c] + hi[c]);
+    size      = PetscMax(size, hi[c] - lo[c]);
+  }
+  PetscCall(PetscMalloc1(nb, &root));
+  PetscCall(PetscCalloc2(36 * nb, &gram, nb, &volume));
+  PetscCall(PetscCalloc1(v->num_owned_cells, &m->free_share));
+  PetscCall(Joined_Private(mesh, root));
+  PetscCall(Gram_Private(m, root, centre, size, gram));
+  for (PetscInt c = 0; c < v->num_owned_cells; ++c) {
+    if (m->cell_group[c] < 0) continue;
+    const CellGroup *g = &m->groups[m->cell_group[c]];
+    PetscCall(CellVolume_Private(m->dim, g->order, g->n, g->X + m->cell_index[c] * g->n * m->dim, &m->free_share[c]));
+    volume[root[t->leaf_body[v->cell_leaf[c]]]] += m->free_share[c];
+  }
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, gram, (PetscMPIInt)(36 * nb), MPIU_REAL, MPI_SUM, comm));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, volume, (PetscMPIInt)nb, MPIU_REAL, MPI_SUM, comm));
+  modes = m->spec->model == MODEL_AXISYMMETRIC ? 1 : 3 * m->dim - 3;
+  for (PetscInt b = 0; b < nb; ++b) {
+    PetscBool held;
+    PetscCall(FullRank_Private(modes, gram + 36 * b, &held));
+    volume[b] = held ? 0 : volume[b];
+  }
+  for (PetscInt c = 0; c < v->num_owned_cells; ++c) {
+    const PetscReal whole = volume[root[t->leaf_body[v->cell_leaf[c]]]];
+    m->free_share[c]      = whole > 0 ? FREE_BODY_STIFFNESS * m->free_share[c] / whole : 0;
+  }
+  PetscCall(PetscFree(root));
+  PetscCall(PetscFree2(gram, volume));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
