@@ -1,0 +1,329 @@
+/* The hp space on irregular meshes: hanging nodes, mixed orders, rotated cells (O-02's mesh part). Claims:
+   - polynomial reproduction: nodal values of a field of degree r (the lowest order in play) at true nodes give that field in every cell;
+   - continuity: any true values give the same trace from both sides of every facet, hanging or not;
+   - the DM's default constraints fill hanging nodes with the same values as the rows, and distribute residuals by the transpose;
+   - numbering and positions do not depend on the number of ranks. */
+#include "forest_box.h"
+#include "hp.h"
+
+static void RandomOrders(const ForestTables *t, PetscInt low, PetscInt high, int8_t **orders)
+{
+  OK(PetscMalloc1(t->num_leaves, orders));
+  for (PetscInt l = 0; l < t->num_leaves; ++l) (*orders)[l] = (int8_t)(low + BoxRandom(high - low + 1));
+}
+
+/* Refine random leaves, isotropically or not, a few times. */
+static Forest RandomForest(PetscInt dim, PetscInt q, PetscInt rounds, PetscBool anisotropic, uint64_t seed)
+{
+  const PetscInt n[3]   = {2, 2, 2};
+  Box            box;
+  Forest         forest = BoxForest(PETSC_COMM_WORLD, dim, n, q, 0, seed, &box);
+
+  for (PetscInt round = 0; round < rounds; ++round) {
+    const ForestTables *t;
+    MarkList            marks;
+    Forest              next;
+    ForestMap           map;
+    OK(ForestGetTables(forest, &t));
+    BoxRandomMarks(dim, t->num_leaves, 5, anisotropic, &marks);
+    OK(ForestAdapt(forest, &marks, NULL, 0, NULL, &next, &map));
+    MarksDestroy(&marks);
+    OK(ForestMapDestroy(&map));
+    OK(ForestDestroy(&forest));
+    forest = next;
+  }
+  return forest;
+}
+
+static PetscReal Polynomial(PetscInt degree, PetscInt component, const PetscReal X[3])
+{
+  const PetscReal s = 0.3 * X[0] - 0.7 * X[1] + 0.4 * X[2] + 0.1 * component;
+  PetscReal       v = 1;
+  for (PetscInt i = 0; i < degree; ++i) v = v * s + X[component % 3] - 0.2;
+  return v;
+}
+
+static void FillPolynomial(const HPTables *v, PetscInt degree, PetscReal *local)
+{
+  for (PetscInt n = 0; n < v->num_nodes; ++n) {
+    for (PetscInt c = 0; c < v->dim; ++c) local[n * v->dim + c] = v->node_hang[n + 1] > v->node_hang[n] ? PETSC_MAX_REAL : Polynomial(degree, c, v->X + 3 * n);
+  }
+}
+
+/* Interpolated field and position at random points of all cells. */
+static PetscReal ReproductionError(HPSpace space, PetscInt degree)
+{
+  const HPTables *v;
+  PetscReal      *local, values[3 * 125], X[3 * 125], N[125], error = 0;
+
+  OK(HPSpaceGetTables(space, &v));
+  OK(PetscMalloc1(v->num_nodes * v->dim, &local));
+  FillPolynomial(v, degree, local);
+  for (PetscInt c = 0; c < v->num_cells; ++c) {
+    const PetscInt p = v->cell_order[c], n = ElementNumNodes(v->dim, p);
+    OK(HPSpaceGather(space, c, local, values));
+    OK(HPSpaceGatherPositions(space, c, X));
+    for (PetscInt k = 0; k < 5; ++k) {
+      const PetscReal xi[3] = {BoxRandom(1000) / 999., BoxRandom(1000) / 999., BoxRandom(1000) / 999.};
+      PetscReal       x[3] = {0, 0, 0}, f[3] = {0, 0, 0};
+      OK(ElementEvaluate(v->dim, p, xi, N, NULL));
+      for (PetscInt i = 0; i < n; ++i) {
+        for (PetscInt a = 0; a < v->dim; ++a) {
+          x[a] += N[i] * X[i * v->dim + a];
+          f[a] += N[i] * values[i * v->dim + a];
+        }
+      }
+      for (PetscInt a = 0; a < v->dim; ++a) error = PetscMax(error, PetscAbsReal(f[a] - Polynomial(degree, a, x)));
+    }
+  }
+  OK(PetscFree(local));
+  return error;
+}
+
+static void test_reproduction(void **state)
+{
+  for (PetscInt dim = 2; dim <= 3; ++dim) {
+    for (PetscInt seed = 0; seed < 6; ++seed) {
+      for (PetscInt low = 1; low <= 2; ++low) {
+        Forest              forest;
+        const ForestTables *t;
+        HPSpace             space;
+        int8_t             *orders;
+        forest = RandomForest(dim, 1, dim == 2 ? 3 : 2, (PetscBool)(seed % 2), seed);
+        OK(ForestGetTables(forest, &t));
+        RandomOrders(t, low, 4, &orders);
+        OK(HPSpaceCreate(forest, orders, 0, &space));
+        const PetscReal error = ReproductionError(space, low);
+        if (!(error < 1e-11)) print_message("dim %d seed %d low %d: error %g\n", (int)dim, (int)seed, (int)low, (double)error);
+        assert_true(error < 1e-11);
+        OK(HPSpaceDestroy(&space));
+        OK(PetscFree(orders));
+        OK(ForestDestroy(&forest));
+      }
+    }
+  }
+}
+
+/* Curved cells: linear fields of the *interpolated* position are reproduced on any mesh (isoparametric). */
+static void test_reproduction_curved(void **state)
+{
+  for (PetscInt seed = 0; seed < 4; ++seed) {
+    Forest              forest;
+    const ForestTables *t;
+    HPSpace             space;
+    int8_t             *orders;
+    forest = RandomForest(2 + seed % 2, 2, 2, PETSC_TRUE, seed);
+    OK(ForestGetTables(forest, &t));
+    RandomOrders(t, 1, 4, &orders);
+    OK(HPSpaceCreate(forest, orders, 0, &space));
+    const PetscReal error = ReproductionError(space, 1);
+    if (!(error < 1e-11)) print_message("curved seed %d: error %g\n", (int)seed, (double)error);
+    assert_true(error < 1e-11);
+    OK(HPSpaceDestroy(&space));
+    OK(PetscFree(orders));
+    OK(ForestDestroy(&forest));
+  }
+}
+
+/* A deterministic value for a true node, the same on every rank: a function of its position. */
+static void FillRandom(const HPTables *v, PetscReal *local)
+{
+  for (PetscInt n = 0; n < v->num_nodes; ++n) {
+    for (PetscInt c = 0; c < v->dim; ++c) local[n * v->dim + c] = PetscSinReal(37 * v->X[3 * n] + 91 * v->X[3 * n + 1] + 53 * v->X[3 * n + 2] + c);
+  }
+}
+
+/* Largest difference, over matching points, of the two fields that two leaves give on shared positions: cells are sampled on their faces, values
+   are collected by position. */
+static PetscReal ContinuityError(HPSpace space)
+{
+  const HPTables     *v;
+  const ForestTables *t;
+  Forest              forest;
+  PetscReal          *local, values[3 * 125], N[125], error = 0;
+
+  OK(HPSpaceGetTables(space, &v));
+  OK(HPSpaceGetForest(space, &forest));
+  OK(ForestGetTables(forest, &t));
+  OK(PetscMalloc1(v->num_nodes * v->dim, &local));
+  FillRandom(v, local);
+  PetscReal(*sample)[6];
+  PetscInt num = 0;
+  OK(PetscMalloc1(v->num_cells * 6 * 81, &sample));
+  for (PetscInt c = 0; c < v->num_cells; ++c) {
+    const PetscInt n = ElementNumNodes(v->dim, v->cell_order[c]);
+    OK(HPSpaceGather(space, c, local, values));
+    for (PetscInt side = 0; side < 2 * v->dim; ++side) {
+      for (PetscInt k = 0; k < (v->dim == 3 ? 81 : 9); ++k) {
+        PetscReal xi[3] = {0, 0, 0}, X[3], f[3] = {0, 0, 0};
+        for (PetscInt a = 0, j = k; a < v->dim; ++a) {
+          if (a == side / 2) xi[a] = side % 2;
+          else {
+            xi[a] = (j % 9) / 8.;
+            j /= 9;
+          }
+        }
+        OK(ElementEvaluate(v->dim, v->cell_order[c], xi, N, NULL));
+        for (PetscInt i = 0; i < n; ++i)
+          for (PetscInt a = 0; a < v->dim; ++a) f[a] += N[i] * values[i * v->dim + a];
+        OK(ForestMapPoint(forest, v->cell_leaf[c], xi, X));
+        for (PetscInt a = 0; a < 3; ++a) {
+          sample[num][a]     = X[a];
+          sample[num][3 + a] = a < v->dim ? f[a] : 0;
+        }
+        ++num;
+      }
+    }
+  }
+  for (PetscInt i = 0; i < num; i += 7) {
+    for (PetscInt j = i + 1; j < num; ++j) {
+      if (PetscAbsReal(sample[i][0] - sample[j][0]) + PetscAbsReal(sample[i][1] - sample[j][1]) + PetscAbsReal(sample[i][2] - sample[j][2]) > 1e-10) continue;
+      for (PetscInt a = 3; a < 6; ++a) error = PetscMax(error, PetscAbsReal(sample[i][a] - sample[j][a]));
+    }
+  }
+  OK(PetscFree(sample));
+  OK(PetscFree(local));
+  return error;
+}
+
+static void test_continuity(void **state)
+{
+  for (PetscInt seed = 0; seed < 6; ++seed) {
+    Forest              forest;
+    const ForestTables *t;
+    HPSpace             space;
+    int8_t             *orders;
+    forest = RandomForest(2 + seed % 2, 1, seed % 2 ? 1 : 3, (PetscBool)(seed >= 2), seed);
+    OK(ForestGetTables(forest, &t));
+    RandomOrders(t, 1, 4, &orders);
+    OK(HPSpaceCreate(forest, orders, seed == 5 ? 1 : 0, &space));
+    const PetscReal error = ContinuityError(space);
+    if (!(error < 1e-11)) print_message("seed %d: jump %g\n", (int)seed, (double)error);
+    assert_true(error < 1e-11);
+    OK(HPSpaceDestroy(&space));
+    OK(PetscFree(orders));
+    OK(ForestDestroy(&forest));
+  }
+}
+
+/* Global-to-local fills hanging nodes from true ones, prescribed values included; local-to-global is its transpose. */
+static void test_default_constraints(void **state)
+{
+  Forest              forest;
+  const ForestTables *t;
+  const HPTables     *v;
+  HPSpace             space;
+  int8_t             *orders, *fixed;
+  DM                  dm;
+  Vec                 g, l, r, rg;
+  PetscReal          *a, lg, gl;
+
+  forest = RandomForest(2, 1, 3, PETSC_FALSE, 7);
+  OK(ForestGetTables(forest, &t));
+  RandomOrders(t, 1, 3, &orders);
+  OK(HPSpaceCreate(forest, orders, 0, &space));
+  OK(HPSpaceGetTables(space, &v));
+  OK(PetscCalloc1(v->num_nodes, &fixed));
+  for (PetscInt n = 0; n < v->num_nodes; ++n) {
+    if (t->parent[v->node_entity[n]] < 0 && t->boundary[v->node_entity[n]] & 3) fixed[n] = t->boundary[v->node_entity[n]] & 1 ? 3 : 2;
+  }
+  OK(HPSpaceSetUp(space, fixed, 0, NULL, NULL));
+  OK(HPSpaceGetDM(space, &dm));
+  OK(DMCreateGlobalVector(dm, &g));
+  OK(DMCreateLocalVector(dm, &l));
+  OK(VecDuplicate(l, &r));
+  OK(VecDuplicate(g, &rg));
+  /* values: a bilinear field through true nodes; prescribed ones written first */
+  OK(VecGetArray(l, &a));
+  FillPolynomial(v, 1, a);
+  OK(VecRestoreArray(l, &a));
+  OK(DMLocalToGlobal(dm, l, INSERT_VALUES, g));
+  OK(DMGlobalToLocal(dm, g, INSERT_VALUES, l));
+  OK(VecGetArray(l, &a));
+  for (PetscInt n = 0; n < v->num_nodes; ++n)
+    for (PetscInt c = 0; c < 2; ++c) assert_true(PetscAbsReal(a[2 * n + c] - Polynomial(1, c, v->X + 3 * n)) < 1e-12);
+  OK(VecRestoreArray(l, &a));
+  /* adjoint: with zero prescribed values <r, G2L g> = <L2G r, g> */
+  OK(VecSet(l, 0));
+  OK(DMGlobalToLocal(dm, g, INSERT_VALUES, l));
+  OK(VecGetArray(r, &a));
+  for (PetscInt i = 0; i < 2 * v->num_nodes; ++i) a[i] = PetscCosReal(13.0 * i);
+  OK(VecRestoreArray(r, &a));
+  OK(VecDot(r, l, &lg));
+  OK(MPI_Allreduce(MPI_IN_PLACE, &lg, 1, MPIU_REAL, MPI_SUM, PETSC_COMM_WORLD));
+  OK(VecSet(rg, 0));
+  OK(DMLocalToGlobal(dm, r, ADD_VALUES, rg));
+  OK(VecDot(rg, g, &gl));
+  assert_true(PetscAbsReal(lg - gl) < 1e-11 * (1 + PetscAbsReal(gl)));
+  OK(VecDestroy(&g));
+  OK(VecDestroy(&l));
+  OK(VecDestroy(&r));
+  OK(VecDestroy(&rg));
+  OK(PetscFree(fixed));
+  OK(PetscFree(orders));
+  OK(HPSpaceDestroy(&space));
+  OK(ForestDestroy(&forest));
+}
+
+/* P^T K P of the transform agrees with gather and scatter, frames included. */
+static void test_transform(void **state)
+{
+  Forest              forest;
+  const ForestTables *t;
+  const HPTables     *v;
+  HPSpace             space;
+  int8_t             *orders;
+  const PetscReal     c = PetscCosReal(0.3), s = PetscSinReal(0.3);
+
+  forest = RandomForest(2, 1, 3, PETSC_TRUE, 7);
+  OK(ForestGetTables(forest, &t));
+  RandomOrders(t, 1, 3, &orders);
+  OK(HPSpaceCreate(forest, orders, 0, &space));
+  OK(HPSpaceGetTables(space, &v));
+  PetscInt *node, num = 0;
+  PetscReal(*frame)[9];
+  OK(PetscMalloc2(v->num_nodes, &node, v->num_nodes, &frame));
+  for (PetscInt n = 0; n < v->num_nodes; ++n) {
+    if (t->parent[v->node_entity[n]] >= 0 || !(t->boundary[v->node_entity[n]] & 4)) continue;
+    const PetscReal q[9] = {c, s, 0, -s, c, 0, 0, 0, 1};
+    node[num] = n;
+    OK(PetscArraycpy(frame[num++], q, 9));
+  }
+  OK(HPSpaceSetUp(space, NULL, num, node, (const PetscReal(*)[9])frame));
+  PetscReal *x, *r1, *r2, K[32 * 32], Km[64 * 64], values[32], y[32];
+  PetscInt   dofs[64], nd;
+  OK(PetscMalloc3(2 * v->num_nodes, &x, 2 * v->num_nodes, &r1, 2 * v->num_nodes, &r2));
+  for (PetscInt i = 0; i < 2 * v->num_nodes; ++i) x[i] = PetscSinReal(3.0 * i);
+  for (PetscInt cell = 0; cell < v->num_owned_cells; ++cell) {
+    const PetscInt n = 2 * ElementNumNodes(2, v->cell_order[cell]);
+    for (PetscInt i = 0; i < n * n; ++i) K[i] = PetscCosReal(1.7 * i);
+    OK(PetscArrayzero(r1, 2 * v->num_nodes));
+    OK(PetscArrayzero(r2, 2 * v->num_nodes));
+    OK(HPSpaceGather(space, cell, x, values));
+    for (PetscInt i = 0; i < n; ++i) {
+      y[i] = 0;
+      for (PetscInt j = 0; j < n; ++j) y[i] += K[i * n + j] * values[j];
+    }
+    OK(HPSpaceScatterAdd(space, cell, y, r1));
+    OK(HPSpaceTransformMatrix(space, cell, K, Km, dofs, &nd));
+    assert_true(nd <= 64);
+    for (PetscInt i = 0; i < nd; ++i)
+      for (PetscInt j = 0; j < nd; ++j) r2[dofs[i]] += Km[i * nd + j] * x[dofs[j]];
+    for (PetscInt i = 0; i < 2 * v->num_nodes; ++i) assert_true(PetscAbsReal(r1[i] - r2[i]) < 1e-11);
+  }
+  OK(PetscFree3(x, r1, r2));
+  OK(PetscFree2(node, frame));
+  OK(PetscFree(orders));
+  OK(HPSpaceDestroy(&space));
+  OK(ForestDestroy(&forest));
+}
+
+int main(int argc, char **argv)
+{
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(test_reproduction), cmocka_unit_test(test_reproduction_curved), cmocka_unit_test(test_continuity), cmocka_unit_test(test_default_constraints), cmocka_unit_test(test_transform),
+  };
+  if (PetscInitialize(&argc, &argv, NULL, NULL)) return 1;
+  int failed = cmocka_run_group_tests(tests, NULL, NULL);
+  return PetscFinalize() || failed;
+}
