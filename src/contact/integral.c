@@ -195,6 +195,10 @@ void ContactSegmentMoments(const EdgeFrame *f, const SegmentGeometry *s, PetscRe
   GapPoint        p;
 
   if (derivatives) memset(dq, 0, CONTACT_MOMENTS * sizeof(dq[0]));
+  for (int b = 0; b < 2; b++) {
+    ContactPointGap(f, s, s->lambda[b], PETSC_FALSE, &p);
+    *min_gap = PetscMin(*min_gap, p.g);
+  }
   for (int i = 0; i < CONTACT_GAUSS; i++) {
     const PetscReal zeta = ContactGaussPoint[i], w = ContactGaussWeight[i], lambda = s->lambda[0] + zeta * h, M = (lambda - centre) / half;
 

@@ -119,6 +119,15 @@ static PetscErrorCode EvaluateEdges_Private(const EvaluateContext *ctx, PetscBoo
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* False when a position is infinite or not a number: a mortar node without a place would silently see nothing. */
+static PetscBool IsFinite_Private(const ContactSurface *s)
+{
+  PetscReal sum = 0;
+
+  for (PetscInt i = 0; i < 2 * s->num_nodes; i++) sum += 0 * s->x[i];
+  return sum == 0 ? PETSC_TRUE : PETSC_FALSE;
+}
+
 PetscErrorCode ContactPairEvaluate(ContactPair pair, const ContactSurface *nonmortar, const ContactSurface *mortar, const PetscReal z[], PetscBool derivatives,
                                    PetscBool hessian, PetscInt *num, const ContactEdge **edges, PetscBool *failed)
 {
@@ -129,11 +138,11 @@ PetscErrorCode ContactPairEvaluate(ContactPair pair, const ContactSurface *nonmo
                  mortar->num_edges == pair->num_mortar_edges,
              PETSC_COMM_SELF, PETSC_ERR_ORDER, "surfaces differ from those of the last ContactPairSearch: search again after the mesh changes");
   PetscCheck(!hessian || z || pair->num_listed == 0, PETSC_COMM_SELF, PETSC_ERR_ARG_NULL, "the Hessian of sum_j z_j gt_j needs z");
-  *failed           = PETSC_FALSE;
+  *failed           = IsFinite_Private(nonmortar) && IsFinite_Private(mortar) ? PETSC_FALSE : PETSC_TRUE;
   *num              = 0;
   *edges            = pair->result;
   pair->num_results = pair->num_segments = 0;
-  PetscCall(ContactNormalsBuild(pair, nonmortar, failed));
+  if (!*failed) PetscCall(ContactNormalsBuild(pair, nonmortar, failed));
   if (*failed) PetscFunctionReturn(PETSC_SUCCESS);
   if (pair->node_to_segment)
     PetscCall(ContactNodeHitsBuild(pair, nonmortar, mortar));

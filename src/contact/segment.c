@@ -234,7 +234,7 @@ PetscErrorCode ContactSegmentsBuild(ContactPair pair, const ContactSurface *nonm
     ContactFrame(pair, nonmortar, pair->listed[i], &f);
     for (PetscInt k = pair->start[i]; k < pair->start[i + 1]; k++)
       if (ContactSegmentBuild(&f, mortar, pair->candidate[k], &raw[num])) num++;
-    qsort(raw, (size_t)num, sizeof(Segment), CompareSegments_Private);
+    if (num > 1) qsort(raw, (size_t)num, sizeof(Segment), CompareSegments_Private);
     if (Overlap_Private(num, raw))
       PetscCall(Unfold_Private(pair, i, &f, mortar, num, raw, cut));
     else

@@ -30,6 +30,47 @@ static void ParallelFaces(void **state)
   }
 }
 
+/* int of the hat of node i of a straight chain along x over [a, b]. */
+static PetscReal HatIntegral(const Chain *c, PetscInt i, PetscReal a, PetscReal b)
+{
+  const PetscReal x   = c->x[2 * i];
+  PetscReal       sum = 0;
+
+  for (int side = -1; side <= 1; side += 2) {
+    const PetscInt k = i + side;
+    PetscReal      lo, hi, y;
+
+    if (k < 0 || k >= c->s.num_nodes) continue;
+    y  = c->x[2 * k];
+    lo = PetscMax(a, PetscMin(x, y));
+    hi = PetscMin(b, PetscMax(x, y));
+    if (lo < hi) sum += (hi - lo) * (1 - PetscAbsReal(0.5 * (lo + hi) - x) / PetscAbsReal(y - x));
+  }
+  return sum;
+}
+
+/* z = 1 on flat closed faces, non-matching, mortar from .13 to .83: the patch test's loads. Both sides get exactly the integrals of their hats over the
+   covered part, normal to the face, nothing along it. */
+static void ConstantPressure(void **state)
+{
+  const PetscReal z[6] = {1, 1, 1, 1, 1, 1};
+  Chain           nonmortar, mortar;
+  ContactPair     pair;
+  Sum             s;
+
+  ChainLine(&nonmortar, 6, 1, 0, 0, 0);
+  ChainLine(&mortar, 9, 0.13, 0, 0.83, 0);
+  EvaluateOnce(&nonmortar, &mortar, PETSC_FALSE, PETSC_FALSE, 0.5, z, &pair, &s);
+  for (PetscInt i = 0; i < s.size; i += 2) {
+    const PetscInt  own   = i < 12;
+    const PetscReal force = own ? -HatIntegral(&nonmortar, i / 2, 0.13, 0.83) : HatIntegral(&mortar, i / 2 - 6, 0.13, 0.83);
+
+    assert_near(s.gradient[i], 0, 1e-15);
+    assert_near(s.gradient[i + 1], force, 1e-14);
+  }
+  Cleanup(&nonmortar, &mortar, &pair, &s);
+}
+
 /* Reference: gt_j = D1_j c_j with integrals by 4000 midpoints on one edge whose normals stand `turn` apart; mortar one long straight edge. */
 static void EdgeReference(const PetscReal n[2][2], PetscReal y, PetscReal slope, PetscReal gt[2])
 {
@@ -169,5 +210,5 @@ static void RigidMotion(void **state)
   assert_true(worst < 1e-13);
 }
 
-CONTACT_TEST_MAIN("contact: gaps, balance, invariance", cmocka_unit_test(ParallelFaces), cmocka_unit_test(Quadrature), cmocka_unit_test(Balance),
-                  cmocka_unit_test(RigidMotion))
+CONTACT_TEST_MAIN("contact: gaps, balance, invariance", cmocka_unit_test(ParallelFaces), cmocka_unit_test(ConstantPressure), cmocka_unit_test(Quadrature),
+                  cmocka_unit_test(Balance), cmocka_unit_test(RigidMotion))

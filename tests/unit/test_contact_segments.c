@@ -103,6 +103,10 @@ static void Degenerate(void **state)
   nonmortar.x[0] = 0;
   SumEvaluate(&sum, pair, &nonmortar, &mortar, NULL, PETSC_FALSE, PETSC_FALSE);
   assert_true(sum.failed);
+  nonmortar.x[0] = 1;
+  mortar.x[1]    = NAN; /* neither may a position that is no number pass in silence */
+  SumEvaluate(&sum, pair, &nonmortar, &mortar, NULL, PETSC_FALSE, PETSC_FALSE);
+  assert_true(sum.failed);
   SumDestroy(&sum);
   Cleanup(&nonmortar, &mortar, &pair);
 }
