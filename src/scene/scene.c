@@ -204,7 +204,7 @@ static PetscErrorCode ViewBody_Private(const BodySpec *b, PetscViewer viewer)
   PetscCall(PetscViewerASCIIPrintf(viewer, "  body %s: order %d, material %s (%s", b->name, (int)b->order, m->name, m->law->name));
   PetscCall(PetscViewerASCIIUseTabs(viewer, PETSC_FALSE));
   if (!m->law->rigid)
-    PetscCall(PetscViewerASCIIPrintf(viewer, ", mu = %g, kappa = %g, %s", (double)m->mu, (double)m->kappa, m->mixed ? "mixed" : "displacement"));
+    PetscCall(PetscViewerASCIIPrintf(viewer, ", mu = %.6g, kappa = %.6g, %s", (double)m->mu, (double)m->kappa, m->mixed ? "mixed" : "displacement"));
   PetscCall(PetscViewerASCIIPrintf(viewer, ")\n"));
   PetscCall(PetscViewerASCIIUseTabs(viewer, PETSC_TRUE));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -225,15 +225,15 @@ PetscErrorCode SceneView(Scene s, PetscViewer viewer)
   for (PetscInt i = 0; i < d->num_contacts; ++i)
     PetscCall(PetscViewerASCIIPrintf(viewer, "  contact %s: %s (nonmortar) on %s%s\n", d->contacts[i].name, s->contact[i].nonmortar, s->contact[i].mortar,
                                      d->contacts[i].node_to_segment ? ", node to segment" : ""));
-  PetscCall(PetscViewerASCIIPrintf(viewer, "  load t = 0 .. %g, first step %g, steps %g .. %g\n", (double)d->load.end, (double)d->load.step,
+  PetscCall(PetscViewerASCIIPrintf(viewer, "  load t = 0 .. %.6g, first step %.6g, steps %.6g .. %.6g\n", (double)d->load.end, (double)d->load.step,
                                    (double)d->load.step_min, (double)d->load.step_max));
   if (d->adapt.tolerance > 0)
-    PetscCall(PetscViewerASCIIPrintf(viewer, "  adaptation to a relative error of %g, at most %d passes and %d cells\n", (double)d->adapt.tolerance,
+    PetscCall(PetscViewerASCIIPrintf(viewer, "  adaptation to a relative error of %.6g, at most %d passes and %d cells\n", (double)d->adapt.tolerance,
                                      (int)d->adapt.max_passes, (int)d->adapt.max_cells));
   else
     PetscCall(PetscViewerASCIIPrintf(viewer, "  no adaptation\n"));
   for (PetscInt i = 0; i < d->num_probes; ++i)
-    PetscCall(PetscViewerASCIIPrintf(viewer, "  probe %s at (%g, %g, %g)\n", d->probes[i].name, (double)d->probes[i].X[0], (double)d->probes[i].X[1],
+    PetscCall(PetscViewerASCIIPrintf(viewer, "  probe %s at (%.6g, %.6g, %.6g)\n", d->probes[i].name, (double)d->probes[i].X[0], (double)d->probes[i].X[1],
                                      (double)d->probes[i].X[2]));
   PetscCall(PetscViewerASCIIPrintf(viewer, "  output %s\n", d->output.directory));
   PetscFunctionReturn(PETSC_SUCCESS);
