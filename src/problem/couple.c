@@ -278,7 +278,6 @@ static PetscReal EdgeDot_Private(const Contact *c, const ContactEdge *e, const P
 {
   PetscReal sum = 0;
   for (PetscInt a = 0; a < e->num; ++a) {
-    if (NO_NODE(e, a)) continue;
     const PetscReal *du = c->side[NODE_SIDE(e->nodes[a])].du + 2 * NODE_INDEX(e->nodes[a]);
     sum += gradient[2 * a] * du[0] + gradient[2 * a + 1] * du[1];
   }
@@ -351,7 +350,6 @@ PetscErrorCode ContactForces_Private(Problem p, Contact *c, PetscReal r[])
     const ContactEdge *e = &c->edges[i];
     if (!c->mine[e->edge]) continue;
     for (PetscInt a = 0; a < e->num; ++a) {
-      if (NO_NODE(e, a)) continue;
       PetscReal *f = c->side[NODE_SIDE(e->nodes[a])].force + 2 * NODE_INDEX(e->nodes[a]);
       for (PetscInt k = 0; k < 2; ++k) {
         f[0] += c->z[e->node[k]] * e->dgap[2 * (k * e->num + a)];

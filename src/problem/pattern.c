@@ -17,7 +17,7 @@ PetscBool ContactPatternHolds_Private(const Contact *c)
     if (!c->pattern_offset) return PETSC_FALSE;
     const PetscInt *list = c->pattern + c->pattern_offset[e->edge], num = c->pattern_offset[e->edge + 1] - c->pattern_offset[e->edge];
     for (PetscInt a = 0; a < e->num; ++a) {
-      if (!NO_NODE(e, a) && !Has_Private(list, num, e->nodes[a])) return PETSC_FALSE;
+      if (!Has_Private(list, num, e->nodes[a])) return PETSC_FALSE;
     }
   }
   return PETSC_TRUE;
@@ -69,7 +69,6 @@ PetscErrorCode ContactGrowPattern_Private(Contact *c)
     if (c->result[edge] < 0) continue;
     const ContactEdge *e = &c->edges[c->result[edge]];
     for (PetscInt a = 0; a < e->num; ++a) {
-      if (NO_NODE(e, a)) continue;
       if (!NODE_SIDE(e->nodes[a]))
         PetscCall(Append_Private(&list, &num, &size, offset[edge], e->nodes[a]));
       else

@@ -103,6 +103,5 @@ PetscBool      ContactPatternHolds_Private(const Contact *);
 PetscInt ContactPatternDofs_Private(const Contact *, PetscInt edge, PetscInt dofs[]);
 
 #define MOST_PATTERN_DOFS 4096
-#define NO_NODE(e, a) ((a) >= 2 && (a) < 4 && (e)->nodes[a] == -1) /* an outer neighbour that is not there */
 #define NODE_SIDE(id) ((id) < 0)
 #define NODE_INDEX(id) ((id) < 0 ? ~(id) : (id))

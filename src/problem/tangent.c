@@ -38,11 +38,6 @@ static PetscErrorCode CellSink_Private(void *context, PetscInt num, const PetscI
 static void EdgeDofs_Private(const Contact *c, const ContactEdge *e, PetscInt dofs[], const PetscReal *frame[])
 {
   for (PetscInt a = 0; a < e->num; ++a) {
-    if (NO_NODE(e, a)) {
-      dofs[2 * a] = dofs[2 * a + 1] = -1;
-      frame[a]                      = NULL;
-      continue;
-    }
     const Surface *s = &c->side[NODE_SIDE(e->nodes[a])];
     const PetscInt n = NODE_INDEX(e->nodes[a]);
     dofs[2 * a]      = s->dof[2 * n];
@@ -72,7 +67,6 @@ static PetscErrorCode EdgeHessian_Private(Problem p, const Contact *c, const Con
     for (PetscInt i = 0; i < n; ++i) {
       p->work_value[i] = 0;
       for (PetscInt b = 0; b < e->num; ++b) {
-        if (NO_NODE(e, b)) continue;
         const PetscReal *du = c->side[NODE_SIDE(e->nodes[b])].du + 2 * NODE_INDEX(e->nodes[b]);
         p->work_value[i] += H[i * n + 2 * b] * du[0] + H[i * n + 2 * b + 1] * du[1];
       }
@@ -147,7 +141,6 @@ PetscErrorCode ContactInsertRow_Private(Problem p, Contact *c, PetscInt j)
     const PetscReal    factor = c->w0[j] * c->c[j] / c->weight[j], mean = c->gap[j] / c->weight[j];
     PetscCall(ProblemWork_Private(p, n));
     for (PetscInt a = 0; a < e->num; ++a) {
-      if (NO_NODE(e, a)) continue;
       const Surface  *side = &c->side[NODE_SIDE(e->nodes[a])];
       const PetscInt  node = NODE_INDEX(e->nodes[a]);
       const PetscReal g[2] = {e->dgap[row * n + 2 * a] - mean * e->dweight[row * n + 2 * a],
