@@ -2,6 +2,7 @@
    and how long the rest may take; into a file or a pipe nothing of it goes. */
 #include "diagnose.h"
 #include <petsctime.h>
+#include <stdarg.h>
 #include <sys/ioctl.h>
 #include <unistd.h>
 
@@ -9,6 +10,7 @@
 
 struct _p_Monitor {
   MPI_Comm         comm;
+  PetscMPIInt      rank;
   const SceneData *scene;    /* borrowed */
   PetscBool        terminal; /* rank 0 only */
   PetscBool        shown;    /* the bar stands on the last line */
@@ -20,15 +22,14 @@ struct _p_Monitor {
 PetscErrorCode MonitorCreate(MPI_Comm comm, const SceneData *scene, Monitor *monitor)
 {
   Monitor     m;
-  PetscMPIInt rank;
   const char *kind = getenv("TERM");
 
   PetscFunctionBegin;
   PetscCall(PetscNew(&m));
   m->comm  = comm;
   m->scene = scene;
-  PetscCallMPI(MPI_Comm_rank(comm, &rank));
-  m->terminal = (PetscBool)(rank == 0 && isatty(fileno(PETSC_STDOUT)) && kind && strcmp(kind, "dumb"));
+  PetscCallMPI(MPI_Comm_rank(comm, &m->rank));
+  m->terminal = (PetscBool)(m->rank == 0 && isatty(fileno(PETSC_STDOUT)) && kind && strcmp(kind, "dumb"));
   PetscCall(PetscTime(&m->start));
   *monitor = m;
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -104,6 +105,19 @@ static PetscErrorCode MonitorShow_Private(Monitor m)
 
 /* ---- lines --------------------------------------------------------------------------------------------------------------- */
 
+/* Rank 0 prints (PetscPrintf would write 2 as "2."). */
+static void Say_Private(Monitor m, const char *format, ...) PETSC_ATTRIBUTE_FORMAT(2, 3);
+static void Say_Private(Monitor m, const char *format, ...)
+{
+  va_list arguments;
+
+  if (m->rank) return;
+  va_start(arguments, format);
+  vfprintf(PETSC_STDOUT, format, arguments);
+  va_end(arguments);
+  fflush(PETSC_STDOUT);
+}
+
 static const char *FileName_Private(const char *path)
 {
   const char *slash = strrchr(path, '/');
@@ -135,12 +149,10 @@ PetscErrorCode MonitorHeader(Monitor m, Problem problem)
     snprintf(orders, sizeof(orders), "%d to %d", (int)low, (int)high);
   PetscCall(PetscStrncpy(model, ModelNames[scene->mechanics.model], sizeof(model)));
   for (char *c = model; *c; ++c) *c = *c == '_' ? ' ' : *c;
-  PetscCall(PetscPrintf(m->comm, "mortise " MORTISE_VERSION ": %s%s%s\n", scene->title, scene->title[0] ? ", " : "", FileName_Private(scene->file)));
-  PetscCall(PetscPrintf(m->comm, "%s, %s kinematics, units of the scene; %" PetscInt_FMT " cells of order %s, %" PetscInt_FMT " dofs, %d %s\n", model,
-                        KinematicsNames[scene->mechanics.kinematics], t->num_leaves, orders, dofs, size, size == 1 ? "process" : "processes"));
-  PetscCall(PetscPrintf(m->comm, "%5s %4s %11s %8s %9s %6s %6s %10s %12s %8s\n", "step", "pass", "t", "cells", "dofs", "newton", "active", "error", "force",
-                        "seconds"));
-  fflush(PETSC_STDOUT);
+  Say_Private(m, "mortise " MORTISE_VERSION ": %s%s%s\n", scene->title, scene->title[0] ? ", " : "", FileName_Private(scene->file));
+  Say_Private(m, "%s, %s kinematics, units of the scene; %" PetscInt_FMT " cells of order %s, %" PetscInt_FMT " dofs, %d %s\n", model,
+              KinematicsNames[scene->mechanics.kinematics], t->num_leaves, orders, dofs, size, size == 1 ? "process" : "processes");
+  Say_Private(m, "%5s %4s %11s %8s %9s %6s %6s %10s %12s %8s\n", "step", "pass", "t", "cells", "dofs", "newton", "active", "error", "force", "seconds");
   PetscCall(MonitorShow_Private(m));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -157,10 +169,8 @@ PetscErrorCode MonitorRow(Monitor m, const ReportRow *row)
     snprintf(end, sizeof(end), "  accepted, %d %s", (int)row->step_cuts, row->step_cuts == 1 ? "cut" : "cuts");
   else if (row->accepted)
     snprintf(end, sizeof(end), "  accepted");
-  PetscCall(PetscPrintf(
-      m->comm, "%5" PetscInt_FMT " %4" PetscInt_FMT " %11.5g %8" PetscInt_FMT " %9" PetscInt_FMT " %6" PetscInt_FMT " %6" PetscInt_FMT " %10s %12s %8.2f%s\n",
-      row->step, row->pass, (double)row->t, row->cells, row->dofs, row->newton_iterations, row->active_nodes, error, force, (double)row->seconds, end));
-  fflush(PETSC_STDOUT);
+  Say_Private(m, "%5" PetscInt_FMT " %4" PetscInt_FMT " %11.5g %8" PetscInt_FMT " %9" PetscInt_FMT " %6" PetscInt_FMT " %6" PetscInt_FMT " %10s %12s %8.2f%s\n",
+              row->step, row->pass, (double)row->t, row->cells, row->dofs, row->newton_iterations, row->active_nodes, error, force, (double)row->seconds, end);
   m->iterations += row->newton_iterations;
   if (row->accepted) {
     m->steps++;
@@ -183,18 +193,15 @@ PetscErrorCode MonitorFooter(Monitor m, const char *status, const char *reason, 
     snprintf(spent, sizeof(spent), "%.2f s", (double)(now - m->start));
   else
     Duration_Private(now - m->start, spent, sizeof(spent));
-  PetscCall(PetscPrintf(m->comm, "%s%s%s: %" PetscInt_FMT " load %s to t = %g of %g, %" PetscInt_FMT " Newton iterations, %" PetscInt_FMT " step %s, %s\n",
-                        status, reason[0] ? ", " : "", reason, m->steps, m->steps == 1 ? "step" : "steps", (double)m->t, (double)m->scene->load.end,
-                        m->iterations, m->cuts, m->cuts == 1 ? "cut" : "cuts", spent));
+  Say_Private(m, "%s%s%s: %" PetscInt_FMT " load %s to t = %g of %g, %" PetscInt_FMT " Newton iterations, %" PetscInt_FMT " step %s, %s\n", status,
+              reason[0] ? ", " : "", reason, m->steps, m->steps == 1 ? "step" : "steps", (double)m->t, (double)m->scene->load.end, m->iterations, m->cuts,
+              m->cuts == 1 ? "cut" : "cuts", spent);
   if (last) {
     if (PetscIsNanReal(last->estimated_error))
-      PetscCall(PetscPrintf(m->comm, "strain energy %.8g, error not estimated\n", (double)last->energy));
+      Say_Private(m, "strain energy %.8g, error not estimated\n", (double)last->energy);
     else
-      PetscCall(
-          PetscPrintf(m->comm, "strain energy %.8g, estimated error %.3g %% in the energy norm\n", (double)last->energy, 100 * (double)last->estimated_error));
+      Say_Private(m, "strain energy %.8g, estimated error %.3g %% in the energy norm\n", (double)last->energy, 100 * (double)last->estimated_error);
   }
-  PetscCall(PetscPrintf(m->comm, "results in %s: summary.json, history.csv, adapt.csv%s\n", m->scene->output.directory,
-                        m->scene->output.fields ? ", fields.xdmf" : ""));
-  fflush(PETSC_STDOUT);
+  Say_Private(m, "results in %s: summary.json, history.csv, adapt.csv%s\n", m->scene->output.directory, m->scene->output.fields ? ", fields.xdmf" : "");
   PetscFunctionReturn(PETSC_SUCCESS);
 }
