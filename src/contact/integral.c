@@ -10,7 +10,7 @@
 const PetscReal ContactGaussPoint[CONTACT_GAUSS]  = {0.046910077030668004, 0.23076534494715845, 0.5, 0.76923465505284155, 0.953089922969332};
 const PetscReal ContactGaussWeight[CONTACT_GAUSS] = {0.11846344252809454, 0.23931433524968324, 0.28444444444444444, 0.23931433524968324, 0.11846344252809454};
 
-/* First derivatives of A, B, R, g (equation numbers: method.md 5). */
+/* First derivatives of A, B, R, g. */
 static void GapGradient_Private(const EdgeFrame *f, const SegmentGeometry *s, GapPoint *p)
 {
   const PetscReal *e = s->e, *n = p->n, *x = p->x;

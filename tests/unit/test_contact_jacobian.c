@@ -4,7 +4,7 @@
 enum { NN = 6, NM = 7 };
 
 typedef struct {
-  PetscBool axisymmetric, nts, mirror, folded, closed;
+  PetscBool axisymmetric, nts, mirror, folded, closed, barely;
   PetscReal gap, radius;
 } Kind;
 
@@ -31,11 +31,28 @@ static PetscReal Difference(const PetscReal f[4], PetscReal h)
   return (f[0] - 8 * f[1] + 8 * f[2] - f[3]) / (12 * h);
 }
 
+/* Put the mortar side's last node 0.05 above nonmortar node 2 along its normal and 2e-3 ahead: the edge (1, 2) is covered by about 1 % only. */
+static void CoverBarely(const Chain *nonmortar, Chain *mortar)
+{
+  const PetscReal *x    = nonmortar->x;
+  PetscReal        m[2] = {0, 0};
+
+  for (int e = 1; e < 3; e++) {
+    const PetscReal t[2] = {x[2 * e + 2] - x[2 * e], x[2 * e + 3] - x[2 * e + 1]}, length = hypot(t[0], t[1]);
+
+    m[0] += t[1] / length;
+    m[1] -= t[0] / length;
+  }
+  for (int i = 0; i < 2; i++) mortar->x[2 * NM - 2 + i] = x[4 + i] + 0.05 * m[i] / hypot(m[0], m[1]) + (i ? 0 : 2e-3);
+  for (PetscInt k = 0; k < NM - 1; k++) mortar->x[2 * k] = -0.1 + (mortar->x[2 * NM - 2] + 0.05) * (PetscReal)k / (NM - 1);
+}
+
 static void MakePair(const Kind *kind, uint64_t *seed, Chain *nonmortar, Chain *mortar)
 {
   PetscReal angle = kind->axisymmetric ? 0.3 * Random(seed) : 3 * Random(seed);
 
   RandomPair(seed, NN, NM, kind->gap, nonmortar, mortar);
+  if (kind->barely) CoverBarely(nonmortar, mortar);
   if (kind->closed) { /* a triangle, top edge first: each node's two neighbours are the other two */
     ChainDestroy(nonmortar);
     ChainCreate(nonmortar, 3, PETSC_TRUE);
@@ -168,6 +185,11 @@ static void Folded(void **state)
   CheckKind("folded mortar side", &(Kind){.gap = 0.05, .folded = PETSC_TRUE}, 60);
 }
 
+static void BarelyCovered(void **state)
+{
+  CheckKind("an edge covered by 1 %", &(Kind){.gap = 0.05, .barely = PETSC_TRUE}, 60);
+}
+
 static void Closed(void **state)
 {
   CheckKind("closed nonmortar triangle", &(Kind){.gap = 0.05, .closed = PETSC_TRUE}, 30);
@@ -180,4 +202,4 @@ static void NodeToSegment(void **state)
 }
 
 CONTACT_TEST_MAIN("contact: derivatives", cmocka_unit_test(Plane), cmocka_unit_test(Mirror), cmocka_unit_test(Axisymmetric), cmocka_unit_test(Folded),
-                  cmocka_unit_test(Closed), cmocka_unit_test(NodeToSegment))
+                  cmocka_unit_test(Closed), cmocka_unit_test(BarelyCovered), cmocka_unit_test(NodeToSegment))
