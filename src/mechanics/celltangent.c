@@ -127,11 +127,14 @@ INLINE void SumTile_Private(CellKernel k, const PetscInt n1, const int d, const 
     }
     for (PetscInt a = 0; a < n1; a++) {
       for (PetscInt b = 0; b < n1; b++) {
-        const PetscReal *x   = k->pairs + (a * n1 + b) * 4 * n1;
-        Lanes            sum = x[0] * line[0];
+        const PetscReal *x = k->pairs + (a * n1 + b) * 4 * n1;
+        Lanes            sum[4]; /* independent, so that their additions overlap */
 
-        for (PetscInt i = 1; i < 4 * n1; i++) sum += x[i] * line[i];
-        k->tile[(a * d + c / d) * n1 * d + b * d + c % d] = sum;
+        for (int type = 0; type < 4; type++) sum[type] = x[type * n1] * line[type * n1];
+        for (PetscInt q = 1; q < n1; q++) {
+          for (int type = 0; type < 4; type++) sum[type] += x[type * n1 + q] * line[type * n1 + q];
+        }
+        k->tile[(a * d + c / d) * n1 * d + b * d + c % d] = (sum[0] + sum[1]) + (sum[2] + sum[3]);
       }
     }
   }

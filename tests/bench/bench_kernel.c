@@ -1,6 +1,6 @@
 /* Cells per second of the cell kernel on one core: residual alone, and residual with full tangent. neo_hookean, finite kinematics.
    Usage: bench_kernel [seconds per figure] */
-#include "../../src/mechanics/mechanicsimpl.h"
+#include "mechanicsimpl.h"
 #include <petsctime.h>
 #include <stdio.h>
 

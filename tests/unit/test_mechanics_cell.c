@@ -1,6 +1,6 @@
 /* The cell kernel: residual = dE/du and tangent = dr/du by differences for every model, kinematics, order, law and formulation;
    patch, rigid motion, batches, inversion, stored pressure, and the energy of cases.md O-03 on one cell of order 4. */
-#include "../../src/mechanics/mechanicsimpl.h"
+#include "mechanicsimpl.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

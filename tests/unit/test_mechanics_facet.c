@@ -1,5 +1,5 @@
 /* Loads on facets: totals, moments, closed surfaces under follower pressure, tangents by differences, axisymmetric weights. */
-#include "../../src/mechanics/mechanicsimpl.h"
+#include "mechanicsimpl.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
