@@ -90,9 +90,6 @@ static PetscErrorCode CheckCells_Private(Scene s, const CoarseMesh *m)
     PetscCheckInput(m->cell_body[c] >= 0, "mesh: cell %d at (%g, %g, %g) is in no physical group of dimension %d, so in no body", (int)c, (double)centre[0],
                     (double)centre[1], (double)centre[2], (int)m->dim);
     for (PetscInt i = 0; i < nodes; ++i) {
-      PetscCheckInput(m->dim == 3 || PetscAbsReal(X[3 * i + 2]) <= 1e-8 * scale,
-                      "model is two-dimensional, but cell %d of the mesh at (%g, %g, %g) does not lie in the plane z = 0", (int)c, (double)centre[0],
-                      (double)centre[1], (double)centre[2]);
       PetscCheckInput(s->data.mechanics.model != MODEL_AXISYMMETRIC || X[3 * i] >= -1e-8 * scale,
                       "model is axisymmetric, but cell %d of the mesh at (%g, %g) reaches radius x = %g < 0", (int)c, (double)centre[0], (double)centre[1],
                       (double)X[3 * i]);

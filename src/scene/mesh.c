@@ -142,7 +142,7 @@ static void Gmsh_Private(Scene s, const char *geo, PetscBool subdivide, MeshResu
 
 static void Generate_Private(Scene s, const char *geo, MeshResult *r)
 {
-  const char *base = getenv("TMPDIR");
+  const char *base = getenv("TMPDIR"), *stem = strrchr(geo, '/') + 1; /* geo holds a '/' always */
   PetscInt    dim;
   PetscBool   simplices;
 
@@ -152,7 +152,10 @@ static void Generate_Private(Scene s, const char *geo, MeshResult *r)
     r->temporary[0] = 0;
     return;
   }
-  (void)snprintf(r->file, sizeof(r->file), "%.*s/mesh.msh", (int)sizeof(r->file) - 16, r->temporary);
+  if (snprintf(r->file, sizeof(r->file), "%s/%.*s.msh", r->temporary, (int)(strlen(stem) - strlen(".geo")), stem) >= (int)sizeof(r->file)) {
+    (void)snprintf(r->message, sizeof(r->message), "the name of mesh.file is too long");
+    return;
+  }
   Gmsh_Private(s, geo, PETSC_FALSE, r);
   if (r->message[0]) return;
   Scan_Private(r->file, &dim, &simplices);
@@ -223,12 +226,10 @@ PetscErrorCode SceneRemoveMesh(Scene s)
   if (!s->temporary[0]) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCallMPI(MPI_Comm_rank(s->comm, &rank));
   if (rank == 0) {
-    static const char *const files[] = {"mesh.msh", "log"};
-    char                     path[PETSC_MAX_PATH_LEN + 16];
-    for (int i = 0; i < 2; ++i) {
-      (void)snprintf(path, sizeof(path), "%s/%s", s->temporary, files[i]);
-      (void)unlink(path);
-    }
+    char log[PETSC_MAX_PATH_LEN + 16];
+    (void)snprintf(log, sizeof(log), "%s/log", s->temporary);
+    (void)unlink(log);
+    (void)unlink(s->data.mesh.file);
     (void)rmdir(s->temporary);
   }
   s->temporary[0] = 0;

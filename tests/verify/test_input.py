@@ -184,7 +184,16 @@ def test_three_dimensions_of_a_plane_mesh(check):
 
 
 def test_plane_model_of_a_mesh_in_space(check):
-    refused(check(geo=GEO.replace("{0, 0, 0}", "{0, 0, 1}")), "two-dimensional", "z = 0")
+    refused(check(geo=GEO.replace("{0, 0, 0}", "{0, 0, 1}")), "squares", "plane", "z")
+
+
+def test_plane_model_of_a_mesh_of_solids(check, tmp_path):
+    """A cube of one hexahedron, given to a plane model."""
+    corners = [(x, y, z) for z in (0, 1) for x, y in ((0, 0), (1, 0), (1, 1), (0, 1))]
+    nodes = "".join(f"{i} {x} {y} {z}\n" for i, (x, y, z) in enumerate(corners, 1))
+    (tmp_path / "cube.msh").write_text('$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n2\n2 2 "bottom"\n3 1 "lower"\n$EndPhysicalNames\n'
+                                       f"$Nodes\n8\n{nodes}$EndNodes\n$Elements\n2\n1 3 2 2 1 1 2 3 4\n2 5 2 1 1 1 2 3 4 5 6 7 8\n$EndElements\n")
+    refused(check([("squares.geo", "cube.msh")]), "cube.msh|two-dimensional", "3|dimension")
 
 
 def test_negative_radius(check):
