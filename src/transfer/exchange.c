@@ -45,31 +45,37 @@ typedef struct {
   PetscMPIInt from, to;
 } Journey;
 
-/* Journeys that begin or end here, by increasing leaf. A leaf's new ones are consecutive, so remembering the last leaf sent to each rank avoids doubles. */
+static int Compare_Private(const void *a, const void *b)
+{
+  const Journey *x = a, *y = b;
+  if (x->leaf != y->leaf) return x->leaf < y->leaf ? -1 : 1;
+  return x->to < y->to ? -1 : x->to > y->to;
+}
+
+/* Journeys that begin or end here, each once, by increasing leaf: sender and receiver then agree on the order without a word. */
 static PetscErrorCode Journeys_Private(const TransferContext *c, PetscInt *num, Journey **journeys)
 {
-  PetscInt *last, size = 0;
+  PetscInt size = 0, kept = 0;
 
   PetscFunctionBegin;
-  PetscCall(PetscMalloc1(c->size, &last));
   for (PetscInt pass = 0; pass < 2; ++pass) {
-    *num = 0;
-    for (PetscMPIInt r = 0; r < c->size; ++r) last[r] = -1;
+    size = 0;
     for (PetscInt l = 0; l < c->map->num; ++l) {
       const PetscMPIInt to = c->new_t->leaf_rank[l];
       for (PetscInt k = c->map->old_first[l]; k < c->map->old_first[l] + c->map->old_count[l]; ++k) {
         const PetscMPIInt from = c->old_t->leaf_rank[k];
-        if (k <= last[to]) continue;
-        last[to] = k;
         if (to != c->rank && from != c->rank) continue;
-        if (pass) (*journeys)[*num] = (Journey){k, from, to};
-        ++*num;
+        if (pass) (*journeys)[size] = (Journey){k, from, to};
+        ++size;
       }
     }
-    size = *num;
     if (!pass) PetscCall(PetscMalloc1(size, journeys));
   }
-  PetscCall(PetscFree(last));
+  qsort(*journeys, (size_t)size, sizeof(Journey), Compare_Private);
+  for (PetscInt i = 0; i < size; ++i) {
+    if (!kept || Compare_Private(&(*journeys)[kept - 1], &(*journeys)[i])) (*journeys)[kept++] = (*journeys)[i];
+  }
+  *num = kept;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

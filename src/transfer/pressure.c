@@ -29,33 +29,51 @@ static PetscErrorCode Measure_Private(const TransferContext *c, PetscInt order, 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Append the Gauss points of the smaller of the two leaves (the overlap) as samples. */
+/* The box that two leaves share: its low corner and extents in root units. PETSC_FALSE: none (the map of a cell that was merged and split again lists
+   neighbours too). */
+static PetscBool Overlap_Private(const TransferContext *c, PetscInt new_leaf, PetscInt old_leaf, PetscInt lo[3], PetscInt extent[3])
+{
+  const ForestTables *n = c->new_t, *o = c->old_t;
+
+  for (PetscInt d = 0; d < n->dim; ++d) {
+    const PetscInt a = n->leaf_lo[3 * new_leaf + d], b = o->leaf_lo[3 * old_leaf + d];
+    const PetscInt a_end = a + (1 << (FOREST_MAX_LEVEL - n->leaf_level[3 * new_leaf + d])),
+                   b_end = b + (1 << (FOREST_MAX_LEVEL - o->leaf_level[3 * old_leaf + d]));
+    lo[d]                = PetscMax(a, b);
+    extent[d]            = PetscMin(a_end, b_end) - lo[d];
+    if (extent[d] <= 0) return PETSC_FALSE;
+  }
+  return PETSC_TRUE;
+}
+
+/* Place in a leaf, along direction d, of a point of the overlap at fraction `at` of its extent. */
+static PetscReal InLeaf_Private(const ForestTables *t, PetscInt leaf, PetscInt d, PetscInt lo, PetscInt extent, PetscReal at)
+{
+  return ((PetscReal)(lo - t->leaf_lo[3 * leaf + d]) + at * (PetscReal)extent) / (PetscReal)(1 << (FOREST_MAX_LEVEL - t->leaf_level[3 * leaf + d]));
+}
+
+/* Append the Gauss points of the overlap with one old leaf as samples. */
 static PetscErrorCode Sample_Private(const TransferContext *c, const OldCells *old, PetscInt new_leaf, PetscInt old_leaf, PetscInt new_order, Samples *s)
 {
   const PetscInt dim = c->new_t->dim, first = s->num;
   const Basis1D *gauss;
   PetscReal     *old_xi;
-  PetscInt       order, points = 1;
+  PetscInt       order, points = 1, lo[3], extent[3];
 
   PetscFunctionBegin;
+  if (!Overlap_Private(c, new_leaf, old_leaf, lo, extent)) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(HPSpaceGetOrder(c->old_space, c->old_t->first[dim] + old_leaf, &order));
   PetscCall(Basis1DGet(1, PetscMax(order, new_order) + 1, &gauss));
   for (PetscInt d = 0; d < dim; ++d) points *= gauss->num_points;
   PetscCall(PetscMalloc1(points * dim, &old_xi));
   for (PetscInt q = 0; q < points; ++q, ++s->num) {
-    PetscReal *xi     = s->xi + s->num * dim, at[3];
     s->weight[s->num] = 1;
     for (PetscInt d = 0, i = q; d < dim; ++d, i /= gauss->num_points) {
-      const PetscInt new_size = 1 << (FOREST_MAX_LEVEL - c->new_t->leaf_level[3 * new_leaf + d]),
-                     old_size = 1 << (FOREST_MAX_LEVEL - c->old_t->leaf_level[3 * old_leaf + d]);
-      const PetscReal part    = PetscMin(1.0, (PetscReal)old_size / new_size);
-      const PetscReal start   = PetscMax(0.0, (PetscReal)(c->old_t->leaf_lo[3 * old_leaf + d] - c->new_t->leaf_lo[3 * new_leaf + d]) / new_size);
-      xi[d]                   = start + part * gauss->points[i % gauss->num_points];
-      s->weight[s->num] *= part * gauss->weights[i % gauss->num_points];
+      const PetscReal at      = gauss->points[i % gauss->num_points];
+      s->xi[s->num * dim + d] = InLeaf_Private(c->new_t, new_leaf, d, lo[d], extent[d], at);
+      old_xi[q * dim + d]     = InLeaf_Private(c->old_t, old_leaf, d, lo[d], extent[d], at);
+      s->weight[s->num] *= gauss->weights[i % gauss->num_points] * extent[d] / (1 << (FOREST_MAX_LEVEL - c->new_t->leaf_level[3 * new_leaf + d]));
     }
-    PetscCheck(TransferPlace_Private(c, new_leaf, xi, old_leaf, at), PETSC_COMM_SELF, PETSC_ERR_PLIB,
-               "leaf %" PetscInt_FMT " does not overlap old leaf %" PetscInt_FMT, new_leaf, old_leaf);
-    for (PetscInt d = 0; d < dim; ++d) old_xi[q * dim + d] = at[d];
   }
   const PetscReal *coefficients = old->values + old->offset[old_leaf] + ElementNumNodes(dim, order) * dim;
   PetscCall(MechanicsPressureEvaluate(dim, order, points, old_xi, coefficients, s->value + first));

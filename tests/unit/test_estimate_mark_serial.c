@@ -1,0 +1,103 @@
+/* Bulk marking: the fewest leaves for the share, ties together, limits kept, coarsening below its share, the same list whatever comes in which order. */
+#include "estimate.h"
+#include "forest_box.h"
+
+static void Mark(Forest forest, PetscReal eta2[], PetscReal fraction, PetscReal coarsen, PetscInt max_cells, MarkList *marks, PetscInt *num)
+{
+  const ForestTables *t;
+  const AdaptSpec     spec = {.fraction = fraction, .coarsen = coarsen, .max_cells = max_cells};
+  Estimate            e    = {.eta2 = eta2};
+
+  OK(ForestGetTables(forest, &t));
+  e.num_leaves = t->num_leaves;
+  OK(EstimateMark(&e, &spec, forest, marks, num));
+}
+
+static void Shares(void **state)
+{
+  Box       box;
+  Forest    forest  = BoxForest(PETSC_COMM_WORLD, 2, (const PetscInt[3]){3, 3, 1}, 1, 0, 1, &box);
+  PetscReal eta2[9] = {4, 1, 9, 0, 16, 1, 2, 3, 0.001}; /* sum 36.001; sorted 16 9 4 3 2 1 1 .001 0 */
+  MarkList  marks;
+  PetscInt  num;
+
+  Mark(forest, eta2, 0.5, 0, 1000, &marks, &num); /* 16 + 9 > 18.0005 */
+  assert_int_equal(num, 2);
+  for (PetscInt l = 0; l < 9; ++l) assert_int_equal(marks.split[l], l == 4 || l == 2 ? 3 : 0);
+  OK(MarkListDestroy(&marks));
+  Mark(forest, eta2, 0.4, 0, 1000, &marks, &num);
+  assert_int_equal(num, 1);
+  OK(MarkListDestroy(&marks));
+  Mark(forest, eta2, 0.96, 0, 1000, &marks, &num); /* needs 34.56: five give 34, so the two ones go together */
+  assert_int_equal(num, 7);
+  OK(MarkListDestroy(&marks));
+  Mark(forest, eta2, 1, 0, 1000, &marks, &num); /* never a leaf without error */
+  assert_int_equal(num, 8);
+  assert_int_equal(marks.split[3], 0);
+  OK(MarkListDestroy(&marks));
+  OK(ForestDestroy(&forest));
+}
+
+static void TiesAndOrder(void **state)
+{
+  Box       box;
+  Forest    forest = BoxForest(PETSC_COMM_WORLD, 2, (const PetscInt[3]){4, 4, 1}, 1, 0, 1, &box);
+  PetscReal eta2[16];
+  MarkList  marks;
+  PetscInt  num;
+
+  for (PetscInt l = 0; l < 16; ++l) eta2[l] = 1 + 1e-9 * ((7 * l) % 16); /* a symmetric state up to the solver's tolerance */
+  Mark(forest, eta2, 0.3, 0, 1000, &marks, &num);
+  assert_int_equal(num, 16);
+  OK(MarkListDestroy(&marks));
+  for (PetscInt l = 0; l < 16; ++l) eta2[l] = 1 + 1e-4 * ((7 * l) % 16); /* different enough: the largest five or so */
+  Mark(forest, eta2, 0.3, 0, 1000, &marks, &num);
+  assert_int_equal(num, 5);
+  for (PetscInt l = 0; l < 16; ++l) assert_int_equal(marks.split[l] != 0, (7 * l) % 16 >= 11);
+  OK(MarkListDestroy(&marks));
+  OK(ForestDestroy(&forest));
+}
+
+static void Limits(void **state)
+{
+  for (PetscInt dim = 2; dim <= 3; ++dim) {
+    Box       box;
+    Forest    forest  = BoxForest(PETSC_COMM_WORLD, dim, (const PetscInt[3]){3, 3, 1}, 1, 0, 1, &box);
+    PetscReal eta2[9] = {4, 1, 9, 0, 16, 1, 2, 3, 0.001};
+    MarkList  marks;
+    PetscInt  num;
+    for (PetscInt room = -3; room < 60; ++room) {
+      Mark(forest, eta2, 1, 0, 9 + room, &marks, &num);
+      assert_true(num * ((1 << dim) - 1) <= PetscMax(room, 0));
+      assert_true(num >= PetscMin(8, PetscMax(room, 0) / ((1 << dim) - 1) - 1)); /* -1: the pair of ties goes in or stays out together */
+      assert_int_equal(marks.split[1], marks.split[5]);
+      OK(MarkListDestroy(&marks));
+    }
+    OK(ForestDestroy(&forest));
+  }
+}
+
+static void Coarsening(void **state)
+{
+  Box       box;
+  Forest    forest  = BoxForest(PETSC_COMM_WORLD, 2, (const PetscInt[3]){3, 3, 1}, 1, 0, 1, &box);
+  PetscReal eta2[9] = {4, 1, 9, 0, 16, 1, 2, 3, 0.001}; /* mean 4.0001 */
+  MarkList  marks;
+  PetscInt  num;
+
+  Mark(forest, eta2, 0.5, 0.6, 1000, &marks, &num); /* below 0.36 * 4.0001 = 1.44: the ones and .001; zero means rigid */
+  for (PetscInt l = 0; l < 9; ++l) assert_int_equal(marks.coarsen[l], l == 1 || l == 5 || l == 8);
+  OK(MarkListDestroy(&marks));
+  Mark(forest, eta2, 1, 10, 1000, &marks, &num); /* what is split does not coarsen */
+  for (PetscInt l = 0; l < 9; ++l) assert_int_equal(marks.coarsen[l], 0);
+  OK(MarkListDestroy(&marks));
+  OK(ForestDestroy(&forest));
+}
+
+int main(int argc, char **argv)
+{
+  const struct CMUnitTest tests[] = {cmocka_unit_test(Shares), cmocka_unit_test(TiesAndOrder), cmocka_unit_test(Limits), cmocka_unit_test(Coarsening)};
+  if (PetscInitialize(&argc, &argv, NULL, NULL)) return 1;
+  const int failed = cmocka_run_group_tests(tests, NULL, NULL);
+  return PetscFinalize() || failed;
+}
