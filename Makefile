@@ -53,7 +53,7 @@ ifdef DEBUG
 else
   OPT := -O3 -g $(if $(PORTABLE),,-march=native)
 endif
-CFLAGS   := -std=gnu11 $(OPT) -Wall -Wextra -Wshadow -Wstrict-prototypes -Wno-unused-parameter -Wno-maybe-uninitialized -Wno-format-truncation -Werror -fno-math-errno -MMD -MP
+CFLAGS   := -std=gnu11 $(OPT) -Wall -Wextra -Wshadow -Wstrict-prototypes -Wno-unused-parameter -Wno-maybe-uninitialized -Wno-psabi -Wno-format-truncation -Werror -fno-math-errno -MMD -MP
 CPPFLAGS := -Iinclude $(addprefix -Isrc/,$(MODULES)) $(PETSC_CFLAGS) $(HDF5_CFLAGS)
 LDLIBS   := -Wl,--no-as-needed -lopenblas $(LOAD_FIRST) -Wl,--as-needed $(PETSC_LIBS) -lmetis -ldmumps -lsmumps -lmumps_common $(HDF5_LIBS) -lmuparser -lcjson -lyaml -lm
 

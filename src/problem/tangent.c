@@ -205,6 +205,7 @@ PetscErrorCode ProblemTangent(Problem p, Vec x, const PetscReal pressure[], Vec 
   PetscCall(StageEnd(STAGE_CONTACT));
   p->lifting = (PetscBool)(lift != NULL);
   p->lift    = lift;
+  if (lift) PetscCall(VecSetOption(lift, VEC_IGNORE_NEGATIVE_INDICES, PETSC_TRUE));
   for (PetscInt i = 0; i < v->num_nodes * p->dim; ++i) p->increment[i] = p->target[i] - p->applied[i];
   PetscCall(StageBegin(STAGE_ASSEMBLE));
   PetscCall(ReadyMatrix_Private(p));
