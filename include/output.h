@@ -53,7 +53,7 @@ PetscErrorCode SummaryWrite(MPI_Comm, const char *path, const struct cJSON *docu
      rigid bodies the stress is 0 and J is 1; in small kinematics sigma is the linear law's stress and J = 1 + tr(grad u).
 
    Grid contact: nonmortar edges of all pairs.
-   - Per point: displacement, gap (gt_j/w_j; 0 where status is -1), pressure (of contact: z_j), status (0 open, 1 in contact, -1 faces nothing or carries no
+   - Per point: displacement, gap (gt_j/w_j; 0 where status is -1), contact_pressure (z_j), status (0 open, 1 in contact, -1 faces nothing or carries no
      multiplier), normal. Per cell: pair (index), cell (leaf).
 
    Grid segments, with OutputSpec.segments: a quad for each segment, between the parts of the nonmortar and of the mortar edge that see each other.

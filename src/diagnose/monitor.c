@@ -11,10 +11,10 @@
 struct _p_Monitor {
   MPI_Comm         comm;
   PetscMPIInt      rank;
-  const SceneData *scene;    /* borrowed */
-  PetscBool        terminal; /* rank 0 only */
-  PetscBool        shown;    /* the bar stands on the last line */
-  PetscLogDouble   start;
+  const SceneData *scene;                   /* borrowed */
+  PetscBool        terminal;                /* rank 0 only */
+  PetscBool        shown;                   /* the bar stands on the last line */
+  PetscLogDouble   start;                   /* of the run */
   PetscInt         steps, cuts, iterations; /* accepted steps, their cuts, Newton iterations of all rows */
   PetscReal        t;                       /* accepted pseudo-time */
 };
@@ -159,10 +159,13 @@ PetscErrorCode MonitorHeader(Monitor m, Problem problem)
 
 PetscErrorCode MonitorRow(Monitor m, const ReportRow *row)
 {
-  char error[16] = "-", force[16] = "-", end[48] = "";
+  char           error[16] = "-", force[16] = "-", end[48] = "";
+  PetscLogDouble now;
 
   PetscFunctionBegin;
   PetscCall(MonitorHide(m));
+  PetscCall(PetscTime(&now));
+  m->start = now - row->seconds; /* the run began before its monitor: one clock for lines, bar and footer */
   if (!PetscIsNanReal(row->estimated_error)) snprintf(error, sizeof(error), "%.3e", (double)row->estimated_error);
   if (m->scene->num_contacts) snprintf(force, sizeof(force), "%.5e", (double)row->contact_force);
   if (row->accepted && row->step_cuts)

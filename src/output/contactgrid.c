@@ -60,7 +60,7 @@ static PetscErrorCode WriteSurface_Private(Writer writer, Problem problem, Petsc
   PetscCall(WriterGrid(writer, "contact", CELL_POLYLINE2, g.num_points, g.X, g.num_edges, g.conn));
   PetscCall(WriterField(writer, "displacement", PETSC_FALSE, 3, g.displacement));
   PetscCall(WriterField(writer, "gap", PETSC_FALSE, 1, g.gap));
-  PetscCall(WriterField(writer, "pressure", PETSC_FALSE, 1, g.pressure));
+  PetscCall(WriterField(writer, "contact_pressure", PETSC_FALSE, 1, g.pressure));
   PetscCall(WriterField(writer, "status", PETSC_FALSE, 1, g.status));
   PetscCall(WriterField(writer, "normal", PETSC_FALSE, 3, g.normal));
   PetscCall(WriterField(writer, "pair", PETSC_TRUE, 1, g.pair));

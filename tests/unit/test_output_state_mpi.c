@@ -198,7 +198,7 @@ static void CheckContact(void)
   PetscInt       components, num;
   double        *X, *u;
 
-  Uniform("contact", "pressure", nodes, 0, -Sigma(1), 1e-9);
+  Uniform("contact", "contact_pressure", nodes, 0, -Sigma(1), 1e-9);
   Uniform("contact", "gap", nodes, 0, 0, 1e-9);
   Uniform("contact", "status", nodes, 0, 1, 0);
   Uniform("contact", "normal", nodes, 0, 0, 1e-9);
