@@ -1,0 +1,74 @@
+"""What a run leaves behind: keys of summary.json, tables that agree with it, fields that readers understand, on one rank and on two."""
+import math
+
+import numpy as np
+import pytest
+
+KEYS = """mortise scene status reason t model ranks load_steps step_cuts adapt_passes newton_iterations cells dofs order_min order_max
+          estimated_error energy reaction contact probe time peak_memory_mb""".split()
+TIMES = "total mesh assemble contact factor solve estimate output".split()
+PAIR = "force moment max_pressure area radius active_nodes min_gap".split()
+
+
+@pytest.mark.parametrize("ranks,order", [(1, 1), (2, 2)])
+def test_patch_reports_agree(run, ranks, order):
+    """Uniform state of inputs/patch2d.yml: pressure 0.068898 (its header), the same figure in every file."""
+    result = run("inputs/patch2d.yml", "-order", order, "-probe_mid_x", 0.4, "-probe_mid_y", 0.5, ranks=ranks)
+    assert result.returncode == 0
+    s = result.summary
+    assert all(key in s for key in KEYS) and all(key in s["time"] for key in TIMES)
+    assert s["status"] == "converged" and s["ranks"] == ranks and s["order_max"] == order
+    pair = s["contact"]["upper_on_lower"]
+    assert all(key in pair for key in PAIR)
+    pressure = 0.0688979013617
+    assert pair["force"] == pytest.approx([0, pressure], abs=1e-9) and pair["mortar_force"] == pytest.approx([0, -pressure], abs=1e-9)
+    assert len(pair["moment"]) == 1 and pair["area"] == pytest.approx(1, abs=1e-9)
+    assert s["reaction"]["top"] == pytest.approx([0, -pressure], abs=1e-9)
+    assert set(s["reaction"]) == {"top", "bottom", "left", "right"}  # not the contact surfaces, which hold nothing
+    assert s["probe"]["mid"]["displacement"] == pytest.approx([0, -0.025], abs=1e-9)
+    row = result.history[-1]
+    assert row["contact.upper_on_lower.force.y"] == pytest.approx(pressure, abs=1e-9) and row["reaction.top.y"] == pytest.approx(-pressure, abs=1e-9)
+    assert row["probe.mid.displacement.y"] == pytest.approx(-0.025, abs=1e-9) and row["newton_iterations"] == s["newton_iterations"]
+    assert result.adapt[-1]["cells"] == s["cells"] and result.adapt[-1]["accepted"] == 1
+    time, bulk = result.states()[-1]
+    assert np.allclose(bulk["J"], 0.95, atol=1e-9) and len(bulk["cells"]) == s["cells"] * order**2
+    time, contact = result.states("contact")[-1]
+    assert np.allclose(contact["contact_pressure"], pressure, atol=1e-9) and np.allclose(contact["status"], 1)
+
+
+@pytest.mark.parametrize("ranks", [1, 2])
+def test_balances_of_an_adapted_run(run, ranks):
+    """O-90 on Hertz' problem, hanging nodes and all: forces to 1e-10, moments to 1e-6, every pass on a mesh of its own."""
+    result = run("inputs/hertz2d.yml", "-adapt_max_passes", 4, "-output_segments", "true", ranks=ranks)
+    s = result.summary
+    assert result.returncode == 0 and s["balance"]["contact_force"] < 1e-10 and s["balance"]["contact_moment"] < 1e-6
+    assert s["balance"]["supports"] < 1e-8
+    pair = s["contact"]["disc_on_block"]
+    states = result.states("contact")
+    assert len(states) == len(result.states()) == len(result.states("segments")) == len(result.adapt) == 5
+    contact = states[-1][1]
+    inside = np.abs((contact["X"] + contact["displacement"])[contact["status"] == 1, 0])
+    assert len(inside) == pair["active_nodes"] and inside.max() <= pair["radius"] + 1e-12
+    assert pair["radius"] == pytest.approx(0.2, abs=0.05) and pair["area"] == pytest.approx(2 * pair["radius"], rel=0.2)
+    assert np.all(contact["gap"][contact["status"] == 0] > 0)
+    assert np.allclose(np.linalg.norm(contact["normal"], axis=1), 1)
+
+
+def test_failed_run_is_told(run):
+    """Max_steps before the end: status failed with a reason, figures of the last accepted step, exit 2."""
+    result = run("inputs/cook.yml", "-load_max_steps", 2)
+    s = result.summary
+    assert result.returncode == 2 and s["status"] == "failed" and s["reason"] and s["load_steps"] == 2 and 0 < s["t"] < 1
+    assert s["energy"] > 0 and len(result.history) == 2
+    assert s["probe"]["tip"]["displacement"][1] == pytest.approx(result.history[-1]["probe.tip.displacement.y"], rel=1e-9)
+
+
+def test_probe_outside_is_wrong_input(run):
+    result = run("inputs/cook.yml", "-probe_lost_x", 1000, "-probe_lost_y", 0)
+    assert result.returncode == 1 and "probe.lost" in result.stderr and "outside" in result.stderr
+
+
+def test_pipe_has_no_bar(run):
+    result = run("inputs/cook.yml")
+    assert result.returncode == 0 and "\r" not in result.stdout and "\033" not in result.stdout
+    assert math.isfinite(result.summary["time"]["total"]) and "results in" in result.stdout
