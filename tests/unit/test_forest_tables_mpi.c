@@ -84,6 +84,47 @@ static PetscInt CheckParents(Forest forest)
   return num;
 }
 
+/* Brute force over the places in the box: whatever lies inside a larger edge or face has a parent, and nothing else has. */
+static void CheckComplete(Forest forest, const Box *box)
+{
+  const ForestTables *t = &forest->tables;
+  const PetscInt      n = t->first[t->dim];
+  int64_t(*lo)[3], (*hi)[3];
+
+  if (n > 4000) return;
+  OK(PetscMalloc2(n, &lo, n, &hi));
+  for (PetscInt e = 0; e < n; ++e) {
+    const PetscInt  leaf = t->entity_leaf[e], cell = t->leaf_root[leaf];
+    const PetscInt *closure = &t->closure[t->closure_offset[t->first[t->dim] + leaf]];
+    PetscInt        i       = 0;
+    while (closure[i] != e) ++i;
+    BoxLeaf(box, t, leaf, lo[e], hi[e]);
+    for (PetscInt s = 0; s < t->dim; ++s) {
+      const PetscInt a = box->axis[cell][s], place = (i / ForestPow3[s]) % 3;
+      if (place == 1) continue;
+      if ((place == 2) != box->flip[cell][s])
+        lo[e][a] = hi[e][a];
+      else
+        hi[e][a] = lo[e][a];
+    }
+  }
+  for (PetscInt e = 0; e < n; ++e) {
+    PetscBool inside_any = PETSC_FALSE;
+    for (PetscInt f = t->first[1]; f < n; ++f) {
+      PetscBool inside = PETSC_TRUE, same = PETSC_TRUE;
+      for (PetscInt a = 0; a < t->dim && inside; ++a) {
+        const PetscBool point = (PetscBool)(lo[e][a] == hi[e][a] && lo[f][a] < hi[f][a]);
+        inside                = (PetscBool)(lo[e][a] >= lo[f][a] + point && hi[e][a] <= hi[f][a] - point);
+        same                  = (PetscBool)(same && lo[e][a] == lo[f][a] && hi[e][a] == hi[f][a]);
+      }
+      if (inside && same) assert_int_equal(e, f); /* one id for one place */
+      if (inside && !same) inside_any = PETSC_TRUE;
+    }
+    assert_int_equal(inside_any, t->parent[e] >= 0);
+  }
+  OK(PetscFree2(lo, hi));
+}
+
 /* Every facet is on a side of the box, shared, hanging, or has something hanging in it; marks of the sides on all entities. */
 static void CheckFacets(Forest forest, const Box *box)
 {
@@ -198,6 +239,7 @@ static void CheckAll(Forest forest, const Box *box)
   CheckLeaves(forest);
   CheckSubClosures(forest);
   CheckFacets(forest, box);
+  CheckComplete(forest, box);
   assert_true(PetscAbsReal(Volume(forest) - volume) < 1e-11 * volume);
 }
 
@@ -285,9 +327,9 @@ static void test_random_2d(void **state)
 
 static void test_random_3d(void **state)
 {
-  for (uint64_t seed = 0; seed < 3; ++seed) {
-    RandomHistory(3, (const PetscInt[3]){2, 2, 1}, 1, PETSC_FALSE, 4, 6, seed);
-    RandomHistory(3, (const PetscInt[3]){2, 1, 2}, 2, PETSC_TRUE, 5, 4, seed);
+  for (uint64_t seed = 0; seed < 4; ++seed) {
+    RandomHistory(3, (const PetscInt[3]){2, 2, 2}, 1, PETSC_FALSE, 4, 9, seed);
+    RandomHistory(3, (const PetscInt[3]){2, 1, 2}, 2, PETSC_TRUE, 6, 4, seed);
   }
   RandomHistory(3, (const PetscInt[3]){3, 3, 3}, 1, PETSC_TRUE, 3, 5, 7);
 }
@@ -385,11 +427,34 @@ static void test_coarsen_families(void **state)
   OK(ForestDestroy(&next));
 }
 
+/* Two quads with the vertices of an edge in common but different curves between them: told, not glued. */
+static void test_torn(void **state)
+{
+  for (PetscInt torn = 0; torn < 2; ++torn) {
+    CoarseMesh     mesh        = {.dim = 2, .num_cells = 2, .num_vertices = 6, .geometry_order = 2};
+    const PetscInt vertices[8] = {0, 1, 3, 4, 1, 2, 4, 5};
+    Forest         forest      = NULL;
+    OK(PetscMalloc1(8, &mesh.cell_vertices));
+    OK(PetscArraycpy(mesh.cell_vertices, vertices, 8));
+    OK(PetscCalloc1(2, &mesh.cell_body));
+    OK(PetscCalloc1(3 * 18, &mesh.cell_geometry));
+    for (PetscInt i = 0; i < 18; ++i) {
+      mesh.cell_geometry[3 * i]     = i / 9 + 0.5 * (i % 3);
+      mesh.cell_geometry[3 * i + 1] = 0.5 * (i % 9 / 3);
+    }
+    if (torn) mesh.cell_geometry[3 * 5] += 0.01; /* middle of the right edge of the first */
+    const PetscErrorCode status = ForestCreateFromCoarse(PETSC_COMM_SELF, &mesh, 0, NULL, NULL, 0, &forest);
+    assert_int_equal(status, torn ? MORTISE_ERR_INPUT : 0);
+    OK(ForestDestroy(&forest));
+  }
+}
+
 int main(int argc, char **argv)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(test_random_2d), cmocka_unit_test(test_random_3d), cmocka_unit_test(test_crosswise),
-                                     cmocka_unit_test(test_coarsen_back), cmocka_unit_test(test_coarsen_families)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(test_random_2d),    cmocka_unit_test(test_random_3d),        cmocka_unit_test(test_crosswise),
+                                     cmocka_unit_test(test_coarsen_back), cmocka_unit_test(test_coarsen_families), cmocka_unit_test(test_torn)};
   PetscCall(PetscInitialize(&argc, &argv, NULL, NULL));
+  PetscCall(ErrorHandlerPush());
   const int failed = cmocka_run_group_tests(tests, NULL, NULL);
   PetscCall(PetscFinalize());
   return failed;
