@@ -88,6 +88,12 @@ PetscErrorCode ProblemResidual(Problem, Vec x, Vec r, ProblemStatus *);
 /* dR/dx with the stored element pressures in the geometric stiffness (NULL: consistent). When lift is given, the change of R that the remaining
    prescribed motion makes to first order is added to it. Assembles the problem's matrix. */
 PetscErrorCode ProblemTangent(Problem, Vec x, const PetscReal pressure[], Vec lift, PetscBool *bad);
+/* Symmetric form of the tangent: same solution, symmetric matrix, right-hand side by ProblemRightSide; its multiplier columns are exact to second order.
+   Only for problems whose bulk tangent is symmetric (ProblemIsSymmetric): no follower pressures. Default: exact form. */
+PetscErrorCode ProblemSetSymmetric(Problem, PetscBool symmetric);
+PetscErrorCode ProblemIsSymmetric(Problem, PetscBool *possible);
+/* rhs = -(r + lift), multiplier rows in the form of the last tangent. */
+PetscErrorCode ProblemRightSide(Problem, Vec r, Vec lift, Vec rhs);
 /* Active-set passes against the last tangent: given the solution dx of tangent . dx = -rhs, decide anew which constraints are active, rewrite their rows in the
    matrix and the right-hand side. *changed: number of nodes that switched (all ranks). */
 PetscErrorCode ProblemSwitchActiveSet(Problem, Vec x, Vec dx, Vec rhs, PetscInt *changed);

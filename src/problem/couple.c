@@ -1,8 +1,6 @@
 /* One contact pair on one mesh: multipliers, nodal gaps, activity, forces. */
 #include "problemimpl.h"
 
-#define COVERED 1e-10 /* share of a node's tributary length below which it counts as uncovered */
-
 static PetscReal EdgeMeasure_Private(const Surface *s, PetscInt e, PetscBool axisymmetric)
 {
   const PetscReal *a = s->X + 2 * s->edges[2 * e], *b = s->X + 2 * s->edges[2 * e + 1], length = PetscSqrtReal(PetscSqr(b[0] - a[0]) + PetscSqr(b[1] - a[1]));
@@ -216,7 +214,7 @@ static PetscErrorCode NodeSums_Private(Problem p, Contact *c)
   PetscCall(PetscArraycpy(c->weight, buffer + n, n));
   c->view.area = buffer[2 * n];
   for (PetscInt j = 0; j < n; ++j) {
-    if (c->weight[j] > COVERED * c->w0[j]) least = PetscMin(least, c->gap[j] / c->weight[j]);
+    if (ContactCovered_Private(c, j)) least = PetscMin(least, c->gap[j] / c->weight[j]);
   }
   c->view.min_gap = least;
   PetscCall(PetscFree(buffer));
@@ -226,8 +224,7 @@ static PetscErrorCode NodeSums_Private(Problem p, Contact *c)
 static void Activity_Private(Contact *c)
 {
   for (PetscInt j = 0; j < c->side[0].num_nodes; ++j) {
-    const PetscBool covered = (PetscBool)(c->weight[j] > COVERED * c->w0[j]);
-    c->active[j]            = (PetscBool)(c->has_multiplier[j] && covered && c->z[j] - c->c[j] * c->gap[j] / c->weight[j] > 0);
+    c->active[j] = (PetscBool)(c->has_multiplier[j] && ContactCovered_Private(c, j) && c->z[j] - c->c[j] * c->gap[j] / c->weight[j] > 0);
   }
 }
 
@@ -260,7 +257,7 @@ static PetscErrorCode Freeze_Private(Problem p, Contact *c, PetscBool *failed)
     PetscCall(PetscArraycpy(nodes, edges[i].nodes, edges[i].num));
     for (PetscInt k = 0; k < 2; ++k) {
       const PetscInt  j    = edges[i].node[k];
-      const PetscReal mean = c->weight[j] > COVERED * c->w0[j] ? c->gap[j] / c->weight[j] : 0;
+      const PetscReal mean = ContactCovered_Private(c, j) ? c->gap[j] / c->weight[j] : 0;
       for (PetscInt a = 0; a < n; ++a) dgap[k * n + a] = edges[i].dgap[k * n + a] - mean * edges[i].dweight[k * n + a];
     }
     c->frozen[i]         = edges[i];
@@ -296,7 +293,7 @@ PetscErrorCode ContactChange_Private(Problem p, Contact *c, const PetscReal incr
     for (PetscInt k = 0; k < 2 && c->mine[e->edge]; ++k) {
       const PetscInt j = e->node[k];
       change[j] += EdgeDot_Private(c, e, e->dgap + 2 * k * e->num);
-      if (c->weight[j] > COVERED * c->w0[j]) change[j] -= c->gap[j] / c->weight[j] * EdgeDot_Private(c, e, e->dweight + 2 * k * e->num);
+      if (ContactCovered_Private(c, j)) change[j] -= c->gap[j] / c->weight[j] * EdgeDot_Private(c, e, e->dweight + 2 * k * e->num);
     }
   }
   if (p->size > 1) PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, change, (PetscMPIInt)n, MPIU_REAL, MPI_SUM, p->comm));

@@ -135,6 +135,25 @@ PetscErrorCode ProblemGetMatrix(Problem p, Mat *matrix)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscErrorCode ProblemSetSymmetric(Problem p, PetscBool symmetric)
+{
+  PetscFunctionBegin;
+  p->symmetric = symmetric;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode ProblemIsSymmetric(Problem p, PetscBool *possible)
+{
+  const MechanicsSpec *m = &p->scene->mechanics;
+
+  PetscFunctionBegin;
+  *possible = PETSC_TRUE;
+  for (PetscInt b = 0; b < m->num_boundaries; ++b) {
+    if (m->boundaries[b].pressure && m->kinematics == KINEMATICS_FINITE) *possible = PETSC_FALSE;
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode ProblemNumDofs(Problem p, PetscInt *num)
 {
   PetscFunctionBegin;

@@ -2,6 +2,8 @@
 #pragma once
 #include "problem.h"
 
+#define COVERED 1e-10 /* share of a node's tributary length below which it counts as uncovered */
+
 /* One side of a contact pair: small, replicated on every rank (a curve in two dimensions). */
 typedef struct {
   PetscInt   num_nodes, num_edges;
@@ -65,6 +67,7 @@ struct _p_Problem {
   PetscInt   num_dofs;
 
   Mat        matrix;
+  PetscBool  symmetric; /* tangent in the symmetric form */
   PetscBool  lifting;
   Vec        lift;
   PetscReal  t;
@@ -95,7 +98,11 @@ PetscErrorCode ContactRows_Private(Problem, const Contact *, PetscReal r[]);
 PetscErrorCode ContactBlocks_Private(Problem, Contact *);
 PetscErrorCode ContactInsertRow_Private(Problem, Contact *, PetscInt node);
 /* Change of every node's weighted gap, at fixed measure, under a local array of increments. */
-PetscErrorCode ContactChange_Private(Problem, Contact *, const PetscReal increment[], PetscReal change[]);
+PetscErrorCode          ContactChange_Private(Problem, Contact *, const PetscReal increment[], PetscReal change[]);
+static inline PetscBool ContactCovered_Private(const Contact *c, PetscInt j)
+{
+  return (PetscBool)(c->weight[j] > COVERED * c->w0[j]);
+}
 /* pattern.c: room in the matrix for what edges may meet until the next search. */
 PetscErrorCode ContactGrowPattern_Private(Contact *);
 PetscBool      ContactPatternHolds_Private(const Contact *);

@@ -102,7 +102,7 @@ PetscErrorCode ContactBlocks_Private(Problem p, Contact *c)
     PetscCall(PetscMalloc2(n, &dofs, e->num, &frame));
     EdgeDofs_Private(c, e, dofs, frame);
     if (e->hessian) PetscCall(EdgeHessian_Private(p, c, e, dofs, frame));
-    for (PetscInt k = 0; k < 2; ++k) {
+    for (PetscInt k = 0; k < 2 && !p->symmetric; ++k) {
       const PetscInt z = c->zdof[e->node[k]];
       if (z < 0) continue;
       for (PetscInt a = 0; a < n; ++a) p->work_value[a] = -e->dgap[k * n + a];
@@ -114,32 +114,28 @@ PetscErrorCode ContactBlocks_Private(Problem p, Contact *c)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Row of node j from its (at most two) edges: w0 c / w_j (grad gt_j - gt_j/w_j grad w_j) when active, w0 on the diagonal when not.
-   The whole pattern is written, so that a switch leaves nothing of the other form behind. */
-PetscErrorCode ContactInsertRow_Private(Problem p, Contact *c, PetscInt j)
+/* Collects the gradient of node j's normalised gap, times a factor, from its (at most two) edges: over the whole pattern, sorted indices, so that a
+   switch leaves nothing of another form behind. normalised false: the plain gradient of gt_j. */
+static PetscErrorCode NodeGradient_Private(Problem p, const Contact *c, PetscInt j, PetscReal factor, PetscBool normalised, PetscInt dofs[], PetscReal values[],
+                                           PetscInt *num)
 {
-  const Surface *s   = &c->side[0];
-  PetscInt       num = 0, *dofs;
-  PetscReal     *values;
+  const Surface *s = &c->side[0];
+  PetscInt       at;
 
   PetscFunctionBegin;
-  PetscCall(PetscMalloc2(2 * MOST_PATTERN_DOFS, &dofs, 2 * MOST_PATTERN_DOFS, &values));
+  *num = 0;
   for (PetscInt k = 0; k < 2; ++k) {
-    if (s->node_edge[2 * j + k] >= 0) num += ContactPatternDofs_Private(c, s->node_edge[2 * j + k], dofs + num);
+    if (s->node_edge[2 * j + k] >= 0) *num += ContactPatternDofs_Private(c, s->node_edge[2 * j + k], dofs + *num);
   }
-  dofs[num++] = c->zdof[j];
-  PetscCall(PetscSortRemoveDupsInt(&num, dofs));
-  PetscCall(PetscArrayzero(values, num));
-  PetscInt at;
-  PetscCall(PetscFindInt(c->zdof[j], num, dofs, &at));
-  values[at] = c->active[j] ? 0 : c->w0[j];
-  for (PetscInt k = 0; c->active[j] && k < 2; ++k) {
+  dofs[(*num)++] = c->zdof[j];
+  PetscCall(PetscSortRemoveDupsInt(num, dofs));
+  PetscCall(PetscArrayzero(values, *num));
+  for (PetscInt k = 0; factor != 0 && k < 2; ++k) {
     const PetscInt edge = s->node_edge[2 * j + k];
     if (edge < 0 || c->result[edge] < 0) continue;
     const ContactEdge *e   = &c->edges[c->result[edge]];
     const PetscInt     row = e->node[0] == j ? 0 : 1, n = 2 * e->num;
-    const PetscReal    factor = c->w0[j] * c->c[j] / c->weight[j], mean = c->gap[j] / c->weight[j];
-    PetscCall(ProblemWork_Private(p, n));
+    const PetscReal    mean = normalised ? c->gap[j] / c->weight[j] : 0;
     for (PetscInt a = 0; a < e->num; ++a) {
       const Surface  *side = &c->side[NODE_SIDE(e->nodes[a])];
       const PetscInt  node = NODE_INDEX(e->nodes[a]);
@@ -147,25 +143,102 @@ PetscErrorCode ContactInsertRow_Private(Problem p, Contact *c, PetscInt j)
                               e->dgap[row * n + 2 * a + 1] - mean * e->dweight[row * n + 2 * a + 1]};
       for (PetscInt d = 0; d < 2; ++d) {
         if (side->dof[2 * node + d] < 0) continue;
-        PetscCall(PetscFindInt(side->dof[2 * node + d], num, dofs, &at));
+        PetscCall(PetscFindInt(side->dof[2 * node + d], *num, dofs, &at));
         PetscCheck(at >= 0, PETSC_COMM_SELF, PETSC_ERR_PLIB, "contact node outside the pattern of its edge");
         values[at] += factor * (side->frame[4 * node + 2 * d] * g[0] + side->frame[4 * node + 2 * d + 1] * g[1]);
       }
     }
   }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Row of node j. Exact form: w0 c / w_j (grad gt_j - gt_j/w_j grad w_j) when active, w0 on the diagonal when not. Symmetric form: minus the normalised gradient
+   as row *and* column when active, -w0/c on the diagonal when not; its column differs from -grad gt_j by gt_j times the change of z_j, small of second order.
+ */
+PetscErrorCode ContactInsertRow_Private(Problem p, Contact *c, PetscInt j)
+{
+  const PetscReal active = p->symmetric ? -1 : c->active[j] ? c->w0[j] * c->c[j] / c->weight[j] : 0;
+  PetscInt        num, at, *dofs;
+  PetscReal      *values;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc2(2 * MOST_PATTERN_DOFS, &dofs, 2 * MOST_PATTERN_DOFS, &values));
+  PetscCall(NodeGradient_Private(p, c, j, c->active[j] ? active : 0, PETSC_TRUE, dofs, values, &num));
+  PetscCall(PetscFindInt(c->zdof[j], num, dofs, &at));
+  if (!c->active[j]) values[at] = p->symmetric ? -c->w0[j] / c->c[j] : c->w0[j];
   PetscCall(MatSetValues(p->matrix, 1, &c->zdof[j], num, dofs, values, INSERT_VALUES));
+  if (p->symmetric) PetscCall(MatSetValues(p->matrix, num, dofs, 1, &c->zdof[j], values, INSERT_VALUES));
   PetscCall(PetscFree2(dofs, values));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Rows of all multipliers of this rank, and the lift of the active ones. */
+/* Right-hand side of multiplier row j in the form of its row. Symmetric form, inactive: the known change -z_j of the multiplier goes to the forces
+   (share: 1 to put it there, -1 to take it back). */
+static PetscErrorCode RowSide_Private(Problem p, const Contact *c, PetscInt j, PetscReal *value)
+{
+  PetscFunctionBegin;
+  if (!p->symmetric)
+    *value = -c->w0[j] * (c->active[j] ? c->c[j] * (c->gap[j] + c->lift[j]) / c->weight[j] : c->z[j]);
+  else
+    *value = c->active[j] ? c->gap[j] + c->lift[j] : c->w0[j] / c->c[j] * c->z[j];
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode InactiveShift_Private(Problem p, Contact *c, PetscInt j, PetscReal share, Vec rhs)
+{
+  PetscInt   num, at, *dofs;
+  PetscReal *values;
+
+  PetscFunctionBegin;
+  if (!p->symmetric || c->z[j] == 0) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(PetscMalloc2(2 * MOST_PATTERN_DOFS, &dofs, 2 * MOST_PATTERN_DOFS, &values));
+  PetscCall(NodeGradient_Private(p, c, j, -share * c->z[j], PETSC_FALSE, dofs, values, &num));
+  PetscCall(PetscFindInt(c->zdof[j], num, dofs, &at));
+  values[at] = 0;
+  PetscCall(VecSetValues(rhs, num, dofs, values, ADD_VALUES));
+  PetscCall(PetscFree2(dofs, values));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode RowSides_Private(Problem p, Vec rhs)
+{
+  PetscReal *b;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetArray(rhs, &b));
+  for (PetscInt i = 0; i < p->num_contacts; ++i) {
+    Contact *c = &p->contacts[i];
+    for (PetscInt j = 0; j < c->side[0].num_nodes; ++j) {
+      if (c->zlocal[j] >= 0) PetscCall(RowSide_Private(p, c, j, &b[c->zlocal[j]]));
+    }
+  }
+  PetscCall(VecRestoreArray(rhs, &b));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode ProblemRightSide(Problem p, Vec r, Vec lift, Vec rhs)
+{
+  PetscFunctionBegin;
+  PetscCall(VecWAXPY(rhs, 1.0, r, lift));
+  PetscCall(VecScale(rhs, -1.0));
+  PetscCall(RowSides_Private(p, rhs));
+  for (PetscInt i = 0; i < p->num_contacts; ++i) {
+    Contact *c = &p->contacts[i];
+    for (PetscInt j = 0; j < c->side[0].num_nodes; ++j) {
+      if (c->zlocal[j] >= 0 && !c->active[j]) PetscCall(InactiveShift_Private(p, c, j, 1, rhs));
+    }
+  }
+  PetscCall(VecAssemblyBegin(rhs));
+  PetscCall(VecAssemblyEnd(rhs));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Rows of all multipliers of this rank. */
 static PetscErrorCode ContactRowsInsert_Private(Problem p, Contact *c)
 {
   PetscFunctionBegin;
   for (PetscInt j = 0; j < c->side[0].num_nodes; ++j) {
-    if (c->zlocal[j] < 0) continue;
-    PetscCall(ContactInsertRow_Private(p, c, j));
-    if (p->lifting && c->active[j]) PetscCall(VecSetValue(p->lift, c->zdof[j], c->w0[j] * c->c[j] / c->weight[j] * c->lift[j], ADD_VALUES));
+    if (c->zlocal[j] >= 0) PetscCall(ContactInsertRow_Private(p, c, j));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -234,35 +307,34 @@ PetscErrorCode ProblemTangent(Problem p, Vec x, const PetscReal pressure[], Vec 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* New activity of one pair for the increment dx; rewrites rows that switched. */
-static PetscErrorCode ContactSwitch_Private(Problem p, Contact *c, Vec dx, Vec rhs, PetscInt *changed)
+/* New activity of one pair for the increment dx: rows that switch are rewritten, multiplier right-hand sides go to b, force shifts to rhs. */
+static PetscErrorCode ContactSwitch_Private(Problem p, Contact *c, const PetscReal dz[], Vec rhs, PetscInt *changed)
 {
-  const PetscInt   n = c->side[0].num_nodes;
-  const PetscReal *d;
-  PetscReal       *dz, *b;
-
   PetscFunctionBegin;
   PetscCall(ContactChange_Private(p, c, p->increment, c->change));
-  PetscCall(PetscCalloc1(n, &dz));
-  PetscCall(VecGetArrayRead(dx, &d));
-  for (PetscInt j = 0; j < n; ++j) {
-    if (c->zlocal[j] >= 0) dz[j] = d[c->zlocal[j]];
-  }
-  PetscCall(VecRestoreArrayRead(dx, &d));
-  if (p->size > 1) PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, dz, (PetscMPIInt)n, MPIU_REAL, MPI_SUM, p->comm));
-  PetscCall(VecGetArray(rhs, &b));
-  for (PetscInt j = 0; j < n; ++j) {
-    if (!c->has_multiplier[j] || c->weight[j] <= 1e-10 * c->w0[j]) continue;
+  for (PetscInt j = 0; j < c->side[0].num_nodes; ++j) {
+    if (!c->has_multiplier[j] || !ContactCovered_Private(c, j)) continue;
     const PetscBool active = (PetscBool)(c->z[j] + dz[j] - c->c[j] * (c->gap[j] + c->change[j]) / c->weight[j] > 0);
     if (active == c->active[j]) continue;
     c->active[j] = active;
     ++*changed;
     if (c->zlocal[j] < 0) continue;
     PetscCall(ContactInsertRow_Private(p, c, j));
-    b[c->zlocal[j]] = -c->w0[j] * (active ? c->c[j] * (c->gap[j] + c->lift[j]) / c->weight[j] : c->z[j]);
+    PetscCall(InactiveShift_Private(p, c, j, active ? -1 : 1, rhs));
   }
-  PetscCall(VecRestoreArray(rhs, &b));
-  PetscCall(PetscFree(dz));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Change of the multipliers of a pair in dx, on all ranks. */
+static PetscErrorCode MultiplierChange_Private(Problem p, const Contact *c, Vec dx, PetscReal dz[])
+{
+  const PetscReal *d;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetArrayRead(dx, &d));
+  for (PetscInt j = 0; j < c->side[0].num_nodes; ++j) dz[j] = c->zlocal[j] >= 0 ? d[c->zlocal[j]] : 0;
+  PetscCall(VecRestoreArrayRead(dx, &d));
+  if (p->size > 1) PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, dz, (PetscMPIInt)c->side[0].num_nodes, MPIU_REAL, MPI_SUM, p->comm));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -272,8 +344,18 @@ PetscErrorCode ProblemSwitchActiveSet(Problem p, Vec x, Vec dx, Vec rhs, PetscIn
   *changed = 0;
   if (!p->num_contacts) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(ProblemIncrement_Private(p, dx, 1.0));
-  for (PetscInt i = 0; i < p->num_contacts; ++i) PetscCall(ContactSwitch_Private(p, &p->contacts[i], dx, rhs, changed));
+  for (PetscInt i = 0; i < p->num_contacts; ++i) {
+    Contact   *c = &p->contacts[i];
+    PetscReal *dz;
+    PetscCall(PetscMalloc1(c->side[0].num_nodes, &dz));
+    PetscCall(MultiplierChange_Private(p, c, dx, dz));
+    PetscCall(ContactSwitch_Private(p, c, dz, rhs, changed));
+    PetscCall(PetscFree(dz));
+  }
   if (*changed) {
+    PetscCall(VecAssemblyBegin(rhs));
+    PetscCall(VecAssemblyEnd(rhs));
+    PetscCall(RowSides_Private(p, rhs));
     PetscCall(MatAssemblyBegin(p->matrix, MAT_FINAL_ASSEMBLY));
     PetscCall(MatAssemblyEnd(p->matrix, MAT_FINAL_ASSEMBLY));
   }

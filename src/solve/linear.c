@@ -1,4 +1,5 @@
-/* The linear solver: one direct factorisation by default, MUMPS where PETSc has it; every option of KSP and PC works as usual. */
+/* The linear solver: one direct factorisation by default, LDL^T where the tangent is symmetric, LU otherwise; MUMPS where PETSc has it; every option of KSP and
+ * PC works as usual. */
 #include "solveimpl.h"
 
 PetscErrorCode SolverLinear_Private(Solver s)
@@ -10,7 +11,7 @@ PetscErrorCode SolverLinear_Private(Solver s)
   PetscCall(SNESGetKSP(s->snes, &ksp));
   PetscCall(KSPGetPC(ksp, &pc));
   PetscCall(KSPSetType(ksp, KSPPREONLY));
-  PetscCall(PCSetType(pc, PCLU));
+  PetscCall(PCSetType(pc, s->symmetric ? PCCHOLESKY : PCLU));
 #if defined(PETSC_HAVE_MUMPS)
   PetscCall(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS));
 #endif

@@ -82,10 +82,12 @@ static PetscErrorCode Test_Private(SNES snes, Solver s, Vec x)
   PetscBool bad;
 
   PetscFunctionBegin;
+  PetscCall(ProblemSetSymmetric(s->problem, PETSC_FALSE));
   PetscCall(ProblemTangent(s->problem, x, NULL, NULL, &bad));
   PetscCall(ProblemGetMatrix(s->problem, &A));
   PetscCall(SNESSetJacobian(snes, A, A, NULL, NULL));
   PetscCall(SNESComputeJacobian(snes, x, A, A));
+  PetscCall(ProblemSetSymmetric(s->problem, s->symmetric));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -129,8 +131,7 @@ static PetscErrorCode SNESSolve_ContactNewton(SNES snes)
     ++s->report->iterations;
     PetscCall(VecZeroEntries(s->lift));
     PetscCall(ProblemTangent(s->problem, x, s->pressure, s->lift, &bad));
-    PetscCall(VecWAXPY(s->rhs, 1.0, r, s->lift));
-    PetscCall(VecScale(s->rhs, -1.0));
+    PetscCall(ProblemRightSide(s->problem, r, s->lift, s->rhs));
     PetscCall(LinearStep_Private(snes, s, x, dx, &ok));
     if (!ok) {
       PetscCall(Finish_Private(snes, s, SNES_DIVERGED_LINEAR_SOLVE, "the tangent is singular"));

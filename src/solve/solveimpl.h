@@ -8,6 +8,7 @@ struct _p_Solver {
   Vec           lift, rhs;
   PetscReal    *pressure; /* of the state being solved, borrowed during SolverSolve */
   PetscReal     rtol;
+  PetscBool     symmetric; /* LDL^T of the symmetric form */
   PetscInt      max_it, passes, cuts;
   PetscBool     test; /* -snes_test_jacobian was given */
   SolverReport *report;

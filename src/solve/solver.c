@@ -33,7 +33,12 @@ static PetscErrorCode Options_Private(Solver s)
   PetscCall(PetscOptionsInt("-solve_max_it", "Newton iterations before a step is given up", NULL, s->max_it, &s->max_it, NULL));
   PetscCall(PetscOptionsInt("-solve_active_set_passes", "Active-set passes against one linearisation", NULL, s->passes, &s->passes, NULL));
   PetscCall(PetscOptionsInt("-solve_cuts", "Halvings of a Newton step that leaves the domain", NULL, s->cuts, &s->cuts, NULL));
+  PetscCall(ProblemIsSymmetric(s->problem, &s->symmetric));
+  if (s->symmetric)
+    PetscCall(PetscOptionsBool("-solve_symmetric", "Factorise the symmetric form of the tangent (LDL^T) rather than the exact one (LU)", NULL, s->symmetric,
+                               &s->symmetric, NULL));
   PetscOptionsEnd();
+  PetscCall(ProblemSetSymmetric(s->problem, s->symmetric));
   PetscCall(PetscOptionsHasName(NULL, NULL, "-snes_test_jacobian", &s->test));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
