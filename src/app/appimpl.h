@@ -34,7 +34,7 @@ typedef struct {
 } App;
 
 /* start.c: PetscInitialize, cheaply for a single process. */
-PetscErrorCode AppInitialize(int *argc, char ***argv);
+PetscErrorCode AppInitialize(int argc, char **argv);
 /* loadstep.c: all load steps; app->failure is set when the solver gives up. Collective. */
 PetscErrorCode AppRun(App *);
 /* adaptstep.c: after a solution at the current time, refine and solve again until the tolerance or a limit is met. */

@@ -1,5 +1,6 @@
 /* mortise: finite-deformation contact with error control. The story goes on in loadstep.c and adaptstep.c. */
 #include "appimpl.h"
+#include <signal.h>
 
 static PetscErrorCode Open_Private(App *app, Forest forest)
 {
@@ -67,6 +68,7 @@ static PetscErrorCode Solve_Private(int argc, char **argv, PetscBool *gave_up)
 
   PetscFunctionBegin;
   PetscCall(PetscTime(&app.start));
+  PetscCheckInput(argc > 1, "no scene was named; say mortise SCENE.yml, or mortise -help");
   PetscCall(SceneCreate(app.comm, argc, argv, &app.scene));
   PetscCall(StageBegin(STAGE_MESH));
   PetscCall(SceneSetUp(app.scene, &forest));
@@ -94,16 +96,33 @@ static PetscBool Asked_Private(int argc, char **argv, const char *option)
   return PETSC_FALSE;
 }
 
+/* Options of PETSc that nothing asked for are most likely mistyped: say so. */
+static PetscErrorCode UnusedOptions_Private(void)
+{
+  PetscMPIInt rank;
+  PetscInt    num;
+  char      **names, **values;
+
+  PetscFunctionBegin;
+  PetscCallMPI(MPI_Comm_rank(PETSC_COMM_WORLD, &rank));
+  PetscCall(PetscOptionsLeftGet(NULL, &num, &names, &values));
+  for (PetscInt i = 0; i < num && rank == 0; ++i) fprintf(stderr, "mortise: nothing used the option -%s; is it spelt right?\n", names[i]);
+  PetscCall(PetscOptionsLeftRestore(NULL, &num, &names, &values));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 static PetscErrorCode Main_Private(int argc, char **argv, PetscBool *gave_up)
 {
   PetscFunctionBegin;
   PetscCall(StageRegister());
-  if (Asked_Private(argc, argv, "-help"))
+  if (Asked_Private(argc, argv, "-help") || Asked_Private(argc, argv, "--help") || Asked_Private(argc, argv, "-h"))
     PetscCall(ScenePrintHelp(PETSC_COMM_WORLD));
   else if (Asked_Private(argc, argv, "-list"))
     PetscCall(ScenePrintList(PETSC_COMM_WORLD));
-  else
+  else {
     PetscCall(Solve_Private(argc, argv, gave_up));
+    PetscCall(UnusedOptions_Private());
+  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -112,8 +131,9 @@ int main(int argc, char **argv)
   PetscBool      gave_up = PETSC_FALSE;
   PetscErrorCode ierr;
 
-  ierr = AppInitialize(&argc, &argv);
+  ierr = AppInitialize(argc, argv);
   if (ierr) return 2;
+  (void)signal(SIGPIPE, SIG_DFL); /* output cut short by `head` is no error to report */
   ierr = ErrorHandlerPush();
   if (!ierr) ierr = Main_Private(argc, argv, &gave_up);
   if (ierr) {

@@ -12,15 +12,37 @@ static const char *const Alone[][2] = {
 };
 enum { NUM_ALONE = sizeof(Alone) / sizeof(Alone[0]) };
 
-/* PetscInitialize with those settings when no launcher started this process; what the user has set wins. */
-PetscErrorCode AppInitialize(int *argc, char ***argv)
+/* Our manual and catalogue, not PETSc's. */
+static int Ours_Private(const char *argument)
 {
+  return !strcmp(argument, "-help") || !strcmp(argument, "--help") || !strcmp(argument, "-h") || !strcmp(argument, "-list");
+}
+
+/* The arguments without those; lives as long as the program (PETSc keeps the pointer). */
+static char **Arguments_Private(int *argc, char **argv)
+{
+  char **kept = (char **)calloc((size_t)*argc + 1, sizeof(char *));
+  int    num  = 0;
+
+  if (!kept) return argv;
+  for (int i = 0; i < *argc; ++i) {
+    if (i == 0 || !Ours_Private(argv[i])) kept[num++] = argv[i];
+  }
+  *argc = num;
+  return kept;
+}
+
+/* PetscInitialize with those settings when no launcher started this process; what the user has set wins. */
+PetscErrorCode AppInitialize(int argc, char **argv)
+{
+  static char  **arguments;
   int            set[NUM_ALONE] = {0};
   const int      alone          = !getenv("OMPI_COMM_WORLD_SIZE") && !getenv("PMIX_RANK") && !getenv("PMI_RANK");
   PetscErrorCode ierr;
 
   for (int i = 0; alone && i < NUM_ALONE; ++i) set[i] = !getenv(Alone[i][0]) && !setenv(Alone[i][0], Alone[i][1], 1);
-  ierr = PetscInitialize(argc, argv, NULL, NULL);
+  arguments = Arguments_Private(&argc, argv);
+  ierr      = PetscInitialize(&argc, &arguments, NULL, NULL);
   for (int i = 0; i < NUM_ALONE; ++i) {
     if (set[i]) unsetenv(Alone[i][0]); /* programs we start (gmsh) do not inherit them */
   }
