@@ -1,29 +1,16 @@
 /* The residual estimate: sums over cells (equilibrium inside, incompressibility), then over facets, then over ranks.
 
-     eta_K^2 = h^2/(p^2 mu) |Div P + B|^2 + 1/2 sum h/(p mu) |[P N]|^2 + sum h/(p mu) |P N - T|^2 + contact + w |g - Proj g|^2
+     eta_K^2 = scale { h^2/(p^2 m) |Div P + B|^2 + 1/2 sum h/(p m) |[P N]|^2 + sum h/(p m) |P N - T|^2 } + complementarity of contact
+     mixed cells: P with the recovered pressure (recover.c), + 1/kappa |q|^2 + w |g - Proj g|^2
+     m, scale: EstimateModulus_Private, ESTIMATE_SCALE
 
-   (docs/theory.md, error estimation). Div P is exact for the polynomial through the values of P at the (p+1)^dim Gauss points. */
+   (docs/theory.md, error estimation). Div P is exact for the polynomial through the values of P at the Gauss points. */
 #include "estimateimpl.h"
 
-#define MOST_1D (MORTISE_MAX_ORDER + 1)
-
-/* Gauss points of a cell of one order, and the derivative of the Lagrange polynomials through them. */
-typedef struct {
-  PetscInt   order, n1, num; /* n1 = order+1 points in each direction */
-  PetscReal *xi, *weight;    /* owned [num][dim], [num] */
-  PetscReal *N, *G;          /* owned [num][n], [num][n][dim] displacement basis and its gradient */
-  PetscReal  D[MOST_1D][MOST_1D];
-} VolumeTable;
-
-/* Buffers of one cell. */
-typedef struct {
-  PetscReal *X, *xi, *F, *P, *W, *J, *position, *weight, *g;
-} CellWork;
-
 /* Derivatives at the points x[n] of the Lagrange polynomials through them, by barycentric weights. */
-static void LagrangeDerivative_Private(PetscInt n, const PetscReal x[], PetscReal D[][MOST_1D])
+static void LagrangeDerivative_Private(PetscInt n, const PetscReal x[], PetscReal D[][ESTIMATE_MOST_1D])
 {
-  PetscReal w[MOST_1D];
+  PetscReal w[ESTIMATE_MOST_1D];
 
   for (PetscInt j = 0; j < n; ++j) {
     w[j] = 1;
@@ -40,19 +27,20 @@ static void LagrangeDerivative_Private(PetscInt n, const PetscReal x[], PetscRea
   }
 }
 
-static PetscErrorCode TableCreate_Private(PetscInt dim, PetscInt order, VolumeTable *table)
+/* order+1 points in each direction; mixed: one more, for the recovered pressure has more coefficients. */
+static PetscErrorCode TableCreate_Private(PetscInt dim, PetscInt order, PetscBool mixed, VolumeTable *table)
 {
-  const PetscInt n = ElementNumNodes(dim, order);
+  const PetscInt n1 = order + (mixed ? 2 : 1), n = ElementNumNodes(dim, order), num = ElementNumNodes(dim, n1 - 1);
   const Basis1D *gauss;
 
   PetscFunctionBegin;
   if (table->order) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(Basis1DGet(order, order + 1, &gauss));
+  PetscCall(Basis1DGet(order, n1, &gauss));
   table->order = order;
-  table->n1    = order + 1;
-  table->num   = n; /* as many points as nodes */
-  PetscCall(PetscMalloc4(n * dim, &table->xi, n, &table->weight, n * n, &table->N, n * n * dim, &table->G));
-  for (PetscInt q = 0; q < n; ++q) {
+  table->n1    = n1;
+  table->num   = num;
+  PetscCall(PetscMalloc4(num * dim, &table->xi, num, &table->weight, num * n, &table->N, num * n * dim, &table->G));
+  for (PetscInt q = 0; q < num; ++q) {
     table->weight[q] = 1;
     for (PetscInt d = 0, i = q; d < dim; ++d, i /= table->n1) {
       table->xi[q * dim + d] = gauss->points[i % table->n1];
@@ -61,6 +49,7 @@ static PetscErrorCode TableCreate_Private(PetscInt dim, PetscInt order, VolumeTa
     PetscCall(ElementEvaluate(dim, order, table->xi + q * dim, table->N + q * n, table->G + q * n * dim));
   }
   LagrangeDerivative_Private(table->n1, gauss->points, table->D);
+  if (mixed) PetscCall(RecoveryCreate_Private(dim, table));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -78,7 +67,7 @@ static void Geometry_Private(PetscInt dim, PetscInt n, const PetscReal X[], cons
 
 PetscErrorCode EstimateGeometry_Private(PetscInt dim, PetscInt order, const PetscReal X[], const PetscReal xi[], PetscReal position[3], PetscReal J[9])
 {
-  PetscReal N[MOST_1D * MOST_1D * MOST_1D], G[3 * MOST_1D * MOST_1D * MOST_1D];
+  PetscReal N[ESTIMATE_MOST_NODES], G[3 * ESTIMATE_MOST_NODES];
 
   PetscFunctionBegin;
   PetscCall(ElementEvaluate(dim, order, xi, N, G));
@@ -130,30 +119,38 @@ static void Divergence_Private(PetscInt dim, Model model, const VolumeTable *tab
   }
 }
 
-/* Weighted square of Div P + B over a cell. */
-static PetscErrorCode Interior_Private(const EstimateSum *sum, const BodySpec *body, const VolumeTable *table, const CellWork *w, PetscReal *square)
+/* R = Div P + B at the Gauss points. */
+static PetscErrorCode Residual_Private(const EstimateSum *sum, const BodySpec *body, const VolumeTable *table, CellWork *w)
 {
   const PetscInt dim = sum->v->dim;
 
   PetscFunctionBegin;
-  *square = 0;
   for (PetscInt q = 0; q < table->num; ++q) {
-    PetscReal r[3], force;
-    Divergence_Private(dim, sum->spec->model, table, q, w->P, w->J + 9 * q, w->position + 3 * q, r);
+    PetscReal force;
+    Divergence_Private(dim, sum->spec->model, table, q, w->P, w->J + 9 * q, w->position + 3 * q, w->R + 3 * q);
     for (PetscInt c = 0; c < dim; ++c) {
       if (!body->force[c]) continue;
       PetscCall(EstimateValue_Private(body->force[c], &body->amplitude, w->position + 3 * q, sum->time, &force));
-      r[c] += force;
+      w->R[3 * q + c] += force;
     }
-    *square += w->weight[q] * Dot3(r, r);
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The part of g(J) that the pressure space does not see, squared and weighted: the residual of the pressure's equation g = pi/modulus. */
-static PetscErrorCode Volume_Private(const EstimateSum *sum, const MaterialSpec *material, const VolumeTable *table, CellWork *w, PetscReal *square)
+static PetscReal WeightedSquare_Private(PetscInt num, PetscInt components, const PetscReal weight[], const PetscReal values[])
 {
-  PetscReal coefficient[MOST_1D * MOST_1D * MOST_1D], *projected = w->g + table->num, g[3];
+  PetscReal sum = 0;
+
+  for (PetscInt q = 0; q < num; ++q) {
+    for (PetscInt c = 0; c < components; ++c) sum += weight[q] * PetscSqr(values[components * q + c]);
+  }
+  return sum;
+}
+
+/* The part of g(J) that the pressure space does not see, in w->g: the residual of the pressure's equation g = pi/modulus. */
+static PetscErrorCode UnseenVolume_Private(const EstimateSum *sum, const MaterialSpec *material, const VolumeTable *table, CellWork *w)
+{
+  PetscReal coefficient[ESTIMATE_MOST_NODES], *projected = w->g + table->num, g[3];
 
   PetscFunctionBegin;
   for (PetscInt q = 0; q < table->num; ++q) {
@@ -166,52 +163,66 @@ static PetscErrorCode Volume_Private(const EstimateSum *sum, const MaterialSpec 
   }
   PetscCall(MechanicsPressureProject(sum->v->dim, table->order, table->num, table->xi, w->weight, w->g, coefficient));
   PetscCall(MechanicsPressureEvaluate(sum->v->dim, table->order, table->num, table->xi, coefficient, projected));
-  *square = 0;
-  for (PetscInt q = 0; q < table->num; ++q) *square += w->weight[q] * PetscSqr(w->g[q] - projected[q]);
+  for (PetscInt q = 0; q < table->num; ++q) w->g[q] -= projected[q];
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Modulus of the pressure's residual: the volumetric stiffness while it is small, then the shear modulus: a volume error that the pressure space does
-   not see is answered by shear, however stiff the material is against its mean (robust as kappa/mu grows). */
-static PetscReal VolumeWeight_Private(const MaterialSpec *material, Kinematics kinematics)
+static PetscReal VolumetricModulus_Private(const EstimateSum *sum, const MaterialSpec *material)
 {
-  const PetscReal kappa = kinematics == KINEMATICS_FINITE ? MaterialVolumetricModulus(material) : material->kappa;
-  return 2 * material->mu * kappa / (2 * material->mu + kappa);
+  return sum->spec->kinematics == KINEMATICS_FINITE ? MaterialVolumetricModulus(material) : material->kappa;
 }
 
-static PetscErrorCode OwnedCell_Private(EstimateSum *sum, PetscInt cell, const VolumeTable *table, CellWork *w, const PetscReal height[3])
+/* Incompressibility: 1/kappa |q|^2, the error of the pressure as recovered, and w |g - Proj g|^2, w = 2 mu kappa / (2 mu + kappa): a volume error that the
+   pressure space does not see is answered by shear, however stiff the material is against its mean. */
+static PetscErrorCode Volume_Private(const EstimateSum *sum, const MaterialSpec *material, const VolumeTable *table, CellWork *w, PetscReal *square)
 {
-  const PetscInt      dim = sum->v->dim, n = table->num, leaf = sum->v->cell_leaf[cell];
-  const BodySpec     *body     = &sum->spec->bodies[sum->t->leaf_body[leaf]];
-  const MaterialSpec *material = body->material;
-  PetscReal           h        = height[0], square;
+  const PetscReal kappa = VolumetricModulus_Private(sum, material);
 
   PetscFunctionBegin;
-  for (PetscInt q = 0; q < n; ++q) {
+  *square = WeightedSquare_Private(table->num, 1, w->weight, w->recovered) / kappa;
+  PetscCall(UnseenVolume_Private(sum, material, table, w));
+  *square += 2 * material->mu * kappa / (2 * material->mu + kappa) * WeightedSquare_Private(table->num, 1, w->weight, w->g);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static void VolumeGeometry_Private(const EstimateSum *sum, const VolumeTable *table, CellWork *w)
+{
+  const PetscInt dim = sum->v->dim, n = ElementNumNodes(dim, table->order);
+
+  for (PetscInt q = 0; q < table->num; ++q) {
     Geometry_Private(dim, n, w->X, table->N + q * n, table->G + q * n * dim, w->position + 3 * q, w->J + 9 * q);
     w->weight[q] = table->weight[q] * Det3(w->J + 9 * q);
     if (sum->spec->model == MODEL_AXISYMMETRIC) w->weight[q] *= 2 * PETSC_PI * w->position[3 * q];
-    sum->energy += w->weight[q] * w->W[q];
   }
-  for (PetscInt d = 1; d < dim; ++d) h = PetscMin(h, height[d]);
-  PetscCall(Interior_Private(sum, body, table, w, &square));
-  square *= PetscSqr(h / table->order) / material->mu;
+}
+
+/* Energy, interior residual and incompressibility of an owned cell. */
+static PetscErrorCode OwnedCell_Private(EstimateSum *sum, PetscInt cell, const VolumeTable *table, CellWork *w, const PetscReal height[3])
+{
+  const PetscInt      leaf     = sum->v->cell_leaf[cell];
+  const MaterialSpec *material = sum->spec->bodies[sum->t->leaf_body[leaf]].material;
+  PetscReal           h        = height[0], square;
+
+  PetscFunctionBegin;
+  for (PetscInt q = 0; q < table->num; ++q) sum->energy += w->weight[q] * w->W[q];
+  for (PetscInt d = 1; d < sum->v->dim; ++d) h = PetscMin(h, height[d]);
+  square = WeightedSquare_Private(table->num, 3, w->weight, w->R) * ESTIMATE_SCALE * PetscSqr(h / table->order) / EstimateModulus_Private(material);
   sum->eta2[leaf] += square;
   sum->part[PART_INTERIOR] += square;
   if (!material->mixed) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(Volume_Private(sum, material, table, w, &square));
-  square *= VolumeWeight_Private(material, sum->spec->kinematics);
   sum->eta2[leaf] += square;
   sum->part[PART_VOLUME] += square;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* One call of the material for all points of a cell: Gauss points first (owned cells), then those of its facets. */
-static PetscErrorCode Cell_Private(EstimateSum *sum, PetscInt cell, VolumeTable tables[], CellWork *w, PetscReal height[][3])
+/* One call of the material for all points of a cell: Gauss points first, then those of its facets. A ghost needs the former only to recover its pressure. */
+static PetscErrorCode Cell_Private(EstimateSum *sum, PetscInt cell, VolumeTable tables[][2], CellWork *w, PetscReal height[][3])
 {
   const PetscInt  dim = sum->v->dim, order = sum->v->cell_order[cell];
-  const PetscBool owned = (PetscBool)(cell < sum->v->num_owned_cells);
-  VolumeTable    *table = &tables[order];
+  const BodySpec *body  = &sum->spec->bodies[sum->t->leaf_body[sum->v->cell_leaf[cell]]];
+  const PetscBool owned = (PetscBool)(cell < sum->v->num_owned_cells), mixed = body->material->mixed;
+  VolumeTable    *table = &tables[order][mixed];
   PetscInt        num = 0, traces = 0;
 
   PetscFunctionBegin;
@@ -220,17 +231,25 @@ static PetscErrorCode Cell_Private(EstimateSum *sum, PetscInt cell, VolumeTable 
     traces += dim == 2 ? n1 : n1 * n1;
   }
   if (!owned && !traces) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(TableCreate_Private(dim, order, table));
+  PetscCall(TableCreate_Private(dim, order, mixed, table));
   PetscCall(HPSpaceGatherPositions(sum->space, cell, w->X));
-  if (owned) {
+  if (owned || mixed) {
     num = table->num;
     PetscCall(PetscArraycpy(w->xi, table->xi, num * dim));
-    Height_Private(dim, order, w->X, height[cell]);
   }
-  PetscCall(EstimateTracePoints_Private(sum, cell, w->xi + num * dim));
+  PetscReal *xi = w->xi + num * dim, *F = w->F + 9 * num, *P = w->P + 9 * num;
+  PetscCall(EstimateTracePoints_Private(sum, cell, xi));
   PetscCall(MechanicsPoints(sum->mechanics, cell, num + traces, w->xi, sum->u, w->F, w->P, w->W));
-  if (owned) PetscCall(OwnedCell_Private(sum, cell, table, w, height[cell]));
-  PetscCall(EstimateTraces_Private(sum, cell, w->X, w->xi + num * dim, w->F + 9 * num, w->P + 9 * num));
+  if (num) {
+    VolumeGeometry_Private(sum, table, w);
+    PetscCall(Residual_Private(sum, body, table, w));
+  }
+  if (mixed) PetscCall(EstimateRecover_Private(sum, table, w, traces, xi, F, P));
+  if (owned) {
+    Height_Private(dim, order, w->X, height[cell]);
+    PetscCall(OwnedCell_Private(sum, cell, table, w, height[cell]));
+  }
+  PetscCall(EstimateTraces_Private(sum, cell, w->X, xi, F, P));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -239,10 +258,10 @@ static PetscErrorCode WorkCreate_Private(const EstimateSum *sum, CellWork *w)
   PetscInt most = 0;
 
   PetscFunctionBegin;
-  for (PetscInt c = 0; c < sum->v->num_cells; ++c) most = PetscMax(most, ElementNumNodes(sum->v->dim, sum->v->cell_order[c]));
+  for (PetscInt c = 0; c < sum->v->num_cells; ++c) most = PetscMax(most, ElementNumNodes(sum->v->dim, sum->v->cell_order[c] + 1));
   const PetscInt points = most + sum->facets.most_points;
   PetscCall(PetscMalloc5(3 * most, &w->X, 3 * points, &w->xi, 9 * points, &w->F, 9 * points, &w->P, points, &w->W));
-  PetscCall(PetscMalloc4(9 * most, &w->J, 3 * most, &w->position, most, &w->weight, 2 * most, &w->g));
+  PetscCall(PetscMalloc6(9 * most, &w->J, 3 * most, &w->position, most, &w->weight, 2 * most, &w->g, 3 * most, &w->R, most, &w->recovered));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -250,13 +269,13 @@ static PetscErrorCode WorkDestroy_Private(CellWork *w)
 {
   PetscFunctionBegin;
   PetscCall(PetscFree5(w->X, w->xi, w->F, w->P, w->W));
-  PetscCall(PetscFree4(w->J, w->position, w->weight, w->g));
+  PetscCall(PetscFree6(w->J, w->position, w->weight, w->g, w->R, w->recovered));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 static PetscErrorCode Cells_Private(EstimateSum *sum, PetscReal height[][3])
 {
-  VolumeTable tables[MORTISE_MAX_ORDER + 1] = {0};
+  VolumeTable tables[MORTISE_MAX_ORDER + 1][2] = {0};
   CellWork    w;
 
   PetscFunctionBegin;
@@ -265,8 +284,11 @@ static PetscErrorCode Cells_Private(EstimateSum *sum, PetscReal height[][3])
     const BodySpec *body = &sum->spec->bodies[sum->t->leaf_body[sum->v->cell_leaf[c]]];
     if (!body->material->law->rigid) PetscCall(Cell_Private(sum, c, tables, &w, height));
   }
-  for (PetscInt p = 1; p <= MORTISE_MAX_ORDER; ++p) {
-    if (tables[p].order) PetscCall(PetscFree4(tables[p].xi, tables[p].weight, tables[p].N, tables[p].G));
+  for (PetscInt i = 2; i < 2 * (MORTISE_MAX_ORDER + 1); ++i) {
+    VolumeTable *table = &tables[i / 2][i % 2];
+    if (!table->order) continue;
+    PetscCall(PetscFree4(table->xi, table->weight, table->N, table->G));
+    PetscCall(RecoveryDestroy_Private(table));
   }
   PetscCall(WorkDestroy_Private(&w));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -137,20 +137,20 @@ static PetscReal Free_Private(PetscInt dim, PetscInt fixed, const PetscReal N[3]
   return Dot3(d, d);
 }
 
-/* Mean of the sides' shear moduli: the weight is then the same seen from either side, and a soft neighbour of a hard body is not overestimated. */
+/* Mean of the sides' moduli: the weight is then the same seen from either side, and a soft neighbour of a hard body is not overestimated. */
 static PetscReal FacetModulus_Private(const EstimateSum *sum, const FacetPlace *f)
 {
   PetscReal mu = 0, num = 0;
 
   for (PetscInt s = 0; s < 2; ++s) {
     if (f->side[s].cell < 0) continue;
-    mu += sum->spec->bodies[sum->t->leaf_body[sum->v->cell_leaf[f->side[s].cell]]].material->mu;
+    mu += EstimateModulus_Private(sum->spec->bodies[sum->t->leaf_body[sum->v->cell_leaf[f->side[s].cell]]].material);
     num++;
   }
   return mu / num;
 }
 
-/* eta2 of owned leaves += share * h/(p mu) |defect|^2; h: the leaf's height over the facet, p: the order of the trace. */
+/* eta2 of owned leaves += scale * share * h/(p mu) |defect|^2; h: the leaf's height over the facet, p: the order of the trace. */
 PetscErrorCode EstimateFacets_Private(EstimateSum *sum, const PetscReal height[][3])
 {
   const PetscInt dim = sum->v->dim;
@@ -159,7 +159,7 @@ PetscErrorCode EstimateFacets_Private(EstimateSum *sum, const PetscReal height[]
   for (PetscInt i = 0; i < sum->facets.num; ++i) {
     const FacetPlace *f      = &sum->facets.facets[i];
     const PetscBool   inside = (PetscBool)(f->side[0].cell >= 0 && f->side[1].cell >= 0);
-    const PetscReal   weight = (inside ? 0.5 : 1) / (f->order * FacetModulus_Private(sum, f));
+    const PetscReal   weight = ESTIMATE_SCALE * (inside ? 0.5 : 1) / (f->order * FacetModulus_Private(sum, f));
     const PetscInt    part   = inside ? PART_JUMP : ContactTermsHave_Private(sum->contact, f->facet) ? PART_CONTACT : PART_BOUNDARY;
     PetscReal         square = 0;
     for (PetscInt q = f->first_point; q < f->first_point + NumPoints_Private(dim, f); ++q)
