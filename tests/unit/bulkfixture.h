@@ -50,7 +50,7 @@ static inline Expression BulkExpression(const char *format, ...)
   va_start(arguments, format);
   vsnprintf(text, sizeof(text), format, arguments);
   va_end(arguments);
-  assert_true(bulk_num_expressions < 64);
+  if (bulk_num_expressions == PETSC_STATIC_ARRAY_LENGTH(bulk_expressions)) abort();
   OK(ExpressionCreate("test", text, &bulk_expressions[bulk_num_expressions]));
   return bulk_expressions[bulk_num_expressions++];
 }
