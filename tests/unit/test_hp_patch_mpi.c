@@ -15,7 +15,7 @@ static void RandomOrders(const ForestTables *t, PetscInt low, PetscInt high, int
 /* Refine random leaves, isotropically or not, a few times. */
 static Forest RandomForest(PetscInt dim, PetscInt q, PetscInt rounds, PetscBool anisotropic, uint64_t seed)
 {
-  const PetscInt n[3]   = {2, 2, 2};
+  const PetscInt n[3] = {2, 2, 2};
   Box            box;
   Forest         forest = BoxForest(PETSC_COMM_WORLD, dim, n, q, 0, seed, &box);
 
@@ -157,7 +157,8 @@ static PetscReal ContinuityError(HPSpace space)
       for (PetscInt k = 0; k < (v->dim == 3 ? 81 : 9); ++k) {
         PetscReal xi[3] = {0, 0, 0}, X[3], f[3] = {0, 0, 0};
         for (PetscInt a = 0, j = k; a < v->dim; ++a) {
-          if (a == side / 2) xi[a] = side % 2;
+          if (a == side / 2)
+            xi[a] = side % 2;
           else {
             xi[a] = (j % 9) / 8.;
             j /= 9;
@@ -286,7 +287,7 @@ static void test_transform(void **state)
   for (PetscInt n = 0; n < v->num_nodes; ++n) {
     if (t->parent[v->node_entity[n]] >= 0 || !(t->boundary[v->node_entity[n]] & 4)) continue;
     const PetscReal q[9] = {c, s, 0, -s, c, 0, 0, 0, 1};
-    node[num] = n;
+    node[num]            = n;
     OK(PetscArraycpy(frame[num++], q, 9));
   }
   OK(HPSpaceSetUp(space, NULL, num, node, (const PetscReal(*)[9])frame));
@@ -321,7 +322,8 @@ static void test_transform(void **state)
 int main(int argc, char **argv)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(test_reproduction), cmocka_unit_test(test_reproduction_curved), cmocka_unit_test(test_continuity), cmocka_unit_test(test_default_constraints), cmocka_unit_test(test_transform),
+      cmocka_unit_test(test_reproduction),        cmocka_unit_test(test_reproduction_curved), cmocka_unit_test(test_continuity),
+      cmocka_unit_test(test_default_constraints), cmocka_unit_test(test_transform),
   };
   if (PetscInitialize(&argc, &argv, NULL, NULL)) return 1;
   int failed = cmocka_run_group_tests(tests, NULL, NULL);
