@@ -42,7 +42,17 @@ PetscErrorCode AppReportPass(App *app, PetscInt iterations, PetscBool accepted)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The level on the adapted forest with both states carried over. */
+/* Prescribed motion as it was at time t. */
+static PetscErrorCode PrescribeAt_Private(Problem problem, PetscReal t)
+{
+  PetscFunctionBegin;
+  PetscCall(ProblemSetTime(problem, t));
+  PetscCall(ProblemJump(problem));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The level on the adapted forest with both states carried over, each under the prescribed motion of its own time: new nodes near a support are
+   interpolated from prescribed ones. */
 static PetscErrorCode MoveTo_Private(App *app, Forest forest, const ForestMap *map)
 {
   Level  *old = &app->level, next;
@@ -54,7 +64,10 @@ static PetscErrorCode MoveTo_Private(App *app, Forest forest, const ForestMap *m
   PetscCall(StageBegin(STAGE_TRANSFER));
   next.accepted.t = old->accepted.t;
   PetscCall(TransferState(old->problem, &old->state, next.problem, map, &next.state));
+  PetscCall(PrescribeAt_Private(old->problem, old->accepted.t));
+  PetscCall(PrescribeAt_Private(next.problem, next.accepted.t));
   PetscCall(TransferState(old->problem, &old->accepted, next.problem, map, &next.accepted));
+  PetscCall(PrescribeAt_Private(next.problem, next.state.t));
   PetscCall(StageEnd(STAGE_TRANSFER));
   PetscCall(PetscFree(orders));
   PetscCall(LevelDestroy(old));
@@ -77,8 +90,7 @@ static PetscErrorCode Reequilibrate_Private(App *app, PetscInt *iterations, Pets
   *ok = report.converged;
   if (!*ok) {
     PetscCall(StateCopy(&l->accepted, &l->state));
-    PetscCall(ProblemSetTime(l->problem, l->accepted.t));
-    PetscCall(ProblemJump(l->problem));
+    PetscCall(PrescribeAt_Private(l->problem, l->accepted.t));
     PetscCall(AppAdvance(app, t, ok));
   }
   *iterations = app->newton_iterations - before;
