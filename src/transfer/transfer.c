@@ -51,6 +51,9 @@ PetscErrorCode TransferState(Problem old_problem, const State *from, Problem new
   PetscCheck(to->num_pressure == num_pressure, PETSC_COMM_SELF, PETSC_ERR_ARG_INCOMP, "state holds %" PetscInt_FMT " pressures, its problem %" PetscInt_FMT,
              to->num_pressure, num_pressure);
 
+  /* Prescribed values are no part of a state: the old problem takes those of the state's time, whichever it stood at. */
+  PetscCall(ProblemSetTime(old_problem, from->t));
+  PetscCall(ProblemJump(old_problem));
   PetscCall(PetscMalloc1(c.old_v->num_nodes * c.old_v->dim, &u));
   PetscCall(ProblemLocalDisplacement(old_problem, from->x, u));
   PetscCall(OldCellsFetch_Private(&c, u, PETSC_TRUE, from->pressure, &old));
