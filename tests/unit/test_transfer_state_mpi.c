@@ -1,0 +1,101 @@
+/* A whole state between two live problems: the contact patch carried over to a refined, coarsened, repartitioned mesh is in equilibrium there without a
+   further iteration (displacements, element pressures and multipliers, 1e-9 of the nodal forces), and multipliers that vary linearly arrive as they were. */
+#include "patchfixture.h"
+#include "transfer.h"
+
+/* Carry p over to an adapted mesh; p is the new one afterwards. */
+static void Move(Patch *p, PetscBool coarsen)
+{
+  Forest    adapted;
+  ForestMap map;
+  Problem   problem;
+  State     next;
+  int8_t   *orders;
+
+  PatchAdapt(p->forest, coarsen, &adapted, &map);
+  OK(TransferOrders(&map, p->state.leaf_order, &orders));
+  PatchProblem(&p->data, adapted, orders, &problem, &next);
+  OK(ProblemJump(problem));
+  OK(TransferState(p->problem, &p->state, problem, &map, &next));
+  OK(PetscFree(orders));
+  OK(ForestMapDestroy(&map));
+  OK(StateDestroy(&p->state));
+  OK(ProblemDestroy(&p->problem));
+  OK(ForestDestroy(&p->forest));
+  p->forest  = adapted;
+  p->problem = problem;
+  p->state   = next;
+}
+
+static void Equilibrium(void **state)
+{
+  for (PetscInt kind = 0; kind < 4; ++kind) {
+    Patch         p;
+    int8_t       *orders;
+    ProblemStatus status;
+    Vec           r;
+    PetscReal     norm;
+    PatchScene(&p, 1 + kind % 2, kind == 3 ? MODEL_AXISYMMETRIC : MODEL_PLANE_STRAIN, KINEMATICS_FINITE,
+               kind >= 2 ? FORMULATION_MIXED : FORMULATION_DISPLACEMENT);
+    p.forest = PatchForest((const PetscInt[2]){3, 5});
+    OK(ProblemInitialOrders(&p.data, p.forest, &orders));
+    PatchProblem(&p.data, p.forest, orders, &p.problem, &p.state);
+    OK(PetscFree(orders));
+    PatchSolve(p.problem, &p.state);
+    for (PetscInt step = 0; step < 4; ++step) {
+      Move(&p, (PetscBool)(step % 2));
+      OK(ProblemCreateVector(p.problem, &r));
+      OK(ProblemSearch(p.problem, p.state.x));
+      OK(ProblemResidual(p.problem, p.state.x, r, &status));
+      OK(VecNorm(r, NORM_INFINITY, &norm));
+      assert_true(status.scale > 1e-3);
+      assert_near(norm, 0, 1e-9 * status.scale);
+      for (PetscInt i = 0; i < p.state.num_pressure; i += kind == 2 ? 1 : 3) { /* order 1: the constants; order 2: constant, then gradients */
+        assert_near(p.state.pressure[i], -0.05 * p.material.kappa, 1e-9);
+        for (PetscInt k = 1; kind == 3 && k < 3; ++k) assert_near(p.state.pressure[i + k], 0, 1e-9);
+      }
+      OK(VecDestroy(&r));
+    }
+    PatchDestroy(&p);
+  }
+}
+
+static void LinearMultipliers(void **state)
+{
+  Patch              p;
+  int8_t            *orders;
+  const ContactView *view;
+  PetscReal         *z;
+  ProblemStatus      status;
+  Vec                r;
+
+  PatchScene(&p, 1, MODEL_PLANE_STRAIN, KINEMATICS_FINITE, FORMULATION_DISPLACEMENT);
+  p.forest = PatchForest((const PetscInt[2]){3, 5});
+  OK(ProblemInitialOrders(&p.data, p.forest, &orders));
+  PatchProblem(&p.data, p.forest, orders, &p.problem, &p.state);
+  OK(PetscFree(orders));
+  PatchSolve(p.problem, &p.state);
+  OK(ProblemGetContact(p.problem, 0, &view));
+  OK(PetscMalloc1(view->nonmortar.num_nodes, &z));
+  for (PetscInt n = 0; n < view->nonmortar.num_nodes; ++n) z[n] = 0.1 + 0.03 * view->nonmortar.X[2 * n];
+  OK(ProblemSetMultipliers(p.problem, 0, z, p.state.x));
+  OK(PetscFree(z));
+  for (PetscInt step = 0; step < 4; ++step) {
+    Move(&p, (PetscBool)(step % 2));
+    OK(ProblemCreateVector(p.problem, &r));
+    OK(ProblemSearch(p.problem, p.state.x));
+    OK(ProblemResidual(p.problem, p.state.x, r, &status));
+    OK(VecDestroy(&r));
+    OK(ProblemGetContact(p.problem, 0, &view));
+    for (PetscInt n = 0; n < view->nonmortar.num_nodes; ++n) assert_near(view->z[n], 0.1 + 0.03 * view->nonmortar.X[2 * n], 1e-13);
+  }
+  PatchDestroy(&p);
+}
+
+int main(int argc, char **argv)
+{
+  const struct CMUnitTest tests[] = {cmocka_unit_test(Equilibrium), cmocka_unit_test(LinearMultipliers)};
+  if (PetscInitialize(&argc, &argv, NULL, NULL)) return 1;
+  const int failed = cmocka_run_group_tests(tests, NULL, NULL);
+  return PetscFinalize() || failed;
+}
