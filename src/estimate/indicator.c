@@ -196,17 +196,19 @@ static void VolumeGeometry_Private(const EstimateSum *sum, const VolumeTable *ta
   }
 }
 
-/* Energy, interior residual and incompressibility of an owned cell. */
+/* Energy, interior residual and incompressibility of an owned cell. Where it collapses, the derivative of P takes the steepness of its stiffest point:
+   the weight is that point's, too. */
 static PetscErrorCode OwnedCell_Private(EstimateSum *sum, PetscInt cell, const VolumeTable *table, CellWork *w, const PetscReal height[3])
 {
   const PetscInt      leaf     = sum->v->cell_leaf[cell];
   const MaterialSpec *material = sum->spec->bodies[sum->t->leaf_body[leaf]].material;
-  PetscReal           h        = height[0], square;
+  PetscReal           h = height[0], square, modulus = 0;
 
   PetscFunctionBegin;
   for (PetscInt q = 0; q < table->num; ++q) sum->energy += w->weight[q] * w->W[q];
   for (PetscInt d = 1; d < sum->v->dim; ++d) h = PetscMin(h, height[d]);
-  square = WeightedSquare_Private(table->num, 3, w->weight, w->R) * ESTIMATE_SCALE * PetscSqr(h / table->order) / EstimateModulus_Private(material);
+  for (PetscInt q = 0; q < table->num; ++q) modulus = PetscMax(modulus, EstimateTangent_Private(material, sum->spec->kinematics, w->F + 9 * q, w->P + 9 * q));
+  square = WeightedSquare_Private(table->num, 3, w->weight, w->R) * ESTIMATE_SCALE * PetscSqr(h / table->order) / modulus;
   sum->eta2[leaf] += square;
   sum->part[PART_INTERIOR] += square;
   if (!material->mixed) PetscFunctionReturn(PETSC_SUCCESS);
@@ -306,13 +308,14 @@ PetscErrorCode EstimateBulk_Private(EstimateSum *sum)
   sum->energy = 0;
   PetscCall(PetscArrayzero(sum->part, NUM_PARTS));
   PetscCall(FacetListCreate_Private(sum, &sum->facets));
-  PetscCall(PetscCalloc3(sum->facets.num_points, &sum->defect, sum->facets.num_points, &sum->normal, sum->facets.num_points, &sum->dA));
+  PetscCall(PetscCalloc4(sum->facets.num_points, &sum->defect, sum->facets.num_points, &sum->normal, sum->facets.num_points, &sum->dA, sum->facets.num_points,
+                         &sum->modulus));
   PetscCall(PetscCalloc1(sum->v->num_owned_cells, &height));
   PetscCall(Cells_Private(sum, height));
   PetscCall(EstimateFacets_Private(sum, height));
   if (sum->contact) PetscCall(EstimateComplementarity_Private(sum, height));
   PetscCall(PetscFree(height));
-  PetscCall(PetscFree3(sum->defect, sum->normal, sum->dA));
+  PetscCall(PetscFree4(sum->defect, sum->normal, sum->dA, sum->modulus));
   PetscCall(FacetListDestroy_Private(&sum->facets));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

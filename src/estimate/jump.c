@@ -95,7 +95,8 @@ static PetscErrorCode Defect_Private(EstimateSum *sum, const FacetPlace *f, Pets
 /* Defects at the facet points xi[][dim] of a cell with nodes X, where F and P [][9] are known. */
 PetscErrorCode EstimateTraces_Private(EstimateSum *sum, PetscInt cell, const PetscReal X[], const PetscReal xi[], const PetscReal F[], const PetscReal P[])
 {
-  const PetscInt dim = sum->v->dim, order = sum->v->cell_order[cell];
+  const PetscInt      dim = sum->v->dim, order = sum->v->cell_order[cell];
+  const MaterialSpec *material = sum->spec->bodies[sum->t->leaf_body[sum->v->cell_leaf[cell]]].material;
 
   PetscFunctionBegin;
   for (PetscInt i = sum->facets.cell_first[cell]; i < sum->facets.cell_first[cell + 1]; ++i) {
@@ -113,6 +114,7 @@ PetscErrorCode EstimateTraces_Private(EstimateSum *sum, PetscInt cell, const Pet
       if (sum->spec->model == MODEL_AXISYMMETRIC) weight *= 2 * PETSC_PI * position[0];
       sum->dA[point] = weight * OutwardArea_Private(side->side, J, normal);
       if (side == &f->side[0]) PetscCall(PetscArraycpy(sum->normal[point], normal, 3));
+      sum->modulus[point] += EstimateTangent_Private(material, sum->spec->kinematics, F, P) * (f->side[0].cell >= 0 && f->side[1].cell >= 0 ? 0.5 : 1);
       PetscCall(Defect_Private(sum, f, touches, position, normal, F, P, sum->defect[point]));
     }
   }
@@ -137,19 +139,6 @@ static PetscReal Free_Private(PetscInt dim, PetscInt fixed, const PetscReal N[3]
   return Dot3(d, d);
 }
 
-/* Mean of the sides' moduli: the weight is then the same seen from either side, and a soft neighbour of a hard body is not overestimated. */
-static PetscReal FacetModulus_Private(const EstimateSum *sum, const FacetPlace *f)
-{
-  PetscReal mu = 0, num = 0;
-
-  for (PetscInt s = 0; s < 2; ++s) {
-    if (f->side[s].cell < 0) continue;
-    mu += EstimateModulus_Private(sum->spec->bodies[sum->t->leaf_body[sum->v->cell_leaf[f->side[s].cell]]].material);
-    num++;
-  }
-  return mu / num;
-}
-
 /* eta2 of owned leaves += scale * share * h/(p mu) |defect|^2; h: the leaf's height over the facet, p: the order of the trace. */
 PetscErrorCode EstimateFacets_Private(EstimateSum *sum, const PetscReal height[][3])
 {
@@ -159,11 +148,11 @@ PetscErrorCode EstimateFacets_Private(EstimateSum *sum, const PetscReal height[]
   for (PetscInt i = 0; i < sum->facets.num; ++i) {
     const FacetPlace *f      = &sum->facets.facets[i];
     const PetscBool   inside = (PetscBool)(f->side[0].cell >= 0 && f->side[1].cell >= 0);
-    const PetscReal   weight = ESTIMATE_SCALE * (inside ? 0.5 : 1) / (f->order * FacetModulus_Private(sum, f));
+    const PetscReal   weight = ESTIMATE_SCALE * (inside ? 0.5 : 1) / f->order;
     const PetscInt    part   = inside ? PART_JUMP : ContactTermsHave_Private(sum->contact, f->facet) ? PART_CONTACT : PART_BOUNDARY;
     PetscReal         square = 0;
     for (PetscInt q = f->first_point; q < f->first_point + NumPoints_Private(dim, f); ++q)
-      square += sum->dA[q] * Free_Private(dim, f->fixed, sum->normal[q], sum->defect[q]);
+      square += sum->dA[q] / sum->modulus[q] * Free_Private(dim, f->fixed, sum->normal[q], sum->defect[q]);
     for (PetscInt s = 0; s < 2; ++s) {
       const FacetSide *side = &f->side[s];
       if (side->cell < 0 || side->cell >= sum->v->num_owned_cells) continue;
