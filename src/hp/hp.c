@@ -17,7 +17,7 @@ PetscErrorCode HPSpaceCreate(Forest forest, const int8_t leaf_order[], uint64_t 
   PetscCall(HPSpaceOrders_Private(hp, leaf_order, linear_groups));
   PetscCall(HPSpaceNodes_Private(hp, num_owned));
   PetscCall(HPSpaceRows_Private(hp));
-  PetscCall(HPSpacePositions_Private(hp));
+  PetscCall(HPSpacePositions_Private(hp, linear_groups));
   for (PetscInt c = 0; c < hp->view.num_cells; ++c) {
     const PetscInt nm = hp->cell_row[c + 1] - hp->cell_row[c], n = ElementNumNodes(hp->dim, hp->cell_order[c]);
     largest = PetscMax(largest, nm * n);

@@ -56,7 +56,7 @@ static void OrientInverse_Private(PetscInt d, int8_t code, const PetscReal eta[]
 }
 
 /* Position in leaf coordinates of the point eta of an entity in the closure of the leaf. */
-static void EntityToLeaf_Private(const ForestTables *t, PetscInt leaf, PetscInt entity, PetscInt d, const PetscReal eta[], PetscReal xi[3])
+void HPEntityToLeaf_Private(const ForestTables *t, PetscInt leaf, PetscInt entity, PetscInt d, const PetscReal eta[], PetscReal xi[3])
 {
   const PetscInt  offset = t->closure_offset[t->first[t->dim] + leaf];
   const PetscInt *cl     = t->closure + offset;
@@ -68,13 +68,15 @@ static void EntityToLeaf_Private(const ForestTables *t, PetscInt leaf, PetscInt 
   for (PetscInt a = 0, j = i; a < t->dim; ++a, j /= 3) xi[a] = j % 3 == 1 ? tangent[k++] : (j % 3) / 2;
 }
 
-/* X of true nodes lies on the exact geometry; hanging nodes follow their masters, so that geometry and displacement live in one
-   space: rigid motions and linear fields are represented exactly on every mesh, and neighbours never gape. */
-PetscErrorCode HPSpacePositions_Private(HPSpace hp)
+/* X of true nodes lies on the exact geometry (vertices of linear contact faces: see surface.c); hanging nodes follow their masters, so that geometry and
+   displacement live in one space: rigid motions and linear fields are represented exactly on every mesh, and neighbours never gape. */
+PetscErrorCode HPSpacePositions_Private(HPSpace hp, uint64_t linear_groups)
 {
   const ForestTables *t = hp->tables;
+  PetscReal          *shift;
 
   PetscFunctionBegin;
+  PetscCall(HPSpaceSurfaceShift_Private(hp, linear_groups, &shift));
   PetscCall(PetscCalloc1(3 * hp->view.num_nodes, &hp->X));
   hp->view.X = hp->X;
   for (PetscInt i = 0; i < hp->num_points; ++i) {
@@ -85,10 +87,12 @@ PetscErrorCode HPSpacePositions_Private(HPSpace hp)
     for (PetscInt n = hp->point_node[i]; n < hp->point_node[i + 1]; ++n) {
       PetscReal eta[3] = {0, 0, 0}, xi[3] = {0, 0, 0};
       if (d > 0) NodePoint_Private(d, p, nodes, n - hp->point_node[i], eta);
-      EntityToLeaf_Private(t, t->entity_leaf[e], e, d, eta, xi);
+      HPEntityToLeaf_Private(t, t->entity_leaf[e], e, d, eta, xi);
       PetscCall(ForestMapPoint(hp->forest, t->entity_leaf[e], xi, &hp->X[3 * n]));
+      for (PetscInt a = 0; d == 0 && a < 3; ++a) hp->X[3 * n + a] += shift[3 * e + a];
     }
   }
+  PetscCall(PetscFree(shift));
   for (PetscInt n = 0; n < hp->view.num_nodes; ++n) {
     for (PetscInt k = hp->node_hang[n]; k < hp->node_hang[n + 1]; ++k) {
       for (PetscInt a = 0; a < 3; ++a) hp->X[3 * n + a] += hp->hang_weight[k] * hp->X[3 * hp->hang_master[k] + a];
