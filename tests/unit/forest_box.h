@@ -1,5 +1,6 @@
 /* A box of cells in memory for the forest tests: every cell has its own random axes (a proper rotation), vertex ids are shuffled, the
-   geometry is a smooth curved map of order q that keeps the boundary of the box. Bit s of a facet's groups: side s = 2*axis + (high). */
+   geometry is a smooth curved map of order q > 1 that keeps the boundary of the box (q = 1: straight, unless box_distorted). Bit s of a facet's groups: side s
+   = 2*axis + (high). */
 #pragma once
 #include "forestimpl.h"
 
@@ -20,6 +21,10 @@ typedef struct {
 } Box;
 
 static uint64_t box_random_state = 88172645463325252ULL;
+
+/* Change before BoxForest: move inner vertices also when q = 1; length of a coarse cell. */
+static PetscBool box_distorted = PETSC_FALSE;
+static PetscReal box_width     = 1;
 
 static inline PetscInt BoxRandom(PetscInt n)
 {
@@ -66,7 +71,7 @@ static inline void BoxCurve(const Box *box, PetscInt q, const PetscInt g[3], Pet
   PetscReal bump = 0.15;
 
   for (PetscInt a = 0; a < box->dim; ++a) bump *= PetscSinReal(PETSC_PI * g[a] / (q * box->n[a]));
-  for (PetscInt a = 0; a < 3; ++a) X[a] = a < box->dim ? (PetscReal)g[a] / q + (q > 1 ? bump * (1 - 0.5 * a) : 0) : 0;
+  for (PetscInt a = 0; a < 3; ++a) X[a] = a < box->dim ? box_width * ((PetscReal)g[a] / q + (q > 1 || box_distorted ? bump * (1 - 0.5 * a) : 0)) : 0;
 }
 
 static inline void BoxShuffle(PetscInt n, PetscInt id[])

@@ -1,0 +1,97 @@
+/* A whole bulk problem in memory: a body on an adapted box (bulkfixture.h), no contact, solved by Problem and Solver on all ranks. */
+#pragma once
+#include "bulkfixture.h"
+#include "solve.h"
+
+typedef struct {
+  Bulk            bulk; /* its forest, material, spec and boundaries; space and mechanics are the problem's */
+  SceneData       scene;
+  Problem         problem;
+  Solver          solver;
+  State           state;
+  SolverReport    report;
+  HPSpace         space;
+  Mechanics       mechanics;
+  const HPTables *tables;
+  PetscReal      *u; /* local displacements of the solution */
+} Solved;
+
+/* The problem, before it is solved; orders random in low..high. s->bulk.forest, material and boundaries must be set. */
+static inline void SolvedCreate(Solved *s, PetscInt low, PetscInt high)
+{
+  const ForestTables *t;
+
+  OK(ForestGetTables(s->bulk.forest, &t));
+  OK(PetscMalloc1(t->num_leaves, &s->bulk.orders));
+  for (PetscInt l = 0; l < t->num_leaves; ++l) s->bulk.orders[l] = (int8_t)(low + BoxRandom(high - low + 1));
+  s->scene.mechanics  = s->bulk.spec;
+  s->scene.bodies     = &s->bulk.body;
+  s->scene.boundaries = s->bulk.boundaries;
+  s->scene.load       = (LoadSpec){.end = 1, .step = 1};
+  OK(ProblemCreate(&s->scene, s->bulk.forest, s->bulk.orders, &s->problem));
+  OK(ProblemGetSpace(s->problem, &s->space));
+  OK(ProblemGetMechanics(s->problem, &s->mechanics));
+  OK(HPSpaceGetTables(s->space, &s->tables));
+  OK(ProblemSetTime(s->problem, 0));
+  OK(ProblemJump(s->problem));
+  OK(SolverCreate(s->problem, &s->solver));
+  OK(StateCreate(s->problem, &s->state));
+  OK(PetscCalloc1(s->tables->num_nodes * s->tables->dim, &s->u));
+}
+
+/* Equilibrium at t = 1 from the state as it is. */
+static inline void SolvedSolve(Solved *s)
+{
+  OK(ProblemSetTime(s->problem, 1));
+  OK(SolverSolve(s->solver, &s->state, &s->report));
+  if (!s->report.converged) fail_msg("no equilibrium: %s", s->report.reason);
+  OK(ProblemLocalDisplacement(s->problem, s->state.x, s->u));
+}
+
+static inline void SolvedDestroy(Solved *s)
+{
+  OK(PetscFree(s->u));
+  OK(StateDestroy(&s->state));
+  OK(SolverDestroy(&s->solver));
+  OK(ProblemDestroy(&s->problem));
+  OK(PetscFree(s->bulk.orders));
+  OK(ForestDestroy(&s->bulk.forest));
+  while (bulk_num_expressions) OK(ExpressionDestroy(&bulk_expressions[--bulk_num_expressions]));
+}
+
+/* Split one leaf (of any rank), or all of them (leaf -1). */
+static inline void SplitLeaf(Forest *forest, PetscInt leaf, PetscInt split)
+{
+  const ForestTables *t;
+  MarkList            marks;
+  Forest              next;
+  ForestMap           map;
+
+  OK(ForestGetTables(*forest, &t));
+  OK(PetscCalloc1(t->num_leaves, &marks.split));
+  OK(PetscCalloc1(t->num_leaves, &marks.coarsen));
+  for (PetscInt l = 0; l < t->num_leaves; ++l) marks.split[l] = (int8_t)(leaf < 0 || l == leaf ? split : 0);
+  OK(ForestAdapt(*forest, &marks, NULL, 0, NULL, &next, &map));
+  MarksDestroy(&marks);
+  OK(ForestMapDestroy(&map));
+  OK(ForestDestroy(forest));
+  *forest = next;
+}
+
+/* The tensor Gauss points of a cell with `num` points in each direction: xi[num^dim][dim], weights. Returns their number. */
+static inline PetscInt CellGauss(PetscInt dim, PetscInt num, PetscReal xi[], PetscReal weight[])
+{
+  const Basis1D *gauss;
+  PetscInt       points = 1;
+
+  OK(Basis1DGet(1, num, &gauss));
+  for (PetscInt d = 0; d < dim; ++d) points *= num;
+  for (PetscInt q = 0; q < points; ++q) {
+    weight[q] = 1;
+    for (PetscInt d = 0, i = q; d < dim; ++d, i /= num) {
+      xi[q * dim + d] = gauss->points[i % num];
+      weight[q] *= gauss->weights[i % num];
+    }
+  }
+  return points;
+}

@@ -1,0 +1,164 @@
+/* O-02: u = H X on the whole boundary gives u_h = H X and P = P(F1) everywhere, on 2^dim rotated, distorted cells of which a corner one and one of its
+   children are split (in all directions or some), with orders 1..4 at random; and a quadratic field under the body force of linear elasticity is found
+   exactly by orders 2..4. Tolerance 1e-11 of the largest value. */
+#include "problemfixture.h"
+
+static const PetscReal F1[9] = {1.2, .15, -.1, .05, .9, .2, -.08, .12, 1.05};
+
+/* Corner cell and one of its children, on 2^dim cells of geometry order q. */
+static void PatchForest(Solved *s, PetscInt dim, PetscInt q, PetscInt split, uint64_t seed)
+{
+  const ForestTables *t;
+  Box                 box;
+
+  box_distorted  = PETSC_TRUE;
+  s->bulk.forest = BoxForest(PETSC_COMM_WORLD, dim, (const PetscInt[3]){2, 2, 2}, q, 0, seed, &box);
+  box_distorted  = PETSC_FALSE;
+  SplitLeaf(&s->bulk.forest, 0, split);
+  SplitLeaf(&s->bulk.forest, BoxRandom(2), split);
+  OK(ForestGetTables(s->bulk.forest, &t));
+  assert_true(t->num_leaves > 1 << dim);
+}
+
+static PetscReal Largest(PetscReal value)
+{
+  OK(MPI_Allreduce(MPI_IN_PLACE, &value, 1, MPIU_REAL, MPI_MAX, PETSC_COMM_WORLD));
+  return value;
+}
+
+typedef void (*Field)(const PetscReal X[3], PetscReal u[3]);
+
+static void Linear(const PetscReal X[3], PetscReal u[3])
+{
+  for (PetscInt i = 0; i < 3; ++i) {
+    u[i] = -X[i];
+    for (PetscInt k = 0; k < 3; ++k) u[i] += F1[3 * i + k] * X[k];
+  }
+}
+
+static void Quadratic(const PetscReal X[3], PetscReal u[3])
+{
+  u[0] = 0.03 * X[0] * X[0] - 0.02 * X[0] * X[1] + 0.01 * X[1] * X[2];
+  u[1] = 0.02 * X[1] * X[1] + 0.04 * X[0] * X[1] - 0.03 * X[2] * X[2];
+  u[2] = -0.01 * X[2] * X[2] + 0.02 * X[0] * X[2] + 0.05 * X[0] * X[1];
+}
+
+/* Largest |u_h - u| at the nodes of all cells, hanging ones included. */
+static PetscReal FieldError(const Solved *s, Field field)
+{
+  const HPTables *v     = s->tables;
+  PetscReal       error = 0, X[3 * 125], u[3 * 125];
+
+  for (PetscInt c = 0; c < v->num_owned_cells; ++c) {
+    OK(HPSpaceGatherPositions(s->space, c, X));
+    OK(HPSpaceGather(s->space, c, s->u, u));
+    for (PetscInt i = 0; i < ElementNumNodes(v->dim, v->cell_order[c]); ++i) {
+      PetscReal position[3] = {0, 0, 0}, exact[3];
+      for (PetscInt d = 0; d < v->dim; ++d) position[d] = X[i * v->dim + d];
+      field(position, exact);
+      for (PetscInt d = 0; d < v->dim; ++d) error = PetscMax(error, PetscAbsReal(u[i * v->dim + d] - exact[d]));
+    }
+  }
+  return Largest(error);
+}
+
+/* Largest |P - P(F1)| at the quadrature points, and largest |P(F1)|. */
+static PetscReal StressError(const Solved *s, PetscReal *scale)
+{
+  const HPTables *v    = s->tables;
+  PetscReal       F[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1}, P[9], error = 0, xi[3 * 125], weight[125], Fq[9 * 125], Pq[9 * 125];
+  PetscBool       bad = PETSC_FALSE;
+
+  for (PetscInt i = 0; i < v->dim; ++i)
+    for (PetscInt k = 0; k < v->dim; ++k) F[3 * i + k] = F1[3 * i + k];
+  OK(MaterialEvaluate(&s->bulk.material, MATERIAL_FULL, 1, F, NULL, P, NULL, &bad));
+  assert_false(bad);
+  *scale = 0;
+  for (PetscInt k = 0; k < 9; ++k) *scale = PetscMax(*scale, PetscAbsReal(P[k]));
+  for (PetscInt c = 0; c < v->num_owned_cells; ++c) {
+    const PetscInt np = CellGauss(v->dim, v->cell_order[c] + 1, xi, weight);
+    OK(MechanicsPoints(s->mechanics, c, np, xi, s->u, Fq, Pq, NULL));
+    for (PetscInt q = 0; q < 9 * np; ++q) error = PetscMax(error, PetscAbsReal(Pq[q] - P[q % 9]));
+  }
+  return Largest(error);
+}
+
+static void LinearField(PetscInt dim, PetscInt q, PetscInt split, PetscBool mixed, uint64_t seed)
+{
+  Solved    s = {0};
+  PetscReal scale;
+
+  PatchForest(&s, dim, q, split, seed);
+  BulkInit(&s.bulk, dim, dim == 2 ? MODEL_PLANE_STRAIN : MODEL_3D, KINEMATICS_FINITE);
+  BulkMaterial(&s.bulk.material, "neo_hookean", mixed ? VOLUMETRIC_SIMO : VOLUMETRIC_LOG, mixed ? FORMULATION_MIXED : FORMULATION_DISPLACEMENT, 1,
+               mixed ? 50 : 8. / 3);
+  for (PetscInt b = 0; b < 2 * dim; ++b) {
+    for (PetscInt c = 0; c < dim; ++c) {
+      const PetscReal *H = F1 + 3 * c;
+      s.bulk.boundaries[b].displacement[c] =
+          BulkExpression("%.17g*X + %.17g*Y + %.17g*Z", (double)(H[0] - (c == 0)), (double)(H[1] - (c == 1)), (double)(H[2] - (c == 2)));
+    }
+  }
+  SolvedCreate(&s, 1, 4);
+  OK(VecSetRandom(s.state.x, NULL)); /* off the line to the answer, which one linear solve would find */
+  OK(VecScale(s.state.x, 0.001));
+  SolvedSolve(&s);
+  assert_true(s.report.iterations > 2);
+  const PetscReal u = FieldError(&s, Linear), P = StressError(&s, &scale);
+  if (!(u < 1e-11 && P < 1e-11 * scale))
+    fail_msg("dim %d q %d split %d mixed %d seed %d: |u - HX| %g, |P - P(F1)| %g of %g", (int)dim, (int)q, (int)split, mixed, (int)seed, (double)u, (double)P,
+             (double)scale);
+  SolvedDestroy(&s);
+}
+
+static void LinearPlane(void **state)
+{
+  for (PetscInt q = 1; q <= 2; ++q)
+    for (PetscInt split = 1; split <= 3; ++split)
+      for (uint64_t seed = 0; seed < 4; ++seed) LinearField(2, q, split, (PetscBool)(seed % 2), seed);
+}
+
+static void LinearSpace(void **state)
+{
+  const PetscInt split[] = {7, 7, 1, 6, 3, 4};
+  for (PetscInt i = 0; i < 6; ++i) LinearField(3, 1 + i % 2, split[i], (PetscBool)(i / 2 % 2), (uint64_t)i);
+}
+
+/* b = -mu lap u - (lambda + mu) grad div u, constant. */
+static void QuadraticField(PetscInt dim, PetscInt split, PetscBool mixed, uint64_t seed)
+{
+  static const char *const text[]         = {"0.03*X^2 - 0.02*X*Y + 0.01*Y*Z", "0.02*Y^2 + 0.04*X*Y - 0.03*Z^2", "-0.01*Z^2 + 0.02*X*Z + 0.05*X*Y"};
+  const PetscReal          laplace[2][3]  = {{0.06, 0.04, 0}, {0.06, 0.04 - 0.06, -0.02}};
+  const PetscReal          grad_div[2][3] = {{0.06 + 0.04, -0.02 + 0.04, 0}, {0.06 + 0.04 + 0.02, -0.02 + 0.04, -0.02}};
+  Solved                   s              = {0};
+
+  PatchForest(&s, dim, 1, split, seed);
+  BulkInit(&s.bulk, dim, dim == 2 ? MODEL_PLANE_STRAIN : MODEL_3D, KINEMATICS_SMALL);
+  BulkMaterial(&s.bulk.material, "linear", VOLUMETRIC_QUADRATIC, mixed ? FORMULATION_MIXED : FORMULATION_DISPLACEMENT, 1.5, 4);
+  for (PetscInt c = 0; c < dim; ++c) {
+    for (PetscInt b = 0; b < 2 * dim; ++b) s.bulk.boundaries[b].displacement[c] = BulkExpression("%s", text[c]);
+    s.bulk.body.force[c] = BulkExpression("%.17g", (double)(-1.5 * laplace[dim - 2][c] - (s.bulk.material.lambda + 1.5) * grad_div[dim - 2][c]));
+  }
+  SolvedCreate(&s, 2, 4);
+  SolvedSolve(&s);
+  const PetscReal error = FieldError(&s, Quadratic);
+  if (!(error < 1e-11)) fail_msg("dim %d split %d mixed %d seed %d: |u_h - u| %g", (int)dim, (int)split, mixed, (int)seed, (double)error);
+  SolvedDestroy(&s);
+}
+
+static void QuadraticExact(void **state)
+{
+  for (uint64_t seed = 0; seed < 3; ++seed)
+    for (PetscInt split = 1; split <= 3; ++split) QuadraticField(2, split, PETSC_FALSE, seed);
+  QuadraticField(3, 7, PETSC_FALSE, 3);
+  QuadraticField(3, 5, PETSC_FALSE, 4);
+}
+
+int main(int argc, char **argv)
+{
+  const struct CMUnitTest tests[] = {cmocka_unit_test(LinearPlane), cmocka_unit_test(LinearSpace), cmocka_unit_test(QuadraticExact)};
+  if (PetscInitialize(&argc, &argv, NULL, NULL) || StageRegister()) return 1;
+  OK(PetscOptionsSetValue(NULL, "-solve_rtol", "1e-13"));
+  const int failed = cmocka_run_group_tests(tests, NULL, NULL);
+  return PetscFinalize() || failed;
+}
