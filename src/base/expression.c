@@ -3,7 +3,7 @@
 #include <ctype.h>
 #include <muParserDLL.h>
 
-#define EXPRESSION_LENGTH 1000 /* characters */
+#define EXPRESSION_LENGTH 4000 /* characters; muParser itself stops at 5000 */
 
 struct _p_Expression {
   char            *key, *text; /* owned */

@@ -53,6 +53,19 @@ static void RefusesNonsense(void **state)
   }
 }
 
+/* Body forces of made-up solutions are long; beyond the limit stands a message, not a cut text. */
+static void Long(void **state)
+{
+  char       text[8192] = "X";
+  Expression e;
+
+  while (strlen(text) < 3990) strcat(text, "+Y");
+  assert_float_equal(Value(text, 1, 2, 0, 0), 1 + 2 * (double)((strlen(text) - 1) / 2), 0);
+  while (strlen(text) <= 4000) strcat(text, "+Y");
+  assert_int_equal(ExpressionCreate("key", text, &e), MORTISE_ERR_INPUT);
+  ExpressionDestroy(&e);
+}
+
 static void Amplitudes(void **state)
 {
   PetscReal       pairs[] = {0, 0, 1, 2, 3, 2, 4, -1};
@@ -69,7 +82,8 @@ static void Amplitudes(void **state)
 
 int main(int argc, char **argv)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(Values), cmocka_unit_test(KnowsTime), cmocka_unit_test(RefusesNonsense), cmocka_unit_test(Amplitudes)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(Values), cmocka_unit_test(KnowsTime), cmocka_unit_test(RefusesNonsense), cmocka_unit_test(Long),
+                                     cmocka_unit_test(Amplitudes)};
   int                     failed;
 
   PetscCall(PetscInitialize(&argc, &argv, NULL, NULL));
