@@ -33,6 +33,8 @@ typedef struct {
   PetscInt  order;             /* 1 */
   PetscReal search;            /* search distance, in multiples of the larger edge length; default 0: automatic */
   PetscBool node_to_segment;   /* comparison only */
+  PetscBool adjust;            /* the gaps of the mesh at the reference positions count as closed */
+  PetscReal interference;      /* overlap at the reference positions, besides that of the geometry */
 } ContactSpec;
 
 typedef struct _p_ContactPair *ContactPair;

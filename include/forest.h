@@ -21,6 +21,15 @@ typedef struct {
   PetscInt refine;                   /* uniform refinements at once */
 } ForestSpec;
 
+/* Refinement before the first solve: the cells with a facet in a boundary group and within a distance of a place, either may be missing. */
+typedef struct {
+  char      name[MORTISE_NAME];
+  PetscInt  group;  /* boundary group, -1: cells anywhere */
+  PetscReal X[3];   /* reference position */
+  PetscReal radius; /* cells whose box of corners is no further from X; negative: all */
+  PetscInt  levels; /* how often */
+} RefineSpec;
+
 /* Replicated description of the coarse mesh as read. */
 typedef struct {
   PetscInt dim, num_cells, num_vertices, geometry_order;
@@ -90,6 +99,8 @@ MPI_Comm       ForestComm(Forest);
 PetscErrorCode ForestAdapt(Forest, const MarkList *, const PetscReal leaf_weight[], PetscInt num_pairs, const PetscInt pairs[][2], Forest *adapted,
                            ForestMap *map);
 PetscErrorCode ForestMapDestroy(ForestMap *);
+/* Replace *forest by one refined isotropically as spec says, closed again after each level. Collective. */
+PetscErrorCode ForestRefine(Forest *forest, const RefineSpec *spec);
 
 /* Leaf DMPlex of this rank: owned leaves, one ghost layer (leaves that share an entity with an owned one or with its parents), and recursively
    parent entities and their closures. Point SF set (owner: rank of entity_leaf), labels: one DMLabel per boundary group name on facets, "body" on

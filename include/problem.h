@@ -65,6 +65,7 @@ typedef struct {
   const PetscBool   *has_multiplier;   /* [nonmortar.num_nodes] */
   ContactPair        pair;             /* segments of this rank's nonmortar edges */
   PetscReal          area, min_gap;    /* totals over ranks */
+  PetscReal          adjusted;         /* largest mean initial gap, over or under, that was closed at a node (initial_gap: adjust) */
 } ContactView;
 
 PetscErrorCode ProblemGetContact(Problem, PetscInt pair, const ContactView **);

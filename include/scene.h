@@ -13,8 +13,8 @@ typedef enum { ADAPT_H, ADAPT_P, ADAPT_HP } AdaptStrategy;
 typedef struct {
   PetscReal     tolerance; /* relative; 0: no adaptation */
   PetscInt      max_passes, max_cells;
-  PetscReal     fraction;  /* Dörfler share of the squared estimate to mark */
-  PetscReal     coarsen;   /* cells below this share of the mean squared indicator may merge */
+  PetscReal     fraction; /* Dörfler share of the squared estimate to mark */
+  PetscReal     coarsen;  /* cells below this share of the mean squared indicator may merge */
   AdaptStrategy strategy;
 } AdaptSpec;
 
@@ -29,27 +29,29 @@ typedef struct {
 } ProbeSpec;
 
 typedef struct {
-  char           file[PETSC_MAX_PATH_LEN]; /* the scene file as given */
-  char           title[256];
-  ForestSpec     mesh;
-  MechanicsSpec  mechanics;
-  PetscInt       num_materials;
-  MaterialSpec  *materials;
-  BodySpec      *bodies;      /* in the order of the mesh's bodies */
-  BoundarySpec  *boundaries;
-  PetscInt       num_contacts;
-  ContactSpec   *contacts;
-  LoadSpec       load;
-  AdaptSpec      adapt;
-  OutputSpec     output;
-  PetscInt       num_probes;
-  ProbeSpec     *probes;
+  char          file[PETSC_MAX_PATH_LEN]; /* the scene file as given */
+  char          title[256];
+  ForestSpec    mesh;
+  PetscInt      num_refines;
+  RefineSpec   *refines;
+  MechanicsSpec mechanics;
+  PetscInt      num_materials;
+  MaterialSpec *materials;
+  BodySpec     *bodies; /* in the order of the mesh's bodies */
+  BoundarySpec *boundaries;
+  PetscInt      num_contacts;
+  ContactSpec  *contacts;
+  LoadSpec      load;
+  AdaptSpec     adapt;
+  OutputSpec    output;
+  PetscInt      num_probes;
+  ProbeSpec    *probes;
 } SceneData;
 
 typedef struct _p_Scene *Scene;
 
 /* Read the scene named in the arguments (the first that ends in .yml or .yaml, else the first argument) and the overrides; validate everything that
-   needs no mesh. Options whose first word is a top key of a scene (title, mesh, model, kinematics, order, body, material, boundary, contact, load,
+   needs no mesh. Options whose first word is a top key of a scene (title, mesh, refine, model, kinematics, order, body, material, boundary, contact, load,
    adapt, output, probe) are overrides: they are taken out of PETSc's global database, as is -check; all others stay there.
    Every wrong input is one sentence (ErrorInput). Nothing is written. Collective. */
 PetscErrorCode SceneCreate(MPI_Comm, int argc, char **argv, Scene *);

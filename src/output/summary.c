@@ -76,6 +76,7 @@ static void AddPair_Private(cJSON *contact, PetscInt dim, const char *name, cons
   AddNumber_Private(pair, "covered_nodes", (PetscReal)f->covered_nodes);
   AddNumber_Private(pair, "min_gap", f->min_gap);
   AddNumber_Private(pair, "max_gap", f->max_gap);
+  AddNumber_Private(pair, "adjusted_gap", f->adjusted);
 }
 
 static void AddForces_Private(cJSON *root, const SceneData *scene, const Balance *b)

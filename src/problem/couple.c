@@ -104,6 +104,71 @@ static void View_Private(Contact *c)
   v->pair           = c->pair;
 }
 
+/* Sums over edges to nodes, over ranks; area. */
+static PetscErrorCode NodeSums_Private(Problem p, Contact *c)
+{
+  const PetscInt n = c->side[0].num_nodes;
+  PetscReal     *buffer;
+
+  PetscFunctionBegin;
+  PetscCall(PetscCalloc1(2 * n + 1, &buffer));
+  for (PetscInt i = 0; i < c->num_edges; ++i) {
+    const ContactEdge *e = &c->edges[i];
+    if (!c->mine[e->edge]) continue;
+    for (PetscInt k = 0; k < 2; ++k) {
+      buffer[e->node[k]] += e->gap[k];
+      buffer[n + e->node[k]] += e->weight[k];
+    }
+    buffer[2 * n] += e->area;
+  }
+  if (p->size > 1) PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, buffer, (PetscMPIInt)(2 * n + 1), MPIU_REAL, MPI_SUM, p->comm));
+  PetscCall(PetscArraycpy(c->gap, buffer, n));
+  PetscCall(PetscArraycpy(c->weight, buffer + n, n));
+  c->view.area = buffer[2 * n];
+  PetscCall(PetscFree(buffer));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static ContactSurface SurfaceOf_Private(const Surface *s, const PetscReal *x)
+{
+  return (ContactSurface){s->num_nodes, s->num_edges, s->edges, x, s->mirror};
+}
+
+/* What counts as no gap: gt_j less a constant, so that forces and derivatives stay as they are. Initial gaps are those of this mesh at the reference
+   positions; an interference is taken per reference length. */
+static PetscErrorCode Offset_Private(Problem p, Contact *c)
+{
+  const PetscInt     n       = c->side[0].num_nodes;
+  ContactSurface     side[2] = {SurfaceOf_Private(&c->side[0], c->side[0].X), SurfaceOf_Private(&c->side[1], c->side[1].X)};
+  const ContactEdge *edges;
+  PetscBool          failed;
+
+  PetscFunctionBegin;
+  PetscCall(PetscArrayzero(c->offset, n));
+  if (!c->spec->adjust && c->spec->interference == 0) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(ContactPairSearch(c->pair, &side[0], &side[1], c->num_listed, c->listed, c->distance, 0));
+  PetscCall(ContactPairEvaluate(c->pair, &side[0], &side[1], NULL, PETSC_FALSE, PETSC_FALSE, &c->num_edges, &edges, &failed));
+  c->edges = edges;
+  PetscCall(NodeSums_Private(p, c));
+  for (PetscInt j = 0; j < n; ++j) c->offset[j] = (c->spec->adjust ? c->gap[j] : 0) + c->spec->interference * c->weight[j];
+  for (PetscInt j = 0; c->spec->adjust && j < n; ++j) {
+    if (!ContactCovered_Private(c, j)) continue;
+    c->view.adjusted = PetscMax(c->view.adjusted, PetscAbsReal(c->gap[j] / c->weight[j]));
+  }
+  c->num_edges = 0;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Take off what counts as no gap; the smallest that is left. */
+static void Subtract_Private(Contact *c)
+{
+  c->view.min_gap = PETSC_MAX_REAL;
+  for (PetscInt j = 0; j < c->side[0].num_nodes; ++j) {
+    c->gap[j] -= c->offset[j];
+    if (ContactCovered_Private(c, j)) c->view.min_gap = PetscMin(c->view.min_gap, c->gap[j] / c->weight[j]);
+  }
+}
+
 PetscErrorCode ContactCreate_Private(Problem p, const ContactSpec *spec, Contact *c)
 {
   const PetscBool axisymmetric = (PetscBool)(p->scene->mechanics.model == MODEL_AXISYMMETRIC);
@@ -119,12 +184,13 @@ PetscErrorCode ContactCreate_Private(Problem p, const ContactSpec *spec, Contact
   PetscCall(PetscCalloc5(n, &c->z, n, &c->gap, n, &c->weight, n, &c->w0, n, &c->c));
   PetscCall(PetscCalloc4(n, &c->active, n, &c->has_multiplier, n, &c->lift, n, &c->change));
   PetscCall(PetscMalloc1(c->side[0].num_edges, &c->result));
-  PetscCall(PetscMalloc3(n, &c->zdof, n, &c->zlocal, n, &c->gap0));
+  PetscCall(PetscMalloc4(n, &c->zdof, n, &c->zlocal, n, &c->gap0, n, &c->offset));
   PetscCall(NodeScales_Private(p, c));
   PetscCall(HasMultiplier_Private(p, c));
   PetscCall(ListEdges_Private(p, c));
   SearchDistance_Private(c);
   View_Private(c);
+  PetscCall(Offset_Private(p, c));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -151,7 +217,7 @@ PetscErrorCode ContactDestroy_Private(Contact *c)
   PetscCall(PetscFree5(c->z, c->gap, c->weight, c->w0, c->c));
   PetscCall(PetscFree4(c->active, c->has_multiplier, c->lift, c->change));
   PetscCall(PetscFree(c->result));
-  PetscCall(PetscFree3(c->zdof, c->zlocal, c->gap0));
+  PetscCall(PetscFree4(c->zdof, c->zlocal, c->gap0, c->offset));
   PetscCall(PetscFree2(c->listed, c->mine));
   PetscCall(PetscFree(c->pattern_offset));
   PetscCall(PetscFree(c->pattern));
@@ -192,45 +258,11 @@ static PetscErrorCode GatherMultipliers_Private(Problem p, Contact *c, Vec x)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Sums over edges to nodes, over ranks; area and smallest gap. */
-static PetscErrorCode NodeSums_Private(Problem p, Contact *c)
-{
-  const PetscInt n = c->side[0].num_nodes;
-  PetscReal     *buffer, least = PETSC_MAX_REAL;
-
-  PetscFunctionBegin;
-  PetscCall(PetscCalloc1(2 * n + 1, &buffer));
-  for (PetscInt i = 0; i < c->num_edges; ++i) {
-    const ContactEdge *e = &c->edges[i];
-    if (!c->mine[e->edge]) continue;
-    for (PetscInt k = 0; k < 2; ++k) {
-      buffer[e->node[k]] += e->gap[k];
-      buffer[n + e->node[k]] += e->weight[k];
-    }
-    buffer[2 * n] += e->area;
-  }
-  if (p->size > 1) PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, buffer, (PetscMPIInt)(2 * n + 1), MPIU_REAL, MPI_SUM, p->comm));
-  PetscCall(PetscArraycpy(c->gap, buffer, n));
-  PetscCall(PetscArraycpy(c->weight, buffer + n, n));
-  c->view.area = buffer[2 * n];
-  for (PetscInt j = 0; j < n; ++j) {
-    if (ContactCovered_Private(c, j)) least = PetscMin(least, c->gap[j] / c->weight[j]);
-  }
-  c->view.min_gap = least;
-  PetscCall(PetscFree(buffer));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 static void Activity_Private(Contact *c)
 {
   for (PetscInt j = 0; j < c->side[0].num_nodes; ++j) {
     c->active[j] = (PetscBool)(c->has_multiplier[j] && ContactCovered_Private(c, j) && c->z[j] - c->c[j] * c->gap[j] / c->weight[j] > 0);
   }
-}
-
-static ContactSurface SurfaceOf_Private(const Surface *s, const PetscReal *x)
-{
-  return (ContactSurface){s->num_nodes, s->num_edges, s->edges, x, s->mirror};
 }
 
 /* Small kinematics: gaps are linear in the displacement. The weighted gap is frozen with its segments, measure and normals at the reference
@@ -332,6 +364,7 @@ PetscErrorCode ContactEvaluate_Private(Problem p, Contact *c, Vec x, const Petsc
     PetscCall(ContactPairEvaluate(c->pair, &side[0], &side[1], c->z, derivatives, hessian, &c->num_edges, &c->edges, failed));
     PetscCall(NodeSums_Private(p, c));
   }
+  Subtract_Private(c);
   for (PetscInt e = 0; e < c->side[0].num_edges; ++e) c->result[e] = -1;
   for (PetscInt i = 0; i < c->num_edges; ++i) c->result[c->edges[i].edge] = i;
   Activity_Private(c);

@@ -159,6 +159,18 @@ static PetscErrorCode MatchContacts_Private(Scene s, const Facets *f)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+static PetscErrorCode MatchRefines_Private(Scene s, const Facets *f)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscCalloc1(s->data.num_refines, &s->data.refines));
+  for (PetscInt i = 0; i < s->data.num_refines; ++i) {
+    RefineEntry *r = &s->refine[i];
+    if (r->boundary[0]) PetscCall(FindGroup_Private(f->mesh, NodeWhere(NodeFind(r->node, "boundary")), r->boundary, &r->spec.group));
+    s->data.refines[i] = r->spec;
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* Does a displacement condition, a contact pair or its own rigidity hold the body by itself? */
 static PetscBool HoldsItself_Private(Scene s, const PetscBool *touches, PetscInt body)
 {
@@ -206,6 +218,7 @@ static PetscErrorCode Check_Private(Scene s, const Facets *f)
   PetscFunctionBegin;
   PetscCall(MatchBoundaries_Private(s, f));
   PetscCall(MatchContacts_Private(s, f));
+  PetscCall(MatchRefines_Private(s, f));
   PetscCall(CheckHeld_Private(s, f));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

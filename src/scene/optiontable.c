@@ -8,6 +8,7 @@
 #define BODY(f) offsetof(BodyEntry, f), sizeof(((BodyEntry *)0)->f)
 #define BOUND(f) offsetof(BoundaryEntry, f), sizeof(((BoundaryEntry *)0)->f)
 #define PAIR(f) offsetof(ContactEntry, f), sizeof(((ContactEntry *)0)->f)
+#define REFINE(f) offsetof(RefineEntry, f), sizeof(((RefineEntry *)0)->f)
 #define PROBE(f) offsetof(ProbeEntry, f), sizeof(((ProbeEntry *)0)->f)
 #define NOWHERE 0, 0
 #define ORDERS "[1," TEXT(MORTISE_MAX_ORDER) "]"
@@ -22,6 +23,11 @@ const Option Options[] = {
     {"mesh.order", KEY_INT, "", "2", "[1,4]", "geometry order asked of gmsh for a .geo", SCENE(mesh_order)},
     {"mesh.refine", KEY_INT, "", "0", "[0,12]", "uniform refinements before the first solve", SCENE(data.mesh.refine)},
     {"mesh.parameter.<constant>", KEY_PARAMETER, "", "", ANY, "value of a constant that the .geo declares with DefineConstant", NOWHERE},
+
+    {"refine.<name>.boundary", KEY_TEXT, "", "", "", "before the first solve, refine the cells along this boundary", REFINE(boundary)},
+    {"refine.<name>.<axis>", KEY_REAL, "length", "0", ANY, "and near this reference point; at least one of boundary and point", REFINE(spec.X)},
+    {"refine.<name>.radius", KEY_REAL, "length", "0", NOT_BELOW, "near: the cells that a ball of this radius around the point touches", REFINE(spec.radius)},
+    {"refine.<name>.levels", KEY_INT, "", "1", "[0,16]", "how often; each time the cells that then touch", REFINE(spec.levels)},
 
     {"model", KEY_WORD, "", NULL, "plane_strain|axisymmetric|3d", "axisymmetric: x = r, y = z", SCENE(data.mechanics.model)},
     {"kinematics", KEY_WORD, "", "finite", "finite|small", "small: geometry and material are linear (law: linear)", SCENE(data.mechanics.kinematics)},
@@ -59,6 +65,10 @@ const Option Options[] = {
     {"contact.<pair>.friction", KEY_REAL, "", "0", NOT_BELOW, "coefficient of friction; not built yet: 0 only", PAIR(spec.friction)},
     {"contact.<pair>.order", KEY_WORD, "", "1", "1|full", "order of the contact faces; full (that of the cells) is not built yet", PAIR(order)},
     {"contact.<pair>.search", KEY_REAL, "edges", "0", NOT_BELOW, "distance of the search, in multiples of the larger edge; 0: automatic", PAIR(spec.search)},
+    {"contact.<pair>.initial_gap", KEY_WORD, "", "keep", "keep|adjust",
+     "adjust: what faces each other at the reference positions counts as touching, so that facets on a curved surface make no gap", PAIR(initial_gap)},
+    {"contact.<pair>.interference", KEY_REAL, "length", "0", ANY, "overlap at the reference positions, taken off the gap (shrink fit)",
+     PAIR(spec.interference)},
     {"contact.<pair>.node_to_segment", KEY_BOOL, "", "false", "", "node-to-segment contact, for comparison only", PAIR(spec.node_to_segment)},
 
     {"load.end", KEY_REAL, "pseudo-time", "1", POSITIVE, "t runs from 0 to here", SCENE(data.load.end)},

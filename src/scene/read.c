@@ -162,7 +162,8 @@ static PetscErrorCode ReadContact_Private(Scene s, SceneNode *node, ContactEntry
   c->node = node;
   PetscCall(PetscStrncpy(c->spec.name, node->key, MORTISE_NAME));
   PetscCall(OptionsRead("contact", node, s->data.mesh.dim, c));
-  c->spec.order = 1;
+  c->spec.order  = 1;
+  c->spec.adjust = c->initial_gap == 1 ? PETSC_TRUE : PETSC_FALSE;
   PetscCheckInput(c->order == 0, "%s: contact faces of full order are not built yet; allowed: 1", NodeWhere(NodeFind(node, "order")));
   PetscCheckInput(c->spec.friction == 0, "%s is %g: friction is not built yet; allowed: 0", NodeWhere(NodeFind(node, "friction")), (double)c->spec.friction);
   PetscCheckInput(strcmp(c->nonmortar, c->mortar), "%s: both sides are '%s'; a pair needs two different surfaces", NodeWhere(node), c->mortar);
@@ -177,6 +178,22 @@ static PetscErrorCode ReadProbe_Private(Scene s, SceneNode *node, ProbeEntry *p)
   PetscCall(PetscStrncpy(p->spec.name, node->key, MORTISE_NAME));
   PetscCall(OptionsRead("probe", node, s->data.mesh.dim, p));
   PetscCheckInput(NodeCount(node), "%s needs coordinates x, y%s", NodeWhere(node), s->data.mesh.dim == 3 ? ", z" : "");
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode ReadRefine_Private(Scene s, SceneNode *node, RefineEntry *r)
+{
+  const PetscBool place = NodeFind(node, "x") || NodeFind(node, "y") || NodeFind(node, "z") ? PETSC_TRUE : PETSC_FALSE;
+
+  PetscFunctionBegin;
+  r->node       = node;
+  r->spec.group = -1;
+  PetscCall(PetscStrncpy(r->spec.name, node->key, MORTISE_NAME));
+  PetscCall(OptionsRead("refine", node, s->data.mesh.dim, r));
+  PetscCheckInput(place || r->boundary[0], "%s needs a boundary, a point x, y%s, or both", NodeWhere(node), s->data.mesh.dim == 3 ? ", z" : "");
+  PetscCheckInput(place || !NodeFind(node, "radius"), "%s: a radius needs a point x, y%s", NodeWhere(NodeFind(node, "radius")),
+                  s->data.mesh.dim == 3 ? ", z" : "");
+  if (!place) r->spec.radius = -1;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -210,6 +227,7 @@ PetscErrorCode SceneRead(Scene s, int argc, char **argv)
   READ_SECTION(s, "probe", d->num_probes, s->probe, ReadProbe_Private);
   PetscCall(PetscMalloc1(d->num_probes, &d->probes));
   for (PetscInt i = 0; i < d->num_probes; ++i) d->probes[i] = s->probe[i].spec;
+  READ_SECTION(s, "refine", d->num_refines, s->refine, ReadRefine_Private);
   PetscCheckInput(s->num_bodies, "%s: there is no body; each physical group of the mesh needs a line under body: name: {material: ...}", s->root->origin);
   for (PetscInt i = 0; i < d->num_materials; ++i) PetscCheckInput(s->material[i].used, "%s is used by no body", NodeWhere(s->material[i].node));
   PetscFunctionReturn(PETSC_SUCCESS);

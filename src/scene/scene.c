@@ -154,6 +154,7 @@ PetscErrorCode SceneSetUp(Scene s, Forest *forest)
   status = SceneCheckMesh(s, *forest);
   if (status) PetscCall(ForestDestroy(forest));
   PetscCall(status);
+  for (PetscInt i = 0; i < d->num_refines; ++i) PetscCall(ForestRefine(forest, &d->refines[i]));
   d->mechanics.num_bodies     = s->num_bodies;
   d->mechanics.bodies         = d->bodies;
   d->mechanics.num_boundaries = s->num_boundaries;
@@ -273,6 +274,8 @@ PetscErrorCode SceneDestroy(Scene *scene)
   PetscCall(PetscFree(s->boundary));
   PetscCall(PetscFree(s->contact));
   PetscCall(PetscFree(s->probe));
+  PetscCall(PetscFree(s->refine));
+  PetscCall(PetscFree(s->data.refines));
   PetscCall(PetscFree(s->data.materials));
   PetscCall(PetscFree(s->data.bodies));
   PetscCall(PetscFree(s->data.boundaries));

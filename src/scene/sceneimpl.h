@@ -70,7 +70,7 @@ typedef struct {
 typedef struct {
   ContactSpec spec;
   char        nonmortar[MORTISE_NAME], mortar[MORTISE_NAME];
-  int         order;
+  int         order, initial_gap;
   SceneNode  *node;
 } ContactEntry;
 
@@ -78,6 +78,12 @@ typedef struct {
   ProbeSpec  spec;
   SceneNode *node;
 } ProbeEntry;
+
+typedef struct {
+  RefineSpec spec;
+  char       boundary[MORTISE_NAME];
+  SceneNode *node;
+} RefineEntry;
 
 struct _p_Scene {
   MPI_Comm  comm;
@@ -97,6 +103,7 @@ struct _p_Scene {
   BoundaryEntry *boundary;
   ContactEntry  *contact;
   ProbeEntry    *probe;
+  RefineEntry   *refine; /* [data.num_refines] */
   PetscInt       num_bodies, num_boundaries;
 };
 
