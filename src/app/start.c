@@ -32,6 +32,13 @@ static char **Arguments_Private(int *argc, char **argv)
   return kept;
 }
 
+/* Where OpenBLAS is the BLAS. Fronts of plane problems are too small for its threads: waiting for each other they doubled the processor time of hertz2d.yml. */
+extern void openblas_set_num_threads(int) __attribute__((weak));
+static void OneThread_Private(void)
+{
+  if (openblas_set_num_threads && !getenv("OPENBLAS_NUM_THREADS") && !getenv("OMP_NUM_THREADS")) openblas_set_num_threads(1);
+}
+
 /* PetscInitialize with those settings when no launcher started this process; what the user has set wins. */
 PetscErrorCode AppInitialize(int argc, char **argv)
 {
@@ -41,6 +48,7 @@ PetscErrorCode AppInitialize(int argc, char **argv)
   PetscErrorCode ierr;
 
   for (int i = 0; alone && i < NUM_ALONE; ++i) set[i] = !getenv(Alone[i][0]) && !setenv(Alone[i][0], Alone[i][1], 1);
+  OneThread_Private();
   arguments = Arguments_Private(&argc, argv);
   ierr      = PetscInitialize(&argc, &arguments, NULL, NULL);
   for (int i = 0; i < NUM_ALONE; ++i) {
