@@ -1,0 +1,230 @@
+/* O-05: the manufactured finite-strain field u = 0.1 (sin(pi X) Y (1+Z), X^2 Y, sin(pi Z) X) on the unit cube, law "log" with mu = 1, lambda = 2, u prescribed
+   all round, body force -Div P: H1 error falls like h^p, L2 error like h^(p+1), p = 1..4, with and without hanging nodes (rates over the last two meshes,
+   0.15 less is allowed); at fixed mesh each order divides the error by 4 at least; energy and norm of the limit. */
+#include "problemfixture.h"
+
+#define ENERGY 0.138562678930
+#define NORM 0.078881063775
+
+static void Exact(const PetscReal X[3], PetscReal u[3], PetscReal H[9])
+{
+  const PetscReal s = 0.1 * PetscSinReal(PETSC_PI * X[0]), c = 0.1 * PETSC_PI * PetscCosReal(PETSC_PI * X[0]);
+  const PetscReal h[9] = {c * X[1] * (1 + X[2]),
+                          s * (1 + X[2]),
+                          s * X[1],
+                          0.2 * X[0] * X[1],
+                          0.1 * X[0] * X[0],
+                          0,
+                          0.1 * PetscSinReal(PETSC_PI * X[2]),
+                          0,
+                          0.1 * PETSC_PI * PetscCosReal(PETSC_PI * X[2]) * X[0]};
+
+  u[0] = s * X[1] * (1 + X[2]);
+  u[1] = 0.1 * X[0] * X[0] * X[1];
+  u[2] = 0.1 * PetscSinReal(PETSC_PI * X[2]) * X[0];
+  OK(PetscArraycpy(H, h, 9));
+}
+
+/* F = [a b c; d e 0; g 0 h], its cofactors and the derivatives of its entries, as texts. The cofactors are free of divergence, so that
+   Div P = mu lap u + cof grad s,  s = (lambda ln J - mu)/J,  s' = (lambda + mu - lambda ln J)/J^2. */
+#define A_ "(1+.1*pi*cos(pi*X)*Y*(1+Z))"
+#define B_ "(.1*sin(pi*X)*(1+Z))"
+#define C_ "(.1*sin(pi*X)*Y)"
+#define D_ "(.2*X*Y)"
+#define E_ "(1+.1*X^2)"
+#define G_ "(.1*sin(pi*Z))"
+#define H_ "(1+.1*pi*cos(pi*Z)*X)"
+#define DET A_ "*" E_ "*" H_ "-" B_ "*" D_ "*" H_ "-" C_ "*" G_ "*" E_
+static const char *const cofactor[3][3] = {
+    {E_ "*" H_, "(-" D_ "*" H_ ")", "(-" E_ "*" G_ ")"},
+    {"(-" B_ "*" H_ ")", "(" A_ "*" H_ "-" C_ "*" G_ ")", B_ "*" G_},
+    {"(-" C_ "*" E_ ")", C_ "*" D_, "(" A_ "*" E_ "-" B_ "*" D_ ")"},
+};
+#define AX "(-.1*pi^2*sin(pi*X)*Y*(1+Z))"
+#define AY ".1*pi*cos(pi*X)*(1+Z)"
+#define AZ ".1*pi*cos(pi*X)*Y"
+#define BZ ".1*sin(pi*X)"
+#define GZ ".1*pi*cos(pi*Z)"
+#define HZ "(-.1*pi^2*sin(pi*Z)*X)"
+static const char *const derivative[3][3][3] = {
+    {{AX, AY, AZ}, {".2*Y", ".2*X", NULL}, {NULL, NULL, GZ}},
+    {{AY, NULL, BZ}, {".2*X", NULL, NULL}, {NULL, NULL, NULL}},
+    {{AZ, BZ, NULL}, {NULL, NULL, NULL}, {GZ, NULL, HZ}},
+}; /* [column of F][row][by X, Y, Z] */
+static const char *const laplace[3] = {AX, ".2*Y", HZ};
+static const char *const field[3]   = {".1*sin(pi*X)*Y*(1+Z)", ".1*X^2*Y", ".1*sin(pi*Z)*X"};
+
+static Expression BodyForce(PetscInt i)
+{
+  char gradient[8000] = "";
+
+  for (PetscInt k = 0; k < 3; ++k) { /* J,k = cof : F,k */
+    OK(PetscStrlcat(gradient, k ? "+" : "", sizeof(gradient)));
+    OK(PetscStrlcat(gradient, cofactor[i][k], sizeof(gradient)));
+    OK(PetscStrlcat(gradient, "*(0", sizeof(gradient)));
+    for (PetscInt row = 0; row < 3; ++row) {
+      for (PetscInt column = 0; column < 3; ++column) {
+        if (!derivative[column][row][k]) continue;
+        OK(PetscStrlcat(gradient, "+", sizeof(gradient)));
+        OK(PetscStrlcat(gradient, cofactor[row][column], sizeof(gradient)));
+        OK(PetscStrlcat(gradient, "*", sizeof(gradient)));
+        OK(PetscStrlcat(gradient, derivative[column][row][k], sizeof(gradient)));
+      }
+    }
+    OK(PetscStrlcat(gradient, ")", sizeof(gradient)));
+  }
+  return BulkExpression("-%s-(3-2*ln(" DET "))/(" DET ")^2*(%s)", laplace[i], gradient);
+}
+
+static void BodyForceIsRight(void **state)
+{
+  const PetscReal X[2][3] = {{.25, .5, .75}, {.6, .2, .4}};
+  const PetscReal b[2][3] = {{2.295315699083, -1.176616836295, 0.362902997271}, {0.291853506223, 0.4155766747, 2.079812646413}};
+
+  for (PetscInt i = 0; i < 3; ++i) {
+    Expression force = BodyForce(i);
+    PetscReal  value;
+    for (PetscInt k = 0; k < 2; ++k) {
+      OK(ExpressionEvaluate(force, X[k], 1, &value));
+      assert_near(value, b[k][i], 1e-11);
+    }
+  }
+  while (bulk_num_expressions) OK(ExpressionDestroy(&bulk_expressions[--bulk_num_expressions]));
+}
+
+typedef struct {
+  PetscReal h1, l2, energy, norm; /* errors, strain energy, L2 norm of u_h */
+  PetscInt  dofs;
+} Figures;
+
+static void Integrate(const Solved *s, Figures *f)
+{
+  const HPTables *v = s->tables;
+  PetscReal       xi[3 * 512], weight[512], F[9 * 512], P[9 * 512], X[3 * 125], u[3 * 125], N[125], D[3 * 125];
+
+  *f = (Figures){.energy = s->report.status.energy};
+  OK(ProblemNumDofs(s->problem, &f->dofs));
+  for (PetscInt c = 0; c < v->num_owned_cells; ++c) {
+    const PetscInt p = v->cell_order[c], n = ElementNumNodes(3, p), np = CellGauss(3, p + 3, xi, weight);
+    OK(HPSpaceGatherPositions(s->space, c, X));
+    OK(HPSpaceGather(s->space, c, s->u, u));
+    OK(MechanicsPoints(s->mechanics, c, np, xi, s->u, F, P, NULL));
+    for (PetscInt q = 0; q < np; ++q) {
+      PetscReal at[3] = {0}, uh[3] = {0}, J[9] = {0}, exact[3], H[9], h1 = 0, l2 = 0, norm = 0;
+      OK(ElementEvaluate(3, p, xi + 3 * q, N, D));
+      for (PetscInt i = 0; i < n; ++i) {
+        for (PetscInt k = 0; k < 3; ++k) {
+          at[k] += N[i] * X[3 * i + k];
+          uh[k] += N[i] * u[3 * i + k];
+          for (PetscInt r = 0; r < 3; ++r) J[3 * k + r] += D[3 * i + r] * X[3 * i + k];
+        }
+      }
+      Exact(at, exact, H);
+      for (PetscInt k = 0; k < 9; ++k) h1 += PetscSqr(F[9 * q + k] - (k % 4 == 0) - H[k]);
+      for (PetscInt k = 0; k < 3; ++k) l2 += PetscSqr(uh[k] - exact[k]), norm += PetscSqr(uh[k]);
+      const PetscReal volume = weight[q] * Det3(J);
+      f->h1 += volume * h1;
+      f->l2 += volume * l2;
+      f->norm += volume * norm;
+    }
+  }
+  f->h1   = PetscSqrtReal(f->h1);
+  f->l2   = PetscSqrtReal(f->l2);
+  f->norm = PetscSqrtReal(f->norm);
+}
+
+/* Start: the field at the nodes, which is close enough for one step. */
+static void Interpolate(Solved *s)
+{
+  PetscReal H[9];
+
+  for (PetscInt n = 0; n < s->tables->num_nodes; ++n) Exact(s->tables->X + 3 * n, s->u + 3 * n, H);
+  OK(ProblemSetDisplacement(s->problem, s->u, s->state.x));
+  OK(ProblemSetTime(s->problem, 1));
+  OK(ProblemJump(s->problem));
+}
+
+/* n^3 cells; hanging: those of the octant at the origin split once more. */
+static Figures Solve(PetscInt n, PetscInt order, PetscBool hanging)
+{
+  const ForestTables *t;
+  Solved              s = {0};
+  Figures             f;
+  Box                 box;
+
+  box_width     = 1. / n;
+  s.bulk.forest = BoxForest(PETSC_COMM_WORLD, 3, (const PetscInt[3]){n, n, n}, 1, 0, 1, &box);
+  box_width     = 1;
+  if (hanging) {
+    MarkList  marks = {0};
+    Forest    next;
+    ForestMap map;
+    OK(ForestGetTables(s.bulk.forest, &t));
+    OK(PetscCalloc1(t->num_leaves, &marks.split));
+    OK(PetscCalloc1(t->num_leaves, &marks.coarsen));
+    for (PetscInt l = 0; l < t->num_leaves; ++l) marks.split[l] = l % n < n / 2 && l / n % n < n / 2 && l / (n * n) < n / 2 ? 7 : 0;
+    OK(ForestAdapt(s.bulk.forest, &marks, NULL, 0, NULL, &next, &map));
+    OK(ForestMapDestroy(&map));
+    MarksDestroy(&marks);
+    OK(ForestDestroy(&s.bulk.forest));
+    s.bulk.forest = next;
+  }
+  BulkInit(&s.bulk, 3, MODEL_3D, KINEMATICS_FINITE);
+  BulkMaterial(&s.bulk.material, "neo_hookean", VOLUMETRIC_LOG, FORMULATION_DISPLACEMENT, 1, 8. / 3);
+  for (PetscInt c = 0; c < 3; ++c) {
+    for (PetscInt b = 0; b < 6; ++b) s.bulk.boundaries[b].displacement[c] = BulkExpression("%s", field[c]);
+    s.bulk.body.force[c] = BodyForce(c);
+  }
+  SolvedCreate(&s, order, order);
+  Interpolate(&s);
+  SolvedSolve(&s);
+  Integrate(&s, &f);
+  print_message("p %d n %2d%s: %6d dofs, H1 %.3e L2 %.3e energy %.12f norm %.12f\n", (int)order, (int)n, hanging ? " hanging" : "", (int)f.dofs, (double)f.h1,
+                (double)f.l2, (double)f.energy, (double)f.norm);
+  SolvedDestroy(&s);
+  return f;
+}
+
+static void CheckRate(PetscInt order, PetscInt coarse, const Figures *f, PetscInt fine, const Figures *g)
+{
+  const PetscReal ratio = PetscLogReal((PetscReal)fine / coarse), h1 = PetscLogReal(f->h1 / g->h1) / ratio, l2 = PetscLogReal(f->l2 / g->l2) / ratio;
+
+  print_message("p %d: rates %.2f and %.2f\n", (int)order, (double)h1, (double)l2);
+  if (!(h1 > order - 0.15 && l2 > order + 1 - 0.15)) fail_msg("order %d: H1 rate %g, L2 rate %g", (int)order, (double)h1, (double)l2);
+}
+
+static void Rates(void **state)
+{
+  const PetscInt n[4][2] = {{8, 16}, {4, 8}, {3, 5}, {3, 4}};
+  PetscReal      last    = 0;
+
+  for (PetscInt order = 1; order <= 4; ++order) {
+    const PetscInt *m = n[order - 1];
+    const Figures   f = Solve(m[0], order, PETSC_FALSE), g = Solve(m[1], order, PETSC_FALSE);
+    const Figures   four = m[0] == 4 ? f : m[1] == 4 ? g : Solve(4, order, PETSC_FALSE);
+    CheckRate(order, m[0], &f, m[1], &g);
+    if (order > 1 && !(four.h1 < last / 4)) fail_msg("order %d divides the error by %g only", (int)order, (double)(last / four.h1));
+    last = four.h1;
+    if (order < 4) continue;
+    assert_near(four.energy, ENERGY, 1e-8);
+    assert_near(four.norm, NORM, 1e-9);
+  }
+}
+
+static void HangingRates(void **state)
+{
+  const PetscInt n[4][2] = {{4, 8}, {4, 8}, {2, 4}, {2, 4}};
+
+  for (PetscInt order = 1; order <= 4; ++order) {
+    const Figures f = Solve(n[order - 1][0], order, PETSC_TRUE), g = Solve(n[order - 1][1], order, PETSC_TRUE);
+    CheckRate(order, n[order - 1][0], &f, n[order - 1][1], &g);
+  }
+}
+
+int main(int argc, char **argv)
+{
+  const struct CMUnitTest tests[] = {cmocka_unit_test(BodyForceIsRight), cmocka_unit_test(Rates), cmocka_unit_test(HangingRates)};
+  if (PetscInitialize(&argc, &argv, NULL, NULL) || StageRegister()) return 1;
+  const int failed = cmocka_run_group_tests(tests, NULL, NULL);
+  return PetscFinalize() || failed;
+}
