@@ -43,7 +43,8 @@ typedef struct {
   PetscInt  step, pass, cells, dofs;
   PetscInt  newton_iterations; /* on the way to this row: of one pass; in history.csv of the whole step */
   PetscInt  active_nodes;
-  PetscInt  step_cuts; /* of this step so far */
+  PetscInt  step_cuts;  /* of this step so far */
+  PetscInt  set_cycles; /* active sets that repeated on the way to this row */
   PetscReal t, dt, estimated_error /* relative; NaN: not estimated */, estimate /* absolute */, energy, min_det, min_gap, contact_force, seconds;
   PetscReal force_imbalance, moment_imbalance, support_imbalance;
   PetscBool accepted;
@@ -63,5 +64,5 @@ PetscErrorCode MonitorRow(Monitor, const ReportRow *); /* one line; on a termina
 /* Erase the bar, before something else is printed (no effect when there is none). */
 PetscErrorCode MonitorHide(Monitor);
 /* What was computed, estimated error, where results are. status as in summary.json; reason may be empty; last accepted row, NULL: none. */
-PetscErrorCode MonitorFooter(Monitor, const char *status, const char *reason, const ReportRow *last);
+PetscErrorCode MonitorFooter(Monitor, const char *status, const char *reason, const char *adapt_stop, const ReportRow *last);
 PetscErrorCode MonitorDestroy(Monitor *);

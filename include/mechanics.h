@@ -71,6 +71,9 @@ PetscErrorCode MechanicsPrescribe(Mechanics, PetscReal local[]);
 typedef struct {
   PetscReal energy;  /* strain energy */
   PetscReal scale2;  /* sum over cells and loads of squared nodal forces: what a small residual is small against */
+  PetscReal noise2;  /* sum over cells of the square of what round-off of F = I + grad u leaves in nodal forces, u being no larger than a cell */
+  PetscReal drift2;  /* the same for each unit of the largest displacement */
+  PetscReal largest; /* largest displacement component */
   PetscReal min_det; /* smallest det F */
   PetscBool bad;     /* some det F <= 0: residual must not be used (numerical status) */
 } MechanicsStatus;

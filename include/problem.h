@@ -20,6 +20,8 @@ typedef struct {
 
 PetscErrorCode StateCreate(Problem, State *);
 PetscErrorCode StateCopy(const State *from, State *to); /* same problem */
+/* to = (1 - share) a + share b, at the time of a; all of the same problem. */
+PetscErrorCode StateBlend(const State *a, const State *b, PetscReal share, State *to);
 PetscErrorCode StateDestroy(State *);
 
 /* Initial cell orders of a scene on a forest, [num_leaves], to be freed by the caller. */
@@ -39,6 +41,8 @@ PetscErrorCode ProblemGetMatrix(Problem, Mat *);
 /* Prescribed motion: SetTime fixes the target; Jump applies it at once (no lift); otherwise the part not yet applied enters the next linear solve. */
 PetscErrorCode ProblemSetTime(Problem, PetscReal t);
 PetscErrorCode ProblemJump(Problem);
+/* Apply this share of what is left to the target. */
+PetscErrorCode ProblemApplyShare(Problem, PetscReal share);
 
 /* Local displacement array (Cartesian frames applied only through HPSpaceGather): free dofs from x, prescribed dofs as applied so far. local[num_nodes*dim]. */
 PetscErrorCode ProblemLocalDisplacement(Problem, Vec x, PetscReal local[]);
@@ -80,6 +84,7 @@ typedef struct {
   PetscReal energy;     /* strain energy */
   PetscReal min_det;    /* smallest det F */
   PetscReal scale;      /* root of the summed squared nodal forces of cells and loads: the residual is small against it */
+  PetscReal noise;      /* level of round-off in the residual: no Newton step gets below */
   PetscInt  num_active; /* active contact nodes */
   PetscBool bad;        /* outside the domain: det F <= 0 or a failed projection */
 } ProblemStatus;
@@ -96,8 +101,11 @@ PetscErrorCode ProblemIsSymmetric(Problem, PetscBool *possible);
 /* rhs = -(r + lift), multiplier rows in the form of the last tangent. */
 PetscErrorCode ProblemRightSide(Problem, Vec r, Vec lift, Vec rhs);
 /* Active-set passes against the last tangent: given the solution dx of tangent . dx = -rhs, decide anew which constraints are active, rewrite their rows in the
-   matrix and the right-hand side. *changed: number of nodes that switched (all ranks). */
-PetscErrorCode ProblemSwitchActiveSet(Problem, Vec x, Vec dx, Vec rhs, PetscInt *changed);
+   matrix and the right-hand side. *changed: number of nodes that switched (all ranks); *violation: by how much dx contradicts the set it was found with, the
+   sum over those nodes of w0 |z - c gt/w| (unit: force). */
+PetscErrorCode ProblemSwitchActiveSet(Problem, Vec x, Vec dx, Vec rhs, PetscInt *changed, PetscReal *violation);
+/* A number that tells active sets of this problem apart. Not collective, the same on every rank. */
+PetscErrorCode ProblemActiveSetHash(Problem, uint64_t *hash);
 /* A Newton step: Begin remembers where it starts; Move sets x = start + step dx and the prescribed motion likewise (may be called again with a shorter step)
    and refreshes the contact search; Accept updates the element pressures for the step taken. */
 PetscErrorCode ProblemStepBegin(Problem, Vec x, Vec dx);

@@ -9,6 +9,8 @@ typedef struct {
   const char   *reason;        /* why not, in words */
   PetscInt      iterations;    /* tangent assemblies */
   PetscInt      linear_solves; /* factorisations, active-set passes included */
+  PetscInt      set_changes;   /* contact nodes that active-set passes switched */
+  PetscInt      set_cycles;    /* linearisations whose active sets repeated, and 1 when Newton's own did */
   PetscReal     residual, scale;
   ProblemStatus status;
 } SolverReport;
@@ -20,5 +22,6 @@ PetscErrorCode SolverDestroy(Solver *);
 PetscErrorCode SolverGetSNES(Solver, SNES *);
 
 /* Solve at the problem's current time, starting from state (x, pressure), which is changed. The prescribed motion not yet applied enters the first linear
-   solve. Failure is a report, not an error: the state is then of no use (restore a copy). */
+   solve. Active sets that repeat are noticed: of the passes of one linearisation the least contradicted set is taken; Newton iterates that repeat fail at
+   once, so that the load step is cut. Failure is a report, not an error: the state is then of no use (restore a copy). */
 PetscErrorCode SolverSolve(Solver, State *, SolverReport *);

@@ -1,6 +1,8 @@
 /* Adaptation at one time: estimate, mark, adapt the forest, transfer, find equilibrium again; until the tolerance or a limit is met. */
 #include "appimpl.h"
 
+#define MOST_PIECES 8 /* of the way from the accepted state, when equilibrium on a finer mesh is hard to find */
+
 PetscErrorCode AppEstimate(App *app)
 {
   PetscFunctionBegin;
@@ -27,6 +29,8 @@ PetscErrorCode AppReportPass(App *app, PetscInt iterations, PetscBool accepted)
   app->last.pass              = app->passes_in_step;
   app->last.newton_iterations = iterations;
   app->last.step_cuts         = app->cuts_in_step;
+  app->last.set_cycles        = app->set_cycles - app->told_cycles;
+  app->told_cycles            = app->set_cycles;
   app->last.seconds           = now - app->start;
   app->last.accepted          = accepted;
   app->last.dt                = l->state.t - l->accepted.t;
@@ -55,8 +59,9 @@ static PetscErrorCode PrescribeAt_Private(Problem problem, PetscReal t)
    interpolated from prescribed ones. */
 static PetscErrorCode MoveTo_Private(App *app, Forest forest, const ForestMap *map)
 {
-  Level  *old = &app->level, next;
-  int8_t *orders;
+  const Level *old = &app->level;
+  Level        next;
+  int8_t      *orders;
 
   PetscFunctionBegin;
   PetscCall(TransferOrders(map, old->state.leaf_order, &orders));
@@ -70,28 +75,52 @@ static PetscErrorCode MoveTo_Private(App *app, Forest forest, const ForestMap *m
   PetscCall(PrescribeAt_Private(next.problem, next.state.t));
   PetscCall(StageEnd(STAGE_TRANSFER));
   PetscCall(PetscFree(orders));
-  PetscCall(LevelDestroy(old));
   app->level = next;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Equilibrium on the new mesh at the same load; from the last accepted state, in smaller pieces, when that fails. */
+/* State between the last accepted one (share 0) and the transferred one (share 1), its prescribed motion likewise; the rest of the motion to time t is left to
+   the solver. */
+static PetscErrorCode StartBetween_Private(App *app, const State *transferred, PetscReal share)
+{
+  Level *l = &app->level;
+
+  PetscFunctionBegin;
+  PetscCall(StateBlend(&l->accepted, transferred, share, &l->state));
+  PetscCall(PrescribeAt_Private(l->problem, l->accepted.t));
+  PetscCall(ProblemSetTime(l->problem, transferred->t));
+  PetscCall(ProblemApplyShare(l->problem, share));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Equilibrium on the new mesh at the same load. Where the transferred state leads nowhere (a refined cell at a singular corner may start inverted), a state on
+   the way to it does better; at last the way from the accepted state is gone again, in as many pieces as it takes. */
 static PetscErrorCode Reequilibrate_Private(App *app, PetscInt *iterations, PetscBool *ok)
 {
-  Level          *l = &app->level;
-  const PetscReal t = l->state.t;
-  SolverReport    report;
+  static const PetscReal Shares[] = {1, 0.8, 0.5};
+  Level                 *l        = &app->level;
+  const PetscReal        t        = l->state.t;
+  State                  transferred;
 
   PetscFunctionBegin;
   const PetscInt before = app->newton_iterations;
-  PetscCall(SolverSolve(l->solver, &l->state, &report));
-  app->newton_iterations += report.iterations;
-  app->iterations_in_step += report.iterations;
-  *ok = report.converged;
+  PetscCall(StateCreate(l->problem, &transferred));
+  PetscCall(StateCopy(&l->state, &transferred));
+  *ok = PETSC_FALSE;
+  for (size_t i = 0; i < sizeof(Shares) / sizeof(Shares[0]) && !*ok; ++i) {
+    SolverReport report;
+    if (i > 0) PetscCall(StartBetween_Private(app, &transferred, Shares[i]));
+    PetscCall(SolverSolve(l->solver, &l->state, &report));
+    AppCount(app, &report);
+    *ok = report.converged;
+    if (!*ok) PetscCall(PetscInfo(NULL, "no equilibrium from %g of the transferred state: %s\n", (double)Shares[i], report.reason));
+  }
+  PetscCall(StateDestroy(&transferred));
+  l->state.t = t;
   if (!*ok) {
     PetscCall(StateCopy(&l->accepted, &l->state));
     PetscCall(PrescribeAt_Private(l->problem, l->accepted.t));
-    PetscCall(AppAdvance(app, t, ok));
+    PetscCall(AppAdvance(app, t, (t - l->accepted.t) / MOST_PIECES, ok));
   }
   *iterations = app->newton_iterations - before;
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -152,26 +181,55 @@ static PetscErrorCode Refine_Private(App *app, PetscBool *adapted)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode AppAdapt(App *app, PetscBool *ok)
+/* Refine and find equilibrium again. When there is none to be found on the finer mesh (material that collapses at a singular corner, say), the solution on
+   the mesh at hand stands, and adaptation ends with that reason. *more: a finer mesh was reached. */
+static PetscErrorCode Pass_Private(App *app, PetscInt *iterations, PetscBool *more)
+{
+  Level old = app->level;
+
+  PetscFunctionBegin;
+  PetscCall(Refine_Private(app, more));
+  if (!*more) {
+    *iterations     = 0;
+    app->adapt_stop = app->estimate.num_leaves >= app->data->adapt.max_cells / 2 ? "max_cells" : "nothing left to refine";
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
+  PetscCall(Reequilibrate_Private(app, iterations, more));
+  if (*more) {
+    PetscCall(LevelDestroy(&old));
+    ++app->passes_in_step;
+    ++app->adapt_passes;
+  } else {
+    PetscCall(LevelDestroy(&app->level));
+    app->level      = old;
+    app->adapt_stop = "no equilibrium found on a finer mesh";
+    PetscCall(PrescribeAt_Private(old.problem, old.state.t));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode AppAdapt(App *app)
 {
   const AdaptSpec *spec       = &app->data->adapt;
   PetscInt         iterations = app->iterations_in_step;
   PetscBool        more       = PETSC_TRUE;
 
   PetscFunctionBegin;
-  *ok = PETSC_TRUE;
   while (more) {
     PetscCall(AppEstimate(app));
-    const PetscBool enough = (PetscBool)(spec->tolerance <= 0 || app->estimate.relative <= spec->tolerance || app->passes_in_step >= spec->max_passes);
+    app->adapt_stop = "";
+    if (spec->tolerance > 0 && app->estimate.relative <= spec->tolerance)
+      app->adapt_stop = "tolerance";
+    else if (spec->tolerance > 0 && app->passes_in_step >= spec->max_passes)
+      app->adapt_stop = "max_passes";
+    const PetscBool enough = (PetscBool)(spec->tolerance <= 0 || app->adapt_stop[0]);
     PetscCall(AppReportPass(app, iterations, enough));
-    more = PETSC_FALSE;
     if (enough) break;
-    PetscCall(Refine_Private(app, &more));
-    if (!more) break;
-    ++app->passes_in_step;
-    ++app->adapt_passes;
-    PetscCall(Reequilibrate_Private(app, &iterations, ok));
-    if (!*ok) break;
+    PetscCall(Pass_Private(app, &iterations, &more));
+    if (more) continue;
+    app->last.accepted          = PETSC_TRUE;
+    app->last.newton_iterations = iterations;
+    PetscCall(MonitorRow(app->monitor, &app->last));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

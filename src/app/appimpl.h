@@ -27,10 +27,12 @@ typedef struct {
   Writer           writer;
   History          history;
   Monitor          monitor;
-  PetscInt         load_steps, step_cuts, adapt_passes, newton_iterations, passes_in_step, iterations_in_step, cuts_in_step, states;
-  PetscLogDouble   start;
-  const char      *failure; /* why the run gave up, NULL while it goes on */
-  ReportRow        last;
+  PetscInt         load_steps, step_cuts, adapt_passes, newton_iterations, passes_in_step, iterations_in_step, cuts_in_step, states, set_changes, set_cycles,
+      told_cycles;
+  PetscLogDouble start;
+  const char    *failure;    /* why the run gave up, NULL while it goes on */
+  const char    *adapt_stop; /* why the last adaptation ended: tolerance, max_passes, max_cells, … */
+  ReportRow      last;
 } App;
 
 /* start.c: PetscInitialize, cheaply for a single process. */
@@ -38,10 +40,11 @@ PetscErrorCode AppInitialize(int argc, char **argv);
 /* loadstep.c: all load steps; app->failure is set when the solver gives up. Collective. */
 PetscErrorCode AppRun(App *);
 /* adaptstep.c: after a solution at the current time, refine and solve again until the tolerance or a limit is met. */
-PetscErrorCode AppAdapt(App *, PetscBool *ok);
-/* Bring level.state from its time to t on the current mesh, in as many pieces as it takes; *ok false when even the smallest failed.
-   max_pieces: give up beyond. */
-PetscErrorCode AppAdvance(App *, PetscReal t, PetscBool *ok);
+PetscErrorCode AppAdapt(App *);
+/* Count what a solve took. */
+void AppCount(App *, const SolverReport *);
+/* Bring level.state from its time to t on the current mesh, in as many pieces as it takes; *ok false when even one of length `smallest` failed. */
+PetscErrorCode AppAdvance(App *, PetscReal t, PetscReal smallest, PetscBool *ok);
 PetscErrorCode AppEstimate(App *);
 /* Fields, tables and screen of the state just computed. */
 PetscErrorCode AppReportPass(App *, PetscInt iterations, PetscBool accepted);

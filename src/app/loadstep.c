@@ -5,6 +5,14 @@
 #define GROWTH 1.5
 #define ROUND_OFF 1e-12
 
+void AppCount(App *app, const SolverReport *report)
+{
+  app->newton_iterations += report->iterations;
+  app->iterations_in_step += report->iterations;
+  app->set_changes += report->set_changes;
+  app->set_cycles += report->set_cycles;
+}
+
 /* One attempt from the accepted state of this mesh to time t. */
 static PetscErrorCode Attempt_Private(App *app, PetscReal t, SolverReport *report)
 {
@@ -13,8 +21,7 @@ static PetscErrorCode Attempt_Private(App *app, PetscReal t, SolverReport *repor
   PetscFunctionBegin;
   PetscCall(ProblemSetTime(l->problem, t));
   PetscCall(SolverSolve(l->solver, &l->state, report));
-  app->newton_iterations += report->iterations;
-  app->iterations_in_step += report->iterations;
+  AppCount(app, report);
   if (report->converged) l->state.t = t;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -29,7 +36,7 @@ static PetscErrorCode Restore_Private(App *app, const State *from)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode AppAdvance(App *app, PetscReal t, PetscBool *ok)
+PetscErrorCode AppAdvance(App *app, PetscReal t, PetscReal smallest, PetscBool *ok)
 {
   Level       *l  = &app->level;
   PetscReal    dt = t - l->state.t;
@@ -49,10 +56,7 @@ PetscErrorCode AppAdvance(App *app, PetscReal t, PetscBool *ok)
     ++app->step_cuts;
     ++app->cuts_in_step;
     PetscCall(PetscInfo(NULL, "step to t = %g cut: %s\n", (double)next, report.reason));
-    if (dt < app->data->load.step_min) {
-      app->failure = report.reason;
-      *ok          = PETSC_FALSE;
-    }
+    *ok = (PetscBool)(dt >= smallest);
   }
   PetscCall(StateDestroy(&start));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -82,7 +86,7 @@ static PetscErrorCode LoadStep_Private(App *app, PetscReal *dt, PetscBool *ok)
     PetscFunctionReturn(PETSC_SUCCESS);
   }
   const PetscBool easy = (PetscBool)(report.iterations <= EASY_ITERATIONS && app->cuts_in_step == 0);
-  PetscCall(AppAdapt(app, ok));
+  PetscCall(AppAdapt(app));
   if (easy) *dt = PetscMin(GROWTH * *dt, app->data->load.step_max);
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -35,16 +35,19 @@ static PetscErrorCode Summarise_Private(App *app)
   }
   RunSummary summary = {
       .status = status, .reason = app->failure ? app->failure : "", .t = app->level.accepted.t, .seconds = now - app->start, .load_steps = app->load_steps};
-  summary.step_cuts         = app->step_cuts;
-  summary.adapt_passes      = app->adapt_passes;
-  summary.newton_iterations = app->newton_iterations;
-  summary.problem           = app->level.problem;
-  summary.state             = &app->level.accepted;
-  summary.balance           = &app->balance;
-  summary.estimate          = app->estimated && !app->failure ? &app->estimate : NULL;
-  summary.probes            = app->probes;
+  summary.step_cuts          = app->step_cuts;
+  summary.adapt_passes       = app->adapt_passes;
+  summary.newton_iterations  = app->newton_iterations;
+  summary.active_set_changes = app->set_changes;
+  summary.active_set_cycles  = app->set_cycles;
+  summary.adapt_stop         = app->adapt_stop;
+  summary.problem            = app->level.problem;
+  summary.state              = &app->level.accepted;
+  summary.balance            = &app->balance;
+  summary.estimate           = app->estimated && !app->failure ? &app->estimate : NULL;
+  summary.probes             = app->probes;
   PetscCall(OutputSummary(app->comm, app->data, &summary));
-  PetscCall(MonitorFooter(app->monitor, status, summary.reason, app->load_steps ? &app->last : NULL));
+  PetscCall(MonitorFooter(app->monitor, status, summary.reason, app->adapt_stop, app->load_steps ? &app->last : NULL));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -1,6 +1,6 @@
 /* What a run prints: header, one line per adaptive pass and load step, closing lines. On a terminal a bar below the lines shows how far pseudo-time has come
    and how long the rest may take; into a file or a pipe nothing of it goes. */
-#include "diagnose.h"
+#include "diagnoseimpl.h"
 #include <petsctime.h>
 #include <stdarg.h>
 #include <sys/ioctl.h>
@@ -21,15 +21,14 @@ struct _p_Monitor {
 
 PetscErrorCode MonitorCreate(MPI_Comm comm, const SceneData *scene, Monitor *monitor)
 {
-  Monitor     m;
-  const char *kind = getenv("TERM");
+  Monitor m;
 
   PetscFunctionBegin;
   PetscCall(PetscNew(&m));
   m->comm  = comm;
   m->scene = scene;
   PetscCallMPI(MPI_Comm_rank(comm, &m->rank));
-  m->terminal = (PetscBool)(m->rank == 0 && isatty(fileno(PETSC_STDOUT)) && kind && strcmp(kind, "dumb"));
+  m->terminal = (PetscBool)(m->rank == 0 && DiagnoseIsTerminal(PETSC_STDOUT));
   PetscCall(PetscTime(&m->start));
   *monitor = m;
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -159,7 +158,7 @@ PetscErrorCode MonitorHeader(Monitor m, Problem problem)
 
 PetscErrorCode MonitorRow(Monitor m, const ReportRow *row)
 {
-  char           error[16] = "-", force[16] = "-", end[48] = "";
+  char           error[16] = "-", force[16] = "-", end[80] = "";
   PetscLogDouble now;
 
   PetscFunctionBegin;
@@ -172,6 +171,10 @@ PetscErrorCode MonitorRow(Monitor m, const ReportRow *row)
     snprintf(end, sizeof(end), "  accepted, %d %s", (int)row->step_cuts, row->step_cuts == 1 ? "cut" : "cuts");
   else if (row->accepted)
     snprintf(end, sizeof(end), "  accepted");
+  if (row->set_cycles) {
+    const size_t used = strlen(end);
+    snprintf(end + used, sizeof(end) - used, "%s %d active-set %s", used ? "," : " ", (int)row->set_cycles, row->set_cycles == 1 ? "cycle" : "cycles");
+  }
   Say_Private(m, "%5" PetscInt_FMT " %4" PetscInt_FMT " %11.5g %8" PetscInt_FMT " %9" PetscInt_FMT " %6" PetscInt_FMT " %6" PetscInt_FMT " %10s %12s %8.2f%s\n",
               row->step, row->pass, (double)row->t, row->cells, row->dofs, row->newton_iterations, row->active_nodes, error, force, (double)row->seconds, end);
   m->iterations += row->newton_iterations;
@@ -184,7 +187,7 @@ PetscErrorCode MonitorRow(Monitor m, const ReportRow *row)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode MonitorFooter(Monitor m, const char *status, const char *reason, const ReportRow *last)
+PetscErrorCode MonitorFooter(Monitor m, const char *status, const char *reason, const char *adapt_stop, const ReportRow *last)
 {
   PetscLogDouble now;
   char           spent[32];
@@ -205,6 +208,7 @@ PetscErrorCode MonitorFooter(Monitor m, const char *status, const char *reason, 
     else
       Say_Private(m, "strain energy %.8g, estimated error %.3g %% in the energy norm\n", (double)last->energy, 100 * (double)last->estimated_error);
   }
+  if (adapt_stop && adapt_stop[0]) Say_Private(m, "adaptation ended: %s\n", adapt_stop);
   Say_Private(m, "results in %s: summary.json, history.csv, adapt.csv%s\n", m->scene->output.directory, m->scene->output.fields ? ", fields.xdmf" : "");
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -53,15 +53,20 @@ static PetscErrorCode GroupResidual_Private(Mechanics m, const CellGroup *g, con
 
 PetscErrorCode MechanicsResidual(Mechanics m, const PetscReal u[], PetscReal r[], MechanicsStatus *status)
 {
+  const HPTables *v;
+
   PetscFunctionBegin;
   status->energy  = 0;
   status->scale2  = 0;
+  status->noise2  = m->noise2;
+  status->drift2  = m->drift2;
+  status->largest = 0;
   status->min_det = PETSC_MAX_REAL;
   status->bad     = PETSC_FALSE;
+  PetscCall(HPSpaceGetTables(m->space, &v));
+  for (PetscInt i = 0; i < v->num_nodes * m->dim; ++i) status->largest = PetscMax(status->largest, PetscAbsReal(u[i]));
   for (PetscInt g = 0; g < m->num_groups; ++g) PetscCall(GroupResidual_Private(m, &m->groups[g], u, r, status));
   if (m->dead) {
-    const HPTables *v;
-    PetscCall(HPSpaceGetTables(m->space, &v));
     for (PetscInt i = 0; i < v->num_nodes * m->dim; ++i) {
       r[i] += m->dead[i];
       status->scale2 += PetscSqr(m->dead[i]);

@@ -25,9 +25,10 @@ static PetscErrorCode Groups_Private(Mechanics m, const HPTables *v, const Fores
     if (mine->law->rigid) continue;
     PetscInt g = FindGroup_Private(m, material, mine, v->cell_order[c]);
     if (g < 0) {
-      g                  = m->num_groups++;
-      material[g]        = mine;
-      m->groups[g].order = v->cell_order[c];
+      g                     = m->num_groups++;
+      material[g]           = mine;
+      m->groups[g].order    = v->cell_order[c];
+      m->groups[g].material = mine;
       PetscCall(CellKernelCreate(m->dim, m->spec->model, m->spec->kinematics, v->cell_order[c], mine, &m->groups[g].kernel));
       CellKernelSizes(m->groups[g].kernel, &m->groups[g].n, &m->groups[g].m, &m->groups[g].batch);
     }
@@ -63,6 +64,33 @@ static PetscErrorCode FillGroups_Private(Mechanics m, const HPTables *v)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Round-off of nodal forces: epsilon * modulus * face for an F of size one, and that over the spacing of the nodes for each unit of displacement. */
+static void Noise_Private(Mechanics m)
+{
+  for (PetscInt g = 0; g < m->num_groups; ++g) {
+    const CellGroup    *group    = &m->groups[g];
+    const MaterialSpec *material = group->material;
+    const PetscReal     modulus  = material->kappa + 4. / 3 * material->mu;
+    for (PetscInt c = 0; c < group->num_cells; ++c) {
+      PetscReal lo[3] = {PETSC_MAX_REAL, PETSC_MAX_REAL, PETSC_MAX_REAL}, hi[3] = {PETSC_MIN_REAL, PETSC_MIN_REAL, PETSC_MIN_REAL}, most = 0,
+                least = PETSC_MAX_REAL;
+      for (PetscInt i = 0; i < group->n * m->dim; ++i) {
+        const PetscReal x = group->X[c * group->n * m->dim + i];
+        lo[i % m->dim]    = PetscMin(lo[i % m->dim], x);
+        hi[i % m->dim]    = PetscMax(hi[i % m->dim], x);
+      }
+      for (PetscInt d = 0; d < m->dim; ++d) {
+        most  = PetscMax(most, hi[d] - lo[d]);
+        least = PetscMin(least, hi[d] - lo[d]);
+      }
+      const PetscReal face  = m->dim == 3 ? most * most : m->spec->model == MODEL_AXISYMMETRIC ? 2 * PETSC_PI * hi[0] * most : most;
+      const PetscReal force = PETSC_MACHINE_EPSILON * modulus * face;
+      m->noise2 += PetscSqr(force);
+      m->drift2 += PetscSqr(force * group->order * group->order / least);
+    }
+  }
+}
+
 PetscErrorCode MechanicsCreate(HPSpace space, const MechanicsSpec *spec, const Supports *supports, Mechanics *mechanics)
 {
   const HPTables     *v;
@@ -81,6 +109,7 @@ PetscErrorCode MechanicsCreate(HPSpace space, const MechanicsSpec *spec, const S
   m->dim = v->dim;
   PetscCall(Groups_Private(m, v, t));
   PetscCall(FillGroups_Private(m, v));
+  Noise_Private(m);
   PetscCall(MechanicsLoadFacets_Private(m));
   PetscCall(MechanicsFreeBodies_Private(m));
   *mechanics = m;

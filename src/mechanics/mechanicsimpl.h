@@ -53,11 +53,12 @@ PetscErrorCode FacetPressure(PetscInt dim, Model, PetscInt order, const PetscRea
 
 /* Owned cells of one law and order, kept contiguous. */
 typedef struct {
-  CellKernel kernel;                        /* owned */
-  PetscInt   order, num_cells, n, m, batch; /* nodes and pressure coefficients of a cell; cells per call */
-  PetscInt  *cells;                         /* owned [num_cells] local cells */
-  PetscReal *X;                             /* owned [num_cells][n][dim] */
-  PetscInt   pressure;                      /* first coefficient in the pressure array */
+  CellKernel          kernel;                        /* owned */
+  const MaterialSpec *material;                      /* borrowed */
+  PetscInt            order, num_cells, n, m, batch; /* nodes and pressure coefficients of a cell; cells per call */
+  PetscInt           *cells;                         /* owned [num_cells] local cells */
+  PetscReal          *X;                             /* owned [num_cells][n][dim] */
+  PetscInt            pressure;                      /* first coefficient in the pressure array */
 } CellGroup;
 
 /* A facet that carries a load. */
@@ -79,6 +80,7 @@ struct _p_Mechanics {
   PetscReal           *free_share;         /* owned [num_owned_cells] diagonal of cells of unsupported bodies relative to their stiffness, else 0 */
   PetscReal           *work;               /* owned batch buffers */
   PetscInt             work_size;
+  PetscReal            noise2, drift2; /* see MechanicsStatus */
 };
 
 PetscErrorCode MechanicsLoadFacets_Private(Mechanics);

@@ -135,9 +135,11 @@ static cJSON *Document_Private(const SceneData *scene, const RunSummary *s, cons
   AddNumber_Private(root, "ranks", (PetscReal)g->ranks);
   AddNumber_Private(root, "load_steps", (PetscReal)s->load_steps);
   AddNumber_Private(root, "step_cuts", (PetscReal)s->step_cuts);
+  cJSON_AddStringToObject(root, "adapt_stop", s->adapt_stop ? s->adapt_stop : "");
   AddNumber_Private(root, "adapt_passes", (PetscReal)s->adapt_passes);
   AddNumber_Private(root, "newton_iterations", (PetscReal)s->newton_iterations);
   AddNumber_Private(root, "active_set_changes", (PetscReal)s->active_set_changes);
+  AddNumber_Private(root, "active_set_cycles", (PetscReal)s->active_set_cycles);
   AddNumber_Private(root, "cells", s->problem ? (PetscReal)g->cells : nan);
   AddNumber_Private(root, "dofs", s->problem ? (PetscReal)g->dofs : nan);
   AddNumber_Private(root, "order_min", s->problem ? (PetscReal)g->order_min : nan);

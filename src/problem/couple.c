@@ -298,7 +298,8 @@ static PetscErrorCode Freeze_Private(Problem p, Contact *c, PetscBool *failed)
     c->frozen[i].dweight = dweight;
     c->frozen[i].hessian = NULL;
   }
-  c->edges = c->frozen;
+  c->edges     = c->frozen;
+  c->is_frozen = PETSC_TRUE; /* also on a rank that has no edges: the next evaluation must not come here again */
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -357,7 +358,7 @@ PetscErrorCode ContactEvaluate_Private(Problem p, Contact *c, Vec x, const Petsc
   PetscCall(GatherMultipliers_Private(p, c, x));
   for (PetscInt k = 0; k < 2; ++k) PetscCall(SurfaceGather_Private(p, &c->side[k], local, c->side[k].X, c->side[k].x));
   if (p->scene->mechanics.kinematics == KINEMATICS_SMALL) {
-    if (!c->frozen) PetscCall(Freeze_Private(p, c, failed));
+    if (!c->is_frozen) PetscCall(Freeze_Private(p, c, failed));
     PetscCall(LinearGaps_Private(p, c));
   } else {
     ContactSurface side[2] = {SurfaceOf_Private(&c->side[0], c->side[0].x), SurfaceOf_Private(&c->side[1], c->side[1].x)};

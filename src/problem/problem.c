@@ -180,6 +180,16 @@ PetscErrorCode ProblemJump(Problem p)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscErrorCode ProblemApplyShare(Problem p, PetscReal share)
+{
+  const HPTables *v;
+
+  PetscFunctionBegin;
+  PetscCall(HPSpaceGetTables(p->space, &v));
+  for (PetscInt i = 0; i < v->num_nodes * p->dim; ++i) p->applied[i] = share == 1 ? p->target[i] : p->applied[i] + share * (p->target[i] - p->applied[i]);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode ProblemPending(Problem p, PetscReal *remaining)
 {
   const HPTables *v;
@@ -328,6 +338,16 @@ PetscErrorCode StateCopy(const State *from, State *to)
   PetscCall(PetscArraycpy(to->pressure, from->pressure, from->num_pressure));
   PetscCall(PetscArraycpy(to->leaf_order, from->leaf_order, from->num_leaves));
   to->t = from->t;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode StateBlend(const State *a, const State *b, PetscReal share, State *to)
+{
+  PetscFunctionBegin;
+  PetscCall(VecCopy(a->x, to->x));
+  PetscCall(VecAXPBY(to->x, share, 1 - share, b->x));
+  for (PetscInt i = 0; i < to->num_pressure; ++i) to->pressure[i] = (1 - share) * a->pressure[i] + share * b->pressure[i];
+  to->t = a->t;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -37,7 +37,8 @@ typedef struct {
   PetscReal          distance;            /* search distance */
   PetscInt           num_edges;           /* results of the last evaluation */
   const ContactEdge *edges;
-  ContactEdge       *frozen;                   /* small kinematics: linearised once at the reference positions */
+  ContactEdge       *frozen; /* small kinematics: linearised once at the reference positions */
+  PetscBool          is_frozen;
   PetscReal         *gap0;                     /* [n] reference gaps, small kinematics */
   PetscReal         *offset;                   /* [n] constant part of gt_j that does not count: initial gaps closed, interference */
   PetscInt          *pattern_offset, *pattern; /* [num_edges+1]: nodes each edge has room for in the matrix */

@@ -24,6 +24,21 @@ PetscErrorCode ProblemSearch(Problem p, Vec x)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Square of what round-off of positions leaves in the rows and forces of active nodes: epsilon |x| (E + z). */
+static PetscReal ContactNoise2_Private(Problem p)
+{
+  PetscReal sum = 0;
+
+  for (PetscInt i = 0; i < p->num_contacts; ++i) {
+    const Contact *c = &p->contacts[i];
+    for (PetscInt j = 0; j < c->side[0].num_nodes; ++j) {
+      const PetscReal *x = c->side[0].x + 2 * j;
+      if (c->active[j]) sum += (PetscSqr(x[0]) + PetscSqr(x[1])) * PetscSqr(PETSC_MACHINE_EPSILON * (c->c[j] * c->w0[j] + PetscAbsReal(c->z[j])));
+    }
+  }
+  return sum;
+}
+
 /* Bulk and contact forces into the local array r, status summed over ranks. u: local array. */
 static PetscErrorCode LocalForces_Private(Problem p, Vec x, const PetscReal u[], PetscReal r[], ProblemStatus *status)
 {
@@ -46,12 +61,14 @@ static PetscErrorCode LocalForces_Private(Problem p, Vec x, const PetscReal u[],
     for (PetscInt j = 0; j < c->side[0].num_nodes; ++j) status->num_active += c->active[j];
   }
   PetscCall(StageEnd(STAGE_CONTACT));
-  PetscReal sum[3] = {bulk.energy, bulk.scale2, bulk.bad || failed};
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 3, MPIU_REAL, MPI_SUM, p->comm));
-  PetscCallMPI(MPI_Allreduce(&bulk.min_det, &status->min_det, 1, MPIU_REAL, MPI_MIN, p->comm));
-  status->energy = sum[0];
-  status->scale  = PetscSqrtReal(sum[1]);
-  status->bad    = (PetscBool)(sum[2] > 0);
+  PetscReal sum[5] = {bulk.energy, bulk.scale2, bulk.bad || failed, bulk.noise2, bulk.drift2}, least[2] = {bulk.min_det, -bulk.largest};
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 5, MPIU_REAL, MPI_SUM, p->comm));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, least, 2, MPIU_REAL, MPI_MIN, p->comm));
+  status->energy  = sum[0];
+  status->scale   = PetscSqrtReal(sum[1]);
+  status->bad     = (PetscBool)(sum[2] > 0);
+  status->min_det = least[0];
+  status->noise   = PetscSqrtReal(sum[3] + PetscSqr(least[1]) * sum[4] + ContactNoise2_Private(p));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

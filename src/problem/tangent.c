@@ -308,16 +308,18 @@ PetscErrorCode ProblemTangent(Problem p, Vec x, const PetscReal pressure[], Vec 
 }
 
 /* New activity of one pair for the increment dx: rows that switch are rewritten, multiplier right-hand sides go to b, force shifts to rhs. */
-static PetscErrorCode ContactSwitch_Private(Problem p, Contact *c, const PetscReal dz[], Vec rhs, PetscInt *changed)
+static PetscErrorCode ContactSwitch_Private(Problem p, Contact *c, const PetscReal dz[], Vec rhs, PetscInt *changed, PetscReal *violation)
 {
   PetscFunctionBegin;
   PetscCall(ContactChange_Private(p, c, p->increment, c->change));
   for (PetscInt j = 0; j < c->side[0].num_nodes; ++j) {
     if (!c->has_multiplier[j] || !ContactCovered_Private(c, j)) continue;
-    const PetscBool active = (PetscBool)(c->z[j] + dz[j] - c->c[j] * (c->gap[j] + c->change[j]) / c->weight[j] > 0);
+    const PetscReal pushed = c->z[j] + dz[j] - c->c[j] * (c->gap[j] + c->change[j]) / c->weight[j];
+    const PetscBool active = (PetscBool)(pushed > 0);
     if (active == c->active[j]) continue;
     c->active[j] = active;
     ++*changed;
+    *violation += c->w0[j] * PetscAbsReal(pushed);
     if (c->zlocal[j] < 0) continue;
     PetscCall(ContactInsertRow_Private(p, c, j));
     PetscCall(InactiveShift_Private(p, c, j, active ? -1 : 1, rhs));
@@ -338,10 +340,11 @@ static PetscErrorCode MultiplierChange_Private(Problem p, const Contact *c, Vec 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode ProblemSwitchActiveSet(Problem p, Vec x, Vec dx, Vec rhs, PetscInt *changed)
+PetscErrorCode ProblemSwitchActiveSet(Problem p, Vec x, Vec dx, Vec rhs, PetscInt *changed, PetscReal *violation)
 {
   PetscFunctionBegin;
-  *changed = 0;
+  *changed   = 0;
+  *violation = 0;
   if (!p->num_contacts) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(ProblemIncrement_Private(p, dx, 1.0));
   for (PetscInt i = 0; i < p->num_contacts; ++i) {
@@ -349,7 +352,7 @@ PetscErrorCode ProblemSwitchActiveSet(Problem p, Vec x, Vec dx, Vec rhs, PetscIn
     PetscReal *dz;
     PetscCall(PetscMalloc1(c->side[0].num_nodes, &dz));
     PetscCall(MultiplierChange_Private(p, c, dx, dz));
-    PetscCall(ContactSwitch_Private(p, c, dz, rhs, changed));
+    PetscCall(ContactSwitch_Private(p, c, dz, rhs, changed, violation));
     PetscCall(PetscFree(dz));
   }
   if (*changed) {
@@ -358,6 +361,16 @@ PetscErrorCode ProblemSwitchActiveSet(Problem p, Vec x, Vec dx, Vec rhs, PetscIn
     PetscCall(RowSides_Private(p, rhs));
     PetscCall(MatAssemblyBegin(p->matrix, MAT_FINAL_ASSEMBLY));
     PetscCall(MatAssemblyEnd(p->matrix, MAT_FINAL_ASSEMBLY));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode ProblemActiveSetHash(Problem p, uint64_t *hash)
+{
+  PetscFunctionBegin;
+  *hash = 14695981039346656037ull; /* FNV-1a */
+  for (PetscInt i = 0; i < p->num_contacts; ++i) {
+    for (PetscInt j = 0; j < p->contacts[i].side[0].num_nodes; ++j) *hash = (*hash ^ (uint64_t)(p->contacts[i].active[j] + 1)) * 1099511628211ull;
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

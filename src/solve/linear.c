@@ -17,3 +17,57 @@ PetscErrorCode SolverLinear_Private(Solver s)
 #endif
   PetscFunctionReturn(PETSC_SUCCESS);
 }
+
+#if defined(PETSC_HAVE_MUMPS)
+/* Did MUMPS run out of its own workspace estimate? Then forget the factor and let the next one have four times the reserve (percent, ICNTL(14)). It has to
+   come through the options: MUMPS ignores a new value between analysis and factorisation. */
+static PetscErrorCode MoreWorkspace_Private(PC pc, PetscBool *again)
+{
+  Mat           F;
+  MatSolverType type;
+  PetscBool     mumps;
+  PetscInt      info, reserve;
+  char          text[16];
+
+  PetscFunctionBegin;
+  *again = PETSC_FALSE;
+  PetscCall(PCFactorGetMatSolverType(pc, &type));
+  PetscCall(PetscStrcmp(type, MATSOLVERMUMPS, &mumps));
+  if (!mumps) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(PCFactorGetMatrix(pc, &F));
+  PetscCall(MatMumpsGetInfog(F, 1, &info));
+  PetscCall(MatMumpsGetIcntl(F, 14, &reserve));
+  if ((info != -8 && info != -9) || reserve > 1000) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(PetscSNPrintf(text, sizeof(text), "%" PetscInt_FMT, 4 * PetscMax(reserve, 20)));
+  PetscCall(PetscOptionsSetValue(NULL, "-mat_mumps_icntl_14", text));
+  PetscCall(PetscInfo(pc, "MUMPS ran out of workspace: reserve raised to %s percent\n", text));
+  PetscCall(PCReset(pc));
+  *again = PETSC_TRUE;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+#endif
+
+/* Factorise A. A failure shows in the solve that follows. */
+PetscErrorCode SolverFactor_Private(Solver s, Mat A)
+{
+  KSP            ksp;
+  PC             pc;
+  PCFailedReason failed = PC_NOERROR;
+
+  PetscFunctionBegin;
+  PetscCall(SNESGetKSP(s->snes, &ksp));
+  PetscCall(KSPGetPC(ksp, &pc));
+  PetscCall(KSPSetOperators(ksp, A, A));
+  PetscCall(KSPSetUp(ksp));
+#if defined(PETSC_HAVE_MUMPS)
+  for (PetscBool again = PETSC_TRUE; again;) {
+    again = PETSC_FALSE;
+    PetscCall(PCGetFailedReason(pc, &failed));
+    if (failed != PC_NOERROR) PetscCall(MoreWorkspace_Private(pc, &again));
+    if (!again) break;
+    PetscCall(KSPSetOperators(ksp, A, A));
+    PetscCall(KSPSetUp(ksp));
+  }
+#endif
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

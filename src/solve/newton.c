@@ -6,35 +6,63 @@
 #include "solveimpl.h"
 #include <petsc/private/snesimpl.h>
 
-/* Solve tangent . dx = -(r + lift) with the active set iterated. */
-static PetscErrorCode LinearStep_Private(SNES snes, Solver s, Vec x, Vec dx, PetscBool *ok)
+/* A solve that goes wrong is recognised early: a shorter load step, or another start, costs less than waiting for the iteration limit. */
+#define STALLED 7  /* iterations without a new least residual */
+#define HALVINGS 8 /* of steps that left the domain, in one solve */
+
+/* One solve with the matrix as it stands. */
+static PetscErrorCode LinearSolve_Private(SNES snes, Solver s, Vec dx, PetscBool *ok)
 {
   KSP                ksp;
   KSPConvergedReason reason;
   Mat                A;
-  PetscInt           changed = 1;
+  PetscReal          norm;
 
   PetscFunctionBegin;
   PetscCall(SNESGetKSP(snes, &ksp));
   PetscCall(ProblemGetMatrix(s->problem, &A));
-  for (PetscInt pass = 0; pass <= s->passes && changed; ++pass) {
-    PetscCall(StageBegin(STAGE_FACTOR));
-    PetscCall(KSPSetOperators(ksp, A, A));
-    PetscCall(KSPSetUp(ksp));
-    PetscCall(StageEnd(STAGE_FACTOR));
-    PetscCall(StageBegin(STAGE_SOLVE));
-    PetscCall(KSPSolve(ksp, s->rhs, dx));
-    PetscCall(StageEnd(STAGE_SOLVE));
-    ++s->report->linear_solves;
-    PetscCall(KSPGetConvergedReason(ksp, &reason));
-    PetscReal norm;
-    PetscCall(VecNorm(dx, NORM_2, &norm));
-    *ok = (PetscBool)(reason >= 0 && !PetscIsInfOrNanReal(norm));
+  PetscCall(StageBegin(STAGE_FACTOR));
+  PetscCall(SolverFactor_Private(s, A));
+  PetscCall(StageEnd(STAGE_FACTOR));
+  PetscCall(StageBegin(STAGE_SOLVE));
+  PetscCall(KSPSolve(ksp, s->rhs, dx));
+  PetscCall(StageEnd(STAGE_SOLVE));
+  ++s->report->linear_solves;
+  PetscCall(KSPGetConvergedReason(ksp, &reason));
+  PetscCall(VecNorm(dx, NORM_2, &norm));
+  *ok = (PetscBool)(reason >= 0 && !PetscIsInfOrNanReal(norm));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Solve tangent . dx = -(r + lift) with the active set iterated: until it stays, or repeats (then the solution that contradicted its own set least is taken),
+   or the passes are used up. */
+static PetscErrorCode LinearStep_Private(SNES snes, Solver s, Vec x, Vec dx, PetscBool *ok)
+{
+  PetscInt  changed = 1;
+  PetscBool repeats = PETSC_FALSE;
+  PetscReal least   = PETSC_MAX_REAL, violation;
+  uint64_t  hash;
+
+  PetscFunctionBegin;
+  s->pass_sets.num = 0;
+  for (PetscInt pass = 0; pass <= s->passes && changed && !repeats; ++pass) {
+    PetscCall(ProblemActiveSetHash(s->problem, &hash));
+    PetscCall(SetHistoryAdd_Private(&s->pass_sets, hash, 0, PETSC_FALSE, &repeats));
+    if (repeats) break;
+    PetscCall(LinearSolve_Private(snes, s, dx, ok));
     if (!*ok) PetscFunctionReturn(PETSC_SUCCESS);
     changed = 0;
-    if (pass < s->passes) PetscCall(ProblemSwitchActiveSet(s->problem, x, dx, s->rhs, &changed));
-    if (changed) PetscCall(PetscInfo(snes, "active-set pass %" PetscInt_FMT ": %" PetscInt_FMT " nodes switched\n", pass, changed));
+    if (pass < s->passes) PetscCall(ProblemSwitchActiveSet(s->problem, x, dx, s->rhs, &changed, &violation));
+    if (!changed) break;
+    s->report->set_changes += changed;
+    PetscCall(PetscInfo(snes, "active-set pass %" PetscInt_FMT ": %" PetscInt_FMT " nodes switched, contradiction %g\n", pass, changed, (double)violation));
+    if (violation < least) PetscCall(VecCopy(dx, s->best));
+    least = PetscMin(least, violation);
   }
+  if (!repeats) PetscFunctionReturn(PETSC_SUCCESS);
+  ++s->report->set_cycles;
+  PetscCall(PetscInfo(snes, "active sets repeat after %" PetscInt_FMT " passes\n", s->pass_sets.num));
+  PetscCall(VecCopy(s->best, dx));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -49,6 +77,7 @@ static PetscErrorCode Step_Private(SNES snes, Solver s, Vec x, Vec dx, Vec r)
     PetscCall(ProblemStepMove(s->problem, dx, step, x));
     PetscCall(SNESComputeFunction(snes, x, r));
     if (!s->report->status.bad) break;
+    ++s->halvings;
     PetscCall(PetscInfo(snes, "step %g leaves the domain\n", (double)step));
   }
   if (!s->report->status.bad) PetscCall(ProblemStepAccept(s->problem, step, s->pressure));
@@ -64,14 +93,14 @@ static PetscErrorCode Finish_Private(SNES snes, Solver s, SNESConvergedReason re
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Converged when the residual is small against the nodal forces and nothing prescribed is left. */
+/* Converged when the residual is small against the nodal forces, or down at the round-off of an unloaded body, and nothing prescribed is left. */
 static PetscErrorCode Converged_Private(Solver s, PetscReal norm, PetscBool *yes)
 {
   PetscReal pending;
 
   PetscFunctionBegin;
   PetscCall(ProblemPending(s->problem, &pending));
-  *yes = (PetscBool)(pending == 0 && norm <= s->rtol * s->report->status.scale);
+  *yes = (PetscBool)(pending == 0 && norm <= PetscMax(s->rtol * s->report->status.scale, s->report->status.noise));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -96,11 +125,16 @@ static PetscErrorCode SNESSolve_ContactNewton(SNES snes)
   Solver    s = NULL;
   Vec       x = snes->vec_sol, r = snes->vec_func, dx = snes->vec_sol_update;
   PetscReal norm, first = 0;
-  PetscBool done, ok, bad;
+  PetscBool done, ok, bad, repeats;
+  uint64_t  hash;
 
   PetscFunctionBegin;
   PetscCall(SNESGetApplicationContext(snes, &s));
-  snes->iter = 0;
+  snes->iter          = 0;
+  s->iterate_sets.num = 0;
+  s->best_norm        = PETSC_MAX_REAL;
+  s->best_iter        = 0;
+  s->halvings         = 0;
   PetscCall(ProblemSearch(s->problem, x));
   PetscCall(SNESComputeFunction(snes, x, r));
   if (s->report->status.bad) {
@@ -118,7 +152,22 @@ static PetscErrorCode SNESSolve_ContactNewton(SNES snes)
       PetscCall(Finish_Private(snes, s, SNES_CONVERGED_FNORM_RELATIVE, ""));
       break;
     }
-    if (snes->iter == 1) first = norm;
+    PetscCall(ProblemActiveSetHash(s->problem, &hash));
+    PetscCall(SetHistoryAdd_Private(&s->iterate_sets, hash, norm, PETSC_TRUE, &repeats));
+    if (repeats) {
+      ++s->report->set_cycles;
+      PetscCall(Finish_Private(snes, s, SNES_DIVERGED_INNER, "the active set of contact repeats itself"));
+      break;
+    }
+    if (snes->iter == 1) first = s->best_norm = norm; /* the first iterate carries the whole prescribed motion: progress counts from there */
+    if (norm < s->best_norm) {
+      s->best_norm = norm;
+      s->best_iter = snes->iter;
+    }
+    if (snes->iter - s->best_iter >= STALLED || s->halvings >= HALVINGS) {
+      PetscCall(Finish_Private(snes, s, SNES_DIVERGED_LINE_SEARCH, "Newton stalls"));
+      break;
+    }
     if (snes->iter == s->max_it) {
       PetscCall(Finish_Private(snes, s, SNES_DIVERGED_MAX_IT, "Newton did not converge within -solve_max_it iterations"));
       break;

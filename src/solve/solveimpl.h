@@ -2,19 +2,36 @@
 #pragma once
 #include "solve.h"
 
+/* Active sets met so far, to notice a repetition. */
+typedef struct {
+  PetscInt   num, size;
+  uint64_t  *hash; /* owned [size] */
+  PetscReal *norm; /* owned [size] what goes with the set: contradiction of a pass, residual of an iterate */
+} SetHistory;
+
 struct _p_Solver {
   Problem       problem; /* borrowed */
   SNES          snes;
   Vec           lift, rhs;
+  Vec           best;     /* solution of the active-set pass that contradicts itself least */
   PetscReal    *pressure; /* of the state being solved, borrowed during SolverSolve */
   PetscReal     rtol;
   PetscBool     symmetric; /* LDL^T of the symmetric form */
   PetscInt      max_it, passes, cuts;
-  PetscBool     test; /* -snes_test_jacobian was given */
+  PetscBool     test;         /* -snes_test_jacobian was given */
+  SetHistory    pass_sets;    /* active sets of the passes of one linearisation */
+  SetHistory    iterate_sets; /* active sets of the Newton iterates */
+  PetscReal     best_norm;    /* least residual of this solve … */
+  PetscInt      best_iter;    /* … and its iteration */
+  PetscInt      halvings;     /* steps shortened in this solve */
   SolverReport *report;
 };
 
 /* newton.c: the SNES type. */
 PetscErrorCode SNESCreate_ContactNewton(SNES);
+/* cycle.c: append a set. *repeats: an earlier one was the same with a different one between them, and (compare) had the same norm to round-off. */
+PetscErrorCode SetHistoryAdd_Private(SetHistory *, uint64_t hash, PetscReal norm, PetscBool compare, PetscBool *repeats);
+PetscErrorCode SetHistoryDestroy_Private(SetHistory *);
 /* linear.c: direct solver by default, everything open to options. */
 PetscErrorCode SolverLinear_Private(Solver);
+PetscErrorCode SolverFactor_Private(Solver, Mat);

@@ -66,6 +66,7 @@ PetscErrorCode SolverCreate(Problem problem, Solver *solver)
   PetscCall(SNESSetJacobian(s->snes, A, A, Jacobian_Private, s));
   PetscCall(ProblemCreateVector(problem, &s->lift));
   PetscCall(VecDuplicate(s->lift, &s->rhs));
+  PetscCall(VecDuplicate(s->lift, &s->best));
   *solver = s;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -79,6 +80,9 @@ PetscErrorCode SolverDestroy(Solver *solver)
   PetscCall(SNESDestroy(&s->snes));
   PetscCall(VecDestroy(&s->lift));
   PetscCall(VecDestroy(&s->rhs));
+  PetscCall(VecDestroy(&s->best));
+  PetscCall(SetHistoryDestroy_Private(&s->pass_sets));
+  PetscCall(SetHistoryDestroy_Private(&s->iterate_sets));
   PetscCall(PetscFree(*solver));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -43,7 +43,7 @@ static void Talk(int out, int in, char mid[], char all[], size_t size)
   all[0] = 0;
   Drain(in, all, size);
   strcpy(mid, all);
-  assert_int_equal(MonitorFooter(m, "failed", "a reason", &row), 0);
+  assert_int_equal(MonitorFooter(m, "failed", "a reason", NULL, &row), 0);
   assert_int_equal(MonitorDestroy(&m), 0);
   Drain(in, all, size);
   fclose(PETSC_STDOUT);
