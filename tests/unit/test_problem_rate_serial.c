@@ -152,8 +152,9 @@ static Figures Solve(PetscInt n, PetscInt order, PetscBool hanging)
   Figures             f;
   Box                 box;
 
-  box_width     = 1. / n;
-  s.bulk.forest = BoxForest(PETSC_COMM_WORLD, 3, (const PetscInt[3]){n, n, n}, 1, 0, 1, &box);
+  const PetscInt refine = n > 8 ? 1 : 0, m = n >> refine; /* a box has 512 cells at most */
+  box_width     = 1. / m;
+  s.bulk.forest = BoxForest(PETSC_COMM_WORLD, 3, (const PetscInt[3]){m, m, m}, 1, refine, 1, &box);
   box_width     = 1;
   if (hanging) {
     MarkList  marks = {0};
