@@ -81,7 +81,7 @@ const Option Options[] = {
      SCENE(data.adapt.tolerance)},
     {"adapt.max_passes", KEY_INT, "", "10", "[0,100]", "adaptive passes at each load step", SCENE(data.adapt.max_passes)},
     {"adapt.max_cells", KEY_INT, "", "200000", "[1,100000000]", "no refinement beyond this number of cells", SCENE(data.adapt.max_cells)},
-    {"adapt.fraction", KEY_REAL, "", "0.5", "(0,1]", "share of the squared estimate that the cells to be refined carry", SCENE(data.adapt.fraction)},
+    {"adapt.fraction", KEY_REAL, "", "0.8", "(0,1]", "share of the squared estimate that the cells to be refined carry", SCENE(data.adapt.fraction)},
     {"adapt.coarsen", KEY_REAL, "", "0", "[0,1)", "cells below this share of the mean squared indicator may merge; 0: none", SCENE(data.adapt.coarsen)},
     {"adapt.strategy", KEY_WORD, "", "h", "h|p|hp", "what adaptation changes; p and hp are not built yet", SCENE(data.adapt.strategy)},
 
