@@ -50,18 +50,18 @@ static PetscErrorCode MoreWorkspace_Private(PC pc, PetscBool *again)
 /* Factorise A. A failure shows in the solve that follows. */
 PetscErrorCode SolverFactor_Private(Solver s, Mat A)
 {
-  KSP            ksp;
-  PC             pc;
-  PCFailedReason failed = PC_NOERROR;
+  KSP ksp;
 
   PetscFunctionBegin;
   PetscCall(SNESGetKSP(s->snes, &ksp));
-  PetscCall(KSPGetPC(ksp, &pc));
   PetscCall(KSPSetOperators(ksp, A, A));
   PetscCall(KSPSetUp(ksp));
 #if defined(PETSC_HAVE_MUMPS)
   for (PetscBool again = PETSC_TRUE; again;) {
+    PCFailedReason failed;
+    PC             pc;
     again = PETSC_FALSE;
+    PetscCall(KSPGetPC(ksp, &pc));
     PetscCall(PCGetFailedReason(pc, &failed));
     if (failed != PC_NOERROR) PetscCall(MoreWorkspace_Private(pc, &again));
     if (!again) break;

@@ -23,6 +23,8 @@ static PetscErrorCode Jacobian_Private(SNES snes, Vec x, Mat J, Mat P, void *con
 
 static PetscErrorCode Options_Private(Solver s)
 {
+  PetscBool possible;
+
   PetscFunctionBegin;
   s->rtol   = 1e-10;
   s->max_it = 25;
@@ -33,11 +35,12 @@ static PetscErrorCode Options_Private(Solver s)
   PetscCall(PetscOptionsInt("-solve_max_it", "Newton iterations before a step is given up", NULL, s->max_it, &s->max_it, NULL));
   PetscCall(PetscOptionsInt("-solve_active_set_passes", "Active-set passes against one linearisation", NULL, s->passes, &s->passes, NULL));
   PetscCall(PetscOptionsInt("-solve_cuts", "Halvings of a Newton step that leaves the domain", NULL, s->cuts, &s->cuts, NULL));
-  PetscCall(ProblemIsSymmetric(s->problem, &s->symmetric));
-  if (s->symmetric)
-    PetscCall(PetscOptionsBool("-solve_symmetric", "Factorise the symmetric form of the tangent (LDL^T) rather than the exact one (LU)", NULL, s->symmetric,
-                               &s->symmetric, NULL));
+  PetscCall(ProblemIsSymmetric(s->problem, &possible));
+  s->symmetric = possible;
+  PetscCall(PetscOptionsBool("-solve_symmetric", "Factorise the symmetric form of the tangent (LDL^T) rather than the exact one (LU)", NULL, s->symmetric,
+                             &s->symmetric, NULL));
   PetscOptionsEnd();
+  s->symmetric = (PetscBool)(s->symmetric && possible);
   PetscCall(ProblemSetSymmetric(s->problem, s->symmetric));
   PetscCall(PetscOptionsHasName(NULL, NULL, "-snes_test_jacobian", &s->test));
   PetscFunctionReturn(PETSC_SUCCESS);
