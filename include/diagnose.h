@@ -8,7 +8,7 @@
 /* One contact pair; sides: 0 nonmortar, 1 mortar. In two dimensions forces have two components and moments one, the last (about z). */
 typedef struct {
   PetscReal force[2][3];      /* total contact force on each side; axisymmetric: over the full revolution */
-  PetscReal moment[2][3];     /* its moment about the origin, in the current configuration */
+  PetscReal moment[2][3];     /* its moment about the origin, in the current configuration (small kinematics: the reference) */
   PetscReal force_imbalance;  /* |sum over both sides| / sum of |nodal forces| of the nonmortar side; 0 without contact */
   PetscReal moment_imbalance; /* |sum over both sides| / (that sum * diameter of the nonmortar side) */
   PetscReal max_pressure;     /* largest multiplier */

@@ -21,14 +21,15 @@ static PetscReal Diameter_Private(const SurfaceView *s)
   return s->num_nodes ? PetscSqrtReal(PetscSqr(hi[0] - lo[0]) + PetscSqr(hi[1] - lo[1])) : 0;
 }
 
-/* Resultant and moment about the origin of nodal forces; returns the sum of their magnitudes. Two dimensions. */
-static PetscReal SideForces_Private(const SurfaceView *s, PetscReal force[3], PetscReal moment[3])
+/* Resultant and moment about the origin of nodal forces; returns the sum of their magnitudes. Two dimensions. In small kinematics forces act where the nodes
+   were: moments balance there. */
+static PetscReal SideForces_Private(const SurfaceView *s, PetscBool small, PetscReal force[3], PetscReal moment[3])
 {
   PetscReal sum = 0;
 
   for (PetscInt c = 0; c < 3; ++c) force[c] = moment[c] = 0;
   for (PetscInt n = 0; n < s->num_nodes; ++n) {
-    const PetscReal *f = s->force + 2 * n, *x = s->x + 2 * n;
+    const PetscReal *f = s->force + 2 * n, *x = (small ? s->X : s->x) + 2 * n;
     force[0] += f[0];
     force[1] += f[1];
     moment[2] += x[0] * f[1] - x[1] * f[0];
@@ -38,13 +39,13 @@ static PetscReal SideForces_Private(const SurfaceView *s, PetscReal force[3], Pe
 }
 
 /* Axisymmetric: radial forces are no vectors in space, only the axial ones have to balance, and no moment can arise. */
-static void Imbalance_Private(Model model, const ContactView *v, PairFigures *f)
+static void Imbalance_Private(Model model, PetscBool small, const ContactView *v, PairFigures *f)
 {
   PetscReal       force[3], moment[3], sum[2];
   const PetscBool ring = (PetscBool)(model == MODEL_AXISYMMETRIC);
 
-  sum[0] = SideForces_Private(&v->nonmortar, f->force[0], f->moment[0]);
-  sum[1] = SideForces_Private(&v->mortar, f->force[1], f->moment[1]);
+  sum[0] = SideForces_Private(&v->nonmortar, small, f->force[0], f->moment[0]);
+  sum[1] = SideForces_Private(&v->mortar, small, f->force[1], f->moment[1]);
   for (PetscInt c = 0; c < 3; ++c) {
     force[c]  = ring && c == 0 ? 0 : f->force[0][c] + f->force[1][c];
     moment[c] = ring ? 0 : f->moment[0][c] + f->moment[1][c];
@@ -133,7 +134,7 @@ PetscErrorCode BalanceCompute(Problem problem, const State *state, Balance *b)
   for (PetscInt i = 0; i < b->num_contacts; ++i) {
     PetscCall(ProblemGetContact(problem, i, &view[i]));
     PetscCall(BalanceZone(view[i], &b->pair[i]));
-    Imbalance_Private(scene->mechanics.model, view[i], &b->pair[i]);
+    Imbalance_Private(scene->mechanics.model, (PetscBool)(scene->mechanics.kinematics == KINEMATICS_SMALL), view[i], &b->pair[i]);
     b->force_imbalance  = PetscMax(b->force_imbalance, b->pair[i].force_imbalance);
     b->moment_imbalance = PetscMax(b->moment_imbalance, b->pair[i].moment_imbalance);
   }

@@ -112,12 +112,13 @@ PetscErrorCode ProblemForces(Problem p, Vec x, PetscReal reaction[][3], PetscRea
   PetscCall(VecRestoreArray(p->u_local, &u));
   PetscCall(VecRestoreArray(p->r_local, &r));
   for (PetscInt i = 0; i < p->num_contacts; ++i) {
-    const Surface *s    = &p->contacts[i].side[0];
-    PetscReal      f[3] = {0, 0, 0}, m[3] = {0, 0, 0};
+    const Surface   *s    = &p->contacts[i].side[0];
+    const PetscReal *at   = p->scene->mechanics.kinematics == KINEMATICS_SMALL ? s->X : s->x; /* where the forces act */
+    PetscReal        f[3] = {0, 0, 0}, m[3] = {0, 0, 0};
     for (PetscInt n = 0; n < s->num_nodes; ++n) {
       f[0] += s->force[2 * n];
       f[1] += s->force[2 * n + 1];
-      m[2] += s->x[2 * n] * s->force[2 * n + 1] - s->x[2 * n + 1] * s->force[2 * n];
+      m[2] += at[2 * n] * s->force[2 * n + 1] - at[2 * n + 1] * s->force[2 * n];
     }
     if (force) PetscCall(PetscArraycpy(force[i], f, 3));
     if (moment) PetscCall(PetscArraycpy(moment[i], m, 3));
