@@ -69,9 +69,10 @@ PetscErrorCode MechanicsPrescribe(Mechanics, PetscReal local[]);
 
 /* Results of a bulk integration on this rank (sums and minima over its own cells). */
 typedef struct {
-  PetscReal energy;  /* strain energy */
-  PetscReal scale2;  /* sum over cells and loads of squared nodal forces: what a small residual is small against */
-  PetscReal noise2;  /* sum over cells of the square of what round-off of F = I + grad u leaves in nodal forces, u being no larger than a cell */
+  PetscReal energy; /* strain energy */
+  PetscReal scale2; /* sum over cells and loads of squared nodal forces: what a small residual is small against */
+  /* Sum over cells of the square of what round-off of F = I + grad u leaves in nodal forces, u being no larger than a cell; grows with F like |F|^4. */
+  PetscReal noise2;
   PetscReal drift2;  /* the same for each unit of the largest displacement */
   PetscReal largest; /* largest displacement component */
   PetscReal min_det; /* smallest det F */

@@ -177,6 +177,21 @@ static void Energy_Private(CellKernel k, PetscInt num, PetscReal *energy)
   for (PetscInt l = 0; l < num; l++) energy[l] = sum[l];
 }
 
+/* Largest F:F/3 of each cell. */
+static void Stretch_Private(CellKernel k, PetscInt num, PetscReal *stretch2)
+{
+  const PetscInt slab = k->slab_points;
+
+  for (PetscInt l = 0; l < num; l++) stretch2[l] = 0;
+  for (PetscInt q = 0; q < k->num_points; q++) {
+    const Lanes *F   = k->F + (q / slab) * 9 * slab + q % slab;
+    Lanes        sum = {0};
+
+    for (int c = 0; c < 9; c++) sum += F[c * slab] * F[c * slab];
+    for (PetscInt l = 0; l < num; l++) stretch2[l] = PetscMax(stretch2[l], sum[l] / 3);
+  }
+}
+
 /* Everything that is asked of cells first .. first+num-1 of the batch. */
 static PetscErrorCode Chunk_Private(CellKernel k, CellBatch *b, PetscInt first, PetscInt num)
 {
@@ -195,6 +210,7 @@ static PetscErrorCode Chunk_Private(CellKernel k, CellBatch *b, PetscInt first, 
     if (b->min_det) b->min_det[first + l] = min_det[l];
     if (!k->small && !(min_det[l] > 0)) bad = PETSC_TRUE;
   }
+  if (b->stretch2) Stretch_Private(k, num, b->stretch2 + first);
   if (bad) b->bad = PETSC_TRUE;
   if (bad) PetscFunctionReturn(PETSC_SUCCESS);
   if (k->mixed) CellKernelProject_Private(k);

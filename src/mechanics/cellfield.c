@@ -251,6 +251,8 @@ INLINE void Deformation_Private(CellKernel k, const int d, Lanes *min_det)
     if (!k->small) jm1 = jm1 + (cof[0] + cof[4] + cof[8]) + (H[0] * cof[0] + H[1] * cof[1] + H[2] * cof[2]);
     if (k->mixed) k->measure[q] = jm1;
     for (int c = 0; c < 9; c++) F[c * slab] = H[c] + (c % 4 == 0 ? 1 : 0);
+    /* A ring turned to a negative radius with its section inverted has det F > 0 all the same. */
+    for (int l = 0; d == 2 && l < NUM_LANES; l++) det[l] = 1 + H[8][l] > 0 ? det[l] : -PetscAbsReal(det[l]);
     /* A lane that is not a number stays so: every comparison with it is false. */
     for (int l = 0; l < NUM_LANES; l++) least[l] = q == 0 || !(det[l] >= least[l]) ? det[l] : least[l];
   }

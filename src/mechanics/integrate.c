@@ -3,7 +3,7 @@
 
 /* Buffers of one batch, cut from the work array. */
 typedef struct {
-  PetscReal *u, *r, *K, *consistent, *energy, *min_det;
+  PetscReal *u, *r, *K, *consistent, *energy, *min_det, *stretch2;
 } Buffers;
 
 static Buffers CutBuffers_Private(Mechanics m, const CellGroup *g)
@@ -16,6 +16,7 @@ static Buffers CutBuffers_Private(Mechanics m, const CellGroup *g)
   b.consistent = b.K + g->batch * nd * nd;
   b.energy     = b.consistent + g->batch * g->m;
   b.min_det    = b.energy + g->batch;
+  b.stretch2   = b.min_det + g->batch;
   return b;
 }
 
@@ -33,8 +34,13 @@ static PetscErrorCode GroupResidual_Private(Mechanics m, const CellGroup *g, con
 
   PetscFunctionBegin;
   for (PetscInt first = 0; first < g->num_cells; first += g->batch) {
-    CellBatch batch = {
-        .nc = PetscMin(g->batch, g->num_cells - first), .X = g->X + first * nd, .u = b.u, .energy = b.energy, .residual = b.r, .min_det = b.min_det};
+    CellBatch batch = {.nc       = PetscMin(g->batch, g->num_cells - first),
+                       .X        = g->X + first * nd,
+                       .u        = b.u,
+                       .energy   = b.energy,
+                       .residual = b.r,
+                       .min_det  = b.min_det,
+                       .stretch2 = b.stretch2};
     PetscCall(GatherBatch_Private(m, g, first, batch.nc, u, b.u));
     PetscCall(CellKernelEvaluate(g->kernel, &batch));
     for (PetscInt i = 0; i < batch.nc; ++i) status->min_det = PetscMin(status->min_det, b.min_det[i]);
@@ -43,7 +49,11 @@ static PetscErrorCode GroupResidual_Private(Mechanics m, const CellGroup *g, con
       continue;
     }
     for (PetscInt i = 0; i < batch.nc; ++i) {
+      /* det F errs by epsilon |cof F : F|, and cof F turns the pressure of that into forces: |cof F|^2 <= |F|^4/3. */
+      const PetscReal growth = 3 * PetscSqr(b.stretch2[i]);
       status->energy += b.energy[i];
+      status->noise2 += g->noise2[first + i] * PetscSqr(growth);
+      status->drift2 += g->drift2[first + i] * PetscSqr(growth);
       for (PetscInt k = 0; k < nd; ++k) status->scale2 += PetscSqr(b.r[i * nd + k]);
       PetscCall(HPSpaceScatterAdd(m->space, g->cells[first + i], b.r + i * nd, r));
     }
@@ -58,8 +68,8 @@ PetscErrorCode MechanicsResidual(Mechanics m, const PetscReal u[], PetscReal r[]
   PetscFunctionBegin;
   status->energy  = 0;
   status->scale2  = 0;
-  status->noise2  = m->noise2;
-  status->drift2  = m->drift2;
+  status->noise2  = 0;
+  status->drift2  = 0;
   status->largest = 0;
   status->min_det = PETSC_MAX_REAL;
   status->bad     = PETSC_FALSE;

@@ -46,8 +46,9 @@ static PetscErrorCode FillGroups_Private(Mechanics m, const HPTables *v)
   PetscFunctionBegin;
   for (PetscInt g = 0; g < m->num_groups; ++g) {
     CellGroup     *group = &m->groups[g];
-    const PetscInt nd = group->n * m->dim, per_cell = 2 * nd + nd * nd + 3 * group->m + 4;
-    PetscCall(PetscMalloc2(group->num_cells, &group->cells, group->num_cells * nd, &group->X));
+    const PetscInt nd = group->n * m->dim, per_cell = 2 * nd + nd * nd + 3 * group->m + 5;
+    PetscCall(
+        PetscMalloc4(group->num_cells, &group->cells, group->num_cells * nd, &group->X, group->num_cells, &group->noise2, group->num_cells, &group->drift2));
     group->pressure = m->num_pressure;
     m->num_pressure += group->num_cells * group->m;
     dpressure += group->num_cells * group->m * nd;
@@ -64,7 +65,8 @@ static PetscErrorCode FillGroups_Private(Mechanics m, const HPTables *v)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Round-off of nodal forces: epsilon * modulus * face for an F of size one, and that over the spacing of the nodes for each unit of displacement. */
+/* Round-off of nodal forces in the reference state: epsilon * modulus * face for an F of size one, and that over the spacing of the nodes for each unit of
+ * displacement. */
 static void Noise_Private(Mechanics m)
 {
   for (PetscInt g = 0; g < m->num_groups; ++g) {
@@ -85,8 +87,8 @@ static void Noise_Private(Mechanics m)
       }
       const PetscReal face  = m->dim == 3 ? most * most : m->spec->model == MODEL_AXISYMMETRIC ? 2 * PETSC_PI * hi[0] * most : most;
       const PetscReal force = PETSC_MACHINE_EPSILON * modulus * face;
-      m->noise2 += PetscSqr(force);
-      m->drift2 += PetscSqr(force * group->order * group->order / least);
+      group->noise2[c]      = PetscSqr(force);
+      group->drift2[c]      = PetscSqr(force * group->order * group->order / least);
     }
   }
 }
@@ -124,7 +126,7 @@ PetscErrorCode MechanicsDestroy(Mechanics *mechanics)
   if (!m) PetscFunctionReturn(PETSC_SUCCESS);
   for (PetscInt g = 0; g < m->num_groups; ++g) {
     PetscCall(CellKernelDestroy(&m->groups[g].kernel));
-    PetscCall(PetscFree2(m->groups[g].cells, m->groups[g].X));
+    PetscCall(PetscFree4(m->groups[g].cells, m->groups[g].X, m->groups[g].noise2, m->groups[g].drift2));
   }
   PetscCall(PetscFree(m->groups));
   PetscCall(PetscFree2(m->cell_group, m->cell_index));

@@ -19,6 +19,7 @@ typedef struct {
   PetscReal       *consistent; /* [nc][m] pressure coefficients that u implies: modulus * M^-1 int q g(J) */
   PetscReal       *dpressure;  /* [nc][m][n*d] derivative of consistent with respect to u */
   PetscReal       *min_det;    /* [nc] smallest det F over the quadrature points */
+  PetscReal       *stretch2;   /* [nc] largest F:F/3 over the quadrature points */
   PetscBool        bad;        /* out: some det F <= 0 in the batch (finite kinematics): outputs of that batch are not to be used */
 } CellBatch;
 
@@ -58,6 +59,7 @@ typedef struct {
   PetscInt            order, num_cells, n, m, batch; /* nodes and pressure coefficients of a cell; cells per call */
   PetscInt           *cells;                         /* owned [num_cells] local cells */
   PetscReal          *X;                             /* owned [num_cells][n][dim] */
+  PetscReal          *noise2, *drift2;               /* owned [num_cells] shares in those of MechanicsStatus for F = I */
   PetscInt            pressure;                      /* first coefficient in the pressure array */
 } CellGroup;
 
@@ -80,7 +82,6 @@ struct _p_Mechanics {
   PetscReal           *free_share;         /* owned [num_owned_cells] diagonal of cells of unsupported bodies relative to their stiffness, else 0 */
   PetscReal           *work;               /* owned batch buffers */
   PetscInt             work_size;
-  PetscReal            noise2, drift2; /* see MechanicsStatus */
 };
 
 PetscErrorCode MechanicsLoadFacets_Private(Mechanics);

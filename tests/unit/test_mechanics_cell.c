@@ -440,6 +440,37 @@ static void InversionIsReported(void **state)
   CellTearDown(&cell);
 }
 
+/* r -> -r: hoop and radial stretch -1, det F = 1. A ring cannot pass through the axis. */
+static void RingThroughAxisIsReported(void **state)
+{
+  Cell cell;
+
+  CellSetUp(&cell, 2, MODEL_AXISYMMETRIC, KINEMATICS_FINITE, 2, &choices[1], FORMULATION_MIXED);
+  CellMake(2, 2, 0, 0, cell.X);
+  for (PetscInt node = 0; node < cell.n; node++) cell.u[2 * node] = -2 * cell.X[2 * node];
+  OK(CellKernelEvaluate(cell.kernel, &cell.batch));
+  assert_true(cell.batch.bad);
+  assert_true(cell.min_det < 0);
+  CellTearDown(&cell);
+}
+
+/* The stretch that the estimate of round-off grows with: F:F/3, at its largest in the cell. */
+static void StretchIsReported(void **state)
+{
+  for (PetscInt dim = 2; dim <= 3; dim++) {
+    Cell      cell;
+    PetscReal stretch2[NUM_LANES + 1];
+
+    CellSetUp(&cell, dim, dim == 2 ? MODEL_PLANE_STRAIN : MODEL_3D, KINEMATICS_FINITE, 2, &choices[0], FORMULATION_DISPLACEMENT);
+    CellMake(dim, 2, 0.1, 0.02, cell.X);
+    for (PetscInt node = 0; node < cell.n; node++) cell.u[dim * node] = cell.X[dim * node] + 0.5 * cell.X[dim * node + 1];
+    cell.batch.stretch2 = stretch2;
+    OK(CellKernelEvaluate(cell.kernel, &cell.batch));
+    assert_near(stretch2[0], (4 + 0.25 + 1 + 1) / 3, 1e-13);
+    CellTearDown(&cell);
+  }
+}
+
 /* Solve K x = f in place for the free dofs (mask), Gauss elimination with pivots; f becomes x, fixed entries 0. */
 static void SolveFree(PetscInt size, const PetscBool *fixed, PetscReal *K, PetscReal *f)
 {
@@ -523,7 +554,8 @@ int main(int argc, char **argv)
       cmocka_unit_test(DerivativesAgree),          cmocka_unit_test(PatchIsExact),
       cmocka_unit_test(RigidRotationIsFree),       cmocka_unit_test(BatchesEqualCells),
       cmocka_unit_test(StoredPressureIsGeometric), cmocka_unit_test(PressureIsProjection),
-      cmocka_unit_test(AxisymmetricHoopIsExact),   cmocka_unit_test(SmallIsLinearised),
+      cmocka_unit_test(AxisymmetricHoopIsExact),   cmocka_unit_test(RingThroughAxisIsReported),
+      cmocka_unit_test(StretchIsReported),         cmocka_unit_test(SmallIsLinearised),
       cmocka_unit_test(InversionIsReported),       cmocka_unit_test(ClampedCubeOfOrder4),
   };
 
