@@ -50,7 +50,7 @@ static PetscErrorCode GroupResidual_Private(Mechanics m, const CellGroup *g, con
     }
     for (PetscInt i = 0; i < batch.nc; ++i) {
       /* det F errs by epsilon |cof F : F|, and cof F turns the pressure of that into forces: |cof F|^2 <= |F|^4/3. */
-      const PetscReal growth = 3 * PetscSqr(b.stretch2[i]);
+      const PetscReal growth = m->spec->kinematics == KINEMATICS_SMALL ? 1 : 3 * PetscSqr(b.stretch2[i]);
       status->energy += b.energy[i];
       status->noise2 += g->noise2[first + i] * PetscSqr(growth);
       status->drift2 += g->drift2[first + i] * PetscSqr(growth);
