@@ -1,0 +1,58 @@
+"""O-81: adaptation of inputs/hertz2d.yml. The punch of O-53 needs a rigid body: see the cases of contact."""
+import numpy as np
+import pytest
+
+SCENE = "inputs/hertz2d.yml"
+FORCE = 0.018758  # orders 2 and 3, exact arcs (mesh.order 4, n = 8), tolerance 0.0025, either side nonmortar: 0.018758 to the last digit
+FINE_ARC = ("-mesh_order", 4)
+
+
+def force(result):
+    assert result.returncode == 0, result
+    return -result.summary["reaction"]["top"][1]
+
+
+def near_edges(state, radius, width):
+    """Which cells lie within width of the edges of the zone of contact."""
+    centre = state["X"][state["cells"]].mean(axis=1)
+    return np.hypot(np.abs(centre[:, 0]) - radius, centre[:, 1]) < width
+
+
+def test_o81_force_at_equal_unknowns(run):
+    """Adaptive refinement is closer to the force than uniform refinement with as many unknowns, or three times more."""
+    adaptive = run(SCENE, *FINE_ARC, "-adapt_tolerance", 1e-6, "-adapt_max_passes", 5)
+    uniform = [run(SCENE, *FINE_ARC, "-adapt_tolerance", 0, "-mesh_refine", refine) for refine in (2, 3)]
+    error = abs(force(adaptive) / FORCE - 1)
+    assert error < 1e-3
+    for result in uniform:
+        assert result.summary["dofs"] > adaptive.summary["dofs"]
+        assert error < abs(force(result) / FORCE - 1), (error, force(result))
+
+
+def test_o81_estimate_concentrates_at_the_contact_edge(run):
+    """On the first mesh that resolves the zone of contact, the cells around its two edges carry the largest indicators of the contact surface."""
+    result = run(SCENE, *FINE_ARC, "-mesh_refine", 3, "-adapt_tolerance", 0)
+    radius = result.summary["contact"]["disc_on_block"]["radius"]
+    state = result.states()[-1][1]
+    eta2 = state["error"] ** 2
+    _, first = np.unique(state["cell"], return_index=True)  # a cell of order 2 is written as four
+    centre = state["X"][state["cells"]].mean(axis=1)
+    within = (np.abs(centre[:, 1]) < 0.06) & (np.abs(centre[:, 0]) < radius - 0.06)
+    edge, inside = (np.intersect1d(first, np.flatnonzero(mask)) for mask in (near_edges(state, radius, 0.06), within))
+    assert len(edge) and len(inside)
+    assert eta2[edge].sum() > 2 * eta2[inside].sum(), (eta2[edge].sum(), eta2[inside].sum())
+    assert eta2[edge].mean() > 4 * eta2[inside].mean()
+
+
+@pytest.mark.parametrize("scene, end", [("inputs/hertz2d.yml", 1), ("inputs/slide2d.yml", 2)])
+def test_o81_no_step_lost_and_little_changes_after_refinement(run, scene, end):
+    """From the second refinement on, solving again after the transfer changes the force by less than 1 % and takes no more iterations than the first solution;
+    the load arrives at its end."""
+    result = run(scene, "-mesh_refine", 2, "-adapt_tolerance", 0.015)
+    assert result.returncode == 0, result
+    assert result.summary["t"] == result.history[-1]["t"] == end
+    first = [row for row in result.adapt if row["step"] == 1]
+    forces = np.array([row["contact_force"] for row in first])
+    assert len(forces) >= 3
+    assert np.all(np.abs(forces[2:] / forces[1:-1] - 1) < 0.01), forces
+    assert all(row["newton_iterations"] <= first[0]["newton_iterations"] for row in first[1:])
