@@ -15,6 +15,7 @@ typedef struct {
 PetscErrorCode EstimateCompute(Problem, const State *, Estimate *);
 PetscErrorCode EstimateDestroy(Estimate *);
 /* Bulk (Dörfler) marking by spec->fraction, isotropic splits; coarsening of leaves whose eta2 is below spec->coarsen^2 times the mean; leaves of rigid
-   bodies, eta2 = 0, never. Never more than spec->max_cells leaves expected (before the closure's extra splits); leaves whose eta2 agree to 1e-6 are split together or not at all. The list is freed by MarkListDestroy. *num_marked: leaves to split. Not collective (input is replicated). */
+   bodies, eta2 = 0, never. Never more than spec->max_cells leaves expected (before the closure's extra splits); leaves whose eta2 agree to 1e-6 are split
+   together or not at all. The list is freed by MarkListDestroy. *num_marked: leaves to split. Not collective (input is replicated). */
 PetscErrorCode EstimateMark(const Estimate *, const AdaptSpec *, Forest, MarkList *, PetscInt *num_marked);
 PetscErrorCode MarkListDestroy(MarkList *);
