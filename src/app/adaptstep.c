@@ -1,6 +1,8 @@
 /* Adaptation at one time: estimate, mark, adapt the forest, transfer, find equilibrium again; until the tolerance or a limit is met. */
 #include "appimpl.h"
 
+#define STRESSED 10 /* nodal forces below this multiple of their round-off are nothing to estimate an error of: refining would chase noise */
+
 #define MOST_PIECES 8 /* of the way from the accepted state, when equilibrium on a finer mesh is hard to find */
 
 PetscErrorCode AppEstimate(App *app)
@@ -220,6 +222,8 @@ PetscErrorCode AppAdapt(App *app)
     app->adapt_stop = "";
     if (spec->tolerance > 0 && app->estimate.relative <= spec->tolerance)
       app->adapt_stop = "tolerance";
+    else if (spec->tolerance > 0 && app->status.scale <= STRESSED * app->status.noise)
+      app->adapt_stop = "free of stress";
     else if (spec->tolerance > 0 && app->passes_in_step >= spec->max_passes)
       app->adapt_stop = "max_passes";
     const PetscBool enough = (PetscBool)(spec->tolerance <= 0 || app->adapt_stop[0]);

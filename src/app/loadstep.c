@@ -11,6 +11,7 @@ void AppCount(App *app, const SolverReport *report)
   app->iterations_in_step += report->iterations;
   app->set_changes += report->set_changes;
   app->set_cycles += report->set_cycles;
+  if (report->converged) app->status = report->status;
 }
 
 /* One attempt from the accepted state of this mesh to time t. */
