@@ -1,0 +1,113 @@
+"""The three contact scenes of inputs/: reference forces, robustness on every mesh with either side nonmortar, Newton's order, the tangent by differences."""
+import re
+
+import pytest
+
+from contactkit import is_quadratic, steps
+
+QUIET = ("-output_fields", "false")
+SWAPPED = ("-contact_disc_on_block_nonmortar", "block_top", "-contact_disc_on_block_mortar", "disc_surface")
+UNIFORM = ("-adapt_tolerance", 0)
+ROLES = pytest.mark.parametrize("roles", [(), SWAPPED], ids=["disc", "block"])
+
+HERTZ = 0.018748  # reaction of hertz2d
+RUBBER = 0.4024  # of rubber2d, known to 0.0006
+
+
+def solve(run, scene, *options, **keys):
+    result = run(f"inputs/{scene}.yml", *QUIET, *options, **keys)
+    assert result.returncode == 0, result
+    return result
+
+
+def pull(result):
+    top, bottom = (result.summary["reaction"][name] for name in ("top", "bottom"))
+    assert all(abs(a + b) < 1e-9 * abs(top[1]) for a, b in zip(top, bottom)), (top, bottom)
+    pair = result.summary["contact"]["disc_on_block"]
+    assert pair["force_imbalance"] < 1e-10 and pair["moment_imbalance"] < 1e-6
+    return -top[1]
+
+
+def solved_in_one_step(result, most):
+    """No step cut, at most so many Newton iterations at each load, Newton's order at its end."""
+    assert result.summary["step_cuts"] == 0 and len(steps(result)) == result.summary["load_steps"], result
+    for norms in steps(result):
+        assert len(norms) - 1 <= most, norms
+        assert is_quadratic(norms), norms
+
+
+@ROLES
+def test_hertz2d_adaptive(run, roles):
+    assert abs(pull(solve(run, "hertz2d", *roles)) / HERTZ - 1) < 1e-3
+
+
+@pytest.mark.slow
+def test_hertz2d_adaptive_needs_a_fifth_of_the_cells(run):
+    """For the same error of the force a uniform mesh needs more than five times as many cells: one of each of these sizes is still worse."""
+    adaptive = solve(run, "hertz2d")
+    error, cells = abs(pull(adaptive) / HERTZ - 1), adaptive.summary["cells"]
+    for n in (48, 56, 64):
+        uniform = solve(run, "hertz2d", *UNIFORM, "-mesh_parameter_n", n)
+        assert uniform.summary["cells"] >= 5 * cells
+        assert abs(pull(uniform) / HERTZ - 1) > error, n
+
+
+@ROLES
+@pytest.mark.parametrize("order", [1, 2])
+@pytest.mark.parametrize("n", [4, 8, 16, pytest.param(32, marks=pytest.mark.slow), pytest.param(6, marks=pytest.mark.slow), pytest.param(12, marks=pytest.mark.slow),
+                               pytest.param(24, marks=pytest.mark.slow), pytest.param(48, marks=pytest.mark.slow), pytest.param(64, marks=pytest.mark.slow)])
+def test_hertz2d_every_mesh(run, n, order, roles):
+    result = solve(run, "hertz2d", *UNIFORM, "-mesh_parameter_n", n, "-order", order, "-snes_monitor", *roles)
+    solved_in_one_step(result, 5)
+    pull(result)
+    if n >= 32:
+        assert abs(pull(result) / HERTZ - 1) < 6e-3  # first order in the size of the contact faces
+
+
+@ROLES
+def test_rubber2d_adaptive(run, roles):
+    assert abs(pull(solve(run, "rubber2d", *roles)) - RUBBER) < 3e-3 * RUBBER + 6e-4
+
+
+@ROLES
+@pytest.mark.parametrize("order", [1, 2])
+@pytest.mark.parametrize("n", [4, 8, 16, pytest.param(6, marks=pytest.mark.slow), pytest.param(12, marks=pytest.mark.slow),
+                               pytest.param(24, marks=pytest.mark.slow), pytest.param(32, marks=pytest.mark.slow)])
+def test_rubber2d_every_mesh(run, n, order, roles):
+    result = solve(run, "rubber2d", *UNIFORM, "-mesh_parameter_n", n, "-order", order, "-snes_monitor", *roles)
+    solved_in_one_step(result, 8)
+    force = pull(result)
+    if n == 32:
+        assert abs(force - RUBBER) < 3e-3 * RUBBER + 6e-4
+
+
+@pytest.mark.parametrize("order", [1, 2])
+@pytest.mark.parametrize("n", [4, 8, 16, pytest.param(6, marks=pytest.mark.slow), pytest.param(12, marks=pytest.mark.slow),
+                               pytest.param(24, marks=pytest.mark.slow), pytest.param(32, marks=pytest.mark.slow), pytest.param(48, marks=pytest.mark.slow)])
+def test_slide2d_every_mesh(run, n, order):
+    """One load step to press, one to slide over many cells. (With the block nonmortar the slide, linearised along its surface, is no small step:
+    from n = 16 it takes more iterations or a cut.)"""
+    result = solve(run, "slide2d", *UNIFORM, "-mesh_parameter_n", n, "-order", order, "-snes_monitor")
+    assert result.summary["load_steps"] == 2
+    solved_in_one_step(result, 8)
+    pull(result)
+
+
+def test_slide2d_adaptive(run):
+    result = solve(run, "slide2d", "-snes_monitor")
+    assert result.summary["step_cuts"] == 0 and result.summary["load_steps"] == 2
+    assert max(len(norms) - 1 for norms in steps(result)) <= 8, [len(norms) - 1 for norms in steps(result)]
+    pressed, slid = result.history
+    assert abs(slid["reaction.top.y"] / pressed["reaction.top.y"] - 1) < 0.01
+    assert abs(slid["reaction.top.x"]) < 1e-3 * abs(slid["reaction.top.y"])
+
+
+@ROLES
+@pytest.mark.parametrize("scene, order", [("hertz2d", 1), ("hertz2d", 2), ("rubber2d", 1), ("rubber2d", 2)])
+def test_o94_tangent(run, scene, order, roles):
+    """PETSc's difference quotients of the residual at every Newton iterate but the first. There the disc touches without pressure, and on a symmetric mesh nodes
+    face nodes: both are kinks, where a difference quotient means nothing. A sideways motion leads away from them."""
+    result = solve(run, scene, *UNIFORM, "-mesh_parameter_n", 6, "-order", order, "-boundary_top_displacement_x", 0.013, "-snes_test_jacobian", *roles)
+    ratios = [float(value) for value in re.findall(r"\|\|J - Jfd\|\|_F/\|\|J\|\|_F = (\S+?),", result.stdout)]
+    assert len(ratios) >= 3, result
+    assert max(ratios[1:]) < 1e-6, ratios
