@@ -214,7 +214,7 @@ static void Rates(void **state)
 
 static void HangingRates(void **state)
 {
-  const PetscInt n[4][2] = {{4, 8}, {4, 8}, {2, 4}, {2, 4}};
+  const PetscInt n[4][2] = {{4, 8}, {2, 4}, {2, 4}, {2, 4}};
 
   for (PetscInt order = 1; order <= 4; ++order) {
     const Figures f = Solve(n[order - 1][0], order, PETSC_TRUE), g = Solve(n[order - 1][1], order, PETSC_TRUE);
