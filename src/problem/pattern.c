@@ -86,6 +86,7 @@ PetscErrorCode ContactGrowPattern_Private(Contact *c)
 PetscInt ContactPatternDofs_Private(const Contact *c, PetscInt edge, PetscInt dofs[])
 {
   PetscInt num = 0;
+  if (!c->pattern_offset) return 0; /* none of the edges evaluated on this rank has met anything yet */
   for (PetscInt k = c->pattern_offset[edge]; k < c->pattern_offset[edge + 1] && num + 4 < MOST_PATTERN_DOFS; ++k) {
     const PetscInt *dof = c->side[NODE_SIDE(c->pattern[k])].dof + 2 * NODE_INDEX(c->pattern[k]);
     if (dof[0] >= 0) dofs[num++] = dof[0];
