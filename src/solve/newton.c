@@ -120,77 +120,82 @@ static PetscErrorCode Test_Private(SNES snes, Solver s, Vec x)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Is the iteration over at residual norm? Then snes->reason is set. */
+static PetscErrorCode Verdict_Private(SNES snes, Solver s, PetscReal norm)
+{
+  PetscBool done, repeats;
+  uint64_t  hash;
+
+  PetscFunctionBegin;
+  PetscCall(Converged_Private(s, norm, &done));
+  PetscCall(ProblemActiveSetHash(s->problem, &hash));
+  PetscCall(SetHistoryAdd_Private(&s->iterate_sets, hash, norm, PETSC_TRUE, &repeats));
+  if (snes->iter == 1) s->first_norm = s->best_norm = norm; /* the first iterate carries the whole prescribed motion: progress counts from there */
+  if (norm < s->best_norm) {
+    s->best_norm = norm;
+    s->best_iter = snes->iter;
+  }
+  if (done)
+    PetscCall(Finish_Private(snes, s, SNES_CONVERGED_FNORM_RELATIVE, ""));
+  else if (repeats) {
+    ++s->report->set_cycles;
+    PetscCall(Finish_Private(snes, s, SNES_DIVERGED_INNER, "the active set of contact repeats itself"));
+  } else if (snes->iter - s->best_iter >= STALLED || s->halvings >= HALVINGS)
+    PetscCall(Finish_Private(snes, s, SNES_DIVERGED_LINE_SEARCH, "Newton stalls"));
+  else if (snes->iter == s->max_it)
+    PetscCall(Finish_Private(snes, s, SNES_DIVERGED_MAX_IT, "Newton did not converge within -solve_max_it iterations"));
+  else if (PetscIsInfOrNanReal(norm) || (snes->iter > 3 && norm > 1e4 * s->first_norm))
+    PetscCall(Finish_Private(snes, s, SNES_DIVERGED_DTOL, "the Newton residual grew"));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* One linearisation and the step it gives; snes->reason is set when there is none to be had. */
+static PetscErrorCode Iterate_Private(SNES snes, Solver s, Vec x, Vec r, Vec dx)
+{
+  PetscBool ok, bad;
+
+  PetscFunctionBegin;
+  if (s->test) PetscCall(Test_Private(snes, s, x));
+  ++s->report->iterations;
+  PetscCall(VecZeroEntries(s->lift));
+  PetscCall(ProblemTangent(s->problem, x, s->pressure, s->lift, &bad));
+  PetscCall(ProblemRightSide(s->problem, r, s->lift, s->rhs));
+  PetscCall(LinearStep_Private(snes, s, x, dx, &ok));
+  if (ok) PetscCall(Step_Private(snes, s, x, dx, r));
+  if (!ok)
+    PetscCall(Finish_Private(snes, s, SNES_DIVERGED_LINEAR_SOLVE, "the tangent is singular"));
+  else if (s->report->status.bad)
+    PetscCall(Finish_Private(snes, s, SNES_DIVERGED_FUNCTION_DOMAIN, "every step along the Newton direction inverts a cell"));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 static PetscErrorCode SNESSolve_ContactNewton(SNES snes)
 {
   Solver    s = NULL;
-  Vec       x = snes->vec_sol, r = snes->vec_func, dx = snes->vec_sol_update;
-  PetscReal norm, first = 0;
-  PetscBool done, ok, bad, repeats;
-  uint64_t  hash;
+  Vec       x = snes->vec_sol, r = snes->vec_func;
+  PetscReal norm;
 
   PetscFunctionBegin;
   PetscCall(SNESGetApplicationContext(snes, &s));
   snes->iter          = 0;
+  snes->reason        = SNES_CONVERGED_ITERATING;
   s->iterate_sets.num = 0;
   s->best_norm        = PETSC_MAX_REAL;
   s->best_iter        = 0;
   s->halvings         = 0;
   PetscCall(ProblemSearch(s->problem, x));
   PetscCall(SNESComputeFunction(snes, x, r));
-  if (s->report->status.bad) {
-    PetscCall(Finish_Private(snes, s, SNES_DIVERGED_FUNCTION_DOMAIN, "the start of the step has an inverted cell"));
-    PetscFunctionReturn(PETSC_SUCCESS);
-  }
-  for (;; ++snes->iter) {
+  if (s->report->status.bad) PetscCall(Finish_Private(snes, s, SNES_DIVERGED_FUNCTION_DOMAIN, "the start of the step has an inverted cell"));
+  while (snes->reason == SNES_CONVERGED_ITERATING) {
     PetscCall(VecNorm(r, NORM_2, &norm));
     snes->norm          = norm;
     s->report->residual = norm;
     s->report->scale    = s->report->status.scale;
     PetscCall(SNESMonitor(snes, snes->iter, norm));
-    PetscCall(Converged_Private(s, norm, &done));
-    if (done) {
-      PetscCall(Finish_Private(snes, s, SNES_CONVERGED_FNORM_RELATIVE, ""));
-      break;
-    }
-    PetscCall(ProblemActiveSetHash(s->problem, &hash));
-    PetscCall(SetHistoryAdd_Private(&s->iterate_sets, hash, norm, PETSC_TRUE, &repeats));
-    if (repeats) {
-      ++s->report->set_cycles;
-      PetscCall(Finish_Private(snes, s, SNES_DIVERGED_INNER, "the active set of contact repeats itself"));
-      break;
-    }
-    if (snes->iter == 1) first = s->best_norm = norm; /* the first iterate carries the whole prescribed motion: progress counts from there */
-    if (norm < s->best_norm) {
-      s->best_norm = norm;
-      s->best_iter = snes->iter;
-    }
-    if (snes->iter - s->best_iter >= STALLED || s->halvings >= HALVINGS) {
-      PetscCall(Finish_Private(snes, s, SNES_DIVERGED_LINE_SEARCH, "Newton stalls"));
-      break;
-    }
-    if (snes->iter == s->max_it) {
-      PetscCall(Finish_Private(snes, s, SNES_DIVERGED_MAX_IT, "Newton did not converge within -solve_max_it iterations"));
-      break;
-    }
-    if (PetscIsInfOrNanReal(norm) || (snes->iter > 3 && norm > 1e4 * first)) {
-      PetscCall(Finish_Private(snes, s, SNES_DIVERGED_DTOL, "the Newton residual grew"));
-      break;
-    }
-    if (s->test) PetscCall(Test_Private(snes, s, x));
-    ++s->report->iterations;
-    PetscCall(VecZeroEntries(s->lift));
-    PetscCall(ProblemTangent(s->problem, x, s->pressure, s->lift, &bad));
-    PetscCall(ProblemRightSide(s->problem, r, s->lift, s->rhs));
-    PetscCall(LinearStep_Private(snes, s, x, dx, &ok));
-    if (!ok) {
-      PetscCall(Finish_Private(snes, s, SNES_DIVERGED_LINEAR_SOLVE, "the tangent is singular"));
-      break;
-    }
-    PetscCall(Step_Private(snes, s, x, dx, r));
-    if (s->report->status.bad) {
-      PetscCall(Finish_Private(snes, s, SNES_DIVERGED_FUNCTION_DOMAIN, "every step along the Newton direction inverts a cell"));
-      break;
-    }
+    PetscCall(Verdict_Private(snes, s, norm));
+    if (snes->reason != SNES_CONVERGED_ITERATING) break;
+    PetscCall(Iterate_Private(snes, s, x, r, snes->vec_sol_update));
+    ++snes->iter;
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

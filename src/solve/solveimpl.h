@@ -21,6 +21,7 @@ struct _p_Solver {
   PetscBool     test;         /* -snes_test_jacobian was given */
   SetHistory    pass_sets;    /* active sets of the passes of one linearisation */
   SetHistory    iterate_sets; /* active sets of the Newton iterates */
+  PetscReal     first_norm;   /* residual after the first iteration */
   PetscReal     best_norm;    /* least residual of this solve … */
   PetscInt      best_iter;    /* … and its iteration */
   PetscInt      halvings;     /* steps shortened in this solve */
