@@ -64,3 +64,28 @@ def test_dead_load_in_one_step(run, ranks):
     print("ours", ours.summary["step_cuts"], ours.summary["newton_iterations"], "naive", naive.returncode, naive.summary["reason"])
     assert naive.returncode == 2 and naive.summary["status"] == "failed" and naive.summary["reason"]
     assert ours.returncode == 0 and ours.summary["energy"] == pytest.approx(slow.summary["energy"], rel=1e-7)
+
+
+def test_checkerboard_on_an_isolated_refined_cell(run):
+    """Four cells where one was, around them coarser ones: constant pressures on bilinear cells oscillate there (no refinement cures it), linear ones on biquadratic
+    cells do not. Cook's membrane, kappa/mu = 5000; alternating part of the four mean pressures against their mean."""
+    part = {}
+    for order in (1, 2):
+        result = run("inputs/cook.yml", "-order", order, "-adapt_tolerance", 0, "-refine_spot_x", 25.5, "-refine_spot_y", 34, "-refine_spot_levels", 1)
+        assert result.returncode == 0, result
+        fields = bulk(result)
+        cells, level, leaf = np.asarray(fields["cells"]), fields["level"], fields["cell"]
+        value = fields["pressure"] if len(fields["pressure"]) == len(cells) else fields["pressure"][cells].mean(axis=1)
+        centre = fields["X"][cells].mean(axis=1)
+        mean, place = [], []
+        for k in np.unique(leaf[level == level.max()]):
+            mean.append(value[leaf == k].mean())
+            place.append(centre[leaf == k].mean(axis=0)[:2])
+        assert len(mean) % 4 == 0
+        order_of = np.lexsort((np.array(place)[:, 1], np.round(np.array(place)[:, 0], 6)))
+        mean = np.array(mean)[order_of]
+        if len(mean) == 8:  # the place lay on the side of two cells, one above the other
+            mean = mean[[0, 1, 4, 5]]
+        part[order] = abs(mean[0] - mean[1] - mean[2] + mean[3]) / abs(mean.sum())
+    print(part)
+    assert part[2] < 0.05 and part[1] > 10 * part[2] and part[1] > 0.2
