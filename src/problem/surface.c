@@ -61,12 +61,16 @@ static PetscErrorCode SurfaceNeighbours_Private(Surface *s)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* A node where the surface ends on a plane along which it may only slide: its normal is averaged with its mirror image. */
+/* A node where the surface ends on a plane along which it may only slide: its normal is averaged with its mirror image. A support that holds the end across the
+   surface is no such plane: the image would cancel the normal. */
 static void NodeMirror_Private(Surface *s, PetscInt n, PetscInt fixed)
 {
   if (s->node_edge[2 * n] >= 0 && s->node_edge[2 * n + 1] >= 0) return;
   if (fixed != 1 && fixed != 2) return;
-  const PetscInt k = fixed == 1 ? 0 : 1;
+  const PetscInt   k = fixed == 1 ? 0 : 1, edge = PetscMax(s->node_edge[2 * n], s->node_edge[2 * n + 1]);
+  const PetscReal *plane = s->frame + 4 * n + 2 * k, *a = s->X + 2 * s->edges[2 * edge], *b = s->X + 2 * s->edges[2 * edge + 1];
+  const PetscReal  along = plane[0] * (b[0] - a[0]) + plane[1] * (b[1] - a[1]), across = plane[0] * (b[1] - a[1]) - plane[1] * (b[0] - a[0]);
+  if (PetscAbsReal(along) < PetscAbsReal(across)) return;
   for (PetscInt c = 0; c < 2; ++c) s->mirror[2 * n + c] = s->frame[4 * n + 2 * k + c];
 }
 
@@ -112,8 +116,8 @@ static PetscErrorCode SurfaceFields_Private(Problem p, Surface *s)
     PetscCall(PetscArraycpy(s->X + 2 * n, buffer + 7 * n, 2));
     PetscCall(PetscArraycpy(s->frame + 4 * n, buffer + 7 * n + 2, 4));
     s->dof[2 * n] = s->dof[2 * n + 1] = (PetscInt)buffer[7 * n + 6]; /* the fixed bits, until the indices are known */
-    NodeMirror_Private(s, n, s->dof[2 * n]);
   }
+  for (PetscInt n = 0; n < s->num_nodes; ++n) NodeMirror_Private(s, n, s->dof[2 * n]);
   PetscCall(PetscArraycpy(s->x, s->X, 2 * s->num_nodes));
   PetscCall(PetscFree(buffer));
   PetscFunctionReturn(PETSC_SUCCESS);
