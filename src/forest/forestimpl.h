@@ -181,3 +181,6 @@ PetscErrorCode ForestPartition(MPI_Comm, const ForestTables *, const PetscReal w
 /* Read a gmsh file on this rank. Returns the sentence of an input error in message (empty: none). Not collective. */
 PetscErrorCode ForestReadGmsh(const ForestSpec *, CoarseMesh *, PetscInt *num_facets, PetscInt **facet_vertices, uint64_t **facet_groups, size_t length,
                               char message[]);
+
+/* gmshcheck.c: are the sections of a gmsh file whole, and all nodes that its elements name there? Not collective. */
+PetscErrorCode ForestCheckGmsh(const char *file, int major, PetscBool binary, PetscBool *fine);

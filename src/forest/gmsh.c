@@ -15,6 +15,7 @@ typedef struct {
   GroupName        *name; /* owned [num_names] physical names of the file */
   PetscInt          num_names;
   int               major; /* of the format version */
+  PetscBool         binary;
   DM                dm;
   CoarseMesh       *mesh;
   PetscInt          first_vertex, *vertex_id; /* owned, coarse vertex of each DMPlex vertex */
@@ -108,6 +109,7 @@ static PetscErrorCode ScanHeader_Private(Reader *r, FILE *file)
     FAIL(r, "mesh file '%s' is damaged: it has no format version", r->spec->file);
   if (!(r->major == 2 && minor == 2) && !(r->major == 4 && minor == 1))
     FAIL(r, "mesh file '%s' has gmsh format version %d.%d; 2.2 and 4.1 can be read (gmsh -format msh41)", r->spec->file, r->major, minor);
+  r->binary = (PetscBool)(binary == 1);
   while (!r->message[0] && fgets(line, sizeof(line), file) && strncmp(line, "$Nodes", 6)) {
     if (!strncmp(line, "$PhysicalNames", 14))
       PetscCall(ReadNames_Private(r, file));
@@ -126,7 +128,13 @@ static PetscErrorCode ReadHeader_Private(Reader *r)
   if (!file) FAIL(r, "mesh file '%s' cannot be opened", r->spec->file);
   status = ScanHeader_Private(r, file);
   fclose(file);
-  PetscFunctionReturn(status);
+  PetscCall(status);
+  if (r->message[0]) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscBool fine;
+  PetscCall(ForestCheckGmsh(r->spec->file, r->major, r->binary, &fine));
+  if (!fine)
+    FAIL(r, "mesh file '%s' is truncated or damaged: its nodes or elements are incomplete, or an element names a node that is not there", r->spec->file);
+  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* ---- loading ---------------------------------------------------------------------------------------------------------- */
