@@ -2,6 +2,8 @@
 #include "forestimpl.h"
 #include <petscdmplextransform.h>
 #include <petscfe.h>
+#include <signal.h>
+#include <unistd.h>
 
 typedef struct {
   PetscInt dim, tag;
@@ -167,14 +169,42 @@ static PetscErrorCode LoadWithOptions_Private(const char *file, int major, Petsc
   PetscFunctionReturn(status);
 }
 
+/* PETSc's reader trusts a file's numbers. What ForestCheckGmsh does not see (binary entities, say) may end in a signal there; the user then gets the sentence
+   and exit status 1 of wrong input all the same. Nothing can be cleaned up any more: the heap may be broken. */
+static char      damaged_sentence[PETSC_MAX_PATH_LEN + 64];
+static const int DamageSignals[] = {SIGSEGV, SIGBUS, SIGABRT, SIGFPE, SIGILL};
+enum { NUM_DAMAGE_SIGNALS = sizeof(DamageSignals) / sizeof(DamageSignals[0]) };
+
+static void Damaged_Private(int number)
+{
+  if (write(STDERR_FILENO, damaged_sentence, strlen(damaged_sentence)) < 0) _exit(2);
+  _exit(1);
+}
+
+static void GuardBegin_Private(const char *file, struct sigaction old[])
+{
+  struct sigaction guard = {.sa_handler = Damaged_Private};
+
+  snprintf(damaged_sentence, sizeof(damaged_sentence), "mortise: mesh file '%s' is damaged: its numbers contradict each other\n", file);
+  for (int i = 0; i < NUM_DAMAGE_SIGNALS; ++i) sigaction(DamageSignals[i], &guard, &old[i]);
+}
+
+static void GuardEnd_Private(const struct sigaction old[])
+{
+  for (int i = 0; i < NUM_DAMAGE_SIGNALS; ++i) sigaction(DamageSignals[i], &old[i], NULL);
+}
+
 static PetscErrorCode Load_Private(Reader *r, PetscBool curved)
 {
-  char text[256] = "";
+  char             text[256] = "";
+  struct sigaction old[NUM_DAMAGE_SIGNALS];
 
   PetscFunctionBegin;
   PetscCall(DMDestroy(&r->dm));
   PetscCall(PetscPushErrorHandler(KeepMessage_Private, text));
+  GuardBegin_Private(r->spec->file, old);
   const PetscErrorCode status = LoadWithOptions_Private(r->spec->file, r->major, curved, &r->dm);
+  GuardEnd_Private(old);
   PetscCall(PetscPopErrorHandler());
   if (status) {
     r->dm = NULL;

@@ -1,7 +1,8 @@
-"""Damaged scenes end in exit status 0 or 1 under -check, never in a crash. MORTISE_FUZZ sets how many are tried (default 60);
-tests/unit/test_scene_parse.c tries 20 000 on the parser alone."""
+"""Damaged scenes end in exit status 0 or 1 under -check, damaged scenes and meshes that are solved in 0, 1 or 2: never in a signal, within a time limit.
+MORTISE_FUZZ sets how many of each are tried (default 60); tests/unit/test_scene_parse.c tries 20 000 on the parser alone."""
 import os
 import random
+import subprocess
 
 import pytest
 
@@ -39,3 +40,50 @@ def test_damaged_scene(run, tmp_path, part):
         assert "PETSC ERROR" not in result.stderr, f"{result}\n{text}"
         assert result.returncode == 0 or "mortise: " in result.stderr, f"{result}\n{text}"
         assert not result.directory.exists()
+
+
+FORMATS = ["msh22", "msh41", "msh41b"]
+
+
+@pytest.fixture(scope="module")
+def meshes(tmp_path_factory):
+    """inputs/patch2d.geo in three formats, as bytes."""
+    folder, found = tmp_path_factory.mktemp("meshes"), {}
+    for name in FORMATS:
+        file = folder / f"{name}.msh"
+        command = ["gmsh", "-2", "-order", "1", "-format", name.rstrip("b"), "-o", str(file), str(ROOT / "inputs" / "patch2d.geo")]
+        subprocess.run(command + (["-bin"] if name.endswith("b") else []), check=True, capture_output=True)
+        found[name] = file.read_bytes()
+    return found
+
+
+def damage_bytes(data, chance):
+    data = bytearray(data)
+    for _ in range(chance.randint(1, 4)):
+        at, kind = chance.randrange(len(data)), chance.random()
+        if kind < 0.4:
+            data[at] = chance.choice(b"0123456789. -e$\n") if kind < 0.3 else chance.randrange(256)
+        elif kind < 0.6:
+            del data[at:at + chance.randint(1, 12)]
+        elif kind < 0.8:
+            data[at:at] = bytes(chance.choice(b"0123456789. -") for _ in range(chance.randint(1, 6)))
+        else:
+            start = chance.randrange(len(data))
+            data[at:at] = data[start:start + chance.randrange(60)]
+    return bytes(data)
+
+
+@pytest.mark.parametrize("part", range(4))
+def test_damaged_mesh_is_solved_or_refused(run, tmp_path, meshes, part):
+    chance = random.Random(100 + part)
+    scene = (ROOT / "inputs" / "patch2d.yml").read_text().replace("file: patch2d.geo", "file: d.msh").replace("  order: 1\n", "", 1)
+    for _ in range(int(os.environ.get("MORTISE_FUZZ", "60")) // 4):
+        kind = chance.choice(FORMATS)
+        data = damage_bytes(meshes[kind], chance)
+        (tmp_path / "d.msh").write_bytes(data)
+        text = damage(scene, chance) if chance.random() < 0.3 else scene
+        result = run("damaged.yml", "-output_fields", "0", text=text, timeout=60, env={"OMPI_MCA_ess_singleton_isolated": "1"})
+        where = tmp_path / "damaged.msh"
+        where.write_bytes(data)
+        assert result.returncode in (0, 1, 2), f"{kind} kept in {where}\n{result}\n{text}"
+        assert "PETSC ERROR" not in result.stderr, f"{kind} kept in {where}\n{result}\n{text}"
