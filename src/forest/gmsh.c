@@ -135,7 +135,8 @@ static PetscErrorCode ReadHeader_Private(Reader *r)
   PetscBool fine;
   PetscCall(ForestCheckGmsh(r->spec->file, r->major, r->binary, &fine));
   if (!fine)
-    FAIL(r, "mesh file '%s' is truncated or damaged: its nodes or elements are incomplete, or an element names a node that is not there", r->spec->file);
+    FAIL(r, "mesh file '%s' is truncated or damaged: its nodes or elements are incomplete, or an element names a node twice or one that is not there",
+         r->spec->file);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -130,11 +130,18 @@ static PetscErrorCode ScanNodes_Private(Scan *s)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Nodes of one element: there, and corners (the first eight at most) that differ. */
 static void ElementNodes_Private(Scan *s, int nodes, int bytes)
 {
+  int64_t corner[8];
+
   for (int k = 0; k < nodes && s->fine; ++k) {
     const int64_t tag = Integer_Private(s, bytes);
     if (s->fine && !bsearch(&tag, s->tag, (size_t)s->num_nodes, sizeof(int64_t), CompareTags_Private)) (void)Fail_Private(s);
+    for (int i = 0; i < k && k < 8; ++i) {
+      if (corner[i] == tag) (void)Fail_Private(s);
+    }
+    if (k < 8) corner[k] = tag;
   }
 }
 

@@ -345,7 +345,7 @@ static void test_bad_files(void **state)
   WriteFile("bad.msh", HEAD "$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 1 1 0\n");
   Refused("bad.msh", 2, "truncated");
   WriteFile("bad.msh", HEAD "$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n$EndNodes\n$Elements\n1\n1 3 2 1 1 1 2 3 5\n$EndElements\n");
-  Refused("bad.msh", 2, "names a node that is not there");
+  Refused("bad.msh", 2, "names a node twice or one that is not there");
   WriteFile("bad.msh", HEAD "$Nodes\n4\n1 0 00\n2 1 0 0\n3 1 1 0\n4 0 1 0\n$EndNodes\n$Elements\n1\n1 3 2 1 1 1 2 3 4\n$EndElements\n");
   Refused("bad.msh", 2, "damaged");
   WriteFile("bad.msh", HEAD "$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n$EndNodes\n$Elements\n1\n1 3 2 1 1 1 2 3 4\n$EndElements\n");
