@@ -210,5 +210,47 @@ static void RigidMotion(void **state)
   assert_true(worst < 1e-13);
 }
 
+/* O-103: a straight nonmortar edge and its two (or four) children carry the same weighted gap and the same weights: the sum of gt_j, which is the integral of
+   the gap, and w of the parent's nodes as the hats of the parent combine the children's. Mortar face bent, non-matching, cover whole or partial. */
+static void ParentAndChildren(void **state)
+{
+  PetscReal worst_gap = 0, worst_weight = 0;
+
+  for (uint64_t seed = 1; seed <= 40; seed++) {
+    const PetscReal left = seed % 2 ? -0.2 : 0.31, tilt = 0.05 * (PetscReal)(seed % 5);
+    PetscReal       gap[3] = {0, 0, 0}, weight[3][2] = {{0, 0}, {0, 0}, {0, 0}};
+
+    for (int level = 0; level < 3; level++) {
+      const PetscInt nodes  = (1 << level) + 1;
+      uint64_t       random = seed;
+      Chain          nonmortar, mortar;
+      ContactPair    pair;
+      Sum            sum;
+
+      ChainLine(&nonmortar, nodes, 1, tilt, 0, 0);
+      ChainLine(&mortar, 6, left, 0.4, 1.2, 0.4);
+      for (PetscInt i = 0; i < 12; i++) mortar.x[i] += 0.03 * Random(&random);
+      EvaluateOnce(&nonmortar, &mortar, PETSC_FALSE, PETSC_FALSE, 1, NULL, &pair, &sum);
+      for (PetscInt j = 0; j < nodes; j++) {
+        const PetscReal t = (PetscReal)j / (PetscReal)(nodes - 1);
+        gap[level] += sum.gap[j];
+        weight[level][0] += (1 - t) * sum.weight[j];
+        weight[level][1] += t * sum.weight[j];
+      }
+      CHECK_CALL(ContactPairDestroy(&pair));
+      SumDestroy(&sum);
+      ChainDestroy(&nonmortar);
+      ChainDestroy(&mortar);
+    }
+    assert_true(gap[0] > 1e-3);
+    for (int level = 1; level < 3; level++) {
+      worst_gap = PetscMax(worst_gap, PetscAbsReal(gap[level] / gap[0] - 1));
+      for (int k = 0; k < 2; k++) worst_weight = PetscMax(worst_weight, PetscAbsReal(weight[level][k] - weight[0][k]));
+    }
+  }
+  print_message("parent and children: weighted gap differs by %.1e, weights by %.1e\n", worst_gap, worst_weight);
+  assert_true(worst_gap < 1e-12 && worst_weight < 1e-12);
+}
+
 CONTACT_TEST_MAIN("contact: gaps, balance, invariance", cmocka_unit_test(ParallelFaces), cmocka_unit_test(ConstantPressure), cmocka_unit_test(Quadrature),
-                  cmocka_unit_test(Balance), cmocka_unit_test(RigidMotion))
+                  cmocka_unit_test(Balance), cmocka_unit_test(RigidMotion), cmocka_unit_test(ParentAndChildren))
