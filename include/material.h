@@ -44,6 +44,7 @@ struct _MaterialLaw {
   const MaterialParameter *parameters; /* ended by name NULL */
   PetscBool                small;      /* linear law of small kinematics */
   PetscBool                rigid;      /* cells are not assembled */
+  PetscBool                whole;      /* energy does not split into shear and volume: no volumetric law, displacement formulation alone */
   PetscErrorCode (*setup)(MaterialSpec *);
   MaterialKernel evaluate; /* NULL for rigid */
 };

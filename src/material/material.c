@@ -5,11 +5,14 @@ const char *const VolumetricNames[]  = {"quadratic", "simo", "log", "Volumetric"
 const char *const FormulationNames[] = {"auto", "displacement", "mixed", "Formulation", "FORMULATION_", NULL};
 
 const MaterialLaw MaterialLaws[] = {
-    {"neo_hookean", "compressible neo-Hookean solid", MaterialElasticParameters, PETSC_FALSE, PETSC_FALSE, MaterialSetUpElastic, MaterialNeoHookean},
-    {"mooney_rivlin", "Mooney-Rivlin solid", MaterialMooneyRivlinParameters, PETSC_FALSE, PETSC_FALSE, MaterialMooneyRivlinSetUp, MaterialMooneyRivlin},
-    {"linear", "linear isotropic elasticity, small kinematics", MaterialElasticParameters, PETSC_TRUE, PETSC_FALSE, MaterialLinearSetUp, MaterialLinear},
-    {"rigid", "rigid body that moves as told", MaterialRigidParameters, PETSC_FALSE, PETSC_TRUE, MaterialRigidSetUp, NULL},
-    {NULL, NULL, NULL, PETSC_FALSE, PETSC_FALSE, NULL, NULL},
+    {"neo_hookean", "compressible neo-Hookean solid", MaterialElasticParameters, .setup = MaterialSetUpElastic, .evaluate = MaterialNeoHookean},
+    {"mooney_rivlin", "Mooney-Rivlin solid", MaterialMooneyRivlinParameters, .setup = MaterialMooneyRivlinSetUp, .evaluate = MaterialMooneyRivlin},
+    {"saint_venant_kirchhoff", "St. Venant-Kirchhoff solid: small strains, any rotation", MaterialElasticParameters, .whole = PETSC_TRUE,
+     .setup = MaterialSetUpElastic, .evaluate = MaterialSaintVenantKirchhoff},
+    {"linear", "linear isotropic elasticity, small kinematics", MaterialElasticParameters, .small = PETSC_TRUE, .setup = MaterialLinearSetUp,
+     .evaluate = MaterialLinear},
+    {"rigid", "rigid body that moves as told", MaterialRigidParameters, .rigid = PETSC_TRUE, .setup = MaterialRigidSetUp},
+    {NULL},
 };
 
 const MaterialLaw *MaterialLawFind(const char *name)

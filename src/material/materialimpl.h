@@ -198,6 +198,8 @@ PetscErrorCode                 MaterialSetUpElastic(MaterialSpec *);
 
 PetscErrorCode MaterialNeoHookean(const MaterialSpec *, MaterialPart, PetscInt, const PetscReal *, PetscReal *, PetscReal *, PetscReal *, PetscBool *);
 PetscErrorCode MaterialMooneyRivlin(const MaterialSpec *, MaterialPart, PetscInt, const PetscReal *, PetscReal *, PetscReal *, PetscReal *, PetscBool *);
+PetscErrorCode MaterialSaintVenantKirchhoff(const MaterialSpec *, MaterialPart, PetscInt, const PetscReal *, PetscReal *, PetscReal *, PetscReal *,
+                                            PetscBool *);
 PetscErrorCode MaterialLinear(const MaterialSpec *, MaterialPart, PetscInt, const PetscReal *, PetscReal *, PetscReal *, PetscReal *, PetscBool *);
 
 extern const MaterialParameter MaterialMooneyRivlinParameters[];

@@ -112,6 +112,9 @@ static PetscErrorCode ResolveMixed_Private(MaterialSpec *spec)
   PetscFunctionBegin;
   spec->mixed =
       spec->formulation == FORMULATION_MIXED || (spec->formulation == FORMULATION_AUTO && !spec->law->rigid && nu >= 0.45 - 1e-12) ? PETSC_TRUE : PETSC_FALSE;
+  PetscCheckInput(!spec->mixed || !spec->law->whole,
+                  "material.%s.formulation: %s has no mixed form (meant for nu from 0.45 up, here %g); set formulation: displacement or take neo_hookean",
+                  spec->name, spec->law->name, (double)nu);
   PetscCheckInput(!spec->mixed || MaterialVolumetricModulus(spec) > 0, "material.%s.formulation: mixed with volumetric: log needs lambda above 0, which is %g",
                   spec->name, (double)spec->lambda);
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -146,7 +146,7 @@ static PetscErrorCode PrintLaws_Private(MPI_Comm comm)
   PetscFunctionBegin;
   PetscCall(PetscPrintf(comm, "\nmaterial laws (material.<name>.law) and their parameters\n"));
   for (const MaterialLaw *law = MaterialLaws; law->name; ++law) {
-    PetscCall(PetscPrintf(comm, "  %-14s %s\n", law->name, law->help));
+    PetscCall(PetscPrintf(comm, "  %-22s %s\n", law->name, law->help));
     for (const MaterialParameter *p = law->parameters; p && p->name; ++p) {
       char lo[32] = "-inf", hi[32] = "inf";
       if (p->min > -1e30) (void)snprintf(lo, sizeof(lo), "%g", (double)p->min);

@@ -82,8 +82,8 @@ static PetscErrorCode ReadMaterial_Private(Scene s, SceneNode *node, MaterialEnt
     PetscCheckInput(num < 63, "%s has too many parameters", NodeWhere(node));
     names[num++] = child->key;
   }
-  PetscCheckInput(!(m->spec.law->rigid || m->spec.law->small) || !NodeFind(node, "volumetric"), "%s: law %s has no volumetric energy to choose",
-                  NodeWhere(NodeFind(node, "volumetric")), m->law);
+  PetscCheckInput(!(m->spec.law->rigid || m->spec.law->small || m->spec.law->whole) || !NodeFind(node, "volumetric"),
+                  "%s: law %s has no volumetric energy to choose", NodeWhere(NodeFind(node, "volumetric")), m->law);
   PetscCheckInput(!m->spec.law->rigid || !NodeFind(node, "formulation"), "%s: a rigid body has no formulation", NodeWhere(NodeFind(node, "formulation")));
   PetscCheckInput(!m->spec.law->small || small, "%s: law %s is for small strains; set kinematics: small or take another law (neo_hookean)",
                   NodeWhere(NodeFind(node, "law")), m->law);

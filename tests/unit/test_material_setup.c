@@ -83,6 +83,8 @@ static void MixedIsResolved(void **state)
   spec.formulation = FORMULATION_DISPLACEMENT;
   OK(Try("neo_hookean", 2, NAMES("E", "nu"), VALUES(1, 0.49)));
   assert_false(spec.mixed);
+  OK(Try("saint_venant_kirchhoff", 2, NAMES("E", "nu"), VALUES(1, 0.49)));
+  assert_false(spec.mixed);
   spec.formulation = FORMULATION_MIXED;
   OK(Try("neo_hookean", 2, NAMES("E", "nu"), VALUES(1, 0.1)));
   assert_true(spec.mixed);
@@ -116,7 +118,13 @@ static void WrongVariantsAreRefused(void **state)
   spec.volumetric = VOLUMETRIC_LOG;
   REFUSED("volumetric: mooney_rivlin knows quadratic and simo, not log", "mooney_rivlin", 3, NAMES("c1", "c2", "kappa"), VALUES(1, 1, 9));
   REFUSED("volumetric: linear has no other volumetric law than quadratic", "linear", 2, NAMES("E", "nu"), VALUES(1, 0.3));
+  spec.volumetric = VOLUMETRIC_QUADRATIC;
+  REFUSED("formulation: saint_venant_kirchhoff has no mixed form (meant for nu from 0.45 up, here 0.49); set formulation: displacement or take neo_hookean",
+          "saint_venant_kirchhoff", 2, NAMES("E", "nu"), VALUES(1, 0.49));
   spec.formulation = FORMULATION_MIXED;
+  REFUSED("formulation: saint_venant_kirchhoff has no mixed form (meant for nu from 0.45 up, here 0.3); set formulation: displacement or take neo_hookean",
+          "saint_venant_kirchhoff", 2, NAMES("E", "nu"), VALUES(1, 0.3));
+  spec.volumetric = VOLUMETRIC_LOG;
   REFUSED("formulation: mixed with volumetric: log needs lambda above 0, which is -0.1", "neo_hookean", 2, NAMES("mu", "lambda"), VALUES(1, -0.1));
 }
 

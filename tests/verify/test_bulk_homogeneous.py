@@ -102,6 +102,28 @@ def test_o04_plane_strain(run, tmp_path, law, stretch, lateral, P, Pzz):
         close(s["energy"], energy_density(law, (stretch, lateral, 1)), 1e-8)
 
 
+@pytest.mark.parametrize("stretch", [.7, 1.3])
+def test_o04_saint_venant_kirchhoff(run, tmp_path, stretch):
+    """Hooke's law between S and E, so closed forms in both: S = Y E and lateral -nu E, or in plane strain Y/(1 - nu^2) and -nu/(1 - nu)."""
+    material = {"law": "saint_venant_kirchhoff", **MODULI}
+    pull, Y, nu = {"x0": {"fix": "x"}, "y0": {"fix": "y"}, "x1": {"displacement": {"x": stretch - 1}}}, MODULI["E"], MODULI["nu"]
+    strain = (stretch**2 - 1) / 2
+    s = block(run, tmp_path, 3, material, {**pull, "z0": {"fix": "z"}})
+    close(s["reaction"]["x1"][0], stretch * Y * strain, 1e-8)
+    close(s["energy"], Y * strain**2 / 2, 1e-8)
+    for value in s["probe"]["corner"]["displacement"][1:]:
+        close(value, math.sqrt(1 - 2 * nu * strain) - 1, 1e-8)
+    Y, lateral = Y / (1 - nu**2), math.sqrt(1 - 2 * nu / (1 - nu) * strain)
+    flat = block(run, tmp_path, 2, material, pull, order=2)
+    solid = block(run, tmp_path, 3, material, {**pull, "z0": {"fix": "z"}, "z1": {"fix": "z"}})
+    close(solid["reaction"]["z1"][2], nu * Y * strain, 1e-8)
+    close(flat["probe"]["corner"]["stress"][5], nu * Y * strain / (stretch * lateral), 1e-8)
+    for s in (flat, solid):
+        close(s["reaction"]["x1"][0], stretch * Y * strain, 1e-8)
+        close(s["probe"]["corner"]["displacement"][1], lateral - 1, 1e-8)
+        close(s["energy"], Y * strain**2 / 2, 1e-8)
+
+
 RUBBER = [{"law": "neo_hookean", "volumetric": "quadratic", "mu": 1, "kappa": 1e5}, {"law": "neo_hookean", "volumetric": "simo", "mu": 1, "kappa": 1e5},
           {"law": "mooney_rivlin", "c1": 0.5, "c2": 0, "kappa": 1e5, "formulation": "mixed"}]
 
