@@ -52,13 +52,17 @@ PetscErrorCode ProblemSetDisplacement(Problem, const PetscReal local[], Vec x);
 /* ---- contact, replicated surface tables ------------------------------------------------------------------------------------ */
 
 typedef struct {
-  PetscInt         num_nodes, num_edges;
-  const PetscInt  *node_entity; /* [num_nodes] global vertex entity */
-  const PetscInt  *edges;       /* [num_edges][2], body to the left */
-  const PetscInt  *edge_leaf;   /* [num_edges] */
-  const PetscReal *X;           /* [num_nodes][2] */
-  const PetscReal *x;           /* [num_nodes][2] at the last evaluation */
-  const PetscReal *force;       /* [num_nodes][2] contact force at the last residual */
+  PetscInt         dim, corners; /* of a facet: 2 or 4 */
+  PetscInt         num_nodes, num_facets;
+  const PetscInt  *node_entity;        /* [num_nodes] global vertex entity */
+  const PetscInt  *facets;             /* [num_facets][corners], body to the left; counterclockwise seen from outside */
+  const PetscInt  *facet_leaf;         /* [num_facets] */
+  const PetscInt  *facet_entity;       /* [num_facets] */
+  const PetscInt  *hang, *hang_master; /* [num_nodes+1] offsets: masters of a hanging node, in this table; empty: it does not hang */
+  const PetscReal *hang_weight;
+  const PetscReal *X;     /* [num_nodes][dim] */
+  const PetscReal *x;     /* [num_nodes][dim] at the last evaluation */
+  const PetscReal *force; /* [num_nodes][dim] contact force at the last residual; none at hanging nodes */
 } SurfaceView;
 
 typedef struct {
@@ -66,8 +70,8 @@ typedef struct {
   SurfaceView        nonmortar, mortar;
   const PetscReal   *z, *gap, *weight; /* [nonmortar.num_nodes] multiplier, gt_j, w_j at the last evaluation (replicated) */
   const PetscBool   *active;           /* [nonmortar.num_nodes] as the residual decided */
-  const PetscBool   *has_multiplier;   /* [nonmortar.num_nodes] */
-  ContactPair        pair;             /* segments of this rank's nonmortar edges */
+  const PetscBool   *has_multiplier;   /* [nonmortar.num_nodes]; hanging nodes: no, their z is interpolated */
+  ContactPair        pair;             /* segments of this rank's nonmortar facets */
   PetscReal          area, min_gap;    /* totals over ranks */
   PetscReal          adjusted;         /* largest mean initial gap, over or under, that was closed at a node (initial_gap: adjust) */
 } ContactView;

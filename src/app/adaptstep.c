@@ -149,8 +149,8 @@ static PetscErrorCode ContactPairs_Private(App *app, PetscInt *num, PetscInt (**
       PetscCall(ContactPairGetSegments(v->pair, &n, &segments));
       for (PetscInt s = 0; s < n; ++s, ++count) {
         if (!pass) continue;
-        (*pairs)[count][0] = v->nonmortar.edge_leaf[segments[s].edge];
-        (*pairs)[count][1] = v->mortar.edge_leaf[segments[s].mortar_edge];
+        (*pairs)[count][0] = v->nonmortar.facet_leaf[segments[s].facet];
+        (*pairs)[count][1] = v->mortar.facet_leaf[segments[s].mortar_facet];
       }
     }
     if (!pass) PetscCall(PetscMalloc1(count, pairs));

@@ -9,7 +9,7 @@ static const int NormalColumn[2][6] = {{4, 5, 0, 1, 2, 3}, {0, 1, 2, 3, 6, 7}};
    side; the caller appends the mortar nodes. */
 void ContactChainBuild(ContactPair pair, const ContactSurface *s, PetscInt edge, PetscInt num_mortar, EdgeChain *chain, PetscInt nodes[], PetscInt *num)
 {
-  const PetscInt a = s->edges[2 * edge], b = s->edges[2 * edge + 1], all[4] = {a, b, pair->prev[a], pair->next[b]};
+  const PetscInt a = s->facets[2 * edge], b = s->facets[2 * edge + 1], all[4] = {a, b, pair->prev[a], pair->next[b]};
 
   *num = 0;
   for (int k = 0; k < 4; k++) {
@@ -140,7 +140,7 @@ void ContactLengthDerivative(const EdgeFrame *f, PetscReal dL[4], PetscReal ddL[
 /* Positions of a segment's mortar nodes and where its bounds' nodes stand among the 16 numbers. */
 void ContactGeometry(const ContactSurface *mortar, const Segment *s, SegmentGeometry *g)
 {
-  const PetscInt *node = &mortar->edges[2 * s->mortar_edge];
+  const PetscInt *node = &mortar->facets[2 * s->mortar_facet];
 
   for (int i = 0; i < 2; i++) {
     g->c[i] = mortar->x[2 * node[0] + i];

@@ -31,7 +31,7 @@ typedef struct {
 
 /* Part of a nonmortar edge that sees one mortar edge. */
 typedef struct {
-  PetscInt  mortar_edge;
+  PetscInt  mortar_facet;
   PetscReal lambda[2]; /* lambda[0] < lambda[1] */
   PetscInt  bound[2];  /* mortar node on whose ray the bound lies; -1: the edge's own end, fixed */
   PetscInt  local[4];  /* places of c, d, bound[0], bound[1] in the edge's list of mortar nodes (-1: none) */
@@ -66,22 +66,28 @@ typedef struct {
   PetscReal n[2], d[2][6], dd[2][6][6];
 } NormalDerivative;
 
-/* Bounding-volume tree over mortar edges: node i's children are child[i], child[i] + 1; leaves hold item[first .. first + count). */
+/* Bounding-volume tree over mortar facets: node i's children are child[i], child[i] + 1; leaves hold item[first .. first + count). In two dimensions the third
+   extent is [0, 0]. */
 typedef struct {
-  PetscReal box[4]; /* xmin, ymin, xmax, ymax */
+  PetscReal box[6]; /* xmin, ymin, zmin, xmax, ymax, zmax */
   PetscInt  first, count, child;
 } TreeNode;
 typedef struct {
   PetscInt  num;
   TreeNode *node;      /* owned */
   PetscInt *item;      /* owned */
-  PetscReal (*box)[4]; /* owned, [num items] */
+  PetscReal (*box)[6]; /* owned, [num items] */
 } Tree;
 
+typedef struct _p_FacetWork *FacetWork;
+
 struct _p_ContactPair {
-  PetscBool axisymmetric, node_to_segment;
+  PetscInt  dim;
+  PetscBool axisymmetric, node_to_segment, standard;
+  PetscInt  num_degenerate; /* overlaps of the last evaluation that could not be used */
+  FacetWork facet;          /* three dimensions: work space, else NULL */
   /* topology of the nonmortar side, from the last search: neighbours of a node along the surface, -1: none */
-  PetscInt  num_nodes, num_edges, num_mortar_nodes, num_mortar_edges;
+  PetscInt  num_nodes, num_facets, num_mortar_nodes, num_mortar_facets;
   PetscInt *prev, *next; /* owned, [num_nodes] */
   /* candidates: mortar edges of listed edge i are candidate[start[i] .. start[i+1]), ascending */
   PetscInt  num_listed, *listed, *start, *candidate, size_candidate; /* owned */
@@ -91,12 +97,12 @@ struct _p_ContactPair {
   PetscInt        num_segments, size_segments;
   Segment        *segment;
   ContactSegment *output;
-  PetscInt       *first_segment;                /* [num_listed + 1] */
-  PetscInt       *first_node;                   /* [num_listed + 1] into node */
-  PetscInt        num_local, size_local, *node; /* mortar nodes that listed edges meet */
-  PetscInt        num_results, size_ids, *ids;  /* ids: storage behind ContactEdge.nodes */
-  ContactEdge    *result;                       /* [num_listed] */
-  PetscReal      *real;                         /* storage behind dgap, dweight, hessian */
+  PetscInt       *first_segment;                        /* [num_listed + 1] */
+  PetscInt       *first_node;                           /* [num_listed + 1] into node */
+  PetscInt        num_local, size_local, *node;         /* mortar nodes that listed edges meet */
+  PetscInt        num_results, num_ids, size_ids, *ids; /* ids: storage behind ContactFacet.nodes */
+  ContactFacet   *result;                               /* [num_listed] */
+  PetscReal      *real;                                 /* storage behind dgap, dweight, hessian */
   PetscInt        size_real;
   PetscReal      *work; /* one edge's sums */
   PetscInt        size_work;
@@ -117,9 +123,9 @@ extern const PetscReal ContactGaussPoint[CONTACT_GAUSS], ContactGaussWeight[CONT
 PetscErrorCode ContactGrow(PetscInt num, size_t entry, PetscInt *size, void *array);
 
 /* search.c */
-PetscErrorCode ContactTreeBuild(PetscInt num, PetscReal (*box)[4], Tree *);
+PetscErrorCode ContactTreeBuild(PetscInt num, PetscReal (*box)[6], Tree *);
 PetscErrorCode ContactTreeDestroy(Tree *);
-PetscInt       ContactTreeQuery(const Tree *, const PetscReal box[4], PetscInt max, PetscInt items[]);
+PetscInt       ContactTreeQuery(const Tree *, const PetscReal box[6], PetscInt max, PetscInt items[]);
 
 /* normal.c */
 PetscErrorCode ContactTopologyBuild(ContactPair, const ContactSurface *);
@@ -131,7 +137,7 @@ void           ContactFrame(ContactPair, const ContactSurface *, PetscInt edge, 
 PetscReal      ContactRaySide(const PetscReal x[2], const PetscReal n[2], const PetscReal m[2]);
 PetscBool      ContactBound(const EdgeFrame *, const PetscReal m[2], PetscReal *lambda, PetscBool *fixed);
 PetscReal      ContactGapAt(const EdgeFrame *, const PetscReal c[2], const PetscReal d[2], PetscReal lambda, PetscReal *cosine, PetscReal *tau);
-PetscBool      ContactSegmentBuild(const EdgeFrame *, const ContactSurface *mortar, PetscInt mortar_edge, Segment *);
+PetscBool      ContactSegmentBuild(const EdgeFrame *, const ContactSurface *mortar, PetscInt mortar_facet, Segment *);
 PetscErrorCode ContactSegmentsBuild(ContactPair, const ContactSurface *nonmortar, const ContactSurface *mortar);
 PetscErrorCode ContactSegmentsPush(ContactPair, PetscInt edge, const EdgeFrame *, const ContactSurface *mortar, const Segment *);
 
@@ -165,8 +171,9 @@ typedef struct {
   ContactPair           pair;
   const ContactSurface *nonmortar, *mortar;
   const PetscReal      *z;
+  const PetscBool      *wanted;
   PetscBool             derivatives, hessian;
 } EvaluateContext;
-void           ContactMortarEdge(const EvaluateContext *, PetscInt slot, ContactEdge *, PetscBool *use);
-void           ContactNodeEdge(const EvaluateContext *, PetscInt slot, ContactEdge *, PetscBool *use);
+void           ContactMortarEdge(const EvaluateContext *, PetscInt slot, ContactFacet *, PetscBool *use);
+void           ContactNodeEdge(const EvaluateContext *, PetscInt slot, ContactFacet *, PetscBool *use);
 PetscErrorCode ContactNodeHitsBuild(ContactPair, const ContactSurface *nonmortar, const ContactSurface *mortar);

@@ -1,4 +1,4 @@
-/* Weighted gaps of one nonmortar edge with the dual basis of its covered part, and their exact derivatives.
+/* Weighted gaps of one nonmortar edge with the dual basis of its covered part, or with standard multipliers (psi = N), and their exact derivatives.
 
    On the covered part let D2_jk = int N_j N_k, D1_j = int N_j = D2_j0 + D2_j1, G_j = int N_j g. The dual basis psi = A N, A = diag(D1) D2^-1, gives
      gt_j = int psi_j g = D1_j c_j,   c = D2^-1 G,   w_j = int psi_j = D1_j:
@@ -6,8 +6,8 @@
    hats, not in 1 and M = (lambda - centre) / half, [centre - half, centre + half] the covered part. As gt_j does not depend on the choice of basis,
    centre and half are plain numbers without derivatives, and with q = (m00, m01, m11, G0, G1) = (int 1, M, M^2, g, M g)
      k = m^-1 G,   c_j = k_0 + E_j k_1,   E = (-centre, 1 - centre) / half,   D1 = ((1 - centre) m00 - half m01, centre m00 + half m01).
-   Measure: dgamma = L rho dlambda; the length L of the edge is taken out of all integrals: D1 and gt scale with L, c does not.
-   Derivatives: dgt_j = L sum_q s_jq dq + s_j dL, s_j = D1_j c_j; second ones of S = sum_j z_j s_j:
+   Standard: gt_j = G_j. Measure: dgamma = L rho dlambda; the length L of the edge is taken out of all integrals: D1 and gt scale with L, c does not.
+   Derivatives: dgt_j = L sum_q s_jq dq + s_j dL, s_j = D1_j c_j (standard: G_j); second ones of S = sum_j z_j s_j:
      L (sum_q S_q Hess q + sum_qr S_qr dq dr^T) + dL dS^T + dS dL^T + S Hess L.
    Sources: dual basis on the covered part: Cichosz & Bischoff 2011, Popp, Seitz, Gee & Wall 2013; the Lagrangian form keeps momentum exactly. */
 #include "contactimpl.h"
@@ -16,6 +16,7 @@ typedef struct {
   PetscReal centre, half, E[2];
   PetscReal k[2], c[2], D1[2], inverse[2][2];                                        /* inverse of m */
   PetscReal kq[CONTACT_MOMENTS][2], dc[CONTACT_MOMENTS][2], dD1[CONTACT_MOMENTS][2]; /* derivatives by q */
+  PetscReal s[2], ds[CONTACT_MOMENTS][2];                                            /* s_j = gt_j / L and its derivatives by q */
 } Dual;
 
 /* Row vectors of dm/dq times v. */
@@ -23,6 +24,20 @@ static void MassTimes_Private(int q, const PetscReal v[2], PetscReal out[2])
 {
   out[0] = q == 0 ? v[0] : q == 1 ? v[1] : 0;
   out[1] = q == 1 ? v[0] : q == 2 ? v[1] : 0;
+}
+
+/* Standard multipliers: s_j = int N_j g, linear in the moments. */
+static void StandardValues_Private(const PetscReal q[CONTACT_MOMENTS], Dual *d)
+{
+  const PetscReal T[2][2] = {{1 - d->centre, -d->half}, {d->centre, d->half}};
+
+  memset(d->ds, 0, sizeof(d->ds));
+  memset(d->dD1, 0, sizeof(d->dD1));
+  for (int j = 0; j < 2; j++) {
+    d->D1[j] = T[j][0] * q[0] + T[j][1] * q[1];
+    d->s[j]  = T[j][0] * q[3] + T[j][1] * q[4];
+    for (int k = 0; k < 2; k++) d->dD1[k][j] = d->ds[3 + k][j] = T[j][k];
+  }
 }
 
 /* Dual coefficients from the moments; false when the covered part is too small: det D2 <= 1e-13 (tr D2)^2. */
@@ -39,6 +54,7 @@ static PetscBool DualValues_Private(const PetscReal q[CONTACT_MOMENTS], Dual *d)
   for (int j = 0; j < 2; j++) {
     d->c[j]  = d->k[0] + d->E[j] * d->k[1];
     d->D1[j] = T[j][0] * q[0] + T[j][1] * q[1];
+    d->s[j]  = d->D1[j] * d->c[j];
   }
   return PETSC_TRUE;
 }
@@ -55,6 +71,7 @@ static void DualFirst_Private(Dual *d)
     for (int j = 0; j < 2; j++) {
       d->dc[q][j]  = d->kq[q][0] + d->E[j] * d->kq[q][1];
       d->dD1[q][j] = q == 0 ? (j ? d->centre : 1 - d->centre) : q == 1 ? (j ? d->half : -d->half) : 0;
+      d->ds[q][j]  = d->dD1[q][j] * d->c[j] + d->D1[j] * d->dc[q][j];
     }
   }
 }
@@ -122,8 +139,8 @@ static void Gradients_Private(const EdgeSums *s, const EdgeChain *chain, PetscRe
   for (int j = 0; j < 2; j++) {
     PetscReal factor[CONTACT_MOMENTS];
 
-    for (int k = 0; k < CONTACT_MOMENTS; k++) factor[k] = d->dD1[k][j] * d->c[j] + d->D1[j] * d->dc[k][j];
-    Combine_Private(s, factor, d->D1[j] * d->c[j], s->dy);
+    for (int k = 0; k < CONTACT_MOMENTS; k++) factor[k] = d->ds[k][j];
+    Combine_Private(s, factor, d->s[j], s->dy);
     ContactChainGradient(chain, s->dy, dgap + j * chain->num_u);
     for (int k = 0; k < CONTACT_MOMENTS; k++) factor[k] = d->dD1[k][j];
     Combine_Private(s, factor, d->D1[j], s->dy);
@@ -162,13 +179,16 @@ static void Hessian_Private(const EvaluateContext *ctx, const EdgeSums *s, const
   PetscReal       S = 0, first[CONTACT_MOMENTS], phi[CONTACT_MOMENTS], second[CONTACT_MOMENTS][CONTACT_MOMENTS], w[CONTACT_LOCAL][CONTACT_LOCAL];
   SegmentGeometry g;
 
-  for (int j = 0; j < 2; j++) S += z[j] * d->D1[j] * d->c[j];
+  for (int j = 0; j < 2; j++) S += z[j] * d->s[j];
   for (int q = 0; q < CONTACT_MOMENTS; q++) {
     first[q] = 0;
-    for (int j = 0; j < 2; j++) first[q] += z[j] * (d->dD1[q][j] * d->c[j] + d->D1[j] * d->dc[q][j]);
+    for (int j = 0; j < 2; j++) first[q] += z[j] * d->ds[q][j];
     phi[q] = s->frame.length * first[q];
   }
-  DualSecond_Private(d, z, second);
+  if (ctx->pair->standard)
+    memset(second, 0, sizeof(second));
+  else
+    DualSecond_Private(d, z, second);
   for (PetscInt i = 0; i < s->num_y * s->num_y; i++) s->W[i] = 0;
   for (PetscInt i = 0; i < s->num_segments; i++) {
     ContactGeometry(ctx->mortar, &s->segment[i], &g);
@@ -181,10 +201,10 @@ static void Hessian_Private(const EvaluateContext *ctx, const EdgeSums *s, const
 }
 
 /* Fill one result from the segments of listed edge `slot`. *use is false when the edge is not covered, or too little for a dual basis. */
-void ContactMortarEdge(const EvaluateContext *ctx, PetscInt slot, ContactEdge *out, PetscBool *use)
+void ContactMortarEdge(const EvaluateContext *ctx, PetscInt slot, ContactFacet *out, PetscBool *use)
 {
   ContactPair    pair       = ctx->pair;
-  const PetscInt num_mortar = pair->first_node[slot + 1] - pair->first_node[slot], *nodes = &ctx->nonmortar->edges[2 * pair->listed[slot]];
+  const PetscInt num_mortar = pair->first_node[slot + 1] - pair->first_node[slot], *nodes = &ctx->nonmortar->facets[2 * pair->listed[slot]];
   EdgeChain      chain;
   EdgeSums       s;
   PetscInt       num;
@@ -200,16 +220,19 @@ void ContactMortarEdge(const EvaluateContext *ctx, PetscInt slot, ContactEdge *o
   ContactFrame(pair, ctx->nonmortar, pair->listed[slot], &s.frame);
   out->min_gap = PETSC_MAX_REAL;
   Moments_Private(ctx, &s, &out->min_gap);
-  if (!DualValues_Private(s.q, &s.dual)) return;
+  if (pair->standard)
+    StandardValues_Private(s.q, &s.dual);
+  else if (!DualValues_Private(s.q, &s.dual))
+    return;
   *use = PETSC_TRUE;
   for (int j = 0; j < 2; j++) {
-    out->weight[j] = s.frame.length * s.dual.D1[j];
-    out->gap[j]    = out->weight[j] * s.dual.c[j];
+    ((PetscReal *)out->weight)[j] = s.frame.length * s.dual.D1[j];
+    ((PetscReal *)out->gap)[j]    = s.frame.length * s.dual.s[j];
   }
   out->area = s.frame.length * s.q[0];
   ContactChainBuild(pair, ctx->nonmortar, pair->listed[slot], num_mortar, &chain, (PetscInt *)out->nodes, &num);
   if (!ctx->derivatives) return;
-  DualFirst_Private(&s.dual);
+  if (!pair->standard) DualFirst_Private(&s.dual);
   ContactLengthDerivative(&s.frame, s.dL, s.ddL);
   Gradients_Private(&s, &chain, (PetscReal *)out->dgap, (PetscReal *)out->dweight);
   if (ctx->hessian) {

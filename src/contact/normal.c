@@ -23,12 +23,12 @@ PetscErrorCode ContactTopologyBuild(ContactPair pair, const ContactSurface *s)
   PetscFunctionBegin;
   PetscCall(PetscFree2(pair->prev, pair->next));
   PetscCall(PetscFree(pair->normal));
-  pair->num_nodes = s->num_nodes;
-  pair->num_edges = s->num_edges;
+  pair->num_nodes  = s->num_nodes;
+  pair->num_facets = s->num_facets;
   PetscCall(PetscMalloc2(s->num_nodes, &pair->prev, s->num_nodes, &pair->next));
   PetscCall(PetscCalloc1(2 * s->num_nodes, &pair->normal));
   for (PetscInt i = 0; i < s->num_nodes; i++) pair->prev[i] = pair->next[i] = -1;
-  for (PetscInt e = 0; e < s->num_edges; e++) PetscCall(TopologyEdge_Private(pair, e, s->edges[2 * e], s->edges[2 * e + 1]));
+  for (PetscInt e = 0; e < s->num_facets; e++) PetscCall(TopologyEdge_Private(pair, e, s->facets[2 * e], s->facets[2 * e + 1]));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -163,8 +163,8 @@ void ContactFrame(ContactPair pair, const ContactSurface *s, PetscInt edge, Edge
 {
   for (int k = 0; k < 2; k++)
     for (int i = 0; i < 2; i++) {
-      f->x[k][i] = s->x[2 * s->edges[2 * edge + k] + i];
-      f->n[k][i] = pair->normal[2 * s->edges[2 * edge + k] + i];
+      f->x[k][i] = s->x[2 * s->facets[2 * edge + k] + i];
+      f->n[k][i] = pair->normal[2 * s->facets[2 * edge + k] + i];
     }
   for (int i = 0; i < 2; i++) {
     f->dx[i] = f->x[1][i] - f->x[0][i];

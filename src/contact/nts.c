@@ -10,7 +10,7 @@ static PetscInt Hit_Private(ContactPair pair, PetscInt slot, const EdgeFrame *f,
   PetscReal least = PETSC_MAX_REAL;
 
   for (PetscInt i = pair->start[slot]; i < pair->start[slot + 1]; i++) {
-    const PetscInt  *node = &mortar->edges[2 * pair->candidate[i]];
+    const PetscInt  *node = &mortar->facets[2 * pair->candidate[i]];
     const PetscReal *c = &mortar->x[2 * node[0]], *d = &mortar->x[2 * node[1]];
     const PetscReal  fc = ContactRaySide(f->x[k], f->n[k], c), fd = ContactRaySide(f->x[k], f->n[k], d);
     PetscReal        cosine, tau, g;
@@ -33,9 +33,9 @@ PetscErrorCode ContactNodeHitsBuild(ContactPair pair, const ContactSurface *nonm
     pair->first_node[i]    = pair->num_local;
     ContactFrame(pair, nonmortar, pair->listed[i], &f);
     for (int k = 0; k < 2; k++) {
-      const Segment hit = {.mortar_edge = Hit_Private(pair, i, &f, mortar, k), .lambda = {k, k}, .bound = {-1, -1}};
+      const Segment hit = {.mortar_facet = Hit_Private(pair, i, &f, mortar, k), .lambda = {k, k}, .bound = {-1, -1}};
 
-      if (hit.mortar_edge >= 0) PetscCall(ContactSegmentsPush(pair, i, &f, mortar, &hit));
+      if (hit.mortar_facet >= 0) PetscCall(ContactSegmentsPush(pair, i, &f, mortar, &hit));
     }
   }
   pair->first_segment[pair->num_listed] = pair->num_segments;
@@ -54,7 +54,7 @@ static PetscReal Weight_Private(const EdgeFrame *f, int k, const PetscReal dL[4]
 
 /* One node of the edge: gap, weight, gradients; with a Hessian also z times the second derivatives into W (half form) and z times the gradient into dz. */
 static void Node_Private(const EvaluateContext *ctx, const EdgeFrame *f, const Segment *s, const EdgeChain *chain, PetscReal *dz, PetscReal *W,
-                         ContactEdge *out)
+                         ContactFacet *out)
 {
   const int       k  = s->lambda[0] > 0.5;
   const PetscInt  ny = chain->num_y;
@@ -66,10 +66,10 @@ static void Node_Private(const EvaluateContext *ctx, const EdgeFrame *f, const S
   ContactGeometry(ctx->mortar, s, &g);
   ContactPointGap(f, &g, k, ctx->derivatives, &p);
   ContactLengthDerivative(f, dL, ddL);
-  v              = Weight_Private(f, k, dL, dv);
-  out->min_gap   = PetscMin(out->min_gap, p.g);
-  out->weight[k] = v;
-  out->gap[k]    = v * p.g;
+  v                             = Weight_Private(f, k, dL, dv);
+  out->min_gap                  = PetscMin(out->min_gap, p.g);
+  ((PetscReal *)out->weight)[k] = v;
+  ((PetscReal *)out->gap)[k]    = v * p.g;
   out->area += v;
   if (!ctx->derivatives) return;
   for (PetscInt i = 0; i < ny; i++) dy[i] = i < 4 ? dv[i] : 0;
@@ -79,7 +79,7 @@ static void Node_Private(const EvaluateContext *ctx, const EdgeFrame *f, const S
   ContactScatterVector(s->local, local, dy);
   ContactChainGradient(chain, dy, (PetscReal *)out->dgap + k * chain->num_u);
   if (!ctx->hessian) return;
-  z = ctx->z[out->node[k]];
+  z = ctx->z[out->nodes[k]];
   for (PetscInt i = 0; i < ny; i++) dz[i] += z * dy[i];
   ContactHessianClear(&h);
   ContactHessianPoint(f, &p, &g, z * v, 0, &h);
@@ -93,7 +93,7 @@ static void Node_Private(const EvaluateContext *ctx, const EdgeFrame *f, const S
 }
 
 /* Fill one result; *use is false when neither node's ray hits the mortar side. */
-void ContactNodeEdge(const EvaluateContext *ctx, PetscInt slot, ContactEdge *out, PetscBool *use)
+void ContactNodeEdge(const EvaluateContext *ctx, PetscInt slot, ContactFacet *out, PetscBool *use)
 {
   ContactPair    pair       = ctx->pair;
   const PetscInt num_mortar = pair->first_node[slot + 1] - pair->first_node[slot];
@@ -111,7 +111,7 @@ void ContactNodeEdge(const EvaluateContext *ctx, PetscInt slot, ContactEdge *out
   out->min_gap = PETSC_MAX_REAL;
   if (ctx->hessian)
     for (PetscInt i = 0; i < chain.num_y * (chain.num_y + 2); i++) dz[i] = 0;
-  for (int k = 0; k < 2; k++) out->gap[k] = out->weight[k] = 0;
+  for (int k = 0; k < 2; k++) ((PetscReal *)out->gap)[k] = ((PetscReal *)out->weight)[k] = 0;
   if (ctx->derivatives)
     for (PetscInt i = 0; i < 2 * chain.num_u; i++) ((PetscReal *)out->dgap)[i] = ((PetscReal *)out->dweight)[i] = 0;
   for (PetscInt i = pair->first_segment[slot]; i < pair->first_segment[slot + 1]; i++) Node_Private(ctx, &f, &pair->segment[i], &chain, dz, W, out);

@@ -1,12 +1,15 @@
 /* The contact pair: life cycle, and the evaluation loop over the edges of the last search. */
-#include "contactimpl.h"
+#include "facetimpl.h"
 
-PetscErrorCode ContactPairCreate(PetscBool axisymmetric, PetscBool node_to_segment, ContactPair *pair)
+PetscErrorCode ContactPairCreate(PetscInt dim, PetscBool axisymmetric, const ContactSpec *spec, ContactPair *pair)
 {
   PetscFunctionBegin;
   PetscCall(PetscNew(pair));
+  (*pair)->dim             = dim;
   (*pair)->axisymmetric    = axisymmetric;
-  (*pair)->node_to_segment = node_to_segment;
+  (*pair)->node_to_segment = spec->node_to_segment;
+  (*pair)->standard        = spec->standard;
+  if (dim == 3) PetscCall(ContactFacetWorkCreate(&(*pair)->facet));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -29,6 +32,7 @@ PetscErrorCode ContactPairDestroy(ContactPair *pair)
   PetscCall(PetscFree(p->result));
   PetscCall(PetscFree(p->real));
   PetscCall(PetscFree(p->work));
+  PetscCall(ContactFacetWorkDestroy(&p->facet));
   PetscCall(PetscFree(*pair));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -38,6 +42,13 @@ PetscErrorCode ContactPairGetSegments(ContactPair pair, PetscInt *num, const Con
   PetscFunctionBegin;
   *num      = pair->num_segments;
   *segments = pair->output;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode ContactPairGetDegenerate(ContactPair pair, PetscInt *num)
+{
+  PetscFunctionBegin;
+  *num = pair->num_degenerate;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -59,7 +70,7 @@ static PetscErrorCode ReserveResults_Private(ContactPair pair, PetscBool derivat
 
     if (mortar == 0) continue;
     ids += 4 + mortar;
-    real += (derivatives ? 4 * n : 0) + (hessian ? n * n : 0);
+    real += 4 + (derivatives ? 4 * n : 0) + (hessian ? n * n : 0);
     work = PetscMax(work, (CONTACT_MOMENTS + 1 + n) * n);
   }
   PetscCall(ContactGrow(ids, sizeof(PetscInt), &pair->size_ids, &pair->ids));
@@ -69,17 +80,19 @@ static PetscErrorCode ReserveResults_Private(ContactPair pair, PetscBool derivat
 }
 
 /* Hand a result its storage and its list of nodes; advances *ids and *real. */
-static void PrepareResult_Private(const EvaluateContext *ctx, PetscInt slot, ContactEdge *out, PetscInt **ids, PetscReal **real)
+static void PrepareResult_Private(const EvaluateContext *ctx, PetscInt slot, ContactFacet *out, PetscInt **ids, PetscReal **real)
 {
   const ContactPair pair = ctx->pair;
-  const PetscInt   *edge = &ctx->nonmortar->edges[2 * pair->listed[slot]], mortar = pair->first_node[slot + 1] - pair->first_node[slot];
+  const PetscInt   *edge = &ctx->nonmortar->facets[2 * pair->listed[slot]], mortar = pair->first_node[slot + 1] - pair->first_node[slot];
   const PetscInt    own = 2 + (pair->prev[edge[0]] >= 0) + (pair->next[edge[1]] >= 0), n = 2 * (own + mortar);
 
-  out->edge    = pair->listed[slot];
-  out->node[0] = edge[0];
-  out->node[1] = edge[1];
-  out->num     = own + mortar;
-  out->nodes   = *ids;
+  out->facet    = pair->listed[slot];
+  out->num_rows = 2;
+  out->num      = own + mortar;
+  out->nodes    = *ids;
+  out->gap      = *real;
+  out->weight   = *real + 2;
+  *real += 4;
   for (PetscInt i = 0; i < mortar; i++) (*ids)[own + i] = ~pair->node[pair->first_node[slot] + i];
   *ids += own + mortar;
   out->dgap = out->dweight = out->hessian = NULL;
@@ -103,8 +116,8 @@ static PetscErrorCode EvaluateEdges_Private(const EvaluateContext *ctx, PetscBoo
 
   PetscFunctionBegin;
   for (PetscInt i = 0; i < pair->num_listed; i++) {
-    ContactEdge *out = &pair->result[pair->num_results];
-    PetscBool    use;
+    ContactFacet *out = &pair->result[pair->num_results];
+    PetscBool     use;
 
     if (pair->first_node[i + 1] == pair->first_node[i]) continue;
     PrepareResult_Private(ctx, i, out, &ids, &real);
@@ -124,25 +137,32 @@ static PetscBool IsFinite_Private(const ContactSurface *s)
 {
   PetscReal sum = 0;
 
-  for (PetscInt i = 0; i < 2 * s->num_nodes; i++) sum += 0 * s->x[i];
+  for (PetscInt i = 0; i < s->dim * s->num_nodes; i++) sum += 0 * s->x[i];
   return sum == 0 ? PETSC_TRUE : PETSC_FALSE;
 }
 
-PetscErrorCode ContactPairEvaluate(ContactPair pair, const ContactSurface *nonmortar, const ContactSurface *mortar, const PetscReal z[], PetscBool derivatives,
-                                   PetscBool hessian, PetscInt *num, const ContactEdge **edges, PetscBool *failed)
+PetscErrorCode ContactPairEvaluate(ContactPair pair, const ContactSurface *nonmortar, const ContactSurface *mortar, const PetscReal z[],
+                                   const PetscBool wanted[], PetscBool derivatives, PetscBool hessian, PetscInt *num, const ContactFacet **facets,
+                                   PetscBool *failed)
 {
-  const EvaluateContext ctx = {pair, nonmortar, mortar, z, derivatives || hessian ? PETSC_TRUE : PETSC_FALSE, hessian};
+  const EvaluateContext ctx = {pair, nonmortar, mortar, z, wanted, derivatives || hessian ? PETSC_TRUE : PETSC_FALSE, hessian};
 
   PetscFunctionBegin;
-  PetscCheck(nonmortar->num_nodes == pair->num_nodes && nonmortar->num_edges == pair->num_edges && mortar->num_nodes == pair->num_mortar_nodes &&
-                 mortar->num_edges == pair->num_mortar_edges,
+  PetscCheck(nonmortar->num_nodes == pair->num_nodes && nonmortar->num_facets == pair->num_facets && mortar->num_nodes == pair->num_mortar_nodes &&
+                 mortar->num_facets == pair->num_mortar_facets,
              PETSC_COMM_SELF, PETSC_ERR_ORDER, "surfaces differ from those of the last ContactPairSearch: search again after the mesh changes");
   PetscCheck(!hessian || z || pair->num_listed == 0, PETSC_COMM_SELF, PETSC_ERR_ARG_NULL, "the Hessian of sum_j z_j gt_j needs z");
   *failed           = IsFinite_Private(nonmortar) && IsFinite_Private(mortar) ? PETSC_FALSE : PETSC_TRUE;
   *num              = 0;
-  *edges            = pair->result;
+  *facets           = pair->result;
   pair->num_results = pair->num_segments = 0;
-  if (!*failed) PetscCall(ContactNormalsBuild(pair, nonmortar, failed));
+  if (*failed) PetscFunctionReturn(PETSC_SUCCESS);
+  if (pair->dim == 3) {
+    PetscCall(ContactFacetsEvaluate(&ctx, failed));
+    *num = pair->num_results;
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
+  PetscCall(ContactNormalsBuild(pair, nonmortar, failed));
   if (*failed) PetscFunctionReturn(PETSC_SUCCESS);
   if (pair->node_to_segment)
     PetscCall(ContactNodeHitsBuild(pair, nonmortar, mortar));

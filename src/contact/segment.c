@@ -68,15 +68,15 @@ PetscReal ContactGapAt(const EdgeFrame *f, const PetscReal c[2], const PetscReal
   return Cross2(v, e) * R / B;
 }
 
-/* The part of the nonmortar edge that faces mortar_edge; false when there is none. The mortar edge c -> d runs against the nonmortar edge. */
-PetscBool ContactSegmentBuild(const EdgeFrame *f, const ContactSurface *mortar, PetscInt mortar_edge, Segment *s)
+/* The part of the nonmortar edge that faces mortar_facet; false when there is none. The mortar edge c -> d runs against the nonmortar edge. */
+PetscBool ContactSegmentBuild(const EdgeFrame *f, const ContactSurface *mortar, PetscInt mortar_facet, Segment *s)
 {
-  const PetscInt  *node = &mortar->edges[2 * mortar_edge];
+  const PetscInt  *node = &mortar->facets[2 * mortar_facet];
   const PetscReal *c = &mortar->x[2 * node[0]], *d = &mortar->x[2 * node[1]];
   PetscBool        fixed;
   PetscReal        cosine, tau;
 
-  s->mortar_edge = mortar_edge;
+  s->mortar_facet = mortar_facet;
   for (int b = 0; b < 2; b++) {
     if (!ContactBound(f, b ? c : d, &s->lambda[b], &fixed)) return PETSC_FALSE;
     s->bound[b] = fixed ? -1 : node[1 - b];
@@ -109,7 +109,7 @@ static PetscErrorCode LocalNode_Private(ContactPair pair, PetscInt first, PetscI
 /* Append a segment of `edge` (the listed edge whose list of mortar nodes is open: first_node of its slot is set) to the results. */
 PetscErrorCode ContactSegmentsPush(ContactPair pair, PetscInt slot, const EdgeFrame *f, const ContactSurface *mortar, const Segment *s)
 {
-  const PetscInt *node = &mortar->edges[2 * s->mortar_edge], first = pair->first_node[slot];
+  const PetscInt *node = &mortar->facets[2 * s->mortar_facet], first = pair->first_node[slot];
   PetscInt        size = pair->size_segments;
   Segment        *to;
   ContactSegment *out;
@@ -123,12 +123,14 @@ PetscErrorCode ContactSegmentsPush(ContactPair pair, PetscInt slot, const EdgeFr
   *to = *s;
   for (int k = 0; k < 2; k++) PetscCall(LocalNode_Private(pair, first, node[k], &to->local[k]));
   for (int k = 0; k < 2; k++) PetscCall(LocalNode_Private(pair, first, s->bound[k], &to->local[2 + k]));
-  out->edge        = pair->listed[slot];
-  out->mortar_edge = s->mortar_edge;
+  out->facet        = pair->listed[slot];
+  out->mortar_facet = s->mortar_facet;
+  out->num          = 2;
   for (int k = 0; k < 2; k++) {
     (void)ContactGapAt(f, &mortar->x[2 * node[0]], &mortar->x[2 * node[1]], s->lambda[k], &cosine, &tau);
-    out->xi[k]  = 2 * s->lambda[k] - 1;
-    out->eta[k] = 2 * tau - 1;
+    out->xi[k][0]  = 2 * s->lambda[k] - 1;
+    out->eta[k][0] = 2 * tau - 1;
+    out->xi[k][1] = out->eta[k][1] = 0;
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -140,7 +142,7 @@ static int CompareSegments_Private(const void *a, const void *b)
 
   for (int k = 0; k < 2; k++)
     if (s->lambda[k] != t->lambda[k]) return s->lambda[k] < t->lambda[k] ? -1 : 1;
-  return (s->mortar_edge > t->mortar_edge) - (s->mortar_edge < t->mortar_edge);
+  return (s->mortar_facet > t->mortar_facet) - (s->mortar_facet < t->mortar_facet);
 }
 
 static PetscBool Overlap_Private(PetscInt num, const Segment s[])
@@ -170,7 +172,7 @@ static PetscInt Nearest_Private(const EdgeFrame *f, const ContactSurface *mortar
   PetscReal least = PETSC_MAX_REAL, cosine, tau;
 
   for (PetscInt i = 0; i < num; i++) {
-    const PetscInt *node = &mortar->edges[2 * s[i].mortar_edge];
+    const PetscInt *node = &mortar->facets[2 * s[i].mortar_facet];
     PetscReal       g;
 
     if (s[i].lambda[0] > l0 || s[i].lambda[1] < l1) continue;

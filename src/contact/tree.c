@@ -1,21 +1,21 @@
-/* Bounding-volume tree: median split of box centres along the longer side, at most 4 items per leaf. Build O(n log n), query O(log n + hits). */
+/* Bounding-volume tree: median split of box centres along the longest side, at most 4 items per leaf. Build O(n log n), query O(log n + hits). */
 #include "contactimpl.h"
 
 enum { LEAF = 4, DEPTH = 128 };
 
 static void Enclose_Private(const Tree *t, TreeNode *node)
 {
-  for (int i = 0; i < 2; i++) node->box[i] = PETSC_MAX_REAL, node->box[2 + i] = -PETSC_MAX_REAL;
+  for (int i = 0; i < 3; i++) node->box[i] = PETSC_MAX_REAL, node->box[3 + i] = -PETSC_MAX_REAL;
   for (PetscInt k = node->first; k < node->first + node->count; k++)
-    for (int i = 0; i < 2; i++) {
+    for (int i = 0; i < 3; i++) {
       node->box[i]     = PetscMin(node->box[i], t->box[t->item[k]][i]);
-      node->box[2 + i] = PetscMax(node->box[2 + i], t->box[t->item[k]][2 + i]);
+      node->box[3 + i] = PetscMax(node->box[3 + i], t->box[t->item[k]][3 + i]);
     }
 }
 
 static inline PetscReal Centre_Private(const Tree *t, PetscInt k, int axis)
 {
-  return t->box[t->item[k]][axis] + t->box[t->item[k]][2 + axis];
+  return t->box[t->item[k]][axis] + t->box[t->item[k]][3 + axis];
 }
 
 /* Hoare's selection: afterwards items before `middle` have centres no larger, those after no smaller. */
@@ -48,8 +48,11 @@ static void Select_Private(Tree *t, PetscInt lo, PetscInt hi, PetscInt middle, i
 static void Split_Private(Tree *t, PetscInt i)
 {
   TreeNode      *node = &t->node[i];
-  const int      axis = node->box[3] - node->box[1] > node->box[2] - node->box[0];
   const PetscInt half = node->count / 2;
+  int            axis = 0;
+
+  for (int k = 1; k < 3; k++)
+    if (node->box[3 + k] - node->box[k] > node->box[3 + axis] - node->box[axis]) axis = k;
 
   Select_Private(t, node->first, node->first + node->count - 1, node->first + half, axis);
   node->child               = t->num;
@@ -60,8 +63,8 @@ static void Split_Private(Tree *t, PetscInt i)
   t->num += 2;
 }
 
-/* box[num] = (xmin, ymin, xmax, ymax) of the items; the tree takes the array over. Not collective. */
-PetscErrorCode ContactTreeBuild(PetscInt num, PetscReal (*box)[4], Tree *t)
+/* box[num] = (xmin, ymin, zmin, xmax, ymax, zmax) of the items; the tree takes the array over. Not collective. */
+PetscErrorCode ContactTreeBuild(PetscInt num, PetscReal (*box)[6], Tree *t)
 {
   PetscFunctionBegin;
   t->box = box;
@@ -88,13 +91,13 @@ PetscErrorCode ContactTreeDestroy(Tree *t)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static inline PetscBool Meet_Private(const PetscReal a[4], const PetscReal b[4])
+static inline PetscBool Meet_Private(const PetscReal a[6], const PetscReal b[6])
 {
-  return a[0] <= b[2] && b[0] <= a[2] && a[1] <= b[3] && b[1] <= a[3] ? PETSC_TRUE : PETSC_FALSE;
+  return a[0] <= b[3] && b[0] <= a[3] && a[1] <= b[4] && b[1] <= a[4] && a[2] <= b[5] && b[2] <= a[5] ? PETSC_TRUE : PETSC_FALSE;
 }
 
 /* Items whose boxes meet `box`, at most max (room in items[]); returns their number. Median splits bound the depth by log2(num) + 1. */
-PetscInt ContactTreeQuery(const Tree *t, const PetscReal box[4], PetscInt max, PetscInt items[])
+PetscInt ContactTreeQuery(const Tree *t, const PetscReal box[6], PetscInt max, PetscInt items[])
 {
   PetscInt stack[DEPTH], top = 0, found = 0;
 

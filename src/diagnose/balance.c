@@ -7,21 +7,24 @@ static PetscReal Norm_Private(const PetscReal a[3])
   return PetscSqrtReal(Dot3(a, a));
 }
 
-/* Diagonal of the box around a curve, current configuration. */
+/* Diagonal of the box around a surface, current configuration. */
 static PetscReal Diameter_Private(const SurfaceView *s)
 {
-  PetscReal lo[2] = {PETSC_MAX_REAL, PETSC_MAX_REAL}, hi[2] = {PETSC_MIN_REAL, PETSC_MIN_REAL};
+  PetscReal square = 0;
 
-  for (PetscInt n = 0; n < s->num_nodes; ++n) {
-    for (PetscInt c = 0; c < 2; ++c) {
-      lo[c] = PetscMin(lo[c], s->x[2 * n + c]);
-      hi[c] = PetscMax(hi[c], s->x[2 * n + c]);
+  for (PetscInt c = 0; c < s->dim; ++c) {
+    PetscReal lo = PETSC_MAX_REAL, hi = PETSC_MIN_REAL;
+
+    for (PetscInt n = 0; n < s->num_nodes; ++n) {
+      lo = PetscMin(lo, s->x[s->dim * n + c]);
+      hi = PetscMax(hi, s->x[s->dim * n + c]);
     }
+    square += PetscSqr(hi - lo);
   }
-  return s->num_nodes ? PetscSqrtReal(PetscSqr(hi[0] - lo[0]) + PetscSqr(hi[1] - lo[1])) : 0;
+  return s->num_nodes ? PetscSqrtReal(square) : 0;
 }
 
-/* Resultant and moment about the origin of nodal forces; returns the sum of their magnitudes. Two dimensions. In small kinematics forces act where the nodes
+/* Resultant and moment about the origin of nodal forces; returns the sum of their magnitudes. In small kinematics forces act where the nodes
    were: moments balance there. */
 static PetscReal SideForces_Private(const SurfaceView *s, PetscBool small, PetscReal force[3], PetscReal moment[3])
 {
@@ -29,11 +32,17 @@ static PetscReal SideForces_Private(const SurfaceView *s, PetscBool small, Petsc
 
   for (PetscInt c = 0; c < 3; ++c) force[c] = moment[c] = 0;
   for (PetscInt n = 0; n < s->num_nodes; ++n) {
-    const PetscReal *f = s->force + 2 * n, *x = (small ? s->X : s->x) + 2 * n;
-    force[0] += f[0];
-    force[1] += f[1];
-    moment[2] += x[0] * f[1] - x[1] * f[0];
-    sum += PetscSqrtReal(f[0] * f[0] + f[1] * f[1]);
+    PetscReal f[3] = {0, 0, 0}, x[3] = {0, 0, 0};
+
+    for (PetscInt c = 0; c < s->dim; ++c) {
+      f[c] = s->force[s->dim * n + c];
+      x[c] = (small ? s->X : s->x)[s->dim * n + c];
+    }
+    for (PetscInt c = 0; c < 3; ++c) {
+      force[c] += f[c];
+      moment[c] += x[(c + 1) % 3] * f[(c + 2) % 3] - x[(c + 2) % 3] * f[(c + 1) % 3];
+    }
+    sum += Norm_Private(f);
   }
   return sum;
 }
@@ -89,7 +98,7 @@ static PetscErrorCode Loads_Private(Problem problem, Vec x, Model model, PetscRe
 /* Is the body behind a contact surface rigid? */
 static PetscBool Rigid_Private(const MechanicsSpec *spec, const ForestTables *t, const SurfaceView *s)
 {
-  return (PetscBool)(s->num_edges && spec->bodies[t->leaf_body[s->edge_leaf[0]]].material->law->rigid);
+  return (PetscBool)(s->num_facets && spec->bodies[t->leaf_body[s->facet_leaf[0]]].material->law->rigid);
 }
 
 /* All forces on the deformable bodies: supports, loads, and contact with rigid bodies (contact between deformable ones is internal). */

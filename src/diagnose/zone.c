@@ -29,9 +29,9 @@ static PetscErrorCode Radius_Private(const ContactView *v, PetscReal *radius)
   *radius = 0;
   PetscCall(PetscMalloc1(s->num_nodes, &neighbour));
   for (PetscInt n = 0; n < s->num_nodes; ++n) neighbour[n][0] = neighbour[n][1] = -1;
-  for (PetscInt e = 0; e < s->num_edges; ++e) {
-    neighbour[s->edges[2 * e]][1]     = s->edges[2 * e + 1];
-    neighbour[s->edges[2 * e + 1]][0] = s->edges[2 * e];
+  for (PetscInt e = 0; e < s->num_facets; ++e) {
+    neighbour[s->facets[2 * e]][1]     = s->facets[2 * e + 1];
+    neighbour[s->facets[2 * e + 1]][0] = s->facets[2 * e];
   }
   for (PetscInt n = 0; n < s->num_nodes; ++n) {
     if (!v->active[n]) continue;
@@ -46,6 +46,17 @@ static PetscErrorCode Radius_Private(const ContactView *v, PetscReal *radius)
   }
   PetscCall(PetscFree(neighbour));
   PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Three dimensions: largest distance of an active node from the z axis. */
+static PetscReal AxisDistance_Private(const ContactView *v)
+{
+  PetscReal radius = 0;
+
+  for (PetscInt n = 0; n < v->nonmortar.num_nodes; ++n) {
+    if (v->active[n]) radius = PetscMax(radius, PetscSqrtReal(PetscSqr(v->nonmortar.x[3 * n]) + PetscSqr(v->nonmortar.x[3 * n + 1])));
+  }
+  return radius;
 }
 
 PetscErrorCode BalanceZone(const ContactView *v, PairFigures *f)
@@ -65,6 +76,9 @@ PetscErrorCode BalanceZone(const ContactView *v, PairFigures *f)
     f->active_nodes++;
     f->area += v->weight[n];
   }
-  PetscCall(Radius_Private(v, &f->radius));
+  if (v->nonmortar.dim == 2)
+    PetscCall(Radius_Private(v, &f->radius));
+  else
+    f->radius = AxisDistance_Private(v);
   PetscFunctionReturn(PETSC_SUCCESS);
 }

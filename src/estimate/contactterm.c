@@ -6,23 +6,23 @@
 
 #define UNCOVERED 1e-8 /* w_j below this times the tributary length: the node sees nothing, its gap is unknown */
 
-static PetscErrorCode FacetEdges_Private(const ForestTables *t, const SurfaceView *s, PetscInt **facet_edge)
+static PetscErrorCode FacetEdges_Private(const ForestTables *t, const SurfaceView *s, PetscInt **facet_place)
 {
   const PetscInt sides[4] = {1, 3, 5, 7}, num = t->first[2] - t->first[1];
 
   PetscFunctionBegin;
-  PetscCall(PetscMalloc1(num, facet_edge));
-  for (PetscInt f = 0; f < num; ++f) (*facet_edge)[f] = -1;
-  for (PetscInt e = 0; e < s->num_edges; ++e) {
-    const PetscInt *cl      = t->closure + t->closure_offset[t->first[2] + s->edge_leaf[e]];
-    const PetscInt  want[2] = {s->node_entity[s->edges[2 * e]], s->node_entity[s->edges[2 * e + 1]]};
+  PetscCall(PetscMalloc1(num, facet_place));
+  for (PetscInt f = 0; f < num; ++f) (*facet_place)[f] = -1;
+  for (PetscInt e = 0; e < s->num_facets; ++e) {
+    const PetscInt *cl      = t->closure + t->closure_offset[t->first[2] + s->facet_leaf[e]];
+    const PetscInt  want[2] = {s->node_entity[s->facets[2 * e]], s->node_entity[s->facets[2 * e + 1]]};
     PetscInt        found   = -1;
     for (PetscInt i = 0; i < 4; ++i) {
       const PetscInt stride = sides[i] == 1 || sides[i] == 7 ? 1 : 3, a = cl[sides[i] - stride], b = cl[sides[i] + stride];
       if ((a == want[0] && b == want[1]) || (a == want[1] && b == want[0])) found = cl[sides[i]];
     }
-    PetscCheck(found >= 0, PETSC_COMM_SELF, PETSC_ERR_PLIB, "contact edge %" PetscInt_FMT " is no side of its leaf %" PetscInt_FMT, e, s->edge_leaf[e]);
-    (*facet_edge)[found - t->first[1]] = e;
+    PetscCheck(found >= 0, PETSC_COMM_SELF, PETSC_ERR_PLIB, "contact edge %" PetscInt_FMT " is no side of its leaf %" PetscInt_FMT, e, s->facet_leaf[e]);
+    (*facet_place)[found - t->first[1]] = e;
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -41,7 +41,7 @@ static PetscErrorCode GatherSegments_Private(MPI_Comm comm, const ForestTables *
   PetscCall(ContactPairGetSegments(view->pair, &num, &segments));
   PetscCall(PetscMalloc1(num, &mine));
   for (PetscInt i = 0; i < num; ++i) {
-    if (t->leaf_rank[view->nonmortar.edge_leaf[segments[i].edge]] == rank) mine[kept++] = segments[i];
+    if (t->leaf_rank[view->nonmortar.facet_leaf[segments[i].facet]] == rank) mine[kept++] = segments[i];
   }
   PetscCall(PetscMalloc2(size, &counts, size + 1, &offsets));
   bytes = (PetscMPIInt)(kept * (PetscInt)sizeof(*mine));
@@ -57,18 +57,18 @@ static PetscErrorCode GatherSegments_Private(MPI_Comm comm, const ForestTables *
 }
 
 /* Sort segments by mortar edge (counting sort: order within an edge as gathered). */
-static PetscErrorCode SortSegments_Private(PetscInt num_edges, PetscInt num, const ContactSegment all[], ContactTerm *term)
+static PetscErrorCode SortSegments_Private(PetscInt num_facets, PetscInt num, const ContactSegment all[], ContactTerm *term)
 {
   PetscInt *first, *next;
 
   PetscFunctionBegin;
-  PetscCall(PetscCalloc1(num_edges + 1, &first));
-  PetscCall(PetscMalloc1(num_edges + 1, &next));
+  PetscCall(PetscCalloc1(num_facets + 1, &first));
+  PetscCall(PetscMalloc1(num_facets + 1, &next));
   PetscCall(PetscMalloc1(num, &term->segments));
-  for (PetscInt i = 0; i < num; ++i) first[all[i].mortar_edge + 1]++;
-  for (PetscInt e = 0; e < num_edges; ++e) first[e + 1] += first[e];
-  PetscCall(PetscArraycpy(next, first, num_edges + 1));
-  for (PetscInt i = 0; i < num; ++i) term->segments[next[all[i].mortar_edge]++] = all[i];
+  for (PetscInt i = 0; i < num; ++i) first[all[i].mortar_facet + 1]++;
+  for (PetscInt e = 0; e < num_facets; ++e) first[e + 1] += first[e];
+  PetscCall(PetscArraycpy(next, first, num_facets + 1));
+  for (PetscInt i = 0; i < num; ++i) term->segments[next[all[i].mortar_facet]++] = all[i];
   PetscCall(PetscFree(next));
   term->segment_first = first;
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -94,10 +94,10 @@ PetscErrorCode ContactTermsCreate_Private(Problem problem, ContactTerms *terms)
     PetscInt        num;
     PetscCall(ProblemGetContact(problem, i, &term->view));
     PetscCall(ContactPairGetNormals(term->view->pair, &term->normal));
-    PetscCall(FacetEdges_Private(t, &term->view->nonmortar, &term->facet_edge[0]));
-    PetscCall(FacetEdges_Private(t, &term->view->mortar, &term->facet_edge[1]));
+    PetscCall(FacetEdges_Private(t, &term->view->nonmortar, &term->facet_place[0]));
+    PetscCall(FacetEdges_Private(t, &term->view->mortar, &term->facet_place[1]));
     PetscCall(GatherSegments_Private(ForestComm(forest), t, term->view, &num, &all));
-    PetscCall(SortSegments_Private(term->view->mortar.num_edges, num, all, term));
+    PetscCall(SortSegments_Private(term->view->mortar.num_facets, num, all, term));
     PetscCall(PetscFree(all));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -107,8 +107,8 @@ PetscErrorCode ContactTermsDestroy_Private(ContactTerms *terms)
 {
   PetscFunctionBegin;
   for (PetscInt i = 0; i < terms->num; ++i) {
-    PetscCall(PetscFree(terms->terms[i].facet_edge[0]));
-    PetscCall(PetscFree(terms->terms[i].facet_edge[1]));
+    PetscCall(PetscFree(terms->terms[i].facet_place[0]));
+    PetscCall(PetscFree(terms->terms[i].facet_place[1]));
     PetscCall(PetscFree(terms->terms[i].segment_first));
     PetscCall(PetscFree(terms->terms[i].segments));
   }
@@ -119,7 +119,7 @@ PetscErrorCode ContactTermsDestroy_Private(ContactTerms *terms)
 PetscBool ContactTermsHave_Private(const ContactTerms *terms, PetscInt facet)
 {
   for (PetscInt i = 0; terms && i < terms->num; ++i) {
-    if (terms->terms[i].facet_edge[0][facet] >= 0 || terms->terms[i].facet_edge[1][facet] >= 0) return PETSC_TRUE;
+    if (terms->terms[i].facet_place[0][facet] >= 0 || terms->terms[i].facet_place[1][facet] >= 0) return PETSC_TRUE;
   }
   return PETSC_FALSE;
 }
@@ -127,8 +127,8 @@ PetscBool ContactTermsHave_Private(const ContactTerms *terms, PetscInt facet)
 /* Fraction of reference position X along an edge (0 at its first node), and current over reference measure there. */
 static PetscReal AlongEdge_Private(const ContactTerms *terms, const SurfaceView *s, PetscInt edge, const PetscReal X[], PetscReal *stretch)
 {
-  const PetscReal *Xa = s->X + 2 * s->edges[2 * edge], *Xb = s->X + 2 * s->edges[2 * edge + 1], *xa = s->x + 2 * s->edges[2 * edge],
-                  *xb  = s->x + 2 * s->edges[2 * edge + 1];
+  const PetscReal *Xa = s->X + 2 * s->facets[2 * edge], *Xb = s->X + 2 * s->facets[2 * edge + 1], *xa = s->x + 2 * s->facets[2 * edge],
+                  *xb  = s->x + 2 * s->facets[2 * edge + 1];
   const PetscReal E[2] = {Xb[0] - Xa[0], Xb[1] - Xa[1]}, e[2] = {xb[0] - xa[0], xb[1] - xa[1]}, square = E[0] * E[0] + E[1] * E[1];
   const PetscReal lambda = ((X[0] - Xa[0]) * E[0] + (X[1] - Xa[1]) * E[1]) / square;
 
@@ -143,7 +143,7 @@ static PetscReal AlongEdge_Private(const ContactTerms *terms, const SurfaceView 
 /* T += factor * z n at fraction lambda of a nonmortar edge. */
 static void Push_Private(const ContactTerm *term, PetscInt edge, PetscReal lambda, PetscReal factor, PetscReal T[3])
 {
-  const PetscInt *node = term->view->nonmortar.edges + 2 * edge;
+  const PetscInt *node = term->view->nonmortar.facets + 2 * edge;
   const PetscReal N[2] = {1 - lambda, lambda}, z = N[0] * term->view->z[node[0]] + N[1] * term->view->z[node[1]];
   PetscReal       n[2];
 
@@ -153,13 +153,13 @@ static void Push_Private(const ContactTerm *term, PetscInt edge, PetscReal lambd
 }
 
 /* The segment of a mortar edge that holds eta in [-1, 1], and the fraction along its nonmortar edge there. */
-static PetscInt FindSegment_Private(const ContactTerm *term, PetscInt mortar_edge, PetscReal eta, PetscReal *lambda)
+static PetscInt FindSegment_Private(const ContactTerm *term, PetscInt mortar_facet, PetscReal eta, PetscReal *lambda)
 {
-  for (PetscInt i = term->segment_first[mortar_edge]; i < term->segment_first[mortar_edge + 1]; ++i) {
+  for (PetscInt i = term->segment_first[mortar_facet]; i < term->segment_first[mortar_facet + 1]; ++i) {
     const ContactSegment *s = &term->segments[i];
-    const PetscReal       a = (eta - s->eta[0]) / (s->eta[1] - s->eta[0]);
+    const PetscReal       a = (eta - s->eta[0][0]) / (s->eta[1][0] - s->eta[0][0]);
     if (!(a >= 0 && a <= 1)) continue;
-    *lambda = 0.5 * (1 + s->xi[0] + a * (s->xi[1] - s->xi[0]));
+    *lambda = 0.5 * (1 + s->xi[0][0] + a * (s->xi[1][0] - s->xi[0][0]));
     return i;
   }
   return -1;
@@ -169,7 +169,7 @@ void ContactTermsTraction_Private(const ContactTerms *terms, PetscInt facet, con
 {
   for (PetscInt i = 0; i < terms->num; ++i) {
     const ContactTerm *term      = &terms->terms[i];
-    const PetscInt     nonmortar = term->facet_edge[0][facet], mortar = term->facet_edge[1][facet];
+    const PetscInt     nonmortar = term->facet_place[0][facet], mortar = term->facet_place[1][facet];
     PetscReal          stretch, lambda;
     if (nonmortar >= 0) {
       lambda = AlongEdge_Private(terms, &term->view->nonmortar, nonmortar, X, &stretch);
@@ -178,7 +178,7 @@ void ContactTermsTraction_Private(const ContactTerms *terms, PetscInt facet, con
     if (mortar < 0) continue;
     const PetscReal eta   = 2 * AlongEdge_Private(terms, &term->view->mortar, mortar, X, &stretch) - 1;
     const PetscInt  found = FindSegment_Private(term, mortar, eta, &lambda);
-    if (found >= 0) Push_Private(term, term->segments[found].edge, lambda, stretch, T);
+    if (found >= 0) Push_Private(term, term->segments[found].facet, lambda, stretch, T);
   }
 }
 
@@ -194,7 +194,7 @@ static PetscBool NodalGap_Private(const ContactView *view, PetscInt node, PetscR
 static PetscErrorCode EdgeIntegrals_Private(const ContactTerms *terms, const ContactTerm *term, PetscInt edge, PetscReal *product, PetscReal *penetration)
 {
   const SurfaceView *s    = &term->view->nonmortar;
-  const PetscInt    *node = s->edges + 2 * edge;
+  const PetscInt    *node = s->facets + 2 * edge;
   const PetscReal   *x = terms->kinematics == KINEMATICS_FINITE ? s->x : s->X, *xa = x + 2 * node[0], *xb = x + 2 * node[1];
   const PetscReal    length = PetscSqrtReal(PetscSqr(xb[0] - xa[0]) + PetscSqr(xb[1] - xa[1]));
   const Basis1D     *gauss;
@@ -226,8 +226,8 @@ PetscErrorCode EstimateComplementarity_Private(EstimateSum *sum, const PetscReal
     for (PetscInt k = 0; k < sum->contact->num; ++k) {
       const ContactTerm *term = &sum->contact->terms[k];
       PetscReal          product, penetration;
-      if (term->facet_edge[0][f->facet] < 0) continue;
-      PetscCall(EdgeIntegrals_Private(sum->contact, term, term->facet_edge[0][f->facet], &product, &penetration));
+      if (term->facet_place[0][f->facet] < 0) continue;
+      PetscCall(EdgeIntegrals_Private(sum->contact, term, term->facet_place[0][f->facet], &product, &penetration));
       sum->eta2[leaf] += product + factor * penetration;
       sum->part[PART_CONTACT] += product + factor * penetration;
     }

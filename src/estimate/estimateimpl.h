@@ -34,10 +34,10 @@ typedef struct {
 /* Which contact edge a facet is, and what presses on it; replicated, built from the views of the problem. */
 typedef struct {
   const ContactView *view;
-  const PetscReal   *normal;        /* nodal normals, nonmortar side */
-  PetscInt          *facet_edge[2]; /* owned [num_facets] edge of the nonmortar, mortar side, or -1 */
-  PetscInt          *segment_first; /* owned [mortar num_edges + 1] */
-  ContactSegment    *segments;      /* owned, of all ranks, by mortar edge */
+  const PetscReal   *normal;         /* nodal normals, nonmortar side */
+  PetscInt          *facet_place[2]; /* owned [num_facets] edge of the nonmortar, mortar side, or -1 */
+  PetscInt          *segment_first;  /* owned [mortar num_facets + 1] */
+  ContactSegment    *segments;       /* owned, of all ranks, by mortar edge */
 } ContactTerm;
 
 typedef struct {

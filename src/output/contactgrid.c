@@ -3,11 +3,11 @@
 
 /* All pairs' nonmortar surfaces put together. */
 typedef struct {
-  PetscInt   num_points, num_edges;
+  PetscInt   num_points, num_facets;
   PetscReal *X, *displacement, *normal; /* owned [num_points][3] */
   PetscReal *gap, *pressure, *status;   /* owned [num_points] */
-  PetscReal *pair, *cell;               /* owned [num_edges] */
-  PetscInt  *conn;                      /* owned [num_edges][2] */
+  PetscReal *pair, *cell;               /* owned [num_facets] */
+  PetscInt  *conn;                      /* owned [num_facets][2] */
 } ContactGrid;
 
 /* Append a pair's surface at point, edge. */
@@ -18,10 +18,10 @@ static PetscErrorCode Append_Private(ContactGrid *g, PetscInt number, const Cont
 
   PetscFunctionBegin;
   PetscCall(ContactPairGetNormals(v->pair, &normal));
-  for (PetscInt e = 0; e < s->num_edges; ++e, ++g->num_edges) {
-    for (PetscInt k = 0; k < 2; ++k) g->conn[2 * g->num_edges + k] = g->num_points + s->edges[2 * e + k];
-    g->pair[g->num_edges] = (PetscReal)number;
-    g->cell[g->num_edges] = (PetscReal)s->edge_leaf[e];
+  for (PetscInt e = 0; e < s->num_facets; ++e, ++g->num_facets) {
+    for (PetscInt k = 0; k < 2; ++k) g->conn[2 * g->num_facets + k] = g->num_points + s->facets[2 * e + k];
+    g->pair[g->num_facets] = (PetscReal)number;
+    g->cell[g->num_facets] = (PetscReal)s->facet_leaf[e];
   }
   for (PetscInt n = 0; n < s->num_nodes; ++n, ++g->num_points) {
     const PetscInt  at      = g->num_points;
@@ -48,7 +48,7 @@ static PetscErrorCode WriteSurface_Private(Writer writer, Problem problem, Petsc
   for (PetscInt i = 0; i < num_contacts && rank == 0; ++i) {
     PetscCall(ProblemGetContact(problem, i, &v));
     points += v->nonmortar.num_nodes;
-    edges += v->nonmortar.num_edges;
+    edges += v->nonmortar.num_facets;
   }
   PetscCall(PetscMalloc3(3 * points, &g.X, 3 * points, &g.displacement, 3 * points, &g.normal));
   PetscCall(PetscMalloc3(points, &g.gap, points, &g.pressure, points, &g.status));
@@ -57,7 +57,7 @@ static PetscErrorCode WriteSurface_Private(Writer writer, Problem problem, Petsc
     PetscCall(ProblemGetContact(problem, i, &v));
     PetscCall(Append_Private(&g, i, v));
   }
-  PetscCall(WriterGrid(writer, "contact", CELL_POLYLINE2, g.num_points, g.X, g.num_edges, g.conn));
+  PetscCall(WriterGrid(writer, "contact", CELL_POLYLINE2, g.num_points, g.X, g.num_facets, g.conn));
   PetscCall(WriterField(writer, "displacement", PETSC_FALSE, 3, g.displacement));
   PetscCall(WriterField(writer, "gap", PETSC_FALSE, 1, g.gap));
   PetscCall(WriterField(writer, "contact_pressure", PETSC_FALSE, 1, g.pressure));
@@ -76,7 +76,7 @@ static PetscErrorCode WriteSurface_Private(Writer writer, Problem problem, Petsc
 /* Reference position and displacement at place in [-1, 1] of an edge. */
 static void EdgePoint_Private(const SurfaceView *s, PetscInt edge, PetscReal place, PetscReal X[3], PetscReal displacement[3])
 {
-  const PetscInt a = s->edges[2 * edge], b = s->edges[2 * edge + 1];
+  const PetscInt a = s->facets[2 * edge], b = s->facets[2 * edge + 1];
 
   X[2] = displacement[2] = 0;
   for (PetscInt c = 0; c < 2; ++c) {
@@ -98,16 +98,16 @@ static PetscErrorCode Segments_Private(Problem problem, const ForestTables *t, P
     PetscCall(ProblemGetContact(problem, i, &v));
     PetscCall(ContactPairGetSegments(v->pair, &count, &segment));
     for (PetscInt s = 0; s < count; ++s) {
-      if (t->leaf_rank[v->nonmortar.edge_leaf[segment[s].edge]] != rank) continue;
+      if (t->leaf_rank[v->nonmortar.facet_leaf[segment[s].facet]] != rank) continue;
       for (PetscInt k = 0; k < 2 && X; ++k) {
         const PetscInt at = 3 * (4 * *num + k);
-        EdgePoint_Private(&v->nonmortar, segment[s].edge, segment[s].xi[k], X + at, displacement + at);
-        EdgePoint_Private(&v->mortar, segment[s].mortar_edge, segment[s].eta[k], X + at + 6, displacement + at + 6);
+        EdgePoint_Private(&v->nonmortar, segment[s].facet, segment[s].xi[k][0], X + at, displacement + at);
+        EdgePoint_Private(&v->mortar, segment[s].mortar_facet, segment[s].eta[k][0], X + at + 6, displacement + at + 6);
       }
       if (X) {
         label[0][*num] = (PetscReal)i;
-        label[1][*num] = (PetscReal)segment[s].edge;
-        label[2][*num] = (PetscReal)segment[s].mortar_edge;
+        label[1][*num] = (PetscReal)segment[s].facet;
+        label[2][*num] = (PetscReal)segment[s].mortar_facet;
       }
       ++*num;
     }
@@ -130,7 +130,7 @@ static PetscErrorCode WriteSegments_Private(Writer writer, Problem problem, cons
   PetscCall(WriterField(writer, "displacement", PETSC_FALSE, 3, displacement));
   PetscCall(WriterField(writer, "pair", PETSC_TRUE, 1, label[0]));
   PetscCall(WriterField(writer, "edge", PETSC_TRUE, 1, label[1]));
-  PetscCall(WriterField(writer, "mortar_edge", PETSC_TRUE, 1, label[2]));
+  PetscCall(WriterField(writer, "mortar_facet", PETSC_TRUE, 1, label[2]));
   PetscCall(PetscFree3(X, displacement, conn));
   PetscCall(PetscFree3(label[0], label[1], label[2]));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -1,10 +1,23 @@
 /* One contact pair on one mesh: multipliers, nodal gaps, activity, forces. */
 #include "problemimpl.h"
 
-static PetscReal EdgeMeasure_Private(const Surface *s, PetscInt e, PetscBool axisymmetric)
+/* Length or area of a facet at the reference positions (axisymmetric: area). */
+static PetscReal FacetMeasure_Private(const Surface *s, PetscInt f, PetscBool axisymmetric)
 {
-  const PetscReal *a = s->X + 2 * s->edges[2 * e], *b = s->X + 2 * s->edges[2 * e + 1], length = PetscSqrtReal(PetscSqr(b[0] - a[0]) + PetscSqr(b[1] - a[1]));
-  return axisymmetric ? length * PETSC_PI * (a[0] + b[0]) : length;
+  const PetscInt  *node = s->facets + s->corners * f;
+  const PetscReal *a = s->X + s->dim * node[0], *b = s->X + s->dim * node[1];
+  PetscReal        d[3], e[3], square = 0;
+
+  if (s->dim == 2) {
+    const PetscReal length = PetscSqrtReal(PetscSqr(b[0] - a[0]) + PetscSqr(b[1] - a[1]));
+    return axisymmetric ? length * PETSC_PI * (a[0] + b[0]) : length;
+  }
+  for (PetscInt c = 0; c < 3; ++c) {
+    d[c] = s->X[3 * node[2] + c] - a[c];
+    e[c] = s->X[3 * node[3] + c] - b[c];
+  }
+  for (PetscInt c = 0; c < 3; ++c) square += PetscSqr(d[c] * e[(c + 1) % 3] - d[(c + 1) % 3] * e[c]);
+  return 0.5 * PetscSqrtReal(square);
 }
 
 static PetscReal Young_Private(const MaterialSpec *m)
@@ -22,21 +35,25 @@ static PetscErrorCode NodeScales_Private(Problem p, Contact *c)
   PetscFunctionBegin;
   PetscCall(ForestGetTables(p->forest, &t));
   for (PetscInt side = 0; side < 2; ++side) {
-    for (PetscInt e = 0; e < c->side[side].num_edges; ++e) {
-      const MaterialSpec *m = p->scene->bodies[t->leaf_body[c->side[side].edge_leaf[e]]].material;
+    for (PetscInt e = 0; e < c->side[side].num_facets; ++e) {
+      const MaterialSpec *m = p->scene->bodies[t->leaf_body[c->side[side].facet_leaf[e]]].material;
       if (!m->law->rigid) young = PetscMin(young, Young_Private(m));
     }
   }
-  for (PetscInt e = 0; e < s->num_edges; ++e) {
-    const PetscReal half = 0.5 * EdgeMeasure_Private(s, e, (PetscBool)(p->scene->mechanics.model == MODEL_AXISYMMETRIC));
-    for (PetscInt k = 0; k < 2; ++k) c->w0[s->edges[2 * e + k]] += half;
+  for (PetscInt f = 0; f < s->num_facets; ++f) {
+    const PetscReal share = FacetMeasure_Private(s, f, (PetscBool)(p->scene->mechanics.model == MODEL_AXISYMMETRIC)) / (PetscReal)s->corners;
+    for (PetscInt k = 0; k < s->corners; ++k) {
+      const PetscInt n = s->facets[s->corners * f + k];
+      c->w0[n] += share;
+      for (PetscInt i = s->hang[n]; i < s->hang[n + 1]; ++i) c->w0[s->hang_master[i]] += s->hang_weight[i] * share;
+    }
   }
   for (PetscInt n = 0; n < s->num_nodes; ++n) c->c[n] = young / c->w0[n];
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* A node all of whose motion a support prescribes carries no multiplier: its constraint would have nothing of its own to act on.
-   (Nodes of rigid bodies keep theirs: the other side moves.) */
+   (Nodes of rigid bodies keep theirs: the other side moves.) Hanging nodes have none: their masters act for them. */
 static PetscErrorCode HasMultiplier_Private(Problem p, Contact *c)
 {
   const ForestTables *t;
@@ -45,25 +62,31 @@ static PetscErrorCode HasMultiplier_Private(Problem p, Contact *c)
   PetscFunctionBegin;
   PetscCall(ForestGetTables(p->forest, &t));
   for (PetscInt n = 0; n < s->num_nodes; ++n) {
-    const PetscInt  edge  = s->node_edge[2 * n] >= 0 ? s->node_edge[2 * n] : s->node_edge[2 * n + 1];
-    const PetscBool rigid = p->scene->bodies[t->leaf_body[s->edge_leaf[edge]]].material->law->rigid;
-    c->has_multiplier[n]  = (PetscBool)(rigid || s->dof[2 * n] != 3);
+    if (s->hang[n] < s->hang[n + 1]) continue;
+    const PetscInt  facet = s->node_facet[s->node_first[n]];
+    const PetscBool rigid = p->scene->bodies[t->leaf_body[s->facet_leaf[facet]]].material->law->rigid;
+    c->has_multiplier[n]  = (PetscBool)(rigid || s->dof[s->dim * n] != (1 << s->dim) - 1);
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Edges evaluated here: those of owned leaves, and those next to an owned node, so that its owner knows the node's whole row. */
-static PetscErrorCode ListEdges_Private(Problem p, Contact *c)
+/* Facets evaluated here: those of owned leaves, and those that carry weight to an owned node, so that its owner knows the node's whole row. */
+static PetscErrorCode ListFacets_Private(Problem p, Contact *c)
 {
   const Surface      *s = &c->side[0];
   const ForestTables *t;
 
   PetscFunctionBegin;
   PetscCall(ForestGetTables(p->forest, &t));
-  PetscCall(PetscMalloc2(s->num_edges, &c->listed, s->num_edges, &c->mine));
-  for (PetscInt e = 0; e < s->num_edges; ++e) {
-    c->mine[e] = (PetscBool)(t->leaf_rank[s->edge_leaf[e]] == p->rank);
-    if (c->mine[e] || s->owned[s->edges[2 * e]] || s->owned[s->edges[2 * e + 1]]) c->listed[c->num_listed++] = e;
+  PetscCall(PetscMalloc2(s->num_facets, &c->listed, s->num_facets, &c->mine));
+  for (PetscInt f = 0; f < s->num_facets; ++f) {
+    PetscBool near = c->mine[f] = (PetscBool)(t->leaf_rank[s->facet_leaf[f]] == p->rank);
+    for (PetscInt k = 0; k < s->corners; ++k) {
+      const PetscInt n = s->facets[s->corners * f + k];
+      if (s->owned[n]) near = PETSC_TRUE;
+      for (PetscInt i = s->hang[n]; i < s->hang[n + 1]; ++i) near = (PetscBool)(near || s->owned[s->hang_master[i]]);
+    }
+    if (near) c->listed[c->num_listed++] = f;
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -74,15 +97,19 @@ static void SearchDistance_Private(Contact *c)
   PetscReal extent[2], longest = 0;
   for (PetscInt side = 0; side < 2; ++side) {
     const Surface *s     = &c->side[side];
-    PetscReal      lo[2] = {PETSC_MAX_REAL, PETSC_MAX_REAL}, hi[2] = {PETSC_MIN_REAL, PETSC_MIN_REAL};
+    PetscReal      lo[3] = {PETSC_MAX_REAL, PETSC_MAX_REAL, PETSC_MAX_REAL}, hi[3] = {PETSC_MIN_REAL, PETSC_MIN_REAL, PETSC_MIN_REAL}, square = 0;
     for (PetscInt n = 0; n < s->num_nodes; ++n) {
-      for (PetscInt a = 0; a < 2; ++a) {
-        lo[a] = PetscMin(lo[a], s->X[2 * n + a]);
-        hi[a] = PetscMax(hi[a], s->X[2 * n + a]);
+      for (PetscInt a = 0; a < s->dim; ++a) {
+        lo[a] = PetscMin(lo[a], s->X[s->dim * n + a]);
+        hi[a] = PetscMax(hi[a], s->X[s->dim * n + a]);
       }
     }
-    for (PetscInt e = 0; e < s->num_edges; ++e) longest = PetscMax(longest, EdgeMeasure_Private(s, e, PETSC_FALSE));
-    extent[side] = PetscSqrtReal(PetscSqr(hi[0] - lo[0]) + PetscSqr(hi[1] - lo[1]));
+    for (PetscInt f = 0; f < s->num_facets; ++f) {
+      const PetscReal measure = FacetMeasure_Private(s, f, PETSC_FALSE);
+      longest                 = PetscMax(longest, s->dim == 2 ? measure : PetscSqrtReal(measure));
+    }
+    for (PetscInt a = 0; a < s->dim; ++a) square += PetscSqr(hi[a] - lo[a]);
+    extent[side] = PetscSqrtReal(square);
   }
   c->distance = c->spec->search > 0 ? c->spec->search * longest : 0.5 * PetscMin(extent[0], extent[1]);
 }
@@ -93,7 +120,8 @@ static void View_Private(Contact *c)
   SurfaceView *sv[2] = {&v->nonmortar, &v->mortar};
   for (PetscInt k = 0; k < 2; ++k) {
     const Surface *s = &c->side[k];
-    *sv[k]           = (SurfaceView){s->num_nodes, s->num_edges, s->node_entity, s->edges, s->edge_leaf, s->X, s->x, s->force};
+    *sv[k]           = (SurfaceView){s->dim,          s->corners, s->num_nodes,   s->num_facets,  s->node_entity, s->facets, s->facet_leaf,
+                                     s->facet_entity, s->hang,    s->hang_master, s->hang_weight, s->X,           s->x,      s->force};
   }
   v->spec           = c->spec;
   v->z              = c->z;
@@ -112,12 +140,12 @@ static PetscErrorCode NodeSums_Private(Problem p, Contact *c)
 
   PetscFunctionBegin;
   PetscCall(PetscCalloc1(2 * n + 1, &buffer));
-  for (PetscInt i = 0; i < c->num_edges; ++i) {
-    const ContactEdge *e = &c->edges[i];
-    if (!c->mine[e->edge]) continue;
-    for (PetscInt k = 0; k < 2; ++k) {
-      buffer[e->node[k]] += e->gap[k];
-      buffer[n + e->node[k]] += e->weight[k];
+  for (PetscInt i = 0; i < c->num_facets; ++i) {
+    const ContactFacet *e = &c->facets[i];
+    if (!c->mine[e->facet]) continue;
+    for (PetscInt k = 0; k < e->num_rows; ++k) {
+      buffer[e->nodes[k]] += e->gap[k];
+      buffer[n + e->nodes[k]] += e->weight[k];
     }
     buffer[2 * n] += e->area;
   }
@@ -129,33 +157,28 @@ static PetscErrorCode NodeSums_Private(Problem p, Contact *c)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static ContactSurface SurfaceOf_Private(const Surface *s, const PetscReal *x)
-{
-  return (ContactSurface){s->num_nodes, s->num_edges, s->edges, x, s->mirror};
-}
-
 /* What counts as no gap: gt_j less a constant, so that forces and derivatives stay as they are. Initial gaps are those of this mesh at the reference
    positions; an interference is taken per reference length. */
 static PetscErrorCode Offset_Private(Problem p, Contact *c)
 {
-  const PetscInt     n       = c->side[0].num_nodes;
-  ContactSurface     side[2] = {SurfaceOf_Private(&c->side[0], c->side[0].X), SurfaceOf_Private(&c->side[1], c->side[1].X)};
-  const ContactEdge *edges;
-  PetscBool          failed;
+  const PetscInt      n       = c->side[0].num_nodes;
+  ContactSurface      side[2] = {SurfaceAt_Private(&c->side[0], c->side[0].X), SurfaceAt_Private(&c->side[1], c->side[1].X)};
+  const ContactFacet *facets;
+  PetscBool           failed;
 
   PetscFunctionBegin;
   PetscCall(PetscArrayzero(c->offset, n));
   if (!c->spec->adjust && c->spec->interference == 0) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(ContactPairSearch(c->pair, &side[0], &side[1], c->num_listed, c->listed, c->distance, 0));
-  PetscCall(ContactPairEvaluate(c->pair, &side[0], &side[1], NULL, PETSC_FALSE, PETSC_FALSE, &c->num_edges, &edges, &failed));
-  c->edges = edges;
+  PetscCall(ContactPairEvaluate(c->pair, &side[0], &side[1], NULL, NULL, PETSC_FALSE, PETSC_FALSE, &c->num_facets, &facets, &failed));
+  c->facets = facets;
   PetscCall(NodeSums_Private(p, c));
   for (PetscInt j = 0; j < n; ++j) c->offset[j] = (c->spec->adjust ? c->gap[j] : 0) + c->spec->interference * c->weight[j];
   for (PetscInt j = 0; c->spec->adjust && j < n; ++j) {
     if (!ContactCovered_Private(c, j)) continue;
     c->view.adjusted = PetscMax(c->view.adjusted, PetscAbsReal(c->gap[j] / c->weight[j]));
   }
-  c->num_edges = 0;
+  c->num_facets = 0;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -175,19 +198,19 @@ PetscErrorCode ContactCreate_Private(Problem p, const ContactSpec *spec, Contact
 
   PetscFunctionBegin;
   PetscCall(PetscMemzero(c, sizeof(*c)));
-  PetscCheckInput(p->dim == 2, "contact.%s: contact in three dimensions is not built yet", spec->name);
+  PetscCheckInput(p->dim == 2 || !spec->node_to_segment, "contact.%s.node_to_segment: is built in two dimensions only", spec->name);
   c->spec = spec;
   PetscCall(SurfaceCreate_Private(p, spec->nonmortar, &c->side[0]));
   PetscCall(SurfaceCreate_Private(p, spec->mortar, &c->side[1]));
-  PetscCall(ContactPairCreate(axisymmetric, spec->node_to_segment, &c->pair));
+  PetscCall(ContactPairCreate(p->dim, axisymmetric, spec, &c->pair));
   const PetscInt n = c->side[0].num_nodes;
   PetscCall(PetscCalloc5(n, &c->z, n, &c->gap, n, &c->weight, n, &c->w0, n, &c->c));
-  PetscCall(PetscCalloc4(n, &c->active, n, &c->has_multiplier, n, &c->lift, n, &c->change));
-  PetscCall(PetscMalloc1(c->side[0].num_edges, &c->result));
+  PetscCall(PetscCalloc5(n, &c->active, n, &c->has_multiplier, n, &c->lift, n, &c->change, n, &c->near));
+  PetscCall(PetscMalloc1(c->side[0].num_facets, &c->result));
   PetscCall(PetscMalloc4(n, &c->zdof, n, &c->zlocal, n, &c->gap0, n, &c->offset));
   PetscCall(NodeScales_Private(p, c));
   PetscCall(HasMultiplier_Private(p, c));
-  PetscCall(ListEdges_Private(p, c));
+  PetscCall(ListFacets_Private(p, c));
   SearchDistance_Private(c);
   View_Private(c);
   PetscCall(Offset_Private(p, c));
@@ -198,7 +221,7 @@ static PetscErrorCode FrozenDestroy_Private(Contact *c)
 {
   PetscFunctionBegin;
   if (!c->frozen) PetscFunctionReturn(PETSC_SUCCESS);
-  for (PetscInt i = 0; i < c->num_edges; ++i) {
+  for (PetscInt i = 0; i < c->num_facets; ++i) {
     PetscCall(PetscFree(c->frozen[i].nodes));
     PetscCall(PetscFree(c->frozen[i].dgap));
     PetscCall(PetscFree(c->frozen[i].dweight));
@@ -215,7 +238,7 @@ PetscErrorCode ContactDestroy_Private(Contact *c)
   PetscCall(SurfaceDestroy_Private(&c->side[0]));
   PetscCall(SurfaceDestroy_Private(&c->side[1]));
   PetscCall(PetscFree5(c->z, c->gap, c->weight, c->w0, c->c));
-  PetscCall(PetscFree4(c->active, c->has_multiplier, c->lift, c->change));
+  PetscCall(PetscFree5(c->active, c->has_multiplier, c->lift, c->change, c->near));
   PetscCall(PetscFree(c->result));
   PetscCall(PetscFree4(c->zdof, c->zlocal, c->gap0, c->offset));
   PetscCall(PetscFree2(c->listed, c->mine));
@@ -255,6 +278,7 @@ static PetscErrorCode GatherMultipliers_Private(Problem p, Contact *c, Vec x)
   for (PetscInt i = 0; i < n; ++i) c->z[i] = c->zlocal[i] >= 0 ? array[c->zlocal[i]] : 0;
   PetscCall(VecRestoreArrayRead(x, &array));
   if (p->size > 1) PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, c->z, (PetscMPIInt)n, MPIU_REAL, MPI_SUM, p->comm));
+  SurfaceFollow_Private(&c->side[0], 1, c->z); /* shown there; their masters hold them */
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -269,47 +293,51 @@ static void Activity_Private(Contact *c)
    positions; grad gt - (gt/w) grad w is its derivative with the measure held. */
 static PetscErrorCode Freeze_Private(Problem p, Contact *c, PetscBool *failed)
 {
-  ContactSurface     side[2] = {SurfaceOf_Private(&c->side[0], c->side[0].X), SurfaceOf_Private(&c->side[1], c->side[1].X)};
-  const ContactEdge *edges;
+  ContactSurface      side[2] = {SurfaceAt_Private(&c->side[0], c->side[0].X), SurfaceAt_Private(&c->side[1], c->side[1].X)};
+  const ContactFacet *facets;
 
   PetscFunctionBegin;
   PetscCall(ContactPairSearch(c->pair, &side[0], &side[1], c->num_listed, c->listed, c->distance, 0));
-  PetscCall(ContactPairEvaluate(c->pair, &side[0], &side[1], NULL, PETSC_TRUE, PETSC_FALSE, &c->num_edges, &edges, failed));
-  PetscCall(PetscMalloc1(c->num_edges, &c->frozen));
-  c->edges = edges;
+  PetscCall(ContactPairEvaluate(c->pair, &side[0], &side[1], NULL, NULL, PETSC_TRUE, PETSC_FALSE, &c->num_facets, &facets, failed));
+  PetscCall(PetscMalloc1(c->num_facets, &c->frozen));
+  c->facets = facets;
   PetscCall(NodeSums_Private(p, c));
   PetscCall(PetscArraycpy(c->gap0, c->gap, c->side[0].num_nodes));
-  for (PetscInt i = 0; i < c->num_edges; ++i) {
-    const PetscInt n = 2 * edges[i].num;
-    PetscInt      *nodes;
-    PetscReal     *dgap, *dweight;
-    PetscCall(PetscMalloc1(edges[i].num, &nodes));
-    PetscCall(PetscMalloc1(2 * n, &dgap));
-    PetscCall(PetscCalloc1(2 * n, &dweight));
-    PetscCall(PetscArraycpy(nodes, edges[i].nodes, edges[i].num));
-    for (PetscInt k = 0; k < 2; ++k) {
-      const PetscInt  j    = edges[i].node[k];
+  for (PetscInt i = 0; i < c->num_facets; ++i) {
+    const ContactFacet *f = &facets[i];
+    const PetscInt      n = p->dim * f->num;
+    PetscInt           *nodes;
+    PetscReal          *dgap, *dweight;
+    PetscCall(PetscMalloc1(f->num, &nodes));
+    PetscCall(PetscMalloc1(f->num_rows * n, &dgap));
+    PetscCall(PetscCalloc1(f->num_rows * n, &dweight));
+    PetscCall(PetscArraycpy(nodes, f->nodes, f->num));
+    for (PetscInt k = 0; k < f->num_rows; ++k) {
+      const PetscInt  j    = f->nodes[k];
       const PetscReal mean = ContactCovered_Private(c, j) ? c->gap[j] / c->weight[j] : 0;
-      for (PetscInt a = 0; a < n; ++a) dgap[k * n + a] = edges[i].dgap[k * n + a] - mean * edges[i].dweight[k * n + a];
+      for (PetscInt a = 0; a < n; ++a) dgap[k * n + a] = f->dgap[k * n + a] - mean * f->dweight[k * n + a];
     }
-    c->frozen[i]         = edges[i];
+    c->frozen[i]         = *f;
+    c->frozen[i].gap     = NULL; /* with gap0 */
+    c->frozen[i].weight  = NULL;
     c->frozen[i].nodes   = nodes;
     c->frozen[i].dgap    = dgap;
     c->frozen[i].dweight = dweight;
     c->frozen[i].hessian = NULL;
   }
-  c->edges     = c->frozen;
+  c->facets    = c->frozen;
   c->is_frozen = PETSC_TRUE; /* also on a rank that has no edges: the next evaluation must not come here again */
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* Increment of the row of node k of an edge under nodal increments du of both sides. */
-static PetscReal EdgeDot_Private(const Contact *c, const ContactEdge *e, const PetscReal *gradient)
+static PetscReal FacetDot_Private(const Contact *c, const ContactFacet *e, const PetscReal *gradient)
 {
-  PetscReal sum = 0;
+  const PetscInt dim = c->side[0].dim;
+  PetscReal      sum = 0;
   for (PetscInt a = 0; a < e->num; ++a) {
-    const PetscReal *du = c->side[NODE_SIDE(e->nodes[a])].du + 2 * NODE_INDEX(e->nodes[a]);
-    sum += gradient[2 * a] * du[0] + gradient[2 * a + 1] * du[1];
+    const PetscReal *du = c->side[NODE_SIDE(e->nodes[a])].du + dim * NODE_INDEX(e->nodes[a]);
+    for (PetscInt d = 0; d < dim; ++d) sum += gradient[dim * a + d] * du[d];
   }
   return sum;
 }
@@ -321,12 +349,12 @@ PetscErrorCode ContactChange_Private(Problem p, Contact *c, const PetscReal incr
   PetscFunctionBegin;
   for (PetscInt k = 0; k < 2; ++k) PetscCall(SurfaceGather_Private(p, &c->side[k], increment, NULL, c->side[k].du));
   PetscCall(PetscArrayzero(change, n));
-  for (PetscInt i = 0; i < c->num_edges; ++i) {
-    const ContactEdge *e = &c->edges[i];
-    for (PetscInt k = 0; k < 2 && c->mine[e->edge]; ++k) {
-      const PetscInt j = e->node[k];
-      change[j] += EdgeDot_Private(c, e, e->dgap + 2 * k * e->num);
-      if (ContactCovered_Private(c, j)) change[j] -= c->gap[j] / c->weight[j] * EdgeDot_Private(c, e, e->dweight + 2 * k * e->num);
+  for (PetscInt i = 0; i < c->num_facets; ++i) {
+    const ContactFacet *e = &c->facets[i];
+    for (PetscInt k = 0; k < e->num_rows && c->mine[e->facet] && e->dgap; ++k) {
+      const PetscInt j = e->nodes[k];
+      change[j] += FacetDot_Private(c, e, e->dgap + p->dim * k * e->num);
+      if (ContactCovered_Private(c, j)) change[j] -= c->gap[j] / c->weight[j] * FacetDot_Private(c, e, e->dweight + p->dim * k * e->num);
     }
   }
   if (p->size > 1) PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, change, (PetscMPIInt)n, MPIU_REAL, MPI_SUM, p->comm));
@@ -340,15 +368,31 @@ static PetscErrorCode LinearGaps_Private(Problem p, Contact *c)
   PetscFunctionBegin;
   for (PetscInt side = 0; side < 2; ++side) {
     Surface *s = &c->side[side];
-    for (PetscInt i = 0; i < 2 * s->num_nodes; ++i) s->du[i] = s->x[i] - s->X[i];
+    for (PetscInt i = 0; i < p->dim * s->num_nodes; ++i) s->du[i] = s->x[i] - s->X[i];
   }
   PetscCall(PetscArrayzero(c->gap, n));
-  for (PetscInt i = 0; i < c->num_edges; ++i) {
-    const ContactEdge *e = &c->frozen[i];
-    for (PetscInt k = 0; k < 2 && c->mine[e->edge]; ++k) c->gap[e->node[k]] += EdgeDot_Private(c, e, e->dgap + 2 * k * e->num);
+  for (PetscInt i = 0; i < c->num_facets; ++i) {
+    const ContactFacet *e = &c->frozen[i];
+    for (PetscInt k = 0; k < e->num_rows && c->mine[e->facet]; ++k) c->gap[e->nodes[k]] += FacetDot_Private(c, e, e->dgap + p->dim * k * e->num);
   }
   if (p->size > 1) PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, c->gap, (PetscMPIInt)n, MPIU_REAL, MPI_SUM, p->comm));
   for (PetscInt j = 0; j < n; ++j) c->gap[j] += c->gap0[j];
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Nodes that may take part in the next linear solve: pressed, or closer than half a facet beside what prescribed motion may still close. Three dimensions:
+   the others get no row in the matrix, which they would only fill. Replicated. */
+static PetscErrorCode Near_Private(Problem p, Contact *c)
+{
+  PetscReal pending;
+
+  PetscFunctionBegin;
+  PetscCall(ProblemPending(p, &pending));
+  for (PetscInt j = 0; j < c->side[0].num_nodes; ++j) {
+    const PetscReal size = p->dim == 2 ? c->w0[j] : PetscSqrtReal(c->w0[j]);
+    c->near[j] = (PetscBool)(c->has_multiplier[j] && (c->z[j] != 0 || (ContactCovered_Private(c, j) && c->gap[j] / c->weight[j] < pending + 0.5 * size)));
+    if (p->dim == 2) c->near[j] = PETSC_TRUE;
+  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -361,13 +405,20 @@ PetscErrorCode ContactEvaluate_Private(Problem p, Contact *c, Vec x, const Petsc
     if (!c->is_frozen) PetscCall(Freeze_Private(p, c, failed));
     PetscCall(LinearGaps_Private(p, c));
   } else {
-    ContactSurface side[2] = {SurfaceOf_Private(&c->side[0], c->side[0].x), SurfaceOf_Private(&c->side[1], c->side[1].x)};
-    PetscCall(ContactPairEvaluate(c->pair, &side[0], &side[1], c->z, derivatives, hessian, &c->num_edges, &c->edges, failed));
+    const ContactSurface side[2] = {SurfaceAt_Private(&c->side[0], c->side[0].x), SurfaceAt_Private(&c->side[1], c->side[1].x)};
+    if (hessian && p->dim == 3) { /* who is near is decided by the gaps here, not by those of the last evaluation */
+      PetscCall(ContactPairEvaluate(c->pair, &side[0], &side[1], c->z, NULL, PETSC_FALSE, PETSC_FALSE, &c->num_facets, &c->facets, failed));
+      PetscCall(NodeSums_Private(p, c));
+      Subtract_Private(c);
+    }
+    PetscCall(Near_Private(p, c));
+    PetscCall(ContactPairEvaluate(c->pair, &side[0], &side[1], c->z, c->near, derivatives, hessian, &c->num_facets, &c->facets, failed));
     PetscCall(NodeSums_Private(p, c));
   }
   Subtract_Private(c);
-  for (PetscInt e = 0; e < c->side[0].num_edges; ++e) c->result[e] = -1;
-  for (PetscInt i = 0; i < c->num_edges; ++i) c->result[c->edges[i].edge] = i;
+  if (p->scene->mechanics.kinematics == KINEMATICS_SMALL) PetscCall(Near_Private(p, c));
+  for (PetscInt e = 0; e < c->side[0].num_facets; ++e) c->result[e] = -1;
+  for (PetscInt i = 0; i < c->num_facets; ++i) c->result[c->facets[i].facet] = i;
   Activity_Private(c);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -375,25 +426,26 @@ PetscErrorCode ContactEvaluate_Private(Problem p, Contact *c, Vec x, const Petsc
 /* Nodal contact forces -dL_c/dx = z_j grad gt_j on both sides; residual r -= force (at the owner, in the node's frame). */
 PetscErrorCode ContactForces_Private(Problem p, Contact *c, PetscReal r[])
 {
+  const PetscInt dim = p->dim;
+
   PetscFunctionBegin;
-  for (PetscInt k = 0; k < 2; ++k) PetscCall(PetscArrayzero(c->side[k].force, 2 * c->side[k].num_nodes));
-  for (PetscInt i = 0; i < c->num_edges; ++i) {
-    const ContactEdge *e = &c->edges[i];
-    if (!c->mine[e->edge]) continue;
+  for (PetscInt k = 0; k < 2; ++k) PetscCall(PetscArrayzero(c->side[k].force, dim * c->side[k].num_nodes));
+  for (PetscInt i = 0; i < c->num_facets; ++i) {
+    const ContactFacet *e = &c->facets[i];
+    if (!c->mine[e->facet] || !e->dgap) continue;
     for (PetscInt a = 0; a < e->num; ++a) {
-      PetscReal *f = c->side[NODE_SIDE(e->nodes[a])].force + 2 * NODE_INDEX(e->nodes[a]);
-      for (PetscInt k = 0; k < 2; ++k) {
-        f[0] += c->z[e->node[k]] * e->dgap[2 * (k * e->num + a)];
-        f[1] += c->z[e->node[k]] * e->dgap[2 * (k * e->num + a) + 1];
-      }
+      PetscReal *f = c->side[NODE_SIDE(e->nodes[a])].force + dim * NODE_INDEX(e->nodes[a]);
+      for (PetscInt k = 0; k < e->num_rows; ++k)
+        for (PetscInt d = 0; d < dim; ++d) f[d] += c->z[e->nodes[k]] * e->dgap[dim * (k * e->num + a) + d];
     }
   }
   for (PetscInt k = 0; k < 2; ++k) {
     Surface *s = &c->side[k];
-    if (p->size > 1) PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, s->force, (PetscMPIInt)(2 * s->num_nodes), MPIU_REAL, MPI_SUM, p->comm));
+    if (p->size > 1) PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, s->force, (PetscMPIInt)(dim * s->num_nodes), MPIU_REAL, MPI_SUM, p->comm));
     for (PetscInt n = 0; n < s->num_nodes; ++n) {
       if (!s->owned[n]) continue;
-      for (PetscInt d = 0; d < 2; ++d) r[2 * s->local[n] + d] -= s->frame[4 * n + 2 * d] * s->force[2 * n] + s->frame[4 * n + 2 * d + 1] * s->force[2 * n + 1];
+      for (PetscInt d = 0; d < dim; ++d)
+        for (PetscInt a = 0; a < dim; ++a) r[dim * s->local[n] + d] -= s->frame[dim * (dim * n + d) + a] * s->force[dim * n + a];
     }
   }
   PetscFunctionReturn(PETSC_SUCCESS);

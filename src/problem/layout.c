@@ -114,14 +114,17 @@ static PetscErrorCode CountBulk_Private(Problem p, PetscInt diagonal[], PetscInt
 /* Upper bound of the contact entries, counted; without counters they are written as explicit zeros. */
 static PetscErrorCode ContactPattern_Private(Problem p, PetscInt diagonal[], PetscInt other[])
 {
-  PetscInt  *dofs;
+  PetscInt  *dofs, most = 0;
   PetscReal *zeros;
 
   PetscFunctionBegin;
-  PetscCall(PetscMalloc1(MOST_PATTERN_DOFS, &dofs));
+  for (PetscInt i = 0; i < p->num_contacts; ++i) {
+    for (PetscInt e = 0; e < p->contacts[i].side[0].num_facets; ++e) most = PetscMax(most, ContactPatternSize_Private(&p->contacts[i], e));
+  }
+  PetscCall(PetscMalloc1(most, &dofs));
   for (PetscInt i = 0; i < p->num_contacts; ++i) {
     const Contact *c = &p->contacts[i];
-    for (PetscInt e = 0; e < c->side[0].num_edges && c->pattern_offset; ++e) {
+    for (PetscInt e = 0; e < c->side[0].num_facets && c->pattern_offset; ++e) {
       const PetscInt num = ContactPatternDofs_Private(c, e, dofs);
       if (!diagonal) {
         PetscCall(PetscCalloc1(num * num, &zeros));

@@ -10,12 +10,22 @@ static PetscBool Has_Private(const PetscInt *list, PetscInt num, PetscInt value)
   return PETSC_FALSE;
 }
 
+/* Does the facet have a node that takes part in the next linear solve? */
+static PetscBool Enters_Private(const Contact *c, const ContactFacet *e)
+{
+  for (PetscInt k = 0; k < e->num_rows; ++k) {
+    if (c->near[e->nodes[k]]) return PETSC_TRUE;
+  }
+  return PETSC_FALSE;
+}
+
 PetscBool ContactPatternHolds_Private(const Contact *c)
 {
-  for (PetscInt i = 0; i < c->num_edges; ++i) {
-    const ContactEdge *e = &c->edges[i];
+  for (PetscInt i = 0; i < c->num_facets; ++i) {
+    const ContactFacet *e = &c->facets[i];
+    if (!Enters_Private(c, e)) continue;
     if (!c->pattern_offset) return PETSC_FALSE;
-    const PetscInt *list = c->pattern + c->pattern_offset[e->edge], num = c->pattern_offset[e->edge + 1] - c->pattern_offset[e->edge];
+    const PetscInt *list = c->pattern + c->pattern_offset[e->facet], num = c->pattern_offset[e->facet + 1] - c->pattern_offset[e->facet];
     for (PetscInt a = 0; a < e->num; ++a) {
       if (!Has_Private(list, num, e->nodes[a])) return PETSC_FALSE;
     }
@@ -35,17 +45,23 @@ static PetscErrorCode Append_Private(PetscInt **list, PetscInt *num, PetscInt *s
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The node next to n along the surface, through its edge on the given side (0: before, 1: after); -1 at an end. */
+/* The node next to n along a curve, through its edge on the given side (0: before, 1: after); -1 at an end. */
 static PetscInt Neighbour_Private(const Surface *s, PetscInt n, PetscInt which)
 {
-  const PetscInt e = s->node_edge[2 * n + which];
-  return e < 0 ? -1 : s->edges[2 * e + which];
+  for (PetscInt k = s->node_first[n]; k < s->node_first[n + 1]; ++k) {
+    const PetscInt *edge = s->facets + 2 * s->node_facet[k];
+    if (edge[1 - which] == n) return edge[which];
+  }
+  return -1;
 }
 
+/* Two dimensions: also its neighbours along the curve. In three dimensions the ring of neighbours would cost more in the factors than a new pattern now and
+ * then. */
 static PetscErrorCode AppendAround_Private(const Surface *s, PetscInt node, PetscInt depth, PetscInt **list, PetscInt *num, PetscInt *size, PetscInt from)
 {
   PetscFunctionBegin;
   PetscCall(Append_Private(list, num, size, from, ~node));
+  if (s->dim == 3) PetscFunctionReturn(PETSC_SUCCESS);
   for (PetscInt which = 0; which < 2; ++which) {
     for (PetscInt k = 0, n = Neighbour_Private(s, node, which); k < depth && n >= 0; ++k, n = Neighbour_Private(s, n, which))
       PetscCall(Append_Private(list, num, size, from, ~n));
@@ -55,7 +71,7 @@ static PetscErrorCode AppendAround_Private(const Surface *s, PetscInt node, Pets
 
 PetscErrorCode ContactGrowPattern_Private(Contact *c)
 {
-  const PetscInt ne = c->side[0].num_edges;
+  const PetscInt ne = c->side[0].num_facets;
   PetscInt      *offset, *list = NULL, num = 0, size = 0;
 
   PetscFunctionBegin;
@@ -67,7 +83,8 @@ PetscErrorCode ContactGrowPattern_Private(Contact *c)
         PetscCall(Append_Private(&list, &num, &size, offset[edge], c->pattern[k]));
     }
     if (c->result[edge] < 0) continue;
-    const ContactEdge *e = &c->edges[c->result[edge]];
+    const ContactFacet *e = &c->facets[c->result[edge]];
+    if (!Enters_Private(c, e)) continue;
     for (PetscInt a = 0; a < e->num; ++a) {
       if (!NODE_SIDE(e->nodes[a]))
         PetscCall(Append_Private(&list, &num, &size, offset[edge], e->nodes[a]));
@@ -83,19 +100,29 @@ PetscErrorCode ContactGrowPattern_Private(Contact *c)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscInt ContactPatternDofs_Private(const Contact *c, PetscInt edge, PetscInt dofs[])
+PetscInt ContactPatternSize_Private(const Contact *c, PetscInt facet)
 {
-  PetscInt num = 0;
-  if (!c->pattern_offset) return 0; /* none of the edges evaluated on this rank has met anything yet */
-  for (PetscInt k = c->pattern_offset[edge]; k < c->pattern_offset[edge + 1] && num + 4 < MOST_PATTERN_DOFS; ++k) {
-    const PetscInt *dof = c->side[NODE_SIDE(c->pattern[k])].dof + 2 * NODE_INDEX(c->pattern[k]);
-    if (dof[0] >= 0) dofs[num++] = dof[0];
-    if (dof[1] >= 0) dofs[num++] = dof[1];
-  }
-  if (num == 0) return 0;
-  for (PetscInt k = 0; k < 2; ++k) {
-    const PetscInt z = c->zdof[c->side[0].edges[2 * edge + k]];
-    if (z >= 0) dofs[num++] = z;
+  if (!c->pattern_offset) return 0; /* none of the facets evaluated on this rank has met anything yet */
+  return (c->side[0].dim + 1) * (c->pattern_offset[facet + 1] - c->pattern_offset[facet]);
+}
+
+/* Is the nonmortar node one of the facet's multipliers? In two dimensions its outer neighbours stand in the pattern too. */
+static PetscBool CarriesRow_Private(const Surface *s, PetscInt facet, PetscInt node)
+{
+  return (PetscBool)(s->dim == 3 || s->facets[2 * facet] == node || s->facets[2 * facet + 1] == node);
+}
+
+PetscInt ContactPatternDofs_Private(const Contact *c, PetscInt facet, PetscInt dofs[])
+{
+  const PetscInt dim = c->side[0].dim;
+  PetscInt       num = 0;
+  if (!c->pattern_offset) return 0;
+  for (PetscInt k = c->pattern_offset[facet]; k < c->pattern_offset[facet + 1]; ++k) {
+    const PetscInt node = NODE_INDEX(c->pattern[k]), *dof = c->side[NODE_SIDE(c->pattern[k])].dof + dim * node;
+    for (PetscInt d = 0; d < dim; ++d) {
+      if (dof[d] >= 0) dofs[num++] = dof[d];
+    }
+    if (!NODE_SIDE(c->pattern[k]) && c->zdof[node] >= 0 && CarriesRow_Private(&c->side[0], facet, node)) dofs[num++] = c->zdof[node];
   }
   return num;
 }

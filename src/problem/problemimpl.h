@@ -4,44 +4,50 @@
 
 #define COVERED 1e-10 /* share of a node's tributary length below which it counts as uncovered */
 
-/* One side of a contact pair: small, replicated on every rank (a curve in two dimensions). */
+#define MOST_MASTERS 8 /* of a hanging vertex of a contact surface */
+
+/* One side of a contact pair, replicated on every rank. Hanging nodes have positions, which follow their masters', but no unknowns. */
 typedef struct {
-  PetscInt   num_nodes, num_edges;
-  PetscInt  *node_entity; /* [num_nodes] */
-  PetscInt  *edges;       /* [num_edges][2] body to the left */
-  PetscInt  *edge_leaf;   /* [num_edges] */
-  PetscInt  *node_edge;   /* [num_nodes][2] edges at the node, -1: none */
-  PetscReal *X, *x, *du;  /* [num_nodes][2] reference and current position; increment under discussion */
-  PetscReal *mirror;      /* [num_nodes][2] normal of the symmetry plane at an end, else 0 */
-  PetscReal *frame;       /* [num_nodes][4] rows: directions of the dofs */
-  PetscInt  *dof;         /* [num_nodes][2] index in the problem's vector, -1: prescribed */
-  PetscInt  *local;       /* [num_nodes] local node on this rank or -1 */
-  PetscBool *owned;       /* [num_nodes] this rank owns the node */
-  PetscReal *force;       /* [num_nodes][2] contact force at the last residual */
+  PetscInt   dim, corners; /* 2 or 4 corners of a facet */
+  PetscInt   num_nodes, num_facets;
+  PetscInt  *node_entity;        /* [num_nodes] */
+  PetscInt  *facets;             /* [num_facets][corners] body to the left; counterclockwise seen from outside */
+  PetscInt  *facet_leaf;         /* [num_facets] */
+  PetscInt  *facet_entity;       /* [num_facets] */
+  PetscInt  *hang, *hang_master; /* [num_nodes+1] offsets, nodes of this surface; empty: does not hang */
+  PetscReal *hang_weight;
+  PetscInt  *node_first, *node_facet; /* [num_nodes+1] offsets: facets that carry weight to the node, its own and those with a node that hangs on it */
+  PetscReal *X, *x, *du;              /* [num_nodes][dim] reference and current position; increment under discussion */
+  PetscReal *mirror;                  /* [num_nodes][dim] two dimensions: normal of the symmetry plane at an end, else 0 */
+  PetscReal *frame;                   /* [num_nodes][dim][dim] rows: directions of the dofs */
+  PetscInt  *dof;                     /* [num_nodes][dim] index in the problem's vector, -1: prescribed, hanging */
+  PetscInt  *local;                   /* [num_nodes] local node on this rank or -1 */
+  PetscBool *owned;                   /* [num_nodes] this rank owns the node and it does not hang */
+  PetscReal *force;                   /* [num_nodes][dim] contact force at the last residual */
 } Surface;
 
 typedef struct {
-  const ContactSpec *spec;
-  ContactPair        pair;
-  Surface            side[2]; /* 0 nonmortar, 1 mortar */
-  ContactView        view;
-  PetscInt          *zdof;                      /* [n] index in the problem's vector, -1: no multiplier */
-  PetscInt          *zlocal;                    /* [n] position in this rank's part of the vector, -1: not here */
-  PetscReal         *z, *gap, *weight, *w0, *c; /* [n] */
-  PetscReal         *change;                    /* [n] work: change of gt_j at fixed measure under an increment */
-  PetscReal         *lift;                      /* [n] the same for the prescribed motion still to come */
-  PetscInt          *result;                    /* [num_edges] position of an edge in `edges`, -1: not evaluated here */
-  PetscBool         *active, *has_multiplier;
-  PetscInt           num_listed, *listed; /* nonmortar edges this rank evaluates */
-  PetscBool         *mine;                /* [num_edges] */
-  PetscReal          distance;            /* search distance */
-  PetscInt           num_edges;           /* results of the last evaluation */
-  const ContactEdge *edges;
-  ContactEdge       *frozen; /* small kinematics: linearised once at the reference positions */
-  PetscBool          is_frozen;
-  PetscReal         *gap0;                     /* [n] reference gaps, small kinematics */
-  PetscReal         *offset;                   /* [n] constant part of gt_j that does not count: initial gaps closed, interference */
-  PetscInt          *pattern_offset, *pattern; /* [num_edges+1]: nodes each edge has room for in the matrix */
+  const ContactSpec  *spec;
+  ContactPair         pair;
+  Surface             side[2]; /* 0 nonmortar, 1 mortar */
+  ContactView         view;
+  PetscInt           *zdof;                           /* [n] index in the problem's vector, -1: no multiplier */
+  PetscInt           *zlocal;                         /* [n] position in this rank's part of the vector, -1: not here */
+  PetscReal          *z, *gap, *weight, *w0, *c;      /* [n] */
+  PetscReal          *change;                         /* [n] work: change of gt_j at fixed measure under an increment */
+  PetscReal          *lift;                           /* [n] the same for the prescribed motion still to come */
+  PetscInt           *result;                         /* [num_facets] position of a facet in `facets`, -1: not evaluated here */
+  PetscBool          *active, *has_multiplier, *near; /* [n] near: takes part in the next linear solve */
+  PetscInt            num_listed, *listed;            /* nonmortar facets this rank evaluates */
+  PetscBool          *mine;                           /* [num_facets] */
+  PetscReal           distance;                       /* search distance */
+  PetscInt            num_facets;                     /* results of the last evaluation */
+  const ContactFacet *facets;
+  ContactFacet       *frozen; /* small kinematics: linearised once at the reference positions */
+  PetscBool           is_frozen;
+  PetscReal          *gap0;                     /* [n] reference gaps, small kinematics */
+  PetscReal          *offset;                   /* [n] constant part of gt_j that does not count: initial gaps closed, interference */
+  PetscInt           *pattern_offset, *pattern; /* [num_facets+1]: nodes each facet has room for in the matrix */
 } Contact;
 
 struct _p_Problem {
@@ -87,6 +93,8 @@ PetscErrorCode ProblemIncrement_Private(Problem, Vec dx, PetscReal share);
 PetscErrorCode SurfaceCreate_Private(Problem, PetscInt group, Surface *);
 PetscErrorCode SurfaceDestroy_Private(Surface *);
 PetscErrorCode SurfaceIndices_Private(Problem, Surface *);
+ContactSurface SurfaceAt_Private(const Surface *, const PetscReal x[]);
+void           SurfaceFollow_Private(const Surface *, PetscInt num, PetscReal values[]);
 /* Cartesian values at the nodes from a local array of dofs, added to base (NULL: 0); replicated. */
 PetscErrorCode SurfaceGather_Private(Problem, const Surface *, const PetscReal local[], const PetscReal base[], PetscReal values[]);
 
@@ -105,12 +113,12 @@ static inline PetscBool ContactCovered_Private(const Contact *c, PetscInt j)
 {
   return (PetscBool)(c->weight[j] > COVERED * c->w0[j]);
 }
-/* pattern.c: room in the matrix for what edges may meet until the next search. */
+/* pattern.c: room in the matrix for what facets may meet until the next search. */
 PetscErrorCode ContactGrowPattern_Private(Contact *);
 PetscBool      ContactPatternHolds_Private(const Contact *);
-/* Indices in the problem's vector of everything in the pattern of one edge; returns their number. */
-PetscInt ContactPatternDofs_Private(const Contact *, PetscInt edge, PetscInt dofs[]);
+/* Indices in the problem's vector of everything in the pattern of one facet, dofs[ContactPatternSize_Private]; returns their number. */
+PetscInt ContactPatternDofs_Private(const Contact *, PetscInt facet, PetscInt dofs[]);
+PetscInt ContactPatternSize_Private(const Contact *, PetscInt facet);
 
-#define MOST_PATTERN_DOFS 4096
 #define NODE_SIDE(id) ((id) < 0)
 #define NODE_INDEX(id) ((id) < 0 ? ~(id) : (id))

@@ -15,7 +15,7 @@ PetscErrorCode ProblemSearch(Problem p, Vec x)
     ContactSurface side[2];
     for (PetscInt k = 0; k < 2; ++k) {
       PetscCall(SurfaceGather_Private(p, &c->side[k], local, c->side[k].X, c->side[k].x));
-      side[k] = (ContactSurface){c->side[k].num_nodes, c->side[k].num_edges, c->side[k].edges, c->side[k].x, c->side[k].mirror};
+      side[k] = SurfaceAt_Private(&c->side[k], c->side[k].x);
     }
     PetscCall(ContactPairSearch(c->pair, &side[0], &side[1], c->num_listed, c->listed, c->distance, 0.1 * c->distance));
   }
@@ -32,8 +32,9 @@ static PetscReal ContactNoise2_Private(Problem p)
   for (PetscInt i = 0; i < p->num_contacts; ++i) {
     const Contact *c = &p->contacts[i];
     for (PetscInt j = 0; j < c->side[0].num_nodes; ++j) {
-      const PetscReal *x = c->side[0].x + 2 * j;
-      if (c->active[j]) sum += (PetscSqr(x[0]) + PetscSqr(x[1])) * PetscSqr(PETSC_MACHINE_EPSILON * (c->c[j] * c->w0[j] + PetscAbsReal(c->z[j])));
+      PetscReal square = 0;
+      for (PetscInt d = 0; d < p->dim; ++d) square += PetscSqr(c->side[0].x[p->dim * j + d]);
+      if (c->active[j]) sum += square * PetscSqr(PETSC_MACHINE_EPSILON * (c->c[j] * c->w0[j] + PetscAbsReal(c->z[j])));
     }
   }
   return sum;
@@ -116,9 +117,12 @@ PetscErrorCode ProblemForces(Problem p, Vec x, PetscReal reaction[][3], PetscRea
     const PetscReal *at   = p->scene->mechanics.kinematics == KINEMATICS_SMALL ? s->X : s->x; /* where the forces act */
     PetscReal        f[3] = {0, 0, 0}, m[3] = {0, 0, 0};
     for (PetscInt n = 0; n < s->num_nodes; ++n) {
-      f[0] += s->force[2 * n];
-      f[1] += s->force[2 * n + 1];
-      m[2] += at[2 * n] * s->force[2 * n + 1] - at[2 * n + 1] * s->force[2 * n];
+      const PetscReal *q = s->force + p->dim * n, *y = at + p->dim * n;
+      for (PetscInt d = 0; d < p->dim; ++d) f[d] += q[d];
+      m[2] += y[0] * q[1] - y[1] * q[0];
+      if (p->dim == 2) continue;
+      m[0] += y[1] * q[2] - y[2] * q[1];
+      m[1] += y[2] * q[0] - y[0] * q[2];
     }
     if (force) PetscCall(PetscArraycpy(force[i], f, 3));
     if (moment) PetscCall(PetscArraycpy(moment[i], m, 3));

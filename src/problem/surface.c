@@ -1,62 +1,156 @@
-/* Replicated curves of facets for contact in two dimensions: topology, positions, places of their dofs in the problem's vector. */
+/* Replicated surfaces of facets for contact: topology, positions, places of their dofs in the problem's vector. */
 #include "problemimpl.h"
 
 /* Ends of a leaf's side in the order that keeps the body on the left. */
-static PetscErrorCode EdgeVertices_Private(const ForestTables *t, PetscInt facet, PetscInt leaf, PetscInt vertex[2])
+static void EdgeVertices_Private(const PetscInt *cl, PetscInt index, PetscInt vertex[])
 {
-  const PetscInt *cl    = t->closure + t->closure_offset[t->first[2] + leaf];
-  PetscInt        index = 0;
-
-  PetscFunctionBegin;
-  while (cl[index] != facet) ++index;
   const PetscInt  direction = index % 3 == 1 ? 1 : 0, high = (direction == 0 ? index % 3 : index / 3) == 2;
   const PetscInt  stride = direction == 0 ? 3 : 1, base = index - stride; /* the two ends lie one stride below and above */
   const PetscBool keep = (PetscBool)((direction == 0) == (high == 1));
   vertex[0]            = cl[keep ? base : index + stride];
   vertex[1]            = cl[keep ? index + stride : base];
-  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Corners of a hexahedron's side, counterclockwise seen from outside. */
+static void FaceVertices_Private(const PetscInt *cl, PetscInt index, PetscInt vertex[])
+{
+  const PetscInt stride[3] = {1, 3, 9}, place[3] = {index % 3, index / 3 % 3, index / 9};
+  const PetscInt d = place[0] != 1 ? 0 : place[1] != 1 ? 1 : 2, a = stride[(d + 1) % 3], b = stride[(d + 2) % 3];
+  const PetscInt around[4] = {index - a - b, index + a - b, index + a + b, index - a + b};
+  for (PetscInt k = 0; k < 4; ++k) vertex[k] = cl[around[place[d] == 2 ? k : 3 - k]];
+}
+
+static void FacetVertices_Private(const ForestTables *t, PetscInt facet, PetscInt leaf, PetscInt vertex[])
+{
+  const PetscInt *cl    = t->closure + t->closure_offset[t->first[t->dim] + leaf];
+  PetscInt        index = 0;
+  while (cl[index] != facet) ++index;
+  if (t->dim == 2)
+    EdgeVertices_Private(cl, index, vertex);
+  else
+    FaceVertices_Private(cl, index, vertex);
 }
 
 static PetscErrorCode SurfaceTopology_Private(const ForestTables *t, PetscInt group, Surface *s)
 {
-  PetscInt *number;
+  const PetscInt first = t->first[t->dim - 1], last = t->first[t->dim];
+  PetscInt      *number;
 
   PetscFunctionBegin;
+  s->dim     = t->dim;
+  s->corners = t->dim == 2 ? 2 : 4;
   PetscCall(PetscMalloc1(t->first[1], &number));
   for (PetscInt v = 0; v < t->first[1]; ++v) number[v] = -1;
-  for (PetscInt f = t->first[1]; f < t->first[2]; ++f) s->num_edges += (t->boundary[f] >> group) & 1;
-  PetscCall(PetscMalloc3(2 * s->num_edges, &s->edges, s->num_edges, &s->edge_leaf, 2 * s->num_edges, &s->node_entity));
-  s->num_edges = 0;
-  for (PetscInt f = t->first[1]; f < t->first[2]; ++f) {
-    const PetscInt *leaf = t->facet_leaf + 2 * (f - t->first[1]);
-    PetscInt        vertex[2];
+  for (PetscInt f = first; f < last; ++f) s->num_facets += (t->boundary[f] >> group) & 1;
+  PetscCall(PetscMalloc3(s->corners * s->num_facets, &s->facets, s->num_facets, &s->facet_leaf, s->corners * s->num_facets, &s->node_entity));
+  PetscCall(PetscMalloc1(s->num_facets, &s->facet_entity));
+  s->num_facets = 0;
+  for (PetscInt f = first; f < last; ++f) {
+    const PetscInt *leaf = t->facet_leaf + 2 * (f - first);
+    PetscInt        vertex[4];
     if (!((t->boundary[f] >> group) & 1) || leaf[0] < 0 || leaf[1] >= 0 || t->parent[f] >= 0) continue;
-    PetscCall(EdgeVertices_Private(t, f, leaf[0], vertex));
-    for (PetscInt k = 0; k < 2; ++k) {
+    FacetVertices_Private(t, f, leaf[0], vertex);
+    for (PetscInt k = 0; k < s->corners; ++k) {
       if (number[vertex[k]] < 0) {
         number[vertex[k]]              = s->num_nodes;
         s->node_entity[s->num_nodes++] = vertex[k];
       }
-      s->edges[2 * s->num_edges + k] = number[vertex[k]];
+      s->facets[s->corners * s->num_facets + k] = number[vertex[k]];
     }
-    s->edge_leaf[s->num_edges++] = leaf[0];
+    s->facet_entity[s->num_facets] = f;
+    s->facet_leaf[s->num_facets++] = leaf[0];
   }
   PetscCall(PetscFree(number));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Masters of a vertex that hangs on an edge: its ends with half of each, resolved until none hangs. Contact faces have order 1. */
+static PetscErrorCode AddMasters_Private(const ForestTables *t, PetscInt vertex, PetscReal weight, PetscInt *num, PetscInt master[], PetscReal share[])
+{
+  const PetscInt parent = t->parent[vertex];
+
+  PetscFunctionBegin;
+  if (parent >= 0) {
+    const PetscInt *cl = t->closure + t->closure_offset[parent];
+    PetscCheck(parent < t->first[2], PETSC_COMM_SELF, PETSC_ERR_PLIB, "vertex of a contact surface hangs inside a face");
+    PetscCall(AddMasters_Private(t, cl[0], 0.5 * weight, num, master, share));
+    PetscCall(AddMasters_Private(t, cl[2], 0.5 * weight, num, master, share));
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
+  for (PetscInt k = 0; k < *num; ++k) {
+    if (master[k] != vertex) continue;
+    share[k] += weight;
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
+  PetscCheck(*num < MOST_MASTERS, PETSC_COMM_SELF, PETSC_ERR_PLIB, "hanging vertex with more than %d masters", MOST_MASTERS);
+  master[*num]    = vertex;
+  share[(*num)++] = weight;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode SurfaceHanging_Private(const ForestTables *t, Surface *s)
+{
+  PetscInt *number, num = 0, room = MOST_MASTERS * s->num_nodes;
+
+  PetscFunctionBegin;
+  PetscCall(PetscCalloc1(s->num_nodes + 1, &s->hang));
+  if (s->dim == 2) PetscFunctionReturn(PETSC_SUCCESS); /* a vertex of a curve hangs on nothing */
+  PetscCall(PetscMalloc2(room, &s->hang_master, room, &s->hang_weight));
+  PetscCall(PetscMalloc1(t->first[1], &number));
+  for (PetscInt v = 0; v < t->first[1]; ++v) number[v] = -1;
+  for (PetscInt n = 0; n < s->num_nodes; ++n) number[s->node_entity[n]] = n;
+  for (PetscInt n = 0; n < s->num_nodes; ++n) {
+    PetscInt count = 0;
+    if (t->parent[s->node_entity[n]] >= 0) PetscCall(AddMasters_Private(t, s->node_entity[n], 1, &count, s->hang_master + num, s->hang_weight + num));
+    for (PetscInt k = num; k < num + count; ++k) {
+      s->hang_master[k] = number[s->hang_master[k]];
+      PetscCheck(s->hang_master[k] >= 0, PETSC_COMM_SELF, PETSC_ERR_PLIB, "a vertex of a contact surface hangs on one outside of it");
+    }
+    num += count;
+    s->hang[n + 1] = num;
+  }
+  PetscCall(PetscFree(number));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Visit the nodes that carry a facet's shape: its own, hanging ones replaced by their masters. */
+static PetscInt FacetNodes_Private(const Surface *s, PetscInt facet, PetscInt nodes[])
+{
+  PetscInt num = 0;
+  for (PetscInt k = 0; k < s->corners; ++k) {
+    const PetscInt n = s->facets[s->corners * facet + k];
+    if (s->hang[n] == s->hang[n + 1]) nodes[num++] = n;
+    for (PetscInt i = s->hang[n]; i < s->hang[n + 1]; ++i) nodes[num++] = s->hang_master[i];
+  }
+  (void)PetscSortRemoveDupsInt(&num, nodes);
+  return num;
+}
+
+/* Facets at each node that does not hang. */
 static PetscErrorCode SurfaceNeighbours_Private(Surface *s)
 {
+  PetscInt nodes[4 * MOST_MASTERS];
+
   PetscFunctionBegin;
-  PetscCall(PetscMalloc1(2 * s->num_nodes, &s->node_edge));
-  for (PetscInt n = 0; n < 2 * s->num_nodes; ++n) s->node_edge[n] = -1;
-  for (PetscInt e = 0; e < s->num_edges; ++e) {
-    for (PetscInt k = 0; k < 2; ++k) {
-      const PetscInt n = s->edges[2 * e + k];
-      PetscCheckInput(s->node_edge[2 * n + (k == 0)] < 0,
-                      "contact: a surface branches at one of its points, or runs through it twice; give its parts names of their own");
-      s->node_edge[2 * n + (k == 0)] = e; /* 0: the edge that ends here, 1: the one that begins */
+  PetscCall(PetscCalloc1(s->num_nodes + 2, &s->node_first));
+  for (PetscInt pass = 0; pass < 2; ++pass) {
+    for (PetscInt f = 0; f < s->num_facets; ++f) {
+      const PetscInt num = FacetNodes_Private(s, f, nodes);
+      for (PetscInt k = 0; k < num; ++k) {
+        if (pass == 0)
+          s->node_first[nodes[k] + 2]++;
+        else
+          s->node_facet[s->node_first[nodes[k] + 1]++] = f;
+      }
     }
+    if (pass == 1) break;
+    for (PetscInt n = 0; n < s->num_nodes; ++n) s->node_first[n + 2] += s->node_first[n + 1];
+    PetscCall(PetscMalloc1(s->node_first[s->num_nodes + 1], &s->node_facet));
+  }
+  for (PetscInt n = 0; s->dim == 2 && n < s->num_nodes; ++n) {
+    const PetscInt *at = s->node_facet + s->node_first[n], num = s->node_first[n + 1] - s->node_first[n];
+    PetscCheckInput(num == 1 || (num == 2 && (s->facets[2 * at[0]] == n) != (s->facets[2 * at[1]] == n)),
+                    "contact: a surface branches at one of its points, or runs through it twice; give its parts names of their own");
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -65,10 +159,10 @@ static PetscErrorCode SurfaceNeighbours_Private(Surface *s)
    surface is no such plane: the image would cancel the normal. */
 static void NodeMirror_Private(Surface *s, PetscInt n, PetscInt fixed)
 {
-  if (s->node_edge[2 * n] >= 0 && s->node_edge[2 * n + 1] >= 0) return;
+  if (s->node_first[n + 1] - s->node_first[n] > 1) return;
   if (fixed != 1 && fixed != 2) return;
-  const PetscInt   k = fixed == 1 ? 0 : 1, edge = PetscMax(s->node_edge[2 * n], s->node_edge[2 * n + 1]);
-  const PetscReal *plane = s->frame + 4 * n + 2 * k, *a = s->X + 2 * s->edges[2 * edge], *b = s->X + 2 * s->edges[2 * edge + 1];
+  const PetscInt   k = fixed == 1 ? 0 : 1, edge = s->node_facet[s->node_first[n]];
+  const PetscReal *plane = s->frame + 4 * n + 2 * k, *a = s->X + 2 * s->facets[2 * edge], *b = s->X + 2 * s->facets[2 * edge + 1];
   const PetscReal  along = plane[0] * (b[0] - a[0]) + plane[1] * (b[1] - a[1]), across = plane[0] * (b[1] - a[1]) - plane[1] * (b[0] - a[0]);
   if (PetscAbsReal(along) < PetscAbsReal(across)) return;
   for (PetscInt c = 0; c < 2; ++c) s->mirror[2 * n + c] = s->frame[4 * n + 2 * k + c];
@@ -77,48 +171,46 @@ static void NodeMirror_Private(Surface *s, PetscInt n, PetscInt fixed)
 /* Fields every rank needs of nodes it may not have: one reduction from the owners. */
 static PetscErrorCode SurfaceFields_Private(Problem p, Surface *s)
 {
+  const PetscInt      dim = s->dim, room = dim + dim * dim + 1; /* of a node: position, frame, fixed bits */
   const HPTables     *v;
   const ForestTables *t;
-  const PetscInt     *point_entity;
-  PetscInt            num_points, owned_cells;
+  PetscInt           *number;
   PetscReal          *buffer;
-  DM                  dm;
 
   PetscFunctionBegin;
   PetscCall(HPSpaceGetTables(p->space, &v));
   PetscCall(ForestGetTables(p->forest, &t));
-  PetscCall(ForestGetLeafDM(p->forest, &dm, &owned_cells, &num_points, &point_entity));
-  PetscCall(PetscMalloc3(s->num_nodes, &s->local, s->num_nodes, &s->owned, 2 * s->num_nodes, &s->dof));
-  PetscCall(PetscCalloc4(2 * s->num_nodes, &s->X, 2 * s->num_nodes, &s->x, 2 * s->num_nodes, &s->mirror, 4 * s->num_nodes, &s->frame));
-  PetscCall(PetscCalloc2(2 * s->num_nodes, &s->du, 2 * s->num_nodes, &s->force));
-  PetscInt *number;
+  PetscCall(PetscMalloc3(s->num_nodes, &s->local, s->num_nodes, &s->owned, dim * s->num_nodes, &s->dof));
+  PetscCall(PetscCalloc4(dim * s->num_nodes, &s->X, dim * s->num_nodes, &s->x, dim * s->num_nodes, &s->mirror, dim * dim * s->num_nodes, &s->frame));
+  PetscCall(PetscCalloc2(dim * s->num_nodes, &s->du, dim * s->num_nodes, &s->force));
   PetscCall(PetscMalloc1(t->first[1], &number));
   for (PetscInt e = 0; e < t->first[1]; ++e) number[e] = -1;
   for (PetscInt n = 0; n < v->num_nodes; ++n) {
     if (v->node_entity[n] < t->first[1]) number[v->node_entity[n]] = n;
   }
-  PetscCall(PetscCalloc1(7 * s->num_nodes, &buffer));
+  PetscCall(PetscCalloc1(room * s->num_nodes, &buffer));
   for (PetscInt n = 0; n < s->num_nodes; ++n) {
     s->local[n] = number[s->node_entity[n]];
     s->owned[n] = (PetscBool)(t->leaf_rank[t->entity_leaf[s->node_entity[n]]] == p->rank);
     if (!s->owned[n]) continue;
     const PetscReal *frame;
-    PetscReal       *b = buffer + 7 * n;
+    PetscReal       *b = buffer + room * n;
     PetscCall(HPSpaceGetFrame(p->space, s->local[n], &frame));
-    for (PetscInt c = 0; c < 2; ++c) b[c] = v->X[3 * s->local[n] + c];
-    for (PetscInt k = 0; k < 2; ++k)
-      for (PetscInt c = 0; c < 2; ++c) b[2 + 2 * k + c] = frame ? frame[3 * k + c] : (PetscReal)(k == c);
-    b[6] = p->supports.fixed[s->local[n]];
+    for (PetscInt c = 0; c < dim; ++c) b[c] = v->X[3 * s->local[n] + c];
+    for (PetscInt k = 0; k < dim; ++k)
+      for (PetscInt c = 0; c < dim; ++c) b[dim + dim * k + c] = frame ? frame[3 * k + c] : (PetscReal)(k == c);
+    b[room - 1] = p->supports.fixed[s->local[n]];
+    if (s->hang[n + 1] > s->hang[n]) s->owned[n] = PETSC_FALSE; /* its position is its own, its unknowns are its masters' */
   }
   PetscCall(PetscFree(number));
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, buffer, (PetscMPIInt)(7 * s->num_nodes), MPIU_REAL, MPI_SUM, p->comm));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, buffer, (PetscMPIInt)(room * s->num_nodes), MPIU_REAL, MPI_SUM, p->comm));
   for (PetscInt n = 0; n < s->num_nodes; ++n) {
-    PetscCall(PetscArraycpy(s->X + 2 * n, buffer + 7 * n, 2));
-    PetscCall(PetscArraycpy(s->frame + 4 * n, buffer + 7 * n + 2, 4));
-    s->dof[2 * n] = s->dof[2 * n + 1] = (PetscInt)buffer[7 * n + 6]; /* the fixed bits, until the indices are known */
+    PetscCall(PetscArraycpy(s->X + dim * n, buffer + room * n, dim));
+    PetscCall(PetscArraycpy(s->frame + dim * dim * n, buffer + room * n + dim, dim * dim));
+    for (PetscInt c = 0; c < dim; ++c) s->dof[dim * n + c] = (PetscInt)buffer[room * n + room - 1]; /* the fixed bits, until the indices are known */
   }
-  for (PetscInt n = 0; n < s->num_nodes; ++n) NodeMirror_Private(s, n, s->dof[2 * n]);
-  PetscCall(PetscArraycpy(s->x, s->X, 2 * s->num_nodes));
+  for (PetscInt n = 0; dim == 2 && n < s->num_nodes; ++n) NodeMirror_Private(s, n, s->dof[2 * n]);
+  PetscCall(PetscArraycpy(s->x, s->X, dim * s->num_nodes));
   PetscCall(PetscFree(buffer));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -131,6 +223,7 @@ PetscErrorCode SurfaceCreate_Private(Problem p, PetscInt group, Surface *s)
   PetscCall(PetscMemzero(s, sizeof(*s)));
   PetscCall(ForestGetTables(p->forest, &t));
   PetscCall(SurfaceTopology_Private(t, group, s));
+  PetscCall(SurfaceHanging_Private(t, s));
   PetscCall(SurfaceNeighbours_Private(s));
   PetscCall(SurfaceFields_Private(p, s));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -139,36 +232,65 @@ PetscErrorCode SurfaceCreate_Private(Problem p, PetscInt group, Surface *s)
 PetscErrorCode SurfaceDestroy_Private(Surface *s)
 {
   PetscFunctionBegin;
-  PetscCall(PetscFree3(s->edges, s->edge_leaf, s->node_entity));
-  PetscCall(PetscFree(s->node_edge));
+  PetscCall(PetscFree3(s->facets, s->facet_leaf, s->node_entity));
+  PetscCall(PetscFree(s->facet_entity));
+  PetscCall(PetscFree(s->hang));
+  PetscCall(PetscFree2(s->hang_master, s->hang_weight));
+  PetscCall(PetscFree(s->node_first));
+  PetscCall(PetscFree(s->node_facet));
   PetscCall(PetscFree3(s->local, s->owned, s->dof));
   PetscCall(PetscFree4(s->X, s->x, s->mirror, s->frame));
   PetscCall(PetscFree2(s->du, s->force));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Indices of the nodes' dofs in the problem's vector, from their owners (stored +2 so that a sum works and -1 survives). */
+/* What the contact module is told about the surface at positions x. */
+ContactSurface SurfaceAt_Private(const Surface *s, const PetscReal x[])
+{
+  return (ContactSurface){s->dim, s->num_nodes, s->num_facets, s->facets, x, s->mirror, s->hang, s->hang_master, s->hang_weight};
+}
+
+/* Indices of the nodes' dofs in the problem's vector, from their owners (stored +2 so that a sum works and -1 survives); hanging nodes have none. */
 PetscErrorCode SurfaceIndices_Private(Problem p, Surface *s)
 {
+  const PetscInt dim = s->dim;
+
   PetscFunctionBegin;
   for (PetscInt n = 0; n < s->num_nodes; ++n) {
-    for (PetscInt c = 0; c < 2; ++c) s->dof[2 * n + c] = s->owned[n] ? p->index[s->local[n] * 2 + c] + 2 : 0;
+    for (PetscInt c = 0; c < dim; ++c) s->dof[dim * n + c] = s->owned[n] ? p->index[s->local[n] * dim + c] + 2 : 0;
   }
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, s->dof, (PetscMPIInt)(2 * s->num_nodes), MPIU_INT, MPI_SUM, p->comm));
-  for (PetscInt n = 0; n < 2 * s->num_nodes; ++n) s->dof[n] -= 2;
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, s->dof, (PetscMPIInt)(dim * s->num_nodes), MPIU_INT, MPI_SUM, p->comm));
+  for (PetscInt n = 0; n < s->num_nodes; ++n) {
+    for (PetscInt c = 0; c < dim; ++c) s->dof[dim * n + c] = s->hang[n + 1] > s->hang[n] ? -1 : s->dof[dim * n + c] - 2;
+  }
   PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* values of hanging nodes from their masters, num of them per node. */
+void SurfaceFollow_Private(const Surface *s, PetscInt num, PetscReal values[])
+{
+  for (PetscInt n = 0; n < s->num_nodes; ++n) {
+    if (s->hang[n] == s->hang[n + 1]) continue;
+    for (PetscInt c = 0; c < num; ++c) values[num * n + c] = 0;
+    for (PetscInt k = s->hang[n]; k < s->hang[n + 1]; ++k)
+      for (PetscInt c = 0; c < num; ++c) values[num * n + c] += s->hang_weight[k] * values[num * s->hang_master[k] + c];
+  }
 }
 
 PetscErrorCode SurfaceGather_Private(Problem p, const Surface *s, const PetscReal local[], const PetscReal base[], PetscReal values[])
 {
+  const PetscInt dim = s->dim;
+
   PetscFunctionBegin;
   for (PetscInt n = 0; n < s->num_nodes; ++n) {
-    for (PetscInt c = 0; c < 2; ++c) {
-      const PetscReal *q = s->frame + 4 * n, *dof = local + 2 * s->local[n];
-      values[2 * n + c] = s->owned[n] ? q[c] * dof[0] + q[2 + c] * dof[1] : 0;
+    for (PetscInt c = 0; c < dim; ++c) {
+      PetscReal sum = 0;
+      for (PetscInt k = 0; s->owned[n] && k < dim; ++k) sum += s->frame[dim * (dim * n + k) + c] * local[dim * s->local[n] + k];
+      values[dim * n + c] = sum;
     }
   }
-  if (p->size > 1) PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, values, (PetscMPIInt)(2 * s->num_nodes), MPIU_REAL, MPI_SUM, p->comm));
-  for (PetscInt n = 0; base && n < 2 * s->num_nodes; ++n) values[n] += base[n];
+  if (p->size > 1) PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, values, (PetscMPIInt)(dim * s->num_nodes), MPIU_REAL, MPI_SUM, p->comm));
+  SurfaceFollow_Private(s, dim, values);
+  for (PetscInt n = 0; base && n < dim * s->num_nodes; ++n) values[n] += base[n];
   PetscFunctionReturn(PETSC_SUCCESS);
 }

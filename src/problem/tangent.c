@@ -34,30 +34,32 @@ static PetscErrorCode CellSink_Private(void *context, PetscInt num, const PetscI
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Indices of an edge's nodal dofs (2*num, -1 where prescribed or absent) and their frames. */
-static void EdgeDofs_Private(const Contact *c, const ContactEdge *e, PetscInt dofs[], const PetscReal *frame[])
+/* Indices of a facet's nodal dofs (dim*num, -1 where prescribed) and their frames. */
+static void FacetDofs_Private(const Contact *c, const ContactFacet *e, PetscInt dofs[], const PetscReal *frame[])
 {
+  const PetscInt dim = c->side[0].dim;
   for (PetscInt a = 0; a < e->num; ++a) {
     const Surface *s = &c->side[NODE_SIDE(e->nodes[a])];
     const PetscInt n = NODE_INDEX(e->nodes[a]);
-    dofs[2 * a]      = s->dof[2 * n];
-    dofs[2 * a + 1]  = s->dof[2 * n + 1];
-    frame[a]         = s->frame + 4 * n;
+    for (PetscInt d = 0; d < dim; ++d) dofs[dim * a + d] = s->dof[dim * n + d];
+    frame[a] = s->frame + dim * dim * n;
   }
 }
 
 /* Components along the rows of the frame. */
-static inline void Turn_Private(const PetscReal *q, PetscReal v[2], PetscInt stride)
+static inline void Turn_Private(PetscInt dim, const PetscReal *q, PetscReal v[], PetscInt stride)
 {
-  if (!q) return;
-  const PetscReal a = v[0], b = v[stride];
-  v[0]      = q[0] * a + q[1] * b;
-  v[stride] = q[2] * a + q[3] * b;
+  PetscReal t[3];
+  for (PetscInt d = 0; d < dim; ++d) {
+    t[d] = 0;
+    for (PetscInt a = 0; a < dim; ++a) t[d] += q[dim * d + a] * v[a * stride];
+  }
+  for (PetscInt d = 0; d < dim; ++d) v[d * stride] = t[d];
 }
 
-static PetscErrorCode EdgeHessian_Private(Problem p, const Contact *c, const ContactEdge *e, const PetscInt dofs[], const PetscReal *frame[])
+static PetscErrorCode FacetHessian_Private(Problem p, const Contact *c, const ContactFacet *e, const PetscInt dofs[], const PetscReal *frame[])
 {
-  const PetscInt n = 2 * e->num;
+  const PetscInt dim = p->dim, n = dim * e->num;
   PetscReal     *H;
 
   PetscFunctionBegin;
@@ -67,18 +69,18 @@ static PetscErrorCode EdgeHessian_Private(Problem p, const Contact *c, const Con
     for (PetscInt i = 0; i < n; ++i) {
       p->work_value[i] = 0;
       for (PetscInt b = 0; b < e->num; ++b) {
-        const PetscReal *du = c->side[NODE_SIDE(e->nodes[b])].du + 2 * NODE_INDEX(e->nodes[b]);
-        p->work_value[i] += H[i * n + 2 * b] * du[0] + H[i * n + 2 * b + 1] * du[1];
+        const PetscReal *du = c->side[NODE_SIDE(e->nodes[b])].du + dim * NODE_INDEX(e->nodes[b]);
+        for (PetscInt d = 0; d < dim; ++d) p->work_value[i] += H[i * n + dim * b + d] * du[d];
       }
     }
-    for (PetscInt a = 0; a < e->num; ++a) Turn_Private(frame[a], p->work_value + 2 * a, 1);
+    for (PetscInt a = 0; a < e->num; ++a) Turn_Private(dim, frame[a], p->work_value + dim * a, 1);
     PetscCall(VecSetValues(p->lift, n, dofs, p->work_value, ADD_VALUES));
   }
   for (PetscInt i = 0; i < n; ++i) {
-    for (PetscInt b = 0; b < e->num; ++b) Turn_Private(frame[b], H + i * n + 2 * b, 1);
+    for (PetscInt b = 0; b < e->num; ++b) Turn_Private(dim, frame[b], H + i * n + dim * b, 1);
   }
   for (PetscInt j = 0; j < n; ++j) {
-    for (PetscInt a = 0; a < e->num; ++a) Turn_Private(frame[a], H + 2 * a * n + j, n);
+    for (PetscInt a = 0; a < e->num; ++a) Turn_Private(dim, frame[a], H + dim * a * n + j, n);
   }
   PetscCall(MatSetValues(p->matrix, n, dofs, n, dofs, H, ADD_VALUES));
   PetscCall(PetscFree(H));
@@ -87,26 +89,28 @@ static PetscErrorCode EdgeHessian_Private(Problem p, const Contact *c, const Con
 
 PetscErrorCode ContactBlocks_Private(Problem p, Contact *c)
 {
+  const PetscInt dim = p->dim;
+
   PetscFunctionBegin;
   if (p->lifting)
     PetscCall(ContactChange_Private(p, c, p->increment, c->lift));
   else
     PetscCall(PetscArrayzero(c->lift, c->side[0].num_nodes));
-  for (PetscInt i = 0; i < c->num_edges; ++i) {
-    const ContactEdge *e = &c->edges[i];
-    const PetscInt     n = 2 * e->num;
-    const PetscReal  **frame;
-    PetscInt          *dofs;
-    if (!c->mine[e->edge]) continue;
+  for (PetscInt i = 0; i < c->num_facets; ++i) {
+    const ContactFacet *e = &c->facets[i];
+    const PetscInt      n = dim * e->num;
+    const PetscReal   **frame;
+    PetscInt           *dofs;
+    if (!c->mine[e->facet] || !e->dgap) continue;
     PetscCall(ProblemWork_Private(p, n));
     PetscCall(PetscMalloc2(n, &dofs, e->num, &frame));
-    EdgeDofs_Private(c, e, dofs, frame);
-    if (e->hessian) PetscCall(EdgeHessian_Private(p, c, e, dofs, frame));
-    for (PetscInt k = 0; k < 2 && !p->symmetric; ++k) {
-      const PetscInt z = c->zdof[e->node[k]];
-      if (z < 0) continue;
+    FacetDofs_Private(c, e, dofs, frame);
+    if (e->hessian) PetscCall(FacetHessian_Private(p, c, e, dofs, frame));
+    for (PetscInt k = 0; k < e->num_rows && !p->symmetric; ++k) {
+      const PetscInt z = c->zdof[e->nodes[k]];
+      if (z < 0 || !c->near[e->nodes[k]]) continue;
       for (PetscInt a = 0; a < n; ++a) p->work_value[a] = -e->dgap[k * n + a];
-      for (PetscInt a = 0; a < e->num; ++a) Turn_Private(frame[a], p->work_value + 2 * a, 1);
+      for (PetscInt a = 0; a < e->num; ++a) Turn_Private(dim, frame[a], p->work_value + dim * a, 1);
       PetscCall(MatSetValues(p->matrix, n, dofs, 1, &z, p->work_value, ADD_VALUES));
     }
     PetscCall(PetscFree2(dofs, frame));
@@ -114,38 +118,50 @@ PetscErrorCode ContactBlocks_Private(Problem p, Contact *c)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Collects the gradient of node j's normalised gap, times a factor, from its (at most two) edges: over the whole pattern, sorted indices, so that a
-   switch leaves nothing of another form behind. normalised false: the plain gradient of gt_j. */
+/* Room that the row of node j takes. */
+static PetscInt RowSize_Private(const Contact *c, PetscInt j)
+{
+  const Surface *s   = &c->side[0];
+  PetscInt       num = 1;
+  for (PetscInt k = s->node_first[j]; k < s->node_first[j + 1]; ++k) num += ContactPatternSize_Private(c, s->node_facet[k]);
+  return num;
+}
+
+/* Collects the gradient of node j's normalised gap, times a factor, from its facets: over the whole pattern, sorted indices, so that a
+   switch leaves nothing of another form behind. normalised false: the plain gradient of gt_j. dofs, values: [RowSize_Private]. */
 static PetscErrorCode NodeGradient_Private(Problem p, const Contact *c, PetscInt j, PetscReal factor, PetscBool normalised, PetscInt dofs[], PetscReal values[],
                                            PetscInt *num)
 {
-  const Surface *s = &c->side[0];
-  PetscInt       at;
+  const Surface  *s    = &c->side[0];
+  const PetscInt  dim  = p->dim;
+  const PetscReal mean = normalised && c->active[j] ? c->gap[j] / c->weight[j] : 0;
+  PetscInt        at;
 
   PetscFunctionBegin;
   *num = 0;
-  for (PetscInt k = 0; k < 2; ++k) {
-    if (s->node_edge[2 * j + k] >= 0) *num += ContactPatternDofs_Private(c, s->node_edge[2 * j + k], dofs + *num);
-  }
+  for (PetscInt k = s->node_first[j]; k < s->node_first[j + 1] && c->near[j]; ++k) *num += ContactPatternDofs_Private(c, s->node_facet[k], dofs + *num);
   dofs[(*num)++] = c->zdof[j];
   PetscCall(PetscSortRemoveDupsInt(num, dofs));
   PetscCall(PetscArrayzero(values, *num));
-  for (PetscInt k = 0; factor != 0 && k < 2; ++k) {
-    const PetscInt edge = s->node_edge[2 * j + k];
-    if (edge < 0 || c->result[edge] < 0) continue;
-    const ContactEdge *e   = &c->edges[c->result[edge]];
-    const PetscInt     row = e->node[0] == j ? 0 : 1, n = 2 * e->num;
-    const PetscReal    mean = normalised ? c->gap[j] / c->weight[j] : 0;
+  for (PetscInt k = s->node_first[j]; factor != 0 && k < s->node_first[j + 1]; ++k) {
+    const PetscInt facet = s->node_facet[k];
+    if (c->result[facet] < 0) continue;
+    const ContactFacet *e   = &c->facets[c->result[facet]];
+    const PetscInt      n   = dim * e->num;
+    PetscInt            row = 0;
+    while (row < e->num_rows && e->nodes[row] != j) ++row;
+    if (row == e->num_rows || !e->dgap) continue;
     for (PetscInt a = 0; a < e->num; ++a) {
-      const Surface  *side = &c->side[NODE_SIDE(e->nodes[a])];
-      const PetscInt  node = NODE_INDEX(e->nodes[a]);
-      const PetscReal g[2] = {e->dgap[row * n + 2 * a] - mean * e->dweight[row * n + 2 * a],
-                              e->dgap[row * n + 2 * a + 1] - mean * e->dweight[row * n + 2 * a + 1]};
-      for (PetscInt d = 0; d < 2; ++d) {
-        if (side->dof[2 * node + d] < 0) continue;
-        PetscCall(PetscFindInt(side->dof[2 * node + d], *num, dofs, &at));
-        PetscCheck(at >= 0, PETSC_COMM_SELF, PETSC_ERR_PLIB, "contact node outside the pattern of its edge");
-        values[at] += factor * (side->frame[4 * node + 2 * d] * g[0] + side->frame[4 * node + 2 * d + 1] * g[1]);
+      const Surface *side = &c->side[NODE_SIDE(e->nodes[a])];
+      const PetscInt node = NODE_INDEX(e->nodes[a]);
+      PetscReal      g[3] = {0, 0, 0};
+      for (PetscInt d = 0; d < dim; ++d) g[d] = e->dgap[row * n + dim * a + d] - mean * e->dweight[row * n + dim * a + d];
+      Turn_Private(dim, side->frame + dim * dim * node, g, 1);
+      for (PetscInt d = 0; d < dim; ++d) {
+        if (side->dof[dim * node + d] < 0) continue;
+        PetscCall(PetscFindInt(side->dof[dim * node + d], *num, dofs, &at));
+        PetscCheck(at >= 0, PETSC_COMM_SELF, PETSC_ERR_PLIB, "contact node outside the pattern of its facet");
+        values[at] += factor * g[d];
       }
     }
   }
@@ -162,7 +178,7 @@ PetscErrorCode ContactInsertRow_Private(Problem p, Contact *c, PetscInt j)
   PetscReal      *values;
 
   PetscFunctionBegin;
-  PetscCall(PetscMalloc2(2 * MOST_PATTERN_DOFS, &dofs, 2 * MOST_PATTERN_DOFS, &values));
+  PetscCall(PetscMalloc2(RowSize_Private(c, j), &dofs, RowSize_Private(c, j), &values));
   PetscCall(NodeGradient_Private(p, c, j, c->active[j] ? active : 0, PETSC_TRUE, dofs, values, &num));
   PetscCall(PetscFindInt(c->zdof[j], num, dofs, &at));
   if (!c->active[j]) values[at] = p->symmetric ? -c->w0[j] / c->c[j] : c->w0[j];
@@ -190,8 +206,8 @@ static PetscErrorCode InactiveShift_Private(Problem p, Contact *c, PetscInt j, P
   PetscReal *values;
 
   PetscFunctionBegin;
-  if (!p->symmetric || c->z[j] == 0) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(PetscMalloc2(2 * MOST_PATTERN_DOFS, &dofs, 2 * MOST_PATTERN_DOFS, &values));
+  if (!p->symmetric || c->z[j] == 0 || !c->near[j]) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(PetscMalloc2(RowSize_Private(c, j), &dofs, RowSize_Private(c, j), &values));
   PetscCall(NodeGradient_Private(p, c, j, -share * c->z[j], PETSC_FALSE, dofs, values, &num));
   PetscCall(PetscFindInt(c->zdof[j], num, dofs, &at));
   values[at] = 0;
@@ -313,7 +329,7 @@ static PetscErrorCode ContactSwitch_Private(Problem p, Contact *c, const PetscRe
   PetscFunctionBegin;
   PetscCall(ContactChange_Private(p, c, p->increment, c->change));
   for (PetscInt j = 0; j < c->side[0].num_nodes; ++j) {
-    if (!c->has_multiplier[j] || !ContactCovered_Private(c, j)) continue;
+    if (!c->has_multiplier[j] || !c->near[j] || !ContactCovered_Private(c, j)) continue;
     const PetscReal pushed = c->z[j] + dz[j] - c->c[j] * (c->gap[j] + c->change[j]) / c->weight[j];
     const PetscBool active = (PetscBool)(pushed > 0);
     if (active == c->active[j]) continue;

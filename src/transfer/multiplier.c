@@ -22,12 +22,12 @@ static PetscErrorCode LeafEdges_Private(PetscInt num_leaves, const SurfaceView *
 
   PetscFunctionBegin;
   PetscCall(PetscCalloc1(num_leaves + 1, first));
-  PetscCall(PetscMalloc1(s->num_edges, edge));
+  PetscCall(PetscMalloc1(s->num_facets, edge));
   PetscCall(PetscMalloc1(num_leaves + 1, &next));
-  for (PetscInt e = 0; e < s->num_edges; ++e) (*first)[s->edge_leaf[e] + 1]++;
+  for (PetscInt e = 0; e < s->num_facets; ++e) (*first)[s->facet_leaf[e] + 1]++;
   for (PetscInt l = 0; l < num_leaves; ++l) (*first)[l + 1] += (*first)[l];
   PetscCall(PetscArraycpy(next, *first, num_leaves + 1));
-  for (PetscInt e = 0; e < s->num_edges; ++e) (*edge)[next[s->edge_leaf[e]]++] = e;
+  for (PetscInt e = 0; e < s->num_facets; ++e) (*edge)[next[s->facet_leaf[e]]++] = e;
   PetscCall(PetscFree(next));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -58,14 +58,14 @@ PetscErrorCode TransferMultiplier_Private(const ForestTables *old_t, const Surfa
   PetscFunctionBegin;
   PetscCall(LeafEdges_Private(old_t->num_leaves, old_view, &first, &edge));
   PetscCall(PetscArrayzero(new_z, new_view->num_nodes));
-  for (PetscInt i = 0; i < 2 * new_view->num_edges; ++i) { /* ends of new edges: most nodes twice, with the same result */
-    const PetscInt leaf = new_view->edge_leaf[i / 2], node = new_view->edges[i];
+  for (PetscInt i = 0; i < 2 * new_view->num_facets; ++i) { /* ends of new edges: most nodes twice, with the same result */
+    const PetscInt leaf = new_view->facet_leaf[i / 2], node = new_view->facets[i];
     PetscInt       at[2], a[2], b[2];
     PetscBool      found = PETSC_FALSE;
     PetscCall(Corner_Private(new_t, leaf, new_view->node_entity[node], at));
     for (PetscInt l = map->old_first[leaf]; l < map->old_first[leaf] + map->old_count[leaf] && !found; ++l) {
       for (PetscInt k = first[l]; k < first[l + 1] && !found; ++k) {
-        const PetscInt *ends = old_view->edges + 2 * edge[k];
+        const PetscInt *ends = old_view->facets + 2 * edge[k];
         PetscReal       fraction;
         PetscCall(Corner_Private(old_t, l, old_view->node_entity[ends[0]], a));
         PetscCall(Corner_Private(old_t, l, old_view->node_entity[ends[1]], b));

@@ -27,7 +27,7 @@ static inline void ChainCreate(Chain *c, PetscInt num_nodes, PetscBool closed)
   c->x      = calloc((size_t)(2 * num_nodes), sizeof(PetscReal));
   c->mirror = calloc((size_t)(2 * num_nodes), sizeof(PetscReal));
   for (PetscInt e = 0; e < ne; e++) c->edges[2 * e] = e, c->edges[2 * e + 1] = (e + 1) % num_nodes;
-  c->s = (ContactSurface){num_nodes, ne, c->edges, c->x, c->mirror};
+  c->s = (ContactSurface){.dim = 2, .num_nodes = num_nodes, .num_facets = ne, .facets = c->edges, .x = c->x, .mirror = c->mirror};
 }
 
 static inline void ChainDestroy(Chain *c)
@@ -127,14 +127,14 @@ static inline void SumDestroy(Sum *s)
   free(s->hessian);
 }
 
-static inline void SumAdd(Sum *s, const ContactEdge *e, const PetscReal z[], PetscBool derivatives, PetscBool hessian)
+static inline void SumAdd(Sum *s, const ContactFacet *e, const PetscReal z[], PetscBool derivatives, PetscBool hessian)
 {
   const PetscInt n = 2 * e->num;
 
   for (int j = 0; j < 2; j++) {
-    s->gap[e->node[j]] += e->gap[j];
-    s->weight[e->node[j]] += e->weight[j];
-    if (z) s->S += z[e->node[j]] * e->gap[j];
+    s->gap[e->nodes[j]] += e->gap[j];
+    s->weight[e->nodes[j]] += e->weight[j];
+    if (z) s->S += z[e->nodes[j]] * e->gap[j];
   }
   s->area += e->area;
   s->min_gap = PetscMin(s->min_gap, e->min_gap);
@@ -142,9 +142,9 @@ static inline void SumAdd(Sum *s, const ContactEdge *e, const PetscReal z[], Pet
     const PetscInt na = e->nodes[a / 2], row = 2 * (na >= 0 ? na : s->nn + ~na) + a % 2;
 
     for (int j = 0; j < 2 && derivatives; j++) {
-      s->dgap[e->node[j] * s->size + row] += e->dgap[j * n + a];
-      s->dweight[e->node[j] * s->size + row] += e->dweight[j * n + a];
-      if (z) s->gradient[row] += z[e->node[j]] * e->dgap[j * n + a];
+      s->dgap[e->nodes[j] * s->size + row] += e->dgap[j * n + a];
+      s->dweight[e->nodes[j] * s->size + row] += e->dweight[j * n + a];
+      if (z) s->gradient[row] += z[e->nodes[j]] * e->dgap[j * n + a];
     }
     for (PetscInt b = 0; b < n && hessian; b++) {
       const PetscInt nb = e->nodes[b / 2], col = 2 * (nb >= 0 ? nb : s->nn + ~nb) + b % 2;
@@ -158,7 +158,7 @@ static inline void SumAdd(Sum *s, const ContactEdge *e, const PetscReal z[], Pet
 static inline void SumEvaluate(Sum *s, ContactPair pair, const Chain *nonmortar, const Chain *mortar, const PetscReal z[], PetscBool derivatives,
                                PetscBool hessian)
 {
-  const ContactEdge *edges;
+  const ContactFacet *edges;
 
   memset(s->gap, 0, (size_t)s->nn * sizeof(PetscReal));
   memset(s->weight, 0, (size_t)s->nn * sizeof(PetscReal));
@@ -168,17 +168,25 @@ static inline void SumEvaluate(Sum *s, ContactPair pair, const Chain *nonmortar,
   memset(s->hessian, 0, (size_t)(s->size * s->size) * sizeof(PetscReal));
   s->area = s->S = 0;
   s->min_gap     = PETSC_MAX_REAL;
-  CHECK_CALL(ContactPairEvaluate(pair, &nonmortar->s, &mortar->s, z, derivatives, hessian, &s->num, &edges, &s->failed));
+  CHECK_CALL(ContactPairEvaluate(pair, &nonmortar->s, &mortar->s, z, NULL, derivatives, hessian, &s->num, &edges, &s->failed));
   for (PetscInt i = 0; i < s->num; i++) SumAdd(s, &edges[i], z, derivatives, hessian);
+}
+
+/* A pair in two dimensions. */
+static inline void PairCreate(PetscBool axisymmetric, PetscBool node_to_segment, ContactPair *pair)
+{
+  const ContactSpec spec = {.node_to_segment = node_to_segment};
+
+  CHECK_CALL(ContactPairCreate(2, axisymmetric, &spec, pair));
 }
 
 /* Search over all nonmortar edges. */
 static inline void SearchAll(ContactPair pair, const Chain *nonmortar, const Chain *mortar, PetscReal distance, PetscReal margin)
 {
-  PetscInt *list = malloc((size_t)nonmortar->s.num_edges * sizeof(PetscInt));
+  PetscInt *list = malloc((size_t)nonmortar->s.num_facets * sizeof(PetscInt));
 
-  for (PetscInt e = 0; e < nonmortar->s.num_edges; e++) list[e] = e;
-  CHECK_CALL(ContactPairSearch(pair, &nonmortar->s, &mortar->s, nonmortar->s.num_edges, list, distance, margin));
+  for (PetscInt e = 0; e < nonmortar->s.num_facets; e++) list[e] = e;
+  CHECK_CALL(ContactPairSearch(pair, &nonmortar->s, &mortar->s, nonmortar->s.num_facets, list, distance, margin));
   free(list);
 }
 
@@ -203,7 +211,7 @@ static inline PetscReal *Unknown(Chain *nonmortar, Chain *mortar, PetscInt i)
 static inline void EvaluateOnce(Chain *nonmortar, Chain *mortar, PetscBool axisymmetric, PetscBool nts, PetscReal distance, const PetscReal z[],
                                 ContactPair *pair, Sum *s)
 {
-  CHECK_CALL(ContactPairCreate(axisymmetric, nts, pair));
+  PairCreate(axisymmetric, nts, pair);
   SearchAll(*pair, nonmortar, mortar, distance, 0);
   SumCreate(s, nonmortar->s.num_nodes, mortar->s.num_nodes);
   SumEvaluate(s, *pair, nonmortar, mortar, z, PETSC_TRUE, z ? PETSC_TRUE : PETSC_FALSE);

@@ -98,19 +98,19 @@ static void Quadrature(void **state)
   PetscReal        n[2][2];
 
   for (int fine = 0; fine < 2; fine++) {
-    const PetscInt     edge = 1;
-    Chain              nonmortar, mortar;
-    ContactPair        pair;
-    const ContactEdge *e;
-    PetscInt           num;
-    PetscBool          failed;
+    const PetscInt      edge = 1;
+    Chain               nonmortar, mortar;
+    ContactPair         pair;
+    const ContactFacet *e;
+    PetscInt            num;
+    PetscBool           failed;
 
     ChainCreate(&nonmortar, 4, PETSC_FALSE);
     memcpy(nonmortar.x, (const PetscReal[8]){2, -tilt, 1, 0, 0, 0, -1, -tilt}, 8 * sizeof(PetscReal));
     ChainLine(&mortar, fine ? 17 : 2, -3, y - 3 * slope, 3, y + 3 * slope);
-    CHECK_CALL(ContactPairCreate(PETSC_FALSE, PETSC_FALSE, &pair));
+    PairCreate(PETSC_FALSE, PETSC_FALSE, &pair);
     CHECK_CALL(ContactPairSearch(pair, &nonmortar.s, &mortar.s, 1, &edge, 1, 0));
-    CHECK_CALL(ContactPairEvaluate(pair, &nonmortar.s, &mortar.s, NULL, PETSC_FALSE, PETSC_FALSE, &num, &e, &failed));
+    CHECK_CALL(ContactPairEvaluate(pair, &nonmortar.s, &mortar.s, NULL, NULL, PETSC_FALSE, PETSC_FALSE, &num, &e, &failed));
     assert_int_equal(num, 1);
     for (int j = 0; j < 2; j++) gt[fine][j] = e[0].gap[j];
     CHECK_CALL(ContactPairGetNormals(pair, &normal));

@@ -21,7 +21,7 @@ static uint64_t Signature(ContactPair pair)
   uint64_t              hash = 1469598103934665603ULL;
 
   CHECK_CALL(ContactPairGetSegments(pair, &num, &s));
-  for (PetscInt i = 0; i < num; i++) hash = (hash ^ (uint64_t)(s[i].edge * 1000 + s[i].mortar_edge)) * 1099511628211ULL;
+  for (PetscInt i = 0; i < num; i++) hash = (hash ^ (uint64_t)(s[i].facet * 1000 + s[i].mortar_facet)) * 1099511628211ULL;
   return hash;
 }
 
@@ -103,7 +103,7 @@ static void CheckSeed(const Kind *kind, uint64_t seed, Errors *err)
 
   MakePair(kind, &seed, &nonmortar, &mortar);
   for (int j = 0; j < NN; j++) z[j] = Random(&seed);
-  CHECK_CALL(ContactPairCreate(kind->axisymmetric, kind->nts, &pair));
+  PairCreate(kind->axisymmetric, kind->nts, &pair);
   SearchAll(pair, &nonmortar, &mortar, 0.6, 1e-3);
   SumCreate(&exact, nonmortar.s.num_nodes, NM);
   SumEvaluate(&exact, pair, &nonmortar, &mortar, z, PETSC_TRUE, PETSC_TRUE);

@@ -38,13 +38,13 @@ static void CheckBrute(Chain *nonmortar, Chain *mortar, PetscReal distance, uint
   EvaluateOnce(nonmortar, mortar, PETSC_FALSE, PETSC_FALSE, distance, NULL, &pair, &s);
   CHECK_CALL(ContactPairGetSegments(pair, &num, &seg));
   CHECK_CALL(ContactPairGetNormals(pair, &normal));
-  for (PetscInt i = 0; i < 20 * nonmortar->s.num_edges; i++) {
+  for (PetscInt i = 0; i < 20 * nonmortar->s.num_facets; i++) {
     const PetscInt  e    = i / 20;
     const PetscReal l    = 0.5 + 0.499 * Random(rng);
     PetscInt        near = 0, all = 0, only = -1, got = -1;
     PetscReal       least = PETSC_MAX_REAL, g_got = 0;
 
-    for (PetscInt m = 0; m < mortar->s.num_edges; m++) {
+    for (PetscInt m = 0; m < mortar->s.num_facets; m++) {
       PetscReal g;
 
       if (!Hit(nonmortar, mortar, normal, e, l, m, &g)) continue;
@@ -53,7 +53,7 @@ static void CheckBrute(Chain *nonmortar, Chain *mortar, PetscReal distance, uint
       if (PetscAbsReal(g) < 2 * distance) all++, only = m;
     }
     for (PetscInt k = 0; k < num; k++)
-      if (seg[k].edge == e && seg[k].xi[0] <= 2 * l - 1 && 2 * l - 1 <= seg[k].xi[1]) got = seg[k].mortar_edge;
+      if (seg[k].facet == e && seg[k].xi[0][0] <= 2 * l - 1 && 2 * l - 1 <= seg[k].xi[1][0]) got = seg[k].mortar_facet;
     if (near > 0) assert_true(got >= 0);
     if (near > 0 && all == 1) assert_int_equal(got, only);
     if (all == 0) assert_int_equal(got, -1);
@@ -97,7 +97,7 @@ static void Margin(void **state)
     Sum             s, t;
 
     RandomPair(&rng, 9, 11, 0.03, &nonmortar, &mortar);
-    CHECK_CALL(ContactPairCreate(PETSC_FALSE, PETSC_FALSE, &pair));
+    PairCreate(PETSC_FALSE, PETSC_FALSE, &pair);
     SearchAll(pair, &nonmortar, &mortar, 0.5, margin);
     for (PetscInt i = 0; i < 2 * (9 + 11); i++) *Unknown(&nonmortar, &mortar, i) += margin / sqrt(2) * (i % 2 ? 0.2 : 1) * Random(&rng);
     SumCreate(&s, 9, 11);
@@ -136,7 +136,7 @@ static void Layers(void **state)
     mortar.edges[2 * 15 + 1] = 8;
     EvaluateOnce(&nonmortar, &mortar, PETSC_FALSE, PETSC_FALSE, 0.5, NULL, &pair, &s);
     CHECK_CALL(ContactPairGetSegments(pair, &num, &seg));
-    for (PetscInt i = 0; i < num; i++) assert_true(seg[i].mortar_edge >= 8 && seg[i].mortar_edge < 11);
+    for (PetscInt i = 0; i < num; i++) assert_true(seg[i].mortar_facet >= 8 && seg[i].mortar_facet < 11);
     for (int j = 0; j < 12; j++) assert_near(s.gap[j], gap * s.weight[j], 1e-15);
     assert_near(s.area, 1, 1e-14);
     Cleanup(&nonmortar, &mortar, &pair, &s);
@@ -152,7 +152,7 @@ static void LargeSliding(void **state)
 
   ChainLine(&nonmortar, 9, 1, 0, 0, 0);
   ChainLine(&mortar, 190, -1, -0.01, 12.5, -0.01);
-  CHECK_CALL(ContactPairCreate(PETSC_FALSE, PETSC_FALSE, &pair));
+  PairCreate(PETSC_FALSE, PETSC_FALSE, &pair);
   SumCreate(&s, 9, 190);
   for (int step = 0; step < 100; step++) {
     SearchAll(pair, &nonmortar, &mortar, 0.1, 0.02);
@@ -168,7 +168,7 @@ static void LargeSliding(void **state)
 /* A rank without listed edges, and a mortar side without edges: no results, no failure. */
 static void Empty(void **state)
 {
-  const ContactEdge    *edges;
+  const ContactFacet   *edges;
   const ContactSegment *seg;
   Chain                 nonmortar, mortar;
   ContactPair           pair;
@@ -178,13 +178,13 @@ static void Empty(void **state)
   ChainLine(&nonmortar, 3, 1, 0, 0, 0);
   ChainLine(&mortar, 3, 0, 0.1, 1, 0.1);
   for (int k = 0; k < 2; k++) {
-    CHECK_CALL(ContactPairCreate(PETSC_FALSE, PETSC_FALSE, &pair));
-    if (k) mortar.s.num_edges = mortar.s.num_nodes = 0;
+    PairCreate(PETSC_FALSE, PETSC_FALSE, &pair);
+    if (k) mortar.s.num_facets = mortar.s.num_nodes = 0;
     if (k)
       SearchAll(pair, &nonmortar, &mortar, 0.5, 0.1);
     else
       CHECK_CALL(ContactPairSearch(pair, &nonmortar.s, &mortar.s, 0, NULL, 0.5, 0.1));
-    CHECK_CALL(ContactPairEvaluate(pair, &nonmortar.s, &mortar.s, (const PetscReal[3]){0}, PETSC_TRUE, PETSC_TRUE, &num, &edges, &failed));
+    CHECK_CALL(ContactPairEvaluate(pair, &nonmortar.s, &mortar.s, (const PetscReal[3]){0}, NULL, PETSC_TRUE, PETSC_TRUE, &num, &edges, &failed));
     assert_int_equal(num, 0);
     assert_false(failed);
     CHECK_CALL(ContactPairGetSegments(pair, &num, &seg));
@@ -236,12 +236,12 @@ static void Time(void **state)
     const PetscInt        n = k ? 100000 : 6250;
     Chain                 nonmortar, mortar;
     ContactPair           pair;
-    const ContactEdge    *edges;
+    const ContactFacet   *edges;
     const ContactSegment *seg;
     PetscInt              num, num_seg;
     PetscBool             failed;
 
-    CHECK_CALL(ContactPairCreate(PETSC_FALSE, PETSC_FALSE, &pair));
+    PairCreate(PETSC_FALSE, PETSC_FALSE, &pair);
     t[k] = SearchTime(n, pair, &nonmortar, &mortar);
     print_message("search, %6d edges: %.3f s\n", (int)n, t[k]);
     z = malloc((size_t)(n + 1) * sizeof(PetscReal));
@@ -252,7 +252,7 @@ static void Time(void **state)
       for (int r = 0; r < 5; r++) {
         const PetscLogDouble start = Now();
 
-        CHECK_CALL(ContactPairEvaluate(pair, &nonmortar.s, &mortar.s, z, mode > 0, mode > 1, &num, &edges, &failed));
+        CHECK_CALL(ContactPairEvaluate(pair, &nonmortar.s, &mortar.s, z, NULL, mode > 0, mode > 1, &num, &edges, &failed));
         best = PetscMin(best, Now() - start);
       }
       CHECK_CALL(ContactPairGetSegments(pair, &num_seg, &seg));

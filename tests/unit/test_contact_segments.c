@@ -32,10 +32,10 @@ static void CheckCover(PetscReal a, PetscReal b, PetscInt num)
   ChainLine(&mortar, num + 1, a, 0.1, b, 0.1);
   Segments(&nonmortar, &mortar, &pair, &n, &s);
   for (PetscInt i = 0; i < n; i++) {
-    assert_true(s[i].xi[1] > s[i].xi[0]);
-    length += s[i].xi[1] - s[i].xi[0];
-    lo = PetscMin(lo, s[i].xi[0]);
-    hi = PetscMax(hi, s[i].xi[1]);
+    assert_true(s[i].xi[1][0] > s[i].xi[0][0]);
+    length += s[i].xi[1][0] - s[i].xi[0][0];
+    lo = PetscMin(lo, s[i].xi[0][0]);
+    hi = PetscMax(hi, s[i].xi[1][0]);
   }
   assert_near(length, covered, 1e-14);
   if (covered > 0) {
@@ -74,8 +74,8 @@ static void VertexOnRay(void **state)
     Segments(&nonmortar, &mortar, &pair, &n, &s);
     assert_int_equal(n, 7);
     for (PetscInt i = 0; i < n; i++) {
-      assert_true(s[i].xi[0] == -1 && s[i].xi[1] == 1);
-      assert_int_equal(s[i].mortar_edge, 6 - s[i].edge);
+      assert_true(s[i].xi[0][0] == -1 && s[i].xi[1][0] == 1);
+      assert_int_equal(s[i].mortar_facet, 6 - s[i].facet);
     }
     Cleanup(&nonmortar, &mortar, &pair);
   }
@@ -98,7 +98,7 @@ static void Degenerate(void **state)
   CHECK_CALL(ContactPairGetSegments(pair, &n, &s));
   assert_false(sum.failed);
   assert_int_equal(n, 2);
-  for (PetscInt i = 0; i < n; i++) length += s[i].xi[1] - s[i].xi[0];
+  for (PetscInt i = 0; i < n; i++) length += s[i].xi[1][0] - s[i].xi[0][0];
   assert_near(length, 2, 1e-14);
   nonmortar.x[0] = 0;
   SumEvaluate(&sum, pair, &nonmortar, &mortar, NULL, PETSC_FALSE, PETSC_FALSE);
@@ -119,15 +119,15 @@ static void CheckProjection(const Chain *nonmortar, const Chain *mortar, const P
 
     for (int i = 0; i < 2; i++)
       for (int v = 0; v < 2; v++) {
-        const PetscReal N = 0.5 * (1 + (2 * v - 1) * s->xi[k]), M = 0.5 * (1 + (2 * v - 1) * s->eta[k]);
-        const PetscInt  a = nonmortar->edges[2 * s->edge + v], b = mortar->edges[2 * s->mortar_edge + v];
+        const PetscReal N = 0.5 * (1 + (2 * v - 1) * s->xi[k][0]), M = 0.5 * (1 + (2 * v - 1) * s->eta[k][0]);
+        const PetscInt  a = nonmortar->edges[2 * s->facet + v], b = mortar->edges[2 * s->mortar_facet + v];
 
         x[i] += N * nonmortar->x[2 * a + i];
         n[i] += N * normal[2 * a + i];
         m[i] += M * mortar->x[2 * b + i];
       }
     assert_near(n[0] * (m[1] - x[1]) - n[1] * (m[0] - x[0]), 0, 1e-13);
-    assert_true(PetscAbsReal(s->eta[k]) < 1 + 1e-12);
+    assert_true(PetscAbsReal(s->eta[k][0]) < 1 + 1e-12);
   }
 }
 
@@ -135,14 +135,14 @@ static void CheckProjection(const Chain *nonmortar, const Chain *mortar, const P
 static void CheckSeams(PetscInt num, const ContactSegment *s)
 {
   for (PetscInt i = 1; i < num; i++) {
-    if (s[i].edge == s[i - 1].edge)
-      assert_true(s[i].xi[0] == s[i - 1].xi[1]);
+    if (s[i].facet == s[i - 1].facet)
+      assert_true(s[i].xi[0][0] == s[i - 1].xi[1][0]);
     else {
-      assert_int_equal(s[i].edge, s[i - 1].edge + 1);
-      assert_true(s[i - 1].xi[1] == 1 && s[i].xi[0] == -1);
+      assert_int_equal(s[i].facet, s[i - 1].facet + 1);
+      assert_true(s[i - 1].xi[1][0] == 1 && s[i].xi[0][0] == -1);
     }
-    assert_true(s[i].mortar_edge == s[i - 1].mortar_edge || s[i].mortar_edge == s[i - 1].mortar_edge - 1);
-    assert_near(s[i].mortar_edge == s[i - 1].mortar_edge ? s[i].eta[0] - s[i - 1].eta[1] : s[i].eta[0] - 1 - (s[i - 1].eta[1] + 1), 0, 1e-8);
+    assert_true(s[i].mortar_facet == s[i - 1].mortar_facet || s[i].mortar_facet == s[i - 1].mortar_facet - 1);
+    assert_near(s[i].mortar_facet == s[i - 1].mortar_facet ? s[i].eta[0][0] - s[i - 1].eta[1][0] : s[i].eta[0][0] - 1 - (s[i - 1].eta[1][0] + 1), 0, 1e-8);
   }
 }
 

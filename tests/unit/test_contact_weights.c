@@ -25,9 +25,9 @@ static void SumOfWeights(void **state)
     EvaluateOnce(&nonmortar, &mortar, PETSC_FALSE, PETSC_FALSE, 0.5, NULL, &pair, &s);
     CHECK_CALL(ContactPairGetSegments(pair, &num, &seg));
     for (PetscInt i = 0; i < num; i++) {
-      const PetscInt e = seg[i].edge;
+      const PetscInt e = seg[i].facet;
 
-      length += 0.5 * (seg[i].xi[1] - seg[i].xi[0]) * hypot(nonmortar.x[2 * e + 2] - nonmortar.x[2 * e], nonmortar.x[2 * e + 3] - nonmortar.x[2 * e + 1]);
+      length += 0.5 * (seg[i].xi[1][0] - seg[i].xi[0][0]) * hypot(nonmortar.x[2 * e + 2] - nonmortar.x[2 * e], nonmortar.x[2 * e + 3] - nonmortar.x[2 * e + 1]);
     }
     for (int j = 0; j < 7; j++) {
       assert_true(s.weight[j] >= 0);
@@ -50,7 +50,7 @@ static void CheckLinear(PetscInt num, const PetscReal interval[][2], PetscBool a
 
   ChainLine(&nonmortar, 2, 2, 0, 0, 0);
   ChainCreate(&mortar, 2 * num, PETSC_FALSE);
-  mortar.s.num_edges = num;
+  mortar.s.num_facets = num;
   for (PetscInt i = 0; i < num; i++) {
     mortar.edges[2 * i]     = 2 * i;
     mortar.edges[2 * i + 1] = 2 * i + 1;

@@ -35,7 +35,7 @@ static void LineMake(Line *l, PetscInt n, PetscReal lo, PetscReal hi, PetscReal 
     l->edges[2 * e]     = e;
     l->edges[2 * e + 1] = e + 1;
   }
-  l->view.nonmortar      = (SurfaceView){.num_nodes = n, .num_edges = n - 1, .edges = l->edges, .x = l->x, .X = l->x};
+  l->view.nonmortar      = (SurfaceView){.dim = 2, .corners = 2, .num_nodes = n, .num_facets = n - 1, .facets = l->edges, .x = l->x, .X = l->x};
   l->view.z              = l->z;
   l->view.gap            = l->gap;
   l->view.weight         = l->weight;

@@ -1,0 +1,99 @@
+/* The overlap of two convex quadrilaterals in a plane: the mortar facet is cut by the four lines of the nonmortar facet, one after the other [Sutherland &
+   Hodgman 1974]. Sides remember the line they lie on, and vertices are intersections of two lines: that says how they move.
+
+   A vertex within FACET_ON of a line counts as outside of it. So where sides coincide, or a corner lies on a side, the vertices of the overlap are those of the
+   nonmortar facet or slide along its sides, and the cover of the facet stays what it is when the mortar side moves a little: what one mortar facet would lose
+   its neighbour gains, and neither would show if the sliver between were dropped on one side only. */
+#include "facetimpl.h"
+
+static inline const PetscReal *LineStart_Private(const Overlap *o, int line)
+{
+  return o->side[line / 4].Y[line % 4];
+}
+static inline const PetscReal *LineEnd_Private(const Overlap *o, int line)
+{
+  return o->side[line / 4].Y[(line + 1) % 4];
+}
+
+/* Where two lines meet: neighbouring sides of one facet at its corner. near: a place that holds when the lines are parallel to round-off. */
+static void Meet_Private(const Overlap *o, int a, int b, const PetscReal near[2], PetscReal v[2])
+{
+  if (a / 4 == b / 4 && (a - b) % 2) {
+    const PetscReal *y = o->side[a / 4].Y[(a + 1) % 4 == b % 4 ? b % 4 : a % 4];
+
+    v[0] = y[0], v[1] = y[1];
+    return;
+  }
+  const PetscReal *p = LineStart_Private(o, a), *q = LineStart_Private(o, b), *P = LineEnd_Private(o, a), *Q = LineEnd_Private(o, b);
+  const PetscReal  d[2] = {P[0] - p[0], P[1] - p[1]}, e[2] = {Q[0] - q[0], Q[1] - q[1]}, r[2] = {q[0] - p[0], q[1] - p[1]}, det = Cross2(d, e);
+
+  if (PetscAbsReal(det) <= 1e-12 * PetscSqrtReal(Dot2(d, d) * Dot2(e, e))) {
+    v[0] = near[0], v[1] = near[1];
+    return;
+  }
+  for (int i = 0; i < 2; i++) v[i] = p[i] + Cross2(r, e) / det * d[i];
+}
+
+static PetscReal Area_Private(const Overlap *o)
+{
+  PetscReal sum = 0;
+
+  for (PetscInt k = 1; k + 1 < o->num; k++) {
+    const PetscReal d[2] = {o->v[k][0] - o->v[0][0], o->v[k][1] - o->v[0][1]}, e[2] = {o->v[k + 1][0] - o->v[0][0], o->v[k + 1][1] - o->v[0][1]};
+
+    sum += 0.5 * Cross2(d, e);
+  }
+  return sum;
+}
+
+/* Keep what lies inside nonmortar line i. */
+static void Cut_Private(Overlap *o, int i, PetscReal size)
+{
+  const PetscReal *p = LineStart_Private(o, i), *P = LineEnd_Private(o, i), e[2] = {P[0] - p[0], P[1] - p[1]}, length = PetscSqrtReal(Dot2(e, e));
+  PetscReal        d[FACET_VERTICES], v[FACET_VERTICES + 2][2];
+  int8_t           line[FACET_VERTICES + 2];
+  PetscInt         num = 0;
+
+  for (PetscInt k = 0; k < o->num; k++) {
+    const PetscReal r[2] = {o->v[k][0] - p[0], o->v[k][1] - p[1]};
+
+    d[k] = Cross2(e, r) / length;
+  }
+  for (PetscInt k = 0; k < o->num && num < FACET_VERTICES; k++) {
+    const PetscInt  l  = (k + 1) % o->num;
+    const PetscBool in = (PetscBool)(d[k] > FACET_ON * size), next = (PetscBool)(d[l] > FACET_ON * size);
+
+    if (in) {
+      v[num][0] = o->v[k][0], v[num][1] = o->v[k][1];
+      line[num++] = o->line[k];
+    }
+    if (in != next) {
+      const PetscReal share = d[k] / (d[k] - d[l]), near[2] = {o->v[k][0] + share * (o->v[l][0] - o->v[k][0]), o->v[k][1] + share * (o->v[l][1] - o->v[k][1])};
+
+      Meet_Private(o, in ? o->line[k] : i, in ? i : o->line[k], near, v[num]);
+      line[num++] = in ? (int8_t)i : o->line[k];
+    }
+  }
+  o->num = num;
+  for (PetscInt k = 0; k < num; k++) {
+    o->v[k][0] = v[k][0], o->v[k][1] = v[k][1];
+    o->line[k] = line[k];
+  }
+}
+
+PetscBool ContactClip(Overlap *o)
+{
+  const PlaneQuad *s     = &o->side[0];
+  const PetscReal  d[2]  = {s->Y[2][0] - s->Y[0][0], s->Y[2][1] - s->Y[0][1]}, e[2] = {s->Y[3][0] - s->Y[1][0], s->Y[3][1] - s->Y[1][1]};
+  const PetscReal  whole = 0.5 * Cross2(d, e);
+
+  o->num = 4;
+  for (int k = 0; k < 4; k++) {
+    o->v[k][0] = o->side[1].Y[k][0], o->v[k][1] = o->side[1].Y[k][1];
+    o->line[k] = (int8_t)(4 + k);
+  }
+  for (int i = 0; i < 4 && o->num; i++) Cut_Private(o, i, PetscSqrtReal(whole));
+  if (o->num < 3) return PETSC_FALSE;
+  o->area = Area_Private(o);
+  return o->area > FACET_ON * FACET_ON * whole ? PETSC_TRUE : PETSC_FALSE;
+}

@@ -1,0 +1,480 @@
+/* One nonmortar facet in three dimensions: gathers its overlaps, integrates, and hands out weighted gaps with their derivatives by the nodes that do not hang. */
+#include "facetimpl.h"
+
+/* Storage of the results: blocks that are kept and filled anew at each evaluation; pointers into them stay valid until then. */
+#define BLOCK 131072
+
+struct _p_FacetStore {
+  PetscInt    num, size, at, *room, used;
+  PetscReal **block;
+};
+
+PetscErrorCode ContactFacetWorkCreate(FacetWork *w)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscNew(w));
+  PetscCall(PetscNew(&(*w)->store));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode ContactFacetWorkDestroy(FacetWork *work)
+{
+  FacetWork w = *work;
+
+  PetscFunctionBegin;
+  if (!w) PetscFunctionReturn(PETSC_SUCCESS);
+  for (PetscInt i = 0; i < w->store->num; i++) PetscCall(PetscFree(w->store->block[i]));
+  PetscCall(PetscFree(w->store->block));
+  PetscCall(PetscFree(w->store->room));
+  PetscCall(PetscFree(w->store));
+  PetscCall(PetscFree(w->overlap));
+  PetscCall(PetscFree(w->mortar));
+  PetscCall(PetscFree(w->corner));
+  PetscCall(PetscFree(w->vertex));
+  PetscCall(PetscFree(w->X));
+  PetscCall(PetscFree(w->row_first));
+  PetscCall(PetscFree(w->row_node));
+  PetscCall(PetscFree(w->row_weight));
+  PetscCall(PetscFree(w->node));
+  PetscCall(PetscFree(w->dq));
+  PetscCall(PetscFree(w->W));
+  PetscCall(PetscFree(w->row));
+  PetscCall(PetscFree(*work));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Room for num zeros. */
+static PetscErrorCode Reserve_Private(struct _p_FacetStore *s, PetscInt num, PetscReal **array)
+{
+  PetscFunctionBegin;
+  while (s->at < s->num && s->used + num > s->room[s->at]) s->at++, s->used = 0;
+  if (s->at == s->num) {
+    PetscInt size = s->size;
+
+    PetscCall(ContactGrow(s->num + 1, sizeof(PetscReal *), &size, &s->block));
+    PetscCall(ContactGrow(s->num + 1, sizeof(PetscInt), &s->size, &s->room));
+    s->room[s->num] = PetscMax(num, BLOCK);
+    PetscCall(PetscMalloc1(s->room[s->num], &s->block[s->num]));
+    s->num++;
+    s->used = 0;
+  }
+  *array = s->block[s->at] + s->used;
+  s->used += num;
+  PetscCall(PetscArrayzero(*array, num));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode ContactFacetTopology(ContactPair pair, const ContactSurface *s)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscFree(pair->normal));
+  pair->num_nodes  = s->num_nodes;
+  pair->num_facets = s->num_facets;
+  PetscCall(PetscCalloc1(3 * s->num_nodes, &pair->normal));
+  for (PetscInt i = 0; i < 4 * s->num_facets; i++)
+    PetscCheck(s->facets[i] >= 0 && s->facets[i] < s->num_nodes, PETSC_COMM_SELF, PETSC_ERR_ARG_OUTOFRANGE,
+               "nonmortar facet %" PetscInt_FMT " has node %" PetscInt_FMT ", must lie in [0, %" PetscInt_FMT ")", i / 4, s->facets[i], s->num_nodes);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Mean unit normals at the nodes, for output and estimation; the gap does not use them. */
+static void Normals_Private(ContactPair pair, const ContactSurface *s)
+{
+  for (PetscInt i = 0; i < 3 * s->num_nodes; i++) pair->normal[i] = 0;
+  for (PetscInt f = 0; f < s->num_facets; f++) {
+    const PetscInt *node = s->facets + 4 * f;
+    PetscReal       d[3], e[3], N[3], length = 0;
+
+    for (int i = 0; i < 3; i++) {
+      d[i] = s->x[3 * node[2] + i] - s->x[3 * node[0] + i];
+      e[i] = s->x[3 * node[3] + i] - s->x[3 * node[1] + i];
+    }
+    for (int i = 0; i < 3; i++) {
+      N[i] = d[(i + 1) % 3] * e[(i + 2) % 3] - d[(i + 2) % 3] * e[(i + 1) % 3];
+      length += N[i] * N[i];
+    }
+    for (int a = 0; a < 4 && length > 0; a++)
+      for (int i = 0; i < 3; i++) pair->normal[3 * node[a] + i] += N[i] / PetscSqrtReal(length);
+  }
+  for (PetscInt n = 0; n < s->num_nodes; n++) {
+    PetscReal *m = pair->normal + 3 * n, length = PetscSqrtReal(m[0] * m[0] + m[1] * m[1] + m[2] * m[2]);
+
+    for (int i = 0; i < 3 && length > 0; i++) m[i] /= length;
+  }
+}
+
+/* ---- gathering ---------------------------------------------------------------------------------------------------------------------- */
+
+/* Place of a mortar node among the vertices; added when new. */
+static PetscErrorCode Vertex_Private(FacetWork w, const ContactSurface *mortar, PetscInt node, PetscInt *place)
+{
+  PetscFunctionBegin;
+  for (*place = 4; *place < w->num_vertices; (*place)++)
+    if (w->vertex[*place] == node) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(ContactGrow(w->num_vertices + 1, sizeof(PetscInt), &w->size_vertex, &w->vertex));
+  PetscCall(ContactGrow(3 * (w->num_vertices + 1), sizeof(PetscReal), &w->size_X, &w->X));
+  w->vertex[w->num_vertices] = node;
+  ContactFacetLocal(&w->frame, mortar->x + 3 * node, w->X + 3 * w->num_vertices);
+  w->num_vertices++;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The mortar facet in the nonmortar facet's axes, its nodes backwards. */
+static void PlaneOf_Private(const FacetWork w, const ContactSurface *mortar, PetscInt facet, PlaneQuad *s)
+{
+  for (int a = 0; a < 4; a++) {
+    PetscReal X[3];
+
+    ContactFacetLocal(&w->frame, mortar->x + 3 * mortar->facets[4 * facet + 3 - a], X);
+    s->Y[a][0] = X[0], s->Y[a][1] = X[1], s->h[a] = X[2];
+  }
+}
+
+static PetscErrorCode Gather_Private(ContactPair pair, const ContactSurface *nonmortar, const ContactSurface *mortar, PetscInt slot, FacetWork w,
+                                     PetscBool *failed)
+{
+  const PetscInt *node = nonmortar->facets + 4 * pair->listed[slot];
+  PetscReal       x[4][3];
+  PlaneQuad       own;
+
+  PetscFunctionBegin;
+  w->num_overlaps = 0;
+  w->num_vertices = 4;
+  for (int a = 0; a < 4; a++)
+    for (int i = 0; i < 3; i++) x[a][i] = nonmortar->x[3 * node[a] + i];
+  if (pair->start[slot] == pair->start[slot + 1]) PetscFunctionReturn(PETSC_SUCCESS);
+  if (!ContactFacetFrame(x, &w->frame)) {
+    *failed = PETSC_TRUE;
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
+  PetscCall(ContactGrow(4, sizeof(PetscInt), &w->size_vertex, &w->vertex));
+  PetscCall(ContactGrow(12, sizeof(PetscReal), &w->size_X, &w->X));
+  for (int a = 0; a < 4; a++) {
+    w->vertex[a] = node[a];
+    for (int i = 0; i < 3; i++) w->X[3 * a + i] = w->frame.X[a][i];
+    own.Y[a][0] = w->frame.X[a][0], own.Y[a][1] = w->frame.X[a][1], own.h[a] = w->frame.X[a][2];
+  }
+  for (PetscInt k = pair->start[slot]; k < pair->start[slot + 1]; k++) {
+    Overlap o;
+
+    o.side[0] = own;
+    PlaneOf_Private(w, mortar, pair->candidate[k], &o.side[1]);
+    if (!ContactQuadIsConvex(&o.side[1])) {
+      pair->num_degenerate++;
+      continue;
+    }
+    if (!ContactClip(&o)) continue;
+    PetscCall(ContactGrow(w->num_overlaps + 1, sizeof(Overlap), &w->size_overlap, &w->overlap));
+    PetscCall(ContactGrow(w->num_overlaps + 1, sizeof(PetscInt), &w->size_mortar, &w->mortar));
+    w->overlap[w->num_overlaps]  = o;
+    w->mortar[w->num_overlaps++] = pair->candidate[k];
+  }
+  ContactUnfold(&w->num_overlaps, w->overlap, w->mortar, w->frame.area);
+  PetscCall(ContactGrow(4 * w->num_overlaps, sizeof(PetscInt), &w->size_corner, &w->corner));
+  for (PetscInt k = 0; k < w->num_overlaps; k++)
+    for (int a = 0; a < 4; a++) PetscCall(Vertex_Private(w, mortar, mortar->facets[4 * w->mortar[k] + 3 - a], &w->corner[4 * k + a]));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Where number i (0..23) of an overlap stands among the facet's. */
+static inline PetscInt Place_Private(const FacetWork w, PetscInt overlap, PetscInt i)
+{
+  return i < 12 ? i : 3 * w->corner[4 * overlap + (i - 12) / 3] + i % 3;
+}
+
+/* ---- integration -------------------------------------------------------------------------------------------------------------------- */
+
+/* Moments of all overlaps; derivatives by U into dq[FACET_MOMENTS][n]. Overlaps that cannot be projected are dropped and counted. */
+static PetscErrorCode Moments_Private(ContactPair pair, FacetWork w, PetscBool derivatives)
+{
+  const PetscInt n = 3 * w->num_vertices;
+  PetscReal      dq[FACET_MOMENTS][FACET_LOCAL];
+  PetscInt       kept = 0;
+
+  PetscFunctionBegin;
+  memset(&w->moments, 0, sizeof(w->moments));
+  w->moments.min_gap = PETSC_MAX_REAL;
+  w->covered         = 0;
+  if (derivatives) {
+    PetscCall(ContactGrow(FACET_MOMENTS * n, sizeof(PetscReal), &w->size_dq, &w->dq));
+    PetscCall(PetscArrayzero(w->dq, FACET_MOMENTS * n));
+  }
+  for (PetscInt k = 0; k < w->num_overlaps; k++) {
+    const FacetMoments before = w->moments;
+
+    if (!ContactOverlapMoments(&w->overlap[k], &w->moments, derivatives ? dq : NULL)) {
+      w->moments = before;
+      pair->num_degenerate++;
+      continue;
+    }
+    w->covered += w->overlap[k].area;
+    if (kept != k) {
+      w->overlap[kept] = w->overlap[k];
+      w->mortar[kept]  = w->mortar[k];
+      for (int a = 0; a < 4; a++) w->corner[4 * kept + a] = w->corner[4 * k + a];
+    }
+    for (int q = 0; derivatives && q < FACET_MOMENTS; q++)
+      for (PetscInt i = 0; i < FACET_LOCAL; i++) w->dq[q * n + Place_Private(w, kept, i)] += dq[q][i];
+    kept++;
+  }
+  w->num_overlaps = kept;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* row = sum_q factor_q dq, by U; with the tilt: by X. */
+static void Combine_Private(const FacetWork w, const PetscReal factor[FACET_MOMENTS], PetscReal row[])
+{
+  const PetscInt n = 3 * w->num_vertices;
+
+  for (PetscInt i = 0; i < n; i++) row[i] = 0;
+  for (int q = 0; q < FACET_MOMENTS; q++) {
+    if (factor[q] == 0) continue;
+    for (PetscInt i = 0; i < n; i++) row[i] += factor[q] * w->dq[q * n + i];
+  }
+}
+
+/* W: half Hessian by X of sum_j z_j gt_j over the facet's vertices. */
+static PetscErrorCode HalfHessian_Private(FacetWork w, const FacetWeights *f, const PetscReal z[4])
+{
+  const PetscInt n = 3 * w->num_vertices;
+  PetscReal      part[FACET_LOCAL][FACET_LOCAL], factor[FACET_MOMENTS] = {0}, *left = w->row, *right = w->row + n;
+
+  PetscFunctionBegin;
+  PetscCall(ContactGrow(n * n, sizeof(PetscReal), &w->size_W, &w->W));
+  PetscCall(PetscArrayzero(w->W, n * n));
+  for (PetscInt k = 0; k < w->num_overlaps; k++) {
+    if (!ContactOverlapHessian(&w->overlap[k], f->g, f->D, part)) continue; /* cannot happen: its moments were found */
+    for (PetscInt a = 0; a < FACET_LOCAL; a++) {
+      PetscReal *to = w->W + n * Place_Private(w, k, a);
+
+      for (PetscInt b = 0; b < 12; b++) to[b] += part[a][b];
+      for (PetscInt c = 0; c < 4; c++)
+        for (PetscInt i = 0; i < 3; i++) to[3 * w->corner[4 * k + c] + i] += part[a][12 + 3 * c + i];
+    }
+  }
+  for (int p = 0; p < f->num_pairs; p++) {
+    Combine_Private(w, f->left[p], left);
+    Combine_Private(w, f->right[p], right);
+    for (PetscInt a = 0; a < n; a++)
+      for (PetscInt b = 0; b < n; b++) w->W[a * n + b] += left[a] * right[b];
+  }
+  for (int j = 0; j < 4; j++)
+    for (int q = 0; q < FACET_MOMENTS; q++) factor[q] += z[j] * f->dgap[j][q];
+  Combine_Private(w, factor, left);
+  ContactTiltHessian(&w->frame, n, w->X, left, w->W, right);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- results for the nodes that do not hang ------------------------------------------------------------------------------------------ */
+
+static PetscErrorCode AddMaster_Private(FacetWork w, PetscInt first, PetscInt id, PetscReal weight, PetscInt *num)
+{
+  PetscInt k = first;
+
+  PetscFunctionBegin;
+  while (k < w->num_nodes && w->node[k] != id) k++;
+  if (k == w->num_nodes) {
+    PetscCall(ContactGrow(w->num_nodes + 1, sizeof(PetscInt), &w->size_node, &w->node));
+    w->node[w->num_nodes++] = id;
+  }
+  PetscCall(ContactGrow(*num + 1, sizeof(PetscInt), &w->size_row_node, &w->row_node));
+  PetscCall(ContactGrow(*num + 1, sizeof(PetscReal), &w->size_row_weight, &w->row_weight));
+  w->row_node[*num]       = k;
+  w->row_weight[(*num)++] = weight;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Masters of every vertex: rows of (place among the result's nodes, weight). */
+static PetscErrorCode Masters_Private(FacetWork w, const ContactSurface *nonmortar, const ContactSurface *mortar)
+{
+  PetscInt num = 0;
+
+  PetscFunctionBegin;
+  w->num_nodes = w->num_rows = 0;
+  PetscCall(ContactGrow(w->num_vertices + 1, sizeof(PetscInt), &w->size_row_first, &w->row_first));
+  for (PetscInt v = 0; v < w->num_vertices; v++) {
+    const ContactSurface *s    = v < 4 ? nonmortar : mortar;
+    const PetscInt        node = w->vertex[v], first = v < 4 ? 0 : w->num_rows;
+
+    w->row_first[v] = num;
+    if (!s->hang || s->hang[node] == s->hang[node + 1])
+      PetscCall(AddMaster_Private(w, first, v < 4 ? node : ~node, 1, &num));
+    else
+      for (PetscInt k = s->hang[node]; k < s->hang[node + 1]; k++)
+        PetscCall(AddMaster_Private(w, first, v < 4 ? s->hang_master[k] : ~s->hang_master[k], s->hang_weight[k], &num));
+    if (v == 3) w->num_rows = w->num_nodes;
+  }
+  w->row_first[w->num_vertices] = num;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* to[3 * num_nodes] += the row by X, turned to the axes of space and carried to the masters. */
+static void Carry_Private(const FacetWork w, const PetscReal row[], PetscReal to[])
+{
+  for (PetscInt v = 0; v < w->num_vertices; v++)
+    for (int c = 0; c < 3; c++) {
+      const PetscReal value = w->frame.E[0][c] * row[3 * v] + w->frame.E[1][c] * row[3 * v + 1] + w->frame.E[2][c] * row[3 * v + 2];
+
+      for (PetscInt k = w->row_first[v]; k < w->row_first[v + 1]; k++) to[3 * w->row_node[k] + c] += w->row_weight[k] * value;
+    }
+}
+
+/* Gradient of number j's gt (or w): to the rows of its masters. */
+static void Distribute_Private(FacetWork w, int j, const PetscReal factor[FACET_MOMENTS], PetscReal out[])
+{
+  const PetscInt n = 3 * w->num_vertices, nn = 3 * w->num_nodes;
+  PetscReal     *row = w->row, *carried = w->row + n;
+
+  Combine_Private(w, factor, row);
+  ContactTiltGradient(&w->frame, n, w->X, row);
+  for (PetscInt i = 0; i < nn; i++) carried[i] = 0;
+  Carry_Private(w, row, carried);
+  for (PetscInt k = w->row_first[j]; k < w->row_first[j + 1]; k++)
+    for (PetscInt i = 0; i < nn; i++) out[w->row_node[k] * nn + i] += w->row_weight[k] * carried[i];
+}
+
+/* H[3 * num_nodes][..] += P^T E^T (W + W^T) E P, rows first, then columns; half[3 * num_nodes][n] is work. */
+static void CarryHessian_Private(const FacetWork w, PetscReal half[], PetscReal H[])
+{
+  const PetscInt n = 3 * w->num_vertices, nn = 3 * w->num_nodes;
+
+  for (PetscInt i = 0; i < n; i++)
+    for (PetscInt j = 0; j <= i; j++) w->W[i * n + j] = w->W[j * n + i] = w->W[i * n + j] + w->W[j * n + i];
+  for (PetscInt v = 0; v < w->num_vertices; v++)
+    for (PetscInt k = w->row_first[v]; k < w->row_first[v + 1]; k++)
+      for (int c = 0; c < 3; c++) {
+        PetscReal *to = half + (3 * w->row_node[k] + c) * n;
+
+        for (int i = 0; i < 3; i++) {
+          const PetscReal factor = w->row_weight[k] * w->frame.E[i][c], *from = w->W + (3 * v + i) * n;
+
+          for (PetscInt j = 0; j < n; j++) to[j] += factor * from[j];
+        }
+      }
+  for (PetscInt i = 0; i < nn; i++) Carry_Private(w, half + i * n, H + i * nn);
+}
+
+/* Weighted gaps, weights and what derivatives are asked for. */
+static PetscErrorCode Result_Private(const EvaluateContext *ctx, FacetWork w, const FacetWeights *f, const PetscReal z[4], PetscBool derivatives, PetscBool hessian,
+                                     ContactFacet *out)
+{
+  const PetscInt n = 3 * w->num_vertices, nn = 3 * w->num_nodes, nr = w->num_rows;
+  PetscReal      factor[FACET_MOMENTS], *gap, *weight, *dgap, *dweight, *half;
+
+  PetscFunctionBegin;
+  (void)ctx;
+  PetscCall(Reserve_Private(w->store, 2 * nr, &gap));
+  weight = gap + nr;
+  for (int j = 0; j < 4; j++)
+    for (PetscInt k = w->row_first[j]; k < w->row_first[j + 1]; k++) {
+      gap[w->row_node[k]] += w->row_weight[k] * f->gap[j];
+      weight[w->row_node[k]] += w->row_weight[k] * f->weight[j];
+    }
+  out->gap     = gap;
+  out->weight  = weight;
+  out->area    = w->covered;
+  out->min_gap = w->moments.min_gap;
+  out->dgap = out->dweight = out->hessian = NULL;
+  if (!derivatives) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(ContactGrow(3 * n + nn, sizeof(PetscReal), &w->size_row, &w->row));
+  PetscCall(Reserve_Private(w->store, 2 * nr * nn, &dgap));
+  dweight = dgap + nr * nn;
+  for (int j = 0; j < 4; j++) {
+    Distribute_Private(w, j, f->dgap[j], dgap);
+    for (int q = 0; q < FACET_MOMENTS; q++) factor[q] = q == 4 + j;
+    Distribute_Private(w, j, factor, dweight);
+  }
+  out->dgap    = dgap;
+  out->dweight = dweight;
+  if (!hessian) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(HalfHessian_Private(w, f, z));
+  PetscCall(Reserve_Private(w->store, nn * nn, (PetscReal **)&out->hessian));
+  PetscCall(Reserve_Private(w->store, nn * n, &half));
+  CarryHessian_Private(w, half, (PetscReal *)out->hessian);
+  w->store->used -= nn * n; /* only work */
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Corners of the overlaps on both facets. The mortar facet's list is backwards: (xi_1, xi_2) there is (-xi_1, xi_2) of its own. */
+static PetscErrorCode Segments_Private(ContactPair pair, PetscInt slot, const FacetWork w)
+{
+  PetscFunctionBegin;
+  PetscCall(ContactGrow(pair->num_segments + w->num_overlaps, sizeof(ContactSegment), &pair->size_segments, &pair->output));
+  for (PetscInt k = 0; k < w->num_overlaps; k++) {
+    const Overlap  *o = &w->overlap[k];
+    ContactSegment *s = &pair->output[pair->num_segments++];
+
+    s->facet        = pair->listed[slot];
+    s->mortar_facet = w->mortar[k];
+    s->num          = o->num;
+    for (PetscInt v = 0; v < o->num; v++) {
+      PlanePoint p[2];
+
+      for (int i = 0; i < 2; i++)
+        if (!ContactQuadLocate(&o->side[i], o->v[v], &p[i])) p[i].xi[0] = p[i].xi[1] = 0; /* cannot happen: the overlap was integrated */
+      s->xi[v][0] = p[0].xi[0], s->xi[v][1] = p[0].xi[1];
+      s->eta[v][0] = -p[1].xi[0], s->eta[v][1] = p[1].xi[1];
+    }
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static void LocalMultipliers_Private(const EvaluateContext *ctx, const FacetWork w, PetscReal z[4])
+{
+  for (int j = 0; j < 4; j++) {
+    z[j] = 0;
+    for (PetscInt k = w->row_first[j]; ctx->z && k < w->row_first[j + 1]; k++) z[j] += w->row_weight[k] * ctx->z[w->node[w->row_node[k]]];
+  }
+}
+
+static PetscBool Wanted_Private(const EvaluateContext *ctx, const FacetWork w)
+{
+  if (!ctx->wanted) return PETSC_TRUE;
+  for (PetscInt j = 0; j < w->num_rows; j++)
+    if (ctx->wanted[w->node[j]]) return PETSC_TRUE;
+  return PETSC_FALSE;
+}
+
+PetscErrorCode ContactFacetsEvaluate(const EvaluateContext *ctx, PetscBool *failed)
+{
+  ContactPair pair = ctx->pair;
+  FacetWork   w    = pair->facet;
+
+  PetscFunctionBegin;
+  Normals_Private(pair, ctx->nonmortar);
+  pair->num_degenerate = pair->num_ids = 0;
+  w->store->at = w->store->used = 0;
+  for (PetscInt slot = 0; slot < pair->num_listed; slot++) {
+    ContactFacet *out = &pair->result[pair->num_results];
+    FacetWeights  f;
+    PetscReal     z[4];
+    PetscBool     loaded, derivatives;
+
+    PetscCall(Gather_Private(pair, ctx->nonmortar, ctx->mortar, slot, w, failed));
+    if (*failed) PetscFunctionReturn(PETSC_SUCCESS);
+    if (w->num_overlaps == 0) continue;
+    PetscCall(Masters_Private(w, ctx->nonmortar, ctx->mortar));
+    LocalMultipliers_Private(ctx, w, z);
+    loaded      = (PetscBool)(z[0] != 0 || z[1] != 0 || z[2] != 0 || z[3] != 0);
+    derivatives = (PetscBool)(ctx->derivatives && (loaded || ((ctx->hessian || !ctx->z) && Wanted_Private(ctx, w))));
+    PetscCall(Moments_Private(pair, w, derivatives));
+    if (w->num_overlaps == 0 || !ContactFacetWeights(pair->standard, w->moments.q, z, &f)) continue;
+    PetscCall(Segments_Private(pair, slot, w));
+    PetscCall(Result_Private(ctx, w, &f, z, derivatives, (PetscBool)(ctx->hessian && loaded), out));
+    PetscCall(ContactGrow(pair->num_ids + w->num_nodes, sizeof(PetscInt), &pair->size_ids, &pair->ids));
+    PetscCall(PetscArraycpy(pair->ids + pair->num_ids, w->node, w->num_nodes));
+    pair->num_ids += w->num_nodes;
+    out->facet    = pair->listed[slot];
+    out->num_rows = w->num_rows;
+    out->num      = w->num_nodes;
+    for (PetscInt j = 0; j < w->num_rows; j++)
+      if (PetscIsInfOrNanReal(out->gap[j])) *failed = PETSC_TRUE;
+    pair->num_results++;
+  }
+  pair->num_ids = 0; /* the array is where it stays now */
+  for (PetscInt i = 0; i < pair->num_results; i++) {
+    pair->result[i].nodes = pair->ids + pair->num_ids;
+    pair->num_ids += pair->result[i].num;
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

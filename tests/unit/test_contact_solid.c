@@ -1,0 +1,162 @@
+/* Three-dimensional mortar contact: derivatives against differences on random warped, tilted, partly covered pairs (case O-94), exact sums, rigid motion. */
+#include "solidfixture.h"
+
+enum { NS = 3, NM = 4 };
+
+typedef struct {
+  PetscBool standard, partly;
+} Kind;
+
+typedef struct {
+  PetscReal gradient, weight, hessian, symmetry;
+  PetscInt  columns, kinks;
+} Errors;
+
+static void MakePair(const Kind *kind, uint64_t *seed, Sheet *nonmortar, Sheet *mortar)
+{
+  const PetscReal axis[3] = {Random(seed), Random(seed), Random(seed)}, shift[3] = {Random(seed), Random(seed), Random(seed)}, angle = 3 * Random(seed);
+  const PetscReal curve = 0.1 * Random(seed), turn[3] = {0.2 * Random(seed), 0.2 * Random(seed), 1}, none[3] = {0, 0, 0};
+
+  SheetCreate(nonmortar, NS, NS, 0, 1, 0, PETSC_TRUE);
+  SheetCreate(mortar, NM, NM, kind->partly ? 0.27 : -0.3, kind->partly ? 1.4 : 1.3, 0.03, PETSC_FALSE);
+  SheetMove(mortar, turn, 0.4 * Random(seed), none);
+  for (int k = 0; k < 2; k++) {
+    Sheet *c = k ? mortar : nonmortar;
+
+    for (PetscInt n = 0; n < c->s.num_nodes; n++) {
+      PetscReal *x = c->x + 3 * n;
+
+      x[2] += curve * (x[0] * x[0] + x[0] * x[1]) + 0.02 * Random(seed);
+      x[0] += 0.05 * Random(seed);
+      x[1] += 0.05 * Random(seed);
+    }
+    SheetMove(c, axis, angle, shift);
+  }
+}
+
+/* Who sees whom, and how many corners: changes mark a kink. */
+static uint64_t Signature(ContactPair pair)
+{
+  const ContactSegment *s;
+  PetscInt              num;
+  uint64_t              hash = 1469598103934665603ULL;
+
+  CHECK_CALL(ContactPairGetSegments(pair, &num, &s));
+  for (PetscInt i = 0; i < num; i++) hash = (hash ^ (uint64_t)(s[i].facet * 100000 + s[i].mortar_facet * 10 + s[i].num)) * 1099511628211ULL;
+  return hash;
+}
+
+static PetscReal Difference(const PetscReal f[4], PetscReal h)
+{
+  return (f[0] - 8 * f[1] + 8 * f[2] - f[3]) / (12 * h);
+}
+
+static PetscReal Largest(const PetscReal a[], PetscInt n)
+{
+  PetscReal m = 0;
+
+  for (PetscInt i = 0; i < n; i++) m = PetscMax(m, PetscAbsReal(a[i]));
+  return m;
+}
+
+static void CheckColumn(Errors *err, const Sum *exact, const Sum moved[4], PetscInt i, PetscReal h, const PetscReal scale[3])
+{
+  for (PetscInt j = 0; j < exact->nn; j++) {
+    PetscReal g[4], w[4];
+
+    for (int m = 0; m < 4; m++) g[m] = moved[m].gap[j], w[m] = moved[m].weight[j];
+    err->gradient = PetscMax(err->gradient, PetscAbsReal(Difference(g, h) - exact->dgap[j * exact->size + i]) / scale[0]);
+    err->weight   = PetscMax(err->weight, PetscAbsReal(Difference(w, h) - exact->dweight[j * exact->size + i]) / scale[1]);
+  }
+  for (PetscInt k = 0; k < exact->size; k++) {
+    PetscReal d[4];
+
+    for (int m = 0; m < 4; m++) d[m] = moved[m].gradient[k];
+    err->hessian  = PetscMax(err->hessian, PetscAbsReal(Difference(d, h) - exact->hessian[k * exact->size + i]) / scale[2]);
+    err->symmetry = PetscMax(err->symmetry, PetscAbsReal(exact->hessian[i * exact->size + k] - exact->hessian[k * exact->size + i]) / scale[2]);
+  }
+}
+
+static void CheckSeed(const Kind *kind, uint64_t seed, Errors *err)
+{
+  const PetscReal   h = 1e-5, step[4] = {-2, -1, 1, 2};
+  const ContactSpec spec = {.standard = kind->standard};
+  Sheet             nonmortar, mortar;
+  ContactPair       pair;
+  Sum               exact, moved[4];
+  PetscReal         z[(NS + 1) * (NS + 1)], scale[3];
+  uint64_t          signature;
+
+  MakePair(kind, &seed, &nonmortar, &mortar);
+  for (int j = 0; j < nonmortar.s.num_nodes; j++) z[j] = Random(&seed);
+  CHECK_CALL(ContactPairCreate(3, PETSC_FALSE, &spec, &pair));
+  SearchAll(pair, &nonmortar, &mortar, 0.5, 1e-3);
+  SumCreate(&exact, nonmortar.s.num_nodes, mortar.s.num_nodes);
+  SumEvaluate(&exact, pair, &nonmortar, &mortar, z, PETSC_TRUE);
+  signature = Signature(pair);
+  assert_false(exact.failed);
+  assert_true(exact.num >= NS);
+  scale[0] = Largest(exact.dgap, exact.nn * exact.size);
+  scale[1] = Largest(exact.dweight, exact.nn * exact.size);
+  scale[2] = Largest(exact.hessian, exact.size * exact.size);
+  for (int m = 0; m < 4; m++) SumCreate(&moved[m], exact.nn, exact.nm);
+  for (PetscInt i = 0; i < exact.size; i++) {
+    PetscReal *x    = i < 3 * exact.nn ? nonmortar.x + i : mortar.x + i - 3 * exact.nn, x0 = *x;
+    PetscBool  kink = PETSC_FALSE;
+
+    for (int m = 0; m < 4; m++) {
+      *x = x0 + step[m] * h;
+      SumEvaluate(&moved[m], pair, &nonmortar, &mortar, z, PETSC_FALSE);
+      if (Signature(pair) != signature) kink = PETSC_TRUE;
+    }
+    *x = x0;
+    err->columns++;
+    if (kink)
+      err->kinks++;
+    else
+      CheckColumn(err, &exact, moved, i, h, scale);
+  }
+  for (int m = 0; m < 4; m++) SumDestroy(&moved[m]);
+  SumDestroy(&exact);
+  SheetDestroy(&nonmortar);
+  SheetDestroy(&mortar);
+  CHECK_CALL(ContactPairDestroy(&pair));
+}
+
+static void CheckKind(const Kind *kind, PetscInt seeds, PetscReal tolerance)
+{
+  Errors err = {0};
+
+  for (PetscInt s = 0; s < seeds; s++) CheckSeed(kind, 1000003u * (uint64_t)(s + 1), &err);
+  print_message("standard %d, partly covered %d: gradient %.1e, weight %.1e, Hessian %.1e, symmetry %.1e; %d of %d columns over a kink\n", kind->standard, kind->partly,
+                err.gradient, err.weight, err.hessian, err.symmetry, (int)err.kinks, (int)err.columns);
+  assert_true(err.kinks < err.columns / 10);
+  assert_true(err.gradient < tolerance);
+  assert_true(err.weight < tolerance);
+  assert_true(err.hessian < tolerance);
+  assert_true(err.symmetry < 1e-12);
+}
+
+static void test_standard(void **state)
+{
+  (void)state;
+  CheckKind(&(Kind){PETSC_TRUE, PETSC_FALSE}, 15, 1e-7);
+  CheckKind(&(Kind){PETSC_TRUE, PETSC_TRUE}, 15, 1e-7);
+}
+
+static void test_dual(void **state)
+{
+  (void)state;
+  CheckKind(&(Kind){PETSC_FALSE, PETSC_FALSE}, 15, 1e-7);
+  CheckKind(&(Kind){PETSC_FALSE, PETSC_TRUE}, 15, 1e-7);
+}
+
+int main(int argc, char **argv)
+{
+  const struct CMUnitTest tests[] = {cmocka_unit_test(test_standard), cmocka_unit_test(test_dual)};
+  int                     failed;
+
+  if (PetscInitialize(&argc, &argv, NULL, NULL)) return 1;
+  failed = cmocka_run_group_tests(tests, NULL, NULL);
+  return PetscFinalize() || failed;
+}
