@@ -198,7 +198,6 @@ PetscErrorCode ContactCreate_Private(Problem p, const ContactSpec *spec, Contact
 
   PetscFunctionBegin;
   PetscCall(PetscMemzero(c, sizeof(*c)));
-  PetscCheckInput(p->dim == 2 || !spec->node_to_segment, "contact.%s.node_to_segment: is built in two dimensions only", spec->name);
   c->spec = spec;
   PetscCall(SurfaceCreate_Private(p, spec->nonmortar, &c->side[0]));
   PetscCall(SurfaceCreate_Private(p, spec->mortar, &c->side[1]));

@@ -69,6 +69,8 @@ const Option Options[] = {
      "adjust: what faces each other at the reference positions counts as touching, so that facets on a curved surface make no gap", PAIR(initial_gap)},
     {"contact.<pair>.interference", KEY_REAL, "length", "0", ANY, "overlap at the reference positions, taken off the gap (shrink fit)",
      PAIR(spec.interference)},
+    {"contact.<pair>.multiplier", KEY_WORD, "", "dual", "dual|standard",
+     "basis of the contact pressure: dual to the hats on the covered part of each facet, or the hats themselves", PAIR(multiplier)},
     {"contact.<pair>.node_to_segment", KEY_BOOL, "", "false", "", "node-to-segment contact, for comparison only", PAIR(spec.node_to_segment)},
 
     {"load.end", KEY_REAL, "pseudo-time", "1", POSITIVE, "t runs from 0 to here", SCENE(data.load.end)},

@@ -70,7 +70,7 @@ typedef struct {
 typedef struct {
   ContactSpec spec;
   char        nonmortar[MORTISE_NAME], mortar[MORTISE_NAME];
-  int         order, initial_gap;
+  int         order, initial_gap, multiplier;
   SceneNode  *node;
 } ContactEntry;
 
