@@ -121,4 +121,8 @@ PetscErrorCode ProblemPending(Problem, PetscReal *remaining);
 /* Forces of the supports at x: reaction[num_boundaries][3]; contact force and moment about the origin on the nonmortar side: force[num_contacts][3],
    moment[num_contacts][3]; all ranks. Evaluates the residual. */
 PetscErrorCode ProblemForces(Problem, Vec x, PetscReal reaction[][3], PetscReal force[][3], PetscReal moment[][3], ProblemStatus *);
+/* Displacement dofs and multipliers of this rank, in that order in its part of the vector; dimension. Not collective. */
+PetscErrorCode ProblemGetBlocks(Problem, PetscInt *num_u, PetscInt *num_z, PetscInt *dim);
+/* Rigid-body modes of all nodes at the reference positions, restricted to the displacement dofs is_u: for multigrid methods. Collective. */
+PetscErrorCode ProblemRigidModes(Problem, IS is_u, MatNullSpace *);
 PetscErrorCode ProblemNumDofs(Problem, PetscInt *free_dofs); /* global: u and z */

@@ -21,13 +21,23 @@ static PetscErrorCode LinearSolve_Private(SNES snes, Solver s, Vec dx, PetscBool
   PetscFunctionBegin;
   PetscCall(SNESGetKSP(snes, &ksp));
   PetscCall(ProblemGetMatrix(s->problem, &A));
+  ++s->report->linear_solves;
+  if (s->saddle) {
+    PetscCall(StageBegin(STAGE_FACTOR));
+    PetscCall(SaddleSetUp_Private(s->saddle, A));
+    PetscCall(StageEnd(STAGE_FACTOR));
+    PetscCall(StageBegin(STAGE_SOLVE));
+    PetscCall(SaddleSolve_Private(s->saddle, s->rhs, dx, ok));
+    PetscCall(StageEnd(STAGE_SOLVE));
+    if (*ok) PetscFunctionReturn(PETSC_SUCCESS);
+    PetscCall(PetscInfo(snes, "multigrid failed: factorising\n"));
+  }
   PetscCall(StageBegin(STAGE_FACTOR));
   PetscCall(SolverFactor_Private(s, A));
   PetscCall(StageEnd(STAGE_FACTOR));
   PetscCall(StageBegin(STAGE_SOLVE));
   PetscCall(KSPSolve(ksp, s->rhs, dx));
   PetscCall(StageEnd(STAGE_SOLVE));
-  ++s->report->linear_solves;
   PetscCall(KSPGetConvergedReason(ksp, &reason));
   PetscCall(VecNorm(dx, NORM_2, &norm));
   *ok = (PetscBool)(reason >= 0 && !PetscIsInfOrNanReal(norm));

@@ -9,6 +9,10 @@ typedef struct {
   PetscReal *norm; /* owned [size] what goes with the set: contradiction of a pass, residual of an iterate */
 } SetHistory;
 
+typedef struct _p_Saddle *Saddle;
+
+typedef enum { LINEAR_AUTO, LINEAR_DIRECT, LINEAR_ITERATIVE } LinearKind;
+
 struct _p_Solver {
   Problem       problem; /* borrowed */
   SNES          snes;
@@ -18,6 +22,9 @@ struct _p_Solver {
   PetscReal     rtol;
   PetscBool     symmetric; /* LDL^T of the symmetric form */
   PetscInt      max_it, passes, cuts;
+  LinearKind    linear;   /* as asked */
+  Saddle        saddle;   /* iterative solution, NULL: direct */
+  PetscReal     linear_rtol;
   PetscBool     test;         /* -snes_test_jacobian was given */
   SetHistory    pass_sets;    /* active sets of the passes of one linearisation */
   SetHistory    iterate_sets; /* active sets of the Newton iterates */
@@ -36,3 +43,10 @@ PetscErrorCode SetHistoryDestroy_Private(SetHistory *);
 /* linear.c: direct solver by default, everything open to options. */
 PetscErrorCode SolverLinear_Private(Solver);
 PetscErrorCode SolverFactor_Private(Solver, Mat);
+
+/* saddle.c: iterative solution of the symmetric tangent. */
+PetscErrorCode SaddleCreate_Private(Problem, PetscReal rtol, Saddle *);
+PetscErrorCode SaddleDestroy_Private(Saddle *);
+PetscErrorCode SaddleSetUp_Private(Saddle, Mat);
+PetscErrorCode SaddleSolve_Private(Saddle, Vec rhs, Vec x, PetscBool *ok);
+PetscErrorCode SaddleGetIterations_Private(Saddle, PetscInt *iterations);

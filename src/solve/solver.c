@@ -21,6 +21,8 @@ static PetscErrorCode Jacobian_Private(SNES snes, Vec x, Mat J, Mat P, void *con
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+static const char *const Kinds[] = {"auto", "direct", "iterative", "LinearKind", "LINEAR_", NULL};
+
 static PetscErrorCode Options_Private(Solver s)
 {
   PetscBool possible;
@@ -30,6 +32,9 @@ static PetscErrorCode Options_Private(Solver s)
   s->max_it = 25;
   s->passes = 10;
   s->cuts   = 6;
+
+  s->linear      = LINEAR_AUTO;
+  s->linear_rtol = 1e-6;
   PetscOptionsBegin(PetscObjectComm((PetscObject)s->snes), NULL, "Solver", NULL);
   PetscCall(PetscOptionsReal("-solve_rtol", "Residual against the root of the summed squared nodal forces", NULL, s->rtol, &s->rtol, NULL));
   PetscCall(PetscOptionsInt("-solve_max_it", "Newton iterations before a step is given up", NULL, s->max_it, &s->max_it, NULL));
@@ -39,6 +44,9 @@ static PetscErrorCode Options_Private(Solver s)
   s->symmetric = possible;
   PetscCall(PetscOptionsBool("-solve_symmetric", "Factorise the symmetric form of the tangent (LDL^T) rather than the exact one (LU)", NULL, s->symmetric,
                              &s->symmetric, NULL));
+  PetscCall(PetscOptionsEnum("-solve_linear", "Linear solver: direct factorisation, multigrid and GMRES, or by size", NULL, Kinds, (PetscEnum)s->linear,
+                             (PetscEnum *)&s->linear, NULL));
+  PetscCall(PetscOptionsReal("-solve_linear_rtol", "Residual of GMRES against the right-hand side", NULL, s->linear_rtol, &s->linear_rtol, NULL));
   PetscOptionsEnd();
   s->symmetric = (PetscBool)(s->symmetric && possible);
   PetscCall(ProblemSetSymmetric(s->problem, s->symmetric));
@@ -62,6 +70,7 @@ PetscErrorCode SolverCreate(Problem problem, Solver *solver)
   PetscCall(SNESSetType(s->snes, "contactnewton"));
   PetscCall(SNESSetApplicationContext(s->snes, s));
   PetscCall(SolverLinear_Private(s));
+  if (s->linear == LINEAR_ITERATIVE && s->symmetric) PetscCall(SaddleCreate_Private(problem, s->linear_rtol, &s->saddle));
   PetscCall(SNESSetFromOptions(s->snes));
   PetscCall(SNESSetFunction(s->snes, r, Function_Private, s));
   PetscCall(VecDestroy(&r));
@@ -81,6 +90,7 @@ PetscErrorCode SolverDestroy(Solver *solver)
   PetscFunctionBegin;
   if (!s) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SNESDestroy(&s->snes));
+  PetscCall(SaddleDestroy_Private(&s->saddle));
   PetscCall(VecDestroy(&s->lift));
   PetscCall(VecDestroy(&s->rhs));
   PetscCall(VecDestroy(&s->best));

@@ -1,0 +1,282 @@
+/* Iterative solution of the symmetric tangent, displacements u and multipliers z:
+
+     [ K  B^T ] [u]   [f]
+     [ B   C  ] [z] = [g],     rows of inactive nodes: B = 0, C = -w0/c; of active ones: C = 0, B = minus the normalised gradient.
+
+   Augmented form (Fortin & Glowinski): the same solution satisfies (K + B^T G B) u + B^T z = f + B^T G g, G diagonal over the active rows. With G_j = (b_j D b_j^T) / (b_j b_j^T)^2,
+   D = diag K, the augmentation is as stiff as the mesh itself: it spoils no multigrid method and holds bodies that only contact holds. Right preconditioner
+     [ M  B^T ]
+     [ 0  -S  ],   M: one cycle of algebraic multigrid with rigid-body modes on K + B^T G B, S = G^-1 (active), -C (inactive):
+   with exact M the Schur complement times G has eigenvalues s/(1+s) < 1, s those of G B K^-1 B^T, which are bounded below on any mesh. GMRES. */
+#include "solveimpl.h"
+
+struct _p_Saddle {
+  Problem   problem; /* borrowed */
+  KSP       ksp, multigrid;
+  IS        is_u, is_z;
+  Mat       K, B, C, augmented; /* blocks of the last tangent; augmented = K + B^T G B */
+  Mat       operator;
+  Vec       G, S, work_u, work_z, rhs;
+  PetscInt  iterations; /* of the last solve */
+  PetscReal rtol;
+};
+
+static PetscErrorCode Blocks_Private(Saddle s, Vec x, Vec *u, Vec *z)
+{
+  PetscFunctionBegin;
+  PetscCall(VecGetSubVector(x, s->is_u, u));
+  PetscCall(VecGetSubVector(x, s->is_z, z));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode BlocksRestore_Private(Saddle s, Vec x, Vec *u, Vec *z)
+{
+  PetscFunctionBegin;
+  PetscCall(VecRestoreSubVector(x, s->is_u, u));
+  PetscCall(VecRestoreSubVector(x, s->is_z, z));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* y = [augmented B^T; B C] x */
+static PetscErrorCode Operator_Private(Mat A, Vec x, Vec y)
+{
+  Saddle s;
+  Vec    xu, xz, yu, yz;
+
+  PetscFunctionBegin;
+  PetscCall(MatShellGetContext(A, &s));
+  PetscCall(Blocks_Private(s, x, &xu, &xz));
+  PetscCall(Blocks_Private(s, y, &yu, &yz));
+  PetscCall(MatMult(s->augmented, xu, yu));
+  PetscCall(MatMultTransposeAdd(s->B, xz, yu, yu));
+  PetscCall(MatMult(s->C, xz, yz));
+  PetscCall(MatMultAdd(s->B, xu, yz, yz));
+  PetscCall(BlocksRestore_Private(s, x, &xu, &xz));
+  PetscCall(BlocksRestore_Private(s, y, &yu, &yz));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode Precondition_Private(PC pc, Vec x, Vec y)
+{
+  Saddle s;
+  Vec    xu, xz, yu, yz;
+
+  PetscFunctionBegin;
+  PetscCall(PCShellGetContext(pc, &s));
+  PetscCall(Blocks_Private(s, x, &xu, &xz));
+  PetscCall(Blocks_Private(s, y, &yu, &yz));
+  PetscCall(VecPointwiseDivide(yz, xz, s->S));
+  PetscCall(VecScale(yz, -1));
+  PetscCall(MatMultTranspose(s->B, yz, s->work_u));
+  PetscCall(VecAYPX(s->work_u, -1, xu));
+  PetscCall(KSPSolve(s->multigrid, s->work_u, yu));
+  PetscCall(BlocksRestore_Private(s, x, &xu, &xz));
+  PetscCall(BlocksRestore_Private(s, y, &yu, &yz));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode Create_Private(Saddle s, Mat A)
+{
+  PetscInt first, last, num_u, num_z, dim;
+  PC       pc;
+  Vec      x;
+
+  PetscFunctionBegin;
+  PetscCall(ProblemGetBlocks(s->problem, &num_u, &num_z, &dim));
+  PetscCall(MatGetOwnershipRange(A, &first, &last));
+  PetscCall(ISCreateStride(PetscObjectComm((PetscObject)A), num_u, first, 1, &s->is_u));
+  PetscCall(ISCreateStride(PetscObjectComm((PetscObject)A), num_z, first + num_u, 1, &s->is_z));
+  PetscCall(MatCreateVecs(A, &x, NULL));
+  PetscCall(VecDuplicate(x, &s->rhs));
+  PetscCall(MatCreateShell(PetscObjectComm((PetscObject)A), last - first, last - first, PETSC_DETERMINE, PETSC_DETERMINE, s, &s->operator));
+  PetscCall(MatShellSetOperation(s->operator, MATOP_MULT, (void (*)(void))Operator_Private));
+  PetscCall(KSPCreate(PetscObjectComm((PetscObject)A), &s->ksp));
+  PetscCall(KSPSetOptionsPrefix(s->ksp, "saddle_"));
+  PetscCall(KSPSetType(s->ksp, KSPGMRES));
+  PetscCall(KSPGMRESSetRestart(s->ksp, 100));
+  PetscCall(KSPSetPCSide(s->ksp, PC_RIGHT));
+  PetscCall(KSPSetTolerances(s->ksp, s->rtol, PETSC_DEFAULT, PETSC_DEFAULT, 200));
+  PetscCall(KSPGetPC(s->ksp, &pc));
+  PetscCall(PCSetType(pc, PCSHELL));
+  PetscCall(PCShellSetContext(pc, s));
+  PetscCall(PCShellSetApply(pc, Precondition_Private));
+  PetscCall(KSPSetFromOptions(s->ksp));
+  PetscCall(KSPCreate(PetscObjectComm((PetscObject)A), &s->multigrid));
+  PetscCall(KSPSetOptionsPrefix(s->multigrid, "multigrid_"));
+  PetscCall(KSPSetType(s->multigrid, KSPPREONLY));
+  PetscCall(KSPGetPC(s->multigrid, &pc));
+  PetscCall(PCSetType(pc, PCGAMG));
+  PetscCall(KSPSetFromOptions(s->multigrid));
+  PetscCall(VecDestroy(&x));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Square every entry. */
+static PetscErrorCode Square_Private(Mat A)
+{
+  Mat         part[2] = {A, NULL};
+  MatInfo     info;
+  PetscReal  *value;
+  PetscBool   parallel;
+
+  PetscFunctionBegin;
+  PetscCall(PetscObjectTypeCompare((PetscObject)A, MATMPIAIJ, &parallel));
+  if (parallel) PetscCall(MatMPIAIJGetSeqAIJ(A, &part[0], &part[1], NULL));
+  for (PetscInt k = 0; k < 2 && part[k]; ++k) {
+    PetscCall(MatGetInfo(part[k], MAT_LOCAL, &info));
+    PetscCall(MatSeqAIJGetArray(part[k], &value));
+    for (PetscInt i = 0; i < (PetscInt)info.nz_used; ++i) value[i] *= value[i];
+    PetscCall(MatSeqAIJRestoreArray(part[k], &value));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* G_j = (b_j D b_j^T) / (b_j b_j^T)^2, 0 for empty rows; S = 1/G or -C. */
+static PetscErrorCode Weights_Private(Saddle s)
+{
+  Vec        D, square, weighted, C;
+  Mat        B2;
+  PetscReal *g, *sc;
+  const PetscReal *q, *w, *c;
+  PetscInt   n;
+
+  PetscFunctionBegin;
+  PetscCall(MatCreateVecs(s->K, &D, NULL));
+  PetscCall(MatGetDiagonal(s->K, D));
+  PetscCall(MatDuplicate(s->B, MAT_COPY_VALUES, &B2));
+  PetscCall(Square_Private(B2));
+  PetscCall(VecDuplicate(s->G, &square));
+  PetscCall(VecDuplicate(s->G, &weighted));
+  PetscCall(VecDuplicate(s->G, &C));
+  PetscCall(MatMult(B2, D, weighted));
+  PetscCall(VecSet(D, 1));
+  PetscCall(MatMult(B2, D, square));
+  PetscCall(MatGetDiagonal(s->C, C));
+  PetscCall(VecGetLocalSize(s->G, &n));
+  PetscCall(VecGetArray(s->G, &g));
+  PetscCall(VecGetArray(s->S, &sc));
+  PetscCall(VecGetArrayRead(square, &q));
+  PetscCall(VecGetArrayRead(weighted, &w));
+  PetscCall(VecGetArrayRead(C, &c));
+  for (PetscInt j = 0; j < n; ++j) {
+    g[j]  = q[j] > 0 ? w[j] / (q[j] * q[j]) : 0;
+    sc[j] = g[j] > 0 ? 1 / g[j] : -c[j];
+  }
+  PetscCall(VecRestoreArray(s->G, &g));
+  PetscCall(VecRestoreArray(s->S, &sc));
+  PetscCall(VecRestoreArrayRead(square, &q));
+  PetscCall(VecRestoreArrayRead(weighted, &w));
+  PetscCall(VecRestoreArrayRead(C, &c));
+  PetscCall(VecDestroy(&D));
+  PetscCall(VecDestroy(&square));
+  PetscCall(VecDestroy(&weighted));
+  PetscCall(VecDestroy(&C));
+  PetscCall(MatDestroy(&B2));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* augmented = K + B^T G B, with the rigid-body modes of the nodes. */
+static PetscErrorCode Augment_Private(Saddle s)
+{
+  Mat          GB, product;
+  MatNullSpace modes;
+
+  PetscFunctionBegin;
+  PetscCall(MatDuplicate(s->B, MAT_COPY_VALUES, &GB));
+  PetscCall(MatDiagonalScale(GB, s->G, NULL));
+  PetscCall(MatTransposeMatMult(s->B, GB, MAT_INITIAL_MATRIX, PETSC_DEFAULT, &product));
+  PetscCall(MatDestroy(&s->augmented));
+  PetscCall(MatDuplicate(s->K, MAT_COPY_VALUES, &s->augmented));
+  PetscCall(MatAXPY(s->augmented, 1, product, DIFFERENT_NONZERO_PATTERN));
+  PetscCall(MatDestroy(&product));
+  PetscCall(MatDestroy(&GB));
+  PetscCall(ProblemRigidModes(s->problem, s->is_u, &modes));
+  PetscCall(MatSetNearNullSpace(s->augmented, modes));
+  PetscCall(MatNullSpaceDestroy(&modes));
+  PetscCall(MatSetOption(s->augmented, MAT_SYMMETRIC, PETSC_TRUE));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SaddleCreate_Private(Problem problem, PetscReal rtol, Saddle *saddle)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscNew(saddle));
+  (*saddle)->problem = problem;
+  (*saddle)->rtol    = rtol;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SaddleDestroy_Private(Saddle *saddle)
+{
+  Saddle s = *saddle;
+
+  PetscFunctionBegin;
+  if (!s) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(KSPDestroy(&s->ksp));
+  PetscCall(KSPDestroy(&s->multigrid));
+  PetscCall(ISDestroy(&s->is_u));
+  PetscCall(ISDestroy(&s->is_z));
+  PetscCall(MatDestroy(&s->K));
+  PetscCall(MatDestroy(&s->B));
+  PetscCall(MatDestroy(&s->C));
+  PetscCall(MatDestroy(&s->augmented));
+  PetscCall(MatDestroy(&s->operator));
+  PetscCall(VecDestroy(&s->G));
+  PetscCall(VecDestroy(&s->S));
+  PetscCall(VecDestroy(&s->work_u));
+  PetscCall(VecDestroy(&s->rhs));
+  PetscCall(PetscFree(*saddle));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* A: the symmetric tangent. */
+PetscErrorCode SaddleSetUp_Private(Saddle s, Mat A)
+{
+  PetscFunctionBegin;
+  if (!s->ksp) PetscCall(Create_Private(s, A));
+  PetscCall(MatDestroy(&s->K));
+  PetscCall(MatDestroy(&s->B));
+  PetscCall(MatDestroy(&s->C));
+  PetscCall(MatCreateSubMatrix(A, s->is_u, s->is_u, MAT_INITIAL_MATRIX, &s->K));
+  PetscCall(MatCreateSubMatrix(A, s->is_z, s->is_u, MAT_INITIAL_MATRIX, &s->B));
+  PetscCall(MatCreateSubMatrix(A, s->is_z, s->is_z, MAT_INITIAL_MATRIX, &s->C));
+  if (!s->G) {
+    PetscCall(MatCreateVecs(s->B, &s->work_u, &s->G));
+    PetscCall(VecDuplicate(s->G, &s->S));
+  }
+  PetscCall(Weights_Private(s));
+  PetscCall(Augment_Private(s));
+  PetscCall(KSPSetOperators(s->multigrid, s->augmented, s->augmented));
+  PetscCall(KSPSetUp(s->multigrid));
+  PetscCall(KSPSetOperators(s->ksp, s->operator, s->operator));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* x: solution of A x = rhs; *ok: GMRES got there. */
+PetscErrorCode SaddleSolve_Private(Saddle s, Vec rhs, Vec x, PetscBool *ok)
+{
+  KSPConvergedReason reason;
+  Vec                u, z, weighted;
+
+  PetscFunctionBegin;
+  PetscCall(VecCopy(rhs, s->rhs));
+  PetscCall(Blocks_Private(s, s->rhs, &u, &z));
+  PetscCall(VecDuplicate(z, &weighted));
+  PetscCall(VecPointwiseMult(weighted, s->G, z));
+  PetscCall(MatMultTransposeAdd(s->B, weighted, u, u));
+  PetscCall(VecDestroy(&weighted));
+  PetscCall(BlocksRestore_Private(s, s->rhs, &u, &z));
+  PetscCall(KSPSolve(s->ksp, s->rhs, x));
+  PetscCall(KSPGetConvergedReason(s->ksp, &reason));
+  PetscCall(KSPGetIterationNumber(s->ksp, &s->iterations));
+  PetscCall(PetscInfo(s->ksp, "%" PetscInt_FMT " iterations of GMRES\n", s->iterations));
+  *ok = (PetscBool)(reason > 0);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SaddleGetIterations_Private(Saddle s, PetscInt *iterations)
+{
+  PetscFunctionBegin;
+  *iterations = s->iterations;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
