@@ -10,8 +10,14 @@
 #define STALLED 7  /* iterations without a new least residual */
 #define HALVINGS 8 /* of steps that left the domain, in one solve */
 
-/* One solve with the matrix as it stands. */
-static PetscErrorCode LinearSolve_Private(SNES snes, Solver s, Vec dx, PetscBool *ok)
+/* How far GMRES need go: a tenth of the Newton residual's own size keeps the convergence quadratic. */
+static PetscReal Forcing_Private(Solver s)
+{
+  return PetscMin(1e-3, PetscMax(s->linear_rtol, 0.1 * s->report->residual / PetscMax(s->report->scale, PETSC_MIN_REAL)));
+}
+
+/* One solve with the matrix as it stands; again: only the active set has changed since the last, whose solution is in dx. */
+static PetscErrorCode LinearSolve_Private(SNES snes, Solver s, PetscBool again, Vec dx, PetscBool *ok)
 {
   KSP                ksp;
   KSPConvergedReason reason;
@@ -24,10 +30,10 @@ static PetscErrorCode LinearSolve_Private(SNES snes, Solver s, Vec dx, PetscBool
   ++s->report->linear_solves;
   if (s->saddle) {
     PetscCall(StageBegin(STAGE_FACTOR));
-    PetscCall(SaddleSetUp_Private(s->saddle, A));
+    PetscCall(SaddleSetUp_Private(s->saddle, A, again));
     PetscCall(StageEnd(STAGE_FACTOR));
     PetscCall(StageBegin(STAGE_SOLVE));
-    PetscCall(SaddleSolve_Private(s->saddle, s->rhs, dx, ok));
+    PetscCall(SaddleSolve_Private(s->saddle, s->rhs, Forcing_Private(s), again, dx, ok));
     PetscCall(StageEnd(STAGE_SOLVE));
     if (*ok) PetscFunctionReturn(PETSC_SUCCESS);
     PetscCall(PetscInfo(snes, "multigrid failed: factorising\n"));
@@ -59,7 +65,7 @@ static PetscErrorCode LinearStep_Private(SNES snes, Solver s, Vec x, Vec dx, Pet
     PetscCall(ProblemActiveSetHash(s->problem, &hash));
     PetscCall(SetHistoryAdd_Private(&s->pass_sets, hash, 0, PETSC_FALSE, &repeats));
     if (repeats) break;
-    PetscCall(LinearSolve_Private(snes, s, dx, ok));
+    PetscCall(LinearSolve_Private(snes, s, (PetscBool)(pass > 0), dx, ok));
     if (!*ok) PetscFunctionReturn(PETSC_SUCCESS);
     changed = 0;
     if (pass < s->passes) PetscCall(ProblemSwitchActiveSet(s->problem, x, dx, s->rhs, &changed, &violation));

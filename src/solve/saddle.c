@@ -18,7 +18,6 @@ struct _p_Saddle {
   Mat       operator;
   Vec       G, S, work_u, work_z, rhs;
   PetscInt  iterations; /* of the last solve */
-  PetscReal rtol;
 };
 
 static PetscErrorCode Blocks_Private(Saddle s, Vec x, Vec *u, Vec *z)
@@ -95,7 +94,7 @@ static PetscErrorCode Create_Private(Saddle s, Mat A)
   PetscCall(KSPSetType(s->ksp, KSPGMRES));
   PetscCall(KSPGMRESSetRestart(s->ksp, 100));
   PetscCall(KSPSetPCSide(s->ksp, PC_RIGHT));
-  PetscCall(KSPSetTolerances(s->ksp, s->rtol, PETSC_DEFAULT, PETSC_DEFAULT, 200));
+  PetscCall(KSPSetTolerances(s->ksp, PETSC_DEFAULT, PETSC_DEFAULT, PETSC_DEFAULT, 200));
   PetscCall(KSPGetPC(s->ksp, &pc));
   PetscCall(PCSetType(pc, PCSHELL));
   PetscCall(PCShellSetContext(pc, s));
@@ -197,12 +196,11 @@ static PetscErrorCode Augment_Private(Saddle s)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SaddleCreate_Private(Problem problem, PetscReal rtol, Saddle *saddle)
+PetscErrorCode SaddleCreate_Private(Problem problem, Saddle *saddle)
 {
   PetscFunctionBegin;
   PetscCall(PetscNew(saddle));
   (*saddle)->problem = problem;
-  (*saddle)->rtol    = rtol;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -229,9 +227,11 @@ PetscErrorCode SaddleDestroy_Private(Saddle *saddle)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* A: the symmetric tangent. */
-PetscErrorCode SaddleSetUp_Private(Saddle s, Mat A)
+/* A: the symmetric tangent. keep: the multigrid hierarchy of the last one will do (only the active set has changed). */
+PetscErrorCode SaddleSetUp_Private(Saddle s, Mat A, PetscBool keep)
 {
+  PC pc;
+
   PetscFunctionBegin;
   if (!s->ksp) PetscCall(Create_Private(s, A));
   PetscCall(MatDestroy(&s->K));
@@ -246,14 +246,16 @@ PetscErrorCode SaddleSetUp_Private(Saddle s, Mat A)
   }
   PetscCall(Weights_Private(s));
   PetscCall(Augment_Private(s));
+  PetscCall(KSPGetPC(s->multigrid, &pc));
+  PetscCall(PCSetReusePreconditioner(pc, keep));
   PetscCall(KSPSetOperators(s->multigrid, s->augmented, s->augmented));
   PetscCall(KSPSetUp(s->multigrid));
   PetscCall(KSPSetOperators(s->ksp, s->operator, s->operator));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* x: solution of A x = rhs; *ok: GMRES got there. */
-PetscErrorCode SaddleSolve_Private(Saddle s, Vec rhs, Vec x, PetscBool *ok)
+/* x: solution of A x = rhs to a relative residual of rtol, from x as it comes if guess is set; *ok: GMRES got there. */
+PetscErrorCode SaddleSolve_Private(Saddle s, Vec rhs, PetscReal rtol, PetscBool guess, Vec x, PetscBool *ok)
 {
   KSPConvergedReason reason;
   Vec                u, z, weighted;
@@ -266,6 +268,8 @@ PetscErrorCode SaddleSolve_Private(Saddle s, Vec rhs, Vec x, PetscBool *ok)
   PetscCall(MatMultTransposeAdd(s->B, weighted, u, u));
   PetscCall(VecDestroy(&weighted));
   PetscCall(BlocksRestore_Private(s, s->rhs, &u, &z));
+  PetscCall(KSPSetTolerances(s->ksp, rtol, PETSC_DEFAULT, PETSC_DEFAULT, PETSC_DEFAULT));
+  PetscCall(KSPSetInitialGuessNonzero(s->ksp, guess));
   PetscCall(KSPSolve(s->ksp, s->rhs, x));
   PetscCall(KSPGetConvergedReason(s->ksp, &reason));
   PetscCall(KSPGetIterationNumber(s->ksp, &s->iterations));

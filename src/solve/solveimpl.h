@@ -45,8 +45,8 @@ PetscErrorCode SolverLinear_Private(Solver);
 PetscErrorCode SolverFactor_Private(Solver, Mat);
 
 /* saddle.c: iterative solution of the symmetric tangent. */
-PetscErrorCode SaddleCreate_Private(Problem, PetscReal rtol, Saddle *);
+PetscErrorCode SaddleCreate_Private(Problem, Saddle *);
 PetscErrorCode SaddleDestroy_Private(Saddle *);
-PetscErrorCode SaddleSetUp_Private(Saddle, Mat);
-PetscErrorCode SaddleSolve_Private(Saddle, Vec rhs, Vec x, PetscBool *ok);
+PetscErrorCode SaddleSetUp_Private(Saddle, Mat, PetscBool keep);
+PetscErrorCode SaddleSolve_Private(Saddle, Vec rhs, PetscReal rtol, PetscBool guess, Vec x, PetscBool *ok);
 PetscErrorCode SaddleGetIterations_Private(Saddle, PetscInt *iterations);

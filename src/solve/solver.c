@@ -34,7 +34,7 @@ static PetscErrorCode Options_Private(Solver s)
   s->cuts   = 6;
 
   s->linear      = LINEAR_AUTO;
-  s->linear_rtol = 1e-6;
+  s->linear_rtol = 1e-7;
   PetscOptionsBegin(PetscObjectComm((PetscObject)s->snes), NULL, "Solver", NULL);
   PetscCall(PetscOptionsReal("-solve_rtol", "Residual against the root of the summed squared nodal forces", NULL, s->rtol, &s->rtol, NULL));
   PetscCall(PetscOptionsInt("-solve_max_it", "Newton iterations before a step is given up", NULL, s->max_it, &s->max_it, NULL));
@@ -46,7 +46,7 @@ static PetscErrorCode Options_Private(Solver s)
                              &s->symmetric, NULL));
   PetscCall(PetscOptionsEnum("-solve_linear", "Linear solver: direct factorisation, multigrid and GMRES, or by size", NULL, Kinds, (PetscEnum)s->linear,
                              (PetscEnum *)&s->linear, NULL));
-  PetscCall(PetscOptionsReal("-solve_linear_rtol", "Residual of GMRES against the right-hand side", NULL, s->linear_rtol, &s->linear_rtol, NULL));
+  PetscCall(PetscOptionsReal("-solve_linear_rtol", "Least residual of GMRES against the right-hand side", NULL, s->linear_rtol, &s->linear_rtol, NULL));
   PetscOptionsEnd();
   s->symmetric = (PetscBool)(s->symmetric && possible);
   PetscCall(ProblemSetSymmetric(s->problem, s->symmetric));
@@ -70,7 +70,7 @@ PetscErrorCode SolverCreate(Problem problem, Solver *solver)
   PetscCall(SNESSetType(s->snes, "contactnewton"));
   PetscCall(SNESSetApplicationContext(s->snes, s));
   PetscCall(SolverLinear_Private(s));
-  if (s->linear == LINEAR_ITERATIVE && s->symmetric) PetscCall(SaddleCreate_Private(problem, s->linear_rtol, &s->saddle));
+  if (s->linear == LINEAR_ITERATIVE && s->symmetric) PetscCall(SaddleCreate_Private(problem, &s->saddle));
   PetscCall(SNESSetFromOptions(s->snes));
   PetscCall(SNESSetFunction(s->snes, r, Function_Private, s));
   PetscCall(VecDestroy(&r));
