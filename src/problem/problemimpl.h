@@ -99,6 +99,8 @@ PetscErrorCode ContactRows_Private(Problem, const Contact *, PetscReal r[]);
 /* tangent.c: blocks of the last evaluation into the matrix: Hessian and columns (added), then rows (inserted). */
 PetscErrorCode ContactBlocks_Private(Problem, Contact *);
 PetscErrorCode ContactInsertRow_Private(Problem, Contact *, PetscInt node);
+/* far.c: are the gaps under pressure too wide for the curvature of the constraints to mean anything? */
+PetscBool ContactIsFar_Private(const Contact *);
 /* Change of every node's weighted gap, at fixed measure, under a local array of increments. */
 PetscErrorCode          ContactChange_Private(Problem, Contact *, const PetscReal increment[], PetscReal change[]);
 static inline PetscBool ContactCovered_Private(const Contact *c, PetscInt j)

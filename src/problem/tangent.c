@@ -87,6 +87,8 @@ static PetscErrorCode EdgeHessian_Private(Problem p, const Contact *c, const Con
 
 PetscErrorCode ContactBlocks_Private(Problem p, Contact *c)
 {
+  const PetscBool far = (PetscBool)(p->lifting && ContactIsFar_Private(c)); /* without lift the tangent is the derivative itself */
+
   PetscFunctionBegin;
   if (p->lifting)
     PetscCall(ContactChange_Private(p, c, p->increment, c->lift));
@@ -101,7 +103,7 @@ PetscErrorCode ContactBlocks_Private(Problem p, Contact *c)
     PetscCall(ProblemWork_Private(p, n));
     PetscCall(PetscMalloc2(n, &dofs, e->num, &frame));
     EdgeDofs_Private(c, e, dofs, frame);
-    if (e->hessian) PetscCall(EdgeHessian_Private(p, c, e, dofs, frame));
+    if (e->hessian && !far) PetscCall(EdgeHessian_Private(p, c, e, dofs, frame));
     for (PetscInt k = 0; k < 2 && !p->symmetric; ++k) {
       const PetscInt z = c->zdof[e->node[k]];
       if (z < 0) continue;
