@@ -70,6 +70,16 @@ def test_rubber2d_adaptive(run, roles):
 
 
 @ROLES
+@pytest.mark.parametrize("n", [n if n in (4, 6, 11, 21) else pytest.param(n, marks=pytest.mark.slow) for n in range(4, 33)])
+def test_rubber2d_linear_faces(run, n, roles):
+    """Order 3 inside, linear contact faces, the cells behind them subdivided twice: the force is right on every mesh. From n = 21 on facets are so small against
+    the gaps of the first linear step that its curvature must not enter the second."""
+    result = solve(run, "rubber2d", *UNIFORM, "-mesh_parameter_n", n, "-order", 3, "-contact_disc_on_block_subdivide", 2, "-snes_monitor", *roles)
+    solved_in_one_step(result, 8)
+    assert abs(pull(result) / RUBBER - 1) < 3e-3
+
+
+@ROLES
 @pytest.mark.parametrize("order", [1, 2])
 @pytest.mark.parametrize("n", [4, 8, 16, pytest.param(6, marks=pytest.mark.slow), pytest.param(12, marks=pytest.mark.slow),
                                pytest.param(24, marks=pytest.mark.slow), pytest.param(32, marks=pytest.mark.slow)])
