@@ -105,6 +105,11 @@ PetscErrorCode ProblemRightSide(Problem, Vec r, Vec lift, Vec rhs);
    matrix and the right-hand side. *changed: number of nodes that switched (all ranks); *violation: by how much dx contradicts the set it was found with, the
    sum over those nodes of w0 |z - c gt/w| (unit: force). */
 PetscErrorCode ProblemSwitchActiveSet(Problem, Vec x, Vec dx, Vec rhs, PetscInt *changed, PetscReal *violation);
+/* Where the active set of the last linear step moves along the surface, gaps linearised at the old place say little of the new one. Release takes
+   pairs that move so (prescribed motion still to come, finite kinematics) out of the tangent: the next linear step carries their bodies along without
+   them and sets their multipliers to 0. *any: is there one? Engage puts all pairs back. Collective. */
+PetscErrorCode ProblemRelease(Problem, PetscBool *any);
+PetscErrorCode ProblemEngage(Problem);
 /* A number that tells active sets of this problem apart. Not collective, the same on every rank. */
 PetscErrorCode ProblemActiveSetHash(Problem, uint64_t *hash);
 /* A Newton step: Begin remembers where it starts; Move sets x = start + step dx and the prescribed motion likewise (may be called again with a shorter step)

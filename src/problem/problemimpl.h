@@ -39,6 +39,7 @@ typedef struct {
   const ContactEdge *edges;
   ContactEdge       *frozen; /* small kinematics: linearised once at the reference positions */
   PetscBool          is_frozen;
+  PetscBool          released;                 /* takes no part in the tangent: carry.c */
   PetscReal         *gap0;                     /* [n] reference gaps, small kinematics */
   PetscReal         *offset;                   /* [n] constant part of gt_j that does not count: initial gaps closed, interference */
   PetscInt          *pattern_offset, *pattern; /* [num_edges+1]: nodes each edge has room for in the matrix */

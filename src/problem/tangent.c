@@ -90,6 +90,10 @@ PetscErrorCode ContactBlocks_Private(Problem p, Contact *c)
   const PetscBool far = (PetscBool)(p->lifting && ContactIsFar_Private(c)); /* without lift the tangent is the derivative itself */
 
   PetscFunctionBegin;
+  if (c->released) {
+    PetscCall(PetscArrayzero(c->active, c->side[0].num_nodes));
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
   if (p->lifting)
     PetscCall(ContactChange_Private(p, c, p->increment, c->lift));
   else
@@ -192,7 +196,7 @@ static PetscErrorCode InactiveShift_Private(Problem p, Contact *c, PetscInt j, P
   PetscReal *values;
 
   PetscFunctionBegin;
-  if (!p->symmetric || c->z[j] == 0) PetscFunctionReturn(PETSC_SUCCESS);
+  if (!p->symmetric || c->released || c->z[j] == 0) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(PetscMalloc2(2 * MOST_PATTERN_DOFS, &dofs, 2 * MOST_PATTERN_DOFS, &values));
   PetscCall(NodeGradient_Private(p, c, j, -share * c->z[j], PETSC_FALSE, dofs, values, &num));
   PetscCall(PetscFindInt(c->zdof[j], num, dofs, &at));
@@ -313,6 +317,7 @@ PetscErrorCode ProblemTangent(Problem p, Vec x, const PetscReal pressure[], Vec 
 static PetscErrorCode ContactSwitch_Private(Problem p, Contact *c, const PetscReal dz[], Vec rhs, PetscInt *changed, PetscReal *violation)
 {
   PetscFunctionBegin;
+  if (c->released) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(ContactChange_Private(p, c, p->increment, c->change));
   for (PetscInt j = 0; j < c->side[0].num_nodes; ++j) {
     if (!c->has_multiplier[j] || !ContactCovered_Private(c, j)) continue;
