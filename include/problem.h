@@ -96,7 +96,8 @@ typedef struct {
 /* R(x) with the prescribed motion as applied. Deterministic function of x. Collective; status is the same on every rank. */
 PetscErrorCode ProblemResidual(Problem, Vec x, Vec r, ProblemStatus *);
 /* dR/dx with the stored element pressures in the geometric stiffness (NULL: consistent). When lift is given, the change of R that the remaining
-   prescribed motion makes to first order is added to it. Assembles the problem's matrix. */
+   prescribed motion makes to first order is added to it, and the Hessian of pairs whose gaps under pressure are still wide against their facets is left out.
+   Assembles the problem's matrix. */
 PetscErrorCode ProblemTangent(Problem, Vec x, const PetscReal pressure[], Vec lift, PetscBool *bad);
 /* Symmetric form of the tangent: same solution, symmetric matrix, right-hand side by ProblemRightSide; its multiplier columns are exact to second order.
    Only for problems whose bulk tangent is symmetric (ProblemIsSymmetric): no follower pressures. Default: exact form. */
@@ -108,6 +109,11 @@ PetscErrorCode ProblemRightSide(Problem, Vec r, Vec lift, Vec rhs);
    matrix and the right-hand side. *changed: number of nodes that switched (all ranks); *violation: by how much dx contradicts the set it was found with, the
    sum over those nodes of w0 |z - c gt/w| (unit: force). */
 PetscErrorCode ProblemSwitchActiveSet(Problem, Vec x, Vec dx, Vec rhs, PetscInt *changed, PetscReal *violation);
+/* Where the active set of the last linear step moves along the surface, gaps linearised at the old place say little of the new one. Release takes
+   pairs that move so (prescribed motion still to come, finite kinematics) out of the tangent: the next linear step carries their bodies along without
+   them and sets their multipliers to 0. *any: is there one? Engage puts all pairs back. Collective. */
+PetscErrorCode ProblemRelease(Problem, PetscBool *any);
+PetscErrorCode ProblemEngage(Problem);
 /* A number that tells active sets of this problem apart. Not collective, the same on every rank. */
 PetscErrorCode ProblemActiveSetHash(Problem, uint64_t *hash);
 /* A Newton step: Begin remembers where it starts; Move sets x = start + step dx and the prescribed motion likewise (may be called again with a shorter step)

@@ -45,6 +45,7 @@ typedef struct {
   const ContactFacet *facets;
   ContactFacet       *frozen; /* small kinematics: linearised once at the reference positions */
   PetscBool           is_frozen;
+  PetscBool           released; /* takes no part in the tangent: carry.c */
   PetscReal          *gap0;                     /* [n] reference gaps, small kinematics */
   PetscReal          *offset;                   /* [n] constant part of gt_j that does not count: initial gaps closed, interference */
   PetscInt           *pattern_offset, *pattern; /* [num_facets+1]: nodes each facet has room for in the matrix */
@@ -107,6 +108,8 @@ PetscErrorCode ContactRows_Private(Problem, const Contact *, PetscReal r[]);
 /* tangent.c: blocks of the last evaluation into the matrix: Hessian and columns (added), then rows (inserted). */
 PetscErrorCode ContactBlocks_Private(Problem, Contact *);
 PetscErrorCode ContactInsertRow_Private(Problem, Contact *, PetscInt node);
+/* far.c: are the gaps under pressure too wide for the curvature of the constraints to mean anything? */
+PetscBool ContactIsFar_Private(const Contact *);
 /* Change of every node's weighted gap, at fixed measure, under a local array of increments. */
 PetscErrorCode          ContactChange_Private(Problem, Contact *, const PetscReal increment[], PetscReal change[]);
 static inline PetscBool ContactCovered_Private(const Contact *c, PetscInt j)

@@ -90,8 +90,13 @@ static PetscErrorCode FacetHessian_Private(Problem p, const Contact *c, const Co
 PetscErrorCode ContactBlocks_Private(Problem p, Contact *c)
 {
   const PetscInt dim = p->dim;
+  const PetscBool far = (PetscBool)(p->lifting && ContactIsFar_Private(c)); /* without lift the tangent is the derivative itself */
 
   PetscFunctionBegin;
+  if (c->released) {
+    PetscCall(PetscArrayzero(c->active, c->side[0].num_nodes));
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
   if (p->lifting)
     PetscCall(ContactChange_Private(p, c, p->increment, c->lift));
   else
@@ -105,7 +110,7 @@ PetscErrorCode ContactBlocks_Private(Problem p, Contact *c)
     PetscCall(ProblemWork_Private(p, n));
     PetscCall(PetscMalloc2(n, &dofs, e->num, &frame));
     FacetDofs_Private(c, e, dofs, frame);
-    if (e->hessian) PetscCall(FacetHessian_Private(p, c, e, dofs, frame));
+    if (e->hessian && !far) PetscCall(FacetHessian_Private(p, c, e, dofs, frame));
     for (PetscInt k = 0; k < e->num_rows && !p->symmetric; ++k) {
       const PetscInt z = c->zdof[e->nodes[k]];
       if (z < 0 || !c->near[e->nodes[k]]) continue;
@@ -206,7 +211,7 @@ static PetscErrorCode InactiveShift_Private(Problem p, Contact *c, PetscInt j, P
   PetscReal *values;
 
   PetscFunctionBegin;
-  if (!p->symmetric || c->z[j] == 0 || !c->near[j]) PetscFunctionReturn(PETSC_SUCCESS);
+  if (!p->symmetric || c->released || c->z[j] == 0 || !c->near[j]) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(PetscMalloc2(RowSize_Private(c, j), &dofs, RowSize_Private(c, j), &values));
   PetscCall(NodeGradient_Private(p, c, j, -share * c->z[j], PETSC_FALSE, dofs, values, &num));
   PetscCall(PetscFindInt(c->zdof[j], num, dofs, &at));
@@ -327,6 +332,7 @@ PetscErrorCode ProblemTangent(Problem p, Vec x, const PetscReal pressure[], Vec 
 static PetscErrorCode ContactSwitch_Private(Problem p, Contact *c, const PetscReal dz[], Vec rhs, PetscInt *changed, PetscReal *violation)
 {
   PetscFunctionBegin;
+  if (c->released) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(ContactChange_Private(p, c, p->increment, c->change));
   for (PetscInt j = 0; j < c->side[0].num_nodes; ++j) {
     if (!c->has_multiplier[j] || !c->near[j] || !ContactCovered_Private(c, j)) continue;

@@ -139,6 +139,24 @@ PetscErrorCode SceneCreate(MPI_Comm comm, int argc, char **argv, Scene *scene)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* contact.<pair>.subdivide: the contact faces stay linear, the layer of cells behind them is subdivided. A surface of several pairs as often as the one that
+   asks for most. */
+static PetscErrorCode Subdivide_Private(Scene s, Forest *forest)
+{
+  PetscInt levels[8 * sizeof(uint64_t)] = {0}; /* a boundary group is a bit */
+
+  PetscFunctionBegin;
+  for (PetscInt i = 0; i < s->data.num_contacts; ++i) {
+    const PetscInt side[2] = {s->data.contacts[i].nonmortar, s->data.contacts[i].mortar};
+    for (int k = 0; k < 2; ++k) levels[side[k]] = PetscMax(levels[side[k]], s->contact[i].subdivide);
+  }
+  for (PetscInt group = 0; group < (PetscInt)(8 * sizeof(uint64_t)); ++group) {
+    const RefineSpec spec = {.group = group, .radius = -1, .levels = levels[group]};
+    PetscCall(ForestRefine(forest, &spec));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode SceneSetUp(Scene s, Forest *forest)
 {
   SceneData     *d = &s->data;
@@ -155,6 +173,7 @@ PetscErrorCode SceneSetUp(Scene s, Forest *forest)
   if (status) PetscCall(ForestDestroy(forest));
   PetscCall(status);
   for (PetscInt i = 0; i < d->num_refines; ++i) PetscCall(ForestRefine(forest, &d->refines[i]));
+  PetscCall(Subdivide_Private(s, forest));
   d->mechanics.num_bodies     = s->num_bodies;
   d->mechanics.bodies         = d->bodies;
   d->mechanics.num_boundaries = s->num_boundaries;
@@ -197,6 +216,17 @@ static PetscErrorCode ViewBoundary_Private(const BoundarySpec *b, PetscViewer vi
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+static PetscErrorCode ViewContact_Private(const ContactEntry *c, PetscViewer viewer)
+{
+  char layer[64] = "";
+
+  PetscFunctionBegin;
+  if (c->subdivide) PetscCall(PetscSNPrintf(layer, sizeof(layer), ", cells at both subdivided %" PetscInt_FMT "x", c->subdivide));
+  PetscCall(PetscViewerASCIIPrintf(viewer, "  contact %s: %s (nonmortar) on %s%s%s\n", c->spec.name, c->nonmortar, c->mortar,
+                                   c->spec.node_to_segment ? ", node to segment" : "", layer));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 static PetscErrorCode ViewBody_Private(const BodySpec *b, PetscViewer viewer)
 {
   const MaterialSpec *m = b->material;
@@ -223,9 +253,7 @@ PetscErrorCode SceneView(Scene s, PetscViewer viewer)
                                    d->mechanics.kinematics == KINEMATICS_SMALL ? "small" : "finite", s->mesh_file));
   for (PetscInt i = 0; i < s->num_bodies; ++i) PetscCall(ViewBody_Private(&d->bodies[i], viewer));
   for (PetscInt i = 0; i < s->num_boundaries; ++i) PetscCall(ViewBoundary_Private(&d->boundaries[i], viewer));
-  for (PetscInt i = 0; i < d->num_contacts; ++i)
-    PetscCall(PetscViewerASCIIPrintf(viewer, "  contact %s: %s (nonmortar) on %s%s\n", d->contacts[i].name, s->contact[i].nonmortar, s->contact[i].mortar,
-                                     d->contacts[i].node_to_segment ? ", node to segment" : ""));
+  for (PetscInt i = 0; i < d->num_contacts; ++i) PetscCall(ViewContact_Private(&s->contact[i], viewer));
   PetscCall(PetscViewerASCIIPrintf(viewer, "  load t = 0 .. %.6g, first step %.6g, steps %.6g .. %.6g\n", (double)d->load.end, (double)d->load.step,
                                    (double)d->load.step_min, (double)d->load.step_max));
   if (d->adapt.tolerance > 0)

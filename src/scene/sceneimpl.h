@@ -71,6 +71,7 @@ typedef struct {
   ContactSpec spec;
   char        nonmortar[MORTISE_NAME], mortar[MORTISE_NAME];
   int         order, initial_gap, multiplier;
+  PetscInt    subdivide; /* isotropic subdivisions of the cells that touch either side */
   SceneNode  *node;
 } ContactEntry;
 

@@ -165,18 +165,45 @@ static PetscErrorCode Verdict_Private(SNES snes, Solver s, PetscReal norm)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* One linearisation and the step it gives; snes->reason is set when there is none to be had. */
-static PetscErrorCode Iterate_Private(SNES snes, Solver s, Vec x, Vec r, Vec dx)
+/* The linearisation at x and its solution. */
+static PetscErrorCode Linearise_Private(SNES snes, Solver s, Vec x, Vec r, Vec dx, PetscBool *ok)
 {
-  PetscBool ok, bad;
+  PetscBool bad;
 
   PetscFunctionBegin;
-  if (s->test) PetscCall(Test_Private(snes, s, x));
   ++s->report->iterations;
   PetscCall(VecZeroEntries(s->lift));
   PetscCall(ProblemTangent(s->problem, x, s->pressure, s->lift, &bad));
   PetscCall(ProblemRightSide(s->problem, r, s->lift, s->rhs));
-  PetscCall(LinearStep_Private(snes, s, x, dx, &ok));
+  PetscCall(LinearStep_Private(snes, s, x, dx, ok));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* When the first linear step moves contact along a surface, it is replaced by one that only carries the bodies to their new places: by the prescribed motion,
+   without the pairs that move, and without the residual, so that loads on a body that nothing but such a pair holds wait for the next iteration. */
+static PetscErrorCode Carry_Private(SNES snes, Solver s, Vec x, Vec r, Vec dx, PetscBool *ok)
+{
+  PetscBool moved;
+
+  PetscFunctionBegin;
+  PetscCall(ProblemRelease(s->problem, &moved));
+  if (!moved) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(PetscInfo(snes, "contact moves along: the bodies are carried to their new places first\n"));
+  PetscCall(VecZeroEntries(r));
+  PetscCall(Linearise_Private(snes, s, x, r, dx, ok));
+  PetscCall(ProblemEngage(s->problem));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* One linearisation and the step it gives; snes->reason is set when there is none to be had. */
+static PetscErrorCode Iterate_Private(SNES snes, Solver s, Vec x, Vec r, Vec dx)
+{
+  PetscBool ok;
+
+  PetscFunctionBegin;
+  if (s->test) PetscCall(Test_Private(snes, s, x));
+  PetscCall(Linearise_Private(snes, s, x, r, dx, &ok));
+  if (ok && snes->iter == 0) PetscCall(Carry_Private(snes, s, x, r, dx, &ok));
   if (ok) PetscCall(Step_Private(snes, s, x, dx, r));
   if (!ok)
     PetscCall(Finish_Private(snes, s, SNES_DIVERGED_LINEAR_SOLVE, "the tangent is singular"));

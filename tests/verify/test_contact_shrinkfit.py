@@ -80,3 +80,27 @@ def test_refine_keys(run):
                            (("-refine_spot_boundary", "top", "-refine_spot_radius", 1), "a radius needs a point")):
         result = run("inputs/patch2d.yml", *options)
         assert result.returncode == 1 and words in result.stderr and result.stderr.count("\n") == 1, result
+
+
+def test_subdivide(run):
+    """contact.<pair>.subdivide: the cells that touch either side and no others, level by level; the patch test holds."""
+    def leaves(*options):
+        result = run("inputs/patch2d.yml", "-mesh_parameter_n", 4, *options)
+        assert result.returncode == 0, result
+        assert abs(result.summary["contact"]["upper_on_lower"]["force"][1] / 0.0688979 - 1) < 1e-5
+        bulk = result.states()[-1][1]
+        corners = bulk["X"][bulk["cells"]]
+        assert len(corners) == result.summary["cells"]
+        return numpy.ptp(corners[..., 1], axis=1), numpy.abs(corners[..., 1].mean(axis=1) - level)
+
+    level = 1  # y of the faces in contact
+    heights, distances = leaves()
+    assert len(heights) == 4 * 4 + 6 * 6
+    layer = distances < 0.51 * heights
+    for times in (1, 2):
+        fine, where = leaves("-contact_upper_on_lower_subdivide", times)
+        rows = sum(2**i for i in range(times))
+        assert len(fine) == 4 * 4 + 6 * 6 + 3 * (4 + 6) * rows
+        assert numpy.isclose(numpy.sort(fine[where < 0.51 * fine]), numpy.sort(numpy.repeat(heights[layer], 2**times) / 2**times)).all()
+        far = where > heights.max()  # beyond the layer nothing changes
+        assert numpy.isclose(numpy.sort(fine[far]), numpy.sort(heights[distances > heights.max()])).all()

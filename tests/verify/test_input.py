@@ -133,6 +133,10 @@ def test_good_on_two_ranks(check):
     (("law: neo_hookean", "law: neohookean"), ["material.rubber.law is 'neohookean'", "neo_hookean"]),
     (("kinematics: finite", "kinematics: small"), ["small", "law: linear"]),
     (("law: neo_hookean", "law: linear"), ["law linear", "small"]),
+    (("friction: 0", "subdivide: -1"), ["contact.pair.subdivide is -1", r"\[0,8\]"]),
+    (("friction: 0", "subdivide: 9"), ["contact.pair.subdivide is 9", r"\[0,8\]"]),
+    (("friction: 0", "subdivide: 1.5"), ["contact.pair.subdivide is '1.5'", "integer"]),
+    (("friction: 0", "subdivide: [1, 2]"), ["contact.pair.subdivide must be an integer", "list"]),
     # not built yet
     (("friction: 0", "friction: 0.3"), ["contact.pair.friction is 0.3", "not built yet"]),
     (("friction: 0", "order: full"), ["contact.pair.order", "not built yet"]),
