@@ -183,7 +183,7 @@ PetscErrorCode CellKernelGeometry_Private(CellKernel k)
 {
   const PetscInt nq = k->num_points, d = k->dim, r = k->num_derivatives;
   Lanes         *G        = k->gradient;
-  PetscBool      inverted = PETSC_FALSE;
+  PetscInt       inverted = -1;
 
   PetscFunctionBegin;
   CellKernelGradient_Private(k, k->X, G);
@@ -212,10 +212,12 @@ PetscErrorCode CellKernelGeometry_Private(CellKernel k)
       k->hoop_inverse[q] = 1 / R;
       k->volume[q] *= 2 * PETSC_PI * R;
     }
-    for (int l = 0; l < NUM_LANES; l++) inverted = inverted || !(k->volume[q][l] > 0) ? PETSC_TRUE : PETSC_FALSE;
+    for (int l = 0; l < NUM_LANES; l++)
+      if (!(k->volume[q][l] > 0)) inverted = l;
   }
-  PetscCheck(!inverted, PETSC_COMM_SELF, PETSC_ERR_ARG_WRONG, "A cell of order %" PetscInt_FMT " is inverted, or lies beyond the axis, in the reference mesh",
-             k->order);
+  PetscCheck(inverted < 0, PETSC_COMM_SELF, PETSC_ERR_ARG_WRONG,
+             "A cell of order %" PetscInt_FMT " at (%g, %g, %g) is inverted, or lies beyond the axis, in the reference mesh", k->order, (double)k->X[0][inverted],
+             (double)k->X[k->num_nodes][inverted], d == 3 ? (double)k->X[2 * k->num_nodes][inverted] : 0.);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
