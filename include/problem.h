@@ -96,7 +96,7 @@ typedef struct {
 /* R(x) with the prescribed motion as applied. Deterministic function of x. Collective; status is the same on every rank. */
 PetscErrorCode ProblemResidual(Problem, Vec x, Vec r, ProblemStatus *);
 /* dR/dx with the stored element pressures in the geometric stiffness (NULL: consistent). When lift is given, the change of R that the remaining
-   prescribed motion makes to first order is added to it, and the Hessian of pairs whose gaps under pressure are still wide against their facets is left out.
+   prescribed motion makes to first order is added to it, and the Hessian of pairs whose open gaps under pressure are still wide against their facets is left out.
    Assembles the problem's matrix. */
 PetscErrorCode ProblemTangent(Problem, Vec x, const PetscReal pressure[], Vec lift, PetscBool *bad);
 /* Symmetric form of the tangent: same solution, symmetric matrix, right-hand side by ProblemRightSide; its multiplier columns are exact to second order.

@@ -1,11 +1,12 @@
 /* Whether contact is close enough to its solution for the curvature of its constraints to mean anything.
 
-   Nodal normals turn with the facets, by du/h, so the Hessian of z gt grows like z g/h^2. At the solution g is small against h and Newton's method needs the
-   term. Where the first linear step of a large load leaves gaps comparable to the facets, it outweighs the stiffness of the cells: it sent rubber2d.yml on
-   facets of 1/100 radius back to the last load. There the constraints are taken as linear. */
+   Pressure across an open gap is a row of struts under compression. They turn with the nodal normals, those with the facets, by du/h: their geometric stiffness
+   is negative and grows like z g/h^2. At the solution g is small against h and Newton's method needs the term. Where the first linear step of a large load
+   leaves gaps comparable to the facets, it outweighs the stiffness of the cells: rubber2d.yml on facets of 1/100 radius was cut. There the constraints are
+   taken as linear. Overlaps are struts in tension and do no harm: a slide, which leaves gaps of both signs, keeps the term. */
 #include "problemimpl.h"
 
-#define FAR 0.1 /* mean gap in lengths of facets */
+#define FAR 0.1 /* mean open gap in lengths of facets */
 
 /* Length of an edge, square root of the area of a face, current. */
 static PetscReal Length_Private(const Surface *s, PetscInt f)
@@ -23,7 +24,7 @@ static PetscReal Length_Private(const Surface *s, PetscInt f)
   return PetscSqrtReal(0.5 * PetscSqrtReal(square));
 }
 
-/* Is the mean of |gap| / length of facet, weighted with the forces of the nodes at the last evaluation, above FAR? The same on every rank. */
+/* Is the mean of gap / length of facet, weighted with the forces of the nodes at the last evaluation, above FAR? The same on every rank. */
 PetscBool ContactIsFar_Private(const Contact *c)
 {
   const Surface *s    = &c->side[0];
@@ -33,8 +34,8 @@ PetscBool ContactIsFar_Private(const Contact *c)
     const PetscReal length = Length_Private(s, e);
     for (PetscInt k = 0; k < s->corners; ++k) {
       const PetscInt j = s->facets[s->corners * e + k];
-      open += PetscAbsReal(c->z[j] * c->gap[j]);
-      force += PetscAbsReal(c->z[j]) * c->weight[j] * length;
+      open += c->z[j] * c->gap[j];
+      force += c->z[j] * c->weight[j] * length;
     }
   }
   return (PetscBool)(open > FAR * force);

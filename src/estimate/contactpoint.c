@@ -1,0 +1,195 @@
+/* Contact traction at a point of a facet, two and three dimensions by the same formulas: an edge is a strip of width 1, its second tangent the unit vector
+   across.
+
+   Nonmortar: -z n stretch, z and n interpolated by the facet's hats, n normalised. Mortar: +z n stretch at the place that the segments give: linear within the
+   part of an edge, or within the triangles of a fan on the corners of a polygon. Stretch: current over reference measure. */
+#include "estimateimpl.h"
+
+/* Facets of a bent surface are seen in planes of their own, and the sides of a polygon are no straight lines on a warped facet: polygons leave slits. This far
+   (the facet is 2 wide) a point may lie outside all of them and still belong to the nearest. */
+#define SLIT 0.02
+
+static const PetscReal Corner[4][2] = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
+
+void ContactHats_Private(PetscInt dim, const PetscReal xi[2], PetscReal N[4])
+{
+  for (PetscInt a = 0; a < 4; ++a) {
+    N[a] = 0.5 * (1 + Corner[a][0] * xi[0]);
+    if (dim == 3) N[a] *= 0.5 * (1 + Corner[a][1] * xi[1]);
+  }
+}
+
+void ContactTangents_Private(const SurfaceView *s, PetscInt facet, const PetscReal x[], const PetscReal xi[2], PetscReal tangent[2][3])
+{
+  const PetscInt *node = s->facets + s->corners * facet;
+
+  for (PetscInt c = 0; c < 3; ++c) tangent[0][c] = tangent[1][c] = 0;
+  if (s->dim == 2) tangent[1][2] = 1;
+  for (PetscInt a = 0; a < s->corners; ++a) {
+    const PetscReal d[2] = {0.5 * Corner[a][0] * (s->dim == 3 ? 0.5 * (1 + Corner[a][1] * xi[1]) : 1), 0.25 * Corner[a][1] * (1 + Corner[a][0] * xi[0])};
+    for (PetscInt c = 0; c < s->dim; ++c) {
+      for (PetscInt k = 0; k < s->dim - 1; ++k) tangent[k][c] += d[k] * x[s->dim * node[a] + c];
+    }
+  }
+}
+
+PetscReal ContactMeasure_Private(const PetscReal tangent[2][3])
+{
+  PetscReal square = 0;
+  for (PetscInt c = 0; c < 3; ++c) square += PetscSqr(tangent[0][c] * tangent[1][(c + 1) % 3] - tangent[0][(c + 1) % 3] * tangent[1][c]);
+  return PetscSqrtReal(square);
+}
+
+void ContactPosition_Private(const SurfaceView *s, PetscInt facet, const PetscReal x[], const PetscReal N[4], PetscReal position[3])
+{
+  for (PetscInt c = 0; c < 3; ++c) position[c] = 0;
+  for (PetscInt a = 0; a < s->corners; ++a) {
+    for (PetscInt c = 0; c < s->dim; ++c) position[c] += N[a] * x[s->dim * s->facets[s->corners * facet + a] + c];
+  }
+}
+
+/* Place of reference position X on a facet. Gauss and Newton's method: X lies on the facet, so it converges as Newton's does (an edge, a parallelogram: one
+   step); where it lies beside it by round-off this is the nearest place. */
+static void Locate_Private(const SurfaceView *s, PetscInt facet, const PetscReal X[3], PetscReal xi[2])
+{
+  xi[0] = xi[1] = 0;
+  for (PetscInt iteration = 0; iteration < 20; ++iteration) {
+    PetscReal N[4], r[3], t[2][3];
+    ContactHats_Private(s->dim, xi, N);
+    ContactPosition_Private(s, facet, s->X, N, r);
+    ContactTangents_Private(s, facet, s->X, xi, t);
+    for (PetscInt c = 0; c < 3; ++c) r[c] = c < s->dim ? X[c] - r[c] : 0;
+    const PetscReal a = Dot3(t[0], t[0]), b = Dot3(t[0], t[1]), d = Dot3(t[1], t[1]), det = a * d - b * b, f = Dot3(t[0], r), g = Dot3(t[1], r);
+    if (!(det > 0)) return;
+    const PetscReal step[2] = {(d * f - b * g) / det, (a * g - b * f) / det};
+    for (PetscInt k = 0; k < 2; ++k) xi[k] += step[k];
+    if (PetscAbsReal(step[0]) + PetscAbsReal(step[1]) < 1e-9) return; /* the error left is its square */
+  }
+}
+
+/* Current over reference measure at a place; in the axisymmetric model circumferences included. */
+static PetscReal Stretch_Private(const ContactTerms *terms, const SurfaceView *s, PetscInt facet, const PetscReal xi[2])
+{
+  PetscReal now[2][3], before[2][3], N[4], x[3], X[3];
+
+  if (terms->kinematics != KINEMATICS_FINITE) return 1;
+  ContactTangents_Private(s, facet, s->x, xi, now);
+  ContactTangents_Private(s, facet, s->X, xi, before);
+  const PetscReal ratio = ContactMeasure_Private(now) / ContactMeasure_Private(before);
+  if (terms->model != MODEL_AXISYMMETRIC) return ratio;
+  ContactHats_Private(s->dim, xi, N);
+  ContactPosition_Private(s, facet, s->x, N, x);
+  ContactPosition_Private(s, facet, s->X, N, X);
+  return ratio * x[0] / X[0];
+}
+
+/* T += factor * z n at a place of a nonmortar facet. */
+static void Push_Private(const ContactTerm *term, PetscInt facet, const PetscReal xi[2], PetscReal factor, PetscReal T[3])
+{
+  const SurfaceView *s    = &term->view->nonmortar;
+  const PetscInt    *node = s->facets + s->corners * facet;
+  PetscReal          N[4], n[3], z = 0;
+
+  ContactHats_Private(s->dim, xi, N);
+  ContactPosition_Private(s, facet, term->normal, N, n);
+  for (PetscInt a = 0; a < s->corners; ++a) z += N[a] * term->view->z[node[a]];
+  const PetscReal length = PetscSqrtReal(Dot3(n, n));
+  for (PetscInt c = 0; c < s->dim && length > 0; ++c) T[c] += factor * z * n[c] / length;
+}
+
+/* Does the part of a mortar edge hold eta? Then xi on its nonmortar edge. */
+static PetscBool OnPart_Private(const ContactSegment *s, PetscReal eta, PetscReal xi[2])
+{
+  const PetscReal a = (eta - s->eta[0][0]) / (s->eta[1][0] - s->eta[0][0]);
+
+  if (!(a >= 0 && a <= 1)) return PETSC_FALSE;
+  xi[0] = s->xi[0][0] + a * (s->xi[1][0] - s->xi[0][0]);
+  xi[1] = 0;
+  return PETSC_TRUE;
+}
+
+/* Weights of the corners p of a triangle at eta; returns how deep it lies inside (negative: outside) in the units of eta. */
+static PetscReal InTriangle_Private(const PetscReal *const p[3], const PetscReal eta[2], PetscReal weight[3])
+{
+  PetscReal area[3], total = 0, depth = PETSC_MAX_REAL;
+
+  for (PetscInt k = 0; k < 3; ++k) {
+    const PetscReal *a = p[(k + 1) % 3], *b = p[(k + 2) % 3];
+    area[k] = (a[0] - eta[0]) * (b[1] - eta[1]) - (a[1] - eta[1]) * (b[0] - eta[0]);
+    total += area[k];
+  }
+  if (total == 0) return PETSC_MIN_REAL;
+  for (PetscInt k = 0; k < 3; ++k) {
+    const PetscReal *a = p[(k + 1) % 3], *b = p[(k + 2) % 3], side = PetscSqrtReal(PetscSqr(b[0] - a[0]) + PetscSqr(b[1] - a[1]));
+    weight[k] = area[k] / total;
+    depth     = PetscMin(depth, (total > 0 ? area[k] : -area[k]) / side);
+  }
+  return depth;
+}
+
+/* How deep eta lies in the polygon of a segment, at least `least`; then xi by the nearest triangle of the fan, weights of a point outside cut off at zero. */
+static PetscReal InPolygon_Private(const ContactSegment *s, const PetscReal eta[2], PetscReal least, PetscReal xi[2])
+{
+  for (PetscInt k = 1; k + 1 < s->num && least < 0; ++k) {
+    const PetscInt         corner[3] = {0, k, k + 1};
+    const PetscReal *const p[3]      = {s->eta[0], s->eta[k], s->eta[k + 1]};
+    PetscReal              weight[3], total = 0;
+    const PetscReal        depth = InTriangle_Private(p, eta, weight);
+    if (!(depth > least)) continue;
+    least = depth;
+    for (PetscInt i = 0; i < 3; ++i) total += weight[i] = PetscMax(weight[i], 0);
+    for (PetscInt d = 0; d < 2; ++d) xi[d] = (weight[0] * s->xi[corner[0]][d] + weight[1] * s->xi[corner[1]][d] + weight[2] * s->xi[corner[2]][d]) / total;
+  }
+  return least;
+}
+
+void ContactSegmentBox_Private(const ContactSegment *s, PetscReal box[4])
+{
+  for (PetscInt d = 0; d < 2; ++d) {
+    box[d]     = PETSC_MAX_REAL;
+    box[2 + d] = PETSC_MIN_REAL;
+    for (PetscInt k = 0; k < s->num; ++k) {
+      box[d]     = PetscMin(box[d], s->eta[k][d] - SLIT);
+      box[2 + d] = PetscMax(box[2 + d], s->eta[k][d] + SLIT);
+    }
+  }
+}
+
+/* The nonmortar facet that a place on a mortar facet is seen from, -1: none, and the place there. The first segment that holds eta, else the nearest in reach.
+ */
+static PetscInt Seen_Private(const ContactTerm *term, PetscInt mortar_facet, const PetscReal eta[2], PetscReal xi[2])
+{
+  PetscReal least = -SLIT;
+  PetscInt  found = -1;
+
+  for (PetscInt i = term->segment_first[mortar_facet]; i < term->segment_first[mortar_facet + 1] && least < 0; ++i) {
+    const ContactSegment *s = &term->segments[i];
+    if (term->view->mortar.dim == 2) {
+      if (OnPart_Private(s, eta[0], xi)) return s->facet;
+      continue;
+    }
+    const PetscReal *box = term->box[i];
+    if (eta[0] < box[0] || eta[1] < box[1] || eta[0] > box[2] || eta[1] > box[3]) continue;
+    const PetscReal depth = InPolygon_Private(s, eta, least, xi);
+    if (depth > least) found = s->facet;
+    least = depth;
+  }
+  return found;
+}
+
+void ContactTermsTraction_Private(const ContactTerms *terms, PetscInt facet, const PetscReal X[3], PetscReal T[3])
+{
+  for (PetscInt i = 0; i < terms->num; ++i) {
+    const ContactTerm *term      = &terms->terms[i];
+    const PetscInt     nonmortar = term->facet_place[0][facet], mortar = term->facet_place[1][facet];
+    PetscReal          xi[2], eta[2];
+    if (nonmortar >= 0) {
+      Locate_Private(&term->view->nonmortar, nonmortar, X, xi);
+      Push_Private(term, nonmortar, xi, -Stretch_Private(terms, &term->view->nonmortar, nonmortar, xi), T);
+    }
+    if (mortar < 0) continue;
+    Locate_Private(&term->view->mortar, mortar, X, eta);
+    const PetscInt seen = Seen_Private(term, mortar, eta, xi);
+    if (seen >= 0) Push_Private(term, seen, xi, Stretch_Private(terms, &term->view->mortar, mortar, eta), T);
+  }
+}
