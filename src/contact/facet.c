@@ -395,7 +395,7 @@ static PetscErrorCode Result_Private(const EvaluateContext *ctx, FacetWork w, co
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Corners of the overlaps on both facets. The mortar facet's list is backwards: (xi_1, xi_2) there is (-xi_1, xi_2) of its own. */
+/* Corners of the overlaps on both facets. The mortar facet's list is backwards, 3 2 1 0: (xi_1, xi_2) there is (xi_1, -xi_2) of its own. */
 static PetscErrorCode Segments_Private(ContactPair pair, PetscInt slot, const FacetWork w)
 {
   PetscFunctionBegin;
@@ -413,7 +413,7 @@ static PetscErrorCode Segments_Private(ContactPair pair, PetscInt slot, const Fa
       for (int i = 0; i < 2; i++)
         if (!ContactQuadLocate(&o->side[i], o->v[v], &p[i])) p[i].xi[0] = p[i].xi[1] = 0; /* cannot happen: the overlap was integrated */
       s->xi[v][0] = p[0].xi[0], s->xi[v][1] = p[0].xi[1];
-      s->eta[v][0] = -p[1].xi[0], s->eta[v][1] = p[1].xi[1];
+      s->eta[v][0] = p[1].xi[0], s->eta[v][1] = -p[1].xi[1];
     }
   }
   PetscFunctionReturn(PETSC_SUCCESS);
