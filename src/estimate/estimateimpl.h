@@ -31,13 +31,14 @@ typedef struct {
   PetscInt   *cell_facet;                   /* owned: 2*facet + side */
 } FacetList;
 
-/* Which contact edge a facet is, and what presses on it; replicated, built from the views of the problem. */
+/* Which contact facet a facet of the mesh is, and what presses on it; replicated, built from the views of the problem. */
 typedef struct {
   const ContactView *view;
   const PetscReal   *normal;         /* nodal normals, nonmortar side */
-  PetscInt          *facet_place[2]; /* owned [num_facets] edge of the nonmortar, mortar side, or -1 */
+  PetscInt          *facet_place[2]; /* owned [num_facets] facet of the nonmortar, mortar side, or -1 */
   PetscInt          *segment_first;  /* owned [mortar num_facets + 1] */
-  ContactSegment    *segments;       /* owned, of all ranks, by mortar edge */
+  ContactSegment    *segments;       /* owned, of all ranks, by mortar facet */
+  PetscReal (*box)[4];               /* owned, three dimensions: where on the mortar facet to look at each segment: low, high corner */
 } ContactTerm;
 
 typedef struct {
@@ -109,10 +110,18 @@ PetscErrorCode EstimateFacets_Private(EstimateSum *, const PetscReal height[][3]
 PetscErrorCode ContactTermsCreate_Private(Problem, ContactTerms *);
 PetscErrorCode ContactTermsDestroy_Private(ContactTerms *);
 PetscBool      ContactTermsHave_Private(const ContactTerms *, PetscInt facet);
+/* Complementarity: int z+ g+ + mu p/h |g-|^2 on the nonmortar facets of owned leaves. */
+PetscErrorCode EstimateComplementarity_Private(EstimateSum *, const PetscReal height[][3]);
+/* contactpoint.c: at xi in [-1, 1]^(dim-1) of a facet: hats of its corners, tangents by xi (two dimensions: the second is the unit vector across), length or
+   area per unit of xi, and nodal positions (or normals) x[num_nodes][dim] interpolated (two dimensions: third component 0) */
+void      ContactHats_Private(PetscInt dim, const PetscReal xi[2], PetscReal N[4]);
+void      ContactTangents_Private(const SurfaceView *, PetscInt facet, const PetscReal x[], const PetscReal xi[2], PetscReal tangent[2][3]);
+PetscReal ContactMeasure_Private(const PetscReal tangent[2][3]);
+void      ContactPosition_Private(const SurfaceView *, PetscInt facet, const PetscReal x[], const PetscReal N[4], PetscReal position[3]);
+/* The box of a segment. */
+void ContactSegmentBox_Private(const ContactSegment *, PetscReal box[4]);
 /* Add the contact traction (per reference area) on a facet at reference position X. */
 void ContactTermsTraction_Private(const ContactTerms *, PetscInt facet, const PetscReal X[3], PetscReal T[3]);
-/* Complementarity: int z+ g+ + mu p/h |g-|^2 on the nonmortar edges of owned leaves. */
-PetscErrorCode EstimateComplementarity_Private(EstimateSum *, const PetscReal height[][3]);
 
 /* Calibration of the residual terms (interior, jumps, boundary, contact tractions): with 1 the estimate is 2 to 3 times too large for shear and more for
    compression on every mesh and order (tests/unit/test_estimate_effectivity_serial.c), as the constants of the proofs, 1/12 for a smooth field at p = 1,
