@@ -128,37 +128,6 @@ static PetscErrorCode Reequilibrate_Private(App *app, PetscInt *iterations, Pets
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Leaf pairs that face each other in contact: the partition keeps them together where it can. */
-static PetscErrorCode ContactPairs_Private(App *app, PetscInt *num, PetscInt (**pairs)[2])
-{
-  PetscMPIInt size;
-  PetscInt    count = 0;
-
-  PetscFunctionBegin;
-  *num   = 0;
-  *pairs = NULL;
-  PetscCallMPI(MPI_Comm_size(app->comm, &size));
-  if (size == 1) PetscFunctionReturn(PETSC_SUCCESS);
-  for (PetscInt pass = 0; pass < 2; ++pass) {
-    count = 0;
-    for (PetscInt i = 0; i < app->data->num_contacts; ++i) {
-      const ContactView    *v;
-      const ContactSegment *segments;
-      PetscInt              n;
-      PetscCall(ProblemGetContact(app->level.problem, i, &v));
-      PetscCall(ContactPairGetSegments(v->pair, &n, &segments));
-      for (PetscInt s = 0; s < n; ++s, ++count) {
-        if (!pass) continue;
-        (*pairs)[count][0] = v->nonmortar.facet_leaf[segments[s].facet];
-        (*pairs)[count][1] = v->mortar.facet_leaf[segments[s].mortar_facet];
-      }
-    }
-    if (!pass) PetscCall(PetscMalloc1(count, pairs));
-  }
-  *num = count;
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 /* Mark and adapt; *adapted false when nothing may or need be refined. */
 static PetscErrorCode Refine_Private(App *app, PetscBool *adapted)
 {
@@ -171,7 +140,7 @@ static PetscErrorCode Refine_Private(App *app, PetscBool *adapted)
   PetscCall(EstimateMark(&app->estimate, &app->data->adapt, app->level.forest, &list, &marked));
   *adapted = (PetscBool)(marked > 0);
   if (*adapted) {
-    PetscCall(ContactPairs_Private(app, &num_pairs, &pairs));
+    PetscCall(AppContactPairs(app, &num_pairs, &pairs));
     PetscCall(StageBegin(STAGE_MESH));
     PetscCall(ForestAdapt(app->level.forest, &list, NULL, num_pairs, (const PetscInt(*)[2])pairs, &forest, &map));
     PetscCall(StageEnd(STAGE_MESH));

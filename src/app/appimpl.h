@@ -46,6 +46,8 @@ void AppCount(App *, const SolverReport *);
 /* Bring level.state from its time to t on the current mesh, in as many pieces as it takes; *ok false when even one of length `smallest` failed. */
 PetscErrorCode AppAdvance(App *, PetscReal t, PetscReal smallest, PetscBool *ok);
 PetscErrorCode AppEstimate(App *);
+/* coupling.c: pairs of leaves that face each other in contact, each once, the same on every rank (one rank: none); freed by the caller. Collective. */
+PetscErrorCode AppContactPairs(App *, PetscInt *num, PetscInt (**pairs)[2]);
 /* Fields, tables and screen of the state just computed. */
 PetscErrorCode AppReportPass(App *, PetscInt iterations, PetscBool accepted);
 
