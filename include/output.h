@@ -5,7 +5,7 @@
 /* ---- field files (output/writer.c): fields.xdmf + one HDF5 file per state -------------------------------------------- */
 
 typedef struct _p_Writer *Writer;
-typedef enum { CELL_POLYLINE2, CELL_QUAD4, CELL_HEX8 } CellShape; /* VTK/XDMF vertex order is applied by the writer; conn comes lexicographic */
+typedef enum { CELL_POLYLINE2, CELL_TRIANGLE3, CELL_QUAD4, CELL_HEX8 } CellShape; /* VTK/XDMF vertex order is applied by the writer; conn comes lexicographic */
 
 /* Open directory/fields.xdmf for a new series (directory must exist). The index is rewritten (to a temporary, then renamed) after each state: readable at any
  * time. Collective. */
@@ -15,8 +15,8 @@ PetscErrorCode WriterDestroy(Writer *);
 /* Begin state number k (0, 1, …) at XDMF time `time` (strictly increasing), with scalar attributes. One file directory/fields_KKKK.h5, collective parallel
  * HDF5, chunked + shuffle + deflate. */
 PetscErrorCode WriterBegin(Writer, PetscReal time, PetscInt step, PetscInt pass, PetscReal load_time);
-/* This rank's part of a grid: points X[np][3] and cells conn[nc][2^d], local point numbers, lexicographic. Parts of ranks are concatenated in rank order; ranks
- * may have none. */
+/* This rank's part of a grid: points X[np][3] and cells conn[nc][vertices], local point numbers, lexicographic (triangles: in order). Parts of ranks are
+ * concatenated in rank order; ranks may have none. */
 PetscErrorCode WriterGrid(Writer, const char *grid, CellShape, PetscInt np, const PetscReal *X, PetscInt nc, const PetscInt *conn);
 /* A field of the last grid: at points ([np][ncomp]) or cells ([nc][ncomp]); ncomp 1 (Scalar), 3 (Vector), 6 (Tensor6: xx xy xz yy yz zz), integer-valued fields
  * as PetscReal. */
@@ -38,7 +38,7 @@ PetscErrorCode           TableDestroy(Table *);
 struct cJSON;
 PetscErrorCode SummaryWrite(MPI_Comm, const char *path, const struct cJSON *document);
 
-/* ---- fields of a state (output/state.c, stress.c, contactgrid.c) -------------------------------------------------------- */
+/* ---- fields of a state (output/state.c, stress.c, contactgrid.c, segments.c) -------------------------------------------------------- */
 
 /* Write one state as the grids below. Points stand at reference positions; `displacement` moves them. estimate NULL: error is 0. Evaluates the residual when
    there is contact, so that its tables belong to this state. Collective.
@@ -52,12 +52,19 @@ PetscErrorCode SummaryWrite(MPI_Comm, const char *path, const struct cJSON *docu
      of the solution are most accurate (and the pressure of mixed cells lives), and extended over the cell by polynomials of degree p-1 in each direction. In
      rigid bodies the stress is 0 and J is 1; in small kinematics sigma is the linear law's stress and J = 1 + tr(grad u).
 
-   Grid contact: nonmortar edges of all pairs.
-   - Per point: displacement, gap (gt_j/w_j; 0 where status is -1), contact_pressure (z_j), status (0 open, 1 in contact, -1 faces nothing or carries no
-     multiplier), normal. Per cell: pair (index), cell (leaf).
+   Grid contact: the facets (edges, quadrilaterals) of both sides of all pairs; no point belongs to two of them.
+   - Per point: displacement, gap, contact_pressure, status (0 open, 1 in contact, -1 faces nothing or carries no multiplier), normal (unit, out of the body).
+     Nonmortar side: gap gt_j/w_j (0 where status is -1), pressure z_j, normals as the contact uses them. At hanging nodes: pressure and gap of their masters,
+     interpolated; status the largest of theirs.
+     Mortar side: means of the nonmortar side's values over the node's segments, weighted by the node's hat (contactfield.c), status 1 where at least half of
+     what faces the node touches; normals: sum of the unit normals of the node's facets, normalised.
+   - Per cell: pair (index), side (0 nonmortar, 1 mortar), cell (leaf).
 
-   Grid segments, with OutputSpec.segments: a quad for each segment, between the parts of the nonmortar and of the mortar edge that see each other.
-   - Per point: displacement. Per cell: pair, edge, mortar_edge. */
+   Grid segments, with OutputSpec.segments: where a mortar facet faces a nonmortar facet.
+   - Two dimensions: a quad for each segment, between the parts of both edges. Per point: displacement.
+   - Three dimensions: a fan of triangles for each segment, on the nonmortar facet. Per point: displacement, gap (distance along the facet's normal at that
+   point; initial_gap and interference do not enter).
+   - Per cell: pair, facet, mortar_facet (numbers within the sides of their pair, in the order of grid contact). */
 PetscErrorCode OutputWriteState(Writer, Problem, const State *, const Estimate *, PetscReal series_time, PetscInt step, PetscInt pass);
 /* The contact and segments grids of it; tables as of the last evaluation. Collective. */
 PetscErrorCode OutputWriteContact(Writer, Problem);

@@ -1,4 +1,4 @@
-/* Private to output: the XDMF index that the writer keeps, and whole-file replacement. */
+/* Private to output: the XDMF index that the writer keeps, whole-file replacement, fields of contact surfaces. */
 #pragma once
 #include "output.h"
 
@@ -35,3 +35,30 @@ PetscErrorCode IndexText(Index, OutputText *);
 /* Vertices of a cell shape and its XDMF name. */
 PetscInt    CellShapeVertices(CellShape);
 const char *CellShapeTopology(CellShape);
+
+/* ---- contact surfaces (output/contactfield.c, segments.c) ----------------------------------------------------------------- */
+
+/* Values of `status`. */
+#define CONTACT_ALONE (-1) /* faces nothing, or carries no multiplier */
+#define CONTACT_OPEN 0
+#define CONTACT_TOUCHING 1
+
+/* Fields at the nodes of one side, [num_nodes] each; borrowed. Meaning: output.h. */
+typedef struct {
+  PetscReal *gap, *pressure, *status;
+} ContactFields;
+
+/* Fields of the nonmortar side as of the last evaluation. */
+void OutputContactFields(const ContactView *, ContactFields *);
+/* The same on the mortar side, from those of the nonmortar side, on all ranks. Collective. */
+PetscErrorCode OutputProjectFields(Problem, PetscInt pair, const ContactFields *nonmortar, ContactFields *mortar);
+
+/* Hats of a facet's corners, in their order, at xi[dim-1] in [-1, 1]; N: 2 or 4 of them. */
+void OutputFacetHats(PetscInt dim, const PetscReal xi[], PetscReal N[4]);
+/* Point of a facet when its nodes are at x[num_nodes][dim]. */
+void OutputFacetPoint(const SurfaceView *, const PetscReal x[], PetscInt facet, const PetscReal xi[], PetscReal point[3]);
+/* Its unit normal, out of the body; zero for a facet without extent. */
+void OutputFacetNormal(const SurfaceView *, const PetscReal x[], PetscInt facet, PetscReal normal[3]);
+
+/* Grid segments of a state (output.h). Collective. */
+PetscErrorCode OutputWriteSegments(Writer, Problem);

@@ -225,7 +225,7 @@ static PetscErrorCode WriterCells_Private(Writer w, CellShape shape, const Petsc
   PetscCall(PetscMalloc1((size_t)(w->local[1] * vertices), &cells));
   for (int64_t c = 0; c < w->local[1]; c++)
     for (PetscInt v = 0; v < vertices; v++) {
-      PetscInt point = conn[c * vertices + order[v]];
+      PetscInt point = conn[c * vertices + (shape == CELL_TRIANGLE3 ? v : order[v])];
 
       PetscAssert(point >= 0 && point < w->local[0], PETSC_COMM_SELF, PETSC_ERR_ARG_OUTOFRANGE, "Cell %lld names point %" PetscInt_FMT, (long long)c, point);
       cells[c * vertices + v] = w->offset[0] + point;

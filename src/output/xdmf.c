@@ -19,12 +19,15 @@ struct _p_Index {
 
 PetscInt CellShapeVertices(CellShape shape)
 {
-  return shape == CELL_POLYLINE2 ? 2 : shape == CELL_QUAD4 ? 4 : 8;
+  return shape == CELL_POLYLINE2 ? 2 : shape == CELL_TRIANGLE3 ? 3 : shape == CELL_QUAD4 ? 4 : 8;
 }
 
 const char *CellShapeTopology(CellShape shape)
 {
-  return shape == CELL_POLYLINE2 ? "Polyline\" NodesPerElement=\"2" : shape == CELL_QUAD4 ? "Quadrilateral" : "Hexahedron";
+  static const char *const topology[] = {
+      [CELL_POLYLINE2] = "Polyline\" NodesPerElement=\"2", [CELL_TRIANGLE3] = "Triangle", [CELL_QUAD4] = "Quadrilateral", [CELL_HEX8] = "Hexahedron"};
+
+  return topology[shape];
 }
 
 PetscErrorCode IndexCreate(Index *index)

@@ -194,23 +194,36 @@ static void CheckFields(PetscInt order)
 
 static void CheckContact(void)
 {
-  const PetscInt nodes = 2 * UPPER + 1;
+  const PetscInt nodes[2] = {2 * UPPER + 1, 2 * LOWER + 1}, all = nodes[0] + nodes[1], facets[2] = {2 * UPPER, 2 * LOWER};
   PetscInt       components, num;
-  double        *X, *u;
+  double        *X, *u, *normal, *side, *facet[2], *conn;
 
-  Uniform("contact", "contact_pressure", nodes, 0, -Sigma(1), 1e-9);
-  Uniform("contact", "gap", nodes, 0, 0, 1e-9);
-  Uniform("contact", "status", nodes, 0, 1, 0);
-  Uniform("contact", "normal", nodes, 0, 0, 1e-9);
-  Uniform("contact", "normal", nodes, 1, -1, 1e-9);
-  Uniform("contact", "displacement", nodes, 1, -0.05, 1e-9);
-  Uniform("contact", "pair", 2 * UPPER, 0, 0, 0);
+  Uniform("contact", "contact_pressure", all, 0, -Sigma(1), 1e-9);
+  Uniform("contact", "gap", all, 0, 0, 1e-9);
+  Uniform("contact", "status", all, 0, 1, 0);
+  Uniform("contact", "normal", all, 0, 0, 1e-9);
+  Uniform("contact", "displacement", all, 1, -0.05, 1e-9);
+  Uniform("contact", "pair", 2 * (UPPER + LOWER), 0, 0, 0);
+  assert_int_equal(ReadField("contact", "normal", &components, &normal), all);
+  for (PetscInt n = 0; n < all; ++n) assert_near(normal[3 * n + 1], n < nodes[0] ? -1 : 1, 1e-9);
+  assert_int_equal(ReadField("contact", "side", &components, &side), facets[0] + facets[1]);
+  for (PetscInt f = 0; f < facets[0] + facets[1]; ++f) assert_near(side[f], f < facets[0] ? 0 : 1, 0);
   /* 6 and 10 edges with ends in common at 0, 1 and 2: 14 segments; both sides of each stand at one place once moved */
   num = ReadField("segments", "X", &components, &X);
   assert_int_equal(num, 4 * 14);
   ReadField("segments", "displacement", &components, &u);
   double length = 0;
+  ReadField("segments", "facet", &components, &facet[0]);
+  ReadField("segments", "mortar_facet", &components, &facet[1]);
+  ReadField("contact", "cells", &components, &conn);
+  double *place;
+  ReadField("contact", "X", &components, &place);
   for (PetscInt s = 0; s < 14; ++s) {
+    for (PetscInt k = 0; k < 4; ++k) { /* corners 0, 1 lie on the nonmortar edge of that number, 2, 3 on the mortar one */
+      const PetscInt cell = (PetscInt)facet[k / 2][s] + (k < 2 ? 0 : facets[0]);
+      const double   a = place[3 * (PetscInt)conn[2 * cell]], b = place[3 * (PetscInt)conn[2 * cell + 1]], x = X[12 * s + 3 * k];
+      assert_true(x >= PetscMin(a, b) - 1e-9 && x <= PetscMax(a, b) + 1e-9);
+    }
     const PetscInt at = 12 * s;
     for (PetscInt c = 0; c < 3; ++c) {
       for (PetscInt k = 0; k < 2; ++k) assert_near(X[at + 3 * k + c] + u[at + 3 * k + c], X[at + 6 + 3 * k + c] + u[at + 6 + 3 * k + c], 1e-8);
@@ -220,6 +233,12 @@ static void CheckContact(void)
   assert_near(length, 2, 1e-8);
   free(X);
   free(u);
+  free(normal);
+  free(side);
+  free(facet[0]);
+  free(facet[1]);
+  free(conn);
+  free(place);
 }
 
 /* ---- the run ------------------------------------------------------------------------------------------------------------------ */

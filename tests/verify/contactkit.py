@@ -51,8 +51,18 @@ def bulk(result):
     return result.states("bulk")[-1][1]
 
 
-def contact(result):
-    return result.states("contact")[-1][1]
+def surface(state, side):
+    """One side of the contact grid of a state (0: nonmortar, 1: mortar), points and cells numbered anew."""
+    cells = state["cells"].astype(int)
+    keep = state["side"] == side
+    points, number = numpy.unique(cells[keep], return_inverse=True)
+    at_cells = ("pair", "side", "cell")
+    part = {name: values[keep if name in at_cells else points] for name, values in state.items() if name != "cells"}
+    return {**part, "cells": number.reshape(-1, cells.shape[1])}
+
+
+def contact(result, side=0):
+    return surface(result.states("contact")[-1][1], side)
 
 
 def steps(result):

@@ -29,3 +29,21 @@ def test_skin_has_no_inner_faces():
     faces = np.array(plot.HEX_FACES)
     place = np.concatenate([faces, faces + 4])  # the upper one's bottom is the lower one's top
     assert plot.used_once(place).sum() == 10
+
+
+def test_round_off_has_no_colours():
+    """A uniform field is drawn in one colour; small values that differ are not taken for uniform."""
+    low, high = plot.colour_range(np.array([0.07, 0.07 + 1e-15]))
+    assert high - low > 0.05
+    assert plot.colour_range(np.array([1e-12, 3e-12])) == (1e-12, 3e-12) and plot.colour_range(np.zeros(3)) == (-0.5, 0.5)
+
+
+def test_contact_is_drawn_on_one_side(run):
+    """Of the two sides of the contact grid the one that carries the pressure, its points numbered anew."""
+    result = run("inputs/blocks3d.yml")
+    assert result.returncode == 0, result
+    bulk, (contact,) = plot.last_states(result.directory)
+    assert contact.cells.shape == (9, 4) and len(contact.X) == 16 and set(contact.cell["side"]) == {0} and contact.cells.max() == 15
+    assert np.allclose(contact.point["normal"], (0, 0, -1)) and len(bulk.cells) == 26
+    plot.plot_mesh(result.directory, "von_mises", 1.0)
+    assert (result.directory / "mesh.png").stat().st_size > 10000

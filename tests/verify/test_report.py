@@ -4,6 +4,8 @@ import math
 import numpy as np
 import pytest
 
+from contactkit import surface
+
 KEYS = """mortise scene status reason t model ranks load_steps step_cuts adapt_passes newton_iterations cells dofs order_min order_max
           estimated_error energy reaction contact probe time peak_memory_mb""".split()
 TIMES = "total mesh assemble contact factor solve estimate output".split()
@@ -34,6 +36,7 @@ def test_patch_reports_agree(run, ranks, order):
     assert np.allclose(bulk["J"], 0.95, atol=1e-9) and len(bulk["cells"]) == s["cells"] * order**2
     time, contact = result.states("contact")[-1]
     assert np.allclose(contact["contact_pressure"], pressure, atol=1e-9) and np.allclose(contact["status"], 1)
+    assert [len(surface(contact, side)["cells"]) for side in (0, 1)] == [5, 3]
 
 
 @pytest.mark.parametrize("ranks", [1, 2])
@@ -46,12 +49,19 @@ def test_balances_of_an_adapted_run(run, ranks):
     pair = s["contact"]["disc_on_block"]
     states = result.states("contact")
     assert len(states) == len(result.states()) == len(result.states("segments")) == len(result.adapt) == 5
-    contact = states[-1][1]
+    contact, block = (surface(states[-1][1], side) for side in (0, 1))
     inside = np.abs((contact["X"] + contact["displacement"])[contact["status"] == 1, 0])
     assert len(inside) == pair["active_nodes"] and inside.max() <= pair["radius"] + 1e-12
     assert pair["radius"] == pytest.approx(0.2, abs=0.05) and pair["area"] == pytest.approx(2 * pair["radius"], rel=0.2)
     assert np.all(contact["gap"][contact["status"] == 0] > 0)
-    assert np.allclose(np.linalg.norm(contact["normal"], axis=1), 1)
+    assert np.allclose(np.linalg.norm(contact["normal"], axis=1), 1) and np.allclose(np.linalg.norm(block["normal"], axis=1), 1)
+    # the block's side: touched where the disc touches, by pressures that are means of the disc's, open beside it, and nothing faces its far end
+    x, y = np.abs((block["X"] + block["displacement"])[:, 0]), np.sort(np.abs((contact["X"] + contact["displacement"])[:, 0]))
+    width = np.diff(y).max()
+    assert np.all(x[block["status"] == 1] < pair["radius"] + width) and np.all(block["status"][x < pair["radius"] - width] == 1)
+    assert 0.8 * pair["max_pressure"] < block["contact_pressure"].max() <= pair["max_pressure"] and block["contact_pressure"].min() >= 0
+    assert np.all(block["gap"][(block["status"] == 0) & (x > pair["radius"] + width)] > 0) and np.all(block["status"][x > y[-1] + 0.5] == -1)
+    assert np.all(block["normal"][:, 1] > 0.9) and np.all(contact["normal"][:, 1] < 0.1)
 
 
 def test_failed_run_is_told(run):
