@@ -169,7 +169,7 @@ PetscErrorCode ScenePrintList(MPI_Comm comm)
   PetscCall(PetscPrintf(comm, "models (model)\n"
                               "  plane_strain   two dimensions, per unit thickness\n"
                               "  axisymmetric   x = r, y = z; forces of the full revolution\n"
-                              "  3d             three dimensions (contact there is not built yet)\n"
+                              "  3d             three dimensions\n"
                               "\nkinematics\n"
                               "  finite         large displacements and strains\n"
                               "  small          geometry and material linear (law: linear)\n"));

@@ -204,8 +204,10 @@ def test_negative_radius(check):
     refused(check([("plane_strain", "axisymmetric")], geo=GEO.replace("{0, 0, 0}", "{-1, 0, 0}")), "axisymmetric", "radius")
 
 
-def test_contact_in_three_dimensions(check):
-    refused(check([("plane_strain", "3d")]), "three dimensions", "not built yet")
+def test_node_to_segment_in_space(run):
+    """Contact in space is there, the comparison is not."""
+    assert run("inputs/blocks3d.yml", "-check").returncode == 0
+    refused(run("inputs/blocks3d.yml", "-check", "-contact_upper_on_lower_node_to_segment", "true"), "node_to_segment|node-to-segment", "two dimensions")
 
 
 def test_cell_in_no_body(check):
