@@ -1,4 +1,4 @@
-"""O-81: adaptation of inputs/hertz2d.yml. The punch of O-53 needs a rigid body: see the cases of contact."""
+"""O-81: adaptation of inputs/hertz2d.yml; the same in three dimensions. The punch of O-53 needs a rigid body: see the cases of contact."""
 import numpy as np
 import pytest
 
@@ -56,3 +56,22 @@ def test_o81_no_step_lost_and_little_changes_after_refinement(run, scene, end):
     assert len(forces) >= 3
     assert np.all(np.abs(forces[2:] / forces[1:-1] - 1) < 0.01), forces
     assert all(row["newton_iterations"] <= first[0]["newton_iterations"] for row in first[1:])
+
+
+def test_estimate_in_three_dimensions(run):
+    """Two cubes pressed together, more on one side: the estimate stays close to the error in energy on every mesh, and the contact surface is refined. Motion is
+    prescribed, so that the energies fall towards that of the exact solution; the reference has six times the unknowns of the finest mesh judged."""
+    def adapted(order, passes):
+        result = run("inputs/blocks3d.yml", "-boundary_top_displacement_z", "-0.06 - 0.06*X*Y", "-order", order, "-adapt_tolerance", 1e-4, "-adapt_max_passes",
+                     passes)
+        assert result.returncode == 0, result
+        assert len(result.adapt) == passes + 1
+        return result.adapt
+
+    exact = adapted(2, 4)[-1]["energy"]
+    for order in (1, 2):
+        rows = adapted(order, 2)
+        effectivity = [row["estimate"] / (2 * (row["energy"] - exact)) ** 0.5 for row in rows]
+        assert all(1 < value < 2.5 for value in effectivity), effectivity
+        assert rows[-1]["active_nodes"] > 2 * rows[0]["active_nodes"]
+        assert abs(rows[-1]["contact_force"] / rows[-2]["contact_force"] - 1) < 1e-3

@@ -5,11 +5,14 @@ import pytest
 
 # Wall-clock figures and what a rank count may change.
 OTHER = ("time", "ranks", "peak_memory_mb", "peak_memory_rank_mb")
+TILTED = ("-boundary_top_displacement_z", "-0.06 - 0.06*X*Y", "-adapt_tolerance", 0.001)  # the patch pressed more on one side: not uniform
 SCENES = {
     "hertz2d": ("hertz2d", ("-adapt_max_passes", 3)),
     "hertz2d_linear": ("hertz2d", ("-order", 1, "-adapt_max_passes", 5)),
     "rubber2d": ("rubber2d", ("-order", 1, "-adapt_max_passes", 4)),
     "slide2d": ("slide2d", ("-order", 1, "-adapt_max_passes", 2)),
+    "blocks3d_linear": ("blocks3d", (*TILTED, "-order", 1, "-adapt_max_passes", 3)),
+    "blocks3d": ("blocks3d", (*TILTED, "-order", 2, "-adapt_max_passes", 2)),
     "cube": ("cube", ()),
     "cube_hanging": ("cube", ("-boundary_x1_traction_z", -0.1, "-adapt_tolerance", 0.01, "-adapt_max_passes", 2, "-load_step", 1)),
 }
@@ -65,7 +68,8 @@ def compare(run, scene, options, counts, exact=False):
             assert [row[column] for row in one.adapt] == [row[column] for row in many.adapt], column
 
 
-@pytest.mark.parametrize("name,ranks", [("hertz2d_linear", 3), ("rubber2d", 2), ("slide2d", 3), ("cube_hanging", 2)])
+@pytest.mark.parametrize("name,ranks", [("hertz2d_linear", 3), ("rubber2d", 2), ("slide2d", 3), ("cube_hanging", 2), ("blocks3d_linear", 3),
+                                        ("blocks3d", 2)])
 def test_o101_ranks(run, name, ranks):
     compare(run, *SCENES[name], (ranks,))
 
