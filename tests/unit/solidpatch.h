@@ -1,5 +1,5 @@
-/* Two blocks of hexahedra whose meshes do not match, one on the other, pressed: a contact patch in three dimensions. Blocks [0,2]^2 x [0,1] and [0,2]^2 x
-   [1,2]; the cells of the lower one may be skewed, so that their facets are no parallelograms. */
+/* Two blocks of hexahedra whose meshes do not match, one on the other, pressed: a contact patch in three dimensions, free to spread along x and y. Blocks
+   [0,2]^2 x [0,1] and [0,2]^2 x [1,2]; the cells of the lower one may be skewed, so that their facets are no parallelograms. */
 #pragma once
 #include "solve.h"
 
@@ -13,7 +13,7 @@
 
 #define OK(call) assert_int_equal((call), 0)
 
-enum { BOTTOM, TOP, SIDE_X, SIDE_Y, LOWER_TOP, UPPER_BOTTOM, NUM_GROUPS };
+enum { BOTTOM, TOP, SIDE_X, SIDE_Y, FREE, LOWER_TOP, UPPER_BOTTOM, NUM_GROUPS };
 
 typedef struct {
   SceneData    data;
@@ -65,7 +65,7 @@ static inline PetscInt PatchFacets(const PetscInt n[2], PetscInt body, PetscInt 
 {
   for (PetscInt side = 0; side < 6; ++side) {
     const PetscInt d = side / 2, high = side % 2, at[3] = {i, j, 0}, last[3] = {n[body] - 1, n[body] - 1, 0};
-    const PetscInt group[3] = {SIDE_X, SIDE_Y, body ? (high ? TOP : UPPER_BOTTOM) : (high ? LOWER_TOP : BOTTOM)};
+    const PetscInt group[3] = {high ? FREE : SIDE_X, high ? FREE : SIDE_Y, body ? (high ? TOP : UPPER_BOTTOM) : (high ? LOWER_TOP : BOTTOM)};
     if (at[d] != (high ? last[d] : 0)) continue;
     for (PetscInt v = 0; v < 4; ++v) {
       PetscInt g[3] = {i, j, 0};
@@ -152,7 +152,7 @@ static inline void PatchRefine(Forest *forest, PetscInt times)
 /* The upper block is pressed down by `press`; p->forest is set by the caller. */
 static inline void PatchScene(Patch *p, PetscInt order, Kinematics kinematics, PetscBool standard, const char *press)
 {
-  static const char *const group[NUM_GROUPS] = {"bottom", "top", "side_x", "side_y", "lower_top", "upper_bottom"};
+  static const char *const group[NUM_GROUPS] = {"bottom", "top", "side_x", "side_y", "free", "lower_top", "upper_bottom"};
   const char *const        names[]           = {"E", "nu"};
   const PetscReal          values[]          = {1, 0.3};
 
