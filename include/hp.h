@@ -46,6 +46,10 @@ PetscErrorCode HPSpaceGetGlobalDofs(HPSpace, const PetscInt **);
 PetscErrorCode HPSpaceGetFrame(HPSpace, PetscInt node, const PetscReal **frame); /* NULL: Cartesian */
 PetscErrorCode HPSpaceGetOrder(HPSpace, PetscInt entity, PetscInt *order);       /* order of a global entity in this rank's chart */
 
+/* The multilinear function through the vertices that takes node's place in the space of order 1 on this mesh: true local vertex nodes and weights,
+   at most max of them. A node that is a true vertex: itself. */
+PetscErrorCode HPSpaceGetVertexRow(HPSpace, PetscInt node, PetscInt max, PetscInt *num, PetscInt vertices[], PetscReal weights[]);
+
 /* Cartesian nodal values [n][dim] of cell from a local array of true dofs (hanging entries of the array are not read). */
 PetscErrorCode HPSpaceGather(HPSpace, PetscInt cell, const PetscReal local[], PetscReal values[]);
 /* Reference positions [n][dim] of the cell's nodes. */

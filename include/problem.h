@@ -129,6 +129,9 @@ PetscErrorCode ProblemPending(Problem, PetscReal *remaining);
 PetscErrorCode ProblemForces(Problem, Vec x, PetscReal reaction[][3], PetscReal force[][3], PetscReal moment[][3], ProblemStatus *);
 /* Displacement dofs and multipliers of this rank, in that order in its part of the vector; dimension. Not collective. */
 PetscErrorCode ProblemGetBlocks(Problem, PetscInt *num_u, PetscInt *num_z, PetscInt *dim);
-/* Rigid-body modes of all nodes at the reference positions, restricted to the displacement dofs is_u: for multigrid methods. Collective. */
-PetscErrorCode ProblemRigidModes(Problem, IS is_u, MatNullSpace *);
+/* Rigid-body modes at the reference positions over this problem's displacement dofs: for multigrid methods. Collective. */
+PetscErrorCode ProblemRigidModes(Problem, MatNullSpace *);
+/* Interpolation from the free displacement dofs of the vertices (the space of order 1 on the same mesh) to those of all nodes, and the modes of the vertices;
+   both NULL when all nodes are vertices. Collective. */
+PetscErrorCode ProblemProlongation(Problem, Mat *prolongation, MatNullSpace *modes);
 PetscErrorCode ProblemNumDofs(Problem, PetscInt *free_dofs); /* global: u and z */

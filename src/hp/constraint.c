@@ -55,11 +55,12 @@ static void ToParent_Private(PetscInt parent_dim, const int8_t place[3], const P
   }
 }
 
-/* Add scale * (trace of the entity at xi of its frame) to the row. Recurses to sub-entities and parents. Not collective. */
-PetscErrorCode HPRowAccumulate_Private(HPSpace hp, PetscInt entity, const PetscReal xi[], PetscReal scale, HPRow *row)
+/* Add scale * (trace of the entity at xi of its frame) to the row, of the space with all orders cut down to limit. Recurses to sub-entities and parents.
+   Not collective. */
+PetscErrorCode HPRowAccumulate_Private(HPSpace hp, PetscInt entity, const PetscReal xi[], PetscInt limit, PetscReal scale, HPRow *row)
 {
   const ForestTables *t = hp->tables;
-  const PetscInt      d = HPEntityDim_Private(t, entity), p = hp->entity_order[entity];
+  const PetscInt      d = HPEntityDim_Private(t, entity), p = PetscMin(hp->entity_order[entity], limit);
   PetscReal           L[3][MORTISE_MAX_ORDER + 1], eta[3];
   const PetscReal    *nodes;
   PetscInt            num = 1;
@@ -68,7 +69,7 @@ PetscErrorCode HPRowAccumulate_Private(HPSpace hp, PetscInt entity, const PetscR
   if (t->parent[entity] >= 0) {
     const PetscInt parent = t->parent[entity];
     ToParent_Private(HPEntityDim_Private(t, parent), t->parent_place + 3 * entity, xi, eta);
-    PetscCall(HPRowAccumulate_Private(hp, parent, eta, scale, row));
+    PetscCall(HPRowAccumulate_Private(hp, parent, eta, limit, scale, row));
     PetscFunctionReturn(PETSC_SUCCESS);
   }
   PetscCheck(hp->entity_point[entity] >= 0, PETSC_COMM_SELF, PETSC_ERR_PLIB, "entity %" PetscInt_FMT " is needed as a master but is not in this rank's chart",
@@ -99,7 +100,7 @@ PetscErrorCode HPRowAccumulate_Private(HPSpace hp, PetscInt entity, const PetscR
     }
     const PetscInt offset = t->closure_offset[entity] + index;
     ForestOrient(k, t->orientation[offset], tangent, eta);
-    PetscCall(HPRowAccumulate_Private(hp, t->closure[offset], eta, weight, row));
+    PetscCall(HPRowAccumulate_Private(hp, t->closure[offset], eta, limit, weight, row));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -150,7 +151,7 @@ static PetscErrorCode CellNodeRow_Private(HPSpace hp, PetscInt cell, PetscInt i,
   *node = -1;
   PetscCall(HPRowReset_Private(row));
   ForestOrient(k, t->orientation[offset + index], tangent, eta);
-  PetscCall(HPRowAccumulate_Private(hp, entity, eta, 1.0, row));
+  PetscCall(HPRowAccumulate_Private(hp, entity, eta, MORTISE_MAX_ORDER, 1.0, row));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -255,7 +256,7 @@ static PetscErrorCode HangingNodeRow_Private(HPSpace hp, PetscInt entity, PetscI
     for (PetscInt a = 0, i = index; a < d; ++a, i /= p - 1) xi[a] = nodes[1 + i % (p - 1)];
   }
   PetscCall(HPRowReset_Private(row));
-  PetscCall(HPRowAccumulate_Private(hp, entity, xi, 1.0, row));
+  PetscCall(HPRowAccumulate_Private(hp, entity, xi, MORTISE_MAX_ORDER, 1.0, row));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

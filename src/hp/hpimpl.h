@@ -39,7 +39,8 @@ PetscErrorCode HPSpaceSurfaceShift_Private(HPSpace, uint64_t groups, PetscReal *
 PetscErrorCode HPSpaceRows_Private(HPSpace);
 PetscErrorCode HPRowReset_Private(HPRow *);
 PetscErrorCode HPRowDestroy_Private(HPRow *);
-PetscErrorCode HPRowAccumulate_Private(HPSpace, PetscInt entity, const PetscReal xi[], PetscReal scale, HPRow *);
+PetscErrorCode HPRowAccumulate_Private(HPSpace, PetscInt entity, const PetscReal xi[], PetscInt limit, PetscReal scale, HPRow *);
+void           HPNodePoint_Private(PetscInt d, PetscInt p, const PetscReal *nodes, PetscInt i, PetscReal eta[3]);
 /* section.c: sections and default constraints. */
 PetscErrorCode HPSpaceSections_Private(HPSpace, const int8_t fixed[]);
 

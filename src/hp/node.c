@@ -37,7 +37,7 @@ PetscErrorCode HPSpaceNodes_Private(HPSpace hp, PetscInt num_owned_cells)
 }
 
 /* Reference point of node i of an entity (dimension d, order p): interior Gauss-Lobatto points, lexicographic. */
-static void NodePoint_Private(PetscInt d, PetscInt p, const PetscReal *nodes, PetscInt i, PetscReal eta[3])
+void HPNodePoint_Private(PetscInt d, PetscInt p, const PetscReal *nodes, PetscInt i, PetscReal eta[3])
 {
   for (PetscInt a = 0; a < d; ++a, i /= p - 1) eta[a] = nodes[1 + i % (p - 1)];
 }
@@ -86,7 +86,7 @@ PetscErrorCode HPSpacePositions_Private(HPSpace hp, uint64_t linear_groups)
     if (d > 0) PetscCall(ElementGetNodes(p, &nodes));
     for (PetscInt n = hp->point_node[i]; n < hp->point_node[i + 1]; ++n) {
       PetscReal eta[3] = {0, 0, 0}, xi[3] = {0, 0, 0};
-      if (d > 0) NodePoint_Private(d, p, nodes, n - hp->point_node[i], eta);
+      if (d > 0) HPNodePoint_Private(d, p, nodes, n - hp->point_node[i], eta);
       HPEntityToLeaf_Private(t, t->entity_leaf[e], e, d, eta, xi);
       PetscCall(ForestMapPoint(hp->forest, t->entity_leaf[e], xi, &hp->X[3 * n]));
       for (PetscInt a = 0; d == 0 && a < 3; ++a) hp->X[3 * n + a] += shift[3 * e + a];

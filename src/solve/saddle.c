@@ -12,7 +12,8 @@
 
 struct _p_Saddle {
   Problem   problem; /* borrowed */
-  KSP       ksp, multigrid;
+  KSP       ksp;
+  Multigrid multigrid;
   IS        is_u, is_z;
   Mat       K, B, C, augmented; /* blocks of the last tangent; augmented = K + B^T G B */
   Mat       operator;
@@ -68,7 +69,7 @@ static PetscErrorCode Precondition_Private(PC pc, Vec x, Vec y)
   PetscCall(VecScale(yz, -1));
   PetscCall(MatMultTranspose(s->B, yz, s->work_u));
   PetscCall(VecAYPX(s->work_u, -1, xu));
-  PetscCall(KSPSolve(s->multigrid, s->work_u, yu));
+  PetscCall(MultigridApply_Private(s->multigrid, s->work_u, yu));
   PetscCall(BlocksRestore_Private(s, x, &xu, &xz));
   PetscCall(BlocksRestore_Private(s, y, &yu, &yz));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -100,12 +101,7 @@ static PetscErrorCode Create_Private(Saddle s, Mat A)
   PetscCall(PCShellSetContext(pc, s));
   PetscCall(PCShellSetApply(pc, Precondition_Private));
   PetscCall(KSPSetFromOptions(s->ksp));
-  PetscCall(KSPCreate(PetscObjectComm((PetscObject)A), &s->multigrid));
-  PetscCall(KSPSetOptionsPrefix(s->multigrid, "multigrid_"));
-  PetscCall(KSPSetType(s->multigrid, KSPPREONLY));
-  PetscCall(KSPGetPC(s->multigrid, &pc));
-  PetscCall(PCSetType(pc, PCGAMG));
-  PetscCall(KSPSetFromOptions(s->multigrid));
+  PetscCall(MultigridCreate_Private(s->problem, PetscObjectComm((PetscObject)A), &s->multigrid));
   PetscCall(VecDestroy(&x));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -174,11 +170,10 @@ static PetscErrorCode Weights_Private(Saddle s)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* augmented = K + B^T G B, with the rigid-body modes of the nodes. */
+/* augmented = K + B^T G B */
 static PetscErrorCode Augment_Private(Saddle s)
 {
-  Mat          GB, product;
-  MatNullSpace modes;
+  Mat GB, product;
 
   PetscFunctionBegin;
   PetscCall(MatDuplicate(s->B, MAT_COPY_VALUES, &GB));
@@ -189,9 +184,6 @@ static PetscErrorCode Augment_Private(Saddle s)
   PetscCall(MatAXPY(s->augmented, 1, product, DIFFERENT_NONZERO_PATTERN));
   PetscCall(MatDestroy(&product));
   PetscCall(MatDestroy(&GB));
-  PetscCall(ProblemRigidModes(s->problem, s->is_u, &modes));
-  PetscCall(MatSetNearNullSpace(s->augmented, modes));
-  PetscCall(MatNullSpaceDestroy(&modes));
   PetscCall(MatSetOption(s->augmented, MAT_SYMMETRIC, PETSC_TRUE));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -211,7 +203,7 @@ PetscErrorCode SaddleDestroy_Private(Saddle *saddle)
   PetscFunctionBegin;
   if (!s) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(KSPDestroy(&s->ksp));
-  PetscCall(KSPDestroy(&s->multigrid));
+  PetscCall(MultigridDestroy_Private(&s->multigrid));
   PetscCall(ISDestroy(&s->is_u));
   PetscCall(ISDestroy(&s->is_z));
   PetscCall(MatDestroy(&s->K));
@@ -230,8 +222,6 @@ PetscErrorCode SaddleDestroy_Private(Saddle *saddle)
 /* A: the symmetric tangent. keep: the multigrid hierarchy of the last one will do (only the active set has changed). */
 PetscErrorCode SaddleSetUp_Private(Saddle s, Mat A, PetscBool keep)
 {
-  PC pc;
-
   PetscFunctionBegin;
   if (!s->ksp) PetscCall(Create_Private(s, A));
   PetscCall(MatDestroy(&s->K));
@@ -246,10 +236,7 @@ PetscErrorCode SaddleSetUp_Private(Saddle s, Mat A, PetscBool keep)
   }
   PetscCall(Weights_Private(s));
   PetscCall(Augment_Private(s));
-  PetscCall(KSPGetPC(s->multigrid, &pc));
-  PetscCall(PCSetReusePreconditioner(pc, keep));
-  PetscCall(KSPSetOperators(s->multigrid, s->augmented, s->augmented));
-  PetscCall(KSPSetUp(s->multigrid));
+  PetscCall(MultigridSetUp_Private(s->multigrid, s->augmented, keep));
   PetscCall(KSPSetOperators(s->ksp, s->operator, s->operator));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -9,7 +9,8 @@ typedef struct {
   PetscReal *norm; /* owned [size] what goes with the set: contradiction of a pass, residual of an iterate */
 } SetHistory;
 
-typedef struct _p_Saddle *Saddle;
+typedef struct _p_Saddle    *Saddle;
+typedef struct _p_Multigrid *Multigrid;
 
 typedef enum { LINEAR_AUTO, LINEAR_DIRECT, LINEAR_ITERATIVE } LinearKind;
 
@@ -50,3 +51,8 @@ PetscErrorCode SaddleDestroy_Private(Saddle *);
 PetscErrorCode SaddleSetUp_Private(Saddle, Mat, PetscBool keep);
 PetscErrorCode SaddleSolve_Private(Saddle, Vec rhs, PetscReal rtol, PetscBool guess, Vec x, PetscBool *ok);
 PetscErrorCode SaddleGetIterations_Private(Saddle, PetscInt *iterations);
+/* multigrid.c: a cycle for the displacement block. */
+PetscErrorCode MultigridCreate_Private(Problem, MPI_Comm, Multigrid *);
+PetscErrorCode MultigridDestroy_Private(Multigrid *);
+PetscErrorCode MultigridSetUp_Private(Multigrid, Mat, PetscBool keep);
+PetscErrorCode MultigridApply_Private(Multigrid, Vec x, Vec y);
