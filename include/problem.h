@@ -96,8 +96,8 @@ typedef struct {
 /* R(x) with the prescribed motion as applied. Deterministic function of x. Collective; status is the same on every rank. */
 PetscErrorCode ProblemResidual(Problem, Vec x, Vec r, ProblemStatus *);
 /* dR/dx with the stored element pressures in the geometric stiffness (NULL: consistent). When lift is given, the change of R that the remaining
-   prescribed motion makes to first order is added to it, and the Hessian of pairs whose open gaps under pressure are still wide against their facets is left out.
-   Assembles the problem's matrix. */
+   prescribed motion makes to first order is added to it, and the Hessian of pairs whose open gaps under pressure are still wide against their facets is left
+   out. Assembles the problem's matrix. */
 PetscErrorCode ProblemTangent(Problem, Vec x, const PetscReal pressure[], Vec lift, PetscBool *bad);
 /* Symmetric form of the tangent: same solution, symmetric matrix, right-hand side by ProblemRightSide; its multiplier columns are exact to second order.
    Only for problems whose bulk tangent is symmetric (ProblemIsSymmetric): no follower pressures. Default: exact form. */
@@ -129,9 +129,8 @@ PetscErrorCode ProblemPending(Problem, PetscReal *remaining);
 PetscErrorCode ProblemForces(Problem, Vec x, PetscReal reaction[][3], PetscReal force[][3], PetscReal moment[][3], ProblemStatus *);
 /* Displacement dofs and multipliers of this rank, in that order in its part of the vector; dimension. Not collective. */
 PetscErrorCode ProblemGetBlocks(Problem, PetscInt *num_u, PetscInt *num_z, PetscInt *dim);
-/* Rigid-body modes at the reference positions over this problem's displacement dofs: for multigrid methods. Collective. */
-PetscErrorCode ProblemRigidModes(Problem, MatNullSpace *);
-/* Interpolation from the free displacement dofs of the vertices (the space of order 1 on the same mesh) to those of all nodes, and the modes of the vertices;
-   both NULL when all nodes are vertices. Collective. */
-PetscErrorCode ProblemProlongation(Problem, Mat *prolongation, MatNullSpace *modes);
+/* For multigrid methods, the space of order 1 on the same mesh in whole blocks: interpolation from the dofs of all vertices that have a free one (dim of each)
+   to the displacement dofs of this problem; ones on the diagonal of the prescribed ones among them; their rigid-body modes; are there nodes
+   that are no vertices? Collective. */
+PetscErrorCode ProblemProlongation(Problem, Mat *prolongation, Mat *pinned, MatNullSpace *modes, PetscBool *higher);
 PetscErrorCode ProblemNumDofs(Problem, PetscInt *free_dofs); /* global: u and z */

@@ -45,7 +45,7 @@ static PetscErrorCode Centre_Private(Problem p, const HPTables *v, PetscReal cen
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Modes over the dofs whose places are row[num_nodes*dim] (-1: none) of size entries on this rank. */
+/* Rigid-body modes over the dofs whose places are row[num_nodes*dim] (-1: none) of size entries on this rank. */
 static PetscErrorCode Modes_Private(Problem p, const PetscInt row[], PetscInt size, MatNullSpace *modes)
 {
   const PetscInt  num = p->dim == 2 ? 3 : 6;
@@ -85,23 +85,11 @@ static PetscErrorCode Modes_Private(Problem p, const PetscInt row[], PetscInt si
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode ProblemRigidModes(Problem p, MatNullSpace *modes)
+/* Columns of the vertices' dofs: dim of them for every vertex of which some dof is free, so that blocks stay whole. On this rank column[num_nodes*dim] (-1: no
+   vertex with a free dof here), in all global[num_nodes*dim] (-1: prescribed, hanging, no vertex). */
+static PetscErrorCode CoarseNumbers_Private(Problem p, const HPTables *v, const ForestTables *t, PetscInt column[], PetscInt global[], PetscInt *size)
 {
-  const HPTables *v;
-  PetscInt       *row;
-
-  PetscFunctionBegin;
-  PetscCall(HPSpaceGetTables(p->space, &v));
-  PetscCall(PetscMalloc1(v->num_nodes * p->dim, &row));
-  for (PetscInt i = 0; i < v->num_nodes * p->dim; ++i) row[i] = Row_Private(p, i);
-  PetscCall(Modes_Private(p, row, p->num_u, modes));
-  PetscCall(PetscFree(row));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* Places of the vertices' dofs: on this rank row[num_nodes*dim], in all global[num_nodes*dim] (-1: none). */
-static PetscErrorCode CoarseNumbers_Private(Problem p, const HPTables *v, const ForestTables *t, PetscInt row[], PetscInt global[], PetscInt *size)
-{
+  const PetscInt   dim = p->dim;
   const PetscReal *u;
   PetscReal       *array;
   PetscInt         first = 0;
@@ -110,18 +98,23 @@ static PetscErrorCode CoarseNumbers_Private(Problem p, const HPTables *v, const 
   PetscFunctionBegin;
   PetscCall(HPSpaceGetDM(p->space, &dm));
   *size = 0;
-  for (PetscInt i = 0; i < v->num_nodes * p->dim; ++i) row[i] = v->node_entity[i / p->dim] < t->first[1] && Row_Private(p, i) >= 0 ? (*size)++ : -1;
+  for (PetscInt n = 0; n < v->num_nodes; ++n) {
+    PetscBool free = PETSC_FALSE;
+    for (PetscInt d = 0; d < dim; ++d) free = (PetscBool)(free || (v->node_entity[n] < t->first[1] && Row_Private(p, n * dim + d) >= 0));
+    for (PetscInt d = 0; d < dim; ++d) column[n * dim + d] = free ? *size + d : -1;
+    if (free) *size += dim;
+  }
   PetscCallMPI(MPI_Exscan(size, &first, 1, MPIU_INT, MPI_SUM, p->comm));
   PetscCall(VecSet(p->u_global, -1));
   PetscCall(VecGetArray(p->u_global, &array));
-  for (PetscInt i = 0; i < v->num_nodes * p->dim; ++i) {
-    if (row[i] >= 0) array[Row_Private(p, i)] = (PetscReal)(first + row[i]);
+  for (PetscInt i = 0; i < v->num_nodes * dim; ++i) {
+    if (column[i] >= 0 && Row_Private(p, i) >= 0) array[Row_Private(p, i)] = (PetscReal)(first + column[i]);
   }
   PetscCall(VecRestoreArray(p->u_global, &array));
   PetscCall(DMGlobalToLocalBegin(dm, p->u_global, INSERT_VALUES, p->u_local));
   PetscCall(DMGlobalToLocalEnd(dm, p->u_global, INSERT_VALUES, p->u_local));
   PetscCall(VecGetArrayRead(p->u_local, &u));
-  for (PetscInt i = 0; i < v->num_nodes * p->dim; ++i) global[i] = p->index[i] >= 0 && v->node_entity[i / p->dim] < t->first[1] ? (PetscInt)u[i] : -1;
+  for (PetscInt i = 0; i < v->num_nodes * dim; ++i) global[i] = p->index[i] >= 0 && v->node_entity[i / dim] < t->first[1] ? (PetscInt)u[i] : -1;
   PetscCall(VecRestoreArrayRead(p->u_local, &u));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -152,24 +145,43 @@ static PetscErrorCode NodeRows_Private(Problem p, PetscInt node, PetscInt first,
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode ProblemProlongation(Problem p, Mat *P, MatNullSpace *modes)
+/* Ones on the diagonal of columns that stand for prescribed dofs, nothing else. */
+static PetscErrorCode Pinned_Private(Problem p, const HPTables *v, const PetscInt column[], PetscInt size, Mat *pinned)
+{
+  PetscInt first;
+
+  PetscFunctionBegin;
+  PetscCall(MatCreateAIJ(p->comm, size, size, PETSC_DETERMINE, PETSC_DETERMINE, 1, NULL, 0, NULL, pinned));
+  PetscCall(MatGetOwnershipRange(*pinned, &first, NULL));
+  for (PetscInt i = 0; i < v->num_nodes * p->dim; ++i) {
+    if (column[i] >= 0 && Row_Private(p, i) < 0) PetscCall(MatSetValue(*pinned, first + column[i], first + column[i], 1, INSERT_VALUES));
+  }
+  PetscCall(MatAssemblyBegin(*pinned, MAT_FINAL_ASSEMBLY));
+  PetscCall(MatAssemblyEnd(*pinned, MAT_FINAL_ASSEMBLY));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode ProblemProlongation(Problem p, Mat *P, Mat *pinned, MatNullSpace *modes, PetscBool *higher)
 {
   const HPTables     *v;
   const ForestTables *t;
-  PetscInt           *row, *global, size, first;
-  int                 higher = 0;
+  PetscInt           *column, *global, size, first;
+  int                 any = 0;
 
   PetscFunctionBegin;
-  *P     = NULL;
-  *modes = NULL;
   PetscCall(HPSpaceGetTables(p->space, &v));
   PetscCall(ForestGetTables(p->forest, &t));
-  for (PetscInt n = 0; n < v->num_nodes; ++n) higher = higher || v->node_entity[n] >= t->first[1];
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &higher, 1, MPI_INT, MPI_MAX, p->comm));
-  if (!higher) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(PetscMalloc2(v->num_nodes * p->dim, &row, v->num_nodes * p->dim, &global));
-  PetscCall(CoarseNumbers_Private(p, v, t, row, global, &size));
-  PetscCall(MatCreateAIJ(p->comm, p->num_u, size, PETSC_DETERMINE, PETSC_DETERMINE, MOST_VERTICES, NULL, MOST_VERTICES / 2, NULL, P));
+  for (PetscInt n = 0; n < v->num_nodes; ++n) any = any || v->node_entity[n] >= t->first[1];
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &any, 1, MPI_INT, MPI_MAX, p->comm));
+  *higher = (PetscBool)any;
+  PetscCall(PetscMalloc2(v->num_nodes * p->dim, &column, v->num_nodes * p->dim, &global));
+  PetscCall(CoarseNumbers_Private(p, v, t, column, global, &size));
+  PetscCall(MatCreate(p->comm, P));
+  PetscCall(MatSetSizes(*P, p->num_u, size, PETSC_DETERMINE, PETSC_DETERMINE));
+  PetscCall(MatSetBlockSizes(*P, 1, p->dim));
+  PetscCall(MatSetType(*P, MATAIJ));
+  PetscCall(MatSeqAIJSetPreallocation(*P, any ? MOST_VERTICES : 1, NULL));
+  PetscCall(MatMPIAIJSetPreallocation(*P, any ? MOST_VERTICES : 1, NULL, any ? MOST_VERTICES / 2 : 1, NULL));
   PetscCall(MatSetOption(*P, MAT_NEW_NONZERO_ALLOCATION_ERR, PETSC_FALSE));
   PetscCall(MatGetOwnershipRange(*P, &first, NULL));
   for (PetscInt n = 0; n < v->num_nodes; ++n) {
@@ -179,7 +191,8 @@ PetscErrorCode ProblemProlongation(Problem p, Mat *P, MatNullSpace *modes)
   }
   PetscCall(MatAssemblyBegin(*P, MAT_FINAL_ASSEMBLY));
   PetscCall(MatAssemblyEnd(*P, MAT_FINAL_ASSEMBLY));
-  PetscCall(Modes_Private(p, row, size, modes));
-  PetscCall(PetscFree2(row, global));
+  PetscCall(Pinned_Private(p, v, column, size, pinned));
+  PetscCall(Modes_Private(p, column, size, modes));
+  PetscCall(PetscFree2(column, global));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

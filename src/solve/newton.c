@@ -10,10 +10,10 @@
 #define STALLED 7  /* iterations without a new least residual */
 #define HALVINGS 8 /* of steps that left the domain, in one solve */
 
-/* How far GMRES need go: a tenth of the Newton residual's own size keeps the convergence quadratic. */
+/* How far GMRES need go: so far that no Newton iteration is lost, which costs more than the few more of GMRES. */
 static PetscReal Forcing_Private(Solver s)
 {
-  return PetscMin(1e-3, PetscMax(s->linear_rtol, 0.1 * s->report->residual / PetscMax(s->report->scale, PETSC_MIN_REAL)));
+  return PetscMin(1e-6, PetscMax(s->linear_rtol, 0.01 * s->report->residual / PetscMax(s->report->scale, PETSC_MIN_REAL)));
 }
 
 /* One solve with the matrix as it stands; again: only the active set has changed since the last, whose solution is in dx. */
@@ -30,7 +30,7 @@ static PetscErrorCode LinearSolve_Private(SNES snes, Solver s, PetscBool again, 
   ++s->report->linear_solves;
   if (s->saddle) {
     PetscCall(StageBegin(STAGE_FACTOR));
-    PetscCall(SaddleSetUp_Private(s->saddle, A, again));
+    PetscCall(SaddleSetUp_Private(s->saddle, A));
     PetscCall(StageEnd(STAGE_FACTOR));
     PetscCall(StageBegin(STAGE_SOLVE));
     PetscCall(SaddleSolve_Private(s->saddle, s->rhs, Forcing_Private(s), again, dx, ok));

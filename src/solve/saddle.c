@@ -3,10 +3,9 @@
      [ K  B^T ] [u]   [f]
      [ B   C  ] [z] = [g],     rows of inactive nodes: B = 0, C = -w0/c; of active ones: C = 0, B = minus the normalised gradient.
 
-   Augmented form (Fortin & Glowinski): the same solution satisfies (K + B^T G B) u + B^T z = f + B^T G g, G diagonal over the active rows. With G_j = (b_j D b_j^T) / (b_j b_j^T)^2,
-   D = diag K, the augmentation is as stiff as the mesh itself: it spoils no multigrid method and holds bodies that only contact holds. Right preconditioner
-     [ M  B^T ]
-     [ 0  -S  ],   M: one cycle of algebraic multigrid with rigid-body modes on K + B^T G B, S = G^-1 (active), -C (inactive):
+   Augmented form (Fortin & Glowinski): the same solution satisfies (K + B^T G B) u + B^T z = f + B^T G g, G diagonal over the active rows. With G_j = (b_j D
+   b_j^T) / (b_j b_j^T)^2, D = diag K, the augmentation is as stiff as the mesh itself: it spoils no multigrid method and holds bodies that only contact holds.
+   Right preconditioner [ M  B^T ] [ 0  -S  ],   M: one cycle of algebraic multigrid with rigid-body modes on K + B^T G B, S = G^-1 (active), -C (inactive):
    with exact M the Schur complement times G has eigenvalues s/(1+s) < 1, s those of G B K^-1 B^T, which are bounded below on any mesh. GMRES. */
 #include "solveimpl.h"
 
@@ -18,7 +17,7 @@ struct _p_Saddle {
   Mat       K, B, C, augmented; /* blocks of the last tangent; augmented = K + B^T G B */
   Mat       operator;
   Vec       G, S, work_u, work_z, rhs;
-  PetscInt  iterations; /* of the last solve */
+  PetscInt  iterations, first; /* of the last solve, of the first one with this hierarchy (0: none yet) */
 };
 
 static PetscErrorCode Blocks_Private(Saddle s, Vec x, Vec *u, Vec *z)
@@ -101,7 +100,7 @@ static PetscErrorCode Create_Private(Saddle s, Mat A)
   PetscCall(PCShellSetContext(pc, s));
   PetscCall(PCShellSetApply(pc, Precondition_Private));
   PetscCall(KSPSetFromOptions(s->ksp));
-  PetscCall(MultigridCreate_Private(s->problem, PetscObjectComm((PetscObject)A), &s->multigrid));
+  PetscCall(MultigridCreate_Private(s->problem, &s->multigrid));
   PetscCall(VecDestroy(&x));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -109,10 +108,10 @@ static PetscErrorCode Create_Private(Saddle s, Mat A)
 /* Square every entry. */
 static PetscErrorCode Square_Private(Mat A)
 {
-  Mat         part[2] = {A, NULL};
-  MatInfo     info;
-  PetscReal  *value;
-  PetscBool   parallel;
+  Mat        part[2] = {A, NULL};
+  MatInfo    info;
+  PetscReal *value;
+  PetscBool  parallel;
 
   PetscFunctionBegin;
   PetscCall(PetscObjectTypeCompare((PetscObject)A, MATMPIAIJ, &parallel));
@@ -129,11 +128,11 @@ static PetscErrorCode Square_Private(Mat A)
 /* G_j = (b_j D b_j^T) / (b_j b_j^T)^2, 0 for empty rows; S = 1/G or -C. */
 static PetscErrorCode Weights_Private(Saddle s)
 {
-  Vec        D, square, weighted, C;
-  Mat        B2;
-  PetscReal *g, *sc;
+  Vec              D, square, weighted, C;
+  Mat              B2;
+  PetscReal       *g, *sc;
   const PetscReal *q, *w, *c;
-  PetscInt   n;
+  PetscInt         n;
 
   PetscFunctionBegin;
   PetscCall(MatCreateVecs(s->K, &D, NULL));
@@ -219,10 +218,13 @@ PetscErrorCode SaddleDestroy_Private(Saddle *saddle)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* A: the symmetric tangent. keep: the multigrid hierarchy of the last one will do (only the active set has changed). */
-PetscErrorCode SaddleSetUp_Private(Saddle s, Mat A, PetscBool keep)
+/* A: the symmetric tangent. The multigrid hierarchy stays as long as it serves: tangents of one load step differ little. */
+PetscErrorCode SaddleSetUp_Private(Saddle s, Mat A)
 {
+  const PetscBool keep = (PetscBool)(s->first > 0 && s->iterations <= s->first + s->first / 2 + 5);
+
   PetscFunctionBegin;
+  if (!keep) s->first = 0;
   if (!s->ksp) PetscCall(Create_Private(s, A));
   PetscCall(MatDestroy(&s->K));
   PetscCall(MatDestroy(&s->B));
@@ -262,6 +264,8 @@ PetscErrorCode SaddleSolve_Private(Saddle s, Vec rhs, PetscReal rtol, PetscBool 
   PetscCall(KSPGetIterationNumber(s->ksp, &s->iterations));
   PetscCall(PetscInfo(s->ksp, "%" PetscInt_FMT " iterations of GMRES\n", s->iterations));
   *ok = (PetscBool)(reason > 0);
+  if (s->first == 0) s->first = PetscMax(s->iterations, 1);
+  if (!*ok) s->first = 0;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

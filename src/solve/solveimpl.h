@@ -48,11 +48,11 @@ PetscErrorCode SolverFactor_Private(Solver, Mat);
 /* saddle.c: iterative solution of the symmetric tangent. */
 PetscErrorCode SaddleCreate_Private(Problem, Saddle *);
 PetscErrorCode SaddleDestroy_Private(Saddle *);
-PetscErrorCode SaddleSetUp_Private(Saddle, Mat, PetscBool keep);
+PetscErrorCode SaddleSetUp_Private(Saddle, Mat);
 PetscErrorCode SaddleSolve_Private(Saddle, Vec rhs, PetscReal rtol, PetscBool guess, Vec x, PetscBool *ok);
 PetscErrorCode SaddleGetIterations_Private(Saddle, PetscInt *iterations);
 /* multigrid.c: a cycle for the displacement block. */
-PetscErrorCode MultigridCreate_Private(Problem, MPI_Comm, Multigrid *);
+PetscErrorCode MultigridCreate_Private(Problem, Multigrid *);
 PetscErrorCode MultigridDestroy_Private(Multigrid *);
 PetscErrorCode MultigridSetUp_Private(Multigrid, Mat, PetscBool keep);
 PetscErrorCode MultigridApply_Private(Multigrid, Vec x, Vec y);

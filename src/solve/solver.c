@@ -1,6 +1,8 @@
 /* Life cycle of the solver; the functions SNES calls. */
 #include "solveimpl.h"
 
+#define MANY 60000 /* unknowns */
+
 static PetscErrorCode Function_Private(SNES snes, Vec x, Vec r, void *context)
 {
   Solver s = (Solver)context;
@@ -34,7 +36,7 @@ static PetscErrorCode Options_Private(Solver s)
   s->cuts   = 6;
 
   s->linear      = LINEAR_AUTO;
-  s->linear_rtol = 1e-7;
+  s->linear_rtol = 1e-9;
   PetscOptionsBegin(PetscObjectComm((PetscObject)s->snes), NULL, "Solver", NULL);
   PetscCall(PetscOptionsReal("-solve_rtol", "Residual against the root of the summed squared nodal forces", NULL, s->rtol, &s->rtol, NULL));
   PetscCall(PetscOptionsInt("-solve_max_it", "Newton iterations before a step is given up", NULL, s->max_it, &s->max_it, NULL));
@@ -54,11 +56,33 @@ static PetscErrorCode Options_Private(Solver s)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Multigrid or a factorisation? Above MANY unknowns in three dimensions multigrid is faster and takes a third of the memory (docs/results.md); it is poor on
+   nearly incompressible material, needs symmetry, and in the plane factors stay cheap. */
+static PetscErrorCode UseMultigrid_Private(Solver s, PetscBool *yes)
+{
+  const SceneData *scene;
+  PetscInt         dofs, num_u, num_z, dim;
+
+  PetscFunctionBegin;
+  PetscCall(ProblemGetScene(s->problem, &scene));
+  PetscCall(ProblemNumDofs(s->problem, &dofs));
+  PetscCall(ProblemGetBlocks(s->problem, &num_u, &num_z, &dim));
+  *yes = (PetscBool)(dim == 3 && dofs >= MANY);
+  for (PetscInt b = 0; b < scene->mechanics.num_bodies; ++b) {
+    if (scene->mechanics.bodies[b].material->mixed) *yes = PETSC_FALSE;
+  }
+  if (s->linear == LINEAR_DIRECT) *yes = PETSC_FALSE;
+  if (s->linear == LINEAR_ITERATIVE) *yes = PETSC_TRUE;
+  if (!s->symmetric) *yes = PETSC_FALSE;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode SolverCreate(Problem problem, Solver *solver)
 {
-  Solver s;
-  Mat    A;
-  Vec    r;
+  Solver    s;
+  Mat       A;
+  Vec       r;
+  PetscBool multigrid;
 
   PetscFunctionBegin;
   PetscCall(PetscNew(&s));
@@ -70,7 +94,8 @@ PetscErrorCode SolverCreate(Problem problem, Solver *solver)
   PetscCall(SNESSetType(s->snes, "contactnewton"));
   PetscCall(SNESSetApplicationContext(s->snes, s));
   PetscCall(SolverLinear_Private(s));
-  if (s->linear == LINEAR_ITERATIVE && s->symmetric) PetscCall(SaddleCreate_Private(problem, &s->saddle));
+  PetscCall(UseMultigrid_Private(s, &multigrid));
+  if (multigrid) PetscCall(SaddleCreate_Private(problem, &s->saddle));
   PetscCall(SNESSetFromOptions(s->snes));
   PetscCall(SNESSetFunction(s->snes, r, Function_Private, s));
   PetscCall(VecDestroy(&r));
