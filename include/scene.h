@@ -13,8 +13,11 @@ typedef enum { ADAPT_H, ADAPT_P, ADAPT_HP } AdaptStrategy;
 typedef struct {
   PetscReal     tolerance; /* relative; 0: no adaptation */
   PetscInt      max_passes, max_cells;
-  PetscReal     fraction; /* Dörfler share of the squared estimate to mark */
-  PetscReal     coarsen;  /* cells below this share of the mean squared indicator may merge */
+  PetscReal     fraction;    /* Dörfler share of the squared estimate to mark */
+  PetscReal     coarsen;     /* cells below this share of the mean squared indicator may merge */
+  PetscBool     anisotropic; /* split only in the directions that matter */
+  PetscReal     share;       /* of the largest direction's squared estimate: a direction with less does not matter */
+  PetscReal     aspect;      /* a split must not leave a cell more than this many times as long as its shortest edge */
   AdaptStrategy strategy;
 } AdaptSpec;
 
