@@ -31,7 +31,7 @@ def test_o45_shrink_fit(run):
 
 
 @pytest.mark.slow
-@pytest.mark.xfail(strict=True, reason="O-45 asks for h^2; with dual multipliers on faces that do not match the ripple falls as h (0.27, 0.16, 0.09 % at 6, 12, 24)")
+@pytest.mark.xfail(strict=True, reason="O-45 asks for h^2; on linear faces that do not match the ripple falls as h with either basis of the multipliers")
 def test_o45_ripple_second_order(run):
     ripples = [fit(run, n, "-mesh_parameter_m", n)[2] for n in (12, 24)]
     assert ripples[1] < 0.35 * ripples[0]
