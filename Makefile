@@ -128,8 +128,9 @@ run-verify:
 	@$(PYTEST) tests/unit tests/verify tests/stability
 
 chart: bootstrap
-	@$(MAKE) --no-print-directory -j2 all
+	@$(MAKE) --no-print-directory -j2 all $(BUILD)/bench/contact
 	@MORTISE=$(abspath $(PROGRAM)) scripts/chart
+	@scripts/chart_search $(BUILD)/bench/contact
 
 bench: bootstrap
 	@$(MAKE) --no-print-directory -j2 all run-bench
