@@ -2,6 +2,8 @@
  * PC works as usual. */
 #include "solveimpl.h"
 
+#define REFINEMENTS 12 /* triangular solves worth less than a factorisation in three dimensions */
+
 PetscErrorCode SolverLinear_Private(Solver s)
 {
   KSP ksp;
@@ -69,5 +71,34 @@ PetscErrorCode SolverFactor_Private(Solver s, Mat A)
     PetscCall(KSPSetUp(ksp));
   }
 #endif
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Solve with the factor of an earlier tangent as preconditioner. Tangents of one problem differ little: a few rows switched by the active set, a Newton step
+   taken; some triangular solves cost less than a new factor. *ok false: they do not get there, factorise. */
+PetscErrorCode SolverRefine_Private(Solver s, Mat A, Vec rhs, PetscReal rtol, Vec x, PetscBool *ok)
+{
+  KSPConvergedReason reason;
+  KSP                ksp;
+  PC                 pc;
+
+  PetscFunctionBegin;
+  PetscCall(SNESGetKSP(s->snes, &ksp));
+  PetscCall(KSPGetPC(ksp, &pc));
+  if (!s->refine) {
+    PetscCall(KSPCreate(PetscObjectComm((PetscObject)A), &s->refine));
+    PetscCall(KSPSetOptionsPrefix(s->refine, "again_"));
+    PetscCall(KSPSetType(s->refine, KSPGMRES));
+    PetscCall(KSPSetPCSide(s->refine, PC_RIGHT));
+    PetscCall(KSPSetPC(s->refine, pc));
+  }
+  PetscCall(PCSetReusePreconditioner(pc, PETSC_TRUE));
+  PetscCall(KSPSetOperators(s->refine, A, A));
+  PetscCall(KSPSetTolerances(s->refine, rtol, PETSC_DEFAULT, PETSC_DEFAULT, REFINEMENTS));
+  PetscCall(KSPSetFromOptions(s->refine));
+  PetscCall(KSPSolve(s->refine, rhs, x));
+  PetscCall(KSPGetConvergedReason(s->refine, &reason));
+  PetscCall(PCSetReusePreconditioner(pc, PETSC_FALSE));
+  *ok = (PetscBool)(reason > 0);
   PetscFunctionReturn(PETSC_SUCCESS);
 }

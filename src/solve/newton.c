@@ -38,6 +38,12 @@ static PetscErrorCode LinearSolve_Private(SNES snes, Solver s, PetscBool again, 
     if (*ok) PetscFunctionReturn(PETSC_SUCCESS);
     PetscCall(PetscInfo(snes, "multigrid failed: factorising\n"));
   }
+  if (s->factored) {
+    PetscCall(StageBegin(STAGE_SOLVE));
+    PetscCall(SolverRefine_Private(s, A, s->rhs, Forcing_Private(s), dx, ok));
+    PetscCall(StageEnd(STAGE_SOLVE));
+    if (*ok) PetscFunctionReturn(PETSC_SUCCESS);
+  }
   PetscCall(StageBegin(STAGE_FACTOR));
   PetscCall(SolverFactor_Private(s, A));
   PetscCall(StageEnd(STAGE_FACTOR));
@@ -46,7 +52,8 @@ static PetscErrorCode LinearSolve_Private(SNES snes, Solver s, PetscBool again, 
   PetscCall(StageEnd(STAGE_SOLVE));
   PetscCall(KSPGetConvergedReason(ksp, &reason));
   PetscCall(VecNorm(dx, NORM_2, &norm));
-  *ok = (PetscBool)(reason >= 0 && !PetscIsInfOrNanReal(norm));
+  *ok         = (PetscBool)(reason >= 0 && !PetscIsInfOrNanReal(norm));
+  s->factored = (PetscBool)(*ok && s->reuse);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

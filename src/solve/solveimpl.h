@@ -26,6 +26,8 @@ struct _p_Solver {
   LinearKind    linear;   /* as asked */
   Saddle        saddle;   /* iterative solution, NULL: direct */
   PetscReal     linear_rtol;
+  KSP           refine;   /* GMRES on the factor of an earlier tangent; made when first needed */
+  PetscBool     reuse, factored; /* may an earlier factor serve; there is one */
   PetscBool     test;         /* -snes_test_jacobian was given */
   SetHistory    pass_sets;    /* active sets of the passes of one linearisation */
   SetHistory    iterate_sets; /* active sets of the Newton iterates */
@@ -44,6 +46,7 @@ PetscErrorCode SetHistoryDestroy_Private(SetHistory *);
 /* linear.c: direct solver by default, everything open to options. */
 PetscErrorCode SolverLinear_Private(Solver);
 PetscErrorCode SolverFactor_Private(Solver, Mat);
+PetscErrorCode SolverRefine_Private(Solver, Mat, Vec rhs, PetscReal rtol, Vec x, PetscBool *ok);
 
 /* saddle.c: iterative solution of the symmetric tangent. */
 PetscErrorCode SaddleCreate_Private(Problem, Saddle *);

@@ -71,6 +71,7 @@ static PetscErrorCode UseMultigrid_Private(Solver s, PetscBool *yes)
   for (PetscInt b = 0; b < scene->mechanics.num_bodies; ++b) {
     if (scene->mechanics.bodies[b].material->mixed) *yes = PETSC_FALSE;
   }
+  s->reuse = (PetscBool)(dim == 3);
   if (s->linear == LINEAR_DIRECT) *yes = PETSC_FALSE;
   if (s->linear == LINEAR_ITERATIVE) *yes = PETSC_TRUE;
   if (!s->symmetric) *yes = PETSC_FALSE;
@@ -116,6 +117,7 @@ PetscErrorCode SolverDestroy(Solver *solver)
   if (!s) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SNESDestroy(&s->snes));
   PetscCall(SaddleDestroy_Private(&s->saddle));
+  PetscCall(KSPDestroy(&s->refine));
   PetscCall(VecDestroy(&s->lift));
   PetscCall(VecDestroy(&s->rhs));
   PetscCall(VecDestroy(&s->best));
