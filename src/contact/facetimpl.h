@@ -1,11 +1,11 @@
 /* Private to contact in three dimensions. A nonmortar facet and the mortar facets it faces, in the facet's own axes.
 
-   Plane. Facets are bilinear quadrilaterals. N = (x_2 - x_0) x (x_3 - x_1) is twice the vector area of the nonmortar facet: the auxiliary plane is normal to it. Axes
-   e_1, e_2 in the plane and e_3 = N/|N|, origin in the middle of the facet; they are constants while derivatives are taken. A node at (X_1, X_2, X_3) is seen
-   along N at Y = (X_1, X_2) - s X_3, s = (N_1, N_2) / N_3 the tilt (zero at the evaluation itself, but not its derivatives), and has the height h = X_3.
-   The gap along e_3 times the area normal to e_3 is the difference of heights times dY whatever the tilt, so with dY = the measure in the axes' plane
-     int N_j g dA = int N_j (h_m - h_s) dY,   int N_j dA = cos(tilt) int N_j dY.
-   Everything is therefore a function of U = (Y_1, Y_2, h) at the nodes; only at the end (chain of facet.c) Y depends on the tilt.
+   Plane. Facets are bilinear quadrilaterals. N = (x_2 - x_0) x (x_3 - x_1) is twice the vector area of the nonmortar facet: the auxiliary plane is normal to
+   it. Axes e_1, e_2 in the plane and e_3 = N/|N|, origin in the middle of the facet; they are constants while derivatives are taken. A node at (X_1, X_2, X_3)
+   is seen along N at Y = (X_1, X_2) - s X_3, s = (N_1, N_2) / N_3 the tilt (zero at the evaluation itself, but not its derivatives), and has the height h =
+   X_3. The gap along e_3 times the area normal to e_3 is the difference of heights times dY whatever the tilt, so with dY = the measure in the axes' plane int
+   N_j g dA = int N_j (h_m - h_s) dY,   int N_j dA = cos(tilt) int N_j dY. Everything is therefore a function of U = (Y_1, Y_2, h) at the nodes; only at the end
+   (chain of facet.c) Y depends on the tilt.
 
    Overlap. Where a mortar facet covers the nonmortar one: a convex polygon whose sides lie on lines 0..3 (sides of the nonmortar facet, line i from node i to
    node i + 1) and 4..7 (sides of the mortar facet, nodes listed backwards so that both run counterclockwise). Vertices are intersections of neighbouring lines.
@@ -14,11 +14,12 @@
 #pragma once
 #include "contactimpl.h"
 
-#define FACET_LOCAL 24     /* numbers one overlap sees */
-#define FACET_VERTICES 8   /* of an overlap */
-#define FACET_MOMENTS 18   /* G_j (4), D_j (4), D_jk, j <= k (10) */
-#define FACET_ON 1e-9      /* distance from a line, over the facet's size, within which a vertex is on it */
-#define FACET_OUTSIDE 1.5  /* parametric coordinate up to which the projection on a facet may lie outside */
+#define FACET_LOCAL 24    /* numbers one overlap sees */
+#define FACET_VERTICES 8  /* of an overlap */
+#define FACET_MOMENTS 18  /* G_j (4), D_j (4), D_jk, j <= k (10) */
+#define FACET_ON 1e-9     /* distance from a line, over the facet's size, within which a vertex is on it */
+#define FACET_STRAY 1e-3  /* distance, over the facet's size, from the side that is cut, beyond which a crossing is not taken */
+#define FACET_OUTSIDE 1.5 /* parametric coordinate up to which the projection on a facet may lie outside */
 
 /* A facet in the plane's axes. */
 typedef struct {
@@ -48,6 +49,10 @@ void      ContactQuadHats(const PetscReal xi[2], PetscReal N[4]);
 
 /* clip.c. False: no overlap. */
 PetscBool ContactClip(Overlap *);
+
+/* rule.c: barycentric points and weights on a triangle. */
+#define CONTACT_RULE 25
+extern const PetscReal ContactRulePoint[CONTACT_RULE][3], ContactRuleWeight[CONTACT_RULE];
 
 /* overlap.c */
 typedef struct {
@@ -79,21 +84,21 @@ void ContactUnfold(PetscInt *num, Overlap overlap[], PetscInt order[], PetscReal
 
 /* facet.c: everything about one nonmortar facet. Vertices: the facet's four, then the mortar facets' ones; n = 3 * their number. */
 struct _p_FacetWork {
-  FacetFrame            frame;
-  PetscInt              num_overlaps, num_vertices;
-  Overlap              *overlap;
-  PetscInt             *mortar; /* [num_overlaps] mortar facet */
-  PetscInt             *corner; /* [num_overlaps][4] places of its nodes among the vertices, backwards as in the overlap */
-  PetscInt             *vertex; /* [num_vertices] node of its surface */
-  PetscReal            *X;      /* [num_vertices][3] in the facet's axes */
-  FacetMoments          moments;
-  PetscReal             covered;
-  PetscInt              num_rows, num_nodes, *node; /* nodes of the result, as in ContactFacet */
-  PetscInt             *row_first, *row_node;       /* masters of the vertices: [num_vertices+1] offsets, places in node */
-  PetscReal            *row_weight;
-  PetscReal            *dq;      /* [FACET_MOMENTS][n] by U */
-  PetscReal            *W, *row; /* [n][n] half form; work */
-  PetscInt              size_overlap, size_mortar, size_corner, size_vertex, size_X, size_dq, size_W, size_row, size_node, size_row_first, size_row_node, size_row_weight;
+  FacetFrame   frame;
+  PetscInt     num_overlaps, num_vertices;
+  Overlap     *overlap;
+  PetscInt    *mortar; /* [num_overlaps] mortar facet */
+  PetscInt    *corner; /* [num_overlaps][4] places of its nodes among the vertices, backwards as in the overlap */
+  PetscInt    *vertex; /* [num_vertices] node of its surface */
+  PetscReal   *X;      /* [num_vertices][3] in the facet's axes */
+  FacetMoments moments;
+  PetscReal    covered;
+  PetscInt     num_rows, num_nodes, *node; /* nodes of the result, as in ContactFacet */
+  PetscInt    *row_first, *row_node;       /* masters of the vertices: [num_vertices+1] offsets, places in node */
+  PetscReal   *row_weight;
+  PetscReal   *dq;      /* [FACET_MOMENTS][n] by U */
+  PetscReal   *W, *row; /* [n][n] half form; work */
+  PetscInt size_overlap, size_mortar, size_corner, size_vertex, size_X, size_dq, size_W, size_row, size_node, size_row_first, size_row_node, size_row_weight;
   struct _p_FacetStore *store; /* of the results */
 };
 PetscErrorCode ContactFacetWorkCreate(FacetWork *);
@@ -113,8 +118,8 @@ PetscBool ContactRegionMeets(const FacetRegion *, const ContactSurface *mortar, 
 /* weights.c: from moments to weighted gaps. G_j -> gt_j and their derivatives in terms of the moments. */
 typedef struct {
   PetscReal gap[4], weight[4];
-  PetscReal dgap[4][FACET_MOMENTS];       /* by moments */
-  PetscReal g[4], D[4][4];                /* derivative of sum_j z_j gt_j by G_j and int N_j N_k: weights of ContactOverlapHessian */
+  PetscReal dgap[4][FACET_MOMENTS];                          /* by moments */
+  PetscReal g[4], D[4][4];                                   /* derivative of sum_j z_j gt_j by G_j and int N_j N_k: weights of ContactOverlapHessian */
   PetscReal left[4][FACET_MOMENTS], right[4][FACET_MOMENTS]; /* second derivatives of it by moments, half form: sum_k left_k x right_k; standard: none */
   int       num_pairs;
 } FacetWeights;

@@ -1,41 +1,25 @@
 /* Integrals over one overlap and their exact derivatives by the 24 numbers it depends on.
 
-   The polygon is split into triangles from its first vertex; each Gauss point Y = sum_i beta_i v_i (beta constant) is projected along the facet's normal, that is
-   located in the plane, on both facets: xi and eta with Y = sum N_a(xi) q_a = sum N_b(eta) r_b. The integrand, with heights h_a and k_b, is
-     f = Q2(xi) + Q1(xi) g,   g = sum N_b(eta) k_b - sum N_a(xi) h_a,   Q2 = sum D_jk N_j N_k,   Q1 = sum g_j N_j.
-   Variations: J dxi = dY - sum N_a dq_a, and d2 of both sides gives
-     f_xi . d2xi = A . (d2Y - 2 sum_a (N_a,i dxi_i) dq_a - 2 T dxi_1 dxi_2),   A = J^-T f_xi,   T = d2Y / dxi_1 dxi_2,
-   so that d2f/2 = dxi_i (F_ij dxi_j / 2 + C_ij deta_j + sigma_i + Q1_i theta) + deta_i (E_ij deta_j / 2 + tau_i):
-     sigma_i = sum_a N_a,i (-A . dq_a - Q1 dh_a),   tau_i = sum_b N_b,i (-B . dr_b + Q1 dk_b),   theta = sum N_b dk_b - sum N_a dh_a:
-   four outer products per point. The area of a triangle is bilinear in its vertices. Vertices that are corners of a facet are nodes; intersections of two lines move
-   with four nodes, with second derivatives (MoveCurvature_Private). */
+   The polygon is split into triangles from its first vertex; each Gauss point Y = sum_i beta_i v_i (beta constant) is projected along the facet's normal, that
+   is located in the plane, on both facets: xi and eta with Y = sum N_a(xi) q_a = sum N_b(eta) r_b. The integrand, with heights h_a and k_b, is f = Q2(xi) +
+   Q1(xi) g,   g = sum N_b(eta) k_b - sum N_a(xi) h_a,   Q2 = sum D_jk N_j N_k,   Q1 = sum g_j N_j. Variations: J dxi = dY - sum N_a dq_a, and d2 of both sides
+   gives f_xi . d2xi = A . (d2Y - 2 sum_a (N_a,i dxi_i) dq_a - 2 T dxi_1 dxi_2),   A = J^-T f_xi,   T = d2Y / dxi_1 dxi_2, so that d2f/2 = dxi_i (F_ij dxi_j / 2
+   + C_ij deta_j + sigma_i + Q1_i theta) + deta_i (E_ij deta_j / 2 + tau_i): sigma_i = sum_a N_a,i (-A . dq_a - Q1 dh_a),   tau_i = sum_b N_b,i (-B . dr_b + Q1
+   dk_b),   theta = sum N_b dk_b - sum N_a dh_a: four outer products per point. The area of a triangle is bilinear in its vertices. Vertices that are corners of
+   a facet are nodes; intersections of two lines move with four nodes, with second derivatives (MoveCurvature_Private). */
 #include "facetimpl.h"
 
-#define GAUSS 7
 #define WIDTH 32 /* 24 numbers, 6 of the triangle's vertices, padding */
 #define WHOLE (FACET_LOCAL + 2 * FACET_VERTICES)
 
-/* Radon's rule, exact to degree 5: with parallelograms on both sides f has degree 4. */
-static const PetscReal Point[GAUSS][3] = {
-    {1. / 3, 1. / 3, 1. / 3},
-    {0.797426985353087322, 0.101286507323456339, 0.101286507323456339},
-    {0.101286507323456339, 0.797426985353087322, 0.101286507323456339},
-    {0.101286507323456339, 0.101286507323456339, 0.797426985353087322},
-    {0.059715871789769820, 0.470142064105115090, 0.470142064105115090},
-    {0.470142064105115090, 0.059715871789769820, 0.470142064105115090},
-    {0.470142064105115090, 0.470142064105115090, 0.059715871789769820},
-};
-static const PetscReal Weight[GAUSS] = {0.225, 0.125939180544827153, 0.125939180544827153, 0.125939180544827153,
-                                        0.132394152788506181, 0.132394152788506181, 0.132394152788506181};
-
 /* How vertex k moves: with a node (place of its Y among the numbers), or with four of them. */
 typedef struct {
-  PetscInt  place;      /* >= 0: a node's; else own numbers FACET_LOCAL + 2 k */
-  PetscInt  node[4];    /* ends of the nonmortar side, ends of the mortar side */
-  PetscReal e[2][2];    /* the two sides' vectors */
-  PetscReal det;        /* e_0 x e_1; 0: parallel, the vertex keeps its place on the nonmortar side */
-  PetscReal share[2];   /* place along both sides */
-  PetscReal ds[2][8];   /* derivatives of the shares by the four nodes */
+  PetscInt  place;    /* >= 0: a node's; else own numbers FACET_LOCAL + 2 k */
+  PetscInt  node[4];  /* ends of the nonmortar side, ends of the mortar side */
+  PetscReal e[2][2];  /* the two sides' vectors */
+  PetscReal det;      /* e_0 x e_1; 0: (nearly) one line, the vertex keeps its place on the nonmortar side */
+  PetscReal share[2]; /* place along both sides */
+  PetscReal ds[2][8]; /* derivatives of the shares by the four nodes */
   PetscReal dv[2][8];
 } Move;
 
@@ -64,8 +48,13 @@ static void MoveCrossing_Private(const Overlap *o, PetscInt k, int a, int b, Mov
 
     m->share[w] = Dot2(d, m->e[w]) / Dot2(m->e[w], m->e[w]);
   }
+  if (m->det != 0) {
+    const PetscReal apart[2] = {r[0] - p[0], r[1] - p[1]};
+
+    if (PetscAbsReal(Cross2(apart, m->e[1]) / m->det - m->share[0]) > 0.1 * FACET_STRAY) m->det = 0; /* it was not taken: clip.c */
+  }
   for (int n = 0; n < 4; n++) {
-    const PetscReal at   = n % 2 ? m->share[n / 2] : 1 - m->share[n / 2], sign = n < 2 ? -at : at;
+    const PetscReal at = n % 2 ? m->share[n / 2] : 1 - m->share[n / 2], sign = n < 2 ? -at : at;
     const PetscReal over = m->det != 0 ? sign / m->det : 0;
 
     for (int w = 0; w < 2; w++) {
@@ -142,7 +131,7 @@ typedef struct {
 
 static PetscBool Point_Private(const Overlap *o, PetscInt k, int gauss, OverlapPoint *p)
 {
-  const PetscReal *beta = Point[gauss];
+  const PetscReal *beta = ContactRulePoint[gauss];
   PetscReal        Y[2];
 
   for (int i = 0; i < 2; i++) Y[i] = beta[0] * o->v[0][i] + beta[1] * o->v[k][i] + beta[2] * o->v[k + 1][i];
@@ -246,12 +235,12 @@ PetscBool ContactOverlapMoments(const Overlap *o, FacetMoments *m, PetscReal dq[
 
     for (int q = 0; q < FACET_MOMENTS; q++) mean[q] = 0;
     if (dq) memset(sum, 0, sizeof(sum));
-    for (int i = 0; i < GAUSS; i++) {
+    for (int i = 0; i < CONTACT_RULE; i++) {
       if (!Point_Private(o, k, i, &p)) return PETSC_FALSE;
       m->min_gap = PetscMin(m->min_gap, p.gap);
       MomentValues_Private(&p, f);
-      for (int q = 0; q < FACET_MOMENTS; q++) mean[q] += Weight[i] * f[q];
-      if (dq) PointGradient_Private(&p, Point[i], area * Weight[i], sum);
+      for (int q = 0; q < FACET_MOMENTS; q++) mean[q] += ContactRuleWeight[i] * f[q];
+      if (dq) PointGradient_Private(&p, ContactRulePoint[i], area * ContactRuleWeight[i], sum);
     }
     for (int q = 0; q < FACET_MOMENTS; q++) m->q[q] += area * mean[q];
     if (!dq) continue;
@@ -384,19 +373,19 @@ static void ReduceHalf_Private(const Overlap *o, const Move move[], PetscReal al
 /* One triangle: half Hessian and gradient by its 30 numbers. */
 static PetscBool Triangle_Private(const Overlap *o, PetscInt k, const PetscReal g[4], const PetscReal D[4][4], PetscReal W[WIDTH][WIDTH], PetscReal sum[WIDTH])
 {
-  PetscReal    da[6], mean = 0, gradient[WIDTH], left[4][WIDTH], right[4][WIDTH];
+  PetscReal       da[6], mean = 0, gradient[WIDTH], left[4][WIDTH], right[4][WIDTH];
   const PetscReal area = TriangleArea_Private(o, k, da);
   OverlapPoint    p;
 
   memset(W, 0, WIDTH * sizeof(W[0]));
   for (int j = 0; j < WIDTH; j++) sum[j] = 0;
-  for (int i = 0; i < GAUSS; i++) {
+  for (int i = 0; i < CONTACT_RULE; i++) {
     if (!Point_Private(o, k, i, &p)) return PETSC_FALSE;
-    mean += Weight[i] * PointHessian_Private(o, &p, Point[i], g, D, gradient, left, right);
-    for (int j = 0; j < WIDTH; j++) sum[j] += Weight[i] * gradient[j];
+    mean += ContactRuleWeight[i] * PointHessian_Private(o, &p, ContactRulePoint[i], g, D, gradient, left, right);
+    for (int j = 0; j < WIDTH; j++) sum[j] += ContactRuleWeight[i] * gradient[j];
     for (int a = 0; a < 30; a++)
       for (int l = 0; l < 4; l++) {
-        const PetscReal value = area * Weight[i] * left[l][a];
+        const PetscReal value = area * ContactRuleWeight[i] * left[l][a];
 
         for (int j = 0; j < WIDTH; j++) W[a][j] += value * right[l][j];
       }
