@@ -65,10 +65,11 @@ typedef struct {
   PetscReal *modulus;     /* [facets.num_points] mean of the sides': the weight is the same seen from either side, and a soft neighbour of a hard body is not
                              overestimated */
   PetscReal *eta2;        /* [num_leaves] sums of this rank */
-  PetscReal  part[NUM_PARTS], energy;
+  PetscReal (*along)[3];  /* [num_leaves] sums of this rank: eta2 that can be told to come from each axis; NULL: not wanted */
+  PetscReal part[NUM_PARTS], energy;
 } EstimateSum;
 
-/* Fill space, mechanics, spec, contact, time, u, eta2 (zeroed); get this rank's sums. Not collective. */
+/* Fill space, mechanics, spec, contact, time, u, eta2 and along (zeroed); get this rank's sums. Not collective. */
 PetscErrorCode EstimateBulk_Private(EstimateSum *);
 
 #define ESTIMATE_MOST_1D (MORTISE_MAX_ORDER + 2)
@@ -87,7 +88,7 @@ typedef struct {
 
 /* Buffers of one cell. */
 typedef struct {
-  PetscReal *X, *xi, *F, *P, *W, *J, *position, *weight, *g, *R, *recovered;
+  PetscReal *X, *xi, *F, *P, *W, *J, *position, *weight, *g, *R, *S, *recovered; /* S: EstimateInterior_Private */
 } CellWork;
 
 /* recover.c */
@@ -98,6 +99,11 @@ PetscErrorCode EstimateRecover_Private(const EstimateSum *, VolumeTable *, CellW
                                        PetscReal P[]);
 /* indicator.c: position [3] (third 0 in the plane) and Jacobian dX/dxi (third direction: unit) of a cell with nodes X[n][dim] */
 PetscErrorCode EstimateGeometry_Private(PetscInt dim, PetscInt order, const PetscReal X[], const PetscReal xi[], PetscReal position[3], PetscReal J[9]);
+/* direction.c: what of the interior term comes from each axis, S[num][3] being |dP/dxi_d . (grad xi_d)/|grad xi_d||^2; then axes that no jump tells of */
+void           EstimateInterior_Private(EstimateSum *, PetscInt leaf, PetscInt num, const PetscReal weight[], const PetscReal S[], PetscReal eta2);
+PetscErrorCode EstimateDoubts_Private(EstimateSum *);
+/* split.c: directions in which to split each leaf, if it is split at all; split[num_leaves] */
+PetscErrorCode EstimateSplits_Private(const Estimate *, const AdaptSpec *, Forest, int8_t split[]);
 /* facet.c */
 PetscErrorCode FacetListCreate_Private(const EstimateSum *, FacetList *);
 PetscErrorCode FacetListDestroy_Private(FacetList *);

@@ -93,9 +93,10 @@ static void Height_Private(PetscInt dim, PetscInt order, const PetscReal X[], Pe
   }
 }
 
-/* Div P at Gauss point q: derivative of the tensor Lagrange polynomial, mapped by J^-1; axisymmetric: plus (P_rR - P_tt)/R, P_zR/R. */
+/* Div P at Gauss point q: derivative of the tensor Lagrange polynomial, mapped by J^-1; axisymmetric: plus (P_rR - P_tt)/R, P_zR/R. S: the square of what each
+   axis adds to it over a cell's length of that axis. */
 static void Divergence_Private(PetscInt dim, Model model, const VolumeTable *table, PetscInt q, const PetscReal *P, const PetscReal J[9], const PetscReal X[3],
-                               PetscReal div[3])
+                               PetscReal div[3], PetscReal S[3])
 {
   const PetscReal det = Det3(J);
 
@@ -111,7 +112,12 @@ static void Divergence_Private(PetscInt dim, Model model, const VolumeTable *tab
       const PetscReal *p = P + 9 * (q + (j - i) * stride), D = table->D[i][j];
       for (PetscInt k = 0; k < 3 * dim; ++k) dP[k] += D * p[k];
     }
-    for (PetscInt c = 0; c < dim; ++c) div[c] += Dot3(dP + 3 * c, gradient);
+    S[d] = 0;
+    for (PetscInt c = 0; c < dim; ++c) {
+      const PetscReal part = Dot3(dP + 3 * c, gradient);
+      div[c] += part;
+      S[d] += PetscSqr(part) / Dot3(gradient, gradient);
+    }
   }
   if (model == MODEL_AXISYMMETRIC) {
     div[0] += (P[9 * q] - P[9 * q + 8]) / X[0];
@@ -127,7 +133,7 @@ static PetscErrorCode Residual_Private(const EstimateSum *sum, const BodySpec *b
   PetscFunctionBegin;
   for (PetscInt q = 0; q < table->num; ++q) {
     PetscReal force;
-    Divergence_Private(dim, sum->spec->model, table, q, w->P, w->J + 9 * q, w->position + 3 * q, w->R + 3 * q);
+    Divergence_Private(dim, sum->spec->model, table, q, w->P, w->J + 9 * q, w->position + 3 * q, w->R + 3 * q, w->S + 3 * q);
     for (PetscInt c = 0; c < dim; ++c) {
       if (!body->force[c]) continue;
       PetscCall(EstimateValue_Private(body->force[c], &body->amplitude, w->position + 3 * q, sum->time, &force));
@@ -211,6 +217,7 @@ static PetscErrorCode OwnedCell_Private(EstimateSum *sum, PetscInt cell, const V
   square = WeightedSquare_Private(table->num, 3, w->weight, w->R) * ESTIMATE_SCALE * PetscSqr(h / table->order) / modulus;
   sum->eta2[leaf] += square;
   sum->part[PART_INTERIOR] += square;
+  EstimateInterior_Private(sum, leaf, table->num, w->weight, w->S, square);
   if (!material->mixed) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(Volume_Private(sum, material, table, w, &square));
   sum->eta2[leaf] += square;
@@ -263,7 +270,7 @@ static PetscErrorCode WorkCreate_Private(const EstimateSum *sum, CellWork *w)
   for (PetscInt c = 0; c < sum->v->num_cells; ++c) most = PetscMax(most, ElementNumNodes(sum->v->dim, sum->v->cell_order[c] + 1));
   const PetscInt points = most + sum->facets.most_points;
   PetscCall(PetscMalloc5(3 * most, &w->X, 3 * points, &w->xi, 9 * points, &w->F, 9 * points, &w->P, points, &w->W));
-  PetscCall(PetscMalloc6(9 * most, &w->J, 3 * most, &w->position, most, &w->weight, 2 * most, &w->g, 3 * most, &w->R, most, &w->recovered));
+  PetscCall(PetscMalloc7(9 * most, &w->J, 3 * most, &w->position, most, &w->weight, 2 * most, &w->g, 3 * most, &w->R, 3 * most, &w->S, most, &w->recovered));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -271,7 +278,7 @@ static PetscErrorCode WorkDestroy_Private(CellWork *w)
 {
   PetscFunctionBegin;
   PetscCall(PetscFree5(w->X, w->xi, w->F, w->P, w->W));
-  PetscCall(PetscFree6(w->J, w->position, w->weight, w->g, w->R, w->recovered));
+  PetscCall(PetscFree7(w->J, w->position, w->weight, w->g, w->R, w->S, w->recovered));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -314,18 +321,20 @@ PetscErrorCode EstimateBulk_Private(EstimateSum *sum)
   PetscCall(Cells_Private(sum, height));
   PetscCall(EstimateFacets_Private(sum, height));
   if (sum->contact) PetscCall(EstimateComplementarity_Private(sum, height));
+  if (sum->along) PetscCall(EstimateDoubts_Private(sum));
   PetscCall(PetscFree(height));
   PetscCall(PetscFree4(sum->defect, sum->normal, sum->dA, sum->modulus));
   PetscCall(FacetListDestroy_Private(&sum->facets));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* eta2, shares and energy over all ranks. */
+/* eta2 and along, shares and energy over all ranks. */
 static PetscErrorCode Reduce_Private(MPI_Comm comm, EstimateSum *sum, Estimate *e)
 {
   PetscReal *buffer;
 
   PetscFunctionBegin;
+  PetscCallMPI(MPI_Allreduce(sum->along, e->along, (PetscMPIInt)(3 * e->num_leaves), MPIU_REAL, MPI_SUM, comm));
   PetscCall(PetscMalloc1(e->num_leaves + NUM_PARTS + 1, &buffer));
   PetscCall(PetscArraycpy(buffer, sum->eta2, e->num_leaves));
   PetscCall(PetscArraycpy(buffer + e->num_leaves, sum->part, NUM_PARTS));
@@ -381,13 +390,16 @@ PetscErrorCode EstimateCompute(Problem problem, const State *state, Estimate *e)
   e->num_leaves = state->num_leaves;
   PetscCall(PetscMalloc1(v->num_nodes * v->dim, &u));
   PetscCall(PetscMalloc1(e->num_leaves, &e->eta2));
+  PetscCall(PetscMalloc1(e->num_leaves, &e->along));
   PetscCall(PetscCalloc1(e->num_leaves, &sum.eta2));
+  PetscCall(PetscCalloc1(e->num_leaves, &sum.along));
   PetscCall(ProblemLocalDisplacement(problem, state->x, u));
   sum.u = u;
   PetscCall(EstimateBulk_Private(&sum));
   PetscCall(Reduce_Private(ForestComm(forest), &sum, e));
   PetscCall(PetscFree(u));
   PetscCall(PetscFree(sum.eta2));
+  PetscCall(PetscFree(sum.along));
   if (scene->num_contacts) PetscCall(ContactTermsDestroy_Private(&contact));
   PetscCall(StageEnd(STAGE_ESTIMATE));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -397,6 +409,7 @@ PetscErrorCode EstimateDestroy(Estimate *e)
 {
   PetscFunctionBegin;
   PetscCall(PetscFree(e->eta2));
+  PetscCall(PetscFree(e->along));
   PetscCall(PetscMemzero(e, sizeof(*e)));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

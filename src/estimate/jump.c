@@ -159,6 +159,7 @@ PetscErrorCode EstimateFacets_Private(EstimateSum *sum, const PetscReal height[]
       const PetscReal value = weight * height[side->cell][side->side / 2] * square;
       sum->eta2[sum->v->cell_leaf[side->cell]] += value;
       sum->part[part] += value;
+      if (inside && sum->along) sum->along[sum->v->cell_leaf[side->cell]][side->side / 2] += value;
     }
   }
   PetscFunctionReturn(PETSC_SUCCESS);

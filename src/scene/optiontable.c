@@ -88,6 +88,11 @@ const Option Options[] = {
     {"adapt.max_cells", KEY_INT, "", "200000", "[1,100000000]", "no refinement beyond this number of cells", SCENE(data.adapt.max_cells)},
     {"adapt.fraction", KEY_REAL, "", "0.8", "(0,1]", "share of the squared estimate that the cells to be refined carry", SCENE(data.adapt.fraction)},
     {"adapt.coarsen", KEY_REAL, "", "0", "[0,1)", "cells below this share of the mean squared indicator may merge; 0: none", SCENE(data.adapt.coarsen)},
+    {"adapt.anisotropic", KEY_BOOL, "", "false", "", "split cells only in the directions that matter for the error", SCENE(data.adapt.anisotropic)},
+    {"adapt.share", KEY_REAL, "", "0.05", "[0,1]", "anisotropic: directions with less than this share of the largest one's squared estimate do not matter",
+     SCENE(data.adapt.share)},
+    {"adapt.aspect", KEY_REAL, "", "64", "[1,1e6]", "anisotropic: no split leaves an edge more than this many times as long as the cell's shortest",
+     SCENE(data.adapt.aspect)},
     {"adapt.strategy", KEY_WORD, "", "h", "h|p|hp", "what adaptation changes; p and hp are not built yet", SCENE(data.adapt.strategy)},
 
     {"output.directory", KEY_TEXT, "", "", "", "relative to the working directory; default: out/<name of the scene>", SCENE(data.output.directory)},

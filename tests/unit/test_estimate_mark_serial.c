@@ -1,4 +1,5 @@
-/* Bulk marking: the fewest leaves for the share, ties together, limits kept, coarsening below its share, the same list whatever comes in which order. */
+/* Bulk marking: the fewest leaves for the share, ties together, limits kept, coarsening below its share, directions, the same list whatever comes in which
+ * order. */
 #include "estimate.h"
 #include "forest_box.h"
 
@@ -94,9 +95,82 @@ static void Coarsening(void **state)
   OK(ForestDestroy(&forest));
 }
 
+/* Directions by their share of the largest; all where nothing is known; cells that would grow too long are split across, too. */
+static void Directions(void **state)
+{
+  Box            box;
+  Forest         forest      = BoxForest(PETSC_COMM_WORLD, 3, (const PetscInt[3]){4, 1, 1}, 1, 0, 1, &box);
+  PetscReal      eta2[4]     = {4, 3, 2, 1};
+  PetscReal      along[4][3] = {{1, 0.09, 0.11}, {0, 0, 0}, {0, 0, 3}, {0.05, 1, 1}};
+  const PetscInt expected[4] = {5, 7, 4, 6};
+  const Estimate e           = {.num_leaves = 4, .eta2 = eta2, .along = along};
+  AdaptSpec      spec        = {.fraction = 1, .max_cells = 1000, .anisotropic = PETSC_TRUE, .share = 0.1, .aspect = 2};
+  MarkList       marks;
+  PetscInt       num;
+
+  OK(EstimateMark(&e, &spec, forest, &marks, &num));
+  assert_int_equal(num, 4);
+  for (PetscInt l = 0; l < 4; ++l) assert_int_equal(marks.split[l], expected[l]);
+  OK(MarkListDestroy(&marks));
+  spec.aspect = 1.5; /* half a cube is twice as long as wide */
+  OK(EstimateMark(&e, &spec, forest, &marks, &num));
+  for (PetscInt l = 0; l < 4; ++l) assert_int_equal(marks.split[l], 7);
+  OK(MarkListDestroy(&marks));
+  spec.aspect    = 2;
+  spec.max_cells = 4 + 3 + 7; /* 3 more by the first, 7 by the second, nothing left for the third */
+  OK(EstimateMark(&e, &spec, forest, &marks, &num));
+  assert_int_equal(num, 2);
+  OK(MarkListDestroy(&marks));
+  spec.anisotropic = PETSC_FALSE;
+  spec.max_cells   = 1000;
+  OK(EstimateMark(&e, &spec, forest, &marks, &num));
+  for (PetscInt l = 0; l < 4; ++l) assert_int_equal(marks.split[l], 7);
+  OK(MarkListDestroy(&marks));
+  OK(ForestDestroy(&forest));
+}
+
+/* Split along one axis again and again: no leaf is ever longer than the limit. */
+static void Aspect(void **state)
+{
+  Box       box;
+  Forest    forest = BoxForest(PETSC_COMM_WORLD, 3, (const PetscInt[3]){1, 1, 1}, 1, 0, 1, &box);
+  AdaptSpec spec   = {.fraction = 1, .max_cells = 100000, .anisotropic = PETSC_TRUE, .share = 0.1, .aspect = 4};
+
+  for (PetscInt pass = 0; pass < 5; ++pass) {
+    const ForestTables *t;
+    Estimate            e;
+    MarkList            marks;
+    Forest              adapted;
+    ForestMap           map;
+    PetscInt            num;
+    OK(ForestGetTables(forest, &t));
+    e.num_leaves = t->num_leaves;
+    OK(PetscMalloc1(t->num_leaves, &e.eta2));
+    OK(PetscCalloc1(t->num_leaves, &e.along));
+    for (PetscInt l = 0; l < t->num_leaves; ++l) {
+      e.eta2[l]     = 1;
+      e.along[l][1] = 1;
+    }
+    OK(EstimateMark(&e, &spec, forest, &marks, &num));
+    OK(ForestAdapt(forest, &marks, NULL, 0, NULL, &adapted, &map));
+    OK(MarkListDestroy(&marks));
+    OK(ForestMapDestroy(&map));
+    OK(EstimateDestroy(&e));
+    OK(ForestDestroy(&forest));
+    forest = adapted;
+    OK(ForestGetTables(forest, &t));
+    const int8_t *level = t->leaf_level;
+    assert_int_equal(level[1], pass + 1);
+    assert_int_equal(level[0], PetscMax(0, pass - 1));
+    assert_int_equal(level[2], PetscMax(0, pass - 1));
+  }
+  OK(ForestDestroy(&forest));
+}
+
 int main(int argc, char **argv)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(Shares), cmocka_unit_test(TiesAndOrder), cmocka_unit_test(Limits), cmocka_unit_test(Coarsening)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(Shares),     cmocka_unit_test(TiesAndOrder), cmocka_unit_test(Limits),
+                                     cmocka_unit_test(Coarsening), cmocka_unit_test(Directions),   cmocka_unit_test(Aspect)};
   if (PetscInitialize(&argc, &argv, NULL, NULL)) return 1;
   const int failed = cmocka_run_group_tests(tests, NULL, NULL);
   return PetscFinalize() || failed;
