@@ -20,18 +20,18 @@ def fit(run, n, *options):
 
 
 def test_o45_shrink_fit(run):
-    """Divisions 24 and 36 around: mean pressure 0.3 % and falling as h^2, ripple below 1 % and falling as h."""
+    """Divisions 24 and 36 around: mean pressure 0.3 % and falling as h^2, ripple below 0.2 % (wanted: 1 %) and falling faster than h."""
     coarse, mean, ripple = fit(run, 6)
-    assert abs(mean - 1) < 3e-3 and ripple < 0.01
-    assert coarse.summary["contact"]["fit"]["adjusted_gap"] > 0.01  # the facets' gaps are larger than the interference
+    assert abs(mean - 1) < 3e-3 and ripple < 2e-3
+    assert 0 < coarse.summary["contact"]["fit"]["adjusted_gap"] < 0.005  # the facets lie on the circle in the mean; with vertices on it 0.037
     fine, fine_mean, fine_ripple = fit(run, 12)
-    assert fine_ripple < 0.65 * ripple and abs(fine_mean - 1) < 0.35 * abs(mean - 1)
+    assert fine_ripple < 0.5 * ripple and abs(fine_mean - 1) < 0.35 * abs(mean - 1)
     u = {name: fine.summary["probe"][name]["displacement"][0] for name in ("inner", "outer")}
     assert abs(u["inner"] / -0.0037142857 - 1) < 5e-3 and abs(u["outer"] / 0.0062857143 - 1) < 5e-3
 
 
 @pytest.mark.slow
-@pytest.mark.xfail(strict=True, reason="O-45 asks for h^2; with dual multipliers on faces that do not match the ripple falls as h (0.27, 0.16, 0.09 % at 6, 12, 24)")
+@pytest.mark.xfail(strict=True, reason="O-45 asks for h^2; with dual multipliers on faces that do not match the ripple falls little faster than h (0.085, 0.035, 0.016 % at 6, 12, 24)")
 def test_o45_ripple_second_order(run):
     ripples = [fit(run, n, "-mesh_parameter_m", n)[2] for n in (12, 24)]
     assert ripples[1] < 0.35 * ripples[0]
