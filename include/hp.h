@@ -30,8 +30,9 @@ typedef struct {
 } HPTables;
 
 /* Space with leaf_order[num_leaves] (replicated) cell orders; on entities in the closure of facets with a bit of linear_groups the order is 1 (contact faces).
+   Facets with a bit of mirror_groups lie in planes of symmetry: linear faces that end there go on as their mirror images.
    Numbers nodes and computes rows. Collective. */
-PetscErrorCode HPSpaceCreate(Forest, const int8_t leaf_order[], uint64_t linear_groups, HPSpace *);
+PetscErrorCode HPSpaceCreate(Forest, const int8_t leaf_order[], uint64_t linear_groups, uint64_t mirror_groups, HPSpace *);
 /* Prescribed dofs: fixed[num_nodes] bit c: component c (in the node's frame) is prescribed; frames: num_frames nodes and their 3x3 rows.
    Hanging nodes must not be marked. `inactive` nodes (NULL: none; of rigid bodies) carry no unknowns: all dofs prescribed.
    Builds the local and global section, the DM's default constraints with bias, and vectors. Collective. */

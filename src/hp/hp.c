@@ -1,7 +1,7 @@
 /* Life cycle of the hp space. */
 #include "hpimpl.h"
 
-PetscErrorCode HPSpaceCreate(Forest forest, const int8_t leaf_order[], uint64_t linear_groups, HPSpace *space)
+PetscErrorCode HPSpaceCreate(Forest forest, const int8_t leaf_order[], uint64_t linear_groups, uint64_t mirror_groups, HPSpace *space)
 {
   HPSpace  hp;
   PetscInt num_owned, largest = 1;
@@ -17,7 +17,7 @@ PetscErrorCode HPSpaceCreate(Forest forest, const int8_t leaf_order[], uint64_t 
   PetscCall(HPSpaceOrders_Private(hp, leaf_order, linear_groups));
   PetscCall(HPSpaceNodes_Private(hp, num_owned));
   PetscCall(HPSpaceRows_Private(hp));
-  PetscCall(HPSpacePositions_Private(hp, linear_groups));
+  PetscCall(HPSpacePositions_Private(hp, linear_groups, mirror_groups));
   for (PetscInt c = 0; c < hp->view.num_cells; ++c) {
     const PetscInt nm = hp->cell_row[c + 1] - hp->cell_row[c], n = ElementNumNodes(hp->dim, hp->cell_order[c]);
     largest = PetscMax(largest, nm * n);

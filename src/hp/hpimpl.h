@@ -31,10 +31,10 @@ typedef struct {
 PetscErrorCode HPSpaceOrders_Private(HPSpace, const int8_t leaf_order[], uint64_t linear_groups);
 /* node.c: numbering, positions of nodes. */
 PetscErrorCode HPSpaceNodes_Private(HPSpace, PetscInt num_owned_cells);
-PetscErrorCode HPSpacePositions_Private(HPSpace, uint64_t linear_groups);
+PetscErrorCode HPSpacePositions_Private(HPSpace, uint64_t linear_groups, uint64_t mirror_groups);
 void           HPEntityToLeaf_Private(const ForestTables *, PetscInt leaf, PetscInt entity, PetscInt d, const PetscReal eta[], PetscReal xi[3]);
 /* surface.c: how far the vertices of linear contact faces lie off the exact geometry, [num vertices][3], owned by the caller. */
-PetscErrorCode HPSpaceSurfaceShift_Private(HPSpace, uint64_t groups, PetscReal **shift);
+PetscErrorCode HPSpaceSurfaceShift_Private(HPSpace, uint64_t groups, uint64_t mirror_groups, PetscReal **shift);
 /* constraint.c: rows of hanging nodes and cells. */
 PetscErrorCode HPSpaceRows_Private(HPSpace);
 PetscErrorCode HPRowReset_Private(HPRow *);

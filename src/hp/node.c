@@ -70,13 +70,13 @@ void HPEntityToLeaf_Private(const ForestTables *t, PetscInt leaf, PetscInt entit
 
 /* X of true nodes lies on the exact geometry (vertices of linear contact faces: see surface.c); hanging nodes follow their masters, so that geometry and
    displacement live in one space: rigid motions and linear fields are represented exactly on every mesh, and neighbours never gape. */
-PetscErrorCode HPSpacePositions_Private(HPSpace hp, uint64_t linear_groups)
+PetscErrorCode HPSpacePositions_Private(HPSpace hp, uint64_t linear_groups, uint64_t mirror_groups)
 {
   const ForestTables *t = hp->tables;
   PetscReal          *shift;
 
   PetscFunctionBegin;
-  PetscCall(HPSpaceSurfaceShift_Private(hp, linear_groups, &shift));
+  PetscCall(HPSpaceSurfaceShift_Private(hp, linear_groups, mirror_groups, &shift));
   PetscCall(PetscCalloc1(3 * hp->view.num_nodes, &hp->X));
   hp->view.X = hp->X;
   for (PetscInt i = 0; i < hp->num_points; ++i) {

@@ -20,6 +20,23 @@ static uint64_t LinearGroups_Private(const SceneData *scene)
   return groups;
 }
 
+/* Boundary groups that are planes of symmetry: held in one direction, neither moved nor loaded. */
+static uint64_t MirrorGroups_Private(const SceneData *scene)
+{
+  uint64_t groups = 0;
+  for (PetscInt i = 0; i < scene->mechanics.num_boundaries; ++i) {
+    const BoundarySpec *b     = &scene->mechanics.boundaries[i];
+    PetscBool           other = (PetscBool)(b->rotation || b->pressure);
+    PetscInt            held  = b->fix_normal ? 1 : 0;
+    for (PetscInt c = 0; c < 3; ++c) {
+      held += b->fix[c] ? 1 : 0;
+      if (b->displacement[c] || b->traction[c]) other = PETSC_TRUE;
+    }
+    if (held == 1 && !other) groups |= (uint64_t)1 << b->group;
+  }
+  return groups;
+}
+
 static PetscErrorCode Vectors_Private(Problem p)
 {
   const HPTables *v;
@@ -50,7 +67,7 @@ PetscErrorCode ProblemCreate(const SceneData *scene, Forest forest, const int8_t
   p->dim = t->dim;
   PetscCall(PetscMalloc1(t->num_leaves, &p->leaf_order));
   PetscCall(PetscArraycpy(p->leaf_order, leaf_order, t->num_leaves));
-  PetscCall(HPSpaceCreate(forest, leaf_order, LinearGroups_Private(scene), &p->space));
+  PetscCall(HPSpaceCreate(forest, leaf_order, LinearGroups_Private(scene), MirrorGroups_Private(scene), &p->space));
   PetscCall(MechanicsSupportsCreate(p->space, &scene->mechanics, &p->supports));
   PetscCall(HPSpaceSetUp(p->space, p->supports.fixed, p->supports.num_frames, p->supports.frame_node, (const PetscReal(*)[9])p->supports.frame));
   PetscCall(MechanicsCreate(p->space, &scene->mechanics, &p->supports, &p->mechanics));

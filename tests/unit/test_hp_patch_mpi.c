@@ -92,7 +92,7 @@ static void test_reproduction(void **state)
         forest = RandomForest(dim, 1, dim == 2 ? 3 : 2, (PetscBool)(seed % 2), seed);
         OK(ForestGetTables(forest, &t));
         RandomOrders(t, low, 4, &orders);
-        OK(HPSpaceCreate(forest, orders, 0, &space));
+        OK(HPSpaceCreate(forest, orders, 0, 0, &space));
         const PetscReal error = ReproductionError(space, low);
         if (!(error < 1e-11)) print_message("dim %d seed %d low %d: error %g\n", (int)dim, (int)seed, (int)low, (double)error);
         assert_true(error < 1e-11);
@@ -115,7 +115,7 @@ static void test_reproduction_curved(void **state)
     forest = RandomForest(2 + seed % 2, 2, 2, PETSC_TRUE, seed);
     OK(ForestGetTables(forest, &t));
     RandomOrders(t, 1, 4, &orders);
-    OK(HPSpaceCreate(forest, orders, 0, &space));
+    OK(HPSpaceCreate(forest, orders, 0, 0, &space));
     const PetscReal error = ReproductionError(space, 1);
     if (!(error < 1e-11)) print_message("curved seed %d: error %g\n", (int)seed, (double)error);
     assert_true(error < 1e-11);
@@ -197,7 +197,7 @@ static void test_continuity(void **state)
     forest = RandomForest(2 + seed % 2, 1, seed % 2 ? 1 : 3, (PetscBool)(seed >= 2), seed);
     OK(ForestGetTables(forest, &t));
     RandomOrders(t, 1, 4, &orders);
-    OK(HPSpaceCreate(forest, orders, seed == 5 ? 1 : 0, &space));
+    OK(HPSpaceCreate(forest, orders, seed == 5 ? 1 : 0, 0, &space));
     const PetscReal error = ContinuityError(space);
     if (!(error < 1e-11)) print_message("seed %d: jump %g\n", (int)seed, (double)error);
     assert_true(error < 1e-11);
@@ -222,7 +222,7 @@ static void test_default_constraints(void **state)
   forest = RandomForest(2, 1, 3, PETSC_FALSE, 7);
   OK(ForestGetTables(forest, &t));
   RandomOrders(t, 1, 3, &orders);
-  OK(HPSpaceCreate(forest, orders, 0, &space));
+  OK(HPSpaceCreate(forest, orders, 0, 0, &space));
   OK(HPSpaceGetTables(space, &v));
   OK(PetscCalloc1(v->num_nodes, &fixed));
   for (PetscInt n = 0; n < v->num_nodes; ++n) {
@@ -279,7 +279,7 @@ static void test_transform(void **state)
   forest = RandomForest(2, 1, 3, PETSC_TRUE, 7);
   OK(ForestGetTables(forest, &t));
   RandomOrders(t, 1, 3, &orders);
-  OK(HPSpaceCreate(forest, orders, 0, &space));
+  OK(HPSpaceCreate(forest, orders, 0, 0, &space));
   OK(HPSpaceGetTables(space, &v));
   PetscInt *node, num = 0;
   PetscReal(*frame)[9];

@@ -37,7 +37,7 @@ static void Supported(Bulk *b, Forest forest, PetscInt order, Support support)
     for (PetscInt c = 0; c < dim; ++c) b->boundaries[s].fix[c] = (PetscBool)(support == CLAMPED || s == 2 * dim - 2);
   OK(PetscMalloc1(t->num_leaves, &b->orders));
   for (PetscInt l = 0; l < t->num_leaves; ++l) b->orders[l] = (int8_t)order;
-  OK(HPSpaceCreate(forest, b->orders, support == LINEAR ? (uint64_t)1 << (2 * dim - 1) : 0, &b->space));
+  OK(HPSpaceCreate(forest, b->orders, support == LINEAR ? (uint64_t)1 << (2 * dim - 1) : 0, 0, &b->space));
   OK(MechanicsSupportsCreate(b->space, &b->spec, &b->supports));
   OK(HPSpaceSetUp(b->space, b->supports.fixed, 0, NULL, NULL));
   OK(MechanicsCreate(b->space, &b->spec, &b->supports, &b->mechanics));

@@ -119,7 +119,7 @@ static void Frames(Bulk *b, PetscInt dim)
   const HPTables     *v;
   const ForestTables *t;
 
-  OK(HPSpaceCreate(b->forest, b->orders, 0, &b->space));
+  OK(HPSpaceCreate(b->forest, b->orders, 0, 0, &b->space));
   OK(HPSpaceGetTables(b->space, &v));
   OK(ForestGetTables(b->forest, &t));
   OK(PetscCalloc1(v->num_nodes, &b->supports.fixed));

@@ -20,12 +20,12 @@ def fit(run, n, *options):
 
 
 def test_o45_shrink_fit(run):
-    """Divisions 24 and 36 around: mean pressure 0.3 % and falling as h^2, ripple below 1 % and falling as h."""
+    """Divisions 24 and 36 around: mean pressure 0.3 % and falling as h^2, ripple below 0.2 % (wanted: 1 %) and falling faster than h."""
     coarse, mean, ripple = fit(run, 6)
-    assert abs(mean - 1) < 3e-3 and ripple < 0.01
-    assert coarse.summary["contact"]["fit"]["adjusted_gap"] > 0.01  # the facets' gaps are larger than the interference
+    assert abs(mean - 1) < 3e-3 and ripple < 2e-3
+    assert 0 < coarse.summary["contact"]["fit"]["adjusted_gap"] < 0.005  # the facets lie on the circle in the mean; with vertices on it 0.037
     fine, fine_mean, fine_ripple = fit(run, 12)
-    assert fine_ripple < 0.65 * ripple and abs(fine_mean - 1) < 0.35 * abs(mean - 1)
+    assert fine_ripple < 0.5 * ripple and abs(fine_mean - 1) < 0.35 * abs(mean - 1)
     u = {name: fine.summary["probe"][name]["displacement"][0] for name in ("inner", "outer")}
     assert abs(u["inner"] / -0.0037142857 - 1) < 5e-3 and abs(u["outer"] / 0.0062857143 - 1) < 5e-3
 
