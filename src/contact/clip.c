@@ -15,8 +15,9 @@ static inline const PetscReal *LineEnd_Private(const Overlap *o, int line)
   return o->side[line / 4].Y[(line + 1) % 4];
 }
 
-/* Where two lines meet: neighbouring sides of one facet at its corner. near: a place that holds when the lines are parallel to round-off. */
-static void Meet_Private(const Overlap *o, int a, int b, const PetscReal near[2], PetscReal v[2])
+/* Where two lines meet: neighbouring sides of one facet at its corner. near: the place on the side that is cut, which holds when the lines are so close to each
+   other that they meet elsewhere: one end of the side is off the line by a little more than FACET_ON, the other by a little less. */
+static void Meet_Private(const Overlap *o, int a, int b, const PetscReal near[2], PetscReal size, PetscReal v[2])
 {
   if (a / 4 == b / 4 && (a - b) % 2) {
     const PetscReal *y = o->side[a / 4].Y[(a + 1) % 4 == b % 4 ? b % 4 : a % 4];
@@ -32,6 +33,7 @@ static void Meet_Private(const Overlap *o, int a, int b, const PetscReal near[2]
     return;
   }
   for (int i = 0; i < 2; i++) v[i] = p[i] + Cross2(r, e) / det * d[i];
+  if (PetscMax(PetscAbsReal(v[0] - near[0]), PetscAbsReal(v[1] - near[1])) > FACET_STRAY * size) v[0] = near[0], v[1] = near[1];
 }
 
 static PetscReal Area_Private(const Overlap *o)
@@ -68,9 +70,10 @@ static void Cut_Private(Overlap *o, int i, PetscReal size)
       line[num++] = o->line[k];
     }
     if (in != next) {
-      const PetscReal share = d[k] / (d[k] - d[l]), near[2] = {o->v[k][0] + share * (o->v[l][0] - o->v[k][0]), o->v[k][1] + share * (o->v[l][1] - o->v[k][1])};
+      const PetscReal share   = PetscMax(0, PetscMin(1, d[k] / (d[k] - d[l]))),
+                      near[2] = {o->v[k][0] + share * (o->v[l][0] - o->v[k][0]), o->v[k][1] + share * (o->v[l][1] - o->v[k][1])};
 
-      Meet_Private(o, in ? o->line[k] : i, in ? i : o->line[k], near, v[num]);
+      Meet_Private(o, in ? o->line[k] : i, in ? i : o->line[k], near, size, v[num]);
       line[num++] = in ? (int8_t)i : o->line[k];
     }
   }
@@ -83,8 +86,8 @@ static void Cut_Private(Overlap *o, int i, PetscReal size)
 
 PetscBool ContactClip(Overlap *o)
 {
-  const PlaneQuad *s     = &o->side[0];
-  const PetscReal  d[2]  = {s->Y[2][0] - s->Y[0][0], s->Y[2][1] - s->Y[0][1]}, e[2] = {s->Y[3][0] - s->Y[1][0], s->Y[3][1] - s->Y[1][1]};
+  const PlaneQuad *s    = &o->side[0];
+  const PetscReal  d[2] = {s->Y[2][0] - s->Y[0][0], s->Y[2][1] - s->Y[0][1]}, e[2] = {s->Y[3][0] - s->Y[1][0], s->Y[3][1] - s->Y[1][1]};
   const PetscReal  whole = 0.5 * Cross2(d, e);
 
   o->num = 4;

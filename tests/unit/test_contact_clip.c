@@ -1,0 +1,51 @@
+/* The overlap of two quadrilaterals with sides on lines that nearly coincide: its corners stay with both, and its integrals are those of its area. */
+#include "contactfixture.h"
+#include "facetimpl.h"
+
+/* Nonmortar: the unit square. Mortar: its lower side runs above y = 0 by `low` at x = a and by `high` at x = b, both near 1e-9, where clipping decides. */
+static void Make(PetscReal a, PetscReal b, PetscReal low, PetscReal high, Overlap *o)
+{
+  const PetscReal own[4][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}}, other[4][2] = {{a, low}, {b, high}, {b, 0.8}, {a, 0.8}};
+
+  memset(o, 0, sizeof(*o));
+  for (int k = 0; k < 4; k++)
+    for (int i = 0; i < 2; i++) o->side[0].Y[k][i] = own[k][i], o->side[1].Y[k][i] = other[k][i];
+}
+
+static void Check(const Overlap *o, PetscReal a, PetscReal b)
+{
+  const PetscReal from = PetscMax(a, 0), to = PetscMin(b, 1);
+  FacetMoments    q;
+  PetscReal       dq[FACET_MOMENTS][FACET_LOCAL], sum = 0, push = 0;
+
+  for (PetscInt k = 0; k < o->num; k++) {
+    assert_true(o->v[k][0] > from - 2e-3 && o->v[k][0] < to + 2e-3);
+    assert_true(o->v[k][1] > -1e-6 && o->v[k][1] < 0.8 + 1e-6);
+  }
+  memset(&q, 0, sizeof(q));
+  assert_true(ContactOverlapMoments(o, &q, dq));
+  for (int j = 0; j < 4; j++) sum += q.q[4 + j];
+  assert_near(sum, 0.8 * (to - from), 1e-7);
+  assert_near(o->area, 0.8 * (to - from), 1e-7);
+  for (int j = 0; j < 4; j++) /* the upper side of the overlap is the mortar facet's: lifting it adds its length */
+    for (int c = 2; c < 4; c++) push += dq[4 + j][3 * (4 + c) + 1];
+  assert_near(push, to - from, 1e-6);
+}
+
+static void SidesThatNearlyCoincide(void **state)
+{
+  const PetscReal ends[][2] = {{-0.3, 0.7}, {0.2, 1.4}, {-0.2, 1.2}, {0.1, 0.9}};
+
+  for (size_t e = 0; e < sizeof(ends) / sizeof(ends[0]); e++)
+    for (int i = -40; i <= 40; i++)
+      for (int j = -40; j <= 40; j++) {
+        const PetscReal low = 5e-11 * i + 1e-9, high = 5e-11 * j + 1e-9;
+        Overlap         o;
+
+        Make(ends[e][0], ends[e][1], low, high, &o);
+        assert_true(ContactClip(&o));
+        Check(&o, ends[e][0], ends[e][1]);
+      }
+}
+
+CONTACT_TEST_MAIN("contact: clipping", cmocka_unit_test(SidesThatNearlyCoincide))
