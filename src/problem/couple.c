@@ -25,7 +25,8 @@ static PetscReal Young_Private(const MaterialSpec *m)
   return 9 * m->kappa * m->mu / (3 * m->kappa + m->mu);
 }
 
-/* Tributary measure w0 and the constant c = E / w0 of the complementarity; E of the softer body (a rigid one does not count). */
+/* Tributary measure w0, its extent along the surface (an edge's length, the root of a face's area), and the constant c = E / extent of the complementarity: a
+   pressure per gap, in any model. E of the softer body (a rigid one does not count). */
 static PetscErrorCode NodeScales_Private(Problem p, Contact *c)
 {
   const Surface      *s = &c->side[0];
@@ -42,13 +43,21 @@ static PetscErrorCode NodeScales_Private(Problem p, Contact *c)
   }
   for (PetscInt f = 0; f < s->num_facets; ++f) {
     const PetscReal share = FacetMeasure_Private(s, f, (PetscBool)(p->scene->mechanics.model == MODEL_AXISYMMETRIC)) / (PetscReal)s->corners;
+    const PetscReal plain = FacetMeasure_Private(s, f, PETSC_FALSE) / (PetscReal)s->corners;
     for (PetscInt k = 0; k < s->corners; ++k) {
       const PetscInt n = s->facets[s->corners * f + k];
       c->w0[n] += share;
-      for (PetscInt i = s->hang[n]; i < s->hang[n + 1]; ++i) c->w0[s->hang_master[i]] += s->hang_weight[i] * share;
+      c->extent[n] += plain;
+      for (PetscInt i = s->hang[n]; i < s->hang[n + 1]; ++i) {
+        c->w0[s->hang_master[i]] += s->hang_weight[i] * share;
+        c->extent[s->hang_master[i]] += s->hang_weight[i] * plain;
+      }
     }
   }
-  for (PetscInt n = 0; n < s->num_nodes; ++n) c->c[n] = young / c->w0[n];
+  for (PetscInt n = 0; n < s->num_nodes; ++n) {
+    if (p->dim == 3) c->extent[n] = PetscSqrtReal(c->extent[n]);
+    c->c[n] = young / c->extent[n];
+  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -203,7 +212,7 @@ PetscErrorCode ContactCreate_Private(Problem p, const ContactSpec *spec, Contact
   PetscCall(SurfaceCreate_Private(p, spec->mortar, &c->side[1]));
   PetscCall(ContactPairCreate(p->dim, axisymmetric, spec, &c->pair));
   const PetscInt n = c->side[0].num_nodes;
-  PetscCall(PetscCalloc5(n, &c->z, n, &c->gap, n, &c->weight, n, &c->w0, n, &c->c));
+  PetscCall(PetscCalloc6(n, &c->z, n, &c->gap, n, &c->weight, n, &c->w0, n, &c->extent, n, &c->c));
   PetscCall(PetscCalloc5(n, &c->active, n, &c->has_multiplier, n, &c->lift, n, &c->change, n, &c->near));
   PetscCall(PetscMalloc1(c->side[0].num_facets, &c->result));
   PetscCall(PetscMalloc4(n, &c->zdof, n, &c->zlocal, n, &c->gap0, n, &c->offset));
@@ -236,7 +245,7 @@ PetscErrorCode ContactDestroy_Private(Contact *c)
   PetscCall(ContactPairDestroy(&c->pair));
   PetscCall(SurfaceDestroy_Private(&c->side[0]));
   PetscCall(SurfaceDestroy_Private(&c->side[1]));
-  PetscCall(PetscFree5(c->z, c->gap, c->weight, c->w0, c->c));
+  PetscCall(PetscFree6(c->z, c->gap, c->weight, c->w0, c->extent, c->c));
   PetscCall(PetscFree5(c->active, c->has_multiplier, c->lift, c->change, c->near));
   PetscCall(PetscFree(c->result));
   PetscCall(PetscFree4(c->zdof, c->zlocal, c->gap0, c->offset));
@@ -388,8 +397,8 @@ static PetscErrorCode Near_Private(Problem p, Contact *c)
   PetscFunctionBegin;
   PetscCall(ProblemPending(p, &pending));
   for (PetscInt j = 0; j < c->side[0].num_nodes; ++j) {
-    const PetscReal size = p->dim == 2 ? c->w0[j] : PetscSqrtReal(c->w0[j]);
-    c->near[j] = (PetscBool)(c->has_multiplier[j] && (c->z[j] != 0 || (ContactCovered_Private(c, j) && c->gap[j] / c->weight[j] < pending + 0.5 * size)));
+    const PetscBool reach = (PetscBool)(ContactCovered_Private(c, j) && c->gap[j] / c->weight[j] < pending + 0.5 * c->extent[j]);
+    c->near[j]            = (PetscBool)(c->has_multiplier[j] && (c->z[j] != 0 || reach));
     if (p->dim == 2) c->near[j] = PETSC_TRUE;
   }
   PetscFunctionReturn(PETSC_SUCCESS);

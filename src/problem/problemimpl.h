@@ -2,7 +2,7 @@
 #pragma once
 #include "problem.h"
 
-#define COVERED 1e-10 /* share of a node's tributary length below which it counts as uncovered */
+#define COVERED 1e-5 /* share of a node's tributary measure below which it counts as uncovered: its constraint would be all but free of its pressure */
 
 #define MOST_MASTERS 8 /* of a hanging vertex of a contact surface */
 
@@ -33,7 +33,8 @@ typedef struct {
   ContactView         view;
   PetscInt           *zdof;                           /* [n] index in the problem's vector, -1: no multiplier */
   PetscInt           *zlocal;                         /* [n] position in this rank's part of the vector, -1: not here */
-  PetscReal          *z, *gap, *weight, *w0, *c;      /* [n] */
+  PetscReal          *z, *gap, *weight;               /* [n] */
+  PetscReal          *w0, *extent, *c;                /* [n] reference measure, its extent along the surface, E / extent */
   PetscReal          *change;                         /* [n] work: change of gt_j at fixed measure under an increment */
   PetscReal          *lift;                           /* [n] the same for the prescribed motion still to come */
   PetscInt           *result;                         /* [num_facets] position of a facet in `facets`, -1: not evaluated here */
@@ -45,7 +46,7 @@ typedef struct {
   const ContactFacet *facets;
   ContactFacet       *frozen; /* small kinematics: linearised once at the reference positions */
   PetscBool           is_frozen;
-  PetscBool           released; /* takes no part in the tangent: carry.c */
+  PetscBool           released;                 /* takes no part in the tangent: carry.c */
   PetscReal          *gap0;                     /* [n] reference gaps, small kinematics */
   PetscReal          *offset;                   /* [n] constant part of gt_j that does not count: initial gaps closed, interference */
   PetscInt           *pattern_offset, *pattern; /* [num_facets+1]: nodes each facet has room for in the matrix */

@@ -24,7 +24,7 @@ PetscErrorCode ProblemSearch(Problem p, Vec x)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Square of what round-off of positions leaves in the rows and forces of active nodes: epsilon |x| (E + z). */
+/* Square of what round-off of positions leaves in the rows and forces of active nodes: epsilon |x| (E + z) w0 / extent. */
 static PetscReal ContactNoise2_Private(Problem p)
 {
   PetscReal sum = 0;
@@ -34,7 +34,7 @@ static PetscReal ContactNoise2_Private(Problem p)
     for (PetscInt j = 0; j < c->side[0].num_nodes; ++j) {
       PetscReal square = 0;
       for (PetscInt d = 0; d < p->dim; ++d) square += PetscSqr(c->side[0].x[p->dim * j + d]);
-      if (c->active[j]) sum += square * PetscSqr(PETSC_MACHINE_EPSILON * (c->c[j] * c->w0[j] + PetscAbsReal(c->z[j])));
+      if (c->active[j]) sum += square * PetscSqr(PETSC_MACHINE_EPSILON * (c->w0[j] * (c->c[j] + PetscAbsReal(c->z[j]) / c->extent[j])));
     }
   }
   return sum;
