@@ -89,7 +89,7 @@ static PetscErrorCode FacetHessian_Private(Problem p, const Contact *c, const Co
 
 PetscErrorCode ContactBlocks_Private(Problem p, Contact *c)
 {
-  const PetscInt dim = p->dim;
+  const PetscInt  dim = p->dim;
   const PetscBool far = (PetscBool)(p->lifting && ContactIsFar_Private(c)); /* without lift the tangent is the derivative itself */
 
   PetscFunctionBegin;
@@ -264,11 +264,14 @@ static PetscErrorCode ContactRowsInsert_Private(Problem p, Contact *c)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* The matrix with room for all of contact, zero. One that was made and never assembled (contact has met nothing yet) is zero as it is. */
 static PetscErrorCode ReadyMatrix_Private(Problem p)
 {
-  int ok = p->matrix ? 1 : 0;
+  int       ok        = p->matrix ? 1 : 0;
+  PetscBool assembled = PETSC_FALSE;
 
   PetscFunctionBegin;
+  if (p->matrix) PetscCall(MatAssembled(p->matrix, &assembled));
   for (PetscInt i = 0; i < p->num_contacts; ++i) {
     if (!ContactPatternHolds_Private(&p->contacts[i])) {
       PetscCall(ContactGrowPattern_Private(&p->contacts[i]));
@@ -278,7 +281,7 @@ static PetscErrorCode ReadyMatrix_Private(Problem p)
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &ok, 1, MPI_INT, MPI_MIN, p->comm));
   if (!ok)
     PetscCall(ProblemMatrix_Private(p));
-  else
+  else if (assembled)
     PetscCall(MatZeroEntries(p->matrix));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -223,3 +223,17 @@ def test_o104_separation(run, options):
     assert pressed > 0.015 and np.abs(p["force"]).max() < 1e-20 and p["max_pressure"] < 1e-20 and p["active_nodes"] == 0
     assert s["energy"] < 1e-20 and np.abs(s["reaction"]["bottom"]).max() < 1e-13
     print(s["energy"], s["reaction"]["bottom"], s["newton_iterations"], s["step_cuts"])
+
+
+@pytest.mark.parametrize("step", [1, 0.25])
+def test_o104_nothing_in_reach(run, tmp_path, step):
+    """The upper block starts out of reach of the search and is lowered on the lower one, in one step or in several: the same state."""
+    def lowered(gap):
+        text = FALL.format(geo=shifted_patch(tmp_path, gap)).replace(", search: 10", "").replace("{traction: {y: -0.02}}", f"{{displacement: {{x: 0, y: {-gap - 0.1}}}}}")
+        return run("lowered.yml", "-load_step", step, text=text)
+
+    far, near = lowered(3), lowered(0)
+    for result in (far, near):
+        assert_converged(result)
+    assert far.summary["contact"]["pair"]["force"][1] > 0.01
+    assert far.summary["energy"] == pytest.approx(near.summary["energy"], rel=1e-8)
