@@ -1,0 +1,227 @@
+"""Classical contact in three dimensions: shrink fit (O-45), sphere on a plane of symmetry (O-52), punch with a rounded edge (O-56), sphere in rubber (O-58);
+each against the same problem in two dimensions."""
+import math
+import pathlib
+
+import numpy
+import pytest
+
+from contactkit import contact, surface
+
+SCENES = pathlib.Path(__file__).resolve().parent / "scenes"
+INPUTS = SCENES.parent.parent.parent / "inputs"
+QUIET = ("-output_fields", "false")
+
+
+def solved(run, *arguments, **keys):
+    result = run(*arguments, **keys)
+    assert result.returncode == 0 and result.summary["step_cuts"] == 0, result
+    return result
+
+
+def pair(result):
+    (only,) = result.summary["contact"].values()
+    assert only["force_imbalance"] < 1e-10 and only["moment_imbalance"] < 1e-6
+    return only
+
+
+# ---- O-45 -------------------------------------------------------------------------------------------------------------------------------
+
+PRESSURE, RADIUS, DEPTH = 65.93406593, 10, 2
+
+
+def ring(run, n, *options):
+    """Mean pressure and half the range of the nodal pressures, over the exact pressure."""
+    result = solved(run, "inputs/shrinkfit3d.yml", "-mesh_parameter_n", n, *options)
+    z = contact(result)["contact_pressure"] / PRESSURE
+    force = pair(result)["force"]
+    return result, math.hypot(*force[:2]) / (math.sqrt(2) * RADIUS * DEPTH * PRESSURE), (z.max() - z.min()) / 2
+
+
+def test_o45_ring(run):
+    """Divisions 48 and 72, and finer: mean pressure 0.3 % of the exact one and of the plane run; it converges as h^2; the ripple falls somewhat slower than h,
+    below 1 % at 192 and 288."""
+    plane = solved(run, "inputs/shrinkfit.yml", "-mesh_parameter_n", 12)
+    flat = math.hypot(*pair(plane)["force"]) / (math.sqrt(2) * RADIUS * PRESSURE)
+    results, means, ripples = zip(*(ring(run, n) for n in (12, 24, 48)))
+    assert abs(means[0] - 1) < 3e-3 and abs(means[0] / flat - 1) < 3e-3, (means, flat)
+    assert all(abs(fine - 1) < max(0.35 * abs(coarse - 1), 2e-4) for coarse, fine in zip(means, means[1:])), means
+    assert all(fine < 0.7 * coarse for coarse, fine in zip(ripples, ripples[1:])) and ripples[2] < 0.01, ripples
+    for name, u in (("inner", -0.0037142857), ("outer", 0.0062857143)):
+        assert abs(results[1].summary["probe"][name]["displacement"][0] / u - 1) < 5e-3, name
+
+
+def test_o45_nothing_depends_on_z(run):
+    """Two cells deep, supports of plane strain: the same pressure at every depth, no force along z, force as with one cell."""
+    result, mean, _ = ring(run, 6, "-mesh_parameter_l", 2)
+    part = contact(result)
+    angle, z = numpy.arctan2(part["X"][:, 1], part["X"][:, 0]), part["contact_pressure"]
+    order = numpy.lexsort((part["X"][:, 2], angle.round(6)))
+    assert numpy.allclose(numpy.ptp(z[order].reshape(-1, 3), axis=1), 0, atol=1e-6 * PRESSURE)
+    assert abs(pair(result)["force"][2]) < 1e-8 * PRESSURE and abs(mean / ring(run, 6)[1] - 1) < 1e-8
+
+
+def test_o45_roles(run):
+    """The outer tube nonmortar: second order in the mean, 0.3 % at 48 and 72 divisions."""
+    swap = ("-contact_fit_nonmortar", "outer_bore", "-contact_fit_mortar", "inner_shell")
+    means = [ring(run, n, *swap)[1] - 1 for n in (6, 12)]
+    assert abs(means[1]) < 3e-3 and abs(means[1]) < 0.35 * abs(means[0]), means
+
+
+NORMAL = "A facet presses along its own normal, not along one that turns as in the plane: at mortar nodes off its middle that is a tangential load O(h)"
+
+
+@pytest.mark.xfail(strict=True, reason=f"O-45 asks for a mean to 0.3 % at 24 and 36 divisions: +0.42 % (plane: +0.28 %). {NORMAL}")
+def test_o45_mean_of_the_case(run):
+    assert abs(ring(run, 6)[1] - 1) < 3e-3
+
+
+@pytest.mark.xfail(strict=True, reason=f"O-45 asks for a ripple below 1 % at 24 and 36 divisions: 4.3 % (plane: 0.1 %). {NORMAL}")
+def test_o45_ripple_of_the_case(run):
+    assert ring(run, 6)[2] < 0.01
+
+
+# ---- O-52 -------------------------------------------------------------------------------------------------------------------------------
+
+# Lengths in radii: R = 50, approach 2 become 1 and 0.04. The plane of symmetry is the face of a rigid block.
+BALL = f"""
+mesh: {{file: {INPUTS}/hertz3d.geo, order: 4, parameter: {{n: 4, k: 1}}}}
+model: 3d
+kinematics: small
+order: 2
+body: {{ball: {{material: ball}}, block: {{material: hard}}}}
+material: {{ball: {{law: linear, E: 2e4, nu: 0.3}}, hard: {{law: rigid}}}}
+boundary: {{ball_x: {{fix: x}}, ball_y: {{fix: y}}, top: {{displacement: {{z: -DEPTH}}}}}}
+contact: {{pair: {{nonmortar: ball_surface, mortar: block_top}}}}
+refine: {{spot: {{boundary: ball_surface, x: 0, y: 0, radius: SPOT, levels: LEVELS}}}}
+load: {{step: 1}}
+adapt: {{tolerance: TOLERANCE, max_passes: 8, max_cells: 1500}}
+"""
+MERIDIAN = f"""
+mesh: {{file: {SCENES}/hemisphere.geo, order: 4, parameter: {{r: 50}}}}
+model: axisymmetric
+kinematics: small
+order: 2
+body: {{ball: {{material: ball}}, plate: {{material: hard}}}}
+material: {{ball: {{law: linear, E: 2e4, nu: 0.3}}, hard: {{law: rigid}}}}
+boundary: {{axis: {{fix: x}}, flat: {{displacement: {{y: -2}}}}}}
+contact: {{pair: {{nonmortar: surface, mortar: plate_top}}}}
+refine: {{spot: {{boundary: surface, x: 0, y: 0, radius: 10, levels: 2}}}}
+load: {{step: 1}}
+adapt: {{tolerance: 0.01, max_passes: 12}}
+"""
+HERTZ_FORCE, HERTZ_PEAK = 586080.59, 2798.3287  # approach 2
+
+
+def ball(run, depth, spot, levels, tolerance):
+    text = BALL.replace("DEPTH", str(depth)).replace("SPOT", str(spot)).replace("LEVELS", str(levels)).replace("TOLERANCE", str(tolerance))
+    result = solved(run, "o52.yml", text=text)
+    return result, 4 * 50**2 * pair(result)["force"][2], pair(result)["max_pressure"]
+
+
+@pytest.mark.parametrize("levels", [3, pytest.param(4, marks=pytest.mark.slow)], ids=["h_1.2", "h_0.6"])
+def test_o52_sphere(run, levels):
+    """Largest pressure: 5 % of Hertz. The force is that of a hemisphere whose flat is pushed, 15 % above Hertz's half space at a / R = 0.2: the meridian's run
+    has it too."""
+    result, force, peak = ball(run, 0.04, 0.2, levels, 0.2)
+    assert abs(peak / HERTZ_PEAK - 1) < 0.05
+    meridian = solved(run, "meridian.yml", *QUIET, text=MERIDIAN)
+    assert abs(force / pair(meridian)["force"][1] - 1) < 0.01 and abs(peak / pair(meridian)["max_pressure"] - 1) < 0.03, (force, pair(meridian))
+    part = contact(result)
+    corner = part["X"][part["cells"].astype(int)]
+    inside = numpy.linalg.norm(corner[..., :2], axis=2).max(axis=1) < 0.2
+    assert 50 * numpy.linalg.norm(corner[inside, 0] - corner[inside, 1], axis=1).max() < 10 / 2**levels
+
+
+def test_o52_hundredth_of_the_approach(run):
+    """a / R = 0.02: Hertz's force to 3 %, his peak to 5 %."""
+    _, force, peak = ball(run, 0.0004, 0.02, 6, 0.1)
+    assert abs(force / (1e-3 * HERTZ_FORCE) - 1) < 0.03 and abs(peak / (0.1 * HERTZ_PEAK) - 1) < 0.05
+
+
+# ---- O-56 -------------------------------------------------------------------------------------------------------------------------------
+
+ROUND = f"""
+mesh: {{file: {SCENES}/roundpunch.geo, order: 4}}
+model: axisymmetric
+kinematics: small
+order: 2
+body: {{punch: {{material: steel}}, foundation: {{material: aluminium}}}}
+material: {{steel: {{law: linear, E: 210e3, nu: 0.3}}, aluminium: {{law: linear, E: 70e3, nu: 0.3}}}}
+boundary: {{axis: {{fix: x}}, head: {{traction: {{y: -100}}}}, bottom: {{fix: xy}}}}
+contact: {{pair: {{nonmortar: foot, mortar: top}}}}
+probe: {{centre: {{x: 0, y: -1e-6}}}}
+load: {{step: 1}}
+adapt: {{tolerance: 0.01, max_passes: 12}}
+"""
+SWAPPED = ("-contact_pair_nonmortar", "top", "-contact_pair_mortar", "foot")
+BENCHMARK = (-0.130734, -91.1006)
+
+
+def section(run, *options):
+    """Displacement and stress at the centre of the foundation's top."""
+    centre = solved(run, "round.yml", *QUIET, *options, text=ROUND).summary["probe"]["centre"]
+    return centre["displacement"][1], centre["stress"][3]
+
+
+def test_o56_rounded_punch(run):
+    """Quarter and section agree: displacement 1 %."""
+    result = solved(run, "inputs/punch3d.yml", *QUIET, "-adapt_max_cells", 600)
+    assert abs(pair(result)["force"][2] / (25 * math.pi * 50**2) - 1) < 2e-4
+    centre = result.summary["probe"]["centre"]
+    assert abs(centre["displacement"][2] / section(run)[0] - 1) < 0.01, centre
+
+
+@pytest.mark.slow
+def test_o56_stress(run):
+    """As the scene is: displacement 1 %, stress and contact pressure at the centre 3 % of the section's stress."""
+    u, stress = section(run, "-adapt_tolerance", 0.005)
+    result = solved(run, "inputs/punch3d.yml")
+    centre = result.summary["probe"]["centre"]
+    assert abs(centre["displacement"][2] / u - 1) < 0.01 and abs(centre["stress"][5] / stress - 1) < 0.03, (centre, u, stress)
+    part = contact(result)
+    middle = numpy.argmin(numpy.linalg.norm(part["X"][:, :2], axis=1))
+    assert abs(part["contact_pressure"][middle] / -stress - 1) < 0.03
+
+
+def test_o56_section(run):
+    """Either role, and twice as fine: the same displacement to 1e-3, the stress of the benchmark to 4 %."""
+    values = [section(run), section(run, "-adapt_tolerance", 0.005), section(run, "-adapt_tolerance", 0.005, *SWAPPED)]
+    assert max(abs(u / values[0][0] - 1) for u, _ in values) < 1e-3, values
+    assert max(abs(stress / BENCHMARK[1] - 1) for _, stress in values) < 0.04, values
+
+
+@pytest.mark.xfail(strict=True, reason="the benchmark's displacement is an average of codes on coarse cells; both roles, orders 1 and 2 and the quarter in "
+                                       "three dimensions converge to -0.1340, 2.5 % more")
+def test_o56_benchmark(run):
+    assert abs(section(run)[0] / BENCHMARK[0] - 1) < 0.01
+
+
+# ---- O-58 -------------------------------------------------------------------------------------------------------------------------------
+
+TABLE = [(.17270, .31, .80), (.48977, .44, 1.19), (.89814, .54, 1.53), (1.37621, .62, 1.87), (1.91059, .69, 2.22)]
+ADAPTED = ("-adapt_tolerance", 0.08, "-adapt_max_cells", 1100)
+
+
+def reach(rubber):
+    """Deformed radius of the outermost node that carries, and the largest facet within it."""
+    x, faces = (rubber["X"] + rubber["displacement"])[:, :2], rubber["cells"].astype(int)
+    r = numpy.linalg.norm(x, axis=1)
+    outermost = r[rubber["contact_pressure"] > 0].max()
+    corner = x[faces[(r[faces] < outermost).any(axis=1)]]
+    return outermost, numpy.linalg.norm(corner[:, 0] - corner[:, 1], axis=1).max()
+
+
+@pytest.mark.parametrize("options", [(), pytest.param(ADAPTED, marks=pytest.mark.slow)], ids=["given", "adapted"])
+def test_o58_sphere_in_rubber(run, options):
+    """Force 1 % of the table and of the axisymmetric run; the outermost node that carries lies within one face of that run's radius of contact."""
+    result = solved(run, "inputs/sphere3d.yml", *options)
+    flat = solved(run, "inputs/sphere.yml", *QUIET)
+    assert len(result.history) == len(flat.history) == 5
+    states = {round(5 * t): surface(state, 0) for t, state in result.states("contact")}
+    for k, (row, other, (force, _, _)) in enumerate(zip(result.history, flat.history, TABLE)):
+        total = -4 * row["contact.ball_on_rubber.force.z"]
+        assert abs(total / force - 1) < 0.01 and abs(total / -other["contact.ball_on_rubber.force.y"] - 1) < 0.01, (k, total)
+        if not options:  # under adaptation a node may carry through coarse facets that hang
+            outermost, size = reach(states[k + 1])
+            assert abs(outermost - other["contact.ball_on_rubber.radius"]) < size, (k, outermost, size)
