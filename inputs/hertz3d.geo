@@ -4,7 +4,7 @@ DefineConstant[
   n = 2, // cells along a quarter of a great circle, halved
   w = 1, // half width of the block
   h = 1, // its height
-  k = 2  // cells along the block's width
+  k = 3  // cells along the block's width
 ];
 a = 0.5;
 b = 0.42;
