@@ -1,6 +1,8 @@
 /* One contact pair on one mesh: multipliers, nodal gaps, activity, forces. */
 #include "problemimpl.h"
 
+#define HELD 0.05 /* a node whose normal has no larger free part than that is held across the surface */
+
 /* Length or area of a facet at the reference positions (axisymmetric: area). */
 static PetscReal FacetMeasure_Private(const Surface *s, PetscInt f, PetscBool axisymmetric)
 {
@@ -61,8 +63,44 @@ static PetscErrorCode NodeScales_Private(Problem p, Contact *c)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* A node all of whose motion a support prescribes carries no multiplier: its constraint would have nothing of its own to act on.
-   (Nodes of rigid bodies keep theirs: the other side moves.) Hanging nodes have none: their masters act for them. */
+/* Mean unit normal of the facets at a node, reference positions, three dimensions. */
+static void NodeNormal_Private(const Surface *s, PetscInt n, PetscReal normal[3])
+{
+  PetscReal length;
+
+  for (PetscInt c = 0; c < 3; ++c) normal[c] = 0;
+  for (PetscInt k = s->node_first[n]; k < s->node_first[n + 1]; ++k) {
+    const PetscInt *node = s->facets + 4 * s->node_facet[k];
+    PetscReal       d[3], e[3], N[3];
+    for (PetscInt c = 0; c < 3; ++c) {
+      d[c] = s->X[3 * node[2] + c] - s->X[3 * node[0] + c];
+      e[c] = s->X[3 * node[3] + c] - s->X[3 * node[1] + c];
+    }
+    for (PetscInt c = 0; c < 3; ++c) N[c] = d[(c + 1) % 3] * e[(c + 2) % 3] - d[(c + 2) % 3] * e[(c + 1) % 3];
+    length = PetscSqrtReal(Dot3(N, N));
+    for (PetscInt c = 0; c < 3; ++c) normal[c] += N[c] / length;
+  }
+  length = PetscSqrtReal(Dot3(normal, normal));
+  for (PetscInt c = 0; c < 3 && length > 0; ++c) normal[c] /= length;
+}
+
+/* Is the node held across the surface? In two dimensions only when all of its motion is. */
+static PetscBool IsHeld_Private(const Surface *s, PetscInt n)
+{
+  const PetscInt fixed = s->dof[s->dim * n];
+  PetscReal      normal[3], free2 = 0;
+
+  if (s->dim == 2 || fixed == 0) return (PetscBool)(fixed == (1 << s->dim) - 1);
+  NodeNormal_Private(s, n, normal);
+  for (PetscInt d = 0; d < 3; ++d) {
+    if (!((fixed >> d) & 1)) free2 += PetscSqr(Dot3(s->frame + 9 * n + 3 * d, normal));
+  }
+  return (PetscBool)(free2 < PetscSqr(HELD));
+}
+
+/* A node that a support holds across the surface carries no multiplier: its constraint would have nothing of its own to act on, and where the nonmortar side is
+   finer a row of such nodes leaves no multiplier unique. (Nodes of rigid bodies keep theirs: the other side moves.) Hanging nodes have none: their masters act for
+   them. */
 static PetscErrorCode HasMultiplier_Private(Problem p, Contact *c)
 {
   const ForestTables *t;
@@ -74,7 +112,7 @@ static PetscErrorCode HasMultiplier_Private(Problem p, Contact *c)
     if (s->hang[n] < s->hang[n + 1]) continue;
     const PetscInt  facet = s->node_facet[s->node_first[n]];
     const PetscBool rigid = p->scene->bodies[t->leaf_body[s->facet_leaf[facet]]].material->law->rigid;
-    c->has_multiplier[n]  = (PetscBool)(rigid || s->dof[s->dim * n] != (1 << s->dim) - 1);
+    c->has_multiplier[n]  = (PetscBool)(rigid || !IsHeld_Private(s, n));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -325,3 +325,13 @@ def test_o94_tangent(run, tmp_path, seed, nonmortar, multiplier):
     print(ratios, pair["area"], pair["active_nodes"])
     assert len(ratios) >= 3 and max(ratios) < 1e-6
     assert 0.05 < pair["area"] < 0.7
+
+
+def test_rim_held_across_the_face(run):
+    """A fine nonmortar face on a single mortar face, its rim held across: with multipliers on the rim the system is singular (a force of 1e32 was found)."""
+    sides = [word for side in ("x0", "x1", "y0", "y1") for word in (f"-boundary_{side}_fix", "z")]
+    result = run("inputs/blocks3d.yml", "-mesh_parameter_n1", 1, "-mesh_parameter_n2", 6, *sides, "-boundary_bottom_fix", "xyz", "-boundary_top_displacement_x", 0,
+                 "-boundary_top_displacement_y", 0, "-boundary_top_displacement_z", "-1.6*X*(1-X)*Y*(1-Y)")
+    assert result.returncode == 0, result
+    assert result.summary["newton_iterations"] <= 5 and result.summary["step_cuts"] == 0
+    assert 1e-3 < result.summary["contact"]["upper_on_lower"]["force"][2] < 3e-3
