@@ -218,6 +218,13 @@ def test_cell_in_no_body(check):
     refused(check(geo=bad.replace('Physical Surface("upper", 2) = {11};\n', "")), "cell|upper")
 
 
+def test_sides_share_a_vertex(check):
+    """The upper square begins at a corner of the lower one."""
+    bad = GEO.replace("Line(11) = {11, 12}", "Line(11) = {4, 12}").replace("Line(14) = {14, 11}", "Line(14) = {14, 4}")
+    assert bad != GEO
+    refused(check(geo=bad), "'upper_bottom' and 'lower_top' share vertex")
+
+
 def test_gmsh_rejects(check):
     refused(check(geo=GEO + "Line(99) = {77, 78};\n"), "gmsh rejects", "squares.geo")
 
