@@ -38,6 +38,7 @@ static PetscErrorCode ReadNames_Private(Reader *r, FILE *file)
   PetscFunctionBegin;
   if (!fgets(line, sizeof(line), file) || sscanf(line, "%d", &num) != 1 || num < 0)
     FAIL(r, "mesh file '%s' is damaged: its section $PhysicalNames has no count", r->spec->file);
+  if (r->name) FAIL(r, "mesh file '%s' is damaged: it has two sections $PhysicalNames", r->spec->file);
   PetscCall(PetscCalloc1(num, &r->name));
   for (int i = 0; i < num; ++i) {
     int         dim, tag, start = 0;

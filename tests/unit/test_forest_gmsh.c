@@ -342,6 +342,8 @@ static void test_bad_files(void **state)
   Refused("bad.msh", 2, "no format version");
   WriteFile("bad.msh", HEAD "$PhysicalNames\n2\n2 1 \"a\"\n");
   Refused("bad.msh", 2, "ends too early");
+  WriteFile("bad.msh", HEAD "$PhysicalNames\n1\n2 1 \"a\"\n$EndPhysicalNames\n$PhysicalNames\n1\n2 2 \"b\"\n$EndPhysicalNames\n");
+  Refused("bad.msh", 2, "two sections");
   WriteFile("bad.msh", HEAD "$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 1 1 0\n");
   Refused("bad.msh", 2, "truncated");
   WriteFile("bad.msh", HEAD "$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n$EndNodes\n$Elements\n1\n1 3 2 1 1 1 2 3 5\n$EndElements\n");

@@ -9,7 +9,7 @@ import pytest
 from conftest import ROOT
 
 PIECES = ["{", "}", "[", "]", ": ", "\n", "  ", "\t", "&a ", "*a", "!!x ", "---\n", '"', "'", "#", "%", "|", ">", "\\", "-", ",", "nan", "1e999", "~", "\0", "é", "? ", "<<: "]
-SCENES = ["hertz2d", "slide2d", "cube", "tube", "cook", "patch2d", "rubber2d"]
+SCENES = ["hertz2d", "slide2d", "cube", "tube", "cook", "patch2d", "rubber2d", "blocks3d", "hertz3d"]
 
 
 def damage(text, chance):
@@ -43,17 +43,19 @@ def test_damaged_scene(run, tmp_path, part):
 
 
 FORMATS = ["msh22", "msh41", "msh41b"]
+MESHED = {"patch2d": "-2", "blocks3d": "-3"}
 
 
 @pytest.fixture(scope="module")
 def meshes(tmp_path_factory):
-    """inputs/patch2d.geo in three formats, as bytes."""
+    """Contact of two blocks in the plane and in space, each in three formats, as bytes."""
     folder, found = tmp_path_factory.mktemp("meshes"), {}
-    for name in FORMATS:
-        file = folder / f"{name}.msh"
-        command = ["gmsh", "-2", "-order", "1", "-format", name.rstrip("b"), "-o", str(file), str(ROOT / "inputs" / "patch2d.geo")]
-        subprocess.run(command + (["-bin"] if name.endswith("b") else []), check=True, capture_output=True)
-        found[name] = file.read_bytes()
+    for scene, dim in MESHED.items():
+        for name in FORMATS:
+            file = folder / f"{scene}_{name}.msh"
+            command = ["gmsh", dim, "-order", "1", "-format", name.rstrip("b"), "-o", str(file), str(ROOT / "inputs" / f"{scene}.geo")]
+            subprocess.run(command + (["-bin"] if name.endswith("b") else []), check=True, capture_output=True)
+            found[scene, name] = file.read_bytes()
     return found
 
 
@@ -76,10 +78,13 @@ def damage_bytes(data, chance):
 @pytest.mark.parametrize("part", range(4))
 def test_damaged_mesh_is_solved_or_refused(run, tmp_path, meshes, part):
     chance = random.Random(100 + part)
-    scene = (ROOT / "inputs" / "patch2d.yml").read_text().replace("file: patch2d.geo", "file: d.msh").replace("  order: 1\n", "", 1)
+    scenes = {}
+    for name in MESHED:
+        text = (ROOT / "inputs" / f"{name}.yml").read_text().replace(f"file: {name}.geo", "file: d.msh").replace("  order: 1\n", "", 1)
+        scenes[name] = "".join(line for line in text.splitlines(True) if not line.startswith("  parameter:"))
     for _ in range(int(os.environ.get("MORTISE_FUZZ", "60")) // 4):
-        kind = chance.choice(FORMATS)
-        data = damage_bytes(meshes[kind], chance)
+        kind = (chance.choice(list(MESHED)), chance.choice(FORMATS))
+        data, scene = damage_bytes(meshes[kind], chance), scenes[kind[0]]
         (tmp_path / "d.msh").write_bytes(data)
         text = damage(scene, chance) if chance.random() < 0.3 else scene
         result = run("damaged.yml", "-output_fields", "0", text=text, timeout=60, env={"OMPI_MCA_ess_singleton_isolated": "1"})
