@@ -16,7 +16,7 @@
 /* How far GMRES need go: so far that no Newton iteration is lost, which costs more than the few more of GMRES. */
 static PetscReal Forcing_Private(Solver s)
 {
-  return PetscMin(1e-6, PetscMax(s->linear_rtol, 0.01 * s->report->residual / PetscMax(s->report->scale, PETSC_MIN_REAL)));
+  return PetscMin(1e-8, PetscMax(s->linear_rtol, 0.01 * s->report->residual / PetscMax(s->report->scale, PETSC_MIN_REAL)));
 }
 
 /* One solve with the matrix as it stands; again: only the active set has changed since the last, whose solution is in dx. */

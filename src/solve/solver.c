@@ -1,7 +1,9 @@
 /* Life cycle of the solver; the functions SNES calls. */
 #include "solveimpl.h"
 
-#define MANY 60000 /* unknowns */
+/* Unknowns from which multigrid is faster than a factorisation, cells of order 1 and above. */
+#define MANY        50000
+#define MANY_HIGHER 150000
 
 static PetscErrorCode Function_Private(SNES snes, Vec x, Vec r, void *context)
 {
@@ -56,18 +58,38 @@ static PetscErrorCode Options_Private(Solver s)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Multigrid or a factorisation? Above MANY unknowns in three dimensions multigrid is faster and takes a third of the memory (docs/results.md); it is poor on
-   nearly incompressible material, needs symmetry, and in the plane factors stay cheap. */
+/* Is some cell of higher order than 1? */
+static PetscErrorCode HasHigher_Private(Problem p, PetscBool *higher)
+{
+  const HPTables *v;
+  HPSpace         space;
+  Forest          forest;
+  int             any = 0;
+
+  PetscFunctionBegin;
+  PetscCall(ProblemGetSpace(p, &space));
+  PetscCall(ProblemGetForest(p, &forest));
+  PetscCall(HPSpaceGetTables(space, &v));
+  for (PetscInt c = 0; c < v->num_owned_cells; ++c) any = any || v->cell_order[c] > 1;
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &any, 1, MPI_INT, MPI_MAX, ForestComm(forest)));
+  *higher = (PetscBool)any;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Multigrid or a factorisation? From so many unknowns on in three dimensions multigrid is faster (docs/results.md); it is poor on nearly incompressible
+   material, needs symmetry, and in the plane factors stay cheap. */
 static PetscErrorCode UseMultigrid_Private(Solver s, PetscBool *yes)
 {
   const SceneData *scene;
   PetscInt         dofs, num_u, num_z, dim;
+  PetscBool        higher;
 
   PetscFunctionBegin;
   PetscCall(ProblemGetScene(s->problem, &scene));
   PetscCall(ProblemNumDofs(s->problem, &dofs));
   PetscCall(ProblemGetBlocks(s->problem, &num_u, &num_z, &dim));
-  *yes = (PetscBool)(dim == 3 && dofs >= MANY);
+  PetscCall(HasHigher_Private(s->problem, &higher));
+  *yes = (PetscBool)(dim == 3 && dofs >= (higher ? MANY_HIGHER : MANY));
   for (PetscInt b = 0; b < scene->mechanics.num_bodies; ++b) {
     if (scene->mechanics.bodies[b].material->mixed) *yes = PETSC_FALSE;
   }
