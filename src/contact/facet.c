@@ -1,4 +1,5 @@
-/* One nonmortar facet in three dimensions: gathers its overlaps, integrates, and hands out weighted gaps with their derivatives by the nodes that do not hang. */
+/* One nonmortar facet in three dimensions: gathers its overlaps, integrates, and hands out weighted gaps with their derivatives by the nodes that do not hang.
+ */
 #include "facetimpl.h"
 
 /* Storage of the results: blocks that are kept and filled anew at each evaluation; pointers into them stay valid until then. */
@@ -355,8 +356,8 @@ static void CarryHessian_Private(const FacetWork w, PetscReal half[], PetscReal 
 }
 
 /* Weighted gaps, weights and what derivatives are asked for. */
-static PetscErrorCode Result_Private(const EvaluateContext *ctx, FacetWork w, const FacetWeights *f, const PetscReal z[4], PetscBool derivatives, PetscBool hessian,
-                                     ContactFacet *out)
+static PetscErrorCode Result_Private(const EvaluateContext *ctx, FacetWork w, const FacetWeights *f, const PetscReal z[4], PetscBool derivatives,
+                                     PetscBool hessian, ContactFacet *out)
 {
   const PetscInt n = 3 * w->num_vertices, nn = 3 * w->num_nodes, nr = w->num_rows;
   PetscReal      factor[FACET_MOMENTS], *gap, *weight, *dgap, *dweight, *half;

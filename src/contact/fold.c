@@ -1,5 +1,5 @@
-/* Where mortar facets lie behind one another in a facet's view (folds, thin bodies, layers), the nearest counts: overlaps are taken by growing distance, and one that
-   shares more than a millionth of the facet with one already taken is dropped. */
+/* Where mortar facets lie behind one another in a facet's view (folds, thin bodies, layers), the nearest counts: overlaps are taken by growing distance, and
+   one that shares more than a millionth of the facet with one already taken is dropped. */
 #include "facetimpl.h"
 
 enum { MOST = 2 * FACET_VERTICES };

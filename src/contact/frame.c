@@ -80,7 +80,7 @@ void ContactTiltGradient(const FacetFrame *f, PetscInt num, const PetscReal X[],
 static void TiltCurvature_Private(const FacetFrame *f, int i, PetscReal T, PetscInt num, PetscReal W[])
 {
   const PetscReal d[2][2] = {{f->X[2][0] - f->X[0][0], f->X[2][1] - f->X[0][1]}, {f->X[3][0] - f->X[1][0], f->X[3][1] - f->X[1][1]}};
-  const int       other = 1 - i;
+  const int       other   = 1 - i;
   PetscReal       dN3[12] = {0}, left[2][12] = {{0}}, right[2][12] = {{0}};
 
   AddDiagonal_Private(dN3, 0, 0, d[1][1]);
@@ -93,8 +93,7 @@ static void TiltCurvature_Private(const FacetFrame *f, int i, PetscReal T, Petsc
   AddDiagonal_Private(left[1], 0, 2, 1);
   AddDiagonal_Private(right[1], 1, other, i == 0 ? -1 : 1);
   for (int a = 0; a < 12; a++)
-    for (int b = 0; b < 12; b++)
-      W[a * num + b] -= T / f->normal3 * (left[0][a] * right[0][b] + left[1][a] * right[1][b] - f->sigma[i][a] * dN3[b]);
+    for (int b = 0; b < 12; b++) W[a * num + b] -= T / f->normal3 * (left[0][a] * right[0][b] + left[1][a] * right[1][b] - f->sigma[i][a] * dN3[b]);
 }
 
 void ContactTiltHessian(const FacetFrame *f, PetscInt num, const PetscReal X[], const PetscReal gradient[], PetscReal W[], PetscReal work[])

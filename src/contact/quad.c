@@ -1,7 +1,7 @@
 /* Bilinear quadrilaterals seen in a plane: hats and the inverse of Y(xi) = sum_a N_a(xi) Y_a. */
 #include "facetimpl.h"
 
-static const PetscReal Corner[4][2] = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
+static const PetscReal Corner[4][2]    = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
 const PetscReal        ContactMixed[4] = {0.25, -0.25, 0.25, -0.25};
 
 void ContactQuadHats(const PetscReal xi[2], PetscReal N[4])

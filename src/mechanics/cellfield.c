@@ -216,8 +216,8 @@ PetscErrorCode CellKernelGeometry_Private(CellKernel k)
       if (!(k->volume[q][l] > 0)) inverted = l;
   }
   PetscCheck(inverted < 0, PETSC_COMM_SELF, PETSC_ERR_ARG_WRONG,
-             "A cell of order %" PetscInt_FMT " at (%g, %g, %g) is inverted, or lies beyond the axis, in the reference mesh", k->order, (double)k->X[0][inverted],
-             (double)k->X[k->num_nodes][inverted], d == 3 ? (double)k->X[2 * k->num_nodes][inverted] : 0.);
+             "A cell of order %" PetscInt_FMT " at (%g, %g, %g) is inverted, or lies beyond the axis, in the reference mesh", k->order,
+             (double)k->X[0][inverted], (double)k->X[k->num_nodes][inverted], d == 3 ? (double)k->X[2 * k->num_nodes][inverted] : 0.);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -99,8 +99,8 @@ static PetscBool IsHeld_Private(const Surface *s, PetscInt n)
 }
 
 /* A node that a support holds across the surface carries no multiplier: its constraint would have nothing of its own to act on, and where the nonmortar side is
-   finer a row of such nodes leaves no multiplier unique. (Nodes of rigid bodies keep theirs: the other side moves.) Hanging nodes have none: their masters act for
-   them. */
+   finer a row of such nodes leaves no multiplier unique. (Nodes of rigid bodies keep theirs: the other side moves.) Hanging nodes have none: their masters act
+   for them. */
 static PetscErrorCode HasMultiplier_Private(Problem p, Contact *c)
 {
   const ForestTables *t;

@@ -153,10 +153,11 @@ static PetscErrorCode MatchContacts_Private(Scene s, const Facets *f)
                       "%s: '%s' and '%s' share cell %d; the sides of a pair must have cells of their own", NodeWhere(c->node), c->nonmortar, c->mortar,
                       (int)cell);
     for (PetscInt v = 0; v < f->forest->first[1]; ++v)
-      PetscCheckInput(!(f->forest->boundary[v] >> group[0] & 1) || !(f->forest->boundary[v] >> group[1] & 1),
-                      "%s: '%s' and '%s' share vertex %d of the mesh; bodies in contact must have vertices of their own (gmsh merges points closer than 1e-8 of the "
-                      "model, and those that Extrude makes twice)",
-                      NodeWhere(c->node), c->nonmortar, c->mortar, (int)v);
+      PetscCheckInput(
+          !(f->forest->boundary[v] >> group[0] & 1) || !(f->forest->boundary[v] >> group[1] & 1),
+          "%s: '%s' and '%s' share vertex %d of the mesh; bodies in contact must have vertices of their own (gmsh merges points closer than 1e-8 of the "
+          "model, and those that Extrude makes twice)",
+          NodeWhere(c->node), c->nonmortar, c->mortar, (int)v);
     c->spec.nonmortar   = group[0];
     c->spec.mortar      = group[1];
     s->data.contacts[i] = c->spec;

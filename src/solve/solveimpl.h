@@ -23,18 +23,18 @@ struct _p_Solver {
   PetscReal     rtol;
   PetscBool     symmetric; /* LDL^T of the symmetric form */
   PetscInt      max_it, passes, cuts;
-  LinearKind    linear;   /* as asked */
-  Saddle        saddle;   /* iterative solution, NULL: direct */
+  LinearKind    linear; /* as asked */
+  Saddle        saddle; /* iterative solution, NULL: direct */
   PetscReal     linear_rtol;
-  KSP           refine;   /* GMRES on the factor of an earlier tangent; made when first needed */
+  KSP           refine;          /* GMRES on the factor of an earlier tangent; made when first needed */
   PetscBool     reuse, factored; /* may an earlier factor serve; there is one */
-  PetscBool     test;         /* -snes_test_jacobian was given */
-  SetHistory    pass_sets;    /* active sets of the passes of one linearisation */
-  SetHistory    iterate_sets; /* active sets of the Newton iterates */
-  PetscReal     first_norm;   /* residual after the first iteration */
-  PetscReal     best_norm;    /* least residual of this solve … */
-  PetscInt      best_iter;    /* … and its iteration */
-  PetscInt      halvings;     /* steps shortened in this solve */
+  PetscBool     test;            /* -snes_test_jacobian was given */
+  SetHistory    pass_sets;       /* active sets of the passes of one linearisation */
+  SetHistory    iterate_sets;    /* active sets of the Newton iterates */
+  PetscReal     first_norm;      /* residual after the first iteration */
+  PetscReal     best_norm;       /* least residual of this solve … */
+  PetscInt      best_iter;       /* … and its iteration */
+  PetscInt      halvings;        /* steps shortened in this solve */
   SolverReport *report;
 };
 

@@ -60,7 +60,7 @@ static inline void SheetMove(Sheet *c, const PetscReal axis[3], PetscReal angle,
   const PetscReal l = sqrt(axis[0] * axis[0] + axis[1] * axis[1] + axis[2] * axis[2]), k[3] = {axis[0] / l, axis[1] / l, axis[2] / l};
 
   for (PetscInt n = 0; n < c->s.num_nodes; n++) {
-    PetscReal      *x = c->x + 3 * n, y[3];
+    PetscReal      *x     = c->x + 3 * n, y[3];
     const PetscReal along = k[0] * x[0] + k[1] * x[1] + k[2] * x[2];
 
     for (int i = 0; i < 3; i++)
