@@ -16,8 +16,8 @@ struct _p_Saddle {
   IS        is_u, is_z;
   Mat       K, B, C, augmented; /* blocks of the last tangent; augmented = K + B^T G B */
   Mat       operator;
-  Vec       G, S, work_u, work_z, rhs;
-  PetscInt  iterations, first; /* of the last solve, of the first one with this hierarchy (0: none yet) */
+  Vec       G, S, scale, work_u, work_z, rhs; /* scale: of the rows of multipliers, to forces */
+  PetscInt  iterations, first;                /* of the last solve, of the first one with this hierarchy (0: none yet) */
 };
 
 static PetscErrorCode Blocks_Private(Saddle s, Vec x, Vec *u, Vec *z)
@@ -50,6 +50,7 @@ static PetscErrorCode Operator_Private(Mat A, Vec x, Vec y)
   PetscCall(MatMultTransposeAdd(s->B, xz, yu, yu));
   PetscCall(MatMult(s->C, xz, yz));
   PetscCall(MatMultAdd(s->B, xu, yz, yz));
+  PetscCall(VecPointwiseMult(yz, yz, s->scale));
   PetscCall(BlocksRestore_Private(s, x, &xu, &xz));
   PetscCall(BlocksRestore_Private(s, y, &yu, &yz));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -65,6 +66,7 @@ static PetscErrorCode Precondition_Private(PC pc, Vec x, Vec y)
   PetscCall(Blocks_Private(s, x, &xu, &xz));
   PetscCall(Blocks_Private(s, y, &yu, &yz));
   PetscCall(VecPointwiseDivide(yz, xz, s->S));
+  PetscCall(VecPointwiseDivide(yz, yz, s->scale));
   PetscCall(VecScale(yz, -1));
   PetscCall(MatMultTranspose(s->B, yz, s->work_u));
   PetscCall(VecAYPX(s->work_u, -1, xu));
@@ -125,12 +127,13 @@ static PetscErrorCode Square_Private(Mat A)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* G_j = (b_j D b_j^T) / (b_j b_j^T)^2, 0 for empty rows; S = 1/G or -C. */
+/* G_j = (b_j D b_j^T) / (b_j b_j^T)^2, 0 for empty rows; S = 1/G or -C. GMRES measures one norm over forces and gaps: rows of multipliers are scaled to
+   the forces that their augmentation would exert, so that the unit of length does not matter. */
 static PetscErrorCode Weights_Private(Saddle s)
 {
   Vec              D, square, weighted, C;
   Mat              B2;
-  PetscReal       *g, *sc;
+  PetscReal       *g, *sc, *d, sum[2] = {0, 0};
   const PetscReal *q, *w, *c;
   PetscInt         n;
 
@@ -152,10 +155,16 @@ static PetscErrorCode Weights_Private(Saddle s)
   PetscCall(VecGetArrayRead(square, &q));
   PetscCall(VecGetArrayRead(weighted, &w));
   PetscCall(VecGetArrayRead(C, &c));
+  PetscCall(VecGetArray(s->scale, &d));
   for (PetscInt j = 0; j < n; ++j) {
     g[j]  = q[j] > 0 ? w[j] / (q[j] * q[j]) : 0;
     sc[j] = g[j] > 0 ? 1 / g[j] : -c[j];
+    sum[0] += PetscSqrtReal(q[j]);
+    sum[1] += q[j] > 0;
   }
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 2, MPIU_REAL, MPI_SUM, PetscObjectComm((PetscObject)s->G)));
+  for (PetscInt j = 0; j < n; ++j) d[j] = g[j] > 0 ? g[j] * PetscSqrtReal(q[j]) : (sum[1] > 0 ? sum[0] / sum[1] : 1) / sc[j];
+  PetscCall(VecRestoreArray(s->scale, &d));
   PetscCall(VecRestoreArray(s->G, &g));
   PetscCall(VecRestoreArray(s->S, &sc));
   PetscCall(VecRestoreArrayRead(square, &q));
@@ -212,6 +221,7 @@ PetscErrorCode SaddleDestroy_Private(Saddle *saddle)
   PetscCall(MatDestroy(&s->operator));
   PetscCall(VecDestroy(&s->G));
   PetscCall(VecDestroy(&s->S));
+  PetscCall(VecDestroy(&s->scale));
   PetscCall(VecDestroy(&s->work_u));
   PetscCall(VecDestroy(&s->rhs));
   PetscCall(PetscFree(*saddle));
@@ -235,6 +245,7 @@ PetscErrorCode SaddleSetUp_Private(Saddle s, Mat A)
   if (!s->G) {
     PetscCall(MatCreateVecs(s->B, &s->work_u, &s->G));
     PetscCall(VecDuplicate(s->G, &s->S));
+    PetscCall(VecDuplicate(s->G, &s->scale));
   }
   PetscCall(Weights_Private(s));
   PetscCall(Augment_Private(s));
@@ -256,6 +267,7 @@ PetscErrorCode SaddleSolve_Private(Saddle s, Vec rhs, PetscReal rtol, PetscBool 
   PetscCall(VecPointwiseMult(weighted, s->G, z));
   PetscCall(MatMultTransposeAdd(s->B, weighted, u, u));
   PetscCall(VecDestroy(&weighted));
+  PetscCall(VecPointwiseMult(z, z, s->scale));
   PetscCall(BlocksRestore_Private(s, s->rhs, &u, &z));
   PetscCall(KSPSetTolerances(s->ksp, rtol, PETSC_DEFAULT, PETSC_DEFAULT, PETSC_DEFAULT));
   PetscCall(KSPSetInitialGuessNonzero(s->ksp, guess));
