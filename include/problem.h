@@ -73,6 +73,7 @@ typedef struct {
   const PetscBool   *has_multiplier;   /* [nonmortar.num_nodes]; hanging nodes: no, their z is interpolated */
   ContactPair        pair;             /* segments of this rank's nonmortar facets */
   PetscReal          area, min_gap;    /* totals over ranks */
+  PetscInt           unusable;         /* overlaps at the last evaluation that could not be used: facets folded over in the other's view (three dimensions) */
   PetscReal          adjusted;         /* largest mean initial gap, over or under, that was closed at a node (initial_gap: adjust) */
 } ContactView;
 

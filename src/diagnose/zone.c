@@ -65,6 +65,7 @@ PetscErrorCode BalanceZone(const ContactView *v, PairFigures *f)
   f->max_pressure = f->area = f->min_gap = f->max_gap = 0;
   f->active_nodes = f->covered_nodes = 0;
   f->adjusted                        = v->adjusted;
+  f->unusable                        = v->unusable;
   for (PetscInt n = 0; n < v->nonmortar.num_nodes; ++n) {
     if (!Covered_Private(v, n)) continue;
     const PetscReal gap = v->gap[n] / v->weight[n];

@@ -77,6 +77,7 @@ static void AddPair_Private(cJSON *contact, PetscInt dim, const char *name, cons
   AddNumber_Private(pair, "min_gap", f->min_gap);
   AddNumber_Private(pair, "max_gap", f->max_gap);
   AddNumber_Private(pair, "adjusted_gap", f->adjusted);
+  if (dim == 3) AddNumber_Private(pair, "unusable_overlaps", (PetscReal)f->unusable);
 }
 
 static void AddForces_Private(cJSON *root, const SceneData *scene, const Balance *b)

@@ -184,9 +184,11 @@ static PetscErrorCode NodeSums_Private(Problem p, Contact *c)
 {
   const PetscInt n = c->side[0].num_nodes;
   PetscReal     *buffer;
+  PetscInt       unusable;
 
   PetscFunctionBegin;
-  PetscCall(PetscCalloc1(2 * n + 1, &buffer));
+  PetscCall(ContactPairGetDegenerate(c->pair, &unusable));
+  PetscCall(PetscCalloc1(2 * n + 2, &buffer));
   for (PetscInt i = 0; i < c->num_facets; ++i) {
     const ContactFacet *e = &c->facets[i];
     if (!c->mine[e->facet]) continue;
@@ -196,10 +198,12 @@ static PetscErrorCode NodeSums_Private(Problem p, Contact *c)
     }
     buffer[2 * n] += e->area;
   }
-  if (p->size > 1) PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, buffer, (PetscMPIInt)(2 * n + 1), MPIU_REAL, MPI_SUM, p->comm));
+  buffer[2 * n + 1] = (PetscReal)unusable;
+  if (p->size > 1) PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, buffer, (PetscMPIInt)(2 * n + 2), MPIU_REAL, MPI_SUM, p->comm));
   PetscCall(PetscArraycpy(c->gap, buffer, n));
   PetscCall(PetscArraycpy(c->weight, buffer + n, n));
-  c->view.area = buffer[2 * n];
+  c->view.area     = buffer[2 * n];
+  c->view.unusable = (PetscInt)buffer[2 * n + 1];
   PetscCall(PetscFree(buffer));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

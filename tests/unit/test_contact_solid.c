@@ -151,9 +151,41 @@ static void test_dual(void **state)
   CheckKind(&(Kind){PETSC_FALSE, PETSC_TRUE}, SEEDS, 1e-7);
 }
 
+/* A mortar facet pushed in at a corner until it is not convex: counted, left out, nothing fails. */
+static void test_unusable(void **state)
+{
+  const ContactSpec   spec = {.standard = PETSC_FALSE};
+  const ContactFacet *facets;
+  Sheet               nonmortar, mortar;
+  ContactPair         pair;
+  PetscInt            num, unusable;
+  PetscReal           area[2];
+  PetscBool           failed;
+
+  (void)state;
+  SheetCreate(&nonmortar, 2, 2, 0, 1, 0, PETSC_TRUE);
+  SheetCreate(&mortar, 2, 2, 0, 1, 0.01, PETSC_FALSE);
+  CHECK_CALL(ContactPairCreate(3, PETSC_FALSE, &spec, &pair));
+  SearchAll(pair, &nonmortar, &mortar, 0.5, 0.3);
+  for (int folded = 0; folded < 2; folded++) {
+    if (folded) mortar.x[0] = mortar.x[1] = 0.35; /* beyond the diagonal of its facet */
+    CHECK_CALL(ContactPairEvaluate(pair, &nonmortar.s, &mortar.s, NULL, NULL, PETSC_TRUE, PETSC_FALSE, &num, &facets, &failed));
+    CHECK_CALL(ContactPairGetDegenerate(pair, &unusable));
+    assert_false(failed);
+    assert_int_equal(unusable > 0, folded);
+    area[folded] = 0;
+    for (PetscInt i = 0; i < num; i++) area[folded] += facets[i].area;
+  }
+  assert_near(area[0], 1, 1e-12);
+  assert_near(area[1], 0.75, 1e-12);
+  SheetDestroy(&nonmortar);
+  SheetDestroy(&mortar);
+  CHECK_CALL(ContactPairDestroy(&pair));
+}
+
 int main(int argc, char **argv)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(test_standard), cmocka_unit_test(test_dual)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(test_standard), cmocka_unit_test(test_dual), cmocka_unit_test(test_unusable)};
   int                     failed;
 
   if (PetscInitialize(&argc, &argv, NULL, NULL)) return 1;
