@@ -72,6 +72,12 @@ static inline PetscReal Dot3(const PetscReal a[3], const PetscReal b[3])
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
+/* c = a x b; c is none of them. */
+static inline void Cross3(const PetscReal a[3], const PetscReal b[3], PetscReal c[3])
+{
+  for (int i = 0; i < 3; i++) c[i] = a[(i + 1) % 3] * b[(i + 2) % 3] - a[(i + 2) % 3] * b[(i + 1) % 3];
+}
+
 /* ---- lanes: several numbers in one register, each of another point or cell (GCC vector extension, portable) --------- */
 
 #pragma GCC diagnostic ignored "-Wpsabi" /* lanes never cross a translation unit by value */

@@ -48,6 +48,19 @@ typedef struct {
   PetscReal interference;      /* overlap at the reference positions, besides that of the geometry */
 } ContactSpec;
 
+/* Vector of a facet with these nodes, x[..][dim], outward and as long as its length or area: edge x the axis out of the plane; in space half the product of the
+   diagonals, the exact vector area of the bilinear face. */
+static inline void ContactFacetVector(PetscInt dim, const PetscReal x[], const PetscInt node[], PetscReal N[3])
+{
+  PetscReal d[3] = {0, 0, 0}, e[3] = {0, 0, 1};
+
+  for (PetscInt c = 0; c < dim; c++) {
+    d[c] = x[dim * node[dim - 1] + c] - x[dim * node[0] + c];
+    if (dim == 3) e[c] = 0.5 * (x[3 * node[3] + c] - x[3 * node[1] + c]);
+  }
+  Cross3(d, e, N);
+}
+
 typedef struct _p_ContactPair *ContactPair;
 
 /* One nonmortar facet with everything it meets. Nodes: first those that carry its multipliers (2-D: the edge's two; 3-D: the facet's, hanging ones replaced by

@@ -84,21 +84,15 @@ static void Normals_Private(ContactPair pair, const ContactSurface *s)
   for (PetscInt i = 0; i < 3 * s->num_nodes; i++) pair->normal[i] = 0;
   for (PetscInt f = 0; f < s->num_facets; f++) {
     const PetscInt *node = s->facets + 4 * f;
-    PetscReal       d[3], e[3], N[3], length = 0;
+    PetscReal       N[3], length;
 
-    for (int i = 0; i < 3; i++) {
-      d[i] = s->x[3 * node[2] + i] - s->x[3 * node[0] + i];
-      e[i] = s->x[3 * node[3] + i] - s->x[3 * node[1] + i];
-    }
-    for (int i = 0; i < 3; i++) {
-      N[i] = d[(i + 1) % 3] * e[(i + 2) % 3] - d[(i + 2) % 3] * e[(i + 1) % 3];
-      length += N[i] * N[i];
-    }
+    ContactFacetVector(3, s->x, node, N);
+    length = PetscSqrtReal(Dot3(N, N));
     for (int a = 0; a < 4 && length > 0; a++)
-      for (int i = 0; i < 3; i++) pair->normal[3 * node[a] + i] += N[i] / PetscSqrtReal(length);
+      for (int i = 0; i < 3; i++) pair->normal[3 * node[a] + i] += N[i] / length;
   }
   for (PetscInt n = 0; n < s->num_nodes; n++) {
-    PetscReal *m = pair->normal + 3 * n, length = PetscSqrtReal(m[0] * m[0] + m[1] * m[1] + m[2] * m[2]);
+    PetscReal *m = pair->normal + 3 * n, length = PetscSqrtReal(Dot3(m, m));
 
     for (int i = 0; i < 3 && length > 0; i++) m[i] /= length;
   }
@@ -356,14 +350,12 @@ static void CarryHessian_Private(const FacetWork w, PetscReal half[], PetscReal 
 }
 
 /* Weighted gaps, weights and what derivatives are asked for. */
-static PetscErrorCode Result_Private(const EvaluateContext *ctx, FacetWork w, const FacetWeights *f, const PetscReal z[4], PetscBool derivatives,
-                                     PetscBool hessian, ContactFacet *out)
+static PetscErrorCode Result_Private(FacetWork w, const FacetWeights *f, const PetscReal z[4], PetscBool derivatives, PetscBool hessian, ContactFacet *out)
 {
   const PetscInt n = 3 * w->num_vertices, nn = 3 * w->num_nodes, nr = w->num_rows;
   PetscReal      factor[FACET_MOMENTS], *gap, *weight, *dgap, *dweight, *half;
 
   PetscFunctionBegin;
-  (void)ctx;
   PetscCall(Reserve_Private(w->store, 2 * nr, &gap));
   weight = gap + nr;
   for (int j = 0; j < 4; j++)
@@ -461,7 +453,7 @@ PetscErrorCode ContactFacetsEvaluate(const EvaluateContext *ctx, PetscBool *fail
     PetscCall(Moments_Private(pair, w, derivatives));
     if (w->num_overlaps == 0 || !ContactFacetWeights(pair->standard, w->moments.q, z, &f)) continue;
     PetscCall(Segments_Private(pair, slot, w));
-    PetscCall(Result_Private(ctx, w, &f, z, derivatives, (PetscBool)(ctx->hessian && loaded), out));
+    PetscCall(Result_Private(w, &f, z, derivatives, (PetscBool)(ctx->hessian && loaded), out));
     PetscCall(ContactGrow(pair->num_ids + w->num_nodes, sizeof(PetscInt), &pair->size_ids, &pair->ids));
     PetscCall(PetscArraycpy(pair->ids + pair->num_ids, w->node, w->num_nodes));
     pair->num_ids += w->num_nodes;

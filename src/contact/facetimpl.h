@@ -37,7 +37,6 @@ typedef struct {
   PetscReal v[FACET_VERTICES][2];
   int8_t    line[FACET_VERTICES]; /* from vertex k to k + 1 */
   PetscReal area;
-  PetscReal margin[4]; /* of clipping: see clip.c */
 } Overlap;
 
 extern const PetscReal ContactMixed[4]; /* d2 N_a / dxi_1 dxi_2 */

@@ -5,18 +5,11 @@
    With Y = (X_1, X_2) - s X_3 and p_i the vector that holds X_3 at the places of Y_i:  dU = (1 - sum_i p_i sigma_i^T) dX,  d2Y = -2 ds dX_3 - d2s X_3. */
 #include "facetimpl.h"
 
-static void Cross_Private(const PetscReal a[3], const PetscReal b[3], PetscReal c[3])
-{
-  c[0] = a[1] * b[2] - a[2] * b[1];
-  c[1] = a[2] * b[0] - a[0] * b[2];
-  c[2] = a[0] * b[1] - a[1] * b[0];
-}
-
 void ContactFacetLocal(const FacetFrame *f, const PetscReal x[3], PetscReal X[3])
 {
   const PetscReal r[3] = {x[0] - f->origin[0], x[1] - f->origin[1], x[2] - f->origin[2]};
 
-  for (int i = 0; i < 3; i++) X[i] = f->E[i][0] * r[0] + f->E[i][1] * r[1] + f->E[i][2] * r[2];
+  for (int i = 0; i < 3; i++) X[i] = Dot3(f->E[i], r);
 }
 
 /* Places of the diagonals among the 12 numbers: d_1 = X_2 - X_0, d_2 = X_3 - X_1. */
@@ -47,15 +40,15 @@ PetscBool ContactFacetFrame(const PetscReal x[4][3], FacetFrame *f)
     e[i]         = x[3][i] - x[1][i];
     f->origin[i] = 0.25 * (x[0][i] + x[1][i] + x[2][i] + x[3][i]);
   }
-  Cross_Private(d, e, f->E[2]);
-  length = PetscSqrtReal(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
-  normal = PetscSqrtReal(f->E[2][0] * f->E[2][0] + f->E[2][1] * f->E[2][1] + f->E[2][2] * f->E[2][2]);
+  Cross3(d, e, f->E[2]);
+  length = PetscSqrtReal(Dot3(d, d));
+  normal = PetscSqrtReal(Dot3(f->E[2], f->E[2]));
   if (!(normal > 0)) return PETSC_FALSE;
   for (int i = 0; i < 3; i++) {
     f->E[0][i] = d[i] / length;
     f->E[2][i] /= normal;
   }
-  Cross_Private(f->E[2], f->E[0], f->E[1]);
+  Cross3(f->E[2], f->E[0], f->E[1]);
   f->normal3 = normal;
   f->area    = 0.5 * normal;
   for (int a = 0; a < 4; a++) {

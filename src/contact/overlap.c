@@ -284,14 +284,13 @@ static void Weighting_Private(const PlanePoint *s, const PetscReal g[4], const P
 }
 
 /* One Gauss point: gradient (30 numbers) and four outer products left x right. Returns f. */
-static PetscReal PointHessian_Private(const Overlap *o, const OverlapPoint *p, const PetscReal beta[3], const PetscReal g[4], const PetscReal D[4][4],
-                                      PetscReal gradient[WIDTH], PetscReal left[4][WIDTH], PetscReal right[4][WIDTH])
+static PetscReal PointHessian_Private(const OverlapPoint *p, const PetscReal beta[3], const PetscReal g[4], const PetscReal D[4][4], PetscReal gradient[WIDTH],
+                                      PetscReal left[4][WIDTH], PetscReal right[4][WIDTH])
 {
   const PlanePoint *s = &p->p[0], *m = &p->p[1];
   PetscReal         fs[2], fm[2], A[2], B[2], theta[WIDTH], F[2][2], E;
   Weighting         w;
 
-  (void)o;
   Weighting_Private(s, g, D, &w);
   for (int i = 0; i < 2; i++) {
     fs[i] = w.d2[i] + w.d1[i] * p->gap - w.Q1 * p->dh[i];
@@ -381,7 +380,7 @@ static PetscBool Triangle_Private(const Overlap *o, PetscInt k, const PetscReal 
   for (int j = 0; j < WIDTH; j++) sum[j] = 0;
   for (int i = 0; i < CONTACT_RULE; i++) {
     if (!Point_Private(o, k, i, &p)) return PETSC_FALSE;
-    mean += ContactRuleWeight[i] * PointHessian_Private(o, &p, ContactRulePoint[i], g, D, gradient, left, right);
+    mean += ContactRuleWeight[i] * PointHessian_Private(&p, ContactRulePoint[i], g, D, gradient, left, right);
     for (int j = 0; j < WIDTH; j++) sum[j] += ContactRuleWeight[i] * gradient[j];
     for (int a = 0; a < 30; a++)
       for (int l = 0; l < 4; l++) {

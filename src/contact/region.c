@@ -46,19 +46,14 @@ void ContactRegionCreate(ContactPair pair, const ContactSurface *s, PetscInt fac
 
 PetscBool ContactRegionMeets(const FacetRegion *r, const ContactSurface *mortar, PetscInt facet)
 {
-  PetscReal x[4][3], X[4][3], d[3], e[3], along = 0, length = 0;
+  static const PetscInt node[4] = {0, 1, 2, 3};
+  PetscReal             x[4][3], X[4][3], N[3];
 
   if (r->reach < 0) return PETSC_FALSE;
   Corners_Private(mortar, facet, x);
   for (int a = 0; a < 4; a++) ContactFacetLocal(&r->frame, x[a], X[a]);
-  for (int i = 0; i < 3; i++) d[i] = X[2][i] - X[0][i], e[i] = X[3][i] - X[1][i];
-  for (int i = 0; i < 3; i++) {
-    const PetscReal N = d[(i + 1) % 3] * e[(i + 2) % 3] - d[(i + 2) % 3] * e[(i + 1) % 3];
-
-    along = N; /* the last one: along the facet's normal */
-    length += N * N;
-  }
-  if (!(along < -CONTACT_OPPOSE * PetscSqrtReal(length))) return PETSC_FALSE;
+  ContactFacetVector(3, X[0], node, N);
+  if (!(N[2] < -CONTACT_OPPOSE * PetscSqrtReal(Dot3(N, N)))) return PETSC_FALSE; /* N[2]: along the facet's own normal */
   for (int i = 0; i < 3; i++) {
     PetscReal lo[2] = {PETSC_MAX_REAL, PETSC_MAX_REAL}, hi[2] = {-PETSC_MAX_REAL, -PETSC_MAX_REAL};
 

@@ -32,15 +32,16 @@ static PetscReal SideForces_Private(const SurfaceView *s, PetscBool small, Petsc
 
   for (PetscInt c = 0; c < 3; ++c) force[c] = moment[c] = 0;
   for (PetscInt n = 0; n < s->num_nodes; ++n) {
-    PetscReal f[3] = {0, 0, 0}, x[3] = {0, 0, 0};
+    PetscReal f[3] = {0, 0, 0}, x[3] = {0, 0, 0}, m[3];
 
     for (PetscInt c = 0; c < s->dim; ++c) {
       f[c] = s->force[s->dim * n + c];
       x[c] = (small ? s->X : s->x)[s->dim * n + c];
     }
+    Cross3(x, f, m);
     for (PetscInt c = 0; c < 3; ++c) {
       force[c] += f[c];
-      moment[c] += x[(c + 1) % 3] * f[(c + 2) % 3] - x[(c + 2) % 3] * f[(c + 1) % 3];
+      moment[c] += m[c];
     }
     sum += Norm_Private(f);
   }

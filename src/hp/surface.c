@@ -92,7 +92,7 @@ static void AreaVector_Private(PetscInt dim, PetscReal X[][3], PetscReal normal[
     a[c] = X[dim == 2 ? 1 : 3][c] - X[0][c];
     if (dim == 3) b[c] = 0.5 * (X[2][c] - X[1][c]);
   }
-  for (PetscInt c = 0; c < 3; ++c) normal[c] = a[(c + 1) % 3] * b[(c + 2) % 3] - a[(c + 2) % 3] * b[(c + 1) % 3];
+  Cross3(a, b, normal);
 }
 
 /* Hats and their dual functions 2 - 3s, 3s - 1 at a point, products of those along the axes. */

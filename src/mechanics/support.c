@@ -60,9 +60,9 @@ static PetscErrorCode FacetNormal_Private(Forest forest, const ForestTables *t, 
     if (t->dim == 3) b[c] = corner[2][c] - corner[1][c];
   }
   const PetscReal sign = (direction == 1 ? -1 : 1) * (high ? 1 : -1);
-  for (PetscInt c = 0; c < 3; ++c) normal[c] = sign * (a[(c + 1) % 3] * b[(c + 2) % 3] - a[(c + 2) % 3] * b[(c + 1) % 3]);
+  Cross3(a, b, normal);
   const PetscReal length = PetscSqrtReal(Dot3(normal, normal));
-  for (PetscInt c = 0; c < 3; ++c) normal[c] /= length;
+  for (PetscInt c = 0; c < 3; ++c) normal[c] *= sign / length;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -42,23 +42,12 @@ void OutputFacetPoint(const SurfaceView *s, const PetscReal x[], PetscInt facet,
   }
 }
 
-static void Cross_Private(const PetscReal a[3], const PetscReal b[3], PetscReal c[3])
-{
-  for (PetscInt i = 0; i < 3; ++i) c[i] = a[(i + 1) % 3] * b[(i + 2) % 3] - a[(i + 2) % 3] * b[(i + 1) % 3];
-}
-
-/* Two dimensions: the edge x the axis out of the plane; three: half the product of the diagonals, the vector area. */
 void OutputFacetNormal(const SurfaceView *s, const PetscReal x[], PetscInt facet, PetscReal normal[3])
 {
-  const PetscInt *node = s->facets + s->corners * facet;
-  PetscReal       d[3] = {0, 0, 0}, e[3] = {0, 0, 1}, length;
+  PetscReal length;
 
-  for (PetscInt c = 0; c < s->dim; ++c) {
-    d[c] = x[s->dim * node[s->corners / 2] + c] - x[s->dim * node[0] + c];
-    if (s->dim == 3) e[c] = x[3 * node[3] + c] - x[3 * node[1] + c];
-  }
-  Cross_Private(d, e, normal);
-  length = PetscSqrtReal(normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2]);
+  ContactFacetVector(s->dim, x, s->facets + s->corners * facet, normal);
+  length = PetscSqrtReal(Dot3(normal, normal));
   for (PetscInt c = 0; c < 3 && length > 0; ++c) normal[c] /= length;
 }
 
@@ -126,14 +115,14 @@ static PetscInt PolygonPoints_Private(const ContactView *v, const PetscReal x[],
       d[c] = corner[k][c] - corner[0][c];
       e[c] = corner[k + 1][c] - corner[0][c];
     }
-    Cross_Private(d, e, normal);
+    Cross3(d, e, normal);
     for (PetscInt q = 0; q < 3; ++q, ++num) {
       const PetscInt a = fan[q], b = fan[(q + 1) % 3];
       for (PetscInt c = 0; c < 2; ++c) {
         point[num].xi[c]  = 0.5 * (s->xi[a][c] + s->xi[b][c]);
         point[num].eta[c] = 0.5 * (s->eta[a][c] + s->eta[b][c]);
       }
-      point[num].weight = PetscSqrtReal(normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2]) / 6;
+      point[num].weight = PetscSqrtReal(Dot3(normal, normal)) / 6;
     }
   }
   return num;

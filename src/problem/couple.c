@@ -6,20 +6,10 @@
 /* Length or area of a facet at the reference positions (axisymmetric: area). */
 static PetscReal FacetMeasure_Private(const Surface *s, PetscInt f, PetscBool axisymmetric)
 {
-  const PetscInt  *node = s->facets + s->corners * f;
-  const PetscReal *a = s->X + s->dim * node[0], *b = s->X + s->dim * node[1];
-  PetscReal        d[3], e[3], square = 0;
+  const PetscInt *node  = s->facets + s->corners * f;
+  const PetscReal plain = SurfaceMeasure_Private(s, s->X, f);
 
-  if (s->dim == 2) {
-    const PetscReal length = PetscSqrtReal(PetscSqr(b[0] - a[0]) + PetscSqr(b[1] - a[1]));
-    return axisymmetric ? length * PETSC_PI * (a[0] + b[0]) : length;
-  }
-  for (PetscInt c = 0; c < 3; ++c) {
-    d[c] = s->X[3 * node[2] + c] - a[c];
-    e[c] = s->X[3 * node[3] + c] - b[c];
-  }
-  for (PetscInt c = 0; c < 3; ++c) square += PetscSqr(d[c] * e[(c + 1) % 3] - d[(c + 1) % 3] * e[c]);
-  return 0.5 * PetscSqrtReal(square);
+  return axisymmetric ? plain * PETSC_PI * (s->X[2 * node[0]] + s->X[2 * node[1]]) : plain;
 }
 
 static PetscReal Young_Private(const MaterialSpec *m)
@@ -66,17 +56,11 @@ static PetscErrorCode NodeScales_Private(Problem p, Contact *c)
 /* Mean unit normal of the facets at a node, reference positions, three dimensions. */
 static void NodeNormal_Private(const Surface *s, PetscInt n, PetscReal normal[3])
 {
-  PetscReal length;
+  PetscReal N[3], length;
 
   for (PetscInt c = 0; c < 3; ++c) normal[c] = 0;
   for (PetscInt k = s->node_first[n]; k < s->node_first[n + 1]; ++k) {
-    const PetscInt *node = s->facets + 4 * s->node_facet[k];
-    PetscReal       d[3], e[3], N[3];
-    for (PetscInt c = 0; c < 3; ++c) {
-      d[c] = s->X[3 * node[2] + c] - s->X[3 * node[0] + c];
-      e[c] = s->X[3 * node[3] + c] - s->X[3 * node[1] + c];
-    }
-    for (PetscInt c = 0; c < 3; ++c) N[c] = d[(c + 1) % 3] * e[(c + 2) % 3] - d[(c + 2) % 3] * e[(c + 1) % 3];
+    ContactFacetVector(3, s->X, s->facets + 4 * s->node_facet[k], N);
     length = PetscSqrtReal(Dot3(N, N));
     for (PetscInt c = 0; c < 3; ++c) normal[c] += N[c] / length;
   }

@@ -8,22 +8,6 @@
 
 #define FAR 0.1 /* mean open gap in lengths of facets */
 
-/* Length of an edge, square root of the area of a face, current. */
-static PetscReal Length_Private(const Surface *s, PetscInt f)
-{
-  const PetscInt  *node = s->facets + s->corners * f;
-  const PetscReal *a = s->x + s->dim * node[0], *b = s->x + s->dim * node[1];
-  PetscReal        d[3], e[3], square = 0;
-
-  if (s->dim == 2) return PetscSqrtReal(PetscSqr(b[0] - a[0]) + PetscSqr(b[1] - a[1]));
-  for (PetscInt c = 0; c < 3; ++c) {
-    d[c] = s->x[3 * node[2] + c] - a[c];
-    e[c] = s->x[3 * node[3] + c] - b[c];
-  }
-  for (PetscInt c = 0; c < 3; ++c) square += PetscSqr(d[c] * e[(c + 1) % 3] - d[(c + 1) % 3] * e[c]);
-  return PetscSqrtReal(0.5 * PetscSqrtReal(square));
-}
-
 /* Is the mean of gap / length of facet, weighted with the forces of the nodes at the last evaluation, above FAR? The same on every rank. */
 PetscBool ContactIsFar_Private(const Contact *c)
 {
@@ -31,7 +15,7 @@ PetscBool ContactIsFar_Private(const Contact *c)
   PetscReal      open = 0, force = 0;
 
   for (PetscInt e = 0; e < s->num_facets; ++e) {
-    const PetscReal length = Length_Private(s, e);
+    const PetscReal measure = SurfaceMeasure_Private(s, s->x, e), length = s->dim == 2 ? measure : PetscSqrtReal(measure);
     for (PetscInt k = 0; k < s->corners; ++k) {
       const PetscInt j = s->facets[s->corners * e + k];
       open += c->z[j] * c->gap[j];

@@ -96,7 +96,9 @@ PetscErrorCode SurfaceCreate_Private(Problem, PetscInt group, Surface *);
 PetscErrorCode SurfaceDestroy_Private(Surface *);
 PetscErrorCode SurfaceIndices_Private(Problem, Surface *);
 ContactSurface SurfaceAt_Private(const Surface *, const PetscReal x[]);
-void           SurfaceFollow_Private(const Surface *, PetscInt num, PetscReal values[]);
+/* Length or area of a facet at positions x. */
+PetscReal SurfaceMeasure_Private(const Surface *, const PetscReal x[], PetscInt facet);
+void      SurfaceFollow_Private(const Surface *, PetscInt num, PetscReal values[]);
 /* Cartesian values at the nodes from a local array of dofs, added to base (NULL: 0); replicated. */
 PetscErrorCode SurfaceGather_Private(Problem, const Surface *, const PetscReal local[], const PetscReal base[], PetscReal values[]);
 

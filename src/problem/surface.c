@@ -244,6 +244,14 @@ PetscErrorCode SurfaceDestroy_Private(Surface *s)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscReal SurfaceMeasure_Private(const Surface *s, const PetscReal x[], PetscInt facet)
+{
+  PetscReal N[3];
+
+  ContactFacetVector(s->dim, x, s->facets + s->corners * facet, N);
+  return PetscSqrtReal(Dot3(N, N));
+}
+
 /* What the contact module is told about the surface at positions x. */
 ContactSurface SurfaceAt_Private(const Surface *s, const PetscReal x[])
 {

@@ -14,7 +14,7 @@ struct _p_Saddle {
   KSP       ksp;
   Multigrid multigrid;
   IS        is_u, is_z;
-  Mat       K, B, C, augmented; /* blocks of the last tangent; augmented = K + B^T G B */
+  Mat       K, B, C; /* blocks of the last tangent; K with the augmentation B^T G B */
   Mat       operator;
   Vec       G, S, scale, work_u, work_z, rhs; /* scale: of the rows of multipliers, to forces */
   PetscInt  iterations, first;                /* of the last solve, of the first one with this hierarchy (0: none yet) */
@@ -46,7 +46,7 @@ static PetscErrorCode Operator_Private(Mat A, Vec x, Vec y)
   PetscCall(MatShellGetContext(A, &s));
   PetscCall(Blocks_Private(s, x, &xu, &xz));
   PetscCall(Blocks_Private(s, y, &yu, &yz));
-  PetscCall(MatMult(s->augmented, xu, yu));
+  PetscCall(MatMult(s->K, xu, yu));
   PetscCall(MatMultTransposeAdd(s->B, xz, yu, yu));
   PetscCall(MatMult(s->C, xz, yz));
   PetscCall(MatMultAdd(s->B, xu, yz, yz));
@@ -178,7 +178,7 @@ static PetscErrorCode Weights_Private(Saddle s)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* augmented = K + B^T G B */
+/* K += B^T G B */
 static PetscErrorCode Augment_Private(Saddle s)
 {
   Mat GB, product;
@@ -187,12 +187,10 @@ static PetscErrorCode Augment_Private(Saddle s)
   PetscCall(MatDuplicate(s->B, MAT_COPY_VALUES, &GB));
   PetscCall(MatDiagonalScale(GB, s->G, NULL));
   PetscCall(MatTransposeMatMult(s->B, GB, MAT_INITIAL_MATRIX, PETSC_DEFAULT, &product));
-  PetscCall(MatDestroy(&s->augmented));
-  PetscCall(MatDuplicate(s->K, MAT_COPY_VALUES, &s->augmented));
-  PetscCall(MatAXPY(s->augmented, 1, product, DIFFERENT_NONZERO_PATTERN));
+  PetscCall(MatAXPY(s->K, 1, product, DIFFERENT_NONZERO_PATTERN));
   PetscCall(MatDestroy(&product));
   PetscCall(MatDestroy(&GB));
-  PetscCall(MatSetOption(s->augmented, MAT_SYMMETRIC, PETSC_TRUE));
+  PetscCall(MatSetOption(s->K, MAT_SYMMETRIC, PETSC_TRUE));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -217,7 +215,6 @@ PetscErrorCode SaddleDestroy_Private(Saddle *saddle)
   PetscCall(MatDestroy(&s->K));
   PetscCall(MatDestroy(&s->B));
   PetscCall(MatDestroy(&s->C));
-  PetscCall(MatDestroy(&s->augmented));
   PetscCall(MatDestroy(&s->operator));
   PetscCall(VecDestroy(&s->G));
   PetscCall(VecDestroy(&s->S));
@@ -249,7 +246,7 @@ PetscErrorCode SaddleSetUp_Private(Saddle s, Mat A)
   }
   PetscCall(Weights_Private(s));
   PetscCall(Augment_Private(s));
-  PetscCall(MultigridSetUp_Private(s->multigrid, s->augmented, keep));
+  PetscCall(MultigridSetUp_Private(s->multigrid, s->K, keep));
   PetscCall(KSPSetOperators(s->ksp, s->operator, s->operator));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
