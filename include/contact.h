@@ -34,6 +34,13 @@ typedef struct {
   const PetscInt  *hang;        /* three dimensions: [num_nodes+1] offsets of a hanging node's row, empty: a node of its own; NULL: none hangs */
   const PetscInt  *hang_master; /* nodes of this surface that do not hang */
   const PetscReal *hang_weight;
+  /* Facets of higher order (all NULL: facets have order 1 and their corners for nodes). Nodes of facet f on the Gauss-Lobatto lattice of its order,
+     lexicographic, first direction from corner 0 to 1, second from corner 0 to 3: lattice[first[f] .. first[f+1]). Nodes on a side of lower order hang on that
+     side's. */
+  const int8_t    *order; /* [num_facets] */
+  const PetscInt  *first; /* [num_facets+1] */
+  const PetscInt  *lattice;
+  const PetscReal *X; /* [num_nodes][dim] reference positions, those of hanging nodes included */
 } ContactSurface;
 
 typedef struct {

@@ -92,6 +92,7 @@ PetscErrorCode ProblemWork_Private(Problem, PetscInt size);
 /* increment (local array) = free dofs of dx + share of the prescribed motion still to come. */
 PetscErrorCode ProblemIncrement_Private(Problem, Vec dx, PetscReal share);
 
+PetscErrorCode SurfaceFields_Private(Problem, Surface *); /* after the topology */
 PetscErrorCode SurfaceCreate_Private(Problem, PetscInt group, Surface *);
 PetscErrorCode SurfaceDestroy_Private(Surface *);
 PetscErrorCode SurfaceIndices_Private(Problem, Surface *);

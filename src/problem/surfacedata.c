@@ -1,0 +1,107 @@
+/* Fields of the nodes of a contact surface: positions, supports, places in the problem's vector, and their exchange between ranks. */
+#include "problemimpl.h"
+
+/* A node where the surface ends on a plane along which it may only slide: its normal is averaged with its mirror image. A support that holds the end across the
+   surface is no such plane: the image would cancel the normal. */
+static void NodeMirror_Private(Surface *s, PetscInt n, PetscInt fixed)
+{
+  if (s->node_first[n + 1] - s->node_first[n] > 1) return;
+  if (fixed != 1 && fixed != 2) return;
+  const PetscInt   k = fixed == 1 ? 0 : 1, edge = s->node_facet[s->node_first[n]];
+  const PetscReal *plane = s->frame + 4 * n + 2 * k, *a = s->X + 2 * s->facets[2 * edge], *b = s->X + 2 * s->facets[2 * edge + 1];
+  const PetscReal  along = plane[0] * (b[0] - a[0]) + plane[1] * (b[1] - a[1]), across = plane[0] * (b[1] - a[1]) - plane[1] * (b[0] - a[0]);
+  if (PetscAbsReal(along) < PetscAbsReal(across)) return;
+  for (PetscInt c = 0; c < 2; ++c) s->mirror[2 * n + c] = s->frame[4 * n + 2 * k + c];
+}
+
+/* Fields every rank needs of nodes it may not have: one reduction from the owners. */
+PetscErrorCode SurfaceFields_Private(Problem p, Surface *s)
+{
+  const PetscInt      dim = s->dim, room = dim + dim * dim + 1; /* of a node: position, frame, fixed bits */
+  const HPTables     *v;
+  const ForestTables *t;
+  PetscInt           *number;
+  PetscReal          *buffer;
+
+  PetscFunctionBegin;
+  PetscCall(HPSpaceGetTables(p->space, &v));
+  PetscCall(ForestGetTables(p->forest, &t));
+  PetscCall(PetscMalloc3(s->num_nodes, &s->local, s->num_nodes, &s->owned, dim * s->num_nodes, &s->dof));
+  PetscCall(PetscCalloc4(dim * s->num_nodes, &s->X, dim * s->num_nodes, &s->x, dim * s->num_nodes, &s->mirror, dim * dim * s->num_nodes, &s->frame));
+  PetscCall(PetscCalloc2(dim * s->num_nodes, &s->du, dim * s->num_nodes, &s->force));
+  PetscCall(PetscMalloc1(t->first[1], &number));
+  for (PetscInt e = 0; e < t->first[1]; ++e) number[e] = -1;
+  for (PetscInt n = 0; n < v->num_nodes; ++n) {
+    if (v->node_entity[n] < t->first[1]) number[v->node_entity[n]] = n;
+  }
+  PetscCall(PetscCalloc1(room * s->num_nodes, &buffer));
+  for (PetscInt n = 0; n < s->num_nodes; ++n) {
+    s->local[n] = number[s->node_entity[n]];
+    s->owned[n] = (PetscBool)(t->leaf_rank[t->entity_leaf[s->node_entity[n]]] == p->rank);
+    if (!s->owned[n]) continue;
+    const PetscReal *frame;
+    PetscReal       *b = buffer + room * n;
+    PetscCall(HPSpaceGetFrame(p->space, s->local[n], &frame));
+    for (PetscInt c = 0; c < dim; ++c) b[c] = v->X[3 * s->local[n] + c];
+    for (PetscInt k = 0; k < dim; ++k)
+      for (PetscInt c = 0; c < dim; ++c) b[dim + dim * k + c] = frame ? frame[3 * k + c] : (PetscReal)(k == c);
+    b[room - 1] = p->supports.fixed[s->local[n]];
+    if (s->hang[n + 1] > s->hang[n]) s->owned[n] = PETSC_FALSE; /* its position is its own, its unknowns are its masters' */
+  }
+  PetscCall(PetscFree(number));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, buffer, (PetscMPIInt)(room * s->num_nodes), MPIU_REAL, MPI_SUM, p->comm));
+  for (PetscInt n = 0; n < s->num_nodes; ++n) {
+    PetscCall(PetscArraycpy(s->X + dim * n, buffer + room * n, dim));
+    PetscCall(PetscArraycpy(s->frame + dim * dim * n, buffer + room * n + dim, dim * dim));
+    for (PetscInt c = 0; c < dim; ++c) s->dof[dim * n + c] = (PetscInt)buffer[room * n + room - 1]; /* the fixed bits, until the indices are known */
+  }
+  for (PetscInt n = 0; dim == 2 && n < s->num_nodes; ++n) NodeMirror_Private(s, n, s->dof[2 * n]);
+  PetscCall(PetscArraycpy(s->x, s->X, dim * s->num_nodes));
+  PetscCall(PetscFree(buffer));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Indices of the nodes' dofs in the problem's vector, from their owners (stored +2 so that a sum works and -1 survives); hanging nodes have none. */
+PetscErrorCode SurfaceIndices_Private(Problem p, Surface *s)
+{
+  const PetscInt dim = s->dim;
+
+  PetscFunctionBegin;
+  for (PetscInt n = 0; n < s->num_nodes; ++n) {
+    for (PetscInt c = 0; c < dim; ++c) s->dof[dim * n + c] = s->owned[n] ? p->index[s->local[n] * dim + c] + 2 : 0;
+  }
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, s->dof, (PetscMPIInt)(dim * s->num_nodes), MPIU_INT, MPI_SUM, p->comm));
+  for (PetscInt n = 0; n < s->num_nodes; ++n) {
+    for (PetscInt c = 0; c < dim; ++c) s->dof[dim * n + c] = s->hang[n + 1] > s->hang[n] ? -1 : s->dof[dim * n + c] - 2;
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* values of hanging nodes from their masters, num of them per node. */
+void SurfaceFollow_Private(const Surface *s, PetscInt num, PetscReal values[])
+{
+  for (PetscInt n = 0; n < s->num_nodes; ++n) {
+    if (s->hang[n] == s->hang[n + 1]) continue;
+    for (PetscInt c = 0; c < num; ++c) values[num * n + c] = 0;
+    for (PetscInt k = s->hang[n]; k < s->hang[n + 1]; ++k)
+      for (PetscInt c = 0; c < num; ++c) values[num * n + c] += s->hang_weight[k] * values[num * s->hang_master[k] + c];
+  }
+}
+
+PetscErrorCode SurfaceGather_Private(Problem p, const Surface *s, const PetscReal local[], const PetscReal base[], PetscReal values[])
+{
+  const PetscInt dim = s->dim;
+
+  PetscFunctionBegin;
+  for (PetscInt n = 0; n < s->num_nodes; ++n) {
+    for (PetscInt c = 0; c < dim; ++c) {
+      PetscReal sum = 0;
+      for (PetscInt k = 0; s->owned[n] && k < dim; ++k) sum += s->frame[dim * (dim * n + k) + c] * local[dim * s->local[n] + k];
+      values[dim * n + c] = sum;
+    }
+  }
+  if (p->size > 1) PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, values, (PetscMPIInt)(dim * s->num_nodes), MPIU_REAL, MPI_SUM, p->comm));
+  SurfaceFollow_Private(s, dim, values);
+  for (PetscInt n = 0; base && n < dim * s->num_nodes; ++n) values[n] += base[n];
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
