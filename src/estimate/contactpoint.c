@@ -92,7 +92,7 @@ static void Push_Private(const ContactTerm *term, PetscInt facet, const PetscRea
 
   ContactHats_Private(s->dim, xi, N);
   ContactPosition_Private(s, facet, term->normal, N, n);
-  for (PetscInt a = 0; a < s->corners; ++a) z += N[a] * term->view->z[node[a]];
+  for (PetscInt a = 0; a < s->corners; ++a) z += N[a] * term->z[node[a]];
   const PetscReal length = PetscSqrtReal(Dot3(n, n));
   for (PetscInt c = 0; c < s->dim && length > 0; ++c) T[c] += factor * z * n[c] / length;
 }

@@ -17,32 +17,131 @@ static PetscErrorCode FacetPlaces_Private(const ForestTables *t, const SurfaceVi
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Segments of all ranks, each facet's from the rank that owns its leaf. */
-static PetscErrorCode GatherSegments_Private(MPI_Comm comm, const ForestTables *t, const ContactView *view, PetscInt *total, ContactSegment **all)
+/* A segment with what its nonmortar facet exerts there. */
+typedef struct {
+  ContactSegment segment;
+  PetscReal      z[4], normal[4][3];
+} Sight;
+
+static void Sight_Private(const ContactView *view, const PetscReal normal[], const ContactSegment *segment, Sight *sight)
+{
+  const SurfaceView *s = &view->nonmortar;
+
+  memset(sight, 0, sizeof(*sight));
+  sight->segment = *segment;
+  for (PetscInt k = 0; k < s->corners; ++k) {
+    const PetscInt node = s->facets[s->corners * segment->facet + k];
+    sight->z[k]         = view->z[node];
+    for (PetscInt c = 0; c < s->dim; ++c) sight->normal[k][c] = normal[s->dim * node + c];
+  }
+}
+
+/* Segments on the mortar facets of this rank, found by the ranks of the nonmortar facets: each goes to the rank of its mortar facet. mail: [size + 1] where
+   those for each rank start. */
+static PetscErrorCode Post_Private(const ForestTables *t, const ContactView *view, PetscMPIInt rank, PetscMPIInt size, PetscInt mail[], Sight **sorted)
 {
   const ContactSegment *segments;
-  ContactSegment       *mine;
-  PetscInt              num, kept = 0;
-  PetscMPIInt           rank, size, bytes, *counts, *offsets;
+  const PetscReal      *normal;
+  PetscInt              num, *place;
+
+  PetscFunctionBegin;
+  PetscCall(ContactPairGetSegments(view->pair, &num, &segments));
+  PetscCall(ContactPairGetNormals(view->pair, &normal));
+  PetscCall(PetscArrayzero(mail, size + 1));
+  PetscCall(PetscMalloc1(size, &place));
+  PetscCall(PetscMalloc1(num, sorted));
+  for (PetscInt pass = 0; pass < 2; ++pass) {
+    for (PetscInt i = 0; i < num; ++i) {
+      if (t->leaf_rank[view->nonmortar.facet_leaf[segments[i].facet]] != rank) continue;
+      const PetscInt to = t->leaf_rank[view->mortar.facet_leaf[segments[i].mortar_facet]];
+      if (pass == 0)
+        mail[to + 1]++;
+      else
+        Sight_Private(view, normal, &segments[i], &(*sorted)[place[to]++]);
+    }
+    for (PetscMPIInt r = 0; r < size && pass == 0; ++r) {
+      mail[r + 1] += mail[r];
+      place[r] = mail[r];
+    }
+  }
+  PetscCall(PetscFree(place));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* What goes to others leaves, what comes from others and what stays is put together. */
+static PetscErrorCode Deliver_Private(MPI_Comm comm, PetscMPIInt rank, PetscMPIInt size, const PetscInt mail[], const Sight sorted[], PetscInt *total,
+                                      Sight **all)
+{
+  PetscMPIInt *to, num_to = 0;
+  PetscInt    *first, num;
+  Sight       *send, *got;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc3(size, &to, size + 1, &first, mail[size], &send));
+  first[0] = 0;
+  for (PetscMPIInt r = 0; r < size; ++r) {
+    const PetscInt count = mail[r + 1] - mail[r];
+    if (r == rank || count == 0) continue;
+    PetscCall(PetscArraycpy(send + first[num_to], sorted + mail[r], count));
+    first[num_to + 1] = first[num_to] + count;
+    to[num_to++]      = r;
+  }
+  PetscCall(SparseExchange(comm, num_to, to, first, sizeof(Sight), send, &num, &got));
+  const PetscInt own = mail[rank + 1] - mail[rank];
+  PetscCall(PetscMalloc1(own + num, all));
+  PetscCall(PetscArraycpy(*all, sorted + mail[rank], own));
+  PetscCall(PetscArraycpy(*all + own, got, num));
+  *total = own + num;
+  PetscCall(PetscFree(got));
+  PetscCall(PetscFree3(to, first, send));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Multipliers and normals of the nodes of this rank's nonmortar facets, then of those that come with segments; the rest is NaN. */
+static PetscErrorCode Fields_Private(const ForestTables *t, PetscMPIInt rank, PetscInt num, const Sight sights[], ContactTerm *term)
+{
+  const SurfaceView *s = &term->view->nonmortar;
+  const PetscReal   *normal;
+
+  PetscFunctionBegin;
+  PetscCall(ContactPairGetNormals(term->view->pair, &normal));
+  PetscCall(PetscMalloc2(s->num_nodes, &term->z, s->dim * s->num_nodes, &term->normal));
+  for (PetscInt n = 0; n < s->num_nodes; ++n) term->z[n] = NAN;
+  for (PetscInt i = 0; i < s->dim * s->num_nodes; ++i) term->normal[i] = NAN;
+  for (PetscInt i = 0; i < s->corners * s->num_facets; ++i) {
+    const PetscInt n = s->facets[i];
+    if (t->leaf_rank[s->facet_leaf[i / s->corners]] != rank) continue;
+    term->z[n] = term->view->z[n];
+    PetscCall(PetscArraycpy(term->normal + s->dim * n, normal + s->dim * n, s->dim));
+  }
+  for (PetscInt i = 0; i < num; ++i) {
+    for (PetscInt k = 0; k < s->corners; ++k) {
+      const PetscInt n = s->facets[s->corners * sights[i].segment.facet + k];
+      term->z[n]       = sights[i].z[k];
+      PetscCall(PetscArraycpy(term->normal + s->dim * n, sights[i].normal[k], s->dim));
+    }
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode GatherSegments_Private(MPI_Comm comm, const ForestTables *t, ContactTerm *term, PetscInt *total, ContactSegment **all)
+{
+  Sight      *sorted, *sights;
+  PetscInt   *mail;
+  PetscMPIInt rank, size;
 
   PetscFunctionBegin;
   PetscCallMPI(MPI_Comm_rank(comm, &rank));
   PetscCallMPI(MPI_Comm_size(comm, &size));
-  PetscCall(ContactPairGetSegments(view->pair, &num, &segments));
-  PetscCall(PetscMalloc1(num, &mine));
-  for (PetscInt i = 0; i < num; ++i) {
-    if (t->leaf_rank[view->nonmortar.facet_leaf[segments[i].facet]] == rank) mine[kept++] = segments[i];
-  }
-  PetscCall(PetscMalloc2(size, &counts, size + 1, &offsets));
-  bytes = (PetscMPIInt)(kept * (PetscInt)sizeof(*mine));
-  PetscCallMPI(MPI_Allgather(&bytes, 1, MPI_INT, counts, 1, MPI_INT, comm));
-  offsets[0] = 0;
-  for (PetscMPIInt r = 0; r < size; ++r) offsets[r + 1] = offsets[r] + counts[r];
-  *total = offsets[size] / (PetscInt)sizeof(*mine);
+  PetscCall(PetscMalloc1(size + 1, &mail));
+  PetscCall(Post_Private(t, term->view, rank, size, mail, &sorted));
+  PetscCall(Deliver_Private(comm, rank, size, mail, sorted, total, &sights));
+  PetscCall(Fields_Private(t, rank, *total, sights, term));
   PetscCall(PetscMalloc1(*total, all));
-  PetscCallMPI(MPI_Allgatherv(mine, bytes, MPI_BYTE, *all, counts, offsets, MPI_BYTE, comm));
-  PetscCall(PetscFree2(counts, offsets));
-  PetscCall(PetscFree(mine));
+  for (PetscInt i = 0; i < *total; ++i) (*all)[i] = sights[i].segment;
+  PetscCall(PetscFree(mail));
+  PetscCall(PetscFree(sorted));
+  PetscCall(PetscFree(sights));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -100,10 +199,9 @@ PetscErrorCode ContactTermsCreate_Private(Problem problem, ContactTerms *terms)
     ContactSegment *all;
     PetscInt        num;
     PetscCall(ProblemGetContact(problem, i, &term->view));
-    PetscCall(ContactPairGetNormals(term->view->pair, &term->normal));
     PetscCall(FacetPlaces_Private(t, &term->view->nonmortar, &term->facet_place[0]));
     PetscCall(FacetPlaces_Private(t, &term->view->mortar, &term->facet_place[1]));
-    PetscCall(GatherSegments_Private(ForestComm(forest), t, term->view, &num, &all));
+    PetscCall(GatherSegments_Private(ForestComm(forest), t, term, &num, &all));
     PetscCall(KeepSegments_Private(num, all, term));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -118,6 +216,7 @@ PetscErrorCode ContactTermsDestroy_Private(ContactTerms *terms)
     PetscCall(PetscFree(terms->terms[i].segment_first));
     PetscCall(PetscFree(terms->terms[i].segments));
     PetscCall(PetscFree(terms->terms[i].box));
+    PetscCall(PetscFree2(terms->terms[i].z, terms->terms[i].normal));
   }
   PetscCall(PetscFree(terms->terms));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -31,13 +31,13 @@ typedef struct {
   PetscInt   *cell_facet;                   /* owned: 2*facet + side */
 } FacetList;
 
-/* Which contact facet a facet of the mesh is, and what presses on it; replicated, built from the views of the problem. */
+/* Which contact facet a facet of the mesh is, and what presses on this rank's facets; built from the views of the problem. */
 typedef struct {
   const ContactView *view;
-  const PetscReal   *normal;         /* nodal normals, nonmortar side */
+  PetscReal         *z, *normal;     /* owned [nonmortar num_nodes], [..][dim]: at the nodes of nonmortar facets of this rank, or that its mortar facets face */
   PetscInt          *facet_place[2]; /* owned [num_facets] facet of the nonmortar, mortar side, or -1 */
   PetscInt          *segment_first;  /* owned [mortar num_facets + 1] */
-  ContactSegment    *segments;       /* owned, of all ranks, by mortar facet */
+  ContactSegment    *segments;       /* owned, on mortar facets of this rank, by mortar facet */
   PetscReal (*box)[4];               /* owned, three dimensions: where on the mortar facet to look at each segment: low, high corner */
 } ContactTerm;
 

@@ -2,11 +2,23 @@
 #pragma once
 #include "problem.h"
 
+#include <petscsf.h>
+
 #define COVERED 1e-5 /* share of a node's tributary measure below which it counts as uncovered: its constraint would be all but free of its pressure */
 
 #define MOST_MASTERS 8 /* of a hanging vertex of a contact surface */
 
-/* One side of a contact pair, replicated on every rank. Hanging nodes have positions, which follow their masters', but no unknowns. */
+/* Values of some nodes of a surface on their way between the ranks that own them and those that use them. */
+typedef struct {
+  PetscSF     sf;               /* roots and leaves have the nodes' numbers */
+  PetscInt    num, *nodes;      /* that this rank uses and does not own, ascending */
+  PetscMPIInt num_from, num_to; /* owners that this rank hears from, users that it tells */
+  PetscInt    num_told;         /* entries told to all of them together */
+} Link;
+
+/* One side of a contact pair. Topology and what belongs to the mesh (reference positions, frames, places in the vector) are replicated on every rank; current
+   values are not: a rank has those of nodes it owns, of nodes its cells or ghost cells depend on (positions), and of nodes that facets in contact need
+   (exchange.c). All other entries are NaN. Hanging nodes have positions, which follow their masters', but no unknowns. */
 typedef struct {
   PetscInt   dim, corners; /* 2 or 4 corners of a facet */
   PetscInt   num_nodes, num_facets;
@@ -23,7 +35,14 @@ typedef struct {
   PetscInt  *dof;                     /* [num_nodes][dim] index in the problem's vector, -1: prescribed, hanging */
   PetscInt  *local;                   /* [num_nodes] local node on this rank or -1 */
   PetscBool *owned;                   /* [num_nodes] this rank owns the node and it does not hang */
-  PetscReal *force;                   /* [num_nodes][dim] contact force at the last residual */
+  PetscReal *force;                   /* [num_nodes][dim] contact force at the last residual: of owned nodes, 0 at hanging ones */
+
+  PetscMPIInt *owner;           /* [num_nodes] rank of the node's values */
+  PetscInt     num_own, *own;   /* nodes with `owned` */
+  PetscInt     num_mine, *mine; /* facets of this rank's leaves */
+  PetscBool   *here;            /* [num_nodes] does not hang, displacement in the local array of this rank */
+  PetscBool   *has;             /* [num_nodes] current position known here */
+  Link         places, values;  /* of nodes that are not here; of nodes that are not owned */
 } Surface;
 
 typedef struct {
@@ -40,9 +59,16 @@ typedef struct {
   PetscInt           *result;                         /* [num_facets] position of a facet in `facets`, -1: not evaluated here */
   PetscBool          *active, *has_multiplier, *near; /* [n] near: takes part in the next linear solve */
   PetscInt            num_listed, *listed;            /* nonmortar facets this rank evaluates */
-  PetscBool          *mine;                           /* [num_facets] */
-  PetscReal           distance;                       /* search distance */
-  PetscInt            num_facets;                     /* results of the last evaluation */
+  PetscBool          *mine;                           /* [num_facets] a side of this rank's leaves */
+  PetscBool          *live;                           /* [num_facets] may meet the mortar side, as far as this rank is told (its own facets, those around) */
+  PetscBool          *valued;                         /* [n] z, gap, weight, activity known here */
+  PetscInt            num_valued, *valued_node;       /* their list */
+  PetscReal          *pack;                           /* [n][2] work: gap and weight in one message */
+  PetscReal          *all_real[2];                    /* values gathered to all, see gather.c */
+  PetscBool          *all_active;
+  ContactView         all;
+  PetscReal           distance;   /* search distance */
+  PetscInt            num_facets; /* results of the last evaluation */
   const ContactFacet *facets;
   ContactFacet       *frozen; /* small kinematics: linearised once at the reference positions */
   PetscBool           is_frozen;
@@ -76,14 +102,16 @@ struct _p_Problem {
   Vec        start_x;
   PetscInt   num_dofs;
 
-  Mat        matrix;
-  PetscBool  symmetric; /* tangent in the symmetric form */
-  PetscBool  lifting;
-  Vec        lift;
-  PetscReal  t;
-  PetscInt  *work_index;
-  PetscReal *work_value;
-  PetscInt   work_size;
+  Mat            matrix;
+  PetscBool      symmetric; /* tangent in the symmetric form */
+  PetscBool      lifting;
+  Vec            lift;
+  PetscReal      t;
+  MPI_Datatype   unit[4]; /* as many reals */
+  ContactTraffic traffic;
+  PetscInt      *work_index;
+  PetscReal     *work_value;
+  PetscInt       work_size;
 };
 
 PetscErrorCode ProblemLayout_Private(Problem);
@@ -100,8 +128,30 @@ ContactSurface SurfaceAt_Private(const Surface *, const PetscReal x[]);
 /* Length or area of a facet at positions x. */
 PetscReal SurfaceMeasure_Private(const Surface *, const PetscReal x[], PetscInt facet);
 void      SurfaceFollow_Private(const Surface *, PetscInt num, PetscReal values[]);
-/* Cartesian values at the nodes from a local array of dofs, added to base (NULL: 0); replicated. */
-PetscErrorCode SurfaceGather_Private(Problem, const Surface *, const PetscReal local[], const PetscReal base[], PetscReal values[]);
+/* Nodes that carry a facet's shape, ascending: its own, hanging ones replaced by their masters. nodes[4 * MOST_MASTERS]; returns their number. */
+PetscInt SurfaceFacetNodes_Private(const Surface *, PetscInt facet, PetscInt nodes[]);
+/* Cartesian values from a local array of dofs at the nodes that are here and those that follow them, added to base (NULL: 0). No exchange. */
+void SurfacePlace_Private(const Surface *, const PetscReal local[], const PetscReal base[], PetscReal values[]);
+/* The same at all nodes with `has`: through `places` from their owners. Collective. */
+PetscErrorCode SurfaceGather_Private(Problem, Surface *, const PetscReal local[], const PetscReal base[], PetscReal values[]);
+
+/* exchange.c. Link: nodes (ascending, none owned) this rank uses from now on. Spread: owners' values[..][size] to the users; Collect: users' added to the
+   owners'. All collective, messages only between ranks that share a node. */
+PetscErrorCode LinkSet_Private(Problem, const Surface *, PetscInt num, const PetscInt nodes[], Link *);
+PetscErrorCode LinkDestroy_Private(Link *);
+PetscErrorCode LinkSpread_Private(Problem, const Link *, PetscInt size, PetscReal values[]);
+PetscErrorCode LinkCollect_Private(Problem, const Link *, PetscInt size, PetscReal values[]);
+PetscErrorCode TrafficReport_Private(Problem); /* with -info */
+PetscErrorCode ExchangeBegin_Private(Problem);
+PetscErrorCode ExchangeEnd_Private(Problem);
+/* Positions known without exchange; `has` says so and everything else is forgotten. */
+void SurfaceForget_Private(Surface *);
+/* After a search: what this rank needs until the next one. */
+PetscErrorCode ContactLink_Private(Problem, Contact *);
+/* nearby.c: search at the positions at hand, X when reference is set, where facets meet over the boundaries of ranks. Collective. */
+PetscErrorCode ContactSearch_Private(Problem, Contact *, PetscBool reference, PetscReal margin);
+/* gather.c */
+PetscErrorCode ContactGatherDestroy_Private(Contact *);
 
 PetscErrorCode ContactCreate_Private(Problem, const ContactSpec *, Contact *);
 PetscErrorCode ContactDestroy_Private(Contact *);
@@ -112,9 +162,9 @@ PetscErrorCode ContactRows_Private(Problem, const Contact *, PetscReal r[]);
 /* tangent.c: blocks of the last evaluation into the matrix: Hessian and columns (added), then rows (inserted). */
 PetscErrorCode ContactBlocks_Private(Problem, Contact *);
 PetscErrorCode ContactInsertRow_Private(Problem, Contact *, PetscInt node);
-/* far.c: are the gaps under pressure too wide for the curvature of the constraints to mean anything? */
-PetscBool ContactIsFar_Private(const Contact *);
-/* Change of every node's weighted gap, at fixed measure, under a local array of increments. */
+/* far.c: are the gaps under pressure too wide for the curvature of the constraints to mean anything? Collective. */
+PetscErrorCode ContactIsFar_Private(Problem, const Contact *, PetscBool *far);
+/* Change of every owned node's weighted gap, at fixed measure, under a local array of increments. Collective. */
 PetscErrorCode          ContactChange_Private(Problem, Contact *, const PetscReal increment[], PetscReal change[]);
 static inline PetscBool ContactCovered_Private(const Contact *c, PetscInt j)
 {

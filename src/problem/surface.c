@@ -1,4 +1,4 @@
-/* Replicated surfaces of facets for contact: their topology. */
+/* Surfaces of facets for contact: their topology, replicated. */
 #include "problemimpl.h"
 
 /* Ends of a leaf's side in the order that keeps the body on the left. */
@@ -113,8 +113,7 @@ static PetscErrorCode SurfaceHanging_Private(const ForestTables *t, Surface *s)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Visit the nodes that carry a facet's shape: its own, hanging ones replaced by their masters. */
-static PetscInt FacetNodes_Private(const Surface *s, PetscInt facet, PetscInt nodes[])
+PetscInt SurfaceFacetNodes_Private(const Surface *s, PetscInt facet, PetscInt nodes[])
 {
   PetscInt num = 0;
   for (PetscInt k = 0; k < s->corners; ++k) {
@@ -135,7 +134,7 @@ static PetscErrorCode SurfaceNeighbours_Private(Surface *s)
   PetscCall(PetscCalloc1(s->num_nodes + 2, &s->node_first));
   for (PetscInt pass = 0; pass < 2; ++pass) {
     for (PetscInt f = 0; f < s->num_facets; ++f) {
-      const PetscInt num = FacetNodes_Private(s, f, nodes);
+      const PetscInt num = SurfaceFacetNodes_Private(s, f, nodes);
       for (PetscInt k = 0; k < num; ++k) {
         if (pass == 0)
           s->node_first[nodes[k] + 2]++;
@@ -181,6 +180,9 @@ PetscErrorCode SurfaceDestroy_Private(Surface *s)
   PetscCall(PetscFree3(s->local, s->owned, s->dof));
   PetscCall(PetscFree4(s->X, s->x, s->mirror, s->frame));
   PetscCall(PetscFree2(s->du, s->force));
+  PetscCall(PetscFree5(s->owner, s->own, s->mine, s->here, s->has));
+  PetscCall(LinkDestroy_Private(&s->places));
+  PetscCall(LinkDestroy_Private(&s->values));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -192,8 +194,9 @@ PetscReal SurfaceMeasure_Private(const Surface *s, const PetscReal x[], PetscInt
   return PetscSqrtReal(Dot3(N, N));
 }
 
-/* What the contact module is told about the surface at positions x. */
+/* What the contact module is told about the surface at positions x. Reference positions are known everywhere. */
 ContactSurface SurfaceAt_Private(const Surface *s, const PetscReal x[])
 {
-  return (ContactSurface){s->dim, s->num_nodes, s->num_facets, s->facets, x, s->mirror, s->hang, s->hang_master, s->hang_weight, NULL, NULL, NULL, s->X};
+  return (ContactSurface){s->dim,         s->num_nodes,   s->num_facets, s->facets, x,    s->mirror, s->hang,
+                          s->hang_master, s->hang_weight, NULL,          NULL,      NULL, s->X,      x == s->X ? NULL : s->has};
 }

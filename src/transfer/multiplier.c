@@ -102,6 +102,29 @@ static PetscErrorCode FacetValue_Private(const ForestTables *t, const SurfaceVie
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscErrorCode TransferMultiplierNeeds_Private(const ForestTables *old_t, const SurfaceView *old_view, const SurfaceView *new_view, const ForestMap *map,
+                                               PetscBool wanted[])
+{
+  const PetscInt corners = old_view->corners;
+  PetscInt      *first, *facet;
+
+  PetscFunctionBegin;
+  PetscCall(LeafFacets_Private(old_t->num_leaves, old_view, &first, &facet));
+  PetscCall(PetscArrayzero(wanted, old_view->num_nodes));
+  for (PetscInt i = 0; i < new_view->corners * new_view->num_facets; ++i) {
+    const PetscInt leaf = new_view->facet_leaf[i / new_view->corners], end = map->old_first[leaf] + map->old_count[leaf];
+    if (!new_view->owned[new_view->facets[i]]) continue;
+    for (PetscInt k = corners * first[map->old_first[leaf]]; k < corners * first[end]; ++k) {
+      const PetscInt node = old_view->facets[corners * facet[k / corners] + k % corners];
+      wanted[node]        = PETSC_TRUE;
+      for (PetscInt m = old_view->hang[node]; m < old_view->hang[node + 1]; ++m) wanted[old_view->hang_master[m]] = PETSC_TRUE;
+    }
+  }
+  PetscCall(PetscFree(first));
+  PetscCall(PetscFree(facet));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode TransferMultiplier_Private(const ForestTables *old_t, const SurfaceView *old_view, const PetscReal z[], const PetscBool has_multiplier[],
                                           const ForestTables *new_t, const SurfaceView *new_view, const ForestMap *map, PetscReal new_z[])
 {
@@ -115,6 +138,7 @@ PetscErrorCode TransferMultiplier_Private(const ForestTables *old_t, const Surfa
     const PetscInt leaf = new_view->facet_leaf[i / new_view->corners], node = new_view->facets[i], end = map->old_first[leaf] + map->old_count[leaf];
     PetscInt       at[3];
     PetscBool      found = PETSC_FALSE;
+    if (!new_view->owned[node]) continue;
     PetscCall(Corner_Private(new_t, leaf, new_view->node_entity[node], at));
     for (PetscInt k = first[map->old_first[leaf]]; k < first[end] && !found; ++k)
       PetscCall(FacetValue_Private(old_t, old_view, z, has_multiplier, facet[k], at, &new_z[node], &found));

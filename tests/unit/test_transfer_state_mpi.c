@@ -86,7 +86,7 @@ static void LinearMultipliers(void **state)
     OK(ProblemSearch(p.problem, p.state.x));
     OK(ProblemResidual(p.problem, p.state.x, r, &status));
     OK(VecDestroy(&r));
-    OK(ProblemGetContact(p.problem, 0, &view));
+    OK(ProblemGatherContactToAll(p.problem, 0, &view));
     for (PetscInt n = 0; n < view->nonmortar.num_nodes; ++n) assert_near(view->z[n], 0.1 + 0.03 * view->nonmortar.X[2 * n], 1e-13);
   }
   PatchDestroy(&p);
