@@ -47,7 +47,7 @@ typedef struct {
   char      name[MORTISE_NAME];
   PetscInt  nonmortar, mortar; /* boundary groups */
   PetscReal friction;          /* 0 here: anything else is an input error until friction is built */
-  PetscInt  order;             /* 1 */
+  PetscBool full;              /* facets have the order of their cells; else order 1 */
   PetscReal search;            /* search distance, in multiples of the larger edge length; default 0: automatic */
   PetscBool node_to_segment;   /* comparison only */
   PetscBool standard;          /* standard multipliers */

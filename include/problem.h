@@ -63,7 +63,26 @@ typedef struct {
   const PetscReal *X;     /* [num_nodes][dim] */
   const PetscReal *x;     /* [num_nodes][dim] at the last evaluation */
   const PetscReal *force; /* [num_nodes][dim] contact force at the last residual; none at hanging nodes */
+  const int8_t    *order; /* facets of higher order as in contact.h: their order and lattices of nodes; NULL: all are of order 1, their nodes the corners */
+  const PetscInt  *first, *lattice;
 } SurfaceView;
+
+#define SURFACE_MOST_NODES ((MORTISE_MAX_ORDER + 1) * (MORTISE_MAX_ORDER + 1)) /* of a facet */
+
+/* Nodes that shape a facet, and their number: its corners, or its lattice. */
+static inline PetscInt SurfaceFacetNodes(const SurfaceView *s, PetscInt facet, const PetscInt **nodes)
+{
+  *nodes = s->order ? s->lattice + s->first[facet] : s->facets + s->corners * facet;
+  return s->order ? s->first[facet + 1] - s->first[facet] : s->corners;
+}
+/* Its order; 0: the nodes are the corners. */
+static inline PetscInt SurfaceFacetOrder(const SurfaceView *s, PetscInt facet)
+{
+  return s->order ? s->order[facet] : 0;
+}
+/* Functions of these nodes at xi[dim-1] in [-1, 1], N[...], and their derivatives by xi (NULL: not wanted). order 0: hats of the corners, counterclockwise;
+   else of the lattice, lexicographic. */
+void SurfaceShape(PetscInt dim, PetscInt order, const PetscReal xi[], PetscReal N[], PetscReal dN[][2]);
 
 typedef struct {
   const ContactSpec *spec;

@@ -149,7 +149,7 @@ static PetscBool NodalGap_Private(const ContactView *view, PetscInt node, PetscR
 }
 
 /* Measure at a place of a nonmortar facet per unit of xi: length or area, axisymmetric: of the revolution. */
-static PetscReal Measure_Private(const ContactTerms *terms, const SurfaceView *s, PetscInt facet, const PetscReal xi[2], const PetscReal N[4])
+static PetscReal Measure_Private(const ContactTerms *terms, const SurfaceView *s, PetscInt facet, const PetscReal xi[2], const PetscReal N[])
 {
   const PetscReal *x = terms->kinematics == KINEMATICS_FINITE ? s->x : s->X;
   PetscReal        tangent[2][3], position[3];
@@ -160,29 +160,30 @@ static PetscReal Measure_Private(const ContactTerms *terms, const SurfaceView *s
   return 2 * PETSC_PI * position[0] * ContactMeasure_Private(tangent);
 }
 
-/* int z+ g+ and int g-^2 over a nonmortar facet (current measure), z and g by its hats, 3 Gauss points in each direction. */
+/* int z+ g+ and int g-^2 over a nonmortar facet (current measure), z and g by the functions of its nodes, order + 2 Gauss points in each direction. */
 static PetscErrorCode FacetIntegrals_Private(const ContactTerms *terms, const ContactTerm *term, PetscInt facet, PetscReal *product, PetscReal *penetration)
 {
-  const SurfaceView *s         = &term->view->nonmortar;
-  const PetscInt    *node      = s->facets + s->corners * facet;
+  const SurfaceView *s = &term->view->nonmortar;
+  const PetscInt    *node, num = SurfaceFacetNodes(s, facet, &node), points = PetscMax(1, SurfaceFacetOrder(s, facet)) + 2;
   const PetscReal    middle[2] = {0, 0};
   const Basis1D     *gauss;
-  PetscReal          N[4], g[4];
+  PetscReal          N[SURFACE_MOST_NODES], g[SURFACE_MOST_NODES];
 
   PetscFunctionBegin;
   *product = *penetration = 0;
-  ContactHats_Private(s->dim, middle, N);
+  ContactShape_Private(s, facet, middle, N);
   const PetscReal measure = (s->dim == 3 ? 4 : 2) * Measure_Private(terms, s, facet, middle, N);
-  for (PetscInt a = 0; a < s->corners; ++a) {
+  for (PetscInt a = 0; a < num; ++a) {
     if (!NodalGap_Private(term->view, node[a], measure, &g[a])) PetscFunctionReturn(PETSC_SUCCESS);
   }
-  PetscCall(Basis1DGet(1, 3, &gauss));
-  for (PetscInt q = 0; q < (s->dim == 3 ? 9 : 3); ++q) {
-    const PetscReal xi[2] = {2 * gauss->points[q % 3] - 1, 2 * gauss->points[q / 3] - 1};
-    PetscReal       z = 0, gap = 0, weight = 2 * gauss->weights[q % 3] * (s->dim == 3 ? 2 * gauss->weights[q / 3] : 1);
-    ContactHats_Private(s->dim, xi, N);
+  PetscCall(Basis1DGet(1, points, &gauss));
+  for (PetscInt q = 0; q < (s->dim == 3 ? points : 1) * points; ++q) {
+    const PetscInt  i = q % points, j = q / points;
+    const PetscReal xi[2] = {2 * gauss->points[i] - 1, 2 * gauss->points[j] - 1};
+    PetscReal       z = 0, gap = 0, weight = 2 * gauss->weights[i] * (s->dim == 3 ? 2 * gauss->weights[j] : 1);
+    ContactShape_Private(s, facet, xi, N);
     weight *= Measure_Private(terms, s, facet, xi, N);
-    for (PetscInt a = 0; a < s->corners; ++a) {
+    for (PetscInt a = 0; a < num; ++a) {
       z += N[a] * term->view->z[node[a]];
       gap += N[a] * g[a];
     }

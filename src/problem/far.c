@@ -15,9 +15,11 @@ PetscBool ContactIsFar_Private(const Contact *c)
   PetscReal      open = 0, force = 0;
 
   for (PetscInt e = 0; e < s->num_facets; ++e) {
-    const PetscReal measure = SurfaceMeasure_Private(s, s->x, e), length = s->dim == 2 ? measure : PetscSqrtReal(measure);
-    for (PetscInt k = 0; k < s->corners; ++k) {
-      const PetscInt j = s->facets[s->corners * e + k];
+    const PetscReal measure = SurfaceMeasure_Private(s, s->x, e),
+                    length  = (s->dim == 2 ? measure : PetscSqrtReal(measure)) / (PetscReal)PetscMax(1, SurfaceOrder_Private(s, e));
+    const PetscInt *node, num = SurfaceNodes_Private(s, e, &node);
+    for (PetscInt k = 0; k < num; ++k) {
+      const PetscInt j = node[k];
       open += c->z[j] * c->gap[j];
       force += c->z[j] * c->weight[j] * length;
     }
