@@ -20,7 +20,9 @@
    Three dimensions. Facets are bilinear quadrilaterals, nodes counterclockwise seen from outside. Each nonmortar facet has its auxiliary plane, normal to its
    vector area; both sides are seen along that normal, mortar facets are clipped by the nonmortar one, and the gap is the distance along the normal. Segments
    are the polygons where one mortar facet covers one nonmortar facet (facetimpl.h). Nodes may hang (hang): their positions follow their masters', and results
-   are given for the masters: gt_T = sum_L P_LT gt_L. */
+   are given for the masters: gt_T = sum_L P_LT gt_L.
+
+   Facets of higher order: multiplier functions are one constant matrix per facet, dual in the reference measure (src/contact/multiplierimpl.h). */
 #pragma once
 #include "base.h"
 
@@ -28,9 +30,10 @@
 
 typedef struct {
   PetscInt         dim, num_nodes, num_facets;
-  const PetscInt  *facets;      /* [num_facets][2 or 4] */
-  const PetscReal *x;           /* [num_nodes][dim] current positions, those of hanging nodes included */
-  const PetscReal *mirror;      /* two dimensions: [num_nodes][2] unit normal of the symmetry plane through the node, zero if none; may be NULL */
+  const PetscInt  *facets; /* [num_facets][2 or 4] */
+  const PetscReal *x;      /* [num_nodes][dim] current positions, those of hanging nodes included */
+  const PetscReal
+      *mirror; /* unit normals of the symmetry planes through the node, zero: none; two dimensions: [num_nodes][2], three: [num_nodes][2][3]; may be NULL */
   const PetscInt  *hang;        /* three dimensions: [num_nodes+1] offsets of a hanging node's row, empty: a node of its own; NULL: none hangs */
   const PetscInt  *hang_master; /* nodes of this surface that do not hang */
   const PetscReal *hang_weight;
@@ -49,10 +52,11 @@ typedef struct {
   char      name[MORTISE_NAME];
   PetscInt  nonmortar, mortar; /* boundary groups */
   PetscReal friction;          /* 0 here: anything else is an input error until friction is built */
-  PetscInt  order;             /* 1 */
+  PetscBool full;              /* facets have the order of their cells; else order 1 */
   PetscReal search;            /* search distance, in multiples of the larger edge length; default 0: automatic */
   PetscBool node_to_segment;   /* comparison only */
   PetscBool standard;          /* standard multipliers */
+  PetscBool continuous;        /* three dimensions: gaps along a direction that is continuous over the surface, for facets of order 1 too */
   PetscBool adjust;            /* the gaps of the mesh at the reference positions count as closed */
   PetscReal interference;      /* overlap at the reference positions, besides that of the geometry */
 } ContactSpec;

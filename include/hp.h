@@ -45,11 +45,15 @@ PetscErrorCode HPSpaceGetDM(HPSpace, DM *); /* leaf DM clone with section and co
 /* Global index of each local dof, [num_nodes*dim]: -1 prescribed or hanging. Numbering of the space's own global vector. */
 PetscErrorCode HPSpaceGetGlobalDofs(HPSpace, const PetscInt **);
 PetscErrorCode HPSpaceGetFrame(HPSpace, PetscInt node, const PetscReal **frame); /* NULL: Cartesian */
-PetscErrorCode HPSpaceGetOrder(HPSpace, PetscInt entity, PetscInt *order);       /* order of a global entity in this rank's chart */
+PetscErrorCode HPSpaceGetOrder(HPSpace, PetscInt entity, PetscInt *order);       /* order of a global entity, in this rank's chart or not */
 
 /* The multilinear function through the vertices that takes node's place in the space of order 1 on this mesh: true local vertex nodes and weights,
    at most max of them. A node that is a true vertex: itself. */
 PetscErrorCode HPSpaceGetVertexRow(HPSpace, PetscInt node, PetscInt max, PetscInt *num, PetscInt vertices[], PetscReal weights[]);
+
+/* The trace of the space at xi of the frame of an entity below cells, of this rank's chart or not: num (at most max) true nodes by their entity and their place
+   in it (interior Gauss-Lobatto points, lexicographic in its frame), and weights. Not collective. */
+PetscErrorCode HPSpaceGetTraceRow(HPSpace, PetscInt entity, const PetscReal xi[], PetscInt max, PetscInt *num, PetscInt nodes[][2], PetscReal weights[]);
 
 /* Cartesian nodal values [n][dim] of cell from a local array of true dofs (hanging entries of the array are not read). */
 PetscErrorCode HPSpaceGather(HPSpace, PetscInt cell, const PetscReal local[], PetscReal values[]);

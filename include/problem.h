@@ -68,7 +68,26 @@ typedef struct {
   const PetscReal *x;     /* [num_nodes][dim] at the last evaluation */
   const PetscReal *force; /* [num_nodes][dim] contact force at the last residual, of owned nodes; none at hanging nodes */
   const PetscBool *owned; /* [num_nodes] this rank answers for the node: sums over nodes run over these; hanging nodes belong to nobody */
+  const int8_t    *order; /* facets of higher order as in contact.h: their order and lattices of nodes; NULL: all are of order 1, their nodes the corners */
+  const PetscInt  *first, *lattice;
 } SurfaceView;
+
+#define SURFACE_MOST_NODES ((MORTISE_MAX_ORDER + 1) * (MORTISE_MAX_ORDER + 1)) /* of a facet */
+
+/* Nodes that shape a facet, and their number: its corners, or its lattice. */
+static inline PetscInt SurfaceFacetNodes(const SurfaceView *s, PetscInt facet, const PetscInt **nodes)
+{
+  *nodes = s->order ? s->lattice + s->first[facet] : s->facets + s->corners * facet;
+  return s->order ? s->first[facet + 1] - s->first[facet] : s->corners;
+}
+/* Its order; 0: the nodes are the corners. */
+static inline PetscInt SurfaceFacetOrder(const SurfaceView *s, PetscInt facet)
+{
+  return s->order ? s->order[facet] : 0;
+}
+/* Functions of these nodes at xi[dim-1] in [-1, 1], N[...], and their derivatives by xi (NULL: not wanted). order 0: hats of the corners, counterclockwise;
+   else of the lattice, lexicographic. */
+void SurfaceShape(PetscInt dim, PetscInt order, const PetscReal xi[], PetscReal N[], PetscReal dN[][2]);
 
 typedef struct {
   const ContactSpec *spec;
@@ -87,9 +106,9 @@ PetscErrorCode ProblemGetContact(Problem, PetscInt pair, const ContactView **);
 /* The same with the values of all nodes (forces too) and `normal` on every rank: one reduction over both surfaces, for output and the like. They stay valid
    until the next call for this pair. Collective. */
 PetscErrorCode ProblemGatherContactToAll(Problem, PetscInt pair, const ContactView **view);
-/* Multipliers of the last evaluation at wanted[nonmortar.num_nodes] nodes, from the ranks that own them: z[nonmortar.num_nodes], NaN elsewhere; at a hanging
-   node the mean of its masters', if all of them are wanted. Collective. */
-PetscErrorCode ProblemFetchMultipliers(Problem, PetscInt pair, const PetscBool wanted[], PetscReal z[]);
+/* Multipliers and (NULL: not wanted) nodal normals of the last evaluation at wanted[nonmortar.num_nodes] nodes, from the ranks that know them: z[nonmortar
+   num_nodes], normal[..][dim], NaN at others. Collective. */
+PetscErrorCode ProblemFetchContact(Problem, PetscInt pair, const PetscBool wanted[], PetscReal z[], PetscReal normal[]);
 /* What contact has sent from this rank since the problem was created. Values: between searches; search: positions and lists of facets, sent where boxes meet.
    Boxes of ranks and scalars, which all ranks reduce, are left out. */
 typedef struct {

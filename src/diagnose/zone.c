@@ -31,8 +31,11 @@ static PetscErrorCode Radius_Private(const ContactView *v, PetscReal *radius)
   PetscCall(PetscMalloc1(s->num_nodes, &neighbour));
   for (PetscInt n = 0; n < s->num_nodes; ++n) neighbour[n][0] = neighbour[n][1] = -1;
   for (PetscInt e = 0; e < s->num_facets; ++e) {
-    neighbour[s->facets[2 * e]][1]     = s->facets[2 * e + 1];
-    neighbour[s->facets[2 * e + 1]][0] = s->facets[2 * e];
+    const PetscInt *node, num = SurfaceFacetNodes(s, e, &node);
+    for (PetscInt k = 0; k + 1 < num; ++k) {
+      neighbour[node[k]][1]     = node[k + 1];
+      neighbour[node[k + 1]][0] = node[k];
+    }
   }
   for (PetscInt n = 0; n < s->num_nodes; ++n) {
     if (!s->owned[n] || !v->active[n]) continue;

@@ -1,34 +1,30 @@
 /* Contact traction at a point of a facet, two and three dimensions by the same formulas: an edge is a strip of width 1, its second tangent the unit vector
    across.
 
-   Nonmortar: -z n stretch, z and n interpolated by the facet's hats, n normalised. Mortar: +z n stretch at the place that the segments give: linear within the
-   part of an edge, or within the triangles of a fan on the corners of a polygon. Stretch: current over reference measure. */
+   Nonmortar: -z n stretch, z and n interpolated by the functions of the facet's nodes, n normalised. Mortar: +z n stretch at the place that the segments give:
+   linear within the part of an edge, or within the triangles of a fan on the corners of a polygon. Stretch: current over reference measure. */
 #include "estimateimpl.h"
 
 /* Facets of a bent surface are seen in planes of their own, and the sides of a polygon are no straight lines on a warped facet: polygons leave slits. This far
    (the facet is 2 wide) a point may lie outside all of them and still belong to the nearest. */
 #define SLIT 0.02
 
-static const PetscReal Corner[4][2] = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
-
-void ContactHats_Private(PetscInt dim, const PetscReal xi[2], PetscReal N[4])
+void ContactShape_Private(const SurfaceView *s, PetscInt facet, const PetscReal xi[2], PetscReal N[])
 {
-  for (PetscInt a = 0; a < 4; ++a) {
-    N[a] = 0.5 * (1 + Corner[a][0] * xi[0]);
-    if (dim == 3) N[a] *= 0.5 * (1 + Corner[a][1] * xi[1]);
-  }
+  SurfaceShape(s->dim, SurfaceFacetOrder(s, facet), xi, N, NULL);
 }
 
 void ContactTangents_Private(const SurfaceView *s, PetscInt facet, const PetscReal x[], const PetscReal xi[2], PetscReal tangent[2][3])
 {
-  const PetscInt *node = s->facets + s->corners * facet;
+  const PetscInt *node, num = SurfaceFacetNodes(s, facet, &node);
+  PetscReal       N[SURFACE_MOST_NODES], d[SURFACE_MOST_NODES][2];
 
   for (PetscInt c = 0; c < 3; ++c) tangent[0][c] = tangent[1][c] = 0;
   if (s->dim == 2) tangent[1][2] = 1;
-  for (PetscInt a = 0; a < s->corners; ++a) {
-    const PetscReal d[2] = {0.5 * Corner[a][0] * (s->dim == 3 ? 0.5 * (1 + Corner[a][1] * xi[1]) : 1), 0.25 * Corner[a][1] * (1 + Corner[a][0] * xi[0])};
+  SurfaceShape(s->dim, SurfaceFacetOrder(s, facet), xi, N, d);
+  for (PetscInt a = 0; a < num; ++a) {
     for (PetscInt c = 0; c < s->dim; ++c) {
-      for (PetscInt k = 0; k < s->dim - 1; ++k) tangent[k][c] += d[k] * x[s->dim * node[a] + c];
+      for (PetscInt k = 0; k < s->dim - 1; ++k) tangent[k][c] += d[a][k] * x[s->dim * node[a] + c];
     }
   }
 }
@@ -40,11 +36,13 @@ PetscReal ContactMeasure_Private(const PetscReal tangent[2][3])
   return PetscSqrtReal(square);
 }
 
-void ContactPosition_Private(const SurfaceView *s, PetscInt facet, const PetscReal x[], const PetscReal N[4], PetscReal position[3])
+void ContactPosition_Private(const SurfaceView *s, PetscInt facet, const PetscReal x[], const PetscReal N[], PetscReal position[3])
 {
+  const PetscInt *node, num = SurfaceFacetNodes(s, facet, &node);
+
   for (PetscInt c = 0; c < 3; ++c) position[c] = 0;
-  for (PetscInt a = 0; a < s->corners; ++a) {
-    for (PetscInt c = 0; c < s->dim; ++c) position[c] += N[a] * x[s->dim * s->facets[s->corners * facet + a] + c];
+  for (PetscInt a = 0; a < num; ++a) {
+    for (PetscInt c = 0; c < s->dim; ++c) position[c] += N[a] * x[s->dim * node[a] + c];
   }
 }
 
@@ -54,8 +52,8 @@ static void Locate_Private(const SurfaceView *s, PetscInt facet, const PetscReal
 {
   xi[0] = xi[1] = 0;
   for (PetscInt iteration = 0; iteration < 20; ++iteration) {
-    PetscReal N[4], r[3], t[2][3];
-    ContactHats_Private(s->dim, xi, N);
+    PetscReal N[SURFACE_MOST_NODES], r[3], t[2][3];
+    ContactShape_Private(s, facet, xi, N);
     ContactPosition_Private(s, facet, s->X, N, r);
     ContactTangents_Private(s, facet, s->X, xi, t);
     for (PetscInt c = 0; c < 3; ++c) r[c] = c < s->dim ? X[c] - r[c] : 0;
@@ -70,14 +68,14 @@ static void Locate_Private(const SurfaceView *s, PetscInt facet, const PetscReal
 /* Current over reference measure at a place; in the axisymmetric model circumferences included. */
 static PetscReal Stretch_Private(const ContactTerms *terms, const SurfaceView *s, PetscInt facet, const PetscReal xi[2])
 {
-  PetscReal now[2][3], before[2][3], N[4], x[3], X[3];
+  PetscReal now[2][3], before[2][3], N[SURFACE_MOST_NODES], x[3], X[3];
 
   if (terms->kinematics != KINEMATICS_FINITE) return 1;
   ContactTangents_Private(s, facet, s->x, xi, now);
   ContactTangents_Private(s, facet, s->X, xi, before);
   const PetscReal ratio = ContactMeasure_Private(now) / ContactMeasure_Private(before);
   if (terms->model != MODEL_AXISYMMETRIC) return ratio;
-  ContactHats_Private(s->dim, xi, N);
+  ContactShape_Private(s, facet, xi, N);
   ContactPosition_Private(s, facet, s->x, N, x);
   ContactPosition_Private(s, facet, s->X, N, X);
   return ratio * x[0] / X[0];
@@ -86,13 +84,13 @@ static PetscReal Stretch_Private(const ContactTerms *terms, const SurfaceView *s
 /* T += factor * z n at a place of a nonmortar facet. */
 static void Push_Private(const ContactTerm *term, PetscInt facet, const PetscReal xi[2], PetscReal factor, PetscReal T[3])
 {
-  const SurfaceView *s    = &term->view->nonmortar;
-  const PetscInt    *node = s->facets + s->corners * facet;
-  PetscReal          N[4], n[3], z = 0;
+  const SurfaceView *s = &term->view->nonmortar;
+  const PetscInt    *node, num = SurfaceFacetNodes(s, facet, &node);
+  PetscReal          N[SURFACE_MOST_NODES], n[3], z = 0;
 
-  ContactHats_Private(s->dim, xi, N);
+  ContactShape_Private(s, facet, xi, N);
   ContactPosition_Private(s, facet, term->normal, N, n);
-  for (PetscInt a = 0; a < s->corners; ++a) z += N[a] * term->z[node[a]];
+  for (PetscInt a = 0; a < num; ++a) z += N[a] * term->z[node[a]];
   const PetscReal length = PetscSqrtReal(Dot3(n, n));
   for (PetscInt c = 0; c < s->dim && length > 0; ++c) T[c] += factor * z * n[c] / length;
 }

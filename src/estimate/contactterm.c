@@ -17,37 +17,16 @@ static PetscErrorCode FacetPlaces_Private(const ForestTables *t, const SurfaceVi
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* A segment with what its nonmortar facet exerts there. */
-typedef struct {
-  ContactSegment segment;
-  PetscReal      z[4], normal[4][3];
-} Sight;
-
-static void Sight_Private(const ContactView *view, const PetscReal normal[], const ContactSegment *segment, Sight *sight)
-{
-  const SurfaceView *s = &view->nonmortar;
-
-  memset(sight, 0, sizeof(*sight));
-  sight->segment = *segment;
-  for (PetscInt k = 0; k < s->corners; ++k) {
-    const PetscInt node = s->facets[s->corners * segment->facet + k];
-    sight->z[k]         = view->z[node];
-    for (PetscInt c = 0; c < s->dim; ++c) sight->normal[k][c] = normal[s->dim * node + c];
-  }
-}
-
-/* Segments on the mortar facets of this rank, found by the ranks of the nonmortar facets: each goes to the rank of its mortar facet. mail: [size + 1] where
-   those for each rank start. */
-static PetscErrorCode Post_Private(const ForestTables *t, const ContactView *view, PetscMPIInt rank, PetscMPIInt size, PetscInt mail[], Sight **sorted)
+/* This rank's segments by the rank of their mortar facet, each nonmortar facet's from the rank that owns its leaf: sorted[first[rank] .. first[rank+1]). */
+static PetscErrorCode SortByRank_Private(const ForestTables *t, const ContactView *view, PetscMPIInt rank, PetscMPIInt size, PetscInt first[],
+                                         ContactSegment **sorted)
 {
   const ContactSegment *segments;
-  const PetscReal      *normal;
   PetscInt              num, *place;
 
   PetscFunctionBegin;
   PetscCall(ContactPairGetSegments(view->pair, &num, &segments));
-  PetscCall(ContactPairGetNormals(view->pair, &normal));
-  PetscCall(PetscArrayzero(mail, size + 1));
+  PetscCall(PetscArrayzero(first, size + 1));
   PetscCall(PetscMalloc1(size, &place));
   PetscCall(PetscMalloc1(num, sorted));
   for (PetscInt pass = 0; pass < 2; ++pass) {
@@ -55,93 +34,74 @@ static PetscErrorCode Post_Private(const ForestTables *t, const ContactView *vie
       if (t->leaf_rank[view->nonmortar.facet_leaf[segments[i].facet]] != rank) continue;
       const PetscInt to = t->leaf_rank[view->mortar.facet_leaf[segments[i].mortar_facet]];
       if (pass == 0)
-        mail[to + 1]++;
+        first[to + 1]++;
       else
-        Sight_Private(view, normal, &segments[i], &(*sorted)[place[to]++]);
+        (*sorted)[place[to]++] = segments[i];
     }
     for (PetscMPIInt r = 0; r < size && pass == 0; ++r) {
-      mail[r + 1] += mail[r];
-      place[r] = mail[r];
+      first[r + 1] += first[r];
+      place[r] = first[r];
     }
   }
   PetscCall(PetscFree(place));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* What goes to others leaves, what comes from others and what stays is put together. */
-static PetscErrorCode Deliver_Private(MPI_Comm comm, PetscMPIInt rank, PetscMPIInt size, const PetscInt mail[], const Sight sorted[], PetscInt *total,
-                                      Sight **all)
+/* Segments on the mortar facets of this rank, whoever found them. */
+static PetscErrorCode GatherSegments_Private(MPI_Comm comm, const ForestTables *t, const ContactView *view, PetscInt *total, ContactSegment **all)
 {
-  PetscMPIInt *to, num_to = 0;
-  PetscInt    *first, num;
-  Sight       *send, *got;
-
-  PetscFunctionBegin;
-  PetscCall(PetscMalloc3(size, &to, size + 1, &first, mail[size], &send));
-  first[0] = 0;
-  for (PetscMPIInt r = 0; r < size; ++r) {
-    const PetscInt count = mail[r + 1] - mail[r];
-    if (r == rank || count == 0) continue;
-    PetscCall(PetscArraycpy(send + first[num_to], sorted + mail[r], count));
-    first[num_to + 1] = first[num_to] + count;
-    to[num_to++]      = r;
-  }
-  PetscCall(SparseExchange(comm, num_to, to, first, sizeof(Sight), send, &num, &got));
-  const PetscInt own = mail[rank + 1] - mail[rank];
-  PetscCall(PetscMalloc1(own + num, all));
-  PetscCall(PetscArraycpy(*all, sorted + mail[rank], own));
-  PetscCall(PetscArraycpy(*all + own, got, num));
-  *total = own + num;
-  PetscCall(PetscFree(got));
-  PetscCall(PetscFree3(to, first, send));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* Multipliers and normals of the nodes of this rank's nonmortar facets, then of those that come with segments; the rest is NaN. */
-static PetscErrorCode Fields_Private(const ForestTables *t, PetscMPIInt rank, PetscInt num, const Sight sights[], ContactTerm *term)
-{
-  const SurfaceView *s = &term->view->nonmortar;
-  const PetscReal   *normal;
-
-  PetscFunctionBegin;
-  PetscCall(ContactPairGetNormals(term->view->pair, &normal));
-  PetscCall(PetscMalloc2(s->num_nodes, &term->z, s->dim * s->num_nodes, &term->normal));
-  for (PetscInt n = 0; n < s->num_nodes; ++n) term->z[n] = NAN;
-  for (PetscInt i = 0; i < s->dim * s->num_nodes; ++i) term->normal[i] = NAN;
-  for (PetscInt i = 0; i < s->corners * s->num_facets; ++i) {
-    const PetscInt n = s->facets[i];
-    if (t->leaf_rank[s->facet_leaf[i / s->corners]] != rank) continue;
-    term->z[n] = term->view->z[n];
-    PetscCall(PetscArraycpy(term->normal + s->dim * n, normal + s->dim * n, s->dim));
-  }
-  for (PetscInt i = 0; i < num; ++i) {
-    for (PetscInt k = 0; k < s->corners; ++k) {
-      const PetscInt n = s->facets[s->corners * sights[i].segment.facet + k];
-      term->z[n]       = sights[i].z[k];
-      PetscCall(PetscArraycpy(term->normal + s->dim * n, sights[i].normal[k], s->dim));
-    }
-  }
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-static PetscErrorCode GatherSegments_Private(MPI_Comm comm, const ForestTables *t, ContactTerm *term, PetscInt *total, ContactSegment **all)
-{
-  Sight      *sorted, *sights;
-  PetscInt   *mail;
-  PetscMPIInt rank, size;
+  PetscMPIInt     rank, size, *to, num_to = 0;
+  PetscInt       *first, *sent, num;
+  ContactSegment *sorted, *got, *send;
 
   PetscFunctionBegin;
   PetscCallMPI(MPI_Comm_rank(comm, &rank));
   PetscCallMPI(MPI_Comm_size(comm, &size));
-  PetscCall(PetscMalloc1(size + 1, &mail));
-  PetscCall(Post_Private(t, term->view, rank, size, mail, &sorted));
-  PetscCall(Deliver_Private(comm, rank, size, mail, sorted, total, &sights));
-  PetscCall(Fields_Private(t, rank, *total, sights, term));
+  PetscCall(PetscMalloc3(size + 1, &first, size + 1, &sent, size, &to));
+  PetscCall(SortByRank_Private(t, view, rank, size, first, &sorted));
+  const PetscInt own = first[rank + 1] - first[rank];
+  PetscCall(PetscMalloc1(first[size] - own, &send));
+  sent[0] = 0;
+  for (PetscMPIInt r = 0; r < size; ++r) {
+    const PetscInt count = first[r + 1] - first[r];
+    if (r == rank || count == 0) continue;
+    PetscCall(PetscArraycpy(send + sent[num_to], sorted + first[r], count));
+    sent[num_to + 1] = sent[num_to] + count;
+    to[num_to++]     = r;
+  }
+  PetscCall(SparseExchange(comm, num_to, to, sent, sizeof(ContactSegment), send, &num, &got));
+  *total = own + num;
   PetscCall(PetscMalloc1(*total, all));
-  for (PetscInt i = 0; i < *total; ++i) (*all)[i] = sights[i].segment;
-  PetscCall(PetscFree(mail));
+  PetscCall(PetscArraycpy(*all, sorted + first[rank], own));
+  PetscCall(PetscArraycpy(*all + own, got, num));
+  PetscCall(PetscFree3(first, sent, to));
   PetscCall(PetscFree(sorted));
-  PetscCall(PetscFree(sights));
+  PetscCall(PetscFree(send));
+  PetscCall(PetscFree(got));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Multipliers and normals on this rank's nonmortar facets, and on those that its mortar facets face. */
+static PetscErrorCode Fields_Private(Problem problem, PetscInt pair, const ForestTables *t, PetscInt num, const ContactSegment segments[], ContactTerm *term)
+{
+  const SurfaceView *s = &term->view->nonmortar;
+  PetscBool         *wanted, *facet;
+  Forest             forest;
+  PetscMPIInt        rank;
+
+  PetscFunctionBegin;
+  PetscCall(ProblemGetForest(problem, &forest));
+  PetscCallMPI(MPI_Comm_rank(ForestComm(forest), &rank));
+  PetscCall(PetscCalloc2(s->num_nodes, &wanted, s->num_facets, &facet));
+  for (PetscInt f = 0; f < s->num_facets; ++f) facet[f] = (PetscBool)(t->leaf_rank[s->facet_leaf[f]] == rank);
+  for (PetscInt i = 0; i < num; ++i) facet[segments[i].facet] = PETSC_TRUE;
+  for (PetscInt f = 0; f < s->num_facets; ++f) {
+    const PetscInt *node, count = SurfaceFacetNodes(s, f, &node);
+    for (PetscInt k = 0; k < count && facet[f]; ++k) wanted[node[k]] = PETSC_TRUE;
+  }
+  PetscCall(PetscMalloc2(s->num_nodes, &term->z, s->dim * s->num_nodes, &term->normal));
+  PetscCall(ProblemFetchContact(problem, pair, wanted, term->z, term->normal));
+  PetscCall(PetscFree2(wanted, facet));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -201,7 +161,8 @@ PetscErrorCode ContactTermsCreate_Private(Problem problem, ContactTerms *terms)
     PetscCall(ProblemGetContact(problem, i, &term->view));
     PetscCall(FacetPlaces_Private(t, &term->view->nonmortar, &term->facet_place[0]));
     PetscCall(FacetPlaces_Private(t, &term->view->mortar, &term->facet_place[1]));
-    PetscCall(GatherSegments_Private(ForestComm(forest), t, term, &num, &all));
+    PetscCall(GatherSegments_Private(ForestComm(forest), t, term->view, &num, &all));
+    PetscCall(Fields_Private(problem, i, t, num, all, term));
     PetscCall(KeepSegments_Private(num, all, term));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -248,7 +209,7 @@ static PetscBool NodalGap_Private(const ContactView *view, PetscInt node, PetscR
 }
 
 /* Measure at a place of a nonmortar facet per unit of xi: length or area, axisymmetric: of the revolution. */
-static PetscReal Measure_Private(const ContactTerms *terms, const SurfaceView *s, PetscInt facet, const PetscReal xi[2], const PetscReal N[4])
+static PetscReal Measure_Private(const ContactTerms *terms, const SurfaceView *s, PetscInt facet, const PetscReal xi[2], const PetscReal N[])
 {
   const PetscReal *x = terms->kinematics == KINEMATICS_FINITE ? s->x : s->X;
   PetscReal        tangent[2][3], position[3];
@@ -259,29 +220,30 @@ static PetscReal Measure_Private(const ContactTerms *terms, const SurfaceView *s
   return 2 * PETSC_PI * position[0] * ContactMeasure_Private(tangent);
 }
 
-/* int z+ g+ and int g-^2 over a nonmortar facet (current measure), z and g by its hats, 3 Gauss points in each direction. */
+/* int z+ g+ and int g-^2 over a nonmortar facet (current measure), z and g by the functions of its nodes, order + 2 Gauss points in each direction. */
 static PetscErrorCode FacetIntegrals_Private(const ContactTerms *terms, const ContactTerm *term, PetscInt facet, PetscReal *product, PetscReal *penetration)
 {
-  const SurfaceView *s         = &term->view->nonmortar;
-  const PetscInt    *node      = s->facets + s->corners * facet;
+  const SurfaceView *s = &term->view->nonmortar;
+  const PetscInt    *node, num = SurfaceFacetNodes(s, facet, &node), points = PetscMax(1, SurfaceFacetOrder(s, facet)) + 2;
   const PetscReal    middle[2] = {0, 0};
   const Basis1D     *gauss;
-  PetscReal          N[4], g[4];
+  PetscReal          N[SURFACE_MOST_NODES], g[SURFACE_MOST_NODES];
 
   PetscFunctionBegin;
   *product = *penetration = 0;
-  ContactHats_Private(s->dim, middle, N);
+  ContactShape_Private(s, facet, middle, N);
   const PetscReal measure = (s->dim == 3 ? 4 : 2) * Measure_Private(terms, s, facet, middle, N);
-  for (PetscInt a = 0; a < s->corners; ++a) {
+  for (PetscInt a = 0; a < num; ++a) {
     if (!NodalGap_Private(term->view, node[a], measure, &g[a])) PetscFunctionReturn(PETSC_SUCCESS);
   }
-  PetscCall(Basis1DGet(1, 3, &gauss));
-  for (PetscInt q = 0; q < (s->dim == 3 ? 9 : 3); ++q) {
-    const PetscReal xi[2] = {2 * gauss->points[q % 3] - 1, 2 * gauss->points[q / 3] - 1};
-    PetscReal       z = 0, gap = 0, weight = 2 * gauss->weights[q % 3] * (s->dim == 3 ? 2 * gauss->weights[q / 3] : 1);
-    ContactHats_Private(s->dim, xi, N);
+  PetscCall(Basis1DGet(1, points, &gauss));
+  for (PetscInt q = 0; q < (s->dim == 3 ? points : 1) * points; ++q) {
+    const PetscInt  i = q % points, j = q / points;
+    const PetscReal xi[2] = {2 * gauss->points[i] - 1, 2 * gauss->points[j] - 1};
+    PetscReal       z = 0, gap = 0, weight = 2 * gauss->weights[i] * (s->dim == 3 ? 2 * gauss->weights[j] : 1);
+    ContactShape_Private(s, facet, xi, N);
     weight *= Measure_Private(terms, s, facet, xi, N);
-    for (PetscInt a = 0; a < s->corners; ++a) {
+    for (PetscInt a = 0; a < num; ++a) {
       z += N[a] * term->view->z[node[a]];
       gap += N[a] * g[a];
     }

@@ -118,12 +118,12 @@ PetscErrorCode ContactTermsDestroy_Private(ContactTerms *);
 PetscBool      ContactTermsHave_Private(const ContactTerms *, PetscInt facet);
 /* Complementarity: int z+ g+ + mu p/h |g-|^2 on the nonmortar facets of owned leaves. */
 PetscErrorCode EstimateComplementarity_Private(EstimateSum *, const PetscReal height[][3]);
-/* contactpoint.c: at xi in [-1, 1]^(dim-1) of a facet: hats of its corners, tangents by xi (two dimensions: the second is the unit vector across), length or
-   area per unit of xi, and nodal positions (or normals) x[num_nodes][dim] interpolated (two dimensions: third component 0) */
-void      ContactHats_Private(PetscInt dim, const PetscReal xi[2], PetscReal N[4]);
+/* contactpoint.c: at xi in [-1, 1]^(dim-1) of a facet: functions of its nodes, N[SURFACE_MOST_NODES], tangents by xi (two dimensions: the second is the unit
+   vector across), length or area per unit of xi, and nodal positions (or normals) x[num_nodes][dim] interpolated (two dimensions: third component 0) */
+void      ContactShape_Private(const SurfaceView *, PetscInt facet, const PetscReal xi[2], PetscReal N[]);
 void      ContactTangents_Private(const SurfaceView *, PetscInt facet, const PetscReal x[], const PetscReal xi[2], PetscReal tangent[2][3]);
 PetscReal ContactMeasure_Private(const PetscReal tangent[2][3]);
-void      ContactPosition_Private(const SurfaceView *, PetscInt facet, const PetscReal x[], const PetscReal N[4], PetscReal position[3]);
+void      ContactPosition_Private(const SurfaceView *, PetscInt facet, const PetscReal x[], const PetscReal N[], PetscReal position[3]);
 /* The box of a segment. */
 void ContactSegmentBox_Private(const ContactSegment *, PetscReal box[4]);
 /* Add the contact traction (per reference area) on a facet at reference position X. */

@@ -72,10 +72,11 @@ PetscErrorCode HPRowAccumulate_Private(HPSpace hp, PetscInt entity, const PetscR
     PetscCall(HPRowAccumulate_Private(hp, parent, eta, limit, scale, row));
     PetscFunctionReturn(PETSC_SUCCESS);
   }
-  PetscCheck(hp->entity_point[entity] >= 0, PETSC_COMM_SELF, PETSC_ERR_PLIB, "entity %" PetscInt_FMT " is needed as a master but is not in this rank's chart",
-             entity);
+  PetscCheck(row->everywhere || hp->entity_point[entity] >= 0, PETSC_COMM_SELF, PETSC_ERR_PLIB,
+             "entity %" PetscInt_FMT " is needed as a master but is not in this rank's chart", entity);
+  const PetscInt first = row->everywhere ? HP_NODE(entity, 0) : hp->point_node[hp->entity_point[entity]];
   if (d == 0) {
-    PetscCall(RowAdd_Private(row, hp->point_node[hp->entity_point[entity]], scale));
+    PetscCall(RowAdd_Private(row, first, scale));
     PetscFunctionReturn(PETSC_SUCCESS);
   }
   PetscCall(ElementGetNodes(p, &nodes));
@@ -95,7 +96,7 @@ PetscErrorCode HPRowAccumulate_Private(HPSpace hp, PetscInt entity, const PetscR
     }
     if (PetscAbsReal(weight) < SMALL_WEIGHT) continue;
     if (k == d) {
-      PetscCall(RowAdd_Private(row, hp->point_node[hp->entity_point[entity]] + inner, weight));
+      PetscCall(RowAdd_Private(row, first + inner, weight));
       continue;
     }
     const PetscInt offset = t->closure_offset[entity] + index;

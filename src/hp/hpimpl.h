@@ -22,10 +22,14 @@ struct _p_HPSpace {
 
 /* A sparse row under construction: true local nodes and weights. */
 typedef struct {
+  PetscBool  everywhere; /* nodes as HP_NODE(entity, index), which every rank knows, instead of local ones */
   PetscInt   num, size;
   PetscInt  *node;
   PetscReal *weight;
 } HPRow;
+
+#define HP_SIDE_NODES ((MORTISE_MAX_ORDER - 1) * (MORTISE_MAX_ORDER - 1)) /* most of an entity below cells */
+#define HP_NODE(entity, index) (HP_SIDE_NODES * (entity) + (index))
 
 /* order.c: entity_order from leaf orders. */
 PetscErrorCode HPSpaceOrders_Private(HPSpace, const int8_t leaf_order[], uint64_t linear_groups);

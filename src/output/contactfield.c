@@ -15,38 +15,70 @@ typedef struct {
 
 /* ---- facets -------------------------------------------------------------------------------------------------------------------- */
 
-void OutputFacetHats(PetscInt dim, const PetscReal xi[], PetscReal N[4])
+/* The interval between nodes that s of [0, 1] lies in, and the place in it. */
+static PetscInt Interval_Private(PetscInt order, PetscReal s, PetscReal *place)
 {
-  const PetscReal a[2] = {0.5 * (1 - xi[0]), 0.5 * (1 + xi[0])};
+  const PetscReal *nodes;
+  PetscInt         i = 0;
 
-  if (dim == 2) {
-    N[0] = a[0];
-    N[1] = a[1];
+  PetscCallAbort(PETSC_COMM_SELF, ElementGetNodes(order, &nodes));
+  while (i + 1 < order && s > nodes[i + 1]) ++i;
+  *place = (s - nodes[i]) / (nodes[i + 1] - nodes[i]);
+  return i;
+}
+
+void OutputFacetHats(const SurfaceView *s, PetscInt facet, const PetscReal xi[], PetscReal N[4], PetscInt node[4])
+{
+  const PetscInt q      = SurfaceFacetOrder(s, facet);
+  PetscInt       low[2] = {0, 0};
+  PetscReal      at[2]  = {0, 0};
+
+  if (q == 0) {
+    SurfaceShape(s->dim, 0, xi, N, NULL);
+    for (PetscInt k = 0; k < s->corners; ++k) node[k] = s->facets[s->corners * facet + k];
     return;
   }
-  const PetscReal b[2] = {0.5 * (1 - xi[1]), 0.5 * (1 + xi[1])};
-  N[0]                 = a[0] * b[0];
-  N[1]                 = a[1] * b[0];
-  N[2]                 = a[1] * b[1];
-  N[3]                 = a[0] * b[1];
+  for (PetscInt a = 0; a < s->dim - 1; ++a) low[a] = Interval_Private(q, 0.5 * (1 + xi[a]), &at[a]);
+  for (PetscInt k = 0; k < s->corners; ++k) {
+    N[k]    = ((k & 1) ? at[0] : 1 - at[0]) * ((k & 2) ? at[1] : 1 - at[1]);
+    node[k] = s->lattice[s->first[facet] + low[0] + (k & 1) + (q + 1) * (low[1] + k / 2)];
+  }
 }
 
 void OutputFacetPoint(const SurfaceView *s, const PetscReal x[], PetscInt facet, const PetscReal xi[], PetscReal point[3])
 {
-  PetscReal N[4];
+  const PetscInt *node, num = SurfaceFacetNodes(s, facet, &node);
+  PetscReal       N[SURFACE_MOST_NODES];
 
-  OutputFacetHats(s->dim, xi, N);
+  SurfaceShape(s->dim, SurfaceFacetOrder(s, facet), xi, N, NULL);
   for (PetscInt c = 0; c < 3; ++c) {
     point[c] = 0;
-    for (PetscInt k = 0; k < s->corners && c < s->dim; ++k) point[c] += N[k] * x[s->dim * s->facets[s->corners * facet + k] + c];
+    for (PetscInt k = 0; k < num && c < s->dim; ++k) point[c] += N[k] * x[s->dim * node[k] + c];
   }
 }
 
-void OutputFacetNormal(const SurfaceView *s, const PetscReal x[], PetscInt facet, PetscReal normal[3])
+/* Both tangents' product; two dimensions: the second is the axis out of the plane. */
+static void LatticeVector_Private(const SurfaceView *s, const PetscReal x[], PetscInt facet, const PetscReal xi[], PetscReal normal[3])
+{
+  const PetscInt *node, num = SurfaceFacetNodes(s, facet, &node);
+  PetscReal       N[SURFACE_MOST_NODES], dN[SURFACE_MOST_NODES][2], tangent[2][3] = {{0, 0, 0}, {0, 0, s->dim == 2}};
+
+  SurfaceShape(s->dim, SurfaceFacetOrder(s, facet), xi, N, dN);
+  for (PetscInt k = 0; k < num; ++k) {
+    for (PetscInt a = 0; a < s->dim - 1; ++a)
+      for (PetscInt c = 0; c < s->dim; ++c) tangent[a][c] += dN[k][a] * x[s->dim * node[k] + c];
+  }
+  Cross3(tangent[0], tangent[1], normal);
+}
+
+void OutputFacetNormal(const SurfaceView *s, const PetscReal x[], PetscInt facet, const PetscReal xi[], PetscReal normal[3])
 {
   PetscReal length;
 
-  ContactFacetVector(s->dim, x, s->facets + s->corners * facet, normal);
+  if (s->order)
+    LatticeVector_Private(s, x, facet, xi, normal);
+  else
+    ContactFacetVector(s->dim, x, s->facets + s->corners * facet, normal);
   length = PetscSqrtReal(Dot3(normal, normal));
   for (PetscInt c = 0; c < 3 && length > 0; ++c) normal[c] /= length;
 }
@@ -86,27 +118,65 @@ void OutputContactFields(const ContactView *v, ContactFields *f)
 
 /* ---- mortar side ------------------------------------------------------------------------------------------------------------------ */
 
-/* Two dimensions: the two Gauss points of a segment. A hit of node-to-segment contact is a point and counts as 1. */
+/* Pieces along a segment, of which each has points of its own: facets of higher order are seen as pieces between nodes. */
+static PetscInt Pieces_Private(const ContactView *v, const ContactSegment *s)
+{
+  return PetscMax(1, PetscMax(SurfaceFacetOrder(&v->nonmortar, s->facet), SurfaceFacetOrder(&v->mortar, s->mortar_facet)));
+}
+
+/* Two dimensions: the two Gauss points of each piece of a segment. A hit of node-to-segment contact is a point and counts as 1. */
 static PetscInt EdgePoints_Private(const ContactView *v, const PetscReal x[], const ContactSegment *s, SegmentPoint point[])
 {
-  PetscReal end[2][3], square = 0;
+  const PetscInt pieces = Pieces_Private(v, s);
+  PetscReal      end[2][3], square = 0;
 
   for (PetscInt k = 0; k < 2; ++k) OutputFacetPoint(&v->nonmortar, x, s->facet, s->xi[k], end[k]);
   for (PetscInt c = 0; c < 2; ++c) square += PetscSqr(end[1][c] - end[0][c]);
-  for (PetscInt q = 0; q < 2; ++q) {
-    const PetscReal at = 0.5 + (q ? 0.5 : -0.5) / PetscSqrtReal(3.);
+  for (PetscInt q = 0; q < 2 * pieces; ++q) {
+    const PetscReal at = (q / 2 + (0.5 + (q % 2 ? 0.5 : -0.5) / PetscSqrtReal(3.))) / pieces;
     point[q].xi[0]     = (1 - at) * s->xi[0][0] + at * s->xi[1][0];
     point[q].eta[0]    = (1 - at) * s->eta[0][0] + at * s->eta[1][0];
-    point[q].weight    = 0.5 * (v->spec->node_to_segment ? 1 : PetscSqrtReal(square));
+    point[q].weight    = 0.5 * (v->spec->node_to_segment ? 1 : PetscSqrtReal(square)) / pieces;
   }
-  return 2;
+  return 2 * pieces;
 }
 
-/* Three dimensions: the polygon as a fan of triangles, the middles of whose sides integrate quadratic functions. */
+/* Corner k of the small triangle (i, j) of a triangle cut into n^2, upright or upside down, in weights of the large one's corners. */
+static void Small_Private(PetscInt n, PetscInt i, PetscInt j, PetscBool down, PetscInt k, PetscReal weight[3])
+{
+  const PetscInt a = i + (down ? k < 2 : k == 1), b = j + (down ? k > 0 : k == 2);
+
+  weight[0] = (PetscReal)(n - a - b) / (PetscReal)n;
+  weight[1] = (PetscReal)a / (PetscReal)n;
+  weight[2] = (PetscReal)b / (PetscReal)n;
+}
+
+/* The middles of the sides of a small triangle, and a third each of its share of the area (given twice). */
+static void AddTriangle_Private(const ContactSegment *s, const PetscInt fan[3], PetscInt n, PetscInt i, PetscInt j, PetscBool down, PetscReal twice,
+                                SegmentPoint point[3])
+{
+  PetscReal w[3][3];
+
+  for (PetscInt k = 0; k < 3; ++k) Small_Private(n, i, j, down, k, w[k]);
+  for (PetscInt q = 0; q < 3; ++q) {
+    point[q].weight = twice / (6 * n * n);
+    for (PetscInt c = 0; c < 2; ++c) {
+      point[q].xi[c] = point[q].eta[c] = 0;
+      for (PetscInt k = 0; k < 3; ++k) {
+        const PetscReal share = 0.5 * (w[q][k] + w[(q + 1) % 3][k]);
+        point[q].xi[c] += share * s->xi[fan[k]][c];
+        point[q].eta[c] += share * s->eta[fan[k]][c];
+      }
+    }
+  }
+}
+
+/* Three dimensions: the polygon as a fan of triangles, in pieces, the middles of whose sides integrate quadratic functions. */
 static PetscInt PolygonPoints_Private(const ContactView *v, const PetscReal x[], const ContactSegment *s, SegmentPoint point[])
 {
-  PetscReal corner[CONTACT_SEGMENT][3], normal[3], d[3], e[3];
-  PetscInt  num = 0;
+  const PetscInt n = Pieces_Private(v, s);
+  PetscReal      corner[CONTACT_SEGMENT][3], normal[3], d[3], e[3];
+  PetscInt       num = 0;
 
   for (PetscInt k = 0; k < s->num; ++k) OutputFacetPoint(&v->nonmortar, x, s->facet, s->xi[k], corner[k]);
   for (PetscInt k = 1; k + 1 < s->num; ++k) {
@@ -116,16 +186,15 @@ static PetscInt PolygonPoints_Private(const ContactView *v, const PetscReal x[],
       e[c] = corner[k + 1][c] - corner[0][c];
     }
     Cross3(d, e, normal);
-    for (PetscInt q = 0; q < 3; ++q, ++num) {
-      const PetscInt a = fan[q], b = fan[(q + 1) % 3];
-      for (PetscInt c = 0; c < 2; ++c) {
-        point[num].xi[c]  = 0.5 * (s->xi[a][c] + s->xi[b][c]);
-        point[num].eta[c] = 0.5 * (s->eta[a][c] + s->eta[b][c]);
+    const PetscReal twice = PetscSqrtReal(Dot3(normal, normal)); /* the area */
+    for (PetscInt i = 0; i < n; ++i) {
+      for (PetscInt j = 0; i + j < n; ++j) {
+        AddTriangle_Private(s, fan, n, i, j, PETSC_FALSE, twice, point + 3 * num++);
+        if (i + j < n - 1) AddTriangle_Private(s, fan, n, i, j, PETSC_TRUE, twice, point + 3 * num++);
       }
-      point[num].weight = PetscSqrtReal(Dot3(normal, normal)) / 6;
     }
   }
-  return num;
+  return 3 * num;
 }
 
 static void AddToNode_Private(const SurfaceView *mortar, PetscInt node, PetscReal weight, const PetscReal value[NUM_SUMS], PetscReal sums[])
@@ -142,11 +211,12 @@ static void AddToNode_Private(const SurfaceView *mortar, PetscInt node, PetscRea
 
 static void AddPoint_Private(const ContactView *v, const ContactSegment *s, const SegmentPoint *point, const ContactFields *f, PetscReal sums[])
 {
-  const PetscInt corners = v->nonmortar.corners, *own = v->nonmortar.facets + corners * s->facet, *other = v->mortar.facets + corners * s->mortar_facet;
-  PetscReal      N[4], M[4], value[NUM_SUMS]                                                             = {[SUM_ALL] = 1};
+  const PetscInt corners = v->nonmortar.corners;
+  PetscInt       own[4], other[4];
+  PetscReal      N[4], M[4], value[NUM_SUMS] = {[SUM_ALL] = 1};
 
-  OutputFacetHats(v->nonmortar.dim, point->xi, N);
-  OutputFacetHats(v->nonmortar.dim, point->eta, M);
+  OutputFacetHats(&v->nonmortar, s->facet, point->xi, N, own);
+  OutputFacetHats(&v->mortar, s->mortar_facet, point->eta, M, other);
   for (PetscInt k = 0; k < corners; ++k) {
     value[SUM_PRESSURE] += N[k] * f->pressure[own[k]];
     if (f->status[own[k]] == CONTACT_ALONE) continue;
@@ -166,7 +236,7 @@ static PetscErrorCode Sums_Private(Problem problem, const ContactView *v, const 
   Forest                forest;
   PetscInt              num;
   PetscMPIInt           rank;
-  SegmentPoint          point[3 * CONTACT_SEGMENT];
+  SegmentPoint          point[3 * CONTACT_SEGMENT * MORTISE_MAX_ORDER * MORTISE_MAX_ORDER];
 
   PetscFunctionBegin;
   PetscCall(ProblemGetScene(problem, &scene));

@@ -11,17 +11,43 @@ typedef struct {
   PetscInt  *conn;                      /* owned [num_facets][corners], lexicographic */
 } ContactGrid;
 
+/* Facets of higher order are cut at their nodes. */
+static PetscInt Pieces_Private(const SurfaceView *s, PetscInt facet)
+{
+  const PetscInt q = s->order ? s->order[facet] : 1;
+  return s->dim == 2 ? q : q * q;
+}
+
+static PetscInt AllPieces_Private(const SurfaceView *s)
+{
+  PetscInt sum = 0;
+
+  for (PetscInt f = 0; f < s->num_facets; ++f) sum += Pieces_Private(s, f);
+  return sum;
+}
+
+/* Corner k, lexicographic, of a piece of a facet. */
+static PetscInt PieceCorner_Private(const SurfaceView *s, PetscInt facet, PetscInt piece, PetscInt k)
+{
+  static const PetscInt around[4] = {0, 1, 3, 2};
+
+  if (!s->order) return s->facets[s->corners * facet + around[k]];
+  const PetscInt q = s->order[facet];
+  return s->lattice[s->first[facet] + piece % q + k % 2 + (q + 1) * (piece / q + k / 2)];
+}
+
 /* Append the shape of a side: points, facets, and what belongs to facets as a whole. Nodal fields stand at the returned place. */
 static PetscInt AppendSurface_Private(ContactGrid *g, const SurfaceView *s, PetscInt pair, PetscInt side)
 {
-  static const PetscInt lexicographic[4] = {0, 1, 3, 2};
-  const PetscInt        first            = g->num_points;
+  const PetscInt first = g->num_points;
 
-  for (PetscInt f = 0; f < s->num_facets; ++f, ++g->num_facets) {
-    for (PetscInt k = 0; k < s->corners; ++k) g->conn[s->corners * g->num_facets + k] = first + s->facets[s->corners * f + lexicographic[k]];
-    g->pair[g->num_facets] = (PetscReal)pair;
-    g->side[g->num_facets] = (PetscReal)side;
-    g->cell[g->num_facets] = (PetscReal)s->facet_leaf[f];
+  for (PetscInt f = 0; f < s->num_facets; ++f) {
+    for (PetscInt piece = 0; piece < Pieces_Private(s, f); ++piece, ++g->num_facets) {
+      for (PetscInt k = 0; k < s->corners; ++k) g->conn[s->corners * g->num_facets + k] = first + PieceCorner_Private(s, f, piece, k);
+      g->pair[g->num_facets] = (PetscReal)pair;
+      g->side[g->num_facets] = (PetscReal)side;
+      g->cell[g->num_facets] = (PetscReal)s->facet_leaf[f];
+    }
   }
   for (PetscInt n = 0; n < s->num_nodes; ++n, ++g->num_points) {
     for (PetscInt c = 0; c < 3; ++c) {
@@ -32,21 +58,39 @@ static PetscInt AppendSurface_Private(ContactGrid *g, const SurfaceView *s, Pets
   return first;
 }
 
-/* Sum of the unit normals of a node's facets at positions x, normalised. normal [num_nodes][3] */
-static void MeanNormals_Private(const SurfaceView *s, const PetscReal x[], PetscReal normal[])
+/* Place of node k of a facet, in [-1, 1]. */
+static PetscErrorCode NodePlace_Private(const SurfaceView *s, PetscInt facet, PetscInt k, PetscReal xi[2])
 {
+  const PetscInt   q = s->order ? s->order[facet] : 1;
+  const PetscReal *nodes;
+
+  PetscFunctionBegin;
+  PetscCall(ElementGetNodes(q, &nodes));
+  xi[0] = 2 * nodes[k % (q + 1)] - 1;
+  xi[1] = 2 * nodes[k / (q + 1)] - 1;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Sum of the unit normals of a node's facets at positions x, normalised. normal [num_nodes][3] */
+static PetscErrorCode MeanNormals_Private(const SurfaceView *s, const PetscReal x[], PetscReal normal[])
+{
+  PetscFunctionBegin;
   for (PetscInt i = 0; i < 3 * s->num_nodes; ++i) normal[i] = 0;
   for (PetscInt f = 0; f < s->num_facets; ++f) {
-    PetscReal N[3];
-    OutputFacetNormal(s, x, f, N);
-    for (PetscInt k = 0; k < s->corners; ++k)
-      for (PetscInt c = 0; c < 3; ++c) normal[3 * s->facets[s->corners * f + k] + c] += N[c];
+    const PetscInt *node, num = SurfaceFacetNodes(s, f, &node);
+    for (PetscInt k = 0; k < num; ++k) {
+      PetscReal xi[2], N[3];
+      PetscCall(NodePlace_Private(s, f, k, xi));
+      OutputFacetNormal(s, x, f, xi, N);
+      for (PetscInt c = 0; c < 3; ++c) normal[3 * node[k] + c] += N[c];
+    }
   }
   for (PetscInt n = 0; n < s->num_nodes; ++n) {
     PetscReal      *N      = normal + 3 * n;
     const PetscReal length = PetscSqrtReal(N[0] * N[0] + N[1] * N[1] + N[2] * N[2]);
     for (PetscInt c = 0; c < 3 && length > 0; ++c) N[c] /= length;
   }
+  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* Normals of the nonmortar side as the contact uses them. */
@@ -75,7 +119,7 @@ static PetscErrorCode AppendPair_Private(ContactGrid *g, Problem problem, PetscI
     if (side == 0)
       OwnNormals_Private(v, g->normal + 3 * at);
     else
-      MeanNormals_Private(s, scene->mechanics.kinematics == KINEMATICS_SMALL ? s->X : s->x, g->normal + 3 * at);
+      PetscCall(MeanNormals_Private(s, scene->mechanics.kinematics == KINEMATICS_SMALL ? s->X : s->x, g->normal + 3 * at));
   }
   OutputContactFields(v, &fields[0]);
   PetscCall(OutputProjectFields(problem, pair, &fields[0], &fields[1]));
@@ -93,7 +137,7 @@ static PetscErrorCode WriteSurfaces_Private(Writer writer, Problem problem, Pets
     PetscCall(ProblemGetContact(problem, i, &v));
     g.corners = v->nonmortar.corners;
     points += v->nonmortar.num_nodes + v->mortar.num_nodes;
-    facets += v->nonmortar.num_facets + v->mortar.num_facets;
+    facets += AllPieces_Private(&v->nonmortar) + AllPieces_Private(&v->mortar);
   }
   PetscCall(PetscMalloc3(3 * points, &g.X, 3 * points, &g.displacement, 3 * points, &g.normal));
   PetscCall(PetscMalloc3(points, &g.gap, points, &g.pressure, points, &g.status));

@@ -53,12 +53,13 @@ void OutputContactFields(const ContactView *, ContactFields *);
 /* The same on the mortar side, from those of the nonmortar side, on all ranks. Collective. */
 PetscErrorCode OutputProjectFields(Problem, PetscInt pair, const ContactFields *nonmortar, ContactFields *mortar);
 
-/* Hats of a facet's corners, in their order, at xi[dim-1] in [-1, 1]; N: 2 or 4 of them. */
-void OutputFacetHats(PetscInt dim, const PetscReal xi[], PetscReal N[4]);
+/* Hats at xi[dim-1] in [-1, 1] of a facet's corners, of higher order: of the corners of the piece between nodes of the lattice that xi lies in; 2 or 4 of them
+   and their nodes. */
+void OutputFacetHats(const SurfaceView *, PetscInt facet, const PetscReal xi[], PetscReal N[4], PetscInt node[4]);
 /* Point of a facet when its nodes are at x[num_nodes][dim]. */
 void OutputFacetPoint(const SurfaceView *, const PetscReal x[], PetscInt facet, const PetscReal xi[], PetscReal point[3]);
-/* Its unit normal, out of the body; zero for a facet without extent. */
-void OutputFacetNormal(const SurfaceView *, const PetscReal x[], PetscInt facet, PetscReal normal[3]);
+/* Its unit normal there (order 1: in the middle), out of the body; zero for a facet without extent. */
+void OutputFacetNormal(const SurfaceView *, const PetscReal x[], PetscInt facet, const PetscReal xi[], PetscReal normal[3]);
 
 /* Grid segments of a state (output.h). Collective. */
 PetscErrorCode OutputWriteSegments(Writer, Problem);

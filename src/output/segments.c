@@ -51,8 +51,8 @@ static void AddFan_Private(SegmentGrid *g, const ContactView *v, PetscInt pair, 
   const PetscInt first = g->num_points;
   PetscReal      normal[3], own[3], other[3];
 
-  OutputFacetNormal(&v->nonmortar, small ? v->nonmortar.X : v->nonmortar.x, s->facet, normal);
   for (PetscInt k = 0; k < s->num; ++k) {
+    OutputFacetNormal(&v->nonmortar, small ? v->nonmortar.X : v->nonmortar.x, s->facet, s->xi[k], normal);
     OutputFacetPoint(&v->nonmortar, v->nonmortar.x, s->facet, s->xi[k], own);
     OutputFacetPoint(&v->mortar, v->mortar.x, s->mortar_facet, s->eta[k], other);
     g->gap[g->num_points] = 0;

@@ -17,13 +17,48 @@ static PetscReal Young_Private(const MaterialSpec *m)
   return 9 * m->kappa * m->mu / (3 * m->kappa + m->mu);
 }
 
-/* Tributary measure w0, its extent along the surface (an edge's length, the root of a face's area), and the constant c = E / extent of the complementarity: a
-   pressure per gap, in any model. E of the softer body (a rigid one does not count). */
+/* Shares of a facet's nodes in its measure (axisymmetric: of revolution) at the reference positions, and in its plain length or area as far as that tells how
+   close nodes are. Corners have equal shares of both. On a lattice the first is int N_k, the second that of the trapezoidal rule on as many equal parts: nodes
+   at a corner of a Gauss-Lobatto lattice have much less weight than room. */
+static PetscErrorCode FacetShares_Private(const Surface *s, PetscInt f, PetscBool axisymmetric, PetscReal share[], PetscReal room[])
+{
+  const PetscInt  q = SurfaceOrder_Private(s, f), *node, num = SurfaceNodes_Private(s, f, &node);
+  const PetscReal plain = FacetMeasure_Private(s, f, PETSC_FALSE);
+  const Basis1D  *gauss;
+  PetscReal       N[SURFACE_MOST_NODES];
+
+  PetscFunctionBegin;
+  if (q == 0) {
+    const PetscReal whole = FacetMeasure_Private(s, f, axisymmetric);
+    for (PetscInt k = 0; k < num; ++k) {
+      share[k] = whole / (PetscReal)s->corners;
+      room[k]  = plain / (PetscReal)s->corners;
+    }
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
+  PetscCall(PetscArrayzero(share, num));
+  PetscCall(Basis1DGet(1, q + 2, &gauss));
+  for (PetscInt i = 0; i < (s->dim == 2 ? 1 : gauss->num_points) * gauss->num_points; ++i) {
+    const PetscInt  a = i % gauss->num_points, b = i / gauss->num_points;
+    const PetscReal xi[2]  = {2 * gauss->points[a] - 1, 2 * gauss->points[b] - 1};
+    const PetscReal weight = 2 * gauss->weights[a] * (s->dim == 2 ? 1 : 2 * gauss->weights[b]) * SurfacePoint_Private(s, f, s->X, xi, axisymmetric, N);
+    for (PetscInt k = 0; k < num; ++k) share[k] += weight * N[k];
+  }
+  for (PetscInt k = 0; k < num; ++k) {
+    const PetscInt i = k % (q + 1), j = k / (q + 1);
+    room[k] = plain / (s->dim == 2 ? q : q * q) * (i % q ? 1 : 0.5) * (s->dim == 2 || j % q ? 1 : 0.5);
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Tributary measure w0, its extent along the surface (an edge's length, the root of a face's area; of higher order: divided by the order), and the constant
+   c = E / extent of the complementarity: a pressure per gap, in any model. E of the softer body (a rigid one does not count). */
 static PetscErrorCode NodeScales_Private(Problem p, Contact *c)
 {
-  const Surface      *s = &c->side[0];
+  const Surface      *s            = &c->side[0];
+  const PetscBool     axisymmetric = (PetscBool)(p->scene->mechanics.model == MODEL_AXISYMMETRIC);
   const ForestTables *t;
-  PetscReal           young = PETSC_MAX_REAL;
+  PetscReal           young = PETSC_MAX_REAL, share[SURFACE_MOST_NODES], room[SURFACE_MOST_NODES];
 
   PetscFunctionBegin;
   PetscCall(ForestGetTables(p->forest, &t));
@@ -34,15 +69,15 @@ static PetscErrorCode NodeScales_Private(Problem p, Contact *c)
     }
   }
   for (PetscInt f = 0; f < s->num_facets; ++f) {
-    const PetscReal share = FacetMeasure_Private(s, f, (PetscBool)(p->scene->mechanics.model == MODEL_AXISYMMETRIC)) / (PetscReal)s->corners;
-    const PetscReal plain = FacetMeasure_Private(s, f, PETSC_FALSE) / (PetscReal)s->corners;
-    for (PetscInt k = 0; k < s->corners; ++k) {
-      const PetscInt n = s->facets[s->corners * f + k];
-      c->w0[n] += share;
-      c->extent[n] += plain;
+    const PetscInt *node, num = SurfaceNodes_Private(s, f, &node);
+    PetscCall(FacetShares_Private(s, f, axisymmetric, share, room));
+    for (PetscInt k = 0; k < num; ++k) {
+      const PetscInt n = node[k];
+      c->w0[n] += share[k];
+      c->extent[n] += room[k];
       for (PetscInt i = s->hang[n]; i < s->hang[n + 1]; ++i) {
-        c->w0[s->hang_master[i]] += s->hang_weight[i] * share;
-        c->extent[s->hang_master[i]] += s->hang_weight[i] * plain;
+        c->w0[s->hang_master[i]] += s->hang_weight[i] * share[k];
+        c->extent[s->hang_master[i]] += PetscAbsReal(s->hang_weight[i]) * room[k];
       }
     }
   }
@@ -53,7 +88,7 @@ static PetscErrorCode NodeScales_Private(Problem p, Contact *c)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Mean unit normal of the facets at a node, reference positions, three dimensions. */
+/* Mean unit normal of the facets at a node, those between the corners, reference positions, three dimensions. */
 static void NodeNormal_Private(const Surface *s, PetscInt n, PetscReal normal[3])
 {
   PetscReal N[3], length;
@@ -111,9 +146,10 @@ static PetscErrorCode ListFacets_Private(Problem p, Contact *c)
   PetscCall(ForestGetTables(p->forest, &t));
   PetscCall(PetscMalloc2(s->num_facets, &c->listed, s->num_facets, &c->mine));
   for (PetscInt f = 0; f < s->num_facets; ++f) {
-    PetscBool near = c->mine[f] = (PetscBool)(t->leaf_rank[s->facet_leaf[f]] == p->rank);
-    for (PetscInt k = 0; k < s->corners; ++k) {
-      const PetscInt n = s->facets[s->corners * f + k];
+    PetscBool       near = c->mine[f] = (PetscBool)(t->leaf_rank[s->facet_leaf[f]] == p->rank);
+    const PetscInt *node, num = SurfaceNodes_Private(s, f, &node);
+    for (PetscInt k = 0; k < num; ++k) {
+      const PetscInt n = node[k];
       if (s->owned[n]) near = PETSC_TRUE;
       for (PetscInt i = s->hang[n]; i < s->hang[n + 1]; ++i) near = (PetscBool)(near || s->owned[s->hang_master[i]]);
     }
@@ -151,8 +187,8 @@ static void View_Private(Contact *c)
   SurfaceView *sv[2] = {&v->nonmortar, &v->mortar};
   for (PetscInt k = 0; k < 2; ++k) {
     const Surface *s = &c->side[k];
-    *sv[k]           = (SurfaceView){s->dim,  s->corners,     s->num_nodes,   s->num_facets, s->node_entity, s->facets, s->facet_leaf, s->facet_entity,
-                                     s->hang, s->hang_master, s->hang_weight, s->X,          s->x,           s->force,  s->owned};
+    *sv[k] = (SurfaceView){s->dim,         s->corners,     s->num_nodes, s->num_facets, s->node_entity, s->facets, s->facet_leaf, s->facet_entity, s->hang,
+                           s->hang_master, s->hang_weight, s->X,         s->x,          s->force,       s->owned,  s->order,      s->first,        s->lattice};
   }
   v->spec           = c->spec;
   v->z              = c->z;
@@ -251,15 +287,35 @@ static PetscErrorCode Subtract_Private(Problem p, Contact *c)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Does either side of a pair have facets of higher order? Then both are given by lattices. */
+static PetscErrorCode IsHigher_Private(Problem p, const ContactSpec *spec, PetscBool *higher)
+{
+  const uint64_t      groups = ((uint64_t)1 << spec->nonmortar) | ((uint64_t)1 << spec->mortar);
+  const ForestTables *t;
+
+  PetscFunctionBegin;
+  *higher = PETSC_FALSE;
+  PetscCall(ForestGetTables(p->forest, &t));
+  for (PetscInt f = t->first[t->dim - 1]; f < t->first[t->dim] && !*higher; ++f) {
+    PetscInt order;
+    if (!(t->boundary[f] & groups)) continue;
+    PetscCall(HPSpaceGetOrder(p->space, f, &order));
+    *higher = (PetscBool)(order > 1);
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode ContactCreate_Private(Problem p, const ContactSpec *spec, Contact *c)
 {
   const PetscBool axisymmetric = (PetscBool)(p->scene->mechanics.model == MODEL_AXISYMMETRIC);
+  PetscBool       higher;
 
   PetscFunctionBegin;
   PetscCall(PetscMemzero(c, sizeof(*c)));
   c->spec = spec;
-  PetscCall(SurfaceCreate_Private(p, spec->nonmortar, &c->side[0]));
-  PetscCall(SurfaceCreate_Private(p, spec->mortar, &c->side[1]));
+  PetscCall(IsHigher_Private(p, spec, &higher));
+  PetscCall(SurfaceCreate_Private(p, spec->nonmortar, higher, &c->side[0]));
+  PetscCall(SurfaceCreate_Private(p, spec->mortar, higher, &c->side[1]));
   PetscCall(ContactPairCreate(p->dim, axisymmetric, spec, &c->pair));
   const PetscInt n = c->side[0].num_nodes;
   PetscCall(PetscCalloc6(n, &c->z, n, &c->gap, n, &c->weight, n, &c->w0, n, &c->extent, n, &c->c));

@@ -77,7 +77,7 @@ PetscErrorCode LinkSet_Private(Problem p, const Surface *s, PetscInt num, const 
 PetscErrorCode LinkSpread_Private(Problem p, const Link *l, PetscInt size, PetscReal values[])
 {
   PetscFunctionBegin;
-  if (p->size == 1) PetscFunctionReturn(PETSC_SUCCESS);
+  if (!l->sf) PetscFunctionReturn(PETSC_SUCCESS); /* one rank, or no search yet */
   PetscCall(ExchangeBegin_Private(p));
   PetscCall(PetscSFBcastBegin(l->sf, p->unit[size], values, values, MPI_REPLACE));
   PetscCall(PetscSFBcastEnd(l->sf, p->unit[size], values, values, MPI_REPLACE));
@@ -90,7 +90,7 @@ PetscErrorCode LinkSpread_Private(Problem p, const Link *l, PetscInt size, Petsc
 PetscErrorCode LinkCollect_Private(Problem p, const Link *l, PetscInt size, PetscReal values[])
 {
   PetscFunctionBegin;
-  if (p->size == 1) PetscFunctionReturn(PETSC_SUCCESS);
+  if (!l->sf) PetscFunctionReturn(PETSC_SUCCESS); /* one rank, or no search yet */
   PetscCall(ExchangeBegin_Private(p));
   PetscCall(PetscSFReduceBegin(l->sf, p->unit[size], values, values, MPI_SUM));
   PetscCall(PetscSFReduceEnd(l->sf, p->unit[size], values, values, MPI_SUM));
@@ -126,18 +126,9 @@ void SurfaceForget_Private(Surface *s)
   Poison_Private(s->num_nodes, s->has, s->dim, s->du);
 }
 
-/* Mark the nodes of all facets around a facet. */
-static void MarkAround_Private(const Surface *s, PetscInt facet, PetscBool need[])
+static void Mark_Private(const Surface *s, PetscInt facet, PetscBool mark[])
 {
-  PetscInt       own[4 * MOST_MASTERS], other[4 * MOST_MASTERS];
-  const PetscInt num = SurfaceFacetNodes_Private(s, facet, own);
-
-  for (PetscInt i = 0; i < num; ++i) {
-    for (PetscInt k = s->node_first[own[i]]; k < s->node_first[own[i] + 1]; ++k) {
-      const PetscInt count = SurfaceFacetNodes_Private(s, s->node_facet[k], other);
-      for (PetscInt j = 0; j < count; ++j) need[other[j]] = PETSC_TRUE;
-    }
-  }
+  for (PetscInt k = s->true_first[facet]; k < s->true_first[facet + 1]; ++k) mark[s->true_node[k]] = PETSC_TRUE;
 }
 
 /* Nodes of both sides that this rank needs: for the facets it evaluates, and to know the values on its own facets. own: set for all nodes of its own facets. */
@@ -145,25 +136,21 @@ static PetscErrorCode Need_Private(const Contact *c, PetscBool *need[2], PetscBo
 {
   const Surface  *s = &c->side[0], *m = &c->side[1];
   const PetscInt *start, *candidate;
-  PetscInt        nodes[4 * MOST_MASTERS];
 
   PetscFunctionBegin;
   PetscCall(ContactPairGetCandidates(c->pair, &start, &candidate));
   for (PetscInt i = 0; i < c->num_listed; ++i) {
-    if (start[i] == start[i + 1]) continue;
-    MarkAround_Private(s, c->listed[i], need[0]);
-    for (PetscInt k = start[i]; k < start[i + 1]; ++k) {
-      const PetscInt num = SurfaceFacetNodes_Private(m, candidate[k], nodes);
-      for (PetscInt a = 0; a < num; ++a) need[1][nodes[a]] = PETSC_TRUE;
+    const PetscInt f = c->listed[i];
+    for (PetscInt k = s->true_first[f]; start[i] < start[i + 1] && k < s->true_first[f + 1]; ++k) {
+      const PetscInt n = s->true_node[k];
+      for (PetscInt j = s->node_first[n]; j < s->node_first[n + 1]; ++j) Mark_Private(s, s->node_facet[j], need[0]);
     }
+    for (PetscInt k = start[i]; k < start[i + 1]; ++k) Mark_Private(m, candidate[k], need[1]);
   }
-  for (PetscInt i = 0; i < s->num_mine; ++i) {
-    const PetscInt num = SurfaceFacetNodes_Private(s, s->mine[i], nodes);
-    for (PetscInt a = 0; a < num; ++a) {
-      own[nodes[a]] = PETSC_TRUE;
-      for (PetscInt k = s->node_first[nodes[a]]; k < s->node_first[nodes[a] + 1]; ++k) {
-        if (c->live[s->node_facet[k]]) need[0][nodes[a]] = PETSC_TRUE;
-      }
+  for (PetscInt i = 0; i < s->num_mine; ++i) Mark_Private(s, s->mine[i], own);
+  for (PetscInt n = 0; n < s->num_nodes; ++n) {
+    for (PetscInt k = s->node_first[n]; own[n] && k < s->node_first[n + 1]; ++k) {
+      if (c->live[s->node_facet[k]]) need[0][n] = PETSC_TRUE;
     }
   }
   PetscFunctionReturn(PETSC_SUCCESS);

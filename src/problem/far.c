@@ -16,9 +16,12 @@ PetscErrorCode ContactIsFar_Private(Problem p, const Contact *c, PetscBool *far)
 
   PetscFunctionBegin;
   for (PetscInt i = 0; i < s->num_mine; ++i) {
-    const PetscReal measure = SurfaceMeasure_Private(s, s->x, s->mine[i]), length = s->dim == 2 ? measure : PetscSqrtReal(measure);
-    for (PetscInt k = 0; k < s->corners; ++k) {
-      const PetscInt j = s->facets[s->corners * s->mine[i] + k];
+    const PetscInt  e       = s->mine[i];
+    const PetscReal measure = SurfaceMeasure_Private(s, s->x, e),
+                    length  = (s->dim == 2 ? measure : PetscSqrtReal(measure)) / (PetscReal)PetscMax(1, SurfaceOrder_Private(s, e));
+    const PetscInt *node, num = SurfaceNodes_Private(s, e, &node);
+    for (PetscInt k = 0; k < num; ++k) {
+      const PetscInt j = node[k];
       sum[0] += c->z[j] * c->gap[j];
       sum[1] += c->z[j] * c->weight[j] * length;
     }

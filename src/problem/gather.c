@@ -1,4 +1,4 @@
-/* Values of a contact pair beyond those a rank needs: all of them everywhere, for output; chosen multipliers, for the way to another mesh. */
+/* Values of a contact pair beyond those a rank needs: all of them everywhere, for output; chosen ones from those who know them. */
 #include "problemimpl.h"
 
 #define SIDE_REALS(dim) (3 * (dim) + 3) /* of a node: position, normal, force, z, gap, weight */
@@ -11,46 +11,28 @@ PetscErrorCode ContactGatherDestroy_Private(Contact *c)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Position and normal of every node from the rank of the first facet that has it as a corner, which knows them whether the node hangs or not. */
-static void Corners_Private(const Problem p, const Contact *c, PetscInt k, const ForestTables *t, const PetscReal normal[], PetscReal all[])
-{
-  const Surface *s    = &c->side[k];
-  const PetscInt size = s->dim * s->num_nodes;
-
-  for (PetscInt i = s->corners * s->num_facets - 1; i >= 0; --i) { /* backwards: the first facet has the last word */
-    const PetscInt  n    = s->facets[i];
-    const PetscBool mine = (PetscBool)(t->leaf_rank[s->facet_leaf[i / s->corners]] == p->rank);
-    for (PetscInt d = 0; d < s->dim; ++d) {
-      all[s->dim * n + d]        = mine ? s->x[s->dim * n + d] : 0;
-      all[size + s->dim * n + d] = mine && k == 0 && normal ? normal[s->dim * n + d] : 0;
-    }
-  }
-}
-
 static PetscErrorCode Side_Private(Problem p, Contact *c, PetscInt k)
 {
-  const Surface      *s = &c->side[k];
-  const PetscInt      n = s->num_nodes, dim = s->dim;
-  const PetscReal    *normal;
-  const ForestTables *t;
+  const Surface   *s = &c->side[k];
+  const PetscInt   n = s->num_nodes, dim = s->dim;
+  const PetscReal *normal;
 
   PetscFunctionBegin;
-  PetscCall(ForestGetTables(p->forest, &t));
   if (!c->all_real[k]) PetscCall(PetscMalloc1(SIDE_REALS(dim) * n, &c->all_real[k]));
   PetscCall(PetscArrayzero(c->all_real[k], SIDE_REALS(dim) * n));
-  PetscReal *force = c->all_real[k] + 2 * dim * n, *value = force + dim * n;
+  PetscReal *x = c->all_real[k], *direction = x + dim * n, *force = direction + dim * n, *value = force + dim * n;
   PetscCall(ContactPairGetNormals(c->pair, &normal));
-  Corners_Private(p, c, k, t, normal, c->all_real[k]);
-  for (PetscInt i = 0; i < s->num_own; ++i) {
-    const PetscInt j = s->own[i];
+  for (PetscInt j = 0; j < n; ++j) {
+    if (s->owner[j] != p->rank) continue;
+    PetscCall(PetscArraycpy(x + dim * j, s->x + dim * j, dim));
     PetscCall(PetscArraycpy(force + dim * j, s->force + dim * j, dim));
     if (k == 1) continue;
+    if (normal) PetscCall(PetscArraycpy(direction + dim * j, normal + dim * j, dim));
     value[j]         = c->z[j];
     value[n + j]     = c->gap[j];
     value[2 * n + j] = c->weight[j];
   }
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, c->all_real[k], (PetscMPIInt)(SIDE_REALS(dim) * n), MPIU_REAL, MPI_SUM, p->comm));
-  if (k == 0) SurfaceFollow_Private(s, 1, value);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -88,22 +70,26 @@ PetscErrorCode ProblemGatherContactToAll(Problem p, PetscInt pair, const Contact
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode ProblemFetchMultipliers(Problem p, PetscInt pair, const PetscBool wanted[], PetscReal z[])
+PetscErrorCode ProblemFetchContact(Problem p, PetscInt pair, const PetscBool wanted[], PetscReal z[], PetscReal normal[])
 {
-  const Contact *c    = &p->contacts[pair];
-  const Surface *s    = &c->side[0];
-  Link           link = {0};
-  PetscInt      *nodes, num = 0;
+  const Contact   *c    = &p->contacts[pair];
+  const Surface   *s    = &c->side[0];
+  Link             link = {0};
+  const PetscReal *own;
+  PetscInt        *nodes, num = 0;
 
   PetscFunctionBegin;
+  PetscCall(ContactPairGetNormals(c->pair, &own));
   PetscCall(PetscMalloc1(s->num_nodes, &nodes));
   for (PetscInt n = 0; n < s->num_nodes; ++n) {
-    z[n] = s->owned[n] ? c->z[n] : NAN;
-    if (wanted[n] && !s->owned[n] && s->hang[n] == s->hang[n + 1]) nodes[num++] = n;
+    const PetscBool mine = (PetscBool)(s->owner[n] == p->rank);
+    z[n]                 = mine ? c->z[n] : NAN;
+    for (PetscInt d = 0; d < s->dim && normal; ++d) normal[s->dim * n + d] = mine ? own[s->dim * n + d] : NAN;
+    if (wanted[n] && !mine) nodes[num++] = n;
   }
   PetscCall(LinkSet_Private(p, s, num, nodes, &link));
   PetscCall(LinkSpread_Private(p, &link, 1, z));
-  SurfaceFollow_Private(s, 1, z);
+  if (normal) PetscCall(LinkSpread_Private(p, &link, s->dim, normal));
   PetscCall(LinkDestroy_Private(&link));
   PetscCall(PetscFree(nodes));
   PetscFunctionReturn(PETSC_SUCCESS);

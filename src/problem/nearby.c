@@ -89,33 +89,49 @@ static PetscErrorCode Address_Private(Problem p, const Contact *c, const Contact
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* (number, positions of its nodes…) of the facets in the mail; first[num_to+1]: where those for each rank start. */
+static PetscErrorCode Pack_Private(const Surface *s, const Mail *m, PetscInt first[], PetscReal **send)
+{
+  const PetscInt *node;
+  PetscInt        at = 0;
+
+  PetscFunctionBegin;
+  for (PetscInt i = 0; i < m->num; ++i) at += 1 + s->dim * SurfaceNodes_Private(s, m->sorted[i], &node);
+  PetscCall(PetscMalloc1(at, send));
+  at = first[0] = 0;
+  for (PetscMPIInt r = 0; r < m->num_to; ++r) {
+    for (PetscInt i = m->first[r]; i < m->first[r + 1]; ++i) {
+      const PetscInt num = SurfaceNodes_Private(s, m->sorted[i], &node);
+      (*send)[at++]      = (PetscReal)m->sorted[i];
+      for (PetscInt k = 0; k < num; ++k, at += s->dim) PetscCall(PetscArraycpy(*send + at, s->x + s->dim * node[k], s->dim));
+    }
+    first[r + 1] = at;
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* Facets of the mortar side with their positions to where they may be met; those that arrive enter x and has. */
 static PetscErrorCode Arrive_Private(Problem p, Contact *c, PetscReal boxes[][6])
 {
-  Surface             *s   = &c->side[1];
-  const PetscInt       dim = p->dim, room = 1 + dim * s->corners;
+  Surface             *s      = &c->side[1];
   const ContactSurface mortar = SurfaceAt_Private(s, s->x);
   Mail                 m      = {0};
   PetscReal           *send, *got;
-  PetscInt             num;
+  PetscInt            *first, num;
 
   PetscFunctionBegin;
   PetscCall(Address_Private(p, c, &mortar, boxes, &m));
-  PetscCall(PetscMalloc1(room * m.num, &send));
-  for (PetscInt i = 0; i < m.num; ++i) {
-    send[room * i] = (PetscReal)m.sorted[i];
-    for (PetscInt k = 0; k < s->corners; ++k)
-      PetscCall(PetscArraycpy(send + room * i + 1 + dim * k, s->x + dim * s->facets[s->corners * m.sorted[i] + k], dim));
-  }
-  PetscCall(Send_Private(p, &m, m.first, (size_t)room * sizeof(PetscReal), send, &num, &got));
-  for (PetscInt i = 0; i < num; ++i) {
-    const PetscInt facet = (PetscInt)got[room * i];
-    for (PetscInt k = 0; k < s->corners; ++k) {
-      const PetscInt n = s->facets[s->corners * facet + k];
-      PetscCall(PetscArraycpy(s->x + dim * n, got + room * i + 1 + dim * k, dim));
-      s->has[n] = PETSC_TRUE;
+  PetscCall(PetscMalloc1(m.num_to + 1, &first));
+  PetscCall(Pack_Private(s, &m, first, &send));
+  PetscCall(Send_Private(p, &m, first, sizeof(PetscReal), send, &num, &got));
+  for (PetscInt at = 0; at < num;) {
+    const PetscInt *node, count = SurfaceNodes_Private(s, (PetscInt)got[at++], &node);
+    for (PetscInt k = 0; k < count; ++k, at += s->dim) {
+      PetscCall(PetscArraycpy(s->x + s->dim * node[k], got + at, s->dim));
+      s->has[node[k]] = PETSC_TRUE;
     }
   }
+  PetscCall(PetscFree(first));
   PetscCall(PetscFree(send));
   PetscCall(PetscFree(got));
   PetscCall(MailDestroy_Private(&m));
@@ -142,14 +158,13 @@ static PetscErrorCode Boxes_Private(Problem p, Contact *c, const ContactSurface 
 static PetscErrorCode Concerned_Private(Problem p, const Contact *c, const ForestTables *t, PetscInt facet, PetscInt item, PetscInt told[], Mail *m)
 {
   const Surface *s = &c->side[0];
-  PetscInt       nodes[4 * MOST_MASTERS];
-  const PetscInt num = SurfaceFacetNodes_Private(s, facet, nodes);
 
   PetscFunctionBegin;
   told[p->rank] = facet + 1;
-  for (PetscInt i = 0; i < num; ++i) {
-    for (PetscInt k = s->node_first[nodes[i]] - 1; k < s->node_first[nodes[i] + 1]; ++k) {
-      const PetscInt r = k < s->node_first[nodes[i]] ? s->owner[nodes[i]] : t->leaf_rank[s->facet_leaf[s->node_facet[k]]];
+  for (PetscInt i = s->true_first[facet]; i < s->true_first[facet + 1]; ++i) {
+    const PetscInt n = s->true_node[i];
+    for (PetscInt k = s->node_first[n] - 1; k < s->node_first[n + 1]; ++k) {
+      const PetscInt r = k < s->node_first[n] ? s->owner[n] : t->leaf_rank[s->facet_leaf[s->node_facet[k]]];
       if (told[r] == facet + 1) continue;
       told[r] = facet + 1;
       PetscCall(MailAdd_Private(m, r, item));

@@ -55,6 +55,17 @@ static PetscInt Neighbour_Private(const Surface *s, PetscInt n, PetscInt which)
   return -1;
 }
 
+/* Facets of higher order, two dimensions: all nodes of the facets at the node. */
+static PetscErrorCode AppendFacets_Private(const Surface *s, PetscInt node, PetscInt **list, PetscInt *num, PetscInt *size, PetscInt from)
+{
+  PetscFunctionBegin;
+  for (PetscInt k = s->node_first[node]; k < s->node_first[node + 1]; ++k) {
+    const PetscInt facet = s->node_facet[k];
+    for (PetscInt i = s->first[facet]; i < s->first[facet + 1]; ++i) PetscCall(Append_Private(list, num, size, from, ~s->lattice[i]));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* Two dimensions: also its neighbours along the curve. In three dimensions the ring of neighbours would cost more in the factors than a new pattern now and
  * then. */
 static PetscErrorCode AppendAround_Private(const Surface *s, PetscInt node, PetscInt depth, PetscInt **list, PetscInt *num, PetscInt *size, PetscInt from)
@@ -62,6 +73,10 @@ static PetscErrorCode AppendAround_Private(const Surface *s, PetscInt node, Pets
   PetscFunctionBegin;
   PetscCall(Append_Private(list, num, size, from, ~node));
   if (s->dim == 3) PetscFunctionReturn(PETSC_SUCCESS);
+  if (s->order) {
+    PetscCall(AppendFacets_Private(s, node, list, num, size, from));
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
   for (PetscInt which = 0; which < 2; ++which) {
     for (PetscInt k = 0, n = Neighbour_Private(s, node, which); k < depth && n >= 0; ++k, n = Neighbour_Private(s, n, which))
       PetscCall(Append_Private(list, num, size, from, ~n));
@@ -109,7 +124,8 @@ PetscInt ContactPatternSize_Private(const Contact *c, PetscInt facet)
 /* Is the nonmortar node one of the facet's multipliers? In two dimensions its outer neighbours stand in the pattern too. */
 static PetscBool CarriesRow_Private(const Surface *s, PetscInt facet, PetscInt node)
 {
-  return (PetscBool)(s->dim == 3 || s->facets[2 * facet] == node || s->facets[2 * facet + 1] == node);
+  const PetscInt *own, num = SurfaceNodes_Private(s, facet, &own);
+  return (PetscBool)(s->dim == 3 || Has_Private(own, num, node));
 }
 
 PetscInt ContactPatternDofs_Private(const Contact *c, PetscInt facet, PetscInt dofs[])

@@ -12,11 +12,13 @@ PetscErrorCode ProblemInitialOrders(const SceneData *scene, Forest forest, int8_
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Boundary groups that are contact faces: their facets have order 1. */
+/* Boundary groups that are contact faces of order 1. */
 static uint64_t LinearGroups_Private(const SceneData *scene)
 {
   uint64_t groups = 0;
-  for (PetscInt i = 0; i < scene->num_contacts; ++i) groups |= ((uint64_t)1 << scene->contacts[i].nonmortar) | ((uint64_t)1 << scene->contacts[i].mortar);
+  for (PetscInt i = 0; i < scene->num_contacts; ++i) {
+    if (!scene->contacts[i].full) groups |= ((uint64_t)1 << scene->contacts[i].nonmortar) | ((uint64_t)1 << scene->contacts[i].mortar);
+  }
   return groups;
 }
 

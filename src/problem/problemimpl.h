@@ -6,7 +6,8 @@
 
 #define COVERED 1e-5 /* share of a node's tributary measure below which it counts as uncovered: its constraint would be all but free of its pressure */
 
-#define MOST_MASTERS 8 /* of a hanging vertex of a contact surface */
+#define MOST_MASTERS 8          /* of a hanging vertex of a contact surface of order 1 */
+#define MOST_LATTICE_MASTERS 64 /* of a hanging node of a lattice: two ends that hang on edges themselves, and so on */
 
 /* Values of some nodes of a surface on their way between the ranks that own them and those that use them. */
 typedef struct {
@@ -23,11 +24,15 @@ typedef struct {
   PetscInt   dim, corners; /* 2 or 4 corners of a facet */
   PetscInt   num_nodes, num_facets;
   PetscInt  *node_entity;        /* [num_nodes] */
+  PetscInt  *node_index;         /* [num_nodes] place among the entity's nodes; -1: a lattice node in an edge of lower order, which is no node of the space */
   PetscInt  *facets;             /* [num_facets][corners] body to the left; counterclockwise seen from outside */
   PetscInt  *facet_leaf;         /* [num_facets] */
   PetscInt  *facet_entity;       /* [num_facets] */
   PetscInt  *hang, *hang_master; /* [num_nodes+1] offsets, nodes of this surface; empty: does not hang */
   PetscReal *hang_weight;
+  int8_t    *order; /* facets of higher order as in contact.h; NULL: all are of order 1, their nodes the corners */
+  PetscInt  *first, *lattice;
+  PetscInt  *true_first, *true_node;  /* [num_facets+1] offsets: nodes that carry the facet's shape, ascending: its own, masters for those that hang */
   PetscInt  *node_first, *node_facet; /* [num_nodes+1] offsets: facets that carry weight to the node, its own and those with a node that hangs on it */
   PetscReal *X, *x, *du;              /* [num_nodes][dim] reference and current position; increment under discussion */
   PetscReal *mirror;                  /* [num_nodes][dim] two dimensions: normal of the symmetry plane at an end, else 0 */
@@ -37,7 +42,7 @@ typedef struct {
   PetscBool *owned;                   /* [num_nodes] this rank owns the node and it does not hang */
   PetscReal *force;                   /* [num_nodes][dim] contact force at the last residual: of owned nodes, 0 at hanging ones */
 
-  PetscMPIInt *owner;           /* [num_nodes] rank of the node's values */
+  PetscMPIInt *owner;           /* [num_nodes] rank that knows the node's values: of a hanging one that of the first facet that has it */
   PetscInt     num_own, *own;   /* nodes with `owned` */
   PetscInt     num_mine, *mine; /* facets of this rank's leaves */
   PetscBool   *here;            /* [num_nodes] does not hang, displacement in the local array of this rank */
@@ -121,19 +126,32 @@ PetscErrorCode ProblemWork_Private(Problem, PetscInt size);
 PetscErrorCode ProblemIncrement_Private(Problem, Vec dx, PetscReal share);
 
 PetscErrorCode SurfaceFields_Private(Problem, Surface *); /* after the topology */
-PetscErrorCode SurfaceCreate_Private(Problem, PetscInt group, Surface *);
+/* lattice: nodes of facets of higher order, else their corners only, which must be of order 1. */
+PetscErrorCode SurfaceCreate_Private(Problem, PetscInt group, PetscBool lattice, Surface *);
+/* lattice.c: after the corners: nodes on the lattices of the facets, rows of those that hang. */
+PetscErrorCode SurfaceLattice_Private(HPSpace, const ForestTables *, Surface *);
+/* Nodes of a facet: its corners, or its lattice; returns their number. */
+static inline PetscInt SurfaceNodes_Private(const Surface *s, PetscInt facet, const PetscInt **nodes)
+{
+  *nodes = s->order ? s->lattice + s->first[facet] : s->facets + s->corners * facet;
+  return s->order ? s->first[facet + 1] - s->first[facet] : s->corners;
+}
+static inline PetscInt SurfaceOrder_Private(const Surface *s, PetscInt facet)
+{
+  return s->order ? s->order[facet] : 0;
+}
 PetscErrorCode SurfaceDestroy_Private(Surface *);
 PetscErrorCode SurfaceIndices_Private(Problem, Surface *);
 ContactSurface SurfaceAt_Private(const Surface *, const PetscReal x[]);
-/* Length or area of a facet at positions x. */
+/* Measure at xi of a facet per unit of xi (length or area, axisymmetric: of revolution) and the functions of its nodes there. */
+PetscReal SurfacePoint_Private(const Surface *, PetscInt facet, const PetscReal x[], const PetscReal xi[], PetscBool axisymmetric, PetscReal N[]);
+/* Length or area of a facet at positions x, between its corners. */
 PetscReal SurfaceMeasure_Private(const Surface *, const PetscReal x[], PetscInt facet);
 void      SurfaceFollow_Private(const Surface *, PetscInt num, PetscReal values[]);
-/* Nodes that carry a facet's shape, ascending: its own, hanging ones replaced by their masters. nodes[4 * MOST_MASTERS]; returns their number. */
-PetscInt SurfaceFacetNodes_Private(const Surface *, PetscInt facet, PetscInt nodes[]);
 /* Cartesian values from a local array of dofs at the nodes that are here and those that follow them, added to base (NULL: 0). No exchange. */
 void SurfacePlace_Private(const Surface *, const PetscReal local[], const PetscReal base[], PetscReal values[]);
 /* The same at all nodes with `has`: through `places` from their owners. Collective. */
-PetscErrorCode SurfaceGather_Private(Problem, Surface *, const PetscReal local[], const PetscReal base[], PetscReal values[]);
+PetscErrorCode SurfaceGather_Private(Problem, const Surface *, const PetscReal local[], const PetscReal base[], PetscReal values[]);
 
 /* exchange.c. Link: nodes (ascending, none owned) this rank uses from now on. Spread: owners' values[..][size] to the users; Collect: users' added to the
    owners'. All collective, messages only between ranks that share a node. */

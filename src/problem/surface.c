@@ -42,8 +42,8 @@ static PetscErrorCode SurfaceTopology_Private(const ForestTables *t, PetscInt gr
   PetscCall(PetscMalloc1(t->first[1], &number));
   for (PetscInt v = 0; v < t->first[1]; ++v) number[v] = -1;
   for (PetscInt f = first; f < last; ++f) s->num_facets += (t->boundary[f] >> group) & 1;
-  PetscCall(PetscMalloc3(s->corners * s->num_facets, &s->facets, s->num_facets, &s->facet_leaf, s->corners * s->num_facets, &s->node_entity));
-  PetscCall(PetscMalloc1(s->num_facets, &s->facet_entity));
+  PetscCall(PetscMalloc3(s->corners * s->num_facets, &s->facets, s->num_facets, &s->facet_leaf, s->num_facets, &s->facet_entity));
+  PetscCall(PetscMalloc1(s->corners * s->num_facets, &s->node_entity));
   s->num_facets = 0;
   for (PetscInt f = first; f < last; ++f) {
     const PetscInt *leaf = t->facet_leaf + 2 * (f - first);
@@ -61,10 +61,11 @@ static PetscErrorCode SurfaceTopology_Private(const ForestTables *t, PetscInt gr
     s->facet_leaf[s->num_facets++] = leaf[0];
   }
   PetscCall(PetscFree(number));
+  PetscCall(PetscCalloc1(s->num_nodes, &s->node_index));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Masters of a vertex that hangs on an edge: its ends with half of each, resolved until none hangs. Contact faces have order 1. */
+/* Masters of a vertex that hangs on an edge: its ends with half of each, resolved until none hangs. Order 1. */
 static PetscErrorCode AddMasters_Private(const ForestTables *t, PetscInt vertex, PetscReal weight, PetscInt *num, PetscInt master[], PetscReal share[])
 {
   const PetscInt parent = t->parent[vertex];
@@ -113,38 +114,45 @@ static PetscErrorCode SurfaceHanging_Private(const ForestTables *t, Surface *s)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscInt SurfaceFacetNodes_Private(const Surface *s, PetscInt facet, PetscInt nodes[])
+/* Nodes that carry each facet's shape, ascending: its own, hanging ones replaced by their masters. */
+static PetscErrorCode SurfaceTrue_Private(Surface *s)
 {
-  PetscInt num = 0;
-  for (PetscInt k = 0; k < s->corners; ++k) {
-    const PetscInt n = s->facets[s->corners * facet + k];
-    if (s->hang[n] == s->hang[n + 1]) nodes[num++] = n;
-    for (PetscInt i = s->hang[n]; i < s->hang[n + 1]; ++i) nodes[num++] = s->hang_master[i];
+  PetscInt *nodes, num = 0, room = 0, most = 4 * MOST_MASTERS;
+
+  PetscFunctionBegin;
+  for (PetscInt f = 0; f < s->num_facets && s->order; ++f) most = PetscMax(most, (s->first[f + 1] - s->first[f]) * MOST_LATTICE_MASTERS);
+  PetscCall(PetscMalloc1(most, &nodes));
+  PetscCall(PetscCalloc1(s->num_facets + 1, &s->true_first));
+  for (PetscInt f = 0; f < s->num_facets; ++f) {
+    const PetscInt *own, total = SurfaceNodes_Private(s, f, &own);
+    PetscInt        count = 0;
+    for (PetscInt k = 0; k < total; ++k) {
+      const PetscInt n = own[k];
+      if (s->hang[n] == s->hang[n + 1]) nodes[count++] = n;
+      for (PetscInt i = s->hang[n]; i < s->hang[n + 1]; ++i) nodes[count++] = s->hang_master[i];
+    }
+    PetscCall(PetscSortRemoveDupsInt(&count, nodes));
+    if (num + count > room) {
+      room = 2 * (num + count);
+      PetscCall(PetscRealloc((size_t)room * sizeof(PetscInt), &s->true_node));
+    }
+    PetscCall(PetscArraycpy(s->true_node + num, nodes, count));
+    s->true_first[f + 1] = num += count;
   }
-  (void)PetscSortRemoveDupsInt(&num, nodes);
-  return num;
+  PetscCall(PetscFree(nodes));
+  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* Facets at each node that does not hang. */
 static PetscErrorCode SurfaceNeighbours_Private(Surface *s)
 {
-  PetscInt nodes[4 * MOST_MASTERS];
-
   PetscFunctionBegin;
   PetscCall(PetscCalloc1(s->num_nodes + 2, &s->node_first));
-  for (PetscInt pass = 0; pass < 2; ++pass) {
-    for (PetscInt f = 0; f < s->num_facets; ++f) {
-      const PetscInt num = SurfaceFacetNodes_Private(s, f, nodes);
-      for (PetscInt k = 0; k < num; ++k) {
-        if (pass == 0)
-          s->node_first[nodes[k] + 2]++;
-        else
-          s->node_facet[s->node_first[nodes[k] + 1]++] = f;
-      }
-    }
-    if (pass == 1) break;
-    for (PetscInt n = 0; n < s->num_nodes; ++n) s->node_first[n + 2] += s->node_first[n + 1];
-    PetscCall(PetscMalloc1(s->node_first[s->num_nodes + 1], &s->node_facet));
+  PetscCall(PetscMalloc1(s->true_first[s->num_facets], &s->node_facet));
+  for (PetscInt k = 0; k < s->true_first[s->num_facets]; ++k) s->node_first[s->true_node[k] + 2]++;
+  for (PetscInt n = 0; n < s->num_nodes; ++n) s->node_first[n + 2] += s->node_first[n + 1];
+  for (PetscInt f = 0; f < s->num_facets; ++f) {
+    for (PetscInt k = s->true_first[f]; k < s->true_first[f + 1]; ++k) s->node_facet[s->node_first[s->true_node[k] + 1]++] = f;
   }
   for (PetscInt n = 0; s->dim == 2 && n < s->num_nodes; ++n) {
     const PetscInt *at = s->node_facet + s->node_first[n], num = s->node_first[n + 1] - s->node_first[n];
@@ -154,7 +162,7 @@ static PetscErrorCode SurfaceNeighbours_Private(Surface *s)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SurfaceCreate_Private(Problem p, PetscInt group, Surface *s)
+PetscErrorCode SurfaceCreate_Private(Problem p, PetscInt group, PetscBool lattice, Surface *s)
 {
   const ForestTables *t;
 
@@ -162,7 +170,11 @@ PetscErrorCode SurfaceCreate_Private(Problem p, PetscInt group, Surface *s)
   PetscCall(PetscMemzero(s, sizeof(*s)));
   PetscCall(ForestGetTables(p->forest, &t));
   PetscCall(SurfaceTopology_Private(t, group, s));
-  PetscCall(SurfaceHanging_Private(t, s));
+  if (lattice)
+    PetscCall(SurfaceLattice_Private(p->space, t, s));
+  else
+    PetscCall(SurfaceHanging_Private(t, s));
+  PetscCall(SurfaceTrue_Private(s));
   PetscCall(SurfaceNeighbours_Private(s));
   PetscCall(SurfaceFields_Private(p, s));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -171,10 +183,16 @@ PetscErrorCode SurfaceCreate_Private(Problem p, PetscInt group, Surface *s)
 PetscErrorCode SurfaceDestroy_Private(Surface *s)
 {
   PetscFunctionBegin;
-  PetscCall(PetscFree3(s->facets, s->facet_leaf, s->node_entity));
-  PetscCall(PetscFree(s->facet_entity));
+  PetscCall(PetscFree3(s->facets, s->facet_leaf, s->facet_entity));
+  PetscCall(PetscFree(s->node_entity));
+  PetscCall(PetscFree(s->node_index));
+  PetscCall(PetscFree(s->order));
+  PetscCall(PetscFree(s->first));
+  PetscCall(PetscFree(s->lattice));
   PetscCall(PetscFree(s->hang));
   PetscCall(PetscFree2(s->hang_master, s->hang_weight));
+  PetscCall(PetscFree(s->true_first));
+  PetscCall(PetscFree(s->true_node));
   PetscCall(PetscFree(s->node_first));
   PetscCall(PetscFree(s->node_facet));
   PetscCall(PetscFree3(s->local, s->owned, s->dof));
@@ -197,6 +215,6 @@ PetscReal SurfaceMeasure_Private(const Surface *s, const PetscReal x[], PetscInt
 /* What the contact module is told about the surface at positions x. Reference positions are known everywhere. */
 ContactSurface SurfaceAt_Private(const Surface *s, const PetscReal x[])
 {
-  return (ContactSurface){s->dim,         s->num_nodes,   s->num_facets, s->facets, x,    s->mirror, s->hang,
-                          s->hang_master, s->hang_weight, NULL,          NULL,      NULL, s->X,      x == s->X ? NULL : s->has};
+  return (ContactSurface){s->dim,         s->num_nodes,   s->num_facets, s->facets, x,          s->mirror, s->hang,
+                          s->hang_master, s->hang_weight, s->order,      s->first,  s->lattice, s->X,      x == s->X ? NULL : s->has};
 }

@@ -7,7 +7,8 @@ static void NodeMirror_Private(Surface *s, PetscInt n, PetscInt fixed)
 {
   if (s->node_first[n + 1] - s->node_first[n] > 1) return;
   if (fixed != 1 && fixed != 2) return;
-  const PetscInt   k = fixed == 1 ? 0 : 1, edge = s->node_facet[s->node_first[n]];
+  const PetscInt k = fixed == 1 ? 0 : 1, edge = s->node_facet[s->node_first[n]];
+  if (s->facets[2 * edge] != n && s->facets[2 * edge + 1] != n) return; /* inside an edge */
   const PetscReal *plane = s->frame + 4 * n + 2 * k, *a = s->X + 2 * s->facets[2 * edge], *b = s->X + 2 * s->facets[2 * edge + 1];
   const PetscReal  along = plane[0] * (b[0] - a[0]) + plane[1] * (b[1] - a[1]), across = plane[0] * (b[1] - a[1]) - plane[1] * (b[0] - a[0]);
   if (PetscAbsReal(along) < PetscAbsReal(across)) return;
@@ -31,6 +32,12 @@ static PetscErrorCode Shares_Private(Problem p, const HPTables *v, const ForestT
     if (s->owned[n]) s->own[s->num_own++] = n;
     for (PetscInt c = 0; c < s->dim && !s->owned[n]; ++c) s->force[s->dim * n + c] = s->hang[n] < s->hang[n + 1] ? 0 : NAN;
   }
+  for (PetscInt f = s->num_facets - 1; f >= 0; --f) { /* backwards: the first facet has the last word */
+    const PetscInt *node, num = SurfaceNodes_Private(s, f, &node);
+    for (PetscInt k = 0; k < num; ++k) {
+      if (s->hang[node[k]] < s->hang[node[k] + 1]) s->owner[node[k]] = (PetscMPIInt)t->leaf_rank[s->facet_leaf[f]];
+    }
+  }
   for (PetscInt f = 0; f < s->num_facets; ++f) {
     if (t->leaf_rank[s->facet_leaf[f]] == p->rank) s->mine[s->num_mine++] = f;
   }
@@ -53,15 +60,16 @@ PetscErrorCode SurfaceFields_Private(Problem p, Surface *s)
   PetscCall(PetscMalloc3(s->num_nodes, &s->local, s->num_nodes, &s->owned, dim * s->num_nodes, &s->dof));
   PetscCall(PetscCalloc4(dim * s->num_nodes, &s->X, dim * s->num_nodes, &s->x, dim * s->num_nodes, &s->mirror, dim * dim * s->num_nodes, &s->frame));
   PetscCall(PetscCalloc2(dim * s->num_nodes, &s->du, dim * s->num_nodes, &s->force));
-  PetscCall(PetscMalloc1(t->first[1], &number));
-  for (PetscInt e = 0; e < t->first[1]; ++e) number[e] = -1;
-  for (PetscInt n = 0; n < v->num_nodes; ++n) {
-    if (v->node_entity[n] < t->first[1]) number[v->node_entity[n]] = n;
+  PetscCall(PetscMalloc1(t->first[dim], &number));
+  for (PetscInt e = 0; e < t->first[dim]; ++e) number[e] = -1;
+  for (PetscInt n = v->num_nodes - 1; n >= 0; --n) { /* the first of each entity stays */
+    if (v->node_entity[n] < t->first[dim]) number[v->node_entity[n]] = n;
   }
   PetscCall(PetscCalloc1(room * s->num_nodes, &buffer));
   for (PetscInt n = 0; n < s->num_nodes; ++n) {
-    s->local[n] = number[s->node_entity[n]];
-    if (t->leaf_rank[t->entity_leaf[s->node_entity[n]]] != p->rank) continue;
+    const PetscInt first = number[s->node_entity[n]];
+    s->local[n]          = first >= 0 && s->node_index[n] >= 0 ? first + s->node_index[n] : -1;
+    if (t->leaf_rank[t->entity_leaf[s->node_entity[n]]] != p->rank || s->node_index[n] < 0) continue;
     const PetscReal *frame;
     PetscReal       *b = buffer + room * n;
     PetscCall(HPSpaceGetFrame(p->space, s->local[n], &frame));
@@ -77,6 +85,7 @@ PetscErrorCode SurfaceFields_Private(Problem p, Surface *s)
     PetscCall(PetscArraycpy(s->frame + dim * dim * n, buffer + room * n + dim, dim * dim));
     for (PetscInt c = 0; c < dim; ++c) s->dof[dim * n + c] = (PetscInt)buffer[room * n + room - 1]; /* the fixed bits, until the indices are known */
   }
+  if (s->order) SurfaceFollow_Private(s, dim, s->X); /* not all of them are nodes of the space */
   for (PetscInt n = 0; dim == 2 && n < s->num_nodes; ++n) NodeMirror_Private(s, n, s->dof[2 * n]);
   PetscCall(PetscArraycpy(s->x, s->X, dim * s->num_nodes));
   PetscCall(PetscFree(buffer));
@@ -137,7 +146,7 @@ void SurfacePlace_Private(const Surface *s, const PetscReal local[], const Petsc
   Finish_Private(s, base, values);
 }
 
-PetscErrorCode SurfaceGather_Private(Problem p, Surface *s, const PetscReal local[], const PetscReal base[], PetscReal values[])
+PetscErrorCode SurfaceGather_Private(Problem p, const Surface *s, const PetscReal local[], const PetscReal base[], PetscReal values[])
 {
   PetscFunctionBegin;
   Place_Private(s, local, values);

@@ -162,10 +162,10 @@ static PetscErrorCode ReadContact_Private(Scene s, SceneNode *node, ContactEntry
   c->node = node;
   PetscCall(PetscStrncpy(c->spec.name, node->key, MORTISE_NAME));
   PetscCall(OptionsRead("contact", node, s->data.mesh.dim, c));
-  c->spec.order    = 1;
+  c->spec.full     = c->order == 1 ? PETSC_TRUE : PETSC_FALSE;
   c->spec.adjust   = c->initial_gap == 1 ? PETSC_TRUE : PETSC_FALSE;
   c->spec.standard = c->multiplier == 1 ? PETSC_TRUE : PETSC_FALSE;
-  PetscCheckInput(c->order == 0, "%s: contact faces of full order are not built yet; allowed: 1", NodeWhere(NodeFind(node, "order")));
+  PetscCheckInput(!c->spec.full, "%s: contact faces of full order are not built yet; allowed: 1", NodeWhere(NodeFind(node, "order")));
   PetscCheckInput(c->spec.friction == 0, "%s is %g: friction is not built yet; allowed: 0", NodeWhere(NodeFind(node, "friction")), (double)c->spec.friction);
   PetscCheckInput(strcmp(c->nonmortar, c->mortar), "%s: both sides are '%s'; a pair needs two different surfaces", NodeWhere(node), c->mortar);
   PetscCheckInput(s->data.mesh.dim == 2 || !c->spec.node_to_segment,

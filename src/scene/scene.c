@@ -222,8 +222,8 @@ static PetscErrorCode ViewContact_Private(const ContactEntry *c, PetscViewer vie
 
   PetscFunctionBegin;
   if (c->subdivide) PetscCall(PetscSNPrintf(layer, sizeof(layer), ", cells at both subdivided %" PetscInt_FMT "x", c->subdivide));
-  PetscCall(PetscViewerASCIIPrintf(viewer, "  contact %s: %s (nonmortar) on %s%s%s\n", c->spec.name, c->nonmortar, c->mortar,
-                                   c->spec.node_to_segment ? ", node to segment" : "", layer));
+  PetscCall(PetscViewerASCIIPrintf(viewer, "  contact %s: %s (nonmortar) on %s%s%s%s\n", c->spec.name, c->nonmortar, c->mortar,
+                                   c->spec.full ? ", full order" : "", c->spec.node_to_segment ? ", node to segment" : "", layer));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

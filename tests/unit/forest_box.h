@@ -22,8 +22,9 @@ typedef struct {
 
 static uint64_t box_random_state = 88172645463325252ULL;
 
-/* Change before BoxForest: move inner vertices also when q = 1; length of a coarse cell. */
+/* Change before BoxForest: move inner vertices also when q = 1; bend the sides of the last axis; length of a coarse cell. */
 static PetscBool box_distorted = PETSC_FALSE;
+static PetscReal box_bend      = 0;
 static PetscReal box_width     = 1;
 
 static inline PetscInt BoxRandom(PetscInt n)
@@ -72,6 +73,7 @@ static inline void BoxCurve(const Box *box, PetscInt q, const PetscInt g[3], Pet
 
   for (PetscInt a = 0; a < box->dim; ++a) bump *= PetscSinReal(PETSC_PI * g[a] / (q * box->n[a]));
   for (PetscInt a = 0; a < 3; ++a) X[a] = a < box->dim ? box_width * ((PetscReal)g[a] / q + (q > 1 || box_distorted ? bump * (1 - 0.5 * a) : 0)) : 0;
+  for (PetscInt a = 0; a < box->dim - 1; ++a) X[box->dim - 1] += box_bend * PetscSqr(X[a]) / (1 + a);
 }
 
 static inline void BoxShuffle(PetscInt n, PetscInt id[])

@@ -92,7 +92,7 @@ static inline void PatchScene(Patch *p, PetscInt order, Model model, Kinematics 
   }
   p->boundaries[BOTTOM].fix[1] = p->boundaries[LEFT].fix[0] = p->boundaries[RIGHT].fix[0] = PETSC_TRUE;
   OK(ExpressionCreate("top", "-0.1", &p->boundaries[TOP].displacement[1]));
-  p->contact = (ContactSpec){.name = "pair", .nonmortar = UPPER_BOTTOM, .mortar = LOWER_TOP, .order = 1};
+  p->contact = (ContactSpec){.name = "pair", .nonmortar = UPPER_BOTTOM, .mortar = LOWER_TOP};
   p->data    = (SceneData){
          .mesh = {.dim = 2}, .num_contacts = 1, .contacts = &p->contact, .bodies = p->bodies, .boundaries = p->boundaries, .load = {.end = 1, .step = 1}};
   p->data.mechanics = (MechanicsSpec){

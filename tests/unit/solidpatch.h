@@ -165,7 +165,7 @@ static inline void PatchScene(Patch *p, PetscInt order, Kinematics kinematics, P
   }
   p->boundaries[BOTTOM].fix[2] = p->boundaries[SIDE_X].fix[0] = p->boundaries[SIDE_Y].fix[1] = PETSC_TRUE;
   OK(ExpressionCreate("top", press, &p->boundaries[TOP].displacement[2]));
-  p->contact = (ContactSpec){.name = "pair", .nonmortar = UPPER_BOTTOM, .mortar = LOWER_TOP, .order = 1, .standard = standard};
+  p->contact = (ContactSpec){.name = "pair", .nonmortar = UPPER_BOTTOM, .mortar = LOWER_TOP, .standard = standard};
   p->data    = (SceneData){
          .mesh = {.dim = 3}, .num_contacts = 1, .contacts = &p->contact, .bodies = p->bodies, .boundaries = p->boundaries, .load = {.end = 1, .step = 1}};
   p->data.mechanics = (MechanicsSpec){

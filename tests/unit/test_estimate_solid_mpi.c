@@ -54,7 +54,7 @@ static PetscReal SideError(const ContactTerms *terms, const ForestTables *t, con
     for (PetscInt q = 0; q < 16; ++q) {
       const PetscReal xi[2] = {-0.97 + 0.6 * (PetscReal)(q % 4), -0.93 + 0.63 * (PetscReal)(q / 4)};
       PetscReal       N[4], X[3], T[3] = {0, 0, 0};
-      ContactHats_Private(3, xi, N);
+      ContactShape_Private(s, f, xi, N);
       ContactPosition_Private(s, f, s->X, N, X);
       ContactTermsTraction_Private(terms, s->facet_entity[f] - t->first[2], X, T);
       assert_near(T[0], 0, 1e-12);

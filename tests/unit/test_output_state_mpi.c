@@ -101,7 +101,7 @@ static void SceneMake(TestScene *s, PetscInt order)
   }
   s->boundaries[BOTTOM].fix[1] = s->boundaries[LEFT].fix[0] = s->boundaries[RIGHT].fix[0] = PETSC_TRUE;
   OK(ExpressionCreate("top", "-0.1", &s->boundaries[TOP].displacement[1]));
-  s->contact        = (ContactSpec){.name = "pair", .nonmortar = UPPER_BOTTOM, .mortar = LOWER_TOP, .order = 1};
+  s->contact        = (ContactSpec){.name = "pair", .nonmortar = UPPER_BOTTOM, .mortar = LOWER_TOP};
   s->probes[0]      = (ProbeSpec){.name = "low", .X = {0.7, 0.3, 0}};
   s->probes[1]      = (ProbeSpec){.name = "high", .X = {2, 1.5, 0}};
   s->data           = (SceneData){.file         = "patch.yml",

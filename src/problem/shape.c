@@ -1,0 +1,33 @@
+/* Functions of a contact facet's nodes. */
+#include "problem.h"
+
+static const PetscReal Corner[4][2] = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
+
+static void Hats_Private(PetscInt dim, const PetscReal xi[], PetscReal N[], PetscReal dN[][2])
+{
+  for (PetscInt k = 0; k < (dim == 2 ? 2 : 4); ++k) {
+    const PetscReal a = 0.5 * (1 + Corner[k][0] * xi[0]), b = dim == 2 ? 1 : 0.5 * (1 + Corner[k][1] * xi[1]);
+    N[k] = a * b;
+    if (!dN) continue;
+    dN[k][0] = 0.5 * Corner[k][0] * b;
+    dN[k][1] = dim == 2 ? 0 : 0.5 * Corner[k][1] * a;
+  }
+}
+
+void SurfaceShape(PetscInt dim, PetscInt order, const PetscReal xi[], PetscReal N[], PetscReal dN[][2])
+{
+  PetscReal L[2][MORTISE_MAX_ORDER + 1] = {{0}, {1}}, D[2][MORTISE_MAX_ORDER + 1] = {{0}, {0}};
+
+  if (order == 0) {
+    Hats_Private(dim, xi, N, dN);
+    return;
+  }
+  for (PetscInt a = 0; a < dim - 1; ++a) PetscCallAbort(PETSC_COMM_SELF, ElementEvaluate1D(order, 0.5 * (1 + xi[a]), L[a], dN ? D[a] : NULL));
+  for (PetscInt k = 0; k < ElementNumNodes(dim - 1, order); ++k) {
+    const PetscInt i = k % (order + 1), j = k / (order + 1);
+    N[k] = L[0][i] * L[1][j];
+    if (!dN) continue;
+    dN[k][0] = 0.5 * D[0][i] * L[1][j];
+    dN[k][1] = 0.5 * L[0][i] * D[1][j];
+  }
+}
