@@ -27,6 +27,11 @@ PetscErrorCode ElementEvaluate1D(PetscInt order, PetscReal xi, PetscReal value[]
 /* Values [n] and gradients [n][dim] (unless NULL) of the n = (p+1)^dim tensor functions at xi[dim]. */
 PetscErrorCode ElementEvaluate(PetscInt dim, PetscInt order, const PetscReal xi[], PetscReal value[], PetscReal gradient[]);
 
+/* A matrix M[to][from] applied in every direction of a tensor of from^dim entries of num components (fastest): out[to^dim][num]. out and work need room for
+   max(from, to)^dim * num numbers. */
+PetscErrorCode ElementTransform(PetscInt dim, PetscInt from, PetscInt to, PetscInt num, const PetscReal M[], const PetscReal in[], PetscReal out[],
+                                PetscReal work[]);
+
 /* Legendre polynomials 0..degree on [0,1] at xi: P_0 = 1, P_n(1) = 1; and derivatives unless NULL. */
 PetscErrorCode ElementLegendre(PetscInt degree, PetscReal xi, PetscReal value[], PetscReal derivative[]);
 

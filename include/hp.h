@@ -59,6 +59,13 @@ PetscErrorCode HPSpaceGetTraceRow(HPSpace, PetscInt entity, const PetscReal xi[]
 PetscErrorCode HPSpaceGather(HPSpace, PetscInt cell, const PetscReal local[], PetscReal values[]);
 /* Reference positions [n][dim] of the cell's nodes. */
 PetscErrorCode HPSpaceGatherPositions(HPSpace, PetscInt cell, PetscReal X[]);
+/* Pieces each way in which cells, faces and edges of each order are drawn: divide (1..MORTISE_MAX_ORDER), or with 0 as many as the order; where orders above 1
+   are mixed the next power of two. Not collective. */
+PetscErrorCode HPSpacePieces(HPSpace, PetscInt divide, PetscInt pieces[MORTISE_MAX_ORDER + 1]);
+/* The cell as it is drawn, in n = pieces[its order] pieces each way: positions X and values (Cartesian, from a local array) at the (n+1)^dim points of the
+   equispaced lattice, [..][dim]. They are those of the polynomials, except on entities that are cut into fewer pieces or hang: what is drawn of neighbours
+   meets everywhere (lattice.c). Not collective. */
+PetscErrorCode HPSpaceLattice(HPSpace, PetscInt cell, const PetscInt pieces[], const PetscReal local[], PetscReal X[], PetscReal values[]);
 /* Add P^T r to the local array (true dofs). */
 PetscErrorCode HPSpaceScatterAdd(HPSpace, PetscInt cell, const PetscReal r[], PetscReal local[]);
 /* K_m = P^T K P: true dofs of the cell, in order masters x components (frames applied); work at least (n*dim)^2. dofs: local dof indices [n_m*dim]. */

@@ -43,9 +43,11 @@ PetscErrorCode SummaryWrite(MPI_Comm, const char *path, const struct cJSON *docu
 /* Write one state as the grids below. Points stand at reference positions; `displacement` moves them. estimate NULL: error is 0. Evaluates the residual when
    there is contact, so that its tables belong to this state. Collective.
 
-   Grid bulk: owned cells of all ranks, each cell of order p cut into p^dim pieces at its Gauss-Lobatto nodes. Two layouts, one for a whole run:
-   - A scene that only ever has cells of order 1 shares points between the cells of a rank; stress-like fields are per cell (value at its centre).
-   - Any other scene gives each cell its own (p+1)^dim points; stress-like fields are per point, continuous within a cell only.
+   Grid bulk: owned cells of all ranks, each cut into n^dim pieces at the points of an equispaced lattice (HPSpaceLattice: neighbours meet, whatever their n);
+   n is OutputSpec.divide, or the cell's order p (a cell of order 1 is straight), the next power of two in meshes of mixed order. Two layouts, one for a whole
+   run:
+   - A scene that only ever has cells of order 1, not divided, shares points between the cells of a rank; stress-like fields are per cell (value at its centre).
+   - Any other scene gives each cell its own (n+1)^dim points; stress-like fields are per point, continuous within a cell only.
    - Per point: displacement. Per cell: order, level (largest number of halvings of the coarse cell in one direction), body, rank, error (square root of the
      indicator), cell (number of the leaf).
    - Stress-like: pressure (-tr(sigma)/3), stress (Cauchy: xx xy xz yy yz zz), von_mises, J. They are evaluated at the p^dim Gauss points, where derivatives
@@ -74,8 +76,9 @@ void OutputCauchy(Kinematics, const PetscReal F[9], const PetscReal P[9], PetscR
 /* Stress-like values of one cell: 7 numbers (sigma, J) at its p^dim Gauss points, samples[p^dim][7]; rigid bodies: zero stress, J = 1. u: local displacement
  * array. */
 PetscErrorCode OutputSampleCell(Problem, PetscInt cell, const PetscReal u[], PetscReal samples[]);
-/* Extension of num components from the p^dim Gauss points to the (p+1)^dim Gauss-Lobatto nodes, lexicographic, components fastest. work: as long as nodal. */
-PetscErrorCode OutputExtend(PetscInt dim, PetscInt order, PetscInt num, const PetscReal samples[], PetscReal nodal[], PetscReal work[]);
+/* Extension of num components from the p^dim Gauss points of a cell of order p to its equispaced lattice of (pieces+1)^dim points, lexicographic, components
+   fastest. nodal and work: room for max(order, pieces+1)^dim * num numbers. */
+PetscErrorCode OutputExtend(PetscInt dim, PetscInt order, PetscInt pieces, PetscInt num, const PetscReal samples[], PetscReal nodal[], PetscReal work[]);
 
 /* ---- probes (output/probe.c) --------------------------------------------------------------------------------------------- */
 

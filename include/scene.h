@@ -24,6 +24,7 @@ typedef struct {
 typedef struct {
   char      directory[PETSC_MAX_PATH_LEN];
   PetscBool fields, segments; /* write fields.xdmf; write segments */
+  int       divide;           /* pieces of a cell in each direction; 0: as many as its order */
 } OutputSpec;
 
 typedef struct {

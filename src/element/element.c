@@ -170,3 +170,30 @@ PetscErrorCode Basis1DGet(PetscInt order, PetscInt num_points, const Basis1D **b
   *basis = &table[order][num_points]->basis;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
+
+/* One direction after the other: before step d the array has `to` entries in the first d directions and `from` in the others. */
+PetscErrorCode ElementTransform(PetscInt dim, PetscInt from, PetscInt to, PetscInt num, const PetscReal M[], const PetscReal in[], PetscReal out[],
+                                PetscReal work[])
+{
+  const PetscReal *source = in;
+  PetscInt         inner = num, outer = dim == 1 ? 1 : ElementNumNodes(dim - 1, from - 1);
+
+  PetscFunctionBegin;
+  for (PetscInt d = 0; d < dim; ++d) {
+    PetscReal *result = (dim - d) % 2 ? out : work; /* the last step ends in out */
+    for (PetscInt o = 0; o < outer; ++o) {
+      for (PetscInt r = 0; r < to; ++r) {
+        PetscReal *sum = result + (o * to + r) * inner;
+        PetscCall(PetscArrayzero(sum, inner));
+        for (PetscInt i = 0; i < from; ++i) {
+          const PetscReal *term = source + (o * from + i) * inner;
+          for (PetscInt k = 0; k < inner; ++k) sum[k] += M[r * from + i] * term[k];
+        }
+      }
+    }
+    source = result;
+    inner *= to;
+    outer /= from;
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

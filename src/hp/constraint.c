@@ -43,7 +43,7 @@ static PetscErrorCode RowAdd_Private(HPRow *row, PetscInt node, PetscReal weight
 }
 
 /* Point xi of a hanging entity in the frame of the one it hangs on. */
-static void ToParent_Private(PetscInt parent_dim, const int8_t place[3], const PetscReal xi[], PetscReal eta[3])
+void HPToParent_Private(PetscInt parent_dim, const int8_t place[3], const PetscReal xi[], PetscReal eta[3])
 {
   for (PetscInt a = 0, k = 0; a < parent_dim; ++a) {
     if (place[a] == 3)
@@ -68,7 +68,7 @@ PetscErrorCode HPRowAccumulate_Private(HPSpace hp, PetscInt entity, const PetscR
   PetscFunctionBegin;
   if (t->parent[entity] >= 0) {
     const PetscInt parent = t->parent[entity];
-    ToParent_Private(HPEntityDim_Private(t, parent), t->parent_place + 3 * entity, xi, eta);
+    HPToParent_Private(HPEntityDim_Private(t, parent), t->parent_place + 3 * entity, xi, eta);
     PetscCall(HPRowAccumulate_Private(hp, parent, eta, limit, scale, row));
     PetscFunctionReturn(PETSC_SUCCESS);
   }
@@ -119,7 +119,7 @@ static PetscInt OrientedNode_Private(PetscInt first, PetscInt k, int8_t code, Pe
 }
 
 /* Tensor node i of a leaf of order p: its place in the closure, integer and real tangential coordinates; returns their number. */
-static PetscInt LeafNode_Private(PetscInt dim, PetscInt p, const PetscReal *nodes, PetscInt i, PetscInt *index, PetscInt ia[3], PetscReal tangent[3])
+PetscInt HPLeafNode_Private(PetscInt dim, PetscInt p, const PetscReal *nodes, PetscInt i, PetscInt *index, PetscInt ia[3], PetscReal tangent[3])
 {
   PetscInt k = 0, stride = 1;
   *index = 0;
@@ -143,7 +143,7 @@ static PetscErrorCode CellNodeRow_Private(HPSpace hp, PetscInt cell, PetscInt i,
   PetscReal           tangent[3], eta[3];
 
   PetscFunctionBegin;
-  const PetscInt k      = LeafNode_Private(t->dim, p, nodes, i, &index, ia, tangent);
+  const PetscInt k      = HPLeafNode_Private(t->dim, p, nodes, i, &index, ia, tangent);
   const PetscInt entity = t->closure[offset + index];
   if (t->parent[entity] < 0 && (k == 0 || hp->entity_order[entity] == p)) {
     *node = OrientedNode_Private(hp->point_node[hp->entity_point[entity]], k, t->orientation[offset + index], p, ia);

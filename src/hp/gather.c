@@ -1,28 +1,9 @@
 /* Between a cell and the true dofs it depends on: values to the cell, residuals and matrices back. */
 #include "hpimpl.h"
 
-static inline const PetscReal *Frame_Private(HPSpace hp, PetscInt node)
-{
-  return hp->node_frame && hp->node_frame[node] >= 0 ? hp->frame[hp->node_frame[node]] : NULL;
-}
-
-/* Cartesian values of a true node. */
-static inline void NodeValue_Private(HPSpace hp, PetscInt node, const PetscReal local[], PetscReal value[])
-{
-  const PetscReal *q = Frame_Private(hp, node), *dof = local + node * hp->dim;
-  for (PetscInt c = 0; c < hp->dim; ++c) {
-    if (!q)
-      value[c] = dof[c];
-    else {
-      value[c] = 0;
-      for (PetscInt k = 0; k < hp->dim; ++k) value[c] += q[3 * k + c] * dof[k];
-    }
-  }
-}
-
 static inline void NodeAdd_Private(HPSpace hp, PetscInt node, const PetscReal r[], PetscReal local[])
 {
-  const PetscReal *q   = Frame_Private(hp, node);
+  const PetscReal *q   = HPFrame_Private(hp, node);
   PetscReal       *dof = local + node * hp->dim;
   for (PetscInt k = 0; k < hp->dim; ++k) {
     if (!q)
@@ -40,14 +21,14 @@ PetscErrorCode HPSpaceGather(HPSpace hp, PetscInt cell, const PetscReal local[],
 
   PetscFunctionBegin;
   if (v->cell_weight[cell] < 0) {
-    for (PetscInt i = 0; i < n; ++i) NodeValue_Private(hp, master[i], local, values + i * d);
+    for (PetscInt i = 0; i < n; ++i) HPNodeValue_Private(hp, master[i], local, values + i * d);
     PetscFunctionReturn(PETSC_SUCCESS);
   }
   const PetscReal *W = v->weight + v->cell_weight[cell];
   PetscCall(PetscArrayzero(values, n * d));
   for (PetscInt m = 0; m < nm; ++m) {
     PetscReal x[3];
-    NodeValue_Private(hp, master[m], local, x);
+    HPNodeValue_Private(hp, master[m], local, x);
     for (PetscInt i = 0; i < n; ++i) {
       for (PetscInt c = 0; c < d; ++c) values[i * d + c] += W[i * nm + m] * x[c];
     }
@@ -158,7 +139,7 @@ PetscErrorCode HPSpaceTransformMatrix(HPSpace hp, PetscInt cell, const PetscReal
   else
     PetscCall(Congruence_Private(d, n, nm, v->weight + v->cell_weight[cell], K, hp->work, Km));
   for (PetscInt m = 0; m < nm; ++m) {
-    const PetscReal *q = Frame_Private(hp, master[m]);
+    const PetscReal *q = HPFrame_Private(hp, master[m]);
     if (q) Rotate_Private(d, nm * d, m, q, Km);
     for (PetscInt c = 0; c < d; ++c) dofs[m * d + c] = master[m] * d + c;
   }

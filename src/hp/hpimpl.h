@@ -44,9 +44,32 @@ PetscErrorCode HPSpaceRows_Private(HPSpace);
 PetscErrorCode HPRowReset_Private(HPRow *);
 PetscErrorCode HPRowDestroy_Private(HPRow *);
 PetscErrorCode HPRowAccumulate_Private(HPSpace, PetscInt entity, const PetscReal xi[], PetscInt limit, PetscReal scale, HPRow *);
-void           HPNodePoint_Private(PetscInt d, PetscInt p, const PetscReal *nodes, PetscInt i, PetscReal eta[3]);
+/* Point xi of a hanging entity in the frame of the one it hangs on. */
+void HPToParent_Private(PetscInt parent_dim, const int8_t place[3], const PetscReal xi[], PetscReal eta[3]);
+/* Tensor node i of a leaf of order p: its place in the closure, integer and real tangential coordinates; returns their number. */
+PetscInt HPLeafNode_Private(PetscInt dim, PetscInt p, const PetscReal *nodes, PetscInt i, PetscInt *index, PetscInt ia[3], PetscReal tangent[3]);
+void     HPNodePoint_Private(PetscInt d, PetscInt p, const PetscReal *nodes, PetscInt i, PetscReal eta[3]);
 /* section.c: sections and default constraints. */
 PetscErrorCode HPSpaceSections_Private(HPSpace, const int8_t fixed[]);
+
+static inline const PetscReal *HPFrame_Private(HPSpace hp, PetscInt node)
+{
+  return hp->node_frame && hp->node_frame[node] >= 0 ? hp->frame[hp->node_frame[node]] : NULL;
+}
+
+/* Cartesian values of a true node. */
+static inline void HPNodeValue_Private(HPSpace hp, PetscInt node, const PetscReal local[], PetscReal value[])
+{
+  const PetscReal *q = HPFrame_Private(hp, node), *dof = local + node * hp->dim;
+  for (PetscInt c = 0; c < hp->dim; ++c) {
+    if (!q)
+      value[c] = dof[c];
+    else {
+      value[c] = 0;
+      for (PetscInt k = 0; k < hp->dim; ++k) value[c] += q[3 * k + c] * dof[k];
+    }
+  }
+}
 
 static inline PetscInt HPEntityDim_Private(const ForestTables *t, PetscInt entity)
 {

@@ -5,20 +5,22 @@
 typedef struct {
   const HPTables *v;
   PetscBool       shared;                          /* points shared between cells, stress-like fields per cell */
-  PetscInt        num_points, num_pieces, largest; /* largest number of nodes of a cell */
+  PetscInt        pieces[MORTISE_MAX_ORDER + 1];   /* of a cell in each direction, by its order */
+  PetscInt        num_points, num_pieces, largest; /* largest number of nodes of a cell and of its lattice */
   PetscInt       *first, *piece;                   /* owned [num_owned_cells+1] offsets of a cell's nodes in point, of its pieces */
   PetscInt       *point;                           /* owned */
   PetscInt       *conn;                            /* owned [num_pieces][2^dim] */
 } BulkGrid;
 
-static PetscInt Pieces_Private(PetscInt dim, PetscInt order)
+static PetscInt Divide_Private(const BulkGrid *g, PetscInt cell)
 {
-  return dim == 2 ? order * order : order * order * order;
+  return g->pieces[g->v->cell_order[cell]];
 }
 
-/* Will all cells of this run have order 1? */
+/* Will all cells of this run have order 1 and be drawn as they are? */
 static PetscBool Linear_Private(const SceneData *scene)
 {
+  if (scene->output.divide > 1) return PETSC_FALSE;
   if (scene->adapt.tolerance > 0 && scene->adapt.strategy != ADAPT_H) return PETSC_FALSE;
   for (PetscInt b = 0; b < scene->mechanics.num_bodies; ++b) {
     if (scene->mechanics.bodies[b].order != 1) return PETSC_FALSE;
@@ -55,28 +57,33 @@ static PetscErrorCode Points_Private(const ForestTables *t, BulkGrid *g)
 /* Pieces of a cell, lexicographic, and their corners. */
 static void Connect_Private(BulkGrid *g, PetscInt cell)
 {
-  const PetscInt dim = g->v->dim, p = g->v->cell_order[cell], n = p + 1, *point = g->point + g->first[cell];
+  const PetscInt dim = g->v->dim, p = Divide_Private(g, cell), n = p + 1, *point = g->point + g->first[cell];
   PetscInt      *conn = g->conn + (g->piece[cell] << dim);
 
-  for (PetscInt s = 0; s < Pieces_Private(dim, p); ++s) {
+  for (PetscInt s = 0; s < ElementNumNodes(dim, p - 1); ++s) {
     const PetscInt i = s % p, j = s / p % p, k = s / (p * p), corner = (k * n + j) * n + i;
     for (PetscInt a = 0; a < 1 << dim; ++a) *conn++ = point[corner + (a & 1) + n * (a >> 1 & 1) + n * n * (a >> 2)];
   }
 }
 
-static PetscErrorCode GridCreate_Private(const SceneData *scene, const ForestTables *t, const HPTables *v, BulkGrid *g)
+static PetscErrorCode GridCreate_Private(const SceneData *scene, const ForestTables *t, HPSpace space, BulkGrid *g)
+
 {
+  const HPTables *v;
+
   PetscFunctionBegin;
+  PetscCall(HPSpaceGetTables(space, &v));
   PetscCall(PetscMemzero(g, sizeof(*g)));
   g->v      = v;
   g->shared = Linear_Private(scene);
+  PetscCall(HPSpacePieces(space, scene->output.divide, g->pieces));
   PetscCall(PetscMalloc2(v->num_owned_cells + 1, &g->first, v->num_owned_cells + 1, &g->piece));
   g->first[0] = g->piece[0] = 0;
   for (PetscInt c = 0; c < v->num_owned_cells; ++c) {
-    const PetscInt n = ElementNumNodes(v->dim, v->cell_order[c]);
-    g->first[c + 1]  = g->first[c] + n;
-    g->piece[c + 1]  = g->piece[c] + Pieces_Private(v->dim, v->cell_order[c]);
-    g->largest       = PetscMax(g->largest, n);
+    const PetscInt p = v->cell_order[c], n = Divide_Private(g, c);
+    g->first[c + 1] = g->first[c] + ElementNumNodes(v->dim, n);
+    g->piece[c + 1] = g->piece[c] + ElementNumNodes(v->dim, n - 1);
+    g->largest      = PetscMax(g->largest, ElementNumNodes(v->dim, PetscMax(n, p)));
   }
   g->num_pieces = g->piece[v->num_owned_cells];
   PetscCall(PetscMalloc2(g->first[v->num_owned_cells], &g->point, g->num_pieces << v->dim, &g->conn));
@@ -104,8 +111,7 @@ static PetscErrorCode WriteMotion_Private(Writer writer, HPSpace space, const Bu
   PetscCall(PetscMalloc1(2 * g->largest * dim, &nodal));
   for (PetscInt c = 0; c < g->v->num_owned_cells; ++c) {
     const PetscInt n = g->first[c + 1] - g->first[c];
-    PetscCall(HPSpaceGatherPositions(space, c, nodal));
-    PetscCall(HPSpaceGather(space, c, u, nodal + n * dim));
+    PetscCall(HPSpaceLattice(space, c, g->pieces, u, nodal, nodal + n * dim));
     for (PetscInt i = 0; i < n; ++i) {
       const PetscInt at = 3 * g->point[g->first[c] + i];
       for (PetscInt d = 0; d < dim; ++d) {
@@ -139,7 +145,7 @@ static PetscErrorCode WriteStress_Private(Writer writer, Problem problem, const 
   for (PetscInt c = 0; c < g->v->num_owned_cells; ++c) {
     const PetscInt first = g->shared ? g->piece[c] : g->first[c], n = g->shared ? 1 : g->first[c + 1] - g->first[c];
     PetscCall(OutputSampleCell(problem, c, u, sample));
-    if (!g->shared) PetscCall(OutputExtend(g->v->dim, g->v->cell_order[c], 7, sample, nodal, work));
+    if (!g->shared) PetscCall(OutputExtend(g->v->dim, g->v->cell_order[c], Divide_Private(g, c), 7, sample, nodal, work));
     for (PetscInt i = 0; i < n; ++i) {
       const PetscReal *s = (g->shared ? sample : nodal) + 7 * i;
       PetscCall(PetscArraycpy(stress + 6 * (first + i), s, 6));
@@ -216,7 +222,7 @@ PetscErrorCode OutputWriteState(Writer writer, Problem problem, const State *sta
   PetscCall(HPSpaceGetTables(space, &v));
   PetscCall(PetscMalloc1(v->num_nodes * v->dim, &u));
   PetscCall(ProblemLocalDisplacement(problem, state->x, u));
-  PetscCall(GridCreate_Private(scene, t, v, &grid));
+  PetscCall(GridCreate_Private(scene, t, space, &grid));
   PetscCall(WriterBegin(writer, series_time, step, pass, state->t));
   PetscCall(WriteMotion_Private(writer, space, &grid, u));
   PetscCall(WriteStress_Private(writer, problem, &grid, u));

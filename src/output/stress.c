@@ -47,44 +47,26 @@ PetscErrorCode OutputSampleCell(Problem problem, PetscInt cell, const PetscReal 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* E[node][point]: Lagrange polynomials of the p Gauss points at the p + 1 Gauss-Lobatto nodes. */
-static void Extension_Private(PetscInt p, const PetscReal points[], const PetscReal nodes[], PetscReal E[])
+/* E[node][point]: Lagrange polynomials of the p Gauss points at the points k/n. */
+static void Extension_Private(PetscInt p, const PetscReal points[], PetscInt n, PetscReal E[])
 {
-  for (PetscInt n = 0; n <= p; ++n) {
+  for (PetscInt k = 0; k <= n; ++k) {
     for (PetscInt i = 0; i < p; ++i) {
       PetscReal product = 1;
-      for (PetscInt j = 0; j < p; ++j) product *= j == i ? 1 : (nodes[n] - points[j]) / (points[i] - points[j]);
-      E[n * p + i] = product;
+      for (PetscInt j = 0; j < p; ++j) product *= j == i ? 1 : ((PetscReal)k / n - points[j]) / (points[i] - points[j]);
+      E[k * p + i] = product;
     }
   }
 }
 
-/* One direction after the other: before step d the array has p + 1 entries in the first d directions and p in the others. */
-PetscErrorCode OutputExtend(PetscInt dim, PetscInt p, PetscInt num, const PetscReal samples[], PetscReal nodal[], PetscReal work[])
+PetscErrorCode OutputExtend(PetscInt dim, PetscInt p, PetscInt pieces, PetscInt num, const PetscReal samples[], PetscReal nodal[], PetscReal work[])
 {
-  const Basis1D   *basis;
-  const PetscReal *from = samples;
-  PetscReal        E[(MORTISE_MAX_ORDER + 1) * MORTISE_MAX_ORDER];
-  PetscInt         inner = num, outer = ElementNumNodes(dim, p - 1) / p;
+  const Basis1D *basis;
+  PetscReal      E[(MORTISE_MAX_ORDER + 1) * MORTISE_MAX_ORDER];
 
   PetscFunctionBegin;
   PetscCall(Basis1DGet(p, p, &basis));
-  Extension_Private(p, basis->points, basis->nodes, E);
-  for (PetscInt d = 0; d < dim; ++d) {
-    PetscReal *to = (dim - d) % 2 ? nodal : work; /* the last step ends in nodal */
-    for (PetscInt o = 0; o < outer; ++o) {
-      for (PetscInt n = 0; n <= p; ++n) {
-        PetscReal *result = to + (o * (p + 1) + n) * inner;
-        PetscCall(PetscArrayzero(result, inner));
-        for (PetscInt i = 0; i < p; ++i) {
-          const PetscReal *source = from + (o * p + i) * inner;
-          for (PetscInt k = 0; k < inner; ++k) result[k] += E[n * p + i] * source[k];
-        }
-      }
-    }
-    from = to;
-    inner *= p + 1;
-    outer /= p;
-  }
+  Extension_Private(p, basis->points, pieces, E);
+  PetscCall(ElementTransform(dim, p, pieces + 1, num, E, samples, nodal, work));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -97,6 +97,8 @@ const Option Options[] = {
 
     {"output.directory", KEY_TEXT, "", "", "", "relative to the working directory; default: out/<name of the scene>", SCENE(data.output.directory)},
     {"output.fields", KEY_BOOL, "", "true", "", "write fields.xdmf and its HDF5 files", SCENE(data.output.fields)},
+    {"output.divide", KEY_WORD, "", "auto", "auto|1|2|3|4|5|6|7|8", "pieces of a cell in each direction in fields.xdmf; auto: as many as its order",
+     SCENE(data.output.divide)},
     {"output.segments", KEY_BOOL, "", "false", "", "write the contact segments too", SCENE(data.output.segments)},
 
     {"probe.<name>.<axis>", KEY_REAL, "length", "0", ANY, "reference point whose fields go to history.csv and summary.json", PROBE(spec.X)},

@@ -41,11 +41,15 @@ static void ExtensionIsExact(void **state)
         samples[2 * i]     = Polynomial(dim, p - 1, x);
         samples[2 * i + 1] = 1;
       }
-      assert_int_equal(OutputExtend(dim, p, 2, samples, nodal, work), 0);
-      for (PetscInt i = 0; i < ElementNumNodes(dim, p); ++i) {
-        Place(dim, p + 1, basis->nodes, i, x);
-        assert_near(nodal[2 * i], Polynomial(dim, p - 1, x), 1e-10 * PetscMax(1, PetscAbsReal(Polynomial(dim, p - 1, x))));
-        assert_near(nodal[2 * i + 1], 1, 1e-11);
+      for (PetscInt n = 1; n <= MORTISE_MAX_ORDER; ++n) {
+        PetscReal nodes[MORTISE_MAX_ORDER + 1];
+        for (PetscInt k = 0; k <= n; ++k) nodes[k] = (PetscReal)k / n;
+        assert_int_equal(OutputExtend(dim, p, n, 2, samples, nodal, work), 0);
+        for (PetscInt i = 0; i < ElementNumNodes(dim, n); ++i) {
+          Place(dim, n + 1, nodes, i, x);
+          assert_near(nodal[2 * i], Polynomial(dim, p - 1, x), 1e-10 * PetscMax(1, PetscAbsReal(Polynomial(dim, p - 1, x))));
+          assert_near(nodal[2 * i + 1], 1, 1e-11);
+        }
       }
     }
   }
