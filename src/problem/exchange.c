@@ -235,7 +235,7 @@ PetscErrorCode TrafficReport_Private(Problem p)
 
   PetscFunctionBegin;
   if (!p->num_contacts) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(PetscInfo(p->prototype,
+  PetscCall(PetscInfo(NULL,
                       "contact exchange of rank %d: %" PetscInt_FMT " evaluations, %" PetscInt_FMT " messages, %.0f bytes; %" PetscInt_FMT
                       " searches, %" PetscInt_FMT " messages, %.0f bytes; %g s\n",
                       p->rank, t->evaluations, t->messages, (double)t->bytes, t->searches, t->search_messages, (double)t->search_bytes, (double)t->seconds));
