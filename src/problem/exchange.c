@@ -231,13 +231,17 @@ PetscErrorCode ProblemGetTraffic(Problem p, ContactTraffic *traffic)
 
 PetscErrorCode TrafficReport_Private(Problem p)
 {
-  const ContactTraffic *t = &p->traffic;
+  const ContactTraffic *t      = &p->traffic;
+  PetscInt              num[2] = {0, 0};
 
   PetscFunctionBegin;
+  for (PetscInt i = 0; i < p->num_contacts; ++i)
+    for (PetscInt k = 0; k < 2; ++k) num[k] += p->contacts[i].side[k].num_nodes;
   if (!p->num_contacts) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(PetscInfo(NULL,
-                      "contact exchange of rank %d: %" PetscInt_FMT " evaluations, %" PetscInt_FMT " messages, %.0f bytes; %" PetscInt_FMT
-                      " searches, %" PetscInt_FMT " messages, %.0f bytes; %g s\n",
-                      p->rank, t->evaluations, t->messages, (double)t->bytes, t->searches, t->search_messages, (double)t->search_bytes, (double)t->seconds));
+                      "contact exchange: %" PetscInt_FMT " + %" PetscInt_FMT " nodes; %" PetscInt_FMT " evaluations, %" PetscInt_FMT
+                      " messages, %.0f bytes; %" PetscInt_FMT " searches, %" PetscInt_FMT " messages, %.0f bytes; %g s\n",
+                      num[0], num[1], t->evaluations, t->messages, (double)t->bytes, t->searches, t->search_messages, (double)t->search_bytes,
+                      (double)t->seconds));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -70,68 +70,56 @@ static PetscErrorCode Send_Private(Problem p, const Mail *m, const PetscInt firs
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* To which ranks do facets of the mortar side have to go? boxes[size][BOXES] of all ranks. */
+/* To which ranks do nodes of the mortar side have to go? Those of this rank's facets that meet one of a rank's boxes. boxes[size][BOXES] of all ranks. */
 static PetscErrorCode Address_Private(Problem p, const Contact *c, const ContactSurface *mortar, PetscReal boxes[][6], Mail *m)
 {
   const Surface *s = &c->side[1];
+  PetscInt      *told; /* [num_nodes] rank + 1 */
+  PetscReal      own[6];
 
   PetscFunctionBegin;
-  for (PetscInt i = 0; i < s->num_mine; ++i) {
-    PetscReal own[6];
-    ContactFacetBox(mortar, s->mine[i], own);
-    for (PetscMPIInt r = 0; r < p->size; ++r) {
-      PetscBool meets = PETSC_FALSE;
-      for (PetscInt k = 0; k < BOXES && r != p->rank && !meets; ++k) meets = ContactBoxesMeet(own, boxes[BOXES * r + k]);
-      if (meets) PetscCall(MailAdd_Private(m, r, s->mine[i]));
+  PetscCall(PetscCalloc1(s->num_nodes, &told));
+  for (PetscMPIInt r = 0; r < p->size; ++r) {
+    for (PetscInt i = 0; i < s->num_mine && r != p->rank; ++i) {
+      const PetscInt *node, num = SurfaceNodes_Private(s, s->mine[i], &node);
+      PetscBool       meets = PETSC_FALSE;
+      ContactFacetBox(mortar, s->mine[i], own);
+      for (PetscInt k = 0; k < BOXES && !meets; ++k) meets = ContactBoxesMeet(own, boxes[BOXES * r + k]);
+      for (PetscInt k = 0; k < num && meets; ++k) {
+        if (told[node[k]] != r + 1) PetscCall(MailAdd_Private(m, r, node[k]));
+        told[node[k]] = r + 1;
+      }
     }
   }
+  PetscCall(PetscFree(told));
   PetscCall(MailSort_Private(m, p->size));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* (number, positions of its nodes…) of the facets in the mail; first[num_to+1]: where those for each rank start. */
-static PetscErrorCode Pack_Private(const Surface *s, const Mail *m, PetscInt first[], PetscReal **send)
-{
-  const PetscInt *node;
-  PetscInt        at = 0;
-
-  PetscFunctionBegin;
-  for (PetscInt i = 0; i < m->num; ++i) at += 1 + s->dim * SurfaceNodes_Private(s, m->sorted[i], &node);
-  PetscCall(PetscMalloc1(at, send));
-  at = first[0] = 0;
-  for (PetscMPIInt r = 0; r < m->num_to; ++r) {
-    for (PetscInt i = m->first[r]; i < m->first[r + 1]; ++i) {
-      const PetscInt num = SurfaceNodes_Private(s, m->sorted[i], &node);
-      (*send)[at++]      = (PetscReal)m->sorted[i];
-      for (PetscInt k = 0; k < num; ++k, at += s->dim) PetscCall(PetscArraycpy(*send + at, s->x + s->dim * node[k], s->dim));
-    }
-    first[r + 1] = at;
-  }
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* Facets of the mortar side with their positions to where they may be met; those that arrive enter x and has. */
+/* Nodes of the mortar side with their positions to where their facets may be met; those that arrive enter x and has. A facet is known where all its nodes are.
+ */
 static PetscErrorCode Arrive_Private(Problem p, Contact *c, PetscReal boxes[][6])
 {
-  Surface             *s      = &c->side[1];
+  Surface             *s   = &c->side[1];
+  const PetscInt       dim = s->dim, room = 1 + dim;
   const ContactSurface mortar = SurfaceAt_Private(s, s->x);
   Mail                 m      = {0};
   PetscReal           *send, *got;
-  PetscInt            *first, num;
+  PetscInt             num;
 
   PetscFunctionBegin;
   PetscCall(Address_Private(p, c, &mortar, boxes, &m));
-  PetscCall(PetscMalloc1(m.num_to + 1, &first));
-  PetscCall(Pack_Private(s, &m, first, &send));
-  PetscCall(Send_Private(p, &m, first, sizeof(PetscReal), send, &num, &got));
-  for (PetscInt at = 0; at < num;) {
-    const PetscInt *node, count = SurfaceNodes_Private(s, (PetscInt)got[at++], &node);
-    for (PetscInt k = 0; k < count; ++k, at += s->dim) {
-      PetscCall(PetscArraycpy(s->x + s->dim * node[k], got + at, s->dim));
-      s->has[node[k]] = PETSC_TRUE;
-    }
+  PetscCall(PetscMalloc1(room * m.num, &send));
+  for (PetscInt i = 0; i < m.num; ++i) {
+    send[room * i] = (PetscReal)m.sorted[i];
+    PetscCall(PetscArraycpy(send + room * i + 1, s->x + dim * m.sorted[i], dim));
   }
-  PetscCall(PetscFree(first));
+  PetscCall(Send_Private(p, &m, m.first, (size_t)room * sizeof(PetscReal), send, &num, &got));
+  for (PetscInt i = 0; i < num; ++i) {
+    const PetscInt n = (PetscInt)got[room * i];
+    PetscCall(PetscArraycpy(s->x + dim * n, got + room * i + 1, dim));
+    s->has[n] = PETSC_TRUE;
+  }
   PetscCall(PetscFree(send));
   PetscCall(PetscFree(got));
   PetscCall(MailDestroy_Private(&m));
