@@ -1,10 +1,10 @@
 /* Candidate search: which mortar facets a nonmortar facet may meet while no node moves more than `margin`.
 
-   Two dimensions (three: region.c): a pair is kept when the unit normals oppose, N_s . N_m < -0.1, and the mortar edge reaches into the region swept by the
-   nonmortar edge's rays up to `distance` to both sides, |g| < distance (with margin 0 exactly that; with a margin the region grows by slack = 2 margin (1 +
-   distance / h): relative motion of the nodes plus the turn 2 margin / h of normals of edges of length h at that distance). Distances and normals are judged
-   here and nowhere else: between two searches the result changes continuously with the positions. */
-#include "facetimpl.h"
+   Two dimensions (three: region.c; rays along a continuous direction: rayregion.c): a pair is kept when the unit normals oppose, N_s . N_m < -0.1, and the
+   mortar edge reaches into the region swept by the nonmortar edge's rays up to `distance` to both sides, |g| < distance (with margin 0 exactly that; with a
+   margin the region grows by slack = 2 margin (1 + distance / h): relative motion of the nodes plus the turn 2 margin / h of normals of edges of length h at
+   that distance). Distances and normals are judged here and nowhere else: between two searches the result changes continuously with the positions. */
+#include "rayimpl.h"
 
 typedef struct {
   PetscReal reach, slack; /* distance along the normal and lateral allowance */
@@ -71,8 +71,8 @@ static PetscErrorCode MortarTree_Private(const ContactSurface *mortar, Tree *tre
     for (PetscInt i = 0; i < dim; i++) {
       box[f][i]     = PETSC_MAX_REAL;
       box[f][3 + i] = -PETSC_MAX_REAL;
-      for (PetscInt k = 0; k < corners; k++) {
-        const PetscReal x = mortar->x[dim * mortar->facets[corners * f + k] + i];
+      for (PetscInt k = 0; k < (mortar->order ? mortar->first[f + 1] - mortar->first[f] : corners); k++) {
+        const PetscReal x = mortar->x[dim * (mortar->order ? mortar->lattice[mortar->first[f] + k] : mortar->facets[corners * f + k]) + i];
 
         box[f][i]     = PetscMin(box[f][i], x);
         box[f][3 + i] = PetscMax(box[f][3 + i], x);
@@ -104,33 +104,51 @@ static PetscErrorCode ListFacets_Private(ContactPair pair, const ContactSurface 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Query the tree for every listed edge. found: room for all mortar edges. */
+/* The region of a listed facet, by the kernel in use. */
+typedef struct {
+  EdgeFrame   edge;
+  Region      swept;
+  FacetRegion prism;
+  RayRegion   rays;
+} Reach;
+
+static const PetscReal *Reach_Private(ContactPair pair, const ContactSurface *nonmortar, PetscInt facet, Reach *r)
+{
+  if (pair->rays) {
+    ContactRayRegion(pair, nonmortar, facet, &r->rays);
+    return r->rays.box;
+  }
+  if (pair->dim == 3) {
+    ContactRegionCreate(pair, nonmortar, facet, &r->prism);
+    return r->prism.box;
+  }
+  ContactFrame(pair, nonmortar, facet, &r->edge);
+  Region_Private(pair, nonmortar, facet, &r->edge, &r->swept);
+  return r->swept.box;
+}
+
+static PetscBool Meets_Private(ContactPair pair, const Reach *r, const ContactSurface *mortar, PetscInt facet)
+{
+  if (pair->rays) return ContactRayRegionMeets(&r->rays, mortar, facet);
+  return pair->dim == 3 ? ContactRegionMeets(&r->prism, mortar, facet) : Candidate_Private(pair, &r->edge, &r->swept, mortar, facet);
+}
+
+/* Query the tree for every listed facet. found: room for all mortar facets. */
 static PetscErrorCode Candidates_Private(ContactPair pair, const ContactSurface *nonmortar, const ContactSurface *mortar, const Tree *tree, PetscInt found[])
 {
-  PetscInt  total = 0;
-  EdgeFrame f;
-  Region    region;
+  PetscInt total = 0;
+  Reach    reach;
 
   PetscFunctionBegin;
   for (PetscInt i = 0; i < pair->num_listed; i++) {
-    PetscInt    num;
-    PetscBool   keep;
-    FacetRegion wide;
+    PetscInt num;
 
     pair->start[i] = total;
-    if (pair->dim == 3)
-      ContactRegionCreate(pair, nonmortar, pair->listed[i], &wide);
-    else {
-      ContactFrame(pair, nonmortar, pair->listed[i], &f);
-      Region_Private(pair, nonmortar, pair->listed[i], &f, &region);
-    }
-    num = ContactTreeQuery(tree, pair->dim == 3 ? wide.box : region.box, mortar->num_facets, found);
+    num            = ContactTreeQuery(tree, Reach_Private(pair, nonmortar, pair->listed[i], &reach), mortar->num_facets, found);
     PetscCall(PetscSortInt(num, found)); /* results must not depend on the tree */
     PetscCall(ContactGrow(total + num, sizeof(PetscInt), &pair->size_candidate, &pair->candidate));
-    for (PetscInt k = 0; k < num; k++) {
-      keep = pair->dim == 3 ? ContactRegionMeets(&wide, mortar, found[k]) : Candidate_Private(pair, &f, &region, mortar, found[k]);
-      if (keep) pair->candidate[total++] = found[k];
-    }
+    for (PetscInt k = 0; k < num; k++)
+      if (Meets_Private(pair, &reach, mortar, found[k])) pair->candidate[total++] = found[k];
   }
   pair->start[pair->num_listed] = total;
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -150,7 +168,10 @@ PetscErrorCode ContactPairSearch(ContactPair pair, const ContactSurface *nonmort
   pair->margin            = margin;
   pair->num_mortar_nodes  = mortar->num_nodes;
   pair->num_mortar_facets = mortar->num_facets;
-  if (pair->dim == 3)
+  pair->rays              = (PetscBool)(nonmortar->order || mortar->order || (pair->dim == 3 && pair->continuous));
+  if (pair->rays)
+    PetscCall(ContactRayTopology(pair, nonmortar));
+  else if (pair->dim == 3)
     PetscCall(ContactFacetTopology(pair, nonmortar));
   else {
     PetscCall(ContactTopologyBuild(pair, nonmortar));

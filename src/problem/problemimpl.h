@@ -22,7 +22,7 @@ typedef struct {
   PetscInt  *first, *lattice;
   PetscInt  *node_first, *node_facet; /* [num_nodes+1] offsets: facets that carry weight to the node, its own and those with a node that hangs on it */
   PetscReal *X, *x, *du;              /* [num_nodes][dim] reference and current position; increment under discussion */
-  PetscReal *mirror;                  /* [num_nodes][dim] two dimensions: normal of the symmetry plane at an end, else 0 */
+  PetscReal *mirror;                  /* normals of symmetry planes as in ContactSurface, else 0 */
   PetscReal *frame;                   /* [num_nodes][dim][dim] rows: directions of the dofs */
   PetscInt  *dof;                     /* [num_nodes][dim] index in the problem's vector, -1: prescribed, hanging */
   PetscInt  *local;                   /* [num_nodes] local node on this rank or -1 */

@@ -28,7 +28,7 @@ PetscErrorCode SurfaceFields_Private(Problem p, Surface *s)
   PetscCall(HPSpaceGetTables(p->space, &v));
   PetscCall(ForestGetTables(p->forest, &t));
   PetscCall(PetscMalloc3(s->num_nodes, &s->local, s->num_nodes, &s->owned, dim * s->num_nodes, &s->dof));
-  PetscCall(PetscCalloc4(dim * s->num_nodes, &s->X, dim * s->num_nodes, &s->x, dim * s->num_nodes, &s->mirror, dim * dim * s->num_nodes, &s->frame));
+  PetscCall(PetscCalloc4(dim * s->num_nodes, &s->X, dim * s->num_nodes, &s->x, 2 * dim * s->num_nodes, &s->mirror, dim * dim * s->num_nodes, &s->frame));
   PetscCall(PetscCalloc2(dim * s->num_nodes, &s->du, dim * s->num_nodes, &s->force));
   PetscCall(PetscMalloc1(t->first[dim], &number));
   for (PetscInt e = 0; e < t->first[dim]; ++e) number[e] = -1;
