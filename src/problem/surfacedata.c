@@ -64,14 +64,14 @@ PetscErrorCode SurfaceFields_Private(Problem p, Surface *s)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Indices of the nodes' dofs in the problem's vector, from their owners (stored +2 so that a sum works and -1 survives); hanging nodes have none. */
+/* Rows of the nodes' dofs in the matrix, from their owners (stored +2 so that a sum works and -1 survives); hanging nodes have none. */
 PetscErrorCode SurfaceIndices_Private(Problem p, Surface *s)
 {
   const PetscInt dim = s->dim;
 
   PetscFunctionBegin;
   for (PetscInt n = 0; n < s->num_nodes; ++n) {
-    for (PetscInt c = 0; c < dim; ++c) s->dof[dim * n + c] = s->owned[n] ? p->index[s->local[n] * dim + c] + 2 : 0;
+    for (PetscInt c = 0; c < dim; ++c) s->dof[dim * n + c] = s->owned[n] ? p->row[s->local[n] * dim + c] + 2 : 0;
   }
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, s->dof, (PetscMPIInt)(dim * s->num_nodes), MPIU_INT, MPI_SUM, p->comm));
   for (PetscInt n = 0; n < s->num_nodes; ++n) {
