@@ -28,6 +28,7 @@ typedef enum {
   STAGE_MESH,
   STAGE_SETUP,
   STAGE_ASSEMBLE,
+  STAGE_CONDENSE, /* inside assemble */
   STAGE_CONTACT,
   STAGE_FACTOR,
   STAGE_SOLVE,

@@ -111,7 +111,7 @@ PetscErrorCode ContactPairSearch(ContactPair, const ContactSurface *nonmortar, c
                                  PetscReal distance, PetscReal margin);
 
 /* Boxes (xmin, ymin, zmin, xmax, ymax, zmax), at most `most`, that meet the box (ContactFacetBox) of every mortar facet that ContactPairSearch with the same
-   arguments may find. Not collective. */
+   arguments may find; either both sides have facets of higher order or none. Not collective. */
 PetscErrorCode ContactPairReach(ContactPair, const ContactSurface *nonmortar, PetscInt num, const PetscInt facets[], PetscReal distance, PetscReal margin,
                                 PetscInt most, PetscInt *num_boxes, PetscReal box[][6]);
 void           ContactFacetBox(const ContactSurface *, PetscInt facet, PetscReal box[6]);

@@ -70,3 +70,8 @@ PetscErrorCode HPSpaceLattice(HPSpace, PetscInt cell, const PetscInt pieces[], c
 PetscErrorCode HPSpaceScatterAdd(HPSpace, PetscInt cell, const PetscReal r[], PetscReal local[]);
 /* K_m = P^T K P: true dofs of the cell, in order masters x components (frames applied); work at least (n*dim)^2. dofs: local dof indices [n_m*dim]. */
 PetscErrorCode HPSpaceTransformMatrix(HPSpace, PetscInt cell, const PetscReal K[], PetscReal Km[], PetscInt dofs[], PetscInt *num_dofs);
+/* The same for a matrix from which the nodes inside the cell are eliminated: K over the cell's nodes nodes[num] (lexicographic places), all but the inner ones;
+   Km over the masters but these. The nodes inside a cell are the local nodes point_node[cell] .. point_node[cell+1]-1, true ones without a frame, which no
+   other cell depends on. */
+PetscErrorCode HPSpaceTransformBoundary(HPSpace, PetscInt cell, PetscInt num, const PetscInt nodes[], const PetscReal K[], PetscReal Km[], PetscInt dofs[],
+                                        PetscInt *num_dofs);

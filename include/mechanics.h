@@ -88,6 +88,16 @@ typedef PetscErrorCode (*MatrixSink)(void *context, PetscInt num, const PetscInt
 /* Tangent at u with the stored pressure (NULL: consistent with u); remembers the linearised pressure for MechanicsUpdatePressure. */
 PetscErrorCode MechanicsTangent(Mechanics, const PetscReal u[], const PetscReal pressure[], MatrixSink, void *context, PetscBool *bad);
 
+/* Static condensation (not to be undone): from now on MechanicsTangent eliminates the nodes inside each cell and sends what is left, over the dofs of the
+   others; bad also where that is impossible. Not collective. */
+PetscErrorCode MechanicsSetCondense(Mechanics);
+/* Forces condensed like the last tangent, on a local array that is exact at the inner nodes of this rank's cells: there r becomes 0 (and is remembered), to the
+   dofs of the other nodes -K_bi K_ii^-1 r_i is added (this rank's part). */
+PetscErrorCode MechanicsCondenseForces(Mechanics, PetscReal r[]);
+/* Increments at the inner nodes of this rank's cells from those at all others in du (local array, prescribed ones included): x_i = -K_ii^-1 (r_i + K_ib x_b)
+   with the last tangent and the forces last condensed. */
+PetscErrorCode MechanicsRecover(Mechanics, PetscReal du[]);
+
 /* Element pressures: num coefficients on this rank, cell after cell. */
 PetscErrorCode MechanicsNumPressure(Mechanics, PetscInt *num);
 /* pressure += step * (linearised pressure at the last tangent + its derivative . du - pressure), du local array. */

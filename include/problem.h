@@ -134,6 +134,13 @@ typedef struct {
 
 /* R(x) with the prescribed motion as applied. Deterministic function of x. Collective; status is the same on every rank. */
 PetscErrorCode ProblemResidual(Problem, Vec x, Vec r, ProblemStatus *);
+/* Static condensation, chosen once, before the matrix is made: the matrix and its right-hand side leave out the unknowns of nodes inside cells; vectors of
+   the problem keep them. Collective. */
+PetscErrorCode ProblemSetCondense(Problem);
+/* A vector of the matrix: right-hand side, lift, solution. */
+PetscErrorCode ProblemCreateRightSide(Problem, Vec *);
+/* dx = y, and the solution at nodes inside cells where they are condensed (with the lift of the last tangent). Collective. */
+PetscErrorCode ProblemRecover(Problem, Vec y, Vec dx);
 /* dR/dx with the stored element pressures in the geometric stiffness (NULL: consistent). When lift is given, the change of R that the remaining
    prescribed motion makes to first order is added to it, and the Hessian of pairs whose open gaps under pressure are still wide against their facets is left
    out. Assembles the problem's matrix. */
@@ -142,7 +149,7 @@ PetscErrorCode ProblemTangent(Problem, Vec x, const PetscReal pressure[], Vec li
    Only for problems whose bulk tangent is symmetric (ProblemIsSymmetric): no follower pressures. Default: exact form. */
 PetscErrorCode ProblemSetSymmetric(Problem, PetscBool symmetric);
 PetscErrorCode ProblemIsSymmetric(Problem, PetscBool *possible);
-/* rhs = -(r + lift), multiplier rows in the form of the last tangent. */
+/* rhs = -(r + lift), condensed like the last tangent, multiplier rows in its form; r of the problem, lift and rhs of the matrix. */
 PetscErrorCode ProblemRightSide(Problem, Vec r, Vec lift, Vec rhs);
 /* Active-set passes against the last tangent: given the solution dx of tangent . dx = -rhs, decide anew which constraints are active, rewrite their rows in the
    matrix and the right-hand side. *changed: number of nodes that switched (all ranks); *violation: by how much dx contradicts the set it was found with, the
@@ -166,7 +173,7 @@ PetscErrorCode ProblemPending(Problem, PetscReal *remaining);
 /* Forces of the supports at x: reaction[num_boundaries][3]; contact force and moment about the origin on the nonmortar side: force[num_contacts][3],
    moment[num_contacts][3]; all ranks. Evaluates the residual. */
 PetscErrorCode ProblemForces(Problem, Vec x, PetscReal reaction[][3], PetscReal force[][3], PetscReal moment[][3], ProblemStatus *);
-/* Displacement dofs and multipliers of this rank, in that order in its part of the vector; dimension. Not collective. */
+/* Displacement dofs and multipliers of this rank, in that order in its part of the matrix; dimension. Not collective. */
 PetscErrorCode ProblemGetBlocks(Problem, PetscInt *num_u, PetscInt *num_z, PetscInt *dim);
 /* For multigrid methods, the space of order 1 on the same mesh in whole blocks: interpolation from the dofs of all vertices that have a free one (dim of each)
    to the displacement dofs of this problem; ones on the diagonal of the prescribed ones among them; their rigid-body modes; are there nodes

@@ -17,6 +17,7 @@ typedef struct {
 
 /* SNES of the registered type "contactnewton" over the problem's residual and tangent. Options: snes_*, ksp_*, pc_*, mat_mumps_*, and
    -solve_rtol (1e-10: residual against the nodal forces), -solve_max_it (25), -solve_active_set_passes (10), -solve_cuts (6),
+   -solve_condense auto|yes|no (auto: from order 3 on the unknowns of nodes inside cells are eliminated there, before the linear solver),
    -solve_linear auto|direct|iterative (auto: multigrid and GMRES for large three-dimensional problems of compressible material with a symmetric tangent; a
    factorisation where that fails and everywhere else), -solve_linear_rtol; saddle_ksp_* (GMRES), multigrid_pc_*, multigrid_smoother_*. Collective. */
 PetscErrorCode SolverCreate(Problem, Solver *);

@@ -1,7 +1,7 @@
 /* Stages: what -log_view and summary.json know of where the time goes. */
 #include "base.h"
 
-const char *const StageNames[NUM_STAGES] = {"mesh", "setup", "assemble", "contact", "factor", "solve", "estimate", "transfer", "output"};
+const char *const StageNames[NUM_STAGES] = {"mesh", "setup", "assemble", "condense", "contact", "factor", "solve", "estimate", "transfer", "output"};
 
 static PetscLogEvent  stage_event[NUM_STAGES];
 static PetscLogDouble stage_start[NUM_STAGES], stage_seconds[NUM_STAGES];

@@ -2,19 +2,10 @@
  */
 #include "facetimpl.h"
 
-/* Storage of the results: blocks that are kept and filled anew at each evaluation; pointers into them stay valid until then. */
-#define BLOCK 131072
-
-struct _p_FacetStore {
-  PetscInt    num, size, at, *room, used;
-  PetscReal **block;
-};
-
 PetscErrorCode ContactFacetWorkCreate(FacetWork *w)
 {
   PetscFunctionBegin;
   PetscCall(PetscNew(w));
-  PetscCall(PetscNew(&(*w)->store));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -24,10 +15,7 @@ PetscErrorCode ContactFacetWorkDestroy(FacetWork *work)
 
   PetscFunctionBegin;
   if (!w) PetscFunctionReturn(PETSC_SUCCESS);
-  for (PetscInt i = 0; i < w->store->num; i++) PetscCall(PetscFree(w->store->block[i]));
-  PetscCall(PetscFree(w->store->block));
-  PetscCall(PetscFree(w->store->room));
-  PetscCall(PetscFree(w->store));
+  PetscCall(ContactStoreDestroy(&w->store));
   PetscCall(PetscFree(w->overlap));
   PetscCall(PetscFree(w->mortar));
   PetscCall(PetscFree(w->corner));
@@ -41,27 +29,6 @@ PetscErrorCode ContactFacetWorkDestroy(FacetWork *work)
   PetscCall(PetscFree(w->W));
   PetscCall(PetscFree(w->row));
   PetscCall(PetscFree(*work));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* Room for num zeros. */
-static PetscErrorCode Reserve_Private(struct _p_FacetStore *s, PetscInt num, PetscReal **array)
-{
-  PetscFunctionBegin;
-  while (s->at < s->num && s->used + num > s->room[s->at]) s->at++, s->used = 0;
-  if (s->at == s->num) {
-    PetscInt size = s->size;
-
-    PetscCall(ContactGrow(s->num + 1, sizeof(PetscReal *), &size, &s->block));
-    PetscCall(ContactGrow(s->num + 1, sizeof(PetscInt), &s->size, &s->room));
-    s->room[s->num] = PetscMax(num, BLOCK);
-    PetscCall(PetscMalloc1(s->room[s->num], &s->block[s->num]));
-    s->num++;
-    s->used = 0;
-  }
-  *array = s->block[s->at] + s->used;
-  s->used += num;
-  PetscCall(PetscArrayzero(*array, num));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -362,7 +329,7 @@ static PetscErrorCode Result_Private(FacetWork w, const FacetWeights *f, const P
   PetscReal      factor[FACET_MOMENTS], *gap, *weight, *dgap, *dweight, *half;
 
   PetscFunctionBegin;
-  PetscCall(Reserve_Private(w->store, 2 * nr, &gap));
+  PetscCall(ContactStoreReserve(&w->store, 2 * nr, &gap));
   weight = gap + nr;
   for (int j = 0; j < 4; j++)
     for (PetscInt k = w->row_first[j]; k < w->row_first[j + 1]; k++) {
@@ -376,7 +343,7 @@ static PetscErrorCode Result_Private(FacetWork w, const FacetWeights *f, const P
   out->dgap = out->dweight = out->hessian = NULL;
   if (!derivatives) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(ContactGrow(3 * n + nn, sizeof(PetscReal), &w->size_row, &w->row));
-  PetscCall(Reserve_Private(w->store, 2 * nr * nn, &dgap));
+  PetscCall(ContactStoreReserve(&w->store, 2 * nr * nn, &dgap));
   dweight = dgap + nr * nn;
   for (int j = 0; j < 4; j++) {
     Distribute_Private(w, j, f->dgap[j], dgap);
@@ -387,10 +354,10 @@ static PetscErrorCode Result_Private(FacetWork w, const FacetWeights *f, const P
   out->dweight = dweight;
   if (!hessian) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(HalfHessian_Private(w, f, z));
-  PetscCall(Reserve_Private(w->store, nn * nn, (PetscReal **)&out->hessian));
-  PetscCall(Reserve_Private(w->store, nn * n, &half));
+  PetscCall(ContactStoreReserve(&w->store, nn * nn, (PetscReal **)&out->hessian));
+  PetscCall(ContactStoreReserve(&w->store, nn * n, &half));
   CarryHessian_Private(w, half, (PetscReal *)out->hessian);
-  w->store->used -= nn * n; /* only work */
+  w->store.used -= nn * n; /* only work */
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -442,7 +409,7 @@ PetscErrorCode ContactFacetsEvaluate(const EvaluateContext *ctx, PetscBool *fail
   PetscFunctionBegin;
   Normals_Private(pair, ctx->nonmortar);
   pair->num_degenerate = pair->num_ids = 0;
-  w->store->at = w->store->used = 0;
+  w->store.at = w->store.used = 0;
   for (PetscInt slot = 0; slot < pair->num_listed; slot++) {
     ContactFacet *out = &pair->result[pair->num_results];
     FacetWeights  f;

@@ -81,6 +81,14 @@ void ContactTiltHessian(const FacetFrame *, PetscInt num, const PetscReal X[], c
 /* fold.c: drop overlaps that lie behind others in the facet's view. */
 void ContactUnfold(PetscInt *num, Overlap overlap[], PetscInt order[], PetscReal area);
 
+/* store.c */
+typedef struct {
+  PetscInt    num, size, at, *room, used;
+  PetscReal **block;
+} Store;
+PetscErrorCode ContactStoreDestroy(Store *);
+PetscErrorCode ContactStoreReserve(Store *, PetscInt num, PetscReal **array);
+
 /* facet.c: everything about one nonmortar facet. Vertices: the facet's four, then the mortar facets' ones; n = 3 * their number. */
 struct _p_FacetWork {
   FacetFrame   frame;
@@ -98,7 +106,7 @@ struct _p_FacetWork {
   PetscReal   *dq;      /* [FACET_MOMENTS][n] by U */
   PetscReal   *W, *row; /* [n][n] half form; work */
   PetscInt size_overlap, size_mortar, size_corner, size_vertex, size_X, size_dq, size_W, size_row, size_node, size_row_first, size_row_node, size_row_weight;
-  struct _p_FacetStore *store; /* of the results */
+  Store    store; /* of the results */
 };
 PetscErrorCode ContactFacetWorkCreate(FacetWork *);
 PetscErrorCode ContactFacetWorkDestroy(FacetWork *);

@@ -1,5 +1,5 @@
 /* The contact pair: life cycle, and the evaluation loop over the edges of the last search. */
-#include "facetimpl.h"
+#include "rayimpl.h"
 
 PetscErrorCode ContactPairCreate(PetscInt dim, PetscBool axisymmetric, const ContactSpec *spec, ContactPair *pair)
 {
@@ -9,6 +9,7 @@ PetscErrorCode ContactPairCreate(PetscInt dim, PetscBool axisymmetric, const Con
   (*pair)->axisymmetric    = axisymmetric;
   (*pair)->node_to_segment = spec->node_to_segment;
   (*pair)->standard        = spec->standard;
+  (*pair)->continuous      = spec->continuous;
   if (dim == 3) PetscCall(ContactFacetWorkCreate(&(*pair)->facet));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -33,6 +34,7 @@ PetscErrorCode ContactPairDestroy(ContactPair *pair)
   PetscCall(PetscFree(p->real));
   PetscCall(PetscFree(p->work));
   PetscCall(ContactFacetWorkDestroy(&p->facet));
+  PetscCall(ContactRayWorkDestroy(&p->ray));
   PetscCall(PetscFree(*pair));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -158,8 +160,8 @@ PetscErrorCode ContactPairEvaluate(ContactPair pair, const ContactSurface *nonmo
   *facets           = pair->result;
   pair->num_results = pair->num_segments = 0;
   if (*failed) PetscFunctionReturn(PETSC_SUCCESS);
-  if (pair->dim == 3) {
-    PetscCall(ContactFacetsEvaluate(&ctx, failed));
+  if (pair->rays || pair->dim == 3) {
+    PetscCall(pair->rays ? ContactRayEvaluate(&ctx, failed) : ContactFacetsEvaluate(&ctx, failed));
     *num = pair->num_results;
     PetscFunctionReturn(PETSC_SUCCESS);
   }

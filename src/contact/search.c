@@ -1,10 +1,10 @@
 /* Candidate search: which mortar facets a nonmortar facet may meet while no node moves more than `margin`.
 
-   Two dimensions (three: region.c): a pair is kept when the unit normals oppose, N_s . N_m < -0.1, and the mortar edge reaches into the region swept by the
-   nonmortar edge's rays up to `distance` to both sides, |g| < distance (with margin 0 exactly that; with a margin the region grows by slack = 2 margin (1 +
-   distance / h): relative motion of the nodes plus the turn 2 margin / h of normals of edges of length h at that distance). Distances and normals are judged
-   here and nowhere else: between two searches the result changes continuously with the positions. */
-#include "facetimpl.h"
+   Two dimensions (three: region.c; rays along a continuous direction: rayregion.c): a pair is kept when the unit normals oppose, N_s . N_m < -0.1, and the
+   mortar edge reaches into the region swept by the nonmortar edge's rays up to `distance` to both sides, |g| < distance (with margin 0 exactly that; with a
+   margin the region grows by slack = 2 margin (1 + distance / h): relative motion of the nodes plus the turn 2 margin / h of normals of edges of length h at
+   that distance). Distances and normals are judged here and nowhere else: between two searches the result changes continuously with the positions. */
+#include "rayimpl.h"
 
 typedef struct {
   PetscReal reach, slack; /* distance along the normal and lateral allowance */
@@ -59,29 +59,36 @@ static PetscBool Candidate_Private(ContactPair pair, const EdgeFrame *f, const R
   return (g[0] > r->reach && g[1] > r->reach) || (g[0] < -r->reach && g[1] < -r->reach) ? PETSC_FALSE : PETSC_TRUE;
 }
 
-void ContactFacetBox(const ContactSurface *s, PetscInt facet, PetscReal box[6])
+/* Nodes that shape a facet: its corners, or its lattice. */
+static PetscInt FacetNodes_Private(const ContactSurface *s, PetscInt facet, const PetscInt **node)
 {
   const PetscInt corners = s->dim == 2 ? 2 : 4;
+
+  *node = s->order ? s->lattice + s->first[facet] : s->facets + corners * facet;
+  return s->order ? s->first[facet + 1] - s->first[facet] : corners;
+}
+
+void ContactFacetBox(const ContactSurface *s, PetscInt facet, PetscReal box[6])
+{
+  const PetscInt *node, num = FacetNodes_Private(s, facet, &node);
 
   box[2] = box[5] = 0;
   for (PetscInt i = 0; i < s->dim; i++) {
     box[i]     = PETSC_MAX_REAL;
     box[3 + i] = -PETSC_MAX_REAL;
-    for (PetscInt k = 0; k < corners; k++) {
-      const PetscReal x = s->x[s->dim * s->facets[corners * facet + k] + i];
-
-      box[i]     = PetscMin(box[i], x);
-      box[3 + i] = PetscMax(box[3 + i], x);
+    for (PetscInt k = 0; k < num; k++) {
+      box[i]     = PetscMin(box[i], s->x[s->dim * node[k] + i]);
+      box[3 + i] = PetscMax(box[3 + i], s->x[s->dim * node[k] + i]);
     }
   }
 }
 
 static PetscBool HasFacet_Private(const ContactSurface *s, PetscInt facet)
 {
-  const PetscInt corners = s->dim == 2 ? 2 : 4;
+  const PetscInt *node, num = FacetNodes_Private(s, facet, &node);
 
-  for (PetscInt k = 0; k < corners; k++)
-    if (!ContactHas(s, s->facets[corners * facet + k])) return PETSC_FALSE;
+  for (PetscInt k = 0; k < num; k++)
+    if (!ContactHas(s, node[k])) return PETSC_FALSE;
   return PETSC_TRUE;
 }
 
@@ -124,43 +131,61 @@ static PetscErrorCode ListFacets_Private(ContactPair pair, const ContactSurface 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Query the tree for every listed edge. found: room for all mortar edges. */
+/* The region of a listed facet, by the kernel in use. */
+typedef struct {
+  EdgeFrame   edge;
+  Region      swept;
+  FacetRegion prism;
+  RayRegion   rays;
+} Reach;
+
+static const PetscReal *Reach_Private(ContactPair pair, const ContactSurface *nonmortar, PetscInt facet, Reach *r)
+{
+  if (pair->rays) {
+    ContactRayRegion(pair, nonmortar, facet, &r->rays);
+    return r->rays.box;
+  }
+  if (pair->dim == 3) {
+    ContactRegionCreate(pair, nonmortar, facet, &r->prism);
+    return r->prism.box;
+  }
+  ContactFrame(pair, nonmortar, facet, &r->edge);
+  Region_Private(pair, nonmortar, facet, &r->edge, &r->swept);
+  return r->swept.box;
+}
+
+static PetscBool Meets_Private(ContactPair pair, const Reach *r, const ContactSurface *mortar, PetscInt facet)
+{
+  if (pair->rays) return ContactRayRegionMeets(&r->rays, mortar, facet);
+  return pair->dim == 3 ? ContactRegionMeets(&r->prism, mortar, facet) : Candidate_Private(pair, &r->edge, &r->swept, mortar, facet);
+}
+
+/* Query the tree for every listed facet. found: room for all mortar facets. */
 static PetscErrorCode Candidates_Private(ContactPair pair, const ContactSurface *nonmortar, const ContactSurface *mortar, const Tree *tree,
                                          const PetscInt known[], PetscInt found[])
 {
-  PetscInt  total = 0;
-  EdgeFrame f;
-  Region    region;
+  PetscInt total = 0;
+  Reach    reach;
 
   PetscFunctionBegin;
   for (PetscInt i = 0; i < pair->num_listed; i++) {
-    PetscInt    num;
-    PetscBool   keep;
-    FacetRegion wide;
+    PetscInt num;
 
     pair->start[i] = total;
-    if (pair->dim == 3)
-      ContactRegionCreate(pair, nonmortar, pair->listed[i], &wide);
-    else {
-      ContactFrame(pair, nonmortar, pair->listed[i], &f);
-      Region_Private(pair, nonmortar, pair->listed[i], &f, &region);
-    }
-    num = ContactTreeQuery(tree, pair->dim == 3 ? wide.box : region.box, mortar->num_facets, found);
+    num            = ContactTreeQuery(tree, Reach_Private(pair, nonmortar, pair->listed[i], &reach), mortar->num_facets, found);
     for (PetscInt k = 0; k < num; k++) found[k] = known[found[k]];
     PetscCall(PetscSortInt(num, found)); /* results must not depend on the tree */
     PetscCall(ContactGrow(total + num, sizeof(PetscInt), &pair->size_candidate, &pair->candidate));
-    for (PetscInt k = 0; k < num; k++) {
-      keep = pair->dim == 3 ? ContactRegionMeets(&wide, mortar, found[k]) : Candidate_Private(pair, &f, &region, mortar, found[k]);
-      if (keep) pair->candidate[total++] = found[k];
-    }
+    for (PetscInt k = 0; k < num; k++)
+      if (Meets_Private(pair, &reach, mortar, found[k])) pair->candidate[total++] = found[k];
   }
   pair->start[pair->num_listed] = total;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* What a search knows of the nonmortar side: neighbours, normals, the list. */
-static PetscErrorCode Prepare_Private(ContactPair pair, const ContactSurface *nonmortar, PetscInt num, const PetscInt facets[], PetscReal distance,
-                                      PetscReal margin)
+/* What a search knows of the nonmortar side: neighbours, normals, the list. higher: the mortar side has facets of higher order. */
+static PetscErrorCode Prepare_Private(ContactPair pair, const ContactSurface *nonmortar, PetscBool higher, PetscInt num, const PetscInt facets[],
+                                      PetscReal distance, PetscReal margin)
 {
   PetscBool failed = PETSC_FALSE;
 
@@ -169,7 +194,10 @@ static PetscErrorCode Prepare_Private(ContactPair pair, const ContactSurface *no
              (double)distance, (double)margin);
   pair->distance = distance;
   pair->margin   = margin;
-  if (pair->dim == 3)
+  pair->rays     = (PetscBool)(nonmortar->order || higher || (pair->dim == 3 && pair->continuous));
+  if (pair->rays)
+    PetscCall(ContactRayTopology(pair, nonmortar));
+  else if (pair->dim == 3)
     PetscCall(ContactFacetTopology(pair, nonmortar));
   else {
     PetscCall(ContactTopologyBuild(pair, nonmortar));
@@ -186,7 +214,7 @@ PetscErrorCode ContactPairSearch(ContactPair pair, const ContactSurface *nonmort
   Tree      tree;
 
   PetscFunctionBegin;
-  PetscCall(Prepare_Private(pair, nonmortar, num, facets, distance, margin));
+  PetscCall(Prepare_Private(pair, nonmortar, (PetscBool)(mortar->order != NULL), num, facets, distance, margin));
   pair->num_mortar_nodes  = mortar->num_nodes;
   pair->num_mortar_facets = mortar->num_facets;
   PetscCall(PetscMalloc2(mortar->num_facets, &found, mortar->num_facets, &known));
@@ -243,25 +271,18 @@ PetscErrorCode ContactPairReach(ContactPair pair, const ContactSurface *nonmorta
                                 PetscInt most, PetscInt *num_boxes, PetscReal box[][6])
 {
   PetscReal(*all)[6];
-  Tree tree;
+  Reach reach;
+  Tree  tree;
 
   PetscFunctionBegin;
   *num_boxes = 0;
-  PetscCall(Prepare_Private(pair, nonmortar, num, facets, distance, margin));
+  PetscCall(Prepare_Private(pair, nonmortar, (PetscBool)(nonmortar->order != NULL), num, facets, distance, margin));
   if (num == 0) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(PetscMalloc1(num, &all));
   for (PetscInt i = 0; i < num; i++) {
-    EdgeFrame   f;
-    Region      region;
-    FacetRegion wide;
+    const PetscReal *own = Reach_Private(pair, nonmortar, facets[i], &reach);
 
-    if (pair->dim == 3)
-      ContactRegionCreate(pair, nonmortar, facets[i], &wide);
-    else {
-      ContactFrame(pair, nonmortar, facets[i], &f);
-      Region_Private(pair, nonmortar, facets[i], &f, &region);
-    }
-    for (int k = 0; k < 6; k++) all[i][k] = pair->dim == 3 ? wide.box[k] : region.box[k];
+    for (int k = 0; k < 6; k++) all[i][k] = own[k];
   }
   PetscCall(ContactTreeBuild(num, all, &tree));
   UpperBoxes_Private(&tree, most, num_boxes, box);

@@ -146,3 +146,49 @@ PetscErrorCode HPSpaceTransformMatrix(HPSpace hp, PetscInt cell, const PetscReal
   *num_dofs = nm * d;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
+
+/* The part of a cell's weights that boundary nodes have: W[num][masters but inner ones]. Inner nodes depend on themselves alone, the others never on them. */
+static void BoundaryWeights_Private(HPSpace hp, PetscInt cell, PetscInt num, const PetscInt nodes[], PetscReal W[], PetscInt masters[], PetscInt *num_masters)
+{
+  const HPTables  *v  = &hp->view;
+  const PetscInt   nm = v->cell_row[cell + 1] - v->cell_row[cell], *master = v->cell_master + v->cell_row[cell];
+  const PetscReal *all  = v->weight + v->cell_weight[cell];
+  PetscInt         kept = 0;
+
+  for (PetscInt m = 0; m < nm; ++m) {
+    if (master[m] < v->point_node[cell] || master[m] >= v->point_node[cell + 1]) masters[kept++] = m;
+  }
+  for (PetscInt i = 0; i < num; ++i)
+    for (PetscInt m = 0; m < kept; ++m) W[i * kept + m] = all[nodes[i] * nm + masters[m]];
+  for (PetscInt m = 0; m < kept; ++m) masters[m] = master[masters[m]];
+  *num_masters = kept;
+}
+
+PetscErrorCode HPSpaceTransformBoundary(HPSpace hp, PetscInt cell, PetscInt num, const PetscInt nodes[], const PetscReal K[], PetscReal Km[], PetscInt dofs[],
+                                        PetscInt *num_dofs)
+{
+  const HPTables *v = &hp->view;
+  const PetscInt  d = hp->dim, *master = v->cell_master + v->cell_row[cell];
+  PetscInt        nm = num, *masters;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(PetscMax(num, v->cell_row[cell + 1] - v->cell_row[cell]), &masters));
+  if (v->cell_weight[cell] < 0) {
+    for (PetscInt i = 0; i < num; ++i) masters[i] = master[nodes[i]];
+    PetscCall(PetscArraycpy(Km, K, num * d * num * d));
+  } else {
+    PetscReal *W;
+    PetscCall(PetscMalloc1(num * (v->cell_row[cell + 1] - v->cell_row[cell]), &W));
+    BoundaryWeights_Private(hp, cell, num, nodes, W, masters, &nm);
+    PetscCall(Congruence_Private(d, num, nm, W, K, hp->work, Km));
+    PetscCall(PetscFree(W));
+  }
+  for (PetscInt m = 0; m < nm; ++m) {
+    const PetscReal *q = HPFrame_Private(hp, masters[m]);
+    if (q) Rotate_Private(d, nm * d, m, q, Km);
+    for (PetscInt c = 0; c < d; ++c) dofs[m * d + c] = masters[m] * d + c;
+  }
+  *num_dofs = nm * d;
+  PetscCall(PetscFree(masters));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

@@ -181,7 +181,34 @@ INLINE void StoreTile_Private(CellKernel k, const PetscInt n1, const int d, Pets
   }
 }
 
-INLINE void Tangent_Private(CellKernel k, const PetscInt n1, const int d, const int nr, PetscInt num_cells, PetscReal *tangent)
+/* The tile into the upper triangles of all cells' matrices, nodes in their places. */
+INLINE void PlaceTile_Private(CellKernel k, const PetscInt n1, const int d, PetscInt num_cells, PetscInt a, PetscInt b, const PetscInt *place,
+                              PetscReal *tangent)
+{
+  const PetscInt   cols = n1 * d, size = k->num_nodes * d;
+  const PetscReal *tile = (const PetscReal *)k->tile;
+
+  for (PetscInt cell = 0; cell < num_cells; cell++) {
+    PetscReal *K = tangent + cell * size * size;
+
+    for (PetscInt x = 0; x < n1; x++) {
+      for (PetscInt y = 0; y < n1; y++) {
+        const PetscInt   row = place[a + x] * d, col = place[b + y] * d;
+        const PetscReal *in = tile + (x * d * cols + y * d) * NUM_LANES + cell;
+
+        if (row <= col) {
+          for (int i = 0; i < d; i++)
+            for (int j = 0; j < d; j++) K[(row + i) * size + col + j] = in[(i * cols + j) * NUM_LANES];
+        } else if (a != b) {
+          for (int j = 0; j < d; j++)
+            for (int i = 0; i < d; i++) K[(col + j) * size + row + i] = in[(i * cols + j) * NUM_LANES];
+        }
+      }
+    }
+  }
+}
+
+INLINE void Tangent_Private(CellKernel k, const PetscInt n1, const int d, const int nr, PetscInt num_cells, const PetscInt *place, PetscReal *tangent)
 {
   const PetscInt nz = d == 3 ? n1 : 1;
 
@@ -196,7 +223,10 @@ INLINE void Tangent_Private(CellKernel k, const PetscInt n1, const int d, const 
 
           SumTile_Private(k, n1, d, nr, moduli, ay, by);
           if (k->mixed) AddCoupling_Private(k, n1, d, a, b);
-          StoreTile_Private(k, n1, d, num_cells, a, b, tangent);
+          if (place)
+            PlaceTile_Private(k, n1, d, num_cells, a, b, place, tangent);
+          else
+            StoreTile_Private(k, n1, d, num_cells, a, b, tangent);
         }
       }
     }
@@ -204,32 +234,38 @@ INLINE void Tangent_Private(CellKernel k, const PetscInt n1, const int d, const 
 }
 
 /* One instance for each usual order, with constant loop bounds. */
-INLINE void TangentOfOrder_Private(CellKernel k, const int d, const int nr, PetscInt num_cells, PetscReal *tangent)
+INLINE void TangentOfOrder_Private(CellKernel k, const int d, const int nr, PetscInt num_cells, const PetscInt *place, PetscReal *tangent)
 {
   switch (k->order) {
   case 1:
-    Tangent_Private(k, 2, d, nr, num_cells, tangent);
+    Tangent_Private(k, 2, d, nr, num_cells, place, tangent);
     break;
   case 2:
-    Tangent_Private(k, 3, d, nr, num_cells, tangent);
+    Tangent_Private(k, 3, d, nr, num_cells, place, tangent);
     break;
   case 3:
-    Tangent_Private(k, 4, d, nr, num_cells, tangent);
+    Tangent_Private(k, 4, d, nr, num_cells, place, tangent);
     break;
   case 4:
-    Tangent_Private(k, 5, d, nr, num_cells, tangent);
+    Tangent_Private(k, 5, d, nr, num_cells, place, tangent);
+    break;
+  case 5:
+    Tangent_Private(k, 6, d, nr, num_cells, place, tangent);
+    break;
+  case 6:
+    Tangent_Private(k, 7, d, nr, num_cells, place, tangent);
     break;
   default:
-    Tangent_Private(k, k->n1, d, nr, num_cells, tangent);
+    Tangent_Private(k, k->n1, d, nr, num_cells, place, tangent);
   }
 }
 
-void CellKernelTangent_Private(CellKernel k, PetscInt num_cells, PetscReal *tangent)
+void CellKernelTangent_Private(CellKernel k, PetscInt num_cells, const PetscInt *place, PetscReal *tangent)
 {
   if (k->dim == 3)
-    TangentOfOrder_Private(k, 3, 3, num_cells, tangent);
+    TangentOfOrder_Private(k, 3, 3, num_cells, place, tangent);
   else if (k->hoop)
-    TangentOfOrder_Private(k, 2, 3, num_cells, tangent);
+    TangentOfOrder_Private(k, 2, 3, num_cells, place, tangent);
   else
-    TangentOfOrder_Private(k, 2, 2, num_cells, tangent);
+    TangentOfOrder_Private(k, 2, 2, num_cells, place, tangent);
 }

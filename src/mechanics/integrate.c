@@ -86,17 +86,29 @@ PetscErrorCode MechanicsResidual(Mechanics m, const PetscReal u[], PetscReal r[]
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode SendMatrix_Private(Mechanics m, PetscInt cell, PetscInt nd, PetscReal K[], PetscReal *Km, PetscInt *dofs, MatrixSink sink, void *context)
+/* Matrix of cell i of the group to the sink; without its inner nodes where they are condensed. */
+static PetscErrorCode SendMatrix_Private(Mechanics m, CellGroup *g, PetscInt i, PetscReal K[], PetscReal *Km, PetscInt *dofs, MatrixSink sink, void *context,
+                                         PetscBool *bad)
 {
-  PetscInt num;
+  const PetscInt cell = g->cells[i], nd = g->n * m->dim;
+  PetscReal     *S        = m->condense_work;
+  PetscBool      singular = PETSC_FALSE;
+  PetscInt       num;
 
   PetscFunctionBegin;
   if (m->free_share[cell] > 0) {
     PetscReal trace = 0;
-    for (PetscInt i = 0; i < nd; ++i) trace += K[i * nd + i];
-    for (PetscInt i = 0; i < nd; ++i) K[i * nd + i] += m->free_share[cell] * trace / nd;
+    for (PetscInt k = 0; k < nd; ++k) trace += K[k * nd + k];
+    for (PetscInt k = 0; k < nd; ++k) K[k * nd + k] += m->free_share[cell] * trace / nd;
   }
-  PetscCall(HPSpaceTransformMatrix(m->space, cell, K, Km, dofs, &num));
+  if (S) {
+    PetscCall(StageBegin(STAGE_CONDENSE));
+    PetscCall(MechanicsCondenseCell_Private(m, g, i, K, S, &singular));
+    PetscCall(StageEnd(STAGE_CONDENSE));
+    if (singular) *bad = PETSC_TRUE;
+    PetscCall(HPSpaceTransformBoundary(m->space, cell, g->n - g->num_inner, g->outer, S, Km, dofs, &num));
+  } else
+    PetscCall(HPSpaceTransformMatrix(m->space, cell, K, Km, dofs, &num));
   PetscCall(sink(context, num, dofs, Km));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -123,11 +135,11 @@ PetscErrorCode MechanicsTangent(Mechanics m, const PetscReal u[], const PetscRea
   PetscCall(MostMasters_Private(m, &most));
   PetscCall(PetscMalloc2(most * m->dim, &dofs, most * m->dim * most * m->dim, &Km));
   for (PetscInt ig = 0; ig < m->num_groups; ++ig) {
-    const CellGroup *g  = &m->groups[ig];
-    const Buffers    b  = CutBuffers_Private(m, g);
-    const PetscInt   nd = g->n * m->dim;
+    CellGroup     *g  = &m->groups[ig];
+    const Buffers  b  = CutBuffers_Private(m, g);
+    const PetscInt nd = g->n * m->dim;
     for (PetscInt first = 0; first < g->num_cells; first += g->batch) {
-      CellBatch batch = {.nc = PetscMin(g->batch, g->num_cells - first), .X = g->X + first * nd, .u = b.u, .tangent = b.K};
+      CellBatch batch = {.nc = PetscMin(g->batch, g->num_cells - first), .X = g->X + first * nd, .u = b.u, .tangent = b.K, .place = g->place};
       PetscCall(GatherBatch_Private(m, g, first, batch.nc, u, b.u));
       if (g->m) {
         batch.pressure   = pressure ? pressure + g->pressure + first * g->m : NULL;
@@ -138,7 +150,7 @@ PetscErrorCode MechanicsTangent(Mechanics m, const PetscReal u[], const PetscRea
       if (batch.bad)
         *bad = PETSC_TRUE;
       else
-        for (PetscInt i = 0; i < batch.nc; ++i) PetscCall(SendMatrix_Private(m, g->cells[first + i], nd, b.K + i * nd * nd, Km, dofs, sink, context));
+        for (PetscInt i = 0; i < batch.nc; ++i) PetscCall(SendMatrix_Private(m, g, first + i, b.K + i * nd * nd, Km, dofs, sink, context, bad));
     }
     dpressure += g->num_cells * g->m * nd;
   }

@@ -124,6 +124,7 @@ PetscErrorCode MechanicsDestroy(Mechanics *mechanics)
 
   PetscFunctionBegin;
   if (!m) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(MechanicsCondenseDestroy_Private(m));
   for (PetscInt g = 0; g < m->num_groups; ++g) {
     PetscCall(CellKernelDestroy(&m->groups[g].kernel));
     PetscCall(PetscFree4(m->groups[g].cells, m->groups[g].X, m->groups[g].noise2, m->groups[g].drift2));

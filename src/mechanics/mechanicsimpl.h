@@ -1,6 +1,7 @@
 /* Private to mechanics: cell and facet kernels. They see nodal values only: no mesh, no constraints, no parallelism. */
 #pragma once
 #include "mechanics.h"
+#include <petscblaslapack.h>
 
 /* ---- cells (cell.c): residual, tangent and energy of batches of tensor-product cells of one order, law and model ---- */
 
@@ -16,6 +17,7 @@ typedef struct {
   PetscReal       *energy;     /* [nc] */
   PetscReal       *residual;   /* [nc][n*d] dE/du, row node*d + component; a function of u alone */
   PetscReal       *tangent;    /* [nc][n*d][n*d] symmetric, full; exact derivative of residual when pressure is NULL or consistent */
+  const PetscInt  *place;      /* [n] NULL, or where the nodes stand in tangent: then only its rows up to the diagonal's column are written, K[row <= column] */
   PetscReal       *consistent; /* [nc][m] pressure coefficients that u implies: modulus * M^-1 int q g(J) */
   PetscReal       *dpressure;  /* [nc][m][n*d] derivative of consistent with respect to u */
   PetscReal       *min_det;    /* [nc] smallest det F over the quadrature points */
@@ -61,6 +63,11 @@ typedef struct {
   PetscReal          *X;                             /* owned [num_cells][n][dim] */
   PetscReal          *noise2, *drift2;               /* owned [num_cells] shares in those of MechanicsStatus for F = I */
   PetscInt            pressure;                      /* first coefficient in the pressure array */
+  PetscInt            num_inner;                     /* nodes inside a cell */
+  PetscInt           *place, *outer;                 /* owned [n] where each node stands when the inner ones come first; [n - num_inner] the others */
+  PetscReal          *factor;                        /* owned [num_cells][num_inner*dim][n*dim] condense.c; NULL: no condensation */
+  PetscReal          *inner;                         /* owned [num_cells][num_inner*dim] forces of the inner nodes, solved for */
+  PetscBLASInt       *pivot;                         /* owned [num_cells][num_inner*dim] of LDL^T; first 0: Cholesky */
 } CellGroup;
 
 /* A facet that carries a load. */
@@ -82,10 +89,15 @@ struct _p_Mechanics {
   PetscReal           *free_share;         /* owned [num_owned_cells] diagonal of cells of unsupported bodies relative to their stiffness, else 0 */
   PetscReal           *work;               /* owned batch buffers */
   PetscInt             work_size;
+  PetscReal           *condense_work; /* owned: condense.c */
 };
 
 PetscErrorCode MechanicsLoadFacets_Private(Mechanics);
 PetscErrorCode MechanicsDeadLoads_Private(Mechanics);
+/* condense.c: eliminate the nodes inside cell i of the group from K[n*dim][n*dim] (as CellBatch.tangent with place writes it); the rest, full, goes to
+   S[nb*dim][nb*dim], nb nodes of group->outer. *singular: it cannot be done. */
+PetscErrorCode MechanicsCondenseDestroy_Private(Mechanics);
+PetscErrorCode MechanicsCondenseCell_Private(Mechanics, CellGroup *, PetscInt i, PetscReal K[], PetscReal S[], PetscBool *singular);
 /* free.c: free_share. Collective. */
 PetscErrorCode MechanicsFreeBodies_Private(Mechanics);
 /* Follower pressures: add to r (NULL: skip) and to the sink (NULL: skip). */
@@ -138,8 +150,9 @@ void CellKernelAddPressure_Private(CellKernel);                                 
 void CellKernelAddPressureTangent_Private(CellKernel, PetscInt slab, const Lanes *coefficient); /* A += pi (g'' cof (x) cof + g' dcof/dF) */
 void CellKernelCouple_Private(CellKernel, PetscInt num_cells, PetscReal *dpressure);            /* coupling; dpressure [num_cells][m][n*d] unless NULL */
 /* celltangent.c */
-void CellKernelTangentSlab_Private(CellKernel, PetscInt slab);                      /* A of a slab -> reference_tangent */
-void CellKernelTangent_Private(CellKernel, PetscInt num_cells, PetscReal *tangent); /* reference_tangent, coupling -> tangent [num_cells][n*d][n*d] */
+void CellKernelTangentSlab_Private(CellKernel, PetscInt slab); /* A of a slab -> reference_tangent */
+/* reference_tangent, coupling -> tangent [num_cells][n*d][n*d]; place as in CellBatch */
+void CellKernelTangent_Private(CellKernel, PetscInt num_cells, const PetscInt *place, PetscReal *tangent);
 
 /* cof F = J F^-T. */
 INLINE void CellCofactor(const Lanes F[9], Lanes cof[9])

@@ -21,7 +21,7 @@ PetscErrorCode ProblemLayout_Private(Problem p)
   PetscCall(HPSpaceGetDM(p->space, &dm));
   PetscCall(DMCreateGlobalVector(dm, &p->u_global));
   PetscCall(VecGetLocalSize(p->u_global, &p->num_u));
-  PetscCall(PetscMalloc2(p->size + 1, &p->u_start, p->size + 1, &p->p_start));
+  PetscCall(PetscMalloc3(p->size + 1, &p->u_start, p->size + 1, &p->p_start, p->size + 1, &p->row_start));
   PetscCall(PetscMalloc1(p->size, &counts));
   PetscCallMPI(MPI_Allgather(&p->num_u, 1, MPIU_INT, counts, 1, MPIU_INT, p->comm));
   p->u_start[0] = 0;
@@ -33,23 +33,14 @@ PetscErrorCode ProblemLayout_Private(Problem p)
   p->start    = p->p_start[p->rank];
   p->num_dofs = p->p_start[p->size];
   PetscCall(PetscFree(counts));
-  PetscCall(PetscMalloc1(v->num_nodes * p->dim, &p->index));
+  PetscCall(PetscMalloc2(v->num_nodes * p->dim, &p->index, v->num_nodes * p->dim, &p->row));
   for (PetscInt i = 0; i < v->num_nodes * p->dim; ++i) {
     p->index[i] = global[i];
     if (global[i] < 0) continue;
     const PetscInt r = RankOf_Private(p, global[i]);
     p->index[i]      = global[i] - p->u_start[r] + p->p_start[r];
   }
-  for (PetscInt i = 0; i < p->num_contacts; ++i) {
-    Contact            *c = &p->contacts[i];
-    const ForestTables *t;
-    PetscCall(ForestGetTables(p->forest, &t));
-    for (PetscInt n = 0; n < c->side[0].num_nodes; ++n) {
-      if (c->zdof[n] >= 0) c->zdof[n] += p->p_start[t->leaf_rank[t->entity_leaf[c->side[0].node_entity[n]]]];
-    }
-    PetscCall(SurfaceIndices_Private(p, &c->side[0]));
-    PetscCall(SurfaceIndices_Private(p, &c->side[1]));
-  }
+  PetscCall(ProblemRows_Private(p));
   PetscCall(VecCreate(p->comm, &p->prototype));
   PetscCall(VecSetSizes(p->prototype, p->num_u + p->num_z, PETSC_DETERMINE));
   PetscCall(VecSetType(p->prototype, VECSTANDARD));
@@ -93,14 +84,14 @@ static PetscErrorCode CountBulk_Private(Problem p, PetscInt diagonal[], PetscInt
         if (stamp[m] == n) continue;
         stamp[m] = n;
         for (PetscInt c = 0; c < p->dim; ++c) {
-          const PetscInt col = p->index[m * p->dim + c];
-          if (col >= 0) ++count[col < p->start || col >= p->p_start[p->rank + 1]];
+          const PetscInt col = p->row[m * p->dim + c];
+          if (col >= 0) ++count[col < p->first_row || col >= p->first_row + p->num_rows];
         }
       }
     }
     for (PetscInt c = 0; c < p->dim; ++c) {
-      const PetscInt row = p->index[n * p->dim + c] - p->start;
-      if (p->index[n * p->dim + c] < 0 || row < 0 || row >= p->num_u) continue;
+      const PetscInt row = p->row[n * p->dim + c] - p->first_row;
+      if (p->row[n * p->dim + c] < 0 || row < 0 || row >= p->num_rows) continue;
       diagonal[row] += count[0];
       other[row] += count[1];
     }
@@ -133,10 +124,10 @@ static PetscErrorCode ContactPattern_Private(Problem p, PetscInt diagonal[], Pet
         continue;
       }
       for (PetscInt a = 0; a < num; ++a) {
-        const PetscInt row = dofs[a] - p->start;
-        if (row < 0 || row >= p->num_u + p->num_z) continue;
+        const PetscInt row = dofs[a] - p->first_row;
+        if (row < 0 || row >= p->num_rows) continue;
         for (PetscInt b = 0; b < num; ++b) {
-          if (dofs[b] >= p->start && dofs[b] < p->p_start[p->rank + 1])
+          if (dofs[b] >= p->first_row && dofs[b] < p->first_row + p->num_rows)
             ++diagonal[row];
           else
             ++other[row];
@@ -150,7 +141,7 @@ static PetscErrorCode ContactPattern_Private(Problem p, PetscInt diagonal[], Pet
 
 PetscErrorCode ProblemMatrix_Private(Problem p)
 {
-  const PetscInt rows = p->num_u + p->num_z;
+  const PetscInt rows = p->num_rows;
   PetscInt      *diagonal, *other;
 
   PetscFunctionBegin;
@@ -160,7 +151,7 @@ PetscErrorCode ProblemMatrix_Private(Problem p)
   PetscCall(ContactPattern_Private(p, diagonal, other));
   for (PetscInt i = 0; i < rows; ++i) {
     diagonal[i] = PetscMin(diagonal[i] + 1, rows);
-    other[i]    = PetscMin(other[i], p->num_dofs - rows);
+    other[i]    = PetscMin(other[i], p->row_start[p->size] - rows);
   }
   PetscCall(MatCreate(p->comm, &p->matrix));
   PetscCall(MatSetSizes(p->matrix, rows, rows, PETSC_DETERMINE, PETSC_DETERMINE));

@@ -6,17 +6,17 @@
 PetscErrorCode ProblemGetBlocks(Problem p, PetscInt *num_u, PetscInt *num_z, PetscInt *dim)
 {
   PetscFunctionBegin;
-  *num_u = p->num_u;
+  *num_u = p->num_u - p->num_inner;
   *num_z = p->num_z;
   *dim   = p->dim;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Row of a local dof among this rank's displacement dofs, -1: prescribed, hanging or another rank's. */
+/* Row of a local dof among this rank's displacement dofs in the matrix, -1: prescribed, hanging, condensed or another rank's. */
 static inline PetscInt Row_Private(Problem p, PetscInt dof)
 {
-  const PetscInt row = p->index[dof] - p->start;
-  return p->index[dof] >= 0 && row >= 0 && row < p->num_u ? row : -1;
+  const PetscInt row = p->row[dof] - p->first_row;
+  return p->row[dof] >= 0 && row >= 0 && row < p->num_u - p->num_inner ? row : -1;
 }
 
 /* Component c of mode k at X: translations, then rotations (in the plane: one). */
@@ -108,7 +108,7 @@ static PetscErrorCode CoarseNumbers_Private(Problem p, const HPTables *v, const 
   PetscCall(VecSet(p->u_global, -1));
   PetscCall(VecGetArray(p->u_global, &array));
   for (PetscInt i = 0; i < v->num_nodes * dim; ++i) {
-    if (column[i] >= 0 && Row_Private(p, i) >= 0) array[Row_Private(p, i)] = (PetscReal)(first + column[i]);
+    if (column[i] >= 0 && Row_Private(p, i) >= 0) array[p->num_inner + Row_Private(p, i)] = (PetscReal)(first + column[i]);
   }
   PetscCall(VecRestoreArray(p->u_global, &array));
   PetscCall(DMGlobalToLocalBegin(dm, p->u_global, INSERT_VALUES, p->u_local));
@@ -177,7 +177,7 @@ PetscErrorCode ProblemProlongation(Problem p, Mat *P, Mat *pinned, MatNullSpace 
   PetscCall(PetscMalloc2(v->num_nodes * p->dim, &column, v->num_nodes * p->dim, &global));
   PetscCall(CoarseNumbers_Private(p, v, t, column, global, &size));
   PetscCall(MatCreate(p->comm, P));
-  PetscCall(MatSetSizes(*P, p->num_u, size, PETSC_DETERMINE, PETSC_DETERMINE));
+  PetscCall(MatSetSizes(*P, p->num_u - p->num_inner, size, PETSC_DETERMINE, PETSC_DETERMINE));
   PetscCall(MatSetBlockSizes(*P, 1, p->dim));
   PetscCall(MatSetType(*P, MATAIJ));
   PetscCall(MatSeqAIJSetPreallocation(*P, any ? MOST_VERTICES : 1, NULL));

@@ -99,8 +99,8 @@ PetscErrorCode ProblemDestroy(Problem *problem)
   for (PetscInt i = 0; i < p->num_contacts; ++i) PetscCall(ContactDestroy_Private(&p->contacts[i]));
   PetscCall(PetscFree(p->contacts));
   PetscCall(PetscFree(p->leaf_order));
-  PetscCall(PetscFree(p->index));
-  PetscCall(PetscFree2(p->u_start, p->p_start));
+  PetscCall(PetscFree2(p->index, p->row));
+  PetscCall(PetscFree3(p->u_start, p->p_start, p->row_start));
   PetscCall(PetscFree4(p->target, p->applied, p->increment, p->start_applied));
   PetscCall(PetscFree2(p->work_index, p->work_value));
   PetscCall(VecDestroy(&p->u_global));

@@ -35,9 +35,9 @@ typedef struct {
   PetscInt  *true_first, *true_node;  /* [num_facets+1] offsets: nodes that carry the facet's shape, ascending: its own, masters for those that hang */
   PetscInt  *node_first, *node_facet; /* [num_nodes+1] offsets: facets that carry weight to the node, its own and those with a node that hangs on it */
   PetscReal *X, *x, *du;              /* [num_nodes][dim] reference and current position; increment under discussion */
-  PetscReal *mirror;                  /* [num_nodes][dim] two dimensions: normal of the symmetry plane at an end, else 0 */
+  PetscReal *mirror;                  /* normals of symmetry planes as in ContactSurface, else 0 */
   PetscReal *frame;                   /* [num_nodes][dim][dim] rows: directions of the dofs */
-  PetscInt  *dof;                     /* [num_nodes][dim] index in the problem's vector, -1: prescribed, hanging */
+  PetscInt  *dof;                     /* [num_nodes][dim] row of the matrix, -1: prescribed, hanging */
   PetscInt  *local;                   /* [num_nodes] local node on this rank or -1 */
   PetscBool *owned;                   /* [num_nodes] this rank owns the node and it does not hang */
   PetscReal *force;                   /* [num_nodes][dim] contact force at the last residual: of owned nodes, 0 at hanging ones */
@@ -55,7 +55,7 @@ typedef struct {
   ContactPair         pair;
   Surface             side[2]; /* 0 nonmortar, 1 mortar */
   ContactView         view;
-  PetscInt           *zdof;                           /* [n] index in the problem's vector, -1: no multiplier */
+  PetscInt           *zdof;                           /* [n] row of the matrix, -1: no multiplier */
   PetscInt           *zlocal;                         /* [n] position in this rank's part of the vector, -1: not here */
   PetscReal          *z, *gap, *weight;               /* [n] */
   PetscReal          *w0, *extent, *c;                /* [n] reference measure, its extent along the surface, E / extent */
@@ -100,6 +100,11 @@ struct _p_Problem {
   PetscInt   num_u, num_z, start; /* this rank's displacement dofs and multipliers, first index */
   PetscInt  *u_start, *p_start;   /* [size+1] ranges of the space's and the problem's numbering */
   PetscInt  *index;               /* [num_nodes*dim] local dof -> problem index or -1 */
+  PetscBool  condensed;           /* the matrix knows no unknowns inside cells */
+  PetscInt   num_inner;           /* those of this rank, the first of its vector; 0: not condensed */
+  PetscInt   num_rows, first_row; /* of the matrix on this rank: num_u + num_z - num_inner */
+  PetscInt  *row_start;           /* [size+1] ranges of the matrix's rows */
+  PetscInt  *row;                 /* [num_nodes*dim] local dof -> row of the matrix or -1 */
   Vec        u_global, u_local, r_local, prototype;
   PetscReal *target, *applied; /* [num_nodes*dim] prescribed values */
   PetscReal *increment;        /* [num_nodes*dim] of the Newton step under discussion */
@@ -120,6 +125,9 @@ struct _p_Problem {
 };
 
 PetscErrorCode ProblemLayout_Private(Problem);
+/* condense.c: rows of the matrix from the layout. Collective. */
+PetscErrorCode ProblemRows_Private(Problem);
+PetscErrorCode ProblemReduce_Private(Problem, Vec r, Vec rhs);
 PetscErrorCode ProblemMatrix_Private(Problem);
 PetscErrorCode ProblemWork_Private(Problem, PetscInt size);
 /* increment (local array) = free dofs of dx + share of the prescribed motion still to come. */
@@ -191,7 +199,7 @@ static inline PetscBool ContactCovered_Private(const Contact *c, PetscInt j)
 /* pattern.c: room in the matrix for what facets may meet until the next search. */
 PetscErrorCode ContactGrowPattern_Private(Contact *);
 PetscBool      ContactPatternHolds_Private(const Contact *);
-/* Indices in the problem's vector of everything in the pattern of one facet, dofs[ContactPatternSize_Private]; returns their number. */
+/* Rows of the matrix of everything in the pattern of one facet, dofs[ContactPatternSize_Private]; returns their number. */
 PetscInt ContactPatternDofs_Private(const Contact *, PetscInt facet, PetscInt dofs[]);
 PetscInt ContactPatternSize_Private(const Contact *, PetscInt facet);
 

@@ -58,7 +58,7 @@ PetscErrorCode SurfaceFields_Private(Problem p, Surface *s)
   PetscCall(HPSpaceGetTables(p->space, &v));
   PetscCall(ForestGetTables(p->forest, &t));
   PetscCall(PetscMalloc3(s->num_nodes, &s->local, s->num_nodes, &s->owned, dim * s->num_nodes, &s->dof));
-  PetscCall(PetscCalloc4(dim * s->num_nodes, &s->X, dim * s->num_nodes, &s->x, dim * s->num_nodes, &s->mirror, dim * dim * s->num_nodes, &s->frame));
+  PetscCall(PetscCalloc4(dim * s->num_nodes, &s->X, dim * s->num_nodes, &s->x, 2 * dim * s->num_nodes, &s->mirror, dim * dim * s->num_nodes, &s->frame));
   PetscCall(PetscCalloc2(dim * s->num_nodes, &s->du, dim * s->num_nodes, &s->force));
   PetscCall(PetscMalloc1(t->first[dim], &number));
   for (PetscInt e = 0; e < t->first[dim]; ++e) number[e] = -1;
@@ -94,15 +94,16 @@ PetscErrorCode SurfaceFields_Private(Problem p, Surface *s)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Indices of the nodes' dofs in the problem's vector, gathered to all from their owners once per mesh (stored +2 so that a sum works and -1 survives); hanging
- * nodes have none. */
+/* Rows of the nodes' dofs in the matrix, gathered to all from their owners once per mesh (stored +2 so that a sum works and -1 survives); hanging nodes have
+ * none.
+ */
 PetscErrorCode SurfaceIndices_Private(Problem p, Surface *s)
 {
   const PetscInt dim = s->dim;
 
   PetscFunctionBegin;
   for (PetscInt n = 0; n < s->num_nodes; ++n) {
-    for (PetscInt c = 0; c < dim; ++c) s->dof[dim * n + c] = s->owned[n] ? p->index[s->local[n] * dim + c] + 2 : 0;
+    for (PetscInt c = 0; c < dim; ++c) s->dof[dim * n + c] = s->owned[n] ? p->row[s->local[n] * dim + c] + 2 : 0;
   }
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, s->dof, (PetscMPIInt)(dim * s->num_nodes), MPIU_INT, MPI_SUM, p->comm));
   for (PetscInt n = 0; n < s->num_nodes; ++n) {

@@ -21,7 +21,7 @@ static PetscErrorCode CellSink_Private(void *context, PetscInt num, const PetscI
   PetscFunctionBegin;
   PetscCall(ProblemWork_Private(p, num));
   for (PetscInt i = 0; i < num; ++i) {
-    p->work_index[i] = p->index[dofs[i]];
+    p->work_index[i] = p->row[dofs[i]];
     if (p->work_index[i] < 0 && p->lifting && p->increment[dofs[i]] != 0) prescribed = PETSC_TRUE;
   }
   PetscCall(MatSetValues(p->matrix, num, p->work_index, num, p->work_index, K, ADD_VALUES));
@@ -222,6 +222,7 @@ static PetscErrorCode InactiveShift_Private(Problem p, Contact *c, PetscInt j, P
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* rhs: of the matrix, which misses the first num_inner of the vector. */
 static PetscErrorCode RowSides_Private(Problem p, Vec rhs)
 {
   PetscReal *b;
@@ -231,7 +232,7 @@ static PetscErrorCode RowSides_Private(Problem p, Vec rhs)
   for (PetscInt i = 0; i < p->num_contacts; ++i) {
     Contact *c = &p->contacts[i];
     for (PetscInt j = 0; j < c->side[0].num_nodes; ++j) {
-      if (c->zlocal[j] >= 0) PetscCall(RowSide_Private(p, c, j, &b[c->zlocal[j]]));
+      if (c->zlocal[j] >= 0) PetscCall(RowSide_Private(p, c, j, &b[c->zlocal[j] - p->num_inner]));
     }
   }
   PetscCall(VecRestoreArray(rhs, &b));
@@ -241,7 +242,8 @@ static PetscErrorCode RowSides_Private(Problem p, Vec rhs)
 PetscErrorCode ProblemRightSide(Problem p, Vec r, Vec lift, Vec rhs)
 {
   PetscFunctionBegin;
-  PetscCall(VecWAXPY(rhs, 1.0, r, lift));
+  PetscCall(ProblemReduce_Private(p, r, rhs));
+  PetscCall(VecAXPY(rhs, 1.0, lift));
   PetscCall(VecScale(rhs, -1.0));
   PetscCall(RowSides_Private(p, rhs));
   for (PetscInt i = 0; i < p->num_contacts; ++i) {

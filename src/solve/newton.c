@@ -19,8 +19,8 @@ static PetscReal Forcing_Private(Solver s)
   return PetscMin(1e-8, PetscMax(s->linear_rtol, 0.01 * s->report->residual / PetscMax(s->report->scale, PETSC_MIN_REAL)));
 }
 
-/* One solve with the matrix as it stands; again: only the active set has changed since the last, whose solution is in dx. */
-static PetscErrorCode LinearSolve_Private(SNES snes, Solver s, PetscBool again, Vec dx, PetscBool *ok)
+/* One solve with the matrix as it stands, to s->y; again: only the active set has changed since the last, whose solution is there. */
+static PetscErrorCode MatrixSolve_Private(SNES snes, Solver s, PetscBool again, PetscBool *ok)
 {
   KSP                ksp;
   KSPConvergedReason reason;
@@ -36,14 +36,14 @@ static PetscErrorCode LinearSolve_Private(SNES snes, Solver s, PetscBool again, 
     PetscCall(SaddleSetUp_Private(s->saddle, A));
     PetscCall(StageEnd(STAGE_FACTOR));
     PetscCall(StageBegin(STAGE_SOLVE));
-    PetscCall(SaddleSolve_Private(s->saddle, s->rhs, Forcing_Private(s), again, dx, ok));
+    PetscCall(SaddleSolve_Private(s->saddle, s->rhs, Forcing_Private(s), again, s->y, ok));
     PetscCall(StageEnd(STAGE_SOLVE));
     if (*ok) PetscFunctionReturn(PETSC_SUCCESS);
     PetscCall(PetscInfo(snes, "multigrid failed: factorising\n"));
   }
   if (s->factored) {
     PetscCall(StageBegin(STAGE_SOLVE));
-    PetscCall(SolverRefine_Private(s, A, s->rhs, PetscMin(REFINE_RTOL, Forcing_Private(s)), dx, ok));
+    PetscCall(SolverRefine_Private(s, A, s->rhs, PetscMin(REFINE_RTOL, Forcing_Private(s)), s->y, ok));
     PetscCall(StageEnd(STAGE_SOLVE));
     if (*ok) PetscFunctionReturn(PETSC_SUCCESS);
   }
@@ -51,12 +51,20 @@ static PetscErrorCode LinearSolve_Private(SNES snes, Solver s, PetscBool again, 
   PetscCall(SolverFactor_Private(s, A));
   PetscCall(StageEnd(STAGE_FACTOR));
   PetscCall(StageBegin(STAGE_SOLVE));
-  PetscCall(KSPSolve(ksp, s->rhs, dx));
+  PetscCall(KSPSolve(ksp, s->rhs, s->y));
   PetscCall(StageEnd(STAGE_SOLVE));
   PetscCall(KSPGetConvergedReason(ksp, &reason));
-  PetscCall(VecNorm(dx, NORM_2, &norm));
+  PetscCall(VecNorm(s->y, NORM_2, &norm));
   *ok         = (PetscBool)(reason >= 0 && !PetscIsInfOrNanReal(norm));
   s->factored = (PetscBool)(*ok && s->reuse);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode LinearSolve_Private(SNES snes, Solver s, PetscBool again, Vec dx, PetscBool *ok)
+{
+  PetscFunctionBegin;
+  PetscCall(MatrixSolve_Private(snes, s, again, ok));
+  if (*ok) PetscCall(ProblemRecover(s->problem, s->y, dx));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -184,6 +192,8 @@ static PetscErrorCode Linearise_Private(SNES snes, Solver s, Vec x, Vec r, Vec d
   ++s->report->iterations;
   PetscCall(VecZeroEntries(s->lift));
   PetscCall(ProblemTangent(s->problem, x, s->pressure, s->lift, &bad));
+  *ok = (PetscBool)!bad;
+  if (bad) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(ProblemRightSide(s->problem, r, s->lift, s->rhs));
   PetscCall(LinearStep_Private(snes, s, x, dx, ok));
   PetscFunctionReturn(PETSC_SUCCESS);

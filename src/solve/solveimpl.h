@@ -12,19 +12,21 @@ typedef struct {
 typedef struct _p_Saddle    *Saddle;
 typedef struct _p_Multigrid *Multigrid;
 
+typedef enum { CONDENSE_AUTO, CONDENSE_YES, CONDENSE_NO } CondenseKind;
 typedef enum { LINEAR_AUTO, LINEAR_DIRECT, LINEAR_ITERATIVE } LinearKind;
 
 struct _p_Solver {
   Problem       problem; /* borrowed */
   SNES          snes;
-  Vec           lift, rhs;
-  Vec           best;     /* solution of the active-set pass that contradicts itself least */
-  PetscReal    *pressure; /* of the state being solved, borrowed during SolverSolve */
+  Vec           lift, rhs, y; /* of the matrix: effect of the motion to come, right-hand side, solution */
+  Vec           best;         /* solution of the active-set pass that contradicts itself least */
+  PetscReal    *pressure;     /* of the state being solved, borrowed during SolverSolve */
   PetscReal     rtol;
   PetscBool     symmetric; /* LDL^T of the symmetric form */
   PetscInt      max_it, passes, cuts;
-  LinearKind    linear; /* as asked */
-  Saddle        saddle; /* iterative solution, NULL: direct */
+  LinearKind    linear;   /* as asked */
+  CondenseKind  condense; /* as asked */
+  Saddle        saddle;   /* iterative solution, NULL: direct */
   PetscReal     linear_rtol;
   KSP           refine;          /* GMRES on the factor of an earlier tangent; made when first needed */
   PetscBool     reuse, factored; /* may an earlier factor serve; there is one */

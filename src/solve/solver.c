@@ -5,6 +5,10 @@
 #define MANY 50000
 #define MANY_HIGHER 150000
 
+/* Orders from which condensation pays (docs/results.md). */
+#define CONDENSE_2D 3
+#define CONDENSE_3D 3
+
 static PetscErrorCode Function_Private(SNES snes, Vec x, Vec r, void *context)
 {
   Solver s = (Solver)context;
@@ -25,7 +29,8 @@ static PetscErrorCode Jacobian_Private(SNES snes, Vec x, Mat J, Mat P, void *con
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static const char *const Kinds[] = {"auto", "direct", "iterative", "LinearKind", "LINEAR_", NULL};
+static const char *const Condense[] = {"auto", "yes", "no", "CondenseKind", "CONDENSE_", NULL};
+static const char *const Kinds[]    = {"auto", "direct", "iterative", "LinearKind", "LINEAR_", NULL};
 
 static PetscErrorCode Options_Private(Solver s)
 {
@@ -51,6 +56,8 @@ static PetscErrorCode Options_Private(Solver s)
   PetscCall(PetscOptionsEnum("-solve_linear", "Linear solver: direct factorisation, multigrid and GMRES, or by size", NULL, Kinds, (PetscEnum)s->linear,
                              (PetscEnum *)&s->linear, NULL));
   PetscCall(PetscOptionsReal("-solve_linear_rtol", "Least residual of GMRES against the right-hand side", NULL, s->linear_rtol, &s->linear_rtol, NULL));
+  PetscCall(PetscOptionsEnum("-solve_condense", "Eliminate the unknowns inside each cell before the linear solver: yes, no, or by order", NULL, Condense,
+                             (PetscEnum)s->condense, (PetscEnum *)&s->condense, NULL));
   PetscOptionsEnd();
   s->symmetric = (PetscBool)(s->symmetric && possible);
   PetscCall(ProblemSetSymmetric(s->problem, s->symmetric));
@@ -58,21 +65,20 @@ static PetscErrorCode Options_Private(Solver s)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Is some cell of higher order than 1? */
-static PetscErrorCode HasHigher_Private(Problem p, PetscBool *higher)
+/* Highest order of a cell. */
+static PetscErrorCode Highest_Private(Problem p, PetscInt *order)
 {
   const HPTables *v;
   HPSpace         space;
   Forest          forest;
-  int             any = 0;
 
   PetscFunctionBegin;
   PetscCall(ProblemGetSpace(p, &space));
   PetscCall(ProblemGetForest(p, &forest));
   PetscCall(HPSpaceGetTables(space, &v));
-  for (PetscInt c = 0; c < v->num_owned_cells; ++c) any = any || v->cell_order[c] > 1;
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &any, 1, MPI_INT, MPI_MAX, ForestComm(forest)));
-  *higher = (PetscBool)any;
+  *order = 1;
+  for (PetscInt c = 0; c < v->num_owned_cells; ++c) *order = PetscMax(*order, v->cell_order[c]);
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, order, 1, MPIU_INT, MPI_MAX, ForestComm(forest)));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -81,15 +87,14 @@ static PetscErrorCode HasHigher_Private(Problem p, PetscBool *higher)
 static PetscErrorCode UseMultigrid_Private(Solver s, PetscBool *yes)
 {
   const SceneData *scene;
-  PetscInt         dofs, num_u, num_z, dim;
-  PetscBool        higher;
+  PetscInt         dofs, num_u, num_z, dim, order;
 
   PetscFunctionBegin;
   PetscCall(ProblemGetScene(s->problem, &scene));
   PetscCall(ProblemNumDofs(s->problem, &dofs));
   PetscCall(ProblemGetBlocks(s->problem, &num_u, &num_z, &dim));
-  PetscCall(HasHigher_Private(s->problem, &higher));
-  *yes = (PetscBool)(dim == 3 && dofs >= (higher ? MANY_HIGHER : MANY));
+  PetscCall(Highest_Private(s->problem, &order));
+  *yes = (PetscBool)(dim == 3 && dofs >= (order > 1 ? MANY_HIGHER : MANY));
   for (PetscInt b = 0; b < scene->mechanics.num_bodies; ++b) {
     if (scene->mechanics.bodies[b].material->mixed) *yes = PETSC_FALSE;
   }
@@ -97,6 +102,21 @@ static PetscErrorCode UseMultigrid_Private(Solver s, PetscBool *yes)
   if (s->linear == LINEAR_DIRECT) *yes = PETSC_FALSE;
   if (s->linear == LINEAR_ITERATIVE) *yes = PETSC_TRUE;
   if (!s->symmetric) *yes = PETSC_FALSE;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Condense the nodes inside cells? PETSc's test of the tangent wants the whole matrix. */
+static PetscErrorCode Condense_Private(Solver s)
+{
+  PetscInt  num_u, num_z, dim, order;
+  PetscBool yes;
+
+  PetscFunctionBegin;
+  PetscCheckInput(!s->test || s->condense != CONDENSE_YES, "-solve_condense yes: not with -snes_test_jacobian, which needs the whole matrix");
+  PetscCall(ProblemGetBlocks(s->problem, &num_u, &num_z, &dim));
+  PetscCall(Highest_Private(s->problem, &order));
+  yes = (PetscBool)(s->condense == CONDENSE_YES || (s->condense == CONDENSE_AUTO && order >= (dim == 3 ? CONDENSE_3D : CONDENSE_2D)));
+  if (yes && !s->test) PetscCall(ProblemSetCondense(s->problem));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -118,15 +138,17 @@ PetscErrorCode SolverCreate(Problem problem, Solver *solver)
   PetscCall(SNESSetApplicationContext(s->snes, s));
   PetscCall(SolverLinear_Private(s));
   PetscCall(UseMultigrid_Private(s, &multigrid));
+  PetscCall(Condense_Private(s));
   if (multigrid) PetscCall(SaddleCreate_Private(problem, &s->saddle));
   PetscCall(SNESSetFromOptions(s->snes));
   PetscCall(SNESSetFunction(s->snes, r, Function_Private, s));
   PetscCall(VecDestroy(&r));
   PetscCall(ProblemGetMatrix(problem, &A));
   PetscCall(SNESSetJacobian(s->snes, A, A, Jacobian_Private, s));
-  PetscCall(ProblemCreateVector(problem, &s->lift));
+  PetscCall(ProblemCreateRightSide(problem, &s->lift));
   PetscCall(VecDuplicate(s->lift, &s->rhs));
-  PetscCall(VecDuplicate(s->lift, &s->best));
+  PetscCall(VecDuplicate(s->lift, &s->y));
+  PetscCall(ProblemCreateVector(problem, &s->best));
   *solver = s;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -142,6 +164,7 @@ PetscErrorCode SolverDestroy(Solver *solver)
   PetscCall(KSPDestroy(&s->refine));
   PetscCall(VecDestroy(&s->lift));
   PetscCall(VecDestroy(&s->rhs));
+  PetscCall(VecDestroy(&s->y));
   PetscCall(VecDestroy(&s->best));
   PetscCall(SetHistoryDestroy_Private(&s->pass_sets));
   PetscCall(SetHistoryDestroy_Private(&s->iterate_sets));

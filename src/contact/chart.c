@@ -1,0 +1,60 @@
+/* The plane picture of a facet over which one integrates: corners of its reference shape seen along its vector area, so that straight facets of a flat surface,
+   however distorted, are seen without distortion. Constant. In the plane: the square [-1, 1]^2, of which only the first coordinate is used. */
+#include "rayimpl.h"
+
+static const PetscReal Square[4][2] = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
+
+PetscBool ContactChartCreate(const ContactSurface *s, PetscInt facet, RayFacet *f)
+{
+  PetscReal  x[4][3];
+  FacetFrame frame;
+
+  for (int a = 0; a < 4; a++) {
+    f->chart.h[a]    = 0;
+    f->chart.Y[a][0] = Square[a][0], f->chart.Y[a][1] = Square[a][1];
+  }
+  f->area = 4;
+  if (s->dim == 2) return PETSC_TRUE;
+  for (int a = 0; a < 4; a++)
+    for (int c = 0; c < 3; c++) x[a][c] = s->X[3 * s->facets[4 * facet + a] + c];
+  if (!ContactFacetFrame(x, &frame)) return PETSC_FALSE;
+  for (int a = 0; a < 4; a++) f->chart.Y[a][0] = frame.X[a][0], f->chart.Y[a][1] = frame.X[a][1];
+  f->area = frame.area;
+  return PETSC_TRUE;
+}
+
+void ContactChartAt(const RayFacet *f, const PetscReal xi[2], RayChartPoint *p)
+{
+  PetscReal c[4][2];
+
+  for (int i = 0; i < 2; i++) {
+    const PetscReal a = f->chart.Y[0][i], b = f->chart.Y[1][i], d = f->chart.Y[2][i], e = f->chart.Y[3][i];
+
+    c[0][i]     = 0.25 * (a + b + d + e);
+    c[1][i]     = 0.25 * (b + d - a - e);
+    c[2][i]     = 0.25 * (d + e - a - b);
+    c[3][i]     = 0.25 * (a + d - b - e);
+    p->J[0][i]  = c[1][i] + c[3][i] * xi[1];
+    p->J[1][i]  = c[2][i] + c[3][i] * xi[0];
+    p->Y[i]     = c[0][i] + c[1][i] * xi[0] + c[2][i] * xi[1] + c[3][i] * xi[0] * xi[1];
+    p->mixed[i] = c[3][i];
+  }
+  p->det           = Cross2(p->J[0], p->J[1]);
+  p->ddet[0]       = Cross2(c[1], c[3]);
+  p->ddet[1]       = Cross2(c[3], c[2]);
+  p->inverse[0][0] = p->J[1][1] / p->det, p->inverse[0][1] = -p->J[1][0] / p->det;
+  p->inverse[1][0] = -p->J[0][1] / p->det, p->inverse[1][1] = p->J[0][0] / p->det;
+}
+
+PetscBool ContactChartLocate(const RayFacet *f, const PetscReal Y[2], PetscReal xi[2])
+{
+  PlanePoint p;
+
+  if (f->m == 1) {
+    xi[0] = Y[0], xi[1] = 0;
+    return PETSC_TRUE;
+  }
+  if (!ContactQuadLocate(&f->chart, Y, &p)) return PETSC_FALSE;
+  xi[0] = p.xi[0], xi[1] = p.xi[1];
+  return PETSC_TRUE;
+}

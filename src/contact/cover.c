@@ -1,0 +1,224 @@
+/* What covers a nonmortar facet: images of the mortar facets' corners, polygons in the chart, and the cells over which the gap is weighed. */
+#include "rayimpl.h"
+
+#define FULL 1e-9 /* share of the chart that may be uncovered */
+
+/* Place of a mortar node's image; found when new. */
+static PetscErrorCode Image_Private(RayWork w, const ContactSurface *mortar, PetscInt node, PetscInt *place)
+{
+  PetscFunctionBegin;
+  for (*place = 0; *place < w->num_images; (*place)++)
+    if (w->image[*place].node == node) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(ContactGrow(w->num_images + 1, sizeof(RayImage), &w->size_image, &w->image));
+  w->image[w->num_images].node = node;
+  for (PetscInt c = 0; c < 3; c++) w->image[w->num_images].v[c] = c < mortar->dim ? mortar->x[mortar->dim * node + c] : 0;
+  ContactImageFind(&w->facet, &w->image[w->num_images++]);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The part of an interval that the image covers, as a strip; its ends' images, or -1, in line[0] and line[1]. */
+static PetscBool ClipInterval_Private(Overlap *o)
+{
+  const PetscReal lo = o->side[0].Y[0][0], hi = o->side[0].Y[1][0], on = FACET_ON * (hi - lo);
+  PetscReal       a = o->side[1].Y[0][0], b = o->side[1].Y[1][0];
+
+  o->line[0] = a > lo + on ? 0 : -1;
+  o->line[1] = b < hi - on ? 1 : -1;
+  if (o->line[0] < 0) a = lo;
+  if (o->line[1] < 0) b = hi;
+  if (!(a < b)) return PETSC_FALSE;
+  o->num = 4;
+  for (int k = 0; k < 4; k++) {
+    o->v[k][0] = k == 0 || k == 3 ? a : b;
+    o->v[k][1] = k < 2 ? -1 : 1;
+  }
+  o->area = 2 * (b - a);
+  return PETSC_TRUE;
+}
+
+/* Corners of cell (lo, lo + size) in the chart. */
+static void Window_Private(const RayFacet *f, const PetscReal lo[2], const PetscReal size[2], PlaneQuad *q)
+{
+  for (int k = 0; k < 4; k++) {
+    const PetscReal xi[2] = {lo[0] + (k == 1 || k == 2 ? size[0] : 0), f->m == 1 ? (k < 2 ? -1 : 1) : lo[1] + (k > 1 ? size[1] : 0)};
+    RayChartPoint   c;
+
+    ContactChartAt(f, xi, &c);
+    q->Y[k][0] = c.Y[0], q->Y[k][1] = c.Y[1], q->h[k] = 0;
+  }
+}
+
+/* One mortar facet seen in a cell. Its corners run backwards. *known: all images were found. */
+static PetscErrorCode Meet_Private(RayWork w, const ContactSurface *mortar, PetscInt facet, const PlaneQuad *window, Overlap *o, PetscBool *known,
+                                   PetscBool *meets)
+{
+  const RayFacet *f      = &w->facet;
+  PetscReal       sum[3] = {0, 0, 0}, length;
+
+  PetscFunctionBegin;
+  *known = PETSC_TRUE, *meets = PETSC_FALSE;
+  o->side[0] = *window;
+  for (PetscInt a = 0; a < f->nv; a++)
+    for (int c = 0; c < 3; c++) sum[c] += f->d.x[a][c] / (PetscReal)f->nv;
+  length = PetscSqrtReal(Dot3(sum, sum));
+  for (PetscInt k = 0; k < f->nv; k++) {
+    PetscInt place;
+
+    PetscCall(Image_Private(w, mortar, mortar->facets[f->nv * facet + f->nv - 1 - k], &place));
+    if (!w->image[place].found) *known = PETSC_FALSE;
+    for (int i = 0; i < 2; i++) o->side[1].Y[k][i] = w->image[place].Y[i];
+    o->side[1].h[k] = length * w->image[place].s;
+  }
+  if (!*known) PetscFunctionReturn(PETSC_SUCCESS);
+  if (f->m == 1) {
+    for (int k = 0; k < 2; k++) {
+      o->side[1].Y[3 - k][0] = o->side[1].Y[k][0];
+      o->side[1].Y[k][1] = -1, o->side[1].Y[3 - k][1] = 1;
+      o->side[1].h[3 - k] = o->side[1].h[k];
+    }
+    *meets = ClipInterval_Private(o);
+  } else
+    *meets = ContactClip(o);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode Push_Private(RayWork w, const Overlap *o, PetscInt mortar, PetscInt window)
+{
+  PetscFunctionBegin;
+  PetscCall(ContactGrow(w->num_overlaps + 1, sizeof(Overlap), &w->size_overlap, &w->overlap));
+  PetscCall(ContactGrow(w->num_overlaps + 1, sizeof(PetscInt), &w->size_mortar, &w->mortar));
+  PetscCall(ContactGrow(w->num_overlaps + 1, sizeof(PetscInt), &w->size_window, &w->window));
+  w->overlap[w->num_overlaps]  = *o;
+  w->mortar[w->num_overlaps]   = mortar;
+  w->window[w->num_overlaps++] = window;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Hats on the cells of the facet's lattice, for every mortar facet that counts. */
+static PetscErrorCode Cells_Private(RayWork w, const ContactSurface *mortar)
+{
+  const RayFacet  *f = &w->facet;
+  const PetscInt   p = f->s.order, cells = f->m == 1 ? p : p * p, num = w->num_overlaps;
+  const PetscReal *node;
+  PetscInt        *facets;
+
+  PetscFunctionBegin;
+  PetscCall(ElementGetNodes(p, &node));
+  PetscCall(ContactGrow(cells, sizeof(RayTest), &w->size_test, &w->test));
+  PetscCall(PetscMalloc1(num, &facets));
+  PetscCall(PetscArraycpy(facets, w->mortar, num));
+  w->num_overlaps = 0;
+  w->num_tests    = cells;
+  for (PetscInt c = 0; c < cells; c++) {
+    RayTest       *t     = &w->test[c];
+    const PetscInt at[2] = {c % p, c / p};
+    PlaneQuad      window;
+
+    t->hats = PETSC_TRUE;
+    t->num  = f->nv;
+    for (PetscInt i = 0; i < f->m; i++) {
+      t->lo[i]   = 2 * node[at[i]] - 1;
+      t->size[i] = 2 * (node[at[i] + 1] - node[at[i]]);
+    }
+    for (PetscInt a = 0; a < f->nv; a++) t->place[a] = (at[1] + a / 2) * (p + 1) + at[0] + a % 2;
+    if (f->m == 1) t->place[0] = c, t->place[1] = c + 1;
+    Window_Private(f, t->lo, t->size, &window);
+    for (PetscInt k = 0; k < num; k++) {
+      Overlap   o;
+      PetscBool known, meets;
+
+      PetscCall(Meet_Private(w, mortar, facets[k], &window, &o, &known, &meets));
+      if (meets) PetscCall(Push_Private(w, &o, facets[k], c));
+    }
+  }
+  PetscCall(PetscFree(facets));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Keep the images of the facets that count; list the mortar nodes. */
+static PetscErrorCode Nodes_Private(RayWork w, const ContactSurface *mortar)
+{
+  const PetscInt nv   = w->facet.nv;
+  PetscInt       kept = 0;
+
+  PetscFunctionBegin;
+  for (PetscInt i = 0; i < w->num_images; i++) {
+    PetscBool used = PETSC_FALSE;
+
+    for (PetscInt k = 0; k < w->num_overlaps && !used; k++)
+      for (PetscInt a = 0; a < nv && !used; a++) used = (PetscBool)(mortar->facets[nv * w->mortar[k] + a] == w->image[i].node);
+    if (used) w->image[kept++] = w->image[i];
+  }
+  w->num_images = kept;
+  w->num_mortar = 0;
+  for (PetscInt k = 0; k < w->num_overlaps; k++) {
+    PetscInt        order1[4], num;
+    const PetscInt *node;
+
+    if (k && w->mortar[k] == w->mortar[k - 1]) continue;
+    num = ElementNumNodes(w->facet.m, ContactRayLatticeNodes(mortar, w->mortar[k], &node, order1));
+    for (PetscInt a = 0; a < num; a++) {
+      PetscInt at = 0;
+
+      while (at < w->num_mortar && w->vertex[at] != node[a]) at++;
+      if (at < w->num_mortar) continue;
+      PetscCall(ContactGrow(w->num_mortar + 1, sizeof(PetscInt), &w->size_vertex, &w->vertex));
+      w->vertex[w->num_mortar++] = node[a];
+    }
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode Whole_Private(RayWork w)
+{
+  PetscFunctionBegin;
+  PetscCall(ContactGrow(1, sizeof(RayTest), &w->size_test, &w->test));
+  w->num_tests    = 1;
+  w->test[0].hats = PETSC_FALSE;
+  w->test[0].num  = w->facet.s.num;
+  for (PetscInt a = 0; a < w->facet.s.num; a++) w->test[0].place[a] = a;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode ContactCover(ContactPair pair, const ContactSurface *nonmortar, const ContactSurface *mortar, PetscInt slot, PetscBool hats, PetscBool *failed)
+{
+  RayWork         w       = pair->ray;
+  RayFacet       *f       = &w->facet;
+  const PetscInt  facet   = pair->listed[slot];
+  const PetscInt *node    = nonmortar->facets;
+  PetscReal       covered = 0;
+
+  PetscFunctionBegin;
+  w->num_images = w->num_overlaps = w->num_mortar = 0;
+  if (pair->start[slot] == pair->start[slot + 1]) PetscFunctionReturn(PETSC_SUCCESS);
+  f->D       = nonmortar->dim;
+  f->m       = f->D - 1;
+  f->nv      = 2 * f->m;
+  f->ring    = pair->axisymmetric ? 2 * PETSC_PI : 0;
+  f->d.order = 1, f->d.num = f->nv;
+  node += f->nv * facet;
+  ContactRayLatticeGather(nonmortar, facet, &f->s);
+  for (PetscInt a = 0; a < f->nv; a++) {
+    const PetscInt corner = node[a < 2 ? a : 5 - a];
+
+    for (int c = 0; c < 3; c++) f->d.x[a][c] = w->d[3 * corner + c];
+    if (!ContactDirectionUsable(w, nonmortar, corner)) *failed = PETSC_TRUE;
+  }
+  if (!ContactChartCreate(nonmortar, facet, f)) *failed = PETSC_TRUE;
+  if (*failed) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(Whole_Private(w));
+  for (PetscInt k = pair->start[slot]; k < pair->start[slot + 1]; k++) {
+    Overlap   o;
+    PetscBool known, meets;
+
+    PetscCall(Meet_Private(w, mortar, pair->candidate[k], &f->chart, &o, &known, &meets));
+    if (!known) pair->num_degenerate++;
+    if (meets) PetscCall(Push_Private(w, &o, pair->candidate[k], 0));
+  }
+  ContactUnfold(&w->num_overlaps, w->overlap, w->mortar, f->area);
+  for (PetscInt k = 0; k < w->num_overlaps; k++) covered += w->overlap[k].area;
+  w->full = (PetscBool)(covered >= (1 - FULL) * f->area);
+  if (hats && !w->full && f->s.order > 1 && w->num_overlaps) PetscCall(Cells_Private(w, mortar));
+  PetscCall(Nodes_Private(w, mortar));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

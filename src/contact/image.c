@@ -1,0 +1,142 @@
+/* Image of a mortar vertex v on a facet: xi with x(xi) + s d(xi) = v, and its place Y(xi) in the chart.
+
+   A (dxi, ds) = dv - sum N_a dx_a - s sum V_v dd_v,   A = [t_i + s d,i, d] (plane: and e_z);
+   A (d2xi, d2s) = -2 (dt_i + s dd,i + ds d,i) dxi_i - 2 ds dd - (x,ij + s d,ij) dxi_i dxi_j: half of w . d2Y is three products. */
+#include "rayimpl.h"
+
+typedef struct {
+  RayFunctions S, V;
+  PetscReal    p[3], d[3], A[2][3], d12[3], di[2][3];
+  PetscReal    inverse[3][3]; /* rows: dxi_1, dxi_2, ds */
+  PetscReal    det;
+} Place;
+
+static void Place_Private(const RayFacet *f, const PetscReal xi[2], PetscReal s, int depth, Place *p)
+{
+  ContactRayFunctions(f->m, f->s.order, xi, depth, &p->S);
+  ContactRayFunctions(f->m, 1, xi, depth, &p->V);
+  ContactRayLatticeSum(&f->s, p->S.N, p->p);
+  ContactRayLatticeSum(&f->d, p->V.N, p->d);
+  for (PetscInt i = 0; i < 2; i++) {
+    PetscReal t[3] = {0, 0, 1};
+
+    p->di[i][0] = p->di[i][1] = p->di[i][2] = 0;
+    if (i < f->m) {
+      ContactRayLatticeSum(&f->s, p->S.d[i], t);
+      ContactRayLatticeSum(&f->d, p->V.d[i], p->di[i]);
+    }
+    for (int c = 0; c < 3; c++) p->A[i][c] = t[c] + s * p->di[i][c];
+  }
+  Cross3(p->A[1], p->d, p->inverse[0]);
+  Cross3(p->d, p->A[0], p->inverse[1]);
+  Cross3(p->A[0], p->A[1], p->inverse[2]);
+  p->det = Dot3(p->inverse[2], p->d);
+  for (int i = 0; i < 3; i++)
+    for (int c = 0; c < 3; c++) p->inverse[i][c] /= p->det;
+}
+
+void ContactImageFind(const RayFacet *f, RayImage *image)
+{
+  PetscReal step = 1;
+  Place     p;
+
+  image->found = PETSC_FALSE;
+  image->xi[0] = image->xi[1] = image->s = 0;
+  for (int k = 0; k < 30; k++) {
+    PetscReal r[3];
+
+    Place_Private(f, image->xi, image->s, 1, &p);
+    if (!(p.det > 0)) return; /* beyond the point where rays cross */
+    for (int c = 0; c < 3; c++) r[c] = image->v[c] - p.p[c] - image->s * p.d[c];
+    if (k == 0) { /* first along the ray: rays turn with distance */
+      image->s = Dot3(r, p.d) / Dot3(p.d, p.d);
+      continue;
+    }
+    step = 0;
+    for (PetscInt i = 0; i < f->m; i++) {
+      const PetscReal dx = Dot3(p.inverse[i], r);
+
+      image->xi[i] += dx;
+      step = PetscMax(step, PetscAbsReal(dx));
+    }
+    image->s += Dot3(p.inverse[2], r);
+    if (!(step < 1e3)) return;
+    if (step < RAY_SOLVED) break;
+  }
+  if (step < RAY_SOLVED) {
+    RayChartPoint c;
+
+    ContactChartAt(f, image->xi, &c);
+    image->Y[0] = c.Y[0], image->Y[1] = f->m == 2 ? c.Y[1] : 0;
+    image->found = PETSC_TRUE;
+  }
+}
+
+/* row += factor v . (dv - sum N_a dx_a - s sum V_v dd_v) */
+static void Motion_Private(const RayFacet *f, const Place *p, PetscReal s, PetscInt vertex, const PetscReal v[3], PetscReal row[])
+{
+  const PetscInt D = f->D;
+
+  for (PetscInt c = 0; c < D; c++) {
+    for (PetscInt a = 0; a < f->s.num; a++) row[D * a + c] -= p->S.N[a] * v[c];
+    for (PetscInt a = 0; a < f->nv; a++) row[D * (f->s.num + a) + c] -= s * p->V.N[a] * v[c];
+    row[D * vertex + c] += v[c];
+  }
+}
+
+void ContactImageRows(const RayFacet *f, const RayImage *image, PetscInt vertex, PetscInt n, PetscReal rows[])
+{
+  RayChartPoint chart;
+  Place         p;
+
+  Place_Private(f, image->xi, image->s, 1, &p);
+  ContactChartAt(f, image->xi, &chart);
+  for (PetscInt i = 0; i < f->m; i++) {
+    PetscReal v[3] = {0, 0, 0};
+
+    for (PetscInt j = 0; j < f->m; j++)
+      for (int c = 0; c < 3; c++) v[c] += chart.J[j][i] * p.inverse[j][c];
+    Motion_Private(f, &p, image->s, vertex, v, rows + i * n);
+  }
+}
+
+void ContactImageCurvature(const RayFacet *f, const RayImage *image, PetscInt vertex, const PetscReal w[2], PetscInt n, PetscReal W[], PetscReal work[])
+{
+  const PetscInt D = f->D, na = f->s.num;
+  PetscReal     *left[3] = {work, work + n, work + 2 * n}, *right = work + 3 * n, mu[3] = {0, 0, 0};
+  RayChartPoint  chart;
+  Place          p;
+
+  Place_Private(f, image->xi, image->s, 2, &p);
+  ContactChartAt(f, image->xi, &chart);
+  for (PetscInt i = 0; i < f->m; i++)
+    for (int c = 0; c < 3; c++) mu[c] += Dot2(w, chart.J[i]) * p.inverse[i][c];
+  for (PetscInt i = 0; i < 4 * n; i++) work[i] = 0;
+  for (int i = 0; i < 3; i++) Motion_Private(f, &p, image->s, vertex, p.inverse[i], left[i]);
+  for (PetscInt i = 0; i < f->m; i++) { /* left dxi_i: -mu . (dt_i + s dd,i + ds d,i) + sum_j G_ij dxi_j / 2 */
+    const PetscReal along = -Dot3(mu, p.di[i]);
+
+    for (PetscInt k = 0; k < n; k++) right[k] = along * left[2][k];
+    for (PetscInt c = 0; c < D; c++) {
+      for (PetscInt a = 0; a < na; a++) right[D * a + c] -= mu[c] * p.S.d[i][a];
+      for (PetscInt a = 0; a < f->nv; a++) right[D * (na + a) + c] -= mu[c] * image->s * p.V.d[i][a];
+    }
+    for (PetscInt j = 0; j < f->m; j++) {
+      PetscReal x[3], d[3], G;
+
+      ContactRayLatticeSum(&f->s, p.S.dd[i + j], x);
+      ContactRayLatticeSum(&f->d, p.V.dd[i + j], d);
+      G = (i != j ? Dot2(w, chart.mixed) : 0) - Dot3(mu, x) - image->s * Dot3(mu, d);
+      for (PetscInt k = 0; k < n; k++) right[k] += 0.5 * G * left[j][k];
+    }
+    for (PetscInt a = 0; a < n; a++)
+      if (left[i][a] != 0)
+        for (PetscInt b = 0; b < n; b++) W[a * n + b] += left[i][a] * right[b];
+  }
+  for (PetscInt k = 0; k < n; k++) right[k] = 0; /* left ds: -mu . dd */
+  for (PetscInt c = 0; c < D; c++)
+    for (PetscInt a = 0; a < f->nv; a++) right[D * (na + a) + c] = -mu[c] * p.V.N[a];
+  for (PetscInt a = 0; a < n; a++)
+    if (left[2][a] != 0)
+      for (PetscInt b = 0; b < n; b++) W[a * n + b] += left[2][a] * right[b];
+}

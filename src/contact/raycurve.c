@@ -1,0 +1,255 @@
+/* Half Hessian of a weighted sum of moments of one facet: W with H = W + W^T.
+
+   Triangle: size (S F)'' / 2 with F the mean of the integrand by the numbers at fixed xi (products of rows, gathered for all points), and by xi, which follow
+   the corners: dxi = J^-1 sum beta_k dC_k, d2xi = -2 J^-1 Y,12 dxi_1 dxi_2. Corners then follow the images (raysimplex.c), images the nodes (image.c). */
+#include "rayimpl.h"
+
+#define CORNERS (2 * FACET_VERTICES)
+#define LEFTS 5 /* most products at a point */
+
+/* v_f eps_cef into W[row + c][column + e] */
+static void AddSkew_Private(PetscInt D, const PetscReal v[3], PetscReal *W, PetscInt n)
+{
+  if (D == 3) {
+    W[1] += v[2], W[n] -= v[2];
+    W[n + 2] += v[0], W[2 * n + 1] -= v[0];
+    W[2 * n] += v[1], W[2] -= v[1];
+  } else
+    W[1] += v[2], W[n] -= v[2];
+}
+
+/* Weights of gap and area at a point. */
+static void Weights_Private(const RayFacet *f, const RayTest *t, const RayFunctions *T, const PetscReal y[], const PetscReal D[4][4], RayWeight *phi,
+                            RayWeight *chi)
+{
+  memset(phi, 0, sizeof(*phi));
+  memset(chi, 0, sizeof(*chi));
+  for (PetscInt a = 0; a < t->num; a++) {
+    const PetscReal ya = y[t->place[a]];
+
+    phi->v += ya * T->N[a];
+    for (PetscInt i = 0; i < f->m; i++) phi->d[i] += ya * T->d[i][a];
+    for (PetscInt i = 0; i < 2 * f->m - 1; i++) phi->dd[i] += ya * T->dd[i][a];
+    for (PetscInt b = 0; b < t->num && D; b++) {
+      chi->v += D[a][b] * T->N[a] * T->N[b];
+      for (PetscInt i = 0; i < f->m; i++) chi->d[i] += 2 * D[a][b] * T->d[i][a] * T->N[b];
+      for (PetscInt i = 0; i < f->m; i++)
+        for (PetscInt j = i; j < f->m; j++) chi->dd[i + j] += 2 * D[a][b] * (T->dd[i + j][a] * T->N[b] + T->d[i][a] * T->d[j][b]);
+    }
+  }
+}
+
+/* Sums over the points of a triangle; rows of left and right follow one another. */
+typedef struct {
+  PetscInt   num_left, num_xi, nq;
+  PetscReal *left, *right, *left_xi, *right_xi; /* [..][nq], [..][nq], [..][6], [..][nq + 6] */
+  PetscReal *gradient, mean;                    /* [nq + 6] */
+} Batch;
+
+/* What varies through the corners: rows left_xi x right_xi. */
+static void Corners_Private(const RayFacet *f, const RayPoint *r, const PetscReal beta[3], const RaySecond *o, Batch *b)
+{
+  const PetscInt m = f->m, nc   = m * (m + 1);
+  PetscReal      G[2][2], *left = b->left_xi + 6 * b->num_xi;
+
+  for (PetscInt i = 0; i < m; i++)
+    for (PetscInt j = 0; j < m; j++) {
+      G[i][j] = o->xixi[i + j];
+      if (i == j) continue;
+      for (PetscInt k = 0; k < m; k++) G[i][j] -= o->xi[k] * Dot2(r->chart.inverse[k], r->chart.mixed);
+    }
+  for (PetscInt i = 0; i < m; i++)
+    for (PetscInt v = 0; v <= m; v++)
+      for (PetscInt c = 0; c < m; c++) left[6 * i + m * v + c] = r->chart.inverse[i][c] * beta[v];
+  for (PetscInt i = 0; i < m; i++, b->num_xi++) {
+    PetscReal *right = b->right_xi + (b->nq + 6) * b->num_xi;
+
+    for (PetscInt k = 0; k < nc; k++) {
+      right[b->nq + k] = 0;
+      for (PetscInt j = 0; j < m; j++) right[b->nq + k] += 0.5 * G[i][j] * left[6 * j + k];
+      b->gradient[b->nq + k] += o->xi[i] * left[6 * i + k];
+    }
+  }
+}
+
+static PetscBool Batch_Private(const RayWork w, const RayLattice *mortar, const Overlap *o, const RayTest *t, const RaySimplex *s, PetscInt points,
+                               const PetscReal point[][3], const PetscReal weight[], const PetscReal y[], const PetscReal D[4][4], RayPoint *r,
+                               RaySecond *second, Batch *b)
+{
+  const RayFacet *f = &w->facet;
+  RayFunctions    T;
+  RayWeight       sum, mass, phi, chi;
+
+  b->num_left = b->num_xi = 0;
+  b->mean                 = 0;
+  for (PetscInt i = 0; i < b->nq + 6; i++) b->gradient[i] = 0;
+  for (PetscInt k = 0; k < points; k++) {
+    if (!ContactRayPoint(f, mortar, o, s, point[k], 3, r)) return PETSC_FALSE;
+    ContactRayTestFunctions(f, t, &r->S, r->xi, &T);
+    Weights_Private(f, t, &T, y, D, &sum, &mass);
+    ContactRayOverDet(f, &r->chart, weight[k], &sum, &phi);
+    ContactRayOverDet(f, &r->chart, weight[k], &mass, &chi);
+    for (int i = 0; i < LEFTS; i++) {
+      second->left[i]  = b->left + (b->num_left + i) * b->nq;
+      second->right[i] = b->right + (b->num_left + i) * b->nq;
+    }
+    for (PetscInt i = 0; i < f->m; i++) second->mixed[i] = b->right_xi + (b->num_xi + i) * (b->nq + 6);
+    ContactRaySecond(f, mortar, r, &phi, &chi, s->size, second);
+    b->num_left += second->num_left;
+    b->mean += phi.v * ContactRayGap(r) + chi.v * ContactRayArea(r);
+    for (PetscInt i = 0; i < b->nq; i++) b->gradient[i] += second->gradient[i];
+    Corners_Private(f, r, point[k], second, b);
+  }
+  return PETSC_TRUE;
+}
+
+/* One triangle into all[N][N], N = nq + CORNERS, and the gradient by corners. */
+static void Simplex_Private(const RayFacet *f, const RaySimplex *s, const Batch *b, PetscReal all[], PetscReal corner[])
+{
+  const PetscInt m = f->m, nc = m * (m + 1), nq = b->nq, N = nq + CORNERS;
+  PetscReal     *part = b->gradient + nq + 6; /* [6][nq + 6] */
+
+  ContactRayProducts(b->num_left, s->size, nq, b->left, nq, nq, b->right, nq, all, N);
+  for (PetscInt i = 0; i < 6 * (nq + 6); i++) part[i] = 0;
+  ContactRayProducts(b->num_xi, s->size, nc, b->left_xi, 6, nq + nc, b->right_xi, nq + 6, part, nq + 6);
+  for (PetscInt i = 0; i < nc; i++)
+    for (PetscInt k = 0; k < nq + nc; k++) part[i * (nq + 6) + k] += s->d[i] * b->gradient[k];
+  for (int i = 0; i < 3 && m == 2; i++) { /* half of the area's second derivatives, each pair once */
+    const int next = (i + 1) % 3, last = (i + 2) % 3;
+
+    part[2 * i * (nq + 6) + nq + 2 * next + 1] += 0.5 * b->mean;
+    part[2 * i * (nq + 6) + nq + 2 * last + 1] -= 0.5 * b->mean;
+  }
+  for (PetscInt i = 0; i < nc; i++) {
+    const PetscInt at = m * s->corner[i / m] + i % m;
+
+    corner[at] += s->size * b->gradient[nq + i] + b->mean * s->d[i];
+    for (PetscInt k = 0; k < nq; k++) all[(nq + at) * N + k] += part[i * (nq + 6) + k];
+    for (PetscInt k = 0; k < nc; k++) all[(nq + at) * N + nq + m * s->corner[k / m] + k % m] += part[i * (nq + 6) + nq + k];
+  }
+}
+
+/* From corners to images: all[N][N] -> its first nq + RAY_IMAGES rows and columns. */
+static void Collapse_Private(const RayFacet *f, const Overlap *o, const RayMove move[], const PetscReal corner[], PetscInt nq, PetscReal all[])
+{
+  const PetscInt m = f->m, N = nq + CORNERS, nc = m * (f->m == 1 ? 2 : o->num);
+  PetscReal      fold[RAY_IMAGES][CORNERS], row[RAY_IMAGES];
+
+  for (PetscInt i = 0; i < nc; i++)
+    for (int l = 0; l < RAY_IMAGES; l++) fold[l][i] = move[i / m].d[i % m][l];
+  for (PetscInt i = nq; i < nq + nc; i++) {
+    for (int l = 0; l < RAY_IMAGES; l++) {
+      row[l] = 0;
+      for (PetscInt k = 0; k < nc; k++) row[l] += all[i * N + nq + k] * fold[l][k];
+    }
+    for (int l = 0; l < RAY_IMAGES; l++) all[i * N + nq + l] = row[l];
+  }
+  for (PetscInt k = 0; k < nq + RAY_IMAGES; k++) {
+    for (int l = 0; l < RAY_IMAGES; l++) {
+      row[l] = 0;
+      for (PetscInt i = 0; i < nc; i++) row[l] += fold[l][i] * all[(nq + i) * N + k];
+    }
+    for (int l = 0; l < RAY_IMAGES; l++) all[(nq + l) * N + k] = row[l];
+  }
+  for (PetscInt v = 0; v < o->num && m == 2; v++) { /* curvature of crossings */
+    const RayMove  *c    = &move[v];
+    const PetscReal w[2] = {corner[2 * v], corner[2 * v + 1]};
+
+    if (c->a < 0) continue;
+    for (int i = 0; i < 2; i++) {
+      const PetscReal value = w[i] - Dot2(w, c->e) * c->nu[i];
+
+      for (int l = 0; l < RAY_IMAGES; l++) {
+        all[(nq + l) * N + nq + 2 * c->b + i] += c->dt[l] * value;
+        all[(nq + l) * N + nq + 2 * c->a + i] -= c->dt[l] * value;
+      }
+    }
+  }
+}
+
+static PetscErrorCode Overlap_Private(RayWork w, const RayLattice *mortar, PetscInt k, const PetscReal y[], const PetscReal D[4][4], RaySecond *second,
+                                      PetscReal all[])
+{
+  const RayFacet *f               = &w->facet;
+  const Overlap  *o               = &w->overlap[k];
+  const PetscInt  nq              = f->D * (f->s.num + f->nv + mortar->num);
+  PetscReal       corner[CORNERS] = {0};
+  RayMove         move[FACET_VERTICES];
+  RayPoint        r;
+  PetscInt        points;
+  Batch           b = {.nq = nq};
+  const PetscReal(*point)[3], *weight;
+
+  PetscFunctionBegin;
+  PetscCall(ContactRayRule(f->m, f->s.order, mortar->order, &points, &point, &weight));
+  PetscCall(ContactGrow(points * (2 * LEFTS * nq + f->m * (nq + 12)) + 8 * (nq + 6), sizeof(PetscReal), &w->size_buffer, &w->buffer));
+  b.left           = w->buffer;
+  b.right          = b.left + points * LEFTS * nq;
+  b.left_xi        = b.right + points * LEFTS * nq;
+  b.right_xi       = b.left_xi + points * f->m * 6;
+  second->gradient = b.right_xi + points * f->m * (nq + 6);
+  b.gradient       = second->gradient + nq + 6;
+  ContactRayMoves(f, o, move);
+  r.eta[0] = r.eta[1] = r.s = 0;
+  for (PetscInt j = 0; j < ContactRaySimplices(f, o); j++) {
+    RaySimplex s;
+
+    ContactRaySimplex(f, o, j, &s);
+    if (!Batch_Private(w, mortar, o, &w->test[w->window[k]], &s, points, point, weight, y, D, &r, second, &b))
+      continue; /* cannot happen: its moments were found */
+    Simplex_Private(f, &s, &b, all, corner);
+  }
+  Collapse_Private(f, o, move, corner, nq, all);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Pairs of nodes of the facet. */
+static void AddPairs_Private(RayWork w, const RaySecond *second)
+{
+  const RayFacet *f = &w->facet;
+  const PetscInt  D = f->D, na = f->s.num, n = w->n;
+
+  for (PetscInt a = 0; a < na; a++) {
+    for (PetscInt v = 0; v < f->nv; v++) AddSkew_Private(D, second->turn[v * na + a], w->W + D * (na + v) * n + D * a, n);
+    for (PetscInt b = 0; b < na && f->m == 2; b++) AddSkew_Private(D, second->twist[a * na + b], w->W + D * a * n + D * b, n);
+  }
+}
+
+PetscErrorCode ContactRayHessian(ContactPair pair, const ContactSurface *mortar, const PetscReal y[], const PetscReal D[4][4], const PetscReal gradient[])
+{
+  RayWork         w   = pair->ray;
+  const RayFacet *f   = &w->facet;
+  const PetscInt  own = f->s.num + f->nv, images = f->D * (own + w->num_mortar), n = w->n, pairs = f->s.num * own;
+  PetscInt        place[3 * (2 * RAY_LATTICE + 4) + RAY_IMAGES];
+  RayLattice      facet;
+  RaySecond       second;
+
+  PetscFunctionBegin;
+  PetscCall(ContactGrow(n * n + 4 * n, sizeof(PetscReal), &w->size_W, &w->W));
+  PetscCall(PetscArrayzero(w->W, n * n));
+  for (PetscInt k = 0; k < w->num_overlaps; k++) {
+    PetscInt N, width;
+
+    ContactRayLatticeGather(mortar, w->mortar[k], &facet);
+    N     = f->D * (own + facet.num) + CORNERS;
+    width = N - CORNERS + f->m * f->nv;
+    PetscCall(ContactGrow(N * N + 3 * pairs, sizeof(PetscReal), &w->size_part, &w->part));
+    PetscCall(PetscArrayzero(w->part, N * N + 3 * pairs));
+    second.turn  = (PetscReal(*)[3])(w->part + N * N);
+    second.twist = second.turn + f->nv * f->s.num;
+    PetscCall(Overlap_Private(w, &facet, k, y, D, &second, w->part));
+    AddPairs_Private(w, &second);
+    ContactRayPlaces(w, mortar, w->mortar[k], facet.num, place);
+    for (PetscInt a = 0; a < width; a++)
+      for (PetscInt b = 0; b < width; b++) w->W[place[a] * n + place[b]] += w->part[a * N + b];
+  }
+  for (PetscInt k = 0; k < w->num_images; k++) {
+    const PetscReal along[2] = {gradient[images + f->m * k], f->m == 2 ? gradient[images + f->m * k + 1] : 0};
+    PetscInt        at       = 0;
+
+    if (along[0] == 0 && along[1] == 0) continue;
+    while (w->vertex[at] != w->image[k].node) at++;
+    ContactImageCurvature(f, &w->image[k], own + at, along, n, w->W, w->W + n * n);
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

@@ -1,0 +1,548 @@
+/* One nonmortar facet by rays along a continuous direction: gathers, integrates, and hands out weighted gaps with their derivatives by the nodes that do not
+   hang.
+
+   J: derivatives of the facet's numbers (rayimpl.h) by the nodes of the result. Lattice and mortar nodes follow their masters; directions follow the corners of
+   the facets around, dN = sum_k dx_k x h_k for the vector N of a facet; images follow all three (image.c). Hessian J^T (W + W^T) J + directions' second
+   derivatives. */
+#include "rayimpl.h"
+
+#define TERMS 64 /* most facets around a corner, over all it hangs on */
+
+PetscErrorCode ContactRayTopology(ContactPair pair, const ContactSurface *s)
+{
+  PetscFunctionBegin;
+  if (!pair->ray) PetscCall(PetscNew(&pair->ray));
+  PetscCall(ContactRayLatticePrepare());
+  PetscCheck(s->X, PETSC_COMM_SELF, PETSC_ERR_ARG_NULL, "contact along a continuous direction needs the reference positions of the nonmortar surface");
+  PetscCall(PetscFree(pair->normal));
+  pair->num_nodes  = s->num_nodes;
+  pair->num_facets = s->num_facets;
+  PetscCall(PetscCalloc1(s->dim * s->num_nodes, &pair->normal));
+  PetscCall(ContactDirectionTopology(pair->ray, s));
+  ContactDirections(pair->ray, s);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode ContactRayWorkDestroy(RayWork *work)
+{
+  RayWork w = *work;
+
+  PetscFunctionBegin;
+  if (!w) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(ContactStoreDestroy(&w->store));
+  PetscCall(PetscFree4(w->ring_first, w->ring_facet, w->parent, w->d));
+  PetscCall(PetscFree(w->image));
+  PetscCall(PetscFree(w->overlap));
+  PetscCall(PetscFree(w->mortar));
+  PetscCall(PetscFree(w->window));
+  PetscCall(PetscFree(w->vertex));
+  PetscCall(PetscFree(w->test));
+  PetscCall(PetscFree(w->dq));
+  PetscCall(PetscFree(w->W));
+  PetscCall(PetscFree(w->J));
+  PetscCall(PetscFree(w->WJ));
+  PetscCall(PetscFree(w->part));
+  PetscCall(PetscFree(w->buffer));
+  PetscCall(PetscFree(w->node));
+  PetscCall(PetscFree(w->row_first));
+  PetscCall(PetscFree(w->row_node));
+  PetscCall(PetscFree(w->row_weight));
+  PetscCall(PetscFree(w->T));
+  PetscCall(PetscFree(w->rows));
+  PetscCall(PetscFree(*work));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Are the directions at the corners of a facet known here? */
+static PetscBool HasDirections_Private(ContactPair pair, const ContactSurface *s, PetscInt facet)
+{
+  const PetscInt nv = 2 * (s->dim - 1);
+
+  for (PetscInt v = 0; v < nv; v++)
+    if (PetscIsNanReal(pair->ray->d[3 * s->facets[nv * facet + v]])) return PETSC_FALSE;
+  return PETSC_TRUE;
+}
+
+/* Unit directions at the nodes of the nonmortar surface, for output and estimation; NaN where they are not known here. */
+static void Normals_Private(ContactPair pair, const ContactSurface *s)
+{
+  const PetscInt D = s->dim, m = D - 1, nv = 2 * m;
+  RayFunctions   V;
+
+  for (PetscInt i = 0; i < D * s->num_nodes && s->has; i++) pair->normal[i] = NAN;
+  for (PetscInt f = 0; f < s->num_facets; f++) {
+    const PetscInt  *node;
+    const PetscReal *gauss = NULL;
+    PetscInt         order1[4], p;
+
+    if (!HasDirections_Private(pair, s, f)) continue;
+    p = ContactRayLatticeNodes(s, f, &node, order1);
+    if (ElementGetNodes(p, &gauss)) continue;
+    for (PetscInt a = 0; a < ElementNumNodes(m, p); a++) {
+      const PetscReal xi[2] = {2 * gauss[a % (p + 1)] - 1, 2 * gauss[a / (p + 1)] - 1};
+      PetscReal       d[3]  = {0, 0, 0}, length;
+
+      ContactRayFunctions(m, 1, xi, 1, &V);
+      for (PetscInt v = 0; v < nv; v++)
+        for (int c = 0; c < 3; c++) d[c] += V.N[v] * pair->ray->d[3 * s->facets[nv * f + (v < 2 ? v : 5 - v)] + c];
+      length = PetscSqrtReal(Dot3(d, d));
+      for (PetscInt c = 0; c < D; c++) pair->normal[D * node[a] + c] = length > 0 ? d[c] / length : 0;
+    }
+  }
+}
+
+/* ---- nodes and masters --------------------------------------------------------------------------------------------------------------- */
+
+static PetscErrorCode AddNode_Private(RayWork w, PetscInt id, PetscInt *place)
+{
+  PetscFunctionBegin;
+  for (*place = 0; *place < w->num_nodes; (*place)++)
+    if (w->node[*place] == id) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(ContactGrow(w->num_nodes + 1, sizeof(PetscInt), &w->size_node, &w->node));
+  w->node[w->num_nodes++] = id;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Masters of a node: itself when it does not hang. */
+static PetscInt Masters_Private(const ContactSurface *s, const PetscInt *node, const PetscInt **master, const PetscReal **weight)
+{
+  static const PetscReal one = 1;
+
+  if (!s->hang || s->hang[*node] == s->hang[*node + 1]) {
+    *master = node, *weight = &one;
+    return 1;
+  }
+  *master = s->hang_master + s->hang[*node], *weight = s->hang_weight + s->hang[*node];
+  return s->hang[*node + 1] - s->hang[*node];
+}
+
+/* Row of vertex v (lattice nodes, then mortar nodes) by places among the result's nodes. */
+static PetscErrorCode AddRow_Private(RayWork w, const ContactSurface *s, PetscInt node, PetscBool mortar, PetscInt v, PetscInt *num)
+{
+  const PetscInt  *master;
+  const PetscReal *weight;
+  const PetscInt   masters = Masters_Private(s, &node, &master, &weight);
+
+  PetscFunctionBegin;
+  PetscCall(ContactGrow(*num + masters, sizeof(PetscInt), &w->size_row_node, &w->row_node));
+  PetscCall(ContactGrow(*num + masters, sizeof(PetscReal), &w->size_row_weight, &w->row_weight));
+  w->row_first[v] = *num;
+  for (PetscInt k = 0; k < masters; k++, (*num)++) {
+    PetscCall(AddNode_Private(w, mortar ? ~master[k] : master[k], &w->row_node[*num]));
+    w->row_weight[*num] = weight[k];
+  }
+  w->row_first[v + 1] = *num;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Nodes of the result and T, the multiplier functions by those of the lattice. */
+static PetscErrorCode Nodes_Private(const EvaluateContext *ctx, PetscInt facet)
+{
+  RayWork         w  = ctx->pair->ray;
+  const PetscInt  na = w->facet.s.num, nv = w->facet.nv;
+  const PetscInt *lattice;
+  PetscInt        order1[4], num = 0, place;
+  DirectionTerm   term[TERMS];
+
+  PetscFunctionBegin;
+  w->num_nodes = 0;
+  ContactRayLatticeNodes(ctx->nonmortar, facet, &lattice, order1);
+  PetscCall(ContactGrow(na + w->num_mortar + 1, sizeof(PetscInt), &w->size_row_first, &w->row_first));
+  for (PetscInt a = 0; a < na; a++) PetscCall(AddRow_Private(w, ctx->nonmortar, lattice[a], PETSC_FALSE, a, &num));
+  w->num_rows = w->num_nodes;
+  PetscCall(ContactGrow(w->num_rows * na, sizeof(PetscReal), &w->size_T, &w->T));
+  PetscCall(PetscArrayzero(w->T, w->num_rows * na));
+  for (PetscInt a = 0; a < na; a++)
+    for (PetscInt k = w->row_first[a]; k < w->row_first[a + 1]; k++) w->T[w->row_node[k] * na + a] += w->row_weight[k];
+  for (PetscInt v = 0; v < nv; v++) {
+    const PetscInt terms = ContactDirectionTerms(w, ctx->nonmortar, ctx->nonmortar->facets[nv * facet + v], TERMS, term);
+
+    for (PetscInt t = 0; t < terms; t++)
+      for (PetscInt k = 0; k < nv; k++) {
+        const PetscInt  *master;
+        const PetscReal *weight;
+        const PetscInt   masters = Masters_Private(ctx->nonmortar, &ctx->nonmortar->facets[nv * term[t].facet + k], &master, &weight);
+
+        for (PetscInt i = 0; i < masters; i++) PetscCall(AddNode_Private(w, master[i], &place));
+      }
+  }
+  for (PetscInt j = 0; j < w->num_mortar; j++) PetscCall(AddRow_Private(w, ctx->mortar, w->vertex[j], PETSC_TRUE, na + j, &num));
+  w->nn = w->facet.D * w->num_nodes;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- directions ---------------------------------------------------------------------------------------------------------------------- */
+
+/* dN = sum_k dx_k x h_k */
+static void FacetVectorRows_Private(const ContactSurface *s, const PetscInt node[], PetscReal h[4][3])
+{
+  memset(h, 0, 4 * sizeof(h[0]));
+  if (s->dim == 2) {
+    h[1][2] = 1, h[0][2] = -1;
+    return;
+  }
+  for (int c = 0; c < 3; c++) {
+    const PetscReal d = s->x[3 * node[2] + c] - s->x[3 * node[0] + c], e = 0.5 * (s->x[3 * node[3] + c] - s->x[3 * node[1] + c]);
+
+    h[2][c] = e, h[0][c] = -e;
+    h[1][c] = 0.5 * d, h[3][c] = -0.5 * d;
+  }
+}
+
+static PetscErrorCode DirectionRows_Private(RayWork w, const ContactSurface *s, PetscInt facet)
+{
+  const PetscInt nv = w->facet.nv, D = w->facet.D, na = w->facet.s.num;
+  DirectionTerm  term[TERMS];
+
+  PetscFunctionBegin;
+  for (PetscInt v = 0; v < nv; v++) {
+    const PetscInt terms = ContactDirectionTerms(w, s, s->facets[nv * facet + (v < 2 ? v : 5 - v)], TERMS, term);
+
+    for (PetscInt t = 0; t < terms; t++) {
+      const PetscInt *node = s->facets + nv * term[t].facet;
+      PetscReal       h[4][3];
+
+      FacetVectorRows_Private(s, node, h);
+      for (PetscInt k = 0; k < nv; k++) {
+        const PetscInt  *master;
+        const PetscReal *weight, *g = h[k], X[3][3] = {{0, g[2], -g[1]}, {-g[2], 0, g[0]}, {g[1], -g[0], 0}};
+        const PetscInt   masters = Masters_Private(s, &node[k], &master, &weight);
+        PetscInt         place;
+
+        for (PetscInt i = 0; i < masters; i++) {
+          PetscCall(AddNode_Private(w, master[i], &place));
+          for (PetscInt c = 0; c < D; c++)
+            for (PetscInt j = 0; j < D; j++)
+              for (int l = 0; l < 3; l++) w->J[(D * (na + v) + c) * w->nn + D * place + j] += weight[i] * term[t].R[3 * c + l] * X[l][j];
+        }
+      }
+    }
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* H += second derivatives of sum_v gradient_v . d_v: of a facet's vector dd x de twice, d = x_2 - x_0, e = (x_3 - x_1) / 2. */
+static PetscErrorCode DirectionCurvature_Private(RayWork w, const ContactSurface *s, PetscInt facet, const PetscReal gradient[], PetscReal H[])
+{
+  const PetscInt na = w->facet.s.num, nn = w->nn;
+  DirectionTerm  term[TERMS];
+
+  PetscFunctionBegin;
+  if (s->dim == 2) PetscFunctionReturn(PETSC_SUCCESS);
+  for (PetscInt v = 0; v < 4; v++) {
+    const PetscReal *along = gradient + 3 * (na + v);
+    const PetscInt   terms = ContactDirectionTerms(w, s, s->facets[4 * facet + (v < 2 ? v : 5 - v)], TERMS, term);
+
+    for (PetscInt t = 0; t < terms; t++)
+      for (int pair = 0; pair < 4; pair++) {
+        const PetscInt  *node = s->facets + 4 * term[t].facet, *a = &node[pair % 2 ? 0 : 2], *b = &node[pair / 2 ? 1 : 3], *ma, *mb;
+        const PetscReal *wa, *wb, sign = (pair % 2 ? -1 : 1) * (pair / 2 ? -0.5 : 0.5), *R = term[t].R;
+        const PetscInt   masters_a = Masters_Private(s, a, &ma, &wa), masters_b = Masters_Private(s, b, &mb, &wb);
+        PetscInt         pa, pb;
+
+        for (PetscInt i = 0; i < masters_a; i++)
+          for (PetscInt j = 0; j < masters_b; j++) {
+            const PetscReal f = sign * wa[i] * wb[j];
+
+            PetscCall(AddNode_Private(w, ma[i], &pa));
+            PetscCall(AddNode_Private(w, mb[j], &pb));
+            for (int l = 0; l < 3; l++) { /* component l of the cross product */
+              const PetscReal value = f * (along[0] * R[l] + along[1] * R[3 + l] + along[2] * R[6 + l]);
+              const PetscInt  y = (l + 1) % 3, z = (l + 2) % 3;
+
+              H[(3 * pa + y) * nn + 3 * pb + z] += value, H[(3 * pb + z) * nn + 3 * pa + y] += value;
+              H[(3 * pa + z) * nn + 3 * pb + y] -= value, H[(3 * pb + y) * nn + 3 * pa + z] -= value;
+            }
+          }
+      }
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The gradient's part that reaches nodes and directions through the images. */
+static PetscErrorCode FoldImages_Private(RayWork w, PetscReal gradient[])
+{
+  const PetscInt m = w->facet.m, own = w->facet.s.num + w->facet.nv, nodes = w->facet.D * (own + w->num_mortar);
+
+  PetscFunctionBegin;
+  PetscCall(ContactGrow(2 * nodes, sizeof(PetscReal), &w->size_buffer, &w->buffer));
+  for (PetscInt k = 0; k < w->num_images; k++) {
+    PetscInt at = 0;
+
+    while (w->vertex[at] != w->image[k].node) at++;
+    PetscCall(PetscArrayzero(w->buffer, 2 * nodes));
+    ContactImageRows(&w->facet, &w->image[k], own + at, nodes, w->buffer);
+    for (PetscInt i = 0; i < m; i++)
+      for (PetscInt l = 0; l < nodes; l++) gradient[l] += gradient[nodes + m * k + i] * w->buffer[i * nodes + l];
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode Chain_Private(RayWork w, const ContactSurface *nonmortar, PetscInt facet)
+{
+  const PetscInt D = w->facet.D, na = w->facet.s.num, own = na + w->facet.nv, nn = w->nn, nodes = D * (own + w->num_mortar);
+
+  PetscFunctionBegin;
+  PetscCall(ContactGrow(w->n * nn, sizeof(PetscReal), &w->size_J, &w->J));
+  PetscCall(PetscArrayzero(w->J, w->n * nn));
+  for (PetscInt v = 0; v < na + w->num_mortar; v++)
+    for (PetscInt k = w->row_first[v]; k < w->row_first[v + 1]; k++)
+      for (PetscInt c = 0; c < D; c++) w->J[(D * (v < na ? v : v + w->facet.nv) + c) * nn + D * w->row_node[k] + c] += w->row_weight[k];
+  PetscCall(DirectionRows_Private(w, nonmortar, facet));
+  PetscCall(ContactGrow(2 * nodes, sizeof(PetscReal), &w->size_buffer, &w->buffer));
+  for (PetscInt k = 0; k < w->num_images; k++) {
+    PetscInt at = 0;
+
+    while (w->vertex[at] != w->image[k].node) at++;
+    PetscCall(PetscArrayzero(w->buffer, 2 * nodes));
+    ContactImageRows(&w->facet, &w->image[k], own + at, nodes, w->buffer);
+    for (PetscInt i = 0; i < w->facet.m; i++)
+      for (PetscInt l = 0; l < nodes; l++) {
+        const PetscReal value = w->buffer[i * nodes + l];
+
+        if (value == 0) continue;
+        for (PetscInt j = 0; j < nn; j++) w->J[(nodes + w->facet.m * k + i) * nn + j] += value * w->J[l * nn + j];
+      }
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- results ------------------------------------------------------------------------------------------------------------------------- */
+
+/* Weighted gaps by the lattice: their derivatives by the moments are sparse (num_moments columns). */
+typedef struct {
+  PetscReal    gap[RAY_LATTICE], y[RAY_LATTICE]; /* y: weights of the gap moments in sum z gt */
+  PetscBool    dual;
+  PetscInt     place[FACET_MOMENTS]; /* dual: where the moments stand among those of weights.c, -1 */
+  FacetWeights f;
+} Weights;
+
+/* Dual functions of the covered part of a facet of order 1; an edge is a facet whose other two nodes stand apart. */
+static PetscBool Dual_Private(const RayWork w, PetscReal z[4], Weights *o)
+{
+  static const int Edge[7]          = {0, 1, 4, 5, 8, 9, 12};
+  PetscReal        q[FACET_MOMENTS] = {0};
+
+  if (w->facet.m == 1) {
+    q[15] = q[17] = 1;
+    z[2] = z[3] = 0;
+  }
+  for (PetscInt i = 0; i < w->num_moments; i++) {
+    o->place[i]    = w->facet.m == 1 ? Edge[i] : (int)i;
+    q[o->place[i]] = w->q[i];
+  }
+  if (!ContactFacetWeights(PETSC_FALSE, q, z, &o->f)) return PETSC_FALSE;
+  for (PetscInt a = 0; a < w->facet.nv; a++) {
+    o->gap[a] = o->f.gap[a];
+    o->y[a]   = o->f.g[a];
+  }
+  return PETSC_TRUE;
+}
+
+/* row[n] += factor * derivative of gap a */
+static void GapRow_Private(const RayWork w, const Weights *o, PetscInt a, PetscReal factor, PetscReal row[])
+{
+  for (PetscInt q = 0; q < w->num_moments; q++) {
+    const PetscReal f = factor * (o->dual ? o->f.dgap[a][o->place[q]] : q == a);
+
+    if (f == 0) continue;
+    for (PetscInt i = 0; i < w->n; i++) row[i] += f * w->dq[q * w->n + i];
+  }
+}
+
+/* to[num_rows][nn] = sum_a T[r][a] (gap a or weight a) J */
+static PetscErrorCode Rows_Private(RayWork w, const Weights *o, PetscBool gap, PetscReal to[])
+{
+  const PetscInt na = w->facet.s.num, n = w->n, nr = w->num_rows;
+  PetscReal     *row;
+
+  PetscFunctionBegin;
+  PetscCall(ContactGrow(n * nr + n * na, sizeof(PetscReal), &w->size_rows, &w->rows));
+  PetscCall(PetscArrayzero(w->rows, n * nr + n * na));
+  row = w->rows + n * nr;
+  for (PetscInt a = 0; a < na; a++)
+    if (gap)
+      GapRow_Private(w, o, a, 1, row + a * n);
+    else
+      PetscCall(PetscArraycpy(row + a * n, w->dq + (na + a) * n, n));
+  for (PetscInt r = 0; r < nr; r++)
+    for (PetscInt a = 0; a < na; a++) {
+      const PetscReal t = w->T[r * na + a];
+
+      if (t == 0) continue;
+      for (PetscInt i = 0; i < n; i++) w->rows[i * nr + r] += t * row[a * n + i];
+    }
+  ContactRayProducts(n, 1, nr, w->rows, nr, w->nn, w->J, w->nn, to, w->nn);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode Hessian_Private(const EvaluateContext *ctx, PetscInt facet, const Weights *o, const PetscReal y[], PetscReal H[])
+{
+  RayWork        w  = ctx->pair->ray;
+  const PetscInt na = w->facet.s.num, n = w->n, nn = w->nn;
+  PetscReal     *gradient, *left, *right;
+
+  PetscFunctionBegin;
+  PetscCall(ContactGrow(3 * n, sizeof(PetscReal), &w->size_rows, &w->rows));
+  PetscCall(PetscArrayzero(w->rows, 3 * n));
+  gradient = w->rows, left = gradient + n, right = left + n;
+  for (PetscInt a = 0; a < na; a++)
+    if (y[a] != 0) GapRow_Private(w, o, a, y[a], gradient);
+  PetscCall(ContactRayHessian(ctx->pair, ctx->mortar, o->dual ? o->f.g : y, o->dual ? o->f.D : NULL, gradient));
+  for (int p = 0; o->dual && p < o->f.num_pairs; p++) {
+    for (PetscInt i = 0; i < 2 * n; i++) left[i] = 0;
+    for (PetscInt q = 0; q < w->num_moments; q++)
+      for (PetscInt i = 0; i < n; i++) {
+        left[i] += o->f.left[p][o->place[q]] * w->dq[q * n + i];
+        right[i] += o->f.right[p][o->place[q]] * w->dq[q * n + i];
+      }
+    ContactRayProducts(1, 1, n, left, n, n, right, n, w->W, n);
+  }
+  for (PetscInt i = 0; i < n; i++)
+    for (PetscInt j = 0; j <= i; j++) w->W[i * n + j] = w->W[j * n + i] = w->W[i * n + j] + w->W[j * n + i];
+  PetscCall(ContactGrow(n * nn, sizeof(PetscReal), &w->size_WJ, &w->WJ));
+  PetscCall(PetscArrayzero(w->WJ, n * nn));
+  ContactRayProducts(n, 1, n, w->W, n, nn, w->J, nn, w->WJ, nn);
+  ContactRayProducts(n, 1, nn, w->J, nn, nn, w->WJ, nn, H, nn);
+  PetscCall(FoldImages_Private(w, gradient));
+  PetscCall(DirectionCurvature_Private(w, ctx->nonmortar, facet, gradient, H));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode Result_Private(const EvaluateContext *ctx, PetscInt facet, const Weights *o, const PetscReal y[], PetscBool derivatives,
+                                     PetscBool hessian, ContactFacet *out)
+{
+  RayWork        w  = ctx->pair->ray;
+  const PetscInt na = w->facet.s.num, nr = w->num_rows, nn = w->nn;
+  PetscReal     *gap, *weight, *dgap;
+
+  PetscFunctionBegin;
+  PetscCall(ContactStoreReserve(&w->store, 2 * nr, &gap));
+  weight = gap + nr;
+  for (PetscInt r = 0; r < nr; r++)
+    for (PetscInt a = 0; a < na; a++) {
+      gap[r] += w->T[r * na + a] * o->gap[a];
+      weight[r] += w->T[r * na + a] * w->q[na + a];
+    }
+  out->facet    = facet;
+  out->num_rows = nr;
+  out->num      = w->num_nodes;
+  out->gap      = gap;
+  out->weight   = weight;
+  out->area     = w->covered;
+  out->min_gap  = w->min_gap;
+  out->dgap = out->dweight = out->hessian = NULL;
+  if (!derivatives) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(Chain_Private(w, ctx->nonmortar, facet));
+  PetscCall(ContactStoreReserve(&w->store, 2 * nr * nn, &dgap));
+  out->dgap    = dgap;
+  out->dweight = dgap + nr * nn;
+  PetscCall(Rows_Private(w, o, PETSC_TRUE, dgap));
+  PetscCall(Rows_Private(w, o, PETSC_FALSE, dgap + nr * nn));
+  if (!hessian) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(ContactStoreReserve(&w->store, nn * nn, (PetscReal **)&out->hessian));
+  PetscCall(Hessian_Private(ctx, facet, o, y, (PetscReal *)out->hessian));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Corners of the overlaps on both facets. */
+static PetscErrorCode Segments_Private(const EvaluateContext *ctx, PetscInt facet)
+{
+  ContactPair pair = ctx->pair;
+  RayWork     w    = pair->ray;
+  RayLattice  mortar;
+  RayPoint    r;
+
+  PetscFunctionBegin;
+  PetscCall(ContactGrow(pair->num_segments + w->num_overlaps, sizeof(ContactSegment), &pair->size_segments, &pair->output));
+  for (PetscInt k = 0; k < w->num_overlaps; k++) {
+    const Overlap  *o = &w->overlap[k];
+    ContactSegment *s = &pair->output[pair->num_segments++];
+
+    ContactRayLatticeGather(ctx->mortar, w->mortar[k], &mortar);
+    s->facet        = facet;
+    s->mortar_facet = w->mortar[k];
+    s->num          = w->facet.m == 1 ? 2 : o->num;
+    r.eta[0] = r.eta[1] = r.s = 0;
+    for (PetscInt v = 0; v < s->num; v++) {
+      if (!ContactChartLocate(&w->facet, o->v[v], s->xi[v])) s->xi[v][0] = s->xi[v][1] = 0; /* cannot happen: the overlap was integrated */
+      if (!ContactRaySolve(&w->facet, &mortar, s->xi[v], 1, &r)) r.eta[0] = r.eta[1] = r.s = 0;
+      s->eta[v][0] = r.eta[0], s->eta[v][1] = r.eta[1];
+    }
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscBool Wanted_Private(const EvaluateContext *ctx)
+{
+  const RayWork w = ctx->pair->ray;
+
+  if (!ctx->wanted) return PETSC_TRUE;
+  for (PetscInt j = 0; j < w->num_rows; j++)
+    if (ctx->wanted[w->node[j]]) return PETSC_TRUE;
+  return PETSC_FALSE;
+}
+
+/* One listed facet; *use is false when nothing covers it. */
+static PetscErrorCode Facet_Private(const EvaluateContext *ctx, PetscInt slot, ContactFacet *out, PetscBool *use, PetscBool *failed)
+{
+  ContactPair    pair  = ctx->pair;
+  RayWork        w     = pair->ray;
+  const PetscInt facet = pair->listed[slot];
+  PetscReal      y[RAY_LATTICE];
+  PetscBool      derivatives, loaded = PETSC_FALSE;
+  Weights        o;
+
+  PetscFunctionBegin;
+  *use = PETSC_FALSE;
+  PetscCall(ContactCover(pair, ctx->nonmortar, ctx->mortar, slot, PETSC_TRUE, failed));
+  if (*failed || w->num_overlaps == 0) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(Nodes_Private(ctx, facet));
+  for (PetscInt a = 0; a < w->facet.s.num; a++) {
+    y[a] = 0;
+    for (PetscInt r = 0; r < w->num_rows && ctx->z; r++) y[a] += ctx->z[w->node[r]] * w->T[r * w->facet.s.num + a];
+    if (y[a] != 0) loaded = PETSC_TRUE;
+  }
+  derivatives = (PetscBool)(ctx->derivatives && (loaded || ((ctx->hessian || !ctx->z) && Wanted_Private(ctx))));
+  o.dual      = (PetscBool)(!pair->standard && w->facet.s.order == 1);
+  PetscCall(ContactRayMoments(pair, ctx->mortar, o.dual, derivatives));
+  if (w->num_overlaps == 0) PetscFunctionReturn(PETSC_SUCCESS);
+  for (PetscInt a = 0; a < w->facet.s.num; a++) o.gap[a] = w->q[a];
+  if (o.dual && !Dual_Private(w, y, &o)) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(Segments_Private(ctx, facet));
+  PetscCall(Result_Private(ctx, facet, &o, y, derivatives, (PetscBool)(ctx->hessian && loaded), out));
+  *use = PETSC_TRUE;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode ContactRayEvaluate(const EvaluateContext *ctx, PetscBool *failed)
+{
+  ContactPair pair = ctx->pair;
+  RayWork     w    = pair->ray;
+
+  PetscFunctionBegin;
+  ContactDirections(w, ctx->nonmortar);
+  Normals_Private(pair, ctx->nonmortar);
+  pair->num_degenerate = pair->num_ids = 0;
+  w->store.at = w->store.used = 0;
+  for (PetscInt slot = 0; slot < pair->num_listed; slot++) {
+    ContactFacet *out = &pair->result[pair->num_results];
+    PetscBool     use;
+
+    PetscCall(Facet_Private(ctx, slot, out, &use, failed));
+    if (*failed) PetscFunctionReturn(PETSC_SUCCESS);
+    if (!use) continue;
+    PetscCall(ContactGrow(pair->num_ids + w->num_nodes, sizeof(PetscInt), &pair->size_ids, &pair->ids));
+    PetscCall(PetscArraycpy(pair->ids + pair->num_ids, w->node, w->num_nodes));
+    pair->num_ids += w->num_nodes;
+    for (PetscInt j = 0; j < w->num_rows; j++)
+      if (PetscIsInfOrNanReal(out->gap[j])) *failed = PETSC_TRUE;
+    pair->num_results++;
+  }
+  pair->num_ids = 0; /* the array is where it stays now */
+  for (PetscInt i = 0; i < pair->num_results; i++) {
+    pair->result[i].nodes = pair->ids + pair->num_ids;
+    pair->num_ids += pair->result[i].num;
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

@@ -1,0 +1,191 @@
+/* Private to the ray kernel: contact along a direction that is continuous over the nonmortar surface, for facets of any order in two and three dimensions.
+
+   Facet. Position x(xi) = sum N_a x_a on the Gauss-Lobatto lattice, tangents t_k = x,k, n = t_1 x t_2 (plane: t_2 = e_z). Directions d_v at corners are sums of
+   facet vectors (direction.c), d(xi) their multilinear interpolation. Ray: x(xi) + s d(xi) = x_m(eta). Gap density g = s d.n per dxi: (x_m - x).n, so that
+   where both surfaces coincide the forces are z n whatever d is. Axisymmetric: times 2 pi r.
+
+   Chart. Integration is over a constant plane picture of the facet, Y(xi) multilinear: corners of the reference facet (plane: the square, Y = xi). Mortar
+   facets are seen in it by the images of their corners, joined by straight lines: neighbours share images, so they tile the chart. Points of the plane problem
+   have Y_2 = 0; polygons are then strips over an interval.
+
+   Numbers of a facet: D * node + component for the lattice nodes, the directions at the corners, the mortar nodes it meets; then m numbers for each image.
+   Vectors have three components everywhere; plane problems leave the third zero. Order-1 lattices list the corners 0 1 3 2 (plane: 0 1). */
+#pragma once
+#include "element.h"
+#include "facetimpl.h"
+
+#define RAY_ORDER MORTISE_MAX_ORDER
+#define RAY_LATTICE ((RAY_ORDER + 1) * (RAY_ORDER + 1))
+#define RAY_MOMENTS (2 * RAY_LATTICE + 10)
+#define RAY_GRAZE 1e-3 /* cosine between the ray and the normal of a facet below which they do not meet */
+#define RAY_SOLVED 1e-9
+
+/* Functions of a lattice at a point of [-1, 1]^m: values and derivatives 1 2, 11 12 22, 111 112 122 222. */
+typedef struct {
+  PetscReal N[RAY_LATTICE], d[2][RAY_LATTICE], dd[3][RAY_LATTICE], ddd[4][RAY_LATTICE];
+} RayFunctions;
+
+typedef struct {
+  PetscInt  order, num;
+  PetscReal x[RAY_LATTICE][3];
+} RayLattice;
+
+typedef struct {
+  PetscReal Y[2], J[2][2] /* J[i]: Y,i */, inverse[2][2] /* dxi_i / dY_c */, mixed[2], det, ddet[2];
+} RayChartPoint;
+
+/* Nonmortar facet. */
+typedef struct {
+  PetscInt   D, m, nv; /* dimension of space and facet, corners */
+  RayLattice s, d;     /* d: directions, order 1 */
+  PlaneQuad  chart;    /* counterclockwise */
+  PetscReal  area;     /* of the chart */
+  PetscReal  ring;     /* 2 pi or 0 */
+} RayFacet;
+
+/* Image of a mortar vertex. */
+typedef struct {
+  PetscInt  node;
+  PetscBool found;
+  PetscReal v[3], xi[2], s, Y[2];
+} RayImage;
+
+/* What weighs the gap: functions of the facet's lattice, or hats of one of its cells [lo, lo + size]. */
+typedef struct {
+  PetscInt  num, place[RAY_LATTICE];
+  PetscBool hats;
+  PetscReal lo[2], size[2];
+} RayTest;
+
+/* A ray and all that varies with it. */
+typedef struct {
+  RayFunctions  S, V, M; /* facet, directions, mortar facet */
+  RayChartPoint chart;
+  PetscReal     p[3], t[2][3], tt[3][3], ttt[4][3], d[3], di[2][3], dij[3];
+  PetscReal     X[3], Xi[2][3], Xij[3][3];
+  PetscReal     xi[2], eta[2], s;
+  PetscReal     n[3], unit[3], a, beta, rho, turn; /* turn: drho / dr */
+  PetscReal     kappa[3], zeta[2][3];              /* ds = kappa . r, deta = zeta . r, r = variation of x + s d - x_m */
+} RayPoint;
+
+/* Weights of gap density and area density at a point with derivatives by xi. */
+typedef struct {
+  PetscReal v, d[2], dd[3];
+} RayWeight;
+
+struct _p_RayWork {
+  /* topology of the nonmortar surface */
+  PetscInt  *ring_first, *ring_facet, *parent; /* facets around each corner; ends of the edge on which a corner hangs, -1 */
+  PetscReal *d;                                /* [num_nodes][3] directions at corners */
+  /* one facet */
+  RayFacet   facet;
+  PetscInt   num_images, num_overlaps, num_mortar, num_tests;
+  RayImage  *image;
+  Overlap   *overlap;
+  PetscInt  *mortar, *window; /* [num_overlaps] mortar facet, test */
+  PetscInt  *vertex;          /* [num_mortar] mortar nodes */
+  RayTest   *test;
+  PetscBool  full; /* the mortar side covers all of it */
+  PetscInt   n, nn, num_moments;
+  PetscReal  q[RAY_MOMENTS], covered, min_gap;
+  PetscReal *dq, *W, *J, *WJ, *part, *buffer; /* [num_moments][n], [n][n], [n][nn], [n][nn] */
+  PetscInt   num_nodes, num_rows, *node, *row_first, *row_node;
+  PetscReal *row_weight;
+  PetscReal *T, *rows; /* [num_rows][lattice]; [n][num_rows] */
+  Store      store;
+  PetscInt   size_image, size_overlap, size_mortar, size_window, size_vertex, size_test, size_dq, size_W, size_J, size_WJ, size_part, size_buffer;
+  PetscInt   size_node, size_row_first, size_row_node, size_row_weight, size_T, size_rows;
+};
+
+/* raylattice.c */
+PetscErrorCode ContactRayLatticePrepare(void);
+/* depth: highest derivative. Beyond [-1, 1] continued by its tangent, which keeps one derivative continuous. */
+void     ContactRayFunctions(PetscInt m, PetscInt order, const PetscReal xi[2], int depth, RayFunctions *);
+void     ContactRayLatticeSum(const RayLattice *, const PetscReal f[], PetscReal v[3]);
+PetscInt ContactRayLatticeNodes(const ContactSurface *, PetscInt facet, const PetscInt **nodes, PetscInt order1[4]);
+void     ContactRayLatticeGather(const ContactSurface *, PetscInt facet, RayLattice *);
+void     ContactRayTestFunctions(const RayFacet *, const RayTest *, const RayFunctions *own, const PetscReal xi[2], RayFunctions *);
+
+/* direction.c */
+PetscErrorCode ContactDirectionTopology(RayWork, const ContactSurface *);
+void           ContactDirections(RayWork, const ContactSurface *);
+PetscBool      ContactDirectionUsable(RayWork, const ContactSurface *, PetscInt node);
+typedef struct {
+  PetscInt  facet;
+  PetscReal R[9]; /* weight times images in planes of symmetry */
+} DirectionTerm;
+/* d at a corner = sum_terms R (vector of facet). Returns their number, at most max. */
+PetscInt ContactDirectionTerms(RayWork, const ContactSurface *, PetscInt node, PetscInt max, DirectionTerm[]);
+
+/* chart.c */
+PetscBool ContactChartCreate(const ContactSurface *, PetscInt facet, RayFacet *);
+void      ContactChartAt(const RayFacet *, const PetscReal xi[2], RayChartPoint *);
+PetscBool ContactChartLocate(const RayFacet *, const PetscReal Y[2], PetscReal xi[2]);
+
+/* image.c */
+void ContactImageFind(const RayFacet *, RayImage *);
+/* rows[m][n] += derivatives of Y; vertex: its place among the facet's nodes. */
+void ContactImageRows(const RayFacet *, const RayImage *, PetscInt vertex, PetscInt n, PetscReal rows[]);
+/* W += half of w . d2Y */
+void ContactImageCurvature(const RayFacet *, const RayImage *, PetscInt vertex, const PetscReal w[2], PetscInt n, PetscReal W[], PetscReal work[]);
+
+/* cover.c: what covers a facet */
+PetscErrorCode ContactCover(ContactPair, const ContactSurface *nonmortar, const ContactSurface *mortar, PetscInt slot, PetscBool hats, PetscBool *failed);
+
+/* raypoint.c. False: the ray misses. */
+PetscBool ContactRaySolve(const RayFacet *, const RayLattice *mortar, const PetscReal xi[2], int depth, RayPoint *);
+PetscReal ContactRayGap(const RayPoint *);
+PetscReal ContactRayArea(const RayPoint *);
+void      ContactRayFirst(const RayFacet *, const RayLattice *mortar, const RayPoint *, PetscReal gap[], PetscReal area[], PetscReal gap_xi[2],
+                          PetscReal area_xi[2]);
+
+/* raysecond.c: weighted sum phi gap + chi area. */
+typedef struct {
+  PetscInt   num_left; /* products left x right by the numbers of facet, directions and mortar facet */
+  PetscReal *left[6], *right[6];
+  PetscReal *mixed[2]; /* rows by xi */
+  PetscReal  xi[2], xixi[3];
+  PetscReal *gradient;
+  PetscReal (*turn)[3], (*twist)[3]; /* d_v . (dx_a x turn[v][a]), twist[a][b] . (dx_a x dx_b): sums */
+} RaySecond;
+void ContactRaySecond(const RayFacet *, const RayLattice *mortar, const RayPoint *, const RayWeight *phi, const RayWeight *chi, PetscReal weight, RaySecond *);
+
+/* raysimplex.c */
+#define RAY_IMAGES 8 /* numbers of the images of one mortar facet */
+/* How corner k of a polygon moves: rows by the RAY_IMAGES numbers; crossings: between which images, e and nu / nu.e. */
+typedef struct {
+  PetscReal d[2][RAY_IMAGES], dt[RAY_IMAGES], e[2], nu[2];
+  PetscInt  a, b; /* a = -1: no crossing */
+} RayMove;
+/* A simplex: places of its corners in the polygon, size and derivatives by its m + 1 corners, m numbers each. */
+typedef struct {
+  PetscInt  corner[3];
+  PetscReal size, d[6];
+} RaySimplex;
+/* W[nl][nr] += factor sum_k left[k][nl] right[k][nr]; ld: length of rows in memory */
+void ContactRayProducts(PetscInt num, PetscReal factor, PetscInt nl, const PetscReal left[], PetscInt ldl, PetscInt nr, const PetscReal right[], PetscInt ldr,
+                        PetscReal W[], PetscInt ldw);
+PetscErrorCode ContactRayRule(PetscInt m, PetscInt order_s, PetscInt order_m, PetscInt *num, const PetscReal (**point)[3], const PetscReal **weight);
+void           ContactRayMoves(const RayFacet *, const Overlap *, RayMove[]);
+PetscInt       ContactRaySimplices(const RayFacet *, const Overlap *);
+void           ContactRaySimplex(const RayFacet *, const Overlap *, PetscInt k, RaySimplex *);
+PetscBool      ContactRayPoint(const RayFacet *, const RayLattice *mortar, const Overlap *, const RaySimplex *, const PetscReal beta[3], int depth, RayPoint *);
+void           ContactRayPlaces(const RayWork, const ContactSurface *mortar, PetscInt facet, PetscInt nb, PetscInt place[]);
+
+/* raysum.c, raycurve.c: integrals over the overlaps of the facet at hand */
+void           ContactRayOverDet(const RayFacet *, const RayChartPoint *, PetscReal factor, const RayWeight *, RayWeight *);
+PetscErrorCode ContactRayMoments(ContactPair, const ContactSurface *mortar, PetscBool mass, PetscBool derivatives);
+/* W of the work space: half Hessian of sum_a y_a G_a + sum_ab D[a][b] int N_a N_b dA (D NULL: none); gradient[n] of it. */
+PetscErrorCode ContactRayHessian(ContactPair, const ContactSurface *mortar, const PetscReal y[], const PetscReal D[4][4], const PetscReal gradient[]);
+
+/* rayfacet.c */
+PetscErrorCode ContactRayTopology(ContactPair, const ContactSurface *);
+PetscErrorCode ContactRayEvaluate(const EvaluateContext *, PetscBool *failed);
+PetscErrorCode ContactRayWorkDestroy(RayWork *);
+
+/* rayregion.c */
+typedef struct {
+  PetscReal box[6], axis[3][3], lo[3], hi[3], slack;
+} RayRegion;
+void      ContactRayRegion(ContactPair, const ContactSurface *, PetscInt facet, RayRegion *);
+PetscBool ContactRayRegionMeets(const RayRegion *, const ContactSurface *mortar, PetscInt facet);

@@ -1,0 +1,218 @@
+/* Second derivatives of phi g + chi |n| rho at a point, g = s b rho, b = d.n, rho = 1 or 2 pi r, phi and chi functions of xi.
+
+   With r = P + s V - M (raypoint.c) half of d2g at fixed xi is
+     b rho (ds kappa.V - deta_i kappa.M,i - deta_i deta_j kappa.x_m,ij / 2) + s rho (V.dn + d.(T_1 x T_2)) + rho ds db + (b ds + s db) drho,
+   half of d2(|n| rho) is rho (unit.(T_1 x T_2) + |dn_tangential|^2 / 2 |n|) + d|n| drho. Products with few left factors: ds, deta_i, drho, dn; V.dn and
+   T_1 x T_2 couple nodes by one vector for each pair. Derivatives by xi follow with P -> P + t_i dxi_i and so on: mixed[i] are full rows, xixi full. */
+#include "rayimpl.h"
+
+static inline void Add_Private(PetscInt D, PetscInt num, const PetscReal f[], const PetscReal v[3], PetscReal to[])
+{
+  for (PetscInt a = 0; a < num; a++)
+    for (PetscInt c = 0; c < D; c++) to[D * a + c] += f[a] * v[c];
+}
+static inline void Axpy3_Private(PetscReal a, const PetscReal x[3], PetscReal y[3])
+{
+  for (int c = 0; c < 3; c++) y[c] += a * x[c];
+}
+static inline void AddCross_Private(const PetscReal a[3], const PetscReal b[3], PetscReal c[3])
+{
+  for (int i = 0; i < 3; i++) c[i] += a[(i + 1) % 3] * b[(i + 2) % 3] - a[(i + 2) % 3] * b[(i + 1) % 3];
+}
+
+/* Places of the three groups of numbers in a row. */
+typedef struct {
+  PetscInt D, na, nv, nb, n;
+} Layout;
+
+/* row += v . r */
+static void Residual_Private(const Layout *l, const RayPoint *r, const PetscReal v[3], PetscReal row[])
+{
+  const PetscReal sv[3] = {r->s * v[0], r->s * v[1], r->s * v[2]}, mv[3] = {-v[0], -v[1], -v[2]};
+
+  Add_Private(l->D, l->na, r->S.N, v, row);
+  Add_Private(l->D, l->nv, r->V.N, sv, row + l->D * l->na);
+  Add_Private(l->D, l->nb, r->M.N, mv, row + l->D * (l->na + l->nv));
+}
+
+/* row += T_1 . (t_2 x h) + T_2 . (h x t_1) = h . dn */
+static void Normal_Private(const Layout *l, PetscInt m, const RayPoint *r, const PetscReal h[3], PetscReal row[])
+{
+  PetscReal v[2][3];
+
+  Cross3(r->t[1], h, v[0]);
+  Cross3(h, r->t[0], v[1]);
+  for (PetscInt k = 0; k < m; k++) Add_Private(l->D, l->na, r->S.d[k], v[k], row);
+}
+
+static inline void Scale_Private(PetscReal a, const PetscReal x[3], PetscReal y[3])
+{
+  for (int c = 0; c < 3; c++) y[c] = a * x[c];
+}
+
+static void Products_Private(const RayFacet *f, const Layout *l, const RayPoint *r, PetscReal phi, PetscReal chi, RaySecond *o)
+{
+  const PetscInt  D  = l->D;
+  const PetscReal br = phi * r->beta * r->rho;
+  PetscReal       v[3], *mortar;
+
+  o->num_left = 1 + (PetscInt)f->m;
+  for (PetscInt k = 0; k < o->num_left; k++)
+    for (PetscInt i = 0; i < l->n; i++) o->left[k][i] = o->right[k][i] = 0;
+  Residual_Private(l, r, r->kappa, o->left[0]);
+  for (int c = 0; c < 3; c++) v[c] = br * r->kappa[c] + phi * r->rho * r->n[c];
+  Add_Private(D, l->nv, r->V.N, v, o->right[0] + D * l->na);
+  Scale_Private(phi * r->rho, r->d, v);
+  Normal_Private(l, f->m, r, v, o->right[0]);
+  for (PetscInt a = 0; a < l->na && r->turn != 0; a++) o->right[0][D * a] += phi * r->beta * r->turn * r->S.N[a];
+  for (PetscInt i = 0; i < f->m; i++) {
+    PetscReal u[3] = {0, 0, 0};
+
+    Residual_Private(l, r, r->zeta[i], o->left[1 + i]);
+    for (PetscInt j = 0; j < f->m; j++) Axpy3_Private(-0.5 * br * Dot3(r->kappa, r->Xij[i + j]), r->zeta[j], u);
+    Residual_Private(l, r, u, o->right[1 + i]);
+    Scale_Private(-br, r->kappa, v);
+    mortar = o->right[1 + i] + D * (l->na + l->nv);
+    Add_Private(D, l->nb, r->M.d[i], v, mortar);
+  }
+  if (r->turn != 0) { /* drho */
+    PetscReal *left = o->left[o->num_left], *right = o->right[o->num_left];
+
+    o->num_left++;
+    for (PetscInt i = 0; i < l->n; i++) left[i] = right[i] = 0;
+    for (PetscInt a = 0; a < l->na; a++) left[D * a] = r->turn * r->S.N[a];
+    for (int c = 0; c < 3; c++) v[c] = phi * r->s * r->d[c] + chi * r->unit[c];
+    Normal_Private(l, f->m, r, v, right);
+    Scale_Private(phi * r->s, r->n, v);
+    Add_Private(D, l->nv, r->V.N, v, right + D * l->na);
+  }
+  for (PetscInt k = 0; k < f->m && chi != 0; k++) { /* dn along the facet */
+    PetscReal *left = o->left[o->num_left], *right = o->right[o->num_left], e[2][3];
+
+    o->num_left++;
+    for (PetscInt i = 0; i < l->n; i++) left[i] = 0;
+    Scale_Private(1 / PetscSqrtReal(Dot3(r->t[0], r->t[0])), r->t[0], e[0]);
+    Cross3(r->unit, e[0], e[1]);
+    Normal_Private(l, f->m, r, e[k], left);
+    for (PetscInt i = 0; i < l->n; i++) right[i] = 0.5 * chi * r->rho / r->a * left[i];
+  }
+}
+
+/* Pairs of nodes. */
+static void Pairs_Private(const RayFacet *f, const Layout *l, const RayPoint *r, PetscReal phi, PetscReal chi, PetscReal weight, RaySecond *o)
+{
+  const PetscReal factor = weight * phi * r->s * r->rho;
+  PetscReal       k[3];
+
+  for (int c = 0; c < 3; c++) k[c] = weight * r->rho * (phi * r->s * r->d[c] + chi * r->unit[c]);
+  for (PetscInt a = 0; a < l->na; a++) {
+    const PetscReal d1 = r->S.d[0][a], d2 = f->m == 2 ? r->S.d[1][a] : 0;
+    PetscReal       u[3];
+
+    for (int c = 0; c < 3; c++) u[c] = factor * (d1 * r->t[1][c] - d2 * r->t[0][c]);
+    for (PetscInt v = 0; v < l->nv; v++) Axpy3_Private(r->V.N[v], u, o->turn[v * l->na + a]);
+    for (PetscInt b = 0; b < l->na && f->m == 2; b++) Axpy3_Private(d1 * r->S.d[1][b], k, o->twist[a * l->na + b]);
+  }
+}
+
+void ContactRaySecond(const RayFacet *f, const RayLattice *mortar, const RayPoint *r, const RayWeight *phi, const RayWeight *chi, PetscReal weight,
+                      RaySecond *o)
+{
+  const PetscInt  m = f->m, D = f->D, na = f->s.num;
+  const Layout    l  = {D, na, f->nv, mortar->num, D * (na + f->nv + mortar->num)};
+  const PetscReal br = r->beta * r->rho, sr = r->s * r->rho, gap = ContactRayGap(r), area = ContactRayArea(r);
+  PetscReal       Ag[3], Aa[3] = {r->a * r->turn, 0, 0}, Cg[3], k[3], A[3], B[2][3], C[3], E[3];
+  PetscReal       sigma[2], etai[2][2], betai[2], rhoi[2], ni[2][3], ai[2], gi[2];
+
+  Products_Private(f, &l, r, phi->v, chi->v, o);
+  Pairs_Private(f, &l, r, phi->v, chi->v, weight, o);
+  for (int c = 0; c < 3; c++) {
+    Ag[c] = br * r->kappa[c] + (c == 0 ? r->s * r->beta * r->turn : 0);
+    Cg[c] = br * r->s * r->kappa[c] + sr * r->n[c];
+    k[c]  = phi->v * sr * r->d[c] + chi->v * r->rho * r->unit[c];
+    A[c]  = phi->v * Ag[c] + chi->v * Aa[c];
+    C[c]  = phi->v * Cg[c];
+    E[c]  = -phi->v * br * r->kappa[c];
+  }
+  Cross3(r->t[1], k, B[0]);
+  Cross3(k, r->t[0], B[1]);
+  for (PetscInt i = 0; i < l.n; i++) o->gradient[i] = 0;
+  Add_Private(D, na, r->S.N, A, o->gradient);
+  for (PetscInt j = 0; j < m; j++) Add_Private(D, na, r->S.d[j], B[j], o->gradient);
+  Add_Private(D, f->nv, r->V.N, C, o->gradient + D * na);
+  Add_Private(D, mortar->num, r->M.N, E, o->gradient + D * (na + f->nv));
+  for (PetscInt i = 0; i < m; i++) { /* how everything changes along the facet */
+    PetscReal along[3];
+
+    for (int c = 0; c < 3; c++) along[c] = r->t[i][c] + r->s * r->di[i][c];
+    sigma[i] = Dot3(r->kappa, along);
+    for (PetscInt j = 0; j < m; j++) etai[j][i] = Dot3(r->zeta[j], along);
+    Cross3(r->tt[i], r->t[1], ni[i]);
+    if (m == 2) AddCross_Private(r->t[0], r->tt[i + 1], ni[i]);
+    ai[i]    = Dot3(r->unit, ni[i]);
+    betai[i] = Dot3(r->n, r->di[i]) + Dot3(r->d, ni[i]);
+    rhoi[i]  = r->turn * r->t[i][0];
+    gi[i]    = br * sigma[i] + sr * betai[i] + r->s * r->beta * rhoi[i];
+  }
+  for (PetscInt i = 0; i < m; i++) {
+    const PetscReal b   = phi->v * (r->rho * sigma[i] + r->s * rhoi[i]);
+    PetscReal      *row = o->mixed[i], u[3] = {0, 0, 0}, h[3], v[3], w[2][3] = {{0}};
+
+    for (PetscInt j = 0; j < l.n; j++) row[j] = 0;
+    /* r: from ds, deta */
+    Axpy3_Private(phi->v * (br * Dot3(r->kappa, r->di[i]) + r->rho * betai[i] + r->beta * rhoi[i]), r->kappa, u);
+    for (PetscInt j = 0; j < m; j++)
+      for (PetscInt q = 0; q < m; q++) Axpy3_Private(-phi->v * br * Dot3(r->kappa, r->Xij[j + q]) * etai[j][i], r->zeta[q], u);
+    Residual_Private(&l, r, u, row);
+    /* P */
+    for (int c = 0; c < 3; c++) v[c] = phi->d[i] * Ag[c] + chi->d[i] * Aa[c];
+    v[0] += (phi->v * (r->beta * sigma[i] + r->s * betai[i]) + chi->v * ai[i]) * r->turn;
+    Add_Private(D, na, r->S.N, v, row);
+    /* T_k */
+    for (int c = 0; c < 3; c++) {
+      const PetscReal across = ni[i][c] - ai[i] * r->unit[c];
+
+      h[c] = phi->v * sr * r->di[i][c] + chi->v * r->rho * across / r->a + chi->v * rhoi[i] * r->unit[c] + b * r->d[c] + phi->d[i] * sr * r->d[c] +
+             chi->d[i] * r->rho * r->unit[c];
+    }
+    Normal_Private(&l, m, r, h, row);
+    if (m == 2) AddCross_Private(r->tt[i + 1], k, w[0]);
+    AddCross_Private(k, r->tt[i], w[1]);
+    Axpy3_Private(1, A, w[i]);
+    for (PetscInt j = 0; j < m; j++) {
+      Add_Private(D, na, r->S.d[j], w[j], row);
+      Add_Private(D, na, r->S.dd[i + j], B[j], row);
+    }
+    /* V */
+    for (int c = 0; c < 3; c++) v[c] = phi->d[i] * Cg[c] + phi->v * (br * sigma[i] * r->kappa[c] + sr * ni[i][c]) + b * r->n[c];
+    Add_Private(D, f->nv, r->V.N, v, row + D * na);
+    Add_Private(D, f->nv, r->V.d[i], C, row + D * na);
+    /* M */
+    Scale_Private(-phi->d[i] * br, r->kappa, v);
+    Add_Private(D, mortar->num, r->M.N, v, row + D * (na + f->nv));
+    for (PetscInt j = 0; j < m; j++) {
+      Scale_Private(etai[j][i], E, v);
+      Add_Private(D, mortar->num, r->M.d[j], v, row + D * (na + f->nv));
+    }
+    o->xi[i] = phi->v * gi[i] + phi->d[i] * gap + chi->v * (ai[i] * r->rho + r->a * rhoi[i]) + chi->d[i] * area;
+  }
+  for (PetscInt i = 0; i < m; i++)
+    for (PetscInt j = i; j < m; j++) {
+      const PetscReal Ai = ai[i] * r->rho + r->a * rhoi[i], Aj = ai[j] * r->rho + r->a * rhoi[j];
+      PetscReal sum = phi->dd[i + j] * gap + chi->dd[i + j] * area + phi->d[i] * gi[j] + phi->d[j] * gi[i] + chi->d[i] * Aj + chi->d[j] * Ai, x[3] = {0, 0, 0};
+
+      sum += Dot3(A, r->tt[i + j]) + phi->v * br * (sigma[i] * Dot3(r->kappa, r->di[j]) + sigma[j] * Dot3(r->kappa, r->di[i]));
+      for (PetscInt q = 0; q < m; q++) sum += Dot3(B[q], r->ttt[i + j + q]);
+      if (i != j) sum += Dot3(C, r->dij);
+      for (PetscInt p = 0; p < m; p++)
+        for (PetscInt q = 0; q < m; q++) sum -= phi->v * br * Dot3(r->kappa, r->Xij[p + q]) * etai[p][i] * etai[q][j];
+      sum += phi->v * sr * (Dot3(r->di[i], ni[j]) + Dot3(r->di[j], ni[i])) + phi->v * r->rho * (sigma[i] * betai[j] + sigma[j] * betai[i]);
+      if (m == 2) {
+        AddCross_Private(r->tt[i], r->tt[j + 1], x);
+        AddCross_Private(r->tt[j], r->tt[i + 1], x);
+      }
+      sum += Dot3(k, x) + phi->v * ((r->beta * sigma[i] + r->s * betai[i]) * rhoi[j] + (r->beta * sigma[j] + r->s * betai[j]) * rhoi[i]);
+      sum += chi->v * (rhoi[i] * ai[j] + rhoi[j] * ai[i] + r->rho / r->a * (Dot3(ni[i], ni[j]) - ai[i] * ai[j]));
+      o->xixi[i + j] = sum;
+    }
+}

@@ -1,0 +1,150 @@
+/* Polygons of the chart, how their corners move, their simplices and quadrature.
+
+   Corners are fixed, images, or crossings C = Y_a + t e of an image's side e = Y_b - Y_a with a fixed line nu: dt = -nu . ((1 - t) dY_a + t dY_b) / nu.e,
+   half of d2C = dt (de - e nu.de / nu.e). */
+#include "rayimpl.h"
+#include <petscblaslapack.h>
+
+#define MOST_POINTS 144
+
+/* W[nl][nr] += factor sum_k left[k][nl] right[k][nr] */
+void ContactRayProducts(PetscInt num, PetscReal factor, PetscInt nl, const PetscReal left[], PetscInt ldl, PetscInt nr, const PetscReal right[], PetscInt ldr,
+                        PetscReal W[], PetscInt ldw)
+{
+  const PetscBLASInt m = (PetscBLASInt)nr, n = (PetscBLASInt)nl, k = (PetscBLASInt)num, lda = (PetscBLASInt)ldr, ldb = (PetscBLASInt)ldl,
+                     ldc = (PetscBLASInt)ldw;
+  const PetscReal one    = 1;
+
+  if (num == 0 || nl == 0 || nr == 0) return;
+  BLASgemm_("N", "T", &m, &n, &k, &factor, right, &lda, left, &ldb, &one, W, &ldc);
+}
+
+/* ---- quadrature ---------------------------------------------------------------------------------------------------------------------- */
+
+/* Barycentric points and weights: Gauss points on intervals; on triangles the rule of degree 10 between facets of order 1, else a conical product. */
+PetscErrorCode ContactRayRule(PetscInt m, PetscInt order_s, PetscInt order_m, PetscInt *num, const PetscReal (**point)[3], const PetscReal **weight)
+{
+  static PetscReal P[2][2 * RAY_ORDER + 1][MOST_POINTS][3], Q[2][2 * RAY_ORDER + 1][MOST_POINTS];
+  const PetscInt   sum = order_s + order_m, n = PetscMin(sum + 3, RAY_ORDER + 4);
+  const Basis1D   *gauss;
+
+  PetscFunctionBegin;
+  if (m == 2 && sum == 2) {
+    *num = CONTACT_RULE, *point = ContactRulePoint, *weight = ContactRuleWeight;
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
+  *num    = m == 1 ? n : n * n;
+  *point  = (const PetscReal(*)[3])P[m - 1][sum];
+  *weight = Q[m - 1][sum];
+  if (Q[m - 1][sum][0] != 0) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(Basis1DGet(1, n, &gauss));
+  for (PetscInt k = 0; k < *num; k++) {
+    const PetscReal u = gauss->points[k % n], v = m == 2 ? gauss->points[k / n] : 0;
+
+    P[m - 1][sum][k][0] = (1 - u) * (1 - v);
+    P[m - 1][sum][k][1] = u;
+    P[m - 1][sum][k][2] = v * (1 - u);
+    Q[m - 1][sum][k]    = gauss->weights[k % n] * (m == 2 ? 2 * (1 - u) * gauss->weights[k / n] : 1);
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- polygons ------------------------------------------------------------------------------------------------------------------------ */
+
+static void Crossing_Private(const Overlap *o, PetscInt k, int side, int image, RayMove *move)
+{
+  const PetscReal *p = o->side[0].Y[side], *P = o->side[0].Y[(side + 1) % 4], *a = o->side[1].Y[image], *b = o->side[1].Y[(image + 1) % 4];
+  const PetscReal  nu[2] = {p[1] - P[1], P[0] - p[0]}, e[2] = {b[0] - a[0], b[1] - a[1]}, det = Dot2(nu, e), r[2] = {p[0] - a[0], p[1] - a[1]};
+  const PetscReal  size = PetscSqrtReal(Dot2(nu, nu));
+  PetscReal        t;
+
+  if (PetscAbsReal(det) <= 1e-12 * size * PetscSqrtReal(Dot2(e, e))) return;
+  t = Dot2(nu, r) / det;
+  for (int i = 0; i < 2; i++)
+    if (PetscAbsReal(a[i] + t * e[i] - o->v[k][i]) > 0.1 * FACET_STRAY * size) return; /* it was not taken: clip.c */
+  move->a = image, move->b = (image + 1) % 4;
+  for (int i = 0; i < 2; i++) {
+    move->e[i]  = e[i];
+    move->nu[i] = nu[i] / det;
+  }
+  for (int i = 0; i < 2; i++) {
+    move->dt[2 * move->a + i] = -(1 - t) * move->nu[i];
+    move->dt[2 * move->b + i] = -t * move->nu[i];
+  }
+  for (int i = 0; i < 2; i++) {
+    for (int j = 0; j < RAY_IMAGES; j++) move->d[i][j] = e[i] * move->dt[j];
+    move->d[i][2 * move->a + i] += 1 - t;
+    move->d[i][2 * move->b + i] += t;
+  }
+}
+
+void ContactRayMoves(const RayFacet *f, const Overlap *o, RayMove move[])
+{
+  for (PetscInt k = 0; k < o->num; k++) {
+    const int a = o->line[(k + o->num - 1) % o->num], b = o->line[k];
+
+    memset(&move[k], 0, sizeof(RayMove));
+    move[k].a = -1;
+    if (f->m == 1) {
+      if (k < 2 && b >= 0) move[k].d[0][b] = 1; /* one number for each image */
+      continue;
+    }
+    if (a >= 4 && b >= 4) {
+      const int image = (a + 1) % 4 == b % 4 ? b % 4 : a % 4;
+
+      for (int i = 0; i < 2; i++) move[k].d[i][2 * image + i] = 1;
+    } else if (a >= 4 || b >= 4)
+      Crossing_Private(o, k, a < 4 ? a : b, (a < 4 ? b : a) % 4, &move[k]);
+  }
+}
+
+PetscInt ContactRaySimplices(const RayFacet *f, const Overlap *o)
+{
+  return f->m == 1 ? 1 : o->num - 2;
+}
+
+void ContactRaySimplex(const RayFacet *f, const Overlap *o, PetscInt k, RaySimplex *s)
+{
+  s->corner[0] = 0, s->corner[1] = k + 1, s->corner[2] = k + 2;
+  if (f->m == 1) {
+    s->size = o->v[1][0] - o->v[0][0];
+    s->d[0] = -1, s->d[1] = 1;
+    return;
+  }
+  const PetscReal *a = o->v[0], *b = o->v[k + 1], *c = o->v[k + 2], x[3] = {a[0], b[0], c[0]}, y[3] = {a[1], b[1], c[1]};
+
+  s->size = 0.5 * ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]));
+  for (int i = 0; i < 3; i++) {
+    s->d[2 * i]     = 0.5 * (y[(i + 1) % 3] - y[(i + 2) % 3]);
+    s->d[2 * i + 1] = 0.5 * (x[(i + 2) % 3] - x[(i + 1) % 3]);
+  }
+}
+
+PetscBool ContactRayPoint(const RayFacet *f, const RayLattice *mortar, const Overlap *o, const RaySimplex *s, const PetscReal beta[3], int depth, RayPoint *r)
+{
+  PetscReal Y[2] = {0, 0}, xi[2];
+
+  for (PetscInt k = 0; k <= f->m; k++)
+    for (PetscInt i = 0; i < f->m; i++) Y[i] += beta[k] * o->v[s->corner[k]][i];
+  return (PetscBool)(ContactChartLocate(f, Y, xi) && ContactRaySolve(f, mortar, xi, depth, r));
+}
+
+/* Places of an overlap's numbers among the facet's: D for each node, m for each image. */
+void ContactRayPlaces(const RayWork w, const ContactSurface *mortar, PetscInt facet, PetscInt nb, PetscInt place[])
+{
+  const RayFacet *f = &w->facet;
+  const PetscInt  D = f->D, own = f->s.num + f->nv, images = D * (own + w->num_mortar);
+  PetscInt        order1[4], at;
+  const PetscInt *node;
+
+  for (PetscInt i = 0; i < D * own; i++) place[i] = i;
+  ContactRayLatticeNodes(mortar, facet, &node, order1);
+  for (PetscInt b = 0; b < nb; b++) {
+    for (at = 0; at < w->num_mortar && w->vertex[at] != node[b]; at++) continue;
+    for (PetscInt c = 0; c < D; c++) place[D * (own + b) + c] = D * (own + at) + c;
+  }
+  for (PetscInt k = 0; k < f->nv; k++) {
+    for (at = 0; at < w->num_images && w->image[at].node != mortar->facets[f->nv * facet + f->nv - 1 - k]; at++) continue;
+    for (PetscInt i = 0; i < f->m; i++) place[D * (own + nb) + f->m * k + i] = images + f->m * at + i;
+  }
+}

@@ -1,0 +1,225 @@
+/* Static condensation: the dofs i of nodes inside a cell meet only those b of its own boundary, so that
+
+     [ K_ii  K_ib ] [x_i]   [f_i]         S x_b = f_b - K_bi K_ii^-1 f_i,   S = K_bb - K_bi K_ii^-1 K_ib,
+     [ K_bi  K_bb ] [x_b] = [f_b]   =>    x_i = K_ii^-1 (f_i - K_ib x_b)
+
+   cell by cell. Inner nodes first, the columns of K_ii and K_bi make one panel [size][num_i] (column by column), which becomes L and K_bi L^-T with K_ii = L
+   L^T; where K_ii is indefinite it holds the factors of K_ii = L D L^T and K_bi as it is. */
+#include "mechanicsimpl.h"
+
+#define LDL_BLOCK 32 /* columns for which dsytrf gets room */
+#define TRI_BLOCK 96 /* columns of a triangular solve at once; the rest of it are products, which OpenBLAS does twice as fast */
+
+static PetscErrorCode GroupPlaces_Private(Mechanics m, CellGroup *g)
+{
+  const PetscInt n1    = g->order + 1;
+  PetscInt       inner = 0, outer = 0;
+
+  PetscFunctionBegin;
+  g->num_inner = 1;
+  for (PetscInt d = 0; d < m->dim; ++d) g->num_inner *= g->order - 1;
+  PetscCall(PetscMalloc2(g->n, &g->place, g->n - g->num_inner, &g->outer));
+  for (PetscInt i = 0; i < g->n; ++i) {
+    PetscBool inside = PETSC_TRUE;
+    for (PetscInt d = 0, k = i; d < m->dim; ++d, k /= n1) inside = (PetscBool)(inside && k % n1 > 0 && k % n1 < g->order);
+    if (inside)
+      g->place[i] = inner++;
+    else {
+      g->outer[outer] = i;
+      g->place[i]     = g->num_inner + outer++;
+    }
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode MechanicsSetCondense(Mechanics m)
+{
+  PetscInt most = 0;
+
+  PetscFunctionBegin;
+  if (m->condense_work) PetscFunctionReturn(PETSC_SUCCESS);
+  for (PetscInt ig = 0; ig < m->num_groups; ++ig) {
+    CellGroup *g = &m->groups[ig];
+    PetscCall(GroupPlaces_Private(m, g));
+    const PetscInt ni = g->num_inner * m->dim, nd = g->n * m->dim, nb = nd - ni;
+    PetscCall(PetscMalloc1((size_t)g->num_cells * ni * nd, &g->factor));
+    PetscCall(PetscMalloc2(g->num_cells * ni, &g->inner, g->num_cells * ni, &g->pivot));
+    most = PetscMax(most, nb * nb + ni * PetscMax(nb, LDL_BLOCK) + 3 * nd);
+  }
+  PetscCall(PetscMalloc1(most + 1, &m->condense_work));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode MechanicsCondenseDestroy_Private(Mechanics m)
+{
+  PetscFunctionBegin;
+  for (PetscInt ig = 0; ig < m->num_groups && m->condense_work; ++ig) {
+    PetscCall(PetscFree2(m->groups[ig].place, m->groups[ig].outer));
+    PetscCall(PetscFree(m->groups[ig].factor));
+    PetscCall(PetscFree2(m->groups[ig].inner, m->groups[ig].pivot));
+  }
+  PetscCall(PetscFree(m->condense_work));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Sizes of a cell's blocks as BLAS wants them, and where the cell's data are. */
+typedef struct {
+  PetscBLASInt ni, nb, nd, *pivot;
+  PetscReal   *panel, *outer, *inner; /* outer: K_bi inside the panel */
+} Cell;
+
+static PetscErrorCode CellOf_Private(Mechanics m, const CellGroup *g, PetscInt i, Cell *c)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscBLASIntCast(g->num_inner * m->dim, &c->ni));
+  PetscCall(PetscBLASIntCast(g->n * m->dim, &c->nd));
+  c->nb    = c->nd - c->ni;
+  c->panel = g->factor + (size_t)i * c->ni * c->nd;
+  c->outer = c->panel + c->ni;
+  c->inner = g->inner + i * c->ni;
+  c->pivot = g->pivot + i * c->ni;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* K_ii = L D L^T with pivots; K_bb -= K_bi K_ii^-1 K_ib. */
+static PetscErrorCode Indefinite_Private(const Cell *c, PetscReal *Kbb, PetscReal *work, PetscBool *singular)
+{
+  const PetscReal    one = 1, minus = -1;
+  const PetscBLASInt lwork = LDL_BLOCK * c->ni;
+  PetscBLASInt       info;
+
+  PetscFunctionBegin;
+  PetscCallBLAS("LAPACKsytrf", LAPACKsytrf_("L", &c->ni, c->panel, &c->nd, c->pivot, work, &lwork, &info));
+  PetscCheck(info >= 0, PETSC_COMM_SELF, PETSC_ERR_LIB, "dsytrf: argument %" PetscBLASInt_FMT, -info);
+  if (info > 0) *singular = PETSC_TRUE;
+  if (info > 0) PetscFunctionReturn(PETSC_SUCCESS);
+  for (PetscBLASInt j = 0; j < c->nb; ++j)
+    for (PetscBLASInt i = 0; i < c->ni; ++i) work[j * c->ni + i] = c->outer[i * c->nd + j];
+  PetscCallBLAS("LAPACKsytrs", LAPACKsytrs_("L", &c->ni, &c->nb, c->panel, &c->nd, c->pivot, work, &c->ni, &info));
+  PetscCallBLAS("BLASgemm", BLASgemm_("N", "N", &c->nb, &c->nb, &c->ni, &minus, c->outer, &c->nd, work, &c->ni, &one, Kbb, &c->nd));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* K_bi = K_bi L^-T. */
+static PetscErrorCode SolveOuter_Private(const Cell *c)
+{
+  const PetscReal one = 1, minus = -1;
+
+  PetscFunctionBegin;
+  for (PetscBLASInt first = 0; first < c->ni; first += TRI_BLOCK) {
+    const PetscBLASInt num = PetscMin(TRI_BLOCK, c->ni - first);
+    PetscReal         *L = c->panel + first, *X = c->outer + (size_t)first * c->nd;
+    if (first) PetscCallBLAS("BLASgemm", BLASgemm_("N", "T", &c->nb, &num, &first, &minus, c->outer, &c->nd, L, &c->nd, &one, X, &c->nd));
+    PetscCallBLAS("BLAStrsm", BLAStrsm_("R", "L", "T", "N", &c->nb, &num, &one, L + (size_t)first * c->nd, &c->nd, X, &c->nd));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* S[n][n] from the lower triangle of A (columns of stride), square by square, so that both are in cache. */
+static void Mirror_Private(PetscInt n, PetscInt stride, const PetscReal A[], PetscReal S[])
+{
+  const PetscInt block = 16;
+
+  for (PetscInt j0 = 0; j0 < n; j0 += block) {
+    for (PetscInt k0 = j0; k0 < n; k0 += block) {
+      for (PetscInt j = j0; j < PetscMin(n, j0 + block); ++j)
+        for (PetscInt k = PetscMax(j, k0); k < PetscMin(n, k0 + block); ++k) S[j * n + k] = S[k * n + j] = A[j * stride + k];
+    }
+  }
+}
+
+PetscErrorCode MechanicsCondenseCell_Private(Mechanics m, CellGroup *g, PetscInt i, PetscReal K[], PetscReal S[], PetscBool *singular)
+{
+  const PetscReal one = 1, minus = -1;
+  Cell            c;
+  PetscBLASInt    info;
+  PetscReal      *Kbb;
+
+  PetscFunctionBegin;
+  PetscCall(CellOf_Private(m, g, i, &c));
+  Kbb = K + c.ni * (c.nd + 1);
+  if (c.ni > 0) {
+    PetscCall(PetscArraycpy(c.panel, K, c.ni * c.nd));
+    c.pivot[0] = 0;
+    PetscCallBLAS("LAPACKpotrf", LAPACKpotrf_("L", &c.ni, c.panel, &c.nd, &info));
+    if (info > 0) {
+      for (PetscBLASInt j = 0; j < c.ni; ++j) PetscCall(PetscArraycpy(c.panel + j * c.nd, K + j * c.nd, c.ni));
+      PetscCall(Indefinite_Private(&c, Kbb, m->condense_work + c.nb * c.nb, singular));
+    } else {
+      PetscCall(SolveOuter_Private(&c));
+      PetscCallBLAS("BLASsyrk", BLASsyrk_("L", "N", &c.nb, &c.ni, &minus, c.outer, &c.nd, &one, Kbb, &c.nd));
+    }
+  }
+  Mirror_Private(c.nb, c.nd, Kbb, S);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* x = L^-1 x, or K_ii^-1 x where K_ii is indefinite; back: x = L^-T x, or x. */
+static PetscErrorCode SolveInner_Private(const Cell *c, PetscBool back, PetscReal x[])
+{
+  const PetscReal    one    = 1;
+  const PetscBLASInt single = 1;
+  PetscBLASInt       info;
+
+  PetscFunctionBegin;
+  if (c->pivot[0] == 0)
+    PetscCallBLAS("BLAStrsm", BLAStrsm_("L", "L", back ? "T" : "N", "N", &c->ni, &single, &one, c->panel, &c->nd, x, &c->ni));
+  else if (!back)
+    PetscCallBLAS("LAPACKsytrs", LAPACKsytrs_("L", &c->ni, &single, c->panel, &c->nd, c->pivot, x, &c->ni, &info));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode MechanicsCondenseForces(Mechanics m, PetscReal r[])
+{
+  const HPTables    *v;
+  const PetscReal    one = 1, zero = 0;
+  const PetscBLASInt single = 1;
+
+  PetscFunctionBegin;
+  PetscCall(HPSpaceGetTables(m->space, &v));
+  for (PetscInt ig = 0; ig < m->num_groups; ++ig) {
+    const CellGroup *g = &m->groups[ig];
+    for (PetscInt i = 0; i < g->num_cells && g->num_inner; ++i) {
+      PetscReal *y = m->condense_work, *values, *mine = r + v->point_node[g->cells[i]] * m->dim;
+      Cell       c;
+      PetscCall(CellOf_Private(m, g, i, &c));
+      values = y + c.nb;
+      PetscCall(PetscArraycpy(c.inner, mine, c.ni));
+      PetscCall(PetscArrayzero(mine, c.ni));
+      PetscCall(SolveInner_Private(&c, PETSC_FALSE, c.inner));
+      PetscCallBLAS("BLASgemv", BLASgemv_("N", &c.nb, &c.ni, &one, c.outer, &c.nd, c.inner, &single, &zero, y, &single));
+      PetscCall(PetscArrayzero(values, c.nd));
+      for (PetscInt k = 0; k < g->n - g->num_inner; ++k)
+        for (PetscInt d = 0; d < m->dim; ++d) values[g->outer[k] * m->dim + d] = -y[k * m->dim + d];
+      PetscCall(HPSpaceScatterAdd(m->space, g->cells[i], values, r));
+    }
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode MechanicsRecover(Mechanics m, PetscReal du[])
+{
+  const HPTables    *v;
+  const PetscReal    one = 1, zero = 0;
+  const PetscBLASInt single = 1;
+
+  PetscFunctionBegin;
+  PetscCall(HPSpaceGetTables(m->space, &v));
+  for (PetscInt ig = 0; ig < m->num_groups; ++ig) {
+    const CellGroup *g = &m->groups[ig];
+    for (PetscInt i = 0; i < g->num_cells && g->num_inner; ++i) {
+      PetscReal *values = m->condense_work, *b, *x = du + v->point_node[g->cells[i]] * m->dim;
+      Cell       c;
+      PetscCall(CellOf_Private(m, g, i, &c));
+      b = values + c.nd;
+      PetscCall(HPSpaceGather(m->space, g->cells[i], du, values));
+      for (PetscInt k = 0; k < g->n - g->num_inner; ++k)
+        for (PetscInt d = 0; d < m->dim; ++d) b[k * m->dim + d] = values[g->outer[k] * m->dim + d];
+      PetscCallBLAS("BLASgemv", BLASgemv_("T", &c.nb, &c.ni, &one, c.outer, &c.nd, b, &single, &zero, x, &single));
+      if (c.pivot[0] != 0) PetscCall(SolveInner_Private(&c, PETSC_FALSE, x));
+      for (PetscInt k = 0; k < c.ni; ++k) x[k] = -x[k] - c.inner[k];
+      PetscCall(SolveInner_Private(&c, PETSC_TRUE, x));
+    }
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

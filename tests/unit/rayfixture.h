@@ -1,0 +1,237 @@
+/* Surfaces of facets of any order for the tests of rays along a continuous direction: charts [0, 1]^m mapped by a function, optionally with one refined corner
+   (hanging nodes), assembled results. */
+#pragma once
+#include "contact.h"
+#include "element.h"
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "near.h"
+
+#define CHECK_CALL(...) assert_int_equal((int)(__VA_ARGS__), 0)
+
+typedef struct {
+  ContactSurface s;
+  PetscInt       dim, order;
+  PetscInt      *facets, *first, *lattice, *hang, *hang_master;
+  int8_t        *orders;
+  PetscReal     *x, *X, *mirror, *hang_weight, *u; /* u[num_nodes][2]: place in the chart */
+  PetscInt       num_true, *real;                  /* nodes that do not hang */
+} Patch;
+
+static inline PetscReal Random(uint64_t *state) /* in [-1, 1] */
+{
+  *state ^= *state << 13;
+  *state ^= *state >> 7;
+  *state ^= *state << 17;
+  return (PetscReal)(*state >> 11) / 9007199254740992.0 * 2 - 1;
+}
+
+/* Node at a place of the chart; added when new. */
+static inline PetscInt PatchNode(Patch *p, PetscReal a, PetscReal b)
+{
+  for (PetscInt n = 0; n < p->s.num_nodes; n++)
+    if (fabs(p->u[2 * n] - a) < 1e-9 && fabs(p->u[2 * n + 1] - b) < 1e-9) return n;
+  p->u[2 * p->s.num_nodes]     = a;
+  p->u[2 * p->s.num_nodes + 1] = b;
+  return p->s.num_nodes++;
+}
+
+/* Facet [a, a + da] x [b, b + db] of the chart; forward: its outward normal is (1, 2) -> 3 of the chart, else against it (plane: body to the left of growing
+ * a). */
+static inline void PatchFacet(Patch *p, PetscReal a, PetscReal da, PetscReal b, PetscReal db, PetscBool forward)
+{
+  const PetscInt   q = p->order, f = p->s.num_facets++, m = p->dim - 1, num = m == 1 ? q + 1 : (q + 1) * (q + 1), nv = 2 * m;
+  const PetscReal *node;
+
+  CHECK_CALL(ElementGetNodes(q, &node));
+  p->first[f + 1] = p->first[f] + num;
+  p->orders[f]    = (int8_t)q;
+  for (PetscInt k = 0; k < num; k++) {
+    PetscInt i = k % (q + 1), j = k / (q + 1);
+
+    if (!forward && m == 1) i = q - i;
+    if (!forward && m == 2) {
+      const PetscInt swap = i;
+
+      i = j, j = swap;
+    }
+    p->lattice[p->first[f] + k] = PatchNode(p, a + da * node[i], m == 1 ? 0 : b + db * node[j]);
+  }
+  for (PetscInt v = 0; v < nv; v++) {
+    const PetscInt at = v == 0 ? 0 : v == 1 ? q : v == 2 ? num - 1 : num - 1 - q;
+
+    p->facets[nv * f + v] = p->lattice[p->first[f] + at];
+  }
+}
+
+/* n (x n) facets; refined: the last of them in four (space). */
+static inline void PatchCreate(Patch *p, PetscInt dim, PetscInt order, PetscInt n, PetscReal lo, PetscReal hi, PetscBool forward, PetscBool refined)
+{
+  const PetscInt  m = dim - 1, most = m == 1 ? n : n * n + 3, num = m == 1 ? order + 1 : (order + 1) * (order + 1), nodes = most * num;
+  const PetscReal h = (hi - lo) / (PetscReal)n;
+
+  memset(p, 0, sizeof(*p));
+  p->dim = dim, p->order = order;
+  p->facets      = calloc((size_t)(4 * most), sizeof(PetscInt));
+  p->first       = calloc((size_t)(most + 1), sizeof(PetscInt));
+  p->lattice     = calloc((size_t)nodes, sizeof(PetscInt));
+  p->orders      = calloc((size_t)most, sizeof(int8_t));
+  p->u           = calloc((size_t)(2 * nodes), sizeof(PetscReal));
+  p->x           = calloc((size_t)(3 * nodes), sizeof(PetscReal));
+  p->X           = calloc((size_t)(3 * nodes), sizeof(PetscReal));
+  p->mirror      = calloc((size_t)(6 * nodes), sizeof(PetscReal));
+  p->hang        = calloc((size_t)(nodes + 1), sizeof(PetscInt));
+  p->hang_master = calloc((size_t)(nodes * (order + 1)), sizeof(PetscInt));
+  p->hang_weight = calloc((size_t)(nodes * (order + 1)), sizeof(PetscReal));
+  p->real        = calloc((size_t)nodes, sizeof(PetscInt));
+  for (PetscInt k = 0; k < (m == 1 ? n : n * n); k++) {
+    const PetscReal a = lo + h * (PetscReal)(k % n), b = lo + h * (PetscReal)(k / n);
+
+    if (!refined || k != n * n - 1)
+      PatchFacet(p, a, h, b, h, forward);
+    else
+      for (int c = 0; c < 4; c++) PatchFacet(p, a + c % 2 * h / 2, h / 2, b + c / 2 * h / 2, h / 2, forward);
+  }
+  for (PetscInt v = 0, num_hang = 0; v < p->s.num_nodes; v++) { /* nodes on the sides of the refined facet hang on those of the neighbours */
+    const PetscReal at = lo + h * (PetscReal)(n - 1);
+
+    p->hang[v] = num_hang;
+    for (int side = 0; side < 2 && refined; side++) {
+      PetscReal        value[MORTISE_MAX_ORDER + 1];
+      const PetscReal *node;
+      PetscBool        on = PETSC_FALSE;
+
+      if (p->hang[v] < num_hang || fabs(p->u[2 * v + side] - at) > 1e-9 || p->u[2 * v + 1 - side] < at - 1e-9) continue;
+      CHECK_CALL(ElementGetNodes(order, &node));
+      for (PetscInt k = 0; k <= order; k++)
+        if (fabs(at + h * node[k] - p->u[2 * v + 1 - side]) < 1e-9) on = PETSC_TRUE;
+      if (on) continue;
+      CHECK_CALL(ElementEvaluate1D(order, (p->u[2 * v + 1 - side] - at) / h, value, NULL));
+      for (PetscInt k = 0; k <= order; k++, num_hang++) {
+        p->hang_master[num_hang] = PatchNode(p, side ? at + h * node[k] : at, side ? at : at + h * node[k]);
+        p->hang_weight[num_hang] = value[k];
+      }
+    }
+    p->hang[v + 1] = num_hang;
+  }
+  for (PetscInt v = 0; v < p->s.num_nodes; v++)
+    if (p->hang[v] == p->hang[v + 1]) p->real[p->num_true++] = v;
+  p->s.dim = dim, p->s.facets = p->facets, p->s.x = p->x, p->s.X = p->X, p->s.mirror = p->mirror;
+  p->s.order = p->orders, p->s.first = p->first, p->s.lattice = p->lattice;
+  if (refined) p->s.hang = p->hang, p->s.hang_master = p->hang_master, p->s.hang_weight = p->hang_weight;
+}
+
+static inline void PatchDestroy(Patch *p)
+{
+  free(p->facets), free(p->first), free(p->lattice), free(p->orders), free(p->u), free(p->x), free(p->X), free(p->mirror);
+  free(p->hang), free(p->hang_master), free(p->hang_weight), free(p->real);
+}
+
+/* Hanging nodes follow. */
+static inline void PatchFollow(Patch *p)
+{
+  for (PetscInt v = 0; v < p->s.num_nodes; v++) {
+    if (p->hang[v] == p->hang[v + 1]) continue;
+    for (PetscInt c = 0; c < p->dim; c++) {
+      p->x[p->dim * v + c] = 0;
+      for (PetscInt k = p->hang[v]; k < p->hang[v + 1]; k++) p->x[p->dim * v + c] += p->hang_weight[k] * p->x[p->dim * p->hang_master[k] + c];
+    }
+  }
+}
+
+/* Assembled results: numbers dim * node + component, mortar nodes after the nonmortar ones. */
+typedef struct {
+  PetscInt   dim, nn, nm, size, num;
+  PetscReal *gap, *weight, *dgap, *dweight, *gradient, *hessian;
+  PetscReal  area, min_gap, S;
+  PetscBool  failed;
+} Sum;
+
+static inline void SumCreate(Sum *s, const Patch *nonmortar, const Patch *mortar)
+{
+  s->dim = nonmortar->dim, s->nn = nonmortar->s.num_nodes, s->nm = mortar->s.num_nodes, s->size = s->dim * (s->nn + s->nm);
+  s->gap      = calloc((size_t)s->nn, sizeof(PetscReal));
+  s->weight   = calloc((size_t)s->nn, sizeof(PetscReal));
+  s->dgap     = calloc((size_t)(s->nn * s->size), sizeof(PetscReal));
+  s->dweight  = calloc((size_t)(s->nn * s->size), sizeof(PetscReal));
+  s->gradient = calloc((size_t)s->size, sizeof(PetscReal));
+  s->hessian  = calloc((size_t)(s->size * s->size), sizeof(PetscReal));
+}
+
+static inline void SumDestroy(Sum *s)
+{
+  free(s->gap), free(s->weight), free(s->dgap), free(s->dweight), free(s->gradient), free(s->hessian);
+}
+
+static inline void SumEvaluate(Sum *s, ContactPair pair, const Patch *nonmortar, const Patch *mortar, const PetscReal z[], PetscBool hessian)
+{
+  const ContactFacet *facets;
+
+  memset(s->gap, 0, (size_t)s->nn * sizeof(PetscReal));
+  memset(s->weight, 0, (size_t)s->nn * sizeof(PetscReal));
+  memset(s->dgap, 0, (size_t)(s->nn * s->size) * sizeof(PetscReal));
+  memset(s->dweight, 0, (size_t)(s->nn * s->size) * sizeof(PetscReal));
+  memset(s->gradient, 0, (size_t)s->size * sizeof(PetscReal));
+  memset(s->hessian, 0, (size_t)(s->size * s->size) * sizeof(PetscReal));
+  s->area = s->S = 0;
+  s->min_gap     = PETSC_MAX_REAL;
+  CHECK_CALL(ContactPairEvaluate(pair, &nonmortar->s, &mortar->s, z, NULL, PETSC_TRUE, hessian, &s->num, &facets, &s->failed));
+  for (PetscInt e = 0; e < s->num; e++) {
+    const ContactFacet *f   = &facets[e];
+    const PetscInt      n   = s->dim * f->num;
+    PetscInt           *row = malloc((size_t)n * sizeof(PetscInt));
+
+    for (PetscInt a = 0; a < n; a++) {
+      const PetscInt node = f->nodes[a / s->dim];
+
+      row[a] = s->dim * (node >= 0 ? node : s->nn + ~node) + a % s->dim;
+    }
+    for (PetscInt j = 0; j < f->num_rows; j++) {
+      const PetscInt node = f->nodes[j];
+
+      s->gap[node] += f->gap[j];
+      s->weight[node] += f->weight[j];
+      if (z) s->S += z[node] * f->gap[j];
+      for (PetscInt a = 0; a < n && f->dgap; a++) {
+        s->dgap[node * s->size + row[a]] += f->dgap[j * n + a];
+        s->dweight[node * s->size + row[a]] += f->dweight[j * n + a];
+        if (z) s->gradient[row[a]] += z[node] * f->dgap[j * n + a];
+      }
+    }
+    for (PetscInt a = 0; a < n && f->hessian; a++)
+      for (PetscInt b = 0; b < n; b++) s->hessian[row[a] * s->size + row[b]] += f->hessian[a * n + b];
+    s->area += f->area;
+    s->min_gap = PetscMin(s->min_gap, f->min_gap);
+    free(row);
+  }
+}
+
+static inline void SearchAll(ContactPair pair, const Patch *nonmortar, const Patch *mortar, PetscReal distance, PetscReal margin)
+{
+  PetscInt *list = malloc((size_t)nonmortar->s.num_facets * sizeof(PetscInt));
+
+  for (PetscInt i = 0; i < nonmortar->s.num_facets; i++) list[i] = i;
+  CHECK_CALL(ContactPairSearch(pair, &nonmortar->s, &mortar->s, nonmortar->s.num_facets, list, distance, margin));
+  free(list);
+}
+
+/* Rotation of space about an axis through the origin and a shift, x only. */
+static inline void PatchMove(Patch *p, const PetscReal axis[3], PetscReal angle, const PetscReal shift[3])
+{
+  const PetscReal l = sqrt(axis[0] * axis[0] + axis[1] * axis[1] + axis[2] * axis[2]), k[3] = {axis[0] / l, axis[1] / l, axis[2] / l};
+
+  for (PetscInt n = 0; n < p->s.num_nodes + (p->dim == 3 ? 2 : 1) * p->s.num_nodes; n++) { /* positions, then planes of symmetry */
+    const PetscBool place = (PetscBool)(n < p->s.num_nodes);
+    PetscReal      *x = place ? p->x + p->dim * n : p->mirror + p->dim * (n - p->s.num_nodes), v[3] = {x[0], x[1], p->dim == 3 ? x[2] : 0};
+    const PetscReal along = k[0] * v[0] + k[1] * v[1] + k[2] * v[2];
+
+    for (PetscInt i = 0; i < p->dim; i++)
+      x[i] = cos(angle) * v[i] + sin(angle) * (k[(i + 1) % 3] * v[(i + 2) % 3] - k[(i + 2) % 3] * v[(i + 1) % 3]) + (1 - cos(angle)) * along * k[i] +
+             (place ? shift[i] : 0);
+  }
+}
