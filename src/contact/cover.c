@@ -26,7 +26,7 @@ static PetscBool ClipInterval_Private(Overlap *o)
   o->line[1] = b < hi - on ? 1 : -1;
   if (o->line[0] < 0) a = lo;
   if (o->line[1] < 0) b = hi;
-  if (!(a < b)) return PETSC_FALSE;
+  if (!(a < b) || a >= hi - on || b <= lo + on) return PETSC_FALSE; /* the neighbour then reaches the end and does not move */
   o->num = 4;
   for (int k = 0; k < 4; k++) {
     o->v[k][0] = k == 0 || k == 3 ? a : b;

@@ -1,5 +1,6 @@
-/* Directions of the rays at the corners of the nonmortar facets: sums of the vectors of the facets around, with their mirror images at planes of symmetry; a
-   corner that hangs on an edge has the mean of its ends, as the interpolation along that edge. Linear in the positions in the plane, quadratic in space. */
+/* Directions of the rays at the corners of the nonmortar facets: sums of the vectors of the facets around over their reference measure, with their mirror
+   images at planes of symmetry; a corner that hangs on an edge has the mean of its ends, as the interpolation along that edge. Linear in the positions in the
+   plane, quadratic in space. */
 #include "rayimpl.h"
 
 #define DEPTH 6 /* of corners that hang on edges whose ends hang */
@@ -93,7 +94,7 @@ PetscErrorCode ContactDirectionTopology(RayWork w, const ContactSurface *s)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Sum over the images in the planes of symmetry through a node: 2 (1 - n n^T) for one, 4 l l^T for two with the common line l. */
+/* Mean over the images in the planes of symmetry through a node: 1 - n n^T for one, l l^T / l^2 for two with the common line l. */
 static void Images_Private(const ContactSurface *s, PetscInt node, PetscReal R[9])
 {
   PetscReal n[2][3] = {{0}}, l[3];
@@ -110,9 +111,23 @@ static void Images_Private(const ContactSurface *s, PetscInt node, PetscReal R[9
   for (int i = 0; i < 3; i++)
     for (int j = 0; j < 3; j++) {
       R[3 * i + j] = i == j;
-      if (num == 1) R[3 * i + j] = 2 * ((i == j) - n[0][i] * n[0][j]);
-      if (num == 2) R[3 * i + j] = 4 * l[i] * l[j] / Dot3(l, l);
+      if (num == 1) R[3 * i + j] = (i == j) - n[0][i] * n[0][j];
+      if (num == 2) R[3 * i + j] = l[i] * l[j] / Dot3(l, l);
     }
+}
+
+/* Reference measure of the facets around a node, by which directions are divided: of length 1 or so everywhere, they change little along graded facets, beyond
+   which they are continued to the images of mortar nodes. */
+static PetscReal Around_Private(RayWork w, const ContactSurface *s, PetscInt node)
+{
+  const PetscInt nv  = s->dim == 2 ? 2 : 4;
+  PetscReal      sum = 0, N[3];
+
+  for (PetscInt k = w->ring_first[node]; k < w->ring_first[node + 1]; k++) {
+    ContactFacetVector(s->dim, s->X, s->facets + nv * w->ring_facet[k], N);
+    sum += PetscSqrtReal(Dot3(N, N));
+  }
+  return sum;
 }
 
 static PetscInt Terms_Private(RayWork w, const ContactSurface *s, PetscInt node, PetscReal weight, int depth, PetscInt max, DirectionTerm term[])
@@ -125,6 +140,7 @@ static PetscInt Terms_Private(RayWork w, const ContactSurface *s, PetscInt node,
     return num + Terms_Private(w, s, w->parent[2 * node + 1], 0.5 * weight, depth + 1, max - num, term + num);
   }
   Images_Private(s, node, R);
+  weight /= Around_Private(w, s, node);
   for (PetscInt k = w->ring_first[node]; k < w->ring_first[node + 1] && num < max; k++, num++) {
     term[num].facet = w->ring_facet[k];
     for (int i = 0; i < 9; i++) term[num].R[i] = weight * R[i];
@@ -170,5 +186,5 @@ PetscBool ContactDirectionUsable(RayWork w, const ContactSurface *s, PetscInt no
     ContactFacetVector(s->dim, s->x, s->facets + nv * w->ring_facet[w->ring_first[node] + k], N);
     sum += PetscSqrtReal(Dot3(N, N));
   }
-  return PetscSqrtReal(Dot3(w->d + 3 * node, w->d + 3 * node)) > CONTACT_FOLDED * sum ? PETSC_TRUE : PETSC_FALSE;
+  return PetscSqrtReal(Dot3(w->d + 3 * node, w->d + 3 * node)) * Around_Private(w, s, node) > CONTACT_FOLDED * sum ? PETSC_TRUE : PETSC_FALSE;
 }

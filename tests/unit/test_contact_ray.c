@@ -171,7 +171,7 @@ static void CheckSeed(const Kind *kind, uint64_t seed, PetscInt first, PetscInt 
     PetscReal       least[4] = {1, 1, 1, 1};
     PetscBool       kink     = PETSC_FALSE;
 
-    for (PetscReal h = STEP; h > STEP / 100 && !kink && (least[0] > 2e-9 || least[1] > 2e-9 || least[2] > 2e-8);
+    for (PetscReal h = STEP; h > STEP / 3000 && !kink && (least[0] > 2e-9 || least[1] > 2e-9 || least[2] > 2e-8);
          h /= 5) { /* corners move fast where lines meet at a small angle */
       PetscReal error[4];
 
