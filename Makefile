@@ -45,6 +45,9 @@ endif
 ifndef PETSC_DIR
   LOAD_FIRST := $(wildcard $(foreach l,teuchosparameterlist ml ifpack epetra epetraext teuchoscomm,/usr/lib/$(TRIPLET)/libtrilinos_$(l).so.[0-9]*.[0-9]*))
 endif
+# MUMPS in single precision (src/solve/singlefactor.c), where it stands beside the one PETSc was built with.
+MUMPS_DIR := $(dir $(firstword $(wildcard $(PETSC_LIBDIR)/libdmumps.*) $(shell $(CC) -print-file-name=libdmumps.so)))
+SMUMPS    := $(if $(wildcard $(MUMPS_DIR)libsmumps.*),-lsmumps)
 HDF5_CFLAGS := $(shell pkg-config --cflags hdf5-openmpi 2>/dev/null)
 HDF5_LIBS   := $(or $(shell pkg-config --libs hdf5-openmpi 2>/dev/null),-lhdf5)
 
@@ -54,8 +57,8 @@ else
   OPT := -O3 -g $(if $(PORTABLE),,-march=native)
 endif
 CFLAGS   := -std=gnu11 $(OPT) -Wall -Wextra -Wshadow -Wstrict-prototypes -Wno-unused-parameter -Wno-maybe-uninitialized -Wno-psabi -Wno-format-truncation -Werror -fno-math-errno -MMD -MP
-CPPFLAGS := -Iinclude $(addprefix -Isrc/,$(MODULES)) $(PETSC_CFLAGS) $(HDF5_CFLAGS)
-LDLIBS   := -Wl,--no-as-needed -lopenblas $(LOAD_FIRST) -Wl,--as-needed $(PETSC_LIBS) -lmetis -ldmumps -lsmumps -lmumps_common $(HDF5_LIBS) -lmuparser -lcjson -lyaml -lm
+CPPFLAGS := -Iinclude $(addprefix -Isrc/,$(MODULES)) $(PETSC_CFLAGS) $(HDF5_CFLAGS) $(if $(SMUMPS),-DMORTISE_SMUMPS)
+LDLIBS   := -Wl,--no-as-needed -lopenblas $(LOAD_FIRST) -Wl,--as-needed $(PETSC_LIBS) -lmetis -ldmumps $(SMUMPS) -lmumps_common $(HDF5_LIBS) -lmuparser -lcjson -lyaml -lm
 
 SOURCES := $(foreach m,$(MODULES),$(wildcard src/$(m)/*.c))
 OBJECTS := $(SOURCES:src/%.c=$(BUILD)/%.o)

@@ -28,6 +28,7 @@ typedef struct {
   History          history;
   Monitor          monitor;
   PetscInt       load_steps, step_cuts, adapt_passes, newton_iterations, passes_in_step, iterations_in_step, cuts_in_step, set_changes, set_cycles, told_cycles;
+  PetscInt       factorisations, single_failures;
   ProblemStatus  status; /* of the last solution */
   PetscLogDouble start;
   const char    *failure;    /* why the run gave up, NULL while it goes on */

@@ -11,6 +11,8 @@ void AppCount(App *app, const SolverReport *report)
   app->iterations_in_step += report->iterations;
   app->set_changes += report->set_changes;
   app->set_cycles += report->set_cycles;
+  app->factorisations += report->factorisations;
+  app->single_failures += report->single_failures;
   if (report->converged) app->status = report->status;
 }
 

@@ -40,6 +40,8 @@ static PetscErrorCode Summarise_Private(App *app)
   summary.newton_iterations  = app->newton_iterations;
   summary.active_set_changes = app->set_changes;
   summary.active_set_cycles  = app->set_cycles;
+  summary.factorisations     = app->factorisations;
+  summary.single_failures    = app->single_failures;
   summary.adapt_stop         = app->adapt_stop;
   summary.problem            = app->level.problem;
   summary.state              = &app->level.accepted;

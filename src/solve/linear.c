@@ -1,8 +1,40 @@
-/* The linear solver: one direct factorisation by default, LDL^T where the tangent is symmetric, LU otherwise; MUMPS where PETSc has it; every option of KSP and
- * PC works as usual. */
+/* The linear solver: one direct factorisation by default, LDL^T where the tangent is symmetric, LU otherwise; MUMPS where PETSc has it, in single precision
+ * with GMRES in double where that pays; every option of KSP and PC works as usual. */
 #include "solveimpl.h"
 
-#define REFINEMENTS 12 /* triangular solves worth less than a factorisation in three dimensions */
+#define REFINEMENTS 20   /* triangular solves worth less than a factorisation in three dimensions */
+#define LARGE 20000      /* unknowns from which single precision pays */
+#define FRESH_RTOL 1e-12 /* with the factor of the very matrix: nearly what one in double gives, for an iteration more */
+#define TRUE_RTOL 1e-8   /* what round-off may leave */
+#define EARLY 6          /* after which a residual that falls too slowly shows */
+
+static PetscErrorCode Double_Private(Solver s, PC pc)
+{
+  PetscFunctionBegin;
+  PetscCall(PCSetType(pc, s->symmetric ? PCCHOLESKY : PCLU));
+#if defined(PETSC_HAVE_MUMPS)
+  PetscCall(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS));
+#endif
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Single precision? In three dimensions a factor soon costs more than all else. A solver named by hand is taken as it is. */
+static PetscErrorCode UseSingle_Private(Solver s)
+{
+  PetscBool type, package;
+  PetscInt  num_u, num_z, dim, dofs;
+
+  PetscFunctionBegin;
+  PetscCheckInput(s->factor != FACTOR_SINGLE || SingleFactorExists_Private(), "-solve_factor single: this build has no MUMPS in single precision");
+  PetscCall(PetscOptionsHasName(NULL, NULL, "-pc_type", &type));
+  PetscCall(PetscOptionsHasName(NULL, NULL, "-pc_factor_mat_solver_type", &package));
+  PetscCheckInput(s->factor != FACTOR_SINGLE || !(type || package), "-solve_factor single and -pc_type or -pc_factor_mat_solver_type exclude each other");
+  PetscCall(ProblemGetBlocks(s->problem, &num_u, &num_z, &dim));
+  PetscCall(ProblemNumDofs(s->problem, &dofs));
+  s->single = (PetscBool)(s->factor == FACTOR_AUTO && dim == 3 && dofs >= LARGE && SingleFactorExists_Private() && !type && !package);
+  if (s->factor == FACTOR_SINGLE) s->single = PETSC_TRUE;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
 
 PetscErrorCode SolverLinear_Private(Solver s)
 {
@@ -13,10 +45,11 @@ PetscErrorCode SolverLinear_Private(Solver s)
   PetscCall(SNESGetKSP(s->snes, &ksp));
   PetscCall(KSPGetPC(ksp, &pc));
   PetscCall(KSPSetType(ksp, KSPPREONLY));
-  PetscCall(PCSetType(pc, s->symmetric ? PCCHOLESKY : PCLU));
-#if defined(PETSC_HAVE_MUMPS)
-  PetscCall(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS));
-#endif
+  PetscCall(UseSingle_Private(s));
+  if (s->single)
+    PetscCall(SingleFactorSet_Private(pc, s->symmetric));
+  else
+    PetscCall(Double_Private(s, pc));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -50,11 +83,12 @@ static PetscErrorCode MoreWorkspace_Private(PC pc, PetscBool *again)
 #endif
 
 /* Factorise A. A failure shows in the solve that follows. */
-PetscErrorCode SolverFactor_Private(Solver s, Mat A)
+static PetscErrorCode Factor_Private(Solver s, Mat A)
 {
   KSP ksp;
 
   PetscFunctionBegin;
+  ++s->report->factorisations;
   PetscCall(SNESGetKSP(s->snes, &ksp));
   PetscCall(KSPSetOperators(ksp, A, A));
   PetscCall(KSPSetUp(ksp));
@@ -74,8 +108,82 @@ PetscErrorCode SolverFactor_Private(Solver s, Mat A)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Solve with the factor of an earlier tangent as preconditioner. Tangents of one problem differ little: a few rows switched by the active set, a Newton step
-   taken; some triangular solves cost less than a new factor. *ok false: they do not get there, factorise. */
+/* Factorise A and solve. Where a factor in single precision does not serve, those in double take over for good. */
+PetscErrorCode SolverDirect_Private(Solver s, Mat A, Vec rhs, Vec x, PetscBool *ok)
+{
+  KSPConvergedReason reason;
+  PetscReal          norm;
+  KSP                ksp;
+  PC                 pc;
+
+  PetscFunctionBegin;
+  PetscCall(SNESGetKSP(s->snes, &ksp));
+  if (s->single) {
+    PetscCall(StageBegin(STAGE_FACTOR));
+    PetscCall(Factor_Private(s, A));
+    PetscCall(StageEnd(STAGE_FACTOR));
+    PetscCall(StageBegin(STAGE_SOLVE));
+    PetscCall(SolverRefine_Private(s, A, rhs, FRESH_RTOL, x, ok));
+    PetscCall(StageEnd(STAGE_SOLVE));
+    if (*ok) PetscFunctionReturn(PETSC_SUCCESS);
+    PetscCall(PetscInfo(s->snes, "a factor in single precision does not serve: double from here on\n"));
+    ++s->report->single_failures;
+    s->single = PETSC_FALSE;
+    PetscCall(KSPGetPC(ksp, &pc));
+    PetscCall(Double_Private(s, pc));
+    PetscCall(PCSetFromOptions(pc));
+  }
+  PetscCall(StageBegin(STAGE_FACTOR));
+  PetscCall(Factor_Private(s, A));
+  PetscCall(StageEnd(STAGE_FACTOR));
+  PetscCall(StageBegin(STAGE_SOLVE));
+  PetscCall(KSPSolve(ksp, rhs, x));
+  PetscCall(StageEnd(STAGE_SOLVE));
+  PetscCall(KSPGetConvergedReason(ksp, &reason));
+  PetscCall(VecNorm(x, NORM_2, &norm));
+  *ok = (PetscBool)(reason >= 0 && !PetscIsInfOrNanReal(norm));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The residual has to fall by rtol; one that is not a quarter of the way there, in decades, after the first few iterations will not get there. */
+static PetscErrorCode Converged_Private(KSP ksp, PetscInt it, PetscReal norm, KSPConvergedReason *reason, void *context)
+{
+  Solver    s = (Solver)context;
+  PetscReal rtol;
+
+  PetscFunctionBegin;
+  PetscCall(KSPGetTolerances(ksp, &rtol, NULL, NULL, NULL));
+  if (it == 0) s->refine_first = norm;
+  *reason = KSP_CONVERGED_ITERATING;
+  if (PetscIsInfOrNanReal(norm))
+    *reason = KSP_DIVERGED_NANORINF;
+  else if (norm <= rtol * s->refine_first)
+    *reason = KSP_CONVERGED_RTOL;
+  else if (it == EARLY && norm > PetscPowReal(rtol, 0.25) * s->refine_first)
+    *reason = KSP_DIVERGED_ITS;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Is |b - A x| small against |b|? Where A is nearly singular the residual GMRES keeps account of is not that of its solution. */
+static PetscErrorCode IsSolution_Private(Mat A, Vec b, Vec x, PetscReal rtol, PetscBool *yes)
+{
+  PetscReal norm, residual;
+  Vec       r;
+
+  PetscFunctionBegin;
+  PetscCall(VecDuplicate(b, &r));
+  PetscCall(MatMult(A, x, r));
+  PetscCall(VecAXPY(r, -1, b));
+  PetscCall(VecNorm(r, NORM_2, &residual));
+  PetscCall(VecNorm(b, NORM_2, &norm));
+  PetscCall(VecDestroy(&r));
+  *yes = (PetscBool)(residual <= rtol * norm);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Solve with the factor there is as preconditioner, in single precision or of an earlier tangent. Tangents of one problem differ little: a few rows switched by
+   the active set, a Newton step taken; some triangular solves cost less than a new factor. *ok false: they do not get there, factorise. Flexible GMRES: it
+   keeps what the preconditioner returned, whose round-off would otherwise be all of the solution's, and needs one triangular solve less. */
 PetscErrorCode SolverRefine_Private(Solver s, Mat A, Vec rhs, PetscReal rtol, Vec x, PetscBool *ok)
 {
   KSPConvergedReason reason;
@@ -88,8 +196,8 @@ PetscErrorCode SolverRefine_Private(Solver s, Mat A, Vec rhs, PetscReal rtol, Ve
   if (!s->refine) {
     PetscCall(KSPCreate(PetscObjectComm((PetscObject)A), &s->refine));
     PetscCall(KSPSetOptionsPrefix(s->refine, "again_"));
-    PetscCall(KSPSetType(s->refine, KSPGMRES));
-    PetscCall(KSPSetPCSide(s->refine, PC_RIGHT));
+    PetscCall(KSPSetType(s->refine, KSPFGMRES));
+    PetscCall(KSPSetConvergenceTest(s->refine, Converged_Private, s, NULL));
     PetscCall(KSPSetPC(s->refine, pc));
   }
   PetscCall(PCSetReusePreconditioner(pc, PETSC_TRUE));
@@ -100,5 +208,6 @@ PetscErrorCode SolverRefine_Private(Solver s, Mat A, Vec rhs, PetscReal rtol, Ve
   PetscCall(KSPGetConvergedReason(s->refine, &reason));
   PetscCall(PCSetReusePreconditioner(pc, PETSC_FALSE));
   *ok = (PetscBool)(reason > 0);
+  if (*ok) PetscCall(IsSolution_Private(A, rhs, x, TRUE_RTOL, ok));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -10,7 +10,7 @@
 #define STALLED 7  /* iterations without a new least residual */
 #define HALVINGS 8 /* of steps that left the domain, in one solve */
 
-/* An earlier factor as preconditioner: with less than this, nodes at the edge of contact switch wrongly, and a slide that needs no cut is cut. */
+/* A factor as preconditioner: with less than this, nodes at the edge of contact switch wrongly, and a slide that needs no cut is cut. */
 #define REFINE_RTOL 1e-10
 
 /* How far GMRES need go: so far that no Newton iteration is lost, which costs more than the few more of GMRES. */
@@ -22,13 +22,9 @@ static PetscReal Forcing_Private(Solver s)
 /* One solve with the matrix as it stands, to s->y; again: only the active set has changed since the last, whose solution is there. */
 static PetscErrorCode MatrixSolve_Private(SNES snes, Solver s, PetscBool again, PetscBool *ok)
 {
-  KSP                ksp;
-  KSPConvergedReason reason;
-  Mat                A;
-  PetscReal          norm;
+  Mat A;
 
   PetscFunctionBegin;
-  PetscCall(SNESGetKSP(snes, &ksp));
   PetscCall(ProblemGetMatrix(s->problem, &A));
   ++s->report->linear_solves;
   if (s->saddle) {
@@ -47,15 +43,7 @@ static PetscErrorCode MatrixSolve_Private(SNES snes, Solver s, PetscBool again, 
     PetscCall(StageEnd(STAGE_SOLVE));
     if (*ok) PetscFunctionReturn(PETSC_SUCCESS);
   }
-  PetscCall(StageBegin(STAGE_FACTOR));
-  PetscCall(SolverFactor_Private(s, A));
-  PetscCall(StageEnd(STAGE_FACTOR));
-  PetscCall(StageBegin(STAGE_SOLVE));
-  PetscCall(KSPSolve(ksp, s->rhs, s->y));
-  PetscCall(StageEnd(STAGE_SOLVE));
-  PetscCall(KSPGetConvergedReason(ksp, &reason));
-  PetscCall(VecNorm(s->y, NORM_2, &norm));
-  *ok         = (PetscBool)(reason >= 0 && !PetscIsInfOrNanReal(norm));
+  PetscCall(SolverDirect_Private(s, A, s->rhs, s->y, ok));
   s->factored = (PetscBool)(*ok && s->reuse);
   PetscFunctionReturn(PETSC_SUCCESS);
 }

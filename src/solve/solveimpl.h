@@ -14,6 +14,7 @@ typedef struct _p_Multigrid *Multigrid;
 
 typedef enum { CONDENSE_AUTO, CONDENSE_YES, CONDENSE_NO } CondenseKind;
 typedef enum { LINEAR_AUTO, LINEAR_DIRECT, LINEAR_ITERATIVE } LinearKind;
+typedef enum { FACTOR_AUTO, FACTOR_SINGLE, FACTOR_DOUBLE } FactorKind;
 
 struct _p_Solver {
   Problem       problem; /* borrowed */
@@ -25,11 +26,14 @@ struct _p_Solver {
   PetscBool     symmetric; /* LDL^T of the symmetric form */
   PetscInt      max_it, passes, cuts;
   LinearKind    linear;   /* as asked */
+  FactorKind    factor;   /* as asked */
   CondenseKind  condense; /* as asked */
   Saddle        saddle;   /* iterative solution, NULL: direct */
   PetscReal     linear_rtol;
-  KSP           refine;          /* GMRES on the factor of an earlier tangent; made when first needed */
+  KSP           refine;          /* GMRES on a factor in single precision or of an earlier tangent; made when first needed */
+  PetscReal     refine_first;    /* residual it started from */
   PetscBool     reuse, factored; /* may an earlier factor serve; there is one */
+  PetscBool     single;          /* factors are in single precision */
   PetscBool     test;            /* -snes_test_jacobian was given */
   SetHistory    pass_sets;       /* active sets of the passes of one linearisation */
   SetHistory    iterate_sets;    /* active sets of the Newton iterates */
@@ -47,8 +51,11 @@ PetscErrorCode SetHistoryAdd_Private(SetHistory *, uint64_t hash, PetscReal norm
 PetscErrorCode SetHistoryDestroy_Private(SetHistory *);
 /* linear.c: direct solver by default, everything open to options. */
 PetscErrorCode SolverLinear_Private(Solver);
-PetscErrorCode SolverFactor_Private(Solver, Mat);
+PetscErrorCode SolverDirect_Private(Solver, Mat, Vec rhs, Vec x, PetscBool *ok);
 PetscErrorCode SolverRefine_Private(Solver, Mat, Vec rhs, PetscReal rtol, Vec x, PetscBool *ok);
+/* singlefactor.c: make a PC the factor in single precision of its matrix, LDL^T where that is symmetric; exists where MUMPS has it. */
+PetscErrorCode SingleFactorSet_Private(PC, PetscBool symmetric);
+PetscBool      SingleFactorExists_Private(void);
 
 /* saddle.c: iterative solution of the symmetric tangent. */
 PetscErrorCode SaddleCreate_Private(Problem, Saddle *);

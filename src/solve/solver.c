@@ -29,8 +29,9 @@ static PetscErrorCode Jacobian_Private(SNES snes, Vec x, Mat J, Mat P, void *con
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static const char *const Condense[] = {"auto", "yes", "no", "CondenseKind", "CONDENSE_", NULL};
 static const char *const Kinds[]    = {"auto", "direct", "iterative", "LinearKind", "LINEAR_", NULL};
+static const char *const Factors[]  = {"auto", "single", "double", "FactorKind", "FACTOR_", NULL};
+static const char *const Condense[] = {"auto", "yes", "no", "CondenseKind", "CONDENSE_", NULL};
 
 static PetscErrorCode Options_Private(Solver s)
 {
@@ -43,6 +44,7 @@ static PetscErrorCode Options_Private(Solver s)
   s->cuts   = 6;
 
   s->linear      = LINEAR_AUTO;
+  s->factor      = FACTOR_AUTO;
   s->linear_rtol = 1e-9;
   PetscOptionsBegin(PetscObjectComm((PetscObject)s->snes), NULL, "Solver", NULL);
   PetscCall(PetscOptionsReal("-solve_rtol", "Residual against the root of the summed squared nodal forces", NULL, s->rtol, &s->rtol, NULL));
@@ -55,6 +57,8 @@ static PetscErrorCode Options_Private(Solver s)
                              &s->symmetric, NULL));
   PetscCall(PetscOptionsEnum("-solve_linear", "Linear solver: direct factorisation, multigrid and GMRES, or by size", NULL, Kinds, (PetscEnum)s->linear,
                              (PetscEnum *)&s->linear, NULL));
+  PetscCall(PetscOptionsEnum("-solve_factor", "Factors in single precision, which GMRES in double refines, or in double, or by size", NULL, Factors,
+                             (PetscEnum)s->factor, (PetscEnum *)&s->factor, NULL));
   PetscCall(PetscOptionsReal("-solve_linear_rtol", "Least residual of GMRES against the right-hand side", NULL, s->linear_rtol, &s->linear_rtol, NULL));
   PetscCall(PetscOptionsEnum("-solve_condense", "Eliminate the unknowns inside each cell before the linear solver: yes, no, or by order", NULL, Condense,
                              (PetscEnum)s->condense, (PetscEnum *)&s->condense, NULL));
