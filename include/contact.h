@@ -103,6 +103,10 @@ typedef struct {
 PetscErrorCode ContactPairCreate(PetscInt dim, PetscBool axisymmetric, const ContactSpec *, ContactPair *);
 PetscErrorCode ContactPairDestroy(ContactPair *);
 
+/* Facets of higher order: which nodes have multipliers (carries[nonmortar num_nodes], NULL: all), for the functions of covered facets, which are dual in the
+   reference positions; before the search. Without it the first search takes all nodes. The pair keeps the functions. Not collective. */
+PetscErrorCode ContactPairSetCarriers(ContactPair, const ContactSurface *nonmortar, const PetscBool carries[]);
+
 /* Candidate search at the given positions: for each listed nonmortar facet (facets[num], those this rank owns) the mortar facets it may meet while no
    node moves more than `margin`: facet normals N_s . N_m < -0.1, |g| < distance to both sides somewhere on the pair (margin > 0: more). Distances and
    normals are judged here only, so between two searches the evaluation is continuous. Bounding-volume tree, O(n log n). Call between Newton iterations only;

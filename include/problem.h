@@ -106,9 +106,9 @@ PetscErrorCode ProblemGetContact(Problem, PetscInt pair, const ContactView **);
 /* The same with the values of all nodes (forces too) and `normal` on every rank: one reduction over both surfaces, for output and the like. They stay valid
    until the next call for this pair. Collective. */
 PetscErrorCode ProblemGatherContactToAll(Problem, PetscInt pair, const ContactView **view);
-/* Multipliers and (NULL: not wanted) nodal normals of the last evaluation at wanted[nonmortar.num_nodes] nodes, from the ranks that know them: z[nonmortar
-   num_nodes], normal[..][dim], NaN at others. Collective. */
-PetscErrorCode ProblemFetchContact(Problem, PetscInt pair, const PetscBool wanted[], PetscReal z[], PetscReal normal[]);
+/* Multipliers and (NULL: not wanted) nodal normals and positions of the last evaluation at wanted[nonmortar.num_nodes] nodes, from the ranks that know them:
+   z[nonmortar num_nodes], normal[..][dim], x[..][dim], NaN at others. Collective. */
+PetscErrorCode ProblemFetchContact(Problem, PetscInt pair, const PetscBool wanted[], PetscReal z[], PetscReal normal[], PetscReal x[]);
 /* What contact has sent from this rank since the problem was created. Values: between searches; search: positions and lists of facets, sent where boxes meet.
    Boxes of ranks and scalars, which all ranks reduce, are left out. */
 typedef struct {

@@ -83,12 +83,13 @@ typedef struct _p_FacetWork *FacetWork;
 typedef struct _p_RayWork   *RayWork;
 
 struct _p_ContactPair {
-  PetscInt  dim;
-  PetscBool axisymmetric, node_to_segment, standard, continuous;
-  PetscBool rays;           /* the last search was for rays along a continuous direction */
-  PetscInt  num_degenerate; /* overlaps of the last evaluation that could not be used */
-  FacetWork facet;          /* three dimensions: work space, else NULL */
-  RayWork   ray;            /* rays along a continuous direction: work space, NULL until needed */
+  PetscInt                  dim;
+  PetscBool                 axisymmetric, node_to_segment, standard, continuous;
+  PetscBool                 rays;           /* the last search was for rays along a continuous direction */
+  PetscInt                  num_degenerate; /* overlaps of the last evaluation that could not be used */
+  FacetWork                 facet;          /* three dimensions: work space, else NULL */
+  struct ContactMultiplier *multiplier;     /* functions of facets of higher order, else NULL */
+  RayWork                   ray;            /* rays along a continuous direction: work space, NULL until needed */
   /* topology of the nonmortar side, from the last search: neighbours of a node along the surface, -1: none */
   PetscInt  num_nodes, num_facets, num_mortar_nodes, num_mortar_facets;
   PetscInt *prev, *next; /* owned, [num_nodes] */

@@ -28,7 +28,7 @@
 
 /* psi_row = sum_a T[offset[f] + (row - row_first[f]) * num_lattice + a] N_a on facet f, rows row_first[f] .. row_first[f+1], lattice lexicographic (order 1
    without lattice: corners 0, 1, 3, 2). */
-typedef struct {
+typedef struct ContactMultiplier {
   PetscInt   num_facets;
   PetscInt  *row_first; /* [num_facets+1] */
   PetscInt  *row_node;  /* [rows] true node, each once per facet */

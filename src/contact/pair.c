@@ -35,6 +35,7 @@ PetscErrorCode ContactPairDestroy(ContactPair *pair)
   PetscCall(PetscFree(p->work));
   PetscCall(ContactFacetWorkDestroy(&p->facet));
   PetscCall(ContactRayWorkDestroy(&p->ray));
+  PetscCall(ContactMultiplierDestroy(&p->multiplier));
   PetscCall(PetscFree(*pair));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -20,6 +20,15 @@ PetscErrorCode ContactRayTopology(ContactPair pair, const ContactSurface *s)
   PetscCall(PetscCalloc1(s->dim * s->num_nodes, &pair->normal));
   PetscCall(ContactDirectionTopology(pair->ray, s));
   ContactDirections(pair->ray, s);
+  if (!pair->multiplier && s->order) PetscCall(ContactMultiplierCreate(s, pair->axisymmetric, pair->standard, NULL, &pair->multiplier));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode ContactPairSetCarriers(ContactPair pair, const ContactSurface *nonmortar, const PetscBool carries[])
+{
+  PetscFunctionBegin;
+  PetscCall(ContactMultiplierDestroy(&pair->multiplier));
+  if (nonmortar->order) PetscCall(ContactMultiplierCreate(nonmortar, pair->axisymmetric, pair->standard, carries, &pair->multiplier));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -135,11 +144,26 @@ static PetscErrorCode AddRow_Private(RayWork w, const ContactSurface *s, PetscIn
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Nodes of the result and T, the multiplier functions by those of the lattice. */
+/* Rows and T from the constant functions of a facet that is covered. */
+static PetscErrorCode Functions_Private(RayWork w, const ContactMultiplier *multiplier, PetscInt facet)
+{
+  const PetscInt first = multiplier->row_first[facet], num = w->facet.s.num;
+  PetscInt       place;
+
+  PetscFunctionBegin;
+  w->num_rows = multiplier->row_first[facet + 1] - first;
+  for (PetscInt r = 0; r < w->num_rows; r++) PetscCall(AddNode_Private(w, multiplier->row_node[first + r], &place));
+  PetscCall(ContactGrow(w->num_rows * num, sizeof(PetscReal), &w->size_T, &w->T));
+  PetscCall(PetscArraycpy(w->T, multiplier->T + multiplier->offset[facet], w->num_rows * num));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Nodes of the result and T, the multiplier functions by those of the lattice: constant ones where the facet is covered, else those of the true nodes. */
 static PetscErrorCode Nodes_Private(const EvaluateContext *ctx, PetscInt facet)
 {
   RayWork         w  = ctx->pair->ray;
   const PetscInt  na = w->facet.s.num, nv = w->facet.nv;
+  const PetscBool constant = (PetscBool)(ctx->pair->multiplier && w->full && w->facet.s.order > 1);
   const PetscInt *lattice;
   PetscInt        order1[4], num = 0, place;
   DirectionTerm   term[TERMS];
@@ -147,13 +171,16 @@ static PetscErrorCode Nodes_Private(const EvaluateContext *ctx, PetscInt facet)
   PetscFunctionBegin;
   w->num_nodes = 0;
   ContactRayLatticeNodes(ctx->nonmortar, facet, &lattice, order1);
+  if (constant) PetscCall(Functions_Private(w, ctx->pair->multiplier, facet));
   PetscCall(ContactGrow(na + w->num_mortar + 1, sizeof(PetscInt), &w->size_row_first, &w->row_first));
   for (PetscInt a = 0; a < na; a++) PetscCall(AddRow_Private(w, ctx->nonmortar, lattice[a], PETSC_FALSE, a, &num));
-  w->num_rows = w->num_nodes;
-  PetscCall(ContactGrow(w->num_rows * na, sizeof(PetscReal), &w->size_T, &w->T));
-  PetscCall(PetscArrayzero(w->T, w->num_rows * na));
-  for (PetscInt a = 0; a < na; a++)
-    for (PetscInt k = w->row_first[a]; k < w->row_first[a + 1]; k++) w->T[w->row_node[k] * na + a] += w->row_weight[k];
+  if (!constant) {
+    w->num_rows = w->num_nodes;
+    PetscCall(ContactGrow(w->num_rows * na, sizeof(PetscReal), &w->size_T, &w->T));
+    PetscCall(PetscArrayzero(w->T, w->num_rows * na));
+    for (PetscInt a = 0; a < na; a++)
+      for (PetscInt k = w->row_first[a]; k < w->row_first[a + 1]; k++) w->T[w->row_node[k] * na + a] += w->row_weight[k];
+  }
   for (PetscInt v = 0; v < nv; v++) {
     const PetscInt terms = ContactDirectionTerms(w, ctx->nonmortar, ctx->nonmortar->facets[nv * facet + v], TERMS, term);
 

@@ -1,7 +1,7 @@
 /* Private to the ray kernel: contact along a direction that is continuous over the nonmortar surface, for facets of any order in two and three dimensions.
 
-   Facet. Position x(xi) = sum N_a x_a on the Gauss-Lobatto lattice, tangents t_k = x,k, n = t_1 x t_2 (plane: t_2 = e_z). Directions d_v at corners are sums of
-   facet vectors (direction.c), d(xi) their multilinear interpolation. Ray: x(xi) + s d(xi) = x_m(eta). Gap density g = s d.n per dxi: (x_m - x).n, so that
+   Facet. Position x(xi) = sum N_a x_a on the Gauss-Lobatto lattice, tangents t_k = x,k, n = t_1 x t_2 (plane: t_2 = e_z). Directions d_v at corners are means
+   of facet vectors (direction.c), d(xi) their multilinear interpolation. Ray: x(xi) + s d(xi) = x_m(eta). Gap density g = s d.n per dxi: (x_m - x).n, so that
    where both surfaces coincide the forces are z n whatever d is. Axisymmetric: times 2 pi r.
 
    Chart. Integration is over a constant plane picture of the facet, Y(xi) multilinear: corners of the reference facet (plane: the square, Y = xi). Mortar
@@ -13,6 +13,7 @@
 #pragma once
 #include "element.h"
 #include "facetimpl.h"
+#include "multiplierimpl.h"
 
 #define RAY_ORDER MORTISE_MAX_ORDER
 #define RAY_LATTICE ((RAY_ORDER + 1) * (RAY_ORDER + 1))

@@ -50,10 +50,10 @@ static PetscBool Batch_Private(RayWork w, const RayLattice *mortar, const Overla
 
   for (PetscInt q = 0; q < b->num; q++) b->mean[q] = 0;
   for (PetscInt k = 0; k < points; k++) {
-    PetscReal gap_xi[2], area_xi[2], gap, area;
+    PetscReal gap_xi[2], area_xi[2], gap, area, over;
 
     if (!ContactRayPoint(f, mortar, o, s, point[k], derivatives ? 2 : 1, r)) return PETSC_FALSE;
-    gap = ContactRayGap(r), area = ContactRayArea(r);
+    gap = ContactRayGap(r), area = ContactRayArea(r), over = weight[k] / r->chart.det;
     w->min_gap = PetscMin(w->min_gap, r->s * r->beta / r->a);
     w->covered += weight[k] * s->size * area / r->chart.det;
     ContactRayTestFunctions(f, t, &r->S, r->xi, &T);
@@ -62,7 +62,8 @@ static PetscBool Batch_Private(RayWork w, const RayLattice *mortar, const Overla
     for (PetscInt q = 0; q < b->num; q++) {
       const PetscBool isgap = (PetscBool)(q < t->num);
 
-      ContactRayOverDet(f, &r->chart, weight[k], &factor[q], &phi);
+      phi.v = factor[q].v * over;
+      for (PetscInt i = 0; i < f->m && derivatives; i++) phi.d[i] = factor[q].d[i] * over - phi.v * r->chart.ddet[i] / r->chart.det;
       b->mean[q] += phi.v * (isgap ? gap : area);
       if (!derivatives) continue;
       b->weight[k * b->num + q] = phi.v;

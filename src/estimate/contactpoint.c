@@ -1,8 +1,9 @@
 /* Contact traction at a point of a facet, two and three dimensions by the same formulas: an edge is a strip of width 1, its second tangent the unit vector
    across.
 
-   Nonmortar: -z n stretch, z and n interpolated by the functions of the facet's nodes, n normalised. Mortar: +z n stretch at the place that the segments give:
-   linear within the part of an edge, or within the triangles of a fan on the corners of a polygon. Stretch: current over reference measure. */
+   Nonmortar: -z n stretch, z and n interpolated by the functions of the facet's nodes, n normalised (facets of higher order: their own normal). Mortar: +z n
+   stretch at the place that the segments give: linear within the part of an edge, or within the triangles of a fan on the corners of a polygon. Stretch:
+   current over reference measure. */
 #include "estimateimpl.h"
 
 /* Facets of a bent surface are seen in planes of their own, and the sides of a polygon are no straight lines on a warped facet: polygons leave slits. This far
@@ -82,14 +83,18 @@ static PetscReal Stretch_Private(const ContactTerms *terms, const SurfaceView *s
 }
 
 /* T += factor * z n at a place of a nonmortar facet. */
-static void Push_Private(const ContactTerm *term, PetscInt facet, const PetscReal xi[2], PetscReal factor, PetscReal T[3])
+static void Push_Private(const ContactTerm *term, PetscBool finite, PetscInt facet, const PetscReal xi[2], PetscReal factor, PetscReal T[3])
 {
   const SurfaceView *s = &term->view->nonmortar;
   const PetscInt    *node, num = SurfaceFacetNodes(s, facet, &node);
-  PetscReal          N[SURFACE_MOST_NODES], n[3], z = 0;
+  PetscReal          N[SURFACE_MOST_NODES], n[3], t[2][3], z = 0;
 
   ContactShape_Private(s, facet, xi, N);
-  ContactPosition_Private(s, facet, term->normal, N, n);
+  if (s->order) {
+    ContactTangents_Private(s, facet, finite ? term->x : s->X, xi, t);
+    Cross3(t[0], t[1], n);
+  } else
+    ContactPosition_Private(s, facet, term->normal, N, n);
   for (PetscInt a = 0; a < num; ++a) z += N[a] * term->z[node[a]];
   const PetscReal length = PetscSqrtReal(Dot3(n, n));
   for (PetscInt c = 0; c < s->dim && length > 0; ++c) T[c] += factor * z * n[c] / length;
@@ -177,17 +182,19 @@ static PetscInt Seen_Private(const ContactTerm *term, PetscInt mortar_facet, con
 
 void ContactTermsTraction_Private(const ContactTerms *terms, PetscInt facet, const PetscReal X[3], PetscReal T[3])
 {
+  const PetscBool finite = (PetscBool)(terms->kinematics == KINEMATICS_FINITE);
+
   for (PetscInt i = 0; i < terms->num; ++i) {
     const ContactTerm *term      = &terms->terms[i];
     const PetscInt     nonmortar = term->facet_place[0][facet], mortar = term->facet_place[1][facet];
     PetscReal          xi[2], eta[2];
     if (nonmortar >= 0) {
       Locate_Private(&term->view->nonmortar, nonmortar, X, xi);
-      Push_Private(term, nonmortar, xi, -Stretch_Private(terms, &term->view->nonmortar, nonmortar, xi), T);
+      Push_Private(term, finite, nonmortar, xi, -Stretch_Private(terms, &term->view->nonmortar, nonmortar, xi), T);
     }
     if (mortar < 0) continue;
     Locate_Private(&term->view->mortar, mortar, X, eta);
     const PetscInt seen = Seen_Private(term, mortar, eta, xi);
-    if (seen >= 0) Push_Private(term, seen, xi, Stretch_Private(terms, &term->view->mortar, mortar, eta), T);
+    if (seen >= 0) Push_Private(term, finite, seen, xi, Stretch_Private(terms, &term->view->mortar, mortar, eta), T);
   }
 }

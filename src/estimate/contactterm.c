@@ -99,8 +99,8 @@ static PetscErrorCode Fields_Private(Problem problem, PetscInt pair, const Fores
     const PetscInt *node, count = SurfaceFacetNodes(s, f, &node);
     for (PetscInt k = 0; k < count && facet[f]; ++k) wanted[node[k]] = PETSC_TRUE;
   }
-  PetscCall(PetscMalloc2(s->num_nodes, &term->z, s->dim * s->num_nodes, &term->normal));
-  PetscCall(ProblemFetchContact(problem, pair, wanted, term->z, term->normal));
+  PetscCall(PetscMalloc3(s->num_nodes, &term->z, s->dim * s->num_nodes, &term->normal, s->dim * s->num_nodes, &term->x));
+  PetscCall(ProblemFetchContact(problem, pair, wanted, term->z, term->normal, term->x));
   PetscCall(PetscFree2(wanted, facet));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -177,7 +177,7 @@ PetscErrorCode ContactTermsDestroy_Private(ContactTerms *terms)
     PetscCall(PetscFree(terms->terms[i].segment_first));
     PetscCall(PetscFree(terms->terms[i].segments));
     PetscCall(PetscFree(terms->terms[i].box));
-    PetscCall(PetscFree2(terms->terms[i].z, terms->terms[i].normal));
+    PetscCall(PetscFree3(terms->terms[i].z, terms->terms[i].normal, terms->terms[i].x));
   }
   PetscCall(PetscFree(terms->terms));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -117,18 +117,22 @@ static PetscBool IsHeld_Private(const Surface *s, PetscInt n)
   return (PetscBool)(free2 < PetscSqr(HELD));
 }
 
+#define WEIGHTLESS 1e-10 /* share in the largest of all nodes' below which a node carries nothing: on the axis int N_j R dR = 0 from order 2 on */
+
 /* A node that a support holds across the surface carries no multiplier: its constraint would have nothing of its own to act on, and where the nonmortar side is
    finer a row of such nodes leaves no multiplier unique. (Nodes of rigid bodies keep theirs: the other side moves.) Hanging nodes have none: their masters act
    for them. */
 static PetscErrorCode HasMultiplier_Private(Problem p, Contact *c)
 {
   const ForestTables *t;
-  const Surface      *s = &c->side[0];
+  const Surface      *s       = &c->side[0];
+  PetscReal           largest = 0;
 
   PetscFunctionBegin;
   PetscCall(ForestGetTables(p->forest, &t));
+  for (PetscInt n = 0; n < s->num_nodes; ++n) largest = PetscMax(largest, c->w0[n]);
   for (PetscInt n = 0; n < s->num_nodes; ++n) {
-    if (s->hang[n] < s->hang[n + 1]) continue;
+    if (s->hang[n] < s->hang[n + 1] || (s->order && c->w0[n] <= WEIGHTLESS * largest)) continue;
     const PetscInt  facet = s->node_facet[s->node_first[n]];
     const PetscBool rigid = p->scene->bodies[t->leaf_body[s->facet_leaf[facet]]].material->law->rigid;
     c->has_multiplier[n]  = (PetscBool)(rigid || !IsHeld_Private(s, n));

@@ -70,7 +70,7 @@ PetscErrorCode ProblemGatherContactToAll(Problem p, PetscInt pair, const Contact
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode ProblemFetchContact(Problem p, PetscInt pair, const PetscBool wanted[], PetscReal z[], PetscReal normal[])
+PetscErrorCode ProblemFetchContact(Problem p, PetscInt pair, const PetscBool wanted[], PetscReal z[], PetscReal normal[], PetscReal x[])
 {
   const Contact   *c    = &p->contacts[pair];
   const Surface   *s    = &c->side[0];
@@ -85,11 +85,13 @@ PetscErrorCode ProblemFetchContact(Problem p, PetscInt pair, const PetscBool wan
     const PetscBool mine = (PetscBool)(s->owner[n] == p->rank);
     z[n]                 = mine ? c->z[n] : NAN;
     for (PetscInt d = 0; d < s->dim && normal; ++d) normal[s->dim * n + d] = mine ? own[s->dim * n + d] : NAN;
+    for (PetscInt d = 0; d < s->dim && x; ++d) x[s->dim * n + d] = mine ? s->x[s->dim * n + d] : NAN;
     if (wanted[n] && !mine) nodes[num++] = n;
   }
   PetscCall(LinkSet_Private(p, s, num, nodes, &link));
   PetscCall(LinkSpread_Private(p, &link, 1, z));
   if (normal) PetscCall(LinkSpread_Private(p, &link, s->dim, normal));
+  if (x) PetscCall(LinkSpread_Private(p, &link, s->dim, x));
   PetscCall(LinkDestroy_Private(&link));
   PetscCall(PetscFree(nodes));
   PetscFunctionReturn(PETSC_SUCCESS);

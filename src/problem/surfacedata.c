@@ -15,6 +15,35 @@ static void NodeMirror_Private(Surface *s, PetscInt n, PetscInt fixed)
   for (PetscInt c = 0; c < 2; ++c) s->mirror[2 * n + c] = s->frame[4 * n + 2 * k + c];
 }
 
+/* The same in space, up to two planes: directions in which a corner is held, all of whose facets lie to one side of the plane and meet it steeply. */
+static void NodeMirrors_Private(Surface *s, PetscInt n, PetscInt fixed)
+{
+  PetscInt num = 0;
+
+  for (PetscInt k = 0; k < 3 && num < 2; ++k) {
+    const PetscReal *plane = s->frame + 9 * n + 3 * k;
+    PetscReal        lo = 0, hi = 0, N[3] = {0, 0, 0}, reach;
+
+    if (!(fixed >> k & 1)) continue;
+    for (PetscInt f = s->node_first[n]; f < s->node_first[n + 1]; ++f) {
+      const PetscInt *node = s->facets + 4 * s->node_facet[f];
+      PetscReal       vector[3];
+
+      ContactFacetVector(3, s->X, node, vector);
+      for (PetscInt c = 0; c < 3; ++c) N[c] += vector[c];
+      for (PetscInt a = 0; a < 4; ++a) {
+        const PetscReal along = Dot3(plane, s->X + 3 * node[a]) - Dot3(plane, s->X + 3 * n);
+
+        lo = PetscMin(lo, along), hi = PetscMax(hi, along);
+      }
+    }
+    reach = PetscMax(-lo, hi);
+    if (PetscMin(-lo, hi) > 1e-6 * reach || PetscSqr(Dot3(plane, N)) > 0.5 * Dot3(N, N)) continue;
+    for (PetscInt c = 0; c < 3; ++c) s->mirror[6 * n + 3 * num + c] = plane[c];
+    ++num;
+  }
+}
+
 /* What this rank owns, and what it knows without asking: nodes that its cells and ghost cells depend on. */
 static PetscErrorCode Shares_Private(Problem p, const HPTables *v, const ForestTables *t, Surface *s)
 {
@@ -86,7 +115,10 @@ PetscErrorCode SurfaceFields_Private(Problem p, Surface *s)
     for (PetscInt c = 0; c < dim; ++c) s->dof[dim * n + c] = (PetscInt)buffer[room * n + room - 1]; /* the fixed bits, until the indices are known */
   }
   if (s->order) SurfaceFollow_Private(s, dim, s->X); /* not all of them are nodes of the space */
-  for (PetscInt n = 0; dim == 2 && n < s->num_nodes; ++n) NodeMirror_Private(s, n, s->dof[2 * n]);
+  for (PetscInt n = 0; n < s->num_nodes; ++n) {
+    if (dim == 2) NodeMirror_Private(s, n, s->dof[2 * n]);
+    if (dim == 3) NodeMirrors_Private(s, n, s->dof[3 * n]);
+  }
   PetscCall(PetscArraycpy(s->x, s->X, dim * s->num_nodes));
   PetscCall(PetscFree(buffer));
   PetscCall(Shares_Private(p, v, t, s));

@@ -63,7 +63,7 @@ const Option Options[] = {
     {"contact.<pair>.nonmortar", KEY_TEXT, "", NULL, "", "physical group that carries the multiplier", PAIR(nonmortar)},
     {"contact.<pair>.mortar", KEY_TEXT, "", NULL, "", "physical group opposite", PAIR(mortar)},
     {"contact.<pair>.friction", KEY_REAL, "", "0", NOT_BELOW, "coefficient of friction; not built yet: 0 only", PAIR(spec.friction)},
-    {"contact.<pair>.order", KEY_WORD, "", "1", "1|full", "order of the contact faces; full (that of the cells) is not built yet", PAIR(order)},
+    {"contact.<pair>.order", KEY_WORD, "", "1", "1|full", "order of the contact faces; full: that of their cells, with their curved geometry", PAIR(order)},
     {"contact.<pair>.subdivide", KEY_INT, "", "0", "[0,8]",
      "before the first solve, how often to subdivide the cells that touch either side, so that linear faces are as accurate as the cells' order",
      PAIR(subdivide)},

@@ -165,11 +165,12 @@ static PetscErrorCode ReadContact_Private(Scene s, SceneNode *node, ContactEntry
   c->spec.full     = c->order == 1 ? PETSC_TRUE : PETSC_FALSE;
   c->spec.adjust   = c->initial_gap == 1 ? PETSC_TRUE : PETSC_FALSE;
   c->spec.standard = c->multiplier == 1 ? PETSC_TRUE : PETSC_FALSE;
-  PetscCheckInput(!c->spec.full, "%s: contact faces of full order are not built yet; allowed: 1", NodeWhere(NodeFind(node, "order")));
   PetscCheckInput(c->spec.friction == 0, "%s is %g: friction is not built yet; allowed: 0", NodeWhere(NodeFind(node, "friction")), (double)c->spec.friction);
   PetscCheckInput(strcmp(c->nonmortar, c->mortar), "%s: both sides are '%s'; a pair needs two different surfaces", NodeWhere(node), c->mortar);
   PetscCheckInput(s->data.mesh.dim == 2 || !c->spec.node_to_segment,
                   "%s: node-to-segment contact is for comparison in two dimensions only; allowed here: false", NodeWhere(NodeFind(node, "node_to_segment")));
+  PetscCheckInput(!c->spec.full || !c->spec.node_to_segment, "%s: faces of full order and node_to_segment do not go together; allowed here: 1",
+                  NodeWhere(NodeFind(node, "order")));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -1,5 +1,6 @@
 /* Contact in three dimensions: seconds of search and evaluation against the number of facets, two wavy sheets of n x n and about 1.5 n x 1.5 n facets pressed
-   together everywhere. Comma separated: nonmortar facets, mortar facets, segments, search, values, gradients (forces), gradients and Hessian (tangent). */
+   together everywhere. Comma separated: nonmortar facets, mortar facets, segments, search, values, gradients (forces), gradients and Hessian (tangent).
+   -continuous: along a continuous direction. */
 #include "contact.h"
 #include <petsctime.h>
 
@@ -30,7 +31,7 @@ static void SheetCreate(PetscInt n, PetscReal height, PetscBool up, Sheet *c)
 
     for (PetscInt k = 0; k < 4; ++k) c->facets[4 * f + k] = around[up ? k : 3 - k];
   }
-  c->s = (ContactSurface){.dim = 3, .num_nodes = (n + 1) * (n + 1), .num_facets = n * n, .facets = c->facets, .x = c->x};
+  c->s = (ContactSurface){.dim = 3, .num_nodes = (n + 1) * (n + 1), .num_facets = n * n, .facets = c->facets, .x = c->x, .X = c->x};
 }
 
 static double Evaluate(ContactPair pair, const Sheet *a, const Sheet *b, PetscBool derivatives, PetscBool hessian)
@@ -53,13 +54,15 @@ int main(int argc, char **argv)
 {
   static const PetscInt Sizes[] = {10, 18, 32, 56, 100, 178, 316};
   PetscInt              most    = 316;
+  PetscBool             rays    = PETSC_FALSE;
 
   OK(PetscInitialize(&argc, &argv, NULL, NULL));
   OK(PetscOptionsGetInt(NULL, NULL, "-most", &most, NULL));
+  OK(PetscOptionsGetBool(NULL, NULL, "-continuous", &rays, NULL));
   printf("nonmortar,mortar,segments,search,values,forces,tangent\n");
   for (size_t i = 0; i < sizeof(Sizes) / sizeof(Sizes[0]) && Sizes[i] <= most; ++i) {
     const PetscInt        n = Sizes[i], m = n + n / 2;
-    const ContactSpec     spec = {.standard = PETSC_FALSE};
+    const ContactSpec     spec = {.continuous = rays};
     const ContactSegment *segments;
     PetscLogDouble        search = 1e9, start, end;
     PetscInt             *list, num;

@@ -26,6 +26,7 @@ static uint64_t box_random_state = 88172645463325252ULL;
 static PetscBool box_distorted = PETSC_FALSE;
 static PetscReal box_bend      = 0;
 static PetscReal box_width     = 1;
+static PetscInt  box_rotation  = -1; /* not negative: cell c has proper rotation number box_rotation + 5 c, instead of a random one */
 
 static inline PetscInt BoxRandom(PetscInt n)
 {
@@ -53,6 +54,19 @@ static inline void BoxRotation(PetscInt dim, PetscInt axis[3], PetscInt flip[3])
     if (flip[i]) sign = -sign;
   }
   if (sign < 0) flip[0] = 1 - flip[0];
+}
+
+/* Proper rotation number k of all 24 (2-D: 4), counted round. */
+static inline void BoxRotationNumber(PetscInt dim, PetscInt k, PetscInt axis[3], PetscInt flip[3])
+{
+  static const PetscInt order[6][3] = {{0, 1, 2}, {1, 0, 2}, {1, 2, 0}, {2, 1, 0}, {2, 0, 1}, {0, 2, 1}}; /* even and odd ones in turn */
+  const PetscInt        orders = dim == 2 ? 2 : 6, flips = 1 << (dim - 1), which = k / flips % orders;
+
+  for (PetscInt i = 0, sign = which % 2; i < 3; ++i) { /* the last axis makes the determinant positive */
+    axis[i] = order[which][i];
+    flip[i] = i < dim - 1 ? k >> i & 1 : i == dim - 1 ? sign : 0;
+    sign ^= flip[i];
+  }
 }
 
 /* Box coordinates of a local lattice point t (0..q) of a cell, in units of 1/q. */
@@ -148,7 +162,12 @@ static inline Forest BoxForest(MPI_Comm comm, PetscInt dim, const PetscInt n[3],
     mesh.num_vertices *= i < dim ? n[i] + 1 : 1;
   }
   OK(mesh.num_cells <= 512 ? 0 : PETSC_ERR_ARG_SIZ);
-  for (PetscInt c = 0; c < mesh.num_cells; ++c) BoxRotation(dim, box->axis[c], box->flip[c]);
+  for (PetscInt c = 0; c < mesh.num_cells; ++c) {
+    if (box_rotation < 0)
+      BoxRotation(dim, box->axis[c], box->flip[c]);
+    else
+      BoxRotationNumber(dim, box_rotation + 5 * c, box->axis[c], box->flip[c]);
+  }
   OK(PetscMalloc1(mesh.num_vertices, &id));
   BoxShuffle(mesh.num_vertices, id);
   OK(PetscMalloc1(mesh.num_cells << dim, &mesh.cell_vertices));

@@ -2,9 +2,14 @@
    - polynomial reproduction: nodal values of a field of degree r (the lowest order in play) at true nodes give that field in every cell;
    - continuity: any true values give the same trace from both sides of every facet, hanging or not;
    - the DM's default constraints fill hanging nodes with the same values as the rows, and distribute residuals by the transpose;
+   - all that for orders 1 to 8 over the 24 proper rotations of the cells;
    - numbering and positions do not depend on the number of ranks. */
 #include "forest_box.h"
 #include "hp.h"
+
+#define MOST 729 /* nodes of a cell of order 8 in space */
+
+static PetscInt hanging_entities[2][3]; /* vertices, edges and faces that hung, in the plane and in space */
 
 static void RandomOrders(const ForestTables *t, PetscInt low, PetscInt high, int8_t **orders)
 {
@@ -54,7 +59,7 @@ static void FillPolynomial(const HPTables *v, PetscInt degree, PetscReal *local)
 static PetscReal ReproductionError(HPSpace space, PetscInt degree)
 {
   const HPTables *v;
-  PetscReal      *local, values[3 * 125], X[3 * 125], N[125], error = 0;
+  PetscReal      *local, values[3 * MOST], X[3 * MOST], N[MOST], error = 0;
 
   OK(HPSpaceGetTables(space, &v));
   OK(PetscMalloc1(v->num_nodes * v->dim, &local));
@@ -133,6 +138,12 @@ static void FillRandom(const HPTables *v, PetscReal *local)
   }
 }
 
+static int ByPlace(const void *a, const void *b)
+{
+  const PetscReal x = *(const PetscReal *)a, y = *(const PetscReal *)b;
+  return x < y ? -1 : x > y;
+}
+
 /* Largest difference, over matching points, of the two fields that two leaves give on shared positions: cells are sampled on their faces, values
    are collected by position. */
 static PetscReal ContinuityError(HPSpace space)
@@ -140,7 +151,7 @@ static PetscReal ContinuityError(HPSpace space)
   const HPTables     *v;
   const ForestTables *t;
   Forest              forest;
-  PetscReal          *local, values[3 * 125], N[125], error = 0;
+  PetscReal          *local, values[3 * MOST], N[MOST], error = 0;
 
   OK(HPSpaceGetTables(space, &v));
   OK(HPSpaceGetForest(space, &forest));
@@ -176,9 +187,10 @@ static PetscReal ContinuityError(HPSpace space)
       }
     }
   }
-  for (PetscInt i = 0; i < num; i += 7) {
-    for (PetscInt j = i + 1; j < num; ++j) {
-      if (PetscAbsReal(sample[i][0] - sample[j][0]) + PetscAbsReal(sample[i][1] - sample[j][1]) + PetscAbsReal(sample[i][2] - sample[j][2]) > 1e-10) continue;
+  qsort(sample, (size_t)num, sizeof(*sample), ByPlace);
+  for (PetscInt i = 0; i < num; ++i) {
+    for (PetscInt j = i + 1; j < num && sample[j][0] - sample[i][0] < 1e-10; ++j) {
+      if (PetscAbsReal(sample[i][1] - sample[j][1]) + PetscAbsReal(sample[i][2] - sample[j][2]) > 1e-10) continue;
       for (PetscInt a = 3; a < 6; ++a) error = PetscMax(error, PetscAbsReal(sample[i][a] - sample[j][a]));
     }
   }
@@ -204,6 +216,59 @@ static void test_continuity(void **state)
     OK(HPSpaceDestroy(&space));
     OK(PetscFree(orders));
     OK(ForestDestroy(&forest));
+  }
+}
+
+/* Orders 1 to 8 at random, all rotations, isotropic and anisotropic splits: reproduction of the lowest order's polynomials, and continuity. */
+static void CheckRotation(PetscInt dim, PetscInt rotation)
+{
+  Forest              forest;
+  const ForestTables *t;
+  HPSpace             space;
+  int8_t             *orders;
+  PetscInt            hanging[3] = {0};
+
+  box_rotation = rotation;
+  forest       = RandomForest(dim, 1, dim == 2 ? 4 : 1, (PetscBool)(rotation % 3 > 0), (uint64_t)rotation);
+  box_rotation = -1;
+  OK(ForestGetTables(forest, &t));
+  RandomOrders(t, 1 + rotation % 2, 8, &orders);
+  OK(HPSpaceCreate(forest, orders, rotation % 4 == 0, 0, &space));
+  for (PetscInt e = 0; e < t->first[dim]; ++e) hanging[e < t->first[1] ? 0 : e < t->first[2] ? 1 : 2] += t->parent[e] >= 0;
+  const PetscReal error = ReproductionError(space, rotation % 4 ? 1 + rotation % 2 : 1), jump = ContinuityError(space);
+  if (!(error < 1e-11 && jump < 1e-11)) print_message("dim %d rotation %d: error %g, jump %g\n", (int)dim, (int)rotation, (double)error, (double)jump);
+  assert_true(error < 1e-11 && jump < 1e-11);
+  for (PetscInt d = 0; d < dim; ++d) hanging_entities[dim - 2][d] += hanging[d];
+  OK(HPSpaceDestroy(&space));
+  OK(PetscFree(orders));
+  OK(ForestDestroy(&forest));
+}
+
+static void test_all_rotations(void **state)
+{
+  for (PetscInt rotation = 0; rotation < 24; ++rotation) {
+    CheckRotation(2, rotation);
+    CheckRotation(3, rotation);
+  }
+  for (PetscInt dim = 2; dim <= 3; ++dim)
+    for (PetscInt d = 0; d < dim; ++d) assert_true(hanging_entities[dim - 2][d] > 100);
+}
+
+/* The 24 proper rotations of a cube are there, each once; the 4 of a square. */
+static void test_rotation_numbers(void **state)
+{
+  for (PetscInt dim = 2; dim <= 3; ++dim) {
+    PetscInt seen[27] = {0};
+    for (PetscInt k = 0; k < (dim == 2 ? 4 : 24); ++k) {
+      PetscInt  axis[3], flip[3];
+      PetscReal R[9] = {0};
+      BoxRotationNumber(dim, k, axis, flip);
+      for (PetscInt i = 0; i < 3; ++i) R[3 * axis[i] + i] = flip[i] ? -1 : 1;
+      assert_true(Det3(R) > 0.5);
+      const PetscInt name = (PetscInt)(R[0] + 2 * R[1] + 3 * R[2] + 6), other = (PetscInt)(R[3] + 2 * R[4] + 3 * R[5] + 6);
+      for (PetscInt j = 0; j < k; ++j) assert_true(seen[j] != 100 * name + other + 1);
+      seen[k] = 100 * name + other + 1;
+    }
   }
 }
 
@@ -323,7 +388,8 @@ int main(int argc, char **argv)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(test_reproduction),        cmocka_unit_test(test_reproduction_curved), cmocka_unit_test(test_continuity),
-      cmocka_unit_test(test_default_constraints), cmocka_unit_test(test_transform),
+      cmocka_unit_test(test_default_constraints), cmocka_unit_test(test_transform),           cmocka_unit_test(test_rotation_numbers),
+      cmocka_unit_test(test_all_rotations),
   };
   if (PetscInitialize(&argc, &argv, NULL, NULL)) return 1;
   int failed = cmocka_run_group_tests(tests, NULL, NULL);

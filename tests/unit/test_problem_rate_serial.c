@@ -5,6 +5,8 @@
 
 #define ENERGY 0.138562678930
 #define NORM 0.078881063775
+#define MOST_NODES (9 * 9 * 9)
+#define MOST_POINTS (11 * 11 * 11)
 
 static void Exact(const PetscReal X[3], PetscReal u[3], PetscReal H[9])
 {
@@ -99,8 +101,9 @@ typedef struct {
 
 static void Integrate(const Solved *s, Figures *f)
 {
-  const HPTables *v = s->tables;
-  PetscReal       xi[3 * 512], weight[512], F[9 * 512], P[9 * 512], X[3 * 125], u[3 * 125], N[125], D[3 * 125];
+  const HPTables  *v = s->tables;
+  static PetscReal xi[3 * MOST_POINTS], weight[MOST_POINTS], F[9 * MOST_POINTS], P[9 * MOST_POINTS], X[3 * MOST_NODES], u[3 * MOST_NODES], N[MOST_NODES],
+      D[3 * MOST_NODES];
 
   *f = (Figures){.energy = s->report.status.energy};
   OK(ProblemNumDofs(s->problem, &f->dofs));
@@ -212,6 +215,22 @@ static void Rates(void **state)
   }
 }
 
+/* 27 cells: each order up to 6 divides the error by 4 at least; the rate of order 5. */
+static void HighOrders(void **state)
+{
+  Figures last = Solve(3, 1, PETSC_FALSE), f;
+
+  for (PetscInt order = 2; order <= 6; ++order, last = f) {
+    f = Solve(3, order, PETSC_FALSE);
+    if (!(f.h1 < last.h1 / 4)) fail_msg("order %d divides the error by %g only", (int)order, (double)(last.h1 / f.h1));
+    if (order != 5) continue;
+    const Figures coarse = Solve(2, order, PETSC_FALSE);
+    CheckRate(order, 2, &coarse, 3, &f);
+  }
+  assert_near(f.energy, ENERGY, 1e-9);
+  assert_near(f.norm, NORM, 1e-10);
+}
+
 static void HangingRates(void **state)
 {
   const PetscInt n[4][2] = {{4, 8}, {2, 4}, {2, 4}, {2, 4}};
@@ -224,7 +243,7 @@ static void HangingRates(void **state)
 
 int main(int argc, char **argv)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(BodyForceIsRight), cmocka_unit_test(Rates), cmocka_unit_test(HangingRates)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(BodyForceIsRight), cmocka_unit_test(Rates), cmocka_unit_test(HangingRates), cmocka_unit_test(HighOrders)};
   if (PetscInitialize(&argc, &argv, NULL, NULL) || StageRegister()) return 1;
   const int failed = cmocka_run_group_tests(tests, NULL, NULL);
   return PetscFinalize() || failed;
