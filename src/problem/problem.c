@@ -100,6 +100,7 @@ PetscErrorCode ProblemDestroy(Problem *problem)
   PetscCall(PetscFree(p->contacts));
   PetscCall(PetscFree(p->leaf_order));
   PetscCall(PetscFree2(p->index, p->row));
+  PetscCall(PetscFree2(p->scatter_first, p->scatter));
   PetscCall(PetscFree3(p->u_start, p->p_start, p->row_start));
   PetscCall(PetscFree4(p->target, p->applied, p->increment, p->start_applied));
   PetscCall(PetscFree2(p->work_index, p->work_value));

@@ -112,19 +112,25 @@ struct _p_Problem {
   Vec        start_x;
   PetscInt   num_dofs;
 
-  Mat            matrix;
-  PetscBool      symmetric; /* tangent in the symmetric form */
-  PetscBool      lifting;
-  Vec            lift;
-  PetscReal      t;
-  MPI_Datatype   unit[4]; /* as many reals */
-  ContactTraffic traffic;
-  PetscInt      *work_index;
-  PetscReal     *work_value;
-  PetscInt       work_size;
+  Mat              matrix;
+  ptrdiff_t       *scatter_first; /* [num_owned_cells] where a cell's places start in scatter, -1: it goes by MatSetValues */
+  uint16_t        *scatter;       /* scatter.c */
+  PetscObjectState scatter_state; /* pattern the places belong to */
+  PetscBool        symmetric;     /* tangent in the symmetric form */
+  PetscBool        lifting;
+  Vec              lift;
+  PetscReal        t;
+  MPI_Datatype     unit[4]; /* as many reals */
+  ContactTraffic   traffic;
+  PetscInt        *work_index;
+  PetscReal       *work_value;
+  PetscInt         work_size;
 };
 
 PetscErrorCode ProblemLayout_Private(Problem);
+/* scatter.c: places of cells in the matrix as it stands, made when its pattern is new; add a cell's matrix there (*added false: it has no places). */
+PetscErrorCode ProblemScatter_Private(Problem);
+PetscErrorCode ProblemScatterAdd_Private(Problem, PetscInt cell, PetscInt num_dofs, const PetscInt dofs[], const PetscReal K[], PetscBool *added);
 /* condense.c: rows of the matrix from the layout. Collective. */
 PetscErrorCode ProblemRows_Private(Problem);
 PetscErrorCode ProblemReduce_Private(Problem, Vec r, Vec rhs);

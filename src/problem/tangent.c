@@ -13,10 +13,10 @@ PetscErrorCode ProblemWork_Private(Problem p, PetscInt size)
 }
 
 /* A cell's matrix: free rows and columns to the matrix, columns of prescribed dofs times their motion to the lift. */
-static PetscErrorCode CellSink_Private(void *context, PetscInt num, const PetscInt dofs[], const PetscReal K[])
+static PetscErrorCode CellSink_Private(void *context, PetscInt cell, PetscInt num, const PetscInt dofs[], const PetscReal K[])
 {
   Problem   p          = (Problem)context;
-  PetscBool prescribed = PETSC_FALSE;
+  PetscBool prescribed = PETSC_FALSE, added;
 
   PetscFunctionBegin;
   PetscCall(ProblemWork_Private(p, num));
@@ -24,7 +24,8 @@ static PetscErrorCode CellSink_Private(void *context, PetscInt num, const PetscI
     p->work_index[i] = p->row[dofs[i]];
     if (p->work_index[i] < 0 && p->lifting && p->increment[dofs[i]] != 0) prescribed = PETSC_TRUE;
   }
-  PetscCall(MatSetValues(p->matrix, num, p->work_index, num, p->work_index, K, ADD_VALUES));
+  PetscCall(ProblemScatterAdd_Private(p, cell, num, dofs, K, &added));
+  if (!added) PetscCall(MatSetValues(p->matrix, num, p->work_index, num, p->work_index, K, ADD_VALUES));
   if (!prescribed) PetscFunctionReturn(PETSC_SUCCESS);
   for (PetscInt i = 0; i < num; ++i) {
     p->work_value[i] = 0;
@@ -267,14 +268,12 @@ static PetscErrorCode ContactRowsInsert_Private(Problem p, Contact *c)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The matrix with room for all of contact, zero. One that was made and never assembled (contact has met nothing yet) is zero as it is. */
+/* The matrix with room for all of contact, zero. */
 static PetscErrorCode ReadyMatrix_Private(Problem p)
 {
-  int       ok        = p->matrix ? 1 : 0;
-  PetscBool assembled = PETSC_FALSE;
+  int ok = p->matrix ? 1 : 0;
 
   PetscFunctionBegin;
-  if (p->matrix) PetscCall(MatAssembled(p->matrix, &assembled));
   for (PetscInt i = 0; i < p->num_contacts; ++i) {
     if (!ContactPatternHolds_Private(&p->contacts[i])) {
       PetscCall(ContactGrowPattern_Private(&p->contacts[i]));
@@ -284,8 +283,9 @@ static PetscErrorCode ReadyMatrix_Private(Problem p)
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &ok, 1, MPI_INT, MPI_MIN, p->comm));
   if (!ok)
     PetscCall(ProblemMatrix_Private(p));
-  else if (assembled)
+  else
     PetscCall(MatZeroEntries(p->matrix));
+  PetscCall(ProblemScatter_Private(p));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
