@@ -145,20 +145,20 @@ static PetscErrorCode ListFacets_Private(Problem p, Contact *c)
 {
   const Surface      *s = &c->side[0];
   const ForestTables *t;
+  PetscBool          *near;
 
   PetscFunctionBegin;
   PetscCall(ForestGetTables(p->forest, &t));
   PetscCall(PetscMalloc2(s->num_facets, &c->listed, s->num_facets, &c->mine));
-  for (PetscInt f = 0; f < s->num_facets; ++f) {
-    PetscBool       near = c->mine[f] = (PetscBool)(t->leaf_rank[s->facet_leaf[f]] == p->rank);
-    const PetscInt *node, num = SurfaceNodes_Private(s, f, &node);
-    for (PetscInt k = 0; k < num; ++k) {
-      const PetscInt n = node[k];
-      if (s->owned[n]) near = PETSC_TRUE;
-      for (PetscInt i = s->hang[n]; i < s->hang[n + 1]; ++i) near = (PetscBool)(near || s->owned[s->hang_master[i]]);
-    }
-    if (near) c->listed[c->num_listed++] = f;
+  PetscCall(PetscMalloc1(s->num_facets, &near));
+  for (PetscInt f = 0; f < s->num_facets; ++f) near[f] = c->mine[f] = (PetscBool)(t->leaf_rank[s->facet_leaf[f]] == p->rank);
+  for (PetscInt n = 0; n < s->num_nodes; ++n) {
+    for (PetscInt k = s->node_first[n]; s->owned[n] && k < s->node_first[n + 1]; ++k) near[s->node_facet[k]] = PETSC_TRUE;
   }
+  for (PetscInt f = 0; f < s->num_facets; ++f) {
+    if (near[f]) c->listed[c->num_listed++] = f;
+  }
+  PetscCall(PetscFree(near));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -329,6 +329,8 @@ PetscErrorCode ContactCreate_Private(Problem p, const ContactSpec *spec, Contact
   PetscCall(PetscCalloc4(c->side[0].num_facets, &c->live, n, &c->valued, n, &c->valued_node, 2 * n, &c->pack));
   PetscCall(NodeScales_Private(p, c));
   PetscCall(HasMultiplier_Private(p, c));
+  const ContactSurface nonmortar = SurfaceAt_Private(&c->side[0], c->side[0].X);
+  PetscCall(ContactPairSetCarriers(c->pair, &nonmortar, c->has_multiplier));
   PetscCall(ListFacets_Private(p, c));
   SearchDistance_Private(c);
   View_Private(c);

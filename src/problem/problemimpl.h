@@ -32,8 +32,9 @@ typedef struct {
   PetscReal *hang_weight;
   int8_t    *order; /* facets of higher order as in contact.h; NULL: all are of order 1, their nodes the corners */
   PetscInt  *first, *lattice;
-  PetscInt  *true_first, *true_node;  /* [num_facets+1] offsets: nodes that carry the facet's shape, ascending: its own, masters for those that hang */
-  PetscInt  *node_first, *node_facet; /* [num_nodes+1] offsets: facets that carry weight to the node, its own and those with a node that hangs on it */
+  PetscInt  *true_first, *true_node;  /* [num_facets+1] offsets, ascending: nodes of the facet, masters for those that hang, and of lattices that share a
+ hanging corner with it: their multiplier functions are made together */
+  PetscInt  *node_first, *node_facet; /* [num_nodes+1] offsets: facets that carry weight to the node, those with it as a true node */
   PetscReal *X, *x, *du;              /* [num_nodes][dim] reference and current position; increment under discussion */
   PetscReal *mirror;                  /* normals of symmetry planes as in ContactSurface, else 0 */
   PetscReal *frame;                   /* [num_nodes][dim][dim] rows: directions of the dofs */

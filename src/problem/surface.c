@@ -114,23 +114,74 @@ static PetscErrorCode SurfaceHanging_Private(const ForestTables *t, Surface *s)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Nodes that carry each facet's shape, ascending: its own, hanging ones replaced by their masters. */
-static PetscErrorCode SurfaceTrue_Private(Surface *s)
+static PetscInt Root_Private(PetscInt group[], PetscInt facet)
 {
-  PetscInt *nodes, num = 0, room = 0, most = 4 * MOST_MASTERS;
+  while (group[facet] != facet) facet = group[facet] = group[group[facet]];
+  return facet;
+}
+
+/* Facets whose multiplier functions are made together: lattices that share a hanging corner (macro dual functions), else each is alone. next[f]: the facet
+   after f in its group, round. */
+static PetscErrorCode Groups_Private(const Surface *s, PetscInt next[])
+{
+  PetscInt *group, *at;
 
   PetscFunctionBegin;
-  for (PetscInt f = 0; f < s->num_facets && s->order; ++f) most = PetscMax(most, (s->first[f + 1] - s->first[f]) * MOST_LATTICE_MASTERS);
-  PetscCall(PetscMalloc1(most, &nodes));
+  for (PetscInt f = 0; f < s->num_facets; ++f) next[f] = f;
+  if (!s->order || s->dim == 2) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(PetscMalloc2(s->num_facets, &group, s->num_nodes, &at));
+  for (PetscInt f = 0; f < s->num_facets; ++f) group[f] = f;
+  for (PetscInt n = 0; n < s->num_nodes; ++n) at[n] = -1;
+  for (PetscInt i = 0; i < s->corners * s->num_facets; ++i) {
+    const PetscInt n = s->facets[i], facet = i / s->corners;
+    if (s->hang[n] == s->hang[n + 1]) continue;
+    if (at[n] < 0) at[n] = facet;
+    const PetscInt a = Root_Private(group, at[n]), b = Root_Private(group, facet);
+    group[PetscMax(a, b)] = PetscMin(a, b);
+  }
+  for (PetscInt f = 0; f < s->num_facets; ++f) { /* into the ring of its root */
+    const PetscInt root = Root_Private(group, f);
+    if (root == f) continue;
+    next[f]    = next[root];
+    next[root] = f;
+  }
+  PetscCall(PetscFree2(group, at));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Append the nodes of a facet, hanging ones replaced by their masters. */
+static PetscErrorCode AddNodes_Private(const Surface *s, PetscInt facet, PetscInt *count, PetscInt *size, PetscInt **nodes)
+{
+  const PetscInt *own, total = SurfaceNodes_Private(s, facet, &own);
+  PetscInt        room = *count;
+
+  PetscFunctionBegin;
+  for (PetscInt k = 0; k < total; ++k) room += PetscMax(1, s->hang[own[k] + 1] - s->hang[own[k]]);
+  if (room > *size) {
+    *size = 2 * room;
+    PetscCall(PetscRealloc((size_t)*size * sizeof(PetscInt), nodes));
+  }
+  for (PetscInt k = 0; k < total; ++k) {
+    const PetscInt n = own[k];
+    if (s->hang[n] == s->hang[n + 1]) (*nodes)[(*count)++] = n;
+    for (PetscInt i = s->hang[n]; i < s->hang[n + 1]; ++i) (*nodes)[(*count)++] = s->hang_master[i];
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Nodes that carry each facet's shape or its multiplier functions, ascending. */
+static PetscErrorCode SurfaceTrue_Private(Surface *s)
+{
+  PetscInt *nodes = NULL, *next, num = 0, room = 0, size = 0;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(s->num_facets, &next));
+  PetscCall(Groups_Private(s, next));
   PetscCall(PetscCalloc1(s->num_facets + 1, &s->true_first));
   for (PetscInt f = 0; f < s->num_facets; ++f) {
-    const PetscInt *own, total = SurfaceNodes_Private(s, f, &own);
-    PetscInt        count = 0;
-    for (PetscInt k = 0; k < total; ++k) {
-      const PetscInt n = own[k];
-      if (s->hang[n] == s->hang[n + 1]) nodes[count++] = n;
-      for (PetscInt i = s->hang[n]; i < s->hang[n + 1]; ++i) nodes[count++] = s->hang_master[i];
-    }
+    PetscInt count = 0;
+    PetscCall(AddNodes_Private(s, f, &count, &size, &nodes));
+    for (PetscInt g = next[f]; g != f; g = next[g]) PetscCall(AddNodes_Private(s, g, &count, &size, &nodes));
     PetscCall(PetscSortRemoveDupsInt(&count, nodes));
     if (num + count > room) {
       room = 2 * (num + count);
@@ -140,6 +191,7 @@ static PetscErrorCode SurfaceTrue_Private(Surface *s)
     s->true_first[f + 1] = num += count;
   }
   PetscCall(PetscFree(nodes));
+  PetscCall(PetscFree(next));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
