@@ -1,6 +1,7 @@
 /* Floor 2. The hp finite element space on the leaves of a forest: orders by the minimum rule, numbering, hanging-node and order constraints.
 
    A *node* is a scalar location (vertex, or interior Gauss-Lobatto point of an edge, face or cell); the field has dim components at each.
+   An edge has one order, a face or cell one along each axis of its frame.
    Local nodes: those of all entities of this rank's leaf DMPlex; dof of node i, component c: local vector entry i*dim + c. A node is *free* of hanging
    constraints ("true") or *hanging* (its row lists true nodes). Cell rows are resolved to true nodes.
    Nodes may carry a frame (skew supports): the dofs of such a node are components along the rows of its frame. Gather and Scatter
@@ -29,10 +30,11 @@ typedef struct {
   const PetscInt  *point_node; /* [num_points+1] first node of each DMPlex point */
 } HPTables;
 
-/* Space with leaf_order[num_leaves] (replicated) cell orders; on entities in the closure of facets with a bit of linear_groups the order is 1 (contact faces).
-   Facets with a bit of mirror_groups lie in planes of symmetry: linear faces that end there go on as their mirror images.
-   Numbers nodes and computes rows. Collective. */
-PetscErrorCode HPSpaceCreate(Forest, const int8_t leaf_order[], uint64_t linear_groups, uint64_t mirror_groups, HPSpace *);
+/* Space with leaf_order[num_leaves] (replicated) cell orders; leaf_cap[num_leaves][3] (replicated; NULL: none): the order along an axis of a cell is the lower
+   of leaf_order and this cap. Cells are integrated with nodes of leaf_order in all directions, lower orders are constraints on them; on entities in the closure
+   of facets with a bit of linear_groups the order is 1 (contact faces). Facets with a bit of mirror_groups lie in planes of symmetry: linear faces that end
+   there go on as their mirror images. Numbers nodes and computes rows. Collective. */
+PetscErrorCode HPSpaceCreate(Forest, const int8_t leaf_order[], const int8_t leaf_cap[][3], uint64_t linear_groups, uint64_t mirror_groups, HPSpace *);
 /* Prescribed dofs: fixed[num_nodes] bit c: component c (in the node's frame) is prescribed; frames: num_frames nodes and their 3x3 rows.
    Hanging nodes must not be marked. `inactive` nodes (NULL: none; of rigid bodies) carry no unknowns: all dofs prescribed.
    Builds the local and global section, the DM's default constraints with bias, and vectors. Collective. */
@@ -48,7 +50,12 @@ PetscErrorCode HPSpaceGetDM(HPSpace, DM *); /* leaf DM clone with section and co
 /* Global index of each local dof, [num_nodes*dim]: -1 prescribed or hanging. Numbering of the space's own global vector. */
 PetscErrorCode HPSpaceGetGlobalDofs(HPSpace, const PetscInt **);
 PetscErrorCode HPSpaceGetFrame(HPSpace, PetscInt node, const PetscReal **frame); /* NULL: Cartesian */
-PetscErrorCode HPSpaceGetOrder(HPSpace, PetscInt entity, PetscInt *order);       /* order of a global entity, in this rank's chart or not */
+/* Order of a global entity, in this rank's chart or not: the highest along its axes; of a cell its leaf_order. */
+PetscErrorCode HPSpaceGetOrder(HPSpace, PetscInt entity, PetscInt *order);
+/* Orders of a global entity along the axes of its frame; its nodes are the products of their interior Gauss-Lobatto points, lexicographic. Not collective. */
+PetscErrorCode HPSpaceGetAxisOrders(HPSpace, PetscInt entity, PetscInt orders[3]);
+/* Does any cell of any rank have a lower order than its leaf_order along some axis? The nodes inside such a cell cannot be condensed. Not collective. */
+PetscErrorCode HPSpaceIsDirectional(HPSpace, PetscBool *directional);
 
 /* The multilinear function through the vertices that takes node's place in the space of order 1 on this mesh: true local vertex nodes and weights,
    at most max of them. A node that is a true vertex: itself. */
@@ -75,6 +82,6 @@ PetscErrorCode HPSpaceScatterAdd(HPSpace, PetscInt cell, const PetscReal r[], Pe
 PetscErrorCode HPSpaceTransformMatrix(HPSpace, PetscInt cell, const PetscReal K[], PetscReal Km[], PetscInt dofs[], PetscInt *num_dofs);
 /* The same for a matrix from which the nodes inside the cell are eliminated: K over the cell's nodes nodes[num] (lexicographic places), all but the inner ones;
    Km over the masters but these. The nodes inside a cell are the local nodes point_node[cell] .. point_node[cell+1]-1, true ones without a frame, which no
-   other cell depends on. */
+   other cell depends on. Not for a space with directional orders. */
 PetscErrorCode HPSpaceTransformBoundary(HPSpace, PetscInt cell, PetscInt num, const PetscInt nodes[], const PetscReal K[], PetscReal Km[], PetscInt dofs[],
                                         PetscInt *num_dofs);

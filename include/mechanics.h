@@ -28,7 +28,8 @@ typedef struct {
 typedef struct {
   char                name[MORTISE_NAME]; /* physical group of top dimension */
   const MaterialSpec *material;           /* borrowed */
-  PetscInt            order;              /* displacement order of its cells */
+  PetscInt            order;              /* displacement order of its cells, the highest of all directions */
+  PetscInt            order_along[3];     /* along cell axes that run mostly in direction x, y, z; 0: order */
   Expression          motion[3];          /* rigid bodies: prescribed translation; NULL: 0 */
   Expression          force[3];           /* dead force per reference volume */
   Amplitude           amplitude;          /* of motion and force */

@@ -26,6 +26,9 @@ PetscErrorCode StateDestroy(State *);
 
 /* Initial cell orders of a scene on a forest, [num_leaves], to be freed by the caller. */
 PetscErrorCode ProblemInitialOrders(const SceneData *, Forest, int8_t **leaf_order);
+/* No cell's order along its axis a is above (*cap)[leaf][a]: the body's order in the direction along which the axis runs mostly, if that is below the body's
+   highest; (*cap)[num_leaves][3] is to be freed by the caller, NULL where no body has a lower order in a direction. */
+PetscErrorCode ProblemOrderCaps(const SceneData *, Forest, int8_t (**cap)[3]);
 
 /* Collective. Scene data and forest must outlive the problem. */
 PetscErrorCode ProblemCreate(const SceneData *, Forest, const int8_t leaf_order[], Problem *);

@@ -3,17 +3,12 @@
 
 PetscErrorCode HPSpaceGetVertexRow(HPSpace hp, PetscInt node, PetscInt max, PetscInt *num, PetscInt vertices[], PetscReal weights[])
 {
-  const ForestTables *t      = hp->tables;
-  const PetscInt      entity = hp->node_entity[node], d = HPEntityDim_Private(t, entity), p = hp->entity_order[entity];
-  const PetscReal    *nodes  = NULL;
-  PetscReal           eta[3] = {0, 0, 0};
-  HPRow               row    = {0};
+  const PetscInt entity = hp->node_entity[node];
+  PetscReal      eta[3] = {0, 0, 0};
+  HPRow          row    = {0};
 
   PetscFunctionBegin;
-  if (d > 0) {
-    PetscCall(ElementGetNodes(p, &nodes));
-    HPNodePoint_Private(d, p, nodes, node - hp->point_node[hp->entity_point[entity]], eta);
-  }
+  PetscCall(HPNodePoint_Private(hp, entity, node - hp->point_node[hp->entity_point[entity]], eta));
   PetscCall(HPRowAccumulate_Private(hp, entity, eta, 1, 1.0, &row));
   PetscCheck(row.num <= max, PETSC_COMM_SELF, PETSC_ERR_ARG_SIZ, "row of %" PetscInt_FMT " vertices, room for %" PetscInt_FMT, row.num, max);
   *num = row.num;

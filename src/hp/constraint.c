@@ -1,6 +1,6 @@
 /* Rows of hanging nodes and cells, resolved to true nodes.
 
-   All constraints are interpolation: the trace on an entity is a tensor polynomial of the entity's order, its values at the entity's
+   All constraints are interpolation: the trace on an entity is a tensor polynomial of the entity's orders along its axes, its values at the entity's
    Gauss-Lobatto nodes are the entity's own unknowns inside and the traces of its sub-entities on its boundary; a hanging entity's
    trace is that of the entity it hangs on (the orders agree by HPSpaceOrders_Private). */
 #include "hpimpl.h"
@@ -60,10 +60,10 @@ void HPToParent_Private(PetscInt parent_dim, const int8_t place[3], const PetscR
 PetscErrorCode HPRowAccumulate_Private(HPSpace hp, PetscInt entity, const PetscReal xi[], PetscInt limit, PetscReal scale, HPRow *row)
 {
   const ForestTables *t = hp->tables;
-  const PetscInt      d = HPEntityDim_Private(t, entity), p = PetscMin(hp->entity_order[entity], limit);
+  const PetscInt      d = HPEntityDim_Private(t, entity);
   PetscReal           L[3][MORTISE_MAX_ORDER + 1], eta[3];
-  const PetscReal    *nodes;
-  PetscInt            num = 1;
+  const PetscReal    *nodes[3];
+  PetscInt            num = 1, p[3];
 
   PetscFunctionBegin;
   if (t->parent[entity] >= 0) {
@@ -79,20 +79,25 @@ PetscErrorCode HPRowAccumulate_Private(HPSpace hp, PetscInt entity, const PetscR
     PetscCall(RowAdd_Private(row, first, scale));
     PetscFunctionReturn(PETSC_SUCCESS);
   }
-  PetscCall(ElementGetNodes(p, &nodes));
-  for (PetscInt a = 0; a < d; ++a, num *= p + 1) PetscCall(ElementEvaluate1D(p, xi[a], L[a], NULL));
+  for (PetscInt a = 0; a < d; ++a) {
+    p[a] = PetscMin(hp->axis_order[entity][a], limit);
+    num *= p[a] + 1;
+    PetscCall(ElementGetNodes(p[a], &nodes[a]));
+    PetscCall(ElementEvaluate1D(p[a], xi[a], L[a], NULL));
+  }
   for (PetscInt i = 0; i < num; ++i) {
     PetscInt  index = 0, inner = 0, stride = 1, k = 0, place = 1;
     PetscReal weight = scale, tangent[3];
-    for (PetscInt a = 0, j = i; a < d; ++a, j /= p + 1, stride *= 3) {
-      const PetscInt ia = j % (p + 1), ta = ia == 0 ? 0 : ia == p ? 2 : 1;
+    for (PetscInt a = 0, j = i; a < d; ++a, stride *= 3) {
+      const PetscInt ia = j % (p[a] + 1), ta = ia == 0 ? 0 : ia == p[a] ? 2 : 1;
       weight *= L[a][ia];
       index += ta * stride;
       if (ta == 1) {
-        tangent[k++] = nodes[ia];
+        tangent[k++] = nodes[a][ia];
         inner += (ia - 1) * place;
-        place *= p - 1;
+        place *= p[a] - 1;
       }
+      j /= p[a] + 1;
     }
     if (PetscAbsReal(weight) < SMALL_WEIGHT) continue;
     if (k == d) {
@@ -134,6 +139,14 @@ PetscInt HPLeafNode_Private(PetscInt dim, PetscInt p, const PetscReal *nodes, Pe
   return k;
 }
 
+/* Has the entity this order along all its axes? */
+static PetscBool HasOrder_Private(HPSpace hp, PetscInt entity, PetscInt d, PetscInt p)
+{
+  for (PetscInt a = 0; a < d; ++a)
+    if (hp->axis_order[entity][a] != p) return PETSC_FALSE;
+  return PETSC_TRUE;
+}
+
 /* Row of tensor node i of a cell: a single true node (returned) or, where order or hanging intervene, a row (-1 returned). */
 static PetscErrorCode CellNodeRow_Private(HPSpace hp, PetscInt cell, PetscInt i, const PetscReal *nodes, PetscInt *node, HPRow *row)
 {
@@ -145,7 +158,7 @@ static PetscErrorCode CellNodeRow_Private(HPSpace hp, PetscInt cell, PetscInt i,
   PetscFunctionBegin;
   const PetscInt k      = HPLeafNode_Private(t->dim, p, nodes, i, &index, ia, tangent);
   const PetscInt entity = t->closure[offset + index];
-  if (t->parent[entity] < 0 && (k == 0 || hp->entity_order[entity] == p)) {
+  if (t->parent[entity] < 0 && HasOrder_Private(hp, entity, k, p)) {
     *node = OrientedNode_Private(hp->point_node[hp->entity_point[entity]], k, t->orientation[offset + index], p, ia);
     PetscFunctionReturn(PETSC_SUCCESS);
   }
@@ -247,15 +260,10 @@ static PetscErrorCode CellRows_Private(HPSpace hp)
 /* Row of local node `index` of a hanging entity. */
 static PetscErrorCode HangingNodeRow_Private(HPSpace hp, PetscInt entity, PetscInt index, HPRow *row)
 {
-  const PetscInt   d = HPEntityDim_Private(hp->tables, entity), p = hp->entity_order[entity];
-  const PetscReal *nodes;
-  PetscReal        xi[3] = {0, 0, 0};
+  PetscReal xi[3] = {0, 0, 0};
 
   PetscFunctionBegin;
-  if (d > 0) {
-    PetscCall(ElementGetNodes(p, &nodes));
-    for (PetscInt a = 0, i = index; a < d; ++a, i /= p - 1) xi[a] = nodes[1 + i % (p - 1)];
-  }
+  PetscCall(HPNodePoint_Private(hp, entity, index, xi));
   PetscCall(HPRowReset_Private(row));
   PetscCall(HPRowAccumulate_Private(hp, entity, xi, MORTISE_MAX_ORDER, 1.0, row));
   PetscFunctionReturn(PETSC_SUCCESS);

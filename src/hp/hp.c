@@ -1,7 +1,8 @@
 /* Life cycle of the hp space. */
 #include "hpimpl.h"
 
-PetscErrorCode HPSpaceCreate(Forest forest, const int8_t leaf_order[], uint64_t linear_groups, uint64_t mirror_groups, HPSpace *space)
+PetscErrorCode HPSpaceCreate(Forest forest, const int8_t leaf_order[], const int8_t leaf_cap[][3], uint64_t linear_groups, uint64_t mirror_groups,
+                             HPSpace *space)
 {
   HPSpace  hp;
   PetscInt num_owned, largest = 1;
@@ -14,7 +15,7 @@ PetscErrorCode HPSpaceCreate(Forest forest, const int8_t leaf_order[], uint64_t 
   hp->dim = hp->tables->dim;
   PetscCall(ForestGetLeafDM(forest, &leaf, &num_owned, &hp->num_points, &hp->point_entity));
   PetscCall(DMClone(leaf, &hp->dm));
-  PetscCall(HPSpaceOrders_Private(hp, leaf_order, linear_groups));
+  PetscCall(HPSpaceOrders_Private(hp, leaf_order, leaf_cap, linear_groups));
   PetscCall(HPSpaceNodes_Private(hp, num_owned));
   PetscCall(HPSpaceRows_Private(hp));
   PetscCall(HPSpacePositions_Private(hp, linear_groups, mirror_groups));
@@ -51,7 +52,7 @@ PetscErrorCode HPSpaceDestroy(HPSpace *space)
   if (!hp) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(DMDestroy(&hp->dm));
   PetscCall(PetscFree2(hp->entity_point, hp->point_node));
-  PetscCall(PetscFree(hp->entity_order));
+  PetscCall(PetscFree2(hp->entity_order, hp->axis_order));
   PetscCall(PetscFree3(hp->node_entity, hp->cell_leaf, hp->cell_order));
   PetscCall(PetscFree2(hp->cell_row, hp->cell_weight));
   PetscCall(PetscFree(hp->cell_master));
@@ -125,5 +126,24 @@ PetscErrorCode HPSpaceGetOrder(HPSpace hp, PetscInt entity, PetscInt *order)
 {
   PetscFunctionBegin;
   *order = hp->entity_order[entity];
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode HPSpaceGetAxisOrders(HPSpace hp, PetscInt entity, PetscInt orders[3])
+{
+  PetscFunctionBegin;
+  for (PetscInt a = 0; a < 3; ++a) orders[a] = hp->axis_order[entity][a];
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode HPSpaceIsDirectional(HPSpace hp, PetscBool *directional)
+{
+  const ForestTables *t = hp->tables;
+
+  PetscFunctionBegin;
+  *directional = PETSC_FALSE;
+  for (PetscInt e = t->first[t->dim]; e < t->num_entities; ++e)
+    for (PetscInt a = 0; a < t->dim; ++a)
+      if (hp->axis_order[e][a] != hp->entity_order[e]) *directional = PETSC_TRUE;
   PetscFunctionReturn(PETSC_SUCCESS);
 }

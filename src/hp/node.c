@@ -14,7 +14,7 @@ PetscErrorCode HPSpaceNodes_Private(HPSpace hp, PetscInt num_owned_cells)
   for (PetscInt i = 0; i < hp->num_points; ++i) {
     const PetscInt e      = hp->point_entity[i];
     hp->entity_point[e]   = i;
-    hp->point_node[i + 1] = hp->point_node[i] + HPNodesOfEntity_Private(HPEntityDim_Private(t, e), hp->entity_order[e]);
+    hp->point_node[i + 1] = hp->point_node[i] + HPNodesOfEntity_Private(HPEntityDim_Private(t, e), hp->axis_order[e]);
     if (e >= t->first[t->dim]) ++num_cells;
   }
   v->num_nodes = hp->point_node[hp->num_points];
@@ -36,10 +36,19 @@ PetscErrorCode HPSpaceNodes_Private(HPSpace hp, PetscInt num_owned_cells)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Reference point of node i of an entity (dimension d, order p): interior Gauss-Lobatto points, lexicographic. */
-void HPNodePoint_Private(PetscInt d, PetscInt p, const PetscReal *nodes, PetscInt i, PetscReal eta[3])
+PetscErrorCode HPNodePoint_Private(HPSpace hp, PetscInt entity, PetscInt i, PetscReal eta[3])
 {
-  for (PetscInt a = 0; a < d; ++a, i /= p - 1) eta[a] = nodes[1 + i % (p - 1)];
+  const PetscInt d = HPEntityDim_Private(hp->tables, entity);
+
+  PetscFunctionBegin;
+  for (PetscInt a = 0; a < d; ++a) {
+    const PetscInt   inner = hp->axis_order[entity][a] - 1;
+    const PetscReal *nodes;
+    PetscCall(ElementGetNodes(inner + 1, &nodes));
+    eta[a] = nodes[1 + i % inner];
+    i /= inner;
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* Inverse of ForestOrient in two dimensions and below. */
@@ -80,13 +89,11 @@ PetscErrorCode HPSpacePositions_Private(HPSpace hp, uint64_t linear_groups, uint
   PetscCall(PetscCalloc1(3 * hp->view.num_nodes, &hp->X));
   hp->view.X = hp->X;
   for (PetscInt i = 0; i < hp->num_points; ++i) {
-    const PetscInt   e = hp->point_entity[i], d = HPEntityDim_Private(t, e), p = hp->entity_order[e];
-    const PetscReal *nodes = NULL;
+    const PetscInt e = hp->point_entity[i], d = HPEntityDim_Private(t, e);
     if (t->parent[e] >= 0) continue;
-    if (d > 0) PetscCall(ElementGetNodes(p, &nodes));
     for (PetscInt n = hp->point_node[i]; n < hp->point_node[i + 1]; ++n) {
       PetscReal eta[3] = {0, 0, 0}, xi[3] = {0, 0, 0};
-      if (d > 0) HPNodePoint_Private(d, p, nodes, n - hp->point_node[i], eta);
+      PetscCall(HPNodePoint_Private(hp, e, n - hp->point_node[i], eta));
       HPEntityToLeaf_Private(t, t->entity_leaf[e], e, d, eta, xi);
       PetscCall(ForestMapPoint(hp->forest, t->entity_leaf[e], xi, &hp->X[3 * n]));
       for (PetscInt a = 0; d == 0 && a < 3; ++a) hp->X[3 * n + a] += shift[3 * e + a];

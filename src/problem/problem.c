@@ -56,6 +56,7 @@ PetscErrorCode ProblemCreate(const SceneData *scene, Forest forest, const int8_t
 {
   const ForestTables *t;
   Problem             p;
+  int8_t(*cap)[3];
 
   PetscFunctionBegin;
   PetscCall(StageBegin(STAGE_SETUP));
@@ -73,7 +74,9 @@ PetscErrorCode ProblemCreate(const SceneData *scene, Forest forest, const int8_t
   }
   PetscCall(PetscMalloc1(t->num_leaves, &p->leaf_order));
   PetscCall(PetscArraycpy(p->leaf_order, leaf_order, t->num_leaves));
-  PetscCall(HPSpaceCreate(forest, leaf_order, LinearGroups_Private(scene), MirrorGroups_Private(scene), &p->space));
+  PetscCall(ProblemOrderCaps(scene, forest, &cap));
+  PetscCall(HPSpaceCreate(forest, leaf_order, cap, LinearGroups_Private(scene), MirrorGroups_Private(scene), &p->space));
+  PetscCall(PetscFree(cap));
   PetscCall(MechanicsSupportsCreate(p->space, &scene->mechanics, &p->supports));
   PetscCall(HPSpaceSetUp(p->space, p->supports.fixed, p->supports.num_frames, p->supports.frame_node, (const PetscReal(*)[9])p->supports.frame));
   PetscCall(MechanicsCreate(p->space, &scene->mechanics, &p->supports, &p->mechanics));

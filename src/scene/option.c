@@ -98,7 +98,7 @@ static PetscErrorCode CheckNode_Private(const SceneNode *root, const SceneNode *
     keys[num] = child->key;
     row       = Find_Private(num + 1, keys, &prefix);
     if (!row && !prefix) PetscCall(Unknown_Private(root, child, num + 1, keys));
-    if (row) {
+    if (row && !(prefix && child->kind == NODE_MAP)) { /* body.<name>.order is a number or a map of directions */
       NodeKind kind = row->type == KEY_AMPLITUDE ? NODE_LIST : NODE_SCALAR;
       PetscCheckInput(child->kind == kind && !NodeIsEmpty(child), "%s must be %s, it is %s", NodeWhere(child), Wanted_Private(row->type), Shape_Private(child));
     } else {
@@ -264,7 +264,7 @@ static PetscErrorCode Store_Private(const Option *row, const SceneNode *node, co
     PetscCall(Word_Private(row, where, text, (int *)(void *)place));
     break;
   case KEY_INT:
-    PetscCall(Integer_Private(row, where, text, (PetscInt *)(void *)place));
+    PetscCall(Integer_Private(row, where, text, (PetscInt *)(void *)place + c));
     break;
   case KEY_REAL:
     PetscCheckInput(OptionParseReal(text, (PetscReal *)(void *)place + c), "%s is '%s'; it must be a number", where, text);
@@ -307,6 +307,7 @@ static PetscErrorCode ReadRow_Private(const Option *row, PetscInt num, char word
   for (PetscInt i = 0; i < last && at; ++i) at = NodeFind(at, words[i]);
   for (PetscInt c = 0; c < (axis ? 3 : 1); ++c) {
     const SceneNode *node = NodeFind(at, axis ? axes[c] : words[last]);
+    if (node && node->kind == NODE_MAP) node = NULL; /* given by other rows */
     PetscCheckInput(node || row->fallback, "%s must be given%s%s", Missing_Private(up, num, words), row->range[0] ? ": " : "", row->range);
     PetscCheckInput(!node || c < dim, "%s is given, but a two-dimensional model has no z", NodeWhere(node));
     PetscCall(PetscStrncpy(where, node ? NodeWhere(node) : row->pattern, sizeof(where)));

@@ -35,6 +35,8 @@ const Option Options[] = {
 
     {"body.<name>.material", KEY_TEXT, "", NULL, "", "a name under material; <name>: physical group of top dimension", BODY(material)},
     {"body.<name>.order", KEY_INT, "", "", ORDERS, "displacement order of this body's cells; default: order", BODY(spec.order)},
+    {"body.<name>.order.<axis>", KEY_INT, "", "", ORDERS,
+     "or one for each direction, {x: 3, y: 3, z: 1}: of the cell axes that run mostly along it; letters not given: order", BODY(spec.order_along)},
     {"body.<name>.motion.<axis>", KEY_EXPRESSION, "length", "", ANY, "translation of a rigid body", BODY(spec.motion)},
     {"body.<name>.force.<axis>", KEY_EXPRESSION, "force/volume", "", ANY, "dead force per reference volume", BODY(spec.force)},
     {"body.<name>.amplitude", KEY_AMPLITUDE, "", "[0,0, 1,1]", "t rising", "t0,v0, t1,v1, ...: multiplies motion and force, piecewise linear in t",

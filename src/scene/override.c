@@ -195,6 +195,9 @@ static PetscErrorCode Set_Private(SceneNode *root, const Match *m, const char *v
     NodeKind   kind  = i + 1 < m->num ? NODE_MAP : m->type == KEY_AMPLITUDE ? NODE_LIST : NODE_SCALAR;
     SceneNode *child = NodeFind(at, m->keys[i]);
     if (!child) PetscCall(NodeCreate(at, m->keys[i], kind, root->origin, 0, &child));
+    PetscCheckInput(kind != NODE_MAP || child->kind == NODE_MAP || NodeIsEmpty(child),
+                    "command line: a key below %s, which is %s; give it as a map {key: value}", NodeWhere(child),
+                    child->kind == NODE_LIST ? "a list" : child->text);
     if (kind == NODE_MAP) child->kind = NODE_MAP; /* an empty section becomes a map */
     at = child;
   }

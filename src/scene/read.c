@@ -94,6 +94,41 @@ static PetscErrorCode ReadMaterial_Private(Scene s, SceneNode *node, MaterialEnt
 
 /* ---- bodies, boundaries, contacts, probes ------------------------------------------------------------------------------------------- */
 
+/* The body's order is the highest of its directions; order_along only where they differ. */
+static PetscErrorCode ReadOrders_Private(Scene s, const SceneNode *orders, BodyEntry *b)
+{
+  const PetscInt dim    = s->data.mesh.dim;
+  PetscInt      *along  = b->spec.order_along;
+  PetscBool      differ = PETSC_FALSE;
+
+  PetscFunctionBegin;
+  if (!orders || orders->kind != NODE_MAP) PetscFunctionReturn(PETSC_SUCCESS);
+  b->spec.order = 0;
+  for (PetscInt c = 0; c < dim; ++c) {
+    if (!along[c]) along[c] = s->order;
+    if (along[c] != along[0]) differ = PETSC_TRUE;
+    b->spec.order = PetscMax(b->spec.order, along[c]);
+  }
+  for (PetscInt c = 0; c < 3 && !differ; ++c) along[c] = 0;
+  PetscCheckInput(!differ || !b->spec.material->mixed,
+                  "%s: orders per direction and the mixed formulation of material %s do not go together; allowed: one order", NodeWhere(orders), b->material);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Facets of full order have the same order in both directions. */
+static PetscErrorCode CheckFull_Private(Scene s)
+{
+  PetscFunctionBegin;
+  for (PetscInt i = 0; i < s->data.num_contacts; ++i) {
+    for (PetscInt b = 0; b < s->num_bodies; ++b) {
+      PetscCheckInput(!s->contact[i].spec.full || !s->body[b].spec.order_along[0],
+                      "%s: contact faces of full order and orders per direction (body '%s') do not go together; allowed here: 1",
+                      NodeWhere(NodeFind(s->contact[i].node, "order")), s->body[b].spec.name);
+    }
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 static PetscErrorCode ReadBody_Private(Scene s, SceneNode *node, BodyEntry *b)
 {
   const char *names[64];
@@ -113,6 +148,7 @@ static PetscErrorCode ReadBody_Private(Scene s, SceneNode *node, BodyEntry *b)
   }
   PetscCheckInput(b->spec.material, "%s is '%s', which is not under material%s%s", NodeWhere(NodeFind(node, "material")), b->material,
                   num ? "; the nearest name is " : "", NearestName(b->material, PetscMin(num, 64), names));
+  PetscCall(ReadOrders_Private(s, NodeFind(node, "order"), b));
   rigid = b->spec.material->law->rigid;
   PetscCheckInput(rigid || !NodeFind(node, "motion"), "%s: only a rigid body moves as told, and material %s is %s; prescribe a boundary instead",
                   NodeWhere(NodeFind(node, "motion")), b->material, b->spec.material->law->name);
@@ -226,6 +262,7 @@ PetscErrorCode SceneRead(Scene s, int argc, char **argv)
   READ_SECTION(s, "body", s->num_bodies, s->body, ReadBody_Private);
   READ_SECTION(s, "boundary", s->num_boundaries, s->boundary, ReadBoundary_Private);
   READ_SECTION(s, "contact", d->num_contacts, s->contact, ReadContact_Private);
+  PetscCall(CheckFull_Private(s));
   READ_SECTION(s, "probe", d->num_probes, s->probe, ReadProbe_Private);
   PetscCall(PetscMalloc1(d->num_probes, &d->probes));
   for (PetscInt i = 0; i < d->num_probes; ++i) d->probes[i] = s->probe[i].spec;

@@ -232,8 +232,11 @@ static PetscErrorCode ViewBody_Private(const BodySpec *b, PetscViewer viewer)
   const MaterialSpec *m = b->material;
 
   PetscFunctionBegin;
-  PetscCall(PetscViewerASCIIPrintf(viewer, "  body %s: order %d, material %s (%s", b->name, (int)b->order, m->name, m->law->name));
+  PetscCall(PetscViewerASCIIPrintf(viewer, "  body %s: order %d", b->name, (int)b->order));
   PetscCall(PetscViewerASCIIUseTabs(viewer, PETSC_FALSE));
+  for (PetscInt c = 0; c < 3 && b->order_along[c]; ++c)
+    PetscCall(PetscViewerASCIIPrintf(viewer, "%s%c: %d", c ? ", " : " (along ", (int)('x' + c), (int)b->order_along[c]));
+  PetscCall(PetscViewerASCIIPrintf(viewer, "%s, material %s (%s", b->order_along[0] ? ")" : "", m->name, m->law->name));
   if (!m->law->rigid)
     PetscCall(PetscViewerASCIIPrintf(viewer, ", mu = %.6g, kappa = %.6g, %s", (double)m->mu, (double)m->kappa, m->mixed ? "mixed" : "displacement"));
   PetscCall(PetscViewerASCIIPrintf(viewer, ")\n"));

@@ -18,17 +18,19 @@ PetscBool TransferPlace_Private(const TransferContext *c, PetscInt new_leaf, con
   return PETSC_TRUE;
 }
 
-/* Place in the leaf `entity_leaf` of node `index` of an entity of dimension d and order p. */
-static PetscErrorCode NodePlace_Private(const ForestTables *t, PetscInt entity, PetscInt d, PetscInt p, PetscInt index, PetscReal place[3])
+/* Place in the leaf `entity_leaf` of node `index` of an entity of dimension d and orders p[d] along its axes. */
+static PetscErrorCode NodePlace_Private(const ForestTables *t, PetscInt entity, PetscInt d, const PetscInt p[], PetscInt index, PetscReal place[3])
 {
   const PetscInt   offset = t->closure_offset[t->first[t->dim] + t->entity_leaf[entity]];
-  const PetscReal *nodes  = NULL;
+  const PetscReal *nodes;
   PetscReal        eta[3], tangent[3];
   PetscInt         at = 0, k = 0;
 
   PetscFunctionBegin;
-  if (d > 0) PetscCall(ElementGetNodes(p, &nodes));
-  for (PetscInt a = 0, i = index; a < d; ++a, i /= p - 1) eta[a] = nodes[1 + i % (p - 1)];
+  for (PetscInt a = 0, i = index; a < d; i /= p[a] - 1, ++a) {
+    PetscCall(ElementGetNodes(p[a], &nodes));
+    eta[a] = nodes[1 + i % (p[a] - 1)];
+  }
   while (t->closure[offset + at] != entity) ++at;
   const int8_t code = t->orientation[offset + at];
   for (PetscInt a = 0; a < d; ++a) { /* inverse of ForestOrient */
@@ -77,7 +79,7 @@ PetscErrorCode TransferDisplacement_Private(const TransferContext *c, const OldC
 {
   const ForestTables *t = c->new_t;
   PetscReal          *basis, place[3], u[3];
-  PetscInt            order, start = 0;
+  PetscInt            orders[3], start = 0;
 
   PetscFunctionBegin;
   PetscCall(PetscMalloc1(ElementNumNodes(t->dim, MORTISE_MAX_ORDER), &basis));
@@ -87,8 +89,8 @@ PetscErrorCode TransferDisplacement_Private(const TransferContext *c, const OldC
     if (n && entity != c->new_v->node_entity[n - 1]) start = n;
     if (t->parent[entity] >= 0 || t->leaf_rank[leaf] != c->rank) continue;
     while (entity >= t->first[d + 1]) ++d;
-    PetscCall(HPSpaceGetOrder(c->new_space, entity, &order));
-    PetscCall(NodePlace_Private(t, entity, d, order, n - start, place));
+    PetscCall(HPSpaceGetAxisOrders(c->new_space, entity, orders));
+    PetscCall(NodePlace_Private(t, entity, d, orders, n - start, place));
     PetscCall(OldValue_Private(c, old, leaf, place, basis, u));
     PetscCall(SetNode_Private(c->new_space, t->dim, n, u, local));
   }

@@ -63,7 +63,7 @@ static inline void BulkSetUp(Bulk *b, PetscInt low, PetscInt high)
   OK(ForestGetTables(b->forest, &t));
   OK(PetscMalloc1(t->num_leaves, &b->orders));
   for (PetscInt l = 0; l < t->num_leaves; ++l) b->orders[l] = (int8_t)(low + BoxRandom(high - low + 1));
-  OK(HPSpaceCreate(b->forest, b->orders, 0, 0, &b->space));
+  OK(HPSpaceCreate(b->forest, b->orders, NULL, 0, 0, &b->space));
   OK(MechanicsSupportsCreate(b->space, &b->spec, &b->supports));
   OK(HPSpaceSetUp(b->space, b->supports.fixed, b->supports.num_frames, b->supports.frame_node, (const PetscReal(*)[9])b->supports.frame));
   OK(MechanicsCreate(b->space, &b->spec, &b->supports, &b->mechanics));

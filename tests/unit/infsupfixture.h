@@ -33,7 +33,7 @@ static inline void Supported(Bulk *b, Forest forest, const int8_t orders[], Supp
     for (PetscInt c = 0; c < dim; ++c) b->boundaries[s].fix[c] = (PetscBool)(support == CLAMPED || s == 2 * dim - 2);
   OK(PetscMalloc1(t->num_leaves, &b->orders));
   OK(PetscArraycpy(b->orders, orders, t->num_leaves));
-  OK(HPSpaceCreate(forest, b->orders, support == LINEAR ? (uint64_t)1 << (2 * dim - 1) : 0, 0, &b->space));
+  OK(HPSpaceCreate(forest, b->orders, NULL, support == LINEAR ? (uint64_t)1 << (2 * dim - 1) : 0, 0, &b->space));
   OK(MechanicsSupportsCreate(b->space, &b->spec, &b->supports));
   OK(HPSpaceSetUp(b->space, b->supports.fixed, 0, NULL, NULL));
   OK(MechanicsCreate(b->space, &b->spec, &b->supports, &b->mechanics));

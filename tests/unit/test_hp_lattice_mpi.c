@@ -139,18 +139,19 @@ static PetscReal Gap(HPSpace space, PetscInt divide, PetscBool closed)
   return gap;
 }
 
-/* Orders 1 to 8 at random, or one order everywhere; linear: faces of side 0 have order 1. */
-static void CheckGaps(PetscInt dim, uint64_t seed, PetscInt low, PetscInt high, uint64_t linear)
+/* Orders 1 to 8 at random, or one order everywhere; linear: faces of side 0 have order 1; capped: random caps of the orders along the axes of cells. */
+static void CheckGaps(PetscInt dim, uint64_t seed, PetscInt low, PetscInt high, uint64_t linear, PetscBool capped)
 {
   Forest              forest = RandomForest(dim, 2, dim == 2 ? 5 : 2, seed);
   const ForestTables *t;
   HPSpace             space;
-  int8_t             *orders;
+  int8_t             *orders, (*caps)[3];
 
   OK(ForestGetTables(forest, &t));
-  OK(PetscMalloc1(t->num_leaves, &orders));
+  OK(PetscMalloc2(t->num_leaves, &orders, t->num_leaves, &caps));
   for (PetscInt l = 0; l < t->num_leaves; ++l) orders[l] = (int8_t)(low + BoxRandom(high - low + 1));
-  OK(HPSpaceCreate(forest, orders, linear, 0, &space));
+  for (PetscInt i = 0; i < 3 * t->num_leaves && capped; ++i) caps[i / 3][i % 3] = (int8_t)(1 + BoxRandom(high));
+  OK(HPSpaceCreate(forest, orders, capped ? caps : NULL, linear, 0, &space));
   for (PetscInt divide = 0; divide <= 5; ++divide) {
     const PetscReal gap = Gap(space, divide, PETSC_TRUE);
     if (!(gap < 1e-11)) print_message("dim %d seed %d orders %d..%d divide %d: gap %g\n", (int)dim, (int)seed, (int)low, (int)high, (int)divide, (double)gap);
@@ -160,18 +161,22 @@ static void CheckGaps(PetscInt dim, uint64_t seed, PetscInt low, PetscInt high, 
   if (!(open > 1e-4)) print_message("dim %d seed %d orders %d..%d: polynomials meet within %g\n", (int)dim, (int)seed, (int)low, (int)high, (double)open);
   assert_true(open > 1e-4);
   OK(HPSpaceDestroy(&space));
-  OK(PetscFree(orders));
+  OK(PetscFree2(orders, caps));
   OK(ForestDestroy(&forest));
 }
 
 static void test_no_gaps(void **state)
 {
   for (uint64_t seed = 0; seed < 6; ++seed) {
-    CheckGaps(2, seed, 1, 8, seed % 2);
-    CheckGaps(2, seed, 3, 3, 0);
+    CheckGaps(2, seed, 1, 8, seed % 2, PETSC_FALSE);
+    CheckGaps(2, seed, 3, 3, 0, PETSC_FALSE);
+    CheckGaps(2, seed, 1, 8, seed % 2, PETSC_TRUE);
+    CheckGaps(2, seed, 3, 3, 0, PETSC_TRUE);
   }
-  CheckGaps(3, 1, 1, 5, 1);
-  CheckGaps(3, 2, 3, 3, 0);
+  CheckGaps(3, 1, 1, 5, 1, PETSC_FALSE);
+  CheckGaps(3, 2, 3, 3, 0, PETSC_FALSE);
+  CheckGaps(3, 3, 1, 5, 1, PETSC_TRUE);
+  CheckGaps(3, 4, 4, 4, 0, PETSC_TRUE);
 }
 
 /* One order, no hanging nodes: on the exact geometry, with the polynomial's values. */
@@ -190,7 +195,7 @@ static void test_exact(void **state)
       OK(ForestGetTables(forest, &t));
       OK(PetscMalloc1(t->num_leaves, &orders));
       for (PetscInt l = 0; l < t->num_leaves; ++l) orders[l] = (int8_t)p;
-      OK(HPSpaceCreate(forest, orders, 0, 0, &space));
+      OK(HPSpaceCreate(forest, orders, NULL, 0, 0, &space));
       OK(HPSpaceGetTables(space, &v));
       OK(HPSpacePieces(space, p == 2 ? 5 : 0, pieces));
       assert_int_equal(pieces[p], p == 2 ? 5 : p);

@@ -3,6 +3,9 @@
    - continuity: any true values give the same trace from both sides of every facet, hanging or not;
    - the DM's default constraints fill hanging nodes with the same values as the rows, and distribute residuals by the transpose;
    - all that for orders 1 to 8 over the 24 proper rotations of the cells;
+   - the same with orders of their own along each axis of a cell, and products of polynomials of these orders in the directions of a box;
+   - as many true nodes as such products have coefficients;
+   - without caps every entity has one order, that of the minimum rule with one number per entity;
    - numbering and positions do not depend on the number of ranks. */
 #include "forest_box.h"
 #include "hp.h"
@@ -97,7 +100,7 @@ static void test_reproduction(void **state)
         forest = RandomForest(dim, 1, dim == 2 ? 3 : 2, (PetscBool)(seed % 2), seed);
         OK(ForestGetTables(forest, &t));
         RandomOrders(t, low, 4, &orders);
-        OK(HPSpaceCreate(forest, orders, 0, 0, &space));
+        OK(HPSpaceCreate(forest, orders, NULL, 0, 0, &space));
         const PetscReal error = ReproductionError(space, low);
         if (!(error < 1e-11)) print_message("dim %d seed %d low %d: error %g\n", (int)dim, (int)seed, (int)low, (double)error);
         assert_true(error < 1e-11);
@@ -120,7 +123,7 @@ static void test_reproduction_curved(void **state)
     forest = RandomForest(2 + seed % 2, 2, 2, PETSC_TRUE, seed);
     OK(ForestGetTables(forest, &t));
     RandomOrders(t, 1, 4, &orders);
-    OK(HPSpaceCreate(forest, orders, 0, 0, &space));
+    OK(HPSpaceCreate(forest, orders, NULL, 0, 0, &space));
     const PetscReal error = ReproductionError(space, 1);
     if (!(error < 1e-11)) print_message("curved seed %d: error %g\n", (int)seed, (double)error);
     assert_true(error < 1e-11);
@@ -209,7 +212,7 @@ static void test_continuity(void **state)
     forest = RandomForest(2 + seed % 2, 1, seed % 2 ? 1 : 3, (PetscBool)(seed >= 2), seed);
     OK(ForestGetTables(forest, &t));
     RandomOrders(t, 1, 4, &orders);
-    OK(HPSpaceCreate(forest, orders, seed == 5 ? 1 : 0, 0, &space));
+    OK(HPSpaceCreate(forest, orders, NULL, seed == 5 ? 1 : 0, 0, &space));
     const PetscReal error = ContinuityError(space);
     if (!(error < 1e-11)) print_message("seed %d: jump %g\n", (int)seed, (double)error);
     assert_true(error < 1e-11);
@@ -233,7 +236,7 @@ static void CheckRotation(PetscInt dim, PetscInt rotation)
   box_rotation = -1;
   OK(ForestGetTables(forest, &t));
   RandomOrders(t, 1 + rotation % 2, 8, &orders);
-  OK(HPSpaceCreate(forest, orders, rotation % 4 == 0, 0, &space));
+  OK(HPSpaceCreate(forest, orders, NULL, rotation % 4 == 0, 0, &space));
   for (PetscInt e = 0; e < t->first[dim]; ++e) hanging[e < t->first[1] ? 0 : e < t->first[2] ? 1 : 2] += t->parent[e] >= 0;
   const PetscReal error = ReproductionError(space, rotation % 4 ? 1 + rotation % 2 : 1), jump = ContinuityError(space);
   if (!(error < 1e-11 && jump < 1e-11)) print_message("dim %d rotation %d: error %g, jump %g\n", (int)dim, (int)rotation, (double)error, (double)jump);
@@ -252,6 +255,207 @@ static void test_all_rotations(void **state)
   }
   for (PetscInt dim = 2; dim <= 3; ++dim)
     for (PetscInt d = 0; d < dim; ++d) assert_true(hanging_entities[dim - 2][d] > 100);
+}
+
+/* Random orders of cells and caps of their axes, all rotations: polynomials of the lowest order in play, and continuity. */
+static void CheckCaps(PetscInt dim, PetscInt rotation)
+{
+  const PetscInt      low = 1 + rotation % 2;
+  Forest              forest;
+  const ForestTables *t;
+  HPSpace             space;
+  PetscBool           directional;
+  int8_t             *orders, (*caps)[3];
+
+  box_rotation = rotation;
+  forest       = RandomForest(dim, 1, dim == 2 ? 4 : 1, (PetscBool)(rotation % 3 > 0), (uint64_t)rotation);
+  box_rotation = -1;
+  OK(ForestGetTables(forest, &t));
+  RandomOrders(t, low, 4, &orders);
+  OK(PetscMalloc1(t->num_leaves, &caps));
+  for (PetscInt l = 0; l < t->num_leaves; ++l)
+    for (PetscInt a = 0; a < 3; ++a) caps[l][a] = (int8_t)(low + BoxRandom(5 - low));
+  OK(HPSpaceCreate(forest, orders, caps, rotation % 4 == 0, 0, &space));
+  OK(HPSpaceIsDirectional(space, &directional));
+  assert_true(directional);
+  const PetscReal error = ReproductionError(space, rotation % 4 ? low : 1), jump = ContinuityError(space);
+  if (!(error < 1e-11 && jump < 1e-11)) print_message("caps, dim %d rotation %d: error %g, jump %g\n", (int)dim, (int)rotation, (double)error, (double)jump);
+  assert_true(error < 1e-11 && jump < 1e-11);
+  OK(HPSpaceDestroy(&space));
+  OK(PetscFree(caps));
+  OK(PetscFree(orders));
+  OK(ForestDestroy(&forest));
+}
+
+static void test_caps(void **state)
+{
+  for (PetscInt rotation = 0; rotation < 24; ++rotation) {
+    CheckCaps(2, rotation);
+    CheckCaps(3, rotation);
+  }
+}
+
+/* Degree of the product of polynomials in each direction of the box. */
+static PetscInt product_degree[3];
+
+static PetscReal Product(PetscInt component, const PetscReal X[3])
+{
+  PetscReal v = 1;
+  for (PetscInt d = 0; d < 3; ++d)
+    for (PetscInt k = 0; k < product_degree[d]; ++k) v *= 0.6 * X[d] - 0.3 * k + 0.1 * component - 0.4;
+  return v;
+}
+
+/* Largest error at the lattice nodes of all cells when true nodes have the values of Product. */
+static PetscReal ProductError(HPSpace space)
+{
+  const HPTables *v;
+  PetscReal      *local, values[3 * MOST], X[3 * MOST], error = 0;
+
+  OK(HPSpaceGetTables(space, &v));
+  OK(PetscMalloc1(v->num_nodes * v->dim, &local));
+  for (PetscInt n = 0; n < v->num_nodes; ++n)
+    for (PetscInt c = 0; c < v->dim; ++c) local[n * v->dim + c] = v->node_hang[n + 1] > v->node_hang[n] ? PETSC_MAX_REAL : Product(c, v->X + 3 * n);
+  for (PetscInt cell = 0; cell < v->num_cells; ++cell) {
+    OK(HPSpaceGather(space, cell, local, values));
+    OK(HPSpaceGatherPositions(space, cell, X));
+    for (PetscInt i = 0; i < ElementNumNodes(v->dim, v->cell_order[cell]); ++i) {
+      PetscReal x[3] = {0, 0, 0};
+      for (PetscInt a = 0; a < v->dim; ++a) x[a] = X[i * v->dim + a];
+      for (PetscInt a = 0; a < v->dim; ++a) error = PetscMax(error, PetscAbsReal(values[i * v->dim + a] - Product(a, x)));
+    }
+  }
+  OK(PetscFree(local));
+  OK(MPI_Allreduce(MPI_IN_PLACE, &error, 1, MPIU_REAL, MPI_MAX, PETSC_COMM_WORLD));
+  return error;
+}
+
+/* True nodes of all ranks, each once. */
+static PetscInt NumTrueNodes(HPSpace space, const ForestTables *t)
+{
+  const HPTables *v;
+  PetscMPIInt     rank;
+  PetscInt        num = 0;
+
+  OK(MPI_Comm_rank(PETSC_COMM_WORLD, &rank));
+  OK(HPSpaceGetTables(space, &v));
+  for (PetscInt n = 0; n < v->num_nodes; ++n) {
+    const PetscInt e = v->node_entity[n];
+    if (t->parent[e] < 0 && t->leaf_rank[t->entity_leaf[e]] == rank) ++num;
+  }
+  OK(MPI_Allreduce(MPI_IN_PLACE, &num, 1, MPIU_INT, MPI_SUM, PETSC_COMM_WORLD));
+  return num;
+}
+
+/* Cubes whose axes run along any directions of the box, orders degree[d] along direction d: products of these degrees, and no more, on regular meshes by the
+   number of nodes (2 degree + 1 in each direction), on irregular ones by a product of one degree more, which is missed. */
+static void CheckProducts(PetscInt dim, PetscInt rotation, PetscInt rounds)
+{
+  const PetscInt      degree[3] = {1 + rotation % 4, 1 + rotation / 4 % 4, dim == 2 ? 0 : 1 + (rotation / 2 + 2) % 4};
+  Forest              forest;
+  const ForestTables *t;
+  HPSpace             space;
+  PetscInt            highest = 0, num = 1;
+  PetscReal           missed = PETSC_MAX_REAL;
+  int8_t             *orders, (*caps)[3];
+
+  box_rotation = rotation;
+  forest       = RandomForest(dim, 1, rounds, (PetscBool)(rotation % 3 > 0), (uint64_t)rotation);
+  box_rotation = -1;
+  for (PetscInt d = 0; d < dim; ++d) {
+    highest = PetscMax(highest, degree[d]);
+    num *= 2 * degree[d] + 1;
+  }
+  OK(ForestGetTables(forest, &t));
+  RandomOrders(t, highest, highest, &orders);
+  OK(PetscMalloc1(t->num_leaves, &caps));
+  for (PetscInt l = 0; l < t->num_leaves; ++l) {
+    for (PetscInt a = 0; a < dim; ++a) {
+      PetscReal xi[3] = {0, 0, 0}, low[3], high[3];
+      OK(ForestMapPoint(forest, l, xi, low));
+      xi[a] = 1;
+      OK(ForestMapPoint(forest, l, xi, high));
+      for (PetscInt d = 0; d < dim; ++d)
+        if (PetscAbsReal(high[d] - low[d]) > 1e-10) caps[l][a] = (int8_t)degree[d];
+    }
+  }
+  OK(HPSpaceCreate(forest, orders, caps, 0, 0, &space));
+  OK(PetscArraycpy(product_degree, degree, 3));
+  const PetscReal error = ProductError(space);
+  if (!(error < 1e-11)) print_message("products, dim %d rotation %d: error %g\n", (int)dim, (int)rotation, (double)error);
+  assert_true(error < 1e-11);
+  for (PetscInt d = 0; d < dim; ++d) { /* in a direction of the highest order the nodes are those of the cells, and interpolation is not checked by them */
+    if (degree[d] == highest) continue;
+    ++product_degree[d];
+    missed = PetscMin(missed, ProductError(space));
+    --product_degree[d];
+  }
+  assert_true(missed > 1e-8);
+  if (rounds == 0) assert_int_equal(NumTrueNodes(space, t), num);
+  OK(HPSpaceDestroy(&space));
+  OK(PetscFree(caps));
+  OK(PetscFree(orders));
+  OK(ForestDestroy(&forest));
+}
+
+static void test_products(void **state)
+{
+  for (PetscInt rotation = 0; rotation < 24; ++rotation) {
+    CheckProducts(2, rotation, 0);
+    CheckProducts(3, rotation, 0);
+    CheckProducts(2, rotation, 3);
+    CheckProducts(3, rotation, 1);
+  }
+}
+
+/* The minimum rule with one number per entity: parts of a closure have at most its order, what hangs and what it hangs on share theirs. */
+static PetscErrorCode ScalarRule(const ForestTables *t, const int8_t orders[], uint64_t linear, int8_t *order)
+{
+  for (PetscInt e = 0; e < t->num_entities; ++e)
+    order[e] = e >= t->first[t->dim] ? orders[e - t->first[t->dim]] : t->boundary[e] & linear ? 1 : MORTISE_MAX_ORDER;
+  for (PetscBool changed = PETSC_TRUE; changed;) {
+    changed = PETSC_FALSE;
+    for (PetscInt e = t->first[1]; e < t->num_entities; ++e) {
+      const PetscInt n = e < t->first[2] ? 0 : e < t->first[3] ? 9 : 27, parent = t->parent[e];
+      for (PetscInt i = 0; i < n; ++i) {
+        const PetscInt part = t->closure[t->closure_offset[e] + i];
+        if (part < t->first[1] || order[part] <= order[e]) continue;
+        order[part] = order[e];
+        changed     = PETSC_TRUE;
+      }
+      if (parent < 0 || order[parent] == order[e]) continue;
+      order[parent] = order[e] = PetscMin(order[parent], order[e]);
+      changed                  = PETSC_TRUE;
+    }
+  }
+  return PETSC_SUCCESS;
+}
+
+static void test_isotropic(void **state)
+{
+  for (uint64_t seed = 0; seed < 24; ++seed) {
+    const PetscInt      dim    = 2 + (PetscInt)(seed % 2);
+    Forest              forest = RandomForest(dim, 1, 2, (PetscBool)(seed % 3 > 0), seed);
+    const ForestTables *t;
+    HPSpace             space;
+    int8_t             *orders, *scalar;
+
+    OK(ForestGetTables(forest, &t));
+    RandomOrders(t, 1 + (PetscInt)(seed % 4), 8, &orders);
+    OK(PetscMalloc1(t->num_entities, &scalar));
+    OK(HPSpaceCreate(forest, orders, NULL, seed % 5, 0, &space));
+    OK(ScalarRule(t, orders, seed % 5, scalar));
+    for (PetscInt e = t->first[1]; e < t->num_entities; ++e) {
+      PetscInt along[3], d = 1;
+      while (e >= t->first[d + 1]) ++d;
+      OK(HPSpaceGetAxisOrders(space, e, along));
+      for (PetscInt a = 0; a < d; ++a) assert_int_equal(along[a], scalar[e]);
+    }
+    OK(HPSpaceDestroy(&space));
+    OK(PetscFree(scalar));
+    OK(PetscFree(orders));
+    OK(ForestDestroy(&forest));
+  }
 }
 
 /* The 24 proper rotations of a cube are there, each once; the 4 of a square. */
@@ -287,7 +491,7 @@ static void test_default_constraints(void **state)
   forest = RandomForest(2, 1, 3, PETSC_FALSE, 7);
   OK(ForestGetTables(forest, &t));
   RandomOrders(t, 1, 3, &orders);
-  OK(HPSpaceCreate(forest, orders, 0, 0, &space));
+  OK(HPSpaceCreate(forest, orders, NULL, 0, 0, &space));
   OK(HPSpaceGetTables(space, &v));
   OK(PetscCalloc1(v->num_nodes, &fixed));
   for (PetscInt n = 0; n < v->num_nodes; ++n) {
@@ -344,7 +548,7 @@ static void test_transform(void **state)
   forest = RandomForest(2, 1, 3, PETSC_TRUE, 7);
   OK(ForestGetTables(forest, &t));
   RandomOrders(t, 1, 3, &orders);
-  OK(HPSpaceCreate(forest, orders, 0, 0, &space));
+  OK(HPSpaceCreate(forest, orders, NULL, 0, 0, &space));
   OK(HPSpaceGetTables(space, &v));
   PetscInt *node, num = 0;
   PetscReal(*frame)[9];
@@ -387,9 +591,11 @@ static void test_transform(void **state)
 int main(int argc, char **argv)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_reproduction),        cmocka_unit_test(test_reproduction_curved), cmocka_unit_test(test_continuity),
-      cmocka_unit_test(test_default_constraints), cmocka_unit_test(test_transform),           cmocka_unit_test(test_rotation_numbers),
-      cmocka_unit_test(test_all_rotations),
+      cmocka_unit_test(test_reproduction),  cmocka_unit_test(test_reproduction_curved),
+      cmocka_unit_test(test_continuity),    cmocka_unit_test(test_default_constraints),
+      cmocka_unit_test(test_transform),     cmocka_unit_test(test_rotation_numbers),
+      cmocka_unit_test(test_all_rotations), cmocka_unit_test(test_caps),
+      cmocka_unit_test(test_products),      cmocka_unit_test(test_isotropic),
   };
   if (PetscInitialize(&argc, &argv, NULL, NULL)) return 1;
   int failed = cmocka_run_group_tests(tests, NULL, NULL);

@@ -53,7 +53,7 @@ static void Check(int8_t order, uint64_t linear, uint64_t mirror, PetscReal inne
   PetscInt        found = 0;
 
   for (PetscInt c = 0; c < NUM; ++c) orders[c] = order;
-  OK(HPSpaceCreate(forest, orders, linear, mirror, &space));
+  OK(HPSpaceCreate(forest, orders, NULL, linear, mirror, &space));
   OK(HPSpaceGetTables(space, &v));
   for (PetscInt n = 0; n < v->num_nodes; ++n) {
     const PetscReal *X = v->X + 3 * n, above = X[1] - 1 - CURVE * X[0] * X[0];
@@ -209,7 +209,7 @@ static void MeanDistance(PetscInt n, PetscInt times, PetscReal mean[2])
   OK(ForestGetTables(forest, &t));
   OK(PetscMalloc1(t->num_leaves, &orders));
   for (PetscInt l = 0; l < t->num_leaves; ++l) orders[l] = 2;
-  OK(HPSpaceCreate(forest, orders, 1, 2, &space));
+  OK(HPSpaceCreate(forest, orders, NULL, 1, 2, &space));
   OK(HPSpaceGetTables(space, &v));
   for (PetscInt cell = 0; cell < v->num_owned_cells; ++cell) {
     const PetscInt leaf = v->cell_leaf[cell];

@@ -1,6 +1,6 @@
 /* O-02: u = H X on the whole boundary gives u_h = H X and P = P(F1) everywhere, on 2^dim rotated, distorted cells of which a corner one and one of its
    children are split (in all directions or some), with orders 1..8 at random; and a quadratic field under the body force of linear elasticity is found
-   exactly by orders 2..8. Tolerance 1e-11 of the largest value. */
+   exactly by orders 2..8. The same with an order for each direction of space. Tolerance 1e-11 of the largest value. */
 #include "problemfixture.h"
 
 #define MOST 729 /* nodes of a cell of order 8 in space */
@@ -28,6 +28,25 @@ static PetscReal Largest(PetscReal value)
 {
   OK(MPI_Allreduce(MPI_IN_PLACE, &value, 1, MPIU_REAL, MPI_MAX, PETSC_COMM_WORLD));
   return value;
+}
+
+static PetscInt along[3]; /* orders of the body along x, y, z; 0: those of the cells */
+
+static void SetDirections(Solved *s, PetscInt dim)
+{
+  for (PetscInt d = 0; d < dim; ++d) {
+    s->bulk.body.order_along[d] = along[d];
+    s->bulk.body.order          = PetscMax(s->bulk.body.order, along[d]);
+  }
+}
+
+/* Are there cells of lower order in some direction if and only if there should be? */
+static void CheckDirections(const Solved *s)
+{
+  PetscBool directional;
+
+  OK(HPSpaceIsDirectional(s->space, &directional));
+  assert_int_equal(directional, along[0] > 0);
 }
 
 typedef void (*Field)(const PetscReal X[3], PetscReal u[3]);
@@ -103,7 +122,9 @@ static void LinearField(PetscInt dim, PetscInt q, PetscInt high, PetscInt split,
           BulkExpression("%.17g*X + %.17g*Y + %.17g*Z", (double)(H[0] - (c == 0)), (double)(H[1] - (c == 1)), (double)(H[2] - (c == 2)));
     }
   }
+  SetDirections(&s, dim);
   SolvedCreate(&s, 1, high);
+  CheckDirections(&s);
   OK(VecSetRandom(s.state.x, NULL));               /* off the line to the answer, which one linear solve would find */
   OK(VecScale(s.state.x, high > 4 ? 2e-5 : 1e-3)); /* nodes of higher order are close together */
   SolvedSolve(&s);
@@ -146,7 +167,9 @@ static void QuadraticField(PetscInt dim, PetscInt high, PetscInt split, PetscBoo
     for (PetscInt b = 0; b < 2 * dim; ++b) s.bulk.boundaries[b].displacement[c] = BulkExpression("%s", text[c]);
     s.bulk.body.force[c] = BulkExpression("%.17g", (double)(-1.5 * laplace[dim - 2][c] - (s.bulk.material.lambda + 1.5) * grad_div[dim - 2][c]));
   }
+  SetDirections(&s, dim);
   SolvedCreate(&s, 2, high);
+  CheckDirections(&s);
   SolvedSolve(&s);
   const PetscReal error = FieldError(&s, Quadratic);
   worst[2]              = PetscMax(worst[2], error);
@@ -163,9 +186,27 @@ static void QuadraticExact(void **state)
   QuadraticField(3, 8, 2, PETSC_FALSE, 5);
 }
 
+static void Directions(void **state)
+{
+  static const PetscInt linear[][3] = {{1, 4, 2}, {3, 1, 4}, {4, 2, 1}, {1, 1, 4}}, quadratic[][3] = {{2, 4, 3}, {4, 2, 2}};
+
+  for (PetscInt i = 0; i < 4; ++i) {
+    OK(PetscArraycpy(along, linear[i], 3));
+    if (along[0] != along[1]) LinearField(2, 1 + i % 2, 4, 1 + i % 3, PETSC_FALSE, (uint64_t)i);
+    LinearField(3, 1 + i % 2, 4, i < 2 ? 7 : 1 + i, PETSC_FALSE, (uint64_t)i);
+  }
+  for (PetscInt i = 0; i < 2; ++i) {
+    OK(PetscArraycpy(along, quadratic[i], 3));
+    QuadraticField(2, 4, 3 - i, PETSC_FALSE, (uint64_t)i);
+    QuadraticField(3, 4, 7 - 2 * i, PETSC_FALSE, (uint64_t)i);
+  }
+  OK(PetscArrayzero(along, 3));
+}
+
 int main(int argc, char **argv)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(LinearPlane), cmocka_unit_test(LinearSpace), cmocka_unit_test(QuadraticExact)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(LinearPlane), cmocka_unit_test(LinearSpace), cmocka_unit_test(QuadraticExact),
+                                     cmocka_unit_test(Directions)};
   if (PetscInitialize(&argc, &argv, NULL, NULL) || StageRegister()) return 1;
   OK(PetscOptionsSetValue(NULL, "-solve_rtol", "1e-13"));
   const int failed = cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,6 +1,6 @@
-/* Transfer on straight cells: polynomials of degree p survive refinement, coarsening, both at once with repartition, orders that rise and fall, mixed orders
-   and skew frames, on any number of ranks, to 1e-12; pressures of degree p-1 likewise; any function of the space does when orders rise; a merged cell's
-   pressure is the L2 projection (its mean is the children's mean). */
+/* Transfer on straight cells: polynomials of degree p survive refinement, coarsening, both at once with repartition, orders that rise and fall, mixed orders,
+   along the axes of a cell too, and skew frames, on any number of ranks, to 1e-12; pressures of degree p-1 likewise; any function of the space does when orders
+   rise; a merged cell's pressure is the L2 projection (its mean is the children's mean). */
 #include "bulkfixture.h"
 #include "transferimpl.h"
 
@@ -115,14 +115,20 @@ static void Setting(Bulk *b, PetscInt dim)
   BulkMaterial(&b->material, "neo_hookean", VOLUMETRIC_QUADRATIC, FORMULATION_MIXED, 1, 100);
 }
 
+static PetscInt lowest_cap; /* random caps of the orders along each axis, this or one more; 0: none */
+
 static void Frames(Bulk *b, PetscInt dim)
 {
+  int8_t(*caps)[3] = NULL;
   const HPTables     *v;
   const ForestTables *t;
 
-  OK(HPSpaceCreate(b->forest, b->orders, 0, 0, &b->space));
-  OK(HPSpaceGetTables(b->space, &v));
   OK(ForestGetTables(b->forest, &t));
+  if (lowest_cap) OK(PetscMalloc1(t->num_leaves, &caps));
+  for (PetscInt i = 0; caps && i < 3 * t->num_leaves; ++i) caps[i / 3][i % 3] = (int8_t)(lowest_cap + BoxRandom(2));
+  OK(HPSpaceCreate(b->forest, b->orders, caps, 0, 0, &b->space));
+  OK(PetscFree(caps));
+  OK(HPSpaceGetTables(b->space, &v));
   OK(PetscCalloc1(v->num_nodes, &b->supports.fixed));
   OK(PetscMalloc2(v->num_nodes, &b->supports.frame_node, v->num_nodes, &b->supports.frame));
   for (PetscInt n = 0; n < v->num_nodes; ++n) {
@@ -200,10 +206,11 @@ static void Polynomials(void **state)
 {
   for (PetscInt dim = 2; dim <= 3; ++dim) {
     for (PetscInt degree = 1; degree <= 3; ++degree) {
-      for (uint64_t seed = 0; seed < 4; ++seed) {
+      for (uint64_t seed = 0; seed < 6; ++seed) {
         const PetscInt modes[] = {0, 2, 1};
-        Bulk           b;
-        Box            box;
+        lowest_cap             = seed < 4 ? 0 : degree;
+        Bulk b;
+        Box  box;
         Setting(&b, dim);
         b.forest = BoxForest(PETSC_COMM_WORLD, dim, (const PetscInt[3]){2, 2, 1}, 1, dim == 2 ? 2 : 1, seed, &box);
         const ForestTables *t;
@@ -226,6 +233,7 @@ static void Polynomials(void **state)
       }
     }
   }
+  lowest_cap = 0;
   assert_true(num_refined[0] > 100 && num_refined[2] > 100);
   assert_true(num_merged[1] > 20 && num_merged[2] > 20);
   assert_true(num_raised > 50 && num_lowered > 50);

@@ -122,6 +122,11 @@ def test_good_on_two_ranks(check):
     (("order: 1\nbody", "order: 9\nbody"), ["order is 9", r"\[1,8\]"]),
     (("order: 1\nbody", "order: 0\nbody"), ["order is 0", r"\[1,8\]"]),
     (("upper: {material: rubber}", "upper: {material: rubber, order: 99}"), ["body.upper.order is 99", r"\[1,8\]"]),
+    (("upper: {material: rubber}", "upper: {material: rubber, order: {x: 2, y: 9}}"), [r"body.upper.order.y is 9", r"\[1,8\]"]),
+    (("upper: {material: rubber}", "upper: {material: rubber, order: {x: 2, y: 0}}"), [r"body.upper.order.y is 0", r"\[1,8\]"]),
+    (("upper: {material: rubber}", "upper: {material: rubber, order: {x: 2, w: 1}}"), [r"body.upper.order.w is not a key", r"body.upper.order.x"]),
+    (("upper: {material: rubber}", "upper: {material: rubber, order: {x: 2, z: 1}}"), [r"body.upper.order.z", "no z"]),
+    (("upper: {material: rubber}", "upper: {material: rubber, order: [2, 1]}"), [r"body.upper.order must be an integer", "list"]),
     (("nu: 0.3", "nu: 0.5"), ["material.rubber.nu", "0.5"]),
     (("nu: 0.3", "nu: 0.7"), ["material.rubber.nu", "0.7"]),
     (("E: 1,", "E: -1,"), ["material.rubber.E", "-1"]),
@@ -271,6 +276,23 @@ def test_command_line_wins(check):
     result = check((), "-material_rubber_E", "26", "-order", "3", "-boundary_bottom_fix", "y", "-mesh_parameter_n", "3")
     assert result.returncode == 0, result
     assert "mu = 10," in result.stdout and "order 3" in result.stdout and "fix y" in result.stdout
+
+
+DIRECTIONS = ("upper: {material: rubber}", "upper: {material: rubber, order: {x: 3, y: 2}}")
+
+
+def test_orders_per_direction(check):
+    """Letters that are not given take the scene's order; the same in all directions is one order."""
+    assert "order 3 (along x: 3, y: 2)" in check((DIRECTIONS,)).stdout
+    assert "order 4 (along x: 1, y: 4)" in check((), "-body_upper_order_y", "4").stdout
+    assert re.search(r"body upper: order 2, material", check((), "-body_upper_order_x", "2", "-body_upper_order_y", "2").stdout)
+    assert re.search(r"body upper: order 5, material", check((DIRECTIONS,), "-body_upper_order", "5").stdout)
+
+
+def test_orders_per_direction_refused(check):
+    refused(check((DIRECTIONS, ("friction: 0", "friction: 0, order: full"))), r"contact.pair.order", "orders per direction", "upper", "allowed here: 1")
+    refused(check((DIRECTIONS, ("nu: 0.3", "nu: 0.49"))), r"body.upper.order", "mixed", "allowed: one order")
+    refused(check((("upper: {material: rubber}", "upper: {material: rubber, order: 2}"),), "-body_upper_order_y", "1"), r"body.upper.order, which is 2", "map")
 
 
 def test_no_scene(run, tmp_path):
