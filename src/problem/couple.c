@@ -232,8 +232,27 @@ static PetscErrorCode NodeSums_Private(Problem p, Contact *c)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Share of the interference in the offset: facets that have no reach of their own measure gaps along normals of length 1. */
+static PetscErrorCode Interference_Private(Problem p, Contact *c)
+{
+  const PetscInt n = c->side[0].num_nodes;
+  PetscReal     *sum;
+
+  PetscFunctionBegin;
+  if (c->spec->interference == 0) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(PetscCalloc1(n, &sum));
+  for (PetscInt i = 0; i < c->num_facets; ++i) {
+    const ContactFacet *f = &c->facets[i];
+    for (PetscInt k = 0; k < f->num_rows && c->mine[f->facet]; ++k) sum[f->nodes[k]] += f->reach ? f->reach[k] : f->weight[k];
+  }
+  if (p->size > 1) PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, (PetscMPIInt)n, MPIU_REAL, MPI_SUM, p->comm));
+  for (PetscInt j = 0; j < n; ++j) c->offset[j] += c->spec->interference * sum[j];
+  PetscCall(PetscFree(sum));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* What counts as no gap: gt_j less a constant, so that forces and derivatives stay as they are. Initial gaps are those of this mesh at the reference
-   positions; an interference is taken per reference length. */
+   positions; an interference is the change of all gaps by as much along their directions there. */
 static PetscErrorCode Offset_Private(Problem p, Contact *c)
 {
   const PetscInt      n       = c->side[0].num_nodes;
@@ -248,7 +267,8 @@ static PetscErrorCode Offset_Private(Problem p, Contact *c)
   PetscCall(ContactPairEvaluate(c->pair, &side[0], &side[1], NULL, NULL, PETSC_FALSE, PETSC_FALSE, &c->num_facets, &facets, &failed));
   c->facets = facets;
   PetscCall(NodeSums_Private(p, c));
-  for (PetscInt j = 0; j < n; ++j) c->offset[j] = (c->spec->adjust ? c->gap[j] : 0) + c->spec->interference * c->weight[j];
+  for (PetscInt j = 0; c->spec->adjust && j < n; ++j) c->offset[j] = c->gap[j];
+  PetscCall(Interference_Private(p, c));
   for (PetscInt j = 0; c->spec->adjust && j < n; ++j) {
     if (!ContactCovered_Private(c, j)) continue;
     c->view.adjusted = PetscMax(c->view.adjusted, PetscAbsReal(c->gap[j] / c->weight[j]));
@@ -414,6 +434,7 @@ static PetscErrorCode Freeze_Private(Problem p, Contact *c, PetscBool *failed)
     c->frozen[i]         = *f;
     c->frozen[i].gap     = NULL; /* with gap0 */
     c->frozen[i].weight  = NULL;
+    c->frozen[i].reach   = NULL;
     c->frozen[i].nodes   = nodes;
     c->frozen[i].dgap    = dgap;
     c->frozen[i].dweight = dweight;
