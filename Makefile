@@ -133,6 +133,7 @@ run-verify:
 chart: bootstrap
 	@$(MAKE) --no-print-directory -j2 all $(BUILD)/bench/contact
 	@MORTISE=$(abspath $(PROGRAM)) scripts/chart
+	@MORTISE=$(abspath $(PROGRAM)) scripts/chart_hp
 	@scripts/chart_search $(BUILD)/bench/contact
 
 bench: bootstrap

@@ -43,6 +43,13 @@ PetscErrorCode           StageBegin(Stage);
 PetscErrorCode           StageEnd(Stage);
 PetscReal                StageSeconds(Stage);
 
+/* ---- messages between few of many ranks (base/sparse.c) ---------------------------------------------------------- */
+
+/* Message i, entries first[i] .. first[i+1] of `entry` bytes each of `send`, goes to rank to[i] (not this one; no message is empty); nobody else knows of it
+   beforehand. *received: what others sent here, by ascending rank, num_received entries; the caller frees it. Collective. */
+PetscErrorCode SparseExchange(MPI_Comm, PetscMPIInt num_to, const PetscMPIInt to[], const PetscInt first[], size_t entry, const void *send,
+                              PetscInt *num_received, void *received);
+
 /* ---- expressions in X, Y, Z, t (base/expression.c, on muParser) -------------------------------------------------- */
 
 typedef struct _p_Expression *Expression;

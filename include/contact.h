@@ -44,6 +44,8 @@ typedef struct {
   const PetscInt  *first; /* [num_facets+1] */
   const PetscInt  *lattice;
   const PetscReal *X; /* [num_nodes][dim] reference positions, those of hanging nodes included */
+  /* [num_nodes] Is the node's position known on this rank? NULL: all are. Searches pass over mortar facets with other nodes; normals beside them are NaN. */
+  const PetscBool *has;
 } ContactSurface;
 
 typedef struct {
@@ -113,6 +115,18 @@ PetscErrorCode ContactPairSetCarriers(ContactPair, const ContactSurface *nonmort
 PetscErrorCode ContactPairSearch(ContactPair, const ContactSurface *nonmortar, const ContactSurface *mortar, PetscInt num, const PetscInt facets[],
                                  PetscReal distance, PetscReal margin);
 
+/* Boxes (xmin, ymin, zmin, xmax, ymax, zmax), at most `most`, that meet the box (ContactFacetBox) of every mortar facet that ContactPairSearch with the same
+   arguments may find; either both sides have facets of higher order or none. Not collective. */
+PetscErrorCode ContactPairReach(ContactPair, const ContactSurface *nonmortar, PetscInt num, const PetscInt facets[], PetscReal distance, PetscReal margin,
+                                PetscInt most, PetscInt *num_boxes, PetscReal box[][6]);
+void           ContactFacetBox(const ContactSurface *, PetscInt facet, PetscReal box[6]);
+PetscBool      ContactBoxesMeet(const PetscReal a[6], const PetscReal b[6]);
+/* Candidates of the last search: mortar facets of listed facet i are candidate[start[i] .. start[i+1]), ascending. Set: the search went on elsewhere, these
+   facets are evaluated here (and listed from now on) with these candidates. */
+PetscErrorCode ContactPairGetCandidates(ContactPair, const PetscInt **start, const PetscInt **candidate);
+PetscErrorCode ContactPairSetCandidates(ContactPair, const ContactSurface *nonmortar, PetscInt num, const PetscInt facets[], const PetscInt start[],
+                                        const PetscInt candidate[]);
+
 /* Evaluate all facets of the last search at current positions. z[nonmortar num_nodes] (NULL: not known; needed for the Hessian). wanted[nonmortar num_nodes]
    (NULL: all): derivatives are needed of facets that carry weight to such a node only (three dimensions). A deterministic function of positions. Only facets
    that contribute are returned. Results stay valid until the next call. *failed (numerical status, no results): positions that are no numbers, a facet without
@@ -120,7 +134,7 @@ PetscErrorCode ContactPairSearch(ContactPair, const ContactSurface *nonmortar, c
 PetscErrorCode ContactPairEvaluate(ContactPair, const ContactSurface *nonmortar, const ContactSurface *mortar, const PetscReal z[], const PetscBool wanted[],
                                    PetscBool derivatives, PetscBool hessian, PetscInt *num, const ContactFacet **facets, PetscBool *failed);
 PetscErrorCode ContactPairGetSegments(ContactPair, PetscInt *num, const ContactSegment **segments);
-/* Nodal normals of the last evaluation [num_nodes][dim]. */
+/* Nodal normals of the last evaluation [num_nodes][dim]; NaN at nodes with neighbours that are not known here. */
 PetscErrorCode ContactPairGetNormals(ContactPair, const PetscReal **normals);
 /* Overlaps of the last evaluation that could not be used (three dimensions: facets that are folded over or not convex in the other's view). */
 PetscErrorCode ContactPairGetDegenerate(ContactPair, PetscInt *num);

@@ -34,10 +34,10 @@ typedef struct {
 /* Figures at a state of this problem, the same on every rank. Evaluates the residual. Collective. */
 PetscErrorCode BalanceCompute(Problem, const State *, Balance *);
 PetscErrorCode BalanceDestroy(Balance *);
-/* The zone of contact alone: max_pressure to covered_nodes above, from the tables of a view. Not collective.
+/* The zone of contact alone: max_pressure to covered_nodes above, from the tables of a view: each rank its own nodes, then over the ranks of comm. Collective.
    radius: the zone ends between its last active node and the next one. There the square of the pressure is extended linearly to zero (the pressure between
    smooth bodies falls with the root of the distance), at most to the next node; where it does not fall, the zone ends in the middle of the edge. */
-PetscErrorCode BalanceZone(const ContactView *, PairFigures *);
+PetscErrorCode BalanceZone(MPI_Comm comm, const ContactView *, PairFigures *);
 
 /* Figures of one pass or accepted step, also the rows of adapt.csv and history.csv. */
 typedef struct {

@@ -2,10 +2,21 @@
 #pragma once
 #include "problem.h"
 
+enum {
+  ESTIMATE_HELD_FACE   = 1, /* the cell has a contact face of order 1, whose error stays */
+  ESTIMATE_HELD_RIM    = 2, /* it touches the edge of a contact zone, where the pressure starts like a root */
+  ESTIMATE_HELD_CORNER = 4, /* it touches a place where the kind of condition on the boundary changes */
+};
+
 typedef struct {
   PetscInt   num_leaves;
   PetscReal *eta2;       /* owned [num_leaves] squared indicator of each leaf, replicated, unit: energy */
   PetscReal (*along)[3]; /* owned [num_leaves][3] what of eta2 can be told to come from each axis of the leaf, replicated; NULL: unknown */
+  PetscReal *decay;      /* owned [num_leaves] rate at which the Legendre coefficients of the displacement fall from degree to degree (src/estimate/decay.c),
+                            replicated; NULL: not wanted (strategy h) */
+  int8_t   *order;       /* owned [num_leaves] of the cells, replicated; NULL with decay */
+  int8_t   *lowest;      /* owned [num_leaves] no order below: that of the scene; NULL with decay */
+  int8_t   *held;        /* owned [num_leaves] bits ESTIMATE_HELD_…, where a higher order gains little; NULL with decay */
   PetscReal total;       /* sqrt of the sum */
   PetscReal norm;        /* energy-like norm of the solution: sqrt(2 * strain energy) */
   PetscReal relative;    /* total / sqrt(norm^2 + total^2) */
@@ -15,9 +26,10 @@ typedef struct {
 /* Indicators at a converged state whose prescribed motion the problem stands at; evaluates the residual when there is contact. Collective. */
 PetscErrorCode EstimateCompute(Problem, const State *, Estimate *);
 PetscErrorCode EstimateDestroy(Estimate *);
-/* Bulk (Dörfler) marking by spec->fraction; splits in all directions or, spec->anisotropic, in those that matter (src/estimate/split.c); coarsening of leaves
-   whose eta2 is below spec->coarsen^2 times the mean; leaves of rigid bodies, eta2 = 0, never. Never more than spec->max_cells leaves expected (before the
-   closure's extra splits); leaves whose eta2 agree to 1e-6 are split together or not at all. The list is freed by MarkListDestroy. *num_marked: leaves to
-   split. Not collective (input is replicated). */
-PetscErrorCode EstimateMark(const Estimate *, const AdaptSpec *, Forest, MarkList *, PetscInt *num_marked);
+/* What to do next. Bulk (Dörfler) marking by spec->fraction; splits in all directions or, spec->anisotropic, in those that matter (src/estimate/split.c), or
+   higher orders (src/estimate/choose.c), written to order[num_leaves], the orders the leaves are to have (NULL with strategy h); coarsening or lower orders of
+   leaves whose eta2 is below spec->coarsen^2 times the mean; leaves of rigid bodies, eta2 = 0, never. Never more than spec->max_cells leaves expected (before
+   the closure's extra splits); leaves whose eta2 agree to 1e-6 are changed together or not at all. The list is freed by MarkListDestroy. *num_marked: leaves to
+   split or to raise. Not collective (input is replicated). */
+PetscErrorCode EstimateMark(const Estimate *, const AdaptSpec *, Forest, MarkList *, int8_t order[], PetscInt *num_marked);
 PetscErrorCode MarkListDestroy(MarkList *);

@@ -38,6 +38,9 @@ PetscErrorCode HPSpaceCreate(Forest, const int8_t leaf_order[], uint64_t linear_
    Builds the local and global section, the DM's default constraints with bias, and vectors. Collective. */
 PetscErrorCode HPSpaceSetUp(HPSpace, const int8_t fixed[], PetscInt num_frames, const PetscInt frame_node[], const PetscReal frame[][9]);
 PetscErrorCode HPSpaceDestroy(HPSpace *);
+/* Raise order[num_leaves] (replicated) until no two leaves that share a facet, or a part of one, differ by more than `difference`; leaves with a mark in
+   fixed[num_leaves] stay as they are, whatever their neighbours. Not collective. */
+PetscErrorCode HPOrdersLimit(Forest, PetscInt difference, const int8_t fixed[], int8_t order[]);
 PetscErrorCode HPSpaceView(HPSpace, PetscViewer);
 PetscErrorCode HPSpaceGetTables(HPSpace, const HPTables **);
 PetscErrorCode HPSpaceGetForest(HPSpace, Forest *);

@@ -83,8 +83,8 @@ typedef struct {
  * reactions). */
 PetscErrorCode MechanicsResidual(Mechanics, const PetscReal u[], PetscReal r[], MechanicsStatus *);
 
-/* Receives K[num][num] for local dofs. */
-typedef PetscErrorCode (*MatrixSink)(void *context, PetscInt num, const PetscInt dofs[], const PetscReal K[]);
+/* Receives K[num][num] for local dofs; of an owned cell (its masters in order, all but those inside it where they are condensed) or of a load (cell -1). */
+typedef PetscErrorCode (*MatrixSink)(void *context, PetscInt cell, PetscInt num, const PetscInt dofs[], const PetscReal K[]);
 /* Tangent at u with the stored pressure (NULL: consistent with u); remembers the linearised pressure for MechanicsUpdatePressure. */
 PetscErrorCode MechanicsTangent(Mechanics, const PetscReal u[], const PetscReal pressure[], MatrixSink, void *context, PetscBool *bad);
 

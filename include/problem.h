@@ -49,7 +49,11 @@ PetscErrorCode ProblemLocalDisplacement(Problem, Vec x, PetscReal local[]);
 /* Write a local array's free dofs into x (owned entries). */
 PetscErrorCode ProblemSetDisplacement(Problem, const PetscReal local[], Vec x);
 
-/* ---- contact, replicated surface tables ------------------------------------------------------------------------------------ */
+/* ---- contact: replicated topology, values where they are needed ------------------------------------------------------------ */
+
+/* Tables of all nodes and facets of both sides are the same on every rank, and so is what belongs to the mesh. Values of the last evaluation are not: each rank
+   has them at nodes it owns, at the nodes of its own facets (those of its leaves), and at those that its facets in contact depend on. Other entries are NaN;
+   ProblemGatherContactToAll knows all. */
 
 typedef struct {
   PetscInt         dim, corners; /* of a facet: 2 or 4 */
@@ -62,7 +66,8 @@ typedef struct {
   const PetscReal *hang_weight;
   const PetscReal *X;     /* [num_nodes][dim] */
   const PetscReal *x;     /* [num_nodes][dim] at the last evaluation */
-  const PetscReal *force; /* [num_nodes][dim] contact force at the last residual; none at hanging nodes */
+  const PetscReal *force; /* [num_nodes][dim] contact force at the last residual, of owned nodes; none at hanging nodes */
+  const PetscBool *owned; /* [num_nodes] this rank answers for the node: sums over nodes run over these; hanging nodes belong to nobody */
   const int8_t    *order; /* facets of higher order as in contact.h: their order and lattices of nodes; NULL: all are of order 1, their nodes the corners */
   const PetscInt  *first, *lattice;
 } SurfaceView;
@@ -87,17 +92,31 @@ void SurfaceShape(PetscInt dim, PetscInt order, const PetscReal xi[], PetscReal 
 typedef struct {
   const ContactSpec *spec;
   SurfaceView        nonmortar, mortar;
-  const PetscReal   *z, *gap, *weight; /* [nonmortar.num_nodes] multiplier, gt_j, w_j at the last evaluation (replicated) */
+  const PetscReal   *z, *gap, *weight; /* [nonmortar.num_nodes] multiplier, gt_j, w_j at the last evaluation */
   const PetscBool   *active;           /* [nonmortar.num_nodes] as the residual decided */
   const PetscBool   *has_multiplier;   /* [nonmortar.num_nodes]; hanging nodes: no, their z is interpolated */
   ContactPair        pair;             /* segments of this rank's nonmortar facets */
+  const PetscReal   *normal;           /* [nonmortar.num_nodes][dim] of views gathered to all; else NULL: ContactPairGetNormals */
   PetscReal          area, min_gap;    /* totals over ranks */
   PetscInt           unusable;         /* overlaps at the last evaluation that could not be used: facets folded over in the other's view (three dimensions) */
   PetscReal          adjusted;         /* largest mean initial gap, over or under, that was closed at a node (initial_gap: adjust) */
 } ContactView;
 
 PetscErrorCode ProblemGetContact(Problem, PetscInt pair, const ContactView **);
-/* Set the multipliers of a pair from nodal values [nonmortar.num_nodes] (replicated) in x. */
+/* The same with the values of all nodes (forces too) and `normal` on every rank: one reduction over both surfaces, for output and the like. They stay valid
+   until the next call for this pair. Collective. */
+PetscErrorCode ProblemGatherContactToAll(Problem, PetscInt pair, const ContactView **view);
+/* Multipliers and (NULL: not wanted) nodal normals and positions of the last evaluation at wanted[nonmortar.num_nodes] nodes, from the ranks that know them:
+   z[nonmortar num_nodes], normal[..][dim], x[..][dim], NaN at others. Collective. */
+PetscErrorCode ProblemFetchContact(Problem, PetscInt pair, const PetscBool wanted[], PetscReal z[], PetscReal normal[], PetscReal x[]);
+/* What contact has sent from this rank since the problem was created. Values: between searches; search: positions and lists of facets, sent where boxes meet.
+   Boxes of ranks and scalars, which all ranks reduce, are left out. */
+typedef struct {
+  PetscInt  evaluations, searches, messages, search_messages;
+  PetscReal bytes, search_bytes, seconds; /* seconds: wall time in the exchange of values, waiting included */
+} ContactTraffic;
+PetscErrorCode ProblemGetTraffic(Problem, ContactTraffic *);
+/* Set the multipliers of a pair from values[nonmortar.num_nodes] in x: each rank those of its own nodes. */
 PetscErrorCode ProblemSetMultipliers(Problem, PetscInt pair, const PetscReal z[], Vec x);
 /* Refresh the candidate search at x; between Newton iterations only. */
 PetscErrorCode ProblemSearch(Problem, Vec x);
@@ -141,7 +160,7 @@ PetscErrorCode ProblemSwitchActiveSet(Problem, Vec x, Vec dx, Vec rhs, PetscInt 
    them and sets their multipliers to 0. *any: is there one? Engage puts all pairs back. Collective. */
 PetscErrorCode ProblemRelease(Problem, PetscBool *any);
 PetscErrorCode ProblemEngage(Problem);
-/* A number that tells active sets of this problem apart. Not collective, the same on every rank. */
+/* A number that tells active sets of this problem apart, the same on every rank. Collective. */
 PetscErrorCode ProblemActiveSetHash(Problem, uint64_t *hash);
 /* A Newton step: Begin remembers where it starts; Move sets x = start + step dx and the prescribed motion likewise (may be called again with a shorter step)
    and refreshes the contact search; Accept updates the element pressures for the step taken. */

@@ -19,6 +19,7 @@ typedef struct {
   PetscReal     share;       /* of the largest direction's squared estimate: a direction with less does not matter */
   PetscReal     aspect;      /* a split must not leave a cell more than this many times as long as its shortest edge */
   AdaptStrategy strategy;
+  PetscInt      max_order; /* p, hp: no order above */
 } AdaptSpec;
 
 typedef struct {

@@ -11,19 +11,19 @@ typedef struct {
   PetscInt      linear_solves; /* active-set passes included */
   PetscInt      factorisations;
   PetscInt      single_failures; /* factors in single precision that did not serve: a solver has at most one, then it takes double */
-  PetscInt      set_changes;   /* contact nodes that active-set passes switched */
-  PetscInt      set_cycles;    /* linearisations whose active sets repeated, and 1 when Newton's own did */
+  PetscInt      set_changes;     /* contact nodes that active-set passes switched */
+  PetscInt      set_cycles;      /* linearisations whose active sets repeated, and 1 when Newton's own did */
   PetscReal     residual, scale;
   ProblemStatus status;
 } SolverReport;
 
 /* SNES of the registered type "contactnewton" over the problem's residual and tangent. Options: snes_*, ksp_*, pc_*, mat_mumps_*, and
    -solve_rtol (1e-10: residual against the nodal forces), -solve_max_it (25), -solve_active_set_passes (10), -solve_cuts (6),
-   -solve_condense auto|yes|no (auto: from order 3 on the unknowns of nodes inside cells are eliminated there, before the linear solver),
-   -solve_linear auto|direct|iterative (auto: multigrid and GMRES for large three-dimensional problems of compressible material with a symmetric tangent; a
-   factorisation where that fails and everywhere else), -solve_factor auto|single|double (precision of factors; auto: single in three dimensions from 20 000
-   unknowns on, where MUMPS has it and no -pc_type was given; double where that fails), -solve_linear_rtol; saddle_ksp_*
-   (GMRES), multigrid_pc_*, multigrid_smoother_*, again_ksp_* (GMRES on a factor in single precision or of an earlier tangent). Collective. */
+   -solve_condense auto|yes|no (auto: from order 3 in the plane and 4 in space the unknowns of nodes inside cells are eliminated there, before the linear
+   solver), -solve_linear auto|direct|iterative (auto: multigrid and GMRES for large three-dimensional problems of compressible material with a symmetric
+   tangent; a factorisation where that fails and everywhere else), -solve_factor auto|single|double (precision of factors; auto: single in three dimensions from
+   20 000 unknowns on, where MUMPS has it and no -pc_type was given; double where that fails), -solve_linear_rtol; saddle_ksp_* (GMRES), multigrid_pc_*,
+   multigrid_smoother_*, again_ksp_* (GMRES on a factor in single precision or of an earlier tangent). Collective. */
 PetscErrorCode SolverCreate(Problem, Solver *);
 PetscErrorCode SolverDestroy(Solver *);
 PetscErrorCode SolverGetSNES(Solver, SNES *);

@@ -59,14 +59,14 @@ static PetscErrorCode PrescribeAt_Private(Problem problem, PetscReal t)
 
 /* The level on the adapted forest with both states carried over, each under the prescribed motion of its own time: new nodes near a support are
    interpolated from prescribed ones. */
-static PetscErrorCode MoveTo_Private(App *app, Forest forest, const ForestMap *map)
+static PetscErrorCode MoveTo_Private(App *app, Forest forest, const int8_t old_order[], const ForestMap *map)
 {
   const Level *old = &app->level;
   Level        next;
   int8_t      *orders;
 
   PetscFunctionBegin;
-  PetscCall(TransferOrders(map, old->state.leaf_order, &orders));
+  PetscCall(TransferOrders(map, old_order, &orders));
   PetscCall(LevelCreate(app->data, forest, orders, old->state.t, &next));
   PetscCall(StageBegin(STAGE_TRANSFER));
   next.accepted.t = old->accepted.t;
@@ -131,24 +131,31 @@ static PetscErrorCode Reequilibrate_Private(App *app, PetscInt *iterations, Pets
 /* Mark and adapt; *adapted false when nothing may or need be refined. */
 static PetscErrorCode Refine_Private(App *app, PetscBool *adapted)
 {
-  MarkList  list;
-  PetscInt  marked, num_pairs, (*pairs)[2];
-  Forest    forest;
-  ForestMap map;
+  const ForestTables *t;
+  MarkList            list;
+  PetscInt            marked, num_pairs, (*pairs)[2];
+  Forest              forest;
+  ForestMap           map;
+  int8_t             *order  = NULL;
+  PetscReal          *weight = NULL;
 
   PetscFunctionBegin;
-  PetscCall(EstimateMark(&app->estimate, &app->data->adapt, app->level.forest, &list, &marked));
+  PetscCall(ForestGetTables(app->level.forest, &t));
+  if (app->data->adapt.strategy != ADAPT_H) PetscCall(PetscMalloc2(t->num_leaves, &order, t->num_leaves, &weight));
+  PetscCall(EstimateMark(&app->estimate, &app->data->adapt, app->level.forest, &list, order, &marked));
+  for (PetscInt l = 0; order && l < t->num_leaves; ++l) weight[l] = PetscPowInt(order[l], t->dim);
   *adapted = (PetscBool)(marked > 0);
   if (*adapted) {
     PetscCall(AppContactPairs(app, &num_pairs, &pairs));
     PetscCall(StageBegin(STAGE_MESH));
-    PetscCall(ForestAdapt(app->level.forest, &list, NULL, num_pairs, (const PetscInt(*)[2])pairs, &forest, &map));
+    PetscCall(ForestAdapt(app->level.forest, &list, weight, num_pairs, (const PetscInt(*)[2])pairs, &forest, &map));
     PetscCall(StageEnd(STAGE_MESH));
     PetscCall(PetscFree(pairs));
-    PetscCall(MoveTo_Private(app, forest, &map));
+    PetscCall(MoveTo_Private(app, forest, order ? order : app->level.state.leaf_order, &map));
     PetscCall(ForestMapDestroy(&map));
   }
   PetscCall(MarkListDestroy(&list));
+  PetscCall(PetscFree2(order, weight));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

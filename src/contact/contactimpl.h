@@ -123,6 +123,12 @@ static inline PetscReal Dot2(const PetscReal a[2], const PetscReal b[2])
 /* Gauss points on [0, 1] (point, weight; weights sum to 1). */
 extern const PetscReal ContactGaussPoint[CONTACT_GAUSS], ContactGaussWeight[CONTACT_GAUSS];
 
+/* Is the position of a node of the surface known here? */
+static inline PetscBool ContactHas(const ContactSurface *s, PetscInt node)
+{
+  return (PetscBool)(!s->has || s->has[node]);
+}
+
 /* Make room for num entries of *array, *size are there; contents are kept. */
 PetscErrorCode ContactGrow(PetscInt num, size_t entry, PetscInt *size, void *array);
 

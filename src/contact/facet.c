@@ -45,6 +45,11 @@ PetscErrorCode ContactFacetTopology(ContactPair pair, const ContactSurface *s)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+static PetscBool HasFacet_Private(const ContactSurface *s, const PetscInt node[4])
+{
+  return (PetscBool)(ContactHas(s, node[0]) && ContactHas(s, node[1]) && ContactHas(s, node[2]) && ContactHas(s, node[3]));
+}
+
 /* Mean unit normals at the nodes, for output and estimation; the gap does not use them. */
 static void Normals_Private(ContactPair pair, const ContactSurface *s)
 {
@@ -53,9 +58,10 @@ static void Normals_Private(ContactPair pair, const ContactSurface *s)
     const PetscInt *node = s->facets + 4 * f;
     PetscReal       N[3], length;
 
-    ContactFacetVector(3, s->x, node, N);
+    for (int i = 0; i < 3; i++) N[i] = NAN;
+    if (HasFacet_Private(s, node)) ContactFacetVector(3, s->x, node, N);
     length = PetscSqrtReal(Dot3(N, N));
-    for (int a = 0; a < 4 && length > 0; a++)
+    for (int a = 0; a < 4 && length != 0; a++)
       for (int i = 0; i < 3; i++) pair->normal[3 * node[a] + i] += N[i] / length;
   }
   for (PetscInt n = 0; n < s->num_nodes; n++) {

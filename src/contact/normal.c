@@ -53,7 +53,8 @@ static PetscBool HasMirror_Private(const ContactSurface *s, PetscInt node)
   return s->mirror && (s->mirror[2 * node] != 0 || s->mirror[2 * node + 1] != 0) ? PETSC_TRUE : PETSC_FALSE;
 }
 
-/* Unit normals of all nodes that have an edge. *failed: an edge without length, a node whose edge normals cancel (folded surface), or no number. */
+/* Unit normals of all nodes that have an edge; NaN where the node or a neighbour is not known here. *failed: an edge without length, a node whose edge normals
+ * cancel (folded surface), or no number. */
 PetscErrorCode ContactNormalsBuild(ContactPair pair, const ContactSurface *s, PetscBool *failed)
 {
   PetscFunctionBegin;
@@ -62,6 +63,10 @@ PetscErrorCode ContactNormalsBuild(ContactPair pair, const ContactSurface *s, Pe
     PetscReal      m[2] = {0, 0}, length;
 
     if (prev < 0 && next < 0) continue;
+    if (!ContactHas(s, j) || (prev >= 0 && !ContactHas(s, prev)) || (next >= 0 && !ContactHas(s, next))) {
+      for (int i = 0; i < 2; i++) pair->normal[2 * j + i] = NAN;
+      continue;
+    }
     if (prev >= 0) AddEdgeNormal_Private(&s->x[2 * prev], &s->x[2 * j], m);
     if (next >= 0) AddEdgeNormal_Private(&s->x[2 * j], &s->x[2 * next], m);
     if (HasMirror_Private(s, j)) Mirror_Private(&s->mirror[2 * j], m);

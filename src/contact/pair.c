@@ -135,12 +135,13 @@ static PetscErrorCode EvaluateEdges_Private(const EvaluateContext *ctx, PetscBoo
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* False when a position is infinite or not a number: a mortar node without a place would silently see nothing. */
+/* False when a known position is infinite or not a number: a mortar node without a place would silently see nothing. */
 static PetscBool IsFinite_Private(const ContactSurface *s)
 {
   PetscReal sum = 0;
 
-  for (PetscInt i = 0; i < s->dim * s->num_nodes; i++) sum += 0 * s->x[i];
+  for (PetscInt n = 0; n < s->num_nodes; n++)
+    for (PetscInt i = 0; i < s->dim && ContactHas(s, n); i++) sum += 0 * s->x[s->dim * n + i];
   return sum == 0 ? PETSC_TRUE : PETSC_FALSE;
 }
 

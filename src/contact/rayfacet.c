@@ -59,17 +59,29 @@ PetscErrorCode ContactRayWorkDestroy(RayWork *work)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Unit directions at all nodes of the nonmortar surface, for output and estimation. */
+/* Are the directions at the corners of a facet known here? */
+static PetscBool HasDirections_Private(ContactPair pair, const ContactSurface *s, PetscInt facet)
+{
+  const PetscInt nv = 2 * (s->dim - 1);
+
+  for (PetscInt v = 0; v < nv; v++)
+    if (PetscIsNanReal(pair->ray->d[3 * s->facets[nv * facet + v]])) return PETSC_FALSE;
+  return PETSC_TRUE;
+}
+
+/* Unit directions at the nodes of the nonmortar surface, for output and estimation; NaN where they are not known here. */
 static void Normals_Private(ContactPair pair, const ContactSurface *s)
 {
   const PetscInt D = s->dim, m = D - 1, nv = 2 * m;
   RayFunctions   V;
 
+  for (PetscInt i = 0; i < D * s->num_nodes && s->has; i++) pair->normal[i] = NAN;
   for (PetscInt f = 0; f < s->num_facets; f++) {
     const PetscInt  *node;
     const PetscReal *gauss = NULL;
     PetscInt         order1[4], p;
 
+    if (!HasDirections_Private(pair, s, f)) continue;
     p = ContactRayLatticeNodes(s, f, &node, order1);
     if (ElementGetNodes(p, &gauss)) continue;
     for (PetscInt a = 0; a < ElementNumNodes(m, p); a++) {

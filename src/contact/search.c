@@ -59,26 +59,53 @@ static PetscBool Candidate_Private(ContactPair pair, const EdgeFrame *f, const R
   return (g[0] > r->reach && g[1] > r->reach) || (g[0] < -r->reach && g[1] < -r->reach) ? PETSC_FALSE : PETSC_TRUE;
 }
 
-/* Boxes of mortar facets; the tree owns them. */
-static PetscErrorCode MortarTree_Private(const ContactSurface *mortar, Tree *tree)
+/* Nodes that shape a facet: its corners, or its lattice. */
+static PetscInt FacetNodes_Private(const ContactSurface *s, PetscInt facet, const PetscInt **node)
 {
-  const PetscInt dim = mortar->dim, corners = dim == 2 ? 2 : 4;
+  const PetscInt corners = s->dim == 2 ? 2 : 4;
+
+  *node = s->order ? s->lattice + s->first[facet] : s->facets + corners * facet;
+  return s->order ? s->first[facet + 1] - s->first[facet] : corners;
+}
+
+void ContactFacetBox(const ContactSurface *s, PetscInt facet, PetscReal box[6])
+{
+  const PetscInt *node, num = FacetNodes_Private(s, facet, &node);
+
+  box[2] = box[5] = 0;
+  for (PetscInt i = 0; i < s->dim; i++) {
+    box[i]     = PETSC_MAX_REAL;
+    box[3 + i] = -PETSC_MAX_REAL;
+    for (PetscInt k = 0; k < num; k++) {
+      box[i]     = PetscMin(box[i], s->x[s->dim * node[k] + i]);
+      box[3 + i] = PetscMax(box[3 + i], s->x[s->dim * node[k] + i]);
+    }
+  }
+}
+
+static PetscBool HasFacet_Private(const ContactSurface *s, PetscInt facet)
+{
+  const PetscInt *node, num = FacetNodes_Private(s, facet, &node);
+
+  for (PetscInt k = 0; k < num; k++)
+    if (!ContactHas(s, node[k])) return PETSC_FALSE;
+  return PETSC_TRUE;
+}
+
+/* Tree over the boxes of those mortar facets that are known; item[i] of the tree is facet known[item[i]]. */
+static PetscErrorCode MortarTree_Private(const ContactSurface *mortar, PetscInt known[], Tree *tree)
+{
+  PetscInt num = 0;
   PetscReal(*box)[6];
 
   PetscFunctionBegin;
-  PetscCall(PetscCalloc1(mortar->num_facets, &box));
-  for (PetscInt f = 0; f < mortar->num_facets; f++)
-    for (PetscInt i = 0; i < dim; i++) {
-      box[f][i]     = PETSC_MAX_REAL;
-      box[f][3 + i] = -PETSC_MAX_REAL;
-      for (PetscInt k = 0; k < (mortar->order ? mortar->first[f + 1] - mortar->first[f] : corners); k++) {
-        const PetscReal x = mortar->x[dim * (mortar->order ? mortar->lattice[mortar->first[f] + k] : mortar->facets[corners * f + k]) + i];
-
-        box[f][i]     = PetscMin(box[f][i], x);
-        box[f][3 + i] = PetscMax(box[f][3 + i], x);
-      }
-    }
-  PetscCall(ContactTreeBuild(mortar->num_facets, box, tree));
+  PetscCall(PetscMalloc1(mortar->num_facets, &box));
+  for (PetscInt f = 0; f < mortar->num_facets; f++) {
+    if (!HasFacet_Private(mortar, f)) continue;
+    ContactFacetBox(mortar, f, box[num]);
+    known[num++] = f;
+  }
+  PetscCall(ContactTreeBuild(num, box, tree));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -134,7 +161,8 @@ static PetscBool Meets_Private(ContactPair pair, const Reach *r, const ContactSu
 }
 
 /* Query the tree for every listed facet. found: room for all mortar facets. */
-static PetscErrorCode Candidates_Private(ContactPair pair, const ContactSurface *nonmortar, const ContactSurface *mortar, const Tree *tree, PetscInt found[])
+static PetscErrorCode Candidates_Private(ContactPair pair, const ContactSurface *nonmortar, const ContactSurface *mortar, const Tree *tree,
+                                         const PetscInt known[], PetscInt found[])
 {
   PetscInt total = 0;
   Reach    reach;
@@ -145,6 +173,7 @@ static PetscErrorCode Candidates_Private(ContactPair pair, const ContactSurface 
 
     pair->start[i] = total;
     num            = ContactTreeQuery(tree, Reach_Private(pair, nonmortar, pair->listed[i], &reach), mortar->num_facets, found);
+    for (PetscInt k = 0; k < num; k++) found[k] = known[found[k]];
     PetscCall(PetscSortInt(num, found)); /* results must not depend on the tree */
     PetscCall(ContactGrow(total + num, sizeof(PetscInt), &pair->size_candidate, &pair->candidate));
     for (PetscInt k = 0; k < num; k++)
@@ -154,21 +183,18 @@ static PetscErrorCode Candidates_Private(ContactPair pair, const ContactSurface 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode ContactPairSearch(ContactPair pair, const ContactSurface *nonmortar, const ContactSurface *mortar, PetscInt num, const PetscInt facets[],
-                                 PetscReal distance, PetscReal margin)
+/* What a search knows of the nonmortar side: neighbours, normals, the list. higher: the mortar side has facets of higher order. */
+static PetscErrorCode Prepare_Private(ContactPair pair, const ContactSurface *nonmortar, PetscBool higher, PetscInt num, const PetscInt facets[],
+                                      PetscReal distance, PetscReal margin)
 {
-  PetscInt *found;
   PetscBool failed = PETSC_FALSE;
-  Tree      tree;
 
   PetscFunctionBegin;
   PetscCheck(distance > 0 && margin >= 0, PETSC_COMM_SELF, PETSC_ERR_ARG_OUTOFRANGE, "search distance %g must be positive, margin %g not negative",
              (double)distance, (double)margin);
-  pair->distance          = distance;
-  pair->margin            = margin;
-  pair->num_mortar_nodes  = mortar->num_nodes;
-  pair->num_mortar_facets = mortar->num_facets;
-  pair->rays              = (PetscBool)(nonmortar->order || mortar->order || (pair->dim == 3 && pair->continuous));
+  pair->distance = distance;
+  pair->margin   = margin;
+  pair->rays     = (PetscBool)(nonmortar->order || higher || (pair->dim == 3 && pair->continuous));
   if (pair->rays)
     PetscCall(ContactRayTopology(pair, nonmortar));
   else if (pair->dim == 3)
@@ -178,10 +204,88 @@ PetscErrorCode ContactPairSearch(ContactPair pair, const ContactSurface *nonmort
     PetscCall(ContactNormalsBuild(pair, nonmortar, &failed)); /* a failure shows again, and is reported, in the evaluation */
   }
   PetscCall(ListFacets_Private(pair, nonmortar, num, facets));
-  PetscCall(MortarTree_Private(mortar, &tree));
-  PetscCall(PetscMalloc1(mortar->num_facets, &found));
-  PetscCall(Candidates_Private(pair, nonmortar, mortar, &tree, found));
-  PetscCall(PetscFree(found));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode ContactPairSearch(ContactPair pair, const ContactSurface *nonmortar, const ContactSurface *mortar, PetscInt num, const PetscInt facets[],
+                                 PetscReal distance, PetscReal margin)
+{
+  PetscInt *found, *known;
+  Tree      tree;
+
+  PetscFunctionBegin;
+  PetscCall(Prepare_Private(pair, nonmortar, (PetscBool)(mortar->order != NULL), num, facets, distance, margin));
+  pair->num_mortar_nodes  = mortar->num_nodes;
+  pair->num_mortar_facets = mortar->num_facets;
+  PetscCall(PetscMalloc2(mortar->num_facets, &found, mortar->num_facets, &known));
+  PetscCall(MortarTree_Private(mortar, known, &tree));
+  PetscCall(Candidates_Private(pair, nonmortar, mortar, &tree, known, found));
+  PetscCall(PetscFree2(found, known));
+  PetscCall(ContactTreeDestroy(&tree));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode ContactPairGetCandidates(ContactPair pair, const PetscInt **start, const PetscInt **candidate)
+{
+  PetscFunctionBegin;
+  *start     = pair->start;
+  *candidate = pair->candidate;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode ContactPairSetCandidates(ContactPair pair, const ContactSurface *nonmortar, PetscInt num, const PetscInt facets[], const PetscInt start[],
+                                        const PetscInt candidate[])
+{
+  PetscFunctionBegin;
+  PetscCall(ListFacets_Private(pair, nonmortar, num, facets));
+  PetscCall(ContactGrow(start[num], sizeof(PetscInt), &pair->size_candidate, &pair->candidate));
+  PetscCall(PetscArraycpy(pair->start, start, num + 1));
+  PetscCall(PetscArraycpy(pair->candidate, candidate, start[num]));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The upper nodes of the tree, split from the top while there is room. */
+static void UpperBoxes_Private(const Tree *tree, PetscInt most, PetscInt *num, PetscReal box[][6])
+{
+  PetscInt node[1024], at = 0;
+
+  *num    = 1;
+  node[0] = 0;
+  most    = PetscMin(most, 1024);
+  while (at < *num && *num < most) {
+    const PetscInt child = tree->node[node[at]].child;
+
+    if (child < 0) {
+      at++;
+      continue;
+    }
+    for (PetscInt k = at; k + 1 < *num; k++) node[k] = node[k + 1]; /* halves go to the end: all of one level before the next */
+    node[*num - 1] = child;
+    node[(*num)++] = child + 1;
+  }
+  for (PetscInt k = 0; k < *num; k++)
+    for (int i = 0; i < 6; i++) box[k][i] = tree->node[node[k]].box[i];
+}
+
+PetscErrorCode ContactPairReach(ContactPair pair, const ContactSurface *nonmortar, PetscInt num, const PetscInt facets[], PetscReal distance, PetscReal margin,
+                                PetscInt most, PetscInt *num_boxes, PetscReal box[][6])
+{
+  PetscReal(*all)[6];
+  Reach reach;
+  Tree  tree;
+
+  PetscFunctionBegin;
+  *num_boxes = 0;
+  PetscCall(Prepare_Private(pair, nonmortar, (PetscBool)(nonmortar->order != NULL), num, facets, distance, margin));
+  if (num == 0) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(PetscMalloc1(num, &all));
+  for (PetscInt i = 0; i < num; i++) {
+    const PetscReal *own = Reach_Private(pair, nonmortar, facets[i], &reach);
+
+    for (int k = 0; k < 6; k++) all[i][k] = own[k];
+  }
+  PetscCall(ContactTreeBuild(num, all, &tree));
+  UpperBoxes_Private(&tree, most, num_boxes, box);
   PetscCall(ContactTreeDestroy(&tree));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

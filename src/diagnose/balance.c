@@ -8,60 +8,70 @@ static PetscReal Norm_Private(const PetscReal a[3])
 }
 
 /* Diagonal of the box around a surface, current configuration. */
-static PetscReal Diameter_Private(const SurfaceView *s)
+static PetscErrorCode Diameter_Private(MPI_Comm comm, const SurfaceView *s, PetscReal *diameter)
 {
-  PetscReal square = 0;
+  PetscReal most[6], square = 0; /* - lowest, highest */
 
-  for (PetscInt c = 0; c < s->dim; ++c) {
-    PetscReal lo = PETSC_MAX_REAL, hi = PETSC_MIN_REAL;
-
-    for (PetscInt n = 0; n < s->num_nodes; ++n) {
-      lo = PetscMin(lo, s->x[s->dim * n + c]);
-      hi = PetscMax(hi, s->x[s->dim * n + c]);
+  PetscFunctionBegin;
+  for (PetscInt i = 0; i < 6; ++i) most[i] = PETSC_MIN_REAL;
+  for (PetscInt n = 0; n < s->num_nodes; ++n) {
+    for (PetscInt c = 0; c < s->dim && s->owned[n]; ++c) {
+      most[c]     = PetscMax(most[c], -s->x[s->dim * n + c]);
+      most[3 + c] = PetscMax(most[3 + c], s->x[s->dim * n + c]);
     }
-    square += PetscSqr(hi - lo);
   }
-  return s->num_nodes ? PetscSqrtReal(square) : 0;
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, most, 6, MPIU_REAL, MPI_MAX, comm));
+  for (PetscInt c = 0; c < s->dim; ++c) square += PetscSqr(most[3 + c] + most[c]);
+  *diameter = s->num_nodes ? PetscSqrtReal(square) : 0;
+  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Resultant and moment about the origin of nodal forces; returns the sum of their magnitudes. In small kinematics forces act where the nodes
-   were: moments balance there. */
-static PetscReal SideForces_Private(const SurfaceView *s, PetscBool small, PetscReal force[3], PetscReal moment[3])
+/* Resultant and moment about the origin of nodal forces; sum of their magnitudes. In small kinematics forces act where the nodes were: moments balance there.
+ */
+static PetscErrorCode SideForces_Private(MPI_Comm comm, const SurfaceView *s, PetscBool small, PetscReal force[3], PetscReal moment[3], PetscReal *magnitude)
 {
-  PetscReal sum = 0;
+  PetscReal sum[7] = {0};
 
-  for (PetscInt c = 0; c < 3; ++c) force[c] = moment[c] = 0;
+  PetscFunctionBegin;
   for (PetscInt n = 0; n < s->num_nodes; ++n) {
     PetscReal f[3] = {0, 0, 0}, x[3] = {0, 0, 0}, m[3];
 
+    if (!s->owned[n]) continue;
     for (PetscInt c = 0; c < s->dim; ++c) {
       f[c] = s->force[s->dim * n + c];
       x[c] = (small ? s->X : s->x)[s->dim * n + c];
     }
     Cross3(x, f, m);
     for (PetscInt c = 0; c < 3; ++c) {
-      force[c] += f[c];
-      moment[c] += m[c];
+      sum[c] += f[c];
+      sum[3 + c] += m[c];
     }
-    sum += Norm_Private(f);
+    sum[6] += Norm_Private(f);
   }
-  return sum;
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 7, MPIU_REAL, MPI_SUM, comm));
+  PetscCall(PetscArraycpy(force, sum, 3));
+  PetscCall(PetscArraycpy(moment, sum + 3, 3));
+  *magnitude = sum[6];
+  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* Axisymmetric: radial forces are no vectors in space, only the axial ones have to balance, and no moment can arise. */
-static void Imbalance_Private(Model model, PetscBool small, const ContactView *v, PairFigures *f)
+static PetscErrorCode Imbalance_Private(MPI_Comm comm, Model model, PetscBool small, const ContactView *v, PairFigures *f)
 {
-  PetscReal       force[3], moment[3], sum[2];
+  PetscReal       force[3], moment[3], sum[2], diameter;
   const PetscBool ring = (PetscBool)(model == MODEL_AXISYMMETRIC);
 
-  sum[0] = SideForces_Private(&v->nonmortar, small, f->force[0], f->moment[0]);
-  sum[1] = SideForces_Private(&v->mortar, small, f->force[1], f->moment[1]);
+  PetscFunctionBegin;
+  PetscCall(SideForces_Private(comm, &v->nonmortar, small, f->force[0], f->moment[0], &sum[0]));
+  PetscCall(SideForces_Private(comm, &v->mortar, small, f->force[1], f->moment[1], &sum[1]));
+  PetscCall(Diameter_Private(comm, &v->nonmortar, &diameter));
   for (PetscInt c = 0; c < 3; ++c) {
     force[c]  = ring && c == 0 ? 0 : f->force[0][c] + f->force[1][c];
     moment[c] = ring ? 0 : f->moment[0][c] + f->moment[1][c];
   }
   f->force_imbalance  = sum[0] > 0 ? Norm_Private(force) / sum[0] : 0;
-  f->moment_imbalance = sum[0] > 0 ? Norm_Private(moment) / (sum[0] * Diameter_Private(&v->nonmortar)) : 0;
+  f->moment_imbalance = sum[0] > 0 ? Norm_Private(moment) / (sum[0] * diameter) : 0;
+  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* Resultant of all loads: minus the sum of the bulk residual over all dofs, because internal forces alone sum to zero. */
@@ -143,8 +153,9 @@ PetscErrorCode BalanceCompute(Problem problem, const State *state, Balance *b)
   PetscCall(ProblemForces(problem, state->x, b->reaction, NULL, NULL, &b->status));
   for (PetscInt i = 0; i < b->num_contacts; ++i) {
     PetscCall(ProblemGetContact(problem, i, &view[i]));
-    PetscCall(BalanceZone(view[i], &b->pair[i]));
-    Imbalance_Private(scene->mechanics.model, (PetscBool)(scene->mechanics.kinematics == KINEMATICS_SMALL), view[i], &b->pair[i]);
+    PetscCall(BalanceZone(ForestComm(forest), view[i], &b->pair[i]));
+    PetscCall(
+        Imbalance_Private(ForestComm(forest), scene->mechanics.model, (PetscBool)(scene->mechanics.kinematics == KINEMATICS_SMALL), view[i], &b->pair[i]));
     b->force_imbalance  = PetscMax(b->force_imbalance, b->pair[i].force_imbalance);
     b->moment_imbalance = PetscMax(b->moment_imbalance, b->pair[i].moment_imbalance);
   }

@@ -1,4 +1,4 @@
-/* The zone of contact of one pair: its area, its edge, pressures and gaps, from the replicated nodal tables. */
+/* The zone of contact of one pair: its area, its edge, pressures and gaps, from the nodal tables, each rank its own nodes. */
 #include "diagnose.h"
 
 static PetscBool Covered_Private(const ContactView *v, PetscInt node)
@@ -19,7 +19,8 @@ static PetscReal Reach_Private(const ContactView *v, PetscInt a, PetscInt behind
   return PetscMin(length, PetscSqr(v->z[a]) / fall);
 }
 
-/* Largest |x| of the zone: active nodes, and its ends on edges with one active node. neighbour[node][0]: node before, [1]: after along the surface. */
+/* Largest |x| of this rank's part of the zone: active nodes, and its ends on edges with one active node. neighbour[node][0]: node before, [1]: after along the
+ * surface. */
 static PetscErrorCode Radius_Private(const ContactView *v, PetscReal *radius)
 {
   const SurfaceView *s = &v->nonmortar;
@@ -37,7 +38,7 @@ static PetscErrorCode Radius_Private(const ContactView *v, PetscReal *radius)
     }
   }
   for (PetscInt n = 0; n < s->num_nodes; ++n) {
-    if (!v->active[n]) continue;
+    if (!s->owned[n] || !v->active[n]) continue;
     *radius = PetscMax(*radius, PetscAbsReal(s->x[2 * n]));
     for (PetscInt k = 0; k < 2; ++k) {
       const PetscInt next = neighbour[n][k];
@@ -51,38 +52,47 @@ static PetscErrorCode Radius_Private(const ContactView *v, PetscReal *radius)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Three dimensions: largest distance of an active node from the z axis. */
+/* Three dimensions: largest distance of an active node of this rank from the z axis. */
 static PetscReal AxisDistance_Private(const ContactView *v)
 {
   PetscReal radius = 0;
 
   for (PetscInt n = 0; n < v->nonmortar.num_nodes; ++n) {
-    if (v->active[n]) radius = PetscMax(radius, PetscSqrtReal(PetscSqr(v->nonmortar.x[3 * n]) + PetscSqr(v->nonmortar.x[3 * n + 1])));
+    if (v->nonmortar.owned[n] && v->active[n]) radius = PetscMax(radius, PetscSqrtReal(PetscSqr(v->nonmortar.x[3 * n]) + PetscSqr(v->nonmortar.x[3 * n + 1])));
   }
   return radius;
 }
 
-PetscErrorCode BalanceZone(const ContactView *v, PairFigures *f)
+PetscErrorCode BalanceZone(MPI_Comm comm, const ContactView *v, PairFigures *f)
 {
+  PetscReal sum[3] = {0, 0, 0}, most[4] = {0, PETSC_MIN_REAL, PETSC_MIN_REAL, 0}; /* active, covered, area; pressure, - gap, gap, radius */
+
   PetscFunctionBegin;
-  f->max_pressure = f->area = f->min_gap = f->max_gap = 0;
-  f->active_nodes = f->covered_nodes = 0;
-  f->adjusted                        = v->adjusted;
-  f->unusable                        = v->unusable;
   for (PetscInt n = 0; n < v->nonmortar.num_nodes; ++n) {
-    if (!Covered_Private(v, n)) continue;
+    if (!v->nonmortar.owned[n] || !Covered_Private(v, n)) continue;
     const PetscReal gap = v->gap[n] / v->weight[n];
-    f->min_gap          = f->covered_nodes ? PetscMin(f->min_gap, gap) : gap;
-    f->max_gap          = f->covered_nodes ? PetscMax(f->max_gap, gap) : gap;
-    f->covered_nodes++;
-    f->max_pressure = PetscMax(f->max_pressure, v->z[n]);
+    most[0]             = PetscMax(most[0], v->z[n]);
+    most[1]             = PetscMax(most[1], -gap);
+    most[2]             = PetscMax(most[2], gap);
+    sum[1] += 1;
     if (!v->active[n]) continue;
-    f->active_nodes++;
-    f->area += v->weight[n];
+    sum[0] += 1;
+    sum[2] += v->weight[n];
   }
   if (v->nonmortar.dim == 2)
-    PetscCall(Radius_Private(v, &f->radius));
+    PetscCall(Radius_Private(v, &most[3]));
   else
-    f->radius = AxisDistance_Private(v);
+    most[3] = AxisDistance_Private(v);
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 3, MPIU_REAL, MPI_SUM, comm));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, most, 4, MPIU_REAL, MPI_MAX, comm));
+  f->active_nodes  = (PetscInt)sum[0];
+  f->covered_nodes = (PetscInt)sum[1];
+  f->area          = sum[2];
+  f->max_pressure  = most[0];
+  f->min_gap       = f->covered_nodes ? -most[1] : 0;
+  f->max_gap       = f->covered_nodes ? most[2] : 0;
+  f->radius        = most[3];
+  f->adjusted      = v->adjusted;
+  f->unusable      = v->unusable;
   PetscFunctionReturn(PETSC_SUCCESS);
 }

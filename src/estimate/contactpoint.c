@@ -91,11 +91,11 @@ static void Push_Private(const ContactTerm *term, PetscBool finite, PetscInt fac
 
   ContactShape_Private(s, facet, xi, N);
   if (s->order) {
-    ContactTangents_Private(s, facet, finite ? s->x : s->X, xi, t);
+    ContactTangents_Private(s, facet, finite ? term->x : s->X, xi, t);
     Cross3(t[0], t[1], n);
   } else
     ContactPosition_Private(s, facet, term->normal, N, n);
-  for (PetscInt a = 0; a < num; ++a) z += N[a] * term->view->z[node[a]];
+  for (PetscInt a = 0; a < num; ++a) z += N[a] * term->z[node[a]];
   const PetscReal length = PetscSqrtReal(Dot3(n, n));
   for (PetscInt c = 0; c < s->dim && length > 0; ++c) T[c] += factor * z * n[c] / length;
 }

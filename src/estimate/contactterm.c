@@ -17,32 +17,91 @@ static PetscErrorCode FacetPlaces_Private(const ForestTables *t, const SurfaceVi
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Segments of all ranks, each facet's from the rank that owns its leaf. */
-static PetscErrorCode GatherSegments_Private(MPI_Comm comm, const ForestTables *t, const ContactView *view, PetscInt *total, ContactSegment **all)
+/* This rank's segments by the rank of their mortar facet, each nonmortar facet's from the rank that owns its leaf: sorted[first[rank] .. first[rank+1]). */
+static PetscErrorCode SortByRank_Private(const ForestTables *t, const ContactView *view, PetscMPIInt rank, PetscMPIInt size, PetscInt first[],
+                                         ContactSegment **sorted)
 {
   const ContactSegment *segments;
-  ContactSegment       *mine;
-  PetscInt              num, kept = 0;
-  PetscMPIInt           rank, size, bytes, *counts, *offsets;
+  PetscInt              num, *place;
+
+  PetscFunctionBegin;
+  PetscCall(ContactPairGetSegments(view->pair, &num, &segments));
+  PetscCall(PetscArrayzero(first, size + 1));
+  PetscCall(PetscMalloc1(size, &place));
+  PetscCall(PetscMalloc1(num, sorted));
+  for (PetscInt pass = 0; pass < 2; ++pass) {
+    for (PetscInt i = 0; i < num; ++i) {
+      if (t->leaf_rank[view->nonmortar.facet_leaf[segments[i].facet]] != rank) continue;
+      const PetscInt to = t->leaf_rank[view->mortar.facet_leaf[segments[i].mortar_facet]];
+      if (pass == 0)
+        first[to + 1]++;
+      else
+        (*sorted)[place[to]++] = segments[i];
+    }
+    for (PetscMPIInt r = 0; r < size && pass == 0; ++r) {
+      first[r + 1] += first[r];
+      place[r] = first[r];
+    }
+  }
+  PetscCall(PetscFree(place));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Segments on the mortar facets of this rank, whoever found them. */
+static PetscErrorCode GatherSegments_Private(MPI_Comm comm, const ForestTables *t, const ContactView *view, PetscInt *total, ContactSegment **all)
+{
+  PetscMPIInt     rank, size, *to, num_to = 0;
+  PetscInt       *first, *sent, num;
+  ContactSegment *sorted, *got, *send;
 
   PetscFunctionBegin;
   PetscCallMPI(MPI_Comm_rank(comm, &rank));
   PetscCallMPI(MPI_Comm_size(comm, &size));
-  PetscCall(ContactPairGetSegments(view->pair, &num, &segments));
-  PetscCall(PetscMalloc1(num, &mine));
-  for (PetscInt i = 0; i < num; ++i) {
-    if (t->leaf_rank[view->nonmortar.facet_leaf[segments[i].facet]] == rank) mine[kept++] = segments[i];
+  PetscCall(PetscMalloc3(size + 1, &first, size + 1, &sent, size, &to));
+  PetscCall(SortByRank_Private(t, view, rank, size, first, &sorted));
+  const PetscInt own = first[rank + 1] - first[rank];
+  PetscCall(PetscMalloc1(first[size] - own, &send));
+  sent[0] = 0;
+  for (PetscMPIInt r = 0; r < size; ++r) {
+    const PetscInt count = first[r + 1] - first[r];
+    if (r == rank || count == 0) continue;
+    PetscCall(PetscArraycpy(send + sent[num_to], sorted + first[r], count));
+    sent[num_to + 1] = sent[num_to] + count;
+    to[num_to++]     = r;
   }
-  PetscCall(PetscMalloc2(size, &counts, size + 1, &offsets));
-  bytes = (PetscMPIInt)(kept * (PetscInt)sizeof(*mine));
-  PetscCallMPI(MPI_Allgather(&bytes, 1, MPI_INT, counts, 1, MPI_INT, comm));
-  offsets[0] = 0;
-  for (PetscMPIInt r = 0; r < size; ++r) offsets[r + 1] = offsets[r] + counts[r];
-  *total = offsets[size] / (PetscInt)sizeof(*mine);
+  PetscCall(SparseExchange(comm, num_to, to, sent, sizeof(ContactSegment), send, &num, &got));
+  *total = own + num;
   PetscCall(PetscMalloc1(*total, all));
-  PetscCallMPI(MPI_Allgatherv(mine, bytes, MPI_BYTE, *all, counts, offsets, MPI_BYTE, comm));
-  PetscCall(PetscFree2(counts, offsets));
-  PetscCall(PetscFree(mine));
+  PetscCall(PetscArraycpy(*all, sorted + first[rank], own));
+  PetscCall(PetscArraycpy(*all + own, got, num));
+  PetscCall(PetscFree3(first, sent, to));
+  PetscCall(PetscFree(sorted));
+  PetscCall(PetscFree(send));
+  PetscCall(PetscFree(got));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Multipliers and normals on this rank's nonmortar facets, and on those that its mortar facets face. */
+static PetscErrorCode Fields_Private(Problem problem, PetscInt pair, const ForestTables *t, PetscInt num, const ContactSegment segments[], ContactTerm *term)
+{
+  const SurfaceView *s = &term->view->nonmortar;
+  PetscBool         *wanted, *facet;
+  Forest             forest;
+  PetscMPIInt        rank;
+
+  PetscFunctionBegin;
+  PetscCall(ProblemGetForest(problem, &forest));
+  PetscCallMPI(MPI_Comm_rank(ForestComm(forest), &rank));
+  PetscCall(PetscCalloc2(s->num_nodes, &wanted, s->num_facets, &facet));
+  for (PetscInt f = 0; f < s->num_facets; ++f) facet[f] = (PetscBool)(t->leaf_rank[s->facet_leaf[f]] == rank);
+  for (PetscInt i = 0; i < num; ++i) facet[segments[i].facet] = PETSC_TRUE;
+  for (PetscInt f = 0; f < s->num_facets; ++f) {
+    const PetscInt *node, count = SurfaceFacetNodes(s, f, &node);
+    for (PetscInt k = 0; k < count && facet[f]; ++k) wanted[node[k]] = PETSC_TRUE;
+  }
+  PetscCall(PetscMalloc3(s->num_nodes, &term->z, s->dim * s->num_nodes, &term->normal, s->dim * s->num_nodes, &term->x));
+  PetscCall(ProblemFetchContact(problem, pair, wanted, term->z, term->normal, term->x));
+  PetscCall(PetscFree2(wanted, facet));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -100,10 +159,10 @@ PetscErrorCode ContactTermsCreate_Private(Problem problem, ContactTerms *terms)
     ContactSegment *all;
     PetscInt        num;
     PetscCall(ProblemGetContact(problem, i, &term->view));
-    PetscCall(ContactPairGetNormals(term->view->pair, &term->normal));
     PetscCall(FacetPlaces_Private(t, &term->view->nonmortar, &term->facet_place[0]));
     PetscCall(FacetPlaces_Private(t, &term->view->mortar, &term->facet_place[1]));
     PetscCall(GatherSegments_Private(ForestComm(forest), t, term->view, &num, &all));
+    PetscCall(Fields_Private(problem, i, t, num, all, term));
     PetscCall(KeepSegments_Private(num, all, term));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -118,6 +177,7 @@ PetscErrorCode ContactTermsDestroy_Private(ContactTerms *terms)
     PetscCall(PetscFree(terms->terms[i].segment_first));
     PetscCall(PetscFree(terms->terms[i].segments));
     PetscCall(PetscFree(terms->terms[i].box));
+    PetscCall(PetscFree3(terms->terms[i].z, terms->terms[i].normal, terms->terms[i].x));
   }
   PetscCall(PetscFree(terms->terms));
   PetscFunctionReturn(PETSC_SUCCESS);

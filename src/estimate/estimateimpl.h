@@ -31,13 +31,13 @@ typedef struct {
   PetscInt   *cell_facet;                   /* owned: 2*facet + side */
 } FacetList;
 
-/* Which contact facet a facet of the mesh is, and what presses on it; replicated, built from the views of the problem. */
+/* Which contact facet a facet of the mesh is, and what presses on this rank's facets; built from the views of the problem. */
 typedef struct {
   const ContactView *view;
-  const PetscReal   *normal;         /* nodal normals, nonmortar side */
+  PetscReal         *z, *normal, *x; /* owned [nonmortar num_nodes], [..][dim]: at the nodes of nonmortar facets of this rank, or that its mortar facets face */
   PetscInt          *facet_place[2]; /* owned [num_facets] facet of the nonmortar, mortar side, or -1 */
   PetscInt          *segment_first;  /* owned [mortar num_facets + 1] */
-  ContactSegment    *segments;       /* owned, of all ranks, by mortar facet */
+  ContactSegment    *segments;       /* owned, on mortar facets of this rank, by mortar facet */
   PetscReal (*box)[4];               /* owned, three dimensions: where on the mortar facet to look at each segment: low, high corner */
 } ContactTerm;
 
@@ -104,10 +104,20 @@ void           EstimateInterior_Private(EstimateSum *, PetscInt leaf, PetscInt n
 PetscErrorCode EstimateDoubts_Private(EstimateSum *);
 /* split.c: directions in which to split each leaf, if it is split at all; split[num_leaves] */
 PetscErrorCode EstimateSplits_Private(const Estimate *, const AdaptSpec *, Forest, int8_t split[]);
+/* choose.c: which leaves are rather raised than split (split[] becomes 0 there; strategy p: everywhere); then what to do with one far below its share: merge or
+   lower */
+void           EstimateChoices_Private(const Estimate *, const AdaptSpec *, int8_t split[], int8_t raise[]);
+PetscErrorCode EstimateEven_Private(const Estimate *, Forest, int8_t order[]);
+void           EstimateLower_Private(const Estimate *, const AdaptSpec *, const ForestTables *, PetscInt leaf, int8_t *coarsen, int8_t *order);
+/* decay.c, held.c: of this rank's leaves, others stay; after EstimateBulk_Private. Not collective. */
+PetscErrorCode EstimateDecay_Private(const EstimateSum *, PetscReal decay[]);
+PetscErrorCode EstimateHeld_Private(const EstimateSum *, int8_t held[]);
 /* facet.c */
 PetscErrorCode FacetListCreate_Private(const EstimateSum *, FacetList *);
 PetscErrorCode FacetListDestroy_Private(FacetList *);
-void           FacetSidePoint_Private(const FacetSide *, PetscInt dim, const PetscReal eta[], PetscReal xi[3]);
+/* Components that boundary groups prescribe on a facet (bit 3: the normal one), and whether any of them loads it. */
+void FacetConditions_Private(const MechanicsSpec *, uint64_t groups, PetscInt dim, PetscInt *fixed, PetscBool *loaded);
+void FacetSidePoint_Private(const FacetSide *, PetscInt dim, const PetscReal eta[], PetscReal xi[3]);
 /* jump.c: reference points of a cell's facets, xi[...][dim]; then the defects at them; then the sums */
 PetscErrorCode EstimateTracePoints_Private(const EstimateSum *, PetscInt cell, PetscReal xi[]);
 PetscErrorCode EstimateTraces_Private(EstimateSum *, PetscInt cell, const PetscReal X[], const PetscReal xi[], const PetscReal F[], const PetscReal P[]);
@@ -133,6 +143,13 @@ void ContactTermsTraction_Private(const ContactTerms *, PetscInt facet, const Pe
    compression on every mesh and order (tests/unit/test_estimate_effectivity_serial.c), as the constants of the proofs, 1/12 for a smooth field at p = 1,
    suggest. */
 #define ESTIMATE_SCALE (1.0 / 6)
+
+/* From order 3 on times 4/(p+2): with h/p alone the effectivity grows with p, at a corner like 1 + 0.35 p (the known gap of residual estimates in p), on smooth
+   fields from 2.1 (p = 2) to 3.1 (6). Orders are weighed against each other where they differ from cell to cell. */
+static inline PetscReal EstimateScale_Private(PetscInt order)
+{
+  return ESTIMATE_SCALE * (order <= 2 ? 1 : 4 / (PetscReal)(order + 2));
+}
 
 /* Modulus that answers a residual: shear for mixed cells (their compression is accounted for by the recovered pressure), else the geometric mean of what
    answers shear, mu, and compression, kappa + 4/3 mu: neither kind of field is then far off up to nu = 0.45. */

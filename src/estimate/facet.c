@@ -61,20 +61,19 @@ static void CoarseSide_Private(const ForestTables *t, PetscInt facet, PetscInt *
   }
 }
 
-/* Components that boundary groups prescribe on a facet, and whether any of them loads it. */
-static void Conditions_Private(const MechanicsSpec *spec, uint64_t groups, PetscInt dim, FacetPlace *f)
+void FacetConditions_Private(const MechanicsSpec *spec, uint64_t groups, PetscInt dim, PetscInt *fixed, PetscBool *loaded)
 {
-  f->fixed  = 0;
-  f->loaded = PETSC_FALSE;
+  *fixed  = 0;
+  *loaded = PETSC_FALSE;
   for (PetscInt b = 0; groups && b < spec->num_boundaries; ++b) {
     const BoundarySpec *s = &spec->boundaries[b];
     if (!((groups >> s->group) & 1)) continue;
     for (PetscInt c = 0; c < dim; ++c) {
-      if (s->fix[c] || s->displacement[c] || s->rotation) f->fixed |= 1 << c;
-      if (s->traction[c]) f->loaded = PETSC_TRUE;
+      if (s->fix[c] || s->displacement[c] || s->rotation) *fixed |= 1 << c;
+      if (s->traction[c]) *loaded = PETSC_TRUE;
     }
-    if (s->fix_normal) f->fixed |= 8;
-    if (s->pressure) f->loaded = PETSC_TRUE;
+    if (s->fix_normal) *fixed |= 8;
+    if (s->pressure) *loaded = PETSC_TRUE;
   }
 }
 
@@ -105,7 +104,7 @@ static PetscErrorCode Place_Private(const EstimateSum *sum, PetscInt facet, cons
     if (f->side[s].cell >= 0 && f->side[s].cell < sum->v->num_owned_cells) owned = PETSC_TRUE;
   }
   f->groups = t->boundary[entity];
-  Conditions_Private(sum->spec, f->groups, t->dim, f);
+  FacetConditions_Private(sum->spec, f->groups, t->dim, &f->fixed, &f->loaded);
   if (!owned || (f->fixed & full) == full) PetscFunctionReturn(PETSC_SUCCESS);
   for (PetscInt s = 0; s < 2; ++s) {
     PetscCheck(leaf[s] < 0 || f->side[s].cell >= 0, PETSC_COMM_SELF, PETSC_ERR_PLIB, "leaf %" PetscInt_FMT " faces an owned one but is not in the ghost layer",

@@ -2,7 +2,7 @@
 
      eta_K^2 = scale { h^2/(p^2 m) |Div P + B|^2 + 1/2 sum h/(p m) |[P N]|^2 + sum h/(p m) |P N - T|^2 } + complementarity of contact
      mixed cells: P with the recovered pressure (recover.c), + 1/kappa |q|^2 + w |g - Proj g|^2
-     m, scale: EstimateModulus_Private, ESTIMATE_SCALE
+     m, scale: EstimateModulus_Private, EstimateScale_Private
 
    (docs/theory.md, error estimation). Div P is exact for the polynomial through the values of P at the Gauss points. */
 #include "estimateimpl.h"
@@ -214,7 +214,7 @@ static PetscErrorCode OwnedCell_Private(EstimateSum *sum, PetscInt cell, const V
   for (PetscInt q = 0; q < table->num; ++q) sum->energy += w->weight[q] * w->W[q];
   for (PetscInt d = 1; d < sum->v->dim; ++d) h = PetscMin(h, height[d]);
   for (PetscInt q = 0; q < table->num; ++q) modulus = PetscMax(modulus, EstimateTangent_Private(material, sum->spec->kinematics, w->F + 9 * q, w->P + 9 * q));
-  square = WeightedSquare_Private(table->num, 3, w->weight, w->R) * ESTIMATE_SCALE * PetscSqr(h / table->order) / modulus;
+  square = WeightedSquare_Private(table->num, 3, w->weight, w->R) * EstimateScale_Private(table->order) * PetscSqr(h / table->order) / modulus;
   sum->eta2[leaf] += square;
   sum->part[PART_INTERIOR] += square;
   EstimateInterior_Private(sum, leaf, table->num, w->weight, w->S, square);
@@ -352,6 +352,27 @@ static PetscErrorCode Reduce_Private(MPI_Comm comm, EstimateSum *sum, Estimate *
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* What the choice between splitting and raising needs. */
+static PetscErrorCode Choice_Private(const SceneData *scene, const EstimateSum *sum, const State *state, Estimate *e)
+{
+  const PetscMPIInt num = (PetscMPIInt)e->num_leaves;
+  Forest            forest;
+
+  PetscFunctionBegin;
+  if (scene->adapt.strategy == ADAPT_H) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(HPSpaceGetForest(sum->space, &forest));
+  PetscCall(PetscCalloc1(num, &e->decay));
+  PetscCall(PetscCalloc1(num, &e->held));
+  PetscCall(PetscMalloc1(num, &e->order));
+  PetscCall(PetscArraycpy(e->order, state->leaf_order, num));
+  PetscCall(ProblemInitialOrders(scene, forest, &e->lowest));
+  PetscCall(EstimateDecay_Private(sum, e->decay));
+  PetscCall(EstimateHeld_Private(sum, e->held));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, e->decay, num, MPIU_REAL, MPI_SUM, ForestComm(forest)));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, e->held, num, MPI_SIGNED_CHAR, MPI_BOR, ForestComm(forest)));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* Contact views show the last evaluation: evaluate at the state. */
 static PetscErrorCode Refresh_Private(Problem problem, Vec x)
 {
@@ -387,7 +408,7 @@ PetscErrorCode EstimateCompute(Problem problem, const State *state, Estimate *e)
     PetscCall(ContactTermsCreate_Private(problem, &contact));
     sum.contact = &contact;
   }
-  e->num_leaves = state->num_leaves;
+  *e = (Estimate){.num_leaves = state->num_leaves};
   PetscCall(PetscMalloc1(v->num_nodes * v->dim, &u));
   PetscCall(PetscMalloc1(e->num_leaves, &e->eta2));
   PetscCall(PetscMalloc1(e->num_leaves, &e->along));
@@ -397,6 +418,7 @@ PetscErrorCode EstimateCompute(Problem problem, const State *state, Estimate *e)
   sum.u = u;
   PetscCall(EstimateBulk_Private(&sum));
   PetscCall(Reduce_Private(ForestComm(forest), &sum, e));
+  PetscCall(Choice_Private(scene, &sum, state, e));
   PetscCall(PetscFree(u));
   PetscCall(PetscFree(sum.eta2));
   PetscCall(PetscFree(sum.along));
@@ -410,6 +432,10 @@ PetscErrorCode EstimateDestroy(Estimate *e)
   PetscFunctionBegin;
   PetscCall(PetscFree(e->eta2));
   PetscCall(PetscFree(e->along));
+  PetscCall(PetscFree(e->decay));
+  PetscCall(PetscFree(e->order));
+  PetscCall(PetscFree(e->lowest));
+  PetscCall(PetscFree(e->held));
   PetscCall(PetscMemzero(e, sizeof(*e)));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -148,7 +148,7 @@ PetscErrorCode EstimateFacets_Private(EstimateSum *sum, const PetscReal height[]
   for (PetscInt i = 0; i < sum->facets.num; ++i) {
     const FacetPlace *f      = &sum->facets.facets[i];
     const PetscBool   inside = (PetscBool)(f->side[0].cell >= 0 && f->side[1].cell >= 0);
-    const PetscReal   weight = ESTIMATE_SCALE * (inside ? 0.5 : 1) / f->order;
+    const PetscReal   weight = EstimateScale_Private(f->order) * (inside ? 0.5 : 1) / f->order;
     const PetscInt    part   = inside ? PART_JUMP : ContactTermsHave_Private(sum->contact, f->facet) ? PART_CONTACT : PART_BOUNDARY;
     PetscReal         square = 0;
     for (PetscInt q = f->first_point; q < f->first_point + NumPoints_Private(dim, f); ++q)

@@ -5,7 +5,7 @@
 
 typedef struct {
   PetscReal eta2;
-  PetscInt  leaf, more; /* more: leaves that splitting it adds */
+  PetscInt  leaf, more; /* more: leaves that splitting it adds, 0 where its order is raised instead */
 } Rank;
 
 /* Largest first; ties by leaf. */
@@ -24,7 +24,7 @@ static PetscInt TieEnd_Private(PetscInt num, const Rank rank[], PetscInt at)
   return end;
 }
 
-/* How many of the ranked leaves to split: whole groups of ties until the share is reached, none that would exceed `room`. */
+/* How many of the ranked leaves to change: whole groups of ties until the share is reached, none that would exceed `room`. */
 static PetscInt Bulk_Private(PetscInt num, const Rank rank[], PetscReal wanted, PetscInt room)
 {
   PetscReal sum   = 0;
@@ -39,31 +39,63 @@ static PetscInt Bulk_Private(PetscInt num, const Rank rank[], PetscReal wanted, 
   return taken;
 }
 
+/* Leaves that nothing may be done to (strategy p: at the highest order) rank as if they had no error, and their share is nobody's. */
+static PetscReal Rank_Private(const Estimate *e, const int8_t split[], const int8_t raise[], Rank rank[])
+{
+  PetscReal total = 0;
+
+  for (PetscInt l = 0; l < e->num_leaves; ++l) {
+    const PetscReal eta2 = split[l] || raise[l] ? e->eta2[l] : 0;
+    rank[l]              = (Rank){eta2, l, (1 << __builtin_popcount((unsigned)split[l])) - 1};
+    total += eta2;
+  }
+  qsort(rank, (size_t)e->num_leaves, sizeof(*rank), Compare_Private);
+  return total;
+}
+
 /* Leaves with eta2 exactly 0 (rigid bodies) never coarsen: their surface is geometry, not solution. */
-PetscErrorCode EstimateMark(const Estimate *e, const AdaptSpec *spec, Forest forest, MarkList *marks, PetscInt *num_marked)
+static void Low_Private(const Estimate *e, const AdaptSpec *spec, const ForestTables *t, MarkList *marks, int8_t order[])
+{
+  PetscReal total = 0;
+
+  for (PetscInt l = 0; l < e->num_leaves; ++l) total += e->eta2[l];
+  const PetscReal low = PetscSqr(spec->coarsen) * total / PetscMax(e->num_leaves, 1);
+  for (PetscInt l = 0; l < e->num_leaves; ++l) {
+    if (marks->split[l] || !(e->eta2[l] > 0 && e->eta2[l] < low)) continue;
+    if (!order)
+      marks->coarsen[l] = 1;
+    else if (order[l] == e->order[l])
+      EstimateLower_Private(e, spec, t, l, &marks->coarsen[l], &order[l]);
+  }
+}
+
+PetscErrorCode EstimateMark(const Estimate *e, const AdaptSpec *spec, Forest forest, MarkList *marks, int8_t order[], PetscInt *num_marked)
 {
   const ForestTables *t;
   Rank               *rank;
-  PetscReal           total = 0;
-  int8_t             *split;
+  int8_t             *split, *raise;
 
   PetscFunctionBegin;
   PetscCall(ForestGetTables(forest, &t));
   PetscCheck(e->num_leaves == t->num_leaves, PETSC_COMM_SELF, PETSC_ERR_ARG_INCOMP, "estimate of %" PetscInt_FMT " leaves for a forest of %" PetscInt_FMT,
              e->num_leaves, t->num_leaves);
+  PetscCheck(!order == (spec->strategy == ADAPT_H), PETSC_COMM_SELF, PETSC_ERR_ARG_INCOMP, "orders come with the strategies p and hp, and only with them");
   PetscCall(PetscMalloc2(e->num_leaves, &rank, e->num_leaves, &split));
+  PetscCall(PetscCalloc1(e->num_leaves, &raise));
   PetscCall(EstimateSplits_Private(e, spec, forest, split));
+  if (order) EstimateChoices_Private(e, spec, split, raise);
   PetscCall(PetscCalloc1(e->num_leaves, &marks->split));
   PetscCall(PetscCalloc1(e->num_leaves, &marks->coarsen));
-  for (PetscInt l = 0; l < e->num_leaves; ++l) {
-    rank[l] = (Rank){e->eta2[l], l, (1 << __builtin_popcount((unsigned)split[l])) - 1};
-    total += e->eta2[l];
+  if (order) PetscCall(PetscArraycpy(order, e->order, e->num_leaves));
+  const PetscReal total = Rank_Private(e, split, raise, rank);
+  *num_marked           = Bulk_Private(e->num_leaves, rank, spec->fraction * total * (1 - 1e-12), PetscMax(0, spec->max_cells - e->num_leaves));
+  for (PetscInt i = 0; i < *num_marked; ++i) {
+    marks->split[rank[i].leaf] = split[rank[i].leaf];
+    if (order) order[rank[i].leaf] += raise[rank[i].leaf];
   }
-  qsort(rank, (size_t)e->num_leaves, sizeof(*rank), Compare_Private);
-  *num_marked = Bulk_Private(e->num_leaves, rank, spec->fraction * total * (1 - 1e-12), PetscMax(0, spec->max_cells - e->num_leaves));
-  for (PetscInt i = 0; i < *num_marked; ++i) marks->split[rank[i].leaf] = split[rank[i].leaf];
-  const PetscReal low = PetscSqr(spec->coarsen) * total / PetscMax(e->num_leaves, 1);
-  for (PetscInt l = 0; l < e->num_leaves; ++l) marks->coarsen[l] = !marks->split[l] && e->eta2[l] > 0 && e->eta2[l] < low;
+  Low_Private(e, spec, t, marks, order);
+  if (order) PetscCall(EstimateEven_Private(e, forest, order));
+  PetscCall(PetscFree(raise));
   PetscCall(PetscFree2(rank, split));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

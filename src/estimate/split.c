@@ -1,4 +1,5 @@
-/* In which directions to split a leaf: those that carry a share of what the largest one does, and as many more as keep the cell from growing too long. */
+/* In which directions to split a leaf (none where it is as small as a leaf can be): those that carry a share of what the largest one does, and as many more as
+ * keep the cell from growing too long. */
 #include "estimateimpl.h"
 
 /* Mean length of the leaf's edges in each direction, on the exact geometry. */
@@ -53,9 +54,13 @@ PetscErrorCode EstimateSplits_Private(const Estimate *e, const AdaptSpec *spec, 
   for (PetscInt l = 0; l < t->num_leaves; ++l) {
     PetscReal length[3];
     split[l] = (int8_t)((1 << t->dim) - 1);
-    if (!spec->anisotropic || !e->along) continue;
-    PetscCall(Lengths_Private(forest, t->dim, l, length));
-    split[l] = Rounder_Private(t->dim, length, spec->aspect, Carriers_Private(t->dim, e->along[l], spec->share));
+    if (spec->anisotropic && e->along) {
+      PetscCall(Lengths_Private(forest, t->dim, l, length));
+      split[l] = Rounder_Private(t->dim, length, spec->aspect, Carriers_Private(t->dim, e->along[l], spec->share));
+    }
+    for (PetscInt d = 0; d < t->dim; ++d) {
+      if (t->leaf_level[3 * l + d] >= FOREST_MAX_LEVEL) split[l] = 0;
+    }
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

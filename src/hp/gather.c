@@ -83,18 +83,30 @@ PetscErrorCode HPSpaceScatterAdd(HPSpace hp, PetscInt cell, const PetscReal r[],
 static PetscErrorCode Congruence_Private(PetscInt d, PetscInt n, PetscInt nm, const PetscReal *W, const PetscReal *K, PetscReal *half, PetscReal *Km)
 {
   const PetscInt rows = n * d, cols = nm * d;
+  PetscInt       num = 0, *entry, *first;
 
   PetscFunctionBegin;
+  /* Most weights are 0: those that are not, row after row, are looked up once. */
+  PetscCall(PetscMalloc2(n * nm, &entry, n + 1, &first));
+  for (PetscInt j = 0; j < n; ++j) {
+    first[j] = num;
+    for (PetscInt m = 0; m < nm; ++m) {
+      if (W[j * nm + m] != 0) entry[num++] = m;
+    }
+  }
+  first[n] = num;
   PetscCall(PetscArrayzero(half, rows * cols));
   for (PetscInt r = 0; r < rows; ++r) {
+    PetscReal *to = half + r * cols;
     for (PetscInt j = 0; j < n; ++j) {
-      for (PetscInt m = 0; m < nm; ++m) {
-        const PetscReal w = W[j * nm + m];
-        if (w == 0) continue;
-        for (PetscInt c = 0; c < d; ++c) half[r * cols + m * d + c] += w * K[r * rows + j * d + c];
+      const PetscReal *from = K + r * rows + j * d;
+      for (PetscInt k = first[j]; k < first[j + 1]; ++k) {
+        const PetscReal w = W[j * nm + entry[k]];
+        for (PetscInt c = 0; c < d; ++c) to[entry[k] * d + c] += w * from[c];
       }
     }
   }
+  PetscCall(PetscFree2(entry, first));
   PetscCall(PetscArrayzero(Km, cols * cols));
   for (PetscInt i = 0; i < n; ++i) {
     for (PetscInt m = 0; m < nm; ++m) {

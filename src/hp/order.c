@@ -60,3 +60,50 @@ PetscErrorCode HPSpaceOrders_Private(HPSpace hp, const int8_t leaf_order[], uint
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
+
+/* Highest order of the leaves of each facet; of a hanging one: of the facet it hangs on, too. */
+static void FacetOrders_Private(const ForestTables *t, const int8_t leaf_order[], int8_t *facet_order)
+{
+  const PetscInt first = t->first[t->dim - 1], num = t->first[t->dim] - first;
+
+  for (PetscInt f = 0; f < num; ++f) {
+    facet_order[f] = 0;
+    for (PetscInt s = 0; s < 2; ++s) {
+      const PetscInt leaf = t->facet_leaf[2 * f + s];
+      if (leaf >= 0) facet_order[f] = PetscMax(facet_order[f], leaf_order[leaf]);
+    }
+  }
+  for (PetscBool changed = PETSC_TRUE; changed;) {
+    changed = PETSC_FALSE;
+    for (PetscInt f = 0; f < num; ++f) {
+      const PetscInt parent = t->parent[first + f];
+      if (parent < 0 || facet_order[f] == facet_order[parent - first]) continue;
+      facet_order[f] = facet_order[parent - first] = PetscMax(facet_order[f], facet_order[parent - first]);
+      changed                                      = PETSC_TRUE;
+    }
+  }
+}
+
+PetscErrorCode HPOrdersLimit(Forest forest, PetscInt difference, const int8_t fixed[], int8_t order[])
+{
+  const ForestTables *t;
+  int8_t             *facet_order;
+
+  PetscFunctionBegin;
+  PetscCall(ForestGetTables(forest, &t));
+  PetscCall(PetscMalloc1(t->first[t->dim] - t->first[t->dim - 1], &facet_order));
+  for (PetscBool changed = PETSC_TRUE; changed;) {
+    changed = PETSC_FALSE;
+    FacetOrders_Private(t, order, facet_order);
+    for (PetscInt f = 0; f < t->first[t->dim] - t->first[t->dim - 1]; ++f) {
+      for (PetscInt s = 0; s < 2; ++s) {
+        const PetscInt leaf = t->facet_leaf[2 * f + s];
+        if (leaf < 0 || fixed[leaf] || order[leaf] + difference >= facet_order[f]) continue;
+        order[leaf] = (int8_t)(facet_order[f] - difference);
+        changed     = PETSC_TRUE;
+      }
+    }
+  }
+  PetscCall(PetscFree(facet_order));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

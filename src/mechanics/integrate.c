@@ -109,7 +109,7 @@ static PetscErrorCode SendMatrix_Private(Mechanics m, CellGroup *g, PetscInt i, 
     PetscCall(HPSpaceTransformBoundary(m->space, cell, g->n - g->num_inner, g->outer, S, Km, dofs, &num));
   } else
     PetscCall(HPSpaceTransformMatrix(m->space, cell, K, Km, dofs, &num));
-  PetscCall(sink(context, num, dofs, Km));
+  PetscCall(sink(context, cell, num, dofs, Km));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

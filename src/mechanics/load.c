@@ -240,7 +240,7 @@ PetscErrorCode MechanicsFollowers_Private(Mechanics m, const PetscReal u[], Pets
     if (r) PetscCall(HPSpaceScatterAdd(m->space, f->cell, work, r));
     if (sink) {
       PetscCall(HPSpaceTransformMatrix(m->space, f->cell, K, Km, dofs, &num));
-      PetscCall(sink(context, num, dofs, Km));
+      PetscCall(sink(context, -1, num, dofs, Km));
       PetscCall(PetscFree2(K, Km));
     }
     PetscCall(PetscFree3(work, values, dofs));

@@ -1,4 +1,5 @@
-/* The contact surfaces of a state: both sides of all pairs with gap, pressure, status and normal. The surfaces are replicated: rank 0 writes them. */
+/* The contact surfaces of a state: both sides of all pairs with gap, pressure, status and normal. Their values are gathered to all ranks, and rank 0 writes
+ * them. */
 #include "outputimpl.h"
 
 /* All surfaces put together, pair by pair, the nonmortar side first. */
@@ -93,19 +94,15 @@ static PetscErrorCode MeanNormals_Private(const SurfaceView *s, const PetscReal 
 }
 
 /* Normals of the nonmortar side as the contact uses them. */
-static PetscErrorCode OwnNormals_Private(const ContactView *v, PetscReal normal[])
+static void OwnNormals_Private(const ContactView *v, PetscReal normal[])
 {
-  const PetscInt   dim = v->nonmortar.dim;
-  const PetscReal *own;
+  const PetscInt dim = v->nonmortar.dim;
 
-  PetscFunctionBegin;
-  PetscCall(ContactPairGetNormals(v->pair, &own));
   for (PetscInt n = 0; n < v->nonmortar.num_nodes; ++n)
-    for (PetscInt c = 0; c < 3; ++c) normal[3 * n + c] = c < dim && own ? own[dim * n + c] : 0;
-  PetscFunctionReturn(PETSC_SUCCESS);
+    for (PetscInt c = 0; c < 3; ++c) normal[3 * n + c] = c < dim ? v->normal[dim * n + c] : 0;
 }
 
-/* Both sides of a pair. Collective: the mortar side's fields are gathered. */
+/* Both sides of a pair. Collective: fields are gathered. */
 static PetscErrorCode AppendPair_Private(ContactGrid *g, Problem problem, PetscInt pair)
 {
   const SceneData   *scene;
@@ -114,13 +111,13 @@ static PetscErrorCode AppendPair_Private(ContactGrid *g, Problem problem, PetscI
 
   PetscFunctionBegin;
   PetscCall(ProblemGetScene(problem, &scene));
-  PetscCall(ProblemGetContact(problem, pair, &v));
+  PetscCall(ProblemGatherContactToAll(problem, pair, &v));
   for (PetscInt side = 0; side < 2; ++side) {
     const SurfaceView *s  = side ? &v->mortar : &v->nonmortar;
     const PetscInt     at = AppendSurface_Private(g, s, pair, side);
     fields[side]          = (ContactFields){g->gap + at, g->pressure + at, g->status + at};
     if (side == 0)
-      PetscCall(OwnNormals_Private(v, g->normal + 3 * at));
+      OwnNormals_Private(v, g->normal + 3 * at);
     else
       PetscCall(MeanNormals_Private(s, scene->mechanics.kinematics == KINEMATICS_SMALL ? s->X : s->x, g->normal + 3 * at));
   }

@@ -9,16 +9,21 @@
 
 /* Does contact, by the active set at hand, leave nodes that carry pressure for others? By reference length, so that graded meshes count alike. A zone that only
    grows or only shrinks does not move. */
-static PetscBool HasMoved_Private(const Contact *c)
+static PetscErrorCode HasMoved_Private(Problem p, const Contact *c, PetscBool *moved)
 {
-  PetscReal pressed = 0, active = 0, both = 0;
+  const Surface *s      = &c->side[0];
+  PetscReal      sum[3] = {0, 0, 0}; /* pressed, active, both */
 
-  for (PetscInt j = 0; j < c->side[0].num_nodes; ++j) {
-    if (c->z[j] > 0) pressed += c->w0[j];
-    if (c->active[j]) active += c->w0[j];
-    if (c->z[j] > 0 && c->active[j]) both += c->w0[j];
+  PetscFunctionBegin;
+  for (PetscInt i = 0; i < s->num_own; ++i) {
+    const PetscInt j = s->own[i];
+    if (c->z[j] > 0) sum[0] += c->w0[j];
+    if (c->active[j]) sum[1] += c->w0[j];
+    if (c->z[j] > 0 && c->active[j]) sum[2] += c->w0[j];
   }
-  return (PetscBool)(both < STAYS * PetscMin(pressed, active));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 3, MPIU_REAL, MPI_SUM, p->comm));
+  *moved = (PetscBool)(sum[2] < STAYS * PetscMin(sum[0], sum[1]));
+  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode ProblemRelease(Problem p, PetscBool *any)
@@ -30,8 +35,8 @@ PetscErrorCode ProblemRelease(Problem p, PetscBool *any)
   if (p->num_contacts == 0 || p->scene->mechanics.kinematics == KINEMATICS_SMALL) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(ProblemPending(p, &pending));
   for (PetscInt i = 0; pending > 0 && i < p->num_contacts; ++i) {
-    Contact *c  = &p->contacts[i];
-    c->released = HasMoved_Private(c);
+    Contact *c = &p->contacts[i];
+    PetscCall(HasMoved_Private(p, c, &c->released));
     if (c->released) *any = PETSC_TRUE;
   }
   PetscFunctionReturn(PETSC_SUCCESS);

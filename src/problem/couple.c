@@ -145,20 +145,20 @@ static PetscErrorCode ListFacets_Private(Problem p, Contact *c)
 {
   const Surface      *s = &c->side[0];
   const ForestTables *t;
+  PetscBool          *near;
 
   PetscFunctionBegin;
   PetscCall(ForestGetTables(p->forest, &t));
   PetscCall(PetscMalloc2(s->num_facets, &c->listed, s->num_facets, &c->mine));
-  for (PetscInt f = 0; f < s->num_facets; ++f) {
-    PetscBool       near = c->mine[f] = (PetscBool)(t->leaf_rank[s->facet_leaf[f]] == p->rank);
-    const PetscInt *node, num = SurfaceNodes_Private(s, f, &node);
-    for (PetscInt k = 0; k < num; ++k) {
-      const PetscInt n = node[k];
-      if (s->owned[n]) near = PETSC_TRUE;
-      for (PetscInt i = s->hang[n]; i < s->hang[n + 1]; ++i) near = (PetscBool)(near || s->owned[s->hang_master[i]]);
-    }
-    if (near) c->listed[c->num_listed++] = f;
+  PetscCall(PetscMalloc1(s->num_facets, &near));
+  for (PetscInt f = 0; f < s->num_facets; ++f) near[f] = c->mine[f] = (PetscBool)(t->leaf_rank[s->facet_leaf[f]] == p->rank);
+  for (PetscInt n = 0; n < s->num_nodes; ++n) {
+    for (PetscInt k = s->node_first[n]; s->owned[n] && k < s->node_first[n + 1]; ++k) near[s->node_facet[k]] = PETSC_TRUE;
   }
+  for (PetscInt f = 0; f < s->num_facets; ++f) {
+    if (near[f]) c->listed[c->num_listed++] = f;
+  }
+  PetscCall(PetscFree(near));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -192,7 +192,7 @@ static void View_Private(Contact *c)
   for (PetscInt k = 0; k < 2; ++k) {
     const Surface *s = &c->side[k];
     *sv[k] = (SurfaceView){s->dim,         s->corners,     s->num_nodes, s->num_facets, s->node_entity, s->facets, s->facet_leaf, s->facet_entity, s->hang,
-                           s->hang_master, s->hang_weight, s->X,         s->x,          s->force,       s->order,  s->first,      s->lattice};
+                           s->hang_master, s->hang_weight, s->X,         s->x,          s->force,       s->owned,  s->order,      s->first,        s->lattice};
   }
   v->spec           = c->spec;
   v->z              = c->z;
@@ -203,88 +203,104 @@ static void View_Private(Contact *c)
   v->pair           = c->pair;
 }
 
-/* Sums over edges to nodes, over ranks; area. */
+/* Sums over facets to the nodes of this rank, which evaluates all facets that carry weight to them; area over ranks. */
 static PetscErrorCode NodeSums_Private(Problem p, Contact *c)
 {
-  const PetscInt n = c->side[0].num_nodes;
-  PetscReal     *buffer;
+  const Surface *s      = &c->side[0];
+  PetscReal      sum[2] = {0, 0};
   PetscInt       unusable;
 
   PetscFunctionBegin;
-  PetscCall(ContactPairGetDegenerate(c->pair, &unusable));
-  PetscCall(PetscCalloc1(2 * n + 2, &buffer));
+  for (PetscInt i = 0; i < s->num_own; ++i) c->gap[s->own[i]] = c->weight[s->own[i]] = 0;
   for (PetscInt i = 0; i < c->num_facets; ++i) {
     const ContactFacet *e = &c->facets[i];
-    if (!c->mine[e->facet]) continue;
     for (PetscInt k = 0; k < e->num_rows; ++k) {
-      buffer[e->nodes[k]] += e->gap[k];
-      buffer[n + e->nodes[k]] += e->weight[k];
+      if (!s->owned[e->nodes[k]]) continue;
+      c->gap[e->nodes[k]] += e->gap[k];
+      c->weight[e->nodes[k]] += e->weight[k];
     }
-    buffer[2 * n] += e->area;
+    if (c->mine[e->facet]) sum[0] += e->area;
   }
-  buffer[2 * n + 1] = (PetscReal)unusable;
-  if (p->size > 1) PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, buffer, (PetscMPIInt)(2 * n + 2), MPIU_REAL, MPI_SUM, p->comm));
-  PetscCall(PetscArraycpy(c->gap, buffer, n));
-  PetscCall(PetscArraycpy(c->weight, buffer + n, n));
-  c->view.area     = buffer[2 * n];
-  c->view.unusable = (PetscInt)buffer[2 * n + 1];
-  PetscCall(PetscFree(buffer));
+  PetscCall(ContactPairGetDegenerate(c->pair, &unusable));
+  sum[1] = (PetscReal)unusable;
+  if (p->size > 1) PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 2, MPIU_REAL, MPI_SUM, p->comm));
+  c->view.area     = sum[0];
+  c->view.unusable = (PetscInt)sum[1];
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Share of the interference in the offset: facets that have no reach of their own measure gaps along normals of length 1. */
-static PetscErrorCode Interference_Private(Problem p, Contact *c)
+/* Gaps and weights from the ranks of the nodes to those that use them. */
+static PetscErrorCode ShareGaps_Private(Problem p, Contact *c)
 {
-  const PetscInt n = c->side[0].num_nodes;
-  PetscReal     *sum;
+  const Surface *s = &c->side[0];
 
   PetscFunctionBegin;
-  if (c->spec->interference == 0) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(PetscCalloc1(n, &sum));
+  if (p->size == 1) PetscFunctionReturn(PETSC_SUCCESS);
+  for (PetscInt i = 0; i < s->num_own; ++i) {
+    c->pack[2 * s->own[i]]     = c->gap[s->own[i]];
+    c->pack[2 * s->own[i] + 1] = c->weight[s->own[i]];
+  }
+  PetscCall(LinkSpread_Private(p, &s->values, 2, c->pack));
+  for (PetscInt i = 0; i < s->values.num; ++i) {
+    c->gap[s->values.nodes[i]]    = c->pack[2 * s->values.nodes[i]];
+    c->weight[s->values.nodes[i]] = c->pack[2 * s->values.nodes[i] + 1];
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Interference into the offsets of the nodes of this rank. Facets that have no reach of their own measure gaps along normals of length 1. */
+static void Interference_Private(Contact *c)
+{
   for (PetscInt i = 0; i < c->num_facets; ++i) {
     const ContactFacet *f = &c->facets[i];
-    for (PetscInt k = 0; k < f->num_rows && c->mine[f->facet]; ++k) sum[f->nodes[k]] += f->reach ? f->reach[k] : f->weight[k];
+    for (PetscInt k = 0; k < f->num_rows; ++k) {
+      if (c->side[0].owned[f->nodes[k]]) c->offset[f->nodes[k]] += c->spec->interference * (f->reach ? f->reach[k] : f->weight[k]);
+    }
   }
-  if (p->size > 1) PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, (PetscMPIInt)n, MPIU_REAL, MPI_SUM, p->comm));
-  for (PetscInt j = 0; j < n; ++j) c->offset[j] += c->spec->interference * sum[j];
-  PetscCall(PetscFree(sum));
-  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* What counts as no gap: gt_j less a constant, so that forces and derivatives stay as they are. Initial gaps are those of this mesh at the reference
    positions; an interference is the change of all gaps by as much along their directions there. */
 static PetscErrorCode Offset_Private(Problem p, Contact *c)
 {
-  const PetscInt      n       = c->side[0].num_nodes;
+  const Surface      *s       = &c->side[0];
   ContactSurface      side[2] = {SurfaceAt_Private(&c->side[0], c->side[0].X), SurfaceAt_Private(&c->side[1], c->side[1].X)};
   const ContactFacet *facets;
   PetscBool           failed;
 
   PetscFunctionBegin;
-  PetscCall(PetscArrayzero(c->offset, n));
+  PetscCall(PetscArrayzero(c->offset, s->num_nodes));
   if (!c->spec->adjust && c->spec->interference == 0) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(ContactPairSearch(c->pair, &side[0], &side[1], c->num_listed, c->listed, c->distance, 0));
+  PetscCall(ContactSearch_Private(p, c, PETSC_TRUE, 0));
   PetscCall(ContactPairEvaluate(c->pair, &side[0], &side[1], NULL, NULL, PETSC_FALSE, PETSC_FALSE, &c->num_facets, &facets, &failed));
   c->facets = facets;
   PetscCall(NodeSums_Private(p, c));
-  for (PetscInt j = 0; c->spec->adjust && j < n; ++j) c->offset[j] = c->gap[j];
-  PetscCall(Interference_Private(p, c));
-  for (PetscInt j = 0; c->spec->adjust && j < n; ++j) {
-    if (!ContactCovered_Private(c, j)) continue;
-    c->view.adjusted = PetscMax(c->view.adjusted, PetscAbsReal(c->gap[j] / c->weight[j]));
+  Interference_Private(c);
+  for (PetscInt i = 0; c->spec->adjust && i < s->num_own; ++i) {
+    const PetscInt j = s->own[i];
+    c->offset[j] += c->gap[j];
+    if (ContactCovered_Private(c, j)) c->view.adjusted = PetscMax(c->view.adjusted, PetscAbsReal(c->gap[j] / c->weight[j]));
   }
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &c->view.adjusted, 1, MPIU_REAL, MPI_MAX, p->comm));
   c->num_facets = 0;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Take off what counts as no gap; the smallest that is left. */
-static void Subtract_Private(Contact *c)
+/* Take off what counts as no gap; the smallest that is left. Then all users know. */
+static PetscErrorCode Subtract_Private(Problem p, Contact *c)
 {
+  const Surface *s = &c->side[0];
+
+  PetscFunctionBegin;
   c->view.min_gap = PETSC_MAX_REAL;
-  for (PetscInt j = 0; j < c->side[0].num_nodes; ++j) {
+  for (PetscInt i = 0; i < s->num_own; ++i) {
+    const PetscInt j = s->own[i];
     c->gap[j] -= c->offset[j];
     if (ContactCovered_Private(c, j)) c->view.min_gap = PetscMin(c->view.min_gap, c->gap[j] / c->weight[j]);
   }
+  if (p->size > 1) PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &c->view.min_gap, 1, MPIU_REAL, MPI_MIN, p->comm));
+  PetscCall(ShareGaps_Private(p, c));
+  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* Does either side of a pair have facets of higher order? Then both are given by lattices. */
@@ -322,8 +338,11 @@ PetscErrorCode ContactCreate_Private(Problem p, const ContactSpec *spec, Contact
   PetscCall(PetscCalloc5(n, &c->active, n, &c->has_multiplier, n, &c->lift, n, &c->change, n, &c->near));
   PetscCall(PetscMalloc1(c->side[0].num_facets, &c->result));
   PetscCall(PetscMalloc4(n, &c->zdof, n, &c->zlocal, n, &c->gap0, n, &c->offset));
+  PetscCall(PetscCalloc4(c->side[0].num_facets, &c->live, n, &c->valued, n, &c->valued_node, 2 * n, &c->pack));
   PetscCall(NodeScales_Private(p, c));
   PetscCall(HasMultiplier_Private(p, c));
+  const ContactSurface nonmortar = SurfaceAt_Private(&c->side[0], c->side[0].X);
+  PetscCall(ContactPairSetCarriers(c->pair, &nonmortar, c->has_multiplier));
   PetscCall(ListFacets_Private(p, c));
   SearchDistance_Private(c);
   View_Private(c);
@@ -355,6 +374,8 @@ PetscErrorCode ContactDestroy_Private(Contact *c)
   PetscCall(PetscFree5(c->active, c->has_multiplier, c->lift, c->change, c->near));
   PetscCall(PetscFree(c->result));
   PetscCall(PetscFree4(c->zdof, c->zlocal, c->gap0, c->offset));
+  PetscCall(PetscFree4(c->live, c->valued, c->valued_node, c->pack));
+  PetscCall(ContactGatherDestroy_Private(c));
   PetscCall(PetscFree2(c->listed, c->mine));
   PetscCall(PetscFree(c->pattern_offset));
   PetscCall(PetscFree(c->pattern));
@@ -381,25 +402,26 @@ PetscErrorCode ContactNumber_Private(Problem p, PetscInt counts[])
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Multipliers of all nodes on all ranks from the vector. */
+/* Multipliers from the vector to the ranks that use them. */
 static PetscErrorCode GatherMultipliers_Private(Problem p, Contact *c, Vec x)
 {
+  Surface         *s = &c->side[0];
   const PetscReal *array;
-  const PetscInt   n = c->side[0].num_nodes;
 
   PetscFunctionBegin;
   PetscCall(VecGetArrayRead(x, &array));
-  for (PetscInt i = 0; i < n; ++i) c->z[i] = c->zlocal[i] >= 0 ? array[c->zlocal[i]] : 0;
+  for (PetscInt i = 0; i < s->num_own; ++i) c->z[s->own[i]] = c->zlocal[s->own[i]] >= 0 ? array[c->zlocal[s->own[i]]] : 0;
   PetscCall(VecRestoreArrayRead(x, &array));
-  if (p->size > 1) PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, c->z, (PetscMPIInt)n, MPIU_REAL, MPI_SUM, p->comm));
-  SurfaceFollow_Private(&c->side[0], 1, c->z); /* shown there; their masters hold them */
+  PetscCall(LinkSpread_Private(p, &s->values, 1, c->z));
+  SurfaceFollow_Private(s, 1, c->z); /* shown there; their masters hold them */
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 static void Activity_Private(Contact *c)
 {
-  for (PetscInt j = 0; j < c->side[0].num_nodes; ++j) {
-    c->active[j] = (PetscBool)(c->has_multiplier[j] && ContactCovered_Private(c, j) && c->z[j] - c->c[j] * c->gap[j] / c->weight[j] > 0);
+  for (PetscInt i = 0; i < c->num_valued; ++i) {
+    const PetscInt j = c->valued_node[i];
+    c->active[j]     = (PetscBool)(c->has_multiplier[j] && ContactCovered_Private(c, j) && c->z[j] - c->c[j] * c->gap[j] / c->weight[j] > 0);
   }
 }
 
@@ -411,12 +433,13 @@ static PetscErrorCode Freeze_Private(Problem p, Contact *c, PetscBool *failed)
   const ContactFacet *facets;
 
   PetscFunctionBegin;
-  PetscCall(ContactPairSearch(c->pair, &side[0], &side[1], c->num_listed, c->listed, c->distance, 0));
+  PetscCall(ContactSearch_Private(p, c, PETSC_TRUE, 0));
   PetscCall(ContactPairEvaluate(c->pair, &side[0], &side[1], NULL, NULL, PETSC_TRUE, PETSC_FALSE, &c->num_facets, &facets, failed));
   PetscCall(PetscMalloc1(c->num_facets, &c->frozen));
   c->facets = facets;
   PetscCall(NodeSums_Private(p, c));
   PetscCall(PetscArraycpy(c->gap0, c->gap, c->side[0].num_nodes));
+  PetscCall(ShareGaps_Private(p, c));
   for (PetscInt i = 0; i < c->num_facets; ++i) {
     const ContactFacet *f = &facets[i];
     const PetscInt      n = p->dim * f->num;
@@ -459,51 +482,51 @@ static PetscReal FacetDot_Private(const Contact *c, const ContactFacet *e, const
 
 PetscErrorCode ContactChange_Private(Problem p, Contact *c, const PetscReal increment[], PetscReal change[])
 {
-  const PetscInt n = c->side[0].num_nodes;
+  const Surface *s = &c->side[0];
 
   PetscFunctionBegin;
   for (PetscInt k = 0; k < 2; ++k) PetscCall(SurfaceGather_Private(p, &c->side[k], increment, NULL, c->side[k].du));
-  PetscCall(PetscArrayzero(change, n));
+  for (PetscInt i = 0; i < s->num_own; ++i) change[s->own[i]] = 0;
   for (PetscInt i = 0; i < c->num_facets; ++i) {
     const ContactFacet *e = &c->facets[i];
-    for (PetscInt k = 0; k < e->num_rows && c->mine[e->facet] && e->dgap; ++k) {
+    for (PetscInt k = 0; k < e->num_rows && e->dgap; ++k) {
       const PetscInt j = e->nodes[k];
+      if (!s->owned[j]) continue;
       change[j] += FacetDot_Private(c, e, e->dgap + p->dim * k * e->num);
       if (ContactCovered_Private(c, j)) change[j] -= c->gap[j] / c->weight[j] * FacetDot_Private(c, e, e->dweight + p->dim * k * e->num);
     }
   }
-  if (p->size > 1) PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, change, (PetscMPIInt)n, MPIU_REAL, MPI_SUM, p->comm));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode LinearGaps_Private(Problem p, Contact *c)
+/* Gaps of this rank's nodes. */
+static void LinearGaps_Private(Problem p, Contact *c)
 {
-  const PetscInt n = c->side[0].num_nodes;
+  const Surface *own = &c->side[0];
 
-  PetscFunctionBegin;
   for (PetscInt side = 0; side < 2; ++side) {
     Surface *s = &c->side[side];
     for (PetscInt i = 0; i < p->dim * s->num_nodes; ++i) s->du[i] = s->x[i] - s->X[i];
   }
-  PetscCall(PetscArrayzero(c->gap, n));
+  for (PetscInt i = 0; i < own->num_own; ++i) c->gap[own->own[i]] = c->gap0[own->own[i]];
   for (PetscInt i = 0; i < c->num_facets; ++i) {
     const ContactFacet *e = &c->frozen[i];
-    for (PetscInt k = 0; k < e->num_rows && c->mine[e->facet]; ++k) c->gap[e->nodes[k]] += FacetDot_Private(c, e, e->dgap + p->dim * k * e->num);
+    for (PetscInt k = 0; k < e->num_rows; ++k) {
+      if (own->owned[e->nodes[k]]) c->gap[e->nodes[k]] += FacetDot_Private(c, e, e->dgap + p->dim * k * e->num);
+    }
   }
-  if (p->size > 1) PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, c->gap, (PetscMPIInt)n, MPIU_REAL, MPI_SUM, p->comm));
-  for (PetscInt j = 0; j < n; ++j) c->gap[j] += c->gap0[j];
-  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* Nodes that may take part in the next linear solve: pressed, or closer than half a facet beside what prescribed motion may still close. Three dimensions:
-   the others get no row in the matrix, which they would only fill. Replicated. */
+   the others get no row in the matrix, which they would only fill. Every rank that knows the node says the same. */
 static PetscErrorCode Near_Private(Problem p, Contact *c)
 {
   PetscReal pending;
 
   PetscFunctionBegin;
   PetscCall(ProblemPending(p, &pending));
-  for (PetscInt j = 0; j < c->side[0].num_nodes; ++j) {
+  for (PetscInt i = 0; i < c->num_valued; ++i) {
+    const PetscInt  j     = c->valued_node[i];
     const PetscBool reach = (PetscBool)(ContactCovered_Private(c, j) && c->gap[j] / c->weight[j] < pending + 0.5 * c->extent[j]);
     c->near[j]            = (PetscBool)(c->has_multiplier[j] && (c->z[j] != 0 || reach));
     if (p->dim == 2) c->near[j] = PETSC_TRUE;
@@ -513,38 +536,44 @@ static PetscErrorCode Near_Private(Problem p, Contact *c)
 
 PetscErrorCode ContactEvaluate_Private(Problem p, Contact *c, Vec x, const PetscReal local[], PetscBool derivatives, PetscBool hessian, PetscBool *failed)
 {
+  const PetscBool small = (PetscBool)(p->scene->mechanics.kinematics == KINEMATICS_SMALL);
+
   PetscFunctionBegin;
+  p->traffic.evaluations++;
+  if (small && !c->is_frozen) PetscCall(Freeze_Private(p, c, failed));
   PetscCall(GatherMultipliers_Private(p, c, x));
   for (PetscInt k = 0; k < 2; ++k) PetscCall(SurfaceGather_Private(p, &c->side[k], local, c->side[k].X, c->side[k].x));
-  if (p->scene->mechanics.kinematics == KINEMATICS_SMALL) {
-    if (!c->is_frozen) PetscCall(Freeze_Private(p, c, failed));
-    PetscCall(LinearGaps_Private(p, c));
-  } else {
+  if (small)
+    LinearGaps_Private(p, c);
+  else {
     const ContactSurface side[2] = {SurfaceAt_Private(&c->side[0], c->side[0].x), SurfaceAt_Private(&c->side[1], c->side[1].x)};
     if (hessian && p->dim == 3) { /* who is near is decided by the gaps here, not by those of the last evaluation */
       PetscCall(ContactPairEvaluate(c->pair, &side[0], &side[1], c->z, NULL, PETSC_FALSE, PETSC_FALSE, &c->num_facets, &c->facets, failed));
       PetscCall(NodeSums_Private(p, c));
-      Subtract_Private(c);
+      PetscCall(Subtract_Private(p, c));
     }
     PetscCall(Near_Private(p, c));
     PetscCall(ContactPairEvaluate(c->pair, &side[0], &side[1], c->z, c->near, derivatives, hessian, &c->num_facets, &c->facets, failed));
     PetscCall(NodeSums_Private(p, c));
   }
-  Subtract_Private(c);
-  if (p->scene->mechanics.kinematics == KINEMATICS_SMALL) PetscCall(Near_Private(p, c));
+  PetscCall(Subtract_Private(p, c));
+  if (small) PetscCall(Near_Private(p, c));
   for (PetscInt e = 0; e < c->side[0].num_facets; ++e) c->result[e] = -1;
   for (PetscInt i = 0; i < c->num_facets; ++i) c->result[c->facets[i].facet] = i;
   Activity_Private(c);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Nodal contact forces -dL_c/dx = z_j grad gt_j on both sides; residual r -= force (at the owner, in the node's frame). */
-PetscErrorCode ContactForces_Private(Problem p, Contact *c, PetscReal r[])
+/* Contact forces z_j grad gt_j of this rank's facets into both sides' arrays. */
+static void FacetForces_Private(Contact *c)
 {
-  const PetscInt dim = p->dim;
+  const PetscInt dim = c->side[0].dim;
 
-  PetscFunctionBegin;
-  for (PetscInt k = 0; k < 2; ++k) PetscCall(PetscArrayzero(c->side[k].force, dim * c->side[k].num_nodes));
+  for (PetscInt k = 0; k < 2; ++k) {
+    Surface *s = &c->side[k];
+    for (PetscInt n = 0; n < s->num_nodes; ++n)
+      for (PetscInt d = 0; d < dim && s->has[n]; ++d) s->force[dim * n + d] = 0;
+  }
   for (PetscInt i = 0; i < c->num_facets; ++i) {
     const ContactFacet *e = &c->facets[i];
     if (!c->mine[e->facet] || !e->dgap) continue;
@@ -554,11 +583,23 @@ PetscErrorCode ContactForces_Private(Problem p, Contact *c, PetscReal r[])
         for (PetscInt d = 0; d < dim; ++d) f[d] += c->z[e->nodes[k]] * e->dgap[dim * (k * e->num + a) + d];
     }
   }
+}
+
+/* Nodal contact forces -dL_c/dx = z_j grad gt_j on both sides; residual r -= force (at the owner, in the node's frame). */
+PetscErrorCode ContactForces_Private(Problem p, Contact *c, PetscReal r[])
+{
+  const PetscInt dim = p->dim;
+
+  PetscFunctionBegin;
+  FacetForces_Private(c);
   for (PetscInt k = 0; k < 2; ++k) {
     Surface *s = &c->side[k];
-    if (p->size > 1) PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, s->force, (PetscMPIInt)(dim * s->num_nodes), MPIU_REAL, MPI_SUM, p->comm));
+    PetscCall(LinkCollect_Private(p, &s->values, dim, s->force));
     for (PetscInt n = 0; n < s->num_nodes; ++n) {
-      if (!s->owned[n]) continue;
+      for (PetscInt d = 0; d < dim && !s->owned[n] && s->hang[n] == s->hang[n + 1]; ++d) s->force[dim * n + d] = NAN; /* a part, which is with the owner */
+    }
+    for (PetscInt i = 0; i < s->num_own; ++i) {
+      const PetscInt n = s->own[i];
       for (PetscInt d = 0; d < dim; ++d)
         for (PetscInt a = 0; a < dim; ++a) r[dim * s->local[n] + d] -= s->frame[dim * (dim * n + d) + a] * s->force[dim * n + a];
     }

@@ -9,20 +9,24 @@
 #define FAR 0.1 /* mean open gap in lengths of facets */
 
 /* Is the mean of gap / length of facet, weighted with the forces of the nodes at the last evaluation, above FAR? The same on every rank. */
-PetscBool ContactIsFar_Private(const Contact *c)
+PetscErrorCode ContactIsFar_Private(Problem p, const Contact *c, PetscBool *far)
 {
-  const Surface *s    = &c->side[0];
-  PetscReal      open = 0, force = 0;
+  const Surface *s      = &c->side[0];
+  PetscReal      sum[2] = {0, 0}; /* open gaps, forces */
 
-  for (PetscInt e = 0; e < s->num_facets; ++e) {
+  PetscFunctionBegin;
+  for (PetscInt i = 0; i < s->num_mine; ++i) {
+    const PetscInt  e       = s->mine[i];
     const PetscReal measure = SurfaceMeasure_Private(s, s->x, e),
                     length  = (s->dim == 2 ? measure : PetscSqrtReal(measure)) / (PetscReal)PetscMax(1, SurfaceOrder_Private(s, e));
     const PetscInt *node, num = SurfaceNodes_Private(s, e, &node);
     for (PetscInt k = 0; k < num; ++k) {
       const PetscInt j = node[k];
-      open += c->z[j] * c->gap[j];
-      force += c->z[j] * c->weight[j] * length;
+      sum[0] += c->z[j] * c->gap[j];
+      sum[1] += c->z[j] * c->weight[j] * length;
     }
   }
-  return (PetscBool)(open > FAR * force);
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 2, MPIU_REAL, MPI_SUM, p->comm));
+  *far = (PetscBool)(sum[0] > FAR * sum[1]);
+  PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -65,38 +65,64 @@ static PetscErrorCode NodeCells_Private(const HPTables *v, PetscInt **offset, Pe
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Exact counts of the bulk's entries in the rows of this rank. */
-static PetscErrorCode CountBulk_Private(Problem p, PetscInt diagonal[], PetscInt other[])
+/* Columns of the bulk in the rows of node n, sorted; stamp[num_nodes] remembers whom a node was last seen by, work[num_nodes][2]. Returns their number. */
+static PetscErrorCode NodeColumns_Private(Problem p, const HPTables *v, const PetscInt offset[], const PetscInt cells[], PetscInt n, PetscInt stamp[],
+                                          PetscInt work[], PetscInt columns[], PetscInt *num)
+{
+  PetscInt nodes = 0, *first = work, *free = work + v->num_nodes; /* columns of a node stand side by side: first one, number */
+
+  PetscFunctionBegin;
+  for (PetscInt i = offset[n]; i < offset[n + 1]; ++i) {
+    for (PetscInt k = v->cell_row[cells[i]]; k < v->cell_row[cells[i] + 1]; ++k) {
+      const PetscInt m = v->cell_master[k];
+      if (stamp[m] == n) continue;
+      stamp[m]    = n;
+      free[nodes] = 0;
+      for (PetscInt c = 0; c < p->dim; ++c) {
+        const PetscInt column = p->row[m * p->dim + c];
+        if (column >= 0 && free[nodes]++ == 0) first[nodes] = column;
+      }
+      nodes += free[nodes] > 0;
+    }
+  }
+  PetscCall(PetscSortIntWithArray(nodes, first, free));
+  *num = 0;
+  for (PetscInt m = 0; m < nodes; ++m)
+    for (PetscInt c = 0; c < free[m]; ++c) columns[(*num)++] = first[m] + c;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The bulk's entries in the rows of this rank: exact counts or, without counters, explicit zeros, in order. */
+static PetscErrorCode BulkPattern_Private(Problem p, PetscInt diagonal[], PetscInt other[])
 {
   const HPTables *v;
-  PetscInt       *offset, *cells, *stamp;
+  PetscInt       *offset, *cells, *stamp, *work, *columns, num;
+  PetscReal      *zeros;
 
   PetscFunctionBegin;
   PetscCall(HPSpaceGetTables(p->space, &v));
   PetscCall(NodeCells_Private(v, &offset, &cells));
-  PetscCall(PetscMalloc1(v->num_nodes, &stamp));
+  PetscCall(PetscMalloc3(v->num_nodes, &stamp, 2 * v->num_nodes, &work, v->num_nodes * p->dim, &columns));
+  PetscCall(PetscCalloc1(v->num_nodes * p->dim, &zeros));
   for (PetscInt n = 0; n < v->num_nodes; ++n) stamp[n] = -1;
   for (PetscInt n = 0; n < v->num_nodes; ++n) {
-    PetscInt count[2] = {0, 0};
-    for (PetscInt i = offset[n]; i < offset[n + 1]; ++i) {
-      for (PetscInt k = v->cell_row[cells[i]]; k < v->cell_row[cells[i] + 1]; ++k) {
-        const PetscInt m = v->cell_master[k];
-        if (stamp[m] == n) continue;
-        stamp[m] = n;
-        for (PetscInt c = 0; c < p->dim; ++c) {
-          const PetscInt col = p->row[m * p->dim + c];
-          if (col >= 0) ++count[col < p->first_row || col >= p->first_row + p->num_rows];
-        }
-      }
-    }
+    num = -1;
     for (PetscInt c = 0; c < p->dim; ++c) {
       const PetscInt row = p->row[n * p->dim + c] - p->first_row;
       if (p->row[n * p->dim + c] < 0 || row < 0 || row >= p->num_rows) continue;
-      diagonal[row] += count[0];
-      other[row] += count[1];
+      if (num < 0) PetscCall(NodeColumns_Private(p, v, offset, cells, n, stamp, work, columns, &num));
+      if (!diagonal) {
+        PetscCall(MatSetValues(p->matrix, 1, &p->row[n * p->dim + c], num, columns, zeros, ADD_VALUES));
+        continue;
+      }
+      for (PetscInt k = 0; k < num; ++k) {
+        const PetscBool mine = (PetscBool)(columns[k] >= p->first_row && columns[k] < p->first_row + p->num_rows);
+        ++(mine ? diagonal : other)[row];
+      }
     }
   }
-  PetscCall(PetscFree(stamp));
+  PetscCall(PetscFree3(stamp, work, columns));
+  PetscCall(PetscFree(zeros));
   PetscCall(PetscFree(offset));
   PetscCall(PetscFree(cells));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -147,7 +173,7 @@ PetscErrorCode ProblemMatrix_Private(Problem p)
   PetscFunctionBegin;
   PetscCall(MatDestroy(&p->matrix));
   PetscCall(PetscCalloc2(rows, &diagonal, rows, &other));
-  PetscCall(CountBulk_Private(p, diagonal, other));
+  PetscCall(BulkPattern_Private(p, diagonal, other));
   PetscCall(ContactPattern_Private(p, diagonal, other));
   for (PetscInt i = 0; i < rows; ++i) {
     diagonal[i] = PetscMin(diagonal[i] + 1, rows);
@@ -160,6 +186,7 @@ PetscErrorCode ProblemMatrix_Private(Problem p)
   /* Contact across ranks may reach rows whose owner could not foresee it. */
   PetscCall(MatSetOption(p->matrix, MAT_NEW_NONZERO_ALLOCATION_ERR, PETSC_FALSE));
   PetscCall(PetscFree2(diagonal, other));
+  PetscCall(BulkPattern_Private(p, NULL, NULL));
   PetscCall(ContactPattern_Private(p, NULL, NULL));
   for (PetscInt i = 0; i < p->num_contacts; ++i) {
     const Contact *c = &p->contacts[i];
@@ -167,5 +194,8 @@ PetscErrorCode ProblemMatrix_Private(Problem p)
       if (c->zlocal[j] >= 0) PetscCall(MatSetValue(p->matrix, c->zdof[j], c->zdof[j], 0.0, ADD_VALUES));
     }
   }
+  PetscCall(MatAssemblyBegin(p->matrix, MAT_FINAL_ASSEMBLY));
+  PetscCall(MatAssemblyEnd(p->matrix, MAT_FINAL_ASSEMBLY));
+  PetscCall(PetscFree2(p->scatter_first, p->scatter));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

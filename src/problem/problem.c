@@ -67,6 +67,10 @@ PetscErrorCode ProblemCreate(const SceneData *scene, Forest forest, const int8_t
   PetscCallMPI(MPI_Comm_size(p->comm, &p->size));
   PetscCall(ForestGetTables(forest, &t));
   p->dim = t->dim;
+  for (PetscMPIInt k = 1; k < 4; ++k) {
+    PetscCallMPI(MPI_Type_contiguous(k, MPIU_REAL, &p->unit[k]));
+    PetscCallMPI(MPI_Type_commit(&p->unit[k]));
+  }
   PetscCall(PetscMalloc1(t->num_leaves, &p->leaf_order));
   PetscCall(PetscArraycpy(p->leaf_order, leaf_order, t->num_leaves));
   PetscCall(HPSpaceCreate(forest, leaf_order, LinearGroups_Private(scene), MirrorGroups_Private(scene), &p->space));
@@ -90,10 +94,13 @@ PetscErrorCode ProblemDestroy(Problem *problem)
 
   PetscFunctionBegin;
   if (!p) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(TrafficReport_Private(p));
+  for (PetscMPIInt k = 1; k < 4; ++k) PetscCallMPI(MPI_Type_free(&p->unit[k]));
   for (PetscInt i = 0; i < p->num_contacts; ++i) PetscCall(ContactDestroy_Private(&p->contacts[i]));
   PetscCall(PetscFree(p->contacts));
   PetscCall(PetscFree(p->leaf_order));
   PetscCall(PetscFree2(p->index, p->row));
+  PetscCall(PetscFree2(p->scatter_first, p->scatter));
   PetscCall(PetscFree3(p->u_start, p->p_start, p->row_start));
   PetscCall(PetscFree4(p->target, p->applied, p->increment, p->start_applied));
   PetscCall(PetscFree2(p->work_index, p->work_value));

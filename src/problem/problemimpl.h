@@ -2,12 +2,24 @@
 #pragma once
 #include "problem.h"
 
+#include <petscsf.h>
+
 #define COVERED 1e-5 /* share of a node's tributary measure below which it counts as uncovered: its constraint would be all but free of its pressure */
 
 #define MOST_MASTERS 8          /* of a hanging vertex of a contact surface of order 1 */
 #define MOST_LATTICE_MASTERS 64 /* of a hanging node of a lattice: two ends that hang on edges themselves, and so on */
 
-/* One side of a contact pair, replicated on every rank. Hanging nodes have positions, which follow their masters', but no unknowns. */
+/* Values of some nodes of a surface on their way between the ranks that own them and those that use them. */
+typedef struct {
+  PetscSF     sf;               /* roots and leaves have the nodes' numbers */
+  PetscInt    num, *nodes;      /* that this rank uses and does not own, ascending */
+  PetscMPIInt num_from, num_to; /* owners that this rank hears from, users that it tells */
+  PetscInt    num_told;         /* entries told to all of them together */
+} Link;
+
+/* One side of a contact pair. Topology and what belongs to the mesh (reference positions, frames, places in the vector) are replicated on every rank; current
+   values are not: a rank has those of nodes it owns, of nodes its cells or ghost cells depend on (positions), and of nodes that facets in contact need
+   (exchange.c). All other entries are NaN. Hanging nodes have positions, which follow their masters', but no unknowns. */
 typedef struct {
   PetscInt   dim, corners; /* 2 or 4 corners of a facet */
   PetscInt   num_nodes, num_facets;
@@ -20,14 +32,23 @@ typedef struct {
   PetscReal *hang_weight;
   int8_t    *order; /* facets of higher order as in contact.h; NULL: all are of order 1, their nodes the corners */
   PetscInt  *first, *lattice;
-  PetscInt  *node_first, *node_facet; /* [num_nodes+1] offsets: facets that carry weight to the node, its own and those with a node that hangs on it */
+  PetscInt  *true_first, *true_node;  /* [num_facets+1] offsets, ascending: nodes of the facet, masters for those that hang, and of lattices that share a
+ hanging corner with it: their multiplier functions are made together */
+  PetscInt  *node_first, *node_facet; /* [num_nodes+1] offsets: facets that carry weight to the node, those with it as a true node */
   PetscReal *X, *x, *du;              /* [num_nodes][dim] reference and current position; increment under discussion */
   PetscReal *mirror;                  /* normals of symmetry planes as in ContactSurface, else 0 */
   PetscReal *frame;                   /* [num_nodes][dim][dim] rows: directions of the dofs */
   PetscInt  *dof;                     /* [num_nodes][dim] row of the matrix, -1: prescribed, hanging */
   PetscInt  *local;                   /* [num_nodes] local node on this rank or -1 */
   PetscBool *owned;                   /* [num_nodes] this rank owns the node and it does not hang */
-  PetscReal *force;                   /* [num_nodes][dim] contact force at the last residual */
+  PetscReal *force;                   /* [num_nodes][dim] contact force at the last residual: of owned nodes, 0 at hanging ones */
+
+  PetscMPIInt *owner;           /* [num_nodes] rank that knows the node's values: of a hanging one that of the first facet that has it */
+  PetscInt     num_own, *own;   /* nodes with `owned` */
+  PetscInt     num_mine, *mine; /* facets of this rank's leaves */
+  PetscBool   *here;            /* [num_nodes] does not hang, displacement in the local array of this rank */
+  PetscBool   *has;             /* [num_nodes] current position known here */
+  Link         places, values;  /* of nodes that are not here; of nodes that are not owned */
 } Surface;
 
 typedef struct {
@@ -44,9 +65,16 @@ typedef struct {
   PetscInt           *result;                         /* [num_facets] position of a facet in `facets`, -1: not evaluated here */
   PetscBool          *active, *has_multiplier, *near; /* [n] near: takes part in the next linear solve */
   PetscInt            num_listed, *listed;            /* nonmortar facets this rank evaluates */
-  PetscBool          *mine;                           /* [num_facets] */
-  PetscReal           distance;                       /* search distance */
-  PetscInt            num_facets;                     /* results of the last evaluation */
+  PetscBool          *mine;                           /* [num_facets] a side of this rank's leaves */
+  PetscBool          *live;                           /* [num_facets] may meet the mortar side, as far as this rank is told (its own facets, those around) */
+  PetscBool          *valued;                         /* [n] z, gap, weight, activity known here */
+  PetscInt            num_valued, *valued_node;       /* their list */
+  PetscReal          *pack;                           /* [n][2] work: gap and weight in one message */
+  PetscReal          *all_real[2];                    /* values gathered to all, see gather.c */
+  PetscBool          *all_active;
+  ContactView         all;
+  PetscReal           distance;   /* search distance */
+  PetscInt            num_facets; /* results of the last evaluation */
   const ContactFacet *facets;
   ContactFacet       *frozen; /* small kinematics: linearised once at the reference positions */
   PetscBool           is_frozen;
@@ -85,17 +113,25 @@ struct _p_Problem {
   Vec        start_x;
   PetscInt   num_dofs;
 
-  Mat        matrix;
-  PetscBool  symmetric; /* tangent in the symmetric form */
-  PetscBool  lifting;
-  Vec        lift;
-  PetscReal  t;
-  PetscInt  *work_index;
-  PetscReal *work_value;
-  PetscInt   work_size;
+  Mat              matrix;
+  ptrdiff_t       *scatter_first; /* [num_owned_cells] where a cell's places start in scatter, -1: it goes by MatSetValues */
+  uint16_t        *scatter;       /* scatter.c */
+  PetscObjectState scatter_state; /* pattern the places belong to */
+  PetscBool        symmetric;     /* tangent in the symmetric form */
+  PetscBool        lifting;
+  Vec              lift;
+  PetscReal        t;
+  MPI_Datatype     unit[4]; /* as many reals */
+  ContactTraffic   traffic;
+  PetscInt        *work_index;
+  PetscReal       *work_value;
+  PetscInt         work_size;
 };
 
 PetscErrorCode ProblemLayout_Private(Problem);
+/* scatter.c: places of cells in the matrix as it stands, made when its pattern is new; add a cell's matrix there (*added false: it has no places). */
+PetscErrorCode ProblemScatter_Private(Problem);
+PetscErrorCode ProblemScatterAdd_Private(Problem, PetscInt cell, PetscInt num_dofs, const PetscInt dofs[], const PetscReal K[], PetscBool *added);
 /* condense.c: rows of the matrix from the layout. Collective. */
 PetscErrorCode ProblemRows_Private(Problem);
 PetscErrorCode ProblemReduce_Private(Problem, Vec r, Vec rhs);
@@ -127,8 +163,28 @@ PetscReal SurfacePoint_Private(const Surface *, PetscInt facet, const PetscReal 
 /* Length or area of a facet at positions x, between its corners. */
 PetscReal SurfaceMeasure_Private(const Surface *, const PetscReal x[], PetscInt facet);
 void      SurfaceFollow_Private(const Surface *, PetscInt num, PetscReal values[]);
-/* Cartesian values at the nodes from a local array of dofs, added to base (NULL: 0); replicated. */
+/* Cartesian values from a local array of dofs at the nodes that are here and those that follow them, added to base (NULL: 0). No exchange. */
+void SurfacePlace_Private(const Surface *, const PetscReal local[], const PetscReal base[], PetscReal values[]);
+/* The same at all nodes with `has`: through `places` from their owners. Collective. */
 PetscErrorCode SurfaceGather_Private(Problem, const Surface *, const PetscReal local[], const PetscReal base[], PetscReal values[]);
+
+/* exchange.c. Link: nodes (ascending, none owned) this rank uses from now on. Spread: owners' values[..][size] to the users; Collect: users' added to the
+   owners'. All collective, messages only between ranks that share a node. */
+PetscErrorCode LinkSet_Private(Problem, const Surface *, PetscInt num, const PetscInt nodes[], Link *);
+PetscErrorCode LinkDestroy_Private(Link *);
+PetscErrorCode LinkSpread_Private(Problem, const Link *, PetscInt size, PetscReal values[]);
+PetscErrorCode LinkCollect_Private(Problem, const Link *, PetscInt size, PetscReal values[]);
+PetscErrorCode TrafficReport_Private(Problem); /* with -info */
+PetscErrorCode ExchangeBegin_Private(Problem);
+PetscErrorCode ExchangeEnd_Private(Problem);
+/* Positions known without exchange; `has` says so and everything else is forgotten. */
+void SurfaceForget_Private(Surface *);
+/* After a search: what this rank needs until the next one. */
+PetscErrorCode ContactLink_Private(Problem, Contact *);
+/* nearby.c: search at the positions at hand, X when reference is set, where facets meet over the boundaries of ranks. Collective. */
+PetscErrorCode ContactSearch_Private(Problem, Contact *, PetscBool reference, PetscReal margin);
+/* gather.c */
+PetscErrorCode ContactGatherDestroy_Private(Contact *);
 
 PetscErrorCode ContactCreate_Private(Problem, const ContactSpec *, Contact *);
 PetscErrorCode ContactDestroy_Private(Contact *);
@@ -139,9 +195,9 @@ PetscErrorCode ContactRows_Private(Problem, const Contact *, PetscReal r[]);
 /* tangent.c: blocks of the last evaluation into the matrix: Hessian and columns (added), then rows (inserted). */
 PetscErrorCode ContactBlocks_Private(Problem, Contact *);
 PetscErrorCode ContactInsertRow_Private(Problem, Contact *, PetscInt node);
-/* far.c: are the gaps under pressure too wide for the curvature of the constraints to mean anything? */
-PetscBool ContactIsFar_Private(const Contact *);
-/* Change of every node's weighted gap, at fixed measure, under a local array of increments. */
+/* far.c: are the gaps under pressure too wide for the curvature of the constraints to mean anything? Collective. */
+PetscErrorCode ContactIsFar_Private(Problem, const Contact *, PetscBool *far);
+/* Change of every owned node's weighted gap, at fixed measure, under a local array of increments. Collective. */
 PetscErrorCode          ContactChange_Private(Problem, Contact *, const PetscReal increment[], PetscReal change[]);
 static inline PetscBool ContactCovered_Private(const Contact *c, PetscInt j)
 {

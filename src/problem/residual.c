@@ -11,28 +11,28 @@ PetscErrorCode ProblemSearch(Problem p, Vec x)
   PetscCall(VecGetArray(p->u_local, &local));
   PetscCall(ProblemLocalDisplacement(p, x, local));
   for (PetscInt i = 0; i < p->num_contacts; ++i) {
-    Contact       *c = &p->contacts[i];
-    ContactSurface side[2];
+    Contact *c = &p->contacts[i];
     for (PetscInt k = 0; k < 2; ++k) {
-      PetscCall(SurfaceGather_Private(p, &c->side[k], local, c->side[k].X, c->side[k].x));
-      side[k] = SurfaceAt_Private(&c->side[k], c->side[k].x);
+      SurfaceForget_Private(&c->side[k]);
+      SurfacePlace_Private(&c->side[k], local, c->side[k].X, c->side[k].x);
     }
-    PetscCall(ContactPairSearch(c->pair, &side[0], &side[1], c->num_listed, c->listed, c->distance, 0.1 * c->distance));
+    PetscCall(ContactSearch_Private(p, c, PETSC_FALSE, 0.1 * c->distance));
   }
   PetscCall(VecRestoreArray(p->u_local, &local));
   PetscCall(StageEnd(STAGE_CONTACT));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Square of what round-off of positions leaves in the rows and forces of active nodes: epsilon |x| (E + z) w0 / extent. */
+/* Square of what round-off of positions leaves in the rows and forces of this rank's active nodes: epsilon |x| (E + z) w0 / extent. */
 static PetscReal ContactNoise2_Private(Problem p)
 {
   PetscReal sum = 0;
 
   for (PetscInt i = 0; i < p->num_contacts; ++i) {
     const Contact *c = &p->contacts[i];
-    for (PetscInt j = 0; j < c->side[0].num_nodes; ++j) {
-      PetscReal square = 0;
+    for (PetscInt k = 0; k < c->side[0].num_own; ++k) {
+      const PetscInt j      = c->side[0].own[k];
+      PetscReal      square = 0;
       for (PetscInt d = 0; d < p->dim; ++d) square += PetscSqr(c->side[0].x[p->dim * j + d]);
       if (c->active[j]) sum += square * PetscSqr(PETSC_MACHINE_EPSILON * (c->w0[j] * (c->c[j] + PetscAbsReal(c->z[j]) / c->extent[j])));
     }
@@ -54,22 +54,24 @@ static PetscErrorCode LocalForces_Private(Problem p, Vec x, const PetscReal u[],
   PetscCall(MechanicsResidual(p->mechanics, u, r, &bulk));
   PetscCall(StageEnd(STAGE_ASSEMBLE));
   PetscCall(StageBegin(STAGE_CONTACT));
-  status->num_active = 0;
+  PetscInt num_active = 0;
   for (PetscInt i = 0; i < p->num_contacts; ++i) {
     Contact *c = &p->contacts[i];
     PetscCall(ContactEvaluate_Private(p, c, x, u, PETSC_TRUE, PETSC_FALSE, &failed));
     PetscCall(ContactForces_Private(p, c, r));
-    for (PetscInt j = 0; j < c->side[0].num_nodes; ++j) status->num_active += c->active[j];
+    for (PetscInt k = 0; k < c->side[0].num_own; ++k) num_active += c->active[c->side[0].own[k]];
   }
   PetscCall(StageEnd(STAGE_CONTACT));
-  PetscReal sum[5] = {bulk.energy, bulk.scale2, bulk.bad || failed, bulk.noise2, bulk.drift2}, least[2] = {bulk.min_det, -bulk.largest};
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 5, MPIU_REAL, MPI_SUM, p->comm));
+  PetscReal sum[7]   = {bulk.energy, bulk.scale2, bulk.bad || failed, bulk.noise2, bulk.drift2, ContactNoise2_Private(p), (PetscReal)num_active};
+  PetscReal least[2] = {bulk.min_det, -bulk.largest};
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 7, MPIU_REAL, MPI_SUM, p->comm));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, least, 2, MPIU_REAL, MPI_MIN, p->comm));
-  status->energy  = sum[0];
-  status->scale   = PetscSqrtReal(sum[1]);
-  status->bad     = (PetscBool)(sum[2] > 0);
-  status->min_det = least[0];
-  status->noise   = PetscSqrtReal(sum[3] + PetscSqr(least[1]) * sum[4] + ContactNoise2_Private(p));
+  status->energy     = sum[0];
+  status->scale      = PetscSqrtReal(sum[1]);
+  status->bad        = (PetscBool)(sum[2] > 0);
+  status->min_det    = least[0];
+  status->noise      = PetscSqrtReal(sum[3] + PetscSqr(least[1]) * sum[4] + sum[5]);
+  status->num_active = (PetscInt)sum[6];
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -113,17 +115,18 @@ PetscErrorCode ProblemForces(Problem p, Vec x, PetscReal reaction[][3], PetscRea
   PetscCall(VecRestoreArray(p->u_local, &u));
   PetscCall(VecRestoreArray(p->r_local, &r));
   for (PetscInt i = 0; i < p->num_contacts; ++i) {
-    const Surface   *s    = &p->contacts[i].side[0];
-    const PetscReal *at   = p->scene->mechanics.kinematics == KINEMATICS_SMALL ? s->X : s->x; /* where the forces act */
-    PetscReal        f[3] = {0, 0, 0}, m[3] = {0, 0, 0};
-    for (PetscInt n = 0; n < s->num_nodes; ++n) {
-      const PetscReal *q = s->force + p->dim * n, *y = at + p->dim * n;
+    const Surface   *s      = &p->contacts[i].side[0];
+    const PetscReal *at     = p->scene->mechanics.kinematics == KINEMATICS_SMALL ? s->X : s->x; /* where the forces act */
+    PetscReal        sum[6] = {0}, *f = sum, *m = sum + 3;
+    for (PetscInt k = 0; k < s->num_own; ++k) {
+      const PetscReal *q = s->force + p->dim * s->own[k], *y = at + p->dim * s->own[k];
       for (PetscInt d = 0; d < p->dim; ++d) f[d] += q[d];
       m[2] += y[0] * q[1] - y[1] * q[0];
       if (p->dim == 2) continue;
       m[0] += y[1] * q[2] - y[2] * q[1];
       m[1] += y[2] * q[0] - y[0] * q[2];
     }
+    PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 6, MPIU_REAL, MPI_SUM, p->comm));
     if (force) PetscCall(PetscArraycpy(force[i], f, 3));
     if (moment) PetscCall(PetscArraycpy(moment[i], m, 3));
   }

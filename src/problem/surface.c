@@ -1,4 +1,4 @@
-/* Replicated surfaces of facets for contact: their topology. */
+/* Surfaces of facets for contact: their topology, replicated. */
 #include "problemimpl.h"
 
 /* Ends of a leaf's side in the order that keeps the body on the left. */
@@ -114,44 +114,98 @@ static PetscErrorCode SurfaceHanging_Private(const ForestTables *t, Surface *s)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Visit the nodes that carry a facet's shape: its own, hanging ones replaced by their masters. */
-static PetscInt FacetNodes_Private(const Surface *s, PetscInt facet, PetscInt nodes[])
+static PetscInt Root_Private(PetscInt group[], PetscInt facet)
+{
+  while (group[facet] != facet) facet = group[facet] = group[group[facet]];
+  return facet;
+}
+
+/* Facets whose multiplier functions are made together: lattices that share a hanging corner (macro dual functions), else each is alone. next[f]: the facet
+   after f in its group, round. */
+static PetscErrorCode Groups_Private(const Surface *s, PetscInt next[])
+{
+  PetscInt *group, *at;
+
+  PetscFunctionBegin;
+  for (PetscInt f = 0; f < s->num_facets; ++f) next[f] = f;
+  if (!s->order || s->dim == 2) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(PetscMalloc2(s->num_facets, &group, s->num_nodes, &at));
+  for (PetscInt f = 0; f < s->num_facets; ++f) group[f] = f;
+  for (PetscInt n = 0; n < s->num_nodes; ++n) at[n] = -1;
+  for (PetscInt i = 0; i < s->corners * s->num_facets; ++i) {
+    const PetscInt n = s->facets[i], facet = i / s->corners;
+    if (s->hang[n] == s->hang[n + 1]) continue;
+    if (at[n] < 0) at[n] = facet;
+    const PetscInt a = Root_Private(group, at[n]), b = Root_Private(group, facet);
+    group[PetscMax(a, b)] = PetscMin(a, b);
+  }
+  for (PetscInt f = 0; f < s->num_facets; ++f) { /* into the ring of its root */
+    const PetscInt root = Root_Private(group, f);
+    if (root == f) continue;
+    next[f]    = next[root];
+    next[root] = f;
+  }
+  PetscCall(PetscFree2(group, at));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Append the nodes of a facet, hanging ones replaced by their masters. */
+static PetscErrorCode AddNodes_Private(const Surface *s, PetscInt facet, PetscInt *count, PetscInt *size, PetscInt **nodes)
 {
   const PetscInt *own, total = SurfaceNodes_Private(s, facet, &own);
-  PetscInt        num = 0;
+  PetscInt        room = *count;
+
+  PetscFunctionBegin;
+  for (PetscInt k = 0; k < total; ++k) room += PetscMax(1, s->hang[own[k] + 1] - s->hang[own[k]]);
+  if (room > *size) {
+    *size = 2 * room;
+    PetscCall(PetscRealloc((size_t)*size * sizeof(PetscInt), nodes));
+  }
   for (PetscInt k = 0; k < total; ++k) {
     const PetscInt n = own[k];
-    if (s->hang[n] == s->hang[n + 1]) nodes[num++] = n;
-    for (PetscInt i = s->hang[n]; i < s->hang[n + 1]; ++i) nodes[num++] = s->hang_master[i];
+    if (s->hang[n] == s->hang[n + 1]) (*nodes)[(*count)++] = n;
+    for (PetscInt i = s->hang[n]; i < s->hang[n + 1]; ++i) (*nodes)[(*count)++] = s->hang_master[i];
   }
-  (void)PetscSortRemoveDupsInt(&num, nodes);
-  return num;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Nodes that carry each facet's shape or its multiplier functions, ascending. */
+static PetscErrorCode SurfaceTrue_Private(Surface *s)
+{
+  PetscInt *nodes = NULL, *next, num = 0, room = 0, size = 0;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(s->num_facets, &next));
+  PetscCall(Groups_Private(s, next));
+  PetscCall(PetscCalloc1(s->num_facets + 1, &s->true_first));
+  for (PetscInt f = 0; f < s->num_facets; ++f) {
+    PetscInt count = 0;
+    PetscCall(AddNodes_Private(s, f, &count, &size, &nodes));
+    for (PetscInt g = next[f]; g != f; g = next[g]) PetscCall(AddNodes_Private(s, g, &count, &size, &nodes));
+    PetscCall(PetscSortRemoveDupsInt(&count, nodes));
+    if (num + count > room) {
+      room = 2 * (num + count);
+      PetscCall(PetscRealloc((size_t)room * sizeof(PetscInt), &s->true_node));
+    }
+    PetscCall(PetscArraycpy(s->true_node + num, nodes, count));
+    s->true_first[f + 1] = num += count;
+  }
+  PetscCall(PetscFree(nodes));
+  PetscCall(PetscFree(next));
+  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* Facets at each node that does not hang. */
 static PetscErrorCode SurfaceNeighbours_Private(Surface *s)
 {
-  PetscInt *nodes, most = 4 * MOST_MASTERS;
-
   PetscFunctionBegin;
-  for (PetscInt f = 0; f < s->num_facets && s->order; ++f) most = PetscMax(most, (s->first[f + 1] - s->first[f]) * MOST_LATTICE_MASTERS);
-  PetscCall(PetscMalloc1(most, &nodes));
   PetscCall(PetscCalloc1(s->num_nodes + 2, &s->node_first));
-  for (PetscInt pass = 0; pass < 2; ++pass) {
-    for (PetscInt f = 0; f < s->num_facets; ++f) {
-      const PetscInt num = FacetNodes_Private(s, f, nodes);
-      for (PetscInt k = 0; k < num; ++k) {
-        if (pass == 0)
-          s->node_first[nodes[k] + 2]++;
-        else
-          s->node_facet[s->node_first[nodes[k] + 1]++] = f;
-      }
-    }
-    if (pass == 1) break;
-    for (PetscInt n = 0; n < s->num_nodes; ++n) s->node_first[n + 2] += s->node_first[n + 1];
-    PetscCall(PetscMalloc1(s->node_first[s->num_nodes + 1], &s->node_facet));
+  PetscCall(PetscMalloc1(s->true_first[s->num_facets], &s->node_facet));
+  for (PetscInt k = 0; k < s->true_first[s->num_facets]; ++k) s->node_first[s->true_node[k] + 2]++;
+  for (PetscInt n = 0; n < s->num_nodes; ++n) s->node_first[n + 2] += s->node_first[n + 1];
+  for (PetscInt f = 0; f < s->num_facets; ++f) {
+    for (PetscInt k = s->true_first[f]; k < s->true_first[f + 1]; ++k) s->node_facet[s->node_first[s->true_node[k] + 1]++] = f;
   }
-  PetscCall(PetscFree(nodes));
   for (PetscInt n = 0; s->dim == 2 && n < s->num_nodes; ++n) {
     const PetscInt *at = s->node_facet + s->node_first[n], num = s->node_first[n + 1] - s->node_first[n];
     PetscCheckInput(num == 1 || (num == 2 && (s->facets[2 * at[0]] == n) != (s->facets[2 * at[1]] == n)),
@@ -172,6 +226,7 @@ PetscErrorCode SurfaceCreate_Private(Problem p, PetscInt group, PetscBool lattic
     PetscCall(SurfaceLattice_Private(p->space, t, s));
   else
     PetscCall(SurfaceHanging_Private(t, s));
+  PetscCall(SurfaceTrue_Private(s));
   PetscCall(SurfaceNeighbours_Private(s));
   PetscCall(SurfaceFields_Private(p, s));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -188,11 +243,16 @@ PetscErrorCode SurfaceDestroy_Private(Surface *s)
   PetscCall(PetscFree(s->lattice));
   PetscCall(PetscFree(s->hang));
   PetscCall(PetscFree2(s->hang_master, s->hang_weight));
+  PetscCall(PetscFree(s->true_first));
+  PetscCall(PetscFree(s->true_node));
   PetscCall(PetscFree(s->node_first));
   PetscCall(PetscFree(s->node_facet));
   PetscCall(PetscFree3(s->local, s->owned, s->dof));
   PetscCall(PetscFree4(s->X, s->x, s->mirror, s->frame));
   PetscCall(PetscFree2(s->du, s->force));
+  PetscCall(PetscFree5(s->owner, s->own, s->mine, s->here, s->has));
+  PetscCall(LinkDestroy_Private(&s->places));
+  PetscCall(LinkDestroy_Private(&s->values));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -204,9 +264,9 @@ PetscReal SurfaceMeasure_Private(const Surface *s, const PetscReal x[], PetscInt
   return PetscSqrtReal(Dot3(N, N));
 }
 
-/* What the contact module is told about the surface at positions x. */
+/* What the contact module is told about the surface at positions x. Reference positions are known everywhere. */
 ContactSurface SurfaceAt_Private(const Surface *s, const PetscReal x[])
 {
   return (ContactSurface){s->dim,         s->num_nodes,   s->num_facets, s->facets, x,          s->mirror, s->hang,
-                          s->hang_master, s->hang_weight, s->order,      s->first,  s->lattice, s->X};
+                          s->hang_master, s->hang_weight, s->order,      s->first,  s->lattice, s->X,      x == s->X ? NULL : s->has};
 }

@@ -44,7 +44,37 @@ static void NodeMirrors_Private(Surface *s, PetscInt n, PetscInt fixed)
   }
 }
 
-/* Fields every rank needs of nodes it may not have: one reduction from the owners. */
+/* What this rank owns, and what it knows without asking: nodes that its cells and ghost cells depend on. */
+static PetscErrorCode Shares_Private(Problem p, const HPTables *v, const ForestTables *t, Surface *s)
+{
+  PetscBool *used;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc5(s->num_nodes, &s->owner, s->num_nodes, &s->own, s->num_facets, &s->mine, s->num_nodes, &s->here, s->num_nodes, &s->has));
+  PetscCall(PetscCalloc1(v->num_nodes, &used));
+  for (PetscInt k = 0; k < v->cell_row[v->num_cells]; ++k) used[v->cell_master[k]] = PETSC_TRUE;
+  s->num_own = s->num_mine = 0;
+  for (PetscInt n = 0; n < s->num_nodes; ++n) {
+    s->owner[n] = (PetscMPIInt)t->leaf_rank[t->entity_leaf[s->node_entity[n]]];
+    s->owned[n] = (PetscBool)(s->owner[n] == p->rank && s->hang[n] == s->hang[n + 1]); /* the unknowns of a hanging node are its masters' */
+    s->here[n]  = (PetscBool)(s->hang[n] == s->hang[n + 1] && s->local[n] >= 0 && used[s->local[n]]);
+    if (s->owned[n]) s->own[s->num_own++] = n;
+    for (PetscInt c = 0; c < s->dim && !s->owned[n]; ++c) s->force[s->dim * n + c] = s->hang[n] < s->hang[n + 1] ? 0 : NAN;
+  }
+  for (PetscInt f = s->num_facets - 1; f >= 0; --f) { /* backwards: the first facet has the last word */
+    const PetscInt *node, num = SurfaceNodes_Private(s, f, &node);
+    for (PetscInt k = 0; k < num; ++k) {
+      if (s->hang[node[k]] < s->hang[node[k] + 1]) s->owner[node[k]] = (PetscMPIInt)t->leaf_rank[s->facet_leaf[f]];
+    }
+  }
+  for (PetscInt f = 0; f < s->num_facets; ++f) {
+    if (t->leaf_rank[s->facet_leaf[f]] == p->rank) s->mine[s->num_mine++] = f;
+  }
+  PetscCall(PetscFree(used));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Fields of the mesh that every rank has of all nodes: gathered to all from the owners, once per mesh. */
 PetscErrorCode SurfaceFields_Private(Problem p, Surface *s)
 {
   const PetscInt      dim = s->dim, room = dim + dim * dim + 1; /* of a node: position, frame, fixed bits */
@@ -68,8 +98,7 @@ PetscErrorCode SurfaceFields_Private(Problem p, Surface *s)
   for (PetscInt n = 0; n < s->num_nodes; ++n) {
     const PetscInt first = number[s->node_entity[n]];
     s->local[n]          = first >= 0 && s->node_index[n] >= 0 ? first + s->node_index[n] : -1;
-    s->owned[n]          = (PetscBool)(t->leaf_rank[t->entity_leaf[s->node_entity[n]]] == p->rank && s->node_index[n] >= 0);
-    if (!s->owned[n]) continue;
+    if (t->leaf_rank[t->entity_leaf[s->node_entity[n]]] != p->rank || s->node_index[n] < 0) continue;
     const PetscReal *frame;
     PetscReal       *b = buffer + room * n;
     PetscCall(HPSpaceGetFrame(p->space, s->local[n], &frame));
@@ -77,7 +106,6 @@ PetscErrorCode SurfaceFields_Private(Problem p, Surface *s)
     for (PetscInt k = 0; k < dim; ++k)
       for (PetscInt c = 0; c < dim; ++c) b[dim + dim * k + c] = frame ? frame[3 * k + c] : (PetscReal)(k == c);
     b[room - 1] = p->supports.fixed[s->local[n]];
-    if (s->hang[n + 1] > s->hang[n]) s->owned[n] = PETSC_FALSE; /* its position is its own, its unknowns are its masters' */
   }
   PetscCall(PetscFree(number));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, buffer, (PetscMPIInt)(room * s->num_nodes), MPIU_REAL, MPI_SUM, p->comm));
@@ -93,10 +121,14 @@ PetscErrorCode SurfaceFields_Private(Problem p, Surface *s)
   }
   PetscCall(PetscArraycpy(s->x, s->X, dim * s->num_nodes));
   PetscCall(PetscFree(buffer));
+  PetscCall(Shares_Private(p, v, t, s));
+  SurfaceForget_Private(s);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Rows of the nodes' dofs in the matrix, from their owners (stored +2 so that a sum works and -1 survives); hanging nodes have none. */
+/* Rows of the nodes' dofs in the matrix, gathered to all from their owners once per mesh (stored +2 so that a sum works and -1 survives); hanging nodes have
+ * none.
+ */
 PetscErrorCode SurfaceIndices_Private(Problem p, Surface *s)
 {
   const PetscInt dim = s->dim;
@@ -112,7 +144,7 @@ PetscErrorCode SurfaceIndices_Private(Problem p, Surface *s)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* values of hanging nodes from their masters, num of them per node. */
+/* values of hanging nodes from their masters, num of them per node; NaN where a master is not known. */
 void SurfaceFollow_Private(const Surface *s, PetscInt num, PetscReal values[])
 {
   for (PetscInt n = 0; n < s->num_nodes; ++n) {
@@ -123,20 +155,35 @@ void SurfaceFollow_Private(const Surface *s, PetscInt num, PetscReal values[])
   }
 }
 
-PetscErrorCode SurfaceGather_Private(Problem p, const Surface *s, const PetscReal local[], const PetscReal base[], PetscReal values[])
+static void Place_Private(const Surface *s, const PetscReal local[], PetscReal values[])
 {
   const PetscInt dim = s->dim;
 
-  PetscFunctionBegin;
   for (PetscInt n = 0; n < s->num_nodes; ++n) {
-    for (PetscInt c = 0; c < dim; ++c) {
-      PetscReal sum = 0;
-      for (PetscInt k = 0; s->owned[n] && k < dim; ++k) sum += s->frame[dim * (dim * n + k) + c] * local[dim * s->local[n] + k];
-      values[dim * n + c] = sum;
+    for (PetscInt c = 0; c < dim && s->here[n]; ++c) {
+      values[dim * n + c] = 0;
+      for (PetscInt k = 0; k < dim; ++k) values[dim * n + c] += s->frame[dim * (dim * n + k) + c] * local[dim * s->local[n] + k];
     }
   }
-  if (p->size > 1) PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, values, (PetscMPIInt)(dim * s->num_nodes), MPIU_REAL, MPI_SUM, p->comm));
-  SurfaceFollow_Private(s, dim, values);
-  for (PetscInt n = 0; base && n < dim * s->num_nodes; ++n) values[n] += base[n];
+}
+
+static void Finish_Private(const Surface *s, const PetscReal base[], PetscReal values[])
+{
+  SurfaceFollow_Private(s, s->dim, values);
+  for (PetscInt n = 0; base && n < s->dim * s->num_nodes; ++n) values[n] += base[n];
+}
+
+void SurfacePlace_Private(const Surface *s, const PetscReal local[], const PetscReal base[], PetscReal values[])
+{
+  Place_Private(s, local, values);
+  Finish_Private(s, base, values);
+}
+
+PetscErrorCode SurfaceGather_Private(Problem p, const Surface *s, const PetscReal local[], const PetscReal base[], PetscReal values[])
+{
+  PetscFunctionBegin;
+  Place_Private(s, local, values);
+  PetscCall(LinkSpread_Private(p, &s->places, s->dim, values));
+  Finish_Private(s, base, values);
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -13,10 +13,10 @@ PetscErrorCode ProblemWork_Private(Problem p, PetscInt size)
 }
 
 /* A cell's matrix: free rows and columns to the matrix, columns of prescribed dofs times their motion to the lift. */
-static PetscErrorCode CellSink_Private(void *context, PetscInt num, const PetscInt dofs[], const PetscReal K[])
+static PetscErrorCode CellSink_Private(void *context, PetscInt cell, PetscInt num, const PetscInt dofs[], const PetscReal K[])
 {
   Problem   p          = (Problem)context;
-  PetscBool prescribed = PETSC_FALSE;
+  PetscBool prescribed = PETSC_FALSE, added;
 
   PetscFunctionBegin;
   PetscCall(ProblemWork_Private(p, num));
@@ -24,7 +24,8 @@ static PetscErrorCode CellSink_Private(void *context, PetscInt num, const PetscI
     p->work_index[i] = p->row[dofs[i]];
     if (p->work_index[i] < 0 && p->lifting && p->increment[dofs[i]] != 0) prescribed = PETSC_TRUE;
   }
-  PetscCall(MatSetValues(p->matrix, num, p->work_index, num, p->work_index, K, ADD_VALUES));
+  PetscCall(ProblemScatterAdd_Private(p, cell, num, dofs, K, &added));
+  if (!added) PetscCall(MatSetValues(p->matrix, num, p->work_index, num, p->work_index, K, ADD_VALUES));
   if (!prescribed) PetscFunctionReturn(PETSC_SUCCESS);
   for (PetscInt i = 0; i < num; ++i) {
     p->work_value[i] = 0;
@@ -89,17 +90,18 @@ static PetscErrorCode FacetHessian_Private(Problem p, const Contact *c, const Co
 
 PetscErrorCode ContactBlocks_Private(Problem p, Contact *c)
 {
-  const PetscInt  dim = p->dim;
-  const PetscBool far = (PetscBool)(p->lifting && ContactIsFar_Private(c)); /* without lift the tangent is the derivative itself */
+  const PetscInt dim = p->dim;
+  PetscBool      far = PETSC_FALSE; /* without lift the tangent is the derivative itself */
 
   PetscFunctionBegin;
   if (c->released) {
     PetscCall(PetscArrayzero(c->active, c->side[0].num_nodes));
     PetscFunctionReturn(PETSC_SUCCESS);
   }
-  if (p->lifting)
+  if (p->lifting) {
+    PetscCall(ContactIsFar_Private(p, c, &far));
     PetscCall(ContactChange_Private(p, c, p->increment, c->lift));
-  else
+  } else
     PetscCall(PetscArrayzero(c->lift, c->side[0].num_nodes));
   for (PetscInt i = 0; i < c->num_facets; ++i) {
     const ContactFacet *e = &c->facets[i];
@@ -266,14 +268,12 @@ static PetscErrorCode ContactRowsInsert_Private(Problem p, Contact *c)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The matrix with room for all of contact, zero. One that was made and never assembled (contact has met nothing yet) is zero as it is. */
+/* The matrix with room for all of contact, zero. */
 static PetscErrorCode ReadyMatrix_Private(Problem p)
 {
-  int       ok        = p->matrix ? 1 : 0;
-  PetscBool assembled = PETSC_FALSE;
+  int ok = p->matrix ? 1 : 0;
 
   PetscFunctionBegin;
-  if (p->matrix) PetscCall(MatAssembled(p->matrix, &assembled));
   for (PetscInt i = 0; i < p->num_contacts; ++i) {
     if (!ContactPatternHolds_Private(&p->contacts[i])) {
       PetscCall(ContactGrowPattern_Private(&p->contacts[i]));
@@ -283,8 +283,9 @@ static PetscErrorCode ReadyMatrix_Private(Problem p)
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &ok, 1, MPI_INT, MPI_MIN, p->comm));
   if (!ok)
     PetscCall(ProblemMatrix_Private(p));
-  else if (assembled)
+  else
     PetscCall(MatZeroEntries(p->matrix));
+  PetscCall(ProblemScatter_Private(p));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -333,55 +334,46 @@ PetscErrorCode ProblemTangent(Problem p, Vec x, const PetscReal pressure[], Vec 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* New activity of one pair for the increment dx: rows that switch are rewritten, multiplier right-hand sides go to b, force shifts to rhs. */
-static PetscErrorCode ContactSwitch_Private(Problem p, Contact *c, const PetscReal dz[], Vec rhs, PetscInt *changed, PetscReal *violation)
+/* New activity of this rank's nodes of one pair for the increment dx: rows that switch are rewritten, multiplier right-hand sides go to b, force shifts to rhs.
+   sum: switches, violation. dx: this rank's part of the increment. */
+static PetscErrorCode ContactSwitch_Private(Problem p, Contact *c, const PetscReal dx[], Vec rhs, PetscReal sum[2])
 {
+  const Surface *s = &c->side[0];
+
   PetscFunctionBegin;
   if (c->released) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(ContactChange_Private(p, c, p->increment, c->change));
-  for (PetscInt j = 0; j < c->side[0].num_nodes; ++j) {
-    if (!c->has_multiplier[j] || !c->near[j] || !ContactCovered_Private(c, j)) continue;
-    const PetscReal pushed = c->z[j] + dz[j] - c->c[j] * (c->gap[j] + c->change[j]) / c->weight[j];
+  for (PetscInt i = 0; i < s->num_own; ++i) {
+    const PetscInt j = s->own[i];
+    if (c->zlocal[j] < 0 || !c->near[j] || !ContactCovered_Private(c, j)) continue;
+    const PetscReal pushed = c->z[j] + dx[c->zlocal[j]] - c->c[j] * (c->gap[j] + c->change[j]) / c->weight[j];
     const PetscBool active = (PetscBool)(pushed > 0);
     if (active == c->active[j]) continue;
     c->active[j] = active;
-    ++*changed;
-    *violation += c->w0[j] * PetscAbsReal(pushed);
-    if (c->zlocal[j] < 0) continue;
+    sum[0] += 1;
+    sum[1] += c->w0[j] * PetscAbsReal(pushed);
     PetscCall(ContactInsertRow_Private(p, c, j));
     PetscCall(InactiveShift_Private(p, c, j, active ? -1 : 1, rhs));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Change of the multipliers of a pair in dx, on all ranks. */
-static PetscErrorCode MultiplierChange_Private(Problem p, const Contact *c, Vec dx, PetscReal dz[])
-{
-  const PetscReal *d;
-
-  PetscFunctionBegin;
-  PetscCall(VecGetArrayRead(dx, &d));
-  for (PetscInt j = 0; j < c->side[0].num_nodes; ++j) dz[j] = c->zlocal[j] >= 0 ? d[c->zlocal[j]] : 0;
-  PetscCall(VecRestoreArrayRead(dx, &d));
-  if (p->size > 1) PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, dz, (PetscMPIInt)c->side[0].num_nodes, MPIU_REAL, MPI_SUM, p->comm));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 PetscErrorCode ProblemSwitchActiveSet(Problem p, Vec x, Vec dx, Vec rhs, PetscInt *changed, PetscReal *violation)
 {
+  const PetscReal *d;
+  PetscReal        sum[2] = {0, 0};
+
   PetscFunctionBegin;
   *changed   = 0;
   *violation = 0;
   if (!p->num_contacts) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(ProblemIncrement_Private(p, dx, 1.0));
-  for (PetscInt i = 0; i < p->num_contacts; ++i) {
-    Contact   *c = &p->contacts[i];
-    PetscReal *dz;
-    PetscCall(PetscMalloc1(c->side[0].num_nodes, &dz));
-    PetscCall(MultiplierChange_Private(p, c, dx, dz));
-    PetscCall(ContactSwitch_Private(p, c, dz, rhs, changed, violation));
-    PetscCall(PetscFree(dz));
-  }
+  PetscCall(VecGetArrayRead(dx, &d));
+  for (PetscInt i = 0; i < p->num_contacts; ++i) PetscCall(ContactSwitch_Private(p, &p->contacts[i], d, rhs, sum));
+  PetscCall(VecRestoreArrayRead(dx, &d));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 2, MPIU_REAL, MPI_SUM, p->comm));
+  *changed   = (PetscInt)sum[0];
+  *violation = sum[1];
   if (*changed) {
     PetscCall(VecAssemblyBegin(rhs));
     PetscCall(VecAssemblyEnd(rhs));
@@ -392,12 +384,26 @@ PetscErrorCode ProblemSwitchActiveSet(Problem p, Vec x, Vec dx, Vec rhs, PetscIn
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Finaliser of splitmix64: well mixed bits. */
+static uint64_t Mix_Private(uint64_t x)
+{
+  x += 0x9e3779b97f4a7c15ull;
+  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ull;
+  x = (x ^ (x >> 27)) * 0x94d049bb133111ebull;
+  return x ^ (x >> 31);
+}
+
+/* Sum over the active nodes, which each rank takes its part of. */
 PetscErrorCode ProblemActiveSetHash(Problem p, uint64_t *hash)
 {
   PetscFunctionBegin;
-  *hash = 14695981039346656037ull; /* FNV-1a */
+  *hash = 0;
   for (PetscInt i = 0; i < p->num_contacts; ++i) {
-    for (PetscInt j = 0; j < p->contacts[i].side[0].num_nodes; ++j) *hash = (*hash ^ (uint64_t)(p->contacts[i].active[j] + 1)) * 1099511628211ull;
+    const Contact *c = &p->contacts[i];
+    for (PetscInt k = 0; k < c->side[0].num_own; ++k) {
+      if (c->active[c->side[0].own[k]]) *hash += Mix_Private(((uint64_t)i << 40) + (uint64_t)c->side[0].own[k]);
+    }
   }
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, hash, 1, MPI_UINT64_T, MPI_SUM, p->comm));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

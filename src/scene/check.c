@@ -110,6 +110,9 @@ static PetscErrorCode MatchBodies_Private(Scene s, const CoarseMesh *m)
     PetscInt         index = Index_Private(b->spec.name, m->num_bodies, m->body_name);
     PetscCheckInput(index >= 0, "%s: the mesh has no physical group '%s' of dimension %d; it has: %s", NodeWhere(b->node), b->spec.name, (int)m->dim, list);
     s->data.bodies[index] = b->spec;
+    PetscCheckInput(s->data.adapt.strategy == ADAPT_H || b->spec.order <= s->data.adapt.max_order,
+                    "%s is %d, but body '%s' has order %d from the start; allowed: %d to %d", NodeWhere(NodeFind(NodeFind(s->root, "adapt"), "max_order")),
+                    (int)s->data.adapt.max_order, b->spec.name, (int)b->spec.order, (int)b->spec.order, MORTISE_MAX_ORDER);
   }
   for (PetscInt i = 0; i < m->num_bodies; ++i)
     PetscCheckInput(s->data.bodies[i].material, "%s: body '%s' of the mesh has no material; add body: {%s: {material: ...}}", s->root->origin, m->body_name[i],

@@ -95,7 +95,9 @@ const Option Options[] = {
      SCENE(data.adapt.share)},
     {"adapt.aspect", KEY_REAL, "", "64", "[1,1e6]", "anisotropic: no split leaves an edge more than this many times as long as the cell's shortest",
      SCENE(data.adapt.aspect)},
-    {"adapt.strategy", KEY_WORD, "", "h", "h|p|hp", "what adaptation changes; p and hp are not built yet", SCENE(data.adapt.strategy)},
+    {"adapt.strategy", KEY_WORD, "", "h", "h|p|hp", "what adaptation changes: cells are split, their orders raised, or whichever suits the solution in each",
+     SCENE(data.adapt.strategy)},
+    {"adapt.max_order", KEY_INT, "", "8", "[1,8]", "strategies p and hp: no cell above this order", SCENE(data.adapt.max_order)},
 
     {"output.directory", KEY_TEXT, "", "", "", "relative to the working directory; default: out/<name of the scene>", SCENE(data.output.directory)},
     {"output.fields", KEY_BOOL, "", "true", "", "write fields.xdmf and its HDF5 files", SCENE(data.output.fields)},

@@ -25,7 +25,6 @@ static PetscErrorCode ReadGeneral_Private(Scene s)
   PetscCheckInput(d->load.step <= d->load.end, "%s: load.step is %g, but load.end only %g", s->root->origin, (double)d->load.step, (double)d->load.end);
   PetscCheckInput(d->load.step_min <= d->load.step && d->load.step <= d->load.step_max, "%s: load.step is %g; it must lie between step_min %g and step_max %g",
                   s->root->origin, (double)d->load.step, (double)d->load.step_min, (double)d->load.step_max);
-  PetscCheckInput(d->adapt.strategy == ADAPT_H, "%s: p and hp are not built yet; allowed: h", NodeWhere(NodeFind(NodeFind(s->root, "adapt"), "strategy")));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

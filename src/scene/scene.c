@@ -257,8 +257,11 @@ PetscErrorCode SceneView(Scene s, PetscViewer viewer)
   PetscCall(PetscViewerASCIIPrintf(viewer, "  load t = 0 .. %.6g, first step %.6g, steps %.6g .. %.6g\n", (double)d->load.end, (double)d->load.step,
                                    (double)d->load.step_min, (double)d->load.step_max));
   if (d->adapt.tolerance > 0)
-    PetscCall(PetscViewerASCIIPrintf(viewer, "  adaptation to a relative error of %.6g, at most %d passes and %d cells%s\n", (double)d->adapt.tolerance,
-                                     (int)d->adapt.max_passes, (int)d->adapt.max_cells, d->adapt.anisotropic ? ", anisotropic" : ""));
+    PetscCall(PetscViewerASCIIPrintf(viewer, "  adaptation to a relative error of %.6g, at most %d passes and %d cells%s%s\n", (double)d->adapt.tolerance,
+                                     (int)d->adapt.max_passes, (int)d->adapt.max_cells, d->adapt.anisotropic ? ", anisotropic" : "",
+                                     d->adapt.strategy == ADAPT_H   ? ""
+                                     : d->adapt.strategy == ADAPT_P ? ", by orders (p)"
+                                                                    : ", by size and order (hp)"));
   else
     PetscCall(PetscViewerASCIIPrintf(viewer, "  no adaptation\n"));
   for (PetscInt i = 0; i < d->num_probes; ++i)

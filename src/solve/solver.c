@@ -7,7 +7,7 @@
 
 /* Orders from which condensation pays (docs/results.md). */
 #define CONDENSE_2D 3
-#define CONDENSE_3D 3
+#define CONDENSE_3D 4
 
 static PetscErrorCode Function_Private(SNES snes, Vec x, Vec r, void *context)
 {

@@ -150,6 +150,36 @@ static PetscErrorCode NodePlace_Private(const ForestTables *t, const SurfaceView
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Mark the nodes of a facet, and those they hang on. */
+static void MarkNodes_Private(const SurfaceView *s, PetscInt facet, PetscBool wanted[])
+{
+  const PetscInt *node, num = SurfaceFacetNodes(s, facet, &node);
+
+  for (PetscInt k = 0; k < num; ++k) {
+    wanted[node[k]] = PETSC_TRUE;
+    for (PetscInt m = s->hang[node[k]]; m < s->hang[node[k] + 1]; ++m) wanted[s->hang_master[m]] = PETSC_TRUE;
+  }
+}
+
+PetscErrorCode TransferMultiplierNeeds_Private(const ForestTables *old_t, const SurfaceView *old_view, const SurfaceView *new_view, const ForestMap *map,
+                                               PetscBool wanted[])
+{
+  PetscInt *first, *facet;
+
+  PetscFunctionBegin;
+  PetscCall(LeafFacets_Private(old_t->num_leaves, old_view, &first, &facet));
+  PetscCall(PetscArrayzero(wanted, old_view->num_nodes));
+  for (PetscInt f = 0; f < new_view->num_facets; ++f) {
+    const PetscInt leaf = new_view->facet_leaf[f], end = map->old_first[leaf] + map->old_count[leaf], *node, num = SurfaceFacetNodes(new_view, f, &node);
+    PetscBool      mine = PETSC_FALSE;
+    for (PetscInt i = 0; i < num; ++i) mine = (PetscBool)(mine || new_view->owned[node[i]]);
+    for (PetscInt k = first[map->old_first[leaf]]; k < first[end] && mine; ++k) MarkNodes_Private(old_view, facet[k], wanted);
+  }
+  PetscCall(PetscFree(first));
+  PetscCall(PetscFree(facet));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode TransferMultiplier_Private(const ForestTables *old_t, const SurfaceView *old_view, const PetscReal z[], const PetscBool has_multiplier[],
                                           const ForestTables *new_t, const SurfaceView *new_view, const ForestMap *map, PetscReal new_z[])
 {
@@ -163,6 +193,7 @@ PetscErrorCode TransferMultiplier_Private(const ForestTables *old_t, const Surfa
     for (PetscInt i = 0; i < num; ++i) { /* a node of several facets comes up several times, mostly with the same result */
       PetscReal at[3];
       PetscBool found = PETSC_FALSE;
+      if (!new_view->owned[node[i]]) continue;
       PetscCall(NodePlace_Private(new_t, new_view, f, i, at));
       for (PetscInt k = first[map->old_first[leaf]]; k < first[end] && !found; ++k)
         PetscCall(FacetValue_Private(old_t, old_view, z, has_multiplier, facet[k], at, &new_z[node[i]], &found));

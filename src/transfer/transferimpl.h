@@ -34,6 +34,9 @@ PetscErrorCode TransferDisplacement_Private(const TransferContext *, const OldCe
 PetscErrorCode TransferPressure_Private(const TransferContext *, const OldCells *, PetscReal pressure[]);
 /* Pressure coefficients of a leaf of this order and body. */
 PetscInt TransferNumPressure_Private(const TransferContext *, PetscInt body, PetscInt order);
-/* multiplier.c: z on the new nonmortar nodes from the old ones; has_multiplier: where old values mean something. Replicated input and output. */
+/* multiplier.c: z on this rank's new nonmortar nodes from the old ones, of which those are needed that Needs says (the others are not read); has_multiplier:
+   where old values mean something. Not collective. */
+PetscErrorCode TransferMultiplierNeeds_Private(const ForestTables *old_t, const SurfaceView *old_view, const SurfaceView *new_view, const ForestMap *,
+                                               PetscBool wanted[]);
 PetscErrorCode TransferMultiplier_Private(const ForestTables *old_t, const SurfaceView *old_view, const PetscReal z[], const PetscBool has_multiplier[],
                                           const ForestTables *new_t, const SurfaceView *new_view, const ForestMap *, PetscReal new_z[]);

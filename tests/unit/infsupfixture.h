@@ -116,7 +116,7 @@ static inline Mat Norm(const Bulk *b, PetscInt n)
     OK(PetscMalloc3(size * size, &K, size * size, &Km, size, &dofs));
     CellNorm(b, v->dim, v->cell_order[c], c, K);
     OK(HPSpaceTransformMatrix(b->space, c, K, Km, dofs, &num));
-    OK(Insert(&a, num, dofs, Km));
+    OK(Insert(&a, c, num, dofs, Km));
     OK(PetscFree3(K, Km, dofs));
   }
   OK(MatAssemblyBegin(a.A, MAT_FINAL_ASSEMBLY));
@@ -124,7 +124,7 @@ static inline Mat Norm(const Bulk *b, PetscInt n)
   return a.A;
 }
 
-static inline PetscErrorCode Ignore(void *context, PetscInt num, const PetscInt dofs[], const PetscReal K[])
+static inline PetscErrorCode Ignore(void *context, PetscInt cell, PetscInt num, const PetscInt dofs[], const PetscReal K[])
 {
   return PETSC_SUCCESS;
 }

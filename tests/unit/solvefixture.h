@@ -9,7 +9,7 @@ typedef struct {
   const PetscInt *global;
 } Assembly;
 
-static inline PetscErrorCode Insert(void *context, PetscInt num, const PetscInt dofs[], const PetscReal K[])
+static inline PetscErrorCode Insert(void *context, PetscInt cell, PetscInt num, const PetscInt dofs[], const PetscReal K[])
 {
   const Assembly *a = context;
   PetscInt       *rows;

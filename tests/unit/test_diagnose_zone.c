@@ -35,11 +35,11 @@ static void LineMake(Line *l, PetscInt n, PetscReal lo, PetscReal hi, PetscReal 
     l->edges[2 * e]     = e;
     l->edges[2 * e + 1] = e + 1;
   }
-  l->view.nonmortar      = (SurfaceView){.dim = 2, .corners = 2, .num_nodes = n, .num_facets = n - 1, .facets = l->edges, .x = l->x, .X = l->x};
-  l->view.z              = l->z;
-  l->view.gap            = l->gap;
-  l->view.weight         = l->weight;
-  l->view.active         = l->active;
+  l->view.nonmortar = (SurfaceView){.dim = 2, .corners = 2, .num_nodes = n, .num_facets = n - 1, .facets = l->edges, .x = l->x, .X = l->x, .owned = l->has};
+  l->view.z         = l->z;
+  l->view.gap       = l->gap;
+  l->view.weight    = l->weight;
+  l->view.active    = l->active;
   l->view.has_multiplier = l->has;
 }
 
@@ -69,7 +69,7 @@ static void HertzRadius(void **state)
   for (PetscInt n = 20; n <= 320; n *= 2) {
     const PetscReal h = 4.2 / (PetscReal)(n - 1);
     LineMake(&l, n, -2.1, 2.1, Hertz);
-    assert_int_equal(BalanceZone(&l.view, &f), 0);
+    assert_int_equal(BalanceZone(PETSC_COMM_SELF, &l.view, &f), 0);
     assert_near(f.radius, 1, h * h);
     assert_near(f.area, 2, 2 * h);
     assert_near(f.max_pressure, 1, h * h);
@@ -86,7 +86,7 @@ static void HalfModel(void **state)
   PairFigures f;
 
   LineMake(&l, 64, 0, 2.1, Hertz);
-  assert_int_equal(BalanceZone(&l.view, &f), 0);
+  assert_int_equal(BalanceZone(PETSC_COMM_SELF, &l.view, &f), 0);
   assert_near(f.radius, 1, PetscSqr(2.1 / 63));
 }
 
@@ -98,7 +98,7 @@ static void PunchRadius(void **state)
 
   for (PetscInt n = 20; n <= 320; n *= 2) {
     LineMake(&l, n, -2.1, 2.1, Punch);
-    assert_int_equal(BalanceZone(&l.view, &f), 0);
+    assert_int_equal(BalanceZone(PETSC_COMM_SELF, &l.view, &f), 0);
     assert_near(f.radius, 1, 0.5000001 * 4.2 / (PetscReal)(n - 1));
   }
 }
@@ -109,7 +109,7 @@ static void NoZone(void **state)
   PairFigures f;
 
   LineMake(&l, 9, -2, 2, Nothing);
-  assert_int_equal(BalanceZone(&l.view, &f), 0);
+  assert_int_equal(BalanceZone(PETSC_COMM_SELF, &l.view, &f), 0);
   assert_near(f.radius, 0, 0);
   assert_near(f.area, 0, 0);
   assert_int_equal(f.active_nodes, 0);
@@ -123,7 +123,7 @@ static void WholeSurface(void **state)
   PairFigures f;
 
   LineMake(&l, 9, -2, 2, Everywhere);
-  assert_int_equal(BalanceZone(&l.view, &f), 0);
+  assert_int_equal(BalanceZone(PETSC_COMM_SELF, &l.view, &f), 0);
   assert_near(f.radius, 2, 1e-14);
   assert_near(f.area, 4, 1e-14);
   for (PetscInt i = 6; i < 9; ++i) {
@@ -132,7 +132,7 @@ static void WholeSurface(void **state)
     l.active[i] = PETSC_FALSE;
     l.z[i]      = 0;
   }
-  assert_int_equal(BalanceZone(&l.view, &f), 0);
+  assert_int_equal(BalanceZone(PETSC_COMM_SELF, &l.view, &f), 0);
   assert_int_equal(f.covered_nodes, 6);
   assert_near(f.area, 2.75, 1e-14);
   assert_near(f.min_gap, -1e-9, 1e-15);

@@ -50,7 +50,7 @@ static void Marks(PetscInt dim, const PetscInt n[3], PetscInt refine, PetscInt o
   BulkSetUp(&b, order, order);
   Along(&b, dim, axes, &e);
   OK(ForestGetTables(b.forest, &t));
-  OK(EstimateMark(&e, &spec, b.forest, &marks, &num));
+  OK(EstimateMark(&e, &spec, b.forest, &marks, NULL, &num));
   assert_int_equal(num, t->num_leaves);
   for (PetscInt l = 0; l < t->num_leaves; ++l) {
     PetscInt split = 0;

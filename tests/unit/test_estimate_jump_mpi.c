@@ -44,7 +44,7 @@ static void Kink(PetscInt dim, PetscInt order, PetscBool anisotropic, uint64_t s
   sum = (EstimateSum){.space = b.space, .mechanics = b.mechanics, .spec = &b.spec, .u = u, .eta2 = eta2};
   OK(EstimateBulk_Private(&sum));
   OK(MPI_Allreduce(MPI_IN_PLACE, eta2, (PetscMPIInt)t->num_leaves, MPIU_REAL, MPI_SUM, PETSC_COMM_WORLD));
-  const PetscReal factor = ESTIMATE_SCALE / (order * PetscSqrtReal(2)); /* modulus sqrt(mu (kappa + 4/3 mu)) = sqrt(2) */
+  const PetscReal factor = EstimateScale_Private(order) / (order * PetscSqrtReal(2)); /* modulus sqrt(mu (kappa + 4/3 mu)) = sqrt(2) */
   for (PetscInt l = 0; l < t->num_leaves; ++l) {
     int64_t   lo[3], hi[3];
     PetscReal expected = 0;

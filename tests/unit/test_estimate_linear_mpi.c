@@ -125,8 +125,8 @@ static void MissingTraction(void **state)
       FillLinear(&b, gradient, &u);
       Sum(&b, u, &sum, &eta2);
       for (PetscInt c = 0; c < dim; ++c) square += PetscSqr(P[3 * c]);
-      assert_near(sum.part[PART_BOUNDARY], ESTIMATE_SCALE * 0.25 / (order * EstimateModulus_Private(&b.material)) * square, 1e-13);
-      assert_near(Total(&sum), PetscSqrtReal(ESTIMATE_SCALE * 0.25 / (order * EstimateModulus_Private(&b.material)) * square), 1e-12);
+      assert_near(sum.part[PART_BOUNDARY], EstimateScale_Private(order) * 0.25 / (order * EstimateModulus_Private(&b.material)) * square, 1e-13);
+      assert_near(Total(&sum), PetscSqrtReal(EstimateScale_Private(order) * 0.25 / (order * EstimateModulus_Private(&b.material)) * square), 1e-12);
       OK(PetscFree(u));
       OK(PetscFree(eta2));
       BulkDestroy(&b);

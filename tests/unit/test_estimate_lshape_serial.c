@@ -129,7 +129,7 @@ static void Cycles(PetscInt order, PetscInt cycles, Formulation formulation, Pet
     for (PetscInt l = 0; l < t->num_leaves; ++l) e.total += e.eta2[l];
     errors[cycle] = BulkError(&b, Strain, u);
     dofs[cycle]   = n;
-    OK(EstimateMark(&e, &spec, forest, &marks, &marked));
+    OK(EstimateMark(&e, &spec, forest, &marks, NULL, &marked));
     const PetscReal effectivity = PetscSqrtReal(e.total) / errors[cycle], share = CornerShare(forest, t, &marks);
     print_message("p %d %s cycle %2d cells %5d dofs %6d |e|/norm %.3e eta/|e| %.3f marked %4d corner %.2f energy %.10e\n", (int)order,
                   b.material.mixed ? "mixed" : "displ", (int)cycle, (int)t->num_leaves, (int)n, (double)(errors[cycle] / PetscSqrtReal(2 * sum.energy)),

@@ -11,7 +11,7 @@ static void Mark(Forest forest, PetscReal eta2[], PetscReal fraction, PetscReal 
 
   OK(ForestGetTables(forest, &t));
   e.num_leaves = t->num_leaves;
-  OK(EstimateMark(&e, &spec, forest, marks, num));
+  OK(EstimateMark(&e, &spec, forest, marks, NULL, num));
 }
 
 static void Shares(void **state)
@@ -108,22 +108,22 @@ static void Directions(void **state)
   MarkList       marks;
   PetscInt       num;
 
-  OK(EstimateMark(&e, &spec, forest, &marks, &num));
+  OK(EstimateMark(&e, &spec, forest, &marks, NULL, &num));
   assert_int_equal(num, 4);
   for (PetscInt l = 0; l < 4; ++l) assert_int_equal(marks.split[l], expected[l]);
   OK(MarkListDestroy(&marks));
   spec.aspect = 1.5; /* half a cube is twice as long as wide */
-  OK(EstimateMark(&e, &spec, forest, &marks, &num));
+  OK(EstimateMark(&e, &spec, forest, &marks, NULL, &num));
   for (PetscInt l = 0; l < 4; ++l) assert_int_equal(marks.split[l], 7);
   OK(MarkListDestroy(&marks));
   spec.aspect    = 2;
   spec.max_cells = 4 + 3 + 7; /* 3 more by the first, 7 by the second, nothing left for the third */
-  OK(EstimateMark(&e, &spec, forest, &marks, &num));
+  OK(EstimateMark(&e, &spec, forest, &marks, NULL, &num));
   assert_int_equal(num, 2);
   OK(MarkListDestroy(&marks));
   spec.anisotropic = PETSC_FALSE;
   spec.max_cells   = 1000;
-  OK(EstimateMark(&e, &spec, forest, &marks, &num));
+  OK(EstimateMark(&e, &spec, forest, &marks, NULL, &num));
   for (PetscInt l = 0; l < 4; ++l) assert_int_equal(marks.split[l], 7);
   OK(MarkListDestroy(&marks));
   OK(ForestDestroy(&forest));
@@ -151,7 +151,7 @@ static void Aspect(void **state)
       e.eta2[l]     = 1;
       e.along[l][1] = 1;
     }
-    OK(EstimateMark(&e, &spec, forest, &marks, &num));
+    OK(EstimateMark(&e, &spec, forest, &marks, NULL, &num));
     OK(ForestAdapt(forest, &marks, NULL, 0, NULL, &adapted, &map));
     OK(MarkListDestroy(&marks));
     OK(ForestMapDestroy(&map));

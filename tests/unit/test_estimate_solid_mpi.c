@@ -42,12 +42,15 @@ static void SetField(Patch *p, const ContactView *view)
   OK(PetscFree(z));
 }
 
-/* Tractions at points of all facets of a side, blocks at rest: normals (0, 0, -1), stretch 1. Returns the largest error. */
+/* Tractions at points of all facets of this rank on a side, blocks at rest: normals (0, 0, -1), stretch 1. Returns the largest error. */
 static PetscReal SideError(const ContactTerms *terms, const ForestTables *t, const SurfaceView *s, PetscReal sign)
 {
-  PetscReal error = 0;
+  PetscReal   error = 0;
+  PetscMPIInt rank;
 
+  MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
   for (PetscInt f = 0; f < s->num_facets; ++f) {
+    if (t->leaf_rank[s->facet_leaf[f]] != rank) continue;
     for (PetscInt q = 0; q < 16; ++q) {
       const PetscReal xi[2] = {-0.97 + 0.6 * (PetscReal)(q % 4), -0.93 + 0.63 * (PetscReal)(q / 4)};
       PetscReal       N[4], X[3], T[3] = {0, 0, 0};

@@ -59,7 +59,7 @@ static void CheckNodes(const Case *c, const Surface *s, PetscInt group)
     assert_int_equal(hangs, v->node_hang[s->local[n]] < v->node_hang[s->local[n] + 1]);
     for (PetscInt d = 0; d < s->dim; ++d) {
       assert_near(s->X[s->dim * n + d], v->X[3 * s->local[n] + d], 1e-13);
-      assert_int_equal(s->dof[s->dim * n + d], hangs ? -1 : c->s.problem->index[s->dim * s->local[n] + d]);
+      assert_int_equal(s->dof[s->dim * n + d], hangs ? -1 : c->s.problem->row[s->dim * s->local[n] + d]);
     }
     if (s->owned[n]) ++num[0];
   }

@@ -1,5 +1,6 @@
-/* Transfer on straight cells: polynomials of degree p survive refinement, coarsening, both at once with repartition, mixed orders and skew frames, on any
-   number of ranks, to 1e-12; pressures of degree p-1 likewise; a merged cell's pressure is the L2 projection (its mean is the children's mean). */
+/* Transfer on straight cells: polynomials of degree p survive refinement, coarsening, both at once with repartition, orders that rise and fall, mixed orders
+   and skew frames, on any number of ranks, to 1e-12; pressures of degree p-1 likewise; any function of the space does when orders rise; a merged cell's
+   pressure is the L2 projection (its mean is the children's mean). */
 #include "bulkfixture.h"
 #include "transferimpl.h"
 
@@ -134,7 +135,7 @@ static void Frames(Bulk *b, PetscInt dim)
   OK(MechanicsCreate(b->space, &b->spec, &b->supports, &b->mechanics));
 }
 
-static PetscInt num_merged[3], num_refined[3]; /* new leaves, by mode: the test is only worth something when both occur */
+static PetscInt num_lowered, num_raised, num_merged[3], num_refined[3]; /* new leaves, by mode: the test is only worth something when both occur */
 
 /* From one bulk to the next by the marks; checks and replaces. mode: 0 refine, 1 coarsen, 2 both; weights shift the partition. */
 static void Step(Bulk *from, Bulk *to, PetscInt dim, PetscInt degree, PetscInt mode, uint64_t seed)
@@ -158,10 +159,15 @@ static void Step(Bulk *from, Bulk *to, PetscInt dim, PetscInt degree, PetscInt m
   Setting(to, dim);
   OK(ForestAdapt(from->forest, &marks, weight, 0, NULL, &to->forest, &map));
   OK(TransferOrders(&map, from->orders, &to->orders));
+  for (PetscInt l = 0; l < map.num && seed == 3; ++l) {
+    to->orders[l] = (int8_t)(degree + BoxRandom(2));
+    num_lowered += to->orders[l] < from->orders[map.old_first[l]];
+    num_raised += to->orders[l] > from->orders[map.old_first[l]];
+  }
   for (PetscInt l = 0; l < map.num; ++l) {
     num_merged[mode] += map.old_count[l] > 1;
     if (l && map.old_first[l] == map.old_first[l - 1]) num_refined[mode]++;
-    for (PetscInt k = map.old_first[l]; k < map.old_first[l] + map.old_count[l]; ++k) assert_true(to->orders[l] >= from->orders[k]);
+    for (PetscInt k = map.old_first[l]; seed < 3 && k < map.old_first[l] + map.old_count[l]; ++k) assert_true(to->orders[l] >= from->orders[k]);
   }
   Frames(to, dim);
   FillDisplacement(from, degree, &u);
@@ -194,7 +200,7 @@ static void Polynomials(void **state)
 {
   for (PetscInt dim = 2; dim <= 3; ++dim) {
     for (PetscInt degree = 1; degree <= 3; ++degree) {
-      for (uint64_t seed = 0; seed < 3; ++seed) {
+      for (uint64_t seed = 0; seed < 4; ++seed) {
         const PetscInt modes[] = {0, 2, 1};
         Bulk           b;
         Box            box;
@@ -203,7 +209,7 @@ static void Polynomials(void **state)
         const ForestTables *t;
         OK(ForestGetTables(b.forest, &t));
         OK(PetscMalloc1(t->num_leaves, &b.orders));
-        for (PetscInt l = 0; l < t->num_leaves; ++l) b.orders[l] = (int8_t)(degree + (seed == 2 ? BoxRandom(2) : 0));
+        for (PetscInt l = 0; l < t->num_leaves; ++l) b.orders[l] = (int8_t)(degree + (seed >= 2 ? BoxRandom(2) : 0));
         Frames(&b, dim);
         for (PetscInt i = 0; i < (dim == 3 && degree == 3 ? 2 : 3); ++i) {
           Bulk next;
@@ -222,6 +228,7 @@ static void Polynomials(void **state)
   }
   assert_true(num_refined[0] > 100 && num_refined[2] > 100);
   assert_true(num_merged[1] > 20 && num_merged[2] > 20);
+  assert_true(num_raised > 50 && num_lowered > 50);
 }
 
 /* Children with constant pressures merge: the parent's constant is their mean. */
@@ -278,9 +285,174 @@ static void MergedMean(void **state)
   BulkDestroy(&to);
 }
 
+/* Integrals over the body that tell a function: of |u|^2, of the pressure's square, and of both against X_1 X_2 (1 + X_1). */
+static void Moments(const Bulk *b, PetscReal u[], const PetscReal pressure[], PetscReal moment[4])
+{
+  const HPTables *v;
+  const PetscInt  dim = b->spec.model == MODEL_3D ? 3 : 2;
+
+  OK(HPSpaceGetTables(b->space, &v));
+  OK(PetscArrayzero(moment, 4));
+  for (PetscInt c = 0; c < v->num_owned_cells; ++c) {
+    const PetscInt order = v->cell_order[c], n = ElementNumNodes(dim, order);
+    const Basis1D *gauss;
+    PetscReal      values[3 * 125], nodes[3 * 125], N[125], G[3 * 125];
+    PetscInt       first, num;
+    OK(Basis1DGet(order, order + 3, &gauss));
+    OK(HPSpaceGather(b->space, c, u, values));
+    OK(HPSpaceGatherPositions(b->space, c, nodes));
+    OK(MechanicsPressureRange(b->mechanics, c, &first, &num));
+    for (PetscInt q = 0; q < ElementNumNodes(dim, order + 2); ++q) {
+      PetscReal xi[3], X[3] = {0}, uh[3] = {0}, J[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1}, weight = 1, p;
+      for (PetscInt d = 0, i = q; d < dim; ++d, i /= gauss->num_points) {
+        xi[d] = gauss->points[i % gauss->num_points];
+        weight *= gauss->weights[i % gauss->num_points];
+      }
+      OK(ElementEvaluate(dim, order, xi, N, G));
+      for (PetscInt a = 0; a < dim; ++a) J[4 * a] = 0;
+      for (PetscInt i = 0; i < n; ++i) {
+        for (PetscInt a = 0; a < dim; ++a) {
+          X[a] += N[i] * nodes[i * dim + a];
+          uh[a] += N[i] * values[i * dim + a];
+          for (PetscInt d = 0; d < dim; ++d) J[3 * a + d] += G[i * dim + d] * nodes[i * dim + a];
+        }
+      }
+      weight *= Det3(J);
+      OK(MechanicsPressureEvaluate(dim, order, 1, xi, pressure + first, &p));
+      const PetscReal test = X[0] * X[1] * (1 + X[0]);
+      moment[0] += weight * Dot3(uh, uh);
+      moment[1] += weight * (uh[0] - 2 * uh[1]) * test;
+      moment[2] += weight * p * p;
+      moment[3] += weight * p * test;
+    }
+  }
+  OK(MPI_Allreduce(MPI_IN_PLACE, moment, 4, MPIU_REAL, MPI_SUM, PETSC_COMM_WORLD));
+}
+
+/* Nodes of other ranks' from their owners. */
+static void Complete(const Bulk *b, PetscReal u[])
+{
+  const HPTables     *v;
+  const ForestTables *t;
+  const PetscInt     *global;
+  const PetscScalar  *array;
+  DM                  dm;
+  Vec                 g, l;
+  PetscMPIInt         rank;
+
+  OK(MPI_Comm_rank(PETSC_COMM_WORLD, &rank));
+  OK(HPSpaceGetTables(b->space, &v));
+  OK(ForestGetTables(b->forest, &t));
+  OK(HPSpaceGetGlobalDofs(b->space, &global));
+  OK(HPSpaceGetDM(b->space, &dm));
+  OK(DMCreateGlobalVector(dm, &g));
+  OK(DMCreateLocalVector(dm, &l));
+  for (PetscInt i = 0; i < v->num_nodes * v->dim; ++i) {
+    const PetscInt entity = v->node_entity[i / v->dim];
+    if (global[i] >= 0 && t->leaf_rank[t->entity_leaf[entity]] == rank) OK(VecSetValue(g, global[i], u[i], INSERT_VALUES));
+  }
+  OK(VecAssemblyBegin(g));
+  OK(VecAssemblyEnd(g));
+  OK(DMGlobalToLocal(dm, g, INSERT_VALUES, l));
+  OK(VecGetArrayRead(l, &array));
+  OK(PetscArraycpy(u, array, v->num_nodes * v->dim));
+  OK(VecRestoreArrayRead(l, &array));
+  OK(VecDestroy(&g));
+  OK(VecDestroy(&l));
+}
+
+/* A number that every rank makes of a place alike. */
+static PetscReal Hash(const PetscReal X[3], PetscReal salt)
+{
+  const PetscReal v = 1e4 * PetscSinReal(12.9898 * X[0] + 78.233 * X[1] + 37.719 * X[2] + salt);
+  return v - PetscFloorReal(v) - 0.5;
+}
+
+/* Any function of the space, hanging nodes and mixed cells included: where orders rise (and some cells are split, too) it stays what it is. */
+static void Raised(void **state)
+{
+  for (PetscInt dim = 2; dim <= 3; ++dim) {
+    for (uint64_t seed = 0; seed < 4; ++seed) {
+      Bulk                from, to;
+      Box                 box;
+      TransferContext     c;
+      OldCells            old;
+      const HPTables     *v;
+      const ForestTables *t;
+      MarkList            marks;
+      ForestMap           map;
+      PetscReal          *u, *pressure, *new_u, *new_pressure, *weight, before[4], after[4];
+      PetscInt            num, raised = 0;
+
+      Setting(&from, dim);
+      from.forest = BoxForest(PETSC_COMM_WORLD, dim, (const PetscInt[3]){2, 2, 1}, 1, 1, 0, &box);
+      BulkRefine(&from.forest, dim, 1, (PetscBool)(seed % 2));
+      OK(ForestGetTables(from.forest, &t));
+      OK(PetscMalloc1(t->num_leaves, &from.orders));
+      for (PetscInt l = 0; l < t->num_leaves; ++l) from.orders[l] = (int8_t)(1 + BoxRandom(dim == 2 ? 3 : 2));
+      Frames(&from, dim);
+      OK(HPSpaceGetTables(from.space, &v));
+      OK(PetscMalloc1(v->num_nodes * dim, &u));
+      for (PetscInt i = 0; i < v->num_nodes * dim; ++i)
+        u[i] = v->node_hang[i / dim + 1] > v->node_hang[i / dim] ? PETSC_MAX_REAL : Hash(v->X + 3 * (i / dim), (PetscReal)(i % dim));
+      OK(MechanicsNumPressure(from.mechanics, &num));
+      OK(PetscMalloc1(num, &pressure));
+      for (PetscInt cell = 0; cell < v->num_owned_cells; ++cell) {
+        PetscInt first, m;
+        OK(MechanicsPressureRange(from.mechanics, cell, &first, &m));
+        for (PetscInt k = 0; k < m; ++k) pressure[first + k] = Hash((const PetscReal[3]){v->cell_leaf[cell], k, 0}, 0);
+      }
+      Moments(&from, u, pressure, before);
+      OK(PetscCalloc1(t->num_leaves, &marks.split));
+      OK(PetscCalloc1(t->num_leaves, &marks.coarsen));
+      OK(PetscMalloc1(t->num_leaves, &weight));
+      for (PetscInt l = 0; l < t->num_leaves; ++l) {
+        marks.split[l] = (int8_t)(seed >= 2 && !BoxRandom(4) ? 1 + BoxRandom((1 << dim) - 1) : 0);
+        weight[l]      = 1 + 5 * BoxRandom(2);
+      }
+      Setting(&to, dim);
+      OK(ForestAdapt(from.forest, &marks, weight, 0, NULL, &to.forest, &map));
+      OK(TransferOrders(&map, from.orders, &to.orders));
+      for (PetscInt l = 0; l < map.num; ++l) {
+        const int8_t more = (int8_t)BoxRandom(2);
+        to.orders[l] += more;
+        raised += more;
+      }
+      assert_true(raised > 0);
+      Frames(&to, dim);
+      c = (TransferContext){
+          .old_space = from.space, .old_mechanics = from.mechanics, .spec = &from.spec, .new_space = to.space, .new_mechanics = to.mechanics, .map = &map};
+      OK(TransferContextSetUp_Private(&c));
+      OK(OldCellsFetch_Private(&c, u, PETSC_TRUE, pressure, &old));
+      OK(HPSpaceGetTables(to.space, &v));
+      OK(PetscCalloc1(v->num_nodes * dim, &new_u));
+      OK(MechanicsNumPressure(to.mechanics, &num));
+      OK(PetscCalloc1(num, &new_pressure));
+      OK(TransferDisplacement_Private(&c, &old, new_u));
+      OK(TransferPressure_Private(&c, &old, new_pressure));
+      Complete(&to, new_u);
+      Moments(&to, new_u, new_pressure, after);
+      for (PetscInt k = 0; k < 4; ++k) {
+        assert_true(k % 2 || before[k] > 1e-2);
+        assert_near(after[k], before[k], 1e-12);
+      }
+      OK(OldCellsDestroy_Private(&old));
+      MarksDestroy(&marks);
+      OK(ForestMapDestroy(&map));
+      OK(PetscFree(weight));
+      OK(PetscFree(u));
+      OK(PetscFree(pressure));
+      OK(PetscFree(new_u));
+      OK(PetscFree(new_pressure));
+      BulkDestroy(&from);
+      BulkDestroy(&to);
+    }
+  }
+}
+
 int main(int argc, char **argv)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(Polynomials), cmocka_unit_test(MergedMean)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(Polynomials), cmocka_unit_test(MergedMean), cmocka_unit_test(Raised)};
   if (PetscInitialize(&argc, &argv, NULL, NULL)) return 1;
   const int failed = cmocka_run_group_tests(tests, NULL, NULL);
   return PetscFinalize() || failed;

@@ -4,7 +4,7 @@
 #include "transfer.h"
 
 /* Carry p over to an adapted mesh; p is the new one afterwards. */
-static void Move(Patch *p, PetscBool coarsen)
+static void Move(Patch *p, PetscBool coarsen, PetscBool raise)
 {
   Forest    adapted;
   ForestMap map;
@@ -14,6 +14,7 @@ static void Move(Patch *p, PetscBool coarsen)
 
   PatchAdapt(p->forest, coarsen, &adapted, &map);
   OK(TransferOrders(&map, p->state.leaf_order, &orders));
+  for (PetscInt l = 0; l < map.num && raise; ++l) orders[l] += (int8_t)PatchRandom(2);
   PatchProblem(&p->data, adapted, orders, &problem, &next);
   OK(ProblemJump(problem));
   OK(TransferState(p->problem, &p->state, problem, &map, &next));
@@ -43,7 +44,7 @@ static void Equilibrium(void **state)
     OK(PetscFree(orders));
     PatchSolve(p.problem, &p.state);
     for (PetscInt step = 0; step < 4; ++step) {
-      Move(&p, (PetscBool)(step % 2));
+      Move(&p, (PetscBool)(step % 2), PETSC_FALSE);
       OK(ProblemCreateVector(p.problem, &r));
       OK(ProblemSearch(p.problem, p.state.x));
       OK(ProblemResidual(p.problem, p.state.x, r, &status));
@@ -56,6 +57,38 @@ static void Equilibrium(void **state)
       }
       OK(VecDestroy(&r));
     }
+    PatchDestroy(&p);
+  }
+}
+
+/* The same with orders that rise at random, from cell to cell: 1 .. 5. */
+static void RaisedOrders(void **state)
+{
+  for (PetscInt kind = 0; kind < 4; ++kind) {
+    Patch    p;
+    int8_t  *orders;
+    PetscInt highest = 0;
+    PatchScene(&p, 1, kind % 2 ? MODEL_AXISYMMETRIC : MODEL_PLANE_STRAIN, KINEMATICS_FINITE, kind >= 2 ? FORMULATION_MIXED : FORMULATION_DISPLACEMENT);
+    p.forest = PatchForest((const PetscInt[2]){3, 5});
+    OK(ProblemInitialOrders(&p.data, p.forest, &orders));
+    PatchProblem(&p.data, p.forest, orders, &p.problem, &p.state);
+    OK(PetscFree(orders));
+    PatchSolve(p.problem, &p.state);
+    for (PetscInt step = 0; step < 4; ++step) {
+      ProblemStatus status;
+      Vec           r;
+      PetscReal     norm;
+      Move(&p, (PetscBool)(step % 2), PETSC_TRUE);
+      OK(ProblemCreateVector(p.problem, &r));
+      OK(ProblemSearch(p.problem, p.state.x));
+      OK(ProblemResidual(p.problem, p.state.x, r, &status));
+      OK(VecNorm(r, NORM_INFINITY, &norm));
+      assert_true(status.scale > 1e-3);
+      assert_near(norm, 0, 1e-9 * status.scale);
+      OK(VecDestroy(&r));
+    }
+    for (PetscInt l = 0; l < p.state.num_leaves; ++l) highest = PetscMax(highest, p.state.leaf_order[l]);
+    assert_true(highest >= 3);
     PatchDestroy(&p);
   }
 }
@@ -81,12 +114,12 @@ static void LinearMultipliers(void **state)
   OK(ProblemSetMultipliers(p.problem, 0, z, p.state.x));
   OK(PetscFree(z));
   for (PetscInt step = 0; step < 4; ++step) {
-    Move(&p, (PetscBool)(step % 2));
+    Move(&p, (PetscBool)(step % 2), PETSC_FALSE);
     OK(ProblemCreateVector(p.problem, &r));
     OK(ProblemSearch(p.problem, p.state.x));
     OK(ProblemResidual(p.problem, p.state.x, r, &status));
     OK(VecDestroy(&r));
-    OK(ProblemGetContact(p.problem, 0, &view));
+    OK(ProblemGatherContactToAll(p.problem, 0, &view));
     for (PetscInt n = 0; n < view->nonmortar.num_nodes; ++n) assert_near(view->z[n], 0.1 + 0.03 * view->nonmortar.X[2 * n], 1e-13);
   }
   PatchDestroy(&p);
@@ -94,7 +127,7 @@ static void LinearMultipliers(void **state)
 
 int main(int argc, char **argv)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(Equilibrium), cmocka_unit_test(LinearMultipliers)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(Equilibrium), cmocka_unit_test(RaisedOrders), cmocka_unit_test(LinearMultipliers)};
   if (PetscInitialize(&argc, &argv, NULL, NULL)) return 1;
   const int failed = cmocka_run_group_tests(tests, NULL, NULL);
   return PetscFinalize() || failed;

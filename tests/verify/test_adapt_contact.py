@@ -75,3 +75,57 @@ def test_estimate_in_three_dimensions(run):
         assert all(1 < value < 2.5 for value in effectivity), effectivity
         assert rows[-1]["active_nodes"] > 2 * rows[0]["active_nodes"]
         assert abs(rows[-1]["contact_force"] / rows[-2]["contact_force"] - 1) < 1e-3
+
+
+def cost(result, estimate):
+    """Unknowns of the first pass that estimates no more, and the error of its force."""
+    assert result.returncode == 0, result
+    row = next(row for row in result.adapt if row["estimated_error"] <= estimate)
+    return row["dofs"], abs(row["contact_force"] / FORCE - 1)
+
+
+def test_hp_takes_fewer_unknowns_with_linear_faces(run):
+    """To half a per cent estimated: hp, begun with order 1, against cells of order 2 split only. Its force is right; cells at the faces keep their order."""
+    hp = run(SCENE, *FINE_ARC, "-order", 1, "-adapt_strategy", "hp", "-adapt_tolerance", 0.0055)
+    h = run(SCENE, *FINE_ARC, "-adapt_tolerance", 0.0055, "-output_fields", "false")
+    (n, error), (m, _) = cost(hp, 0.0055), cost(h, 0.0055)
+    assert n < 0.6 * m and error < 2e-4, (n, m, error)
+    state = hp.states()[-1][1]
+    order = np.rint(state["order"]).ravel()
+    assert order.max() >= 5
+    near = near_edges(state, hp.summary["contact"]["disc_on_block"]["radius"], 0.005)
+    assert near.any() and order[near].max() <= 3, order[near]
+
+
+@pytest.mark.parametrize("ranks", [1, 3])
+def test_hp_of_rubber(run, ranks):
+    """Mixed cells of mixed orders: the force to the uncertainty of its reference, on any number of ranks."""
+    result = run("inputs/rubber2d.yml", "-adapt_strategy", "hp", "-output_fields", "false", ranks=ranks)
+    assert result.returncode == 0 and result.summary["estimated_error"] <= 0.06, result
+    assert abs(-result.summary["reaction"]["top"][1] / 0.4024 - 1) < 2.5e-3
+    assert result.summary["dofs"] < 2211  # what order 2 takes, split only
+
+
+def test_p_leaves_cells_at_linear_faces_alone(run):
+    """Orders rise to 8 where they may, and what is left to do is said."""
+    result = run(SCENE, "-adapt_strategy", "p", "-adapt_tolerance", 0.001, "-adapt_max_passes", 30)
+    assert result.returncode == 0, result
+    assert result.summary["adapt_stop"] in ("nothing left to refine", "max_passes")
+    assert len({row["cells"] for row in result.adapt}) == 1
+    state = result.states()[-1][1]
+    assert np.rint(state["order"]).max() == 8 and np.rint(state["order"]).min() == 2
+
+
+def test_hp_with_contact_faces_of_full_order(run):
+    """Orders rise at the faces as well, cells at the edges of the zone of contact are split: a third of the unknowns for a third of a per cent."""
+    full = ("-contact_disc_on_block_order", "full", "-adapt_tolerance", 0.0035)
+    hp = run(SCENE, *FINE_ARC, *full, "-adapt_strategy", "hp")
+    h = run(SCENE, *FINE_ARC, *full, "-output_fields", "false")
+    (n, error), (m, _) = cost(hp, 0.0035), cost(h, 0.0035)
+    assert n < 0.4 * m and error < 2e-4, (n, m, error)
+    state = hp.states()[-1][1]
+    order = np.rint(state["order"]).ravel()
+    radius = hp.summary["contact"]["disc_on_block"]["radius"]
+    centre = state["X"][state["cells"]].mean(axis=1)
+    inside = (np.abs(centre[:, 1]) < 0.03) & (np.abs(centre[:, 0]) < 0.5 * radius)
+    assert order[inside].max() >= 4, order[inside]

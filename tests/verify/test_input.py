@@ -131,6 +131,9 @@ def test_good_on_two_ranks(check):
     (("load:", "adapt: {fraction: 2}\nload:"), ["adapt.fraction is 2", r"\(0,1\]"]),
     (("load:", "adapt: {share: 1.5}\nload:"), ["adapt.share is 1.5", r"\[0,1\]"]),
     (("load:", "adapt: {aspect: 0.5}\nload:"), ["adapt.aspect is 0.5", r"\[1,1e6\]"]),
+    (("load:", "adapt: {strategy: r}\nload:"), ["adapt.strategy is .r.", r"h\|p\|hp|h, p, hp"]),
+    (("load:", "adapt: {max_order: 9}\nload:"), ["adapt.max_order is 9", r"\[1,8\]"]),
+    (("order: 1\nbody:", "order: 3\nadapt: {strategy: hp, max_order: 2}\nbody:"), ["adapt.max_order is 2", "has order 3", "allowed: 3 to 8"]),
     (("load:", "adapt: {anisotropic: maybe}\nload:"), ["adapt.anisotropic is .maybe.", "true, false"]),
     (("model: plane_strain", "model: plane_stress"), ["model is 'plane_stress'", "plane_strain"]),
     (("law: neo_hookean", "law: neohookean"), ["material.rubber.law is 'neohookean'", "neo_hookean"]),
@@ -145,7 +148,6 @@ def test_good_on_two_ranks(check):
     (("friction: 0", "projection: along"), ["contact.pair.projection is 'along'", "continuous, facet|continuous.*facet"]),
     (("friction: 0", "projection: facet"), ["contact.pair.projection: only faces of order 1 in three dimensions"]),
     (("friction: 0", "order: full, node_to_segment: true"), ["contact.pair.order", "do not go together"]),
-    (("load:", "adapt: {strategy: hp}\nload:"), ["adapt.strategy", "not built yet"]),
     (("{law: neo_hookean, E: 1, nu: 0.3}", "{law: hgo, c: 1, kappa: 2, k1: 1, k2: 1, fiber: {a: {angle: 29}}}"), ["law hgo is not built yet"]),
     (("{law: neo_hookean, E: 1, nu: 0.3}", "{law: j2, E: 1, nu: 0.3, yield: 1}"), ["law j2 is not built yet"]),
     # the file

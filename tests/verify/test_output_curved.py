@@ -46,3 +46,17 @@ def test_points_lie_on_the_curve(run, order, divide, pieces, circle, radius, str
 def test_word_that_is_none(run):
     result = run("inputs/tube.yml", "-output_divide", 9)
     assert result.returncode == 1 and "output.divide is '9'; allowed: auto|1|2" in result.stdout + result.stderr
+
+
+@pytest.mark.parametrize("order", (2, 4, 8))
+def test_contact_faces_are_curved(run, order):
+    """Contact faces of the cells' order are cut at their nodes, on the circle of the half disc; the bulk beside them is drawn on it too."""
+    result = run("inputs/hertz2d.yml", "-order", order, "-mesh_order", 4, "-contact_disc_on_block_order", "full", "-adapt_tolerance", 0, ranks=2)
+    assert result.returncode == 0, result
+    contact, bulk = (result.states(grid)[-1][1] for grid in ("contact", "bulk"))
+    own = numpy.unique(contact["cells"][contact["side"] == 0])
+    assert len(own) == order * len(set(contact["cell"][contact["side"] == 0])) + 1
+    assert numpy.abs(numpy.linalg.norm(contact["X"][own, :2] - (0, 1), axis=1) - 1).max() < 1e-5
+    R = numpy.linalg.norm(bulk["X"][:, :2] - (0, 1), axis=1)
+    near = (numpy.abs(R - 1) < 1e-5) & (bulk["X"][:, 1] < 1 - 1e-9)
+    assert near.sum() >= len(own) - 2 and R[bulk["X"][:, 1] > 1e-9].max() < 1 + 1e-5

@@ -1,0 +1,50 @@
+/* Messages between few of many ranks: only the sender knows of them beforehand. */
+#include "base.h"
+
+/* Who sends here, and how many entries, in ascending order of rank. */
+static PetscErrorCode Senders_Private(MPI_Comm comm, PetscMPIInt num_to, const PetscMPIInt to[], const PetscInt first[], PetscMPIInt *num_from,
+                                      PetscMPIInt **from, PetscInt **count)
+{
+  PetscInt *counts;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(num_to, &counts));
+  for (PetscMPIInt i = 0; i < num_to; ++i) counts[i] = first[i + 1] - first[i];
+  PetscCall(PetscCommBuildTwoSided(comm, 1, MPIU_INT, num_to, to, counts, num_from, from, count));
+  PetscCall(PetscSortMPIIntWithIntArray(*num_from, *from, *count));
+  PetscCall(PetscFree(counts));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SparseExchange(MPI_Comm comm, PetscMPIInt num_to, const PetscMPIInt to[], const PetscInt first[], size_t entry, const void *send,
+                              PetscInt *num_received, void *received)
+{
+  PetscMPIInt  num_from, *from, tag;
+  PetscInt    *count, total = 0;
+  MPI_Comm     inner;
+  MPI_Request *request;
+  char        *buffer;
+
+  PetscFunctionBegin;
+  PetscCall(Senders_Private(comm, num_to, to, first, &num_from, &from, &count));
+  for (PetscMPIInt i = 0; i < num_from; ++i) total += count[i];
+  PetscCall(PetscMalloc1((size_t)total * entry, &buffer));
+  PetscCall(PetscMalloc1(num_to + num_from, &request));
+  PetscCall(PetscCommDuplicate(comm, &inner, &tag));
+  *num_received = 0;
+  for (PetscMPIInt i = 0; i < num_from; ++i) {
+    PetscCallMPI(MPI_Irecv(buffer + (size_t)*num_received * entry, (PetscMPIInt)((size_t)count[i] * entry), MPI_BYTE, from[i], tag, inner, &request[i]));
+    *num_received += count[i];
+  }
+  for (PetscMPIInt i = 0; i < num_to; ++i) {
+    PetscCallMPI(MPI_Isend((const char *)send + (size_t)first[i] * entry, (PetscMPIInt)((size_t)(first[i + 1] - first[i]) * entry), MPI_BYTE, to[i], tag, inner,
+                           &request[num_from + i]));
+  }
+  PetscCallMPI(MPI_Waitall(num_to + num_from, request, MPI_STATUSES_IGNORE));
+  PetscCall(PetscCommDestroy(&inner));
+  PetscCall(PetscFree(request));
+  PetscCall(PetscFree(from));
+  PetscCall(PetscFree(count));
+  *(void **)received = buffer;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

@@ -1,0 +1,111 @@
+/* Cells that a higher order gains nothing: those with a contact face of order 1 (its error stays), and those at the rim of a contact zone, where the pressure
+   starts like a root: all that share a vertex with a contact facet of which some nodes are pressed and others are not. */
+#include "estimateimpl.h"
+
+#define PRESSED 1e-8 /* of the largest nodal force: less is round-off of an open node */
+
+/* touched[entity]: a node of a facet on the rim. */
+static void Rim_Private(const SurfaceView *s, int8_t touched[])
+{
+  PetscReal most = 0;
+
+  for (PetscInt i = 0; i < s->num_nodes * s->dim; ++i) most = PetscMax(most, PetscAbsReal(s->force[i]));
+  for (PetscInt e = 0; e < s->num_facets; ++e) {
+    const PetscInt *node, num = SurfaceFacetNodes(s, e, &node);
+    PetscInt        pressed = 0, open = 0;
+    for (PetscInt k = 0; k < num; ++k) {
+      PetscReal force = 0;
+      if (s->hang[node[k]] < s->hang[node[k] + 1]) continue; /* its masters carry its force */
+      for (PetscInt c = 0; c < s->dim; ++c) force = PetscMax(force, PetscAbsReal(s->force[s->dim * node[k] + c]));
+      if (force > PRESSED * most)
+        ++pressed;
+      else
+        ++open;
+    }
+    for (PetscInt k = 0; k < s->corners && pressed && open; ++k) touched[s->node_entity[s->facets[s->corners * e + k]]] |= ESTIMATE_HELD_RIM;
+  }
+}
+
+/* Contact facets of order 1 on cells of a higher one; of this rank's cells. */
+static PetscErrorCode Linear_Private(const EstimateSum *sum, const SurfaceView *s, const PetscInt leaf_cell[], int8_t held[])
+{
+  PetscFunctionBegin;
+  for (PetscInt e = 0; e < s->num_facets; ++e) {
+    const PetscInt cell = leaf_cell[s->facet_leaf[e]];
+    PetscInt       order;
+    if (cell < 0 || cell >= sum->v->num_owned_cells) continue;
+    PetscCall(HPSpaceGetOrder(sum->space, s->facet_entity[e], &order));
+    if (order == 1 && sum->v->cell_order[cell] > 1) held[s->facet_leaf[e]] |= ESTIMATE_HELD_FACE;
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Outer facets: components prescribed (bits 0..2, 3: the normal one), bit 4: of a contact pair. */
+static PetscInt Condition_Private(const EstimateSum *sum, PetscInt facet)
+{
+  PetscBool loaded;
+  PetscInt  condition;
+
+  FacetConditions_Private(sum->spec, sum->t->boundary[facet], sum->t->dim, &condition, &loaded);
+  return condition | (sum->contact && ContactTermsHave_Private(sum->contact, facet - sum->t->first[sum->t->dim - 1]) ? 16 : 0);
+}
+
+/* touched[entity] of vertices (plane) or edges (space) between outer facets of different conditions. */
+static PetscErrorCode Corners_Private(const EstimateSum *sum, int8_t touched[])
+{
+  const ForestTables *t     = sum->t;
+  const PetscInt      first = t->first[t->dim - 1], end = t->first[t->dim], low = t->first[t->dim - 2];
+  PetscBool          *has_child;
+  int8_t             *seen;
+
+  PetscFunctionBegin;
+  PetscCall(PetscCalloc1(end - first, &has_child));
+  PetscCall(PetscMalloc1(first, &seen));
+  for (PetscInt i = 0; i < first; ++i) seen[i] = -1;
+  for (PetscInt f = first; f < end; ++f) {
+    if (t->parent[f] >= 0) has_child[t->parent[f] - first] = PETSC_TRUE;
+  }
+  for (PetscInt f = first; f < end; ++f) {
+    const PetscInt *leaf = t->facet_leaf + 2 * (f - first), *closure = t->closure + t->closure_offset[f];
+    if ((leaf[0] >= 0 && leaf[1] >= 0) || t->parent[f] >= 0 || has_child[f - first]) continue;
+    const int8_t condition = (int8_t)Condition_Private(sum, f);
+    for (PetscInt i = 0; i < (t->dim == 2 ? 3 : 9); ++i) {
+      if (closure[i] < low || closure[i] >= first) continue;
+      if (seen[closure[i]] >= 0 && seen[closure[i]] != condition) touched[closure[i]] |= ESTIMATE_HELD_CORNER;
+      seen[closure[i]] = condition;
+    }
+  }
+  PetscCall(PetscFree(seen));
+  PetscCall(PetscFree(has_child));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode EstimateHeld_Private(const EstimateSum *sum, int8_t held[])
+{
+  const ForestTables *t = sum->t;
+  int8_t             *touched;
+  PetscInt           *leaf_cell;
+
+  PetscFunctionBegin;
+  PetscCall(PetscCalloc1(t->num_entities, &touched));
+  PetscCall(PetscMalloc1(t->num_leaves, &leaf_cell));
+  for (PetscInt l = 0; l < t->num_leaves; ++l) leaf_cell[l] = -1;
+  for (PetscInt c = 0; c < sum->v->num_owned_cells; ++c) leaf_cell[sum->v->cell_leaf[c]] = c;
+  for (PetscInt i = 0; sum->contact && i < sum->contact->num; ++i) {
+    const ContactView *view = sum->contact->terms[i].view;
+    Rim_Private(&view->nonmortar, touched);
+    Rim_Private(&view->mortar, touched);
+    PetscCall(Linear_Private(sum, &view->nonmortar, leaf_cell, held));
+    PetscCall(Linear_Private(sum, &view->mortar, leaf_cell, held));
+  }
+  PetscCall(Corners_Private(sum, touched));
+  for (PetscInt c = 0; c < sum->v->num_owned_cells; ++c) {
+    const PetscInt leaf = sum->v->cell_leaf[c], *closure = t->closure + t->closure_offset[t->first[t->dim] + leaf];
+    for (PetscInt i = 0; i < (t->dim == 2 ? 9 : 27); ++i) {
+      held[leaf] |= touched[closure[i]];
+    }
+  }
+  PetscCall(PetscFree(leaf_cell));
+  PetscCall(PetscFree(touched));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

@@ -1,0 +1,98 @@
+/* Values of a contact pair beyond those a rank needs: all of them everywhere, for output; chosen ones from those who know them. */
+#include "problemimpl.h"
+
+#define SIDE_REALS(dim) (3 * (dim) + 3) /* of a node: position, normal, force, z, gap, weight */
+
+PetscErrorCode ContactGatherDestroy_Private(Contact *c)
+{
+  PetscFunctionBegin;
+  for (PetscInt k = 0; k < 2; ++k) PetscCall(PetscFree(c->all_real[k]));
+  PetscCall(PetscFree(c->all_active));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode Side_Private(Problem p, Contact *c, PetscInt k)
+{
+  const Surface   *s = &c->side[k];
+  const PetscInt   n = s->num_nodes, dim = s->dim;
+  const PetscReal *normal;
+
+  PetscFunctionBegin;
+  if (!c->all_real[k]) PetscCall(PetscMalloc1(SIDE_REALS(dim) * n, &c->all_real[k]));
+  PetscCall(PetscArrayzero(c->all_real[k], SIDE_REALS(dim) * n));
+  PetscReal *x = c->all_real[k], *direction = x + dim * n, *force = direction + dim * n, *value = force + dim * n;
+  PetscCall(ContactPairGetNormals(c->pair, &normal));
+  for (PetscInt j = 0; j < n; ++j) {
+    if (s->owner[j] != p->rank) continue;
+    PetscCall(PetscArraycpy(x + dim * j, s->x + dim * j, dim));
+    PetscCall(PetscArraycpy(force + dim * j, s->force + dim * j, dim));
+    if (k == 1) continue;
+    if (normal) PetscCall(PetscArraycpy(direction + dim * j, normal + dim * j, dim));
+    value[j]         = c->z[j];
+    value[n + j]     = c->gap[j];
+    value[2 * n + j] = c->weight[j];
+  }
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, c->all_real[k], (PetscMPIInt)(SIDE_REALS(dim) * n), MPIU_REAL, MPI_SUM, p->comm));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode Activity_Private(Problem p, Contact *c)
+{
+  const Surface *s = &c->side[0];
+
+  PetscFunctionBegin;
+  if (!c->all_active) PetscCall(PetscMalloc1(s->num_nodes, &c->all_active));
+  PetscCall(PetscArrayzero(c->all_active, s->num_nodes));
+  for (PetscInt i = 0; i < s->num_own; ++i) c->all_active[s->own[i]] = c->active[s->own[i]];
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, c->all_active, (PetscMPIInt)s->num_nodes, MPIU_BOOL, MPI_LOR, p->comm));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode ProblemGatherContactToAll(Problem p, PetscInt pair, const ContactView **view)
+{
+  Contact       *c = &p->contacts[pair];
+  const PetscInt n = c->side[0].num_nodes, m = c->side[1].num_nodes, dim = p->dim;
+
+  PetscFunctionBegin;
+  for (PetscInt k = 0; k < 2; ++k) PetscCall(Side_Private(p, c, k));
+  PetscCall(Activity_Private(p, c));
+  c->all                 = c->view;
+  c->all.nonmortar.x     = c->all_real[0];
+  c->all.normal          = c->all_real[0] + dim * n;
+  c->all.nonmortar.force = c->all_real[0] + 2 * dim * n;
+  c->all.z               = c->all_real[0] + 3 * dim * n;
+  c->all.gap             = c->all.z + n;
+  c->all.weight          = c->all.z + 2 * n;
+  c->all.active          = c->all_active;
+  c->all.mortar.x        = c->all_real[1];
+  c->all.mortar.force    = c->all_real[1] + 2 * dim * m;
+  *view                  = &c->all;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode ProblemFetchContact(Problem p, PetscInt pair, const PetscBool wanted[], PetscReal z[], PetscReal normal[], PetscReal x[])
+{
+  const Contact   *c    = &p->contacts[pair];
+  const Surface   *s    = &c->side[0];
+  Link             link = {0};
+  const PetscReal *own;
+  PetscInt        *nodes, num = 0;
+
+  PetscFunctionBegin;
+  PetscCall(ContactPairGetNormals(c->pair, &own));
+  PetscCall(PetscMalloc1(s->num_nodes, &nodes));
+  for (PetscInt n = 0; n < s->num_nodes; ++n) {
+    const PetscBool mine = (PetscBool)(s->owner[n] == p->rank);
+    z[n]                 = mine ? c->z[n] : NAN;
+    for (PetscInt d = 0; d < s->dim && normal; ++d) normal[s->dim * n + d] = mine ? own[s->dim * n + d] : NAN;
+    for (PetscInt d = 0; d < s->dim && x; ++d) x[s->dim * n + d] = mine ? s->x[s->dim * n + d] : NAN;
+    if (wanted[n] && !mine) nodes[num++] = n;
+  }
+  PetscCall(LinkSet_Private(p, s, num, nodes, &link));
+  PetscCall(LinkSpread_Private(p, &link, 1, z));
+  if (normal) PetscCall(LinkSpread_Private(p, &link, s->dim, normal));
+  if (x) PetscCall(LinkSpread_Private(p, &link, s->dim, x));
+  PetscCall(LinkDestroy_Private(&link));
+  PetscCall(PetscFree(nodes));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
