@@ -315,7 +315,7 @@ static PetscErrorCode Result_Private(const EvaluateContext *ctx, PetscInt facet,
   out->num      = w->num_nodes;
   out->gap      = gap;
   out->weight   = weight;
-  out->reach    = reach;
+  out->reach    = w->facet.s.order == 1 ? reach : NULL; /* curved facets turn with their directions: a gap of 1 along the normal counts as its area */
   out->area     = w->covered;
   out->min_gap  = w->min_gap;
   out->dgap = out->dweight = out->hessian = NULL;
