@@ -1,11 +1,11 @@
 /* Options of the solver: no keys of a scene but, like PETSc's own, of the command line. Wrong values are told as those of keys are. */
 #include "solveimpl.h"
 
-typedef enum { OPTION_REAL, OPTION_COUNT, OPTION_BOOL, OPTION_CHOICE } OptionKind;
+typedef enum { KIND_REAL, KIND_COUNT, KIND_BOOL, KIND_CHOICE } ValueKind;
 
 typedef struct {
   const char *name;
-  OptionKind  kind;
+  ValueKind   kind;
   const char *allowed; /* choices, value 0 first; bool: values 0 and 1 in turn */
   size_t      at;      /* in struct _p_Solver */
   const char *text;
@@ -16,16 +16,16 @@ typedef struct {
 #define AT(member) offsetof(struct _p_Solver, member)
 
 static const SolverOption Options[] = {
-    {"-solve_rtol", OPTION_REAL, NUMBER, AT(rtol), "residual against the root of the summed squared nodal forces; default 1e-10"},
-    {"-solve_max_it", OPTION_COUNT, COUNT, AT(max_it), "Newton iterations before a step is given up; default 25"},
-    {"-solve_active_set_passes", OPTION_COUNT, COUNT, AT(passes), "active-set passes against one linearisation; default 10"},
-    {"-solve_cuts", OPTION_COUNT, COUNT, AT(cuts), "halvings of a Newton step that leaves the domain; default 6"},
-    {"-solve_symmetric", OPTION_BOOL, "0|1|false|true|no|yes", AT(symmetric),
+    {"-solve_rtol", KIND_REAL, NUMBER, AT(rtol), "residual against the root of the summed squared nodal forces; default 1e-10"},
+    {"-solve_max_it", KIND_COUNT, COUNT, AT(max_it), "Newton iterations before a step is given up; default 25"},
+    {"-solve_active_set_passes", KIND_COUNT, COUNT, AT(passes), "active-set passes against one linearisation; default 10"},
+    {"-solve_cuts", KIND_COUNT, COUNT, AT(cuts), "halvings of a Newton step that leaves the domain; default 6"},
+    {"-solve_symmetric", KIND_BOOL, "0|1|false|true|no|yes", AT(symmetric),
      "LDL^T of the tangent's symmetric form, or LU of the exact one; default: where possible"},
-    {"-solve_linear", OPTION_CHOICE, "auto|direct|iterative", AT(linear), "factorisation, or multigrid and GMRES; auto: by size"},
-    {"-solve_linear_rtol", OPTION_REAL, NUMBER, AT(linear_rtol), "least residual of GMRES against the right-hand side; default 1e-9"},
-    {"-solve_factor", OPTION_CHOICE, "auto|single|double", AT(factor), "precision of factors; GMRES in double refines single ones; auto: by size"},
-    {"-solve_condense", OPTION_CHOICE, "auto|yes|no", AT(condense), "eliminate the unknowns inside each cell before the linear solver; auto: by order"},
+    {"-solve_linear", KIND_CHOICE, "auto|direct|iterative", AT(linear), "factorisation, or multigrid and GMRES; auto: by size"},
+    {"-solve_linear_rtol", KIND_REAL, NUMBER, AT(linear_rtol), "least residual of GMRES against the right-hand side; default 1e-9"},
+    {"-solve_factor", KIND_CHOICE, "auto|single|double", AT(factor), "precision of factors; GMRES in double refines single ones; auto: by size"},
+    {"-solve_condense", KIND_CHOICE, "auto|yes|no", AT(condense), "eliminate the unknowns inside each cell before the linear solver; auto: by order"},
 };
 
 /* Which of "a|b|c" the word is, -1: none. */
@@ -44,15 +44,15 @@ static PetscBool Parse_Private(const SolverOption *o, const char *text, void *to
   const PetscInt word = Word_Private(o->allowed, text);
   char          *end;
 
-  if (o->kind == OPTION_CHOICE) { /* an enum from 0 on */
+  if (o->kind == KIND_CHOICE) { /* an enum from 0 on */
     if (word >= 0) *(int *)to = (int)word;
     return (PetscBool)(word >= 0);
   }
-  if (o->kind == OPTION_BOOL) {
+  if (o->kind == KIND_BOOL) {
     if (word >= 0) *(PetscBool *)to = (PetscBool)(word % 2);
     return (PetscBool)(word >= 0);
   }
-  if (o->kind == OPTION_COUNT) {
+  if (o->kind == KIND_COUNT) {
     const long count = strtol(text, &end, 10);
     *(PetscInt *)to  = (PetscInt)count;
     return (PetscBool)(end != text && !*end && count >= 0 && count <= PETSC_MAX_INT);
