@@ -180,7 +180,8 @@ PAIR = {"pair": {"order": "full"}}
 def test_o40_space(run, tmp_path, pairing, nonmortar, order):
     result, error = space.small_strain(run, tmp_path, pairing, nonmortar, order, **PAIR)
     assert max(error) < 1e-10, error
-    space.check_pairing(result, pairing, nonmortar)
+    if order == 2:  # pieces of one size
+        space.check_pairing(result, pairing, nonmortar)
 
 
 @matrix
