@@ -134,6 +134,7 @@ chart: bootstrap
 	@$(MAKE) --no-print-directory -j2 all $(BUILD)/bench/contact
 	@MORTISE=$(abspath $(PROGRAM)) scripts/chart
 	@MORTISE=$(abspath $(PROGRAM)) scripts/chart_hp
+	@MORTISE=$(abspath $(PROGRAM)) scripts/chart_faces
 	@scripts/chart_search $(BUILD)/bench/contact
 
 bench: bootstrap

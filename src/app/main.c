@@ -80,6 +80,7 @@ static PetscErrorCode Solve_Private(int argc, char **argv, PetscBool *gave_up)
   PetscCall(StageEnd(STAGE_MESH));
   PetscCall(SceneGetData(app.scene, &app.data));
   if (SceneCheckOnly(app.scene)) {
+    PetscCall(SolverCheckOptions());
     PetscCall(SceneView(app.scene, PETSC_VIEWER_STDOUT_WORLD));
     PetscCall(ForestDestroy(&forest));
   } else {

@@ -74,6 +74,15 @@ PetscErrorCode SolverOptions_Private(Solver s)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscErrorCode SolverCheckOptions(void)
+{
+  struct _p_Solver nobody = {0};
+
+  PetscFunctionBegin;
+  PetscCall(SolverOptions_Private(&nobody));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode SolverPrintHelp(MPI_Comm comm)
 {
   PetscFunctionBegin;

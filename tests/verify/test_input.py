@@ -283,6 +283,7 @@ def test_solver_options(run, option, value, allowed):
     result = run("inputs/patch2d.yml", option, value)
     assert result.returncode == 1, result
     assert result.stderr == f"mortise: {option} is '{value}'; allowed: {allowed}\n", result.stderr
+    assert run("inputs/patch2d.yml", option, value, "-check").returncode == 1
 
 
 def test_command_line_wins(check):
