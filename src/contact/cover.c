@@ -1,7 +1,14 @@
 /* What covers a nonmortar facet: images of the mortar facets' corners, polygons in the chart, and the cells over which the gap is weighed. */
 #include "rayimpl.h"
 
-#define FULL 1e-9 /* share of the chart that may be uncovered */
+/* Share of the chart that may be uncovered where the functions of a whole facet are still used: a tenth of what belongs to a corner, so that no weight gets
+   near zero. Images of hanging mortar nodes leave slivers beside the straight picture of the side they hang on; their size must not change the functions. */
+static PetscReal Sliver_Private(const RayFacet *f)
+{
+  const PetscReal end = 1. / (PetscReal)(f->s.order * (f->s.order + 1));
+
+  return 0.1 * (f->m == 1 ? end : end * end);
+}
 
 /* Place of a mortar node's image; found when new. */
 static PetscErrorCode Image_Private(RayWork w, const ContactSurface *mortar, PetscInt node, PetscInt *place)
@@ -217,7 +224,7 @@ PetscErrorCode ContactCover(ContactPair pair, const ContactSurface *nonmortar, c
   }
   ContactUnfold(&w->num_overlaps, w->overlap, w->mortar, f->area);
   for (PetscInt k = 0; k < w->num_overlaps; k++) covered += w->overlap[k].area;
-  w->full = (PetscBool)(covered >= (1 - FULL) * f->area);
+  w->full = (PetscBool)(covered >= (1 - Sliver_Private(f)) * f->area);
   if (hats && !w->full && f->s.order > 1 && w->num_overlaps) PetscCall(Cells_Private(w, mortar));
   PetscCall(Nodes_Private(w, mortar));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -1,9 +1,11 @@
 /* Where mortar facets lie behind one another in a facet's view (folds, thin bodies, layers), the nearest counts: overlaps are taken by growing distance, and
-   one that shares more than a millionth of the facet with one already taken is dropped. */
+   one that shares more than a millionth of the facet and a tenth of its own or the other's area with one already taken is dropped. (Neighbours on curved
+   surfaces may share slivers where nodes hang.) */
 #include "facetimpl.h"
 
 enum { MOST = 2 * FACET_VERTICES };
 #define SHARED 1e-6
+#define SLIVER 0.1
 
 static PetscReal Distance_Private(const Overlap *o)
 {
@@ -69,7 +71,11 @@ void ContactUnfold(PetscInt *num, Overlap overlap[], PetscInt order[], PetscReal
   for (PetscInt i = 0; i < *num; i++) {
     PetscBool free = PETSC_TRUE;
 
-    for (PetscInt k = 0; k < kept && free; k++) free = (PetscBool)(Shared_Private(&overlap[k], &overlap[i]) <= SHARED * area);
+    for (PetscInt k = 0; k < kept && free; k++) {
+      const PetscReal least = PetscMin(overlap[k].area, overlap[i].area);
+
+      free = (PetscBool)(Shared_Private(&overlap[k], &overlap[i]) <= PetscMax(SHARED * area, SLIVER * least));
+    }
     if (!free) continue;
     overlap[kept] = overlap[i], order[kept++] = order[i];
   }
