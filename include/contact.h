@@ -85,6 +85,7 @@ typedef struct {
   PetscInt         num;          /* nodes it depends on */
   const PetscInt  *nodes;        /* [num] nonmortar node id, or ~id (bitwise not) of a mortar node */
   const PetscReal *gap, *weight; /* [num_rows] contributions to gt_j, w_j (raw: sums over facets give the nodal values) */
+  const PetscReal *reach;        /* [num_rows] change of gt_j when the gap grows by 1 along its direction everywhere; NULL: weight */
   const PetscReal *dgap;         /* [num_rows][dim*num]; NULL unless asked, or where z vanishes and no Hessian is asked */
   const PetscReal *dweight;      /* [num_rows][dim*num] */
   const PetscReal *hessian;      /* [dim*num][dim*num] of sum_j z_j gap_j; NULL unless asked, or where z vanishes */

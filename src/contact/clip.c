@@ -48,12 +48,12 @@ static PetscReal Area_Private(const Overlap *o)
   return sum;
 }
 
-/* Keep what lies inside nonmortar line i. */
-static void Cut_Private(Overlap *o, int i, PetscReal size)
+/* Keep what lies inside nonmortar line i. False: more corners than there is room for, which takes a quadrilateral that is not convex. */
+static PetscBool Cut_Private(Overlap *o, int i, PetscReal size)
 {
   const PetscReal *p = LineStart_Private(o, i), *P = LineEnd_Private(o, i), e[2] = {P[0] - p[0], P[1] - p[1]}, length = PetscSqrtReal(Dot2(e, e));
-  PetscReal        d[FACET_VERTICES], v[FACET_VERTICES + 2][2];
-  int8_t           line[FACET_VERTICES + 2];
+  PetscReal        d[FACET_VERTICES], v[2 * FACET_VERTICES][2];
+  int8_t           line[2 * FACET_VERTICES];
   PetscInt         num = 0;
 
   for (PetscInt k = 0; k < o->num; k++) {
@@ -61,7 +61,7 @@ static void Cut_Private(Overlap *o, int i, PetscReal size)
 
     d[k] = Cross2(e, r) / length;
   }
-  for (PetscInt k = 0; k < o->num && num < FACET_VERTICES; k++) {
+  for (PetscInt k = 0; k < o->num; k++) {
     const PetscInt  l  = (k + 1) % o->num;
     const PetscBool in = (PetscBool)(d[k] > FACET_ON * size), next = (PetscBool)(d[l] > FACET_ON * size);
 
@@ -78,10 +78,12 @@ static void Cut_Private(Overlap *o, int i, PetscReal size)
     }
   }
   o->num = num;
+  if (num > FACET_VERTICES) return PETSC_FALSE;
   for (PetscInt k = 0; k < num; k++) {
     o->v[k][0] = v[k][0], o->v[k][1] = v[k][1];
     o->line[k] = line[k];
   }
+  return PETSC_TRUE;
 }
 
 PetscBool ContactClip(Overlap *o)
@@ -95,7 +97,8 @@ PetscBool ContactClip(Overlap *o)
     o->v[k][0] = o->side[1].Y[k][0], o->v[k][1] = o->side[1].Y[k][1];
     o->line[k] = (int8_t)(4 + k);
   }
-  for (int i = 0; i < 4 && o->num; i++) Cut_Private(o, i, PetscSqrtReal(whole));
+  for (int i = 0; i < 4 && o->num; i++)
+    if (!Cut_Private(o, i, PetscSqrtReal(whole))) return PETSC_FALSE;
   if (o->num < 3) return PETSC_FALSE;
   o->area = Area_Private(o);
   return o->area > FACET_ON * FACET_ON * whole ? PETSC_TRUE : PETSC_FALSE;

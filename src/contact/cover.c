@@ -55,7 +55,7 @@ static void Window_Private(const RayFacet *f, const PetscReal lo[2], const Petsc
   }
 }
 
-/* One mortar facet seen in a cell. Its corners run backwards. *known: all images were found. */
+/* One mortar facet seen in a cell. Its corners run backwards. *known: all images were found, and their overlap is one. */
 static PetscErrorCode Meet_Private(RayWork w, const ContactSurface *mortar, PetscInt facet, const PlaneQuad *window, Overlap *o, PetscBool *known,
                                    PetscBool *meets)
 {
@@ -84,8 +84,10 @@ static PetscErrorCode Meet_Private(RayWork w, const ContactSurface *mortar, Pets
       o->side[1].h[3 - k] = o->side[1].h[k];
     }
     *meets = ClipInterval_Private(o);
-  } else
+  } else {
     *meets = ContactClip(o);
+    if (o->num > FACET_VERTICES) *known = PETSC_FALSE;
+  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -102,8 +104,9 @@ static PetscErrorCode Push_Private(RayWork w, const Overlap *o, PetscInt mortar,
 }
 
 /* Hats on the cells of the facet's lattice, for every mortar facet that counts. */
-static PetscErrorCode Cells_Private(RayWork w, const ContactSurface *mortar)
+static PetscErrorCode Cells_Private(ContactPair pair, const ContactSurface *mortar)
 {
+  RayWork          w = pair->ray;
   const RayFacet  *f = &w->facet;
   const PetscInt   p = f->s.order, cells = f->m == 1 ? p : p * p, num = w->num_overlaps;
   const PetscReal *node;
@@ -135,6 +138,7 @@ static PetscErrorCode Cells_Private(RayWork w, const ContactSurface *mortar)
       PetscBool known, meets;
 
       PetscCall(Meet_Private(w, mortar, facets[k], &window, &o, &known, &meets));
+      if (!known) pair->num_degenerate++;
       if (meets) PetscCall(Push_Private(w, &o, facets[k], c));
     }
   }
@@ -211,6 +215,7 @@ PetscErrorCode ContactCover(ContactPair pair, const ContactSurface *nonmortar, c
     for (int c = 0; c < 3; c++) f->d.x[a][c] = w->d[3 * corner + c];
     if (!ContactDirectionUsable(w, nonmortar, corner)) *failed = PETSC_TRUE;
   }
+  if (f->m == 2) ContactRayLatticePolynomial(&f->d);
   if (!ContactChartCreate(nonmortar, facet, f)) *failed = PETSC_TRUE;
   if (*failed) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(Whole_Private(w));
@@ -225,7 +230,7 @@ PetscErrorCode ContactCover(ContactPair pair, const ContactSurface *nonmortar, c
   ContactUnfold(&w->num_overlaps, w->overlap, w->mortar, f->area);
   for (PetscInt k = 0; k < w->num_overlaps; k++) covered += w->overlap[k].area;
   w->full = (PetscBool)(covered >= (1 - Sliver_Private(f)) * f->area);
-  if (hats && !w->full && f->s.order > 1 && w->num_overlaps) PetscCall(Cells_Private(w, mortar));
+  if (hats && !w->full && f->s.order > 1 && w->num_overlaps) PetscCall(Cells_Private(pair, mortar));
   PetscCall(Nodes_Private(w, mortar));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -46,7 +46,7 @@ PetscBool ContactQuadLocate(const PlaneQuad *, const PetscReal Y[2], PlanePoint 
 PetscBool ContactQuadIsConvex(const PlaneQuad *);
 void      ContactQuadHats(const PetscReal xi[2], PetscReal N[4]);
 
-/* clip.c. False: no overlap. */
+/* clip.c. False: no overlap, or (num > FACET_VERTICES) none that could be used. */
 PetscBool ContactClip(Overlap *);
 
 /* rule.c: barycentric points and weights on a triangle. */

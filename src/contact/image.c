@@ -1,4 +1,6 @@
-/* Image of a mortar vertex v on a facet: xi with x(xi) + s d(xi) = v, and its place Y(xi) in the chart.
+/* Image of a mortar vertex v on a facet: xi with x(xi) + s d(xi) = v, and its place Y(xi) in the chart. Vertices far beyond a bilinear facet may have none:
+   there the map folds where opposite sides meet. So beyond [-1, 1]^2 the mixed terms of x, d and Y are those of h(xi_1) h(xi_2), h bounded and twice
+   continuous: on flat facets Y is linear in x everywhere.
 
    A (dxi, ds) = dv - sum N_a dx_a - s sum V_v dd_v,   A = [t_i + s d,i, d] (plane: and e_z);
    A (d2xi, d2s) = -2 (dt_i + s dd,i + ds d,i) dxi_i - 2 ds dd - (x,ij + s d,ij) dxi_i dxi_j: half of w . d2Y is three products. */
@@ -11,10 +13,69 @@ typedef struct {
   PetscReal    det;
 } Place;
 
+/* h = xi in [-1, 1], at most 1.5; with two derivatives. */
+static void Bound_Private(PetscReal xi, PetscReal h[3])
+{
+  const PetscReal sign = xi < 0 ? -1 : 1, v = 2 * PetscMax(0, PetscAbsReal(xi) - 1), root = 1 / PetscSqrtReal(1 + v * v);
+
+  h[0] = v > 0 ? sign * (1 + 0.5 * v * root) : xi;
+  h[1] = root * root * root;
+  h[2] = -6 * sign * v * h[1] * root * root;
+}
+
+/* Functions of the corners. */
+static void Functions_Private(const RayFacet *f, PetscInt order, const PetscReal xi[2], int depth, RayFunctions *to)
+{
+  PetscReal h[2][3];
+
+  if (f->m == 1 || f->s.order > 1) {
+    ContactRayFunctions(f->m, order, xi, depth, to);
+    return;
+  }
+  Bound_Private(xi[0], h[0]);
+  Bound_Private(xi[1], h[1]);
+  for (int a = 0; a < 4; a++) {
+    const PetscReal x = a % 2 ? 0.25 : -0.25, y = a / 2 ? 0.25 : -0.25, xy = 4 * x * y;
+
+    to->N[a]    = 0.25 + x * xi[0] + y * xi[1] + xy * h[0][0] * h[1][0];
+    to->d[0][a] = x + xy * h[0][1] * h[1][0];
+    to->d[1][a] = y + xy * h[0][0] * h[1][1];
+    for (int k = 0; k < 3 && depth > 1; k++) to->dd[k][a] = xy * h[0][2 - k] * h[1][k];
+  }
+}
+
+/* Y with derivatives 1 2, 11 12 22. */
+typedef struct {
+  PetscReal Y[2], d[2][2], dd[3][2];
+} Picture;
+
+static void Picture_Private(const RayFacet *f, const PetscReal xi[2], Picture *p)
+{
+  PetscReal     h[2][3];
+  RayChartPoint c;
+
+  memset(p, 0, sizeof(*p));
+  if (f->m == 1 || f->s.order > 1) {
+    ContactChartAt(f, xi, &c);
+    memcpy(p->Y, c.Y, sizeof(p->Y));
+    memcpy(p->d, c.J, sizeof(p->d));
+    memcpy(p->dd[1], c.mixed, sizeof(p->dd[1]));
+    return;
+  }
+  Bound_Private(xi[0], h[0]);
+  Bound_Private(xi[1], h[1]);
+  for (int i = 0; i < 2; i++) {
+    p->Y[i]    = f->c[0][i] + f->c[1][i] * xi[0] + f->c[2][i] * xi[1] + f->c[3][i] * h[0][0] * h[1][0];
+    p->d[0][i] = f->c[1][i] + f->c[3][i] * h[0][1] * h[1][0];
+    p->d[1][i] = f->c[2][i] + f->c[3][i] * h[0][0] * h[1][1];
+    for (int k = 0; k < 3; k++) p->dd[k][i] = f->c[3][i] * h[0][2 - k] * h[1][k];
+  }
+}
+
 static void Place_Private(const RayFacet *f, const PetscReal xi[2], PetscReal s, int depth, Place *p)
 {
-  ContactRayFunctions(f->m, f->s.order, xi, depth, &p->S);
-  ContactRayFunctions(f->m, 1, xi, depth, &p->V);
+  Functions_Private(f, f->s.order, xi, depth, &p->S);
+  Functions_Private(f, 1, xi, depth, &p->V);
   ContactRayLatticeSum(&f->s, p->S.N, p->p);
   ContactRayLatticeSum(&f->d, p->V.N, p->d);
   for (PetscInt i = 0; i < 2; i++) {
@@ -64,9 +125,9 @@ void ContactImageFind(const RayFacet *f, RayImage *image)
     if (step < RAY_SOLVED) break;
   }
   if (step < RAY_SOLVED) {
-    RayChartPoint c;
+    Picture c;
 
-    ContactChartAt(f, image->xi, &c);
+    Picture_Private(f, image->xi, &c);
     image->Y[0] = c.Y[0], image->Y[1] = f->m == 2 ? c.Y[1] : 0;
     image->found = PETSC_TRUE;
   }
@@ -86,16 +147,16 @@ static void Motion_Private(const RayFacet *f, const Place *p, PetscReal s, Petsc
 
 void ContactImageRows(const RayFacet *f, const RayImage *image, PetscInt vertex, PetscInt n, PetscReal rows[])
 {
-  RayChartPoint chart;
-  Place         p;
+  Picture chart;
+  Place   p;
 
   Place_Private(f, image->xi, image->s, 1, &p);
-  ContactChartAt(f, image->xi, &chart);
+  Picture_Private(f, image->xi, &chart);
   for (PetscInt i = 0; i < f->m; i++) {
     PetscReal v[3] = {0, 0, 0};
 
     for (PetscInt j = 0; j < f->m; j++)
-      for (int c = 0; c < 3; c++) v[c] += chart.J[j][i] * p.inverse[j][c];
+      for (int c = 0; c < 3; c++) v[c] += chart.d[j][i] * p.inverse[j][c];
     Motion_Private(f, &p, image->s, vertex, v, rows + i * n);
   }
 }
@@ -104,13 +165,13 @@ void ContactImageCurvature(const RayFacet *f, const RayImage *image, PetscInt ve
 {
   const PetscInt D = f->D, na = f->s.num;
   PetscReal     *left[3] = {work, work + n, work + 2 * n}, *right = work + 3 * n, mu[3] = {0, 0, 0};
-  RayChartPoint  chart;
+  Picture        chart;
   Place          p;
 
   Place_Private(f, image->xi, image->s, 2, &p);
-  ContactChartAt(f, image->xi, &chart);
+  Picture_Private(f, image->xi, &chart);
   for (PetscInt i = 0; i < f->m; i++)
-    for (int c = 0; c < 3; c++) mu[c] += Dot2(w, chart.J[i]) * p.inverse[i][c];
+    for (int c = 0; c < 3; c++) mu[c] += Dot2(w, chart.d[i]) * p.inverse[i][c];
   for (PetscInt i = 0; i < 4 * n; i++) work[i] = 0;
   for (int i = 0; i < 3; i++) Motion_Private(f, &p, image->s, vertex, p.inverse[i], left[i]);
   for (PetscInt i = 0; i < f->m; i++) { /* left dxi_i: -mu . (dt_i + s dd,i + ds d,i) + sum_j G_ij dxi_j / 2 */
@@ -126,7 +187,7 @@ void ContactImageCurvature(const RayFacet *f, const RayImage *image, PetscInt ve
 
       ContactRayLatticeSum(&f->s, p.S.dd[i + j], x);
       ContactRayLatticeSum(&f->d, p.V.dd[i + j], d);
-      G = (i != j ? Dot2(w, chart.mixed) : 0) - Dot3(mu, x) - image->s * Dot3(mu, d);
+      G = Dot2(w, chart.dd[i + j]) - Dot3(mu, x) - image->s * Dot3(mu, d);
       for (PetscInt k = 0; k < n; k++) right[k] += 0.5 * G * left[j][k];
     }
     for (PetscInt a = 0; a < n; a++)

@@ -5,7 +5,7 @@
 #include "rayimpl.h"
 
 #define CORNERS (2 * FACET_VERTICES)
-#define LEFTS 5 /* most products at a point */
+#define OWN 3 /* most products of the facet's own numbers at a point */
 
 /* v_f eps_cef into W[row + c][column + e] */
 static void AddSkew_Private(PetscInt D, const PetscReal v[3], PetscReal *W, PetscInt n)
@@ -41,9 +41,11 @@ static void Weights_Private(const RayFacet *f, const RayTest *t, const RayFuncti
 
 /* Sums over the points of a triangle; rows of left and right follow one another. */
 typedef struct {
-  PetscInt   num_left, num_xi, nq;
-  PetscReal *left, *right, *left_xi, *right_xi; /* [..][nq], [..][nq], [..][6], [..][nq + 6] */
-  PetscReal *gradient, mean;                    /* [nq + 6] */
+  PetscInt   nq, nf, na, no, num_points, num_own, num_xi;
+  PetscReal *basis, *right;        /* [points][nf], [D][points][nq] */
+  PetscReal *own_left, *own_right; /* [num_own][na], [num_own][no] */
+  PetscReal *left_xi, *right_xi;   /* [num_xi][6], [num_xi][nq + 6] */
+  PetscReal *gradient, mean;       /* [nq + 6] */
 } Batch;
 
 /* What varies through the corners: rows left_xi x right_xi. */
@@ -72,30 +74,33 @@ static void Corners_Private(const RayFacet *f, const RayPoint *r, const PetscRea
   }
 }
 
-static PetscBool Batch_Private(const RayWork w, const RayLattice *mortar, const Overlap *o, const RayTest *t, const RaySimplex *s, PetscInt points,
-                               const PetscReal point[][3], const PetscReal weight[], const PetscReal y[], const PetscReal D[4][4], RayPoint *r,
+static PetscBool Batch_Private(const RayWork w, const RayLattice *mortar, const Overlap *o, const RayTest *t, const RayGuess *guess, const RaySimplex *s,
+                               PetscInt points, const PetscReal point[][3], const PetscReal weight[], const PetscReal y[], const PetscReal D[4][4], RayPoint *r,
                                RaySecond *second, Batch *b)
 {
   const RayFacet *f = &w->facet;
   RayFunctions    T;
   RayWeight       sum, mass, phi, chi;
 
-  b->num_left = b->num_xi = 0;
-  b->mean                 = 0;
+  b->num_points = points;
+  b->num_own = b->num_xi = 0;
+  b->mean                = 0;
   for (PetscInt i = 0; i < b->nq + 6; i++) b->gradient[i] = 0;
   for (PetscInt k = 0; k < points; k++) {
-    if (!ContactRayPoint(f, mortar, o, s, point[k], 3, r)) return PETSC_FALSE;
+    if (!ContactRayPoint(f, mortar, o, guess, s, point[k], 3, r)) return PETSC_FALSE;
     ContactRayTestFunctions(f, t, &r->S, r->xi, &T);
     Weights_Private(f, t, &T, y, D, &sum, &mass);
     ContactRayOverDet(f, &r->chart, weight[k], &sum, &phi);
     ContactRayOverDet(f, &r->chart, weight[k], &mass, &chi);
-    for (int i = 0; i < LEFTS; i++) {
-      second->left[i]  = b->left + (b->num_left + i) * b->nq;
-      second->right[i] = b->right + (b->num_left + i) * b->nq;
+    second->basis = b->basis + k * b->nf;
+    for (PetscInt c = 0; c < f->D; c++) second->right[c] = b->right + (c * points + k) * b->nq;
+    for (int i = 0; i < OWN; i++) {
+      second->own_left[i]  = b->own_left + (b->num_own + i) * b->na;
+      second->own_right[i] = b->own_right + (b->num_own + i) * b->no;
     }
     for (PetscInt i = 0; i < f->m; i++) second->mixed[i] = b->right_xi + (b->num_xi + i) * (b->nq + 6);
     ContactRaySecond(f, mortar, r, &phi, &chi, s->size, second);
-    b->num_left += second->num_left;
+    b->num_own += second->num_own;
     b->mean += phi.v * ContactRayGap(r) + chi.v * ContactRayArea(r);
     for (PetscInt i = 0; i < b->nq; i++) b->gradient[i] += second->gradient[i];
     Corners_Private(f, r, point[k], second, b);
@@ -109,7 +114,9 @@ static void Simplex_Private(const RayFacet *f, const RaySimplex *s, const Batch 
   const PetscInt m = f->m, nc = m * (m + 1), nq = b->nq, N = nq + CORNERS;
   PetscReal     *part = b->gradient + nq + 6; /* [6][nq + 6] */
 
-  ContactRayProducts(b->num_left, s->size, nq, b->left, nq, nq, b->right, nq, all, N);
+  for (PetscInt c = 0; c < f->D; c++)
+    ContactRayProducts(b->num_points, 1, b->nf, b->basis, b->nf, nq, b->right + c * b->num_points * nq, nq, all + c * N, f->D * N);
+  ContactRayProducts(b->num_own, 1, b->na, b->own_left, b->na, b->no, b->own_right, b->no, all, N);
   for (PetscInt i = 0; i < 6 * (nq + 6); i++) part[i] = 0;
   ContactRayProducts(b->num_xi, s->size, nc, b->left_xi, 6, nq + nc, b->right_xi, nq + 6, part, nq + 6);
   for (PetscInt i = 0; i < nc; i++)
@@ -175,27 +182,31 @@ static PetscErrorCode Overlap_Private(RayWork w, const RayLattice *mortar, Petsc
   const PetscInt  nq              = f->D * (f->s.num + f->nv + mortar->num);
   PetscReal       corner[CORNERS] = {0};
   RayMove         move[FACET_VERTICES];
+  RayGuess        guess;
   RayPoint        r;
   PetscInt        points;
-  Batch           b = {.nq = nq};
+  Batch           b = {.nq = nq, .nf = nq / f->D, .na = f->D * f->s.num, .no = f->D * (f->s.num + f->nv)};
   const PetscReal(*point)[3], *weight;
 
   PetscFunctionBegin;
   PetscCall(ContactRayRule(f->m, f->s.order, mortar->order, &points, &point, &weight));
-  PetscCall(ContactGrow(points * (2 * LEFTS * nq + f->m * (nq + 12)) + 8 * (nq + 6), sizeof(PetscReal), &w->size_buffer, &w->buffer));
-  b.left           = w->buffer;
-  b.right          = b.left + points * LEFTS * nq;
-  b.left_xi        = b.right + points * LEFTS * nq;
+  PetscCall(ContactGrow(points * (b.nf + f->D * nq + OWN * (b.na + b.no) + f->m * (nq + 12)) + 8 * (nq + 6), sizeof(PetscReal), &w->size_buffer, &w->buffer));
+  b.basis          = w->buffer;
+  b.right          = b.basis + points * b.nf;
+  b.own_left       = b.right + points * f->D * nq;
+  b.own_right      = b.own_left + points * OWN * b.na;
+  b.left_xi        = b.own_right + points * OWN * b.no;
   b.right_xi       = b.left_xi + points * f->m * 6;
   second->gradient = b.right_xi + points * f->m * (nq + 6);
   b.gradient       = second->gradient + nq + 6;
   ContactRayMoves(f, o, move);
-  r.eta[0] = r.eta[1] = r.s = 0;
+  r.s = 0;
+  ContactRayGuess(f, mortar, o, &guess);
   for (PetscInt j = 0; j < ContactRaySimplices(f, o); j++) {
     RaySimplex s;
 
     ContactRaySimplex(f, o, j, &s);
-    if (!Batch_Private(w, mortar, o, &w->test[w->window[k]], &s, points, point, weight, y, D, &r, second, &b))
+    if (!Batch_Private(w, mortar, o, &w->test[w->window[k]], &guess, &s, points, point, weight, y, D, &r, second, &b))
       continue; /* cannot happen: its moments were found */
     Simplex_Private(f, &s, &b, all, corner);
   }
@@ -215,6 +226,25 @@ static void AddPairs_Private(RayWork w, const RaySecond *second)
   }
 }
 
+/* Curvature of an image: of the numbers of lattice and directions and of its vertex. */
+static PetscErrorCode Image_Private(RayWork w, PetscInt k, const PetscReal gradient[])
+{
+  const RayFacet *f = &w->facet;
+  const PetscInt  D = f->D, own = D * (f->s.num + f->nv), width = own + D, n = w->n;
+  const PetscReal along[2] = {gradient[0], f->m == 2 ? gradient[1] : 0};
+  PetscInt        at       = 0;
+
+  PetscFunctionBegin;
+  if (along[0] == 0 && along[1] == 0) PetscFunctionReturn(PETSC_SUCCESS);
+  while (w->vertex[at] != w->image[k].node) at++;
+  PetscCall(ContactGrow(width * width + 4 * width, sizeof(PetscReal), &w->size_part, &w->part));
+  PetscCall(PetscArrayzero(w->part, width * width));
+  ContactImageCurvature(f, &w->image[k], f->s.num + f->nv, along, width, w->part, w->part + width * width);
+  for (PetscInt i = 0; i < width; i++)
+    for (PetscInt j = 0; j < width; j++) w->W[(i < own ? i : i + D * at) * n + (j < own ? j : j + D * at)] += w->part[i * width + j];
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode ContactRayHessian(ContactPair pair, const ContactSurface *mortar, const PetscReal y[], const PetscReal D[4][4], const PetscReal gradient[])
 {
   RayWork         w   = pair->ray;
@@ -225,7 +255,7 @@ PetscErrorCode ContactRayHessian(ContactPair pair, const ContactSurface *mortar,
   RaySecond       second;
 
   PetscFunctionBegin;
-  PetscCall(ContactGrow(n * n + 4 * n, sizeof(PetscReal), &w->size_W, &w->W));
+  PetscCall(ContactGrow(n * n, sizeof(PetscReal), &w->size_W, &w->W));
   PetscCall(PetscArrayzero(w->W, n * n));
   for (PetscInt k = 0; k < w->num_overlaps; k++) {
     PetscInt N, width;
@@ -243,13 +273,6 @@ PetscErrorCode ContactRayHessian(ContactPair pair, const ContactSurface *mortar,
     for (PetscInt a = 0; a < width; a++)
       for (PetscInt b = 0; b < width; b++) w->W[place[a] * n + place[b]] += w->part[a * N + b];
   }
-  for (PetscInt k = 0; k < w->num_images; k++) {
-    const PetscReal along[2] = {gradient[images + f->m * k], f->m == 2 ? gradient[images + f->m * k + 1] : 0};
-    PetscInt        at       = 0;
-
-    if (along[0] == 0 && along[1] == 0) continue;
-    while (w->vertex[at] != w->image[k].node) at++;
-    ContactImageCurvature(f, &w->image[k], own + at, along, n, w->W, w->W + n * n);
-  }
+  for (PetscInt k = 0; k < w->num_images; k++) PetscCall(Image_Private(w, k, gradient + images + f->m * k));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

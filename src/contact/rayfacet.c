@@ -1,12 +1,8 @@
 /* One nonmortar facet by rays along a continuous direction: gathers, integrates, and hands out weighted gaps with their derivatives by the nodes that do not
-   hang.
-
-   J: derivatives of the facet's numbers (rayimpl.h) by the nodes of the result. Lattice and mortar nodes follow their masters; directions follow the corners of
-   the facets around, dN = sum_k dx_k x h_k for the vector N of a facet; images follow all three (image.c). Hessian J^T (W + W^T) J + directions' second
-   derivatives. */
+   hang. */
 #include "rayimpl.h"
 
-#define TERMS 64 /* most facets around a corner, over all it hangs on */
+#define TERMS RAY_TERMS
 
 PetscErrorCode ContactRayTopology(ContactPair pair, const ContactSurface *s)
 {
@@ -49,6 +45,7 @@ PetscErrorCode ContactRayWorkDestroy(RayWork *work)
   PetscCall(PetscFree(w->dq));
   PetscCall(PetscFree(w->W));
   PetscCall(PetscFree(w->J));
+  PetscCall(PetscFree(w->R));
   PetscCall(PetscFree(w->WJ));
   PetscCall(PetscFree(w->part));
   PetscCall(PetscFree(w->buffer));
@@ -102,7 +99,7 @@ static void Normals_Private(ContactPair pair, const ContactSurface *s)
 
 /* ---- nodes and masters --------------------------------------------------------------------------------------------------------------- */
 
-static PetscErrorCode AddNode_Private(RayWork w, PetscInt id, PetscInt *place)
+PetscErrorCode ContactRayAddNode(RayWork w, PetscInt id, PetscInt *place)
 {
   PetscFunctionBegin;
   for (*place = 0; *place < w->num_nodes; (*place)++)
@@ -113,7 +110,7 @@ static PetscErrorCode AddNode_Private(RayWork w, PetscInt id, PetscInt *place)
 }
 
 /* Masters of a node: itself when it does not hang. */
-static PetscInt Masters_Private(const ContactSurface *s, const PetscInt *node, const PetscInt **master, const PetscReal **weight)
+PetscInt ContactRayMasters(const ContactSurface *s, const PetscInt *node, const PetscInt **master, const PetscReal **weight)
 {
   static const PetscReal one = 1;
 
@@ -130,14 +127,14 @@ static PetscErrorCode AddRow_Private(RayWork w, const ContactSurface *s, PetscIn
 {
   const PetscInt  *master;
   const PetscReal *weight;
-  const PetscInt   masters = Masters_Private(s, &node, &master, &weight);
+  const PetscInt   masters = ContactRayMasters(s, &node, &master, &weight);
 
   PetscFunctionBegin;
   PetscCall(ContactGrow(*num + masters, sizeof(PetscInt), &w->size_row_node, &w->row_node));
   PetscCall(ContactGrow(*num + masters, sizeof(PetscReal), &w->size_row_weight, &w->row_weight));
   w->row_first[v] = *num;
   for (PetscInt k = 0; k < masters; k++, (*num)++) {
-    PetscCall(AddNode_Private(w, mortar ? ~master[k] : master[k], &w->row_node[*num]));
+    PetscCall(ContactRayAddNode(w, mortar ? ~master[k] : master[k], &w->row_node[*num]));
     w->row_weight[*num] = weight[k];
   }
   w->row_first[v + 1] = *num;
@@ -152,7 +149,7 @@ static PetscErrorCode Functions_Private(RayWork w, const ContactMultiplier *mult
 
   PetscFunctionBegin;
   w->num_rows = multiplier->row_first[facet + 1] - first;
-  for (PetscInt r = 0; r < w->num_rows; r++) PetscCall(AddNode_Private(w, multiplier->row_node[first + r], &place));
+  for (PetscInt r = 0; r < w->num_rows; r++) PetscCall(ContactRayAddNode(w, multiplier->row_node[first + r], &place));
   PetscCall(ContactGrow(w->num_rows * num, sizeof(PetscReal), &w->size_T, &w->T));
   PetscCall(PetscArraycpy(w->T, multiplier->T + multiplier->offset[facet], w->num_rows * num));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -188,9 +185,9 @@ static PetscErrorCode Nodes_Private(const EvaluateContext *ctx, PetscInt facet)
       for (PetscInt k = 0; k < nv; k++) {
         const PetscInt  *master;
         const PetscReal *weight;
-        const PetscInt   masters = Masters_Private(ctx->nonmortar, &ctx->nonmortar->facets[nv * term[t].facet + k], &master, &weight);
+        const PetscInt   masters = ContactRayMasters(ctx->nonmortar, &ctx->nonmortar->facets[nv * term[t].facet + k], &master, &weight);
 
-        for (PetscInt i = 0; i < masters; i++) PetscCall(AddNode_Private(w, master[i], &place));
+        for (PetscInt i = 0; i < masters; i++) PetscCall(ContactRayAddNode(w, master[i], &place));
       }
   }
   for (PetscInt j = 0; j < w->num_mortar; j++) PetscCall(AddRow_Private(w, ctx->mortar, w->vertex[j], PETSC_TRUE, na + j, &num));
@@ -198,147 +195,11 @@ static PetscErrorCode Nodes_Private(const EvaluateContext *ctx, PetscInt facet)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* ---- directions ---------------------------------------------------------------------------------------------------------------------- */
-
-/* dN = sum_k dx_k x h_k */
-static void FacetVectorRows_Private(const ContactSurface *s, const PetscInt node[], PetscReal h[4][3])
-{
-  memset(h, 0, 4 * sizeof(h[0]));
-  if (s->dim == 2) {
-    h[1][2] = 1, h[0][2] = -1;
-    return;
-  }
-  for (int c = 0; c < 3; c++) {
-    const PetscReal d = s->x[3 * node[2] + c] - s->x[3 * node[0] + c], e = 0.5 * (s->x[3 * node[3] + c] - s->x[3 * node[1] + c]);
-
-    h[2][c] = e, h[0][c] = -e;
-    h[1][c] = 0.5 * d, h[3][c] = -0.5 * d;
-  }
-}
-
-static PetscErrorCode DirectionRows_Private(RayWork w, const ContactSurface *s, PetscInt facet)
-{
-  const PetscInt nv = w->facet.nv, D = w->facet.D, na = w->facet.s.num;
-  DirectionTerm  term[TERMS];
-
-  PetscFunctionBegin;
-  for (PetscInt v = 0; v < nv; v++) {
-    const PetscInt terms = ContactDirectionTerms(w, s, s->facets[nv * facet + (v < 2 ? v : 5 - v)], TERMS, term);
-
-    for (PetscInt t = 0; t < terms; t++) {
-      const PetscInt *node = s->facets + nv * term[t].facet;
-      PetscReal       h[4][3];
-
-      FacetVectorRows_Private(s, node, h);
-      for (PetscInt k = 0; k < nv; k++) {
-        const PetscInt  *master;
-        const PetscReal *weight, *g = h[k], X[3][3] = {{0, g[2], -g[1]}, {-g[2], 0, g[0]}, {g[1], -g[0], 0}};
-        const PetscInt   masters = Masters_Private(s, &node[k], &master, &weight);
-        PetscInt         place;
-
-        for (PetscInt i = 0; i < masters; i++) {
-          PetscCall(AddNode_Private(w, master[i], &place));
-          for (PetscInt c = 0; c < D; c++)
-            for (PetscInt j = 0; j < D; j++)
-              for (int l = 0; l < 3; l++) w->J[(D * (na + v) + c) * w->nn + D * place + j] += weight[i] * term[t].R[3 * c + l] * X[l][j];
-        }
-      }
-    }
-  }
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* H += second derivatives of sum_v gradient_v . d_v: of a facet's vector dd x de twice, d = x_2 - x_0, e = (x_3 - x_1) / 2. */
-static PetscErrorCode DirectionCurvature_Private(RayWork w, const ContactSurface *s, PetscInt facet, const PetscReal gradient[], PetscReal H[])
-{
-  const PetscInt na = w->facet.s.num, nn = w->nn;
-  DirectionTerm  term[TERMS];
-
-  PetscFunctionBegin;
-  if (s->dim == 2) PetscFunctionReturn(PETSC_SUCCESS);
-  for (PetscInt v = 0; v < 4; v++) {
-    const PetscReal *along = gradient + 3 * (na + v);
-    const PetscInt   terms = ContactDirectionTerms(w, s, s->facets[4 * facet + (v < 2 ? v : 5 - v)], TERMS, term);
-
-    for (PetscInt t = 0; t < terms; t++)
-      for (int pair = 0; pair < 4; pair++) {
-        const PetscInt  *node = s->facets + 4 * term[t].facet, *a = &node[pair % 2 ? 0 : 2], *b = &node[pair / 2 ? 1 : 3], *ma, *mb;
-        const PetscReal *wa, *wb, sign = (pair % 2 ? -1 : 1) * (pair / 2 ? -0.5 : 0.5), *R = term[t].R;
-        const PetscInt   masters_a = Masters_Private(s, a, &ma, &wa), masters_b = Masters_Private(s, b, &mb, &wb);
-        PetscInt         pa, pb;
-
-        for (PetscInt i = 0; i < masters_a; i++)
-          for (PetscInt j = 0; j < masters_b; j++) {
-            const PetscReal f = sign * wa[i] * wb[j];
-
-            PetscCall(AddNode_Private(w, ma[i], &pa));
-            PetscCall(AddNode_Private(w, mb[j], &pb));
-            for (int l = 0; l < 3; l++) { /* component l of the cross product */
-              const PetscReal value = f * (along[0] * R[l] + along[1] * R[3 + l] + along[2] * R[6 + l]);
-              const PetscInt  y = (l + 1) % 3, z = (l + 2) % 3;
-
-              H[(3 * pa + y) * nn + 3 * pb + z] += value, H[(3 * pb + z) * nn + 3 * pa + y] += value;
-              H[(3 * pa + z) * nn + 3 * pb + y] -= value, H[(3 * pb + y) * nn + 3 * pa + z] -= value;
-            }
-          }
-      }
-  }
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* The gradient's part that reaches nodes and directions through the images. */
-static PetscErrorCode FoldImages_Private(RayWork w, PetscReal gradient[])
-{
-  const PetscInt m = w->facet.m, own = w->facet.s.num + w->facet.nv, nodes = w->facet.D * (own + w->num_mortar);
-
-  PetscFunctionBegin;
-  PetscCall(ContactGrow(2 * nodes, sizeof(PetscReal), &w->size_buffer, &w->buffer));
-  for (PetscInt k = 0; k < w->num_images; k++) {
-    PetscInt at = 0;
-
-    while (w->vertex[at] != w->image[k].node) at++;
-    PetscCall(PetscArrayzero(w->buffer, 2 * nodes));
-    ContactImageRows(&w->facet, &w->image[k], own + at, nodes, w->buffer);
-    for (PetscInt i = 0; i < m; i++)
-      for (PetscInt l = 0; l < nodes; l++) gradient[l] += gradient[nodes + m * k + i] * w->buffer[i * nodes + l];
-  }
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-static PetscErrorCode Chain_Private(RayWork w, const ContactSurface *nonmortar, PetscInt facet)
-{
-  const PetscInt D = w->facet.D, na = w->facet.s.num, own = na + w->facet.nv, nn = w->nn, nodes = D * (own + w->num_mortar);
-
-  PetscFunctionBegin;
-  PetscCall(ContactGrow(w->n * nn, sizeof(PetscReal), &w->size_J, &w->J));
-  PetscCall(PetscArrayzero(w->J, w->n * nn));
-  for (PetscInt v = 0; v < na + w->num_mortar; v++)
-    for (PetscInt k = w->row_first[v]; k < w->row_first[v + 1]; k++)
-      for (PetscInt c = 0; c < D; c++) w->J[(D * (v < na ? v : v + w->facet.nv) + c) * nn + D * w->row_node[k] + c] += w->row_weight[k];
-  PetscCall(DirectionRows_Private(w, nonmortar, facet));
-  PetscCall(ContactGrow(2 * nodes, sizeof(PetscReal), &w->size_buffer, &w->buffer));
-  for (PetscInt k = 0; k < w->num_images; k++) {
-    PetscInt at = 0;
-
-    while (w->vertex[at] != w->image[k].node) at++;
-    PetscCall(PetscArrayzero(w->buffer, 2 * nodes));
-    ContactImageRows(&w->facet, &w->image[k], own + at, nodes, w->buffer);
-    for (PetscInt i = 0; i < w->facet.m; i++)
-      for (PetscInt l = 0; l < nodes; l++) {
-        const PetscReal value = w->buffer[i * nodes + l];
-
-        if (value == 0) continue;
-        for (PetscInt j = 0; j < nn; j++) w->J[(nodes + w->facet.m * k + i) * nn + j] += value * w->J[l * nn + j];
-      }
-  }
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 /* ---- results ------------------------------------------------------------------------------------------------------------------------- */
 
 /* Weighted gaps by the lattice: their derivatives by the moments are sparse (num_moments columns). */
 typedef struct {
-  PetscReal    gap[RAY_LATTICE], y[RAY_LATTICE]; /* y: weights of the gap moments in sum z gt */
+  PetscReal    gap[RAY_LATTICE], reach[RAY_LATTICE], y[RAY_LATTICE]; /* y: weights of the gap moments in sum z gt */
   PetscBool    dual;
   PetscInt     place[FACET_MOMENTS]; /* dual: where the moments stand among those of weights.c, -1 */
   FacetWeights f;
@@ -360,8 +221,10 @@ static PetscBool Dual_Private(const RayWork w, PetscReal z[4], Weights *o)
   }
   if (!ContactFacetWeights(PETSC_FALSE, q, z, &o->f)) return PETSC_FALSE;
   for (PetscInt a = 0; a < w->facet.nv; a++) {
-    o->gap[a] = o->f.gap[a];
-    o->y[a]   = o->f.g[a];
+    o->gap[a]   = o->f.gap[a];
+    o->y[a]     = o->f.g[a];
+    o->reach[a] = 0;
+    for (PetscInt b = 0; b < w->facet.nv; b++) o->reach[a] += o->f.dgap[a][o->place[b]] * w->reach[b]; /* gaps are linear in their moments */
   }
   return PETSC_TRUE;
 }
@@ -399,14 +262,14 @@ static PetscErrorCode Rows_Private(RayWork w, const Weights *o, PetscBool gap, P
       if (t == 0) continue;
       for (PetscInt i = 0; i < n; i++) w->rows[i * nr + r] += t * row[a * n + i];
     }
-  ContactRayProducts(n, 1, nr, w->rows, nr, w->nn, w->J, w->nn, to, w->nn);
+  ContactRayChainRows(w, nr, w->rows, to);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 static PetscErrorCode Hessian_Private(const EvaluateContext *ctx, PetscInt facet, const Weights *o, const PetscReal y[], PetscReal H[])
 {
   RayWork        w  = ctx->pair->ray;
-  const PetscInt na = w->facet.s.num, n = w->n, nn = w->nn;
+  const PetscInt na = w->facet.s.num, n = w->n;
   PetscReal     *gradient, *left, *right;
 
   PetscFunctionBegin;
@@ -425,14 +288,9 @@ static PetscErrorCode Hessian_Private(const EvaluateContext *ctx, PetscInt facet
       }
     ContactRayProducts(1, 1, n, left, n, n, right, n, w->W, n);
   }
-  for (PetscInt i = 0; i < n; i++)
-    for (PetscInt j = 0; j <= i; j++) w->W[i * n + j] = w->W[j * n + i] = w->W[i * n + j] + w->W[j * n + i];
-  PetscCall(ContactGrow(n * nn, sizeof(PetscReal), &w->size_WJ, &w->WJ));
-  PetscCall(PetscArrayzero(w->WJ, n * nn));
-  ContactRayProducts(n, 1, n, w->W, n, nn, w->J, nn, w->WJ, nn);
-  ContactRayProducts(n, 1, nn, w->J, nn, nn, w->WJ, nn, H, nn);
-  PetscCall(FoldImages_Private(w, gradient));
-  PetscCall(DirectionCurvature_Private(w, ctx->nonmortar, facet, gradient, H));
+  PetscCall(ContactRayChainHessian(w, H));
+  ContactRayChainRows(w, 1, gradient, NULL);
+  PetscCall(ContactRayDirectionCurvature(w, ctx->nonmortar, facet, gradient, H));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -441,26 +299,28 @@ static PetscErrorCode Result_Private(const EvaluateContext *ctx, PetscInt facet,
 {
   RayWork        w  = ctx->pair->ray;
   const PetscInt na = w->facet.s.num, nr = w->num_rows, nn = w->nn;
-  PetscReal     *gap, *weight, *dgap;
+  PetscReal     *gap, *weight, *reach, *dgap;
 
   PetscFunctionBegin;
-  PetscCall(ContactStoreReserve(&w->store, 2 * nr, &gap));
-  weight = gap + nr;
+  PetscCall(ContactStoreReserve(&w->store, 3 * nr, &gap));
+  weight = gap + nr, reach = weight + nr;
   for (PetscInt r = 0; r < nr; r++)
     for (PetscInt a = 0; a < na; a++) {
       gap[r] += w->T[r * na + a] * o->gap[a];
       weight[r] += w->T[r * na + a] * w->q[na + a];
+      reach[r] += w->T[r * na + a] * o->reach[a];
     }
   out->facet    = facet;
   out->num_rows = nr;
   out->num      = w->num_nodes;
   out->gap      = gap;
   out->weight   = weight;
+  out->reach    = w->facet.s.order == 1 ? reach : NULL; /* curved facets turn with their directions: a gap of 1 along the normal counts as its area */
   out->area     = w->covered;
   out->min_gap  = w->min_gap;
   out->dgap = out->dweight = out->hessian = NULL;
   if (!derivatives) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(Chain_Private(w, ctx->nonmortar, facet));
+  PetscCall(ContactRayChain(w, ctx->nonmortar, facet));
   PetscCall(ContactStoreReserve(&w->store, 2 * nr * nn, &dgap));
   out->dgap    = dgap;
   out->dweight = dgap + nr * nn;
@@ -478,7 +338,7 @@ static PetscErrorCode Segments_Private(const EvaluateContext *ctx, PetscInt face
   ContactPair pair = ctx->pair;
   RayWork     w    = pair->ray;
   RayLattice  mortar;
-  RayPoint    r;
+  RayGuess    at;
 
   PetscFunctionBegin;
   PetscCall(ContactGrow(pair->num_segments + w->num_overlaps, sizeof(ContactSegment), &pair->size_segments, &pair->output));
@@ -490,12 +350,9 @@ static PetscErrorCode Segments_Private(const EvaluateContext *ctx, PetscInt face
     s->facet        = facet;
     s->mortar_facet = w->mortar[k];
     s->num          = w->facet.m == 1 ? 2 : o->num;
-    r.eta[0] = r.eta[1] = r.s = 0;
-    for (PetscInt v = 0; v < s->num; v++) {
-      if (!ContactChartLocate(&w->facet, o->v[v], s->xi[v])) s->xi[v][0] = s->xi[v][1] = 0; /* cannot happen: the overlap was integrated */
-      if (!ContactRaySolve(&w->facet, &mortar, s->xi[v], 1, &r)) r.eta[0] = r.eta[1] = r.s = 0;
-      s->eta[v][0] = r.eta[0], s->eta[v][1] = r.eta[1];
-    }
+    ContactRayGuess(&w->facet, &mortar, o, &at);
+    memcpy(s->xi, at.xi, sizeof(s->xi));
+    memcpy(s->eta, at.eta, sizeof(s->eta));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -534,7 +391,7 @@ static PetscErrorCode Facet_Private(const EvaluateContext *ctx, PetscInt slot, C
   o.dual      = (PetscBool)(!pair->standard && w->facet.s.order == 1);
   PetscCall(ContactRayMoments(pair, ctx->mortar, o.dual, derivatives));
   if (w->num_overlaps == 0) PetscFunctionReturn(PETSC_SUCCESS);
-  for (PetscInt a = 0; a < w->facet.s.num; a++) o.gap[a] = w->q[a];
+  for (PetscInt a = 0; a < w->facet.s.num; a++) o.gap[a] = w->q[a], o.reach[a] = w->reach[a];
   if (o.dual && !Dual_Private(w, y, &o)) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(Segments_Private(ctx, facet));
   PetscCall(Result_Private(ctx, facet, &o, y, derivatives, (PetscBool)(ctx->hessian && loaded), out));

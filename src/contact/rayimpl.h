@@ -29,6 +29,7 @@ typedef struct {
 typedef struct {
   PetscInt  order, num;
   PetscReal x[RAY_LATTICE][3];
+  PetscReal c[4][3]; /* bilinear: x = c_0 + c_1 xi_1 + c_2 xi_2 + c_3 xi_1 xi_2 */
 } RayLattice;
 
 typedef struct {
@@ -40,6 +41,7 @@ typedef struct {
   PetscInt   D, m, nv; /* dimension of space and facet, corners */
   RayLattice s, d;     /* d: directions, order 1 */
   PlaneQuad  chart;    /* counterclockwise */
+  PetscReal  c[4][2];  /* Y = c_0 + c_1 xi_1 + c_2 xi_2 + c_3 xi_1 xi_2 */
   PetscReal  area;     /* of the chart */
   PetscReal  ring;     /* 2 pi or 0 */
 } RayFacet;
@@ -88,13 +90,13 @@ struct _p_RayWork {
   RayTest   *test;
   PetscBool  full; /* the mortar side covers all of it */
   PetscInt   n, nn, num_moments;
-  PetscReal  q[RAY_MOMENTS], covered, min_gap;
-  PetscReal *dq, *W, *J, *WJ, *part, *buffer; /* [num_moments][n], [n][n], [n][nn], [n][nn] */
+  PetscReal  q[RAY_MOMENTS], reach[RAY_LATTICE], covered, min_gap; /* reach: moments of a gap of 1 along unit directions */
+  PetscReal *dq, *W, *J, *R, *WJ, *part, *buffer;                  /* dq [num_moments][n], W [n][n]; J, R: raychain.c */
   PetscInt   num_nodes, num_rows, *node, *row_first, *row_node;
   PetscReal *row_weight;
   PetscReal *T, *rows; /* [num_rows][lattice]; [n][num_rows] */
   Store      store;
-  PetscInt   size_image, size_overlap, size_mortar, size_window, size_vertex, size_test, size_dq, size_W, size_J, size_WJ, size_part, size_buffer;
+  PetscInt   size_image, size_overlap, size_mortar, size_window, size_vertex, size_test, size_dq, size_W, size_J, size_R, size_WJ, size_part, size_buffer;
   PetscInt   size_node, size_row_first, size_row_node, size_row_weight, size_T, size_rows;
 };
 
@@ -105,6 +107,7 @@ void     ContactRayFunctions(PetscInt m, PetscInt order, const PetscReal xi[2], 
 void     ContactRayLatticeSum(const RayLattice *, const PetscReal f[], PetscReal v[3]);
 PetscInt ContactRayLatticeNodes(const ContactSurface *, PetscInt facet, const PetscInt **nodes, PetscInt order1[4]);
 void     ContactRayLatticeGather(const ContactSurface *, PetscInt facet, RayLattice *);
+void     ContactRayLatticePolynomial(RayLattice *);
 void     ContactRayTestFunctions(const RayFacet *, const RayTest *, const RayFunctions *own, const PetscReal xi[2], RayFunctions *);
 
 /* direction.c */
@@ -121,6 +124,7 @@ PetscInt ContactDirectionTerms(RayWork, const ContactSurface *, PetscInt node, P
 /* chart.c */
 PetscBool ContactChartCreate(const ContactSurface *, PetscInt facet, RayFacet *);
 void      ContactChartAt(const RayFacet *, const PetscReal xi[2], RayChartPoint *);
+/* xi: a first guess. */
 PetscBool ContactChartLocate(const RayFacet *, const PetscReal Y[2], PetscReal xi[2]);
 
 /* image.c */
@@ -140,15 +144,20 @@ PetscReal ContactRayArea(const RayPoint *);
 void      ContactRayFirst(const RayFacet *, const RayLattice *mortar, const RayPoint *, PetscReal gap[], PetscReal area[], PetscReal gap_xi[2],
                           PetscReal area_xi[2]);
 
+/* raybilinear.c: the same between bilinear facets. */
+PetscBool ContactRayBilinear(const RayFacet *, const RayLattice *mortar, const PetscReal xi[2], int depth, RayPoint *);
+
 /* raysecond.c: weighted sum phi gap + chi area. */
 typedef struct {
-  PetscInt   num_left; /* products left x right by the numbers of facet, directions and mortar facet */
-  PetscReal *left[6], *right[6];
+  PetscReal *basis, *right[3]; /* products (basis_f at component c) x right[c] by the numbers of facet, directions and mortar facet */
+  PetscInt   num_own;          /* products own_left x own_right by the numbers of the lattice, of lattice and directions */
+  PetscReal *own_left[3], *own_right[3];
   PetscReal *mixed[2]; /* rows by xi */
   PetscReal  xi[2], xixi[3];
   PetscReal *gradient;
   PetscReal (*turn)[3], (*twist)[3]; /* d_v . (dx_a x turn[v][a]), twist[a][b] . (dx_a x dx_b): sums */
 } RaySecond;
+/* Products and pairs are multiplied with weight. */
 void ContactRaySecond(const RayFacet *, const RayLattice *mortar, const RayPoint *, const RayWeight *phi, const RayWeight *chi, PetscReal weight, RaySecond *);
 
 /* raysimplex.c */
@@ -170,8 +179,14 @@ PetscErrorCode ContactRayRule(PetscInt m, PetscInt order_s, PetscInt order_m, Pe
 void           ContactRayMoves(const RayFacet *, const Overlap *, RayMove[]);
 PetscInt       ContactRaySimplices(const RayFacet *, const Overlap *);
 void           ContactRaySimplex(const RayFacet *, const Overlap *, PetscInt k, RaySimplex *);
-PetscBool      ContactRayPoint(const RayFacet *, const RayLattice *mortar, const Overlap *, const RaySimplex *, const PetscReal beta[3], int depth, RayPoint *);
-void           ContactRayPlaces(const RayWork, const ContactSurface *mortar, PetscInt facet, PetscInt nb, PetscInt place[]);
+/* First guesses at the corners of an overlap. */
+typedef struct {
+  PetscReal xi[FACET_VERTICES][2], eta[FACET_VERTICES][2];
+} RayGuess;
+void      ContactRayGuess(const RayFacet *, const RayLattice *mortar, const Overlap *, RayGuess *);
+PetscBool ContactRayPoint(const RayFacet *, const RayLattice *mortar, const Overlap *, const RayGuess *, const RaySimplex *, const PetscReal beta[3], int depth,
+                          RayPoint *);
+void      ContactRayPlaces(const RayWork, const ContactSurface *mortar, PetscInt facet, PetscInt nb, PetscInt place[]);
 
 /* raysum.c, raycurve.c: integrals over the overlaps of the facet at hand */
 void           ContactRayOverDet(const RayFacet *, const RayChartPoint *, PetscReal factor, const RayWeight *, RayWeight *);
@@ -179,7 +194,20 @@ PetscErrorCode ContactRayMoments(ContactPair, const ContactSurface *mortar, Pets
 /* W of the work space: half Hessian of sum_a y_a G_a + sum_ab D[a][b] int N_a N_b dA (D NULL: none); gradient[n] of it. */
 PetscErrorCode ContactRayHessian(ContactPair, const ContactSurface *mortar, const PetscReal y[], const PetscReal D[4][4], const PetscReal gradient[]);
 
+/* raychain.c */
+PetscErrorCode ContactRayChain(RayWork, const ContactSurface *nonmortar, PetscInt facet);
+/* to[num][nn] (NULL: images only) += X^T by the nodes, X[n][num] by the facet's numbers; the images' part of X is added to what they follow. */
+void ContactRayChainRows(RayWork, PetscInt num, PetscReal X[], PetscReal to[]);
+/* H = both halves of the work space's W, which changes. */
+PetscErrorCode ContactRayChainHessian(RayWork, PetscReal H[]);
+PetscErrorCode ContactRayDirectionCurvature(RayWork, const ContactSurface *, PetscInt facet, const PetscReal gradient[], PetscReal H[]);
+
 /* rayfacet.c */
+#define RAY_TERMS 64 /* most facets around a corner, over all it hangs on */
+/* Place of a node among those of the result; new ones are added. */
+PetscErrorCode ContactRayAddNode(RayWork, PetscInt id, PetscInt *place);
+/* Masters of a node: itself when it does not hang. */
+PetscInt       ContactRayMasters(const ContactSurface *, const PetscInt *node, const PetscInt **master, const PetscReal **weight);
 PetscErrorCode ContactRayTopology(ContactPair, const ContactSurface *);
 PetscErrorCode ContactRayEvaluate(const EvaluateContext *, PetscBool *failed);
 PetscErrorCode ContactRayWorkDestroy(RayWork *);

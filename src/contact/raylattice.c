@@ -111,6 +111,19 @@ void ContactRayLatticeGather(const ContactSurface *s, PetscInt facet, RayLattice
   l->num   = ElementNumNodes(s->dim - 1, l->order);
   for (PetscInt a = 0; a < l->num; a++)
     for (PetscInt c = 0; c < 3; c++) l->x[a][c] = c < s->dim ? s->x[s->dim * node[a] + c] : 0;
+  if (l->num == 4 && l->order == 1) ContactRayLatticePolynomial(l);
+}
+
+void ContactRayLatticePolynomial(RayLattice *l)
+{
+  for (int i = 0; i < 3; i++) {
+    const PetscReal a = l->x[0][i], b = l->x[1][i], d = l->x[2][i], e = l->x[3][i];
+
+    l->c[0][i] = 0.25 * (a + b + d + e);
+    l->c[1][i] = 0.25 * (b - a + e - d);
+    l->c[2][i] = 0.25 * (d - a + e - b);
+    l->c[3][i] = 0.25 * (a - b - d + e);
+  }
 }
 
 /* The functions that weigh the gap, from those of the facet's lattice. */

@@ -59,6 +59,7 @@ PetscBool ContactRaySolve(const RayFacet *f, const RayLattice *mortar, const Pet
 {
   PetscReal step = 1;
 
+  if (f->m == 2 && f->s.order == 1 && mortar->order == 1) return ContactRayBilinear(f, mortar, xi, depth, r);
   r->xi[0] = xi[0], r->xi[1] = xi[1];
   Facet_Private(f, depth, r);
   for (int k = 0; k < 20; k++) {
@@ -96,6 +97,11 @@ PetscReal ContactRayArea(const RayPoint *r)
 /* to[D * a + c] += f_a v_c */
 static inline void Add_Private(PetscInt D, PetscInt num, const PetscReal f[], const PetscReal v[3], PetscReal to[])
 {
+  if (D == 3 && num == 4) { /* so often that loops of fixed length pay */
+    for (int a = 0; a < 4; a++)
+      for (int c = 0; c < 3; c++) to[3 * a + c] += f[a] * v[c];
+    return;
+  }
   for (PetscInt a = 0; a < num; a++)
     for (PetscInt c = 0; c < D; c++) to[D * a + c] += f[a] * v[c];
 }

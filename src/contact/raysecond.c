@@ -8,6 +8,11 @@
 
 static inline void Add_Private(PetscInt D, PetscInt num, const PetscReal f[], const PetscReal v[3], PetscReal to[])
 {
+  if (D == 3 && num == 4) { /* so often that loops of fixed length pay */
+    for (int a = 0; a < 4; a++)
+      for (int c = 0; c < 3; c++) to[3 * a + c] += f[a] * v[c];
+    return;
+  }
   for (PetscInt a = 0; a < num; a++)
     for (PetscInt c = 0; c < D; c++) to[D * a + c] += f[a] * v[c];
 }
@@ -50,51 +55,78 @@ static inline void Scale_Private(PetscReal a, const PetscReal x[3], PetscReal y[
   for (int c = 0; c < 3; c++) y[c] = a * x[c];
 }
 
-static void Products_Private(const RayFacet *f, const Layout *l, const RayPoint *r, PetscReal phi, PetscReal chi, RaySecond *o)
+/* Products of the residual's components, r_c = sum_f basis_f (number f, c), with rows: from ds, kappa_c (V.dn + d.(T_1 x T_2) + db drho ..), from deta the
+   second derivatives of the mortar facet, Q, and its turn. */
+static void Products_Private(const RayFacet *f, const Layout *l, const RayPoint *r, PetscReal phi, PetscReal weight, RaySecond *o)
 {
-  const PetscInt  D  = l->D;
-  const PetscReal br = phi * r->beta * r->rho;
-  PetscReal       v[3], *mortar;
+  const PetscInt  D       = l->D;
+  const PetscReal br      = phi * r->beta * r->rho;
+  PetscReal       Q[3][3] = {{0}}, v[3], w[2][3], h[3];
 
-  o->num_left = 1 + (PetscInt)f->m;
-  for (PetscInt k = 0; k < o->num_left; k++)
-    for (PetscInt i = 0; i < l->n; i++) o->left[k][i] = o->right[k][i] = 0;
-  Residual_Private(l, r, r->kappa, o->left[0]);
-  for (int c = 0; c < 3; c++) v[c] = br * r->kappa[c] + phi * r->rho * r->n[c];
-  Add_Private(D, l->nv, r->V.N, v, o->right[0] + D * l->na);
+  for (PetscInt a = 0; a < l->na; a++) o->basis[a] = weight * r->S.N[a];
+  for (PetscInt a = 0; a < l->nv; a++) o->basis[l->na + a] = weight * r->s * r->V.N[a];
+  for (PetscInt a = 0; a < l->nb; a++) o->basis[l->na + l->nv + a] = -weight * r->M.N[a];
+  for (PetscInt i = 0; i < f->m; i++)
+    for (PetscInt j = 0; j < f->m; j++) {
+      const PetscReal x = -0.5 * br * Dot3(r->kappa, r->Xij[i + j]);
+
+      for (PetscInt c = 0; c < D; c++) Axpy3_Private(x * r->zeta[i][c], r->zeta[j], Q[c]);
+    }
   Scale_Private(phi * r->rho, r->d, v);
-  Normal_Private(l, f->m, r, v, o->right[0]);
-  for (PetscInt a = 0; a < l->na && r->turn != 0; a++) o->right[0][D * a] += phi * r->beta * r->turn * r->S.N[a];
-  for (PetscInt i = 0; i < f->m; i++) {
-    PetscReal u[3] = {0, 0, 0};
+  Cross3(r->t[1], v, w[0]);
+  Cross3(v, r->t[0], w[1]);
+  for (PetscInt c = 0; c < D; c++) {
+    PetscReal *row = o->right[c];
 
-    Residual_Private(l, r, r->zeta[i], o->left[1 + i]);
-    for (PetscInt j = 0; j < f->m; j++) Axpy3_Private(-0.5 * br * Dot3(r->kappa, r->Xij[i + j]), r->zeta[j], u);
-    Residual_Private(l, r, u, o->right[1 + i]);
-    Scale_Private(-br, r->kappa, v);
-    mortar = o->right[1 + i] + D * (l->na + l->nv);
-    Add_Private(D, l->nb, r->M.d[i], v, mortar);
+    for (PetscInt i = 0; i < l->n; i++) row[i] = 0;
+    Scale_Private(1, Q[c], h);
+    h[0] += r->kappa[c] * phi * r->beta * r->turn;
+    Add_Private(D, l->na, r->S.N, h, row);
+    for (PetscInt k = 0; k < f->m; k++) {
+      Scale_Private(r->kappa[c], w[k], h);
+      Add_Private(D, l->na, r->S.d[k], h, row);
+    }
+    for (int e = 0; e < 3; e++) h[e] = r->s * Q[c][e] + r->kappa[c] * (br * r->kappa[e] + phi * r->rho * r->n[e]);
+    Add_Private(D, l->nv, r->V.N, h, row + D * l->na);
+    Scale_Private(-1, Q[c], h);
+    Add_Private(D, l->nb, r->M.N, h, row + D * (l->na + l->nv));
+    for (PetscInt i = 0; i < f->m; i++) {
+      Scale_Private(-br * r->zeta[i][c], r->kappa, h);
+      Add_Private(D, l->nb, r->M.d[i], h, row + D * (l->na + l->nv));
+    }
   }
-  if (r->turn != 0) { /* drho */
-    PetscReal *left = o->left[o->num_left], *right = o->right[o->num_left];
+}
 
-    o->num_left++;
-    for (PetscInt i = 0; i < l->n; i++) left[i] = right[i] = 0;
-    for (PetscInt a = 0; a < l->na; a++) left[D * a] = r->turn * r->S.N[a];
+/* Products of numbers of the facet and its directions: drho, and dn along the facet. */
+static void Own_Private(const RayFacet *f, const Layout *l, const RayPoint *r, PetscReal phi, PetscReal chi, PetscReal weight, RaySecond *o)
+{
+  const PetscInt D = l->D, own = D * (l->na + l->nv);
+  PetscReal      v[3], e[2][3];
+
+  o->num_own = 0;
+  if (r->turn != 0) {
+    PetscReal *left = o->own_left[o->num_own], *right = o->own_right[o->num_own];
+
+    o->num_own++;
+    for (PetscInt i = 0; i < D * l->na; i++) left[i] = 0;
+    for (PetscInt i = 0; i < own; i++) right[i] = 0;
+    for (PetscInt a = 0; a < l->na; a++) left[D * a] = weight * r->turn * r->S.N[a];
     for (int c = 0; c < 3; c++) v[c] = phi * r->s * r->d[c] + chi * r->unit[c];
     Normal_Private(l, f->m, r, v, right);
     Scale_Private(phi * r->s, r->n, v);
     Add_Private(D, l->nv, r->V.N, v, right + D * l->na);
   }
-  for (PetscInt k = 0; k < f->m && chi != 0; k++) { /* dn along the facet */
-    PetscReal *left = o->left[o->num_left], *right = o->right[o->num_left], e[2][3];
+  if (chi == 0) return;
+  Scale_Private(1 / PetscSqrtReal(Dot3(r->t[0], r->t[0])), r->t[0], e[0]);
+  Cross3(r->unit, e[0], e[1]);
+  for (PetscInt k = 0; k < f->m; k++) {
+    PetscReal *left = o->own_left[o->num_own], *right = o->own_right[o->num_own];
 
-    o->num_left++;
-    for (PetscInt i = 0; i < l->n; i++) left[i] = 0;
-    Scale_Private(1 / PetscSqrtReal(Dot3(r->t[0], r->t[0])), r->t[0], e[0]);
-    Cross3(r->unit, e[0], e[1]);
+    o->num_own++;
+    for (PetscInt i = 0; i < D * l->na; i++) left[i] = 0;
+    for (PetscInt i = D * l->na; i < own; i++) right[i] = 0;
     Normal_Private(l, f->m, r, e[k], left);
-    for (PetscInt i = 0; i < l->n; i++) right[i] = 0.5 * chi * r->rho / r->a * left[i];
+    for (PetscInt i = 0; i < D * l->na; i++) right[i] = 0.5 * weight * chi * r->rho / r->a * left[i];
   }
 }
 
@@ -124,7 +156,8 @@ void ContactRaySecond(const RayFacet *f, const RayLattice *mortar, const RayPoin
   PetscReal       Ag[3], Aa[3] = {r->a * r->turn, 0, 0}, Cg[3], k[3], A[3], B[2][3], C[3], E[3];
   PetscReal       sigma[2], etai[2][2], betai[2], rhoi[2], ni[2][3], ai[2], gi[2];
 
-  Products_Private(f, &l, r, phi->v, chi->v, o);
+  Products_Private(f, &l, r, phi->v, weight, o);
+  Own_Private(f, &l, r, phi->v, chi->v, weight, o);
   Pairs_Private(f, &l, r, phi->v, chi->v, weight, o);
   for (int c = 0; c < 3; c++) {
     Ag[c] = br * r->kappa[c] + (c == 0 ? r->s * r->beta * r->turn : 0);

@@ -120,12 +120,35 @@ void ContactRaySimplex(const RayFacet *f, const Overlap *o, PetscInt k, RaySimpl
   }
 }
 
-PetscBool ContactRayPoint(const RayFacet *f, const RayLattice *mortar, const Overlap *o, const RaySimplex *s, const PetscReal beta[3], int depth, RayPoint *r)
+void ContactRayGuess(const RayFacet *f, const RayLattice *mortar, const Overlap *o, RayGuess *g)
 {
-  PetscReal Y[2] = {0, 0}, xi[2];
+  RayPoint r;
 
-  for (PetscInt k = 0; k <= f->m; k++)
-    for (PetscInt i = 0; i < f->m; i++) Y[i] += beta[k] * o->v[s->corner[k]][i];
+  r.eta[0] = r.eta[1] = r.s = 0;
+  for (PetscInt v = 0; v < (f->m == 1 ? 2 : o->num); v++) {
+    PetscReal xi[2] = {0, 0};
+
+    if (!ContactChartLocate(f, o->v[v], xi)) xi[0] = xi[1] = 0;
+    if (!ContactRaySolve(f, mortar, xi, 1, &r)) r.eta[0] = r.eta[1] = r.s = 0;
+    for (int i = 0; i < 2; i++) g->xi[v][i] = xi[i], g->eta[v][i] = r.eta[i];
+  }
+}
+
+PetscBool ContactRayPoint(const RayFacet *f, const RayLattice *mortar, const Overlap *o, const RayGuess *g, const RaySimplex *s, const PetscReal beta[3],
+                          int depth, RayPoint *r)
+{
+  PetscReal Y[2] = {0, 0}, xi[2] = {0, 0};
+
+  r->eta[0] = r->eta[1] = 0;
+  for (PetscInt k = 0; k <= f->m; k++) {
+    const PetscInt at = s->corner[k];
+
+    for (PetscInt i = 0; i < f->m; i++) {
+      Y[i] += beta[k] * o->v[at][i];
+      xi[i] += beta[k] * g->xi[at][i];
+      r->eta[i] += beta[k] * g->eta[at][i];
+    }
+  }
   return (PetscBool)(ContactChartLocate(f, Y, xi) && ContactRaySolve(f, mortar, xi, depth, r));
 }
 

@@ -16,64 +16,89 @@ void ContactRayOverDet(const RayFacet *f, const RayChartPoint *c, PetscReal fact
       to->dd[i + j] = (w->dd[i + j] - (w->d[i] * c->ddet[j] + w->d[j] * c->ddet[i]) / c->det + 2 * w->v * c->ddet[i] * c->ddet[j] / (c->det * c->det)) * over;
 }
 
-/* Moments' functions: num that weigh the gap, the same for the area, products for the mass. */
-static PetscInt Factors_Private(const RayFacet *f, const RayTest *t, const RayFunctions *T, PetscBool mass, RayWeight w[])
-{
-  PetscInt num = 0;
+/* Moments' functions with derivatives by Y: num that weigh the gap, the same for the area, products for the mass. */
+typedef struct {
+  PetscReal v[RAY_MOMENTS], d[2][RAY_MOMENTS];
+} Factors;
 
-  for (int twice = 0; twice < 2; twice++)
-    for (PetscInt a = 0; a < t->num; a++, num++) {
-      w[num].v = T->N[a];
-      for (PetscInt i = 0; i < f->m; i++) w[num].d[i] = T->d[i][a];
+static void Factors_Private(const RayFacet *f, const RayTest *t, const RayFunctions *T, const RayChartPoint *chart, PetscBool mass, PetscBool derivatives,
+                            Factors *w)
+{
+  const PetscInt   n = t->num;
+  const PetscReal *N = T->N;
+  PetscInt         num;
+
+  for (PetscInt a = 0; a < n; a++) w->v[a] = w->v[n + a] = N[a];
+  num = 2 * n;
+  for (PetscInt a = 0; a < n && mass; a++)
+    for (PetscInt b = a; b < n; b++) w->v[num++] = N[a] * N[b];
+  for (PetscInt c = 0; c < f->m && derivatives; c++) {
+    PetscReal *d = w->d[c];
+
+    for (PetscInt a = 0; a < n; a++) {
+      d[a] = 0;
+      for (PetscInt i = 0; i < f->m; i++) d[a] += chart->inverse[i][c] * T->d[i][a];
+      d[n + a] = d[a];
     }
-  for (PetscInt a = 0; a < t->num && mass; a++)
-    for (PetscInt b = a; b < t->num; b++, num++) {
-      w[num].v = T->N[a] * T->N[b];
-      for (PetscInt i = 0; i < f->m; i++) w[num].d[i] = T->d[i][a] * T->N[b] + T->N[a] * T->d[i][b];
-    }
-  return num;
+    num = 2 * n;
+    for (PetscInt a = 0; a < n && mass; a++)
+      for (PetscInt b = a; b < n; b++) d[num++] = d[a] * N[b] + N[a] * d[b];
+  }
 }
 
 /* Sums over one simplex. */
 typedef struct {
-  PetscInt   num, nq;             /* moments, numbers */
-  PetscReal *weight, *gap, *area; /* [points][num], [points][nq], [points][nq] */
-  PetscReal  mean[RAY_MOMENTS], (*corner)[6];
+  PetscInt   num, nq;                                                       /* moments, numbers */
+  PetscReal *weight, *gap, *area;                                           /* [points][num], [points][nq], [points][nq] */
+  PetscReal  mean[RAY_MOMENTS], corner[6][RAY_MOMENTS], reach[RAY_LATTICE]; /* corner: derivatives by the simplex's corners */
 } Batch;
 
-static PetscBool Batch_Private(RayWork w, const RayLattice *mortar, const Overlap *o, const RayTest *t, const RaySimplex *s, PetscInt points,
-                               const PetscReal point[][3], const PetscReal weight[], PetscBool mass, PetscBool derivatives, RayPoint *r, Batch *b)
+/* corner += beta times derivatives by Y of functions [from, to) over det times the density g. */
+static void Corner_Private(const RayFacet *f, const RayChartPoint *chart, const Factors *w, PetscInt from, PetscInt to, PetscReal over, PetscReal g,
+                           const PetscReal g_xi[2], const PetscReal beta[3], Batch *b)
+{
+  for (PetscInt c = 0; c < f->m; c++) {
+    PetscReal along = 0;
+
+    for (PetscInt i = 0; i < f->m; i++) along += chart->inverse[i][c] * over * (g_xi[i] - g * chart->ddet[i] / chart->det);
+    for (PetscInt j = 0; j <= f->m; j++) {
+      const PetscReal x = beta[j] * along, y = beta[j] * over * g, *d = w->d[c];
+      PetscReal      *corner = b->corner[f->m * j + c];
+
+      for (PetscInt q = from; q < to; q++) corner[q] += x * w->v[q] + y * d[q];
+    }
+  }
+}
+
+static PetscBool Batch_Private(RayWork w, const RayLattice *mortar, const Overlap *o, const RayTest *t, const RayGuess *guess, const RaySimplex *s,
+                               PetscInt points, const PetscReal point[][3], const PetscReal weight[], PetscBool mass, PetscBool derivatives, RayPoint *r,
+                               Batch *b)
 {
   const RayFacet *f = &w->facet;
   RayFunctions    T;
-  RayWeight       factor[RAY_MOMENTS], phi;
+  Factors         factor;
 
   for (PetscInt q = 0; q < b->num; q++) b->mean[q] = 0;
   for (PetscInt k = 0; k < points; k++) {
-    PetscReal gap_xi[2], area_xi[2], gap, area, over;
+    PetscReal gap_xi[2], area_xi[2], gap, area, over, unit;
 
-    if (!ContactRayPoint(f, mortar, o, s, point[k], derivatives ? 2 : 1, r)) return PETSC_FALSE;
+    if (!ContactRayPoint(f, mortar, o, guess, s, point[k], derivatives ? 2 : 1, r)) return PETSC_FALSE;
     gap = ContactRayGap(r), area = ContactRayArea(r), over = weight[k] / r->chart.det;
     w->min_gap = PetscMin(w->min_gap, r->s * r->beta / r->a);
-    w->covered += weight[k] * s->size * area / r->chart.det;
-    ContactRayTestFunctions(f, t, &r->S, r->xi, &T);
-    Factors_Private(f, t, &T, mass, factor);
-    if (derivatives) ContactRayFirst(f, mortar, r, b->gap + k * b->nq, b->area + k * b->nq, gap_xi, area_xi);
-    for (PetscInt q = 0; q < b->num; q++) {
-      const PetscBool isgap = (PetscBool)(q < t->num);
-
-      phi.v = factor[q].v * over;
-      for (PetscInt i = 0; i < f->m && derivatives; i++) phi.d[i] = factor[q].d[i] * over - phi.v * r->chart.ddet[i] / r->chart.det;
-      b->mean[q] += phi.v * (isgap ? gap : area);
-      if (!derivatives) continue;
-      b->weight[k * b->num + q] = phi.v;
-      for (PetscInt c = 0; c < f->m; c++) {
-        PetscReal sum = 0;
-
-        for (PetscInt i = 0; i < f->m; i++) sum += r->chart.inverse[i][c] * (isgap ? phi.v * gap_xi[i] + phi.d[i] * gap : phi.v * area_xi[i] + phi.d[i] * area);
-        for (PetscInt j = 0; j <= f->m; j++) b->corner[q][f->m * j + c] += point[k][j] * sum;
-      }
+    w->covered += s->size * area * over;
+    if (t->hats) ContactRayTestFunctions(f, t, &r->S, r->xi, &T);
+    Factors_Private(f, t, t->hats ? &T : &r->S, &r->chart, mass, derivatives, &factor);
+    unit = s->size * over * r->beta * r->rho / PetscSqrtReal(Dot3(r->d, r->d));
+    for (PetscInt q = 0; q < t->num; q++) {
+      b->mean[q] += factor.v[q] * over * gap;
+      b->reach[q] += factor.v[q] * unit;
     }
+    for (PetscInt q = t->num; q < b->num; q++) b->mean[q] += factor.v[q] * over * area;
+    if (!derivatives) continue;
+    for (PetscInt q = 0; q < b->num; q++) b->weight[k * b->num + q] = factor.v[q] * over;
+    ContactRayFirst(f, mortar, r, b->gap + k * b->nq, b->area + k * b->nq, gap_xi, area_xi);
+    Corner_Private(f, &r->chart, &factor, 0, t->num, over, gap, gap_xi, point[k], b);
+    Corner_Private(f, &r->chart, &factor, t->num, b->num, over, area, area_xi, point[k], b);
   }
   return PETSC_TRUE;
 }
@@ -86,44 +111,47 @@ static PetscErrorCode Overlap_Private(RayWork w, const RayLattice *mortar, Petsc
   const Overlap  *o = &w->overlap[k];
   const RayTest  *t = &w->test[w->window[k]];
   const PetscInt  D = f->D, nq = D * (f->s.num + f->nv + mortar->num), width = nq + RAY_IMAGES, num = 2 * t->num + (mass ? t->num * (t->num + 1) / 2 : 0);
-  PetscReal       corner[RAY_MOMENTS][6], all[FACET_VERTICES][2];
   RayMove         move[FACET_VERTICES];
-  Batch           b = {.num = num, .nq = nq, .corner = corner};
+  RayGuess        guess;
+  Batch           b;
   RayPoint        r;
   PetscInt        points;
   const PetscReal(*point)[3], *weight;
 
   PetscFunctionBegin;
   *good = PETSC_TRUE;
+  b.num = num, b.nq = nq;
   PetscCall(ContactRayRule(f->m, f->s.order, mortar->order, &points, &point, &weight));
   PetscCall(ContactGrow(points * (num + 2 * nq), sizeof(PetscReal), &w->size_buffer, &w->buffer));
   b.weight = w->buffer, b.gap = b.weight + points * num, b.area = b.gap + points * nq;
   for (PetscInt i = 0; i < num; i++) q[i] = 0;
+  for (PetscInt i = 0; i < t->num; i++) b.reach[i] = 0;
   if (derivatives) {
     PetscCall(PetscArrayzero(dq, num * width));
     ContactRayMoves(f, o, move);
   }
-  r.eta[0] = r.eta[1] = r.s = 0;
+  ContactRayGuess(f, mortar, o, &guess);
+  r.s = 0;
   for (PetscInt j = 0; j < ContactRaySimplices(f, o); j++) {
     RaySimplex s;
 
     ContactRaySimplex(f, o, j, &s);
-    memset(corner, 0, (size_t)num * sizeof(corner[0]));
-    *good = Batch_Private(w, mortar, o, t, &s, points, point, weight, mass, derivatives, &r, &b);
+    for (PetscInt c = 0; c < 6; c++) memset(b.corner[c], 0, (size_t)num * sizeof(PetscReal));
+    *good = Batch_Private(w, mortar, o, t, &guess, &s, points, point, weight, mass, derivatives, &r, &b);
     if (!*good) PetscFunctionReturn(PETSC_SUCCESS);
     for (PetscInt i = 0; i < num; i++) q[i] += s.size * b.mean[i];
     if (!derivatives) continue;
     ContactRayProducts(points, s.size, t->num, b.weight, num, nq, b.gap, nq, dq, width);
     ContactRayProducts(points, s.size, num - t->num, b.weight + t->num, num, D * f->s.num, b.area, nq, dq + t->num * width, width);
-    for (PetscInt i = 0; i < num; i++) {
-      memset(all, 0, sizeof(all));
-      for (PetscInt v = 0; v <= f->m; v++)
-        for (PetscInt c = 0; c < f->m; c++) all[s.corner[v]][c] += s.size * corner[i][f->m * v + c] + b.mean[i] * s.d[f->m * v + c];
-      for (PetscInt v = 0; v <= f->m; v++)
-        for (PetscInt c = 0; c < f->m; c++)
-          for (int l = 0; l < RAY_IMAGES; l++) dq[i * width + nq + l] += all[s.corner[v]][c] * move[s.corner[v]].d[c][l];
-    }
+    for (PetscInt v = 0; v <= f->m; v++)
+      for (PetscInt c = 0; c < f->m; c++) {
+        const PetscReal *along = move[s.corner[v]].d[c], *corner = b.corner[f->m * v + c], d = s.d[f->m * v + c];
+
+        for (PetscInt i = 0; i < num; i++)
+          for (int l = 0; l < RAY_IMAGES; l++) dq[i * width + nq + l] += (s.size * corner[i] + b.mean[i] * d) * along[l];
+      }
   }
+  for (PetscInt i = 0; i < t->num; i++) w->reach[t->place[i]] += b.reach[i];
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -140,6 +168,7 @@ PetscErrorCode ContactRayMoments(ContactPair pair, const ContactSurface *mortar,
   w->n           = f->D * (own + w->num_mortar) + f->m * w->num_images;
   w->num_moments = 2 * na + (mass ? na * (na + 1) / 2 : 0);
   w->covered = 0, w->min_gap = PETSC_MAX_REAL;
+  PetscCall(PetscArrayzero(w->reach, na));
   PetscCall(PetscArrayzero(w->q, w->num_moments));
   if (derivatives) {
     PetscCall(ContactGrow(w->num_moments * w->n, sizeof(PetscReal), &w->size_dq, &w->dq));

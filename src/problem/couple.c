@@ -248,8 +248,19 @@ static PetscErrorCode ShareGaps_Private(Problem p, Contact *c)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Interference into the offsets of the nodes of this rank. Facets that have no reach of their own measure gaps along normals of length 1. */
+static void Interference_Private(Contact *c)
+{
+  for (PetscInt i = 0; i < c->num_facets; ++i) {
+    const ContactFacet *f = &c->facets[i];
+    for (PetscInt k = 0; k < f->num_rows; ++k) {
+      if (c->side[0].owned[f->nodes[k]]) c->offset[f->nodes[k]] += c->spec->interference * (f->reach ? f->reach[k] : f->weight[k]);
+    }
+  }
+}
+
 /* What counts as no gap: gt_j less a constant, so that forces and derivatives stay as they are. Initial gaps are those of this mesh at the reference
-   positions; an interference is taken per reference length. */
+   positions; an interference is the change of all gaps by as much along their directions there. */
 static PetscErrorCode Offset_Private(Problem p, Contact *c)
 {
   const Surface      *s       = &c->side[0];
@@ -264,10 +275,11 @@ static PetscErrorCode Offset_Private(Problem p, Contact *c)
   PetscCall(ContactPairEvaluate(c->pair, &side[0], &side[1], NULL, NULL, PETSC_FALSE, PETSC_FALSE, &c->num_facets, &facets, &failed));
   c->facets = facets;
   PetscCall(NodeSums_Private(p, c));
-  for (PetscInt i = 0; i < s->num_own; ++i) {
+  Interference_Private(c);
+  for (PetscInt i = 0; c->spec->adjust && i < s->num_own; ++i) {
     const PetscInt j = s->own[i];
-    c->offset[j]     = (c->spec->adjust ? c->gap[j] : 0) + c->spec->interference * c->weight[j];
-    if (c->spec->adjust && ContactCovered_Private(c, j)) c->view.adjusted = PetscMax(c->view.adjusted, PetscAbsReal(c->gap[j] / c->weight[j]));
+    c->offset[j] += c->gap[j];
+    if (ContactCovered_Private(c, j)) c->view.adjusted = PetscMax(c->view.adjusted, PetscAbsReal(c->gap[j] / c->weight[j]));
   }
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &c->view.adjusted, 1, MPIU_REAL, MPI_MAX, p->comm));
   c->num_facets = 0;
@@ -444,6 +456,7 @@ static PetscErrorCode Freeze_Private(Problem p, Contact *c, PetscBool *failed)
     c->frozen[i]         = *f;
     c->frozen[i].gap     = NULL; /* with gap0 */
     c->frozen[i].weight  = NULL;
+    c->frozen[i].reach   = NULL;
     c->frozen[i].nodes   = nodes;
     c->frozen[i].dgap    = dgap;
     c->frozen[i].dweight = dweight;

@@ -74,6 +74,8 @@ const Option Options[] = {
      PAIR(spec.interference)},
     {"contact.<pair>.multiplier", KEY_WORD, "", "dual", "dual|standard",
      "basis of the contact pressure: dual to the hats on the covered part of each facet, or the hats themselves", PAIR(multiplier)},
+    {"contact.<pair>.projection", KEY_WORD, "", "facet", "continuous|facet",
+     "three dimensions, faces of order 1: direction of the gap, continuous over the surface, or each face's own", PAIR(projection)},
     {"contact.<pair>.node_to_segment", KEY_BOOL, "", "false", "", "node-to-segment contact, for comparison only", PAIR(spec.node_to_segment)},
 
     {"load.end", KEY_REAL, "pseudo-time", "1", POSITIVE, "t runs from 0 to here", SCENE(data.load.end)},

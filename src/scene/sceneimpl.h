@@ -70,7 +70,7 @@ typedef struct {
 typedef struct {
   ContactSpec spec;
   char        nonmortar[MORTISE_NAME], mortar[MORTISE_NAME];
-  int         order, initial_gap, multiplier;
+  int         order, initial_gap, multiplier, projection;
   PetscInt    subdivide; /* isotropic subdivisions of the cells that touch either side */
   SceneNode  *node;
 } ContactEntry;

@@ -1,4 +1,5 @@
-/* The overlap of two quadrilaterals with sides on lines that nearly coincide: its corners stay with both, and its integrals are those of its area. */
+/* The overlap of two quadrilaterals with sides on lines that nearly coincide: its corners stay with both, and its integrals are those of its area. Of others
+   that are not convex, or folded: signed areas, and never more corners than there is room for. */
 #include "contactfixture.h"
 #include "facetimpl.h"
 
@@ -48,4 +49,45 @@ static void SidesThatNearlyCoincide(void **state)
       }
 }
 
-CONTACT_TEST_MAIN("contact: clipping", cmocka_unit_test(SidesThatNearlyCoincide))
+/* Signed area of the part of corners a, b, c, d in o's first side; *fits: no more corners than there is room for. */
+static PetscReal Part(const Overlap *o, int a, int b, int c, int d, PetscBool *fits)
+{
+  const int place[4] = {a, b, c, d};
+  Overlap   part     = *o;
+
+  for (int k = 0; k < 4; k++)
+    for (int i = 0; i < 2; i++) part.side[1].Y[k][i] = o->side[1].Y[place[k]][i];
+  part.area = 0;
+  (void)ContactClip(&part);
+  *fits = (PetscBool)(part.num <= FACET_VERTICES);
+  return part.num < 3 ? 0 : part.area;
+}
+
+static void QuadrilateralsOfAnyShape(void **state)
+{
+  PetscInt many = 0, bent = 0;
+  uint64_t seed = 7;
+
+  for (int n = 0; n < 200000; n++) {
+    PetscBool fits[3];
+    PetscReal whole, first, second;
+    Overlap   o;
+
+    Make(0, 1, 0, 0, &o);
+    for (int k = 0; k < 4; k++)
+      for (int i = 0; i < 2; i++) o.side[1].Y[k][i] = 0.5 + 1.5 * Random(&seed);
+    whole  = Part(&o, 0, 1, 2, 3, &fits[0]);
+    first  = Part(&o, 0, 1, 2, 2, &fits[1]);
+    second = Part(&o, 0, 2, 3, 3, &fits[2]);
+    assert_true(fits[1] && fits[2]);
+    if (!ContactQuadIsConvex(&o.side[1])) bent++;
+    if (fits[0])
+      assert_near(whole, first + second, 1e-7);
+    else
+      many++;
+  }
+  assert_true(bent > 100000 && many > 0);
+  printf("%d of %d have more corners than there is room for\n", (int)many, 200000);
+}
+
+CONTACT_TEST_MAIN("contact: clipping", cmocka_unit_test(SidesThatNearlyCoincide), cmocka_unit_test(QuadrilateralsOfAnyShape))

@@ -145,6 +145,8 @@ def test_good_on_two_ranks(check):
     (("friction: 0", "subdivide: [1, 2]"), ["contact.pair.subdivide must be an integer", "list"]),
     # not built yet
     (("friction: 0", "friction: 0.3"), ["contact.pair.friction is 0.3", "not built yet"]),
+    (("friction: 0", "projection: along"), ["contact.pair.projection is 'along'", "continuous, facet|continuous.*facet"]),
+    (("friction: 0", "projection: facet"), ["contact.pair.projection: only faces of order 1 in three dimensions"]),
     (("friction: 0", "order: full, node_to_segment: true"), ["contact.pair.order", "do not go together"]),
     (("{law: neo_hookean, E: 1, nu: 0.3}", "{law: hgo, c: 1, kappa: 2, k1: 1, k2: 1, fiber: {a: {angle: 29}}}"), ["law hgo is not built yet"]),
     (("{law: neo_hookean, E: 1, nu: 0.3}", "{law: j2, E: 1, nu: 0.3, yield: 1}"), ["law j2 is not built yet"]),
