@@ -68,7 +68,7 @@ UNITS   := $(patsubst tests/unit/%.c,$(BUILD)/unit/%,$(wildcard tests/unit/test_
 BENCHES := $(patsubst tests/bench/%.c,$(BUILD)/bench/%,$(wildcard tests/bench/*.c))
 TRACKED  = $(wildcard $(shell git ls-files '*.c' '*.h'))
 
-.PHONY: all units unit bootstrap demo run-demo test run-test verify run-verify chart bench run-bench format format-check lint floors sizes docs clean FORCE
+.PHONY: all units unit bootstrap demo run-demo test run-test verify run-verify chart bench run-bench format format-check lint floors sizes clean FORCE
 all: $(PROGRAM)
 
 $(BUILD)/mortise: $(BUILD)/app/main.o $(LIBRARY)
@@ -134,6 +134,7 @@ chart: bootstrap
 	@$(MAKE) --no-print-directory -j2 all $(BUILD)/bench/contact
 	@MORTISE=$(abspath $(PROGRAM)) scripts/chart
 	@MORTISE=$(abspath $(PROGRAM)) scripts/chart_hp
+	@MORTISE=$(abspath $(PROGRAM)) scripts/chart_faces
 	@scripts/chart_search $(BUILD)/bench/contact
 
 bench: bootstrap
@@ -155,10 +156,6 @@ lint: format-check floors
 	scripts/sizes --check
 sizes:
 	scripts/sizes
-
-# The manual is the program's own -help; docs/options.txt keeps it readable without building.
-docs: all
-	$(PROGRAM) -help > docs/options.txt
 
 clean:
 	rm -rf build build-* bin out tests/.pytest_cache

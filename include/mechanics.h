@@ -55,6 +55,9 @@ typedef struct {
   PetscReal (*frame)[9];
   int8_t *cause; /* [num_nodes][3] boundary index that prescribes this component, -1 none, -2 rigid body */
 } Supports;
+
+/* Value of an expression times the amplitude; an expression that speaks of t itself takes the amplitude only when one is given. */
+PetscErrorCode MechanicsValue(Expression, const Amplitude *, const PetscReal X[3], PetscReal t, PetscReal *value);
 PetscErrorCode MechanicsSupportsCreate(HPSpace, const MechanicsSpec *, Supports *);
 PetscErrorCode MechanicsSupportsDestroy(Supports *);
 
@@ -102,8 +105,6 @@ PetscErrorCode MechanicsRecover(Mechanics, PetscReal du[]);
 PetscErrorCode MechanicsNumPressure(Mechanics, PetscInt *num);
 /* pressure += step * (linearised pressure at the last tangent + its derivative . du - pressure), du local array. */
 PetscErrorCode MechanicsUpdatePressure(Mechanics, const PetscReal du[], PetscReal step, PetscReal pressure[]);
-/* The pressure that u implies. */
-PetscErrorCode MechanicsConsistentPressure(Mechanics, const PetscReal u[], PetscReal pressure[]);
 
 /* Sum of residual entries r (local array, as returned by MechanicsResidual plus contact) over what each boundary prescribes: force of the support on the body,
    Cartesian; reaction[num_boundaries][3], this rank's part. */

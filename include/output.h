@@ -121,7 +121,7 @@ typedef struct {
   Probes          probes;   /* NULL: none */
 } RunSummary;
 
-/* Write summary.json into the scene's output directory (docs/manual: keys). Unknown figures are null. peak_memory_mb is the sum over ranks,
+/* Write summary.json into the scene's output directory. Unknown figures are null. peak_memory_mb is the sum over ranks,
    peak_memory_rank_mb the largest of one; times are the largest of any rank. Collective. */
 PetscErrorCode OutputSummary(MPI_Comm, const SceneData *, const RunSummary *);
 /* Make the directory and its parents; an input error when that is impossible. Collective. */

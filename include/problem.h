@@ -88,6 +88,8 @@ static inline PetscInt SurfaceFacetOrder(const SurfaceView *s, PetscInt facet)
 /* Functions of these nodes at xi[dim-1] in [-1, 1], N[...], and their derivatives by xi (NULL: not wanted). order 0: hats of the corners, counterclockwise;
    else of the lattice, lexicographic. */
 void SurfaceShape(PetscInt dim, PetscInt order, const PetscReal xi[], PetscReal N[], PetscReal dN[][2]);
+/* Tangents by xi of a facet at nodal positions x[num_nodes][dim]; two dimensions: the second is the unit vector across. */
+void SurfaceTangents(const SurfaceView *, PetscInt facet, const PetscReal x[], const PetscReal xi[], PetscReal tangent[2][3]);
 
 typedef struct {
   const ContactSpec *spec;
@@ -124,12 +126,11 @@ PetscErrorCode ProblemSearch(Problem, Vec x);
 /* ---- residual and tangent --------------------------------------------------------------------------------------------------- */
 
 typedef struct {
-  PetscReal energy;     /* strain energy */
-  PetscReal min_det;    /* smallest det F */
-  PetscReal scale;      /* root of the summed squared nodal forces of cells and loads: the residual is small against it */
-  PetscReal noise;      /* level of round-off in the residual: no Newton step gets below */
-  PetscInt  num_active; /* active contact nodes */
-  PetscBool bad;        /* outside the domain: det F <= 0 or a failed projection */
+  PetscReal energy;  /* strain energy */
+  PetscReal min_det; /* smallest det F */
+  PetscReal scale;   /* root of the summed squared nodal forces of cells and loads: the residual is small against it */
+  PetscReal noise;   /* level of round-off in the residual: no Newton step gets below */
+  PetscBool bad;     /* outside the domain: det F <= 0 or a failed projection */
 } ProblemStatus;
 
 /* R(x) with the prescribed motion as applied. Deterministic function of x. Collective; status is the same on every rank. */
@@ -154,7 +155,7 @@ PetscErrorCode ProblemRightSide(Problem, Vec r, Vec lift, Vec rhs);
 /* Active-set passes against the last tangent: given the solution dx of tangent . dx = -rhs, decide anew which constraints are active, rewrite their rows in the
    matrix and the right-hand side. *changed: number of nodes that switched (all ranks); *violation: by how much dx contradicts the set it was found with, the
    sum over those nodes of w0 |z - c gt/w| (unit: force). */
-PetscErrorCode ProblemSwitchActiveSet(Problem, Vec x, Vec dx, Vec rhs, PetscInt *changed, PetscReal *violation);
+PetscErrorCode ProblemSwitchActiveSet(Problem, Vec dx, Vec rhs, PetscInt *changed, PetscReal *violation);
 /* Where the active set of the last linear step moves along the surface, gaps linearised at the old place say little of the new one. Release takes
    pairs that move so (prescribed motion still to come, finite kinematics) out of the tangent: the next linear step carries their bodies along without
    them and sets their multipliers to 0. *any: is there one? Engage puts all pairs back. Collective. */

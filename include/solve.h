@@ -6,9 +6,8 @@ typedef struct _p_Solver *Solver;
 
 typedef struct {
   PetscBool     converged;
-  const char   *reason;        /* why not, in words */
-  PetscInt      iterations;    /* tangent assemblies */
-  PetscInt      linear_solves; /* active-set passes included */
+  const char   *reason;     /* why not, in words */
+  PetscInt      iterations; /* tangent assemblies */
   PetscInt      factorisations;
   PetscInt      single_failures; /* factors in single precision that did not serve: a solver has at most one, then it takes double */
   PetscInt      set_changes;     /* contact nodes that active-set passes switched */
@@ -26,7 +25,10 @@ typedef struct {
    multigrid_smoother_*, again_ksp_* (GMRES on a factor in single precision or of an earlier tangent). Collective. */
 PetscErrorCode SolverCreate(Problem, Solver *);
 PetscErrorCode SolverDestroy(Solver *);
-PetscErrorCode SolverGetSNES(Solver, SNES *);
+/* Are the values of all -solve_* options allowed? An input error when one is not. */
+PetscErrorCode SolverCheckOptions(void);
+/* The -solve_* options as text for -help. */
+PetscErrorCode SolverPrintHelp(MPI_Comm);
 
 /* Solve at the problem's current time, starting from state (x, pressure), which is changed. The prescribed motion not yet applied enters the first linear
    solve. Active sets that repeat are noticed: of the passes of one linearisation the least contradicted set is taken; Newton iterates that repeat fail at

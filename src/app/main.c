@@ -80,6 +80,7 @@ static PetscErrorCode Solve_Private(int argc, char **argv, PetscBool *gave_up)
   PetscCall(StageEnd(STAGE_MESH));
   PetscCall(SceneGetData(app.scene, &app.data));
   if (SceneCheckOnly(app.scene)) {
+    PetscCall(SolverCheckOptions());
     PetscCall(SceneView(app.scene, PETSC_VIEWER_STDOUT_WORLD));
     PetscCall(ForestDestroy(&forest));
   } else {
@@ -116,12 +117,22 @@ static PetscErrorCode UnusedOptions_Private(void)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+static PetscErrorCode Help_Private(void)
+{
+  PetscFunctionBegin;
+  PetscCall(ScenePrintHelp(PETSC_COMM_WORLD));
+  PetscCall(SolverPrintHelp(PETSC_COMM_WORLD));
+  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "\nOptions of PETSc work as everywhere: -snes_monitor, -ksp_monitor, -log_view, ...\n"
+                                          "Exit status: 0 converged to the end; 1 bad input, nothing was solved; 2 the solver gave up.\n"));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 static PetscErrorCode Main_Private(int argc, char **argv, PetscBool *gave_up)
 {
   PetscFunctionBegin;
   PetscCall(StageRegister());
   if (Asked_Private(argc, argv, "-help") || Asked_Private(argc, argv, "--help") || Asked_Private(argc, argv, "-h"))
-    PetscCall(ScenePrintHelp(PETSC_COMM_WORLD));
+    PetscCall(Help_Private());
   else if (Asked_Private(argc, argv, "-list"))
     PetscCall(ScenePrintList(PETSC_COMM_WORLD));
   else {

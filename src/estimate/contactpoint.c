@@ -15,21 +15,6 @@ void ContactShape_Private(const SurfaceView *s, PetscInt facet, const PetscReal 
   SurfaceShape(s->dim, SurfaceFacetOrder(s, facet), xi, N, NULL);
 }
 
-void ContactTangents_Private(const SurfaceView *s, PetscInt facet, const PetscReal x[], const PetscReal xi[2], PetscReal tangent[2][3])
-{
-  const PetscInt *node, num = SurfaceFacetNodes(s, facet, &node);
-  PetscReal       N[SURFACE_MOST_NODES], d[SURFACE_MOST_NODES][2];
-
-  for (PetscInt c = 0; c < 3; ++c) tangent[0][c] = tangent[1][c] = 0;
-  if (s->dim == 2) tangent[1][2] = 1;
-  SurfaceShape(s->dim, SurfaceFacetOrder(s, facet), xi, N, d);
-  for (PetscInt a = 0; a < num; ++a) {
-    for (PetscInt c = 0; c < s->dim; ++c) {
-      for (PetscInt k = 0; k < s->dim - 1; ++k) tangent[k][c] += d[a][k] * x[s->dim * node[a] + c];
-    }
-  }
-}
-
 PetscReal ContactMeasure_Private(const PetscReal tangent[2][3])
 {
   PetscReal square = 0;
@@ -56,7 +41,7 @@ static void Locate_Private(const SurfaceView *s, PetscInt facet, const PetscReal
     PetscReal N[SURFACE_MOST_NODES], r[3], t[2][3];
     ContactShape_Private(s, facet, xi, N);
     ContactPosition_Private(s, facet, s->X, N, r);
-    ContactTangents_Private(s, facet, s->X, xi, t);
+    SurfaceTangents(s, facet, s->X, xi, t);
     for (PetscInt c = 0; c < 3; ++c) r[c] = c < s->dim ? X[c] - r[c] : 0;
     const PetscReal a = Dot3(t[0], t[0]), b = Dot3(t[0], t[1]), d = Dot3(t[1], t[1]), det = a * d - b * b, f = Dot3(t[0], r), g = Dot3(t[1], r);
     if (!(det > 0)) return;
@@ -72,8 +57,8 @@ static PetscReal Stretch_Private(const ContactTerms *terms, const SurfaceView *s
   PetscReal now[2][3], before[2][3], N[SURFACE_MOST_NODES], x[3], X[3];
 
   if (terms->kinematics != KINEMATICS_FINITE) return 1;
-  ContactTangents_Private(s, facet, s->x, xi, now);
-  ContactTangents_Private(s, facet, s->X, xi, before);
+  SurfaceTangents(s, facet, s->x, xi, now);
+  SurfaceTangents(s, facet, s->X, xi, before);
   const PetscReal ratio = ContactMeasure_Private(now) / ContactMeasure_Private(before);
   if (terms->model != MODEL_AXISYMMETRIC) return ratio;
   ContactShape_Private(s, facet, xi, N);
@@ -91,7 +76,7 @@ static void Push_Private(const ContactTerm *term, PetscBool finite, PetscInt fac
 
   ContactShape_Private(s, facet, xi, N);
   if (s->order) {
-    ContactTangents_Private(s, facet, finite ? term->x : s->X, xi, t);
+    SurfaceTangents(s, facet, finite ? term->x : s->X, xi, t);
     Cross3(t[0], t[1], n);
   } else
     ContactPosition_Private(s, facet, term->normal, N, n);

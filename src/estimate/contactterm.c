@@ -214,7 +214,7 @@ static PetscReal Measure_Private(const ContactTerms *terms, const SurfaceView *s
   const PetscReal *x = terms->kinematics == KINEMATICS_FINITE ? s->x : s->X;
   PetscReal        tangent[2][3], position[3];
 
-  ContactTangents_Private(s, facet, x, xi, tangent);
+  SurfaceTangents(s, facet, x, xi, tangent);
   if (terms->model != MODEL_AXISYMMETRIC) return ContactMeasure_Private(tangent);
   ContactPosition_Private(s, facet, x, N, position);
   return 2 * PETSC_PI * position[0] * ContactMeasure_Private(tangent);

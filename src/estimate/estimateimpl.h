@@ -128,10 +128,9 @@ PetscErrorCode ContactTermsDestroy_Private(ContactTerms *);
 PetscBool      ContactTermsHave_Private(const ContactTerms *, PetscInt facet);
 /* Complementarity: int z+ g+ + mu p/h |g-|^2 on the nonmortar facets of owned leaves. */
 PetscErrorCode EstimateComplementarity_Private(EstimateSum *, const PetscReal height[][3]);
-/* contactpoint.c: at xi in [-1, 1]^(dim-1) of a facet: functions of its nodes, N[SURFACE_MOST_NODES], tangents by xi (two dimensions: the second is the unit
-   vector across), length or area per unit of xi, and nodal positions (or normals) x[num_nodes][dim] interpolated (two dimensions: third component 0) */
+/* contactpoint.c: at xi in [-1, 1]^(dim-1) of a facet: functions of its nodes, N[SURFACE_MOST_NODES], length or area per unit of xi from its tangents
+   (SurfaceTangents), and nodal positions (or normals) x[num_nodes][dim] interpolated (two dimensions: third component 0) */
 void      ContactShape_Private(const SurfaceView *, PetscInt facet, const PetscReal xi[2], PetscReal N[]);
-void      ContactTangents_Private(const SurfaceView *, PetscInt facet, const PetscReal x[], const PetscReal xi[2], PetscReal tangent[2][3]);
 PetscReal ContactMeasure_Private(const PetscReal tangent[2][3]);
 void      ContactPosition_Private(const SurfaceView *, PetscInt facet, const PetscReal x[], const PetscReal N[], PetscReal position[3]);
 /* The box of a segment. */
@@ -177,13 +176,4 @@ static inline PetscReal EstimateTangent_Private(const MaterialSpec *material, Ki
     inverse += PetscSqr(cofactor[k] / J);
   }
   return PetscMax(modulus, 0.5 * PetscSqrtReal(stress * inverse));
-}
-
-/* value of an expression times the amplitude, as mechanics reads it: an expression that speaks of t itself takes the amplitude only when one is given. */
-static inline PetscErrorCode EstimateValue_Private(Expression expression, const Amplitude *amplitude, const PetscReal X[3], PetscReal t, PetscReal *value)
-{
-  PetscFunctionBegin;
-  PetscCall(ExpressionEvaluate(expression, X, t, value));
-  if (amplitude->num > 0 || !ExpressionUsesTime(expression)) *value *= AmplitudeEvaluate(amplitude, t);
-  PetscFunctionReturn(PETSC_SUCCESS);
 }

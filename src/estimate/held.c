@@ -1,5 +1,6 @@
-/* Cells that a higher order gains nothing: those with a contact face of order 1 (its error stays), and those at the rim of a contact zone, where the pressure
-   starts like a root: all that share a vertex with a contact facet of which some nodes are pressed and others are not. */
+/* Cells that a higher order gains little: those with a contact face of order 1 (its error stays), those at the rim of a contact zone, where the pressure
+   starts like a root: all that share a vertex with a contact facet of which some nodes are pressed and others are not, and those that touch a place where the
+   kind of condition on the boundary changes, which is taken for singular until the coefficients of their solution show (choose.c). */
 #include "estimateimpl.h"
 
 #define PRESSED 1e-8 /* of the largest nodal force: less is round-off of an open node */

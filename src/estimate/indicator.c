@@ -136,7 +136,7 @@ static PetscErrorCode Residual_Private(const EstimateSum *sum, const BodySpec *b
     Divergence_Private(dim, sum->spec->model, table, q, w->P, w->J + 9 * q, w->position + 3 * q, w->R + 3 * q, w->S + 3 * q);
     for (PetscInt c = 0; c < dim; ++c) {
       if (!body->force[c]) continue;
-      PetscCall(EstimateValue_Private(body->force[c], &body->amplitude, w->position + 3 * q, sum->time, &force));
+      PetscCall(MechanicsValue(body->force[c], &body->amplitude, w->position + 3 * q, sum->time, &force));
       w->R[3 * q + c] += force;
     }
   }

@@ -69,11 +69,11 @@ static PetscErrorCode Load_Private(const EstimateSum *sum, const FacetPlace *f, 
     if (!((f->groups >> s->group) & 1)) continue;
     for (PetscInt c = 0; c < sum->v->dim; ++c) {
       if (!s->traction[c]) continue;
-      PetscCall(EstimateValue_Private(s->traction[c], &s->amplitude, X, sum->time, &value));
+      PetscCall(MechanicsValue(s->traction[c], &s->amplitude, X, sum->time, &value));
       T[c] += value;
     }
     if (!s->pressure) continue;
-    PetscCall(EstimateValue_Private(s->pressure, &s->amplitude, X, sum->time, &value));
+    PetscCall(MechanicsValue(s->pressure, &s->amplitude, X, sum->time, &value));
     Follower_Private(value, sum->spec->kinematics, F, N, T);
   }
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -92,12 +92,11 @@ static PetscErrorCode ConstraintRow_Private(HPSpace hp, Mat mat, PetscInt row, P
 }
 
 /* Hanging nodes as the DM's default constraints: a global-to-local fills them, a local-to-global distributes them. All values of a point
-   are listed or none (rows are copied point by point); the bias is zero because prescribed dofs of masters enter through the local vector. */
+   are listed or none (rows are copied point by point); there is no bias because prescribed dofs of masters enter through the local vector. */
 static PetscErrorCode DefaultConstraints_Private(HPSpace hp)
 {
   PetscSection s;
   Mat          mat;
-  Vec          bias;
   PetscInt     rows, longest = 1;
 
   PetscFunctionBegin;
@@ -119,9 +118,7 @@ static PetscErrorCode DefaultConstraints_Private(HPSpace hp)
   }
   PetscCall(MatAssemblyBegin(mat, MAT_FINAL_ASSEMBLY));
   PetscCall(MatAssemblyEnd(mat, MAT_FINAL_ASSEMBLY));
-  PetscCall(VecCreateSeq(PETSC_COMM_SELF, rows, &bias));
-  PetscCall(DMSetDefaultConstraints(hp->dm, s, mat, bias));
-  PetscCall(VecDestroy(&bias));
+  PetscCall(DMSetDefaultConstraints(hp->dm, s, mat, NULL));
   PetscCall(MatDestroy(&mat));
   PetscCall(PetscSectionDestroy(&s));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -179,26 +179,10 @@ PetscErrorCode MechanicsUpdatePressure(Mechanics m, const PetscReal du[], PetscR
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode MechanicsConsistentPressure(Mechanics m, const PetscReal u[], PetscReal pressure[])
-{
-  PetscFunctionBegin;
-  for (PetscInt ig = 0; ig < m->num_groups; ++ig) {
-    const CellGroup *g  = &m->groups[ig];
-    const Buffers    b  = CutBuffers_Private(m, g);
-    const PetscInt   nd = g->n * m->dim;
-    for (PetscInt first = 0; first < g->num_cells && g->m; first += g->batch) {
-      CellBatch batch = {.nc = PetscMin(g->batch, g->num_cells - first), .X = g->X + first * nd, .u = b.u, .consistent = pressure + g->pressure + first * g->m};
-      PetscCall(GatherBatch_Private(m, g, first, batch.nc, u, b.u));
-      PetscCall(CellKernelEvaluate(g->kernel, &batch));
-    }
-  }
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 PetscErrorCode MechanicsPoints(Mechanics m, PetscInt cell, PetscInt np, const PetscReal xi[], const PetscReal u[], PetscReal F[], PetscReal P[], PetscReal W[])
 {
   const CellGroup *g;
-  PetscReal       *X, *values, consistent[64];
+  PetscReal       *X, *values, consistent[MOST_PRESSURES];
   PetscBool        bad;
 
   PetscFunctionBegin;
@@ -210,7 +194,6 @@ PetscErrorCode MechanicsPoints(Mechanics m, PetscInt cell, PetscInt np, const Pe
   PetscCall(HPSpaceGather(m->space, cell, u, values));
   if (g->m) {
     CellBatch batch = {.nc = 1, .X = X, .u = values, .consistent = consistent};
-    PetscCheck(g->m <= 64, PETSC_COMM_SELF, PETSC_ERR_ARG_OUTOFRANGE, "%" PetscInt_FMT " pressure coefficients in a cell", g->m);
     PetscCall(CellKernelEvaluate(g->kernel, &batch));
   }
   PetscCall(CellKernelPoints(g->kernel, np, xi, X, values, g->m ? consistent : NULL, F, P, W, &bad));

@@ -91,7 +91,7 @@ static PetscErrorCode FacetTraction_Private(Mechanics m, const LoadFacet *f, Pet
   PetscCall(PetscMemzero(traction, sizeof(traction)));
   for (PetscInt q = 0; q < np; ++q) {
     for (PetscInt c = 0; c < m->dim; ++c) {
-      if (b->traction[c]) PetscCall(MechanicsValue_Private(b->traction[c], &b->amplitude, position[q], m->t, &traction[q][c]));
+      if (b->traction[c]) PetscCall(MechanicsValue(b->traction[c], &b->amplitude, position[q], m->t, &traction[q][c]));
     }
   }
   PetscCall(FacetTraction(m->dim, m->spec->model, g->order, trace, traction[0], r));
@@ -129,7 +129,7 @@ static PetscErrorCode CellForce_Private(Mechanics m, const CellGroup *g, const B
     if (m->spec->model == MODEL_AXISYMMETRIC) weight *= 2 * PETSC_PI * x[0];
     for (PetscInt c = 0; c < m->dim; ++c) {
       if (!body->force[c]) continue;
-      PetscCall(MechanicsValue_Private(body->force[c], &body->amplitude, x, m->t, &f));
+      PetscCall(MechanicsValue(body->force[c], &body->amplitude, x, m->t, &f));
       for (PetscInt i = 0; i < g->n; ++i) r[i * m->dim + c] -= weight * f * value[i];
     }
   }
@@ -204,7 +204,7 @@ static PetscErrorCode FacetFollower_Private(Mechanics m, const LoadFacet *f, con
   PetscFunctionBegin;
   TakeTrace_Private(m->dim, num, nodes, X, trace);
   PetscCall(FacetQuadrature(m->dim, m->spec->model, g->order, trace, position[0], dA, normal[0]));
-  for (PetscInt q = 0; q < np; ++q) PetscCall(MechanicsValue_Private(b->pressure, &b->amplitude, position[q], m->t, &pressure[q]));
+  for (PetscInt q = 0; q < np; ++q) PetscCall(MechanicsValue(b->pressure, &b->amplitude, position[q], m->t, &pressure[q]));
   if (m->spec->kinematics == KINEMATICS_FINITE) {
     PetscCall(HPSpaceGather(m->space, f->cell, u, values));
     for (PetscInt i = 0; i < num; ++i)

@@ -70,6 +70,8 @@ typedef struct {
   PetscBLASInt       *pivot;                         /* owned [num_cells][num_inner*dim] of LDL^T; first 0: Cholesky */
 } CellGroup;
 
+#define MOST_PRESSURES ((MORTISE_MAX_ORDER * (MORTISE_MAX_ORDER + 1) * (MORTISE_MAX_ORDER + 2)) / 6) /* coefficients of a cell */
+
 /* A facet that carries a load. */
 typedef struct {
   PetscInt cell, side, boundary; /* side = 2*direction + (high side) */
@@ -102,8 +104,6 @@ PetscErrorCode MechanicsCondenseCell_Private(Mechanics, CellGroup *, PetscInt i,
 PetscErrorCode MechanicsFreeBodies_Private(Mechanics);
 /* Follower pressures: add to r (NULL: skip) and to the sink (NULL: skip). */
 PetscErrorCode MechanicsFollowers_Private(Mechanics, const PetscReal u[], PetscReal r[], MatrixSink, void *context);
-/* value of an expression times the amplitude; an expression that speaks of t itself takes the amplitude only when one is given. */
-PetscErrorCode MechanicsValue_Private(Expression, const Amplitude *, const PetscReal X[3], PetscReal t, PetscReal *value);
 
 /* ---- inside the cell kernel (cell.c, cellfield.c, cellpressure.c, celltangent.c): NUM_LANES cells at a time, one in each lane ---- */
 

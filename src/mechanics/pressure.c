@@ -2,8 +2,6 @@
    complete to degree order-1, the first direction fastest (as in cell.c). */
 #include "mechanicsimpl.h"
 
-#define MOST_PRESSURES ((MORTISE_MAX_ORDER * (MORTISE_MAX_ORDER + 1) * (MORTISE_MAX_ORDER + 2)) / 6)
-
 /* Pressure functions at one reference point; returns their number. */
 static PetscErrorCode Functions_Private(PetscInt dim, PetscInt order, const PetscReal xi[], PetscReal value[], PetscInt *num)
 {

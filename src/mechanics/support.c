@@ -4,7 +4,7 @@
 const char *const ModelNames[]      = {"plane_strain", "axisymmetric", "3d", "Model", "MODEL_", NULL};
 const char *const KinematicsNames[] = {"finite", "small", "Kinematics", "KINEMATICS_", NULL};
 
-PetscErrorCode MechanicsValue_Private(Expression expression, const Amplitude *amplitude, const PetscReal X[3], PetscReal t, PetscReal *value)
+PetscErrorCode MechanicsValue(Expression expression, const Amplitude *amplitude, const PetscReal X[3], PetscReal t, PetscReal *value)
 {
   PetscFunctionBegin;
   PetscCall(ExpressionEvaluate(expression, X, t, value));
@@ -218,13 +218,13 @@ static PetscErrorCode BoundaryValue_Private(const BoundarySpec *b, PetscInt dim,
   u[0] = u[1] = u[2] = 0;
   if (b->rotation) {
     PetscReal degrees;
-    PetscCall(MechanicsValue_Private(b->rotation_angle, &b->amplitude, X, t, &degrees));
+    PetscCall(MechanicsValue(b->rotation_angle, &b->amplitude, X, t, &degrees));
     RotationValue_Private(b, degrees, X, u);
   }
   for (PetscInt c = 0; c < dim; ++c) {
     PetscReal value;
     if (!b->displacement[c]) continue;
-    PetscCall(MechanicsValue_Private(b->displacement[c], &b->amplitude, X, t, &value));
+    PetscCall(MechanicsValue(b->displacement[c], &b->amplitude, X, t, &value));
     u[c] += value;
   }
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -237,7 +237,7 @@ static PetscErrorCode BodyMotion_Private(const BodySpec *body, PetscInt dim, Pet
   PetscFunctionBegin;
   for (PetscInt c = 0; c < dim; ++c) {
     u[c] = 0;
-    if (body->motion[c]) PetscCall(MechanicsValue_Private(body->motion[c], &body->amplitude, origin, t, &u[c]));
+    if (body->motion[c]) PetscCall(MechanicsValue(body->motion[c], &body->amplitude, origin, t, &u[c]));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

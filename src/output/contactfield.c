@@ -57,27 +57,14 @@ void OutputFacetPoint(const SurfaceView *s, const PetscReal x[], PetscInt facet,
   }
 }
 
-/* Both tangents' product; two dimensions: the second is the axis out of the plane. */
-static void LatticeVector_Private(const SurfaceView *s, const PetscReal x[], PetscInt facet, const PetscReal xi[], PetscReal normal[3])
-{
-  const PetscInt *node, num = SurfaceFacetNodes(s, facet, &node);
-  PetscReal       N[SURFACE_MOST_NODES], dN[SURFACE_MOST_NODES][2], tangent[2][3] = {{0, 0, 0}, {0, 0, s->dim == 2}};
-
-  SurfaceShape(s->dim, SurfaceFacetOrder(s, facet), xi, N, dN);
-  for (PetscInt k = 0; k < num; ++k) {
-    for (PetscInt a = 0; a < s->dim - 1; ++a)
-      for (PetscInt c = 0; c < s->dim; ++c) tangent[a][c] += dN[k][a] * x[s->dim * node[k] + c];
-  }
-  Cross3(tangent[0], tangent[1], normal);
-}
-
 void OutputFacetNormal(const SurfaceView *s, const PetscReal x[], PetscInt facet, const PetscReal xi[], PetscReal normal[3])
 {
-  PetscReal length;
+  PetscReal tangent[2][3], length;
 
-  if (s->order)
-    LatticeVector_Private(s, x, facet, xi, normal);
-  else
+  if (s->order) {
+    SurfaceTangents(s, facet, x, xi, tangent);
+    Cross3(tangent[0], tangent[1], normal);
+  } else
     ContactFacetVector(s->dim, x, s->facets + s->corners * facet, normal);
   length = PetscSqrtReal(Dot3(normal, normal));
   for (PetscInt c = 0; c < 3 && length > 0; ++c) normal[c] /= length;

@@ -416,7 +416,6 @@ static PetscErrorCode GatherMultipliers_Private(Problem p, Contact *c, Vec x)
   for (PetscInt i = 0; i < s->num_own; ++i) c->z[s->own[i]] = c->zlocal[s->own[i]] >= 0 ? array[c->zlocal[s->own[i]]] : 0;
   PetscCall(VecRestoreArrayRead(x, &array));
   PetscCall(LinkSpread_Private(p, &s->values, 1, c->z));
-  SurfaceFollow_Private(s, 1, c->z); /* shown there; their masters hold them */
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -540,6 +539,34 @@ static PetscErrorCode Near_Private(Problem p, Contact *c)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* The pressure at nodes without multiplier, shown there and used by the estimate. Supports hold them, or they lie on the axis: from the nodes that their
+   functions went to, if all of those touch: else the zone of contact ends there, and nothing tells how; 0. Hanging: their masters'. */
+static PetscErrorCode ShownMultipliers_Private(Problem p, Contact *c)
+{
+  const Surface   *s = &c->side[0];
+  const PetscInt  *first, *donor;
+  const PetscReal *weight;
+
+  PetscFunctionBegin;
+  PetscCall(ContactPairGetDonors(c->pair, &first, &donor, &weight));
+  for (PetscInt i = 0; i < s->num_own && first; ++i) {
+    const PetscInt n = s->own[i];
+    PetscReal      z = 0;
+    if (c->has_multiplier[n]) continue;
+    c->z[n] = 0;
+    if (!ContactSees_Private(c, n)) continue;
+    PetscBool touch = PETSC_TRUE;
+    for (PetscInt k = first[n]; k < first[n + 1]; ++k) {
+      z += weight[k] * c->z[donor[k]];
+      if (!c->active[donor[k]]) touch = PETSC_FALSE;
+    }
+    if (touch) c->z[n] = PetscMax(z, 0);
+  }
+  if (first && first[s->num_nodes] > 0) PetscCall(LinkSpread_Private(p, &s->values, 1, c->z));
+  SurfaceFollow_Private(s, 1, c->z);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode ContactEvaluate_Private(Problem p, Contact *c, Vec x, const PetscReal local[], PetscBool derivatives, PetscBool hessian, PetscBool *failed)
 {
   const PetscBool small = (PetscBool)(p->scene->mechanics.kinematics == KINEMATICS_SMALL);
@@ -567,6 +594,7 @@ PetscErrorCode ContactEvaluate_Private(Problem p, Contact *c, Vec x, const Petsc
   for (PetscInt e = 0; e < c->side[0].num_facets; ++e) c->result[e] = -1;
   for (PetscInt i = 0; i < c->num_facets; ++i) c->result[c->facets[i].facet] = i;
   Activity_Private(c);
+  PetscCall(ShownMultipliers_Private(p, c));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -54,24 +54,21 @@ static PetscErrorCode LocalForces_Private(Problem p, Vec x, const PetscReal u[],
   PetscCall(MechanicsResidual(p->mechanics, u, r, &bulk));
   PetscCall(StageEnd(STAGE_ASSEMBLE));
   PetscCall(StageBegin(STAGE_CONTACT));
-  PetscInt num_active = 0;
   for (PetscInt i = 0; i < p->num_contacts; ++i) {
     Contact *c = &p->contacts[i];
     PetscCall(ContactEvaluate_Private(p, c, x, u, PETSC_TRUE, PETSC_FALSE, &failed));
     PetscCall(ContactForces_Private(p, c, r));
-    for (PetscInt k = 0; k < c->side[0].num_own; ++k) num_active += c->active[c->side[0].own[k]];
   }
   PetscCall(StageEnd(STAGE_CONTACT));
-  PetscReal sum[7]   = {bulk.energy, bulk.scale2, bulk.bad || failed, bulk.noise2, bulk.drift2, ContactNoise2_Private(p), (PetscReal)num_active};
+  PetscReal sum[6]   = {bulk.energy, bulk.scale2, bulk.bad || failed, bulk.noise2, bulk.drift2, ContactNoise2_Private(p)};
   PetscReal least[2] = {bulk.min_det, -bulk.largest};
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 7, MPIU_REAL, MPI_SUM, p->comm));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 6, MPIU_REAL, MPI_SUM, p->comm));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, least, 2, MPIU_REAL, MPI_MIN, p->comm));
-  status->energy     = sum[0];
-  status->scale      = PetscSqrtReal(sum[1]);
-  status->bad        = (PetscBool)(sum[2] > 0);
-  status->min_det    = least[0];
-  status->noise      = PetscSqrtReal(sum[3] + PetscSqr(least[1]) * sum[4] + sum[5]);
-  status->num_active = (PetscInt)sum[6];
+  status->energy  = sum[0];
+  status->scale   = PetscSqrtReal(sum[1]);
+  status->bad     = (PetscBool)(sum[2] > 0);
+  status->min_det = least[0];
+  status->noise   = PetscSqrtReal(sum[3] + PetscSqr(least[1]) * sum[4] + sum[5]);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -358,7 +358,7 @@ static PetscErrorCode ContactSwitch_Private(Problem p, Contact *c, const PetscRe
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode ProblemSwitchActiveSet(Problem p, Vec x, Vec dx, Vec rhs, PetscInt *changed, PetscReal *violation)
+PetscErrorCode ProblemSwitchActiveSet(Problem p, Vec dx, Vec rhs, PetscInt *changed, PetscReal *violation)
 {
   const PetscReal *d;
   PetscReal        sum[2] = {0, 0};

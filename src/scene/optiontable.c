@@ -151,9 +151,6 @@ PetscErrorCode ScenePrintHelp(MPI_Comm comm)
     }
     PetscCall(PrintRow_Private(comm, row));
   }
-  PetscCall(PetscPrintf(
-      comm, "\nOptions of PETSc work as everywhere: -snes_monitor, -snes_rtol 1e-10, -log_view, ...\n"
-            "Exit status: 0 converged to the end; 1 bad input, nothing was solved; 2 the solver gave up; 3 stopped by a signal or a time limit.\n"));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -26,7 +26,6 @@ static PetscErrorCode MatrixSolve_Private(SNES snes, Solver s, PetscBool again, 
 
   PetscFunctionBegin;
   PetscCall(ProblemGetMatrix(s->problem, &A));
-  ++s->report->linear_solves;
   if (s->saddle) {
     PetscCall(StageBegin(STAGE_FACTOR));
     PetscCall(SaddleSetUp_Private(s->saddle, A));
@@ -74,7 +73,7 @@ static PetscErrorCode LinearStep_Private(SNES snes, Solver s, Vec x, Vec dx, Pet
     PetscCall(LinearSolve_Private(snes, s, (PetscBool)(pass > 0), dx, ok));
     if (!*ok) PetscFunctionReturn(PETSC_SUCCESS);
     changed = 0;
-    if (pass < s->passes) PetscCall(ProblemSwitchActiveSet(s->problem, x, dx, s->rhs, &changed, &violation));
+    if (pass < s->passes) PetscCall(ProblemSwitchActiveSet(s->problem, dx, s->rhs, &changed, &violation));
     if (!changed) break;
     s->report->set_changes += changed;
     PetscCall(PetscInfo(snes, "active-set pass %" PetscInt_FMT ": %" PetscInt_FMT " nodes switched, contradiction %g\n", pass, changed, (double)violation));

@@ -277,10 +277,3 @@ PetscErrorCode SaddleSolve_Private(Saddle s, Vec rhs, PetscReal rtol, PetscBool 
   if (!*ok) s->first = 0;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
-
-PetscErrorCode SaddleGetIterations_Private(Saddle s, PetscInt *iterations)
-{
-  PetscFunctionBegin;
-  *iterations = s->iterations;
-  PetscFunctionReturn(PETSC_SUCCESS);
-}

@@ -186,10 +186,10 @@ static PetscErrorCode SetUp_Private(PC pc)
   PetscCall(MatGetNonzeroState(A, &pattern));
   analyse = (PetscBool)(!f->scale || id != f->id || pattern != f->pattern);
   if (analyse) PetscCall(Begin_Private(pc, f, A));
-  f->id      = id;
-  f->pattern = pattern;
   PetscCall(Values_Private(f, A));
   if (analyse) Call_Private(f, ANALYSE);
+  f->id      = f->mumps.infog[0] >= 0 || !analyse ? id : 0; /* a failed analysis is no analysis */
+  f->pattern = pattern;
   if (f->mumps.infog[0] >= 0 || !analyse) Call_Private(f, FACTORISE);
   while ((f->mumps.infog[0] == -8 || f->mumps.infog[0] == -9) && f->mumps.icntl[13] < MOST_RESERVE) { /* out of workspace */
     f->mumps.icntl[13] = 4 * PetscMax(f->mumps.icntl[13], 20);

@@ -44,6 +44,8 @@ struct _p_Solver {
   SolverReport *report;
 };
 
+/* options.c: what the command line says of the solver, the rest stays as it is. */
+PetscErrorCode SolverOptions_Private(Solver);
 /* newton.c: the SNES type. */
 PetscErrorCode SNESCreate_ContactNewton(SNES);
 /* cycle.c: append a set. *repeats: an earlier one was the same with a different one between them, and (compare) had the same norm to round-off. */
@@ -62,7 +64,6 @@ PetscErrorCode SaddleCreate_Private(Problem, Saddle *);
 PetscErrorCode SaddleDestroy_Private(Saddle *);
 PetscErrorCode SaddleSetUp_Private(Saddle, Mat);
 PetscErrorCode SaddleSolve_Private(Saddle, Vec rhs, PetscReal rtol, PetscBool guess, Vec x, PetscBool *ok);
-PetscErrorCode SaddleGetIterations_Private(Saddle, PetscInt *iterations);
 /* multigrid.c: a cycle for the displacement block. */
 PetscErrorCode MultigridCreate_Private(Problem, Multigrid *);
 PetscErrorCode MultigridDestroy_Private(Multigrid *);

@@ -29,10 +29,6 @@ static PetscErrorCode Jacobian_Private(SNES snes, Vec x, Mat J, Mat P, void *con
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static const char *const Kinds[]    = {"auto", "direct", "iterative", "LinearKind", "LINEAR_", NULL};
-static const char *const Factors[]  = {"auto", "single", "double", "FactorKind", "FACTOR_", NULL};
-static const char *const Condense[] = {"auto", "yes", "no", "CondenseKind", "CONDENSE_", NULL};
-
 static PetscErrorCode Options_Private(Solver s)
 {
   PetscBool possible;
@@ -46,23 +42,9 @@ static PetscErrorCode Options_Private(Solver s)
   s->linear      = LINEAR_AUTO;
   s->factor      = FACTOR_AUTO;
   s->linear_rtol = 1e-9;
-  PetscOptionsBegin(PetscObjectComm((PetscObject)s->snes), NULL, "Solver", NULL);
-  PetscCall(PetscOptionsReal("-solve_rtol", "Residual against the root of the summed squared nodal forces", NULL, s->rtol, &s->rtol, NULL));
-  PetscCall(PetscOptionsInt("-solve_max_it", "Newton iterations before a step is given up", NULL, s->max_it, &s->max_it, NULL));
-  PetscCall(PetscOptionsInt("-solve_active_set_passes", "Active-set passes against one linearisation", NULL, s->passes, &s->passes, NULL));
-  PetscCall(PetscOptionsInt("-solve_cuts", "Halvings of a Newton step that leaves the domain", NULL, s->cuts, &s->cuts, NULL));
   PetscCall(ProblemIsSymmetric(s->problem, &possible));
   s->symmetric = possible;
-  PetscCall(PetscOptionsBool("-solve_symmetric", "Factorise the symmetric form of the tangent (LDL^T) rather than the exact one (LU)", NULL, s->symmetric,
-                             &s->symmetric, NULL));
-  PetscCall(PetscOptionsEnum("-solve_linear", "Linear solver: direct factorisation, multigrid and GMRES, or by size", NULL, Kinds, (PetscEnum)s->linear,
-                             (PetscEnum *)&s->linear, NULL));
-  PetscCall(PetscOptionsEnum("-solve_factor", "Factors in single precision, which GMRES in double refines, or in double, or by size", NULL, Factors,
-                             (PetscEnum)s->factor, (PetscEnum *)&s->factor, NULL));
-  PetscCall(PetscOptionsReal("-solve_linear_rtol", "Least residual of GMRES against the right-hand side", NULL, s->linear_rtol, &s->linear_rtol, NULL));
-  PetscCall(PetscOptionsEnum("-solve_condense", "Eliminate the unknowns inside each cell before the linear solver: yes, no, or by order", NULL, Condense,
-                             (PetscEnum)s->condense, (PetscEnum *)&s->condense, NULL));
-  PetscOptionsEnd();
+  PetscCall(SolverOptions_Private(s));
   s->symmetric = (PetscBool)(s->symmetric && possible);
   PetscCall(ProblemSetSymmetric(s->problem, s->symmetric));
   PetscCall(PetscOptionsHasName(NULL, NULL, "-snes_test_jacobian", &s->test));
@@ -173,13 +155,6 @@ PetscErrorCode SolverDestroy(Solver *solver)
   PetscCall(SetHistoryDestroy_Private(&s->pass_sets));
   PetscCall(SetHistoryDestroy_Private(&s->iterate_sets));
   PetscCall(PetscFree(*solver));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode SolverGetSNES(Solver s, SNES *snes)
-{
-  PetscFunctionBegin;
-  *snes = s->snes;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -86,15 +86,9 @@ static inline void BulkRefine(Forest *forest, PetscInt dim, PetscInt rounds, Pet
   for (PetscInt round = 0; round < rounds; ++round) {
     const ForestTables *t;
     MarkList            marks;
-    Forest              next;
-    ForestMap           map;
     OK(ForestGetTables(*forest, &t));
     BoxRandomMarks(dim, t->num_leaves, 5, anisotropic, &marks);
     marks.split[BoxRandom(t->num_leaves)] = (int8_t)((1 << dim) - 1);
-    OK(ForestAdapt(*forest, &marks, NULL, 0, NULL, &next, &map));
-    MarksDestroy(&marks);
-    OK(ForestMapDestroy(&map));
-    OK(ForestDestroy(forest));
-    *forest = next;
+    AdaptBy(forest, &marks);
   }
 }

@@ -1,17 +1,7 @@
 /* Chains of edges, random contact configurations and assembled results for the contact tests. Lower body: nonmortar, its top runs towards -x.
    Upper body: mortar, its bottom runs towards +x. */
 #pragma once
-#include "contact.h"
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <string.h>
-
-#include <cmocka.h>
-
-#include "near.h"
-
-#define CHECK_CALL(...) assert_int_equal((int)(__VA_ARGS__), 0)
+#include "contactsum.h"
 
 typedef struct {
   ContactSurface s;
@@ -63,13 +53,6 @@ static inline void ChainMove(Chain *c, PetscReal angle, PetscReal dx, PetscReal 
   }
 }
 
-/* Deterministic random numbers in (-1, 1). */
-static inline PetscReal Random(uint64_t *state)
-{
-  *state = *state * 6364136223846793005ULL + 1442695040888963407ULL;
-  return (PetscReal)(*state >> 11) / (PetscReal)(1ULL << 52) - 1;
-}
-
 /* Random curved, tilted, non-matching pair near x in [0, 1], distance about `gap`, nonmortar partly covered. */
 static inline void RandomPair(uint64_t *seed, PetscInt nodes_n, PetscInt nodes_m, PetscReal gap, Chain *nonmortar, Chain *mortar)
 {
@@ -92,85 +75,12 @@ static inline void RandomPair(uint64_t *seed, PetscInt nodes_n, PetscInt nodes_m
   }
 }
 
-/* Assembled results. Unknowns: nonmortar nodes, then mortar nodes, 2 each. */
-typedef struct {
-  PetscInt   nn, nm, size;
-  PetscReal *gap, *weight;   /* [nn] */
-  PetscReal *dgap, *dweight; /* [nn][size] */
-  PetscReal *gradient;       /* [size] of S = sum z gap */
-  PetscReal *hessian;        /* [size][size] */
-  PetscReal  area, min_gap, S;
-  PetscInt   num;
-  PetscBool  failed;
-} Sum;
-
 static inline void SumCreate(Sum *s, PetscInt nn, PetscInt nm)
 {
-  s->nn       = nn;
-  s->nm       = nm;
-  s->size     = 2 * (nn + nm);
-  s->gap      = calloc((size_t)nn, sizeof(PetscReal));
-  s->weight   = calloc((size_t)nn, sizeof(PetscReal));
-  s->dgap     = calloc((size_t)(nn * s->size), sizeof(PetscReal));
-  s->dweight  = calloc((size_t)(nn * s->size), sizeof(PetscReal));
-  s->gradient = calloc((size_t)s->size, sizeof(PetscReal));
-  s->hessian  = calloc((size_t)(s->size * s->size), sizeof(PetscReal));
+  SumCreateFor(s, 2, nn, nm);
 }
 
-static inline void SumDestroy(Sum *s)
-{
-  free(s->gap);
-  free(s->weight);
-  free(s->dgap);
-  free(s->dweight);
-  free(s->gradient);
-  free(s->hessian);
-}
-
-static inline void SumAdd(Sum *s, const ContactFacet *e, const PetscReal z[], PetscBool derivatives, PetscBool hessian)
-{
-  const PetscInt n = 2 * e->num;
-
-  for (int j = 0; j < 2; j++) {
-    s->gap[e->nodes[j]] += e->gap[j];
-    s->weight[e->nodes[j]] += e->weight[j];
-    if (z) s->S += z[e->nodes[j]] * e->gap[j];
-  }
-  s->area += e->area;
-  s->min_gap = PetscMin(s->min_gap, e->min_gap);
-  for (PetscInt a = 0; a < n; a++) {
-    const PetscInt na = e->nodes[a / 2], row = 2 * (na >= 0 ? na : s->nn + ~na) + a % 2;
-
-    for (int j = 0; j < 2 && derivatives; j++) {
-      s->dgap[e->nodes[j] * s->size + row] += e->dgap[j * n + a];
-      s->dweight[e->nodes[j] * s->size + row] += e->dweight[j * n + a];
-      if (z) s->gradient[row] += z[e->nodes[j]] * e->dgap[j * n + a];
-    }
-    for (PetscInt b = 0; b < n && hessian; b++) {
-      const PetscInt nb = e->nodes[b / 2], col = 2 * (nb >= 0 ? nb : s->nn + ~nb) + b % 2;
-
-      s->hessian[row * s->size + col] += e->hessian[a * n + b];
-    }
-  }
-}
-
-/* Evaluate the pair and assemble. */
-static inline void SumEvaluate(Sum *s, ContactPair pair, const Chain *nonmortar, const Chain *mortar, const PetscReal z[], PetscBool derivatives,
-                               PetscBool hessian)
-{
-  const ContactFacet *edges;
-
-  memset(s->gap, 0, (size_t)s->nn * sizeof(PetscReal));
-  memset(s->weight, 0, (size_t)s->nn * sizeof(PetscReal));
-  memset(s->dgap, 0, (size_t)(s->nn * s->size) * sizeof(PetscReal));
-  memset(s->dweight, 0, (size_t)(s->nn * s->size) * sizeof(PetscReal));
-  memset(s->gradient, 0, (size_t)s->size * sizeof(PetscReal));
-  memset(s->hessian, 0, (size_t)(s->size * s->size) * sizeof(PetscReal));
-  s->area = s->S = 0;
-  s->min_gap     = PETSC_MAX_REAL;
-  CHECK_CALL(ContactPairEvaluate(pair, &nonmortar->s, &mortar->s, z, NULL, derivatives, hessian, &s->num, &edges, &s->failed));
-  for (PetscInt i = 0; i < s->num; i++) SumAdd(s, &edges[i], z, derivatives, hessian);
-}
+#define SumEvaluate(sum, pair, nonmortar, mortar, z, derivatives, hessian) SumSurfaces(sum, pair, &(nonmortar)->s, &(mortar)->s, z, derivatives, hessian)
 
 /* A pair in two dimensions. */
 static inline void PairCreate(PetscBool axisymmetric, PetscBool node_to_segment, ContactPair *pair)
@@ -178,16 +88,6 @@ static inline void PairCreate(PetscBool axisymmetric, PetscBool node_to_segment,
   const ContactSpec spec = {.node_to_segment = node_to_segment};
 
   CHECK_CALL(ContactPairCreate(2, axisymmetric, &spec, pair));
-}
-
-/* Search over all nonmortar edges. */
-static inline void SearchAll(ContactPair pair, const Chain *nonmortar, const Chain *mortar, PetscReal distance, PetscReal margin)
-{
-  PetscInt *list = malloc((size_t)nonmortar->s.num_facets * sizeof(PetscInt));
-
-  for (PetscInt e = 0; e < nonmortar->s.num_facets; e++) list[e] = e;
-  CHECK_CALL(ContactPairSearch(pair, &nonmortar->s, &mortar->s, nonmortar->s.num_facets, list, distance, margin));
-  free(list);
 }
 
 /* Unknown i of both chains. */

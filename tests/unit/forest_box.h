@@ -221,6 +221,19 @@ static inline void MarksDestroy(MarkList *marks)
   OK(PetscFree(marks->coarsen));
 }
 
+/* Adapt in place; the marks are destroyed. */
+static inline void AdaptBy(Forest *forest, MarkList *marks)
+{
+  Forest    next;
+  ForestMap map;
+
+  OK(ForestAdapt(*forest, marks, NULL, 0, NULL, &next, &map));
+  MarksDestroy(marks);
+  OK(ForestMapDestroy(&map));
+  OK(ForestDestroy(forest));
+  *forest = next;
+}
+
 /* Position of the point eta of an entity's frame, through the closure of its lowest leaf. */
 static inline void EntityPoint(Forest forest, PetscInt entity, const PetscReal eta[], PetscReal X[3])
 {

@@ -7,7 +7,6 @@
 #include <petscblaslapack.h>
 
 #define MOST_NODES 343 /* order 6 in space */
-#define MOST_PRESSURES 56
 
 /* CLAMPED: u = 0 all round. STANDING: on the bottom alone. LINEAR: STANDING, and the faces of the top have order 1. */
 typedef enum { CLAMPED, STANDING, LINEAR } Support;
@@ -284,8 +283,6 @@ static inline void Split(Forest *forest, Choice choice)
 {
   const ForestTables *t;
   MarkList            marks;
-  Forest              next;
-  ForestMap           map;
 
   OK(ForestGetTables(*forest, &t));
   OK(PetscCalloc1(t->num_leaves, &marks.split));
@@ -297,11 +294,7 @@ static inline void Split(Forest *forest, Choice choice)
     for (PetscInt c = 0; c < 3; ++c) low[c] = PetscMin(a[c], b[c]), high[c] = PetscMax(a[c], b[c]);
     marks.split[l] = (int8_t)(choice(low, high) ? (1 << t->dim) - 1 : 0);
   }
-  OK(ForestAdapt(*forest, &marks, NULL, 0, NULL, &next, &map));
-  MarksDestroy(&marks);
-  OK(ForestMapDestroy(&map));
-  OK(ForestDestroy(forest));
-  *forest = next;
+  AdaptBy(forest, &marks);
 }
 
 /* Third coordinates are 0 in the plane. */

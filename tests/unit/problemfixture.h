@@ -64,18 +64,12 @@ static inline void SplitLeaf(Forest *forest, PetscInt leaf, PetscInt split)
 {
   const ForestTables *t;
   MarkList            marks;
-  Forest              next;
-  ForestMap           map;
 
   OK(ForestGetTables(*forest, &t));
   OK(PetscCalloc1(t->num_leaves, &marks.split));
   OK(PetscCalloc1(t->num_leaves, &marks.coarsen));
   for (PetscInt l = 0; l < t->num_leaves; ++l) marks.split[l] = (int8_t)(leaf < 0 || l == leaf ? split : 0);
-  OK(ForestAdapt(*forest, &marks, NULL, 0, NULL, &next, &map));
-  MarksDestroy(&marks);
-  OK(ForestMapDestroy(&map));
-  OK(ForestDestroy(forest));
-  *forest = next;
+  AdaptBy(forest, &marks);
 }
 
 /* The tensor Gauss points of a cell with `num` points in each direction: xi[num^dim][dim], weights. Returns their number. */

@@ -1,18 +1,8 @@
 /* Surfaces of facets of any order for the tests of rays along a continuous direction: charts [0, 1]^m mapped by a function, optionally with one refined corner
    (hanging nodes), assembled results. */
 #pragma once
-#include "contact.h"
+#include "contactsum.h"
 #include "element.h"
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <string.h>
-
-#include <cmocka.h>
-
-#include "near.h"
-
-#define CHECK_CALL(...) assert_int_equal((int)(__VA_ARGS__), 0)
 
 typedef struct {
   ContactSurface s;
@@ -22,14 +12,6 @@ typedef struct {
   PetscReal     *x, *X, *mirror, *hang_weight, *u; /* u[num_nodes][2]: place in the chart */
   PetscInt       num_true, *real;                  /* nodes that do not hang */
 } Patch;
-
-static inline PetscReal Random(uint64_t *state) /* in [-1, 1] */
-{
-  *state ^= *state << 13;
-  *state ^= *state >> 7;
-  *state ^= *state << 17;
-  return (PetscReal)(*state >> 11) / 9007199254740992.0 * 2 - 1;
-}
 
 /* Node at a place of the chart; added when new. */
 static inline PetscInt PatchNode(Patch *p, PetscReal a, PetscReal b)
@@ -144,81 +126,12 @@ static inline void PatchFollow(Patch *p)
   }
 }
 
-/* Assembled results: numbers dim * node + component, mortar nodes after the nonmortar ones. */
-typedef struct {
-  PetscInt   dim, nn, nm, size, num;
-  PetscReal *gap, *weight, *dgap, *dweight, *gradient, *hessian;
-  PetscReal  area, min_gap, S;
-  PetscBool  failed;
-} Sum;
-
 static inline void SumCreate(Sum *s, const Patch *nonmortar, const Patch *mortar)
 {
-  s->dim = nonmortar->dim, s->nn = nonmortar->s.num_nodes, s->nm = mortar->s.num_nodes, s->size = s->dim * (s->nn + s->nm);
-  s->gap      = calloc((size_t)s->nn, sizeof(PetscReal));
-  s->weight   = calloc((size_t)s->nn, sizeof(PetscReal));
-  s->dgap     = calloc((size_t)(s->nn * s->size), sizeof(PetscReal));
-  s->dweight  = calloc((size_t)(s->nn * s->size), sizeof(PetscReal));
-  s->gradient = calloc((size_t)s->size, sizeof(PetscReal));
-  s->hessian  = calloc((size_t)(s->size * s->size), sizeof(PetscReal));
+  SumCreateFor(s, nonmortar->dim, nonmortar->s.num_nodes, mortar->s.num_nodes);
 }
 
-static inline void SumDestroy(Sum *s)
-{
-  free(s->gap), free(s->weight), free(s->dgap), free(s->dweight), free(s->gradient), free(s->hessian);
-}
-
-static inline void SumEvaluate(Sum *s, ContactPair pair, const Patch *nonmortar, const Patch *mortar, const PetscReal z[], PetscBool hessian)
-{
-  const ContactFacet *facets;
-
-  memset(s->gap, 0, (size_t)s->nn * sizeof(PetscReal));
-  memset(s->weight, 0, (size_t)s->nn * sizeof(PetscReal));
-  memset(s->dgap, 0, (size_t)(s->nn * s->size) * sizeof(PetscReal));
-  memset(s->dweight, 0, (size_t)(s->nn * s->size) * sizeof(PetscReal));
-  memset(s->gradient, 0, (size_t)s->size * sizeof(PetscReal));
-  memset(s->hessian, 0, (size_t)(s->size * s->size) * sizeof(PetscReal));
-  s->area = s->S = 0;
-  s->min_gap     = PETSC_MAX_REAL;
-  CHECK_CALL(ContactPairEvaluate(pair, &nonmortar->s, &mortar->s, z, NULL, PETSC_TRUE, hessian, &s->num, &facets, &s->failed));
-  for (PetscInt e = 0; e < s->num; e++) {
-    const ContactFacet *f   = &facets[e];
-    const PetscInt      n   = s->dim * f->num;
-    PetscInt           *row = malloc((size_t)n * sizeof(PetscInt));
-
-    for (PetscInt a = 0; a < n; a++) {
-      const PetscInt node = f->nodes[a / s->dim];
-
-      row[a] = s->dim * (node >= 0 ? node : s->nn + ~node) + a % s->dim;
-    }
-    for (PetscInt j = 0; j < f->num_rows; j++) {
-      const PetscInt node = f->nodes[j];
-
-      s->gap[node] += f->gap[j];
-      s->weight[node] += f->weight[j];
-      if (z) s->S += z[node] * f->gap[j];
-      for (PetscInt a = 0; a < n && f->dgap; a++) {
-        s->dgap[node * s->size + row[a]] += f->dgap[j * n + a];
-        s->dweight[node * s->size + row[a]] += f->dweight[j * n + a];
-        if (z) s->gradient[row[a]] += z[node] * f->dgap[j * n + a];
-      }
-    }
-    for (PetscInt a = 0; a < n && f->hessian; a++)
-      for (PetscInt b = 0; b < n; b++) s->hessian[row[a] * s->size + row[b]] += f->hessian[a * n + b];
-    s->area += f->area;
-    s->min_gap = PetscMin(s->min_gap, f->min_gap);
-    free(row);
-  }
-}
-
-static inline void SearchAll(ContactPair pair, const Patch *nonmortar, const Patch *mortar, PetscReal distance, PetscReal margin)
-{
-  PetscInt *list = malloc((size_t)nonmortar->s.num_facets * sizeof(PetscInt));
-
-  for (PetscInt i = 0; i < nonmortar->s.num_facets; i++) list[i] = i;
-  CHECK_CALL(ContactPairSearch(pair, &nonmortar->s, &mortar->s, nonmortar->s.num_facets, list, distance, margin));
-  free(list);
-}
+#define SumEvaluate(sum, pair, nonmortar, mortar, z, hessian) SumSurfaces(sum, pair, &(nonmortar)->s, &(mortar)->s, z, PETSC_TRUE, hessian)
 
 /* Rotation of space about an axis through the origin and a shift, x only. */
 static inline void PatchMove(Patch *p, const PetscReal axis[3], PetscReal angle, const PetscReal shift[3])

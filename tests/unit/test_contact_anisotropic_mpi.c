@@ -9,17 +9,12 @@ static void Split(Forest *forest, PetscInt times)
 {
   for (PetscInt k = 0; k < times; ++k) {
     const ForestTables *t;
-    MarkList            marks = {0};
-    Forest              adapted;
-    ForestMap           map;
+    MarkList            marks;
     OK(ForestGetTables(*forest, &t));
     OK(PetscCalloc1(t->num_leaves, &marks.split));
-    for (PetscInt l = 0; l < t->num_leaves; ++l) marks.split[l] = (int8_t)(PatchRandom(3) ? 0 : 1 + PatchRandom(7));
-    OK(ForestAdapt(*forest, &marks, NULL, 0, NULL, &adapted, &map));
-    OK(PetscFree(marks.split));
-    OK(ForestMapDestroy(&map));
-    OK(ForestDestroy(forest));
-    *forest = adapted;
+    OK(PetscCalloc1(t->num_leaves, &marks.coarsen));
+    for (PetscInt l = 0; l < t->num_leaves; ++l) marks.split[l] = (int8_t)(BoxRandom(3) ? 0 : 1 + BoxRandom(7));
+    AdaptBy(forest, &marks);
   }
 }
 
@@ -65,7 +60,7 @@ static void PatchTest(void **state)
     Patch              p;
     Estimate           e;
     const ContactView *view;
-    patch_random_state = 88172645463325252ULL + (uint64_t)kind;
+    box_random_state = 88172645463325252ULL + (uint64_t)kind;
     PatchScene(&p, 1 + kind % 2, KINEMATICS_FINITE, (PetscBool)(kind > 1), "-0.1");
     p.forest = PatchForest(2, 3);
     Split(&p.forest, 4);

@@ -16,7 +16,7 @@ static void NoResidual(void **state)
     Estimate          e;
     PatchScene(&p, 1 + kind % 2, model[kind], kinematics[kind], formulation[kind]);
     p.forest = PatchForest((const PetscInt[2]){3, 5});
-    PatchAdapt(p.forest, PETSC_FALSE, &adapted, &map);
+    PatchAdapt(p.forest, 3, PETSC_FALSE, &adapted, &map);
     OK(ForestMapDestroy(&map));
     OK(ForestDestroy(&p.forest));
     p.forest = adapted;

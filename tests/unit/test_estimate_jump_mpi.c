@@ -11,8 +11,6 @@ static void Kink(PetscInt dim, PetscInt order, PetscBool anisotropic, uint64_t s
   const PetscReal     a = 0.3, slope = 0.1, d2 = PetscSqr(a - slope);
   Bulk                b = {0};
   Box                 box;
-  Forest              next;
-  ForestMap           map;
   MarkList            marks;
   const ForestTables *t;
   const HPTables     *v;
@@ -30,11 +28,7 @@ static void Kink(PetscInt dim, PetscInt order, PetscBool anisotropic, uint64_t s
     if (t->leaf_root[l] != 0) continue;
     for (PetscInt s = 0; s < dim; ++s) marks.split[l] |= (int8_t)(!anisotropic || box.axis[0][s] == 1 ? 1 << s : 0);
   }
-  OK(ForestAdapt(b.forest, &marks, NULL, 0, NULL, &next, &map));
-  MarksDestroy(&marks);
-  OK(ForestMapDestroy(&map));
-  OK(ForestDestroy(&b.forest));
-  b.forest = next;
+  AdaptBy(&b.forest, &marks);
   BulkSetUp(&b, order, order);
   OK(ForestGetTables(b.forest, &t));
   OK(HPSpaceGetTables(b.space, &v));

@@ -4,17 +4,12 @@
 
 static Forest RefinedBox(PetscInt dim, const PetscInt n[3], PetscInt passes, PetscBool anisotropic, uint64_t seed, Box *box)
 {
-  Forest forest = BoxForest(PETSC_COMM_WORLD, dim, n, 2, 0, seed, box), next;
+  Forest forest = BoxForest(PETSC_COMM_WORLD, dim, n, 2, 0, seed, box);
 
   for (PetscInt pass = 0; pass < passes; ++pass) {
-    MarkList  marks;
-    ForestMap map;
+    MarkList marks;
     BoxRandomMarks(dim, forest->tables.num_leaves, 4, anisotropic, &marks);
-    OK(ForestAdapt(forest, &marks, NULL, 0, NULL, &next, &map));
-    OK(ForestMapDestroy(&map));
-    OK(ForestDestroy(&forest));
-    MarksDestroy(&marks);
-    forest = next;
+    AdaptBy(&forest, &marks);
   }
   return forest;
 }

@@ -160,18 +160,12 @@ static Figures Solve(PetscInt n, PetscInt order, PetscBool hanging)
   s.bulk.forest = BoxForest(PETSC_COMM_WORLD, 3, (const PetscInt[3]){m, m, m}, 1, refine, 1, &box);
   box_width     = 1;
   if (hanging) {
-    MarkList  marks = {0};
-    Forest    next;
-    ForestMap map;
+    MarkList marks = {0};
     OK(ForestGetTables(s.bulk.forest, &t));
     OK(PetscCalloc1(t->num_leaves, &marks.split));
     OK(PetscCalloc1(t->num_leaves, &marks.coarsen));
     for (PetscInt l = 0; l < t->num_leaves; ++l) marks.split[l] = l % n < n / 2 && l / n % n < n / 2 && l / (n * n) < n / 2 ? 7 : 0;
-    OK(ForestAdapt(s.bulk.forest, &marks, NULL, 0, NULL, &next, &map));
-    OK(ForestMapDestroy(&map));
-    MarksDestroy(&marks);
-    OK(ForestDestroy(&s.bulk.forest));
-    s.bulk.forest = next;
+    AdaptBy(&s.bulk.forest, &marks);
   }
   BulkInit(&s.bulk, 3, MODEL_3D, KINEMATICS_FINITE);
   BulkMaterial(&s.bulk.material, "neo_hookean", VOLUMETRIC_LOG, FORMULATION_DISPLACEMENT, 1, 8. / 3);

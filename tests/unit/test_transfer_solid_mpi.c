@@ -3,30 +3,6 @@
 #include "solidpatch.h"
 #include "transferimpl.h"
 
-/* Carry p over to an adapted mesh; p is the new one afterwards. */
-static void Move(Patch *p, PetscBool coarsen)
-{
-  Forest    adapted;
-  ForestMap map;
-  Problem   problem;
-  State     next;
-  int8_t   *orders;
-
-  PatchAdapt(p->forest, coarsen ? 20 : 8, coarsen, &adapted, &map);
-  OK(TransferOrders(&map, p->state.leaf_order, &orders));
-  PatchProblem(&p->data, adapted, orders, &problem, &next);
-  OK(ProblemJump(problem));
-  OK(TransferState(p->problem, &p->state, problem, &map, &next));
-  OK(PetscFree(orders));
-  OK(ForestMapDestroy(&map));
-  OK(StateDestroy(&p->state));
-  OK(ProblemDestroy(&p->problem));
-  OK(ForestDestroy(&p->forest));
-  p->forest  = adapted;
-  p->problem = problem;
-  p->state   = next;
-}
-
 static void Equilibrium(void **state)
 {
   for (PetscInt order = 1; order <= 2; ++order) {
@@ -39,7 +15,7 @@ static void Equilibrium(void **state)
     PatchStart(&p);
     PatchSolve(p.problem, &p.state);
     for (PetscInt step = 0; step < 3; ++step) {
-      Move(&p, (PetscBool)(step % 2));
+      PatchMove(&p, step % 2 ? 20 : 8, (PetscBool)(step % 2), PETSC_FALSE);
       OK(ProblemCreateVector(p.problem, &r));
       PatchEvaluate(p.problem, p.state.x, r, &status);
       OK(VecNorm(r, NORM_INFINITY, &norm));
@@ -76,7 +52,7 @@ static void BilinearMultipliers(void **state)
   OK(PetscFree(z));
   OK(ProblemSearch(p.problem, p.state.x));
   for (PetscInt step = 0; step < 4; ++step) {
-    Move(&p, (PetscBool)(step % 2));
+    PatchMove(&p, step % 2 ? 20 : 8, (PetscBool)(step % 2), PETSC_FALSE);
     OK(ProblemCreateVector(p.problem, &r));
     PatchEvaluate(p.problem, p.state.x, r, &status);
     OK(VecDestroy(&r));

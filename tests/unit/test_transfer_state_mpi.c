@@ -3,31 +3,6 @@
 #include "patchfixture.h"
 #include "transfer.h"
 
-/* Carry p over to an adapted mesh; p is the new one afterwards. */
-static void Move(Patch *p, PetscBool coarsen, PetscBool raise)
-{
-  Forest    adapted;
-  ForestMap map;
-  Problem   problem;
-  State     next;
-  int8_t   *orders;
-
-  PatchAdapt(p->forest, coarsen, &adapted, &map);
-  OK(TransferOrders(&map, p->state.leaf_order, &orders));
-  for (PetscInt l = 0; l < map.num && raise; ++l) orders[l] += (int8_t)PatchRandom(2);
-  PatchProblem(&p->data, adapted, orders, &problem, &next);
-  OK(ProblemJump(problem));
-  OK(TransferState(p->problem, &p->state, problem, &map, &next));
-  OK(PetscFree(orders));
-  OK(ForestMapDestroy(&map));
-  OK(StateDestroy(&p->state));
-  OK(ProblemDestroy(&p->problem));
-  OK(ForestDestroy(&p->forest));
-  p->forest  = adapted;
-  p->problem = problem;
-  p->state   = next;
-}
-
 static void Equilibrium(void **state)
 {
   for (PetscInt kind = 0; kind < 4; ++kind) {
@@ -44,7 +19,7 @@ static void Equilibrium(void **state)
     OK(PetscFree(orders));
     PatchSolve(p.problem, &p.state);
     for (PetscInt step = 0; step < 4; ++step) {
-      Move(&p, (PetscBool)(step % 2), PETSC_FALSE);
+      PatchMove(&p, 3, (PetscBool)(step % 2), PETSC_FALSE);
       OK(ProblemCreateVector(p.problem, &r));
       OK(ProblemSearch(p.problem, p.state.x));
       OK(ProblemResidual(p.problem, p.state.x, r, &status));
@@ -78,7 +53,7 @@ static void RaisedOrders(void **state)
       ProblemStatus status;
       Vec           r;
       PetscReal     norm;
-      Move(&p, (PetscBool)(step % 2), PETSC_TRUE);
+      PatchMove(&p, 3, (PetscBool)(step % 2), PETSC_TRUE);
       OK(ProblemCreateVector(p.problem, &r));
       OK(ProblemSearch(p.problem, p.state.x));
       OK(ProblemResidual(p.problem, p.state.x, r, &status));
@@ -114,7 +89,7 @@ static void LinearMultipliers(void **state)
   OK(ProblemSetMultipliers(p.problem, 0, z, p.state.x));
   OK(PetscFree(z));
   for (PetscInt step = 0; step < 4; ++step) {
-    Move(&p, (PetscBool)(step % 2), PETSC_FALSE);
+    PatchMove(&p, 3, (PetscBool)(step % 2), PETSC_FALSE);
     OK(ProblemCreateVector(p.problem, &r));
     OK(ProblemSearch(p.problem, p.state.x));
     OK(ProblemResidual(p.problem, p.state.x, r, &status));

@@ -22,7 +22,7 @@ def adapted(run, order, passes, anisotropic, *options):
 @pytest.fixture
 def plane(run):
     """Reaction of inputs/hertz2d.yml: the same arcs; of the whole section per unit length, as half a section of length 2."""
-    result = run("inputs/hertz2d.yml", "-adapt_tolerance", 0.003, "-adapt_max_passes", 12)
+    result = run("inputs/hertz2d.yml", "-mesh_order", 2, "-order", 2, "-contact_disc_on_block_order", 1, "-adapt_tolerance", 0.003, "-adapt_max_passes", 12)
     assert result.returncode == 0, result
     return -result.summary["reaction"]["top"][1]
 

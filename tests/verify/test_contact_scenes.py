@@ -10,7 +10,8 @@ SWAPPED = ("-contact_disc_on_block_nonmortar", "block_top", "-contact_disc_on_bl
 UNIFORM = ("-adapt_tolerance", 0)
 ROLES = pytest.mark.parametrize("roles", [(), SWAPPED], ids=["disc", "block"])
 
-HERTZ = 0.018748  # reaction of hertz2d
+HERTZ = 0.01875797  # reaction of hertz2d, to 1e-6
+LINEAR = ("-order", 2, "-contact_disc_on_block_order", 1, "-adapt_tolerance", 0.02)  # contact faces
 RUBBER = 0.4024  # of rubber2d, known to 0.0006
 
 
@@ -38,16 +39,17 @@ def solved_in_one_step(result, most):
 
 @ROLES
 def test_hertz2d_adaptive(run, roles):
-    assert abs(pull(solve(run, "hertz2d", *roles)) / HERTZ - 1) < 1e-3
+    assert abs(pull(solve(run, "hertz2d", *roles)) / HERTZ - 1) < (3e-4 if roles else 1e-4)  # the estimate allowed is that of the energy, 1 %
+    assert abs(pull(solve(run, "hertz2d", *LINEAR, *roles)) / HERTZ - 1) < 1e-3
 
 
 @pytest.mark.slow
 def test_hertz2d_adaptive_needs_a_fifth_of_the_cells(run):
     """For the same error of the force a uniform mesh needs more than five times as many cells: one of each of these sizes is still worse."""
-    adaptive = solve(run, "hertz2d")
+    adaptive = solve(run, "hertz2d", *LINEAR)
     error, cells = abs(pull(adaptive) / HERTZ - 1), adaptive.summary["cells"]
     for n in (48, 56, 64):
-        uniform = solve(run, "hertz2d", *UNIFORM, "-mesh_parameter_n", n)
+        uniform = solve(run, "hertz2d", *LINEAR, *UNIFORM, "-mesh_parameter_n", n)
         assert uniform.summary["cells"] >= 5 * cells
         assert abs(pull(uniform) / HERTZ - 1) > error, n
 

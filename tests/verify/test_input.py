@@ -269,6 +269,18 @@ def test_command_line(check, options, words):
     refused(check((), *options), *words)
 
 
+@pytest.mark.parametrize("option,value,allowed", [
+    ("-solve_factor", "half", "auto|single|double"), ("-solve_condense", "maybe", "auto|yes|no"), ("-solve_linear", "cg", "auto|direct|iterative"),
+    ("-solve_symmetric", "2", "0|1|false|true|no|yes"), ("-solve_max_it", "few", "an integer, 0 or more"), ("-solve_cuts", "-1", "an integer, 0 or more"),
+    ("-solve_rtol", "1e-8x", "a number above 0"), ("-solve_linear_rtol", "0", "a number above 0"),
+])
+def test_solver_options(run, option, value, allowed):
+    result = run("inputs/patch2d.yml", option, value)
+    assert result.returncode == 1, result
+    assert result.stderr == f"mortise: {option} is '{value}'; allowed: {allowed}\n", result.stderr
+    assert run("inputs/patch2d.yml", option, value, "-check").returncode == 1
+
+
 def test_command_line_wins(check):
     result = check((), "-material_rubber_E", "26", "-order", "3", "-boundary_bottom_fix", "y", "-mesh_parameter_n", "3")
     assert result.returncode == 0, result
