@@ -107,6 +107,9 @@ PetscErrorCode ContactPairDestroy(ContactPair *);
 /* Facets of higher order: which nodes have multipliers (carries[nonmortar num_nodes], NULL: all), for the functions of covered facets, which are dual in the
    reference positions; before the search. Without it the first search takes all nodes. The pair keeps the functions. Not collective. */
 PetscErrorCode ContactPairSetCarriers(ContactPair, const ContactSurface *nonmortar, const PetscBool carries[]);
+/* Nodes that carry no multiplier, of facets of higher order: the pressure there is z_n = sum_k weight[k] z_donor[k], k from first[n] to first[n+1] (empty:
+   nothing says), since their functions went to those nodes. All NULL: facets of order 1. Valid as long as the carriers. Not collective. */
+PetscErrorCode ContactPairGetDonors(ContactPair, const PetscInt **first, const PetscInt **donor, const PetscReal **weight);
 
 /* Candidate search at the given positions: for each listed nonmortar facet (facets[num], those this rank owns) the mortar facets it may meet while no
    node moves more than `margin`: facet normals N_s . N_m < -0.1, |g| < distance to both sides somewhere on the pair (margin > 0: more). Distances and

@@ -170,6 +170,7 @@ static PetscErrorCode GroupRemove_Private(MultiplierWork *w, const Group *g, Pet
   PetscCall(PetscCalloc1(kept ? g->num * g->num : 0, &W));
   if (kept && !g->hangs) PetscCall(ContactExtrapolateLattice(w->s->dim, ContactLatticeOrder(w->s, g->facet[0]), degree, carries, W));
   if (kept && g->hangs) PetscCall(ContactExtrapolateNodes(w->s, g->num_facets, g->facet, degree, g->num, g->node, carries, W));
+  if (kept) PetscCall(ContactDonorsKeep(w->donors + g->facet[0], g->num, g->node, carries, W));
   for (PetscInt f = 0; f < g->num_facets; f++) {
     const PetscInt  num = ContactLatticeNodes(w->s, g->facet[f], lattice);
     MultiplierRows *r   = w->rows + g->facet[f];

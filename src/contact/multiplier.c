@@ -195,6 +195,7 @@ static PetscErrorCode Pack_Private(const MultiplierWork *w, ContactMultiplier **
     PetscCall(PetscArraycpy(m->row_node + m->row_first[f], w->rows[f].node, w->rows[f].num));
     PetscCall(PetscArraycpy(m->T + m->offset[f], w->rows[f].T, w->rows[f].num * ContactLatticeNodes(w->s, f, lattice)));
   }
+  PetscCall(ContactDonorsPack(w, m));
   *out = m;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -210,7 +211,7 @@ PetscErrorCode ContactMultiplierCreate(const ContactSurface *s, PetscBool axisym
   PetscCheck(s->dim == 3 || !s->hang || s->hang[s->num_nodes] == 0, PETSC_COMM_SELF, PETSC_ERR_PLIB, "a node of a curve hangs");
   PetscCheck(s->dim == 2 || !axisymmetric, PETSC_COMM_SELF, PETSC_ERR_PLIB, "axisymmetric surface in three dimensions");
   PetscCall(PetscMalloc3(s->num_facets, &w.parent, s->num_nodes, &w.place, s->num_nodes, &own));
-  PetscCall(PetscCalloc4(s->num_facets, &w.exact, s->num_nodes, &w.weight, s->num_facets, &w.rows, s->num_nodes, &whole));
+  PetscCall(PetscCalloc5(s->num_facets, &w.exact, s->num_nodes, &w.weight, s->num_facets, &w.rows, s->num_facets, &w.donors, s->num_nodes, &whole));
   for (PetscInt n = 0; n < s->num_nodes; n++) {
     w.place[n] = -1;
     own[n]     = (PetscBool)(!carries || carries[n]);
@@ -220,9 +221,12 @@ PetscErrorCode ContactMultiplierCreate(const ContactSurface *s, PetscBool axisym
   PetscCall(GroupsBuild_Private(&w));
   PetscCall(Groups_Private(&w, whole));
   PetscCall(Pack_Private(&w, out));
-  for (PetscInt f = 0; f < s->num_facets; f++) PetscCall(PetscFree2(w.rows[f].node, w.rows[f].T));
+  for (PetscInt f = 0; f < s->num_facets; f++) {
+    PetscCall(PetscFree2(w.rows[f].node, w.rows[f].T));
+    PetscCall(PetscFree3(w.donors[f].to, w.donors[f].from, w.donors[f].weight));
+  }
   PetscCall(PetscFree3(w.parent, w.place, own));
-  PetscCall(PetscFree4(w.exact, w.weight, w.rows, whole));
+  PetscCall(PetscFree5(w.exact, w.weight, w.rows, w.donors, whole));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -232,6 +236,8 @@ PetscErrorCode ContactMultiplierDestroy(ContactMultiplier **m)
   if (!*m) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(PetscFree2((*m)->row_first, (*m)->offset));
   PetscCall(PetscFree2((*m)->row_node, (*m)->T));
+  PetscCall(PetscFree((*m)->donor_first));
+  PetscCall(PetscFree2((*m)->donor, (*m)->donor_weight));
   PetscCall(PetscFree(*m));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -34,6 +34,9 @@ typedef struct ContactMultiplier {
   PetscInt  *row_node;  /* [rows] true node, each once per facet */
   PetscInt  *offset;    /* [num_facets] into T */
   PetscReal *T;
+  PetscInt  *donor_first; /* [num_nodes+1] nodes that carry nothing: what the pressure there follows from, else empty */
+  PetscInt  *donor;
+  PetscReal *donor_weight; /* sum 1 at a node */
 } ContactMultiplier;
 
 /* Multiplier functions of a surface from its reference positions X (x is not looked at). carries[num_nodes] (NULL: all): the true node has a multiplier.
@@ -67,6 +70,11 @@ typedef struct {
 } MultiplierRows;        /* of one facet */
 
 typedef struct {
+  PetscInt   num, *to, *from; /* node that carries nothing, node that got a share of its function; those of a node together */
+  PetscReal *weight;
+} MultiplierDonors; /* of facets whose functions are made together, with their first */
+
+typedef struct {
   const ContactSurface *s;
   PetscBool             axisymmetric, standard;
   const PetscBool      *carries; /* [num_nodes] */
@@ -75,7 +83,12 @@ typedef struct {
   PetscInt             *place;   /* [num_nodes] -1; row of a true node in the group at hand */
   PetscReal            *weight;  /* [num_nodes] int psi_j */
   MultiplierRows       *rows;    /* [num_facets] */
+  MultiplierDonors     *donors;  /* [num_facets] */
 } MultiplierWork;
 
 /* dual.c: rows of facets whose functions are made together, afresh; held: some of their nodes carry nothing. */
 PetscErrorCode ContactMultiplierGroup(MultiplierWork *, PetscInt num_facets, const PetscInt facet[], PetscInt degree, PetscBool *held);
+
+/* donors.c: keeps the weights W[n][n] of extrapolate.c for n nodes; the weights of all facets, by nodes. */
+PetscErrorCode ContactDonorsKeep(MultiplierDonors *, PetscInt n, const PetscInt node[], const PetscBool carries[], const PetscReal W[]);
+PetscErrorCode ContactDonorsPack(const MultiplierWork *, ContactMultiplier *);

@@ -17,6 +17,7 @@ static PetscErrorCode HasMoved_Private(Problem p, const Contact *c, PetscBool *m
   PetscFunctionBegin;
   for (PetscInt i = 0; i < s->num_own; ++i) {
     const PetscInt j = s->own[i];
+    if (!c->has_multiplier[j]) continue;
     if (c->z[j] > 0) sum[0] += c->w0[j];
     if (c->active[j]) sum[1] += c->w0[j];
     if (c->z[j] > 0 && c->active[j]) sum[2] += c->w0[j];

@@ -88,14 +88,14 @@ static PetscErrorCode NodeScales_Private(Problem p, Contact *c)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Mean unit normal of the facets at a node, those between the corners, reference positions, three dimensions. */
+/* Mean unit normal of the facets at a node, those between the corners, reference positions. */
 static void NodeNormal_Private(const Surface *s, PetscInt n, PetscReal normal[3])
 {
   PetscReal N[3], length;
 
   for (PetscInt c = 0; c < 3; ++c) normal[c] = 0;
   for (PetscInt k = s->node_first[n]; k < s->node_first[n + 1]; ++k) {
-    ContactFacetVector(3, s->X, s->facets + 4 * s->node_facet[k], N);
+    ContactFacetVector(s->dim, s->X, s->facets + s->corners * s->node_facet[k], N);
     length = PetscSqrtReal(Dot3(N, N));
     for (PetscInt c = 0; c < 3; ++c) normal[c] += N[c] / length;
   }
@@ -103,16 +103,19 @@ static void NodeNormal_Private(const Surface *s, PetscInt n, PetscReal normal[3]
   for (PetscInt c = 0; c < 3 && length > 0; ++c) normal[c] /= length;
 }
 
-/* Is the node held across the surface? In two dimensions only when all of its motion is. */
+/* Is the node held across the surface? */
 static PetscBool IsHeld_Private(const Surface *s, PetscInt n)
 {
   const PetscInt fixed = s->dof[s->dim * n];
   PetscReal      normal[3], free2 = 0;
 
-  if (s->dim == 2 || fixed == 0) return (PetscBool)(fixed == (1 << s->dim) - 1);
+  if (fixed == 0) return PETSC_FALSE;
   NodeNormal_Private(s, n, normal);
-  for (PetscInt d = 0; d < 3; ++d) {
-    if (!((fixed >> d) & 1)) free2 += PetscSqr(Dot3(s->frame + 9 * n + 3 * d, normal));
+  for (PetscInt d = 0; d < s->dim; ++d) {
+    const PetscReal *axis = s->frame + s->dim * (s->dim * n + d);
+    PetscReal        sum  = 0;
+    for (PetscInt c = 0; c < s->dim; ++c) sum += axis[c] * normal[c];
+    if (!((fixed >> d) & 1)) free2 += PetscSqr(sum);
   }
   return (PetscBool)(free2 < PetscSqr(HELD));
 }
@@ -413,7 +416,6 @@ static PetscErrorCode GatherMultipliers_Private(Problem p, Contact *c, Vec x)
   for (PetscInt i = 0; i < s->num_own; ++i) c->z[s->own[i]] = c->zlocal[s->own[i]] >= 0 ? array[c->zlocal[s->own[i]]] : 0;
   PetscCall(VecRestoreArrayRead(x, &array));
   PetscCall(LinkSpread_Private(p, &s->values, 1, c->z));
-  SurfaceFollow_Private(s, 1, c->z); /* shown there; their masters hold them */
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -521,16 +523,47 @@ static void LinearGaps_Private(Problem p, Contact *c)
    the others get no row in the matrix, which they would only fill. Every rank that knows the node says the same. */
 static PetscErrorCode Near_Private(Problem p, Contact *c)
 {
-  PetscReal pending;
+  const Surface *s     = &c->side[0];
+  PetscInt       order = 1; /* extents are those of facets over it */
+  PetscReal      pending;
 
   PetscFunctionBegin;
   PetscCall(ProblemPending(p, &pending));
+  for (PetscInt f = 0; f < s->num_facets && s->order; ++f) order = PetscMax(order, s->order[f]);
   for (PetscInt i = 0; i < c->num_valued; ++i) {
     const PetscInt  j     = c->valued_node[i];
-    const PetscBool reach = (PetscBool)(ContactCovered_Private(c, j) && c->gap[j] / c->weight[j] < pending + 0.5 * c->extent[j]);
+    const PetscBool reach = (PetscBool)(ContactCovered_Private(c, j) && c->gap[j] / c->weight[j] < pending + 0.5 * (PetscReal)order * c->extent[j]);
     c->near[j]            = (PetscBool)(c->has_multiplier[j] && (c->z[j] != 0 || reach));
     if (p->dim == 2) c->near[j] = PETSC_TRUE;
   }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The pressure at nodes without multiplier, shown there and used by the estimate. Supports hold them, or they lie on the axis: from the nodes that their
+   functions went to, if all of those touch: else the zone of contact ends there, and nothing tells how; 0. Hanging: their masters'. */
+static PetscErrorCode ShownMultipliers_Private(Problem p, Contact *c)
+{
+  const Surface   *s = &c->side[0];
+  const PetscInt  *first, *donor;
+  const PetscReal *weight;
+
+  PetscFunctionBegin;
+  PetscCall(ContactPairGetDonors(c->pair, &first, &donor, &weight));
+  for (PetscInt i = 0; i < s->num_own && first; ++i) {
+    const PetscInt n = s->own[i];
+    PetscReal      z = 0;
+    if (c->has_multiplier[n]) continue;
+    c->z[n] = 0;
+    if (!ContactSees_Private(c, n)) continue;
+    PetscBool touch = PETSC_TRUE;
+    for (PetscInt k = first[n]; k < first[n + 1]; ++k) {
+      z += weight[k] * c->z[donor[k]];
+      if (!c->active[donor[k]]) touch = PETSC_FALSE;
+    }
+    if (touch) c->z[n] = PetscMax(z, 0);
+  }
+  if (first && first[s->num_nodes] > 0) PetscCall(LinkSpread_Private(p, &s->values, 1, c->z));
+  SurfaceFollow_Private(s, 1, c->z);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -561,6 +594,7 @@ PetscErrorCode ContactEvaluate_Private(Problem p, Contact *c, Vec x, const Petsc
   for (PetscInt e = 0; e < c->side[0].num_facets; ++e) c->result[e] = -1;
   for (PetscInt i = 0; i < c->num_facets; ++i) c->result[c->facets[i].facet] = i;
   Activity_Private(c);
+  PetscCall(ShownMultipliers_Private(p, c));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -131,11 +131,24 @@ static void Mark_Private(const Surface *s, PetscInt facet, PetscBool mark[])
   for (PetscInt k = s->true_first[facet]; k < s->true_first[facet + 1]; ++k) mark[s->true_node[k]] = PETSC_TRUE;
 }
 
-/* Nodes of both sides that this rank needs: for the facets it evaluates, and to know the values on its own facets. own: set for all nodes of its own facets. */
+/* Is a facet that carries weight to the node live? Known at owned nodes and those of this rank's facets. */
+PetscBool ContactSees_Private(const Contact *c, PetscInt node)
+{
+  const Surface *s = &c->side[0];
+
+  for (PetscInt k = s->node_first[node]; k < s->node_first[node + 1]; ++k) {
+    if (c->live[s->node_facet[k]]) return PETSC_TRUE;
+  }
+  return PETSC_FALSE;
+}
+
+/* Nodes of both sides that this rank needs: for the facets it evaluates, to know the values on its own facets, and for the pressure at owned nodes without
+   multiplier. own: set for all nodes of its own facets. */
 static PetscErrorCode Need_Private(const Contact *c, PetscBool *need[2], PetscBool own[])
 {
-  const Surface  *s = &c->side[0], *m = &c->side[1];
-  const PetscInt *start, *candidate;
+  const Surface   *s = &c->side[0], *m = &c->side[1];
+  const PetscInt  *start, *candidate, *donor;
+  const PetscReal *weight;
 
   PetscFunctionBegin;
   PetscCall(ContactPairGetCandidates(c->pair, &start, &candidate));
@@ -149,9 +162,11 @@ static PetscErrorCode Need_Private(const Contact *c, PetscBool *need[2], PetscBo
   }
   for (PetscInt i = 0; i < s->num_mine; ++i) Mark_Private(s, s->mine[i], own);
   for (PetscInt n = 0; n < s->num_nodes; ++n) {
-    for (PetscInt k = s->node_first[n]; own[n] && k < s->node_first[n + 1]; ++k) {
-      if (c->live[s->node_facet[k]]) need[0][n] = PETSC_TRUE;
-    }
+    if (own[n] && ContactSees_Private(c, n)) need[0][n] = PETSC_TRUE;
+  }
+  PetscCall(ContactPairGetDonors(c->pair, &start, &donor, &weight));
+  for (PetscInt n = 0; n < s->num_nodes && start; ++n) {
+    for (PetscInt k = start[n]; k < start[n + 1] && s->owned[n] && ContactSees_Private(c, n); ++k) need[0][donor[k]] = PETSC_TRUE;
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

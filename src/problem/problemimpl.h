@@ -181,6 +181,7 @@ PetscErrorCode ExchangeEnd_Private(Problem);
 void SurfaceForget_Private(Surface *);
 /* After a search: what this rank needs until the next one. */
 PetscErrorCode ContactLink_Private(Problem, Contact *);
+PetscBool      ContactSees_Private(const Contact *, PetscInt node);
 /* nearby.c: search at the positions at hand, X when reference is set, where facets meet over the boundaries of ranks. Collective. */
 PetscErrorCode ContactSearch_Private(Problem, Contact *, PetscBool reference, PetscReal margin);
 /* gather.c */

@@ -89,6 +89,48 @@ def test_o41a_space(run, tmp_path, pairing, nonmortar):
     assert is_quadratic(steps(result)[0]), steps(result)
 
 
+# ---- nodes that carry no multiplier -----------------------------------------------------------------------------------------------------
+
+@pytest.mark.parametrize("order", [2, 3, 4])
+def test_axis(run, order):
+    """No node on the axis carries a multiplier from order 2 on; the pressure there is that of its neighbours, and the estimate finds nothing amiss."""
+    result = run("inputs/patch2d.yml", "-model", "axisymmetric", "-contact_upper_on_lower_order", "full", "-order", order)
+    assert result.returncode == 0, result
+    assert spread(contact(result)["contact_pressure"], contact(result)["contact_pressure"].max()) < 1e-6
+    assert result.summary["estimate"]["total"] < 1e-8
+
+
+@pytest.mark.parametrize("ranks", [1, 3])
+@pytest.mark.parametrize("order", [2, 3, 4])
+@pytest.mark.parametrize("pairing", ["two_to_three", "hanging_upper"])
+def test_held_ends(run, pairing, order, ranks):
+    """Ends held where they are under uniform pressure show it."""
+    parameter, side = PAIRINGS[pairing]
+    ends = {name: {"displacement": {"x": 0, "y": "-0.05 * Y"}} for name in plane.rolled() if name != "bottom"}
+    steel = plane.linear(2e6, 0)
+    scene = blocks("upper", {"lower": steel, "upper": steel}, {**ends, "bottom": {"fix": "y"}, "top": {"displacement": {"y": -0.1}}}, parameter,
+                   plane.refined(side), FULL, kinematics="small", order=order)
+    result = run("held.yml", text=scene, ranks=ranks)
+    assert result.returncode == 0, result
+    assert spread(contact(result)["contact_pressure"], 1e5) < 1e-10
+    assert result.summary["estimate"]["total"] < 1e-7 * result.summary["estimate"]["norm"]
+
+
+@pytest.mark.parametrize("pairing, order, ranks", [("two_to_three", 2, 1), ("two_to_three", 3, 2), ("hanging_upper", 2, 3)])
+def test_held_sides_space(run, tmp_path, pairing, order, ranks):
+    """Two sides and the corner between them held, hanging nodes beside."""
+    nl, nu, side = space.PAIRINGS[pairing]
+    steel = space.linear(2e6, 0)
+    held = {f"{name}_{block}": {"displacement": {"x": 0, "y": 0, "z": "-0.05 * Z"}} for name in ("x0", "y0") for block in space.SIDES}
+    mesh = space.cubes(tmp_path / "held.msh", nl, nu)
+    text = space.text(mesh, "upper", {"lower": steel, "upper": steel}, {**space.ROLLERS, **held, "z1_upper": {"displacement": {"z": -0.1}}},
+                      space.spot(side, (0.1, 0.1, 1)), FULL, kinematics="small", order=order)
+    result = run("held.yml", text=text, ranks=ranks)
+    assert result.returncode == 0, result
+    assert spread(contact(result)["contact_pressure"], 1e5) < 1e-9
+    assert result.summary["estimate"]["total"] < 1e-7 * result.summary["estimate"]["norm"]
+
+
 # ---- curved bodies ----------------------------------------------------------------------------------------------------------------------
 
 @pytest.mark.parametrize("order", [2, 3, 4])

@@ -52,8 +52,7 @@ def punch(path, lower=LOWER, upper=UPPER, gap=0.0, to=lambda x: x):
     return path
 
 
-@pytest.fixture
-def solve(run, tmp_path):
+def solver(run, tmp_path):
     """solve(*options, gap=, lower=, upper=, bodies=, boundary=, contact=, ranks=, **keys of the scene): the two boxes."""
 
     def start(*options, lower=LOWER, upper=UPPER, gap=0.0, frame=Frame(), bodies=BODIES, boundary=None, contact=None, ranks=1, **keys):
@@ -62,6 +61,11 @@ def solve(run, tmp_path):
         return run("boxes.yml", *options, text=text, ranks=ranks)
 
     return start
+
+
+@pytest.fixture
+def solve(run, tmp_path):
+    return solver(run, tmp_path)
 
 
 def good(result):
@@ -80,12 +84,12 @@ def iterations(result):
 # ---- O-90: balance --------------------------------------------------------------------------------------------------------
 
 
-def assert_balance(p):
+def assert_balance(p, tolerance=1e-10):
     force, moment = np.linalg.norm(p["force"]), np.linalg.norm(p["moment"])
     print("force", np.linalg.norm(np.add(p["force"], p["mortar_force"])) / force, "moment", np.linalg.norm(np.add(p["moment"], p["mortar_moment"])) / moment)
     assert force > 1e-4
     assert np.linalg.norm(np.add(p["force"], p["mortar_force"])) <= 1e-10 * force
-    assert np.linalg.norm(np.add(p["moment"], p["mortar_moment"])) <= 1e-10 * moment
+    assert np.linalg.norm(np.add(p["moment"], p["mortar_moment"])) <= tolerance * moment
 
 
 @SOLVERS
@@ -99,9 +103,9 @@ def test_o90_momentum(solve, options, linear):
 
 
 @pytest.mark.parametrize("order", [1, 2])
-def test_o90_momentum_on_a_ball(run, order):
+def test_o90_momentum_on_a_ball(run, order, tolerance=1e-10):
     result = run("inputs/hertz3d.yml", "-order", order, "-adapt_max_passes", 2, "-boundary_top_displacement_z", "-0.05 - 0.05*X + 0.02*Y", *QUIET)
-    assert_balance(good(result)["contact"]["ball_on_block"])
+    assert_balance(good(result)["contact"]["ball_on_block"], tolerance)
 
 
 # ---- O-91: exchange of the sides ------------------------------------------------------------------------------------------
@@ -115,7 +119,7 @@ def test_o91_exchange_of_sides(solve):
         one, other = (only(solve(*QUIET, lower=low, upper=up, contact=pairs(side))) for side in ("upper", "lower"))
         difference.append(abs(other["force"][2] / -one["force"][2] - 1))
     print("force", difference)
-    assert difference[1] < 0.01 and difference[1] < 0.4 * difference[0]
+    assert difference[1] < 0.01 and (difference[1] < 0.4 * difference[0] or max(difference) < 1e-3)
 
 
 # ---- work and energy ------------------------------------------------------------------------------------------------------
@@ -244,8 +248,8 @@ def test_o94_tangent(solve, options, keys):
     the start: gaps that vanish exactly are a kink of the complementarity."""
     if "-material_upper_nu" in options:
         keys = {**keys, "bodies": {"lower": RUBBER, "upper": {**RUBBER, "formulation": "displacement"}}}
-    result = solve(*QUIET, *options, "-snes_test_jacobian", upper=UPPER._replace(number=(2, 2, 1)), gap=-0.013,
-                   **{"lower": LOWER._replace(number=(3, 3, 1)), **keys})
+    result = solve(*QUIET, *options, "-snes_test_jacobian", gap=-0.013,
+                   **{"upper": UPPER._replace(number=(2, 2, 1)), "lower": LOWER._replace(number=(3, 3, 1)), **keys})
     good(result)
     ratios = [float(r) for r in re.findall(r"\|\|J - Jfd\|\|_F/\|\|J\|\|_F = ([\d.e+-]+)", result.stdout)]
     print(ratios)
@@ -347,8 +351,8 @@ def test_o98_five_pairs(run, tmp_path, options, flip):
 
 
 @SOLVERS
-def test_o99_one_step_or_ten(solve, linear):
-    one, ten = (solve(*QUIET, "-solve_linear", linear, boundary=hold(("0", "0", "-0.3*t")), load={"step": step}) for step in (1, 0.1))
+def test_o99_one_step_or_ten(solve, linear, depth=0.3):
+    one, ten = (solve(*QUIET, "-solve_linear", linear, boundary=hold(("0", "0", f"-{depth}*t")), load={"step": step}) for step in (1, 0.1))
     assert good(one)["energy"] == pytest.approx(good(ten)["energy"], rel=1e-8)
 
 
@@ -451,11 +455,11 @@ def test_initial_gap_and_overlap(solve, gap, linear):
 @SOLVERS
 @pytest.mark.parametrize("carries", ["upper", "lower"])
 @pytest.mark.parametrize("order", [1, 2])
-def test_nearly_incompressible(solve, order, carries, linear):
+def test_nearly_incompressible(solve, order, carries, linear, least=0.9):
     rubber = {**RUBBER, "nu": 0.499}
     result = solve(*QUIET, "-order", order, "-solve_linear", linear, bodies={name: rubber for name in BODIES}, contact=pairs(carries))
     assert_balance(only(result))
-    assert result.summary["newton_iterations"] <= 7 and result.summary["min_det"] > 0.9
+    assert result.summary["newton_iterations"] <= 7 and result.summary["min_det"] > least
 
 
 @SOLVERS

@@ -1,0 +1,183 @@
+"""Properties O-90 to O-104 in space once more, with cells of order 2 (of order 4 where that is quick enough), contact faces linear and of the order of the cells: the tests of
+test_property3d.py with these options added."""
+import pytest
+
+import test_property3d as space
+from higher import faces, fails, higher
+from test_property3d import ADAPTED, LOWER, UPPER, Frame, hold, pairs
+
+slow = pytest.mark.slow
+SECOND = ("2-1", "2-full")
+HATS = fails("full faces of the wider body, facets covered in part in space: Newton's method stalls or the active set cycles")
+CARRIES = pytest.mark.parametrize("carries", ["upper", pytest.param("lower", marks=slow)])
+
+
+@pytest.fixture
+def solve(higher, tmp_path):
+    return space.solver(higher, tmp_path)
+
+
+@faces("2-full")
+@pytest.mark.parametrize("options", [(), ("-contact_pair_multiplier", "standard")], ids=["dual", "standard"])
+def test_o90_momentum(solve, options):
+    space.test_o90_momentum(solve, options, "direct")
+
+
+@faces(kinds=SECOND)
+def test_o90_momentum_adapted(solve):
+    space.test_o90_momentum(solve, ADAPTED, "direct")
+
+
+@faces(kinds=SECOND)
+def test_o90_momentum_on_a_ball(higher, kind):
+    """A quarter of a ball: directions on the planes of symmetry are those of the whole. They are held there by the other half, which alone balances the moments; what
+    is missing is 1.6e-3 here. (Boxes, which have no such planes, are balanced to 1e-10 above.)"""
+    space.test_o90_momentum_on_a_ball(higher, 2, 3e-3 if kind == "2-full" else 1e-10)
+
+
+@faces(kinds=SECOND)
+def test_o91_exchange_of_sides(solve):
+    space.test_o91_exchange_of_sides(solve)
+
+
+@faces(kinds=SECOND)
+def test_work_is_energy(solve):
+    space.test_work_is_energy(solve, "press_and_slide")
+
+
+@faces(kinds=SECOND)
+def test_o92_rotated_scene(solve):
+    space.test_o92_rotated_scene(solve, 1, "direct")
+
+
+@faces(kinds=SECOND)
+@pytest.mark.parametrize("options", [(), ("-adapt_tolerance", 0.001, "-adapt_max_passes", 2)], ids=["one", "adapted"])
+def test_o92_skew_rollers(solve, options):
+    space.test_o92_skew_rollers(solve, options)
+
+
+@faces(kinds=SECOND)
+def test_o92_rigid_rotation(solve):
+    space.test_o92_rigid_rotation(solve)
+
+
+UNITS = {"both": (1e-3, 1e6, 0), "large": (1e3, 1e-6, 0), "shift": (1, 1, 1e4)}
+SCALED = fails("the same figures after one iteration more: the symmetric factorisation loses digits where stiffness and contact rows differ by 1e9")
+
+
+@pytest.mark.parametrize("kind,change,length,stress,shift", [pytest.param(kind, name, *change, marks=SCALED if (kind, name) == ("2-1", "large") else slow)
+                                                             for kind in SECOND for name, change in UNITS.items()])
+def test_o93_units_and_origin(solve, change, length, stress, shift):
+    space.test_o93_units_and_origin(solve, change, length, stress, shift, "direct")
+
+
+@faces(kinds=("2-1", "2-full", "3-full"))
+@pytest.mark.parametrize("name", ["upper", "lower", "turned", "hanging", "mixed"])
+def test_o94_tangent(solve, kind, name):
+    """Boxes that match nowhere, pressed, shifted and tilted; the faces of either are covered in part."""
+    small = {"lower": LOWER._replace(number=(2, 2, 1)), "upper": UPPER._replace(number=(2, 1, 1) if kind == "2-full" else (1, 1, 1))}
+    keys = {"upper": {}, "lower": {"contact": pairs("lower")}, "turned": {"frame": Frame(4)}, "mixed": {},
+            "hanging": {"refine": {"spot": {"boundary": "upper_z0", "x": 0.3, "y": 0.3, "z": 1, "levels": 1}}}}
+    space.test_o94_tangent(solve, ("-material_upper_nu", 0.499) if name == "mixed" else (), {**small, **keys[name]})
+
+
+@faces(kinds=SECOND)
+@pytest.mark.parametrize("options", [(), ("-adapt_tolerance", 0.01, "-adapt_max_passes", 2)], ids=["one", "adapted"])
+def test_o95_newton_order(solve, options):
+    space.test_o95_newton_order(solve, options, "upper")
+
+
+@pytest.mark.parametrize("kind,options", [("2-1", ()), ("2-1", ("-adapt_tolerance", 0.01, "-adapt_max_passes", 2)), ("2-full", ()),
+                                          pytest.param("2-full", ("-adapt_tolerance", 0.01, "-adapt_max_passes", 2), marks=HATS)])
+@slow
+def test_o95_newton_order_lower(solve, options):
+    space.test_o95_newton_order(solve, options, "lower")
+
+
+@faces(kinds=SECOND)
+@CARRIES
+@pytest.mark.parametrize("x", [0, 1e-3, -1e-3])
+def test_o96_edges_on_edges(solve, x, carries):
+    space.test_o96_edges_on_edges(solve, x, carries, "direct")
+
+
+@faces(kinds=SECOND)
+def test_o96_zero_load(solve):
+    space.test_o96_zero_load(solve, hold(("0", "0", "0")))
+
+
+@faces("2-full", kinds=SECOND)
+@pytest.mark.parametrize("gap,search", [(0.05, 0), (0.1, 10)])
+def test_o97_free_fall(solve, gap, search):
+    space.test_o97_free_fall(solve, gap, search, "direct")
+
+
+@faces(kinds=SECOND)
+@pytest.mark.parametrize("lift,top", [(0, ("0.05", "0", "-0.1 - 0.02*{x}")), (0.05, ("0", "0", "-0.2"))], ids=["touching", "apart"])
+def test_o97_held_by_contact_only(higher, tmp_path, lift, top):
+    space.test_o97_held_by_contact_only(higher, tmp_path, lift, top, "direct")
+
+
+@pytest.mark.parametrize("kind,flip", [pytest.param(kind, flip, marks=HATS if (kind, flip) == ("2-full", 1) else slow) for kind in SECOND for flip in (0, 1)])
+def test_o98_five_pairs(higher, tmp_path, flip):
+    space.test_o98_five_pairs(higher, tmp_path, (), flip)
+
+
+@faces("2-full", kinds=SECOND)
+def test_o99_one_step_or_ten(solve):
+    space.test_o99_one_step_or_ten(solve, "direct", 0.25)
+
+
+@pytest.mark.parametrize("kind", [pytest.param("2-full", marks=fails("26 cells: beyond a press of 0.28 steps are cut to the least, with either basis of the multipliers"))])
+def test_o99_deep(solve):
+    space.test_o99_one_step_or_ten(solve, "direct")
+
+
+@faces(kinds=SECOND)
+@pytest.mark.parametrize("low,up", [((4, 4, 1), (1, 1, 1)), ((1, 1, 1), (4, 4, 1))])
+@CARRIES
+def test_o100_uniform_pressure_of_unequal_meshes(solve, low, up, carries):
+    space.test_o100_uniform_pressure_of_unequal_meshes(solve, low, up, carries)
+
+
+@faces("2-full", kinds=SECOND)
+def test_o104_separation(solve):
+    space.test_o104_separation(solve, "direct")
+
+
+@faces(kinds=SECOND)
+def test_o104_open_and_close(solve):
+    space.test_o104_open_and_close(solve, "direct")
+
+
+@faces(kinds=SECOND)
+@pytest.mark.parametrize("step", [1, 0.1])
+def test_o104_from_out_of_reach(solve, step):
+    space.test_o104_from_out_of_reach(solve, step, "direct")
+
+
+@faces(kinds=SECOND)
+def test_sliding_over_many_facets(solve):
+    space.test_sliding_over_many_facets(solve, "direct")
+
+
+@faces(kinds=SECOND)
+@pytest.mark.parametrize("gap", [0.05, -0.05])
+def test_initial_gap_and_overlap(solve, gap):
+    space.test_initial_gap_and_overlap(solve, gap, "direct")
+
+
+@pytest.mark.parametrize("kind,carries", [pytest.param(kind, carries, marks=HATS if (kind, carries) == ("2-full", "lower") else slow) for kind in SECOND for carries in ("upper", "lower")])
+def test_nearly_incompressible(solve, carries):
+    """Full faces see more of what is squeezed at the edges of the punch."""
+    space.test_nearly_incompressible(solve, 2, carries, "direct", 0.85)
+
+
+@pytest.mark.parametrize("kind,carries", [pytest.param(kind, carries, marks=HATS if (kind, carries) == ("2-full", "lower") else slow) for kind in SECOND for carries in ("upper", "lower")])
+def test_rigid_punch(solve, carries):
+    space.test_rigid_punch(solve, carries, "direct")
+
+
+@pytest.mark.parametrize("kind,name", [pytest.param(kind, name, marks=HATS if (kind, name) == ("2-full", "rigid") else slow) for kind in SECOND for name in ("tilted", "mixed", "rigid")])
+def test_o101_ranks(solve, name):
+    space.on_ranks(solve, name, (2, 3))
