@@ -17,7 +17,7 @@ SWAPPED = pytest.mark.parametrize("roles", [(), pytest.param(scenes.SWAPPED, mar
 # ---- O-90 to O-93: balance, exchange of the sides, frames and units ---------------------------------------------------------
 
 
-@faces("2-full", "4-full")
+@faces("2-full")
 @pytest.mark.parametrize("scene,options", [("slide2d", ("-adapt_max_passes", 3)), ("rubber2d", ("-adapt_max_passes", 3)), ("hertz2d", ONE_MESH)])
 def test_o90_momentum(higher, scene, options):
     plane.test_o90_momentum(higher, scene, options)
@@ -57,7 +57,7 @@ def test_o94_tangent_other_meshes(higher, scene, roles):
     scenes.test_o94_tangent(higher, scene, 2, roles)
 
 
-@faces("2-full", "4-full")
+@faces("2-full")
 @pytest.mark.parametrize("scene,options", [
     ("patch2d", ("-boundary_top_displacement_y", -0.6)), ("hertz2d", ("-boundary_top_displacement_x", 0.0123, *ONE_MESH)),
     ("hertz2d", ("-boundary_top_displacement_x", 0.0123, "-boundary_top_displacement_y", -0.3, *ONE_MESH)), ("rubber2d", ONE_MESH), ("slide2d", ONE_MESH)])
@@ -68,44 +68,44 @@ def test_o95_newton_order(higher, scene, options):
 # ---- O-96 to O-99: what must not break a run --------------------------------------------------------------------------------
 
 
-@faces("2-full", "4-full")
+@faces("2-full")
 @pytest.mark.parametrize("options", [("-adapt_max_passes", 4), ONE_MESH])
 @pytest.mark.parametrize("depth", [0, pytest.param(-1e-9, marks=slow)])
 def test_o96_grazing(higher, depth, options):
     robust.test_o96_grazing(higher, depth, options)
 
 
-@faces("2-full", "4-full")
+@faces("2-full")
 @SIDES
 def test_o96_zero_load(higher, nonmortar, mortar):
     robust.test_o96_zero_load(higher, nonmortar, mortar)
 
 
-@faces("2-full", "4-full")
+@faces("2-full")
 @SIDES
 @pytest.mark.parametrize("x", [0, 1e-3, -1e-3])
 def test_o96_edge_node_on_the_corner(higher, x, nonmortar, mortar):
     robust.test_o96_edge_node_on_the_corner(higher, x, nonmortar, mortar)
 
 
-@faces("2-full", "4-full")
+@faces("2-full")
 def test_o97_free_fall(higher, tmp_path):
     robust.test_o97_free_fall(higher, tmp_path)
 
 
-@faces("2-full", "4-full")
+@faces("2-full")
 @SIDES
 @pytest.mark.parametrize("planes", ["both", "left"])
 def test_o98_contact_face_on_symmetry_planes(higher, planes, nonmortar, mortar):
     robust.test_o98_contact_face_on_symmetry_planes(higher, planes, nonmortar, mortar, 2)
 
 
-@faces("2-full", "4-full")
+@faces("2-full")
 def test_o98_support_across_the_face(higher):
     robust.test_o98_support_across_the_face(higher)
 
 
-@faces("2-full", "4-full")
+@faces("2-full")
 @pytest.mark.parametrize("lower_carries", [False, pytest.param(True, marks=slow)])
 def test_o98_three_bodies_at_a_point(higher, tmp_path, lower_carries):
     robust.test_o98_three_bodies_at_a_point(higher, tmp_path, lower_carries)
@@ -131,13 +131,13 @@ def test_o101_ranks(higher, name, ranks):
     parallel.compare(higher, *parallel.SCENES[name], ranks)
 
 
-@faces("2-full", "4-full")
+@faces("2-full")
 @pytest.mark.parametrize("options", [("-adapt_max_passes", 4), ONE_MESH])
 def test_o104_separation(higher, options):
     robust.test_o104_separation(higher, options)
 
 
-@faces("2-full", "4-full")
+@faces("2-full")
 @pytest.mark.parametrize("step", [1, 0.25])
 def test_o104_nothing_in_reach(higher, tmp_path, step):
     robust.test_o104_nothing_in_reach(higher, tmp_path, step)
