@@ -614,7 +614,7 @@ static void FacetForces_Private(Contact *c)
     for (PetscInt a = 0; a < e->num; ++a) {
       PetscReal *f = c->side[NODE_SIDE(e->nodes[a])].force + dim * NODE_INDEX(e->nodes[a]);
       for (PetscInt k = 0; k < e->num_rows; ++k)
-        for (PetscInt d = 0; d < dim; ++d) f[d] += c->z[e->nodes[k]] * e->dgap[dim * (k * e->num + a) + d];
+        for (PetscInt d = 0; d < dim && c->has_multiplier[e->nodes[k]]; ++d) f[d] += c->z[e->nodes[k]] * e->dgap[dim * (k * e->num + a) + d];
     }
   }
 }
