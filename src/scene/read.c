@@ -32,7 +32,7 @@ static PetscErrorCode ReadGeneral_Private(Scene s)
 
 static PetscErrorCode Law_Private(const SceneNode *node, const char *name, const MaterialLaw **law)
 {
-  static const char *const later[]   = {"hgo", "j2"}; /* named by the contract with users */
+  static const char *const later     = "hgo"; /* named by the contract with users */
   char                     list[512] = "";
 
   PetscFunctionBegin;
@@ -42,7 +42,7 @@ static PetscErrorCode Law_Private(const SceneNode *node, const char *name, const
     if (list[0]) PetscCall(PetscStrlcat(list, ", ", sizeof(list)));
     PetscCall(PetscStrlcat(list, row->name, sizeof(list)));
   }
-  for (int i = 0; i < 2; ++i) PetscCheckInput(strcmp(name, later[i]), "%s: law %s is not built yet; built are: %s", NodeWhere(node), name, list);
+  PetscCheckInput(strcmp(name, later), "%s: law %s is not built yet; built are: %s", NodeWhere(node), name, list);
   PetscCall(ErrorInput("%s is '%.64s', which is no law; allowed: %s", NodeWhere(node), name, list));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
