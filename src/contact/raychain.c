@@ -77,11 +77,11 @@ PetscErrorCode ContactRayDirectionCurvature(RayWork w, const ContactSurface *s, 
         const PetscInt   masters_a = ContactMasters(s, a, &ma, &wa), masters_b = ContactMasters(s, b, &mb, &wb);
         PetscInt         pa, pb;
 
-        for (PetscInt i = 0; i < masters_a; i++)
+        for (PetscInt i = 0; i < masters_a; i++) {
+          PetscCall(ContactResultNode(&w->result, ma[i], &pa));
           for (PetscInt j = 0; j < masters_b; j++) {
             const PetscReal f = sign * wa[i] * wb[j];
 
-            PetscCall(ContactResultNode(&w->result, ma[i], &pa));
             PetscCall(ContactResultNode(&w->result, mb[j], &pb));
             for (int l = 0; l < 3; l++) { /* component l of the cross product */
               const PetscReal value = f * (along[0] * R[l] + along[1] * R[3 + l] + along[2] * R[6 + l]);
@@ -91,6 +91,7 @@ PetscErrorCode ContactRayDirectionCurvature(RayWork w, const ContactSurface *s, 
               H[(3 * pa + z) * nn + 3 * pb + y] -= value, H[(3 * pb + y) * nn + 3 * pa + z] -= value;
             }
           }
+        }
       }
   }
   PetscFunctionReturn(PETSC_SUCCESS);

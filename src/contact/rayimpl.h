@@ -137,10 +137,24 @@ PetscErrorCode ContactCover(ContactPair, const ContactSurface *nonmortar, const 
 
 /* raypoint.c. False: the ray misses. */
 PetscBool ContactRaySolve(const RayFacet *, const RayLattice *mortar, const PetscReal xi[2], int depth, RayPoint *);
+/* K^-1 from the ray and the tangents of the mortar facet. */
+PetscBool ContactRayInverse(RayPoint *);
 PetscReal ContactRayGap(const RayPoint *);
 PetscReal ContactRayArea(const RayPoint *);
 void      ContactRayFirst(const RayFacet *, const RayLattice *mortar, const RayPoint *, PetscReal gap[], PetscReal area[], PetscReal gap_xi[2],
                           PetscReal area_xi[2]);
+
+/* to[D * a + c] += f_a v_c */
+static inline void ContactRayAdd(PetscInt D, PetscInt num, const PetscReal f[], const PetscReal v[3], PetscReal to[])
+{
+  if (D == 3 && num == 4) { /* so often that loops of fixed length pay */
+    for (int a = 0; a < 4; a++)
+      for (int c = 0; c < 3; c++) to[3 * a + c] += f[a] * v[c];
+    return;
+  }
+  for (PetscInt a = 0; a < num; a++)
+    for (PetscInt c = 0; c < D; c++) to[D * a + c] += f[a] * v[c];
+}
 
 /* raybilinear.c: the same between bilinear facets. */
 PetscBool ContactRayBilinear(const RayFacet *, const RayLattice *mortar, const PetscReal xi[2], int depth, RayPoint *);
