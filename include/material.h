@@ -32,12 +32,19 @@ typedef struct {
   PetscReal   min, max; /* admissible open interval */
 } MaterialParameter;
 
-/* Pointwise response at n points, structure of arrays with stride n: F[9][n] -> W[n], P[9][n], A[81][n] (A[9*a+b] = dP_a/dF_b, symmetric).
-   With `part` ISOCHORIC, the volumetric energy kappa/2 g(J)^2 is left out (mixed formulation adds it through its projection);
-   outputs that are NULL are skipped. Points with det F <= 0 set *bad to PETSC_TRUE (numerical status, no error). */
+/* Points at which a law is asked, structure of arrays with stride n. Outputs that are NULL are skipped. */
+typedef struct {
+  PetscInt         n;
+  const PetscReal *F;   /* [9][n] */
+  PetscReal       *W;   /* [n] energy density */
+  PetscReal       *P;   /* [9][n] */
+  PetscReal       *A;   /* [81][n]: A[9*a+b] = dP_a/dF_b, symmetric */
+  PetscBool        bad; /* out: set at points with det F <= 0 (numerical status, no error); never reset */
+} MaterialPoints;
+
+/* With `part` ISOCHORIC, the volumetric energy kappa/2 g(J)^2 is left out (mixed formulation adds it through its projection). */
 typedef enum { MATERIAL_FULL, MATERIAL_ISOCHORIC } MaterialPart;
-typedef PetscErrorCode (*MaterialKernel)(const MaterialSpec *, MaterialPart part, PetscInt n, const PetscReal *F, PetscReal *W, PetscReal *P, PetscReal *A,
-                                         PetscBool *bad);
+typedef PetscErrorCode (*MaterialKernel)(const MaterialSpec *, MaterialPart part, MaterialPoints *);
 
 struct _MaterialLaw {
   const char              *name, *help;
@@ -58,7 +65,7 @@ const MaterialLaw       *MaterialLawFind(const char *name);
    parameters with the nearest known one, resolves `mixed`. Messages start with "material.<name>.<parameter>". */
 PetscErrorCode MaterialSetUp(MaterialSpec *, PetscInt num, const char *const names[], const PetscReal values[]);
 
-PetscErrorCode MaterialEvaluate(const MaterialSpec *, MaterialPart, PetscInt n, const PetscReal *F, PetscReal *W, PetscReal *P, PetscReal *A, PetscBool *bad);
+PetscErrorCode MaterialEvaluate(const MaterialSpec *, MaterialPart, MaterialPoints *);
 
 /* Volumetric measure g(J) with U(J) = kappa/2 g(J)^2 and its first two derivatives: J-1 (quadratic), ln J (log: with lambda for kappa),
    sign(J-1) sqrt((J^2-1)/2 - ln J) (simo; series near 1). The independent pressure field is pi = modulus * Proj g; Cauchy pressure -pi g'(J) . */

@@ -23,11 +23,10 @@ const MaterialLaw *MaterialLawFind(const char *name)
   return NULL;
 }
 
-PetscErrorCode MaterialEvaluate(const MaterialSpec *spec, MaterialPart part, PetscInt n, const PetscReal *F, PetscReal *W, PetscReal *P, PetscReal *A,
-                                PetscBool *bad)
+PetscErrorCode MaterialEvaluate(const MaterialSpec *spec, MaterialPart part, MaterialPoints *points)
 {
   PetscFunctionBegin;
   PetscCheck(spec->law->evaluate, PETSC_COMM_SELF, PETSC_ERR_ARG_WRONGSTATE, "Material %s (%s) has no stress", spec->name, spec->law->name);
-  PetscCall(spec->law->evaluate(spec, part, n, F, W, P, A, bad));
+  PetscCall(spec->law->evaluate(spec, part, points));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -148,12 +148,14 @@ INLINE void VolumetricEnergy(const MaterialSpec *spec, const Deformation *d, Lan
 
 typedef void (*PointLaw)(const MaterialSpec *, MaterialPart, const Deformation *, Response *);
 
-/* Run a law over n points; F, W, P, A as MaterialKernel. `law` is a constant at every call, so that it is inlined. */
-INLINE void PointLoop(PointLaw law, const MaterialSpec *spec, MaterialPart part, PetscInt n, const PetscReal *F, PetscReal *W, PetscReal *P, PetscReal *A,
-                      PetscBool *bad)
+/* Run a law over points. `law` is a constant at every call, so that it is inlined. */
+INLINE void PointLoop(PointLaw law, const MaterialSpec *spec, MaterialPart part, MaterialPoints *points)
 {
-  LanesMask any = {0};
-  Response  r;
+  const PetscInt   n = points->n;
+  const PetscReal *F = points->F;
+  PetscReal       *W = points->W, *P = points->P, *A = points->A;
+  LanesMask        any = {0};
+  Response         r;
 
   r.want_W = W ? PETSC_TRUE : PETSC_FALSE;
   r.want_P = P ? PETSC_TRUE : PETSC_FALSE;
@@ -185,7 +187,7 @@ INLINE void PointLoop(PointLaw law, const MaterialSpec *spec, MaterialPart part,
     }
   }
   for (int l = 0; l < NUM_LANES; l++) {
-    if (any[l]) *bad = PETSC_TRUE;
+    if (any[l]) points->bad = PETSC_TRUE;
   }
 }
 
@@ -196,11 +198,10 @@ PetscErrorCode                 MaterialSetUpElastic(MaterialSpec *);
 
 /* ---- one row each, in its own file ---- */
 
-PetscErrorCode MaterialNeoHookean(const MaterialSpec *, MaterialPart, PetscInt, const PetscReal *, PetscReal *, PetscReal *, PetscReal *, PetscBool *);
-PetscErrorCode MaterialMooneyRivlin(const MaterialSpec *, MaterialPart, PetscInt, const PetscReal *, PetscReal *, PetscReal *, PetscReal *, PetscBool *);
-PetscErrorCode MaterialSaintVenantKirchhoff(const MaterialSpec *, MaterialPart, PetscInt, const PetscReal *, PetscReal *, PetscReal *, PetscReal *,
-                                            PetscBool *);
-PetscErrorCode MaterialLinear(const MaterialSpec *, MaterialPart, PetscInt, const PetscReal *, PetscReal *, PetscReal *, PetscReal *, PetscBool *);
+PetscErrorCode MaterialNeoHookean(const MaterialSpec *, MaterialPart, MaterialPoints *);
+PetscErrorCode MaterialMooneyRivlin(const MaterialSpec *, MaterialPart, MaterialPoints *);
+PetscErrorCode MaterialSaintVenantKirchhoff(const MaterialSpec *, MaterialPart, MaterialPoints *);
+PetscErrorCode MaterialLinear(const MaterialSpec *, MaterialPart, MaterialPoints *);
 
 extern const MaterialParameter MaterialMooneyRivlinParameters[];
 PetscErrorCode                 MaterialMooneyRivlinSetUp(MaterialSpec *);

@@ -112,10 +112,9 @@ INLINE void MooneyRivlinPoint_Private(const MaterialSpec *spec, MaterialPart par
   }
 }
 
-PetscErrorCode MaterialMooneyRivlin(const MaterialSpec *spec, MaterialPart part, PetscInt n, const PetscReal *F, PetscReal *W, PetscReal *P, PetscReal *A,
-                                    PetscBool *bad)
+PetscErrorCode MaterialMooneyRivlin(const MaterialSpec *spec, MaterialPart part, MaterialPoints *points)
 {
   PetscFunctionBegin;
-  PointLoop(MooneyRivlinPoint_Private, spec, part, n, F, W, P, A, bad);
+  PointLoop(MooneyRivlinPoint_Private, spec, part, points);
   PetscFunctionReturn(PETSC_SUCCESS);
 }

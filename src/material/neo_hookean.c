@@ -59,10 +59,9 @@ INLINE void NeoHookeanPoint_Private(const MaterialSpec *spec, MaterialPart part,
   }
 }
 
-PetscErrorCode MaterialNeoHookean(const MaterialSpec *spec, MaterialPart part, PetscInt n, const PetscReal *F, PetscReal *W, PetscReal *P, PetscReal *A,
-                                  PetscBool *bad)
+PetscErrorCode MaterialNeoHookean(const MaterialSpec *spec, MaterialPart part, MaterialPoints *points)
 {
   PetscFunctionBegin;
-  PointLoop(NeoHookeanPoint_Private, spec, part, n, F, W, P, A, bad);
+  PointLoop(NeoHookeanPoint_Private, spec, part, points);
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -154,13 +154,16 @@ static PetscErrorCode Law_Private(CellKernel k, PetscBool tangent, const Lanes *
 {
   const PetscInt     slab = k->slab_points, count = slab * NUM_LANES;
   const MaterialPart part = k->mixed ? MATERIAL_ISOCHORIC : MATERIAL_FULL;
-  PetscBool          bad  = PETSC_FALSE; /* det F was tested before */
 
   PetscFunctionBegin;
   for (PetscInt s = 0; s < k->num_slabs; s++) {
-    PetscReal *F = (PetscReal *)&k->F[s * 9 * slab], *P = (PetscReal *)&k->P[s * 9 * slab], *W = (PetscReal *)&k->W[s * slab], *A = (PetscReal *)k->A;
+    MaterialPoints points = {.n = count,
+                             .F = (PetscReal *)&k->F[s * 9 * slab],
+                             .W = (PetscReal *)&k->W[s * slab],
+                             .P = (PetscReal *)&k->P[s * 9 * slab],
+                             .A = tangent ? (PetscReal *)k->A : NULL};
 
-    PetscCall(MaterialEvaluate(&k->material, part, count, F, W, P, tangent ? A : NULL, &bad));
+    PetscCall(MaterialEvaluate(&k->material, part, &points)); /* det F was tested before */
     if (tangent && k->mixed) CellKernelAddPressureTangent_Private(k, s, pressure);
     if (tangent) CellKernelTangentSlab_Private(k, s);
   }

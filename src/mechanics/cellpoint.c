@@ -100,11 +100,13 @@ PetscErrorCode CellKernelPoints(CellKernel k, PetscInt np, const PetscReal *xi, 
   PetscCheck(!k->mixed || pressure, PETSC_COMM_SELF, PETSC_ERR_ARG_NULL, "A mixed cell needs its pressure coefficients");
   *bad = PETSC_FALSE;
   for (PetscInt q = 0; q < np; q++) {
-    PetscReal f[9], p[9], w;
+    PetscReal      f[9], p[9], w;
+    MaterialPoints point = {.n = 1, .F = f, .W = &w, .P = p};
 
     PetscCall(PointGradient_Private(k, xi + q * k->dim, X, u, f));
     for (int c = 0; c < 9; c += 4) f[c] += 1;
-    PetscCall(MaterialEvaluate(&k->material, k->mixed ? MATERIAL_ISOCHORIC : MATERIAL_FULL, 1, f, &w, p, NULL, bad));
+    PetscCall(MaterialEvaluate(&k->material, k->mixed ? MATERIAL_ISOCHORIC : MATERIAL_FULL, &point));
+    if (point.bad) *bad = PETSC_TRUE;
     if (k->mixed) PetscCall(AddPointPressure_Private(k, xi + q * k->dim, pressure, f, p, &w));
     if (F) PetscCall(PetscArraycpy(F + 9 * q, f, 9));
     if (P) PetscCall(PetscArraycpy(P + 9 * q, p, 9));

@@ -47,10 +47,10 @@ static void SpecMake(const Row *row, MaterialSpec *spec)
 
 static void Evaluate(const MaterialSpec *spec, MaterialPart part, const PetscReal F[9], PetscReal *W, PetscReal *P, PetscReal *A)
 {
-  PetscBool bad = PETSC_FALSE;
+  MaterialPoints point = {.n = 1, .F = F, .W = W, .P = P, .A = A};
 
-  OK(MaterialEvaluate(spec, part, 1, F, W, P, A, &bad));
-  assert_false(bad);
+  OK(MaterialEvaluate(spec, part, &point));
+  assert_false(point.bad);
 }
 
 /* Printed digits end at 1e-10 absolute for P (values up to 5) and 1e-12 for W. */
@@ -178,16 +178,16 @@ static void BatchesEqualPoints(void **state)
   enum { N = 21 };
 
   for (size_t i = 0; i < NUM_ROWS; i++) {
-    MaterialSpec spec;
-    PetscReal    F[9 * N], W[N], P[9 * N], A[81 * N], w, p[9], a[81];
-    PetscBool    bad = PETSC_FALSE;
+    MaterialSpec   spec;
+    PetscReal      F[9 * N], W[N], P[9 * N], A[81 * N], w, p[9], a[81];
+    MaterialPoints points = {.n = N, .F = F, .W = W, .P = P, .A = A};
 
     SpecMake(&rows[i], &spec);
     for (int q = 0; q < N; q++) {
       for (int k = 0; k < 9; k++) F[k * N + q] = F1[k] + 0.01 * q * (k == q % 9);
     }
-    OK(MaterialEvaluate(&spec, MATERIAL_FULL, N, F, W, P, A, &bad));
-    assert_false(bad);
+    OK(MaterialEvaluate(&spec, MATERIAL_FULL, &points));
+    assert_false(points.bad);
     for (int q = 0; q < N; q++) {
       PetscReal f[9];
 
@@ -199,12 +199,14 @@ static void BatchesEqualPoints(void **state)
     }
     if (spec.law->small) continue;
     for (int k = 0; k < 9; k++) F[k * N + 17] = -one[k];
-    OK(MaterialEvaluate(&spec, MATERIAL_FULL, N, F, W, P, NULL, &bad));
-    assert_true(bad);
+    points.A = NULL;
+    OK(MaterialEvaluate(&spec, MATERIAL_FULL, &points));
+    assert_true(points.bad);
     for (int k = 0; k < 9; k++) F[k * N + 17] = F1[k];
-    bad = PETSC_FALSE;
-    OK(MaterialEvaluate(&spec, MATERIAL_FULL, N, F, W, NULL, NULL, &bad));
-    assert_false(bad);
+    points.P   = NULL;
+    points.bad = PETSC_FALSE;
+    OK(MaterialEvaluate(&spec, MATERIAL_FULL, &points));
+    assert_false(points.bad);
   }
 }
 
