@@ -9,6 +9,7 @@ typedef long LanesMask __attribute__((vector_size(NUM_LANES * sizeof(long)), may
 /* What the laws need to know of a deformation. J - 1 is built from H = F - 1, so that small strains keep their digits. */
 typedef struct {
   Lanes F[9], H[9], cof[9]; /* cof = J F^-T */
+  Lanes fiber[MATERIAL_MAX_FIBERS][3];
   Lanes jm1, J, lnJ;
   Lanes history[MATERIAL_MAX_HISTORY]; /* of laws that have one */
 } Deformation;
@@ -18,7 +19,7 @@ typedef struct {
   PetscBool want_W, want_P, want_A;
   Lanes     W, P[9], A[81];
   Lanes     trial[MATERIAL_MAX_HISTORY]; /* laws with history: always */
-  LanesMask bad;                         /* laws with history: points without an answer */
+  LanesMask bad;                         /* or-ed at points without an answer */
 } Response;
 
 INLINE Lanes LanesSet(PetscReal value)
@@ -193,6 +194,7 @@ INLINE void PointLoop(PointLaw law, const PetscInt num_history, const MaterialSp
     Deformation    d;
 
     LoadPoints(9, n, i, count, points->F, d.F);
+    LoadPoints(3 * spec->num_fibers, n, i, count, points->fiber, d.fiber[0]);
     if (num_history) LoadPoints(num_history, n, i, count, points->history, d.history);
     DeformationSet(&d, &any);
     law(spec, part, &d, &r);
@@ -216,12 +218,15 @@ PetscErrorCode                 MaterialSetUpElastic(MaterialSpec *);
 
 PetscErrorCode MaterialNeoHookean(const MaterialSpec *, MaterialPart, MaterialPoints *);
 PetscErrorCode MaterialMooneyRivlin(const MaterialSpec *, MaterialPart, MaterialPoints *);
+PetscErrorCode MaterialHGO(const MaterialSpec *, MaterialPart, MaterialPoints *);
 PetscErrorCode MaterialSaintVenantKirchhoff(const MaterialSpec *, MaterialPart, MaterialPoints *);
 PetscErrorCode MaterialLinear(const MaterialSpec *, MaterialPart, MaterialPoints *);
 PetscErrorCode MaterialJ2(const MaterialSpec *, MaterialPart, MaterialPoints *);
 
 extern const MaterialParameter MaterialMooneyRivlinParameters[];
 PetscErrorCode                 MaterialMooneyRivlinSetUp(MaterialSpec *);
+extern const MaterialParameter MaterialHGOParameters[];
+PetscErrorCode                 MaterialHGOSetUp(MaterialSpec *);
 extern const MaterialParameter MaterialRigidParameters[];
 PetscErrorCode                 MaterialRigidSetUp(MaterialSpec *);
 PetscErrorCode                 MaterialLinearSetUp(MaterialSpec *);

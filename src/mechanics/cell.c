@@ -49,6 +49,7 @@ static PetscErrorCode ArenaCreate_Private(CellKernel k)
       {&k->hoop_inverse, k->hoop ? q : 0},
       {&k->volume, q},
       {&k->F, 9 * q},
+      {&k->fiber, (size_t)k->material.num_fibers * 3 * q},
       {&k->P, 9 * q},
       {&k->W, q},
       {&k->A, 81 * slab},
@@ -106,6 +107,7 @@ PetscErrorCode CellKernelCreate(PetscInt dim, Model model, Kinematics kinematics
   if (k->small) { /* small kinematics: every law is its linearisation */
     k->material.law        = MaterialLawFind("linear");
     k->material.volumetric = VOLUMETRIC_QUADRATIC;
+    k->material.num_fibers = 0; /* they are slack to first order */
   }
   PetscCall(Basis1DGet(order, k->n1, &k->basis));
   PetscCall(TablesCreate_Private(k));
@@ -161,6 +163,20 @@ static void Store_Private(PetscInt num, PetscInt n, PetscInt d, const Lanes *lan
   }
 }
 
+/* Point values [cells][num][q] to lanes, slab after slab. */
+static void LoadSlabs_Private(CellKernel k, PetscInt num_cells, PetscInt num, const PetscReal *values, Lanes *lanes)
+{
+  const PetscInt slab = k->slab_points;
+
+  for (PetscInt q = 0; q < k->num_points; q++) {
+    for (PetscInt c = 0; c < num; c++) {
+      for (PetscInt l = 0; l < NUM_LANES; l++) {
+        lanes[(q / slab * num + c) * slab + q % slab][l] = values[(PetscMin(l, num_cells - 1) * num + c) * k->num_points + q];
+      }
+    }
+  }
+}
+
 PetscErrorCode CellKernelVolumes(CellKernel k, const PetscReal *X, PetscReal *volume)
 {
   PetscFunctionBegin;
@@ -205,6 +221,7 @@ static PetscErrorCode Law_Private(CellKernel k, PetscBool tangent, const Lanes *
   for (PetscInt s = 0; s < k->num_slabs; s++) {
     MaterialPoints points = {.n       = count,
                              .F       = (PetscReal *)&k->F[s * 9 * slab],
+                             .fiber   = (PetscReal *)&k->fiber[s * 3 * k->material.num_fibers * slab],
                              .W       = (PetscReal *)&k->W[s * slab],
                              .P       = (PetscReal *)&k->P[s * 9 * slab],
                              .A       = tangent ? (PetscReal *)k->A : NULL,
@@ -247,7 +264,7 @@ static void Stretch_Private(CellKernel k, PetscInt num, PetscReal *stretch2)
 /* Everything that is asked of cells first .. first+num-1 of the batch. */
 static PetscErrorCode Chunk_Private(CellKernel k, CellBatch *b, PetscInt first, PetscInt num)
 {
-  const PetscInt  n = k->num_nodes, d = k->dim, m = k->num_pressure, size = n * d;
+  const PetscInt  n = k->num_nodes, d = k->dim, m = k->num_pressure, size = n * d, fibers = 3 * k->material.num_fibers;
   const PetscBool tangent = b->tangent ? PETSC_TRUE : PETSC_FALSE, couple = m && (b->tangent || b->dpressure) ? PETSC_TRUE : PETSC_FALSE;
   const Lanes    *pressure = k->coefficient;
   Lanes           min_det;
@@ -274,6 +291,7 @@ static PetscErrorCode Chunk_Private(CellKernel k, CellBatch *b, PetscInt first, 
     pressure = k->stored;
   }
   if (b->history) LoadHistory_Private(k, num, b->history + first * k->num_points * k->material.law->num_history);
+  if (fibers && (b->energy || b->residual || tangent)) LoadSlabs_Private(k, num, fibers, b->fiber + first * fibers * k->num_points, k->fiber);
   if (b->energy || b->residual || tangent || b->trial) PetscCall(Law_Private(k, tangent, pressure, &bad));
   if (bad) b->bad = PETSC_TRUE;
   if (bad) PetscFunctionReturn(PETSC_SUCCESS);
