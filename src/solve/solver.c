@@ -91,23 +91,28 @@ static PetscErrorCode UseMultigrid_Private(Solver s, PetscBool *yes)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Condense the nodes inside cells? PETSc's test of the tangent wants the whole matrix, and nodes inside a cell that is constrained to a lower order in some
-   direction are not of its own alone. */
+/* Condense the nodes inside cells? PETSc's test of the tangent and the equation of a path want the whole matrix, and nodes inside a cell that is constrained to
+   a lower order in some direction are not of its own alone. */
 static PetscErrorCode Condense_Private(Solver s)
 {
-  PetscInt  num_u, num_z, dim, order;
-  PetscBool yes, directional;
-  HPSpace   space;
+  const SceneData *scene;
+  PetscInt         num_u, num_z, dim, order;
+  PetscBool        yes, directional, whole;
+  HPSpace          space;
 
   PetscFunctionBegin;
   PetscCall(ProblemGetSpace(s->problem, &space));
   PetscCall(HPSpaceIsDirectional(space, &directional));
   PetscCheckInput(!directional || s->condense != CONDENSE_YES, "-solve_condense yes: not with orders per direction (body.<name>.order: {x: ...}); take no");
+  PetscCall(ProblemGetScene(s->problem, &scene));
+  whole = (PetscBool)(s->test || scene->load.control == LOAD_ARC_LENGTH);
+  PetscCheckInput(scene->load.control != LOAD_ARC_LENGTH || s->condense != CONDENSE_YES,
+                  "-solve_condense yes: not with load.control: arc_length, whose equation has all displacements in it; take no");
   PetscCheckInput(!s->test || s->condense != CONDENSE_YES, "-solve_condense yes: not with -snes_test_jacobian, which needs the whole matrix");
   PetscCall(ProblemGetBlocks(s->problem, &num_u, &num_z, &dim));
   PetscCall(Highest_Private(s->problem, &order));
   yes = (PetscBool)(s->condense == CONDENSE_YES || (s->condense == CONDENSE_AUTO && !directional && order >= (dim == 3 ? CONDENSE_3D : CONDENSE_2D)));
-  if (yes && !s->test) PetscCall(ProblemSetCondense(s->problem));
+  if (yes && !whole) PetscCall(ProblemSetCondense(s->problem));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
