@@ -22,7 +22,8 @@ PetscErrorCode SceneCheckPath(Scene s, const SceneNode *motion, Expression e)
   PetscFunctionBegin;
   if (s->data.load.control != LOAD_ARC_LENGTH || !e) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(IsZero_Private(e, &zero));
-  PetscCheckInput(zero, "%s: load.control: arc_length finds the factor of loads, and this motion is none; drive by time, or by a load", NodeWhere(motion));
+  PetscCheckInput(zero, "%s: load.control: arc_length finds the factor of loads, so that nothing is moved by t; take control: time, or a load",
+                  NodeWhere(motion));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -42,7 +43,8 @@ PetscErrorCode SceneCheckControl(Scene s, const SceneNode *boundary, const char 
                   "%s: all displacements of this boundary are prescribed, so no pressure moves it", NodeWhere(node));
   PetscCheckInput(s->data.mechanics.kinematics == KINEMATICS_FINITE, "%s needs kinematics: finite; with small ones the reference volume is all there is",
                   NodeWhere(node));
-  PetscCheckInput(s->data.load.control == LOAD_TIME, "%s: load.control: arc_length finds the factor of given loads; drive by time here", NodeWhere(node));
+  PetscCheckInput(s->data.load.control == LOAD_TIME,
+                  "%s and load.control: arc_length do not go together: that finds the factor of given loads; allowed here: time", NodeWhere(node));
   PetscCheckInput(!ExpressionUsesPlace(e), "%s is \"%s\": one number for the whole boundary, so an expression in t alone", NodeWhere(node), ExpressionText(e));
   PetscCall(MechanicsValue(e, &b->amplitude, origin, 0, &start));
   PetscCheckInput(PetscAbsReal(start) < 1e-12, "%s is %g at t = 0; it is counted from the reference configuration and must start at 0", NodeWhere(node),

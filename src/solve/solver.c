@@ -73,7 +73,7 @@ static PetscErrorCode Highest_Private(Problem p, PetscInt *order)
 static PetscErrorCode UseMultigrid_Private(Solver s, PetscBool *yes)
 {
   const SceneData *scene;
-  PetscInt         dofs, num_u, num_z, dim, order;
+  PetscInt         dofs, num_u, num_z, dim, order, scalars;
 
   PetscFunctionBegin;
   PetscCall(ProblemGetScene(s->problem, &scene));
@@ -88,6 +88,9 @@ static PetscErrorCode UseMultigrid_Private(Solver s, PetscBool *yes)
   if (s->linear == LINEAR_DIRECT) *yes = PETSC_FALSE;
   if (s->linear == LINEAR_ITERATIVE) *yes = PETSC_TRUE;
   if (!s->symmetric) *yes = PETSC_FALSE;
+  PetscCall(ProblemNumScalars(s->problem, &scalars));
+  PetscCheckInput(s->linear != LINEAR_ITERATIVE || !scalars,
+                  "-solve_linear iterative: not with pressures that are found (volume, advance) or load.control: arc_length; take direct");
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
