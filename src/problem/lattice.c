@@ -5,7 +5,7 @@
 #include "problemimpl.h"
 #include <petsc/private/hashmapi.h>
 
-#define KEY(entity, index) (64 * (entity) + (index)) /* more than an entity's nodes */
+#define KEY(entity, index) (FOREST_PARTS * (entity) + (index))
 
 /* Under construction. */
 typedef struct {
