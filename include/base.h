@@ -68,6 +68,7 @@ typedef struct {
   PetscReal *pairs; /* [num][2], owned */
 } Amplitude;
 PetscReal AmplitudeEvaluate(const Amplitude *, PetscReal t);
+PetscReal AmplitudeNext(const Amplitude *, PetscReal t); /* the first of its times after t; PETSC_MAX_REAL: none */
 
 /* ---- small dense algebra (base/tensor.c and inline) -------------------------------------------------------------- */
 

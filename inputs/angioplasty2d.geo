@@ -4,11 +4,11 @@ DefineConstant[
   ns = 24, // of the sleeve
   na = 20, // of the artery
   k = 1,   // cells through each of balloon and sleeve: 2k; through media and adventitia: 3k, 2k
-  sectors = 1 // 4: the full ring, without symmetry planes
+  sectors = 1 // 4: the full ring
 ];
 radius[] = {0.4, 0.5, 0.55, 0.65, 0.71, 0.97, 1.1};
 Point(1) = {0, 0, 0};
-last = sectors == 4 ? 3 : sectors; // rays; those of a full ring close
+last = sectors == 4 ? 3 : sectors; // rays but the first; those of a full ring close
 For i In {0 : 6}
   For s In {0 : last}
     Point(10 * (i + 1) + s) = {radius[i] * Cos(s * Pi / 2), radius[i] * Sin(s * Pi / 2), 0};
@@ -46,7 +46,5 @@ Physical Curve("sleeve_bore")  = {30 : 30 + end};
 Physical Curve("sleeve_skin")  = {40 : 40 + end};
 Physical Curve("artery_bore")  = {50 : 50 + end};
 Physical Curve("artery_skin")  = {70 : 70 + end};
-If (sectors < 4)
-  Physical Curve("plane_y") = {100, 120, 140, 150};
-  Physical Curve("plane_x") = {101, 121, 141, 151};
-EndIf
+Physical Curve("plane_y") = {100, 120, 140, 150}; // in a full ring these two hold it: no symmetry planes any more
+Physical Curve("plane_x") = {101, 121, 141, 151};
