@@ -85,54 +85,54 @@ void CellKernelTangentSlab_Private(CellKernel k, PetscInt s)
 }
 
 /* z: layer_tangent[ik][rs][q12] = sum_q3 At[ik][rs][q3][q12] times the pair (a_z, b_z); third derivative is along z. */
-INLINE void SumZ_Private(CellKernel k, const PetscInt n1, PetscInt az, PetscInt bz)
+INLINE void SumZ_Private(CellKernel k, const PetscInt n1, const PetscInt q1, PetscInt az, PetscInt bz)
 {
-  const PetscInt   n2   = n1 * n1;
-  const PetscReal *pair = k->pairs + (az * n1 + bz) * 4 * n1;
+  const PetscInt   q2   = q1 * q1;
+  const PetscReal *pair = k->pairs + (az * n1 + bz) * 4 * q1;
 
   for (PetscInt c = 0; c < 81; c++) {
-    const PetscReal *z   = pair + (2 * (c % 9 / 3 == 2) + (c % 3 == 2)) * n1;
-    const Lanes     *in  = k->reference_tangent + c * n2 * n1;
-    Lanes           *out = k->layer_tangent + c * n2;
+    const PetscReal *z   = pair + (2 * (c % 9 / 3 == 2) + (c % 3 == 2)) * q1;
+    const Lanes     *in  = k->reference_tangent + c * q2 * q1;
+    Lanes           *out = k->layer_tangent + c * q2;
 
-    for (PetscInt q = 0; q < n2; q++) {
+    for (PetscInt q = 0; q < q2; q++) {
       Lanes sum = z[0] * in[q];
 
-      for (PetscInt q3 = 1; q3 < n1; q3++) sum += z[q3] * in[q3 * n2 + q];
+      for (PetscInt q3 = 1; q3 < q1; q3++) sum += z[q3] * in[q3 * q2 + q];
       out[q] = sum;
     }
   }
 }
 
 /* y, then x: tile[a_x i][b_x k] for lines (.., a_y) and (.., b_y); d components, nr derivatives of which 0 is along x, 1 along y. */
-INLINE void SumTile_Private(CellKernel k, const PetscInt n1, const int d, const int nr, const Lanes *moduli, PetscInt ay, PetscInt by)
+INLINE void SumTile_Private(CellKernel k, const PetscInt n1, const PetscInt q1, const int d, const int nr, const Lanes *moduli, PetscInt ay, PetscInt by)
 {
-  const PetscInt   n2   = n1 * n1;
-  const PetscReal *pair = k->pairs + (ay * n1 + by) * 4 * n1;
+  const PetscInt   q2   = q1 * q1;
+  const PetscReal *pair = k->pairs + (ay * n1 + by) * 4 * q1;
 
   for (int c = 0; c < d * d; c++) {
-    Lanes line[4 * (MORTISE_MAX_ORDER + 1)]; /* [x derivative of a][of b][q1] */
+    Lanes line[4 * MOST_LINE_POINTS]; /* [x derivative of a][of b][q1] */
 
-    for (PetscInt i = 0; i < 4 * n1; i++) line[i] = (Lanes){0};
+    for (PetscInt i = 0; i < 4 * q1; i++) line[i] = (Lanes){0};
     for (int r = 0; r < nr; r++) {
       for (int s = 0; s < nr; s++) {
-        const PetscReal *y   = pair + (2 * (r == 1) + (s == 1)) * n1;
-        const Lanes     *in  = moduli + (c * nr * nr + r * nr + s) * n2;
-        Lanes           *out = line + (2 * (r == 0) + (s == 0)) * n1;
+        const PetscReal *y   = pair + (2 * (r == 1) + (s == 1)) * q1;
+        const Lanes     *in  = moduli + (c * nr * nr + r * nr + s) * q2;
+        Lanes           *out = line + (2 * (r == 0) + (s == 0)) * q1;
 
-        for (PetscInt q = 0; q < n1; q++) {
-          for (PetscInt q2 = 0; q2 < n1; q2++) out[q] += y[q2] * in[q2 * n1 + q];
+        for (PetscInt q = 0; q < q1; q++) {
+          for (PetscInt j = 0; j < q1; j++) out[q] += y[j] * in[j * q1 + q];
         }
       }
     }
     for (PetscInt a = 0; a < n1; a++) {
       for (PetscInt b = 0; b < n1; b++) {
-        const PetscReal *x = k->pairs + (a * n1 + b) * 4 * n1;
+        const PetscReal *x = k->pairs + (a * n1 + b) * 4 * q1;
         Lanes            sum[4]; /* independent, so that their additions overlap */
 
-        for (int type = 0; type < 4; type++) sum[type] = x[type * n1] * line[type * n1];
-        for (PetscInt q = 1; q < n1; q++) {
-          for (int type = 0; type < 4; type++) sum[type] += x[type * n1 + q] * line[type * n1 + q];
+        for (int type = 0; type < 4; type++) sum[type] = x[type * q1] * line[type * q1];
+        for (PetscInt q = 1; q < q1; q++) {
+          for (int type = 0; type < 4; type++) sum[type] += x[type * q1 + q] * line[type * q1 + q];
         }
         k->tile[(a * d + c / d) * n1 * d + b * d + c % d] = (sum[0] + sum[1]) + (sum[2] + sum[3]);
       }
@@ -208,7 +208,8 @@ INLINE void PlaceTile_Private(CellKernel k, const PetscInt n1, const int d, Pets
   }
 }
 
-INLINE void Tangent_Private(CellKernel k, const PetscInt n1, const int d, const int nr, PetscInt num_cells, const PetscInt *place, PetscReal *tangent)
+INLINE void Tangent_Private(CellKernel k, const PetscInt n1, const PetscInt q1, const int d, const int nr, PetscInt num_cells, const PetscInt *place,
+                            PetscReal *tangent)
 {
   const PetscInt nz = d == 3 ? n1 : 1;
 
@@ -216,12 +217,12 @@ INLINE void Tangent_Private(CellKernel k, const PetscInt n1, const int d, const 
     for (PetscInt bz = az; bz < nz; bz++) {
       const Lanes *moduli = d == 3 ? k->layer_tangent : k->reference_tangent;
 
-      if (d == 3) SumZ_Private(k, n1, az, bz);
+      if (d == 3) SumZ_Private(k, n1, q1, az, bz);
       for (PetscInt ay = 0; ay < n1; ay++) {
         for (PetscInt by = bz == az ? ay : 0; by < n1; by++) {
           const PetscInt a = (az * n1 + ay) * n1, b = (bz * n1 + by) * n1;
 
-          SumTile_Private(k, n1, d, nr, moduli, ay, by);
+          SumTile_Private(k, n1, q1, d, nr, moduli, ay, by);
           if (k->mixed) AddCoupling_Private(k, n1, d, a, b);
           if (place)
             PlaceTile_Private(k, n1, d, num_cells, a, b, place, tangent);
@@ -238,25 +239,25 @@ INLINE void TangentOfOrder_Private(CellKernel k, const int d, const int nr, Pets
 {
   switch (k->order) {
   case 1:
-    Tangent_Private(k, 2, d, nr, num_cells, place, tangent);
+    Tangent_Private(k, 2, 2, d, nr, num_cells, place, tangent);
     break;
   case 2:
-    Tangent_Private(k, 3, d, nr, num_cells, place, tangent);
+    Tangent_Private(k, 3, 3, d, nr, num_cells, place, tangent);
     break;
   case 3:
-    Tangent_Private(k, 4, d, nr, num_cells, place, tangent);
+    Tangent_Private(k, 4, 4, d, nr, num_cells, place, tangent);
     break;
   case 4:
-    Tangent_Private(k, 5, d, nr, num_cells, place, tangent);
+    Tangent_Private(k, 5, 5, d, nr, num_cells, place, tangent);
     break;
   case 5:
-    Tangent_Private(k, 6, d, nr, num_cells, place, tangent);
+    Tangent_Private(k, 6, 6, d, nr, num_cells, place, tangent);
     break;
   case 6:
-    Tangent_Private(k, 7, d, nr, num_cells, place, tangent);
+    Tangent_Private(k, 7, 8, d, nr, num_cells, place, tangent);
     break;
   default:
-    Tangent_Private(k, k->n1, d, nr, num_cells, place, tangent);
+    Tangent_Private(k, k->n1, k->q1, d, nr, num_cells, place, tangent);
   }
 }
 
