@@ -125,22 +125,9 @@ void CellKernelGradient_Private(CellKernel k, const Lanes *field, Lanes *gradien
     const Lanes *f = field + c * k->num_nodes;
     Lanes       *g = gradient + c * r * k->num_points;
 
-    switch (k->order) {
-    case 1:
-      FieldGradient_Private(2, 2, dim, r, B, D, f, k->layer, g);
-      break;
-    case 2:
-      FieldGradient_Private(3, 3, dim, r, B, D, f, k->layer, g);
-      break;
-    case 3:
-      FieldGradient_Private(4, 4, dim, r, B, D, f, k->layer, g);
-      break;
-    case 4:
-      FieldGradient_Private(5, 5, dim, r, B, D, f, k->layer, g);
-      break;
-    default:
-      FieldGradient_Private(k->n1, k->q1, dim, r, B, D, f, k->layer, g);
-    }
+#define CALL(n1, q1) FieldGradient_Private(n1, q1, dim, r, B, D, f, k->layer, g)
+    CELL_OF_ORDER(k, CALL)
+#undef CALL
   }
 }
 
@@ -153,22 +140,9 @@ void CellKernelIntegrate_Private(CellKernel k, const Lanes *flux, Lanes *result)
     const Lanes *g = flux + c * r * k->num_points;
     Lanes       *f = result + c * k->num_nodes;
 
-    switch (k->order) {
-    case 1:
-      FieldIntegrate_Private(2, 2, dim, r, B, D, g, k->layer, f);
-      break;
-    case 2:
-      FieldIntegrate_Private(3, 3, dim, r, B, D, g, k->layer, f);
-      break;
-    case 3:
-      FieldIntegrate_Private(4, 4, dim, r, B, D, g, k->layer, f);
-      break;
-    case 4:
-      FieldIntegrate_Private(5, 5, dim, r, B, D, g, k->layer, f);
-      break;
-    default:
-      FieldIntegrate_Private(k->n1, k->q1, dim, r, B, D, g, k->layer, f);
-    }
+#define CALL(n1, q1) FieldIntegrate_Private(n1, q1, dim, r, B, D, g, k->layer, f)
+    CELL_OF_ORDER(k, CALL)
+#undef CALL
   }
 }
 

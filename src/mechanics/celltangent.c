@@ -108,7 +108,7 @@ INLINE void SumZ_Private(CellKernel k, const PetscInt n1, const PetscInt q1, Pet
 INLINE void SumTile_Private(CellKernel k, const PetscInt n1, const PetscInt q1, const int d, const int nr, const Lanes *moduli, PetscInt ay, PetscInt by)
 {
   const PetscInt   q2   = q1 * q1;
-  const PetscReal *pair = k->pairs + (ay * n1 + by) * 4 * q1;
+  const PetscReal *pair = k->pairs + (ay * n1 + by) * 4 * q1, *B = k->basis->B, *D = k->basis->D;
 
   for (int c = 0; c < d * d; c++) {
     Lanes line[4 * MOST_LINE_POINTS]; /* [x derivative of a][of b][q1] */
@@ -126,19 +126,26 @@ INLINE void SumTile_Private(CellKernel k, const PetscInt n1, const PetscInt q1, 
       }
     }
     for (PetscInt a = 0; a < n1; a++) {
-      for (PetscInt b = 0; b < n1; b++) {
-        const PetscReal *x = k->pairs + (a * n1 + b) * 4 * q1;
-        Lanes            sum[4]; /* independent, so that their additions overlap */
+      Lanes value[MOST_LINE_POINTS], slope[MOST_LINE_POINTS]; /* function a applied: what multiplies function b and its derivative */
 
-        for (int type = 0; type < 4; type++) sum[type] = x[type * q1] * line[type * q1];
+      for (PetscInt q = 0; q < q1; q++) {
+        value[q] = B[q * n1 + a] * line[q] + D[q * n1 + a] * line[2 * q1 + q];
+        slope[q] = B[q * n1 + a] * line[q1 + q] + D[q * n1 + a] * line[3 * q1 + q];
+      }
+      for (PetscInt b = 0; b < n1; b++) {
+        Lanes sum[2] = {B[b] * value[0], D[b] * slope[0]}; /* independent, so that their additions overlap */
+
         for (PetscInt q = 1; q < q1; q++) {
-          for (int type = 0; type < 4; type++) sum[type] += x[type * q1 + q] * line[type * q1 + q];
+          sum[0] += B[q * n1 + b] * value[q];
+          sum[1] += D[q * n1 + b] * slope[q];
         }
-        k->tile[(a * d + c / d) * n1 * d + b * d + c % d] = (sum[0] + sum[1]) + (sum[2] + sum[3]);
+        k->tile[(a * d + c / d) * n1 * d + b * d + c % d] = sum[0] + sum[1];
       }
     }
   }
 }
+
+#define PRESSURES_AT_ONCE 16 /* whose lines of nodes stay in cache while all rows of the tile meet them */
 
 /* tile += modulus (L^-1 b)^T (L^-1 b) on the lines that start at nodes a and b. */
 INLINE void AddCoupling_Private(CellKernel k, const PetscInt n1, const int d, PetscInt a, PetscInt b)
@@ -146,18 +153,21 @@ INLINE void AddCoupling_Private(CellKernel k, const PetscInt n1, const int d, Pe
   const PetscInt  m = k->num_pressure, n = k->num_nodes, cols = n1 * d;
   const PetscReal modulus = MaterialVolumetricModulus(&k->material);
 
-  for (PetscInt row = 0; row < cols; row++) {
-    const Lanes *ya = k->coupling + (row % d) * n + a + row / d;
+  for (PetscInt first = 0; first < m; first += PRESSURES_AT_ONCE) {
+    const PetscInt last = PetscMin(m, first + PRESSURES_AT_ONCE);
 
-    for (int c = 0; c < d; c++) {
-      const Lanes *yb = k->coupling + c * n + b;
+    for (PetscInt row = 0; row < cols; row++) {
+      Lanes sum[3 * (MORTISE_MAX_ORDER + 1)];
 
-      for (PetscInt x = 0; x < n1; x++) {
-        Lanes sum = {0};
+      for (PetscInt col = 0; col < cols; col++) sum[col] = (Lanes){0};
+      for (PetscInt l = first; l < last; l++) {
+        const Lanes *y = k->coupling + l * d * n, ya = y[(row % d) * n + a + row / d];
 
-        for (PetscInt l = 0; l < m; l++) sum += ya[l * d * n] * yb[l * d * n + x];
-        k->tile[row * cols + x * d + c] += modulus * sum;
+        for (int c = 0; c < d; c++) {
+          for (PetscInt x = 0; x < n1; x++) sum[x * d + c] += ya * y[c * n + b + x];
+        }
       }
+      for (PetscInt col = 0; col < cols; col++) k->tile[row * cols + col] += modulus * sum[col];
     }
   }
 }
@@ -185,23 +195,19 @@ INLINE void StoreTile_Private(CellKernel k, const PetscInt n1, const int d, Pets
 INLINE void PlaceTile_Private(CellKernel k, const PetscInt n1, const int d, PetscInt num_cells, PetscInt a, PetscInt b, const PetscInt *place,
                               PetscReal *tangent)
 {
-  const PetscInt   cols = n1 * d, size = k->num_nodes * d;
-  const PetscReal *tile = (const PetscReal *)k->tile;
+  const PetscInt cols = n1 * d, size = k->num_nodes * d, square = size * size;
 
-  for (PetscInt cell = 0; cell < num_cells; cell++) {
-    PetscReal *K = tangent + cell * size * size;
+  for (PetscInt x = 0; x < n1; x++) {
+    for (PetscInt y = 0; y < n1; y++) {
+      const PetscInt row = place[a + x] * d, col = place[b + y] * d;
+      const Lanes   *in = k->tile + x * d * cols + y * d;
 
-    for (PetscInt x = 0; x < n1; x++) {
-      for (PetscInt y = 0; y < n1; y++) {
-        const PetscInt   row = place[a + x] * d, col = place[b + y] * d;
-        const PetscReal *in = tile + (x * d * cols + y * d) * NUM_LANES + cell;
+      if (row > col && a == b) continue;
+      for (int i = 0; i < d; i++) {
+        for (int j = 0; j < d; j++) {
+          PetscReal *K = tangent + (row <= col ? (row + i) * size + col + j : (col + j) * size + row + i);
 
-        if (row <= col) {
-          for (int i = 0; i < d; i++)
-            for (int j = 0; j < d; j++) K[(row + i) * size + col + j] = in[(i * cols + j) * NUM_LANES];
-        } else if (a != b) {
-          for (int j = 0; j < d; j++)
-            for (int i = 0; i < d; i++) K[(col + j) * size + row + i] = in[(i * cols + j) * NUM_LANES];
+          for (PetscInt cell = 0; cell < num_cells; cell++) K[cell * square] = in[i * cols + j][cell];
         }
       }
     }
@@ -237,28 +243,9 @@ INLINE void Tangent_Private(CellKernel k, const PetscInt n1, const PetscInt q1, 
 /* One instance for each usual order, with constant loop bounds. */
 INLINE void TangentOfOrder_Private(CellKernel k, const int d, const int nr, PetscInt num_cells, const PetscInt *place, PetscReal *tangent)
 {
-  switch (k->order) {
-  case 1:
-    Tangent_Private(k, 2, 2, d, nr, num_cells, place, tangent);
-    break;
-  case 2:
-    Tangent_Private(k, 3, 3, d, nr, num_cells, place, tangent);
-    break;
-  case 3:
-    Tangent_Private(k, 4, 4, d, nr, num_cells, place, tangent);
-    break;
-  case 4:
-    Tangent_Private(k, 5, 5, d, nr, num_cells, place, tangent);
-    break;
-  case 5:
-    Tangent_Private(k, 6, 6, d, nr, num_cells, place, tangent);
-    break;
-  case 6:
-    Tangent_Private(k, 7, 8, d, nr, num_cells, place, tangent);
-    break;
-  default:
-    Tangent_Private(k, k->n1, k->q1, d, nr, num_cells, place, tangent);
-  }
+#define CALL(n1, q1) Tangent_Private(k, n1, q1, d, nr, num_cells, place, tangent)
+  CELL_OF_ORDER(k, CALL)
+#undef CALL
 }
 
 void CellKernelTangent_Private(CellKernel k, PetscInt num_cells, const PetscInt *place, PetscReal *tangent)

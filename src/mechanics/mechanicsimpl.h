@@ -145,6 +145,31 @@ struct _p_CellKernel {
   Lanes         *tile;                          /* [n1*d][n1*d] */
 };
 
+/* CALL(nodes, points of a line) for the order of a kernel: constants for the usual orders, so that loops unroll. */
+#define CELL_OF_ORDER(k, CALL)                                                                                                                                 \
+  switch ((k)->order) {                                                                                                                                        \
+  case 1:                                                                                                                                                      \
+    CALL(2, CellLinePoints(1));                                                                                                                                \
+    break;                                                                                                                                                     \
+  case 2:                                                                                                                                                      \
+    CALL(3, CellLinePoints(2));                                                                                                                                \
+    break;                                                                                                                                                     \
+  case 3:                                                                                                                                                      \
+    CALL(4, CellLinePoints(3));                                                                                                                                \
+    break;                                                                                                                                                     \
+  case 4:                                                                                                                                                      \
+    CALL(5, CellLinePoints(4));                                                                                                                                \
+    break;                                                                                                                                                     \
+  case 5:                                                                                                                                                      \
+    CALL(6, CellLinePoints(5));                                                                                                                                \
+    break;                                                                                                                                                     \
+  case 6:                                                                                                                                                      \
+    CALL(7, CellLinePoints(6));                                                                                                                                \
+    break;                                                                                                                                                     \
+  default:                                                                                                                                                     \
+    CALL((k)->n1, (k)->q1);                                                                                                                                    \
+  }
+
 /* cellfield.c */
 PetscErrorCode CellKernelGeometry_Private(CellKernel);                                            /* X -> inverse, volume, hoop_inverse */
 void           CellKernelDeformation_Private(CellKernel, Lanes *min_det);                         /* u -> F, measure[0] when mixed */
