@@ -214,8 +214,27 @@ static PetscErrorCode SolveInner_Private(const Cell *c, PetscBool back, PetscRea
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* f_b -= K_bi K_ii^-1 f_i of one cell, whose f_i are taken out of `mine`, its inner nodes in r. */
-static PetscErrorCode CellForces_Private(Mechanics m, const CellGroup *g, const Cell *c, PetscInt cell, PetscReal mine[], PetscReal r[])
+/* For all cells with inner nodes: mine, their part of the local array x. */
+typedef PetscErrorCode (*CellFunction)(Mechanics, const CellGroup *, PetscInt cell, const Cell *, PetscReal mine[], PetscReal x[]);
+
+static PetscErrorCode EachCell_Private(Mechanics m, CellFunction function, PetscReal x[])
+{
+  const HPTables *v;
+
+  PetscFunctionBegin;
+  PetscCall(HPSpaceGetTables(m->space, &v));
+  for (PetscInt ig = 0; ig < m->num_groups; ++ig) {
+    const CellGroup *g = &m->groups[ig];
+    for (PetscInt i = 0; i < g->num_cells && g->num_inner; ++i) {
+      Cell c;
+      PetscCall(CellOf_Private(m, g, i, &c));
+      PetscCall(function(m, g, g->cells[i], &c, x + v->point_node[g->cells[i]] * m->dim, x));
+    }
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode CellForces_Private(Mechanics m, const CellGroup *g, PetscInt cell, const Cell *c, PetscReal mine[], PetscReal r[])
 {
   const PetscReal    one = 1, zero = 0;
   const PetscBLASInt single = 1;
@@ -233,8 +252,14 @@ static PetscErrorCode CellForces_Private(Mechanics m, const CellGroup *g, const 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* x_i = K_ii^-1 (f_i - K_ib x_b) of one cell, minus that, to `mine`, its inner nodes in du. */
-static PetscErrorCode CellRecover_Private(Mechanics m, const CellGroup *g, const Cell *c, PetscInt cell, PetscReal mine[], PetscReal du[])
+PetscErrorCode MechanicsCondenseForces(Mechanics m, PetscReal r[])
+{
+  PetscFunctionBegin;
+  PetscCall(EachCell_Private(m, CellForces_Private, r));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode CellRecover_Private(Mechanics m, const CellGroup *g, PetscInt cell, const Cell *c, PetscReal mine[], PetscReal du[])
 {
   const PetscReal    one = 1, zero = 0;
   const PetscBLASInt single = 1;
@@ -248,32 +273,6 @@ static PetscErrorCode CellRecover_Private(Mechanics m, const CellGroup *g, const
   if (c->pivot[0] != 0) PetscCall(SolveInner_Private(c, PETSC_FALSE, mine));
   for (PetscInt k = 0; k < c->ni; ++k) mine[k] = -mine[k] - c->inner[k];
   PetscCall(SolveInner_Private(c, PETSC_TRUE, mine));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* One of the above for every cell that has inner nodes. */
-static PetscErrorCode EachCell_Private(Mechanics m, PetscErrorCode (*act)(Mechanics, const CellGroup *, const Cell *, PetscInt, PetscReal *, PetscReal *),
-                                       PetscReal x[])
-{
-  const HPTables *v;
-
-  PetscFunctionBegin;
-  PetscCall(HPSpaceGetTables(m->space, &v));
-  for (PetscInt ig = 0; ig < m->num_groups; ++ig) {
-    const CellGroup *g = &m->groups[ig];
-    for (PetscInt i = 0; i < g->num_cells && g->num_inner; ++i) {
-      Cell c;
-      PetscCall(CellOf_Private(m, g, i, &c));
-      PetscCall(act(m, g, &c, g->cells[i], x + v->point_node[g->cells[i]] * m->dim, x));
-    }
-  }
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode MechanicsCondenseForces(Mechanics m, PetscReal r[])
-{
-  PetscFunctionBegin;
-  PetscCall(EachCell_Private(m, CellForces_Private, r));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -110,7 +110,8 @@ struct _p_Scene {
 
 /* Every key of the tree is in the table and has the right shape. Not collective. */
 PetscErrorCode OptionsCheckTree(const SceneNode *root);
-/* Read all rows of a section ("" for those without names) from its node (NULL: defaults) into object. dim 2: a z component is an error. */
+/* Read all rows of a section ("" for those without names; "material.<name>.fiber" for names in the section of a name) from its node (NULL: defaults) into
+ * object. dim 2: a z component is an error. */
 PetscErrorCode OptionsRead(const char *section, const SceneNode *, PetscInt dim, void *object);
 /* A number as text, finite, whole text. */
 PetscBool OptionParseReal(const char *text, PetscReal *);
@@ -121,8 +122,6 @@ PetscBool OptionIsTopKey(const char *s, size_t length);
 /* Nearest known key to path ('.' or '_' between its words, as separator says). */
 PetscErrorCode OptionNearest(const SceneNode *root, const char *path, char separator, size_t capacity, char nearest[]);
 PetscBool      OptionKnowsParameter(const char *name); /* of any law of the table of laws */
-/* Nearest of a list of names. */
-const char *NearestName(const char *name, PetscInt num, const char *const names[]);
 /* Split "a.b.c" into words; returns how many. */
 PetscInt OptionSplit(const char *pattern, char words[OPTION_DEPTH][MORTISE_NAME]);
 
