@@ -24,7 +24,7 @@ static const Choice choices[] = {
     {"neo_hookean", VOLUMETRIC_LOG, 2, {"mu", "lambda"}, {1, 2}},
     {"neo_hookean", VOLUMETRIC_SIMO, 2, {"mu", "kappa"}, {1, 5}},
     {"neo_hookean", VOLUMETRIC_QUADRATIC, 2, {"mu", "kappa"}, {1, 5}},
-    {"mooney_rivlin", VOLUMETRIC_QUADRATIC, 3, {"c1", "c2", "kappa"}, {.3, .2, 5}},
+    {"mooney_rivlin", VOLUMETRIC_LOG, 3, {"c1", "c2", "kappa"}, {.3, .2, 5}},
     {"saint_venant_kirchhoff", VOLUMETRIC_QUADRATIC, 2, {"mu", "lambda"}, {1, 2}},
     {"linear", VOLUMETRIC_QUADRATIC, 2, {"mu", "kappa"}, {1, 5}},
     {"j2", VOLUMETRIC_SIMO, 4, {"mu", "kappa", "yield", "hardening"}, {1, 5, 1e-3, .1}}, /* flows everywhere from the first strain on */
