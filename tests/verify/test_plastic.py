@@ -7,6 +7,7 @@ import pytest
 
 from boxmesh import linspace, write
 from contactkit import is_quadratic, steps
+from stripkit import strip
 
 SET_A = {"law": "j2", "volumetric": "simo", "E": 206.9e3, "nu": 0.29, "yield": 450, "hardening": 129.24}
 SET_B = {"law": "j2", "volumetric": "simo", "mu": 80e3, "kappa": 170e3, "yield": 205, "hardening": 1000}
@@ -192,3 +193,11 @@ def test_condensation_is_refused(run, tmp_path):
     scene = {"mesh": {"file": "block.msh"}, "model": "plane_strain", "body": {"body": {"material": "m"}}, "material": {"m": SET_B}, "boundary": {"y0": {"fix": "xy"}}}
     result = run("block.yml", "-solve_condense", "yes", text=json.dumps(scene))
     assert result.returncode == 1 and "-solve_condense yes: not with material m" in result.stderr
+
+
+# ---- O-34: limit load of a strip with a hole ------------------------------------------------------------------------------------------------
+
+def test_o34_limit_load(run, tmp_path):
+    """Mixed cells of order 2 come to rest at the limit load, from above by no more than 2 %."""
+    load = strip(run, tmp_path, 4, 2, "mixed")
+    assert 0.995 < load[-1] < 1.02 and abs(load[-1] - load[-2]) < 1e-3
