@@ -201,3 +201,9 @@ def test_o34_limit_load(run, tmp_path):
     """Mixed cells of order 2 come to rest at the limit load, from above by no more than 2 %."""
     load = strip(run, tmp_path, 4, 2, "mixed")
     assert 0.995 < load[-1] < 1.02 and abs(load[-1] - load[-2]) < 1e-3
+
+
+def test_softening_is_announced(run):
+    options = ("-load_end", 0.01, "-mesh_parameter_n", 2, "-output_fields", "false", "-material_steel_hardening")
+    assert "warning: the yield stress of material steel falls" in run("inputs/necking.yml", *options, -0.1).stdout
+    assert "warning" not in run("inputs/necking.yml", *options, 0.1).stdout
