@@ -102,7 +102,24 @@ PetscErrorCode MechanicsCondenseForces(Mechanics, PetscReal r[]);
    with the last tangent and the forces last condensed. */
 PetscErrorCode MechanicsRecover(Mechanics, PetscReal du[]);
 
-/* Element pressures: num coefficients on this rank, cell after cell. */
+/* Cells of incompressible material: their pressures are unknowns, which are set from outside, and have rows of their own. (incompressible.c)
+   Arrays of them hold those of local cells one after the other, owned cells before ghosts. */
+PetscErrorCode MechanicsNumUnknowns(Mechanics, PetscInt *owned, PetscInt *all);
+PetscErrorCode MechanicsUnknownRange(Mechanics, PetscInt cell, PetscInt *first, PetscInt *num);
+/* From now on these are the pressures; 0 before. */
+PetscErrorCode MechanicsSetPressure(Mechanics, const PetscReal pressure[]);
+/* Those of a range. */
+PetscErrorCode MechanicsGetPressure(Mechanics, PetscInt first, PetscInt num, PetscReal pressure[]);
+/* Rows of owned cells at the last MechanicsResidual: E/h int q g(J) dV, h the cell's extent (unit: force). */
+PetscErrorCode MechanicsVolumeRows(Mechanics, PetscReal rows[]);
+/* Receives of an owned cell the derivative B[num_rows][num] of int q g(J) by local dofs, the factor E/h of its rows, and hold[num_rows]: a small diagonal
+   against pressures that nothing determines, to be taken off. */
+typedef PetscErrorCode (*VolumeSink)(void *context, PetscInt cell, PetscInt num_rows, PetscInt num, const PetscInt dofs[], const PetscReal B[], PetscReal scale,
+                                     const PetscReal hold[]);
+/* Those of the last MechanicsTangent. */
+PetscErrorCode MechanicsVolumeTangent(Mechanics, VolumeSink, void *context);
+
+/* Element pressures that are condensed: num coefficients on this rank, cell after cell. */
 PetscErrorCode MechanicsNumPressure(Mechanics, PetscInt *num);
 /* pressure += step * (linearised pressure at the last tangent + its derivative . du - pressure), du local array. */
 PetscErrorCode MechanicsUpdatePressure(Mechanics, const PetscReal du[], PetscReal step, PetscReal pressure[]);
@@ -115,8 +132,13 @@ PetscErrorCode MechanicsReactions(Mechanics, const PetscReal r[], PetscReal reac
  * with u). */
 PetscErrorCode MechanicsPoints(Mechanics, PetscInt cell, PetscInt np, const PetscReal xi[], const PetscReal u[], PetscReal F[], PetscReal P[], PetscReal W[]);
 
-/* Where the coefficients of an owned cell lie in the pressure array; num 0: not mixed, rigid, or a ghost. */
+/* Where the coefficients of an owned cell lie in the pressure array; num 0: none are condensed (not mixed, incompressible, rigid), or a ghost. */
 PetscErrorCode MechanicsPressureRange(Mechanics, PetscInt cell, PetscInt *first, PetscInt *num);
+/* Coefficients of a cell of this order: complete polynomials of degree order-1. */
+static inline PetscInt MechanicsPressureCount(PetscInt dim, PetscInt order)
+{
+  return dim == 2 ? order * (order + 1) / 2 : order * (order + 1) * (order + 2) / 6;
+}
 /* The pressure field of a cell of this order at np reference points xi[np][dim]: complete polynomials of degree order-1 times coefficients. Not collective. */
 PetscErrorCode MechanicsPressureEvaluate(PetscInt dim, PetscInt order, PetscInt np, const PetscReal xi[], const PetscReal pressure[], PetscReal values[]);
 /* Coefficients of the weighted least squares fit to values[np]; the points must determine it (order points in each direction do). Not collective. */

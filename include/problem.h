@@ -1,8 +1,9 @@
-/* Floor 5. One scene on one mesh: bulk + contact, the layout of unknowns (u, z), residual and tangent. Defines State.
+/* Floor 5. One scene on one mesh: bulk + contact, the layout of unknowns (u, z, pi), residual and tangent. Defines State.
 
    Global vector: on each rank first its free displacement dofs (numbering of the HPSpace), then its multipliers: z_j, the contact pressure at nonmortar
-   node j. Residual rows: forces for u; for z_j the complementarity  R_j = w0_j [ z_j - max(0, z_j - c_j gt_j / w_j) ]  (unit: force), c_j = E / w0_j
-   with w0_j the reference tributary length (area) of the node. Tangent: exact, active set as decided by the residual. */
+   node j, then the element pressures pi of its incompressible cells. Residual rows: forces for u; for z_j the complementarity  R_j = w0_j [ z_j - max(0, z_j -
+   c_j gt_j / w_j) ]  (unit: force), c_j = E / w0_j with w0_j the reference tributary length (area) of the node; for pi E/h int q g(J), h the cell's extent
+   (unit: force). Tangent: exact, active set as decided by the residual. */
 #pragma once
 #include "scene.h"
 
@@ -10,9 +11,9 @@ typedef struct _p_Problem *Problem;
 
 /* Everything that evolves, besides the forest. */
 typedef struct {
-  Vec        x; /* owned: global (u, z) of the problem it belongs to */
+  Vec        x; /* owned: global (u, z, pi) of the problem it belongs to */
   PetscInt   num_pressure;
-  PetscReal *pressure; /* owned [num_pressure] element pressures of this rank */
+  PetscReal *pressure; /* owned [num_pressure] element pressures of this rank that are condensed */
   PetscReal  t;        /* pseudo-time of this state */
   PetscInt   num_leaves;
   int8_t    *leaf_order; /* owned [num_leaves], replicated */
@@ -47,7 +48,13 @@ PetscErrorCode ProblemJump(Problem);
 /* Apply this share of what is left to the target. */
 PetscErrorCode ProblemApplyShare(Problem, PetscReal share);
 
-/* Local displacement array (Cartesian frames applied only through HPSpaceGather): free dofs from x, prescribed dofs as applied so far. local[num_nodes*dim]. */
+/* Are pressures of incompressible cells among the unknowns? Then neither condensation nor multigrid is to be had. */
+PetscErrorCode ProblemIsIncompressible(Problem, PetscBool *);
+/* Set them in x: those of this rank's cells, as MechanicsSetPressure takes them. */
+PetscErrorCode ProblemSetPressures(Problem, const PetscReal pressure[], Vec x);
+
+/* Local displacement array (Cartesian frames applied only through HPSpaceGather): free dofs from x, prescribed dofs as applied so far. local[num_nodes*dim].
+   The pressures in x become those of the mechanics. Collective. */
 PetscErrorCode ProblemLocalDisplacement(Problem, Vec x, PetscReal local[]);
 /* Write a local array's free dofs into x (owned entries). */
 PetscErrorCode ProblemSetDisplacement(Problem, const PetscReal local[], Vec x);
@@ -183,4 +190,4 @@ PetscErrorCode ProblemGetBlocks(Problem, PetscInt *num_u, PetscInt *num_z, Petsc
    to the displacement dofs of this problem; ones on the diagonal of the prescribed ones among them; their rigid-body modes; are there nodes
    that are no vertices? Collective. */
 PetscErrorCode ProblemProlongation(Problem, Mat *prolongation, Mat *pinned, MatNullSpace *modes, PetscBool *higher);
-PetscErrorCode ProblemNumDofs(Problem, PetscInt *free_dofs); /* global: u and z */
+PetscErrorCode ProblemNumDofs(Problem, PetscInt *free_dofs); /* global: u, z and pi */

@@ -31,6 +31,8 @@ static PetscErrorCode Groups_Private(Mechanics m, const HPTables *v, const Fores
       m->groups[g].material = mine;
       PetscCall(CellKernelCreate(m->dim, m->spec->model, m->spec->kinematics, v->cell_order[c], mine, &m->groups[g].kernel));
       CellKernelSizes(m->groups[g].kernel, &m->groups[g].n, &m->groups[g].m, &m->groups[g].batch);
+      if (mine->incompressible) m->groups[g].num_unknown = m->groups[g].m;
+      if (mine->incompressible) m->groups[g].m = 0;
     }
     m->cell_group[c] = g;
     if (c < v->num_owned_cells) m->cell_index[c] = m->groups[g].num_cells++;
@@ -46,7 +48,7 @@ static PetscErrorCode FillGroups_Private(Mechanics m, const HPTables *v)
   PetscFunctionBegin;
   for (PetscInt g = 0; g < m->num_groups; ++g) {
     CellGroup     *group = &m->groups[g];
-    const PetscInt nd = group->n * m->dim, per_cell = 2 * nd + nd * nd + 3 * group->m + 5;
+    const PetscInt nd = group->n * m->dim, per_cell = 2 * nd + nd * nd + 3 * (group->m + group->num_unknown) + 5;
     PetscCall(
         PetscMalloc4(group->num_cells, &group->cells, group->num_cells * nd, &group->X, group->num_cells, &group->noise2, group->num_cells, &group->drift2));
     group->pressure = m->num_pressure;
@@ -72,7 +74,7 @@ static void Noise_Private(Mechanics m)
   for (PetscInt g = 0; g < m->num_groups; ++g) {
     const CellGroup    *group    = &m->groups[g];
     const MaterialSpec *material = group->material;
-    const PetscReal     modulus  = material->kappa + 4. / 3 * material->mu;
+    const PetscReal     modulus  = (material->incompressible ? MaterialYoung(material) : material->kappa) + 4. / 3 * material->mu;
     for (PetscInt c = 0; c < group->num_cells; ++c) {
       PetscReal lo[3] = {PETSC_MAX_REAL, PETSC_MAX_REAL, PETSC_MAX_REAL}, hi[3] = {PETSC_MIN_REAL, PETSC_MIN_REAL, PETSC_MIN_REAL}, most = 0,
                 least = PETSC_MAX_REAL;
@@ -112,6 +114,7 @@ PetscErrorCode MechanicsCreate(HPSpace space, const MechanicsSpec *spec, const S
   PetscCall(Groups_Private(m, v, t));
   PetscCall(FillGroups_Private(m, v));
   Noise_Private(m);
+  PetscCall(MechanicsUnknownsCreate_Private(m));
   PetscCall(MechanicsLoadFacets_Private(m));
   PetscCall(MechanicsFreeBodies_Private(m));
   *mechanics = m;
@@ -125,6 +128,7 @@ PetscErrorCode MechanicsDestroy(Mechanics *mechanics)
   PetscFunctionBegin;
   if (!m) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(MechanicsCondenseDestroy_Private(m));
+  PetscCall(MechanicsUnknownsDestroy_Private(m));
   for (PetscInt g = 0; g < m->num_groups; ++g) {
     PetscCall(CellKernelDestroy(&m->groups[g].kernel));
     PetscCall(PetscFree4(m->groups[g].cells, m->groups[g].X, m->groups[g].noise2, m->groups[g].drift2));

@@ -11,24 +11,27 @@ typedef struct _p_CellKernel *CellKernel;
    NULL outputs are skipped. */
 typedef struct {
   PetscInt         nc;
-  const PetscReal *X;          /* [nc][n][d] reference positions */
-  const PetscReal *u;          /* [nc][n][d] displacements */
-  const PetscReal *pressure;   /* [nc][m] stored pressure coefficients: enter the geometric stiffness only. NULL: the consistent ones are used */
-  PetscReal       *energy;     /* [nc] */
-  PetscReal       *residual;   /* [nc][n*d] dE/du, row node*d + component; a function of u alone */
-  PetscReal       *tangent;    /* [nc][n*d][n*d] symmetric, full; exact derivative of residual when pressure is NULL or consistent */
-  const PetscInt  *place;      /* [n] NULL, or where the nodes stand in tangent: then only its rows up to the diagonal's column are written, K[row <= column] */
-  PetscReal       *consistent; /* [nc][m] pressure coefficients that u implies: modulus * M^-1 int q g(J) */
-  PetscReal       *dpressure;  /* [nc][m][n*d] derivative of consistent with respect to u */
-  PetscReal       *min_det;    /* [nc] smallest det F over the quadrature points */
-  PetscReal       *stretch2;   /* [nc] largest F:F/3 over the quadrature points */
-  PetscBool        bad;        /* out: some det F <= 0 in the batch (finite kinematics): outputs of that batch are not to be used */
+  const PetscReal *X;         /* [nc][n][d] reference positions */
+  const PetscReal *u;         /* [nc][n][d] displacements */
+  const PetscReal *pressure;  /* [nc][m] stored pressure coefficients: enter the geometric stiffness only. NULL: the consistent ones are used.
+                                 Incompressible: the pressure, never NULL where residual or tangent are asked for */
+  PetscReal      *energy;     /* [nc] */
+  PetscReal      *residual;   /* [nc][n*d] dE/du, row node*d + component; a function of u alone */
+  PetscReal      *tangent;    /* [nc][n*d][n*d] symmetric, full; exact derivative of residual when pressure is NULL or consistent */
+  const PetscInt *place;      /* [n] NULL, or where the nodes stand in tangent: then only its rows up to the diagonal's column are written, K[row <= column] */
+  PetscReal      *consistent; /* [nc][m] pressure coefficients that u implies: modulus * M^-1 int q g(J); incompressible: int q g(J) */
+  PetscReal      *mass;       /* [nc][m] int q^2; incompressible only */
+  PetscReal      *dpressure;  /* [nc][m][n*d] derivative of consistent with respect to u */
+  PetscReal      *min_det;    /* [nc] smallest det F over the quadrature points */
+  PetscReal      *stretch2;   /* [nc] largest F:F/3 over the quadrature points */
+  PetscBool       bad;        /* out: some det F <= 0 in the batch (finite kinematics): outputs of that batch are not to be used */
 } CellBatch;
 
 /* Kernel for cells of order p with p+1 Gauss points in each direction. Mixed (material->mixed): pressure in the complete polynomials of degree p-1 in the
    reference cell (Q_p / P_(p-1) discontinuous; Q1/P0), condensed: energy = int W_iso + modulus/2 int (Proj g(J))^2, where Proj is the L2 projection
    with the reference-volume weight. body_force is not here. Axisymmetric: hoop stretch 1 + u_r/R, weight 2 pi R. Small: F = I + grad u,
-   law `linear` on the symmetric gradient. */
+   law `linear` on the symmetric gradient. Incompressible (material->incompressible): energy = int W_iso, residual that of int W_iso + pi g(J) with the pressure
+   given, tangent its derivative at fixed pressure. */
 PetscErrorCode CellKernelCreate(PetscInt dim, Model, Kinematics, PetscInt order, const MaterialSpec *, CellKernel *);
 PetscErrorCode CellKernelDestroy(CellKernel *);
 void           CellKernelSizes(CellKernel, PetscInt *num_nodes, PetscInt *num_pressure, PetscInt *best_batch);
@@ -58,7 +61,8 @@ PetscErrorCode FacetPressure(PetscInt dim, Model, PetscInt order, const PetscRea
 typedef struct {
   CellKernel          kernel;                        /* owned */
   const MaterialSpec *material;                      /* borrowed */
-  PetscInt            order, num_cells, n, m, batch; /* nodes and pressure coefficients of a cell; cells per call */
+  PetscInt            order, num_cells, n, m, batch; /* nodes and condensed pressure coefficients of a cell; cells per call */
+  PetscInt            num_unknown;                   /* pressure unknowns of a cell: of incompressible material, which has no condensed ones */
   PetscInt           *cells;                         /* owned [num_cells] local cells */
   PetscReal          *X;                             /* owned [num_cells][n][dim] */
   PetscReal          *noise2, *drift2;               /* owned [num_cells] shares in those of MechanicsStatus for F = I */
@@ -67,6 +71,7 @@ typedef struct {
   PetscInt           *place, *outer;                 /* owned [n] where each node stands when the inner ones come first; [n - num_inner] the others */
   PetscReal          *factor;                        /* owned [num_cells][num_inner*dim][n*dim] condense.c; NULL: no condensation */
   PetscReal          *inner;                         /* owned [num_cells][num_inner*dim] forces of the inner nodes, solved for */
+  PetscReal          *volume;                        /* owned [num_cells][num_unknown][n*dim] derivative of int q g(J) at the last tangent */
   PetscBLASInt       *pivot;                         /* owned [num_cells][num_inner*dim] of LDL^T; first 0: Cholesky */
 } CellGroup;
 
@@ -92,6 +97,12 @@ struct _p_Mechanics {
   PetscReal           *work;               /* owned batch buffers */
   PetscInt             work_size;
   PetscReal           *condense_work; /* owned: condense.c */
+
+  /* incompressible.c: pressure unknowns of local cells, owned ones first */
+  PetscInt  *unknown_first; /* owned [num_cells+1] */
+  PetscReal *pressure;      /* owned [unknowns] as set from outside */
+  PetscReal *volume, *mass; /* owned [unknowns of owned cells] rows at the last residual; int q^2 */
+  PetscReal *volume_scale;  /* owned [num_owned_cells] E / h: what turns int q g(J) into a force */
 };
 
 PetscErrorCode MechanicsLoadFacets_Private(Mechanics);
@@ -102,6 +113,12 @@ PetscErrorCode MechanicsCondenseDestroy_Private(Mechanics);
 PetscErrorCode MechanicsCondenseCell_Private(Mechanics, CellGroup *, PetscInt i, PetscReal K[], PetscReal S[], PetscBool *singular);
 /* free.c: free_share. Collective. */
 PetscErrorCode MechanicsFreeBodies_Private(Mechanics);
+/* incompressible.c: after the groups. */
+PetscErrorCode MechanicsUnknownsCreate_Private(Mechanics);
+PetscErrorCode MechanicsUnknownsDestroy_Private(Mechanics);
+/* Pressures of num cells of the group from the i-th on, as the kernel wants them; their int q g(J) into the rows. */
+void MechanicsUnknownsGather_Private(Mechanics, const CellGroup *, PetscInt i, PetscInt num, PetscReal pressure[]);
+void MechanicsUnknownsRows_Private(Mechanics, const CellGroup *, PetscInt i, PetscInt num, const PetscReal constraint[]);
 /* Follower pressures: add to r (NULL: skip) and to the sink (NULL: skip). */
 PetscErrorCode MechanicsFollowers_Private(Mechanics, const PetscReal u[], PetscReal r[], MatrixSink, void *context);
 
@@ -114,7 +131,7 @@ PetscErrorCode MechanicsFollowers_Private(Mechanics, const PetscReal u[], PetscR
    slab]. */
 struct _p_CellKernel {
   PetscInt       dim, order, n1, num_nodes, num_points, num_pressure, num_derivatives, num_slabs, slab_points;
-  PetscBool      small, mixed, hoop;
+  PetscBool      small, mixed, incompressible, hoop;
   MaterialSpec   material; /* a copy; the linear law in small kinematics */
   const Basis1D *basis;
   PetscReal     *weight;                        /* owned [q] quadrature weights */
@@ -148,7 +165,8 @@ void           CellKernelPullBack_Private(CellKernel, PetscInt q, const Lanes T[
 void CellKernelProject_Private(CellKernel);                                                     /* measure -> mass, moment, coefficient */
 void CellKernelAddPressure_Private(CellKernel);                                                 /* P += pi g' cof */
 void CellKernelAddPressureTangent_Private(CellKernel, PetscInt slab, const Lanes *coefficient); /* A += pi (g'' cof (x) cof + g' dcof/dF) */
-void CellKernelCouple_Private(CellKernel, PetscInt num_cells, PetscReal *dpressure);            /* coupling; dpressure [num_cells][m][n*d] unless NULL */
+void CellKernelCouple_Private(CellKernel, PetscInt num_cells,
+                              PetscReal *dpressure); /* coupling; dpressure [num_cells][m][n*d] unless NULL, incompressible: of int q g */
 /* celltangent.c */
 void CellKernelTangentSlab_Private(CellKernel, PetscInt slab); /* A of a slab -> reference_tangent */
 /* reference_tangent, coupling -> tangent [num_cells][n*d][n*d]; place as in CellBatch */

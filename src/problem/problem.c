@@ -107,6 +107,7 @@ PetscErrorCode ProblemDestroy(Problem *problem)
   PetscCall(PetscFree3(p->u_start, p->p_start, p->row_start));
   PetscCall(PetscFree4(p->target, p->applied, p->increment, p->start_applied));
   PetscCall(PetscFree2(p->work_index, p->work_value));
+  PetscCall(PressureDestroy_Private(p));
   PetscCall(VecDestroy(&p->u_global));
   PetscCall(VecDestroy(&p->u_local));
   PetscCall(VecDestroy(&p->r_local));
@@ -258,6 +259,7 @@ PetscErrorCode ProblemLocalDisplacement(Problem p, Vec x, PetscReal local[])
 {
   PetscFunctionBegin;
   PetscCall(FillLocal_Private(p, x, p->applied, local));
+  PetscCall(PressureSpread_Private(p, x));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

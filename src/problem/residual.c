@@ -1,4 +1,4 @@
-/* The residual: bulk forces, contact forces, complementarity; supports and contact resultants from the same sums. */
+/* The residual: bulk forces, contact forces, complementarity, volumes of incompressible cells; supports and contact resultants from the same sums. */
 #include "problemimpl.h"
 
 PetscErrorCode ProblemSearch(Problem p, Vec x)
@@ -92,6 +92,7 @@ PetscErrorCode ProblemResidual(Problem p, Vec x, Vec r, ProblemStatus *status)
   PetscCall(DMLocalToGlobalEnd(dm, p->r_local, ADD_VALUES, p->u_global));
   PetscCall(VecResetArray(p->u_global));
   for (PetscInt i = 0; i < p->num_contacts; ++i) PetscCall(ContactRows_Private(p, &p->contacts[i], array));
+  PetscCall(PressureRows_Private(p, array));
   PetscCall(VecRestoreArray(r, &array));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -69,11 +69,12 @@ static PetscErrorCode Highest_Private(Problem p, PetscInt *order)
 }
 
 /* Multigrid or a factorisation? From so many unknowns on in three dimensions multigrid is faster (docs/results.md); it is poor on nearly incompressible
-   material, needs symmetry, and in the plane factors stay cheap. */
+   material, knows no pressure unknowns, needs symmetry, and in the plane factors stay cheap. */
 static PetscErrorCode UseMultigrid_Private(Solver s, PetscBool *yes)
 {
   const SceneData *scene;
   PetscInt         dofs, num_u, num_z, dim, order;
+  PetscBool        incompressible;
 
   PetscFunctionBegin;
   PetscCall(ProblemGetScene(s->problem, &scene));
@@ -87,26 +88,31 @@ static PetscErrorCode UseMultigrid_Private(Solver s, PetscBool *yes)
   s->reuse = (PetscBool)(dim == 3);
   if (s->linear == LINEAR_DIRECT) *yes = PETSC_FALSE;
   if (s->linear == LINEAR_ITERATIVE) *yes = PETSC_TRUE;
+  PetscCall(ProblemIsIncompressible(s->problem, &incompressible));
+  PetscCheckInput(!*yes || !incompressible, "-solve_linear iterative: not with incompressible material (kappa: inf, nu: 0.5); take auto or direct");
   if (!s->symmetric) *yes = PETSC_FALSE;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Condense the nodes inside cells? PETSc's test of the tangent wants the whole matrix, and nodes inside a cell that is constrained to a lower order in some
-   direction are not of its own alone. */
+/* Condense the nodes inside cells? PETSc's test of the tangent wants the whole matrix, nodes inside a cell that is constrained to a lower order in some
+   direction are not of its own alone, and those of incompressible cells meet its pressures. */
 static PetscErrorCode Condense_Private(Solver s)
 {
   PetscInt  num_u, num_z, dim, order;
-  PetscBool yes, directional;
+  PetscBool yes, directional, incompressible;
   HPSpace   space;
 
   PetscFunctionBegin;
   PetscCall(ProblemGetSpace(s->problem, &space));
   PetscCall(HPSpaceIsDirectional(space, &directional));
   PetscCheckInput(!directional || s->condense != CONDENSE_YES, "-solve_condense yes: not with orders per direction (body.<name>.order: {x: ...}); take no");
+  PetscCall(ProblemIsIncompressible(s->problem, &incompressible));
+  PetscCheckInput(!incompressible || s->condense != CONDENSE_YES, "-solve_condense yes: not with incompressible material (kappa: inf, nu: 0.5); take no");
   PetscCheckInput(!s->test || s->condense != CONDENSE_YES, "-solve_condense yes: not with -snes_test_jacobian, which needs the whole matrix");
   PetscCall(ProblemGetBlocks(s->problem, &num_u, &num_z, &dim));
   PetscCall(Highest_Private(s->problem, &order));
-  yes = (PetscBool)(s->condense == CONDENSE_YES || (s->condense == CONDENSE_AUTO && !directional && order >= (dim == 3 ? CONDENSE_3D : CONDENSE_2D)));
+  yes = (PetscBool)(s->condense == CONDENSE_YES ||
+                    (s->condense == CONDENSE_AUTO && !directional && !incompressible && order >= (dim == 3 ? CONDENSE_3D : CONDENSE_2D)));
   if (yes && !s->test) PetscCall(ProblemSetCondense(s->problem));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

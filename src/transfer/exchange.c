@@ -24,7 +24,7 @@ PetscErrorCode TransferContextSetUp_Private(TransferContext *c)
 PetscInt TransferNumPressure_Private(const TransferContext *c, PetscInt body, PetscInt order)
 {
   if (!c->spec || !c->spec->bodies[body].material->mixed) return 0;
-  return c->old_t->dim == 2 ? order * (order + 1) / 2 : order * (order + 1) * (order + 2) / 6;
+  return MechanicsPressureCount(c->old_t->dim, order);
 }
 
 /* Displacement and pressure numbers of an old leaf. */
@@ -110,6 +110,8 @@ static PetscErrorCode Pack_Private(const TransferContext *c, const PetscInt leaf
   if (!with_pressure) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(MechanicsPressureRange(c->old_mechanics, leaf_cell[leaf], &first, &num));
   PetscCall(PetscArraycpy(to + displacements, pressure + first, num));
+  PetscCall(MechanicsUnknownRange(c->old_mechanics, leaf_cell[leaf], &first, &num));
+  if (num) PetscCall(MechanicsGetPressure(c->old_mechanics, first, num, to + displacements));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
