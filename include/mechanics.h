@@ -95,6 +95,8 @@ PetscErrorCode MechanicsTangent(Mechanics, const PetscReal u[], const PetscReal 
 /* Static condensation (not to be undone): from now on MechanicsTangent eliminates the nodes inside each cell and sends what is left, over the dofs of the
    others; bad also where that is impossible. Not collective. */
 PetscErrorCode MechanicsSetCondense(Mechanics);
+/* Negative eigenvalues of what the last tangent eliminated on this rank. */
+PetscErrorCode MechanicsNumNegative(Mechanics, PetscInt *num);
 /* Forces condensed like the last tangent, on a local array that is exact at the inner nodes of this rank's cells: there r becomes 0 (and is remembered), to the
    dofs of the other nodes -K_bi K_ii^-1 r_i is added (this rank's part). */
 PetscErrorCode MechanicsCondenseForces(Mechanics, PetscReal r[]);

@@ -190,4 +190,7 @@ PetscErrorCode ProblemGetBlocks(Problem, PetscInt *num_u, PetscInt *num_z, Petsc
    to the displacement dofs of this problem; ones on the diagonal of the prescribed ones among them; their rigid-body modes; are there nodes
    that are no vertices? Collective. */
 PetscErrorCode ProblemProlongation(Problem, Mat *prolongation, Mat *pinned, MatNullSpace *modes, PetscBool *higher);
+/* Negative eigenvalues of the matrix in its symmetric form at a stable equilibrium: one for each constraint (pressures of contact, open or not, and of
+   incompressible cells), less those that condensation met at the last tangent. Collective. */
+PetscErrorCode ProblemNumNegative(Problem, PetscInt *num);
 PetscErrorCode ProblemNumDofs(Problem, PetscInt *free_dofs); /* global: u, z and pi */

@@ -28,8 +28,8 @@ typedef struct {
   History          history;
   Monitor          monitor;
   PetscInt       load_steps, step_cuts, adapt_passes, newton_iterations, passes_in_step, iterations_in_step, cuts_in_step, set_changes, set_cycles, told_cycles;
-  PetscInt       factorisations, single_failures;
-  ProblemStatus  status; /* of the last solution */
+  PetscInt       factorisations, single_failures, unstable, judged; /* judged: solutions of which it is known whether they are stable */
+  ProblemStatus  status;                                            /* of the last solution */
   PetscLogDouble start;
   const char    *failure;    /* why the run gave up, NULL while it goes on */
   const char    *adapt_stop; /* why the last adaptation ended: tolerance, max_passes, max_cells, … */

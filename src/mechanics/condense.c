@@ -100,6 +100,22 @@ static PetscErrorCode Indefinite_Private(const Cell *c, PetscReal *Kbb, PetscRea
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Negative eigenvalues of D: a block of two has one. */
+static PetscInt Negative_Private(const Cell *c)
+{
+  PetscInt num = 0;
+
+  for (PetscBLASInt j = 0; j < c->ni; ++j) {
+    if (c->pivot[j] > 0)
+      num += c->panel[(size_t)j * c->nd + j] < 0;
+    else {
+      ++num;
+      ++j;
+    }
+  }
+  return num;
+}
+
 /* K_bi = K_bi L^-T. */
 static PetscErrorCode SolveOuter_Private(const Cell *c)
 {
@@ -145,6 +161,7 @@ PetscErrorCode MechanicsCondenseCell_Private(Mechanics m, CellGroup *g, PetscInt
     if (info > 0) {
       for (PetscBLASInt j = 0; j < c.ni; ++j) PetscCall(PetscArraycpy(c.panel + j * c.nd, K + j * c.nd, c.ni));
       PetscCall(Indefinite_Private(&c, Kbb, m->condense_work + c.nb * c.nb, singular));
+      m->num_negative += Negative_Private(&c);
     } else {
       PetscCall(SolveOuter_Private(&c));
       PetscCallBLAS("BLASsyrk", BLASsyrk_("L", "N", &c.nb, &c.ni, &minus, c.outer, &c.nd, &one, Kbb, &c.nd));
@@ -166,6 +183,13 @@ static PetscErrorCode SolveInner_Private(const Cell *c, PetscBool back, PetscRea
     PetscCallBLAS("BLAStrsm", BLAStrsm_("L", "L", back ? "T" : "N", "N", &c->ni, &single, &one, c->panel, &c->nd, x, &c->ni));
   else if (!back)
     PetscCallBLAS("LAPACKsytrs", LAPACKsytrs_("L", &c->ni, &single, c->panel, &c->nd, c->pivot, x, &c->ni, &info));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode MechanicsNumNegative(Mechanics m, PetscInt *num)
+{
+  PetscFunctionBegin;
+  *num = m->num_negative;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -148,7 +148,8 @@ PetscErrorCode MechanicsTangent(Mechanics m, const PetscReal u[], const PetscRea
   PetscReal *Km, *dpressure = m->dpressure;
 
   PetscFunctionBegin;
-  *bad = PETSC_FALSE;
+  *bad            = PETSC_FALSE;
+  m->num_negative = 0;
   PetscCall(MostMasters_Private(m, &most));
   PetscCall(PetscMalloc2(most * m->dim, &dofs, most * m->dim * most * m->dim, &Km));
   for (PetscInt ig = 0; ig < m->num_groups; ++ig) {

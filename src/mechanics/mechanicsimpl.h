@@ -97,6 +97,7 @@ struct _p_Mechanics {
   PetscReal           *work;               /* owned batch buffers */
   PetscInt             work_size;
   PetscReal           *condense_work; /* owned: condense.c */
+  PetscInt             num_negative;  /* eigenvalues of the blocks eliminated at the last tangent */
 
   /* incompressible.c: pressure unknowns of local cells, owned ones first */
   PetscInt  *unknown_first; /* owned [num_cells+1] */

@@ -191,6 +191,17 @@ PetscErrorCode ProblemNumDofs(Problem p, PetscInt *num)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscErrorCode ProblemNumNegative(Problem p, PetscInt *num)
+{
+  PetscInt inner;
+
+  PetscFunctionBegin;
+  PetscCall(MechanicsNumNegative(p->mechanics, &inner));
+  *num = p->num_rows - (p->num_u - p->num_inner) - inner;
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, num, 1, MPIU_INT, MPI_SUM, p->comm));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode ProblemSetTime(Problem p, PetscReal t)
 {
   PetscFunctionBegin;

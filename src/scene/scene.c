@@ -238,7 +238,10 @@ static PetscErrorCode ViewBody_Private(const BodySpec *b, PetscViewer viewer)
     PetscCall(PetscViewerASCIIPrintf(viewer, "%s%c: %d", c ? ", " : " (along ", (int)('x' + c), (int)b->order_along[c]));
   PetscCall(PetscViewerASCIIPrintf(viewer, "%s, material %s (%s", b->order_along[0] ? ")" : "", m->name, m->law->name));
   if (!m->law->rigid)
-    PetscCall(PetscViewerASCIIPrintf(viewer, ", mu = %.6g, kappa = %.6g, %s", (double)m->mu, (double)m->kappa, m->mixed ? "mixed" : "displacement"));
+    PetscCall(PetscViewerASCIIPrintf(viewer, ", mu = %.6g, kappa = %.6g, %s", (double)m->mu, (double)m->kappa,
+                                     m->incompressible ? "incompressible"
+                                     : m->mixed        ? "mixed"
+                                                       : "displacement"));
   PetscCall(PetscViewerASCIIPrintf(viewer, ")\n"));
   PetscCall(PetscViewerASCIIUseTabs(viewer, PETSC_TRUE));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -110,6 +110,7 @@ static PetscErrorCode Finish_Private(SNES snes, Solver s, SNESConvergedReason re
   PetscFunctionBegin;
   snes->reason         = reason;
   s->report->converged = (PetscBool)(reason > 0);
+  s->report->unstable  = s->negative > 0 ? 1 : s->negative;
   s->report->reason    = words;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -233,6 +234,7 @@ static PetscErrorCode SNESSolve_ContactNewton(SNES snes)
   s->best_norm        = PETSC_MAX_REAL;
   s->best_iter        = 0;
   s->halvings         = 0;
+  s->negative         = -1;
   PetscCall(ProblemSearch(s->problem, x));
   PetscCall(SNESComputeFunction(snes, x, r));
   if (s->report->status.bad) PetscCall(Finish_Private(snes, s, SNES_DIVERGED_FUNCTION_DOMAIN, "the start of the step has an inverted cell"));
