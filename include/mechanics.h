@@ -79,6 +79,7 @@ typedef struct {
   PetscReal noise2;
   PetscReal drift2;  /* the same for each unit of the largest displacement */
   PetscReal largest; /* largest displacement component */
+  PetscReal volume;  /* largest coefficient of g(J) in incompressible cells: their change of volume */
   PetscReal min_det; /* smallest det F */
   PetscBool bad;     /* some det F <= 0: residual must not be used (numerical status) */
 } MechanicsStatus;

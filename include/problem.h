@@ -138,6 +138,7 @@ PetscErrorCode ProblemSearch(Problem, Vec x);
 typedef struct {
   PetscReal energy;  /* strain energy */
   PetscReal min_det; /* smallest det F */
+  PetscReal volume;  /* largest coefficient of g(J) in incompressible cells: their change of volume */
   PetscReal scale;   /* root of the summed squared nodal forces of cells and loads: the residual is small against it */
   PetscReal noise;   /* level of round-off in the residual: no Newton step gets below */
   PetscBool bad;     /* outside the domain: det F <= 0 or a failed projection */

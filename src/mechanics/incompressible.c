@@ -6,7 +6,7 @@
    about HOLD. */
 #include "mechanicsimpl.h"
 
-#define HOLD 1e-10
+#define HOLD 1e-12
 
 static PetscInt CellUnknowns_Private(Mechanics m, PetscInt cell)
 {
@@ -86,11 +86,14 @@ void MechanicsUnknownsGather_Private(Mechanics m, const CellGroup *g, PetscInt i
   }
 }
 
-void MechanicsUnknownsRows_Private(Mechanics m, const CellGroup *g, PetscInt i, PetscInt num, const PetscReal constraint[])
+void MechanicsUnknownsRows_Private(Mechanics m, const CellGroup *g, PetscInt i, PetscInt num, const PetscReal constraint[], PetscReal *largest)
 {
   for (PetscInt k = 0; k < num; ++k) {
     const PetscInt cell = g->cells[i + k];
-    for (PetscInt a = 0; a < g->num_unknown; ++a) m->volume[m->unknown_first[cell] + a] = m->volume_scale[cell] * *constraint++;
+    for (PetscInt a = m->unknown_first[cell]; a < m->unknown_first[cell + 1]; ++a, ++constraint) {
+      m->volume[a] = m->volume_scale[cell] * *constraint;
+      *largest     = PetscMax(*largest, PetscAbsReal(*constraint) / m->mass[a]);
+    }
   }
 }
 

@@ -63,7 +63,7 @@ static PetscErrorCode GroupResidual_Private(Mechanics m, const CellGroup *g, con
       status->bad = PETSC_TRUE;
       continue;
     }
-    if (g->num_unknown) MechanicsUnknownsRows_Private(m, g, first, batch.nc, b.consistent);
+    if (g->num_unknown) MechanicsUnknownsRows_Private(m, g, first, batch.nc, b.consistent, &status->volume);
     for (PetscInt i = 0; i < batch.nc; ++i) {
       /* det F errs by epsilon |cof F : F|, and cof F turns the pressure of that into forces: |cof F|^2 <= |F|^4/3. */
       const PetscReal growth =
@@ -88,6 +88,7 @@ PetscErrorCode MechanicsResidual(Mechanics m, const PetscReal u[], PetscReal r[]
   status->noise2  = 0;
   status->drift2  = 0;
   status->largest = 0;
+  status->volume  = 0;
   status->min_det = PETSC_MAX_REAL;
   status->bad     = PETSC_FALSE;
   PetscCall(HPSpaceGetTables(m->space, &v));

@@ -117,9 +117,10 @@ PetscErrorCode MechanicsFreeBodies_Private(Mechanics);
 /* incompressible.c: after the groups. */
 PetscErrorCode MechanicsUnknownsCreate_Private(Mechanics);
 PetscErrorCode MechanicsUnknownsDestroy_Private(Mechanics);
-/* Pressures of num cells of the group from the i-th on, as the kernel wants them; their int q g(J) into the rows. */
+/* Pressures of num cells of the group from the i-th on, as the kernel wants them; their int q g(J) into the rows, the largest of
+   int q g(J) / int q^2 among them. */
 void MechanicsUnknownsGather_Private(Mechanics, const CellGroup *, PetscInt i, PetscInt num, PetscReal pressure[]);
-void MechanicsUnknownsRows_Private(Mechanics, const CellGroup *, PetscInt i, PetscInt num, const PetscReal constraint[]);
+void MechanicsUnknownsRows_Private(Mechanics, const CellGroup *, PetscInt i, PetscInt num, const PetscReal constraint[], PetscReal *largest);
 /* Follower pressures: add to r (NULL: skip) and to the sink (NULL: skip). */
 PetscErrorCode MechanicsFollowers_Private(Mechanics, const PetscReal u[], PetscReal r[], MatrixSink, void *context);
 

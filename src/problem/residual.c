@@ -61,13 +61,14 @@ static PetscErrorCode LocalForces_Private(Problem p, Vec x, const PetscReal u[],
   }
   PetscCall(StageEnd(STAGE_CONTACT));
   PetscReal sum[6]   = {bulk.energy, bulk.scale2, bulk.bad || failed, bulk.noise2, bulk.drift2, ContactNoise2_Private(p)};
-  PetscReal least[2] = {bulk.min_det, -bulk.largest};
+  PetscReal least[3] = {bulk.min_det, -bulk.largest, -bulk.volume};
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 6, MPIU_REAL, MPI_SUM, p->comm));
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, least, 2, MPIU_REAL, MPI_MIN, p->comm));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, least, 3, MPIU_REAL, MPI_MIN, p->comm));
   status->energy  = sum[0];
   status->scale   = PetscSqrtReal(sum[1]);
   status->bad     = (PetscBool)(sum[2] > 0);
   status->min_det = least[0];
+  status->volume  = -least[2];
   status->noise   = PetscSqrtReal(sum[3] + PetscSqr(least[1]) * sum[4] + sum[5]);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
