@@ -13,14 +13,35 @@ extern const char *const VolumetricNames[];                                     
 extern const char *const FormulationNames[];
 
 #define MATERIAL_MAX_PARAMETERS 8
+#define MATERIAL_MAX_FIBERS 4
 
 typedef struct _MaterialLaw MaterialLaw; /* a row of the table of laws */
+
+/* A family of parallel fibres. */
+typedef struct {
+  char      name[MORTISE_NAME];
+  PetscReal k1, k2;       /* 0 before set-up: those of the law */
+  PetscBool straight;     /* the same direction everywhere; else an angle in the frame */
+  PetscReal direction[3]; /* straight: in the reference configuration; of length 1 after set-up */
+  PetscReal angle;        /* degrees, from the circumferential direction of the frame towards its axis */
+} MaterialFiber;
+
+/* The axis around which circumferential directions turn: parallel to a coordinate axis, through a point. The circumferential direction at X is
+   axis x (X - point), made a unit vector; on the axis itself, where none is singled out, it is the next coordinate direction but one. */
+typedef struct {
+  int       axis;
+  PetscReal point[3];
+  PetscBool meridian; /* axisymmetric model: the circumferential direction is the third one everywhere, the axis is y */
+} MaterialFrame;
 
 typedef struct {
   char               name[MORTISE_NAME];                 /* the user's name of the material */
   const MaterialLaw *law;                                /* row of the table, never NULL after set-up */
   PetscReal          mu, lambda, kappa;                  /* derived from whichever pair was given; shear modulus, Lame's first, bulk modulus */
   PetscReal          parameter[MATERIAL_MAX_PARAMETERS]; /* law's own (mooney_rivlin: c1, c2, kappa) */
+  PetscInt           num_fibers;
+  MaterialFiber      fiber[MATERIAL_MAX_FIBERS];
+  MaterialFrame      frame;
   Volumetric         volumetric;
   Formulation        formulation;
   PetscBool          mixed;          /* resolved by MaterialSetUp: pressure is an independent field, condensed in the cell */
@@ -42,11 +63,12 @@ static inline PetscBool MaterialIsLimit(const MaterialParameter *p, PetscReal va
 /* Points at which a law is asked, structure of arrays with stride n. Outputs that are NULL are skipped. */
 typedef struct {
   PetscInt         n;
-  const PetscReal *F;   /* [9][n] */
-  PetscReal       *W;   /* [n] energy density */
-  PetscReal       *P;   /* [9][n] */
-  PetscReal       *A;   /* [81][n]: A[9*a+b] = dP_a/dF_b, symmetric */
-  PetscBool        bad; /* out: set at points with det F <= 0 (numerical status, no error); never reset */
+  const PetscReal *F;     /* [9][n] */
+  const PetscReal *fiber; /* [num_fibers][3][n] unit vectors in the reference configuration; NULL for laws without fibres */
+  PetscReal       *W;     /* [n] energy density */
+  PetscReal       *P;     /* [9][n] */
+  PetscReal       *A;     /* [81][n]: A[9*a+b] = dP_a/dF_b, symmetric */
+  PetscBool        bad;   /* out: set at points with det F <= 0, or where the energy exceeds all numbers (numerical status, no error); never reset */
 } MaterialPoints;
 
 /* With `part` ISOCHORIC, the volumetric energy kappa/2 g(J)^2 is left out (mixed formulation adds it through its projection). */
@@ -58,6 +80,7 @@ struct _MaterialLaw {
   const MaterialParameter *parameters; /* ended by name NULL */
   PetscBool                small;      /* linear law of small kinematics */
   PetscBool                rigid;      /* cells are not assembled */
+  PetscBool                fibers;     /* needs families of fibres */
   PetscBool                whole;      /* energy does not split into shear and volume: no volumetric law, displacement formulation alone */
   PetscErrorCode (*setup)(MaterialSpec *);
   MaterialKernel evaluate; /* NULL for rigid */
@@ -77,6 +100,9 @@ static inline PetscReal MaterialYoung(const MaterialSpec *spec)
 {
   return 9 * spec->mu / (3 + spec->mu / spec->kappa);
 }
+
+/* Unit vectors of all families at the reference position X; none for laws without fibres. Not collective. */
+void MaterialFiberDirections(const MaterialSpec *, const PetscReal X[3], PetscReal fiber[][3]);
 
 PetscErrorCode MaterialEvaluate(const MaterialSpec *, MaterialPart, MaterialPoints *);
 

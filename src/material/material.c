@@ -7,6 +7,8 @@ const char *const FormulationNames[] = {"auto", "displacement", "mixed", "Formul
 const MaterialLaw MaterialLaws[] = {
     {"neo_hookean", "compressible neo-Hookean solid", MaterialElasticParameters, .setup = MaterialSetUpElastic, .evaluate = MaterialNeoHookean},
     {"mooney_rivlin", "Mooney-Rivlin solid", MaterialMooneyRivlinParameters, .setup = MaterialMooneyRivlinSetUp, .evaluate = MaterialMooneyRivlin},
+    {"hgo", "artery wall of Holzapfel, Gasser and Ogden: isotropic solid with families of fibres that carry tension only", MaterialHGOParameters,
+     .fibers = PETSC_TRUE, .setup = MaterialHGOSetUp, .evaluate = MaterialHGO},
     {"saint_venant_kirchhoff", "St. Venant-Kirchhoff solid: small strains, any rotation", MaterialElasticParameters, .whole = PETSC_TRUE,
      .setup = MaterialSetUpElastic, .evaluate = MaterialSaintVenantKirchhoff},
     {"linear", "linear isotropic elasticity, small kinematics", MaterialElasticParameters, .small = PETSC_TRUE, .setup = MaterialLinearSetUp,
