@@ -116,6 +116,8 @@ static PetscErrorCode CheckLimit_Private(MaterialSpec *spec)
   PetscFunctionBegin;
   spec->incompressible = (PetscBool)(!spec->law->rigid && PetscIsInfReal(spec->kappa));
   if (!spec->incompressible) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCheckInput(!spec->law->whole, "material.%s.law: %s has no incompressible limit (nu: 0.5, kappa: inf); take neo_hookean, or nu below 0.5", spec->name,
+                  spec->law->name);
   PetscCheckInput(spec->mixed, "material.%s.formulation: displacements alone cannot keep the volume (kappa: inf, nu: 0.5); take mixed, or nu below 0.5",
                   spec->name);
   PetscCheckInput(spec->volumetric != VOLUMETRIC_LOG, "material.%s.volumetric: log has no incompressible limit (kappa: inf, nu: 0.5); take quadratic or simo",
@@ -131,12 +133,12 @@ static PetscErrorCode ResolveMixed_Private(MaterialSpec *spec)
   PetscFunctionBegin;
   spec->mixed =
       spec->formulation == FORMULATION_MIXED || (spec->formulation == FORMULATION_AUTO && !spec->law->rigid && nu >= 0.45 - 1e-12) ? PETSC_TRUE : PETSC_FALSE;
+  PetscCall(CheckLimit_Private(spec));
   PetscCheckInput(!spec->mixed || !spec->law->whole,
                   "material.%s.formulation: %s has no mixed form (meant for nu from 0.45 up, here %g); set formulation: displacement or take neo_hookean",
                   spec->name, spec->law->name, (double)nu);
   PetscCheckInput(!spec->mixed || MaterialVolumetricModulus(spec) > 0, "material.%s.formulation: mixed with volumetric: log needs lambda above 0, which is %g",
                   spec->name, (double)spec->lambda);
-  PetscCall(CheckLimit_Private(spec));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
