@@ -51,7 +51,8 @@ static PetscErrorCode GroupResidual_Private(Mechanics m, const CellGroup *g, con
                        .energy   = b.energy,
                        .residual = b.r,
                        .min_det  = b.min_det,
-                       .stretch2 = b.stretch2};
+                       .stretch2 = b.stretch2,
+                       .history  = MechanicsBatchHistory_Private(m, g, first)};
     PetscCall(GatherBatch_Private(m, g, first, batch.nc, u, b.u));
     if (g->num_unknown) {
       MechanicsUnknownsGather_Private(m, g, first, batch.nc, b.pressure);
@@ -164,7 +165,8 @@ PetscErrorCode MechanicsTangent(Mechanics m, const PetscReal u[], const PetscRea
                          .u       = b.u,
                          .fiber   = g->fiber + first * g->num_fibers,
                          .tangent = b.K,
-                         .place   = g->place};
+                         .place   = g->place,
+                         .history = MechanicsBatchHistory_Private(m, g, first)};
       PetscCall(GatherBatch_Private(m, g, first, batch.nc, u, b.u));
       if (g->m) {
         batch.pressure   = pressure ? pressure + g->pressure + first * g->m : NULL;
@@ -228,6 +230,6 @@ PetscErrorCode MechanicsPoints(Mechanics m, PetscInt cell, PetscInt np, const Pe
     pressure = consistent;
   }
   if (g->num_unknown) pressure = m->pressure + m->unknown_first[cell];
-  PetscCall(CellKernelPoints(g->kernel, np, xi, X, values, pressure, F, P, W, &bad));
+  PetscCall(CellKernelPoints(g->kernel, np, xi, X, values, pressure, g->h ? m->history + m->cell_history[cell] : NULL, F, P, W, &bad));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -33,6 +33,7 @@ static PetscErrorCode Groups_Private(Mechanics m, const HPTables *v, const Fores
       CellKernelSizes(m->groups[g].kernel, &m->groups[g].n, &m->groups[g].m, &m->groups[g].batch);
       if (mine->incompressible) m->groups[g].num_unknown = m->groups[g].m;
       if (mine->incompressible) m->groups[g].m = 0;
+      CellKernelHistory(m->groups[g].kernel, &m->groups[g].num_points, &m->groups[g].h);
       CellKernelNumFibers(m->groups[g].kernel, &m->groups[g].num_fibers);
     }
     m->cell_group[c] = g;
@@ -121,6 +122,7 @@ PetscErrorCode MechanicsCreate(HPSpace space, const MechanicsSpec *spec, const S
   PetscCall(MechanicsUnknownsCreate_Private(m));
   PetscCall(MechanicsLoadFacets_Private(m));
   PetscCall(MechanicsFreeBodies_Private(m));
+  PetscCall(MechanicsHistoryCreate_Private(m));
   *mechanics = m;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -133,6 +135,7 @@ PetscErrorCode MechanicsDestroy(Mechanics *mechanics)
   if (!m) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(MechanicsCondenseDestroy_Private(m));
   PetscCall(MechanicsUnknownsDestroy_Private(m));
+  PetscCall(MechanicsHistoryDestroy_Private(m));
   for (PetscInt g = 0; g < m->num_groups; ++g) {
     PetscCall(CellKernelDestroy(&m->groups[g].kernel));
     PetscCall(PetscFree(m->groups[g].fiber));

@@ -32,8 +32,7 @@ static PetscErrorCode ReadGeneral_Private(Scene s)
 
 static PetscErrorCode Law_Private(const SceneNode *node, const char *name, const MaterialLaw **law)
 {
-  static const char *const later[]   = {"j2"}; /* named by the contract with users */
-  char                     list[512] = "";
+  char list[512] = "";
 
   PetscFunctionBegin;
   *law = MaterialLawFind(name);
@@ -42,12 +41,11 @@ static PetscErrorCode Law_Private(const SceneNode *node, const char *name, const
     if (list[0]) PetscCall(PetscStrlcat(list, ", ", sizeof(list)));
     PetscCall(PetscStrlcat(list, row->name, sizeof(list)));
   }
-  for (int i = 0; i < 1; ++i) PetscCheckInput(strcmp(name, later[i]), "%s: law %s is not built yet; built are: %s", NodeWhere(node), name, list);
   PetscCall(ErrorInput("%s is '%.64s', which is no law; allowed: %s", NodeWhere(node), name, list));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Laws first: a law that is not built yet brings keys with it that the table does not know. */
+/* Laws first: the parameters of a law misspelt would be told before its name. */
 static PetscErrorCode CheckLaws_Private(const SceneNode *root)
 {
   const SceneNode *materials = NodeFind(root, "material");

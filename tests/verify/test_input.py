@@ -155,7 +155,16 @@ def test_good_on_two_ranks(check):
     (("friction: 0", "projection: along"), ["contact.pair.projection is 'along'", "continuous, facet|continuous.*facet"]),
     (("friction: 0", "projection: facet"), ["contact.pair.projection: only faces of order 1 in three dimensions"]),
     (("friction: 0", "order: full, node_to_segment: true"), ["contact.pair.order", "do not go together"]),
-    (("{law: neo_hookean, E: 1, nu: 0.3}", "{law: j2, E: 1, nu: 0.3, yield: 1}"), ["law j2 is not built yet"]),
+    # plasticity
+    (("{law: neo_hookean, E: 1, nu: 0.3}", "{law: j2, E: 1, nu: 0.3}"), ["material.rubber.yield: missing"]),
+    (("{law: neo_hookean, E: 1, nu: 0.3}", "{law: j2, E: 1, nu: 0.3, yield: 0}"), ["material.rubber.yield: 0 is not a finite number above 0"]),
+    (("{law: neo_hookean, E: 1, nu: 0.3}", "{law: j2, E: 1, nu: 0.3, yield: 1, hardening: -2}"), ["material.rubber.hardening", "allowed: less than 3 mu"]),
+    (("{law: neo_hookean, E: 1, nu: 0.3}", "{law: j2, E: 1, nu: 0.3, yield: 1, saturation: 1}"), ["material.rubber.saturation_rate: missing"]),
+    (("{law: neo_hookean, E: 1, nu: 0.3}", "{law: j2, E: 1, nu: 0.3, yield: 1, saturation: 1, saturation_rate: -3}"),
+     ["material.rubber.saturation_rate: -3 is not a finite number above 0"]),
+    (("{law: neo_hookean, E: 1, nu: 0.3}", "{law: j2, E: 1, nu: 0.3, yield: 1, saturation: -1, saturation_rate: 1}"),
+     ["material.rubber.saturation: -1 takes all of the yield stress"]),
+    (("{law: neo_hookean, E: 1, nu: 0.3}", "{law: j2, E: 1, nu: 0.3, yield: 1, volumetric: log}"), ["material.rubber.volumetric: j2 knows"]),
     # fibres
     ((RUBBER, HGO % "fiber: {a: {angle: 29}}, frame: {point: {x: 3}}"), None),
     ((RUBBER, HGO % "fiber: {a: {angle: 29}}, frame: {axis: x}"), ["material.rubber.frame.axis is x", "allowed in this model: z"]),
