@@ -110,11 +110,17 @@ PetscErrorCode MaterialSetUpElastic(MaterialSpec *spec)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+#define STIFFEST 1e12 /* kappa over mu: beyond, round-off of J times kappa is as large as what shear answers, and an unloaded body already looks balanced */
+
 /* The incompressible limit needs a pressure of its own, and a shear part that feels no change of volume; that of NHc does. */
 static PetscErrorCode CheckLimit_Private(MaterialSpec *spec)
 {
   PetscFunctionBegin;
   spec->incompressible = (PetscBool)(!spec->law->rigid && PetscIsInfReal(spec->kappa));
+  PetscCheckInput(
+      spec->law->rigid || spec->incompressible || spec->kappa <= STIFFEST * spec->mu,
+      "material.%s.kappa: the bulk modulus %g is more than 1e12 times the shear modulus %g, of which round-off leaves nothing; take inf (incompressible)",
+      spec->name, (double)spec->kappa, (double)spec->mu);
   if (!spec->incompressible) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCheckInput(!spec->law->whole, "material.%s.law: %s has no incompressible limit (nu: 0.5, kappa: inf); take neo_hookean, or nu below 0.5", spec->name,
                   spec->law->name);
