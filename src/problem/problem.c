@@ -108,6 +108,7 @@ PetscErrorCode ProblemDestroy(Problem *problem)
   PetscCall(PetscFree4(p->target, p->applied, p->increment, p->start_applied));
   PetscCall(PetscFree2(p->work_index, p->work_value));
   PetscCall(PressureDestroy_Private(p));
+  PetscCall(PetscFree(p->hessian));
   PetscCall(VecDestroy(&p->u_global));
   PetscCall(VecDestroy(&p->u_local));
   PetscCall(VecDestroy(&p->r_local));

@@ -203,7 +203,7 @@ static PetscErrorCode ReadBody_Private(Scene s, SceneNode *node, BodyEntry *b)
     b->spec.material    = &s->data.materials[i];
   }
   PetscCheckInput(b->spec.material, "%s is '%s', which is not under material%s%s", NodeWhere(NodeFind(node, "material")), b->material,
-                  num ? "; the nearest name is " : "", NearestName(b->material, PetscMin(num, 64), names));
+                  num ? "; the nearest name is " : "", NameNearest(b->material, PetscMin(num, 64), names));
   PetscCall(ReadOrders_Private(s, NodeFind(node, "order"), b));
   rigid = b->spec.material->law->rigid;
   PetscCheckInput(rigid || !NodeFind(node, "motion"), "%s: only a rigid body moves as told, and material %s is %s; prescribe a boundary instead",

@@ -308,6 +308,14 @@ def test_solver_options(run, option, value, allowed):
     assert run("inputs/patch2d.yml", option, value, "-check").returncode == 1
 
 
+def test_solver_option_misspelt(run):
+    """Before anything is solved, with -check or without."""
+    for check in ((), ("-check",)):
+        result = run("inputs/patch2d.yml", "-solve_rtoll", "1e-8", *check)
+        assert result.returncode == 1 and not result.stdout, result
+        assert result.stderr == "mortise: -solve_rtoll is no option of the solver; the nearest one is -solve_rtol\n", result.stderr
+
+
 def test_command_line_wins(check):
     result = check((), "-material_rubber_E", "26", "-order", "3", "-boundary_bottom_fix", "y", "-mesh_parameter_n", "3")
     assert result.returncode == 0, result
