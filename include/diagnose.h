@@ -22,12 +22,13 @@ typedef struct {
 
 typedef struct {
   PetscInt num_boundaries, num_contacts;
-  PetscReal (*reaction)[3];        /* owned [num_boundaries] force of each support on the body */
-  PairFigures  *pair;              /* owned [num_contacts] */
-  PetscReal     load[3];           /* resultant of dead loads, body forces and follower pressures; axisymmetric: the axial component, others 0 */
-  PetscReal     force_imbalance;   /* largest of the pairs (O-90) */
-  PetscReal     moment_imbalance;  /* largest of the pairs (O-90) */
-  PetscReal     support_imbalance; /* |supports + loads + contact with rigid bodies| / sum of their magnitudes; axisymmetric: axial component */
+  PetscReal (*reaction)[3];         /* owned [num_boundaries] force of each support on the body */
+  PetscReal    *pressure, *control; /* owned [num_boundaries] where a pressure is found: it, and what it follows (change of volume, mean advance); else 0 */
+  PairFigures  *pair;               /* owned [num_contacts] */
+  PetscReal     load[3];            /* resultant of dead loads, body forces and follower pressures; axisymmetric: the axial component, others 0 */
+  PetscReal     force_imbalance;    /* largest of the pairs (O-90) */
+  PetscReal     moment_imbalance;   /* largest of the pairs (O-90) */
+  PetscReal     support_imbalance;  /* |supports + loads + contact with rigid bodies| / sum of their magnitudes; axisymmetric: axial component */
   ProblemStatus status;
 } Balance;
 

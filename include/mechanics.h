@@ -21,9 +21,21 @@ typedef struct {
   Expression rotation_angle;
   PetscReal  rotation_point[3];
   Expression pressure;    /* follower, against the outward normal; current area */
+  Expression volume;      /* or a follower pressure that is found: it changes the volume that the boundary encloses by so much (control.c) … */
+  Expression advance;     /* … or moves the boundary by so much against its outward normal, mean over the reference area */
   Expression traction[3]; /* dead, per reference area */
-  Amplitude  amplitude;   /* multiplies displacement, rotation, pressure, traction that are constants in t */
+  Amplitude  amplitude;   /* multiplies displacement, rotation, pressure, volume, advance, traction that are constants in t */
 } BoundarySpec;
+
+/* Is the boundary's pressure found; is there one, given or found? */
+static inline PetscBool BoundaryIsControlled(const BoundarySpec *b)
+{
+  return (PetscBool)(b->volume || b->advance);
+}
+static inline PetscBool BoundaryHasPressure(const BoundarySpec *b)
+{
+  return (PetscBool)(b->pressure || BoundaryIsControlled(b));
+}
 
 typedef struct {
   char                name[MORTISE_NAME]; /* physical group of top dimension */
@@ -71,6 +83,10 @@ PetscErrorCode MechanicsSetTime(Mechanics, PetscReal t);
 /* Write the prescribed dofs of time t into a local array of dofs; other entries stay. */
 PetscErrorCode MechanicsPrescribe(Mechanics, PetscReal local[]);
 
+/* Derivative by t, by differences over 2 dt, of dead loads and follower pressures at displacement u, as they enter the residual: added to the local array rate.
+ */
+PetscErrorCode MechanicsLoadRate(Mechanics, const PetscReal u[], PetscReal dt, PetscReal rate[]);
+
 /* Results of a bulk integration on this rank (sums and minima over its own cells). */
 typedef struct {
   PetscReal energy; /* strain energy */
@@ -104,6 +120,26 @@ PetscErrorCode MechanicsCondenseForces(Mechanics, PetscReal r[]);
 /* Increments at the inner nodes of this rank's cells from those at all others in du (local array, prescribed ones included): x_i = -K_ii^-1 (r_i + K_ib x_b)
    with the last tangent and the forces last condensed. */
 PetscErrorCode MechanicsRecover(Mechanics, PetscReal du[]);
+
+/* ---- pressures that are found (control.c) ------------------------------------------------------------------------------- */
+
+/* Boundaries whose pressure is found, by their index among the boundaries, ascending. Not collective. */
+PetscErrorCode MechanicsGetControls(Mechanics, PetscInt *num, const PetscInt **boundary);
+/* Their pressures in everything that follows; 0 before. Not collective. */
+PetscErrorCode MechanicsSetControls(Mechanics, const PetscReal pressure[]);
+/* Follower pressure of a boundary at reference position X and time t: given, or found. Not collective. */
+PetscErrorCode MechanicsPressure(Mechanics, PetscInt boundary, const PetscReal X[3], PetscReal t, PetscReal *pressure);
+/* What control k follows, this rank's part at displacement u (local array); n out of the body:
+     volume   V(u) = - int_0^1 int u . n da at X + s u ds: swept by the boundary on straight lines from X to X + u;
+     advance  V(u) = - int u . N dA: the mean times the area.
+   Its derivative by u is added to gradient, the residual of a unit pressure to force (local arrays, NULL: skip). Not collective. */
+PetscErrorCode MechanicsControl(Mechanics, PetscInt k, const PetscReal u[], PetscReal *value, PetscReal gradient[], PetscReal force[]);
+/* Reference area of its facets (axisymmetric: of the revolution), and area times shear modulus: this rank's part. Not collective. */
+PetscErrorCode MechanicsControlArea(Mechanics, PetscInt k, PetscReal sum[2]);
+/* Mark the local nodes that its facets depend on. Not collective. */
+PetscErrorCode MechanicsControlNodes(Mechanics, PetscInt k, PetscBool mark[]);
+
+/* ---- element pressures --------------------------------------------------------------------------------------------- */
 
 /* Cells of incompressible material: their pressures are unknowns, which are set from outside, and have rows of their own. (incompressible.c)
    Arrays of them hold those of local cells one after the other, owned cells before ghosts. */

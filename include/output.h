@@ -99,6 +99,7 @@ PetscErrorCode ProbesEvaluate(Probes, Problem, Vec x, PetscReal displacement[][3
    - step, t, dt, pass (of the accepted solution), step_cuts, cells, dofs, newton_iterations, active_nodes, estimated_error, energy, min_det, min_gap,
      contact_force, contact_imbalance, moment_imbalance, support_imbalance, seconds;
    - reaction.<boundary>.x … for boundaries with supports;
+   - pressure.<boundary>, and volume.<boundary> or advance.<boundary>, where the pressure is found;
    - contact.<pair>.force.x …, .moment (3-D: .moment.x …), .max_pressure, .area, .radius (2-D), .active_nodes, .min_gap;
    - probe.<name>.displacement.x …, .stress.xx … (2-D: xx xy yy zz). */
 typedef struct _p_History *History;

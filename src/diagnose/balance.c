@@ -134,6 +134,26 @@ static void Supports_Private(const MechanicsSpec *spec, const ForestTables *t, c
   b->support_imbalance = magnitude > 0 ? Norm_Private(total) / magnitude : 0;
 }
 
+static PetscErrorCode Controls_Private(Problem problem, Vec x, Balance *b)
+{
+  Mechanics       mechanics;
+  PetscInt        num;
+  const PetscInt *boundary;
+  PetscReal      *pressure, *value;
+
+  PetscFunctionBegin;
+  PetscCall(ProblemGetMechanics(problem, &mechanics));
+  PetscCall(MechanicsGetControls(mechanics, &num, &boundary));
+  PetscCall(PetscMalloc2(num, &pressure, num, &value));
+  PetscCall(ProblemGetControls(problem, x, pressure, value));
+  for (PetscInt k = 0; k < num; ++k) {
+    b->pressure[boundary[k]] = pressure[k];
+    b->control[boundary[k]]  = value[k];
+  }
+  PetscCall(PetscFree2(pressure, value));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode BalanceCompute(Problem problem, const State *state, Balance *b)
 {
   const SceneData    *scene;
@@ -148,7 +168,7 @@ PetscErrorCode BalanceCompute(Problem problem, const State *state, Balance *b)
   PetscCall(ForestGetTables(forest, &t));
   b->num_boundaries = scene->mechanics.num_boundaries;
   b->num_contacts   = scene->num_contacts;
-  PetscCall(PetscCalloc2(b->num_boundaries, &b->reaction, b->num_contacts, &b->pair));
+  PetscCall(PetscCalloc4(b->num_boundaries, &b->reaction, b->num_contacts, &b->pair, b->num_boundaries, &b->pressure, b->num_boundaries, &b->control));
   PetscCall(PetscMalloc1(b->num_contacts, &view));
   PetscCall(ProblemSetHistory(problem, state->history));
   PetscCall(ProblemForces(problem, state->x, b->reaction, NULL, NULL, &b->status));
@@ -162,6 +182,7 @@ PetscErrorCode BalanceCompute(Problem problem, const State *state, Balance *b)
   }
   PetscCall(Loads_Private(problem, state->x, scene->mechanics.model, b->load));
   Supports_Private(&scene->mechanics, t, view, b);
+  PetscCall(Controls_Private(problem, state->x, b));
   PetscCall(PetscFree(view));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -169,7 +190,7 @@ PetscErrorCode BalanceCompute(Problem problem, const State *state, Balance *b)
 PetscErrorCode BalanceDestroy(Balance *b)
 {
   PetscFunctionBegin;
-  PetscCall(PetscFree2(b->reaction, b->pair));
+  PetscCall(PetscFree4(b->reaction, b->pair, b->pressure, b->control));
   b->num_boundaries = b->num_contacts = 0;
   PetscFunctionReturn(PETSC_SUCCESS);
 }

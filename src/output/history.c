@@ -82,6 +82,12 @@ static PetscErrorCode Columns_Private(const SceneData *scene, PetscInt num_probe
     if (!BoundarySupports(spec)) continue;
     for (PetscInt a = 0; a < dim; ++a) PetscCall(Column_Private(c, balance ? balance->reaction[b][a] : 0, "reaction", spec->name, NULL, axis_name[a]));
   }
+  for (PetscInt b = 0; b < scene->mechanics.num_boundaries; ++b) {
+    const BoundarySpec *spec = &scene->mechanics.boundaries[b];
+    if (!BoundaryIsControlled(spec)) continue;
+    PetscCall(Column_Private(c, balance ? balance->pressure[b] : 0, "pressure", spec->name, NULL, NULL));
+    PetscCall(Column_Private(c, balance ? balance->control[b] : 0, spec->volume ? "volume" : "advance", spec->name, NULL, NULL));
+  }
   for (PetscInt i = 0; i < scene->num_contacts; ++i) PetscCall(PairColumns_Private(c, dim, scene->contacts[i].name, balance ? &balance->pair[i] : &none));
   for (PetscInt i = 0; i < num_probes; ++i) {
     const char *name = scene->probes[i].name;

@@ -29,6 +29,7 @@ PetscErrorCode ProblemLayout_Private(Problem p)
   PetscCall(ContactNumber_Private(p, counts)); /* appends the multipliers of each rank */
   p->num_z = counts[p->rank] - p->num_u;
   PetscCall(PressureNumber_Private(p, counts));
+  counts[p->size - 1] += p->num_scalars;
   p->p_start[0] = 0;
   for (PetscMPIInt r = 0; r < p->size; ++r) p->p_start[r + 1] = p->p_start[r] + counts[r];
   p->start    = p->p_start[p->rank];
@@ -180,6 +181,7 @@ PetscErrorCode ProblemMatrix_Private(Problem p)
   PetscCall(BulkPattern_Private(p, diagonal, other));
   PetscCall(PressurePattern_Private(p, diagonal, other));
   PetscCall(ContactPattern_Private(p, diagonal, other));
+  PetscCall(ScalarsPattern_Private(p, diagonal, other));
   for (PetscInt i = 0; i < rows; ++i) {
     diagonal[i] = PetscMin(diagonal[i] + 1, rows);
     other[i]    = PetscMin(other[i], p->row_start[p->size] - rows);
@@ -194,6 +196,7 @@ PetscErrorCode ProblemMatrix_Private(Problem p)
   PetscCall(BulkPattern_Private(p, NULL, NULL));
   PetscCall(PressurePattern_Private(p, NULL, NULL));
   PetscCall(ContactPattern_Private(p, NULL, NULL));
+  PetscCall(ScalarsPattern_Private(p, NULL, NULL));
   for (PetscInt i = 0; i < p->num_contacts; ++i) {
     const Contact *c = &p->contacts[i];
     for (PetscInt j = 0; j < c->side[0].num_nodes; ++j) {

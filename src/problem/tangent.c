@@ -318,6 +318,7 @@ PetscErrorCode ProblemTangent(Problem p, Vec x, const PetscReal pressure[], Vec 
   PetscCall(ReadyMatrix_Private(p));
   PetscCall(MechanicsTangent(p->mechanics, local, pressure, CellSink_Private, p, bad));
   if (!*bad) PetscCall(PressureBlocks_Private(p));
+  PetscCall(ScalarsTangent_Private(p, local));
   PetscCall(StageEnd(STAGE_ASSEMBLE));
   PetscCall(VecRestoreArray(p->u_local, &local));
   PetscCall(StageBegin(STAGE_CONTACT));

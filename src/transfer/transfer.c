@@ -33,6 +33,20 @@ static PetscErrorCode Multipliers_Private(const TransferContext *c, Problem old_
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+static PetscErrorCode Scalars_Private(Problem old_problem, Vec from, Problem new_problem, Vec to)
+{
+  PetscInt   num;
+  PetscReal *values;
+
+  PetscFunctionBegin;
+  PetscCall(ProblemNumScalars(old_problem, &num));
+  PetscCall(PetscMalloc1(num, &values));
+  PetscCall(ProblemGetScalars(old_problem, from, values));
+  PetscCall(ProblemSetScalars(new_problem, values, to));
+  PetscCall(PetscFree(values));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode TransferState(Problem old_problem, const State *from, Problem new_problem, const ForestMap *map, State *to)
 {
   TransferContext  c = {.map = map};
@@ -75,6 +89,7 @@ PetscErrorCode TransferState(Problem old_problem, const State *from, Problem new
 
   if (scene->num_contacts) PetscCall(Refresh_Private(old_problem, from->x));
   PetscCall(Multipliers_Private(&c, old_problem, new_problem, scene->num_contacts, to->x));
+  PetscCall(Scalars_Private(old_problem, from->x, new_problem, to->x));
   PetscCall(StageEnd(STAGE_TRANSFER));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
