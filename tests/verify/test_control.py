@@ -1,5 +1,5 @@
 """Pressures that are found (boundary.volume, boundary.advance) and paths of equilibria (load.control: arc_length): a thick sphere past its limit point (O-12), two
-rings in contact blown up by the area of the bore and let down again, a shallow arch that snaps through."""
+rings in contact blown up by the area of the bore and let down again, concentric angioplasty (O-70), a shallow arch that snaps through."""
 import json
 import math
 
@@ -164,6 +164,36 @@ def test_balloon_in_a_sleeve(run, tmp_path, ranks):
         touching += between > 0
     assert touching == 17 and result.history[-1]["contact_force"] < 1e-10
     assert abs(result.summary["pressure"]["bore"]) < 1e-8
+
+
+ANGIOPLASTY = [(.50, 34.27432, 27.25142, 0, .6782330, 1.1), (.75, 32.23686, 20.33993, 1.21349, .8789198, 1.2158947),
+               (.90, 30.76529, 18.13008, 2.46254, 1.0099505, 1.3137351), (1.00, 30.74063, 17.85661, 4.03201, 1.1, 1.3841604),
+               (1.10, 32.72668, 19.68809, 7.41197, 1.1916375, 1.4580466)]
+
+
+@pytest.mark.parametrize("cells, ranks", [(12, 1), pytest.param(16, 1, marks=pytest.mark.slow), pytest.param(12, 3, marks=pytest.mark.slow)])
+def test_o70_angioplasty(run, cells, ranks):
+    """Balloon, metal sleeve and artery, the area of the balloon's bore driven there and back: pressures 0.5 %, radii 1e-4, recoil 5 %; no step cut."""
+    result = run("inputs/angioplasty.yml", "-mesh_parameter_n", cells, "-output_fields", "false", ranks=ranks)
+    assert result.returncode == 0 and result.summary["step_cuts"] == 0, result
+    rows = {round(row["t"] * 14): row for row in result.history}
+
+    def figures(row):
+        return [row["pressure.bore"], row["contact.balloon_in_sleeve.max_pressure"], row["contact.sleeve_in_artery.max_pressure"],
+                0.65 + row["probe.sleeve.displacement.x"], 1.1 + row["probe.artery.displacement.x"]]
+
+    for radius, *wanted in ANGIOPLASTY:
+        found = figures(rows[round((radius - 0.4) / 0.05)])
+        for k, (a, b) in enumerate(zip(found, wanted)):
+            assert a == pytest.approx(b, rel=5e-3 if k < 3 else 1e-4, abs=1e-9), (radius, k)
+    bore = [rows[k]["pressure.bore"] for k in range(1, 15)]
+    assert bore[0] < bore[1] > 34 and min(bore[2:]) < 31 and bore[13] > 32  # up, down, up
+    found = figures(rows[28])
+    assert abs(found[0]) < 1e-8 and abs(found[1]) < 1e-8
+    relative(found[2], 6.64698, 5e-3)
+    relative(found[3], 1.1767998, 3e-4)
+    relative(found[4], 1.4459453, 3e-4)
+    relative(1 - found[3] / (0.65 + rows[14]["probe.sleeve.displacement.x"]), 0.012451, 0.05)
 
 
 # ---- snap-through -------------------------------------------------------------------------------------------------------------------
