@@ -16,9 +16,9 @@ enum { YIELD = 5, HARDENING, SATURATION, SATURATION_RATE }; /* after the elastic
 
 const MaterialParameter MaterialJ2Parameters[] = {
     {"E", "stress", "Young's modulus", 0, PETSC_MAX_REAL},
-    {"nu", "1", "Poisson's ratio", -1, 0.5},
+    {"nu", "1", "Poisson's ratio; 0.5: incompressible", -1, 0.5},
     {"mu", "stress", "shear modulus", 0, PETSC_MAX_REAL},
-    {"kappa", "stress", "bulk modulus", 0, PETSC_MAX_REAL},
+    {"kappa", "stress", "bulk modulus; inf: incompressible", 0, INFINITY},
     {"lambda", "stress", "Lame's first parameter", PETSC_MIN_REAL, PETSC_MAX_REAL},
     {"yield", "stress", "yield stress of the virgin material", 0, PETSC_MAX_REAL},
     {"hardening", "stress", "its rise per unit of plastic strain; default 0", PETSC_MIN_REAL, PETSC_MAX_REAL},
