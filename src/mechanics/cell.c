@@ -48,6 +48,7 @@ static PetscErrorCode ArenaCreate_Private(CellKernel k)
       {&k->hoop_inverse, k->hoop ? q : 0},
       {&k->volume, q},
       {&k->F, 9 * q},
+      {&k->fiber, (size_t)k->material.num_fibers * 3 * q},
       {&k->P, 9 * q},
       {&k->W, q},
       {&k->A, 81 * slab},
@@ -100,6 +101,7 @@ PetscErrorCode CellKernelCreate(PetscInt dim, Model model, Kinematics kinematics
   if (k->small) { /* small kinematics: every law is its linearisation */
     k->material.law        = MaterialLawFind("linear");
     k->material.volumetric = VOLUMETRIC_QUADRATIC;
+    k->material.num_fibers = 0; /* they are slack to first order */
   }
   PetscCall(Basis1DGet(order, k->n1, &k->basis));
   PetscCall(TablesCreate_Private(k));
@@ -149,18 +151,37 @@ static void Store_Private(PetscInt num, PetscInt n, PetscInt d, const Lanes *lan
   }
 }
 
+/* Point values [cells][num][q] to lanes, slab after slab. */
+static void LoadSlabs_Private(CellKernel k, PetscInt num_cells, PetscInt num, const PetscReal *values, Lanes *lanes)
+{
+  const PetscInt slab = k->slab_points;
+
+  for (PetscInt q = 0; q < k->num_points; q++) {
+    for (PetscInt c = 0; c < num; c++) {
+      for (PetscInt l = 0; l < NUM_LANES; l++) {
+        lanes[(q / slab * num + c) * slab + q % slab][l] = values[(PetscMin(l, num_cells - 1) * num + c) * k->num_points + q];
+      }
+    }
+  }
+}
+
 /* The law at all points: F -> W, P, and slab by slab A, which is pulled back at once while it is in cache. */
-static PetscErrorCode Law_Private(CellKernel k, PetscBool tangent, const Lanes *pressure)
+static PetscErrorCode Law_Private(CellKernel k, PetscBool tangent, const Lanes *pressure, PetscBool *bad)
 {
   const PetscInt     slab = k->slab_points, count = slab * NUM_LANES;
   const MaterialPart part = k->mixed ? MATERIAL_ISOCHORIC : MATERIAL_FULL;
-  PetscBool          bad  = PETSC_FALSE; /* det F was tested before */
 
   PetscFunctionBegin;
   for (PetscInt s = 0; s < k->num_slabs; s++) {
-    PetscReal *F = (PetscReal *)&k->F[s * 9 * slab], *P = (PetscReal *)&k->P[s * 9 * slab], *W = (PetscReal *)&k->W[s * slab], *A = (PetscReal *)k->A;
+    MaterialPoints points = {.n     = count,
+                             .F     = (PetscReal *)&k->F[s * 9 * slab],
+                             .fiber = (PetscReal *)&k->fiber[s * 3 * k->material.num_fibers * slab],
+                             .W     = (PetscReal *)&k->W[s * slab],
+                             .P     = (PetscReal *)&k->P[s * 9 * slab],
+                             .A     = tangent ? (PetscReal *)k->A : NULL};
 
-    PetscCall(MaterialEvaluate(&k->material, part, count, F, W, P, tangent ? A : NULL, &bad));
+    PetscCall(MaterialEvaluate(&k->material, part, &points));
+    if (points.bad) *bad = PETSC_TRUE;
     if (tangent && k->mixed) CellKernelAddPressureTangent_Private(k, s, pressure);
     if (tangent) CellKernelTangentSlab_Private(k, s);
   }
@@ -195,7 +216,7 @@ static void Stretch_Private(CellKernel k, PetscInt num, PetscReal *stretch2)
 /* Everything that is asked of cells first .. first+num-1 of the batch. */
 static PetscErrorCode Chunk_Private(CellKernel k, CellBatch *b, PetscInt first, PetscInt num)
 {
-  const PetscInt  n = k->num_nodes, d = k->dim, m = k->num_pressure, size = n * d;
+  const PetscInt  n = k->num_nodes, d = k->dim, m = k->num_pressure, size = n * d, fibers = 3 * k->material.num_fibers;
   const PetscBool tangent = b->tangent ? PETSC_TRUE : PETSC_FALSE, couple = m && (b->tangent || b->dpressure) ? PETSC_TRUE : PETSC_FALSE;
   const Lanes    *pressure = k->coefficient;
   Lanes           min_det;
@@ -219,7 +240,11 @@ static PetscErrorCode Chunk_Private(CellKernel k, CellBatch *b, PetscInt first, 
     Load_Private(num, m, 1, b->pressure + first * m, k->stored);
     pressure = k->stored;
   }
-  if (b->energy || b->residual || tangent) PetscCall(Law_Private(k, tangent, pressure));
+  if (b->energy || b->residual || tangent) {
+    if (fibers) LoadSlabs_Private(k, num, fibers, b->fiber + first * fibers * k->num_points, k->fiber);
+    PetscCall(Law_Private(k, tangent, pressure, &b->bad));
+  }
+  if (b->bad) PetscFunctionReturn(PETSC_SUCCESS);
   if (b->energy) Energy_Private(k, num, b->energy + first);
   if (b->residual) {
     if (k->mixed) CellKernelAddPressure_Private(k);

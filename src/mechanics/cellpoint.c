@@ -27,13 +27,14 @@ static PetscReal Invert_Private(PetscInt dim, const PetscReal G[9], PetscReal in
   return det;
 }
 
-/* grad u at xi, embedded in 3x3. */
-static PetscErrorCode PointGradient_Private(CellKernel k, const PetscReal *xi, const PetscReal *X, const PetscReal *u, PetscReal H[9])
+/* Reference position of xi, a third component 0 in the plane; and grad u there, embedded in 3x3. */
+static PetscErrorCode PointGradient_Private(CellKernel k, const PetscReal *xi, const PetscReal *X, const PetscReal *u, PetscReal position[3], PetscReal H[9])
 {
   const PetscInt d = k->dim;
-  PetscReal      value[MOST_NODES], gradient[3 * MOST_NODES], G[9] = {0}, g[9] = {0}, inv[9], R = 0, ur = 0;
+  PetscReal      value[MOST_NODES], gradient[3 * MOST_NODES], G[9] = {0}, g[9] = {0}, inv[9], ur = 0;
 
   PetscFunctionBegin;
+  PetscCall(PetscArrayzero(position, 3));
   PetscCall(ElementEvaluate(d, k->order, xi, value, gradient));
   for (PetscInt node = 0; node < k->num_nodes; node++) {
     for (PetscInt i = 0; i < d; i++) {
@@ -41,8 +42,8 @@ static PetscErrorCode PointGradient_Private(CellKernel k, const PetscReal *xi, c
         G[i * d + r] += X[node * d + i] * gradient[node * d + r];
         g[i * d + r] += u[node * d + i] * gradient[node * d + r];
       }
+      position[i] += value[node] * X[node * d + i];
     }
-    R += value[node] * X[node * d];
     ur += value[node] * u[node * d];
   }
   Invert_Private(d, G, inv);
@@ -53,7 +54,30 @@ static PetscErrorCode PointGradient_Private(CellKernel k, const PetscReal *xi, c
     }
   }
   /* On the axis the hoop strain is the limit u_r/R -> du_r/dR. */
-  if (k->hoop) H[8] = R > 0 ? ur / R : H[0];
+  if (k->hoop) H[8] = position[0] > 0 ? ur / position[0] : H[0];
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+void CellKernelNumFibers(CellKernel k, PetscInt *num)
+{
+  *num = 3 * k->material.num_fibers * k->num_points;
+}
+
+PetscErrorCode CellKernelFibers(CellKernel k, const PetscReal *X, PetscReal *fiber)
+{
+  const PetscInt line = k->basis->num_points;
+  PetscReal      value[MOST_NODES], gradient[3 * MOST_NODES];
+
+  PetscFunctionBegin;
+  for (PetscInt q = 0; q < k->num_points; q++) {
+    const PetscReal xi[3]    = {k->basis->points[q % line], k->basis->points[q / line % line], k->basis->points[q / line / line % line]};
+    PetscReal       place[3] = {0, 0, 0}, direction[MATERIAL_MAX_FIBERS][3];
+
+    PetscCall(ElementEvaluate(k->dim, k->order, xi, value, gradient));
+    for (PetscInt i = 0; i < k->num_nodes * k->dim; i++) place[i % k->dim] += value[i / k->dim] * X[i];
+    MaterialFiberDirections(&k->material, place, direction);
+    for (PetscInt i = 0; i < 3 * k->material.num_fibers; i++) fiber[i * k->num_points + q] = direction[i / 3][i % 3];
+  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -100,11 +124,14 @@ PetscErrorCode CellKernelPoints(CellKernel k, PetscInt np, const PetscReal *xi, 
   PetscCheck(!k->mixed || pressure, PETSC_COMM_SELF, PETSC_ERR_ARG_NULL, "A mixed cell needs its pressure coefficients");
   *bad = PETSC_FALSE;
   for (PetscInt q = 0; q < np; q++) {
-    PetscReal f[9], p[9], w;
+    PetscReal      f[9], p[9], w, position[3], fiber[MATERIAL_MAX_FIBERS][3];
+    MaterialPoints point = {.n = 1, .F = f, .fiber = fiber[0], .W = &w, .P = p};
 
-    PetscCall(PointGradient_Private(k, xi + q * k->dim, X, u, f));
+    PetscCall(PointGradient_Private(k, xi + q * k->dim, X, u, position, f));
+    MaterialFiberDirections(&k->material, position, fiber);
     for (int c = 0; c < 9; c += 4) f[c] += 1;
-    PetscCall(MaterialEvaluate(&k->material, k->mixed ? MATERIAL_ISOCHORIC : MATERIAL_FULL, 1, f, &w, p, NULL, bad));
+    PetscCall(MaterialEvaluate(&k->material, k->mixed ? MATERIAL_ISOCHORIC : MATERIAL_FULL, &point));
+    if (point.bad) *bad = PETSC_TRUE;
     if (k->mixed) PetscCall(AddPointPressure_Private(k, xi + q * k->dim, pressure, f, p, &w));
     if (F) PetscCall(PetscArraycpy(F + 9 * q, f, 9));
     if (P) PetscCall(PetscArraycpy(P + 9 * q, p, 9));

@@ -11,8 +11,10 @@ typedef struct _p_CellKernel *CellKernel;
    NULL outputs are skipped. */
 typedef struct {
   PetscInt         nc;
-  const PetscReal *X;          /* [nc][n][d] reference positions */
-  const PetscReal *u;          /* [nc][n][d] displacements */
+  const PetscReal *X; /* [nc][n][d] reference positions */
+  const PetscReal *u; /* [nc][n][d] displacements */
+  const PetscReal
+      *fiber; /* [nc][num_fibers][3][points] of CellKernelFibers; NULL for materials without fibres, and where no energy, residual or tangent is asked */
   const PetscReal *pressure;   /* [nc][m] stored pressure coefficients: enter the geometric stiffness only. NULL: the consistent ones are used */
   PetscReal       *energy;     /* [nc] */
   PetscReal       *residual;   /* [nc][n*d] dE/du, row node*d + component; a function of u alone */
@@ -33,6 +35,10 @@ PetscErrorCode CellKernelCreate(PetscInt dim, Model, Kinematics, PetscInt order,
 PetscErrorCode CellKernelDestroy(CellKernel *);
 void           CellKernelSizes(CellKernel, PetscInt *num_nodes, PetscInt *num_pressure, PetscInt *best_batch);
 PetscErrorCode CellKernelEvaluate(CellKernel, CellBatch *);
+
+/* Fibre directions at the integration points of one cell with nodes X[n][dim]: num = 3 num_fibers points numbers, [num_fibers][3][points]. */
+void           CellKernelNumFibers(CellKernel, PetscInt *num);
+PetscErrorCode CellKernelFibers(CellKernel, const PetscReal *X, PetscReal *fiber);
 
 /* Point values for output and estimation at given reference points xi[np][dim] of one cell with nodes X, u ([n][dim]) and pressure coefficients (mixed, else
    NULL): F[np][9], P[np][9] (with the pressure field's volumetric part), J, weight-free. */
@@ -61,6 +67,8 @@ typedef struct {
   PetscInt            order, num_cells, n, m, batch; /* nodes and pressure coefficients of a cell; cells per call */
   PetscInt           *cells;                         /* owned [num_cells] local cells */
   PetscReal          *X;                             /* owned [num_cells][n][dim] */
+  PetscInt            num_fibers;                    /* numbers that describe the fibres of a cell */
+  PetscReal          *fiber;                         /* owned [num_cells][num_fibers] */
   PetscReal          *noise2, *drift2;               /* owned [num_cells] shares in those of MechanicsStatus for F = I */
   PetscInt            pressure;                      /* first coefficient in the pressure array */
   PetscInt            num_inner;                     /* nodes inside a cell */
@@ -128,6 +136,7 @@ struct _p_CellKernel {
   Lanes         *hoop_inverse;                  /* [q] 1/R */
   Lanes         *volume;                        /* [q] weight times reference volume */
   Lanes         *F, *P, *W, *A;                 /* [9], [9], [1] over all points; A: [81] over one slab */
+  Lanes         *fiber;                         /* [num_fibers][3] over all points */
   Lanes         *measure;                       /* [4][q] J-1, g, g', g'' */
   Lanes         *mass;                          /* [m][m] Cholesky factor of the pressure mass matrix */
   Lanes         *moment, *coefficient, *stored; /* [m] int q g; consistent and stored pressure coefficients */

@@ -215,7 +215,8 @@ static void PatchIsExact(void **state)
         for (PetscInt i = 0; i < dim; i++) {
           for (PetscInt J = 0; J < dim; J++) F1[3 * i + J] += H[3 * i + J];
         }
-        OK(MaterialEvaluate(&cell.spec, MATERIAL_FULL, 1, F1, &W1, P1, NULL, &bad));
+        MaterialPoints point = {.n = 1, .F = F1, .W = &W1, .P = P1};
+        OK(MaterialEvaluate(&cell.spec, MATERIAL_FULL, &point));
         OK(CellKernelEvaluate(cell.kernel, &cell.batch));
         assert_near(cell.min_det, Det3(F1), 1e-13);
         volume = cell.energy / W1;
@@ -379,13 +380,13 @@ static void AxisymmetricHoopIsExact(void **state)
       const PetscReal F[9] = {1.2, 0, 0, 0, 1, 0, 0, 0, 1.2};
       Cell            cell;
       PetscReal       W, P[9], work = 0;
-      PetscBool       bad = PETSC_FALSE;
 
       CellSetUp(&cell, 2, MODEL_AXISYMMETRIC, KINEMATICS_FINITE, order, &choices[1], (Formulation)formulation);
       CellMake(2, order, 0, 0, cell.X);
       for (PetscInt node = 0; node < cell.n; node++) cell.u[2 * node] = 0.2 * cell.X[2 * node];
       OK(CellKernelEvaluate(cell.kernel, &cell.batch));
-      OK(MaterialEvaluate(&cell.spec, MATERIAL_FULL, 1, F, &W, P, NULL, &bad));
+      MaterialPoints point = {.n = 1, .F = F, .W = &W, .P = P};
+      OK(MaterialEvaluate(&cell.spec, MATERIAL_FULL, &point));
       assert_near(cell.energy, 3 * PETSC_PI * W, 1e-12);
       assert_near(cell.min_det, 1.44, 1e-14);
       for (PetscInt node = 0; node < cell.n; node++) work += cell.r[2 * node] * cell.X[2 * node];
