@@ -124,6 +124,9 @@ PetscErrorCode ContactPairReach(ContactPair, const ContactSurface *nonmortar, Pe
                                 PetscInt most, PetscInt *num_boxes, PetscReal box[][6]);
 void           ContactFacetBox(const ContactSurface *, PetscInt facet, PetscReal box[6]);
 PetscBool      ContactBoxesMeet(const PetscReal a[6], const PetscReal b[6]);
+/* Rays along a continuous direction (else NULL): the pictures of mortar corners that hang in the middle of an edge follow those of its ends,
+   parent[mortar num_nodes][2], -1: does not hang. Not collective. */
+PetscErrorCode ContactPairGetMortarParents(ContactPair, const PetscInt **parent);
 /* Candidates of the last search: mortar facets of listed facet i are candidate[start[i] .. start[i+1]), ascending. Set: the search went on elsewhere, these
    facets are evaluated here (and listed from now on) with these candidates. */
 PetscErrorCode ContactPairGetCandidates(ContactPair, const PetscInt **start, const PetscInt **candidate);

@@ -161,6 +161,24 @@ static void Motion_Private(const RayFacet *f, const Place *p, PetscReal s, Petsc
   }
 }
 
+void ContactImagesFold(RayWork w, PetscInt num, PetscReal rows[], PetscInt ld)
+{
+  const PetscInt m = w->facet.m, images = w->facet.D * (w->facet.s.num + w->facet.nv + w->num_mortar);
+
+  for (PetscInt k = w->num_images - 1; k >= 0; k--) {
+    if (w->image[k].parent[0] < 0) continue;
+    for (int e = 0; e < 2; e++) {
+      PetscInt at = 0;
+
+      while (w->image[at].node != w->image[k].parent[e]) at++;
+      for (PetscInt r = 0; r < num; r++)
+        for (PetscInt i = 0; i < m; i++) rows[r * ld + images + m * at + i] += 0.5 * rows[r * ld + images + m * k + i];
+    }
+    for (PetscInt r = 0; r < num; r++)
+      for (PetscInt i = 0; i < m; i++) rows[r * ld + images + m * k + i] = 0;
+  }
+}
+
 void ContactImageRows(const RayFacet *f, const RayImage *image, PetscInt vertex, PetscInt n, PetscReal rows[])
 {
   Picture chart;

@@ -245,6 +245,18 @@ static PetscErrorCode Image_Private(RayWork w, PetscInt k, const PetscReal gradi
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Of a half form: the other half. */
+static void Transpose_Private(PetscInt n, PetscReal W[])
+{
+  for (PetscInt i = 0; i < n; i++)
+    for (PetscInt j = 0; j < i; j++) {
+      const PetscReal value = W[i * n + j];
+
+      W[i * n + j] = W[j * n + i];
+      W[j * n + i] = value;
+    }
+}
+
 PetscErrorCode ContactRayHessian(ContactPair pair, const ContactSurface *mortar, const PetscReal y[], const PetscReal D[4][4], const PetscReal gradient[])
 {
   RayWork         w   = pair->ray;
@@ -273,6 +285,9 @@ PetscErrorCode ContactRayHessian(ContactPair pair, const ContactSurface *mortar,
     for (PetscInt a = 0; a < width; a++)
       for (PetscInt b = 0; b < width; b++) w->W[place[a] * n + place[b]] += w->part[a * N + b];
   }
+  ContactImagesFold(w, n, w->W, n);
+  Transpose_Private(n, w->W);
+  ContactImagesFold(w, n, w->W, n);
   for (PetscInt k = 0; k < w->num_images; k++) PetscCall(Image_Private(w, k, gradient + images + f->m * k));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -20,6 +20,22 @@ PetscErrorCode ContactRayTopology(ContactPair pair, const ContactSurface *s)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscErrorCode ContactRayMortarTopology(RayWork w, const ContactSurface *mortar)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscFree(w->mortar_parent));
+  PetscCall(PetscMalloc1(2 * mortar->num_nodes, &w->mortar_parent));
+  PetscCall(ContactParents(mortar, w->mortar_parent));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode ContactPairGetMortarParents(ContactPair pair, const PetscInt **parent)
+{
+  PetscFunctionBegin;
+  *parent = pair->rays ? pair->ray->mortar_parent : NULL;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode ContactPairSetCarriers(ContactPair pair, const ContactSurface *nonmortar, const PetscBool carries[])
 {
   PetscFunctionBegin;
@@ -36,6 +52,7 @@ PetscErrorCode ContactRayWorkDestroy(RayWork *work)
   if (!w) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(ContactResultDestroy(&w->result));
   PetscCall(PetscFree4(w->ring_first, w->ring_facet, w->parent, w->d));
+  PetscCall(PetscFree(w->mortar_parent));
   PetscCall(PetscFree(w->image));
   PetscCall(PetscFree(w->overlap));
   PetscCall(PetscFree(w->mortar));
@@ -109,7 +126,8 @@ static PetscErrorCode Functions_Private(RayWork w, const ContactMultiplier *mult
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Nodes of the result and T, the multiplier functions by those of the lattice: constant ones where the facet is covered, else those of the true nodes. */
+/* Nodes of the result and T, the multiplier functions by those of the lattice: constant ones where the facet is covered, else those of the true nodes. Hats
+   of hanging nodes go to their masters in the ratio of the positive weights: functions stay positive, whatever is covered. */
 static PetscErrorCode Nodes_Private(const EvaluateContext *ctx, PetscInt facet)
 {
   RayWork         w  = ctx->pair->ray;
@@ -126,11 +144,18 @@ static PetscErrorCode Nodes_Private(const EvaluateContext *ctx, PetscInt facet)
   PetscCall(ContactGrow(na + w->num_mortar + 1, sizeof(PetscInt), &w->result.size_row_first, &w->result.row_first));
   for (PetscInt a = 0; a < na; a++) PetscCall(ContactResultRow(&w->result, ctx->nonmortar, lattice[a], PETSC_FALSE, a, &num));
   if (!constant) {
+    const PetscBool hats = w->test[0].hats;
+
     w->result.num_rows = w->result.num_nodes;
     PetscCall(ContactGrow(w->result.num_rows * na, sizeof(PetscReal), &w->size_T, &w->T));
     PetscCall(PetscArrayzero(w->T, w->result.num_rows * na));
-    for (PetscInt a = 0; a < na; a++)
-      for (PetscInt k = w->result.row_first[a]; k < w->result.row_first[a + 1]; k++) w->T[w->result.row_node[k] * na + a] += w->result.row_weight[k];
+    for (PetscInt a = 0; a < na; a++) {
+      PetscReal sum = 0;
+
+      for (PetscInt k = w->result.row_first[a]; k < w->result.row_first[a + 1]; k++) sum += PetscMax(0, w->result.row_weight[k]);
+      for (PetscInt k = w->result.row_first[a]; k < w->result.row_first[a + 1]; k++)
+        w->T[w->result.row_node[k] * na + a] += hats ? PetscMax(0, w->result.row_weight[k]) / sum : w->result.row_weight[k];
+    }
   }
   for (PetscInt v = 0; v < nv; v++) {
     const PetscInt terms = ContactDirectionTerms(w, ctx->nonmortar, ctx->nonmortar->facets[nv * facet + v], TERMS, term);

@@ -46,9 +46,10 @@ typedef struct {
   PetscReal  ring;     /* 2 pi or 0 */
 } RayFacet;
 
-/* Image of a mortar vertex. */
+/* Image of a mortar vertex. Of one that hangs in the middle of an edge: the mean of those of the edge's ends, which come before it in the list, so that the
+   straight pictures of both sides of the edge are the same. */
 typedef struct {
-  PetscInt  node;
+  PetscInt  node, parent[2]; /* nodes, -1: does not hang */
   PetscBool found;
   PetscReal v[3], xi[2], s, Y[2];
 } RayImage;
@@ -80,6 +81,7 @@ struct _p_RayWork {
   /* topology of the nonmortar surface */
   PetscInt  *ring_first, *ring_facet, *parent; /* facets around each corner; ends of the edge on which a corner hangs, -1 */
   PetscReal *d;                                /* [num_nodes][3] directions at corners */
+  PetscInt  *mortar_parent;                    /* [mortar num_nodes][2] */
   /* one facet */
   RayFacet   facet;
   PetscInt   num_images, num_overlaps, num_mortar, num_tests;
@@ -109,6 +111,8 @@ void     ContactRayLatticePolynomial(RayLattice *);
 void     ContactRayTestFunctions(const RayFacet *, const RayTest *, const RayFunctions *own, const PetscReal xi[2], RayFunctions *);
 
 /* direction.c */
+/* parent[num_nodes][2]: ends of the edge in whose middle a corner hangs, -1. */
+PetscErrorCode ContactParents(const ContactSurface *, PetscInt parent[]);
 PetscErrorCode ContactDirectionTopology(RayWork, const ContactSurface *);
 void           ContactDirections(RayWork, const ContactSurface *);
 PetscBool      ContactDirectionUsable(RayWork, const ContactSurface *, PetscInt node);
@@ -129,6 +133,8 @@ PetscBool ContactChartLocate(const RayFacet *, const PetscReal Y[2], PetscReal x
 void ContactImageFind(const RayFacet *, RayImage *);
 /* rows[m][n] += derivatives of Y; vertex: its place among the facet's nodes. */
 void ContactImageRows(const RayFacet *, const RayImage *, PetscInt vertex, PetscInt n, PetscReal rows[]);
+/* Columns of rows[num][ld] that belong to images that hang, halves of them to those of their edge's ends. */
+void ContactImagesFold(RayWork, PetscInt num, PetscReal rows[], PetscInt ld);
 /* W += half of w . d2Y */
 void ContactImageCurvature(const RayFacet *, const RayImage *, PetscInt vertex, const PetscReal w[2], PetscInt n, PetscReal W[], PetscReal work[]);
 
@@ -217,6 +223,7 @@ PetscErrorCode ContactRayDirectionCurvature(RayWork, const ContactSurface *, Pet
 /* rayfacet.c */
 #define RAY_TERMS 64 /* most facets around a corner, over all it hangs on */
 PetscErrorCode ContactRayTopology(ContactPair, const ContactSurface *);
+PetscErrorCode ContactRayMortarTopology(RayWork, const ContactSurface *mortar);
 PetscErrorCode ContactRayEvaluate(const EvaluateContext *, PetscBool *failed);
 PetscErrorCode ContactRayWorkDestroy(RayWork *);
 
