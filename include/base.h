@@ -19,6 +19,10 @@ PetscErrorCode ErrorInput(const char *format, ...) PETSC_ATTRIBUTE_FORMAT(1, 2);
     if (PetscUnlikely(!(cond))) return ErrorInput(__VA_ARGS__);                                                                                                \
   } while (0)
 
+/* Levenshtein distance of two names of at most 255 characters (1000 beyond), and the nearest of num > 0 names, the first of several. */
+PetscInt    NameDistance(const char *a, const char *b);
+const char *NameNearest(const char *name, PetscInt num, const char *const names[]);
+
 /* Install the error handler that keeps quiet about input errors and prints PETSc's traceback for all others. */
 PetscErrorCode ErrorHandlerPush(void);
 

@@ -12,7 +12,8 @@ typedef enum { FORMULATION_AUTO, FORMULATION_DISPLACEMENT, FORMULATION_MIXED } F
 extern const char *const VolumetricNames[];                                                 /* PETSc enum name arrays */
 extern const char *const FormulationNames[];
 
-#define MATERIAL_MAX_PARAMETERS 8
+#define MATERIAL_MAX_PARAMETERS 12
+#define MATERIAL_MAX_HISTORY 7
 #define MATERIAL_MAX_FIBERS 4
 
 typedef struct _MaterialLaw MaterialLaw; /* a row of the table of laws */
@@ -60,8 +61,13 @@ typedef struct {
   const PetscReal *fiber; /* [num_fibers][3][n] unit vectors in the reference configuration; NULL for laws without fibres */
   PetscReal       *W;     /* [n] energy density */
   PetscReal       *P;     /* [9][n] */
-  PetscReal       *A;     /* [81][n]: A[9*a+b] = dP_a/dF_b, symmetric */
-  PetscBool        bad;   /* out: set at points with det F <= 0, or where the energy exceeds all numbers (numerical status, no error); never reset */
+  PetscReal       *A;     /* [81][n]: A[9*a+b] = dP_a/dF_b, symmetric unless the law says otherwise */
+  /* Laws with history: what the last accepted step left at the points, [num_history][n], and what a step that ended at F would leave. All answers are
+     functions of F and history alone. */
+  const PetscReal *history;
+  PetscReal       *trial;
+  PetscBool bad; /* out: set at points with det F <= 0, or where the law has no answer (the energy exceeds all numbers, the yield stress is used up) (numerical
+                    status, no error); never reset */
 } MaterialPoints;
 
 /* With `part` ISOCHORIC, the volumetric energy kappa/2 g(J)^2 is left out (mixed formulation adds it through its projection). */
@@ -70,13 +76,18 @@ typedef PetscErrorCode (*MaterialKernel)(const MaterialSpec *, MaterialPart part
 
 struct _MaterialLaw {
   const char              *name, *help;
-  const MaterialParameter *parameters; /* ended by name NULL */
-  PetscBool                small;      /* linear law of small kinematics */
-  PetscBool                rigid;      /* cells are not assembled */
-  PetscBool                fibers;     /* needs families of fibres */
-  PetscBool                whole;      /* energy does not split into shear and volume: no volumetric law, displacement formulation alone */
+  const MaterialParameter *parameters;  /* ended by name NULL */
+  PetscBool                small;       /* linear law of small kinematics */
+  PetscBool                rigid;       /* cells are not assembled */
+  PetscBool                fibers;      /* needs families of fibres */
+  PetscBool                whole;       /* energy does not split into shear and volume: no volumetric law, displacement formulation alone */
+  PetscBool                unsymmetric; /* A is not symmetric: the linear solver must be one for unsymmetric matrices */
+  PetscInt                 num_history; /* numbers it remembers at each integration point, <= MATERIAL_MAX_HISTORY; P is then no derivative of W */
   PetscErrorCode (*setup)(MaterialSpec *);
-  MaterialKernel evaluate; /* NULL for rigid */
+  MaterialKernel evaluate;                                    /* NULL for rigid */
+  void (*initial)(const MaterialSpec *, PetscReal history[]); /* before the first step, [num_history]; NULL without history */
+  /* Plastic strain alpha and plastic work per reference volume that a history tells of; NULL for laws without plastic flow. */
+  void (*plastic)(const MaterialSpec *, const PetscReal history[], PetscReal *strain, PetscReal *work);
 };
 
 /* The table of laws, ended by name NULL; and look-up by name (NULL when unknown). */

@@ -75,12 +75,12 @@ static PetscErrorCode Solve_Private(int argc, char **argv, PetscBool *gave_up)
   PetscCall(PetscTime(&app.start));
   PetscCheckInput(argc > 1, "no scene was named; say mortise SCENE.yml, or mortise -help");
   PetscCall(SceneCreate(app.comm, argc, argv, &app.scene));
+  PetscCall(SolverCheckOptions());
   PetscCall(StageBegin(STAGE_MESH));
   PetscCall(SceneSetUp(app.scene, &forest));
   PetscCall(StageEnd(STAGE_MESH));
   PetscCall(SceneGetData(app.scene, &app.data));
   if (SceneCheckOnly(app.scene)) {
-    PetscCall(SolverCheckOptions());
     PetscCall(SceneView(app.scene, PETSC_VIEWER_STDOUT_WORLD));
     PetscCall(ForestDestroy(&forest));
   } else {

@@ -109,6 +109,6 @@ INLINE void HGOPoint_Private(const MaterialSpec *spec, MaterialPart part, const 
 PetscErrorCode MaterialHGO(const MaterialSpec *spec, MaterialPart part, MaterialPoints *points)
 {
   PetscFunctionBegin;
-  PointLoop(HGOPoint_Private, spec, part, points);
+  PointLoop(HGOPoint_Private, 0, spec, part, points);
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -13,6 +13,8 @@ const MaterialLaw MaterialLaws[] = {
      .setup = MaterialSetUpElastic, .evaluate = MaterialSaintVenantKirchhoff},
     {"linear", "linear isotropic elasticity, small kinematics", MaterialElasticParameters, .small = PETSC_TRUE, .setup = MaterialLinearSetUp,
      .evaluate = MaterialLinear},
+    {"j2", "finite elasto-plastic solid: von Mises yield, isotropic hardening", MaterialJ2Parameters, .unsymmetric = PETSC_TRUE, .num_history = 7,
+     .setup = MaterialJ2SetUp, .evaluate = MaterialJ2, .initial = MaterialJ2Initial, .plastic = MaterialJ2Plastic},
     {"rigid", "rigid body that moves as told", MaterialRigidParameters, .rigid = PETSC_TRUE, .setup = MaterialRigidSetUp},
     {NULL},
 };
@@ -29,6 +31,8 @@ PetscErrorCode MaterialEvaluate(const MaterialSpec *spec, MaterialPart part, Mat
 {
   PetscFunctionBegin;
   PetscCheck(spec->law->evaluate, PETSC_COMM_SELF, PETSC_ERR_ARG_WRONGSTATE, "Material %s (%s) has no stress", spec->name, spec->law->name);
+  PetscCheck(!spec->law->num_history || points->history, PETSC_COMM_SELF, PETSC_ERR_ARG_NULL, "Material %s (%s) needs the history of its points", spec->name,
+             spec->law->name);
   PetscCall(spec->law->evaluate(spec, part, points));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -11,18 +11,25 @@ typedef struct {
   Lanes F[9], H[9], cof[9]; /* cof = J F^-T */
   Lanes fiber[MATERIAL_MAX_FIBERS][3];
   Lanes jm1, J, lnJ;
+  Lanes history[MATERIAL_MAX_HISTORY]; /* of laws that have one */
 } Deformation;
 
 /* What they answer. W alone, or with P, or with P and A, as asked. */
 typedef struct {
   PetscBool want_W, want_P, want_A;
   Lanes     W, P[9], A[81];
-  LanesMask bad; /* or-ed at points without an answer */
+  Lanes     trial[MATERIAL_MAX_HISTORY]; /* laws with history: always */
+  LanesMask bad;                         /* or-ed at points without an answer */
 } Response;
 
 INLINE Lanes LanesSet(PetscReal value)
 {
   return value - (Lanes){0};
+}
+
+INLINE Lanes LanesSelect(LanesMask mask, Lanes yes, Lanes no)
+{
+  return (Lanes)(((LanesMask)yes & mask) | ((LanesMask)no & ~mask));
 }
 
 INLINE Lanes LanesLog1p(Lanes x)
@@ -171,8 +178,8 @@ INLINE void StorePoints(PetscInt num, PetscInt n, PetscInt i, PetscInt count, co
   }
 }
 
-/* Run a law over points. `law` is a constant at every call, so that it is inlined. */
-INLINE void PointLoop(PointLaw law, const MaterialSpec *spec, MaterialPart part, MaterialPoints *points)
+/* Run a law over points. `law` and its number of history values are constants at every call, so that it is inlined. */
+INLINE void PointLoop(PointLaw law, const PetscInt num_history, const MaterialSpec *spec, MaterialPart part, MaterialPoints *points)
 {
   const PetscInt n   = points->n;
   LanesMask      any = {0};
@@ -188,11 +195,13 @@ INLINE void PointLoop(PointLaw law, const MaterialSpec *spec, MaterialPart part,
 
     LoadPoints(9, n, i, count, points->F, d.F);
     LoadPoints(3 * spec->num_fibers, n, i, count, points->fiber, d.fiber[0]);
+    if (num_history) LoadPoints(num_history, n, i, count, points->history, d.history);
     DeformationSet(&d, &any);
     law(spec, part, &d, &r);
     StorePoints(1, n, i, count, &r.W, points->W);
     StorePoints(9, n, i, count, r.P, points->P);
     StorePoints(81, n, i, count, r.A, points->A);
+    if (num_history) StorePoints(num_history, n, i, count, r.trial, points->trial);
   }
   any |= r.bad;
   for (int l = 0; l < NUM_LANES; l++) {
@@ -212,6 +221,7 @@ PetscErrorCode MaterialMooneyRivlin(const MaterialSpec *, MaterialPart, Material
 PetscErrorCode MaterialHGO(const MaterialSpec *, MaterialPart, MaterialPoints *);
 PetscErrorCode MaterialSaintVenantKirchhoff(const MaterialSpec *, MaterialPart, MaterialPoints *);
 PetscErrorCode MaterialLinear(const MaterialSpec *, MaterialPart, MaterialPoints *);
+PetscErrorCode MaterialJ2(const MaterialSpec *, MaterialPart, MaterialPoints *);
 
 extern const MaterialParameter MaterialMooneyRivlinParameters[];
 PetscErrorCode                 MaterialMooneyRivlinSetUp(MaterialSpec *);
@@ -220,3 +230,7 @@ PetscErrorCode                 MaterialHGOSetUp(MaterialSpec *);
 extern const MaterialParameter MaterialRigidParameters[];
 PetscErrorCode                 MaterialRigidSetUp(MaterialSpec *);
 PetscErrorCode                 MaterialLinearSetUp(MaterialSpec *);
+extern const MaterialParameter MaterialJ2Parameters[];
+PetscErrorCode                 MaterialJ2SetUp(MaterialSpec *);
+void                           MaterialJ2Initial(const MaterialSpec *, PetscReal history[]);
+void                           MaterialJ2Plastic(const MaterialSpec *, const PetscReal history[], PetscReal *strain, PetscReal *work);

@@ -38,6 +38,6 @@ INLINE void MooneyRivlinPoint_Private(const MaterialSpec *spec, MaterialPart par
 PetscErrorCode MaterialMooneyRivlin(const MaterialSpec *spec, MaterialPart part, MaterialPoints *points)
 {
   PetscFunctionBegin;
-  PointLoop(MooneyRivlinPoint_Private, spec, part, points);
+  PointLoop(MooneyRivlinPoint_Private, 0, spec, part, points);
   PetscFunctionReturn(PETSC_SUCCESS);
 }

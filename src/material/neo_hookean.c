@@ -30,6 +30,6 @@ INLINE void NeoHookeanPoint_Private(const MaterialSpec *spec, MaterialPart part,
 PetscErrorCode MaterialNeoHookean(const MaterialSpec *spec, MaterialPart part, MaterialPoints *points)
 {
   PetscFunctionBegin;
-  PointLoop(NeoHookeanPoint_Private, spec, part, points);
+  PointLoop(NeoHookeanPoint_Private, 0, spec, part, points);
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -45,6 +45,6 @@ PetscErrorCode MaterialSaintVenantKirchhoff(const MaterialSpec *spec, MaterialPa
 {
   PetscFunctionBegin;
   PetscCheck(part == MATERIAL_FULL, PETSC_COMM_SELF, PETSC_ERR_SUP, "Material %s (%s) has no isochoric part", spec->name, spec->law->name);
-  PointLoop(SaintVenantKirchhoffPoint_Private, spec, part, points);
+  PointLoop(SaintVenantKirchhoffPoint_Private, 0, spec, part, points);
   PetscFunctionReturn(PETSC_SUCCESS);
 }

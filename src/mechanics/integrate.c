@@ -41,7 +41,8 @@ static PetscErrorCode GroupResidual_Private(Mechanics m, const CellGroup *g, con
                        .energy   = b.energy,
                        .residual = b.r,
                        .min_det  = b.min_det,
-                       .stretch2 = b.stretch2};
+                       .stretch2 = b.stretch2,
+                       .history  = MechanicsBatchHistory_Private(m, g, first)};
     PetscCall(GatherBatch_Private(m, g, first, batch.nc, u, b.u));
     PetscCall(CellKernelEvaluate(g->kernel, &batch));
     for (PetscInt i = 0; i < batch.nc; ++i) status->min_det = PetscMin(status->min_det, b.min_det[i]);
@@ -145,7 +146,8 @@ PetscErrorCode MechanicsTangent(Mechanics m, const PetscReal u[], const PetscRea
                          .u       = b.u,
                          .fiber   = g->fiber + first * g->num_fibers,
                          .tangent = b.K,
-                         .place   = g->place};
+                         .place   = g->place,
+                         .history = MechanicsBatchHistory_Private(m, g, first)};
       PetscCall(GatherBatch_Private(m, g, first, batch.nc, u, b.u));
       if (g->m) {
         batch.pressure   = pressure ? pressure + g->pressure + first * g->m : NULL;
@@ -202,6 +204,6 @@ PetscErrorCode MechanicsPoints(Mechanics m, PetscInt cell, PetscInt np, const Pe
     CellBatch batch = {.nc = 1, .X = X, .u = values, .consistent = consistent};
     PetscCall(CellKernelEvaluate(g->kernel, &batch));
   }
-  PetscCall(CellKernelPoints(g->kernel, np, xi, X, values, g->m ? consistent : NULL, F, P, W, &bad));
+  PetscCall(CellKernelPoints(g->kernel, np, xi, X, values, g->m ? consistent : NULL, g->h ? m->history + m->cell_history[cell] : NULL, F, P, W, &bad));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

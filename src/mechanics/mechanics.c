@@ -31,6 +31,7 @@ static PetscErrorCode Groups_Private(Mechanics m, const HPTables *v, const Fores
       m->groups[g].material = mine;
       PetscCall(CellKernelCreate(m->dim, m->spec->model, m->spec->kinematics, v->cell_order[c], mine, &m->groups[g].kernel));
       CellKernelSizes(m->groups[g].kernel, &m->groups[g].n, &m->groups[g].m, &m->groups[g].batch);
+      CellKernelHistory(m->groups[g].kernel, &m->groups[g].num_points, &m->groups[g].h);
       CellKernelNumFibers(m->groups[g].kernel, &m->groups[g].num_fibers);
     }
     m->cell_group[c] = g;
@@ -118,6 +119,7 @@ PetscErrorCode MechanicsCreate(HPSpace space, const MechanicsSpec *spec, const S
   Noise_Private(m);
   PetscCall(MechanicsLoadFacets_Private(m));
   PetscCall(MechanicsFreeBodies_Private(m));
+  PetscCall(MechanicsHistoryCreate_Private(m));
   *mechanics = m;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -129,6 +131,7 @@ PetscErrorCode MechanicsDestroy(Mechanics *mechanics)
   PetscFunctionBegin;
   if (!m) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(MechanicsCondenseDestroy_Private(m));
+  PetscCall(MechanicsHistoryDestroy_Private(m));
   for (PetscInt g = 0; g < m->num_groups; ++g) {
     PetscCall(CellKernelDestroy(&m->groups[g].kernel));
     PetscCall(PetscFree(m->groups[g].fiber));

@@ -126,6 +126,8 @@ struct _p_Problem {
   PetscInt        *work_index;
   PetscReal       *work_value;
   PetscInt         work_size;
+  PetscReal       *hessian; /* work: of a facet */
+  PetscInt         hessian_size;
 };
 
 PetscErrorCode ProblemLayout_Private(Problem);
@@ -158,6 +160,9 @@ static inline PetscInt SurfaceOrder_Private(const Surface *s, PetscInt facet)
 PetscErrorCode SurfaceDestroy_Private(Surface *);
 PetscErrorCode SurfaceIndices_Private(Problem, Surface *);
 ContactSurface SurfaceAt_Private(const Surface *, const PetscReal x[]);
+/* shape.c: of a facet with nodes node[num] of an order as in SurfaceShape: the functions at xi and the tangents. */
+void SurfaceTangents_Private(PetscInt dim, PetscInt order, PetscInt num, const PetscInt node[], const PetscReal x[], const PetscReal xi[], PetscReal N[],
+                             PetscReal tangent[2][3]);
 /* Measure at xi of a facet per unit of xi (length or area, axisymmetric: of revolution) and the functions of its nodes there. */
 PetscReal SurfacePoint_Private(const Surface *, PetscInt facet, const PetscReal x[], const PetscReal xi[], PetscBool axisymmetric, PetscReal N[]);
 /* Length or area of a facet at positions x, between its corners. */
@@ -192,7 +197,7 @@ PetscErrorCode ContactDestroy_Private(Contact *);
 PetscErrorCode ContactNumber_Private(Problem, PetscInt counts[]); /* multipliers of each rank, contacts' zdof as offsets in the rank's block */
 PetscErrorCode ContactEvaluate_Private(Problem, Contact *, Vec x, const PetscReal local[], PetscBool derivatives, PetscBool hessian, PetscBool *failed);
 PetscErrorCode ContactForces_Private(Problem, Contact *, PetscReal r[]);
-PetscErrorCode ContactRows_Private(Problem, const Contact *, PetscReal r[]);
+void           ContactRows_Private(const Contact *, PetscReal r[]);
 /* tangent.c: blocks of the last evaluation into the matrix: Hessian and columns (added), then rows (inserted). */
 PetscErrorCode ContactBlocks_Private(Problem, Contact *);
 PetscErrorCode ContactInsertRow_Private(Problem, Contact *, PetscInt node);

@@ -91,7 +91,7 @@ PetscErrorCode ProblemResidual(Problem p, Vec x, Vec r, ProblemStatus *status)
   PetscCall(DMLocalToGlobalBegin(dm, p->r_local, ADD_VALUES, p->u_global));
   PetscCall(DMLocalToGlobalEnd(dm, p->r_local, ADD_VALUES, p->u_global));
   PetscCall(VecResetArray(p->u_global));
-  for (PetscInt i = 0; i < p->num_contacts; ++i) PetscCall(ContactRows_Private(p, &p->contacts[i], array));
+  for (PetscInt i = 0; i < p->num_contacts; ++i) ContactRows_Private(&p->contacts[i], array);
   PetscCall(VecRestoreArray(r, &array));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

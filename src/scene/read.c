@@ -32,8 +32,7 @@ static PetscErrorCode ReadGeneral_Private(Scene s)
 
 static PetscErrorCode Law_Private(const SceneNode *node, const char *name, const MaterialLaw **law)
 {
-  static const char *const later[]   = {"j2"}; /* named by the contract with users */
-  char                     list[512] = "";
+  char list[512] = "";
 
   PetscFunctionBegin;
   *law = MaterialLawFind(name);
@@ -42,12 +41,11 @@ static PetscErrorCode Law_Private(const SceneNode *node, const char *name, const
     if (list[0]) PetscCall(PetscStrlcat(list, ", ", sizeof(list)));
     PetscCall(PetscStrlcat(list, row->name, sizeof(list)));
   }
-  for (int i = 0; i < 1; ++i) PetscCheckInput(strcmp(name, later[i]), "%s: law %s is not built yet; built are: %s", NodeWhere(node), name, list);
   PetscCall(ErrorInput("%s is '%.64s', which is no law; allowed: %s", NodeWhere(node), name, list));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Laws first: a law that is not built yet brings keys with it that the table does not know. */
+/* Laws first: the parameters of a law misspelt would be told before its name. */
 static PetscErrorCode CheckLaws_Private(const SceneNode *root)
 {
   const SceneNode *materials = NodeFind(root, "material");
@@ -193,7 +191,7 @@ static PetscErrorCode ReadBody_Private(Scene s, SceneNode *node, BodyEntry *b)
     b->spec.material    = &s->data.materials[i];
   }
   PetscCheckInput(b->spec.material, "%s is '%s', which is not under material%s%s", NodeWhere(NodeFind(node, "material")), b->material,
-                  num ? "; the nearest name is " : "", NearestName(b->material, PetscMin(num, 64), names));
+                  num ? "; the nearest name is " : "", NameNearest(b->material, PetscMin(num, 64), names));
   PetscCall(ReadOrders_Private(s, NodeFind(node, "order"), b));
   rigid = b->spec.material->law->rigid;
   PetscCheckInput(rigid || !NodeFind(node, "motion"), "%s: only a rigid body moves as told, and material %s is %s; prescribe a boundary instead",

@@ -122,8 +122,6 @@ PetscBool OptionIsTopKey(const char *s, size_t length);
 /* Nearest known key to path ('.' or '_' between its words, as separator says). */
 PetscErrorCode OptionNearest(const SceneNode *root, const char *path, char separator, size_t capacity, char nearest[]);
 PetscBool      OptionKnowsParameter(const char *name); /* of any law of the table of laws */
-/* Nearest of a list of names. */
-const char *NearestName(const char *name, PetscInt num, const char *const names[]);
 /* Split "a.b.c" into words; returns how many. */
 PetscInt OptionSplit(const char *pattern, char words[OPTION_DEPTH][MORTISE_NAME]);
 

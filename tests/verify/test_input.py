@@ -155,7 +155,16 @@ def test_good_on_two_ranks(check):
     (("friction: 0", "projection: along"), ["contact.pair.projection is 'along'", "continuous, facet|continuous.*facet"]),
     (("friction: 0", "projection: facet"), ["contact.pair.projection: only faces of order 1 in three dimensions"]),
     (("friction: 0", "order: full, node_to_segment: true"), ["contact.pair.order", "do not go together"]),
-    (("{law: neo_hookean, E: 1, nu: 0.3}", "{law: j2, E: 1, nu: 0.3, yield: 1}"), ["law j2 is not built yet"]),
+    # plasticity
+    (("{law: neo_hookean, E: 1, nu: 0.3}", "{law: j2, E: 1, nu: 0.3}"), ["material.rubber.yield: missing"]),
+    (("{law: neo_hookean, E: 1, nu: 0.3}", "{law: j2, E: 1, nu: 0.3, yield: 0}"), ["material.rubber.yield: 0 is not a finite number above 0"]),
+    (("{law: neo_hookean, E: 1, nu: 0.3}", "{law: j2, E: 1, nu: 0.3, yield: 1, hardening: -2}"), ["material.rubber.hardening", "allowed: less than 3 mu"]),
+    (("{law: neo_hookean, E: 1, nu: 0.3}", "{law: j2, E: 1, nu: 0.3, yield: 1, saturation: 1}"), ["material.rubber.saturation_rate: missing"]),
+    (("{law: neo_hookean, E: 1, nu: 0.3}", "{law: j2, E: 1, nu: 0.3, yield: 1, saturation: 1, saturation_rate: -3}"),
+     ["material.rubber.saturation_rate: -3 is not a finite number above 0"]),
+    (("{law: neo_hookean, E: 1, nu: 0.3}", "{law: j2, E: 1, nu: 0.3, yield: 1, saturation: -1, saturation_rate: 1}"),
+     ["material.rubber.saturation: -1 takes all of the yield stress"]),
+    (("{law: neo_hookean, E: 1, nu: 0.3}", "{law: j2, E: 1, nu: 0.3, yield: 1, volumetric: log}"), ["material.rubber.volumetric: j2 knows"]),
     # fibres
     ((RUBBER, HGO % "fiber: {a: {angle: 29}}, frame: {point: {x: 3}}"), None),
     ((RUBBER, HGO % "fiber: {a: {angle: 29}}, frame: {axis: x}"), ["material.rubber.frame.axis is x", "allowed in this model: z"]),
@@ -297,6 +306,14 @@ def test_solver_options(run, option, value, allowed):
     assert result.returncode == 1, result
     assert result.stderr == f"mortise: {option} is '{value}'; allowed: {allowed}\n", result.stderr
     assert run("inputs/patch2d.yml", option, value, "-check").returncode == 1
+
+
+def test_solver_option_misspelt(run):
+    """Before anything is solved, with -check or without."""
+    for check in ((), ("-check",)):
+        result = run("inputs/patch2d.yml", "-solve_rtoll", "1e-8", *check)
+        assert result.returncode == 1 and not result.stdout, result
+        assert result.stderr == "mortise: -solve_rtoll is no option of the solver; the nearest one is -solve_rtol\n", result.stderr
 
 
 def test_command_line_wins(check):
