@@ -94,10 +94,10 @@ struct _p_RayWork {
   PetscInt   n, nn, num_moments;
   PetscReal  q[RAY_MOMENTS], reach[RAY_LATTICE], covered, min_gap; /* reach: moments of a gap of 1 along unit directions */
   PetscReal *dq, *W, *J, *R, *WJ, *part, *buffer;                  /* dq [num_moments][n], W [n][n]; J, R: raychain.c */
-  PetscReal *T, *rows;                                             /* [num_rows][lattice]; [n][num_rows] */
+  PetscReal *T, *rows, *softness;                                  /* [num_rows][lattice]; [n][num_rows] */
   Result     result;                                               /* vertices: lattice, then mortar nodes */
   PetscInt   size_image, size_overlap, size_mortar, size_window, size_vertex, size_test, size_dq, size_W, size_J, size_R, size_WJ, size_part, size_buffer;
-  PetscInt   size_T, size_rows;
+  PetscInt   size_T, size_rows, size_softness;
 };
 
 /* raylattice.c */
@@ -209,8 +209,17 @@ void      ContactRayPlaces(const RayWork, const ContactSurface *mortar, PetscInt
 /* raysum.c, raycurve.c: integrals over the overlaps of the facet at hand */
 void           ContactRayOverDet(const RayFacet *, const RayChartPoint *, PetscReal factor, const RayWeight *, RayWeight *);
 PetscErrorCode ContactRayMoments(ContactPair, const ContactSurface *mortar, PetscBool mass, PetscBool derivatives);
-/* W of the work space: half Hessian of sum_a y_a G_a + sum_ab D[a][b] int N_a N_b dA (D NULL: none); gradient[n] of it. */
-PetscErrorCode ContactRayHessian(ContactPair, const ContactSurface *mortar, const PetscReal y[], const PetscReal D[4][4], const PetscReal gradient[]);
+/* W of the work space: half Hessian of sum_a y_a G_a + sum_ab D[a][b] int N_a N_b dA (D NULL: none) + area int dA; gradient[n] of it. */
+PetscErrorCode ContactRayHessian(ContactPair, const ContactSurface *mortar, const PetscReal y[], const PetscReal D[4][4], PetscReal area,
+                                 const PetscReal gradient[]);
+
+/* spring.c: compliances of a facet that is covered in part, with two derivatives by the covered area. */
+typedef struct {
+  PetscBool  on;
+  PetscReal  share[3]; /* 4 epsilon s (1 - s) and derivatives */
+  PetscReal *softness; /* [num_rows] times the measure of the row's hats */
+} RaySpring;
+PetscErrorCode ContactRaySpring(ContactPair, const ContactSurface *nonmortar, PetscInt facet, RaySpring *);
 
 /* raychain.c */
 PetscErrorCode ContactRayChain(RayWork, const ContactSurface *nonmortar, PetscInt facet);
