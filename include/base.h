@@ -62,16 +62,19 @@ typedef struct _p_Expression *Expression;
    A text that is no expression is an input error that quotes key, text and the parser's reason. */
 PetscErrorCode ExpressionCreate(const char *key, const char *text, Expression *);
 PetscErrorCode ExpressionEvaluate(Expression, const PetscReal X[3], PetscReal t, PetscReal *value);
-PetscBool      ExpressionUsesTime(Expression); /* t occurs in it */
-const char    *ExpressionText(Expression);     /* as given; borrowed */
+PetscBool      ExpressionUsesTime(Expression);  /* t occurs in it */
+PetscBool      ExpressionUsesPlace(Expression); /* X, Y or Z */
+const char    *ExpressionText(Expression);      /* as given; borrowed */
 PetscErrorCode ExpressionDestroy(Expression *);
 
-/* Piecewise linear amplitude in t; num = 0 means the ramp 0,0 1,1. Constant beyond its ends. */
+/* Piecewise linear amplitude in t; num = 0 means the ramp 0,0 1,1. Constant beyond its ends, but for a ramp without end. */
 typedef struct {
-  PetscInt   num;   /* number of (t, value) pairs */
-  PetscReal *pairs; /* [num][2], owned */
+  PetscInt   num;     /* number of (t, value) pairs */
+  PetscReal *pairs;   /* [num][2], owned */
+  PetscBool  endless; /* num = 0: t itself, below 0 and above 1 too */
 } Amplitude;
 PetscReal AmplitudeEvaluate(const Amplitude *, PetscReal t);
+PetscReal AmplitudeNext(const Amplitude *, PetscReal t); /* the first of its times after t; PETSC_MAX_REAL: none */
 
 /* ---- small dense algebra (base/tensor.c and inline) -------------------------------------------------------------- */
 

@@ -1,9 +1,8 @@
 /* The load steps: advance pseudo-time, cut on failure, grow on ease; adapt at each new time; report what was accepted. */
 #include "appimpl.h"
 
-#define EASY_ITERATIONS 6 /* a step that took no more Newton iterations lets the next one grow */
-#define GROWTH 1.5
 #define ROUND_OFF 1e-12
+#define HASTE 10 /* times as fast as on the way there do displacements grow where the step ends at a limit point: at its distance d like d^(-1/2) */
 
 void AppCount(App *app, const SolverReport *report)
 {
@@ -69,27 +68,54 @@ PetscErrorCode AppAdvance(App *app, PetscReal t, PetscReal smallest, PetscBool *
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Where a step of dt from t0 ends: not beyond the end, nor beyond a corner of an amplitude, which the path must not cut. */
+static PetscReal StepEnd_Private(const SceneData *data, PetscReal t0, PetscReal dt)
+{
+  const MechanicsSpec *m    = &data->mechanics;
+  const PetscReal      tiny = ROUND_OFF * data->load.end;
+  PetscReal            last = data->load.end;
+
+  for (PetscInt i = 0; i < m->num_boundaries; ++i) last = PetscMin(last, AmplitudeNext(&m->boundaries[i].amplitude, t0 + tiny));
+  for (PetscInt i = 0; i < m->num_bodies; ++i) last = PetscMin(last, AmplitudeNext(&m->bodies[i].amplitude, t0 + tiny));
+  return t0 + dt > last - tiny ? last : t0 + dt;
+}
+
+/* Do loads drive the scene? */
+static PetscBool Loaded_Private(const SceneData *data)
+{
+  for (PetscInt i = 0; i < data->mechanics.num_boundaries; ++i) {
+    const BoundarySpec *b = &data->mechanics.boundaries[i];
+    if (b->pressure || b->traction[0] || b->traction[1] || b->traction[2]) return PETSC_TRUE;
+  }
+  for (PetscInt i = 0; i < data->mechanics.num_bodies; ++i) {
+    const BodySpec *b = &data->mechanics.bodies[i];
+    if (b->force[0] || b->force[1] || b->force[2]) return PETSC_TRUE;
+  }
+  return PETSC_FALSE;
+}
+
 /* One accepted load step of at most dt: the first piece that converges, then adaptation at its time. */
 static PetscErrorCode LoadStep_Private(App *app, PetscReal *dt, PetscBool *ok)
 {
-  Level          *l   = &app->level;
-  const PetscReal end = app->data->load.end, t0 = l->accepted.t;
+  Level          *l  = &app->level;
+  const PetscReal t0 = l->accepted.t;
   SolverReport    report;
 
   PetscFunctionBegin;
   app->iterations_in_step = app->cuts_in_step = app->passes_in_step = 0;
   for (;;) {
-    PetscReal t = t0 + *dt;
-    if (t > end - ROUND_OFF * end) t = end;
+    const PetscReal t = StepEnd_Private(app->data, t0, *dt);
     PetscCall(Attempt_Private(app, t, &report));
     *ok = report.converged;
     if (*ok) break;
     PetscCall(Restore_Private(app, &l->accepted));
-    *dt *= 0.5;
+    *dt = 0.5 * (t - t0);
     ++app->step_cuts;
     ++app->cuts_in_step;
     if (*dt >= app->data->load.step_min) continue;
-    app->failure = report.reason;
+    app->failure = app->haste > HASTE && Loaded_Private(app->data)
+                       ? "the load has a limit point here: drive by volume, advance or displacement of a boundary, or set load.control: arc_length"
+                       : report.reason;
     PetscFunctionReturn(PETSC_SUCCESS);
   }
   const PetscBool easy = (PetscBool)(report.iterations <= EASY_ITERATIONS && app->cuts_in_step == 0);
@@ -100,9 +126,14 @@ static PetscErrorCode LoadStep_Private(App *app, PetscReal *dt, PetscBool *ok)
 
 static PetscErrorCode Accept_Private(App *app, PetscReal t0)
 {
-  Level *l = &app->level;
+  Level    *l = &app->level;
+  PetscReal step, way;
 
   PetscFunctionBegin;
+  PetscCall(ProblemDistance(l->problem, l->accepted.x, l->state.x, &step));
+  PetscCall(ProblemDistance(l->problem, NULL, l->state.x, &way));
+  app->haste = way > 0 && l->state.t > t0 ? step / (l->state.t - t0) / (way / l->state.t) : 0;
+  PetscCall(AppPathAccept(app));
   PetscCall(StateCommit(l->problem, &l->state));
   PetscCall(StateCopy(&l->state, &l->accepted));
   ++app->load_steps;
@@ -121,13 +152,17 @@ PetscErrorCode AppRun(App *app)
   PetscBool       ok   = PETSC_TRUE;
 
   PetscFunctionBegin;
-  while (ok && app->level.accepted.t < load->end) {
+  while (ok && !app->failure && app->level.accepted.t < load->end) {
     const PetscReal t0 = app->level.accepted.t;
+    if (load->stop_displacement > 0 && app->status.largest >= load->stop_displacement) break;
     if (app->load_steps == load->max_steps) {
       app->failure = "load.max_steps was reached before load.end";
       break;
     }
-    PetscCall(LoadStep_Private(app, &dt, &ok));
+    if (app->arc_first > 0)
+      PetscCall(AppPathStep(app, &ok));
+    else
+      PetscCall(LoadStep_Private(app, &dt, &ok));
     if (ok) PetscCall(Accept_Private(app, t0));
   }
   PetscFunctionReturn(PETSC_SUCCESS);

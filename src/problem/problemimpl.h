@@ -115,6 +115,14 @@ struct _p_Problem {
   Vec        start_x;
   PetscInt   num_dofs;
 
+  /* scalar.c, path.c: unknowns that belong to no node */
+  PetscInt   num_scalars, num_controls;        /* the last of the vector and of the matrix: pressures found, then pseudo-time where a path is followed */
+  PetscReal *scalar;                           /* [num_scalars] of the vector last seen */
+  PetscReal *factor, *norm, *measure;          /* [num_controls] of the rows; of the target; what is followed, at the last residual */
+  PetscReal  extent, path_start, path_advance; /* of all bodies; place of the last state along `path`, and how far from there */
+  PetscBool  following;                        /* along the path; else time is as set */
+  Vec        path;                             /* (u1 - u0) / (|u1 - u0| sqrt(N)), 0 but for displacements */
+
   Mat              matrix;
   ptrdiff_t       *scatter_first; /* [num_owned_cells] where a cell's places start in scatter, -1: it goes by MatSetValues */
   uint16_t        *scatter;       /* scatter.c */
@@ -133,6 +141,20 @@ struct _p_Problem {
 };
 
 PetscErrorCode ProblemLayout_Private(Problem);
+/* scalar.c. Create: before the layout. Read: from a vector to where they act. Measure: what controls follow at the local displacements u. Residual: their rows
+   in the rank's part r of the residual, after Read and Measure. Pattern, Tangent: their rows and columns. Column: a local array as column of scalar k. All
+   collective. */
+PetscErrorCode ScalarsCreate_Private(Problem);
+PetscErrorCode ScalarsDestroy_Private(Problem);
+PetscErrorCode ScalarsRead_Private(Problem, Vec x);
+PetscErrorCode ScalarsMeasure_Private(Problem, const PetscReal u[]);
+PetscErrorCode ScalarsResidual_Private(Problem, Vec x, PetscReal r[]);
+PetscErrorCode ScalarsPattern_Private(Problem, PetscInt diagonal[], PetscInt other[]);
+PetscErrorCode ScalarsTangent_Private(Problem, const PetscReal u[]);
+PetscErrorCode ScalarsColumn_Private(Problem, PetscInt k, const PetscReal local[]);
+/* path.c: the equation of pseudo-time and its row and column. Collective. */
+PetscErrorCode PathResidual_Private(Problem, Vec x, PetscReal *r);
+PetscErrorCode PathTangent_Private(Problem, PetscInt row, const PetscReal u[]);
 /* scatter.c: places of cells in the matrix as it stands, made when its pattern is new; add a cell's matrix there (*added false: it has no places). */
 PetscErrorCode ProblemScatter_Private(Problem);
 PetscErrorCode ProblemScatterAdd_Private(Problem, PetscInt cell, PetscInt num_dofs, const PetscInt dofs[], const PetscReal K[], PetscBool *added);

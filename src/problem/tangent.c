@@ -320,6 +320,7 @@ PetscErrorCode ProblemTangent(Problem p, Vec x, const PetscReal pressure[], Vec 
   PetscCall(StageBegin(STAGE_ASSEMBLE));
   PetscCall(ReadyMatrix_Private(p));
   PetscCall(MechanicsTangent(p->mechanics, local, pressure, CellSink_Private, p, bad));
+  PetscCall(ScalarsTangent_Private(p, local));
   PetscCall(StageEnd(STAGE_ASSEMBLE));
   PetscCall(VecRestoreArray(p->u_local, &local));
   PetscCall(StageBegin(STAGE_CONTACT));

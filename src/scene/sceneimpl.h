@@ -129,6 +129,10 @@ PetscInt OptionSplit(const char *pattern, char words[OPTION_DEPTH][MORTISE_NAME]
 
 /* Fill data and entries from the tree and the command line (read.c); everything that needs no mesh is checked. */
 PetscErrorCode SceneRead(Scene, int argc, char **argv);
+/* drive.c. A motion (NULL: none) at node `motion` must not change along a path (load.control: arc_length). */
+PetscErrorCode SceneCheckPath(Scene, const SceneNode *motion, Expression);
+/* The expression (NULL: not given) under `key` of a boundary's node, which a pressure that is found is to follow, and what else the boundary has. */
+PetscErrorCode SceneCheckControl(Scene, const SceneNode *boundary, const char *key, Expression, const BoundarySpec *);
 /* Mesh the .geo, or take the .msh as it is: data.mesh.file is set (mesh.c). Collective. */
 PetscErrorCode SceneMakeMesh(Scene);
 PetscErrorCode SceneRemoveMesh(Scene);
