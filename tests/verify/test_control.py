@@ -115,6 +115,16 @@ def test_condensed(run, tmp_path, order):
     same(*(solve(run, scene, "-solve_condense", word) for word in ("no", "yes")))
 
 
+@pytest.mark.slow
+def test_path_of_a_contact(run):
+    """Cylinder pressed on a block by a load: no limit point, the path ends where steps of time do, on refined meshes."""
+    time, path = (run("inputs/cylinder.yml", "-load_control", word, "-output_fields", "false") for word in ("time", "arc_length"))
+    assert time.returncode == 0 and path.returncode == 0 and path.summary["adapt_passes"] > 1, (time, path)
+    assert path.summary["t"] == 1 and path.summary["cells"] == time.summary["cells"]
+    relative(path.summary["energy"], time.summary["energy"], 1e-7)
+    assert path.history[-1]["contact_force"] == pytest.approx(time.history[-1]["contact_force"], rel=1e-7)
+
+
 # ---- contact ------------------------------------------------------------------------------------------------------------------------
 
 RINGS = """Point(1) = {0, 0, 0};
