@@ -149,8 +149,12 @@ PetscErrorCode MechanicsInitialHistory(Mechanics, PetscReal history[]);
 PetscErrorCode MechanicsSetHistory(Mechanics, const PetscReal history[]);
 /* history[num] = what a step from the history last set to u leaves; *bad as in MechanicsStatus. Not collective. */
 PetscErrorCode MechanicsCommit(Mechanics, const PetscReal u[], PetscReal history[], PetscBool *bad);
+/* The integration points of a cell of this order: tensor products of this table's, the first direction fastest. Not collective. */
+PetscErrorCode MechanicsPointRule(PetscInt order, const Basis1D **);
 /* Where an owned cell's numbers lie in the array; num 0: no history, rigid, or a ghost. */
 PetscErrorCode MechanicsHistoryRange(Mechanics, PetscInt cell, PetscInt *first, PetscInt *num);
+/* Does any body flow? */
+PetscBool MechanicsIsPlastic(const MechanicsSpec *);
 /* Plastic flow up to u on this rank: largest plastic strain at an integration point, plastic work (axisymmetric: of the full revolution). Not collective. */
 PetscErrorCode MechanicsPlastic(Mechanics, const PetscReal u[], PetscReal *strain, PetscReal *work);
 /* Plastic strain at np reference points of an owned cell, by polynomials through the integration points; 0 for laws without. Not collective. */

@@ -18,12 +18,15 @@ PetscErrorCode AppEstimate(App *app)
 
 PetscErrorCode AppReportPass(App *app, PetscInt iterations, PetscBool accepted)
 {
-  Level         *l = &app->level;
+  Level         *l         = &app->level;
+  Balance        before    = app->balance;
+  PetscReal      change[3] = {0, 0, 0};
   PetscLogDouble now;
 
   PetscFunctionBegin;
-  if (app->balance.reaction) PetscCall(BalanceDestroy(&app->balance));
   PetscCall(BalanceCompute(l->problem, &l->state, &app->balance));
+  if (before.reaction && app->passes_in_step > 0) BalanceChange(&before, &app->balance, change);
+  if (before.reaction) PetscCall(BalanceDestroy(&before));
   PetscCall(PetscMemzero(&app->last, sizeof(app->last)));
   PetscCall(ReportRowFill(l->problem, &l->state, app->estimated ? &app->estimate : NULL, &app->balance, &app->last));
   PetscCall(PetscTime(&now));
@@ -34,6 +37,9 @@ PetscErrorCode AppReportPass(App *app, PetscInt iterations, PetscBool accepted)
   app->last.set_cycles        = app->set_cycles - app->told_cycles;
   app->told_cycles            = app->set_cycles;
   app->last.seconds           = now - app->start;
+  app->last.force_change      = change[0];
+  app->last.work_change       = change[1];
+  app->last.strain_change     = change[2];
   app->last.accepted          = accepted;
   app->last.dt                = l->state.t - l->accepted.t;
   PetscCall(HistoryPass(app->history, &app->last));

@@ -134,6 +134,48 @@ static void Supports_Private(const MechanicsSpec *spec, const ForestTables *t, c
   b->support_imbalance = magnitude > 0 ? Norm_Private(total) / magnitude : 0;
 }
 
+static PetscErrorCode Plastic_Private(Problem problem, Vec x, Balance *b)
+{
+  Mechanics       mechanics;
+  HPSpace         space;
+  Forest          forest;
+  const HPTables *v;
+  PetscReal      *u;
+
+  PetscFunctionBegin;
+  PetscCall(ProblemGetMechanics(problem, &mechanics));
+  PetscCall(ProblemGetSpace(problem, &space));
+  PetscCall(ProblemGetForest(problem, &forest));
+  PetscCall(HPSpaceGetTables(space, &v));
+  PetscCall(PetscMalloc1(v->num_nodes * v->dim, &u));
+  PetscCall(ProblemLocalDisplacement(problem, x, u));
+  PetscCall(MechanicsPlastic(mechanics, u, &b->plastic_strain, &b->plastic_work));
+  PetscCall(PetscFree(u));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &b->plastic_strain, 1, MPIU_REAL, MPI_MAX, ForestComm(forest)));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &b->plastic_work, 1, MPIU_REAL, MPI_SUM, ForestComm(forest)));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscReal Relative_Private(PetscReal from, PetscReal to)
+{
+  return from > 0 ? (to - from) / from : 0;
+}
+
+void BalanceChange(const Balance *from, const Balance *to, PetscReal change[3])
+{
+  PetscReal size = 0, difference = 0;
+
+  for (PetscInt i = 0; i < from->num_boundaries; ++i) {
+    for (PetscInt c = 0; c < 3; ++c) {
+      size += PetscSqr(from->reaction[i][c]);
+      difference += PetscSqr(to->reaction[i][c] - from->reaction[i][c]);
+    }
+  }
+  change[0] = size > 0 ? PetscSqrtReal(difference / size) : 0;
+  change[1] = Relative_Private(from->plastic_work, to->plastic_work);
+  change[2] = Relative_Private(from->plastic_strain, to->plastic_strain);
+}
+
 static PetscErrorCode Controls_Private(Problem problem, Vec x, Balance *b)
 {
   Mechanics       mechanics;
@@ -184,6 +226,7 @@ PetscErrorCode BalanceCompute(Problem problem, const State *state, Balance *b)
   Supports_Private(&scene->mechanics, t, view, b);
   PetscCall(Controls_Private(problem, state->x, b));
   PetscCall(PetscFree(view));
+  if (MechanicsIsPlastic(&scene->mechanics)) PetscCall(Plastic_Private(problem, state->x, b));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -216,6 +259,8 @@ PetscErrorCode ReportRowFill(Problem problem, const State *state, const Estimate
   row->force_imbalance   = b->force_imbalance;
   row->moment_imbalance  = b->moment_imbalance;
   row->support_imbalance = b->support_imbalance;
+  row->plastic_strain    = b->plastic_strain;
+  row->plastic_work      = b->plastic_work;
   for (PetscInt i = 0; i < b->num_contacts; ++i) {
     row->active_nodes += b->pair[i].active_nodes;
     row->contact_force += Norm_Private(b->pair[i].force[0]);

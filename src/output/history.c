@@ -1,6 +1,7 @@
 /* history.csv and adapt.csv: what happened, one row per accepted load step and per adaptive pass. */
 #include "output.h"
 
+#define PLASTIC_COLUMNS 5 /* the last of adapt.csv */
 #define COLUMN_NAME (2 * MORTISE_NAME)
 
 struct _p_History {
@@ -11,8 +12,10 @@ struct _p_History {
   PetscReal       *values; /* owned [num] */
 };
 
-static const char *const adapt_columns[] = {"step",     "pass",   "t",       "cells",   "dofs",          "newton_iterations", "active_nodes", "estimated_error",
-                                            "estimate", "energy", "min_det", "min_gap", "contact_force", "seconds",           "accepted"};
+static const char *const adapt_columns[] = {"step", "pass", "t", "cells", "dofs", "newton_iterations", "active_nodes", "estimated_error", "estimate", "energy",
+                                            "min_det", "min_gap", "contact_force", "seconds", "accepted",
+                                            /* with plastic materials */
+                                            "plastic_strain", "plastic_work", "force_change", "work_change", "strain_change"};
 static const char *const step_columns[]  = {"step",
                                             "t",
                                             "dt",
@@ -77,6 +80,10 @@ static PetscErrorCode Columns_Private(const SceneData *scene, PetscInt num_probe
   const PairFigures none = {0};
 
   PetscFunctionBegin;
+  if (MechanicsIsPlastic(&scene->mechanics)) {
+    PetscCall(Column_Private(c, balance ? balance->plastic_strain : 0, "plastic", "strain", NULL, NULL));
+    PetscCall(Column_Private(c, balance ? balance->plastic_work : 0, "plastic", "work", NULL, NULL));
+  }
   for (PetscInt b = 0; b < scene->mechanics.num_boundaries; ++b) {
     const BoundarySpec *spec = &scene->mechanics.boundaries[b];
     if (!BoundarySupports(spec)) continue;
@@ -133,7 +140,8 @@ PetscErrorCode HistoryCreate(MPI_Comm comm, const SceneData *scene, Probes probe
   h->scene  = scene;
   h->probes = probes;
   PetscCall(PetscSNPrintf(path, sizeof(path), "%s/adapt.csv", scene->output.directory));
-  PetscCall(TableCreate(comm, path, (PetscInt)PETSC_STATIC_ARRAY_LENGTH(adapt_columns), adapt_columns, &h->adapt));
+  const PetscInt columns = (PetscInt)PETSC_STATIC_ARRAY_LENGTH(adapt_columns) - (MechanicsIsPlastic(&scene->mechanics) ? 0 : PLASTIC_COLUMNS);
+  PetscCall(TableCreate(comm, path, columns, adapt_columns, &h->adapt));
   PetscCall(OpenHistory_Private(comm, h));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -166,7 +174,12 @@ PetscErrorCode HistoryPass(History h, const ReportRow *r)
                               r->min_gap,
                               r->contact_force,
                               r->seconds,
-                              r->accepted ? 1. : 0.};
+                              r->accepted ? 1. : 0.,
+                              r->plastic_strain,
+                              r->plastic_work,
+                              r->force_change,
+                              r->work_change,
+                              r->strain_change};
 
   PetscFunctionBegin;
   PetscCall(TableRow(h->adapt, values));

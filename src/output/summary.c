@@ -167,6 +167,10 @@ static cJSON *Document_Private(const SceneData *scene, const RunSummary *s, cons
   AddEstimate_Private(root, s->estimate);
   AddNumber_Private(root, "energy", s->balance ? s->balance->status.energy : nan);
   AddNumber_Private(root, "min_det", s->balance ? s->balance->status.min_det : nan);
+  if (s->balance && MechanicsIsPlastic(&scene->mechanics)) {
+    AddNumber_Private(root, "plastic_strain", s->balance->plastic_strain);
+    AddNumber_Private(root, "plastic_work", s->balance->plastic_work);
+  }
   AddForces_Private(root, scene, s->balance);
   AddProbes_Private(root, scene, g);
   AddTimes_Private(root, s->seconds, g);
