@@ -1,6 +1,7 @@
 """Finite elasto-plasticity (law j2): bars (O-30), a tube expanded and released (O-32), the necking bar (O-33), ranks, load steps that are cut."""
 import json
 import math
+import re
 
 import numpy
 import pytest
@@ -172,6 +173,14 @@ def test_newton_is_quadratic_through_yield(run, tmp_path, formulation):
     assert len(solves) == 3 and result.summary["plastic_strain"] > 0.005
     for residuals in solves:
         assert len(residuals) <= 9 and is_quadratic(residuals), residuals
+
+
+@pytest.mark.parametrize("formulation", ["displacement", "mixed"])
+def test_o94_tangent(run, formulation):
+    """PETSc's difference quotients of the residual at every iterate but those on the yield surface itself, where steps start: a kink."""
+    result = necking(run, 0.15, "-mesh_parameter_n", 2, "-material_steel_formulation", formulation, "-snes_test_jacobian")
+    ratios = [float(value) for value in re.findall(r"\|\|J - Jfd\|\|_F/\|\|J\|\|_F = (\S+?),", result.stdout)]
+    assert len(ratios) >= 9 and sum(value > 1e-6 for value in ratios) <= len(result.history) - 1, ratios
 
 
 def test_steps_that_are_cut_leave_no_trace(run, tmp_path):
