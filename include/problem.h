@@ -123,6 +123,9 @@ typedef struct {
 PetscErrorCode ProblemGetTraffic(Problem, ContactTraffic *);
 /* Set the multipliers of a pair from values[nonmortar.num_nodes] in x: each rank those of its own nodes. */
 PetscErrorCode ProblemSetMultipliers(Problem, PetscInt pair, const PetscReal z[], Vec x);
+/* The opposite: values of this rank's own nodes from x, z[nonmortar.num_nodes]; others and nodes without multiplier stay as they are. Not collective.
+   own[nonmortar.num_nodes] (NULL: not wanted): which these are. */
+PetscErrorCode ProblemGetMultipliers(Problem, PetscInt pair, Vec x, PetscReal z[], PetscBool own[]);
 /* Refresh the candidate search at x; between Newton iterations only. */
 PetscErrorCode ProblemSearch(Problem, Vec x);
 

@@ -109,7 +109,7 @@ static PetscErrorCode Reequilibrate_Private(App *app, PetscInt *iterations, Pets
   PetscCall(StateCreate(l->problem, &transferred));
   PetscCall(StateCopy(&l->state, &transferred));
   *ok = PETSC_FALSE;
-  for (size_t i = 0; i < sizeof(Shares) / sizeof(Shares[0]) && !*ok; ++i) {
+  for (size_t i = 0; i < sizeof(Shares) / sizeof(Shares[0]) && !*ok && !app->stopped; ++i) {
     SolverReport report;
     if (i > 0) PetscCall(StartBetween_Private(app, &transferred, Shares[i]));
     PetscCall(SolverSolve(l->solver, &l->state, &report));
@@ -119,7 +119,7 @@ static PetscErrorCode Reequilibrate_Private(App *app, PetscInt *iterations, Pets
   }
   PetscCall(StateDestroy(&transferred));
   l->state.t = t;
-  if (!*ok) {
+  if (!*ok && !app->stopped) {
     PetscCall(StateCopy(&l->accepted, &l->state));
     PetscCall(PrescribeAt_Private(l->problem, l->accepted.t));
     PetscCall(AppAdvance(app, t, (t - l->accepted.t) / MOST_PIECES, ok));
@@ -207,6 +207,7 @@ PetscErrorCode AppAdapt(App *app)
     if (enough) break;
     PetscCall(Pass_Private(app, &iterations, &more));
     if (more) continue;
+    if (app->stopped) break;
     app->last.accepted          = PETSC_TRUE;
     app->last.newton_iterations = iterations;
     PetscCall(MonitorRow(app->monitor, &app->last));

@@ -14,6 +14,7 @@ void AppCount(App *app, const SolverReport *report)
   app->factorisations += report->factorisations;
   app->single_failures += report->single_failures;
   if (report->converged) app->status = report->status;
+  if (report->stopped) app->stopped = PETSC_TRUE;
 }
 
 /* One attempt from the accepted state of this mesh to time t. */
@@ -59,17 +60,18 @@ PetscErrorCode AppAdvance(App *app, PetscReal t, PetscReal smallest, PetscBool *
     ++app->step_cuts;
     ++app->cuts_in_step;
     PetscCall(PetscInfo(NULL, "step to t = %g cut: %s\n", (double)next, report.reason));
-    *ok = (PetscBool)(dt >= smallest);
+    *ok = (PetscBool)(dt >= smallest && !app->stopped);
   }
   PetscCall(StateDestroy(&start));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* One accepted load step of at most dt: the first piece that converges, then adaptation at its time. */
-static PetscErrorCode LoadStep_Private(App *app, PetscReal *dt, PetscBool *ok)
+/* One accepted load step of at most app->dt: the first piece that converges, then adaptation at its time. */
+static PetscErrorCode LoadStep_Private(App *app, PetscBool *ok)
 {
   Level          *l   = &app->level;
   const PetscReal end = app->data->load.end, t0 = l->accepted.t;
+  PetscReal      *dt = &app->dt;
   SolverReport    report;
 
   PetscFunctionBegin;
@@ -81,6 +83,7 @@ static PetscErrorCode LoadStep_Private(App *app, PetscReal *dt, PetscBool *ok)
     *ok = report.converged;
     if (*ok) break;
     PetscCall(Restore_Private(app, &l->accepted));
+    if (app->stopped) PetscFunctionReturn(PETSC_SUCCESS);
     *dt *= 0.5;
     ++app->step_cuts;
     ++app->cuts_in_step;
@@ -90,13 +93,15 @@ static PetscErrorCode LoadStep_Private(App *app, PetscReal *dt, PetscBool *ok)
   }
   const PetscBool easy = (PetscBool)(report.iterations <= EASY_ITERATIONS && app->cuts_in_step == 0);
   PetscCall(AppAdapt(app));
+  *ok = (PetscBool)!app->stopped;
   if (easy) *dt = PetscMin(GROWTH * *dt, app->data->load.step_max);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 static PetscErrorCode Accept_Private(App *app, PetscReal t0)
 {
-  Level *l = &app->level;
+  const PetscInt every = app->data->output.checkpoint;
+  Level         *l     = &app->level;
 
   PetscFunctionBegin;
   PetscCall(StateCopy(&l->state, &l->accepted));
@@ -106,24 +111,31 @@ static PetscErrorCode Accept_Private(App *app, PetscReal t0)
   app->last.newton_iterations = app->iterations_in_step;
   app->last.step_cuts         = app->cuts_in_step;
   PetscCall(HistoryStep(app->history, &app->last, &app->balance, l->problem, &l->state));
+  PetscCall(AppSnapshot(app));
+  if (every > 0 && app->load_steps % every == 0) PetscCall(AppCheckpoint(app));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode AppRun(App *app)
 {
   const LoadSpec *load = &app->data->load;
-  PetscReal       dt   = load->step;
   PetscBool       ok   = PETSC_TRUE;
 
   PetscFunctionBegin;
   while (ok && app->level.accepted.t < load->end) {
     const PetscReal t0 = app->level.accepted.t;
+    PetscCall(StopAsked(app->comm, &app->stopped));
+    if (app->stopped) break;
     if (app->load_steps == load->max_steps) {
       app->failure = "load.max_steps was reached before load.end";
       break;
     }
-    PetscCall(LoadStep_Private(app, &dt, &ok));
+    PetscCall(LoadStep_Private(app, &ok));
     if (ok) PetscCall(Accept_Private(app, t0));
   }
+  if (app->stopped)
+    PetscCall(AppStop(app));
+  else if (app->data->output.checkpoint > 0 && app->load_steps > 0)
+    PetscCall(AppCheckpoint(app));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
