@@ -47,7 +47,7 @@ struct _p_Checkpoint {
   Pack              pack;
 };
 #define CHECKPOINT_SEAL 512 /* bytes */
-/* Put the seal on a finished HDF5 file, force it to the disk, rename it to path and force that to the disk. One rank's; returns errno. (output/seal.c) */
+/* Put the seal on a finished HDF5 file, force it to the disk, rename it to path. One rank's; returns errno. (output/seal.c) */
 int CheckpointSeal(const char *temporary, const char *path);
 /* Is the file whole and ours? An input error when not. Collective. */
 PetscErrorCode CheckpointVerify(MPI_Comm, const char *path);

@@ -2,8 +2,6 @@
    holds: it is not made to read damaged ones. */
 #include "outputimpl.h"
 #include <errno.h>
-#include <fcntl.h>
-#include <libgen.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -27,16 +25,6 @@ static int Hash_Private(FILE *file, uint64_t *hash)
   return ferror(file) ? EIO : 0;
 }
 
-/* Force a file or directory to the disk; errno. */
-static int Sync_Private(const char *path)
-{
-  const int file   = open(path, O_RDONLY);
-  int       failed = file < 0 || fsync(file) ? errno : 0;
-
-  if (file >= 0) close(file);
-  return failed;
-}
-
 static int Write_Private(const char *path)
 {
   FILE       *file = fopen(path, "r+");
@@ -56,16 +44,12 @@ static int Write_Private(const char *path)
   return failed;
 }
 
+/* The file is on the disk before it gets its name; whether the name is matters less: until then the earlier file has it. */
 int CheckpointSeal(const char *temporary, const char *path)
 {
-  char directory[PETSC_MAX_PATH_LEN];
-  int  failed = Write_Private(temporary);
+  const int failed = Write_Private(temporary);
 
-  if (!failed && rename(temporary, path)) failed = errno;
-  if (failed) return failed;
-  snprintf(directory, sizeof(directory), "%s", path);
-  failed = Sync_Private(dirname(directory));
-  return failed == EINVAL ? 0 : failed; /* some file systems cannot do this to directories */
+  return failed ? failed : rename(temporary, path) ? errno : 0;
 }
 
 enum { SEAL_HOLDS, SEAL_UNREADABLE, SEAL_FOREIGN, SEAL_FORMAT, SEAL_SHORT, SEAL_BROKEN };
