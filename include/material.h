@@ -12,15 +12,37 @@ typedef enum { FORMULATION_AUTO, FORMULATION_DISPLACEMENT, FORMULATION_MIXED } F
 extern const char *const VolumetricNames[];                                                 /* PETSc enum name arrays */
 extern const char *const FormulationNames[];
 
-#define MATERIAL_MAX_PARAMETERS 8
+#define MATERIAL_MAX_PARAMETERS 12
+#define MATERIAL_MAX_HISTORY 7
+#define MATERIAL_MAX_FIBERS 4
 
 typedef struct _MaterialLaw MaterialLaw; /* a row of the table of laws */
+
+/* A family of parallel fibres. */
+typedef struct {
+  char      name[MORTISE_NAME];
+  PetscReal k1, k2;       /* 0 before set-up: those of the law */
+  PetscBool straight;     /* the same direction everywhere; else an angle in the frame */
+  PetscReal direction[3]; /* straight: in the reference configuration; of length 1 after set-up */
+  PetscReal angle;        /* degrees, from the circumferential direction of the frame towards its axis */
+} MaterialFiber;
+
+/* The axis around which circumferential directions turn: parallel to a coordinate axis, through a point. The circumferential direction at X is
+   axis x (X - point), made a unit vector; on the axis itself, where none is singled out, it is the next coordinate direction but one. */
+typedef struct {
+  int       axis;
+  PetscReal point[3];
+  PetscBool meridian; /* axisymmetric model: the circumferential direction is the third one everywhere, the axis is y */
+} MaterialFrame;
 
 typedef struct {
   char               name[MORTISE_NAME];                 /* the user's name of the material */
   const MaterialLaw *law;                                /* row of the table, never NULL after set-up */
   PetscReal          mu, lambda, kappa;                  /* derived from whichever pair was given; shear modulus, Lame's first, bulk modulus */
   PetscReal          parameter[MATERIAL_MAX_PARAMETERS]; /* law's own (mooney_rivlin: c1, c2, kappa) */
+  PetscInt           num_fibers;
+  MaterialFiber      fiber[MATERIAL_MAX_FIBERS];
+  MaterialFrame      frame;
   Volumetric         volumetric;
   Formulation        formulation;
   PetscBool          mixed; /* resolved by MaterialSetUp: pressure is an independent field, condensed in the cell */
@@ -32,21 +54,40 @@ typedef struct {
   PetscReal   min, max; /* admissible open interval */
 } MaterialParameter;
 
-/* Pointwise response at n points, structure of arrays with stride n: F[9][n] -> W[n], P[9][n], A[81][n] (A[9*a+b] = dP_a/dF_b, symmetric).
-   With `part` ISOCHORIC, the volumetric energy kappa/2 g(J)^2 is left out (mixed formulation adds it through its projection);
-   outputs that are NULL are skipped. Points with det F <= 0 set *bad to PETSC_TRUE (numerical status, no error). */
+/* Points at which a law is asked, structure of arrays with stride n. Outputs that are NULL are skipped. */
+typedef struct {
+  PetscInt         n;
+  const PetscReal *F;     /* [9][n] */
+  const PetscReal *fiber; /* [num_fibers][3][n] unit vectors in the reference configuration; NULL for laws without fibres */
+  PetscReal       *W;     /* [n] energy density */
+  PetscReal       *P;     /* [9][n] */
+  PetscReal       *A;     /* [81][n]: A[9*a+b] = dP_a/dF_b, symmetric unless the law says otherwise */
+  /* Laws with history: what the last accepted step left at the points, [num_history][n], and what a step that ended at F would leave. All answers are
+     functions of F and history alone. */
+  const PetscReal *history;
+  PetscReal       *trial;
+  PetscBool bad; /* out: set at points with det F <= 0, or where the law has no answer (the energy exceeds all numbers, the yield stress is used up) (numerical
+                    status, no error); never reset */
+} MaterialPoints;
+
+/* With `part` ISOCHORIC, the volumetric energy kappa/2 g(J)^2 is left out (mixed formulation adds it through its projection). */
 typedef enum { MATERIAL_FULL, MATERIAL_ISOCHORIC } MaterialPart;
-typedef PetscErrorCode (*MaterialKernel)(const MaterialSpec *, MaterialPart part, PetscInt n, const PetscReal *F, PetscReal *W, PetscReal *P, PetscReal *A,
-                                         PetscBool *bad);
+typedef PetscErrorCode (*MaterialKernel)(const MaterialSpec *, MaterialPart part, MaterialPoints *);
 
 struct _MaterialLaw {
   const char              *name, *help;
-  const MaterialParameter *parameters; /* ended by name NULL */
-  PetscBool                small;      /* linear law of small kinematics */
-  PetscBool                rigid;      /* cells are not assembled */
-  PetscBool                whole;      /* energy does not split into shear and volume: no volumetric law, displacement formulation alone */
+  const MaterialParameter *parameters;  /* ended by name NULL */
+  PetscBool                small;       /* linear law of small kinematics */
+  PetscBool                rigid;       /* cells are not assembled */
+  PetscBool                fibers;      /* needs families of fibres */
+  PetscBool                whole;       /* energy does not split into shear and volume: no volumetric law, displacement formulation alone */
+  PetscBool                unsymmetric; /* A is not symmetric: the linear solver must be one for unsymmetric matrices */
+  PetscInt                 num_history; /* numbers it remembers at each integration point, <= MATERIAL_MAX_HISTORY; P is then no derivative of W */
   PetscErrorCode (*setup)(MaterialSpec *);
-  MaterialKernel evaluate; /* NULL for rigid */
+  MaterialKernel evaluate;                                    /* NULL for rigid */
+  void (*initial)(const MaterialSpec *, PetscReal history[]); /* before the first step, [num_history]; NULL without history */
+  /* Plastic strain alpha and plastic work per reference volume that a history tells of; NULL for laws without plastic flow. */
+  void (*plastic)(const MaterialSpec *, const PetscReal history[], PetscReal *strain, PetscReal *work);
 };
 
 /* The table of laws, ended by name NULL; and look-up by name (NULL when unknown). */
@@ -58,7 +99,10 @@ const MaterialLaw       *MaterialLawFind(const char *name);
    parameters with the nearest known one, resolves `mixed`. Messages start with "material.<name>.<parameter>". */
 PetscErrorCode MaterialSetUp(MaterialSpec *, PetscInt num, const char *const names[], const PetscReal values[]);
 
-PetscErrorCode MaterialEvaluate(const MaterialSpec *, MaterialPart, PetscInt n, const PetscReal *F, PetscReal *W, PetscReal *P, PetscReal *A, PetscBool *bad);
+/* Unit vectors of all families at the reference position X; none for laws without fibres. Not collective. */
+void MaterialFiberDirections(const MaterialSpec *, const PetscReal X[3], PetscReal fiber[][3]);
+
+PetscErrorCode MaterialEvaluate(const MaterialSpec *, MaterialPart, MaterialPoints *);
 
 /* Volumetric measure g(J) with U(J) = kappa/2 g(J)^2 and its first two derivatives: J-1 (quadratic), ln J (log: with lambda for kappa),
    sign(J-1) sqrt((J^2-1)/2 - ln J) (simo; series near 1). The independent pressure field is pi = modulus * Proj g; Cauchy pressure -pi g'(J) . */

@@ -107,6 +107,21 @@ PetscErrorCode MechanicsNumPressure(Mechanics, PetscInt *num);
 /* pressure += step * (linearised pressure at the last tangent + its derivative . du - pressure), du local array. */
 PetscErrorCode MechanicsUpdatePressure(Mechanics, const PetscReal du[], PetscReal step, PetscReal pressure[]);
 
+/* History of laws that have one: num numbers on this rank, cell after cell, [point][component] in each. Residual and tangent are functions of u and of the
+   history last set, which is that of the last accepted step; at first that of the virgin material. */
+PetscErrorCode MechanicsNumHistory(Mechanics, PetscInt *num);
+PetscErrorCode MechanicsInitialHistory(Mechanics, PetscReal history[]);
+/* Take a copy of history[num]. Collective: ghosts get theirs. */
+PetscErrorCode MechanicsSetHistory(Mechanics, const PetscReal history[]);
+/* history[num] = what a step from the history last set to u leaves; *bad as in MechanicsStatus. Not collective. */
+PetscErrorCode MechanicsCommit(Mechanics, const PetscReal u[], PetscReal history[], PetscBool *bad);
+/* Where an owned cell's numbers lie in the array; num 0: no history, rigid, or a ghost. */
+PetscErrorCode MechanicsHistoryRange(Mechanics, PetscInt cell, PetscInt *first, PetscInt *num);
+/* Plastic flow up to u on this rank: largest plastic strain at an integration point, plastic work (axisymmetric: of the full revolution). Not collective. */
+PetscErrorCode MechanicsPlastic(Mechanics, const PetscReal u[], PetscReal *strain, PetscReal *work);
+/* Plastic strain at np reference points of an owned cell, by polynomials through the integration points; 0 for laws without. Not collective. */
+PetscErrorCode MechanicsPlasticStrain(Mechanics, PetscInt cell, PetscInt np, const PetscReal xi[], const PetscReal u[], PetscReal strain[]);
+
 /* Sum of residual entries r (local array, as returned by MechanicsResidual plus contact) over what each boundary prescribes: force of the support on the body,
    Cartesian; reaction[num_boundaries][3], this rank's part. */
 PetscErrorCode MechanicsReactions(Mechanics, const PetscReal r[], PetscReal reaction[][3]);

@@ -13,16 +13,21 @@ typedef struct {
   Vec        x; /* owned: global (u, z) of the problem it belongs to */
   PetscInt   num_pressure;
   PetscReal *pressure; /* owned [num_pressure] element pressures of this rank */
-  PetscReal  t;        /* pseudo-time of this state */
+  PetscInt   num_history;
+  PetscReal *history; /* owned [num_history] what the laws of this rank's cells remember from the last accepted step (MechanicsHistoryRange) */
+  PetscReal  t;       /* pseudo-time of this state */
   PetscInt   num_leaves;
   int8_t    *leaf_order; /* owned [num_leaves], replicated */
 } State;
 
 PetscErrorCode StateCreate(Problem, State *);
 PetscErrorCode StateCopy(const State *from, State *to); /* same problem */
-/* to = (1 - share) a + share b, at the time of a; all of the same problem. */
+/* to = (1 - share) a + share b, at the time and with the history of a; all of the same problem. */
 PetscErrorCode StateBlend(const State *a, const State *b, PetscReal share, State *to);
 PetscErrorCode StateDestroy(State *);
+/* The step that led to s->x is accepted: the history becomes what it left. Stress and forces at s->x stay the same. The problem's prescribed motion must be
+   that of the state. Collective. */
+PetscErrorCode StateCommit(Problem, State *);
 
 /* Initial cell orders of a scene on a forest, [num_leaves], to be freed by the caller. */
 PetscErrorCode ProblemInitialOrders(const SceneData *, Forest, int8_t **leaf_order);
@@ -40,6 +45,9 @@ PetscErrorCode ProblemGetSpace(Problem, HPSpace *);
 PetscErrorCode ProblemGetMechanics(Problem, Mechanics *);
 PetscErrorCode ProblemCreateVector(Problem, Vec *);
 PetscErrorCode ProblemGetMatrix(Problem, Mat *);
+
+/* The history that residual and tangent start from, of a state of this problem; a copy is taken. Whoever is given a state sets it. Collective. */
+PetscErrorCode ProblemSetHistory(Problem, const PetscReal history[]);
 
 /* Prescribed motion: SetTime fixes the target; Jump applies it at once (no lift); otherwise the part not yet applied enters the next linear solve. */
 PetscErrorCode ProblemSetTime(Problem, PetscReal t);
@@ -139,7 +147,7 @@ typedef struct {
   PetscBool bad;     /* outside the domain: det F <= 0 or a failed projection */
 } ProblemStatus;
 
-/* R(x) with the prescribed motion as applied. Deterministic function of x. Collective; status is the same on every rank. */
+/* R(x) with the prescribed motion as applied and the history last set. Deterministic function of x. Collective; status is the same on every rank. */
 PetscErrorCode ProblemResidual(Problem, Vec x, Vec r, ProblemStatus *);
 /* Static condensation, chosen once, before the matrix is made: the matrix and its right-hand side leave out the unknowns of nodes inside cells; vectors of
    the problem keep them. Collective. */
@@ -153,7 +161,7 @@ PetscErrorCode ProblemRecover(Problem, Vec y, Vec dx);
    out. Assembles the problem's matrix. */
 PetscErrorCode ProblemTangent(Problem, Vec x, const PetscReal pressure[], Vec lift, PetscBool *bad);
 /* Symmetric form of the tangent: same solution, symmetric matrix, right-hand side by ProblemRightSide; its multiplier columns are exact to second order.
-   Only for problems whose bulk tangent is symmetric (ProblemIsSymmetric): no follower pressures. Default: exact form. */
+   Only for problems whose bulk tangent is symmetric (ProblemIsSymmetric): no follower pressures, no plastic flow. Default: exact form. */
 PetscErrorCode ProblemSetSymmetric(Problem, PetscBool symmetric);
 PetscErrorCode ProblemIsSymmetric(Problem, PetscBool *possible);
 /* rhs = -(r + lift), condensed like the last tangent, multiplier rows in its form; r of the problem, lift and rhs of the matrix. */

@@ -11,7 +11,7 @@ typedef struct {
   Forest  forest;
   Problem problem;
   Solver  solver;
-  State   state;    /* being computed */
+  State   state;    /* being computed; its history is that of the start of the step (or of the last piece of it) */
   State   accepted; /* at the end of the last accepted load step */
 } Level;
 
@@ -51,7 +51,8 @@ PetscErrorCode AppRun(App *);
 PetscErrorCode AppAdapt(App *);
 /* Count what a solve took. */
 void AppCount(App *, const SolverReport *);
-/* Bring level.state from its time to t on the current mesh, in as many pieces as it takes; *ok false when even one of length `smallest` failed. */
+/* Bring level.state from its time to t on the current mesh, in as many pieces as it takes, all but the last committed; *ok false when even one of length
+ * `smallest` failed. */
 PetscErrorCode AppAdvance(App *, PetscReal t, PetscReal smallest, PetscBool *ok);
 PetscErrorCode AppEstimate(App *);
 /* coupling.c: pairs of leaves that face each other in contact, each once, the same on every rank (one rank: none); freed by the caller. Collective. */

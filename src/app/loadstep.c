@@ -46,15 +46,19 @@ PetscErrorCode AppAdvance(App *app, PetscReal t, PetscReal smallest, PetscBool *
   PetscReal    dt = t - l->state.t;
   State        start;
   SolverReport report;
+  PetscBool    arrived = PETSC_FALSE; /* at the end of a piece */
 
   PetscFunctionBegin;
   *ok = PETSC_TRUE;
   PetscCall(StateCreate(l->problem, &start));
   while (*ok && l->state.t < t - ROUND_OFF * app->data->load.end) {
     const PetscReal next = PetscMin(t, l->state.t + dt);
+    if (arrived) PetscCall(StateCommit(l->problem, &l->state)); /* the last piece stays open, as a whole step does until it is accepted */
+    arrived = PETSC_FALSE;
     PetscCall(StateCopy(&l->state, &start));
     PetscCall(Attempt_Private(app, next, &report));
-    if (report.converged) continue;
+    arrived = report.converged;
+    if (arrived) continue;
     PetscCall(Restore_Private(app, &start));
     dt *= 0.5;
     ++app->step_cuts;
@@ -104,6 +108,7 @@ static PetscErrorCode Accept_Private(App *app, PetscReal t0)
   Level         *l     = &app->level;
 
   PetscFunctionBegin;
+  PetscCall(StateCommit(l->problem, &l->state));
   PetscCall(StateCopy(&l->state, &l->accepted));
   ++app->load_steps;
   app->last.dt                = l->state.t - t0;

@@ -87,7 +87,7 @@ struct _p_ContactPair {
   PetscBool                 axisymmetric, node_to_segment, standard, continuous;
   PetscBool                 rays;           /* the last search was for rays along a continuous direction */
   PetscInt                  num_degenerate; /* overlaps of the last evaluation that could not be used */
-  FacetWork                 facet;          /* three dimensions: work space, else NULL */
+  FacetWork                 facet;          /* three dimensions without a continuous direction: work space, NULL until needed */
   struct ContactMultiplier *multiplier;     /* functions of facets of higher order, else NULL */
   RayWork                   ray;            /* rays along a continuous direction: work space, NULL until needed */
   /* topology of the nonmortar side, from the last search: neighbours of a node along the surface, -1: none */

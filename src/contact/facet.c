@@ -2,29 +2,18 @@
  */
 #include "facetimpl.h"
 
-PetscErrorCode ContactFacetWorkCreate(FacetWork *w)
-{
-  PetscFunctionBegin;
-  PetscCall(PetscNew(w));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 PetscErrorCode ContactFacetWorkDestroy(FacetWork *work)
 {
   FacetWork w = *work;
 
   PetscFunctionBegin;
   if (!w) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(ContactStoreDestroy(&w->store));
+  PetscCall(ContactResultDestroy(&w->result));
   PetscCall(PetscFree(w->overlap));
   PetscCall(PetscFree(w->mortar));
   PetscCall(PetscFree(w->corner));
   PetscCall(PetscFree(w->vertex));
   PetscCall(PetscFree(w->X));
-  PetscCall(PetscFree(w->row_first));
-  PetscCall(PetscFree(w->row_node));
-  PetscCall(PetscFree(w->row_weight));
-  PetscCall(PetscFree(w->node));
   PetscCall(PetscFree(w->dq));
   PetscCall(PetscFree(w->W));
   PetscCall(PetscFree(w->row));
@@ -35,6 +24,7 @@ PetscErrorCode ContactFacetWorkDestroy(FacetWork *work)
 PetscErrorCode ContactFacetTopology(ContactPair pair, const ContactSurface *s)
 {
   PetscFunctionBegin;
+  if (!pair->facet) PetscCall(PetscNew(&pair->facet));
   PetscCall(PetscFree(pair->normal));
   pair->num_nodes  = s->num_nodes;
   pair->num_facets = s->num_facets;
@@ -235,44 +225,18 @@ static PetscErrorCode HalfHessian_Private(FacetWork w, const FacetWeights *f, co
 
 /* ---- results for the nodes that do not hang ------------------------------------------------------------------------------------------ */
 
-static PetscErrorCode AddMaster_Private(FacetWork w, PetscInt first, PetscInt id, PetscReal weight, PetscInt *num)
-{
-  PetscInt k = first;
-
-  PetscFunctionBegin;
-  while (k < w->num_nodes && w->node[k] != id) k++;
-  if (k == w->num_nodes) {
-    PetscCall(ContactGrow(w->num_nodes + 1, sizeof(PetscInt), &w->size_node, &w->node));
-    w->node[w->num_nodes++] = id;
-  }
-  PetscCall(ContactGrow(*num + 1, sizeof(PetscInt), &w->size_row_node, &w->row_node));
-  PetscCall(ContactGrow(*num + 1, sizeof(PetscReal), &w->size_row_weight, &w->row_weight));
-  w->row_node[*num]       = k;
-  w->row_weight[(*num)++] = weight;
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 /* Masters of every vertex: rows of (place among the result's nodes, weight). */
 static PetscErrorCode Masters_Private(FacetWork w, const ContactSurface *nonmortar, const ContactSurface *mortar)
 {
   PetscInt num = 0;
 
   PetscFunctionBegin;
-  w->num_nodes = w->num_rows = 0;
-  PetscCall(ContactGrow(w->num_vertices + 1, sizeof(PetscInt), &w->size_row_first, &w->row_first));
+  w->result.num_nodes = w->result.num_rows = 0;
+  PetscCall(ContactGrow(w->num_vertices + 1, sizeof(PetscInt), &w->result.size_row_first, &w->result.row_first));
   for (PetscInt v = 0; v < w->num_vertices; v++) {
-    const ContactSurface *s    = v < 4 ? nonmortar : mortar;
-    const PetscInt        node = w->vertex[v], first = v < 4 ? 0 : w->num_rows;
-
-    w->row_first[v] = num;
-    if (!s->hang || s->hang[node] == s->hang[node + 1])
-      PetscCall(AddMaster_Private(w, first, v < 4 ? node : ~node, 1, &num));
-    else
-      for (PetscInt k = s->hang[node]; k < s->hang[node + 1]; k++)
-        PetscCall(AddMaster_Private(w, first, v < 4 ? s->hang_master[k] : ~s->hang_master[k], s->hang_weight[k], &num));
-    if (v == 3) w->num_rows = w->num_nodes;
+    PetscCall(ContactResultRow(&w->result, v < 4 ? nonmortar : mortar, w->vertex[v], (PetscBool)(v >= 4), v, &num));
+    if (v == 3) w->result.num_rows = w->result.num_nodes;
   }
-  w->row_first[w->num_vertices] = num;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -283,38 +247,38 @@ static void Carry_Private(const FacetWork w, const PetscReal row[], PetscReal to
     for (int c = 0; c < 3; c++) {
       const PetscReal value = w->frame.E[0][c] * row[3 * v] + w->frame.E[1][c] * row[3 * v + 1] + w->frame.E[2][c] * row[3 * v + 2];
 
-      for (PetscInt k = w->row_first[v]; k < w->row_first[v + 1]; k++) to[3 * w->row_node[k] + c] += w->row_weight[k] * value;
+      for (PetscInt k = w->result.row_first[v]; k < w->result.row_first[v + 1]; k++) to[3 * w->result.row_node[k] + c] += w->result.row_weight[k] * value;
     }
 }
 
 /* Gradient of number j's gt (or w): to the rows of its masters. */
 static void Distribute_Private(FacetWork w, int j, const PetscReal factor[FACET_MOMENTS], PetscReal out[])
 {
-  const PetscInt n = 3 * w->num_vertices, nn = 3 * w->num_nodes;
+  const PetscInt n = 3 * w->num_vertices, nn = 3 * w->result.num_nodes;
   PetscReal     *row = w->row, *carried = w->row + n;
 
   Combine_Private(w, factor, row);
   ContactTiltGradient(&w->frame, n, w->X, row);
   for (PetscInt i = 0; i < nn; i++) carried[i] = 0;
   Carry_Private(w, row, carried);
-  for (PetscInt k = w->row_first[j]; k < w->row_first[j + 1]; k++)
-    for (PetscInt i = 0; i < nn; i++) out[w->row_node[k] * nn + i] += w->row_weight[k] * carried[i];
+  for (PetscInt k = w->result.row_first[j]; k < w->result.row_first[j + 1]; k++)
+    for (PetscInt i = 0; i < nn; i++) out[w->result.row_node[k] * nn + i] += w->result.row_weight[k] * carried[i];
 }
 
 /* H[3 * num_nodes][..] += P^T E^T (W + W^T) E P, rows first, then columns; half[3 * num_nodes][n] is work. */
 static void CarryHessian_Private(const FacetWork w, PetscReal half[], PetscReal H[])
 {
-  const PetscInt n = 3 * w->num_vertices, nn = 3 * w->num_nodes;
+  const PetscInt n = 3 * w->num_vertices, nn = 3 * w->result.num_nodes;
 
   for (PetscInt i = 0; i < n; i++)
     for (PetscInt j = 0; j <= i; j++) w->W[i * n + j] = w->W[j * n + i] = w->W[i * n + j] + w->W[j * n + i];
   for (PetscInt v = 0; v < w->num_vertices; v++)
-    for (PetscInt k = w->row_first[v]; k < w->row_first[v + 1]; k++)
+    for (PetscInt k = w->result.row_first[v]; k < w->result.row_first[v + 1]; k++)
       for (int c = 0; c < 3; c++) {
-        PetscReal *to = half + (3 * w->row_node[k] + c) * n;
+        PetscReal *to = half + (3 * w->result.row_node[k] + c) * n;
 
         for (int i = 0; i < 3; i++) {
-          const PetscReal factor = w->row_weight[k] * w->frame.E[i][c], *from = w->W + (3 * v + i) * n;
+          const PetscReal factor = w->result.row_weight[k] * w->frame.E[i][c], *from = w->W + (3 * v + i) * n;
 
           for (PetscInt j = 0; j < n; j++) to[j] += factor * from[j];
         }
@@ -325,16 +289,16 @@ static void CarryHessian_Private(const FacetWork w, PetscReal half[], PetscReal 
 /* Weighted gaps, weights and what derivatives are asked for. */
 static PetscErrorCode Result_Private(FacetWork w, const FacetWeights *f, const PetscReal z[4], PetscBool derivatives, PetscBool hessian, ContactFacet *out)
 {
-  const PetscInt n = 3 * w->num_vertices, nn = 3 * w->num_nodes, nr = w->num_rows;
+  const PetscInt n = 3 * w->num_vertices, nn = 3 * w->result.num_nodes, nr = w->result.num_rows;
   PetscReal      factor[FACET_MOMENTS], *gap, *weight, *dgap, *dweight, *half;
 
   PetscFunctionBegin;
-  PetscCall(ContactStoreReserve(&w->store, 2 * nr, &gap));
+  PetscCall(ContactStoreReserve(&w->result.store, 2 * nr, &gap));
   weight = gap + nr;
   for (int j = 0; j < 4; j++)
-    for (PetscInt k = w->row_first[j]; k < w->row_first[j + 1]; k++) {
-      gap[w->row_node[k]] += w->row_weight[k] * f->gap[j];
-      weight[w->row_node[k]] += w->row_weight[k] * f->weight[j];
+    for (PetscInt k = w->result.row_first[j]; k < w->result.row_first[j + 1]; k++) {
+      gap[w->result.row_node[k]] += w->result.row_weight[k] * f->gap[j];
+      weight[w->result.row_node[k]] += w->result.row_weight[k] * f->weight[j];
     }
   out->gap     = gap;
   out->weight  = weight;
@@ -343,7 +307,7 @@ static PetscErrorCode Result_Private(FacetWork w, const FacetWeights *f, const P
   out->dgap = out->dweight = out->hessian = out->reach = NULL;
   if (!derivatives) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(ContactGrow(3 * n + nn, sizeof(PetscReal), &w->size_row, &w->row));
-  PetscCall(ContactStoreReserve(&w->store, 2 * nr * nn, &dgap));
+  PetscCall(ContactStoreReserve(&w->result.store, 2 * nr * nn, &dgap));
   dweight = dgap + nr * nn;
   for (int j = 0; j < 4; j++) {
     Distribute_Private(w, j, f->dgap[j], dgap);
@@ -354,10 +318,10 @@ static PetscErrorCode Result_Private(FacetWork w, const FacetWeights *f, const P
   out->dweight = dweight;
   if (!hessian) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(HalfHessian_Private(w, f, z));
-  PetscCall(ContactStoreReserve(&w->store, nn * nn, (PetscReal **)&out->hessian));
-  PetscCall(ContactStoreReserve(&w->store, nn * n, &half));
+  PetscCall(ContactStoreReserve(&w->result.store, nn * nn, (PetscReal **)&out->hessian));
+  PetscCall(ContactStoreReserve(&w->result.store, nn * n, &half));
   CarryHessian_Private(w, half, (PetscReal *)out->hessian);
-  w->store.used -= nn * n; /* only work */
+  w->result.store.used -= nn * n; /* only work */
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -365,14 +329,11 @@ static PetscErrorCode Result_Private(FacetWork w, const FacetWeights *f, const P
 static PetscErrorCode Segments_Private(ContactPair pair, PetscInt slot, const FacetWork w)
 {
   PetscFunctionBegin;
-  PetscCall(ContactGrow(pair->num_segments + w->num_overlaps, sizeof(ContactSegment), &pair->size_segments, &pair->output));
   for (PetscInt k = 0; k < w->num_overlaps; k++) {
     const Overlap  *o = &w->overlap[k];
-    ContactSegment *s = &pair->output[pair->num_segments++];
+    ContactSegment *s;
 
-    s->facet        = pair->listed[slot];
-    s->mortar_facet = w->mortar[k];
-    s->num          = o->num;
+    PetscCall(ContactResultSegment(pair, pair->listed[slot], w->mortar[k], o->num, &s));
     for (PetscInt v = 0; v < o->num; v++) {
       PlanePoint p[2];
 
@@ -389,58 +350,39 @@ static void LocalMultipliers_Private(const EvaluateContext *ctx, const FacetWork
 {
   for (int j = 0; j < 4; j++) {
     z[j] = 0;
-    for (PetscInt k = w->row_first[j]; ctx->z && k < w->row_first[j + 1]; k++) z[j] += w->row_weight[k] * ctx->z[w->node[w->row_node[k]]];
+    for (PetscInt k = w->result.row_first[j]; ctx->z && k < w->result.row_first[j + 1]; k++)
+      z[j] += w->result.row_weight[k] * ctx->z[w->result.node[w->result.row_node[k]]];
   }
 }
 
-static PetscBool Wanted_Private(const EvaluateContext *ctx, const FacetWork w)
+/* One listed facet; *use stays false when nothing covers it. */
+static PetscErrorCode Facet_Private(const EvaluateContext *ctx, PetscInt slot, ContactFacet *out, PetscBool *use, PetscBool *failed)
 {
-  if (!ctx->wanted) return PETSC_TRUE;
-  for (PetscInt j = 0; j < w->num_rows; j++)
-    if (ctx->wanted[w->node[j]]) return PETSC_TRUE;
-  return PETSC_FALSE;
+  ContactPair  pair = ctx->pair;
+  FacetWork    w    = pair->facet;
+  FacetWeights f;
+  PetscReal    z[4];
+  PetscBool    loaded, derivatives;
+
+  PetscFunctionBegin;
+  PetscCall(Gather_Private(pair, ctx->nonmortar, ctx->mortar, slot, w, failed));
+  if (*failed || w->num_overlaps == 0) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(Masters_Private(w, ctx->nonmortar, ctx->mortar));
+  LocalMultipliers_Private(ctx, w, z);
+  loaded      = (PetscBool)(z[0] != 0 || z[1] != 0 || z[2] != 0 || z[3] != 0);
+  derivatives = ContactResultDerivatives(ctx, &w->result, loaded);
+  PetscCall(Moments_Private(pair, w, derivatives));
+  if (w->num_overlaps == 0 || !ContactFacetWeights(pair->standard, w->moments.q, z, &f)) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(Segments_Private(pair, slot, w));
+  PetscCall(Result_Private(w, &f, z, derivatives, (PetscBool)(ctx->hessian && loaded), out));
+  *use = PETSC_TRUE;
+  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode ContactFacetsEvaluate(const EvaluateContext *ctx, PetscBool *failed)
 {
-  ContactPair pair = ctx->pair;
-  FacetWork   w    = pair->facet;
-
   PetscFunctionBegin;
-  Normals_Private(pair, ctx->nonmortar);
-  pair->num_degenerate = pair->num_ids = 0;
-  w->store.at = w->store.used = 0;
-  for (PetscInt slot = 0; slot < pair->num_listed; slot++) {
-    ContactFacet *out = &pair->result[pair->num_results];
-    FacetWeights  f;
-    PetscReal     z[4];
-    PetscBool     loaded, derivatives;
-
-    PetscCall(Gather_Private(pair, ctx->nonmortar, ctx->mortar, slot, w, failed));
-    if (*failed) PetscFunctionReturn(PETSC_SUCCESS);
-    if (w->num_overlaps == 0) continue;
-    PetscCall(Masters_Private(w, ctx->nonmortar, ctx->mortar));
-    LocalMultipliers_Private(ctx, w, z);
-    loaded      = (PetscBool)(z[0] != 0 || z[1] != 0 || z[2] != 0 || z[3] != 0);
-    derivatives = (PetscBool)(ctx->derivatives && (loaded || ((ctx->hessian || !ctx->z) && Wanted_Private(ctx, w))));
-    PetscCall(Moments_Private(pair, w, derivatives));
-    if (w->num_overlaps == 0 || !ContactFacetWeights(pair->standard, w->moments.q, z, &f)) continue;
-    PetscCall(Segments_Private(pair, slot, w));
-    PetscCall(Result_Private(w, &f, z, derivatives, (PetscBool)(ctx->hessian && loaded), out));
-    PetscCall(ContactGrow(pair->num_ids + w->num_nodes, sizeof(PetscInt), &pair->size_ids, &pair->ids));
-    PetscCall(PetscArraycpy(pair->ids + pair->num_ids, w->node, w->num_nodes));
-    pair->num_ids += w->num_nodes;
-    out->facet    = pair->listed[slot];
-    out->num_rows = w->num_rows;
-    out->num      = w->num_nodes;
-    for (PetscInt j = 0; j < w->num_rows; j++)
-      if (PetscIsInfOrNanReal(out->gap[j])) *failed = PETSC_TRUE;
-    pair->num_results++;
-  }
-  pair->num_ids = 0; /* the array is where it stays now */
-  for (PetscInt i = 0; i < pair->num_results; i++) {
-    pair->result[i].nodes = pair->ids + pair->num_ids;
-    pair->num_ids += pair->result[i].num;
-  }
+  Normals_Private(ctx->pair, ctx->nonmortar);
+  PetscCall(ContactResultsEvaluate(ctx, &ctx->pair->facet->result, Facet_Private, failed));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

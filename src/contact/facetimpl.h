@@ -89,6 +89,28 @@ typedef struct {
 PetscErrorCode ContactStoreDestroy(Store *);
 PetscErrorCode ContactStoreReserve(Store *, PetscInt num, PetscReal **array);
 
+/* result.c: one facet's result in the making. Rows of the result belong to the first num_rows nodes. */
+typedef struct {
+  PetscInt   num_rows, num_nodes, *node; /* nodes of the result, as in ContactFacet */
+  PetscInt  *row_first, *row_node;       /* masters of the vertices: [vertices + 1] offsets, places in node */
+  PetscReal *row_weight;
+  PetscInt   size_node, size_row_first, size_row_node, size_row_weight;
+  Store      store; /* of all results */
+} Result;
+PetscErrorCode ContactResultDestroy(Result *);
+/* Place of a node; new ones are added. */
+PetscErrorCode ContactResultNode(Result *, PetscInt id, PetscInt *place);
+/* Masters of a node: itself when it does not hang. */
+PetscInt ContactMasters(const ContactSurface *, const PetscInt *node, const PetscInt **master, const PetscReal **weight);
+/* Row of vertex v by places among the nodes; row_first has room for v + 1, *num entries are there. */
+PetscErrorCode ContactResultRow(Result *, const ContactSurface *, PetscInt node, PetscBool mortar, PetscInt v, PetscInt *num);
+/* Do derivatives have a use? loaded: a multiplier of the facet is not zero. */
+PetscBool      ContactResultDerivatives(const EvaluateContext *, const Result *, PetscBool loaded);
+PetscErrorCode ContactResultSegment(ContactPair, PetscInt facet, PetscInt mortar_facet, PetscInt num, ContactSegment **);
+/* Calls the function for every listed facet and hands out those results it sets *use for. */
+typedef PetscErrorCode (*ResultFunction)(const EvaluateContext *, PetscInt slot, ContactFacet *, PetscBool *use, PetscBool *failed);
+PetscErrorCode ContactResultsEvaluate(const EvaluateContext *, Result *, ResultFunction, PetscBool *failed);
+
 /* facet.c: everything about one nonmortar facet. Vertices: the facet's four, then the mortar facets' ones; n = 3 * their number. */
 struct _p_FacetWork {
   FacetFrame   frame;
@@ -100,15 +122,11 @@ struct _p_FacetWork {
   PetscReal   *X;      /* [num_vertices][3] in the facet's axes */
   FacetMoments moments;
   PetscReal    covered;
-  PetscInt     num_rows, num_nodes, *node; /* nodes of the result, as in ContactFacet */
-  PetscInt    *row_first, *row_node;       /* masters of the vertices: [num_vertices+1] offsets, places in node */
-  PetscReal   *row_weight;
   PetscReal   *dq;      /* [FACET_MOMENTS][n] by U */
   PetscReal   *W, *row; /* [n][n] half form; work */
-  PetscInt size_overlap, size_mortar, size_corner, size_vertex, size_X, size_dq, size_W, size_row, size_node, size_row_first, size_row_node, size_row_weight;
-  Store    store; /* of the results */
+  PetscInt     size_overlap, size_mortar, size_corner, size_vertex, size_X, size_dq, size_W, size_row;
+  Result       result;
 };
-PetscErrorCode ContactFacetWorkCreate(FacetWork *);
 PetscErrorCode ContactFacetWorkDestroy(FacetWork *);
 PetscErrorCode ContactFacetTopology(ContactPair, const ContactSurface *);
 /* All listed facets: segments and results into the pair. */

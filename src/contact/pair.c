@@ -10,7 +10,6 @@ PetscErrorCode ContactPairCreate(PetscInt dim, PetscBool axisymmetric, const Con
   (*pair)->node_to_segment = spec->node_to_segment;
   (*pair)->standard        = spec->standard;
   (*pair)->continuous      = spec->continuous;
-  if (dim == 3) PetscCall(ContactFacetWorkCreate(&(*pair)->facet));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

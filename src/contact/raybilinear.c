@@ -78,7 +78,7 @@ static PetscBool Meet_Private(const RayLattice *mortar, RayPoint *r)
 /* From r->eta as a first guess. */
 PetscBool ContactRayBilinear(const RayFacet *f, const RayLattice *mortar, const PetscReal xi[2], int depth, RayPoint *r)
 {
-  PetscReal normal[3], det, square = 0, along = 0;
+  PetscReal square = 0, along = 0;
 
   r->xi[0] = xi[0], r->xi[1] = xi[1];
   Facet_Private(f, depth, r);
@@ -94,15 +94,5 @@ PetscBool ContactRayBilinear(const RayFacet *f, const RayLattice *mortar, const 
     along += r->d[c] * (r->X[c] - r->p[c]);
   }
   r->s = along / square;
-  Cross3(r->Xi[0], r->Xi[1], normal);
-  det = -Dot3(r->d, normal);
-  if (!(det > RAY_GRAZE * PetscSqrtReal(Dot3(normal, normal) * square))) return PETSC_FALSE;
-  Cross3(r->d, r->Xi[1], r->zeta[0]);
-  Cross3(r->Xi[0], r->d, r->zeta[1]);
-  for (int c = 0; c < 3; c++) {
-    r->kappa[c] = normal[c] / det;
-    r->zeta[0][c] /= det;
-    r->zeta[1][c] /= det;
-  }
-  return PETSC_TRUE;
+  return ContactRayInverse(r);
 }

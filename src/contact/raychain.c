@@ -43,11 +43,11 @@ static PetscErrorCode DirectionRows_Private(RayWork w, const ContactSurface *s, 
       for (PetscInt k = 0; k < nv; k++) {
         const PetscInt  *master;
         const PetscReal *weight, *g = h[k], X[3][3] = {{0, g[2], -g[1]}, {-g[2], 0, g[0]}, {g[1], -g[0], 0}};
-        const PetscInt   masters = ContactRayMasters(s, &node[k], &master, &weight);
+        const PetscInt   masters = ContactMasters(s, &node[k], &master, &weight);
         PetscInt         place;
 
         for (PetscInt i = 0; i < masters; i++) {
-          PetscCall(ContactRayAddNode(w, master[i], &place));
+          PetscCall(ContactResultNode(&w->result, master[i], &place));
           for (PetscInt c = 0; c < D; c++)
             for (PetscInt j = 0; j < D; j++)
               for (int l = 0; l < 3; l++) w->J[(D * v + c) * w->nn + D * place + j] += weight[i] * term[t].R[3 * c + l] * X[l][j];
@@ -74,15 +74,15 @@ PetscErrorCode ContactRayDirectionCurvature(RayWork w, const ContactSurface *s, 
       for (int pair = 0; pair < 4; pair++) {
         const PetscInt  *node = s->facets + 4 * term[t].facet, *a = &node[pair % 2 ? 0 : 2], *b = &node[pair / 2 ? 1 : 3], *ma, *mb;
         const PetscReal *wa, *wb, sign = (pair % 2 ? -1 : 1) * (pair / 2 ? -0.5 : 0.5), *R = term[t].R;
-        const PetscInt   masters_a = ContactRayMasters(s, a, &ma, &wa), masters_b = ContactRayMasters(s, b, &mb, &wb);
+        const PetscInt   masters_a = ContactMasters(s, a, &ma, &wa), masters_b = ContactMasters(s, b, &mb, &wb);
         PetscInt         pa, pb;
 
-        for (PetscInt i = 0; i < masters_a; i++)
+        for (PetscInt i = 0; i < masters_a; i++) {
+          PetscCall(ContactResultNode(&w->result, ma[i], &pa));
           for (PetscInt j = 0; j < masters_b; j++) {
             const PetscReal f = sign * wa[i] * wb[j];
 
-            PetscCall(ContactRayAddNode(w, ma[i], &pa));
-            PetscCall(ContactRayAddNode(w, mb[j], &pb));
+            PetscCall(ContactResultNode(&w->result, mb[j], &pb));
             for (int l = 0; l < 3; l++) { /* component l of the cross product */
               const PetscReal value = f * (along[0] * R[l] + along[1] * R[3 + l] + along[2] * R[6 + l]);
               const PetscInt  y = (l + 1) % 3, z = (l + 2) % 3;
@@ -91,6 +91,7 @@ PetscErrorCode ContactRayDirectionCurvature(RayWork w, const ContactSurface *s, 
               H[(3 * pa + z) * nn + 3 * pb + y] -= value, H[(3 * pb + y) * nn + 3 * pa + z] -= value;
             }
           }
+        }
       }
   }
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -162,9 +163,9 @@ void ContactRayChainRows(RayWork w, PetscInt num, PetscReal X[], PetscReal to[])
   if (!to) return;
   ContactRayProducts(D * f->nv, 1, num, X + D * na * num, num, nn, w->J, nn, to, nn);
   for (PetscInt v = 0; v < na + w->num_mortar; v++)
-    for (PetscInt k = w->row_first[v]; k < w->row_first[v + 1]; k++)
+    for (PetscInt k = w->result.row_first[v]; k < w->result.row_first[v + 1]; k++)
       for (PetscInt c = 0; c < D; c++)
-        for (PetscInt r = 0; r < num; r++) to[r * nn + D * w->row_node[k] + c] += w->row_weight[k] * X[(Row_Private(f, v) + c) * num + r];
+        for (PetscInt r = 0; r < num; r++) to[r * nn + D * w->result.row_node[k] + c] += w->result.row_weight[k] * X[(Row_Private(f, v) + c) * num + r];
 }
 
 /* to[D * masters] += row[D * nodes but directions] */
@@ -176,8 +177,8 @@ static void Scatter_Private(const RayWork w, PetscReal factor, const PetscReal r
   for (PetscInt v = 0; v < f->s.num + w->num_mortar; v++) {
     const PetscReal *from = row + Row_Private(f, v);
 
-    for (PetscInt k = w->row_first[v]; k < w->row_first[v + 1]; k++)
-      for (PetscInt c = 0; c < D; c++) to[D * w->row_node[k] + c] += factor * w->row_weight[k] * from[c];
+    for (PetscInt k = w->result.row_first[v]; k < w->result.row_first[v + 1]; k++)
+      for (PetscInt c = 0; c < D; c++) to[D * w->result.row_node[k] + c] += factor * w->result.row_weight[k] * from[c];
   }
 }
 
@@ -203,8 +204,8 @@ PetscErrorCode ContactRayChainHessian(RayWork w, PetscReal H[])
   }
   FoldImages_Private(w, nodes, Z, nodes, W, n);
   for (PetscInt v = 0; v < na + w->num_mortar; v++)
-    for (PetscInt k = w->row_first[v]; k < w->row_first[v + 1]; k++)
-      for (PetscInt c = 0; c < D; c++) Scatter_Private(w, w->row_weight[k], W + (Row_Private(f, v) + c) * n, H + (D * w->row_node[k] + c) * nn);
+    for (PetscInt k = w->result.row_first[v]; k < w->result.row_first[v + 1]; k++)
+      for (PetscInt c = 0; c < D; c++) Scatter_Private(w, w->result.row_weight[k], W + (Row_Private(f, v) + c) * n, H + (D * w->result.row_node[k] + c) * nn);
   PetscCall(PetscArrayzero(Z, nd * nn));
   column = Z + nd * nn;
   for (PetscInt i = 0; i < nd; i++) {

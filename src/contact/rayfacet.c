@@ -34,7 +34,7 @@ PetscErrorCode ContactRayWorkDestroy(RayWork *work)
 
   PetscFunctionBegin;
   if (!w) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(ContactStoreDestroy(&w->store));
+  PetscCall(ContactResultDestroy(&w->result));
   PetscCall(PetscFree4(w->ring_first, w->ring_facet, w->parent, w->d));
   PetscCall(PetscFree(w->image));
   PetscCall(PetscFree(w->overlap));
@@ -49,10 +49,6 @@ PetscErrorCode ContactRayWorkDestroy(RayWork *work)
   PetscCall(PetscFree(w->WJ));
   PetscCall(PetscFree(w->part));
   PetscCall(PetscFree(w->buffer));
-  PetscCall(PetscFree(w->node));
-  PetscCall(PetscFree(w->row_first));
-  PetscCall(PetscFree(w->row_node));
-  PetscCall(PetscFree(w->row_weight));
   PetscCall(PetscFree(w->T));
   PetscCall(PetscFree(w->rows));
   PetscCall(PetscFree(*work));
@@ -97,49 +93,7 @@ static void Normals_Private(ContactPair pair, const ContactSurface *s)
   }
 }
 
-/* ---- nodes and masters --------------------------------------------------------------------------------------------------------------- */
-
-PetscErrorCode ContactRayAddNode(RayWork w, PetscInt id, PetscInt *place)
-{
-  PetscFunctionBegin;
-  for (*place = 0; *place < w->num_nodes; (*place)++)
-    if (w->node[*place] == id) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(ContactGrow(w->num_nodes + 1, sizeof(PetscInt), &w->size_node, &w->node));
-  w->node[w->num_nodes++] = id;
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* Masters of a node: itself when it does not hang. */
-PetscInt ContactRayMasters(const ContactSurface *s, const PetscInt *node, const PetscInt **master, const PetscReal **weight)
-{
-  static const PetscReal one = 1;
-
-  if (!s->hang || s->hang[*node] == s->hang[*node + 1]) {
-    *master = node, *weight = &one;
-    return 1;
-  }
-  *master = s->hang_master + s->hang[*node], *weight = s->hang_weight + s->hang[*node];
-  return s->hang[*node + 1] - s->hang[*node];
-}
-
-/* Row of vertex v (lattice nodes, then mortar nodes) by places among the result's nodes. */
-static PetscErrorCode AddRow_Private(RayWork w, const ContactSurface *s, PetscInt node, PetscBool mortar, PetscInt v, PetscInt *num)
-{
-  const PetscInt  *master;
-  const PetscReal *weight;
-  const PetscInt   masters = ContactRayMasters(s, &node, &master, &weight);
-
-  PetscFunctionBegin;
-  PetscCall(ContactGrow(*num + masters, sizeof(PetscInt), &w->size_row_node, &w->row_node));
-  PetscCall(ContactGrow(*num + masters, sizeof(PetscReal), &w->size_row_weight, &w->row_weight));
-  w->row_first[v] = *num;
-  for (PetscInt k = 0; k < masters; k++, (*num)++) {
-    PetscCall(ContactRayAddNode(w, mortar ? ~master[k] : master[k], &w->row_node[*num]));
-    w->row_weight[*num] = weight[k];
-  }
-  w->row_first[v + 1] = *num;
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
+/* ---- nodes --------------------------------------------------------------------------------------------------------------- */
 
 /* Rows and T from the constant functions of a facet that is covered. */
 static PetscErrorCode Functions_Private(RayWork w, const ContactMultiplier *multiplier, PetscInt facet)
@@ -148,10 +102,10 @@ static PetscErrorCode Functions_Private(RayWork w, const ContactMultiplier *mult
   PetscInt       place;
 
   PetscFunctionBegin;
-  w->num_rows = multiplier->row_first[facet + 1] - first;
-  for (PetscInt r = 0; r < w->num_rows; r++) PetscCall(ContactRayAddNode(w, multiplier->row_node[first + r], &place));
-  PetscCall(ContactGrow(w->num_rows * num, sizeof(PetscReal), &w->size_T, &w->T));
-  PetscCall(PetscArraycpy(w->T, multiplier->T + multiplier->offset[facet], w->num_rows * num));
+  w->result.num_rows = multiplier->row_first[facet + 1] - first;
+  for (PetscInt r = 0; r < w->result.num_rows; r++) PetscCall(ContactResultNode(&w->result, multiplier->row_node[first + r], &place));
+  PetscCall(ContactGrow(w->result.num_rows * num, sizeof(PetscReal), &w->size_T, &w->T));
+  PetscCall(PetscArraycpy(w->T, multiplier->T + multiplier->offset[facet], w->result.num_rows * num));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -166,17 +120,17 @@ static PetscErrorCode Nodes_Private(const EvaluateContext *ctx, PetscInt facet)
   DirectionTerm   term[TERMS];
 
   PetscFunctionBegin;
-  w->num_nodes = 0;
+  w->result.num_nodes = 0;
   ContactRayLatticeNodes(ctx->nonmortar, facet, &lattice, order1);
   if (constant) PetscCall(Functions_Private(w, ctx->pair->multiplier, facet));
-  PetscCall(ContactGrow(na + w->num_mortar + 1, sizeof(PetscInt), &w->size_row_first, &w->row_first));
-  for (PetscInt a = 0; a < na; a++) PetscCall(AddRow_Private(w, ctx->nonmortar, lattice[a], PETSC_FALSE, a, &num));
+  PetscCall(ContactGrow(na + w->num_mortar + 1, sizeof(PetscInt), &w->result.size_row_first, &w->result.row_first));
+  for (PetscInt a = 0; a < na; a++) PetscCall(ContactResultRow(&w->result, ctx->nonmortar, lattice[a], PETSC_FALSE, a, &num));
   if (!constant) {
-    w->num_rows = w->num_nodes;
-    PetscCall(ContactGrow(w->num_rows * na, sizeof(PetscReal), &w->size_T, &w->T));
-    PetscCall(PetscArrayzero(w->T, w->num_rows * na));
+    w->result.num_rows = w->result.num_nodes;
+    PetscCall(ContactGrow(w->result.num_rows * na, sizeof(PetscReal), &w->size_T, &w->T));
+    PetscCall(PetscArrayzero(w->T, w->result.num_rows * na));
     for (PetscInt a = 0; a < na; a++)
-      for (PetscInt k = w->row_first[a]; k < w->row_first[a + 1]; k++) w->T[w->row_node[k] * na + a] += w->row_weight[k];
+      for (PetscInt k = w->result.row_first[a]; k < w->result.row_first[a + 1]; k++) w->T[w->result.row_node[k] * na + a] += w->result.row_weight[k];
   }
   for (PetscInt v = 0; v < nv; v++) {
     const PetscInt terms = ContactDirectionTerms(w, ctx->nonmortar, ctx->nonmortar->facets[nv * facet + v], TERMS, term);
@@ -185,13 +139,13 @@ static PetscErrorCode Nodes_Private(const EvaluateContext *ctx, PetscInt facet)
       for (PetscInt k = 0; k < nv; k++) {
         const PetscInt  *master;
         const PetscReal *weight;
-        const PetscInt   masters = ContactRayMasters(ctx->nonmortar, &ctx->nonmortar->facets[nv * term[t].facet + k], &master, &weight);
+        const PetscInt   masters = ContactMasters(ctx->nonmortar, &ctx->nonmortar->facets[nv * term[t].facet + k], &master, &weight);
 
-        for (PetscInt i = 0; i < masters; i++) PetscCall(ContactRayAddNode(w, master[i], &place));
+        for (PetscInt i = 0; i < masters; i++) PetscCall(ContactResultNode(&w->result, master[i], &place));
       }
   }
-  for (PetscInt j = 0; j < w->num_mortar; j++) PetscCall(AddRow_Private(w, ctx->mortar, w->vertex[j], PETSC_TRUE, na + j, &num));
-  w->nn = w->facet.D * w->num_nodes;
+  for (PetscInt j = 0; j < w->num_mortar; j++) PetscCall(ContactResultRow(&w->result, ctx->mortar, w->vertex[j], PETSC_TRUE, na + j, &num));
+  w->nn = w->facet.D * w->result.num_nodes;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -243,7 +197,7 @@ static void GapRow_Private(const RayWork w, const Weights *o, PetscInt a, PetscR
 /* to[num_rows][nn] = sum_a T[r][a] (gap a or weight a) J */
 static PetscErrorCode Rows_Private(RayWork w, const Weights *o, PetscBool gap, PetscReal to[])
 {
-  const PetscInt na = w->facet.s.num, n = w->n, nr = w->num_rows;
+  const PetscInt na = w->facet.s.num, n = w->n, nr = w->result.num_rows;
   PetscReal     *row;
 
   PetscFunctionBegin;
@@ -298,11 +252,11 @@ static PetscErrorCode Result_Private(const EvaluateContext *ctx, PetscInt facet,
                                      PetscBool hessian, ContactFacet *out)
 {
   RayWork        w  = ctx->pair->ray;
-  const PetscInt na = w->facet.s.num, nr = w->num_rows, nn = w->nn;
+  const PetscInt na = w->facet.s.num, nr = w->result.num_rows, nn = w->nn;
   PetscReal     *gap, *weight, *reach, *dgap;
 
   PetscFunctionBegin;
-  PetscCall(ContactStoreReserve(&w->store, 3 * nr, &gap));
+  PetscCall(ContactStoreReserve(&w->result.store, 3 * nr, &gap));
   weight = gap + nr, reach = weight + nr;
   for (PetscInt r = 0; r < nr; r++)
     for (PetscInt a = 0; a < na; a++) {
@@ -310,24 +264,21 @@ static PetscErrorCode Result_Private(const EvaluateContext *ctx, PetscInt facet,
       weight[r] += w->T[r * na + a] * w->q[na + a];
       reach[r] += w->T[r * na + a] * o->reach[a];
     }
-  out->facet    = facet;
-  out->num_rows = nr;
-  out->num      = w->num_nodes;
-  out->gap      = gap;
-  out->weight   = weight;
-  out->reach    = w->facet.s.order == 1 ? reach : NULL; /* curved facets turn with their directions: a gap of 1 along the normal counts as its area */
-  out->area     = w->covered;
-  out->min_gap  = w->min_gap;
+  out->gap     = gap;
+  out->weight  = weight;
+  out->reach   = w->facet.s.order == 1 ? reach : NULL; /* curved facets turn with their directions: a gap of 1 along the normal counts as its area */
+  out->area    = w->covered;
+  out->min_gap = w->min_gap;
   out->dgap = out->dweight = out->hessian = NULL;
   if (!derivatives) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(ContactRayChain(w, ctx->nonmortar, facet));
-  PetscCall(ContactStoreReserve(&w->store, 2 * nr * nn, &dgap));
+  PetscCall(ContactStoreReserve(&w->result.store, 2 * nr * nn, &dgap));
   out->dgap    = dgap;
   out->dweight = dgap + nr * nn;
   PetscCall(Rows_Private(w, o, PETSC_TRUE, dgap));
   PetscCall(Rows_Private(w, o, PETSC_FALSE, dgap + nr * nn));
   if (!hessian) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(ContactStoreReserve(&w->store, nn * nn, (PetscReal **)&out->hessian));
+  PetscCall(ContactStoreReserve(&w->result.store, nn * nn, (PetscReal **)&out->hessian));
   PetscCall(Hessian_Private(ctx, facet, o, y, (PetscReal *)out->hessian));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -335,36 +286,22 @@ static PetscErrorCode Result_Private(const EvaluateContext *ctx, PetscInt facet,
 /* Corners of the overlaps on both facets. */
 static PetscErrorCode Segments_Private(const EvaluateContext *ctx, PetscInt facet)
 {
-  ContactPair pair = ctx->pair;
-  RayWork     w    = pair->ray;
-  RayLattice  mortar;
-  RayGuess    at;
+  RayWork    w = ctx->pair->ray;
+  RayLattice mortar;
+  RayGuess   at;
 
   PetscFunctionBegin;
-  PetscCall(ContactGrow(pair->num_segments + w->num_overlaps, sizeof(ContactSegment), &pair->size_segments, &pair->output));
   for (PetscInt k = 0; k < w->num_overlaps; k++) {
     const Overlap  *o = &w->overlap[k];
-    ContactSegment *s = &pair->output[pair->num_segments++];
+    ContactSegment *s;
 
+    PetscCall(ContactResultSegment(ctx->pair, facet, w->mortar[k], w->facet.m == 1 ? 2 : o->num, &s));
     ContactRayLatticeGather(ctx->mortar, w->mortar[k], &mortar);
-    s->facet        = facet;
-    s->mortar_facet = w->mortar[k];
-    s->num          = w->facet.m == 1 ? 2 : o->num;
     ContactRayGuess(&w->facet, &mortar, o, &at);
     memcpy(s->xi, at.xi, sizeof(s->xi));
     memcpy(s->eta, at.eta, sizeof(s->eta));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-static PetscBool Wanted_Private(const EvaluateContext *ctx)
-{
-  const RayWork w = ctx->pair->ray;
-
-  if (!ctx->wanted) return PETSC_TRUE;
-  for (PetscInt j = 0; j < w->num_rows; j++)
-    if (ctx->wanted[w->node[j]]) return PETSC_TRUE;
-  return PETSC_FALSE;
 }
 
 /* One listed facet; *use is false when nothing covers it. */
@@ -378,16 +315,15 @@ static PetscErrorCode Facet_Private(const EvaluateContext *ctx, PetscInt slot, C
   Weights        o;
 
   PetscFunctionBegin;
-  *use = PETSC_FALSE;
   PetscCall(ContactCover(pair, ctx->nonmortar, ctx->mortar, slot, PETSC_TRUE, failed));
   if (*failed || w->num_overlaps == 0) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(Nodes_Private(ctx, facet));
   for (PetscInt a = 0; a < w->facet.s.num; a++) {
     y[a] = 0;
-    for (PetscInt r = 0; r < w->num_rows && ctx->z; r++) y[a] += ctx->z[w->node[r]] * w->T[r * w->facet.s.num + a];
+    for (PetscInt r = 0; r < w->result.num_rows && ctx->z; r++) y[a] += ctx->z[w->result.node[r]] * w->T[r * w->facet.s.num + a];
     if (y[a] != 0) loaded = PETSC_TRUE;
   }
-  derivatives = (PetscBool)(ctx->derivatives && (loaded || ((ctx->hessian || !ctx->z) && Wanted_Private(ctx))));
+  derivatives = ContactResultDerivatives(ctx, &w->result, loaded);
   o.dual      = (PetscBool)(!pair->standard && w->facet.s.order == 1);
   PetscCall(ContactRayMoments(pair, ctx->mortar, o.dual, derivatives));
   if (w->num_overlaps == 0) PetscFunctionReturn(PETSC_SUCCESS);
@@ -401,32 +337,11 @@ static PetscErrorCode Facet_Private(const EvaluateContext *ctx, PetscInt slot, C
 
 PetscErrorCode ContactRayEvaluate(const EvaluateContext *ctx, PetscBool *failed)
 {
-  ContactPair pair = ctx->pair;
-  RayWork     w    = pair->ray;
+  RayWork w = ctx->pair->ray;
 
   PetscFunctionBegin;
   ContactDirections(w, ctx->nonmortar);
-  Normals_Private(pair, ctx->nonmortar);
-  pair->num_degenerate = pair->num_ids = 0;
-  w->store.at = w->store.used = 0;
-  for (PetscInt slot = 0; slot < pair->num_listed; slot++) {
-    ContactFacet *out = &pair->result[pair->num_results];
-    PetscBool     use;
-
-    PetscCall(Facet_Private(ctx, slot, out, &use, failed));
-    if (*failed) PetscFunctionReturn(PETSC_SUCCESS);
-    if (!use) continue;
-    PetscCall(ContactGrow(pair->num_ids + w->num_nodes, sizeof(PetscInt), &pair->size_ids, &pair->ids));
-    PetscCall(PetscArraycpy(pair->ids + pair->num_ids, w->node, w->num_nodes));
-    pair->num_ids += w->num_nodes;
-    for (PetscInt j = 0; j < w->num_rows; j++)
-      if (PetscIsInfOrNanReal(out->gap[j])) *failed = PETSC_TRUE;
-    pair->num_results++;
-  }
-  pair->num_ids = 0; /* the array is where it stays now */
-  for (PetscInt i = 0; i < pair->num_results; i++) {
-    pair->result[i].nodes = pair->ids + pair->num_ids;
-    pair->num_ids += pair->result[i].num;
-  }
+  Normals_Private(ctx->pair, ctx->nonmortar);
+  PetscCall(ContactResultsEvaluate(ctx, &w->result, Facet_Private, failed));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

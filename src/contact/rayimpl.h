@@ -92,12 +92,10 @@ struct _p_RayWork {
   PetscInt   n, nn, num_moments;
   PetscReal  q[RAY_MOMENTS], reach[RAY_LATTICE], covered, min_gap; /* reach: moments of a gap of 1 along unit directions */
   PetscReal *dq, *W, *J, *R, *WJ, *part, *buffer;                  /* dq [num_moments][n], W [n][n]; J, R: raychain.c */
-  PetscInt   num_nodes, num_rows, *node, *row_first, *row_node;
-  PetscReal *row_weight;
-  PetscReal *T, *rows; /* [num_rows][lattice]; [n][num_rows] */
-  Store      store;
+  PetscReal *T, *rows;                                             /* [num_rows][lattice]; [n][num_rows] */
+  Result     result;                                               /* vertices: lattice, then mortar nodes */
   PetscInt   size_image, size_overlap, size_mortar, size_window, size_vertex, size_test, size_dq, size_W, size_J, size_R, size_WJ, size_part, size_buffer;
-  PetscInt   size_node, size_row_first, size_row_node, size_row_weight, size_T, size_rows;
+  PetscInt   size_T, size_rows;
 };
 
 /* raylattice.c */
@@ -139,10 +137,24 @@ PetscErrorCode ContactCover(ContactPair, const ContactSurface *nonmortar, const 
 
 /* raypoint.c. False: the ray misses. */
 PetscBool ContactRaySolve(const RayFacet *, const RayLattice *mortar, const PetscReal xi[2], int depth, RayPoint *);
+/* K^-1 from the ray and the tangents of the mortar facet. */
+PetscBool ContactRayInverse(RayPoint *);
 PetscReal ContactRayGap(const RayPoint *);
 PetscReal ContactRayArea(const RayPoint *);
 void      ContactRayFirst(const RayFacet *, const RayLattice *mortar, const RayPoint *, PetscReal gap[], PetscReal area[], PetscReal gap_xi[2],
                           PetscReal area_xi[2]);
+
+/* to[D * a + c] += f_a v_c */
+static inline void ContactRayAdd(PetscInt D, PetscInt num, const PetscReal f[], const PetscReal v[3], PetscReal to[])
+{
+  if (D == 3 && num == 4) { /* so often that loops of fixed length pay */
+    for (int a = 0; a < 4; a++)
+      for (int c = 0; c < 3; c++) to[3 * a + c] += f[a] * v[c];
+    return;
+  }
+  for (PetscInt a = 0; a < num; a++)
+    for (PetscInt c = 0; c < D; c++) to[D * a + c] += f[a] * v[c];
+}
 
 /* raybilinear.c: the same between bilinear facets. */
 PetscBool ContactRayBilinear(const RayFacet *, const RayLattice *mortar, const PetscReal xi[2], int depth, RayPoint *);
@@ -204,10 +216,6 @@ PetscErrorCode ContactRayDirectionCurvature(RayWork, const ContactSurface *, Pet
 
 /* rayfacet.c */
 #define RAY_TERMS 64 /* most facets around a corner, over all it hangs on */
-/* Place of a node among those of the result; new ones are added. */
-PetscErrorCode ContactRayAddNode(RayWork, PetscInt id, PetscInt *place);
-/* Masters of a node: itself when it does not hang. */
-PetscInt       ContactRayMasters(const ContactSurface *, const PetscInt *node, const PetscInt **master, const PetscReal **weight);
 PetscErrorCode ContactRayTopology(ContactPair, const ContactSurface *);
 PetscErrorCode ContactRayEvaluate(const EvaluateContext *, PetscBool *failed);
 PetscErrorCode ContactRayWorkDestroy(RayWork *);

@@ -31,16 +31,10 @@ static void Facet_Private(const RayFacet *f, int depth, RayPoint *r)
   r->rho  = f->ring > 0 ? f->ring * r->p[0] : 1;
 }
 
-/* Mortar facet at eta; K^-1. */
-static PetscBool Mortar_Private(const RayFacet *f, const RayLattice *mortar, int depth, RayPoint *r)
+PetscBool ContactRayInverse(RayPoint *r)
 {
   PetscReal normal[3], det;
 
-  ContactRayFunctions(f->m, mortar->order, r->eta, depth, &r->M);
-  ContactRayLatticeSum(mortar, r->M.N, r->X);
-  r->Xi[1][0] = r->Xi[1][1] = 0, r->Xi[1][2] = 1;
-  for (PetscInt i = 0; i < f->m; i++) ContactRayLatticeSum(mortar, r->M.d[i], r->Xi[i]);
-  for (PetscInt i = 0; i < 2 * f->m - 1 && depth > 1; i++) ContactRayLatticeSum(mortar, r->M.dd[i], r->Xij[i]);
   Cross3(r->Xi[0], r->Xi[1], normal);
   det = -Dot3(r->d, normal);
   if (!(det > RAY_GRAZE * PetscSqrtReal(Dot3(normal, normal) * Dot3(r->d, r->d)))) return PETSC_FALSE;
@@ -52,6 +46,17 @@ static PetscBool Mortar_Private(const RayFacet *f, const RayLattice *mortar, int
     r->zeta[1][c] /= det;
   }
   return PETSC_TRUE;
+}
+
+/* Mortar facet at eta; K^-1. */
+static PetscBool Mortar_Private(const RayFacet *f, const RayLattice *mortar, int depth, RayPoint *r)
+{
+  ContactRayFunctions(f->m, mortar->order, r->eta, depth, &r->M);
+  ContactRayLatticeSum(mortar, r->M.N, r->X);
+  r->Xi[1][0] = r->Xi[1][1] = 0, r->Xi[1][2] = 1;
+  for (PetscInt i = 0; i < f->m; i++) ContactRayLatticeSum(mortar, r->M.d[i], r->Xi[i]);
+  for (PetscInt i = 0; i < 2 * f->m - 1 && depth > 1; i++) ContactRayLatticeSum(mortar, r->M.dd[i], r->Xij[i]);
+  return ContactRayInverse(r);
 }
 
 /* From r->eta, r->s as a first guess. */
@@ -94,18 +99,6 @@ PetscReal ContactRayArea(const RayPoint *r)
   return r->a * r->rho;
 }
 
-/* to[D * a + c] += f_a v_c */
-static inline void Add_Private(PetscInt D, PetscInt num, const PetscReal f[], const PetscReal v[3], PetscReal to[])
-{
-  if (D == 3 && num == 4) { /* so often that loops of fixed length pay */
-    for (int a = 0; a < 4; a++)
-      for (int c = 0; c < 3; c++) to[3 * a + c] += f[a] * v[c];
-    return;
-  }
-  for (PetscInt a = 0; a < num; a++)
-    for (PetscInt c = 0; c < D; c++) to[D * a + c] += f[a] * v[c];
-}
-
 void ContactRayFirst(const RayFacet *f, const RayLattice *mortar, const RayPoint *r, PetscReal gap[], PetscReal area[], PetscReal gap_xi[2],
                      PetscReal area_xi[2])
 {
@@ -125,14 +118,14 @@ void ContactRayFirst(const RayFacet *f, const RayLattice *mortar, const RayPoint
   }
   for (PetscInt i = 0; i < D * (na + f->nv + mortar->num); i++) gap[i] = 0;
   for (PetscInt i = 0; i < D * na; i++) area[i] = 0;
-  Add_Private(D, na, r->S.N, A, gap);
-  if (r->turn != 0) Add_Private(D, na, r->S.N, Aa, area);
+  ContactRayAdd(D, na, r->S.N, A, gap);
+  if (r->turn != 0) ContactRayAdd(D, na, r->S.N, Aa, area);
   for (PetscInt k = 0; k < f->m; k++) {
-    Add_Private(D, na, r->S.d[k], B[k], gap);
-    Add_Private(D, na, r->S.d[k], Ba[k], area);
+    ContactRayAdd(D, na, r->S.d[k], B[k], gap);
+    ContactRayAdd(D, na, r->S.d[k], Ba[k], area);
   }
-  Add_Private(D, f->nv, r->V.N, C, gap + D * na);
-  Add_Private(D, mortar->num, r->M.N, E, gap + D * (na + f->nv));
+  ContactRayAdd(D, f->nv, r->V.N, C, gap + D * na);
+  ContactRayAdd(D, mortar->num, r->M.N, E, gap + D * (na + f->nv));
   for (PetscInt i = 0; i < f->m; i++) {
     gap_xi[i]  = Dot3(A, r->t[i]) + Dot3(C, r->di[i]);
     area_xi[i] = Dot3(Aa, r->t[i]);

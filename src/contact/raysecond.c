@@ -6,16 +6,6 @@
    T_1 x T_2 couple nodes by one vector for each pair. Derivatives by xi follow with P -> P + t_i dxi_i and so on: mixed[i] are full rows, xixi full. */
 #include "rayimpl.h"
 
-static inline void Add_Private(PetscInt D, PetscInt num, const PetscReal f[], const PetscReal v[3], PetscReal to[])
-{
-  if (D == 3 && num == 4) { /* so often that loops of fixed length pay */
-    for (int a = 0; a < 4; a++)
-      for (int c = 0; c < 3; c++) to[3 * a + c] += f[a] * v[c];
-    return;
-  }
-  for (PetscInt a = 0; a < num; a++)
-    for (PetscInt c = 0; c < D; c++) to[D * a + c] += f[a] * v[c];
-}
 static inline void Axpy3_Private(PetscReal a, const PetscReal x[3], PetscReal y[3])
 {
   for (int c = 0; c < 3; c++) y[c] += a * x[c];
@@ -35,9 +25,9 @@ static void Residual_Private(const Layout *l, const RayPoint *r, const PetscReal
 {
   const PetscReal sv[3] = {r->s * v[0], r->s * v[1], r->s * v[2]}, mv[3] = {-v[0], -v[1], -v[2]};
 
-  Add_Private(l->D, l->na, r->S.N, v, row);
-  Add_Private(l->D, l->nv, r->V.N, sv, row + l->D * l->na);
-  Add_Private(l->D, l->nb, r->M.N, mv, row + l->D * (l->na + l->nv));
+  ContactRayAdd(l->D, l->na, r->S.N, v, row);
+  ContactRayAdd(l->D, l->nv, r->V.N, sv, row + l->D * l->na);
+  ContactRayAdd(l->D, l->nb, r->M.N, mv, row + l->D * (l->na + l->nv));
 }
 
 /* row += T_1 . (t_2 x h) + T_2 . (h x t_1) = h . dn */
@@ -47,7 +37,7 @@ static void Normal_Private(const Layout *l, PetscInt m, const RayPoint *r, const
 
   Cross3(r->t[1], h, v[0]);
   Cross3(h, r->t[0], v[1]);
-  for (PetscInt k = 0; k < m; k++) Add_Private(l->D, l->na, r->S.d[k], v[k], row);
+  for (PetscInt k = 0; k < m; k++) ContactRayAdd(l->D, l->na, r->S.d[k], v[k], row);
 }
 
 static inline void Scale_Private(PetscReal a, const PetscReal x[3], PetscReal y[3])
@@ -81,18 +71,18 @@ static void Products_Private(const RayFacet *f, const Layout *l, const RayPoint 
     for (PetscInt i = 0; i < l->n; i++) row[i] = 0;
     Scale_Private(1, Q[c], h);
     h[0] += r->kappa[c] * phi * r->beta * r->turn;
-    Add_Private(D, l->na, r->S.N, h, row);
+    ContactRayAdd(D, l->na, r->S.N, h, row);
     for (PetscInt k = 0; k < f->m; k++) {
       Scale_Private(r->kappa[c], w[k], h);
-      Add_Private(D, l->na, r->S.d[k], h, row);
+      ContactRayAdd(D, l->na, r->S.d[k], h, row);
     }
     for (int e = 0; e < 3; e++) h[e] = r->s * Q[c][e] + r->kappa[c] * (br * r->kappa[e] + phi * r->rho * r->n[e]);
-    Add_Private(D, l->nv, r->V.N, h, row + D * l->na);
+    ContactRayAdd(D, l->nv, r->V.N, h, row + D * l->na);
     Scale_Private(-1, Q[c], h);
-    Add_Private(D, l->nb, r->M.N, h, row + D * (l->na + l->nv));
+    ContactRayAdd(D, l->nb, r->M.N, h, row + D * (l->na + l->nv));
     for (PetscInt i = 0; i < f->m; i++) {
       Scale_Private(-br * r->zeta[i][c], r->kappa, h);
-      Add_Private(D, l->nb, r->M.d[i], h, row + D * (l->na + l->nv));
+      ContactRayAdd(D, l->nb, r->M.d[i], h, row + D * (l->na + l->nv));
     }
   }
 }
@@ -114,7 +104,7 @@ static void Own_Private(const RayFacet *f, const Layout *l, const RayPoint *r, P
     for (int c = 0; c < 3; c++) v[c] = phi * r->s * r->d[c] + chi * r->unit[c];
     Normal_Private(l, f->m, r, v, right);
     Scale_Private(phi * r->s, r->n, v);
-    Add_Private(D, l->nv, r->V.N, v, right + D * l->na);
+    ContactRayAdd(D, l->nv, r->V.N, v, right + D * l->na);
   }
   if (chi == 0) return;
   Scale_Private(1 / PetscSqrtReal(Dot3(r->t[0], r->t[0])), r->t[0], e[0]);
@@ -170,10 +160,10 @@ void ContactRaySecond(const RayFacet *f, const RayLattice *mortar, const RayPoin
   Cross3(r->t[1], k, B[0]);
   Cross3(k, r->t[0], B[1]);
   for (PetscInt i = 0; i < l.n; i++) o->gradient[i] = 0;
-  Add_Private(D, na, r->S.N, A, o->gradient);
-  for (PetscInt j = 0; j < m; j++) Add_Private(D, na, r->S.d[j], B[j], o->gradient);
-  Add_Private(D, f->nv, r->V.N, C, o->gradient + D * na);
-  Add_Private(D, mortar->num, r->M.N, E, o->gradient + D * (na + f->nv));
+  ContactRayAdd(D, na, r->S.N, A, o->gradient);
+  for (PetscInt j = 0; j < m; j++) ContactRayAdd(D, na, r->S.d[j], B[j], o->gradient);
+  ContactRayAdd(D, f->nv, r->V.N, C, o->gradient + D * na);
+  ContactRayAdd(D, mortar->num, r->M.N, E, o->gradient + D * (na + f->nv));
   for (PetscInt i = 0; i < m; i++) { /* how everything changes along the facet */
     PetscReal along[3];
 
@@ -200,7 +190,7 @@ void ContactRaySecond(const RayFacet *f, const RayLattice *mortar, const RayPoin
     /* P */
     for (int c = 0; c < 3; c++) v[c] = phi->d[i] * Ag[c] + chi->d[i] * Aa[c];
     v[0] += (phi->v * (r->beta * sigma[i] + r->s * betai[i]) + chi->v * ai[i]) * r->turn;
-    Add_Private(D, na, r->S.N, v, row);
+    ContactRayAdd(D, na, r->S.N, v, row);
     /* T_k */
     for (int c = 0; c < 3; c++) {
       const PetscReal across = ni[i][c] - ai[i] * r->unit[c];
@@ -213,19 +203,19 @@ void ContactRaySecond(const RayFacet *f, const RayLattice *mortar, const RayPoin
     AddCross_Private(k, r->tt[i], w[1]);
     Axpy3_Private(1, A, w[i]);
     for (PetscInt j = 0; j < m; j++) {
-      Add_Private(D, na, r->S.d[j], w[j], row);
-      Add_Private(D, na, r->S.dd[i + j], B[j], row);
+      ContactRayAdd(D, na, r->S.d[j], w[j], row);
+      ContactRayAdd(D, na, r->S.dd[i + j], B[j], row);
     }
     /* V */
     for (int c = 0; c < 3; c++) v[c] = phi->d[i] * Cg[c] + phi->v * (br * sigma[i] * r->kappa[c] + sr * ni[i][c]) + b * r->n[c];
-    Add_Private(D, f->nv, r->V.N, v, row + D * na);
-    Add_Private(D, f->nv, r->V.d[i], C, row + D * na);
+    ContactRayAdd(D, f->nv, r->V.N, v, row + D * na);
+    ContactRayAdd(D, f->nv, r->V.d[i], C, row + D * na);
     /* M */
     Scale_Private(-phi->d[i] * br, r->kappa, v);
-    Add_Private(D, mortar->num, r->M.N, v, row + D * (na + f->nv));
+    ContactRayAdd(D, mortar->num, r->M.N, v, row + D * (na + f->nv));
     for (PetscInt j = 0; j < m; j++) {
       Scale_Private(etai[j][i], E, v);
-      Add_Private(D, mortar->num, r->M.d[j], v, row + D * (na + f->nv));
+      ContactRayAdd(D, mortar->num, r->M.d[j], v, row + D * (na + f->nv));
     }
     o->xi[i] = phi->v * gi[i] + phi->d[i] * gap + chi->v * (ai[i] * r->rho + r->a * rhoi[i]) + chi->d[i] * area;
   }

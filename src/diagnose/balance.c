@@ -150,6 +150,7 @@ PetscErrorCode BalanceCompute(Problem problem, const State *state, Balance *b)
   b->num_contacts   = scene->num_contacts;
   PetscCall(PetscCalloc2(b->num_boundaries, &b->reaction, b->num_contacts, &b->pair));
   PetscCall(PetscMalloc1(b->num_contacts, &view));
+  PetscCall(ProblemSetHistory(problem, state->history));
   PetscCall(ProblemForces(problem, state->x, b->reaction, NULL, NULL, &b->status));
   for (PetscInt i = 0; i < b->num_contacts; ++i) {
     PetscCall(ProblemGetContact(problem, i, &view[i]));

@@ -403,6 +403,7 @@ PetscErrorCode EstimateCompute(Problem problem, const State *state, Estimate *e)
   PetscCall(ProblemGetMechanics(problem, &sum.mechanics));
   PetscCall(HPSpaceGetTables(sum.space, &v));
   sum.spec = &scene->mechanics;
+  PetscCall(ProblemSetHistory(problem, state->history));
   if (scene->num_contacts) {
     PetscCall(Refresh_Private(problem, state->x));
     PetscCall(ContactTermsCreate_Private(problem, &contact));

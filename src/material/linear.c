@@ -25,10 +25,11 @@ static void Stress_Private(const MaterialSpec *spec, PetscReal K, const PetscRea
   }
 }
 
-PetscErrorCode MaterialLinear(const MaterialSpec *spec, MaterialPart part, PetscInt n, const PetscReal *F, PetscReal *W, PetscReal *P, PetscReal *A,
-                              PetscBool *bad)
+PetscErrorCode MaterialLinear(const MaterialSpec *spec, MaterialPart part, MaterialPoints *points)
 {
-  const PetscReal K = part == MATERIAL_FULL ? spec->kappa : 0, mu = spec->mu;
+  const PetscReal  K = part == MATERIAL_FULL ? spec->kappa : 0, mu = spec->mu, *F = points->F;
+  const PetscInt   n = points->n;
+  PetscReal *const W = points->W, *const P = points->P, *const A = points->A;
 
   PetscFunctionBegin;
   for (PetscInt q = 0; q < n && (W || P); q++) {

@@ -7,10 +7,14 @@ const char *const FormulationNames[] = {"auto", "displacement", "mixed", "Formul
 const MaterialLaw MaterialLaws[] = {
     {"neo_hookean", "compressible neo-Hookean solid", MaterialElasticParameters, .setup = MaterialSetUpElastic, .evaluate = MaterialNeoHookean},
     {"mooney_rivlin", "Mooney-Rivlin solid", MaterialMooneyRivlinParameters, .setup = MaterialMooneyRivlinSetUp, .evaluate = MaterialMooneyRivlin},
+    {"hgo", "artery wall of Holzapfel, Gasser and Ogden: isotropic solid with families of fibres that carry tension only", MaterialHGOParameters,
+     .fibers = PETSC_TRUE, .setup = MaterialHGOSetUp, .evaluate = MaterialHGO},
     {"saint_venant_kirchhoff", "St. Venant-Kirchhoff solid: small strains, any rotation", MaterialElasticParameters, .whole = PETSC_TRUE,
      .setup = MaterialSetUpElastic, .evaluate = MaterialSaintVenantKirchhoff},
     {"linear", "linear isotropic elasticity, small kinematics", MaterialElasticParameters, .small = PETSC_TRUE, .setup = MaterialLinearSetUp,
      .evaluate = MaterialLinear},
+    {"j2", "finite elasto-plastic solid: von Mises yield, isotropic hardening", MaterialJ2Parameters, .unsymmetric = PETSC_TRUE, .num_history = 7,
+     .setup = MaterialJ2SetUp, .evaluate = MaterialJ2, .initial = MaterialJ2Initial, .plastic = MaterialJ2Plastic},
     {"rigid", "rigid body that moves as told", MaterialRigidParameters, .rigid = PETSC_TRUE, .setup = MaterialRigidSetUp},
     {NULL},
 };
@@ -23,11 +27,12 @@ const MaterialLaw *MaterialLawFind(const char *name)
   return NULL;
 }
 
-PetscErrorCode MaterialEvaluate(const MaterialSpec *spec, MaterialPart part, PetscInt n, const PetscReal *F, PetscReal *W, PetscReal *P, PetscReal *A,
-                                PetscBool *bad)
+PetscErrorCode MaterialEvaluate(const MaterialSpec *spec, MaterialPart part, MaterialPoints *points)
 {
   PetscFunctionBegin;
   PetscCheck(spec->law->evaluate, PETSC_COMM_SELF, PETSC_ERR_ARG_WRONGSTATE, "Material %s (%s) has no stress", spec->name, spec->law->name);
-  PetscCall(spec->law->evaluate(spec, part, n, F, W, P, A, bad));
+  PetscCheck(!spec->law->num_history || points->history, PETSC_COMM_SELF, PETSC_ERR_ARG_NULL, "Material %s (%s) needs the history of its points", spec->name,
+             spec->law->name);
+  PetscCall(spec->law->evaluate(spec, part, points));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -9,18 +9,27 @@ typedef long LanesMask __attribute__((vector_size(NUM_LANES * sizeof(long)), may
 /* What the laws need to know of a deformation. J - 1 is built from H = F - 1, so that small strains keep their digits. */
 typedef struct {
   Lanes F[9], H[9], cof[9]; /* cof = J F^-T */
+  Lanes fiber[MATERIAL_MAX_FIBERS][3];
   Lanes jm1, J, lnJ;
+  Lanes history[MATERIAL_MAX_HISTORY]; /* of laws that have one */
 } Deformation;
 
 /* What they answer. W alone, or with P, or with P and A, as asked. */
 typedef struct {
   PetscBool want_W, want_P, want_A;
   Lanes     W, P[9], A[81];
+  Lanes     trial[MATERIAL_MAX_HISTORY]; /* laws with history: always */
+  LanesMask bad;                         /* or-ed at points without an answer */
 } Response;
 
 INLINE Lanes LanesSet(PetscReal value)
 {
   return value - (Lanes){0};
+}
+
+INLINE Lanes LanesSelect(LanesMask mask, Lanes yes, Lanes no)
+{
+  return (Lanes)(((LanesMask)yes & mask) | ((LanesMask)no & ~mask));
 }
 
 INLINE Lanes LanesLog1p(Lanes x)
@@ -148,44 +157,55 @@ INLINE void VolumetricEnergy(const MaterialSpec *spec, const Deformation *d, Lan
 
 typedef void (*PointLaw)(const MaterialSpec *, MaterialPart, const Deformation *, Response *);
 
-/* Run a law over n points; F, W, P, A as MaterialKernel. `law` is a constant at every call, so that it is inlined. */
-INLINE void PointLoop(PointLaw law, const MaterialSpec *spec, MaterialPart part, PetscInt n, const PetscReal *F, PetscReal *W, PetscReal *P, PetscReal *A,
-                      PetscBool *bad)
+/* Numbers of `count` points i, i+1, … in arrays [num][n]; lanes beyond repeat the last one. */
+INLINE void LoadPoints(PetscInt num, PetscInt n, PetscInt i, PetscInt count, const PetscReal *from, Lanes *to)
 {
-  LanesMask any = {0};
-  Response  r;
+  for (PetscInt k = 0; k < num; k++) {
+    if (count == NUM_LANES)
+      to[k] = *(const LanesAny *)&from[k * n + i];
+    else
+      for (PetscInt l = 0; l < NUM_LANES; l++) to[k][l] = from[k * n + i + PetscMin(l, count - 1)];
+  }
+}
 
-  r.want_W = W ? PETSC_TRUE : PETSC_FALSE;
-  r.want_P = P ? PETSC_TRUE : PETSC_FALSE;
-  r.want_A = A ? PETSC_TRUE : PETSC_FALSE;
+INLINE void StorePoints(PetscInt num, PetscInt n, PetscInt i, PetscInt count, const Lanes *from, PetscReal *to)
+{
+  for (PetscInt k = 0; to && k < num; k++) {
+    if (count == NUM_LANES)
+      *(LanesAny *)&to[k * n + i] = from[k];
+    else
+      for (PetscInt l = 0; l < count; l++) to[k * n + i + l] = from[k][l];
+  }
+}
+
+/* Run a law over points. `law` and its number of history values are constants at every call, so that it is inlined. */
+INLINE void PointLoop(PointLaw law, const PetscInt num_history, const MaterialSpec *spec, MaterialPart part, MaterialPoints *points)
+{
+  const PetscInt n   = points->n;
+  LanesMask      any = {0};
+  Response       r;
+
+  r.want_W = points->W ? PETSC_TRUE : PETSC_FALSE;
+  r.want_P = points->P ? PETSC_TRUE : PETSC_FALSE;
+  r.want_A = points->A ? PETSC_TRUE : PETSC_FALSE;
+  r.bad    = (LanesMask){0};
   for (PetscInt i = 0; i < n; i += NUM_LANES) {
     const PetscInt count = PetscMin(NUM_LANES, n - i);
     Deformation    d;
 
-    if (count == NUM_LANES) {
-      for (int k = 0; k < 9; k++) d.F[k] = *(const LanesAny *)&F[k * n + i];
-    } else {
-      for (int k = 0; k < 9; k++) {
-        d.F[k] = LanesSet(k % 4 == 0 ? 1 : 0);
-        for (PetscInt l = 0; l < count; l++) d.F[k][l] = F[k * n + i + l];
-      }
-    }
+    LoadPoints(9, n, i, count, points->F, d.F);
+    LoadPoints(3 * spec->num_fibers, n, i, count, points->fiber, d.fiber[0]);
+    if (num_history) LoadPoints(num_history, n, i, count, points->history, d.history);
     DeformationSet(&d, &any);
     law(spec, part, &d, &r);
-    if (count == NUM_LANES) {
-      if (W) *(LanesAny *)&W[i] = r.W;
-      for (int k = 0; P && k < 9; k++) *(LanesAny *)&P[k * n + i] = r.P[k];
-      for (int k = 0; A && k < 81; k++) *(LanesAny *)&A[k * n + i] = r.A[k];
-    } else {
-      for (PetscInt l = 0; l < count; l++) {
-        if (W) W[i + l] = r.W[l];
-        for (int k = 0; P && k < 9; k++) P[k * n + i + l] = r.P[k][l];
-        for (int k = 0; A && k < 81; k++) A[k * n + i + l] = r.A[k][l];
-      }
-    }
+    StorePoints(1, n, i, count, &r.W, points->W);
+    StorePoints(9, n, i, count, r.P, points->P);
+    StorePoints(81, n, i, count, r.A, points->A);
+    if (num_history) StorePoints(num_history, n, i, count, r.trial, points->trial);
   }
+  any |= r.bad;
   for (int l = 0; l < NUM_LANES; l++) {
-    if (any[l]) *bad = PETSC_TRUE;
+    if (any[l]) points->bad = PETSC_TRUE;
   }
 }
 
@@ -196,14 +216,21 @@ PetscErrorCode                 MaterialSetUpElastic(MaterialSpec *);
 
 /* ---- one row each, in its own file ---- */
 
-PetscErrorCode MaterialNeoHookean(const MaterialSpec *, MaterialPart, PetscInt, const PetscReal *, PetscReal *, PetscReal *, PetscReal *, PetscBool *);
-PetscErrorCode MaterialMooneyRivlin(const MaterialSpec *, MaterialPart, PetscInt, const PetscReal *, PetscReal *, PetscReal *, PetscReal *, PetscBool *);
-PetscErrorCode MaterialSaintVenantKirchhoff(const MaterialSpec *, MaterialPart, PetscInt, const PetscReal *, PetscReal *, PetscReal *, PetscReal *,
-                                            PetscBool *);
-PetscErrorCode MaterialLinear(const MaterialSpec *, MaterialPart, PetscInt, const PetscReal *, PetscReal *, PetscReal *, PetscReal *, PetscBool *);
+PetscErrorCode MaterialNeoHookean(const MaterialSpec *, MaterialPart, MaterialPoints *);
+PetscErrorCode MaterialMooneyRivlin(const MaterialSpec *, MaterialPart, MaterialPoints *);
+PetscErrorCode MaterialHGO(const MaterialSpec *, MaterialPart, MaterialPoints *);
+PetscErrorCode MaterialSaintVenantKirchhoff(const MaterialSpec *, MaterialPart, MaterialPoints *);
+PetscErrorCode MaterialLinear(const MaterialSpec *, MaterialPart, MaterialPoints *);
+PetscErrorCode MaterialJ2(const MaterialSpec *, MaterialPart, MaterialPoints *);
 
 extern const MaterialParameter MaterialMooneyRivlinParameters[];
 PetscErrorCode                 MaterialMooneyRivlinSetUp(MaterialSpec *);
+extern const MaterialParameter MaterialHGOParameters[];
+PetscErrorCode                 MaterialHGOSetUp(MaterialSpec *);
 extern const MaterialParameter MaterialRigidParameters[];
 PetscErrorCode                 MaterialRigidSetUp(MaterialSpec *);
 PetscErrorCode                 MaterialLinearSetUp(MaterialSpec *);
+extern const MaterialParameter MaterialJ2Parameters[];
+PetscErrorCode                 MaterialJ2SetUp(MaterialSpec *);
+void                           MaterialJ2Initial(const MaterialSpec *, PetscReal history[]);
+void                           MaterialJ2Plastic(const MaterialSpec *, const PetscReal history[], PetscReal *strain, PetscReal *work);

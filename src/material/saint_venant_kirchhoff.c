@@ -41,11 +41,10 @@ INLINE void SaintVenantKirchhoffPoint_Private(const MaterialSpec *spec, Material
   if (r->want_A) Tangent_Private(spec, d->F, S, r->A);
 }
 
-PetscErrorCode MaterialSaintVenantKirchhoff(const MaterialSpec *spec, MaterialPart part, PetscInt n, const PetscReal *F, PetscReal *W, PetscReal *P,
-                                            PetscReal *A, PetscBool *bad)
+PetscErrorCode MaterialSaintVenantKirchhoff(const MaterialSpec *spec, MaterialPart part, MaterialPoints *points)
 {
   PetscFunctionBegin;
   PetscCheck(part == MATERIAL_FULL, PETSC_COMM_SELF, PETSC_ERR_SUP, "Material %s (%s) has no isochoric part", spec->name, spec->law->name);
-  PointLoop(SaintVenantKirchhoffPoint_Private, spec, part, n, F, W, P, A, bad);
+  PointLoop(SaintVenantKirchhoffPoint_Private, 0, spec, part, points);
   PetscFunctionReturn(PETSC_SUCCESS);
 }

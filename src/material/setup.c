@@ -133,6 +133,9 @@ PetscErrorCode MaterialSetUp(MaterialSpec *spec, PetscInt num, const char *const
     PetscCall(CheckRange_Private(spec, &spec->law->parameters[k], values[i]));
     spec->parameter[k] = values[i];
   }
+  PetscCheckInput(!spec->num_fibers || spec->law->fibers, "material.%s.fiber: the law %s has no fibres; hgo has", spec->name, spec->law->name);
+  PetscCheckInput(spec->num_fibers || !spec->law->fibers, "material.%s.fiber: missing; %s needs one to %d families, fiber: {a: {angle: 29}}", spec->name,
+                  spec->law->name, MATERIAL_MAX_FIBERS);
   PetscCall(spec->law->setup(spec));
   PetscCall(ResolveMixed_Private(spec));
   PetscFunctionReturn(PETSC_SUCCESS);

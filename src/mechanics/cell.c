@@ -35,7 +35,8 @@ static PetscErrorCode TablesCreate_Private(CellKernel k)
 /* One block of memory, aligned to lanes, cut into the arrays of the kernel. */
 static PetscErrorCode ArenaCreate_Private(CellKernel k)
 {
-  const size_t n = k->num_nodes, q = k->num_points, d = k->dim, r = k->num_derivatives, m = k->num_pressure, n1 = k->n1, slab = k->slab_points;
+  const size_t n = k->num_nodes, q = k->num_points, d = k->dim, r = k->num_derivatives, m = k->num_pressure, n1 = k->n1, slab = k->slab_points,
+               h = k->material.law->num_history;
   const struct {
     Lanes **array;
     size_t  num;
@@ -48,10 +49,13 @@ static PetscErrorCode ArenaCreate_Private(CellKernel k)
       {&k->hoop_inverse, k->hoop ? q : 0},
       {&k->volume, q},
       {&k->F, 9 * q},
+      {&k->fiber, (size_t)k->material.num_fibers * 3 * q},
       {&k->P, 9 * q},
       {&k->W, q},
       {&k->A, 81 * slab},
       {&k->measure, m ? 4 * q : 0},
+      {&k->history, h * q},
+      {&k->trial, h * q},
       {&k->mass, m * m},
       {&k->moment, m},
       {&k->coefficient, m},
@@ -83,6 +87,8 @@ PetscErrorCode CellKernelCreate(PetscInt dim, Model model, Kinematics kinematics
   PetscCheck(dim == (model == MODEL_3D ? 3 : 2), PETSC_COMM_SELF, PETSC_ERR_ARG_INCOMP, "Model and dimension %" PetscInt_FMT " disagree", dim);
   PetscCheck(!material->law->rigid, PETSC_COMM_SELF, PETSC_ERR_ARG_WRONGSTATE, "Cells of rigid material %s are not assembled", material->name);
   PetscCheckInput(!material->law->small || kinematics == KINEMATICS_SMALL, "material.%s.law: %s needs kinematics: small", material->name, material->law->name);
+  PetscCheckInput(!material->law->num_history || kinematics == KINEMATICS_FINITE, "material.%s.law: %s needs kinematics: finite", material->name,
+                  material->law->name);
   PetscCall(PetscNew(&k));
   k->dim             = dim;
   k->order           = order;
@@ -92,6 +98,7 @@ PetscErrorCode CellKernelCreate(PetscInt dim, Model model, Kinematics kinematics
   k->small           = kinematics == KINEMATICS_SMALL ? PETSC_TRUE : PETSC_FALSE;
   k->hoop            = model == MODEL_AXISYMMETRIC ? PETSC_TRUE : PETSC_FALSE;
   k->mixed           = material->mixed;
+  k->unsymmetric     = material->law->unsymmetric;
   k->num_derivatives = k->hoop ? 3 : dim;
   k->num_pressure    = !k->mixed ? 0 : dim == 2 ? order * (order + 1) / 2 : order * (order + 1) * (order + 2) / 6;
   k->num_slabs       = dim == 3 && order > 1 ? k->n1 : 1;
@@ -100,6 +107,7 @@ PetscErrorCode CellKernelCreate(PetscInt dim, Model model, Kinematics kinematics
   if (k->small) { /* small kinematics: every law is its linearisation */
     k->material.law        = MaterialLawFind("linear");
     k->material.volumetric = VOLUMETRIC_QUADRATIC;
+    k->material.num_fibers = 0; /* they are slack to first order */
   }
   PetscCall(Basis1DGet(order, k->n1, &k->basis));
   PetscCall(TablesCreate_Private(k));
@@ -128,6 +136,12 @@ void CellKernelSizes(CellKernel k, PetscInt *num_nodes, PetscInt *num_pressure, 
   if (best_batch) *best_batch = NUM_LANES * PetscMax(1, PetscMin(8, 32768 / (size * size)));
 }
 
+void CellKernelHistory(CellKernel k, PetscInt *num_points, PetscInt *num_history)
+{
+  if (num_points) *num_points = k->num_points;
+  if (num_history) *num_history = k->material.law->num_history;
+}
+
 /* Nodal values [cells][n][d] to lanes [d][n]; lanes beyond num repeat the last cell. */
 static void Load_Private(PetscInt num, PetscInt n, PetscInt d, const PetscReal *values, Lanes *lanes)
 {
@@ -149,18 +163,73 @@ static void Store_Private(PetscInt num, PetscInt n, PetscInt d, const Lanes *lan
   }
 }
 
-/* The law at all points: F -> W, P, and slab by slab A, which is pulled back at once while it is in cache. */
-static PetscErrorCode Law_Private(CellKernel k, PetscBool tangent, const Lanes *pressure)
+/* Point values [cells][num][q] to lanes, slab after slab. */
+static void LoadSlabs_Private(CellKernel k, PetscInt num_cells, PetscInt num, const PetscReal *values, Lanes *lanes)
 {
-  const PetscInt     slab = k->slab_points, count = slab * NUM_LANES;
+  const PetscInt slab = k->slab_points;
+
+  for (PetscInt q = 0; q < k->num_points; q++) {
+    for (PetscInt c = 0; c < num; c++) {
+      for (PetscInt l = 0; l < NUM_LANES; l++) {
+        lanes[(q / slab * num + c) * slab + q % slab][l] = values[(PetscMin(l, num_cells - 1) * num + c) * k->num_points + q];
+      }
+    }
+  }
+}
+
+PetscErrorCode CellKernelVolumes(CellKernel k, const PetscReal *X, PetscReal *volume)
+{
+  PetscFunctionBegin;
+  Load_Private(1, k->num_nodes, k->dim, X, k->X);
+  PetscCall(CellKernelGeometry_Private(k));
+  for (PetscInt q = 0; q < k->num_points; q++) volume[q] = k->volume[q][0];
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Numbers at points: [cells][points][h] from/to lanes [slab][h][points of a slab]. Lanes beyond num repeat the last cell. */
+static void LoadHistory_Private(CellKernel k, PetscInt num, const PetscReal *values)
+{
+  const PetscInt h = k->material.law->num_history, slab = k->slab_points;
+
+  for (PetscInt l = 0; l < NUM_LANES; l++) {
+    const PetscReal *cell = values + PetscMin(l, num - 1) * k->num_points * h;
+
+    for (PetscInt q = 0; q < k->num_points; q++) {
+      for (PetscInt c = 0; c < h; c++) k->history[((q / slab) * h + c) * slab + q % slab][l] = cell[q * h + c];
+    }
+  }
+}
+
+static void StoreTrial_Private(CellKernel k, PetscInt num, PetscReal *values)
+{
+  const PetscInt h = k->material.law->num_history, slab = k->slab_points;
+
+  for (PetscInt l = 0; l < num; l++) {
+    for (PetscInt q = 0; q < k->num_points; q++) {
+      for (PetscInt c = 0; c < h; c++) values[(l * k->num_points + q) * h + c] = k->trial[((q / slab) * h + c) * slab + q % slab][l];
+    }
+  }
+}
+
+/* The law at all points: F -> W, P, and slab by slab A, which is pulled back at once while it is in cache. *bad: it has no answer (det F was tested before). */
+static PetscErrorCode Law_Private(CellKernel k, PetscBool tangent, const Lanes *pressure, PetscBool *bad)
+{
+  const PetscInt     slab = k->slab_points, count = slab * NUM_LANES, h = k->material.law->num_history;
   const MaterialPart part = k->mixed ? MATERIAL_ISOCHORIC : MATERIAL_FULL;
-  PetscBool          bad  = PETSC_FALSE; /* det F was tested before */
 
   PetscFunctionBegin;
   for (PetscInt s = 0; s < k->num_slabs; s++) {
-    PetscReal *F = (PetscReal *)&k->F[s * 9 * slab], *P = (PetscReal *)&k->P[s * 9 * slab], *W = (PetscReal *)&k->W[s * slab], *A = (PetscReal *)k->A;
+    MaterialPoints points = {.n       = count,
+                             .F       = (PetscReal *)&k->F[s * 9 * slab],
+                             .fiber   = (PetscReal *)&k->fiber[s * 3 * k->material.num_fibers * slab],
+                             .W       = (PetscReal *)&k->W[s * slab],
+                             .P       = (PetscReal *)&k->P[s * 9 * slab],
+                             .A       = tangent ? (PetscReal *)k->A : NULL,
+                             .history = (PetscReal *)&k->history[s * h * slab],
+                             .trial   = (PetscReal *)&k->trial[s * h * slab]};
 
-    PetscCall(MaterialEvaluate(&k->material, part, count, F, W, P, tangent ? A : NULL, &bad));
+    PetscCall(MaterialEvaluate(&k->material, part, &points));
+    if (points.bad) *bad = PETSC_TRUE;
     if (tangent && k->mixed) CellKernelAddPressureTangent_Private(k, s, pressure);
     if (tangent) CellKernelTangentSlab_Private(k, s);
   }
@@ -195,13 +264,15 @@ static void Stretch_Private(CellKernel k, PetscInt num, PetscReal *stretch2)
 /* Everything that is asked of cells first .. first+num-1 of the batch. */
 static PetscErrorCode Chunk_Private(CellKernel k, CellBatch *b, PetscInt first, PetscInt num)
 {
-  const PetscInt  n = k->num_nodes, d = k->dim, m = k->num_pressure, size = n * d;
+  const PetscInt  n = k->num_nodes, d = k->dim, m = k->num_pressure, size = n * d, fibers = 3 * k->material.num_fibers;
   const PetscBool tangent = b->tangent ? PETSC_TRUE : PETSC_FALSE, couple = m && (b->tangent || b->dpressure) ? PETSC_TRUE : PETSC_FALSE;
   const Lanes    *pressure = k->coefficient;
   Lanes           min_det;
   PetscBool       bad = PETSC_FALSE;
 
   PetscFunctionBegin;
+  PetscCheck(b->history || !k->material.law->num_history || !(b->energy || b->residual || tangent || b->trial), PETSC_COMM_SELF, PETSC_ERR_ARG_NULL,
+             "The law %s needs the history of its points", k->material.law->name);
   Load_Private(num, n, d, b->X + first * size, k->X);
   Load_Private(num, n, d, b->u + first * size, k->u);
   PetscCall(CellKernelGeometry_Private(k));
@@ -219,7 +290,12 @@ static PetscErrorCode Chunk_Private(CellKernel k, CellBatch *b, PetscInt first, 
     Load_Private(num, m, 1, b->pressure + first * m, k->stored);
     pressure = k->stored;
   }
-  if (b->energy || b->residual || tangent) PetscCall(Law_Private(k, tangent, pressure));
+  if (b->history) LoadHistory_Private(k, num, b->history + first * k->num_points * k->material.law->num_history);
+  if (fibers && (b->energy || b->residual || tangent)) LoadSlabs_Private(k, num, fibers, b->fiber + first * fibers * k->num_points, k->fiber);
+  if (b->energy || b->residual || tangent || b->trial) PetscCall(Law_Private(k, tangent, pressure, &bad));
+  if (bad) b->bad = PETSC_TRUE;
+  if (bad) PetscFunctionReturn(PETSC_SUCCESS);
+  if (b->trial) StoreTrial_Private(k, num, b->trial + first * k->num_points * k->material.law->num_history);
   if (b->energy) Energy_Private(k, num, b->energy + first);
   if (b->residual) {
     if (k->mixed) CellKernelAddPressure_Private(k);

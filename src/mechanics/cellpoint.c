@@ -27,13 +27,14 @@ static PetscReal Invert_Private(PetscInt dim, const PetscReal G[9], PetscReal in
   return det;
 }
 
-/* grad u at xi, embedded in 3x3. */
-static PetscErrorCode PointGradient_Private(CellKernel k, const PetscReal *xi, const PetscReal *X, const PetscReal *u, PetscReal H[9])
+/* Reference position of xi, a third component 0 in the plane; and grad u there, embedded in 3x3. */
+static PetscErrorCode PointGradient_Private(CellKernel k, const PetscReal *xi, const PetscReal *X, const PetscReal *u, PetscReal position[3], PetscReal H[9])
 {
   const PetscInt d = k->dim;
-  PetscReal      value[MOST_NODES], gradient[3 * MOST_NODES], G[9] = {0}, g[9] = {0}, inv[9], R = 0, ur = 0;
+  PetscReal      value[MOST_NODES], gradient[3 * MOST_NODES], G[9] = {0}, g[9] = {0}, inv[9], ur = 0;
 
   PetscFunctionBegin;
+  PetscCall(PetscArrayzero(position, 3));
   PetscCall(ElementEvaluate(d, k->order, xi, value, gradient));
   for (PetscInt node = 0; node < k->num_nodes; node++) {
     for (PetscInt i = 0; i < d; i++) {
@@ -41,8 +42,8 @@ static PetscErrorCode PointGradient_Private(CellKernel k, const PetscReal *xi, c
         G[i * d + r] += X[node * d + i] * gradient[node * d + r];
         g[i * d + r] += u[node * d + i] * gradient[node * d + r];
       }
+      position[i] += value[node] * X[node * d + i];
     }
-    R += value[node] * X[node * d];
     ur += value[node] * u[node * d];
   }
   Invert_Private(d, G, inv);
@@ -53,7 +54,30 @@ static PetscErrorCode PointGradient_Private(CellKernel k, const PetscReal *xi, c
     }
   }
   /* On the axis the hoop strain is the limit u_r/R -> du_r/dR. */
-  if (k->hoop) H[8] = R > 0 ? ur / R : H[0];
+  if (k->hoop) H[8] = position[0] > 0 ? ur / position[0] : H[0];
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+void CellKernelNumFibers(CellKernel k, PetscInt *num)
+{
+  *num = 3 * k->material.num_fibers * k->num_points;
+}
+
+PetscErrorCode CellKernelFibers(CellKernel k, const PetscReal *X, PetscReal *fiber)
+{
+  const PetscInt line = k->basis->num_points;
+  PetscReal      value[MOST_NODES], gradient[3 * MOST_NODES];
+
+  PetscFunctionBegin;
+  for (PetscInt q = 0; q < k->num_points; q++) {
+    const PetscReal xi[3]    = {k->basis->points[q % line], k->basis->points[q / line % line], k->basis->points[q / line / line % line]};
+    PetscReal       place[3] = {0, 0, 0}, direction[MATERIAL_MAX_FIBERS][3];
+
+    PetscCall(ElementEvaluate(k->dim, k->order, xi, value, gradient));
+    for (PetscInt i = 0; i < k->num_nodes * k->dim; i++) place[i % k->dim] += value[i / k->dim] * X[i];
+    MaterialFiberDirections(&k->material, place, direction);
+    for (PetscInt i = 0; i < 3 * k->material.num_fibers; i++) fiber[i * k->num_points + q] = direction[i / 3][i % 3];
+  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -93,22 +117,95 @@ static PetscErrorCode AddPointPressure_Private(CellKernel k, const PetscReal *xi
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode CellKernelPoints(CellKernel k, PetscInt np, const PetscReal *xi, const PetscReal *X, const PetscReal *u, const PetscReal *pressure, PetscReal *F,
-                                PetscReal *P, PetscReal *W, PetscBool *bad)
+/* Lagrange polynomials of the n points at x. */
+static void Lagrange_Private(PetscInt n, const PetscReal points[], PetscReal x, PetscReal value[])
 {
+  for (PetscInt i = 0; i < n; i++) {
+    value[i] = 1;
+    for (PetscInt j = 0; j < n; j++) value[i] *= j == i ? 1 : (x - points[j]) / (points[i] - points[j]);
+  }
+}
+
+PetscErrorCode CellKernelInterpolate(CellKernel k, PetscInt np, const PetscReal *xi, PetscInt num, const PetscReal *values, PetscReal *out)
+{
+  const PetscInt n = k->basis->num_points;
+
+  PetscFunctionBegin;
+  for (PetscInt p = 0; p < np; p++) {
+    PetscReal L[3][MORTISE_MAX_ORDER + 4];
+
+    for (PetscInt c = 0; c < k->dim; c++) Lagrange_Private(n, k->basis->points, xi[p * k->dim + c], L[c]);
+    for (PetscInt c = 0; c < num; c++) out[p * num + c] = 0;
+    for (PetscInt q = 0; q < k->num_points; q++) {
+      const PetscReal weight = L[0][q % n] * L[1][q / n % n] * (k->dim == 3 ? L[2][q / (n * n)] : 1);
+
+      for (PetscInt c = 0; c < num; c++) out[p * num + c] += weight * values[q * num + c];
+    }
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+#define REMEMBERED 10 /* Kirchhoff stress, energy density */
+
+/* What a law with history answers at the integration points: [num_points][REMEMBERED]. */
+static PetscErrorCode Remembered_Private(CellKernel k, const PetscReal *X, const PetscReal *u, const PetscReal *history, PetscReal *values, PetscBool *bad)
+{
+  const PetscInt n = k->basis->num_points, h = k->material.law->num_history;
+
+  PetscFunctionBegin;
+  for (PetscInt q = 0; q < k->num_points; q++, values += REMEMBERED, history += h) {
+    const PetscReal xi[3] = {k->basis->points[q % n], k->basis->points[q / n % n], k->dim == 3 ? k->basis->points[q / (n * n)] : 0};
+    PetscReal       F[9], P[9], position[3];
+    MaterialPoints  point = {.n = 1, .F = F, .W = values + 9, .P = P, .history = history};
+
+    PetscCall(PointGradient_Private(k, xi, X, u, position, F));
+    for (int c = 0; c < 9; c += 4) F[c] += 1;
+    PetscCall(MaterialEvaluate(&k->material, k->mixed ? MATERIAL_ISOCHORIC : MATERIAL_FULL, &point));
+    if (point.bad) *bad = PETSC_TRUE;
+    for (int c = 0; c < 9; c++) values[c] = Dot3(P + 3 * (c / 3), F + 3 * (c % 3));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* P = tau F^-T. */
+static void FirstPiola_Private(const PetscReal tau[9], const PetscReal F[9], PetscReal P[9])
+{
+  PetscReal inv[9];
+
+  Invert_Private(3, F, inv);
+  for (int c = 0; c < 9; c++) P[c] = Dot3(tau + 3 * (c / 3), inv + 3 * (c % 3));
+}
+
+PetscErrorCode CellKernelPoints(CellKernel k, PetscInt np, const PetscReal *xi, const PetscReal *X, const PetscReal *u, const PetscReal *pressure,
+                                const PetscReal *history, PetscReal *F, PetscReal *P, PetscReal *W, PetscBool *bad)
+{
+  const PetscBool remembers = (PetscBool)(k->material.law->num_history > 0);
+  PetscReal      *values    = NULL;
+
   PetscFunctionBegin;
   PetscCheck(!k->mixed || pressure, PETSC_COMM_SELF, PETSC_ERR_ARG_NULL, "A mixed cell needs its pressure coefficients");
   *bad = PETSC_FALSE;
+  if (remembers) PetscCall(PetscMalloc1(k->num_points * REMEMBERED, &values));
+  if (remembers) PetscCall(Remembered_Private(k, X, u, history, values, bad));
   for (PetscInt q = 0; q < np; q++) {
-    PetscReal f[9], p[9], w;
+    PetscReal      f[9], p[9], w, t[REMEMBERED], position[3], fiber[MATERIAL_MAX_FIBERS][3];
+    MaterialPoints point = {.n = 1, .F = f, .fiber = fiber[0], .W = &w, .P = p};
 
-    PetscCall(PointGradient_Private(k, xi + q * k->dim, X, u, f));
+    PetscCall(PointGradient_Private(k, xi + q * k->dim, X, u, position, f));
+    MaterialFiberDirections(&k->material, position, fiber);
     for (int c = 0; c < 9; c += 4) f[c] += 1;
-    PetscCall(MaterialEvaluate(&k->material, k->mixed ? MATERIAL_ISOCHORIC : MATERIAL_FULL, 1, f, &w, p, NULL, bad));
+    if (remembers) {
+      PetscCall(CellKernelInterpolate(k, 1, xi + q * k->dim, REMEMBERED, values, t));
+      FirstPiola_Private(t, f, p);
+      w = t[9];
+    } else
+      PetscCall(MaterialEvaluate(&k->material, k->mixed ? MATERIAL_ISOCHORIC : MATERIAL_FULL, &point));
+    if (point.bad) *bad = PETSC_TRUE;
     if (k->mixed) PetscCall(AddPointPressure_Private(k, xi + q * k->dim, pressure, f, p, &w));
     if (F) PetscCall(PetscArraycpy(F + 9 * q, f, 9));
     if (P) PetscCall(PetscArraycpy(P + 9 * q, p, 9));
     if (W) W[q] = w;
   }
+  PetscCall(PetscFree(values));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -1,28 +1,28 @@
 /* Element matrix by sum factorisation: K_(a i)(b k) = sum_q At_(i r k s)(q) d_r N_a d_s N_b with At the moduli pulled back to reference coordinates.
    The z direction is summed for each pair (a_z, b_z), then y, then x: O(p^(2d+1)) instead of O(p^(3d)) operations. Lines of nodes along x make tiles;
-   only tiles (a_z a_y) <= (b_z b_y) are summed, the others are their transposes. */
+   only tiles (a_z a_y) <= (b_z b_y) are summed, the others are their transposes; of unsymmetric laws all tiles. */
 #include "mechanicsimpl.h"
 
 /* 3-D: moduli A of point i of a slab, [9][9] with stride slab, to reference coordinates of point q. */
-INLINE void PullBackTwice3_Private(CellKernel k, PetscInt q, const Lanes *A, PetscInt slab)
+INLINE void PullBackTwice3_Private(CellKernel k, const PetscBool full, PetscInt q, const Lanes *A, PetscInt slab)
 {
   const PetscInt nq = k->num_points;
   Lanes          inv[9], T[9][3], *out = k->reference_tangent + q;
 
   for (int c = 0; c < 9; c++) inv[c] = k->inverse[c * nq + q];
   for (int kk = 0; kk < 3; kk++) {
-    for (int a = 0; a < 3 * kk + 3; a++) { /* T[iJ][s] = volume A_iJkL inv_sL for i <= k */
+    for (int a = 0; a < (full ? 9 : 3 * kk + 3); a++) { /* T[iJ][s] = volume A_iJkL inv_sL for i <= k */
       const Lanes *row = A + (9 * a + 3 * kk) * slab, r0 = row[0] * k->volume[q], r1 = row[slab] * k->volume[q], r2 = row[2 * slab] * k->volume[q];
 
       for (int s = 0; s < 3; s++) T[a][s] = r0 * inv[3 * s] + r1 * inv[3 * s + 1] + r2 * inv[3 * s + 2];
     }
-    for (int i = 0; i <= kk; i++) {
+    for (int i = 0; i < (full ? 3 : kk + 1); i++) {
       for (int r = 0; r < 3; r++) {
         for (int s = 0; s < 3; s++) {
           const Lanes value = T[3 * i][s] * inv[3 * r] + T[3 * i + 1][s] * inv[3 * r + 1] + T[3 * i + 2][s] * inv[3 * r + 2];
 
           out[((3 * i + kk) * 9 + 3 * r + s) * nq] = value;
-          if (i != kk) out[((3 * kk + i) * 9 + 3 * s + r) * nq] = value;
+          if (!full && i != kk) out[((3 * kk + i) * 9 + 3 * s + r) * nq] = value;
         }
       }
     }
@@ -62,9 +62,10 @@ INLINE void PullBackTwice2_Private(CellKernel k, const int nr, PetscInt q, const
     for (int i = 0; i < 2; i++) {
       for (int r = 0; r < 2; r++) { /* (i,r) with (0,value) and its transpose */
         const Lanes value = w * h * (A[(9 * place[i][0] + 8) * slab] * inv[2 * r] + A[(9 * place[i][1] + 8) * slab] * inv[2 * r + 1]);
+        const Lanes other = w * h * (A[(72 + place[i][0]) * slab] * inv[2 * r] + A[(72 + place[i][1]) * slab] * inv[2 * r + 1]);
 
         out[(2 * i * 9 + 3 * r + 2) * nq] = value;
-        out[(i * 9 + 6 + r) * nq]         = value;
+        out[(i * 9 + 6 + r) * nq]         = other;
       }
     }
   }
@@ -75,8 +76,10 @@ void CellKernelTangentSlab_Private(CellKernel k, PetscInt s)
   const PetscInt slab = k->slab_points;
 
   for (PetscInt i = 0; i < slab; i++) {
-    if (k->dim == 3)
-      PullBackTwice3_Private(k, s * slab + i, k->A + i, slab);
+    if (k->dim == 3 && k->unsymmetric)
+      PullBackTwice3_Private(k, PETSC_TRUE, s * slab + i, k->A + i, slab);
+    else if (k->dim == 3)
+      PullBackTwice3_Private(k, PETSC_FALSE, s * slab + i, k->A + i, slab);
     else if (k->hoop)
       PullBackTwice2_Private(k, 3, s * slab + i, k->A + i, slab);
     else
@@ -174,7 +177,7 @@ INLINE void StoreTile_Private(CellKernel k, const PetscInt n1, const int d, Pets
     for (PetscInt row = 0; row < cols; row++) {
       for (PetscInt col = 0; col < cols; col++) K[(a * d + row) * size + b * d + col] = tile[(row * cols + col) * NUM_LANES + cell];
     }
-    if (a == b) continue;
+    if (a == b || k->unsymmetric) continue;
     for (PetscInt row = 0; row < cols; row++) {
       for (PetscInt col = 0; col < cols; col++) K[(b * d + row) * size + a * d + col] = tile[(col * cols + row) * NUM_LANES + cell];
     }
@@ -213,12 +216,12 @@ INLINE void Tangent_Private(CellKernel k, const PetscInt n1, const int d, const 
   const PetscInt nz = d == 3 ? n1 : 1;
 
   for (PetscInt az = 0; az < nz; az++) {
-    for (PetscInt bz = az; bz < nz; bz++) {
+    for (PetscInt bz = k->unsymmetric ? 0 : az; bz < nz; bz++) {
       const Lanes *moduli = d == 3 ? k->layer_tangent : k->reference_tangent;
 
       if (d == 3) SumZ_Private(k, n1, az, bz);
       for (PetscInt ay = 0; ay < n1; ay++) {
-        for (PetscInt by = bz == az ? ay : 0; by < n1; by++) {
+        for (PetscInt by = bz == az && !k->unsymmetric ? ay : 0; by < n1; by++) {
           const PetscInt a = (az * n1 + ay) * n1, b = (bz * n1 + by) * n1;
 
           SumTile_Private(k, n1, d, nr, moduli, ay, by);

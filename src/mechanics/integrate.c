@@ -37,10 +37,12 @@ static PetscErrorCode GroupResidual_Private(Mechanics m, const CellGroup *g, con
     CellBatch batch = {.nc       = PetscMin(g->batch, g->num_cells - first),
                        .X        = g->X + first * nd,
                        .u        = b.u,
+                       .fiber    = g->fiber + first * g->num_fibers,
                        .energy   = b.energy,
                        .residual = b.r,
                        .min_det  = b.min_det,
-                       .stretch2 = b.stretch2};
+                       .stretch2 = b.stretch2,
+                       .history  = MechanicsBatchHistory_Private(m, g, first)};
     PetscCall(GatherBatch_Private(m, g, first, batch.nc, u, b.u));
     PetscCall(CellKernelEvaluate(g->kernel, &batch));
     for (PetscInt i = 0; i < batch.nc; ++i) status->min_det = PetscMin(status->min_det, b.min_det[i]);
@@ -139,7 +141,13 @@ PetscErrorCode MechanicsTangent(Mechanics m, const PetscReal u[], const PetscRea
     const Buffers  b  = CutBuffers_Private(m, g);
     const PetscInt nd = g->n * m->dim;
     for (PetscInt first = 0; first < g->num_cells; first += g->batch) {
-      CellBatch batch = {.nc = PetscMin(g->batch, g->num_cells - first), .X = g->X + first * nd, .u = b.u, .tangent = b.K, .place = g->place};
+      CellBatch batch = {.nc      = PetscMin(g->batch, g->num_cells - first),
+                         .X       = g->X + first * nd,
+                         .u       = b.u,
+                         .fiber   = g->fiber + first * g->num_fibers,
+                         .tangent = b.K,
+                         .place   = g->place,
+                         .history = MechanicsBatchHistory_Private(m, g, first)};
       PetscCall(GatherBatch_Private(m, g, first, batch.nc, u, b.u));
       if (g->m) {
         batch.pressure   = pressure ? pressure + g->pressure + first * g->m : NULL;
@@ -192,10 +200,10 @@ PetscErrorCode MechanicsPoints(Mechanics m, PetscInt cell, PetscInt np, const Pe
   values = X + g->n * m->dim;
   PetscCall(HPSpaceGatherPositions(m->space, cell, X));
   PetscCall(HPSpaceGather(m->space, cell, u, values));
-  if (g->m) {
+  if (g->m) { /* the volume alone tells the pressure, no fibres */
     CellBatch batch = {.nc = 1, .X = X, .u = values, .consistent = consistent};
     PetscCall(CellKernelEvaluate(g->kernel, &batch));
   }
-  PetscCall(CellKernelPoints(g->kernel, np, xi, X, values, g->m ? consistent : NULL, F, P, W, &bad));
+  PetscCall(CellKernelPoints(g->kernel, np, xi, X, values, g->m ? consistent : NULL, g->h ? m->history + m->cell_history[cell] : NULL, F, P, W, &bad));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

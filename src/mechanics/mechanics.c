@@ -31,6 +31,8 @@ static PetscErrorCode Groups_Private(Mechanics m, const HPTables *v, const Fores
       m->groups[g].material = mine;
       PetscCall(CellKernelCreate(m->dim, m->spec->model, m->spec->kinematics, v->cell_order[c], mine, &m->groups[g].kernel));
       CellKernelSizes(m->groups[g].kernel, &m->groups[g].n, &m->groups[g].m, &m->groups[g].batch);
+      CellKernelHistory(m->groups[g].kernel, &m->groups[g].num_points, &m->groups[g].h);
+      CellKernelNumFibers(m->groups[g].kernel, &m->groups[g].num_fibers);
     }
     m->cell_group[c] = g;
     if (c < v->num_owned_cells) m->cell_index[c] = m->groups[g].num_cells++;
@@ -49,6 +51,7 @@ static PetscErrorCode FillGroups_Private(Mechanics m, const HPTables *v)
     const PetscInt nd = group->n * m->dim, per_cell = 2 * nd + nd * nd + 3 * group->m + 5;
     PetscCall(
         PetscMalloc4(group->num_cells, &group->cells, group->num_cells * nd, &group->X, group->num_cells, &group->noise2, group->num_cells, &group->drift2));
+    PetscCall(PetscMalloc1(group->num_cells * group->num_fibers, &group->fiber));
     group->pressure = m->num_pressure;
     m->num_pressure += group->num_cells * group->m;
     dpressure += group->num_cells * group->m * nd;
@@ -57,8 +60,10 @@ static PetscErrorCode FillGroups_Private(Mechanics m, const HPTables *v)
   for (PetscInt c = 0; c < v->num_owned_cells; ++c) {
     if (m->cell_group[c] < 0) continue;
     CellGroup *group               = &m->groups[m->cell_group[c]];
+    PetscReal *X                   = group->X + m->cell_index[c] * group->n * m->dim;
     group->cells[m->cell_index[c]] = c;
-    PetscCall(HPSpaceGatherPositions(m->space, c, group->X + m->cell_index[c] * group->n * m->dim));
+    PetscCall(HPSpaceGatherPositions(m->space, c, X));
+    if (group->num_fibers) PetscCall(CellKernelFibers(group->kernel, X, group->fiber + m->cell_index[c] * group->num_fibers));
   }
   PetscCall(PetscMalloc2(m->num_pressure, &m->linear, dpressure, &m->dpressure));
   PetscCall(PetscMalloc1(m->work_size, &m->work));
@@ -114,6 +119,7 @@ PetscErrorCode MechanicsCreate(HPSpace space, const MechanicsSpec *spec, const S
   Noise_Private(m);
   PetscCall(MechanicsLoadFacets_Private(m));
   PetscCall(MechanicsFreeBodies_Private(m));
+  PetscCall(MechanicsHistoryCreate_Private(m));
   *mechanics = m;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -125,8 +131,10 @@ PetscErrorCode MechanicsDestroy(Mechanics *mechanics)
   PetscFunctionBegin;
   if (!m) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(MechanicsCondenseDestroy_Private(m));
+  PetscCall(MechanicsHistoryDestroy_Private(m));
   for (PetscInt g = 0; g < m->num_groups; ++g) {
     PetscCall(CellKernelDestroy(&m->groups[g].kernel));
+    PetscCall(PetscFree(m->groups[g].fiber));
     PetscCall(PetscFree4(m->groups[g].cells, m->groups[g].X, m->groups[g].noise2, m->groups[g].drift2));
   }
   PetscCall(PetscFree(m->groups));

@@ -2,6 +2,7 @@
 #pragma once
 #include "mechanics.h"
 #include <petscblaslapack.h>
+#include <petscsf.h>
 
 /* ---- cells (cell.c): residual, tangent and energy of batches of tensor-product cells of one order, law and model ---- */
 
@@ -11,18 +12,23 @@ typedef struct _p_CellKernel *CellKernel;
    NULL outputs are skipped. */
 typedef struct {
   PetscInt         nc;
-  const PetscReal *X;          /* [nc][n][d] reference positions */
-  const PetscReal *u;          /* [nc][n][d] displacements */
-  const PetscReal *pressure;   /* [nc][m] stored pressure coefficients: enter the geometric stiffness only. NULL: the consistent ones are used */
-  PetscReal       *energy;     /* [nc] */
-  PetscReal       *residual;   /* [nc][n*d] dE/du, row node*d + component; a function of u alone */
-  PetscReal       *tangent;    /* [nc][n*d][n*d] symmetric, full; exact derivative of residual when pressure is NULL or consistent */
-  const PetscInt  *place;      /* [n] NULL, or where the nodes stand in tangent: then only its rows up to the diagonal's column are written, K[row <= column] */
-  PetscReal       *consistent; /* [nc][m] pressure coefficients that u implies: modulus * M^-1 int q g(J) */
-  PetscReal       *dpressure;  /* [nc][m][n*d] derivative of consistent with respect to u */
-  PetscReal       *min_det;    /* [nc] smallest det F over the quadrature points */
-  PetscReal       *stretch2;   /* [nc] largest F:F/3 over the quadrature points */
-  PetscBool        bad;        /* out: some det F <= 0 in the batch (finite kinematics): outputs of that batch are not to be used */
+  const PetscReal *X; /* [nc][n][d] reference positions */
+  const PetscReal *u; /* [nc][n][d] displacements */
+  const PetscReal
+      *fiber; /* [nc][num_fibers][3][points] of CellKernelFibers; NULL for materials without fibres, and where no energy, residual or tangent is asked */
+  const PetscReal *pressure; /* [nc][m] stored pressure coefficients: enter the geometric stiffness only. NULL: the consistent ones are used */
+  PetscReal       *energy;   /* [nc] */
+  PetscReal       *residual; /* [nc][n*d] dE/du, row node*d + component; a function of u alone */
+  const PetscReal *history;  /* [nc][points][num_history] of laws with history, as the last accepted step left it */
+  PetscReal       *trial;    /* [nc][points][num_history] as a step that ended at u would leave it */
+  PetscReal       *tangent;  /* [nc][n*d][n*d] full, symmetric unless the law is not; exact derivative of residual when pressure is NULL or consistent */
+  const PetscInt  *place;    /* [n] NULL, or where the nodes stand in tangent: then only its rows up to the diagonal's column are written, K[row <= column];
+                                not with unsymmetric laws */
+  PetscReal *consistent;     /* [nc][m] pressure coefficients that u implies: modulus * M^-1 int q g(J) */
+  PetscReal *dpressure;      /* [nc][m][n*d] derivative of consistent with respect to u */
+  PetscReal *min_det;        /* [nc] smallest det F over the quadrature points */
+  PetscReal *stretch2;       /* [nc] largest F:F/3 over the quadrature points */
+  PetscBool  bad;            /* out: some det F <= 0 in the batch (finite kinematics), or no answer of the law: outputs of that batch are not to be used */
 } CellBatch;
 
 /* Kernel for cells of order p with p+1 Gauss points in each direction. Mixed (material->mixed): pressure in the complete polynomials of degree p-1 in the
@@ -32,12 +38,23 @@ typedef struct {
 PetscErrorCode CellKernelCreate(PetscInt dim, Model, Kinematics, PetscInt order, const MaterialSpec *, CellKernel *);
 PetscErrorCode CellKernelDestroy(CellKernel *);
 void           CellKernelSizes(CellKernel, PetscInt *num_nodes, PetscInt *num_pressure, PetscInt *best_batch);
+/* Integration points of a cell, and numbers remembered at each. */
+void           CellKernelHistory(CellKernel, PetscInt *num_points, PetscInt *num_history);
 PetscErrorCode CellKernelEvaluate(CellKernel, CellBatch *);
+/* Weight times reference volume of the integration points of a cell with nodes X[n][d] (axisymmetric: of the full revolution). */
+PetscErrorCode CellKernelVolumes(CellKernel, const PetscReal *X, PetscReal *volume);
+
+/* Fibre directions at the integration points of one cell with nodes X[n][dim]: num = 3 num_fibers points numbers, [num_fibers][3][points]. */
+void           CellKernelNumFibers(CellKernel, PetscInt *num);
+PetscErrorCode CellKernelFibers(CellKernel, const PetscReal *X, PetscReal *fiber);
 
 /* Point values for output and estimation at given reference points xi[np][dim] of one cell with nodes X, u ([n][dim]) and pressure coefficients (mixed, else
-   NULL): F[np][9], P[np][9] (with the pressure field's volumetric part), J, weight-free. */
-PetscErrorCode CellKernelPoints(CellKernel, PetscInt np, const PetscReal *xi, const PetscReal *X, const PetscReal *u, const PetscReal *pressure, PetscReal *F,
-                                PetscReal *P, PetscReal *W, PetscBool *bad);
+   NULL): F[np][9], P[np][9] (with the pressure field's volumetric part), J, weight-free. Laws with history know their stress at the integration points
+   alone, from history[points][num_history] (else NULL): elsewhere the Kirchhoff stress and W are the polynomials through these. */
+PetscErrorCode CellKernelPoints(CellKernel, PetscInt np, const PetscReal *xi, const PetscReal *X, const PetscReal *u, const PetscReal *pressure,
+                                const PetscReal *history, PetscReal *F, PetscReal *P, PetscReal *W, PetscBool *bad);
+/* The polynomials through values[points][num] at the integration points, at np reference points: out[np][num]. */
+PetscErrorCode CellKernelInterpolate(CellKernel, PetscInt np, const PetscReal *xi, PetscInt num, const PetscReal *values, PetscReal *out);
 
 /* ---- facets (facet.c): loads on one facet, given by its (p+1)^(dim-1) trace nodes ------------------------------------ */
 
@@ -61,8 +78,11 @@ typedef struct {
   PetscInt            order, num_cells, n, m, batch; /* nodes and pressure coefficients of a cell; cells per call */
   PetscInt           *cells;                         /* owned [num_cells] local cells */
   PetscReal          *X;                             /* owned [num_cells][n][dim] */
+  PetscInt            num_fibers;                    /* numbers that describe the fibres of a cell */
+  PetscReal          *fiber;                         /* owned [num_cells][num_fibers] */
   PetscReal          *noise2, *drift2;               /* owned [num_cells] shares in those of MechanicsStatus for F = I */
   PetscInt            pressure;                      /* first coefficient in the pressure array */
+  PetscInt            history, h, num_points;        /* first number in the history array; numbers at a point; integration points of a cell */
   PetscInt            num_inner;                     /* nodes inside a cell */
   PetscInt           *place, *outer;                 /* owned [n] where each node stands when the inner ones come first; [n - num_inner] the others */
   PetscReal          *factor;                        /* owned [num_cells][num_inner*dim][n*dim] condense.c; NULL: no condensation */
@@ -92,14 +112,26 @@ struct _p_Mechanics {
   PetscReal           *work;               /* owned batch buffers */
   PetscInt             work_size;
   PetscReal           *condense_work; /* owned: condense.c */
+  /* history.c */
+  PetscInt   num_history, *cell_history; /* numbers of owned cells; owned [num_cells] where those of a cell, ghosts too, start in history */
+  PetscReal *history;                    /* owned: as the last accepted step left it, own cells first, then ghosts */
+  PetscSF    history_sf;                 /* owned: ghosts' numbers from their owners; NULL: no law has history */
 };
 
+/* History of the cells of a group from position `first` on; NULL: its law has none. */
+static inline const PetscReal *MechanicsBatchHistory_Private(Mechanics m, const CellGroup *g, PetscInt first)
+{
+  return g->h ? m->history + g->history + first * g->num_points * g->h : NULL;
+}
 PetscErrorCode MechanicsLoadFacets_Private(Mechanics);
 PetscErrorCode MechanicsDeadLoads_Private(Mechanics);
 /* condense.c: eliminate the nodes inside cell i of the group from K[n*dim][n*dim] (as CellBatch.tangent with place writes it); the rest, full, goes to
    S[nb*dim][nb*dim], nb nodes of group->outer. *singular: it cannot be done. */
 PetscErrorCode MechanicsCondenseDestroy_Private(Mechanics);
 PetscErrorCode MechanicsCondenseCell_Private(Mechanics, CellGroup *, PetscInt i, PetscReal K[], PetscReal S[], PetscBool *singular);
+/* history.c: layout and initial values. Collective. */
+PetscErrorCode MechanicsHistoryCreate_Private(Mechanics);
+PetscErrorCode MechanicsHistoryDestroy_Private(Mechanics);
 /* free.c: free_share. Collective. */
 PetscErrorCode MechanicsFreeBodies_Private(Mechanics);
 /* Follower pressures: add to r (NULL: skip) and to the sink (NULL: skip). */
@@ -114,7 +146,7 @@ PetscErrorCode MechanicsFollowers_Private(Mechanics, const PetscReal u[], PetscR
    slab]. */
 struct _p_CellKernel {
   PetscInt       dim, order, n1, num_nodes, num_points, num_pressure, num_derivatives, num_slabs, slab_points;
-  PetscBool      small, mixed, hoop;
+  PetscBool      small, mixed, hoop, unsymmetric;
   MaterialSpec   material; /* a copy; the linear law in small kinematics */
   const Basis1D *basis;
   PetscReal     *weight;                        /* owned [q] quadrature weights */
@@ -128,7 +160,9 @@ struct _p_CellKernel {
   Lanes         *hoop_inverse;                  /* [q] 1/R */
   Lanes         *volume;                        /* [q] weight times reference volume */
   Lanes         *F, *P, *W, *A;                 /* [9], [9], [1] over all points; A: [81] over one slab */
+  Lanes         *fiber;                         /* [num_fibers][3] over all points */
   Lanes         *measure;                       /* [4][q] J-1, g, g', g'' */
+  Lanes         *history, *trial;               /* [num_history] over all points, slab after slab like F */
   Lanes         *mass;                          /* [m][m] Cholesky factor of the pressure mass matrix */
   Lanes         *moment, *coefficient, *stored; /* [m] int q g; consistent and stored pressure coefficients */
   Lanes         *coupling;                      /* [m][d][n] b, then L^-1 b */

@@ -203,6 +203,7 @@ PetscErrorCode HistoryStep(History h, const ReportRow *r, const Balance *balance
 
   PetscFunctionBegin;
   PetscCall(PetscMalloc2(num_probes, &displacement, num_probes, &stress));
+  if (num_probes) PetscCall(ProblemSetHistory(problem, state->history));
   if (num_probes) PetscCall(ProbesEvaluate(h->probes, problem, state->x, displacement, stress));
   PetscCall(PetscArraycpy(h->values, fixed, num_fixed));
   PetscCall(Columns_Private(h->scene, num_probes, balance, displacement, stress, &c));

@@ -193,6 +193,7 @@ static PetscErrorCode GatherState_Private(const SceneData *scene, const RunSumma
   if (!s->probes) PetscFunctionReturn(PETSC_SUCCESS);
   g->num_probes = scene->num_probes;
   PetscCall(PetscMalloc2(g->num_probes, &g->displacement, g->num_probes, &g->stress));
+  PetscCall(ProblemSetHistory(s->problem, s->state->history));
   PetscCall(ProbesEvaluate(s->probes, s->problem, s->state->x, g->displacement, g->stress));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -180,6 +180,16 @@ PetscErrorCode ProblemIsSymmetric(Problem p, PetscBool *possible)
   for (PetscInt b = 0; b < m->num_boundaries; ++b) {
     if (m->boundaries[b].pressure && m->kinematics == KINEMATICS_FINITE) *possible = PETSC_FALSE;
   }
+  for (PetscInt b = 0; b < m->num_bodies; ++b) {
+    if (m->bodies[b].material->law->unsymmetric) *possible = PETSC_FALSE;
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode ProblemSetHistory(Problem p, const PetscReal history[])
+{
+  PetscFunctionBegin;
+  PetscCall(MechanicsSetHistory(p->mechanics, history));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -369,6 +379,9 @@ PetscErrorCode StateCreate(Problem p, State *s)
   PetscCall(ProblemCreateVector(p, &s->x));
   PetscCall(MechanicsNumPressure(p->mechanics, &s->num_pressure));
   PetscCall(PetscCalloc1(s->num_pressure, &s->pressure));
+  PetscCall(MechanicsNumHistory(p->mechanics, &s->num_history));
+  PetscCall(PetscMalloc1(s->num_history, &s->history));
+  PetscCall(MechanicsInitialHistory(p->mechanics, s->history));
   s->num_leaves = t->num_leaves;
   PetscCall(PetscMalloc1(s->num_leaves, &s->leaf_order));
   PetscCall(PetscArraycpy(s->leaf_order, p->leaf_order, s->num_leaves));
@@ -380,6 +393,7 @@ PetscErrorCode StateCopy(const State *from, State *to)
   PetscFunctionBegin;
   PetscCall(VecCopy(from->x, to->x));
   PetscCall(PetscArraycpy(to->pressure, from->pressure, from->num_pressure));
+  PetscCall(PetscArraycpy(to->history, from->history, from->num_history));
   PetscCall(PetscArraycpy(to->leaf_order, from->leaf_order, from->num_leaves));
   to->t = from->t;
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -391,7 +405,24 @@ PetscErrorCode StateBlend(const State *a, const State *b, PetscReal share, State
   PetscCall(VecCopy(a->x, to->x));
   PetscCall(VecAXPBY(to->x, share, 1 - share, b->x));
   for (PetscInt i = 0; i < to->num_pressure; ++i) to->pressure[i] = (1 - share) * a->pressure[i] + share * b->pressure[i];
+  PetscCall(PetscArraycpy(to->history, a->history, a->num_history));
   to->t = a->t;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode StateCommit(Problem p, State *s)
+{
+  PetscReal *local;
+  PetscBool  bad;
+
+  PetscFunctionBegin;
+  PetscCall(ProblemSetHistory(p, s->history));
+  PetscCall(VecGetArray(p->u_local, &local));
+  PetscCall(ProblemLocalDisplacement(p, s->x, local));
+  PetscCall(MechanicsCommit(p->mechanics, local, s->history, &bad));
+  PetscCall(VecRestoreArray(p->u_local, &local));
+  PetscCheck(!bad, PETSC_COMM_SELF, PETSC_ERR_ARG_WRONGSTATE, "a state outside the domain cannot be accepted");
+  PetscCall(ProblemSetHistory(p, s->history));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -400,6 +431,7 @@ PetscErrorCode StateDestroy(State *s)
   PetscFunctionBegin;
   PetscCall(VecDestroy(&s->x));
   PetscCall(PetscFree(s->pressure));
+  PetscCall(PetscFree(s->history));
   PetscCall(PetscFree(s->leaf_order));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

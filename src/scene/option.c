@@ -316,14 +316,32 @@ static PetscErrorCode ReadRow_Private(const Option *row, PetscInt num, char word
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* How many words of a row come before the keys of its object: <section>.<name>, whatever stands in the section; 0 without a name. */
+static PetscInt Skip_Private(PetscInt num, char words[OPTION_DEPTH][MORTISE_NAME])
+{
+  while (num > 0 && (words[num - 1][0] != '<' || !strcmp(words[num - 1], "<axis>"))) --num;
+  return num;
+}
+
+/* Whether the first num words joined by '.' are the section. */
+static PetscBool IsSection_Private(PetscInt num, char words[OPTION_DEPTH][MORTISE_NAME], const char *section)
+{
+  for (PetscInt i = 0; i < num; ++i) {
+    const size_t n = strlen(words[i]);
+    if (strncmp(section, words[i], n)) return PETSC_FALSE;
+    section += n;
+    if (i + 1 < num && *section++ != '.') return PETSC_FALSE;
+  }
+  return !*section ? PETSC_TRUE : PETSC_FALSE;
+}
+
 PetscErrorCode OptionsRead(const char *section, const SceneNode *node, PetscInt dim, void *object)
 {
   PetscFunctionBegin;
   for (const Option *row = Options; row->pattern; ++row) {
     char     words[OPTION_DEPTH][MORTISE_NAME];
-    PetscInt num  = OptionSplit(row->pattern, words);
-    PetscInt skip = num > 1 && words[1][0] == '<' ? 2 : 0; /* <section>.<name> comes before the keys of an object */
-    if (row->type == KEY_PARAMETER || strcmp(skip ? words[0] : "", section)) continue;
+    PetscInt num = OptionSplit(row->pattern, words), skip = Skip_Private(num, words);
+    if (row->type == KEY_PARAMETER || !IsSection_Private(PetscMax(0, skip - 1), words, section)) continue;
     PetscCall(ReadRow_Private(row, num - skip, words + skip, node, dim, object));
   }
   PetscFunctionReturn(PETSC_SUCCESS);

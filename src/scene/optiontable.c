@@ -5,6 +5,7 @@
 #define TEXT(x) TEXT_(x)
 #define SCENE(f) offsetof(struct _p_Scene, f), sizeof(((struct _p_Scene *)0)->f)
 #define MAT(f) offsetof(MaterialEntry, f), sizeof(((MaterialEntry *)0)->f)
+#define FIBER(f) offsetof(MaterialFiber, f), sizeof(((MaterialFiber *)0)->f)
 #define BODY(f) offsetof(BodyEntry, f), sizeof(((BodyEntry *)0)->f)
 #define BOUND(f) offsetof(BoundaryEntry, f), sizeof(((BoundaryEntry *)0)->f)
 #define PAIR(f) offsetof(ContactEntry, f), sizeof(((ContactEntry *)0)->f)
@@ -49,6 +50,15 @@ const Option Options[] = {
      MAT(formulation)},
     {"material.<name>.<parameter>", KEY_PARAMETER, "", "", ANY, "a parameter of the law (E, nu, mu, ...); bin/mortise -list shows them with units and ranges",
      NOWHERE},
+    {"material.<name>.fiber.<family>.angle", KEY_REAL, "degrees", "", ANY,
+     "law hgo: direction of a family of fibres, from the circumferential direction of the frame towards its axis", FIBER(angle)},
+    {"material.<name>.fiber.<family>.direction.<axis>", KEY_REAL, "", "0", ANY,
+     "or one direction for all points, of any length (x, y, z; axisymmetric: z is the circumferential direction)", FIBER(direction)},
+    {"material.<name>.fiber.<family>.k1", KEY_REAL, "stress", "", POSITIVE, "this family's own stiffness; default: the material's", FIBER(k1)},
+    {"material.<name>.fiber.<family>.k2", KEY_REAL, "", "", POSITIVE, "this family's own k2; default: the material's", FIBER(k2)},
+    {"material.<name>.frame.axis", KEY_WORD, "", "", "x|y|z", "axis that circumferential directions turn around; default: z, axisymmetric: y",
+     MAT(spec.frame.axis)},
+    {"material.<name>.frame.point.<axis>", KEY_REAL, "length", "0", ANY, "a point of that axis", MAT(spec.frame.point)},
 
     {"boundary.<name>.displacement.<axis>", KEY_EXPRESSION, "length", "", ANY,
      "prescribed displacement; components not given stay free; <name>: physical group of one dimension less", BOUND(spec.displacement)},

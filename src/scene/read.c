@@ -32,8 +32,7 @@ static PetscErrorCode ReadGeneral_Private(Scene s)
 
 static PetscErrorCode Law_Private(const SceneNode *node, const char *name, const MaterialLaw **law)
 {
-  static const char *const later[]   = {"hgo", "j2"}; /* named by the contract with users */
-  char                     list[512] = "";
+  char list[512] = "";
 
   PetscFunctionBegin;
   *law = MaterialLawFind(name);
@@ -42,12 +41,11 @@ static PetscErrorCode Law_Private(const SceneNode *node, const char *name, const
     if (list[0]) PetscCall(PetscStrlcat(list, ", ", sizeof(list)));
     PetscCall(PetscStrlcat(list, row->name, sizeof(list)));
   }
-  for (int i = 0; i < 2; ++i) PetscCheckInput(strcmp(name, later[i]), "%s: law %s is not built yet; built are: %s", NodeWhere(node), name, list);
   PetscCall(ErrorInput("%s is '%.64s', which is no law; allowed: %s", NodeWhere(node), name, list));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Laws first: a law that is not built yet brings keys with it that the table does not know. */
+/* Laws first: the parameters of a law misspelt would be told before its name. */
 static PetscErrorCode CheckLaws_Private(const SceneNode *root)
 {
   const SceneNode *materials = NodeFind(root, "material");
@@ -58,6 +56,51 @@ static PetscErrorCode CheckLaws_Private(const SceneNode *root)
     const SceneNode   *name = node->kind == NODE_MAP ? NodeFind(node, "law") : NULL;
     if (name && name->kind == NODE_SCALAR && !NodeIsEmpty(name)) PetscCall(Law_Private(name, name->text, &law));
   }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* One family: a direction or an angle. */
+static PetscErrorCode ReadFiber_Private(Scene s, const SceneNode *node, MaterialFiber *fiber)
+{
+  const SceneNode *direction = NodeFind(node, "direction");
+  PetscReal        length    = 0;
+
+  PetscFunctionBegin;
+  PetscCall(PetscStrncpy(fiber->name, node->key, MORTISE_NAME));
+  PetscCall(OptionsRead("material.<name>.fiber", node, 3, fiber));
+  fiber->straight = direction ? PETSC_TRUE : PETSC_FALSE;
+  PetscCheckInput(!direction || !NodeFind(node, "angle"), "%s has an angle and a direction; allowed: one of them", NodeWhere(node));
+  PetscCheckInput(direction || NodeFind(node, "angle"), "%s needs an angle, or a direction {x, y, z}", NodeWhere(node));
+  for (int c = 0; c < 3; ++c) length += PetscSqr(fiber->direction[c]);
+  length = PetscSqrtReal(length);
+  PetscCheckInput(!direction || length > 0, "%s is zero; it must point somewhere", NodeWhere(direction));
+  if (direction && PetscAbsReal(length - 1) > 1e-6)
+    PetscCall(PetscPrintf(s->comm, "note: %s has length %.6g; made a unit vector\n", NodeWhere(direction), (double)length));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Families of fibres and the frame of their angles. */
+static PetscErrorCode ReadFibers_Private(Scene s, const SceneNode *node, MaterialEntry *m)
+{
+  const SceneNode *fibers = NodeFind(node, "fiber"), *frame = NodeFind(node, "frame"), *axis = NodeFind(frame, "axis");
+  const Model      model = s->data.mechanics.model;
+  const int        only  = model == MODEL_AXISYMMETRIC ? 1 : 2; /* axis of two-dimensional models */
+  PetscBool        turns = PETSC_FALSE;
+
+  PetscFunctionBegin;
+  PetscCheckInput(!fibers || m->spec.law->fibers, "%s: law %s has no fibres; hgo has", NodeWhere(fibers), m->law);
+  PetscCheckInput(NodeCount(fibers) <= MATERIAL_MAX_FIBERS, "%s has %d families; allowed: at most %d", NodeWhere(fibers), (int)NodeCount(fibers),
+                  MATERIAL_MAX_FIBERS);
+  for (const SceneNode *child = fibers ? fibers->first : NULL; child; child = child->next) {
+    PetscCall(ReadFiber_Private(s, child, &m->spec.fiber[m->spec.num_fibers]));
+    if (!m->spec.fiber[m->spec.num_fibers++].straight) turns = PETSC_TRUE;
+  }
+  PetscCheckInput(!frame || turns, "%s: no fibre of this material has an angle, so that nothing refers to a frame", NodeWhere(frame));
+  PetscCheckInput(!axis || s->data.mesh.dim == 3 || m->spec.frame.axis == only, "%s is %s; allowed in this model: %c", NodeWhere(axis), axis->text, 'x' + only);
+  PetscCheckInput(model != MODEL_AXISYMMETRIC || !NodeFind(frame, "point"), "%s: the axis of an axisymmetric model is x = 0",
+                  NodeWhere(NodeFind(frame, "point")));
+  if (!axis) m->spec.frame.axis = only;
+  m->spec.frame.meridian = model == MODEL_AXISYMMETRIC ? PETSC_TRUE : PETSC_FALSE;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -88,6 +131,7 @@ static PetscErrorCode ReadMaterial_Private(Scene s, SceneNode *node, MaterialEnt
                   NodeWhere(NodeFind(node, "law")), m->law);
   PetscCheckInput(m->spec.law->small || m->spec.law->rigid || !small, "%s: kinematics: small needs law: linear, not %s", NodeWhere(NodeFind(node, "law")),
                   m->law);
+  PetscCall(ReadFibers_Private(s, node, m));
   PetscCall(MaterialSetUp(&m->spec, num, names, values));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

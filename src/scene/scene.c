@@ -239,6 +239,14 @@ static PetscErrorCode ViewBody_Private(const BodySpec *b, PetscViewer viewer)
   PetscCall(PetscViewerASCIIPrintf(viewer, "%s, material %s (%s", b->order_along[0] ? ")" : "", m->name, m->law->name));
   if (!m->law->rigid)
     PetscCall(PetscViewerASCIIPrintf(viewer, ", mu = %.6g, kappa = %.6g, %s", (double)m->mu, (double)m->kappa, m->mixed ? "mixed" : "displacement"));
+  for (PetscInt f = 0; f < m->num_fibers; ++f) {
+    const MaterialFiber *fiber = &m->fiber[f];
+    if (fiber->straight)
+      PetscCall(PetscViewerASCIIPrintf(viewer, ", fibres %s along (%.6g, %.6g, %.6g)", fiber->name, (double)fiber->direction[0], (double)fiber->direction[1],
+                                       (double)fiber->direction[2]));
+    else
+      PetscCall(PetscViewerASCIIPrintf(viewer, ", fibres %s at %.6g degrees around %c", fiber->name, (double)fiber->angle, 'x' + m->frame.axis));
+  }
   PetscCall(PetscViewerASCIIPrintf(viewer, ")\n"));
   PetscCall(PetscViewerASCIIUseTabs(viewer, PETSC_TRUE));
   PetscFunctionReturn(PETSC_SUCCESS);

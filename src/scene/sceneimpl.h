@@ -110,7 +110,8 @@ struct _p_Scene {
 
 /* Every key of the tree is in the table and has the right shape. Not collective. */
 PetscErrorCode OptionsCheckTree(const SceneNode *root);
-/* Read all rows of a section ("" for those without names) from its node (NULL: defaults) into object. dim 2: a z component is an error. */
+/* Read all rows of a section ("" for those without names; "material.<name>.fiber" for names in the section of a name) from its node (NULL: defaults) into
+ * object. dim 2: a z component is an error. */
 PetscErrorCode OptionsRead(const char *section, const SceneNode *, PetscInt dim, void *object);
 /* A number as text, finite, whole text. */
 PetscBool OptionParseReal(const char *text, PetscReal *);

@@ -91,22 +91,38 @@ static PetscErrorCode UseMultigrid_Private(Solver s, PetscBool *yes)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Condense the nodes inside cells? PETSc's test of the tangent wants the whole matrix, and nodes inside a cell that is constrained to a lower order in some
-   direction are not of its own alone. */
+/* The first material whose cells have an unsymmetric tangent, NULL: none. */
+static const MaterialSpec *Unsymmetric_Private(const SceneData *scene)
+{
+  for (PetscInt b = 0; b < scene->mechanics.num_bodies; ++b) {
+    if (scene->mechanics.bodies[b].material->law->unsymmetric) return scene->mechanics.bodies[b].material;
+  }
+  return NULL;
+}
+
+/* Condense the nodes inside cells? PETSc's test of the tangent wants the whole matrix, nodes inside a cell that is constrained to a lower order in some
+   direction are not of its own alone, and cells are condensed by LDL^T. */
 static PetscErrorCode Condense_Private(Solver s)
 {
-  PetscInt  num_u, num_z, dim, order;
-  PetscBool yes, directional;
-  HPSpace   space;
+  PetscInt            num_u, num_z, dim, order;
+  PetscBool           yes, directional;
+  HPSpace             space;
+  const SceneData    *scene;
+  const MaterialSpec *unsymmetric;
 
   PetscFunctionBegin;
+  PetscCall(ProblemGetScene(s->problem, &scene));
+  unsymmetric = Unsymmetric_Private(scene);
+  PetscCheckInput(!unsymmetric || s->condense != CONDENSE_YES, "-solve_condense yes: not with material %s, whose tangent (law %s) is not symmetric; take no",
+                  unsymmetric->name, unsymmetric->law->name);
   PetscCall(ProblemGetSpace(s->problem, &space));
   PetscCall(HPSpaceIsDirectional(space, &directional));
   PetscCheckInput(!directional || s->condense != CONDENSE_YES, "-solve_condense yes: not with orders per direction (body.<name>.order: {x: ...}); take no");
   PetscCheckInput(!s->test || s->condense != CONDENSE_YES, "-solve_condense yes: not with -snes_test_jacobian, which needs the whole matrix");
   PetscCall(ProblemGetBlocks(s->problem, &num_u, &num_z, &dim));
   PetscCall(Highest_Private(s->problem, &order));
-  yes = (PetscBool)(s->condense == CONDENSE_YES || (s->condense == CONDENSE_AUTO && !directional && order >= (dim == 3 ? CONDENSE_3D : CONDENSE_2D)));
+  yes = (PetscBool)(s->condense == CONDENSE_YES ||
+                    (s->condense == CONDENSE_AUTO && !directional && !unsymmetric && order >= (dim == 3 ? CONDENSE_3D : CONDENSE_2D)));
   if (yes && !s->test) PetscCall(ProblemSetCondense(s->problem));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -170,6 +186,7 @@ PetscErrorCode SolverSolve(Solver s, State *state, SolverReport *report)
   report->reason = "";
   s->report      = report;
   s->pressure    = state->pressure;
+  PetscCall(ProblemSetHistory(s->problem, state->history));
   PetscCall(SNESSolve(s->snes, NULL, state->x));
   s->report   = NULL;
   s->pressure = NULL;

@@ -29,12 +29,12 @@ static void ConstantStress(const Bulk *b, PetscInt dim, const PetscReal H[9], Pe
 {
   const PetscBool small = (PetscBool)(b->spec.kinematics == KINEMATICS_SMALL);
   MaterialSpec    law   = b->material;
-  PetscBool       bad   = PETSC_FALSE;
 
   if (small) law.law = MaterialLawFind("linear");
   for (PetscInt k = 0; k < 9; ++k) F[k] = (k % 4 == 0) + (k % 3 < dim && k / 3 < dim ? H[k] : 0);
-  OK(MaterialEvaluate(&law, MATERIAL_FULL, 1, F, NULL, P, NULL, &bad));
-  assert_false(bad);
+  MaterialPoints point = {.n = 1, .F = F, .P = P};
+  OK(MaterialEvaluate(&law, MATERIAL_FULL, &point));
+  assert_false(point.bad);
 }
 
 static void Sum(const Bulk *b, const PetscReal u[], EstimateSum *sum, PetscReal **eta2)
@@ -192,8 +192,7 @@ static void Axisymmetric(void **state)
 
   for (PetscInt uniform = 0; uniform < 2; ++uniform) {
     PetscReal   P[9];
-    PetscBool   bad = PETSC_FALSE;
-    Bulk        b   = {0};
+    Bulk        b = {0};
     Box         box;
     EstimateSum sum;
     PetscReal  *u, *eta2;
@@ -201,7 +200,8 @@ static void Axisymmetric(void **state)
     BulkMaterial(&b.material, "neo_hookean", VOLUMETRIC_LOG, FORMULATION_DISPLACEMENT, 1.5, 3);
     b.forest = BoxForest(PETSC_COMM_WORLD, 2, (const PetscInt[3]){2, 2, 1}, uniform ? 1 : 2, uniform ? 1 : 0, 7, &box);
     if (!uniform) BulkRefine(&b.forest, 2, 2, PETSC_FALSE);
-    OK(MaterialEvaluate(&b.material, MATERIAL_FULL, 1, stretched, NULL, P, NULL, &bad));
+    MaterialPoints point = {.n = 1, .F = stretched, .P = P};
+    OK(MaterialEvaluate(&b.material, MATERIAL_FULL, &point));
     LoadSides(&b, 2, P, uniform ? 2 : -1);
     BulkSetUp(&b, 2, 2);
     FillLinear(&b, H, &u);

@@ -15,20 +15,45 @@ typedef struct {
   const char *law;
   Volumetric  volumetric;
   PetscInt    num;
-  const char *names[3];
-  PetscReal   values[3];
+  const char *names[5];
+  PetscReal   values[5];
   PetscReal   W, P[4]; /* P11, P12, P21, P33 */
+  PetscInt    num_fibers;
+  PetscReal   fiber[2][3];
 } Row;
+
+#define CAROTID "c", "kappa", "k1", "k2" /* {3, 100, 2.3632, .8393} */
+#define COS29 0.87461970713939580
+#define SIN29 0.48480962024633703
 
 /* cases.md O-01; St. Venant-Kirchhoff by hand, F1 (lambda tr E 1 + 2 mu E) */
 static const Row rows[] = {
-    {"neo_hookean", VOLUMETRIC_LOG, 2, {"mu", "lambda"}, {1, 2}, 0.147591766098, {0.4943538338, 0.2024829125, 0.1798664768, 0.2282784872}},
-    {"neo_hookean", VOLUMETRIC_SIMO, 2, {"mu", "kappa"}, {1, 50}, 0.315349668375, {4.0652953955, -0.0760681971, -0.4919977784, 4.4054403799}},
-    {"neo_hookean", VOLUMETRIC_QUADRATIC, 2, {"mu", "kappa"}, {1, 50}, 0.320524161883, {4.2260656643, -0.0880255949, -0.521585792, 4.5926565725}},
-    {"mooney_rivlin", VOLUMETRIC_QUADRATIC, 3, {"c1", "c2", "kappa"}, {.3, .2, 50}, 0.330987571105, {4.2318835549, -0.0589440653, -0.4902377314, 4.597179224}},
-    {"saint_venant_kirchhoff", VOLUMETRIC_QUADRATIC, 2, {"mu", "lambda"}, {1, 2}, 0.19665207, {1.12835, 0.27366, 0.19992, 0.68128}},
-    {"mooney_rivlin", VOLUMETRIC_SIMO, 3, {"c1", "c2", "kappa"}, {.3, .2, 50}, 0, {0}},
-    {"linear", VOLUMETRIC_QUADRATIC, 2, {"mu", "kappa"}, {1, 50}, 0, {0}},
+    {"neo_hookean", VOLUMETRIC_LOG, 2, {"mu", "lambda"}, {1, 2}, 0.147591766098, {0.4943538338, 0.2024829125, 0.1798664768, 0.2282784872}, 0, {{0}}},
+    {"neo_hookean", VOLUMETRIC_SIMO, 2, {"mu", "kappa"}, {1, 50}, 0.315349668375, {4.0652953955, -0.0760681971, -0.4919977784, 4.4054403799}, 0, {{0}}},
+    {"neo_hookean", VOLUMETRIC_QUADRATIC, 2, {"mu", "kappa"}, {1, 50}, 0.320524161883, {4.2260656643, -0.0880255949, -0.521585792, 4.5926565725}, 0, {{0}}},
+    {"mooney_rivlin",
+     VOLUMETRIC_QUADRATIC,
+     3,
+     {"c1", "c2", "kappa"},
+     {.3, .2, 50},
+     0.330987571105,
+     {4.2318835549, -0.0589440653, -0.4902377314, 4.597179224},
+     0,
+     {{0}}},
+    {"saint_venant_kirchhoff", VOLUMETRIC_QUADRATIC, 2, {"mu", "lambda"}, {1, 2}, 0.19665207, {1.12835, 0.27366, 0.19992, 0.68128}, 0, {{0}}},
+    {"hgo",
+     VOLUMETRIC_SIMO,
+     4,
+     {CAROTID},
+     {3, 100, 2.3632, .8393},
+     0.978881863111,
+     {9.6793456744, 1.1414069696, 0.1987635883, 7.5934566203},
+     2,
+     {{COS29, SIN29, 0}, {COS29, -SIN29, 0}}},
+    {"hgo", VOLUMETRIC_SIMO, 4, {CAROTID}, {3, 100, 2.3632, .8393}, 0.835055658301, {8.0806264828, 0.425178633, -0.3980327008, 8.8112858645}, 1, {{1, 2, 2}}},
+    {"hgo", VOLUMETRIC_QUADRATIC, 5, {"c", "c2", "kappa", "k1", "k2"}, {1, .5, 50, 3, 2}, 0, {0}, 2, {{1, 0, 0}, {0, 1, 0}}}, /* the second is slack */
+    {"mooney_rivlin", VOLUMETRIC_SIMO, 3, {"c1", "c2", "kappa"}, {.3, .2, 50}, 0, {0}, 0, {{0}}},
+    {"linear", VOLUMETRIC_QUADRATIC, 2, {"mu", "kappa"}, {1, 50}, 0, {0}, 0, {{0}}},
 };
 #define NUM_ROWS PETSC_STATIC_ARRAY_LENGTH(rows)
 
@@ -41,22 +66,30 @@ static void SpecMake(const Row *row, MaterialSpec *spec)
   PetscStrncpy(spec->name, "test", sizeof(spec->name));
   spec->law        = MaterialLawFind(row->law);
   spec->volumetric = row->volumetric;
+  spec->num_fibers = row->num_fibers;
+  for (PetscInt f = 0; f < row->num_fibers; f++) {
+    spec->fiber[f].straight = PETSC_TRUE;
+    PetscMemcpy(spec->fiber[f].direction, row->fiber[f], sizeof(row->fiber[f]));
+  }
   assert_non_null(spec->law);
   OK(MaterialSetUp(spec, row->num, row->names, row->values));
 }
 
 static void Evaluate(const MaterialSpec *spec, MaterialPart part, const PetscReal F[9], PetscReal *W, PetscReal *P, PetscReal *A)
 {
-  PetscBool bad = PETSC_FALSE;
+  const PetscReal origin[3] = {0};
+  PetscReal       fiber[MATERIAL_MAX_FIBERS][3];
+  MaterialPoints  point = {.n = 1, .F = F, .fiber = fiber[0], .W = W, .P = P, .A = A};
 
-  OK(MaterialEvaluate(spec, part, 1, F, W, P, A, &bad));
-  assert_false(bad);
+  MaterialFiberDirections(spec, origin, fiber);
+  OK(MaterialEvaluate(spec, part, &point));
+  assert_false(point.bad);
 }
 
 /* Printed digits end at 1e-10 absolute for P (values up to 5) and 1e-12 for W. */
 static void PointValuesOfO01(void **state)
 {
-  for (size_t i = 0; i < 5; i++) {
+  for (size_t i = 0; i < 7; i++) {
     MaterialSpec spec;
     PetscReal    W, P[9];
 
@@ -161,6 +194,7 @@ static void SmallStrainsKeepTheirDigits(void **state)
     PetscReal    W, P[9], energy = 0;
 
     SpecMake(&rows[i], &spec);
+    if (spec.num_fibers) continue; /* stiffer in tension to first order */
     Evaluate(&spec, MATERIAL_FULL, F, &W, P, NULL);
     for (int a = 0; a < 9; a++) {
       const PetscReal stress = e * (spec.lambda * (grad[0] + grad[4] + grad[8]) * one[a] + spec.mu * (grad[a] + grad[3 * (a % 3) + a / 3]));
@@ -178,16 +212,17 @@ static void BatchesEqualPoints(void **state)
   enum { N = 21 };
 
   for (size_t i = 0; i < NUM_ROWS; i++) {
-    MaterialSpec spec;
-    PetscReal    F[9 * N], W[N], P[9 * N], A[81 * N], w, p[9], a[81];
-    PetscBool    bad = PETSC_FALSE;
+    MaterialSpec   spec;
+    PetscReal      F[9 * N], W[N], P[9 * N], A[81 * N], fiber[6 * N], w, p[9], a[81];
+    MaterialPoints points = {.n = N, .F = F, .fiber = fiber, .W = W, .P = P, .A = A};
 
     SpecMake(&rows[i], &spec);
+    for (int k = 0; k < 3 * N * spec.num_fibers; k++) fiber[k] = spec.fiber[k / (3 * N)].direction[k / N % 3];
     for (int q = 0; q < N; q++) {
       for (int k = 0; k < 9; k++) F[k * N + q] = F1[k] + 0.01 * q * (k == q % 9);
     }
-    OK(MaterialEvaluate(&spec, MATERIAL_FULL, N, F, W, P, A, &bad));
-    assert_false(bad);
+    OK(MaterialEvaluate(&spec, MATERIAL_FULL, &points));
+    assert_false(points.bad);
     for (int q = 0; q < N; q++) {
       PetscReal f[9];
 
@@ -199,13 +234,67 @@ static void BatchesEqualPoints(void **state)
     }
     if (spec.law->small) continue;
     for (int k = 0; k < 9; k++) F[k * N + 17] = -one[k];
-    OK(MaterialEvaluate(&spec, MATERIAL_FULL, N, F, W, P, NULL, &bad));
-    assert_true(bad);
+    points.A = NULL;
+    OK(MaterialEvaluate(&spec, MATERIAL_FULL, &points));
+    assert_true(points.bad);
     for (int k = 0; k < 9; k++) F[k * N + 17] = F1[k];
-    bad = PETSC_FALSE;
-    OK(MaterialEvaluate(&spec, MATERIAL_FULL, N, F, W, NULL, NULL, &bad));
-    assert_false(bad);
+    points.P   = NULL;
+    points.bad = PETSC_FALSE;
+    OK(MaterialEvaluate(&spec, MATERIAL_FULL, &points));
+    assert_false(points.bad);
   }
+}
+
+/* A family that is slack leaves the stress alone, in tension it pulls along its direction; the stress is continuous and the tangent jumps by
+   k1 D (x) D, D = d(J^(-2/3) |F M|^2)/dF. */
+static void FibresCarryTensionOnly(void **state)
+{
+  const Row    row[2] = {{"hgo", VOLUMETRIC_SIMO, 4, {CAROTID}, {3, 100, 2.3632, .8393}, 0, {0}, 1, {{1, 0, 0}}},
+                         {"neo_hookean", VOLUMETRIC_SIMO, 2, {"mu", "kappa"}, {3, 100}, 0, {0}, 0, {{0}}}};
+  MaterialSpec fibres, plain;
+
+  SpecMake(&row[0], &fibres);
+  SpecMake(&row[1], &plain);
+  for (int side = -1; side <= 1; side += 2) { /* isochoric: E = stretch^2 - 1 */
+    for (int small = 0; small < 2; small++) {
+      const PetscReal stretch = 1 + side * (small ? 1e-9 : 0.1), other = 1 / PetscSqrtReal(stretch), F[9] = {stretch, 0, 0, 0, other, 0, 0, 0, other};
+      const PetscReal E = stretch * stretch - 1, e = PetscExpReal(.8393 * E * E), pull = side > 0 ? 2 * 2.3632 * E * e : 0;
+      PetscReal       P[2][9], A[2][81], D[9] = {4. / 3 * stretch, 0, 0, 0, -2. / 3 * stretch * stretch / other, 0, 0, 0, -2. / 3 * stretch * stretch / other};
+
+      Evaluate(&fibres, MATERIAL_FULL, F, NULL, P[0], A[0]);
+      Evaluate(&plain, MATERIAL_FULL, F, NULL, P[1], A[1]);
+      for (int k = 0; k < 9; k++) assert_near(P[0][k] - P[1][k], 0.5 * pull * D[k], 1e-13);
+      for (int k = 0; small && k < 81; k++) assert_near(A[0][k] - A[1][k], side > 0 ? 2.3632 * D[k / 9] * D[k % 9] : 0, 1e-7);
+    }
+  }
+}
+
+/* Angles count from axis x (X - point) towards the axis, at every position; in axisymmetric models from the third direction towards y. */
+static void FibresTurnWithTheFrame(void **state)
+{
+  const PetscReal X[3] = {1 + 3, 2 + 4, 7}, axial[3] = {0.3, 0.2, 0};
+  const Row       row = {"hgo", VOLUMETRIC_SIMO, 4, {CAROTID}, {3, 100, 2.3632, .8393}, 0, {0}, 1, {{1, 0, 0}}};
+  MaterialSpec    spec;
+  PetscReal       M[MATERIAL_MAX_FIBERS][3];
+
+  SpecMake(&row, &spec);
+  spec.fiber[0].straight = PETSC_FALSE;
+  spec.fiber[0].angle    = 29;
+  spec.frame             = (MaterialFrame){.axis = 2, .point = {1, 2, 0}};
+  MaterialFiberDirections(&spec, X, M);
+  assert_near(M[0][0], -0.8 * COS29, 1e-15);
+  assert_near(M[0][1], 0.6 * COS29, 1e-15);
+  assert_near(M[0][2], SIN29, 1e-15);
+  spec.frame = (MaterialFrame){.axis = 0, .point = {0, 2, 4}};
+  MaterialFiberDirections(&spec, X, M); /* x cross (y = 4, z = 3) = (y = -3, z = 4) */
+  assert_near(M[0][0], SIN29, 1e-15);
+  assert_near(M[0][1], -0.6 * COS29, 1e-15);
+  assert_near(M[0][2], 0.8 * COS29, 1e-15);
+  spec.frame = (MaterialFrame){.axis = 1, .meridian = PETSC_TRUE};
+  MaterialFiberDirections(&spec, axial, M);
+  assert_near(M[0][0], 0, 0);
+  assert_near(M[0][1], SIN29, 1e-15);
+  assert_near(M[0][2], COS29, 1e-15);
 }
 
 /* m/2 g^2 is the volumetric energy; derivatives by differences, also across the switch between series and formula. */
@@ -243,6 +332,8 @@ int main(int argc, char **argv)
                                      cmocka_unit_test(LawsAreObjective),
                                      cmocka_unit_test(SmallStrainsKeepTheirDigits),
                                      cmocka_unit_test(BatchesEqualPoints),
+                                     cmocka_unit_test(FibresCarryTensionOnly),
+                                     cmocka_unit_test(FibresTurnWithTheFrame),
                                      cmocka_unit_test(VolumetricMeasure)};
 
   if (PetscInitialize(&argc, &argv, NULL, NULL)) return 1;

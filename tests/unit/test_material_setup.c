@@ -128,6 +128,38 @@ static void WrongVariantsAreRefused(void **state)
   REFUSED("formulation: mixed with volumetric: log needs lambda above 0, which is -0.1", "neo_hookean", 2, NAMES("mu", "lambda"), VALUES(1, -0.1));
 }
 
+#define HGO NAMES("c", "kappa", "k1", "k2")
+
+/* A family's own moduli win over the material's, directions become unit vectors, mu is the ground substance's. */
+static void FibresAreSetUp(void **state)
+{
+  spec.num_fibers = 2;
+  spec.fiber[0]   = (MaterialFiber){.name = "a", .straight = PETSC_TRUE, .direction = {0, 3, 4}};
+  spec.fiber[1]   = (MaterialFiber){.name = "b", .angle = 29, .k1 = 7};
+  OK(Try("hgo", 4, HGO, VALUES(3, 1e5, 2, 0.8)));
+  assert_near(spec.fiber[0].direction[1], 0.6, 1e-16);
+  assert_near(spec.fiber[0].direction[2], 0.8, 1e-16);
+  assert_true(spec.fiber[0].k1 == 2 && spec.fiber[1].k1 == 7 && spec.fiber[1].k2 == 0.8);
+  assert_true(spec.mu == 3 && spec.kappa == 1e5 && spec.mixed && spec.parameter[4] == 0);
+}
+
+static void WrongFibresAreRefused(void **state)
+{
+  REFUSED("fiber: missing; hgo needs one to 4 families, fiber: {a: {angle: 29}}", "hgo", 4, HGO, VALUES(3, 1e5, 2, 0.8));
+  spec.num_fibers = 1;
+  spec.fiber[0]   = (MaterialFiber){.name = "a", .straight = PETSC_TRUE};
+  REFUSED("fiber: the law neo_hookean has no fibres; hgo has", "neo_hookean", 2, NAMES("E", "nu"), VALUES(1, 0.3));
+  REFUSED("fiber.a.direction: (0, 0, 0) has no direction", "hgo", 4, HGO, VALUES(3, 1e5, 2, 0.8));
+  REFUSED("k2: 0 is not a finite number above 0", "hgo", 4, HGO, VALUES(3, 1e5, 2, 0));
+  REFUSED("kappa: missing; hgo needs c, kappa, k1 and k2", "hgo", 1, NAMES("c"), VALUES(3));
+  REFUSED("c2: -1 is below 0", "hgo", 5, NAMES("c", "kappa", "k1", "k2", "c2"), VALUES(3, 10, 1, 1, -1));
+  spec.fiber[0] = (MaterialFiber){.name = "a", .angle = 29};
+  REFUSED("fiber.a.k2: missing or not positive; it is given here or as material.rubber.k2 for all families", "hgo", 3, NAMES("c", "kappa", "k1"),
+          VALUES(3, 10, 1));
+  spec.volumetric = VOLUMETRIC_LOG;
+  REFUSED("volumetric: hgo knows quadratic and simo, not log", "hgo", 4, HGO, VALUES(3, 1e5, 2, 0.8));
+}
+
 static void TableIsComplete(void **state)
 {
   assert_null(MaterialLawFind("neohookean"));
@@ -143,7 +175,8 @@ int main(int argc, char **argv)
 {
   const struct CMUnitTest tests[] = {cmocka_unit_test_setup(PairsAreEquivalent, Fresh),      cmocka_unit_test_setup(MixedIsResolved, Fresh),
                                      cmocka_unit_test_setup(WrongValuesAreRefused, Fresh),   cmocka_unit_test_setup(WrongSetsAreRefused, Fresh),
-                                     cmocka_unit_test_setup(WrongVariantsAreRefused, Fresh), cmocka_unit_test_setup(TableIsComplete, Fresh)};
+                                     cmocka_unit_test_setup(WrongVariantsAreRefused, Fresh), cmocka_unit_test_setup(TableIsComplete, Fresh),
+                                     cmocka_unit_test_setup(FibresAreSetUp, Fresh),          cmocka_unit_test_setup(WrongFibresAreRefused, Fresh)};
 
   if (PetscInitialize(&argc, &argv, NULL, NULL) || ErrorHandlerPush()) return 1;
   const int failed = cmocka_run_group_tests(tests, NULL, NULL);

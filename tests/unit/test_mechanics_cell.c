@@ -16,8 +16,8 @@ typedef struct {
   const char *law;
   Volumetric  volumetric;
   PetscInt    num;
-  const char *names[3];
-  PetscReal   values[3];
+  const char *names[4];
+  PetscReal   values[4];
 } Choice;
 
 static const Choice choices[] = {
@@ -27,8 +27,9 @@ static const Choice choices[] = {
     {"mooney_rivlin", VOLUMETRIC_QUADRATIC, 3, {"c1", "c2", "kappa"}, {.3, .2, 5}},
     {"saint_venant_kirchhoff", VOLUMETRIC_QUADRATIC, 2, {"mu", "lambda"}, {1, 2}},
     {"linear", VOLUMETRIC_QUADRATIC, 2, {"mu", "kappa"}, {1, 5}},
+    {"j2", VOLUMETRIC_SIMO, 4, {"mu", "kappa", "yield", "hardening"}, {1, 5, 1e-3, .1}}, /* flows everywhere from the first strain on */
 };
-#define NUM_CHOICES 6
+#define NUM_CHOICES 7
 
 static uint64_t seed = 12345;
 
@@ -79,30 +80,34 @@ static const PetscReal step[4] = {-2, -1, 1, 2}, weight[4] = {1. / 12, -8. / 12,
 /* One configuration: num directions (or all unit vectors); relative errors against the largest entry below 1e-8 (residual), 1e-8 (tangent, coupling). */
 static void CheckDerivatives(PetscInt dim, Model model, Kinematics kinematics, PetscInt order, const Choice *choice, Formulation formulation)
 {
-  const PetscReal h = 1e-3;
+  const PetscReal h = strcmp(choice->law, "j2") ? 1e-3 : 2e-4; /* its direction of flow turns quickly */
   MaterialSpec    spec;
   CellKernel      kernel;
-  PetscInt        n, m, size, num;
-  PetscReal      *X, *u, *v, *w, *r, *K, *rs, *c, *cs, *b, e[4], most_r = 0, most_K = 0, most_b = 0;
+  PetscInt        n, m, size, num, points, h_num;
+  PetscReal      *history, *X, *u, *v, *w, *r, *K, *rs, *c, *cs, *b, e[4], most_r = 0, most_K = 0, most_b = 0;
 
   SpecMake(choice, formulation, &spec);
   OK(CellKernelCreate(dim, model, kinematics, order, &spec, &kernel));
   CellKernelSizes(kernel, &n, &m, NULL);
+  CellKernelHistory(kernel, &points, &h_num);
   assert_int_equal(n, ElementNumNodes(dim, order));
   assert_int_equal(m > 0, formulation == FORMULATION_MIXED);
   size = n * dim;
   num  = size <= 24 ? size : 4;
   X = New(size), u = New(size), v = New(size), w = New(size), r = New(size), K = New(size * size), rs = New(4 * size), c = New(m + 1), cs = New(4 * m + 4),
-  b = New(m * size + 1);
+  b       = New(m * size + 1);
+  history = New(points * h_num);
+  for (PetscInt q = 0; q < points && h_num; q++) spec.law->initial(&spec, history + q * h_num);
   CellMake(dim, order, 0.15, 0.02, X);
   for (PetscInt i = 0; i < size; i++) u[i] = 0.1 * Random() / order + 0.1 * X[i] * X[(i + 1) % size] / 4;
-  CellBatch batch = {.nc = 1, .X = X, .u = u, .residual = r, .tangent = K, .consistent = m ? c : NULL, .dpressure = m ? b : NULL};
+  CellBatch batch = {
+      .nc = 1, .X = X, .u = u, .residual = r, .tangent = K, .consistent = m ? c : NULL, .dpressure = m ? b : NULL, .history = h_num ? history : NULL};
   OK(CellKernelEvaluate(kernel, &batch));
   assert_false(batch.bad);
   for (PetscInt i = 0; i < size; i++) most_r = PetscMax(most_r, PetscAbsReal(r[i]));
   for (PetscInt i = 0; i < size * size; i++) {
     most_K = PetscMax(most_K, PetscAbsReal(K[i]));
-    assert_near(K[i], K[i % size * size + i / size], 1e-13 * (1 + most_K));
+    if (!spec.law->unsymmetric) assert_near(K[i], K[i % size * size + i / size], 1e-13 * (1 + most_K));
   }
   for (PetscInt i = 0; i < m * size; i++) most_b = PetscMax(most_b, PetscAbsReal(b[i]));
   for (PetscInt k = 0; k < num; k++) {
@@ -110,14 +115,15 @@ static void CheckDerivatives(PetscInt dim, Model model, Kinematics kinematics, P
 
     for (PetscInt i = 0; i < size; i++) v[i] = num == size ? i == k : Random() / PetscSqrtReal(size);
     for (int s = 0; s < 4; s++) {
-      CellBatch moved = {.nc = 1, .X = X, .u = w, .energy = &e[s], .residual = rs + s * size, .consistent = m ? cs + s * m : NULL};
+      CellBatch moved = {
+          .nc = 1, .X = X, .u = w, .energy = &e[s], .residual = rs + s * size, .consistent = m ? cs + s * m : NULL, .history = h_num ? history : NULL};
 
       for (PetscInt i = 0; i < size; i++) w[i] = u[i] + step[s] * h * v[i];
       OK(CellKernelEvaluate(kernel, &moved));
       slope += weight[s] * e[s] / h;
     }
     for (PetscInt i = 0; i < size; i++) product += r[i] * v[i];
-    assert_near(product, slope, 1e-8 * most_r);
+    if (!h_num) assert_near(product, slope, 1e-8 * most_r);
     for (PetscInt i = 0; i < size; i++) {
       PetscReal Kv = 0, dr = 0;
 
@@ -133,7 +139,7 @@ static void CheckDerivatives(PetscInt dim, Model model, Kinematics kinematics, P
       assert_near(bv, dc, 1e-8 * most_b);
     }
   }
-  free(X), free(u), free(v), free(w), free(r), free(K), free(rs), free(c), free(cs), free(b);
+  free(X), free(u), free(v), free(w), free(r), free(K), free(rs), free(c), free(cs), free(b), free(history);
   OK(CellKernelDestroy(&kernel));
 }
 
@@ -144,6 +150,7 @@ static void DerivativesAgree(void **state)
       for (PetscInt order = 1; order <= 4; order++) {
         for (int i = 0; i < NUM_CHOICES; i++) {
           if (!strcmp(choices[i].law, "linear") && kinematics == KINEMATICS_FINITE) continue;
+          if (!strcmp(choices[i].law, "j2") && kinematics == KINEMATICS_SMALL) continue;
           CheckDerivatives(model == MODEL_3D ? 3 : 2, (Model)model, (Kinematics)kinematics, order, &choices[i], FORMULATION_DISPLACEMENT);
           if (MaterialLawFind(choices[i].law)->whole) continue;
           CheckDerivatives(model == MODEL_3D ? 3 : 2, (Model)model, (Kinematics)kinematics, order, &choices[i], FORMULATION_MIXED);
@@ -152,6 +159,7 @@ static void DerivativesAgree(void **state)
     }
   }
   CheckDerivatives(2, MODEL_AXISYMMETRIC, KINEMATICS_FINITE, 6, &choices[1], FORMULATION_MIXED);
+  CheckDerivatives(2, MODEL_AXISYMMETRIC, KINEMATICS_FINITE, 6, &choices[6], FORMULATION_MIXED);
   CheckDerivatives(3, MODEL_3D, KINEMATICS_FINITE, 5, &choices[0], FORMULATION_MIXED);
 }
 
@@ -215,12 +223,13 @@ static void PatchIsExact(void **state)
         for (PetscInt i = 0; i < dim; i++) {
           for (PetscInt J = 0; J < dim; J++) F1[3 * i + J] += H[3 * i + J];
         }
-        OK(MaterialEvaluate(&cell.spec, MATERIAL_FULL, 1, F1, &W1, P1, NULL, &bad));
+        MaterialPoints point = {.n = 1, .F = F1, .W = &W1, .P = P1};
+        OK(MaterialEvaluate(&cell.spec, MATERIAL_FULL, &point));
         OK(CellKernelEvaluate(cell.kernel, &cell.batch));
         assert_near(cell.min_det, Det3(F1), 1e-13);
         volume = cell.energy / W1;
         for (PetscInt i = 0; i < 5 * dim; i++) xi[i] = 0.5 + Random();
-        OK(CellKernelPoints(cell.kernel, 5, xi, cell.X, cell.u, cell.m ? cell.c : NULL, F, P, W, &bad));
+        OK(CellKernelPoints(cell.kernel, 5, xi, cell.X, cell.u, cell.m ? cell.c : NULL, NULL, F, P, W, &bad));
         assert_false(bad);
         for (int i = 0; i < 45; i++) {
           assert_near(F[i], F1[i % 9], 1e-13);
@@ -363,7 +372,7 @@ static void PressureIsProjection(void **state)
     PetscReal       F[9];
     PetscBool       bad;
 
-    OK(CellKernelPoints(cell.kernel, 1, xi, cell.X, cell.u, cell.c, F, NULL, NULL, &bad));
+    OK(CellKernelPoints(cell.kernel, 1, xi, cell.X, cell.u, cell.c, NULL, F, NULL, NULL, &bad));
     volume += 0.25;
     mean += 0.25 * (Det3(F) - 1);
   }
@@ -379,13 +388,13 @@ static void AxisymmetricHoopIsExact(void **state)
       const PetscReal F[9] = {1.2, 0, 0, 0, 1, 0, 0, 0, 1.2};
       Cell            cell;
       PetscReal       W, P[9], work = 0;
-      PetscBool       bad = PETSC_FALSE;
 
       CellSetUp(&cell, 2, MODEL_AXISYMMETRIC, KINEMATICS_FINITE, order, &choices[1], (Formulation)formulation);
       CellMake(2, order, 0, 0, cell.X);
       for (PetscInt node = 0; node < cell.n; node++) cell.u[2 * node] = 0.2 * cell.X[2 * node];
       OK(CellKernelEvaluate(cell.kernel, &cell.batch));
-      OK(MaterialEvaluate(&cell.spec, MATERIAL_FULL, 1, F, &W, P, NULL, &bad));
+      MaterialPoints point = {.n = 1, .F = F, .W = &W, .P = P};
+      OK(MaterialEvaluate(&cell.spec, MATERIAL_FULL, &point));
       assert_near(cell.energy, 3 * PETSC_PI * W, 1e-12);
       assert_near(cell.min_det, 1.44, 1e-14);
       for (PetscInt node = 0; node < cell.n; node++) work += cell.r[2 * node] * cell.X[2 * node];

@@ -90,12 +90,12 @@ static PetscReal StressError(const Solved *s, PetscReal *scale)
 {
   const HPTables *v    = s->tables;
   PetscReal       F[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1}, P[9], error = 0, xi[3 * MOST], weight[MOST], Fq[9 * MOST], Pq[9 * MOST];
-  PetscBool       bad = PETSC_FALSE;
 
   for (PetscInt i = 0; i < v->dim; ++i)
     for (PetscInt k = 0; k < v->dim; ++k) F[3 * i + k] = F1[3 * i + k];
-  OK(MaterialEvaluate(&s->bulk.material, MATERIAL_FULL, 1, F, NULL, P, NULL, &bad));
-  assert_false(bad);
+  MaterialPoints point = {.n = 1, .F = F, .P = P};
+  OK(MaterialEvaluate(&s->bulk.material, MATERIAL_FULL, &point));
+  assert_false(point.bad);
   *scale = 0;
   for (PetscInt k = 0; k < 9; ++k) *scale = PetscMax(*scale, PetscAbsReal(P[k]));
   for (PetscInt c = 0; c < v->num_owned_cells; ++c) {

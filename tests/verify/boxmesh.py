@@ -3,7 +3,7 @@
     write(path, [linspace(0, 1, 8), linspace(0, 1, 8)], to=lambda x, y: (x, y), order=1)
 
 Several maps of the same lattice make several blocks, joined where their points coincide. Sides are named x0, x1, y0, y1 (z0, z1) after the parameters;
-`side(name, centre, block)` may rename one of their facets (centre in parameters) or drop it (None). ring, disc and sphere are maps for it.
+`side(name, centre, block)` may rename one of their facets (centre in parameters) or drop it (None); `body(centre, block)` names the body of a cell. ring, disc and sphere are maps for it.
 """
 import itertools
 import math
@@ -32,10 +32,10 @@ def fine(breaks, order):
     return [a + (b - a) * k / order for a, b in zip(breaks, breaks[1:]) for k in range(order)] + [breaks[-1]]
 
 
-def write(path, breaks, to=lambda *x: x, order=1, side=lambda name, centre, block: name, body="body"):
+def write(path, breaks, to=lambda *x: x, order=1, side=lambda name, centre, block: name, body=lambda centre, block: "body"):
     dim, number = len(breaks), [len(b) - 1 for b in breaks]
     lattice = [fine(b, order) for b in breaks]
-    points, elements, names = {}, [], {}
+    points, elements, names, bodies = {}, [], {}, {}
     for block, map_ in enumerate(to if isinstance(to, list) else [to]):
         number_of = {}
         for index in itertools.product(*(range(len(x)) for x in lattice)):
@@ -43,7 +43,8 @@ def write(path, breaks, to=lambda *x: x, order=1, side=lambda name, centre, bloc
             number_of[index] = points.setdefault(tuple(round(c, 9) + 0.0 for c in x), (1 + len(points), x))[0]
         for cell in itertools.product(*map(range, number)):
             nodes = [number_of[tuple(order * c + p for c, p in zip(cell, place))] for place in places(dim, order)]
-            elements.append((TYPE[dim, order], 1, nodes))
+            name = body(tuple((breaks[d][i] + breaks[d][i + 1]) / 2 for d, i in enumerate(cell)), block)
+            elements.append((TYPE[dim, order], bodies.setdefault(name, 101 + len(bodies)), nodes))
         for axis, high in itertools.product(range(dim), (0, 1)):
             others = [d for d in range(dim) if d != axis]
             for facet in itertools.product(*(range(number[d]) for d in others)):
@@ -59,10 +60,11 @@ def write(path, breaks, to=lambda *x: x, order=1, side=lambda name, centre, bloc
                     for d, i, p in zip(others, facet, place):
                         index[d] = order * i + p
                     nodes.append(number_of[tuple(index)])
-                elements.append((TYPE[dim - 1, order], names.setdefault(name, 2 + len(names)), nodes))
+                elements.append((TYPE[dim - 1, order], names.setdefault(name, 1 + len(names)), nodes))
     with open(path, "w") as file:
-        file.write("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n%d\n%d 1 \"%s\"\n" % (1 + len(names), dim, body))
-        file.writelines("%d %d \"%s\"\n" % (dim - 1, tag, name) for name, tag in names.items())
+        file.write("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n%d\n" % (len(bodies) + len(names)))
+        for d, group in ((dim, bodies), (dim - 1, names)):
+            file.writelines("%d %d \"%s\"\n" % (d, tag, name) for name, tag in group.items())
         file.write("$EndPhysicalNames\n$Nodes\n%d\n" % len(points))
         file.writelines("%d %.17g %.17g %.17g\n" % (n, *x) for n, x in points.values())
         file.write("$EndNodes\n$Elements\n%d\n" % len(elements))

@@ -43,6 +43,8 @@ load: {end: 1, step: 0.5}
 """
 
 
+RUBBER = "{law: neo_hookean, E: 1, nu: 0.3}"
+HGO = "{law: hgo, c: 1, kappa: 100, k1: 1, k2: 1, %s}"
 ALONE = {"OMPI_MCA_ess_singleton_isolated": "1"}  # Open MPI: one process needs no daemon, and so no PATH
 
 
@@ -153,8 +155,28 @@ def test_good_on_two_ranks(check):
     (("friction: 0", "projection: along"), ["contact.pair.projection is 'along'", "continuous, facet|continuous.*facet"]),
     (("friction: 0", "projection: facet"), ["contact.pair.projection: only faces of order 1 in three dimensions"]),
     (("friction: 0", "order: full, node_to_segment: true"), ["contact.pair.order", "do not go together"]),
-    (("{law: neo_hookean, E: 1, nu: 0.3}", "{law: hgo, c: 1, kappa: 2, k1: 1, k2: 1, fiber: {a: {angle: 29}}}"), ["law hgo is not built yet"]),
-    (("{law: neo_hookean, E: 1, nu: 0.3}", "{law: j2, E: 1, nu: 0.3, yield: 1}"), ["law j2 is not built yet"]),
+    # plasticity
+    (("{law: neo_hookean, E: 1, nu: 0.3}", "{law: j2, E: 1, nu: 0.3}"), ["material.rubber.yield: missing"]),
+    (("{law: neo_hookean, E: 1, nu: 0.3}", "{law: j2, E: 1, nu: 0.3, yield: 0}"), ["material.rubber.yield: 0 is not a finite number above 0"]),
+    (("{law: neo_hookean, E: 1, nu: 0.3}", "{law: j2, E: 1, nu: 0.3, yield: 1, hardening: -2}"), ["material.rubber.hardening", "allowed: less than 3 mu"]),
+    (("{law: neo_hookean, E: 1, nu: 0.3}", "{law: j2, E: 1, nu: 0.3, yield: 1, saturation: 1}"), ["material.rubber.saturation_rate: missing"]),
+    (("{law: neo_hookean, E: 1, nu: 0.3}", "{law: j2, E: 1, nu: 0.3, yield: 1, saturation: 1, saturation_rate: -3}"),
+     ["material.rubber.saturation_rate: -3 is not a finite number above 0"]),
+    (("{law: neo_hookean, E: 1, nu: 0.3}", "{law: j2, E: 1, nu: 0.3, yield: 1, saturation: -1, saturation_rate: 1}"),
+     ["material.rubber.saturation: -1 takes all of the yield stress"]),
+    (("{law: neo_hookean, E: 1, nu: 0.3}", "{law: j2, E: 1, nu: 0.3, yield: 1, volumetric: log}"), ["material.rubber.volumetric: j2 knows"]),
+    # fibres
+    ((RUBBER, HGO % "fiber: {a: {angle: 29}}, frame: {point: {x: 3}}"), None),
+    ((RUBBER, HGO % "fiber: {a: {angle: 29}}, frame: {axis: x}"), ["material.rubber.frame.axis is x", "allowed in this model: z"]),
+    ((RUBBER, HGO % "fiber: {a: {direction: {x: 1}}}, frame: {axis: z}"), ["material.rubber.frame", "no fibre of this material has an angle"]),
+    ((RUBBER, HGO % "fiber: {a: {}}"), ["material.rubber.fiber.a needs an angle, or a direction"]),
+    ((RUBBER, HGO % "fiber: {a: {angle: 29, direction: {x: 1}}}"), ["material.rubber.fiber.a has an angle and a direction"]),
+    ((RUBBER, HGO % "fiber: {a: {direction: {x: 0}}}"), ["material.rubber.fiber.a.direction is zero"]),
+    ((RUBBER, HGO % "fiber: {a: {angle: 29, k1: -2}}"), ["material.rubber.fiber.a.k1 is -2", "inf"]),
+    ((RUBBER, HGO % "fiber: {a: {angel: 29}}"), ["material.rubber.fiber.a.angel", "material.rubber.fiber.a.angle"]),
+    ((RUBBER, HGO % "fiber: {a: {angle: 1}, b: {angle: 2}, c: {angle: 3}, d: {angle: 4}, e: {angle: 5}}"), ["5 families", "at most 4"]),
+    ((RUBBER, HGO % "volumetric: simo"), ["material.rubber.fiber: missing"]),
+    (("nu: 0.3}", "nu: 0.3, fiber: {a: {angle: 29}}}"), ["material.rubber.fiber: law neo_hookean has no fibres"]),
     # the file
     (("body:\n", "body: [\n"), [r"squares.yml:\d+:\d+: not valid YAML"]),
     (("title: two", "title: \"two"), [r"squares.yml:\d+:\d+: not valid YAML"]),
