@@ -1,6 +1,21 @@
 /* What a scene must share with the one that wrote a checkpoint, as text: one line each, so that a difference can be shown. */
 #include "outputimpl.h"
 
+static PetscErrorCode Fibers_Private(const MaterialSpec *m, OutputText *text)
+{
+  PetscFunctionBegin;
+  for (PetscInt i = 0; i < m->num_fibers; ++i) {
+    const MaterialFiber *f = &m->fiber[i];
+    PetscCall(OutputTextPrint(text, ", fiber %s k1 %.15g k2 %.15g", f->name, (double)f->k1, (double)f->k2));
+    if (f->straight)
+      PetscCall(OutputTextPrint(text, " along (%.15g %.15g %.15g)", (double)f->direction[0], (double)f->direction[1], (double)f->direction[2]));
+    else
+      PetscCall(OutputTextPrint(text, " at %.15g degrees, frame about %c through (%.15g %.15g %.15g)", (double)f->angle, 'x' + m->frame.axis,
+                                (double)m->frame.point[0], (double)m->frame.point[1], (double)m->frame.point[2]));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 static PetscErrorCode Material_Private(const MaterialSpec *m, OutputText *text)
 {
   PetscFunctionBegin;
@@ -10,6 +25,7 @@ static PetscErrorCode Material_Private(const MaterialSpec *m, OutputText *text)
     const PetscReal value = m->parameter[p - m->law->parameters]; /* NaN: not given */
     if (!PetscIsNanReal(value)) PetscCall(OutputTextPrint(text, ", %s %.15g", p->name, (double)value));
   }
+  PetscCall(Fibers_Private(m, text));
   PetscCall(OutputTextPrint(text, "\n"));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

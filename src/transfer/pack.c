@@ -269,11 +269,13 @@ PetscErrorCode TransferPack(Problem problem, const State *state, Pack *pack)
   PetscFunctionBegin;
   PetscCall(ProblemGetScene(problem, &scene));
   pack->num = 0;
-  PetscCall(PetscMalloc1(2 + scene->num_contacts, &pack->field));
+  PetscCall(PetscMalloc1(3 + scene->num_contacts, &pack->field));
   PetscCall(PackDisplacement_Private(problem, state->x, &field));
   PetscCall(Append_Private(pack, field, "%s", "displacement"));
   PetscCall(Blocks_Private(problem, MechanicsPressureRange, state->num_pressure, state->pressure, PETSC_FALSE, &field));
   PetscCall(Append_Private(pack, field, "%s", "pressure"));
+  PetscCall(Blocks_Private(problem, MechanicsHistoryRange, state->num_history, state->history, PETSC_FALSE, &field));
+  PetscCall(Append_Private(pack, field, "%s", "history"));
   for (PetscInt i = 0; i < scene->num_contacts; ++i) {
     PetscCall(Multipliers_Private(problem, i, state->x, PETSC_FALSE, &field));
     PetscCall(Append_Private(pack, field, "multiplier.%s", scene->contacts[i].name));
@@ -306,6 +308,8 @@ PetscErrorCode TransferUnpack(Problem problem, const Pack *pack, State *state, P
   PetscCall(UnpackDisplacement_Private(problem, field, state->x, jump));
   PetscCall(Find_Private(pack, "%s", "pressure", &field));
   PetscCall(Blocks_Private(problem, MechanicsPressureRange, state->num_pressure, state->pressure, PETSC_TRUE, &field));
+  PetscCall(Find_Private(pack, "%s", "history", &field));
+  PetscCall(Blocks_Private(problem, MechanicsHistoryRange, state->num_history, state->history, PETSC_TRUE, &field));
   for (PetscInt i = 0; i < scene->num_contacts; ++i) {
     PetscCall(Find_Private(pack, "multiplier.%s", scene->contacts[i].name, &field));
     PetscCall(Multipliers_Private(problem, i, state->x, PETSC_TRUE, &field));

@@ -1,6 +1,7 @@
 """O-102: a run that was broken off and goes on from its checkpoint ends as if nothing had happened, on any number of ranks; a kill at any moment costs no more than
 the load step in progress; requests to stop leave a checkpoint and readable results; files that are no whole checkpoint of this scene are refused."""
 import hashlib
+import json
 import os
 import pathlib
 import random
@@ -12,6 +13,7 @@ import time
 import numpy as np
 import pytest
 
+from boxmesh import linspace, write
 from conftest import PROGRAM, ROOT, Result
 
 STEPS = ("-load_step", 0.25)
@@ -116,6 +118,23 @@ def test_o102_same_ranks_same_bits(run, name):
             assert a.keys() == b.keys()
             for field in a:
                 assert np.array_equal(a[field], b[field]), field
+
+
+@pytest.mark.parametrize("ranks,then", [(1, 1), pytest.param(1, 3, marks=pytest.mark.slow), pytest.param(3, 2, marks=pytest.mark.slow)])
+def test_o102_plastic(run, tmp_path, ranks, then):
+    """Law j2: a bore driven out and let go, broken off while the material flows, so that what it remembers decides the rest; mixed cells."""
+    write(tmp_path / "tube.msh", [linspace(1, 1.15, 4), linspace(0, 1, 2)], lambda *x: x, order=2)
+    scene = {"mesh": {"file": "tube.msh"}, "model": "axisymmetric", "order": 2, "body": {"body": {"material": "m"}},
+             "material": {"m": {"law": "j2", "volumetric": "simo", "mu": 80e3, "kappa": 170e3, "yield": 205, "hardening": 1000, "formulation": "mixed"}},
+             "boundary": {"x0": {"displacement": {"x": "0.1*min(t,1)-0.005*max(t-1,0)"}}, "y0": {"fix": "y"}, "y1": {"fix": "y"}},
+             "load": {"step": 0.125, "end": 1.25}, "probe": {"bore": {"x": 1, "y": 0.5}}}
+    whole = run("tube.yml", text=json.dumps(scene))
+    assert whole.returncode == 0, whole
+    first = run("tube.yml", "-load_max_steps", 6, text=json.dumps(scene), ranks=ranks)
+    assert first.returncode == 2, first
+    second = go_on(run, first.directory, "tube.yml", text=json.dumps(scene), ranks=then)
+    assert second.returncode == 0, second
+    assert_same_run(whole, second)
 
 
 def test_o102_nothing_left_to_do(run):
