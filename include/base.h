@@ -19,6 +19,10 @@ PetscErrorCode ErrorInput(const char *format, ...) PETSC_ATTRIBUTE_FORMAT(1, 2);
     if (PetscUnlikely(!(cond))) return ErrorInput(__VA_ARGS__);                                                                                                \
   } while (0)
 
+/* Levenshtein distance of two names of at most 255 characters (1000 beyond), and the nearest of num > 0 names, the first of several. */
+PetscInt    NameDistance(const char *a, const char *b);
+const char *NameNearest(const char *name, PetscInt num, const char *const names[]);
+
 /* Install the error handler that keeps quiet about input errors and prints PETSc's traceback for all others. */
 PetscErrorCode ErrorHandlerPush(void);
 
@@ -72,14 +76,16 @@ typedef struct _p_Expression *Expression;
    A text that is no expression is an input error that quotes key, text and the parser's reason. */
 PetscErrorCode ExpressionCreate(const char *key, const char *text, Expression *);
 PetscErrorCode ExpressionEvaluate(Expression, const PetscReal X[3], PetscReal t, PetscReal *value);
-PetscBool      ExpressionUsesTime(Expression); /* t occurs in it */
-const char    *ExpressionText(Expression);     /* as given; borrowed */
+PetscBool      ExpressionUsesTime(Expression);  /* t occurs in it */
+PetscBool      ExpressionUsesPlace(Expression); /* X, Y or Z */
+const char    *ExpressionText(Expression);      /* as given; borrowed */
 PetscErrorCode ExpressionDestroy(Expression *);
 
-/* Piecewise linear amplitude in t; num = 0 means the ramp 0,0 1,1. Constant beyond its ends. */
+/* Piecewise linear amplitude in t; num = 0 means the ramp 0,0 1,1. Constant beyond its ends, but for a ramp without end. */
 typedef struct {
-  PetscInt   num;   /* number of (t, value) pairs */
-  PetscReal *pairs; /* [num][2], owned */
+  PetscInt   num;     /* number of (t, value) pairs */
+  PetscReal *pairs;   /* [num][2], owned */
+  PetscBool  endless; /* num = 0: t itself, below 0 and above 1 too */
 } Amplitude;
 PetscReal AmplitudeEvaluate(const Amplitude *, PetscReal t);
 

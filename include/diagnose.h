@@ -22,18 +22,24 @@ typedef struct {
 
 typedef struct {
   PetscInt num_boundaries, num_contacts;
-  PetscReal (*reaction)[3];        /* owned [num_boundaries] force of each support on the body */
-  PairFigures  *pair;              /* owned [num_contacts] */
-  PetscReal     load[3];           /* resultant of dead loads, body forces and follower pressures; axisymmetric: the axial component, others 0 */
-  PetscReal     force_imbalance;   /* largest of the pairs (O-90) */
-  PetscReal     moment_imbalance;  /* largest of the pairs (O-90) */
-  PetscReal     support_imbalance; /* |supports + loads + contact with rigid bodies| / sum of their magnitudes; axisymmetric: axial component */
+  PetscReal (*reaction)[3];         /* owned [num_boundaries] force of each support on the body */
+  PetscReal    *pressure, *control; /* owned [num_boundaries] where a pressure is found: it, and what it follows (change of volume, mean advance); else 0 */
+  PairFigures  *pair;               /* owned [num_contacts] */
+  PetscReal     load[3];            /* resultant of dead loads, body forces and follower pressures; axisymmetric: the axial component, others 0 */
+  PetscReal     force_imbalance;    /* largest of the pairs (O-90) */
+  PetscReal     moment_imbalance;   /* largest of the pairs (O-90) */
+  PetscReal     support_imbalance;  /* |supports + loads + contact with rigid bodies| / sum of their magnitudes; axisymmetric: axial component */
+  PetscReal     plastic_strain;     /* largest at an integration point */
+  PetscReal     plastic_work;       /* int int k(alpha) dalpha dV: what plastic flow took so far; 0 without plastic materials, like the strain */
   ProblemStatus status;
 } Balance;
 
 /* Figures at a state of this problem, the same on every rank. Evaluates the residual. Collective. */
 PetscErrorCode BalanceCompute(Problem, const State *, Balance *);
 PetscErrorCode BalanceDestroy(Balance *);
+/* What adaptation changed, from one state to another at the same load, relative to the first (0 where that is 0): root of the summed squared differences of
+   reactions, plastic work, largest plastic strain. The finer mesh's gain and the loss on the way to it are both in these. */
+void BalanceChange(const Balance *from, const Balance *to, PetscReal change[3]);
 /* The zone of contact alone: max_pressure to covered_nodes above, from the tables of a view: each rank its own nodes, then over the ranks of comm. Collective.
    radius: the zone ends between its last active node and the next one. There the square of the pressure is extended linearly to zero (the pressure between
    smooth bodies falls with the root of the distance), at most to the next node; where it does not fall, the zone ends in the middle of the edge. */
@@ -48,11 +54,13 @@ typedef struct {
   PetscInt  set_cycles; /* active sets that repeated on the way to this row */
   PetscReal t, dt, estimated_error /* relative; NaN: not estimated */, estimate /* absolute */, energy, min_det, min_gap, contact_force, seconds;
   PetscReal force_imbalance, moment_imbalance, support_imbalance;
+  PetscReal plastic_strain, plastic_work;
+  PetscReal force_change, work_change, strain_change; /* by the adaptation before this pass, at the same load: see BalanceChange */
   PetscBool accepted;
 } ReportRow;
 
 /* Fill what problem, state, estimate (NULL: none) and balance know: t, cells, dofs, active_nodes, estimated_error, estimate, energy, min_det, min_gap,
-   contact_force (sum of the magnitudes over pairs), imbalances. The rest is the caller's. Not collective. */
+   contact_force (sum of the magnitudes over pairs), imbalances, plastic_strain, plastic_work. The rest is the caller's. Not collective. */
 PetscErrorCode ReportRowFill(Problem, const State *, const Estimate *, const Balance *, ReportRow *);
 
 /* ---- what a run prints (diagnose/monitor.c) -------------------------------------------------------------------------- */

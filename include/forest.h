@@ -13,7 +13,9 @@
 
 typedef struct _p_Forest *Forest;
 
-#define FOREST_MAX_LEVEL 20 /* splits per direction */
+#define FOREST_MAX_LEVEL 20                            /* splits per direction */
+#define FOREST_PARTS 64                                /* of an entity, nodes or entries of its closure: entity * FOREST_PARTS + part is a PetscInt */
+#define FOREST_ENTITIES (PETSC_MAX_INT / FOREST_PARTS) /* most of a forest, which ForestCreate and ForestAdapt see to */
 
 typedef struct {
   char     file[PETSC_MAX_PATH_LEN]; /* .msh 2.2 or 4.1 */
@@ -87,7 +89,6 @@ PetscErrorCode ForestCreate(MPI_Comm, const ForestSpec *, Forest *);
 PetscErrorCode ForestCreateFromCoarse(MPI_Comm, CoarseMesh *mesh, PetscInt num_facets, const PetscInt facet_vertices[], const uint64_t facet_groups[],
                                       PetscInt refine, Forest *);
 PetscErrorCode ForestDestroy(Forest *);
-PetscErrorCode ForestView(Forest, PetscViewer);
 
 PetscErrorCode ForestGetCoarse(Forest, const CoarseMesh **);
 PetscErrorCode ForestGetTables(Forest, const ForestTables **);

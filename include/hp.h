@@ -43,7 +43,6 @@ PetscErrorCode HPSpaceDestroy(HPSpace *);
 /* Raise order[num_leaves] (replicated) until no two leaves that share a facet, or a part of one, differ by more than `difference`; leaves with a mark in
    fixed[num_leaves] stay as they are, whatever their neighbours. Not collective. */
 PetscErrorCode HPOrdersLimit(Forest, PetscInt difference, const int8_t fixed[], int8_t order[]);
-PetscErrorCode HPSpaceView(HPSpace, PetscViewer);
 PetscErrorCode HPSpaceGetTables(HPSpace, const HPTables **);
 PetscErrorCode HPSpaceGetForest(HPSpace, Forest *);
 PetscErrorCode HPSpaceGetDM(HPSpace, DM *); /* leaf DM clone with section and constraints */

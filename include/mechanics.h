@@ -21,9 +21,21 @@ typedef struct {
   Expression rotation_angle;
   PetscReal  rotation_point[3];
   Expression pressure;    /* follower, against the outward normal; current area */
+  Expression volume;      /* or a follower pressure that is found: it changes the volume that the boundary encloses by so much (control.c) … */
+  Expression advance;     /* … or moves the boundary by so much against its outward normal, mean over the reference area */
   Expression traction[3]; /* dead, per reference area */
-  Amplitude  amplitude;   /* multiplies displacement, rotation, pressure, traction that are constants in t */
+  Amplitude  amplitude;   /* multiplies displacement, rotation, pressure, volume, advance, traction that are constants in t */
 } BoundarySpec;
+
+/* Is the boundary's pressure found; is there one, given or found? */
+static inline PetscBool BoundaryIsControlled(const BoundarySpec *b)
+{
+  return (PetscBool)(b->volume || b->advance);
+}
+static inline PetscBool BoundaryHasPressure(const BoundarySpec *b)
+{
+  return (PetscBool)(b->pressure || BoundaryIsControlled(b));
+}
 
 typedef struct {
   char                name[MORTISE_NAME]; /* physical group of top dimension */
@@ -71,6 +83,10 @@ PetscErrorCode MechanicsSetTime(Mechanics, PetscReal t);
 /* Write the prescribed dofs of time t into a local array of dofs; other entries stay. */
 PetscErrorCode MechanicsPrescribe(Mechanics, PetscReal local[]);
 
+/* Derivative by t, by differences over 2 dt, of dead loads and follower pressures at displacement u, as they enter the residual: added to the local array rate.
+ */
+PetscErrorCode MechanicsLoadRate(Mechanics, const PetscReal u[], PetscReal dt, PetscReal rate[]);
+
 /* Results of a bulk integration on this rank (sums and minima over its own cells). */
 typedef struct {
   PetscReal energy; /* strain energy */
@@ -102,6 +118,24 @@ PetscErrorCode MechanicsCondenseForces(Mechanics, PetscReal r[]);
    with the last tangent and the forces last condensed. */
 PetscErrorCode MechanicsRecover(Mechanics, PetscReal du[]);
 
+/* ---- pressures that are found (control.c) ------------------------------------------------------------------------------- */
+
+/* Boundaries whose pressure is found, by their index among the boundaries, ascending. Not collective. */
+PetscErrorCode MechanicsGetControls(Mechanics, PetscInt *num, const PetscInt **boundary);
+/* Their pressures in everything that follows; 0 before. Not collective. */
+PetscErrorCode MechanicsSetControls(Mechanics, const PetscReal pressure[]);
+/* Follower pressure of a boundary at reference position X and time t: given, or found. Not collective. */
+PetscErrorCode MechanicsPressure(Mechanics, PetscInt boundary, const PetscReal X[3], PetscReal t, PetscReal *pressure);
+/* What control k follows, this rank's part at displacement u (local array); n out of the body:
+     volume   V(u) = - int_0^1 int u . n da at X + s u ds: swept by the boundary on straight lines from X to X + u;
+     advance  V(u) = - int u . N dA: the mean times the area.
+   Its derivative by u is added to gradient, the residual of a unit pressure to force (local arrays, NULL: skip). Not collective. */
+PetscErrorCode MechanicsControl(Mechanics, PetscInt k, const PetscReal u[], PetscReal *value, PetscReal gradient[], PetscReal force[]);
+/* Reference area of its facets (axisymmetric: of the revolution), and area times shear modulus: this rank's part. Not collective. */
+PetscErrorCode MechanicsControlArea(Mechanics, PetscInt k, PetscReal sum[2]);
+/* Mark the local nodes that its facets depend on. Not collective. */
+PetscErrorCode MechanicsControlNodes(Mechanics, PetscInt k, PetscBool mark[]);
+
 /* Element pressures: num coefficients on this rank, cell after cell. */
 PetscErrorCode MechanicsNumPressure(Mechanics, PetscInt *num);
 /* pressure += step * (linearised pressure at the last tangent + its derivative . du - pressure), du local array. */
@@ -115,8 +149,12 @@ PetscErrorCode MechanicsInitialHistory(Mechanics, PetscReal history[]);
 PetscErrorCode MechanicsSetHistory(Mechanics, const PetscReal history[]);
 /* history[num] = what a step from the history last set to u leaves; *bad as in MechanicsStatus. Not collective. */
 PetscErrorCode MechanicsCommit(Mechanics, const PetscReal u[], PetscReal history[], PetscBool *bad);
+/* The integration points of a cell of this order: tensor products of this table's, the first direction fastest. Not collective. */
+PetscErrorCode MechanicsPointRule(PetscInt order, const Basis1D **);
 /* Where an owned cell's numbers lie in the array; num 0: no history, rigid, or a ghost. */
 PetscErrorCode MechanicsHistoryRange(Mechanics, PetscInt cell, PetscInt *first, PetscInt *num);
+/* Does any body flow? */
+PetscBool MechanicsIsPlastic(const MechanicsSpec *);
 /* Plastic flow up to u on this rank: largest plastic strain at an integration point, plastic work (axisymmetric: of the full revolution). Not collective. */
 PetscErrorCode MechanicsPlastic(Mechanics, const PetscReal u[], PetscReal *strain, PetscReal *work);
 /* Plastic strain at np reference points of an owned cell, by polynomials through the integration points; 0 for laws without. Not collective. */

@@ -58,9 +58,9 @@ PetscErrorCode SummaryWrite(MPI_Comm, const char *path, const struct cJSON *docu
    - Any other scene gives each cell its own (n+1)^dim points; stress-like fields are per point, continuous within a cell only.
    - Per point: displacement. Per cell: order, level (largest number of halvings of the coarse cell in one direction), body, rank, error (square root of the
      indicator), cell (number of the leaf).
-   - Stress-like: pressure (-tr(sigma)/3), stress (Cauchy: xx xy xz yy yz zz), von_mises, J. They are evaluated at the p^dim Gauss points, where derivatives
-     of the solution are most accurate (and the pressure of mixed cells lives), and extended over the cell by polynomials of degree p-1 in each direction. In
-     rigid bodies the stress is 0 and J is 1; in small kinematics sigma is the linear law's stress and J = 1 + tr(grad u).
+   - Stress-like: pressure (-tr(sigma)/3), stress (Cauchy: xx xy xz yy yz zz), von_mises, J, with plastic materials plastic_strain. They are evaluated at the
+   p^dim Gauss points, where derivatives of the solution are most accurate (and the pressure of mixed cells lives), and extended over the cell by polynomials of
+   degree p-1 in each direction. In rigid bodies the stress is 0 and J is 1; in small kinematics sigma is the linear law's stress and J = 1 + tr(grad u).
 
    Grid contact: the facets (edges, quadrilaterals) of both sides of all pairs; no point belongs to two of them.
    - Per point: displacement, gap, contact_pressure, status (0 open, 1 in contact, -1 faces nothing or carries no multiplier), normal (unit, out of the body).
@@ -84,6 +84,8 @@ void OutputCauchy(Kinematics, const PetscReal F[9], const PetscReal P[9], PetscR
 /* Stress-like values of one cell: 7 numbers (sigma, J) at its p^dim Gauss points, samples[p^dim][7]; rigid bodies: zero stress, J = 1. u: local displacement
  * array. */
 PetscErrorCode OutputSampleCell(Problem, PetscInt cell, const PetscReal u[], PetscReal samples[]);
+/* Plastic strain at the same points of one cell, samples[p^dim]. */
+PetscErrorCode OutputSamplePlastic(Problem, PetscInt cell, const PetscReal u[], PetscReal samples[]);
 /* Extension of num components from the p^dim Gauss points of a cell of order p to its equispaced lattice of (pieces+1)^dim points, lexicographic, components
    fastest. nodal and work: room for max(order, pieces+1)^dim * num numbers. */
 PetscErrorCode OutputExtend(PetscInt dim, PetscInt order, PetscInt pieces, PetscInt num, const PetscReal samples[], PetscReal nodal[], PetscReal work[]);
@@ -107,6 +109,7 @@ PetscErrorCode ProbesEvaluate(Probes, Problem, Vec x, PetscReal displacement[][3
    - step, t, dt, pass (of the accepted solution), step_cuts, cells, dofs, newton_iterations, active_nodes, estimated_error, energy, min_det, min_gap,
      contact_force, contact_imbalance, moment_imbalance, support_imbalance, seconds;
    - reaction.<boundary>.x … for boundaries with supports;
+   - pressure.<boundary>, and volume.<boundary> or advance.<boundary>, where the pressure is found;
    - contact.<pair>.force.x …, .moment (3-D: .moment.x …), .max_pressure, .area, .radius (2-D), .active_nodes, .min_gap;
    - probe.<name>.displacement.x …, .stress.xx … (2-D: xx xy yy zz). */
 typedef struct _p_History *History;

@@ -2,7 +2,8 @@
 
    Global vector: on each rank first its free displacement dofs (numbering of the HPSpace), then its multipliers: z_j, the contact pressure at nonmortar
    node j. Residual rows: forces for u; for z_j the complementarity  R_j = w0_j [ z_j - max(0, z_j - c_j gt_j / w_j) ]  (unit: force), c_j = E / w0_j
-   with w0_j the reference tributary length (area) of the node. Tangent: exact, active set as decided by the residual. */
+   with w0_j the reference tributary length (area) of the node. Tangent: exact, active set as decided by the residual. The last rank's part ends with the
+   scalars (scalar.c): pressures that are found, and pseudo-time where a path is followed. */
 #pragma once
 #include "scene.h"
 
@@ -55,10 +56,34 @@ PetscErrorCode ProblemJump(Problem);
 /* Apply this share of what is left to the target. */
 PetscErrorCode ProblemApplyShare(Problem, PetscReal share);
 
-/* Local displacement array (Cartesian frames applied only through HPSpaceGather): free dofs from x, prescribed dofs as applied so far. local[num_nodes*dim]. */
+/* Local displacement array (Cartesian frames applied only through HPSpaceGather): free dofs from x, prescribed dofs as applied so far. local[num_nodes*dim].
+   The scalars of x act from now on. Collective. */
 PetscErrorCode ProblemLocalDisplacement(Problem, Vec x, PetscReal local[]);
 /* Write a local array's free dofs into x (owned entries). */
 PetscErrorCode ProblemSetDisplacement(Problem, const PetscReal local[], Vec x);
+
+/* ---- scalars (scalar.c) and the path of equilibria (path.c) ------------------------------------------------------------------ */
+
+PetscErrorCode ProblemNumScalars(Problem, PetscInt *num);
+PetscErrorCode ProblemGetScalars(Problem, Vec x, PetscReal values[]); /* on all ranks. Collective. */
+PetscErrorCode ProblemSetScalars(Problem, const PetscReal values[], Vec x);
+/* Of the boundaries of MechanicsGetControls: the pressure found, and what it follows, in the unit of its target (change of volume, mean displacement).
+ * Collective. */
+PetscErrorCode ProblemGetControls(Problem, Vec x, PetscReal pressure[], PetscReal value[]);
+
+/* Root mean square of the change of displacement dofs between two states (from NULL: the reference). Collective. */
+PetscErrorCode ProblemDistance(Problem, Vec from, Vec to, PetscReal *distance);
+/* load.control: arc_length. Time is an unknown: of the state it is as set (Hold; the start), or found such that the state lies on a plane across the
+   direction from -> to, through `to` (Follow) or further by `advance` (Advance). *length: of the way from -> to. Collective. */
+PetscErrorCode ProblemFollow(Problem, Vec from, Vec to, PetscReal *length);
+PetscErrorCode ProblemAdvance(Problem, PetscReal advance);
+/* The direction of the path that is followed, borrowed, NULL: none is; and to follow it from `to` on in another problem of the same mesh. Collective. */
+PetscErrorCode ProblemGetPath(Problem, Vec *direction);
+PetscErrorCode ProblemFollowAlong(Problem, Vec direction, Vec to);
+PetscErrorCode ProblemHold(Problem);
+PetscErrorCode ProblemIsFollowing(Problem, PetscBool *following);
+/* Time of a state: its unknown, or as set. Collective. */
+PetscErrorCode ProblemGetTime(Problem, Vec x, PetscReal *t);
 
 /* ---- contact: replicated topology, values where they are needed ------------------------------------------------------------ */
 
@@ -143,6 +168,7 @@ typedef struct {
   PetscReal energy;  /* strain energy */
   PetscReal min_det; /* smallest det F */
   PetscReal scale;   /* root of the summed squared nodal forces of cells and loads: the residual is small against it */
+  PetscReal largest; /* displacement component */
   PetscReal noise;   /* level of round-off in the residual: no Newton step gets below */
   PetscBool bad;     /* outside the domain: det F <= 0 or a failed projection */
 } ProblemStatus;
@@ -161,7 +187,7 @@ PetscErrorCode ProblemRecover(Problem, Vec y, Vec dx);
    out. Assembles the problem's matrix. */
 PetscErrorCode ProblemTangent(Problem, Vec x, const PetscReal pressure[], Vec lift, PetscBool *bad);
 /* Symmetric form of the tangent: same solution, symmetric matrix, right-hand side by ProblemRightSide; its multiplier columns are exact to second order.
-   Only for problems whose bulk tangent is symmetric (ProblemIsSymmetric): no follower pressures, no plastic flow. Default: exact form. */
+   Only for problems whose bulk tangent is symmetric (ProblemIsSymmetric): no follower pressures, no plastic flow, no scalars. Default: exact form. */
 PetscErrorCode ProblemSetSymmetric(Problem, PetscBool symmetric);
 PetscErrorCode ProblemIsSymmetric(Problem, PetscBool *possible);
 /* rhs = -(r + lift), condensed like the last tangent, multiplier rows in its form; r of the problem, lift and rhs of the matrix. */

@@ -4,9 +4,12 @@
 #include "forest.h"
 #include "mechanics.h"
 
+typedef enum { LOAD_TIME, LOAD_ARC_LENGTH } LoadControl; /* steps of t; or along the path of equilibria, t being found */
 typedef struct {
-  PetscReal end, step, step_min, step_max; /* pseudo-time */
-  PetscInt  max_steps;
+  PetscReal   end, step, step_min, step_max; /* pseudo-time */
+  PetscInt    max_steps;
+  LoadControl control;
+  PetscReal   stop_displacement; /* the run ends when a displacement component has reached this; 0: it does not */
 } LoadSpec;
 
 typedef enum { ADAPT_H, ADAPT_P, ADAPT_HP } AdaptStrategy;

@@ -26,7 +26,7 @@ typedef struct {
    multigrid_smoother_*, again_ksp_* (GMRES on a factor in single precision or of an earlier tangent). Collective. */
 PetscErrorCode SolverCreate(Problem, Solver *);
 PetscErrorCode SolverDestroy(Solver *);
-/* Are the values of all -solve_* options allowed? An input error when one is not. */
+/* Are all -solve_* options known, and their values allowed? An input error when one is not. Collective. */
 PetscErrorCode SolverCheckOptions(void);
 /* The -solve_* options as text for -help. */
 PetscErrorCode SolverPrintHelp(MPI_Comm);

@@ -3,8 +3,8 @@
 #include "problem.h"
 
 /* Fill *to (a created state of the new problem) from *from on the old one: displacements by nodal interpolation of the old field (exact under refinement
-   of straight cells), element pressures as polynomials, multipliers by evaluation on the old nonmortar facets; t and orders as given in to. Both problems
-   and forests must be alive; any ranks may own any leaves. Collective. */
+   of straight cells), element pressures as polynomials, histories as history.c says, multipliers by evaluation on the old nonmortar facets, scalars as they
+   are; t and orders as given in to. Both problems and forests must be alive; any ranks may own any leaves. Collective. */
 PetscErrorCode TransferState(Problem old_problem, const State *from, Problem new_problem, const ForestMap *, State *to);
 /* Cell orders inherited: new leaves take the (highest) order of the old leaves they overlap. [map->num], freed by the caller. */
 PetscErrorCode TransferOrders(const ForestMap *, const int8_t old_order[], int8_t **new_order);
@@ -12,7 +12,8 @@ PetscErrorCode TransferOrders(const ForestMap *, const int8_t old_order[], int8_
 /* ---- a state by itself, for another partition or another run (transfer/pack.c) ------------------------------------------ */
 
 /* The solution as named fields whose order does not depend on the partition: `displacement` (Cartesian, all true nodes, prescribed values among them; vertices,
-   edges, faces, cells by number, the nodes of an entity in its frame), `pressure` and `history` (by leaf), `multiplier.<pair>` (by node of the nonmortar side).
+   edges, faces, cells by number, the nodes of an entity in its frame), `pressure` and `history` (by leaf), `multiplier.<pair>` (by node of the nonmortar side),
+   `scalars`, and `path`, like `displacement`: the direction of a path that is followed.
  */
 typedef struct {
   char name[2 * MORTISE_NAME];

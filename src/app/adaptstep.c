@@ -18,12 +18,15 @@ PetscErrorCode AppEstimate(App *app)
 
 PetscErrorCode AppReportPass(App *app, PetscInt iterations, PetscBool accepted)
 {
-  Level         *l = &app->level;
+  Level         *l         = &app->level;
+  Balance        before    = app->balance;
+  PetscReal      change[3] = {0, 0, 0};
   PetscLogDouble now;
 
   PetscFunctionBegin;
-  if (app->balance.reaction) PetscCall(BalanceDestroy(&app->balance));
   PetscCall(BalanceCompute(l->problem, &l->state, &app->balance));
+  if (before.reaction && app->passes_in_step > 0) BalanceChange(&before, &app->balance, change);
+  if (before.reaction) PetscCall(BalanceDestroy(&before));
   PetscCall(PetscMemzero(&app->last, sizeof(app->last)));
   PetscCall(ReportRowFill(l->problem, &l->state, app->estimated ? &app->estimate : NULL, &app->balance, &app->last));
   PetscCall(PetscTime(&now));
@@ -34,6 +37,9 @@ PetscErrorCode AppReportPass(App *app, PetscInt iterations, PetscBool accepted)
   app->last.set_cycles        = app->set_cycles - app->told_cycles;
   app->told_cycles            = app->set_cycles;
   app->last.seconds           = now - app->start;
+  app->last.force_change      = change[0];
+  app->last.work_change       = change[1];
+  app->last.strain_change     = change[2];
   app->last.accepted          = accepted;
   app->last.dt                = l->state.t - l->accepted.t;
   PetscCall(HistoryPass(app->history, &app->last));
@@ -42,7 +48,8 @@ PetscErrorCode AppReportPass(App *app, PetscInt iterations, PetscBool accepted)
   PetscCall(StageBegin(STAGE_OUTPUT));
   /* Passes at one load time follow each other a little apart: readers want times that grow. */
   const PetscReal apart = 1e-6 * app->data->load.end;
-  PetscCall(OutputWriteState(app->writer, l->problem, &l->state, app->estimated ? &app->estimate : NULL, l->state.t + apart * app->passes_in_step,
+  const PetscReal time  = app->data->load.control == LOAD_TIME ? l->state.t : app->data->load.end * (app->load_steps + 1); /* on a path t may fall */
+  PetscCall(OutputWriteState(app->writer, l->problem, &l->state, app->estimated ? &app->estimate : NULL, time + apart * app->passes_in_step,
                              app->load_steps + 1, app->passes_in_step));
   PetscCall(StageEnd(STAGE_OUTPUT));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -64,6 +71,8 @@ static PetscErrorCode MoveTo_Private(App *app, Forest forest, const int8_t old_o
   const Level *old = &app->level;
   Level        next;
   int8_t      *orders;
+  PetscBool    following;
+  PetscReal    length;
 
   PetscFunctionBegin;
   PetscCall(TransferOrders(map, old_order, &orders));
@@ -75,6 +84,8 @@ static PetscErrorCode MoveTo_Private(App *app, Forest forest, const int8_t old_o
   PetscCall(PrescribeAt_Private(next.problem, next.accepted.t));
   PetscCall(TransferState(old->problem, &old->accepted, next.problem, map, &next.accepted));
   PetscCall(PrescribeAt_Private(next.problem, next.state.t));
+  PetscCall(ProblemIsFollowing(old->problem, &following));
+  if (following) PetscCall(ProblemFollow(next.problem, next.accepted.x, next.state.x, &length));
   PetscCall(StageEnd(STAGE_TRANSFER));
   PetscCall(PetscFree(orders));
   app->level = next;
@@ -95,14 +106,16 @@ static PetscErrorCode StartBetween_Private(App *app, const State *transferred, P
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Equilibrium on the new mesh at the same load. Where the transferred state leads nowhere (a refined cell at a singular corner may start inverted), a state on
-   the way to it does better; at last the way from the accepted state is gone again, in as many pieces as it takes. */
+/* Equilibrium on the new mesh at the same load (along a path: on the same plane across it). Where the transferred state leads nowhere (a refined cell at a
+   singular corner may start inverted), a state on the way to it does better; at last the way from the accepted state is gone again, in as many pieces as it
+   takes. */
 static PetscErrorCode Reequilibrate_Private(App *app, PetscInt *iterations, PetscBool *ok)
 {
   static const PetscReal Shares[] = {1, 0.8, 0.5};
   Level                 *l        = &app->level;
   const PetscReal        t        = l->state.t;
   State                  transferred;
+  PetscBool              following;
 
   PetscFunctionBegin;
   const PetscInt before = app->newton_iterations;
@@ -118,8 +131,10 @@ static PetscErrorCode Reequilibrate_Private(App *app, PetscInt *iterations, Pets
     if (!*ok) PetscCall(PetscInfo(NULL, "no equilibrium from %g of the transferred state: %s\n", (double)Shares[i], report.reason));
   }
   PetscCall(StateDestroy(&transferred));
+  PetscCall(ProblemIsFollowing(l->problem, &following));
   l->state.t = t;
-  if (!*ok && !app->stopped) {
+  if (following) PetscCall(ProblemGetTime(l->problem, l->state.x, &l->state.t));
+  if (!*ok && !following && !app->stopped) {
     PetscCall(StateCopy(&l->accepted, &l->state));
     PetscCall(PrescribeAt_Private(l->problem, l->accepted.t));
     PetscCall(AppAdvance(app, t, (t - l->accepted.t) / MOST_PIECES, ok));

@@ -6,6 +6,9 @@
 #include "solve.h"
 #include "transfer.h"
 
+#define EASY_ITERATIONS 6 /* a step that took no more Newton iterations lets the next one grow */
+#define GROWTH 1.5
+
 /* The part of a run that lives on one mesh; replaced as a whole at each adaptation. */
 typedef struct {
   Forest  forest;
@@ -31,8 +34,10 @@ typedef struct {
   PetscInt       factorisations, single_failures;
   ProblemStatus  status; /* of the last solution */
   PetscLogDouble start;
-  const char    *failure; /* why the run gave up, NULL while it goes on */
-  PetscBool      stopped; /* the run was asked to stop */
+  PetscReal      arc, arc_first; /* along a path: length of the next step, of the first one; 0: not yet */
+  PetscReal      haste;          /* displacement per time in the last step, over that since the start */
+  const char    *failure;        /* why the run gave up, NULL while it goes on */
+  PetscBool      stopped;        /* the run was asked to stop */
   char           stop_reason[PETSC_MAX_PATH_LEN + MORTISE_NAME];
   const char    *adapt_stop; /* why the last adaptation ended: tolerance, max_passes, max_cells, … */
   ReportRow      last;
@@ -49,6 +54,10 @@ PetscErrorCode AppInitialize(int argc, char **argv);
 PetscErrorCode AppRun(App *);
 /* adaptstep.c: after a solution at the current time, refine and solve again until the tolerance or a limit is met. */
 PetscErrorCode AppAdapt(App *);
+/* arcstep.c. A step of app->arc along the path; app->failure is set when there is none. Collective. */
+PetscErrorCode AppPathStep(App *, PetscBool *ok);
+/* The state is about to become the accepted one: the path goes on in the direction from there to here. Collective. */
+PetscErrorCode AppPathAccept(App *);
 /* Count what a solve took. */
 void AppCount(App *, const SolverReport *);
 /* Bring level.state from its time to t on the current mesh, in as many pieces as it takes, all but the last committed; *ok false when even one of length

@@ -1,9 +1,8 @@
 /* The load steps: advance pseudo-time, cut on failure, grow on ease; adapt at each new time; report what was accepted. */
 #include "appimpl.h"
 
-#define EASY_ITERATIONS 6 /* a step that took no more Newton iterations lets the next one grow */
-#define GROWTH 1.5
 #define ROUND_OFF 1e-12
+#define HASTE 10 /* times as fast as on the way there do displacements grow where the step ends at a limit point: at its distance d like d^(-1/2) */
 
 void AppCount(App *app, const SolverReport *report)
 {
@@ -70,6 +69,20 @@ PetscErrorCode AppAdvance(App *app, PetscReal t, PetscReal smallest, PetscBool *
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Do loads drive the scene? */
+static PetscBool Loaded_Private(const SceneData *data)
+{
+  for (PetscInt i = 0; i < data->mechanics.num_boundaries; ++i) {
+    const BoundarySpec *b = &data->mechanics.boundaries[i];
+    if (b->pressure || b->traction[0] || b->traction[1] || b->traction[2]) return PETSC_TRUE;
+  }
+  for (PetscInt i = 0; i < data->mechanics.num_bodies; ++i) {
+    const BodySpec *b = &data->mechanics.bodies[i];
+    if (b->force[0] || b->force[1] || b->force[2]) return PETSC_TRUE;
+  }
+  return PETSC_FALSE;
+}
+
 /* One accepted load step of at most app->dt: the first piece that converges, then adaptation at its time. */
 static PetscErrorCode LoadStep_Private(App *app, PetscBool *ok)
 {
@@ -92,7 +105,9 @@ static PetscErrorCode LoadStep_Private(App *app, PetscBool *ok)
     ++app->step_cuts;
     ++app->cuts_in_step;
     if (*dt >= app->data->load.step_min) continue;
-    app->failure = report.reason;
+    app->failure = app->haste > HASTE && Loaded_Private(app->data)
+                       ? "the load has a limit point here: drive by volume, advance or displacement of a boundary, or set load.control: arc_length"
+                       : report.reason;
     PetscFunctionReturn(PETSC_SUCCESS);
   }
   const PetscBool easy = (PetscBool)(report.iterations <= EASY_ITERATIONS && app->cuts_in_step == 0);
@@ -106,8 +121,13 @@ static PetscErrorCode Accept_Private(App *app, PetscReal t0)
 {
   const PetscInt every = app->data->output.checkpoint;
   Level         *l     = &app->level;
+  PetscReal      step, way;
 
   PetscFunctionBegin;
+  PetscCall(ProblemDistance(l->problem, l->accepted.x, l->state.x, &step));
+  PetscCall(ProblemDistance(l->problem, NULL, l->state.x, &way));
+  app->haste = way > 0 && l->state.t > t0 ? step / (l->state.t - t0) / (way / l->state.t) : 0;
+  PetscCall(AppPathAccept(app));
   PetscCall(StateCommit(l->problem, &l->state));
   PetscCall(StateCopy(&l->state, &l->accepted));
   ++app->load_steps;
@@ -127,15 +147,19 @@ PetscErrorCode AppRun(App *app)
   PetscBool       ok   = PETSC_TRUE;
 
   PetscFunctionBegin;
-  while (ok && app->level.accepted.t < load->end) {
+  while (ok && !app->failure && app->level.accepted.t < load->end) {
     const PetscReal t0 = app->level.accepted.t;
     PetscCall(StopAsked(app->comm, &app->stopped));
     if (app->stopped) break;
+    if (load->stop_displacement > 0 && app->status.largest >= load->stop_displacement) break;
     if (app->load_steps == load->max_steps) {
       app->failure = "load.max_steps was reached before load.end";
       break;
     }
-    PetscCall(LoadStep_Private(app, &ok));
+    if (app->arc_first > 0)
+      PetscCall(AppPathStep(app, &ok));
+    else
+      PetscCall(LoadStep_Private(app, &ok));
     if (ok) PetscCall(Accept_Private(app, t0));
   }
   if (app->stopped)

@@ -128,11 +128,11 @@ static PetscErrorCode Solve_Private(int argc, char **argv, int *status)
   PetscCall(SceneCreate(app.comm, argc, argv, &app.scene));
   PetscCall(SceneGetData(app.scene, &app.data));
   PetscCall(AppOptions(&app));
+  PetscCall(SolverCheckOptions());
   PetscCall(StageBegin(STAGE_MESH));
   PetscCall(SceneSetUp(app.scene, &forest));
   PetscCall(StageEnd(STAGE_MESH));
   if (SceneCheckOnly(app.scene)) {
-    PetscCall(SolverCheckOptions());
     if (app.restart[0]) PetscCall(AppReadCheckpoint(&app, forest));
     PetscCall(CheckpointDestroy(&app.snapshot));
     PetscCall(SceneView(app.scene, PETSC_VIEWER_STDOUT_WORLD));

@@ -19,11 +19,30 @@ static const struct {
     {"factorisations", offsetof(App, factorisations)},
     {"single_factor_failures", offsetof(App, single_failures)},
 };
-enum { NUM_COUNTERS = PETSC_STATIC_ARRAY_LENGTH(Counters), NUM_NUMBERS = NUM_COUNTERS + 3 + NUM_STAGES };
+static const struct {
+  const char *name;
+  size_t      at;
+} Reals[] = {
+    {"dt", offsetof(App, dt)},
+    {"arc", offsetof(App, arc)},
+    {"first_arc", offsetof(App, arc_first)},
+    {"haste", offsetof(App, haste)},
+    {"largest_displacement", offsetof(App, status.largest)},
+};
+enum {
+  NUM_COUNTERS = PETSC_STATIC_ARRAY_LENGTH(Counters),
+  NUM_REALS    = PETSC_STATIC_ARRAY_LENGTH(Reals),
+  NUM_NUMBERS  = NUM_COUNTERS + NUM_REALS + 2 + NUM_STAGES
+};
 
 static PetscInt *Counter_Private(App *app, PetscInt i)
 {
   return (PetscInt *)(void *)((char *)app + Counters[i].at);
+}
+
+static PetscReal *Real_Private(App *app, PetscInt i)
+{
+  return (PetscReal *)(void *)((char *)app + Reals[i].at);
 }
 
 /* ---- options ------------------------------------------------------------------------------------------------------------------- */
@@ -93,7 +112,7 @@ PetscErrorCode AppSnapshot(App *app)
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, seconds, 1 + NUM_STAGES, MPIU_REAL, MPI_MAX, app->comm));
   if (app->writer) PetscCall(WriterNumStates(app->writer, &states));
   for (PetscInt i = 0; i < NUM_COUNTERS; ++i) Number_Private(numbers, &num, "", Counters[i].name, (PetscReal)*Counter_Private(app, i));
-  Number_Private(numbers, &num, "", "dt", app->dt);
+  for (PetscInt i = 0; i < NUM_REALS; ++i) Number_Private(numbers, &num, "", Reals[i].name, *Real_Private(app, i));
   Number_Private(numbers, &num, "", "states", (PetscReal)states);
   Number_Private(numbers, &num, "", "seconds", seconds[NUM_STAGES]);
   for (PetscInt s = 0; s < NUM_STAGES; ++s) Number_Private(numbers, &num, "seconds.", StageNames[s], seconds[s]);
@@ -185,8 +204,8 @@ PetscErrorCode AppResume(App *app, Forest *coarse)
     PetscCall(CheckpointGetNumber(app->snapshot, Counters[i].name, &value));
     *Counter_Private(app, i) = (PetscInt)value;
   }
-  PetscCall(CheckpointGetNumber(app->snapshot, "dt", &value));
-  app->dt = PetscMax(PetscMin(value, load->step_max), load->step_min);
+  for (PetscInt i = 0; i < NUM_REALS; ++i) PetscCall(CheckpointGetNumber(app->snapshot, Reals[i].name, Real_Private(app, i)));
+  app->dt = PetscMax(PetscMin(app->dt, load->step_max), load->step_min);
   for (PetscInt s = 0; s < NUM_STAGES; ++s) {
     char name[MORTISE_NAME];
     PetscCall(PetscSNPrintf(name, sizeof(name), "seconds.%s", StageNames[s]));

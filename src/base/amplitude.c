@@ -7,6 +7,7 @@ PetscReal AmplitudeEvaluate(const Amplitude *a, PetscReal t)
   const PetscReal       *p       = a->num ? a->pairs : ramp;
   const PetscInt         num     = a->num ? a->num : 2;
 
+  if (!a->num && a->endless) return t;
   if (t <= p[0]) return p[1];
   for (PetscInt i = 1; i < num; ++i) {
     const PetscReal *lo = p + 2 * (i - 1), *hi = p + 2 * i;

@@ -106,6 +106,11 @@ PetscBool ExpressionUsesTime(Expression e)
   return e->uses[3];
 }
 
+PetscBool ExpressionUsesPlace(Expression e)
+{
+  return (PetscBool)(e->uses[0] || e->uses[1] || e->uses[2]);
+}
+
 const char *ExpressionText(Expression e)
 {
   return e->text;

@@ -134,6 +134,68 @@ static void Supports_Private(const MechanicsSpec *spec, const ForestTables *t, c
   b->support_imbalance = magnitude > 0 ? Norm_Private(total) / magnitude : 0;
 }
 
+static PetscErrorCode Plastic_Private(Problem problem, Vec x, Balance *b)
+{
+  Mechanics       mechanics;
+  HPSpace         space;
+  Forest          forest;
+  const HPTables *v;
+  PetscReal      *u;
+
+  PetscFunctionBegin;
+  PetscCall(ProblemGetMechanics(problem, &mechanics));
+  PetscCall(ProblemGetSpace(problem, &space));
+  PetscCall(ProblemGetForest(problem, &forest));
+  PetscCall(HPSpaceGetTables(space, &v));
+  PetscCall(PetscMalloc1(v->num_nodes * v->dim, &u));
+  PetscCall(ProblemLocalDisplacement(problem, x, u));
+  PetscCall(MechanicsPlastic(mechanics, u, &b->plastic_strain, &b->plastic_work));
+  PetscCall(PetscFree(u));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &b->plastic_strain, 1, MPIU_REAL, MPI_MAX, ForestComm(forest)));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &b->plastic_work, 1, MPIU_REAL, MPI_SUM, ForestComm(forest)));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscReal Relative_Private(PetscReal from, PetscReal to)
+{
+  return from > 0 ? (to - from) / from : 0;
+}
+
+void BalanceChange(const Balance *from, const Balance *to, PetscReal change[3])
+{
+  PetscReal size = 0, difference = 0;
+
+  for (PetscInt i = 0; i < from->num_boundaries; ++i) {
+    for (PetscInt c = 0; c < 3; ++c) {
+      size += PetscSqr(from->reaction[i][c]);
+      difference += PetscSqr(to->reaction[i][c] - from->reaction[i][c]);
+    }
+  }
+  change[0] = size > 0 ? PetscSqrtReal(difference / size) : 0;
+  change[1] = Relative_Private(from->plastic_work, to->plastic_work);
+  change[2] = Relative_Private(from->plastic_strain, to->plastic_strain);
+}
+
+static PetscErrorCode Controls_Private(Problem problem, Vec x, Balance *b)
+{
+  Mechanics       mechanics;
+  PetscInt        num;
+  const PetscInt *boundary;
+  PetscReal      *pressure, *value;
+
+  PetscFunctionBegin;
+  PetscCall(ProblemGetMechanics(problem, &mechanics));
+  PetscCall(MechanicsGetControls(mechanics, &num, &boundary));
+  PetscCall(PetscMalloc2(num, &pressure, num, &value));
+  PetscCall(ProblemGetControls(problem, x, pressure, value));
+  for (PetscInt k = 0; k < num; ++k) {
+    b->pressure[boundary[k]] = pressure[k];
+    b->control[boundary[k]]  = value[k];
+  }
+  PetscCall(PetscFree2(pressure, value));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode BalanceCompute(Problem problem, const State *state, Balance *b)
 {
   const SceneData    *scene;
@@ -148,7 +210,7 @@ PetscErrorCode BalanceCompute(Problem problem, const State *state, Balance *b)
   PetscCall(ForestGetTables(forest, &t));
   b->num_boundaries = scene->mechanics.num_boundaries;
   b->num_contacts   = scene->num_contacts;
-  PetscCall(PetscCalloc2(b->num_boundaries, &b->reaction, b->num_contacts, &b->pair));
+  PetscCall(PetscCalloc4(b->num_boundaries, &b->reaction, b->num_contacts, &b->pair, b->num_boundaries, &b->pressure, b->num_boundaries, &b->control));
   PetscCall(PetscMalloc1(b->num_contacts, &view));
   PetscCall(ProblemSetHistory(problem, state->history));
   PetscCall(ProblemForces(problem, state->x, b->reaction, NULL, NULL, &b->status));
@@ -162,14 +224,16 @@ PetscErrorCode BalanceCompute(Problem problem, const State *state, Balance *b)
   }
   PetscCall(Loads_Private(problem, state->x, scene->mechanics.model, b->load));
   Supports_Private(&scene->mechanics, t, view, b);
+  PetscCall(Controls_Private(problem, state->x, b));
   PetscCall(PetscFree(view));
+  if (MechanicsIsPlastic(&scene->mechanics)) PetscCall(Plastic_Private(problem, state->x, b));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode BalanceDestroy(Balance *b)
 {
   PetscFunctionBegin;
-  PetscCall(PetscFree2(b->reaction, b->pair));
+  PetscCall(PetscFree4(b->reaction, b->pair, b->pressure, b->control));
   b->num_boundaries = b->num_contacts = 0;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -195,6 +259,8 @@ PetscErrorCode ReportRowFill(Problem problem, const State *state, const Estimate
   row->force_imbalance   = b->force_imbalance;
   row->moment_imbalance  = b->moment_imbalance;
   row->support_imbalance = b->support_imbalance;
+  row->plastic_strain    = b->plastic_strain;
+  row->plastic_work      = b->plastic_work;
   for (PetscInt i = 0; i < b->num_contacts; ++i) {
     row->active_nodes += b->pair[i].active_nodes;
     row->contact_force += Norm_Private(b->pair[i].force[0]);

@@ -73,7 +73,7 @@ void FacetConditions_Private(const MechanicsSpec *spec, uint64_t groups, PetscIn
       if (s->traction[c]) *loaded = PETSC_TRUE;
     }
     if (s->fix_normal) *fixed |= 8;
-    if (s->pressure) *loaded = PETSC_TRUE;
+    if (BoundaryHasPressure(s)) *loaded = PETSC_TRUE;
   }
 }
 

@@ -72,8 +72,8 @@ static PetscErrorCode Load_Private(const EstimateSum *sum, const FacetPlace *f, 
       PetscCall(MechanicsValue(s->traction[c], &s->amplitude, X, sum->time, &value));
       T[c] += value;
     }
-    if (!s->pressure) continue;
-    PetscCall(MechanicsValue(s->pressure, &s->amplitude, X, sum->time, &value));
+    if (!BoundaryHasPressure(s)) continue;
+    PetscCall(MechanicsPressure(sum->mechanics, b, X, sum->time, &value));
     Follower_Private(value, sum->spec->kinematics, F, N, T);
   }
   PetscFunctionReturn(PETSC_SUCCESS);

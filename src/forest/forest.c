@@ -56,27 +56,6 @@ PetscErrorCode ForestDestroy(Forest *forest)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode ForestView(Forest forest, PetscViewer viewer)
-{
-  const ForestTables *t       = &forest->tables;
-  const CoarseMesh   *mesh    = &forest->coarse->mesh;
-  PetscInt            hanging = 0, deepest = 0;
-
-  PetscFunctionBegin;
-  for (PetscInt e = 0; e < t->num_entities; ++e) hanging += t->parent[e] >= 0;
-  for (PetscInt i = 0; i < 3 * t->num_leaves; ++i) deepest = PetscMax(deepest, t->leaf_level[i]);
-  PetscCall(PetscViewerASCIIPrintf(
-      viewer, "Forest: dimension %" PetscInt_FMT ", %" PetscInt_FMT " coarse cells of geometry order %" PetscInt_FMT ", revision %" PetscInt_FMT "\n", t->dim,
-      mesh->num_cells, mesh->geometry_order, t->revision));
-  PetscCall(PetscViewerASCIIPrintf(viewer,
-                                   "  %" PetscInt_FMT " leaves, deepest level %" PetscInt_FMT ", %" PetscInt_FMT " vertices, %" PetscInt_FMT
-                                   " facets, %" PetscInt_FMT " hanging entities\n",
-                                   t->num_leaves, deepest, t->first[1], t->first[t->dim] - t->first[t->dim - 1], hanging));
-  for (PetscInt b = 0; b < mesh->num_bodies; ++b) PetscCall(PetscViewerASCIIPrintf(viewer, "  body %s\n", mesh->body_name[b]));
-  for (PetscInt b = 0; b < mesh->num_boundaries; ++b) PetscCall(PetscViewerASCIIPrintf(viewer, "  boundary %s\n", mesh->boundary_name[b]));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 PetscErrorCode ForestGetCoarse(Forest forest, const CoarseMesh **mesh)
 {
   PetscFunctionBegin;

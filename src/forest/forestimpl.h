@@ -173,6 +173,8 @@ struct _p_Forest {
 PetscErrorCode ForestCreateFromTree(MPI_Comm, Coarse *, Tree *, PetscInt revision, const PetscReal weight[], PetscInt num_pairs, const PetscInt pairs[][2],
                                     Forest *);
 /* Fill leaf and entity tables (all but leaf_rank). Not collective. */
+/* An input error beyond FOREST_ENTITIES. */
+PetscErrorCode ForestCheckSize(PetscInt64 num_entities);
 PetscErrorCode ForestBuildTables(const Coarse *, const Tree *, ForestTables *);
 PetscErrorCode ForestTablesDestroy(ForestTables *);
 /* Owner of each leaf, [num_leaves]. Collective. */

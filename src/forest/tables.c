@@ -152,13 +152,25 @@ static PetscErrorCode BuildParents_Private(const Builder *b, ForestTables *t)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscErrorCode ForestCheckSize(PetscInt64 num_entities)
+{
+  PetscFunctionBegin;
+  PetscCheckInput(num_entities <= FOREST_ENTITIES,
+                  "the mesh has %lld vertices, edges, faces and cells, more than the %" PetscInt_FMT " that fit this PETSc's %d-bit integers: refine less",
+                  (long long)num_entities, FOREST_ENTITIES, (int)(8 * sizeof(PetscInt)));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* One table of closures with ids from those by dimension. */
 static PetscErrorCode BuildClosures_Private(const Builder *b, ForestTables *t)
 {
-  PetscInt *offset, *closure, *leaf, size = 0, at = 0;
-  int8_t   *orientation;
+  PetscInt  *offset, *closure, *leaf, size = 0, at = 0;
+  PetscInt64 entities = 0;
+  int8_t    *orientation;
 
   PetscFunctionBegin;
+  for (PetscInt d = 0; d <= b->dim; ++d) entities += b->num[d];
+  PetscCall(ForestCheckSize(entities));
   for (PetscInt d = 0; d <= b->dim; ++d) {
     t->first[d + 1] = t->first[d] + b->num[d];
     size += b->num[d] * ForestPow3[d];

@@ -68,25 +68,6 @@ PetscErrorCode HPSpaceDestroy(HPSpace *space)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode HPSpaceView(HPSpace hp, PetscViewer viewer)
-{
-  PetscInt hanging = 0, low = MORTISE_MAX_ORDER, high = 1;
-
-  PetscFunctionBegin;
-  for (PetscInt n = 0; n < hp->view.num_nodes; ++n) hanging += hp->node_hang[n + 1] > hp->node_hang[n];
-  for (PetscInt c = 0; c < hp->view.num_cells; ++c) {
-    low  = PetscMin(low, hp->cell_order[c]);
-    high = PetscMax(high, hp->cell_order[c]);
-  }
-  PetscCall(PetscViewerASCIIPushSynchronized(viewer));
-  PetscCall(PetscViewerASCIISynchronizedPrintf(
-      viewer, "hp space: %" PetscInt_FMT " cells, %" PetscInt_FMT " nodes (%" PetscInt_FMT " hanging), orders %" PetscInt_FMT " to %" PetscInt_FMT "\n",
-      hp->view.num_owned_cells, hp->view.num_nodes, hanging, low, high));
-  PetscCall(PetscViewerFlush(viewer));
-  PetscCall(PetscViewerASCIIPopSynchronized(viewer));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 PetscErrorCode HPSpaceGetTables(HPSpace hp, const HPTables **tables)
 {
   PetscFunctionBegin;

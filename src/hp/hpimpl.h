@@ -30,6 +30,7 @@ typedef struct {
 } HPRow;
 
 #define HP_SIDE_NODES ((MORTISE_MAX_ORDER - 1) * (MORTISE_MAX_ORDER - 1)) /* most of an entity below cells */
+_Static_assert(HP_SIDE_NODES <= FOREST_PARTS, "HP_NODE overflows");
 #define HP_NODE(entity, index) (HP_SIDE_NODES * (entity) + (index))
 
 /* order.c: entity_order and axis_order from leaf orders and their caps (NULL: none). */

@@ -10,7 +10,8 @@
 
 enum { YIELD = 5, HARDENING, SATURATION, SATURATION_RATE }; /* after the elastic parameters */
 #define ROOT23 0.81649658092772603273                       /* sqrt(2/3) */
-#define ON_SURFACE 1e-9                                     /* above the yield surface by no more than this share: the tangent is the elastic one */
+#define ON_SURFACE 1e-9 /* a step that starts so near the yield surface is expected to flow: a much better start for Newton's method than the elastic tangent  \
+                         */
 
 const MaterialParameter MaterialJ2Parameters[] = {
     {"E", "stress", "Young's modulus", 0, PETSC_MAX_REAL},
@@ -115,7 +116,7 @@ typedef struct {
   Lanes     b[9], s[9], n[9];    /* trial strain, stress, direction of flow */
   Lanes     length, mean, dg;    /* |s_tr|, tr(be_tr)/3, dg */
   Lanes     slope, alpha, be[9]; /* k', after the step */
-  LanesMask plastic, far;        /* beyond the yield surface; and by more than round-off */
+  LanesMask plastic, flows;      /* beyond the yield surface; there, or on it but for round-off: the tangent is that of further flow */
   LanesMask bad;
 } Step;
 
@@ -141,22 +142,24 @@ INLINE void Step_Private(const MaterialSpec *spec, const Deformation *d, Step *t
   Trial_Private(spec, d, t);
   t->alpha = d->history[6];
   t->dg = t->slope = (Lanes){0};
-  t->plastic = t->far = t->bad = (LanesMask){0};
+  t->plastic = t->flows = t->bad = (LanesMask){0};
   for (int l = 0; l < NUM_LANES; l++) {
     PetscReal       dg, slope;
     const PetscReal radius = ROOT23 * YieldStress_Private(spec, t->alpha[l], &slope);
 
+    if (!(t->length[l] > (1 - ON_SURFACE) * radius)) continue;
+    t->flows[l] = -1;
+    t->slope[l] = slope;
     if (!(t->length[l] > radius)) continue;
     t->plastic[l] = -1;
-    if (t->length[l] > (1 + ON_SURFACE) * radius) t->far[l] = -1;
     if (!Return_Private(spec, t->length[l], spec->mu * t->mean[l], t->alpha[l], &dg, &slope)) t->bad[l] = -1;
     t->dg[l]    = dg;
     t->slope[l] = slope;
     t->alpha[l] += ROOT23 * dg;
   }
-  const Lanes inverse = 1 / LanesSelect(t->plastic, t->length, LanesSet(1)), back = 2 * spec->mu * t->mean * t->dg;
+  const Lanes inverse = 1 / LanesSelect(t->flows, t->length, LanesSet(1)), back = 2 * spec->mu * t->mean * t->dg;
   for (int k = 0; k < 9; k++) {
-    t->n[k]  = LanesSelect(t->plastic, t->s[k] * inverse, (Lanes){0});
+    t->n[k]  = LanesSelect(t->flows, t->s[k] * inverse, (Lanes){0});
     t->s[k]  = t->s[k] - back * t->n[k];
     t->be[k] = t->s[k] / spec->mu;
   }
@@ -183,8 +186,8 @@ INLINE void SpatialTangent_Private(const MaterialSpec *spec, const Step *t, Lane
 {
   const PetscReal mu   = spec->mu;
   const Lanes     mu_b = mu * t->mean, bottom = 2 * mu_b + 2. / 3 * t->slope;
-  const Lanes     one = LanesSet(1), length = LanesSelect(t->far, t->length, one);
-  const Lanes     beta = LanesSelect(t->far, 1 - 2 * mu_b * t->dg / length, one), share = LanesSelect(t->far, 2. / 3 * t->slope / bottom, (Lanes){0});
+  const Lanes     one = LanesSet(1), length = LanesSelect(t->flows, t->length, one);
+  const Lanes     beta = LanesSelect(t->flows, 1 - 2 * mu_b * t->dg / length, one), share = LanesSelect(t->flows, 2. / 3 * t->slope / bottom, (Lanes){0});
   Lanes           c[9], n2[9];
 
   for (int i = 0; i < 3; i++)
@@ -192,7 +195,7 @@ INLINE void SpatialTangent_Private(const MaterialSpec *spec, const Step *t, Lane
   for (int k = 0; k < 9; k++) {
     const Lanes dlength = 2 * mu_b * t->n[k] + 2 * t->length * (n2[k] - (k % 4 == 0 ? 1. / 3 : 0)); /* d|s_tr|/dl, dev n^2 where n is a unit tensor */
 
-    c[k] = LanesSelect(t->far, share * (dlength - 4. / 3 * t->dg * t->length * t->n[k]) - beta * dlength, (Lanes){0});
+    c[k] = LanesSelect(t->flows, share * (dlength - 4. / 3 * t->dg * t->length * t->n[k]) - beta * dlength, (Lanes){0});
   }
   for (int i = 0; i < 3; i++) {
     for (int m = 0; m < 3; m++) {

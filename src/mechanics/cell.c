@@ -79,6 +79,13 @@ static PetscErrorCode ArenaCreate_Private(CellKernel k)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscErrorCode MechanicsPointRule(PetscInt order, const Basis1D **basis)
+{
+  PetscFunctionBegin;
+  PetscCall(Basis1DGet(order, order + 1, basis));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode CellKernelCreate(PetscInt dim, Model model, Kinematics kinematics, PetscInt order, const MaterialSpec *material, CellKernel *kernel)
 {
   CellKernel k;
@@ -109,7 +116,7 @@ PetscErrorCode CellKernelCreate(PetscInt dim, Model model, Kinematics kinematics
     k->material.volumetric = VOLUMETRIC_QUADRATIC;
     k->material.num_fibers = 0; /* they are slack to first order */
   }
-  PetscCall(Basis1DGet(order, k->n1, &k->basis));
+  PetscCall(MechanicsPointRule(order, &k->basis));
   PetscCall(TablesCreate_Private(k));
   PetscCall(ArenaCreate_Private(k));
   *kernel = k;

@@ -169,57 +169,71 @@ static PetscErrorCode SolveInner_Private(const Cell *c, PetscBool back, PetscRea
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode MechanicsCondenseForces(Mechanics m, PetscReal r[])
+/* For all cells with inner nodes: mine, their part of the local array x. */
+typedef PetscErrorCode (*CellFunction)(Mechanics, const CellGroup *, PetscInt cell, const Cell *, PetscReal mine[], PetscReal x[]);
+
+static PetscErrorCode EachCell_Private(Mechanics m, CellFunction function, PetscReal x[])
 {
-  const HPTables    *v;
-  const PetscReal    one = 1, zero = 0;
-  const PetscBLASInt single = 1;
+  const HPTables *v;
 
   PetscFunctionBegin;
   PetscCall(HPSpaceGetTables(m->space, &v));
   for (PetscInt ig = 0; ig < m->num_groups; ++ig) {
     const CellGroup *g = &m->groups[ig];
     for (PetscInt i = 0; i < g->num_cells && g->num_inner; ++i) {
-      PetscReal *y = m->condense_work, *values, *mine = r + v->point_node[g->cells[i]] * m->dim;
-      Cell       c;
+      Cell c;
       PetscCall(CellOf_Private(m, g, i, &c));
-      values = y + c.nb;
-      PetscCall(PetscArraycpy(c.inner, mine, c.ni));
-      PetscCall(PetscArrayzero(mine, c.ni));
-      PetscCall(SolveInner_Private(&c, PETSC_FALSE, c.inner));
-      PetscCallBLAS("BLASgemv", BLASgemv_("N", &c.nb, &c.ni, &one, c.outer, &c.nd, c.inner, &single, &zero, y, &single));
-      PetscCall(PetscArrayzero(values, c.nd));
-      for (PetscInt k = 0; k < g->n - g->num_inner; ++k)
-        for (PetscInt d = 0; d < m->dim; ++d) values[g->outer[k] * m->dim + d] = -y[k * m->dim + d];
-      PetscCall(HPSpaceScatterAdd(m->space, g->cells[i], values, r));
+      PetscCall(function(m, g, g->cells[i], &c, x + v->point_node[g->cells[i]] * m->dim, x));
     }
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode MechanicsRecover(Mechanics m, PetscReal du[])
+static PetscErrorCode CellForces_Private(Mechanics m, const CellGroup *g, PetscInt cell, const Cell *c, PetscReal mine[], PetscReal r[])
 {
-  const HPTables    *v;
   const PetscReal    one = 1, zero = 0;
   const PetscBLASInt single = 1;
+  PetscReal         *y = m->condense_work, *values = y + c->nb;
 
   PetscFunctionBegin;
-  PetscCall(HPSpaceGetTables(m->space, &v));
-  for (PetscInt ig = 0; ig < m->num_groups; ++ig) {
-    const CellGroup *g = &m->groups[ig];
-    for (PetscInt i = 0; i < g->num_cells && g->num_inner; ++i) {
-      PetscReal *values = m->condense_work, *b, *x = du + v->point_node[g->cells[i]] * m->dim;
-      Cell       c;
-      PetscCall(CellOf_Private(m, g, i, &c));
-      b = values + c.nd;
-      PetscCall(HPSpaceGather(m->space, g->cells[i], du, values));
-      for (PetscInt k = 0; k < g->n - g->num_inner; ++k)
-        for (PetscInt d = 0; d < m->dim; ++d) b[k * m->dim + d] = values[g->outer[k] * m->dim + d];
-      PetscCallBLAS("BLASgemv", BLASgemv_("T", &c.nb, &c.ni, &one, c.outer, &c.nd, b, &single, &zero, x, &single));
-      if (c.pivot[0] != 0) PetscCall(SolveInner_Private(&c, PETSC_FALSE, x));
-      for (PetscInt k = 0; k < c.ni; ++k) x[k] = -x[k] - c.inner[k];
-      PetscCall(SolveInner_Private(&c, PETSC_TRUE, x));
-    }
-  }
+  PetscCall(PetscArraycpy(c->inner, mine, c->ni));
+  PetscCall(PetscArrayzero(mine, c->ni));
+  PetscCall(SolveInner_Private(c, PETSC_FALSE, c->inner));
+  PetscCallBLAS("BLASgemv", BLASgemv_("N", &c->nb, &c->ni, &one, c->outer, &c->nd, c->inner, &single, &zero, y, &single));
+  PetscCall(PetscArrayzero(values, c->nd));
+  for (PetscInt k = 0; k < g->n - g->num_inner; ++k)
+    for (PetscInt d = 0; d < m->dim; ++d) values[g->outer[k] * m->dim + d] = -y[k * m->dim + d];
+  PetscCall(HPSpaceScatterAdd(m->space, cell, values, r));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode MechanicsCondenseForces(Mechanics m, PetscReal r[])
+{
+  PetscFunctionBegin;
+  PetscCall(EachCell_Private(m, CellForces_Private, r));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode CellRecover_Private(Mechanics m, const CellGroup *g, PetscInt cell, const Cell *c, PetscReal mine[], PetscReal du[])
+{
+  const PetscReal    one = 1, zero = 0;
+  const PetscBLASInt single = 1;
+  PetscReal         *values = m->condense_work, *b = values + c->nd;
+
+  PetscFunctionBegin;
+  PetscCall(HPSpaceGather(m->space, cell, du, values));
+  for (PetscInt k = 0; k < g->n - g->num_inner; ++k)
+    for (PetscInt d = 0; d < m->dim; ++d) b[k * m->dim + d] = values[g->outer[k] * m->dim + d];
+  PetscCallBLAS("BLASgemv", BLASgemv_("T", &c->nb, &c->ni, &one, c->outer, &c->nd, b, &single, &zero, mine, &single));
+  if (c->pivot[0] != 0) PetscCall(SolveInner_Private(c, PETSC_FALSE, mine));
+  for (PetscInt k = 0; k < c->ni; ++k) mine[k] = -mine[k] - c->inner[k];
+  PetscCall(SolveInner_Private(c, PETSC_TRUE, mine));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode MechanicsRecover(Mechanics m, PetscReal du[])
+{
+  PetscFunctionBegin;
+  PetscCall(EachCell_Private(m, CellRecover_Private, du));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

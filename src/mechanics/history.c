@@ -153,6 +153,14 @@ PetscErrorCode MechanicsCommit(Mechanics m, const PetscReal u[], PetscReal histo
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscBool MechanicsIsPlastic(const MechanicsSpec *spec)
+{
+  for (PetscInt b = 0; b < spec->num_bodies; ++b) {
+    if (spec->bodies[b].material->law->plastic) return PETSC_TRUE;
+  }
+  return PETSC_FALSE;
+}
+
 PetscErrorCode MechanicsPlastic(Mechanics m, const PetscReal u[], PetscReal *strain, PetscReal *work)
 {
   PetscReal *trial;

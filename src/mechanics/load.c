@@ -1,18 +1,14 @@
 /* Loads: dead tractions and body forces (evaluated once for each time), follower pressures. */
 #include "mechanicsimpl.h"
 
-#define MOST_FACET_NODES ((MORTISE_MAX_ORDER + 1) * (MORTISE_MAX_ORDER + 1))
-#define MOST_FACET_POINTS ((MORTISE_MAX_ORDER + 2) * (MORTISE_MAX_ORDER + 2))
-
-/* Sign that makes the normal of the tangent order (edge tangent; first x second tangent) point outward. */
-static PetscInt OutwardSign_Private(PetscInt side)
+PetscInt MechanicsOutwardSign_Private(PetscInt side)
 {
   return (side / 2 == 1 ? -1 : 1) * (side % 2 ? 1 : -1);
 }
 
 static PetscBool HasLoad_Private(const BoundarySpec *b)
 {
-  return (PetscBool)(b->pressure || b->traction[0] || b->traction[1] || b->traction[2]);
+  return (PetscBool)(BoundaryHasPressure(b) || b->traction[0] || b->traction[1] || b->traction[2]);
 }
 
 /* Closure index of a side of a leaf: 1 in every direction but the side's. */
@@ -64,10 +60,14 @@ static PetscInt TraceNodes_Private(PetscInt dim, PetscInt order, PetscInt side, 
   return num;
 }
 
-static void TakeTrace_Private(PetscInt dim, PetscInt num, const PetscInt nodes[], const PetscReal *cell, PetscReal *trace)
+PetscInt MechanicsTrace_Private(Mechanics m, const LoadFacet *f, PetscInt nodes[], PetscReal X[])
 {
+  const CellGroup *g    = &m->groups[m->cell_group[f->cell]];
+  const PetscReal *cell = g->X + m->cell_index[f->cell] * g->n * m->dim;
+  const PetscInt   num  = TraceNodes_Private(m->dim, g->order, f->side, nodes);
   for (PetscInt i = 0; i < num; ++i)
-    for (PetscInt c = 0; c < dim; ++c) trace[i * dim + c] = cell[nodes[i] * dim + c];
+    for (PetscInt c = 0; c < m->dim; ++c) X[i * m->dim + c] = cell[nodes[i] * m->dim + c];
+  return num;
 }
 
 static void PutTrace_Private(PetscInt dim, PetscInt num, const PetscInt nodes[], const PetscReal *trace, PetscReal *cell)
@@ -80,13 +80,12 @@ static PetscErrorCode FacetTraction_Private(Mechanics m, const LoadFacet *f, Pet
 {
   const CellGroup    *g = &m->groups[m->cell_group[f->cell]];
   const BoundarySpec *b = &m->spec->boundaries[f->boundary];
-  const PetscReal    *X = g->X + m->cell_index[f->cell] * g->n * m->dim;
-  PetscInt            nodes[MOST_FACET_NODES], num = TraceNodes_Private(m->dim, g->order, f->side, nodes), np = FacetNumPoints(m->dim, g->order);
+  PetscInt            nodes[MOST_FACET_NODES], np = FacetNumPoints(m->dim, g->order);
   PetscReal trace[3 * MOST_FACET_NODES], r[3 * MOST_FACET_NODES], position[MOST_FACET_POINTS][3], traction[MOST_FACET_POINTS][3], normal[MOST_FACET_POINTS][3],
       dA[MOST_FACET_POINTS];
 
   PetscFunctionBegin;
-  TakeTrace_Private(m->dim, num, nodes, X, trace);
+  const PetscInt num = MechanicsTrace_Private(m, f, nodes, trace);
   PetscCall(FacetQuadrature(m->dim, m->spec->model, g->order, trace, position[0], dA, normal[0]));
   PetscCall(PetscMemzero(traction, sizeof(traction)));
   for (PetscInt q = 0; q < np; ++q) {
@@ -193,25 +192,22 @@ PetscErrorCode MechanicsDeadLoads_Private(Mechanics m)
 /* Follower pressure on one facet: residual into r, tangent (full cell matrix in K) when asked. Small kinematics: the load stays on the reference facet. */
 static PetscErrorCode FacetFollower_Private(Mechanics m, const LoadFacet *f, const PetscReal u[], PetscReal *values, PetscReal *r, PetscReal *K)
 {
-  const CellGroup    *g = &m->groups[m->cell_group[f->cell]];
-  const BoundarySpec *b = &m->spec->boundaries[f->boundary];
-  const PetscReal    *X = g->X + m->cell_index[f->cell] * g->n * m->dim;
-  PetscInt nodes[MOST_FACET_NODES], num = TraceNodes_Private(m->dim, g->order, f->side, nodes), np = FacetNumPoints(m->dim, g->order), size = num * m->dim,
-                                    nd = g->n * m->dim;
-  PetscReal trace[3 * MOST_FACET_NODES], rt[3 * MOST_FACET_NODES], position[MOST_FACET_POINTS][3], normal[MOST_FACET_POINTS][3], dA[MOST_FACET_POINTS],
+  const CellGroup *g = &m->groups[m->cell_group[f->cell]];
+  PetscInt         nodes[MOST_FACET_NODES], np = FacetNumPoints(m->dim, g->order), nd = g->n * m->dim;
+  PetscReal        trace[3 * MOST_FACET_NODES], rt[3 * MOST_FACET_NODES], position[MOST_FACET_POINTS][3], normal[MOST_FACET_POINTS][3], dA[MOST_FACET_POINTS],
       pressure[MOST_FACET_POINTS], *Kt = NULL;
 
   PetscFunctionBegin;
-  TakeTrace_Private(m->dim, num, nodes, X, trace);
+  const PetscInt num = MechanicsTrace_Private(m, f, nodes, trace), size = num * m->dim;
   PetscCall(FacetQuadrature(m->dim, m->spec->model, g->order, trace, position[0], dA, normal[0]));
-  for (PetscInt q = 0; q < np; ++q) PetscCall(MechanicsValue(b->pressure, &b->amplitude, position[q], m->t, &pressure[q]));
+  for (PetscInt q = 0; q < np; ++q) PetscCall(MechanicsPressure(m, f->boundary, position[q], m->t, &pressure[q]));
   if (m->spec->kinematics == KINEMATICS_FINITE) {
     PetscCall(HPSpaceGather(m->space, f->cell, u, values));
     for (PetscInt i = 0; i < num; ++i)
       for (PetscInt c = 0; c < m->dim; ++c) trace[i * m->dim + c] += values[nodes[i] * m->dim + c];
     if (K) PetscCall(PetscMalloc1(size * size, &Kt));
   }
-  PetscCall(FacetPressure(m->dim, m->spec->model, g->order, trace, OutwardSign_Private(f->side), pressure, rt, Kt));
+  PetscCall(FacetPressure(m->dim, m->spec->model, g->order, trace, MechanicsOutwardSign_Private(f->side), pressure, rt, Kt));
   PetscCall(PetscArrayzero(r, nd));
   PutTrace_Private(m->dim, num, nodes, rt, r);
   if (K) PetscCall(PetscArrayzero(K, nd * nd));
@@ -230,7 +226,7 @@ PetscErrorCode MechanicsFollowers_Private(Mechanics m, const PetscReal u[], Pets
   PetscCall(HPSpaceGetTables(m->space, &v));
   for (PetscInt i = 0; i < m->num_facets; ++i) {
     const LoadFacet *f = &m->facets[i];
-    if (!m->spec->boundaries[f->boundary].pressure) continue;
+    if (!BoundaryHasPressure(&m->spec->boundaries[f->boundary])) continue;
     const PetscInt nd = m->groups[m->cell_group[f->cell]].n * m->dim, most = m->dim * (v->cell_row[f->cell + 1] - v->cell_row[f->cell]);
     PetscReal     *work, *values, *K = NULL, *Km = NULL;
     PetscInt      *dofs, num;
@@ -245,5 +241,25 @@ PetscErrorCode MechanicsFollowers_Private(Mechanics m, const PetscReal u[], Pets
     }
     PetscCall(PetscFree3(work, values, dofs));
   }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode MechanicsLoadRate(Mechanics m, const PetscReal u[], PetscReal dt, PetscReal rate[])
+{
+  const PetscReal t = m->t;
+  const HPTables *v;
+  PetscReal      *r;
+
+  PetscFunctionBegin;
+  PetscCall(HPSpaceGetTables(m->space, &v));
+  PetscCall(PetscMalloc1(v->num_nodes * m->dim, &r));
+  for (PetscInt side = -1; side <= 1; side += 2) {
+    PetscCall(MechanicsSetTime(m, t + side * dt));
+    PetscCall(PetscArrayzero(r, v->num_nodes * m->dim));
+    PetscCall(MechanicsFollowers_Private(m, u, r, NULL, NULL));
+    for (PetscInt i = 0; i < v->num_nodes * m->dim; ++i) rate[i] += side * (r[i] + (m->dead ? m->dead[i] : 0)) / (2 * dt);
+  }
+  PetscCall(MechanicsSetTime(m, t));
+  PetscCall(PetscFree(r));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -117,6 +117,7 @@ PetscErrorCode MechanicsCreate(HPSpace space, const MechanicsSpec *spec, const S
   PetscCall(Groups_Private(m, v, t));
   PetscCall(FillGroups_Private(m, v));
   Noise_Private(m);
+  PetscCall(MechanicsControlsCreate_Private(m));
   PetscCall(MechanicsLoadFacets_Private(m));
   PetscCall(MechanicsFreeBodies_Private(m));
   PetscCall(MechanicsHistoryCreate_Private(m));
@@ -140,6 +141,7 @@ PetscErrorCode MechanicsDestroy(Mechanics *mechanics)
   PetscCall(PetscFree(m->groups));
   PetscCall(PetscFree2(m->cell_group, m->cell_index));
   PetscCall(PetscFree(m->facets));
+  PetscCall(PetscFree2(m->control, m->control_pressure));
   PetscCall(PetscFree(m->dead));
   PetscCall(PetscFree(m->free_share));
   PetscCall(PetscFree2(m->linear, m->dpressure));

@@ -97,6 +97,9 @@ typedef struct {
   PetscInt cell, side, boundary; /* side = 2*direction + (high side) */
 } LoadFacet;
 
+#define MOST_FACET_NODES ((MORTISE_MAX_ORDER + 1) * (MORTISE_MAX_ORDER + 1))
+#define MOST_FACET_POINTS ((MORTISE_MAX_ORDER + 2) * (MORTISE_MAX_ORDER + 2))
+
 struct _p_Mechanics {
   HPSpace              space;    /* borrowed */
   const MechanicsSpec *spec;     /* borrowed */
@@ -105,6 +108,8 @@ struct _p_Mechanics {
   CellGroup           *groups;                  /* owned */
   PetscInt            *cell_group, *cell_index; /* owned [num_cells] group (-1: rigid) and position in it (-1: ghost) */
   LoadFacet           *facets;                  /* owned */
+  PetscInt             num_controls, *control;  /* owned: boundaries whose pressure is found */
+  PetscReal           *control_pressure;        /* owned [num_controls] */
   PetscReal            t;
   PetscReal           *dead;               /* owned local array: dead loads at t, negative as in the residual; NULL: none */
   PetscReal           *linear, *dpressure; /* owned: linearised pressure and derivative of the last tangent; dpressure holds [m][n*dim] cell by cell */
@@ -125,6 +130,12 @@ static inline const PetscReal *MechanicsBatchHistory_Private(Mechanics m, const 
 }
 PetscErrorCode MechanicsLoadFacets_Private(Mechanics);
 PetscErrorCode MechanicsDeadLoads_Private(Mechanics);
+/* Sign that makes the normal of the tangent order (edge tangent; first x second tangent) of a cell's side point outward. */
+PetscInt MechanicsOutwardSign_Private(PetscInt side);
+/* Nodes[MOST_FACET_NODES] of a facet by their place in the cell, and their reference positions X[..][dim]; returns their number. */
+PetscInt MechanicsTrace_Private(Mechanics, const LoadFacet *, PetscInt nodes[], PetscReal X[]);
+/* control.c */
+PetscErrorCode MechanicsControlsCreate_Private(Mechanics);
 /* condense.c: eliminate the nodes inside cell i of the group from K[n*dim][n*dim] (as CellBatch.tangent with place writes it); the rest, full, goes to
    S[nb*dim][nb*dim], nb nodes of group->outer. *singular: it cannot be done. */
 PetscErrorCode MechanicsCondenseDestroy_Private(Mechanics);

@@ -1,6 +1,7 @@
 /* history.csv and adapt.csv: what happened, one row per accepted load step and per adaptive pass. */
 #include "output.h"
 
+#define PLASTIC_COLUMNS 5 /* the last of adapt.csv */
 #define COLUMN_NAME (2 * MORTISE_NAME)
 
 struct _p_History {
@@ -11,8 +12,10 @@ struct _p_History {
   PetscReal       *values; /* owned [num] */
 };
 
-static const char *const adapt_columns[] = {"step",     "pass",   "t",       "cells",   "dofs",          "newton_iterations", "active_nodes", "estimated_error",
-                                            "estimate", "energy", "min_det", "min_gap", "contact_force", "seconds",           "accepted"};
+static const char *const adapt_columns[] = {"step", "pass", "t", "cells", "dofs", "newton_iterations", "active_nodes", "estimated_error", "estimate", "energy",
+                                            "min_det", "min_gap", "contact_force", "seconds", "accepted",
+                                            /* with plastic materials */
+                                            "plastic_strain", "plastic_work", "force_change", "work_change", "strain_change"};
 static const char *const step_columns[]  = {"step",
                                             "t",
                                             "dt",
@@ -77,10 +80,20 @@ static PetscErrorCode Columns_Private(const SceneData *scene, PetscInt num_probe
   const PairFigures none = {0};
 
   PetscFunctionBegin;
+  if (MechanicsIsPlastic(&scene->mechanics)) {
+    PetscCall(Column_Private(c, balance ? balance->plastic_strain : 0, "plastic", "strain", NULL, NULL));
+    PetscCall(Column_Private(c, balance ? balance->plastic_work : 0, "plastic", "work", NULL, NULL));
+  }
   for (PetscInt b = 0; b < scene->mechanics.num_boundaries; ++b) {
     const BoundarySpec *spec = &scene->mechanics.boundaries[b];
     if (!BoundarySupports(spec)) continue;
     for (PetscInt a = 0; a < dim; ++a) PetscCall(Column_Private(c, balance ? balance->reaction[b][a] : 0, "reaction", spec->name, NULL, axis_name[a]));
+  }
+  for (PetscInt b = 0; b < scene->mechanics.num_boundaries; ++b) {
+    const BoundarySpec *spec = &scene->mechanics.boundaries[b];
+    if (!BoundaryIsControlled(spec)) continue;
+    PetscCall(Column_Private(c, balance ? balance->pressure[b] : 0, "pressure", spec->name, NULL, NULL));
+    PetscCall(Column_Private(c, balance ? balance->control[b] : 0, spec->volume ? "volume" : "advance", spec->name, NULL, NULL));
   }
   for (PetscInt i = 0; i < scene->num_contacts; ++i) PetscCall(PairColumns_Private(c, dim, scene->contacts[i].name, balance ? &balance->pair[i] : &none));
   for (PetscInt i = 0; i < num_probes; ++i) {
@@ -133,11 +146,12 @@ PetscErrorCode HistoryCreate(MPI_Comm comm, const SceneData *scene, Probes probe
 
   PetscFunctionBegin;
   PetscCall(PetscNew(&h));
-  *history  = h;
-  h->scene  = scene;
-  h->probes = probes;
+  *history               = h;
+  h->scene               = scene;
+  h->probes              = probes;
+  const PetscInt columns = (PetscInt)PETSC_STATIC_ARRAY_LENGTH(adapt_columns) - (MechanicsIsPlastic(&scene->mechanics) ? 0 : PLASTIC_COLUMNS);
   PetscCall(OpenHistory_Private(comm, h, after, t));
-  PetscCall(Open_Private(comm, h, "adapt.csv", (PetscInt)PETSC_STATIC_ARRAY_LENGTH(adapt_columns), adapt_columns, after, t, &h->adapt));
+  PetscCall(Open_Private(comm, h, "adapt.csv", columns, adapt_columns, after, t, &h->adapt));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -169,7 +183,12 @@ PetscErrorCode HistoryPass(History h, const ReportRow *r)
                               r->min_gap,
                               r->contact_force,
                               r->seconds,
-                              r->accepted ? 1. : 0.};
+                              r->accepted ? 1. : 0.,
+                              r->plastic_strain,
+                              r->plastic_work,
+                              r->force_change,
+                              r->work_change,
+                              r->strain_change};
 
   PetscFunctionBegin;
   PetscCall(TableRow(h->adapt, values));

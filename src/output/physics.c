@@ -46,6 +46,11 @@ PetscErrorCode OutputPhysics(const SceneData *scene, const CoarseMesh *mesh, Out
 
   PetscFunctionBegin;
   PetscCall(OutputTextPrint(text, "model: %s\nkinematics: %s\n", ModelNames[m->model], KinematicsNames[m->kinematics]));
+  PetscCall(OutputTextPrint(text, "load.control: %s\n", scene->load.control == LOAD_TIME ? "time" : "arc_length"));
+  for (PetscInt b = 0; b < m->num_boundaries; ++b) {
+    const BoundarySpec *spec = &m->boundaries[b];
+    if (spec->volume || spec->advance) PetscCall(OutputTextPrint(text, "boundary.%s: %s\n", spec->name, spec->volume ? "volume" : "advance"));
+  }
   for (PetscInt b = 0; b < m->num_bodies; ++b) {
     const PetscInt *along = m->bodies[b].order_along;
     PetscCall(OutputTextPrint(text, "body.%s: ", mesh->body_name[b]));

@@ -163,6 +163,24 @@ static PetscErrorCode WriteStress_Private(Writer writer, Problem problem, const 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+static PetscErrorCode WritePlastic_Private(Writer writer, Problem problem, const BulkGrid *g, const PetscReal u[])
+{
+  const PetscInt num = g->shared ? g->num_pieces : g->num_points;
+  PetscReal     *strain, *sample, *work;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc3(num, &strain, g->largest, &sample, g->largest, &work));
+  for (PetscInt c = 0; c < g->v->num_owned_cells; ++c) {
+    const PetscInt first = g->shared ? g->piece[c] : g->first[c], n = g->shared ? 1 : g->first[c + 1] - g->first[c];
+    PetscCall(OutputSamplePlastic(problem, c, u, g->shared ? strain + first : sample));
+    if (!g->shared) PetscCall(OutputExtend(g->v->dim, g->v->cell_order[c], Divide_Private(g, c), 1, sample, strain + first, work));
+    for (PetscInt i = first; i < first + n; ++i) strain[i] = PetscMax(0, strain[i]); /* polynomials may undershoot beside a plastic front */
+  }
+  PetscCall(WriterField(writer, "plastic_strain", g->shared, 1, strain));
+  PetscCall(PetscFree3(strain, sample, work));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* What belongs to a leaf as a whole, repeated on its pieces. */
 static PetscErrorCode WriteLeafFields_Private(Writer writer, const ForestTables *t, const BulkGrid *g, const Estimate *estimate)
 {
@@ -227,6 +245,7 @@ PetscErrorCode OutputWriteState(Writer writer, Problem problem, const State *sta
   PetscCall(WriterBegin(writer, series_time, step, pass, state->t));
   PetscCall(WriteMotion_Private(writer, space, &grid, u));
   PetscCall(WriteStress_Private(writer, problem, &grid, u));
+  if (MechanicsIsPlastic(&scene->mechanics)) PetscCall(WritePlastic_Private(writer, problem, &grid, u));
   PetscCall(WriteLeafFields_Private(writer, t, &grid, estimate));
   if (scene->num_contacts) {
     PetscCall(Evaluate_Private(problem, state->x));

@@ -12,6 +12,17 @@ void OutputCauchy(Kinematics kinematics, const PetscReal F[9], const PetscReal P
   if (J) *J = kinematics == KINEMATICS_SMALL ? F[0] + F[4] + F[8] - 2 : det;
 }
 
+/* Tensor products of the points of a rule. */
+static void Points_Private(PetscInt dim, const Basis1D *rule, PetscInt num, PetscReal xi[])
+{
+  const PetscInt n = rule->num_points;
+
+  for (PetscInt i = 0; i < num; ++i) {
+    const PetscInt place[3] = {i % n, i / n % n, i / (n * n)};
+    for (PetscInt d = 0; d < dim; ++d) xi[i * dim + d] = rule->points[place[d]];
+  }
+}
+
 PetscErrorCode OutputSampleCell(Problem problem, PetscInt cell, const PetscReal u[], PetscReal samples[])
 {
   const SceneData    *scene;
@@ -37,13 +48,31 @@ PetscErrorCode OutputSampleCell(Problem problem, PetscInt cell, const PetscReal 
   PetscCall(ProblemGetMechanics(problem, &mechanics));
   PetscCall(Basis1DGet(p, p, &basis));
   PetscCall(PetscMalloc3(np * v->dim, &xi, np * 9, &F, np * 9, &P));
-  for (PetscInt i = 0; i < np; ++i) {
-    const PetscInt place[3] = {i % p, i / p % p, i / (p * p)};
-    for (PetscInt d = 0; d < v->dim; ++d) xi[i * v->dim + d] = basis->points[place[d]];
-  }
+  Points_Private(v->dim, basis, np, xi);
   PetscCall(MechanicsPoints(mechanics, cell, np, xi, u, F, P, NULL));
   for (PetscInt i = 0; i < np; ++i) OutputCauchy(scene->mechanics.kinematics, F + 9 * i, P + 9 * i, samples + 7 * i, samples + 7 * i + 6);
   PetscCall(PetscFree3(xi, F, P));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode OutputSamplePlastic(Problem problem, PetscInt cell, const PetscReal u[], PetscReal samples[])
+{
+  const HPTables *v;
+  const Basis1D  *basis;
+  HPSpace         space;
+  Mechanics       mechanics;
+  PetscReal      *xi;
+
+  PetscFunctionBegin;
+  PetscCall(ProblemGetMechanics(problem, &mechanics));
+  PetscCall(ProblemGetSpace(problem, &space));
+  PetscCall(HPSpaceGetTables(space, &v));
+  const PetscInt p = v->cell_order[cell], np = ElementNumNodes(v->dim, p - 1);
+  PetscCall(Basis1DGet(p, p, &basis));
+  PetscCall(PetscMalloc1(np * v->dim, &xi));
+  Points_Private(v->dim, basis, np, xi);
+  PetscCall(MechanicsPlasticStrain(mechanics, cell, np, xi, u, samples));
+  PetscCall(PetscFree(xi));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

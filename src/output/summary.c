@@ -80,6 +80,22 @@ static void AddPair_Private(cJSON *contact, PetscInt dim, const char *name, cons
   if (dim == 3) AddNumber_Private(pair, "unusable_overlaps", (PetscReal)f->unusable);
 }
 
+/* Pressures that are found, and what they follow: in the objects `pressure`, `volume` and `advance`, by boundary; none where there are none. */
+static void AddControls_Private(cJSON *root, const SceneData *scene, const Balance *b)
+{
+  static const char *const key[] = {"pressure", "volume", "advance"};
+
+  for (PetscInt k = 0; k < 3; ++k) {
+    cJSON *object = NULL;
+    for (PetscInt i = 0; i < b->num_boundaries; ++i) {
+      const BoundarySpec *spec = &scene->mechanics.boundaries[i];
+      if (!BoundaryIsControlled(spec) || (k == 1 && !spec->volume) || (k == 2 && !spec->advance)) continue;
+      if (!object) object = cJSON_AddObjectToObject(root, key[k]);
+      AddNumber_Private(object, spec->name, k == 0 ? b->pressure[i] : b->control[i]);
+    }
+  }
+}
+
 static void AddForces_Private(cJSON *root, const SceneData *scene, const Balance *b)
 {
   const PetscInt dim      = Dim_Private(scene);
@@ -88,6 +104,7 @@ static void AddForces_Private(cJSON *root, const SceneData *scene, const Balance
   for (PetscInt i = 0; b && i < b->num_boundaries; ++i) {
     if (BoundarySupports(&scene->mechanics.boundaries[i])) AddArray_Private(reaction, scene->mechanics.boundaries[i].name, dim, b->reaction[i]);
   }
+  if (b) AddControls_Private(root, scene, b);
   contact = cJSON_AddObjectToObject(root, "contact");
   for (PetscInt i = 0; b && i < b->num_contacts; ++i) AddPair_Private(contact, dim, scene->contacts[i].name, &b->pair[i]);
   if (!b) return;
@@ -150,6 +167,10 @@ static cJSON *Document_Private(const SceneData *scene, const RunSummary *s, cons
   AddEstimate_Private(root, s->estimate);
   AddNumber_Private(root, "energy", s->balance ? s->balance->status.energy : nan);
   AddNumber_Private(root, "min_det", s->balance ? s->balance->status.min_det : nan);
+  if (s->balance && MechanicsIsPlastic(&scene->mechanics)) {
+    AddNumber_Private(root, "plastic_strain", s->balance->plastic_strain);
+    AddNumber_Private(root, "plastic_work", s->balance->plastic_work);
+  }
   AddForces_Private(root, scene, s->balance);
   AddProbes_Private(root, scene, g);
   AddTimes_Private(root, s->seconds, g);

@@ -642,12 +642,10 @@ PetscErrorCode ContactForces_Private(Problem p, Contact *c, PetscReal r[])
 }
 
 /* Complementarity rows into this rank's part of the residual. */
-PetscErrorCode ContactRows_Private(Problem p, const Contact *c, PetscReal r[])
+void ContactRows_Private(const Contact *c, PetscReal r[])
 {
-  PetscFunctionBegin;
   for (PetscInt j = 0; j < c->side[0].num_nodes; ++j) {
     if (c->zlocal[j] < 0) continue;
     r[c->zlocal[j]] = c->w0[j] * (c->active[j] ? c->c[j] * c->gap[j] / c->weight[j] : c->z[j]);
   }
-  PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -5,7 +5,7 @@
 #include "problemimpl.h"
 #include <petsc/private/hashmapi.h>
 
-#define KEY(entity, index) (64 * (entity) + (index)) /* more than an entity's nodes */
+#define KEY(entity, index) (FOREST_PARTS * (entity) + (index))
 
 /* Under construction. */
 typedef struct {
@@ -175,15 +175,11 @@ PetscErrorCode SurfaceLattice_Private(HPSpace space, const ForestTables *t, Surf
 
 PetscReal SurfacePoint_Private(const Surface *s, PetscInt facet, const PetscReal x[], const PetscReal xi[], PetscBool axisymmetric, PetscReal N[])
 {
-  const PetscInt *node, num                                = SurfaceNodes_Private(s, facet, &node);
-  PetscReal       dN[SURFACE_MOST_NODES][2], tangent[2][3] = {{0, 0, 0}, {0, 0, s->dim == 2}}, normal[3], radius = 0;
+  const PetscInt *node, num = SurfaceNodes_Private(s, facet, &node);
+  PetscReal       tangent[2][3], normal[3], radius = 0;
 
-  SurfaceShape(s->dim, SurfaceOrder_Private(s, facet), xi, N, dN);
-  for (PetscInt k = 0; k < num; ++k) {
-    radius += N[k] * x[s->dim * node[k]];
-    for (PetscInt a = 0; a < s->dim - 1; ++a)
-      for (PetscInt c = 0; c < s->dim; ++c) tangent[a][c] += dN[k][a] * x[s->dim * node[k] + c];
-  }
+  SurfaceTangents_Private(s->dim, SurfaceOrder_Private(s, facet), num, node, x, xi, N, tangent);
+  for (PetscInt k = 0; k < num; ++k) radius += N[k] * x[s->dim * node[k]];
   Cross3(tangent[0], tangent[1], normal);
   return PetscSqrtReal(Dot3(normal, normal)) * (axisymmetric ? 2 * PETSC_PI * radius : 1);
 }

@@ -27,9 +27,10 @@ PetscErrorCode ProblemLayout_Private(Problem p)
   p->u_start[0] = 0;
   for (PetscMPIInt r = 0; r < p->size; ++r) p->u_start[r + 1] = p->u_start[r] + counts[r];
   PetscCall(ContactNumber_Private(p, counts)); /* appends the multipliers of each rank */
+  p->num_z = counts[p->rank] - p->num_u;
+  counts[p->size - 1] += p->num_scalars;
   p->p_start[0] = 0;
   for (PetscMPIInt r = 0; r < p->size; ++r) p->p_start[r + 1] = p->p_start[r] + counts[r];
-  p->num_z    = counts[p->rank] - p->num_u;
   p->start    = p->p_start[p->rank];
   p->num_dofs = p->p_start[p->size];
   PetscCall(PetscFree(counts));
@@ -42,7 +43,7 @@ PetscErrorCode ProblemLayout_Private(Problem p)
   }
   PetscCall(ProblemRows_Private(p));
   PetscCall(VecCreate(p->comm, &p->prototype));
-  PetscCall(VecSetSizes(p->prototype, p->num_u + p->num_z, PETSC_DETERMINE));
+  PetscCall(VecSetSizes(p->prototype, p->p_start[p->rank + 1] - p->start, PETSC_DETERMINE));
   PetscCall(VecSetType(p->prototype, VECSTANDARD));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -175,6 +176,7 @@ PetscErrorCode ProblemMatrix_Private(Problem p)
   PetscCall(PetscCalloc2(rows, &diagonal, rows, &other));
   PetscCall(BulkPattern_Private(p, diagonal, other));
   PetscCall(ContactPattern_Private(p, diagonal, other));
+  PetscCall(ScalarsPattern_Private(p, diagonal, other));
   for (PetscInt i = 0; i < rows; ++i) {
     diagonal[i] = PetscMin(diagonal[i] + 1, rows);
     other[i]    = PetscMin(other[i], p->row_start[p->size] - rows);
@@ -188,6 +190,7 @@ PetscErrorCode ProblemMatrix_Private(Problem p)
   PetscCall(PetscFree2(diagonal, other));
   PetscCall(BulkPattern_Private(p, NULL, NULL));
   PetscCall(ContactPattern_Private(p, NULL, NULL));
+  PetscCall(ScalarsPattern_Private(p, NULL, NULL));
   for (PetscInt i = 0; i < p->num_contacts; ++i) {
     const Contact *c = &p->contacts[i];
     for (PetscInt j = 0; j < c->side[0].num_nodes; ++j) {

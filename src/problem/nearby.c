@@ -161,7 +161,49 @@ static PetscErrorCode Concerned_Private(Problem p, const Contact *c, const Fores
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Candidates of this rank's facets as (facet, number, candidates…), to those concerned. */
+/* Runs [first, last] of a list that ascends, into runs (NULL: only counted): the search distance is long, so candidates are most of the other side. */
+static PetscInt Runs_Private(PetscInt num, const PetscInt list[], PetscInt runs[])
+{
+  PetscInt n = 0;
+
+  for (PetscInt i = 0; i < num; ++i) {
+    const PetscBool begins = (PetscBool)(i == 0 || list[i] != list[i - 1] + 1);
+    if (begins && runs) runs[2 * n] = list[i];
+    n += begins;
+    if (runs) runs[2 * n - 1] = list[i];
+  }
+  return n;
+}
+
+/* From (facet, number, runs) to (facet, number, candidates…), which replaces it. */
+static PetscErrorCode Unpack_Private(PetscInt *num, PetscInt **got)
+{
+  const PetscInt *g     = *got;
+  PetscInt        total = 0, *list, *to;
+
+  PetscFunctionBegin;
+  for (PetscInt at = 0; at < *num; at += 2 + 2 * g[at + 1]) {
+    total += 2;
+    for (PetscInt k = 0; k < g[at + 1]; ++k) total += g[at + 3 + 2 * k] - g[at + 2 + 2 * k] + 1;
+  }
+  PetscCall(PetscMalloc1(total, &list));
+  to = list;
+  for (PetscInt at = 0; at < *num; at += 2 + 2 * g[at + 1]) {
+    PetscInt *head = to;
+
+    to += 2;
+    for (PetscInt k = 0; k < g[at + 1]; ++k)
+      for (PetscInt i = g[at + 2 + 2 * k]; i <= g[at + 3 + 2 * k]; ++i) *to++ = i;
+    head[0] = g[at];
+    head[1] = (PetscInt)(to - head) - 2;
+  }
+  PetscCall(PetscFree(*got));
+  *got = list;
+  *num = total;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Candidates of this rank's facets to those concerned; what others told as (facet, number, candidates…). */
 static PetscErrorCode Tell_Private(Problem p, Contact *c, const PetscInt start[], const PetscInt candidate[], PetscInt *num, PetscInt **got)
 {
   const Surface      *s = &c->side[0];
@@ -176,20 +218,20 @@ static PetscErrorCode Tell_Private(Problem p, Contact *c, const PetscInt start[]
     if (start[i] < start[i + 1]) PetscCall(Concerned_Private(p, c, t, s->mine[i], i, told, &m));
   }
   PetscCall(MailSort_Private(&m, p->size));
-  for (PetscInt i = 0; i < m.num; ++i) total += 2 + start[m.sorted[i] + 1] - start[m.sorted[i]];
+  for (PetscInt i = 0; i < m.num; ++i) total += 2 + 2 * Runs_Private(start[m.sorted[i] + 1] - start[m.sorted[i]], candidate + start[m.sorted[i]], NULL);
   PetscCall(PetscMalloc2(m.num_to + 1, &first, total, &send));
   first[0] = 0;
   for (PetscMPIInt r = 0; r < m.num_to; ++r) {
     for (PetscInt i = m.first[r]; i < m.first[r + 1]; ++i) {
-      const PetscInt slot = m.sorted[i], count = start[slot + 1] - start[slot];
-      send[at++] = s->mine[slot];
-      send[at++] = count;
-      PetscCall(PetscArraycpy(send + at, candidate + start[slot], count));
-      at += count;
+      const PetscInt slot = m.sorted[i];
+      send[at]            = s->mine[slot];
+      send[at + 1]        = Runs_Private(start[slot + 1] - start[slot], candidate + start[slot], send + at + 2);
+      at += 2 + 2 * send[at + 1];
     }
     first[r + 1] = at;
   }
   PetscCall(Send_Private(p, &m, first, sizeof(PetscInt), send, num, got));
+  PetscCall(Unpack_Private(num, got));
   PetscCall(PetscFree2(first, send));
   PetscCall(PetscFree(told));
   PetscCall(MailDestroy_Private(&m));

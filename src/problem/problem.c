@@ -28,7 +28,7 @@ static uint64_t MirrorGroups_Private(const SceneData *scene)
   uint64_t groups = 0;
   for (PetscInt i = 0; i < scene->mechanics.num_boundaries; ++i) {
     const BoundarySpec *b     = &scene->mechanics.boundaries[i];
-    PetscBool           other = (PetscBool)(b->rotation || b->pressure);
+    PetscBool           other = (PetscBool)(b->rotation || BoundaryHasPressure(b));
     PetscInt            held  = b->fix_normal ? 1 : 0;
     for (PetscInt c = 0; c < 3; ++c) {
       held += b->fix[c] ? 1 : 0;
@@ -84,6 +84,7 @@ PetscErrorCode ProblemCreate(const SceneData *scene, Forest forest, const int8_t
   PetscCall(PetscCalloc1(p->num_contacts, &p->contacts));
   for (PetscInt i = 0; i < p->num_contacts; ++i) PetscCall(ContactCreate_Private(p, &scene->contacts[i], &p->contacts[i]));
   PetscCall(Vectors_Private(p));
+  PetscCall(ScalarsCreate_Private(p));
   PetscCall(ProblemLayout_Private(p));
   PetscCall(ProblemCreateVector(p, &p->start_x));
   PetscCall(StageEnd(STAGE_SETUP));
@@ -107,11 +108,13 @@ PetscErrorCode ProblemDestroy(Problem *problem)
   PetscCall(PetscFree3(p->u_start, p->p_start, p->row_start));
   PetscCall(PetscFree4(p->target, p->applied, p->increment, p->start_applied));
   PetscCall(PetscFree2(p->work_index, p->work_value));
+  PetscCall(PetscFree(p->hessian));
   PetscCall(VecDestroy(&p->u_global));
   PetscCall(VecDestroy(&p->u_local));
   PetscCall(VecDestroy(&p->r_local));
   PetscCall(VecDestroy(&p->prototype));
   PetscCall(VecDestroy(&p->start_x));
+  PetscCall(ScalarsDestroy_Private(p));
   PetscCall(MatDestroy(&p->matrix));
   PetscCall(MechanicsDestroy(&p->mechanics));
   PetscCall(MechanicsSupportsDestroy(&p->supports));
@@ -176,9 +179,9 @@ PetscErrorCode ProblemIsSymmetric(Problem p, PetscBool *possible)
   const MechanicsSpec *m = &p->scene->mechanics;
 
   PetscFunctionBegin;
-  *possible = PETSC_TRUE;
+  *possible = (PetscBool)(p->scene->load.control == LOAD_TIME);
   for (PetscInt b = 0; b < m->num_boundaries; ++b) {
-    if (m->boundaries[b].pressure && m->kinematics == KINEMATICS_FINITE) *possible = PETSC_FALSE;
+    if (BoundaryHasPressure(&m->boundaries[b]) && m->kinematics == KINEMATICS_FINITE) *possible = PETSC_FALSE;
   }
   for (PetscInt b = 0; b < m->num_bodies; ++b) {
     if (m->bodies[b].material->law->unsymmetric) *possible = PETSC_FALSE;
@@ -267,6 +270,7 @@ static PetscErrorCode FillLocal_Private(Problem p, Vec x, const PetscReal prescr
 PetscErrorCode ProblemLocalDisplacement(Problem p, Vec x, PetscReal local[])
 {
   PetscFunctionBegin;
+  PetscCall(ScalarsRead_Private(p, x));
   PetscCall(FillLocal_Private(p, x, p->applied, local));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

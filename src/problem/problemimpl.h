@@ -113,6 +113,14 @@ struct _p_Problem {
   Vec        start_x;
   PetscInt   num_dofs;
 
+  /* scalar.c, path.c: unknowns that belong to no node */
+  PetscInt   num_scalars, num_controls;        /* the last of the vector and of the matrix: pressures found, then pseudo-time where a path is followed */
+  PetscReal *scalar;                           /* [num_scalars] of the vector last seen */
+  PetscReal *factor, *norm, *measure;          /* [num_controls] of the rows; of the target; what is followed, at the last residual */
+  PetscReal  extent, path_start, path_advance; /* of all bodies; place of the last state along `path`, and how far from there */
+  PetscBool  following;                        /* along the path; else time is as set */
+  Vec        path;                             /* (u1 - u0) / (|u1 - u0| sqrt(N)), 0 but for displacements */
+
   Mat              matrix;
   ptrdiff_t       *scatter_first; /* [num_owned_cells] where a cell's places start in scatter, -1: it goes by MatSetValues */
   uint16_t        *scatter;       /* scatter.c */
@@ -126,9 +134,25 @@ struct _p_Problem {
   PetscInt        *work_index;
   PetscReal       *work_value;
   PetscInt         work_size;
+  PetscReal       *hessian; /* work: of a facet */
+  PetscInt         hessian_size;
 };
 
 PetscErrorCode ProblemLayout_Private(Problem);
+/* scalar.c. Create: before the layout. Read: from a vector to where they act. Measure: what controls follow at the local displacements u. Residual: their rows
+   in the rank's part r of the residual, after Read and Measure. Pattern, Tangent: their rows and columns. Column: a local array as column of scalar k. All
+   collective. */
+PetscErrorCode ScalarsCreate_Private(Problem);
+PetscErrorCode ScalarsDestroy_Private(Problem);
+PetscErrorCode ScalarsRead_Private(Problem, Vec x);
+PetscErrorCode ScalarsMeasure_Private(Problem, const PetscReal u[]);
+PetscErrorCode ScalarsResidual_Private(Problem, Vec x, PetscReal r[]);
+PetscErrorCode ScalarsPattern_Private(Problem, PetscInt diagonal[], PetscInt other[]);
+PetscErrorCode ScalarsTangent_Private(Problem, const PetscReal u[]);
+PetscErrorCode ScalarsColumn_Private(Problem, PetscInt k, const PetscReal local[]);
+/* path.c: the equation of pseudo-time and its row and column. Collective. */
+PetscErrorCode PathResidual_Private(Problem, Vec x, PetscReal *r);
+PetscErrorCode PathTangent_Private(Problem, PetscInt row, const PetscReal u[]);
 /* scatter.c: places of cells in the matrix as it stands, made when its pattern is new; add a cell's matrix there (*added false: it has no places). */
 PetscErrorCode ProblemScatter_Private(Problem);
 PetscErrorCode ProblemScatterAdd_Private(Problem, PetscInt cell, PetscInt num_dofs, const PetscInt dofs[], const PetscReal K[], PetscBool *added);
@@ -158,6 +182,9 @@ static inline PetscInt SurfaceOrder_Private(const Surface *s, PetscInt facet)
 PetscErrorCode SurfaceDestroy_Private(Surface *);
 PetscErrorCode SurfaceIndices_Private(Problem, Surface *);
 ContactSurface SurfaceAt_Private(const Surface *, const PetscReal x[]);
+/* shape.c: of a facet with nodes node[num] of an order as in SurfaceShape: the functions at xi and the tangents. */
+void SurfaceTangents_Private(PetscInt dim, PetscInt order, PetscInt num, const PetscInt node[], const PetscReal x[], const PetscReal xi[], PetscReal N[],
+                             PetscReal tangent[2][3]);
 /* Measure at xi of a facet per unit of xi (length or area, axisymmetric: of revolution) and the functions of its nodes there. */
 PetscReal SurfacePoint_Private(const Surface *, PetscInt facet, const PetscReal x[], const PetscReal xi[], PetscBool axisymmetric, PetscReal N[]);
 /* Length or area of a facet at positions x, between its corners. */
@@ -192,7 +219,7 @@ PetscErrorCode ContactDestroy_Private(Contact *);
 PetscErrorCode ContactNumber_Private(Problem, PetscInt counts[]); /* multipliers of each rank, contacts' zdof as offsets in the rank's block */
 PetscErrorCode ContactEvaluate_Private(Problem, Contact *, Vec x, const PetscReal local[], PetscBool derivatives, PetscBool hessian, PetscBool *failed);
 PetscErrorCode ContactForces_Private(Problem, Contact *, PetscReal r[]);
-PetscErrorCode ContactRows_Private(Problem, const Contact *, PetscReal r[]);
+void           ContactRows_Private(const Contact *, PetscReal r[]);
 /* tangent.c: blocks of the last evaluation into the matrix: Hessian and columns (added), then rows (inserted). */
 PetscErrorCode ContactBlocks_Private(Problem, Contact *);
 PetscErrorCode ContactInsertRow_Private(Problem, Contact *, PetscInt node);

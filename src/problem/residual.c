@@ -68,6 +68,7 @@ static PetscErrorCode LocalForces_Private(Problem p, Vec x, const PetscReal u[],
   status->scale   = PetscSqrtReal(sum[1]);
   status->bad     = (PetscBool)(sum[2] > 0);
   status->min_det = least[0];
+  status->largest = -least[1];
   status->noise   = PetscSqrtReal(sum[3] + PetscSqr(least[1]) * sum[4] + sum[5]);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -83,6 +84,7 @@ PetscErrorCode ProblemResidual(Problem p, Vec x, Vec r, ProblemStatus *status)
   PetscCall(VecGetArray(p->r_local, &local));
   PetscCall(ProblemLocalDisplacement(p, x, u));
   PetscCall(LocalForces_Private(p, x, u, local, status));
+  PetscCall(ScalarsMeasure_Private(p, u));
   PetscCall(VecRestoreArray(p->u_local, &u));
   PetscCall(VecRestoreArray(p->r_local, &local));
   PetscCall(VecGetArray(r, &array));
@@ -91,7 +93,8 @@ PetscErrorCode ProblemResidual(Problem p, Vec x, Vec r, ProblemStatus *status)
   PetscCall(DMLocalToGlobalBegin(dm, p->r_local, ADD_VALUES, p->u_global));
   PetscCall(DMLocalToGlobalEnd(dm, p->r_local, ADD_VALUES, p->u_global));
   PetscCall(VecResetArray(p->u_global));
-  for (PetscInt i = 0; i < p->num_contacts; ++i) PetscCall(ContactRows_Private(p, &p->contacts[i], array));
+  for (PetscInt i = 0; i < p->num_contacts; ++i) ContactRows_Private(&p->contacts[i], array);
+  PetscCall(ScalarsResidual_Private(p, x, array));
   PetscCall(VecRestoreArray(r, &array));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -32,16 +32,24 @@ void SurfaceShape(PetscInt dim, PetscInt order, const PetscReal xi[], PetscReal 
   }
 }
 
+void SurfaceTangents_Private(PetscInt dim, PetscInt order, PetscInt num, const PetscInt node[], const PetscReal x[], const PetscReal xi[], PetscReal N[],
+                             PetscReal tangent[2][3])
+{
+  PetscReal dN[SURFACE_MOST_NODES][2];
+
+  for (PetscInt c = 0; c < 3; ++c) tangent[0][c] = tangent[1][c] = 0;
+  if (dim == 2) tangent[1][2] = 1;
+  SurfaceShape(dim, order, xi, N, dN);
+  for (PetscInt k = 0; k < num; ++k) {
+    for (PetscInt a = 0; a < dim - 1; ++a)
+      for (PetscInt c = 0; c < dim; ++c) tangent[a][c] += dN[k][a] * x[dim * node[k] + c];
+  }
+}
+
 void SurfaceTangents(const SurfaceView *s, PetscInt facet, const PetscReal x[], const PetscReal xi[], PetscReal tangent[2][3])
 {
   const PetscInt *node, num = SurfaceFacetNodes(s, facet, &node);
-  PetscReal       N[SURFACE_MOST_NODES], dN[SURFACE_MOST_NODES][2];
+  PetscReal       N[SURFACE_MOST_NODES];
 
-  for (PetscInt c = 0; c < 3; ++c) tangent[0][c] = tangent[1][c] = 0;
-  if (s->dim == 2) tangent[1][2] = 1;
-  SurfaceShape(s->dim, SurfaceFacetOrder(s, facet), xi, N, dN);
-  for (PetscInt k = 0; k < num; ++k) {
-    for (PetscInt a = 0; a < s->dim - 1; ++a)
-      for (PetscInt c = 0; c < s->dim; ++c) tangent[a][c] += dN[k][a] * x[s->dim * node[k] + c];
-  }
+  SurfaceTangents_Private(s->dim, SurfaceFacetOrder(s, facet), num, node, x, xi, N, tangent);
 }

@@ -35,15 +35,21 @@ static PetscErrorCode CellSink_Private(void *context, PetscInt cell, PetscInt nu
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Indices of a facet's nodal dofs (dim*num, -1 where prescribed) and their frames. */
-static void FacetDofs_Private(const Contact *c, const ContactFacet *e, PetscInt dofs[], const PetscReal *frame[])
+/* The frame of a facet's node. */
+static inline const PetscReal *Frame_Private(const Contact *c, PetscInt id)
+{
+  const Surface *s = &c->side[NODE_SIDE(id)];
+  return s->frame + s->dim * s->dim * NODE_INDEX(id);
+}
+
+/* Indices of a facet's nodal dofs (dim*num, -1 where prescribed). */
+static void FacetDofs_Private(const Contact *c, const ContactFacet *e, PetscInt dofs[])
 {
   const PetscInt dim = c->side[0].dim;
   for (PetscInt a = 0; a < e->num; ++a) {
     const Surface *s = &c->side[NODE_SIDE(e->nodes[a])];
     const PetscInt n = NODE_INDEX(e->nodes[a]);
     for (PetscInt d = 0; d < dim; ++d) dofs[dim * a + d] = s->dof[dim * n + d];
-    frame[a] = s->frame + dim * dim * n;
   }
 }
 
@@ -58,13 +64,18 @@ static inline void Turn_Private(PetscInt dim, const PetscReal *q, PetscReal v[],
   for (PetscInt d = 0; d < dim; ++d) v[d * stride] = t[d];
 }
 
-static PetscErrorCode FacetHessian_Private(Problem p, const Contact *c, const ContactFacet *e, const PetscInt dofs[], const PetscReal *frame[])
+static PetscErrorCode FacetHessian_Private(Problem p, const Contact *c, const ContactFacet *e, const PetscInt dofs[])
 {
   const PetscInt dim = p->dim, n = dim * e->num;
   PetscReal     *H;
 
   PetscFunctionBegin;
-  PetscCall(PetscMalloc1(n * n, &H));
+  if (n * n > p->hessian_size) {
+    p->hessian_size = 2 * n * n;
+    PetscCall(PetscFree(p->hessian));
+    PetscCall(PetscMalloc1(p->hessian_size, &p->hessian));
+  }
+  H = p->hessian;
   for (PetscInt i = 0; i < n * n; ++i) H[i] = -e->hessian[i];
   if (p->lifting) {
     for (PetscInt i = 0; i < n; ++i) {
@@ -74,17 +85,16 @@ static PetscErrorCode FacetHessian_Private(Problem p, const Contact *c, const Co
         for (PetscInt d = 0; d < dim; ++d) p->work_value[i] += H[i * n + dim * b + d] * du[d];
       }
     }
-    for (PetscInt a = 0; a < e->num; ++a) Turn_Private(dim, frame[a], p->work_value + dim * a, 1);
+    for (PetscInt a = 0; a < e->num; ++a) Turn_Private(dim, Frame_Private(c, e->nodes[a]), p->work_value + dim * a, 1);
     PetscCall(VecSetValues(p->lift, n, dofs, p->work_value, ADD_VALUES));
   }
   for (PetscInt i = 0; i < n; ++i) {
-    for (PetscInt b = 0; b < e->num; ++b) Turn_Private(dim, frame[b], H + i * n + dim * b, 1);
+    for (PetscInt b = 0; b < e->num; ++b) Turn_Private(dim, Frame_Private(c, e->nodes[b]), H + i * n + dim * b, 1);
   }
   for (PetscInt j = 0; j < n; ++j) {
-    for (PetscInt a = 0; a < e->num; ++a) Turn_Private(dim, frame[a], H + dim * a * n + j, n);
+    for (PetscInt a = 0; a < e->num; ++a) Turn_Private(dim, Frame_Private(c, e->nodes[a]), H + dim * a * n + j, n);
   }
   PetscCall(MatSetValues(p->matrix, n, dofs, n, dofs, H, ADD_VALUES));
-  PetscCall(PetscFree(H));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -106,21 +116,17 @@ PetscErrorCode ContactBlocks_Private(Problem p, Contact *c)
   for (PetscInt i = 0; i < c->num_facets; ++i) {
     const ContactFacet *e = &c->facets[i];
     const PetscInt      n = dim * e->num;
-    const PetscReal   **frame;
-    PetscInt           *dofs;
     if (!c->mine[e->facet] || !e->dgap) continue;
     PetscCall(ProblemWork_Private(p, n));
-    PetscCall(PetscMalloc2(n, &dofs, e->num, &frame));
-    FacetDofs_Private(c, e, dofs, frame);
-    if (e->hessian && !far) PetscCall(FacetHessian_Private(p, c, e, dofs, frame));
+    FacetDofs_Private(c, e, p->work_index);
+    if (e->hessian && !far) PetscCall(FacetHessian_Private(p, c, e, p->work_index));
     for (PetscInt k = 0; k < e->num_rows && !p->symmetric; ++k) {
       const PetscInt z = c->zdof[e->nodes[k]];
       if (z < 0 || !c->near[e->nodes[k]]) continue;
       for (PetscInt a = 0; a < n; ++a) p->work_value[a] = -e->dgap[k * n + a];
-      for (PetscInt a = 0; a < e->num; ++a) Turn_Private(dim, frame[a], p->work_value + dim * a, 1);
-      PetscCall(MatSetValues(p->matrix, n, dofs, 1, &z, p->work_value, ADD_VALUES));
+      for (PetscInt a = 0; a < e->num; ++a) Turn_Private(dim, Frame_Private(c, e->nodes[a]), p->work_value + dim * a, 1);
+      PetscCall(MatSetValues(p->matrix, n, p->work_index, 1, &z, p->work_value, ADD_VALUES));
     }
-    PetscCall(PetscFree2(dofs, frame));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -163,7 +169,7 @@ static PetscErrorCode NodeGradient_Private(Problem p, const Contact *c, PetscInt
       const PetscInt node = NODE_INDEX(e->nodes[a]);
       PetscReal      g[3] = {0, 0, 0};
       for (PetscInt d = 0; d < dim; ++d) g[d] = e->dgap[row * n + dim * a + d] - mean * e->dweight[row * n + dim * a + d];
-      Turn_Private(dim, side->frame + dim * dim * node, g, 1);
+      Turn_Private(dim, Frame_Private(c, e->nodes[a]), g, 1);
       for (PetscInt d = 0; d < dim; ++d) {
         if (side->dof[dim * node + d] < 0) continue;
         PetscCall(PetscFindInt(side->dof[dim * node + d], *num, dofs, &at));
@@ -310,6 +316,7 @@ PetscErrorCode ProblemTangent(Problem p, Vec x, const PetscReal pressure[], Vec 
   PetscCall(StageBegin(STAGE_ASSEMBLE));
   PetscCall(ReadyMatrix_Private(p));
   PetscCall(MechanicsTangent(p->mechanics, local, pressure, CellSink_Private, p, bad));
+  PetscCall(ScalarsTangent_Private(p, local));
   PetscCall(StageEnd(STAGE_ASSEMBLE));
   PetscCall(VecRestoreArray(p->u_local, &local));
   PetscCall(StageBegin(STAGE_CONTACT));

@@ -122,6 +122,12 @@ static PetscErrorCode MatchBodies_Private(Scene s, const CoarseMesh *m)
 
 /* ---- boundaries, pairs, supports ------------------------------------------------------------------------------------------------------ */
 
+/* The key that puts a pressure on the boundary. */
+static const char *Pressure_Private(const BoundarySpec *b)
+{
+  return b->volume ? "volume" : b->advance ? "advance" : "pressure";
+}
+
 static PetscErrorCode MatchBoundaries_Private(Scene s, const Facets *f)
 {
   PetscFunctionBegin;
@@ -130,8 +136,14 @@ static PetscErrorCode MatchBoundaries_Private(Scene s, const Facets *f)
     BoundaryEntry *b = &s->boundary[i];
     PetscCall(FindGroup_Private(f->mesh, NodeWhere(b->node), b->spec.name, &b->spec.group));
     PetscCheckInput(f->num_facets[b->spec.group] || f->inner[b->spec.group], "%s: the group has no facets", NodeWhere(b->node));
-    PetscCheckInput(!b->spec.pressure || !f->inner[b->spec.group], "%s.pressure: a facet of this group lies between two cells and has no outward normal",
-                    NodeWhere(b->node));
+    PetscCheckInput(!BoundaryHasPressure(&b->spec) || !f->inner[b->spec.group], "%s.%s: a facet of this group lies between two cells and has no outward normal",
+                    NodeWhere(b->node), Pressure_Private(&b->spec));
+    for (PetscInt body = 0; body < f->mesh->num_bodies; ++body) {
+      PetscCheckInput(!BoundaryIsControlled(&b->spec) || !s->data.bodies[body].material->law->rigid ||
+                          !f->body_touches[body * f->mesh->num_boundaries + b->spec.group],
+                      "%s.%s: the boundary is one of the rigid body '%s', which no pressure moves", NodeWhere(b->node), Pressure_Private(&b->spec),
+                      f->mesh->body_name[body]);
+    }
     s->data.boundaries[i] = b->spec;
   }
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -68,6 +68,11 @@ const Option Options[] = {
     {"boundary.<name>.rotation.angle", KEY_EXPRESSION, "degrees", "", ANY, "angle of the rotation", BOUND(spec.rotation_angle)},
     {"boundary.<name>.rotation.point.<axis>", KEY_REAL, "length", "0", ANY, "a point of the axis", BOUND(spec.rotation_point)},
     {"boundary.<name>.pressure", KEY_EXPRESSION, "stress", "", ANY, "follower load against the outward normal", BOUND(spec.pressure)},
+    {"boundary.<name>.volume", KEY_EXPRESSION, "volume", "", ANY,
+     "change of the volume that the boundary encloses, 0 at t = 0; the follower pressure that makes it is found (history.csv, summary.json: pressure.<name>)",
+     BOUND(spec.volume)},
+    {"boundary.<name>.advance", KEY_EXPRESSION, "length", "", ANY,
+     "mean displacement of the boundary against its outward normal, 0 at t = 0; the follower pressure that makes it is found", BOUND(spec.advance)},
     {"boundary.<name>.traction.<axis>", KEY_EXPRESSION, "force/area", "", ANY, "dead load per reference area", BOUND(spec.traction)},
     {"boundary.<name>.amplitude", KEY_AMPLITUDE, "", "[0,0, 1,1]", "t rising",
      "t0,v0, t1,v1, ...: multiplies the values of this boundary, piecewise linear in t", BOUND(spec.amplitude)},
@@ -93,8 +98,16 @@ const Option Options[] = {
     {"load.end", KEY_REAL, "pseudo-time", "1", POSITIVE, "t runs from 0 to here", SCENE(data.load.end)},
     {"load.step", KEY_REAL, "pseudo-time", "", POSITIVE, "first step; default: end/10", SCENE(data.load.step)},
     {"load.step_min", KEY_REAL, "pseudo-time", "", POSITIVE, "a smaller step is given up; default: step/1024", SCENE(data.load.step_min)},
-    {"load.step_max", KEY_REAL, "pseudo-time", "", POSITIVE, "steps grow to this size; default: step", SCENE(data.load.step_max)},
+    {"load.step_max", KEY_REAL, "pseudo-time", "", POSITIVE,
+     "steps grow to this size; default: step; arc_length: steps along the path keep between step_min/step and step_max/step of the first",
+     SCENE(data.load.step_max)},
     {"load.max_steps", KEY_INT, "", "10000", "[1,1000000]", "more load steps are given up", SCENE(data.load.max_steps)},
+
+    {"load.control", KEY_WORD, "", "time", "time|arc_length",
+     "time: steps of t; arc_length: t multiplies the loads and is found on the path of equilibria, through limit points, until it reaches end",
+     SCENE(data.load.control)},
+    {"load.stop_displacement", KEY_REAL, "length", "0", NOT_BELOW, "the run ends once a displacement component is as large; 0: it does not",
+     SCENE(data.load.stop_displacement)},
 
     {"adapt.tolerance", KEY_REAL, "", "0", "[0,1)", "relative estimated error to reach, in the energy-like norm; 0: no adaptation",
      SCENE(data.adapt.tolerance)},
@@ -202,6 +215,8 @@ PetscErrorCode ScenePrintList(MPI_Comm comm)
                               "  fix            letters of xyz, or normal\n"
                               "  rotation       {axis, angle, point}: finite rotation in degrees\n"
                               "  pressure       follower, against the outward normal\n"
+                              "  volume         change of the enclosed volume; the follower pressure is found\n"
+                              "  advance        mean displacement against the outward normal; the follower pressure is found\n"
                               "  traction       {x, y, z}: dead, per reference area\n"
                               "\nbody kinds (body.<name>)\n"
                               "  material       deformable, or moved by motion {x, y, z} when its law is rigid\n"

@@ -3,37 +3,6 @@
 
 /* ---- nearest names ------------------------------------------------------------------------------------------------------------ */
 
-/* Levenshtein distance of two texts of at most 255 characters. */
-static PetscInt Distance_Private(const char *a, const char *b)
-{
-  PetscInt row[256], na = (PetscInt)strlen(a), nb = (PetscInt)strlen(b);
-
-  if (na > 255 || nb > 255) return 1000;
-  for (PetscInt j = 0; j <= nb; ++j) row[j] = j;
-  for (PetscInt i = 1; i <= na; ++i) {
-    PetscInt corner = row[0];
-    row[0]          = i;
-    for (PetscInt j = 1; j <= nb; ++j) {
-      PetscInt up = row[j], change = corner + (a[i - 1] != b[j - 1]);
-      row[j] = PetscMin(change, PetscMin(up, row[j - 1]) + 1);
-      corner = up;
-    }
-  }
-  return row[nb];
-}
-
-const char *NearestName(const char *name, PetscInt num, const char *const names[])
-{
-  const char *best     = "";
-  PetscInt    distance = PETSC_MAX_INT;
-
-  for (PetscInt i = 0; i < num; ++i) {
-    PetscInt d = Distance_Private(name, names[i]);
-    if (d < distance) best = names[i], distance = d;
-  }
-  return best;
-}
-
 typedef struct {
   const char *path; /* what was asked */
   char        separator;
@@ -51,7 +20,7 @@ static void Offer_Private(Search *s, PetscInt num, const char *const keys[])
   PetscInt d;
 
   for (PetscInt i = 0; i < num && n < sizeof(text); ++i) n += (size_t)snprintf(text + n, sizeof(text) - n, "%.*s%s", i ? 1 : 0, &s->separator, keys[i]);
-  d = Distance_Private(s->path, text);
+  d = NameDistance(s->path, text);
   if (s->num && num > s->num && !strcmp(s->words[s->num - 1], keys[num - 1])) d = PetscMin(d, 2); /* right word in the wrong place */
   if (d >= s->distance) return;
   s->distance = d;

@@ -191,11 +191,13 @@ static PetscErrorCode ReadBody_Private(Scene s, SceneNode *node, BodyEntry *b)
     b->spec.material    = &s->data.materials[i];
   }
   PetscCheckInput(b->spec.material, "%s is '%s', which is not under material%s%s", NodeWhere(NodeFind(node, "material")), b->material,
-                  num ? "; the nearest name is " : "", NearestName(b->material, PetscMin(num, 64), names));
+                  num ? "; the nearest name is " : "", NameNearest(b->material, PetscMin(num, 64), names));
   PetscCall(ReadOrders_Private(s, NodeFind(node, "order"), b));
   rigid = b->spec.material->law->rigid;
   PetscCheckInput(rigid || !NodeFind(node, "motion"), "%s: only a rigid body moves as told, and material %s is %s; prescribe a boundary instead",
                   NodeWhere(NodeFind(node, "motion")), b->material, b->spec.material->law->name);
+  for (int c = 0; c < 3; ++c) PetscCall(SceneCheckPath(s, NodeFind(node, "motion"), b->spec.motion[c]));
+  b->spec.amplitude.endless = (PetscBool)(s->data.load.control == LOAD_ARC_LENGTH);
   PetscCheckInput(!rigid || !NodeFind(node, "force"), "%s: a rigid body moves as told and takes no force", NodeWhere(NodeFind(node, "force")));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -230,8 +232,13 @@ static PetscErrorCode ReadBoundary_Private(Scene s, SceneNode *node, BoundaryEnt
     if (b->spec.displacement[c] || b->spec.fix[c] || b->spec.traction[c]) any = PETSC_TRUE;
   }
   PetscCheckInput(!rotation || !b->spec.fix_normal, "%s prescribes all displacements; take fix away", NodeWhere(rotation));
-  PetscCheckInput(any || rotation || b->spec.fix_normal || b->spec.pressure,
-                  "%s prescribes nothing; it needs one of displacement, fix, rotation, pressure, traction", NodeWhere(node));
+  PetscCheckInput(any || rotation || b->spec.fix_normal || BoundaryHasPressure(&b->spec),
+                  "%s prescribes nothing; it needs one of displacement, fix, rotation, pressure, volume, advance, traction", NodeWhere(node));
+  PetscCall(SceneCheckControl(s, node, "volume", b->spec.volume, &b->spec));
+  PetscCall(SceneCheckControl(s, node, "advance", b->spec.advance, &b->spec));
+  for (int c = 0; c < 3; ++c) PetscCall(SceneCheckPath(s, NodeFind(node, "displacement"), b->spec.displacement[c]));
+  PetscCall(SceneCheckPath(s, rotation, b->spec.rotation_angle));
+  b->spec.amplitude.endless = (PetscBool)(s->data.load.control == LOAD_ARC_LENGTH);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -209,6 +209,8 @@ static PetscErrorCode ViewBoundary_Private(const BoundarySpec *b, PetscViewer vi
   if (b->rotation)
     PetscCall(PetscViewerASCIIPrintf(viewer, " rotation about %c by %s degrees", 'x' + (int)b->rotation_axis, ExpressionText(b->rotation_angle)));
   if (b->pressure) PetscCall(PetscViewerASCIIPrintf(viewer, " pressure %s", ExpressionText(b->pressure)));
+  if (b->volume) PetscCall(PetscViewerASCIIPrintf(viewer, " enclosed volume %s", ExpressionText(b->volume)));
+  if (b->advance) PetscCall(PetscViewerASCIIPrintf(viewer, " advance %s", ExpressionText(b->advance)));
   for (int c = 0; c < 3; ++c)
     if (b->traction[c]) PetscCall(PetscViewerASCIIPrintf(viewer, " traction_%c = %s", 'x' + c, ExpressionText(b->traction[c])));
   PetscCall(PetscViewerASCIIPrintf(viewer, "%s\n", b->amplitude.num ? " (amplitude)" : ""));
@@ -265,8 +267,8 @@ PetscErrorCode SceneView(Scene s, PetscViewer viewer)
   for (PetscInt i = 0; i < s->num_bodies; ++i) PetscCall(ViewBody_Private(&d->bodies[i], viewer));
   for (PetscInt i = 0; i < s->num_boundaries; ++i) PetscCall(ViewBoundary_Private(&d->boundaries[i], viewer));
   for (PetscInt i = 0; i < d->num_contacts; ++i) PetscCall(ViewContact_Private(&s->contact[i], viewer));
-  PetscCall(PetscViewerASCIIPrintf(viewer, "  load t = 0 .. %.6g, first step %.6g, steps %.6g .. %.6g\n", (double)d->load.end, (double)d->load.step,
-                                   (double)d->load.step_min, (double)d->load.step_max));
+  PetscCall(PetscViewerASCIIPrintf(viewer, "  load t = 0 .. %.6g, first step %.6g, steps %.6g .. %.6g%s\n", (double)d->load.end, (double)d->load.step,
+                                   (double)d->load.step_min, (double)d->load.step_max, d->load.control == LOAD_ARC_LENGTH ? ", by arc length" : ""));
   if (d->adapt.tolerance > 0)
     PetscCall(PetscViewerASCIIPrintf(viewer, "  adaptation to a relative error of %.6g, at most %d passes and %d cells%s%s\n", (double)d->adapt.tolerance,
                                      (int)d->adapt.max_passes, (int)d->adapt.max_cells, d->adapt.anisotropic ? ", anisotropic" : "",
@@ -292,6 +294,8 @@ static PetscErrorCode DestroyBoundary_Private(BoundarySpec *b)
     PetscCall(ExpressionDestroy(&b->traction[c]));
   }
   PetscCall(ExpressionDestroy(&b->pressure));
+  PetscCall(ExpressionDestroy(&b->volume));
+  PetscCall(ExpressionDestroy(&b->advance));
   PetscCall(ExpressionDestroy(&b->rotation_angle));
   PetscCall(PetscFree(b->amplitude.pairs));
   PetscFunctionReturn(PETSC_SUCCESS);

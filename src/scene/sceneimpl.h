@@ -122,8 +122,6 @@ PetscBool OptionIsTopKey(const char *s, size_t length);
 /* Nearest known key to path ('.' or '_' between its words, as separator says). */
 PetscErrorCode OptionNearest(const SceneNode *root, const char *path, char separator, size_t capacity, char nearest[]);
 PetscBool      OptionKnowsParameter(const char *name); /* of any law of the table of laws */
-/* Nearest of a list of names. */
-const char *NearestName(const char *name, PetscInt num, const char *const names[]);
 /* Split "a.b.c" into words; returns how many. */
 PetscInt OptionSplit(const char *pattern, char words[OPTION_DEPTH][MORTISE_NAME]);
 
@@ -131,6 +129,10 @@ PetscInt OptionSplit(const char *pattern, char words[OPTION_DEPTH][MORTISE_NAME]
 
 /* Fill data and entries from the tree and the command line (read.c); everything that needs no mesh is checked. */
 PetscErrorCode SceneRead(Scene, int argc, char **argv);
+/* drive.c. A motion (NULL: none) at node `motion` must not change along a path (load.control: arc_length). */
+PetscErrorCode SceneCheckPath(Scene, const SceneNode *motion, Expression);
+/* The expression (NULL: not given) under `key` of a boundary's node, which a pressure that is found is to follow, and what else the boundary has. */
+PetscErrorCode SceneCheckControl(Scene, const SceneNode *boundary, const char *key, Expression, const BoundarySpec *);
 /* Mesh the .geo, or take the .msh as it is: data.mesh.file is set (mesh.c). Collective. */
 PetscErrorCode SceneMakeMesh(Scene);
 PetscErrorCode SceneRemoveMesh(Scene);

@@ -74,12 +74,28 @@ PetscErrorCode SolverOptions_Private(Solver s)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+static const char *Nearest_Private(const char *name)
+{
+  const char *names[PETSC_STATIC_ARRAY_LENGTH(Options)];
+
+  for (size_t i = 0; i < PETSC_STATIC_ARRAY_LENGTH(Options); ++i) names[i] = Options[i].name + 1; /* without the dash */
+  return NameNearest(name, PETSC_STATIC_ARRAY_LENGTH(Options), names);
+}
+
 PetscErrorCode SolverCheckOptions(void)
 {
   struct _p_Solver nobody = {0};
+  PetscInt         num;
+  char           **names, **values, unknown[64] = "";
 
   PetscFunctionBegin;
   PetscCall(SolverOptions_Private(&nobody));
+  PetscCall(PetscOptionsLeftGet(NULL, &num, &names, &values)); /* those of the table are asked for by now */
+  for (PetscInt i = num - 1; i >= 0; --i) {
+    if (!strncmp(names[i], "solve_", 6)) PetscCall(PetscStrncpy(unknown, names[i], sizeof(unknown)));
+  }
+  PetscCall(PetscOptionsLeftRestore(NULL, &num, &names, &values));
+  PetscCheckInput(!unknown[0], "-%s is no option of the solver; the nearest one is -%s", unknown, Nearest_Private(unknown));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -216,9 +216,14 @@ static PetscErrorCode Apply_Private(PC pc, Vec x, Vec y)
   PetscCall(VecGetArray(f->all, &all));
   for (PetscInt i = 0; i < n; ++i) f->side[i] = (float)all[i];
   Call_Private(f, SOLVE);
-  PetscCheck(f->mumps.infog[0] >= 0, PetscObjectComm((PetscObject)pc), PETSC_ERR_LIB, "MUMPS failed with status %d in a solve", (int)f->mumps.infog[0]);
   for (PetscInt i = 0; i < n; ++i) all[i] = f->side[i];
   PetscCall(VecRestoreArray(f->all, &all));
+  if (f->mumps.infog[0] < 0) { /* GMRES sees it and says that it did not converge */
+    PetscCall(PetscInfo(pc, "single factor: solve failed with status %d\n", (int)f->mumps.infog[0]));
+    PetscCall(PCSetFailedReason(pc, PC_SUBPC_ERROR));
+    PetscCall(VecSetInf(y));
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
   PetscCall(VecScatterBegin(f->gather, f->all, y, INSERT_VALUES, SCATTER_REVERSE));
   PetscCall(VecScatterEnd(f->gather, f->all, y, INSERT_VALUES, SCATTER_REVERSE));
   PetscCall(VecPointwiseMult(y, y, f->scale));

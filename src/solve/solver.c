@@ -73,7 +73,7 @@ static PetscErrorCode Highest_Private(Problem p, PetscInt *order)
 static PetscErrorCode UseMultigrid_Private(Solver s, PetscBool *yes)
 {
   const SceneData *scene;
-  PetscInt         dofs, num_u, num_z, dim, order;
+  PetscInt         dofs, num_u, num_z, dim, order, scalars;
 
   PetscFunctionBegin;
   PetscCall(ProblemGetScene(s->problem, &scene));
@@ -88,6 +88,9 @@ static PetscErrorCode UseMultigrid_Private(Solver s, PetscBool *yes)
   if (s->linear == LINEAR_DIRECT) *yes = PETSC_FALSE;
   if (s->linear == LINEAR_ITERATIVE) *yes = PETSC_TRUE;
   if (!s->symmetric) *yes = PETSC_FALSE;
+  PetscCall(ProblemNumScalars(s->problem, &scalars));
+  PetscCheckInput(s->linear != LINEAR_ITERATIVE || !scalars,
+                  "-solve_linear iterative: not with pressures that are found (volume, advance) or load.control: arc_length; take direct");
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -100,12 +103,12 @@ static const MaterialSpec *Unsymmetric_Private(const SceneData *scene)
   return NULL;
 }
 
-/* Condense the nodes inside cells? PETSc's test of the tangent wants the whole matrix, nodes inside a cell that is constrained to a lower order in some
-   direction are not of its own alone, and cells are condensed by LDL^T. */
+/* Condense the nodes inside cells? PETSc's test of the tangent and the equation of a path want the whole matrix, nodes inside a cell that is constrained to a
+   lower order in some direction are not of its own alone, and cells are condensed by LDL^T. */
 static PetscErrorCode Condense_Private(Solver s)
 {
   PetscInt            num_u, num_z, dim, order;
-  PetscBool           yes, directional;
+  PetscBool           yes, directional, whole;
   HPSpace             space;
   const SceneData    *scene;
   const MaterialSpec *unsymmetric;
@@ -118,12 +121,15 @@ static PetscErrorCode Condense_Private(Solver s)
   PetscCall(ProblemGetSpace(s->problem, &space));
   PetscCall(HPSpaceIsDirectional(space, &directional));
   PetscCheckInput(!directional || s->condense != CONDENSE_YES, "-solve_condense yes: not with orders per direction (body.<name>.order: {x: ...}); take no");
+  whole = (PetscBool)(s->test || scene->load.control == LOAD_ARC_LENGTH);
+  PetscCheckInput(scene->load.control != LOAD_ARC_LENGTH || s->condense != CONDENSE_YES,
+                  "-solve_condense yes: not with load.control: arc_length, whose equation has all displacements in it; take no");
   PetscCheckInput(!s->test || s->condense != CONDENSE_YES, "-solve_condense yes: not with -snes_test_jacobian, which needs the whole matrix");
   PetscCall(ProblemGetBlocks(s->problem, &num_u, &num_z, &dim));
   PetscCall(Highest_Private(s->problem, &order));
   yes = (PetscBool)(s->condense == CONDENSE_YES ||
                     (s->condense == CONDENSE_AUTO && !directional && !unsymmetric && order >= (dim == 3 ? CONDENSE_3D : CONDENSE_2D)));
-  if (yes && !s->test) PetscCall(ProblemSetCondense(s->problem));
+  if (yes && !whole) PetscCall(ProblemSetCondense(s->problem));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -21,21 +21,35 @@ PetscErrorCode TransferContextSetUp_Private(TransferContext *c)
 }
 
 /* Complete polynomials of degree order-1. */
+PetscErrorCode TransferNumHistory_Private(const TransferContext *c, PetscInt body, PetscInt order, PetscInt *num)
+{
+  const PetscInt h = c->spec ? c->spec->bodies[body].material->law->num_history : 0;
+  const Basis1D *basis;
+
+  PetscFunctionBegin;
+  *num = 0;
+  if (!h) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(MechanicsPointRule(order, &basis));
+  *num = ElementNumNodes(c->old_t->dim, basis->num_points - 1) * h;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscInt TransferNumPressure_Private(const TransferContext *c, PetscInt body, PetscInt order)
 {
   if (!c->spec || !c->spec->bodies[body].material->mixed) return 0;
   return c->old_t->dim == 2 ? order * (order + 1) / 2 : order * (order + 1) * (order + 2) / 6;
 }
 
-/* Displacement and pressure numbers of an old leaf. */
-static PetscErrorCode LeafSize_Private(const TransferContext *c, PetscBool with_pressure, PetscInt leaf, PetscInt *num)
+/* Displacement, pressure and history numbers of an old leaf. */
+static PetscErrorCode LeafSize_Private(const TransferContext *c, PetscInt leaf, PetscInt *num)
 {
-  PetscInt order;
+  const PetscInt body = c->old_t->leaf_body[leaf];
+  PetscInt       order, history;
 
   PetscFunctionBegin;
   PetscCall(HPSpaceGetOrder(c->old_space, c->old_t->first[c->old_t->dim] + leaf, &order));
-  *num = ElementNumNodes(c->old_t->dim, order) * c->old_t->dim;
-  if (with_pressure) *num += TransferNumPressure_Private(c, c->old_t->leaf_body[leaf], order);
+  PetscCall(TransferNumHistory_Private(c, body, order, &history));
+  *num = ElementNumNodes(c->old_t->dim, order) * c->old_t->dim + TransferNumPressure_Private(c, body, order) + history;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -80,14 +94,13 @@ static PetscErrorCode Journeys_Private(const TransferContext *c, PetscInt *num, 
 }
 
 /* Numbers per partner and their offsets; counts[2][size], offsets[2][size+1]: 0 sent, 1 received. */
-static PetscErrorCode Counts_Private(const TransferContext *c, PetscBool with_pressure, PetscInt num, const Journey journeys[], PetscMPIInt *counts,
-                                     PetscMPIInt *offsets)
+static PetscErrorCode Counts_Private(const TransferContext *c, PetscInt num, const Journey journeys[], PetscMPIInt *counts, PetscMPIInt *offsets)
 {
   PetscFunctionBegin;
   PetscCall(PetscArrayzero(counts, 2 * c->size));
   for (PetscInt i = 0; i < num; ++i) {
     PetscInt n;
-    PetscCall(LeafSize_Private(c, with_pressure, journeys[i].leaf, &n));
+    PetscCall(LeafSize_Private(c, journeys[i].leaf, &n));
     if (journeys[i].from == c->rank) counts[journeys[i].to] += (PetscMPIInt)n;
     if (journeys[i].to == c->rank) counts[c->size + journeys[i].from] += (PetscMPIInt)n;
   }
@@ -99,22 +112,26 @@ static PetscErrorCode Counts_Private(const TransferContext *c, PetscBool with_pr
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode Pack_Private(const TransferContext *c, const PetscInt leaf_cell[], PetscInt leaf, const PetscReal u[], PetscBool with_pressure,
-                                   const PetscReal pressure[], PetscReal to[])
+static PetscErrorCode Pack_Private(const TransferContext *c, const PetscInt leaf_cell[], PetscInt leaf, const OldFields *from, PetscReal to[])
 {
-  PetscInt displacements, first, num;
+  const PetscInt dim = c->old_t->dim;
+  PetscInt       order, first, num;
 
   PetscFunctionBegin;
-  PetscCall(LeafSize_Private(c, PETSC_FALSE, leaf, &displacements));
-  PetscCall(HPSpaceGather(c->old_space, leaf_cell[leaf], u, to));
-  if (!with_pressure) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(HPSpaceGetOrder(c->old_space, c->old_t->first[dim] + leaf, &order));
+  PetscCall(HPSpaceGather(c->old_space, leaf_cell[leaf], from->u, to));
+  if (!c->old_mechanics) PetscFunctionReturn(PETSC_SUCCESS);
+  to += ElementNumNodes(dim, order) * dim;
   PetscCall(MechanicsPressureRange(c->old_mechanics, leaf_cell[leaf], &first, &num));
-  PetscCall(PetscArraycpy(to + displacements, pressure + first, num));
+  PetscCall(PetscArraycpy(to, from->pressure + first, num));
+  to += num;
+  PetscCall(MechanicsHistoryRange(c->old_mechanics, leaf_cell[leaf], &first, &num));
+  PetscCall(PetscArraycpy(to, from->history + first, num));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode Send_Private(const TransferContext *c, PetscInt num, const Journey journeys[], const PetscMPIInt offsets[], const PetscReal u[],
-                                   PetscBool with_pressure, const PetscReal pressure[], PetscReal buffer[])
+static PetscErrorCode Send_Private(const TransferContext *c, PetscInt num, const Journey journeys[], const PetscMPIInt offsets[], const OldFields *from,
+                                   PetscReal buffer[])
 {
   PetscInt    *leaf_cell;
   PetscMPIInt *next;
@@ -126,16 +143,15 @@ static PetscErrorCode Send_Private(const TransferContext *c, PetscInt num, const
   for (PetscInt i = 0; i < num; ++i) {
     PetscInt n;
     if (journeys[i].from != c->rank) continue;
-    PetscCall(Pack_Private(c, leaf_cell, journeys[i].leaf, u, with_pressure, pressure, buffer + next[journeys[i].to]));
-    PetscCall(LeafSize_Private(c, with_pressure, journeys[i].leaf, &n));
+    PetscCall(Pack_Private(c, leaf_cell, journeys[i].leaf, from, buffer + next[journeys[i].to]));
+    PetscCall(LeafSize_Private(c, journeys[i].leaf, &n));
     next[journeys[i].to] += (PetscMPIInt)n;
   }
   PetscCall(PetscFree2(leaf_cell, next));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode Place_Private(const TransferContext *c, PetscBool with_pressure, PetscInt num, const Journey journeys[], const PetscMPIInt offsets[],
-                                    PetscInt offset[])
+static PetscErrorCode Place_Private(const TransferContext *c, PetscInt num, const Journey journeys[], const PetscMPIInt offsets[], PetscInt offset[])
 {
   PetscMPIInt *next;
 
@@ -146,7 +162,7 @@ static PetscErrorCode Place_Private(const TransferContext *c, PetscBool with_pre
   for (PetscInt i = 0; i < num; ++i) {
     PetscInt n;
     if (journeys[i].to != c->rank) continue;
-    PetscCall(LeafSize_Private(c, with_pressure, journeys[i].leaf, &n));
+    PetscCall(LeafSize_Private(c, journeys[i].leaf, &n));
     offset[journeys[i].leaf] = next[journeys[i].from];
     next[journeys[i].from] += (PetscMPIInt)n;
   }
@@ -154,7 +170,7 @@ static PetscErrorCode Place_Private(const TransferContext *c, PetscBool with_pre
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode OldCellsFetch_Private(const TransferContext *c, const PetscReal u[], PetscBool with_pressure, const PetscReal pressure[], OldCells *old)
+PetscErrorCode OldCellsFetch_Private(const TransferContext *c, const OldFields *from, OldCells *old)
 {
   Journey     *journeys;
   PetscInt     num;
@@ -164,13 +180,13 @@ PetscErrorCode OldCellsFetch_Private(const TransferContext *c, const PetscReal u
   PetscFunctionBegin;
   PetscCall(Journeys_Private(c, &num, &journeys));
   PetscCall(PetscMalloc2(2 * c->size, &counts, 2 * (c->size + 1), &offsets));
-  PetscCall(Counts_Private(c, with_pressure, num, journeys, counts, offsets));
+  PetscCall(Counts_Private(c, num, journeys, counts, offsets));
   PetscMPIInt *received = offsets + c->size + 1;
   PetscCall(PetscMalloc1(offsets[c->size], &send));
   PetscCall(PetscMalloc1(c->old_t->num_leaves, &old->offset));
   PetscCall(PetscMalloc1(received[c->size], &old->values));
-  PetscCall(Send_Private(c, num, journeys, offsets, u, with_pressure, pressure, send));
-  PetscCall(Place_Private(c, with_pressure, num, journeys, received, old->offset));
+  PetscCall(Send_Private(c, num, journeys, offsets, from, send));
+  PetscCall(Place_Private(c, num, journeys, received, old->offset));
   PetscCallMPI(MPI_Alltoallv(send, counts, offsets, MPIU_REAL, old->values, counts + c->size, received, MPIU_REAL, c->comm));
   PetscCall(PetscFree(send));
   PetscCall(PetscFree2(counts, offsets));

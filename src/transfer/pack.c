@@ -251,6 +251,46 @@ static PetscErrorCode Multipliers_Private(Problem problem, PetscInt pair, Vec x,
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* ---- scalars, and the direction of a path --------------------------------------------------------------------------------------- */
+
+static PetscErrorCode Scalars_Private(Problem problem, Vec x, PetscBool back, Vec *field)
+{
+  MPI_Comm    comm = PetscObjectComm((PetscObject)x);
+  PetscMPIInt rank;
+  PetscInt    num;
+  Places      p;
+
+  PetscFunctionBegin;
+  PetscCallMPI(MPI_Comm_rank(comm, &rank));
+  PetscCall(ProblemNumScalars(problem, &num));
+  PetscCall(PlacesCreate_Private(num, num, &p));
+  for (PetscInt i = 0; i < num; ++i) p.index[i] = i;
+  if (back) {
+    PetscCall(Fetch_Private(*field, &p));
+    PetscCall(ProblemSetScalars(problem, p.value, x));
+  } else {
+    PetscCall(ProblemGetScalars(problem, x, p.value));
+    if (rank) p.num = 0; /* all ranks have them */
+    PetscCall(Send_Private(comm, &p, field));
+  }
+  PetscCall(PlacesDestroy_Private(&p));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The path goes on from x as it did. */
+static PetscErrorCode Follow_Private(Problem problem, Vec field, Vec x)
+{
+  Vec       direction;
+  PetscReal jump;
+
+  PetscFunctionBegin;
+  PetscCall(ProblemCreateVector(problem, &direction));
+  PetscCall(UnpackDisplacement_Private(problem, field, direction, &jump)); /* of free components only: what is prescribed has no direction */
+  PetscCall(ProblemFollowAlong(problem, direction, x));
+  PetscCall(VecDestroy(&direction));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* ---- the whole state ------------------------------------------------------------------------------------------------------------- */
 
 static PetscErrorCode Append_Private(Pack *pack, Vec values, const char *format, const char *name)
@@ -264,23 +304,37 @@ static PetscErrorCode Append_Private(Pack *pack, Vec values, const char *format,
 PetscErrorCode TransferPack(Problem problem, const State *state, Pack *pack)
 {
   const SceneData *scene;
-  Vec              field;
+  Vec              field, path;
 
   PetscFunctionBegin;
   PetscCall(ProblemGetScene(problem, &scene));
   pack->num = 0;
-  PetscCall(PetscMalloc1(3 + scene->num_contacts, &pack->field));
+  PetscCall(PetscMalloc1(5 + scene->num_contacts, &pack->field));
+  PetscCall(ProblemGetPath(problem, &path));
+  if (path) {
+    PetscCall(PackDisplacement_Private(problem, path, &field)); /* before the displacement: its scalars must act last */
+    PetscCall(Append_Private(pack, field, "%s", "path"));
+  }
   PetscCall(PackDisplacement_Private(problem, state->x, &field));
   PetscCall(Append_Private(pack, field, "%s", "displacement"));
   PetscCall(Blocks_Private(problem, MechanicsPressureRange, state->num_pressure, state->pressure, PETSC_FALSE, &field));
   PetscCall(Append_Private(pack, field, "%s", "pressure"));
   PetscCall(Blocks_Private(problem, MechanicsHistoryRange, state->num_history, state->history, PETSC_FALSE, &field));
   PetscCall(Append_Private(pack, field, "%s", "history"));
+  PetscCall(Scalars_Private(problem, state->x, PETSC_FALSE, &field));
+  PetscCall(Append_Private(pack, field, "%s", "scalars"));
   for (PetscInt i = 0; i < scene->num_contacts; ++i) {
     PetscCall(Multipliers_Private(problem, i, state->x, PETSC_FALSE, &field));
     PetscCall(Append_Private(pack, field, "multiplier.%s", scene->contacts[i].name));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static Vec Look_Private(const Pack *pack, const char *name)
+{
+  for (PetscInt i = 0; i < pack->num; ++i)
+    if (!strcmp(pack->field[i].name, name)) return pack->field[i].values;
+  return NULL;
 }
 
 /* The field of that name. */
@@ -290,11 +344,9 @@ static PetscErrorCode Find_Private(const Pack *pack, const char *format, const c
 
   PetscFunctionBegin;
   PetscCall(PetscSNPrintf(full, sizeof(full), format, name));
-  for (PetscInt i = 0; i < pack->num; ++i) {
-    *field = pack->field[i].values;
-    if (!strcmp(pack->field[i].name, full)) PetscFunctionReturn(PETSC_SUCCESS);
-  }
-  SETERRQ(PETSC_COMM_SELF, PETSC_ERR_ARG_INCOMP, "The packed state has no field %s", full);
+  *field = Look_Private(pack, full);
+  PetscCheck(*field, PETSC_COMM_SELF, PETSC_ERR_ARG_INCOMP, "The packed state has no field %s", full);
+  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode TransferUnpack(Problem problem, const Pack *pack, State *state, PetscReal *jump)
@@ -304,8 +356,11 @@ PetscErrorCode TransferUnpack(Problem problem, const Pack *pack, State *state, P
 
   PetscFunctionBegin;
   PetscCall(ProblemGetScene(problem, &scene));
+  PetscCall(Find_Private(pack, "%s", "scalars", &field));
+  PetscCall(Scalars_Private(problem, state->x, PETSC_TRUE, &field));
   PetscCall(Find_Private(pack, "%s", "displacement", &field));
   PetscCall(UnpackDisplacement_Private(problem, field, state->x, jump));
+  if (Look_Private(pack, "path")) PetscCall(Follow_Private(problem, Look_Private(pack, "path"), state->x));
   PetscCall(Find_Private(pack, "%s", "pressure", &field));
   PetscCall(Blocks_Private(problem, MechanicsPressureRange, state->num_pressure, state->pressure, PETSC_TRUE, &field));
   PetscCall(Find_Private(pack, "%s", "history", &field));

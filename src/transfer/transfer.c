@@ -33,6 +33,20 @@ static PetscErrorCode Multipliers_Private(const TransferContext *c, Problem old_
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+static PetscErrorCode Scalars_Private(Problem old_problem, Vec from, Problem new_problem, Vec to)
+{
+  PetscInt   num;
+  PetscReal *values;
+
+  PetscFunctionBegin;
+  PetscCall(ProblemNumScalars(old_problem, &num));
+  PetscCall(PetscMalloc1(num, &values));
+  PetscCall(ProblemGetScalars(old_problem, from, values));
+  PetscCall(ProblemSetScalars(new_problem, values, to));
+  PetscCall(PetscFree(values));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode TransferState(Problem old_problem, const State *from, Problem new_problem, const ForestMap *map, State *to)
 {
   TransferContext  c = {.map = map};
@@ -54,23 +68,26 @@ PetscErrorCode TransferState(Problem old_problem, const State *from, Problem new
   PetscCheck(to->num_pressure == num_pressure, PETSC_COMM_SELF, PETSC_ERR_ARG_INCOMP, "state holds %" PetscInt_FMT " pressures, its problem %" PetscInt_FMT,
              to->num_pressure, num_pressure);
 
-  PetscCheckInput(!from->num_history && !to->num_history, "adapt.tolerance: histories of materials are not carried from mesh to mesh yet; allowed: 0");
   /* Prescribed values are no part of a state: the old problem takes those of the state's time, whichever it stood at. */
   PetscCall(ProblemSetTime(old_problem, from->t));
   PetscCall(ProblemJump(old_problem));
   PetscCall(PetscMalloc1(c.old_v->num_nodes * c.old_v->dim, &u));
   PetscCall(ProblemLocalDisplacement(old_problem, from->x, u));
-  PetscCall(OldCellsFetch_Private(&c, u, PETSC_TRUE, from->pressure, &old));
+  const OldFields fields = {.u = u, .pressure = from->pressure, .history = from->history};
+  PetscCall(OldCellsFetch_Private(&c, &fields, &old));
   PetscCall(PetscFree(u));
   PetscCall(PetscCalloc1(c.new_v->num_nodes * c.new_v->dim, &u));
   PetscCall(TransferDisplacement_Private(&c, &old, u));
   PetscCall(ProblemSetDisplacement(new_problem, u, to->x));
   PetscCall(PetscFree(u));
   PetscCall(TransferPressure_Private(&c, &old, to->pressure));
+  PetscCall(TransferHistory_Private(&c, &old, to->history));
   PetscCall(OldCellsDestroy_Private(&old));
 
+  if (scene->num_contacts) PetscCall(ProblemSetHistory(old_problem, from->history));
   if (scene->num_contacts) PetscCall(Refresh_Private(old_problem, from->x));
   PetscCall(Multipliers_Private(&c, old_problem, new_problem, scene->num_contacts, to->x));
+  PetscCall(Scalars_Private(old_problem, from->x, new_problem, to->x));
   PetscCall(StageEnd(STAGE_TRANSFER));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -3,7 +3,7 @@
 #pragma once
 #include "transfer.h"
 
-/* What travels: the old displacement (and pressure, if mechanics are given). Borrowed. */
+/* What belongs to both problems. Borrowed. */
 typedef struct {
   HPSpace              old_space, new_space;
   Mechanics            old_mechanics, new_mechanics; /* NULL: displacements only */
@@ -15,7 +15,13 @@ typedef struct {
   MPI_Comm             comm;
 } TransferContext;
 
-/* Tensor nodal displacements [(p+1)^dim][dim], then pressure coefficients, of every old leaf that overlaps an owned new one. */
+/* What travels, arrays of this rank: local displacements; with mechanics the pressures and histories of its cells. */
+typedef struct {
+  const PetscReal *u, *pressure, *history;
+} OldFields;
+
+/* Tensor nodal displacements [(p+1)^dim][dim], then pressure coefficients, then history [points][num_history], of every old leaf that overlaps an owned new
+   one. */
 typedef struct {
   PetscInt  *offset; /* owned [old num_leaves] into values, -1: not here */
   PetscReal *values; /* owned */
@@ -23,8 +29,8 @@ typedef struct {
 
 /* Completes the tables of a context. */
 PetscErrorCode TransferContextSetUp_Private(TransferContext *);
-/* exchange.c: with_pressure (alike on all ranks): pressure coefficients travel too. Collective. */
-PetscErrorCode OldCellsFetch_Private(const TransferContext *, const PetscReal u[], PetscBool with_pressure, const PetscReal pressure[], OldCells *);
+/* exchange.c. Collective. */
+PetscErrorCode OldCellsFetch_Private(const TransferContext *, const OldFields *, OldCells *);
 PetscErrorCode OldCellsDestroy_Private(OldCells *);
 /* solution.c: old coordinates xi of the point `place` of a new leaf; PETSC_FALSE: outside. */
 PetscBool TransferPlace_Private(const TransferContext *, PetscInt new_leaf, const PetscReal place[], PetscInt old_leaf, PetscReal xi[3]);
@@ -34,6 +40,10 @@ PetscErrorCode TransferTurn_Private(HPSpace, PetscInt dim, PetscInt node, PetscB
 PetscErrorCode TransferDisplacement_Private(const TransferContext *, const OldCells *, PetscReal local[]);
 /* pressure.c: coefficients of the new mixed cells owned here. Not collective. */
 PetscErrorCode TransferPressure_Private(const TransferContext *, const OldCells *, PetscReal pressure[]);
+/* history.c: at the integration points of the new cells owned here. Not collective. */
+PetscErrorCode TransferHistory_Private(const TransferContext *, const OldCells *, PetscReal history[]);
+/* Numbers of the history of a leaf of this order and body. */
+PetscErrorCode TransferNumHistory_Private(const TransferContext *, PetscInt body, PetscInt order, PetscInt *num);
 /* Pressure coefficients of a leaf of this order and body. */
 PetscInt TransferNumPressure_Private(const TransferContext *, PetscInt body, PetscInt order);
 /* multiplier.c: z on this rank's new nonmortar nodes from the old ones, of which those are needed that Needs says (the others are not read); has_multiplier:

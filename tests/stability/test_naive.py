@@ -89,3 +89,20 @@ def test_checkerboard_on_an_isolated_refined_cell(run):
         part[order] = abs(mean[0] - mean[1] - mean[2] + mean[3]) / abs(mean.sum())
     print(part)
     assert part[2] < 0.05 and part[1] > 10 * part[2] and part[1] > 0.2
+
+
+def test_limit_point(run):
+    """A thick balloon bears no more than 0.81642365: driven by a pressure beyond that the run ends there, with the last state written and a word why; driven by the
+    volume it goes on to three times the radius, in the same steps without a cut."""
+    scene = pathlib.Path(_verify.ROOT, "inputs", "balloon.yml").read_text().replace("file: ", f"file: {_verify.ROOT}/inputs/")
+    key = 'volume: "2*pi/3*((1+2*t)^3-1)"'
+    assert key in scene
+    volume = run("volume.yml", text=scene)
+    pressure = run("pressure.yml", text=scene.replace(key, "pressure: 0.9"))
+    reached = 0.9 * pressure.summary["t"]
+    print("volume", volume.summary["status"], volume.summary["step_cuts"], "pressure", pressure.summary["reason"], reached)
+    assert volume.returncode == 0 and volume.summary["step_cuts"] == 0 and volume.summary["probe"]["bore"]["displacement"][0] == pytest.approx(2, rel=1e-3)
+    assert max(row["pressure.inner"] for row in volume.history) == pytest.approx(0.81642365, rel=2e-3)
+    assert pressure.returncode == 2 and "limit point" in pressure.summary["reason"] and "volume" in pressure.summary["reason"]
+    assert reached == pytest.approx(0.81642365, rel=2e-3) and pressure.history[-1]["t"] == pytest.approx(pressure.summary["t"])
+    assert pressure.states()[-1][0] == pytest.approx(pressure.summary["t"])

@@ -95,6 +95,20 @@ static inline void SumSurfaces(Sum *s, ContactPair pair, const ContactSurface *n
   for (PetscInt i = 0; i < s->num; i++) SumAdd(s, &facets[i], z);
 }
 
+/* f'(0) from f(-2h), f(-h), f(h), f(2h): error h^4. */
+static inline PetscReal Difference(const PetscReal f[4], PetscReal h)
+{
+  return (f[0] - 8 * f[1] + 8 * f[2] - f[3]) / (12 * h);
+}
+
+static inline PetscReal Largest(const PetscReal a[], PetscInt n)
+{
+  PetscReal m = 0;
+
+  for (PetscInt i = 0; i < n; i++) m = PetscMax(m, PetscAbsReal(a[i]));
+  return m;
+}
+
 /* Search over all nonmortar facets. */
 static inline void SearchSurfaces(ContactPair pair, const ContactSurface *nonmortar, const ContactSurface *mortar, PetscReal distance, PetscReal margin)
 {

@@ -234,6 +234,21 @@ static inline void AdaptBy(Forest *forest, MarkList *marks)
   *forest = next;
 }
 
+/* A box of 2 cells in each direction with geometry of order q, random leaves of which are split a few times, about one in `one_in`. */
+static inline Forest BoxRandomForest(PetscInt dim, PetscInt q, PetscInt rounds, PetscInt one_in, PetscBool anisotropic, uint64_t seed)
+{
+  const PetscInt n[3] = {2, 2, 2};
+  Box            box;
+  Forest         forest = BoxForest(PETSC_COMM_WORLD, dim, n, q, 0, seed, &box);
+
+  for (PetscInt round = 0; round < rounds; ++round) {
+    MarkList marks;
+    BoxRandomMarks(dim, forest->tables.num_leaves, one_in, anisotropic, &marks);
+    AdaptBy(&forest, &marks);
+  }
+  return forest;
+}
+
 /* Position of the point eta of an entity's frame, through the closure of its lowest leaf. */
 static inline void EntityPoint(Forest forest, PetscInt entity, const PetscReal eta[], PetscReal X[3])
 {

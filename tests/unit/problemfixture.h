@@ -27,7 +27,7 @@ static inline void SolvedCreate(Solved *s, PetscInt low, PetscInt high)
   s->scene.mechanics  = s->bulk.spec;
   s->scene.bodies     = &s->bulk.body;
   s->scene.boundaries = s->bulk.boundaries;
-  s->scene.load       = (LoadSpec){.end = 1, .step = 1};
+  s->scene.load       = (LoadSpec){.end = 1, .step = 1, .control = s->scene.load.control};
   OK(ProblemCreate(&s->scene, s->bulk.forest, s->bulk.orders, &s->problem));
   OK(ProblemGetSpace(s->problem, &s->space));
   OK(ProblemGetMechanics(s->problem, &s->mechanics));

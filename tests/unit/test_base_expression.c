@@ -69,10 +69,12 @@ static void Long(void **state)
 static void Amplitudes(void **state)
 {
   PetscReal       pairs[] = {0, 0, 1, 2, 3, 2, 4, -1};
-  const Amplitude a = {4, pairs}, ramp = {0, NULL};
+  const Amplitude a = {.num = 4, .pairs = pairs}, ramp = {.num = 0}, endless = {.endless = PETSC_TRUE};
 
   assert_float_equal(AmplitudeEvaluate(&ramp, 0.3), 0.3, 1e-15);
   assert_float_equal(AmplitudeEvaluate(&ramp, 5), 1, 0);
+  assert_float_equal(AmplitudeEvaluate(&endless, 5), 5, 0);
+  assert_float_equal(AmplitudeEvaluate(&endless, -2), -2, 0);
   assert_float_equal(AmplitudeEvaluate(&a, -1), 0, 0);
   assert_float_equal(AmplitudeEvaluate(&a, 0.5), 1, 1e-15);
   assert_float_equal(AmplitudeEvaluate(&a, 2), 2, 1e-15);

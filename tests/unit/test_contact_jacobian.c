@@ -25,12 +25,6 @@ static uint64_t Signature(ContactPair pair)
   return hash;
 }
 
-/* f'(0) from f(-2h), f(-h), f(h), f(2h) */
-static PetscReal Difference(const PetscReal f[4], PetscReal h)
-{
-  return (f[0] - 8 * f[1] + 8 * f[2] - f[3]) / (12 * h);
-}
-
 /* Put the mortar side's last node 0.05 above nonmortar node 2 along its normal and 2e-3 ahead: the edge (1, 2) is covered by about 1 % only. */
 static void CoverBarely(const Chain *nonmortar, Chain *mortar)
 {
@@ -82,14 +76,6 @@ static void Compare(Errors *err, const Sum *exact, const PetscReal gap[4][NN], c
     err->hessian  = PetscMax(err->hessian, PetscAbsReal(Difference(d, h) - exact->hessian[k * exact->size + i]) / scale[2]);
     err->symmetry = PetscMax(err->symmetry, PetscAbsReal(exact->hessian[i * exact->size + k] - exact->hessian[k * exact->size + i]) / scale[2]);
   }
-}
-
-static PetscReal Largest(const PetscReal a[], PetscInt n)
-{
-  PetscReal m = 0;
-
-  for (PetscInt i = 0; i < n; i++) m = PetscMax(m, PetscAbsReal(a[i]));
-  return m;
 }
 
 static void CheckSeed(const Kind *kind, uint64_t seed, Errors *err)

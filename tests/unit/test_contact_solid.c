@@ -46,19 +46,6 @@ static uint64_t Signature(ContactPair pair)
   return hash;
 }
 
-static PetscReal Difference(const PetscReal f[4], PetscReal h)
-{
-  return (f[0] - 8 * f[1] + 8 * f[2] - f[3]) / (12 * h);
-}
-
-static PetscReal Largest(const PetscReal a[], PetscInt n)
-{
-  PetscReal m = 0;
-
-  for (PetscInt i = 0; i < n; i++) m = PetscMax(m, PetscAbsReal(a[i]));
-  return m;
-}
-
 static void CheckColumn(Errors *err, const Sum *exact, const Sum moved[4], PetscInt i, PetscReal h, const PetscReal scale[3])
 {
   for (PetscInt j = 0; j < exact->nn; j++) {

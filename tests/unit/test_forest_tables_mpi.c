@@ -449,10 +449,19 @@ static void test_torn(void **state)
   }
 }
 
+/* Numbers entity * FOREST_PARTS + part stay in range; one entity more is an input error. */
+static void test_size(void **state)
+{
+  assert_true((PetscInt64)FOREST_ENTITIES * FOREST_PARTS <= PETSC_MAX_INT);
+  assert_int_equal(ForestCheckSize(FOREST_ENTITIES), 0);
+  assert_int_equal(ForestCheckSize((PetscInt64)FOREST_ENTITIES + 1), MORTISE_ERR_INPUT);
+}
+
 int main(int argc, char **argv)
 {
   const struct CMUnitTest tests[] = {cmocka_unit_test(test_random_2d),    cmocka_unit_test(test_random_3d),        cmocka_unit_test(test_crosswise),
-                                     cmocka_unit_test(test_coarsen_back), cmocka_unit_test(test_coarsen_families), cmocka_unit_test(test_torn)};
+                                     cmocka_unit_test(test_coarsen_back), cmocka_unit_test(test_coarsen_families), cmocka_unit_test(test_torn),
+                                     cmocka_unit_test(test_size)};
   PetscCall(PetscInitialize(&argc, &argv, NULL, NULL));
   PetscCall(ErrorHandlerPush());
   const int failed = cmocka_run_group_tests(tests, NULL, NULL);

@@ -11,28 +11,6 @@ typedef struct {
   PetscReal X[3], drawn[6]; /* exact place; position and value as drawn */
 } Sample;
 
-static Forest RandomForest(PetscInt dim, PetscInt q, PetscInt rounds, uint64_t seed)
-{
-  const PetscInt n[3] = {2, 2, 2};
-  Box            box;
-  Forest         forest = BoxForest(PETSC_COMM_WORLD, dim, n, q, 0, seed, &box);
-
-  for (PetscInt round = 0; round < rounds; ++round) {
-    const ForestTables *t;
-    MarkList            marks;
-    Forest              next;
-    ForestMap           map;
-    OK(ForestGetTables(forest, &t));
-    BoxRandomMarks(dim, t->num_leaves, dim == 2 ? 3 : 5, PETSC_TRUE, &marks);
-    OK(ForestAdapt(forest, &marks, NULL, 0, NULL, &next, &map));
-    MarksDestroy(&marks);
-    OK(ForestMapDestroy(&map));
-    OK(ForestDestroy(&forest));
-    forest = next;
-  }
-  return forest;
-}
-
 /* A deterministic value of every true node, the same on every rank. */
 static PetscReal *Values(const HPTables *v)
 {
@@ -142,7 +120,7 @@ static PetscReal Gap(HPSpace space, PetscInt divide, PetscBool closed)
 /* Orders 1 to 8 at random, or one order everywhere; linear: faces of side 0 have order 1; capped: random caps of the orders along the axes of cells. */
 static void CheckGaps(PetscInt dim, uint64_t seed, PetscInt low, PetscInt high, uint64_t linear, PetscBool capped)
 {
-  Forest              forest = RandomForest(dim, 2, dim == 2 ? 5 : 2, seed);
+  Forest              forest = BoxRandomForest(dim, 2, dim == 2 ? 5 : 2, dim == 2 ? 3 : 5, PETSC_TRUE, seed);
   const ForestTables *t;
   HPSpace             space;
   int8_t             *orders, (*caps)[3];
@@ -186,7 +164,7 @@ static void test_exact(void **state)
 
   for (PetscInt dim = 2; dim <= 3; ++dim) {
     for (PetscInt p = 2; p <= MORTISE_MAX_ORDER; p += dim == 2 ? 1 : 3) {
-      Forest              forest = RandomForest(dim, 2, 0, (uint64_t)p);
+      Forest              forest = BoxRandomForest(dim, 2, 0, 1, PETSC_FALSE, (uint64_t)p);
       const ForestTables *t;
       const HPTables     *v;
       HPSpace             space;

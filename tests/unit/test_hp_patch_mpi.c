@@ -20,29 +20,6 @@ static void RandomOrders(const ForestTables *t, PetscInt low, PetscInt high, int
   for (PetscInt l = 0; l < t->num_leaves; ++l) (*orders)[l] = (int8_t)(low + BoxRandom(high - low + 1));
 }
 
-/* Refine random leaves, isotropically or not, a few times. */
-static Forest RandomForest(PetscInt dim, PetscInt q, PetscInt rounds, PetscBool anisotropic, uint64_t seed)
-{
-  const PetscInt n[3] = {2, 2, 2};
-  Box            box;
-  Forest         forest = BoxForest(PETSC_COMM_WORLD, dim, n, q, 0, seed, &box);
-
-  for (PetscInt round = 0; round < rounds; ++round) {
-    const ForestTables *t;
-    MarkList            marks;
-    Forest              next;
-    ForestMap           map;
-    OK(ForestGetTables(forest, &t));
-    BoxRandomMarks(dim, t->num_leaves, 5, anisotropic, &marks);
-    OK(ForestAdapt(forest, &marks, NULL, 0, NULL, &next, &map));
-    MarksDestroy(&marks);
-    OK(ForestMapDestroy(&map));
-    OK(ForestDestroy(&forest));
-    forest = next;
-  }
-  return forest;
-}
-
 static PetscReal Polynomial(PetscInt degree, PetscInt component, const PetscReal X[3])
 {
   const PetscReal s = 0.3 * X[0] - 0.7 * X[1] + 0.4 * X[2] + 0.1 * component;
@@ -97,7 +74,7 @@ static void test_reproduction(void **state)
         const ForestTables *t;
         HPSpace             space;
         int8_t             *orders;
-        forest = RandomForest(dim, 1, dim == 2 ? 3 : 2, (PetscBool)(seed % 2), seed);
+        forest = BoxRandomForest(dim, 1, dim == 2 ? 3 : 2, 5, (PetscBool)(seed % 2), seed);
         OK(ForestGetTables(forest, &t));
         RandomOrders(t, low, 4, &orders);
         OK(HPSpaceCreate(forest, orders, NULL, 0, 0, &space));
@@ -120,7 +97,7 @@ static void test_reproduction_curved(void **state)
     const ForestTables *t;
     HPSpace             space;
     int8_t             *orders;
-    forest = RandomForest(2 + seed % 2, 2, 2, PETSC_TRUE, seed);
+    forest = BoxRandomForest(2 + seed % 2, 2, 2, 5, PETSC_TRUE, seed);
     OK(ForestGetTables(forest, &t));
     RandomOrders(t, 1, 4, &orders);
     OK(HPSpaceCreate(forest, orders, NULL, 0, 0, &space));
@@ -209,7 +186,7 @@ static void test_continuity(void **state)
     const ForestTables *t;
     HPSpace             space;
     int8_t             *orders;
-    forest = RandomForest(2 + seed % 2, 1, seed % 2 ? 1 : 3, (PetscBool)(seed >= 2), seed);
+    forest = BoxRandomForest(2 + seed % 2, 1, seed % 2 ? 1 : 3, 5, (PetscBool)(seed >= 2), seed);
     OK(ForestGetTables(forest, &t));
     RandomOrders(t, 1, 4, &orders);
     OK(HPSpaceCreate(forest, orders, NULL, seed == 5 ? 1 : 0, 0, &space));
@@ -232,7 +209,7 @@ static void CheckRotation(PetscInt dim, PetscInt rotation)
   PetscInt            hanging[3] = {0};
 
   box_rotation = rotation;
-  forest       = RandomForest(dim, 1, dim == 2 ? 4 : 1, (PetscBool)(rotation % 3 > 0), (uint64_t)rotation);
+  forest       = BoxRandomForest(dim, 1, dim == 2 ? 4 : 1, 5, (PetscBool)(rotation % 3 > 0), (uint64_t)rotation);
   box_rotation = -1;
   OK(ForestGetTables(forest, &t));
   RandomOrders(t, 1 + rotation % 2, 8, &orders);
@@ -268,7 +245,7 @@ static void CheckCaps(PetscInt dim, PetscInt rotation)
   int8_t             *orders, (*caps)[3];
 
   box_rotation = rotation;
-  forest       = RandomForest(dim, 1, dim == 2 ? 4 : 1, (PetscBool)(rotation % 3 > 0), (uint64_t)rotation);
+  forest       = BoxRandomForest(dim, 1, dim == 2 ? 4 : 1, 5, (PetscBool)(rotation % 3 > 0), (uint64_t)rotation);
   box_rotation = -1;
   OK(ForestGetTables(forest, &t));
   RandomOrders(t, low, 4, &orders);
@@ -360,7 +337,7 @@ static void CheckProducts(PetscInt dim, PetscInt rotation, PetscInt rounds)
   int8_t             *orders, (*caps)[3];
 
   box_rotation = rotation;
-  forest       = RandomForest(dim, 1, rounds, (PetscBool)(rotation % 3 > 0), (uint64_t)rotation);
+  forest       = BoxRandomForest(dim, 1, rounds, 5, (PetscBool)(rotation % 3 > 0), (uint64_t)rotation);
   box_rotation = -1;
   for (PetscInt d = 0; d < dim; ++d) {
     highest = PetscMax(highest, degree[d]);
@@ -435,7 +412,7 @@ static void test_isotropic(void **state)
 {
   for (uint64_t seed = 0; seed < 24; ++seed) {
     const PetscInt      dim    = 2 + (PetscInt)(seed % 2);
-    Forest              forest = RandomForest(dim, 1, 2, (PetscBool)(seed % 3 > 0), seed);
+    Forest              forest = BoxRandomForest(dim, 1, 2, 5, (PetscBool)(seed % 3 > 0), seed);
     const ForestTables *t;
     HPSpace             space;
     int8_t             *orders, *scalar;
@@ -488,7 +465,7 @@ static void test_default_constraints(void **state)
   Vec                 g, l, r, rg;
   PetscReal          *a, lg, gl;
 
-  forest = RandomForest(2, 1, 3, PETSC_FALSE, 7);
+  forest = BoxRandomForest(2, 1, 3, 5, PETSC_FALSE, 7);
   OK(ForestGetTables(forest, &t));
   RandomOrders(t, 1, 3, &orders);
   OK(HPSpaceCreate(forest, orders, NULL, 0, 0, &space));
@@ -545,7 +522,7 @@ static void test_transform(void **state)
   int8_t             *orders;
   const PetscReal     c = PetscCosReal(0.3), s = PetscSinReal(0.3);
 
-  forest = RandomForest(2, 1, 3, PETSC_TRUE, 7);
+  forest = BoxRandomForest(2, 1, 3, 5, PETSC_TRUE, 7);
   OK(ForestGetTables(forest, &t));
   RandomOrders(t, 1, 3, &orders);
   OK(HPSpaceCreate(forest, orders, NULL, 0, 0, &space));

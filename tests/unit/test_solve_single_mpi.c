@@ -158,9 +158,29 @@ static void SingularShows(void **state)
   OK(KSPDestroy(&ksp));
 }
 
+/* A factor that MUMPS was told to throw away: the factorisation is well, no solve is. */
+static void FailedSolveShows(void **state)
+{
+  const Case c = {.unit = 1, .stiff = 10, .held = PETSC_TRUE, .multipliers = MULTIPLIERS};
+  PetscInt   iterations;
+  KSP        ksp;
+
+  if (!SingleFactorExists_Private()) skip();
+  OK(PetscOptionsSetValue(NULL, "-mat_mumps_icntl_31", "1"));
+  ksp = Make(PETSC_TRUE);
+  assert_true(Solve(ksp, &c, &iterations) == PETSC_INFINITY);
+  assert_in_range(iterations, 0, 1);
+  OK(KSPDestroy(&ksp));
+  OK(PetscOptionsClearValue(NULL, "-mat_mumps_icntl_31"));
+  ksp = Make(PETSC_TRUE);
+  assert_true(Solve(ksp, &c, &iterations) < 1e-11);
+  OK(KSPDestroy(&ksp));
+}
+
 int main(int argc, char **argv)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(Refines), cmocka_unit_test(Unsymmetric), cmocka_unit_test(SingularShows)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(Refines), cmocka_unit_test(Unsymmetric), cmocka_unit_test(SingularShows),
+                                     cmocka_unit_test(FailedSolveShows)};
 
   if (PetscInitialize(&argc, &argv, NULL, NULL)) return 1;
   const int failed = cmocka_run_group_tests(tests, NULL, NULL);

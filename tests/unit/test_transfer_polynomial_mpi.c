@@ -182,7 +182,7 @@ static void Step(Bulk *from, Bulk *to, PetscInt dim, PetscInt degree, PetscInt m
   c.new_mechanics = to->mechanics;
   c.map           = &map;
   OK(TransferContextSetUp_Private(&c));
-  OK(OldCellsFetch_Private(&c, u, PETSC_TRUE, pressure, &old));
+  OK(OldCellsFetch_Private(&c, &(OldFields){.u = u, .pressure = pressure}, &old));
   OK(HPSpaceGetTables(to->space, &v));
   OK(MechanicsNumPressure(to->mechanics, &num));
   OK(PetscCalloc1(v->num_nodes * dim, &new_u));
@@ -274,7 +274,7 @@ static void MergedMean(void **state)
   c = (TransferContext){
       .old_space = from.space, .old_mechanics = from.mechanics, .spec = &from.spec, .new_space = to.space, .new_mechanics = to.mechanics, .map = &map};
   OK(TransferContextSetUp_Private(&c));
-  OK(OldCellsFetch_Private(&c, u, PETSC_TRUE, pressure, &old));
+  OK(OldCellsFetch_Private(&c, &(OldFields){.u = u, .pressure = pressure}, &old));
   OK(TransferPressure_Private(&c, &old, result));
   OK(HPSpaceGetTables(to.space, &v));
   owned = v->num_owned_cells;
@@ -431,7 +431,7 @@ static void Raised(void **state)
       c = (TransferContext){
           .old_space = from.space, .old_mechanics = from.mechanics, .spec = &from.spec, .new_space = to.space, .new_mechanics = to.mechanics, .map = &map};
       OK(TransferContextSetUp_Private(&c));
-      OK(OldCellsFetch_Private(&c, u, PETSC_TRUE, pressure, &old));
+      OK(OldCellsFetch_Private(&c, &(OldFields){.u = u, .pressure = pressure}, &old));
       OK(HPSpaceGetTables(to.space, &v));
       OK(PetscCalloc1(v->num_nodes * dim, &new_u));
       OK(MechanicsNumPressure(to.mechanics, &num));

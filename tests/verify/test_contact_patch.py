@@ -41,11 +41,11 @@ def matrix(test):
     return test
 
 
-@matrix
-def test_o40_small_strain(run, pairing, nonmortar, order):
+def check_o40(run, pairing, nonmortar, order, *keys):
+    """keys: of the contact pair, as for all three checks."""
     parameter, side = PAIRINGS[pairing]
     steel = linear(2e6, 0)
-    scene = blocks(nonmortar, {"lower": steel, "upper": steel}, {**rolled(), "top": {"displacement": {"y": -0.1}}}, parameter, refined(side),
+    scene = blocks(nonmortar, {"lower": steel, "upper": steel}, {**rolled(), "top": {"displacement": {"y": -0.1}}}, parameter, refined(side), *keys,
                    kinematics="small", order=order)
     result = run("o40.yml", text=scene)
     assert result.returncode == 0, result
@@ -54,30 +54,44 @@ def test_o40_small_strain(run, pairing, nonmortar, order):
     assert spread(components(bulk(result)["stress"])[:, 2], -1e5) < 1e-10
 
 
-@matrix
-def test_o41a_finite_strain(run, pairing, nonmortar, order):
+def check_o41a(run, pairing, nonmortar, order, *keys):
     parameter, side = PAIRINGS[pairing]
     scene = blocks(nonmortar, {"lower": hyperelastic(100), "upper": hyperelastic(1000)}, {**rolled(), "top": {"displacement": {"y": -0.3}}}, parameter,
-                   refined(side), order=order)
+                   refined(side), *keys, order=order)
     result = run("o41.yml", "-snes_monitor", text=scene)
     assert result.returncode == 0, result
     assert spread(contact(result)["contact_pressure"], PRESSURE) < 1e-8
     assert spread(contact(result)["displacement"][:, 1], 0.7347128571 - 1) < 1e-8
     assert result.summary["load_steps"] == 1 and result.summary["step_cuts"] == 0
     assert is_quadratic(steps(result)[0]), steps(result)
+    return result
 
 
-@matrix
-def test_o42_rotated(run, pairing, nonmortar, order):
+def check_o42(run, pairing, nonmortar, order, *keys):
     parameter, side = PAIRINGS[pairing]
     dx, dy = turned(0, -0.3, 20)
     scene = blocks(nonmortar, {"lower": hyperelastic(100), "upper": hyperelastic(1000)}, {**rolled(True), "top": {"displacement": {"x": dx, "y": dy}}},
-                   {**parameter, "angle": 20}, refined(side, 20), order=order)
+                   {**parameter, "angle": 20}, refined(side, 20), *keys, order=order)
     result = run("o42.yml", text=scene)
     assert result.returncode == 0, result
     assert spread(contact(result)["contact_pressure"], PRESSURE) < 1e-8
     u = contact(result)["displacement"][:, :2] @ turned(0, 1, 20)
     assert spread(u, 0.7347128571 - 1) < 1e-8
+
+
+@matrix
+def test_o40_small_strain(run, pairing, nonmortar, order):
+    check_o40(run, pairing, nonmortar, order)
+
+
+@matrix
+def test_o41a_finite_strain(run, pairing, nonmortar, order):
+    check_o41a(run, pairing, nonmortar, order)
+
+
+@matrix
+def test_o42_rotated(run, pairing, nonmortar, order):
+    check_o42(run, pairing, nonmortar, order)
 
 
 UNIFORM = 38.754851423882  # O-41b in its plane form: stretches with no lateral traction, equal forces, shortening 0.3 of two unit heights

@@ -155,6 +155,17 @@ def test_good_on_two_ranks(check):
     (("friction: 0", "projection: along"), ["contact.pair.projection is 'along'", "continuous, facet|continuous.*facet"]),
     (("friction: 0", "projection: facet"), ["contact.pair.projection: only faces of order 1 in three dimensions"]),
     (("friction: 0", "order: full, node_to_segment: true"), ["contact.pair.order", "do not go together"]),
+    # what drives
+    (("bottom: {fix: xy}", "bottom: {fix: xy}\n  lower_side: {pressure: 1, volume: t}"), ["boundary.lower_side.volume", "take pressure away"]),
+    (("bottom: {fix: xy}", "bottom: {fix: xy}\n  lower_side: {advance: t, volume: t}"), ["boundary.lower_side", "both volume and advance"]),
+    (("bottom: {fix: xy}", "bottom: {fix: xy}\n  lower_side: {volume: cos(t)}"), ["boundary.lower_side.volume is 1 at t = 0", "start at 0"]),
+    (("bottom: {fix: xy}", "bottom: {fix: xy}\n  lower_side: {advance: X*t}"), ["boundary.lower_side.advance", "t alone"]),
+    (("bottom: {fix: xy}", "bottom: {fix: xy}\n  lower_side: {volume: s}"), ["boundary.lower_side.volume", "X, Y, Z, t"]),
+    (("bottom: {fix: xy}", "bottom: {fix: xy, volume: t}"), ["boundary.bottom.volume", "all displacements .* are prescribed"]),
+    (("bottom: {fix: xy}", "bottom: {fix: xy}\n  lower_side: {volume: t}\n  lower_top: {advance: t}"), None),  # two of them: good
+    (("step: 0.5", "step: 0.5, control: riks"), ["load.control is 'riks'", r"time\|arc_length"]),
+    (("step: 0.5", "step: 0.5, stop_displacement: -1"), ["load.stop_displacement is -1", "inf"]),
+    (("step: 0.5", "step: 0.5, control: arc_length"), ["boundary.top.displacement", "arc_length", "factor of loads"]),
     # plasticity
     (("{law: neo_hookean, E: 1, nu: 0.3}", "{law: j2, E: 1, nu: 0.3}"), ["material.rubber.yield: missing"]),
     (("{law: neo_hookean, E: 1, nu: 0.3}", "{law: j2, E: 1, nu: 0.3, yield: 0}"), ["material.rubber.yield: 0 is not a finite number above 0"]),
@@ -210,6 +221,35 @@ def test_refused(check, edit, words):
         assert result.returncode == 0, result
     else:
         refused(result, *words)
+
+
+NO_PAIR = ("contact:\n  pair: {nonmortar: upper_bottom, mortar: lower_top, friction: 0}\n", "")
+
+
+def test_volume_in_small_kinematics(check):
+    edits = [("kinematics: finite", "kinematics: small"), ("law: neo_hookean", "law: linear"), ("bottom: {fix: xy}", "bottom: {fix: xy}\n  lower_side: {volume: t}")]
+    refused(check(edits), "boundary.lower_side.volume", "kinematics: finite")
+
+
+def test_volume_of_a_rigid_body(check):
+    edits = [("upper: {material: rubber}", "upper: {material: steel}"), ("material:\n", "material:\n  steel: {law: rigid}\n"),
+             ("top: {displacement: {x: 0, y: -0.05}}", "top: {volume: t}")]
+    refused(check(edits), "boundary.top.volume", "rigid body 'upper'")
+
+
+def test_volume_along_a_path(check):
+    edits = [NO_PAIR, ("top: {displacement: {x: 0, y: -0.05}}", "top: {fix: xy}\n  lower_side: {volume: t}"), ("step: 0.5", "step: 0.5, control: arc_length")]
+    refused(check(edits), "boundary.lower_side.volume", "arc_length", "allowed here: time")
+
+
+@pytest.mark.parametrize("option", [("-solve_linear", "iterative"), ("-solve_condense", "yes")])
+def test_solvers_that_know_no_paths(run, tmp_path, option):
+    (tmp_path / "squares.geo").write_text(GEO)
+    text = SCENE
+    for old, new in (NO_PAIR, ("top: {displacement: {x: 0, y: -0.05}}", "top: {fix: xy}\n  lower_side: {pressure: 0.1}"), ("step: 0.5", "step: 0.5, control: arc_length")):
+        text = text.replace(old, new)
+    result = run("squares.yml", *option, text=text)
+    assert result.returncode == 1 and " ".join(option) in result.stderr and "arc_length" in result.stderr, result
 
 
 def test_nothing_holds(check):
@@ -306,6 +346,14 @@ def test_solver_options(run, option, value, allowed):
     assert result.returncode == 1, result
     assert result.stderr == f"mortise: {option} is '{value}'; allowed: {allowed}\n", result.stderr
     assert run("inputs/patch2d.yml", option, value, "-check").returncode == 1
+
+
+def test_solver_option_misspelt(run):
+    """Before anything is solved, with -check or without."""
+    for check in ((), ("-check",)):
+        result = run("inputs/patch2d.yml", "-solve_rtoll", "1e-8", *check)
+        assert result.returncode == 1 and not result.stdout, result
+        assert result.stderr == "mortise: -solve_rtoll is no option of the solver; the nearest one is -solve_rtol\n", result.stderr
 
 
 def test_command_line_wins(check):

@@ -1,0 +1,32 @@
+/* How alike names are, for messages about those that are not known. */
+#include "base.h"
+
+PetscInt NameDistance(const char *a, const char *b)
+{
+  PetscInt row[256], na = (PetscInt)strlen(a), nb = (PetscInt)strlen(b);
+
+  if (na > 255 || nb > 255) return 1000;
+  for (PetscInt j = 0; j <= nb; ++j) row[j] = j;
+  for (PetscInt i = 1; i <= na; ++i) {
+    PetscInt corner = row[0];
+    row[0]          = i;
+    for (PetscInt j = 1; j <= nb; ++j) {
+      PetscInt up = row[j], change = corner + (a[i - 1] != b[j - 1]);
+      row[j] = PetscMin(change, PetscMin(up, row[j - 1]) + 1);
+      corner = up;
+    }
+  }
+  return row[nb];
+}
+
+const char *NameNearest(const char *name, PetscInt num, const char *const names[])
+{
+  const char *best     = "";
+  PetscInt    distance = PETSC_MAX_INT;
+
+  for (PetscInt i = 0; i < num; ++i) {
+    PetscInt d = NameDistance(name, names[i]);
+    if (d < distance) best = names[i], distance = d;
+  }
+  return best;
+}

@@ -1,0 +1,53 @@
+/* What may drive a scene together: pressures that are found, paths along which the loads' factor is found, prescribed motion. */
+#include "sceneimpl.h"
+
+/* Is the expression 0 everywhere and at all times, as far as two of them tell? */
+static PetscErrorCode IsZero_Private(Expression e, PetscBool *yes)
+{
+  static const PetscReal at[2][3] = {{0.3, 0.7, 0.9}, {-1.1, 0.2, 2.3}};
+  PetscReal              first, second;
+
+  PetscFunctionBegin;
+  PetscCall(ExpressionEvaluate(e, at[0], 0.4, &first));
+  PetscCall(ExpressionEvaluate(e, at[1], 1.7, &second));
+  *yes = (PetscBool)(first == 0 && second == 0);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Along a path t multiplies loads; nothing is moved by it. */
+PetscErrorCode SceneCheckPath(Scene s, const SceneNode *motion, Expression e)
+{
+  PetscBool zero = PETSC_TRUE;
+
+  PetscFunctionBegin;
+  if (s->data.load.control != LOAD_ARC_LENGTH || !e) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(IsZero_Private(e, &zero));
+  PetscCheckInput(zero, "%s: load.control: arc_length finds the factor of loads, so that nothing is moved by t; take control: time, or a load",
+                  NodeWhere(motion));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* A pressure that is found: `key` says what it follows. */
+PetscErrorCode SceneCheckControl(Scene s, const SceneNode *boundary, const char *key, Expression e, const BoundarySpec *b)
+{
+  const SceneNode *node      = NodeFind(boundary, key);
+  const PetscReal  origin[3] = {0, 0, 0};
+  PetscReal        start;
+
+  PetscFunctionBegin;
+  if (!e) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCheckInput(!b->pressure, "%s: the pressure that makes it is found; take pressure away", NodeWhere(node));
+  PetscCheckInput(!b->volume || !b->advance, "%s: one pressure cannot follow both volume and advance; take one away", NodeWhere(boundary));
+  PetscCheckInput(!b->rotation &&
+                      !((b->fix[0] || b->displacement[0]) && (b->fix[1] || b->displacement[1]) && (s->data.mesh.dim == 2 || b->fix[2] || b->displacement[2])),
+                  "%s: all displacements of this boundary are prescribed, so no pressure moves it", NodeWhere(node));
+  PetscCheckInput(s->data.mechanics.kinematics == KINEMATICS_FINITE, "%s needs kinematics: finite; with small ones the reference volume is all there is",
+                  NodeWhere(node));
+  PetscCheckInput(s->data.load.control == LOAD_TIME,
+                  "%s and load.control: arc_length do not go together: that finds the factor of given loads; allowed here: time", NodeWhere(node));
+  PetscCheckInput(!ExpressionUsesPlace(e), "%s is \"%s\": one number for the whole boundary, so an expression in t alone", NodeWhere(node), ExpressionText(e));
+  PetscCall(MechanicsValue(e, &b->amplitude, origin, 0, &start));
+  PetscCheckInput(PetscAbsReal(start) < 1e-12, "%s is %g at t = 0; it is counted from the reference configuration and must start at 0", NodeWhere(node),
+                  (double)start);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
