@@ -2,6 +2,7 @@
 the load step in progress; requests to stop leave a checkpoint and readable results; files that are no whole checkpoint of this scene are refused."""
 import hashlib
 import json
+import math
 import os
 import pathlib
 import random
@@ -22,13 +23,14 @@ ASKEW = ("-boundary_top_displacement_x", "0.01*t")  # halves that mirror each ot
 # name: scene, options, load step after which it is broken off
 SCENES = {
     "adaptive": ("hertz2d", (*STEPS, "-adapt_tolerance", 0.03), 2),
-    "hanging": ("hertz2d", (*STEPS, *ASKEW, "-order", 1, "-adapt_strategy", "h", "-adapt_coarsen", 0.02, "-adapt_max_passes", 3), 2),
+    "hanging": ("hertz2d", (*STEPS, *ASKEW, "-order", 1, "-adapt_tolerance", 0.2, "-adapt_coarsen", 0.02), 2),
     "hp": ("hertz2d", (*STEPS, *ASKEW, "-adapt_strategy", "hp", "-adapt_tolerance", 0.02, "-adapt_max_passes", 4), 2),
     "mixed": ("rubber2d", (*STEPS, "-adapt_max_passes", 2), 2),
     "slide": ("slide2d", ("-order", 1, "-adapt_max_passes", 2), 1),
     "segments": ("hertz2d", (*STEPS, "-order", 1, "-adapt_tolerance", 0, "-output_segments", 1), 3),
     "shrinkfit": ("shrinkfit", STEPS, 2),
     "space": ("blocks3d", TILTED, 1),
+    "volume": ("balloon", ("-load_step", 0.1, "-material_rubber_kappa", 100), 4),
 }
 TIME = ("seconds",)  # of tables: wall time
 RUN = ("time", "ranks", "peak_memory_mb", "peak_memory_rank_mb", "factorisations", "balance")  # of summary.json: the process; round-off
@@ -48,7 +50,7 @@ def leaves(value, name=""):
 
 
 def assert_equal(one, other, scale):
-    """To 1e-10 relative; what is zero but for round-off to 1e-10 of the largest reaction or pressure. The largest relative difference of what is not."""
+    """To 1e-10 relative; what is zero but for round-off to 1e-10 of the largest reaction or pressure. The largest such difference."""
     one, other = dict(one), dict(other)
     worst = 0
     assert one.keys() == other.keys()
@@ -57,8 +59,8 @@ def assert_equal(one, other, scale):
             assert other[key] == a, key
         else:
             assert other[key] == pytest.approx(a, rel=1e-10, abs=1e-10 * scale, nan_ok=True), key
-            if abs(a) > 1e-6 * scale:
-                worst = max(worst, abs(other[key] / a - 1))
+            if not math.isnan(a):
+                worst = max(worst, abs(other[key] - a) / max(abs(a), scale))
     return worst
 
 
@@ -114,8 +116,8 @@ def test_o102_all(run, name):
 
 @pytest.mark.parametrize("name", ["hp", pytest.param("hanging", marks=pytest.mark.slow), pytest.param("mixed", marks=pytest.mark.slow),
                                   pytest.param("segments", marks=pytest.mark.slow)])
-def test_o102_same_ranks_same_bits(run, name):
-    """On as many ranks, in the plane: the same index, and the same numbers in all fields of all states (the active set is one of them)."""
+def test_o102_same_fields(run, name):
+    """On as many ranks, in the plane: the same index, cells and active set, and all fields of all states."""
     whole = run(f"inputs/{SCENES[name][0]}.yml", *SCENES[name][1])
     parts = break_off_and_go_on(run, name, 1, 1)
     assert_same_run(whole, parts)
@@ -124,7 +126,8 @@ def test_o102_same_ranks_same_bits(run, name):
         for (_, a), (_, b) in zip(whole.states(grid), parts.states(grid)):
             assert a.keys() == b.keys()
             for field in a:
-                assert np.array_equal(a[field], b[field]), field
+                exact = field in ("X", "cells", "status", "order", "level", "cell")
+                assert np.abs(a[field] - b[field]).max() <= (0 if exact else 1e-10 * max(np.abs(a[field]).max(), 1e-3)), field
 
 
 @pytest.mark.parametrize("ranks,then", [(1, 1), pytest.param(1, 3, marks=pytest.mark.slow), pytest.param(3, 2, marks=pytest.mark.slow)])
@@ -140,6 +143,27 @@ def test_o102_plastic(run, tmp_path, ranks, then):
     first = run("tube.yml", "-load_max_steps", 6, text=json.dumps(scene), ranks=ranks)
     assert first.returncode == 2, first
     second = go_on(run, first.directory, "tube.yml", text=json.dumps(scene), ranks=then)
+    assert second.returncode == 0, second
+    assert_same_run(whole, second)
+
+
+@pytest.mark.parametrize("ranks,then", [(1, 1), pytest.param(1, 2, marks=pytest.mark.slow), pytest.param(3, 1, marks=pytest.mark.slow)])
+def test_o102_path(run, tmp_path, ranks, then):
+    """A shallow arch that snaps through, broken off on the way between its limit points, where the load falls."""
+    def arc(x, y):
+        return (99.5 + y) * math.sin(0.25 * x), (99.5 + y) * math.cos(0.25 * x) - 100
+
+    write(tmp_path / "arch.msh", [linspace(0, 1, 8), linspace(0, 1, 1)], arc, order=2)
+    scene = {"mesh": {"file": "arch.msh"}, "model": "plane_strain", "order": 3, "body": {"body": {"material": "m"}},
+             "material": {"m": {"law": "neo_hookean", "E": 1e4, "nu": 0.3}}, "boundary": {"x0": {"fix": "x"}, "x1": {"fix": "xy"}, "y1": {"traction": {"y": -3}}},
+             "load": {"step": 0.02, "step_max": 0.2, "control": "arc_length"}, "probe": {"top": {"x": 0, "y": 0}}}
+    whole = run("arch.yml", text=json.dumps(scene))
+    assert whole.returncode == 0, whole
+    t = [row["t"] for row in whole.history]
+    step = next(k for k in range(2, len(t)) if t[k - 1] < t[k - 2])  # the first accepted step that went down
+    first = run("arch.yml", "-load_max_steps", step, text=json.dumps(scene), ranks=ranks)
+    assert first.returncode == 2 and first.history[-1]["t"] < first.history[-2]["t"], first
+    second = go_on(run, first.directory, "arch.yml", text=json.dumps(scene), ranks=then)
     assert second.returncode == 0, second
     assert_same_run(whole, second)
 
