@@ -88,6 +88,7 @@ typedef struct {
   PetscBool  endless; /* num = 0: t itself, below 0 and above 1 too */
 } Amplitude;
 PetscReal AmplitudeEvaluate(const Amplitude *, PetscReal t);
+PetscReal AmplitudeNext(const Amplitude *, PetscReal t); /* the first of its times after t; PETSC_MAX_REAL: none */
 
 /* ---- small dense algebra (base/tensor.c and inline) -------------------------------------------------------------- */
 

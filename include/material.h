@@ -7,7 +7,7 @@ typedef enum {
   VOLUMETRIC_QUADRATIC,
   VOLUMETRIC_SIMO,
   VOLUMETRIC_LOG
-} Volumetric; /* U = kappa/2 (J-1)^2 | kappa/2 ((J^2-1)/2 - ln J) | NHc of docs/theory.md */
+} Volumetric; /* U = kappa/2 (J-1)^2 | kappa/2 ((J^2-1)/2 - ln J) | log_modulus/2 (ln J)^2, docs/theory.md */
 typedef enum { FORMULATION_AUTO, FORMULATION_DISPLACEMENT, FORMULATION_MIXED } Formulation; /* auto: mixed from nu = 0.45 up */
 extern const char *const VolumetricNames[];                                                 /* PETSc enum name arrays */
 extern const char *const FormulationNames[];
@@ -39,6 +39,7 @@ typedef struct {
   char               name[MORTISE_NAME];                 /* the user's name of the material */
   const MaterialLaw *law;                                /* row of the table, never NULL after set-up */
   PetscReal          mu, lambda, kappa;                  /* derived from whichever pair was given; shear modulus, Lame's first, bulk modulus */
+  PetscReal          log_modulus;                        /* volumetric: log: factor of (ln J)^2/2; lambda, less what the shear energy has of it */
   PetscReal          parameter[MATERIAL_MAX_PARAMETERS]; /* law's own (mooney_rivlin: c1, c2, kappa) */
   PetscInt           num_fibers;
   MaterialFiber      fiber[MATERIAL_MAX_FIBERS];
@@ -104,7 +105,7 @@ void MaterialFiberDirections(const MaterialSpec *, const PetscReal X[3], PetscRe
 
 PetscErrorCode MaterialEvaluate(const MaterialSpec *, MaterialPart, MaterialPoints *);
 
-/* Volumetric measure g(J) with U(J) = kappa/2 g(J)^2 and its first two derivatives: J-1 (quadratic), ln J (log: with lambda for kappa),
+/* Volumetric measure g(J) with U(J) = kappa/2 g(J)^2 and its first two derivatives: J-1 (quadratic), ln J (log: with log_modulus for kappa),
    sign(J-1) sqrt((J^2-1)/2 - ln J) (simo; series near 1). The independent pressure field is pi = modulus * Proj g; Cauchy pressure -pi g'(J) . */
 void      MaterialVolumetric(const MaterialSpec *, PetscReal J, PetscReal g[3]);
 PetscReal MaterialVolumetricModulus(const MaterialSpec *);

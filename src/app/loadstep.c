@@ -69,6 +69,18 @@ PetscErrorCode AppAdvance(App *app, PetscReal t, PetscReal smallest, PetscBool *
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Where a step of dt from t0 ends: not beyond the end, nor beyond a corner of an amplitude, which the path must not cut. */
+static PetscReal StepEnd_Private(const SceneData *data, PetscReal t0, PetscReal dt)
+{
+  const MechanicsSpec *m    = &data->mechanics;
+  const PetscReal      tiny = ROUND_OFF * data->load.end;
+  PetscReal            last = data->load.end;
+
+  for (PetscInt i = 0; i < m->num_boundaries; ++i) last = PetscMin(last, AmplitudeNext(&m->boundaries[i].amplitude, t0 + tiny));
+  for (PetscInt i = 0; i < m->num_bodies; ++i) last = PetscMin(last, AmplitudeNext(&m->bodies[i].amplitude, t0 + tiny));
+  return t0 + dt > last - tiny ? last : t0 + dt;
+}
+
 /* Do loads drive the scene? */
 static PetscBool Loaded_Private(const SceneData *data)
 {
@@ -86,22 +98,21 @@ static PetscBool Loaded_Private(const SceneData *data)
 /* One accepted load step of at most app->dt: the first piece that converges, then adaptation at its time. */
 static PetscErrorCode LoadStep_Private(App *app, PetscBool *ok)
 {
-  Level          *l   = &app->level;
-  const PetscReal end = app->data->load.end, t0 = l->accepted.t;
+  Level          *l  = &app->level;
+  const PetscReal t0 = l->accepted.t;
   PetscReal      *dt = &app->dt;
   SolverReport    report;
 
   PetscFunctionBegin;
   app->iterations_in_step = app->cuts_in_step = app->passes_in_step = 0;
   for (;;) {
-    PetscReal t = t0 + *dt;
-    if (t > end - ROUND_OFF * end) t = end;
+    const PetscReal t = StepEnd_Private(app->data, t0, *dt);
     PetscCall(Attempt_Private(app, t, &report));
     *ok = report.converged;
     if (*ok) break;
     PetscCall(Restore_Private(app, &l->accepted));
     if (app->stopped) PetscFunctionReturn(PETSC_SUCCESS);
-    *dt *= 0.5;
+    *dt = 0.5 * (t - t0);
     ++app->step_cuts;
     ++app->cuts_in_step;
     if (*dt >= app->data->load.step_min) continue;

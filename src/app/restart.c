@@ -18,6 +18,8 @@ static const struct {
     {"reported_cycles", offsetof(App, told_cycles)},
     {"factorisations", offsetof(App, factorisations)},
     {"single_factor_failures", offsetof(App, single_failures)},
+    {"unstable", offsetof(App, unstable)},
+    {"judged", offsetof(App, judged)},
 };
 static const struct {
   const char *name;

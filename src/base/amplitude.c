@@ -15,3 +15,11 @@ PetscReal AmplitudeEvaluate(const Amplitude *a, PetscReal t)
   }
   return p[2 * num - 1];
 }
+
+PetscReal AmplitudeNext(const Amplitude *a, PetscReal t)
+{
+  for (PetscInt i = 0; i < a->num; ++i) {
+    if (a->pairs[2 * i] > t) return a->pairs[2 * i];
+  }
+  return PETSC_MAX_REAL;
+}

@@ -96,15 +96,16 @@ PetscErrorCode MaterialSetUpElastic(MaterialSpec *spec)
   spec->lambda = pair == 0 ? v[0] * v[1] / ((1 + v[1]) * (1 - 2 * v[1])) : pair == 1 ? v[3] - 2 * v[2] / 3 : v[4];
   spec->kappa  = pair == 1 ? v[3] : pair == 0 ? v[0] / (3 * (1 - 2 * v[1])) : v[4] + 2 * v[2] / 3;
   PetscCheckInput(spec->kappa > 0, "material.%s.lambda: %g gives the bulk modulus %g, which must be positive", spec->name, (double)v[4], (double)spec->kappa);
-  v[0] = 9 * spec->kappa * spec->mu / (3 * spec->kappa + spec->mu);
-  v[1] = pair == 0 ? v[1] : (3 * spec->kappa - 2 * spec->mu) / (2 * (3 * spec->kappa + spec->mu));
-  v[2] = spec->mu;
-  v[3] = spec->kappa;
-  v[4] = spec->lambda;
+  spec->log_modulus = spec->lambda;
+  v[0]              = 9 * spec->kappa * spec->mu / (3 * spec->kappa + spec->mu);
+  v[1]              = pair == 0 ? v[1] : (3 * spec->kappa - 2 * spec->mu) / (2 * (3 * spec->kappa + spec->mu));
+  v[2]              = spec->mu;
+  v[3]              = spec->kappa;
+  v[4]              = spec->lambda;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* `mixed`: as told, or from nu = 0.45 up. NHc's modulus of the pressure is lambda, which must not vanish then. */
+/* `mixed`: as told, or from nu = 0.45 up. The modulus of the pressure must not vanish then. */
 static PetscErrorCode ResolveMixed_Private(MaterialSpec *spec)
 {
   const PetscReal nu = (3 * spec->kappa - 2 * spec->mu) / (2 * (3 * spec->kappa + spec->mu));
@@ -115,8 +116,8 @@ static PetscErrorCode ResolveMixed_Private(MaterialSpec *spec)
   PetscCheckInput(!spec->mixed || !spec->law->whole,
                   "material.%s.formulation: %s has no mixed form (meant for nu from 0.45 up, here %g); set formulation: displacement or take neo_hookean",
                   spec->name, spec->law->name, (double)nu);
-  PetscCheckInput(!spec->mixed || MaterialVolumetricModulus(spec) > 0, "material.%s.formulation: mixed with volumetric: log needs lambda above 0, which is %g",
-                  spec->name, (double)spec->lambda);
+  PetscCheckInput(!spec->mixed || MaterialVolumetricModulus(spec) > 0, "material.%s.formulation: mixed with volumetric: log needs %s above 0, which is %g",
+                  spec->name, spec->log_modulus == spec->lambda ? "lambda" : "kappa - 4/3 c1 - 16/3 c2", (double)spec->log_modulus);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

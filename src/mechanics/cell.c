@@ -4,12 +4,12 @@
 static PetscErrorCode TablesCreate_Private(CellKernel k)
 {
   const Basis1D *b  = k->basis;
-  const PetscInt n1 = k->n1, m = k->num_pressure;
+  const PetscInt n1 = k->n1, q1 = k->q1, m = k->num_pressure;
 
   PetscFunctionBegin;
-  PetscCall(PetscMalloc3(k->num_points, &k->weight, k->num_points * m, &k->legendre, n1 * n1 * n1 * 4, &k->pairs));
+  PetscCall(PetscMalloc3(k->num_points, &k->weight, k->num_points * m, &k->legendre, n1 * n1 * 4 * q1, &k->pairs));
   for (PetscInt q = 0; q < k->num_points; q++) {
-    const PetscInt index[3] = {q % n1, q / n1 % n1, q / (n1 * n1)};
+    const PetscInt index[3] = {q % q1, q / q1 % q1, q / (q1 * q1)};
     PetscReal      value[3][MORTISE_MAX_ORDER + 1];
     PetscInt       l = 0;
 
@@ -24,8 +24,8 @@ static PetscErrorCode TablesCreate_Private(CellKernel k)
       }
     }
   }
-  for (PetscInt i = 0; i < n1 * n1 * 4 * n1; i++) {
-    const PetscInt q = i % n1, s = i / n1 % 2, r = i / n1 / 2 % 2, fb = i / n1 / 4 % n1, fa = i / n1 / 4 / n1;
+  for (PetscInt i = 0; i < n1 * n1 * 4 * q1; i++) {
+    const PetscInt q = i % q1, s = i / q1 % 2, r = i / q1 / 2 % 2, fb = i / q1 / 4 % n1, fa = i / q1 / 4 / n1;
 
     k->pairs[i] = (r ? b->D : b->B)[q * n1 + fa] * (s ? b->D : b->B)[q * n1 + fb];
   }
@@ -35,7 +35,7 @@ static PetscErrorCode TablesCreate_Private(CellKernel k)
 /* One block of memory, aligned to lanes, cut into the arrays of the kernel. */
 static PetscErrorCode ArenaCreate_Private(CellKernel k)
 {
-  const size_t n = k->num_nodes, q = k->num_points, d = k->dim, r = k->num_derivatives, m = k->num_pressure, n1 = k->n1, slab = k->slab_points,
+  const size_t n = k->num_nodes, q = k->num_points, d = k->dim, r = k->num_derivatives, m = k->num_pressure, n1 = k->n1, q1 = k->q1, slab = k->slab_points,
                h = k->material.law->num_history;
   const struct {
     Lanes **array;
@@ -44,7 +44,7 @@ static PetscErrorCode ArenaCreate_Private(CellKernel k)
       {&k->X, d * n},
       {&k->u, d * n},
       {&k->gradient, d * r * q},
-      {&k->layer, 3 * n},
+      {&k->layer, d == 3 ? 3 * n1 * q1 * q1 : 0},
       {&k->inverse, d * d * q},
       {&k->hoop_inverse, k->hoop ? q : 0},
       {&k->volume, q},
@@ -62,7 +62,7 @@ static PetscErrorCode ArenaCreate_Private(CellKernel k)
       {&k->stored, m},
       {&k->coupling, m * d * n},
       {&k->reference_tangent, d * d * r * r * q},
-      {&k->layer_tangent, d * d * r * r * n1 * n1},
+      {&k->layer_tangent, d * d * r * r * q1 * q1},
       {&k->tile, n1 * d * n1 * d},
   };
   size_t total = 1;
@@ -82,7 +82,7 @@ static PetscErrorCode ArenaCreate_Private(CellKernel k)
 PetscErrorCode MechanicsPointRule(PetscInt order, const Basis1D **basis)
 {
   PetscFunctionBegin;
-  PetscCall(Basis1DGet(order, order + 1, basis));
+  PetscCall(Basis1DGet(order, CellLinePoints(order), basis));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -101,14 +101,15 @@ PetscErrorCode CellKernelCreate(PetscInt dim, Model model, Kinematics kinematics
   k->order           = order;
   k->n1              = order + 1;
   k->num_nodes       = ElementNumNodes(dim, order);
-  k->num_points      = k->num_nodes;
+  k->q1              = CellLinePoints(order);
+  k->num_points      = ElementNumNodes(dim, k->q1 - 1);
   k->small           = kinematics == KINEMATICS_SMALL ? PETSC_TRUE : PETSC_FALSE;
   k->hoop            = model == MODEL_AXISYMMETRIC ? PETSC_TRUE : PETSC_FALSE;
   k->mixed           = material->mixed;
   k->unsymmetric     = material->law->unsymmetric;
   k->num_derivatives = k->hoop ? 3 : dim;
   k->num_pressure    = !k->mixed ? 0 : dim == 2 ? order * (order + 1) / 2 : order * (order + 1) * (order + 2) / 6;
-  k->num_slabs       = dim == 3 && order > 1 ? k->n1 : 1;
+  k->num_slabs       = dim == 3 && order > 1 ? k->q1 : 1;
   k->slab_points     = k->num_points / k->num_slabs;
   k->material        = *material;
   if (k->small) { /* small kinematics: every law is its linearisation */

@@ -31,7 +31,15 @@ typedef struct {
   PetscBool  bad;            /* out: some det F <= 0 in the batch (finite kinematics), or no answer of the law: outputs of that batch are not to be used */
 } CellBatch;
 
-/* Kernel for cells of order p with p+1 Gauss points in each direction. Mixed (material->mixed): pressure in the complete polynomials of degree p-1 in the
+/* Gauss points of a cell in each direction: p+1, from order 6 on one more and for order 8 two, because stresses are no polynomials (docs/results.md,
+   convergence in p). */
+static inline PetscInt CellLinePoints(PetscInt order)
+{
+  return order + 1 + PetscMax(0, (order - 4) / 2);
+}
+#define MOST_LINE_POINTS (MORTISE_MAX_ORDER + 1 + (MORTISE_MAX_ORDER - 4) / 2)
+
+/* Kernel for cells of order p. Mixed (material->mixed): pressure in the complete polynomials of degree p-1 in the
    reference cell (Q_p / P_(p-1) discontinuous; Q1/P0), condensed: energy = int W_iso + modulus/2 int (Proj g(J))^2, where Proj is the L2 projection
    with the reference-volume weight. body_force is not here. Axisymmetric: hoop stretch 1 + u_r/R, weight 2 pi R. Small: F = I + grad u,
    law `linear` on the symmetric gradient. */
@@ -152,21 +160,21 @@ PetscErrorCode MechanicsFollowers_Private(Mechanics, const PetscReal u[], PetscR
 
 #define INLINE static inline __attribute__((always_inline, unused))
 
-/* Shapes: n nodes, q = n points, d = dim, r = num_derivatives (d; with hoop strain 3, the third "derivative" being the value itself), m pressures.
-   Nodal fields are stored by component, [d][n]; point fields [..][q]. Points form slabs (a 3-D layer): F, W, P hold slab after slab, [slab][9][points of a
-   slab]. */
+/* Shapes: n nodes (n1 = p+1 along a line), q points (q1), d = dim, r = num_derivatives (d; with hoop strain 3, the third "derivative" being the value itself),
+   m pressures. Nodal fields are stored by component, [d][n]; point fields [..][q]. Points form slabs (a 3-D layer): F, W, P hold slab after slab,
+   [slab][9][points of a slab]. */
 struct _p_CellKernel {
-  PetscInt       dim, order, n1, num_nodes, num_points, num_pressure, num_derivatives, num_slabs, slab_points;
+  PetscInt       dim, order, n1, q1, num_nodes, num_points, num_pressure, num_derivatives, num_slabs, slab_points;
   PetscBool      small, mixed, hoop, unsymmetric;
   MaterialSpec   material; /* a copy; the linear law in small kinematics */
   const Basis1D *basis;
   PetscReal     *weight;                        /* owned [q] quadrature weights */
   PetscReal     *legendre;                      /* owned [q][m] pressure functions */
-  PetscReal     *pairs;                         /* owned [n1][n1][2][2][n1]: products of (value | derivative) of functions a and b at the 1-D points */
+  PetscReal     *pairs;                         /* owned [n1][n1][2][2][q1]: products of (value | derivative) of functions a and b at the 1-D points */
   void          *arena;                         /* owned: memory of all lanes below */
   Lanes         *X, *u;                         /* [d][n] */
   Lanes         *gradient;                      /* [d][r][q] by reference coordinates; later fluxes of the same shape */
-  Lanes         *layer;                         /* [3][n] scratch of the tensor contractions */
+  Lanes         *layer;                         /* [3][n1][q1*q1] scratch of the tensor contractions in space */
   Lanes         *inverse;                       /* [d*d][q] d xi_r / d X_J */
   Lanes         *hoop_inverse;                  /* [q] 1/R */
   Lanes         *volume;                        /* [q] weight times reference volume */
@@ -178,9 +186,34 @@ struct _p_CellKernel {
   Lanes         *moment, *coefficient, *stored; /* [m] int q g; consistent and stored pressure coefficients */
   Lanes         *coupling;                      /* [m][d][n] b, then L^-1 b */
   Lanes         *reference_tangent;             /* [d*d][r*r][q] A pulled back to reference coordinates, times volume */
-  Lanes         *layer_tangent;                 /* [d*d][r*r][n1*n1] */
+  Lanes         *layer_tangent;                 /* [d*d][r*r][q1*q1] */
   Lanes         *tile;                          /* [n1*d][n1*d] */
 };
+
+/* CALL(nodes, points of a line) for the order of a kernel: constants for the usual orders, so that loops unroll. */
+#define CELL_OF_ORDER(k, CALL)                                                                                                                                 \
+  switch ((k)->order) {                                                                                                                                        \
+  case 1:                                                                                                                                                      \
+    CALL(2, CellLinePoints(1));                                                                                                                                \
+    break;                                                                                                                                                     \
+  case 2:                                                                                                                                                      \
+    CALL(3, CellLinePoints(2));                                                                                                                                \
+    break;                                                                                                                                                     \
+  case 3:                                                                                                                                                      \
+    CALL(4, CellLinePoints(3));                                                                                                                                \
+    break;                                                                                                                                                     \
+  case 4:                                                                                                                                                      \
+    CALL(5, CellLinePoints(4));                                                                                                                                \
+    break;                                                                                                                                                     \
+  case 5:                                                                                                                                                      \
+    CALL(6, CellLinePoints(5));                                                                                                                                \
+    break;                                                                                                                                                     \
+  case 6:                                                                                                                                                      \
+    CALL(7, CellLinePoints(6));                                                                                                                                \
+    break;                                                                                                                                                     \
+  default:                                                                                                                                                     \
+    CALL((k)->n1, (k)->q1);                                                                                                                                    \
+  }
 
 /* cellfield.c */
 PetscErrorCode CellKernelGeometry_Private(CellKernel);                                            /* X -> inverse, volume, hoop_inverse */

@@ -40,8 +40,8 @@ const Option Options[] = {
      "or one for each direction, {x: 3, y: 3, z: 1}: of the cell axes that run mostly along it; letters not given: order", BODY(spec.order_along)},
     {"body.<name>.motion.<axis>", KEY_EXPRESSION, "length", "", ANY, "translation of a rigid body", BODY(spec.motion)},
     {"body.<name>.force.<axis>", KEY_EXPRESSION, "force/volume", "", ANY, "dead force per reference volume", BODY(spec.force)},
-    {"body.<name>.amplitude", KEY_AMPLITUDE, "", "[0,0, 1,1]", "t rising", "t0,v0, t1,v1, ...: multiplies motion and force, piecewise linear in t",
-     BODY(spec.amplitude)},
+    {"body.<name>.amplitude", KEY_AMPLITUDE, "", "[0,0, 1,1]", "t rising",
+     "t0,v0, t1,v1, ...: multiplies motion and force, piecewise linear in t; load steps end at its times", BODY(spec.amplitude)},
 
     {"material.<name>.law", KEY_TEXT, "", NULL, "", "name of a law; bin/mortise -list shows them", MAT(law)},
     {"material.<name>.volumetric", KEY_WORD, "", "quadratic", "quadratic|simo|log",
@@ -75,7 +75,7 @@ const Option Options[] = {
      "mean displacement of the boundary against its outward normal, 0 at t = 0; the follower pressure that makes it is found", BOUND(spec.advance)},
     {"boundary.<name>.traction.<axis>", KEY_EXPRESSION, "force/area", "", ANY, "dead load per reference area", BOUND(spec.traction)},
     {"boundary.<name>.amplitude", KEY_AMPLITUDE, "", "[0,0, 1,1]", "t rising",
-     "t0,v0, t1,v1, ...: multiplies the values of this boundary, piecewise linear in t", BOUND(spec.amplitude)},
+     "t0,v0, t1,v1, ...: multiplies the values of this boundary, piecewise linear in t; load steps end at its times", BOUND(spec.amplitude)},
 
     {"contact.<pair>.nonmortar", KEY_TEXT, "", NULL, "", "physical group that carries the multiplier", PAIR(nonmortar)},
     {"contact.<pair>.mortar", KEY_TEXT, "", NULL, "", "physical group opposite", PAIR(mortar)},
