@@ -46,14 +46,21 @@ typedef struct {
   MaterialFrame      frame;
   Volumetric         volumetric;
   Formulation        formulation;
-  PetscBool          mixed; /* resolved by MaterialSetUp: pressure is an independent field, condensed in the cell */
+  PetscBool          mixed;          /* resolved by MaterialSetUp: pressure is an independent field, condensed in the cell */
+  PetscBool          incompressible; /* kappa (and lambda) are infinite: mixed, and the pressures are unknowns of the whole problem */
 } MaterialSpec;
 
 /* One named parameter of a law, for -list, -help and the checks. */
 typedef struct {
   const char *name, *unit, *help;
-  PetscReal   min, max; /* admissible open interval */
+  PetscReal   min, max; /* admissible open interval; max itself, too, where it is the incompressible limit */
 } MaterialParameter;
+
+/* Poisson's ratio of 0.5 and an infinite bulk modulus. */
+static inline PetscBool MaterialIsLimit(const MaterialParameter *p, PetscReal value)
+{
+  return (PetscBool)(value == p->max && (!strcmp(p->name, "nu") || !strcmp(p->name, "kappa")));
+}
 
 /* Points at which a law is asked, structure of arrays with stride n. Outputs that are NULL are skipped. */
 typedef struct {
@@ -96,9 +103,15 @@ extern const MaterialLaw MaterialLaws[];
 const MaterialLaw       *MaterialLawFind(const char *name);
 
 /* Complete a spec from parameters given by name: `names[i]`, `values[i]`, i < num. Checks which sets are complete (E,nu | mu,kappa | mu,lambda |
-   the law's own), ranges (E > 0, -1 < nu < 0.5, nu = 0.5 only as an error that suggests mixed with nu < 0.5; moduli positive), names unknown
+   the law's own), ranges (E > 0, -1 < nu <= 0.5, moduli positive; nu = 0.5 or kappa = infinity: incompressible), names unknown
    parameters with the nearest known one, resolves `mixed`. Messages start with "material.<name>.<parameter>". */
 PetscErrorCode MaterialSetUp(MaterialSpec *, PetscInt num, const char *const names[], const PetscReal values[]);
+
+/* Young's modulus; 3 mu for incompressible material. */
+static inline PetscReal MaterialYoung(const MaterialSpec *spec)
+{
+  return 9 * spec->mu / (3 + spec->mu / spec->kappa);
+}
 
 /* Unit vectors of all families at the reference position X; none for laws without fibres. Not collective. */
 void MaterialFiberDirections(const MaterialSpec *, const PetscReal X[3], PetscReal fiber[][3]);

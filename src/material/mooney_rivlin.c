@@ -7,7 +7,7 @@
 const MaterialParameter MaterialMooneyRivlinParameters[] = {
     {"c1", "stress", "factor of the first invariant; shear modulus 2 (c1 + c2)", PETSC_MIN_REAL, PETSC_MAX_REAL},
     {"c2", "stress", "factor of the second invariant", PETSC_MIN_REAL, PETSC_MAX_REAL},
-    {"kappa", "stress", "bulk modulus", 0, PETSC_MAX_REAL},
+    {"kappa", "stress", "bulk modulus; inf: incompressible", 0, INFINITY},
     {NULL, NULL, NULL, 0, 0},
 };
 

@@ -106,9 +106,10 @@ PetscErrorCode CellKernelCreate(PetscInt dim, Model model, Kinematics kinematics
   k->small           = kinematics == KINEMATICS_SMALL ? PETSC_TRUE : PETSC_FALSE;
   k->hoop            = model == MODEL_AXISYMMETRIC ? PETSC_TRUE : PETSC_FALSE;
   k->mixed           = material->mixed;
+  k->incompressible  = material->incompressible;
   k->unsymmetric     = material->law->unsymmetric;
   k->num_derivatives = k->hoop ? 3 : dim;
-  k->num_pressure    = !k->mixed ? 0 : dim == 2 ? order * (order + 1) / 2 : order * (order + 1) * (order + 2) / 6;
+  k->num_pressure    = !k->mixed ? 0 : MechanicsPressureCount(dim, order);
   k->num_slabs       = dim == 3 && order > 1 ? k->q1 : 1;
   k->slab_points     = k->num_points / k->num_slabs;
   k->material        = *material;
@@ -168,6 +169,13 @@ static void Store_Private(PetscInt num, PetscInt n, PetscInt d, const Lanes *lan
     for (PetscInt node = 0; node < n; node++) {
       for (PetscInt c = 0; c < d; c++) values[(l * n + node) * d + c] = lanes[c * n + node][l];
     }
+  }
+}
+
+static void StoreDiagonal_Private(PetscInt num, PetscInt m, const Lanes *matrix, PetscReal *values)
+{
+  for (PetscInt l = 0; l < num; l++) {
+    for (PetscInt i = 0; i < m; i++) values[l * m + i] = matrix[i * m + i][l];
   }
 }
 
@@ -244,13 +252,13 @@ static PetscErrorCode Law_Private(CellKernel k, PetscBool tangent, const Lanes *
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* int W_iso + 1/(2 modulus) pi . M pi, where M pi = modulus int q g. */
+/* int W_iso + 1/(2 modulus) pi . M pi, where M pi = modulus int q g (incompressible: nothing). */
 static void Energy_Private(CellKernel k, PetscInt num, PetscReal *energy)
 {
   Lanes sum = {0};
 
   for (PetscInt q = 0; q < k->num_points; q++) sum += k->volume[q] * k->W[q];
-  for (PetscInt i = 0; i < k->num_pressure; i++) sum += 0.5 * k->moment[i] * k->coefficient[i];
+  for (PetscInt i = 0; i < k->num_pressure && !k->incompressible; i++) sum += 0.5 * k->moment[i] * k->coefficient[i];
   for (PetscInt l = 0; l < num; l++) energy[l] = sum[l];
 }
 
@@ -273,10 +281,11 @@ static void Stretch_Private(CellKernel k, PetscInt num, PetscReal *stretch2)
 static PetscErrorCode Chunk_Private(CellKernel k, CellBatch *b, PetscInt first, PetscInt num)
 {
   const PetscInt  n = k->num_nodes, d = k->dim, m = k->num_pressure, size = n * d, fibers = 3 * k->material.num_fibers;
-  const PetscBool tangent = b->tangent ? PETSC_TRUE : PETSC_FALSE, couple = m && (b->tangent || b->dpressure) ? PETSC_TRUE : PETSC_FALSE;
-  const Lanes    *pressure = k->coefficient;
-  Lanes           min_det;
-  PetscBool       bad = PETSC_FALSE;
+  const PetscBool tangent = b->tangent ? PETSC_TRUE : PETSC_FALSE,
+                  couple  = m && ((b->tangent && !k->incompressible) || b->dpressure) ? PETSC_TRUE : PETSC_FALSE;
+  const Lanes *pressure   = k->coefficient;
+  Lanes        min_det;
+  PetscBool    bad = PETSC_FALSE;
 
   PetscFunctionBegin;
   PetscCheck(b->history || !k->material.law->num_history || !(b->energy || b->residual || tangent || b->trial), PETSC_COMM_SELF, PETSC_ERR_ARG_NULL,
@@ -293,11 +302,13 @@ static PetscErrorCode Chunk_Private(CellKernel k, CellBatch *b, PetscInt first, 
   if (bad) b->bad = PETSC_TRUE;
   if (bad) PetscFunctionReturn(PETSC_SUCCESS);
   if (k->mixed) CellKernelProject_Private(k);
-  if (b->consistent && m) Store_Private(num, m, 1, k->coefficient, b->consistent + first * m);
+  if (b->consistent && m) Store_Private(num, m, 1, k->incompressible ? k->moment : k->coefficient, b->consistent + first * m);
+  if (b->mass && k->incompressible) StoreDiagonal_Private(num, m, k->mass, b->mass + first * m);
   if (k->mixed && b->pressure) {
     Load_Private(num, m, 1, b->pressure + first * m, k->stored);
     pressure = k->stored;
   }
+  if (k->incompressible && b->pressure) PetscCall(PetscArraycpy(k->coefficient, k->stored, m));
   if (b->history) LoadHistory_Private(k, num, b->history + first * k->num_points * k->material.law->num_history);
   if (fibers && (b->energy || b->residual || tangent)) LoadSlabs_Private(k, num, fibers, b->fiber + first * fibers * k->num_points, k->fiber);
   if (b->energy || b->residual || tangent || b->trial) PetscCall(Law_Private(k, tangent, pressure, &bad));

@@ -232,7 +232,7 @@ INLINE void Tangent_Private(CellKernel k, const PetscInt n1, const PetscInt q1, 
           const PetscInt a = (az * n1 + ay) * n1, b = (bz * n1 + by) * n1;
 
           SumTile_Private(k, n1, q1, d, nr, moduli, ay, by);
-          if (k->mixed) AddCoupling_Private(k, n1, d, a, b);
+          if (k->mixed && !k->incompressible) AddCoupling_Private(k, n1, d, a, b);
           if (place)
             PlaceTile_Private(k, n1, d, num_cells, a, b, place, tangent);
           else

@@ -101,6 +101,22 @@ static PetscErrorCode Indefinite_Private(const Cell *c, PetscReal *Kbb, PetscRea
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Negative eigenvalues of D: a block of two has one. */
+static PetscInt Negative_Private(const Cell *c)
+{
+  PetscInt num = 0;
+
+  for (PetscBLASInt j = 0; j < c->ni; ++j) {
+    if (c->pivot[j] > 0)
+      num += c->panel[(size_t)j * c->nd + j] < 0;
+    else {
+      ++num;
+      ++j;
+    }
+  }
+  return num;
+}
+
 /* The lower triangle L of the first rows of A[rows][cols], columns of stride. False: not positive definite. */
 static PetscBool LeafTriangle_Private(PetscInt cols, PetscInt stride, PetscReal A[])
 {
@@ -193,6 +209,7 @@ PetscErrorCode MechanicsCondenseCell_Private(Mechanics m, CellGroup *g, PetscInt
     else {
       PetscCall(PetscArraycpy(c.panel, K, c.ni * c.nd));
       PetscCall(Indefinite_Private(&c, Kbb, m->condense_work + c.nb * c.nb, singular));
+      m->num_negative += Negative_Private(&c);
     }
   }
   PetscCall(Mirror_Private(c.nb, c.nd, Kbb, S));
@@ -211,6 +228,13 @@ static PetscErrorCode SolveInner_Private(const Cell *c, PetscBool back, PetscRea
     PetscCallBLAS("BLAStrsm", BLAStrsm_("L", "L", back ? "T" : "N", "N", &c->ni, &single, &one, c->panel, &c->nd, x, &c->ni));
   else if (!back)
     PetscCallBLAS("LAPACKsytrs", LAPACKsytrs_("L", &c->ni, &single, c->panel, &c->nd, c->pivot, x, &c->ni, &info));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode MechanicsNumNegative(Mechanics m, PetscInt *num)
+{
+  PetscFunctionBegin;
+  *num = m->num_negative;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
