@@ -12,8 +12,8 @@ PetscErrorCode TransferOrders(const ForestMap *, const int8_t old_order[], int8_
 /* ---- a state by itself, for another partition or another run (transfer/pack.c) ------------------------------------------ */
 
 /* The solution as named fields whose order does not depend on the partition: `displacement` (Cartesian, all true nodes, prescribed values among them; vertices,
-   edges, faces, cells by number, the nodes of an entity in its frame), `pressure` and `history` (by leaf), `multiplier.<pair>` (by node of the nonmortar side),
-   `scalars`, and `path`, like `displacement`: the direction of a path that is followed.
+   edges, faces, cells by number, the nodes of an entity in its frame), `pressure`, `unknown_pressure` and `history` (by leaf), `multiplier.<pair>` (by node of
+   the nonmortar side), `scalars`, and `path`, like `displacement`: the direction of a path that is followed.
  */
 typedef struct {
   char name[2 * MORTISE_NAME];

@@ -220,6 +220,24 @@ static PetscErrorCode Blocks_Private(Problem problem, BlockRange range, PetscInt
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Pressures that are unknowns, of incompressible cells: to the field those that act (the state's displacement was asked for last), or back into x. */
+static PetscErrorCode Unknowns_Private(Problem problem, Vec x, PetscBool back, Vec *field)
+{
+  Mechanics  mechanics;
+  PetscInt   num, all;
+  PetscReal *values;
+
+  PetscFunctionBegin;
+  PetscCall(ProblemGetMechanics(problem, &mechanics));
+  PetscCall(MechanicsNumUnknowns(mechanics, &num, &all));
+  PetscCall(PetscMalloc1(num, &values));
+  if (!back) PetscCall(MechanicsGetPressure(mechanics, 0, num, values));
+  PetscCall(Blocks_Private(problem, MechanicsUnknownRange, num, values, back, field));
+  if (back) PetscCall(ProblemSetPressures(problem, values, x));
+  PetscCall(PetscFree(values));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* ---- multipliers ----------------------------------------------------------------------------------------------------------------- */
 
 static PetscErrorCode Multipliers_Private(Problem problem, PetscInt pair, Vec x, PetscBool back, Vec *field)
@@ -309,7 +327,7 @@ PetscErrorCode TransferPack(Problem problem, const State *state, Pack *pack)
   PetscFunctionBegin;
   PetscCall(ProblemGetScene(problem, &scene));
   pack->num = 0;
-  PetscCall(PetscMalloc1(5 + scene->num_contacts, &pack->field));
+  PetscCall(PetscMalloc1(6 + scene->num_contacts, &pack->field));
   PetscCall(ProblemGetPath(problem, &path));
   if (path) {
     PetscCall(PackDisplacement_Private(problem, path, &field)); /* before the displacement: its scalars must act last */
@@ -321,6 +339,8 @@ PetscErrorCode TransferPack(Problem problem, const State *state, Pack *pack)
   PetscCall(Append_Private(pack, field, "%s", "pressure"));
   PetscCall(Blocks_Private(problem, MechanicsHistoryRange, state->num_history, state->history, PETSC_FALSE, &field));
   PetscCall(Append_Private(pack, field, "%s", "history"));
+  PetscCall(Unknowns_Private(problem, state->x, PETSC_FALSE, &field));
+  PetscCall(Append_Private(pack, field, "%s", "unknown_pressure"));
   PetscCall(Scalars_Private(problem, state->x, PETSC_FALSE, &field));
   PetscCall(Append_Private(pack, field, "%s", "scalars"));
   for (PetscInt i = 0; i < scene->num_contacts; ++i) {
@@ -356,6 +376,8 @@ PetscErrorCode TransferUnpack(Problem problem, const Pack *pack, State *state, P
 
   PetscFunctionBegin;
   PetscCall(ProblemGetScene(problem, &scene));
+  PetscCall(Find_Private(pack, "%s", "unknown_pressure", &field));
+  PetscCall(Unknowns_Private(problem, state->x, PETSC_TRUE, &field));
   PetscCall(Find_Private(pack, "%s", "scalars", &field));
   PetscCall(Scalars_Private(problem, state->x, PETSC_TRUE, &field));
   PetscCall(Find_Private(pack, "%s", "displacement", &field));
