@@ -7,7 +7,7 @@ typedef enum {
   VOLUMETRIC_QUADRATIC,
   VOLUMETRIC_SIMO,
   VOLUMETRIC_LOG
-} Volumetric; /* U = kappa/2 (J-1)^2 | kappa/2 ((J^2-1)/2 - ln J) | NHc of docs/theory.md */
+} Volumetric; /* U = kappa/2 (J-1)^2 | kappa/2 ((J^2-1)/2 - ln J) | log_modulus/2 (ln J)^2, docs/theory.md */
 typedef enum { FORMULATION_AUTO, FORMULATION_DISPLACEMENT, FORMULATION_MIXED } Formulation; /* auto: mixed from nu = 0.45 up */
 extern const char *const VolumetricNames[];                                                 /* PETSc enum name arrays */
 extern const char *const FormulationNames[];
@@ -39,20 +39,28 @@ typedef struct {
   char               name[MORTISE_NAME];                 /* the user's name of the material */
   const MaterialLaw *law;                                /* row of the table, never NULL after set-up */
   PetscReal          mu, lambda, kappa;                  /* derived from whichever pair was given; shear modulus, Lame's first, bulk modulus */
+  PetscReal          log_modulus;                        /* volumetric: log: factor of (ln J)^2/2; lambda, less what the shear energy has of it */
   PetscReal          parameter[MATERIAL_MAX_PARAMETERS]; /* law's own (mooney_rivlin: c1, c2, kappa) */
   PetscInt           num_fibers;
   MaterialFiber      fiber[MATERIAL_MAX_FIBERS];
   MaterialFrame      frame;
   Volumetric         volumetric;
   Formulation        formulation;
-  PetscBool          mixed; /* resolved by MaterialSetUp: pressure is an independent field, condensed in the cell */
+  PetscBool          mixed;          /* resolved by MaterialSetUp: pressure is an independent field, condensed in the cell */
+  PetscBool          incompressible; /* kappa (and lambda) are infinite: mixed, and the pressures are unknowns of the whole problem */
 } MaterialSpec;
 
 /* One named parameter of a law, for -list, -help and the checks. */
 typedef struct {
   const char *name, *unit, *help;
-  PetscReal   min, max; /* admissible open interval */
+  PetscReal   min, max; /* admissible open interval; max itself, too, where it is the incompressible limit */
 } MaterialParameter;
+
+/* Poisson's ratio of 0.5 and an infinite bulk modulus. */
+static inline PetscBool MaterialIsLimit(const MaterialParameter *p, PetscReal value)
+{
+  return (PetscBool)(value == p->max && (!strcmp(p->name, "nu") || !strcmp(p->name, "kappa")));
+}
 
 /* Points at which a law is asked, structure of arrays with stride n. Outputs that are NULL are skipped. */
 typedef struct {
@@ -95,16 +103,22 @@ extern const MaterialLaw MaterialLaws[];
 const MaterialLaw       *MaterialLawFind(const char *name);
 
 /* Complete a spec from parameters given by name: `names[i]`, `values[i]`, i < num. Checks which sets are complete (E,nu | mu,kappa | mu,lambda |
-   the law's own), ranges (E > 0, -1 < nu < 0.5, nu = 0.5 only as an error that suggests mixed with nu < 0.5; moduli positive), names unknown
+   the law's own), ranges (E > 0, -1 < nu <= 0.5, moduli positive; nu = 0.5 or kappa = infinity: incompressible), names unknown
    parameters with the nearest known one, resolves `mixed`. Messages start with "material.<name>.<parameter>". */
 PetscErrorCode MaterialSetUp(MaterialSpec *, PetscInt num, const char *const names[], const PetscReal values[]);
+
+/* Young's modulus; 3 mu for incompressible material. */
+static inline PetscReal MaterialYoung(const MaterialSpec *spec)
+{
+  return 9 * spec->mu / (3 + spec->mu / spec->kappa);
+}
 
 /* Unit vectors of all families at the reference position X; none for laws without fibres. Not collective. */
 void MaterialFiberDirections(const MaterialSpec *, const PetscReal X[3], PetscReal fiber[][3]);
 
 PetscErrorCode MaterialEvaluate(const MaterialSpec *, MaterialPart, MaterialPoints *);
 
-/* Volumetric measure g(J) with U(J) = kappa/2 g(J)^2 and its first two derivatives: J-1 (quadratic), ln J (log: with lambda for kappa),
+/* Volumetric measure g(J) with U(J) = kappa/2 g(J)^2 and its first two derivatives: J-1 (quadratic), ln J (log: with log_modulus for kappa),
    sign(J-1) sqrt((J^2-1)/2 - ln J) (simo; series near 1). The independent pressure field is pi = modulus * Proj g; Cauchy pressure -pi g'(J) . */
 void      MaterialVolumetric(const MaterialSpec *, PetscReal J, PetscReal g[3]);
 PetscReal MaterialVolumetricModulus(const MaterialSpec *);

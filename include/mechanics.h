@@ -95,6 +95,7 @@ typedef struct {
   PetscReal noise2;
   PetscReal drift2;  /* the same for each unit of the largest displacement */
   PetscReal largest; /* largest displacement component */
+  PetscReal volume;  /* largest coefficient of g(J) in incompressible cells: their change of volume */
   PetscReal min_det; /* smallest det F */
   PetscBool bad;     /* some det F <= 0: residual must not be used (numerical status) */
 } MechanicsStatus;
@@ -111,6 +112,8 @@ PetscErrorCode MechanicsTangent(Mechanics, const PetscReal u[], const PetscReal 
 /* Static condensation (not to be undone): from now on MechanicsTangent eliminates the nodes inside each cell and sends what is left, over the dofs of the
    others; bad also where that is impossible. Not collective. */
 PetscErrorCode MechanicsSetCondense(Mechanics);
+/* Negative eigenvalues of what the last tangent eliminated on this rank. */
+PetscErrorCode MechanicsNumNegative(Mechanics, PetscInt *num);
 /* Forces condensed like the last tangent, on a local array that is exact at the inner nodes of this rank's cells: there r becomes 0 (and is remembered), to the
    dofs of the other nodes -K_bi K_ii^-1 r_i is added (this rank's part). */
 PetscErrorCode MechanicsCondenseForces(Mechanics, PetscReal r[]);
@@ -136,7 +139,26 @@ PetscErrorCode MechanicsControlArea(Mechanics, PetscInt k, PetscReal sum[2]);
 /* Mark the local nodes that its facets depend on. Not collective. */
 PetscErrorCode MechanicsControlNodes(Mechanics, PetscInt k, PetscBool mark[]);
 
-/* Element pressures: num coefficients on this rank, cell after cell. */
+/* ---- element pressures --------------------------------------------------------------------------------------------- */
+
+/* Cells of incompressible material: their pressures are unknowns, which are set from outside, and have rows of their own. (incompressible.c)
+   Arrays of them hold those of local cells one after the other, owned cells before ghosts. */
+PetscErrorCode MechanicsNumUnknowns(Mechanics, PetscInt *owned, PetscInt *all);
+PetscErrorCode MechanicsUnknownRange(Mechanics, PetscInt cell, PetscInt *first, PetscInt *num);
+/* From now on these are the pressures; 0 before. */
+PetscErrorCode MechanicsSetPressure(Mechanics, const PetscReal pressure[]);
+/* Those of a range. */
+PetscErrorCode MechanicsGetPressure(Mechanics, PetscInt first, PetscInt num, PetscReal pressure[]);
+/* Rows of owned cells at the last MechanicsResidual: E/h int q g(J) dV, h the cell's extent (unit: force). */
+PetscErrorCode MechanicsVolumeRows(Mechanics, PetscReal rows[]);
+/* Receives of an owned cell the derivative B[num_rows][num] of int q g(J) by local dofs, the factor E/h of its rows, and hold[num_rows]: a small diagonal
+   against pressures that nothing determines, to be taken off. */
+typedef PetscErrorCode (*VolumeSink)(void *context, PetscInt cell, PetscInt num_rows, PetscInt num, const PetscInt dofs[], const PetscReal B[], PetscReal scale,
+                                     const PetscReal hold[]);
+/* Those of the last MechanicsTangent. */
+PetscErrorCode MechanicsVolumeTangent(Mechanics, VolumeSink, void *context);
+
+/* Element pressures that are condensed: num coefficients on this rank, cell after cell. */
 PetscErrorCode MechanicsNumPressure(Mechanics, PetscInt *num);
 /* pressure += step * (linearised pressure at the last tangent + its derivative . du - pressure), du local array. */
 PetscErrorCode MechanicsUpdatePressure(Mechanics, const PetscReal du[], PetscReal step, PetscReal pressure[]);
@@ -168,8 +190,13 @@ PetscErrorCode MechanicsReactions(Mechanics, const PetscReal r[], PetscReal reac
  * with u). */
 PetscErrorCode MechanicsPoints(Mechanics, PetscInt cell, PetscInt np, const PetscReal xi[], const PetscReal u[], PetscReal F[], PetscReal P[], PetscReal W[]);
 
-/* Where the coefficients of an owned cell lie in the pressure array; num 0: not mixed, rigid, or a ghost. */
+/* Where the coefficients of an owned cell lie in the pressure array; num 0: none are condensed (not mixed, incompressible, rigid), or a ghost. */
 PetscErrorCode MechanicsPressureRange(Mechanics, PetscInt cell, PetscInt *first, PetscInt *num);
+/* Coefficients of a cell of this order: complete polynomials of degree order-1. */
+static inline PetscInt MechanicsPressureCount(PetscInt dim, PetscInt order)
+{
+  return dim == 2 ? order * (order + 1) / 2 : order * (order + 1) * (order + 2) / 6;
+}
 /* The pressure field of a cell of this order at np reference points xi[np][dim]: complete polynomials of degree order-1 times coefficients. Not collective. */
 PetscErrorCode MechanicsPressureEvaluate(PetscInt dim, PetscInt order, PetscInt np, const PetscReal xi[], const PetscReal pressure[], PetscReal values[]);
 /* Coefficients of the weighted least squares fit to values[np]; the points must determine it (order points in each direction do). Not collective. */

@@ -117,6 +117,7 @@ typedef struct {
   const char     *adapt_stop;      /* why the last adaptation ended: "tolerance", "max_passes", "max_cells", …; NULL or "": there was none */
   PetscReal       t, seconds;      /* pseudo-time reached; wall time so far */
   PetscInt        load_steps, step_cuts, adapt_passes, newton_iterations, active_set_changes, active_set_cycles, factorisations, single_failures;
+  PetscReal       unstable; /* solutions found to be unstable equilibria; NaN: not known of any */
   Problem         problem;  /* of the last accepted state; NULL: nothing was solved */
   const State    *state;    /* with problem */
   const Balance  *balance;  /* with problem; NULL: no figures */

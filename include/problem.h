@@ -1,9 +1,10 @@
-/* Floor 5. One scene on one mesh: bulk + contact, the layout of unknowns (u, z), residual and tangent. Defines State.
+/* Floor 5. One scene on one mesh: bulk + contact, the layout of unknowns (u, z, pi), residual and tangent. Defines State.
 
    Global vector: on each rank first its free displacement dofs (numbering of the HPSpace), then its multipliers: z_j, the contact pressure at nonmortar
-   node j. Residual rows: forces for u; for z_j the complementarity  R_j = w0_j [ z_j - max(0, z_j - c_j gt_j / w_j) ]  (unit: force), c_j = E / w0_j
-   with w0_j the reference tributary length (area) of the node. Tangent: exact, active set as decided by the residual. The last rank's part ends with the
-   scalars (scalar.c): pressures that are found, and pseudo-time where a path is followed. */
+   node j, then the element pressures pi of its incompressible cells. Residual rows: forces for u; for z_j the complementarity  R_j = w0_j [ z_j - max(0, z_j -
+   c_j gt_j / w_j) ]  (unit: force), c_j = E / w0_j with w0_j the reference tributary length (area) of the node; for pi E/h int q g(J), h the cell's extent
+   (unit: force). Tangent: exact, active set as decided by the residual. The last rank's part ends with
+   the scalars (scalar.c): pressures that are found, and pseudo-time where a path is followed. */
 #pragma once
 #include "scene.h"
 
@@ -11,9 +12,9 @@ typedef struct _p_Problem *Problem;
 
 /* Everything that evolves, besides the forest. */
 typedef struct {
-  Vec        x; /* owned: global (u, z) of the problem it belongs to */
+  Vec        x; /* owned: global (u, z, pi) of the problem it belongs to */
   PetscInt   num_pressure;
-  PetscReal *pressure; /* owned [num_pressure] element pressures of this rank */
+  PetscReal *pressure; /* owned [num_pressure] element pressures of this rank that are condensed */
   PetscInt   num_history;
   PetscReal *history; /* owned [num_history] what the laws of this rank's cells remember from the last accepted step (MechanicsHistoryRange) */
   PetscReal  t;       /* pseudo-time of this state */
@@ -56,8 +57,13 @@ PetscErrorCode ProblemJump(Problem);
 /* Apply this share of what is left to the target. */
 PetscErrorCode ProblemApplyShare(Problem, PetscReal share);
 
+/* Are pressures of incompressible cells among the unknowns? Then neither condensation nor multigrid is to be had. */
+PetscErrorCode ProblemIsIncompressible(Problem, PetscBool *);
+/* Set them in x: those of this rank's cells, as MechanicsSetPressure takes them. */
+PetscErrorCode ProblemSetPressures(Problem, const PetscReal pressure[], Vec x);
+
 /* Local displacement array (Cartesian frames applied only through HPSpaceGather): free dofs from x, prescribed dofs as applied so far. local[num_nodes*dim].
-   The scalars of x act from now on. Collective. */
+   The scalars of x and its element pressures act from now on. Collective. */
 PetscErrorCode ProblemLocalDisplacement(Problem, Vec x, PetscReal local[]);
 /* Write a local array's free dofs into x (owned entries). */
 PetscErrorCode ProblemSetDisplacement(Problem, const PetscReal local[], Vec x);
@@ -161,6 +167,7 @@ PetscErrorCode ProblemSearch(Problem, Vec x);
 typedef struct {
   PetscReal energy;  /* strain energy */
   PetscReal min_det; /* smallest det F */
+  PetscReal volume;  /* largest coefficient of g(J) in incompressible cells: their change of volume */
   PetscReal scale;   /* root of the summed squared nodal forces of cells and loads: the residual is small against it */
   PetscReal largest; /* displacement component */
   PetscReal noise;   /* level of round-off in the residual: no Newton step gets below */
@@ -214,4 +221,7 @@ PetscErrorCode ProblemGetBlocks(Problem, PetscInt *num_u, PetscInt *num_z, Petsc
    to the displacement dofs of this problem; ones on the diagonal of the prescribed ones among them; their rigid-body modes; are there nodes
    that are no vertices? Collective. */
 PetscErrorCode ProblemProlongation(Problem, Mat *prolongation, Mat *pinned, MatNullSpace *modes, PetscBool *higher);
-PetscErrorCode ProblemNumDofs(Problem, PetscInt *free_dofs); /* global: u and z */
+/* Negative eigenvalues of the matrix in its symmetric form at a stable equilibrium: one for each constraint (pressures of contact, open or not, and of
+   incompressible cells), less those that condensation met at the last tangent. Collective. */
+PetscErrorCode ProblemNumNegative(Problem, PetscInt *num);
+PetscErrorCode ProblemNumDofs(Problem, PetscInt *free_dofs); /* global: u, z and pi */

@@ -31,8 +31,8 @@ typedef struct {
   History          history;
   Monitor          monitor;
   PetscInt       load_steps, step_cuts, adapt_passes, newton_iterations, passes_in_step, iterations_in_step, cuts_in_step, set_changes, set_cycles, told_cycles;
-  PetscInt       factorisations, single_failures;
-  ProblemStatus  status; /* of the last solution */
+  PetscInt       factorisations, single_failures, unstable, judged; /* judged: solutions of which it is known whether they are stable */
+  ProblemStatus  status;                                            /* of the last solution */
   PetscLogDouble start;
   PetscReal      arc, arc_first; /* along a path: length of the next step, of the first one; 0: not yet */
   PetscReal      haste;          /* displacement per time in the last step, over that since the start */

@@ -12,6 +12,8 @@ void AppCount(App *app, const SolverReport *report)
   app->set_cycles += report->set_cycles;
   app->factorisations += report->factorisations;
   app->single_failures += report->single_failures;
+  if (report->converged && report->unstable >= 0) ++app->judged;
+  if (report->converged && report->unstable > 0) ++app->unstable;
   if (report->converged) app->status = report->status;
 }
 

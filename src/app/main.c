@@ -42,6 +42,7 @@ static PetscErrorCode Summarise_Private(App *app)
   summary.active_set_cycles  = app->set_cycles;
   summary.factorisations     = app->factorisations;
   summary.single_failures    = app->single_failures;
+  summary.unstable           = app->judged ? (PetscReal)app->unstable : (PetscReal)NAN;
   summary.adapt_stop         = app->adapt_stop;
   summary.problem            = app->level.problem;
   summary.state              = &app->level.accepted;

@@ -178,7 +178,7 @@ static PetscReal VolumetricModulus_Private(const EstimateSum *sum, const Materia
   return sum->spec->kinematics == KINEMATICS_FINITE ? MaterialVolumetricModulus(material) : material->kappa;
 }
 
-/* Incompressibility: 1/kappa |q|^2, the error of the pressure as recovered, and w |g - Proj g|^2, w = 2 mu kappa / (2 mu + kappa): a volume error that the
+/* Incompressibility: 1/kappa |q|^2, the error of the pressure as recovered, and w |g - Proj g|^2, w = 2 mu / (1 + 2 mu / kappa): a volume error that the
    pressure space does not see is answered by shear, however stiff the material is against its mean. */
 static PetscErrorCode Volume_Private(const EstimateSum *sum, const MaterialSpec *material, const VolumeTable *table, CellWork *w, PetscReal *square)
 {
@@ -187,7 +187,7 @@ static PetscErrorCode Volume_Private(const EstimateSum *sum, const MaterialSpec 
   PetscFunctionBegin;
   *square = WeightedSquare_Private(table->num, 1, w->weight, w->recovered) / kappa;
   PetscCall(UnseenVolume_Private(sum, material, table, w));
-  *square += 2 * material->mu * kappa / (2 * material->mu + kappa) * WeightedSquare_Private(table->num, 1, w->weight, w->g);
+  *square += 2 * material->mu / (1 + 2 * material->mu / kappa) * WeightedSquare_Private(table->num, 1, w->weight, w->g);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

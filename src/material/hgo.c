@@ -7,7 +7,7 @@ enum { C, KAPPA, K1, K2, C2 };
 
 const MaterialParameter MaterialHGOParameters[] = {
     {"c", "stress", "shear modulus of the ground substance", 0, PETSC_MAX_REAL},
-    {"kappa", "stress", "bulk modulus", 0, PETSC_MAX_REAL},
+    {"kappa", "stress", "bulk modulus; inf: incompressible", 0, INFINITY},
     {"k1", "stress", "stiffness of the fibres, of all families that have none of their own", 0, PETSC_MAX_REAL},
     {"k2", "1", "how fast the fibres stiffen, likewise", 0, PETSC_MAX_REAL},
     {"c2", "stress", "twice the factor of the ground substance's second invariant; 0 when left out", PETSC_MIN_REAL, PETSC_MAX_REAL},

@@ -51,24 +51,33 @@ INLINE void AddSecondInvariantHessian(Lanes A[81], Lanes c, Lanes I1, const Lane
   }
 }
 
-/* Adds c2 (b I2 - 3) with b = J^(-4/3), dI2/dF = 2 (I1 F - F C). I2 - 3 = 2 (I1 - 3) + I2(C - 1) keeps small strains. */
-INLINE void SecondInvariant(PetscReal c2, const Deformation *d, Lanes I1m3, Lanes h[2], Response *r)
+/* I2 - 3 = 2 (I1 - 3) + I2(C - 1), which keeps small strains, and G = dI2/dF = 2 (I1 F - F C). */
+INLINE Lanes SecondMinus3(const Deformation *d, Lanes I1m3, Lanes G[9])
 {
-  const Lanes bm1 = LanesExpm1((-4. / 3) * d->lnJ), b = 1 + bm1, inverse = 1 / d->J, *F = d->F, *H = d->H;
-  Lanes       E[9], G[9], I2m3; /* E = C - 1, G = dI2/dF */
+  const Lanes *F = d->F, *H = d->H;
+  Lanes        E[9]; /* C - 1 */
 
   for (int r0 = 0; r0 < 3; r0++) {
     for (int s = 0; s < 3; s++) E[3 * r0 + s] = H[3 * r0 + s] + H[3 * s + r0] + H[r0] * H[s] + H[3 + r0] * H[3 + s] + H[6 + r0] * H[6 + s];
   }
-  I2m3 = 2 * I1m3 + 0.5 * (I1m3 * I1m3 - Inner9(E, E));
   /* I1 F - F C = (I1 - 1) F - F E */
   for (int i = 0; i < 3; i++) {
     for (int J = 0; J < 3; J++) G[3 * i + J] = 2 * ((2 + I1m3) * F[3 * i + J] - F[3 * i] * E[J] - F[3 * i + 1] * E[3 + J] - F[3 * i + 2] * E[6 + J]);
   }
+  return 2 * I1m3 + 0.5 * (I1m3 * I1m3 - Inner9(E, E));
+}
+
+/* Adds c2 (b I2 - 3) with b = J^(-4/3). */
+INLINE void SecondInvariant(PetscReal c2, const Deformation *d, Lanes I1m3, Lanes h[2], Response *r)
+{
+  const Lanes bm1 = LanesExpm1((-4. / 3) * d->lnJ), b = 1 + bm1, inverse = 1 / d->J;
+  Lanes       G[9], I2m3;
+
+  I2m3 = SecondMinus3(d, I1m3, G);
   if (r->want_W) r->W += c2 * (bm1 * (3 + I2m3) + I2m3);
   for (int k = 0; r->want_P && k < 9; k++) r->P[k] += c2 * b * G[k];
   if (r->want_A) {
-    AddSecondInvariantHessian(r->A, 2 * c2 * b, 3 + I1m3, F);
+    AddSecondInvariantHessian(r->A, 2 * c2 * b, 3 + I1m3, d->F);
     for (int k = 0; k < 9; k++) G[k] *= (-4. / 3) * c2 * b * inverse;
     AddSymmetric(r->A, G, d->cof);
   }

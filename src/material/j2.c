@@ -10,14 +10,15 @@
 
 enum { YIELD = 5, HARDENING, SATURATION, SATURATION_RATE }; /* after the elastic parameters */
 #define ROOT23 0.81649658092772603273                       /* sqrt(2/3) */
-#define ON_SURFACE 1e-9 /* a step that starts so near the yield surface is expected to flow: a much better start for Newton's method than the elastic tangent  \
-                         */
+#define ON_SURFACE                                                                                                                                             \
+  1e-9 /* a step that starts so near the yield surface is expected to flow: a much better start for Newton's method than the elastic tangent                   \
+        */
 
 const MaterialParameter MaterialJ2Parameters[] = {
     {"E", "stress", "Young's modulus", 0, PETSC_MAX_REAL},
-    {"nu", "1", "Poisson's ratio", -1, 0.5},
+    {"nu", "1", "Poisson's ratio; 0.5: incompressible", -1, 0.5},
     {"mu", "stress", "shear modulus", 0, PETSC_MAX_REAL},
-    {"kappa", "stress", "bulk modulus", 0, PETSC_MAX_REAL},
+    {"kappa", "stress", "bulk modulus; inf: incompressible", 0, INFINITY},
     {"lambda", "stress", "Lame's first parameter", PETSC_MIN_REAL, PETSC_MAX_REAL},
     {"yield", "stress", "yield stress of the virgin material", 0, PETSC_MAX_REAL},
     {"hardening", "stress", "its rise per unit of plastic strain; default 0", PETSC_MIN_REAL, PETSC_MAX_REAL},

@@ -4,9 +4,9 @@
 
 const MaterialParameter MaterialElasticParameters[] = {
     {"E", "stress", "Young's modulus", 0, PETSC_MAX_REAL},
-    {"nu", "1", "Poisson's ratio", -1, 0.5},
+    {"nu", "1", "Poisson's ratio; 0.5: incompressible", -1, 0.5},
     {"mu", "stress", "shear modulus", 0, PETSC_MAX_REAL},
-    {"kappa", "stress", "bulk modulus", 0, PETSC_MAX_REAL},
+    {"kappa", "stress", "bulk modulus; inf: incompressible", 0, INFINITY},
     {"lambda", "stress", "Lame's first parameter", PETSC_MIN_REAL, PETSC_MAX_REAL},
     {NULL, NULL, NULL, 0, 0},
 };
@@ -51,8 +51,7 @@ static PetscErrorCode Unknown_Private(const MaterialSpec *spec, const char *name
 static PetscErrorCode CheckRange_Private(const MaterialSpec *spec, const MaterialParameter *p, PetscReal value)
 {
   PetscFunctionBegin;
-  PetscCheckInput(strcmp(p->name, "nu") || value != 0.5,
-                  "material.%s.nu: 0.5 is the incompressible limit; take nu below 0.5 (0.4999, say) with formulation: mixed", spec->name);
+  if (MaterialIsLimit(p, value)) PetscFunctionReturn(PETSC_SUCCESS);
   if (p->max < PETSC_MAX_REAL)
     PetscCheckInput(value > p->min && value < p->max, "material.%s.%s: %g is not between %g and %g", spec->name, p->name, (double)value, (double)p->min,
                     (double)p->max);
@@ -60,6 +59,13 @@ static PetscErrorCode CheckRange_Private(const MaterialSpec *spec, const Materia
     PetscCheckInput(value > p->min && value < p->max, "material.%s.%s: %g is not a finite number above %g", spec->name, p->name, (double)value, (double)p->min);
   PetscCheckInput(value > p->min && value < p->max, "material.%s.%s: %g is not a finite number", spec->name, p->name, (double)value);
   PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscReal Poisson_Private(const MaterialSpec *spec)
+{
+  const PetscReal ratio = spec->mu / spec->kappa;
+
+  return (3 - 2 * ratio) / (2 * (3 + ratio));
 }
 
 /* The elastic pairs E,nu | mu,kappa | mu,lambda; exactly one of them. */
@@ -96,27 +102,50 @@ PetscErrorCode MaterialSetUpElastic(MaterialSpec *spec)
   spec->lambda = pair == 0 ? v[0] * v[1] / ((1 + v[1]) * (1 - 2 * v[1])) : pair == 1 ? v[3] - 2 * v[2] / 3 : v[4];
   spec->kappa  = pair == 1 ? v[3] : pair == 0 ? v[0] / (3 * (1 - 2 * v[1])) : v[4] + 2 * v[2] / 3;
   PetscCheckInput(spec->kappa > 0, "material.%s.lambda: %g gives the bulk modulus %g, which must be positive", spec->name, (double)v[4], (double)spec->kappa);
-  v[0] = 9 * spec->kappa * spec->mu / (3 * spec->kappa + spec->mu);
-  v[1] = pair == 0 ? v[1] : (3 * spec->kappa - 2 * spec->mu) / (2 * (3 * spec->kappa + spec->mu));
-  v[2] = spec->mu;
-  v[3] = spec->kappa;
-  v[4] = spec->lambda;
+  spec->log_modulus = spec->lambda;
+  v[0]              = MaterialYoung(spec);
+  v[1]              = pair == 0 ? v[1] : Poisson_Private(spec);
+  v[2]              = spec->mu;
+  v[3]              = spec->kappa;
+  v[4]              = spec->lambda;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* `mixed`: as told, or from nu = 0.45 up. NHc's modulus of the pressure is lambda, which must not vanish then. */
+#define STIFFEST 1e12 /* kappa over mu: beyond, round-off of J times kappa is as large as what shear answers, and an unloaded body already looks balanced */
+
+/* The incompressible limit needs a pressure of its own, and a shear part that feels no change of volume; that of NHc does. */
+static PetscErrorCode CheckLimit_Private(MaterialSpec *spec)
+{
+  PetscFunctionBegin;
+  spec->incompressible = (PetscBool)(!spec->law->rigid && PetscIsInfReal(spec->kappa));
+  PetscCheckInput(
+      spec->law->rigid || spec->incompressible || spec->kappa <= STIFFEST * spec->mu,
+      "material.%s.kappa: the bulk modulus %g is more than 1e12 times the shear modulus %g, of which round-off leaves nothing; take inf (incompressible)",
+      spec->name, (double)spec->kappa, (double)spec->mu);
+  if (!spec->incompressible) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCheckInput(!spec->law->whole, "material.%s.law: %s has no incompressible limit (nu: 0.5, kappa: inf); take neo_hookean, or nu below 0.5", spec->name,
+                  spec->law->name);
+  PetscCheckInput(spec->mixed, "material.%s.formulation: displacements alone cannot keep the volume (kappa: inf, nu: 0.5); take mixed, or nu below 0.5",
+                  spec->name);
+  PetscCheckInput(spec->volumetric != VOLUMETRIC_LOG, "material.%s.volumetric: log has no incompressible limit (kappa: inf, nu: 0.5); take quadratic or simo",
+                  spec->name);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* `mixed`: as told, or from nu = 0.45 up. The modulus of the pressure must not vanish then. */
 static PetscErrorCode ResolveMixed_Private(MaterialSpec *spec)
 {
-  const PetscReal nu = (3 * spec->kappa - 2 * spec->mu) / (2 * (3 * spec->kappa + spec->mu));
+  const PetscReal nu = Poisson_Private(spec);
 
   PetscFunctionBegin;
   spec->mixed =
       spec->formulation == FORMULATION_MIXED || (spec->formulation == FORMULATION_AUTO && !spec->law->rigid && nu >= 0.45 - 1e-12) ? PETSC_TRUE : PETSC_FALSE;
+  PetscCall(CheckLimit_Private(spec));
   PetscCheckInput(!spec->mixed || !spec->law->whole,
                   "material.%s.formulation: %s has no mixed form (meant for nu from 0.45 up, here %g); set formulation: displacement or take neo_hookean",
                   spec->name, spec->law->name, (double)nu);
-  PetscCheckInput(!spec->mixed || MaterialVolumetricModulus(spec) > 0, "material.%s.formulation: mixed with volumetric: log needs lambda above 0, which is %g",
-                  spec->name, (double)spec->lambda);
+  PetscCheckInput(!spec->mixed || MaterialVolumetricModulus(spec) > 0, "material.%s.formulation: mixed with volumetric: log needs %s above 0, which is %g",
+                  spec->name, spec->log_modulus == spec->lambda ? "lambda" : "kappa - 4/3 c1 - 16/3 c2", (double)spec->log_modulus);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -3,7 +3,7 @@
 
 PetscReal MaterialVolumetricModulus(const MaterialSpec *spec)
 {
-  return spec->volumetric == VOLUMETRIC_LOG ? spec->lambda : spec->kappa;
+  return spec->volumetric == VOLUMETRIC_LOG ? spec->log_modulus : spec->kappa;
 }
 
 /* Simo's g = sign(j) sqrt(f), f = (J^2-1)/2 - ln J, j = J-1. Near j = 0 f loses its digits: there f = j^2 r(j), r = 1 - j/3 + j^2/4 - j^3/5 + ...,

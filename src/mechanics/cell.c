@@ -4,12 +4,12 @@
 static PetscErrorCode TablesCreate_Private(CellKernel k)
 {
   const Basis1D *b  = k->basis;
-  const PetscInt n1 = k->n1, m = k->num_pressure;
+  const PetscInt n1 = k->n1, q1 = k->q1, m = k->num_pressure;
 
   PetscFunctionBegin;
-  PetscCall(PetscMalloc3(k->num_points, &k->weight, k->num_points * m, &k->legendre, n1 * n1 * n1 * 4, &k->pairs));
+  PetscCall(PetscMalloc3(k->num_points, &k->weight, k->num_points * m, &k->legendre, n1 * n1 * 4 * q1, &k->pairs));
   for (PetscInt q = 0; q < k->num_points; q++) {
-    const PetscInt index[3] = {q % n1, q / n1 % n1, q / (n1 * n1)};
+    const PetscInt index[3] = {q % q1, q / q1 % q1, q / (q1 * q1)};
     PetscReal      value[3][MORTISE_MAX_ORDER + 1];
     PetscInt       l = 0;
 
@@ -24,8 +24,8 @@ static PetscErrorCode TablesCreate_Private(CellKernel k)
       }
     }
   }
-  for (PetscInt i = 0; i < n1 * n1 * 4 * n1; i++) {
-    const PetscInt q = i % n1, s = i / n1 % 2, r = i / n1 / 2 % 2, fb = i / n1 / 4 % n1, fa = i / n1 / 4 / n1;
+  for (PetscInt i = 0; i < n1 * n1 * 4 * q1; i++) {
+    const PetscInt q = i % q1, s = i / q1 % 2, r = i / q1 / 2 % 2, fb = i / q1 / 4 % n1, fa = i / q1 / 4 / n1;
 
     k->pairs[i] = (r ? b->D : b->B)[q * n1 + fa] * (s ? b->D : b->B)[q * n1 + fb];
   }
@@ -35,7 +35,7 @@ static PetscErrorCode TablesCreate_Private(CellKernel k)
 /* One block of memory, aligned to lanes, cut into the arrays of the kernel. */
 static PetscErrorCode ArenaCreate_Private(CellKernel k)
 {
-  const size_t n = k->num_nodes, q = k->num_points, d = k->dim, r = k->num_derivatives, m = k->num_pressure, n1 = k->n1, slab = k->slab_points,
+  const size_t n = k->num_nodes, q = k->num_points, d = k->dim, r = k->num_derivatives, m = k->num_pressure, n1 = k->n1, q1 = k->q1, slab = k->slab_points,
                h = k->material.law->num_history;
   const struct {
     Lanes **array;
@@ -44,7 +44,7 @@ static PetscErrorCode ArenaCreate_Private(CellKernel k)
       {&k->X, d * n},
       {&k->u, d * n},
       {&k->gradient, d * r * q},
-      {&k->layer, 3 * n},
+      {&k->layer, d == 3 ? 3 * n1 * q1 * q1 : 0},
       {&k->inverse, d * d * q},
       {&k->hoop_inverse, k->hoop ? q : 0},
       {&k->volume, q},
@@ -62,7 +62,7 @@ static PetscErrorCode ArenaCreate_Private(CellKernel k)
       {&k->stored, m},
       {&k->coupling, m * d * n},
       {&k->reference_tangent, d * d * r * r * q},
-      {&k->layer_tangent, d * d * r * r * n1 * n1},
+      {&k->layer_tangent, d * d * r * r * q1 * q1},
       {&k->tile, n1 * d * n1 * d},
   };
   size_t total = 1;
@@ -82,7 +82,7 @@ static PetscErrorCode ArenaCreate_Private(CellKernel k)
 PetscErrorCode MechanicsPointRule(PetscInt order, const Basis1D **basis)
 {
   PetscFunctionBegin;
-  PetscCall(Basis1DGet(order, order + 1, basis));
+  PetscCall(Basis1DGet(order, CellLinePoints(order), basis));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -101,14 +101,16 @@ PetscErrorCode CellKernelCreate(PetscInt dim, Model model, Kinematics kinematics
   k->order           = order;
   k->n1              = order + 1;
   k->num_nodes       = ElementNumNodes(dim, order);
-  k->num_points      = k->num_nodes;
+  k->q1              = CellLinePoints(order);
+  k->num_points      = ElementNumNodes(dim, k->q1 - 1);
   k->small           = kinematics == KINEMATICS_SMALL ? PETSC_TRUE : PETSC_FALSE;
   k->hoop            = model == MODEL_AXISYMMETRIC ? PETSC_TRUE : PETSC_FALSE;
   k->mixed           = material->mixed;
+  k->incompressible  = material->incompressible;
   k->unsymmetric     = material->law->unsymmetric;
   k->num_derivatives = k->hoop ? 3 : dim;
-  k->num_pressure    = !k->mixed ? 0 : dim == 2 ? order * (order + 1) / 2 : order * (order + 1) * (order + 2) / 6;
-  k->num_slabs       = dim == 3 && order > 1 ? k->n1 : 1;
+  k->num_pressure    = !k->mixed ? 0 : MechanicsPressureCount(dim, order);
+  k->num_slabs       = dim == 3 && order > 1 ? k->q1 : 1;
   k->slab_points     = k->num_points / k->num_slabs;
   k->material        = *material;
   if (k->small) { /* small kinematics: every law is its linearisation */
@@ -167,6 +169,13 @@ static void Store_Private(PetscInt num, PetscInt n, PetscInt d, const Lanes *lan
     for (PetscInt node = 0; node < n; node++) {
       for (PetscInt c = 0; c < d; c++) values[(l * n + node) * d + c] = lanes[c * n + node][l];
     }
+  }
+}
+
+static void StoreDiagonal_Private(PetscInt num, PetscInt m, const Lanes *matrix, PetscReal *values)
+{
+  for (PetscInt l = 0; l < num; l++) {
+    for (PetscInt i = 0; i < m; i++) values[l * m + i] = matrix[i * m + i][l];
   }
 }
 
@@ -243,13 +252,13 @@ static PetscErrorCode Law_Private(CellKernel k, PetscBool tangent, const Lanes *
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* int W_iso + 1/(2 modulus) pi . M pi, where M pi = modulus int q g. */
+/* int W_iso + 1/(2 modulus) pi . M pi, where M pi = modulus int q g (incompressible: nothing). */
 static void Energy_Private(CellKernel k, PetscInt num, PetscReal *energy)
 {
   Lanes sum = {0};
 
   for (PetscInt q = 0; q < k->num_points; q++) sum += k->volume[q] * k->W[q];
-  for (PetscInt i = 0; i < k->num_pressure; i++) sum += 0.5 * k->moment[i] * k->coefficient[i];
+  for (PetscInt i = 0; i < k->num_pressure && !k->incompressible; i++) sum += 0.5 * k->moment[i] * k->coefficient[i];
   for (PetscInt l = 0; l < num; l++) energy[l] = sum[l];
 }
 
@@ -272,10 +281,11 @@ static void Stretch_Private(CellKernel k, PetscInt num, PetscReal *stretch2)
 static PetscErrorCode Chunk_Private(CellKernel k, CellBatch *b, PetscInt first, PetscInt num)
 {
   const PetscInt  n = k->num_nodes, d = k->dim, m = k->num_pressure, size = n * d, fibers = 3 * k->material.num_fibers;
-  const PetscBool tangent = b->tangent ? PETSC_TRUE : PETSC_FALSE, couple = m && (b->tangent || b->dpressure) ? PETSC_TRUE : PETSC_FALSE;
-  const Lanes    *pressure = k->coefficient;
-  Lanes           min_det;
-  PetscBool       bad = PETSC_FALSE;
+  const PetscBool tangent = b->tangent ? PETSC_TRUE : PETSC_FALSE,
+                  couple  = m && ((b->tangent && !k->incompressible) || b->dpressure) ? PETSC_TRUE : PETSC_FALSE;
+  const Lanes *pressure   = k->coefficient;
+  Lanes        min_det;
+  PetscBool    bad = PETSC_FALSE;
 
   PetscFunctionBegin;
   PetscCheck(b->history || !k->material.law->num_history || !(b->energy || b->residual || tangent || b->trial), PETSC_COMM_SELF, PETSC_ERR_ARG_NULL,
@@ -292,11 +302,13 @@ static PetscErrorCode Chunk_Private(CellKernel k, CellBatch *b, PetscInt first, 
   if (bad) b->bad = PETSC_TRUE;
   if (bad) PetscFunctionReturn(PETSC_SUCCESS);
   if (k->mixed) CellKernelProject_Private(k);
-  if (b->consistent && m) Store_Private(num, m, 1, k->coefficient, b->consistent + first * m);
+  if (b->consistent && m) Store_Private(num, m, 1, k->incompressible ? k->moment : k->coefficient, b->consistent + first * m);
+  if (b->mass && k->incompressible) StoreDiagonal_Private(num, m, k->mass, b->mass + first * m);
   if (k->mixed && b->pressure) {
     Load_Private(num, m, 1, b->pressure + first * m, k->stored);
     pressure = k->stored;
   }
+  if (k->incompressible && b->pressure) PetscCall(PetscArraycpy(k->coefficient, k->stored, m));
   if (b->history) LoadHistory_Private(k, num, b->history + first * k->num_points * k->material.law->num_history);
   if (fibers && (b->energy || b->residual || tangent)) LoadSlabs_Private(k, num, fibers, b->fiber + first * fibers * k->num_points, k->fiber);
   if (b->energy || b->residual || tangent || b->trial) PetscCall(Law_Private(k, tangent, pressure, &bad));

@@ -1,168 +1,148 @@
 /* From nodal values to points and back, by contraction with one-dimensional tables one direction after the other (sum factorisation):
-   O(p^(d+1)) operations a cell and field. The inner functions take n1 = p+1 as a constant for the usual orders, so that they unroll. */
+   O(p^(d+1)) operations a cell and field. Along a line there are n1 = p+1 nodes and q1 points; the inner functions take both as constants for the usual orders,
+   so that they unroll. */
 #include "mechanicsimpl.h"
 
-/* One xy-layer f[n1*n1] at its points: derivative by x, derivative by y, value. */
-INLINE void LayerGradient_Private(const PetscInt n1, const PetscReal *B, const PetscReal *D, const Lanes *f, Lanes *gx, Lanes *gy, Lanes *v)
+#define MOST_LINE ((MORTISE_MAX_ORDER + 1) * MOST_LINE_POINTS) /* nodes of a line times points of a line */
+
+/* One xy-layer f[n1*n1] at its q1*q1 points: derivative by x, derivative by y, value. */
+INLINE void LayerGradient_Private(const PetscInt n1, const PetscInt q1, const PetscReal *B, const PetscReal *D, const Lanes *f, Lanes *gx, Lanes *gy, Lanes *v)
 {
-  Lanes b[(MORTISE_MAX_ORDER + 1) * (MORTISE_MAX_ORDER + 1)], e[(MORTISE_MAX_ORDER + 1) * (MORTISE_MAX_ORDER + 1)];
+  Lanes b[MOST_LINE], e[MOST_LINE];
 
   for (PetscInt y = 0; y < n1; y++) {
-    for (PetscInt q = 0; q < n1; q++) {
+    for (PetscInt q = 0; q < q1; q++) {
       Lanes value = B[q * n1] * f[y * n1], slope = D[q * n1] * f[y * n1];
 
       for (PetscInt x = 1; x < n1; x++) {
         value += B[q * n1 + x] * f[y * n1 + x];
         slope += D[q * n1 + x] * f[y * n1 + x];
       }
-      b[y * n1 + q] = value;
-      e[y * n1 + q] = slope;
+      b[y * q1 + q] = value;
+      e[y * q1 + q] = slope;
     }
   }
-  for (PetscInt qy = 0; qy < n1; qy++) {
-    for (PetscInt q = 0; q < n1; q++) {
+  for (PetscInt qy = 0; qy < q1; qy++) {
+    for (PetscInt q = 0; q < q1; q++) {
       Lanes x = {0}, y = {0}, w = {0};
 
       for (PetscInt j = 0; j < n1; j++) {
-        x += B[qy * n1 + j] * e[j * n1 + q];
-        y += D[qy * n1 + j] * b[j * n1 + q];
-        w += B[qy * n1 + j] * b[j * n1 + q];
+        x += B[qy * n1 + j] * e[j * q1 + q];
+        y += D[qy * n1 + j] * b[j * q1 + q];
+        w += B[qy * n1 + j] * b[j * q1 + q];
       }
-      gx[qy * n1 + q] = x;
-      gy[qy * n1 + q] = y;
-      if (v) v[qy * n1 + q] = w;
+      gx[qy * q1 + q] = x;
+      gy[qy * q1 + q] = y;
+      if (v) v[qy * q1 + q] = w;
     }
   }
 }
 
 /* The transpose: f = sum over the layer's points of gx dN/dx + gy dN/dy + v N. */
-INLINE void LayerIntegrate_Private(const PetscInt n1, const PetscReal *B, const PetscReal *D, const Lanes *gx, const Lanes *gy, const Lanes *v, Lanes *f)
+INLINE void LayerIntegrate_Private(const PetscInt n1, const PetscInt q1, const PetscReal *B, const PetscReal *D, const Lanes *gx, const Lanes *gy,
+                                   const Lanes *v, Lanes *f)
 {
-  Lanes b[(MORTISE_MAX_ORDER + 1) * (MORTISE_MAX_ORDER + 1)], e[(MORTISE_MAX_ORDER + 1) * (MORTISE_MAX_ORDER + 1)];
+  Lanes b[MOST_LINE], e[MOST_LINE];
 
   for (PetscInt y = 0; y < n1; y++) {
-    for (PetscInt q = 0; q < n1; q++) {
+    for (PetscInt q = 0; q < q1; q++) {
       Lanes slope = {0}, value = {0};
 
-      for (PetscInt j = 0; j < n1; j++) {
-        slope += B[j * n1 + y] * gx[j * n1 + q];
-        value += D[j * n1 + y] * gy[j * n1 + q];
-        if (v) value += B[j * n1 + y] * v[j * n1 + q];
+      for (PetscInt j = 0; j < q1; j++) {
+        slope += B[j * n1 + y] * gx[j * q1 + q];
+        value += D[j * n1 + y] * gy[j * q1 + q];
+        if (v) value += B[j * n1 + y] * v[j * q1 + q];
       }
-      e[y * n1 + q] = slope;
-      b[y * n1 + q] = value;
+      e[y * q1 + q] = slope;
+      b[y * q1 + q] = value;
     }
   }
   for (PetscInt y = 0; y < n1; y++) {
     for (PetscInt x = 0; x < n1; x++) {
       Lanes sum = {0};
 
-      for (PetscInt q = 0; q < n1; q++) sum += D[q * n1 + x] * e[y * n1 + q] + B[q * n1 + x] * b[y * n1 + q];
+      for (PetscInt q = 0; q < q1; q++) sum += D[q * n1 + x] * e[y * q1 + q] + B[q * n1 + x] * b[y * q1 + q];
       f[y * n1 + x] = sum;
     }
   }
 }
 
 /* Gradient of one field over the whole cell, [r][q]. 3-D: layers first, then along z. */
-INLINE void FieldGradient_Private(const PetscInt n1, PetscInt dim, PetscInt r, const PetscReal *B, const PetscReal *D, const Lanes *f, Lanes *layer, Lanes *g)
+INLINE void FieldGradient_Private(const PetscInt n1, const PetscInt q1, PetscInt dim, PetscInt r, const PetscReal *B, const PetscReal *D, const Lanes *f,
+                                  Lanes *layer, Lanes *g)
 {
-  const PetscInt n2 = n1 * n1, n3 = n2 * n1;
+  const PetscInt n2 = n1 * n1, q2 = q1 * q1, part = n1 * q2;
 
   if (dim == 2) {
-    LayerGradient_Private(n1, B, D, f, g, g + n2, r == 3 ? g + 2 * n2 : NULL);
+    LayerGradient_Private(n1, q1, B, D, f, g, g + q2, r == 3 ? g + 2 * q2 : NULL);
     return;
   }
-  for (PetscInt z = 0; z < n1; z++) LayerGradient_Private(n1, B, D, f + z * n2, layer + z * n2, layer + n3 + z * n2, layer + 2 * n3 + z * n2);
+  for (PetscInt z = 0; z < n1; z++) LayerGradient_Private(n1, q1, B, D, f + z * n2, layer + z * q2, layer + part + z * q2, layer + 2 * part + z * q2);
   for (PetscInt c = 0; c < 3; c++) {
     const PetscReal *T = c == 2 ? D : B;
 
-    for (PetscInt qz = 0; qz < n1; qz++) {
-      for (PetscInt q = 0; q < n2; q++) {
-        Lanes sum = T[qz * n1] * layer[c * n3 + q];
+    for (PetscInt qz = 0; qz < q1; qz++) {
+      for (PetscInt q = 0; q < q2; q++) {
+        Lanes sum = T[qz * n1] * layer[c * part + q];
 
-        for (PetscInt z = 1; z < n1; z++) sum += T[qz * n1 + z] * layer[c * n3 + z * n2 + q];
-        g[c * n3 + qz * n2 + q] = sum;
+        for (PetscInt z = 1; z < n1; z++) sum += T[qz * n1 + z] * layer[c * part + z * q2 + q];
+        g[(c * q1 + qz) * q2 + q] = sum;
       }
     }
   }
 }
 
-INLINE void FieldIntegrate_Private(const PetscInt n1, PetscInt dim, PetscInt r, const PetscReal *B, const PetscReal *D, const Lanes *g, Lanes *layer, Lanes *f)
+INLINE void FieldIntegrate_Private(const PetscInt n1, const PetscInt q1, PetscInt dim, PetscInt r, const PetscReal *B, const PetscReal *D, const Lanes *g,
+                                   Lanes *layer, Lanes *f)
 {
-  const PetscInt n2 = n1 * n1, n3 = n2 * n1;
+  const PetscInt n2 = n1 * n1, q2 = q1 * q1, part = n1 * q2;
 
   if (dim == 2) {
-    LayerIntegrate_Private(n1, B, D, g, g + n2, r == 3 ? g + 2 * n2 : NULL, f);
+    LayerIntegrate_Private(n1, q1, B, D, g, g + q2, r == 3 ? g + 2 * q2 : NULL, f);
     return;
   }
   for (PetscInt c = 0; c < 3; c++) {
     const PetscReal *T = c == 2 ? D : B;
 
     for (PetscInt z = 0; z < n1; z++) {
-      for (PetscInt q = 0; q < n2; q++) {
-        Lanes sum = T[z] * g[c * n3 + q];
+      for (PetscInt q = 0; q < q2; q++) {
+        Lanes sum = T[z] * g[c * q1 * q2 + q];
 
-        for (PetscInt qz = 1; qz < n1; qz++) sum += T[qz * n1 + z] * g[c * n3 + qz * n2 + q];
-        layer[c * n3 + z * n2 + q] = sum;
+        for (PetscInt qz = 1; qz < q1; qz++) sum += T[qz * n1 + z] * g[(c * q1 + qz) * q2 + q];
+        layer[c * part + z * q2 + q] = sum;
       }
     }
   }
-  for (PetscInt z = 0; z < n1; z++) LayerIntegrate_Private(n1, B, D, layer + z * n2, layer + n3 + z * n2, layer + 2 * n3 + z * n2, f + z * n2);
+  for (PetscInt z = 0; z < n1; z++) LayerIntegrate_Private(n1, q1, B, D, layer + z * q2, layer + part + z * q2, layer + 2 * part + z * q2, f + z * n2);
 }
 
 void CellKernelGradient_Private(CellKernel k, const Lanes *field, Lanes *gradient)
 {
-  const PetscInt   dim = k->dim, r = k->num_derivatives, n = k->num_nodes;
+  const PetscInt   dim = k->dim, r = k->num_derivatives;
   const PetscReal *B = k->basis->B, *D = k->basis->D;
 
   for (PetscInt c = 0; c < dim; c++) {
-    const Lanes *f = field + c * n;
-    Lanes       *g = gradient + c * r * n;
+    const Lanes *f = field + c * k->num_nodes;
+    Lanes       *g = gradient + c * r * k->num_points;
 
-    switch (k->order) {
-    case 1:
-      FieldGradient_Private(2, dim, r, B, D, f, k->layer, g);
-      break;
-    case 2:
-      FieldGradient_Private(3, dim, r, B, D, f, k->layer, g);
-      break;
-    case 3:
-      FieldGradient_Private(4, dim, r, B, D, f, k->layer, g);
-      break;
-    case 4:
-      FieldGradient_Private(5, dim, r, B, D, f, k->layer, g);
-      break;
-    default:
-      FieldGradient_Private(k->n1, dim, r, B, D, f, k->layer, g);
-    }
+#define CALL(n1, q1) FieldGradient_Private(n1, q1, dim, r, B, D, f, k->layer, g)
+    CELL_OF_ORDER(k, CALL)
+#undef CALL
   }
 }
 
 void CellKernelIntegrate_Private(CellKernel k, const Lanes *flux, Lanes *result)
 {
-  const PetscInt   dim = k->dim, r = k->num_derivatives, n = k->num_nodes;
+  const PetscInt   dim = k->dim, r = k->num_derivatives;
   const PetscReal *B = k->basis->B, *D = k->basis->D;
 
   for (PetscInt c = 0; c < dim; c++) {
-    const Lanes *g = flux + c * r * n;
-    Lanes       *f = result + c * n;
+    const Lanes *g = flux + c * r * k->num_points;
+    Lanes       *f = result + c * k->num_nodes;
 
-    switch (k->order) {
-    case 1:
-      FieldIntegrate_Private(2, dim, r, B, D, g, k->layer, f);
-      break;
-    case 2:
-      FieldIntegrate_Private(3, dim, r, B, D, g, k->layer, f);
-      break;
-    case 3:
-      FieldIntegrate_Private(4, dim, r, B, D, g, k->layer, f);
-      break;
-    case 4:
-      FieldIntegrate_Private(5, dim, r, B, D, g, k->layer, f);
-      break;
-    default:
-      FieldIntegrate_Private(k->n1, dim, r, B, D, g, k->layer, f);
-    }
+#define CALL(n1, q1) FieldIntegrate_Private(n1, q1, dim, r, B, D, g, k->layer, f)
+    CELL_OF_ORDER(k, CALL)
+#undef CALL
   }
 }
 

@@ -132,7 +132,7 @@ PetscErrorCode CellKernelInterpolate(CellKernel k, PetscInt np, const PetscReal 
 
   PetscFunctionBegin;
   for (PetscInt p = 0; p < np; p++) {
-    PetscReal L[3][MORTISE_MAX_ORDER + 4];
+    PetscReal L[3][MOST_LINE_POINTS];
 
     for (PetscInt c = 0; c < k->dim; c++) Lagrange_Private(n, k->basis->points, xi[p * k->dim + c], L[c]);
     for (PetscInt c = 0; c < num; c++) out[p * num + c] = 0;

@@ -1,5 +1,6 @@
 /* The pressure of the mixed formulation, condensed in the cell: energy m/2 int (Proj g)^2, Proj the L2 projection on complete polynomials of degree p-1
-   in reference coordinates with the reference volume as weight. pi = m M^-1 int q g(J) is what u implies (docs/theory.md, mixed formulation). */
+   in reference coordinates with the reference volume as weight. pi = m M^-1 int q g(J) is what u implies (docs/theory.md, mixed formulation). Incompressible
+   cells are given pi and return int q g(J). */
 #include "mechanicsimpl.h"
 
 /* In-place Cholesky factor (lower) of M[m][m]. */
@@ -66,6 +67,7 @@ void CellKernelProject_Private(CellKernel k)
       k->moment[i] += wi * g[q];
     }
   }
+  if (k->incompressible) return; /* pi is no function of u */
   Factor_Private(m, k->mass);
   for (PetscInt i = 0; i < m; i++) k->coefficient[i] = modulus * k->moment[i];
   SolveLower_Private(m, k->mass, 1, k->coefficient);
@@ -141,14 +143,14 @@ void CellKernelCouple_Private(CellKernel k, PetscInt num_cells, PetscReal *dpres
     }
     CellKernelIntegrate_Private(k, flux, k->coupling + l * size);
   }
-  SolveLower_Private(m, k->mass, size, k->coupling);
+  if (!k->incompressible) SolveLower_Private(m, k->mass, size, k->coupling);
   if (!dpressure) return;
   for (PetscInt c = 0; c < d; c++) {
     for (PetscInt node = 0; node < n; node++) {
       Lanes x[(MORTISE_MAX_ORDER * (MORTISE_MAX_ORDER + 1) * (MORTISE_MAX_ORDER + 2)) / 6];
 
-      for (PetscInt l = 0; l < m; l++) x[l] = modulus * k->coupling[l * size + c * n + node];
-      SolveUpper_Private(m, k->mass, 1, x);
+      for (PetscInt l = 0; l < m; l++) x[l] = (k->incompressible ? 1 : modulus) * k->coupling[l * size + c * n + node];
+      if (!k->incompressible) SolveUpper_Private(m, k->mass, 1, x);
       for (PetscInt l = 0; l < m; l++) {
         for (PetscInt cell = 0; cell < num_cells; cell++) dpressure[(cell * m + l) * size + node * d + c] = x[l][cell];
       }

@@ -88,60 +88,67 @@ void CellKernelTangentSlab_Private(CellKernel k, PetscInt s)
 }
 
 /* z: layer_tangent[ik][rs][q12] = sum_q3 At[ik][rs][q3][q12] times the pair (a_z, b_z); third derivative is along z. */
-INLINE void SumZ_Private(CellKernel k, const PetscInt n1, PetscInt az, PetscInt bz)
+INLINE void SumZ_Private(CellKernel k, const PetscInt n1, const PetscInt q1, PetscInt az, PetscInt bz)
 {
-  const PetscInt   n2   = n1 * n1;
-  const PetscReal *pair = k->pairs + (az * n1 + bz) * 4 * n1;
+  const PetscInt   q2   = q1 * q1;
+  const PetscReal *pair = k->pairs + (az * n1 + bz) * 4 * q1;
 
   for (PetscInt c = 0; c < 81; c++) {
-    const PetscReal *z   = pair + (2 * (c % 9 / 3 == 2) + (c % 3 == 2)) * n1;
-    const Lanes     *in  = k->reference_tangent + c * n2 * n1;
-    Lanes           *out = k->layer_tangent + c * n2;
+    const PetscReal *z   = pair + (2 * (c % 9 / 3 == 2) + (c % 3 == 2)) * q1;
+    const Lanes     *in  = k->reference_tangent + c * q2 * q1;
+    Lanes           *out = k->layer_tangent + c * q2;
 
-    for (PetscInt q = 0; q < n2; q++) {
+    for (PetscInt q = 0; q < q2; q++) {
       Lanes sum = z[0] * in[q];
 
-      for (PetscInt q3 = 1; q3 < n1; q3++) sum += z[q3] * in[q3 * n2 + q];
+      for (PetscInt q3 = 1; q3 < q1; q3++) sum += z[q3] * in[q3 * q2 + q];
       out[q] = sum;
     }
   }
 }
 
 /* y, then x: tile[a_x i][b_x k] for lines (.., a_y) and (.., b_y); d components, nr derivatives of which 0 is along x, 1 along y. */
-INLINE void SumTile_Private(CellKernel k, const PetscInt n1, const int d, const int nr, const Lanes *moduli, PetscInt ay, PetscInt by)
+INLINE void SumTile_Private(CellKernel k, const PetscInt n1, const PetscInt q1, const int d, const int nr, const Lanes *moduli, PetscInt ay, PetscInt by)
 {
-  const PetscInt   n2   = n1 * n1;
-  const PetscReal *pair = k->pairs + (ay * n1 + by) * 4 * n1;
+  const PetscInt   q2   = q1 * q1;
+  const PetscReal *pair = k->pairs + (ay * n1 + by) * 4 * q1, *B = k->basis->B, *D = k->basis->D;
 
   for (int c = 0; c < d * d; c++) {
-    Lanes line[4 * (MORTISE_MAX_ORDER + 1)]; /* [x derivative of a][of b][q1] */
+    Lanes line[4 * MOST_LINE_POINTS]; /* [x derivative of a][of b][q1] */
 
-    for (PetscInt i = 0; i < 4 * n1; i++) line[i] = (Lanes){0};
+    for (PetscInt i = 0; i < 4 * q1; i++) line[i] = (Lanes){0};
     for (int r = 0; r < nr; r++) {
       for (int s = 0; s < nr; s++) {
-        const PetscReal *y   = pair + (2 * (r == 1) + (s == 1)) * n1;
-        const Lanes     *in  = moduli + (c * nr * nr + r * nr + s) * n2;
-        Lanes           *out = line + (2 * (r == 0) + (s == 0)) * n1;
+        const PetscReal *y   = pair + (2 * (r == 1) + (s == 1)) * q1;
+        const Lanes     *in  = moduli + (c * nr * nr + r * nr + s) * q2;
+        Lanes           *out = line + (2 * (r == 0) + (s == 0)) * q1;
 
-        for (PetscInt q = 0; q < n1; q++) {
-          for (PetscInt q2 = 0; q2 < n1; q2++) out[q] += y[q2] * in[q2 * n1 + q];
+        for (PetscInt q = 0; q < q1; q++) {
+          for (PetscInt j = 0; j < q1; j++) out[q] += y[j] * in[j * q1 + q];
         }
       }
     }
     for (PetscInt a = 0; a < n1; a++) {
-      for (PetscInt b = 0; b < n1; b++) {
-        const PetscReal *x = k->pairs + (a * n1 + b) * 4 * n1;
-        Lanes            sum[4]; /* independent, so that their additions overlap */
+      Lanes value[MOST_LINE_POINTS], slope[MOST_LINE_POINTS]; /* function a applied: what multiplies function b and its derivative */
 
-        for (int type = 0; type < 4; type++) sum[type] = x[type * n1] * line[type * n1];
-        for (PetscInt q = 1; q < n1; q++) {
-          for (int type = 0; type < 4; type++) sum[type] += x[type * n1 + q] * line[type * n1 + q];
+      for (PetscInt q = 0; q < q1; q++) {
+        value[q] = B[q * n1 + a] * line[q] + D[q * n1 + a] * line[2 * q1 + q];
+        slope[q] = B[q * n1 + a] * line[q1 + q] + D[q * n1 + a] * line[3 * q1 + q];
+      }
+      for (PetscInt b = 0; b < n1; b++) {
+        Lanes sum[2] = {B[b] * value[0], D[b] * slope[0]}; /* independent, so that their additions overlap */
+
+        for (PetscInt q = 1; q < q1; q++) {
+          sum[0] += B[q * n1 + b] * value[q];
+          sum[1] += D[q * n1 + b] * slope[q];
         }
-        k->tile[(a * d + c / d) * n1 * d + b * d + c % d] = (sum[0] + sum[1]) + (sum[2] + sum[3]);
+        k->tile[(a * d + c / d) * n1 * d + b * d + c % d] = sum[0] + sum[1];
       }
     }
   }
 }
+
+#define PRESSURES_AT_ONCE 16 /* whose lines of nodes stay in cache while all rows of the tile meet them */
 
 /* tile += modulus (L^-1 b)^T (L^-1 b) on the lines that start at nodes a and b. */
 INLINE void AddCoupling_Private(CellKernel k, const PetscInt n1, const int d, PetscInt a, PetscInt b)
@@ -149,18 +156,21 @@ INLINE void AddCoupling_Private(CellKernel k, const PetscInt n1, const int d, Pe
   const PetscInt  m = k->num_pressure, n = k->num_nodes, cols = n1 * d;
   const PetscReal modulus = MaterialVolumetricModulus(&k->material);
 
-  for (PetscInt row = 0; row < cols; row++) {
-    const Lanes *ya = k->coupling + (row % d) * n + a + row / d;
+  for (PetscInt first = 0; first < m; first += PRESSURES_AT_ONCE) {
+    const PetscInt last = PetscMin(m, first + PRESSURES_AT_ONCE);
 
-    for (int c = 0; c < d; c++) {
-      const Lanes *yb = k->coupling + c * n + b;
+    for (PetscInt row = 0; row < cols; row++) {
+      Lanes sum[3 * (MORTISE_MAX_ORDER + 1)];
 
-      for (PetscInt x = 0; x < n1; x++) {
-        Lanes sum = {0};
+      for (PetscInt col = 0; col < cols; col++) sum[col] = (Lanes){0};
+      for (PetscInt l = first; l < last; l++) {
+        const Lanes *y = k->coupling + l * d * n, ya = y[(row % d) * n + a + row / d];
 
-        for (PetscInt l = 0; l < m; l++) sum += ya[l * d * n] * yb[l * d * n + x];
-        k->tile[row * cols + x * d + c] += modulus * sum;
+        for (int c = 0; c < d; c++) {
+          for (PetscInt x = 0; x < n1; x++) sum[x * d + c] += ya * y[c * n + b + x];
+        }
       }
+      for (PetscInt col = 0; col < cols; col++) k->tile[row * cols + col] += modulus * sum[col];
     }
   }
 }
@@ -188,30 +198,27 @@ INLINE void StoreTile_Private(CellKernel k, const PetscInt n1, const int d, Pets
 INLINE void PlaceTile_Private(CellKernel k, const PetscInt n1, const int d, PetscInt num_cells, PetscInt a, PetscInt b, const PetscInt *place,
                               PetscReal *tangent)
 {
-  const PetscInt   cols = n1 * d, size = k->num_nodes * d;
-  const PetscReal *tile = (const PetscReal *)k->tile;
+  const PetscInt cols = n1 * d, size = k->num_nodes * d, square = size * size;
 
-  for (PetscInt cell = 0; cell < num_cells; cell++) {
-    PetscReal *K = tangent + cell * size * size;
+  for (PetscInt x = 0; x < n1; x++) {
+    for (PetscInt y = 0; y < n1; y++) {
+      const PetscInt row = place[a + x] * d, col = place[b + y] * d;
+      const Lanes   *in = k->tile + x * d * cols + y * d;
 
-    for (PetscInt x = 0; x < n1; x++) {
-      for (PetscInt y = 0; y < n1; y++) {
-        const PetscInt   row = place[a + x] * d, col = place[b + y] * d;
-        const PetscReal *in = tile + (x * d * cols + y * d) * NUM_LANES + cell;
+      if (row > col && a == b) continue;
+      for (int i = 0; i < d; i++) {
+        for (int j = 0; j < d; j++) {
+          PetscReal *K = tangent + (row <= col ? (row + i) * size + col + j : (col + j) * size + row + i);
 
-        if (row <= col) {
-          for (int i = 0; i < d; i++)
-            for (int j = 0; j < d; j++) K[(row + i) * size + col + j] = in[(i * cols + j) * NUM_LANES];
-        } else if (a != b) {
-          for (int j = 0; j < d; j++)
-            for (int i = 0; i < d; i++) K[(col + j) * size + row + i] = in[(i * cols + j) * NUM_LANES];
+          for (PetscInt cell = 0; cell < num_cells; cell++) K[cell * square] = in[i * cols + j][cell];
         }
       }
     }
   }
 }
 
-INLINE void Tangent_Private(CellKernel k, const PetscInt n1, const int d, const int nr, PetscInt num_cells, const PetscInt *place, PetscReal *tangent)
+INLINE void Tangent_Private(CellKernel k, const PetscInt n1, const PetscInt q1, const int d, const int nr, PetscInt num_cells, const PetscInt *place,
+                            PetscReal *tangent)
 {
   const PetscInt nz = d == 3 ? n1 : 1;
 
@@ -219,13 +226,13 @@ INLINE void Tangent_Private(CellKernel k, const PetscInt n1, const int d, const 
     for (PetscInt bz = k->unsymmetric ? 0 : az; bz < nz; bz++) {
       const Lanes *moduli = d == 3 ? k->layer_tangent : k->reference_tangent;
 
-      if (d == 3) SumZ_Private(k, n1, az, bz);
+      if (d == 3) SumZ_Private(k, n1, q1, az, bz);
       for (PetscInt ay = 0; ay < n1; ay++) {
         for (PetscInt by = bz == az && !k->unsymmetric ? ay : 0; by < n1; by++) {
           const PetscInt a = (az * n1 + ay) * n1, b = (bz * n1 + by) * n1;
 
-          SumTile_Private(k, n1, d, nr, moduli, ay, by);
-          if (k->mixed) AddCoupling_Private(k, n1, d, a, b);
+          SumTile_Private(k, n1, q1, d, nr, moduli, ay, by);
+          if (k->mixed && !k->incompressible) AddCoupling_Private(k, n1, d, a, b);
           if (place)
             PlaceTile_Private(k, n1, d, num_cells, a, b, place, tangent);
           else
@@ -239,28 +246,9 @@ INLINE void Tangent_Private(CellKernel k, const PetscInt n1, const int d, const 
 /* One instance for each usual order, with constant loop bounds. */
 INLINE void TangentOfOrder_Private(CellKernel k, const int d, const int nr, PetscInt num_cells, const PetscInt *place, PetscReal *tangent)
 {
-  switch (k->order) {
-  case 1:
-    Tangent_Private(k, 2, d, nr, num_cells, place, tangent);
-    break;
-  case 2:
-    Tangent_Private(k, 3, d, nr, num_cells, place, tangent);
-    break;
-  case 3:
-    Tangent_Private(k, 4, d, nr, num_cells, place, tangent);
-    break;
-  case 4:
-    Tangent_Private(k, 5, d, nr, num_cells, place, tangent);
-    break;
-  case 5:
-    Tangent_Private(k, 6, d, nr, num_cells, place, tangent);
-    break;
-  case 6:
-    Tangent_Private(k, 7, d, nr, num_cells, place, tangent);
-    break;
-  default:
-    Tangent_Private(k, k->n1, d, nr, num_cells, place, tangent);
-  }
+#define CALL(n1, q1) Tangent_Private(k, n1, q1, d, nr, num_cells, place, tangent)
+  CELL_OF_ORDER(k, CALL)
+#undef CALL
 }
 
 void CellKernelTangent_Private(CellKernel k, PetscInt num_cells, const PetscInt *place, PetscReal *tangent)

@@ -8,7 +8,8 @@
 #include "mechanicsimpl.h"
 
 #define LDL_BLOCK 32 /* columns for which dsytrf gets room */
-#define TRI_BLOCK 96 /* columns of a triangular solve at once; the rest of it are products, which OpenBLAS does twice as fast */
+#define LEAF 16      /* columns of a panel that are factored directly; the rest of it are products, which OpenBLAS does twice as fast as dpotrf and dtrsm */
+#define STRIP 64     /* rows of those at once, in cache */
 
 static PetscErrorCode GroupPlaces_Private(Mechanics m, CellGroup *g)
 {
@@ -100,39 +101,100 @@ static PetscErrorCode Indefinite_Private(const Cell *c, PetscReal *Kbb, PetscRea
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* K_bi = K_bi L^-T. */
-static PetscErrorCode SolveOuter_Private(const Cell *c)
+/* Negative eigenvalues of D: a block of two has one. */
+static PetscInt Negative_Private(const Cell *c)
 {
-  const PetscReal one = 1, minus = -1;
+  PetscInt num = 0;
+
+  for (PetscBLASInt j = 0; j < c->ni; ++j) {
+    if (c->pivot[j] > 0)
+      num += c->panel[(size_t)j * c->nd + j] < 0;
+    else {
+      ++num;
+      ++j;
+    }
+  }
+  return num;
+}
+
+/* The lower triangle L of the first rows of A[rows][cols], columns of stride. False: not positive definite. */
+static PetscBool LeafTriangle_Private(PetscInt cols, PetscInt stride, PetscReal A[])
+{
+  for (PetscInt j = 0; j < cols; ++j) {
+    PetscReal *x = A + j * stride;
+    for (PetscInt k = 0; k < j; ++k) {
+      const PetscReal *L = A + k * stride, factor = L[j];
+      for (PetscInt i = j; i < cols; ++i) x[i] -= factor * L[i];
+    }
+    if (!(x[j] > 0)) return PETSC_FALSE;
+    const PetscReal root = PetscSqrtReal(x[j]);
+    for (PetscInt i = j; i < cols; ++i) x[i] /= root;
+  }
+  return PETSC_TRUE;
+}
+
+/* X = X L^-T of the rows below, L at A. */
+static void LeafBelow_Private(PetscInt rows, PetscInt cols, PetscInt stride, const PetscReal A[], PetscReal X[])
+{
+  for (PetscInt first = 0; first < rows; first += STRIP) {
+    const PetscInt num = PetscMin(STRIP, rows - first);
+    for (PetscInt j = 0; j < cols; ++j) {
+      PetscReal      *x       = X + first + j * stride;
+      const PetscReal inverse = 1 / A[j * (stride + 1)];
+      PetscInt        k       = 0;
+      for (; k + 3 < j; k += 4) {
+        const PetscReal *L = A + k * stride + j, *y = X + first + k * stride, a = L[0], b = L[stride], c = L[2 * stride], d = L[3 * stride];
+        for (PetscInt i = 0; i < num; ++i) x[i] -= a * y[i] + b * y[stride + i] + c * y[2 * stride + i] + d * y[3 * stride + i];
+      }
+      for (; k < j; ++k) {
+        const PetscReal *y = X + first + k * stride, factor = A[k * stride + j];
+        for (PetscInt i = 0; i < num; ++i) x[i] -= factor * y[i];
+      }
+      for (PetscInt i = 0; i < num; ++i) x[i] *= inverse;
+    }
+  }
+}
+
+/* Cholesky's method on a panel A[rows][cols] whose first rows are symmetric, of which the lower triangle is read: L, and what is below times L^-T. The left
+   half first, then its products off the right one. */
+static PetscErrorCode FactorPanel_Private(PetscBLASInt rows, PetscBLASInt cols, PetscBLASInt stride, PetscReal A[], PetscBool *definite)
+{
+  const PetscReal    one = 1, minus = -1;
+  const PetscBLASInt left = (cols / 2 + 7) / 8 * 8, right = cols - left, below = rows - cols;
+  PetscReal         *B = A + (size_t)left * (stride + 1);
 
   PetscFunctionBegin;
-  for (PetscBLASInt first = 0; first < c->ni; first += TRI_BLOCK) {
-    const PetscBLASInt num = PetscMin(TRI_BLOCK, c->ni - first);
-    PetscReal         *L = c->panel + first, *X = c->outer + (size_t)first * c->nd;
-    if (first) PetscCallBLAS("BLASgemm", BLASgemm_("N", "T", &c->nb, &num, &first, &minus, c->outer, &c->nd, L, &c->nd, &one, X, &c->nd));
-    PetscCallBLAS("BLAStrsm", BLAStrsm_("R", "L", "T", "N", &c->nb, &num, &one, L + (size_t)first * c->nd, &c->nd, X, &c->nd));
+  if (cols <= LEAF) {
+    *definite = LeafTriangle_Private(cols, stride, A);
+    if (*definite) LeafBelow_Private(below, cols, stride, A, A + cols);
+    PetscFunctionReturn(PETSC_SUCCESS);
   }
+  PetscCall(FactorPanel_Private(rows, left, stride, A, definite));
+  if (!*definite) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCallBLAS("BLASsyrk", BLASsyrk_("L", "N", &right, &left, &minus, A + left, &stride, &one, B, &stride));
+  PetscCallBLAS("BLASgemm", BLASgemm_("N", "T", &below, &right, &left, &minus, A + cols, &stride, A + left, &stride, &one, B + right, &stride));
+  PetscCall(FactorPanel_Private(rows - left, right, stride, B, definite));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* S[n][n] from the lower triangle of A (columns of stride), square by square, so that both are in cache. */
-static void Mirror_Private(PetscInt n, PetscInt stride, const PetscReal A[], PetscReal S[])
+/* S[n][n] from the lower triangle of A (columns of stride): eight columns at a time are copied, and turned into pieces of the rows below them. */
+static PetscErrorCode Mirror_Private(PetscInt n, PetscInt stride, const PetscReal A[], PetscReal S[])
 {
-  const PetscInt block = 16;
-
-  for (PetscInt j0 = 0; j0 < n; j0 += block) {
-    for (PetscInt k0 = j0; k0 < n; k0 += block) {
-      for (PetscInt j = j0; j < PetscMin(n, j0 + block); ++j)
-        for (PetscInt k = PetscMax(j, k0); k < PetscMin(n, k0 + block); ++k) S[j * n + k] = S[k * n + j] = A[j * stride + k];
-    }
+  PetscFunctionBegin;
+  for (PetscInt first = 0; first < n; first += 8) {
+    const PetscInt last = PetscMin(n, first + 8);
+    for (PetscInt j = first; j < last; ++j) PetscCall(PetscArraycpy(S + j * (n + 1), A + j * (stride + 1), n - j));
+    for (PetscInt k = first; k < n; ++k)
+      for (PetscInt j = first; j < PetscMin(last, k); ++j) S[k * n + j] = A[j * stride + k];
   }
+  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode MechanicsCondenseCell_Private(Mechanics m, CellGroup *g, PetscInt i, PetscReal K[], PetscReal S[], PetscBool *singular)
 {
   const PetscReal one = 1, minus = -1;
   Cell            c;
-  PetscBLASInt    info;
+  PetscBool       definite;
   PetscReal      *Kbb;
 
   PetscFunctionBegin;
@@ -141,16 +203,16 @@ PetscErrorCode MechanicsCondenseCell_Private(Mechanics m, CellGroup *g, PetscInt
   if (c.ni > 0) {
     PetscCall(PetscArraycpy(c.panel, K, c.ni * c.nd));
     c.pivot[0] = 0;
-    PetscCallBLAS("LAPACKpotrf", LAPACKpotrf_("L", &c.ni, c.panel, &c.nd, &info));
-    if (info > 0) {
-      for (PetscBLASInt j = 0; j < c.ni; ++j) PetscCall(PetscArraycpy(c.panel + j * c.nd, K + j * c.nd, c.ni));
-      PetscCall(Indefinite_Private(&c, Kbb, m->condense_work + c.nb * c.nb, singular));
-    } else {
-      PetscCall(SolveOuter_Private(&c));
+    PetscCall(FactorPanel_Private(c.nd, c.ni, c.nd, c.panel, &definite));
+    if (definite)
       PetscCallBLAS("BLASsyrk", BLASsyrk_("L", "N", &c.nb, &c.ni, &minus, c.outer, &c.nd, &one, Kbb, &c.nd));
+    else {
+      PetscCall(PetscArraycpy(c.panel, K, c.ni * c.nd));
+      PetscCall(Indefinite_Private(&c, Kbb, m->condense_work + c.nb * c.nb, singular));
+      m->num_negative += Negative_Private(&c);
     }
   }
-  Mirror_Private(c.nb, c.nd, Kbb, S);
+  PetscCall(Mirror_Private(c.nb, c.nd, Kbb, S));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -166,6 +228,13 @@ static PetscErrorCode SolveInner_Private(const Cell *c, PetscBool back, PetscRea
     PetscCallBLAS("BLAStrsm", BLAStrsm_("L", "L", back ? "T" : "N", "N", &c->ni, &single, &one, c->panel, &c->nd, x, &c->ni));
   else if (!back)
     PetscCallBLAS("LAPACKsytrs", LAPACKsytrs_("L", &c->ni, &single, c->panel, &c->nd, c->pivot, x, &c->ni, &info));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode MechanicsNumNegative(Mechanics m, PetscInt *num)
+{
+  PetscFunctionBegin;
+  *num = m->num_negative;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -3,7 +3,7 @@
 
 /* Buffers of one batch, cut from the work array. */
 typedef struct {
-  PetscReal *u, *r, *K, *consistent, *energy, *min_det, *stretch2;
+  PetscReal *u, *r, *K, *consistent, *pressure, *energy, *min_det, *stretch2;
 } Buffers;
 
 static Buffers CutBuffers_Private(Mechanics m, const CellGroup *g)
@@ -14,7 +14,8 @@ static Buffers CutBuffers_Private(Mechanics m, const CellGroup *g)
   b.r          = b.u + g->batch * nd;
   b.K          = b.r + g->batch * nd;
   b.consistent = b.K + g->batch * nd * nd;
-  b.energy     = b.consistent + g->batch * g->m;
+  b.pressure   = b.consistent + g->batch * (g->m + g->num_unknown);
+  b.energy     = b.pressure + g->batch * g->num_unknown;
   b.min_det    = b.energy + g->batch;
   b.stretch2   = b.min_det + g->batch;
   return b;
@@ -25,6 +26,15 @@ static PetscErrorCode GatherBatch_Private(Mechanics m, const CellGroup *g, Petsc
   PetscFunctionBegin;
   for (PetscInt i = 0; i < nc; ++i) PetscCall(HPSpaceGather(m->space, g->cells[first + i], u, values + i * g->n * m->dim));
   PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* An incompressible cell's noise is that of its shear modulus; its pressure adds its own. */
+static PetscReal Pressed_Private(const CellGroup *g, const PetscReal pressure[])
+{
+  PetscReal sum = MaterialYoung(g->material);
+
+  for (PetscInt a = 0; a < g->num_unknown; ++a) sum += PetscAbsReal(pressure[a]);
+  return sum / MaterialYoung(g->material);
 }
 
 static PetscErrorCode GroupResidual_Private(Mechanics m, const CellGroup *g, const PetscReal u[], PetscReal r[], MechanicsStatus *status)
@@ -44,15 +54,22 @@ static PetscErrorCode GroupResidual_Private(Mechanics m, const CellGroup *g, con
                        .stretch2 = b.stretch2,
                        .history  = MechanicsBatchHistory_Private(m, g, first)};
     PetscCall(GatherBatch_Private(m, g, first, batch.nc, u, b.u));
+    if (g->num_unknown) {
+      MechanicsUnknownsGather_Private(m, g, first, batch.nc, b.pressure);
+      batch.pressure   = b.pressure;
+      batch.consistent = b.consistent;
+    }
     PetscCall(CellKernelEvaluate(g->kernel, &batch));
     for (PetscInt i = 0; i < batch.nc; ++i) status->min_det = PetscMin(status->min_det, b.min_det[i]);
     if (batch.bad) {
       status->bad = PETSC_TRUE;
       continue;
     }
+    if (g->num_unknown) MechanicsUnknownsRows_Private(m, g, first, batch.nc, b.consistent, &status->volume);
     for (PetscInt i = 0; i < batch.nc; ++i) {
       /* det F errs by epsilon |cof F : F|, and cof F turns the pressure of that into forces: |cof F|^2 <= |F|^4/3. */
-      const PetscReal growth = m->spec->kinematics == KINEMATICS_SMALL ? 1 : 3 * PetscSqr(b.stretch2[i]);
+      const PetscReal growth =
+          (m->spec->kinematics == KINEMATICS_SMALL ? 1 : 3 * PetscSqr(b.stretch2[i])) * Pressed_Private(g, b.pressure + i * g->num_unknown);
       status->energy += b.energy[i];
       status->noise2 += g->noise2[first + i] * PetscSqr(growth);
       status->drift2 += g->drift2[first + i] * PetscSqr(growth);
@@ -73,6 +90,7 @@ PetscErrorCode MechanicsResidual(Mechanics m, const PetscReal u[], PetscReal r[]
   status->noise2  = 0;
   status->drift2  = 0;
   status->largest = 0;
+  status->volume  = 0;
   status->min_det = PETSC_MAX_REAL;
   status->bad     = PETSC_FALSE;
   PetscCall(HPSpaceGetTables(m->space, &v));
@@ -133,7 +151,8 @@ PetscErrorCode MechanicsTangent(Mechanics m, const PetscReal u[], const PetscRea
   PetscReal *Km, *dpressure = m->dpressure;
 
   PetscFunctionBegin;
-  *bad = PETSC_FALSE;
+  *bad            = PETSC_FALSE;
+  m->num_negative = 0;
   PetscCall(MostMasters_Private(m, &most));
   PetscCall(PetscMalloc2(most * m->dim, &dofs, most * m->dim * most * m->dim, &Km));
   for (PetscInt ig = 0; ig < m->num_groups; ++ig) {
@@ -153,6 +172,11 @@ PetscErrorCode MechanicsTangent(Mechanics m, const PetscReal u[], const PetscRea
         batch.pressure   = pressure ? pressure + g->pressure + first * g->m : NULL;
         batch.consistent = m->linear + g->pressure + first * g->m;
         batch.dpressure  = dpressure + first * g->m * nd;
+      }
+      if (g->num_unknown) {
+        MechanicsUnknownsGather_Private(m, g, first, batch.nc, b.pressure);
+        batch.pressure  = b.pressure;
+        batch.dpressure = g->volume + first * g->num_unknown * nd;
       }
       PetscCall(CellKernelEvaluate(g->kernel, &batch));
       if (batch.bad)
@@ -190,7 +214,7 @@ PetscErrorCode MechanicsUpdatePressure(Mechanics m, const PetscReal du[], PetscR
 PetscErrorCode MechanicsPoints(Mechanics m, PetscInt cell, PetscInt np, const PetscReal xi[], const PetscReal u[], PetscReal F[], PetscReal P[], PetscReal W[])
 {
   const CellGroup *g;
-  PetscReal       *X, *values, consistent[MOST_PRESSURES];
+  PetscReal       *X, *values, consistent[MOST_PRESSURES], *pressure = NULL;
   PetscBool        bad;
 
   PetscFunctionBegin;
@@ -203,7 +227,9 @@ PetscErrorCode MechanicsPoints(Mechanics m, PetscInt cell, PetscInt np, const Pe
   if (g->m) { /* the volume alone tells the pressure, no fibres */
     CellBatch batch = {.nc = 1, .X = X, .u = values, .consistent = consistent};
     PetscCall(CellKernelEvaluate(g->kernel, &batch));
+    pressure = consistent;
   }
-  PetscCall(CellKernelPoints(g->kernel, np, xi, X, values, g->m ? consistent : NULL, g->h ? m->history + m->cell_history[cell] : NULL, F, P, W, &bad));
+  if (g->num_unknown) pressure = m->pressure + m->unknown_first[cell];
+  PetscCall(CellKernelPoints(g->kernel, np, xi, X, values, pressure, g->h ? m->history + m->cell_history[cell] : NULL, F, P, W, &bad));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

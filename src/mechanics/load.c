@@ -100,7 +100,7 @@ static PetscErrorCode FacetTraction_Private(Mechanics m, const LoadFacet *f, Pet
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* r -= int N f dV of one cell, p+2 Gauss points in each direction. */
+/* r -= int N f dV of one cell, by a point more in each direction than its stress. */
 static PetscErrorCode CellForce_Private(Mechanics m, const CellGroup *g, const BodySpec *body, const PetscReal *X, PetscReal *r)
 {
   const Basis1D *basis;
@@ -108,7 +108,7 @@ static PetscErrorCode CellForce_Private(Mechanics m, const CellGroup *g, const B
   PetscInt       points = 1;
 
   PetscFunctionBegin;
-  PetscCall(Basis1DGet(g->order, g->order + 2, &basis));
+  PetscCall(Basis1DGet(g->order, CellLinePoints(g->order) + 1, &basis));
   for (PetscInt d = 0; d < m->dim; ++d) points *= basis->num_points;
   for (PetscInt q = 0; q < points; ++q) {
     PetscReal xi[3], J[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1}, x[3] = {0, 0, 0}, weight = 1, f;

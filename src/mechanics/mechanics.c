@@ -31,6 +31,8 @@ static PetscErrorCode Groups_Private(Mechanics m, const HPTables *v, const Fores
       m->groups[g].material = mine;
       PetscCall(CellKernelCreate(m->dim, m->spec->model, m->spec->kinematics, v->cell_order[c], mine, &m->groups[g].kernel));
       CellKernelSizes(m->groups[g].kernel, &m->groups[g].n, &m->groups[g].m, &m->groups[g].batch);
+      if (mine->incompressible) m->groups[g].num_unknown = m->groups[g].m;
+      if (mine->incompressible) m->groups[g].m = 0;
       CellKernelHistory(m->groups[g].kernel, &m->groups[g].num_points, &m->groups[g].h);
       CellKernelNumFibers(m->groups[g].kernel, &m->groups[g].num_fibers);
     }
@@ -48,7 +50,7 @@ static PetscErrorCode FillGroups_Private(Mechanics m, const HPTables *v)
   PetscFunctionBegin;
   for (PetscInt g = 0; g < m->num_groups; ++g) {
     CellGroup     *group = &m->groups[g];
-    const PetscInt nd = group->n * m->dim, per_cell = 2 * nd + nd * nd + 3 * group->m + 5;
+    const PetscInt nd = group->n * m->dim, per_cell = 2 * nd + nd * nd + 3 * (group->m + group->num_unknown) + 5;
     PetscCall(
         PetscMalloc4(group->num_cells, &group->cells, group->num_cells * nd, &group->X, group->num_cells, &group->noise2, group->num_cells, &group->drift2));
     PetscCall(PetscMalloc1(group->num_cells * group->num_fibers, &group->fiber));
@@ -77,7 +79,7 @@ static void Noise_Private(Mechanics m)
   for (PetscInt g = 0; g < m->num_groups; ++g) {
     const CellGroup    *group    = &m->groups[g];
     const MaterialSpec *material = group->material;
-    const PetscReal     modulus  = material->kappa + 4. / 3 * material->mu;
+    const PetscReal     modulus  = (material->incompressible ? MaterialYoung(material) : material->kappa) + 4. / 3 * material->mu;
     for (PetscInt c = 0; c < group->num_cells; ++c) {
       PetscReal lo[3] = {PETSC_MAX_REAL, PETSC_MAX_REAL, PETSC_MAX_REAL}, hi[3] = {PETSC_MIN_REAL, PETSC_MIN_REAL, PETSC_MIN_REAL}, most = 0,
                 least = PETSC_MAX_REAL;
@@ -117,6 +119,7 @@ PetscErrorCode MechanicsCreate(HPSpace space, const MechanicsSpec *spec, const S
   PetscCall(Groups_Private(m, v, t));
   PetscCall(FillGroups_Private(m, v));
   Noise_Private(m);
+  PetscCall(MechanicsUnknownsCreate_Private(m));
   PetscCall(MechanicsControlsCreate_Private(m));
   PetscCall(MechanicsLoadFacets_Private(m));
   PetscCall(MechanicsFreeBodies_Private(m));
@@ -132,6 +135,7 @@ PetscErrorCode MechanicsDestroy(Mechanics *mechanics)
   PetscFunctionBegin;
   if (!m) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(MechanicsCondenseDestroy_Private(m));
+  PetscCall(MechanicsUnknownsDestroy_Private(m));
   PetscCall(MechanicsHistoryDestroy_Private(m));
   for (PetscInt g = 0; g < m->num_groups; ++g) {
     PetscCall(CellKernelDestroy(&m->groups[g].kernel));

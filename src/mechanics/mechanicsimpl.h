@@ -16,7 +16,8 @@ typedef struct {
   const PetscReal *u; /* [nc][n][d] displacements */
   const PetscReal
       *fiber; /* [nc][num_fibers][3][points] of CellKernelFibers; NULL for materials without fibres, and where no energy, residual or tangent is asked */
-  const PetscReal *pressure; /* [nc][m] stored pressure coefficients: enter the geometric stiffness only. NULL: the consistent ones are used */
+  const PetscReal *pressure; /* [nc][m] stored pressure coefficients: enter the geometric stiffness only. NULL: the consistent ones are used.
+                                Incompressible: the pressure, never NULL where residual or tangent are asked for */
   PetscReal       *energy;   /* [nc] */
   PetscReal       *residual; /* [nc][n*d] dE/du, row node*d + component; a function of u alone */
   const PetscReal *history;  /* [nc][points][num_history] of laws with history, as the last accepted step left it */
@@ -24,17 +25,27 @@ typedef struct {
   PetscReal       *tangent;  /* [nc][n*d][n*d] full, symmetric unless the law is not; exact derivative of residual when pressure is NULL or consistent */
   const PetscInt  *place;    /* [n] NULL, or where the nodes stand in tangent: then only its rows up to the diagonal's column are written, K[row <= column];
                                 not with unsymmetric laws */
-  PetscReal *consistent;     /* [nc][m] pressure coefficients that u implies: modulus * M^-1 int q g(J) */
+  PetscReal *consistent;     /* [nc][m] pressure coefficients that u implies: modulus * M^-1 int q g(J); incompressible: int q g(J) */
+  PetscReal *mass;           /* [nc][m] int q^2; incompressible only */
   PetscReal *dpressure;      /* [nc][m][n*d] derivative of consistent with respect to u */
   PetscReal *min_det;        /* [nc] smallest det F over the quadrature points */
   PetscReal *stretch2;       /* [nc] largest F:F/3 over the quadrature points */
   PetscBool  bad;            /* out: some det F <= 0 in the batch (finite kinematics), or no answer of the law: outputs of that batch are not to be used */
 } CellBatch;
 
-/* Kernel for cells of order p with p+1 Gauss points in each direction. Mixed (material->mixed): pressure in the complete polynomials of degree p-1 in the
+/* Gauss points of a cell in each direction: p+1, from order 6 on one more and for order 8 two, because stresses are no polynomials (docs/results.md,
+   convergence in p). */
+static inline PetscInt CellLinePoints(PetscInt order)
+{
+  return order + 1 + PetscMax(0, (order - 4) / 2);
+}
+#define MOST_LINE_POINTS (MORTISE_MAX_ORDER + 1 + (MORTISE_MAX_ORDER - 4) / 2)
+
+/* Kernel for cells of order p. Mixed (material->mixed): pressure in the complete polynomials of degree p-1 in the
    reference cell (Q_p / P_(p-1) discontinuous; Q1/P0), condensed: energy = int W_iso + modulus/2 int (Proj g(J))^2, where Proj is the L2 projection
    with the reference-volume weight. body_force is not here. Axisymmetric: hoop stretch 1 + u_r/R, weight 2 pi R. Small: F = I + grad u,
-   law `linear` on the symmetric gradient. */
+   law `linear` on the symmetric gradient. Incompressible (material->incompressible): energy = int W_iso, residual that of int W_iso + pi g(J) with the pressure
+   given, tangent its derivative at fixed pressure. */
 PetscErrorCode CellKernelCreate(PetscInt dim, Model, Kinematics, PetscInt order, const MaterialSpec *, CellKernel *);
 PetscErrorCode CellKernelDestroy(CellKernel *);
 void           CellKernelSizes(CellKernel, PetscInt *num_nodes, PetscInt *num_pressure, PetscInt *best_batch);
@@ -75,7 +86,8 @@ PetscErrorCode FacetPressure(PetscInt dim, Model, PetscInt order, const PetscRea
 typedef struct {
   CellKernel          kernel;                        /* owned */
   const MaterialSpec *material;                      /* borrowed */
-  PetscInt            order, num_cells, n, m, batch; /* nodes and pressure coefficients of a cell; cells per call */
+  PetscInt            order, num_cells, n, m, batch; /* nodes and condensed pressure coefficients of a cell; cells per call */
+  PetscInt            num_unknown;                   /* pressure unknowns of a cell: of incompressible material, which has no condensed ones */
   PetscInt           *cells;                         /* owned [num_cells] local cells */
   PetscReal          *X;                             /* owned [num_cells][n][dim] */
   PetscInt            num_fibers;                    /* numbers that describe the fibres of a cell */
@@ -87,6 +99,7 @@ typedef struct {
   PetscInt           *place, *outer;                 /* owned [n] where each node stands when the inner ones come first; [n - num_inner] the others */
   PetscReal          *factor;                        /* owned [num_cells][num_inner*dim][n*dim] condense.c; NULL: no condensation */
   PetscReal          *inner;                         /* owned [num_cells][num_inner*dim] forces of the inner nodes, solved for */
+  PetscReal          *volume;                        /* owned [num_cells][num_unknown][n*dim] derivative of int q g(J) at the last tangent */
   PetscBLASInt       *pivot;                         /* owned [num_cells][num_inner*dim] of LDL^T; first 0: Cholesky */
 } CellGroup;
 
@@ -117,6 +130,14 @@ struct _p_Mechanics {
   PetscReal           *work;               /* owned batch buffers */
   PetscInt             work_size;
   PetscReal           *condense_work; /* owned: condense.c */
+  PetscInt             num_negative;  /* eigenvalues of the blocks eliminated at the last tangent */
+
+  /* incompressible.c: pressure unknowns of local cells, owned ones first */
+  PetscInt  *unknown_first; /* owned [num_cells+1] */
+  PetscReal *pressure;      /* owned [unknowns] as set from outside */
+  PetscReal *volume, *mass; /* owned [unknowns of owned cells] rows at the last residual; int q^2 */
+  PetscReal *volume_scale;  /* owned [num_owned_cells] E / h: what turns int q g(J) into a force */
+
   /* history.c */
   PetscInt   num_history, *cell_history; /* numbers of owned cells; owned [num_cells] where those of a cell, ghosts too, start in history */
   PetscReal *history;                    /* owned: as the last accepted step left it, own cells first, then ghosts */
@@ -145,6 +166,13 @@ PetscErrorCode MechanicsHistoryCreate_Private(Mechanics);
 PetscErrorCode MechanicsHistoryDestroy_Private(Mechanics);
 /* free.c: free_share. Collective. */
 PetscErrorCode MechanicsFreeBodies_Private(Mechanics);
+/* incompressible.c: after the groups. */
+PetscErrorCode MechanicsUnknownsCreate_Private(Mechanics);
+PetscErrorCode MechanicsUnknownsDestroy_Private(Mechanics);
+/* Pressures of num cells of the group from the i-th on, as the kernel wants them; their int q g(J) into the rows, the largest of
+   int q g(J) / int q^2 among them. */
+void MechanicsUnknownsGather_Private(Mechanics, const CellGroup *, PetscInt i, PetscInt num, PetscReal pressure[]);
+void MechanicsUnknownsRows_Private(Mechanics, const CellGroup *, PetscInt i, PetscInt num, const PetscReal constraint[], PetscReal *largest);
 /* Follower pressures: add to r (NULL: skip) and to the sink (NULL: skip). */
 PetscErrorCode MechanicsFollowers_Private(Mechanics, const PetscReal u[], PetscReal r[], MatrixSink, void *context);
 
@@ -152,21 +180,21 @@ PetscErrorCode MechanicsFollowers_Private(Mechanics, const PetscReal u[], PetscR
 
 #define INLINE static inline __attribute__((always_inline, unused))
 
-/* Shapes: n nodes, q = n points, d = dim, r = num_derivatives (d; with hoop strain 3, the third "derivative" being the value itself), m pressures.
-   Nodal fields are stored by component, [d][n]; point fields [..][q]. Points form slabs (a 3-D layer): F, W, P hold slab after slab, [slab][9][points of a
-   slab]. */
+/* Shapes: n nodes (n1 = p+1 along a line), q points (q1), d = dim, r = num_derivatives (d; with hoop strain 3, the third "derivative" being the value itself),
+   m pressures. Nodal fields are stored by component, [d][n]; point fields [..][q]. Points form slabs (a 3-D layer): F, W, P hold slab after slab,
+   [slab][9][points of a slab]. */
 struct _p_CellKernel {
-  PetscInt       dim, order, n1, num_nodes, num_points, num_pressure, num_derivatives, num_slabs, slab_points;
-  PetscBool      small, mixed, hoop, unsymmetric;
+  PetscInt       dim, order, n1, q1, num_nodes, num_points, num_pressure, num_derivatives, num_slabs, slab_points;
+  PetscBool      small, mixed, incompressible, hoop, unsymmetric;
   MaterialSpec   material; /* a copy; the linear law in small kinematics */
   const Basis1D *basis;
   PetscReal     *weight;                        /* owned [q] quadrature weights */
   PetscReal     *legendre;                      /* owned [q][m] pressure functions */
-  PetscReal     *pairs;                         /* owned [n1][n1][2][2][n1]: products of (value | derivative) of functions a and b at the 1-D points */
+  PetscReal     *pairs;                         /* owned [n1][n1][2][2][q1]: products of (value | derivative) of functions a and b at the 1-D points */
   void          *arena;                         /* owned: memory of all lanes below */
   Lanes         *X, *u;                         /* [d][n] */
   Lanes         *gradient;                      /* [d][r][q] by reference coordinates; later fluxes of the same shape */
-  Lanes         *layer;                         /* [3][n] scratch of the tensor contractions */
+  Lanes         *layer;                         /* [3][n1][q1*q1] scratch of the tensor contractions in space */
   Lanes         *inverse;                       /* [d*d][q] d xi_r / d X_J */
   Lanes         *hoop_inverse;                  /* [q] 1/R */
   Lanes         *volume;                        /* [q] weight times reference volume */
@@ -178,9 +206,34 @@ struct _p_CellKernel {
   Lanes         *moment, *coefficient, *stored; /* [m] int q g; consistent and stored pressure coefficients */
   Lanes         *coupling;                      /* [m][d][n] b, then L^-1 b */
   Lanes         *reference_tangent;             /* [d*d][r*r][q] A pulled back to reference coordinates, times volume */
-  Lanes         *layer_tangent;                 /* [d*d][r*r][n1*n1] */
+  Lanes         *layer_tangent;                 /* [d*d][r*r][q1*q1] */
   Lanes         *tile;                          /* [n1*d][n1*d] */
 };
+
+/* CALL(nodes, points of a line) for the order of a kernel: constants for the usual orders, so that loops unroll. */
+#define CELL_OF_ORDER(k, CALL)                                                                                                                                 \
+  switch ((k)->order) {                                                                                                                                        \
+  case 1:                                                                                                                                                      \
+    CALL(2, CellLinePoints(1));                                                                                                                                \
+    break;                                                                                                                                                     \
+  case 2:                                                                                                                                                      \
+    CALL(3, CellLinePoints(2));                                                                                                                                \
+    break;                                                                                                                                                     \
+  case 3:                                                                                                                                                      \
+    CALL(4, CellLinePoints(3));                                                                                                                                \
+    break;                                                                                                                                                     \
+  case 4:                                                                                                                                                      \
+    CALL(5, CellLinePoints(4));                                                                                                                                \
+    break;                                                                                                                                                     \
+  case 5:                                                                                                                                                      \
+    CALL(6, CellLinePoints(5));                                                                                                                                \
+    break;                                                                                                                                                     \
+  case 6:                                                                                                                                                      \
+    CALL(7, CellLinePoints(6));                                                                                                                                \
+    break;                                                                                                                                                     \
+  default:                                                                                                                                                     \
+    CALL((k)->n1, (k)->q1);                                                                                                                                    \
+  }
 
 /* cellfield.c */
 PetscErrorCode CellKernelGeometry_Private(CellKernel);                                            /* X -> inverse, volume, hoop_inverse */
@@ -193,7 +246,8 @@ void           CellKernelPullBack_Private(CellKernel, PetscInt q, const Lanes T[
 void CellKernelProject_Private(CellKernel);                                                     /* measure -> mass, moment, coefficient */
 void CellKernelAddPressure_Private(CellKernel);                                                 /* P += pi g' cof */
 void CellKernelAddPressureTangent_Private(CellKernel, PetscInt slab, const Lanes *coefficient); /* A += pi (g'' cof (x) cof + g' dcof/dF) */
-void CellKernelCouple_Private(CellKernel, PetscInt num_cells, PetscReal *dpressure);            /* coupling; dpressure [num_cells][m][n*d] unless NULL */
+void CellKernelCouple_Private(CellKernel, PetscInt num_cells,
+                              PetscReal *dpressure); /* coupling; dpressure [num_cells][m][n*d] unless NULL, incompressible: of int q g */
 /* celltangent.c */
 void CellKernelTangentSlab_Private(CellKernel, PetscInt slab); /* A of a slab -> reference_tangent */
 /* reference_tangent, coupling -> tangent [num_cells][n*d][n*d]; place as in CellBatch */

@@ -66,7 +66,7 @@ static void Solve_Private(PetscInt n, PetscReal M[], PetscReal b[])
 PetscErrorCode MechanicsPressureProject(PetscInt dim, PetscInt order, PetscInt np, const PetscReal xi[], const PetscReal weights[], const PetscReal values[],
                                         PetscReal pressure[])
 {
-  const PetscInt num = dim == 2 ? order * (order + 1) / 2 : order * (order + 1) * (order + 2) / 6;
+  const PetscInt num = MechanicsPressureCount(dim, order);
   PetscReal      q[MOST_PRESSURES], mass = 0, *M;
   PetscInt       n;
 

@@ -160,6 +160,7 @@ static cJSON *Document_Private(const SceneData *scene, const RunSummary *s, cons
   AddNumber_Private(root, "active_set_cycles", (PetscReal)s->active_set_cycles);
   AddNumber_Private(root, "factorisations", (PetscReal)s->factorisations);
   AddNumber_Private(root, "single_factor_failures", (PetscReal)s->single_failures);
+  AddNumber_Private(root, "unstable_equilibria", s->unstable);
   AddNumber_Private(root, "cells", s->problem ? (PetscReal)g->cells : nan);
   AddNumber_Private(root, "dofs", s->problem ? (PetscReal)g->dofs : nan);
   AddNumber_Private(root, "order_min", s->problem ? (PetscReal)g->order_min : nan);

@@ -34,6 +34,7 @@ PetscErrorCode ProblemRows_Private(Problem p)
     while (p->index[i] >= p->p_start[r + 1]) ++r;
     p->row[i] = p->index[i] - p->p_start[r] - inner[r] + p->row_start[r];
   }
+  PetscCall(PressureRowNumbers_Private(p, inner));
   PetscCall(ContactNumber_Private(p, counts));
   for (PetscInt i = 0; i < p->num_contacts; ++i) {
     Contact *c = &p->contacts[i];

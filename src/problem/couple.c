@@ -12,11 +12,6 @@ static PetscReal FacetMeasure_Private(const Surface *s, PetscInt f, PetscBool ax
   return axisymmetric ? plain * PETSC_PI * (s->X[2 * node[0]] + s->X[2 * node[1]]) : plain;
 }
 
-static PetscReal Young_Private(const MaterialSpec *m)
-{
-  return 9 * m->kappa * m->mu / (3 * m->kappa + m->mu);
-}
-
 /* Shares of a facet's nodes in its measure (axisymmetric: of revolution) at the reference positions, and in its plain length or area as far as that tells how
    close nodes are. Corners have equal shares of both. On a lattice the first is int N_k, the second that of the trapezoidal rule on as many equal parts: nodes
    at a corner of a Gauss-Lobatto lattice have much less weight than room. */
@@ -65,7 +60,7 @@ static PetscErrorCode NodeScales_Private(Problem p, Contact *c)
   for (PetscInt side = 0; side < 2; ++side) {
     for (PetscInt e = 0; e < c->side[side].num_facets; ++e) {
       const MaterialSpec *m = p->scene->bodies[t->leaf_body[c->side[side].facet_leaf[e]]].material;
-      if (!m->law->rigid) young = PetscMin(young, Young_Private(m));
+      if (!m->law->rigid) young = PetscMin(young, MaterialYoung(m));
     }
   }
   for (PetscInt f = 0; f < s->num_facets; ++f) {

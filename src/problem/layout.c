@@ -28,6 +28,7 @@ PetscErrorCode ProblemLayout_Private(Problem p)
   for (PetscMPIInt r = 0; r < p->size; ++r) p->u_start[r + 1] = p->u_start[r] + counts[r];
   PetscCall(ContactNumber_Private(p, counts)); /* appends the multipliers of each rank */
   p->num_z = counts[p->rank] - p->num_u;
+  PetscCall(PressureNumber_Private(p, counts));
   counts[p->size - 1] += p->num_scalars;
   p->p_start[0] = 0;
   for (PetscMPIInt r = 0; r < p->size; ++r) p->p_start[r + 1] = p->p_start[r] + counts[r];
@@ -41,10 +42,11 @@ PetscErrorCode ProblemLayout_Private(Problem p)
     const PetscInt r = RankOf_Private(p, global[i]);
     p->index[i]      = global[i] - p->u_start[r] + p->p_start[r];
   }
-  PetscCall(ProblemRows_Private(p));
   PetscCall(VecCreate(p->comm, &p->prototype));
   PetscCall(VecSetSizes(p->prototype, p->p_start[p->rank + 1] - p->start, PETSC_DETERMINE));
   PetscCall(VecSetType(p->prototype, VECSTANDARD));
+  PetscCall(PressureIndices_Private(p));
+  PetscCall(ProblemRows_Private(p));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -90,6 +92,7 @@ static PetscErrorCode NodeColumns_Private(Problem p, const HPTables *v, const Pe
   *num = 0;
   for (PetscInt m = 0; m < nodes; ++m)
     for (PetscInt c = 0; c < free[m]; ++c) columns[(*num)++] = first[m] + c;
+  for (PetscInt i = offset[n]; i < offset[n + 1]; ++i) PetscCall(PressureColumns_Private(p, cells[i], columns, num));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -97,14 +100,15 @@ static PetscErrorCode NodeColumns_Private(Problem p, const HPTables *v, const Pe
 static PetscErrorCode BulkPattern_Private(Problem p, PetscInt diagonal[], PetscInt other[])
 {
   const HPTables *v;
-  PetscInt       *offset, *cells, *stamp, *work, *columns, num;
+  PetscInt       *offset, *cells, *stamp, *work, *columns, num, owned, all;
   PetscReal      *zeros;
 
   PetscFunctionBegin;
   PetscCall(HPSpaceGetTables(p->space, &v));
   PetscCall(NodeCells_Private(v, &offset, &cells));
-  PetscCall(PetscMalloc3(v->num_nodes, &stamp, 2 * v->num_nodes, &work, v->num_nodes * p->dim, &columns));
-  PetscCall(PetscCalloc1(v->num_nodes * p->dim, &zeros));
+  PetscCall(MechanicsNumUnknowns(p->mechanics, &owned, &all));
+  PetscCall(PetscMalloc3(v->num_nodes, &stamp, 2 * v->num_nodes, &work, v->num_nodes * p->dim + all, &columns));
+  PetscCall(PetscCalloc1(v->num_nodes * p->dim + all, &zeros));
   for (PetscInt n = 0; n < v->num_nodes; ++n) stamp[n] = -1;
   for (PetscInt n = 0; n < v->num_nodes; ++n) {
     num = -1;
@@ -175,6 +179,7 @@ PetscErrorCode ProblemMatrix_Private(Problem p)
   PetscCall(MatDestroy(&p->matrix));
   PetscCall(PetscCalloc2(rows, &diagonal, rows, &other));
   PetscCall(BulkPattern_Private(p, diagonal, other));
+  PetscCall(PressurePattern_Private(p, diagonal, other));
   PetscCall(ContactPattern_Private(p, diagonal, other));
   PetscCall(ScalarsPattern_Private(p, diagonal, other));
   for (PetscInt i = 0; i < rows; ++i) {
@@ -189,6 +194,7 @@ PetscErrorCode ProblemMatrix_Private(Problem p)
   PetscCall(MatSetOption(p->matrix, MAT_NEW_NONZERO_ALLOCATION_ERR, PETSC_FALSE));
   PetscCall(PetscFree2(diagonal, other));
   PetscCall(BulkPattern_Private(p, NULL, NULL));
+  PetscCall(PressurePattern_Private(p, NULL, NULL));
   PetscCall(ContactPattern_Private(p, NULL, NULL));
   PetscCall(ScalarsPattern_Private(p, NULL, NULL));
   for (PetscInt i = 0; i < p->num_contacts; ++i) {

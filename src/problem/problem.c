@@ -108,6 +108,7 @@ PetscErrorCode ProblemDestroy(Problem *problem)
   PetscCall(PetscFree3(p->u_start, p->p_start, p->row_start));
   PetscCall(PetscFree4(p->target, p->applied, p->increment, p->start_applied));
   PetscCall(PetscFree2(p->work_index, p->work_value));
+  PetscCall(PressureDestroy_Private(p));
   PetscCall(PetscFree(p->hessian));
   PetscCall(VecDestroy(&p->u_global));
   PetscCall(VecDestroy(&p->u_local));
@@ -203,6 +204,17 @@ PetscErrorCode ProblemNumDofs(Problem p, PetscInt *num)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscErrorCode ProblemNumNegative(Problem p, PetscInt *num)
+{
+  PetscInt inner;
+
+  PetscFunctionBegin;
+  PetscCall(MechanicsNumNegative(p->mechanics, &inner));
+  *num = p->num_rows - (p->num_u - p->num_inner) - inner;
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, num, 1, MPIU_INT, MPI_SUM, p->comm));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode ProblemSetTime(Problem p, PetscReal t)
 {
   PetscFunctionBegin;
@@ -272,6 +284,7 @@ PetscErrorCode ProblemLocalDisplacement(Problem p, Vec x, PetscReal local[])
   PetscFunctionBegin;
   PetscCall(ScalarsRead_Private(p, x));
   PetscCall(FillLocal_Private(p, x, p->applied, local));
+  PetscCall(PressureSpread_Private(p, x));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -113,6 +113,14 @@ struct _p_Problem {
   Vec        start_x;
   PetscInt   num_dofs;
 
+  /* pressure.c: unknown pressures, behind the multipliers; of local cells, as MechanicsSetPressure takes them */
+  PetscInt     num_pi, pi_first;  /* this rank's, and where they begin in its part of the vector */
+  PetscInt    *pi_index, *pi_row; /* [local unknowns] problem index, row of the matrix */
+  PetscMPIInt *pi_rank;           /* [local unknowns] owner */
+  PetscReal   *pi_scale;          /* [num_pi] factor of the residual's row against that of the symmetric form, at the last tangent */
+  Vec          pi_local;          /* values of all local unknowns; NULL: no rank has any */
+  VecScatter   pi_scatter;
+
   /* scalar.c, path.c: unknowns that belong to no node */
   PetscInt   num_scalars, num_controls;        /* the last of the vector and of the matrix: pressures found, then pseudo-time where a path is followed */
   PetscReal *scalar;                           /* [num_scalars] of the vector last seen */
@@ -156,6 +164,21 @@ PetscErrorCode PathTangent_Private(Problem, PetscInt row, const PetscReal u[]);
 /* scatter.c: places of cells in the matrix as it stands, made when its pattern is new; add a cell's matrix there (*added false: it has no places). */
 PetscErrorCode ProblemScatter_Private(Problem);
 PetscErrorCode ProblemScatterAdd_Private(Problem, PetscInt cell, PetscInt num_dofs, const PetscInt dofs[], const PetscReal K[], PetscBool *added);
+/* pressure.c: counts[rank] grow by the pressure unknowns; their indices, once the ranges of the ranks are known; their rows likewise. Collective. */
+PetscErrorCode PressureNumber_Private(Problem, PetscInt counts[]);
+PetscErrorCode PressureIndices_Private(Problem);
+PetscErrorCode PressureRowNumbers_Private(Problem, const PetscInt inner[]);
+PetscErrorCode PressureDestroy_Private(Problem);
+/* Pressures of local cells from x to the mechanics. Collective. */
+PetscErrorCode PressureSpread_Private(Problem, Vec x);
+/* Rows of the last residual into this rank's part of it. */
+PetscErrorCode PressureRows_Private(Problem, PetscReal r[]);
+/* Entries of this rank's cells in the matrix: counted, or without counters written as explicit zeros. Columns of a cell in the rows of its nodes, appended. */
+PetscErrorCode PressurePattern_Private(Problem, PetscInt diagonal[], PetscInt other[]);
+PetscErrorCode PressureColumns_Private(Problem, PetscInt cell, PetscInt columns[], PetscInt *num);
+/* Blocks of the last tangent (added), effect of the motion to come on the rows to the lift; right-hand side in the form of the rows. */
+PetscErrorCode PressureBlocks_Private(Problem);
+PetscErrorCode PressureSides_Private(Problem, Vec rhs);
 /* condense.c: rows of the matrix from the layout. Collective. */
 PetscErrorCode ProblemRows_Private(Problem);
 PetscErrorCode ProblemReduce_Private(Problem, Vec r, Vec rhs);

@@ -1,4 +1,4 @@
-/* The residual: bulk forces, contact forces, complementarity; supports and contact resultants from the same sums. */
+/* The residual: bulk forces, contact forces, complementarity, volumes of incompressible cells; supports and contact resultants from the same sums. */
 #include "problemimpl.h"
 
 PetscErrorCode ProblemSearch(Problem p, Vec x)
@@ -61,13 +61,14 @@ static PetscErrorCode LocalForces_Private(Problem p, Vec x, const PetscReal u[],
   }
   PetscCall(StageEnd(STAGE_CONTACT));
   PetscReal sum[6]   = {bulk.energy, bulk.scale2, bulk.bad || failed, bulk.noise2, bulk.drift2, ContactNoise2_Private(p)};
-  PetscReal least[2] = {bulk.min_det, -bulk.largest};
+  PetscReal least[3] = {bulk.min_det, -bulk.largest, -bulk.volume};
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 6, MPIU_REAL, MPI_SUM, p->comm));
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, least, 2, MPIU_REAL, MPI_MIN, p->comm));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, least, 3, MPIU_REAL, MPI_MIN, p->comm));
   status->energy  = sum[0];
   status->scale   = PetscSqrtReal(sum[1]);
   status->bad     = (PetscBool)(sum[2] > 0);
   status->min_det = least[0];
+  status->volume  = -least[2];
   status->largest = -least[1];
   status->noise   = PetscSqrtReal(sum[3] + PetscSqr(least[1]) * sum[4] + sum[5]);
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -94,6 +95,7 @@ PetscErrorCode ProblemResidual(Problem p, Vec x, Vec r, ProblemStatus *status)
   PetscCall(DMLocalToGlobalEnd(dm, p->r_local, ADD_VALUES, p->u_global));
   PetscCall(VecResetArray(p->u_global));
   for (PetscInt i = 0; i < p->num_contacts; ++i) ContactRows_Private(&p->contacts[i], array);
+  PetscCall(PressureRows_Private(p, array));
   PetscCall(ScalarsResidual_Private(p, x, array));
   PetscCall(VecRestoreArray(r, &array));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -252,6 +252,7 @@ PetscErrorCode ProblemRightSide(Problem p, Vec r, Vec lift, Vec rhs)
   PetscCall(ProblemReduce_Private(p, r, rhs));
   PetscCall(VecAXPY(rhs, 1.0, lift));
   PetscCall(VecScale(rhs, -1.0));
+  PetscCall(PressureSides_Private(p, rhs));
   PetscCall(RowSides_Private(p, rhs));
   for (PetscInt i = 0; i < p->num_contacts; ++i) {
     Contact *c = &p->contacts[i];
@@ -316,6 +317,7 @@ PetscErrorCode ProblemTangent(Problem p, Vec x, const PetscReal pressure[], Vec 
   PetscCall(StageBegin(STAGE_ASSEMBLE));
   PetscCall(ReadyMatrix_Private(p));
   PetscCall(MechanicsTangent(p->mechanics, local, pressure, CellSink_Private, p, bad));
+  if (!*bad) PetscCall(PressureBlocks_Private(p));
   PetscCall(ScalarsTangent_Private(p, local));
   PetscCall(StageEnd(STAGE_ASSEMBLE));
   PetscCall(VecRestoreArray(p->u_local, &local));

@@ -46,8 +46,8 @@ const Option Options[] = {
     {"material.<name>.law", KEY_TEXT, "", NULL, "", "name of a law; bin/mortise -list shows them", MAT(law)},
     {"material.<name>.volumetric", KEY_WORD, "", "quadratic", "quadratic|simo|log",
      "U(J): kappa/2 (J-1)^2 | kappa/2 ((J^2-1)/2 - ln J) | -mu ln J + lambda/2 (ln J)^2 with mu/2 (I1-3)", MAT(volumetric)},
-    {"material.<name>.formulation", KEY_WORD, "", "auto", "auto|displacement|mixed", "mixed: pressure is a field of its own; auto: mixed from nu = 0.45 up",
-     MAT(formulation)},
+    {"material.<name>.formulation", KEY_WORD, "", "auto", "auto|displacement|mixed",
+     "mixed: pressure is a field of its own; auto: mixed from nu = 0.45 up; nu = 0.5 or kappa inf: incompressible, mixed alone", MAT(formulation)},
     {"material.<name>.<parameter>", KEY_PARAMETER, "", "", ANY, "a parameter of the law (E, nu, mu, ...); bin/mortise -list shows them with units and ranges",
      NOWHERE},
     {"material.<name>.fiber.<family>.angle", KEY_REAL, "degrees", "", ANY,
@@ -189,8 +189,8 @@ static PetscErrorCode PrintLaws_Private(MPI_Comm comm)
       char lo[32] = "-inf", hi[32] = "inf";
       if (p->min > -1e30) (void)snprintf(lo, sizeof(lo), "%g", (double)p->min);
       if (p->max < 1e30) (void)snprintf(hi, sizeof(hi), "%g", (double)p->max);
-      PetscCall(PetscPrintf(comm, "    %-12s (%s,%s)%s%s%s  %s\n", p->name, lo, hi, p->unit && p->unit[0] ? " [" : "", p->unit ? p->unit : "",
-                            p->unit && p->unit[0] ? "]" : "", p->help));
+      PetscCall(PetscPrintf(comm, "    %-12s (%s,%s%s%s%s%s  %s\n", p->name, lo, hi, MaterialIsLimit(p, p->max) ? "]" : ")", p->unit && p->unit[0] ? " [" : "",
+                            p->unit ? p->unit : "", p->unit && p->unit[0] ? "]" : "", p->help));
     }
   }
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -59,6 +59,18 @@ static PetscErrorCode CheckLaws_Private(const SceneNode *root)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* A number, or infinity as YAML (.inf) and others (inf) write it. */
+static PetscBool Parameter_Private(const char *text, PetscReal *value)
+{
+  PetscBool same;
+
+  if (PetscStrcasecmp(text + (text[0] == '.'), "inf", &same) == PETSC_SUCCESS && same) {
+    *value = INFINITY;
+    return PETSC_TRUE;
+  }
+  return OptionParseReal(text, value);
+}
+
 /* One family: a direction or an angle. */
 static PetscErrorCode ReadFiber_Private(Scene s, const SceneNode *node, MaterialFiber *fiber)
 {
@@ -120,7 +132,7 @@ static PetscErrorCode ReadMaterial_Private(Scene s, SceneNode *node, MaterialEnt
   m->spec.formulation = (Formulation)m->formulation;
   for (SceneNode *child = node->first; child; child = child->next) {
     if (!OptionKnowsParameter(child->key)) continue;
-    PetscCheckInput(OptionParseReal(child->text, &values[num]), "%s is '%s'; it must be a number", NodeWhere(child), child->text);
+    PetscCheckInput(Parameter_Private(child->text, &values[num]), "%s is '%s'; it must be a number", NodeWhere(child), child->text);
     PetscCheckInput(num < 63, "%s has too many parameters", NodeWhere(node));
     names[num++] = child->key;
   }

@@ -240,7 +240,10 @@ static PetscErrorCode ViewBody_Private(const BodySpec *b, PetscViewer viewer)
     PetscCall(PetscViewerASCIIPrintf(viewer, "%s%c: %d", c ? ", " : " (along ", (int)('x' + c), (int)b->order_along[c]));
   PetscCall(PetscViewerASCIIPrintf(viewer, "%s, material %s (%s", b->order_along[0] ? ")" : "", m->name, m->law->name));
   if (!m->law->rigid)
-    PetscCall(PetscViewerASCIIPrintf(viewer, ", mu = %.6g, kappa = %.6g, %s", (double)m->mu, (double)m->kappa, m->mixed ? "mixed" : "displacement"));
+    PetscCall(PetscViewerASCIIPrintf(viewer, ", mu = %.6g, kappa = %.6g, %s", (double)m->mu, (double)m->kappa,
+                                     m->incompressible ? "incompressible"
+                                     : m->mixed        ? "mixed"
+                                                       : "displacement"));
   for (PetscInt f = 0; f < m->num_fibers; ++f) {
     const MaterialFiber *fiber = &m->fiber[f];
     if (fiber->straight)

@@ -46,6 +46,7 @@ PetscErrorCode SolverLinear_Private(Solver s)
   PetscCall(KSPGetPC(ksp, &pc));
   PetscCall(KSPSetType(ksp, KSPPREONLY));
   PetscCall(UseSingle_Private(s));
+  PetscCall(SolverInertiaSetUp_Private(s));
   if (s->single)
     PetscCall(SingleFactorSet_Private(pc, s->symmetric));
   else
@@ -86,6 +87,7 @@ static PetscErrorCode MoreWorkspace_Private(PC pc, PetscBool *again)
 static PetscErrorCode Factor_Private(Solver s, Mat A)
 {
   KSP ksp;
+  PC  pc;
 
   PetscFunctionBegin;
   ++s->report->factorisations;
@@ -95,7 +97,6 @@ static PetscErrorCode Factor_Private(Solver s, Mat A)
 #if defined(PETSC_HAVE_MUMPS)
   for (PetscBool again = PETSC_TRUE; again;) {
     PCFailedReason failed;
-    PC             pc;
     again = PETSC_FALSE;
     PetscCall(KSPGetPC(ksp, &pc));
     PetscCall(PCGetFailedReason(pc, &failed));
@@ -105,6 +106,8 @@ static PetscErrorCode Factor_Private(Solver s, Mat A)
     PetscCall(KSPSetUp(ksp));
   }
 #endif
+  PetscCall(KSPGetPC(ksp, &pc));
+  PetscCall(SolverInertia_Private(s, pc));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

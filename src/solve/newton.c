@@ -10,6 +10,10 @@
 #define STALLED 7  /* iterations without a new least residual */
 #define HALVINGS 8 /* of steps that left the domain, in one solve */
 
+/* What a cell of incompressible material may gain or lose of its volume, whatever the forces: where prescribed motion leaves it no choice, pressures grow
+   without bounds, and next to them every residual is small. */
+#define VOLUME 1e-8
+
 /* A factor as preconditioner: with less than this, nodes at the edge of contact switch wrongly, and a slide that needs no cut is cut. */
 #define REFINE_RTOL 1e-10
 
@@ -110,18 +114,36 @@ static PetscErrorCode Finish_Private(SNES snes, Solver s, SNESConvergedReason re
   PetscFunctionBegin;
   snes->reason         = reason;
   s->report->converged = (PetscBool)(reason > 0);
+  s->report->unstable  = s->negative > 0 ? 1 : s->negative;
   s->report->reason    = words;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Converged when the residual is small against the nodal forces, or down at the round-off of an unloaded body, and nothing prescribed is left. */
+/* The residual is small against the nodal forces, or down at the round-off of an unloaded body. */
+static PetscBool Small_Private(const Solver s, PetscReal norm)
+{
+  return (PetscBool)(norm <= PetscMax(s->rtol * s->report->status.scale, s->report->status.noise));
+}
+
+static PetscBool KeepsVolume_Private(const Solver s)
+{
+  return (PetscBool)(s->report->status.volume <= PetscMax(VOLUME, s->rtol));
+}
+
+/* What to say of an iteration that ends without a solution. */
+static const char *Words_Private(const Solver s, PetscReal norm, const char *usual)
+{
+  return Small_Private(s, norm) && !KeepsVolume_Private(s) ? "incompressible material cannot keep its volume" : usual;
+}
+
+/* Converged when the residual is small, incompressible cells keep their volume, and nothing prescribed is left. */
 static PetscErrorCode Converged_Private(Solver s, PetscReal norm, PetscBool *yes)
 {
   PetscReal pending;
 
   PetscFunctionBegin;
   PetscCall(ProblemPending(s->problem, &pending));
-  *yes = (PetscBool)(pending == 0 && norm <= PetscMax(s->rtol * s->report->status.scale, s->report->status.noise));
+  *yes = (PetscBool)(pending == 0 && KeepsVolume_Private(s) && Small_Private(s, norm));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -162,9 +184,9 @@ static PetscErrorCode Verdict_Private(SNES snes, Solver s, PetscReal norm)
     ++s->report->set_cycles;
     PetscCall(Finish_Private(snes, s, SNES_DIVERGED_INNER, "the active set of contact repeats itself"));
   } else if (snes->iter - s->best_iter >= STALLED || s->halvings >= HALVINGS)
-    PetscCall(Finish_Private(snes, s, SNES_DIVERGED_LINE_SEARCH, "Newton stalls"));
+    PetscCall(Finish_Private(snes, s, SNES_DIVERGED_LINE_SEARCH, Words_Private(s, norm, "Newton stalls")));
   else if (snes->iter == s->max_it)
-    PetscCall(Finish_Private(snes, s, SNES_DIVERGED_MAX_IT, "Newton did not converge within -solve_max_it iterations"));
+    PetscCall(Finish_Private(snes, s, SNES_DIVERGED_MAX_IT, Words_Private(s, norm, "Newton did not converge within -solve_max_it iterations")));
   else if (PetscIsInfOrNanReal(norm) || (snes->iter > 3 && norm > 1e4 * s->first_norm))
     PetscCall(Finish_Private(snes, s, SNES_DIVERGED_DTOL, "the Newton residual grew"));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -233,6 +255,7 @@ static PetscErrorCode SNESSolve_ContactNewton(SNES snes)
   s->best_norm        = PETSC_MAX_REAL;
   s->best_iter        = 0;
   s->halvings         = 0;
+  s->negative         = -1;
   PetscCall(ProblemSearch(s->problem, x));
   PetscCall(SNESComputeFunction(snes, x, r));
   if (s->report->status.bad) PetscCall(Finish_Private(snes, s, SNES_DIVERGED_FUNCTION_DOMAIN, "the start of the step has an inverted cell"));

@@ -257,6 +257,16 @@ PetscErrorCode SingleFactorSet_Private(PC pc, PetscBool symmetric)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscErrorCode SingleFactorNegative_Private(PC pc, PetscInt *negative)
+{
+  SingleFactor *f;
+
+  PetscFunctionBegin;
+  PetscCall(PCShellGetContext(pc, &f));
+  *negative = (PetscInt)f->mumps.infog[11];
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscBool SingleFactorExists_Private(void)
 {
   return PETSC_TRUE;
@@ -265,6 +275,12 @@ PetscBool SingleFactorExists_Private(void)
 #else
 
 PetscErrorCode SingleFactorSet_Private(PC pc, PetscBool symmetric)
+{
+  PetscFunctionBegin;
+  SETERRQ(PetscObjectComm((PetscObject)pc), PETSC_ERR_SUP, "built without MUMPS in single precision");
+}
+
+PetscErrorCode SingleFactorNegative_Private(PC pc, PetscInt *negative)
 {
   PetscFunctionBegin;
   SETERRQ(PetscObjectComm((PetscObject)pc), PETSC_ERR_SUP, "built without MUMPS in single precision");

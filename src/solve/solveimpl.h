@@ -41,6 +41,7 @@ struct _p_Solver {
   PetscReal     best_norm;       /* least residual of this solve … */
   PetscInt      best_iter;       /* … and its iteration */
   PetscInt      halvings;        /* steps shortened in this solve */
+  PetscInt      negative;        /* pivots of the last factor of this solve beyond those of constraints, -1: not known */
   SolverReport *report;
 };
 
@@ -58,6 +59,11 @@ PetscErrorCode SolverRefine_Private(Solver, Mat, Vec rhs, PetscReal rtol, Vec x,
 /* singlefactor.c: make a PC the factor in single precision of its matrix, LDL^T where that is symmetric; exists where MUMPS has it. */
 PetscErrorCode SingleFactorSet_Private(PC, PetscBool symmetric);
 PetscBool      SingleFactorExists_Private(void);
+PetscErrorCode SingleFactorNegative_Private(PC, PetscInt *negative); /* pivots */
+
+/* inertia.c: on several processes MUMPS counts negative pivots only when told to; once before the first factor. The count, after each: s->negative. */
+PetscErrorCode SolverInertiaSetUp_Private(Solver);
+PetscErrorCode SolverInertia_Private(Solver, PC);
 
 /* saddle.c: iterative solution of the symmetric tangent. */
 PetscErrorCode SaddleCreate_Private(Problem, Saddle *);

@@ -69,11 +69,12 @@ static PetscErrorCode Highest_Private(Problem p, PetscInt *order)
 }
 
 /* Multigrid or a factorisation? From so many unknowns on in three dimensions multigrid is faster (docs/results.md); it is poor on nearly incompressible
-   material, needs symmetry, and in the plane factors stay cheap. */
+   material, knows no pressure unknowns, needs symmetry, and in the plane factors stay cheap. */
 static PetscErrorCode UseMultigrid_Private(Solver s, PetscBool *yes)
 {
   const SceneData *scene;
   PetscInt         dofs, num_u, num_z, dim, order, scalars;
+  PetscBool        incompressible;
 
   PetscFunctionBegin;
   PetscCall(ProblemGetScene(s->problem, &scene));
@@ -87,6 +88,8 @@ static PetscErrorCode UseMultigrid_Private(Solver s, PetscBool *yes)
   s->reuse = (PetscBool)(dim == 3);
   if (s->linear == LINEAR_DIRECT) *yes = PETSC_FALSE;
   if (s->linear == LINEAR_ITERATIVE) *yes = PETSC_TRUE;
+  PetscCall(ProblemIsIncompressible(s->problem, &incompressible));
+  PetscCheckInput(!*yes || !incompressible, "-solve_linear iterative: not with incompressible material (kappa: inf, nu: 0.5); take auto or direct");
   if (!s->symmetric) *yes = PETSC_FALSE;
   PetscCall(ProblemNumScalars(s->problem, &scalars));
   PetscCheckInput(s->linear != LINEAR_ITERATIVE || !scalars,
@@ -104,11 +107,11 @@ static const MaterialSpec *Unsymmetric_Private(const SceneData *scene)
 }
 
 /* Condense the nodes inside cells? PETSc's test of the tangent and the equation of a path want the whole matrix, nodes inside a cell that is constrained to a
-   lower order in some direction are not of its own alone, and cells are condensed by LDL^T. */
+   lower order in some direction are not of its own alone, those of incompressible cells meet its pressures, and cells are condensed by LDL^T. */
 static PetscErrorCode Condense_Private(Solver s)
 {
   PetscInt            num_u, num_z, dim, order;
-  PetscBool           yes, directional, whole;
+  PetscBool           yes, directional, incompressible, whole;
   HPSpace             space;
   const SceneData    *scene;
   const MaterialSpec *unsymmetric;
@@ -121,6 +124,8 @@ static PetscErrorCode Condense_Private(Solver s)
   PetscCall(ProblemGetSpace(s->problem, &space));
   PetscCall(HPSpaceIsDirectional(space, &directional));
   PetscCheckInput(!directional || s->condense != CONDENSE_YES, "-solve_condense yes: not with orders per direction (body.<name>.order: {x: ...}); take no");
+  PetscCall(ProblemIsIncompressible(s->problem, &incompressible));
+  PetscCheckInput(!incompressible || s->condense != CONDENSE_YES, "-solve_condense yes: not with incompressible material (kappa: inf, nu: 0.5); take no");
   whole = (PetscBool)(s->test || scene->load.control == LOAD_ARC_LENGTH);
   PetscCheckInput(scene->load.control != LOAD_ARC_LENGTH || s->condense != CONDENSE_YES,
                   "-solve_condense yes: not with load.control: arc_length, whose equation has all displacements in it; take no");
@@ -128,7 +133,7 @@ static PetscErrorCode Condense_Private(Solver s)
   PetscCall(ProblemGetBlocks(s->problem, &num_u, &num_z, &dim));
   PetscCall(Highest_Private(s->problem, &order));
   yes = (PetscBool)(s->condense == CONDENSE_YES ||
-                    (s->condense == CONDENSE_AUTO && !directional && !unsymmetric && order >= (dim == 3 ? CONDENSE_3D : CONDENSE_2D)));
+                    (s->condense == CONDENSE_AUTO && !directional && !incompressible && !unsymmetric && order >= (dim == 3 ? CONDENSE_3D : CONDENSE_2D)));
   if (yes && !whole) PetscCall(ProblemSetCondense(s->problem));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

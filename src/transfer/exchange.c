@@ -37,7 +37,7 @@ PetscErrorCode TransferNumHistory_Private(const TransferContext *c, PetscInt bod
 PetscInt TransferNumPressure_Private(const TransferContext *c, PetscInt body, PetscInt order)
 {
   if (!c->spec || !c->spec->bodies[body].material->mixed) return 0;
-  return c->old_t->dim == 2 ? order * (order + 1) / 2 : order * (order + 1) * (order + 2) / 6;
+  return MechanicsPressureCount(c->old_t->dim, order);
 }
 
 /* Displacement, pressure and history numbers of an old leaf. */
@@ -124,6 +124,9 @@ static PetscErrorCode Pack_Private(const TransferContext *c, const PetscInt leaf
   to += ElementNumNodes(dim, order) * dim;
   PetscCall(MechanicsPressureRange(c->old_mechanics, leaf_cell[leaf], &first, &num));
   PetscCall(PetscArraycpy(to, from->pressure + first, num));
+  to += num;
+  PetscCall(MechanicsUnknownRange(c->old_mechanics, leaf_cell[leaf], &first, &num));
+  PetscCall(MechanicsGetPressure(c->old_mechanics, first, num, to)); /* a cell has either */
   to += num;
   PetscCall(MechanicsHistoryRange(c->old_mechanics, leaf_cell[leaf], &first, &num));
   PetscCall(PetscArraycpy(to, from->history + first, num));

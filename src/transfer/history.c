@@ -5,7 +5,7 @@
 #include <petscblaslapack.h>
 
 #define H 7
-#define OVERSHOOT 0.25 /* new points lie a little beyond the old ones: how far, in units of the old values' range, alpha may follow */
+#define OVERSHOOT 0.5 /* new points lie a little beyond the old ones: how far, in units of the old values' range, alpha may follow */
 
 /* out = f(in) of a symmetric tensor (xx xy xz yy yz zz) on its eigenvalues. */
 static PetscErrorCode Function_Private(const PetscReal in[6], PetscReal (*f)(PetscReal), PetscReal out[6])

@@ -107,7 +107,7 @@ static PetscInt MostOld_Private(const TransferContext *c)
   return most;
 }
 
-PetscErrorCode TransferPressure_Private(const TransferContext *c, const OldCells *old, PetscReal pressure[])
+PetscErrorCode TransferPressure_Private(const TransferContext *c, const OldCells *old, PetscReal pressure[], PetscReal unknown[])
 {
   const PetscInt dim = c->new_t->dim, n = ElementNumNodes(dim, MORTISE_MAX_ORDER),
                  most = MostOld_Private(c) * (dim == 2 ? MOST_1D * MOST_1D : MOST_1D * MOST_1D * MOST_1D);
@@ -121,6 +121,8 @@ PetscErrorCode TransferPressure_Private(const TransferContext *c, const OldCells
     PetscInt first, num;
     PetscCall(MechanicsPressureRange(c->new_mechanics, cell, &first, &num));
     if (num) PetscCall(Cell_Private(c, old, cell, X, N, G, &s, pressure + first));
+    PetscCall(MechanicsUnknownRange(c->new_mechanics, cell, &first, &num));
+    if (num) PetscCall(Cell_Private(c, old, cell, X, N, G, &s, unknown + first));
   }
   PetscCall(PetscFree3(s.xi, s.weight, s.value));
   PetscCall(PetscFree3(X, N, G));

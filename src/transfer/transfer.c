@@ -52,8 +52,8 @@ PetscErrorCode TransferState(Problem old_problem, const State *from, Problem new
   TransferContext  c = {.map = map};
   OldCells         old;
   const SceneData *scene;
-  PetscReal       *u;
-  PetscInt         num_pressure;
+  PetscReal       *u, *unknown;
+  PetscInt         num_pressure, num_unknown, all;
 
   PetscFunctionBegin;
   PetscCall(StageBegin(STAGE_TRANSFER));
@@ -80,7 +80,11 @@ PetscErrorCode TransferState(Problem old_problem, const State *from, Problem new
   PetscCall(TransferDisplacement_Private(&c, &old, u));
   PetscCall(ProblemSetDisplacement(new_problem, u, to->x));
   PetscCall(PetscFree(u));
-  PetscCall(TransferPressure_Private(&c, &old, to->pressure));
+  PetscCall(MechanicsNumUnknowns(c.new_mechanics, &num_unknown, &all));
+  PetscCall(PetscMalloc1(num_unknown, &unknown));
+  PetscCall(TransferPressure_Private(&c, &old, to->pressure, unknown));
+  PetscCall(ProblemSetPressures(new_problem, unknown, to->x));
+  PetscCall(PetscFree(unknown));
   PetscCall(TransferHistory_Private(&c, &old, to->history));
   PetscCall(OldCellsDestroy_Private(&old));
 

@@ -36,8 +36,8 @@ PetscErrorCode OldCellsDestroy_Private(OldCells *);
 PetscBool TransferPlace_Private(const TransferContext *, PetscInt new_leaf, const PetscReal place[], PetscInt old_leaf, PetscReal xi[3]);
 /* Dofs of the new space's true nodes owned here, in the frames of the new space; other entries of local stay. Not collective. */
 PetscErrorCode TransferDisplacement_Private(const TransferContext *, const OldCells *, PetscReal local[]);
-/* pressure.c: coefficients of the new mixed cells owned here. Not collective. */
-PetscErrorCode TransferPressure_Private(const TransferContext *, const OldCells *, PetscReal pressure[]);
+/* pressure.c: coefficients of the new mixed cells owned here, of incompressible ones in unknown (NULL: there are none). Not collective. */
+PetscErrorCode TransferPressure_Private(const TransferContext *, const OldCells *, PetscReal pressure[], PetscReal unknown[]);
 /* history.c: at the integration points of the new cells owned here. Not collective. */
 PetscErrorCode TransferHistory_Private(const TransferContext *, const OldCells *, PetscReal history[]);
 /* Numbers of the history of a leaf of this order and body. */

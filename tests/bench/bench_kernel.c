@@ -17,7 +17,7 @@ static void Fill(PetscInt dim, PetscInt order, PetscInt nc, PetscReal *X, PetscR
 
       for (PetscInt i = 0; i < dim; i++) {
         X[(c * n + node) * dim + i] = xi[i] + 0.05 * PetscSinReal(xi[0] + 2 * xi[1] + i) + 0.02 * xi[2];
-        u[(c * n + node) * dim + i] = 0.05 * PetscSinReal(1 + i + 2 * xi[i] * xi[(i + 1) % 3]);
+        u[(c * n + node) * dim + i] = 0.03 * PetscSinReal(1 + i + 2 * xi[i] * xi[(i + 1) % 3]);
       }
     }
   }

@@ -72,6 +72,26 @@ static inline void SplitLeaf(Forest *forest, PetscInt leaf, PetscInt split)
   AdaptBy(forest, &marks);
 }
 
+/* Errors of orders 1..num on one mesh: each order divides them by 4 at least, and their logarithm is off a straight line by less than its fall an order. */
+static inline void CheckExponential(PetscInt num, const PetscReal error[])
+{
+  const PetscReal middle = (num - 1) / 2.;
+  PetscReal       mean = 0, moment = 0, square = 0, slope;
+
+  for (PetscInt i = 0; i < num; ++i) {
+    if (i > 0 && !(error[i] < error[i - 1] / 4)) fail_msg("order %d divides the error by %g only", (int)i + 1, (double)(error[i - 1] / error[i]));
+    mean += PetscLogReal(error[i]) / num;
+    moment += (i - middle) * PetscLogReal(error[i]);
+    square += PetscSqr(i - middle);
+  }
+  slope = moment / square;
+  for (PetscInt i = 0; i < num; ++i) {
+    const PetscReal off = PetscLogReal(error[i]) - mean - slope * (i - middle);
+    print_message("p %d: log error off the line by %.2f of its fall of %.2f an order\n", (int)i + 1, (double)off, (double)-slope);
+    assert_true(PetscAbsReal(off) < -slope);
+  }
+}
+
 /* The tensor Gauss points of a cell with `num` points in each direction: xi[num^dim][dim], weights. Returns their number. */
 static inline PetscInt CellGauss(PetscInt dim, PetscInt num, PetscReal xi[], PetscReal weight[])
 {

@@ -26,11 +26,20 @@ typedef struct {
 #define COS29 0.87461970713939580
 #define SIN29 0.48480962024633703
 
-/* cases.md O-01; St. Venant-Kirchhoff by hand, F1 (lambda tr E 1 + 2 mu E) */
+/* cases.md O-01; St. Venant-Kirchhoff by hand, F1 (lambda tr E 1 + 2 mu E); mooney_rivlin log: its energy and differences of it, with 30 digits */
 static const Row rows[] = {
     {"neo_hookean", VOLUMETRIC_LOG, 2, {"mu", "lambda"}, {1, 2}, 0.147591766098, {0.4943538338, 0.2024829125, 0.1798664768, 0.2282784872}, 0, {{0}}},
     {"neo_hookean", VOLUMETRIC_SIMO, 2, {"mu", "kappa"}, {1, 50}, 0.315349668375, {4.0652953955, -0.0760681971, -0.4919977784, 4.4054403799}, 0, {{0}}},
     {"neo_hookean", VOLUMETRIC_QUADRATIC, 2, {"mu", "kappa"}, {1, 50}, 0.320524161883, {4.2260656643, -0.0880255949, -0.521585792, 4.5926565725}, 0, {{0}}},
+    {"mooney_rivlin",
+     VOLUMETRIC_LOG,
+     3,
+     {"c1", "c2", "kappa"},
+     {.3, .2, 5},
+     0.17072095564751,
+     {0.72302229111, 0.223948059782, 0.180225636978, 0.484085925315},
+     0,
+     {{0}}},
     {"mooney_rivlin",
      VOLUMETRIC_QUADRATIC,
      3,
@@ -89,7 +98,7 @@ static void Evaluate(const MaterialSpec *spec, MaterialPart part, const PetscRea
 /* Printed digits end at 1e-10 absolute for P (values up to 5) and 1e-12 for W. */
 static void PointValuesOfO01(void **state)
 {
-  for (size_t i = 0; i < 7; i++) {
+  for (size_t i = 0; i < 8; i++) {
     MaterialSpec spec;
     PetscReal    W, P[9];
 
@@ -302,7 +311,7 @@ static void VolumetricMeasure(void **state)
 {
   const PetscReal where[] = {0.5, 0.8, 0.9, 0.9000001, 0.97, 1 - 1e-6, 1, 1 + 1e-9, 1.05, 1.0999999, 1.1, 1.4, 3}, h = 1e-3;
 
-  for (size_t i = 0; i < 3; i++) {
+  for (size_t i = 0; i < 4; i++) {
     MaterialSpec spec;
 
     SpecMake(&rows[i], &spec);

@@ -70,6 +70,7 @@ static void PairsAreEquivalent(void **state)
   OK(Try("mooney_rivlin", 3, NAMES("c1", "c2", "kappa"), VALUES(.3, .2, 50)));
   assert_near(spec.mu, 1, 1e-15);
   assert_near(spec.kappa, 50, 0);
+  assert_near(spec.log_modulus, 50 - 4 * .3 / 3 - 16 * .2 / 3, 1e-13);
   OK(Try("rigid", 0, NULL, NULL));
   assert_false(spec.mixed);
 }
@@ -90,12 +91,40 @@ static void MixedIsResolved(void **state)
   assert_true(spec.mixed);
 }
 
+static void IncompressibleLimit(void **state)
+{
+  for (int i = 0; i < 4; i++) {
+    if (i == 0) OK(Try("neo_hookean", 2, NAMES("E", "nu"), VALUES(3, 0.5)));
+    if (i == 1) OK(Try("neo_hookean", 2, NAMES("mu", "kappa"), VALUES(1, INFINITY)));
+    if (i == 2) OK(Try("mooney_rivlin", 3, NAMES("c1", "c2", "kappa"), VALUES(0.3, 0.2, INFINITY)));
+    if (i == 3) OK(Try("linear", 2, NAMES("E", "nu"), VALUES(3, 0.5)));
+    assert_true(spec.incompressible && spec.mixed && PetscIsInfReal(spec.kappa));
+    assert_float_equal(spec.mu, 1, 1e-15);
+    assert_float_equal(MaterialYoung(&spec), 3, 1e-15);
+    if (i < 2) assert_float_equal(spec.parameter[1], 0.5, 0);
+  }
+  OK(Try("neo_hookean", 2, NAMES("E", "nu"), VALUES(1, 0.4999999)));
+  assert_true(spec.mixed && !spec.incompressible);
+  spec.formulation = FORMULATION_DISPLACEMENT;
+  REFUSED("formulation: displacements alone cannot keep the volume (kappa: inf, nu: 0.5); take mixed, or nu below 0.5", "neo_hookean", 2, NAMES("E", "nu"),
+          VALUES(1, 0.5));
+  spec.formulation = FORMULATION_AUTO;
+  REFUSED("law: saint_venant_kirchhoff has no incompressible limit (nu: 0.5, kappa: inf); take neo_hookean, or nu below 0.5", "saint_venant_kirchhoff", 2,
+          NAMES("E", "nu"), VALUES(1, 0.5));
+  REFUSED("kappa: the bulk modulus 1e+13 is more than 1e12 times the shear modulus 1, of which round-off leaves nothing; take inf (incompressible)",
+          "neo_hookean", 2, NAMES("mu", "kappa"), VALUES(1, 1e13));
+  spec.volumetric = VOLUMETRIC_LOG;
+  REFUSED("volumetric: log has no incompressible limit (kappa: inf, nu: 0.5); take quadratic or simo", "neo_hookean", 2, NAMES("mu", "kappa"),
+          VALUES(1, INFINITY));
+}
+
 static void WrongValuesAreRefused(void **state)
 {
   REFUSED("E: -1 is not a finite number above 0", "neo_hookean", 2, NAMES("E", "nu"), VALUES(-1, 0.3));
   REFUSED("mu: 0 is not a finite number above 0", "neo_hookean", 2, NAMES("mu", "kappa"), VALUES(0, 1));
   REFUSED("nu: 0.6 is not between -1 and 0.5", "neo_hookean", 2, NAMES("E", "nu"), VALUES(1, 0.6));
-  REFUSED("nu: 0.5 is the incompressible limit; take nu below 0.5 (0.4999, say) with formulation: mixed", "neo_hookean", 2, NAMES("E", "nu"), VALUES(1, 0.5));
+  REFUSED("E: inf is not a finite number above 0", "neo_hookean", 2, NAMES("E", "nu"), VALUES(INFINITY, 0.3));
+  REFUSED("lambda: inf is not a finite number", "neo_hookean", 2, NAMES("mu", "lambda"), VALUES(1, INFINITY));
   REFUSED("E: nan is not a finite number above 0", "neo_hookean", 2, NAMES("E", "nu"), VALUES((PetscReal)NAN, 0.3));
   REFUSED("lambda: -1 gives the bulk modulus -0.333333, which must be positive", "neo_hookean", 2, NAMES("mu", "lambda"), VALUES(1, -1));
   REFUSED("c1: shear modulus 2 (c1 + c2) = -0.2 must be positive", "mooney_rivlin", 3, NAMES("c1", "c2", "kappa"), VALUES(.1, -.2, 5));
@@ -116,7 +145,6 @@ static void WrongSetsAreRefused(void **state)
 static void WrongVariantsAreRefused(void **state)
 {
   spec.volumetric = VOLUMETRIC_LOG;
-  REFUSED("volumetric: mooney_rivlin knows quadratic and simo, not log", "mooney_rivlin", 3, NAMES("c1", "c2", "kappa"), VALUES(1, 1, 9));
   REFUSED("volumetric: linear has no other volumetric law than quadratic", "linear", 2, NAMES("E", "nu"), VALUES(1, 0.3));
   spec.volumetric = VOLUMETRIC_QUADRATIC;
   REFUSED("formulation: saint_venant_kirchhoff has no mixed form (meant for nu from 0.45 up, here 0.49); set formulation: displacement or take neo_hookean",
@@ -126,6 +154,8 @@ static void WrongVariantsAreRefused(void **state)
           "saint_venant_kirchhoff", 2, NAMES("E", "nu"), VALUES(1, 0.3));
   spec.volumetric = VOLUMETRIC_LOG;
   REFUSED("formulation: mixed with volumetric: log needs lambda above 0, which is -0.1", "neo_hookean", 2, NAMES("mu", "lambda"), VALUES(1, -0.1));
+  REFUSED("formulation: mixed with volumetric: log needs kappa - 4/3 c1 - 16/3 c2 above 0, which is -1.66667", "mooney_rivlin", 3, NAMES("c1", "c2", "kappa"),
+          VALUES(1, 1, 5));
 }
 
 #define HGO NAMES("c", "kappa", "k1", "k2")
@@ -173,10 +203,11 @@ static void TableIsComplete(void **state)
 
 int main(int argc, char **argv)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test_setup(PairsAreEquivalent, Fresh),      cmocka_unit_test_setup(MixedIsResolved, Fresh),
-                                     cmocka_unit_test_setup(WrongValuesAreRefused, Fresh),   cmocka_unit_test_setup(WrongSetsAreRefused, Fresh),
-                                     cmocka_unit_test_setup(WrongVariantsAreRefused, Fresh), cmocka_unit_test_setup(TableIsComplete, Fresh),
-                                     cmocka_unit_test_setup(FibresAreSetUp, Fresh),          cmocka_unit_test_setup(WrongFibresAreRefused, Fresh)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test_setup(PairsAreEquivalent, Fresh),   cmocka_unit_test_setup(MixedIsResolved, Fresh),
+                                     cmocka_unit_test_setup(IncompressibleLimit, Fresh),  cmocka_unit_test_setup(WrongValuesAreRefused, Fresh),
+                                     cmocka_unit_test_setup(WrongSetsAreRefused, Fresh),  cmocka_unit_test_setup(WrongVariantsAreRefused, Fresh),
+                                     cmocka_unit_test_setup(TableIsComplete, Fresh),      cmocka_unit_test_setup(FibresAreSetUp, Fresh),
+                                     cmocka_unit_test_setup(WrongFibresAreRefused, Fresh)};
 
   if (PetscInitialize(&argc, &argv, NULL, NULL) || ErrorHandlerPush()) return 1;
   const int failed = cmocka_run_group_tests(tests, NULL, NULL);

@@ -188,7 +188,7 @@ static void Step(Bulk *from, Bulk *to, PetscInt dim, PetscInt degree, PetscInt m
   OK(PetscCalloc1(v->num_nodes * dim, &new_u));
   OK(PetscCalloc1(num, &new_pressure));
   OK(TransferDisplacement_Private(&c, &old, new_u));
-  OK(TransferPressure_Private(&c, &old, new_pressure));
+  OK(TransferPressure_Private(&c, &old, new_pressure, NULL));
   const PetscReal displacement = DisplacementError(to, degree, new_u), of_pressure = PressureError(to, degree - 1, new_pressure);
   if (!(displacement < 1e-12) || !(of_pressure < 1e-12))
     fail_msg("dim %d degree %d mode %d seed %d: u %g, pressure %g", (int)dim, (int)degree, (int)mode, (int)seed, (double)displacement, (double)of_pressure);
@@ -275,7 +275,7 @@ static void MergedMean(void **state)
       .old_space = from.space, .old_mechanics = from.mechanics, .spec = &from.spec, .new_space = to.space, .new_mechanics = to.mechanics, .map = &map};
   OK(TransferContextSetUp_Private(&c));
   OK(OldCellsFetch_Private(&c, &(OldFields){.u = u, .pressure = pressure}, &old));
-  OK(TransferPressure_Private(&c, &old, result));
+  OK(TransferPressure_Private(&c, &old, result, NULL));
   OK(HPSpaceGetTables(to.space, &v));
   owned = v->num_owned_cells;
   for (PetscInt cell = 0; cell < owned; ++cell) {
@@ -437,7 +437,7 @@ static void Raised(void **state)
       OK(MechanicsNumPressure(to.mechanics, &num));
       OK(PetscCalloc1(num, &new_pressure));
       OK(TransferDisplacement_Private(&c, &old, new_u));
-      OK(TransferPressure_Private(&c, &old, new_pressure));
+      OK(TransferPressure_Private(&c, &old, new_pressure, NULL));
       Complete(&to, new_u);
       Moments(&to, new_u, new_pressure, after);
       for (PetscInt k = 0; k < 4; ++k) {

@@ -28,6 +28,20 @@ def test_o03_clamped_cube(run, n, order, energy, tip):
         assert abs(value - reference) < 1e-8  # the digits of the table
 
 
+def test_o03_mooney_rivlin(run, tmp_path):
+    """lambda/2 ln^2 J - (m1 + 2 m2) ln J + m1/2 (I1 - 3) + m2/2 (I2 - 3), m1 = m2 = 0.5, lambda = 4: kappa = lambda + 2 m2 + 2/3 (m1 + m2)."""
+    material = {"law": "mooney_rivlin", "volumetric": "log", "formulation": "displacement", "c1": 0.25, "c2": 0.25, "kappa": 17 / 3}
+    write(tmp_path / "cube.msh", [linspace(0, 1, 2)] * 3, lambda *x: x)
+    scene = {"mesh": {"file": "cube.msh"}, "model": "3d", "order": 2, "body": {"body": {"material": "m"}}, "material": {"m": material},
+             "boundary": {"x0": {"fix": "xyz"}, "x1": {"traction": {"z": -0.5}}}, "load": {"step": 0.25}, "probe": {"corner": {"x": 1, "y": 1, "z": 1}},
+             "output": {"fields": False}}
+    result = run("cube.yml", text=json.dumps(scene))
+    assert result.returncode == 0, result
+    assert abs(result.summary["energy"] / 0.2339138879702 - 1) < 1e-8, result.summary["energy"]
+    for value, reference in zip(result.summary["probe"]["corner"]["displacement"], (.11289155, -.0551175, -1.20172966)):
+        assert abs(value - reference) < 1e-8
+
+
 def test_mixed_cell_of_order_7(run):
     """84 pressures in one cell: its stresses are found for output and estimate, and the two formulations tell nearly the same energy."""
     options = ("-mesh_parameter_n", 1, "-order", 7, "-load_end", 0.1, "-load_step", 0.1)

@@ -129,7 +129,7 @@ def test_good_on_two_ranks(check):
     (("upper: {material: rubber}", "upper: {material: rubber, order: {x: 2, w: 1}}"), [r"body.upper.order.w is not a key", r"body.upper.order.x"]),
     (("upper: {material: rubber}", "upper: {material: rubber, order: {x: 2, z: 1}}"), [r"body.upper.order.z", "no z"]),
     (("upper: {material: rubber}", "upper: {material: rubber, order: [2, 1]}"), [r"body.upper.order must be an integer", "list"]),
-    (("nu: 0.3", "nu: 0.5"), ["material.rubber.nu", "0.5"]),
+    (("nu: 0.3", "nu: 0.5, formulation: displacement"), ["material.rubber.formulation", "nu: 0.5"]),
     (("nu: 0.3", "nu: 0.7"), ["material.rubber.nu", "0.7"]),
     (("E: 1,", "E: -1,"), ["material.rubber.E", "-1"]),
     (("nu: 0.3", "mu: 0.3"), ["material.rubber"]),

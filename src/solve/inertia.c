@@ -1,0 +1,62 @@
+/* The inertia of the symmetric tangent. At a stable equilibrium K is positive on every motion the constraints allow, and the matrix [K B^T; B 0] then has one
+   negative eigenvalue for each constraint. Each one more is a direction of motion in which the energy falls: the equilibrium is unstable. Newton's method finds
+   such states as it finds others, and along a path that load or motion prescribes they may be what is wanted (behind a bifurcation, beyond a limit point): they
+   are counted, not refused. */
+#include "solveimpl.h"
+
+/* MUMPS leaves the root of a distributed factor to ScaLAPACK, which does not count pivots, unless ICNTL(13) is 1: so chosen with incompressible material alone,
+   for elsewhere it would cost time. */
+PetscErrorCode SolverInertiaSetUp_Private(Solver s)
+{
+  PetscBool incompressible, set;
+
+  PetscFunctionBegin;
+  s->negative = -1;
+  PetscCall(ProblemIsIncompressible(s->problem, &incompressible));
+  PetscCall(PetscOptionsHasName(NULL, NULL, "-mat_mumps_icntl_13", &set));
+  if (incompressible && !set) PetscCall(PetscOptionsSetValue(NULL, "-mat_mumps_icntl_13", "1"));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Negative pivots of the factor in pc, -1: it does not tell. */
+static PetscErrorCode Negative_Private(Solver s, PC pc, PetscInt *negative)
+{
+  PCFailedReason failed;
+  PetscMPIInt    size;
+  PetscInt       whole = 0;
+  PetscBool      set;
+
+  PetscFunctionBegin;
+  *negative = -1;
+  PetscCallMPI(MPI_Comm_size(PetscObjectComm((PetscObject)pc), &size));
+  PetscCall(PetscOptionsGetInt(NULL, NULL, "-mat_mumps_icntl_13", &whole, &set));
+  PetscCall(PCGetFailedReason(pc, &failed));
+  if (!s->symmetric || failed != PC_NOERROR || (size > 1 && whole != 1)) PetscFunctionReturn(PETSC_SUCCESS);
+  if (s->single) PetscCall(SingleFactorNegative_Private(pc, negative));
+#if defined(PETSC_HAVE_MUMPS)
+  if (!s->single) {
+    MatSolverType type;
+    PetscBool     mumps;
+    Mat           F;
+    PetscCall(PCFactorGetMatSolverType(pc, &type));
+    PetscCall(PetscStrcmp(type, MATSOLVERMUMPS, &mumps));
+    if (!mumps) PetscFunctionReturn(PETSC_SUCCESS);
+    PetscCall(PCFactorGetMatrix(pc, &F));
+    PetscCall(MatMumpsGetInfog(F, 12, negative));
+  }
+#endif
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SolverInertia_Private(Solver s, PC pc)
+{
+  PetscInt constraints;
+
+  PetscFunctionBegin;
+  PetscCall(Negative_Private(s, pc, &s->negative));
+  if (s->negative < 0) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(ProblemNumNegative(s->problem, &constraints));
+  PetscCall(PetscInfo(s->snes, "%" PetscInt_FMT " negative pivots, %" PetscInt_FMT " constraints\n", s->negative, constraints));
+  s->negative = PetscMax(0, s->negative - constraints);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
