@@ -88,7 +88,10 @@ typedef struct {
   const PetscReal *reach;        /* [num_rows] change of gt_j when the gap grows by 1 along its direction everywhere; NULL: weight */
   const PetscReal *dgap;         /* [num_rows][dim*num]; NULL unless asked, or where z vanishes and no Hessian is asked */
   const PetscReal *dweight;      /* [num_rows][dim*num] */
-  const PetscReal *hessian;      /* [dim*num][dim*num] of sum_j z_j gap_j; NULL unless asked, or where z vanishes */
+  const PetscReal *hessian;      /* [dim*num][dim*num] of sum_j z_j gap_j + K_j z_j^2 / 2; NULL unless asked, or where z vanishes */
+  const PetscReal *spring;       /* [num_rows] compliances K_j, which depend on the covered area only (ContactPairSetSoftness); NULL: none */
+  const PetscReal *stiffening;   /* [num_rows] dK_j / d area */
+  const PetscReal *darea;        /* [dim*num] of area; with spring and dgap */
   PetscReal        area;         /* covered length or area (axisymmetric: area) */
   PetscReal        min_gap;
 } ContactFacet;
@@ -107,6 +110,11 @@ PetscErrorCode ContactPairDestroy(ContactPair *);
 /* Facets of higher order: which nodes have multipliers (carries[nonmortar num_nodes], NULL: all), for the functions of covered facets, which are dual in the
    reference positions; before the search. Without it the first search takes all nodes. The pair keeps the functions. Not collective. */
 PetscErrorCode ContactPairSetCarriers(ContactPair, const ContactSurface *nonmortar, const PetscBool carries[]);
+/* Facets of higher order that are covered in part: compliances of their constraints,
+     L = Pi - sum_j (z_j gt_j + K_j z_j^2 / 2):   rows gt_j + K_j z_j, forces z_j grad gt_j + (z_j^2 / 2) grad K_j,
+   K_j = 4 epsilon s (1 - s) softness_j (reference measure of j's hat on the facet), s the share of the facet that is covered. softness[nonmortar num_nodes]:
+   facet size / Young's modulus; borrowed. Without it there are none. Not collective. */
+PetscErrorCode ContactPairSetSoftness(ContactPair, const PetscReal softness[]);
 /* Nodes that carry no multiplier, of facets of higher order: the pressure there is z_n = sum_k weight[k] z_donor[k], k from first[n] to first[n+1] (empty:
    nothing says), since their functions went to those nodes. All NULL: facets of order 1. Valid as long as the carriers. Not collective. */
 PetscErrorCode ContactPairGetDonors(ContactPair, const PetscInt **first, const PetscInt **donor, const PetscReal **weight);
@@ -124,6 +132,9 @@ PetscErrorCode ContactPairReach(ContactPair, const ContactSurface *nonmortar, Pe
                                 PetscInt most, PetscInt *num_boxes, PetscReal box[][6]);
 void           ContactFacetBox(const ContactSurface *, PetscInt facet, PetscReal box[6]);
 PetscBool      ContactBoxesMeet(const PetscReal a[6], const PetscReal b[6]);
+/* Rays along a continuous direction (else NULL): the pictures of mortar corners that hang in the middle of an edge follow those of its ends,
+   parent[mortar num_nodes][2], -1: does not hang. Not collective. */
+PetscErrorCode ContactPairGetMortarParents(ContactPair, const PetscInt **parent);
 /* Candidates of the last search: mortar facets of listed facet i are candidate[start[i] .. start[i+1]), ascending. Set: the search went on elsewhere, these
    facets are evaluated here (and listed from now on) with these candidates. */
 PetscErrorCode ContactPairGetCandidates(ContactPair, const PetscInt **start, const PetscInt **candidate);

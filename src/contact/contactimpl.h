@@ -89,6 +89,7 @@ struct _p_ContactPair {
   PetscInt                  num_degenerate; /* overlaps of the last evaluation that could not be used */
   FacetWork                 facet;          /* three dimensions without a continuous direction: work space, NULL until needed */
   struct ContactMultiplier *multiplier;     /* functions of facets of higher order, else NULL */
+  const PetscReal          *softness;       /* borrowed; NULL: no compliance */
   RayWork                   ray;            /* rays along a continuous direction: work space, NULL until needed */
   /* topology of the nonmortar side, from the last search: neighbours of a node along the surface, -1: none */
   PetscInt  num_nodes, num_facets, num_mortar_nodes, num_mortar_facets;

@@ -10,16 +10,34 @@ static PetscReal Sliver_Private(const RayFacet *f)
   return 0.1 * (f->m == 1 ? end : end * end);
 }
 
+static void Middle_Private(const RayImage *a, const RayImage *b, RayImage *to)
+{
+  to->found = (PetscBool)(a->found && b->found);
+  to->s     = 0.5 * (a->s + b->s);
+  for (int i = 0; i < 2; i++) to->Y[i] = 0.5 * (a->Y[i] + b->Y[i]);
+}
+
 /* Place of a mortar node's image; found when new. */
 static PetscErrorCode Image_Private(RayWork w, const ContactSurface *mortar, PetscInt node, PetscInt *place)
 {
+  const PetscInt *parent = w->mortar_parent + 2 * node;
+  PetscInt        end[2] = {-1, -1};
+  RayImage       *image;
+
   PetscFunctionBegin;
   for (*place = 0; *place < w->num_images; (*place)++)
     if (w->image[*place].node == node) PetscFunctionReturn(PETSC_SUCCESS);
+  for (int k = 0; k < 2 && parent[0] >= 0; k++) PetscCall(Image_Private(w, mortar, parent[k], &end[k]));
   PetscCall(ContactGrow(w->num_images + 1, sizeof(RayImage), &w->size_image, &w->image));
-  w->image[w->num_images].node = node;
-  for (PetscInt c = 0; c < 3; c++) w->image[w->num_images].v[c] = c < mortar->dim ? mortar->x[mortar->dim * node + c] : 0;
-  ContactImageFind(&w->facet, &w->image[w->num_images++]);
+  *place           = w->num_images++;
+  image            = &w->image[*place];
+  image->node      = node;
+  image->parent[0] = parent[0], image->parent[1] = parent[1];
+  for (PetscInt c = 0; c < 3; c++) image->v[c] = c < mortar->dim ? mortar->x[mortar->dim * node + c] : 0;
+  if (end[0] >= 0)
+    Middle_Private(&w->image[end[0]], &w->image[end[1]], image);
+  else
+    ContactImageFind(&w->facet, image);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -146,21 +164,39 @@ static PetscErrorCode Cells_Private(ContactPair pair, const ContactSurface *mort
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Keep the images of the facets that count; list the mortar nodes. */
+/* Is an image one of a facet that counts, or of an end of an edge on which one of images [from, ..) hangs? */
+static PetscBool Used_Private(const RayWork w, const ContactSurface *mortar, PetscInt i, PetscInt from)
+{
+  const PetscInt nv = w->facet.nv, node = w->image[i].node;
+
+  for (PetscInt k = 0; k < w->num_overlaps; k++)
+    for (PetscInt a = 0; a < nv; a++)
+      if (mortar->facets[nv * w->mortar[k] + a] == node) return PETSC_TRUE;
+  for (PetscInt k = from; k < w->num_images; k++)
+    if (w->image[k].parent[0] == node || w->image[k].parent[1] == node) return PETSC_TRUE;
+  return PETSC_FALSE;
+}
+
+static PetscErrorCode AddVertex_Private(RayWork w, PetscInt node)
+{
+  PetscFunctionBegin;
+  for (PetscInt at = 0; at < w->num_mortar; at++)
+    if (w->vertex[at] == node) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(ContactGrow(w->num_mortar + 1, sizeof(PetscInt), &w->size_vertex, &w->vertex));
+  w->vertex[w->num_mortar++] = node;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Keep the images of the facets that count, and those they hang on; list the mortar nodes. */
 static PetscErrorCode Nodes_Private(RayWork w, const ContactSurface *mortar)
 {
-  const PetscInt nv   = w->facet.nv;
-  PetscInt       kept = 0;
+  PetscInt first = w->num_images;
 
   PetscFunctionBegin;
-  for (PetscInt i = 0; i < w->num_images; i++) {
-    PetscBool used = PETSC_FALSE;
-
-    for (PetscInt k = 0; k < w->num_overlaps && !used; k++)
-      for (PetscInt a = 0; a < nv && !used; a++) used = (PetscBool)(mortar->facets[nv * w->mortar[k] + a] == w->image[i].node);
-    if (used) w->image[kept++] = w->image[i];
-  }
-  w->num_images = kept;
+  for (PetscInt i = w->num_images - 1; i >= 0; i--) /* from the back, where those that hang are */
+    if (Used_Private(w, mortar, i, first)) w->image[--first] = w->image[i];
+  w->num_images -= first;
+  memmove(w->image, w->image + first, (size_t)w->num_images * sizeof(RayImage));
   w->num_mortar = 0;
   for (PetscInt k = 0; k < w->num_overlaps; k++) {
     PetscInt        order1[4], num;
@@ -168,15 +204,9 @@ static PetscErrorCode Nodes_Private(RayWork w, const ContactSurface *mortar)
 
     if (k && w->mortar[k] == w->mortar[k - 1]) continue;
     num = ElementNumNodes(w->facet.m, ContactRayLatticeNodes(mortar, w->mortar[k], &node, order1));
-    for (PetscInt a = 0; a < num; a++) {
-      PetscInt at = 0;
-
-      while (at < w->num_mortar && w->vertex[at] != node[a]) at++;
-      if (at < w->num_mortar) continue;
-      PetscCall(ContactGrow(w->num_mortar + 1, sizeof(PetscInt), &w->size_vertex, &w->vertex));
-      w->vertex[w->num_mortar++] = node[a];
-    }
+    for (PetscInt a = 0; a < num; a++) PetscCall(AddVertex_Private(w, node[a]));
   }
+  for (PetscInt i = 0; i < w->num_images; i++) PetscCall(AddVertex_Private(w, w->image[i].node));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -50,13 +50,13 @@ static PetscBool Follows_Private(const ContactSurface *s, PetscInt node, PetscIn
 }
 
 /* A side u -> v without partner, against which v -> h -> u run, carries h. */
-static PetscErrorCode Parents_Private(RayWork w, const ContactSurface *s)
+PetscErrorCode ContactParents(const ContactSurface *s, PetscInt parent[])
 {
   const PetscInt num = 4 * s->num_facets;
   Side          *side;
 
   PetscFunctionBegin;
-  for (PetscInt i = 0; i < 2 * s->num_nodes; i++) w->parent[i] = -1;
+  for (PetscInt i = 0; i < 2 * s->num_nodes; i++) parent[i] = -1;
   if (s->dim == 2) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(PetscMalloc1(num, &side));
   for (PetscInt k = 0; k < num; k++) side[k] = (Side){s->facets[k], s->facets[4 * (k / 4) + (k + 1) % 4], k / 4};
@@ -69,7 +69,7 @@ static PetscErrorCode Parents_Private(RayWork w, const ContactSurface *s)
       const PetscInt h = side[l].to;
 
       if (!HasSide_Private(num, side, h, u) || !Follows_Private(s, h, side[k].facet)) continue;
-      w->parent[2 * h] = u, w->parent[2 * h + 1] = v;
+      parent[2 * h] = u, parent[2 * h + 1] = v;
     }
   }
   PetscCall(PetscFree(side));
@@ -90,7 +90,7 @@ PetscErrorCode ContactDirectionTopology(RayWork w, const ContactSurface *s)
   }
   for (PetscInt i = 2; i < s->num_nodes + 2; i++) w->ring_first[i] += w->ring_first[i - 1];
   for (PetscInt i = 0; i < num; i++) w->ring_facet[w->ring_first[s->facets[i] + 1]++] = i / nv;
-  PetscCall(Parents_Private(w, s));
+  PetscCall(ContactParents(s, w->parent));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -23,24 +23,40 @@ static void Bound_Private(PetscReal xi, PetscReal h[3])
   h[2] = -6 * sign * v * h[1] * root * root;
 }
 
-/* Functions of the corners. */
+/* Slope of the functions in direction i that takes over beyond the facet: that between the corners. */
+static void Slope_Private(PetscInt order, PetscReal slope[2][RAY_LATTICE])
+{
+  const PetscInt num = (order + 1) * (order + 1), corner[4] = {0, order, num - 1 - order, num - 1};
+
+  memset(slope[0], 0, (size_t)num * sizeof(PetscReal));
+  memset(slope[1], 0, (size_t)num * sizeof(PetscReal));
+  for (int k = 0; k < 4; k++) {
+    slope[0][corner[k]] = k % 2 ? 0.25 : -0.25;
+    slope[1][corner[k]] = k / 2 ? 0.25 : -0.25;
+  }
+}
+
+/* f(h) + sum_i (xi_i - h_i) slope_i */
 static void Functions_Private(const RayFacet *f, PetscInt order, const PetscReal xi[2], int depth, RayFunctions *to)
 {
-  PetscReal h[2][3];
+  const PetscInt num = (order + 1) * (order + 1);
+  PetscReal      h[2][3], slope[2][RAY_LATTICE], at[2];
 
-  if (f->m == 1 || f->s.order > 1) {
+  if (f->m == 1 || PetscMax(PetscAbsReal(xi[0]), PetscAbsReal(xi[1])) <= 1) {
     ContactRayFunctions(f->m, order, xi, depth, to);
     return;
   }
-  Bound_Private(xi[0], h[0]);
-  Bound_Private(xi[1], h[1]);
-  for (int a = 0; a < 4; a++) {
-    const PetscReal x = a % 2 ? 0.25 : -0.25, y = a / 2 ? 0.25 : -0.25, xy = 4 * x * y;
-
-    to->N[a]    = 0.25 + x * xi[0] + y * xi[1] + xy * h[0][0] * h[1][0];
-    to->d[0][a] = x + xy * h[0][1] * h[1][0];
-    to->d[1][a] = y + xy * h[0][0] * h[1][1];
-    for (int k = 0; k < 3 && depth > 1; k++) to->dd[k][a] = xy * h[0][2 - k] * h[1][k];
+  for (int i = 0; i < 2; i++) {
+    Bound_Private(xi[i], h[i]);
+    at[i] = h[i][0];
+  }
+  Slope_Private(order, slope);
+  ContactRayFunctions(2, order, at, depth, to);
+  for (PetscInt a = 0; a < num; a++) {
+    for (int i = 0; i < 2; i++) to->N[a] += (xi[i] - at[i]) * slope[i][a];
+    for (int i = 0; i < 2 && depth > 1; i++) to->dd[2 * i][a] = to->dd[2 * i][a] * PetscSqr(h[i][1]) + (to->d[i][a] - slope[i][a]) * h[i][2];
+    if (depth > 1) to->dd[1][a] *= h[0][1] * h[1][1];
+    for (int i = 0; i < 2; i++) to->d[i][a] = slope[i][a] + (to->d[i][a] - slope[i][a]) * h[i][1];
   }
 }
 
@@ -55,7 +71,7 @@ static void Picture_Private(const RayFacet *f, const PetscReal xi[2], Picture *p
   RayChartPoint c;
 
   memset(p, 0, sizeof(*p));
-  if (f->m == 1 || f->s.order > 1) {
+  if (f->m == 1) {
     ContactChartAt(f, xi, &c);
     memcpy(p->Y, c.Y, sizeof(p->Y));
     memcpy(p->d, c.J, sizeof(p->d));
@@ -142,6 +158,24 @@ static void Motion_Private(const RayFacet *f, const Place *p, PetscReal s, Petsc
     for (PetscInt a = 0; a < f->s.num; a++) row[D * a + c] -= p->S.N[a] * v[c];
     for (PetscInt a = 0; a < f->nv; a++) row[D * (f->s.num + a) + c] -= s * p->V.N[a] * v[c];
     row[D * vertex + c] += v[c];
+  }
+}
+
+void ContactImagesFold(RayWork w, PetscInt num, PetscReal rows[], PetscInt ld)
+{
+  const PetscInt m = w->facet.m, images = w->facet.D * (w->facet.s.num + w->facet.nv + w->num_mortar);
+
+  for (PetscInt k = w->num_images - 1; k >= 0; k--) {
+    if (w->image[k].parent[0] < 0) continue;
+    for (int e = 0; e < 2; e++) {
+      PetscInt at = 0;
+
+      while (w->image[at].node != w->image[k].parent[e]) at++;
+      for (PetscInt r = 0; r < num; r++)
+        for (PetscInt i = 0; i < m; i++) rows[r * ld + images + m * at + i] += 0.5 * rows[r * ld + images + m * k + i];
+    }
+    for (PetscInt r = 0; r < num; r++)
+      for (PetscInt i = 0; i < m; i++) rows[r * ld + images + m * k + i] = 0;
   }
 }
 

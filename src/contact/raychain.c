@@ -123,7 +123,8 @@ PetscErrorCode ContactRayChain(RayWork w, const ContactSurface *nonmortar, Petsc
   PetscCall(DirectionRows_Private(w, nonmortar, facet));
   PetscCall(ContactGrow(f->m * w->num_images * width, sizeof(PetscReal), &w->size_R, &w->R));
   PetscCall(PetscArrayzero(w->R, f->m * w->num_images * width));
-  for (PetscInt k = 0; k < w->num_images; k++) ContactImageRows(f, &w->image[k], f->s.num + f->nv, width, w->R + f->m * k * width);
+  for (PetscInt k = 0; k < w->num_images; k++)
+    if (w->image[k].parent[0] < 0) ContactImageRows(f, &w->image[k], f->s.num + f->nv, width, w->R + f->m * k * width);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -19,11 +19,12 @@ static void AddSkew_Private(PetscInt D, const PetscReal v[3], PetscReal *W, Pets
 }
 
 /* Weights of gap and area at a point. */
-static void Weights_Private(const RayFacet *f, const RayTest *t, const RayFunctions *T, const PetscReal y[], const PetscReal D[4][4], RayWeight *phi,
-                            RayWeight *chi)
+static void Weights_Private(const RayFacet *f, const RayTest *t, const RayFunctions *T, const PetscReal y[], const PetscReal D[4][4], PetscReal area,
+                            RayWeight *phi, RayWeight *chi)
 {
   memset(phi, 0, sizeof(*phi));
   memset(chi, 0, sizeof(*chi));
+  chi->v = area;
   for (PetscInt a = 0; a < t->num; a++) {
     const PetscReal ya = y[t->place[a]];
 
@@ -75,8 +76,8 @@ static void Corners_Private(const RayFacet *f, const RayPoint *r, const PetscRea
 }
 
 static PetscBool Batch_Private(const RayWork w, const RayLattice *mortar, const Overlap *o, const RayTest *t, const RayGuess *guess, const RaySimplex *s,
-                               PetscInt points, const PetscReal point[][3], const PetscReal weight[], const PetscReal y[], const PetscReal D[4][4], RayPoint *r,
-                               RaySecond *second, Batch *b)
+                               PetscInt points, const PetscReal point[][3], const PetscReal weight[], const PetscReal y[], const PetscReal D[4][4],
+                               PetscReal area, RayPoint *r, RaySecond *second, Batch *b)
 {
   const RayFacet *f = &w->facet;
   RayFunctions    T;
@@ -89,7 +90,7 @@ static PetscBool Batch_Private(const RayWork w, const RayLattice *mortar, const 
   for (PetscInt k = 0; k < points; k++) {
     if (!ContactRayPoint(f, mortar, o, guess, s, point[k], 3, r)) return PETSC_FALSE;
     ContactRayTestFunctions(f, t, &r->S, r->xi, &T);
-    Weights_Private(f, t, &T, y, D, &sum, &mass);
+    Weights_Private(f, t, &T, y, D, area, &sum, &mass);
     ContactRayOverDet(f, &r->chart, weight[k], &sum, &phi);
     ContactRayOverDet(f, &r->chart, weight[k], &mass, &chi);
     second->basis = b->basis + k * b->nf;
@@ -174,8 +175,8 @@ static void Collapse_Private(const RayFacet *f, const Overlap *o, const RayMove 
   }
 }
 
-static PetscErrorCode Overlap_Private(RayWork w, const RayLattice *mortar, PetscInt k, const PetscReal y[], const PetscReal D[4][4], RaySecond *second,
-                                      PetscReal all[])
+static PetscErrorCode Overlap_Private(RayWork w, const RayLattice *mortar, PetscInt k, const PetscReal y[], const PetscReal D[4][4], PetscReal area,
+                                      RaySecond *second, PetscReal all[])
 {
   const RayFacet *f               = &w->facet;
   const Overlap  *o               = &w->overlap[k];
@@ -206,7 +207,7 @@ static PetscErrorCode Overlap_Private(RayWork w, const RayLattice *mortar, Petsc
     RaySimplex s;
 
     ContactRaySimplex(f, o, j, &s);
-    if (!Batch_Private(w, mortar, o, &w->test[w->window[k]], &guess, &s, points, point, weight, y, D, &r, second, &b))
+    if (!Batch_Private(w, mortar, o, &w->test[w->window[k]], &guess, &s, points, point, weight, y, D, area, &r, second, &b))
       continue; /* cannot happen: its moments were found */
     Simplex_Private(f, &s, &b, all, corner);
   }
@@ -245,7 +246,20 @@ static PetscErrorCode Image_Private(RayWork w, PetscInt k, const PetscReal gradi
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode ContactRayHessian(ContactPair pair, const ContactSurface *mortar, const PetscReal y[], const PetscReal D[4][4], const PetscReal gradient[])
+/* Of a half form: the other half. */
+static void Transpose_Private(PetscInt n, PetscReal W[])
+{
+  for (PetscInt i = 0; i < n; i++)
+    for (PetscInt j = 0; j < i; j++) {
+      const PetscReal value = W[i * n + j];
+
+      W[i * n + j] = W[j * n + i];
+      W[j * n + i] = value;
+    }
+}
+
+PetscErrorCode ContactRayHessian(ContactPair pair, const ContactSurface *mortar, const PetscReal y[], const PetscReal D[4][4], PetscReal area,
+                                 const PetscReal gradient[])
 {
   RayWork         w   = pair->ray;
   const RayFacet *f   = &w->facet;
@@ -267,12 +281,15 @@ PetscErrorCode ContactRayHessian(ContactPair pair, const ContactSurface *mortar,
     PetscCall(PetscArrayzero(w->part, N * N + 3 * pairs));
     second.turn  = (PetscReal(*)[3])(w->part + N * N);
     second.twist = second.turn + f->nv * f->s.num;
-    PetscCall(Overlap_Private(w, &facet, k, y, D, &second, w->part));
+    PetscCall(Overlap_Private(w, &facet, k, y, D, area, &second, w->part));
     AddPairs_Private(w, &second);
     ContactRayPlaces(w, mortar, w->mortar[k], facet.num, place);
     for (PetscInt a = 0; a < width; a++)
       for (PetscInt b = 0; b < width; b++) w->W[place[a] * n + place[b]] += w->part[a * N + b];
   }
+  ContactImagesFold(w, n, w->W, n);
+  Transpose_Private(n, w->W);
+  ContactImagesFold(w, n, w->W, n);
   for (PetscInt k = 0; k < w->num_images; k++) PetscCall(Image_Private(w, k, gradient + images + f->m * k));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

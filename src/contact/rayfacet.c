@@ -20,6 +20,22 @@ PetscErrorCode ContactRayTopology(ContactPair pair, const ContactSurface *s)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscErrorCode ContactRayMortarTopology(RayWork w, const ContactSurface *mortar)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscFree(w->mortar_parent));
+  PetscCall(PetscMalloc1(2 * mortar->num_nodes, &w->mortar_parent));
+  PetscCall(ContactParents(mortar, w->mortar_parent));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode ContactPairGetMortarParents(ContactPair pair, const PetscInt **parent)
+{
+  PetscFunctionBegin;
+  *parent = pair->rays ? pair->ray->mortar_parent : NULL;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode ContactPairSetCarriers(ContactPair pair, const ContactSurface *nonmortar, const PetscBool carries[])
 {
   PetscFunctionBegin;
@@ -36,6 +52,7 @@ PetscErrorCode ContactRayWorkDestroy(RayWork *work)
   if (!w) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(ContactResultDestroy(&w->result));
   PetscCall(PetscFree4(w->ring_first, w->ring_facet, w->parent, w->d));
+  PetscCall(PetscFree(w->mortar_parent));
   PetscCall(PetscFree(w->image));
   PetscCall(PetscFree(w->overlap));
   PetscCall(PetscFree(w->mortar));
@@ -50,6 +67,7 @@ PetscErrorCode ContactRayWorkDestroy(RayWork *work)
   PetscCall(PetscFree(w->part));
   PetscCall(PetscFree(w->buffer));
   PetscCall(PetscFree(w->T));
+  PetscCall(PetscFree(w->softness));
   PetscCall(PetscFree(w->rows));
   PetscCall(PetscFree(*work));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -109,7 +127,8 @@ static PetscErrorCode Functions_Private(RayWork w, const ContactMultiplier *mult
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Nodes of the result and T, the multiplier functions by those of the lattice: constant ones where the facet is covered, else those of the true nodes. */
+/* Nodes of the result and T, the multiplier functions by those of the lattice: constant ones where the facet is covered, else those of the true nodes. Hats
+   of hanging nodes go to their masters in the ratio of the positive weights: functions stay positive, whatever is covered. */
 static PetscErrorCode Nodes_Private(const EvaluateContext *ctx, PetscInt facet)
 {
   RayWork         w  = ctx->pair->ray;
@@ -126,11 +145,18 @@ static PetscErrorCode Nodes_Private(const EvaluateContext *ctx, PetscInt facet)
   PetscCall(ContactGrow(na + w->num_mortar + 1, sizeof(PetscInt), &w->result.size_row_first, &w->result.row_first));
   for (PetscInt a = 0; a < na; a++) PetscCall(ContactResultRow(&w->result, ctx->nonmortar, lattice[a], PETSC_FALSE, a, &num));
   if (!constant) {
+    const PetscBool hats = w->test[0].hats;
+
     w->result.num_rows = w->result.num_nodes;
     PetscCall(ContactGrow(w->result.num_rows * na, sizeof(PetscReal), &w->size_T, &w->T));
     PetscCall(PetscArrayzero(w->T, w->result.num_rows * na));
-    for (PetscInt a = 0; a < na; a++)
-      for (PetscInt k = w->result.row_first[a]; k < w->result.row_first[a + 1]; k++) w->T[w->result.row_node[k] * na + a] += w->result.row_weight[k];
+    for (PetscInt a = 0; a < na; a++) {
+      PetscReal sum = 0;
+
+      for (PetscInt k = w->result.row_first[a]; k < w->result.row_first[a + 1]; k++) sum += PetscMax(0, w->result.row_weight[k]);
+      for (PetscInt k = w->result.row_first[a]; k < w->result.row_first[a + 1]; k++)
+        w->T[w->result.row_node[k] * na + a] += hats ? PetscMax(0, w->result.row_weight[k]) / sum : w->result.row_weight[k];
+    }
   }
   for (PetscInt v = 0; v < nv; v++) {
     const PetscInt terms = ContactDirectionTerms(w, ctx->nonmortar, ctx->nonmortar->facets[nv * facet + v], TERMS, term);
@@ -220,19 +246,34 @@ static PetscErrorCode Rows_Private(RayWork w, const Weights *o, PetscBool gap, P
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode Hessian_Private(const EvaluateContext *ctx, PetscInt facet, const Weights *o, const PetscReal y[], PetscReal H[])
+/* sum_r K_r z_r^2 / 2 and its derivatives by the covered area. */
+static void Energy_Private(const EvaluateContext *ctx, const RaySpring *spring, PetscReal energy[3])
+{
+  const Result *result = &ctx->pair->ray->result;
+  PetscReal     sum    = 0;
+
+  for (PetscInt r = 0; r < result->num_rows && spring->on; r++) sum += 0.5 * spring->softness[r] * PetscSqr(ctx->z[result->node[r]]);
+  for (int i = 0; i < 3; i++) energy[i] = spring->on ? spring->share[i] * sum : 0;
+}
+
+static PetscErrorCode Hessian_Private(const EvaluateContext *ctx, PetscInt facet, const Weights *o, const RaySpring *spring, const PetscReal y[], PetscReal H[])
 {
   RayWork        w  = ctx->pair->ray;
   const PetscInt na = w->facet.s.num, n = w->n;
-  PetscReal     *gradient, *left, *right;
+  PetscReal     *gradient, *left, *right, energy[3];
 
   PetscFunctionBegin;
+  Energy_Private(ctx, spring, energy);
   PetscCall(ContactGrow(3 * n, sizeof(PetscReal), &w->size_rows, &w->rows));
   PetscCall(PetscArrayzero(w->rows, 3 * n));
   gradient = w->rows, left = gradient + n, right = left + n;
   for (PetscInt a = 0; a < na; a++)
     if (y[a] != 0) GapRow_Private(w, o, a, y[a], gradient);
-  PetscCall(ContactRayHessian(ctx->pair, ctx->mortar, o->dual ? o->f.g : y, o->dual ? o->f.D : NULL, gradient));
+  for (PetscInt a = 0; a < na && energy[1] != 0; a++)
+    for (PetscInt i = 0; i < n; i++) left[i] += w->dq[(na + a) * n + i];
+  for (PetscInt i = 0; i < n && energy[1] != 0; i++) gradient[i] += energy[1] * left[i];
+  PetscCall(ContactRayHessian(ctx->pair, ctx->mortar, o->dual ? o->f.g : y, o->dual ? o->f.D : NULL, energy[1], gradient));
+  if (energy[2] != 0) ContactRayProducts(1, 0.5 * energy[2], n, left, n, n, left, n, w->W, n);
   for (int p = 0; o->dual && p < o->f.num_pairs; p++) {
     for (PetscInt i = 0; i < 2 * n; i++) left[i] = 0;
     for (PetscInt q = 0; q < w->num_moments; q++)
@@ -248,9 +289,26 @@ static PetscErrorCode Hessian_Private(const EvaluateContext *ctx, PetscInt facet
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+static PetscErrorCode Spring_Private(RayWork w, const RaySpring *spring, ContactFacet *out)
+{
+  const PetscInt nr = w->result.num_rows;
+  PetscReal     *K;
+
+  PetscFunctionBegin;
+  out->spring = out->stiffening = NULL;
+  if (!spring->on) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(ContactStoreReserve(&w->result.store, 2 * nr, &K));
+  for (PetscInt r = 0; r < nr; r++)
+    for (int i = 0; i < 2; i++) K[nr * i + r] = spring->share[i] * spring->softness[r];
+  out->spring     = K;
+  out->stiffening = K + nr;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 static PetscErrorCode Result_Private(const EvaluateContext *ctx, PetscInt facet, const Weights *o, const PetscReal y[], PetscBool derivatives,
                                      PetscBool hessian, ContactFacet *out)
 {
+  RaySpring      spring;
   RayWork        w  = ctx->pair->ray;
   const PetscInt na = w->facet.s.num, nr = w->result.num_rows, nn = w->nn;
   PetscReal     *gap, *weight, *reach, *dgap;
@@ -269,7 +327,9 @@ static PetscErrorCode Result_Private(const EvaluateContext *ctx, PetscInt facet,
   out->reach   = w->facet.s.order == 1 ? reach : NULL; /* curved facets turn with their directions: a gap of 1 along the normal counts as its area */
   out->area    = w->covered;
   out->min_gap = w->min_gap;
-  out->dgap = out->dweight = out->hessian = NULL;
+  out->dgap = out->dweight = out->hessian = out->darea = NULL;
+  PetscCall(ContactRaySpring(ctx->pair, ctx->nonmortar, facet, &spring));
+  PetscCall(Spring_Private(w, &spring, out));
   if (!derivatives) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(ContactRayChain(w, ctx->nonmortar, facet));
   PetscCall(ContactStoreReserve(&w->result.store, 2 * nr * nn, &dgap));
@@ -277,9 +337,13 @@ static PetscErrorCode Result_Private(const EvaluateContext *ctx, PetscInt facet,
   out->dweight = dgap + nr * nn;
   PetscCall(Rows_Private(w, o, PETSC_TRUE, dgap));
   PetscCall(Rows_Private(w, o, PETSC_FALSE, dgap + nr * nn));
+  if (spring.on) {
+    PetscCall(ContactStoreReserve(&w->result.store, nn, (PetscReal **)&out->darea));
+    for (PetscInt i = 0; i < nr * nn; i++) ((PetscReal *)out->darea)[i % nn] += out->dweight[i];
+  }
   if (!hessian) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(ContactStoreReserve(&w->result.store, nn * nn, (PetscReal **)&out->hessian));
-  PetscCall(Hessian_Private(ctx, facet, o, y, (PetscReal *)out->hessian));
+  PetscCall(Hessian_Private(ctx, facet, o, &spring, y, (PetscReal *)out->hessian));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

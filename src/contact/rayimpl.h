@@ -46,9 +46,10 @@ typedef struct {
   PetscReal  ring;     /* 2 pi or 0 */
 } RayFacet;
 
-/* Image of a mortar vertex. */
+/* Image of a mortar vertex. Of one that hangs in the middle of an edge: the mean of those of the edge's ends, which come before it in the list, so that the
+   straight pictures of both sides of the edge are the same. */
 typedef struct {
-  PetscInt  node;
+  PetscInt  node, parent[2]; /* nodes, -1: does not hang */
   PetscBool found;
   PetscReal v[3], xi[2], s, Y[2];
 } RayImage;
@@ -80,6 +81,7 @@ struct _p_RayWork {
   /* topology of the nonmortar surface */
   PetscInt  *ring_first, *ring_facet, *parent; /* facets around each corner; ends of the edge on which a corner hangs, -1 */
   PetscReal *d;                                /* [num_nodes][3] directions at corners */
+  PetscInt  *mortar_parent;                    /* [mortar num_nodes][2] */
   /* one facet */
   RayFacet   facet;
   PetscInt   num_images, num_overlaps, num_mortar, num_tests;
@@ -92,10 +94,10 @@ struct _p_RayWork {
   PetscInt   n, nn, num_moments;
   PetscReal  q[RAY_MOMENTS], reach[RAY_LATTICE], covered, min_gap; /* reach: moments of a gap of 1 along unit directions */
   PetscReal *dq, *W, *J, *R, *WJ, *part, *buffer;                  /* dq [num_moments][n], W [n][n]; J, R: raychain.c */
-  PetscReal *T, *rows;                                             /* [num_rows][lattice]; [n][num_rows] */
+  PetscReal *T, *rows, *softness;                                  /* [num_rows][lattice]; [n][num_rows] */
   Result     result;                                               /* vertices: lattice, then mortar nodes */
   PetscInt   size_image, size_overlap, size_mortar, size_window, size_vertex, size_test, size_dq, size_W, size_J, size_R, size_WJ, size_part, size_buffer;
-  PetscInt   size_T, size_rows;
+  PetscInt   size_T, size_rows, size_softness;
 };
 
 /* raylattice.c */
@@ -109,6 +111,8 @@ void     ContactRayLatticePolynomial(RayLattice *);
 void     ContactRayTestFunctions(const RayFacet *, const RayTest *, const RayFunctions *own, const PetscReal xi[2], RayFunctions *);
 
 /* direction.c */
+/* parent[num_nodes][2]: ends of the edge in whose middle a corner hangs, -1. */
+PetscErrorCode ContactParents(const ContactSurface *, PetscInt parent[]);
 PetscErrorCode ContactDirectionTopology(RayWork, const ContactSurface *);
 void           ContactDirections(RayWork, const ContactSurface *);
 PetscBool      ContactDirectionUsable(RayWork, const ContactSurface *, PetscInt node);
@@ -129,6 +133,8 @@ PetscBool ContactChartLocate(const RayFacet *, const PetscReal Y[2], PetscReal x
 void ContactImageFind(const RayFacet *, RayImage *);
 /* rows[m][n] += derivatives of Y; vertex: its place among the facet's nodes. */
 void ContactImageRows(const RayFacet *, const RayImage *, PetscInt vertex, PetscInt n, PetscReal rows[]);
+/* Columns of rows[num][ld] that belong to images that hang, halves of them to those of their edge's ends. */
+void ContactImagesFold(RayWork, PetscInt num, PetscReal rows[], PetscInt ld);
 /* W += half of w . d2Y */
 void ContactImageCurvature(const RayFacet *, const RayImage *, PetscInt vertex, const PetscReal w[2], PetscInt n, PetscReal W[], PetscReal work[]);
 
@@ -203,8 +209,17 @@ void      ContactRayPlaces(const RayWork, const ContactSurface *mortar, PetscInt
 /* raysum.c, raycurve.c: integrals over the overlaps of the facet at hand */
 void           ContactRayOverDet(const RayFacet *, const RayChartPoint *, PetscReal factor, const RayWeight *, RayWeight *);
 PetscErrorCode ContactRayMoments(ContactPair, const ContactSurface *mortar, PetscBool mass, PetscBool derivatives);
-/* W of the work space: half Hessian of sum_a y_a G_a + sum_ab D[a][b] int N_a N_b dA (D NULL: none); gradient[n] of it. */
-PetscErrorCode ContactRayHessian(ContactPair, const ContactSurface *mortar, const PetscReal y[], const PetscReal D[4][4], const PetscReal gradient[]);
+/* W of the work space: half Hessian of sum_a y_a G_a + sum_ab D[a][b] int N_a N_b dA (D NULL: none) + area int dA; gradient[n] of it. */
+PetscErrorCode ContactRayHessian(ContactPair, const ContactSurface *mortar, const PetscReal y[], const PetscReal D[4][4], PetscReal area,
+                                 const PetscReal gradient[]);
+
+/* spring.c: compliances of a facet that is covered in part, with two derivatives by the covered area. */
+typedef struct {
+  PetscBool  on;
+  PetscReal  share[3]; /* 4 epsilon s (1 - s) and derivatives */
+  PetscReal *softness; /* [num_rows] times the measure of the row's hats */
+} RaySpring;
+PetscErrorCode ContactRaySpring(ContactPair, const ContactSurface *nonmortar, PetscInt facet, RaySpring *);
 
 /* raychain.c */
 PetscErrorCode ContactRayChain(RayWork, const ContactSurface *nonmortar, PetscInt facet);
@@ -217,6 +232,7 @@ PetscErrorCode ContactRayDirectionCurvature(RayWork, const ContactSurface *, Pet
 /* rayfacet.c */
 #define RAY_TERMS 64 /* most facets around a corner, over all it hangs on */
 PetscErrorCode ContactRayTopology(ContactPair, const ContactSurface *);
+PetscErrorCode ContactRayMortarTopology(RayWork, const ContactSurface *mortar);
 PetscErrorCode ContactRayEvaluate(const EvaluateContext *, PetscBool *failed);
 PetscErrorCode ContactRayWorkDestroy(RayWork *);
 

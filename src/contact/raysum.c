@@ -202,5 +202,6 @@ PetscErrorCode ContactRayMoments(ContactPair pair, const ContactSurface *mortar,
     w->mortar[kept++] = w->mortar[k];
   }
   w->num_overlaps = kept;
+  if (derivatives) ContactImagesFold(w, w->num_moments, w->dq, w->n);
   PetscFunctionReturn(PETSC_SUCCESS);
 }

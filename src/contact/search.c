@@ -217,6 +217,7 @@ PetscErrorCode ContactPairSearch(ContactPair pair, const ContactSurface *nonmort
   PetscCall(Prepare_Private(pair, nonmortar, (PetscBool)(mortar->order != NULL), num, facets, distance, margin));
   pair->num_mortar_nodes  = mortar->num_nodes;
   pair->num_mortar_facets = mortar->num_facets;
+  if (pair->rays) PetscCall(ContactRayMortarTopology(pair->ray, mortar));
   PetscCall(PetscMalloc2(mortar->num_facets, &found, mortar->num_facets, &known));
   PetscCall(MortarTree_Private(mortar, known, &tree));
   PetscCall(Candidates_Private(pair, nonmortar, mortar, &tree, known, found));

@@ -209,13 +209,14 @@ static PetscErrorCode NodeSums_Private(Problem p, Contact *c)
   PetscInt       unusable;
 
   PetscFunctionBegin;
-  for (PetscInt i = 0; i < s->num_own; ++i) c->gap[s->own[i]] = c->weight[s->own[i]] = 0;
+  for (PetscInt i = 0; i < s->num_own; ++i) c->gap[s->own[i]] = c->weight[s->own[i]] = c->spring[s->own[i]] = 0;
   for (PetscInt i = 0; i < c->num_facets; ++i) {
     const ContactFacet *e = &c->facets[i];
     for (PetscInt k = 0; k < e->num_rows; ++k) {
       if (!s->owned[e->nodes[k]]) continue;
       c->gap[e->nodes[k]] += e->gap[k];
       c->weight[e->nodes[k]] += e->weight[k];
+      if (e->spring) c->spring[e->nodes[k]] += e->spring[k];
     }
     if (c->mine[e->facet]) sum[0] += e->area;
   }
@@ -227,7 +228,7 @@ static PetscErrorCode NodeSums_Private(Problem p, Contact *c)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Gaps and weights from the ranks of the nodes to those that use them. */
+/* Gaps, weights and compliances from the ranks of the nodes to those that use them. */
 static PetscErrorCode ShareGaps_Private(Problem p, Contact *c)
 {
   const Surface *s = &c->side[0];
@@ -235,13 +236,15 @@ static PetscErrorCode ShareGaps_Private(Problem p, Contact *c)
   PetscFunctionBegin;
   if (p->size == 1) PetscFunctionReturn(PETSC_SUCCESS);
   for (PetscInt i = 0; i < s->num_own; ++i) {
-    c->pack[2 * s->own[i]]     = c->gap[s->own[i]];
-    c->pack[2 * s->own[i] + 1] = c->weight[s->own[i]];
+    c->pack[3 * s->own[i]]     = c->gap[s->own[i]];
+    c->pack[3 * s->own[i] + 1] = c->weight[s->own[i]];
+    c->pack[3 * s->own[i] + 2] = c->spring[s->own[i]];
   }
-  PetscCall(LinkSpread_Private(p, &s->values, 2, c->pack));
+  PetscCall(LinkSpread_Private(p, &s->values, 3, c->pack));
   for (PetscInt i = 0; i < s->values.num; ++i) {
-    c->gap[s->values.nodes[i]]    = c->pack[2 * s->values.nodes[i]];
-    c->weight[s->values.nodes[i]] = c->pack[2 * s->values.nodes[i] + 1];
+    c->gap[s->values.nodes[i]]    = c->pack[3 * s->values.nodes[i]];
+    c->weight[s->values.nodes[i]] = c->pack[3 * s->values.nodes[i] + 1];
+    c->spring[s->values.nodes[i]] = c->pack[3 * s->values.nodes[i] + 2];
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -333,14 +336,17 @@ PetscErrorCode ContactCreate_Private(Problem p, const ContactSpec *spec, Contact
   PetscCall(ContactPairCreate(p->dim, axisymmetric, spec, &c->pair));
   const PetscInt n = c->side[0].num_nodes;
   PetscCall(PetscCalloc6(n, &c->z, n, &c->gap, n, &c->weight, n, &c->w0, n, &c->extent, n, &c->c));
+  PetscCall(PetscCalloc2(n, &c->spring, n, &c->softness));
   PetscCall(PetscCalloc5(n, &c->active, n, &c->has_multiplier, n, &c->lift, n, &c->change, n, &c->near));
   PetscCall(PetscMalloc1(c->side[0].num_facets, &c->result));
   PetscCall(PetscMalloc4(n, &c->zdof, n, &c->zlocal, n, &c->gap0, n, &c->offset));
-  PetscCall(PetscCalloc4(c->side[0].num_facets, &c->live, n, &c->valued, n, &c->valued_node, 2 * n, &c->pack));
+  PetscCall(PetscCalloc4(c->side[0].num_facets, &c->live, n, &c->valued, n, &c->valued_node, 3 * n, &c->pack));
   PetscCall(NodeScales_Private(p, c));
   PetscCall(HasMultiplier_Private(p, c));
   const ContactSurface nonmortar = SurfaceAt_Private(&c->side[0], c->side[0].X);
   PetscCall(ContactPairSetCarriers(c->pair, &nonmortar, c->has_multiplier));
+  for (PetscInt j = 0; j < n; ++j) c->softness[j] = 1 / c->c[j];
+  PetscCall(ContactPairSetSoftness(c->pair, c->softness));
   PetscCall(ListFacets_Private(p, c));
   SearchDistance_Private(c);
   View_Private(c);
@@ -369,6 +375,7 @@ PetscErrorCode ContactDestroy_Private(Contact *c)
   PetscCall(SurfaceDestroy_Private(&c->side[0]));
   PetscCall(SurfaceDestroy_Private(&c->side[1]));
   PetscCall(PetscFree6(c->z, c->gap, c->weight, c->w0, c->extent, c->c));
+  PetscCall(PetscFree2(c->spring, c->softness));
   PetscCall(PetscFree5(c->active, c->has_multiplier, c->lift, c->change, c->near));
   PetscCall(PetscFree(c->result));
   PetscCall(PetscFree4(c->zdof, c->zlocal, c->gap0, c->offset));
@@ -451,14 +458,15 @@ static PetscErrorCode Freeze_Private(Problem p, Contact *c, PetscBool *failed)
       const PetscReal mean = ContactCovered_Private(c, j) ? c->gap[j] / c->weight[j] : 0;
       for (PetscInt a = 0; a < n; ++a) dgap[k * n + a] = f->dgap[k * n + a] - mean * f->dweight[k * n + a];
     }
-    c->frozen[i]         = *f;
-    c->frozen[i].gap     = NULL; /* with gap0 */
-    c->frozen[i].weight  = NULL;
-    c->frozen[i].reach   = NULL;
-    c->frozen[i].nodes   = nodes;
-    c->frozen[i].dgap    = dgap;
-    c->frozen[i].dweight = dweight;
-    c->frozen[i].hessian = NULL;
+    c->frozen[i]        = *f;
+    c->frozen[i].gap    = NULL; /* with gap0 */
+    c->frozen[i].weight = NULL;
+    c->frozen[i].reach  = NULL;
+    c->frozen[i].spring = c->frozen[i].stiffening = c->frozen[i].darea = NULL; /* with spring of the nodes */
+    c->frozen[i].nodes                                                 = nodes;
+    c->frozen[i].dgap                                                  = dgap;
+    c->frozen[i].dweight                                               = dweight;
+    c->frozen[i].hessian                                               = NULL;
   }
   c->facets    = c->frozen;
   c->is_frozen = PETSC_TRUE; /* also on a rank that has no edges: the next evaluation must not come here again */
@@ -477,6 +485,14 @@ static PetscReal FacetDot_Private(const Contact *c, const ContactFacet *e, const
   return sum;
 }
 
+void ContactRowFactors_Private(const Contact *c, const ContactFacet *e, PetscInt k, PetscBool row, PetscReal *mean, PetscReal *along)
+{
+  const PetscInt j = e->nodes[k];
+
+  *mean  = row && ContactCovered_Private(c, j) ? ContactRowGap_Private(c, j) / ContactRowMeasure_Private(c, j) : 0;
+  *along = e->spring ? e->stiffening[k] * (c->z[j] - *mean * c->c[j]) : 0;
+}
+
 PetscErrorCode ContactChange_Private(Problem p, Contact *c, const PetscReal increment[], PetscReal change[])
 {
   const Surface *s = &c->side[0];
@@ -488,9 +504,14 @@ PetscErrorCode ContactChange_Private(Problem p, Contact *c, const PetscReal incr
     const ContactFacet *e = &c->facets[i];
     for (PetscInt k = 0; k < e->num_rows && e->dgap; ++k) {
       const PetscInt j = e->nodes[k];
+      PetscReal      mean, along;
       if (!s->owned[j]) continue;
       change[j] += FacetDot_Private(c, e, e->dgap + p->dim * k * e->num);
-      if (ContactCovered_Private(c, j)) change[j] -= c->gap[j] / c->weight[j] * FacetDot_Private(c, e, e->dweight + p->dim * k * e->num);
+      if (!ContactCovered_Private(c, j)) continue;
+      ContactRowFactors_Private(c, e, k, PETSC_TRUE, &mean, &along);
+      if (!c->active[j]) mean = c->gap[j] / c->weight[j], along = 0;
+      change[j] -= mean * FacetDot_Private(c, e, e->dweight + p->dim * k * e->num);
+      if (along != 0) change[j] += along * FacetDot_Private(c, e, e->darea);
     }
   }
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -593,7 +614,7 @@ PetscErrorCode ContactEvaluate_Private(Problem p, Contact *c, Vec x, const Petsc
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Contact forces z_j grad gt_j of this rank's facets into both sides' arrays. */
+/* Contact forces z_j grad gt_j (and z_j^2 / 2 grad K_j) of this rank's facets into both sides' arrays. */
 static void FacetForces_Private(Contact *c)
 {
   const PetscInt dim = c->side[0].dim;
@@ -608,8 +629,10 @@ static void FacetForces_Private(Contact *c)
     if (!c->mine[e->facet] || !e->dgap) continue;
     for (PetscInt a = 0; a < e->num; ++a) {
       PetscReal *f = c->side[NODE_SIDE(e->nodes[a])].force + dim * NODE_INDEX(e->nodes[a]);
-      for (PetscInt k = 0; k < e->num_rows; ++k)
-        for (PetscInt d = 0; d < dim && c->has_multiplier[e->nodes[k]]; ++d) f[d] += c->z[e->nodes[k]] * e->dgap[dim * (k * e->num + a) + d];
+      for (PetscInt k = 0; k < e->num_rows; ++k) {
+        const PetscReal z = c->has_multiplier[e->nodes[k]] ? c->z[e->nodes[k]] : 0, along = e->spring ? 0.5 * z * z * e->stiffening[k] : 0;
+        for (PetscInt d = 0; d < dim && z != 0; ++d) f[d] += z * e->dgap[dim * (k * e->num + a) + d] + (along != 0 ? along * e->darea[dim * a + d] : 0);
+      }
     }
   }
 }
@@ -641,6 +664,6 @@ void ContactRows_Private(const Contact *c, PetscReal r[])
 {
   for (PetscInt j = 0; j < c->side[0].num_nodes; ++j) {
     if (c->zlocal[j] < 0) continue;
-    r[c->zlocal[j]] = c->w0[j] * (c->active[j] ? c->c[j] * c->gap[j] / c->weight[j] : c->z[j]);
+    r[c->zlocal[j]] = c->w0[j] * (c->active[j] ? c->c[j] * ContactRowGap_Private(c, j) / ContactRowMeasure_Private(c, j) : c->z[j]);
   }
 }

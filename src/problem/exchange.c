@@ -131,6 +131,17 @@ static void Mark_Private(const Surface *s, PetscInt facet, PetscBool mark[])
   for (PetscInt k = s->true_first[facet]; k < s->true_first[facet + 1]; ++k) mark[s->true_node[k]] = PETSC_TRUE;
 }
 
+/* Ends of the edges on which a corner hangs, and those they hang on themselves. */
+static void MarkParents_Private(const Surface *s, const PetscInt parent[], PetscInt node, PetscBool mark[])
+{
+  for (PetscInt e = 0; e < 2 && parent[2 * node] >= 0; ++e) {
+    const PetscInt end = parent[2 * node + e];
+    if (s->hang[end] == s->hang[end + 1]) mark[end] = PETSC_TRUE;
+    for (PetscInt k = s->hang[end]; k < s->hang[end + 1]; ++k) mark[s->hang_master[k]] = PETSC_TRUE;
+    MarkParents_Private(s, parent, end, mark);
+  }
+}
+
 /* Is a facet that carries weight to the node live? Known at owned nodes and those of this rank's facets. */
 PetscBool ContactSees_Private(const Contact *c, PetscInt node)
 {
@@ -147,18 +158,22 @@ PetscBool ContactSees_Private(const Contact *c, PetscInt node)
 static PetscErrorCode Need_Private(const Contact *c, PetscBool *need[2], PetscBool own[])
 {
   const Surface   *s = &c->side[0], *m = &c->side[1];
-  const PetscInt  *start, *candidate, *donor;
+  const PetscInt  *start, *candidate, *donor, *parent;
   const PetscReal *weight;
 
   PetscFunctionBegin;
   PetscCall(ContactPairGetCandidates(c->pair, &start, &candidate));
+  PetscCall(ContactPairGetMortarParents(c->pair, &parent));
   for (PetscInt i = 0; i < c->num_listed; ++i) {
     const PetscInt f = c->listed[i];
     for (PetscInt k = s->true_first[f]; start[i] < start[i + 1] && k < s->true_first[f + 1]; ++k) {
       const PetscInt n = s->true_node[k];
       for (PetscInt j = s->node_first[n]; j < s->node_first[n + 1]; ++j) Mark_Private(s, s->node_facet[j], need[0]);
     }
-    for (PetscInt k = start[i]; k < start[i + 1]; ++k) Mark_Private(m, candidate[k], need[1]);
+    for (PetscInt k = start[i]; k < start[i + 1]; ++k) {
+      Mark_Private(m, candidate[k], need[1]);
+      for (PetscInt v = 0; parent && v < m->corners; ++v) MarkParents_Private(m, parent, m->facets[m->corners * candidate[k] + v], need[1]);
+    }
   }
   for (PetscInt i = 0; i < s->num_mine; ++i) Mark_Private(s, s->mine[i], own);
   for (PetscInt n = 0; n < s->num_nodes; ++n) {

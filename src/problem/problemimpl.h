@@ -4,7 +4,8 @@
 
 #include <petscsf.h>
 
-#define COVERED 1e-5 /* share of a node's tributary measure below which it counts as uncovered: its constraint would be all but free of its pressure */
+#define COVERED_HIGHER 1e-9 /* the same for facets of higher order, whose forces have faded before: spring.c in contact */
+#define COVERED 1e-5        /* share of a node's tributary measure below which it counts as uncovered: its constraint would be all but free of its pressure */
 
 #define MOST_MASTERS 8          /* of a hanging vertex of a contact surface of order 1 */
 #define MOST_LATTICE_MASTERS 64 /* of a hanging node of a lattice: two ends that hang on edges themselves, and so on */
@@ -58,7 +59,8 @@ typedef struct {
   ContactView         view;
   PetscInt           *zdof;                           /* [n] row of the matrix, -1: no multiplier */
   PetscInt           *zlocal;                         /* [n] position in this rank's part of the vector, -1: not here */
-  PetscReal          *z, *gap, *weight;               /* [n] */
+  PetscReal          *z, *gap, *weight, *spring;      /* [n] spring: K_j of contact.h */
+  PetscReal          *softness;                       /* [n] extent / E */
   PetscReal          *w0, *extent, *c;                /* [n] reference measure, its extent along the surface, E / extent */
   PetscReal          *change;                         /* [n] work: change of gt_j at fixed measure under an increment */
   PetscReal          *lift;                           /* [n] the same for the prescribed motion still to come */
@@ -69,7 +71,7 @@ typedef struct {
   PetscBool          *live;                           /* [num_facets] may meet the mortar side, as far as this rank is told (its own facets, those around) */
   PetscBool          *valued;                         /* [n] z, gap, weight, activity known here */
   PetscInt            num_valued, *valued_node;       /* their list */
-  PetscReal          *pack;                           /* [n][2] work: gap and weight in one message */
+  PetscReal          *pack;                           /* [n][3] work: gap, weight and spring in one message */
   PetscReal          *all_real[2];                    /* values gathered to all, see gather.c */
   PetscBool          *all_active;
   ContactView         all;
@@ -252,8 +254,20 @@ PetscErrorCode ContactIsFar_Private(Problem, const Contact *, PetscBool *far);
 PetscErrorCode          ContactChange_Private(Problem, Contact *, const PetscReal increment[], PetscReal change[]);
 static inline PetscBool ContactCovered_Private(const Contact *c, PetscInt j)
 {
-  return (PetscBool)(c->weight[j] > COVERED * c->w0[j]);
+  return (PetscBool)(c->weight[j] > (c->side[0].order ? COVERED_HIGHER : COVERED) * c->w0[j]);
 }
+/* What the row of an active node is made of: (gt + K z) / Q, Q = w + c K, so that it stays of the size of a gap however small w is. */
+static inline PetscReal ContactRowMeasure_Private(const Contact *c, PetscInt j)
+{
+  return c->weight[j] + c->c[j] * c->spring[j];
+}
+static inline PetscReal ContactRowGap_Private(const Contact *c, PetscInt j)
+{
+  return c->gap[j] + c->spring[j] * c->z[j];
+}
+/* couple.c: factors of grad w and of grad area in a facet's part of a row's derivative, [grad gt - mean grad w + along grad area]; as a row of an active node,
+   or (row false) of the forces by z_j. */
+void ContactRowFactors_Private(const Contact *, const ContactFacet *, PetscInt k, PetscBool row, PetscReal *mean, PetscReal *along);
 /* pattern.c: room in the matrix for what facets may meet until the next search. */
 PetscErrorCode ContactGrowPattern_Private(Contact *);
 PetscBool      ContactPatternHolds_Private(const Contact *);

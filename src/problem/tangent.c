@@ -122,8 +122,10 @@ PetscErrorCode ContactBlocks_Private(Problem p, Contact *c)
     if (e->hessian && !far) PetscCall(FacetHessian_Private(p, c, e, p->work_index));
     for (PetscInt k = 0; k < e->num_rows && !p->symmetric; ++k) {
       const PetscInt z = c->zdof[e->nodes[k]];
+      PetscReal      mean, along;
       if (z < 0 || !c->near[e->nodes[k]]) continue;
-      for (PetscInt a = 0; a < n; ++a) p->work_value[a] = -e->dgap[k * n + a];
+      ContactRowFactors_Private(c, e, k, PETSC_FALSE, &mean, &along);
+      for (PetscInt a = 0; a < n; ++a) p->work_value[a] = -e->dgap[k * n + a] - (along != 0 ? along * e->darea[a] : 0);
       for (PetscInt a = 0; a < e->num; ++a) Turn_Private(dim, Frame_Private(c, e->nodes[a]), p->work_value + dim * a, 1);
       PetscCall(MatSetValues(p->matrix, n, p->work_index, 1, &z, p->work_value, ADD_VALUES));
     }
@@ -141,14 +143,14 @@ static PetscInt RowSize_Private(const Contact *c, PetscInt j)
 }
 
 /* Collects the gradient of node j's normalised gap, times a factor, from its facets: over the whole pattern, sorted indices, so that a
-   switch leaves nothing of another form behind. normalised false: the plain gradient of gt_j. dofs, values: [RowSize_Private]. */
+   switch leaves nothing of another form behind. normalised false: the plain derivative of the forces by z_j. dofs, values: [RowSize_Private]. */
 static PetscErrorCode NodeGradient_Private(Problem p, const Contact *c, PetscInt j, PetscReal factor, PetscBool normalised, PetscInt dofs[], PetscReal values[],
                                            PetscInt *num)
 {
-  const Surface  *s    = &c->side[0];
-  const PetscInt  dim  = p->dim;
-  const PetscReal mean = normalised && c->active[j] ? c->gap[j] / c->weight[j] : 0;
-  PetscInt        at;
+  const Surface *s   = &c->side[0];
+  const PetscInt dim = p->dim;
+  PetscReal      mean, along;
+  PetscInt       at;
 
   PetscFunctionBegin;
   *num = 0;
@@ -164,11 +166,13 @@ static PetscErrorCode NodeGradient_Private(Problem p, const Contact *c, PetscInt
     PetscInt            row = 0;
     while (row < e->num_rows && e->nodes[row] != j) ++row;
     if (row == e->num_rows || !e->dgap) continue;
+    ContactRowFactors_Private(c, e, row, (PetscBool)(normalised && c->active[j]), &mean, &along);
     for (PetscInt a = 0; a < e->num; ++a) {
       const Surface *side = &c->side[NODE_SIDE(e->nodes[a])];
       const PetscInt node = NODE_INDEX(e->nodes[a]);
       PetscReal      g[3] = {0, 0, 0};
-      for (PetscInt d = 0; d < dim; ++d) g[d] = e->dgap[row * n + dim * a + d] - mean * e->dweight[row * n + dim * a + d];
+      for (PetscInt d = 0; d < dim; ++d)
+        g[d] = e->dgap[row * n + dim * a + d] - mean * e->dweight[row * n + dim * a + d] + (along != 0 ? along * e->darea[dim * a + d] : 0);
       Turn_Private(dim, Frame_Private(c, e->nodes[a]), g, 1);
       for (PetscInt d = 0; d < dim; ++d) {
         if (side->dof[dim * node + d] < 0) continue;
@@ -186,7 +190,7 @@ static PetscErrorCode NodeGradient_Private(Problem p, const Contact *c, PetscInt
  */
 PetscErrorCode ContactInsertRow_Private(Problem p, Contact *c, PetscInt j)
 {
-  const PetscReal active = p->symmetric ? -1 : c->active[j] ? c->w0[j] * c->c[j] / c->weight[j] : 0;
+  const PetscReal active = p->symmetric ? -1 : c->active[j] ? c->w0[j] * c->c[j] / ContactRowMeasure_Private(c, j) : 0;
   PetscInt        num, at, *dofs;
   PetscReal      *values;
 
@@ -194,7 +198,7 @@ PetscErrorCode ContactInsertRow_Private(Problem p, Contact *c, PetscInt j)
   PetscCall(PetscMalloc2(RowSize_Private(c, j), &dofs, RowSize_Private(c, j), &values));
   PetscCall(NodeGradient_Private(p, c, j, c->active[j] ? active : 0, PETSC_TRUE, dofs, values, &num));
   PetscCall(PetscFindInt(c->zdof[j], num, dofs, &at));
-  if (!c->active[j]) values[at] = p->symmetric ? -c->w0[j] / c->c[j] : c->w0[j];
+  values[at] = c->active[j] ? active * c->spring[j] : p->symmetric ? -c->w0[j] / c->c[j] : c->w0[j];
   PetscCall(MatSetValues(p->matrix, 1, &c->zdof[j], num, dofs, values, INSERT_VALUES));
   if (p->symmetric) PetscCall(MatSetValues(p->matrix, num, dofs, 1, &c->zdof[j], values, INSERT_VALUES));
   PetscCall(PetscFree2(dofs, values));
@@ -207,9 +211,9 @@ static PetscErrorCode RowSide_Private(Problem p, const Contact *c, PetscInt j, P
 {
   PetscFunctionBegin;
   if (!p->symmetric)
-    *value = -c->w0[j] * (c->active[j] ? c->c[j] * (c->gap[j] + c->lift[j]) / c->weight[j] : c->z[j]);
+    *value = -c->w0[j] * (c->active[j] ? c->c[j] * (ContactRowGap_Private(c, j) + c->lift[j]) / ContactRowMeasure_Private(c, j) : c->z[j]);
   else
-    *value = c->active[j] ? c->gap[j] + c->lift[j] : c->w0[j] / c->c[j] * c->z[j];
+    *value = c->active[j] ? ContactRowGap_Private(c, j) + c->lift[j] : c->w0[j] / c->c[j] * c->z[j];
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

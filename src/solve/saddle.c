@@ -1,7 +1,8 @@
 /* Iterative solution of the symmetric tangent, displacements u and multipliers z:
 
      [ K  B^T ] [u]   [f]
-     [ B   C  ] [z] = [g],     rows of inactive nodes: B = 0, C = -w0/c; of active ones: C = 0, B = minus the normalised gradient.
+     [ B   C  ] [z] = [g],     rows of inactive nodes: B = 0, C = -w0/c; of active ones: C = 0, B = minus the normalised gradient
+                               (C < 0 where facets of higher order are covered in part).
 
    Augmented form (Fortin & Glowinski): the same solution satisfies (K + B^T G B) u + B^T z = f + B^T G g, G diagonal over the active rows. With G_j = (b_j D
    b_j^T) / (b_j b_j^T)^2, D = diag K, the augmentation is as stiff as the mesh itself: it spoils no multigrid method and holds bodies that only contact holds.
@@ -157,8 +158,8 @@ static PetscErrorCode Weights_Private(Saddle s)
   PetscCall(VecGetArrayRead(C, &c));
   PetscCall(VecGetArray(s->scale, &d));
   for (PetscInt j = 0; j < n; ++j) {
-    g[j]  = q[j] > 0 ? w[j] / (q[j] * q[j]) : 0;
-    sc[j] = g[j] > 0 ? 1 / g[j] : -c[j];
+    g[j]  = q[j] > 0 && c[j] == 0 ? w[j] / (q[j] * q[j]) : 0;
+    sc[j] = (q[j] > 0 ? q[j] * q[j] / w[j] : 0) - c[j];
     sum[0] += PetscSqrtReal(q[j]);
     sum[1] += q[j] > 0;
   }

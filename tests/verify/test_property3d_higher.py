@@ -1,5 +1,6 @@
 """Properties O-90 to O-104 in space once more, with cells of order 2 (of order 4 where that is quick enough), contact faces linear and of the order of the cells: the tests of
 test_property3d.py with these options added."""
+import numpy as np
 import pytest
 
 import test_property3d as space
@@ -8,7 +9,8 @@ from test_property3d import ADAPTED, LOWER, UPPER, Frame, hold, pairs
 
 slow = pytest.mark.slow
 SECOND = ("2-1", "2-full")
-HATS = fails("full faces of the wider body, facets covered in part in space: Newton's method stalls or the active set cycles")
+HAIR = fails("full faces of the wider body under two blocks that slide off each other by a hair: a residual of 1e-5 comes and goes, the step is cut")
+PUNCH = fails("full faces, an adapted mesh under a punch with sharp edges that slides: a step is cut, or the last mesh finds no equilibrium")
 CARRIES = pytest.mark.parametrize("carries", ["upper", pytest.param("lower", marks=slow)])
 
 
@@ -31,8 +33,18 @@ def test_o90_momentum_adapted(solve):
 @faces(kinds=SECOND)
 def test_o90_momentum_on_a_ball(higher, kind):
     """A quarter of a ball: directions on the planes of symmetry are those of the whole. They are held there by the other half, which alone balances the moments; what
-    is missing is 1.6e-3 here. (Boxes, which have no such planes, are balanced to 1e-10 above.)"""
+    is missing is 1.6e-3 here. (Boxes, which have no such planes, are balanced to 1e-10 above; on one such plane see below.)"""
     space.test_o90_momentum_on_a_ball(higher, 2, 3e-3 if kind == "2-full" else 1e-10)
+
+
+@faces("2-full", kinds=SECOND)
+def test_o90_momentum_of_a_half(solve):
+    """Half a model: forces and moments about the normal of the plane of symmetry balance; those about the axes in it are the other half's to balance."""
+    boundary = {**hold(("0", "0.02", "-0.1 - 0.05*{x} + 0.03*{y}")), "lower_x0": {"fix": "x"}, "upper_x0": {"fix": "x"}}
+    p = space.only(solve(*space.QUIET, upper=UPPER._replace(origin=(0, 0.15, 1)), boundary=boundary))
+    force, moment = np.abs(np.add(p["force"], p["mortar_force"])), np.abs(np.add(p["moment"], p["mortar_moment"]))
+    print("force", force, "moment", moment)
+    assert force.max() < 1e-10 * np.abs(p["force"]).max() and moment[0] < 1e-10 * np.abs(p["moment"]).max() and moment.max() < 1e-6 * np.abs(p["moment"]).max()
 
 
 @faces(kinds=SECOND)
@@ -87,10 +99,10 @@ def test_o95_newton_order(solve, options):
     space.test_o95_newton_order(solve, options, "upper")
 
 
-@pytest.mark.parametrize("kind,options", [("2-1", ()), ("2-1", ("-adapt_tolerance", 0.01, "-adapt_max_passes", 2)), ("2-full", ()),
-                                          pytest.param("2-full", ("-adapt_tolerance", 0.01, "-adapt_max_passes", 2), marks=HATS)])
-@slow
+@faces("2-full", kinds=SECOND)
+@pytest.mark.parametrize("options", [(), pytest.param(("-adapt_tolerance", 0.01, "-adapt_max_passes", 2), marks=slow)], ids=["one", "adapted"])
 def test_o95_newton_order_lower(solve, options):
+    """Full faces of the lower body end beyond the rim of the upper one: slivers of hats."""
     space.test_o95_newton_order(solve, options, "lower")
 
 
@@ -118,7 +130,7 @@ def test_o97_held_by_contact_only(higher, tmp_path, lift, top):
     space.test_o97_held_by_contact_only(higher, tmp_path, lift, top, "direct")
 
 
-@pytest.mark.parametrize("kind,flip", [pytest.param(kind, flip, marks=HATS if (kind, flip) == ("2-full", 1) else slow) for kind in SECOND for flip in (0, 1)])
+@pytest.mark.parametrize("kind,flip", [pytest.param(kind, flip, marks=HAIR if (kind, flip) == ("2-full", 1) else slow) for kind in SECOND for flip in (0, 1)])
 def test_o98_five_pairs(higher, tmp_path, flip):
     space.test_o98_five_pairs(higher, tmp_path, (), flip)
 
@@ -167,17 +179,21 @@ def test_initial_gap_and_overlap(solve, gap):
     space.test_initial_gap_and_overlap(solve, gap, "direct")
 
 
-@pytest.mark.parametrize("kind,carries", [pytest.param(kind, carries, marks=HATS if (kind, carries) == ("2-full", "lower") else slow) for kind in SECOND for carries in ("upper", "lower")])
+NINE = fails("full faces, hats: 9 iterations")
+
+
+@pytest.mark.parametrize("kind,carries", [pytest.param(kind, carries, marks=NINE if (kind, carries) == ("2-full", "lower") else slow) for kind in SECOND for carries in ("upper", "lower")])
 def test_nearly_incompressible(solve, carries):
     """Full faces see more of what is squeezed at the edges of the punch."""
     space.test_nearly_incompressible(solve, 2, carries, "direct", 0.85)
 
 
-@pytest.mark.parametrize("kind,carries", [pytest.param(kind, carries, marks=HATS if (kind, carries) == ("2-full", "lower") else slow) for kind in SECOND for carries in ("upper", "lower")])
+@pytest.mark.parametrize("kind,carries", [pytest.param(kind, carries, marks=PUNCH if kind == "2-full" else slow) for kind in SECOND for carries in ("upper", "lower")])
 def test_rigid_punch(solve, carries):
     space.test_rigid_punch(solve, carries, "direct")
 
 
-@pytest.mark.parametrize("kind,name", [pytest.param(kind, name, marks=HATS if (kind, name) == ("2-full", "rigid") else slow) for kind in SECOND for name in ("tilted", "mixed", "rigid")])
+@faces(kinds=SECOND)
+@pytest.mark.parametrize("name", ["tilted", "mixed", "rigid"])
 def test_o101_ranks(solve, name):
     space.on_ranks(solve, name, (2, 3))

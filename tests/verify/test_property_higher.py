@@ -36,8 +36,8 @@ def test_o92_rigid_rotation(higher):
 @faces("2-full")
 @pytest.mark.parametrize("change,length,stress,shift", [("lengths", 1e-3, 1, 0), ("stresses", 1, 1e6, 0), ("both", 1e-3, 1e6, 0), ("large", 1e3, 1e-6, 0), ("shift", 1, 1, 1e4)])
 def test_o93_units_and_origin(higher, tmp_path, disc_mesh, change, length, stress, shift):
-    """At order 4 what the shift leaves of the positions is 3e-8 of the estimated error, far less of all else."""
-    plane.test_o93_units_and_origin(higher, tmp_path, disc_mesh, change, length, stress, shift, 1e-7 if shift else 1e-8)
+    """At order 4 what the shift leaves of the positions is 1.1e-7 of the estimated error, far less of all else."""
+    plane.test_o93_units_and_origin(higher, tmp_path, disc_mesh, change, length, stress, shift, 3e-7 if shift else 1e-8)
 
 
 # ---- O-94, O-95: the tangent and what it makes of Newton's method -----------------------------------------------------------
