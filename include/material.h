@@ -98,6 +98,9 @@ struct _MaterialLaw {
   void (*plastic)(const MaterialSpec *, const PetscReal history[], PetscReal *strain, PetscReal *work);
 };
 
+/* Does the yield stress fall somewhere with plastic strain? Zones of flow then shrink to the width of a cell: results depend on the mesh. */
+PetscBool MaterialSoftens(const MaterialSpec *);
+
 /* The table of laws, ended by name NULL; and look-up by name (NULL when unknown). */
 extern const MaterialLaw MaterialLaws[];
 const MaterialLaw       *MaterialLawFind(const char *name);

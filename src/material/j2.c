@@ -27,6 +27,17 @@ const MaterialParameter MaterialJ2Parameters[] = {
     {NULL, NULL, NULL, 0, 0},
 };
 
+/* Least slope of k: at one end or the other of the exponential. */
+static PetscReal Least_Private(const MaterialSpec *spec)
+{
+  return spec->parameter[HARDENING] + PetscMin(0, spec->parameter[SATURATION] * spec->parameter[SATURATION_RATE]);
+}
+
+PetscBool MaterialSoftens(const MaterialSpec *spec)
+{
+  return (PetscBool)(spec->law->evaluate == MaterialJ2 && Least_Private(spec) < 0);
+}
+
 PetscErrorCode MaterialJ2SetUp(MaterialSpec *spec)
 {
   PetscReal *v = spec->parameter;
@@ -39,8 +50,7 @@ PetscErrorCode MaterialJ2SetUp(MaterialSpec *spec)
   PetscCheckInput(spec->volumetric != VOLUMETRIC_LOG, "material.%s.volumetric: j2 knows quadratic and simo, not log", spec->name);
   if (PetscIsNanReal(v[HARDENING])) v[HARDENING] = 0;
   if (PetscIsNanReal(v[SATURATION])) v[SATURATION] = v[SATURATION_RATE] = 0;
-  /* Steepest fall of k: without bound on alpha at either end of the exponential. mu_b >= mu makes the return mapping well posed above -3 mu. */
-  const PetscReal least = v[HARDENING] + PetscMin(0, v[SATURATION] * v[SATURATION_RATE]);
+  const PetscReal least = Least_Private(spec); /* mu_b >= mu makes the return mapping well posed above -3 mu */
   PetscCheckInput(least > -3 * spec->mu, "material.%s.hardening: the yield stress falls by %g per unit of plastic strain; allowed: less than 3 mu = %g",
                   spec->name, (double)-least, (double)(3 * spec->mu));
   PetscCheckInput(v[YIELD] + PetscMin(0, v[SATURATION]) > 0, "material.%s.saturation: %g takes all of the yield stress %g away", spec->name,

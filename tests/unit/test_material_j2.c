@@ -183,8 +183,21 @@ static void TangentInAllBranches(void **state)
   }
 }
 
-/* What is remembered has determinant 1; the stress at the same F is the same before and after the step is accepted; a rotated step gives rotated stress and
-   the same history. */
+/* |dev tau| - sqrt(2/3) k(alpha), k of set S, tau = P F^T. */
+static PetscReal YieldExcess(const Point *p)
+{
+  const PetscReal alpha = p->trial[6], k = .45 + .12924 * alpha + .265 * (1 - PetscExpReal(-16.93 * alpha));
+  PetscReal       tau[9], square         = 0;
+
+  for (int i = 0; i < 9; i++)
+    tau[i] = p->P[i - i % 3] * p->F[3 * (i % 3)] + p->P[i - i % 3 + 1] * p->F[3 * (i % 3) + 1] + p->P[i - i % 3 + 2] * p->F[3 * (i % 3) + 2];
+  const PetscReal mean = (tau[0] + tau[4] + tau[8]) / 3;
+  for (int i = 0; i < 9; i++) square += PetscSqr(tau[i] - (i % 4 == 0 ? mean : 0));
+  return PetscSqrtReal(square) - PetscSqrtReal(2. / 3) * k;
+}
+
+/* Never beyond the yield surface. What is remembered has determinant 1; the stress at the same F is the same before and after the step is accepted; a rotated
+   step gives rotated stress and the same history. */
 static void HistoryIsAdmissible(void **state)
 {
   static const PetscReal grad[9] = {.8, .3, -.2, .1, -.5, .4, -.3, .25, -.1}, Q[9] = {0, -1, 0, .6, 0, -.8, .8, 0, .6};
@@ -201,6 +214,7 @@ static void HistoryIsAdmissible(void **state)
     Evaluate(&q);
     for (int k = 0; k < 27; k++) QP[k / 3] += Q[3 * (k / 9) + k % 3] * p.P[3 * (k % 3) + k / 3 % 3];
     for (int k = 0; k < 9; k++) assert_near(q.P[k], QP[k], 1e-10);
+    assert_true(YieldExcess(&p) <= 1e-12);
     for (int k = 0; k < H; k++) assert_near(q.trial[k], p.trial[k], 1e-12);
     const PetscReal *g = p.trial;
     assert_near(g[0] * (g[3] * g[5] - g[4] * g[4]) - g[1] * (g[1] * g[5] - g[4] * g[2]) + g[2] * (g[1] * g[4] - g[3] * g[2]), 1, 1e-12);

@@ -56,16 +56,17 @@ def test_o30_bar(run, tmp_path, name, material, e, P, lateral, alpha, model, for
 def tube(run, tmp_path, cells, order, num_steps, formulation="mixed", kappa=8e9):
     """Axisymmetric, height 1 between two planes: pressures on the bore by its radius, on the way out and the last before it is free."""
     boundary = {"x0": {"displacement": {"x": "0.4*min(t,1)-0.005*max(t-1,0)"}}, "y0": {"fix": "y"}, "y1": {"fix": "y"}}
-    result = solve(run, tmp_path, {**SET_B, "kappa": kappa, "formulation": formulation}, 2, boundary, num_steps, [linspace(1, 1.15, cells), linspace(0, 1, 1)],
+    result = solve(run, tmp_path, {**SET_B, "kappa": kappa if kappa < math.inf else "inf", "formulation": formulation}, 2, boundary, num_steps, [linspace(1, 1.15, cells), linspace(0, 1, 1)],
                    model="axisymmetric", order=order, load={"step": 1 / num_steps, "step_max": 1 / num_steps, "end": 1.5},
                    probe={"bore": {"x": 1, "y": 0}, "outside": {"x": 1.15, "y": 0}})
     rows = [(1 + row["probe.bore.displacement.x"], 1.15 + row["probe.outside.displacement.x"], row) for row in result.history]
     return [(ri, ro, row["reaction.x0.x"] / (2 * math.pi * ri), row) for ri, ro, row in rows]
 
 
-def test_o32_tube(run, tmp_path):
+@pytest.mark.parametrize("kappa", [8e9, math.inf])
+def test_o32_tube(run, tmp_path, kappa):
     """Pressures by bore radius to 0.3 %, recoil of the bore to 2 %."""
-    rows = tube(run, tmp_path, 2, 2, 40)
+    rows = tube(run, tmp_path, 2, 2, 40, kappa=kappa)
     pressure = {round(ri, 9): p for ri, ro, p, row in rows[:40]}
     for ri, reference in ((1.01, 33.96346), (1.1, 41.02548), (1.2, 45.56302), (1.4, 48.61603)):
         close(pressure[ri], reference, 3e-3)
@@ -201,3 +202,9 @@ def test_o34_limit_load(run, tmp_path):
     """Mixed cells of order 2 come to rest at the limit load, from above by no more than 2 %."""
     load = strip(run, tmp_path, 4, 2, "mixed")
     assert 0.995 < load[-1] < 1.02 and abs(load[-1] - load[-2]) < 1e-3
+
+
+def test_softening_is_announced(run):
+    options = ("-load_end", 0.01, "-mesh_parameter_n", 2, "-output_fields", "false", "-material_steel_hardening")
+    assert "warning: the yield stress of material steel falls" in run("inputs/necking.yml", *options, -0.1).stdout
+    assert "warning" not in run("inputs/necking.yml", *options, 0.1).stdout
