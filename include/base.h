@@ -46,6 +46,20 @@ PetscErrorCode           StageRegister(void);
 PetscErrorCode           StageBegin(Stage);
 PetscErrorCode           StageEnd(Stage);
 PetscReal                StageSeconds(Stage);
+PetscErrorCode           StageAdd(Stage, PetscReal seconds); /* time of an earlier run that this one continues */
+
+/* ---- requests to stop (base/stop.c) ------------------------------------------------------------------------------ */
+
+/* From now on SIGTERM, SIGUSR1, SIGINT and (seconds > 0) this much wall time are requests to stop; a second signal of a kind does what it always did. */
+PetscErrorCode StopWatch(PetscReal seconds);
+/* Is there such a request on any rank of comm? It stays. Never without StopWatch. Collective. */
+PetscErrorCode StopAsked(MPI_Comm comm, PetscBool *stop);
+const char    *StopReason(void); /* name of the signal, or -max_seconds; "": nobody asked */
+
+/* ---- checksums (base/hash.c) --------------------------------------------------------------------------------------- */
+
+/* Hash of num bytes, to go on from an earlier one (seed 0: begin). Bytes that differ in one place never have the same. */
+uint64_t HashBytes(uint64_t seed, const void *bytes, size_t num);
 
 /* ---- messages between few of many ranks (base/sparse.c) ---------------------------------------------------------- */
 

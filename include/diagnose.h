@@ -68,7 +68,9 @@ PetscErrorCode ReportRowFill(Problem, const State *, const Estimate *, const Bal
 typedef struct _p_Monitor *Monitor;
 /* Decides whether standard output is a terminal of this run's first rank; starts the clock. Collective. */
 PetscErrorCode MonitorCreate(MPI_Comm, const SceneData *, Monitor *);
-PetscErrorCode MonitorHeader(Monitor, Problem);        /* version, scene, model, cells, dofs, ranks; names of the columns */
+PetscErrorCode MonitorHeader(Monitor, Problem); /* version, scene, model, cells, dofs, ranks; names of the columns */
+/* The run goes on from a file: step, step_cuts, newton_iterations (of the whole run), t and seconds so far. */
+PetscErrorCode MonitorResume(Monitor, const char *file, const ReportRow *so_far);
 PetscErrorCode MonitorRow(Monitor, const ReportRow *); /* one line; on a terminal a bar with the time left below it */
 /* Erase the bar, before something else is printed (no effect when there is none). */
 PetscErrorCode MonitorHide(Monitor);

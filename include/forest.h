@@ -103,6 +103,16 @@ PetscErrorCode ForestMapDestroy(ForestMap *);
 /* Replace *forest by one refined isotropically as spec says, closed again after each level. Collective. */
 PetscErrorCode ForestRefine(Forest *forest, const RefineSpec *spec);
 
+/* The tree as a list, for ForestRestore: of every node, depth-first, coarse cell by coarse cell, the directions in which it is split (bits; 0: a leaf).
+   split[*num] is freed by the caller. Not collective. */
+PetscErrorCode ForestGetSplits(Forest, PetscInt *num, int8_t **split);
+/* The forest with this list over the coarse mesh of source, its leaves numbered as they were. leaf_rank[num_leaves]: who owns which leaf; NULL: a new
+   partition, leaves weighted by leaf_weight[num_leaves] (NULL: 1). Collective. */
+PetscErrorCode ForestRestore(Forest source, PetscInt num, const int8_t split[], PetscInt revision, const PetscMPIInt leaf_rank[], const PetscReal leaf_weight[],
+                             Forest *forest);
+/* Hash of the coarse mesh: cells, positions, bodies and boundaries with their names; the same on every rank. Not collective. */
+PetscErrorCode ForestCoarseHash(Forest, uint64_t *hash);
+
 /* Leaf DMPlex of this rank: owned leaves, one ghost layer (leaves that share an entity with an owned one or with its parents), and recursively
    parent entities and their closures. Point SF set (owner: rank of entity_leaf), labels: one DMLabel per boundary group name on facets, "body" on
    cells. Cones oriented validly. point_entity[num_points]: entity id of each DMPlex point; points are numbered cells (owned first, then ghosts),

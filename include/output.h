@@ -1,6 +1,7 @@
 /* Floor 8. Files of a run: HDF5 + XDMF field files, csv tables, summary.json. */
 #pragma once
 #include "diagnose.h"
+#include "transfer.h"
 
 /* ---- field files (output/writer.c): fields.xdmf + one HDF5 file per state -------------------------------------------- */
 
@@ -11,6 +12,10 @@ typedef enum { CELL_POLYLINE2, CELL_TRIANGLE3, CELL_QUAD4, CELL_HEX8 } CellShape
  * time. Collective. */
 /* Index and fields_KKKK.h5 of an earlier series in the same directory are removed, so that what is there belongs together. */
 PetscErrorCode WriterCreate(MPI_Comm, const char *directory, Writer *);
+/* Go on with the series in directory: `num` states, the last of a load step; those of later steps are dropped when the next state is written. No index: it
+ * begins with the next state, whose number is num. An input error when the index lists other states up to this step. Collective. */
+PetscErrorCode WriterResume(MPI_Comm, const char *directory, PetscInt step, PetscInt num, Writer *);
+PetscErrorCode WriterNumStates(Writer, PetscInt *num); /* completed so far */
 PetscErrorCode WriterDestroy(Writer *);
 /* Begin state number k (0, 1, …) at XDMF time `time` (strictly increasing), with scalar attributes. One file directory/fields_KKKK.h5, collective parallel
  * HDF5, chunked + shuffle + deflate. */
@@ -28,8 +33,11 @@ PetscErrorCode WriterEnd(Writer); /* flush, attribute "complete", close, rewrite
 /* csv with named columns, written by rank 0, flushed after each row. Columns: names[n]; rows: values[n], %.12g. */
 typedef struct _p_Table *Table;
 PetscErrorCode           TableCreate(MPI_Comm, const char *path, PetscInt n, const char *const names[], Table *);
-PetscErrorCode           TableRow(Table, const PetscReal values[]);
-PetscErrorCode           TableDestroy(Table *);
+/* Go on with the table in path after the rows of a step (first column; column t: its time); what follows them is dropped when the next row is written. No file:
+ * a new one. An input error when it has other columns, or no row of this step at this t. */
+PetscErrorCode TableResume(MPI_Comm, const char *path, PetscInt n, const char *const names[], PetscInt step, PetscReal t, Table *);
+PetscErrorCode TableRow(Table, const PetscReal values[]);
+PetscErrorCode TableDestroy(Table *);
 
 /* ---- summary (output/replace.c) ---------------------------------------------------------------------------------------- */
 
@@ -105,8 +113,9 @@ PetscErrorCode ProbesEvaluate(Probes, Problem, Vec x, PetscReal displacement[][3
    - contact.<pair>.force.x …, .moment (3-D: .moment.x …), .max_pressure, .area, .radius (2-D), .active_nodes, .min_gap;
    - probe.<name>.displacement.x …, .stress.xx … (2-D: xx xy yy zz). */
 typedef struct _p_History *History;
-PetscErrorCode HistoryCreate(MPI_Comm, const SceneData *, Probes, History *); /* opens both in the output directory, which must exist. Collective. */
-PetscErrorCode HistoryPass(History, const ReportRow *);                       /* a row of adapt.csv. Collective. */
+/* Open both in the output directory, which must exist: afresh (after < 0), or to go on after a load step that ended at t (TableResume). Collective. */
+PetscErrorCode HistoryCreate(MPI_Comm, const SceneData *, Probes, PetscInt after, PetscReal t, History *);
+PetscErrorCode HistoryPass(History, const ReportRow *);                                          /* a row of adapt.csv. Collective. */
 PetscErrorCode HistoryStep(History, const ReportRow *, const Balance *, Problem, const State *); /* a row of history.csv. Collective. */
 PetscErrorCode HistoryDestroy(History *);
 
@@ -132,3 +141,36 @@ PetscErrorCode OutputSummary(MPI_Comm, const SceneData *, const RunSummary *);
 PetscErrorCode OutputDirectoryCreate(MPI_Comm, const char *path);
 /* Does this boundary hold something (fix, displacement, rotation)? Then it has a reaction. */
 PetscBool BoundarySupports(const BoundarySpec *);
+
+/* ---- checkpoints (output/checkpoint.c, checkpointfile.c) ------------------------------------------------------------------- */
+
+/* Everything that evolves, at the end of a load step, apart from any partition: forest, orders, state, and named numbers of the caller. A file of it is HDF5
+   behind a seal of 512 bytes (format, length, checksum):
+     /physics, /note                   texts: what must agree with the scene (OutputPhysics); the caller's
+     attributes of /: mesh, revision, ranks   hash of the coarse mesh; revision of the forest; ranks that wrote it
+     /split, /order, /owner            int8 by tree node (ForestGetSplits), int8 and int32 by leaf
+     /fields/<name>                    float64, as in Pack
+     attributes of /numbers            float64 each */
+typedef struct _p_Checkpoint *Checkpoint;
+typedef struct {
+  char      name[MORTISE_NAME];
+  PetscReal value;
+} CheckpointNumber;
+
+/* Copy a state, with the prescribed motion as applied; among its numbers is "t". Collective. */
+PetscErrorCode CheckpointCreate(Problem, const State *, PetscInt num, const CheckpointNumber numbers[], const char *note, Checkpoint *);
+PetscErrorCode CheckpointDestroy(Checkpoint *);
+/* Write path, or leave the file that is there as it is: a kill at any moment leaves one of the two, whole. Collective. */
+PetscErrorCode CheckpointWrite(Checkpoint, const char *path);
+/* Read a file on any number of ranks; one sentence (ErrorInput) when it is not there, cut short, damaged, of another format or no checkpoint. Collective. */
+PetscErrorCode CheckpointRead(MPI_Comm, const char *path, Checkpoint *);
+/* Does it belong to this scene on this coarse mesh? An input error when not. Not collective (input is replicated). */
+PetscErrorCode CheckpointCheck(Checkpoint, const SceneData *, Forest coarse);
+/* Its forest over the coarse mesh of another one: partitioned as it was, or anew when the number of ranks differs. Collective. */
+PetscErrorCode CheckpointForest(Checkpoint, Forest coarse, Forest *);
+PetscErrorCode CheckpointOrders(Checkpoint, const int8_t **leaf_order); /* [num_leaves], borrowed */
+/* Its state into one created on that forest with those orders; the problem is at time t, its prescribed motion applied. Prescribed displacements that are not
+   those of the checkpoint are an input error. Collective. */
+PetscErrorCode CheckpointState(Checkpoint, Problem, State *);
+PetscErrorCode CheckpointGetNumber(Checkpoint, const char *name, PetscReal *value); /* an input error when it is not there */
+const char    *CheckpointNote(Checkpoint);                                          /* borrowed */

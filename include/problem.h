@@ -83,6 +83,9 @@ PetscErrorCode ProblemDistance(Problem, Vec from, Vec to, PetscReal *distance);
    direction from -> to, through `to` (Follow) or further by `advance` (Advance). *length: of the way from -> to. Collective. */
 PetscErrorCode ProblemFollow(Problem, Vec from, Vec to, PetscReal *length);
 PetscErrorCode ProblemAdvance(Problem, PetscReal advance);
+/* The direction of the path that is followed, borrowed, NULL: none is; and to follow it from `to` on in another problem of the same mesh. Collective. */
+PetscErrorCode ProblemGetPath(Problem, Vec *direction);
+PetscErrorCode ProblemFollowAlong(Problem, Vec direction, Vec to);
 PetscErrorCode ProblemHold(Problem);
 PetscErrorCode ProblemIsFollowing(Problem, PetscBool *following);
 /* Time of a state: its unknown, or as set. Collective. */
@@ -159,6 +162,9 @@ typedef struct {
 PetscErrorCode ProblemGetTraffic(Problem, ContactTraffic *);
 /* Set the multipliers of a pair from values[nonmortar.num_nodes] in x: each rank those of its own nodes. */
 PetscErrorCode ProblemSetMultipliers(Problem, PetscInt pair, const PetscReal z[], Vec x);
+/* The opposite: values of this rank's own nodes from x, z[nonmortar.num_nodes]; others and nodes without multiplier stay as they are. Not collective.
+   own[nonmortar.num_nodes] (NULL: not wanted): which these are. */
+PetscErrorCode ProblemGetMultipliers(Problem, PetscInt pair, Vec x, PetscReal z[], PetscBool own[]);
 /* Refresh the candidate search at x; between Newton iterations only. */
 PetscErrorCode ProblemSearch(Problem, Vec x);
 

@@ -29,6 +29,7 @@ typedef struct {
   char      directory[PETSC_MAX_PATH_LEN];
   PetscBool fields, segments; /* write fields.xdmf; write segments */
   int       divide;           /* pieces of a cell in each direction; 0: as many as its order */
+  PetscInt  checkpoint;       /* every so many load steps; 0: only when the run is stopped */
 } OutputSpec;
 
 typedef struct {

@@ -6,6 +6,7 @@ typedef struct _p_Solver *Solver;
 
 typedef struct {
   PetscBool     converged;
+  PetscBool     stopped;    /* given up because somebody asked to (StopAsked) */
   const char   *reason;     /* why not, in words */
   PetscInt      iterations; /* tangent assemblies */
   PetscInt      factorisations;
@@ -33,5 +34,6 @@ PetscErrorCode SolverPrintHelp(MPI_Comm);
 
 /* Solve at the problem's current time, starting from state (x, pressure), which is changed. The prescribed motion not yet applied enters the first linear
    solve. Active sets that repeat are noticed: of the passes of one linearisation the least contradicted set is taken; Newton iterates that repeat fail at
-   once, so that the load step is cut. Failure is a report, not an error: the state is then of no use (restore a copy). */
+   once, so that the load step is cut. A request to stop (StopAsked) is heard before each factorisation. Failure is a report, not an error: the state is then of
+   no use (restore a copy). */
 PetscErrorCode SolverSolve(Solver, State *, SolverReport *);

@@ -122,7 +122,7 @@ static PetscErrorCode Reequilibrate_Private(App *app, PetscInt *iterations, Pets
   PetscCall(StateCreate(l->problem, &transferred));
   PetscCall(StateCopy(&l->state, &transferred));
   *ok = PETSC_FALSE;
-  for (size_t i = 0; i < sizeof(Shares) / sizeof(Shares[0]) && !*ok; ++i) {
+  for (size_t i = 0; i < sizeof(Shares) / sizeof(Shares[0]) && !*ok && !app->stopped; ++i) {
     SolverReport report;
     if (i > 0) PetscCall(StartBetween_Private(app, &transferred, Shares[i]));
     PetscCall(SolverSolve(l->solver, &l->state, &report));
@@ -134,7 +134,7 @@ static PetscErrorCode Reequilibrate_Private(App *app, PetscInt *iterations, Pets
   PetscCall(ProblemIsFollowing(l->problem, &following));
   l->state.t = t;
   if (following) PetscCall(ProblemGetTime(l->problem, l->state.x, &l->state.t));
-  if (!*ok && !following) {
+  if (!*ok && !following && !app->stopped) {
     PetscCall(StateCopy(&l->accepted, &l->state));
     PetscCall(PrescribeAt_Private(l->problem, l->accepted.t));
     PetscCall(AppAdvance(app, t, (t - l->accepted.t) / MOST_PIECES, ok));
@@ -222,6 +222,7 @@ PetscErrorCode AppAdapt(App *app)
     if (enough) break;
     PetscCall(Pass_Private(app, &iterations, &more));
     if (more) continue;
+    if (app->stopped) break;
     app->last.accepted          = PETSC_TRUE;
     app->last.newton_iterations = iterations;
     PetscCall(MonitorRow(app->monitor, &app->last));

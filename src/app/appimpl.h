@@ -37,8 +37,15 @@ typedef struct {
   PetscReal      arc, arc_first; /* along a path: length of the next step, of the first one; 0: not yet */
   PetscReal      haste;          /* displacement per time in the last step, over that since the start */
   const char    *failure;        /* why the run gave up, NULL while it goes on */
-  const char    *adapt_stop;     /* why the last adaptation ended: tolerance, max_passes, max_cells, … */
+  PetscBool      stopped;        /* the run was asked to stop */
+  char           stop_reason[PETSC_MAX_PATH_LEN + MORTISE_NAME];
+  const char    *adapt_stop; /* why the last adaptation ended: tolerance, max_passes, max_cells, … */
   ReportRow      last;
+  PetscReal      dt;                                                          /* length of the next load step */
+  Checkpoint     snapshot;                                                    /* owned: copy of the state at the end of the last accepted load step */
+  Forest         snapshot_forest;                                             /* borrowed: the forest it stood on, to compare only */
+  PetscBool      written;                                                     /* the file is this copy */
+  char           checkpoint[PETSC_MAX_PATH_LEN], restart[PETSC_MAX_PATH_LEN]; /* file to write; file to go on from, "": none */
 } App;
 
 /* start.c: PetscInitialize, cheaply for a single process. */
@@ -61,6 +68,20 @@ PetscErrorCode AppEstimate(App *);
 PetscErrorCode AppContactPairs(App *, PetscInt *num, PetscInt (**pairs)[2]);
 /* Fields, tables and screen of the state just computed. */
 PetscErrorCode AppReportPass(App *, PetscInt iterations, PetscBool accepted);
+
+/* restart.c. The options -restart and -max_seconds; signals are heard from now on. Collective. */
+PetscErrorCode AppOptions(App *);
+PetscErrorCode AppPrintHelp(MPI_Comm);
+/* Copy the accepted state and all counters; write the copy, if its file is not yet that; remove the file of an earlier run. Collective. */
+PetscErrorCode AppSnapshot(App *);
+PetscErrorCode AppCheckpoint(App *);
+PetscErrorCode AppForget(App *);
+/* The run was asked to stop: write the copy and return to it. Collective. */
+PetscErrorCode AppStop(App *);
+/* Read the checkpoint to go on from and check it against scene and coarse mesh; then the level and all counters from it (destroys *coarse). Nothing is written.
+   Collective. */
+PetscErrorCode AppReadCheckpoint(App *, Forest coarse);
+PetscErrorCode AppResume(App *, Forest *coarse);
 
 PetscErrorCode LevelCreate(const SceneData *, Forest, const int8_t leaf_order[], PetscReal t, Level *);
 PetscErrorCode LevelDestroy(Level *);

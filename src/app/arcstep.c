@@ -68,6 +68,7 @@ PetscErrorCode AppPathStep(App *app, PetscBool *ok)
     *ok = report.converged;
     if (*ok) break;
     PetscCall(StateCopy(&app->level.accepted, &app->level.state));
+    if (app->stopped) PetscFunctionReturn(PETSC_SUCCESS);
     app->arc *= 0.5;
     ++app->step_cuts;
     ++app->cuts_in_step;
@@ -77,6 +78,7 @@ PetscErrorCode AppPathStep(App *app, PetscBool *ok)
   }
   const PetscBool easy = (PetscBool)(report.iterations <= EASY_ITERATIONS && app->cuts_in_step == 0);
   PetscCall(AppAdapt(app));
+  *ok = (PetscBool)!app->stopped;
   if (easy) app->arc = PetscMin(GROWTH * app->arc, app->arc_first * load->step_max / load->step);
   PetscFunctionReturn(PETSC_SUCCESS);
 }

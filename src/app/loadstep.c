@@ -15,6 +15,7 @@ void AppCount(App *app, const SolverReport *report)
   if (report->converged && report->unstable >= 0) ++app->judged;
   if (report->converged && report->unstable > 0) ++app->unstable;
   if (report->converged) app->status = report->status;
+  if (report->stopped) app->stopped = PETSC_TRUE;
 }
 
 /* One attempt from the accepted state of this mesh to time t. */
@@ -64,7 +65,7 @@ PetscErrorCode AppAdvance(App *app, PetscReal t, PetscReal smallest, PetscBool *
     ++app->step_cuts;
     ++app->cuts_in_step;
     PetscCall(PetscInfo(NULL, "step to t = %g cut: %s\n", (double)next, report.reason));
-    *ok = (PetscBool)(dt >= smallest);
+    *ok = (PetscBool)(dt >= smallest && !app->stopped);
   }
   PetscCall(StateDestroy(&start));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -96,11 +97,12 @@ static PetscBool Loaded_Private(const SceneData *data)
   return PETSC_FALSE;
 }
 
-/* One accepted load step of at most dt: the first piece that converges, then adaptation at its time. */
-static PetscErrorCode LoadStep_Private(App *app, PetscReal *dt, PetscBool *ok)
+/* One accepted load step of at most app->dt: the first piece that converges, then adaptation at its time. */
+static PetscErrorCode LoadStep_Private(App *app, PetscBool *ok)
 {
   Level          *l  = &app->level;
   const PetscReal t0 = l->accepted.t;
+  PetscReal      *dt = &app->dt;
   SolverReport    report;
 
   PetscFunctionBegin;
@@ -111,6 +113,7 @@ static PetscErrorCode LoadStep_Private(App *app, PetscReal *dt, PetscBool *ok)
     *ok = report.converged;
     if (*ok) break;
     PetscCall(Restore_Private(app, &l->accepted));
+    if (app->stopped) PetscFunctionReturn(PETSC_SUCCESS);
     *dt = 0.5 * (t - t0);
     ++app->step_cuts;
     ++app->cuts_in_step;
@@ -122,14 +125,16 @@ static PetscErrorCode LoadStep_Private(App *app, PetscReal *dt, PetscBool *ok)
   }
   const PetscBool easy = (PetscBool)(report.iterations <= EASY_ITERATIONS && app->cuts_in_step == 0);
   PetscCall(AppAdapt(app));
+  *ok = (PetscBool)!app->stopped;
   if (easy) *dt = PetscMin(GROWTH * *dt, app->data->load.step_max);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 static PetscErrorCode Accept_Private(App *app, PetscReal t0)
 {
-  Level    *l = &app->level;
-  PetscReal step, way;
+  const PetscInt every = app->data->output.checkpoint;
+  Level         *l     = &app->level;
+  PetscReal      step, way;
 
   PetscFunctionBegin;
   PetscCall(ProblemDistance(l->problem, l->accepted.x, l->state.x, &step));
@@ -144,18 +149,21 @@ static PetscErrorCode Accept_Private(App *app, PetscReal t0)
   app->last.newton_iterations = app->iterations_in_step;
   app->last.step_cuts         = app->cuts_in_step;
   PetscCall(HistoryStep(app->history, &app->last, &app->balance, l->problem, &l->state));
+  PetscCall(AppSnapshot(app));
+  if (every > 0 && app->load_steps % every == 0) PetscCall(AppCheckpoint(app));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode AppRun(App *app)
 {
   const LoadSpec *load = &app->data->load;
-  PetscReal       dt   = load->step;
   PetscBool       ok   = PETSC_TRUE;
 
   PetscFunctionBegin;
   while (ok && !app->failure && app->level.accepted.t < load->end) {
     const PetscReal t0 = app->level.accepted.t;
+    PetscCall(StopAsked(app->comm, &app->stopped));
+    if (app->stopped) break;
     if (load->stop_displacement > 0 && app->status.largest >= load->stop_displacement) break;
     if (app->load_steps == load->max_steps) {
       app->failure = "load.max_steps was reached before load.end";
@@ -164,8 +172,12 @@ PetscErrorCode AppRun(App *app)
     if (app->arc_first > 0)
       PetscCall(AppPathStep(app, &ok));
     else
-      PetscCall(LoadStep_Private(app, &dt, &ok));
+      PetscCall(LoadStep_Private(app, &ok));
     if (ok) PetscCall(Accept_Private(app, t0));
   }
+  if (app->stopped)
+    PetscCall(AppStop(app));
+  else if (app->data->output.checkpoint > 0 && app->load_steps > 0)
+    PetscCall(AppCheckpoint(app));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -2,39 +2,89 @@
 #include "appimpl.h"
 #include <signal.h>
 
-static PetscErrorCode Open_Private(App *app, Forest forest)
+static PetscErrorCode Begin_Private(App *app, Forest forest)
 {
   int8_t *orders;
 
   PetscFunctionBegin;
   PetscCall(ProblemInitialOrders(app->data, forest, &orders));
-  PetscCall(ProbesCreate(app->data, forest, &app->probes));
   PetscCall(LevelCreate(app->data, forest, orders, 0, &app->level));
   PetscCall(PetscFree(orders));
-  PetscCall(OutputDirectoryCreate(app->comm, app->data->output.directory));
-  if (app->data->output.fields) PetscCall(WriterCreate(app->comm, app->data->output.directory, &app->writer));
-  PetscCall(HistoryCreate(app->comm, app->data, app->probes, &app->history));
-  PetscCall(MonitorCreate(app->comm, app->data, &app->monitor));
-  PetscCall(MonitorHeader(app->monitor, app->level.problem));
+  app->dt         = app->data->load.step;
+  app->adapt_stop = "";
+  PetscCall(AppSnapshot(app));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The last accepted state is what a failed run leaves behind. */
-static PetscErrorCode Summarise_Private(App *app)
+/* Tables and fields, afresh or after the load step to go on from: first everything that may refuse. */
+static PetscErrorCode OpenFiles_Private(App *app)
 {
-  const char    *status = app->failure ? "failed" : "converged";
+  const char *directory = app->data->output.directory;
+  PetscReal   states    = 0;
+
+  PetscFunctionBegin;
+  PetscCall(OutputDirectoryCreate(app->comm, directory));
+  if (app->restart[0]) PetscCall(CheckpointGetNumber(app->snapshot, "states", &states));
+  if (app->data->output.fields && states > 0) PetscCall(WriterResume(app->comm, directory, app->load_steps, (PetscInt)states, &app->writer));
+  PetscCall(HistoryCreate(app->comm, app->data, app->probes, app->restart[0] ? app->load_steps : -1, app->level.accepted.t, &app->history));
+  if (app->data->output.fields && !app->writer) PetscCall(WriterCreate(app->comm, directory, &app->writer));
+  if (!app->restart[0]) PetscCall(AppForget(app));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode Open_Private(App *app, Forest forest)
+{
   PetscLogDouble now;
 
   PetscFunctionBegin;
+  PetscCall(ProbesCreate(app->data, forest, &app->probes));
+  if (app->restart[0])
+    PetscCall(AppResume(app, &forest));
+  else
+    PetscCall(Begin_Private(app, forest));
+  PetscCall(OpenFiles_Private(app));
+  PetscCall(MonitorCreate(app->comm, app->data, &app->monitor));
+  PetscCall(MonitorHeader(app->monitor, app->level.problem));
   PetscCall(PetscTime(&now));
-  if (app->failure) {
-    PetscCall(ProblemSetTime(app->level.problem, app->level.accepted.t));
-    PetscCall(ProblemJump(app->level.problem));
-    if (app->balance.reaction) PetscCall(BalanceDestroy(&app->balance));
-    PetscCall(BalanceCompute(app->level.problem, &app->level.accepted, &app->balance));
-  }
-  RunSummary summary = {
-      .status = status, .reason = app->failure ? app->failure : "", .t = app->level.accepted.t, .seconds = now - app->start, .load_steps = app->load_steps};
+  if (app->restart[0])
+    PetscCall(MonitorResume(app->monitor, app->restart,
+                            &(ReportRow){.step              = app->load_steps,
+                                         .step_cuts         = app->step_cuts,
+                                         .newton_iterations = app->newton_iterations,
+                                         .t                 = app->level.accepted.t,
+                                         .seconds           = now - app->start}));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Figures of the last accepted state, which is what a run that failed or was stopped leaves behind, and of one that had nothing left to do. */
+static PetscErrorCode Figures_Private(App *app)
+{
+  const PetscBool given_up = (PetscBool)(app->failure || app->stopped), told = (PetscBool)(app->balance.reaction != NULL);
+  Level          *l = &app->level;
+
+  PetscFunctionBegin;
+  if (!given_up && told) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(ProblemSetTime(l->problem, l->accepted.t));
+  PetscCall(ProblemJump(l->problem));
+  PetscCall(ProblemSearch(l->problem, l->accepted.x)); /* this mesh may not have seen any solution yet */
+  if (told) PetscCall(BalanceDestroy(&app->balance));
+  if (!given_up) PetscCall(AppEstimate(app));
+  PetscCall(BalanceCompute(l->problem, &l->accepted, &app->balance));
+  if (app->failure) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(ReportRowFill(l->problem, &l->accepted, given_up ? NULL : &app->estimate, &app->balance, &app->last));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode Summarise_Private(App *app)
+{
+  const char    *status = app->failure ? "failed" : app->stopped ? "stopped" : "converged";
+  const char    *reason = app->failure ? app->failure : app->stop_reason;
+  PetscLogDouble now;
+
+  PetscFunctionBegin;
+  PetscCall(Figures_Private(app));
+  PetscCall(PetscTime(&now));
+  RunSummary summary         = {.status = status, .reason = reason, .t = app->level.accepted.t, .seconds = now - app->start, .load_steps = app->load_steps};
   summary.step_cuts          = app->step_cuts;
   summary.adapt_passes       = app->adapt_passes;
   summary.newton_iterations  = app->newton_iterations;
@@ -47,7 +97,7 @@ static PetscErrorCode Summarise_Private(App *app)
   summary.problem            = app->level.problem;
   summary.state              = &app->level.accepted;
   summary.balance            = &app->balance;
-  summary.estimate           = app->estimated && !app->failure ? &app->estimate : NULL;
+  summary.estimate           = app->estimated && !app->failure && !app->stopped ? &app->estimate : NULL;
   summary.probes             = app->probes;
   PetscCall(OutputSummary(app->comm, app->data, &summary));
   PetscCall(MonitorFooter(app->monitor, status, summary.reason, app->adapt_stop, app->load_steps ? &app->last : NULL));
@@ -64,10 +114,11 @@ static PetscErrorCode Close_Private(App *app)
   if (app->estimated) PetscCall(EstimateDestroy(&app->estimate));
   if (app->balance.reaction) PetscCall(BalanceDestroy(&app->balance));
   PetscCall(LevelDestroy(&app->level));
+  PetscCall(CheckpointDestroy(&app->snapshot));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode Solve_Private(int argc, char **argv, PetscBool *gave_up)
+static PetscErrorCode Solve_Private(int argc, char **argv, int *status)
 {
   App    app = {.comm = PETSC_COMM_WORLD};
   Forest forest;
@@ -76,12 +127,15 @@ static PetscErrorCode Solve_Private(int argc, char **argv, PetscBool *gave_up)
   PetscCall(PetscTime(&app.start));
   PetscCheckInput(argc > 1, "no scene was named; say mortise SCENE.yml, or mortise -help");
   PetscCall(SceneCreate(app.comm, argc, argv, &app.scene));
+  PetscCall(SceneGetData(app.scene, &app.data));
+  PetscCall(AppOptions(&app));
   PetscCall(SolverCheckOptions());
   PetscCall(StageBegin(STAGE_MESH));
   PetscCall(SceneSetUp(app.scene, &forest));
   PetscCall(StageEnd(STAGE_MESH));
-  PetscCall(SceneGetData(app.scene, &app.data));
   if (SceneCheckOnly(app.scene)) {
+    if (app.restart[0]) PetscCall(AppReadCheckpoint(&app, forest));
+    PetscCall(CheckpointDestroy(&app.snapshot));
     PetscCall(SceneView(app.scene, PETSC_VIEWER_STDOUT_WORLD));
     PetscCall(ForestDestroy(&forest));
   } else {
@@ -91,7 +145,7 @@ static PetscErrorCode Solve_Private(int argc, char **argv, PetscBool *gave_up)
     PetscCall(Close_Private(&app));
   }
   PetscCall(SceneDestroy(&app.scene));
-  *gave_up = (PetscBool)(app.failure != NULL);
+  *status = app.failure ? 2 : app.stopped ? 3 : 0;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -123,12 +177,16 @@ static PetscErrorCode Help_Private(void)
   PetscFunctionBegin;
   PetscCall(ScenePrintHelp(PETSC_COMM_WORLD));
   PetscCall(SolverPrintHelp(PETSC_COMM_WORLD));
-  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "\nOptions of PETSc work as everywhere: -snes_monitor, -ksp_monitor, -log_view, ...\n"
-                                          "Exit status: 0 converged to the end; 1 bad input, nothing was solved; 2 the solver gave up.\n"));
+  PetscCall(AppPrintHelp(PETSC_COMM_WORLD));
+  PetscCall(
+      PetscPrintf(PETSC_COMM_WORLD,
+                  "\nOptions of PETSc work as everywhere: -snes_monitor, -ksp_monitor, -log_view, ...\n"
+                  "Exit status: 0 converged to the end; 1 bad input, nothing was solved; 2 the solver gave up; 3 stopped, by SIGTERM, SIGUSR1, SIGINT or\n"
+                  "-max_seconds, with a checkpoint for -restart.\n"));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode Main_Private(int argc, char **argv, PetscBool *gave_up)
+static PetscErrorCode Main_Private(int argc, char **argv, int *status)
 {
   PetscFunctionBegin;
   PetscCall(StageRegister());
@@ -137,7 +195,7 @@ static PetscErrorCode Main_Private(int argc, char **argv, PetscBool *gave_up)
   else if (Asked_Private(argc, argv, "-list"))
     PetscCall(ScenePrintList(PETSC_COMM_WORLD));
   else {
-    PetscCall(Solve_Private(argc, argv, gave_up));
+    PetscCall(Solve_Private(argc, argv, status));
     PetscCall(UnusedOptions_Private());
   }
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -145,14 +203,14 @@ static PetscErrorCode Main_Private(int argc, char **argv, PetscBool *gave_up)
 
 int main(int argc, char **argv)
 {
-  PetscBool      gave_up = PETSC_FALSE;
+  int            status = 0;
   PetscErrorCode ierr;
 
   ierr = AppInitialize(argc, argv);
   if (ierr) return 2;
   (void)signal(SIGPIPE, SIG_DFL); /* output cut short by `head` is no error to report */
   ierr = ErrorHandlerPush();
-  if (!ierr) ierr = Main_Private(argc, argv, &gave_up);
+  if (!ierr) ierr = Main_Private(argc, argv, &status);
   if (ierr) {
     /* An error other than wrong input leaves ranks anywhere: no orderly end. */
     if (ierr != MORTISE_ERR_INPUT) MPI_Abort(PETSC_COMM_WORLD, 2);
@@ -160,5 +218,5 @@ int main(int argc, char **argv)
     return 1;
   }
   ierr = PetscFinalize();
-  return ierr ? 2 : gave_up ? 2 : 0;
+  return ierr ? 2 : status;
 }

@@ -53,3 +53,10 @@ PetscReal StageSeconds(Stage stage)
 {
   return (PetscReal)stage_seconds[stage];
 }
+
+PetscErrorCode StageAdd(Stage stage, PetscReal seconds)
+{
+  PetscFunctionBegin;
+  stage_seconds[stage] += seconds;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

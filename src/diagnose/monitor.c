@@ -161,6 +161,23 @@ PetscErrorCode MonitorHeader(Monitor m, Problem problem)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscErrorCode MonitorResume(Monitor m, const char *file, const ReportRow *so_far)
+{
+  PetscLogDouble now;
+
+  PetscFunctionBegin;
+  PetscCall(MonitorHide(m));
+  PetscCall(PetscTime(&now));
+  m->start      = now - so_far->seconds;
+  m->steps      = so_far->step;
+  m->cuts       = so_far->step_cuts;
+  m->iterations = so_far->newton_iterations;
+  m->t          = so_far->t;
+  Say_Private(m, "goes on after load step %" PetscInt_FMT ", t = %g, from %s\n", so_far->step, (double)so_far->t, file);
+  PetscCall(MonitorShow_Private(m));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode MonitorRow(Monitor m, const ReportRow *row)
 {
   char           error[16] = "-", force[16] = "-", end[80] = "";

@@ -107,11 +107,23 @@ static PetscErrorCode Columns_Private(const SceneData *scene, PetscInt num_probe
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Open history.csv: fixed columns, then those of the scene. */
-static PetscErrorCode OpenHistory_Private(MPI_Comm comm, History h)
+static PetscErrorCode Open_Private(MPI_Comm comm, History h, const char *file, PetscInt n, const char *const names[], PetscInt after, PetscReal t, Table *table)
+{
+  char path[PETSC_MAX_PATH_LEN];
+
+  PetscFunctionBegin;
+  PetscCall(PetscSNPrintf(path, sizeof(path), "%s/%s", h->scene->output.directory, file));
+  if (after < 0)
+    PetscCall(TableCreate(comm, path, n, names, table));
+  else
+    PetscCall(TableResume(comm, path, n, names, after, t, table));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* history.csv: fixed columns, then those of the scene. */
+static PetscErrorCode OpenHistory_Private(MPI_Comm comm, History h, PetscInt after, PetscReal t)
 {
   const PetscInt fixed = (PetscInt)PETSC_STATIC_ARRAY_LENGTH(step_columns), num_probes = h->probes ? h->scene->num_probes : 0;
-  char           path[PETSC_MAX_PATH_LEN];
   const char   **names;
   Columns        c = {0};
 
@@ -123,26 +135,23 @@ static PetscErrorCode OpenHistory_Private(MPI_Comm comm, History h)
   c.num = 0;
   PetscCall(Columns_Private(h->scene, num_probes, NULL, NULL, NULL, &c));
   for (PetscInt i = 0; i < h->num; ++i) names[i] = i < fixed ? step_columns[i] : c.names[i - fixed];
-  PetscCall(PetscSNPrintf(path, sizeof(path), "%s/history.csv", h->scene->output.directory));
-  PetscCall(TableCreate(comm, path, h->num, names, &h->history));
+  PetscCall(Open_Private(comm, h, "history.csv", h->num, names, after, t, &h->history));
   PetscCall(PetscFree2(c.names, names));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode HistoryCreate(MPI_Comm comm, const SceneData *scene, Probes probes, History *history)
+PetscErrorCode HistoryCreate(MPI_Comm comm, const SceneData *scene, Probes probes, PetscInt after, PetscReal t, History *history)
 {
   History h;
-  char    path[PETSC_MAX_PATH_LEN];
 
   PetscFunctionBegin;
   PetscCall(PetscNew(&h));
-  *history  = h;
-  h->scene  = scene;
-  h->probes = probes;
-  PetscCall(PetscSNPrintf(path, sizeof(path), "%s/adapt.csv", scene->output.directory));
+  *history               = h;
+  h->scene               = scene;
+  h->probes              = probes;
   const PetscInt columns = (PetscInt)PETSC_STATIC_ARRAY_LENGTH(adapt_columns) - (MechanicsIsPlastic(&scene->mechanics) ? 0 : PLASTIC_COLUMNS);
-  PetscCall(TableCreate(comm, path, columns, adapt_columns, &h->adapt));
-  PetscCall(OpenHistory_Private(comm, h));
+  PetscCall(OpenHistory_Private(comm, h, after, t));
+  PetscCall(Open_Private(comm, h, "adapt.csv", columns, adapt_columns, after, t, &h->adapt));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

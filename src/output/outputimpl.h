@@ -1,9 +1,20 @@
 /* Private to output: the XDMF index that the writer keeps, whole-file replacement, fields of contact surfaces. */
 #pragma once
 #include "output.h"
+#include <hdf5.h>
 
 /* Rank 0 writes text to path.tmp and renames it to path; every rank returns the same error. Collective. */
 PetscErrorCode OutputReplaceFile(MPI_Comm, const char *path, const char *text);
+
+#define PetscCallH5(call) PetscCheck((call) >= 0, PETSC_COMM_SELF, PETSC_ERR_FILE_WRITE, "HDF5 failed in %s", #call)
+#define PetscCallH5Id(id, call) PetscCheck(((id) = (call)) >= 0, PETSC_COMM_SELF, PETSC_ERR_FILE_WRITE, "HDF5 failed in %s", #call)
+
+/* Scalar attributes of an HDF5 object (output/hdf5.c): of any type, 64-bit integer, double. */
+PetscErrorCode OutputAttribute(hid_t object, const char *name, hid_t stored, hid_t type, const void *value);
+PetscErrorCode OutputAttributeInt(hid_t object, const char *name, PetscInt value);
+PetscErrorCode OutputAttributeReal(hid_t object, const char *name, PetscReal value);
+/* The access list with which all ranks open a file together; one rank: HDF5's own driver, which writes the same bytes and spares loading MPI-IO. */
+PetscErrorCode OutputAccess(MPI_Comm, hid_t *access);
 
 /* Growable text; {0} is empty and valid. */
 typedef struct {
@@ -12,6 +23,34 @@ typedef struct {
 } OutputText;
 PetscErrorCode OutputTextPrint(OutputText *, const char *format, ...) PETSC_ATTRIBUTE_FORMAT(2, 3);
 PetscErrorCode OutputTextDestroy(OutputText *);
+
+/* ---- checkpoints (output/physics.c, seal.c) ----------------------------------------------------------------------- */
+
+/* Model, bodies with their materials, contact pairs: what must be the same when a run is continued; a line each. */
+PetscErrorCode OutputPhysics(const SceneData *, const CoarseMesh *, OutputText *);
+#define OUTPUT_DIFFERENCE 256
+/* Where two such texts first differ: what each has there, "" where it has ended. PETSC_FALSE: nowhere. */
+PetscBool OutputFirstDifference(const char *a, const char *b, char what[2][OUTPUT_DIFFERENCE]);
+
+#define CHECKPOINT_FORMAT 1
+struct _p_Checkpoint {
+  MPI_Comm          comm;
+  char              path[PETSC_MAX_PATH_LEN]; /* file it was read from; "": made in memory */
+  char             *physics;                  /* owned */
+  char              note[2 * MORTISE_NAME];   /* the caller's */
+  uint64_t          mesh;                     /* ForestCoarseHash */
+  PetscInt          num_splits, num_leaves, revision;
+  int8_t           *split, *order; /* owned [num_splits] ForestGetSplits, [num_leaves] */
+  PetscMPIInt       ranks, *owner; /* owned [num_leaves]: of so many ranks */
+  PetscInt          num_numbers;
+  CheckpointNumber *number; /* owned [num_numbers] */
+  Pack              pack;
+};
+#define CHECKPOINT_SEAL 512 /* bytes */
+/* Put the seal on a finished HDF5 file, force it to the disk, rename it to path. One rank's; returns errno. (output/seal.c) */
+int CheckpointSeal(const char *temporary, const char *path);
+/* Is the file whole and ours? An input error when not. Collective. */
+PetscErrorCode CheckpointVerify(MPI_Comm, const char *path);
 
 /* ---- index of a series (output/xdmf.c): one temporal collection per grid name. Serial: rank 0 keeps it. ---------------- */
 
@@ -31,6 +70,10 @@ PetscErrorCode IndexField(Index, const char *name, PetscBool at_cells, PetscInt 
 PetscErrorCode IndexGridEnd(Index);
 /* The whole document; the caller destroys the text. */
 PetscErrorCode IndexText(Index, OutputText *);
+
+/* Fill an empty index from such a document, states of later load steps left out. *num: number of the last state + 1; *time: its time. *ours PETSC_FALSE: the
+ * text is not of our making. */
+PetscErrorCode IndexRead(Index, const char *text, PetscInt step, PetscInt *num, PetscReal *time, PetscBool *ours);
 
 /* Vertices of a cell shape and its XDMF name. */
 PetscInt    CellShapeVertices(CellShape);

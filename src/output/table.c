@@ -1,11 +1,13 @@
 /* csv tables, one row at a time: rank 0 writes, every row is flushed so that a run can be followed and survives a kill. */
 #include "outputimpl.h"
 #include <errno.h>
+#include <unistd.h>
 
 struct _p_Table {
   MPI_Comm comm;
   PetscInt n;                        /* columns */
   FILE    *file;                     /* owned; rank 0, else NULL */
+  long     keep;                     /* continued: bytes that stay; the rest goes when the first row comes. -1: all */
   char     path[PETSC_MAX_PATH_LEN]; /* for messages */
 };
 
@@ -30,6 +32,7 @@ PetscErrorCode TableCreate(MPI_Comm comm, const char *path, PetscInt n, const ch
   PetscCall(PetscNew(&t));
   t->comm = comm;
   t->n    = n;
+  t->keep = -1;
   PetscCall(PetscStrncpy(t->path, path, sizeof(t->path)));
   PetscCallMPI(MPI_Comm_rank(comm, &rank));
   if (rank == 0) {
@@ -45,13 +48,96 @@ PetscErrorCode TableCreate(MPI_Comm comm, const char *path, PetscInt n, const ch
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* ---- a table that goes on ------------------------------------------------------------------------------------------------------ */
+
+enum { TABLE_FITS, TABLE_ABSENT, TABLE_COLUMNS, TABLE_OTHER };
+
+/* The line of names of a file is this one. */
+static PetscBool SameNames_Private(FILE *file, PetscInt n, const char *const names[])
+{
+  for (PetscInt i = 0; i < n; ++i) {
+    for (const char *c = names[i]; *c; ++c)
+      if (fgetc(file) != *c) return PETSC_FALSE;
+    if (fgetc(file) != (i + 1 < n ? ',' : '\n')) return PETSC_FALSE;
+  }
+  return PETSC_TRUE;
+}
+
+/* The number in a column of a line. */
+static double Column_Private(const char *line, PetscInt column)
+{
+  for (; column > 0 && line; --column) line = strchr(line, ',') ? strchr(line, ',') + 1 : NULL;
+  return line ? strtod(line, NULL) : NAN;
+}
+
+/* Where the rows up to a step end, and whether the last of them is of that step and at t. A row without its end (the run was killed) is none. */
+static int Find_Private(FILE *file, PetscInt n, const char *const names[], PetscInt step, PetscReal t, long *keep)
+{
+  char    *line    = NULL;
+  size_t   size    = 0;
+  PetscInt time    = 0;
+  double   last[2] = {0, 0};
+
+  if (!SameNames_Private(file, n, names)) return TABLE_COLUMNS;
+  while (time + 1 < n && strcmp(names[time], "t")) ++time;
+  *keep = ftell(file);
+  while (getline(&line, &size, file) > 0 && strchr(line, '\n') && Column_Private(line, 0) <= step) {
+    last[0] = Column_Private(line, 0);
+    last[1] = Column_Private(line, time);
+    *keep   = ftell(file);
+  }
+  free(line);
+  if (last[0] != step || PetscAbsReal(last[1] - t) > 1e-11 * PetscAbsReal(t)) return TABLE_OTHER; /* written with 12 digits */
+  return TABLE_FITS;
+}
+
+PetscErrorCode TableResume(MPI_Comm comm, const char *path, PetscInt n, const char *const names[], PetscInt step, PetscReal t, Table *table)
+{
+  PetscMPIInt rank;
+  FILE       *file    = NULL;
+  long        keep    = -1;
+  int         verdict = TABLE_ABSENT;
+
+  PetscFunctionBegin;
+  PetscCallMPI(MPI_Comm_rank(comm, &rank));
+  if (rank == 0) file = fopen(path, "r+");
+  if (file) verdict = Find_Private(file, n, names, step, t, &keep);
+  PetscCallMPI(MPI_Bcast(&verdict, 1, MPI_INT, 0, comm));
+  if (file && verdict != TABLE_FITS) fclose(file);
+  PetscCheckInput(verdict != TABLE_COLUMNS, "-restart: %s has other columns than this scene; give another output.directory", path);
+  PetscCheckInput(verdict != TABLE_OTHER,
+                  "-restart: %s is not of the run that wrote the checkpoint, it has no row of step %" PetscInt_FMT
+                  " at t = %.12g; give another output.directory",
+                  path, step, (double)t);
+  if (verdict == TABLE_ABSENT) {
+    PetscCall(TableCreate(comm, path, n, names, table));
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
+  PetscCall(PetscNew(table));
+  (*table)->comm = comm;
+  (*table)->n    = n;
+  (*table)->file = file;
+  (*table)->keep = keep;
+  PetscCall(PetscStrncpy((*table)->path, path, sizeof((*table)->path)));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Drop the rows after the point from which a table goes on. errno. */
+static int Cut_Private(Table t)
+{
+  if (t->keep < 0) return 0;
+  if (fseek(t->file, t->keep, SEEK_SET) || ftruncate(fileno(t->file), t->keep)) return errno;
+  t->keep = -1;
+  return 0;
+}
+
 /* Append values[n] (read on rank 0). Collective. */
 PetscErrorCode TableRow(Table t, const PetscReal values[])
 {
   int failed = 0;
 
   PetscFunctionBegin;
-  if (t->file) {
+  if (t->file && !(failed = Cut_Private(t))) {
     for (PetscInt i = 0; i < t->n; i++) fprintf(t->file, "%s%.12g", i ? "," : "", (double)values[i]);
     fputc('\n', t->file);
     if (fflush(t->file)) failed = errno ? errno : EIO;

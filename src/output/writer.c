@@ -3,14 +3,12 @@
    kill is recognised. Data sets are float64 and int64, chunked, shuffled, deflated. */
 #include "outputimpl.h"
 #include <dirent.h>
-#include <hdf5.h>
+#include <errno.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #define CHUNK_BYTES 262144 /* one chunk at most: small enough for HDF5's 1 MB chunk cache of readers */
 #define DEFLATE_LEVEL 1    /* with shuffle; levels 2 to 6 measured: up to 3 % smaller, up to 25 % slower */
-
-#define PetscCallH5(call) PetscCheck((call) >= 0, PETSC_COMM_SELF, PETSC_ERR_FILE_WRITE, "HDF5 failed in %s", #call)
-#define PetscCallH5Id(id, call) PetscCheck(((id) = (call)) >= 0, PETSC_COMM_SELF, PETSC_ERR_FILE_WRITE, "HDF5 failed in %s", #call)
 
 struct _p_Writer {
   MPI_Comm    comm;
@@ -18,6 +16,7 @@ struct _p_Writer {
   char        directory[PETSC_MAX_PATH_LEN];
   Index       index;     /* owned; rank 0, else NULL */
   PetscInt    num;       /* states completed */
+  PetscBool   resumed;   /* files of later states are still there */
   IndexState  state;     /* the open state, or the last one */
   hid_t       file;      /* owned; -1 between states */
   hid_t       group;     /* owned: the open grid; -1 when none */
@@ -26,9 +25,9 @@ struct _p_Writer {
   int64_t     local[2];  /* points and cells of this rank */
 };
 
-/* Remove the state files of an earlier series; names of exactly our form only. Rank 0. A directory that is not there is told by all ranks when the index is
-   written. */
-static PetscErrorCode WriterClear_Private(const char *directory)
+/* Remove the state files of an earlier series from number `from` on; names of exactly our form only. Rank 0. A directory that is not there is told by all ranks
+   when the index is written. */
+static PetscErrorCode WriterClear_Private(const char *directory, PetscInt from)
 {
   char           path[PETSC_MAX_PATH_LEN];
   DIR           *dir = opendir(directory);
@@ -39,7 +38,7 @@ static PetscErrorCode WriterClear_Private(const char *directory)
   while ((entry = readdir(dir))) {
     int number, length = 0;
 
-    if (sscanf(entry->d_name, "fields_%d.h5%n", &number, &length) != 1 || !length || entry->d_name[length]) continue;
+    if (sscanf(entry->d_name, "fields_%d.h5%n", &number, &length) != 1 || !length || entry->d_name[length] || number < from) continue;
     PetscCall(PetscSNPrintf(path, sizeof(path), "%s/%s", directory, entry->d_name));
     unlink(path);
   }
@@ -61,7 +60,7 @@ static PetscErrorCode WriterIndex_Private(Writer w)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode WriterCreate(MPI_Comm comm, const char *directory, Writer *writer)
+static PetscErrorCode New_Private(MPI_Comm comm, const char *directory, Writer *writer)
 {
   Writer w;
 
@@ -72,12 +71,66 @@ PetscErrorCode WriterCreate(MPI_Comm comm, const char *directory, Writer *writer
   PetscCallMPI(MPI_Comm_rank(comm, &w->rank));
   PetscCallMPI(MPI_Comm_size(comm, &w->size));
   PetscCall(PetscStrncpy(w->directory, directory, sizeof(w->directory)));
-  if (w->rank == 0) {
-    PetscCall(WriterClear_Private(directory));
-    PetscCall(IndexCreate(&w->index));
-  }
-  PetscCall(WriterIndex_Private(w));
+  if (w->rank == 0) PetscCall(IndexCreate(&w->index));
   *writer = w;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode WriterCreate(MPI_Comm comm, const char *directory, Writer *writer)
+{
+  PetscFunctionBegin;
+  PetscCall(New_Private(comm, directory, writer));
+  if ((*writer)->rank == 0) PetscCall(WriterClear_Private(directory, 0));
+  PetscCall(WriterIndex_Private(*writer));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The whole file as text; NULL: there is none. */
+static PetscErrorCode Load_Private(const char *path, char **text)
+{
+  FILE       *file = fopen(path, "r");
+  struct stat info;
+
+  PetscFunctionBegin;
+  *text = NULL;
+  if (!file) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCheck(!fstat(fileno(file), &info), PETSC_COMM_SELF, PETSC_ERR_FILE_READ, "Cannot read %s: %s", path, strerror(errno));
+  PetscCall(PetscCalloc1((size_t)info.st_size + 1, text));
+  (*text)[fread(*text, 1, (size_t)info.st_size, file)] = 0;
+  fclose(file);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode WriterResume(MPI_Comm comm, const char *directory, PetscInt step, PetscInt num, Writer *writer)
+{
+  char      path[PETSC_MAX_PATH_LEN], *text = NULL;
+  PetscInt  listed = num;
+  PetscReal time   = 0;
+  PetscBool ours   = PETSC_TRUE;
+
+  PetscFunctionBegin;
+  PetscCall(PetscSNPrintf(path, sizeof(path), "%s/fields.xdmf", directory));
+  PetscCall(New_Private(comm, directory, writer));
+  if ((*writer)->rank == 0) PetscCall(Load_Private(path, &text));
+  if (text) PetscCall(IndexRead((*writer)->index, text, step, &listed, &time, &ours));
+  if (!ours) listed = -1;
+  PetscCall(PetscFree(text));
+  PetscCallMPI(MPI_Bcast(&listed, 1, MPIU_INT, 0, comm));
+  PetscCallMPI(MPI_Bcast(&time, 1, MPIU_REAL, 0, comm));
+  PetscCheckInput(listed == num,
+                  "-restart: %s is not of the run that wrote the checkpoint, it does not list %" PetscInt_FMT " states up to step %" PetscInt_FMT
+                  "; give another output.directory",
+                  path, num, step);
+  (*writer)->num        = num;
+  (*writer)->state.time = time;
+  (*writer)->resumed    = PETSC_TRUE;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode WriterNumStates(Writer w, PetscInt *num)
+{
+  PetscFunctionBegin;
+  *num = w->num;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -93,38 +146,6 @@ PetscErrorCode WriterDestroy(Writer *writer)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* A scalar attribute of an object. */
-static PetscErrorCode WriterAttribute_Private(hid_t object, const char *name, hid_t stored, hid_t type, const void *value)
-{
-  hid_t space, attribute;
-
-  PetscFunctionBegin;
-  PetscCallH5Id(space, H5Screate(H5S_SCALAR));
-  PetscCallH5Id(attribute, H5Acreate2(object, name, stored, space, H5P_DEFAULT, H5P_DEFAULT));
-  PetscCallH5(H5Awrite(attribute, type, value));
-  PetscCallH5(H5Aclose(attribute));
-  PetscCallH5(H5Sclose(space));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-static PetscErrorCode WriterAttributeInt_Private(hid_t object, const char *name, PetscInt value)
-{
-  int64_t wide = value;
-
-  PetscFunctionBegin;
-  PetscCall(WriterAttribute_Private(object, name, H5T_STD_I64LE, H5T_NATIVE_INT64, &wide));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-static PetscErrorCode WriterAttributeReal_Private(hid_t object, const char *name, PetscReal value)
-{
-  double wide = value;
-
-  PetscFunctionBegin;
-  PetscCall(WriterAttribute_Private(object, name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, &wide));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 PetscErrorCode WriterBegin(Writer w, PetscReal time, PetscInt step, PetscInt pass, PetscReal load_time)
 {
   char  path[PETSC_MAX_PATH_LEN];
@@ -134,17 +155,17 @@ PetscErrorCode WriterBegin(Writer w, PetscReal time, PetscInt step, PetscInt pas
   PetscCheck(w->file < 0, w->comm, PETSC_ERR_ORDER, "State %" PetscInt_FMT " was not ended", w->num);
   PetscCheck(w->num == 0 || time > w->state.time, w->comm, PETSC_ERR_ARG_OUTOFRANGE, "Time of a state must increase: %g after %g", (double)time,
              (double)w->state.time);
-  w->state = (IndexState){.time = time, .load_time = load_time, .step = step, .pass = pass};
+  if (w->resumed && w->rank == 0) PetscCall(WriterClear_Private(w->directory, w->num));
+  w->resumed = PETSC_FALSE;
+  w->state   = (IndexState){.time = time, .load_time = load_time, .step = step, .pass = pass};
   PetscCall(PetscSNPrintf(path, sizeof(path), "%s/fields_%04" PetscInt_FMT ".h5", w->directory, w->num));
-  PetscCallH5Id(access, H5Pcreate(H5P_FILE_ACCESS));
-  /* One rank needs no MPI-IO: HDF5's own driver writes the same bytes and spares loading it. */
-  if (w->size > 1) PetscCallH5(H5Pset_fapl_mpio(access, w->comm, MPI_INFO_NULL));
+  PetscCall(OutputAccess(w->comm, &access));
   PetscCallH5Id(w->file, H5Fcreate(path, H5F_ACC_TRUNC, H5P_DEFAULT, access));
   PetscCallH5(H5Pclose(access));
-  PetscCall(WriterAttributeReal_Private(w->file, "time", time));
-  PetscCall(WriterAttributeInt_Private(w->file, "step", step));
-  PetscCall(WriterAttributeInt_Private(w->file, "pass", pass));
-  PetscCall(WriterAttributeReal_Private(w->file, "load_time", load_time));
+  PetscCall(OutputAttributeReal(w->file, "time", time));
+  PetscCall(OutputAttributeInt(w->file, "step", step));
+  PetscCall(OutputAttributeInt(w->file, "pass", pass));
+  PetscCall(OutputAttributeReal(w->file, "load_time", load_time));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -276,7 +297,7 @@ PetscErrorCode WriterEnd(Writer w)
   PetscCheck(w->file >= 0, w->comm, PETSC_ERR_ORDER, "WriterEnd without WriterBegin");
   PetscCall(WriterGridEnd_Private(w));
   PetscCallH5(H5Fflush(w->file, H5F_SCOPE_GLOBAL)); /* "complete" must not reach the disk before the data */
-  PetscCall(WriterAttributeInt_Private(w->file, "complete", 1));
+  PetscCall(OutputAttributeInt(w->file, "complete", 1));
   PetscCallH5(H5Fclose(w->file));
   w->file = -1;
   w->num++;

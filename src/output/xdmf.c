@@ -121,9 +121,66 @@ PetscErrorCode IndexText(Index index, OutputText *text)
   for (PetscInt i = index->num - 1; i >= 0; i--) {
     IndexSeries *series = &index->series[i];
 
+    if (!series->states.used) continue;
     PetscCall(OutputTextPrint(text, "    <Grid Name=\"%s\" GridType=\"Collection\" CollectionType=\"Temporal\">\n%s    </Grid>\n", series->name,
                               series->states.text));
   }
   PetscCall(OutputTextPrint(text, "  </Domain>\n</Xdmf>\n"));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- reading it again ---------------------------------------------------------------------------------------------------------- */
+
+/* The number that follows these words in an entry. */
+static PetscBool Number_Private(const char *entry, const char *end, const char *words, double *number)
+{
+  const char *at = strstr(entry, words);
+
+  if (!at || at >= end) return PETSC_FALSE;
+  *number = strtod(at + strlen(words), NULL);
+  return PETSC_TRUE;
+}
+
+/* Take over the entries of one collection, text .. end, up to a load step. *num: states they belong to; *time: of the last one. */
+static PetscErrorCode Collection_Private(Index index, const char *text, const char *end, PetscInt step, PetscInt *num, PetscReal *time, PetscBool *ours)
+{
+  IndexSeries *series = NULL;
+  char         name[MORTISE_NAME];
+
+  PetscFunctionBegin;
+  PetscCall(PetscSNPrintf(name, sizeof(name), "%.*s", (int)strcspn(text, "\""), text));
+  PetscCall(IndexSeries_Private(index, name, &series));
+  for (const char *entry = strstr(text, "\n      <Grid Name="); entry && entry < end; entry = strstr(entry + 1, "\n      <Grid Name=")) {
+    const char *stop = strstr(entry, "\n      </Grid>\n");
+    double      at, of, file;
+    *ours = (PetscBool)(stop && stop < end && Number_Private(entry, stop, "<Time Value=\"", &at) &&
+                        Number_Private(entry, stop, "Name=\"step\" Value=\"", &of) && Number_Private(entry, stop, ">fields_", &file));
+    if (!*ours || of > step) break;
+    stop += strlen("\n      </Grid>\n");
+    PetscCall(OutputTextPrint(&series->states, "%.*s", (int)(stop - entry - 1), entry + 1));
+    *num  = PetscMax(*num, (PetscInt)file + 1);
+    *time = PetscMax(*time, (PetscReal)at);
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode IndexRead(Index index, const char *text, PetscInt step, PetscInt *num, PetscReal *time, PetscBool *ours)
+{
+  static const char begin[] = "\n    <Grid Name=\"";
+
+  PetscFunctionBegin;
+  *ours = PETSC_TRUE;
+  *num  = 0;
+  *time = 0;
+  for (const char *at = strstr(text, begin); at && *ours; at = strstr(at + 1, begin)) {
+    const char *end = strstr(at, "\n    </Grid>\n");
+    *ours           = (PetscBool)(end != NULL);
+    if (end) PetscCall(Collection_Private(index, at + strlen(begin), end + 1, step, num, time, ours));
+  }
+  for (PetscInt i = 0, k = index->num - 1; i < k; ++i, --k) { /* they stand in the opposite order */
+    const IndexSeries swap = index->series[i];
+    index->series[i]       = index->series[k];
+    index->series[k]       = swap;
+  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -48,6 +48,24 @@ PetscErrorCode ProblemFollow(Problem p, Vec from, Vec to, PetscReal *length)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscErrorCode ProblemGetPath(Problem p, Vec *direction)
+{
+  PetscFunctionBegin;
+  *direction = p->following ? p->path : NULL;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode ProblemFollowAlong(Problem p, Vec direction, Vec to)
+{
+  PetscFunctionBegin;
+  if (!p->path) PetscCall(VecDuplicate(p->prototype, &p->path));
+  PetscCall(VecCopy(direction, p->path));
+  PetscCall(VecDot(p->path, to, &p->path_start));
+  p->path_advance = 0;
+  p->following    = PETSC_TRUE;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode ProblemAdvance(Problem p, PetscReal advance)
 {
   PetscFunctionBegin;

@@ -339,6 +339,21 @@ PetscErrorCode ProblemSetMultipliers(Problem p, PetscInt pair, const PetscReal z
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscErrorCode ProblemGetMultipliers(Problem p, PetscInt pair, Vec x, PetscReal z[], PetscBool own[])
+{
+  const Contact   *c = &p->contacts[pair];
+  const PetscReal *array;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetArrayRead(x, &array));
+  for (PetscInt j = 0; j < c->side[0].num_nodes; ++j) {
+    if (c->zlocal[j] >= 0) z[j] = array[c->zlocal[j]];
+    if (own) own[j] = (PetscBool)(c->zlocal[j] >= 0);
+  }
+  PetscCall(VecRestoreArrayRead(x, &array));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode ProblemStepBegin(Problem p, Vec x, Vec dx)
 {
   const HPTables *v;

@@ -127,6 +127,9 @@ const Option Options[] = {
     {"output.divide", KEY_WORD, "", "auto", "auto|1|2|3|4|5|6|7|8", "pieces of a cell in each direction in fields.xdmf; auto: as many as its order",
      SCENE(data.output.divide)},
     {"output.segments", KEY_BOOL, "", "false", "", "write the contact segments too", SCENE(data.output.segments)},
+    {"output.checkpoint", KEY_INT, "load steps", "1", NOT_BELOW,
+     "write checkpoint.h5, from which -restart goes on, every so many accepted load steps, and at the end; 0: only when the run is stopped",
+     SCENE(data.output.checkpoint)},
 
     {"probe.<name>.<axis>", KEY_REAL, "length", "0", ANY, "reference point whose fields go to history.csv and summary.json", PROBE(spec.X)},
     {NULL, KEY_TEXT, NULL, NULL, NULL, NULL, NOWHERE},

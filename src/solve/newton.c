@@ -78,7 +78,8 @@ static PetscErrorCode LinearStep_Private(SNES snes, Solver s, Vec x, Vec dx, Pet
     if (!*ok) PetscFunctionReturn(PETSC_SUCCESS);
     changed = 0;
     if (pass < s->passes) PetscCall(ProblemSwitchActiveSet(s->problem, dx, s->rhs, &changed, &violation));
-    if (!changed) break;
+    if (changed) PetscCall(StopAsked(PetscObjectComm((PetscObject)snes), &s->report->stopped));
+    if (!changed || s->report->stopped) break;
     s->report->set_changes += changed;
     PetscCall(PetscInfo(snes, "active-set pass %" PetscInt_FMT ": %" PetscInt_FMT " nodes switched, contradiction %g\n", pass, changed, (double)violation));
     if (violation < least) PetscCall(VecCopy(dx, s->best));
@@ -192,6 +193,15 @@ static PetscErrorCode Verdict_Private(SNES snes, Solver s, PetscReal norm)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Give up when somebody asks to. */
+static PetscErrorCode Obey_Private(SNES snes, Solver s)
+{
+  PetscFunctionBegin;
+  PetscCall(StopAsked(PetscObjectComm((PetscObject)snes), &s->report->stopped));
+  if (s->report->stopped) PetscCall(Finish_Private(snes, s, SNES_DIVERGED_MAX_IT, "the run was asked to stop"));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* The linearisation at x and its solution. */
 static PetscErrorCode Linearise_Private(SNES snes, Solver s, Vec x, Vec r, Vec dx, PetscBool *ok)
 {
@@ -266,6 +276,7 @@ static PetscErrorCode SNESSolve_ContactNewton(SNES snes)
     s->report->scale    = s->report->status.scale;
     PetscCall(SNESMonitor(snes, snes->iter, norm));
     PetscCall(Verdict_Private(snes, s, norm));
+    if (snes->reason == SNES_CONVERGED_ITERATING) PetscCall(Obey_Private(snes, s));
     if (snes->reason != SNES_CONVERGED_ITERATING) break;
     PetscCall(Iterate_Private(snes, s, x, r, snes->vec_sol_update));
     ++snes->iter;

@@ -61,16 +61,15 @@ static PetscErrorCode OldValue_Private(const TransferContext *c, const OldCells 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Write a Cartesian value as dofs of a node. */
-static PetscErrorCode SetNode_Private(HPSpace space, PetscInt dim, PetscInt node, const PetscReal u[3], PetscReal local[])
+PetscErrorCode TransferTurn_Private(HPSpace space, PetscInt dim, PetscInt node, PetscBool back, const PetscReal from[], PetscReal to[])
 {
   const PetscReal *frame;
 
   PetscFunctionBegin;
   PetscCall(HPSpaceGetFrame(space, node, &frame));
   for (PetscInt k = 0; k < dim; ++k) {
-    local[node * dim + k] = frame ? 0 : u[k];
-    for (PetscInt a = 0; frame && a < dim; ++a) local[node * dim + k] += frame[3 * k + a] * u[a];
+    to[k] = frame ? 0 : from[k];
+    for (PetscInt a = 0; frame && a < dim; ++a) to[k] += (back ? frame[3 * a + k] : frame[3 * k + a]) * from[a];
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -92,7 +91,7 @@ PetscErrorCode TransferDisplacement_Private(const TransferContext *c, const OldC
     PetscCall(HPSpaceGetAxisOrders(c->new_space, entity, orders));
     PetscCall(NodePlace_Private(t, entity, d, orders, n - start, place));
     PetscCall(OldValue_Private(c, old, leaf, place, basis, u));
-    PetscCall(SetNode_Private(c->new_space, t->dim, n, u, local));
+    PetscCall(TransferTurn_Private(c->new_space, t->dim, n, PETSC_FALSE, u, local + n * t->dim));
   }
   PetscCall(PetscFree(basis));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -34,6 +34,8 @@ PetscErrorCode OldCellsFetch_Private(const TransferContext *, const OldFields *,
 PetscErrorCode OldCellsDestroy_Private(OldCells *);
 /* solution.c: old coordinates xi of the point `place` of a new leaf; PETSC_FALSE: outside. */
 PetscBool TransferPlace_Private(const TransferContext *, PetscInt new_leaf, const PetscReal place[], PetscInt old_leaf, PetscReal xi[3]);
+/* Cartesian components as dofs of a node, or (back) dofs as Cartesian components. */
+PetscErrorCode TransferTurn_Private(HPSpace, PetscInt dim, PetscInt node, PetscBool back, const PetscReal from[], PetscReal to[]);
 /* Dofs of the new space's true nodes owned here, in the frames of the new space; other entries of local stay. Not collective. */
 PetscErrorCode TransferDisplacement_Private(const TransferContext *, const OldCells *, PetscReal local[]);
 /* pressure.c: coefficients of the new mixed cells owned here, of incompressible ones in unknown (NULL: there are none). Not collective. */

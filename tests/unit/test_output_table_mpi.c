@@ -83,6 +83,52 @@ static void UnwritablePlaceFailsOnAllRanks(void **unused)
   cJSON_Delete(document);
 }
 
+/* First rank: put a text into the file. */
+static void Put(const char *text)
+{
+  FILE *file = rank ? NULL : fopen(path, "w");
+
+  if (!file) return;
+  fputs(text, file);
+  fclose(file);
+}
+
+/* A table goes on after the rows of a step; what follows them is dropped, but not before there is a row to put in its place. */
+static void TableGoesOn(void **unused)
+{
+  const char *const names[] = {"step", "pass", "t"}, *const others[] = {"step", "t", "pass"};
+  const PetscReal   row[]   = {3, 0, 1.0 / 3};
+  static const char whole[] = "step,pass,t\n1,0,0.1\n2,0,0.2\n2,1,0.2\n3,0,0.4\n3,1,0.4\n4,";
+  Table             t;
+
+  snprintf(path, sizeof(path), "%s/b.csv", directory);
+  Put(whole);
+  assert_int_equal(TableResume(PETSC_COMM_WORLD, path, 3, names, 2, 0.2, &t), 0);
+  if (rank == 0) assert_string_equal(Text(), whole);
+  assert_int_equal(TableRow(t, row), 0);
+  assert_int_equal(TableRow(t, row), 0);
+  assert_int_equal(TableDestroy(&t), 0);
+  if (rank == 0) assert_string_equal(Text(), "step,pass,t\n1,0,0.1\n2,0,0.2\n2,1,0.2\n3,0,0.333333333333\n3,0,0.333333333333\n");
+  assert_int_equal(TableResume(PETSC_COMM_WORLD, path, 3, names, 0, 0, &t), 0); /* before the first step */
+  assert_int_equal(TableRow(t, row), 0);
+  assert_int_equal(TableDestroy(&t), 0);
+  if (rank == 0) assert_string_equal(Text(), "step,pass,t\n3,0,0.333333333333\n");
+
+  assert_int_equal(ErrorHandlerPush(), 0);
+  Put(whole);
+  assert_int_equal(TableResume(PETSC_COMM_WORLD, path, 3, others, 2, 0.2, &t), MORTISE_ERR_INPUT);
+  assert_int_equal(TableResume(PETSC_COMM_WORLD, path, 2, names, 2, 0.2, &t), MORTISE_ERR_INPUT);
+  assert_int_equal(TableResume(PETSC_COMM_WORLD, path, 3, names, 2, 0.3, &t), MORTISE_ERR_INPUT); /* another run's */
+  assert_int_equal(TableResume(PETSC_COMM_WORLD, path, 3, names, 4, 0.5, &t), MORTISE_ERR_INPUT); /* row 4 has no end */
+  if (rank == 0) assert_string_equal(Text(), whole);
+  assert_int_equal(PetscPopErrorHandler(), 0);
+  if (rank == 0) unlink(path);
+  assert_int_equal(MPI_Barrier(PETSC_COMM_WORLD), 0);
+  assert_int_equal(TableResume(PETSC_COMM_WORLD, path, 3, names, 2, 0.2, &t), 0); /* not there: a new one */
+  assert_int_equal(TableDestroy(&t), 0);
+  if (rank == 0) assert_string_equal(Text(), "step,pass,t\n");
+}
+
 static int Begin(void **unused)
 {
   if (rank == 0 && !mkdtemp(directory)) return 1;
@@ -97,7 +143,7 @@ static int End(void **unused)
 
 int main(int argc, char **argv)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(RowsAreThereAtOnce), cmocka_unit_test(DocumentIsReplaced),
+  const struct CMUnitTest tests[] = {cmocka_unit_test(RowsAreThereAtOnce), cmocka_unit_test(DocumentIsReplaced), cmocka_unit_test(TableGoesOn),
                                      cmocka_unit_test(UnwritablePlaceFailsOnAllRanks)};
   int                     failed;
 

@@ -194,6 +194,56 @@ static void UnfinishedStateShows(void **unused)
   Write(NULL); /* leave the good series behind */
 }
 
+/* The index as it stands, on the first rank; freed by the caller. */
+static char *IndexNow(void)
+{
+  char  path[PETSC_MAX_PATH_LEN], *text = calloc(1, 1 << 16);
+  FILE *file;
+
+  if (rank) return text;
+  snprintf(path, sizeof(path), "%s/fields.xdmf", directory);
+  file = fopen(path, "r");
+  assert_non_null(file);
+  assert_in_range(fread(text, 1, (1 << 16) - 1, file), 100, (1 << 16) - 2);
+  fclose(file);
+  return text;
+}
+
+/* A series goes on after the states of a load step: the same index as if it had never been broken off. Later states stay until the next one is written. */
+static void SeriesGoesOn(void **unused)
+{
+  Writer   w;
+  PetscInt num;
+  char    *before = IndexNow(), *after, later[PETSC_MAX_PATH_LEN];
+
+  snprintf(later, sizeof(later), "%s/fields_0007.h5", directory);
+  if (rank == 0) fclose(fopen(later, "w"));
+  assert_int_equal(WriterResume(PETSC_COMM_WORLD, directory, 4, 1, &w), 0);
+  assert_int_equal(WriterNumStates(w, &num), 0);
+  assert_int_equal(num, 1);
+  after = IndexNow();
+  assert_string_equal(before, after);
+  free(after);
+  if (rank == 0) assert_int_equal(access(later, F_OK), 0);
+  assert_int_equal(WriterBegin(w, 0.1 + 0.2, 5, 1, 0.25), 0);
+  if (rank == 0) assert_int_not_equal(access(later, F_OK), 0);
+  Bulk(w);
+  Contact(w, PETSC_TRUE);
+  assert_int_equal(WriterEnd(w), 0);
+  after = IndexNow();
+  assert_string_equal(before, after);
+  free(after);
+  free(before);
+  assert_int_equal(WriterDestroy(&w), 0);
+
+  assert_int_equal(ErrorHandlerPush(), 0);
+  assert_int_equal(WriterResume(PETSC_COMM_WORLD, directory, 4, 2, &w), MORTISE_ERR_INPUT);
+  assert_int_equal(WriterDestroy(&w), 0);
+  assert_int_equal(WriterResume(PETSC_COMM_WORLD, directory, 5, 1, &w), MORTISE_ERR_INPUT);
+  assert_int_equal(WriterDestroy(&w), 0);
+  assert_int_equal(PetscPopErrorHandler(), 0);
+}
+
 static void WrongUseIsAnError(void **unused)
 {
   Writer    w;
@@ -242,6 +292,7 @@ int main(int argc, char **argv)
       cmocka_unit_test(AttributesAreThere),
       cmocka_unit_test(EmptyGridIsEmpty),
       cmocka_unit_test(UnfinishedStateShows),
+      cmocka_unit_test(SeriesGoesOn),
       cmocka_unit_test(WrongUseIsAnError),
   };
   int failed;

@@ -1,0 +1,59 @@
+/* Requests to stop: signals, and a limit of wall time. Signals belong to the process, so this is global; the handler only takes a note, and the ranks agree
+   on it where they ask. */
+#include "base.h"
+#include <signal.h>
+
+#define TIME_UP 1000 /* no signal has this number */
+
+static volatile sig_atomic_t stop_signal;
+static PetscBool             stop_watched;
+static PetscLogDouble        stop_start;
+static PetscReal             stop_seconds; /* 0: no limit */
+static int                   stop_decided; /* by all ranks: signal or TIME_UP */
+
+static const struct {
+  int         number;
+  const char *name;
+} Signals[] = {{SIGTERM, "SIGTERM"}, {SIGUSR1, "SIGUSR1"}, {SIGINT, "SIGINT"}};
+
+static void Note_Private(int number)
+{
+  stop_signal = number;
+}
+
+PetscErrorCode StopWatch(PetscReal seconds)
+{
+  struct sigaction action = {.sa_handler = Note_Private, .sa_flags = SA_RESTART | SA_RESETHAND}; /* the second one of a kind ends the program at once */
+
+  PetscFunctionBegin;
+  PetscCall(PetscTime(&stop_start));
+  stop_seconds = seconds;
+  stop_watched = PETSC_TRUE;
+  sigemptyset(&action.sa_mask);
+  for (size_t i = 0; i < PETSC_STATIC_ARRAY_LENGTH(Signals); ++i)
+    PetscCheck(!sigaction(Signals[i].number, &action, NULL), PETSC_COMM_SELF, PETSC_ERR_SYS, "sigaction failed for %s", Signals[i].name);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode StopAsked(MPI_Comm comm, PetscBool *stop)
+{
+  PetscLogDouble now;
+  int            wish = (int)stop_signal;
+
+  PetscFunctionBegin;
+  *stop = (PetscBool)(stop_decided != 0);
+  if (!stop_watched || stop_decided) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(PetscTime(&now));
+  if (!wish && stop_seconds > 0 && now - stop_start >= stop_seconds) wish = TIME_UP;
+  PetscCallMPI(MPI_Allreduce(&wish, &stop_decided, 1, MPI_INT, MPI_MAX, comm));
+  *stop = (PetscBool)(stop_decided != 0);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+const char *StopReason(void)
+{
+  for (size_t i = 0; i < PETSC_STATIC_ARRAY_LENGTH(Signals); ++i) {
+    if (stop_decided == Signals[i].number) return Signals[i].name;
+  }
+  return stop_decided == TIME_UP ? "-max_seconds" : "";
+}

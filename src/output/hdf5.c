@@ -1,0 +1,45 @@
+/* What the writers of HDF5 files share. */
+#include "outputimpl.h"
+
+/* A scalar attribute of an object. */
+PetscErrorCode OutputAttribute(hid_t object, const char *name, hid_t stored, hid_t type, const void *value)
+{
+  hid_t space, attribute;
+
+  PetscFunctionBegin;
+  PetscCallH5Id(space, H5Screate(H5S_SCALAR));
+  PetscCallH5Id(attribute, H5Acreate2(object, name, stored, space, H5P_DEFAULT, H5P_DEFAULT));
+  PetscCallH5(H5Awrite(attribute, type, value));
+  PetscCallH5(H5Aclose(attribute));
+  PetscCallH5(H5Sclose(space));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode OutputAttributeInt(hid_t object, const char *name, PetscInt value)
+{
+  int64_t wide = value;
+
+  PetscFunctionBegin;
+  PetscCall(OutputAttribute(object, name, H5T_STD_I64LE, H5T_NATIVE_INT64, &wide));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode OutputAttributeReal(hid_t object, const char *name, PetscReal value)
+{
+  double wide = value;
+
+  PetscFunctionBegin;
+  PetscCall(OutputAttribute(object, name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, &wide));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode OutputAccess(MPI_Comm comm, hid_t *access)
+{
+  PetscMPIInt size;
+
+  PetscFunctionBegin;
+  PetscCallMPI(MPI_Comm_size(comm, &size));
+  PetscCallH5Id(*access, H5Pcreate(H5P_FILE_ACCESS));
+  if (size > 1) PetscCallH5(H5Pset_fapl_mpio(*access, comm, MPI_INFO_NULL));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

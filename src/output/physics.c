@@ -1,0 +1,107 @@
+/* What a scene must share with the one that wrote a checkpoint, as text: one line each, so that a difference can be shown. */
+#include "outputimpl.h"
+
+static PetscErrorCode Fibers_Private(const MaterialSpec *m, OutputText *text)
+{
+  PetscFunctionBegin;
+  for (PetscInt i = 0; i < m->num_fibers; ++i) {
+    const MaterialFiber *f = &m->fiber[i];
+    PetscCall(OutputTextPrint(text, ", fiber %s k1 %.15g k2 %.15g", f->name, (double)f->k1, (double)f->k2));
+    if (f->straight)
+      PetscCall(OutputTextPrint(text, " along (%.15g %.15g %.15g)", (double)f->direction[0], (double)f->direction[1], (double)f->direction[2]));
+    else
+      PetscCall(OutputTextPrint(text, " at %.15g degrees, frame about %c through (%.15g %.15g %.15g)", (double)f->angle, 'x' + m->frame.axis,
+                                (double)m->frame.point[0], (double)m->frame.point[1], (double)m->frame.point[2]));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode Material_Private(const MaterialSpec *m, OutputText *text)
+{
+  PetscFunctionBegin;
+  PetscCall(OutputTextPrint(text, "%s", m->law->name));
+  if (!m->law->rigid) PetscCall(OutputTextPrint(text, ", volumetric %s, %s", VolumetricNames[m->volumetric], m->mixed ? "mixed" : "displacement"));
+  for (const MaterialParameter *p = m->law->parameters; p && p->name; ++p) {
+    const PetscReal value = m->parameter[p - m->law->parameters]; /* NaN: not given */
+    if (!PetscIsNanReal(value)) PetscCall(OutputTextPrint(text, ", %s %.15g", p->name, (double)value));
+  }
+  PetscCall(Fibers_Private(m, text));
+  PetscCall(OutputTextPrint(text, "\n"));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode Pair_Private(const ContactSpec *c, const CoarseMesh *mesh, OutputText *text)
+{
+  PetscFunctionBegin;
+  PetscCall(OutputTextPrint(text, "contact.%s: nonmortar %s, mortar %s, order %s, multiplier %s, projection %s, initial_gap %s, friction %.15g, ", c->name,
+                            mesh->boundary_name[c->nonmortar], mesh->boundary_name[c->mortar], c->full ? "full" : "1", c->standard ? "standard" : "dual",
+                            c->continuous ? "continuous" : "facet", c->adjust ? "adjust" : "keep", (double)c->friction));
+  PetscCall(OutputTextPrint(text, "interference %.15g%s\n", (double)c->interference, c->node_to_segment ? ", node_to_segment" : ""));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode OutputPhysics(const SceneData *scene, const CoarseMesh *mesh, OutputText *text)
+{
+  const MechanicsSpec *m = &scene->mechanics;
+
+  PetscFunctionBegin;
+  PetscCall(OutputTextPrint(text, "model: %s\nkinematics: %s\n", ModelNames[m->model], KinematicsNames[m->kinematics]));
+  PetscCall(OutputTextPrint(text, "load.control: %s\n", scene->load.control == LOAD_TIME ? "time" : "arc_length"));
+  for (PetscInt b = 0; b < m->num_boundaries; ++b) {
+    const BoundarySpec *spec = &m->boundaries[b];
+    if (spec->volume || spec->advance) PetscCall(OutputTextPrint(text, "boundary.%s: %s\n", spec->name, spec->volume ? "volume" : "advance"));
+  }
+  for (PetscInt b = 0; b < m->num_bodies; ++b) {
+    const PetscInt *along = m->bodies[b].order_along;
+    PetscCall(OutputTextPrint(text, "body.%s: ", mesh->body_name[b]));
+    if (along[0] || along[1] || along[2])
+      PetscCall(OutputTextPrint(text, "order %" PetscInt_FMT ", along x, y, z %" PetscInt_FMT " %" PetscInt_FMT " %" PetscInt_FMT ", ", m->bodies[b].order,
+                                along[0], along[1], along[2]));
+    PetscCall(Material_Private(m->bodies[b].material, text));
+  }
+  for (PetscInt i = 0; i < scene->num_contacts; ++i) PetscCall(Pair_Private(&scene->contacts[i], mesh, text));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Length of the item of a list "a, b, c" that begins here, in a line of so many characters. */
+static size_t Item_Private(const char *item, size_t rest)
+{
+  const char *comma = strstr(item, ", ");
+
+  return comma && comma < item + rest ? (size_t)(comma - item) : rest;
+}
+
+/* Where two lines that begin with the same key differ. */
+static void Narrow_Private(const char *a, size_t m, const char *b, size_t n, char what[2][OUTPUT_DIFFERENCE])
+{
+  const size_t key = strcspn(a, ":");
+  size_t       at  = key + 2; /* a list of items follows */
+
+  while (at < m && at < n) {
+    const size_t i = Item_Private(a + at, m - at), k = Item_Private(b + at, n - at);
+    if (i != k || strncmp(a + at, b + at, i)) break;
+    at += i + 2;
+  }
+  const size_t i = at < m ? Item_Private(a + at, m - at) : 0, k = at < n ? Item_Private(b + at, n - at) : 0;
+  snprintf(what[0], OUTPUT_DIFFERENCE, "%.*s: %.*s", (int)key, a, (int)i, a + PetscMin(at, m));
+  snprintf(what[1], OUTPUT_DIFFERENCE, "%.*s: %.*s", (int)key, b, (int)k, b + PetscMin(at, n));
+}
+
+PetscBool OutputFirstDifference(const char *a, const char *b, char what[2][OUTPUT_DIFFERENCE])
+{
+  while (*a || *b) {
+    const size_t m = strcspn(a, "\n"), n = strcspn(b, "\n"), key = strcspn(a, ":");
+    if (m != n || strncmp(a, b, m)) {
+      if (m && key == strcspn(b, ":") && !strncmp(a, b, key))
+        Narrow_Private(a, m, b, n, what);
+      else {
+        snprintf(what[0], OUTPUT_DIFFERENCE, "%.*s", (int)strcspn(a, ":\n"), a);
+        snprintf(what[1], OUTPUT_DIFFERENCE, "%.*s", (int)strcspn(b, ":\n"), b);
+      }
+      return PETSC_TRUE;
+    }
+    a += m + (a[m] == '\n');
+    b += n + (b[n] == '\n');
+  }
+  return PETSC_FALSE;
+}

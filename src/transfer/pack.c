@@ -1,0 +1,404 @@
+/* A state as arrays in an order that every partition shares: displacements by entity (vertices, edges, faces, cells) and the entity's nodes, what belongs to
+   cells by leaf, multipliers by node of the nonmortar side. Each rank knows where its own values lie; messages follow from that. */
+#include "transferimpl.h"
+
+/* This rank's values of a field and their places in it. */
+typedef struct {
+  PetscInt   num, total;
+  PetscInt  *index; /* owned [num] */
+  PetscReal *value; /* owned [num] */
+} Places;
+
+static PetscErrorCode PlacesCreate_Private(PetscInt num, PetscInt total, Places *p)
+{
+  PetscFunctionBegin;
+  p->num   = num;
+  p->total = total;
+  PetscCall(PetscMalloc2(num, &p->index, num, &p->value));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode PlacesDestroy_Private(Places *p)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscFree2(p->index, p->value));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* A field from what all ranks have of it; entries that nobody has are 0. */
+static PetscErrorCode Send_Private(MPI_Comm comm, const Places *p, Vec *field)
+{
+  PetscFunctionBegin;
+  PetscCall(VecCreateMPI(comm, PETSC_DECIDE, p->total, field));
+  PetscCall(VecSetValues(*field, p->num, p->index, p->value, INSERT_VALUES));
+  PetscCall(VecAssemblyBegin(*field));
+  PetscCall(VecAssemblyEnd(*field));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* This rank's values from a field. */
+static PetscErrorCode Fetch_Private(Vec field, Places *p)
+{
+  Vec        values;
+  IS         index;
+  VecScatter scatter;
+  PetscInt   size;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetSize(field, &size));
+  PetscCheck(size == p->total, PETSC_COMM_SELF, PETSC_ERR_ARG_SIZ, "A packed field of %" PetscInt_FMT " numbers for a problem with %" PetscInt_FMT, size,
+             p->total);
+  PetscCall(VecCreateSeqWithArray(PETSC_COMM_SELF, 1, p->num, p->value, &values));
+  PetscCall(ISCreateGeneral(PETSC_COMM_SELF, p->num, p->index, PETSC_USE_POINTER, &index));
+  PetscCall(VecScatterCreate(field, index, values, NULL, &scatter));
+  PetscCall(VecScatterBegin(scatter, field, values, INSERT_VALUES, SCATTER_FORWARD));
+  PetscCall(VecScatterEnd(scatter, field, values, INSERT_VALUES, SCATTER_FORWARD));
+  PetscCall(VecScatterDestroy(&scatter));
+  PetscCall(ISDestroy(&index));
+  PetscCall(VecDestroy(&values));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- displacements: Cartesian, of true nodes, prescribed ones among them -------------------------------------------------- */
+
+/* First number of each entity's nodes, [num_entities + 1]; hanging entities have none. */
+static PetscErrorCode EntityOffsets_Private(HPSpace space, const ForestTables *t, PetscInt **offset)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(t->num_entities + 1, offset));
+  (*offset)[0] = 0;
+  for (PetscInt e = 0, d = 0; e < t->num_entities; ++e) {
+    PetscInt orders[3], nodes = 1;
+    while (e >= t->first[d + 1]) ++d;
+    PetscCall(HPSpaceGetAxisOrders(space, e, orders));
+    for (PetscInt a = 0; a < d; ++a) nodes *= orders[a] - 1;
+    (*offset)[e + 1] = (*offset)[e] + (t->parent[e] >= 0 ? 0 : nodes);
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Places of the true nodes that this rank owns, dim each, and the local nodes they are, node[num/dim]. */
+static PetscErrorCode NodePlaces_Private(Problem problem, Places *p, PetscInt **node)
+{
+  const ForestTables *t;
+  const HPTables     *v;
+  Forest              forest;
+  HPSpace             space;
+  PetscMPIInt         rank;
+  PetscInt           *offset, num = 0, start = 0;
+
+  PetscFunctionBegin;
+  PetscCall(ProblemGetForest(problem, &forest));
+  PetscCall(ForestGetTables(forest, &t));
+  PetscCall(ProblemGetSpace(problem, &space));
+  PetscCall(HPSpaceGetTables(space, &v));
+  PetscCallMPI(MPI_Comm_rank(ForestComm(forest), &rank));
+  PetscCall(EntityOffsets_Private(space, t, &offset));
+  PetscCall(PetscMalloc1(v->num_nodes, node));
+  PetscCall(PlacesCreate_Private(v->num_nodes * v->dim, offset[t->num_entities] * v->dim, p));
+  for (PetscInt n = 0; n < v->num_nodes; ++n) {
+    const PetscInt e = v->node_entity[n];
+    if (n && e != v->node_entity[n - 1]) start = n;
+    if (t->parent[e] >= 0 || t->leaf_rank[t->entity_leaf[e]] != rank) continue;
+    for (PetscInt c = 0; c < v->dim; ++c) p->index[num * v->dim + c] = (offset[e] + n - start) * v->dim + c;
+    (*node)[num++] = n;
+  }
+  p->num = num * v->dim;
+  PetscCall(PetscFree(offset));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode PackDisplacement_Private(Problem problem, Vec x, Vec *field)
+{
+  const HPTables *v;
+  Places          p;
+  HPSpace         space;
+  PetscInt       *node;
+  PetscReal      *u;
+
+  PetscFunctionBegin;
+  PetscCall(ProblemGetSpace(problem, &space));
+  PetscCall(HPSpaceGetTables(space, &v));
+  PetscCall(NodePlaces_Private(problem, &p, &node));
+  PetscCall(PetscMalloc1(v->num_nodes * v->dim, &u));
+  PetscCall(ProblemLocalDisplacement(problem, x, u));
+  for (PetscInt i = 0; i < p.num / v->dim; ++i) PetscCall(TransferTurn_Private(space, v->dim, node[i], PETSC_TRUE, u + node[i] * v->dim, p.value + i * v->dim));
+  PetscCall(Send_Private(PetscObjectComm((PetscObject)x), &p, field));
+  PetscCall(PetscFree(u));
+  PetscCall(PetscFree(node));
+  PetscCall(PlacesDestroy_Private(&p));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* *jump: how far prescribed components of the field and of the problem are apart, against the field's largest. */
+static PetscErrorCode UnpackDisplacement_Private(Problem problem, Vec field, Vec x, PetscReal *jump)
+{
+  const HPTables *v;
+  const PetscInt *global;
+  Places          p;
+  HPSpace         space;
+  PetscInt       *node;
+  PetscReal      *u, largest;
+
+  PetscFunctionBegin;
+  PetscCall(ProblemGetSpace(problem, &space));
+  PetscCall(HPSpaceGetTables(space, &v));
+  PetscCall(HPSpaceGetGlobalDofs(space, &global));
+  PetscCall(NodePlaces_Private(problem, &p, &node));
+  PetscCall(Fetch_Private(field, &p));
+  PetscCall(PetscMalloc1(v->num_nodes * v->dim, &u));
+  PetscCall(ProblemLocalDisplacement(problem, x, u));
+  *jump = 0;
+  for (PetscInt i = 0; i < p.num / v->dim; ++i) {
+    PetscReal d[3];
+    PetscCall(TransferTurn_Private(space, v->dim, node[i], PETSC_FALSE, p.value + i * v->dim, d));
+    for (PetscInt c = 0, k = node[i] * v->dim; c < v->dim; ++c, ++k) {
+      if (global[k] < 0) *jump = PetscMax(*jump, PetscAbsReal(u[k] - d[c]));
+      u[k] = d[c];
+    }
+  }
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, jump, 1, MPIU_REAL, MPI_MAX, PetscObjectComm((PetscObject)x)));
+  PetscCall(VecNorm(field, NORM_INFINITY, &largest));
+  if (*jump > 0) *jump /= largest;
+  PetscCall(ProblemSetDisplacement(problem, u, x));
+  PetscCall(PetscFree(u));
+  PetscCall(PetscFree(node));
+  PetscCall(PlacesDestroy_Private(&p));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- what belongs to cells: a block of any length for each leaf ------------------------------------------------------------- */
+
+/* Where the block of an owned cell lies in this rank's array. */
+typedef PetscErrorCode (*BlockRange)(Mechanics, PetscInt cell, PetscInt *first, PetscInt *num);
+
+static PetscErrorCode BlockPlaces_Private(Problem problem, BlockRange range, PetscInt num, Places *p)
+{
+  const ForestTables *t;
+  const HPTables     *v;
+  Forest              forest;
+  HPSpace             space;
+  Mechanics           mechanics;
+  PetscInt           *offset, first, size;
+
+  PetscFunctionBegin;
+  PetscCall(ProblemGetForest(problem, &forest));
+  PetscCall(ForestGetTables(forest, &t));
+  PetscCall(ProblemGetSpace(problem, &space));
+  PetscCall(HPSpaceGetTables(space, &v));
+  PetscCall(ProblemGetMechanics(problem, &mechanics));
+  PetscCall(PetscCalloc1(t->num_leaves + 1, &offset));
+  for (PetscInt c = 0; c < v->num_owned_cells; ++c) PetscCall(range(mechanics, c, &first, &offset[v->cell_leaf[c] + 1]));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, offset, (PetscMPIInt)(t->num_leaves + 1), MPIU_INT, MPI_SUM, ForestComm(forest)));
+  for (PetscInt l = 0; l < t->num_leaves; ++l) offset[l + 1] += offset[l];
+  PetscCall(PlacesCreate_Private(num, offset[t->num_leaves], p));
+  for (PetscInt c = 0; c < v->num_owned_cells; ++c) {
+    PetscCall(range(mechanics, c, &first, &size));
+    for (PetscInt k = 0; k < size; ++k) p->index[first + k] = offset[v->cell_leaf[c]] + k;
+  }
+  PetscCall(PetscFree(offset));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* values[num] of this rank to the field, or (back) from it. */
+static PetscErrorCode Blocks_Private(Problem problem, BlockRange range, PetscInt num, PetscReal values[], PetscBool back, Vec *field)
+{
+  Places p;
+  Forest forest;
+
+  PetscFunctionBegin;
+  PetscCall(ProblemGetForest(problem, &forest));
+  PetscCall(BlockPlaces_Private(problem, range, num, &p));
+  if (back) {
+    PetscCall(Fetch_Private(*field, &p));
+    PetscCall(PetscArraycpy(values, p.value, num));
+  } else {
+    PetscCall(PetscArraycpy(p.value, values, num));
+    PetscCall(Send_Private(ForestComm(forest), &p, field));
+  }
+  PetscCall(PlacesDestroy_Private(&p));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Pressures that are unknowns, of incompressible cells: to the field those that act (the state's displacement was asked for last), or back into x. */
+static PetscErrorCode Unknowns_Private(Problem problem, Vec x, PetscBool back, Vec *field)
+{
+  Mechanics  mechanics;
+  PetscInt   num, all;
+  PetscReal *values;
+
+  PetscFunctionBegin;
+  PetscCall(ProblemGetMechanics(problem, &mechanics));
+  PetscCall(MechanicsNumUnknowns(mechanics, &num, &all));
+  PetscCall(PetscMalloc1(num, &values));
+  if (!back) PetscCall(MechanicsGetPressure(mechanics, 0, num, values));
+  PetscCall(Blocks_Private(problem, MechanicsUnknownRange, num, values, back, field));
+  if (back) PetscCall(ProblemSetPressures(problem, values, x));
+  PetscCall(PetscFree(values));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- multipliers ----------------------------------------------------------------------------------------------------------------- */
+
+static PetscErrorCode Multipliers_Private(Problem problem, PetscInt pair, Vec x, PetscBool back, Vec *field)
+{
+  const ContactView *view;
+  Places             p;
+  PetscReal         *z;
+  PetscBool         *own;
+  PetscInt           num = 0;
+
+  PetscFunctionBegin;
+  PetscCall(ProblemGetContact(problem, pair, &view));
+  const PetscInt total = view->nonmortar.num_nodes;
+  PetscCall(PetscMalloc2(total, &z, total, &own));
+  PetscCall(ProblemGetMultipliers(problem, pair, x, z, own));
+  PetscCall(PlacesCreate_Private(total, total, &p));
+  for (PetscInt j = 0; j < total; ++j) {
+    if (own[j]) p.index[num] = j, p.value[num++] = z[j];
+  }
+  p.num = num;
+  if (back) {
+    PetscCall(Fetch_Private(*field, &p));
+    for (PetscInt i = 0; i < num; ++i) z[p.index[i]] = p.value[i];
+    PetscCall(ProblemSetMultipliers(problem, pair, z, x));
+  } else
+    PetscCall(Send_Private(PetscObjectComm((PetscObject)x), &p, field));
+  PetscCall(PlacesDestroy_Private(&p));
+  PetscCall(PetscFree2(z, own));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- scalars, and the direction of a path --------------------------------------------------------------------------------------- */
+
+static PetscErrorCode Scalars_Private(Problem problem, Vec x, PetscBool back, Vec *field)
+{
+  MPI_Comm    comm = PetscObjectComm((PetscObject)x);
+  PetscMPIInt rank;
+  PetscInt    num;
+  Places      p;
+
+  PetscFunctionBegin;
+  PetscCallMPI(MPI_Comm_rank(comm, &rank));
+  PetscCall(ProblemNumScalars(problem, &num));
+  PetscCall(PlacesCreate_Private(num, num, &p));
+  for (PetscInt i = 0; i < num; ++i) p.index[i] = i;
+  if (back) {
+    PetscCall(Fetch_Private(*field, &p));
+    PetscCall(ProblemSetScalars(problem, p.value, x));
+  } else {
+    PetscCall(ProblemGetScalars(problem, x, p.value));
+    if (rank) p.num = 0; /* all ranks have them */
+    PetscCall(Send_Private(comm, &p, field));
+  }
+  PetscCall(PlacesDestroy_Private(&p));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The path goes on from x as it did. */
+static PetscErrorCode Follow_Private(Problem problem, Vec field, Vec x)
+{
+  Vec       direction;
+  PetscReal jump;
+
+  PetscFunctionBegin;
+  PetscCall(ProblemCreateVector(problem, &direction));
+  PetscCall(UnpackDisplacement_Private(problem, field, direction, &jump)); /* of free components only: what is prescribed has no direction */
+  PetscCall(ProblemFollowAlong(problem, direction, x));
+  PetscCall(VecDestroy(&direction));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- the whole state ------------------------------------------------------------------------------------------------------------- */
+
+static PetscErrorCode Append_Private(Pack *pack, Vec values, const char *format, const char *name)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscSNPrintf(pack->field[pack->num].name, sizeof(pack->field[0].name), format, name));
+  pack->field[pack->num++].values = values;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode TransferPack(Problem problem, const State *state, Pack *pack)
+{
+  const SceneData *scene;
+  Vec              field, path;
+
+  PetscFunctionBegin;
+  PetscCall(ProblemGetScene(problem, &scene));
+  pack->num = 0;
+  PetscCall(PetscMalloc1(6 + scene->num_contacts, &pack->field));
+  PetscCall(ProblemGetPath(problem, &path));
+  if (path) {
+    PetscCall(PackDisplacement_Private(problem, path, &field)); /* before the displacement: its scalars must act last */
+    PetscCall(Append_Private(pack, field, "%s", "path"));
+  }
+  PetscCall(PackDisplacement_Private(problem, state->x, &field));
+  PetscCall(Append_Private(pack, field, "%s", "displacement"));
+  PetscCall(Blocks_Private(problem, MechanicsPressureRange, state->num_pressure, state->pressure, PETSC_FALSE, &field));
+  PetscCall(Append_Private(pack, field, "%s", "pressure"));
+  PetscCall(Blocks_Private(problem, MechanicsHistoryRange, state->num_history, state->history, PETSC_FALSE, &field));
+  PetscCall(Append_Private(pack, field, "%s", "history"));
+  PetscCall(Unknowns_Private(problem, state->x, PETSC_FALSE, &field));
+  PetscCall(Append_Private(pack, field, "%s", "unknown_pressure"));
+  PetscCall(Scalars_Private(problem, state->x, PETSC_FALSE, &field));
+  PetscCall(Append_Private(pack, field, "%s", "scalars"));
+  for (PetscInt i = 0; i < scene->num_contacts; ++i) {
+    PetscCall(Multipliers_Private(problem, i, state->x, PETSC_FALSE, &field));
+    PetscCall(Append_Private(pack, field, "multiplier.%s", scene->contacts[i].name));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static Vec Look_Private(const Pack *pack, const char *name)
+{
+  for (PetscInt i = 0; i < pack->num; ++i)
+    if (!strcmp(pack->field[i].name, name)) return pack->field[i].values;
+  return NULL;
+}
+
+/* The field of that name. */
+static PetscErrorCode Find_Private(const Pack *pack, const char *format, const char *name, Vec *field)
+{
+  char full[2 * MORTISE_NAME];
+
+  PetscFunctionBegin;
+  PetscCall(PetscSNPrintf(full, sizeof(full), format, name));
+  *field = Look_Private(pack, full);
+  PetscCheck(*field, PETSC_COMM_SELF, PETSC_ERR_ARG_INCOMP, "The packed state has no field %s", full);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode TransferUnpack(Problem problem, const Pack *pack, State *state, PetscReal *jump)
+{
+  const SceneData *scene;
+  Vec              field;
+
+  PetscFunctionBegin;
+  PetscCall(ProblemGetScene(problem, &scene));
+  PetscCall(Find_Private(pack, "%s", "unknown_pressure", &field));
+  PetscCall(Unknowns_Private(problem, state->x, PETSC_TRUE, &field));
+  PetscCall(Find_Private(pack, "%s", "scalars", &field));
+  PetscCall(Scalars_Private(problem, state->x, PETSC_TRUE, &field));
+  PetscCall(Find_Private(pack, "%s", "displacement", &field));
+  PetscCall(UnpackDisplacement_Private(problem, field, state->x, jump));
+  if (Look_Private(pack, "path")) PetscCall(Follow_Private(problem, Look_Private(pack, "path"), state->x));
+  PetscCall(Find_Private(pack, "%s", "pressure", &field));
+  PetscCall(Blocks_Private(problem, MechanicsPressureRange, state->num_pressure, state->pressure, PETSC_TRUE, &field));
+  PetscCall(Find_Private(pack, "%s", "history", &field));
+  PetscCall(Blocks_Private(problem, MechanicsHistoryRange, state->num_history, state->history, PETSC_TRUE, &field));
+  for (PetscInt i = 0; i < scene->num_contacts; ++i) {
+    PetscCall(Find_Private(pack, "multiplier.%s", scene->contacts[i].name, &field));
+    PetscCall(Multipliers_Private(problem, i, state->x, PETSC_TRUE, &field));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode PackDestroy(Pack *pack)
+{
+  PetscFunctionBegin;
+  for (PetscInt i = 0; i < pack->num; ++i) PetscCall(VecDestroy(&pack->field[i].values));
+  PetscCall(PetscFree(pack->field));
+  pack->num = 0;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
