@@ -135,6 +135,7 @@ chart: bootstrap
 	@MORTISE=$(abspath $(PROGRAM)) scripts/chart
 	@MORTISE=$(abspath $(PROGRAM)) scripts/chart_hp
 	@MORTISE=$(abspath $(PROGRAM)) scripts/chart_faces
+	@MORTISE=$(abspath $(PROGRAM)) scripts/chart_angioplasty
 	@scripts/chart_search $(BUILD)/bench/contact
 
 bench: bootstrap

@@ -11,7 +11,7 @@ STATES = [  # t; pressure in the bore, balloon on sleeve, sleeve on artery, oute
     (1.4, .40, 0, 0, 6.64698, 1.1767998, 1.4459453),
 ]
 RECOIL = 0.012451
-LINEAR1 = ("-order", 1, "-contact_inside_subdivide", 0, "-contact_outside_subdivide", 0)
+LINEAR1, LINEAR2 = (("-order", order, "-contact_inside_subdivide", 0, "-contact_outside_subdivide", 0) for order in (1, 2))
 FULL = ("-contact_inside_order", "full", "-contact_outside_order", "full", "-contact_inside_subdivide", 0, "-contact_outside_subdivide", 0)
 EXCHANGED = ("-contact_inside_nonmortar", "sleeve_bore", "-contact_inside_mortar", "balloon_skin",
              "-contact_outside_nonmortar", "artery_bore", "-contact_outside_mortar", "sleeve_skin")
@@ -34,13 +34,13 @@ def states(result):
     return {t: figures(row, radius) for t, radius, *_ in STATES for row in result.history if abs(row["t"] - t) < 1e-9}
 
 
-def accurate(result):
+def accurate(result, pressures=0.01):
     found = states(result)
     assert set(found) == {row[0] for row in STATES}, found  # load steps end at the times of the amplitude, whatever was cut
     for t, radius, *reference in STATES:
         print(t, ["%+.1e" % (value / ref - 1 if ref else value) for value, ref in zip(found[t], reference)])
         for k, (value, ref) in enumerate(zip(found[t], reference)):
-            assert abs(value - ref) <= (0.01 if k < 3 else 0.002) * ref + 1e-3 * (ref == 0), (t, k, value, ref)
+            assert abs(value - ref) <= (pressures if k < 3 else 0.002) * ref + 1e-3 * (ref == 0), (t, k, value, ref)
     recoil = 1 - found[1.4][3] / found[.7][3]
     assert abs(recoil / RECOIL - 1) < 0.05, recoil
 
@@ -53,6 +53,22 @@ def test_o70_steps_four_times_larger(run):
 @pytest.mark.parametrize("options", [(), (*LINEAR1, "-mesh_refine", 1), FULL], ids=["order_2", "order_1", "full_faces"])
 def test_o70(run, options):
     accurate(solve(run, *options))
+
+
+@pytest.mark.slow
+def test_o70_adaptive(run):
+    """Order 2, linear faces; histories are carried from mesh to mesh, also after the balloon has left."""
+    result = solve(run, *LINEAR2, "-adapt_tolerance", 0.03, "-adapt_max_cells", 2500)
+    accurate(result)
+    cells = {row["cells"] for row in result.history}
+    assert min(cells) == 180 and len(cells) > 2, cells
+
+
+@pytest.mark.slow
+def test_o70_adaptive_order_1(run):
+    """The pressures to 2 %: beyond its yield stress the sleeve (hardening 120, below its stress) is about to neck, and what the meshes of linear cells have of
+    unevenness around the ring grows with it."""
+    accurate(solve(run, *LINEAR1, "-adapt_tolerance", 0.1, "-adapt_max_cells", 2500), 0.02)
 
 
 @pytest.mark.slow

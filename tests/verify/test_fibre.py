@@ -16,7 +16,7 @@ ADVENTITIA = {"c": 0.3, "k1": 0.5620, "k2": 0.7112}, 62
 
 
 def wall(layer, fiber, ratio=1e5, **keys):
-    return {"law": "hgo", **layer[0], "kappa": ratio * layer[0]["c"], "volumetric": "simo", "fiber": fiber, **keys}
+    return {"law": "hgo", **layer[0], "kappa": ratio * layer[0]["c"] if ratio < math.inf else "inf", "volumetric": "simo", "fiber": fiber, **keys}
 
 
 # ---- O-20: strips -------------------------------------------------------------------------------------------------------------------
@@ -76,13 +76,12 @@ CASES += [pytest.param(MEDIA, {0: x, 1: y}, {}, {0: P, 1: Q}, id=f"media-{x}-{y}
 
 @pytest.mark.parametrize("layer, given, stretch, nominal", CASES)
 def test_o20_strip(run, tmp_path, layer, given, stretch, nominal):
-    """The incompressible table at kappa = 1e7 c, where the bulk modulus is no longer seen; the strip of kappa = 1e5 c, which differs from it by up to
-    6e-5, to the digits of its own solution."""
-    stretches, stresses = pull(run, tmp_path, layer, 1e7, given, 1)
+    """The incompressible table, to its digits; the strip of kappa = 1e5 c, which differs from it by up to 6e-5, to those of its own solution."""
+    stretches, stresses = pull(run, tmp_path, layer, math.inf, given, 1)
     for i, value in stretch.items():
-        close(stretches[i], value, 1e-5)
+        close(stretches[i], value, 1e-9)
     for i, value in nominal.items():
-        close(stresses[i], value, 1e-5)
+        close(stresses[i], value, 1e-9)
     stretches, stresses = pull(run, tmp_path, layer, 1e5, given, 2)
     exact = answer(layer, 1e5, given, stretch)
     for i in range(3):
