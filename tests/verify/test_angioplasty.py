@@ -1,5 +1,7 @@
 """Balloon, sleeve and artery in the cross-section (O-70, inputs/angioplasty2d.yml): three bodies, two gaps that open and close, plastic flow and recoil; exact
 answer. Pressures to 1 %, radii to 0.2 %, recoil to 5 %; roles of the contact faces exchanged (O-91), the full ring, coarser load steps, ranks."""
+import math
+
 import pytest
 
 STATES = [  # t; pressure in the bore, balloon on sleeve, sleeve on artery, outer radii of sleeve and artery
@@ -107,3 +109,23 @@ def test_o70_ranks(run, ranks):
     options = (*LINEAR1, "-load_step", 0.2)
     for a, b in zip(states(solve(run, *options))[1.4], states(solve(run, *options, ranks=ranks))[1.4]):
         assert abs(a - b) <= 1e-8 * max(1, abs(a)), (a, b)
+
+
+@pytest.mark.slow
+def test_o71_slotted_stent(run):
+    """A slotted stent opens, meets the artery and keeps it open when the balloon has gone: forces of the two sides of each pair balance, no step is cut, recoil, dogboning and
+    foreshortening have their signs and sizes."""
+    result = run("inputs/angioplasty3d.yml", "-output_fields", "false")
+    assert result.returncode == 0 and result.summary["step_cuts"] == 0, result
+    widest, last = (next(row for row in result.history if abs(row["t"] - t) < 1e-9) for t in (1, 2))
+
+    def radius(row, name, x, y):
+        return math.hypot(x + row[f"probe.{name}.displacement.x"], y + row[f"probe.{name}.displacement.y"])
+
+    middle, end = ([radius(row, name, x, y) for row in (widest, last)] for name, x, y in (("stent_middle", .562916512, .325), ("stent_end", .65, 0)))
+    lumen = [(radius(row, "lumen_slot", .71, 0) + radius(row, "lumen_strut", .614878037, .355)) / 2 for row in (widest, last)]
+    recoil, dogboning, shortening = 1 - middle[1] / middle[0], end[0] / middle[0] - 1, -widest["probe.stent_end.displacement.z"]
+    print(f"recoil {recoil:.4f} dogboning {dogboning:+.4f} foreshortening {shortening:.4f} plastic strain {last['plastic.strain']:.4f} lumen {lumen[0]:.4f} {lumen[1]:.4f}")
+    assert 0 < recoil < 0.3 and abs(dogboning) < 0.1 and 0 < shortening < 0.05 and lumen[0] > lumen[1] > 0.78
+    assert result.summary["contact"]["stent_in_artery"]["force_imbalance"] < 1e-12
+    assert result.summary["contact"]["balloon_in_stent"]["active_nodes"] == 0 and result.summary["contact"]["stent_in_artery"]["active_nodes"] > 5
