@@ -42,6 +42,9 @@ typedef struct {
   PetscInt  *cell_vertices;            /* [num_cells][2^dim] lexicographic */
   PetscReal *cell_geometry;            /* [num_cells][(q+1)^dim][3] positions at equispaced nodes, lexicographic, q = geometry_order */
   PetscInt  *cell_body;                /* [num_cells] index of the body, -1: in none (input error reported by the scene with the cell's place) */
+  PetscInt   num_fields;               /* views $ElementData of three components in the file */
+  char (*field_name)[MORTISE_NAME];    /* [num_fields] */
+  PetscReal *field;                    /* [num_fields][num_cells][3] the vector of each cell as the file has it, NaN: none */
 } CoarseMesh;
 
 /* Read-only views of a forest's tables, borrowed, valid while the forest lives. */

@@ -21,10 +21,12 @@ typedef struct _MaterialLaw MaterialLaw; /* a row of the table of laws */
 /* A family of parallel fibres. */
 typedef struct {
   char      name[MORTISE_NAME];
-  PetscReal k1, k2;       /* 0 before set-up: those of the law */
-  PetscBool straight;     /* the same direction everywhere; else an angle in the frame */
-  PetscReal direction[3]; /* straight: in the reference configuration; of length 1 after set-up */
-  PetscReal angle;        /* degrees, from the circumferential direction of the frame towards its axis */
+  PetscReal k1, k2;              /* 0 before set-up: those of the law */
+  PetscBool straight;            /* the same direction everywhere; else of a field, or an angle in the frame */
+  PetscReal direction[3];        /* straight: in the reference configuration; of length 1 after set-up */
+  PetscReal angle;               /* degrees, from the circumferential direction of the frame towards its axis */
+  char      field[MORTISE_NAME]; /* of the mesh, that has a vector for each cell; empty: none */
+  const PetscReal (*along)[3];   /* borrowed, of any length: [coarse cells] of the field once the mesh is known, else NULL */
 } MaterialFiber;
 
 /* The axis around which circumferential directions turn: parallel to a coordinate axis, through a point. The circumferential direction at X is
@@ -116,8 +118,9 @@ static inline PetscReal MaterialYoung(const MaterialSpec *spec)
   return 9 * spec->mu / (3 + spec->mu / spec->kappa);
 }
 
-/* Unit vectors of all families at the reference position X; none for laws without fibres. Not collective. */
-void MaterialFiberDirections(const MaterialSpec *, const PetscReal X[3], PetscReal fiber[][3]);
+/* Unit vectors of all families at the reference position X in a coarse cell (which families of a field ask for); none for laws without fibres. Not
+   collective. */
+void MaterialFiberDirections(const MaterialSpec *, PetscInt cell, const PetscReal X[3], PetscReal fiber[][3]);
 
 PetscErrorCode MaterialEvaluate(const MaterialSpec *, MaterialPart, MaterialPoints *);
 

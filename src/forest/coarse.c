@@ -9,6 +9,8 @@ PetscErrorCode ForestCoarseMeshDestroy(CoarseMesh *mesh)
   PetscCall(PetscFree(mesh->cell_vertices));
   PetscCall(PetscFree(mesh->cell_geometry));
   PetscCall(PetscFree(mesh->cell_body));
+  PetscCall(PetscFree(mesh->field_name));
+  PetscCall(PetscFree(mesh->field));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

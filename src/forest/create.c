@@ -19,12 +19,13 @@ static PetscErrorCode BroadcastNames_Private(MPI_Comm comm, PetscMPIInt rank, Pe
 
 static PetscErrorCode Broadcast_Private(MPI_Comm comm, CoarseMesh *mesh, PetscInt *num_facets, PetscInt **facet_vertices, uint64_t **facet_groups)
 {
-  PetscInt    size[7] = {mesh->dim, mesh->num_cells, mesh->num_vertices, mesh->geometry_order, mesh->num_bodies, mesh->num_boundaries, *num_facets};
+  PetscInt    size[8] = {mesh->dim,        mesh->num_cells,      mesh->num_vertices, mesh->geometry_order,
+                         mesh->num_bodies, mesh->num_boundaries, *num_facets,        mesh->num_fields};
   PetscMPIInt rank;
 
   PetscFunctionBegin;
   PetscCallMPI(MPI_Comm_rank(comm, &rank));
-  PetscCallMPI(MPI_Bcast(size, 7, MPIU_INT, 0, comm));
+  PetscCallMPI(MPI_Bcast(size, 8, MPIU_INT, 0, comm));
   mesh->dim            = size[0];
   mesh->num_cells      = size[1];
   mesh->num_vertices   = size[2];
@@ -32,15 +33,19 @@ static PetscErrorCode Broadcast_Private(MPI_Comm comm, CoarseMesh *mesh, PetscIn
   mesh->num_bodies     = size[4];
   mesh->num_boundaries = size[5];
   *num_facets          = size[6];
+  mesh->num_fields     = size[7];
   const PetscInt q1 = mesh->geometry_order + 1, reals = 3 * mesh->num_cells * q1 * q1 * (mesh->dim == 3 ? q1 : 1);
   PetscCall(BroadcastNames_Private(comm, rank, mesh->num_bodies, &mesh->body_name));
   PetscCall(BroadcastNames_Private(comm, rank, mesh->num_boundaries, &mesh->boundary_name));
+  PetscCall(BroadcastNames_Private(comm, rank, mesh->num_fields, &mesh->field_name));
   PetscCall(BroadcastInts_Private(comm, rank, mesh->num_cells << mesh->dim, &mesh->cell_vertices));
   PetscCall(BroadcastInts_Private(comm, rank, mesh->num_cells, &mesh->cell_body));
   PetscCall(BroadcastInts_Private(comm, rank, *num_facets << (mesh->dim - 1), facet_vertices));
   if (rank) PetscCall(PetscMalloc1(reals, &mesh->cell_geometry));
   if (rank) PetscCall(PetscMalloc1(*num_facets, facet_groups));
+  if (rank) PetscCall(PetscMalloc1(3 * mesh->num_fields * mesh->num_cells, &mesh->field));
   PetscCallMPI(MPI_Bcast(mesh->cell_geometry, (PetscMPIInt)reals, MPIU_REAL, 0, comm));
+  PetscCallMPI(MPI_Bcast(mesh->field, (PetscMPIInt)(3 * mesh->num_fields * mesh->num_cells), MPIU_REAL, 0, comm));
   PetscCallMPI(MPI_Bcast(*facet_groups, (PetscMPIInt)*num_facets, MPI_UINT64_T, 0, comm));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -186,3 +186,7 @@ PetscErrorCode ForestReadGmsh(const ForestSpec *, CoarseMesh *, PetscInt *num_fa
 
 /* gmshcheck.c: are the sections of a gmsh file whole, and all nodes that its elements name there? Not collective. */
 PetscErrorCode ForestCheckGmsh(const char *file, int major, PetscBool binary, PetscBool *fine);
+
+/* gmshfield.c: the fields of mesh from an ASCII file that has num_elements of the mesh's dimension; source[num_cells]: the element, in the order of DMPlex, in
+   which each cell lies (NULL: its own). *damage: what is wrong with the file, NULL: nothing. Not collective. */
+PetscErrorCode ForestReadFields(const char *file, int major, PetscInt num_elements, const PetscInt source[], CoarseMesh *mesh, const char **damage);

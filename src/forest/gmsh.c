@@ -21,6 +21,7 @@ typedef struct {
   DM                dm;
   CoarseMesh       *mesh;
   PetscInt          first_vertex, *vertex_id; /* owned, coarse vertex of each DMPlex vertex */
+  PetscInt          num_elements, *source;    /* in the file; owned, that of each cell, NULL: its own */
   PetscInt          num_facets, *facet_vertices;
   uint64_t         *facet_groups;
 } Reader;
@@ -278,6 +279,8 @@ static PetscErrorCode Convert_Private(Reader *r)
 {
   DMPlexTransform transform;
   DM              converted = NULL;
+  DMPolytopeType  from, to;
+  PetscInt        start, end, replica;
 
   PetscFunctionBegin;
   PetscCall(DMPlexTransformCreate(PETSC_COMM_SELF, &transform));
@@ -285,6 +288,9 @@ static PetscErrorCode Convert_Private(Reader *r)
   PetscCall(DMPlexTransformSetDM(transform, r->dm));
   PetscCall(DMPlexTransformSetUp(transform));
   PetscCall(DMPlexTransformApply(transform, r->dm, &converted));
+  PetscCall(DMPlexGetHeightStratum(converted, 0, &start, &end));
+  PetscCall(PetscMalloc1(end - start, &r->source));
+  for (PetscInt c = start; c < end; ++c) PetscCall(DMPlexTransformGetSourcePoint(transform, c, &from, &to, &r->source[c - start], &replica));
   PetscCall(DMPlexTransformDestroy(&transform));
   PetscCall(DMDestroy(&r->dm));
   r->dm = converted;
@@ -310,6 +316,7 @@ static PetscErrorCode LoadShapes_Private(Reader *r)
   PetscCall(CheckDimension_Private(r));
   if (r->message[0]) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(FindShapes_Private(r, &box, &simplex, &other));
+  PetscCall(DMPlexGetHeightStratum(r->dm, 0, NULL, &r->num_elements));
   if (other) FAIL(r, "mesh file '%s' has cells of shape '%s'; only quads, hexes, triangles and tetrahedra can be used", r->spec->file, other);
   if (!simplex) PetscFunctionReturn(PETSC_SUCCESS);
   if (box && r->spec->dim == 3)
@@ -643,11 +650,22 @@ static PetscErrorCode ReadBoundaries_Private(Reader *r)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+static PetscErrorCode ReadFields_Private(Reader *r)
+{
+  const char *damage;
+
+  PetscFunctionBegin;
+  if (r->binary) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(ForestReadFields(r->spec->file, r->major, r->num_elements, r->source, r->mesh, &damage));
+  if (damage) FAIL(r, "mesh file '%s' %s", r->spec->file, damage);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode ForestReadGmsh(const ForestSpec *spec, CoarseMesh *mesh, PetscInt *num_facets, PetscInt **facet_vertices, uint64_t **facet_groups, size_t length,
                               char message[])
 {
-  static PetscErrorCode (*const step[])(Reader *) = {ReadHeader_Private,     LoadShapes_Private, ReadCells_Private,     Orient_Private,
-                                                     NumberVertices_Private, ReadBodies_Private, ReadBoundaries_Private};
+  static PetscErrorCode (*const step[])(Reader *) = {ReadHeader_Private,     LoadShapes_Private, ReadCells_Private,      Orient_Private,
+                                                     NumberVertices_Private, ReadBodies_Private, ReadBoundaries_Private, ReadFields_Private};
   Reader r                                        = {.spec = spec, .message = message, .length = length, .mesh = mesh};
 
   PetscFunctionBegin;
@@ -657,6 +675,7 @@ PetscErrorCode ForestReadGmsh(const ForestSpec *spec, CoarseMesh *mesh, PetscInt
   PetscCall(DMDestroy(&r.dm));
   PetscCall(PetscFree(r.name));
   PetscCall(PetscFree(r.vertex_id));
+  PetscCall(PetscFree(r.source));
   *num_facets     = r.num_facets;
   *facet_vertices = r.facet_vertices;
   *facet_groups   = r.facet_groups;

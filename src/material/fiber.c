@@ -1,4 +1,4 @@
-/* Where the fibres of a material run: straight, or at an angle to the circumferential direction of its frame. */
+/* Where the fibres of a material run: straight, along a field of the mesh, or at an angle to the circumferential direction of its frame. */
 #include "material.h"
 
 static void Circumferential_Private(const MaterialFrame *frame, const PetscReal X[3], PetscReal around[3])
@@ -15,7 +15,14 @@ static void Circumferential_Private(const MaterialFrame *frame, const PetscReal 
   }
 }
 
-void MaterialFiberDirections(const MaterialSpec *spec, const PetscReal X[3], PetscReal fiber[][3])
+static void Along_Private(const PetscReal v[3], PetscReal fiber[3])
+{
+  const PetscReal length = PetscSqrtReal(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+
+  for (int c = 0; c < 3; c++) fiber[c] = v[c] / length;
+}
+
+void MaterialFiberDirections(const MaterialSpec *spec, PetscInt cell, const PetscReal X[3], PetscReal fiber[][3])
 {
   PetscReal around[3];
 
@@ -26,5 +33,6 @@ void MaterialFiberDirections(const MaterialSpec *spec, const PetscReal X[3], Pet
 
     for (int c = 0; c < 3; c++)
       fiber[f][c] = family->straight ? family->direction[c] : PetscCosReal(angle) * around[c] + (c == spec->frame.axis ? PetscSinReal(angle) : 0);
+    if (family->field[0]) Along_Private(family->along[cell], fiber[f]);
   }
 }

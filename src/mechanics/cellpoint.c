@@ -63,7 +63,7 @@ void CellKernelNumFibers(CellKernel k, PetscInt *num)
   *num = 3 * k->material.num_fibers * k->num_points;
 }
 
-PetscErrorCode CellKernelFibers(CellKernel k, const PetscReal *X, PetscReal *fiber)
+PetscErrorCode CellKernelFibers(CellKernel k, PetscInt root, const PetscReal *X, PetscReal *fiber)
 {
   const PetscInt line = k->basis->num_points;
   PetscReal      value[MOST_NODES], gradient[3 * MOST_NODES];
@@ -75,7 +75,7 @@ PetscErrorCode CellKernelFibers(CellKernel k, const PetscReal *X, PetscReal *fib
 
     PetscCall(ElementEvaluate(k->dim, k->order, xi, value, gradient));
     for (PetscInt i = 0; i < k->num_nodes * k->dim; i++) place[i % k->dim] += value[i / k->dim] * X[i];
-    MaterialFiberDirections(&k->material, place, direction);
+    MaterialFiberDirections(&k->material, root, place, direction);
     for (PetscInt i = 0; i < 3 * k->material.num_fibers; i++) fiber[i * k->num_points + q] = direction[i / 3][i % 3];
   }
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -176,8 +176,8 @@ static void FirstPiola_Private(const PetscReal tau[9], const PetscReal F[9], Pet
   for (int c = 0; c < 9; c++) P[c] = Dot3(tau + 3 * (c / 3), inv + 3 * (c % 3));
 }
 
-PetscErrorCode CellKernelPoints(CellKernel k, PetscInt np, const PetscReal *xi, const PetscReal *X, const PetscReal *u, const PetscReal *pressure,
-                                const PetscReal *history, PetscReal *F, PetscReal *P, PetscReal *W, PetscBool *bad)
+PetscErrorCode CellKernelPoints(CellKernel k, PetscInt root, PetscInt np, const PetscReal *xi, const PetscReal *X, const PetscReal *u,
+                                const PetscReal *pressure, const PetscReal *history, PetscReal *F, PetscReal *P, PetscReal *W, PetscBool *bad)
 {
   const PetscBool remembers = (PetscBool)(k->material.law->num_history > 0);
   PetscReal      *values    = NULL;
@@ -192,7 +192,7 @@ PetscErrorCode CellKernelPoints(CellKernel k, PetscInt np, const PetscReal *xi, 
     MaterialPoints point = {.n = 1, .F = f, .fiber = fiber[0], .W = &w, .P = p};
 
     PetscCall(PointGradient_Private(k, xi + q * k->dim, X, u, position, f));
-    MaterialFiberDirections(&k->material, position, fiber);
+    MaterialFiberDirections(&k->material, root, position, fiber);
     for (int c = 0; c < 9; c += 4) f[c] += 1;
     if (remembers) {
       PetscCall(CellKernelInterpolate(k, 1, xi + q * k->dim, REMEMBERED, values, t));

@@ -213,11 +213,17 @@ PetscErrorCode MechanicsUpdatePressure(Mechanics m, const PetscReal du[], PetscR
 
 PetscErrorCode MechanicsPoints(Mechanics m, PetscInt cell, PetscInt np, const PetscReal xi[], const PetscReal u[], PetscReal F[], PetscReal P[], PetscReal W[])
 {
-  const CellGroup *g;
-  PetscReal       *X, *values, consistent[MOST_PRESSURES], *pressure = NULL;
-  PetscBool        bad;
+  const CellGroup    *g;
+  const HPTables     *v;
+  const ForestTables *t;
+  Forest              forest;
+  PetscReal          *X, *values, consistent[MOST_PRESSURES], *pressure = NULL;
+  PetscBool           bad;
 
   PetscFunctionBegin;
+  PetscCall(HPSpaceGetTables(m->space, &v));
+  PetscCall(HPSpaceGetForest(m->space, &forest));
+  PetscCall(ForestGetTables(forest, &t));
   PetscCheck(m->cell_group[cell] >= 0, PETSC_COMM_SELF, PETSC_ERR_ARG_WRONG, "cell %" PetscInt_FMT " is rigid: it has no stress", cell);
   g      = &m->groups[m->cell_group[cell]];
   X      = m->work;
@@ -230,6 +236,7 @@ PetscErrorCode MechanicsPoints(Mechanics m, PetscInt cell, PetscInt np, const Pe
     pressure = consistent;
   }
   if (g->num_unknown) pressure = m->pressure + m->unknown_first[cell];
-  PetscCall(CellKernelPoints(g->kernel, np, xi, X, values, pressure, g->h ? m->history + m->cell_history[cell] : NULL, F, P, W, &bad));
+  PetscCall(CellKernelPoints(g->kernel, t->leaf_root[v->cell_leaf[cell]], np, xi, X, values, pressure, g->h ? m->history + m->cell_history[cell] : NULL, F, P,
+                             W, &bad));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

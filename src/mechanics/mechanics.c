@@ -43,7 +43,7 @@ static PetscErrorCode Groups_Private(Mechanics m, const HPTables *v, const Fores
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode FillGroups_Private(Mechanics m, const HPTables *v)
+static PetscErrorCode FillGroups_Private(Mechanics m, const HPTables *v, const ForestTables *t)
 {
   PetscInt dpressure = 0;
 
@@ -65,7 +65,7 @@ static PetscErrorCode FillGroups_Private(Mechanics m, const HPTables *v)
     PetscReal *X                   = group->X + m->cell_index[c] * group->n * m->dim;
     group->cells[m->cell_index[c]] = c;
     PetscCall(HPSpaceGatherPositions(m->space, c, X));
-    if (group->num_fibers) PetscCall(CellKernelFibers(group->kernel, X, group->fiber + m->cell_index[c] * group->num_fibers));
+    if (group->num_fibers) PetscCall(CellKernelFibers(group->kernel, t->leaf_root[v->cell_leaf[c]], X, group->fiber + m->cell_index[c] * group->num_fibers));
   }
   PetscCall(PetscMalloc2(m->num_pressure, &m->linear, dpressure, &m->dpressure));
   PetscCall(PetscMalloc1(m->work_size, &m->work));
@@ -117,7 +117,7 @@ PetscErrorCode MechanicsCreate(HPSpace space, const MechanicsSpec *spec, const S
   PetscCall(ForestGetTables(forest, &t));
   m->dim = v->dim;
   PetscCall(Groups_Private(m, v, t));
-  PetscCall(FillGroups_Private(m, v));
+  PetscCall(FillGroups_Private(m, v, t));
   Noise_Private(m);
   PetscCall(MechanicsUnknownsCreate_Private(m));
   PetscCall(MechanicsControlsCreate_Private(m));

@@ -55,14 +55,15 @@ PetscErrorCode CellKernelEvaluate(CellKernel, CellBatch *);
 /* Weight times reference volume of the integration points of a cell with nodes X[n][d] (axisymmetric: of the full revolution). */
 PetscErrorCode CellKernelVolumes(CellKernel, const PetscReal *X, PetscReal *volume);
 
-/* Fibre directions at the integration points of one cell with nodes X[n][dim]: num = 3 num_fibers points numbers, [num_fibers][3][points]. */
+/* Fibre directions at the integration points of one cell with nodes X[n][dim], which lies in the coarse cell root: num = 3 num_fibers points numbers,
+ * [num_fibers][3][points]. */
 void           CellKernelNumFibers(CellKernel, PetscInt *num);
-PetscErrorCode CellKernelFibers(CellKernel, const PetscReal *X, PetscReal *fiber);
+PetscErrorCode CellKernelFibers(CellKernel, PetscInt root, const PetscReal *X, PetscReal *fiber);
 
-/* Point values for output and estimation at given reference points xi[np][dim] of one cell with nodes X, u ([n][dim]) and pressure coefficients (mixed, else
-   NULL): F[np][9], P[np][9] (with the pressure field's volumetric part), J, weight-free. Laws with history know their stress at the integration points
-   alone, from history[points][num_history] (else NULL): elsewhere the Kirchhoff stress and W are the polynomials through these. */
-PetscErrorCode CellKernelPoints(CellKernel, PetscInt np, const PetscReal *xi, const PetscReal *X, const PetscReal *u, const PetscReal *pressure,
+/* Point values for output and estimation at given reference points xi[np][dim] of one cell of the coarse cell root with nodes X, u ([n][dim]) and pressure
+   coefficients (mixed, else NULL): F[np][9], P[np][9] (with the pressure field's volumetric part), J, weight-free. Laws with history know their stress at the
+   integration points alone, from history[points][num_history] (else NULL): elsewhere the Kirchhoff stress and W are the polynomials through these. */
+PetscErrorCode CellKernelPoints(CellKernel, PetscInt root, PetscInt np, const PetscReal *xi, const PetscReal *X, const PetscReal *u, const PetscReal *pressure,
                                 const PetscReal *history, PetscReal *F, PetscReal *P, PetscReal *W, PetscBool *bad);
 /* The polynomials through values[points][num] at the integration points, at np reference points: out[np][num]. */
 PetscErrorCode CellKernelInterpolate(CellKernel, PetscInt np, const PetscReal *xi, PetscInt num, const PetscReal *values, PetscReal *out);

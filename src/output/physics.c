@@ -1,7 +1,8 @@
 /* What a scene must share with the one that wrote a checkpoint, as text: one line each, so that a difference can be shown. */
 #include "outputimpl.h"
+#include <inttypes.h>
 
-static PetscErrorCode Fibers_Private(const MaterialSpec *m, OutputText *text)
+static PetscErrorCode Fibers_Private(const MaterialSpec *m, PetscInt num_cells, OutputText *text)
 {
   PetscFunctionBegin;
   for (PetscInt i = 0; i < m->num_fibers; ++i) {
@@ -9,6 +10,8 @@ static PetscErrorCode Fibers_Private(const MaterialSpec *m, OutputText *text)
     PetscCall(OutputTextPrint(text, ", fiber %s k1 %.15g k2 %.15g", f->name, (double)f->k1, (double)f->k2));
     if (f->straight)
       PetscCall(OutputTextPrint(text, " along (%.15g %.15g %.15g)", (double)f->direction[0], (double)f->direction[1], (double)f->direction[2]));
+    else if (f->along)
+      PetscCall(OutputTextPrint(text, " along field %s %016" PRIx64, f->field, HashBytes(0, f->along, (size_t)num_cells * sizeof(*f->along))));
     else
       PetscCall(OutputTextPrint(text, " at %.15g degrees, frame about %c through (%.15g %.15g %.15g)", (double)f->angle, 'x' + m->frame.axis,
                                 (double)m->frame.point[0], (double)m->frame.point[1], (double)m->frame.point[2]));
@@ -16,7 +19,7 @@ static PetscErrorCode Fibers_Private(const MaterialSpec *m, OutputText *text)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode Material_Private(const MaterialSpec *m, OutputText *text)
+static PetscErrorCode Material_Private(const MaterialSpec *m, PetscInt num_cells, OutputText *text)
 {
   PetscFunctionBegin;
   PetscCall(OutputTextPrint(text, "%s", m->law->name));
@@ -25,7 +28,7 @@ static PetscErrorCode Material_Private(const MaterialSpec *m, OutputText *text)
     const PetscReal value = m->parameter[p - m->law->parameters]; /* NaN: not given */
     if (!PetscIsNanReal(value)) PetscCall(OutputTextPrint(text, ", %s %.15g", p->name, (double)value));
   }
-  PetscCall(Fibers_Private(m, text));
+  PetscCall(Fibers_Private(m, num_cells, text));
   PetscCall(OutputTextPrint(text, "\n"));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -57,7 +60,7 @@ PetscErrorCode OutputPhysics(const SceneData *scene, const CoarseMesh *mesh, Out
     if (along[0] || along[1] || along[2])
       PetscCall(OutputTextPrint(text, "order %" PetscInt_FMT ", along x, y, z %" PetscInt_FMT " %" PetscInt_FMT " %" PetscInt_FMT ", ", m->bodies[b].order,
                                 along[0], along[1], along[2]));
-    PetscCall(Material_Private(m->bodies[b].material, text));
+    PetscCall(Material_Private(m->bodies[b].material, mesh->num_cells, text));
   }
   for (PetscInt i = 0; i < scene->num_contacts; ++i) PetscCall(Pair_Private(&scene->contacts[i], mesh, text));
   PetscFunctionReturn(PETSC_SUCCESS);

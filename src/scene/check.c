@@ -254,6 +254,7 @@ PetscErrorCode SceneCheckMesh(Scene s, Forest forest)
   PetscCall(ForestGetCoarse(forest, &mesh));
   PetscCall(CheckCells_Private(s, mesh)); /* before any table is indexed by bodies */
   PetscCall(MatchBodies_Private(s, mesh));
+  PetscCall(SceneCheckFields(s, mesh));
   PetscCall(FacetsCreate_Private(forest, &f));
   status = Check_Private(s, &f);
   PetscCall(PetscFree4(f.num_facets, f.inner, f.body_touches, f.cell_groups));

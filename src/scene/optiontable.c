@@ -54,6 +54,8 @@ const Option Options[] = {
      "law hgo: direction of a family of fibres, from the circumferential direction of the frame towards its axis", FIBER(angle)},
     {"material.<name>.fiber.<family>.direction.<axis>", KEY_REAL, "", "0", ANY,
      "or one direction for all points, of any length (x, y, z; axisymmetric: z is the circumferential direction)", FIBER(direction)},
+    {"material.<name>.fiber.<family>.field", KEY_TEXT, "", "", "",
+     "or the name of a view $ElementData with a vector, of any length, for each cell of an ASCII .msh", FIBER(field)},
     {"material.<name>.fiber.<family>.k1", KEY_REAL, "stress", "", POSITIVE, "this family's own stiffness; default: the material's", FIBER(k1)},
     {"material.<name>.fiber.<family>.k2", KEY_REAL, "", "", POSITIVE, "this family's own k2; default: the material's", FIBER(k2)},
     {"material.<name>.frame.axis", KEY_WORD, "", "", "x|y|z", "axis that circumferential directions turn around; default: z, axisymmetric: y",

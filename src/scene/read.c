@@ -71,18 +71,20 @@ static PetscBool Parameter_Private(const char *text, PetscReal *value)
   return OptionParseReal(text, value);
 }
 
-/* One family: a direction or an angle. */
+/* One family: a direction, an angle, or a field of the mesh. */
 static PetscErrorCode ReadFiber_Private(Scene s, const SceneNode *node, MaterialFiber *fiber)
 {
-  const SceneNode *direction = NodeFind(node, "direction");
-  PetscReal        length    = 0;
+  const SceneNode *direction = NodeFind(node, "direction"), *angle = NodeFind(node, "angle"), *field = NodeFind(node, "field");
+  PetscReal        length = 0;
 
   PetscFunctionBegin;
   PetscCall(PetscStrncpy(fiber->name, node->key, MORTISE_NAME));
   PetscCall(OptionsRead("material.<name>.fiber", node, 3, fiber));
   fiber->straight = direction ? PETSC_TRUE : PETSC_FALSE;
-  PetscCheckInput(!direction || !NodeFind(node, "angle"), "%s has an angle and a direction; allowed: one of them", NodeWhere(node));
-  PetscCheckInput(direction || NodeFind(node, "angle"), "%s needs an angle, or a direction {x, y, z}", NodeWhere(node));
+  PetscCheckInput(!direction || !angle, "%s has an angle and a direction; allowed: one of them", NodeWhere(node));
+  PetscCheckInput(!field || (!direction && !angle), "%s has a field and %s; allowed: one of them", NodeWhere(node), angle ? "an angle" : "a direction");
+  PetscCheckInput(!field || fiber->field[0], "%s is empty; it must name a field of the mesh", NodeWhere(field));
+  PetscCheckInput(direction || angle || field, "%s needs an angle, or a direction {x, y, z}, or a field of the mesh", NodeWhere(node));
   for (int c = 0; c < 3; ++c) length += PetscSqr(fiber->direction[c]);
   length = PetscSqrtReal(length);
   PetscCheckInput(!direction || length > 0, "%s is zero; it must point somewhere", NodeWhere(direction));
@@ -104,8 +106,8 @@ static PetscErrorCode ReadFibers_Private(Scene s, const SceneNode *node, Materia
   PetscCheckInput(NodeCount(fibers) <= MATERIAL_MAX_FIBERS, "%s has %d families; allowed: at most %d", NodeWhere(fibers), (int)NodeCount(fibers),
                   MATERIAL_MAX_FIBERS);
   for (const SceneNode *child = fibers ? fibers->first : NULL; child; child = child->next) {
-    PetscCall(ReadFiber_Private(s, child, &m->spec.fiber[m->spec.num_fibers]));
-    if (!m->spec.fiber[m->spec.num_fibers++].straight) turns = PETSC_TRUE;
+    PetscCall(ReadFiber_Private(s, child, &m->spec.fiber[m->spec.num_fibers++]));
+    if (NodeFind(child, "angle")) turns = PETSC_TRUE;
   }
   PetscCheckInput(!frame || turns, "%s: no fibre of this material has an angle, so that nothing refers to a frame", NodeWhere(frame));
   PetscCheckInput(!axis || s->data.mesh.dim == 3 || m->spec.frame.axis == only, "%s is %s; allowed in this model: %c", NodeWhere(axis), axis->text, 'x' + only);

@@ -249,6 +249,8 @@ static PetscErrorCode ViewBody_Private(const BodySpec *b, PetscViewer viewer)
     if (fiber->straight)
       PetscCall(PetscViewerASCIIPrintf(viewer, ", fibres %s along (%.6g, %.6g, %.6g)", fiber->name, (double)fiber->direction[0], (double)fiber->direction[1],
                                        (double)fiber->direction[2]));
+    else if (fiber->field[0])
+      PetscCall(PetscViewerASCIIPrintf(viewer, ", fibres %s along field %s", fiber->name, fiber->field));
     else
       PetscCall(PetscViewerASCIIPrintf(viewer, ", fibres %s at %.6g degrees around %c", fiber->name, (double)fiber->angle, 'x' + m->frame.axis));
   }

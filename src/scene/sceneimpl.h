@@ -138,3 +138,5 @@ PetscErrorCode SceneMakeMesh(Scene);
 PetscErrorCode SceneRemoveMesh(Scene);
 /* Match names with the groups of the mesh, fill data.bodies, boundaries, contacts, and check them (check.c). Collective. */
 PetscErrorCode SceneCheckMesh(Scene, Forest);
+/* fiber.c. Families of fibres find their fields in the mesh. Bodies are matched already. Not collective. */
+PetscErrorCode SceneCheckFields(Scene, const CoarseMesh *);

@@ -90,7 +90,7 @@ static void Evaluate(const MaterialSpec *spec, MaterialPart part, const PetscRea
   PetscReal       fiber[MATERIAL_MAX_FIBERS][3];
   MaterialPoints  point = {.n = 1, .F = F, .fiber = fiber[0], .W = W, .P = P, .A = A};
 
-  MaterialFiberDirections(spec, origin, fiber);
+  MaterialFiberDirections(spec, 0, origin, fiber);
   OK(MaterialEvaluate(spec, part, &point));
   assert_false(point.bad);
 }
@@ -290,17 +290,17 @@ static void FibresTurnWithTheFrame(void **state)
   spec.fiber[0].straight = PETSC_FALSE;
   spec.fiber[0].angle    = 29;
   spec.frame             = (MaterialFrame){.axis = 2, .point = {1, 2, 0}};
-  MaterialFiberDirections(&spec, X, M);
+  MaterialFiberDirections(&spec, 0, X, M);
   assert_near(M[0][0], -0.8 * COS29, 1e-15);
   assert_near(M[0][1], 0.6 * COS29, 1e-15);
   assert_near(M[0][2], SIN29, 1e-15);
   spec.frame = (MaterialFrame){.axis = 0, .point = {0, 2, 4}};
-  MaterialFiberDirections(&spec, X, M); /* x cross (y = 4, z = 3) = (y = -3, z = 4) */
+  MaterialFiberDirections(&spec, 0, X, M); /* x cross (y = 4, z = 3) = (y = -3, z = 4) */
   assert_near(M[0][0], SIN29, 1e-15);
   assert_near(M[0][1], -0.6 * COS29, 1e-15);
   assert_near(M[0][2], 0.8 * COS29, 1e-15);
   spec.frame = (MaterialFrame){.axis = 1, .meridian = PETSC_TRUE};
-  MaterialFiberDirections(&spec, axial, M);
+  MaterialFiberDirections(&spec, 0, axial, M);
   assert_near(M[0][0], 0, 0);
   assert_near(M[0][1], SIN29, 1e-15);
   assert_near(M[0][2], COS29, 1e-15);

@@ -1,7 +1,8 @@
 """Walls with fibres (law hgo): strips (O-20), the inflation and extension of a two-layer artery (O-21), fibres that turn
-from point to point on refined meshes, and Newton's method where fibres go slack or tight."""
+from point to point on refined meshes, fibres along a field of the mesh, and Newton's method where fibres go slack or tight."""
 import json
 import math
+import subprocess
 
 import numpy
 import pytest
@@ -10,6 +11,7 @@ import boxmesh
 from boxmesh import linspace, write
 from contactkit import is_quadratic, steps
 from test_bulk_homogeneous import block, close
+from test_input import refused
 
 MEDIA = {"c": 3.0, "k1": 2.3632, "k2": 0.8393}, 29
 ADVENTITIA = {"c": 0.3, "k1": 0.5620, "k2": 0.7112}, 62
@@ -205,3 +207,160 @@ def test_newton_where_fibres_go_slack(run, tmp_path):
     print([len(norms) for norms in steps(result)])
     for norms in steps(result):
         assert is_quadratic(norms), norms
+
+# ---- fibres along a field of the mesh -----------------------------------------------------------------------------------------------------
+
+SHAPES = {2: 2, 3: 2, 9: 2, 10: 2, 4: 3, 5: 3, 11: 3, 12: 3}  # gmsh's types of cells: their dimensions
+
+
+def cells(path, dim):
+    """(tag, centre of its nodes) of the cells of an ASCII .msh."""
+    text = path.read_text()
+    rows = {name: iter(text.split(f"${name}\n")[1].split(f"$End{name}")[0].splitlines()) for name in ("Nodes", "Elements")}
+    head = {name: next(lines).split() for name, lines in rows.items()}
+    point, found = {}, []
+    if "\n2.2 " in text:
+        for line in rows["Nodes"]:
+            point[int(line.split()[0])] = [float(x) for x in line.split()[1:4]]
+        elements = [(int(w[1]), int(w[0]), w[3 + int(w[2]):]) for w in map(str.split, rows["Elements"])]
+    else:
+        for _ in range(int(head["Nodes"][0])):
+            tags = [int(next(rows["Nodes"])) for _ in range(int(next(rows["Nodes"]).split()[3]))]
+            point.update({tag: [float(x) for x in next(rows["Nodes"]).split()] for tag in tags})
+        elements = []
+        for _ in range(int(head["Elements"][0])):
+            kind, num = map(int, next(rows["Elements"]).split()[2:])
+            elements += [(kind, int(w[0]), w[1:]) for w in (next(rows["Elements"]).split() for _ in range(num))]
+    for kind, tag, nodes in elements:
+        if SHAPES.get(kind) == dim:
+            found.append((tag, numpy.mean([point[int(n)] for n in nodes], axis=0)))
+    return found
+
+
+def view(path, name, vector, dim=2, keep=lambda x: True):
+    """Append a view $ElementData to a mesh, last cell first; vector(centre) has three components."""
+    rows = [(tag, vector(x)) for tag, x in reversed(cells(path, dim)) if keep(x)]
+    with open(path, "a") as file:
+        file.write(f"$ElementData\n1\n\"{name}\"\n1\n0.0\n3\n0\n3\n{len(rows)}\n")
+        file.writelines("%d %.17g %.17g %.17g\n" % (tag, *v) for tag, v in rows)
+        file.write("$EndElementData\n")
+
+
+def lean(angle, length=1.0):
+    return [length * math.cos(math.radians(angle)), length * math.sin(math.radians(angle)), 0]
+
+
+def pulled(mesh, dim, fiber, **keys):
+    return {"mesh": {"file": mesh.name}, "model": "3d" if dim == 3 else "plane_strain", "order": 2, "body": {"body": {"material": "m"}},
+            "material": {"m": wall(MEDIA, fiber, 100)}, "boundary": {"x0": {"fix": "xyz"[:dim]}, "x1": {"displacement": {"x": 0.2, "y": 0.1}}},
+            "load": {"step": 0.5}, "output": {"fields": False}, **keys}
+
+
+def outcome(run, scene, *options, ranks=1):
+    result = run("field.yml", *options, text=json.dumps(scene), ranks=ranks)
+    assert result.returncode == 0, result
+    return result
+
+
+def agree(a, b, tolerance):
+    """Histories and energies of two runs."""
+    assert len(a.history) == len(b.history) and a.summary["cells"] == b.summary["cells"]
+    for row, other in zip(a.history, b.history):
+        for key, value in row.items():
+            if "residual" not in key and "seconds" not in key and "gap" not in key and "imbalance" not in key:
+                assert abs(value - other[key]) <= tolerance * max(1, abs(value)), (key, value, other[key])
+
+
+@pytest.mark.parametrize("dim", [2, pytest.param(3, marks=pytest.mark.slow)])
+def test_field_of_one_direction(run, tmp_path, dim):
+    """A field of one direction, of any length, is that direction, on cells split by adaptation and shared out to ranks as well."""
+    path = write(tmp_path / "block.msh", [linspace(0, 1, 2)] * dim)
+    view(path, "other", lambda x: [0, 0, 0], dim)
+    view(path, "fibres", lambda x: lean(29, 3), dim)
+    along = dict(zip("xy", lean(29)))
+    back = {"direction": dict(zip("xy", lean(-29)))}
+    keys = {"adapt": {"tolerance": 1e-3, "max_passes": 1, "fraction": 0.3}, "load": {"step": 1}}
+    straight = outcome(run, pulled(path, dim, {"a": {"direction": along}, "b": back}, **keys))
+    assert straight.summary["cells"] > 2**dim
+    for ranks in (1, 2):
+        other = outcome(run, pulled(path, dim, {"a": {"field": "fibres"}, "b": back}, **keys), ranks=ranks)
+        assert "field 'fibres' have lengths from 3 to 3; made unit vectors" in other.stdout
+        agree(straight, other, 1e-12 if ranks == 1 else 1e-10)
+
+
+def test_cells_split_from_others_keep_their_vector(run, tmp_path):
+    """Two by two cells with vectors of their own, split, are four by four cells in blocks of four with one vector."""
+    result = []
+    for n, refine in ((2, 1), (4, 0)):
+        path = write(tmp_path / f"block{n}.msh", [linspace(0, 1, n)] * 2)
+        view(path, "fibres", lambda x: lean(20 + 40 * (x[0] > 0.5) + 70 * (x[1] > 0.5)))
+        result.append(outcome(run, pulled(path, 2, {"a": {"field": "fibres"}}), "-mesh_refine", refine))
+    agree(*result, 1e-9)
+
+
+RING = """Point(1) = {0, 0, 0}; Point(2) = {1, 0, 0}; Point(3) = {2, 0, 0}; Point(4) = {0, 2, 0}; Point(5) = {0, 1, 0};
+Point(6) = {Cos(Pi/4), Sin(Pi/4), 0}; Point(7) = {2 * Cos(Pi/4), 2 * Sin(Pi/4), 0};
+Line(1) = {2, 3}; Circle(2) = {3, 1, 7}; Line(3) = {7, 6}; Circle(4) = {6, 1, 2}; Circle(5) = {7, 1, 4}; Line(6) = {4, 5}; Circle(7) = {5, 1, 6};
+Curve Loop(1) = {1:4}; Curve Loop(2) = {5, 6, 7, -3}; Plane Surface(1) = {1}; Plane Surface(2) = {2};
+Transfinite Curve {1:7} = %d; Transfinite Surface {1}; Transfinite Surface {2}; Recombine Surface {1};
+Physical Surface("body") = {1, 2}; Physical Curve("x0") = {1}; Physical Curve("x1") = {6};
+"""
+
+
+def test_field_around_an_axis(run, tmp_path):
+    """Quads beside triangles (cut into quads), in formats 2.2 and 4.1: vectors of the centres of cells approach those of `angle` at every point."""
+    error = {}
+    for n, form in ((3, "msh41"), (5, "msh22"), (9, "msh41")):
+        (tmp_path / "ring.geo").write_text(RING % n)
+        path = tmp_path / f"ring{n}.msh"
+        subprocess.run(["gmsh", "-2", "-format", form, "-v", "0", "-o", str(path), str(tmp_path / "ring.geo")], check=True)
+        view(path, "around", lambda x: [-x[1], x[0], 0])
+        angle, field = (outcome(run, pulled(path, 2, {"a": fiber})).summary["energy"] for fiber in ({"angle": 0}, {"field": "around"}))
+        error[n] = abs(field / angle - 1)
+    print(error)
+    assert error[9] < error[5] / 2.5 < error[3] / 6 and error[9] < 1e-3
+
+
+@pytest.mark.parametrize("name, change, words", [
+    ("fibers", None, ["material.m.fiber.a.field", "no field 'fibers'", "fibres, twice, twice"]),
+    ("twice", None, ["2 fields 'twice'", "fibres, twice, twice"]),
+    ("holes", {"keep": lambda x: x[0] < 0.5}, ["field.yml", "material.m.fiber.a.field", "'holes' has no vector for cell", "body 'body'", "fibres"]),
+    ("holes", {"vector": lambda x: [0, 0, 0]}, ["material.m.fiber.a.field", r"vector \(0, 0, 0\) of field 'holes' in cell 0", "fibres"]),
+    ("holes", {"vector": lambda x: [math.inf, 0, 0]}, ["vector .inf, 0, 0. of field 'holes'"]),
+])
+@pytest.mark.parametrize("ranks", [1, 2])
+def test_bad_fields(run, tmp_path, name, change, words, ranks):
+    path = write(tmp_path / "block.msh", [linspace(0, 1, 2)] * 2)
+    for field in ("fibres", "twice", "twice"):
+        view(path, field, lambda x: lean(29))
+    view(path, "holes", **{"vector": lambda x: lean(29), **(change or {})})
+    refused(run("field.yml", "-check", text=json.dumps(pulled(path, 2, {"a": {"field": name}})), ranks=ranks), *words)
+
+
+def test_restart_with_another_field(run, tmp_path):
+    path = write(tmp_path / "block.msh", [linspace(0, 1, 2)] * 2)
+    text = path.read_text()
+    scene = pulled(path, 2, {"a": {"field": "fibres"}})
+    view(path, "fibres", lambda x: lean(29))
+    checkpoint = outcome(run, scene, "-output_checkpoint", 1).directory / "checkpoint.h5"
+    assert run("field.yml", "-restart", checkpoint, "-load_end", 1.5, text=json.dumps(scene)).returncode == 0
+    path.write_text(text)
+    view(path, "fibres", lambda x: lean(29 + x[0]))
+    result = run("field.yml", "-restart", checkpoint, "-load_end", 2, text=json.dumps(scene))
+    assert result.returncode == 1 and "along field fibres" in result.stderr, result
+
+
+def test_damaged_field(run, tmp_path):
+    path = write(tmp_path / "block.msh", [linspace(0, 1, 2)] * 2)
+    view(path, "fibres", lambda x: lean(29))
+    text = path.read_text()
+    for cut in (text[:-60], text.replace("\n3\n0\n3\n4\n", "\n1\n0\n")):
+        path.write_text(cut)
+        refused(run("field.yml", "-check", text=json.dumps(pulled(path, 2, {"a": {"field": "fibres"}}))), "block.msh", "ElementData")
+
+
+def test_binary_mesh_has_no_fields(run, tmp_path):
+    (tmp_path / "ring.geo").write_text(RING % 3)
+    path = tmp_path / "ring.msh"
+    subprocess.run(["gmsh", "-2", "-bin", "-format", "msh41", "-v", "0", "-o", str(path), str(tmp_path / "ring.geo")], check=True)
+    refused(run("field.yml", "-check", text=json.dumps(pulled(path, 2, {"a": {"field": "around"}}))), "no field 'around'", "ASCII", "none")
