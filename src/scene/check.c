@@ -46,8 +46,7 @@ static PetscInt Index_Private(const char *name, PetscInt num, char (*names)[MORT
   return -1;
 }
 
-/* "a, b, c" or "none" */
-static PetscErrorCode List_Private(PetscInt num, char (*names)[MORTISE_NAME], size_t capacity, char list[])
+PetscErrorCode SceneListNames(PetscInt num, char (*names)[MORTISE_NAME], size_t capacity, char list[])
 {
   PetscFunctionBegin;
   PetscCall(PetscStrncpy(list, num ? "" : "none", capacity));
@@ -65,7 +64,7 @@ static PetscErrorCode FindGroup_Private(const CoarseMesh *m, const char *where, 
   PetscFunctionBegin;
   *group = Index_Private(name, m->num_boundaries, m->boundary_name);
   if (*group >= 0) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(List_Private(m->num_boundaries, m->boundary_name, sizeof(list), list));
+  PetscCall(SceneListNames(m->num_boundaries, m->boundary_name, sizeof(list), list));
   PetscCheckInput(Index_Private(name, m->num_bodies, m->body_name) < 0, "%s: '%s' is a body of the mesh, not one of its boundary groups: %s", where, name,
                   list);
   PetscCall(ErrorInput("%s: the mesh has no boundary group '%s'; it has: %s", where, name, list));
@@ -104,7 +103,7 @@ static PetscErrorCode MatchBodies_Private(Scene s, const CoarseMesh *m)
 
   PetscFunctionBegin;
   PetscCall(PetscCalloc1(m->num_bodies, &s->data.bodies));
-  PetscCall(List_Private(m->num_bodies, m->body_name, sizeof(list), list));
+  PetscCall(SceneListNames(m->num_bodies, m->body_name, sizeof(list), list));
   for (PetscInt i = 0; i < s->num_bodies; ++i) {
     const BodyEntry *b     = &s->body[i];
     PetscInt         index = Index_Private(b->spec.name, m->num_bodies, m->body_name);

@@ -1,18 +1,6 @@
 /* Fibres along a field of the mesh: the field is there, and tells a direction for every cell of the bodies that want it. */
 #include "sceneimpl.h"
 
-/* "a, b" or "none" */
-static PetscErrorCode Names_Private(const CoarseMesh *m, size_t capacity, char list[])
-{
-  PetscFunctionBegin;
-  PetscCall(PetscStrncpy(list, m->num_fields ? "" : "none", capacity));
-  for (PetscInt i = 0; i < m->num_fields; ++i) {
-    if (i) PetscCall(PetscStrlcat(list, ", ", capacity));
-    PetscCall(PetscStrlcat(list, m->field_name[i], capacity));
-  }
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 static PetscErrorCode FindField_Private(const CoarseMesh *m, const char *where, const char *name, PetscInt *index)
 {
   char     list[1024];
@@ -24,7 +12,7 @@ static PetscErrorCode FindField_Private(const CoarseMesh *m, const char *where, 
     *index = i;
     ++num;
   }
-  PetscCall(Names_Private(m, sizeof(list), list));
+  PetscCall(SceneListNames(m->num_fields, m->field_name, sizeof(list), list));
   PetscCheckInput(num, "%s: the mesh has no field '%s'; its fields ($ElementData of three components in an ASCII .msh): %s", where, name, list);
   PetscCheckInput(num == 1, "%s: the mesh has %d fields '%s', allowed: one; its fields: %s", where, (int)num, name, list);
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -37,7 +25,7 @@ static PetscErrorCode CheckVectors_Private(Scene s, const CoarseMesh *m, const M
   char      list[1024];
 
   PetscFunctionBegin;
-  PetscCall(Names_Private(m, sizeof(list), list));
+  PetscCall(SceneListNames(m->num_fields, m->field_name, sizeof(list), list));
   for (PetscInt c = 0; c < m->num_cells; ++c) {
     const PetscReal *v = fiber->along[c], length = PetscSqrtReal(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
     if (s->data.bodies[m->cell_body[c]].material != material) continue;
