@@ -147,6 +147,10 @@ PetscErrorCode ContactPairSetCandidates(ContactPair, const ContactSurface *nonmo
    extent, a nonmortar node whose edge normals cancel. Surfaces must have the topology of the last search. Not collective. */
 PetscErrorCode ContactPairEvaluate(ContactPair, const ContactSurface *nonmortar, const ContactSurface *mortar, const PetscReal z[], const PetscBool wanted[],
                                    PetscBool derivatives, PetscBool hessian, PetscInt *num, const ContactFacet **facets, PetscBool *failed);
+/* From now on directions are held (or follow the surface again): first derivatives are those at fixed directions of the nonmortar side, gaps and weights do not
+   change, there are no Hessians. Where gaps are wide against facets that tells more than the derivative itself. Facets along directions of their own (three
+   dimensions, no continuous direction) keep their first derivatives. Not collective. */
+PetscErrorCode ContactPairHold(ContactPair, PetscBool held);
 PetscErrorCode ContactPairGetSegments(ContactPair, PetscInt *num, const ContactSegment **segments);
 /* Nodal normals of the last evaluation [num_nodes][dim]; NaN at nodes with neighbours that are not known here. */
 PetscErrorCode ContactPairGetNormals(ContactPair, const PetscReal **normals);

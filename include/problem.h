@@ -209,6 +209,9 @@ PetscErrorCode ProblemSwitchActiveSet(Problem, Vec dx, Vec rhs, PetscInt *change
    pairs that move so (prescribed motion still to come, finite kinematics) out of the tangent: the next linear step carries their bodies along without
    them and sets their multipliers to 0. *any: is there one? Engage puts all pairs back. Collective. */
 PetscErrorCode ProblemRelease(Problem, PetscBool *any);
+/* The same, before any linear step, for pairs whose bodies the prescribed motion still to come slides along each other by a good part of the zone under
+   pressure: as far as supports say how the bodies move along it. Collective. */
+PetscErrorCode ProblemReleaseSlips(Problem, PetscBool *any);
 PetscErrorCode ProblemEngage(Problem);
 /* A number that tells active sets of this problem apart, the same on every rank. Collective. */
 PetscErrorCode ProblemActiveSetHash(Problem, uint64_t *hash);

@@ -23,7 +23,7 @@ void ContactChainBuild(ContactPair pair, const ContactSurface *s, PetscInt edge,
   memset(chain->dn, 0, sizeof(chain->dn));
   for (int k = 0; k < 2; k++) {
     ContactNormalDerivative(pair, s, all[k], &chain->normal[k]);
-    for (int i = 0; i < 2; i++)
+    for (int i = 0; i < 2 && !pair->held; i++)
       for (int p = 0; p < 6; p++) chain->dn[2 * k + i][NormalColumn[k][p]] = chain->normal[k].d[i][p];
   }
 }

@@ -86,6 +86,7 @@ struct _p_ContactPair {
   PetscInt                  dim;
   PetscBool                 axisymmetric, node_to_segment, standard, continuous;
   PetscBool                 rays;           /* the last search was for rays along a continuous direction */
+  PetscBool                 held;           /* directions do not vary */
   PetscInt                  num_degenerate; /* overlaps of the last evaluation that could not be used */
   FacetWork                 facet;          /* three dimensions without a continuous direction: work space, NULL until needed */
   struct ContactMultiplier *multiplier;     /* functions of facets of higher order, else NULL */

@@ -374,7 +374,7 @@ static PetscErrorCode Facet_Private(const EvaluateContext *ctx, PetscInt slot, C
   PetscCall(Moments_Private(pair, w, derivatives));
   if (w->num_overlaps == 0 || !ContactFacetWeights(pair->standard, w->moments.q, z, &f)) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(Segments_Private(pair, slot, w));
-  PetscCall(Result_Private(w, &f, z, derivatives, (PetscBool)(ctx->hessian && loaded), out));
+  PetscCall(Result_Private(w, &f, z, derivatives, (PetscBool)(ctx->hessian && loaded && !ctx->pair->held), out));
   *use = PETSC_TRUE;
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -144,11 +144,19 @@ static PetscBool IsFinite_Private(const ContactSurface *s)
   return sum == 0 ? PETSC_TRUE : PETSC_FALSE;
 }
 
+PetscErrorCode ContactPairHold(ContactPair pair, PetscBool held)
+{
+  PetscFunctionBegin;
+  pair->held = held;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode ContactPairEvaluate(ContactPair pair, const ContactSurface *nonmortar, const ContactSurface *mortar, const PetscReal z[],
                                    const PetscBool wanted[], PetscBool derivatives, PetscBool hessian, PetscInt *num, const ContactFacet **facets,
                                    PetscBool *failed)
 {
-  const EvaluateContext ctx = {pair, nonmortar, mortar, z, wanted, derivatives || hessian ? PETSC_TRUE : PETSC_FALSE, hessian};
+  const PetscBool       general = (PetscBool)(pair->rays || pair->dim == 3), derives = (PetscBool)(derivatives || hessian);
+  const EvaluateContext ctx = {pair, nonmortar, mortar, z, wanted, derives, (PetscBool)(hessian && (general || !pair->held))};
 
   PetscFunctionBegin;
   PetscCheck(nonmortar->num_nodes == pair->num_nodes && nonmortar->num_facets == pair->num_facets && mortar->num_nodes == pair->num_mortar_nodes &&
@@ -160,7 +168,7 @@ PetscErrorCode ContactPairEvaluate(ContactPair pair, const ContactSurface *nonmo
   *facets           = pair->result;
   pair->num_results = pair->num_segments = 0;
   if (*failed) PetscFunctionReturn(PETSC_SUCCESS);
-  if (pair->rays || pair->dim == 3) {
+  if (general) {
     PetscCall(pair->rays ? ContactRayEvaluate(&ctx, failed) : ContactFacetsEvaluate(&ctx, failed));
     *num = pair->num_results;
     PetscFunctionReturn(PETSC_SUCCESS);
@@ -171,7 +179,7 @@ PetscErrorCode ContactPairEvaluate(ContactPair pair, const ContactSurface *nonmo
     PetscCall(ContactNodeHitsBuild(pair, nonmortar, mortar));
   else
     PetscCall(ContactSegmentsBuild(pair, nonmortar, mortar));
-  PetscCall(ReserveResults_Private(pair, ctx.derivatives, hessian));
+  PetscCall(ReserveResults_Private(pair, ctx.derivatives, ctx.hessian));
   PetscCall(EvaluateEdges_Private(&ctx, failed));
   *num = pair->num_results;
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -24,7 +24,7 @@ static void FacetVectorRows_Private(const ContactSurface *s, const PetscInt node
 }
 
 /* w->J[D nv][nn]: directions by the nodes of the result. */
-static PetscErrorCode DirectionRows_Private(RayWork w, const ContactSurface *s, PetscInt facet)
+static PetscErrorCode DirectionRows_Private(RayWork w, const ContactSurface *s, PetscInt facet, PetscBool held)
 {
   const PetscInt nv = w->facet.nv, D = w->facet.D;
   DirectionTerm  term[TERMS];
@@ -32,7 +32,7 @@ static PetscErrorCode DirectionRows_Private(RayWork w, const ContactSurface *s, 
   PetscFunctionBegin;
   PetscCall(ContactGrow(D * nv * w->nn, sizeof(PetscReal), &w->size_J, &w->J));
   PetscCall(PetscArrayzero(w->J, D * nv * w->nn));
-  for (PetscInt v = 0; v < nv; v++) {
+  for (PetscInt v = 0; v < nv && !held; v++) {
     const PetscInt terms = ContactDirectionTerms(w, s, s->facets[nv * facet + (v < 2 ? v : 5 - v)], TERMS, term);
 
     for (PetscInt t = 0; t < terms; t++) {
@@ -114,13 +114,13 @@ static PetscInt Vertex_Private(RayWork w, PetscInt k)
   return w->facet.D * (w->facet.s.num + w->facet.nv + at);
 }
 
-PetscErrorCode ContactRayChain(RayWork w, const ContactSurface *nonmortar, PetscInt facet)
+PetscErrorCode ContactRayChain(RayWork w, const ContactSurface *nonmortar, PetscInt facet, PetscBool held)
 {
   const RayFacet *f     = &w->facet;
   const PetscInt  width = Width_Private(f);
 
   PetscFunctionBegin;
-  PetscCall(DirectionRows_Private(w, nonmortar, facet));
+  PetscCall(DirectionRows_Private(w, nonmortar, facet, held));
   PetscCall(ContactGrow(f->m * w->num_images * width, sizeof(PetscReal), &w->size_R, &w->R));
   PetscCall(PetscArrayzero(w->R, f->m * w->num_images * width));
   for (PetscInt k = 0; k < w->num_images; k++)

@@ -331,7 +331,7 @@ static PetscErrorCode Result_Private(const EvaluateContext *ctx, PetscInt facet,
   PetscCall(ContactRaySpring(ctx->pair, ctx->nonmortar, facet, &spring));
   PetscCall(Spring_Private(w, &spring, out));
   if (!derivatives) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(ContactRayChain(w, ctx->nonmortar, facet));
+  PetscCall(ContactRayChain(w, ctx->nonmortar, facet, ctx->pair->held));
   PetscCall(ContactStoreReserve(&w->result.store, 2 * nr * nn, &dgap));
   out->dgap    = dgap;
   out->dweight = dgap + nr * nn;
@@ -394,7 +394,7 @@ static PetscErrorCode Facet_Private(const EvaluateContext *ctx, PetscInt slot, C
   for (PetscInt a = 0; a < w->facet.s.num; a++) o.gap[a] = w->q[a], o.reach[a] = w->reach[a];
   if (o.dual && !Dual_Private(w, y, &o)) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(Segments_Private(ctx, facet));
-  PetscCall(Result_Private(ctx, facet, &o, y, derivatives, (PetscBool)(ctx->hessian && loaded), out));
+  PetscCall(Result_Private(ctx, facet, &o, y, derivatives, (PetscBool)(ctx->hessian && loaded && !pair->held), out));
   *use = PETSC_TRUE;
   PetscFunctionReturn(PETSC_SUCCESS);
 }

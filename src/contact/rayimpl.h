@@ -221,8 +221,8 @@ typedef struct {
 } RaySpring;
 PetscErrorCode ContactRaySpring(ContactPair, const ContactSurface *nonmortar, PetscInt facet, RaySpring *);
 
-/* raychain.c */
-PetscErrorCode ContactRayChain(RayWork, const ContactSurface *nonmortar, PetscInt facet);
+/* raychain.c. held: directions do not vary. */
+PetscErrorCode ContactRayChain(RayWork, const ContactSurface *nonmortar, PetscInt facet, PetscBool held);
 /* to[num][nn] (NULL: images only) += X^T by the nodes, X[n][num] by the facet's numbers; the images' part of X is added to what they follow. */
 void ContactRayChainRows(RayWork, PetscInt num, PetscReal X[], PetscReal to[]);
 /* H = both halves of the work space's W, which changes. */

@@ -1,18 +1,20 @@
-/* Whether contact is close enough to its solution for the curvature of its constraints to mean anything.
+/* Whether contact is close enough to its solution for the turning of its directions to mean anything.
 
-   Pressure across an open gap is a row of struts under compression. They turn with the nodal normals, those with the facets, by du/h: their geometric stiffness
-   is negative and grows like z g/h^2. At the solution g is small against h and Newton's method needs the term. Where the first linear step of a large load
-   leaves gaps comparable to the facets, it outweighs the stiffness of the cells: rubber2d.yml on facets of 1/100 radius was cut. There the constraints are
-   taken as linear. Overlaps are struts in tension and do no harm: a slide, which leaves gaps of both signs, keeps the term. */
+   A gap is measured along a direction that turns with the nonmortar surface: by du/h. Across a gap g that moves the end of the ray by g du/h. At the solution g
+   is small against h and Newton's method needs this. Where gaps are wide against the facets, as at the first touch of a large load, it outweighs the motion
+   itself: a linear step then closes gaps by folding the surface facet by facet, and it does so with pressures that alternate. What pressure there is acts
+   like a row of struts under compression that turn likewise: a negative stiffness that grows as z g/h^2. There directions are held in the linearisation, rows,
+   forces and curvature alike, of the whole pair: where facets that are held meet others the surface folds, too. Overlaps are struts in tension and do no harm:
+   a slide, which leaves gaps of both signs, is no such case. Before there is any pressure nothing tells how wide the gaps are that matter; where they are
+   narrow, held directions change little. */
 #include "problemimpl.h"
 
 #define FAR 0.1 /* mean open gap in lengths of facets */
 
-/* Is the mean of gap / length of facet, weighted with the forces of the nodes at the last evaluation, above FAR? The same on every rank. */
 PetscErrorCode ContactIsFar_Private(Problem p, const Contact *c, PetscBool *far)
 {
   const Surface *s      = &c->side[0];
-  PetscReal      sum[2] = {0, 0}; /* open gaps, forces */
+  PetscReal      sum[3] = {0, 0, 0}; /* open gaps, forces, forces of a pressure as large as Young's modulus */
 
   PetscFunctionBegin;
   for (PetscInt i = 0; i < s->num_mine; ++i) {
@@ -24,9 +26,10 @@ PetscErrorCode ContactIsFar_Private(Problem p, const Contact *c, PetscBool *far)
       const PetscInt j = node[k];
       sum[0] += c->z[j] * c->gap[j];
       sum[1] += c->z[j] * c->weight[j] * length;
+      sum[2] += c->c[j] * c->extent[j] * c->weight[j] * length;
     }
   }
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 2, MPIU_REAL, MPI_SUM, p->comm));
-  *far = (PetscBool)(sum[0] > FAR * sum[1]);
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 3, MPIU_REAL, MPI_SUM, p->comm));
+  *far = (PetscBool)(sum[1] <= SLACK * sum[2] || sum[0] > FAR * sum[1]);
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -7,6 +7,8 @@
 #define COVERED_HIGHER 1e-9 /* the same for facets of higher order, whose forces have faded before: spring.c in contact */
 #define COVERED 1e-5        /* share of a node's tributary measure below which it counts as uncovered: its constraint would be all but free of its pressure */
 
+#define SLACK 1e-10 /* pressure over Young's modulus that is none: what round-off leaves */
+
 #define MOST_MASTERS 8          /* of a hanging vertex of a contact surface of order 1 */
 #define MOST_LATTICE_MASTERS 64 /* of a hanging node of a lattice: two ends that hang on edges themselves, and so on */
 
@@ -245,7 +247,7 @@ PetscErrorCode ContactNumber_Private(Problem, PetscInt counts[]); /* multipliers
 PetscErrorCode ContactEvaluate_Private(Problem, Contact *, Vec x, const PetscReal local[], PetscBool derivatives, PetscBool hessian, PetscBool *failed);
 PetscErrorCode ContactForces_Private(Problem, Contact *, PetscReal r[]);
 void           ContactRows_Private(const Contact *, PetscReal r[]);
-/* far.c: are the gaps under pressure too wide for the curvature of the constraints to mean anything? Collective. */
+/* far.c: at the last evaluation, are the gaps under pressure too wide for turning directions to mean anything? Collective. */
 PetscErrorCode ContactIsFar_Private(Problem, const Contact *, PetscBool *far);
 /* Change of every owned node's weighted gap, at fixed measure, under a local array of increments. Collective. */
 PetscErrorCode          ContactChange_Private(Problem, Contact *, const PetscReal increment[], PetscReal change[]);

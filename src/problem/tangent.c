@@ -102,17 +102,15 @@ static PetscErrorCode FacetHessian_Private(Problem p, const Contact *c, const Co
 static PetscErrorCode ContactBlocks_Private(Problem p, Contact *c)
 {
   const PetscInt dim = p->dim;
-  PetscBool      far = PETSC_FALSE; /* without lift the tangent is the derivative itself */
 
   PetscFunctionBegin;
   if (c->released) {
     PetscCall(PetscArrayzero(c->active, c->side[0].num_nodes));
     PetscFunctionReturn(PETSC_SUCCESS);
   }
-  if (p->lifting) {
-    PetscCall(ContactIsFar_Private(p, c, &far));
+  if (p->lifting)
     PetscCall(ContactChange_Private(p, c, p->increment, c->lift));
-  } else
+  else
     PetscCall(PetscArrayzero(c->lift, c->side[0].num_nodes));
   for (PetscInt i = 0; i < c->num_facets; ++i) {
     const ContactFacet *e = &c->facets[i];
@@ -120,7 +118,7 @@ static PetscErrorCode ContactBlocks_Private(Problem p, Contact *c)
     if (!c->mine[e->facet] || !e->dgap) continue;
     PetscCall(ProblemWork_Private(p, n));
     FacetDofs_Private(c, e, p->work_index);
-    if (e->hessian && !far) PetscCall(FacetHessian_Private(p, c, e, p->work_index));
+    if (e->hessian) PetscCall(FacetHessian_Private(p, c, e, p->work_index));
     for (PetscInt k = 0; k < e->num_rows && !p->symmetric; ++k) {
       const PetscInt z = c->zdof[e->nodes[k]];
       PetscReal      mean, along;
@@ -300,8 +298,8 @@ static PetscErrorCode ReadyMatrix_Private(Problem p)
 PetscErrorCode ProblemTangent(Problem p, Vec x, const PetscReal pressure[], Vec lift, PetscBool *bad)
 {
   PetscReal      *local;
-  PetscBool       failed = PETSC_FALSE;
-  HPSpace         space  = p->space;
+  PetscBool       failed = PETSC_FALSE, far = PETSC_FALSE;
+  HPSpace         space = p->space;
   const HPTables *v;
 
   PetscFunctionBegin;
@@ -309,7 +307,13 @@ PetscErrorCode ProblemTangent(Problem p, Vec x, const PetscReal pressure[], Vec 
   PetscCall(VecGetArray(p->u_local, &local));
   PetscCall(ProblemLocalDisplacement(p, x, local));
   PetscCall(StageBegin(STAGE_CONTACT));
-  for (PetscInt i = 0; i < p->num_contacts; ++i) PetscCall(ContactEvaluate_Private(p, &p->contacts[i], x, local, PETSC_TRUE, PETSC_TRUE, &failed));
+  for (PetscInt i = 0; i < p->num_contacts; ++i) {
+    Contact *c = &p->contacts[i];
+    if (lift) PetscCall(ContactIsFar_Private(p, c, &far)); /* without lift the tangent is the derivative itself */
+    PetscCall(ContactPairHold(c->pair, far));
+    PetscCall(ContactEvaluate_Private(p, c, x, local, PETSC_TRUE, PETSC_TRUE, &failed));
+    PetscCall(ContactPairHold(c->pair, PETSC_FALSE));
+  }
   PetscCall(StageEnd(STAGE_CONTACT));
   p->lifting = (PetscBool)(lift != NULL);
   p->lift    = lift;

@@ -218,14 +218,20 @@ static PetscErrorCode Linearise_Private(SNES snes, Solver s, Vec x, Vec r, Vec d
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* When the first linear step moves contact along a surface, it is replaced by one that only carries the bodies to their new places: by the prescribed motion,
-   without the pairs that move, and without the residual, so that loads on a body that nothing but such a pair holds wait for the next iteration. */
-static PetscErrorCode Carry_Private(SNES snes, Solver s, Vec x, Vec r, Vec dx, PetscBool *ok)
+/* The first linear step. Where contact moves along a surface, by what supports prescribe or else by what the linear step says, one that only carries the bodies
+   to their new places takes its place: by the prescribed motion, without the pairs that move, and without the residual, so that loads on a body that nothing
+   but such a pair holds wait for the next iteration. */
+static PetscErrorCode First_Private(SNES snes, Solver s, Vec x, Vec r, Vec dx, PetscBool *ok)
 {
   PetscBool moved;
 
   PetscFunctionBegin;
-  PetscCall(ProblemRelease(s->problem, &moved));
+  *ok = PETSC_TRUE;
+  PetscCall(ProblemReleaseSlips(s->problem, &moved));
+  if (!moved) {
+    PetscCall(Linearise_Private(snes, s, x, r, dx, ok));
+    if (*ok) PetscCall(ProblemRelease(s->problem, &moved));
+  }
   if (!moved) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(PetscInfo(snes, "contact moves along: the bodies are carried to their new places first\n"));
   PetscCall(VecZeroEntries(r));
@@ -241,8 +247,10 @@ static PetscErrorCode Iterate_Private(SNES snes, Solver s, Vec x, Vec r, Vec dx)
 
   PetscFunctionBegin;
   if (s->test) PetscCall(Test_Private(snes, s, x));
-  PetscCall(Linearise_Private(snes, s, x, r, dx, &ok));
-  if (ok && snes->iter == 0) PetscCall(Carry_Private(snes, s, x, r, dx, &ok));
+  if (snes->iter == 0)
+    PetscCall(First_Private(snes, s, x, r, dx, &ok));
+  else
+    PetscCall(Linearise_Private(snes, s, x, r, dx, &ok));
   if (ok) PetscCall(Step_Private(snes, s, x, dx, r));
   if (!ok)
     PetscCall(Finish_Private(snes, s, SNES_DIVERGED_LINEAR_SOLVE, "the tangent is singular"));
