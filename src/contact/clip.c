@@ -86,20 +86,16 @@ static PetscBool Cut_Private(Overlap *o, int i, PetscReal size)
   return PETSC_TRUE;
 }
 
-PetscBool ContactClip(Overlap *o)
+PetscBool ContactClip(Overlap *o, PetscReal size)
 {
-  const PlaneQuad *s    = &o->side[0];
-  const PetscReal  d[2] = {s->Y[2][0] - s->Y[0][0], s->Y[2][1] - s->Y[0][1]}, e[2] = {s->Y[3][0] - s->Y[1][0], s->Y[3][1] - s->Y[1][1]};
-  const PetscReal  whole = 0.5 * Cross2(d, e);
-
   o->num = 4;
   for (int k = 0; k < 4; k++) {
     o->v[k][0] = o->side[1].Y[k][0], o->v[k][1] = o->side[1].Y[k][1];
     o->line[k] = (int8_t)(4 + k);
   }
   for (int i = 0; i < 4 && o->num; i++)
-    if (!Cut_Private(o, i, PetscSqrtReal(whole))) return PETSC_FALSE;
+    if (!Cut_Private(o, i, size)) return PETSC_FALSE;
   if (o->num < 3) return PETSC_FALSE;
   o->area = Area_Private(o);
-  return o->area > FACET_ON * FACET_ON * whole ? PETSC_TRUE : PETSC_FALSE;
+  return o->area > PetscSqr(FACET_ON * size) ? PETSC_TRUE : PETSC_FALSE;
 }
