@@ -6,7 +6,7 @@ import test_contact_scenes as scenes
 import test_parallel as parallel
 import test_property_contact as plane
 import test_property_robust as robust
-from higher import KINDS, faces, fails, higher
+from higher import faces, higher
 from test_property_contact import ONE_MESH, disc_mesh
 
 slow = pytest.mark.slow
@@ -153,9 +153,6 @@ def test_hertz2d_every_mesh(higher, n, roles):
     scenes.test_hertz2d_every_mesh(higher, n, 2, roles)
 
 
-CUT = fails("order 4, full faces, fine meshes: the step is cut")
-
-
 @faces("2-full")
 @scenes.ROLES
 @pytest.mark.parametrize("n", [4, pytest.param(8, marks=slow)])
@@ -163,18 +160,14 @@ def test_slide2d_every_mesh(higher, n, roles):
     scenes.test_slide2d_every_mesh(higher, n, 2, roles)
 
 
-@pytest.mark.parametrize("kind,roles", [(kind, roles) if (kind, roles) != ("4-full", ()) else pytest.param(kind, roles, marks=CUT) for kind in KINDS for roles in ((), scenes.SWAPPED)])
-@slow
+@faces()
+@scenes.ROLES
 def test_slide2d_fine_mesh(higher, roles):
     scenes.test_slide2d_every_mesh(higher, 16, 2, roles)
 
 
-DEEP = fails("full faces, pressed by 0.3: the slide needs more than 8 iterations or steps that are cut")
-DEEP_FAILS = {("2-full", 0.5, 16), ("2-full", 0.8, 16), ("4-full", 0.1, 16), ("4-full", 0.5, 8), ("4-full", 0.5, 16), ("4-full", 0.8, 16)}
-
-
-@pytest.mark.parametrize("kind,slide,n", [pytest.param(kind, slide, n, marks=DEEP if (kind, slide, n) in DEEP_FAILS else slow)
-                                          for kind in KINDS for slide in (0.1, 0.5, 0.8) for n in (8, 16)])
+@faces("2-full")
+@pytest.mark.parametrize("slide,n", [(0.5, 8)] + [pytest.param(slide, n, marks=slow) for slide in (0.1, 0.5, 0.8) for n in (8, 16) if (slide, n) != (0.5, 8)])
 def test_slide2d_deep_rubber(higher, slide, n):
     scenes.test_slide2d_deep_rubber(higher, slide, n)
 
@@ -185,7 +178,8 @@ def test_slide2d_adaptive(higher, roles):
     scenes.test_slide2d_adaptive(higher, roles)
 
 
-@pytest.mark.parametrize("kind,n", [pytest.param(kind, n, marks=CUT if (kind, n) == ("4-full", 16) else slow) for kind in KINDS for n in (4, 8, 16)])
+@faces()
+@pytest.mark.parametrize("n", [4, 8, 16])
 @scenes.ROLES
 def test_rubber2d_every_mesh(higher, n, roles):
     scenes.test_rubber2d_every_mesh(higher, n, 2, roles)
