@@ -121,10 +121,10 @@ PetscErrorCode EstimateTraces_Private(EstimateSum *sum, PetscInt cell, const Pet
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Squared length of the defect without the prescribed directions (a reaction acts there, whatever it is). A face that may only slide in its plane is taken for
-   a plane of symmetry: half the square of the jump to the mirror image, 2 d, so that a part of a symmetric body has its part of the estimate and a symmetric
-   mesh is refined alike on and off the plane. */
-static PetscReal Free_Private(PetscInt dim, PetscInt fixed, PetscBool loaded, const PetscReal N[3], const PetscReal defect[3])
+/* Squared length of the defect without the prescribed directions (a reaction acts there, whatever it is). An outer face that may only slide in its plane and
+   bears no load is taken for a plane of symmetry: half the square of the jump to the mirror image, 2 d, so that a part of a symmetric body has its part of the
+   estimate and a symmetric mesh is refined alike on and off the plane. */
+static PetscReal Free_Private(PetscInt dim, PetscInt fixed, PetscBool outer, const PetscReal N[3], const PetscReal defect[3])
 {
   PetscReal d[3], n[3], length = 0;
 
@@ -139,7 +139,7 @@ static PetscReal Free_Private(PetscInt dim, PetscInt fixed, PetscBool loaded, co
     const PetscReal along = Dot3(d, n) / length;
     for (PetscInt c = 0; c < 3; ++c) d[c] -= along * n[c];
   }
-  return (slides && !loaded ? 2 : 1) * Dot3(d, d);
+  return (slides && outer ? 2 : 1) * Dot3(d, d);
 }
 
 /* eta2 of owned leaves += scale * share * h/(p mu) |defect|^2; h: the leaf's height over the facet, p: the order of the trace. */
@@ -155,7 +155,7 @@ PetscErrorCode EstimateFacets_Private(EstimateSum *sum, const PetscReal height[]
     const PetscInt    part   = inside ? PART_JUMP : ContactTermsHave_Private(sum->contact, f->facet) ? PART_CONTACT : PART_BOUNDARY;
     PetscReal         square = 0;
     for (PetscInt q = f->first_point; q < f->first_point + NumPoints_Private(dim, f); ++q)
-      square += sum->dA[q] / sum->modulus[q] * Free_Private(dim, f->fixed, f->loaded, sum->normal[q], sum->defect[q]);
+      square += sum->dA[q] / sum->modulus[q] * Free_Private(dim, f->fixed, (PetscBool)(!inside && !f->loaded), sum->normal[q], sum->defect[q]);
     for (PetscInt s = 0; s < 2; ++s) {
       const FacetSide *side = &f->side[s];
       if (side->cell < 0 || side->cell >= sum->v->num_owned_cells) continue;
