@@ -113,7 +113,7 @@ def test_o70_final_state_forgets_the_steps(run):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("options, strains", [(), (*LINEAR1, "-mesh_refine", 1)], ids=["order_2", "order_1"])
+@pytest.mark.parametrize("options", [(), (*LINEAR1, "-mesh_refine", 1)], ids=["order_2", "order_1"])
 def test_o91_roles_exchanged(run, options):
     """Pressures and radii alike; plastic strains at the corners of linear faces are not."""
     one, other = (solve(run, *options, *roles) for roles in ((), EXCHANGED))
