@@ -218,6 +218,20 @@ static PetscErrorCode Linearise_Private(SNES snes, Solver s, Vec x, Vec r, Vec d
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* When the first linear step takes the load off flowing material, it is replaced by that of elastic material. */
+static PetscErrorCode Rest_Private(SNES snes, Solver s, Vec x, Vec r, Vec dx, PetscBool *ok)
+{
+  PetscBool rests;
+
+  PetscFunctionBegin;
+  PetscCall(ProblemRest(s->problem, x, dx, &rests));
+  if (!rests) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(PetscInfo(snes, "flow ends: the step begins elastic\n"));
+  PetscCall(Linearise_Private(snes, s, x, r, dx, ok));
+  PetscCall(ProblemFlow(s->problem));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* The first linear step. Where contact moves along a surface, by what supports prescribe or else by what the linear step says, one that only carries the bodies
    to their new places takes its place: by the prescribed motion, without the pairs that move, and without the residual, so that loads on a body that nothing
    but such a pair holds wait for the next iteration. */
@@ -230,6 +244,7 @@ static PetscErrorCode First_Private(SNES snes, Solver s, Vec x, Vec r, Vec dx, P
   PetscCall(ProblemReleaseSlips(s->problem, &moved));
   if (!moved) {
     PetscCall(Linearise_Private(snes, s, x, r, dx, ok));
+    if (*ok) PetscCall(Rest_Private(snes, s, x, r, dx, ok));
     if (*ok) PetscCall(ProblemRelease(s->problem, &moved));
   }
   if (!moved) PetscFunctionReturn(PETSC_SUCCESS);
