@@ -52,6 +52,8 @@ PetscBool ContactClip(Overlap *);
 /* rule.c: barycentric points and weights on a triangle. */
 #define CONTACT_RULE 25
 extern const PetscReal ContactRulePoint[CONTACT_RULE][3], ContactRuleWeight[CONTACT_RULE];
+/* The symmetric rule of the lowest degree, 10 at least, that is exact to `degree`. False: none is. */
+PetscBool ContactRuleGet(PetscInt degree, PetscInt *num, const PetscReal (**point)[3], const PetscReal **weight);
 
 /* overlap.c */
 typedef struct {

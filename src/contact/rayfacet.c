@@ -59,6 +59,7 @@ PetscErrorCode ContactRayWorkDestroy(RayWork *work)
   PetscCall(PetscFree(w->window));
   PetscCall(PetscFree(w->vertex));
   PetscCall(PetscFree(w->test));
+  PetscCall(PetscFree(w->place));
   PetscCall(PetscFree(w->dq));
   PetscCall(PetscFree(w->W));
   PetscCall(PetscFree(w->J));
