@@ -196,7 +196,7 @@ static void Collapse_Private(const RayFacet *f, const Overlap *o, const RayMove 
 
 /* *place: the overlap's first; moves on to the next one's. */
 static PetscErrorCode Overlap_Private(RayWork w, const RayLattice *mortar, PetscInt k, const PetscReal y[], const PetscReal D[4][4], PetscReal area,
-                                      const RayPlace **place, const Pairs *pairs, PetscReal all[])
+                                      const RayPlace **place, const Pairs *pairs, PetscReal all[], PetscReal gradient[])
 {
   const RayFacet *f  = &w->facet;
   const Overlap  *o  = &w->overlap[k];
@@ -233,7 +233,10 @@ static PetscErrorCode Overlap_Private(RayWork w, const RayLattice *mortar, Petsc
     PetscCall(Batch_Private(w, mortar, &w->test[w->window[k]], &s, points, point, weight, y, D, area, *place, &r, &second, &b));
     *place += points;
     Simplex_Private(f, &s, &b, pairs, all, corner);
+    for (PetscInt i = 0; i < nq; i++) gradient[i] += s.size * b.gradient[i];
   }
+  for (PetscInt i = 0; i < f->m * (f->m == 1 ? 2 : o->num); i++)
+    for (int l = 0; l < RAY_IMAGES; l++) gradient[nq + l] += corner[i] * move[i / f->m].d[i % f->m][l];
   Collapse_Private(f, o, move, corner, nq, all);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -282,17 +285,19 @@ static void Transpose_Private(PetscInt n, PetscReal W[])
 }
 
 PetscErrorCode ContactRayHessian(ContactPair pair, const ContactSurface *mortar, const PetscReal y[], const PetscReal D[4][4], PetscReal area,
-                                 const PetscReal gradient[])
+                                 PetscReal gradient[])
 {
   RayWork         w   = pair->ray;
   const RayFacet *f   = &w->facet;
   const PetscInt  own = f->s.num + f->nv, images = f->D * (own + w->num_mortar), n = w->n, pairs = f->s.num * own;
   PetscInt        place[3 * (2 * RAY_LATTICE + 4) + RAY_IMAGES];
-  const RayPlace *at = w->place;
+  const RayPlace *at = w->places;
   RayLattice      facet;
   Pairs           pair_sums;
+  PetscReal      *slope;
 
   PetscFunctionBegin;
+  PetscCall(PetscArrayzero(gradient, n));
   PetscCall(ContactGrow(n * n, sizeof(PetscReal), &w->size_W, &w->W));
   PetscCall(PetscArrayzero(w->W, n * n));
   for (PetscInt k = 0; k < w->num_overlaps; k++) {
@@ -301,19 +306,22 @@ PetscErrorCode ContactRayHessian(ContactPair pair, const ContactSurface *mortar,
     ContactRayLatticeGather(mortar, w->mortar[k], &facet);
     N     = f->D * (own + facet.num) + CORNERS;
     width = N - CORNERS + f->m * f->nv;
-    PetscCall(ContactGrow(N * N + 3 * pairs, sizeof(PetscReal), &w->size_part, &w->part));
-    PetscCall(PetscArrayzero(w->part, N * N + 3 * pairs));
+    PetscCall(ContactGrow(N * N + 3 * pairs + N, sizeof(PetscReal), &w->size_part, &w->part));
+    PetscCall(PetscArrayzero(w->part, N * N + 3 * pairs + N));
     pair_sums.turn  = w->part + N * N;
     pair_sums.twist = pair_sums.turn + 3 * f->nv * f->s.num;
-    PetscCall(Overlap_Private(w, &facet, k, y, D, area, &at, &pair_sums, w->part));
+    slope           = pair_sums.turn + 3 * pairs;
+    PetscCall(Overlap_Private(w, &facet, k, y, D, area, &at, &pair_sums, w->part, slope));
     AddPairs_Private(w, &pair_sums);
     ContactRayPlaces(w, mortar, w->mortar[k], facet.num, place);
+    for (PetscInt a = 0; a < width; a++) gradient[place[a]] += slope[a];
     for (PetscInt a = 0; a < width; a++)
       for (PetscInt b = 0; b < width; b++) w->W[place[a] * n + place[b]] += w->part[a * N + b];
   }
   ContactImagesFold(w, n, w->W, n);
   Transpose_Private(n, w->W);
   ContactImagesFold(w, n, w->W, n);
+  ContactImagesFold(w, 1, gradient, n);
   for (PetscInt k = 0; k < w->num_images; k++) PetscCall(Image_Private(w, k, gradient + images + f->m * k));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -106,8 +106,9 @@ struct _p_RayWork {
   PetscInt   size_image, size_overlap, size_mortar, size_window, size_vertex, size_test, size_dq, size_W, size_J, size_R, size_WJ, size_part, size_buffer;
   PetscInt   size_T, size_rows, size_softness;
   /* where the rays of the integration points met, overlap after overlap: the Hessian is integrated there again */
-  PetscInt  num_places, size_places;
-  RayPlace *place;
+  PetscInt        num_places, size_places, *first_place, size_first_place; /* first_place[num_listed]: -1: some overlap was dropped */
+  RayPlace       *place;
+  const RayPlace *places; /* of the facet at hand */
 };
 
 /* raylattice.c */
@@ -232,9 +233,9 @@ void      ContactRayPlaces(const RayWork, const ContactSurface *mortar, PetscInt
 /* raysum.c, raycurve.c: integrals over the overlaps of the facet at hand */
 void           ContactRayOverDet(const RayFacet *, const RayChartPoint *, PetscReal factor, const RayWeight *, RayWeight *);
 PetscErrorCode ContactRayMoments(ContactPair, const ContactSurface *mortar, PetscBool mass, PetscBool derivatives);
-/* W of the work space: half Hessian of sum_a y_a G_a + sum_ab D[a][b] int N_a N_b dA (D NULL: none) + area int dA; gradient[n] of it. */
-PetscErrorCode ContactRayHessian(ContactPair, const ContactSurface *mortar, const PetscReal y[], const PetscReal D[4][4], PetscReal area,
-                                 const PetscReal gradient[]);
+/* W of the work space: half Hessian of sum_a y_a G_a + sum_ab D[a][b] int N_a N_b dA (D NULL: none) + area int dA, at the facet's places; gradient[n] of it is
+   set. */
+PetscErrorCode ContactRayHessian(ContactPair, const ContactSurface *mortar, const PetscReal y[], const PetscReal D[4][4], PetscReal area, PetscReal gradient[]);
 
 /* spring.c: compliances of a facet that is covered in part, with two derivatives by the covered area. */
 typedef struct {

@@ -168,9 +168,8 @@ PetscErrorCode ContactRayMoments(ContactPair pair, const ContactSurface *mortar,
   RayLattice      facet;
 
   PetscFunctionBegin;
-  w->n           = f->D * (own + w->num_mortar) + f->m * w->num_images;
   w->num_moments = 2 * na + (mass ? na * (na + 1) / 2 : 0);
-  w->covered = 0, w->min_gap = PETSC_MAX_REAL, w->num_places = 0;
+  w->covered = 0, w->min_gap = PETSC_MAX_REAL;
   PetscCall(PetscArrayzero(w->reach, na));
   PetscCall(PetscArrayzero(w->q, w->num_moments));
   if (derivatives) {
