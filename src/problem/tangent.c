@@ -94,7 +94,7 @@ static PetscErrorCode FacetHessian_Private(Problem p, const Contact *c, const Co
   for (PetscInt j = 0; j < n; ++j) {
     for (PetscInt a = 0; a < e->num; ++a) Turn_Private(dim, Frame_Private(c, e->nodes[a]), H + dim * a * n + j, n);
   }
-  PetscCall(MatSetValues(p->matrix, n, dofs, n, dofs, H, ADD_VALUES));
+  PetscCall(ProblemInsert_Private(p, n, dofs, n, dofs, H, ADD_VALUES));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -127,7 +127,7 @@ PetscErrorCode ContactBlocks_Private(Problem p, Contact *c)
       ContactRowFactors_Private(c, e, k, PETSC_FALSE, &mean, &along);
       for (PetscInt a = 0; a < n; ++a) p->work_value[a] = -e->dgap[k * n + a] - (along != 0 ? along * e->darea[a] : 0);
       for (PetscInt a = 0; a < e->num; ++a) Turn_Private(dim, Frame_Private(c, e->nodes[a]), p->work_value + dim * a, 1);
-      PetscCall(MatSetValues(p->matrix, n, p->work_index, 1, &z, p->work_value, ADD_VALUES));
+      PetscCall(ProblemInsert_Private(p, n, p->work_index, 1, &z, p->work_value, ADD_VALUES));
     }
   }
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -199,8 +199,8 @@ PetscErrorCode ContactInsertRow_Private(Problem p, Contact *c, PetscInt j)
   PetscCall(NodeGradient_Private(p, c, j, c->active[j] ? active : 0, PETSC_TRUE, dofs, values, &num));
   PetscCall(PetscFindInt(c->zdof[j], num, dofs, &at));
   values[at] = c->active[j] ? active * c->spring[j] : p->symmetric ? -c->w0[j] / c->c[j] : c->w0[j];
-  PetscCall(MatSetValues(p->matrix, 1, &c->zdof[j], num, dofs, values, INSERT_VALUES));
-  if (p->symmetric) PetscCall(MatSetValues(p->matrix, num, dofs, 1, &c->zdof[j], values, INSERT_VALUES));
+  PetscCall(ProblemInsert_Private(p, 1, &c->zdof[j], num, dofs, values, INSERT_VALUES));
+  if (p->symmetric) PetscCall(ProblemInsert_Private(p, num, dofs, 1, &c->zdof[j], values, INSERT_VALUES));
   PetscCall(PetscFree2(dofs, values));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
