@@ -10,7 +10,6 @@ typedef enum {
 } Volumetric; /* U = kappa/2 (J-1)^2 | kappa/2 ((J^2-1)/2 - ln J) | log_modulus/2 (ln J)^2, docs/theory.md */
 typedef enum { FORMULATION_AUTO, FORMULATION_DISPLACEMENT, FORMULATION_MIXED } Formulation; /* auto: mixed from nu = 0.45 up */
 extern const char *const VolumetricNames[];                                                 /* PETSc enum name arrays */
-extern const char *const FormulationNames[];
 
 #define MATERIAL_MAX_PARAMETERS 12
 #define MATERIAL_MAX_HISTORY 7

@@ -373,19 +373,6 @@ static PetscErrorCode Choice_Private(const SceneData *scene, const EstimateSum *
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Contact views show the last evaluation: evaluate at the state. */
-static PetscErrorCode Refresh_Private(Problem problem, Vec x)
-{
-  ProblemStatus status;
-  Vec           r;
-
-  PetscFunctionBegin;
-  PetscCall(ProblemCreateVector(problem, &r));
-  PetscCall(ProblemResidual(problem, x, r, &status));
-  PetscCall(VecDestroy(&r));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 PetscErrorCode EstimateCompute(Problem problem, const State *state, Estimate *e)
 {
   const SceneData *scene;
@@ -405,7 +392,7 @@ PetscErrorCode EstimateCompute(Problem problem, const State *state, Estimate *e)
   sum.spec = &scene->mechanics;
   PetscCall(ProblemSetHistory(problem, state->history));
   if (scene->num_contacts) {
-    PetscCall(Refresh_Private(problem, state->x));
+    PetscCall(ProblemRefresh(problem, state->x));
     PetscCall(ContactTermsCreate_Private(problem, &contact));
     sum.contact = &contact;
   }
