@@ -26,6 +26,7 @@ typedef struct {
   PetscReal angle;               /* degrees, from the circumferential direction of the frame towards its axis */
   char      field[MORTISE_NAME]; /* of the mesh, that has a vector for each cell; empty: none */
   const PetscReal (*along)[3];   /* borrowed, of any length: [coarse cells] of the field once the mesh is known, else NULL */
+  PetscBool compression;         /* comparison only: fibres push where they are shortened */
 } MaterialFiber;
 
 /* The axis around which circumferential directions turn: parallel to a coordinate axis, through a point. The circumferential direction at X is

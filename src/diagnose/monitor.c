@@ -152,11 +152,6 @@ PetscErrorCode MonitorHeader(Monitor m, Problem problem)
   Say_Private(m, "mortise " MORTISE_VERSION ": %s%s%s\n", scene->title, scene->title[0] ? ", " : "", FileName_Private(scene->file));
   Say_Private(m, "%s, %s kinematics, units of the scene; %" PetscInt_FMT " cells of order %s, %" PetscInt_FMT " dofs, %d %s\n", model,
               KinematicsNames[scene->mechanics.kinematics], t->num_leaves, orders, dofs, size, size == 1 ? "process" : "processes");
-  for (PetscInt b = 0; b < scene->num_materials; ++b) {
-    if (MaterialSoftens(&scene->materials[b]))
-      Say_Private(m, "warning: the yield stress of material %s falls with plastic strain: zones of flow shrink to a cell, results depend on the mesh\n",
-                  scene->materials[b].name);
-  }
   Say_Private(m, "%5s %4s %11s %8s %9s %6s %6s %10s %12s %8s\n", "step", "pass", "t", "cells", "dofs", "newton", "active", "error", "force", "seconds");
   PetscCall(MonitorShow_Private(m));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -222,9 +217,9 @@ PetscErrorCode MonitorFooter(Monitor m, const char *status, const char *reason, 
     snprintf(spent, sizeof(spent), "%.2f s", (double)(now - m->start));
   else
     Duration_Private(now - m->start, spent, sizeof(spent));
-  Say_Private(m, "%s%s%s: %" PetscInt_FMT " load %s to t = %g of %g, %" PetscInt_FMT " Newton iterations, %" PetscInt_FMT " step %s, %s\n", status,
-              reason[0] ? ", " : "", reason, m->steps, m->steps == 1 ? "step" : "steps", (double)m->t, (double)m->scene->load.end, m->iterations, m->cuts,
-              m->cuts == 1 ? "cut" : "cuts", spent);
+  Say_Private(m, "%s%s%s: %" PetscInt_FMT " load %s to t = %g of %g, %" PetscInt_FMT " Newton %s, %" PetscInt_FMT " step %s, %s\n", status,
+              reason[0] ? ", " : "", reason, m->steps, m->steps == 1 ? "step" : "steps", (double)m->t, (double)m->scene->load.end, m->iterations,
+              m->iterations == 1 ? "iteration" : "iterations", m->cuts, m->cuts == 1 ? "cut" : "cuts", spent);
   if (last) {
     if (PetscIsNanReal(last->estimated_error))
       Say_Private(m, "strain energy %.8g, error not estimated\n", (double)last->energy);

@@ -58,6 +58,8 @@ const Option Options[] = {
      "or the name of a view $ElementData with a vector, of any length, for each cell of an ASCII .msh", FIBER(field)},
     {"material.<name>.fiber.<family>.k1", KEY_REAL, "stress", "", POSITIVE, "this family's own stiffness; default: the material's", FIBER(k1)},
     {"material.<name>.fiber.<family>.k2", KEY_REAL, "", "", POSITIVE, "this family's own k2; default: the material's", FIBER(k2)},
+    {"material.<name>.fiber.<family>.compression", KEY_BOOL, "", "false", "", "fibres that push as well when shortened, for comparison only",
+     FIBER(compression)},
     {"material.<name>.frame.axis", KEY_WORD, "", "", "x|y|z", "axis that circumferential directions turn around; default: z, axisymmetric: y",
      MAT(spec.frame.axis)},
     {"material.<name>.frame.point.<axis>", KEY_REAL, "length", "0", ANY, "a point of that axis", MAT(spec.frame.point)},
