@@ -189,7 +189,8 @@ PetscErrorCode ProblemRefresh(Problem, Vec x);
 PetscErrorCode ProblemSetCondense(Problem);
 /* A vector of the matrix: right-hand side, lift, solution. */
 PetscErrorCode ProblemCreateRightSide(Problem, Vec *);
-/* dx = y, and the solution at nodes inside cells where they are condensed (with the lift of the last tangent). Collective. */
+/* dx = y, multipliers in the unit of pressures (the symmetric form has them over E/h), and the solution at nodes inside cells where they are condensed (with
+   the lift of the last tangent). Collective. */
 PetscErrorCode ProblemRecover(Problem, Vec y, Vec dx);
 /* dR/dx with the stored element pressures in the geometric stiffness (NULL: consistent). When lift is given, the change of R that the remaining
    prescribed motion makes to first order is added to it, and the Hessian of pairs whose open gaps under pressure are still wide against their facets is left

@@ -199,8 +199,9 @@ static PetscErrorCode Overlap_Private(RayWork w, const RayLattice *mortar, Petsc
                                       const RayPlace **place, const Pairs *pairs, PetscReal all[], PetscReal gradient[])
 {
   const RayFacet *f  = &w->facet;
-  const Overlap  *o  = &w->overlap[k];
   const PetscInt  na = f->s.num, nq = f->D * (na + f->nv + mortar->num);
+  Overlap         split;
+  const Overlap  *o               = &split;
   PetscReal       corner[CORNERS] = {0};
   RayMove         move[FACET_VERTICES];
   RaySecond       second;
@@ -210,6 +211,7 @@ static PetscErrorCode Overlap_Private(RayWork w, const RayLattice *mortar, Petsc
   const PetscReal(*point)[3], *weight;
 
   PetscFunctionBegin;
+  ContactRaySplit(f, &w->overlap[k], &split);
   PetscCall(ContactRayRule(f->m, f->s.order, mortar->order, &points, &point, &weight));
   PetscCall(ContactGrow(points * (b.nf + f->D * nq + OWN * (b.na + b.no) + f->m * (nq + 12) + f->nv + 7 * na) + 8 * (nq + 6), sizeof(PetscReal),
                         &w->size_buffer, &w->buffer));

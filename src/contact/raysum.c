@@ -108,19 +108,22 @@ static PetscErrorCode Overlap_Private(RayWork w, const RayLattice *mortar, Petsc
                                       PetscBool *good)
 {
   const RayFacet *f = &w->facet;
-  const Overlap  *o = &w->overlap[k];
+  Overlap         split;
+  const Overlap  *o = &split;
   const RayTest  *t = &w->test[w->window[k]];
   const PetscInt  D = f->D, nq = D * (f->s.num + f->nv + mortar->num), width = nq + RAY_IMAGES, num = 2 * t->num + (mass ? t->num * (t->num + 1) / 2 : 0);
-  const PetscInt  simplices = ContactRaySimplices(f, o), m = f->m;
+  const PetscInt  m = f->m;
   RayMove         move[FACET_VERTICES];
   RayGuess        guess;
   Batch           b;
   RayPoint        r;
-  PetscInt        points;
+  PetscInt        points, simplices;
   const PetscReal(*point)[3], *weight;
 
   PetscFunctionBegin;
-  *good = PETSC_TRUE;
+  ContactRaySplit(f, &w->overlap[k], &split);
+  simplices = ContactRaySimplices(f, o);
+  *good     = PETSC_TRUE;
   b.num = num, b.nq = nq, b.na = D * f->s.num;
   PetscCall(ContactRayRule(m, f->s.order, mortar->order, &points, &point, &weight));
   PetscCall(ContactGrow(points * (num + nq + b.na + m * num) + m * (m + 1) * num, sizeof(PetscReal), &w->size_buffer, &w->buffer));
