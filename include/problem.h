@@ -211,6 +211,10 @@ PetscErrorCode ProblemSwitchActiveSet(Problem, Vec dx, Vec rhs, PetscInt *change
    them and sets their multipliers to 0. *any: is there one? Engage puts all pairs back. Collective. */
 PetscErrorCode ProblemRelease(Problem, PetscBool *any);
 PetscErrorCode ProblemEngage(Problem);
+/* At the start of a step, where dx is the linear step there: would most points on their yield surface leave it? Then the next tangents take such points for
+   elastic, until ProblemFlow. Collective. */
+PetscErrorCode ProblemRest(Problem, Vec x, Vec dx, PetscBool *rests);
+PetscErrorCode ProblemFlow(Problem);
 /* A number that tells active sets of this problem apart, the same on every rank. Collective. */
 PetscErrorCode ProblemActiveSetHash(Problem, uint64_t *hash);
 /* A Newton step: Begin remembers where it starts; Move sets x = start + step dx and the prescribed motion likewise (may be called again with a shorter step)
