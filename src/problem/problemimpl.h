@@ -166,6 +166,11 @@ PetscErrorCode PathTangent_Private(Problem, PetscInt row, const PetscReal u[]);
 /* scatter.c: places of cells in the matrix as it stands, made when its pattern is new; add a cell's matrix there (*added false: it has no places). */
 PetscErrorCode ProblemScatter_Private(Problem);
 PetscErrorCode ProblemScatterAdd_Private(Problem, PetscInt cell, PetscInt num_dofs, const PetscInt dofs[], const PetscReal K[], PetscBool *added);
+/* This rank's diagonal block of the matrix. */
+PetscErrorCode ProblemDiagonal_Private(Problem, Mat *);
+/* insert.c: as MatSetValues(problem's matrix, ..), of contact: values in the diagonal block. */
+PetscErrorCode ProblemInsert_Private(Problem, PetscInt num_rows, const PetscInt rows[], PetscInt num_columns, const PetscInt columns[], const PetscReal K[],
+                                     InsertMode);
 /* pressure.c: counts[rank] grow by the pressure unknowns; their indices, once the ranges of the ranks are known; their rows likewise. Collective. */
 PetscErrorCode PressureNumber_Private(Problem, PetscInt counts[]);
 PetscErrorCode PressureIndices_Private(Problem);
