@@ -23,6 +23,9 @@ PetscErrorCode ErrorInput(const char *format, ...) PETSC_ATTRIBUTE_FORMAT(1, 2);
 PetscInt    NameDistance(const char *a, const char *b);
 const char *NameNearest(const char *name, PetscInt num, const char *const names[]);
 
+/* One row of -help: a name, what it may be, and on a line of its own what it means. Collective. */
+PetscErrorCode HelpRow(MPI_Comm, const char *name, const char *allowed, const char *text);
+
 /* Install the error handler that keeps quiet about input errors and prints PETSc's traceback for all others. */
 PetscErrorCode ErrorHandlerPush(void);
 

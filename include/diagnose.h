@@ -72,8 +72,7 @@ PetscErrorCode MonitorHeader(Monitor, Problem); /* version, scene, model, cells,
 /* The run goes on from a file: step, step_cuts, newton_iterations (of the whole run), t and seconds so far. */
 PetscErrorCode MonitorResume(Monitor, const char *file, const ReportRow *so_far);
 PetscErrorCode MonitorRow(Monitor, const ReportRow *); /* one line; on a terminal a bar with the time left below it */
-/* Erase the bar, before something else is printed (no effect when there is none). */
-PetscErrorCode MonitorHide(Monitor);
-/* What was computed, estimated error, where results are. status as in summary.json; reason may be empty; last accepted row, NULL: none. */
-PetscErrorCode MonitorFooter(Monitor, const char *status, const char *reason, const char *adapt_stop, const ReportRow *last);
+/* What was computed, estimated error, where results are. status as in summary.json; reason may be empty; checkpoint: one was written; last accepted
+   row, NULL: none. */
+PetscErrorCode MonitorFooter(Monitor, const char *status, const char *reason, const char *adapt_stop, PetscBool checkpoint, const ReportRow *last);
 PetscErrorCode MonitorDestroy(Monitor *);

@@ -32,6 +32,21 @@ PetscErrorCode ElementEvaluate(PetscInt dim, PetscInt order, const PetscReal xi[
 PetscErrorCode ElementTransform(PetscInt dim, PetscInt from, PetscInt to, PetscInt num, const PetscReal M[], const PetscReal in[], PetscReal out[],
                                 PetscReal work[]);
 
+/* Quadrature point q of the tensor product of a table's points: xi[dim]; returns its weight (of the unit cell). */
+static inline PetscReal Basis1DPoint(const Basis1D *b, PetscInt dim, PetscInt q, PetscReal xi[])
+{
+  PetscReal weight = 1;
+
+  for (PetscInt d = 0; d < dim; d++, q /= b->num_points) {
+    xi[d] = b->points[q % b->num_points];
+    weight *= b->weights[q % b->num_points];
+  }
+  return weight;
+}
+
+/* The polynomials of lowest degree through values[num_points^dim][num] at the tensor product of a table's quadrature points, at xi[dim]: out[num]. */
+void Basis1DInterpolate(const Basis1D *, PetscInt dim, const PetscReal xi[], PetscInt num, const PetscReal values[], PetscReal out[]);
+
 /* Legendre polynomials 0..degree on [0,1] at xi: P_0 = 1, P_n(1) = 1; and derivatives unless NULL. */
 PetscErrorCode ElementLegendre(PetscInt degree, PetscReal xi, PetscReal value[], PetscReal derivative[]);
 

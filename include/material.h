@@ -10,7 +10,6 @@ typedef enum {
 } Volumetric; /* U = kappa/2 (J-1)^2 | kappa/2 ((J^2-1)/2 - ln J) | log_modulus/2 (ln J)^2, docs/theory.md */
 typedef enum { FORMULATION_AUTO, FORMULATION_DISPLACEMENT, FORMULATION_MIXED } Formulation; /* auto: mixed from nu = 0.45 up */
 extern const char *const VolumetricNames[];                                                 /* PETSc enum name arrays */
-extern const char *const FormulationNames[];
 
 #define MATERIAL_MAX_PARAMETERS 12
 #define MATERIAL_MAX_HISTORY 7
@@ -27,6 +26,7 @@ typedef struct {
   PetscReal angle;               /* degrees, from the circumferential direction of the frame towards its axis */
   char      field[MORTISE_NAME]; /* of the mesh, that has a vector for each cell; empty: none */
   const PetscReal (*along)[3];   /* borrowed, of any length: [coarse cells] of the field once the mesh is known, else NULL */
+  PetscBool compression;         /* comparison only: fibres push where they are shortened */
 } MaterialFiber;
 
 /* The axis around which circumferential directions turn: parallel to a coordinate axis, through a point. The circumferential direction at X is

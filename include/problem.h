@@ -182,6 +182,8 @@ typedef struct {
 
 /* R(x) with the prescribed motion as applied and the history last set. Deterministic function of x. Collective; status is the same on every rank. */
 PetscErrorCode ProblemResidual(Problem, Vec x, Vec r, ProblemStatus *);
+/* Views of contact show the last evaluation: make it that of x. Collective. */
+PetscErrorCode ProblemRefresh(Problem, Vec x);
 /* Static condensation, chosen once, before the matrix is made: the matrix and its right-hand side leave out the unknowns of nodes inside cells; vectors of
    the problem keep them. Collective. */
 PetscErrorCode ProblemSetCondense(Problem);

@@ -16,6 +16,14 @@ def seconds_of_children():
     return used.ru_utime + used.ru_stime
 
 
+def plain_seconds(axes):
+    """A logarithmic axis of seconds with plain numbers."""
+    low, high = axes.get_xlim()
+    ticks = [t for t in (0.1, 0.15, 0.2, 0.3, 0.5, 0.7, 1, 1.5, 2, 3, 5, 7, 10, 20, 50) if low <= t <= high]
+    axes.set_xticks(ticks, [f"{t:g}" for t in ticks])
+    axes.set_xticks([], minor=True)
+
+
 def run(scene, *options, directory=None):
     """(summary, rows of adapt.csv, processor seconds of the whole process: user + system, gmsh included) of one run of inputs/<scene>.yml."""
     with tempfile.TemporaryDirectory() as scratch:

@@ -16,7 +16,8 @@ PetscErrorCode AppEstimate(App *app)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode AppReportPass(App *app, PetscInt iterations, PetscBool accepted)
+/* Fields, tables and screen of the state just computed. */
+static PetscErrorCode ReportPass_Private(App *app, PetscInt iterations, PetscBool accepted)
 {
   Level         *l         = &app->level;
   Balance        before    = app->balance;
@@ -230,7 +231,7 @@ PetscErrorCode AppAdapt(App *app)
     else if (spec->tolerance > 0 && app->passes_in_step >= spec->max_passes)
       app->adapt_stop = "max_passes";
     const PetscBool enough = (PetscBool)(spec->tolerance <= 0 || app->adapt_stop[0]);
-    PetscCall(AppReportPass(app, iterations, enough));
+    PetscCall(ReportPass_Private(app, iterations, enough));
     if (enough) break;
     PetscCall(Pass_Private(app, &iterations, &more));
     if (more) continue;

@@ -43,7 +43,7 @@ typedef struct {
   ReportRow      last;
   PetscReal      dt;                                                          /* length of the next load step */
   Checkpoint     snapshot;                                                    /* owned: copy of the state at the end of the last accepted load step */
-  Forest         snapshot_forest;                                             /* borrowed: the forest it stood on, to compare only */
+  PetscInt       snapshot_revision;                                           /* of the forest it stands on */
   PetscBool      written;                                                     /* the file is this copy */
   char           checkpoint[PETSC_MAX_PATH_LEN], restart[PETSC_MAX_PATH_LEN]; /* file to write; file to go on from, "": none */
 } App;
@@ -66,8 +66,6 @@ PetscErrorCode AppAdvance(App *, PetscReal t, PetscReal smallest, PetscBool *ok)
 PetscErrorCode AppEstimate(App *);
 /* coupling.c: pairs of leaves that face each other in contact, each once, the same on every rank (one rank: none); freed by the caller. Collective. */
 PetscErrorCode AppContactPairs(App *, PetscInt *num, PetscInt (**pairs)[2]);
-/* Fields, tables and screen of the state just computed. */
-PetscErrorCode AppReportPass(App *, PetscInt iterations, PetscBool accepted);
 
 /* restart.c. The options -restart and -max_seconds; signals are heard from now on. Collective. */
 PetscErrorCode AppOptions(App *);

@@ -100,7 +100,7 @@ static PetscErrorCode Summarise_Private(App *app)
   summary.estimate           = app->estimated && !app->failure && !app->stopped ? &app->estimate : NULL;
   summary.probes             = app->probes;
   PetscCall(OutputSummary(app->comm, app->data, &summary));
-  PetscCall(MonitorFooter(app->monitor, status, summary.reason, app->adapt_stop, app->load_steps ? &app->last : NULL));
+  PetscCall(MonitorFooter(app->monitor, status, summary.reason, app->adapt_stop, app->written, app->load_steps ? &app->last : NULL));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

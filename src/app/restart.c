@@ -61,8 +61,7 @@ PetscErrorCode AppPrintHelp(MPI_Comm comm)
 {
   PetscFunctionBegin;
   PetscCall(PetscPrintf(comm, "\nOptions of the run, on the command line only.\n\n"));
-  for (size_t i = 0; i < PETSC_STATIC_ARRAY_LENGTH(Options); ++i)
-    PetscCall(PetscPrintf(comm, "  %-39s %s\n  %-39s   %s\n", Options[i].name, Options[i].allowed, "", Options[i].text));
+  for (size_t i = 0; i < PETSC_STATIC_ARRAY_LENGTH(Options); ++i) PetscCall(HelpRow(comm, Options[i].name, Options[i].allowed, Options[i].text));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -101,10 +100,11 @@ static void Number_Private(CheckpointNumber numbers[], PetscInt *num, const char
 
 PetscErrorCode AppSnapshot(App *app)
 {
-  CheckpointNumber numbers[NUM_NUMBERS];
-  PetscLogDouble   now;
-  PetscReal        seconds[1 + NUM_STAGES];
-  PetscInt         num = 0, states = 0;
+  CheckpointNumber    numbers[NUM_NUMBERS];
+  const ForestTables *t;
+  PetscLogDouble      now;
+  PetscReal           seconds[1 + NUM_STAGES];
+  PetscInt            num = 0, states = 0;
 
   PetscFunctionBegin;
   PetscCall(StageBegin(STAGE_OUTPUT));
@@ -120,8 +120,9 @@ PetscErrorCode AppSnapshot(App *app)
   for (PetscInt s = 0; s < NUM_STAGES; ++s) Number_Private(numbers, &num, "seconds.", StageNames[s], seconds[s]);
   PetscCall(CheckpointDestroy(&app->snapshot));
   PetscCall(CheckpointCreate(app->level.problem, &app->level.accepted, num, numbers, app->adapt_stop, &app->snapshot));
-  app->snapshot_forest = app->level.forest;
-  app->written         = PETSC_FALSE;
+  PetscCall(ForestGetTables(app->level.forest, &t));
+  app->snapshot_revision = t->revision;
+  app->written           = PETSC_FALSE;
   PetscCall(StageEnd(STAGE_OUTPUT));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -140,9 +141,10 @@ PetscErrorCode AppCheckpoint(App *app)
 /* The level of a checkpoint over the coarse mesh of a forest. */
 static PetscErrorCode Level_Private(App *app, Checkpoint c, Forest coarse, Level *level)
 {
-  const int8_t *orders;
-  PetscReal     t;
-  Forest        forest;
+  const ForestTables *tables;
+  const int8_t       *orders;
+  PetscReal           t;
+  Forest              forest;
 
   PetscFunctionBegin;
   PetscCall(CheckpointGetNumber(c, "t", &t));
@@ -151,19 +153,22 @@ static PetscErrorCode Level_Private(App *app, Checkpoint c, Forest coarse, Level
   PetscCall(LevelCreate(app->data, forest, orders, t, level));
   PetscCall(CheckpointState(c, level->problem, &level->state));
   PetscCall(StateCopy(&level->state, &level->accepted));
-  app->snapshot_forest = forest;
+  PetscCall(ForestGetTables(forest, &tables));
+  app->snapshot_revision = tables->revision;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode AppStop(App *app)
 {
-  Level old = app->level;
+  const ForestTables *t;
+  Level               old = app->level;
 
   PetscFunctionBegin;
   PetscCall(AppCheckpoint(app));
   PetscCall(PetscSNPrintf(app->stop_reason, sizeof(app->stop_reason), "%s; -restart %s goes on", StopReason(), app->checkpoint));
   app->adapt_stop = CheckpointNote(app->snapshot);
-  if (old.forest == app->snapshot_forest) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(ForestGetTables(old.forest, &t));
+  if (t->revision == app->snapshot_revision) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(Level_Private(app, app->snapshot, old.forest, &app->level)); /* the step that was given up had refined the mesh */
   PetscCall(LevelDestroy(&old));
   PetscFunctionReturn(PETSC_SUCCESS);

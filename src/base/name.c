@@ -1,4 +1,4 @@
-/* How alike names are, for messages about those that are not known. */
+/* Names of keys and options: their rows of -help, and how alike they are, for messages about those that are not known. */
 #include "base.h"
 
 PetscInt NameDistance(const char *a, const char *b)
@@ -29,4 +29,11 @@ const char *NameNearest(const char *name, PetscInt num, const char *const names[
     if (d < distance) best = names[i], distance = d;
   }
   return best;
+}
+
+PetscErrorCode HelpRow(MPI_Comm comm, const char *name, const char *allowed, const char *text)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscPrintf(comm, "  %-39s %s\n  %-39s   %s\n", name, allowed, "", text));
+  PetscFunctionReturn(PETSC_SUCCESS);
 }

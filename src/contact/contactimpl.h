@@ -121,8 +121,6 @@ static inline PetscReal Dot2(const PetscReal a[2], const PetscReal b[2])
 {
   return a[0] * b[0] + a[1] * b[1];
 }
-/* Gauss points on [0, 1] (point, weight; weights sum to 1). */
-extern const PetscReal ContactGaussPoint[CONTACT_GAUSS], ContactGaussWeight[CONTACT_GAUSS];
 
 /* Is the position of a node of the surface known here? */
 static inline PetscBool ContactHas(const ContactSurface *s, PetscInt node)
@@ -146,7 +144,6 @@ void           ContactFrame(ContactPair, const ContactSurface *, PetscInt edge, 
 
 /* segment.c */
 PetscReal      ContactRaySide(const PetscReal x[2], const PetscReal n[2], const PetscReal m[2]);
-PetscBool      ContactBound(const EdgeFrame *, const PetscReal m[2], PetscReal *lambda, PetscBool *fixed);
 PetscReal      ContactGapAt(const EdgeFrame *, const PetscReal c[2], const PetscReal d[2], PetscReal lambda, PetscReal *cosine, PetscReal *tau);
 PetscBool      ContactSegmentBuild(const EdgeFrame *, const ContactSurface *mortar, PetscInt mortar_facet, Segment *);
 PetscErrorCode ContactSegmentsBuild(ContactPair, const ContactSurface *nonmortar, const ContactSurface *mortar);

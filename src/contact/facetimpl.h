@@ -44,7 +44,6 @@ extern const PetscReal ContactMixed[4]; /* d2 N_a / dxi_1 dxi_2 */
 /* quad.c. False: no such point (degenerate quadrilateral, or far outside). */
 PetscBool ContactQuadLocate(const PlaneQuad *, const PetscReal Y[2], PlanePoint *);
 PetscBool ContactQuadIsConvex(const PlaneQuad *);
-void      ContactQuadHats(const PetscReal xi[2], PetscReal N[4]);
 
 /* clip.c. False: no overlap, or (num > FACET_VERTICES) none that could be used. */
 PetscBool ContactClip(Overlap *);

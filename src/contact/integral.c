@@ -7,8 +7,9 @@
    T depends on the bounds l0, l1, which depend on the nodes as roots of f(lambda) = n(lambda) x (m - x(lambda)). */
 #include "contactimpl.h"
 
-const PetscReal ContactGaussPoint[CONTACT_GAUSS]  = {0.046910077030668004, 0.23076534494715845, 0.5, 0.76923465505284155, 0.953089922969332};
-const PetscReal ContactGaussWeight[CONTACT_GAUSS] = {0.11846344252809454, 0.23931433524968324, 0.28444444444444444, 0.23931433524968324, 0.11846344252809454};
+/* Gauss points on [0, 1]; weights sum to 1. */
+static const PetscReal GaussPoint[CONTACT_GAUSS]  = {0.046910077030668004, 0.23076534494715845, 0.5, 0.76923465505284155, 0.953089922969332};
+static const PetscReal GaussWeight[CONTACT_GAUSS] = {0.11846344252809454, 0.23931433524968324, 0.28444444444444444, 0.23931433524968324, 0.11846344252809454};
 
 /* First derivatives of A, B, R, g. */
 static void GapGradient_Private(const EdgeFrame *f, const SegmentGeometry *s, GapPoint *p)
@@ -200,7 +201,7 @@ void ContactSegmentMoments(const EdgeFrame *f, const SegmentGeometry *s, PetscRe
     *min_gap = PetscMin(*min_gap, p.g);
   }
   for (int i = 0; i < CONTACT_GAUSS; i++) {
-    const PetscReal zeta = ContactGaussPoint[i], w = ContactGaussWeight[i], lambda = s->lambda[0] + zeta * h, M = (lambda - centre) / half;
+    const PetscReal zeta = GaussPoint[i], w = GaussWeight[i], lambda = s->lambda[0] + zeta * h, M = (lambda - centre) / half;
 
     ContactPointGap(f, s, lambda, derivatives, &p);
     *min_gap = PetscMin(*min_gap, p.g);
@@ -240,8 +241,8 @@ typedef struct {
 static void HessianGauss_Private(const EdgeFrame *f, const SegmentGeometry *s, PetscReal centre, PetscReal half, const PetscReal phi[CONTACT_MOMENTS], int i,
                                  HessianSum *h, BoundSum *t)
 {
-  const PetscReal zeta[2] = {1 - ContactGaussPoint[i], ContactGaussPoint[i]}, w = ContactGaussWeight[i], step = s->lambda[1] - s->lambda[0];
-  const PetscReal lambda = s->lambda[0] + ContactGaussPoint[i] * step, M = (lambda - centre) / half, Ml = 1 / half;
+  const PetscReal zeta[2] = {1 - GaussPoint[i], GaussPoint[i]}, w = GaussWeight[i], step = s->lambda[1] - s->lambda[0];
+  const PetscReal lambda = s->lambda[0] + GaussPoint[i] * step, M = (lambda - centre) / half, Ml = 1 / half;
   const PetscReal Q = phi[3] + phi[4] * M, Ql = phi[4] * Ml, Pl = phi[1] * Ml + 2 * phi[2] * M * Ml, Pll = 2 * phi[2] * Ml * Ml;
   PetscReal       F, Fl, Fll, Fy[12], Fly[12], gll;
   GapPoint        p;

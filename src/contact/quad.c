@@ -4,7 +4,7 @@
 static const PetscReal Corner[4][2]    = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
 const PetscReal        ContactMixed[4] = {0.25, -0.25, 0.25, -0.25};
 
-void ContactQuadHats(const PetscReal xi[2], PetscReal N[4])
+static void Hats_Private(const PetscReal xi[2], PetscReal N[4])
 {
   for (int a = 0; a < 4; a++) N[a] = 0.25 * (1 + Corner[a][0] * xi[0]) * (1 + Corner[a][1] * xi[1]);
 }
@@ -40,7 +40,7 @@ PetscBool ContactQuadLocate(const PlaneQuad *s, const PetscReal Y[2], PlanePoint
   }
   if (!(step < 1e-9) || !(PetscMax(PetscAbsReal(p->xi[0]), PetscAbsReal(p->xi[1])) < FACET_OUTSIDE)) return PETSC_FALSE;
   for (int i = 0; i < 2; i++) p->mixed[i] = c[3][i];
-  ContactQuadHats(p->xi, p->N);
+  Hats_Private(p->xi, p->N);
   for (int a = 0; a < 4; a++) {
     p->d[0][a] = 0.25 * Corner[a][0] * (1 + Corner[a][1] * p->xi[1]);
     p->d[1][a] = 0.25 * Corner[a][1] * (1 + Corner[a][0] * p->xi[0]);

@@ -30,7 +30,7 @@ __attribute__((noinline)) PetscReal ContactRaySide(const PetscReal x[2], const P
 }
 
 /* lambda of the mortar node's ray; *fixed: the bound is an end of the edge. False: the edge does not see m. */
-PetscBool ContactBound(const EdgeFrame *f, const PetscReal m[2], PetscReal *lambda, PetscBool *fixed)
+static PetscBool Bound_Private(const EdgeFrame *f, const PetscReal m[2], PetscReal *lambda, PetscBool *fixed)
 {
   const PetscReal f0 = ContactRaySide(f->x[0], f->n[0], m), f1 = ContactRaySide(f->x[1], f->n[1], m);
   PetscReal       root, num, den, mid;
@@ -78,7 +78,7 @@ PetscBool ContactSegmentBuild(const EdgeFrame *f, const ContactSurface *mortar, 
 
   s->mortar_facet = mortar_facet;
   for (int b = 0; b < 2; b++) {
-    if (!ContactBound(f, b ? c : d, &s->lambda[b], &fixed)) return PETSC_FALSE;
+    if (!Bound_Private(f, b ? c : d, &s->lambda[b], &fixed)) return PETSC_FALSE;
     s->bound[b] = fixed ? -1 : node[1 - b];
   }
   if (!(s->lambda[0] < s->lambda[1])) return PETSC_FALSE;

@@ -34,18 +34,8 @@ PetscErrorCode MonitorCreate(MPI_Comm comm, const SceneData *scene, Monitor *mon
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode MonitorDestroy(Monitor *monitor)
-{
-  PetscFunctionBegin;
-  if (!*monitor) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(MonitorHide(*monitor));
-  PetscCall(PetscFree(*monitor));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* ---- the bar ------------------------------------------------------------------------------------------------------------- */
-
-PetscErrorCode MonitorHide(Monitor m)
+/* Erase the bar, before something else is printed (no effect when there is none). */
+static PetscErrorCode Hide_Private(Monitor m)
 {
   PetscFunctionBegin;
   if (m->shown) {
@@ -55,6 +45,17 @@ PetscErrorCode MonitorHide(Monitor m)
   m->shown = PETSC_FALSE;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
+
+PetscErrorCode MonitorDestroy(Monitor *monitor)
+{
+  PetscFunctionBegin;
+  if (!*monitor) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(Hide_Private(*monitor));
+  PetscCall(PetscFree(*monitor));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- the bar ------------------------------------------------------------------------------------------------------------- */
 
 /* A duration for people: 12 s, 3 min 20 s, 2 h 05 min. */
 static void Duration_Private(PetscReal seconds, char text[], size_t size)
@@ -151,11 +152,6 @@ PetscErrorCode MonitorHeader(Monitor m, Problem problem)
   Say_Private(m, "mortise " MORTISE_VERSION ": %s%s%s\n", scene->title, scene->title[0] ? ", " : "", FileName_Private(scene->file));
   Say_Private(m, "%s, %s kinematics, units of the scene; %" PetscInt_FMT " cells of order %s, %" PetscInt_FMT " dofs, %d %s\n", model,
               KinematicsNames[scene->mechanics.kinematics], t->num_leaves, orders, dofs, size, size == 1 ? "process" : "processes");
-  for (PetscInt b = 0; b < scene->num_materials; ++b) {
-    if (MaterialSoftens(&scene->materials[b]))
-      Say_Private(m, "warning: the yield stress of material %s falls with plastic strain: zones of flow shrink to a cell, results depend on the mesh\n",
-                  scene->materials[b].name);
-  }
   Say_Private(m, "%5s %4s %11s %8s %9s %6s %6s %10s %12s %8s\n", "step", "pass", "t", "cells", "dofs", "newton", "active", "error", "force", "seconds");
   PetscCall(MonitorShow_Private(m));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -166,7 +162,7 @@ PetscErrorCode MonitorResume(Monitor m, const char *file, const ReportRow *so_fa
   PetscLogDouble now;
 
   PetscFunctionBegin;
-  PetscCall(MonitorHide(m));
+  PetscCall(Hide_Private(m));
   PetscCall(PetscTime(&now));
   m->start      = now - so_far->seconds;
   m->steps      = so_far->step;
@@ -184,7 +180,7 @@ PetscErrorCode MonitorRow(Monitor m, const ReportRow *row)
   PetscLogDouble now;
 
   PetscFunctionBegin;
-  PetscCall(MonitorHide(m));
+  PetscCall(Hide_Private(m));
   PetscCall(PetscTime(&now));
   m->start = now - row->seconds; /* the run began before its monitor: one clock for lines, bar and footer */
   if (!PetscIsNanReal(row->estimated_error)) snprintf(error, sizeof(error), "%.3e", (double)row->estimated_error);
@@ -209,13 +205,13 @@ PetscErrorCode MonitorRow(Monitor m, const ReportRow *row)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode MonitorFooter(Monitor m, const char *status, const char *reason, const char *adapt_stop, const ReportRow *last)
+PetscErrorCode MonitorFooter(Monitor m, const char *status, const char *reason, const char *adapt_stop, PetscBool checkpoint, const ReportRow *last)
 {
   PetscLogDouble now;
   char           spent[32];
 
   PetscFunctionBegin;
-  PetscCall(MonitorHide(m));
+  PetscCall(Hide_Private(m));
   PetscCall(PetscTime(&now));
   if (now - m->start < 60)
     snprintf(spent, sizeof(spent), "%.2f s", (double)(now - m->start));
@@ -231,6 +227,7 @@ PetscErrorCode MonitorFooter(Monitor m, const char *status, const char *reason, 
       Say_Private(m, "strain energy %.8g, estimated error %.3g %% in the energy norm\n", (double)last->energy, 100 * (double)last->estimated_error);
   }
   if (adapt_stop && adapt_stop[0]) Say_Private(m, "adaptation ended: %s\n", adapt_stop);
-  Say_Private(m, "results in %s: summary.json, history.csv, adapt.csv%s\n", m->scene->output.directory, m->scene->output.fields ? ", fields.xdmf" : "");
+  Say_Private(m, "results in %s: summary.json, history.csv, adapt.csv%s%s\n", m->scene->output.directory, m->scene->output.fields ? ", fields.xdmf" : "",
+              checkpoint ? ", checkpoint.h5" : "");
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -122,6 +122,29 @@ PetscErrorCode ElementEvaluate(PetscInt dim, PetscInt order, const PetscReal xi[
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Lagrange polynomials of n points at x. */
+static void LagrangeThrough_Private(PetscInt n, const PetscReal points[], PetscReal x, PetscReal value[])
+{
+  for (PetscInt i = 0; i < n; i++) {
+    value[i] = 1;
+    for (PetscInt j = 0; j < n; j++) value[i] *= j == i ? 1 : (x - points[j]) / (points[i] - points[j]);
+  }
+}
+
+void Basis1DInterpolate(const Basis1D *b, PetscInt dim, const PetscReal xi[], PetscInt num, const PetscReal values[], PetscReal out[])
+{
+  const PetscInt n = b->num_points;
+  PetscReal      L[3][MAX_POINTS];
+
+  for (PetscInt d = 0; d < dim; d++) LagrangeThrough_Private(n, b->points, xi[d], L[d]);
+  for (PetscInt k = 0; k < num; k++) out[k] = 0;
+  for (PetscInt q = 0; q < ElementNumNodes(dim, n - 1); q++) {
+    const PetscReal weight = L[0][q % n] * (dim > 1 ? L[1][q / n % n] : 1) * (dim > 2 ? L[2][q / (n * n)] : 1);
+
+    for (PetscInt k = 0; k < num; k++) out[k] += weight * values[q * num + k];
+  }
+}
+
 /* Bonnet's recursion n P_n = (2n-1) s P_(n-1) - (n-1) P_(n-2) with s = 2 xi - 1; P'_n = P'_(n-2) + (2n-1) P_(n-1) (times ds/dxi = 2). */
 PetscErrorCode ElementLegendre(PetscInt degree, PetscReal xi, PetscReal value[], PetscReal derivative[])
 {

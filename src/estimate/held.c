@@ -5,26 +5,42 @@
 
 #define PRESSED 1e-8 /* of the largest nodal force: less is round-off of an open node */
 
-/* touched[entity]: a node of a facet on the rim. */
-static void Rim_Private(const SurfaceView *s, int8_t touched[])
+/* pressed[node], the same on every rank: forces are known to the owners of the nodes alone. Collective. */
+static PetscErrorCode Pressed_Private(MPI_Comm comm, const SurfaceView *s, int8_t pressed[])
 {
   PetscReal most = 0;
 
-  for (PetscInt i = 0; i < s->num_nodes * s->dim; ++i) most = PetscMax(most, PetscAbsReal(s->force[i]));
+  PetscFunctionBegin;
+  for (PetscInt i = 0; i < s->num_nodes * s->dim; ++i) {
+    if (s->owned[i / s->dim]) most = PetscMax(most, PetscAbsReal(s->force[i]));
+  }
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &most, 1, MPIU_REAL, MPI_MAX, comm));
+  PetscCall(PetscArrayzero(pressed, s->num_nodes));
+  for (PetscInt i = 0; i < s->num_nodes * s->dim; ++i) {
+    if (s->owned[i / s->dim] && PetscAbsReal(s->force[i]) > PRESSED * most) pressed[i / s->dim] = 1;
+  }
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, pressed, (PetscMPIInt)s->num_nodes, MPI_SIGNED_CHAR, MPI_MAX, comm));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* touched[entity]: a node of a facet on the rim. Collective. */
+static PetscErrorCode Rim_Private(MPI_Comm comm, const SurfaceView *s, int8_t touched[])
+{
+  int8_t *pressed;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(s->num_nodes, &pressed));
+  PetscCall(Pressed_Private(comm, s, pressed));
   for (PetscInt e = 0; e < s->num_facets; ++e) {
     const PetscInt *node, num = SurfaceFacetNodes(s, e, &node);
-    PetscInt        pressed = 0, open = 0;
+    PetscInt        count[2] = {0, 0}; /* open, pressed */
     for (PetscInt k = 0; k < num; ++k) {
-      PetscReal force = 0;
-      if (s->hang[node[k]] < s->hang[node[k] + 1]) continue; /* its masters carry its force */
-      for (PetscInt c = 0; c < s->dim; ++c) force = PetscMax(force, PetscAbsReal(s->force[s->dim * node[k] + c]));
-      if (force > PRESSED * most)
-        ++pressed;
-      else
-        ++open;
+      if (s->hang[node[k]] == s->hang[node[k] + 1]) ++count[pressed[node[k]]]; /* a hanging one's masters carry its force */
     }
-    for (PetscInt k = 0; k < s->corners && pressed && open; ++k) touched[s->node_entity[s->facets[s->corners * e + k]]] |= ESTIMATE_HELD_RIM;
+    for (PetscInt k = 0; k < s->corners && count[0] && count[1]; ++k) touched[s->node_entity[s->facets[s->corners * e + k]]] |= ESTIMATE_HELD_RIM;
   }
+  PetscCall(PetscFree(pressed));
+  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* Contact facets of order 1 on cells of a higher one; of this rank's cells. */
@@ -86,16 +102,18 @@ PetscErrorCode EstimateHeld_Private(const EstimateSum *sum, int8_t held[])
   const ForestTables *t = sum->t;
   int8_t             *touched;
   PetscInt           *leaf_cell;
+  Forest              forest;
 
   PetscFunctionBegin;
+  PetscCall(HPSpaceGetForest(sum->space, &forest));
   PetscCall(PetscCalloc1(t->num_entities, &touched));
   PetscCall(PetscMalloc1(t->num_leaves, &leaf_cell));
   for (PetscInt l = 0; l < t->num_leaves; ++l) leaf_cell[l] = -1;
   for (PetscInt c = 0; c < sum->v->num_owned_cells; ++c) leaf_cell[sum->v->cell_leaf[c]] = c;
   for (PetscInt i = 0; sum->contact && i < sum->contact->num; ++i) {
     const ContactView *view = sum->contact->terms[i].view;
-    Rim_Private(&view->nonmortar, touched);
-    Rim_Private(&view->mortar, touched);
+    PetscCall(Rim_Private(ForestComm(forest), &view->nonmortar, touched));
+    PetscCall(Rim_Private(ForestComm(forest), &view->mortar, touched));
     PetscCall(Linear_Private(sum, &view->nonmortar, leaf_cell, held));
     PetscCall(Linear_Private(sum, &view->mortar, leaf_cell, held));
   }

@@ -225,6 +225,24 @@ static PetscErrorCode OwnedCell_Private(EstimateSum *sum, PetscInt cell, const V
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* A cell that collapses may be folded between its integration points (det F <= 0), where no law has an answer. The estimate takes there that of the first of
+   eight places on the way to the cell's centre that is not. */
+static PetscErrorCode Unfold_Private(const EstimateSum *sum, PetscInt cell, PetscInt num, CellWork *w)
+{
+  const PetscInt dim = sum->v->dim;
+
+  PetscFunctionBegin;
+  if (sum->spec->kinematics == KINEMATICS_SMALL) PetscFunctionReturn(PETSC_SUCCESS);
+  for (PetscInt q = 0; q < num; ++q) {
+    for (PetscInt eighth = 7; eighth >= 0 && !(Det3(w->F + 9 * q) > 0); --eighth) {
+      PetscReal xi[3];
+      for (PetscInt c = 0; c < dim; ++c) xi[c] = 0.5 + 0.125 * (PetscReal)eighth * (w->xi[q * dim + c] - 0.5);
+      PetscCall(MechanicsPoints(sum->mechanics, cell, 1, xi, sum->u, w->F + 9 * q, w->P + 9 * q, w->W + q));
+    }
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* One call of the material for all points of a cell: Gauss points first, then those of its facets. A ghost needs the former only to recover its pressure. */
 static PetscErrorCode Cell_Private(EstimateSum *sum, PetscInt cell, VolumeTable tables[][2], CellWork *w, PetscReal height[][3])
 {
@@ -249,6 +267,7 @@ static PetscErrorCode Cell_Private(EstimateSum *sum, PetscInt cell, VolumeTable 
   PetscReal *xi = w->xi + num * dim, *F = w->F + 9 * num, *P = w->P + 9 * num;
   PetscCall(EstimateTracePoints_Private(sum, cell, xi));
   PetscCall(MechanicsPoints(sum->mechanics, cell, num + traces, w->xi, sum->u, w->F, w->P, w->W));
+  PetscCall(Unfold_Private(sum, cell, num + traces, w));
   if (num) {
     VolumeGeometry_Private(sum, table, w);
     PetscCall(Residual_Private(sum, body, table, w));
@@ -328,12 +347,24 @@ PetscErrorCode EstimateBulk_Private(EstimateSum *sum)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+#define UNBOUNDED 1e200 /* its square root can still be squared */
+
+/* Stress that overflows, or that no law answers for, is the largest of errors, not none. */
+static void Bound_Private(PetscInt num, PetscReal square[])
+{
+  for (PetscInt i = 0; i < num; ++i) square[i] = square[i] < UNBOUNDED ? square[i] : UNBOUNDED;
+}
+
 /* eta2 and along, shares and energy over all ranks. */
 static PetscErrorCode Reduce_Private(MPI_Comm comm, EstimateSum *sum, Estimate *e)
 {
   PetscReal *buffer;
 
   PetscFunctionBegin;
+  Bound_Private(3 * e->num_leaves, sum->along[0]);
+  Bound_Private(e->num_leaves, sum->eta2);
+  Bound_Private(NUM_PARTS, sum->part);
+  Bound_Private(1, &sum->energy);
   PetscCallMPI(MPI_Allreduce(sum->along, e->along, (PetscMPIInt)(3 * e->num_leaves), MPIU_REAL, MPI_SUM, comm));
   PetscCall(PetscMalloc1(e->num_leaves + NUM_PARTS + 1, &buffer));
   PetscCall(PetscArraycpy(buffer, sum->eta2, e->num_leaves));
@@ -373,19 +404,6 @@ static PetscErrorCode Choice_Private(const SceneData *scene, const EstimateSum *
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Contact views show the last evaluation: evaluate at the state. */
-static PetscErrorCode Refresh_Private(Problem problem, Vec x)
-{
-  ProblemStatus status;
-  Vec           r;
-
-  PetscFunctionBegin;
-  PetscCall(ProblemCreateVector(problem, &r));
-  PetscCall(ProblemResidual(problem, x, r, &status));
-  PetscCall(VecDestroy(&r));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 PetscErrorCode EstimateCompute(Problem problem, const State *state, Estimate *e)
 {
   const SceneData *scene;
@@ -405,7 +423,7 @@ PetscErrorCode EstimateCompute(Problem problem, const State *state, Estimate *e)
   sum.spec = &scene->mechanics;
   PetscCall(ProblemSetHistory(problem, state->history));
   if (scene->num_contacts) {
-    PetscCall(Refresh_Private(problem, state->x));
+    PetscCall(ProblemRefresh(problem, state->x));
     PetscCall(ContactTermsCreate_Private(problem, &contact));
     sum.contact = &contact;
   }

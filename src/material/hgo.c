@@ -68,7 +68,7 @@ INLINE void Family_Private(const MaterialFiber *f, const Lanes M[3], const Defor
     Im1 += (M[i] + FM[i]) * HM;
   }
   E        = am1 * (1 + Im1) + Im1;
-  tight    = (LanesMask)(E > 0);
+  tight    = f->compression ? ~(LanesMask){0} : (LanesMask)(E > 0);
   E        = (Lanes)((LanesMask)E & tight);
   exponent = f->k2 * E * E;
   huge     = (LanesMask)(exponent > MOST_EXPONENT);

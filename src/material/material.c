@@ -1,8 +1,7 @@
 /* The table of laws: one row each. A new law is a file, a row here, and its documentation follows from the row. */
 #include "materialimpl.h"
 
-const char *const VolumetricNames[]  = {"quadratic", "simo", "log", "Volumetric", "VOLUMETRIC_", NULL};
-const char *const FormulationNames[] = {"auto", "displacement", "mixed", "Formulation", "FORMULATION_", NULL};
+const char *const VolumetricNames[] = {"quadratic", "simo", "log", "Volumetric", "VOLUMETRIC_", NULL};
 
 const MaterialLaw MaterialLaws[] = {
     {"neo_hookean", "compressible neo-Hookean solid", MaterialElasticParameters, .setup = MaterialSetUpElastic, .evaluate = MaterialNeoHookean},

@@ -116,7 +116,8 @@ INLINE void FieldIntegrate_Private(const PetscInt n1, const PetscInt q1, PetscIn
   for (PetscInt z = 0; z < n1; z++) LayerIntegrate_Private(n1, q1, B, D, layer + z * q2, layer + part + z * q2, layer + 2 * part + z * q2, f + z * n2);
 }
 
-void CellKernelGradient_Private(CellKernel k, const Lanes *field, Lanes *gradient)
+/* [d][n] -> [d][r][q] */
+static void Gradient_Private(CellKernel k, const Lanes *field, Lanes *gradient)
 {
   const PetscInt   dim = k->dim, r = k->num_derivatives;
   const PetscReal *B = k->basis->B, *D = k->basis->D;
@@ -166,7 +167,7 @@ PetscErrorCode CellKernelGeometry_Private(CellKernel k)
   PetscInt       inverted = -1;
 
   PetscFunctionBegin;
-  CellKernelGradient_Private(k, k->X, G);
+  Gradient_Private(k, k->X, G);
   for (PetscInt q = 0; q < nq; q++) {
     Lanes det;
 
@@ -243,7 +244,7 @@ INLINE void Deformation_Private(CellKernel k, const int d, Lanes *min_det)
 
 void CellKernelDeformation_Private(CellKernel k, Lanes *min_det)
 {
-  CellKernelGradient_Private(k, k->u, k->gradient);
+  Gradient_Private(k, k->u, k->gradient);
   if (k->dim == 3)
     Deformation_Private(k, 3, min_det);
   else

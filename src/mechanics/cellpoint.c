@@ -65,15 +65,14 @@ void CellKernelNumFibers(CellKernel k, PetscInt *num)
 
 PetscErrorCode CellKernelFibers(CellKernel k, PetscInt root, const PetscReal *X, PetscReal *fiber)
 {
-  const PetscInt line = k->basis->num_points;
-  PetscReal      value[MOST_NODES], gradient[3 * MOST_NODES];
+  PetscReal value[MOST_NODES];
 
   PetscFunctionBegin;
   for (PetscInt q = 0; q < k->num_points; q++) {
-    const PetscReal xi[3]    = {k->basis->points[q % line], k->basis->points[q / line % line], k->basis->points[q / line / line % line]};
-    PetscReal       place[3] = {0, 0, 0}, direction[MATERIAL_MAX_FIBERS][3];
+    PetscReal xi[3], place[3] = {0, 0, 0}, direction[MATERIAL_MAX_FIBERS][3];
 
-    PetscCall(ElementEvaluate(k->dim, k->order, xi, value, gradient));
+    Basis1DPoint(k->basis, k->dim, q, xi);
+    PetscCall(ElementEvaluate(k->dim, k->order, xi, value, NULL));
     for (PetscInt i = 0; i < k->num_nodes * k->dim; i++) place[i % k->dim] += value[i / k->dim] * X[i];
     MaterialFiberDirections(&k->material, root, place, direction);
     for (PetscInt i = 0; i < 3 * k->material.num_fibers; i++) fiber[i * k->num_points + q] = direction[i / 3][i % 3];
@@ -117,47 +116,19 @@ static PetscErrorCode AddPointPressure_Private(CellKernel k, const PetscReal *xi
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Lagrange polynomials of the n points at x. */
-static void Lagrange_Private(PetscInt n, const PetscReal points[], PetscReal x, PetscReal value[])
-{
-  for (PetscInt i = 0; i < n; i++) {
-    value[i] = 1;
-    for (PetscInt j = 0; j < n; j++) value[i] *= j == i ? 1 : (x - points[j]) / (points[i] - points[j]);
-  }
-}
-
-PetscErrorCode CellKernelInterpolate(CellKernel k, PetscInt np, const PetscReal *xi, PetscInt num, const PetscReal *values, PetscReal *out)
-{
-  const PetscInt n = k->basis->num_points;
-
-  PetscFunctionBegin;
-  for (PetscInt p = 0; p < np; p++) {
-    PetscReal L[3][MOST_LINE_POINTS];
-
-    for (PetscInt c = 0; c < k->dim; c++) Lagrange_Private(n, k->basis->points, xi[p * k->dim + c], L[c]);
-    for (PetscInt c = 0; c < num; c++) out[p * num + c] = 0;
-    for (PetscInt q = 0; q < k->num_points; q++) {
-      const PetscReal weight = L[0][q % n] * L[1][q / n % n] * (k->dim == 3 ? L[2][q / (n * n)] : 1);
-
-      for (PetscInt c = 0; c < num; c++) out[p * num + c] += weight * values[q * num + c];
-    }
-  }
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 #define REMEMBERED 10 /* Kirchhoff stress, energy density */
 
 /* What a law with history answers at the integration points: [num_points][REMEMBERED]. */
 static PetscErrorCode Remembered_Private(CellKernel k, const PetscReal *X, const PetscReal *u, const PetscReal *history, PetscReal *values, PetscBool *bad)
 {
-  const PetscInt n = k->basis->num_points, h = k->material.law->num_history;
+  const PetscInt h = k->material.law->num_history;
 
   PetscFunctionBegin;
   for (PetscInt q = 0; q < k->num_points; q++, values += REMEMBERED, history += h) {
-    const PetscReal xi[3] = {k->basis->points[q % n], k->basis->points[q / n % n], k->dim == 3 ? k->basis->points[q / (n * n)] : 0};
-    PetscReal       F[9], P[9], position[3];
-    MaterialPoints  point = {.n = 1, .F = F, .W = values + 9, .P = P, .history = history};
+    PetscReal      xi[3], F[9], P[9], position[3];
+    MaterialPoints point = {.n = 1, .F = F, .W = values + 9, .P = P, .history = history};
 
+    Basis1DPoint(k->basis, k->dim, q, xi);
     PetscCall(PointGradient_Private(k, xi, X, u, position, F));
     for (int c = 0; c < 9; c += 4) F[c] += 1;
     PetscCall(MaterialEvaluate(&k->material, k->mixed ? MATERIAL_ISOCHORIC : MATERIAL_FULL, &point));
@@ -195,7 +166,7 @@ PetscErrorCode CellKernelPoints(CellKernel k, PetscInt root, PetscInt np, const 
     MaterialFiberDirections(&k->material, root, position, fiber);
     for (int c = 0; c < 9; c += 4) f[c] += 1;
     if (remembers) {
-      PetscCall(CellKernelInterpolate(k, 1, xi + q * k->dim, REMEMBERED, values, t));
+      Basis1DInterpolate(k->basis, k->dim, xi + q * k->dim, REMEMBERED, values, t);
       FirstPiola_Private(t, f, p);
       w = t[9];
     } else

@@ -67,19 +67,13 @@ static PetscErrorCode CellVolume_Private(PetscInt dim, PetscInt order, PetscInt 
 {
   const Basis1D *basis;
   PetscReal      value[729], gradient[3 * 729];
-  PetscInt       points = 1;
 
   PetscFunctionBegin;
-  PetscCall(Basis1DGet(order, order + 1, &basis));
-  for (PetscInt d = 0; d < dim; ++d) points *= basis->num_points;
+  PetscCall(MechanicsPointRule(order, &basis));
   *volume = 0;
-  for (PetscInt q = 0; q < points; ++q) {
-    PetscReal xi[3], J[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1}, weight = 1;
-    for (PetscInt d = 0, i = q; d < dim; ++d, i /= basis->num_points) {
-      xi[d] = basis->points[i % basis->num_points];
-      weight *= basis->weights[i % basis->num_points];
-      for (PetscInt c = 0; c < dim; ++c) J[3 * c + d] = 0;
-    }
+  for (PetscInt q = 0; q < ElementNumNodes(dim, basis->num_points - 1); ++q) {
+    PetscReal       xi[3], J[9] = {0, 0, 0, 0, 0, 0, 0, 0, (PetscReal)(dim == 2)};
+    const PetscReal weight = Basis1DPoint(basis, dim, q, xi);
     PetscCall(ElementEvaluate(dim, order, xi, value, gradient));
     for (PetscInt i = 0; i < n; ++i)
       for (PetscInt c = 0; c < dim; ++c)

@@ -190,6 +190,7 @@ PetscErrorCode MechanicsPlastic(Mechanics m, const PetscReal u[], PetscReal *str
 PetscErrorCode MechanicsPlasticStrain(Mechanics m, PetscInt cell, PetscInt np, const PetscReal xi[], const PetscReal u[], PetscReal strain[])
 {
   const CellGroup *g = m->cell_group[cell] < 0 ? NULL : &m->groups[m->cell_group[cell]];
+  const Basis1D   *rule;
   PetscReal       *trial, *alpha, work;
   PetscBool        bad;
 
@@ -199,7 +200,8 @@ PetscErrorCode MechanicsPlasticStrain(Mechanics m, PetscInt cell, PetscInt np, c
   PetscCall(PetscMalloc2(g->num_points * g->h, &trial, g->num_points, &alpha));
   PetscCall(Trial_Private(m, g, m->cell_index[cell], 1, u, trial, &bad));
   for (PetscInt q = 0; q < g->num_points; ++q) g->material->law->plastic(g->material, trial + q * g->h, &alpha[q], &work);
-  PetscCall(CellKernelInterpolate(g->kernel, np, xi, 1, alpha, strain));
+  PetscCall(MechanicsPointRule(g->order, &rule));
+  for (PetscInt p = 0; p < np; ++p) Basis1DInterpolate(rule, m->dim, xi + p * m->dim, 1, alpha, &strain[p]);
   PetscCall(PetscFree2(trial, alpha));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -105,18 +105,12 @@ static PetscErrorCode CellForce_Private(Mechanics m, const CellGroup *g, const B
 {
   const Basis1D *basis;
   PetscReal      value[(MORTISE_MAX_ORDER + 1) * MOST_FACET_NODES], gradient[3 * (MORTISE_MAX_ORDER + 1) * MOST_FACET_NODES];
-  PetscInt       points = 1;
 
   PetscFunctionBegin;
   PetscCall(Basis1DGet(g->order, CellLinePoints(g->order) + 1, &basis));
-  for (PetscInt d = 0; d < m->dim; ++d) points *= basis->num_points;
-  for (PetscInt q = 0; q < points; ++q) {
-    PetscReal xi[3], J[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1}, x[3] = {0, 0, 0}, weight = 1, f;
-    for (PetscInt d = 0, i = q; d < m->dim; ++d, i /= basis->num_points) {
-      xi[d] = basis->points[i % basis->num_points];
-      weight *= basis->weights[i % basis->num_points];
-      for (PetscInt c = 0; c < m->dim; ++c) J[3 * c + d] = 0;
-    }
+  for (PetscInt q = 0; q < ElementNumNodes(m->dim, basis->num_points - 1); ++q) {
+    PetscReal xi[3], J[9] = {0, 0, 0, 0, 0, 0, 0, 0, (PetscReal)(m->dim == 2)}, x[3] = {0, 0, 0}, weight, f;
+    weight = Basis1DPoint(basis, m->dim, q, xi);
     PetscCall(ElementEvaluate(m->dim, g->order, xi, value, gradient));
     for (PetscInt i = 0; i < g->n; ++i) {
       for (PetscInt c = 0; c < m->dim; ++c) {

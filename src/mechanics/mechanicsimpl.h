@@ -65,8 +65,6 @@ PetscErrorCode CellKernelFibers(CellKernel, PetscInt root, const PetscReal *X, P
    integration points alone, from history[points][num_history] (else NULL): elsewhere the Kirchhoff stress and W are the polynomials through these. */
 PetscErrorCode CellKernelPoints(CellKernel, PetscInt root, PetscInt np, const PetscReal *xi, const PetscReal *X, const PetscReal *u, const PetscReal *pressure,
                                 const PetscReal *history, PetscReal *F, PetscReal *P, PetscReal *W, PetscBool *bad);
-/* The polynomials through values[points][num] at the integration points, at np reference points: out[np][num]. */
-PetscErrorCode CellKernelInterpolate(CellKernel, PetscInt np, const PetscReal *xi, PetscInt num, const PetscReal *values, PetscReal *out);
 
 /* ---- facets (facet.c): loads on one facet, given by its (p+1)^(dim-1) trace nodes ------------------------------------ */
 
@@ -240,7 +238,6 @@ struct _p_CellKernel {
 PetscErrorCode CellKernelGeometry_Private(CellKernel);                                            /* X -> inverse, volume, hoop_inverse */
 void           CellKernelDeformation_Private(CellKernel, Lanes *min_det);                         /* u -> F, measure[0] when mixed */
 void           CellKernelFlux_Private(CellKernel, Lanes *flux);                                   /* P -> flux [d][r][q] */
-void           CellKernelGradient_Private(CellKernel, const Lanes *field, Lanes *gradient);       /* [d][n] -> [d][r][q] */
 void           CellKernelIntegrate_Private(CellKernel, const Lanes *flux, Lanes *result);         /* [d][r][q] -> [d][n] */
 void           CellKernelPullBack_Private(CellKernel, PetscInt q, const Lanes T[9], Lanes *flux); /* flux [d][r][q] at q of a stress-like T, times volume */
 /* cellpressure.c */

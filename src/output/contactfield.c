@@ -27,7 +27,9 @@ static PetscInt Interval_Private(PetscInt order, PetscReal s, PetscReal *place)
   return i;
 }
 
-void OutputFacetHats(const SurfaceView *s, PetscInt facet, const PetscReal xi[], PetscReal N[4], PetscInt node[4])
+/* Hats at xi[dim-1] in [-1, 1] of a facet's corners, of higher order: of the corners of the piece between nodes of the lattice that xi lies in; 2 or 4 of them
+   and their nodes. */
+static void FacetHats_Private(const SurfaceView *s, PetscInt facet, const PetscReal xi[], PetscReal N[4], PetscInt node[4])
 {
   const PetscInt q      = SurfaceFacetOrder(s, facet);
   PetscInt       low[2] = {0, 0};
@@ -202,8 +204,8 @@ static void AddPoint_Private(const ContactView *v, const ContactSegment *s, cons
   PetscInt       own[4], other[4];
   PetscReal      N[4], M[4], value[NUM_SUMS] = {[SUM_ALL] = 1};
 
-  OutputFacetHats(&v->nonmortar, s->facet, point->xi, N, own);
-  OutputFacetHats(&v->mortar, s->mortar_facet, point->eta, M, other);
+  FacetHats_Private(&v->nonmortar, s->facet, point->xi, N, own);
+  FacetHats_Private(&v->mortar, s->mortar_facet, point->eta, M, other);
   for (PetscInt k = 0; k < corners; ++k) {
     value[SUM_PRESSURE] += N[k] * f->pressure[own[k]];
     if (f->status[own[k]] == CONTACT_ALONE) continue;

@@ -75,9 +75,7 @@ PetscErrorCode IndexText(Index, OutputText *);
  * text is not of our making. */
 PetscErrorCode IndexRead(Index, const char *text, PetscInt step, PetscInt *num, PetscReal *time, PetscBool *ours);
 
-/* Vertices of a cell shape and its XDMF name. */
-PetscInt    CellShapeVertices(CellShape);
-const char *CellShapeTopology(CellShape);
+PetscInt CellShapeVertices(CellShape);
 
 /* ---- contact surfaces (output/contactfield.c, segments.c) ----------------------------------------------------------------- */
 
@@ -96,9 +94,6 @@ void OutputContactFields(const ContactView *, ContactFields *);
 /* The same on the mortar side, from those of the nonmortar side, on all ranks. Collective. */
 PetscErrorCode OutputProjectFields(Problem, PetscInt pair, const ContactFields *nonmortar, ContactFields *mortar);
 
-/* Hats at xi[dim-1] in [-1, 1] of a facet's corners, of higher order: of the corners of the piece between nodes of the lattice that xi lies in; 2 or 4 of them
-   and their nodes. */
-void OutputFacetHats(const SurfaceView *, PetscInt facet, const PetscReal xi[], PetscReal N[4], PetscInt node[4]);
 /* Point of a facet when its nodes are at x[num_nodes][dim]. */
 void OutputFacetPoint(const SurfaceView *, const PetscReal x[], PetscInt facet, const PetscReal xi[], PetscReal point[3]);
 /* Its unit normal there (order 1: in the middle), out of the body; zero for a facet without extent. */

@@ -7,7 +7,7 @@ static PetscErrorCode Fibers_Private(const MaterialSpec *m, PetscInt num_cells, 
   PetscFunctionBegin;
   for (PetscInt i = 0; i < m->num_fibers; ++i) {
     const MaterialFiber *f = &m->fiber[i];
-    PetscCall(OutputTextPrint(text, ", fiber %s k1 %.15g k2 %.15g", f->name, (double)f->k1, (double)f->k2));
+    PetscCall(OutputTextPrint(text, ", fiber %s k1 %.15g k2 %.15g%s", f->name, (double)f->k1, (double)f->k2, f->compression ? " in compression too" : ""));
     if (f->straight)
       PetscCall(OutputTextPrint(text, " along (%.15g %.15g %.15g)", (double)f->direction[0], (double)f->direction[1], (double)f->direction[2]));
     else if (f->along)

@@ -207,19 +207,6 @@ static PetscErrorCode WriteLeafFields_Private(Writer writer, const ForestTables 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The tables of contact belong to the last evaluation: make it this state's. */
-static PetscErrorCode Evaluate_Private(Problem problem, Vec x)
-{
-  ProblemStatus status;
-  Vec           r;
-
-  PetscFunctionBegin;
-  PetscCall(ProblemCreateVector(problem, &r));
-  PetscCall(ProblemResidual(problem, x, r, &status));
-  PetscCall(VecDestroy(&r));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 PetscErrorCode OutputWriteState(Writer writer, Problem problem, const State *state, const Estimate *estimate, PetscReal series_time, PetscInt step,
                                 PetscInt pass)
 {
@@ -248,7 +235,7 @@ PetscErrorCode OutputWriteState(Writer writer, Problem problem, const State *sta
   if (MechanicsIsPlastic(&scene->mechanics)) PetscCall(WritePlastic_Private(writer, problem, &grid, u));
   PetscCall(WriteLeafFields_Private(writer, t, &grid, estimate));
   if (scene->num_contacts) {
-    PetscCall(Evaluate_Private(problem, state->x));
+    PetscCall(ProblemRefresh(problem, state->x));
     PetscCall(OutputWriteContact(writer, problem));
   }
   PetscCall(WriterEnd(writer));

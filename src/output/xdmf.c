@@ -22,7 +22,7 @@ PetscInt CellShapeVertices(CellShape shape)
   return shape == CELL_POLYLINE2 ? 2 : shape == CELL_TRIANGLE3 ? 3 : shape == CELL_QUAD4 ? 4 : 8;
 }
 
-const char *CellShapeTopology(CellShape shape)
+static const char *Topology_Private(CellShape shape)
 {
   static const char *const topology[] = {
       [CELL_POLYLINE2] = "Polyline\" NodesPerElement=\"2", [CELL_TRIANGLE3] = "Triangle", [CELL_QUAD4] = "Quadrilateral", [CELL_HEX8] = "Hexahedron"};
@@ -86,7 +86,7 @@ PetscErrorCode IndexGrid(Index index, const IndexState *state, const char *grid,
   PetscCall(OutputTextPrint(index->open, "        <Information Name=\"step\" Value=\"%" PetscInt_FMT "\"/>\n", state->step));
   PetscCall(OutputTextPrint(index->open, "        <Information Name=\"pass\" Value=\"%" PetscInt_FMT "\"/>\n", state->pass));
   PetscCall(OutputTextPrint(index->open, "        <Information Name=\"load_time\" Value=\"%.17g\"/>\n", (double)state->load_time));
-  PetscCall(OutputTextPrint(index->open, "        <Topology TopologyType=\"%s\" NumberOfElements=\"%lld\">\n", CellShapeTopology(shape), (long long)num_cells));
+  PetscCall(OutputTextPrint(index->open, "        <Topology TopologyType=\"%s\" NumberOfElements=\"%lld\">\n", Topology_Private(shape), (long long)num_cells));
   PetscCall(IndexItem_Private(index, "cells", "Int", num_cells, CellShapeVertices(shape)));
   PetscCall(OutputTextPrint(index->open, "        </Topology>\n        <Geometry GeometryType=\"XYZ\">\n"));
   PetscCall(IndexItem_Private(index, "X", "Float", num_points, 3));

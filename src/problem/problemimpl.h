@@ -248,9 +248,6 @@ PetscErrorCode ContactNumber_Private(Problem, PetscInt counts[]); /* multipliers
 PetscErrorCode ContactEvaluate_Private(Problem, Contact *, Vec x, const PetscReal local[], PetscBool derivatives, PetscBool hessian, PetscBool *failed);
 PetscErrorCode ContactForces_Private(Problem, Contact *, PetscReal r[]);
 void           ContactRows_Private(const Contact *, PetscReal r[]);
-/* tangent.c: blocks of the last evaluation into the matrix: Hessian and columns (added), then rows (inserted). */
-PetscErrorCode ContactBlocks_Private(Problem, Contact *);
-PetscErrorCode ContactInsertRow_Private(Problem, Contact *, PetscInt node);
 /* far.c: are the gaps under pressure too wide for the curvature of the constraints to mean anything? Collective. */
 PetscErrorCode ContactIsFar_Private(Problem, const Contact *, PetscBool *far);
 /* Change of every owned node's weighted gap, at fixed measure, under a local array of increments. Collective. */

@@ -102,6 +102,18 @@ PetscErrorCode ProblemResidual(Problem p, Vec x, Vec r, ProblemStatus *status)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscErrorCode ProblemRefresh(Problem p, Vec x)
+{
+  ProblemStatus status;
+  Vec           r;
+
+  PetscFunctionBegin;
+  PetscCall(ProblemCreateVector(p, &r));
+  PetscCall(ProblemResidual(p, x, r, &status));
+  PetscCall(VecDestroy(&r));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode ProblemForces(Problem p, Vec x, PetscReal reaction[][3], PetscReal force[][3], PetscReal moment[][3], ProblemStatus *status)
 {
   PetscReal *u, *r;

@@ -98,7 +98,8 @@ static PetscErrorCode FacetHessian_Private(Problem p, const Contact *c, const Co
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode ContactBlocks_Private(Problem p, Contact *c)
+/* Blocks of the last evaluation: Hessian and columns, added; the rows are inserted afterwards. */
+static PetscErrorCode ContactBlocks_Private(Problem p, Contact *c)
 {
   const PetscInt dim = p->dim;
   PetscBool      far = PETSC_FALSE; /* without lift the tangent is the derivative itself */
@@ -142,18 +143,20 @@ static PetscInt RowSize_Private(const Contact *c, PetscInt j)
   return num;
 }
 
-/* Collects the gradient of node j's normalised gap, times a factor, from its facets: over the whole pattern, sorted indices, so that a
-   switch leaves nothing of another form behind. normalised false: the plain derivative of the forces by z_j. dofs, values: [RowSize_Private]. */
-static PetscErrorCode NodeGradient_Private(Problem p, const Contact *c, PetscInt j, PetscReal factor, PetscBool normalised, PetscInt dofs[], PetscReal values[],
-                                           PetscInt *num)
+/* Collects the gradient of node j's normalised gap, times a factor, from its facets, in work_index and work_value: over the whole pattern, sorted indices, so
+   that a switch leaves nothing of another form behind. normalised false: the plain derivative of the forces by z_j. */
+static PetscErrorCode NodeGradient_Private(Problem p, const Contact *c, PetscInt j, PetscReal factor, PetscBool normalised, PetscInt *num)
 {
   const Surface *s   = &c->side[0];
   const PetscInt dim = p->dim;
-  PetscReal      mean, along;
-  PetscInt       at;
+  PetscReal      mean, along, *values;
+  PetscInt       at, *dofs;
 
   PetscFunctionBegin;
-  *num = 0;
+  PetscCall(ProblemWork_Private(p, RowSize_Private(c, j)));
+  dofs   = p->work_index;
+  values = p->work_value;
+  *num   = 0;
   for (PetscInt k = s->node_first[j]; k < s->node_first[j + 1] && c->near[j]; ++k) *num += ContactPatternDofs_Private(c, s->node_facet[k], dofs + *num);
   dofs[(*num)++] = c->zdof[j];
   PetscCall(PetscSortRemoveDupsInt(num, dofs));
@@ -188,20 +191,17 @@ static PetscErrorCode NodeGradient_Private(Problem p, const Contact *c, PetscInt
 /* Row of node j. Exact form: w0 c / w_j (grad gt_j - gt_j/w_j grad w_j) when active, w0 on the diagonal when not. Symmetric form: minus the normalised gradient
    as row *and* column when active, -w0/c on the diagonal when not; its column differs from -grad gt_j by gt_j times the change of z_j, small of second order.
  */
-PetscErrorCode ContactInsertRow_Private(Problem p, Contact *c, PetscInt j)
+static PetscErrorCode ContactInsertRow_Private(Problem p, Contact *c, PetscInt j)
 {
   const PetscReal active = p->symmetric ? -1 : c->active[j] ? c->w0[j] * c->c[j] / ContactRowMeasure_Private(c, j) : 0;
-  PetscInt        num, at, *dofs;
-  PetscReal      *values;
+  PetscInt        num, at;
 
   PetscFunctionBegin;
-  PetscCall(PetscMalloc2(RowSize_Private(c, j), &dofs, RowSize_Private(c, j), &values));
-  PetscCall(NodeGradient_Private(p, c, j, c->active[j] ? active : 0, PETSC_TRUE, dofs, values, &num));
-  PetscCall(PetscFindInt(c->zdof[j], num, dofs, &at));
-  values[at] = c->active[j] ? active * c->spring[j] : p->symmetric ? -c->w0[j] / c->c[j] : c->w0[j];
-  PetscCall(MatSetValues(p->matrix, 1, &c->zdof[j], num, dofs, values, INSERT_VALUES));
-  if (p->symmetric) PetscCall(MatSetValues(p->matrix, num, dofs, 1, &c->zdof[j], values, INSERT_VALUES));
-  PetscCall(PetscFree2(dofs, values));
+  PetscCall(NodeGradient_Private(p, c, j, c->active[j] ? active : 0, PETSC_TRUE, &num));
+  PetscCall(PetscFindInt(c->zdof[j], num, p->work_index, &at));
+  p->work_value[at] = c->active[j] ? active * c->spring[j] : p->symmetric ? -c->w0[j] / c->c[j] : c->w0[j];
+  PetscCall(MatSetValues(p->matrix, 1, &c->zdof[j], num, p->work_index, p->work_value, INSERT_VALUES));
+  if (p->symmetric) PetscCall(MatSetValues(p->matrix, num, p->work_index, 1, &c->zdof[j], p->work_value, INSERT_VALUES));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -219,17 +219,14 @@ static PetscErrorCode RowSide_Private(Problem p, const Contact *c, PetscInt j, P
 
 static PetscErrorCode InactiveShift_Private(Problem p, Contact *c, PetscInt j, PetscReal share, Vec rhs)
 {
-  PetscInt   num, at, *dofs;
-  PetscReal *values;
+  PetscInt num, at;
 
   PetscFunctionBegin;
   if (!p->symmetric || c->released || c->z[j] == 0 || !c->near[j]) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(PetscMalloc2(RowSize_Private(c, j), &dofs, RowSize_Private(c, j), &values));
-  PetscCall(NodeGradient_Private(p, c, j, -share * c->z[j], PETSC_FALSE, dofs, values, &num));
-  PetscCall(PetscFindInt(c->zdof[j], num, dofs, &at));
-  values[at] = 0;
-  PetscCall(VecSetValues(rhs, num, dofs, values, ADD_VALUES));
-  PetscCall(PetscFree2(dofs, values));
+  PetscCall(NodeGradient_Private(p, c, j, -share * c->z[j], PETSC_FALSE, &num));
+  PetscCall(PetscFindInt(c->zdof[j], num, p->work_index, &at));
+  p->work_value[at] = 0;
+  PetscCall(VecSetValues(rhs, num, p->work_index, p->work_value, ADD_VALUES));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

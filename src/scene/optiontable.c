@@ -58,6 +58,8 @@ const Option Options[] = {
      "or the name of a view $ElementData with a vector, of any length, for each cell of an ASCII .msh", FIBER(field)},
     {"material.<name>.fiber.<family>.k1", KEY_REAL, "stress", "", POSITIVE, "this family's own stiffness; default: the material's", FIBER(k1)},
     {"material.<name>.fiber.<family>.k2", KEY_REAL, "", "", POSITIVE, "this family's own k2; default: the material's", FIBER(k2)},
+    {"material.<name>.fiber.<family>.compression", KEY_BOOL, "", "false", "", "fibres that push as well when shortened, for comparison only",
+     FIBER(compression)},
     {"material.<name>.frame.axis", KEY_WORD, "", "", "x|y|z", "axis that circumferential directions turn around; default: z, axisymmetric: y",
      MAT(spec.frame.axis)},
     {"material.<name>.frame.point.<axis>", KEY_REAL, "length", "0", ANY, "a point of that axis", MAT(spec.frame.point)},
@@ -140,7 +142,7 @@ const Option Options[] = {
 static PetscErrorCode PrintRow_Private(MPI_Comm comm, const Option *row)
 {
   static const char *const kinds[] = {"text", "", "integer", "number", "true|false", "number or expression", "list of numbers", "", "number"};
-  char                     key[128], kind[160];
+  char                     key[128], kind[512];
   const char              *axis = strstr(row->pattern, "<axis>");
 
   PetscFunctionBegin;
@@ -148,11 +150,10 @@ static PetscErrorCode PrintRow_Private(MPI_Comm comm, const Option *row)
     PetscCall(PetscSNPrintf(key, sizeof(key), "%.*s<x|y|z>", (int)(axis - row->pattern), row->pattern));
   else
     PetscCall(PetscStrncpy(key, row->pattern, sizeof(key)));
-  PetscCall(PetscSNPrintf(kind, sizeof(kind), "%s%s%s", kinds[row->type], kinds[row->type][0] && row->range[0] ? " " : "",
-                          strcmp(row->range, ANY) ? row->range : ""));
-  PetscCall(PetscPrintf(comm, "  %-39s %s%s%s%s%s%s\n", key, kind, row->unit[0] ? " [" : "", row->unit, row->unit[0] ? "]" : "",
-                        row->fallback ? (row->fallback[0] ? "; default " : "") : "; must be given", row->fallback ? row->fallback : ""));
-  PetscCall(PetscPrintf(comm, "  %-39s   %s\n", "", row->help));
+  PetscCall(PetscSNPrintf(kind, sizeof(kind), "%s%s%s%s%s%s%s%s", kinds[row->type], kinds[row->type][0] && row->range[0] ? " " : "",
+                          strcmp(row->range, ANY) ? row->range : "", row->unit[0] ? " [" : "", row->unit, row->unit[0] ? "]" : "",
+                          row->fallback ? (row->fallback[0] ? "; default " : "") : "; must be given", row->fallback ? row->fallback : ""));
+  PetscCall(HelpRow(comm, key, kind, row->help));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

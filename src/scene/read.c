@@ -147,6 +147,10 @@ static PetscErrorCode ReadMaterial_Private(Scene s, SceneNode *node, MaterialEnt
                   m->law);
   PetscCall(ReadFibers_Private(s, node, m));
   PetscCall(MaterialSetUp(&m->spec, num, names, values));
+  if (MaterialSoftens(&m->spec))
+    PetscCall(PetscPrintf(s->comm,
+                          "warning: the yield stress of material %s falls with plastic strain: zones of flow shrink to a cell, results depend on the mesh\n",
+                          m->spec.name));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

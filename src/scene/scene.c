@@ -253,6 +253,7 @@ static PetscErrorCode ViewBody_Private(const BodySpec *b, PetscViewer viewer)
       PetscCall(PetscViewerASCIIPrintf(viewer, ", fibres %s along field %s", fiber->name, fiber->field));
     else
       PetscCall(PetscViewerASCIIPrintf(viewer, ", fibres %s at %.6g degrees around %c", fiber->name, (double)fiber->angle, 'x' + m->frame.axis));
+    if (fiber->compression) PetscCall(PetscViewerASCIIPrintf(viewer, ", in compression too"));
   }
   PetscCall(PetscViewerASCIIPrintf(viewer, ")\n"));
   PetscCall(PetscViewerASCIIUseTabs(viewer, PETSC_TRUE));

@@ -103,7 +103,6 @@ PetscErrorCode SolverPrintHelp(MPI_Comm comm)
 {
   PetscFunctionBegin;
   PetscCall(PetscPrintf(comm, "\nOptions of the solver, on the command line only.\n\n"));
-  for (size_t i = 0; i < PETSC_STATIC_ARRAY_LENGTH(Options); ++i)
-    PetscCall(PetscPrintf(comm, "  %-39s %s\n  %-39s   %s\n", Options[i].name, Options[i].allowed, "", Options[i].text));
+  for (size_t i = 0; i < PETSC_STATIC_ARRAY_LENGTH(Options); ++i) PetscCall(HelpRow(comm, Options[i].name, Options[i].allowed, Options[i].text));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -21,7 +21,7 @@ PetscErrorCode TransferContextSetUp_Private(TransferContext *c)
 }
 
 /* Complete polynomials of degree order-1. */
-PetscErrorCode TransferNumHistory_Private(const TransferContext *c, PetscInt body, PetscInt order, PetscInt *num)
+static PetscErrorCode NumHistory_Private(const TransferContext *c, PetscInt body, PetscInt order, PetscInt *num)
 {
   const PetscInt h = c->spec ? c->spec->bodies[body].material->law->num_history : 0;
   const Basis1D *basis;
@@ -48,7 +48,7 @@ static PetscErrorCode LeafSize_Private(const TransferContext *c, PetscInt leaf, 
 
   PetscFunctionBegin;
   PetscCall(HPSpaceGetOrder(c->old_space, c->old_t->first[c->old_t->dim] + leaf, &order));
-  PetscCall(TransferNumHistory_Private(c, body, order, &history));
+  PetscCall(NumHistory_Private(c, body, order, &history));
   *num = TransferNumNodal_Private(c->old_t->dim, order) + TransferNumPressure_Private(c, body, order) + history;
   PetscFunctionReturn(PETSC_SUCCESS);
 }

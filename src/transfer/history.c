@@ -74,28 +74,14 @@ static PetscErrorCode Load_Private(const TransferContext *c, const OldCells *old
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Lagrange polynomials of n points at x. */
-static void Lagrange_Private(PetscInt n, const PetscReal points[], PetscReal x, PetscReal value[])
-{
-  for (PetscInt i = 0; i < n; ++i) {
-    value[i] = 1;
-    for (PetscInt j = 0; j < n; ++j) value[i] *= j == i ? 1 : (x - points[j]) / (points[i] - points[j]);
-  }
-}
-
 /* History at xi of the old leaf. */
 static PetscErrorCode Point_Private(PetscInt dim, const OldPoints *p, const PetscReal xi[], PetscReal history[])
 {
-  const PetscInt  n     = p->basis->num_points;
   const PetscReal slack = OVERSHOOT * (p->hi - p->lo);
-  PetscReal       L[3][MORTISE_MAX_ORDER + 4], sum[H] = {0};
+  PetscReal       sum[H];
 
   PetscFunctionBegin;
-  for (PetscInt d = 0; d < dim; ++d) Lagrange_Private(n, p->basis->points, xi[d], L[d]);
-  for (PetscInt q = 0; q < p->num; ++q) {
-    const PetscReal weight = L[0][q % n] * L[1][q / n % n] * (dim == 3 ? L[2][q / (n * n)] : 1);
-    for (PetscInt k = 0; k < H; ++k) sum[k] += weight * p->value[q * H + k];
-  }
+  Basis1DInterpolate(p->basis, dim, xi, H, p->value, sum);
   const PetscReal trace = (sum[0] + sum[3] + sum[5]) / 3; /* round-off */
   sum[0] -= trace;
   sum[3] -= trace;
@@ -112,11 +98,10 @@ static PetscErrorCode Cell_Private(const TransferContext *c, const OldCells *old
 
   PetscFunctionBegin;
   PetscCall(MechanicsPointRule(c->new_v->cell_order[cell], &basis));
-  const PetscInt n = basis->num_points, num = ElementNumNodes(dim, n - 1);
-  for (PetscInt q = 0; q < num; ++q) {
-    const PetscReal place[3] = {basis->points[q % n], basis->points[q / n % n], dim == 3 ? basis->points[q / (n * n)] : 0};
-    PetscReal       xi[3];
-    PetscInt        k = first;
+  for (PetscInt q = 0; q < ElementNumNodes(dim, basis->num_points - 1); ++q) {
+    PetscReal place[3], xi[3];
+    PetscInt  k = first;
+    Basis1DPoint(basis, dim, q, place);
     while (k < end && !TransferPlace_Private(c, leaf, place, k, xi)) ++k;
     PetscCheck(k < end, PETSC_COMM_SELF, PETSC_ERR_PLIB, "the old leaves of leaf %" PetscInt_FMT " do not cover it", leaf);
     PetscCall(Load_Private(c, old, k, p));

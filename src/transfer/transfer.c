@@ -1,19 +1,6 @@
 /* The whole state from one live problem to another. */
 #include "transferimpl.h"
 
-/* Contact views show the last evaluation: evaluate the old problem at the state. */
-static PetscErrorCode Refresh_Private(Problem problem, Vec x)
-{
-  ProblemStatus status;
-  Vec           r;
-
-  PetscFunctionBegin;
-  PetscCall(ProblemCreateVector(problem, &r));
-  PetscCall(ProblemResidual(problem, x, r, &status));
-  PetscCall(VecDestroy(&r));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 static PetscErrorCode Multipliers_Private(const TransferContext *c, Problem old_problem, Problem new_problem, PetscInt num_pairs, Vec x)
 {
   PetscFunctionBegin;
@@ -89,7 +76,7 @@ PetscErrorCode TransferState(Problem old_problem, const State *from, Problem new
   PetscCall(OldCellsDestroy_Private(&old));
 
   if (scene->num_contacts) PetscCall(ProblemSetHistory(old_problem, from->history));
-  if (scene->num_contacts) PetscCall(Refresh_Private(old_problem, from->x));
+  if (scene->num_contacts) PetscCall(ProblemRefresh(old_problem, from->x));
   PetscCall(Multipliers_Private(&c, old_problem, new_problem, scene->num_contacts, to->x));
   PetscCall(Scalars_Private(old_problem, from->x, new_problem, to->x));
   PetscCall(StageEnd(STAGE_TRANSFER));

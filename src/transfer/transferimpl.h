@@ -42,8 +42,6 @@ PetscErrorCode TransferDisplacement_Private(const TransferContext *, const OldCe
 PetscErrorCode TransferPressure_Private(const TransferContext *, const OldCells *, PetscReal pressure[], PetscReal unknown[]);
 /* history.c: at the integration points of the new cells owned here. Not collective. */
 PetscErrorCode TransferHistory_Private(const TransferContext *, const OldCells *, PetscReal history[]);
-/* Numbers of the history of a leaf of this order and body. */
-PetscErrorCode TransferNumHistory_Private(const TransferContext *, PetscInt body, PetscInt order, PetscInt *num);
 /* Numbers at the nodes of a leaf of this order. */
 static inline PetscInt TransferNumNodal_Private(PetscInt dim, PetscInt order)
 {

@@ -72,6 +72,27 @@ static inline void SplitLeaf(Forest *forest, PetscInt leaf, PetscInt split)
   AdaptBy(forest, &marks);
 }
 
+/* Corner cell and one of its children split, on 2^dim rotated, distorted cells of geometry order q. */
+static inline void HangingMesh(Solved *s, PetscInt dim, PetscInt q, PetscInt split, uint64_t seed)
+{
+  const ForestTables *t;
+  Box                 box;
+
+  box_distorted  = PETSC_TRUE;
+  s->bulk.forest = BoxForest(PETSC_COMM_WORLD, dim, (const PetscInt[3]){2, 2, 2}, q, 0, seed, &box);
+  box_distorted  = PETSC_FALSE;
+  SplitLeaf(&s->bulk.forest, 0, split);
+  SplitLeaf(&s->bulk.forest, BoxRandom(2), split);
+  OK(ForestGetTables(s->bulk.forest, &t));
+  assert_true(t->num_leaves > 1 << dim);
+}
+
+static inline PetscReal LargestOfRanks(PetscReal value)
+{
+  OK(MPI_Allreduce(MPI_IN_PLACE, &value, 1, MPIU_REAL, MPI_MAX, PETSC_COMM_WORLD));
+  return value;
+}
+
 /* Errors of orders 1..num on one mesh: each order divides them by 4 at least, and their logarithm is off a straight line by less than its fall an order. */
 static inline void CheckExponential(PetscInt num, const PetscReal error[])
 {

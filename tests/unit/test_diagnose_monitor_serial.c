@@ -43,7 +43,7 @@ static void Talk(int out, int in, char mid[], char all[], size_t size)
   all[0] = 0;
   Drain(in, all, size);
   strcpy(mid, all);
-  assert_int_equal(MonitorFooter(m, "failed", "a reason", NULL, &row), 0);
+  assert_int_equal(MonitorFooter(m, "failed", "a reason", NULL, PETSC_TRUE, &row), 0);
   assert_int_equal(MonitorDestroy(&m), 0);
   Drain(in, all, size);
   fclose(PETSC_STDOUT);
@@ -88,6 +88,7 @@ static void PipeHasLinesOnly(void **state)
   assert_non_null(strstr(all, "failed, a reason: 1 load step to t = 0.5 of 2, 10 Newton iterations, 2 step cuts"));
   assert_non_null(strstr(all, "estimated error 1.23 %"));
   assert_non_null(strstr(all, "results in out/x: "));
+  assert_non_null(strstr(all, ", checkpoint.h5"));
 }
 
 static void TerminalHasABar(void **state)

@@ -2,10 +2,11 @@
    belong to are refused, and so is a file of which a bit or the end is missing. */
 #include "outputimpl.h"
 
+#include "directory.h"
 #include "patchfixture.h"
 #include <unistd.h>
 
-static char        directory[] = "/tmp/mortise-checkpoint-XXXXXX", path[PETSC_MAX_PATH_LEN];
+static char        path[PETSC_MAX_PATH_LEN];
 static PetscMPIInt rank, size;
 
 /* A mixed patch on a mesh with hanging nodes and mixed orders, its state filled at random: the same numbers whatever the partition. */
@@ -209,17 +210,9 @@ static void RefusesDamage(void **unused)
   free(bytes);
 }
 
-static int Directory(void **unused)
+static int Start(void **unused)
 {
-  if (rank == 0 && !mkdtemp(directory)) return 1;
-  if (MPI_Bcast(directory, sizeof(directory), MPI_CHAR, 0, PETSC_COMM_WORLD)) return 1;
-  return snprintf(path, sizeof(path), "%s/checkpoint.h5", directory) < 0;
-}
-
-static int Remove(void **unused)
-{
-  MPI_Barrier(PETSC_COMM_WORLD);
-  return rank == 0 ? PetscRMTree(directory) != 0 : 0;
+  return DirectoryCreate(unused) || snprintf(path, sizeof(path), "%s/checkpoint.h5", directory) < 0;
 }
 
 int main(int argc, char **argv)
@@ -228,6 +221,6 @@ int main(int argc, char **argv)
   if (PetscInitialize(&argc, &argv, NULL, NULL) || ErrorHandlerPush()) return 1;
   MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
   MPI_Comm_size(PETSC_COMM_WORLD, &size);
-  const int failed = cmocka_run_group_tests(tests, Directory, Remove);
+  const int failed = cmocka_run_group_tests(tests, Start, DirectoryRemove);
   return PetscFinalize() || failed;
 }

@@ -10,6 +10,7 @@
 
 #include <cmocka.h>
 
+#include "directory.h"
 #include "near.h"
 
 #define OK(call) assert_int_equal((call), 0)
@@ -18,7 +19,6 @@
 
 enum { BOTTOM, TOP, LEFT, RIGHT, LOWER_TOP, UPPER_BOTTOM, NUM_GROUPS };
 
-static char        directory[] = "/tmp/mortise_state_XXXXXX";
 static PetscMPIInt rank;
 
 /* O-01 energy NHq at F = diag(1, 0.95, 1), E = 1, nu = 0.3 */
@@ -342,18 +342,6 @@ static void PatchCubic(void **state)
   Patch(3);
 }
 
-static int Begin(void **state)
-{
-  if (rank == 0 && !mkdtemp(directory)) return 1;
-  return MPI_Bcast(directory, sizeof(directory), MPI_CHAR, 0, PETSC_COMM_WORLD);
-}
-
-static int End(void **state)
-{
-  MPI_Barrier(PETSC_COMM_WORLD);
-  return rank == 0 ? PetscRMTree(directory) != 0 : 0;
-}
-
 int main(int argc, char **argv)
 {
   const struct CMUnitTest tests[] = {cmocka_unit_test(PatchLinear), cmocka_unit_test(PatchQuadratic), cmocka_unit_test(PatchCubic)};
@@ -361,7 +349,7 @@ int main(int argc, char **argv)
 
   if (PetscInitialize(&argc, &argv, NULL, NULL)) return 1;
   MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
-  failed = cmocka_run_group_tests(tests, Begin, End);
+  failed = cmocka_run_group_tests(tests, DirectoryCreate, DirectoryRemove);
   if (PetscFinalize()) return 1;
   return failed;
 }

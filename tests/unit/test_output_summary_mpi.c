@@ -9,9 +9,9 @@
 
 #include <cmocka.h>
 
+#include "directory.h"
 #include "near.h"
 
-static char         directory[] = "/tmp/mortise_summary_XXXXXX";
 static PetscMPIInt  rank, size;
 static SceneData    scene;
 static BoundarySpec boundary[2];
@@ -192,8 +192,7 @@ static void Directories(void **state)
 
 static int Begin(void **state)
 {
-  if (rank == 0 && !mkdtemp(directory)) return 1;
-  if (MPI_Bcast(directory, sizeof(directory), MPI_CHAR, 0, PETSC_COMM_WORLD)) return 1;
+  if (DirectoryCreate(state)) return 1;
   strcpy(scene.output.directory, directory);
   strcpy(scene.file, "some/where/a.yml");
   strcpy(boundary[0].name, "top");
@@ -210,12 +209,6 @@ static int Begin(void **state)
   return 0;
 }
 
-static int End(void **state)
-{
-  MPI_Barrier(PETSC_COMM_WORLD);
-  return rank == 0 ? PetscRMTree(directory) != 0 : 0;
-}
-
 int main(int argc, char **argv)
 {
   const struct CMUnitTest tests[] = {cmocka_unit_test(NothingSolved), cmocka_unit_test(Figures), cmocka_unit_test(Tables), cmocka_unit_test(Directories)};
@@ -224,7 +217,7 @@ int main(int argc, char **argv)
   if (PetscInitialize(&argc, &argv, NULL, NULL)) return 1;
   MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
   MPI_Comm_size(PETSC_COMM_WORLD, &size);
-  failed = cmocka_run_group_tests(tests, Begin, End);
+  failed = cmocka_run_group_tests(tests, Begin, DirectoryRemove);
   if (PetscFinalize()) return 1;
   return failed;
 }

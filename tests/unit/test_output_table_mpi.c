@@ -2,10 +2,11 @@
 #include "output.h"
 #include <cjson/cJSON.h>
 #include <cmocka.h>
-#include <stdlib.h>
 #include <unistd.h>
 
-static char        directory[] = "/tmp/mortise-table-XXXXXX", path[PETSC_MAX_PATH_LEN];
+#include "directory.h"
+
+static char        path[PETSC_MAX_PATH_LEN];
 static PetscMPIInt rank;
 
 /* The file's text on rank 0; "" elsewhere. */
@@ -129,18 +130,6 @@ static void TableGoesOn(void **unused)
   if (rank == 0) assert_string_equal(Text(), "step,pass,t\n");
 }
 
-static int Begin(void **unused)
-{
-  if (rank == 0 && !mkdtemp(directory)) return 1;
-  return MPI_Bcast(directory, sizeof(directory), MPI_CHAR, 0, PETSC_COMM_WORLD);
-}
-
-static int End(void **unused)
-{
-  MPI_Barrier(PETSC_COMM_WORLD);
-  return rank == 0 ? PetscRMTree(directory) != 0 : 0;
-}
-
 int main(int argc, char **argv)
 {
   const struct CMUnitTest tests[] = {cmocka_unit_test(RowsAreThereAtOnce), cmocka_unit_test(DocumentIsReplaced), cmocka_unit_test(TableGoesOn),
@@ -149,7 +138,7 @@ int main(int argc, char **argv)
 
   if (PetscInitialize(&argc, &argv, NULL, NULL)) return 1;
   MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
-  failed = cmocka_run_group_tests(tests, Begin, End);
+  failed = cmocka_run_group_tests(tests, DirectoryCreate, DirectoryRemove);
   if (PetscFinalize()) return 1;
   return failed;
 }

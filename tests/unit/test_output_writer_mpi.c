@@ -1,14 +1,14 @@
 /* The writer puts down what it was given: two states of a hexahedral and a polyline grid, spread over ranks of which one is empty, are read back from the
-   files. -directory DIR   write there and leave the files (for test_output_read.py); else a directory of /tmp that is removed */
+   files. -directory DIR   write there and leave the files (for test_output_read.py); else a directory that is removed */
 #include "output.h"
 #include <cmocka.h>
 #include <hdf5.h>
-#include <stdlib.h>
 #include <unistd.h>
+
+#include "directory.h"
 
 enum { N = 12 }; /* cells in a row along x; each rank brings its own 8 points per cell */
 
-static char        directory[PETSC_MAX_PATH_LEN];
 static PetscBool   keep;
 static PetscMPIInt rank, size;
 
@@ -266,22 +266,16 @@ static void WrongUseIsAnError(void **unused)
   Write(NULL);
 }
 
-/* The directory: told, or a fresh one that all ranks know. */
+/* The directory: told, or a fresh one. */
 static int Begin(void **unused)
 {
   if (PetscOptionsGetString(NULL, NULL, "-directory", directory, sizeof(directory), &keep)) return 1;
-  if (!keep) {
-    strcpy(directory, "/tmp/mortise-writer-XXXXXX");
-    if (rank == 0 && !mkdtemp(directory)) return 1;
-    if (MPI_Bcast(directory, sizeof(directory), MPI_CHAR, 0, PETSC_COMM_WORLD)) return 1;
-  }
-  return 0;
+  return keep ? 0 : DirectoryCreate(unused);
 }
 
 static int End(void **unused)
 {
-  MPI_Barrier(PETSC_COMM_WORLD);
-  return !keep && rank == 0 ? PetscRMTree(directory) != 0 : 0;
+  return keep ? 0 : DirectoryRemove(unused);
 }
 
 int main(int argc, char **argv)

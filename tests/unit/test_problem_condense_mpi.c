@@ -4,23 +4,11 @@
 #include "mechanicsimpl.h"
 #include "problemfixture.h"
 
-/* Corner cell and one of its children split, on 2^dim rotated, distorted cells. */
-static void Mesh(Solved *s, PetscInt dim, PetscInt split, uint64_t seed)
-{
-  Box box;
-
-  box_distorted  = PETSC_TRUE;
-  s->bulk.forest = BoxForest(PETSC_COMM_WORLD, dim, (const PetscInt[3]){2, 2, 2}, 1, 0, seed, &box);
-  box_distorted  = PETSC_FALSE;
-  SplitLeaf(&s->bulk.forest, 0, split);
-  SplitLeaf(&s->bulk.forest, BoxRandom(2), split);
-}
-
 /* One side moves, one is held across it, the rest is free. */
 static void Create(Solved *s, PetscInt dim, PetscInt split, PetscBool mixed, uint64_t seed, const char *condense)
 {
   OK(PetscOptionsSetValue(NULL, "-solve_condense", condense));
-  Mesh(s, dim, split, seed);
+  HangingMesh(s, dim, 1, split, seed);
   BulkInit(&s->bulk, dim, dim == 2 ? MODEL_PLANE_STRAIN : MODEL_3D, KINEMATICS_FINITE);
   BulkMaterial(&s->bulk.material, "neo_hookean", mixed ? VOLUMETRIC_SIMO : VOLUMETRIC_LOG, mixed ? FORMULATION_MIXED : FORMULATION_DISPLACEMENT, 1,
                mixed ? 50 : 8. / 3);

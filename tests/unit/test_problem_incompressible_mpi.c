@@ -8,23 +8,6 @@
 
 static PetscReal worst[3]; /* error of u, of P, of the tangent */
 
-static PetscReal Largest(PetscReal value)
-{
-  OK(MPI_Allreduce(MPI_IN_PLACE, &value, 1, MPIU_REAL, MPI_MAX, PETSC_COMM_WORLD));
-  return value;
-}
-
-static void Mesh(Solved *s, PetscInt dim, PetscInt split, uint64_t seed)
-{
-  Box box;
-
-  box_distorted  = PETSC_TRUE;
-  s->bulk.forest = BoxForest(PETSC_COMM_WORLD, dim, (const PetscInt[3]){2, 2, 2}, 1, 0, seed, &box);
-  box_distorted  = PETSC_FALSE;
-  SplitLeaf(&s->bulk.forest, 0, split);
-  SplitLeaf(&s->bulk.forest, BoxRandom(2), split);
-}
-
 /* F of determinant 1: in the plane a stretch and a shear. */
 static void Strain(PetscInt dim, PetscReal F[9])
 {
@@ -54,7 +37,7 @@ static void Create(Solved *s, PetscInt dim, PetscInt split, PetscInt low, PetscI
 {
   PetscReal F[9], P[9];
 
-  Mesh(s, dim, split, seed);
+  HangingMesh(s, dim, 1, split, seed);
   BulkInit(&s->bulk, dim, dim == 2 ? MODEL_PLANE_STRAIN : MODEL_3D, KINEMATICS_FINITE);
   BulkMaterial(&s->bulk.material, "neo_hookean", seed % 2 ? VOLUMETRIC_SIMO : VOLUMETRIC_QUADRATIC, FORMULATION_AUTO, 1, INFINITY);
   Strain(dim, F);
@@ -91,8 +74,8 @@ static void Errors(const Solved *s, PetscReal pi, PetscReal *u, PetscReal *stres
       *u = PetscMax(*u, PetscAbsReal(value[i] - exact));
     }
   }
-  *u      = Largest(*u);
-  *stress = Largest(*stress);
+  *u      = LargestOfRanks(*u);
+  *stress = LargestOfRanks(*stress);
 }
 
 static void UniformStrain(PetscInt dim, PetscInt split, PetscInt high, PetscBool symmetric, uint64_t seed)

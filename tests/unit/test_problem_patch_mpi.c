@@ -7,28 +7,7 @@
 
 static const PetscReal F1[9] = {1.2, .15, -.1, .05, .9, .2, -.08, .12, 1.05};
 
-/* Corner cell and one of its children, on 2^dim cells of geometry order q. */
-static void PatchForest(Solved *s, PetscInt dim, PetscInt q, PetscInt split, uint64_t seed)
-{
-  const ForestTables *t;
-  Box                 box;
-
-  box_distorted  = PETSC_TRUE;
-  s->bulk.forest = BoxForest(PETSC_COMM_WORLD, dim, (const PetscInt[3]){2, 2, 2}, q, 0, seed, &box);
-  box_distorted  = PETSC_FALSE;
-  SplitLeaf(&s->bulk.forest, 0, split);
-  SplitLeaf(&s->bulk.forest, BoxRandom(2), split);
-  OK(ForestGetTables(s->bulk.forest, &t));
-  assert_true(t->num_leaves > 1 << dim);
-}
-
 static PetscReal worst[3]; /* linear field: error of u, of P relative to P(F1); quadratic field: error of u */
-
-static PetscReal Largest(PetscReal value)
-{
-  OK(MPI_Allreduce(MPI_IN_PLACE, &value, 1, MPIU_REAL, MPI_MAX, PETSC_COMM_WORLD));
-  return value;
-}
 
 static PetscInt along[3]; /* orders of the body along x, y, z; 0: those of the cells */
 
@@ -82,7 +61,7 @@ static PetscReal FieldError(const Solved *s, Field field)
       for (PetscInt d = 0; d < v->dim; ++d) error = PetscMax(error, PetscAbsReal(u[i * v->dim + d] - exact[d]));
     }
   }
-  return Largest(error);
+  return LargestOfRanks(error);
 }
 
 /* Largest |P - P(F1)| at the quadrature points, and largest |P(F1)|. */
@@ -103,7 +82,7 @@ static PetscReal StressError(const Solved *s, PetscReal *scale)
     OK(MechanicsPoints(s->mechanics, c, np, xi, s->u, Fq, Pq, NULL));
     for (PetscInt q = 0; q < 9 * np; ++q) error = PetscMax(error, PetscAbsReal(Pq[q] - P[q % 9]));
   }
-  return Largest(error);
+  return LargestOfRanks(error);
 }
 
 static void LinearField(PetscInt dim, PetscInt q, PetscInt high, PetscInt split, PetscBool mixed, uint64_t seed)
@@ -111,7 +90,7 @@ static void LinearField(PetscInt dim, PetscInt q, PetscInt high, PetscInt split,
   Solved    s = {0};
   PetscReal scale;
 
-  PatchForest(&s, dim, q, split, seed);
+  HangingMesh(&s, dim, q, split, seed);
   BulkInit(&s.bulk, dim, dim == 2 ? MODEL_PLANE_STRAIN : MODEL_3D, KINEMATICS_FINITE);
   BulkMaterial(&s.bulk.material, "neo_hookean", mixed ? VOLUMETRIC_SIMO : VOLUMETRIC_LOG, mixed ? FORMULATION_MIXED : FORMULATION_DISPLACEMENT, 1,
                mixed ? 50 : 8. / 3);
@@ -160,7 +139,7 @@ static void QuadraticField(PetscInt dim, PetscInt high, PetscInt split, PetscBoo
   const PetscReal          grad_div[2][3] = {{0.06 + 0.04, -0.02 + 0.04, 0}, {0.06 + 0.04 + 0.02, -0.02 + 0.04, -0.02}};
   Solved                   s              = {0};
 
-  PatchForest(&s, dim, 1, split, seed);
+  HangingMesh(&s, dim, 1, split, seed);
   BulkInit(&s.bulk, dim, dim == 2 ? MODEL_PLANE_STRAIN : MODEL_3D, KINEMATICS_SMALL);
   BulkMaterial(&s.bulk.material, "linear", VOLUMETRIC_QUADRATIC, mixed ? FORMULATION_MIXED : FORMULATION_DISPLACEMENT, 1.5, 4);
   for (PetscInt c = 0; c < dim; ++c) {

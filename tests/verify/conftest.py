@@ -60,6 +60,19 @@ class Result:
         return out
 
 
+def leaves(value, kept, name=""):
+    """Every number and word of a document with its path, without what is below keys that are not kept(key)."""
+    if isinstance(value, dict):
+        for key, v in value.items():
+            if kept(key):
+                yield from leaves(v, kept, f"{name}.{key}")
+    elif isinstance(value, list):
+        for i, v in enumerate(value):
+            yield from leaves(v, kept, f"{name}[{i}]")
+    else:
+        yield name, value
+
+
 def execute(command, timeout=600, env=None):
     """Run a command in its own process group; a timeout ends all its ranks and fails the test."""
     process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, start_new_session=True, cwd=ROOT,

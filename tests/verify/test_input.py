@@ -176,6 +176,15 @@ def test_good_on_two_ranks(check):
     (("{law: neo_hookean, E: 1, nu: 0.3}", "{law: j2, E: 1, nu: 0.3, yield: 1, saturation: -1, saturation_rate: 1}"),
      ["material.rubber.saturation: -1 takes all of the yield stress"]),
     (("{law: neo_hookean, E: 1, nu: 0.3}", "{law: j2, E: 1, nu: 0.3, yield: 1, volumetric: log}"), ["material.rubber.volumetric: j2 knows"]),
+    ((RUBBER, "{law: j2, E: 1, nu: 0.3, yield: -1}"), ["material.rubber.yield: -1 is not a finite number above 0"]),
+    ((RUBBER, "{law: j2, E: 1, nu: 0.3, yield: inf}"), ["material.rubber.yield: inf is not a finite number above 0"]),
+    ((RUBBER, "{law: j2, E: 1, nu: 0.3, yield: 1, hardening: inf}"), ["material.rubber.hardening: inf is not a finite number"]),
+    ((RUBBER, "{law: j2, E: 1, nu: 0.3, yield: 1, saturation: 1, saturation_rate: 0}"), ["material.rubber.saturation_rate: 0 is not a finite number above 0"]),
+    ((RUBBER, "{law: j2, E: 1, nu: 0.3, yield: 1, hardening: nan}"), ["material.rubber.hardening is 'nan'"]),
+    ((RUBBER, "{law: j2, E: -1, nu: 0.3, yield: 1}"), ["material.rubber.E: -1 is not a finite number above 0"]),
+    ((RUBBER, "{law: j2, E: 1, nu: 0.6, yield: 1}"), ["material.rubber.nu: 0.6 is not between -1 and 0.5"]),
+    ((RUBBER, "{law: j2, E: 1, nu: 0.3, yield: 1, hardning: 1}"), ["material.rubber.hardning is not a key of a scene; the nearest one is material.rubber.hardening"]),
+    ((RUBBER, "{law: j2, mu: 1, kappa: inf, yield: 1, formulation: displacement}"), ["material.rubber.formulation: displacements alone cannot keep the volume"]),
     # fibres
     ((RUBBER, HGO % "fiber: {a: {angle: 29}}, frame: {point: {x: 3}}"), None),
     ((RUBBER, HGO % "fiber: {a: {angle: 29}}, frame: {axis: x}"), ["material.rubber.frame.axis is x", "allowed in this model: z"]),
@@ -189,6 +198,12 @@ def test_good_on_two_ranks(check):
     ((RUBBER, HGO % "fiber: {a: {field: f}}"), ["material.rubber.fiber.a.field: the mesh has no field 'f'", "none"]),
     ((RUBBER, HGO % "fiber: {a: {direction: {x: 0}}}"), ["material.rubber.fiber.a.direction is zero"]),
     ((RUBBER, HGO % "fiber: {a: {angle: 29, k1: -2}}"), ["material.rubber.fiber.a.k1 is -2", "inf"]),
+    ((RUBBER, HGO % "fiber: {a: {angle: 29, k2: 0}}"), ["material.rubber.fiber.a.k2 is 0", "inf"]),
+    ((RUBBER, HGO % "fiber: {a: {direction: {x: .inf}}}"), ["material.rubber.fiber.a.direction.x", "number"]),
+    ((RUBBER, HGO % "fiber: {a: {direction: {x: nan}}}"), ["material.rubber.fiber.a.direction.x is 'nan'"]),
+    ((RUBBER, HGO % "fiber: {a: {angle: 29, compression: maybe}}"), ["material.rubber.fiber.a.compression is 'maybe'", "true, false"]),
+    ((RUBBER, "{law: hgo, c: -1, kappa: 100, k1: 1, k2: 1, fiber: {a: {angle: 29}}}"), ["material.rubber.c: -1 is not a finite number above 0"]),
+    ((RUBBER, "{law: hgo, c: 1, kappa: 100, k1: 0, k2: 1, fiber: {a: {angle: 29}}}"), ["material.rubber.k1: 0 is not a finite number above 0"]),
     ((RUBBER, HGO % "fiber: {a: {angel: 29}}"), ["material.rubber.fiber.a.angel", "material.rubber.fiber.a.angle"]),
     ((RUBBER, HGO % "fiber: {a: {angle: 1}, b: {angle: 2}, c: {angle: 3}, d: {angle: 4}, e: {angle: 5}}"), ["5 families", "at most 4"]),
     ((RUBBER, HGO % "volumetric: simo"), ["material.rubber.fiber: missing"]),
@@ -365,6 +380,17 @@ def test_command_line_wins(check):
     result = check((), "-material_rubber_E", "26", "-order", "3", "-boundary_bottom_fix", "y", "-mesh_parameter_n", "3")
     assert result.returncode == 0, result
     assert "mu = 10," in result.stdout and "order 3" in result.stdout and "fix y" in result.stdout
+
+
+def test_warnings(check):
+    """Allowed, and said before anything is solved: vectors of another length, a yield stress that falls, fibres that push."""
+    assert "material.rubber.fiber.a.direction has length 2; made a unit vector" in check([(RUBBER, HGO % "fiber: {a: {direction: {x: 2}}}")]).stdout
+    assert "made a unit vector" not in check([(RUBBER, HGO % "fiber: {a: {direction: {x: 0.6, y: 0.8}}}")]).stdout
+    assert "in compression too" in check([(RUBBER, HGO % "fiber: {a: {angle: 29, compression: true}}")]).stdout
+    falls = "warning: the yield stress of material rubber falls"
+    assert falls in check([(RUBBER, "{law: j2, E: 1, nu: 0.3, yield: 1, hardening: -0.1}")]).stdout
+    assert falls in check([(RUBBER, "{law: j2, E: 1, nu: 0.3, yield: 1, hardening: 0.1, saturation: -0.5, saturation_rate: 1}")]).stdout
+    assert falls not in check([(RUBBER, "{law: j2, E: 1, nu: 0.3, yield: 1, hardening: 0}")]).stdout
 
 
 DIRECTIONS = ("upper: {material: rubber}", "upper: {material: rubber, order: {x: 3, y: 2}}")

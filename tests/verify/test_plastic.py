@@ -207,10 +207,12 @@ def test_condensation_is_refused(run, tmp_path):
 
 # ---- O-34: limit load of a strip with a hole ------------------------------------------------------------------------------------------------
 
-def test_o34_limit_load(run, tmp_path):
-    """Mixed cells of order 2 come to rest at the limit load, from above by no more than 2 %."""
-    load = strip(run, tmp_path, 4, 2, "mixed")
-    assert 0.995 < load[-1] < 1.02 and abs(load[-1] - load[-2]) < 1e-3
+@pytest.mark.parametrize("n, most", [(4, 1.01), pytest.param(8, 1.004, marks=pytest.mark.slow)])
+def test_o34_limit_load(run, tmp_path, n, most):
+    """Mixed cells of order 2, 48 and 192 of them, come to rest at the limit load (case: 0.5 % below to 2 % above), from above by less the finer they are."""
+    load = strip(run, tmp_path, n, 2, "mixed")
+    print("over the exact limit load", load[-1] - 1, "last step", load[-1] - load[-2])
+    assert 0.995 < load[-1] < most and abs(load[-1] - load[-2]) < 1e-4
 
 
 def test_softening_is_announced(run):

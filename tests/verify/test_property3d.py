@@ -263,7 +263,7 @@ def test_o95_newton_order(solve, options, carries):
     for symmetric in (0, 1):
         result = solve(*QUIET, *options, "-snes_monitor", "-solve_symmetric", symmetric, contact=pairs(carries))
         good(result)
-        print([[f"{r:.1e}" for r in one[-3:]] for one in steps(result)])
+        print("Newton iterations", iterations(result), "estimated error", result.summary["estimated_error"], [[f"{r:.1e}" for r in one[-3:]] for one in steps(result)])
         for one in steps(result):
             assert len(one) < 3 or is_quadratic(one), one
 
@@ -497,6 +497,7 @@ def on_ranks(solve, name, counts):
     options = (*ADAPTED, *(ITERATIVE if name == "iterative" else ()))
     one = solve(*options, **RANKS[name])
     p = only(one)
+    print(name, "Newton iterations", iterations(one), "estimated error", one.summary["estimated_error"])
     for ranks in counts:
         many = solve(*options, **RANKS[name], ranks=ranks)
         q = only(many)
