@@ -76,6 +76,7 @@ typedef struct {
      functions of F and history alone. */
   const PetscReal *history;
   PetscReal       *trial;
+  PetscBool        rests; /* points just at the edge of flow are expected to stay elastic: A is then the elastic one there; else that of further flow */
   PetscBool bad; /* out: set at points with det F <= 0, or where the law has no answer (the energy exceeds all numbers, the yield stress is used up) (numerical
                     status, no error); never reset */
 } MaterialPoints;

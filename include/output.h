@@ -99,8 +99,11 @@ PetscErrorCode            ProbesCreate(const SceneData *, Forest, Probes *);
 PetscErrorCode            ProbesDestroy(Probes *);
 /* Coarse cell and place in it, xi[3] in [0,1]. */
 PetscErrorCode ProbesGetPlace(Probes, PetscInt probe, PetscInt *root, PetscReal xi[3]);
-/* displacement[num][3], Cauchy stress[num][6] (NULL: skip) of all probes, on all ranks. Collective. */
-PetscErrorCode ProbesEvaluate(Probes, Problem, Vec x, PetscReal displacement[][3], PetscReal stress[][6]);
+typedef struct {
+  PetscReal displacement[3], stress[6], plastic_strain; /* Cauchy; strain 0 where nothing flows */
+} ProbeValue;
+/* value[num] of all probes, on all ranks. Collective. */
+PetscErrorCode ProbesEvaluate(Probes, Problem, Vec x, ProbeValue value[]);
 
 /* ---- history.csv and adapt.csv (output/history.c) ------------------------------------------------------------------------ */
 

@@ -189,7 +189,8 @@ PetscErrorCode ProblemRefresh(Problem, Vec x);
 PetscErrorCode ProblemSetCondense(Problem);
 /* A vector of the matrix: right-hand side, lift, solution. */
 PetscErrorCode ProblemCreateRightSide(Problem, Vec *);
-/* dx = y, and the solution at nodes inside cells where they are condensed (with the lift of the last tangent). Collective. */
+/* dx = y, multipliers in the unit of pressures (the symmetric form has them over E/h), and the solution at nodes inside cells where they are condensed (with
+   the lift of the last tangent). Collective. */
 PetscErrorCode ProblemRecover(Problem, Vec y, Vec dx);
 /* dR/dx with the stored element pressures in the geometric stiffness (NULL: consistent). When lift is given, the change of R that the remaining
    prescribed motion makes to first order is added to it, and the Hessian of pairs whose open gaps under pressure are still wide against their facets is left
@@ -210,6 +211,10 @@ PetscErrorCode ProblemSwitchActiveSet(Problem, Vec dx, Vec rhs, PetscInt *change
    them and sets their multipliers to 0. *any: is there one? Engage puts all pairs back. Collective. */
 PetscErrorCode ProblemRelease(Problem, PetscBool *any);
 PetscErrorCode ProblemEngage(Problem);
+/* At the start of a step, where dx is the linear step there: would most points on their yield surface leave it? Then the next tangents take such points for
+   elastic, until ProblemFlow. Collective. */
+PetscErrorCode ProblemRest(Problem, Vec x, Vec dx, PetscBool *rests);
+PetscErrorCode ProblemFlow(Problem);
 /* A number that tells active sets of this problem apart, the same on every rank. Collective. */
 PetscErrorCode ProblemActiveSetHash(Problem, uint64_t *hash);
 /* A Newton step: Begin remembers where it starts; Move sets x = start + step dx and the prescribed motion likewise (may be called again with a shorter step)

@@ -17,6 +17,7 @@ typedef struct {
   PetscReal     tolerance; /* relative; 0: no adaptation */
   PetscInt      max_passes, max_cells;
   PetscReal     fraction;    /* Dörfler share of the squared estimate to mark */
+  PetscReal     alike;       /* marking ends at the widest gap among leaves whose squared estimates differ by less than this share */
   PetscReal     coarsen;     /* cells below this share of the mean squared indicator may merge */
   PetscBool     anisotropic; /* split only in the directions that matter */
   PetscReal     share;       /* of the largest direction's squared estimate: a direction with less does not matter */

@@ -46,5 +46,12 @@ Physical Curve("sleeve_bore")  = {30 : 30 + end};
 Physical Curve("sleeve_skin")  = {40 : 40 + end};
 Physical Curve("artery_bore")  = {50 : 50 + end};
 Physical Curve("artery_skin")  = {70 : 70 + end};
-Physical Curve("plane_y") = {100, 120, 140, 150}; // in a full ring these two hold it: no symmetry planes any more
-Physical Curve("plane_x") = {101, 121, 141, 151};
+// In a full ring there are no planes of symmetry. One ray keeps the bodies from turning and from moving along y; along x contact does (plane_x, which a scene
+// may name, is of the balloon alone).
+If (sectors == 4)
+  Physical Curve("plane_y") = {100, 120, 140};
+  Physical Curve("plane_x") = {101};
+Else
+  Physical Curve("plane_y") = {100, 120, 140, 150};
+  Physical Curve("plane_x") = {101, 121, 141, 151};
+EndIf

@@ -15,6 +15,17 @@ static inline const PetscReal *LineEnd_Private(const Overlap *o, int line)
   return o->side[line / 4].Y[(line + 1) % 4];
 }
 
+/* The ends of a line in an order that is the same for both facets it belongs to: so they have the same crossing, which rounding moves far along lines that meet
+   at a small angle. */
+static void Ends_Private(const Overlap *o, int line, const PetscReal **from, const PetscReal **to)
+{
+  const PetscReal *a = LineStart_Private(o, line), *b = LineEnd_Private(o, line);
+  const PetscBool  swap = (PetscBool)(a[0] > b[0] || (a[0] == b[0] && a[1] > b[1]));
+
+  *from = swap ? b : a;
+  *to   = swap ? a : b;
+}
+
 /* Where two lines meet: neighbouring sides of one facet at its corner. near: the place on the side that is cut, which holds when the lines are so close to each
    other that they meet elsewhere: one end of the side is off the line by a little more than FACET_ON, the other by a little less. */
 static void Meet_Private(const Overlap *o, int a, int b, const PetscReal near[2], PetscReal size, PetscReal v[2])
@@ -25,8 +36,11 @@ static void Meet_Private(const Overlap *o, int a, int b, const PetscReal near[2]
     v[0] = y[0], v[1] = y[1];
     return;
   }
-  const PetscReal *p = LineStart_Private(o, a), *q = LineStart_Private(o, b), *P = LineEnd_Private(o, a), *Q = LineEnd_Private(o, b);
-  const PetscReal  d[2] = {P[0] - p[0], P[1] - p[1]}, e[2] = {Q[0] - q[0], Q[1] - q[1]}, r[2] = {q[0] - p[0], q[1] - p[1]}, det = Cross2(d, e);
+  const PetscReal *p, *q, *P, *Q;
+
+  Ends_Private(o, PetscMin(a, b), &p, &P);
+  Ends_Private(o, PetscMax(a, b), &q, &Q);
+  const PetscReal d[2] = {P[0] - p[0], P[1] - p[1]}, e[2] = {Q[0] - q[0], Q[1] - q[1]}, r[2] = {q[0] - p[0], q[1] - p[1]}, det = Cross2(d, e);
 
   if (PetscAbsReal(det) <= 1e-12 * PetscSqrtReal(Dot2(d, d) * Dot2(e, e))) {
     v[0] = near[0], v[1] = near[1];
@@ -86,20 +100,16 @@ static PetscBool Cut_Private(Overlap *o, int i, PetscReal size)
   return PETSC_TRUE;
 }
 
-PetscBool ContactClip(Overlap *o)
+PetscBool ContactClip(Overlap *o, PetscReal size)
 {
-  const PlaneQuad *s    = &o->side[0];
-  const PetscReal  d[2] = {s->Y[2][0] - s->Y[0][0], s->Y[2][1] - s->Y[0][1]}, e[2] = {s->Y[3][0] - s->Y[1][0], s->Y[3][1] - s->Y[1][1]};
-  const PetscReal  whole = 0.5 * Cross2(d, e);
-
   o->num = 4;
   for (int k = 0; k < 4; k++) {
     o->v[k][0] = o->side[1].Y[k][0], o->v[k][1] = o->side[1].Y[k][1];
     o->line[k] = (int8_t)(4 + k);
   }
   for (int i = 0; i < 4 && o->num; i++)
-    if (!Cut_Private(o, i, PetscSqrtReal(whole))) return PETSC_FALSE;
+    if (!Cut_Private(o, i, size)) return PETSC_FALSE;
   if (o->num < 3) return PETSC_FALSE;
   o->area = Area_Private(o);
-  return o->area > FACET_ON * FACET_ON * whole ? PETSC_TRUE : PETSC_FALSE;
+  return o->area > PetscSqr(FACET_ON * size) ? PETSC_TRUE : PETSC_FALSE;
 }

@@ -103,7 +103,7 @@ static PetscErrorCode Meet_Private(RayWork w, const ContactSurface *mortar, Pets
     }
     *meets = ClipInterval_Private(o);
   } else {
-    *meets = ContactClip(o);
+    *meets = ContactClip(o, PetscSqrtReal(f->area));
     if (o->num > FACET_VERTICES) *known = PETSC_FALSE;
   }
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -121,7 +121,7 @@ static PetscErrorCode Gather_Private(ContactPair pair, const ContactSurface *non
       pair->num_degenerate++;
       continue;
     }
-    if (!ContactClip(&o)) continue;
+    if (!ContactClip(&o, PetscSqrtReal(w->frame.area))) continue;
     PetscCall(ContactGrow(w->num_overlaps + 1, sizeof(Overlap), &w->size_overlap, &w->overlap));
     PetscCall(ContactGrow(w->num_overlaps + 1, sizeof(PetscInt), &w->size_mortar, &w->mortar));
     w->overlap[w->num_overlaps]  = o;

@@ -45,8 +45,8 @@ extern const PetscReal ContactMixed[4]; /* d2 N_a / dxi_1 dxi_2 */
 PetscBool ContactQuadLocate(const PlaneQuad *, const PetscReal Y[2], PlanePoint *);
 PetscBool ContactQuadIsConvex(const PlaneQuad *);
 
-/* clip.c. False: no overlap, or (num > FACET_VERTICES) none that could be used. */
-PetscBool ContactClip(Overlap *);
+/* clip.c. size: root of the area of the whole facet, of which side[0] may be a part. False: no overlap, or (num > FACET_VERTICES) none that could be used. */
+PetscBool ContactClip(Overlap *, PetscReal size);
 
 /* rule.c: barycentric points and weights on a triangle. */
 #define CONTACT_RULE 25

@@ -178,8 +178,9 @@ static void Collapse_Private(const RayFacet *f, const Overlap *o, const RayMove 
 static PetscErrorCode Overlap_Private(RayWork w, const RayLattice *mortar, PetscInt k, const PetscReal y[], const PetscReal D[4][4], PetscReal area,
                                       RaySecond *second, PetscReal all[])
 {
-  const RayFacet *f               = &w->facet;
-  const Overlap  *o               = &w->overlap[k];
+  const RayFacet *f = &w->facet;
+  Overlap         split;
+  const Overlap  *o               = &split;
   const PetscInt  nq              = f->D * (f->s.num + f->nv + mortar->num);
   PetscReal       corner[CORNERS] = {0};
   RayMove         move[FACET_VERTICES];
@@ -190,6 +191,7 @@ static PetscErrorCode Overlap_Private(RayWork w, const RayLattice *mortar, Petsc
   const PetscReal(*point)[3], *weight;
 
   PetscFunctionBegin;
+  ContactRaySplit(f, &w->overlap[k], &split);
   PetscCall(ContactRayRule(f->m, f->s.order, mortar->order, &points, &point, &weight));
   PetscCall(ContactGrow(points * (b.nf + f->D * nq + OWN * (b.na + b.no) + f->m * (nq + 12)) + 8 * (nq + 6), sizeof(PetscReal), &w->size_buffer, &w->buffer));
   b.basis          = w->buffer;

@@ -194,9 +194,11 @@ typedef struct {
 void ContactRayProducts(PetscInt num, PetscReal factor, PetscInt nl, const PetscReal left[], PetscInt ldl, PetscInt nr, const PetscReal right[], PetscInt ldr,
                         PetscReal W[], PetscInt ldw);
 PetscErrorCode ContactRayRule(PetscInt m, PetscInt order_s, PetscInt order_m, PetscInt *num, const PetscReal (**point)[3], const PetscReal **weight);
-void           ContactRayMoves(const RayFacet *, const Overlap *, RayMove[]);
-PetscInt       ContactRaySimplices(const RayFacet *, const Overlap *);
-void           ContactRaySimplex(const RayFacet *, const Overlap *, PetscInt k, RaySimplex *);
+/* The same polygon, with crossings at a small angle as two corners at one place. */
+void     ContactRaySplit(const RayFacet *, const Overlap *, Overlap *to);
+void     ContactRayMoves(const RayFacet *, const Overlap *, RayMove[]);
+PetscInt ContactRaySimplices(const RayFacet *, const Overlap *);
+void     ContactRaySimplex(const RayFacet *, const Overlap *, PetscInt k, RaySimplex *);
 /* First guesses at the corners of an overlap. */
 typedef struct {
   PetscReal xi[FACET_VERTICES][2], eta[FACET_VERTICES][2];

@@ -1,11 +1,18 @@
 /* Polygons of the chart, how their corners move, their simplices and quadrature.
 
    Corners are fixed, images, or crossings C = Y_a + t e of an image's side e = Y_b - Y_a with a fixed line nu: dt = -nu . ((1 - t) dY_a + t dY_b) / nu.e,
-   half of d2C = dt (de - e nu.de / nu.e). */
+   half of d2C = dt (de - e nu.de / nu.e).
+
+   Where both meet at a small angle the crossing runs along them with the angle's inverse, and what rounding and quadrature leave in derivatives by its place
+   with it: two meshes whose lines lie on each other would press by forces that flicker. Such a crossing is taken as two corners at one place, the first of
+   which rests on the line and the second goes with a point of the side. Nothing lies between them, and as derivatives of an integral depend on how the sides
+   move across themselves, first derivatives are exact. Of second ones they leave out the change of the crossing's place. */
 #include "rayimpl.h"
 #include <petscblaslapack.h>
 
 #define MOST_POINTS 144
+#define SMALL 1e-5 /* sine of an angle */
+#define JOINT 8    /* line between the two corners at one place */
 
 /* W[nl][nr] += factor sum_k left[k][nl] right[k][nr] */
 void ContactRayProducts(PetscInt num, PetscReal factor, PetscInt nl, const PetscReal left[], PetscInt ldl, PetscInt nr, const PetscReal right[], PetscInt ldr,
@@ -78,6 +85,46 @@ static void Crossing_Private(const Overlap *o, PetscInt k, int side, int image, 
   }
 }
 
+/* The corner that goes with a point of an image's side. */
+static void Along_Private(const Overlap *o, PetscInt k, int image, RayMove *move)
+{
+  const PetscReal *a = o->side[1].Y[image], *b = o->side[1].Y[(image + 1) % 4], e[2] = {b[0] - a[0], b[1] - a[1]},
+                  r[2] = {o->v[k][0] - a[0], o->v[k][1] - a[1]};
+  const PetscReal t    = Dot2(r, e) / Dot2(e, e);
+
+  for (int i = 0; i < 2; i++) {
+    move->d[i][2 * image + i]             = 1 - t;
+    move->d[i][2 * ((image + 1) % 4) + i] = t;
+  }
+}
+
+/* Do lines a and b, one of either facet, meet at a small angle? */
+static PetscBool IsSmall_Private(const Overlap *o, int a, int b)
+{
+  const PetscReal *p, *P, *q, *Q;
+
+  if (a / 4 == b / 4) return PETSC_FALSE;
+  p = o->side[a / 4].Y[a % 4], P = o->side[a / 4].Y[(a + 1) % 4], q = o->side[b / 4].Y[b % 4], Q = o->side[b / 4].Y[(b + 1) % 4];
+  const PetscReal d[2] = {P[0] - p[0], P[1] - p[1]}, e[2] = {Q[0] - q[0], Q[1] - q[1]};
+
+  return (PetscBool)(PetscAbsReal(Cross2(d, e)) < SMALL * PetscSqrtReal(Dot2(d, d) * Dot2(e, e)));
+}
+
+void ContactRaySplit(const RayFacet *f, const Overlap *o, Overlap *to)
+{
+  *to = *o;
+  if (f->m == 1) return;
+  to->num = 0;
+  for (PetscInt k = 0; k < o->num; k++) {
+    const PetscBool split = (PetscBool)(IsSmall_Private(o, o->line[(k + o->num - 1) % o->num], o->line[k]) && to->num + o->num - k < FACET_VERTICES);
+
+    for (int twice = split ? 1 : 0; twice >= 0; twice--) {
+      for (int i = 0; i < 2; i++) to->v[to->num][i] = o->v[k][i];
+      to->line[to->num++] = twice ? JOINT : o->line[k];
+    }
+  }
+}
+
 void ContactRayMoves(const RayFacet *f, const Overlap *o, RayMove move[])
 {
   for (PetscInt k = 0; k < o->num; k++) {
@@ -89,7 +136,11 @@ void ContactRayMoves(const RayFacet *f, const Overlap *o, RayMove move[])
       if (k < 2 && b >= 0) move[k].d[0][b] = 1; /* one number for each image */
       continue;
     }
-    if (a >= 4 && b >= 4) {
+    if (a == JOINT || b == JOINT) {
+      const int line = a == JOINT ? b : a;
+
+      if (line >= 4) Along_Private(o, k, line % 4, &move[k]);
+    } else if (a >= 4 && b >= 4) {
       const int image = (a + 1) % 4 == b % 4 ? b % 4 : a % 4;
 
       for (int i = 0; i < 2; i++) move[k].d[i][2 * image + i] = 1;

@@ -108,7 +108,8 @@ static PetscErrorCode Overlap_Private(RayWork w, const RayLattice *mortar, Petsc
                                       PetscBool *good)
 {
   const RayFacet *f = &w->facet;
-  const Overlap  *o = &w->overlap[k];
+  Overlap         split;
+  const Overlap  *o = &split;
   const RayTest  *t = &w->test[w->window[k]];
   const PetscInt  D = f->D, nq = D * (f->s.num + f->nv + mortar->num), width = nq + RAY_IMAGES, num = 2 * t->num + (mass ? t->num * (t->num + 1) / 2 : 0);
   RayMove         move[FACET_VERTICES];
@@ -119,6 +120,7 @@ static PetscErrorCode Overlap_Private(RayWork w, const RayLattice *mortar, Petsc
   const PetscReal(*point)[3], *weight;
 
   PetscFunctionBegin;
+  ContactRaySplit(f, &w->overlap[k], &split);
   *good = PETSC_TRUE;
   b.num = num, b.nq = nq;
   PetscCall(ContactRayRule(f->m, f->s.order, mortar->order, &points, &point, &weight));

@@ -217,9 +217,9 @@ PetscErrorCode MonitorFooter(Monitor m, const char *status, const char *reason, 
     snprintf(spent, sizeof(spent), "%.2f s", (double)(now - m->start));
   else
     Duration_Private(now - m->start, spent, sizeof(spent));
-  Say_Private(m, "%s%s%s: %" PetscInt_FMT " load %s to t = %g of %g, %" PetscInt_FMT " Newton iterations, %" PetscInt_FMT " step %s, %s\n", status,
-              reason[0] ? ", " : "", reason, m->steps, m->steps == 1 ? "step" : "steps", (double)m->t, (double)m->scene->load.end, m->iterations, m->cuts,
-              m->cuts == 1 ? "cut" : "cuts", spent);
+  Say_Private(m, "%s%s%s: %" PetscInt_FMT " load %s to t = %g of %g, %" PetscInt_FMT " Newton %s, %" PetscInt_FMT " step %s, %s\n", status,
+              reason[0] ? ", " : "", reason, m->steps, m->steps == 1 ? "step" : "steps", (double)m->t, (double)m->scene->load.end, m->iterations,
+              m->iterations == 1 ? "iteration" : "iterations", m->cuts, m->cuts == 1 ? "cut" : "cuts", spent);
   if (last) {
     if (PetscIsNanReal(last->estimated_error))
       Say_Private(m, "strain energy %.8g, error not estimated\n", (double)last->energy);

@@ -121,8 +121,10 @@ PetscErrorCode EstimateTraces_Private(EstimateSum *sum, PetscInt cell, const Pet
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Squared length of the defect without the prescribed directions (a reaction acts there, whatever it is). */
-static PetscReal Free_Private(PetscInt dim, PetscInt fixed, const PetscReal N[3], const PetscReal defect[3])
+/* Squared length of the defect without the prescribed directions (a reaction acts there, whatever it is). An outer face that may only slide in its plane and
+   bears no load is taken for a plane of symmetry: half the square of the jump to the mirror image, 2 d, so that a part of a symmetric body has its part of the
+   estimate and a symmetric mesh is refined alike on and off the plane. */
+static PetscReal Free_Private(PetscInt dim, PetscInt fixed, PetscBool outer, const PetscReal N[3], const PetscReal defect[3])
 {
   PetscReal d[3], n[3], length = 0;
 
@@ -131,12 +133,13 @@ static PetscReal Free_Private(PetscInt dim, PetscInt fixed, const PetscReal N[3]
     d[c]                 = gone ? 0 : defect[c];
     n[c]                 = gone ? 0 : N[c];
   }
-  if (fixed & 8) length = Dot3(n, n);
-  if (length > 1e-12) {
+  length                 = Dot3(n, n);
+  const PetscBool slides = (PetscBool)(fixed && ((fixed & 8) || !(length > 1e-12)));
+  if ((fixed & 8) && length > 1e-12) {
     const PetscReal along = Dot3(d, n) / length;
     for (PetscInt c = 0; c < 3; ++c) d[c] -= along * n[c];
   }
-  return Dot3(d, d);
+  return (slides && outer ? 2 : 1) * Dot3(d, d);
 }
 
 /* eta2 of owned leaves += scale * share * h/(p mu) |defect|^2; h: the leaf's height over the facet, p: the order of the trace. */
@@ -152,7 +155,7 @@ PetscErrorCode EstimateFacets_Private(EstimateSum *sum, const PetscReal height[]
     const PetscInt    part   = inside ? PART_JUMP : ContactTermsHave_Private(sum->contact, f->facet) ? PART_CONTACT : PART_BOUNDARY;
     PetscReal         square = 0;
     for (PetscInt q = f->first_point; q < f->first_point + NumPoints_Private(dim, f); ++q)
-      square += sum->dA[q] / sum->modulus[q] * Free_Private(dim, f->fixed, sum->normal[q], sum->defect[q]);
+      square += sum->dA[q] / sum->modulus[q] * Free_Private(dim, f->fixed, (PetscBool)(!inside && !f->loaded), sum->normal[q], sum->defect[q]);
     for (PetscInt s = 0; s < 2; ++s) {
       const FacetSide *side = &f->side[s];
       if (side->cell < 0 || side->cell >= sum->v->num_owned_cells) continue;

@@ -16,27 +16,35 @@ static int Compare_Private(const void *a, const void *b)
   return x->leaf < y->leaf ? -1 : x->leaf > y->leaf;
 }
 
-/* First position after `at` whose indicator is smaller than that of `at` by more than a tie. */
-static PetscInt TieEnd_Private(PetscInt num, const Rank rank[], PetscInt at)
+/* The position lo..hi, 1 or more, where the leaf is farthest below the one before it, as a share of that; the first of equal ones; 0: nowhere by more than
+   `least`. */
+static PetscInt WidestGap_Private(PetscInt num, const Rank rank[], PetscInt lo, PetscInt hi, PetscReal least)
 {
-  PetscInt end = at + 1;
-  while (end < num && rank[end].eta2 >= (1 - TIE) * rank[at].eta2) ++end;
-  return end;
+  PetscReal widest = least;
+  PetscInt  best   = 0;
+
+  for (PetscInt at = PetscMax(lo, 1); at <= hi; ++at) {
+    const PetscReal gap = at < num ? 1 - rank[at].eta2 / rank[at - 1].eta2 : 1;
+    if (gap <= widest + (best ? TIE : 0)) continue;
+    widest = gap;
+    best   = at;
+  }
+  return best;
 }
 
-/* How many of the ranked leaves to change: whole groups of ties until the share is reached, none that would exceed `room`. */
-static PetscInt Bulk_Private(PetscInt num, const Rank rank[], PetscReal wanted, PetscInt room)
+/* How many of the ranked leaves to change: as few as hold the share, and from there down to the widest gap among those alike. When there is no room for all of
+   these, to the widest gap above the last for which there is; ties stay together. */
+static PetscInt Bulk_Private(PetscInt num, const Rank rank[], PetscReal wanted, PetscReal alike, PetscInt room)
 {
-  PetscReal sum   = 0;
-  PetscInt  taken = 0;
+  PetscReal sum  = 0;
+  PetscInt  want = 0, fit = 0, end, begin;
 
-  while (taken < num && sum < wanted && rank[taken].eta2 > 0) {
-    const PetscInt end = TieEnd_Private(num, rank, taken);
-    for (PetscInt i = taken; i < end; ++i) room -= rank[i].more;
-    if (room < 0) break;
-    for (; taken < end; ++taken) sum += rank[taken].eta2;
-  }
-  return taken;
+  while (want < num && sum < wanted && rank[want].eta2 > 0) sum += rank[want++].eta2;
+  for (end = want; want && end < num && rank[end].eta2 > 0 && rank[end].eta2 >= (1 - alike) * rank[want - 1].eta2;) ++end;
+  while (fit < end && rank[fit].more <= room) room -= rank[fit++].more;
+  if (fit == end) return PetscMax(want, WidestGap_Private(num, rank, want, end, 0));
+  for (begin = fit; begin > 0 && (1 - alike) * rank[begin - 1].eta2 <= rank[fit].eta2;) --begin;
+  return WidestGap_Private(num, rank, begin, fit, TIE);
 }
 
 /* Leaves that nothing may be done to (strategy p: at the highest order) rank as if they had no error, and their share is nobody's. */
@@ -88,7 +96,8 @@ PetscErrorCode EstimateMark(const Estimate *e, const AdaptSpec *spec, Forest for
   PetscCall(PetscCalloc1(e->num_leaves, &marks->coarsen));
   if (order) PetscCall(PetscArraycpy(order, e->order, e->num_leaves));
   const PetscReal total = Rank_Private(e, split, raise, rank);
-  *num_marked           = Bulk_Private(e->num_leaves, rank, spec->fraction * total * (1 - 1e-12), PetscMax(0, spec->max_cells - e->num_leaves));
+  *num_marked =
+      Bulk_Private(e->num_leaves, rank, spec->fraction * total * (1 - 1e-12), PetscMax(TIE, spec->alike), PetscMax(0, spec->max_cells - e->num_leaves));
   for (PetscInt i = 0; i < *num_marked; ++i) {
     marks->split[rank[i].leaf] = split[rank[i].leaf];
     if (order) order[rank[i].leaf] += raise[rank[i].leaf];

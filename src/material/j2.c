@@ -11,8 +11,8 @@
 enum { YIELD = 5, HARDENING, SATURATION, SATURATION_RATE }; /* after the elastic parameters */
 #define ROOT23 0.81649658092772603273                       /* sqrt(2/3) */
 #define ON_SURFACE                                                                                                                                             \
-  1e-9 /* a step that starts so near the yield surface is expected to flow: a much better start for Newton's method than the elastic tangent                   \
-        */
+  1e-9 /* a step that starts so near the yield surface is expected to flow, unless it is told to rest: a much better start for Newton's method than the        \
+        * elastic tangent */
 
 const MaterialParameter MaterialJ2Parameters[] = {
     {"E", "stress", "Young's modulus", 0, PETSC_MAX_REAL},
@@ -158,7 +158,7 @@ INLINE void Step_Private(const MaterialSpec *spec, const Deformation *d, Step *t
     PetscReal       dg, slope;
     const PetscReal radius = ROOT23 * YieldStress_Private(spec, t->alpha[l], &slope);
 
-    if (!(t->length[l] > (1 - ON_SURFACE) * radius)) continue;
+    if (!(t->length[l] > (1 + (d->rests ? ON_SURFACE : -ON_SURFACE)) * radius)) continue;
     t->flows[l] = -1;
     t->slope[l] = slope;
     if (!(t->length[l] > radius)) continue;

@@ -1,13 +1,20 @@
 /* Bodies that no support holds (before contact closes, or in the directions contact leaves free).
 
-   Their tangent gets a small diagonal, FREE_BODY_STIFFNESS of the cells' own stiffness weighted by the cell's share of the body's volume, so that the
-   first linear solve has one solution; the residual is left alone, hence no force of it survives in the result. Newton's method converges
-   linearly with that small factor instead of quadratically in the free directions. */
+   Their tangent gets a small diagonal, FREE_BODY_STIFFNESS of the cells' own stiffness against shear weighted by the cell's share of the body's volume, so that
+   the first linear solve has one solution; the residual is left alone, hence no force of it survives in the result. Newton's method converges linearly with
+   that small factor instead of quadratically in the free directions. (A share of the stiffness against compression, 1e4 times as much in nearly incompressible
+   cells, would be no small one beside soft neighbours.) */
 #include "mechanicsimpl.h"
 #include <petscblaslapack.h>
 
 #define FREE_BODY_STIFFNESS 1e-6
 #define MOST_MODES 6
+
+/* What of a cell's stiffness answers shear. */
+static PetscReal Shear_Private(const MaterialSpec *material)
+{
+  return PetscIsInfReal(material->kappa) ? 1 : PetscMin(1, 3 * material->mu / material->kappa);
+}
 
 /* Rigid motions at X along a direction: translations and rotations (plane: 2 + 1; axisymmetric: along the axis; space: 3 + 3), rotations about the
    body's centre over its size. Returns their number. */
@@ -165,8 +172,9 @@ PetscErrorCode MechanicsFreeBodies_Private(Mechanics m)
     volume[b] = held ? 0 : volume[b];
   }
   for (PetscInt c = 0; c < v->num_owned_cells; ++c) {
-    const PetscReal whole = volume[root[t->leaf_body[v->cell_leaf[c]]]];
-    m->free_share[c]      = whole > 0 ? FREE_BODY_STIFFNESS * m->free_share[c] / whole : 0;
+    const PetscInt  body  = t->leaf_body[v->cell_leaf[c]];
+    const PetscReal whole = volume[root[body]];
+    m->free_share[c]      = whole > 0 ? FREE_BODY_STIFFNESS * Shear_Private(m->spec->bodies[body].material) * m->free_share[c] / whole : 0;
   }
   PetscCall(PetscFree(root));
   PetscCall(PetscFree2(gram, volume));

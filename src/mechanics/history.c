@@ -187,6 +187,36 @@ PetscErrorCode MechanicsPlastic(Mechanics m, const PetscReal u[], PetscReal *str
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscErrorCode MechanicsNumFlowing(Mechanics m, const PetscReal u[], PetscInt *num)
+{
+  PetscReal *trial;
+  PetscBool  bad;
+
+  PetscFunctionBegin;
+  *num = 0;
+  PetscCall(PetscMalloc1(m->num_history, &trial));
+  PetscCall(MechanicsCommit(m, u, trial, &bad));
+  for (PetscInt i = 0; i < m->num_groups; ++i) {
+    const CellGroup *g = &m->groups[i];
+    for (PetscInt q = 0; q < g->num_cells * g->num_points && g->h && g->material->law->plastic; ++q) {
+      const PetscInt at = g->history + q * g->h;
+      PetscReal      before, after, work;
+      g->material->law->plastic(g->material, m->history + at, &before, &work);
+      g->material->law->plastic(g->material, trial + at, &after, &work);
+      if (after > before) ++*num;
+    }
+  }
+  PetscCall(PetscFree(trial));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode MechanicsSetRest(Mechanics m, PetscBool rests)
+{
+  PetscFunctionBegin;
+  m->rests = rests;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode MechanicsPlasticStrain(Mechanics m, PetscInt cell, PetscInt np, const PetscReal xi[], const PetscReal u[], PetscReal strain[])
 {
   const CellGroup *g = m->cell_group[cell] < 0 ? NULL : &m->groups[m->cell_group[cell]];

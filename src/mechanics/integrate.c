@@ -166,6 +166,7 @@ PetscErrorCode MechanicsTangent(Mechanics m, const PetscReal u[], const PetscRea
                          .fiber   = g->fiber + first * g->num_fibers,
                          .tangent = b.K,
                          .place   = g->place,
+                         .rests   = m->rests,
                          .history = MechanicsBatchHistory_Private(m, g, first)};
       PetscCall(GatherBatch_Private(m, g, first, batch.nc, u, b.u));
       if (g->m) {

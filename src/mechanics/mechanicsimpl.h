@@ -22,6 +22,7 @@ typedef struct {
   PetscReal       *residual; /* [nc][n*d] dE/du, row node*d + component; a function of u alone */
   const PetscReal *history;  /* [nc][points][num_history] of laws with history, as the last accepted step left it */
   PetscReal       *trial;    /* [nc][points][num_history] as a step that ended at u would leave it */
+  PetscBool        rests;    /* tangent: points at the edge of flow are expected to stay elastic */
   PetscReal       *tangent;  /* [nc][n*d][n*d] full, symmetric unless the law is not; exact derivative of residual when pressure is NULL or consistent */
   const PetscInt  *place;    /* [n] NULL, or where the nodes stand in tangent: then only its rows up to the diagonal's column are written, K[row <= column];
                                 not with unsymmetric laws */
@@ -140,6 +141,7 @@ struct _p_Mechanics {
   /* history.c */
   PetscInt   num_history, *cell_history; /* numbers of owned cells; owned [num_cells] where those of a cell, ghosts too, start in history */
   PetscReal *history;                    /* owned: as the last accepted step left it, own cells first, then ghosts */
+  PetscBool  rests;                      /* points at the edge of flow are expected to stay elastic */
   PetscSF    history_sf;                 /* owned: ghosts' numbers from their owners; NULL: no law has history */
 };
 

@@ -72,9 +72,8 @@ static PetscErrorCode PairColumns_Private(Columns *c, PetscInt dim, const char *
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* All columns after the fixed ones. balance, displacement and stress may be NULL: names only. */
-static PetscErrorCode Columns_Private(const SceneData *scene, PetscInt num_probes, const Balance *balance, PetscReal displacement[][3], PetscReal stress[][6],
-                                      Columns *c)
+/* All columns after the fixed ones. balance and probe may be NULL: names only. */
+static PetscErrorCode Columns_Private(const SceneData *scene, PetscInt num_probes, const Balance *balance, const ProbeValue probe[], Columns *c)
 {
   const PetscInt    dim  = scene->mechanics.model == MODEL_3D ? 3 : 2;
   const PairFigures none = {0};
@@ -98,11 +97,12 @@ static PetscErrorCode Columns_Private(const SceneData *scene, PetscInt num_probe
   for (PetscInt i = 0; i < scene->num_contacts; ++i) PetscCall(PairColumns_Private(c, dim, scene->contacts[i].name, balance ? &balance->pair[i] : &none));
   for (PetscInt i = 0; i < num_probes; ++i) {
     const char *name = scene->probes[i].name;
-    for (PetscInt a = 0; a < dim; ++a) PetscCall(Column_Private(c, displacement ? displacement[i][a] : 0, "probe", name, "displacement", axis_name[a]));
+    for (PetscInt a = 0; a < dim; ++a) PetscCall(Column_Private(c, probe ? probe[i].displacement[a] : 0, "probe", name, "displacement", axis_name[a]));
     for (PetscInt k = 0; k < 6; ++k) {
       if (dim == 2 && (k == 2 || k == 4)) continue;
-      PetscCall(Column_Private(c, stress ? stress[i][k] : 0, "probe", name, "stress", stress_name[k]));
+      PetscCall(Column_Private(c, probe ? probe[i].stress[k] : 0, "probe", name, "stress", stress_name[k]));
     }
+    if (MechanicsIsPlastic(&scene->mechanics)) PetscCall(Column_Private(c, probe ? probe[i].plastic_strain : 0, "probe", name, "plastic_strain", NULL));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -128,12 +128,12 @@ static PetscErrorCode OpenHistory_Private(MPI_Comm comm, History h, PetscInt aft
   Columns        c = {0};
 
   PetscFunctionBegin;
-  PetscCall(Columns_Private(h->scene, num_probes, NULL, NULL, NULL, &c));
+  PetscCall(Columns_Private(h->scene, num_probes, NULL, NULL, &c));
   h->num = fixed + c.num;
   PetscCall(PetscMalloc1(h->num, &h->values));
   PetscCall(PetscMalloc2(c.num, &c.names, h->num, &names));
   c.num = 0;
-  PetscCall(Columns_Private(h->scene, num_probes, NULL, NULL, NULL, &c));
+  PetscCall(Columns_Private(h->scene, num_probes, NULL, NULL, &c));
   for (PetscInt i = 0; i < h->num; ++i) names[i] = i < fixed ? step_columns[i] : c.names[i - fixed];
   PetscCall(Open_Private(comm, h, "history.csv", h->num, names, after, t, &h->history));
   PetscCall(PetscFree2(c.names, names));
@@ -218,15 +218,15 @@ PetscErrorCode HistoryStep(History h, const ReportRow *r, const Balance *balance
                                r->seconds};
   const PetscInt  num_fixed = (PetscInt)PETSC_STATIC_ARRAY_LENGTH(fixed), num_probes = h->probes ? h->scene->num_probes : 0;
   Columns         c = {0, NULL, h->values + num_fixed};
-  PetscReal(*displacement)[3], (*stress)[6];
+  ProbeValue     *probe;
 
   PetscFunctionBegin;
-  PetscCall(PetscMalloc2(num_probes, &displacement, num_probes, &stress));
+  PetscCall(PetscMalloc1(num_probes, &probe));
   if (num_probes) PetscCall(ProblemSetHistory(problem, state->history));
-  if (num_probes) PetscCall(ProbesEvaluate(h->probes, problem, state->x, displacement, stress));
+  if (num_probes) PetscCall(ProbesEvaluate(h->probes, problem, state->x, probe));
   PetscCall(PetscArraycpy(h->values, fixed, num_fixed));
-  PetscCall(Columns_Private(h->scene, num_probes, balance, displacement, stress, &c));
+  PetscCall(Columns_Private(h->scene, num_probes, balance, probe, &c));
   PetscCall(TableRow(h->history, h->values));
-  PetscCall(PetscFree2(displacement, stress));
+  PetscCall(PetscFree(probe));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -181,8 +181,8 @@ static PetscInt Leaf_Private(const ForestTables *t, PetscInt root, const PetscRe
 
 /* ---- values ------------------------------------------------------------------------------------------------------------- */
 
-/* Values at one place of an owned cell: displacement 0..2, Cauchy stress 3..8. */
-static PetscErrorCode Values_Private(Problem problem, PetscInt cell, const PetscReal xi[3], const PetscReal u[], PetscReal value[9])
+/* Values at one place of an owned cell. */
+static PetscErrorCode Values_Private(Problem problem, PetscInt cell, const PetscReal xi[3], const PetscReal u[], ProbeValue *value)
 {
   const SceneData    *scene;
   const ForestTables *t;
@@ -203,23 +203,24 @@ static PetscErrorCode Values_Private(Problem problem, PetscInt cell, const Petsc
   PetscCall(HPSpaceGather(space, cell, u, nodal));
   PetscCall(ElementEvaluate(v->dim, v->cell_order[cell], xi, N, NULL));
   for (PetscInt i = 0; i < n; ++i) {
-    for (PetscInt c = 0; c < v->dim; ++c) value[c] += N[i] * nodal[i * v->dim + c];
+    for (PetscInt c = 0; c < v->dim; ++c) value->displacement[c] += N[i] * nodal[i * v->dim + c];
   }
   PetscCall(PetscFree2(nodal, N));
   if (scene->mechanics.bodies[t->leaf_body[v->cell_leaf[cell]]].material->law->rigid) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(ProblemGetMechanics(problem, &mechanics));
   PetscCall(MechanicsPoints(mechanics, cell, 1, xi, u, F, P, NULL));
-  OutputCauchy(scene->mechanics.kinematics, F, P, value + 3, NULL);
+  OutputCauchy(scene->mechanics.kinematics, F, P, value->stress, NULL);
+  PetscCall(MechanicsPlasticStrain(mechanics, cell, 1, xi, u, &value->plastic_strain));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode ProbesEvaluate(Probes p, Problem problem, Vec x, PetscReal displacement[][3], PetscReal stress[][6])
+PetscErrorCode ProbesEvaluate(Probes p, Problem problem, Vec x, ProbeValue value[])
 {
   const ForestTables *t;
   const HPTables     *v;
   HPSpace             space;
   Forest              forest;
-  PetscReal          *u, (*value)[9];
+  PetscReal          *u;
 
   PetscFunctionBegin;
   if (!p->num) PetscFunctionReturn(PETSC_SUCCESS);
@@ -228,21 +229,16 @@ PetscErrorCode ProbesEvaluate(Probes p, Problem problem, Vec x, PetscReal displa
   PetscCall(ProblemGetSpace(problem, &space));
   PetscCall(HPSpaceGetTables(space, &v));
   PetscCall(PetscMalloc1(v->num_nodes * v->dim, &u));
-  PetscCall(PetscCalloc1(p->num, &value));
+  PetscCall(PetscArrayzero(value, p->num));
   PetscCall(ProblemLocalDisplacement(problem, x, u));
   for (PetscInt i = 0; i < p->num; ++i) {
     PetscReal      xi[3] = {0, 0, 0};
     const PetscInt leaf  = Leaf_Private(t, p->place[i].root, p->place[i].xi, xi);
     for (PetscInt c = 0; c < v->num_owned_cells; ++c) {
-      if (v->cell_leaf[c] == leaf) PetscCall(Values_Private(problem, c, xi, u, value[i]));
+      if (v->cell_leaf[c] == leaf) PetscCall(Values_Private(problem, c, xi, u, &value[i]));
     }
   }
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, value, (PetscMPIInt)(9 * p->num), MPIU_REAL, MPI_SUM, ForestComm(forest)));
-  for (PetscInt i = 0; i < p->num; ++i) {
-    PetscCall(PetscArraycpy(displacement[i], value[i], 3));
-    if (stress) PetscCall(PetscArraycpy(stress[i], value[i] + 3, 6));
-  }
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, value, (PetscMPIInt)(p->num * sizeof(*value) / sizeof(PetscReal)), MPIU_REAL, MPI_SUM, ForestComm(forest)));
   PetscCall(PetscFree(u));
-  PetscCall(PetscFree(value));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

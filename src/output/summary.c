@@ -12,7 +12,7 @@ typedef struct {
   PetscInt    cells, dofs, order_min, order_max;
   PetscMPIInt ranks;
   PetscInt    num_probes;
-  PetscReal (*displacement)[3], (*stress)[6]; /* owned [num_probes] */
+  ProbeValue *probe; /* owned [num_probes] */
 } Gathered;
 
 static PetscInt Dim_Private(const SceneData *scene)
@@ -122,8 +122,9 @@ static void AddProbes_Private(cJSON *root, const SceneData *scene, const Gathere
 
   for (PetscInt i = 0; i < g->num_probes; ++i) {
     cJSON *probe = cJSON_AddObjectToObject(probes, scene->probes[i].name);
-    AddArray_Private(probe, "displacement", dim, g->displacement[i]);
-    AddArray_Private(probe, "stress", 6, g->stress[i]);
+    AddArray_Private(probe, "displacement", dim, g->probe[i].displacement);
+    AddArray_Private(probe, "stress", 6, g->probe[i].stress);
+    if (MechanicsIsPlastic(&scene->mechanics)) AddNumber_Private(probe, "plastic_strain", g->probe[i].plastic_strain);
   }
 }
 
@@ -214,9 +215,9 @@ static PetscErrorCode GatherState_Private(const SceneData *scene, const RunSumma
   }
   if (!s->probes) PetscFunctionReturn(PETSC_SUCCESS);
   g->num_probes = scene->num_probes;
-  PetscCall(PetscMalloc2(g->num_probes, &g->displacement, g->num_probes, &g->stress));
+  PetscCall(PetscMalloc1(g->num_probes, &g->probe));
   PetscCall(ProblemSetHistory(s->problem, s->state->history));
-  PetscCall(ProbesEvaluate(s->probes, s->problem, s->state->x, g->displacement, g->stress));
+  PetscCall(ProbesEvaluate(s->probes, s->problem, s->state->x, g->probe));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -235,7 +236,7 @@ PetscErrorCode OutputSummary(MPI_Comm comm, const SceneData *scene, const RunSum
   PetscCall(PetscSNPrintf(path, sizeof(path), "%s/summary.json", scene->output.directory));
   PetscCall(SummaryWrite(comm, path, document));
   cJSON_Delete(document);
-  PetscCall(PetscFree2(g.displacement, g.stress));
+  PetscCall(PetscFree(g.probe));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

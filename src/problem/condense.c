@@ -113,6 +113,7 @@ PetscErrorCode ProblemRecover(Problem p, Vec y, Vec dx)
   PetscCall(VecGetArray(dx, &to));
   PetscCall(PetscArrayzero(to, p->num_inner));
   PetscCall(PetscArraycpy(to + p->num_inner, from, p->num_rows));
+  ContactScaleIncrement_Private(p, to);
   PetscCall(VecRestoreArray(dx, &to));
   PetscCall(VecRestoreArrayRead(y, &from));
   if (!p->condensed) PetscFunctionReturn(PETSC_SUCCESS);

@@ -248,6 +248,8 @@ PetscErrorCode ContactNumber_Private(Problem, PetscInt counts[]); /* multipliers
 PetscErrorCode ContactEvaluate_Private(Problem, Contact *, Vec x, const PetscReal local[], PetscBool derivatives, PetscBool hessian, PetscBool *failed);
 PetscErrorCode ContactForces_Private(Problem, Contact *, PetscReal r[]);
 void           ContactRows_Private(const Contact *, PetscReal r[]);
+/* tangent.c: multipliers from the unknowns of the symmetric form. dx: this rank's part of a vector. */
+void ContactScaleIncrement_Private(Problem, PetscReal dx[]);
 /* far.c: are the gaps under pressure too wide for the curvature of the constraints to mean anything? Collective. */
 PetscErrorCode ContactIsFar_Private(Problem, const Contact *, PetscBool *far);
 /* Change of every owned node's weighted gap, at fixed measure, under a local array of increments. Collective. */

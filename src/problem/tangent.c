@@ -190,16 +190,18 @@ static PetscErrorCode NodeGradient_Private(Problem p, const Contact *c, PetscInt
 
 /* Row of node j. Exact form: w0 c / w_j (grad gt_j - gt_j/w_j grad w_j) when active, w0 on the diagonal when not. Symmetric form: minus the normalised gradient
    as row *and* column when active, -w0/c on the diagonal when not; its column differs from -grad gt_j by gt_j times the change of z_j, small of second order.
- */
+   There z_j = c_j times the unknown, and the row is c_j times that: a force by a length, as those of the displacements are, so that one norm over all rows
+   means the same in every unit. */
 static PetscErrorCode ContactInsertRow_Private(Problem p, Contact *c, PetscInt j)
 {
-  const PetscReal active = p->symmetric ? -1 : c->active[j] ? c->w0[j] * c->c[j] / ContactRowMeasure_Private(c, j) : 0;
+  const PetscReal active = p->symmetric ? -c->c[j] : c->active[j] ? c->w0[j] * c->c[j] / ContactRowMeasure_Private(c, j) : 0;
   PetscInt        num, at;
 
   PetscFunctionBegin;
   PetscCall(NodeGradient_Private(p, c, j, c->active[j] ? active : 0, PETSC_TRUE, &num));
   PetscCall(PetscFindInt(c->zdof[j], num, p->work_index, &at));
-  p->work_value[at] = c->active[j] ? active * c->spring[j] : p->symmetric ? -c->w0[j] / c->c[j] : c->w0[j];
+  p->work_value[at] = c->active[j] ? active * c->spring[j] : p->symmetric ? -c->w0[j] : c->w0[j];
+  if (p->symmetric) p->work_value[at] *= c->c[j];
   PetscCall(MatSetValues(p->matrix, 1, &c->zdof[j], num, p->work_index, p->work_value, INSERT_VALUES));
   if (p->symmetric) PetscCall(MatSetValues(p->matrix, num, p->work_index, 1, &c->zdof[j], p->work_value, INSERT_VALUES));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -213,7 +215,7 @@ static PetscErrorCode RowSide_Private(Problem p, const Contact *c, PetscInt j, P
   if (!p->symmetric)
     *value = -c->w0[j] * (c->active[j] ? c->c[j] * (ContactRowGap_Private(c, j) + c->lift[j]) / ContactRowMeasure_Private(c, j) : c->z[j]);
   else
-    *value = c->active[j] ? ContactRowGap_Private(c, j) + c->lift[j] : c->w0[j] / c->c[j] * c->z[j];
+    *value = c->active[j] ? c->c[j] * (ContactRowGap_Private(c, j) + c->lift[j]) : c->w0[j] * c->z[j];
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -264,6 +266,16 @@ PetscErrorCode ProblemRightSide(Problem p, Vec r, Vec lift, Vec rhs)
   PetscCall(VecAssemblyBegin(rhs));
   PetscCall(VecAssemblyEnd(rhs));
   PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+void ContactScaleIncrement_Private(Problem p, PetscReal dx[])
+{
+  for (PetscInt i = 0; i < p->num_contacts && p->symmetric; ++i) {
+    const Contact *c = &p->contacts[i];
+    for (PetscInt j = 0; j < c->side[0].num_nodes; ++j) {
+      if (c->zlocal[j] >= 0) dx[c->zlocal[j]] *= c->c[j];
+    }
+  }
 }
 
 /* Rows of all multipliers of this rank. */

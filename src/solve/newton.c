@@ -234,6 +234,20 @@ static PetscErrorCode Carry_Private(SNES snes, Solver s, Vec x, Vec r, Vec dx, P
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* When the first linear step takes the load off flowing material, it is replaced by that of elastic material. */
+static PetscErrorCode Rest_Private(SNES snes, Solver s, Vec x, Vec r, Vec dx, PetscBool *ok)
+{
+  PetscBool rests;
+
+  PetscFunctionBegin;
+  PetscCall(ProblemRest(s->problem, x, dx, &rests));
+  if (!rests) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(PetscInfo(snes, "flow ends: the step begins elastic\n"));
+  PetscCall(Linearise_Private(snes, s, x, r, dx, ok));
+  PetscCall(ProblemFlow(s->problem));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* One linearisation and the step it gives; snes->reason is set when there is none to be had. */
 static PetscErrorCode Iterate_Private(SNES snes, Solver s, Vec x, Vec r, Vec dx)
 {
@@ -242,6 +256,7 @@ static PetscErrorCode Iterate_Private(SNES snes, Solver s, Vec x, Vec r, Vec dx)
   PetscFunctionBegin;
   if (s->test) PetscCall(Test_Private(snes, s, x));
   PetscCall(Linearise_Private(snes, s, x, r, dx, &ok));
+  if (ok && snes->iter == 0) PetscCall(Rest_Private(snes, s, x, r, dx, &ok));
   if (ok && snes->iter == 0) PetscCall(Carry_Private(snes, s, x, r, dx, &ok));
   if (ok) PetscCall(Step_Private(snes, s, x, dx, r));
   if (!ok)

@@ -44,7 +44,7 @@ static void SidesThatNearlyCoincide(void **state)
         Overlap         o;
 
         Make(ends[e][0], ends[e][1], low, high, &o);
-        assert_true(ContactClip(&o));
+        assert_true(ContactClip(&o, 1));
         Check(&o, ends[e][0], ends[e][1]);
       }
 }
@@ -58,7 +58,7 @@ static PetscReal Part(const Overlap *o, int a, int b, int c, int d, PetscBool *f
   for (int k = 0; k < 4; k++)
     for (int i = 0; i < 2; i++) part.side[1].Y[k][i] = o->side[1].Y[place[k]][i];
   part.area = 0;
-  (void)ContactClip(&part);
+  (void)ContactClip(&part, 1);
   *fits = (PetscBool)(part.num <= FACET_VERTICES);
   return part.num < 3 ? 0 : part.area;
 }

@@ -78,6 +78,39 @@ static void Limits(void **state)
   }
 }
 
+/* The widest gap among those alike ends the list: below where the share is reached, above it where room is short. */
+static void Alike(void **state)
+{
+  static const struct {
+    PetscReal fraction, alike;
+    PetscInt  room, num;
+  } cases[] = {
+      {0.5, 0, 100, 4},                                      /* 20 + 19.6 + 19.5 + 19 > 72.4 */
+      {0.5, 0.1, 100, 5},                                    /* the fifth is near, the sixth is not */
+      {0.5, 0.3, 100, 7},                                    /* 13.9 to 10 is wider than 18.8 to 14 */
+      {0.5, 0.5, 100, 9},                                    /* all are within 9.5 */
+      {0.5, 0.3, 12, 3},                                     /* room for 4 of 7: 19.5 to 19 is the widest gap among those */
+      {0.5, 0, 12, 4},    {1, 0.3, 100, 9}, {1, 0.3, 20, 5}, /* room for 6 */
+      {1, 0.3, 26, 7},                                       /* for 8 */
+  };
+  Box       box;
+  Forest    forest  = BoxForest(PETSC_COMM_WORLD, 2, (const PetscInt[3]){3, 3, 1}, 1, 0, 1, &box);
+  PetscReal eta2[9] = {13.9, 19, 10, 20, 14, 19.5, 18.8, 10, 19.6}; /* sum 144.8 */
+
+  for (size_t i = 0; i < sizeof(cases) / sizeof(cases[0]); ++i) {
+    const ForestTables *t;
+    const AdaptSpec     spec = {.fraction = cases[i].fraction, .alike = cases[i].alike, .max_cells = 9 + cases[i].room};
+    const Estimate      e    = {.eta2 = eta2, .num_leaves = 9};
+    MarkList            marks;
+    PetscInt            num;
+    OK(ForestGetTables(forest, &t));
+    OK(EstimateMark(&e, &spec, forest, &marks, NULL, &num));
+    assert_int_equal(num, cases[i].num);
+    OK(MarkListDestroy(&marks));
+  }
+  OK(ForestDestroy(&forest));
+}
+
 static void Coarsening(void **state)
 {
   Box       box;
@@ -169,7 +202,7 @@ static void Aspect(void **state)
 
 int main(int argc, char **argv)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(Shares),     cmocka_unit_test(TiesAndOrder), cmocka_unit_test(Limits),
+  const struct CMUnitTest tests[] = {cmocka_unit_test(Shares),     cmocka_unit_test(TiesAndOrder), cmocka_unit_test(Limits), cmocka_unit_test(Alike),
                                      cmocka_unit_test(Coarsening), cmocka_unit_test(Directions),   cmocka_unit_test(Aspect)};
   if (PetscInitialize(&argc, &argv, NULL, NULL)) return 1;
   const int failed = cmocka_run_group_tests(tests, NULL, NULL);

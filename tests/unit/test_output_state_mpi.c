@@ -274,14 +274,15 @@ static void CheckBalance(Problem problem, const State *state)
 
 static void CheckProbes(const TestScene *s, Problem problem, const State *state, Probes probes)
 {
-  PetscReal u[2][3], sigma[2][6];
+  ProbeValue value[2];
 
-  OK(ProbesEvaluate(probes, problem, state->x, u, sigma));
+  OK(ProbesEvaluate(probes, problem, state->x, value));
   for (PetscInt i = 0; i < 2; ++i) {
-    assert_near(u[i][0], 0, 1e-9);
-    assert_near(u[i][1], -0.05 * s->probes[i].X[1], 1e-9);
-    assert_near(sigma[i][3], Sigma(1), 1e-9);
-    assert_near(sigma[i][5], Sigma(2), 1e-9);
+    assert_near(value[i].displacement[0], 0, 1e-9);
+    assert_near(value[i].displacement[1], -0.05 * s->probes[i].X[1], 1e-9);
+    assert_near(value[i].stress[3], Sigma(1), 1e-9);
+    assert_near(value[i].stress[5], Sigma(2), 1e-9);
+    assert_true(value[i].plastic_strain == 0);
   }
 }
 

@@ -1,16 +1,17 @@
 """Balloon, sleeve and artery in the cross-section (O-70, inputs/angioplasty2d.yml): three bodies, two gaps that open and close, plastic flow and recoil; exact
-answer. Pressures to 1 %, radii to 0.2 %, recoil to 5 %; roles of the contact faces exchanged (O-91), the full ring, coarser load steps, ranks."""
+answer. Pressures to 1 %, radii to 0.2 %, recoil to 5 %, plastic strain at both faces of the sleeve; roles of the contact faces exchanged (O-91), the full ring,
+coarser load steps, ranks; and how the sleeve is about to neck."""
 import math
 
 import pytest
 
-STATES = [  # t; pressure in the bore, balloon on sleeve, sleeve on artery, outer radii of sleeve and artery
-    (.10, .50, 34.27432, 27.25142, 0, .6782330, 1.1000000),
-    (.35, .75, 32.23686, 20.33993, 1.21349, .8789198, 1.2158947),
-    (.50, .90, 30.76529, 18.13008, 2.46254, 1.0099505, 1.3137351),
-    (.60, 1.0, 30.74063, 17.85661, 4.03201, 1.1000000, 1.3841604),
-    (.70, 1.1, 32.72668, 19.68809, 7.41197, 1.1916375, 1.4580466),
-    (1.4, .40, 0, 0, 6.64698, 1.1767998, 1.4459453),
+STATES = [  # t; radius of the bore; pressure in it, balloon on sleeve, sleeve on artery; outer radii of sleeve and artery; plastic strain at bore and outside of the sleeve
+    (.10, .50, 34.27432, 27.25142, 0, .6782330, 1.1000000, .06090, .04265),
+    (.35, .75, 32.23686, 20.33993, 1.21349, .8789198, 1.2158947, .43534, .34055),
+    (.50, .90, 30.76529, 18.13008, 2.46254, 1.0099505, 1.3137351, .62009, .50025),
+    (.60, 1.0, 30.74063, 17.85661, 4.03201, 1.1000000, 1.3841604, .73014, .59841),
+    (.70, 1.1, 32.72668, 19.68809, 7.41197, 1.1916375, 1.4580466, .83137, .69037),
+    (1.4, .40, 0, 0, 6.64698, 1.1767998, 1.4459453, .83137, .69037),
 ]
 RECOIL = 0.012451
 LINEAR1, LINEAR2 = (("-order", order, "-contact_inside_subdivide", 0, "-contact_outside_subdivide", 0) for order in (1, 2))
@@ -28,7 +29,8 @@ def solve(run, *options, **keywords):
 def figures(row, radius):
     """As in STATES, of a row of the history."""
     balloon, sleeve, artery = (r + row[f"probe.{name}.displacement.x"] for name, r in (("balloon", .5), ("sleeve", .65), ("artery", 1.1)))
-    return row["reaction.bore.x"] / radius, abs(row["contact.inside.force.x"]) / balloon, abs(row["contact.outside.force.x"]) / sleeve, sleeve, artery
+    strains = (row[f"probe.{name}.plastic_strain"] for name in ("sleeve_bore", "sleeve"))
+    return row["reaction.bore.x"] / radius, abs(row["contact.inside.force.x"]) / balloon, abs(row["contact.outside.force.x"]) / sleeve, sleeve, artery, *strains
 
 
 def states(result):
@@ -36,71 +38,103 @@ def states(result):
     return {t: figures(row, radius) for t, radius, *_ in STATES for row in result.history if abs(row["t"] - t) < 1e-9}
 
 
-def accurate(result, pressures=0.01):
+def accurate(result, strains):
     found = states(result)
     assert set(found) == {row[0] for row in STATES}, found  # load steps end at the times of the amplitude, whatever was cut
     for t, radius, *reference in STATES:
         print(t, ["%+.1e" % (value / ref - 1 if ref else value) for value, ref in zip(found[t], reference)])
         for k, (value, ref) in enumerate(zip(found[t], reference)):
-            assert abs(value - ref) <= (pressures if k < 3 else 0.002) * ref + 1e-3 * (ref == 0), (t, k, value, ref)
+            assert abs(value - ref) <= (0.01, 0.01, 0.01, 0.002, 0.002, strains, strains)[k] * ref + 1e-3 * (ref == 0), (t, k, value, ref)
     recoil = 1 - found[1.4][3] / found[.7][3]
     assert abs(recoil / RECOIL - 1) < 0.05, recoil
 
 
 def test_o70_steps_four_times_larger(run):
-    accurate(solve(run, "-load_step", 0.2))
+    """No step is cut, not even where the flow ends and the balloon leaves."""
+    result = solve(run, "-load_step", 0.2)
+    accurate(result, 0.03)
+    assert result.summary["step_cuts"] == 0, result
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("options", [(), (*LINEAR1, "-mesh_refine", 1), FULL], ids=["order_2", "order_1", "full_faces"])
-def test_o70(run, options):
-    accurate(solve(run, *options))
+@pytest.mark.parametrize("options, strains", [((), 0.02), ((*LINEAR1, "-mesh_refine", 1), 0.03), (FULL, 0.003)], ids=["order_2", "order_1", "full_faces"])
+def test_o70(run, options, strains):
+    result = solve(run, *options)
+    accurate(result, strains)
+    assert result.summary["step_cuts"] == 0, result
 
 
 @pytest.mark.slow
-def test_o70_adaptive(run):
+@pytest.mark.parametrize("tolerance", [0.05, 0.03, 0.015])
+def test_o70_adaptive(run, tolerance):
     """Order 2, linear faces; histories are carried from mesh to mesh, also after the balloon has left."""
-    result = solve(run, *LINEAR2, "-adapt_tolerance", 0.03, "-adapt_max_cells", 2500)
-    accurate(result)
+    result = solve(run, *LINEAR2, "-adapt_tolerance", tolerance, "-adapt_max_cells", 2500)
+    accurate(result, 0.05)
     cells = {row["cells"] for row in result.history}
     assert min(cells) == 180 and len(cells) > 2, cells
 
 
 @pytest.mark.slow
-def test_o70_adaptive_order_1(run):
-    """The pressures to 2 %: beyond its yield stress the sleeve (hardening 120, below its stress) is about to neck, and what the meshes of linear cells have of
-    unevenness around the ring grows with it."""
-    accurate(solve(run, *LINEAR1, "-adapt_tolerance", 0.1, "-adapt_max_cells", 2500), 0.02)
+@pytest.mark.parametrize("tolerance", [0.1, 0.08, 0.06])
+def test_o70_adaptive_order_1(run, tolerance):
+    result = solve(run, "-order", 1, "-adapt_tolerance", tolerance, "-adapt_max_cells", 2500)
+    accurate(result, 0.03)
+    cells = {row["cells"] for row in result.history}
+    assert min(cells) == 432 and len(cells) > 2, cells
+
+
+@pytest.mark.slow
+def test_o70_is_beyond_bifurcations(run):
+    """What a small load cos(n a) on the sleeve does to its thickness grows without bounds and comes back from the other side where the even ring loses its uniqueness:
+    for n = 8 on the way from t = 0.2 to 0.25, for n = 16 from 0.45 to 0.5, for n = 24 and more nowhere."""
+    def thinning(n):
+        paths = []
+        for load in (1e-3, -1e-3):
+            traction = f"{load}*cos({n}*atan2(Y,X))*"
+            result = solve(run, *FULL, "-load_end", 0.5, "-boundary_sleeve_skin_traction_x", traction + "X/0.65", "-boundary_sleeve_skin_traction_y", traction + "Y/0.65")
+            assert result.summary["step_cuts"] == 0, result
+            paths.append({round(row["t"], 6): row["probe.sleeve.displacement.x"] - row["probe.sleeve_bore.displacement.x"] for row in result.history})
+        return {t: (paths[0][t] - paths[1][t]) / 2 for t in paths[0] if t > 0.06}  # the balloon has met the sleeve, which flows
+
+    for n, last in ((8, 0.2), (16, 0.45), (24, 0.5)):
+        response = thinning(n)
+        print(n, {t: f"{value:.1e}" for t, value in response.items()})
+        for t, value in response.items():
+            assert (value > 0) == (t <= last), (n, t, response)
+    assert max(response.values()) < 5e-7, response  # n = 24
 
 
 @pytest.mark.slow
 def test_o70_final_state_forgets_the_steps(run):
-    """Back at the start the balloon is free, and what the larger steps cost the plastic flow on the way is no longer seen."""
+    """Back at the start the balloon is free, and of what the larger steps cost the plastic flow on the way only the plastic strains tell (1 %)."""
     small, large = (solve(run, "-load_step", step) for step in (0.05, 0.7))
-    for a, b in zip(figures(small.history[-1], 0.4), figures(large.history[-1], 0.4)):
-        assert abs(a - b) <= 1e-3 * abs(a) + 1e-4, (a, b)
+    for k, (a, b) in enumerate(zip(figures(small.history[-1], 0.4), figures(large.history[-1], 0.4))):
+        assert abs(a - b) <= (1e-3 if k < 5 else 1e-2) * abs(a) + 1e-4, (a, b)
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("options", [(), (*LINEAR1, "-mesh_refine", 1)], ids=["order_2", "order_1"])
 def test_o91_roles_exchanged(run, options):
+    """Pressures and radii alike; plastic strains at the corners of linear faces are not."""
     one, other = (solve(run, *options, *roles) for roles in ((), EXCHANGED))
-    accurate(other)
+    accurate(other, 0.03)
     for t, values in states(one).items():
-        for a, b in zip(values, states(other)[t]):
+        for a, b in zip(values[:5], states(other)[t]):
             assert abs(a - b) <= 5e-3 * abs(a) + 1e-3, (t, values, states(other)[t])
 
 
 @pytest.mark.slow
 def test_o70_full_ring(run):
-    """Four quarters, free but for two rays: the energy of four, their radii, their pressures."""
-    options = (*LINEAR1, "-load_end", 0.7)
-    quarter, ring = (solve(run, *options, "-mesh_parameter_sectors", n).summary for n in (1, 4))
-    assert abs(ring["energy"] / (4 * quarter["energy"]) - 1) < 1e-6
-    for name in ("inside", "outside"):
-        assert abs(ring["contact"][name]["max_pressure"] / quarter["contact"][name]["max_pressure"] - 1) < 1e-4
-    for name in ("balloon", "sleeve", "artery"):
-        assert abs(ring["probe"][name]["displacement"][0] / quarter["probe"][name]["displacement"][0] - 1) < 1e-6
+    """Four quarters, held on one ray (where sleeve and artery are along x is for contact to find): the energy of four, their radii, pressures and estimate."""
+    quarter, ring = (solve(run, *LINEAR1, "-mesh_parameter_sectors", n) for n in (1, 4))
+    assert ring.summary["step_cuts"] == 0, ring
+    for one, four in zip(quarter.history, ring.history, strict=True):
+        assert abs(four["t"] - one["t"]) < 1e-12 and abs(four["energy"] / one["energy"] - 4) < 4e-6
+        assert abs(four["estimated_error"] / one["estimated_error"] - 1) < 1e-4, (one["t"], four["estimated_error"], one["estimated_error"])
+        for key in (f"contact.{name}.max_pressure" for name in ("inside", "outside")):
+            assert abs(four[key] - one[key]) <= 1e-4 * one[key] + 1e-8, (one["t"], key, four[key], one[key])
+        for key in (f"probe.{name}.displacement.x" for name in ("balloon", "sleeve", "artery")):
+            assert abs(four[key] - one[key]) <= 1e-6 * abs(one[key]) + 1e-9, (one["t"], key, four[key], one[key])
 
 
 @pytest.mark.slow

@@ -136,6 +136,7 @@ def test_good_on_two_ranks(check):
     (("step: 0.5", "step: 5"), ["load.step is 5", "load.end"]),
     (("step: 0.5", "step: -1"), ["load.step is -1", "inf"]),
     (("load:", "adapt: {fraction: 2}\nload:"), ["adapt.fraction is 2", r"\(0,1\]"]),
+    (("load:", "adapt: {alike: 1}\nload:"), ["adapt.alike is 1", r"\[0,1\)"]),
     (("load:", "adapt: {share: 1.5}\nload:"), ["adapt.share is 1.5", r"\[0,1\]"]),
     (("load:", "adapt: {aspect: 0.5}\nload:"), ["adapt.aspect is 0.5", r"\[1,1e6\]"]),
     (("load:", "adapt: {strategy: r}\nload:"), ["adapt.strategy is .r.", r"h\|p\|hp|h, p, hp"]),
