@@ -83,6 +83,7 @@ typedef struct {
   PetscBool           released;                 /* takes no part in the tangent: carry.c */
   PetscReal          *gap0;                     /* [n] reference gaps, small kinematics */
   PetscReal          *offset;                   /* [n] constant part of gt_j that does not count: initial gaps closed, interference */
+  PetscReal          *misfit;                   /* [n] imbalance.c: what else does not count, times the share left */
   PetscInt           *pattern_offset, *pattern; /* [num_facets+1]: nodes each facet has room for in the matrix */
 } Contact;
 
@@ -113,6 +114,8 @@ struct _p_Problem {
   PetscReal *increment;        /* [num_nodes*dim] of the Newton step under discussion */
   PetscReal *start_applied;    /* [num_nodes*dim] applied where the Newton step starts */
   Vec        start_x;
+  Vec        imbalance; /* imbalance.c: forces noted, NULL: none */
+  PetscReal  share;     /* of it that counts as being in balance */
   PetscInt   num_dofs;
 
   /* pressure.c: unknown pressures, behind the multipliers; of local cells, as MechanicsSetPressure takes them */
