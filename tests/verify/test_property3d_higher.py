@@ -36,6 +36,21 @@ def test_o90_momentum_on_a_ball(higher, kind):
     space.test_o90_momentum_on_a_ball(higher, 2, 3e-3 if kind == "2-full" else 1e-10)
 
 
+def ball(x):
+    """A cube around (0.5, 0.45, 1.3), rounded: no side of it is a plane of symmetry."""
+    y = (np.array(x) - (0.5, 0.45, 1.3)) / 0.3
+    length = np.linalg.norm(y)
+    return (0.5, 0.45, 1.3) + 0.3 * y * (0.35 + 0.65 * (np.abs(y).max() / length if length > 0 else 1))
+
+
+@faces("2-full", kinds=SECOND)
+@pytest.mark.parametrize("carries", ["upper", pytest.param("lower", marks=slow)])
+def test_o90_momentum_on_a_whole_ball(solve, carries):
+    """Pressed, shifted and tilted: moments balance where the whole body is there."""
+    upper = space.Box((0.2, 0.15, 1), (0.6, 0.6, 0.6), (3, 3, 2), ball)
+    space.assert_balance(space.only(solve(*space.QUIET, upper=upper, contact=pairs(carries))))
+
+
 @faces("2-full", kinds=SECOND)
 def test_o90_momentum_of_a_half(solve):
     """Half a model: forces and moments about the normal of the plane of symmetry balance; those about the axes in it are the other half's to balance."""
@@ -139,7 +154,7 @@ def test_o99_one_step_or_ten(solve):
     space.test_o99_one_step_or_ten(solve, "direct", 0.25)
 
 
-@pytest.mark.parametrize("kind", [pytest.param("2-full", marks=fails("26 cells: beyond a press of 0.28 steps are cut to the least, with either basis of the multipliers"))])
+@pytest.mark.parametrize("kind", [pytest.param("2-full", marks=fails("26 cells, ten steps: beyond a press of 0.29 the upper block's edge meets a crease between two faces of the lower body, steps are cut to the least"))])
 def test_o99_deep(solve):
     space.test_o99_one_step_or_ten(solve, "direct")
 
