@@ -5,22 +5,28 @@
    their new places first. */
 #include "problemimpl.h"
 
-#define STAYS 0.85 /* share of the smaller of the old and the new zone that both have in common, below which contact moves */
+#define STAYS 0.85   /* share of the smaller of the old and the new zone that both have in common, below which contact moves */
+#define PRESSED 1e-8 /* of the largest pressure: less is round-off of an open node */
 
 /* Does contact, by the active set at hand, leave nodes that carry pressure for others? By reference length, so that graded meshes count alike. A zone that only
    grows or only shrinks does not move. */
 static PetscErrorCode HasMoved_Private(Problem p, const Contact *c, PetscBool *moved)
 {
   const Surface *s      = &c->side[0];
-  PetscReal      sum[3] = {0, 0, 0}; /* pressed, active, both */
+  PetscReal      sum[3] = {0, 0, 0}, most = 0; /* pressed, active, both */
 
   PetscFunctionBegin;
   for (PetscInt i = 0; i < s->num_own; ++i) {
-    const PetscInt j = s->own[i];
+    if (c->has_multiplier[s->own[i]]) most = PetscMax(most, c->z[s->own[i]]);
+  }
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &most, 1, MPIU_REAL, MPI_MAX, p->comm));
+  for (PetscInt i = 0; i < s->num_own; ++i) {
+    const PetscInt  j       = s->own[i];
+    const PetscBool pressed = (PetscBool)(c->z[j] > PRESSED * most);
     if (!c->has_multiplier[j]) continue;
-    if (c->z[j] > 0) sum[0] += c->w0[j];
+    if (pressed) sum[0] += c->w0[j];
     if (c->active[j]) sum[1] += c->w0[j];
-    if (c->z[j] > 0 && c->active[j]) sum[2] += c->w0[j];
+    if (pressed && c->active[j]) sum[2] += c->w0[j];
   }
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 3, MPIU_REAL, MPI_SUM, p->comm));
   *moved = (PetscBool)(sum[2] < STAYS * PetscMin(sum[0], sum[1]));

@@ -1,5 +1,5 @@
-"""Order on contact faces: linear faces subdivided under cells of order 1 to 4 (O-105), faces of the order of their cells (rates of O-45 and O-106, patch tests in space),
-and Hertz's problem to 1e-4 and 1e-5."""
+"""Order on contact faces: linear faces subdivided under cells of order 1 to 4 (O-105), faces of the order of their cells (rates of O-45 and O-106, patch tests in space), both
+against each other (O-50), and Hertz's problem to 1e-4 and 1e-5."""
 import math
 
 import numpy
@@ -61,6 +61,64 @@ def test_o105_cylinder(run):
     for p, tolerance in ((2, 0.04), (3, 5e-3), (4, 2e-3)):  # full faces, not subdivided
         u, z = cylinder(run, "-order", p, "-contact_cylinder_on_block_order", "full")
         assert abs(z) < tolerance and abs(u) < tolerance, (p, u, z)
+
+
+# ---- O-50: full faces against linear ones -------------------------------------------------------------------------------------------------
+
+DRIVEN = (*QUIET, "-boundary_flat_traction_y", 0, "-boundary_flat_displacement_y", -1.6, "-load_step", 1, "-mesh_parameter_n", 4, "-mesh_parameter_m", 4,
+          "-refine_arc_levels", 3, "-refine_top_levels", 3)
+REACTION = 17521.746  # of the cylinder driven by 1.6, to 2e-7
+SWAPPED = ("-contact_cylinder_on_block_nonmortar", "block_top", "-contact_cylinder_on_block_mortar", "arc")
+
+
+def driven(run, order, faces, *options):
+    """Unknowns, and relative error of the reaction."""
+    summary = solved(run, "inputs/cylinder.yml", *DRIVEN, "-order", order, "-contact_cylinder_on_block_order", faces, *options).summary
+    return summary["dofs"], abs(-summary["reaction"]["flat"][1] / REACTION - 1)
+
+
+def adapted(run, order, faces, passes, *options):
+    return driven(run, order, faces, "-adapt_tolerance", 1e-9, "-adapt_max_passes", passes, *options)
+
+
+def test_o50_full_faces_need_less(run):
+    """At 0.1 % as many unknowns with an error well below that of linear faces; at 1e-5 a third of them."""
+    (n, e), (n2, e2), (n1, e1) = adapted(run, 2, "full", 1), adapted(run, 2, 1, 1), adapted(run, 1, 1, 3)
+    print((n, e), (n2, e2), (n1, e1))
+    assert e < 1e-3 < e1 < e2 and n < 1.1 * n2 and n < n1
+    (n, e), (n2, e2), (n1, e1) = adapted(run, 3, "full", 3), adapted(run, 2, 1, 5), adapted(run, 1, 1, 5)
+    print((n, e), (n2, e2), (n1, e1))
+    assert e < 1e-5 < e2 < e1 and n < n2 / 2.5 and n < n1 / 3
+
+
+def least(curves, error):
+    """The fewest unknowns from which on the error of some curve stays below."""
+    ends = [next((curve[k][0] for k in range(len(curve)) if all(e < error for _, e in curve[k:])), math.inf) for curve in curves]
+    return min(ends)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("roles", [(), SWAPPED], ids=["cylinder", "block"])
+def test_o50_error_against_unknowns(run, roles):
+    """From 0.1 % on full faces of order 2 to 4 take fewer unknowns than linear ones, adapted at order 1 and 2 or subdivided under cells of order 2 and 4."""
+    full = [[adapted(run, p, "full", k, *roles) for k in range(last + 1)] for p, last in ((2, 5), (3, 5), (4, 4))]
+    linear = [[adapted(run, p, 1, k, *roles) for k in range(last + 1)] for p, last in ((1, 5), (2, 6))]
+    linear += [[driven(run, p, 1, *ONE_MESH, "-contact_cylinder_on_block_subdivide", k, *roles) for k in range(4)] for p in (2, 4)]
+    needed = {error: (least(full, error), least(linear, error)) for error in (1e-3, 3e-4, 1e-4, 3e-5, 1e-5)}
+    print(full, linear, needed)
+    assert all(mine < other for mine, other in needed.values()), needed
+    assert needed[1e-5][0] < needed[1e-5][1] / 2.5, needed
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("options", [("-order", 3, "-adapt_tolerance", 2e-4), ("-order", 4, "-adapt_tolerance", 1e-4), ("-order", 1, "-adapt_strategy", "hp", "-adapt_tolerance", 1e-4)])
+@pytest.mark.parametrize("roles", [(), SWAPPED], ids=["cylinder", "block"])
+def test_o50_reference(run, options, roles):
+    """What REACTION rests on: orders, strategies and roles at estimates of 1e-4 agree to 2e-7."""
+    summary = solved(run, "inputs/cylinder.yml", *DRIVEN, "-contact_cylinder_on_block_order", "full", "-adapt_max_passes", 30, *options, *roles).summary
+    error = -summary["reaction"]["flat"][1] / REACTION - 1
+    print(summary["dofs"], summary["estimated_error"], error)
+    assert summary["adapt_stop"] == "tolerance" and abs(error) < 2e-7, error
 
 
 # ---- O-45: curved faces -------------------------------------------------------------------------------------------------------------------
