@@ -228,6 +228,12 @@ PetscErrorCode ProblemStepAccept(Problem, PetscReal step, PetscReal pressure[]);
 /* Largest part of the prescribed motion not yet applied, in the user's unit of length; 0 when the target is reached. */
 PetscErrorCode ProblemPending(Problem, PetscReal *remaining);
 
+/* imbalance.c. What keeps x, with the history last set, from being a solution: forces out of balance; of each contact node the part of gt_j that contradicts
+   its pressure. Leave: from now on this share of the imbalance noted counts as none, so that with 1 x is a solution; as created, and after Note: 0. *usable: x
+   is in the domain. Collective. */
+PetscErrorCode ProblemNoteImbalance(Problem, Vec x, PetscBool *usable);
+PetscErrorCode ProblemLeaveImbalance(Problem, PetscReal share);
+
 /* Forces of the supports at x: reaction[num_boundaries][3]; contact force and moment about the origin on the nonmortar side: force[num_contacts][3],
    moment[num_contacts][3]; all ranks. Evaluates the residual. */
 PetscErrorCode ProblemForces(Problem, Vec x, PetscReal reaction[][3], PetscReal force[][3], PetscReal moment[][3], ProblemStatus *);

@@ -107,6 +107,17 @@ static PetscErrorCode StartBetween_Private(App *app, const State *transferred, P
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Equilibrium from the transferred state as its imbalance is taken away. */
+static PetscErrorCode Settle_Private(App *app, const State *transferred, SolverReport *report)
+{
+  PetscFunctionBegin;
+  PetscCall(StateCopy(transferred, &app->level.state));
+  PetscCall(PetscInfo(NULL, "the transferred state is to settle\n"));
+  PetscCall(SolverSettle(app->level.solver, &app->level.state, report));
+  AppCount(app, report);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* Equilibrium on the new mesh at the same load (along a path: on the same plane across it). Where the transferred state leads nowhere (a refined cell at a
    singular corner may start inverted), a state on the way to it does better; at last the way from the accepted state is gone again, in as many pieces as it
    takes. */
@@ -128,6 +139,7 @@ static PetscErrorCode Reequilibrate_Private(App *app, PetscInt *iterations, Pets
     if (i > 0) PetscCall(StartBetween_Private(app, &transferred, Shares[i]));
     PetscCall(SolverSolve(l->solver, &l->state, &report));
     AppCount(app, &report);
+    if (i == 0 && !report.converged && !app->stopped) PetscCall(Settle_Private(app, &transferred, &report));
     *ok = report.converged;
     if (!*ok) PetscCall(PetscInfo(NULL, "no equilibrium from %g of the transferred state: %s\n", (double)Shares[i], report.reason));
   }

@@ -79,6 +79,13 @@ typedef struct {
   PetscReal (*box)[6]; /* owned, [num items] */
 } Tree;
 
+/* Of the last evaluation in the general form (result.c): positions and multipliers (loaded: they were given). */
+typedef struct {
+  PetscBool  stands, loaded;
+  PetscReal *x[2], *z; /* owned */
+  PetscInt   size_x[2], size_z;
+} ContactState;
+
 typedef struct _p_FacetWork *FacetWork;
 typedef struct _p_RayWork   *RayWork;
 
@@ -108,7 +115,9 @@ struct _p_ContactPair {
   PetscInt        num_local, size_local, *node;         /* mortar nodes that listed edges meet */
   PetscInt        num_results, num_ids, size_ids, *ids; /* ids: storage behind ContactFacet.nodes */
   ContactFacet   *result;                               /* [num_listed] */
-  PetscReal      *real;                                 /* storage behind dgap, dweight, hessian */
+  PetscInt       *slot, size_slot;                      /* [num_results] places of their facets in the list; general form */
+  ContactState    state;
+  PetscReal      *real; /* storage behind dgap, dweight, hessian */
   PetscInt        size_real;
   PetscReal      *work; /* one edge's sums */
   PetscInt        size_work;
@@ -182,7 +191,15 @@ typedef struct {
   const PetscReal      *z;
   const PetscBool      *wanted;
   PetscBool             derivatives, hessian;
+  PetscBool             again; /* the positions of the last evaluation, whose results are completed */
 } EvaluateContext;
+
+/* again.c. Are these the positions of the last evaluation, and its multipliers? */
+PetscBool      ContactStateStands(ContactPair, const ContactSurface *nonmortar, const ContactSurface *mortar);
+PetscBool      ContactStateLoads(ContactPair, const PetscReal z[]);
+PetscErrorCode ContactStateKeep(ContactPair, const ContactSurface *nonmortar, const ContactSurface *mortar, const PetscReal z[]);
+PetscErrorCode ContactStateDestroy(ContactPair);
+
 void           ContactMortarEdge(const EvaluateContext *, PetscInt slot, ContactFacet *, PetscBool *use);
 void           ContactNodeEdge(const EvaluateContext *, PetscInt slot, ContactFacet *, PetscBool *use);
 PetscErrorCode ContactNodeHitsBuild(ContactPair, const ContactSurface *nonmortar, const ContactSurface *mortar);

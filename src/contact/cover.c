@@ -262,5 +262,6 @@ PetscErrorCode ContactCover(ContactPair pair, const ContactSurface *nonmortar, c
   w->full = (PetscBool)(covered >= (1 - Sliver_Private(f)) * f->area);
   if (hats && !w->full && f->s.order > 1 && w->num_overlaps) PetscCall(Cells_Private(pair, mortar));
   PetscCall(Nodes_Private(w, mortar));
+  w->n = f->D * (f->s.num + f->nv + w->num_mortar) + f->m * w->num_images;
   PetscFunctionReturn(PETSC_SUCCESS);
 }

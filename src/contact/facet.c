@@ -370,11 +370,11 @@ static PetscErrorCode Facet_Private(const EvaluateContext *ctx, PetscInt slot, C
   PetscCall(Masters_Private(w, ctx->nonmortar, ctx->mortar));
   LocalMultipliers_Private(ctx, w, z);
   loaded      = (PetscBool)(z[0] != 0 || z[1] != 0 || z[2] != 0 || z[3] != 0);
-  derivatives = ContactResultDerivatives(ctx, &w->result, loaded);
+  derivatives = ContactResultDerivatives(ctx, w->result.num_rows, w->result.node, loaded);
   PetscCall(Moments_Private(pair, w, derivatives));
   if (w->num_overlaps == 0 || !ContactFacetWeights(pair->standard, w->moments.q, z, &f)) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(Segments_Private(pair, slot, w));
-  PetscCall(Result_Private(w, &f, z, derivatives, (PetscBool)(ctx->hessian && loaded && !ctx->pair->held), out));
+  if (!ctx->again) PetscCall(Segments_Private(pair, slot, w));
+  PetscCall(Result_Private(w, &f, z, derivatives, (PetscBool)(ctx->hessian && loaded && !pair->held), out));
   *use = PETSC_TRUE;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -382,7 +382,7 @@ static PetscErrorCode Facet_Private(const EvaluateContext *ctx, PetscInt slot, C
 PetscErrorCode ContactFacetsEvaluate(const EvaluateContext *ctx, PetscBool *failed)
 {
   PetscFunctionBegin;
-  Normals_Private(ctx->pair, ctx->nonmortar);
+  if (!ctx->again) Normals_Private(ctx->pair, ctx->nonmortar);
   PetscCall(ContactResultsEvaluate(ctx, &ctx->pair->facet->result, Facet_Private, failed));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -51,6 +51,8 @@ PetscBool ContactClip(Overlap *, PetscReal size);
 /* rule.c: barycentric points and weights on a triangle. */
 #define CONTACT_RULE 25
 extern const PetscReal ContactRulePoint[CONTACT_RULE][3], ContactRuleWeight[CONTACT_RULE];
+/* The symmetric rule of the lowest degree, 10 at least, that is exact to `degree`. False: none is. */
+PetscBool ContactRuleGet(PetscInt degree, PetscInt *num, const PetscReal (**point)[3], const PetscReal **weight);
 
 /* overlap.c */
 typedef struct {
@@ -103,10 +105,11 @@ PetscErrorCode ContactResultNode(Result *, PetscInt id, PetscInt *place);
 PetscInt ContactMasters(const ContactSurface *, const PetscInt *node, const PetscInt **master, const PetscReal **weight);
 /* Row of vertex v by places among the nodes; row_first has room for v + 1, *num entries are there. */
 PetscErrorCode ContactResultRow(Result *, const ContactSurface *, PetscInt node, PetscBool mortar, PetscInt v, PetscInt *num);
-/* Do derivatives have a use? loaded: a multiplier of the facet is not zero. */
-PetscBool      ContactResultDerivatives(const EvaluateContext *, const Result *, PetscBool loaded);
+/* Do derivatives have a use? node[num_rows]: the facet's multipliers; loaded: one of them is not zero. */
+PetscBool      ContactResultDerivatives(const EvaluateContext *, PetscInt num_rows, const PetscInt node[], PetscBool loaded);
 PetscErrorCode ContactResultSegment(ContactPair, PetscInt facet, PetscInt mortar_facet, PetscInt num, ContactSegment **);
-/* Calls the function for every listed facet and hands out those results it sets *use for. */
+/* Calls the function for every listed facet and hands out those results it sets *use for. At the positions of the last evaluation (again) for those only
+   whose results lack what is asked for; they stand in the function's ContactFacet when it is called. */
 typedef PetscErrorCode (*ResultFunction)(const EvaluateContext *, PetscInt slot, ContactFacet *, PetscBool *use, PetscBool *failed);
 PetscErrorCode ContactResultsEvaluate(const EvaluateContext *, Result *, ResultFunction, PetscBool *failed);
 

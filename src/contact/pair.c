@@ -30,6 +30,8 @@ PetscErrorCode ContactPairDestroy(ContactPair *pair)
   PetscCall(PetscFree(p->node));
   PetscCall(PetscFree(p->ids));
   PetscCall(PetscFree(p->result));
+  PetscCall(PetscFree(p->slot));
+  PetscCall(ContactStateDestroy(p));
   PetscCall(PetscFree(p->real));
   PetscCall(PetscFree(p->work));
   PetscCall(ContactFacetWorkDestroy(&p->facet));
@@ -147,7 +149,22 @@ static PetscBool IsFinite_Private(const ContactSurface *s)
 PetscErrorCode ContactPairHold(ContactPair pair, PetscBool held)
 {
   PetscFunctionBegin;
+  if (pair->held != held) pair->state.stands = PETSC_FALSE; /* other derivatives */
   pair->held = held;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Rays and facets in space. */
+static PetscErrorCode General_Private(EvaluateContext *ctx, PetscBool *failed)
+{
+  ContactPair pair = ctx->pair;
+
+  PetscFunctionBegin;
+  ctx->again = (PetscBool)(!*failed && ContactStateStands(pair, ctx->nonmortar, ctx->mortar));
+  if (!ctx->again) pair->num_results = pair->num_segments = 0;
+  if (!*failed) PetscCall(pair->rays ? ContactRayEvaluate(ctx, failed) : ContactFacetsEvaluate(ctx, failed));
+  pair->state.stands = PETSC_FALSE;
+  if (!*failed) PetscCall(ContactStateKeep(pair, ctx->nonmortar, ctx->mortar, ctx->z));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -155,24 +172,24 @@ PetscErrorCode ContactPairEvaluate(ContactPair pair, const ContactSurface *nonmo
                                    const PetscBool wanted[], PetscBool derivatives, PetscBool hessian, PetscInt *num, const ContactFacet **facets,
                                    PetscBool *failed)
 {
-  const PetscBool       general = (PetscBool)(pair->rays || pair->dim == 3), derives = (PetscBool)(derivatives || hessian);
-  const EvaluateContext ctx = {pair, nonmortar, mortar, z, wanted, derives, (PetscBool)(hessian && (general || !pair->held))};
+  const PetscBool general = (PetscBool)(pair->rays || pair->dim == 3), derives = (PetscBool)(derivatives || hessian);
+  EvaluateContext ctx = {pair, nonmortar, mortar, z, wanted, derives, (PetscBool)(hessian && (general || !pair->held)), PETSC_FALSE};
 
   PetscFunctionBegin;
   PetscCheck(nonmortar->num_nodes == pair->num_nodes && nonmortar->num_facets == pair->num_facets && mortar->num_nodes == pair->num_mortar_nodes &&
                  mortar->num_facets == pair->num_mortar_facets,
              PETSC_COMM_SELF, PETSC_ERR_ORDER, "surfaces differ from those of the last ContactPairSearch: search again after the mesh changes");
   PetscCheck(!hessian || z || pair->num_listed == 0, PETSC_COMM_SELF, PETSC_ERR_ARG_NULL, "the Hessian of sum_j z_j gt_j needs z");
-  *failed           = IsFinite_Private(nonmortar) && IsFinite_Private(mortar) ? PETSC_FALSE : PETSC_TRUE;
-  *num              = 0;
-  *facets           = pair->result;
-  pair->num_results = pair->num_segments = 0;
-  if (*failed) PetscFunctionReturn(PETSC_SUCCESS);
+  *failed = IsFinite_Private(nonmortar) && IsFinite_Private(mortar) ? PETSC_FALSE : PETSC_TRUE;
+  *num    = 0;
+  *facets = pair->result;
   if (general) {
-    PetscCall(pair->rays ? ContactRayEvaluate(&ctx, failed) : ContactFacetsEvaluate(&ctx, failed));
+    PetscCall(General_Private(&ctx, failed));
     *num = pair->num_results;
     PetscFunctionReturn(PETSC_SUCCESS);
   }
+  pair->num_results = pair->num_segments = 0;
+  if (*failed) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(ContactNormalsBuild(pair, nonmortar, failed));
   if (*failed) PetscFunctionReturn(PETSC_SUCCESS);
   if (pair->node_to_segment)

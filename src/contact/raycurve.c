@@ -7,15 +7,15 @@
 #define CORNERS (2 * FACET_VERTICES)
 #define OWN 3 /* most products of the facet's own numbers at a point */
 
-/* v_f eps_cef into W[row + c][column + e] */
-static void AddSkew_Private(PetscInt D, const PetscReal v[3], PetscReal *W, PetscInt n)
+/* v_f eps_cef into W[row + c][column + e]; v_f: `apart` apart */
+static void AddSkew_Private(PetscInt D, const PetscReal v[], PetscInt apart, PetscReal *W, PetscInt n)
 {
-  if (D == 3) {
-    W[1] += v[2], W[n] -= v[2];
-    W[n + 2] += v[0], W[2 * n + 1] -= v[0];
-    W[2 * n] += v[1], W[2] -= v[1];
-  } else
-    W[1] += v[2], W[n] -= v[2];
+  const PetscReal z = v[2 * apart];
+
+  W[1] += z, W[n] -= z;
+  if (D == 2) return;
+  W[n + 2] += v[0], W[2 * n + 1] -= v[0];
+  W[2 * n] += v[apart], W[2] -= v[apart];
 }
 
 /* Weights of gap and area at a point. */
@@ -43,11 +43,17 @@ static void Weights_Private(const RayFacet *f, const RayTest *t, const RayFuncti
 /* Sums over the points of a triangle; rows of left and right follow one another. */
 typedef struct {
   PetscInt   nq, nf, na, no, num_points, num_own, num_xi;
-  PetscReal *basis, *right;        /* [points][nf], [D][points][nq] */
-  PetscReal *own_left, *own_right; /* [num_own][na], [num_own][no] */
-  PetscReal *left_xi, *right_xi;   /* [num_xi][6], [num_xi][nq + 6] */
-  PetscReal *gradient, mean;       /* [nq + 6] */
+  PetscReal *basis, *right;                                     /* [points][nf], [D][points][nq] */
+  PetscReal *turn_left, *turn_right, *twist_left, *twist_right; /* [points] [nv], [3][nodes], [nodes], [3][nodes] */
+  PetscReal *own_left, *own_right;                              /* [num_own][na], [num_own][no] */
+  PetscReal *left_xi, *right_xi;                                /* [num_xi][6], [num_xi][nq + 6] */
+  PetscReal *gradient, mean;                                    /* [nq + 6] */
 } Batch;
+
+/* d_v . (dx_a x turn[v][.][a]), twist[a][.][b] . (dx_a x dx_b) */
+typedef struct {
+  PetscReal *turn, *twist;
+} Pairs;
 
 /* What varies through the corners: rows left_xi x right_xi. */
 static void Corners_Private(const RayFacet *f, const RayPoint *r, const PetscReal beta[3], const RaySecond *o, Batch *b)
@@ -75,25 +81,32 @@ static void Corners_Private(const RayFacet *f, const RayPoint *r, const PetscRea
   }
 }
 
-static PetscBool Batch_Private(const RayWork w, const RayLattice *mortar, const Overlap *o, const RayTest *t, const RayGuess *guess, const RaySimplex *s,
-                               PetscInt points, const PetscReal point[][3], const PetscReal weight[], const PetscReal y[], const PetscReal D[4][4],
-                               PetscReal area, RayPoint *r, RaySecond *second, Batch *b)
+/* place: where the rays met when the moments were found. */
+static PetscErrorCode Batch_Private(const RayWork w, const RayLattice *mortar, const RayTest *t, const RaySimplex *s, PetscInt points,
+                                    const PetscReal point[][3], const PetscReal weight[], const PetscReal y[], const PetscReal D[4][4], PetscReal area,
+                                    const RayPlace place[], RayPoint *r, RaySecond *second, Batch *b)
 {
-  const RayFacet *f = &w->facet;
+  const RayFacet *f  = &w->facet;
+  const PetscInt  na = f->s.num;
   RayFunctions    T;
   RayWeight       sum, mass, phi, chi;
 
+  PetscFunctionBegin;
   b->num_points = points;
   b->num_own = b->num_xi = 0;
   b->mean                = 0;
   for (PetscInt i = 0; i < b->nq + 6; i++) b->gradient[i] = 0;
   for (PetscInt k = 0; k < points; k++) {
-    if (!ContactRayPoint(f, mortar, o, guess, s, point[k], 3, r)) return PETSC_FALSE;
-    ContactRayTestFunctions(f, t, &r->S, r->xi, &T);
-    Weights_Private(f, t, &T, y, D, area, &sum, &mass);
+    PetscCheck(ContactRayAgain(f, mortar, &place[k], 3, r), PETSC_COMM_SELF, PETSC_ERR_PLIB, "a ray that met the mortar facet does not meet it again");
+    if (t->hats) ContactRayTestFunctions(f, t, r->xi, &T);
+    Weights_Private(f, t, t->hats ? &T : &r->S, y, D, area, &sum, &mass);
     ContactRayOverDet(f, &r->chart, weight[k], &sum, &phi);
     ContactRayOverDet(f, &r->chart, weight[k], &mass, &chi);
-    second->basis = b->basis + k * b->nf;
+    second->basis       = b->basis + k * b->nf;
+    second->turn_left   = b->turn_left + k * f->nv;
+    second->turn_right  = b->turn_right + k * 3 * na;
+    second->twist_left  = b->twist_left + k * na;
+    second->twist_right = b->twist_right + k * 3 * na;
     for (PetscInt c = 0; c < f->D; c++) second->right[c] = b->right + (c * points + k) * b->nq;
     for (int i = 0; i < OWN; i++) {
       second->own_left[i]  = b->own_left + (b->num_own + i) * b->na;
@@ -106,17 +119,23 @@ static PetscBool Batch_Private(const RayWork w, const RayLattice *mortar, const 
     for (PetscInt i = 0; i < b->nq; i++) b->gradient[i] += second->gradient[i];
     Corners_Private(f, r, point[k], second, b);
   }
-  return PETSC_TRUE;
+  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* One triangle into all[N][N], N = nq + CORNERS, and the gradient by corners. */
-static void Simplex_Private(const RayFacet *f, const RaySimplex *s, const Batch *b, PetscReal all[], PetscReal corner[])
+static void Simplex_Private(const RayFacet *f, const RaySimplex *s, const Batch *b, const Pairs *pairs, PetscReal all[], PetscReal corner[])
 {
-  const PetscInt m = f->m, nc = m * (m + 1), nq = b->nq, N = nq + CORNERS;
+  const PetscInt m = f->m, nc = m * (m + 1), nq = b->nq, N = nq + CORNERS, group[4] = {0, f->s.num, f->s.num + f->nv, b->nf}, points = b->num_points;
   PetscReal     *part = b->gradient + nq + 6; /* [6][nq + 6] */
 
   for (PetscInt c = 0; c < f->D; c++)
-    ContactRayProducts(b->num_points, 1, b->nf, b->basis, b->nf, nq, b->right + c * b->num_points * nq, nq, all + c * N, f->D * N);
+    for (int g = 0; g < 3; g++) {
+      const PetscInt from = group[g], num = group[g + 1] - from;
+
+      ContactRayProducts(points, 1, num, b->basis + from, b->nf, nq, b->right + c * points * nq, nq, all + (f->D * from + c * num) * N, N);
+    }
+  ContactRayProducts(points, 1, f->nv, b->turn_left, f->nv, 3 * f->s.num, b->turn_right, 3 * f->s.num, pairs->turn, 3 * f->s.num);
+  if (m == 2) ContactRayProducts(points, 1, f->s.num, b->twist_left, f->s.num, 3 * f->s.num, b->twist_right, 3 * f->s.num, pairs->twist, 3 * f->s.num);
   ContactRayProducts(b->num_own, 1, b->na, b->own_left, b->na, b->no, b->own_right, b->no, all, N);
   for (PetscInt i = 0; i < 6 * (nq + 6); i++) part[i] = 0;
   ContactRayProducts(b->num_xi, s->size, nc, b->left_xi, 6, nq + nc, b->right_xi, nq + 6, part, nq + 6);
@@ -175,57 +194,64 @@ static void Collapse_Private(const RayFacet *f, const Overlap *o, const RayMove 
   }
 }
 
+/* *place: the overlap's first; moves on to the next one's. */
 static PetscErrorCode Overlap_Private(RayWork w, const RayLattice *mortar, PetscInt k, const PetscReal y[], const PetscReal D[4][4], PetscReal area,
-                                      RaySecond *second, PetscReal all[])
+                                      const RayPlace **place, const Pairs *pairs, PetscReal all[], PetscReal gradient[])
 {
-  const RayFacet *f = &w->facet;
+  const RayFacet *f  = &w->facet;
+  const PetscInt  na = f->s.num, nq = f->D * (na + f->nv + mortar->num);
   Overlap         split;
   const Overlap  *o               = &split;
-  const PetscInt  nq              = f->D * (f->s.num + f->nv + mortar->num);
   PetscReal       corner[CORNERS] = {0};
   RayMove         move[FACET_VERTICES];
-  RayGuess        guess;
+  RaySecond       second;
   RayPoint        r;
   PetscInt        points;
-  Batch           b = {.nq = nq, .nf = nq / f->D, .na = f->D * f->s.num, .no = f->D * (f->s.num + f->nv)};
+  Batch           b = {.nq = nq, .nf = nq / f->D, .na = f->D * na, .no = f->D * (na + f->nv)};
   const PetscReal(*point)[3], *weight;
 
   PetscFunctionBegin;
   ContactRaySplit(f, &w->overlap[k], &split);
   PetscCall(ContactRayRule(f->m, f->s.order, mortar->order, &points, &point, &weight));
-  PetscCall(ContactGrow(points * (b.nf + f->D * nq + OWN * (b.na + b.no) + f->m * (nq + 12)) + 8 * (nq + 6), sizeof(PetscReal), &w->size_buffer, &w->buffer));
-  b.basis          = w->buffer;
-  b.right          = b.basis + points * b.nf;
-  b.own_left       = b.right + points * f->D * nq;
-  b.own_right      = b.own_left + points * OWN * b.na;
-  b.left_xi        = b.own_right + points * OWN * b.no;
-  b.right_xi       = b.left_xi + points * f->m * 6;
-  second->gradient = b.right_xi + points * f->m * (nq + 6);
-  b.gradient       = second->gradient + nq + 6;
+  PetscCall(ContactGrow(points * (b.nf + f->D * nq + OWN * (b.na + b.no) + f->m * (nq + 12) + f->nv + 7 * na) + 8 * (nq + 6), sizeof(PetscReal),
+                        &w->size_buffer, &w->buffer));
+  b.basis         = w->buffer;
+  b.right         = b.basis + points * b.nf;
+  b.own_left      = b.right + points * f->D * nq;
+  b.own_right     = b.own_left + points * OWN * b.na;
+  b.left_xi       = b.own_right + points * OWN * b.no;
+  b.right_xi      = b.left_xi + points * f->m * 6;
+  b.turn_left     = b.right_xi + points * f->m * (nq + 6);
+  b.turn_right    = b.turn_left + points * f->nv;
+  b.twist_left    = b.turn_right + points * 3 * na;
+  b.twist_right   = b.twist_left + points * na;
+  second.gradient = b.twist_right + points * 3 * na;
+  b.gradient      = second.gradient + nq + 6;
   ContactRayMoves(f, o, move);
-  r.s = 0;
-  ContactRayGuess(f, mortar, o, &guess);
   for (PetscInt j = 0; j < ContactRaySimplices(f, o); j++) {
     RaySimplex s;
 
     ContactRaySimplex(f, o, j, &s);
-    if (!Batch_Private(w, mortar, o, &w->test[w->window[k]], &guess, &s, points, point, weight, y, D, area, &r, second, &b))
-      continue; /* cannot happen: its moments were found */
-    Simplex_Private(f, &s, &b, all, corner);
+    PetscCall(Batch_Private(w, mortar, &w->test[w->window[k]], &s, points, point, weight, y, D, area, *place, &r, &second, &b));
+    *place += points;
+    Simplex_Private(f, &s, &b, pairs, all, corner);
+    for (PetscInt i = 0; i < nq; i++) gradient[i] += s.size * b.gradient[i];
   }
+  for (PetscInt i = 0; i < f->m * (f->m == 1 ? 2 : o->num); i++)
+    for (int l = 0; l < RAY_IMAGES; l++) gradient[nq + l] += corner[i] * move[i / f->m].d[i % f->m][l];
   Collapse_Private(f, o, move, corner, nq, all);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* Pairs of nodes of the facet. */
-static void AddPairs_Private(RayWork w, const RaySecond *second)
+static void AddPairs_Private(RayWork w, const Pairs *pairs)
 {
   const RayFacet *f = &w->facet;
   const PetscInt  D = f->D, na = f->s.num, n = w->n;
 
   for (PetscInt a = 0; a < na; a++) {
-    for (PetscInt v = 0; v < f->nv; v++) AddSkew_Private(D, second->turn[v * na + a], w->W + D * (na + v) * n + D * a, n);
-    for (PetscInt b = 0; b < na && f->m == 2; b++) AddSkew_Private(D, second->twist[a * na + b], w->W + D * a * n + D * b, n);
+    for (PetscInt v = 0; v < f->nv; v++) AddSkew_Private(D, pairs->turn + 3 * v * na + a, na, w->W + D * (na + v) * n + D * a, n);
+    for (PetscInt b = 0; b < na && f->m == 2; b++) AddSkew_Private(D, pairs->twist + 3 * a * na + b, na, w->W + D * a * n + D * b, n);
   }
 }
 
@@ -261,16 +287,19 @@ static void Transpose_Private(PetscInt n, PetscReal W[])
 }
 
 PetscErrorCode ContactRayHessian(ContactPair pair, const ContactSurface *mortar, const PetscReal y[], const PetscReal D[4][4], PetscReal area,
-                                 const PetscReal gradient[])
+                                 PetscReal gradient[])
 {
   RayWork         w   = pair->ray;
   const RayFacet *f   = &w->facet;
   const PetscInt  own = f->s.num + f->nv, images = f->D * (own + w->num_mortar), n = w->n, pairs = f->s.num * own;
   PetscInt        place[3 * (2 * RAY_LATTICE + 4) + RAY_IMAGES];
+  const RayPlace *at = w->places;
   RayLattice      facet;
-  RaySecond       second;
+  Pairs           pair_sums;
+  PetscReal      *slope;
 
   PetscFunctionBegin;
+  PetscCall(PetscArrayzero(gradient, n));
   PetscCall(ContactGrow(n * n, sizeof(PetscReal), &w->size_W, &w->W));
   PetscCall(PetscArrayzero(w->W, n * n));
   for (PetscInt k = 0; k < w->num_overlaps; k++) {
@@ -279,19 +308,22 @@ PetscErrorCode ContactRayHessian(ContactPair pair, const ContactSurface *mortar,
     ContactRayLatticeGather(mortar, w->mortar[k], &facet);
     N     = f->D * (own + facet.num) + CORNERS;
     width = N - CORNERS + f->m * f->nv;
-    PetscCall(ContactGrow(N * N + 3 * pairs, sizeof(PetscReal), &w->size_part, &w->part));
-    PetscCall(PetscArrayzero(w->part, N * N + 3 * pairs));
-    second.turn  = (PetscReal(*)[3])(w->part + N * N);
-    second.twist = second.turn + f->nv * f->s.num;
-    PetscCall(Overlap_Private(w, &facet, k, y, D, area, &second, w->part));
-    AddPairs_Private(w, &second);
+    PetscCall(ContactGrow(N * N + 3 * pairs + N, sizeof(PetscReal), &w->size_part, &w->part));
+    PetscCall(PetscArrayzero(w->part, N * N + 3 * pairs + N));
+    pair_sums.turn  = w->part + N * N;
+    pair_sums.twist = pair_sums.turn + 3 * f->nv * f->s.num;
+    slope           = pair_sums.turn + 3 * pairs;
+    PetscCall(Overlap_Private(w, &facet, k, y, D, area, &at, &pair_sums, w->part, slope));
+    AddPairs_Private(w, &pair_sums);
     ContactRayPlaces(w, mortar, w->mortar[k], facet.num, place);
+    for (PetscInt a = 0; a < width; a++) gradient[place[a]] += slope[a];
     for (PetscInt a = 0; a < width; a++)
       for (PetscInt b = 0; b < width; b++) w->W[place[a] * n + place[b]] += w->part[a * N + b];
   }
   ContactImagesFold(w, n, w->W, n);
   Transpose_Private(n, w->W);
   ContactImagesFold(w, n, w->W, n);
+  ContactImagesFold(w, 1, gradient, n);
   for (PetscInt k = 0; k < w->num_images; k++) PetscCall(Image_Private(w, k, gradient + images + f->m * k));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -39,6 +39,7 @@ PetscErrorCode ContactPairGetMortarParents(ContactPair pair, const PetscInt **pa
 PetscErrorCode ContactPairSetCarriers(ContactPair pair, const ContactSurface *nonmortar, const PetscBool carries[])
 {
   PetscFunctionBegin;
+  pair->state.stands = PETSC_FALSE;
   PetscCall(ContactMultiplierDestroy(&pair->multiplier));
   if (nonmortar->order) PetscCall(ContactMultiplierCreate(nonmortar, pair->axisymmetric, pair->standard, carries, &pair->multiplier));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -59,6 +60,8 @@ PetscErrorCode ContactRayWorkDestroy(RayWork *work)
   PetscCall(PetscFree(w->window));
   PetscCall(PetscFree(w->vertex));
   PetscCall(PetscFree(w->test));
+  PetscCall(PetscFree(w->place));
+  PetscCall(PetscFree(w->first_place));
   PetscCall(PetscFree(w->dq));
   PetscCall(PetscFree(w->W));
   PetscCall(PetscFree(w->J));
@@ -267,11 +270,8 @@ static PetscErrorCode Hessian_Private(const EvaluateContext *ctx, PetscInt facet
   PetscCall(ContactGrow(3 * n, sizeof(PetscReal), &w->size_rows, &w->rows));
   PetscCall(PetscArrayzero(w->rows, 3 * n));
   gradient = w->rows, left = gradient + n, right = left + n;
-  for (PetscInt a = 0; a < na; a++)
-    if (y[a] != 0) GapRow_Private(w, o, a, y[a], gradient);
-  for (PetscInt a = 0; a < na && energy[1] != 0; a++)
+  for (PetscInt a = 0; a < na && energy[2] != 0; a++)
     for (PetscInt i = 0; i < n; i++) left[i] += w->dq[(na + a) * n + i];
-  for (PetscInt i = 0; i < n && energy[1] != 0; i++) gradient[i] += energy[1] * left[i];
   PetscCall(ContactRayHessian(ctx->pair, ctx->mortar, o->dual ? o->f.g : y, o->dual ? o->f.D : NULL, energy[1], gradient));
   if (energy[2] != 0) ContactRayProducts(1, 0.5 * energy[2], n, left, n, n, left, n, w->W, n);
   for (int p = 0; o->dual && p < o->f.num_pairs; p++) {
@@ -347,6 +347,20 @@ static PetscErrorCode Result_Private(const EvaluateContext *ctx, PetscInt facet,
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* The Hessian of a result that has the rest. */
+static PetscErrorCode Curve_Private(const EvaluateContext *ctx, PetscInt facet, const PetscReal y[], ContactFacet *out)
+{
+  const RaySpring none  = {.on = PETSC_FALSE};
+  const Weights   plain = {.dual = PETSC_FALSE};
+  RayWork         w     = ctx->pair->ray;
+
+  PetscFunctionBegin;
+  PetscCall(ContactRayChain(w, ctx->nonmortar, facet, PETSC_FALSE));
+  PetscCall(ContactStoreReserve(&w->result.store, w->nn * w->nn, (PetscReal **)&out->hessian));
+  PetscCall(Hessian_Private(ctx, facet, &plain, &none, y, (PetscReal *)out->hessian));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* Corners of the overlaps on both facets. */
 static PetscErrorCode Segments_Private(const EvaluateContext *ctx, PetscInt facet)
 {
@@ -375,6 +389,7 @@ static PetscErrorCode Facet_Private(const EvaluateContext *ctx, PetscInt slot, C
   RayWork        w     = pair->ray;
   const PetscInt facet = pair->listed[slot];
   PetscReal      y[RAY_LATTICE];
+  PetscInt       first, overlaps;
   PetscBool      derivatives, loaded = PETSC_FALSE;
   Weights        o;
 
@@ -387,13 +402,22 @@ static PetscErrorCode Facet_Private(const EvaluateContext *ctx, PetscInt slot, C
     for (PetscInt r = 0; r < w->result.num_rows && ctx->z; r++) y[a] += ctx->z[w->result.node[r]] * w->T[r * w->facet.s.num + a];
     if (y[a] != 0) loaded = PETSC_TRUE;
   }
-  derivatives = ContactResultDerivatives(ctx, &w->result, loaded);
+  derivatives = ContactResultDerivatives(ctx, w->result.num_rows, w->result.node, loaded);
   o.dual      = (PetscBool)(!pair->standard && w->facet.s.order == 1);
+  if (ctx->again && !pair->held && out->dgap && !o.dual && !out->spring && w->first_place[slot] >= 0) { /* nothing else is missing */
+    w->places = w->place + w->first_place[slot];
+    PetscCall(Curve_Private(ctx, facet, y, out));
+    *use = PETSC_TRUE;
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
+  first = w->num_places, overlaps = w->num_overlaps;
   PetscCall(ContactRayMoments(pair, ctx->mortar, o.dual, derivatives));
+  w->first_place[slot] = w->num_overlaps == overlaps ? first : -1;
+  w->places            = w->place + first;
   if (w->num_overlaps == 0) PetscFunctionReturn(PETSC_SUCCESS);
   for (PetscInt a = 0; a < w->facet.s.num; a++) o.gap[a] = w->q[a], o.reach[a] = w->reach[a];
   if (o.dual && !Dual_Private(w, y, &o)) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(Segments_Private(ctx, facet));
+  if (!ctx->again) PetscCall(Segments_Private(ctx, facet));
   PetscCall(Result_Private(ctx, facet, &o, y, derivatives, (PetscBool)(ctx->hessian && loaded && !pair->held), out));
   *use = PETSC_TRUE;
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -404,8 +428,12 @@ PetscErrorCode ContactRayEvaluate(const EvaluateContext *ctx, PetscBool *failed)
   RayWork w = ctx->pair->ray;
 
   PetscFunctionBegin;
-  ContactDirections(w, ctx->nonmortar);
-  Normals_Private(ctx->pair, ctx->nonmortar);
+  if (!ctx->again) {
+    ContactDirections(w, ctx->nonmortar);
+    Normals_Private(ctx->pair, ctx->nonmortar);
+    w->num_places = 0;
+    PetscCall(ContactGrow(ctx->pair->num_listed, sizeof(PetscInt), &w->size_first_place, &w->first_place));
+  }
   PetscCall(ContactResultsEvaluate(ctx, &w->result, Facet_Private, failed));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -9,6 +9,7 @@
    have Y_2 = 0; polygons are then strips over an interval.
 
    Numbers of a facet: D * node + component for the lattice nodes, the directions at the corners, the mortar nodes it meets; then m numbers for each image.
+   Those of one overlap stand component by component in each of the three groups, so that sums over functions run along memory.
    Vectors have three components everywhere; plane problems leave the third zero. Order-1 lattices list the corners 0 1 3 2 (plane: 0 1). */
 #pragma once
 #include "element.h"
@@ -17,19 +18,20 @@
 
 #define RAY_ORDER MORTISE_MAX_ORDER
 #define RAY_LATTICE ((RAY_ORDER + 1) * (RAY_ORDER + 1))
+#define RAY_ROOM (RAY_LATTICE + 12) /* values of a lattice's functions: loops of fixed length write beyond the last */
 #define RAY_MOMENTS (2 * RAY_LATTICE + 10)
 #define RAY_GRAZE 1e-3 /* cosine between the ray and the normal of a facet below which they do not meet */
 #define RAY_SOLVED 1e-9
 
 /* Functions of a lattice at a point of [-1, 1]^m: values and derivatives 1 2, 11 12 22, 111 112 122 222. */
 typedef struct {
-  PetscReal N[RAY_LATTICE], d[2][RAY_LATTICE], dd[3][RAY_LATTICE], ddd[4][RAY_LATTICE];
+  PetscReal N[RAY_ROOM], d[2][RAY_ROOM], dd[3][RAY_ROOM], ddd[4][RAY_ROOM];
 } RayFunctions;
 
 typedef struct {
   PetscInt  order, num;
-  PetscReal x[RAY_LATTICE][3];
-  PetscReal c[4][3]; /* bilinear: x = c_0 + c_1 xi_1 + c_2 xi_2 + c_3 xi_1 xi_2 */
+  PetscReal x[RAY_LATTICE][4]; /* the fourth, zero, fills a vector register */
+  PetscReal c[4][3];           /* bilinear: x = c_0 + c_1 xi_1 + c_2 xi_2 + c_3 xi_1 xi_2 */
 } RayLattice;
 
 typedef struct {
@@ -72,6 +74,11 @@ typedef struct {
   PetscReal     kappa[3], zeta[2][3];              /* ds = kappa . r, deta = zeta . r, r = variation of x + s d - x_m */
 } RayPoint;
 
+/* Where a ray starts and ends. */
+typedef struct {
+  PetscReal xi[2], eta[2];
+} RayPlace;
+
 /* Weights of gap density and area density at a point with derivatives by xi. */
 typedef struct {
   PetscReal v, d[2], dd[3];
@@ -98,6 +105,10 @@ struct _p_RayWork {
   Result     result;                                               /* vertices: lattice, then mortar nodes */
   PetscInt   size_image, size_overlap, size_mortar, size_window, size_vertex, size_test, size_dq, size_W, size_J, size_R, size_WJ, size_part, size_buffer;
   PetscInt   size_T, size_rows, size_softness;
+  /* where the rays of the integration points met, overlap after overlap: the Hessian is integrated there again */
+  PetscInt        num_places, size_places, *first_place, size_first_place; /* first_place[num_listed]: -1: some overlap was dropped */
+  RayPlace       *place;
+  const RayPlace *places; /* of the facet at hand */
 };
 
 /* raylattice.c */
@@ -108,7 +119,7 @@ void     ContactRayLatticeSum(const RayLattice *, const PetscReal f[], PetscReal
 PetscInt ContactRayLatticeNodes(const ContactSurface *, PetscInt facet, const PetscInt **nodes, PetscInt order1[4]);
 void     ContactRayLatticeGather(const ContactSurface *, PetscInt facet, RayLattice *);
 void     ContactRayLatticePolynomial(RayLattice *);
-void     ContactRayTestFunctions(const RayFacet *, const RayTest *, const RayFunctions *own, const PetscReal xi[2], RayFunctions *);
+void     ContactRayTestFunctions(const RayFacet *, const RayTest *, const PetscReal xi[2], RayFunctions *);
 
 /* direction.c */
 /* parent[num_nodes][2]: ends of the edge in whose middle a corner hangs, -1. */
@@ -143,6 +154,8 @@ PetscErrorCode ContactCover(ContactPair, const ContactSurface *nonmortar, const 
 
 /* raypoint.c. False: the ray misses. */
 PetscBool ContactRaySolve(const RayFacet *, const RayLattice *mortar, const PetscReal xi[2], int depth, RayPoint *);
+/* Where they are known to meet. */
+PetscBool ContactRayAgain(const RayFacet *, const RayLattice *mortar, const RayPlace *, int depth, RayPoint *);
 /* K^-1 from the ray and the tangents of the mortar facet. */
 PetscBool ContactRayInverse(RayPoint *);
 PetscReal ContactRayGap(const RayPoint *);
@@ -150,16 +163,26 @@ PetscReal ContactRayArea(const RayPoint *);
 void      ContactRayFirst(const RayFacet *, const RayLattice *mortar, const RayPoint *, PetscReal gap[], PetscReal area[], PetscReal gap_xi[2],
                           PetscReal area_xi[2]);
 
-/* to[D * a + c] += f_a v_c */
-static inline void ContactRayAdd(PetscInt D, PetscInt num, const PetscReal f[], const PetscReal v[3], PetscReal to[])
+/* to[c * num + a] = f_a v_c */
+static inline void ContactRaySet(PetscInt D, PetscInt num, const PetscReal f[restrict], const PetscReal v[3], PetscReal to[restrict])
 {
-  if (D == 3 && num == 4) { /* so often that loops of fixed length pay */
-    for (int a = 0; a < 4; a++)
-      for (int c = 0; c < 3; c++) to[3 * a + c] += f[a] * v[c];
-    return;
-  }
-  for (PetscInt a = 0; a < num; a++)
-    for (PetscInt c = 0; c < D; c++) to[D * a + c] += f[a] * v[c];
+  for (PetscInt c = 0; c < D; c++)
+    for (PetscInt a = 0; a < num; a++) to[c * num + a] = f[a] * v[c];
+}
+
+/* to[c * num + a] += f_a v_c */
+static inline void ContactRayAdd(PetscInt D, PetscInt num, const PetscReal f[restrict], const PetscReal v[3], PetscReal to[restrict])
+{
+  for (PetscInt c = 0; c < D; c++)
+    for (PetscInt a = 0; a < num; a++) to[c * num + a] += f[a] * v[c];
+}
+
+/* to[c * num + a] = f_a v_c + g1_a w1_c (+ g2_a w2_c, m = 2) */
+static inline void ContactRaySlopes(PetscInt D, PetscInt m, PetscInt num, const PetscReal f[restrict], const PetscReal v[3],
+                                    const PetscReal g[restrict][RAY_ROOM], const PetscReal w[2][3], PetscReal to[restrict])
+{
+  for (PetscInt c = 0; c < D; c++)
+    for (PetscInt a = 0; a < num; a++) to[c * num + a] = f[a] * v[c] + g[0][a] * w[0][c] + (m == 2 ? g[1][a] * w[1][c] : 0);
 }
 
 /* raybilinear.c: the same between bilinear facets. */
@@ -173,7 +196,8 @@ typedef struct {
   PetscReal *mixed[2]; /* rows by xi */
   PetscReal  xi[2], xixi[3];
   PetscReal *gradient;
-  PetscReal (*turn)[3], (*twist)[3]; /* d_v . (dx_a x turn[v][a]), twist[a][b] . (dx_a x dx_b): sums */
+  /* d_v . (dx_a x u[v][a]), u[v][a] += turn_left[v] turn_right[.][a];   u[a][b] . (dx_a x dx_b), u[a][b] += twist_left[a] twist_right[.][b] */
+  PetscReal *turn_left, *turn_right, *twist_left, *twist_right;
 } RaySecond;
 /* Products and pairs are multiplied with weight. */
 void ContactRaySecond(const RayFacet *, const RayLattice *mortar, const RayPoint *, const RayWeight *phi, const RayWeight *chi, PetscReal weight, RaySecond *);
@@ -199,9 +223,9 @@ void     ContactRaySplit(const RayFacet *, const Overlap *, Overlap *to);
 void     ContactRayMoves(const RayFacet *, const Overlap *, RayMove[]);
 PetscInt ContactRaySimplices(const RayFacet *, const Overlap *);
 void     ContactRaySimplex(const RayFacet *, const Overlap *, PetscInt k, RaySimplex *);
-/* First guesses at the corners of an overlap. */
+/* Where rays from the corners of an overlap meet the mortar facet; slope: deta_i / dxi_j. */
 typedef struct {
-  PetscReal xi[FACET_VERTICES][2], eta[FACET_VERTICES][2];
+  PetscReal xi[FACET_VERTICES][2], eta[FACET_VERTICES][2], slope[FACET_VERTICES][2][2];
 } RayGuess;
 void      ContactRayGuess(const RayFacet *, const RayLattice *mortar, const Overlap *, RayGuess *);
 PetscBool ContactRayPoint(const RayFacet *, const RayLattice *mortar, const Overlap *, const RayGuess *, const RaySimplex *, const PetscReal beta[3], int depth,
@@ -211,9 +235,9 @@ void      ContactRayPlaces(const RayWork, const ContactSurface *mortar, PetscInt
 /* raysum.c, raycurve.c: integrals over the overlaps of the facet at hand */
 void           ContactRayOverDet(const RayFacet *, const RayChartPoint *, PetscReal factor, const RayWeight *, RayWeight *);
 PetscErrorCode ContactRayMoments(ContactPair, const ContactSurface *mortar, PetscBool mass, PetscBool derivatives);
-/* W of the work space: half Hessian of sum_a y_a G_a + sum_ab D[a][b] int N_a N_b dA (D NULL: none) + area int dA; gradient[n] of it. */
-PetscErrorCode ContactRayHessian(ContactPair, const ContactSurface *mortar, const PetscReal y[], const PetscReal D[4][4], PetscReal area,
-                                 const PetscReal gradient[]);
+/* W of the work space: half Hessian of sum_a y_a G_a + sum_ab D[a][b] int N_a N_b dA (D NULL: none) + area int dA, at the facet's places; gradient[n] of it is
+   set. */
+PetscErrorCode ContactRayHessian(ContactPair, const ContactSurface *mortar, const PetscReal y[], const PetscReal D[4][4], PetscReal area, PetscReal gradient[]);
 
 /* spring.c: compliances of a facet that is covered in part, with two derivatives by the covered area. */
 typedef struct {

@@ -1,9 +1,9 @@
 /* Lagrange functions on Gauss-Lobatto lattices of [-1, 1]^m with derivatives up to the third, and the lattices of surfaces. */
 #include "rayimpl.h"
 
-#define NODES (RAY_ORDER + 1)
+#define NODES (RAY_ORDER + 4) /* rows of functions, filled up with zeros to whole vectors */
 
-static PetscReal Monomial[RAY_ORDER + 1][NODES][NODES]; /* [order][power][function]; good to 1e-13 up to order 8 */
+static PetscReal Monomial[RAY_ORDER + 1][RAY_ORDER + 1][NODES]; /* [order][power][function]; good to 1e-13 up to order 8 */
 
 PetscErrorCode ContactRayLatticePrepare(void)
 {
@@ -28,64 +28,70 @@ PetscErrorCode ContactRayLatticePrepare(void)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* v[0..3][order + 1]: values and derivatives. */
-static void Line_Private(PetscInt order, PetscReal x, PetscReal v[4][NODES])
+/* v[0..depth][order + 1]: values and derivatives, by Horner's rule. */
+static inline void Horner_Private(int width, PetscInt order, PetscReal x, int depth, PetscReal v[4][NODES])
+{
+  for (int k = 0; k <= depth; k++)
+    for (int a = 0; a < width; a++) v[k][a] = 0;
+  for (PetscInt power = order; power >= 0; power--) {
+    for (int k = depth; k > 0; k--)
+      for (int a = 0; a < width; a++) v[k][a] = v[k][a] * x + k * v[k - 1][a];
+    for (int a = 0; a < width; a++) v[0][a] = v[0][a] * x + Monomial[order][power][a];
+  }
+}
+
+static inline void Line_Private(int width, PetscInt order, PetscReal x, int depth, PetscReal v[4][NODES])
 {
   const PetscReal at = PetscMax(-1, PetscMin(1, x)), beyond = x - at;
 
-  if (order == 1) {
-    v[0][0] = 0.5 * (1 - x), v[0][1] = 0.5 * (1 + x);
-    v[1][0] = -0.5, v[1][1] = 0.5;
-    v[2][0] = v[2][1] = v[3][0] = v[3][1] = 0;
+  Horner_Private(width, order, at, depth, v);
+  if (beyond == 0) return;
+  for (PetscInt a = 0; a <= order; a++) v[0][a] += beyond * v[1][a];
+  for (int k = 2; k <= depth; k++)
+    for (int a = 0; a < width; a++) v[k][a] = 0;
+}
+
+/* to[j][i] = u_i w_j: rows follow one another, each overwrites what the last wrote beyond its end */
+static inline void Product_Private(int width, PetscInt order, const PetscReal u[], const PetscReal w[], PetscReal to[restrict])
+{
+  for (PetscInt j = 0; j <= order; j++)
+    for (int i = 0; i < width; i++) to[j * (order + 1) + i] = u[i] * w[j];
+}
+
+static inline void Functions_Private(int width, PetscInt m, PetscInt order, const PetscReal xi[2], int depth, RayFunctions *f)
+{
+  PetscReal u[4][NODES], w[4][NODES];
+
+  Line_Private(width, order, xi[0], depth, u);
+  if (m == 1) {
+    PetscReal *to[4] = {f->N, f->d[0], f->dd[0], f->ddd[0]};
+
+    for (int k = 0; k <= depth; k++)
+      for (int a = 0; a < width; a++) to[k][a] = u[k][a];
     return;
   }
-  for (int k = 0; k < 4; k++)
-    for (PetscInt a = 0; a <= order; a++) v[k][a] = 0;
-  for (PetscInt power = order; power >= 0; power--)
-    for (PetscInt a = 0; a <= order; a++) {
-      v[3][a] = v[3][a] * at + 3 * v[2][a];
-      v[2][a] = v[2][a] * at + 2 * v[1][a];
-      v[1][a] = v[1][a] * at + v[0][a];
-      v[0][a] = v[0][a] * at + Monomial[order][power][a];
-    }
-  if (beyond == 0) return;
-  for (PetscInt a = 0; a <= order; a++) {
-    v[0][a] += beyond * v[1][a];
-    v[2][a] = v[3][a] = 0;
-  }
+  Line_Private(width, order, xi[1], depth, w);
+  Product_Private(width, order, u[0], w[0], f->N);
+  for (int k = 0; k < 2; k++) Product_Private(width, order, u[1 - k], w[k], f->d[k]);
+  for (int k = 0; k < 3 && depth > 1; k++) Product_Private(width, order, u[2 - k], w[k], f->dd[k]);
+  for (int k = 0; k < 4 && depth > 2; k++) Product_Private(width, order, u[3 - k], w[k], f->ddd[k]);
 }
 
 void ContactRayFunctions(PetscInt m, PetscInt order, const PetscReal xi[2], int depth, RayFunctions *f)
 {
-  PetscReal u[4][NODES], w[4][NODES];
-  PetscInt  n = 0;
-
-  Line_Private(order, xi[0], u);
-  if (m == 1) {
-    for (PetscInt a = 0; a <= order; a++) {
-      f->N[a]    = u[0][a];
-      f->d[0][a] = u[1][a];
-      if (depth > 1) f->dd[0][a] = u[2][a];
-      if (depth > 2) f->ddd[0][a] = u[3][a];
-    }
-    return;
-  }
-  Line_Private(order, xi[1], w);
-  for (PetscInt j = 0; j <= order; j++)
-    for (PetscInt i = 0; i <= order; i++, n++) {
-      f->N[n]    = u[0][i] * w[0][j];
-      f->d[0][n] = u[1][i] * w[0][j];
-      f->d[1][n] = u[0][i] * w[1][j];
-      for (int k = 0; k < 3 && depth > 1; k++) f->dd[k][n] = u[2 - k][i] * w[k][j];
-      for (int k = 0; k < 4 && depth > 2; k++) f->ddd[k][n] = u[3 - k][i] * w[k][j];
-    }
+  if (order < 4)
+    Functions_Private(4, m, order, xi, depth, f);
+  else
+    Functions_Private(NODES, m, order, xi, depth, f);
 }
 
 void ContactRayLatticeSum(const RayLattice *l, const PetscReal f[], PetscReal v[3])
 {
-  v[0] = v[1] = v[2] = 0;
+  PetscReal sum[4] = {0, 0, 0, 0};
+
   for (PetscInt a = 0; a < l->num; a++)
-    for (int c = 0; c < 3; c++) v[c] += f[a] * l->x[a][c];
+    for (int c = 0; c < 4; c++) sum[c] += f[a] * l->x[a][c];
+  for (int c = 0; c < 3; c++) v[c] = sum[c];
 }
 
 /* Nodes of a facet on its lattice; order1: room for those of a facet without one. Returns the order. */
@@ -110,7 +116,7 @@ void ContactRayLatticeGather(const ContactSurface *s, PetscInt facet, RayLattice
   l->order = ContactRayLatticeNodes(s, facet, &node, order1);
   l->num   = ElementNumNodes(s->dim - 1, l->order);
   for (PetscInt a = 0; a < l->num; a++)
-    for (PetscInt c = 0; c < 3; c++) l->x[a][c] = c < s->dim ? s->x[s->dim * node[a] + c] : 0;
+    for (PetscInt c = 0; c < 4; c++) l->x[a][c] = c < s->dim ? s->x[s->dim * node[a] + c] : 0;
   if (l->num == 4 && l->order == 1) ContactRayLatticePolynomial(l);
 }
 
@@ -126,19 +132,11 @@ void ContactRayLatticePolynomial(RayLattice *l)
   }
 }
 
-/* The functions that weigh the gap, from those of the facet's lattice. */
-void ContactRayTestFunctions(const RayFacet *f, const RayTest *t, const RayFunctions *own, const PetscReal xi[2], RayFunctions *to)
+/* Hats of a cell of the facet's lattice. */
+void ContactRayTestFunctions(const RayFacet *f, const RayTest *t, const PetscReal xi[2], RayFunctions *to)
 {
   PetscReal at[2] = {0, 0}, scale[2] = {1, 1};
 
-  if (!t->hats) {
-    const size_t size = (size_t)f->s.num * sizeof(PetscReal);
-
-    memcpy(to->N, own->N, size);
-    for (PetscInt i = 0; i < f->m; i++) memcpy(to->d[i], own->d[i], size);
-    for (PetscInt i = 0; i < 2 * f->m - 1; i++) memcpy(to->dd[i], own->dd[i], size);
-    return;
-  }
   for (PetscInt i = 0; i < f->m; i++) {
     scale[i] = 2 / t->size[i];
     at[i]    = scale[i] * (xi[i] - t->lo[i]) - 1;

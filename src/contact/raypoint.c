@@ -51,7 +51,7 @@ PetscBool ContactRayInverse(RayPoint *r)
 /* Mortar facet at eta; K^-1. */
 static PetscBool Mortar_Private(const RayFacet *f, const RayLattice *mortar, int depth, RayPoint *r)
 {
-  ContactRayFunctions(f->m, mortar->order, r->eta, depth, &r->M);
+  ContactRayFunctions(f->m, mortar->order, r->eta, PetscMin(depth, 2), &r->M);
   ContactRayLatticeSum(mortar, r->M.N, r->X);
   r->Xi[1][0] = r->Xi[1][1] = 0, r->Xi[1][2] = 1;
   for (PetscInt i = 0; i < f->m; i++) ContactRayLatticeSum(mortar, r->M.d[i], r->Xi[i]);
@@ -59,7 +59,22 @@ static PetscBool Mortar_Private(const RayFacet *f, const RayLattice *mortar, int
   return ContactRayInverse(r);
 }
 
-/* From r->eta, r->s as a first guess. */
+/* e = x - x_m, and the length along the ray. Steps zeta . (e + s d) to where they meet do not depend on s: zeta . d = 0, kappa . d = -1. */
+static void Along_Private(RayPoint *r, PetscReal e[3])
+{
+  for (int c = 0; c < 3; c++) e[c] = r->p[c] - r->X[c];
+  r->s = Dot3(r->kappa, e);
+}
+
+/* Does the mortar facet reach as far as where the ray met it? */
+static PetscBool Inside_Private(const RayFacet *f, const RayPoint *r)
+{
+  for (PetscInt i = 0; i < f->m; i++)
+    if (!(PetscAbsReal(r->eta[i]) < FACET_OUTSIDE)) return PETSC_FALSE;
+  return PETSC_TRUE;
+}
+
+/* From r->eta as a first guess. */
 PetscBool ContactRaySolve(const RayFacet *f, const RayLattice *mortar, const PetscReal xi[2], int depth, RayPoint *r)
 {
   PetscReal step = 1;
@@ -68,11 +83,12 @@ PetscBool ContactRaySolve(const RayFacet *f, const RayLattice *mortar, const Pet
   r->xi[0] = xi[0], r->xi[1] = xi[1];
   Facet_Private(f, depth, r);
   for (int k = 0; k < 20; k++) {
-    PetscReal e[3];
+    const PetscBool last = (PetscBool)(step < RAY_SOLVED); /* the last step left a square of that */
+    PetscReal       e[3];
 
-    if (!Mortar_Private(f, mortar, 2, r)) return PETSC_FALSE;
-    if (step < RAY_SOLVED) break; /* the last step left a square of that */
-    for (int c = 0; c < 3; c++) e[c] = r->p[c] + r->s * r->d[c] - r->X[c];
+    if (!Mortar_Private(f, mortar, last ? depth : 1, r)) return PETSC_FALSE;
+    Along_Private(r, e);
+    if (last) return Inside_Private(f, r);
     step = 0;
     for (PetscInt i = 0; i < f->m; i++) {
       const PetscReal move = Dot3(r->zeta[i], e);
@@ -80,12 +96,21 @@ PetscBool ContactRaySolve(const RayFacet *f, const RayLattice *mortar, const Pet
       r->eta[i] += move;
       step = PetscMax(step, PetscAbsReal(move));
     }
-    r->s += Dot3(r->kappa, e);
     if (!(step < 10)) return PETSC_FALSE;
   }
-  if (!(step < RAY_SOLVED)) return PETSC_FALSE;
-  for (PetscInt i = 0; i < f->m; i++)
-    if (!(PetscAbsReal(r->eta[i]) < FACET_OUTSIDE)) return PETSC_FALSE;
+  return PETSC_FALSE;
+}
+
+PetscBool ContactRayAgain(const RayFacet *f, const RayLattice *mortar, const RayPlace *place, int depth, RayPoint *r)
+{
+  PetscReal e[3];
+
+  for (int i = 0; i < 2; i++) r->eta[i] = place->eta[i];
+  if (f->m == 2 && f->s.order == 1 && mortar->order == 1) return ContactRayBilinear(f, mortar, place->xi, depth, r);
+  for (int i = 0; i < 2; i++) r->xi[i] = place->xi[i];
+  Facet_Private(f, depth, r);
+  if (!Mortar_Private(f, mortar, depth, r)) return PETSC_FALSE;
+  Along_Private(r, e);
   return PETSC_TRUE;
 }
 
@@ -116,16 +141,10 @@ void ContactRayFirst(const RayFacet *f, const RayLattice *mortar, const RayPoint
     E[c] = -br * r->kappa[c];
     for (int k = 0; k < 2; k++) B[k][c] *= sr, Ba[k][c] *= r->rho;
   }
-  for (PetscInt i = 0; i < D * (na + f->nv + mortar->num); i++) gap[i] = 0;
-  for (PetscInt i = 0; i < D * na; i++) area[i] = 0;
-  ContactRayAdd(D, na, r->S.N, A, gap);
-  if (r->turn != 0) ContactRayAdd(D, na, r->S.N, Aa, area);
-  for (PetscInt k = 0; k < f->m; k++) {
-    ContactRayAdd(D, na, r->S.d[k], B[k], gap);
-    ContactRayAdd(D, na, r->S.d[k], Ba[k], area);
-  }
-  ContactRayAdd(D, f->nv, r->V.N, C, gap + D * na);
-  ContactRayAdd(D, mortar->num, r->M.N, E, gap + D * (na + f->nv));
+  ContactRaySlopes(D, f->m, na, r->S.N, A, r->S.d, B, gap);
+  ContactRaySet(D, f->nv, r->V.N, C, gap + D * na);
+  ContactRaySet(D, mortar->num, r->M.N, E, gap + D * (na + f->nv));
+  ContactRaySlopes(D, f->m, na, r->S.N, Aa, r->S.d, Ba, area);
   for (PetscInt i = 0; i < f->m; i++) {
     gap_xi[i]  = Dot3(A, r->t[i]) + Dot3(C, r->di[i]);
     area_xi[i] = Dot3(Aa, r->t[i]);

@@ -20,24 +20,11 @@ typedef struct {
   PetscInt D, na, nv, nb, n;
 } Layout;
 
-/* row += v . r */
-static void Residual_Private(const Layout *l, const RayPoint *r, const PetscReal v[3], PetscReal row[])
+/* w: dn . h = T_1 . w_1 + T_2 . w_2 */
+static inline void Normal_Private(const RayPoint *r, const PetscReal h[3], PetscReal w[2][3])
 {
-  const PetscReal sv[3] = {r->s * v[0], r->s * v[1], r->s * v[2]}, mv[3] = {-v[0], -v[1], -v[2]};
-
-  ContactRayAdd(l->D, l->na, r->S.N, v, row);
-  ContactRayAdd(l->D, l->nv, r->V.N, sv, row + l->D * l->na);
-  ContactRayAdd(l->D, l->nb, r->M.N, mv, row + l->D * (l->na + l->nv));
-}
-
-/* row += T_1 . (t_2 x h) + T_2 . (h x t_1) = h . dn */
-static void Normal_Private(const Layout *l, PetscInt m, const RayPoint *r, const PetscReal h[3], PetscReal row[])
-{
-  PetscReal v[2][3];
-
-  Cross3(r->t[1], h, v[0]);
-  Cross3(h, r->t[0], v[1]);
-  for (PetscInt k = 0; k < m; k++) ContactRayAdd(l->D, l->na, r->S.d[k], v[k], row);
+  Cross3(r->t[1], h, w[0]);
+  Cross3(h, r->t[0], w[1]);
 }
 
 static inline void Scale_Private(PetscReal a, const PetscReal x[3], PetscReal y[3])
@@ -63,48 +50,41 @@ static void Products_Private(const RayFacet *f, const Layout *l, const RayPoint 
       for (PetscInt c = 0; c < D; c++) Axpy3_Private(x * r->zeta[i][c], r->zeta[j], Q[c]);
     }
   Scale_Private(phi * r->rho, r->d, v);
-  Cross3(r->t[1], v, w[0]);
-  Cross3(v, r->t[0], w[1]);
+  Normal_Private(r, v, w);
   for (PetscInt c = 0; c < D; c++) {
-    PetscReal *row = o->right[c];
+    PetscReal *own = o->right[c], *across = own + D * l->na, *mortar = across + D * l->nv, slope[2][3];
 
-    for (PetscInt i = 0; i < l->n; i++) row[i] = 0;
     Scale_Private(1, Q[c], h);
     h[0] += r->kappa[c] * phi * r->beta * r->turn;
-    ContactRayAdd(D, l->na, r->S.N, h, row);
-    for (PetscInt k = 0; k < f->m; k++) {
-      Scale_Private(r->kappa[c], w[k], h);
-      ContactRayAdd(D, l->na, r->S.d[k], h, row);
-    }
+    for (int k = 0; k < 2; k++) Scale_Private(r->kappa[c], w[k], slope[k]);
+    ContactRaySlopes(D, f->m, l->na, r->S.N, h, r->S.d, slope, own);
     for (int e = 0; e < 3; e++) h[e] = r->s * Q[c][e] + r->kappa[c] * (br * r->kappa[e] + phi * r->rho * r->n[e]);
-    ContactRayAdd(D, l->nv, r->V.N, h, row + D * l->na);
+    ContactRaySet(D, l->nv, r->V.N, h, across);
     Scale_Private(-1, Q[c], h);
-    ContactRayAdd(D, l->nb, r->M.N, h, row + D * (l->na + l->nv));
-    for (PetscInt i = 0; i < f->m; i++) {
-      Scale_Private(-br * r->zeta[i][c], r->kappa, h);
-      ContactRayAdd(D, l->nb, r->M.d[i], h, row + D * (l->na + l->nv));
-    }
+    for (int k = 0; k < 2; k++) Scale_Private(-br * r->zeta[k][c], r->kappa, slope[k]);
+    ContactRaySlopes(D, f->m, l->nb, r->M.N, h, r->M.d, slope, mortar);
   }
 }
 
 /* Products of numbers of the facet and its directions: drho, and dn along the facet. */
 static void Own_Private(const RayFacet *f, const Layout *l, const RayPoint *r, PetscReal phi, PetscReal chi, PetscReal weight, RaySecond *o)
 {
-  const PetscInt D = l->D, own = D * (l->na + l->nv);
-  PetscReal      v[3], e[2][3];
+  static const PetscReal none[3] = {0, 0, 0};
+  const PetscInt         D = l->D, own = D * (l->na + l->nv);
+  PetscReal              v[3], e[2][3], w[2][3];
 
   o->num_own = 0;
   if (r->turn != 0) {
     PetscReal *left = o->own_left[o->num_own], *right = o->own_right[o->num_own];
 
     o->num_own++;
-    for (PetscInt i = 0; i < D * l->na; i++) left[i] = 0;
-    for (PetscInt i = 0; i < own; i++) right[i] = 0;
-    for (PetscInt a = 0; a < l->na; a++) left[D * a] = weight * r->turn * r->S.N[a];
+    v[0] = weight * r->turn, v[1] = v[2] = 0;
+    ContactRaySet(D, l->na, r->S.N, v, left);
     for (int c = 0; c < 3; c++) v[c] = phi * r->s * r->d[c] + chi * r->unit[c];
-    Normal_Private(l, f->m, r, v, right);
+    Normal_Private(r, v, w);
+    ContactRaySlopes(D, f->m, l->na, r->S.N, none, r->S.d, w, right);
     Scale_Private(phi * r->s, r->n, v);
-    ContactRayAdd(D, l->nv, r->V.N, v, right + D * l->na);
+    ContactRaySet(D, l->nv, r->V.N, v, right + D * l->na);
   }
   if (chi == 0) return;
   Scale_Private(1 / PetscSqrtReal(Dot3(r->t[0], r->t[0])), r->t[0], e[0]);
@@ -113,9 +93,9 @@ static void Own_Private(const RayFacet *f, const Layout *l, const RayPoint *r, P
     PetscReal *left = o->own_left[o->num_own], *right = o->own_right[o->num_own];
 
     o->num_own++;
-    for (PetscInt i = 0; i < D * l->na; i++) left[i] = 0;
     for (PetscInt i = D * l->na; i < own; i++) right[i] = 0;
-    Normal_Private(l, f->m, r, e[k], left);
+    Normal_Private(r, e[k], w);
+    ContactRaySlopes(D, f->m, l->na, r->S.N, none, r->S.d, w, left);
     for (PetscInt i = 0; i < D * l->na; i++) right[i] = 0.5 * weight * chi * r->rho / r->a * left[i];
   }
 }
@@ -124,17 +104,19 @@ static void Own_Private(const RayFacet *f, const Layout *l, const RayPoint *r, P
 static void Pairs_Private(const RayFacet *f, const Layout *l, const RayPoint *r, PetscReal phi, PetscReal chi, PetscReal weight, RaySecond *o)
 {
   const PetscReal factor = weight * phi * r->s * r->rho;
-  PetscReal       k[3];
+  PetscReal       k[3], u[2][3];
 
-  for (int c = 0; c < 3; c++) k[c] = weight * r->rho * (phi * r->s * r->d[c] + chi * r->unit[c]);
-  for (PetscInt a = 0; a < l->na; a++) {
-    const PetscReal d1 = r->S.d[0][a], d2 = f->m == 2 ? r->S.d[1][a] : 0;
-    PetscReal       u[3];
-
-    for (int c = 0; c < 3; c++) u[c] = factor * (d1 * r->t[1][c] - d2 * r->t[0][c]);
-    for (PetscInt v = 0; v < l->nv; v++) Axpy3_Private(r->V.N[v], u, o->turn[v * l->na + a]);
-    for (PetscInt b = 0; b < l->na && f->m == 2; b++) Axpy3_Private(d1 * r->S.d[1][b], k, o->twist[a * l->na + b]);
+  for (int c = 0; c < 3; c++) {
+    k[c]    = weight * r->rho * (phi * r->s * r->d[c] + chi * r->unit[c]);
+    u[0][c] = factor * r->t[1][c];
+    u[1][c] = -factor * r->t[0][c];
   }
+  for (PetscInt v = 0; v < l->nv; v++) o->turn_left[v] = r->V.N[v];
+  ContactRaySet(3, l->na, r->S.d[0], u[0], o->turn_right);
+  if (f->m == 1) return;
+  ContactRayAdd(3, l->na, r->S.d[1], u[1], o->turn_right);
+  for (PetscInt a = 0; a < l->na; a++) o->twist_left[a] = r->S.d[0][a];
+  ContactRaySet(3, l->na, r->S.d[1], k, o->twist_right);
 }
 
 void ContactRaySecond(const RayFacet *f, const RayLattice *mortar, const RayPoint *r, const RayWeight *phi, const RayWeight *chi, PetscReal weight,
@@ -159,11 +141,9 @@ void ContactRaySecond(const RayFacet *f, const RayLattice *mortar, const RayPoin
   }
   Cross3(r->t[1], k, B[0]);
   Cross3(k, r->t[0], B[1]);
-  for (PetscInt i = 0; i < l.n; i++) o->gradient[i] = 0;
-  ContactRayAdd(D, na, r->S.N, A, o->gradient);
-  for (PetscInt j = 0; j < m; j++) ContactRayAdd(D, na, r->S.d[j], B[j], o->gradient);
-  ContactRayAdd(D, f->nv, r->V.N, C, o->gradient + D * na);
-  ContactRayAdd(D, mortar->num, r->M.N, E, o->gradient + D * (na + f->nv));
+  ContactRaySlopes(D, m, na, r->S.N, A, r->S.d, B, o->gradient);
+  ContactRaySet(D, f->nv, r->V.N, C, o->gradient + D * na);
+  ContactRaySet(D, mortar->num, r->M.N, E, o->gradient + D * (na + f->nv));
   for (PetscInt i = 0; i < m; i++) { /* how everything changes along the facet */
     PetscReal along[3];
 
@@ -179,18 +159,15 @@ void ContactRaySecond(const RayFacet *f, const RayLattice *mortar, const RayPoin
   }
   for (PetscInt i = 0; i < m; i++) {
     const PetscReal b   = phi->v * (r->rho * sigma[i] + r->s * rhoi[i]);
-    PetscReal      *row = o->mixed[i], u[3] = {0, 0, 0}, h[3], v[3], w[2][3] = {{0}};
+    PetscReal      *row = o->mixed[i], u[3] = {0, 0, 0}, h[3], v[3], w[2][3] = {{0}}, n[2][3];
 
-    for (PetscInt j = 0; j < l.n; j++) row[j] = 0;
     /* r: from ds, deta */
     Axpy3_Private(phi->v * (br * Dot3(r->kappa, r->di[i]) + r->rho * betai[i] + r->beta * rhoi[i]), r->kappa, u);
     for (PetscInt j = 0; j < m; j++)
       for (PetscInt q = 0; q < m; q++) Axpy3_Private(-phi->v * br * Dot3(r->kappa, r->Xij[j + q]) * etai[j][i], r->zeta[q], u);
-    Residual_Private(&l, r, u, row);
     /* P */
-    for (int c = 0; c < 3; c++) v[c] = phi->d[i] * Ag[c] + chi->d[i] * Aa[c];
+    for (int c = 0; c < 3; c++) v[c] = u[c] + phi->d[i] * Ag[c] + chi->d[i] * Aa[c];
     v[0] += (phi->v * (r->beta * sigma[i] + r->s * betai[i]) + chi->v * ai[i]) * r->turn;
-    ContactRayAdd(D, na, r->S.N, v, row);
     /* T_k */
     for (int c = 0; c < 3; c++) {
       const PetscReal across = ni[i][c] - ai[i] * r->unit[c];
@@ -198,25 +175,21 @@ void ContactRaySecond(const RayFacet *f, const RayLattice *mortar, const RayPoin
       h[c] = phi->v * sr * r->di[i][c] + chi->v * r->rho * across / r->a + chi->v * rhoi[i] * r->unit[c] + b * r->d[c] + phi->d[i] * sr * r->d[c] +
              chi->d[i] * r->rho * r->unit[c];
     }
-    Normal_Private(&l, m, r, h, row);
+    Normal_Private(r, h, n);
     if (m == 2) AddCross_Private(r->tt[i + 1], k, w[0]);
     AddCross_Private(k, r->tt[i], w[1]);
     Axpy3_Private(1, A, w[i]);
-    for (PetscInt j = 0; j < m; j++) {
-      ContactRayAdd(D, na, r->S.d[j], w[j], row);
-      ContactRayAdd(D, na, r->S.dd[i + j], B[j], row);
-    }
+    for (PetscInt j = 0; j < m; j++) Axpy3_Private(1, n[j], w[j]);
+    ContactRaySlopes(D, m, na, r->S.N, v, r->S.d, w, row);
+    for (PetscInt j = 0; j < m; j++) ContactRayAdd(D, na, r->S.dd[i + j], B[j], row);
     /* V */
-    for (int c = 0; c < 3; c++) v[c] = phi->d[i] * Cg[c] + phi->v * (br * sigma[i] * r->kappa[c] + sr * ni[i][c]) + b * r->n[c];
-    ContactRayAdd(D, f->nv, r->V.N, v, row + D * na);
+    for (int c = 0; c < 3; c++) v[c] = r->s * u[c] + phi->d[i] * Cg[c] + phi->v * (br * sigma[i] * r->kappa[c] + sr * ni[i][c]) + b * r->n[c];
+    ContactRaySet(D, f->nv, r->V.N, v, row + D * na);
     ContactRayAdd(D, f->nv, r->V.d[i], C, row + D * na);
     /* M */
-    Scale_Private(-phi->d[i] * br, r->kappa, v);
-    ContactRayAdd(D, mortar->num, r->M.N, v, row + D * (na + f->nv));
-    for (PetscInt j = 0; j < m; j++) {
-      Scale_Private(etai[j][i], E, v);
-      ContactRayAdd(D, mortar->num, r->M.d[j], v, row + D * (na + f->nv));
-    }
+    for (int c = 0; c < 3; c++) v[c] = -u[c] - phi->d[i] * br * r->kappa[c];
+    for (PetscInt j = 0; j < m; j++) Scale_Private(etai[j][i], E, w[j]);
+    ContactRaySlopes(D, m, mortar->num, r->M.N, v, r->M.d, w, row + D * (na + f->nv));
     o->xi[i] = phi->v * gi[i] + phi->d[i] * gap + chi->v * (ai[i] * r->rho + r->a * rhoi[i]) + chi->d[i] * area;
   }
   for (PetscInt i = 0; i < m; i++)

@@ -28,18 +28,16 @@ void ContactRayProducts(PetscInt num, PetscReal factor, PetscInt nl, const Petsc
 
 /* ---- quadrature ---------------------------------------------------------------------------------------------------------------------- */
 
-/* Barycentric points and weights: Gauss points on intervals; on triangles the rule of degree 10 between facets of order 1, else a conical product. */
+/* Barycentric points and weights. What is integrated between parallelograms is a polynomial of degree 2 order_s + 2 order_m at most; two degrees more, at
+   least, are for others. Gauss points on intervals; on triangles symmetric rules (rule.c), beyond them conical products. */
 PetscErrorCode ContactRayRule(PetscInt m, PetscInt order_s, PetscInt order_m, PetscInt *num, const PetscReal (**point)[3], const PetscReal **weight)
 {
   static PetscReal P[2][2 * RAY_ORDER + 1][MOST_POINTS][3], Q[2][2 * RAY_ORDER + 1][MOST_POINTS];
-  const PetscInt   sum = order_s + order_m, n = PetscMin(sum + 3, RAY_ORDER + 4);
+  const PetscInt   sum = order_s + order_m, n = PetscMin(m == 1 ? sum + 3 : sum + 2, RAY_ORDER + 4);
   const Basis1D   *gauss;
 
   PetscFunctionBegin;
-  if (m == 2 && sum == 2) {
-    *num = CONTACT_RULE, *point = ContactRulePoint, *weight = ContactRuleWeight;
-    PetscFunctionReturn(PETSC_SUCCESS);
-  }
+  if (m == 2 && ContactRuleGet(2 * sum + 2, num, point, weight)) PetscFunctionReturn(PETSC_SUCCESS);
   *num    = m == 1 ? n : n * n;
   *point  = (const PetscReal(*)[3])P[m - 1][sum];
   *weight = Q[m - 1][sum];
@@ -175,16 +173,25 @@ void ContactRayGuess(const RayFacet *f, const RayLattice *mortar, const Overlap 
 {
   RayPoint r;
 
-  r.eta[0] = r.eta[1] = r.s = 0;
+  r.eta[0] = r.eta[1] = 0;
   for (PetscInt v = 0; v < (f->m == 1 ? 2 : o->num); v++) {
     PetscReal xi[2] = {0, 0};
 
     if (!ContactChartLocate(f, o->v[v], xi)) xi[0] = xi[1] = 0;
-    if (!ContactRaySolve(f, mortar, xi, 1, &r)) r.eta[0] = r.eta[1] = r.s = 0;
+    const PetscBool met = ContactRaySolve(f, mortar, xi, 1, &r);
+
+    if (!met) r.eta[0] = r.eta[1] = 0;
+    for (PetscInt j = 0; j < f->m; j++) {
+      PetscReal along[3];
+
+      for (int c = 0; c < 3; c++) along[c] = r.t[j][c] + r.s * r.di[j][c];
+      for (PetscInt i = 0; i < f->m; i++) g->slope[v][i][j] = met ? Dot3(r.zeta[i], along) : 0;
+    }
     for (int i = 0; i < 2; i++) g->xi[v][i] = xi[i], g->eta[v][i] = r.eta[i];
   }
 }
 
+/* First guesses: xi linear between the corners, eta the quadratic polynomial that its values and slopes there suggest. */
 PetscBool ContactRayPoint(const RayFacet *f, const RayLattice *mortar, const Overlap *o, const RayGuess *g, const RaySimplex *s, const PetscReal beta[3],
                           int depth, RayPoint *r)
 {
@@ -197,13 +204,23 @@ PetscBool ContactRayPoint(const RayFacet *f, const RayLattice *mortar, const Ove
     for (PetscInt i = 0; i < f->m; i++) {
       Y[i] += beta[k] * o->v[at][i];
       xi[i] += beta[k] * g->xi[at][i];
-      r->eta[i] += beta[k] * g->eta[at][i];
     }
   }
-  return (PetscBool)(ContactChartLocate(f, Y, xi) && ContactRaySolve(f, mortar, xi, depth, r));
+  if (!ContactChartLocate(f, Y, xi)) return PETSC_FALSE;
+  for (PetscInt k = 0; k <= f->m; k++) {
+    const PetscInt at = s->corner[k];
+
+    for (PetscInt i = 0; i < f->m; i++) {
+      PetscReal eta = g->eta[at][i];
+
+      for (PetscInt j = 0; j < f->m; j++) eta += 0.5 * g->slope[at][i][j] * (xi[j] - g->xi[at][j]);
+      r->eta[i] += beta[k] * eta;
+    }
+  }
+  return ContactRaySolve(f, mortar, xi, depth, r);
 }
 
-/* Places of an overlap's numbers among the facet's: D for each node, m for each image. */
+/* Places of an overlap's numbers among the facet's: of its three groups of nodes, component by component, then m for each image. */
 void ContactRayPlaces(const RayWork w, const ContactSurface *mortar, PetscInt facet, PetscInt nb, PetscInt place[])
 {
   const RayFacet *f = &w->facet;
@@ -211,11 +228,14 @@ void ContactRayPlaces(const RayWork w, const ContactSurface *mortar, PetscInt fa
   PetscInt        order1[4], at;
   const PetscInt *node;
 
-  for (PetscInt i = 0; i < D * own; i++) place[i] = i;
+  for (PetscInt c = 0; c < D; c++) {
+    for (PetscInt a = 0; a < f->s.num; a++) place[c * f->s.num + a] = D * a + c;
+    for (PetscInt v = 0; v < f->nv; v++) place[D * f->s.num + c * f->nv + v] = D * (f->s.num + v) + c;
+  }
   ContactRayLatticeNodes(mortar, facet, &node, order1);
   for (PetscInt b = 0; b < nb; b++) {
     for (at = 0; at < w->num_mortar && w->vertex[at] != node[b]; at++) continue;
-    for (PetscInt c = 0; c < D; c++) place[D * (own + b) + c] = D * (own + at) + c;
+    for (PetscInt c = 0; c < D; c++) place[D * own + c * nb + b] = D * (own + at) + c;
   }
   for (PetscInt k = 0; k < f->nv; k++) {
     for (at = 0; at < w->num_images && w->image[at].node != mortar->facets[f->nv * facet + f->nv - 1 - k]; at++) continue;

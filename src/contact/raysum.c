@@ -48,25 +48,22 @@ static void Factors_Private(const RayFacet *f, const RayTest *t, const RayFuncti
 
 /* Sums over one simplex. */
 typedef struct {
-  PetscInt   num, nq;                                                       /* moments, numbers */
-  PetscReal *weight, *gap, *area;                                           /* [points][num], [points][nq], [points][nq] */
-  PetscReal  mean[RAY_MOMENTS], corner[6][RAY_MOMENTS], reach[RAY_LATTICE]; /* corner: derivatives by the simplex's corners */
+  PetscInt   num, nq, na;                 /* moments, numbers, numbers of the lattice */
+  PetscReal *weight, *gap, *area, *along; /* [points][num], [points][nq], [points][na], [points][m][num] */
+  PetscReal *corner;                      /* [m + 1][m][num] derivatives by the simplex's corners */
+  PetscReal  mean[RAY_MOMENTS], reach[RAY_LATTICE];
 } Batch;
 
-/* corner += beta times derivatives by Y of functions [from, to) over det times the density g. */
-static void Corner_Private(const RayFacet *f, const RayChartPoint *chart, const Factors *w, PetscInt from, PetscInt to, PetscReal over, PetscReal g,
-                           const PetscReal g_xi[2], const PetscReal beta[3], Batch *b)
+/* along[m][num]: derivatives by Y of functions [from, to) over det times the density g. */
+static void Along_Private(const RayFacet *f, const RayChartPoint *chart, const Factors *w, PetscInt from, PetscInt to, PetscReal over, PetscReal g,
+                          const PetscReal g_xi[2], PetscInt num, PetscReal along[])
 {
   for (PetscInt c = 0; c < f->m; c++) {
-    PetscReal along = 0;
+    const PetscReal *d = w->d[c], y = over * g;
+    PetscReal        x = 0;
 
-    for (PetscInt i = 0; i < f->m; i++) along += chart->inverse[i][c] * over * (g_xi[i] - g * chart->ddet[i] / chart->det);
-    for (PetscInt j = 0; j <= f->m; j++) {
-      const PetscReal x = beta[j] * along, y = beta[j] * over * g, *d = w->d[c];
-      PetscReal      *corner = b->corner[f->m * j + c];
-
-      for (PetscInt q = from; q < to; q++) corner[q] += x * w->v[q] + y * d[q];
-    }
+    for (PetscInt i = 0; i < f->m; i++) x += chart->inverse[i][c] * over * (g_xi[i] - g * chart->ddet[i] / chart->det);
+    for (PetscInt q = from; q < to; q++) along[c * num + q] = x * w->v[q] + y * d[q];
   }
 }
 
@@ -74,7 +71,8 @@ static PetscBool Batch_Private(RayWork w, const RayLattice *mortar, const Overla
                                PetscInt points, const PetscReal point[][3], const PetscReal weight[], PetscBool mass, PetscBool derivatives, RayPoint *r,
                                Batch *b)
 {
-  const RayFacet *f = &w->facet;
+  const RayFacet *f     = &w->facet;
+  RayPlace       *place = w->place + w->num_places;
   RayFunctions    T;
   Factors         factor;
 
@@ -83,10 +81,11 @@ static PetscBool Batch_Private(RayWork w, const RayLattice *mortar, const Overla
     PetscReal gap_xi[2], area_xi[2], gap, area, over, unit;
 
     if (!ContactRayPoint(f, mortar, o, guess, s, point[k], derivatives ? 2 : 1, r)) return PETSC_FALSE;
+    for (int i = 0; i < 2; i++) place[k].xi[i] = r->xi[i], place[k].eta[i] = r->eta[i];
     gap = ContactRayGap(r), area = ContactRayArea(r), over = weight[k] / r->chart.det;
     w->min_gap = PetscMin(w->min_gap, r->s * r->beta / r->a);
     w->covered += s->size * area * over;
-    if (t->hats) ContactRayTestFunctions(f, t, &r->S, r->xi, &T);
+    if (t->hats) ContactRayTestFunctions(f, t, r->xi, &T);
     Factors_Private(f, t, t->hats ? &T : &r->S, &r->chart, mass, derivatives, &factor);
     unit = s->size * over * r->beta * r->rho / PetscSqrtReal(Dot3(r->d, r->d));
     for (PetscInt q = 0; q < t->num; q++) {
@@ -96,10 +95,11 @@ static PetscBool Batch_Private(RayWork w, const RayLattice *mortar, const Overla
     for (PetscInt q = t->num; q < b->num; q++) b->mean[q] += factor.v[q] * over * area;
     if (!derivatives) continue;
     for (PetscInt q = 0; q < b->num; q++) b->weight[k * b->num + q] = factor.v[q] * over;
-    ContactRayFirst(f, mortar, r, b->gap + k * b->nq, b->area + k * b->nq, gap_xi, area_xi);
-    Corner_Private(f, &r->chart, &factor, 0, t->num, over, gap, gap_xi, point[k], b);
-    Corner_Private(f, &r->chart, &factor, t->num, b->num, over, area, area_xi, point[k], b);
+    ContactRayFirst(f, mortar, r, b->gap + k * b->nq, b->area + k * b->na, gap_xi, area_xi);
+    Along_Private(f, &r->chart, &factor, 0, t->num, over, gap, gap_xi, b->num, b->along + k * f->m * b->num);
+    Along_Private(f, &r->chart, &factor, t->num, b->num, over, area, area_xi, b->num, b->along + k * f->m * b->num);
   }
+  w->num_places += points;
   return PETSC_TRUE;
 }
 
@@ -112,20 +112,24 @@ static PetscErrorCode Overlap_Private(RayWork w, const RayLattice *mortar, Petsc
   const Overlap  *o = &split;
   const RayTest  *t = &w->test[w->window[k]];
   const PetscInt  D = f->D, nq = D * (f->s.num + f->nv + mortar->num), width = nq + RAY_IMAGES, num = 2 * t->num + (mass ? t->num * (t->num + 1) / 2 : 0);
+  const PetscInt  m = f->m;
   RayMove         move[FACET_VERTICES];
   RayGuess        guess;
   Batch           b;
   RayPoint        r;
-  PetscInt        points;
+  PetscInt        points, simplices;
   const PetscReal(*point)[3], *weight;
 
   PetscFunctionBegin;
   ContactRaySplit(f, &w->overlap[k], &split);
-  *good = PETSC_TRUE;
-  b.num = num, b.nq = nq;
-  PetscCall(ContactRayRule(f->m, f->s.order, mortar->order, &points, &point, &weight));
-  PetscCall(ContactGrow(points * (num + 2 * nq), sizeof(PetscReal), &w->size_buffer, &w->buffer));
-  b.weight = w->buffer, b.gap = b.weight + points * num, b.area = b.gap + points * nq;
+  simplices = ContactRaySimplices(f, o);
+  *good     = PETSC_TRUE;
+  b.num = num, b.nq = nq, b.na = D * f->s.num;
+  PetscCall(ContactRayRule(m, f->s.order, mortar->order, &points, &point, &weight));
+  PetscCall(ContactGrow(points * (num + nq + b.na + m * num) + m * (m + 1) * num, sizeof(PetscReal), &w->size_buffer, &w->buffer));
+  PetscCall(ContactGrow(w->num_places + simplices * points, sizeof(RayPlace), &w->size_places, &w->place));
+  b.weight = w->buffer, b.gap = b.weight + points * num, b.area = b.gap + points * nq, b.along = b.area + points * b.na;
+  b.corner = b.along + points * m * num;
   for (PetscInt i = 0; i < num; i++) q[i] = 0;
   for (PetscInt i = 0; i < t->num; i++) b.reach[i] = 0;
   if (derivatives) {
@@ -133,24 +137,24 @@ static PetscErrorCode Overlap_Private(RayWork w, const RayLattice *mortar, Petsc
     ContactRayMoves(f, o, move);
   }
   ContactRayGuess(f, mortar, o, &guess);
-  r.s = 0;
-  for (PetscInt j = 0; j < ContactRaySimplices(f, o); j++) {
+  for (PetscInt j = 0; j < simplices; j++) {
     RaySimplex s;
 
     ContactRaySimplex(f, o, j, &s);
-    for (PetscInt c = 0; c < 6; c++) memset(b.corner[c], 0, (size_t)num * sizeof(PetscReal));
     *good = Batch_Private(w, mortar, o, t, &guess, &s, points, point, weight, mass, derivatives, &r, &b);
     if (!*good) PetscFunctionReturn(PETSC_SUCCESS);
     for (PetscInt i = 0; i < num; i++) q[i] += s.size * b.mean[i];
     if (!derivatives) continue;
     ContactRayProducts(points, s.size, t->num, b.weight, num, nq, b.gap, nq, dq, width);
-    ContactRayProducts(points, s.size, num - t->num, b.weight + t->num, num, D * f->s.num, b.area, nq, dq + t->num * width, width);
-    for (PetscInt v = 0; v <= f->m; v++)
-      for (PetscInt c = 0; c < f->m; c++) {
-        const PetscReal *along = move[s.corner[v]].d[c], *corner = b.corner[f->m * v + c], d = s.d[f->m * v + c];
+    ContactRayProducts(points, s.size, num - t->num, b.weight + t->num, num, b.na, b.area, b.na, dq + t->num * width, width);
+    PetscCall(PetscArrayzero(b.corner, m * (m + 1) * num));
+    ContactRayProducts(points, s.size, m + 1, point[0], 3, m * num, b.along, m * num, b.corner, m * num);
+    for (PetscInt v = 0; v <= m; v++)
+      for (PetscInt c = 0; c < m; c++) {
+        const PetscReal *along = move[s.corner[v]].d[c], *corner = b.corner + (m * v + c) * num, d = s.d[m * v + c];
 
         for (PetscInt i = 0; i < num; i++)
-          for (int l = 0; l < RAY_IMAGES; l++) dq[i * width + nq + l] += (s.size * corner[i] + b.mean[i] * d) * along[l];
+          for (int l = 0; l < RAY_IMAGES; l++) dq[i * width + nq + l] += (corner[i] + b.mean[i] * d) * along[l];
       }
   }
   for (PetscInt i = 0; i < t->num; i++) w->reach[t->place[i]] += b.reach[i];
@@ -167,7 +171,6 @@ PetscErrorCode ContactRayMoments(ContactPair pair, const ContactSurface *mortar,
   RayLattice      facet;
 
   PetscFunctionBegin;
-  w->n           = f->D * (own + w->num_mortar) + f->m * w->num_images;
   w->num_moments = 2 * na + (mass ? na * (na + 1) / 2 : 0);
   w->covered = 0, w->min_gap = PETSC_MAX_REAL;
   PetscCall(PetscArrayzero(w->reach, na));
@@ -179,6 +182,7 @@ PetscErrorCode ContactRayMoments(ContactPair pair, const ContactSurface *mortar,
   for (PetscInt k = 0; k < w->num_overlaps; k++) {
     const RayTest  *t       = &w->test[w->window[k]];
     const PetscReal covered = w->covered, gap = w->min_gap;
+    const PetscInt  places = w->num_places;
     PetscBool       good;
     PetscInt        num, width;
 
@@ -188,7 +192,7 @@ PetscErrorCode ContactRayMoments(ContactPair pair, const ContactSurface *mortar,
     PetscCall(ContactGrow(num * width, sizeof(PetscReal), &w->size_part, &w->part));
     PetscCall(Overlap_Private(w, &facet, k, mass, derivatives, q, w->part, &good));
     if (!good) {
-      w->covered = covered, w->min_gap = gap;
+      w->covered = covered, w->min_gap = gap, w->num_places = places;
       pair->num_degenerate++;
       continue;
     }

@@ -53,13 +53,13 @@ PetscErrorCode ContactResultRow(Result *r, const ContactSurface *s, PetscInt nod
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscBool ContactResultDerivatives(const EvaluateContext *ctx, const Result *r, PetscBool loaded)
+PetscBool ContactResultDerivatives(const EvaluateContext *ctx, PetscInt num_rows, const PetscInt node[], PetscBool loaded)
 {
   if (!ctx->derivatives || loaded) return ctx->derivatives;
   if (!ctx->hessian && ctx->z) return PETSC_FALSE;
   if (!ctx->wanted) return PETSC_TRUE;
-  for (PetscInt j = 0; j < r->num_rows; j++)
-    if (ctx->wanted[r->node[j]]) return PETSC_TRUE;
+  for (PetscInt j = 0; j < num_rows; j++)
+    if (ctx->wanted[node[j]]) return PETSC_TRUE;
   return PETSC_FALSE;
 }
 
@@ -74,12 +74,47 @@ PetscErrorCode ContactResultSegment(ContactPair pair, PetscInt facet, PetscInt m
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* What the result of a facet lacks at the positions it belongs to. */
+static PetscErrorCode Complete_Private(const EvaluateContext *ctx, PetscInt i, ResultFunction evaluate, PetscBool *failed)
+{
+  ContactFacet *out = &ctx->pair->result[i], more = *out;
+  PetscBool     loaded = PETSC_FALSE, use = PETSC_FALSE;
+
+  PetscFunctionBegin;
+  for (PetscInt j = 0; j < out->num_rows && ctx->z; j++) loaded = (PetscBool)(loaded || ctx->z[out->nodes[j]] != 0);
+  if ((out->dgap || !ContactResultDerivatives(ctx, out->num_rows, out->nodes, loaded)) && (out->hessian || !ctx->hessian || !loaded))
+    PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(evaluate(ctx, ctx->pair->slot[i], &more, &use, failed));
+  if (use) *out = more;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode Again_Private(const EvaluateContext *ctx, ResultFunction evaluate, PetscBool *failed)
+{
+  ContactPair     pair       = ctx->pair;
+  const PetscInt  degenerate = pair->num_degenerate;
+  const PetscBool loads      = ContactStateLoads(pair, ctx->z);
+
+  PetscFunctionBegin;
+  for (PetscInt i = 0; i < pair->num_results; i++) {
+    if (!loads) pair->result[i].hessian = NULL; /* of other multipliers */
+    PetscCall(Complete_Private(ctx, i, evaluate, failed));
+  }
+  pair->num_degenerate = degenerate;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode ContactResultsEvaluate(const EvaluateContext *ctx, Result *r, ResultFunction evaluate, PetscBool *failed)
 {
   ContactPair pair = ctx->pair;
 
   PetscFunctionBegin;
+  if (ctx->again) {
+    PetscCall(Again_Private(ctx, evaluate, failed));
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
   pair->num_degenerate = pair->num_ids = 0;
+  PetscCall(ContactGrow(pair->num_listed, sizeof(PetscInt), &pair->size_slot, &pair->slot));
   r->store.at = r->store.used = 0;
   for (PetscInt slot = 0; slot < pair->num_listed; slot++) {
     ContactFacet *out = &pair->result[pair->num_results];
@@ -96,7 +131,7 @@ PetscErrorCode ContactResultsEvaluate(const EvaluateContext *ctx, Result *r, Res
     pair->num_ids += out->num;
     for (PetscInt j = 0; j < out->num_rows; j++)
       if (PetscIsInfOrNanReal(out->gap[j])) *failed = PETSC_TRUE;
-    pair->num_results++;
+    pair->slot[pair->num_results++] = slot;
   }
   pair->num_ids = 0; /* the array is where it stays now */
   for (PetscInt i = 0; i < pair->num_results; i++) {

@@ -1,4 +1,4 @@
-/* Symmetric rule on triangles, exact to degree 10 [Dunavant 1985]; its weights sum up to 1.
+/* Symmetric rules on triangles, exact to degree 10, 12 and 14 [Dunavant 1985]; weights sum up to 1.
 
    The integrands over an overlap are polynomials of degree 4 where both facets are parallelograms in the facet's view; else inverses of bilinear
    maps make them rational, and any rule leaves an error that grows with the distortion of the facets. Error of the contact patch test over the
@@ -30,3 +30,72 @@ const PetscReal ContactRuleWeight[CONTACT_RULE] = {
     0.072757916845419990, 0.072757916845419990, 0.072757916845419990, 0.072757916845419990, 0.072757916845419990, 0.072757916845419990, 0.028327242531057534,
     0.028327242531057534, 0.028327242531057534, 0.028327242531057534, 0.028327242531057534, 0.028327242531057534, 0.009421666963732889, 0.009421666963732889,
     0.009421666963732889, 0.009421666963732889, 0.009421666963732889, 0.009421666963732889};
+
+/* Higher ones by their orbits: weight, a for (1 - 2 a, a, a); weight, a, b for (a, b, 1 - a - b). */
+#define MOST_POINTS 42
+typedef struct {
+  PetscInt  degree, num3, num6;
+  PetscReal orbit3[6][2], orbit6[4][3];
+} Orbits;
+
+static const Orbits Higher[2] = {
+    {12,
+     5,
+     3,
+     {{0.025731066440455322, 0.48821738977380486},
+      {0.043692544538038454, 0.43972439229446031},
+      {0.062858224217885117, 0.27121038501211592},
+      {0.034796112930708889, 0.12757614554158578},
+      {0.0061662610515590237, 0.021317350453210385}},
+     {{0.04037155776638094, 0.115343494534698, 0.27571326968551396},
+      {0.022356773202303445, 0.022838332222257063, 0.28132558098993959},
+      {0.017316231108658885, 0.025734050548330206, 0.11625191590759719}}},
+    {14,
+     6,
+     4,
+     {{0.0218835813694289, 0.48896391036217868},
+      {0.032788353544125355, 0.41764471934045394},
+      {0.051774104507291585, 0.27347752830883865},
+      {0.042162588736993044, 0.17720553241254342},
+      {0.014433699669776661, 0.06179988309087265},
+      {0.0049234036024000949, 0.019390961248701068}},
+     {{0.024665753212563681, 0.057124757403647898, 0.17226668782135565},
+      {0.038571510787060677, 0.092916249356971792, 0.33686145979634496},
+      {0.01443630811353384, 0.014646950055654405, 0.29837288213625779},
+      {0.005010228838500665, 0.0012683309328720186, 0.11897449769695674}}},
+};
+static PetscReal HigherPoint[2][MOST_POINTS][3], HigherWeight[2][MOST_POINTS];
+
+/* The first num, 3 or 6, permutations of three numbers. */
+static void Orbit_Private(const PetscReal b[3], PetscInt num, PetscReal weight, PetscReal point[][3], PetscReal w[])
+{
+  for (PetscInt k = 0; k < num; k++) {
+    for (PetscInt i = 0; i < 3; i++) point[k][(i * (k < 3 ? 1 : 2) + k) % 3] = b[i];
+    w[k] = weight;
+  }
+}
+
+PetscBool ContactRuleGet(PetscInt degree, PetscInt *num, const PetscReal (**point)[3], const PetscReal **weight)
+{
+  const PetscInt at = degree <= 12 ? 0 : 1;
+  const Orbits  *o  = &Higher[at];
+  PetscReal(*to)[3] = HigherPoint[at], *w = HigherWeight[at];
+
+  if (degree > 14) return PETSC_FALSE;
+  *num = CONTACT_RULE, *point = ContactRulePoint, *weight = ContactRuleWeight;
+  if (degree <= 10) return PETSC_TRUE;
+  *num = 3 * o->num3 + 6 * o->num6, *point = (const PetscReal(*)[3])to, *weight = w;
+  if (w[0] != 0) return PETSC_TRUE;
+  for (PetscInt k = 0; k < o->num3; k++) {
+    const PetscReal a = o->orbit3[k][1], b[3] = {1 - 2 * a, a, a};
+
+    Orbit_Private(b, 3, o->orbit3[k][0], to + 3 * k, w + 3 * k);
+  }
+  for (PetscInt k = 0; k < o->num6; k++) {
+    const PetscReal b[3] = {o->orbit6[k][1], o->orbit6[k][2], 1 - o->orbit6[k][1] - o->orbit6[k][2]};
+    const PetscInt  from = 3 * o->num3 + 6 * k;
+
+    Orbit_Private(b, 6, o->orbit6[k][0], to + from, w + from);
+  }
+  return PETSC_TRUE;
+}

@@ -126,7 +126,8 @@ static PetscErrorCode ListFacets_Private(ContactPair pair, const ContactSurface 
                "nonmortar facet %" PetscInt_FMT " is outside [0, %" PetscInt_FMT ")", facets[i], nonmortar->num_facets);
     pair->listed[i] = facets[i];
   }
-  pair->num_listed  = num;
+  pair->num_listed   = num;
+  pair->state.stands = PETSC_FALSE;
   pair->num_results = pair->num_segments = 0;
   PetscFunctionReturn(PETSC_SUCCESS);
 }

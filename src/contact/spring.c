@@ -13,7 +13,8 @@
 PetscErrorCode ContactPairSetSoftness(ContactPair pair, const PetscReal softness[])
 {
   PetscFunctionBegin;
-  pair->softness = softness;
+  pair->softness     = softness;
+  pair->state.stands = PETSC_FALSE;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

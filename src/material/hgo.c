@@ -14,7 +14,7 @@ const MaterialParameter MaterialHGOParameters[] = {
     {NULL, NULL, NULL, 0, 0},
 };
 
-#define MOST_EXPONENT 500 /* beyond it a deformation counts as impossible, as det F <= 0 does */
+#define MOST_EXPONENT 20 /* beyond it a deformation counts as impossible, as det F <= 0 does: next to e^20 k1 the forces of all others would be round-off */
 
 /* Moduli of a family, and its direction of length 1. */
 static PetscErrorCode FamilySetUp_Private(const MaterialSpec *spec, MaterialFiber *f)

@@ -339,6 +339,7 @@ PetscErrorCode ContactCreate_Private(Problem p, const ContactSpec *spec, Contact
   PetscCall(PetscCalloc2(n, &c->spring, n, &c->softness));
   PetscCall(PetscCalloc5(n, &c->active, n, &c->has_multiplier, n, &c->lift, n, &c->change, n, &c->near));
   PetscCall(PetscMalloc1(c->side[0].num_facets, &c->result));
+  PetscCall(PetscCalloc1(n, &c->misfit));
   PetscCall(PetscMalloc4(n, &c->zdof, n, &c->zlocal, n, &c->gap0, n, &c->offset));
   PetscCall(PetscCalloc4(c->side[0].num_facets, &c->live, n, &c->valued, n, &c->valued_node, 3 * n, &c->pack));
   PetscCall(NodeScales_Private(p, c));
@@ -378,6 +379,7 @@ PetscErrorCode ContactDestroy_Private(Contact *c)
   PetscCall(PetscFree2(c->spring, c->softness));
   PetscCall(PetscFree5(c->active, c->has_multiplier, c->lift, c->change, c->near));
   PetscCall(PetscFree(c->result));
+  PetscCall(PetscFree(c->misfit));
   PetscCall(PetscFree4(c->zdof, c->zlocal, c->gap0, c->offset));
   PetscCall(PetscFree4(c->live, c->valued, c->valued_node, c->pack));
   PetscCall(ContactGatherDestroy_Private(c));

@@ -149,6 +149,7 @@ static PetscErrorCode ContactPattern_Private(Problem p, PetscInt diagonal[], Pet
     for (PetscInt e = 0; e < c->side[0].num_facets && c->pattern_offset; ++e) {
       const PetscInt num = ContactPatternDofs_Private(c, e, dofs);
       if (!diagonal) {
+        PetscCall(PetscSortInt(num, dofs)); /* new entries then move those behind them less */
         PetscCall(PetscCalloc1(num * num, &zeros));
         PetscCall(MatSetValues(p->matrix, num, dofs, num, dofs, zeros, ADD_VALUES));
         PetscCall(PetscFree(zeros));

@@ -115,6 +115,7 @@ PetscErrorCode ProblemDestroy(Problem *problem)
   PetscCall(VecDestroy(&p->r_local));
   PetscCall(VecDestroy(&p->prototype));
   PetscCall(VecDestroy(&p->start_x));
+  PetscCall(VecDestroy(&p->imbalance));
   PetscCall(ScalarsDestroy_Private(p));
   PetscCall(MatDestroy(&p->matrix));
   PetscCall(MechanicsDestroy(&p->mechanics));

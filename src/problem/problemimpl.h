@@ -85,6 +85,7 @@ typedef struct {
   PetscBool           released;                 /* takes no part in the tangent: carry.c */
   PetscReal          *gap0;                     /* [n] reference gaps, small kinematics */
   PetscReal          *offset;                   /* [n] constant part of gt_j that does not count: initial gaps closed, interference */
+  PetscReal          *misfit;                   /* [n] imbalance.c: what else does not count, times the share left */
   PetscInt           *pattern_offset, *pattern; /* [num_facets+1]: nodes each facet has room for in the matrix */
 } Contact;
 
@@ -115,6 +116,8 @@ struct _p_Problem {
   PetscReal *increment;        /* [num_nodes*dim] of the Newton step under discussion */
   PetscReal *start_applied;    /* [num_nodes*dim] applied where the Newton step starts */
   Vec        start_x;
+  Vec        imbalance; /* imbalance.c: forces noted, NULL: none */
+  PetscReal  share;     /* of it that counts as being in balance */
   PetscInt   num_dofs;
 
   /* pressure.c: unknown pressures, behind the multipliers; of local cells, as MechanicsSetPressure takes them */
@@ -168,6 +171,11 @@ PetscErrorCode PathTangent_Private(Problem, PetscInt row, const PetscReal u[]);
 /* scatter.c: places of cells in the matrix as it stands, made when its pattern is new; add a cell's matrix there (*added false: it has no places). */
 PetscErrorCode ProblemScatter_Private(Problem);
 PetscErrorCode ProblemScatterAdd_Private(Problem, PetscInt cell, PetscInt num_dofs, const PetscInt dofs[], const PetscReal K[], PetscBool *added);
+/* This rank's diagonal block of the matrix. */
+PetscErrorCode ProblemDiagonal_Private(Problem, Mat *);
+/* insert.c: as MatSetValues(problem's matrix, ..), of contact: values in the diagonal block. */
+PetscErrorCode ProblemInsert_Private(Problem, PetscInt num_rows, const PetscInt rows[], PetscInt num_columns, const PetscInt columns[], const PetscReal K[],
+                                     InsertMode);
 /* pressure.c: counts[rank] grow by the pressure unknowns; their indices, once the ranges of the ranks are known; their rows likewise. Collective. */
 PetscErrorCode PressureNumber_Private(Problem, PetscInt counts[]);
 PetscErrorCode PressureIndices_Private(Problem);

@@ -94,7 +94,7 @@ static PetscErrorCode FacetHessian_Private(Problem p, const Contact *c, const Co
   for (PetscInt j = 0; j < n; ++j) {
     for (PetscInt a = 0; a < e->num; ++a) Turn_Private(dim, Frame_Private(c, e->nodes[a]), H + dim * a * n + j, n);
   }
-  PetscCall(MatSetValues(p->matrix, n, dofs, n, dofs, H, ADD_VALUES));
+  PetscCall(ProblemInsert_Private(p, n, dofs, n, dofs, H, ADD_VALUES));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -126,7 +126,7 @@ static PetscErrorCode ContactBlocks_Private(Problem p, Contact *c)
       ContactRowFactors_Private(c, e, k, PETSC_FALSE, &mean, &along);
       for (PetscInt a = 0; a < n; ++a) p->work_value[a] = -e->dgap[k * n + a] - (along != 0 ? along * e->darea[a] : 0);
       for (PetscInt a = 0; a < e->num; ++a) Turn_Private(dim, Frame_Private(c, e->nodes[a]), p->work_value + dim * a, 1);
-      PetscCall(MatSetValues(p->matrix, n, p->work_index, 1, &z, p->work_value, ADD_VALUES));
+      PetscCall(ProblemInsert_Private(p, n, p->work_index, 1, &z, p->work_value, ADD_VALUES));
     }
   }
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -200,8 +200,8 @@ static PetscErrorCode ContactInsertRow_Private(Problem p, Contact *c, PetscInt j
   PetscCall(PetscFindInt(c->zdof[j], num, p->work_index, &at));
   p->work_value[at] = c->active[j] ? active * c->spring[j] : p->symmetric ? -c->w0[j] : c->w0[j];
   if (p->symmetric) p->work_value[at] *= c->c[j];
-  PetscCall(MatSetValues(p->matrix, 1, &c->zdof[j], num, p->work_index, p->work_value, INSERT_VALUES));
-  if (p->symmetric) PetscCall(MatSetValues(p->matrix, num, p->work_index, 1, &c->zdof[j], p->work_value, INSERT_VALUES));
+  PetscCall(ProblemInsert_Private(p, 1, &c->zdof[j], num, p->work_index, p->work_value, INSERT_VALUES));
+  if (p->symmetric) PetscCall(ProblemInsert_Private(p, num, p->work_index, 1, &c->zdof[j], p->work_value, INSERT_VALUES));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

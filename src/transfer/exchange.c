@@ -40,7 +40,7 @@ PetscInt TransferNumPressure_Private(const TransferContext *c, PetscInt body, Pe
   return MechanicsPressureCount(c->old_t->dim, order);
 }
 
-/* Displacement, pressure and history numbers of an old leaf. */
+/* Displacement, position, pressure and history numbers of an old leaf. */
 static PetscErrorCode LeafSize_Private(const TransferContext *c, PetscInt leaf, PetscInt *num)
 {
   const PetscInt body = c->old_t->leaf_body[leaf];
@@ -49,7 +49,7 @@ static PetscErrorCode LeafSize_Private(const TransferContext *c, PetscInt leaf, 
   PetscFunctionBegin;
   PetscCall(HPSpaceGetOrder(c->old_space, c->old_t->first[c->old_t->dim] + leaf, &order));
   PetscCall(NumHistory_Private(c, body, order, &history));
-  *num = ElementNumNodes(c->old_t->dim, order) * c->old_t->dim + TransferNumPressure_Private(c, body, order) + history;
+  *num = TransferNumNodal_Private(c->old_t->dim, order) + TransferNumPressure_Private(c, body, order) + history;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -120,8 +120,9 @@ static PetscErrorCode Pack_Private(const TransferContext *c, const PetscInt leaf
   PetscFunctionBegin;
   PetscCall(HPSpaceGetOrder(c->old_space, c->old_t->first[dim] + leaf, &order));
   PetscCall(HPSpaceGather(c->old_space, leaf_cell[leaf], from->u, to));
+  PetscCall(HPSpaceGatherPositions(c->old_space, leaf_cell[leaf], to + ElementNumNodes(dim, order) * dim));
   if (!c->old_mechanics) PetscFunctionReturn(PETSC_SUCCESS);
-  to += ElementNumNodes(dim, order) * dim;
+  to += TransferNumNodal_Private(dim, order);
   PetscCall(MechanicsPressureRange(c->old_mechanics, leaf_cell[leaf], &first, &num));
   PetscCall(PetscArraycpy(to, from->pressure + first, num));
   to += num;

@@ -47,8 +47,7 @@ typedef struct {
 /* Where the history of an old leaf of this order starts. */
 static const PetscReal *OldHistory_Private(const TransferContext *c, const OldCells *old, PetscInt leaf, PetscInt order)
 {
-  return old->values + old->offset[leaf] + ElementNumNodes(c->old_t->dim, order) * c->old_t->dim +
-         TransferNumPressure_Private(c, c->old_t->leaf_body[leaf], order);
+  return old->values + old->offset[leaf] + TransferNumNodal_Private(c->old_t->dim, order) + TransferNumPressure_Private(c, c->old_t->leaf_body[leaf], order);
 }
 
 static PetscErrorCode Load_Private(const TransferContext *c, const OldCells *old, PetscInt leaf, OldPoints *p)

@@ -75,7 +75,7 @@ static PetscErrorCode Sample_Private(const TransferContext *c, const OldCells *o
       s->weight[s->num] *= gauss->weights[i % gauss->num_points] * extent[d] / (1 << (FOREST_MAX_LEVEL - c->new_t->leaf_level[3 * new_leaf + d]));
     }
   }
-  const PetscReal *coefficients = old->values + old->offset[old_leaf] + ElementNumNodes(dim, order) * dim;
+  const PetscReal *coefficients = old->values + old->offset[old_leaf] + TransferNumNodal_Private(dim, order);
   PetscCall(MechanicsPressureEvaluate(dim, order, points, old_xi, coefficients, s->value + first));
   PetscCall(PetscFree(old_xi));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -1,7 +1,8 @@
-/* The new displacement interpolates the old one at the new true nodes. */
+/* The new displacement is the old one at the new true nodes. */
 #include "transferimpl.h"
 
 #define INSIDE 1e-12 /* a point this far outside a leaf (in its own units) still belongs to it: round-off of node positions */
+#define STILL 1e-10  /* a node that has moved by less, in units of its cell, has not */
 
 PetscBool TransferPlace_Private(const TransferContext *c, PetscInt new_leaf, const PetscReal place[], PetscInt old_leaf, PetscReal xi[3])
 {
@@ -41,23 +42,63 @@ static PetscErrorCode NodePlace_Private(const ForestTables *t, PetscInt entity, 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The old displacement (Cartesian) at a place of a new leaf. Where several old leaves meet they agree: the field is continuous. */
-static PetscErrorCode OldValue_Private(const TransferContext *c, const OldCells *old, PetscInt leaf, const PetscReal place[], PetscReal *basis, PetscReal u[3])
+/* u += du/dX (X - X_old) with the gradients by xi of both. Singular maps (edges that meet in an axis): nothing. */
+static void Shift_Private(PetscInt dim, const PetscReal dX[3][3], const PetscReal du[3][3], const PetscReal away[3], PetscReal u[3])
 {
-  PetscInt  k = c->map->old_first[leaf], order;
-  PetscReal xi[3];
+  PetscReal a[3], inverse[3][3], det = 0;
+
+  for (PetscInt i = 0; i < 3; ++i) {
+    const PetscInt i1 = (i + 1) % 3, i2 = (i + 2) % 3;
+    for (PetscInt k = 0; k < 3; ++k) {
+      const PetscInt k1 = (k + 1) % 3, k2 = (k + 2) % 3;
+      inverse[i][k] = dX[k1][i1] * dX[k2][i2] - dX[k1][i2] * dX[k2][i1]; /* times det */
+    }
+  }
+  for (PetscInt k = 0; k < 3; ++k) det += dX[k][0] * inverse[0][k];
+  if (!(det > 0)) return;
+  for (PetscInt i = 0; i < dim; ++i) {
+    a[i] = 0;
+    for (PetscInt k = 0; k < dim; ++k) a[i] += inverse[i][k] / det * away[k];
+  }
+  for (PetscInt k = 0; k < dim; ++k) {
+    for (PetscInt i = 0; i < dim; ++i) u[k] += du[k][i] * a[i];
+  }
+}
+
+/* The old displacement (Cartesian) for a node at X and at `place` of a new leaf. Where several old leaves meet they agree: the field is continuous. The place
+   need not be where it was: linear faces that are split follow a curved boundary more closely. The displacement goes on along the old leaf's gradient then, so
+   that the deformation stays the same; interpolated, a layer that is thinner by a share f would be strained by as much, against the bulk modulus. */
+static PetscErrorCode OldValue_Private(const TransferContext *c, const OldCells *old, PetscInt leaf, const PetscReal place[], const PetscReal X[],
+                                       PetscReal *basis, PetscReal u[3])
+{
+  const PetscInt dim = c->old_t->dim;
+  PetscInt       k   = c->map->old_first[leaf], order;
+  PetscReal      xi[3], was[3] = {0}, away[3], far2 = 0, size2 = 0, dX[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, du[3][3] = {{0}};
 
   PetscFunctionBegin;
   while (k < c->map->old_first[leaf] + c->map->old_count[leaf] && !TransferPlace_Private(c, leaf, place, k, xi)) ++k;
   PetscCheck(k < c->map->old_first[leaf] + c->map->old_count[leaf], PETSC_COMM_SELF, PETSC_ERR_PLIB, "the old leaves of leaf %" PetscInt_FMT " do not cover it",
              leaf);
-  PetscCall(HPSpaceGetOrder(c->old_space, c->old_t->first[c->old_t->dim] + k, &order));
-  PetscCall(ElementEvaluate(c->old_t->dim, order, xi, basis, NULL));
-  const PetscReal *values = old->values + old->offset[k];
-  for (PetscInt a = 0; a < c->old_t->dim; ++a) u[a] = 0;
-  for (PetscInt i = 0; i < ElementNumNodes(c->old_t->dim, order); ++i) {
-    for (PetscInt a = 0; a < c->old_t->dim; ++a) u[a] += basis[i] * values[i * c->old_t->dim + a];
+  PetscCall(HPSpaceGetOrder(c->old_space, c->old_t->first[dim] + k, &order));
+  const PetscInt   n      = ElementNumNodes(dim, order);
+  const PetscReal *values = old->values + old->offset[k], *nodes = values + n * dim;
+  PetscReal       *slope = basis + n;
+  PetscCall(ElementEvaluate(dim, order, xi, basis, slope));
+  for (PetscInt a = 0; a < dim; ++a) {
+    u[a] = dX[a][a] = 0;
+    for (PetscInt i = 0; i < n; ++i) {
+      u[a] += basis[i] * values[i * dim + a];
+      was[a] += basis[i] * nodes[i * dim + a];
+      for (PetscInt b = 0; b < dim; ++b) {
+        dX[a][b] += slope[i * dim + b] * nodes[i * dim + a];
+        du[a][b] += slope[i * dim + b] * values[i * dim + a];
+      }
+    }
+    away[a] = X[a] - was[a];
+    far2 += PetscSqr(away[a]);
+    for (PetscInt b = 0; b < dim; ++b) size2 += PetscSqr(dX[a][b]);
   }
+  if (far2 > PetscSqr(STILL) * size2) Shift_Private(dim, (const PetscReal(*)[3])dX, (const PetscReal(*)[3])du, away, u);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -81,7 +122,7 @@ PetscErrorCode TransferDisplacement_Private(const TransferContext *c, const OldC
   PetscInt            orders[3], start = 0;
 
   PetscFunctionBegin;
-  PetscCall(PetscMalloc1(ElementNumNodes(t->dim, MORTISE_MAX_ORDER), &basis));
+  PetscCall(PetscMalloc1((1 + t->dim) * ElementNumNodes(t->dim, MORTISE_MAX_ORDER), &basis));
   for (PetscInt n = 0; n < c->new_v->num_nodes; ++n) {
     const PetscInt entity = c->new_v->node_entity[n], leaf = t->entity_leaf[entity];
     PetscInt       d = 0;
@@ -90,7 +131,7 @@ PetscErrorCode TransferDisplacement_Private(const TransferContext *c, const OldC
     while (entity >= t->first[d + 1]) ++d;
     PetscCall(HPSpaceGetAxisOrders(c->new_space, entity, orders));
     PetscCall(NodePlace_Private(t, entity, d, orders, n - start, place));
-    PetscCall(OldValue_Private(c, old, leaf, place, basis, u));
+    PetscCall(OldValue_Private(c, old, leaf, place, c->new_v->X + 3 * n, basis, u));
     PetscCall(TransferTurn_Private(c->new_space, t->dim, n, PETSC_FALSE, u, local + n * t->dim));
   }
   PetscCall(PetscFree(basis));

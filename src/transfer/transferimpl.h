@@ -20,8 +20,8 @@ typedef struct {
   const PetscReal *u, *pressure, *history;
 } OldFields;
 
-/* Tensor nodal displacements [(p+1)^dim][dim], then pressure coefficients, then history [points][num_history], of every old leaf that overlaps an owned new
-   one. */
+/* Tensor nodal displacements [(p+1)^dim][dim] and reference positions [(p+1)^dim][dim], then pressure coefficients, then history [points][num_history], of
+   every old leaf that overlaps an owned new one. */
 typedef struct {
   PetscInt  *offset; /* owned [old num_leaves] into values, -1: not here */
   PetscReal *values; /* owned */
@@ -42,6 +42,11 @@ PetscErrorCode TransferDisplacement_Private(const TransferContext *, const OldCe
 PetscErrorCode TransferPressure_Private(const TransferContext *, const OldCells *, PetscReal pressure[], PetscReal unknown[]);
 /* history.c: at the integration points of the new cells owned here. Not collective. */
 PetscErrorCode TransferHistory_Private(const TransferContext *, const OldCells *, PetscReal history[]);
+/* Numbers at the nodes of a leaf of this order. */
+static inline PetscInt TransferNumNodal_Private(PetscInt dim, PetscInt order)
+{
+  return 2 * ElementNumNodes(dim, order) * dim;
+}
 /* Pressure coefficients of a leaf of this order and body. */
 PetscInt TransferNumPressure_Private(const TransferContext *, PetscInt body, PetscInt order);
 /* multiplier.c: z on this rank's new nonmortar nodes from the old ones, of which those are needed that Needs says (the others are not read); has_multiplier:

@@ -1,7 +1,8 @@
 /* Contact in three dimensions: seconds of search and evaluation against the number of facets, two wavy sheets of n x n and about 1.5 n x 1.5 n facets pressed
    together everywhere. Comma separated: nonmortar facets, mortar facets, segments, search, values, gradients (forces), gradients and Hessian (tangent).
-   -continuous: along a continuous direction. */
+   -continuous: along a continuous direction. -order P: facets of order P, on lattices. */
 #include "contact.h"
+#include "element.h"
 #include <petsctime.h>
 
 #define OK(...)                                                                                                                                                \
@@ -11,15 +12,22 @@
 
 typedef struct {
   ContactSurface s;
-  PetscInt      *facets;
+  PetscInt      *facets, *first, *lattice;
+  int8_t        *order;
   PetscReal     *x, *z;
 } Sheet;
 
-static void SheetCreate(PetscInt n, PetscReal height, PetscBool up, Sheet *c)
+static void SheetCreate(PetscInt n, PetscInt p, PetscReal height, PetscBool up, Sheet *c)
 {
-  OK(PetscMalloc3(4 * n * n, &c->facets, 3 * (n + 1) * (n + 1), &c->x, (n + 1) * (n + 1), &c->z));
-  for (PetscInt k = 0; k < (n + 1) * (n + 1); ++k) {
-    const PetscReal a = (PetscReal)(k % (n + 1)) / (PetscReal)n, b = (PetscReal)(k / (n + 1)) / (PetscReal)n;
+  const PetscInt   row = p * n + 1, most = (p + 1) * (p + 1);
+  const PetscReal *node;
+
+  OK(ElementGetNodes(p, &node));
+  OK(PetscMalloc3(4 * n * n, &c->facets, 3 * row * row, &c->x, row * row, &c->z));
+  OK(PetscMalloc3(n * n, &c->order, n * n + 1, &c->first, most * n * n, &c->lattice));
+  for (PetscInt k = 0; k < row * row; ++k) {
+    const PetscInt  i = k % row, j = k / row;
+    const PetscReal a = ((PetscReal)(i / p) + (i % p ? node[i % p] : 0)) / (PetscReal)n, b = ((PetscReal)(j / p) + (j % p ? node[j % p] : 0)) / (PetscReal)n;
 
     c->x[3 * k]     = a + 0.1 / (PetscReal)n * sin(7 * b);
     c->x[3 * k + 1] = b + 0.1 / (PetscReal)n * sin(5 * a);
@@ -27,11 +35,16 @@ static void SheetCreate(PetscInt n, PetscReal height, PetscBool up, Sheet *c)
     c->z[k]         = 1;
   }
   for (PetscInt f = 0; f < n * n; ++f) {
-    const PetscInt a = f / n * (n + 1) + f % n, around[4] = {a, a + 1, a + n + 2, a + n + 1};
+    const PetscInt a = p * (f / n * row + f % n), around[4] = {a, a + p, a + p * row + p, a + p * row};
 
     for (PetscInt k = 0; k < 4; ++k) c->facets[4 * f + k] = around[up ? k : 3 - k];
+    for (PetscInt k = 0; k < most; ++k) c->lattice[most * f + k] = a + row * (up ? k / (p + 1) : p - k / (p + 1)) + k % (p + 1);
+    c->order[f] = (int8_t)p;
+    c->first[f] = most * f;
   }
-  c->s = (ContactSurface){.dim = 3, .num_nodes = (n + 1) * (n + 1), .num_facets = n * n, .facets = c->facets, .x = c->x, .X = c->x};
+  c->first[n * n] = most * n * n;
+  c->s            = (ContactSurface){.dim = 3, .num_nodes = row * row, .num_facets = n * n, .facets = c->facets, .x = c->x, .X = c->x};
+  if (p > 1) c->s.order = c->order, c->s.first = c->first, c->s.lattice = c->lattice;
 }
 
 static double Evaluate(ContactPair pair, const Sheet *a, const Sheet *b, PetscBool derivatives, PetscBool hessian)
@@ -53,11 +66,12 @@ static double Evaluate(ContactPair pair, const Sheet *a, const Sheet *b, PetscBo
 int main(int argc, char **argv)
 {
   static const PetscInt Sizes[] = {10, 18, 32, 56, 100, 178, 316};
-  PetscInt              most    = 316;
-  PetscBool             rays    = PETSC_FALSE;
+  PetscInt              most = 316, order = 1;
+  PetscBool             rays = PETSC_FALSE;
 
   OK(PetscInitialize(&argc, &argv, NULL, NULL));
   OK(PetscOptionsGetInt(NULL, NULL, "-most", &most, NULL));
+  OK(PetscOptionsGetInt(NULL, NULL, "-order", &order, NULL));
   OK(PetscOptionsGetBool(NULL, NULL, "-continuous", &rays, NULL));
   printf("nonmortar,mortar,segments,search,values,forces,tangent\n");
   for (size_t i = 0; i < sizeof(Sizes) / sizeof(Sizes[0]) && Sizes[i] <= most; ++i) {
@@ -70,8 +84,8 @@ int main(int argc, char **argv)
     Sheet                 a, b;
     double                seconds[3];
 
-    SheetCreate(n, 0, PETSC_TRUE, &a);
-    SheetCreate(m, 1e-3, PETSC_FALSE, &b);
+    SheetCreate(n, order, 0, PETSC_TRUE, &a);
+    SheetCreate(m, order, 1e-3, PETSC_FALSE, &b);
     OK(ContactPairCreate(3, PETSC_FALSE, &spec, &pair));
     OK(PetscMalloc1(n * n, &list));
     for (PetscInt k = 0; k < n * n; ++k) list[k] = k;
@@ -90,6 +104,8 @@ int main(int argc, char **argv)
     OK(PetscFree(list));
     OK(PetscFree3(a.facets, a.x, a.z));
     OK(PetscFree3(b.facets, b.x, b.z));
+    OK(PetscFree3(a.order, a.first, a.lattice));
+    OK(PetscFree3(b.order, b.first, b.lattice));
   }
   return PetscFinalize();
 }

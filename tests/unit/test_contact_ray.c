@@ -10,7 +10,7 @@ typedef struct {
 } Kind;
 
 typedef struct {
-  PetscReal gradient, weight, hessian, symmetry, force, moment, motion;
+  PetscReal gradient, weight, hessian, symmetry, force, moment, motion, again;
   PetscInt  columns, kinks;
 } Errors;
 
@@ -122,6 +122,38 @@ static void CheckMotion(Errors *err, const Sum *s, ContactPair pair, Patch *nonm
   SumDestroy(&turned);
 }
 
+static PetscReal Apart(const PetscReal a[], const PetscReal b[], PetscInt n)
+{
+  PetscReal most = 0;
+
+  for (PetscInt i = 0; i < n; i++) most = PetscMax(most, PetscAbsReal(a[i] - b[i]));
+  return most;
+}
+
+/* At the positions of the last evaluation results are completed: gaps, forces, tangents for other and for these multipliers, one after the other. */
+static void CheckAgain(Errors *err, const Sum *s, ContactPair pair, Patch *nonmortar, Patch *mortar, const PetscReal z[], const PetscReal scale[3])
+{
+  PetscReal *other = calloc((size_t)nonmortar->s.num_nodes, sizeof(PetscReal));
+  Sum        again;
+
+  SumCreate(&again, nonmortar, mortar);
+  for (PetscInt j = 0; j < nonmortar->s.num_nodes; j++) other[j] = -z[j];
+  mortar->x[mortar->dim - 1] += 1e-3;
+  SumEvaluate(&again, pair, nonmortar, mortar, z, PETSC_TRUE);
+  mortar->x[mortar->dim - 1] -= 1e-3;
+  SumSurfaces(&again, pair, &nonmortar->s, &mortar->s, z, PETSC_FALSE, PETSC_FALSE);
+  SumEvaluate(&again, pair, nonmortar, mortar, z, PETSC_FALSE);
+  SumEvaluate(&again, pair, nonmortar, mortar, other, PETSC_TRUE);
+  SumEvaluate(&again, pair, nonmortar, mortar, z, PETSC_TRUE);
+  err->again = PetscMax(err->again, Apart(s->gap, again.gap, s->nn) / Largest(s->weight, s->nn));
+  err->again = PetscMax(err->again, Apart(s->dgap, again.dgap, s->nn * s->size) / scale[0]);
+  err->again = PetscMax(err->again, Apart(s->dweight, again.dweight, s->nn * s->size) / scale[1]);
+  err->again = PetscMax(err->again, Apart(s->hessian, again.hessian, s->size * s->size) / scale[2]);
+  assert_int_equal(s->num, again.num);
+  SumDestroy(&again);
+  free(other);
+}
+
 static void CheckSeed(const Kind *kind, uint64_t seed, PetscInt first, PetscInt stride, Errors *err)
 {
   const PetscReal   step[4] = {-2, -1, 1, 2};
@@ -147,6 +179,7 @@ static void CheckSeed(const Kind *kind, uint64_t seed, PetscInt first, PetscInt 
   scale[1] = Largest(exact.dweight, exact.nn * exact.size);
   scale[2] = Largest(exact.hessian, exact.size * exact.size);
   if (!kind->mirror && !kind->ring) CheckBalance(err, &exact, &nonmortar, &mortar, Largest(exact.gradient, exact.size));
+  if (!kind->hanging) CheckAgain(err, &exact, pair, &nonmortar, &mortar, z, scale);
   for (int m = 0; m < 4; m++) SumCreate(&moved[m], &nonmortar, &mortar);
   columns = kind->dim * (nonmortar.num_true + mortar.num_true);
   for (PetscInt i = first; i < columns; i += stride) {
@@ -196,10 +229,11 @@ static void CheckKind(const Kind *kind, PetscInt seeds, PetscInt stride)
   Errors err = {0};
 
   for (PetscInt s = 0; s < seeds; s++) CheckSeed(kind, 1000003u * (uint64_t)(s + 1), s % stride, stride, &err);
-  print_message("%dD orders %d/%d %s%s%s%s%s: gradient %.1e, weight %.1e, Hessian %.1e, symmetry %.1e, force %.1e, moment %.1e, motion %.1e; %d of %d kinks\n",
+  print_message("%dD orders %d/%d %s%s%s%s%s: gradient %.1e, weight %.1e, Hessian %.1e, symmetry %.1e, force %.1e, moment %.1e, motion %.1e, again %.1e; %d of "
+                "%d kinks\n",
                 (int)kind->dim, (int)kind->order, (int)kind->mortar, kind->standard ? "standard" : "dual", kind->partly ? " partly" : "",
                 kind->hanging ? " hanging" : "", kind->mirror ? " mirror" : "", kind->ring ? " ring" : "", err.gradient, err.weight, err.hessian, err.symmetry,
-                err.force, err.moment, err.motion, (int)err.kinks, (int)err.columns);
+                err.force, err.moment, err.motion, err.again, (int)err.kinks, (int)err.columns);
   assert_true(err.kinks < err.columns / 4);
   assert_true(err.gradient < 1e-8);
   assert_true(err.weight < 1e-8);
@@ -208,6 +242,7 @@ static void CheckKind(const Kind *kind, PetscInt seeds, PetscInt stride)
   assert_true(err.force < 1e-12);
   assert_true(err.moment < 1e-12);
   assert_true(err.motion < 1e-12);
+  assert_true(err.again < 1e-12);
 }
 
 static void test_plane(void **state)

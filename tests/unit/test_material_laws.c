@@ -254,6 +254,23 @@ static void BatchesEqualPoints(void **state)
   }
 }
 
+/* Beyond exp(k2 E^2) = e^20 a stretch along the fibres counts as impossible. */
+static void FibresEndSomewhere(void **state)
+{
+  const Row    row = {"hgo", VOLUMETRIC_SIMO, 4, {CAROTID}, {3, 100, 2.3632, .8393}, 0, {0}, 1, {{1, 0, 0}}};
+  MaterialSpec spec;
+
+  SpecMake(&row, &spec);
+  for (int k = 0; k < 2; k++) {
+    const PetscReal stretch = PetscSqrtReal(1 + PetscSqrtReal((k ? 20.1 : 19.9) / .8393)), across = 1 / PetscSqrtReal(stretch);
+    const PetscReal F[9] = {stretch, 0, 0, 0, across, 0, 0, 0, across}, fiber[3] = {1, 0, 0};
+    PetscReal       W, P[9];
+    MaterialPoints  point = {.n = 1, .F = F, .fiber = fiber, .W = &W, .P = P};
+    OK(MaterialEvaluate(&spec, MATERIAL_FULL, &point));
+    assert_int_equal(point.bad, k);
+  }
+}
+
 /* A family that is slack leaves the stress alone, in tension it pulls along its direction; the stress is continuous and the tangent jumps by
    k1 D (x) D, D = d(J^(-2/3) |F M|^2)/dF. */
 static void FibresCarryTensionOnly(void **state)
@@ -341,6 +358,7 @@ int main(int argc, char **argv)
                                      cmocka_unit_test(LawsAreObjective),
                                      cmocka_unit_test(SmallStrainsKeepTheirDigits),
                                      cmocka_unit_test(BatchesEqualPoints),
+                                     cmocka_unit_test(FibresEndSomewhere),
                                      cmocka_unit_test(FibresCarryTensionOnly),
                                      cmocka_unit_test(FibresTurnWithTheFrame),
                                      cmocka_unit_test(VolumetricMeasure)};

@@ -1,0 +1,81 @@
+/* Blocks of contact into the matrix: rows of this rank whose columns have room there, without a search for each entry; the others by MatSetValues. */
+#include "problemimpl.h"
+
+#define FEW 8 /* columns: searches take less than a walk along the row */
+
+typedef struct {
+  PetscInt *column, *from,
+      *place; /* [num] sorted, in this rank's diagonal block; where they stand in the caller's rows; where they go in a row of the matrix */
+  PetscInt        num;
+  PetscBool       mine; /* all columns are in the diagonal block */
+  const PetscInt *ai, *aj;
+  PetscReal      *values;
+} Insertion;
+
+static PetscErrorCode Columns_Private(Problem p, PetscInt num, const PetscInt columns[], Insertion *s)
+{
+  PetscFunctionBegin;
+  s->num  = 0;
+  s->mine = PETSC_TRUE;
+  for (PetscInt i = 0; i < num; ++i) {
+    if (columns[i] < 0) continue;
+    s->column[s->num] = columns[i] - p->first_row;
+    s->from[s->num]   = i;
+    if (s->column[s->num] < 0 || s->column[s->num] >= p->num_rows) s->mine = PETSC_FALSE;
+    ++s->num;
+  }
+  PetscCall(PetscSortIntWithArray(s->num, s->column, s->from));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Places of the columns in a row of the diagonal block. */
+static PetscErrorCode Places_Private(Insertion *s, PetscInt row, PetscBool *found)
+{
+  const PetscInt *column = s->aj + s->ai[row], num = s->ai[row + 1] - s->ai[row];
+  PetscInt        at = 0;
+
+  PetscFunctionBegin;
+  *found = PETSC_TRUE;
+  for (PetscInt i = 0; i < s->num && *found; ++i) {
+    if (s->num <= FEW)
+      PetscCall(PetscFindInt(s->column[i], num, column, &at));
+    else
+      while (at < num && column[at] < s->column[i]) ++at;
+    *found      = (PetscBool)(at >= 0 && at < num && column[at] == s->column[i]);
+    s->place[i] = at;
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode ProblemInsert_Private(Problem p, PetscInt num_rows, const PetscInt rows[], PetscInt num_columns, const PetscInt columns[], const PetscReal K[],
+                                     InsertMode mode)
+{
+  PetscInt  lines;
+  PetscBool ok, found;
+  Insertion s;
+  Mat       A;
+
+  PetscFunctionBegin;
+  PetscCall(ProblemDiagonal_Private(p, &A));
+  PetscCall(PetscMalloc3(num_columns, &s.column, num_columns, &s.from, num_columns, &s.place));
+  PetscCall(Columns_Private(p, num_columns, columns, &s));
+  for (PetscInt r = 0; r < num_rows; ++r) {
+    const PetscInt   row  = rows[r] - p->first_row;
+    const PetscReal *from = K + r * num_columns;
+
+    if (rows[r] < 0) continue;
+    PetscCall(MatGetRowIJ(A, 0, PETSC_FALSE, PETSC_FALSE, &lines, &s.ai, &s.aj, &ok));
+    found = PETSC_FALSE;
+    if (s.mine && row >= 0 && row < p->num_rows) PetscCall(Places_Private(&s, row, &found));
+    if (found) {
+      PetscCall(MatSeqAIJGetArray(A, &s.values));
+      PetscReal *to = s.values + s.ai[row];
+      for (PetscInt i = 0; i < s.num; ++i) to[s.place[i]] = from[s.from[i]] + (mode == ADD_VALUES ? to[s.place[i]] : 0);
+      PetscCall(MatSeqAIJRestoreArray(A, &s.values));
+    }
+    PetscCall(MatRestoreRowIJ(A, 0, PETSC_FALSE, PETSC_FALSE, &lines, &s.ai, &s.aj, &ok));
+    if (!found) PetscCall(MatSetValues(p->matrix, 1, &rows[r], num_columns, columns, from, mode));
+  }
+  PetscCall(PetscFree3(s.column, s.from, s.place));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

@@ -1,0 +1,115 @@
+/* A state out of balance in its forces and its gaps: with all of the imbalance left it is a solution to the last digit, with none the problem is what it was;
+   taken away little by little it leads to the solution, from places where Newton's method alone finds none. */
+#include "patchfixture.h"
+
+static void Create(Patch *p)
+{
+  const PetscInt n[2] = {3, 4};
+
+  PatchScene(p, 2, MODEL_PLANE_STRAIN, KINEMATICS_FINITE, FORMULATION_AUTO);
+  p->forest = PatchForest(n);
+  PatchStart(p);
+  PatchSolve(p->problem, &p->state);
+}
+
+/* Displacements off by up to `size`, pressures by a third, every fifth of them gone. */
+static void Disturb(Patch *p, PetscReal size, Vec x)
+{
+  PetscReal *values;
+  PetscInt   num_u, num_z, dim, first;
+
+  OK(VecCopy(p->state.x, x));
+  OK(ProblemGetBlocks(p->problem, &num_u, &num_z, &dim));
+  OK(VecGetOwnershipRange(x, &first, NULL));
+  OK(VecGetArray(x, &values));
+  for (PetscInt i = 0; i < num_u; ++i) values[i] += size * PetscSinReal((PetscReal)(first + i) + 1);
+  for (PetscInt i = num_u; i < num_u + num_z; ++i) values[i] *= i % 5 ? 1 + PetscSinReal((PetscReal)i) / 3 : 0;
+  OK(VecRestoreArray(x, &values));
+}
+
+static void ShareCounts(void **state)
+{
+  Patch         p;
+  ProblemStatus status;
+  PetscBool     usable;
+  PetscReal     norm, off;
+  Vec           x, r, all;
+
+  Create(&p);
+  OK(ProblemCreateVector(p.problem, &x));
+  OK(VecDuplicate(x, &r));
+  OK(VecDuplicate(x, &all));
+  Disturb(&p, 0.02, x);
+  PatchEvaluate(p.problem, x, all, &status);
+  OK(VecNorm(all, NORM_2, &norm));
+  assert_true(norm > 0.01);
+  OK(ProblemNoteImbalance(p.problem, x, &usable));
+  assert_true(usable);
+  OK(ProblemLeaveImbalance(p.problem, 1));
+  PatchEvaluate(p.problem, x, r, &status);
+  OK(VecNorm(r, NORM_2, &off));
+  assert_true(off < 1e-14 * norm + 1e-15);
+  OK(ProblemLeaveImbalance(p.problem, 0.3));
+  OK(ProblemLeaveImbalance(p.problem, 0));
+  PatchEvaluate(p.problem, x, r, &status);
+  OK(VecAXPY(r, -1, all));
+  OK(VecNorm(r, NORM_2, &off));
+  assert_true(off < 1e-14 * norm + 1e-15);
+  OK(VecDestroy(&x));
+  OK(VecDestroy(&r));
+  OK(VecDestroy(&all));
+  PatchDestroy(&p);
+}
+
+/* From a disturbance to the solution, step by step; alone: does Newton's method get there at once? */
+static void Settle(PetscReal size, PetscBool alone)
+{
+  Patch        p;
+  State        off;
+  Solver       solver;
+  SolverReport report;
+  PetscReal    error, norm;
+
+  Create(&p);
+  OK(SolverCreate(p.problem, &solver));
+  OK(StateCreate(p.problem, &off));
+  OK(StateCopy(&p.state, &off));
+  Disturb(&p, size, off.x);
+  OK(SolverSolve(solver, &off, &report));
+  assert_int_equal(report.converged, alone);
+  OK(StateCopy(&p.state, &off));
+  Disturb(&p, size, off.x);
+  OK(SolverSettle(solver, &off, &report));
+  if (!report.converged) fail_msg("does not settle: %s", report.reason);
+  OK(VecNorm(p.state.x, NORM_2, &norm));
+  OK(VecAXPY(off.x, -1, p.state.x));
+  OK(VecNorm(off.x, NORM_2, &error));
+  assert_true(error < 1e-8 * norm);
+  OK(StateDestroy(&off));
+  OK(SolverDestroy(&solver));
+  PatchDestroy(&p);
+}
+
+static void Settles(void **state)
+{
+  Settle(0.02, PETSC_TRUE);
+}
+
+static void SettlesWhereNewtonStalls(void **state)
+{
+  PetscMPIInt size;
+
+  OK(MPI_Comm_size(PETSC_COMM_WORLD, &size));
+  if (size > 1) skip(); /* the disturbance goes by the numbers of unknowns */
+  Settle(0.05, PETSC_FALSE);
+}
+
+int main(int argc, char **argv)
+{
+  const struct CMUnitTest tests[] = {cmocka_unit_test(ShareCounts), cmocka_unit_test(Settles), cmocka_unit_test(SettlesWhereNewtonStalls)};
+  int                     failed;
+
+  if (PetscInitialize(&argc, &argv, NULL, NULL)) return 2;
+  failed = cmocka_run_group_tests(tests, NULL, NULL);
+  return PetscFinalize() ? 2 : failed;
+}
