@@ -69,6 +69,7 @@ static inline void SumAdd(Sum *s, const ContactFacet *f, const PetscReal z[])
       s->dgap[node * s->size + row] += f->dgap[j * n + a];
       s->dweight[node * s->size + row] += f->dweight[j * n + a];
       if (z) s->gradient[row] += z[node] * f->dgap[j * n + a];
+      if (z && f->spring) s->gradient[row] += 0.5 * z[node] * z[node] * f->stiffening[j] * f->darea[a];
     }
   }
   for (PetscInt a = 0; a < n && f->hessian; a++)

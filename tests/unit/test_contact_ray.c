@@ -1,5 +1,5 @@
 /* Contact along a continuous direction: gradients and Hessians against differences with Richardson's extrapolation on random non-matching, tilted, curved,
-   partly covered pairs of any order; balance of forces and moments; rigid motion. */
+   partly covered pairs of any order, compliant where they are; balance of forces and moments; rigid motion. */
 #include "rayfixture.h"
 
 #define STEP 5e-5
@@ -161,14 +161,17 @@ static void CheckSeed(const Kind *kind, uint64_t seed, PetscInt first, PetscInt 
   Patch             nonmortar, mortar;
   ContactPair       pair;
   Sum               exact, moved[4];
-  PetscReal        *z, scale[3];
+  PetscReal        *z, *softness, scale[3];
   uint64_t          signature;
   PetscInt          columns;
 
   MakePair(kind, &seed, &nonmortar, &mortar);
   z = calloc((size_t)nonmortar.s.num_nodes, sizeof(PetscReal));
   for (int j = 0; j < nonmortar.s.num_nodes; j++) z[j] = Random(&seed);
+  softness = calloc((size_t)nonmortar.s.num_nodes, sizeof(PetscReal));
+  for (int j = 0; j < nonmortar.s.num_nodes; j++) softness[j] = 20 + 10 * Random(&seed); /* so that facets covered in part give as much as their gaps */
   CHECK_CALL(ContactPairCreate(kind->dim, kind->ring, &spec, &pair));
+  if (!kind->hanging) CHECK_CALL(ContactPairSetSoftness(pair, softness));
   SearchAll(pair, &nonmortar, &mortar, 0.5, 1e-3);
   SumCreate(&exact, &nonmortar, &mortar);
   SumEvaluate(&exact, pair, &nonmortar, &mortar, z, PETSC_TRUE);
@@ -221,6 +224,7 @@ static void CheckSeed(const Kind *kind, uint64_t seed, PetscInt first, PetscInt 
   PatchDestroy(&nonmortar);
   PatchDestroy(&mortar);
   free(z);
+  free(softness);
   CHECK_CALL(ContactPairDestroy(&pair));
 }
 

@@ -106,7 +106,7 @@ def test_o98_support_across_the_face(higher):
 
 
 @faces("2-full")
-@pytest.mark.parametrize("lower_carries", [False, pytest.param(True, marks=slow)])
+@pytest.mark.parametrize("lower_carries", [False, True])
 def test_o98_three_bodies_at_a_point(higher, tmp_path, lower_carries):
     robust.test_o98_three_bodies_at_a_point(higher, tmp_path, lower_carries)
 
