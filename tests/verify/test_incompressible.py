@@ -161,7 +161,7 @@ def test_ranks_agree(run, scene):
 
 
 def test_tangent(run):
-    """PETSc's finite-difference test in contact, on an adapted mesh, and quadratic convergence: the number of digits nearly doubles."""
+    """PETSc's finite-difference test in contact, on an adapted mesh, and quadratic convergence."""
     result = run(*RUBBER, "-material_rubber_nu", 0.5, "-order", 2, "-adapt_tolerance", 0, "-refine_spot_x", 0.1, "-refine_spot_y", 0, "-refine_spot_levels", 1,
                  "-snes_test_jacobian", "-snes_monitor")
     done(result)
@@ -169,7 +169,7 @@ def test_tangent(run):
     norm = [float(line.split()[-1]) for line in result.stdout.splitlines() if "SNES Function norm" in line]
     print(error, norm)
     assert len(error) > 3 and max(error[-2:]) < 1e-6
-    assert norm[-1] < 1e-12 and norm[-2] < 1e-5 * norm[-3] ** 0.5
+    assert norm[-1] < 1e-12 and all(after < 20 * before**2 + 1e-14 for before, after in zip(norm[-3:], norm[-2:]))
 
 
 @pytest.mark.slow
