@@ -61,9 +61,20 @@ def test_o90_momentum_of_a_half(solve):
     assert force.max() < 1e-10 * np.abs(p["force"]).max() and moment[0] < 1e-10 * np.abs(p["moment"]).max() and moment.max() < 1e-6 * np.abs(p["moment"]).max()
 
 
-@pytest.mark.parametrize("kind", [pytest.param("2-1", marks=slow), pytest.param("2-full", marks=fails("0.54 and 0.64 % of the force, not falling, since constraints of hats have a compliance: before 0.07 and 0.10 %"))])
+@faces(kinds=("2-1",))
 def test_o91_exchange_of_sides(solve):
     space.test_o91_exchange_of_sides(solve)
+
+
+PLACES = ((0, 0), (0.03, 0.07), (0.06, -0.03), (0.11, 0.04), (-0.04, 0.1), (-0.08, -0.06), (0.14, 0.14))
+
+
+@faces(kinds=("2-full",))
+def test_o91_exchange_of_sides_in_places(solve):
+    """With full faces what is left hangs on how the edge of one body cuts the facets of the other: seven places of the upper block."""
+    difference = np.array([[space.exchange(solve, n, (0.2 + x, 0.15 + y, 1)) for x, y in PLACES] for n in (1, 2)])
+    print("mean", difference.mean(axis=1), "largest", difference.max(axis=1))
+    assert difference.max() < 0.005 and difference[1].max() < 0.002 and difference[1].mean() < 0.5 * difference[0].mean()
 
 
 @faces(kinds=SECOND)
@@ -193,10 +204,8 @@ def test_initial_gap_and_overlap(solve, gap):
     space.test_initial_gap_and_overlap(solve, gap, "direct")
 
 
-NINE = fails("full faces, hats: 9 iterations")
-
-
-@pytest.mark.parametrize("kind,carries", [pytest.param(kind, carries, marks=NINE if (kind, carries) == ("2-full", "lower") else slow) for kind in SECOND for carries in ("upper", "lower")])
+@faces(kinds=SECOND)
+@pytest.mark.parametrize("carries", ["upper", "lower"])
 def test_nearly_incompressible(solve, carries):
     """Full faces see more of what is squeezed at the edges of the punch."""
     space.test_nearly_incompressible(solve, 2, carries, "direct", 0.85)
