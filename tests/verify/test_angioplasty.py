@@ -145,15 +145,25 @@ def test_o70_ranks(run, ranks):
         assert abs(a - b) <= 1e-8 * max(1, abs(a)), (a, b)
 
 
-def stent_figures(rows):
-    """Recoil, dogboning, foreshortening and mean radius of the lumen, from the rows of history.csv at t = 1 and t = 2."""
-    def radius(row, name, x, y):
-        return math.hypot(x + row[f"probe.{name}.displacement.x"], y + row[f"probe.{name}.displacement.y"])
+SHIPPED, FINER, FINEST = (), (0.05, 2, 800), (0.04, 3, 1400)  # adapt.tolerance, max_passes, max_cells
 
-    middle, end = ([radius(row, name, x, y) for row in rows] for name, x, y in (("stent_middle", .519615242, .3), ("stent_end", .6, 0)))
-    lumen = [(radius(row, "lumen_slot", .71, 0) + radius(row, "lumen_strut", .614878037, .355)) / 2 for row in rows]
-    return 1 - middle[1] / middle[0], end[0] / middle[0] - 1, -rows[0]["probe.stent_end.displacement.z"], lumen
 
+class Stent:
+    """Figures of the slotted stent at its widest (t = 1) and afterwards (t = 2). Radii of the stent halfway through its wall; the lumen's radius varies around the
+    artery by one cosine between slot and strut."""
+
+    def __init__(self, result):
+        def radius(row, name, x, y):
+            return math.hypot(x + row[f"probe.{name}.displacement.x"], y + row[f"probe.{name}.displacement.y"])
+
+        self.result, self.rows = result, [next(row for row in result.history if abs(row["t"] - t) < 1e-9) for t in (1, 2)]
+        middle, end = ([radius(row, name, x, y) for row in self.rows] for name, x, y in (("stent_middle", .519615242, .3), ("stent_end", .6, 0)))
+        lumen = [[radius(row, name, x, y) for row in self.rows] for name, x, y in (("lumen_slot", .71, 0), ("lumen_strut", .614878037, .355))]
+        wide, after = ({"radius": middle[i], "lumen area": math.pi / 8 * ((slot + strut)**2 * 2 + (slot - strut)**2), "foreshortening": -row["probe.stent_end.displacement.z"],
+                        "plastic work": row["plastic.work"], "mean plastic strain": row["body.stent.mean_plastic_strain"], "contact force": row["contact_force"]}
+                       for i, (row, slot, strut) in enumerate(zip(self.rows, *lumen)))
+        self.wide, self.after = wide, {**after, "recoil": 1 - middle[1] / middle[0]}
+        self.dogboning = [b / a - 1 for a, b in zip(middle, end)]
 
 def check_stent(result):
     assert result.returncode == 0, result
