@@ -200,6 +200,8 @@ PetscErrorCode ProblemTangent(Problem, Vec x, const PetscReal pressure[], Vec li
    Only for problems whose bulk tangent is symmetric (ProblemIsSymmetric): no follower pressures, no plastic flow, no scalars. Default: exact form. */
 PetscErrorCode ProblemSetSymmetric(Problem, PetscBool symmetric);
 PetscErrorCode ProblemIsSymmetric(Problem, PetscBool *possible);
+/* Does the last tangent have active constraints at the rim of a mortar side that is held (ContactFacet.push)? Then it is not symmetric. Collective. */
+PetscErrorCode ProblemHoldsRims(Problem, PetscBool *holds);
 /* rhs = -(r + lift), condensed like the last tangent, multiplier rows in its form; r of the problem, lift and rhs of the matrix. */
 PetscErrorCode ProblemRightSide(Problem, Vec r, Vec lift, Vec rhs);
 /* Active-set passes against the last tangent: given the solution dx of tangent . dx = -rhs, decide anew which constraints are active, rewrite their rows in the

@@ -99,7 +99,7 @@ static void PrepareResult_Private(const EvaluateContext *ctx, PetscInt slot, Con
   *real += 4;
   for (PetscInt i = 0; i < mortar; i++) (*ids)[own + i] = ~pair->node[pair->first_node[slot] + i];
   *ids += own + mortar;
-  out->reach = out->spring = out->dgap = out->dweight = out->hessian = NULL;
+  out->reach = out->spring = out->dgap = out->dweight = out->push = out->hessian = NULL;
   if (ctx->derivatives) {
     out->dgap    = *real;
     out->dweight = *real + 2 * n;

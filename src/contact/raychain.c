@@ -1,6 +1,6 @@
 /* From the numbers of a facet (rayimpl.h) to the nodes of its result, by exact first derivatives: images follow the facet's lattice, its directions and the
    mortar vertex (R, few numbers each); directions the corners of the facets around (J); lattice and mortar nodes their masters. Half forms stay half forms:
-   a block W_in of numbers i = R n goes to R^T (W_in + W_ni^T + W_ii^T R). */
+   a block W_in of numbers i = R n goes to R^T (W_in + W_ni^T + W_ii^T R). Forces at a held rim have derivatives by the images but none of their own. */
 #include "rayimpl.h"
 
 #define TERMS RAY_TERMS
@@ -217,5 +217,55 @@ PetscErrorCode ContactRayChainHessian(RayWork w, PetscReal H[])
   ContactRayProducts(nd, 1, nn, w->J, nn, nn, Z, nn, H, nn);
   for (PetscInt i = 0; i < nn; i++)
     for (PetscInt j = 0; j <= i; j++) H[i * nn + j] = H[j * nn + i] = H[i * nn + j] + H[j * nn + i];
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* K[nodes][nodes] = K_nn + K_ni R, K both halves of W. */
+static void Held_Private(RayWork w, PetscInt nodes, PetscReal Kin[], PetscReal K[])
+{
+  const RayFacet  *f   = &w->facet;
+  const PetscInt   own = f->D * (f->s.num + f->nv), n = w->n, mi = n - nodes, width = Width_Private(f);
+  const PetscReal *W = w->W;
+
+  for (PetscInt i = 0; i < nodes; i++)
+    for (PetscInt j = 0; j < nodes; j++) K[i * nodes + j] = W[i * n + j] + W[j * n + i];
+  for (PetscInt q = 0; q < mi; q++)
+    for (PetscInt i = 0; i < nodes; i++) Kin[q * nodes + i] = W[i * n + nodes + q] + W[(nodes + q) * n + i];
+  ContactRayProducts(mi, 1, nodes, Kin, nodes, own, w->R, width, K, nodes);
+  for (PetscInt k = 0; k < w->num_images; k++) {
+    const PetscInt at = Vertex_Private(w, k);
+
+    for (PetscInt q = f->m * k; q < f->m * (k + 1); q++)
+      for (PetscInt i = 0; i < nodes; i++)
+        for (PetscInt c = 0; c < f->D; c++) K[i * nodes + at + c] += Kin[q * nodes + i] * w->R[q * width + own + c];
+  }
+}
+
+PetscErrorCode ContactRayChainFrozen(RayWork w, PetscReal H[])
+{
+  const RayFacet *f = &w->facet;
+  const PetscInt  D = f->D, na = f->s.num, nn = w->nn, nodes = D * (na + f->nv + w->num_mortar), mi = w->n - nodes, nd = D * f->nv;
+  PetscReal      *K, *B, *columns;
+
+  PetscFunctionBegin;
+  PetscCall(ContactGrow((mi + nodes + nn) * nodes + nd * nn, sizeof(PetscReal), &w->size_WJ, &w->WJ));
+  K       = w->WJ + mi * nodes;
+  B       = K + nodes * nodes;
+  columns = B + nn * nodes;
+  Held_Private(w, nodes, w->WJ, K);
+  PetscCall(PetscArrayzero(B, nn * nodes));
+  for (PetscInt v = 0; v < na + w->num_mortar; v++)
+    for (PetscInt k = w->result.row_first[v]; k < w->result.row_first[v + 1]; k++)
+      for (PetscInt c = 0; c < D; c++) {
+        const PetscReal *from = K + (Row_Private(f, v) + c) * nodes;
+        PetscReal       *to   = B + (D * w->result.row_node[k] + c) * nodes;
+
+        for (PetscInt l = 0; l < nodes; l++) to[l] += w->result.row_weight[k] * from[l];
+      }
+  ContactRayProducts(nd, 1, nn, w->J, nn, nodes, K + D * na * nodes, nodes, B, nodes);
+  for (PetscInt i = 0; i < nn; i++) Scatter_Private(w, 1, B + i * nodes, H + i * nn);
+  for (PetscInt d = 0; d < nd; d++)
+    for (PetscInt i = 0; i < nn; i++) columns[d * nn + i] = B[i * nodes + D * na + d];
+  ContactRayProducts(nd, 1, nn, columns, nn, nn, w->J, nn, H, nn);
   PetscFunctionReturn(PETSC_SUCCESS);
 }

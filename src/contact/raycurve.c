@@ -19,12 +19,12 @@ static void AddSkew_Private(PetscInt D, const PetscReal v[], PetscInt apart, Pet
 }
 
 /* Weights of gap and area at a point. */
-static void Weights_Private(const RayFacet *f, const RayTest *t, const RayFunctions *T, const PetscReal y[], const PetscReal D[4][4], PetscReal area,
-                            RayWeight *phi, RayWeight *chi)
+static void Weights_Private(const RayFacet *f, const RayTest *t, const RayFunctions *T, const PetscReal y[], const PetscReal D[4][4], RayWeight *phi,
+                            RayWeight *chi)
 {
   memset(phi, 0, sizeof(*phi));
   memset(chi, 0, sizeof(*chi));
-  chi->v = area;
+  chi->v = 0;
   for (PetscInt a = 0; a < t->num; a++) {
     const PetscReal ya = y[t->place[a]];
 
@@ -83,8 +83,8 @@ static void Corners_Private(const RayFacet *f, const RayPoint *r, const PetscRea
 
 /* place: where the rays met when the moments were found. */
 static PetscErrorCode Batch_Private(const RayWork w, const RayLattice *mortar, const RayTest *t, const RaySimplex *s, PetscInt points,
-                                    const PetscReal point[][3], const PetscReal weight[], const PetscReal y[], const PetscReal D[4][4], PetscReal area,
-                                    const RayPlace place[], RayPoint *r, RaySecond *second, Batch *b)
+                                    const PetscReal point[][3], const PetscReal weight[], const PetscReal y[], const PetscReal D[4][4], const RayPlace place[],
+                                    RayPoint *r, RaySecond *second, Batch *b)
 {
   const RayFacet *f  = &w->facet;
   const PetscInt  na = f->s.num;
@@ -99,7 +99,7 @@ static PetscErrorCode Batch_Private(const RayWork w, const RayLattice *mortar, c
   for (PetscInt k = 0; k < points; k++) {
     PetscCheck(ContactRayAgain(f, mortar, &place[k], 3, r), PETSC_COMM_SELF, PETSC_ERR_PLIB, "a ray that met the mortar facet does not meet it again");
     if (t->hats) ContactRayTestFunctions(f, t, r->xi, &T);
-    Weights_Private(f, t, t->hats ? &T : &r->S, y, D, area, &sum, &mass);
+    Weights_Private(f, t, t->hats ? &T : &r->S, y, D, &sum, &mass);
     ContactRayOverDet(f, &r->chart, weight[k], &sum, &phi);
     ContactRayOverDet(f, &r->chart, weight[k], &mass, &chi);
     second->basis       = b->basis + k * b->nf;
@@ -195,8 +195,8 @@ static void Collapse_Private(const RayFacet *f, const Overlap *o, const RayMove 
 }
 
 /* *place: the overlap's first; moves on to the next one's. */
-static PetscErrorCode Overlap_Private(RayWork w, const RayLattice *mortar, PetscInt k, const PetscReal y[], const PetscReal D[4][4], PetscReal area,
-                                      const RayPlace **place, const Pairs *pairs, PetscReal all[], PetscReal gradient[])
+static PetscErrorCode Overlap_Private(RayWork w, const RayLattice *mortar, PetscInt k, const PetscReal y[], const PetscReal D[4][4], const RayPlace **place,
+                                      const Pairs *pairs, PetscReal all[], PetscReal gradient[])
 {
   const RayFacet *f  = &w->facet;
   const PetscInt  na = f->s.num, nq = f->D * (na + f->nv + mortar->num);
@@ -232,7 +232,7 @@ static PetscErrorCode Overlap_Private(RayWork w, const RayLattice *mortar, Petsc
     RaySimplex s;
 
     ContactRaySimplex(f, o, j, &s);
-    PetscCall(Batch_Private(w, mortar, &w->test[w->window[k]], &s, points, point, weight, y, D, area, *place, &r, &second, &b));
+    PetscCall(Batch_Private(w, mortar, &w->test[w->window[k]], &s, points, point, weight, y, D, *place, &r, &second, &b));
     *place += points;
     Simplex_Private(f, &s, &b, pairs, all, corner);
     for (PetscInt i = 0; i < nq; i++) gradient[i] += s.size * b.gradient[i];
@@ -286,8 +286,7 @@ static void Transpose_Private(PetscInt n, PetscReal W[])
     }
 }
 
-PetscErrorCode ContactRayHessian(ContactPair pair, const ContactSurface *mortar, const PetscReal y[], const PetscReal D[4][4], PetscReal area,
-                                 PetscReal gradient[])
+PetscErrorCode ContactRayHessian(ContactPair pair, const ContactSurface *mortar, const PetscReal y[], const PetscReal D[4][4], PetscReal gradient[])
 {
   RayWork         w   = pair->ray;
   const RayFacet *f   = &w->facet;
@@ -313,7 +312,7 @@ PetscErrorCode ContactRayHessian(ContactPair pair, const ContactSurface *mortar,
     pair_sums.turn  = w->part + N * N;
     pair_sums.twist = pair_sums.turn + 3 * f->nv * f->s.num;
     slope           = pair_sums.turn + 3 * pairs;
-    PetscCall(Overlap_Private(w, &facet, k, y, D, area, &at, &pair_sums, w->part, slope));
+    PetscCall(Overlap_Private(w, &facet, k, y, D, &at, &pair_sums, w->part, slope));
     AddPairs_Private(w, &pair_sums);
     ContactRayPlaces(w, mortar, w->mortar[k], facet.num, place);
     for (PetscInt a = 0; a < width; a++) gradient[place[a]] += slope[a];
@@ -324,6 +323,7 @@ PetscErrorCode ContactRayHessian(ContactPair pair, const ContactSurface *mortar,
   Transpose_Private(n, w->W);
   ContactImagesFold(w, n, w->W, n);
   ContactImagesFold(w, 1, gradient, n);
+  if (w->frozen) PetscCall(PetscArrayzero(gradient + images, n - images));
   for (PetscInt k = 0; k < w->num_images; k++) PetscCall(Image_Private(w, k, gradient + images + f->m * k));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -223,10 +223,12 @@ static void GapRow_Private(const RayWork w, const Weights *o, PetscInt a, PetscR
   }
 }
 
-/* to[num_rows][nn] = sum_a T[r][a] (gap a or weight a) J */
-static PetscErrorCode Rows_Private(RayWork w, const Weights *o, PetscBool gap, PetscReal to[])
+typedef enum { ROWS_GAP, ROWS_WEIGHT, ROWS_PUSH } RowsKind;
+
+/* to[num_rows][nn] = sum_a T[r][a] (gap a or weight a) J; push: of the gap, without the images. */
+static PetscErrorCode Rows_Private(RayWork w, const Weights *o, RowsKind kind, PetscReal to[])
 {
-  const PetscInt na = w->facet.s.num, n = w->n, nr = w->result.num_rows;
+  const PetscInt na = w->facet.s.num, n = w->n, nr = w->result.num_rows, images = w->facet.D * (na + w->facet.nv + w->num_mortar);
   PetscReal     *row;
 
   PetscFunctionBegin;
@@ -234,7 +236,7 @@ static PetscErrorCode Rows_Private(RayWork w, const Weights *o, PetscBool gap, P
   PetscCall(PetscArrayzero(w->rows, n * nr + n * na));
   row = w->rows + n * nr;
   for (PetscInt a = 0; a < na; a++)
-    if (gap)
+    if (kind != ROWS_WEIGHT)
       GapRow_Private(w, o, a, 1, row + a * n);
     else
       PetscCall(PetscArraycpy(row + a * n, w->dq + (na + a) * n, n));
@@ -245,35 +247,22 @@ static PetscErrorCode Rows_Private(RayWork w, const Weights *o, PetscBool gap, P
       if (t == 0) continue;
       for (PetscInt i = 0; i < n; i++) w->rows[i * nr + r] += t * row[a * n + i];
     }
+  if (kind == ROWS_PUSH) PetscCall(PetscArrayzero(w->rows + images * nr, (n - images) * nr));
   ContactRayChainRows(w, nr, w->rows, to);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* sum_r K_r z_r^2 / 2 and its derivatives by the covered area. */
-static void Energy_Private(const EvaluateContext *ctx, const RaySpring *spring, PetscReal energy[3])
+static PetscErrorCode Hessian_Private(const EvaluateContext *ctx, PetscInt facet, const Weights *o, const PetscReal y[], PetscReal H[])
 {
-  const Result *result = &ctx->pair->ray->result;
-  PetscReal     sum    = 0;
-
-  for (PetscInt r = 0; r < result->num_rows && spring->on; r++) sum += 0.5 * spring->softness[r] * PetscSqr(ctx->z[result->node[r]]);
-  for (int i = 0; i < 3; i++) energy[i] = spring->on ? spring->share[i] * sum : 0;
-}
-
-static PetscErrorCode Hessian_Private(const EvaluateContext *ctx, PetscInt facet, const Weights *o, const RaySpring *spring, const PetscReal y[], PetscReal H[])
-{
-  RayWork        w  = ctx->pair->ray;
-  const PetscInt na = w->facet.s.num, n = w->n;
-  PetscReal     *gradient, *left, *right, energy[3];
+  RayWork        w = ctx->pair->ray;
+  const PetscInt n = w->n;
+  PetscReal     *gradient, *left, *right;
 
   PetscFunctionBegin;
-  Energy_Private(ctx, spring, energy);
   PetscCall(ContactGrow(3 * n, sizeof(PetscReal), &w->size_rows, &w->rows));
   PetscCall(PetscArrayzero(w->rows, 3 * n));
   gradient = w->rows, left = gradient + n, right = left + n;
-  for (PetscInt a = 0; a < na && energy[2] != 0; a++)
-    for (PetscInt i = 0; i < n; i++) left[i] += w->dq[(na + a) * n + i];
-  PetscCall(ContactRayHessian(ctx->pair, ctx->mortar, o->dual ? o->f.g : y, o->dual ? o->f.D : NULL, energy[1], gradient));
-  if (energy[2] != 0) ContactRayProducts(1, 0.5 * energy[2], n, left, n, n, left, n, w->W, n);
+  PetscCall(ContactRayHessian(ctx->pair, ctx->mortar, o->dual ? o->f.g : y, o->dual ? o->f.D : NULL, gradient));
   for (int p = 0; o->dual && p < o->f.num_pairs; p++) {
     for (PetscInt i = 0; i < 2 * n; i++) left[i] = 0;
     for (PetscInt q = 0; q < w->num_moments; q++)
@@ -283,7 +272,7 @@ static PetscErrorCode Hessian_Private(const EvaluateContext *ctx, PetscInt facet
       }
     ContactRayProducts(1, 1, n, left, n, n, right, n, w->W, n);
   }
-  PetscCall(ContactRayChainHessian(w, H));
+  PetscCall(w->frozen ? ContactRayChainFrozen(w, H) : ContactRayChainHessian(w, H));
   ContactRayChainRows(w, 1, gradient, NULL);
   PetscCall(ContactRayDirectionCurvature(w, ctx->nonmortar, facet, gradient, H));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -311,7 +300,7 @@ static PetscErrorCode Result_Private(const EvaluateContext *ctx, PetscInt facet,
   RaySpring      spring;
   RayWork        w  = ctx->pair->ray;
   const PetscInt na = w->facet.s.num, nr = w->result.num_rows, nn = w->nn;
-  PetscReal     *gap, *weight, *reach, *dgap;
+  PetscReal     *gap, *weight, *reach, *dgap, *push;
 
   PetscFunctionBegin;
   PetscCall(ContactStoreReserve(&w->result.store, 3 * nr, &gap));
@@ -327,7 +316,7 @@ static PetscErrorCode Result_Private(const EvaluateContext *ctx, PetscInt facet,
   out->reach   = w->facet.s.order == 1 ? reach : NULL; /* curved facets turn with their directions: a gap of 1 along the normal counts as its area */
   out->area    = w->covered;
   out->min_gap = w->min_gap;
-  out->dgap = out->dweight = out->hessian = out->darea = NULL;
+  out->dgap = out->dweight = out->push = out->hessian = out->darea = NULL;
   PetscCall(ContactRaySpring(ctx->pair, ctx->nonmortar, facet, &spring));
   PetscCall(Spring_Private(w, &spring, out));
   if (!derivatives) PetscFunctionReturn(PETSC_SUCCESS);
@@ -335,29 +324,33 @@ static PetscErrorCode Result_Private(const EvaluateContext *ctx, PetscInt facet,
   PetscCall(ContactStoreReserve(&w->result.store, 2 * nr * nn, &dgap));
   out->dgap    = dgap;
   out->dweight = dgap + nr * nn;
-  PetscCall(Rows_Private(w, o, PETSC_TRUE, dgap));
-  PetscCall(Rows_Private(w, o, PETSC_FALSE, dgap + nr * nn));
+  PetscCall(Rows_Private(w, o, ROWS_GAP, dgap));
+  PetscCall(Rows_Private(w, o, ROWS_WEIGHT, dgap + nr * nn));
+  if (w->frozen) {
+    PetscCall(ContactStoreReserve(&w->result.store, nr * nn, &push));
+    PetscCall(Rows_Private(w, o, ROWS_PUSH, push));
+    out->push = push;
+  }
   if (spring.on) {
     PetscCall(ContactStoreReserve(&w->result.store, nn, (PetscReal **)&out->darea));
     for (PetscInt i = 0; i < nr * nn; i++) ((PetscReal *)out->darea)[i % nn] += out->dweight[i];
   }
   if (!hessian) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(ContactStoreReserve(&w->result.store, nn * nn, (PetscReal **)&out->hessian));
-  PetscCall(Hessian_Private(ctx, facet, o, &spring, y, (PetscReal *)out->hessian));
+  PetscCall(Hessian_Private(ctx, facet, o, y, (PetscReal *)out->hessian));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* The Hessian of a result that has the rest. */
 static PetscErrorCode Curve_Private(const EvaluateContext *ctx, PetscInt facet, const PetscReal y[], ContactFacet *out)
 {
-  const RaySpring none  = {.on = PETSC_FALSE};
-  const Weights   plain = {.dual = PETSC_FALSE};
-  RayWork         w     = ctx->pair->ray;
+  const Weights plain = {.dual = PETSC_FALSE};
+  RayWork       w     = ctx->pair->ray;
 
   PetscFunctionBegin;
   PetscCall(ContactRayChain(w, ctx->nonmortar, facet, PETSC_FALSE));
   PetscCall(ContactStoreReserve(&w->result.store, w->nn * w->nn, (PetscReal **)&out->hessian));
-  PetscCall(Hessian_Private(ctx, facet, &plain, &none, y, (PetscReal *)out->hessian));
+  PetscCall(Hessian_Private(ctx, facet, &plain, y, (PetscReal *)out->hessian));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

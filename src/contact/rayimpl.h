@@ -97,7 +97,8 @@ struct _p_RayWork {
   PetscInt  *mortar, *window; /* [num_overlaps] mortar facet, test */
   PetscInt  *vertex;          /* [num_mortar] mortar nodes */
   RayTest   *test;
-  PetscBool  full; /* the mortar side covers all of it */
+  PetscBool  full;   /* the mortar side covers all of it */
+  PetscBool  frozen; /* forces without the motion of the mortar side's rim */
   PetscInt   n, nn, num_moments;
   PetscReal  q[RAY_MOMENTS], reach[RAY_LATTICE], covered, min_gap; /* reach: moments of a gap of 1 along unit directions */
   PetscReal *dq, *W, *J, *R, *WJ, *part, *buffer;                  /* dq [num_moments][n], W [n][n]; J, R: raychain.c */
@@ -235,14 +236,14 @@ void      ContactRayPlaces(const RayWork, const ContactSurface *mortar, PetscInt
 /* raysum.c, raycurve.c: integrals over the overlaps of the facet at hand */
 void           ContactRayOverDet(const RayFacet *, const RayChartPoint *, PetscReal factor, const RayWeight *, RayWeight *);
 PetscErrorCode ContactRayMoments(ContactPair, const ContactSurface *mortar, PetscBool mass, PetscBool derivatives);
-/* W of the work space: half Hessian of sum_a y_a G_a + sum_ab D[a][b] int N_a N_b dA (D NULL: none) + area int dA, at the facet's places; gradient[n] of it is
-   set. */
-PetscErrorCode ContactRayHessian(ContactPair, const ContactSurface *mortar, const PetscReal y[], const PetscReal D[4][4], PetscReal area, PetscReal gradient[]);
+/* W of the work space: half Hessian of sum_a y_a G_a + sum_ab D[a][b] int N_a N_b dA (D NULL: none) at the facet's places; gradient[n] of it is set. Where the
+   rim is held the images' part of the gradient vanishes. */
+PetscErrorCode ContactRayHessian(ContactPair, const ContactSurface *mortar, const PetscReal y[], const PetscReal D[4][4], PetscReal gradient[]);
 
-/* spring.c: compliances of a facet that is covered in part, with two derivatives by the covered area. */
+/* spring.c: compliances of a facet that is covered in part, with the derivative by the covered area. */
 typedef struct {
   PetscBool  on;
-  PetscReal  share[3]; /* 4 epsilon s (1 - s) and derivatives */
+  PetscReal  share[2]; /* 4 epsilon s (1 - s) and its derivative */
   PetscReal *softness; /* [num_rows] times the measure of the row's hats */
 } RaySpring;
 PetscErrorCode ContactRaySpring(ContactPair, const ContactSurface *nonmortar, PetscInt facet, RaySpring *);
@@ -253,6 +254,8 @@ PetscErrorCode ContactRayChain(RayWork, const ContactSurface *nonmortar, PetscIn
 void ContactRayChainRows(RayWork, PetscInt num, PetscReal X[], PetscReal to[]);
 /* H = both halves of the work space's W, which changes. */
 PetscErrorCode ContactRayChainHessian(RayWork, PetscReal H[]);
+/* The same for forces at a held rim, not symmetric: H[i][j] derivative of force i by position j. */
+PetscErrorCode ContactRayChainFrozen(RayWork, PetscReal H[]);
 PetscErrorCode ContactRayDirectionCurvature(RayWork, const ContactSurface *, PetscInt facet, const PetscReal gradient[], PetscReal H[]);
 
 /* rayfacet.c */

@@ -2,14 +2,14 @@
 
    Where the mortar side ends a little beyond a node, all that is covered of the next node's hat is a sliver. Its constraint then says nearly the same as those
    of the nodes before it, and with a pressure that grows like a power of 1 / w_j (10^3 and more where the others are 0.1) it bends the facet so that the sliver
-   fits: equilibrium hangs on the width of the sliver, and Newton's method on where the edge moves. With a compliance K_j, which vanishes with the covered share
+   fits, so that equilibrium hangs on the width of the sliver. With a compliance K_j, which vanishes with the covered share
    s slower than w_j does, the force of a sliver fades with it; K_j vanishes at s = 1, too, where the facet takes its constant functions, which stand well
    apart. It depends on the covered area only, so that all derivatives are those of the area. Facets of order 1 take the value at the node of the straight line
    that fits the gap best, on which that node alone acts: no need. Nor in the plane: slivers are few there, and where two mortar bodies meet on one facet the
    constraints stay exact. */
 #include "rayimpl.h"
 
-#define EPSILON 0.01 /* at a third covered the sliver is as stiff as the cells */
+#define EPSILON 0.002 /* order 2: a sliver of a fifth of the facet is as stiff as the cells */
 
 PetscErrorCode ContactPairSetSoftness(ContactPair pair, const PetscReal softness[])
 {
@@ -33,7 +33,7 @@ PetscErrorCode ContactRaySpring(ContactPair pair, const ContactSurface *nonmorta
 {
   RayWork          w = pair->ray;
   const PetscInt   p = w->facet.s.order, num = w->facet.s.num, nr = w->result.num_rows;
-  const PetscReal  whole = Measure_Private(nonmortar, facet, pair->axisymmetric), s = w->covered / whole, factor = 4 * EPSILON;
+  const PetscReal  whole = Measure_Private(nonmortar, facet, pair->axisymmetric), s = w->covered / whole, factor = 4 * EPSILON / p;
   const PetscReal *x;
 
   PetscFunctionBegin;
@@ -41,7 +41,6 @@ PetscErrorCode ContactRaySpring(ContactPair pair, const ContactSurface *nonmorta
   if (!spring->on) PetscFunctionReturn(PETSC_SUCCESS);
   spring->share[0] = factor * s * (1 - s);
   spring->share[1] = factor * (1 - 2 * s) / whole;
-  spring->share[2] = -2 * factor / PetscSqr(whole);
   PetscCall(ElementGetNodes(p, &x));
   PetscCall(ContactGrow(nr, sizeof(PetscReal), &w->size_softness, &w->softness));
   spring->softness = w->softness;

@@ -469,6 +469,7 @@ static PetscErrorCode Freeze_Private(Problem p, Contact *c, PetscBool *failed)
     c->frozen[i].dgap                                                  = dgap;
     c->frozen[i].dweight                                               = dweight;
     c->frozen[i].hessian                                               = NULL;
+    c->frozen[i].push                                                  = NULL;
   }
   c->facets    = c->frozen;
   c->is_frozen = PETSC_TRUE; /* also on a rank that has no edges: the next evaluation must not come here again */
@@ -491,8 +492,9 @@ void ContactRowFactors_Private(const Contact *c, const ContactFacet *e, PetscInt
 {
   const PetscInt j = e->nodes[k];
 
+  row    = (PetscBool)(row && c->active[j]);
   *mean  = row && ContactCovered_Private(c, j) ? ContactRowGap_Private(c, j) / ContactRowMeasure_Private(c, j) : 0;
-  *along = e->spring ? e->stiffening[k] * (c->z[j] - *mean * c->c[j]) : 0;
+  *along = row && e->spring ? e->stiffening[k] * (c->z[j] - *mean * c->c[j]) : 0;
 }
 
 PetscErrorCode ContactChange_Private(Problem p, Contact *c, const PetscReal increment[], PetscReal change[])
@@ -511,7 +513,7 @@ PetscErrorCode ContactChange_Private(Problem p, Contact *c, const PetscReal incr
       change[j] += FacetDot_Private(c, e, e->dgap + p->dim * k * e->num);
       if (!ContactCovered_Private(c, j)) continue;
       ContactRowFactors_Private(c, e, k, PETSC_TRUE, &mean, &along);
-      if (!c->active[j]) mean = c->gap[j] / c->weight[j], along = 0;
+      if (!c->active[j]) mean = c->gap[j] / c->weight[j];
       change[j] -= mean * FacetDot_Private(c, e, e->dweight + p->dim * k * e->num);
       if (along != 0) change[j] += along * FacetDot_Private(c, e, e->darea);
     }
@@ -616,7 +618,7 @@ PetscErrorCode ContactEvaluate_Private(Problem p, Contact *c, Vec x, const Petsc
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Contact forces z_j grad gt_j (and z_j^2 / 2 grad K_j) of this rank's facets into both sides' arrays. */
+/* Contact forces z_j grad gt_j, or z_j push_j, of this rank's facets into both sides' arrays. */
 static void FacetForces_Private(Contact *c)
 {
   const PetscInt dim = c->side[0].dim;
@@ -627,13 +629,14 @@ static void FacetForces_Private(Contact *c)
       for (PetscInt d = 0; d < dim && s->has[n]; ++d) s->force[dim * n + d] = 0;
   }
   for (PetscInt i = 0; i < c->num_facets; ++i) {
-    const ContactFacet *e = &c->facets[i];
+    const ContactFacet *e    = &c->facets[i];
+    const PetscReal    *push = e->push ? e->push : e->dgap;
     if (!c->mine[e->facet] || !e->dgap) continue;
     for (PetscInt a = 0; a < e->num; ++a) {
       PetscReal *f = c->side[NODE_SIDE(e->nodes[a])].force + dim * NODE_INDEX(e->nodes[a]);
       for (PetscInt k = 0; k < e->num_rows; ++k) {
-        const PetscReal z = c->has_multiplier[e->nodes[k]] ? c->z[e->nodes[k]] : 0, along = e->spring ? 0.5 * z * z * e->stiffening[k] : 0;
-        for (PetscInt d = 0; d < dim && z != 0; ++d) f[d] += z * e->dgap[dim * (k * e->num + a) + d] + (along != 0 ? along * e->darea[dim * a + d] : 0);
+        const PetscReal z = c->has_multiplier[e->nodes[k]] ? c->z[e->nodes[k]] : 0;
+        for (PetscInt d = 0; d < dim && z != 0; ++d) f[d] += z * push[dim * (k * e->num + a) + d];
       }
     }
   }
@@ -668,4 +671,20 @@ void ContactRows_Private(const Contact *c, PetscReal r[])
     if (c->zlocal[j] < 0) continue;
     r[c->zlocal[j]] = c->w0[j] * (c->active[j] ? c->c[j] * ContactRowGap_Private(c, j) / ContactRowMeasure_Private(c, j) : c->z[j]);
   }
+}
+
+PetscErrorCode ProblemHoldsRims(Problem p, PetscBool *holds)
+{
+  PetscBool mine = PETSC_FALSE;
+
+  PetscFunctionBegin;
+  for (PetscInt i = 0; i < p->num_contacts; ++i) {
+    const Contact *c = &p->contacts[i];
+    for (PetscInt f = 0; f < c->num_facets && !c->released; ++f) {
+      const ContactFacet *e = &c->facets[f];
+      for (PetscInt k = 0; k < e->num_rows && e->push; ++k) mine = (PetscBool)(mine || c->active[e->nodes[k]]);
+    }
+  }
+  PetscCallMPI(MPI_Allreduce(&mine, holds, 1, MPIU_BOOL, MPI_LOR, p->comm));
+  PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -121,10 +121,8 @@ static PetscErrorCode ContactBlocks_Private(Problem p, Contact *c)
     if (e->hessian) PetscCall(FacetHessian_Private(p, c, e, p->work_index));
     for (PetscInt k = 0; k < e->num_rows && !p->symmetric; ++k) {
       const PetscInt z = c->zdof[e->nodes[k]];
-      PetscReal      mean, along;
       if (z < 0 || !c->near[e->nodes[k]]) continue;
-      ContactRowFactors_Private(c, e, k, PETSC_FALSE, &mean, &along);
-      for (PetscInt a = 0; a < n; ++a) p->work_value[a] = -e->dgap[k * n + a] - (along != 0 ? along * e->darea[a] : 0);
+      for (PetscInt a = 0; a < n; ++a) p->work_value[a] = e->push ? -e->push[k * n + a] : -e->dgap[k * n + a];
       for (PetscInt a = 0; a < e->num; ++a) Turn_Private(dim, Frame_Private(c, e->nodes[a]), p->work_value + dim * a, 1);
       PetscCall(ProblemInsert_Private(p, n, p->work_index, 1, &z, p->work_value, ADD_VALUES));
     }
@@ -167,13 +165,14 @@ static PetscErrorCode NodeGradient_Private(Problem p, const Contact *c, PetscInt
     PetscInt            row = 0;
     while (row < e->num_rows && e->nodes[row] != j) ++row;
     if (row == e->num_rows || !e->dgap) continue;
-    ContactRowFactors_Private(c, e, row, (PetscBool)(normalised && c->active[j]), &mean, &along);
+    const PetscReal *gradient = (!normalised && e->push ? e->push : e->dgap) + row * n;
+    ContactRowFactors_Private(c, e, row, normalised, &mean, &along);
     for (PetscInt a = 0; a < e->num; ++a) {
       const Surface *side = &c->side[NODE_SIDE(e->nodes[a])];
       const PetscInt node = NODE_INDEX(e->nodes[a]);
       PetscReal      g[3] = {0, 0, 0};
       for (PetscInt d = 0; d < dim; ++d)
-        g[d] = e->dgap[row * n + dim * a + d] - mean * e->dweight[row * n + dim * a + d] + (along != 0 ? along * e->darea[dim * a + d] : 0);
+        g[d] = gradient[dim * a + d] - mean * e->dweight[row * n + dim * a + d] + (along != 0 ? along * e->darea[dim * a + d] : 0);
       Turn_Private(dim, Frame_Private(c, e->nodes[a]), g, 1);
       for (PetscInt d = 0; d < dim; ++d) {
         if (side->dof[dim * node + d] < 0) continue;

@@ -54,6 +54,27 @@ PetscErrorCode SolverLinear_Private(Solver s)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscErrorCode SolverUnsymmetric_Private(Solver s)
+{
+  KSP ksp;
+  PC  pc;
+
+  PetscFunctionBegin;
+  PetscCall(PetscInfo(s->snes, "the tangent is not symmetric at the rim of a contact face: LU from here on\n"));
+  s->symmetric = s->factored = PETSC_FALSE;
+  PetscCall(ProblemSetSymmetric(s->problem, PETSC_FALSE));
+  PetscCall(SaddleDestroy_Private(&s->saddle));
+  PetscCall(SNESGetKSP(s->snes, &ksp));
+  PetscCall(KSPGetPC(ksp, &pc));
+  PetscCall(PCReset(pc));
+  if (s->single)
+    PetscCall(SingleFactorSet_Private(pc, PETSC_FALSE));
+  else
+    PetscCall(Double_Private(s, pc));
+  PetscCall(PCSetFromOptions(pc));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 #if defined(PETSC_HAVE_MUMPS)
 /* Did MUMPS run out of its own workspace estimate? Then forget the factor and let the next one have four times the reserve (percent, ICNTL(14)). It has to
    come through the options: MUMPS ignores a new value between analysis and factorisation. */

@@ -54,6 +54,8 @@ PetscErrorCode SetHistoryAdd_Private(SetHistory *, uint64_t hash, PetscReal norm
 PetscErrorCode SetHistoryDestroy_Private(SetHistory *);
 /* linear.c: direct solver by default, everything open to options. */
 PetscErrorCode SolverLinear_Private(Solver);
+/* From the next factorisation on, the exact tangent by LU. */
+PetscErrorCode SolverUnsymmetric_Private(Solver);
 PetscErrorCode SolverDirect_Private(Solver, Mat, Vec rhs, Vec x, PetscBool *ok);
 PetscErrorCode SolverRefine_Private(Solver, Mat, Vec rhs, PetscReal rtol, Vec x, PetscBool *ok);
 /* singlefactor.c: make a PC the factor in single precision of its matrix, LDL^T where that is symmetric; exists where MUMPS has it. */

@@ -24,7 +24,7 @@ typedef struct {
   PetscInt   dim, nn, nm, size, num;
   PetscReal *gap, *weight;   /* [nn] */
   PetscReal *dgap, *dweight; /* [nn][size] */
-  PetscReal *gradient;       /* [size] of S = sum z gap */
+  PetscReal *gradient;       /* [size] forces: of S = sum z gap, rims held */
   PetscReal *hessian;        /* [size][size] */
   PetscReal  area, min_gap, S;
   PetscBool  failed;
@@ -68,8 +68,7 @@ static inline void SumAdd(Sum *s, const ContactFacet *f, const PetscReal z[])
 
       s->dgap[node * s->size + row] += f->dgap[j * n + a];
       s->dweight[node * s->size + row] += f->dweight[j * n + a];
-      if (z) s->gradient[row] += z[node] * f->dgap[j * n + a];
-      if (z && f->spring) s->gradient[row] += 0.5 * z[node] * z[node] * f->stiffening[j] * f->darea[a];
+      if (z) s->gradient[row] += z[node] * (f->push ? f->push : f->dgap)[j * n + a];
     }
   }
   for (PetscInt a = 0; a < n && f->hessian; a++)
