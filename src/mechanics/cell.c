@@ -324,7 +324,7 @@ static PetscErrorCode Chunk_Private(CellKernel k, CellBatch *b, PetscInt first, 
     Store_Private(num, n, d, k->u, b->residual + first * size);
   }
   if (couple) CellKernelCouple_Private(k, num, b->dpressure ? b->dpressure + first * m * size : NULL);
-  if (tangent) CellKernelTangent_Private(k, num, b->place, b->tangent + first * size * size);
+  if (tangent) CellKernelTangent_Private(k, b, first, num);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
