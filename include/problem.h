@@ -204,7 +204,8 @@ PetscErrorCode ProblemIsSymmetric(Problem, PetscBool *possible);
 PetscErrorCode ProblemRightSide(Problem, Vec r, Vec lift, Vec rhs);
 /* Active-set passes against the last tangent: given the solution dx of tangent . dx = -rhs, decide anew which constraints are active, rewrite their rows in the
    matrix and the right-hand side. *changed: number of nodes that switched (all ranks); *violation: by how much dx contradicts the set it was found with, the
-   sum over those nodes of w0 |z - c gt/w| (unit: force). */
+   sum over those nodes of w0 |z - c gt/w| (unit: force). Of a pair that bears nothing
+   yet those nodes come first that overlap the most. */
 PetscErrorCode ProblemSwitchActiveSet(Problem, Vec dx, Vec rhs, PetscInt *changed, PetscReal *violation);
 /* Where the active set of the last linear step moves along the surface, gaps linearised at the old place say little of the new one. Release takes
    pairs that move so (prescribed motion still to come, finite kinematics) out of the tangent: the next linear step carries their bodies along without
