@@ -143,7 +143,8 @@ bench: bootstrap
 	@$(MAKE) --no-print-directory -j2 all run-bench
 run-bench: $(BENCHES)
 	@for b in $(BENCHES); do echo "== $$b"; $$b || exit 1; done
-	@if [ -e scripts/bench ]; then MORTISE=$(abspath $(PROGRAM)) scripts/bench; fi
+	@MORTISE=$(abspath $(PROGRAM)) scripts/bench
+	@MORTISE=$(abspath $(PROGRAM)) scripts/bench_condense --block
 
 # ---- care of the source ------------------------------------------------------------------------------------------------
 
