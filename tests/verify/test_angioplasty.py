@@ -118,7 +118,7 @@ def test_o70(run, options, strains):
                          ids=["0.05", "0.03", "0.02", "0.015", "faces_subdivided_0.02"])
 def test_o70_adaptive(run, options, tolerance, back):
     """Order 2, linear faces; histories are carried from mesh to mesh, also after the balloon has left. Where faces of the sleeve are split on the way back, the polygon
-    as which it has flowed stays: 5e-5 of the radius, against 8000 of shear modulus 6 % of the pressure at single nodes."""
+    as which it has flowed stays: 5e-5 of the radius, against 8000 of shear modulus 6 % of the pressure at single nodes (back)."""
     result = solve(run, *options, "-adapt_tolerance", tolerance)
     accurate(result, 0.03, back=back)
     adapted(result, 180 if options else 432)
@@ -155,10 +155,10 @@ def test_o70_is_beyond_bifurcations(run):
 
 @pytest.mark.slow
 def test_o70_final_state_forgets_the_steps(run):
-    """Back at the start the balloon is free, and of what the larger steps cost the plastic flow on the way only the plastic strains tell (1 %)."""
+    """Back at the start the balloon is free, and of what the larger steps cost the plastic flow on the way only the plastic strains tell (3 %)."""
     small, large = (solve(run, "-output_fields", "false", "-load_step", step) for step in (0.05, 0.7))
     for k, (a, b) in enumerate(zip(figures(small.history[-1], 0.4), figures(large.history[-1], 0.4))):
-        assert abs(a - b) <= (1e-3 if k < 5 else 1e-2) * abs(a) + 1e-4, (a, b)
+        assert abs(a - b) <= (1e-3 if k < 5 else 3e-2) * abs(a) + 1e-4, (a, b)
 
 
 @pytest.mark.slow
