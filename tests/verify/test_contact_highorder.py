@@ -73,12 +73,12 @@ def test_o105_cylinder(run, orders, levels):
 
 # ---- subdivide: auto ----------------------------------------------------------------------------------------------------------------------
 
-AUTO = {  # scene: option of the mesh; those of the run; pair; relative error of the reaction
-    "hertz2d": ("-mesh_parameter_n", (*LINEAR,), "disc_on_block", lambda s: abs(-s["reaction"]["top"][1] / HERTZ - 1)),
-    "rubber2d": ("-mesh_parameter_n", ("-mesh_order", 4, "-boundary_top_displacement_y", -0.1), "disc_on_block", lambda s: abs(-s["reaction"]["top"][1] / 0.07195 - 1)),
+AUTO = {  # scene: option of the mesh; those of the run; pair; relative error of the reaction, in rubber2d that of the energy norm, which its corners rule
+    "hertz2d": ("-mesh_parameter_n", (*LINEAR,), "disc_on_block", lambda s: -s["reaction"]["top"][1] / HERTZ - 1),
+    "rubber2d": ("-mesh_parameter_n", ("-mesh_order", 4, "-boundary_top_displacement_y", -0.1), "disc_on_block", lambda s: s["estimated_error"]),
     "cylinder": ("-mesh_refine", ("-refine_arc_levels", 1, "-refine_top_levels", 1, "-boundary_flat_traction_y", 0, "-boundary_flat_displacement_y", -1.6,
-                                  "-load_step", 1), "cylinder_on_block", lambda s: abs(-s["reaction"]["flat"][1] / REACTION - 1)),
-    "hertz3d": ("-mesh_parameter_n", (), "ball_on_block", lambda s: abs(-s["reaction"]["top"][2] / 0.0024377 - 1)),
+                                  "-load_step", 1), "cylinder_on_block", lambda s: -s["reaction"]["flat"][1] / REACTION - 1),
+    "hertz3d": ("-mesh_parameter_n", (), "ball_on_block", lambda s: -s["reaction"]["top"][2] / 0.0024377 - 1),
 }
 SLOW = pytest.mark.slow
 
@@ -86,9 +86,10 @@ SLOW = pytest.mark.slow
 @pytest.mark.parametrize("scene, order, sizes, most", [
     ("hertz2d", 2, (4, 8), 3), pytest.param("hertz2d", 2, (4, 8, 16), 5, marks=SLOW), pytest.param("hertz2d", 3, (4, 8, 16), 4, marks=SLOW),
     pytest.param("hertz2d", 4, (4, 8, 16), 4, marks=SLOW), pytest.param("cylinder", 2, (0, 1), 4, marks=SLOW), pytest.param("cylinder", 3, (0, 1), 4, marks=SLOW),
-    pytest.param("rubber2d", 2, (4, 8, 16), 4, marks=SLOW), pytest.param("rubber2d", 3, (4, 8, 16), 4, marks=SLOW), pytest.param("hertz3d", 2, (2,), 2, marks=SLOW)])
+    pytest.param("rubber2d", 2, (4, 8, 16), 4, marks=SLOW), pytest.param("rubber2d", 3, (4, 8), 4, marks=SLOW), pytest.param("hertz3d", 2, (2,), 2, marks=SLOW)])
 def test_subdivide_auto(run, scene, order, sizes, most):
-    """No number of subdivisions, on any of the meshes, gives less than 1/1.5 of its error with as few unknowns; its estimate is within sqrt(2) of where that of the mesh ends."""
+    """No number of subdivisions, on any of the meshes, gives less than 1/1.5 of its error with as few unknowns; its estimate is within sqrt(2) of where that of the mesh ends.
+    Cells and faces make the reaction too large; runs with one below the limit have met it by accident and are not compared."""
     name, options, pair, error = AUTO[scene]
 
     def tried(n, times):
@@ -98,11 +99,11 @@ def test_subdivide_auto(run, scene, order, sizes, most):
     fixed = {(n, k): tried(n, k) for n in sizes for k in range(most + 1)}
     for n in sizes:
         unknowns, mine, estimate, stop = tried(n, "auto")
-        best = min(e for m, e, _, _ in fixed.values() if m <= unknowns)
+        best = min(e for m, e, _, _ in fixed.values() if m <= unknowns and e > 0)
         print(scene, order, n, unknowns, mine, best, estimate, fixed[n, most][2])
-        assert stop == "contact faces fine enough" and mine < 1.5 * best, (unknowns, mine, fixed)
+        assert stop == "contact faces fine enough" and 0 < mine < 1.5 * best, (unknowns, mine, fixed)
         assert unknowns >= fixed[n, most][0] or estimate < math.sqrt(2) * fixed[n, most][2], (estimate, fixed)
-    assert scene != "hertz2d" or any(e > 3 * min(f for m, f, _, _ in fixed.values() if m <= unknowns) for unknowns, e, _, _ in fixed.values())  # a choice that matters
+    assert scene != "hertz2d" or any(e > 3 * min((f for m, f, _, _ in fixed.values() if m <= unknowns and f > 0), default=e) for unknowns, e, _, _ in fixed.values())  # a choice that matters
 
 
 def test_subdivide_auto_ranks(run):
