@@ -171,6 +171,9 @@ PetscErrorCode MechanicsInitialHistory(Mechanics, PetscReal history[]);
 PetscErrorCode MechanicsSetHistory(Mechanics, const PetscReal history[]);
 /* history[num] = what a step from the history last set to u leaves; *bad as in MechanicsStatus. Not collective. */
 PetscErrorCode MechanicsCommit(Mechanics, const PetscReal u[], PetscReal history[], PetscBool *bad);
+/* history[num] = that last set, admissible at u: where the stress lies beyond the yield surface the elastic strain goes back radially, with determinant 1 and
+   the same plastic strain. Cells that u inverts keep theirs. Not collective. */
+PetscErrorCode MechanicsAdmit(Mechanics, const PetscReal u[], PetscReal history[]);
 /* At how many integration points of this rank material flows on the way from the history last set to u. Not collective. */
 PetscErrorCode MechanicsNumFlowing(Mechanics, const PetscReal u[], PetscInt *num);
 /* What the tangent expects of points on their yield surface: that they flow on (the default), or that they rest. */
@@ -181,8 +184,9 @@ PetscErrorCode MechanicsPointRule(PetscInt order, const Basis1D **);
 PetscErrorCode MechanicsHistoryRange(Mechanics, PetscInt cell, PetscInt *first, PetscInt *num);
 /* Does any body flow? */
 PetscBool MechanicsIsPlastic(const MechanicsSpec *);
-/* Plastic flow up to u on this rank: largest plastic strain at an integration point, plastic work (axisymmetric: of the full revolution). Not collective. */
-PetscErrorCode MechanicsPlastic(Mechanics, const PetscReal u[], PetscReal *strain, PetscReal *work);
+/* Plastic flow up to u on this rank: largest plastic strain at an integration point, plastic work, and for each body that flows integral[num_bodies][2] =
+   int alpha dV and int dV over the reference volume, 0 for the others (axisymmetric: of the full revolution). Not collective. */
+PetscErrorCode MechanicsPlastic(Mechanics, const PetscReal u[], PetscReal *strain, PetscReal *work, PetscReal integral[][2]);
 /* Plastic strain at np reference points of an owned cell, by polynomials through the integration points; 0 for laws without. Not collective. */
 PetscErrorCode MechanicsPlasticStrain(Mechanics, PetscInt cell, PetscInt np, const PetscReal xi[], const PetscReal u[], PetscReal strain[]);
 
