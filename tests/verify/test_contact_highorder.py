@@ -137,6 +137,13 @@ def adapted(run, order, faces, passes, *options):
     return driven(run, order, faces, "-adapt_tolerance", 1e-9, "-adapt_max_passes", passes, *options)
 
 
+@pytest.mark.parametrize("order, faces", [(2, 1), (2, "full"), (3, "full"), (4, "full")])
+def test_o50_first_touch(run, order, faces):
+    """From a touch at a point to the whole contact in one load step: the zone is found in few factorisations, with full faces as with linear ones."""
+    summary = solved(run, "inputs/cylinder.yml", *DRIVEN, *ONE_MESH, "-order", order, "-contact_cylinder_on_block_order", faces).summary
+    assert summary["newton_iterations"] <= 5 and summary["factorisations"] <= 8, summary  # 5 to 6; 8 with linear faces and 11 to 12 with full ones if all nodes that overlap begin
+
+
 def test_o50_full_faces_need_less(run):
     """At 0.1 % as many unknowns with an error well below that of linear faces; at 1e-5 a third of them."""
     (n, e), (n2, e2), (n1, e1) = adapted(run, 2, "full", 1), adapted(run, 2, 1, 1), adapted(run, 1, 1, 3)
