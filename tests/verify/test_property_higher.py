@@ -164,7 +164,6 @@ def test_o101_ranks(higher, name, ranks):
 
 RANKS = {
     "o90": lambda run: plane.test_o90_momentum(run, "hertz2d", ONE_MESH),
-    "o92": plane.test_o92_rigid_rotation,
     "o96": lambda run: robust.test_o96_edge_node_on_the_corner(run, 1e-3, "upper_bottom", "lower_top"),
     "o98": lambda run: robust.test_o98_contact_face_on_symmetry_planes(run, "both", "lower_top", "upper_bottom", 2),
     "o104": lambda run: robust.test_o104_separation(run, ONE_MESH),
@@ -176,12 +175,6 @@ RANKS = {
 @pytest.mark.parametrize("name", RANKS)
 def test_on_ranks(higher, name, ranks):
     RANKS[name](functools.partial(higher, ranks=ranks))
-
-
-@faces()
-@pytest.mark.parametrize("ranks", [2, 3])
-def test_o93_on_ranks(higher, tmp_path, disc_mesh, ranks):
-    plane.test_o93_units_and_origin(functools.partial(higher, ranks=ranks), tmp_path, disc_mesh, "both", 1e-3, 1e6, 0, 1e-8)
 
 
 @faces("2-full")
