@@ -21,7 +21,7 @@ typedef struct {
 } PairFigures;
 
 typedef struct {
-  PetscInt num_boundaries, num_contacts;
+  PetscInt num_boundaries, num_contacts, num_bodies;
   PetscReal (*reaction)[3];         /* owned [num_boundaries] force of each support on the body */
   PetscReal    *pressure, *control; /* owned [num_boundaries] where a pressure is found: it, and what it follows (change of volume, mean advance); else 0 */
   PairFigures  *pair;               /* owned [num_contacts] */
@@ -31,6 +31,7 @@ typedef struct {
   PetscReal     support_imbalance;  /* |supports + loads + contact with rigid bodies| / sum of their magnitudes; axisymmetric: axial component */
   PetscReal     plastic_strain;     /* largest at an integration point */
   PetscReal     plastic_work;       /* int int k(alpha) dalpha dV: what plastic flow took so far; 0 without plastic materials, like the strain */
+  PetscReal    *mean_strain;        /* owned [num_bodies] int alpha dV / int dV over the reference volume of each body; 0 where the material does not flow */
   ProblemStatus status;
 } Balance;
 

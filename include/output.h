@@ -111,10 +111,12 @@ PetscErrorCode ProbesEvaluate(Probes, Problem, Vec x, ProbeValue value[]);
    seconds, accepted. Columns of history.csv, names as in summary.json:
    - step, t, dt, pass (of the accepted solution), step_cuts, cells, dofs, newton_iterations, active_nodes, estimated_error, energy, min_det, min_gap,
      contact_force, contact_imbalance, moment_imbalance, support_imbalance, seconds;
+   - with plastic materials plastic.strain (largest), plastic.work, and body.<name>.mean_plastic_strain of each body that flows: int alpha dV / int dV over its
+     reference volume, which converges where the largest, at a notch, does not;
    - reaction.<boundary>.x … for boundaries with supports;
    - pressure.<boundary>, and volume.<boundary> or advance.<boundary>, where the pressure is found;
    - contact.<pair>.force.x …, .moment (3-D: .moment.x …), .max_pressure, .area, .radius (2-D), .active_nodes, .min_gap;
-   - probe.<name>.displacement.x …, .stress.xx … (2-D: xx xy yy zz). */
+   - probe.<name>.displacement.x …, .stress.xx … (2-D: xx xy yy zz), with plastic materials .plastic_strain. */
 typedef struct _p_History *History;
 /* Open both in the output directory, which must exist: afresh (after < 0), or to go on after a load step that ended at t (TableResume). Collective. */
 PetscErrorCode HistoryCreate(MPI_Comm, const SceneData *, Probes, PetscInt after, PetscReal t, History *);

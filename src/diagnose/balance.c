@@ -140,19 +140,21 @@ static PetscErrorCode Plastic_Private(Problem problem, Vec x, Balance *b)
   HPSpace         space;
   Forest          forest;
   const HPTables *v;
-  PetscReal      *u;
+  PetscReal      *u, (*integral)[2];
 
   PetscFunctionBegin;
   PetscCall(ProblemGetMechanics(problem, &mechanics));
   PetscCall(ProblemGetSpace(problem, &space));
   PetscCall(ProblemGetForest(problem, &forest));
   PetscCall(HPSpaceGetTables(space, &v));
-  PetscCall(PetscMalloc1(v->num_nodes * v->dim, &u));
+  PetscCall(PetscMalloc2(v->num_nodes * v->dim, &u, b->num_bodies, &integral));
   PetscCall(ProblemLocalDisplacement(problem, x, u));
-  PetscCall(MechanicsPlastic(mechanics, u, &b->plastic_strain, &b->plastic_work));
-  PetscCall(PetscFree(u));
+  PetscCall(MechanicsPlastic(mechanics, u, &b->plastic_strain, &b->plastic_work, integral));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &b->plastic_strain, 1, MPIU_REAL, MPI_MAX, ForestComm(forest)));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &b->plastic_work, 1, MPIU_REAL, MPI_SUM, ForestComm(forest)));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, integral, (PetscMPIInt)(2 * b->num_bodies), MPIU_REAL, MPI_SUM, ForestComm(forest)));
+  for (PetscInt i = 0; i < b->num_bodies; ++i) b->mean_strain[i] = integral[i][1] > 0 ? integral[i][0] / integral[i][1] : 0;
+  PetscCall(PetscFree2(u, integral));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -210,7 +212,9 @@ PetscErrorCode BalanceCompute(Problem problem, const State *state, Balance *b)
   PetscCall(ForestGetTables(forest, &t));
   b->num_boundaries = scene->mechanics.num_boundaries;
   b->num_contacts   = scene->num_contacts;
-  PetscCall(PetscCalloc4(b->num_boundaries, &b->reaction, b->num_contacts, &b->pair, b->num_boundaries, &b->pressure, b->num_boundaries, &b->control));
+  b->num_bodies     = scene->mechanics.num_bodies;
+  PetscCall(PetscCalloc5(b->num_boundaries, &b->reaction, b->num_contacts, &b->pair, b->num_boundaries, &b->pressure, b->num_boundaries, &b->control,
+                         b->num_bodies, &b->mean_strain));
   PetscCall(PetscMalloc1(b->num_contacts, &view));
   PetscCall(ProblemSetHistory(problem, state->history));
   PetscCall(ProblemForces(problem, state->x, b->reaction, NULL, NULL, &b->status));
@@ -233,8 +237,8 @@ PetscErrorCode BalanceCompute(Problem problem, const State *state, Balance *b)
 PetscErrorCode BalanceDestroy(Balance *b)
 {
   PetscFunctionBegin;
-  PetscCall(PetscFree4(b->reaction, b->pair, b->pressure, b->control));
-  b->num_boundaries = b->num_contacts = 0;
+  PetscCall(PetscFree5(b->reaction, b->pair, b->pressure, b->control, b->mean_strain));
+  b->num_boundaries = b->num_contacts = b->num_bodies = 0;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -161,25 +161,35 @@ PetscBool MechanicsIsPlastic(const MechanicsSpec *spec)
   return PETSC_FALSE;
 }
 
-PetscErrorCode MechanicsPlastic(Mechanics m, const PetscReal u[], PetscReal *strain, PetscReal *work)
+PetscErrorCode MechanicsPlastic(Mechanics m, const PetscReal u[], PetscReal *strain, PetscReal *work, PetscReal integral[][2])
 {
-  PetscReal *trial;
-  PetscBool  bad;
+  const HPTables     *v;
+  const ForestTables *t;
+  Forest              forest;
+  PetscReal          *trial;
+  PetscBool           bad;
 
   PetscFunctionBegin;
+  PetscCall(HPSpaceGetTables(m->space, &v));
+  PetscCall(HPSpaceGetForest(m->space, &forest));
+  PetscCall(ForestGetTables(forest, &t));
+  PetscCall(PetscArrayzero(integral, m->spec->num_bodies));
   *strain = *work = 0;
   PetscCall(PetscMalloc1(m->num_history, &trial));
   PetscCall(MechanicsCommit(m, u, trial, &bad));
   for (PetscInt i = 0; i < m->num_groups; ++i) {
     const CellGroup *g = &m->groups[i];
     for (PetscInt c = 0; c < g->num_cells && g->h && g->material->law->plastic; ++c) {
-      PetscReal *volume = m->work;
+      const PetscInt body   = t->leaf_body[v->cell_leaf[g->cells[c]]];
+      PetscReal     *volume = m->work;
       PetscCall(CellKernelVolumes(g->kernel, g->X + c * g->n * m->dim, volume));
       for (PetscInt q = 0; q < g->num_points; ++q) {
         PetscReal alpha, density;
         g->material->law->plastic(g->material, trial + g->history + (c * g->num_points + q) * g->h, &alpha, &density);
         *strain = PetscMax(*strain, alpha);
         *work += volume[q] * density;
+        integral[body][0] += volume[q] * alpha;
+        integral[body][1] += volume[q];
       }
     }
   }

@@ -83,6 +83,10 @@ static PetscErrorCode Columns_Private(const SceneData *scene, PetscInt num_probe
     PetscCall(Column_Private(c, balance ? balance->plastic_strain : 0, "plastic", "strain", NULL, NULL));
     PetscCall(Column_Private(c, balance ? balance->plastic_work : 0, "plastic", "work", NULL, NULL));
   }
+  for (PetscInt b = 0; b < scene->mechanics.num_bodies; ++b) {
+    const BodySpec *spec = &scene->mechanics.bodies[b];
+    if (spec->material->law->plastic) PetscCall(Column_Private(c, balance ? balance->mean_strain[b] : 0, "body", spec->name, "mean_plastic_strain", NULL));
+  }
   for (PetscInt b = 0; b < scene->mechanics.num_boundaries; ++b) {
     const BoundarySpec *spec = &scene->mechanics.boundaries[b];
     if (!BoundarySupports(spec)) continue;

@@ -128,6 +128,21 @@ static void AddProbes_Private(cJSON *root, const SceneData *scene, const Gathere
   }
 }
 
+/* Plastic flow: largest strain, work, and the mean strain of each body that flows in the object `body`. */
+static void AddPlastic_Private(cJSON *root, const SceneData *scene, const Balance *b)
+{
+  if (!MechanicsIsPlastic(&scene->mechanics)) return;
+  AddNumber_Private(root, "plastic_strain", b->plastic_strain);
+  AddNumber_Private(root, "plastic_work", b->plastic_work);
+  cJSON *bodies = cJSON_AddObjectToObject(root, "body");
+  for (PetscInt i = 0; i < b->num_bodies; ++i) {
+    const BodySpec *spec = &scene->mechanics.bodies[i];
+    if (!spec->material->law->plastic) continue;
+    cJSON *body = cJSON_AddObjectToObject(bodies, spec->name);
+    AddNumber_Private(body, "mean_plastic_strain", b->mean_strain[i]);
+  }
+}
+
 static void AddTimes_Private(cJSON *root, PetscReal total, const Gathered *g)
 {
   cJSON *time = cJSON_AddObjectToObject(root, "time");
@@ -169,10 +184,7 @@ static cJSON *Document_Private(const SceneData *scene, const RunSummary *s, cons
   AddEstimate_Private(root, s->estimate);
   AddNumber_Private(root, "energy", s->balance ? s->balance->status.energy : nan);
   AddNumber_Private(root, "min_det", s->balance ? s->balance->status.min_det : nan);
-  if (s->balance && MechanicsIsPlastic(&scene->mechanics)) {
-    AddNumber_Private(root, "plastic_strain", s->balance->plastic_strain);
-    AddNumber_Private(root, "plastic_work", s->balance->plastic_work);
-  }
+  if (s->balance) AddPlastic_Private(root, scene, s->balance);
   AddForces_Private(root, scene, s->balance);
   AddProbes_Private(root, scene, g);
   AddTimes_Private(root, s->seconds, g);

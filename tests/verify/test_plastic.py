@@ -50,6 +50,7 @@ def test_o30_bar(run, tmp_path, name, material, e, P, lateral, alpha, model, for
     close(s["plastic_strain"], alpha, 5e-3)  # of first order in the step; 1e-4 with 4000 steps (test_material_j2)
     y, K = material["yield"], material["hardening"]
     close(s["plastic_work"] / area, y * s["plastic_strain"] + K * s["plastic_strain"]**2 / 2, 1e-8)
+    close(s["body"]["body"]["mean_plastic_strain"], s["plastic_strain"], 1e-8)
 
 
 # ---- O-32: tube of incompressible material, bore driven to 1.4 and let go ------------------------------------------------------------------
@@ -158,8 +159,30 @@ def test_adaptation_keeps_history_on_any_ranks(run, ranks):
     assert len(check_loss(runs[0])) >= 2
     for other in runs[1:]:
         for a, b in zip(runs[0].history, other.history):
-            for key in ("reaction.end.y", "plastic.strain", "plastic.work", "energy", "cells"):
+            for key in ("reaction.end.y", "plastic.strain", "plastic.work", "body.bar.mean_plastic_strain", "energy", "cells"):
                 close(b[key], a[key], 1e-8)
+
+
+@pytest.mark.parametrize("ranks", [1, 2])
+def test_mean_plastic_strain_of_bodies(run, tmp_path, ranks):
+    """Without hardening plastic work is the yield stress times int alpha dV: of two bodies of one material, a third and two thirds of what flows. The elastic one below
+    has no such figure."""
+    write(tmp_path / "block.msh", [linspace(0, 1, 3), linspace(0, 1, 3)], order=2,
+          body=lambda centre, block: "elastic" if centre[1] < 1 / 3 else "left" if centre[0] < 1 / 3 else "right")
+    soft = {**SET_B, "hardening": 0}
+    scene = {"mesh": {"file": "block.msh"}, "model": "plane_strain", "order": 2, "output": {"fields": False}, "load": {"step": 1 / 3},
+             "body": {"elastic": {"material": "stiff"}, "left": {"material": "soft"}, "right": {"material": "soft"}},
+             "material": {"soft": soft, "stiff": {"law": "neo_hookean", "mu": 80e3, "kappa": 170e3}},
+             "boundary": {"y0": {"fix": "xy"}, "y1": {"displacement": {"y": "-0.004*t*(1+X)"}}}}
+    result = run("block.yml", text=json.dumps(scene), ranks=ranks)
+    assert result.returncode == 0, result
+    s, row = result.summary, result.history[-1]
+    left, right = (s["body"][name]["mean_plastic_strain"] for name in ("left", "right"))
+    assert set(s["body"]) == {"left", "right"} and 0 < left < 0.9 * right < right < s["plastic_strain"], s
+    close(s["plastic_work"], soft["yield"] * (left * 2 + right * 4) / 9, 1e-10)
+    for name, value in (("left", left), ("right", right)):
+        close(row[f"body.{name}.mean_plastic_strain"], value, 1e-12)
+    assert "body.elastic.mean_plastic_strain" not in row
 
 
 # ---- the solver ----------------------------------------------------------------------------------------------------------------------------
