@@ -135,6 +135,7 @@ chart: bootstrap
 	@MORTISE=$(abspath $(PROGRAM)) scripts/chart
 	@MORTISE=$(abspath $(PROGRAM)) scripts/chart_hp
 	@MORTISE=$(abspath $(PROGRAM)) scripts/chart_faces
+	@MORTISE=$(abspath $(PROGRAM)) scripts/chart_layers
 	@MORTISE=$(abspath $(PROGRAM)) scripts/chart_angioplasty
 	@MORTISE=$(abspath $(PROGRAM)) scripts/chart_bulk
 	@scripts/chart_search $(BUILD)/bench/contact

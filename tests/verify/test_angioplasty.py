@@ -201,9 +201,10 @@ def test_o70_full_ring(run, options, strains, back, rms, first):
 
 
 @pytest.mark.slow
-def test_o70_ring_is_four_quarters(run):
+@pytest.mark.parametrize("options", [LINEAR1, ADAPTIVE2], ids=["order_1", "adaptive_order_2"])
+def test_o70_ring_is_four_quarters(run, options):
     """Four quarters, held on one ray (where sleeve and artery are along x is for contact to find): the energy of four, their radii, pressures and estimate."""
-    quarter, ring = (solve(run, "-output_fields", "false", *LINEAR1, *sectors) for sectors in ((), RING))
+    quarter, ring = (solve(run, "-output_fields", "false", *options, *sectors) for sectors in ((), RING))
     assert ring.summary["step_cuts"] == 0, ring
     for one, four in zip(quarter.history, ring.history, strict=True):
         assert abs(four["t"] - one["t"]) < 1e-12 and abs(four["energy"] / one["energy"] - 4) < 4e-6

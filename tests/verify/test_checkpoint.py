@@ -30,6 +30,7 @@ SCENES = {
     "shrinkfit": ("shrinkfit", STEPS, 2),
     "space": ("blocks3d", TILTED, 1),
     "incompressible": ("rubber2d", (*STEPS, "-adapt_max_passes", 2, "-material_rubber_nu", 0.5), 2),
+    "layers": ("hertz2d", (*STEPS, "-order", 2, "-adapt_tolerance", 0, "-contact_disc_on_block_order", 1, "-contact_disc_on_block_subdivide", "auto"), 1),
     "volume": ("balloon", ("-load_step", 0.1, "-material_rubber_kappa", 100), 4),
     "flow": ("angioplasty2d", (), 10),
     "flow_adaptive": ("angioplasty2d", ("-order", 1, "-adapt_tolerance", 0.1, "-adapt_max_cells", 2500, "-load_end", 0.4), 3),
