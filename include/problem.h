@@ -30,6 +30,9 @@ PetscErrorCode StateDestroy(State *);
 /* The step that led to s->x is accepted: the history becomes what it left. Stress and forces at s->x stay the same. The problem's prescribed motion must be
    that of the state. Collective. */
 PetscErrorCode StateCommit(Problem, State *);
+/* The history of an accepted state becomes admissible at s->x (MechanicsAdmit): one carried over from another mesh may lie beyond the yield surface. The
+   problem's prescribed motion must be that of the state. Collective. */
+PetscErrorCode StateAdmit(Problem, State *);
 
 /* Initial cell orders of a scene on a forest, [num_leaves], to be freed by the caller. */
 PetscErrorCode ProblemInitialOrders(const SceneData *, Forest, int8_t **leaf_order);
