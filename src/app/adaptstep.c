@@ -66,7 +66,7 @@ static PetscErrorCode PrescribeAt_Private(Problem problem, PetscReal t)
 }
 
 /* The level on the adapted forest with both states carried over, each under the prescribed motion of its own time: new nodes near a support are
-   interpolated from prescribed ones. */
+   interpolated from prescribed ones. Both take the history of the accepted one, made admissible there; of a step that went in pieces, too. */
 static PetscErrorCode MoveTo_Private(App *app, Forest forest, const int8_t old_order[], const ForestMap *map)
 {
   const Level *old = &app->level;
@@ -84,6 +84,8 @@ static PetscErrorCode MoveTo_Private(App *app, Forest forest, const int8_t old_o
   PetscCall(PrescribeAt_Private(old->problem, old->accepted.t));
   PetscCall(PrescribeAt_Private(next.problem, next.accepted.t));
   PetscCall(TransferState(old->problem, &old->accepted, next.problem, map, &next.accepted));
+  PetscCall(StateAdmit(next.problem, &next.accepted));
+  PetscCall(PetscArraycpy(next.state.history, next.accepted.history, next.accepted.num_history));
   PetscCall(PrescribeAt_Private(next.problem, next.state.t));
   PetscCall(ProblemIsFollowing(old->problem, &following));
   if (following) PetscCall(ProblemFollow(next.problem, next.accepted.x, next.state.x, &length));

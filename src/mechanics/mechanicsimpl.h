@@ -23,6 +23,7 @@ typedef struct {
   const PetscReal *history;  /* [nc][points][num_history] of laws with history, as the last accepted step left it */
   PetscReal       *trial;    /* [nc][points][num_history] as a step that ended at u would leave it */
   PetscBool        rests;    /* tangent: points at the edge of flow are expected to stay elastic */
+  PetscBool        held;     /* trial alone: as in MaterialPoints */
   PetscReal       *tangent;  /* [nc][n*d][n*d] full, symmetric unless the law is not; exact derivative of residual when pressure is NULL or consistent */
   const PetscInt  *place;    /* [n] NULL, or where the nodes stand in tangent: then only its rows up to the diagonal's column are written, K[row <= column];
                                 not with unsymmetric laws */

@@ -86,7 +86,7 @@ SLOW = pytest.mark.slow
 
 @pytest.mark.parametrize("scene, order, sizes, most", [
     ("hertz2d", 2, (4, 8), 3), pytest.param("hertz2d", 2, (4, 8, 16), 5, marks=SLOW), pytest.param("hertz2d", 3, (4, 8, 16), 4, marks=SLOW),
-    pytest.param("hertz2d", 4, (4, 8, 16), 4, marks=SLOW), pytest.param("cylinder", 2, (0, 1), 4, marks=SLOW), pytest.param("cylinder", 3, (0, 1), 4, marks=SLOW),
+    pytest.param("hertz2d", 4, (4, 8, 16), 4, marks=SLOW), pytest.param("cylinder", 2, (0, 1), 4, marks=SLOW), pytest.param("cylinder", 3, (0,), 4, marks=SLOW),
     pytest.param("rubber2d", 2, (4, 8, 16), 4, marks=SLOW), pytest.param("rubber2d", 3, (4, 8), 4, marks=SLOW), pytest.param("hertz3d", 2, (2,), 2, marks=SLOW)])
 def test_subdivide_auto(run, scene, order, sizes, most):
     """No number of subdivisions, on any of the meshes, gives less than 1/1.5 of its error with as few unknowns; its estimate is within sqrt(2) of where that of the mesh ends.
