@@ -168,6 +168,11 @@ PetscErrorCode ProblemSetMultipliers(Problem, PetscInt pair, const PetscReal z[]
 /* The opposite: values of this rank's own nodes from x, z[nonmortar.num_nodes]; others and nodes without multiplier stay as they are. Not collective.
    own[nonmortar.num_nodes] (NULL: not wanted): which these are. */
 PetscErrorCode ProblemGetMultipliers(Problem, PetscInt pair, Vec x, PetscReal z[], PetscBool own[]);
+/* What room facets of a pair have been given in the matrix so far: facet f for nodes node[first[f] .. first[f+1]), mortar ones as ~node; borrowed, of facets
+   evaluated on this rank; first NULL: none yet. Set: that room again, of all facets of the pair (those evaluated elsewhere are not looked at); the matrix is
+   made anew when next asked for. Not collective. */
+PetscErrorCode ProblemGetPattern(Problem, PetscInt pair, const PetscInt **first, const PetscInt **node);
+PetscErrorCode ProblemSetPattern(Problem, PetscInt pair, const PetscInt first[], const PetscInt node[]);
 /* Refresh the candidate search at x; between Newton iterations only. */
 PetscErrorCode ProblemSearch(Problem, Vec x);
 

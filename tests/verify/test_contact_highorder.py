@@ -325,7 +325,7 @@ BRIEF = [("two_to_three", "upper", 3), ("hanging_lower", "upper", 2)]
 def spatial():
     for pairing in space.PAIRINGS:
         for nonmortar in space.SIDES:
-            for order in (2, 3):
+            for order in (2, 3, 4):
                 yield pytest.param(pairing, nonmortar, order, marks=() if (pairing, nonmortar, order) in BRIEF else SLOW)
 
 
