@@ -135,6 +135,7 @@ chart: bootstrap
 	@MORTISE=$(abspath $(PROGRAM)) scripts/chart
 	@MORTISE=$(abspath $(PROGRAM)) scripts/chart_hp
 	@MORTISE=$(abspath $(PROGRAM)) scripts/chart_faces
+	@MORTISE=$(abspath $(PROGRAM)) scripts/chart_layers
 	@MORTISE=$(abspath $(PROGRAM)) scripts/chart_angioplasty
 	@MORTISE=$(abspath $(PROGRAM)) scripts/chart_bulk
 	@scripts/chart_search $(BUILD)/bench/contact
@@ -143,7 +144,8 @@ bench: bootstrap
 	@$(MAKE) --no-print-directory -j2 all run-bench
 run-bench: $(BENCHES)
 	@for b in $(BENCHES); do echo "== $$b"; $$b || exit 1; done
-	@if [ -e scripts/bench ]; then MORTISE=$(abspath $(PROGRAM)) scripts/bench; fi
+	@MORTISE=$(abspath $(PROGRAM)) scripts/bench
+	@MORTISE=$(abspath $(PROGRAM)) scripts/bench_condense --block
 
 # ---- care of the source ------------------------------------------------------------------------------------------------
 

@@ -59,6 +59,7 @@ typedef struct {
   PetscBool continuous;        /* three dimensions: gaps along a direction that is continuous over the surface, for facets of order 1 too */
   PetscBool adjust;            /* the gaps of the mesh at the reference positions count as closed */
   PetscReal interference;      /* overlap at the reference positions, besides that of the geometry */
+  PetscBool subdivide_auto;    /* cells behind linear facets are subdivided as the estimate asks (estimate/layer.c) */
 } ContactSpec;
 
 /* Vector of a facet with these nodes, x[..][dim], outward and as long as its length or area: edge x the axis out of the plane; in space half the product of the

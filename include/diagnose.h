@@ -9,8 +9,9 @@
 typedef struct {
   PetscReal force[2][3];      /* total contact force on each side; axisymmetric: over the full revolution */
   PetscReal moment[2][3];     /* its moment about the origin, in the current configuration (small kinematics: the reference) */
-  PetscReal force_imbalance;  /* |sum over both sides| / sum of |nodal forces| of the nonmortar side; 0 without contact */
-  PetscReal moment_imbalance; /* |sum over both sides| / (that sum * diameter of the nonmortar side) */
+  PetscReal total;            /* sum of |nodal forces| of the nonmortar side */
+  PetscReal force_imbalance;  /* |sum over both sides| / total; 0 without contact */
+  PetscReal moment_imbalance; /* |sum over both sides| / (total * diameter of the nonmortar side) */
   PetscReal max_pressure;     /* largest multiplier */
   PetscReal area;             /* in contact: sum of the tributary lengths (areas) of active nodes */
   PetscReal radius;           /* two dimensions: largest |x| of a touching point, see BalanceZone; 0 without contact */
@@ -39,7 +40,8 @@ typedef struct {
 PetscErrorCode BalanceCompute(Problem, const State *, Balance *);
 PetscErrorCode BalanceDestroy(Balance *);
 /* What adaptation changed, from one state to another at the same load, relative to the first (0 where that is 0): root of the summed squared differences of
-   reactions, plastic work, largest plastic strain. The finer mesh's gain and the loss on the way to it are both in these. */
+   reactions and of the pairs' totals (reactions of a closed boundary cancel, totals do not), plastic work, largest plastic strain. The finer mesh's gain and
+   the loss on the way to it are both in these. */
 void BalanceChange(const Balance *from, const Balance *to, PetscReal change[3]);
 /* The zone of contact alone: max_pressure to covered_nodes above, from the tables of a view: each rank its own nodes, then over the ranks of comm. Collective.
    radius: the zone ends between its last active node and the next one. There the square of the pressure is extended linearly to zero (the pressure between

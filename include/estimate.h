@@ -33,3 +33,9 @@ PetscErrorCode EstimateDestroy(Estimate *);
    split or to raise. Not collective (input is replicated). */
 PetscErrorCode EstimateMark(const Estimate *, const AdaptSpec *, Forest, MarkList *, int8_t order[], PetscInt *num_marked);
 PetscErrorCode MarkListDestroy(MarkList *);
+/* contact.<pair>.subdivide: auto. Marks (isotropic) of all leaves that touch either side of a pair whose layer, the leaves of order above 1 with a facet on
+   either side, has a larger squared estimate than all leaves that touch no contact face. subdivided[num_contacts]: how often each pair's layer has been, at
+   most its highest order + 1 times; counted up for the pairs marked. order[num_leaves]: of the leaves. *num_marked: leaves to split; *room: no pair was left
+   out for fear of more than spec->max_cells leaves. The list is freed by MarkListDestroy. Not collective (input is replicated). */
+PetscErrorCode EstimateMarkLayers(const Estimate *, const SceneData *, Forest, const int8_t order[], PetscInt subdivided[], MarkList *, PetscInt *num_marked,
+                                  PetscBool *room);

@@ -105,6 +105,8 @@ PetscErrorCode ForestAdapt(Forest, const MarkList *, const PetscReal leaf_weight
 PetscErrorCode ForestMapDestroy(ForestMap *);
 /* Replace *forest by one refined isotropically as spec says, closed again after each level. Collective. */
 PetscErrorCode ForestRefine(Forest *forest, const RefineSpec *spec);
+/* Does a facet of the leaf belong to one of these boundary groups (bits)? Not collective. */
+PetscBool ForestLeafTouches(const ForestTables *, PetscInt leaf, uint64_t groups);
 
 /* The tree as a list, for ForestRestore: of every node, depth-first, coarse cell by coarse cell, the directions in which it is split (bits; 0: a leaf).
    split[*num] is freed by the caller. Not collective. */

@@ -77,8 +77,9 @@ typedef struct {
   const PetscReal *history;
   PetscReal       *trial;
   PetscBool        rests; /* points just at the edge of flow are expected to stay elastic: A is then the elastic one there; else that of further flow */
-  PetscBool bad; /* out: set at points with det F <= 0, or where the law has no answer (the energy exceeds all numbers, the yield stress is used up) (numerical
-                    status, no error); never reset */
+  PetscBool held; /* trial alone: points beyond the yield surface go back to it without any flow, the elastic strain radially, plastic strain unchanged */
+  PetscBool bad;  /* out: set at points with det F <= 0, or where the law has no answer (the energy exceeds all numbers, the yield stress is used up) (numerical
+                     status, no error); never reset */
 } MaterialPoints;
 
 /* With `part` ISOCHORIC, the volumetric energy kappa/2 g(J)^2 is left out (mixed formulation adds it through its projection). */

@@ -171,6 +171,9 @@ PetscErrorCode MechanicsInitialHistory(Mechanics, PetscReal history[]);
 PetscErrorCode MechanicsSetHistory(Mechanics, const PetscReal history[]);
 /* history[num] = what a step from the history last set to u leaves; *bad as in MechanicsStatus. Not collective. */
 PetscErrorCode MechanicsCommit(Mechanics, const PetscReal u[], PetscReal history[], PetscBool *bad);
+/* history[num] = that last set, admissible at u: where the stress lies beyond the yield surface the elastic strain goes back radially, with determinant 1 and
+   the same plastic strain. Cells that u inverts keep theirs. Not collective. */
+PetscErrorCode MechanicsAdmit(Mechanics, const PetscReal u[], PetscReal history[]);
 /* At how many integration points of this rank material flows on the way from the history last set to u. Not collective. */
 PetscErrorCode MechanicsNumFlowing(Mechanics, const PetscReal u[], PetscInt *num);
 /* What the tangent expects of points on their yield surface: that they flow on (the default), or that they rest. */

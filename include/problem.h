@@ -30,6 +30,9 @@ PetscErrorCode StateDestroy(State *);
 /* The step that led to s->x is accepted: the history becomes what it left. Stress and forces at s->x stay the same. The problem's prescribed motion must be
    that of the state. Collective. */
 PetscErrorCode StateCommit(Problem, State *);
+/* The history of an accepted state becomes admissible at s->x (MechanicsAdmit): one carried over from another mesh may lie beyond the yield surface. The
+   problem's prescribed motion must be that of the state. Collective. */
+PetscErrorCode StateAdmit(Problem, State *);
 
 /* Initial cell orders of a scene on a forest, [num_leaves], to be freed by the caller. */
 PetscErrorCode ProblemInitialOrders(const SceneData *, Forest, int8_t **leaf_order);
@@ -165,6 +168,11 @@ PetscErrorCode ProblemSetMultipliers(Problem, PetscInt pair, const PetscReal z[]
 /* The opposite: values of this rank's own nodes from x, z[nonmortar.num_nodes]; others and nodes without multiplier stay as they are. Not collective.
    own[nonmortar.num_nodes] (NULL: not wanted): which these are. */
 PetscErrorCode ProblemGetMultipliers(Problem, PetscInt pair, Vec x, PetscReal z[], PetscBool own[]);
+/* What room facets of a pair have been given in the matrix so far: facet f for nodes node[first[f] .. first[f+1]), mortar ones as ~node; borrowed, of facets
+   evaluated on this rank; first NULL: none yet. Set: that room again, of all facets of the pair (those evaluated elsewhere are not looked at); the matrix is
+   made anew when next asked for. Not collective. */
+PetscErrorCode ProblemGetPattern(Problem, PetscInt pair, const PetscInt **first, const PetscInt **node);
+PetscErrorCode ProblemSetPattern(Problem, PetscInt pair, const PetscInt first[], const PetscInt node[]);
 /* Refresh the candidate search at x; between Newton iterations only. */
 PetscErrorCode ProblemSearch(Problem, Vec x);
 
@@ -206,7 +214,8 @@ PetscErrorCode ProblemHoldsRims(Problem, PetscBool *holds);
 PetscErrorCode ProblemRightSide(Problem, Vec r, Vec lift, Vec rhs);
 /* Active-set passes against the last tangent: given the solution dx of tangent . dx = -rhs, decide anew which constraints are active, rewrite their rows in the
    matrix and the right-hand side. *changed: number of nodes that switched (all ranks); *violation: by how much dx contradicts the set it was found with, the
-   sum over those nodes of w0 |z - c gt/w| (unit: force). */
+   sum over those nodes of w0 |z - c gt/w| (unit: force). Of a pair that bears nothing
+   yet those nodes come first that overlap the most. */
 PetscErrorCode ProblemSwitchActiveSet(Problem, Vec dx, Vec rhs, PetscInt *changed, PetscReal *violation);
 /* Where the active set of the last linear step moves along the surface, gaps linearised at the old place say little of the new one. Release takes
    pairs that move so (prescribed motion still to come, finite kinematics) out of the tangent: the next linear step carries their bodies along without

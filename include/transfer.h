@@ -13,8 +13,8 @@ PetscErrorCode TransferOrders(const ForestMap *, const int8_t old_order[], int8_
 
 /* The solution as named fields whose order does not depend on the partition: `displacement` (Cartesian, all true nodes, prescribed values among them; vertices,
    edges, faces, cells by number, the nodes of an entity in its frame), `pressure`, `unknown_pressure` and `history` (by leaf), `multiplier.<pair>` (by node of
-   the nonmortar side), `scalars`, and `path`, like `displacement`: the direction of a path that is followed.
- */
+   the nonmortar side), `pattern.<pair>` (transfer/pattern.c: what room the pair has in the matrix), `scalars`, and `path`, like `displacement`: the direction
+   of a path that is followed. */
 typedef struct {
   char name[2 * MORTISE_NAME];
   Vec  values; /* owned; spread over the ranks in equal parts */
@@ -27,6 +27,7 @@ typedef struct {
 /* Fields of a state at the prescribed motion as applied. Collective. */
 PetscErrorCode TransferPack(Problem, const State *, Pack *);
 /* The other way, on any partition of the same forest with the same orders and physics: solution, pressures, history and multipliers of a created state; t and
-   orders stay. *jump: largest difference between a prescribed displacement as applied and as packed, against the largest displacement packed. Collective. */
+   orders stay. The problem's matrix is made anew. *jump: largest difference between a prescribed displacement as applied and as packed, against the largest
+   displacement packed. Collective. */
 PetscErrorCode TransferUnpack(Problem, const Pack *, State *, PetscReal *jump);
 PetscErrorCode PackDestroy(Pack *);

@@ -66,7 +66,7 @@ static PetscErrorCode PrescribeAt_Private(Problem problem, PetscReal t)
 }
 
 /* The level on the adapted forest with both states carried over, each under the prescribed motion of its own time: new nodes near a support are
-   interpolated from prescribed ones. */
+   interpolated from prescribed ones. Both take the history of the accepted one, made admissible there; of a step that went in pieces, too. */
 static PetscErrorCode MoveTo_Private(App *app, Forest forest, const int8_t old_order[], const ForestMap *map)
 {
   const Level *old = &app->level;
@@ -84,6 +84,8 @@ static PetscErrorCode MoveTo_Private(App *app, Forest forest, const int8_t old_o
   PetscCall(PrescribeAt_Private(old->problem, old->accepted.t));
   PetscCall(PrescribeAt_Private(next.problem, next.accepted.t));
   PetscCall(TransferState(old->problem, &old->accepted, next.problem, map, &next.accepted));
+  PetscCall(StateAdmit(next.problem, &next.accepted));
+  PetscCall(PetscArraycpy(next.state.history, next.accepted.history, next.accepted.num_history));
   PetscCall(PrescribeAt_Private(next.problem, next.state.t));
   PetscCall(ProblemIsFollowing(old->problem, &following));
   if (following) PetscCall(ProblemFollow(next.problem, next.accepted.x, next.state.x, &length));
@@ -156,12 +158,12 @@ static PetscErrorCode Reequilibrate_Private(App *app, PetscInt *iterations, Pets
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Mark and adapt; *adapted false when nothing may or need be refined. */
-static PetscErrorCode Refine_Private(App *app, PetscBool *adapted)
+/* Adapt to the layers marked at contact faces, if any, else mark and adapt; *adapted false when nothing may or need be refined. */
+static PetscErrorCode Refine_Private(App *app, MarkList *layers, PetscBool *adapted)
 {
   const ForestTables *t;
-  MarkList            list;
-  PetscInt            marked, num_pairs, (*pairs)[2];
+  MarkList            list   = *layers;
+  PetscInt            marked = 1, num_pairs, (*pairs)[2];
   Forest              forest;
   ForestMap           map;
   int8_t             *order  = NULL;
@@ -170,7 +172,10 @@ static PetscErrorCode Refine_Private(App *app, PetscBool *adapted)
   PetscFunctionBegin;
   PetscCall(ForestGetTables(app->level.forest, &t));
   if (app->data->adapt.strategy != ADAPT_H) PetscCall(PetscMalloc2(t->num_leaves, &order, t->num_leaves, &weight));
-  PetscCall(EstimateMark(&app->estimate, &app->data->adapt, app->level.forest, &list, order, &marked));
+  if (!layers->split)
+    PetscCall(EstimateMark(&app->estimate, &app->data->adapt, app->level.forest, &list, order, &marked));
+  else if (order)
+    PetscCall(PetscArraycpy(order, app->level.state.leaf_order, t->num_leaves));
   for (PetscInt l = 0; order && l < t->num_leaves; ++l) weight[l] = PetscPowInt(order[l], t->dim);
   *adapted = (PetscBool)(marked > 0);
   if (*adapted) {
@@ -189,12 +194,12 @@ static PetscErrorCode Refine_Private(App *app, PetscBool *adapted)
 
 /* Refine and find equilibrium again. When there is none to be found on the finer mesh (material that collapses at a singular corner, say), the solution on
    the mesh at hand stands, and adaptation ends with that reason. *more: a finer mesh was reached. */
-static PetscErrorCode Pass_Private(App *app, PetscInt *iterations, PetscBool *more)
+static PetscErrorCode Pass_Private(App *app, MarkList *layers, PetscInt *iterations, PetscBool *more)
 {
   Level old = app->level;
 
   PetscFunctionBegin;
-  PetscCall(Refine_Private(app, more));
+  PetscCall(Refine_Private(app, layers, more));
   if (!*more) {
     *iterations     = 0;
     app->adapt_stop = app->estimate.num_leaves >= app->data->adapt.max_cells / 2 ? "max_cells" : "nothing left to refine";
@@ -214,26 +219,47 @@ static PetscErrorCode Pass_Private(App *app, PetscInt *iterations, PetscBool *mo
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode AppAdapt(App *app)
+/* Why nothing more is to be done, "" when there may be. */
+static const char *Stop_Private(const App *app)
 {
-  const AdaptSpec *spec       = &app->data->adapt;
-  PetscInt         iterations = app->iterations_in_step;
-  PetscBool        more       = PETSC_TRUE;
+  const AdaptSpec *spec = &app->data->adapt;
+
+  if (spec->tolerance > 0 && app->estimate.relative <= spec->tolerance) return "tolerance";
+  if (app->status.scale <= STRESSED * app->status.noise) return "free of stress";
+  return app->passes_in_step >= spec->max_passes ? "max_passes" : "";
+}
+
+/* Layers at contact faces to be subdivided first (subdivide: auto); layers->split NULL: none. Where nothing else is to be adapted, adaptation ends with the
+   last one. */
+static PetscErrorCode Layers_Private(App *app, MarkList *layers)
+{
+  PetscInt  num;
+  PetscBool room;
 
   PetscFunctionBegin;
+  PetscCall(EstimateMarkLayers(&app->estimate, app->data, app->level.forest, app->level.state.leaf_order, app->subdivided, layers, &num, &room));
+  if (num > 0) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(MarkListDestroy(layers));
+  if (app->data->adapt.tolerance <= 0) app->adapt_stop = room ? "contact faces fine enough" : "max_cells";
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode AppAdapt(App *app)
+{
+  PetscInt  iterations = app->iterations_in_step;
+  PetscBool adaptive = (PetscBool)(app->data->adapt.tolerance > 0), more = PETSC_TRUE;
+
+  PetscFunctionBegin;
+  for (PetscInt i = 0; i < app->data->num_contacts; ++i) adaptive = (PetscBool)(adaptive || app->data->contacts[i].subdivide_auto);
   while (more) {
+    MarkList layers = {0};
     PetscCall(AppEstimate(app));
-    app->adapt_stop = "";
-    if (spec->tolerance > 0 && app->estimate.relative <= spec->tolerance)
-      app->adapt_stop = "tolerance";
-    else if (spec->tolerance > 0 && app->status.scale <= STRESSED * app->status.noise)
-      app->adapt_stop = "free of stress";
-    else if (spec->tolerance > 0 && app->passes_in_step >= spec->max_passes)
-      app->adapt_stop = "max_passes";
-    const PetscBool enough = (PetscBool)(spec->tolerance <= 0 || app->adapt_stop[0]);
+    app->adapt_stop = adaptive ? Stop_Private(app) : "";
+    if (adaptive && !app->adapt_stop[0]) PetscCall(Layers_Private(app, &layers));
+    const PetscBool enough = (PetscBool)(!adaptive || app->adapt_stop[0]);
     PetscCall(ReportPass_Private(app, iterations, enough));
     if (enough) break;
-    PetscCall(Pass_Private(app, &iterations, &more));
+    PetscCall(Pass_Private(app, &layers, &iterations, &more));
     if (more) continue;
     if (app->stopped) break;
     app->last.accepted          = PETSC_TRUE;

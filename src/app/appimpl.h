@@ -40,6 +40,7 @@ typedef struct {
   PetscBool      stopped;        /* the run was asked to stop */
   char           stop_reason[PETSC_MAX_PATH_LEN + MORTISE_NAME];
   const char    *adapt_stop; /* why the last adaptation ended: tolerance, max_passes, max_cells, … */
+  PetscInt      *subdivided; /* owned [num_contacts] by contact.<pair>.subdivide: auto, so often, or tried */
   ReportRow      last;
   PetscReal      dt;                                                          /* length of the next load step */
   Checkpoint     snapshot;                                                    /* owned: copy of the state at the end of the last accepted load step */

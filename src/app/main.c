@@ -38,6 +38,7 @@ static PetscErrorCode Open_Private(App *app, Forest forest)
 
   PetscFunctionBegin;
   PetscCall(ProbesCreate(app->data, forest, &app->probes));
+  PetscCall(PetscCalloc1(app->data->num_contacts, &app->subdivided));
   if (app->restart[0])
     PetscCall(AppResume(app, &forest));
   else
@@ -115,6 +116,7 @@ static PetscErrorCode Close_Private(App *app)
   if (app->balance.reaction) PetscCall(BalanceDestroy(&app->balance));
   PetscCall(LevelDestroy(&app->level));
   PetscCall(CheckpointDestroy(&app->snapshot));
+  PetscCall(PetscFree(app->subdivided));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

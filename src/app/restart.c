@@ -100,7 +100,9 @@ static void Number_Private(CheckpointNumber numbers[], PetscInt *num, const char
 
 PetscErrorCode AppSnapshot(App *app)
 {
-  CheckpointNumber    numbers[NUM_NUMBERS];
+  const PetscInt      num_contacts = app->data->num_contacts;
+  CheckpointNumber   *numbers;
+  char                pair[MORTISE_NAME];
   const ForestTables *t;
   PetscLogDouble      now;
   PetscReal           seconds[1 + NUM_STAGES];
@@ -113,13 +115,19 @@ PetscErrorCode AppSnapshot(App *app)
   for (PetscInt s = 0; s < NUM_STAGES; ++s) seconds[s] = StageSeconds((Stage)s);
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, seconds, 1 + NUM_STAGES, MPIU_REAL, MPI_MAX, app->comm));
   if (app->writer) PetscCall(WriterNumStates(app->writer, &states));
+  PetscCall(PetscMalloc1(NUM_NUMBERS + num_contacts, &numbers));
   for (PetscInt i = 0; i < NUM_COUNTERS; ++i) Number_Private(numbers, &num, "", Counters[i].name, (PetscReal)*Counter_Private(app, i));
+  for (PetscInt i = 0; i < num_contacts; ++i) {
+    PetscCall(PetscSNPrintf(pair, sizeof(pair), "%" PetscInt_FMT, i));
+    Number_Private(numbers, &num, "subdivided.", pair, (PetscReal)app->subdivided[i]);
+  }
   for (PetscInt i = 0; i < NUM_REALS; ++i) Number_Private(numbers, &num, "", Reals[i].name, *Real_Private(app, i));
   Number_Private(numbers, &num, "", "states", (PetscReal)states);
   Number_Private(numbers, &num, "", "seconds", seconds[NUM_STAGES]);
   for (PetscInt s = 0; s < NUM_STAGES; ++s) Number_Private(numbers, &num, "seconds.", StageNames[s], seconds[s]);
   PetscCall(CheckpointDestroy(&app->snapshot));
   PetscCall(CheckpointCreate(app->level.problem, &app->level.accepted, num, numbers, app->adapt_stop, &app->snapshot));
+  PetscCall(PetscFree(numbers));
   PetscCall(ForestGetTables(app->level.forest, &t));
   app->snapshot_revision = t->revision;
   app->written           = PETSC_FALSE;
@@ -201,6 +209,7 @@ PetscErrorCode AppReadCheckpoint(App *app, Forest coarse)
 PetscErrorCode AppResume(App *app, Forest *coarse)
 {
   const LoadSpec *load = &app->data->load;
+  char            name[MORTISE_NAME];
   PetscReal       value;
 
   PetscFunctionBegin;
@@ -212,9 +221,13 @@ PetscErrorCode AppResume(App *app, Forest *coarse)
     *Counter_Private(app, i) = (PetscInt)value;
   }
   for (PetscInt i = 0; i < NUM_REALS; ++i) PetscCall(CheckpointGetNumber(app->snapshot, Reals[i].name, Real_Private(app, i)));
+  for (PetscInt i = 0; i < app->data->num_contacts; ++i) {
+    PetscCall(PetscSNPrintf(name, sizeof(name), "subdivided.%" PetscInt_FMT, i));
+    PetscCall(CheckpointGetNumber(app->snapshot, name, &value));
+    app->subdivided[i] = (PetscInt)value;
+  }
   app->dt = PetscMax(PetscMin(app->dt, load->step_max), load->step_min);
   for (PetscInt s = 0; s < NUM_STAGES; ++s) {
-    char name[MORTISE_NAME];
     PetscCall(PetscSNPrintf(name, sizeof(name), "seconds.%s", StageNames[s]));
     PetscCall(CheckpointGetNumber(app->snapshot, name, &value));
     PetscCall(StageAdd((Stage)s, value));

@@ -27,14 +27,13 @@ static PetscErrorCode BoxDistance_Private(Forest forest, PetscInt leaf, const Pe
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Does a facet of the leaf belong to the boundary group? */
-static PetscBool OnBoundary_Private(const ForestTables *t, PetscInt leaf, PetscInt group)
+PetscBool ForestLeafTouches(const ForestTables *t, PetscInt leaf, uint64_t groups)
 {
   const PetscInt *closure = t->closure + t->closure_offset[t->first[t->dim] + leaf];
 
   for (PetscInt i = 0, n = t->dim == 2 ? 9 : 27; i < n; ++i) {
     const PetscInt e = closure[i];
-    if (e >= t->first[t->dim - 1] && e < t->first[t->dim] && (t->boundary[e] >> group & 1)) return PETSC_TRUE;
+    if (e >= t->first[t->dim - 1] && e < t->first[t->dim] && (t->boundary[e] & groups)) return PETSC_TRUE;
   }
   return PETSC_FALSE;
 }
@@ -49,7 +48,7 @@ static PetscErrorCode Once_Private(Forest forest, const RefineSpec *spec, Forest
   PetscCall(PetscCalloc1(t->num_leaves, &marks.split));
   for (PetscInt leaf = 0; leaf < t->num_leaves; ++leaf) {
     PetscReal distance = 0, diagonal = 0;
-    if (spec->group >= 0 && !OnBoundary_Private(t, leaf, spec->group)) continue;
+    if (spec->group >= 0 && !ForestLeafTouches(t, leaf, UINT64_C(1) << spec->group)) continue;
     if (spec->radius >= 0) PetscCall(BoxDistance_Private(forest, leaf, spec->X, &distance, &diagonal));
     if (spec->radius < 0 || distance <= spec->radius + TOUCH * diagonal) marks.split[leaf] = (int8_t)((1 << t->dim) - 1);
   }

@@ -158,11 +158,13 @@ INLINE void Step_Private(const MaterialSpec *spec, const Deformation *d, Step *t
     PetscReal       dg, slope;
     const PetscReal radius = ROOT23 * YieldStress_Private(spec, t->alpha[l], &slope);
 
-    if (!(t->length[l] > (1 + (d->rests ? ON_SURFACE : -ON_SURFACE)) * radius)) continue;
+    if (!(t->length[l] > (1 + (d->rests || d->held ? ON_SURFACE : -ON_SURFACE)) * radius)) continue;
     t->flows[l] = -1;
     t->slope[l] = slope;
     if (!(t->length[l] > radius)) continue;
     t->plastic[l] = -1;
+    t->dg[l]      = 0.5 * (t->length[l] - PetscMax(0, radius)) / (spec->mu * t->mean[l]); /* no flow: the distance from the surface alone */
+    if (d->held) continue;
     if (!Return_Private(spec, t->length[l], spec->mu * t->mean[l], t->alpha[l], &dg, &slope)) t->bad[l] = -1;
     t->dg[l]    = dg;
     t->slope[l] = slope;

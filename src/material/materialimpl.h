@@ -12,7 +12,7 @@ typedef struct {
   Lanes     fiber[MATERIAL_MAX_FIBERS][3];
   Lanes     jm1, J, lnJ;
   Lanes     history[MATERIAL_MAX_HISTORY]; /* of laws that have one */
-  PetscBool rests;                         /* points at the edge of flow count as elastic */
+  PetscBool rests, held;                   /* as in MaterialPoints */
 } Deformation;
 
 /* What they answer. W alone, or with P, or with P and A, as asked. */
@@ -199,6 +199,7 @@ INLINE void PointLoop(PointLaw law, const PetscInt num_history, const MaterialSp
     if (num_history) LoadPoints(num_history, n, i, count, points->history, d.history);
     DeformationSet(&d, &any);
     d.rests = points->rests;
+    d.held  = points->held;
     law(spec, part, &d, &r);
     StorePoints(1, n, i, count, &r.W, points->W);
     StorePoints(9, n, i, count, r.P, points->P);

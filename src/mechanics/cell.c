@@ -228,7 +228,7 @@ static void StoreTrial_Private(CellKernel k, PetscInt num, PetscReal *values)
 }
 
 /* The law at all points: F -> W, P, and slab by slab A, which is pulled back at once while it is in cache. *bad: it has no answer (det F was tested before). */
-static PetscErrorCode Law_Private(CellKernel k, PetscBool tangent, PetscBool rests, const Lanes *pressure, PetscBool *bad)
+static PetscErrorCode Law_Private(CellKernel k, PetscBool tangent, const CellBatch *b, const Lanes *pressure, PetscBool *bad)
 {
   const PetscInt     slab = k->slab_points, count = slab * NUM_LANES, h = k->material.law->num_history;
   const MaterialPart part = k->mixed ? MATERIAL_ISOCHORIC : MATERIAL_FULL;
@@ -243,7 +243,8 @@ static PetscErrorCode Law_Private(CellKernel k, PetscBool tangent, PetscBool res
                              .A       = tangent ? (PetscReal *)k->A : NULL,
                              .history = (PetscReal *)&k->history[s * h * slab],
                              .trial   = (PetscReal *)&k->trial[s * h * slab],
-                             .rests   = rests};
+                             .rests   = b->rests,
+                             .held    = b->held};
 
     PetscCall(MaterialEvaluate(&k->material, part, &points));
     if (points.bad) *bad = PETSC_TRUE;
@@ -312,7 +313,7 @@ static PetscErrorCode Chunk_Private(CellKernel k, CellBatch *b, PetscInt first, 
   if (k->incompressible && b->pressure) PetscCall(PetscArraycpy(k->coefficient, k->stored, m));
   if (b->history) LoadHistory_Private(k, num, b->history + first * k->num_points * k->material.law->num_history);
   if (fibers && (b->energy || b->residual || tangent)) LoadSlabs_Private(k, num, fibers, b->fiber + first * fibers * k->num_points, k->fiber);
-  if (b->energy || b->residual || tangent || b->trial) PetscCall(Law_Private(k, tangent, b->rests, pressure, &bad));
+  if (b->energy || b->residual || tangent || b->trial) PetscCall(Law_Private(k, tangent, b, pressure, &bad));
   if (bad) b->bad = PETSC_TRUE;
   if (bad) PetscFunctionReturn(PETSC_SUCCESS);
   if (b->trial) StoreTrial_Private(k, num, b->trial + first * k->num_points * k->material.law->num_history);
@@ -324,7 +325,7 @@ static PetscErrorCode Chunk_Private(CellKernel k, CellBatch *b, PetscInt first, 
     Store_Private(num, n, d, k->u, b->residual + first * size);
   }
   if (couple) CellKernelCouple_Private(k, num, b->dpressure ? b->dpressure + first * m * size : NULL);
-  if (tangent) CellKernelTangent_Private(k, num, b->place, b->tangent + first * size * size);
+  if (tangent) CellKernelTangent_Private(k, b, first, num);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -194,33 +194,35 @@ INLINE void StoreTile_Private(CellKernel k, const PetscInt n1, const int d, Pets
   }
 }
 
-/* The tile into the upper triangles of all cells' matrices, nodes in their places. */
-INLINE void PlaceTile_Private(CellKernel k, const PetscInt n1, const int d, PetscInt num_cells, PetscInt a, PetscInt b, const PetscInt *place,
-                              PetscReal *tangent)
+/* The tile into the upper triangles of the matrices of cells first .. first+num-1, nodes in their places: rows of inner nodes and of others. */
+INLINE void PlaceTile_Private(CellKernel k, const PetscInt n1, const int d, const CellBatch *out, PetscInt first, PetscInt num, PetscInt a, PetscInt b)
 {
-  const PetscInt cols = n1 * d, size = k->num_nodes * d, square = size * size;
+  const PetscInt  cols = n1 * d, size = k->num_nodes * d, ni = out->num_inner * d, rest = size - ni;
+  const PetscInt *place = out->place;
 
   for (PetscInt x = 0; x < n1; x++) {
     for (PetscInt y = 0; y < n1; y++) {
-      const PetscInt row = place[a + x] * d, col = place[b + y] * d;
-      const Lanes   *in = k->tile + x * d * cols + y * d;
+      const PetscInt  row = place[a + x] * d, col = place[b + y] * d, upper = PetscMin(row, col), right = PetscMax(row, col);
+      const PetscBool inside = upper < ni ? PETSC_TRUE : PETSC_FALSE;
+      const PetscInt  stride = inside ? size : rest, matrix = inside ? ni * size : rest * rest;
+      PetscReal      *to = inside ? out->inner + first * matrix + upper * size + right : out->tangent + first * matrix + (upper - ni) * rest + right - ni;
+      const Lanes    *in = k->tile + x * d * cols + y * d;
 
       if (row > col && a == b) continue;
       for (int i = 0; i < d; i++) {
         for (int j = 0; j < d; j++) {
-          PetscReal *K = tangent + (row <= col ? (row + i) * size + col + j : (col + j) * size + row + i);
+          PetscReal *K = to + (row <= col ? i * stride + j : j * stride + i);
 
-          for (PetscInt cell = 0; cell < num_cells; cell++) K[cell * square] = in[i * cols + j][cell];
+          for (PetscInt cell = 0; cell < num; cell++) K[cell * matrix] = in[i * cols + j][cell];
         }
       }
     }
   }
 }
 
-INLINE void Tangent_Private(CellKernel k, const PetscInt n1, const PetscInt q1, const int d, const int nr, PetscInt num_cells, const PetscInt *place,
-                            PetscReal *tangent)
+INLINE void Tangent_Private(CellKernel k, const PetscInt n1, const PetscInt q1, const int d, const int nr, const CellBatch *out, PetscInt first, PetscInt num)
 {
-  const PetscInt nz = d == 3 ? n1 : 1;
+  const PetscInt nz = d == 3 ? n1 : 1, size = k->num_nodes * d;
 
   for (PetscInt az = 0; az < nz; az++) {
     for (PetscInt bz = k->unsymmetric ? 0 : az; bz < nz; bz++) {
@@ -233,10 +235,10 @@ INLINE void Tangent_Private(CellKernel k, const PetscInt n1, const PetscInt q1, 
 
           SumTile_Private(k, n1, q1, d, nr, moduli, ay, by);
           if (k->mixed && !k->incompressible) AddCoupling_Private(k, n1, d, a, b);
-          if (place)
-            PlaceTile_Private(k, n1, d, num_cells, a, b, place, tangent);
+          if (out->place)
+            PlaceTile_Private(k, n1, d, out, first, num, a, b);
           else
-            StoreTile_Private(k, n1, d, num_cells, a, b, tangent);
+            StoreTile_Private(k, n1, d, num, a, b, out->tangent + first * size * size);
         }
       }
     }
@@ -244,19 +246,19 @@ INLINE void Tangent_Private(CellKernel k, const PetscInt n1, const PetscInt q1, 
 }
 
 /* One instance for each usual order, with constant loop bounds. */
-INLINE void TangentOfOrder_Private(CellKernel k, const int d, const int nr, PetscInt num_cells, const PetscInt *place, PetscReal *tangent)
+INLINE void TangentOfOrder_Private(CellKernel k, const int d, const int nr, const CellBatch *out, PetscInt first, PetscInt num)
 {
-#define CALL(n1, q1) Tangent_Private(k, n1, q1, d, nr, num_cells, place, tangent)
+#define CALL(n1, q1) Tangent_Private(k, n1, q1, d, nr, out, first, num)
   CELL_OF_ORDER(k, CALL)
 #undef CALL
 }
 
-void CellKernelTangent_Private(CellKernel k, PetscInt num_cells, const PetscInt *place, PetscReal *tangent)
+void CellKernelTangent_Private(CellKernel k, const CellBatch *out, PetscInt first, PetscInt num)
 {
   if (k->dim == 3)
-    TangentOfOrder_Private(k, 3, 3, num_cells, place, tangent);
+    TangentOfOrder_Private(k, 3, 3, out, first, num);
   else if (k->hoop)
-    TangentOfOrder_Private(k, 2, 3, num_cells, place, tangent);
+    TangentOfOrder_Private(k, 2, 3, out, first, num);
   else
-    TangentOfOrder_Private(k, 2, 2, num_cells, place, tangent);
+    TangentOfOrder_Private(k, 2, 2, out, first, num);
 }

@@ -45,7 +45,7 @@ PetscErrorCode MechanicsSetCondense(Mechanics m)
     const PetscInt ni = g->num_inner * m->dim, nd = g->n * m->dim, nb = nd - ni;
     PetscCall(PetscMalloc1((size_t)g->num_cells * ni * nd, &g->factor));
     PetscCall(PetscMalloc2(g->num_cells * ni, &g->inner, g->num_cells * ni, &g->pivot));
-    most = PetscMax(most, nb * nb + ni * PetscMax(nb, LDL_BLOCK) + 3 * nd);
+    most = PetscMax(most, ni * ni + ni * PetscMax(nb, LDL_BLOCK) + 3 * nd);
   }
   PetscCall(PetscMalloc1(most + 1, &m->condense_work));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -82,7 +82,7 @@ static PetscErrorCode CellOf_Private(Mechanics m, const CellGroup *g, PetscInt i
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* K_ii = L D L^T with pivots; K_bb -= K_bi K_ii^-1 K_ib. */
+/* K_ii = L D L^T with pivots; K_bb -= K_bi K_ii^-1 K_ib, lower triangle. */
 static PetscErrorCode Indefinite_Private(const Cell *c, PetscReal *Kbb, PetscReal *work, PetscBool *singular)
 {
   const PetscReal    one = 1, minus = -1;
@@ -97,7 +97,7 @@ static PetscErrorCode Indefinite_Private(const Cell *c, PetscReal *Kbb, PetscRea
   for (PetscBLASInt j = 0; j < c->nb; ++j)
     for (PetscBLASInt i = 0; i < c->ni; ++i) work[j * c->ni + i] = c->outer[i * c->nd + j];
   PetscCallBLAS("LAPACKsytrs", LAPACKsytrs_("L", &c->ni, &c->nb, c->panel, &c->nd, c->pivot, work, &c->ni, &info));
-  PetscCallBLAS("BLASgemm", BLASgemm_("N", "N", &c->nb, &c->nb, &c->ni, &minus, c->outer, &c->nd, work, &c->ni, &one, Kbb, &c->nd));
+  PetscCallBLAS("BLASgemm", BLASgemm_("N", "N", &c->nb, &c->nb, &c->ni, &minus, c->outer, &c->nd, work, &c->ni, &one, Kbb, &c->nb));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -117,7 +117,7 @@ static PetscInt Negative_Private(const Cell *c)
   return num;
 }
 
-/* The lower triangle L of the first rows of A[rows][cols], columns of stride. False: not positive definite. */
+/* Its factor L in place of the lower triangle of A[cols][cols], columns of stride. False: not positive definite. */
 static PetscBool LeafTriangle_Private(PetscInt cols, PetscInt stride, PetscReal A[])
 {
   for (PetscInt j = 0; j < cols; ++j) {
@@ -155,64 +155,91 @@ static void LeafBelow_Private(PetscInt rows, PetscInt cols, PetscInt stride, con
   }
 }
 
-/* Cholesky's method on a panel A[rows][cols] whose first rows are symmetric, of which the lower triangle is read: L, and what is below times L^-T. The left
-   half first, then its products off the right one. */
-static PetscErrorCode FactorPanel_Private(PetscBLASInt rows, PetscBLASInt cols, PetscBLASInt stride, PetscReal A[], PetscBool *definite)
+/* The first of two halves of so many columns. */
+static PetscBLASInt Left_Private(PetscBLASInt cols)
+{
+  return (cols / 2 + 7) / 8 * 8;
+}
+
+/* X = X L^-T of rows below L[cols][cols]: the left half first, then its products off the right one. */
+static PetscErrorCode FactorBelow_Private(PetscBLASInt rows, PetscBLASInt cols, PetscBLASInt stride, const PetscReal L[], PetscReal X[])
 {
   const PetscReal    one = 1, minus = -1;
-  const PetscBLASInt left = (cols / 2 + 7) / 8 * 8, right = cols - left, below = rows - cols;
-  PetscReal         *B = A + (size_t)left * (stride + 1);
+  const PetscBLASInt left = Left_Private(cols), right = cols - left;
+  PetscReal         *Y = X + (size_t)left * stride;
 
   PetscFunctionBegin;
   if (cols <= LEAF) {
-    *definite = LeafTriangle_Private(cols, stride, A);
-    if (*definite) LeafBelow_Private(below, cols, stride, A, A + cols);
+    LeafBelow_Private(rows, cols, stride, L, X);
     PetscFunctionReturn(PETSC_SUCCESS);
   }
-  PetscCall(FactorPanel_Private(rows, left, stride, A, definite));
-  if (!*definite) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCallBLAS("BLASsyrk", BLASsyrk_("L", "N", &right, &left, &minus, A + left, &stride, &one, B, &stride));
-  PetscCallBLAS("BLASgemm", BLASgemm_("N", "T", &below, &right, &left, &minus, A + cols, &stride, A + left, &stride, &one, B + right, &stride));
-  PetscCall(FactorPanel_Private(rows - left, right, stride, B, definite));
+  PetscCall(FactorBelow_Private(rows, left, stride, L, X));
+  PetscCallBLAS("BLASgemm", BLASgemm_("N", "T", &rows, &right, &left, &minus, X, &stride, L + left, &stride, &one, Y, &stride));
+  PetscCall(FactorBelow_Private(rows, right, stride, L + (size_t)left * (stride + 1), Y));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* S[n][n] from the lower triangle of A (columns of stride): eight columns at a time are copied, and turned into pieces of the rows below them. */
-static PetscErrorCode Mirror_Private(PetscInt n, PetscInt stride, const PetscReal A[], PetscReal S[])
+/* Cholesky's method on A[n][n], of which the lower triangle is read: the left half, what is below it, its products off the right one. */
+static PetscErrorCode FactorTriangle_Private(PetscBLASInt n, PetscBLASInt stride, PetscReal A[], PetscBool *definite)
 {
+  const PetscReal    one = 1, minus = -1;
+  const PetscBLASInt left = Left_Private(n), right = n - left;
+  PetscReal         *B = A + (size_t)left * (stride + 1);
+
   PetscFunctionBegin;
+  if (n <= LEAF) {
+    *definite = LeafTriangle_Private(n, stride, A);
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
+  PetscCall(FactorTriangle_Private(left, stride, A, definite));
+  if (!*definite) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(FactorBelow_Private(right, left, stride, A, A + left));
+  PetscCallBLAS("BLASsyrk", BLASsyrk_("L", "N", &right, &left, &minus, A + left, &stride, &one, B, &stride));
+  PetscCall(FactorTriangle_Private(right, stride, B, definite));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* S[n][n] from its lower triangle (columns): eight columns at a time are turned into pieces of the rows below them. */
+static void Mirror_Private(PetscInt n, PetscReal S[])
+{
   for (PetscInt first = 0; first < n; first += 8) {
     const PetscInt last = PetscMin(n, first + 8);
-    for (PetscInt j = first; j < last; ++j) PetscCall(PetscArraycpy(S + j * (n + 1), A + j * (stride + 1), n - j));
     for (PetscInt k = first; k < n; ++k)
-      for (PetscInt j = first; j < PetscMin(last, k); ++j) S[k * n + j] = A[j * stride + k];
+      for (PetscInt j = first; j < PetscMin(last, k); ++j) S[k * n + j] = S[j * n + k];
   }
+}
+
+/* The lower triangle of A[n][n] (columns of stride) to B (columns of n), or back. */
+static PetscErrorCode CopyTriangle_Private(PetscInt n, PetscInt from, const PetscReal A[], PetscInt to, PetscReal B[])
+{
+  PetscFunctionBegin;
+  for (PetscInt j = 0; j < n; ++j) PetscCall(PetscArraycpy(B + j * (to + 1), A + j * (from + 1), n - j));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode MechanicsCondenseCell_Private(Mechanics m, CellGroup *g, PetscInt i, PetscReal K[], PetscReal S[], PetscBool *singular)
+PetscErrorCode MechanicsCondenseCell_Private(Mechanics m, CellGroup *g, PetscInt i, PetscReal K[], PetscBool *singular)
 {
   const PetscReal one = 1, minus = -1;
+  PetscReal      *kept = m->condense_work;
   Cell            c;
   PetscBool       definite;
-  PetscReal      *Kbb;
 
   PetscFunctionBegin;
   PetscCall(CellOf_Private(m, g, i, &c));
-  Kbb = K + c.ni * (c.nd + 1);
   if (c.ni > 0) {
-    PetscCall(PetscArraycpy(c.panel, K, c.ni * c.nd));
+    PetscCall(CopyTriangle_Private(c.ni, c.nd, c.panel, c.ni, kept));
     c.pivot[0] = 0;
-    PetscCall(FactorPanel_Private(c.nd, c.ni, c.nd, c.panel, &definite));
-    if (definite)
-      PetscCallBLAS("BLASsyrk", BLASsyrk_("L", "N", &c.nb, &c.ni, &minus, c.outer, &c.nd, &one, Kbb, &c.nd));
-    else {
-      PetscCall(PetscArraycpy(c.panel, K, c.ni * c.nd));
-      PetscCall(Indefinite_Private(&c, Kbb, m->condense_work + c.nb * c.nb, singular));
+    PetscCall(FactorTriangle_Private(c.ni, c.nd, c.panel, &definite));
+    if (definite) {
+      PetscCall(FactorBelow_Private(c.nb, c.ni, c.nd, c.panel, c.outer));
+      PetscCallBLAS("BLASsyrk", BLASsyrk_("L", "N", &c.nb, &c.ni, &minus, c.outer, &c.nd, &one, K, &c.nb));
+    } else {
+      PetscCall(CopyTriangle_Private(c.ni, c.ni, kept, c.nd, c.panel));
+      PetscCall(Indefinite_Private(&c, K, kept + c.ni * c.ni, singular));
       m->num_negative += Negative_Private(&c);
     }
   }
-  PetscCall(Mirror_Private(c.nb, c.nd, Kbb, S));
+  Mirror_Private(c.nb, K);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

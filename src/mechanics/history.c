@@ -128,11 +128,12 @@ PetscErrorCode MechanicsHistoryRange(Mechanics m, PetscInt cell, PetscInt *first
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* What a step to u leaves in cells first .. of a group. */
-static PetscErrorCode Trial_Private(Mechanics m, const CellGroup *g, PetscInt first, PetscInt num, const PetscReal u[], PetscReal trial[], PetscBool *bad)
+/* What a step to u leaves in cells first .. of a group; held: as in MaterialPoints. */
+static PetscErrorCode Trial_Private(Mechanics m, const CellGroup *g, PetscInt first, PetscInt num, PetscBool held, const PetscReal u[], PetscReal trial[],
+                                    PetscBool *bad)
 {
   const PetscInt nd    = g->n * m->dim;
-  CellBatch      batch = {.nc = num, .X = g->X + first * nd, .u = m->work, .history = MechanicsBatchHistory_Private(m, g, first), .trial = trial};
+  CellBatch      batch = {.nc = num, .X = g->X + first * nd, .u = m->work, .history = MechanicsBatchHistory_Private(m, g, first), .trial = trial, .held = held};
 
   PetscFunctionBegin;
   for (PetscInt i = 0; i < num; ++i) PetscCall(HPSpaceGather(m->space, g->cells[first + i], u, m->work + i * nd));
@@ -148,7 +149,23 @@ PetscErrorCode MechanicsCommit(Mechanics m, const PetscReal u[], PetscReal histo
   for (PetscInt i = 0; i < m->num_groups; ++i) {
     const CellGroup *g = &m->groups[i];
     for (PetscInt first = 0; first < g->num_cells && g->h; first += g->batch)
-      PetscCall(Trial_Private(m, g, first, PetscMin(g->batch, g->num_cells - first), u, history + g->history + first * g->num_points * g->h, bad));
+      PetscCall(Trial_Private(m, g, first, PetscMin(g->batch, g->num_cells - first), PETSC_FALSE, u, history + g->history + first * g->num_points * g->h, bad));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* One by one: a cell that is inverted has no stress, and no part in that of others. */
+PetscErrorCode MechanicsAdmit(Mechanics m, const PetscReal u[], PetscReal history[])
+{
+  PetscFunctionBegin;
+  for (PetscInt i = 0; i < m->num_groups; ++i) {
+    const CellGroup *g    = &m->groups[i];
+    const PetscInt   size = g->num_points * g->h;
+    for (PetscInt c = 0; c < g->num_cells && g->h; ++c) {
+      PetscBool inverted = PETSC_FALSE;
+      PetscCall(Trial_Private(m, g, c, 1, PETSC_TRUE, u, history + g->history + c * size, &inverted));
+      if (inverted) PetscCall(PetscArraycpy(history + g->history + c * size, m->history + g->history + c * size, size));
+    }
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -238,7 +255,7 @@ PetscErrorCode MechanicsPlasticStrain(Mechanics m, PetscInt cell, PetscInt np, c
   PetscCall(PetscArrayzero(strain, np));
   if (!g || !g->h || !g->material->law->plastic) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(PetscMalloc2(g->num_points * g->h, &trial, g->num_points, &alpha));
-  PetscCall(Trial_Private(m, g, m->cell_index[cell], 1, u, trial, &bad));
+  PetscCall(Trial_Private(m, g, m->cell_index[cell], 1, PETSC_FALSE, u, trial, &bad));
   for (PetscInt q = 0; q < g->num_points; ++q) g->material->law->plastic(g->material, trial + q * g->h, &alpha[q], &work);
   PetscCall(MechanicsPointRule(g->order, &rule));
   for (PetscInt p = 0; p < np; ++p) Basis1DInterpolate(rule, m->dim, xi + p * m->dim, 1, alpha, &strain[p]);

@@ -106,27 +106,34 @@ PetscErrorCode MechanicsResidual(Mechanics m, const PetscReal u[], PetscReal r[]
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Diagonal element k of the matrix of cell i. */
+static PetscReal *Diagonal_Private(Mechanics m, const CellGroup *g, PetscInt i, PetscReal K[], PetscInt k)
+{
+  const PetscInt nd = g->n * m->dim, ni = m->condense_work ? g->num_inner * m->dim : 0;
+
+  return k < ni ? g->factor + i * ni * nd + k * (nd + 1) : K + (k - ni) * (nd - ni + 1);
+}
+
 /* Matrix of cell i of the group to the sink; without its inner nodes where they are condensed. */
 static PetscErrorCode SendMatrix_Private(Mechanics m, CellGroup *g, PetscInt i, PetscReal K[], PetscReal *Km, PetscInt *dofs, MatrixSink sink, void *context,
                                          PetscBool *bad)
 {
   const PetscInt cell = g->cells[i], nd = g->n * m->dim;
-  PetscReal     *S        = m->condense_work;
   PetscBool      singular = PETSC_FALSE;
   PetscInt       num;
 
   PetscFunctionBegin;
   if (m->free_share[cell] > 0) {
     PetscReal trace = 0;
-    for (PetscInt k = 0; k < nd; ++k) trace += K[k * nd + k];
-    for (PetscInt k = 0; k < nd; ++k) K[k * nd + k] += m->free_share[cell] * trace / nd;
+    for (PetscInt k = 0; k < nd; ++k) trace += *Diagonal_Private(m, g, i, K, k);
+    for (PetscInt k = 0; k < nd; ++k) *Diagonal_Private(m, g, i, K, k) += m->free_share[cell] * trace / nd;
   }
-  if (S) {
+  if (m->condense_work) {
     PetscCall(StageBegin(STAGE_CONDENSE));
-    PetscCall(MechanicsCondenseCell_Private(m, g, i, K, S, &singular));
+    PetscCall(MechanicsCondenseCell_Private(m, g, i, K, &singular));
     PetscCall(StageEnd(STAGE_CONDENSE));
     if (singular) *bad = PETSC_TRUE;
-    PetscCall(HPSpaceTransformBoundary(m->space, cell, g->n - g->num_inner, g->outer, S, Km, dofs, &num));
+    PetscCall(HPSpaceTransformBoundary(m->space, cell, g->n - g->num_inner, g->outer, K, Km, dofs, &num));
   } else
     PetscCall(HPSpaceTransformMatrix(m->space, cell, K, Km, dofs, &num));
   PetscCall(sink(context, cell, num, dofs, Km));
@@ -158,16 +165,18 @@ PetscErrorCode MechanicsTangent(Mechanics m, const PetscReal u[], const PetscRea
   for (PetscInt ig = 0; ig < m->num_groups; ++ig) {
     CellGroup     *g  = &m->groups[ig];
     const Buffers  b  = CutBuffers_Private(m, g);
-    const PetscInt nd = g->n * m->dim;
+    const PetscInt nd = g->n * m->dim, rest = g->place ? nd - g->num_inner * m->dim : nd; /* rows of what is left of a cell's matrix */
     for (PetscInt first = 0; first < g->num_cells; first += g->batch) {
-      CellBatch batch = {.nc      = PetscMin(g->batch, g->num_cells - first),
-                         .X       = g->X + first * nd,
-                         .u       = b.u,
-                         .fiber   = g->fiber + first * g->num_fibers,
-                         .tangent = b.K,
-                         .place   = g->place,
-                         .rests   = m->rests,
-                         .history = MechanicsBatchHistory_Private(m, g, first)};
+      CellBatch batch = {.nc        = PetscMin(g->batch, g->num_cells - first),
+                         .X         = g->X + first * nd,
+                         .u         = b.u,
+                         .fiber     = g->fiber + first * g->num_fibers,
+                         .tangent   = b.K,
+                         .place     = g->place,
+                         .num_inner = g->num_inner,
+                         .inner     = g->factor + first * g->num_inner * m->dim * nd,
+                         .rests     = m->rests,
+                         .history   = MechanicsBatchHistory_Private(m, g, first)};
       PetscCall(GatherBatch_Private(m, g, first, batch.nc, u, b.u));
       if (g->m) {
         batch.pressure   = pressure ? pressure + g->pressure + first * g->m : NULL;
@@ -183,7 +192,7 @@ PetscErrorCode MechanicsTangent(Mechanics m, const PetscReal u[], const PetscRea
       if (batch.bad)
         *bad = PETSC_TRUE;
       else
-        for (PetscInt i = 0; i < batch.nc; ++i) PetscCall(SendMatrix_Private(m, g, first + i, b.K + i * nd * nd, Km, dofs, sink, context, bad));
+        for (PetscInt i = 0; i < batch.nc; ++i) PetscCall(SendMatrix_Private(m, g, first + i, b.K + i * rest * rest, Km, dofs, sink, context, bad));
     }
     dpressure += g->num_cells * g->m * nd;
   }

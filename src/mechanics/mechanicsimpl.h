@@ -23,9 +23,12 @@ typedef struct {
   const PetscReal *history;  /* [nc][points][num_history] of laws with history, as the last accepted step left it */
   PetscReal       *trial;    /* [nc][points][num_history] as a step that ended at u would leave it */
   PetscBool        rests;    /* tangent: points at the edge of flow are expected to stay elastic */
+  PetscBool        held;     /* trial alone: as in MaterialPoints */
   PetscReal       *tangent;  /* [nc][n*d][n*d] full, symmetric unless the law is not; exact derivative of residual when pressure is NULL or consistent */
-  const PetscInt  *place;    /* [n] NULL, or where the nodes stand in tangent: then only its rows up to the diagonal's column are written, K[row <= column];
-                                not with unsymmetric laws */
+  const PetscInt  *place;    /* [n] NULL, or where the nodes stand, inner ones first: then of the symmetric matrix only K[row <= column] are written,
+                                rows of inner nodes to inner, and the others' to tangent [nc][nb*d][nb*d], nb = n - num_inner; not with unsymmetric laws */
+  PetscInt   num_inner;      /* with place */
+  PetscReal *inner;          /* [nc][num_inner*d][n*d] with place */
   PetscReal *consistent;     /* [nc][m] pressure coefficients that u implies: modulus * M^-1 int q g(J); incompressible: int q g(J) */
   PetscReal *mass;           /* [nc][m] int q^2; incompressible only */
   PetscReal *dpressure;      /* [nc][m][n*d] derivative of consistent with respect to u */
@@ -158,10 +161,10 @@ PetscInt MechanicsOutwardSign_Private(PetscInt side);
 PetscInt MechanicsTrace_Private(Mechanics, const LoadFacet *, PetscInt nodes[], PetscReal X[]);
 /* control.c */
 PetscErrorCode MechanicsControlsCreate_Private(Mechanics);
-/* condense.c: eliminate the nodes inside cell i of the group from K[n*dim][n*dim] (as CellBatch.tangent with place writes it); the rest, full, goes to
-   S[nb*dim][nb*dim], nb nodes of group->outer. *singular: it cannot be done. */
+/* condense.c: eliminate the nodes inside cell i of the group, whose matrix stands in the group's factor and in K[nb*dim][nb*dim], nb nodes of group->outer,
+   as CellBatch with place and inner = factor leaves it. K becomes what is left, full. *singular: it cannot be done. */
 PetscErrorCode MechanicsCondenseDestroy_Private(Mechanics);
-PetscErrorCode MechanicsCondenseCell_Private(Mechanics, CellGroup *, PetscInt i, PetscReal K[], PetscReal S[], PetscBool *singular);
+PetscErrorCode MechanicsCondenseCell_Private(Mechanics, CellGroup *, PetscInt i, PetscReal K[], PetscBool *singular);
 /* history.c: layout and initial values. Collective. */
 PetscErrorCode MechanicsHistoryCreate_Private(Mechanics);
 PetscErrorCode MechanicsHistoryDestroy_Private(Mechanics);
@@ -250,8 +253,8 @@ void CellKernelCouple_Private(CellKernel, PetscInt num_cells,
                               PetscReal *dpressure); /* coupling; dpressure [num_cells][m][n*d] unless NULL, incompressible: of int q g */
 /* celltangent.c */
 void CellKernelTangentSlab_Private(CellKernel, PetscInt slab); /* A of a slab -> reference_tangent */
-/* reference_tangent, coupling -> tangent [num_cells][n*d][n*d]; place as in CellBatch */
-void CellKernelTangent_Private(CellKernel, PetscInt num_cells, const PetscInt *place, PetscReal *tangent);
+/* reference_tangent, coupling -> tangent of cells first .. first+num-1 of the batch */
+void CellKernelTangent_Private(CellKernel, const CellBatch *, PetscInt first, PetscInt num);
 
 /* cof F = J F^-T. */
 INLINE void CellCofactor(const Lanes F[9], Lanes cof[9])

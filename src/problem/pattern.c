@@ -142,3 +142,31 @@ PetscInt ContactPatternDofs_Private(const Contact *c, PetscInt facet, PetscInt d
   }
   return num;
 }
+
+PetscErrorCode ProblemGetPattern(Problem p, PetscInt pair, const PetscInt **first, const PetscInt **node)
+{
+  PetscFunctionBegin;
+  *first = p->contacts[pair].pattern_offset;
+  *node  = p->contacts[pair].pattern;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode ProblemSetPattern(Problem p, PetscInt pair, const PetscInt first[], const PetscInt node[])
+{
+  Contact       *c   = &p->contacts[pair];
+  const PetscInt num = c->side[0].num_facets;
+  PetscInt      *offset, *list;
+
+  PetscFunctionBegin;
+  PetscCall(PetscCalloc1(num + 1, &offset));
+  for (PetscInt i = 0; i < c->num_listed; ++i) offset[c->listed[i] + 1] = first[c->listed[i] + 1] - first[c->listed[i]];
+  for (PetscInt f = 0; f < num; ++f) offset[f + 1] += offset[f];
+  PetscCall(PetscMalloc1(offset[num], &list));
+  for (PetscInt f = 0; f < num; ++f) PetscCall(PetscArraycpy(list + offset[f], node + first[f], offset[f + 1] - offset[f]));
+  PetscCall(PetscFree(c->pattern_offset));
+  PetscCall(PetscFree(c->pattern));
+  c->pattern_offset = offset;
+  c->pattern        = list;
+  PetscCall(MatDestroy(&p->matrix));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

@@ -444,6 +444,19 @@ PetscErrorCode StateCommit(Problem p, State *s)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscErrorCode StateAdmit(Problem p, State *s)
+{
+  PetscReal *local;
+
+  PetscFunctionBegin;
+  PetscCall(ProblemSetHistory(p, s->history));
+  PetscCall(VecGetArray(p->u_local, &local));
+  PetscCall(ProblemLocalDisplacement(p, s->x, local));
+  PetscCall(MechanicsAdmit(p->mechanics, local, s->history));
+  PetscCall(VecRestoreArray(p->u_local, &local));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode StateDestroy(State *s)
 {
   PetscFunctionBegin;

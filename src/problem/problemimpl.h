@@ -265,6 +265,13 @@ static inline PetscBool ContactCovered_Private(const Contact *c, PetscInt j)
 {
   return (PetscBool)(c->weight[j] > (c->side[0].order ? COVERED_HIGHER : COVERED) * c->w0[j]);
 }
+/* How far node j and the other side are into each other, after the change as linearised. */
+static inline PetscReal ContactOverlap_Private(const Contact *c, PetscInt j)
+{
+  return -(c->gap[j] + c->change[j]) / c->weight[j];
+}
+/* touch.c: the overlap from which on nodes begin to bear; 0 for pairs that bear already. Collective. */
+PetscErrorCode ContactTouch_Private(Problem, const Contact *, PetscReal *least);
 /* What the row of an active node is made of: (gt + K z) / Q, Q = w + c K, so that it stays of the size of a gap however small w is. */
 static inline PetscReal ContactRowMeasure_Private(const Contact *c, PetscInt j)
 {

@@ -363,17 +363,19 @@ PetscErrorCode ProblemTangent(Problem p, Vec x, const PetscReal pressure[], Vec 
    sum: switches, violation. dx: this rank's part of the increment. */
 static PetscErrorCode ContactSwitch_Private(Problem p, Contact *c, const PetscReal dx[], Vec rhs, PetscReal sum[2])
 {
-  const Surface *s = &c->side[0];
+  const Surface *s     = &c->side[0];
+  PetscReal      least = 0;
 
   PetscFunctionBegin;
   if (c->released) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(ContactChange_Private(p, c, p->increment, c->change));
+  PetscCall(ContactTouch_Private(p, c, &least));
   for (PetscInt i = 0; i < s->num_own; ++i) {
     const PetscInt j = s->own[i];
     if (c->zlocal[j] < 0 || !c->near[j] || !ContactCovered_Private(c, j)) continue;
     const PetscReal pushed = c->z[j] + dx[c->zlocal[j]] - c->c[j] * (c->gap[j] + c->change[j]) / c->weight[j];
     const PetscBool active = (PetscBool)(pushed > 0);
-    if (active == c->active[j]) continue;
+    if (active == c->active[j] || (active && ContactOverlap_Private(c, j) < least)) continue;
     c->active[j] = active;
     sum[0] += 1;
     sum[1] += c->w0[j] * PetscAbsReal(pushed);

@@ -85,8 +85,9 @@ const Option Options[] = {
     {"contact.<pair>.mortar", KEY_TEXT, "", NULL, "", "physical group opposite", PAIR(mortar)},
     {"contact.<pair>.friction", KEY_REAL, "", "0", NOT_BELOW, "coefficient of friction; not built yet: 0 only", PAIR(spec.friction)},
     {"contact.<pair>.order", KEY_WORD, "", "1", "1|full", "order of the contact faces; full: that of their cells, with their curved geometry", PAIR(order)},
-    {"contact.<pair>.subdivide", KEY_INT, "", "0", "[0,8]",
-     "before the first solve, how often to subdivide the cells that touch either side, so that linear faces are as accurate as the cells' order",
+    {"contact.<pair>.subdivide", KEY_WORD, "", "0", "0|1|2|3|4|5|6|7|8|auto",
+     "before the first solve, how often to subdivide the cells that touch either side, so that linear faces are as accurate as the cells' order; auto: "
+     "at each load step, until the estimated error of these cells no longer exceeds that of the cells inside, at most order + 1 times",
      PAIR(subdivide)},
     {"contact.<pair>.search", KEY_REAL, "edges", "0", NOT_BELOW, "distance of the search, in multiples of the larger edge; 0: automatic", PAIR(spec.search)},
     {"contact.<pair>.initial_gap", KEY_WORD, "", "keep", "keep|adjust",

@@ -148,7 +148,9 @@ static PetscErrorCode Subdivide_Private(Scene s, Forest *forest)
   PetscFunctionBegin;
   for (PetscInt i = 0; i < s->data.num_contacts; ++i) {
     const PetscInt side[2] = {s->data.contacts[i].nonmortar, s->data.contacts[i].mortar};
-    for (int k = 0; k < 2; ++k) levels[side[k]] = PetscMax(levels[side[k]], s->contact[i].subdivide);
+    for (int k = 0; k < 2; ++k) {
+      if (s->contact[i].subdivide != SUBDIVIDE_AUTO) levels[side[k]] = PetscMax(levels[side[k]], s->contact[i].subdivide);
+    }
   }
   for (PetscInt group = 0; group < (PetscInt)(8 * sizeof(uint64_t)); ++group) {
     const RefineSpec spec = {.group = group, .radius = -1, .levels = levels[group]};
@@ -223,7 +225,10 @@ static PetscErrorCode ViewContact_Private(const ContactEntry *c, PetscViewer vie
   char layer[64] = "";
 
   PetscFunctionBegin;
-  if (c->subdivide) PetscCall(PetscSNPrintf(layer, sizeof(layer), ", cells at both subdivided %" PetscInt_FMT "x", c->subdivide));
+  if (c->spec.subdivide_auto)
+    PetscCall(PetscStrncpy(layer, ", cells at both subdivided as the estimate asks", sizeof(layer)));
+  else if (c->subdivide)
+    PetscCall(PetscSNPrintf(layer, sizeof(layer), ", cells at both subdivided %dx", c->subdivide));
   PetscCall(PetscViewerASCIIPrintf(viewer, "  contact %s: %s (nonmortar) on %s%s%s%s\n", c->spec.name, c->nonmortar, c->mortar,
                                    c->spec.full ? ", full order" : "", c->spec.node_to_segment ? ", node to segment" : "", layer));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -67,11 +67,13 @@ typedef struct {
   SceneNode   *node;
 } BoundaryEntry;
 
+#define SUBDIVIDE_AUTO (MORTISE_MAX_ORDER + 1) /* place of the word auto among those of contact.<pair>.subdivide */
+
 typedef struct {
   ContactSpec spec;
   char        nonmortar[MORTISE_NAME], mortar[MORTISE_NAME];
   int         order, initial_gap, multiplier, projection;
-  PetscInt    subdivide; /* isotropic subdivisions of the cells that touch either side */
+  int         subdivide; /* isotropic subdivisions of the cells that touch either side; SUBDIVIDE_AUTO */
   SceneNode  *node;
 } ContactEntry;
 

@@ -1,6 +1,7 @@
 /* Histories at integration points, from the old points to the new: polynomials through the old points of the leaf in which a new one lies, of quantities whose
    every value is admissible. Components 0-5 are a symmetric positive tensor of determinant 1 (Cp^-1): its logarithm is a traceless tensor, and the
-   exponential of any such has determinant 1. Component 6 (alpha) must not fall below 0. */
+   exponential of any such has determinant 1. Component 6 (alpha) must not fall below 0. Whether the stress is within the yield surface is a matter of the
+   displacement, too: StateAdmit sees to it. */
 #include "transferimpl.h"
 #include <petscblaslapack.h>
 

@@ -2,63 +2,6 @@
    cells by leaf, multipliers by node of the nonmortar side. Each rank knows where its own values lie; messages follow from that. */
 #include "transferimpl.h"
 
-/* This rank's values of a field and their places in it. */
-typedef struct {
-  PetscInt   num, total;
-  PetscInt  *index; /* owned [num] */
-  PetscReal *value; /* owned [num] */
-} Places;
-
-static PetscErrorCode PlacesCreate_Private(PetscInt num, PetscInt total, Places *p)
-{
-  PetscFunctionBegin;
-  p->num   = num;
-  p->total = total;
-  PetscCall(PetscMalloc2(num, &p->index, num, &p->value));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-static PetscErrorCode PlacesDestroy_Private(Places *p)
-{
-  PetscFunctionBegin;
-  PetscCall(PetscFree2(p->index, p->value));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* A field from what all ranks have of it; entries that nobody has are 0. */
-static PetscErrorCode Send_Private(MPI_Comm comm, const Places *p, Vec *field)
-{
-  PetscFunctionBegin;
-  PetscCall(VecCreateMPI(comm, PETSC_DECIDE, p->total, field));
-  PetscCall(VecSetValues(*field, p->num, p->index, p->value, INSERT_VALUES));
-  PetscCall(VecAssemblyBegin(*field));
-  PetscCall(VecAssemblyEnd(*field));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* This rank's values from a field. */
-static PetscErrorCode Fetch_Private(Vec field, Places *p)
-{
-  Vec        values;
-  IS         index;
-  VecScatter scatter;
-  PetscInt   size;
-
-  PetscFunctionBegin;
-  PetscCall(VecGetSize(field, &size));
-  PetscCheck(size == p->total, PETSC_COMM_SELF, PETSC_ERR_ARG_SIZ, "A packed field of %" PetscInt_FMT " numbers for a problem with %" PetscInt_FMT, size,
-             p->total);
-  PetscCall(VecCreateSeqWithArray(PETSC_COMM_SELF, 1, p->num, p->value, &values));
-  PetscCall(ISCreateGeneral(PETSC_COMM_SELF, p->num, p->index, PETSC_USE_POINTER, &index));
-  PetscCall(VecScatterCreate(field, index, values, NULL, &scatter));
-  PetscCall(VecScatterBegin(scatter, field, values, INSERT_VALUES, SCATTER_FORWARD));
-  PetscCall(VecScatterEnd(scatter, field, values, INSERT_VALUES, SCATTER_FORWARD));
-  PetscCall(VecScatterDestroy(&scatter));
-  PetscCall(ISDestroy(&index));
-  PetscCall(VecDestroy(&values));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 /* ---- displacements: Cartesian, of true nodes, prescribed ones among them -------------------------------------------------- */
 
 /* First number of each entity's nodes, [num_entities + 1]; hanging entities have none. */
@@ -123,7 +66,7 @@ static PetscErrorCode PackDisplacement_Private(Problem problem, Vec x, Vec *fiel
   PetscCall(PetscMalloc1(v->num_nodes * v->dim, &u));
   PetscCall(ProblemLocalDisplacement(problem, x, u));
   for (PetscInt i = 0; i < p.num / v->dim; ++i) PetscCall(TransferTurn_Private(space, v->dim, node[i], PETSC_TRUE, u + node[i] * v->dim, p.value + i * v->dim));
-  PetscCall(Send_Private(PetscObjectComm((PetscObject)x), &p, field));
+  PetscCall(PlacesSend_Private(PetscObjectComm((PetscObject)x), &p, field));
   PetscCall(PetscFree(u));
   PetscCall(PetscFree(node));
   PetscCall(PlacesDestroy_Private(&p));
@@ -145,7 +88,7 @@ static PetscErrorCode UnpackDisplacement_Private(Problem problem, Vec field, Vec
   PetscCall(HPSpaceGetTables(space, &v));
   PetscCall(HPSpaceGetGlobalDofs(space, &global));
   PetscCall(NodePlaces_Private(problem, &p, &node));
-  PetscCall(Fetch_Private(field, &p));
+  PetscCall(PlacesFetch_Private(field, &p));
   PetscCall(PetscMalloc1(v->num_nodes * v->dim, &u));
   PetscCall(ProblemLocalDisplacement(problem, x, u));
   *jump = 0;
@@ -210,11 +153,11 @@ static PetscErrorCode Blocks_Private(Problem problem, BlockRange range, PetscInt
   PetscCall(ProblemGetForest(problem, &forest));
   PetscCall(BlockPlaces_Private(problem, range, num, &p));
   if (back) {
-    PetscCall(Fetch_Private(*field, &p));
+    PetscCall(PlacesFetch_Private(*field, &p));
     PetscCall(PetscArraycpy(values, p.value, num));
   } else {
     PetscCall(PetscArraycpy(p.value, values, num));
-    PetscCall(Send_Private(ForestComm(forest), &p, field));
+    PetscCall(PlacesSend_Private(ForestComm(forest), &p, field));
   }
   PetscCall(PlacesDestroy_Private(&p));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -259,11 +202,11 @@ static PetscErrorCode Multipliers_Private(Problem problem, PetscInt pair, Vec x,
   }
   p.num = num;
   if (back) {
-    PetscCall(Fetch_Private(*field, &p));
+    PetscCall(PlacesFetch_Private(*field, &p));
     for (PetscInt i = 0; i < num; ++i) z[p.index[i]] = p.value[i];
     PetscCall(ProblemSetMultipliers(problem, pair, z, x));
   } else
-    PetscCall(Send_Private(PetscObjectComm((PetscObject)x), &p, field));
+    PetscCall(PlacesSend_Private(PetscObjectComm((PetscObject)x), &p, field));
   PetscCall(PlacesDestroy_Private(&p));
   PetscCall(PetscFree2(z, own));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -284,12 +227,12 @@ static PetscErrorCode Scalars_Private(Problem problem, Vec x, PetscBool back, Ve
   PetscCall(PlacesCreate_Private(num, num, &p));
   for (PetscInt i = 0; i < num; ++i) p.index[i] = i;
   if (back) {
-    PetscCall(Fetch_Private(*field, &p));
+    PetscCall(PlacesFetch_Private(*field, &p));
     PetscCall(ProblemSetScalars(problem, p.value, x));
   } else {
     PetscCall(ProblemGetScalars(problem, x, p.value));
     if (rank) p.num = 0; /* all ranks have them */
-    PetscCall(Send_Private(comm, &p, field));
+    PetscCall(PlacesSend_Private(comm, &p, field));
   }
   PetscCall(PlacesDestroy_Private(&p));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -327,7 +270,7 @@ PetscErrorCode TransferPack(Problem problem, const State *state, Pack *pack)
   PetscFunctionBegin;
   PetscCall(ProblemGetScene(problem, &scene));
   pack->num = 0;
-  PetscCall(PetscMalloc1(6 + scene->num_contacts, &pack->field));
+  PetscCall(PetscMalloc1(6 + 2 * scene->num_contacts, &pack->field));
   PetscCall(ProblemGetPath(problem, &path));
   if (path) {
     PetscCall(PackDisplacement_Private(problem, path, &field)); /* before the displacement: its scalars must act last */
@@ -346,6 +289,8 @@ PetscErrorCode TransferPack(Problem problem, const State *state, Pack *pack)
   for (PetscInt i = 0; i < scene->num_contacts; ++i) {
     PetscCall(Multipliers_Private(problem, i, state->x, PETSC_FALSE, &field));
     PetscCall(Append_Private(pack, field, "multiplier.%s", scene->contacts[i].name));
+    PetscCall(PatternPack_Private(problem, i, &field));
+    PetscCall(Append_Private(pack, field, "pattern.%s", scene->contacts[i].name));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -390,6 +335,8 @@ PetscErrorCode TransferUnpack(Problem problem, const Pack *pack, State *state, P
   for (PetscInt i = 0; i < scene->num_contacts; ++i) {
     PetscCall(Find_Private(pack, "multiplier.%s", scene->contacts[i].name, &field));
     PetscCall(Multipliers_Private(problem, i, state->x, PETSC_TRUE, &field));
+    PetscCall(Find_Private(pack, "pattern.%s", scene->contacts[i].name, &field));
+    PetscCall(PatternUnpack_Private(problem, i, field));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

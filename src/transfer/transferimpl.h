@@ -55,3 +55,19 @@ PetscErrorCode TransferMultiplierNeeds_Private(const ForestTables *old_t, const 
                                                PetscBool wanted[]);
 PetscErrorCode TransferMultiplier_Private(const ForestTables *old_t, const SurfaceView *old_view, const PetscReal z[], const PetscBool has_multiplier[],
                                           const ForestTables *new_t, const SurfaceView *new_view, const ForestMap *, PetscReal new_z[]);
+
+/* This rank's values of a field and their places in it. */
+typedef struct {
+  PetscInt   num, total;
+  PetscInt  *index; /* owned [num] */
+  PetscReal *value; /* owned [num] */
+} Places;
+
+/* places.c. Send: a field from what all ranks have of it; entries that nobody has are 0. Fetch: this rank's values from a field. Both collective. */
+PetscErrorCode PlacesCreate_Private(PetscInt num, PetscInt total, Places *);
+PetscErrorCode PlacesDestroy_Private(Places *);
+PetscErrorCode PlacesSend_Private(MPI_Comm, const Places *, Vec *field);
+PetscErrorCode PlacesFetch_Private(Vec field, Places *);
+/* pattern.c: a pair's room in the matrix as a field, and back. Collective. */
+PetscErrorCode PatternPack_Private(Problem, PetscInt pair, Vec *field);
+PetscErrorCode PatternUnpack_Private(Problem, PetscInt pair, Vec field);

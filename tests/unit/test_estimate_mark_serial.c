@@ -200,10 +200,53 @@ static void Aspect(void **state)
   OK(ForestDestroy(&forest));
 }
 
+/* Two pairs of sides (bits 0 and 1: left and right of 4 x 4 cells; 2 and 3: below and above), the first one automatic. */
+static void Layers(void **state)
+{
+  Box                 box;
+  Forest              forest   = BoxForest(PETSC_COMM_WORLD, 2, (const PetscInt[3]){4, 4, 1}, 1, 0, 1, &box);
+  ContactSpec         pairs[2] = {{.nonmortar = 0, .mortar = 1, .subdivide_auto = PETSC_TRUE}, {.nonmortar = 2, .mortar = 3}};
+  const SceneData     data     = {.num_contacts = 2, .contacts = pairs, .adapt = {.max_cells = 16 + 8 * 3}};
+  SceneData           small    = data;
+  const ForestTables *t;
+  int8_t              order[16];
+  PetscReal           eta2[16];
+  PetscInt            times[2] = {0, 0}, num;
+  PetscBool           room;
+  MarkList            marks;
+
+  OK(ForestGetTables(forest, &t));
+  for (PetscInt l = 0; l < 16; ++l) {
+    const PetscBool side = ForestLeafTouches(t, l, 1 | 2), other = ForestLeafTouches(t, l, 4 | 8);
+    order[l] = 2;
+    eta2[l]  = side ? 0.6 : other ? 100 : 1; /* 8 * 0.6 against 4: the other pair's cells count for neither */
+  }
+  const Estimate e = {.num_leaves = 16, .eta2 = eta2};
+  for (PetscInt k = 0; k < 4; ++k) { /* p + 1 times at most */
+    OK(EstimateMarkLayers(&e, &data, forest, order, times, &marks, &num, &room));
+    assert_int_equal(num, k < 3 ? 8 : 0);
+    assert_int_equal(times[0], PetscMin(k + 1, 3));
+    assert_true(room);
+    for (PetscInt l = 0; l < 16; ++l) assert_int_equal(marks.split[l], k < 3 && ForestLeafTouches(t, l, 1 | 2) ? 3 : 0);
+    OK(MarkListDestroy(&marks));
+  }
+  assert_int_equal(times[1], 0);
+  times[0] = 0;
+  --small.adapt.max_cells;
+  OK(EstimateMarkLayers(&e, &small, forest, order, times, &marks, &num, &room));
+  assert_true(num == 0 && !room && times[0] == 0);
+  OK(MarkListDestroy(&marks));
+  for (PetscInt l = 0; l < 16; ++l) order[l] = ForestLeafTouches(t, l, 1) ? 1 : 2; /* cells of order 1 have nothing better inside: 4 * 0.6 against 4 */
+  OK(EstimateMarkLayers(&e, &data, forest, order, times, &marks, &num, &room));
+  assert_true(num == 0 && room && times[0] == 0);
+  OK(MarkListDestroy(&marks));
+  OK(ForestDestroy(&forest));
+}
+
 int main(int argc, char **argv)
 {
   const struct CMUnitTest tests[] = {cmocka_unit_test(Shares),     cmocka_unit_test(TiesAndOrder), cmocka_unit_test(Limits), cmocka_unit_test(Alike),
-                                     cmocka_unit_test(Coarsening), cmocka_unit_test(Directions),   cmocka_unit_test(Aspect)};
+                                     cmocka_unit_test(Coarsening), cmocka_unit_test(Directions),   cmocka_unit_test(Aspect), cmocka_unit_test(Layers)};
   if (PetscInitialize(&argc, &argv, NULL, NULL)) return 1;
   const int failed = cmocka_run_group_tests(tests, NULL, NULL);
   return PetscFinalize() || failed;

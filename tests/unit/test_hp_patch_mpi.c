@@ -234,8 +234,8 @@ static void test_all_rotations(void **state)
     for (PetscInt d = 0; d < dim; ++d) assert_true(hanging_entities[dim - 2][d] > 100);
 }
 
-/* Random orders of cells and caps of their axes, all rotations: polynomials of the lowest order in play, and continuity. */
-static void CheckCaps(PetscInt dim, PetscInt rotation)
+/* Random orders of cells and caps of their axes up to `high`, all rotations: polynomials of the lowest order in play, and continuity. */
+static void CheckCaps(PetscInt dim, PetscInt rotation, PetscInt high)
 {
   const PetscInt      low = 1 + rotation % 2;
   Forest              forest;
@@ -248,10 +248,10 @@ static void CheckCaps(PetscInt dim, PetscInt rotation)
   forest       = BoxRandomForest(dim, 1, dim == 2 ? 4 : 1, 5, (PetscBool)(rotation % 3 > 0), (uint64_t)rotation);
   box_rotation = -1;
   OK(ForestGetTables(forest, &t));
-  RandomOrders(t, low, 4, &orders);
+  RandomOrders(t, low, high, &orders);
   OK(PetscMalloc1(t->num_leaves, &caps));
   for (PetscInt l = 0; l < t->num_leaves; ++l)
-    for (PetscInt a = 0; a < 3; ++a) caps[l][a] = (int8_t)(low + BoxRandom(5 - low));
+    for (PetscInt a = 0; a < 3; ++a) caps[l][a] = (int8_t)(low + BoxRandom(high + 1 - low));
   OK(HPSpaceCreate(forest, orders, caps, rotation % 4 == 0, 0, &space));
   OK(HPSpaceIsDirectional(space, &directional));
   assert_true(directional);
@@ -267,8 +267,10 @@ static void CheckCaps(PetscInt dim, PetscInt rotation)
 static void test_caps(void **state)
 {
   for (PetscInt rotation = 0; rotation < 24; ++rotation) {
-    CheckCaps(2, rotation);
-    CheckCaps(3, rotation);
+    CheckCaps(2, rotation, 4);
+    CheckCaps(3, rotation, 4);
+    CheckCaps(2, rotation, MORTISE_MAX_ORDER);
+    if (rotation % 4 == 1) CheckCaps(3, rotation, MORTISE_MAX_ORDER);
   }
 }
 

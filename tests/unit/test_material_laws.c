@@ -1,4 +1,4 @@
-/* Stress and energy of cases.md O-01, tangent against central differences, objectivity, symmetry, small strains, volumetric measure. */
+/* Stress and energy of cases.md O-01, closed forms, tangent against central differences, objectivity, symmetry, small strains, volumetric measure. */
 #include "material.h"
 
 #include <setjmp.h>
@@ -295,6 +295,34 @@ static void FibresCarryTensionOnly(void **state)
   }
 }
 
+/* hgo with c2, volume kept: Cauchy stress differences of an incompressible Mooney-Rivlin solid, s_i - s_j = (l_i^2 - l_j^2) (c + c2 l_k^2), with the fibres
+   along axis x, y or z: 2 k1 E exp(k2 E^2) l^2 more along them where they are longer, E = l^2 - 1. Uniaxial, biaxial, general. */
+static void SecondInvariantOfWalls(void **state)
+{
+  static const PetscReal stretch[][2] = {{1.3, 0}, {0.8, 0}, {1.3, 1.3}, {0.8, 0.8}, {1.4, 0.9}, {1.1, 1.2}}; /* second one 0: free */
+  const PetscReal        c = 1, c2 = 0.5, k1 = 3, k2 = 2;
+
+  for (size_t i = 0; i < PETSC_STATIC_ARRAY_LENGTH(stretch); i++) {
+    for (int along = 0; along < 3; along++) {
+      const PetscReal second = stretch[i][1] > 0 ? stretch[i][1] : 1 / PetscSqrtReal(stretch[i][0]);
+      const PetscReal l[3] = {stretch[i][0], second, 1 / (stretch[i][0] * second)}, F[9] = {l[0], 0, 0, 0, l[1], 0, 0, 0, l[2]};
+      const PetscReal E = l[along] * l[along] - 1, pull = E > 0 ? 2 * k1 * E * PetscExpReal(k2 * E * E) * l[along] * l[along] : 0;
+      const Row       row = {
+                "hgo", VOLUMETRIC_QUADRATIC, 5, {"c", "c2", "kappa", "k1", "k2"}, {c, c2, 50, k1, k2}, 0, {0}, 1, {{along == 0, along == 1, along == 2}}};
+      MaterialSpec spec;
+      PetscReal    P[9];
+
+      SpecMake(&row, &spec);
+      Evaluate(&spec, MATERIAL_FULL, F, NULL, P, NULL);
+      for (int a = 0; a < 3; a++) {
+        const int       b = (a + 1) % 3, other = (a + 2) % 3;
+        const PetscReal solid = (l[a] * l[a] - l[b] * l[b]) * (c + c2 * l[other] * l[other]);
+        assert_near(P[4 * a] * l[a] - P[4 * b] * l[b], solid + (a == along ? pull : 0) - (b == along ? pull : 0), 1e-12);
+      }
+    }
+  }
+}
+
 /* Angles count from axis x (X - point) towards the axis, at every position; in axisymmetric models from the third direction towards y. */
 static void FibresTurnWithTheFrame(void **state)
 {
@@ -360,6 +388,7 @@ int main(int argc, char **argv)
                                      cmocka_unit_test(BatchesEqualPoints),
                                      cmocka_unit_test(FibresEndSomewhere),
                                      cmocka_unit_test(FibresCarryTensionOnly),
+                                     cmocka_unit_test(SecondInvariantOfWalls),
                                      cmocka_unit_test(FibresTurnWithTheFrame),
                                      cmocka_unit_test(VolumetricMeasure)};
 

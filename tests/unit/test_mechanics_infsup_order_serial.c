@@ -1,5 +1,5 @@
 /* O-15 at orders 5 and 6, and where orders are mixed: neighbours of orders 2 to 6 share edges and faces of the lower one, linear contact faces included, and
-   the pairs are still stable. beta changes by less than 10 % at each doubling and stays above 0.3. */
+   the pairs are still stable. beta changes by less than 10 % at each doubling and stays above 0.3. With -slow: orders 5 and 6 in space on more cells. */
 #include "infsupfixture.h"
 
 static void HighInPlane(void **state)
@@ -88,11 +88,25 @@ static void GradedInSpace(void **state)
   CheckStable(CLAMPED, 6, 1, NULL, &irregular);
 }
 
+/* From 2 to 3 cells in each direction. */
+static void HighInSpaceFiner(void **state)
+{
+  for (PetscInt order = 5; order <= 6; ++order) {
+    for (Support support = CLAMPED; support <= (order == 5 ? STANDING : CLAMPED); ++support) {
+      const InfSup coarse = Measure(Unit(3, 2), order, support, "uniform", 2), fine = Measure(Unit(3, 3), order, support, "uniform", 3);
+      CheckStable(support, order, PetscLog2Real(1.5), &coarse, &fine);
+    }
+  }
+}
+
 int main(int argc, char **argv)
 {
   const struct CMUnitTest tests[] = {cmocka_unit_test(HighInPlane), cmocka_unit_test(GradedInPlane), cmocka_unit_test(GradedInSpace),
                                      cmocka_unit_test(HighInSpace)};
+  const struct CMUnitTest slow[]  = {cmocka_unit_test(HighInSpaceFiner)};
+  PetscBool               is_slow;
   if (PetscInitialize(&argc, &argv, NULL, NULL)) return 1;
-  const int failed = cmocka_run_group_tests(tests, NULL, NULL);
+  OK(PetscOptionsHasName(NULL, NULL, "-slow", &is_slow));
+  const int failed = is_slow ? cmocka_run_group_tests(slow, NULL, NULL) : cmocka_run_group_tests(tests, NULL, NULL);
   return PetscFinalize() || failed;
 }

@@ -1,7 +1,7 @@
 """Runs every cmocka program of tests/unit on 1 and 2 ranks, so that one closing line counts unit tests and cases alike.
 
 By name: test_*_serial.c on one rank only, test_*_mpi.c also on 3 ranks; tests of modules that never communicate on one rank unless they say _mpi.
-Programs are built by `make units`.
+A program that knows the option -slow has more, slow tests behind it. Programs are built by `make units`.
 """
 import os
 import pathlib
@@ -20,12 +20,15 @@ def runs():
         name = source.stem
         alone = name.endswith("_serial") or name.split("_")[1] in POINTWISE
         ranks = (1, 2, 3) if name.endswith("_mpi") else (1,) if alone else (1, 2)
-        yield from ((name, n) for n in ranks)
+        for n in ranks:
+            yield pytest.param(name, n, (), id=f"{name}-{n}")
+            if '"-slow"' in source.read_text():
+                yield pytest.param(name, n, ("-slow",), id=f"{name}-{n}-slow", marks=pytest.mark.slow)
 
 
-@pytest.mark.parametrize("name,ranks", runs())
-def test_unit(name, ranks, tmp_path):
-    command = [str(BUILD / "unit" / name)]
+@pytest.mark.parametrize("name,ranks,options", runs())
+def test_unit(name, ranks, options, tmp_path):
+    command = [str(BUILD / "unit" / name), *options]
     if ranks > 1:
         command = ["mpiexec", "-n", str(ranks)] + command
     # Own process group, so that a timeout ends the ranks too.

@@ -1,21 +1,24 @@
 /* Histories from mesh to mesh, on any number of ranks: fields whose logarithm and plastic strain are polynomials of the cells' order arrive as they are (split,
-   merged, orders raised and lowered, repartitioned); rough ones stay admissible: determinant 1, no plastic strain below 0 or far beyond the old cell's;
-   a cell that stays keeps its bits; ghosts know what their owners do. */
+   merged, orders raised and lowered, repartitioned); rough ones stay admissible: determinant 1, no plastic strain below 0 or far beyond the old cell's; those
+   of flow that interpolation takes beyond the yield surface go back to it radially, without flow; a cell that stays keeps its bits; ghosts know what their
+   owners do. */
 #include "bulkfixture.h"
 #include "transferimpl.h"
 
 enum { H = 7 };
+enum { ROUGH = -1, FLOWN = -2 }; /* fields that are no polynomials: any numbers; what two steps of plastic flow left */
+static const PetscReal Yield = 0.01, Hardening = 0.05;
 
 static void Setting(Bulk *b, PetscInt dim)
 {
-  const char *const names[]  = {"mu", "kappa", "yield"};
-  const PetscReal   values[] = {1, 3, 0.01};
+  const char *const names[]  = {"mu", "kappa", "yield", "hardening"};
+  const PetscReal   values[] = {1, 3, Yield, Hardening};
 
   *b = (Bulk){0};
   BulkInit(b, dim, dim == 2 ? MODEL_PLANE_STRAIN : MODEL_3D, KINEMATICS_FINITE);
   b->material = (MaterialSpec){.law = MaterialLawFind("j2")};
   OK(PetscStrcpy(b->material.name, "steel"));
-  OK(MaterialSetUp(&b->material, 3, names, values));
+  OK(MaterialSetUp(&b->material, 4, names, values));
 }
 
 /* Logarithm (traceless) and plastic strain at X: polynomials of this degree. */
@@ -78,6 +81,118 @@ static PetscInt Points(const Bulk *b, PetscInt cell, PetscReal (*X)[3])
   return num;
 }
 
+/* Displacement of degree 2 at the end of a step (0, 1), and its deformation gradient: flow here and there, then in other directions and elsewhere. */
+static void Motion(PetscInt dim, PetscInt step, const PetscReal X[3], PetscReal u[3], PetscReal F[9])
+{
+  static const PetscReal form[3][4] = {{.3, -.7, .4, .1}, {.5, .2, -.3, -.6}, {-.2, .6, .5, -.4}};
+
+  for (PetscInt k = 0; k < 9; ++k) F[k] = k % 4 == 0;
+  for (PetscInt c = 0; c < dim; ++c) {
+    const PetscReal *a = form[c], *b = form[(c + 1 + step) % 3];
+    PetscReal        p = a[3], q = b[3];
+    for (PetscInt J = 0; J < dim; ++J) {
+      p += a[J] * X[J];
+      q += b[J] * X[J];
+    }
+    u[c] = 0.03 * p * q;
+    for (PetscInt J = 0; J < dim; ++J) F[3 * c + J] += 0.03 * (p * b[J] + q * a[J]);
+  }
+}
+
+static void Move(const Bulk *b, PetscInt step, PetscReal u[])
+{
+  const HPTables *v;
+
+  OK(HPSpaceGetTables(b->space, &v));
+  for (PetscInt n = 0; n < v->num_nodes; ++n) {
+    PetscReal to[3], F[9];
+    Motion(v->dim, step, v->X + 3 * n, to, F);
+    for (PetscInt c = 0; c < v->dim; ++c) u[n * v->dim + c] = to[c];
+  }
+}
+
+/* Stress s = dev(J^(-2/3) F G F^T) (mu = 1) at F; returns |s| over the radius of the yield surface. */
+static PetscReal Stress(const PetscReal F[9], const PetscReal history[H], PetscReal s[9])
+{
+  static const int at[9]  = {0, 1, 2, 1, 3, 4, 2, 4, 5};
+  const PetscReal  J      = F[0] * (F[4] * F[8] - F[5] * F[7]) - F[1] * (F[3] * F[8] - F[5] * F[6]) + F[2] * (F[3] * F[7] - F[4] * F[6]);
+  PetscReal        square = 0;
+
+  for (PetscInt i = 0; i < 9; ++i) {
+    s[i] = 0;
+    for (PetscInt k = 0; k < 9; ++k) s[i] += PetscPowReal(J, -2. / 3) * F[i - i % 3 + k / 3] * history[at[k]] * F[3 * (i % 3) + k % 3];
+  }
+  const PetscReal mean = (s[0] + s[4] + s[8]) / 3;
+  for (PetscInt i = 0; i < 9; ++i) {
+    s[i] -= i % 4 == 0 ? mean : 0;
+    square += s[i] * s[i];
+  }
+  return PetscSqrtReal(square) / (PetscSqrtReal(2. / 3) * (Yield + Hardening * history[6]));
+}
+
+/* The displacement after two steps and the history they left. */
+static void Flow(const Bulk *b, PetscReal u[], PetscReal history[])
+{
+  PetscBool bad;
+
+  OK(MechanicsInitialHistory(b->mechanics, history));
+  for (PetscInt step = 0; step < 2; ++step) {
+    Move(b, step, u);
+    OK(MechanicsSetHistory(b->mechanics, history));
+    OK(MechanicsCommit(b->mechanics, u, history, &bad));
+    assert_false(bad);
+  }
+}
+
+static PetscReal Determinant(const PetscReal g[6])
+{
+  return g[0] * (g[3] * g[5] - g[4] * g[4]) - g[1] * (g[1] * g[5] - g[4] * g[2]) + g[2] * (g[1] * g[4] - g[3] * g[2]);
+}
+
+static PetscInt  num_within, num_beyond;
+static PetscReal most_beyond;
+
+/* history becomes admissible: no stress beyond the yield surface, determinant 1; where there was none the bits stay, elsewhere the stress has its direction and
+   now the length of the radius; plastic strains stay. */
+static void Admit(const Bulk *b, PetscReal history[])
+{
+  const HPTables *v;
+  PetscReal      *u, *before;
+  PetscInt        num, first, size;
+
+  OK(HPSpaceGetTables(b->space, &v));
+  OK(MechanicsNumHistory(b->mechanics, &num));
+  OK(PetscMalloc2(v->num_nodes * v->dim, &u, num, &before));
+  OK(PetscArraycpy(before, history, num));
+  Move(b, 1, u);
+  OK(MechanicsSetHistory(b->mechanics, history));
+  OK(MechanicsAdmit(b->mechanics, u, history));
+  for (PetscInt c = 0; c < v->num_owned_cells; ++c) {
+    PetscReal      X[343][3];
+    const PetscInt points = Points(b, c, X);
+    OK(MechanicsHistoryRange(b->mechanics, c, &first, &size));
+    for (PetscInt q = 0; q < points; ++q) {
+      const PetscReal *old = before + first + q * H, *new = history + first + q *H;
+      PetscReal x[3], F[9], s[2][9];
+      Motion(v->dim, 1, X[q], x, F);
+      const PetscReal was = Stress(F, old, s[0]), is = Stress(F, new, s[1]);
+      assert_near(Determinant(new), 1, 1e-12);
+      assert_true(new[6] == old[6] && new[6] >= 0);
+      assert_true(is <= 1 + 2e-9);
+      most_beyond = PetscMax(most_beyond, was);
+      if (was < 1 + 1e-10) {
+        assert_memory_equal(new, old, H * sizeof(PetscReal));
+        num_within++;
+      }
+      if (was < 1 + 1e-6) continue;
+      assert_near(is, 1, 1e-12);
+      for (PetscInt i = 0; i < 9; ++i) assert_near(s[1][i], s[0][i] / was, 1e-13);
+      num_beyond++;
+    }
+  }
+  OK(PetscFree2(u, before));
+}
+
 /* degree < 0: rough, by leaf and point. */
 static void Fill(const Bulk *b, PetscInt degree, PetscReal history[])
 {
@@ -102,11 +217,6 @@ static void Fill(const Bulk *b, PetscInt degree, PetscReal history[])
       Exp(log, to);
     }
   }
-}
-
-static PetscReal Determinant(const PetscReal g[6])
-{
-  return g[0] * (g[3] * g[5] - g[4] * g[4]) - g[1] * (g[1] * g[5] - g[4] * g[2]) + g[2] * (g[1] * g[4] - g[3] * g[2]);
 }
 
 static PetscInt num_kept, num_merged, num_split, num_orders;
@@ -154,11 +264,12 @@ static void Step(PetscInt dim, PetscInt degree, PetscBool merge, PetscInt raise,
   ForestMap           map;
   PetscReal          *u, *history, *result, *weight;
   PetscInt            num;
+  const PetscInt      low = degree == FLOWN ? 2 : PetscMax(degree, 1);
 
   Setting(&from, dim);
   from.forest = BoxForest(PETSC_COMM_WORLD, dim, (const PetscInt[3]){2, 2, 1}, 1, 1, seed, &box);
   BulkRefine(&from.forest, dim, 1, (PetscBool)(seed % 2));
-  BulkSetUp(&from, PetscMax(degree, 1), PetscMax(degree, 1) + (raise != 0));
+  BulkSetUp(&from, low, low + (raise != 0));
   OK(ForestGetTables(from.forest, &t));
   BoxRandomMarks(dim, t->num_leaves, merge ? 1000000 : 3, (PetscBool)(seed % 2), &marks);
   OK(PetscMalloc1(t->num_leaves, &weight));
@@ -168,19 +279,23 @@ static void Step(PetscInt dim, PetscInt degree, PetscBool merge, PetscInt raise,
   }
   Setting(&to, dim);
   OK(ForestAdapt(from.forest, &marks, weight, 0, NULL, &to.forest, &map));
-  BulkSetUp(&to, PetscMax(degree, 1), PetscMax(degree, 1) + (raise != 0));
+  BulkSetUp(&to, low, low + (raise != 0));
   TransferContext c = {
       .old_space = from.space, .old_mechanics = from.mechanics, .spec = &from.spec, .new_space = to.space, .new_mechanics = to.mechanics, .map = &map};
   OK(TransferContextSetUp_Private(&c));
   OK(HPSpaceGetTables(from.space, &v));
   OK(MechanicsNumHistory(from.mechanics, &num));
   OK(PetscCalloc2(v->num_nodes * dim, &u, num, &history));
-  Fill(&from, degree, history);
+  if (degree == FLOWN)
+    Flow(&from, u, history);
+  else
+    Fill(&from, degree, history);
   OK(OldCellsFetch_Private(&c, &(OldFields){.u = u, .history = history}, &old));
   OK(MechanicsNumHistory(to.mechanics, &num));
   OK(PetscMalloc1(num, &result));
   OK(TransferHistory_Private(&c, &old, result));
   Check(&from, &to, &map, degree, result);
+  if (degree == FLOWN) Admit(&to, result);
 
   /* cells that stay, on one rank: bit by bit */
   const ForestTables *nt;
@@ -225,10 +340,18 @@ static void RoughOnesStayAdmissible(void **state)
 {
   for (PetscInt dim = 2; dim <= 3; ++dim)
     for (uint64_t seed = 0; seed < 3; ++seed)
-      for (PetscInt merge = 0; merge < 2; ++merge) Step(dim, -1, (PetscBool)merge, seed == 2, seed);
+      for (PetscInt merge = 0; merge < 2; ++merge) Step(dim, ROUGH, (PetscBool)merge, seed == 2, seed);
   PetscMPIInt size;
   OK(MPI_Comm_size(PETSC_COMM_WORLD, &size));
   if (size == 1) assert_true(num_kept > 20 && num_split > 100 && num_merged > 20 && num_orders > 20);
+}
+
+static void FlowStaysWithinTheYieldSurface(void **state)
+{
+  for (PetscInt dim = 2; dim <= 3; ++dim)
+    for (uint64_t seed = 0; seed < 3; ++seed)
+      for (PetscInt merge = 0; merge < 2; ++merge) Step(dim, FLOWN, (PetscBool)merge, seed == 2, seed);
+  assert_true(num_within > 100 && num_beyond > 100 && most_beyond > 1.05);
 }
 
 /* Ghosts: the stress at a place of a cell is the same seen from its owner and from a neighbour. */
@@ -269,7 +392,8 @@ static void GhostsKnowTheirHistory(void **state)
 
 int main(int argc, char **argv)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(PolynomialsArrive), cmocka_unit_test(RoughOnesStayAdmissible), cmocka_unit_test(GhostsKnowTheirHistory)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(PolynomialsArrive), cmocka_unit_test(RoughOnesStayAdmissible),
+                                     cmocka_unit_test(FlowStaysWithinTheYieldSurface), cmocka_unit_test(GhostsKnowTheirHistory)};
 
   if (PetscInitialize(&argc, &argv, NULL, NULL)) return 1;
   const int failed = cmocka_run_group_tests(tests, NULL, NULL);

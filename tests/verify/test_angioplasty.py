@@ -1,8 +1,9 @@
 """Balloon, sleeve and artery in the cross-section (O-70, inputs/angioplasty2d.yml): three bodies, two gaps that open and close, plastic flow and recoil; exact
-answer. Pressures to 1 %, radii to 0.2 %, recoil to 5 %, plastic strain at both faces of the sleeve; roles of the contact faces exchanged (O-91), the full ring,
-coarser load steps, ranks; and how the sleeve is about to neck."""
+answer. Pressures to 1 %, resultants and at every node, radii to 0.2 %, recoil to 5 %, plastic strain at both faces of the sleeve; uniform and adapted meshes of orders
+1 and 2 of the quarter and of the full ring, coarser load steps, roles of the contact faces exchanged (O-91), ranks; and how the sleeve is about to neck."""
 import math
 
+import numpy
 import pytest
 
 STATES = [  # t; radius of the bore; pressure in it, balloon on sleeve, sleeve on artery; outer radii of sleeve and artery; plastic strain at bore and outside of the sleeve
@@ -17,17 +18,23 @@ RECOIL = 0.012451
 LINEAR1, LINEAR2 = (("-order", order, "-contact_inside_subdivide", 0, "-contact_outside_subdivide", 0) for order in (1, 2))
 FULL = ("-contact_inside_order", "full", "-contact_outside_order", "full", "-contact_inside_subdivide", 0, "-contact_outside_subdivide", 0)
 EXCHANGED = ("-contact_inside_nonmortar", "sleeve_bore", "-contact_inside_mortar", "balloon_skin",
-             "-contact_outside_nonmortar", "artery_bore", "-contact_outside_mortar", "sleeve_skin")
+             "-contact_outside_nonmortar", "sleeve_skin", "-contact_outside_mortar", "artery_bore")
+FINE1 = (*LINEAR1, "-mesh_refine", 1)
+ADAPTIVE1, ADAPTIVE2 = (*FINE1, "-adapt_tolerance", 0.1), (*LINEAR2, "-adapt_tolerance", 0.05)
+RING = ("-mesh_parameter_sectors", 4)
+LARGE = ("-load_step", 0.2)
+PRESSURE, RADIUS = 0.01, 0.002  # tolerances
+RMS = 0.007  # of the pressures at the nodes
 
 
 def solve(run, *options, **keywords):
-    result = run("inputs/angioplasty2d.yml", "-output_fields", "false", *options, **keywords)
+    result = run("inputs/angioplasty2d.yml", "-adapt_max_cells", 10000, *options, **keywords)
     assert result.returncode == 0, result
     return result
 
 
 def figures(row, radius):
-    """As in STATES, of a row of the history."""
+    """As in STATES, of a row of the history of a quarter; pressures are resultants over radii."""
     balloon, sleeve, artery = (r + row[f"probe.{name}.displacement.x"] for name, r in (("balloon", .5), ("sleeve", .65), ("artery", 1.1)))
     strains = (row[f"probe.{name}.plastic_strain"] for name in ("sleeve_bore", "sleeve"))
     return row["reaction.bore.x"] / radius, abs(row["contact.inside.force.x"]) / balloon, abs(row["contact.outside.force.x"]) / sleeve, sleeve, artery, *strains
@@ -38,26 +45,68 @@ def states(result):
     return {t: figures(row, radius) for t, radius, *_ in STATES for row in result.history if abs(row["t"] - t) < 1e-9}
 
 
-def accurate(result, strains):
+def nodal(result):
+    """{t: [pressures at all nodes that have a multiplier, inside; outside; radii at all nodes of the sleeve's skin]} of the states; of passes at one time the last."""
+    found = {}
+    for time, state in result.states("contact"):
+        for t, *_ in STATES:
+            if not 0 <= time - t < 2e-5:
+                continue
+            x = state["X"] + state["displacement"]
+            inside, outside, skin = (numpy.unique(state["cells"][(state["pair"] == pair) & on]) for pair, on in
+                                     ((0, state["side"] == 0), (1, state["side"] == 0), (1, numpy.isclose(numpy.hypot(*state["X"][state["cells"][:, 0], :2].T), .65, atol=5e-3))))
+            found[t] = state["contact_pressure"][inside], state["contact_pressure"][outside], numpy.hypot(*x[skin, :2].T)
+    return found
+
+
+def accurate_everywhere(result, pressure=PRESSURE, back=PRESSURE, rms=RMS):
+    """Pressures (back: where the balloon has gone) and radii at every node, pressures also in the mean square."""
+    found = nodal(result)
+    assert found.keys() >= {row[0] for row in STATES if row[0] <= result.history[-1]["t"]}, found.keys()
+    for t, values in found.items():
+        reference = next((row[3], row[4], row[5]) for row in STATES if row[0] == t)
+        errors = [value / ref - 1 if ref else value for value, ref in zip(values, reference)]
+        print(t, *("%d nodes %+.1e .. %+.1e rms %.1e;" % (e.size, e.min(), e.max(), (e**2).mean()**.5) for e in errors))
+        for k, (e, ref) in enumerate(zip(errors, reference)):
+            bound = RADIUS if k == 2 else 1e-3 if not ref else back if t > 1 else pressure
+            assert abs(e).max() < bound and (e**2).mean()**.5 < rms * bound / pressure, (t, k, e)
+
+
+def accurate(result, strains, **local):
+    """A quarter: resultants, radii, plastic strains to a share, and accurate_everywhere."""
     found = states(result)
     assert set(found) == {row[0] for row in STATES}, found  # load steps end at the times of the amplitude, whatever was cut
     for t, radius, *reference in STATES:
         print(t, ["%+.1e" % (value / ref - 1 if ref else value) for value, ref in zip(found[t], reference)])
         for k, (value, ref) in enumerate(zip(found[t], reference)):
-            assert abs(value - ref) <= (0.01, 0.01, 0.01, 0.002, 0.002, strains, strains)[k] * ref + 1e-3 * (ref == 0), (t, k, value, ref)
+            assert abs(value - ref) <= (PRESSURE, PRESSURE, PRESSURE, RADIUS, RADIUS, strains, strains)[k] * ref + 1e-3 * (ref == 0), (t, k, value, ref)
     recoil = 1 - found[1.4][3] / found[.7][3]
     assert abs(recoil / RECOIL - 1) < 0.05, recoil
+    accurate_everywhere(result, **local)
+
+
+def adapted(result, first):
+    cells = {row["cells"] for row in result.history}
+    assert min(cells) == first < max(cells), cells
 
 
 def test_o70_steps_four_times_larger(run):
     """No step is cut, not even where the flow ends and the balloon leaves."""
-    result = solve(run, "-load_step", 0.2)
-    accurate(result, 0.03)
+    result = solve(run, *LARGE)
+    accurate(result, 0.03, rms=0.009)
     assert result.summary["step_cuts"] == 0, result
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("options, strains", [((), 0.02), ((*LINEAR1, "-mesh_refine", 1), 0.03), (FULL, 0.003)], ids=["order_2", "order_1", "full_faces"])
+@pytest.mark.parametrize("options", [ADAPTIVE1, ADAPTIVE2], ids=["order_1", "order_2"])
+def test_o70_adaptive_steps_four_times_larger(run, options):
+    result = solve(run, *options, *LARGE)
+    accurate(result, 0.04, back=0.015, rms=0.009)
+    adapted(result, 720 if options is ADAPTIVE1 else 180)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("options, strains", [((), 0.02), (FINE1, 0.03), (FULL, 0.003)], ids=["order_2", "order_1", "full_faces"])
 def test_o70(run, options, strains):
     result = solve(run, *options)
     accurate(result, strains)
@@ -65,22 +114,22 @@ def test_o70(run, options, strains):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("tolerance", [0.05, 0.03, 0.015])
-def test_o70_adaptive(run, tolerance):
-    """Order 2, linear faces; histories are carried from mesh to mesh, also after the balloon has left."""
-    result = solve(run, *LINEAR2, "-adapt_tolerance", tolerance, "-adapt_max_cells", 2500)
-    accurate(result, 0.05)
-    cells = {row["cells"] for row in result.history}
-    assert min(cells) == 180 and len(cells) > 2, cells
+@pytest.mark.parametrize("options, tolerance, back", [(LINEAR2, 0.05, PRESSURE), (LINEAR2, 0.03, 0.07), (LINEAR2, 0.02, PRESSURE), (LINEAR2, 0.015, 0.04), ((), 0.02, PRESSURE)],
+                         ids=["0.05", "0.03", "0.02", "0.015", "faces_subdivided_0.02"])
+def test_o70_adaptive(run, options, tolerance, back):
+    """Order 2, linear faces; histories are carried from mesh to mesh, also after the balloon has left. Where faces of the sleeve are split on the way back, the polygon
+    as which it has flowed stays: 5e-5 of the radius, against 8000 of shear modulus 6 % of the pressure at single nodes (back)."""
+    result = solve(run, *options, "-adapt_tolerance", tolerance)
+    accurate(result, 0.03, back=back)
+    adapted(result, 180 if options else 432)
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("tolerance", [0.1, 0.08, 0.06])
 def test_o70_adaptive_order_1(run, tolerance):
-    result = solve(run, "-order", 1, "-adapt_tolerance", tolerance, "-adapt_max_cells", 2500)
+    result = solve(run, *FINE1, "-adapt_tolerance", tolerance)
     accurate(result, 0.03)
-    cells = {row["cells"] for row in result.history}
-    assert min(cells) == 432 and len(cells) > 2, cells
+    adapted(result, 720)
 
 
 @pytest.mark.slow
@@ -91,7 +140,7 @@ def test_o70_is_beyond_bifurcations(run):
         paths = []
         for load in (1e-3, -1e-3):
             traction = f"{load}*cos({n}*atan2(Y,X))*"
-            result = solve(run, *FULL, "-load_end", 0.5, "-boundary_sleeve_skin_traction_x", traction + "X/0.65", "-boundary_sleeve_skin_traction_y", traction + "Y/0.65")
+            result = solve(run, *FULL, "-output_fields", "false", "-load_end", 0.5, "-boundary_sleeve_skin_traction_x", traction + "X/0.65", "-boundary_sleeve_skin_traction_y", traction + "Y/0.65")
             assert result.summary["step_cuts"] == 0, result
             paths.append({round(row["t"], 6): row["probe.sleeve.displacement.x"] - row["probe.sleeve_bore.displacement.x"] for row in result.history})
         return {t: (paths[0][t] - paths[1][t]) / 2 for t in paths[0] if t > 0.06}  # the balloon has met the sleeve, which flows
@@ -106,27 +155,56 @@ def test_o70_is_beyond_bifurcations(run):
 
 @pytest.mark.slow
 def test_o70_final_state_forgets_the_steps(run):
-    """Back at the start the balloon is free, and of what the larger steps cost the plastic flow on the way only the plastic strains tell (1 %)."""
-    small, large = (solve(run, "-load_step", step) for step in (0.05, 0.7))
+    """Back at the start the balloon is free, and of what the larger steps cost the plastic flow on the way only the plastic strains tell (3 %)."""
+    small, large = (solve(run, "-output_fields", "false", "-load_step", step) for step in (0.05, 0.7))
     for k, (a, b) in enumerate(zip(figures(small.history[-1], 0.4), figures(large.history[-1], 0.4))):
-        assert abs(a - b) <= (1e-3 if k < 5 else 1e-2) * abs(a) + 1e-4, (a, b)
+        assert abs(a - b) <= (1e-3 if k < 5 else 3e-2) * abs(a) + 1e-4, (a, b)
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("options", [(), (*LINEAR1, "-mesh_refine", 1)], ids=["order_2", "order_1"])
-def test_o91_roles_exchanged(run, options):
-    """Pressures and radii alike; plastic strains at the corners of linear faces are not."""
+@pytest.mark.parametrize("options, local", [((), 0.05), (("-mesh_refine", 1), 0.012), (FINE1, 0.03)], ids=["order_2", "order_2_finer", "order_1"])
+def test_o91_roles_exchanged(run, options, local):
+    """Resultants and radii alike; plastic strains at the corners of linear faces are not, nor are pressures at nodes of the stiff sleeve, until the mesh is finer."""
     one, other = (solve(run, *options, *roles) for roles in ((), EXCHANGED))
-    accurate(other, 0.03)
+    accurate(other, 0.03, pressure=local, back=local, rms=0.7 * local)
     for t, values in states(one).items():
         for a, b in zip(values[:5], states(other)[t]):
             assert abs(a - b) <= 5e-3 * abs(a) + 1e-3, (t, values, states(other)[t])
 
 
+def test_o70_full_ring_meets_the_artery(run):
+    result = solve(run, *RING, *LINEAR2, "-adapt_tolerance", 0.04, *LARGE, "-load_end", 0.35)
+    assert result.summary["step_cuts"] == 0, result
+    accurate_everywhere(result)
+    adapted(result, 720)
+
+
 @pytest.mark.slow
-def test_o70_full_ring(run):
+@pytest.mark.parametrize("options, strains, back, rms, first", [((), 0.02, PRESSURE, RMS, 0), (ADAPTIVE1, 0.03, PRESSURE, RMS, 2880), (ADAPTIVE2, 0.03, PRESSURE, RMS, 720),
+                                                          ((*ADAPTIVE1, *LARGE), 0.04, PRESSURE, 0.009, 2880), ((*ADAPTIVE2, *LARGE), 0.04, 0.015, 0.009, 720)],
+                         ids=["order_2", "adaptive_order_1", "adaptive_order_2", "adaptive_order_1_larger_steps", "adaptive_order_2_larger_steps"])
+def test_o70_full_ring(run, options, strains, back, rms, first):
+    """There and back without support but on one ray: pressures at all nodes of both gaps, which hold the resultants, and radii all round; figures of the ray."""
+    result = solve(run, *RING, *options)
+    assert result.summary["step_cuts"] == 0, result
+    accurate_everywhere(result, back=back, rms=rms)
+    rows = states(result)
+    for t, _, *reference in STATES:
+        print(t, ["%+.1e" % (value / ref - 1 if ref else value) for value, ref in zip(rows[t][3:], reference[3:])])
+        for value, ref, share in zip(rows[t][3:], reference[3:], (RADIUS, RADIUS, strains, strains), strict=True):
+            assert abs(value / ref - 1) < share, (t, value, ref)
+    assert abs((1 - rows[1.4][3] / rows[.7][3]) / RECOIL - 1) < 0.05
+    if first:
+        adapted(result, first)
+        changes = [row["force_change"] for row in result.adapt if row["pass"]]
+        assert changes and 1e-6 < max(changes) < 2e-3, changes  # the resultants cancel, what they are measured against does not
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("options", [LINEAR1, ADAPTIVE2], ids=["order_1", "adaptive_order_2"])
+def test_o70_ring_is_four_quarters(run, options):
     """Four quarters, held on one ray (where sleeve and artery are along x is for contact to find): the energy of four, their radii, pressures and estimate."""
-    quarter, ring = (solve(run, *LINEAR1, "-mesh_parameter_sectors", n) for n in (1, 4))
+    quarter, ring = (solve(run, "-output_fields", "false", *options, *sectors) for sectors in ((), RING))
     assert ring.summary["step_cuts"] == 0, ring
     for one, four in zip(quarter.history, ring.history, strict=True):
         assert abs(four["t"] - one["t"]) < 1e-12 and abs(four["energy"] / one["energy"] - 4) < 4e-6
@@ -140,8 +218,27 @@ def test_o70_full_ring(run):
 @pytest.mark.slow
 @pytest.mark.parametrize("ranks", [2, 3])
 def test_o70_ranks(run, ranks):
-    options = (*LINEAR1, "-load_step", 0.2)
+    options = (*LINEAR1, "-load_step", 0.2, "-output_fields", "false")
     for a, b in zip(states(solve(run, *options))[1.4], states(solve(run, *options, ranks=ranks))[1.4]):
+        assert abs(a - b) <= 1e-8 * max(1, abs(a)), (a, b)
+
+
+COUNTS = ("step", "t", "pass", "step_cuts", "cells", "dofs", "active_nodes")
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("ranks", [2, 3])
+@pytest.mark.parametrize("roles", [(), EXCHANGED[4:]], ids=["artery", "sleeve"])
+def test_o70_ranks_adaptive(run, ranks, roles):
+    """The same steps, meshes and active sets on any number of ranks, whichever side of the gap outside carries the multiplier: pressures of round-off, which this
+    pair has before it closes, decide nothing."""
+    options = ("-order", 1, "-adapt_tolerance", 0.1, "-adapt_max_cells", 2500, *LARGE, *roles, "-output_fields", "false")
+    one, many = (solve(run, *options, ranks=n) for n in (1, ranks))
+    assert len({row["cells"] for row in one.history}) > 2 and one.summary["step_cuts"] == 0, one
+    for table in ("history", "adapt"):
+        for a, b in zip(getattr(one, table), getattr(many, table), strict=True):
+            assert [a[key] for key in COUNTS if key in a] == [b[key] for key in COUNTS if key in b]
+    for a, b in zip(states(one)[1.4], states(many)[1.4]):
         assert abs(a - b) <= 1e-8 * max(1, abs(a)), (a, b)
 
 

@@ -30,8 +30,14 @@ SCENES = {
     "shrinkfit": ("shrinkfit", STEPS, 2),
     "space": ("blocks3d", TILTED, 1),
     "incompressible": ("rubber2d", (*STEPS, "-adapt_max_passes", 2, "-material_rubber_nu", 0.5), 2),
+    "layers": ("hertz2d", (*STEPS, "-order", 2, "-adapt_tolerance", 0, "-contact_disc_on_block_order", 1, "-contact_disc_on_block_subdivide", "auto"), 1),
     "volume": ("balloon", ("-load_step", 0.1, "-material_rubber_kappa", 100), 4),
+    "flow": ("angioplasty2d", (), 10),
+    "flow_adaptive": ("angioplasty2d", ("-order", 1, "-adapt_tolerance", 0.1, "-adapt_max_cells", 2500, "-load_end", 0.4), 3),
 }
+STIFF = ("flow", "flow_adaptive")  # 1e4 times as stiff against a change of volume as against one of shape: round-off of J counts in pressures
+ROUGH = ("stress", "reaction", "max_pressure")  # columns that it enters
+WAYS = ("newton_iterations", "active_set_changes", "active_set_cycles")  # where bodies touch all around at once round-off decides the way, not where it leads
 TIME = ("seconds",)  # of tables: wall time
 RUN = ("time", "ranks", "peak_memory_mb", "peak_memory_rank_mb", "factorisations", "balance", "unstable_equilibria")  # of summary.json: the process; round-off; null on many
 
@@ -40,8 +46,16 @@ def kept(key):
     return key not in RUN and not key.endswith("imbalance")
 
 
-def assert_equal(one, other, scale):
-    """To 1e-10 relative; what is zero but for round-off to 1e-10 of the largest reaction or pressure. The largest such difference."""
+def exact(key):
+    return 0
+
+
+def close(key):
+    return 1e-10
+
+
+def assert_equal(one, other, scale, tolerance=close):
+    """To the tolerance of each key, relative; what is zero but for round-off to that of the largest reaction or pressure. The largest such difference."""
     one, other = dict(one), dict(other)
     worst = 0
     assert one.keys() == other.keys()
@@ -49,26 +63,47 @@ def assert_equal(one, other, scale):
         if a is None or isinstance(a, str):
             assert other[key] == a, key
         else:
-            assert other[key] == pytest.approx(a, rel=1e-10, abs=1e-10 * scale, nan_ok=True), key
-            if not math.isnan(a):
+            assert other[key] == pytest.approx(a, rel=tolerance(key), abs=tolerance(key) * scale, nan_ok=True), key
+            if not math.isnan(a) and tolerance(key) < 1:
                 worst = max(worst, abs(other[key] - a) / max(abs(a), scale))
     return worst
 
 
-def assert_same_run(whole, parts):
-    scale = max([np.abs(r).max() for r in whole.summary["reaction"].values()] + [pair["max_pressure"] for pair in whole.summary["contact"].values()])
-    worst = assert_equal(leaves(whole.summary, kept), leaves(parts.summary, kept), scale)
+def scale_of(result):
+    return max([np.abs(r).max() for r in result.summary["reaction"].values()] + [pair["max_pressure"] for pair in result.summary["contact"].values()])
+
+
+def assert_same_run(whole, parts, tolerance=close):
+    scale = scale_of(whole)
+    worst = assert_equal(leaves(whole.summary, kept), leaves(parts.summary, kept), scale, tolerance)
     for table in ("history", "adapt"):
         a, b = getattr(whole, table), getattr(parts, table)
         assert len(a) == len(b), table
         for x, y in zip(a, b):
             assert list(x) == list(y)
-            worst = max(worst, assert_equal(*[((k, v) for k, v in row.items() if k not in TIME and not k.endswith("imbalance")) for row in (x, y)], scale))
+            worst = max(worst, assert_equal(*[((k, v) for k, v in row.items() if k not in TIME and not k.endswith("imbalance")) for row in (x, y)], scale, tolerance))
     for grid in ("bulk", "contact", "segments"):
         a, b = whole.states(grid), parts.states(grid)
         assert [time for time, _ in a] == [time for time, _ in b], grid
     assert sorted(os.listdir(whole.directory)) == sorted(os.listdir(parts.directory))
     print("largest difference", worst)
+
+
+def rough(key):
+    return next((word for word in ROUGH if word in key), "")
+
+
+def round_off(run, name, whole):
+    """Tolerance of a stiff scene on other numbers of ranks: in what round-off enters four times what runs that nobody broke off differ by there."""
+    found, scale = dict.fromkeys(ROUGH, 0), scale_of(whole)
+    for ranks in (2, 3):
+        other = run(f"inputs/{SCENES[name][0]}.yml", *SCENES[name][1], ranks=ranks)
+        for x, y in zip(whole.history, other.history, strict=True):
+            for key in filter(rough, x):
+                found[rough(key)] = max(found[rough(key)], abs(x[key] - y[key]) / max(abs(x[key]), scale))
+    print(name, "on 2 and 3 ranks, not broken off:", {word: f"{value:.1e}" for word, value in found.items()})
+    assert max(found.values()) < 1e-5, found
+    return lambda key: math.inf if key.endswith(WAYS) else max(1e-10, 4 * found[rough(key)]) if rough(key) else 1e-10
 
 
 def go_on(run, directory, scene, *options, restart="auto", **keywords):
@@ -100,25 +135,38 @@ def test_o102_other_ranks(run, name, ranks, then):
 def test_o102_all(run, name):
     whole = run(f"inputs/{SCENES[name][0]}.yml", *SCENES[name][1])
     assert whole.returncode == 0, whole
+    others = round_off(run, name, whole) if name in STIFF else close
     for ranks, then in ((1, 1), (1, 2), (3, 1), (2, 3)):
         print(name, ranks, "->", then)
-        assert_same_run(whole, break_off_and_go_on(run, name, ranks, then))
+        alike = ranks == then and name != "space"  # there a factor that an earlier tangent left serves again
+        assert_same_run(whole, break_off_and_go_on(run, name, ranks, then), exact if alike else others)
+
+
+def test_o102_bit_by_bit(run):
+    """On one process, in the plane: contact, flow, nearly incompressible."""
+    scene, options = "inputs/angioplasty2d.yml", ("-load_end", 0.2)
+    whole = run(scene, *options)
+    first = run(scene, *options, "-load_max_steps", 2)
+    assert whole.returncode == 0 and first.returncode == 2, first
+    second = go_on(run, first.directory, scene, *options)
+    assert_same_run(whole, second, exact)
+    for row in whole.history[1:]:
+        assert row["contact.inside.active_nodes"] > 0 and row["plastic.strain"] > 0, row
 
 
 @pytest.mark.parametrize("name", ["hp", pytest.param("hanging", marks=pytest.mark.slow), pytest.param("mixed", marks=pytest.mark.slow),
-                                  pytest.param("segments", marks=pytest.mark.slow)])
+                                  pytest.param("segments", marks=pytest.mark.slow), pytest.param("flow_adaptive", marks=pytest.mark.slow)])
 def test_o102_same_fields(run, name):
-    """On as many ranks, in the plane: the same index, cells and active set, and all fields of all states."""
+    """On one process, in the plane: the same index and all fields of all states, bit by bit."""
     whole = run(f"inputs/{SCENES[name][0]}.yml", *SCENES[name][1])
     parts = break_off_and_go_on(run, name, 1, 1)
-    assert_same_run(whole, parts)
+    assert_same_run(whole, parts, exact)
     assert (whole.directory / "fields.xdmf").read_text() == (parts.directory / "fields.xdmf").read_text()
     for grid in ("bulk", "contact"):
         for (_, a), (_, b) in zip(whole.states(grid), parts.states(grid)):
             assert a.keys() == b.keys()
             for field in a:
-                exact = field in ("X", "cells", "status", "order", "level", "cell")
-                assert np.abs(a[field] - b[field]).max() <= (0 if exact else 1e-10 * max(np.abs(a[field]).max(), 1e-3)), field
+                assert np.array_equal(a[field], b[field]), field
 
 
 @pytest.mark.parametrize("ranks,then", [(1, 1), pytest.param(1, 3, marks=pytest.mark.slow), pytest.param(3, 2, marks=pytest.mark.slow)])

@@ -6,6 +6,7 @@ import numpy
 import pytest
 
 import test_contact_patch3d as space
+from conftest import ROOT
 from contactkit import blocks, bulk, contact, yaml
 
 QUIET = ("-output_fields", "false")
@@ -13,7 +14,7 @@ ONE_MESH = ("-adapt_tolerance", 0)
 HERTZ = 0.01875797  # reaction of hertz2d with exact arcs, to 1e-6: docs/results.md has the runs that agree on it
 LINEAR = ("-mesh_order", 4, "-contact_disc_on_block_order", 1)
 FULL = ("-mesh_order", 4, "-contact_disc_on_block_order", "full")
-CENTRE, PEAK = -1.3080466, 3485.1  # of cylinder.yml: full order 3 and 4 at estimates of 1e-3 and 5e-4 agree to 1e-7 and 4e-5
+FLAT, CENTRE, PEAK = -1.5625292, -1.3080466, 3485.1  # of cylinder.yml: full order 3 and 4 at estimates of 1e-3 and 5e-4 agree to 1e-7 and 4e-5
 
 
 def solved(run, *arguments, **keys):
@@ -46,21 +47,76 @@ def test_o105_hertz(run, n):
 
 
 def cylinder(run, *options):
-    """Relative errors of the displacement of the block's centre and of the largest pressure."""
-    summary = solved(run, "inputs/cylinder.yml", *QUIET, *ONE_MESH, "-load_step", 0.5, "-refine_arc_levels", 1, "-refine_top_levels", 1, *options).summary
-    return (summary["probe"]["centre"]["displacement"][1] / CENTRE - 1, summary["contact"]["cylinder_on_block"]["max_pressure"] / PEAK - 1)
+    """Relative errors of the displacements of the flat, on which the force acts, and of the block's centre, and of the largest pressure."""
+    summary = solved(run, "inputs/cylinder.yml", *QUIET, *ONE_MESH, "-load_step", 0.5, "-refine_arc_levels", 1, "-refine_top_levels", 1, "-probe_flat_x", 0, "-probe_flat_y", 50,
+                     *options).summary
+    flat, centre = (summary["probe"][name]["displacement"][1] / limit - 1 for name, limit in (("flat", FLAT), ("centre", CENTRE)))
+    return flat, centre, summary["contact"]["cylinder_on_block"]["max_pressure"] / PEAK - 1
 
 
-def test_o105_cylinder(run):
-    """The same in O-50, from faces a / 2 long on. The displacement of order 2 has an error inside, of the other sign, and meets the limit by accident; the pressure has not."""
-    errors = {p: [cylinder(run, "-order", p, "-contact_cylinder_on_block_subdivide", k) for k in range(4)] for p in (2, 4)}
+@pytest.mark.parametrize("orders, levels", [((2, 4), 3), pytest.param((1, 2, 3, 4), 4, marks=pytest.mark.slow)])
+def test_o105_cylinder(run, orders, levels):
+    """The same in O-50, from faces a / 2 long on: where the force acts everything is too stiff, less so with each order and each subdivision. At the centre of contact the linear
+    faces gather the pressure and dent the block too far, against the stiffness of the cells: there order 2 meets the limit by accident."""
+    errors = {p: [cylinder(run, "-order", p, "-contact_cylinder_on_block_subdivide", k) for k in range(levels)] for p in orders}
     print(errors)
-    (u2, z2), (u4, z4) = (zip(*errors[p]) for p in (2, 4))
-    assert all(0 < four < two for two, four in zip(z2, z4)) and z4[3] < 0.06, errors
-    assert all(0 < fine < coarse / 3.5 for coarse, fine in zip(u4, u4[1:])), errors
+    flat, centre, peak = ({p: [e[i] for e in errors[p]] for p in errors} for i in range(3))
+    for low, high in zip(orders, orders[1:]):
+        assert all(a < b < 0 for a, b in zip(flat[low], flat[high])), flat
+        assert low == 1 or all(0 < b < 1.01 * a for a, b in zip(peak[low], peak[high])), peak
+    for p in set(orders) - {1}:
+        assert all(fine > coarse for e in flat.values() for coarse, fine in zip(e, e[1:])) and all(fine < 0.8 * coarse for coarse, fine in zip(peak[p], peak[p][1:])), errors
+        assert flat[p][1] > flat[p][0] / 5 and abs(flat[4][2]) < 0.4 * abs(flat[2][2]), flat
+    assert all(0 < fine < coarse / 3.5 for coarse, fine in zip(centre[4], centre[4][1:])) and abs(centre[2][2]) < centre[4][2] / 1.5, centre
     for p, tolerance in ((2, 0.04), (3, 5e-3), (4, 2e-3)):  # full faces, not subdivided
-        u, z = cylinder(run, "-order", p, "-contact_cylinder_on_block_order", "full")
-        assert abs(z) < tolerance and abs(u) < tolerance, (p, u, z)
+        assert all(abs(e) < tolerance for e in cylinder(run, "-order", p, "-contact_cylinder_on_block_order", "full")), p
+
+
+# ---- subdivide: auto ----------------------------------------------------------------------------------------------------------------------
+
+AUTO = {  # scene: option of the mesh; those of the run; pair; relative error of the reaction, in rubber2d that of the energy norm, which its corners rule
+    "hertz2d": ("-mesh_parameter_n", (*LINEAR,), "disc_on_block", lambda s: -s["reaction"]["top"][1] / HERTZ - 1),
+    "rubber2d": ("-mesh_parameter_n", ("-mesh_order", 4, "-boundary_top_displacement_y", -0.1), "disc_on_block", lambda s: s["estimated_error"]),
+    "cylinder": ("-mesh_refine", ("-refine_arc_levels", 1, "-refine_top_levels", 1, "-boundary_flat_traction_y", 0, "-boundary_flat_displacement_y", -1.6,
+                                  "-load_step", 1), "cylinder_on_block", lambda s: -s["reaction"]["flat"][1] / REACTION - 1),
+    "hertz3d": ("-mesh_parameter_n", (), "ball_on_block", lambda s: -s["reaction"]["top"][2] / 0.0024377 - 1),
+}
+SLOW = pytest.mark.slow
+
+
+@pytest.mark.parametrize("scene, order, sizes, most", [
+    ("hertz2d", 2, (4, 8), 3), pytest.param("hertz2d", 2, (4, 8, 16), 5, marks=SLOW), pytest.param("hertz2d", 3, (4, 8, 16), 4, marks=SLOW),
+    pytest.param("hertz2d", 4, (4, 8, 16), 4, marks=SLOW), pytest.param("cylinder", 2, (0, 1), 4, marks=SLOW), pytest.param("cylinder", 3, (0,), 4, marks=SLOW),
+    pytest.param("rubber2d", 2, (4, 8, 16), 4, marks=SLOW), pytest.param("rubber2d", 3, (4, 8), 4, marks=SLOW), pytest.param("hertz3d", 2, (2,), 2, marks=SLOW)])
+def test_subdivide_auto(run, scene, order, sizes, most):
+    """No number of subdivisions, on any of the meshes, gives less than 1/1.5 of its error with as few unknowns; its estimate is within sqrt(2) of where that of the mesh ends.
+    Cells and faces make the reaction too large; runs with one below the limit have met it by accident and are not compared."""
+    name, options, pair, error = AUTO[scene]
+
+    def tried(n, times):
+        summary = solved(run, f"inputs/{scene}.yml", *QUIET, *ONE_MESH, *options, name, n, "-order", order, f"-contact_{pair}_subdivide", times).summary
+        return summary["dofs"], error(summary), summary["estimated_error"], summary["adapt_stop"]
+
+    fixed = {(n, k): tried(n, k) for n in sizes for k in range(most + 1)}
+    for n in sizes:
+        unknowns, mine, estimate, stop = tried(n, "auto")
+        best = min(e for m, e, _, _ in fixed.values() if m <= unknowns and e > 0)
+        print(scene, order, n, unknowns, mine, best, estimate, fixed[n, most][2])
+        assert stop == "contact faces fine enough" and 0 < mine < 1.5 * best, (unknowns, mine, fixed)
+        assert unknowns >= fixed[n, most][0] or estimate < math.sqrt(2) * fixed[n, most][2], (estimate, fixed)
+    assert scene != "hertz2d" or any(e > 3 * min((f for m, f, _, _ in fixed.values() if m <= unknowns and f > 0), default=e) for unknowns, e, _, _ in fixed.values())  # a choice that matters
+
+
+def test_subdivide_auto_ranks(run):
+    """Two processes find the same mesh and the same force; with cells of order 1 there is nothing to do; adaptation goes on from there."""
+    options = ("inputs/hertz2d.yml", *QUIET, *LINEAR, "-mesh_parameter_n", 4, "-contact_disc_on_block_subdivide", "auto")
+    one, two = (solved(run, *options, *ONE_MESH, "-order", 2, ranks=ranks).summary for ranks in (1, 2))
+    assert one["dofs"] == two["dofs"] and one["adapt_passes"] == two["adapt_passes"] == 3
+    assert math.isclose(one["reaction"]["top"][1], two["reaction"]["top"][1], rel_tol=1e-9)
+    assert solved(run, *options, *ONE_MESH, "-order", 1).summary["adapt_passes"] == 0
+    assert solved(run, *options, "-order", 2, "-adapt_tolerance", 0.05).summary["adapt_stop"] == "tolerance"
+    few = solved(run, *options, *ONE_MESH, "-order", 2, "-adapt_max_cells", 100).summary
+    assert few["adapt_stop"] == "max_cells" and few["adapt_passes"] == 1 and few["cells"] <= 100
 
 
 # ---- O-50: full faces against linear ones -------------------------------------------------------------------------------------------------
@@ -79,6 +135,13 @@ def driven(run, order, faces, *options):
 
 def adapted(run, order, faces, passes, *options):
     return driven(run, order, faces, "-adapt_tolerance", 1e-9, "-adapt_max_passes", passes, *options)
+
+
+@pytest.mark.parametrize("order, faces", [(2, 1), (2, "full"), (3, "full"), (4, "full")])
+def test_o50_first_touch(run, order, faces):
+    """From a touch at a point to the whole contact in one load step: the zone is found in few factorisations, with full faces as with linear ones."""
+    summary = solved(run, "inputs/cylinder.yml", *DRIVEN, *ONE_MESH, "-order", order, "-contact_cylinder_on_block_order", faces).summary
+    assert summary["newton_iterations"] <= 5 and summary["factorisations"] <= 8, summary  # 5 to 6; 8 with linear faces and 11 to 12 with full ones if all nodes that overlap begin
 
 
 def test_o50_full_faces_need_less(run):
@@ -165,9 +228,6 @@ def pressed(run, order, n, nonmortar, pair):
             math.sqrt(numpy.mean((faces["contact_pressure"] - z) ** 2)))
 
 
-SLOW = pytest.mark.slow
-
-
 @pytest.mark.parametrize("order, pair, nonmortar, wanted", [
     (1, None, "upper", (2, 1.5)), (2, {"order": "full"}, "upper", (3, 2)), (3, {"order": "full"}, "upper", (4, 3)), (4, {"order": "full"}, "upper", (5, 4)),
     pytest.param(2, {"order": "full"}, "lower", (3, 2), marks=SLOW), pytest.param(3, {"order": "full"}, "lower", (4, 3), marks=SLOW),
@@ -181,16 +241,55 @@ def test_o106(run, order, pair, nonmortar, wanted):
 
 
 def test_o106_linear_faces_hold_order_2_back(run):
-    """Cells of order 2 on linear faces: 2.7 and 1.4 instead of 3 and 2."""
+    """Cells of order 2 on linear faces: 2.67 and 1.33 instead of 3 and 2."""
     linear, full = ([pressed(run, 2, n, "upper", pair) for n in (4, 8)] for pair in (None, {"order": "full"}))
     print(linear, full)
-    assert all(a > 2 * b for a, b in zip(linear[1], full[1])) and rates([e[0] for e in linear])[0] < 2.8
+    assert all(a > 2 * b for a, b in zip(linear[1], full[1])) and 2.6 < rates([e[0] for e in linear])[0] < 2.75
+    assert 1.25 < rates([e[1] for e in linear])[0] < 1.4
+
+
+# The same in space: u = (-s g_X, -s g_Y, g - s q), s = Z - 1, g = A cos(pi X) cos(pi Y), q = C + D cos(2 pi X) cos(2 pi Y).
+SPACE = {"x": f"(Z-1)*{A}*pi*sin(pi*X)*cos(pi*Y)", "y": f"(Z-1)*{A}*pi*cos(pi*X)*sin(pi*Y)",
+         "z": f"{A}*cos(pi*X)*cos(pi*Y) - (Z-1)*({C} + {D}*cos(2*pi*X)*cos(2*pi*Y))"}
+SPACE_FORCE = {"x": f"{LAM + 2 * MU}*(Z-1)*2*{A}*pi^3*sin(pi*X)*cos(pi*Y) - {LAM + MU}*2*pi*{D}*sin(2*pi*X)*cos(2*pi*Y)",
+               "y": f"{LAM + 2 * MU}*(Z-1)*2*{A}*pi^3*cos(pi*X)*sin(pi*Y) - {LAM + MU}*2*pi*{D}*cos(2*pi*X)*sin(2*pi*Y)",
+               "z": f"-{MU}*(Z-1)*8*pi^2*{D}*cos(2*pi*X)*cos(2*pi*Y) - {LAM}*2*{A}*pi^2*cos(pi*X)*cos(pi*Y)"}
+
+
+def pressed_cubes(run, order, n, pair):
+    """The same errors: cubes of 2 n and 3 n cells along the sides that meet, 2 n high."""
+    linear, body = {"law": "linear", "E": E, "nu": NU}, {"force": SPACE_FORCE}
+    scene = {"mesh": {"file": str(ROOT / "inputs" / "blocks3d.geo"), "order": 1, "parameter": {"n1": 2 * n, "n2": 3 * n, "m": 2 * n}}, "model": "3d", "kinematics": "small", "order": order,
+             "body": {name: {"material": "steel", **body} for name in ("lower", "upper")}, "material": {"steel": linear},
+             "boundary": {**{f"{c}{k}": {"fix": c} for c in "xy" for k in (0, 1)}, "bottom": {"displacement": SPACE}, "top": {"displacement": SPACE}},
+             "contact": {"pair": {"nonmortar": "upper_bottom", "mortar": "lower_top", **(pair or {})}}, "load": {"step": 1}, "output": {"divide": 4}}
+    result = run("o106space.yml", "-solve_linear", "direct", text="".join(f"{key}: {yaml(value)}\n" for key, value in scene.items()))
+    state, faces = bulk(result), contact(result)
+    (X, Y, Z), (x, y, _) = state["X"].T, faces["X"].T
+    u = numpy.column_stack([(Z - 1) * A * math.pi * numpy.sin(math.pi * X) * numpy.cos(math.pi * Y), (Z - 1) * A * math.pi * numpy.cos(math.pi * X) * numpy.sin(math.pi * Y),
+                            A * numpy.cos(math.pi * X) * numpy.cos(math.pi * Y) - (Z - 1) * (C + D * numpy.cos(2 * math.pi * X) * numpy.cos(2 * math.pi * Y))])
+    z = (LAM + 2 * MU) * (C + D * numpy.cos(2 * math.pi * x) * numpy.cos(2 * math.pi * y))
+    assert (faces["contact_pressure"] > 0).all()
+    return math.sqrt(numpy.mean(numpy.sum((state["displacement"] - u) ** 2, axis=1))), math.sqrt(numpy.mean((faces["contact_pressure"] - z) ** 2))
+
+
+@pytest.mark.parametrize("order, pair, sizes, wanted", [
+    (1, None, (1, 2), (2, 1.5)), pytest.param(1, None, (2, 4), (2, 1.5), marks=SLOW), pytest.param(2, {"order": "full"}, (2, 3), (3, 2), marks=SLOW),
+    pytest.param(2, None, (2, 3), (2.75, 1.77), marks=SLOW)])
+def test_o106_space(run, order, pair, sizes, wanted):
+    """As in the plane; cells of order 2 on linear faces have 2.75 and 1.77, where the case has 3 and 2.5 for faces of order 2."""
+    errors = [pressed_cubes(run, order, n, pair) for n in sizes]
+    found = [math.log(coarse / fine) / math.log(sizes[1] / sizes[0]) for coarse, fine in zip(*errors)]
+    print(order, pair, errors, found)
+    assert all(f > w - 0.15 for f, w in zip(found, wanted)), (errors, found)
+    assert order == 1 or pair or found[0] < 3 - 0.15, found
 
 
 # ---- Hertz --------------------------------------------------------------------------------------------------------------------------------
 
 @pytest.mark.parametrize("options, wanted, most", [
     ((*FULL, "-order", 3, "-adapt_tolerance", 0.01), 1e-4, 5000), ((*FULL, "-order", 3, "-adapt_tolerance", 0.003), 1e-5, 10000),
+    ((*FULL, "-order", 1, "-adapt_strategy", "hp", "-adapt_tolerance", 0.02), 1e-5, 4000), ((*FULL, "-order", 1, "-adapt_strategy", "hp", "-adapt_tolerance", 0.005), 1e-5, 8000),
     ((*FULL, "-order", 4, "-adapt_tolerance", 0.002), 1e-5, 9000), ((*FULL, "-order", 2, "-adapt_tolerance", 0.005), 2e-5, 20000),
     ((*LINEAR, "-order", 2, "-adapt_tolerance", 0.005), 2e-5, 30000)])
 def test_hertz(run, options, wanted, most):
@@ -226,7 +325,7 @@ BRIEF = [("two_to_three", "upper", 3), ("hanging_lower", "upper", 2)]
 def spatial():
     for pairing in space.PAIRINGS:
         for nonmortar in space.SIDES:
-            for order in (2, 3):
+            for order in (2, 3, 4):
                 yield pytest.param(pairing, nonmortar, order, marks=() if (pairing, nonmortar, order) in BRIEF else SLOW)
 
 

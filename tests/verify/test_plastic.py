@@ -84,7 +84,7 @@ def test_o32_tube(run, tmp_path, kappa):
 # ---- O-33: necking of a bar ----------------------------------------------------------------------------------------------------------------
 
 RADIUS, NECK = 6.413, 0.982 * 6.413
-SATURATION = {1: (69.783, .96271), 2: (75.719, .94258), 3: (77.141, .90770), 4: (71.046, .82060), 5: (59.324, .69869), 6: (43.09, .5430), 7: (24.2, .362)}
+SATURATION = {1: (69.783, .96272), 2: (75.719, .94261), 3: (77.141, .90777), 4: (71.046, .82062), 5: (59.324, .69869), 6: (43.09, .5430), 7: (24.2, .362)}
 LINEAR = {.5: (55.467, .95020), 1: (54.139, .91099), 2: (50.575, .82023), 3: (45.33, .71164), 4: (37.6, .5813), 5: (27.1, .428)}
 TOLERANCE = {.5: 0.005, 1: 0.005, 2: 0.005, 3: 0.005, 4: 0.005, 5: 0.01, 6: 0.04, 7: 0.15}
 ADAPTIVE = ("-mesh_parameter_n", 2, "-mesh_parameter_grade", 1, "-adapt_tolerance", 0.05, "-adapt_strategy", "hp", "-adapt_max_order", 3, "-adapt_max_cells", 100,
@@ -111,7 +111,7 @@ def check_necking(result, table, last):
         found = at(result, u)
         print(u, found[0] / force - 1, found[1] / neck - 1)
         close(found[0], force, TOLERANCE[u])
-        close(found[1], neck, 2 * TOLERANCE[u])
+        close(found[1], neck, TOLERANCE[u])
 
 
 def check_loss(result):
@@ -119,7 +119,7 @@ def check_loss(result):
     passes = [row for row in result.adapt if row["pass"] > 0]
     assert passes
     for row in passes:
-        assert row["force_change"] < 0.005 and abs(row["work_change"]) < 0.001 and abs(row["strain_change"]) < 0.01, row
+        assert row["force_change"] < 5e-4 and abs(row["work_change"]) < 2e-5 and abs(row["strain_change"]) < 0.01, row
     return passes
 
 
@@ -149,6 +149,15 @@ def test_o33_adaptive(run):
     assert result.summary["cells"] <= 100 and result.summary["dofs"] < 2000
     uniform = necking(run, 6, "-mesh_parameter_n", 18, "-mesh_parameter_grade", 1)
     close(at(result, 6)[0], at(uniform, 6)[0], 1e-3)
+
+
+@pytest.mark.slow
+def test_o33_adaptive_h(run):
+    """198 cells of order 2 where 648 uniform ones are still 11 % off at u = 7."""
+    result = necking(run, 7, "-mesh_parameter_n", 3, *ADAPTIVE[2:6], "-adapt_fraction", 0.4, "-adapt_max_cells", 200, "-adapt_max_passes", 4)
+    check_necking(result, SATURATION, 7)
+    check_loss(result)
+    assert result.summary["cells"] <= 200 and abs(at(result, 7)[0] / SATURATION[7][0] - 1) < 0.08
 
 
 @pytest.mark.parametrize("ranks", [(2,), pytest.param((2, 3), marks=pytest.mark.slow)])
@@ -234,6 +243,14 @@ def test_condensation_is_refused(run, tmp_path):
 def test_o34_limit_load(run, tmp_path, n, most):
     """Mixed cells of order 2, 48 and 192 of them, come to rest at the limit load (case: 0.5 % below to 2 % above), from above by less the finer they are."""
     load = strip(run, tmp_path, n, 2, "mixed")
+    print("over the exact limit load", load[-1] - 1, "last step", load[-1] - load[-2])
+    assert 0.995 < load[-1] < most and abs(load[-1] - load[-2]) < 1e-4
+
+
+@pytest.mark.parametrize("n, most", [(2, 1.02), pytest.param(4, 1.007, marks=pytest.mark.slow)])
+def test_o34_limit_load_of_a_sheet(run, tmp_path, n, most):
+    """Plane stress: 12 and 48 mixed cells of order 2 in space, half a sheet whose hole is 20 thicknesses wide."""
+    load = strip(run, tmp_path, n, 2, "mixed", thickness=0.02)
     print("over the exact limit load", load[-1] - 1, "last step", load[-1] - load[-2])
     assert 0.995 < load[-1] < most and abs(load[-1] - load[-2]) < 1e-4
 

@@ -1,5 +1,7 @@
-"""Properties O-90 to O-104 in space once more, with cells of order 2 (of order 4 where that is quick enough), contact faces linear and of the order of the cells: the tests of
-test_property3d.py with these options added."""
+"""Properties O-90 to O-104 in space once more, with cells of order 2 and 4, contact faces linear and of the order of the cells: the tests of test_property3d.py with these options
+added. At order 4 the boxes have fewer cells."""
+import functools
+
 import numpy as np
 import pytest
 
@@ -9,13 +11,16 @@ from test_property3d import ADAPTED, LOWER, UPPER, Frame, hold, pairs
 
 slow = pytest.mark.slow
 SECOND = ("2-1", "2-full")
+BOTH = (*SECOND, "4-1", "4-full")
+FEW = {"lower": LOWER._replace(number=(2, 2, 1)), "upper": UPPER._replace(number=(1, 1, 1))}
 PUNCH = fails("full faces, an adapted mesh under a punch with sharp edges that slides: a step is cut, or the last mesh finds no equilibrium")
 CARRIES = pytest.mark.parametrize("carries", ["upper", pytest.param("lower", marks=slow)])
 
 
 @pytest.fixture
-def solve(higher, tmp_path):
-    return space.solver(higher, tmp_path)
+def solve(higher, tmp_path, kind):
+    start = space.solver(higher, tmp_path)
+    return functools.partial(start, **FEW) if kind[0] == "4" else start
 
 
 @faces("2-full")
@@ -24,7 +29,7 @@ def test_o90_momentum(solve, options):
     space.test_o90_momentum(solve, options, "direct")
 
 
-@faces(kinds=SECOND)
+@faces(kinds=BOTH)
 def test_o90_momentum_adapted(solve):
     space.test_o90_momentum(solve, ADAPTED, "direct")
 
@@ -43,7 +48,7 @@ def ball(x):
     return (0.5, 0.45, 1.3) + 0.3 * y * (0.35 + 0.65 * (np.abs(y).max() / length if length > 0 else 1))
 
 
-@faces("2-full", kinds=SECOND)
+@faces("2-full", kinds=BOTH)
 @pytest.mark.parametrize("carries", ["upper", pytest.param("lower", marks=slow)])
 def test_o90_momentum_on_a_whole_ball(solve, carries):
     """Pressed, shifted and tilted: moments balance where the whole body is there."""
@@ -51,7 +56,7 @@ def test_o90_momentum_on_a_whole_ball(solve, carries):
     space.assert_balance(space.only(solve(*space.QUIET, upper=upper, contact=pairs(carries))))
 
 
-@faces("2-full", kinds=SECOND)
+@faces("2-full", kinds=BOTH)
 def test_o90_momentum_of_a_half(solve):
     """Half a model: forces and moments about the normal of the plane of symmetry balance; those about the axes in it are the other half's to balance."""
     boundary = {**hold(("0", "0.02", "-0.1 - 0.05*{x} + 0.03*{y}")), "lower_x0": {"fix": "x"}, "upper_x0": {"fix": "x"}}
@@ -82,18 +87,18 @@ def test_work_is_energy(solve):
     space.test_work_is_energy(solve, "press_and_slide")
 
 
-@faces(kinds=SECOND)
+@faces(kinds=BOTH)
 def test_o92_rotated_scene(solve):
     space.test_o92_rotated_scene(solve, 1, "direct")
 
 
-@faces(kinds=SECOND)
+@faces(kinds=BOTH)
 @pytest.mark.parametrize("options", [(), ("-adapt_tolerance", 0.001, "-adapt_max_passes", 2)], ids=["one", "adapted"])
 def test_o92_skew_rollers(solve, options):
     space.test_o92_skew_rollers(solve, options)
 
 
-@faces(kinds=SECOND)
+@faces(kinds=BOTH)
 def test_o92_rigid_rotation(solve):
     space.test_o92_rigid_rotation(solve)
 
@@ -101,10 +106,10 @@ def test_o92_rigid_rotation(solve):
 UNITS = {"both": (1e-3, 1e6, 0), "large": (1e3, 1e-6, 0), "shift": (1, 1, 1e4)}
 
 
-@faces(kinds=SECOND)
-@pytest.mark.parametrize("length,stress,shift", UNITS.values(), ids=UNITS)
-def test_o93_units_and_origin(solve, length, stress, shift):
-    space.test_o93_units_and_origin(solve, "", length, stress, shift, "direct")
+@pytest.mark.slow
+@pytest.mark.parametrize("name,kind", [(name, kind) for name in UNITS for kind in BOTH if (name, kind) != ("shift", "4-full")])
+def test_o93_units_and_origin(solve, name):
+    space.test_o93_units_and_origin(solve, "", *UNITS[name], "direct")
 
 
 @faces(kinds=("2-1", "2-full", "3-full"))
@@ -117,7 +122,7 @@ def test_o94_tangent(solve, kind, name):
     space.test_o94_tangent(solve, ("-material_upper_nu", 0.499) if name == "mixed" else (), {**small, **keys[name]})
 
 
-@faces(kinds=SECOND)
+@faces(kinds=BOTH)
 @pytest.mark.parametrize("options", [(), ("-adapt_tolerance", 0.01, "-adapt_max_passes", 2)], ids=["one", "adapted"])
 def test_o95_newton_order(solve, options):
     space.test_o95_newton_order(solve, options, "upper")
@@ -130,14 +135,14 @@ def test_o95_newton_order_lower(solve, options):
     space.test_o95_newton_order(solve, options, "lower")
 
 
-@faces(kinds=SECOND)
+@faces(kinds=BOTH)
 @CARRIES
 @pytest.mark.parametrize("x", [0, 1e-3, -1e-3])
 def test_o96_edges_on_edges(solve, x, carries):
     space.test_o96_edges_on_edges(solve, x, carries, "direct")
 
 
-@faces(kinds=SECOND)
+@faces(kinds=BOTH)
 def test_o96_zero_load(solve):
     space.test_o96_zero_load(solve, hold(("0", "0", "0")))
 
@@ -148,7 +153,7 @@ def test_o97_free_fall(solve, gap, search):
     space.test_o97_free_fall(solve, gap, search, "direct")
 
 
-@faces(kinds=SECOND)
+@faces(kinds=BOTH)
 @pytest.mark.parametrize("lift,top", [(0, ("0.05", "0", "-0.1 - 0.02*{x}")), (0.05, ("0", "0", "-0.2"))], ids=["touching", "apart"])
 def test_o97_held_by_contact_only(higher, tmp_path, lift, top):
     space.test_o97_held_by_contact_only(higher, tmp_path, lift, top, "direct")
@@ -160,7 +165,7 @@ def test_o98_five_pairs(higher, tmp_path, flip):
     space.test_o98_five_pairs(higher, tmp_path, (), flip)
 
 
-@faces("2-full", kinds=SECOND)
+@faces("2-full", kinds=BOTH)
 def test_o99_one_step_or_ten(solve):
     space.test_o99_one_step_or_ten(solve, "direct", 0.25)
 
@@ -170,24 +175,24 @@ def test_o99_deep(solve):
     space.test_o99_one_step_or_ten(solve, "direct")
 
 
-@faces(kinds=SECOND)
+@faces(kinds=BOTH)
 @pytest.mark.parametrize("low,up", [((4, 4, 1), (1, 1, 1)), ((1, 1, 1), (4, 4, 1))])
 @CARRIES
 def test_o100_uniform_pressure_of_unequal_meshes(solve, low, up, carries):
     space.test_o100_uniform_pressure_of_unequal_meshes(solve, low, up, carries)
 
 
-@faces("2-full", kinds=SECOND)
+@faces("2-full", kinds=BOTH)
 def test_o104_separation(solve):
     space.test_o104_separation(solve, "direct")
 
 
-@faces(kinds=SECOND)
+@pytest.mark.parametrize("kind", [pytest.param(kind, marks=slow) for kind in (*SECOND, "4-1")])
 def test_o104_open_and_close(solve):
     space.test_o104_open_and_close(solve, "direct")
 
 
-@faces(kinds=SECOND)
+@faces(kinds=BOTH)
 @pytest.mark.parametrize("step", [1, 0.1])
 def test_o104_from_out_of_reach(solve, step):
     space.test_o104_from_out_of_reach(solve, step, "direct")
@@ -198,7 +203,7 @@ def test_sliding_over_many_facets(solve):
     space.test_sliding_over_many_facets(solve, "direct")
 
 
-@faces(kinds=SECOND)
+@faces(kinds=BOTH)
 @pytest.mark.parametrize("gap", [0.05, -0.05])
 def test_initial_gap_and_overlap(solve, gap):
     space.test_initial_gap_and_overlap(solve, gap, "direct")
@@ -220,3 +225,27 @@ def test_rigid_punch(solve, carries):
 @pytest.mark.parametrize("name", ["tilted", "mixed", "rigid"])
 def test_o101_ranks(solve, name):
     space.on_ranks(solve, name, (2, 3))
+
+
+RANKS = {
+    "o90": lambda solve: space.test_o90_momentum(solve, (), "direct"),
+    "o92": lambda solve: space.test_o92_rotated_scene(solve, 1, "direct"),
+    "o93": lambda solve: space.test_o93_units_and_origin(solve, "", 1e-3, 1e6, 0, "direct"),
+    "o96": lambda solve: space.test_o96_edges_on_edges(solve, 1e-3, "lower", "direct"),
+    "o104": lambda solve: space.test_o104_separation(solve, "direct"),
+}
+
+
+ADAPTS = ("o92", "o93")  # order 2, linear faces only
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("ranks", [2, 3])
+@pytest.mark.parametrize("name,kind", [(name, kind) for name in RANKS for kind in (("2-1",) if name in ADAPTS else BOTH)])
+def test_on_ranks(solve, name, ranks):
+    RANKS[name](functools.partial(solve, ranks=ranks))
+
+
+@faces(kinds=("2-1", "4-1"))
+def test_o103_hanging_nodes_follow(solve):
+    space.test_o103_hanging_nodes_follow(functools.partial(solve, **FEW))

@@ -1,11 +1,16 @@
 """Properties O-90 to O-104 in the plane once more, with cells of order 2 and 4, contact faces linear and of the order of the cells: the tests of test_property_contact.py,
 test_property_robust.py, test_contact_scenes.py and test_parallel.py with these options added."""
+import functools
+
 import pytest
 
+import test_checkpoint as checkpoint
+import test_contact_patch as patch
 import test_contact_scenes as scenes
 import test_parallel as parallel
 import test_property_contact as plane
 import test_property_robust as robust
+from contactkit import blocks, contact, spread
 from higher import faces, higher
 from test_property_contact import ONE_MESH, disc_mesh
 
@@ -122,6 +127,32 @@ def test_o99_impossible_motion_ends_in_order(higher, ranks):
     robust.test_o99_impossible_motion_ends_in_order(higher, ranks)
 
 
+# ---- O-100, O-102, O-103: pressure, restart ---------------------------------------------------------------------------------
+
+
+@faces("2-full")
+@pytest.mark.parametrize("number", [{"nl": 8, "nu": 1}, {"nl": 1, "nu": 8}], ids=["fine_below", "fine_above"])
+@pytest.mark.parametrize("nonmortar", ["upper", "lower"])
+def test_o100_uniform_pressure_of_unequal_meshes(higher, nonmortar, number):
+    """Faces 8 times finer on one side, with either side nonmortar: no pressure oscillates."""
+    bodies = {"lower": patch.hyperelastic(100), "upper": patch.hyperelastic(1000)}
+    result = higher("o100.yml", text=blocks(nonmortar, bodies, {**patch.rolled(), "top": {"displacement": {"y": -0.3}}}, number, None, None))
+    assert result.returncode == 0 and spread(contact(result)["contact_pressure"], patch.PRESSURE) < 1e-8
+
+
+@faces()
+@pytest.mark.parametrize("name,ranks,then", [("adaptive", 1, 1), ("adaptive", 1, 3), ("mixed", 2, 1)])
+def test_o102_restart(higher, name, ranks, then):
+    whole = higher(f"inputs/{checkpoint.SCENES[name][0]}.yml", *checkpoint.SCENES[name][1])
+    assert whole.returncode == 0, whole
+    checkpoint.assert_same_run(whole, checkpoint.break_off_and_go_on(higher, name, ranks, then))
+
+
+@faces("2-full")
+def test_o103_no_multiplier_on_constrained_nodes(higher):
+    robust.test_o103_no_multiplier_on_constrained_nodes(higher)
+
+
 # ---- O-101, O-104: ranks, separation, search --------------------------------------------------------------------------------
 
 
@@ -129,6 +160,21 @@ def test_o99_impossible_motion_ends_in_order(higher, ranks):
 @pytest.mark.parametrize("name,ranks", [("hertz2d", (2, 3)), ("rubber2d", (2, 3)), ("slide2d", (2, 3))])
 def test_o101_ranks(higher, name, ranks):
     parallel.compare(higher, *parallel.SCENES[name], ranks)
+
+
+RANKS = {
+    "o90": lambda run: plane.test_o90_momentum(run, "hertz2d", ONE_MESH),
+    "o96": lambda run: robust.test_o96_edge_node_on_the_corner(run, 1e-3, "upper_bottom", "lower_top"),
+    "o98": lambda run: robust.test_o98_contact_face_on_symmetry_planes(run, "both", "lower_top", "upper_bottom", 2),
+    "o104": lambda run: robust.test_o104_separation(run, ONE_MESH),
+}
+
+
+@faces()
+@pytest.mark.parametrize("ranks", [2, 3])
+@pytest.mark.parametrize("name", RANKS)
+def test_on_ranks(higher, name, ranks):
+    RANKS[name](functools.partial(higher, ranks=ranks))
 
 
 @faces("2-full")

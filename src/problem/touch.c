@@ -1,0 +1,31 @@
+/* First touch: where a pair that bears nothing yet is moved into each other, the linearised gaps overlap far beyond the zone of contact to be, since the bodies
+   have not given way. Sets that begin with all those nodes lose the superfluous ones from the edge inwards, a few at each linear solve; those that begin
+   with too few grow to the edge at once. */
+#include "problemimpl.h"
+
+/* Nodes in the deepest quarter begin. At the edge of Hertz's contact the undeformed bodies overlap by half of the deepest in space, by more in the plane. */
+#define DEEP 0.75
+
+PetscErrorCode ContactTouch_Private(Problem p, const Contact *c, PetscReal *least)
+{
+  const Surface *s        = &c->side[0];
+  PetscReal      range[3] = {0, -PETSC_MAX_REAL, -PETSC_MAX_REAL}; /* largest pressure; largest overlap and minus the least of nodes that would begin to bear */
+  PetscReal      more     = 0;                                     /* of them than of active ones */
+
+  PetscFunctionBegin;
+  for (PetscInt i = 0; i < s->num_own; ++i) {
+    const PetscInt j = s->own[i];
+    if (c->zlocal[j] < 0) continue;
+    range[0] = PetscMax(range[0], PetscAbsReal(c->z[j]));
+    if (!c->near[j] || !ContactCovered_Private(c, j)) continue;
+    if (c->active[j]) more -= 1;
+    if (c->active[j] || !(ContactOverlap_Private(c, j) > 0)) continue;
+    more += 1;
+    range[1] = PetscMax(range[1], ContactOverlap_Private(c, j));
+    range[2] = PetscMax(range[2], -ContactOverlap_Private(c, j));
+  }
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, range, 3, MPIU_REAL, MPI_MAX, p->comm));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &more, 1, MPIU_REAL, MPI_SUM, p->comm));
+  *least = range[0] > 0 || more <= 0 ? 0 : DEEP * range[1] + (1 - DEEP) * -range[2];
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
