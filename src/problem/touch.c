@@ -5,6 +5,7 @@
 
 /* Nodes in the deepest quarter begin. At the edge of Hertz's contact the undeformed bodies overlap by half of the deepest in space, by more in the plane. */
 #define DEEP 0.75
+#define ROUND 1e-6 /* where all overlap alike, round-off does not choose */
 
 PetscErrorCode ContactTouch_Private(Problem p, const Contact *c, PetscReal *least)
 {
@@ -26,6 +27,6 @@ PetscErrorCode ContactTouch_Private(Problem p, const Contact *c, PetscReal *leas
   }
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, range, 3, MPIU_REAL, MPI_MAX, p->comm));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &more, 1, MPIU_REAL, MPI_SUM, p->comm));
-  *least = range[0] > 0 || more <= 0 ? 0 : DEEP * range[1] + (1 - DEEP) * -range[2];
+  *least = range[0] > 0 || more <= 0 ? 0 : DEEP * range[1] + (1 - DEEP) * -range[2] - ROUND * range[1];
   PetscFunctionReturn(PETSC_SUCCESS);
 }
