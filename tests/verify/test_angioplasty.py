@@ -201,8 +201,8 @@ def test_o70_full_ring(run, options, strains, back, rms, first):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("options", [LINEAR1, ADAPTIVE2], ids=["order_1", "adaptive_order_2"])
-def test_o70_ring_is_four_quarters(run, options):
+@pytest.mark.parametrize("options,pressure", [(LINEAR1, 1e-4), (ADAPTIVE2, 5e-4)], ids=["order_1", "adaptive_order_2"])
+def test_o70_ring_is_four_quarters(run, options, pressure):
     """Four quarters, held on one ray (where sleeve and artery are along x is for contact to find): the energy of four, their radii, pressures and estimate."""
     quarter, ring = (solve(run, "-output_fields", "false", *options, *sectors) for sectors in ((), RING))
     assert ring.summary["step_cuts"] == 0, ring
@@ -210,7 +210,7 @@ def test_o70_ring_is_four_quarters(run, options):
         assert abs(four["t"] - one["t"]) < 1e-12 and abs(four["energy"] / one["energy"] - 4) < 4e-6
         assert abs(four["estimated_error"] / one["estimated_error"] - 1) < 1e-4, (one["t"], four["estimated_error"], one["estimated_error"])
         for key in (f"contact.{name}.max_pressure" for name in ("inside", "outside")):
-            assert abs(four[key] - one[key]) <= 1e-4 * one[key] + 1e-8, (one["t"], key, four[key], one[key])
+            assert abs(four[key] - one[key]) <= pressure * one[key] + 1e-8, (one["t"], key, four[key], one[key])
         for key in (f"probe.{name}.displacement.x" for name in ("balloon", "sleeve", "artery")):
             assert abs(four[key] - one[key]) <= 1e-6 * abs(one[key]) + 1e-9, (one["t"], key, four[key], one[key])
 
