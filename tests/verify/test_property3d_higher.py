@@ -128,8 +128,11 @@ def test_o95_newton_order(solve, options):
     space.test_o95_newton_order(solve, options, "upper")
 
 
-@faces("2-full", kinds=SECOND)
-@pytest.mark.parametrize("options", [(), pytest.param(("-adapt_tolerance", 0.01, "-adapt_max_passes", 2), marks=slow)], ids=["one", "adapted"])
+ADAPTED95 = ("-adapt_tolerance", 0.01, "-adapt_max_passes", 2)
+LOWER95 = [(kind, options) for kind in BOTH for options in ((), ADAPTED95) if (kind, options) != ("4-1", ADAPTED95)]
+
+
+@pytest.mark.parametrize("kind,options", [pytest.param(*one, marks=() if one == ("2-full", ()) else slow) for one in LOWER95])
 def test_o95_newton_order_lower(solve, options):
     """Full faces of the lower body end beyond the rim of the upper one: slivers of hats."""
     space.test_o95_newton_order(solve, options, "lower")
@@ -171,7 +174,7 @@ def test_o97_held_by_contact_only(higher, tmp_path, name):
     space.test_o97_held_by_contact_only(higher, tmp_path, *HELD[name], "direct")
 
 
-@faces(kinds=SECOND)
+@faces(kinds=BOTH)
 @pytest.mark.parametrize("flip", [0, 1])
 def test_o98_five_pairs(higher, tmp_path, flip):
     space.test_o98_five_pairs(higher, tmp_path, (), flip)
