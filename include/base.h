@@ -110,6 +110,18 @@ static inline void Cross3(const PetscReal a[3], const PetscReal b[3], PetscReal 
   for (int i = 0; i < 3; i++) c[i] = a[(i + 1) % 3] * b[(i + 2) % 3] - a[(i + 2) % 3] * b[(i + 1) % 3];
 }
 
+/* x = A^-1 b, A by rows, by cofactors, which need no pivots. False, x as it was: det A is zero, or not a number. */
+static inline PetscBool Solve3(const PetscReal A[9], const PetscReal b[3], PetscReal x[3])
+{
+  const PetscReal det = Det3(A);
+  PetscReal       cofactor[3][3];
+
+  if (!(PetscAbsReal(det) > 0)) return PETSC_FALSE;
+  for (int i = 0; i < 3; i++) Cross3(A + 3 * ((i + 1) % 3), A + 3 * ((i + 2) % 3), cofactor[i]);
+  for (int i = 0; i < 3; i++) x[i] = (cofactor[0][i] * b[0] + cofactor[1][i] * b[1] + cofactor[2][i] * b[2]) / det;
+  return PETSC_TRUE;
+}
+
 /* ---- lanes: several numbers in one register, each of another point or cell (GCC vector extension, portable) --------- */
 
 #pragma GCC diagnostic ignored "-Wpsabi" /* lanes never cross a translation unit by value */

@@ -59,20 +59,6 @@ static void Geometry_Private(const CoarseMesh *mesh, PetscInt cell, const PetscR
   }
 }
 
-/* a^-1 b; false for a singular matrix. */
-static PetscBool Solve3_Private(PetscReal a[3][3], const PetscReal b[3], PetscReal x[3])
-{
-  const PetscReal det = Det3(&a[0][0]);
-
-  if (!(PetscAbsReal(det) > 0)) return PETSC_FALSE;
-  for (PetscInt c = 0; c < 3; ++c) {
-    PetscReal m[9];
-    for (PetscInt i = 0; i < 9; ++i) m[i] = i % 3 == c ? b[i / 3] : a[i / 3][i % 3];
-    x[c] = Det3(m) / det;
-  }
-  return PETSC_TRUE;
-}
-
 /* Is X within the box of a coarse cell's nodes, widened by half of it (curved sides may reach beyond their nodes)? */
 static PetscBool Near_Private(const CoarseMesh *mesh, PetscInt cell, const PetscReal X[3])
 {
@@ -101,7 +87,7 @@ static void Invert_Private(const CoarseMesh *mesh, PetscInt cell, const PetscRea
     PetscReal Y[3], J[3][3], r[3], dxi[3];
     Geometry_Private(mesh, cell, xi, Y, J);
     for (PetscInt c = 0; c < 3; ++c) r[c] = c < mesh->dim ? X[c] - Y[c] : 0;
-    if (!Solve3_Private(J, r, dxi)) return;
+    if (!Solve3((const PetscReal *)J, r, dxi)) return;
     change = 0;
     for (PetscInt d = 0; d < mesh->dim; ++d) {
       xi[d]  = PetscMax(-1., PetscMin(2., xi[d] + dxi[d]));

@@ -40,18 +40,13 @@ static PetscErrorCode Prescribed_Private(Problem p, PetscReal motion[])
 /* Least-squares translation of a body, what lies along n free: its part across n in slip. False: some other direction has no prescribed motion. */
 static PetscBool Translation_Private(PetscInt dim, const PetscReal m[MOTION], const PetscReal n[3], PetscReal slip[3])
 {
-  PetscReal trace = m[0] + m[4] + m[8], A[3][3], C[3][3], x[3], det, along = 0;
+  const PetscReal trace = m[0] + m[4] + m[8];
+  PetscReal       A[9], x[3];
 
   for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j) A[i][j] = m[3 * i + j] + trace * (n[i] * n[j] + (PetscReal)(dim == 2 && i == 2 && j == 2));
-  for (int i = 0; i < 3; ++i) Cross3(A[(i + 1) % 3], A[(i + 2) % 3], C[i]);
-  det = Dot3(A[0], C[0]);
-  if (!(det > UNKNOWN * trace * trace * trace)) return PETSC_FALSE;
-  for (int j = 0; j < 3; ++j) {
-    x[j] = (C[0][j] * m[9] + C[1][j] * m[10] + C[2][j] * m[11]) / det;
-    along += x[j] * n[j];
-  }
-  for (int j = 0; j < 3; ++j) slip[j] = x[j] - along * n[j];
+    for (int j = 0; j < 3; ++j) A[3 * i + j] = m[3 * i + j] + trace * (n[i] * n[j] + (PetscReal)(dim == 2 && i == 2 && j == 2));
+  if (!(Det3(A) > UNKNOWN * trace * trace * trace) || !Solve3(A, m + 9, x)) return PETSC_FALSE;
+  for (int j = 0; j < 3; ++j) slip[j] = x[j] - Dot3(x, n) * n[j];
   return PETSC_TRUE;
 }
 
@@ -76,7 +71,7 @@ static PetscErrorCode Zone_Private(Problem p, const Contact *c, PetscReal force[
         if (k == 0) sum[d] += f[d];
       }
       share[nb * k + t->leaf_body[t->entity_leaf[s->node_entity[j]]]] += PetscSqrtReal(square);
-      if (k == 0 && c->has_multiplier[j] && c->z[j] > SLACK * c->c[j] * c->extent[j]) sum[3] += dim == 2 ? c->extent[j] : PetscSqr(c->extent[j]);
+      if (k == 0 && ContactPressed_Private(c, j)) sum[3] += dim == 2 ? c->extent[j] : PetscSqr(c->extent[j]);
     }
   }
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 4, MPIU_REAL, MPI_SUM, p->comm));

@@ -45,21 +45,9 @@ static PetscErrorCode NodePlace_Private(const ForestTables *t, PetscInt entity, 
 /* u += du/dX (X - X_old) with the gradients by xi of both. Singular maps (edges that meet in an axis): nothing. */
 static void Shift_Private(PetscInt dim, const PetscReal dX[3][3], const PetscReal du[3][3], const PetscReal away[3], PetscReal u[3])
 {
-  PetscReal a[3], inverse[3][3], det = 0;
+  PetscReal a[3];
 
-  for (PetscInt i = 0; i < 3; ++i) {
-    const PetscInt i1 = (i + 1) % 3, i2 = (i + 2) % 3;
-    for (PetscInt k = 0; k < 3; ++k) {
-      const PetscInt k1 = (k + 1) % 3, k2 = (k + 2) % 3;
-      inverse[i][k] = dX[k1][i1] * dX[k2][i2] - dX[k1][i2] * dX[k2][i1]; /* times det */
-    }
-  }
-  for (PetscInt k = 0; k < 3; ++k) det += dX[k][0] * inverse[0][k];
-  if (!(det > 0)) return;
-  for (PetscInt i = 0; i < dim; ++i) {
-    a[i] = 0;
-    for (PetscInt k = 0; k < dim; ++k) a[i] += inverse[i][k] / det * away[k];
-  }
+  if (!(Det3((const PetscReal *)dX) > 0) || !Solve3((const PetscReal *)dX, away, a)) return;
   for (PetscInt k = 0; k < dim; ++k) {
     for (PetscInt i = 0; i < dim; ++i) u[k] += du[k][i] * a[i];
   }
@@ -73,7 +61,7 @@ static PetscErrorCode OldValue_Private(const TransferContext *c, const OldCells 
 {
   const PetscInt dim = c->old_t->dim;
   PetscInt       k   = c->map->old_first[leaf], order;
-  PetscReal      xi[3], was[3] = {0}, away[3], far2 = 0, size2 = 0, dX[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, du[3][3] = {{0}};
+  PetscReal      xi[3], was[3] = {0}, away[3] = {0}, far2 = 0, size2 = 0, dX[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, du[3][3] = {{0}};
 
   PetscFunctionBegin;
   while (k < c->map->old_first[leaf] + c->map->old_count[leaf] && !TransferPlace_Private(c, leaf, place, k, xi)) ++k;
