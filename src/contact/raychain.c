@@ -155,13 +155,18 @@ static inline PetscInt Row_Private(const RayFacet *f, PetscInt v)
   return f->D * (v < f->s.num ? v : v + f->nv);
 }
 
-void ContactRayChainRows(RayWork w, PetscInt num, PetscReal X[], PetscReal to[])
+void ContactRayChainImages(RayWork w, PetscInt num, PetscReal X[])
 {
-  const RayFacet *f = &w->facet;
-  const PetscInt  D = f->D, na = f->s.num, nn = w->nn, nodes = D * (na + f->nv + w->num_mortar);
+  const PetscInt nodes = w->facet.D * (w->facet.s.num + w->facet.nv + w->num_mortar);
 
   FoldImages_Private(w, num, X + nodes * num, num, X, num);
-  if (!to) return;
+}
+
+void ContactRayChainNodes(RayWork w, PetscInt num, const PetscReal X[], PetscReal to[])
+{
+  const RayFacet *f = &w->facet;
+  const PetscInt  D = f->D, na = f->s.num, nn = w->nn;
+
   ContactRayProducts(D * f->nv, 1, num, X + D * na * num, num, nn, w->J, nn, to, nn);
   for (PetscInt v = 0; v < na + w->num_mortar; v++)
     for (PetscInt k = w->result.row_first[v]; k < w->result.row_first[v + 1]; k++)
@@ -221,7 +226,7 @@ PetscErrorCode ContactRayChainHessian(RayWork w, PetscReal H[])
 }
 
 /* K[nodes][nodes] = K_nn + K_ni R, K both halves of W. */
-static void Held_Private(RayWork w, PetscInt nodes, PetscReal Kin[], PetscReal K[])
+static void HalfChained_Private(RayWork w, PetscInt nodes, PetscReal Kin[], PetscReal K[])
 {
   const RayFacet  *f   = &w->facet;
   const PetscInt   own = f->D * (f->s.num + f->nv), n = w->n, mi = n - nodes, width = Width_Private(f);
@@ -252,7 +257,7 @@ PetscErrorCode ContactRayChainFrozen(RayWork w, PetscReal H[])
   K       = w->WJ + mi * nodes;
   B       = K + nodes * nodes;
   columns = B + nn * nodes;
-  Held_Private(w, nodes, w->WJ, K);
+  HalfChained_Private(w, nodes, w->WJ, K);
   PetscCall(PetscArrayzero(B, nn * nodes));
   for (PetscInt v = 0; v < na + w->num_mortar; v++)
     for (PetscInt k = w->result.row_first[v]; k < w->result.row_first[v + 1]; k++)

@@ -24,7 +24,6 @@ static void Weights_Private(const RayFacet *f, const RayTest *t, const RayFuncti
 {
   memset(phi, 0, sizeof(*phi));
   memset(chi, 0, sizeof(*chi));
-  chi->v = 0;
   for (PetscInt a = 0; a < t->num; a++) {
     const PetscReal ya = y[t->place[a]];
 

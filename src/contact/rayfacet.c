@@ -223,12 +223,10 @@ static void GapRow_Private(const RayWork w, const Weights *o, PetscInt a, PetscR
   }
 }
 
-typedef enum { ROWS_GAP, ROWS_WEIGHT, ROWS_PUSH } RowsKind;
-
-/* to[num_rows][nn] = sum_a T[r][a] (gap a or weight a) J; push: of the gap, without the images. */
-static PetscErrorCode Rows_Private(RayWork w, const Weights *o, RowsKind kind, PetscReal to[])
+/* to[num_rows][nn] = sum_a T[r][a] (gap a; without o: weight a) J; held (unless NULL): the same with the images held. */
+static PetscErrorCode Rows_Private(RayWork w, const Weights *o, PetscReal to[], PetscReal held[])
 {
-  const PetscInt na = w->facet.s.num, n = w->n, nr = w->result.num_rows, images = w->facet.D * (na + w->facet.nv + w->num_mortar);
+  const PetscInt na = w->facet.s.num, n = w->n, nr = w->result.num_rows;
   PetscReal     *row;
 
   PetscFunctionBegin;
@@ -236,7 +234,7 @@ static PetscErrorCode Rows_Private(RayWork w, const Weights *o, RowsKind kind, P
   PetscCall(PetscArrayzero(w->rows, n * nr + n * na));
   row = w->rows + n * nr;
   for (PetscInt a = 0; a < na; a++)
-    if (kind != ROWS_WEIGHT)
+    if (o)
       GapRow_Private(w, o, a, 1, row + a * n);
     else
       PetscCall(PetscArraycpy(row + a * n, w->dq + (na + a) * n, n));
@@ -247,8 +245,9 @@ static PetscErrorCode Rows_Private(RayWork w, const Weights *o, RowsKind kind, P
       if (t == 0) continue;
       for (PetscInt i = 0; i < n; i++) w->rows[i * nr + r] += t * row[a * n + i];
     }
-  if (kind == ROWS_PUSH) PetscCall(PetscArrayzero(w->rows + images * nr, (n - images) * nr));
-  ContactRayChainRows(w, nr, w->rows, to);
+  if (held) ContactRayChainNodes(w, nr, w->rows, held);
+  ContactRayChainImages(w, nr, w->rows);
+  ContactRayChainNodes(w, nr, w->rows, to);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -273,7 +272,7 @@ static PetscErrorCode Hessian_Private(const EvaluateContext *ctx, PetscInt facet
     ContactRayProducts(1, 1, n, left, n, n, right, n, w->W, n);
   }
   PetscCall(w->frozen ? ContactRayChainFrozen(w, H) : ContactRayChainHessian(w, H));
-  ContactRayChainRows(w, 1, gradient, NULL);
+  ContactRayChainImages(w, 1, gradient);
   PetscCall(ContactRayDirectionCurvature(w, ctx->nonmortar, facet, gradient, H));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -300,7 +299,7 @@ static PetscErrorCode Result_Private(const EvaluateContext *ctx, PetscInt facet,
   RaySpring      spring;
   RayWork        w  = ctx->pair->ray;
   const PetscInt na = w->facet.s.num, nr = w->result.num_rows, nn = w->nn;
-  PetscReal     *gap, *weight, *reach, *dgap, *push;
+  PetscReal     *gap, *weight, *reach, *dgap, *push = NULL;
 
   PetscFunctionBegin;
   PetscCall(ContactStoreReserve(&w->result.store, 3 * nr, &gap));
@@ -324,13 +323,10 @@ static PetscErrorCode Result_Private(const EvaluateContext *ctx, PetscInt facet,
   PetscCall(ContactStoreReserve(&w->result.store, 2 * nr * nn, &dgap));
   out->dgap    = dgap;
   out->dweight = dgap + nr * nn;
-  PetscCall(Rows_Private(w, o, ROWS_GAP, dgap));
-  PetscCall(Rows_Private(w, o, ROWS_WEIGHT, dgap + nr * nn));
-  if (w->frozen) {
-    PetscCall(ContactStoreReserve(&w->result.store, nr * nn, &push));
-    PetscCall(Rows_Private(w, o, ROWS_PUSH, push));
-    out->push = push;
-  }
+  if (w->frozen) PetscCall(ContactStoreReserve(&w->result.store, nr * nn, &push));
+  out->push = push;
+  PetscCall(Rows_Private(w, o, dgap, push));
+  PetscCall(Rows_Private(w, NULL, dgap + nr * nn, NULL));
   if (spring.on) {
     PetscCall(ContactStoreReserve(&w->result.store, nn, (PetscReal **)&out->darea));
     for (PetscInt i = 0; i < nr * nn; i++) ((PetscReal *)out->darea)[i % nn] += out->dweight[i];

@@ -250,8 +250,10 @@ PetscErrorCode ContactRaySpring(ContactPair, const ContactSurface *nonmortar, Pe
 
 /* raychain.c. held: directions do not vary. */
 PetscErrorCode ContactRayChain(RayWork, const ContactSurface *nonmortar, PetscInt facet, PetscBool held);
-/* to[num][nn] (NULL: images only) += X^T by the nodes, X[n][num] by the facet's numbers; the images' part of X is added to what they follow. */
-void ContactRayChainRows(RayWork, PetscInt num, PetscReal X[], PetscReal to[]);
+/* X[n][num], by the facet's numbers: the part by the images is added to what they follow. */
+void ContactRayChainImages(RayWork, PetscInt num, PetscReal X[]);
+/* to[num][nn] += X^T by the nodes, without the part by the images. */
+void ContactRayChainNodes(RayWork, PetscInt num, const PetscReal X[], PetscReal to[]);
 /* H = both halves of the work space's W, which changes. */
 PetscErrorCode ContactRayChainHessian(RayWork, PetscReal H[]);
 /* The same for forces at a held rim, not symmetric: H[i][j] derivative of force i by position j. */
