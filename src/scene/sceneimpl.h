@@ -67,7 +67,7 @@ typedef struct {
   SceneNode   *node;
 } BoundaryEntry;
 
-#define SUBDIVIDE_AUTO (MORTISE_MAX_ORDER + 1) /* place of the word auto among those of contact.<pair>.subdivide */
+#define SUBDIVIDE_AUTO 9 /* place of the word auto among those of contact.<pair>.subdivide: after 0 to 8 */
 
 typedef struct {
   ContactSpec spec;
