@@ -201,15 +201,15 @@ PetscErrorCode ProblemCreateRightSide(Problem, Vec *);
    the lift of the last tangent). Collective. */
 PetscErrorCode ProblemRecover(Problem, Vec y, Vec dx);
 /* dR/dx with the stored element pressures in the geometric stiffness (NULL: consistent). When lift is given, the change of R that the remaining
-   prescribed motion makes to first order is added to it, and the Hessian of pairs whose open gaps under pressure are still wide against their facets is left
-   out. Assembles the problem's matrix. */
+   prescribed motion makes to first order is added to it, and pairs whose open gaps under pressure are still wide against their facets are linearised at
+   fixed directions. Assembles the problem's matrix; gives the symmetric form up for good when active constraints hold the rim of a mortar side
+   (ContactFacet.push), which has none. Collective. */
 PetscErrorCode ProblemTangent(Problem, Vec x, const PetscReal pressure[], Vec lift, PetscBool *bad);
 /* Symmetric form of the tangent: same solution, symmetric matrix, right-hand side by ProblemRightSide; its multiplier columns are exact to second order.
    Only for problems whose bulk tangent is symmetric (ProblemIsSymmetric): no follower pressures, no plastic flow, no scalars. Default: exact form. */
 PetscErrorCode ProblemSetSymmetric(Problem, PetscBool symmetric);
+PetscErrorCode ProblemGetSymmetric(Problem, PetscBool *symmetric); /* the form of the last tangent, or set since */
 PetscErrorCode ProblemIsSymmetric(Problem, PetscBool *possible);
-/* Does the last tangent have active constraints at the rim of a mortar side that is held (ContactFacet.push)? Then it is not symmetric. Collective. */
-PetscErrorCode ProblemHoldsRims(Problem, PetscBool *holds);
 /* rhs = -(r + lift), condensed like the last tangent, multiplier rows in its form; r of the problem, lift and rhs of the matrix. */
 PetscErrorCode ProblemRightSide(Problem, Vec r, Vec lift, Vec rhs);
 /* Active-set passes against the last tangent: given the solution dx of tangent . dx = -rhs, decide anew which constraints are active, rewrite their rows in the

@@ -176,6 +176,13 @@ PetscErrorCode ProblemSetSymmetric(Problem p, PetscBool symmetric)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscErrorCode ProblemGetSymmetric(Problem p, PetscBool *symmetric)
+{
+  PetscFunctionBegin;
+  *symmetric = p->symmetric;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode ProblemIsSymmetric(Problem p, PetscBool *possible)
 {
   const MechanicsSpec *m = &p->scene->mechanics;

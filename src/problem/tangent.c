@@ -309,7 +309,7 @@ static PetscErrorCode ReadyMatrix_Private(Problem p)
 PetscErrorCode ProblemTangent(Problem p, Vec x, const PetscReal pressure[], Vec lift, PetscBool *bad)
 {
   PetscReal      *local;
-  PetscBool       failed = PETSC_FALSE, far = PETSC_FALSE;
+  PetscBool       failed = PETSC_FALSE, far = PETSC_FALSE, holds = PETSC_FALSE;
   HPSpace         space = p->space;
   const HPTables *v;
 
@@ -325,6 +325,8 @@ PetscErrorCode ProblemTangent(Problem p, Vec x, const PetscReal pressure[], Vec 
     PetscCall(ContactEvaluate_Private(p, c, x, local, PETSC_TRUE, PETSC_TRUE, &failed));
     PetscCall(ContactPairHold(c->pair, PETSC_FALSE));
   }
+  if (p->symmetric) PetscCall(ContactHoldsRims_Private(p, &holds));
+  if (holds) p->symmetric = PETSC_FALSE;
   PetscCall(StageEnd(STAGE_CONTACT));
   p->lifting = (PetscBool)(lift != NULL);
   p->lift    = lift;

@@ -61,8 +61,10 @@ PetscErrorCode SolverUnsymmetric_Private(Solver s)
 
   PetscFunctionBegin;
   PetscCall(PetscInfo(s->snes, "the tangent is not symmetric at the rim of a contact face: LU from here on\n"));
+  if (s->saddle)
+    PetscCall(PetscPrintf(PetscObjectComm((PetscObject)s->snes),
+                          "note: contact has come to the rim of a face of full order, where the tangent is not symmetric: direct solver from here on\n"));
   s->symmetric = s->factored = PETSC_FALSE;
-  PetscCall(ProblemSetSymmetric(s->problem, PETSC_FALSE));
   PetscCall(SaddleDestroy_Private(&s->saddle));
   PetscCall(SNESGetKSP(s->snes, &ksp));
   PetscCall(KSPGetPC(ksp, &pc));

@@ -205,18 +205,14 @@ static PetscErrorCode Obey_Private(SNES snes, Solver s)
 /* The linearisation at x and its solution. */
 static PetscErrorCode Linearise_Private(SNES snes, Solver s, Vec x, Vec r, Vec dx, PetscBool *ok)
 {
-  PetscBool bad, holds = PETSC_FALSE;
+  PetscBool bad, symmetric;
 
   PetscFunctionBegin;
   ++s->report->iterations;
   PetscCall(VecZeroEntries(s->lift));
   PetscCall(ProblemTangent(s->problem, x, s->pressure, s->lift, &bad));
-  if (s->symmetric && !bad) PetscCall(ProblemHoldsRims(s->problem, &holds));
-  if (holds) {
-    PetscCall(SolverUnsymmetric_Private(s));
-    PetscCall(VecZeroEntries(s->lift));
-    PetscCall(ProblemTangent(s->problem, x, s->pressure, s->lift, &bad));
-  }
+  PetscCall(ProblemGetSymmetric(s->problem, &symmetric));
+  if (s->symmetric && !symmetric) PetscCall(SolverUnsymmetric_Private(s));
   *ok = (PetscBool)!bad;
   if (bad) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(ProblemRightSide(s->problem, r, s->lift, s->rhs));
