@@ -6,7 +6,7 @@
 #include "problemimpl.h"
 
 #define STAYS 0.85   /* share of the smaller of the old and the new zone that both have in common, below which contact moves */
-#define PRESSED 1e-8 /* of the largest pressure: less is round-off of an open node; so is less than SLACK, all there is where the whole pair is open */
+#define PRESSED 1e-8 /* of the largest pressure: less is round-off of an open node */
 
 /* Does contact, by the active set at hand, leave nodes that carry pressure for others? By reference length, so that graded meshes count alike. A zone that only
    grows or only shrinks does not move. */
@@ -22,7 +22,7 @@ static PetscErrorCode HasMoved_Private(Problem p, const Contact *c, PetscBool *m
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &most, 1, MPIU_REAL, MPI_MAX, p->comm));
   for (PetscInt i = 0; i < s->num_own; ++i) {
     const PetscInt  j       = s->own[i];
-    const PetscBool pressed = (PetscBool)(c->z[j] > PetscMax(PRESSED * most, SLACK * c->c[j] * c->extent[j]));
+    const PetscBool pressed = (PetscBool)(ContactPressed_Private(c, j) && c->z[j] > PRESSED * most);
     if (!c->has_multiplier[j]) continue;
     if (pressed) sum[0] += c->w0[j];
     if (c->active[j]) sum[1] += c->w0[j];

@@ -8,7 +8,7 @@
 static PetscReal Misfit_Private(const Contact *c, PetscInt j)
 {
   if (!c->has_multiplier[j] || !ContactCovered_Private(c, j)) return 0;
-  return c->z[j] > 0 ? ContactRowGap_Private(c, j) : PetscMin(c->gap[j], 0);
+  return ContactPressed_Private(c, j) ? ContactRowGap_Private(c, j) : PetscMin(c->gap[j], 0);
 }
 
 PetscErrorCode ProblemNoteImbalance(Problem p, Vec x, PetscBool *usable)

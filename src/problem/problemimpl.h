@@ -255,6 +255,8 @@ PetscErrorCode ContactNumber_Private(Problem, PetscInt counts[]); /* multipliers
 PetscErrorCode ContactEvaluate_Private(Problem, Contact *, Vec x, const PetscReal local[], PetscBool derivatives, PetscBool hessian, PetscBool *failed);
 PetscErrorCode ContactForces_Private(Problem, Contact *, PetscReal r[]);
 void           ContactRows_Private(const Contact *, PetscReal r[]);
+/* Has the last evaluation active constraints whose forces hold the rim of the mortar side (ContactFacet.push)? Collective. */
+PetscErrorCode ContactHoldsRims_Private(Problem, PetscBool *holds);
 /* tangent.c: multipliers from the unknowns of the symmetric form. dx: this rank's part of a vector. */
 void ContactScaleIncrement_Private(Problem, PetscReal dx[]);
 /* far.c: at the last evaluation, are the gaps under pressure too wide for turning directions to mean anything? Collective. */
@@ -264,6 +266,11 @@ PetscErrorCode          ContactChange_Private(Problem, Contact *, const PetscRea
 static inline PetscBool ContactCovered_Private(const Contact *c, PetscInt j)
 {
   return (PetscBool)(c->weight[j] > (c->side[0].order ? COVERED_HIGHER : COVERED) * c->w0[j]);
+}
+/* Does node j bear? Less than SLACK is all there is where the whole pair is open. */
+static inline PetscBool ContactPressed_Private(const Contact *c, PetscInt j)
+{
+  return (PetscBool)(c->has_multiplier[j] && c->z[j] > SLACK * c->c[j] * c->extent[j]);
 }
 /* How far node j and the other side are into each other, after the change as linearised. */
 static inline PetscReal ContactOverlap_Private(const Contact *c, PetscInt j)
