@@ -163,11 +163,11 @@ static void ThreeDimensions(void **state)
 
 static void ThreeDimensionsHigh(void **state)
 {
-  static const PetscInt order[] = {3, 3, 3, 4}, n[] = {2, 4, 2, 2};
+  static const PetscInt order[] = {3, 3, 3, 4, 4, 5, 5, 6}, n[] = {2, 4, 2, 2, 2, 2, 2, 2}, hanging[] = {0, 0, 1, 0, 1, 0, 1, 0};
   PetscReal             part[NUM_PARTS];
 
-  for (PetscInt i = 0; i < 4; ++i) {
-    const PetscReal e = Effectivity(&sine3, n[i], order[i], FORMULATION_DISPLACEMENT, 2, PETSC_FALSE, (PetscBool)(i == 2), part);
+  for (PetscInt i = 0; i < (PetscInt)PETSC_STATIC_ARRAY_LENGTH(order); ++i) {
+    const PetscReal e = Effectivity(&sine3, n[i], order[i], FORMULATION_DISPLACEMENT, 2, PETSC_FALSE, (PetscBool)hanging[i], part);
     assert_true(e > 0.3 && e < 5);
   }
 }

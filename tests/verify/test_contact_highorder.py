@@ -14,6 +14,7 @@ ONE_MESH = ("-adapt_tolerance", 0)
 HERTZ = 0.01875797  # reaction of hertz2d with exact arcs, to 1e-6: docs/results.md has the runs that agree on it
 LINEAR = ("-mesh_order", 4, "-contact_disc_on_block_order", 1)
 FULL = ("-mesh_order", 4, "-contact_disc_on_block_order", "full")
+PRESSURE = 65.93406593  # of shrinkfit.yml and shrinkfit3d.yml, exact
 FLAT, CENTRE, PEAK = -1.5625292, -1.3080466, 3485.1  # of cylinder.yml: full order 3 and 4 at estimates of 1e-3 and 5e-4 agree to 1e-7 and 4e-5
 
 
@@ -193,10 +194,32 @@ def test_o45_rates(run, order, sizes):
     errors = []
     for n in sizes:
         result = solved(run, "inputs/shrinkfit.yml", "-contact_fit_order", "full", "-order", order, "-mesh_order", order, "-mesh_parameter_n", n, "-mesh_parameter_m", n)
-        z = contact(result)["contact_pressure"] / 65.93406593 - 1
+        z = contact(result)["contact_pressure"] / PRESSURE - 1
         errors.append((math.sqrt(numpy.mean(z**2)), numpy.abs(z).max()))
     print(order, errors, [rates(e) for e in zip(*errors)])
     assert all(r > order - 0.15 for e in zip(*errors) for r in rates(e)), errors
+
+
+def ring(run, order, n, *options):
+    """shrinkfit3d.yml with full faces: root mean square and largest error of the nodal pressure, and the error of the mean, relative."""
+    text = (ROOT / "inputs/shrinkfit3d.yml").read_text().replace("file: shrinkfit3d.geo", f"file: {ROOT}/inputs/shrinkfit3d.geo").replace(" projection: continuous,", "")
+    result = solved(run, "ring.yml", "-contact_fit_order", "full", "-order", order, "-mesh_order", order, "-mesh_parameter_n", n, "-mesh_parameter_m", n, *options, text=text)
+    z = contact(result)["contact_pressure"] / PRESSURE - 1
+    mean = math.hypot(*result.summary["contact"]["fit"]["force"][:2]) / (math.sqrt(2) * 10 * 2 * PRESSURE) - 1
+    return math.sqrt(numpy.mean(z**2)), numpy.abs(z).max(), abs(mean)
+
+
+SWAP = ("-contact_fit_nonmortar", "outer_bore", "-contact_fit_mortar", "inner_shell")
+
+
+@pytest.mark.parametrize("order, sizes, options", [
+    (2, (2, 4), ()), *[pytest.param(*case, marks=pytest.mark.slow) for case in ((2, (3, 6, 12), ()), (2, (3, 6, 12), SWAP), (3, (2, 4, 8), ()), (3, (2, 4, 8), SWAP))]],
+    ids=["quick", "2", "2-swap", "3", "3-swap"])
+def test_o45_rates_space(run, order, sizes, options):
+    """The same on cylinders in space."""
+    errors = [ring(run, order, n, *options) for n in sizes]
+    print(order, errors, [rates(e) for e in zip(*errors)])
+    assert all(r > order - 0.15 for e in list(zip(*errors))[:2] for r in rates(e)), errors
 
 
 # ---- O-106: rates on an interface that stays closed ------------------------------------------------------------------------------------------
