@@ -305,4 +305,4 @@ def test_o71_slotted_stent(run):
             for key, (_, _, change) in bands.items():
                 assert abs(b[key] / a[key] - 1) < change, (t, key, a, b)
         dogboning = [path[0]["end"] / path[0]["middle"] - 1 for path in (coarse, fine)]
-        assert abs(dogboning[1] - dogboning[0]) < 0.005, dogboning
+        assert abs(dogboning[1] - dogboning[0]) < 0.001, dogboning
