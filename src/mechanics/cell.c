@@ -243,7 +243,7 @@ static PetscErrorCode Law_Private(CellKernel k, PetscBool tangent, const CellBat
                              .A       = tangent ? (PetscReal *)k->A : NULL,
                              .history = (PetscReal *)&k->history[s * h * slab],
                              .trial   = (PetscReal *)&k->trial[s * h * slab],
-                             .rests   = b->rests,
+                             .edge    = b->edge,
                              .held    = b->held};
 
     PetscCall(MaterialEvaluate(&k->material, part, &points));

@@ -22,7 +22,7 @@ typedef struct {
   PetscReal       *residual; /* [nc][n*d] dE/du, row node*d + component; a function of u alone */
   const PetscReal *history;  /* [nc][points][num_history] of laws with history, as the last accepted step left it */
   PetscReal       *trial;    /* [nc][points][num_history] as a step that ended at u would leave it */
-  PetscBool        rests;    /* tangent: points at the edge of flow are expected to stay elastic */
+  MaterialEdge     edge;     /* for the tangent */
   PetscBool        held;     /* trial alone: as in MaterialPoints */
   PetscReal       *tangent;  /* [nc][n*d][n*d] full, symmetric unless the law is not; exact derivative of residual when pressure is NULL or consistent */
   const PetscInt  *place;    /* [n] NULL, or where the nodes stand, inner ones first: then of the symmetric matrix only K[row <= column] are written,
@@ -142,10 +142,10 @@ struct _p_Mechanics {
   PetscReal *volume_scale;  /* owned [num_owned_cells] E / h: what turns int q g(J) into a force */
 
   /* history.c */
-  PetscInt   num_history, *cell_history; /* numbers of owned cells; owned [num_cells] where those of a cell, ghosts too, start in history */
-  PetscReal *history;                    /* owned: as the last accepted step left it, own cells first, then ghosts */
-  PetscBool  rests;                      /* points at the edge of flow are expected to stay elastic */
-  PetscSF    history_sf;                 /* owned: ghosts' numbers from their owners; NULL: no law has history */
+  PetscInt     num_history, *cell_history; /* numbers of owned cells; owned [num_cells] where those of a cell, ghosts too, start in history */
+  PetscReal   *history;                    /* owned: as the last accepted step left it, own cells first, then ghosts */
+  MaterialEdge edge;                       /* for the tangent */
+  PetscSF      history_sf;                 /* owned: ghosts' numbers from their owners; NULL: no law has history */
 };
 
 /* History of the cells of a group from position `first` on; NULL: its law has none. */
