@@ -1,6 +1,7 @@
 """Balloon, sleeve and artery in the cross-section (O-70, inputs/angioplasty2d.yml): three bodies, two gaps that open and close, plastic flow and recoil; exact
 answer. Pressures to 1 %, resultants and at every node, radii to 0.2 %, recoil to 5 %, plastic strain at both faces of the sleeve; uniform and adapted meshes of orders
-1 and 2 of the quarter and of the full ring, coarser load steps, roles of the contact faces exchanged (O-91), ranks; and how the sleeve is about to neck."""
+1 and 2 of the quarter and of the full ring, curved contact faces and linear ones, coarser load steps, roles of the contact faces exchanged (O-91), ranks; and how the
+sleeve is about to neck."""
 import math
 
 import numpy
@@ -15,12 +16,12 @@ STATES = [  # t; radius of the bore; pressure in it, balloon on sleeve, sleeve o
     (1.4, .40, 0, 0, 6.64698, 1.1767998, 1.4459453, .83137, .69037),
 ]
 RECOIL = 0.012451
-LINEAR1, LINEAR2 = (("-order", order, "-contact_inside_subdivide", 0, "-contact_outside_subdivide", 0) for order in (1, 2))
-FULL = ("-contact_inside_order", "full", "-contact_outside_order", "full", "-contact_inside_subdivide", 0, "-contact_outside_subdivide", 0)
+LINEAR1, LINEAR2 = (("-order", order, "-contact_inside_order", 1, "-contact_outside_order", 1) for order in (1, 2))  # the scene's contact faces are curved
+SUBDIVIDED = (*LINEAR2, "-contact_inside_subdivide", 1, "-contact_outside_subdivide", 1)
 EXCHANGED = ("-contact_inside_nonmortar", "sleeve_bore", "-contact_inside_mortar", "balloon_skin",
              "-contact_outside_nonmortar", "sleeve_skin", "-contact_outside_mortar", "artery_bore")
 FINE1 = (*LINEAR1, "-mesh_refine", 1)
-ADAPTIVE1, ADAPTIVE2 = (*FINE1, "-adapt_tolerance", 0.1), (*LINEAR2, "-adapt_tolerance", 0.05)
+ADAPTIVE1, ADAPTIVE2 = (*FINE1, "-adapt_tolerance", 0.1), ("-adapt_tolerance", 0.003)
 RING = ("-mesh_parameter_sectors", 4)
 LARGE = ("-load_step", 0.2)
 PRESSURE, RADIUS = 0.01, 0.002  # tolerances
@@ -86,7 +87,7 @@ def accurate(result, strains, **local):
 
 
 def adapted(result, first):
-    cells = {row["cells"] for row in result.history}
+    cells = {row["cells"] for row in result.adapt}
     assert min(cells) == first < max(cells), cells
 
 
@@ -101,12 +102,12 @@ def test_o70_steps_four_times_larger(run):
 @pytest.mark.parametrize("options", [ADAPTIVE1, ADAPTIVE2], ids=["order_1", "order_2"])
 def test_o70_adaptive_steps_four_times_larger(run, options):
     result = solve(run, *options, *LARGE)
-    accurate(result, 0.04, back=0.015, rms=0.009)
+    accurate(result, 0.04, rms=0.009)
     adapted(result, 720 if options is ADAPTIVE1 else 180)
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("options, strains", [((), 0.02), (FINE1, 0.03), (FULL, 0.003)], ids=["order_2", "order_1", "full_faces"])
+@pytest.mark.parametrize("options, strains", [((), 0.003), (FINE1, 0.03), (SUBDIVIDED, 0.02)], ids=["order_2", "order_1", "linear_faces"])
 def test_o70(run, options, strains):
     result = solve(run, *options)
     accurate(result, strains)
@@ -114,14 +115,24 @@ def test_o70(run, options, strains):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("options, tolerance, back", [(LINEAR2, 0.05, PRESSURE), (LINEAR2, 0.03, 0.07), (LINEAR2, 0.02, PRESSURE), (LINEAR2, 0.015, 0.04), ((), 0.02, PRESSURE)],
-                         ids=["0.05", "0.03", "0.02", "0.015", "faces_subdivided_0.02"])
-def test_o70_adaptive(run, options, tolerance, back):
-    """Order 2, linear faces; histories are carried from mesh to mesh, also after the balloon has left. Where faces of the sleeve are split on the way back, the polygon
-    as which it has flowed stays: 5e-5 of the radius, against 8000 of shear modulus 6 % of the pressure at single nodes (back)."""
+@pytest.mark.parametrize("tolerance, last", [(0.005, 1.35), (0.003, 0.1), (0.0015, 1.2)])
+def test_o70_adaptive(run, tolerance, last):
+    """Order 2; histories are carried from mesh to mesh, also after the balloon has left (last: when cells are split for the last time)."""
+    result = solve(run, "-adapt_tolerance", tolerance)
+    accurate(result, 0.003)
+    adapted(result, 180)
+    assert abs(max(row["t"] for row in result.adapt if row["pass"]) - last) < 1e-9, result
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("options, tolerance, back", [(LINEAR2, 0.05, PRESSURE), (LINEAR2, 0.03, 0.07), (LINEAR2, 0.02, PRESSURE), (LINEAR2, 0.015, 0.04), (SUBDIVIDED, 0.02, PRESSURE)],
+                         ids=["0.05", "0.03", "0.02", "0.015", "subdivided_0.02"])
+def test_o70_adaptive_linear_faces(run, options, tolerance, back):
+    """Linear faces before cells of order 2. Where faces of sleeve and artery are split on the way back, the polygon as which the sleeve has flowed stays, 5e-5 of the
+    radius, and the artery's finer faces feel it, against 8000 of shear modulus 6 % of the pressure at single nodes (back)."""
     result = solve(run, *options, "-adapt_tolerance", tolerance)
     accurate(result, 0.03, back=back)
-    adapted(result, 180 if options else 432)
+    adapted(result, 180 if options is LINEAR2 else 432)
 
 
 @pytest.mark.slow
@@ -140,7 +151,7 @@ def test_o70_is_beyond_bifurcations(run):
         paths = []
         for load in (1e-3, -1e-3):
             traction = f"{load}*cos({n}*atan2(Y,X))*"
-            result = solve(run, *FULL, "-output_fields", "false", "-load_end", 0.5, "-boundary_sleeve_skin_traction_x", traction + "X/0.65", "-boundary_sleeve_skin_traction_y", traction + "Y/0.65")
+            result = solve(run, "-output_fields", "false", "-load_end", 0.5, "-boundary_sleeve_skin_traction_x", traction + "X/0.65", "-boundary_sleeve_skin_traction_y", traction + "Y/0.65")
             assert result.summary["step_cuts"] == 0, result
             paths.append({round(row["t"], 6): row["probe.sleeve.displacement.x"] - row["probe.sleeve_bore.displacement.x"] for row in result.history})
         return {t: (paths[0][t] - paths[1][t]) / 2 for t in paths[0] if t > 0.06}  # the balloon has met the sleeve, which flows
@@ -162,9 +173,11 @@ def test_o70_final_state_forgets_the_steps(run):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("options, local", [((), 0.05), (("-mesh_refine", 1), 0.012), (FINE1, 0.03)], ids=["order_2", "order_2_finer", "order_1"])
+@pytest.mark.parametrize("options, local", [((), 0.005), (("-mesh_refine", 1), 0.0025), (FINE1, 0.03), (SUBDIVIDED, 0.05), ((*SUBDIVIDED, "-mesh_refine", 1), 0.012)],
+                         ids=["order_2", "order_2_finer", "order_1", "linear_faces", "linear_faces_finer"])
 def test_o91_roles_exchanged(run, options, local):
-    """Resultants and radii alike; plastic strains at the corners of linear faces are not, nor are pressures at nodes of the stiff sleeve, until the mesh is finer."""
+    """Resultants and radii alike; pressures at nodes of the stiff sleeve with curved faces, too. With linear ones they are not until the mesh is finer, nor are plastic
+    strains at the corners of the faces."""
     one, other = (solve(run, *options, *roles) for roles in ((), EXCHANGED))
     accurate(other, 0.03, pressure=local, back=local, rms=0.7 * local)
     for t, values in states(one).items():
@@ -173,21 +186,22 @@ def test_o91_roles_exchanged(run, options, local):
 
 
 def test_o70_full_ring_meets_the_artery(run):
-    result = solve(run, *RING, *LINEAR2, "-adapt_tolerance", 0.04, *LARGE, "-load_end", 0.35)
+    result = solve(run, *RING, *ADAPTIVE2, "-load_step", 0.1, "-load_end", 0.35)
     assert result.summary["step_cuts"] == 0, result
     accurate_everywhere(result)
     adapted(result, 720)
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("options, strains, back, rms, first", [((), 0.02, PRESSURE, RMS, 0), (ADAPTIVE1, 0.03, PRESSURE, RMS, 2880), (ADAPTIVE2, 0.03, PRESSURE, RMS, 720),
-                                                          ((*ADAPTIVE1, *LARGE), 0.04, PRESSURE, 0.009, 2880), ((*ADAPTIVE2, *LARGE), 0.04, 0.015, 0.009, 720)],
+@pytest.mark.parametrize("options, strains, rms, first, cuts", [((), 0.003, RMS, 0, 0), (ADAPTIVE1, 0.03, RMS, 2880, 0), (ADAPTIVE2, 0.003, RMS, 720, 0),
+                                                                ((*ADAPTIVE1, *LARGE), 0.04, 0.009, 2880, 0), ((*ADAPTIVE2, *LARGE), 0.03, 0.009, 720, 1)],
                          ids=["order_2", "adaptive_order_1", "adaptive_order_2", "adaptive_order_1_larger_steps", "adaptive_order_2_larger_steps"])
-def test_o70_full_ring(run, options, strains, back, rms, first):
-    """There and back without support but on one ray: pressures at all nodes of both gaps, which hold the resultants, and radii all round; figures of the ray."""
+def test_o70_full_ring(run, options, strains, rms, first, cuts):
+    """There and back without support but on one ray: pressures at all nodes of both gaps, which hold the resultants, and radii all round; figures of the ray. Only
+    the large step in which the sleeve crosses the gap to an artery that nothing else holds along x may be cut, with curved faces."""
     result = solve(run, *RING, *options)
-    assert result.summary["step_cuts"] == 0, result
-    accurate_everywhere(result, back=back, rms=rms)
+    assert result.summary["step_cuts"] <= cuts, result
+    accurate_everywhere(result, rms=rms)
     rows = states(result)
     for t, _, *reference in STATES:
         print(t, ["%+.1e" % (value / ref - 1 if ref else value) for value, ref in zip(rows[t][3:], reference[3:])])
@@ -197,7 +211,7 @@ def test_o70_full_ring(run, options, strains, back, rms, first):
     if first:
         adapted(result, first)
         changes = [row["force_change"] for row in result.adapt if row["pass"]]
-        assert changes and 1e-6 < max(changes) < 2e-3, changes  # the resultants cancel, what they are measured against does not
+        assert changes and 1e-8 < max(changes) < 2e-3, changes  # the resultants cancel, what they are measured against does not
 
 
 @pytest.mark.slow
