@@ -1,7 +1,8 @@
-// An octant of two hollow spheres one in the other: radii 5 to 10 and 10 to 20. Three blocks around the diagonal each.
+// An octant of two hollow spheres one in the other: radii 5 to 10 and 10 to 20. Three blocks around the diagonal each; or the one of them at the x axis.
 DefineConstant[
-  n = 2, // cells along half a quarter circle of the inner sphere; the outer one has 3n/2
-  m = 2  // cells through each wall
+  n = 2,     // cells along half a quarter circle of the inner sphere; the outer one has 3n/2
+  m = 2,     // cells through each wall
+  third = 0  // 1: one block, between the planes y = 0, z = 0, x = y and x = z
 ];
 For b In {0:1} // numbers of sphere 1 are 1000 larger; no extrusion: it would join the two
   t = 1000 * b;
@@ -39,10 +40,21 @@ For b In {0:1} // numbers of sphere 1 are 1000 larger; no extrusion: it would jo
   Recombine Surface {(t + 1):(t + 3), (t + 101):(t + 103), (t + 201):(t + 209)};
   Transfinite Volume {(t + 1):(t + 3)};
 EndFor
-Physical Volume("inner") = {1, 2, 3};
-Physical Volume("outer") = {1001, 1002, 1003};
-Physical Surface("inner_shell") = {101, 102, 103};
-Physical Surface("outer_bore")  = {1001, 1002, 1003};
-Physical Surface("plane_x") = {203, 204, 1203, 1204};
-Physical Surface("plane_y") = {205, 206, 1205, 1206};
-Physical Surface("plane_z") = {201, 202, 1201, 1202};
+If (third)
+  Physical Volume("inner") = {1};
+  Physical Volume("outer") = {1001};
+  Physical Surface("inner_shell") = {101};
+  Physical Surface("outer_bore")  = {1001};
+  Physical Surface("plane_y")  = {206, 1206};
+  Physical Surface("plane_z")  = {201, 1201};
+  Physical Surface("plane_xy") = {207, 1207};
+  Physical Surface("plane_zx") = {209, 1209};
+Else
+  Physical Volume("inner") = {1, 2, 3};
+  Physical Volume("outer") = {1001, 1002, 1003};
+  Physical Surface("inner_shell") = {101, 102, 103};
+  Physical Surface("outer_bore")  = {1001, 1002, 1003};
+  Physical Surface("plane_x") = {203, 204, 1203, 1204};
+  Physical Surface("plane_y") = {205, 206, 1205, 1206};
+  Physical Surface("plane_z") = {201, 202, 1201, 1202};
+EndIf
