@@ -225,10 +225,10 @@ PetscErrorCode ProblemRelease(Problem, PetscBool *any);
    pressure: as far as supports say how the bodies move along it. Collective. */
 PetscErrorCode ProblemReleaseSlips(Problem, PetscBool *any);
 PetscErrorCode ProblemEngage(Problem);
-/* At the start of a step, where dx is the linear step there: would most points on their yield surface leave it? Then the next tangents take such points for
-   elastic, until ProblemFlow. Collective. */
+/* What tangents expect of points on their yield surface: that they flow on (the default), or that they rest. */
+PetscErrorCode ProblemSetRest(Problem, PetscBool rests);
+/* At the start of a step, where dx is the linear step there: would most points on their yield surface leave it? Then they are set to rest. Collective. */
 PetscErrorCode ProblemRest(Problem, Vec x, Vec dx, PetscBool *rests);
-PetscErrorCode ProblemFlow(Problem);
 /* A number that tells active sets of this problem apart, the same on every rank. Collective. */
 PetscErrorCode ProblemActiveSetHash(Problem, uint64_t *hash);
 /* A Newton step: Begin remembers where it starts; Move sets x = start + step dx and the prescribed motion likewise (may be called again with a shorter step)

@@ -30,9 +30,9 @@ PetscErrorCode ProblemRest(Problem p, Vec x, Vec dx, PetscBool *rests)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode ProblemFlow(Problem p)
+PetscErrorCode ProblemSetRest(Problem p, PetscBool rests)
 {
   PetscFunctionBegin;
-  PetscCall(MechanicsSetRest(p->mechanics, PETSC_FALSE));
+  PetscCall(MechanicsSetRest(p->mechanics, rests));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -230,13 +230,13 @@ static PetscErrorCode Rest_Private(SNES snes, Solver s, Vec x, Vec r, Vec dx, Pe
   if (!rests) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(PetscInfo(snes, "flow ends: the step begins elastic\n"));
   PetscCall(Linearise_Private(snes, s, x, r, dx, ok));
-  PetscCall(ProblemFlow(s->problem));
+  PetscCall(ProblemSetRest(s->problem, PETSC_FALSE));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* The first linear step. Where contact moves along a surface, by what supports prescribe or else by what the linear step says, one that only carries the bodies
    to their new places takes its place: by the prescribed motion, without the pairs that move, and without the residual, so that loads on a body that nothing
-   but such a pair holds wait for the next iteration. */
+   but such a pair holds wait for the next iteration. That one begins elastic: where the pair was, the load comes off flowing material. */
 static PetscErrorCode First_Private(SNES snes, Solver s, Vec x, Vec r, Vec dx, PetscBool *ok)
 {
   PetscBool moved;
@@ -254,6 +254,7 @@ static PetscErrorCode First_Private(SNES snes, Solver s, Vec x, Vec r, Vec dx, P
   PetscCall(VecZeroEntries(r));
   PetscCall(Linearise_Private(snes, s, x, r, dx, ok));
   PetscCall(ProblemEngage(s->problem));
+  PetscCall(ProblemSetRest(s->problem, PETSC_TRUE));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -266,8 +267,10 @@ static PetscErrorCode Iterate_Private(SNES snes, Solver s, Vec x, Vec r, Vec dx)
   if (s->test) PetscCall(Test_Private(snes, s, x));
   if (snes->iter == 0)
     PetscCall(First_Private(snes, s, x, r, dx, &ok));
-  else
+  else {
     PetscCall(Linearise_Private(snes, s, x, r, dx, &ok));
+    PetscCall(ProblemSetRest(s->problem, PETSC_FALSE));
+  }
   if (ok) PetscCall(Step_Private(snes, s, x, dx, r));
   if (!ok)
     PetscCall(Finish_Private(snes, s, SNES_DIVERGED_LINEAR_SOLVE, "the tangent is singular"));
@@ -291,6 +294,7 @@ static PetscErrorCode SNESSolve_ContactNewton(SNES snes)
   s->best_iter        = 0;
   s->halvings         = 0;
   s->negative         = -1;
+  PetscCall(ProblemSetRest(s->problem, PETSC_FALSE));
   PetscCall(ProblemSearch(s->problem, x));
   PetscCall(SNESComputeFunction(snes, x, r));
   if (s->report->status.bad) PetscCall(Finish_Private(snes, s, SNES_DIVERGED_FUNCTION_DOMAIN, "the start of the step has an inverted cell"));
