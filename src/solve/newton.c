@@ -226,23 +226,25 @@ static PetscErrorCode Rest_Private(SNES snes, Solver s, Vec x, Vec r, Vec dx, Pe
   PetscBool rests;
 
   PetscFunctionBegin;
-  PetscCall(ProblemRest(s->problem, x, dx, &rests));
+  PetscCall(ProblemRests(s->problem, x, dx, &rests));
   if (!rests) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(PetscInfo(snes, "flow ends: the step begins elastic\n"));
+  PetscCall(ProblemSetEdge(s->problem, EDGE_RESTS));
   PetscCall(Linearise_Private(snes, s, x, r, dx, ok));
-  PetscCall(ProblemSetRest(s->problem, PETSC_FALSE));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* The first linear step. Where contact moves along a surface, by what supports prescribe or else by what the linear step says, one that only carries the bodies
    to their new places takes its place: by the prescribed motion, without the pairs that move, and without the residual, so that loads on a body that nothing
-   but such a pair holds wait for the next iteration. That one begins elastic: where the pair was, the load comes off flowing material. */
-static PetscErrorCode First_Private(SNES snes, Solver s, Vec x, Vec r, Vec dx, PetscBool *ok)
+   but such a pair holds wait for the next iteration. That one begins elastic: what was carried along still stands on its yield surface, and where the pair was
+   the load comes off. */
+static PetscErrorCode First_Private(SNES snes, Solver s, Vec x, Vec r, Vec dx, MaterialEdge *next, PetscBool *ok)
 {
   PetscBool moved;
 
   PetscFunctionBegin;
-  *ok = PETSC_TRUE;
+  *ok   = PETSC_TRUE;
+  *next = EDGE_AS_IT_IS;
   PetscCall(ProblemReleaseSlips(s->problem, &moved));
   if (!moved) {
     PetscCall(Linearise_Private(snes, s, x, r, dx, ok));
@@ -254,23 +256,24 @@ static PetscErrorCode First_Private(SNES snes, Solver s, Vec x, Vec r, Vec dx, P
   PetscCall(VecZeroEntries(r));
   PetscCall(Linearise_Private(snes, s, x, r, dx, ok));
   PetscCall(ProblemEngage(s->problem));
-  PetscCall(ProblemSetRest(s->problem, PETSC_TRUE));
+  *next = EDGE_RESTS;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* One linearisation and the step it gives; snes->reason is set when there is none to be had. */
 static PetscErrorCode Iterate_Private(SNES snes, Solver s, Vec x, Vec r, Vec dx)
 {
-  PetscBool ok;
+  PetscBool    ok;
+  MaterialEdge next = EDGE_AS_IT_IS;
 
   PetscFunctionBegin;
   if (s->test) PetscCall(Test_Private(snes, s, x));
-  if (snes->iter == 0)
-    PetscCall(First_Private(snes, s, x, r, dx, &ok));
-  else {
+  if (snes->iter == 0) {
+    PetscCall(ProblemSetEdge(s->problem, EDGE_FLOWS));
+    PetscCall(First_Private(snes, s, x, r, dx, &next, &ok));
+  } else
     PetscCall(Linearise_Private(snes, s, x, r, dx, &ok));
-    PetscCall(ProblemSetRest(s->problem, PETSC_FALSE));
-  }
+  PetscCall(ProblemSetEdge(s->problem, next));
   if (ok) PetscCall(Step_Private(snes, s, x, dx, r));
   if (!ok)
     PetscCall(Finish_Private(snes, s, SNES_DIVERGED_LINEAR_SOLVE, "the tangent is singular"));
@@ -294,7 +297,6 @@ static PetscErrorCode SNESSolve_ContactNewton(SNES snes)
   s->best_iter        = 0;
   s->halvings         = 0;
   s->negative         = -1;
-  PetscCall(ProblemSetRest(s->problem, PETSC_FALSE));
   PetscCall(ProblemSearch(s->problem, x));
   PetscCall(SNESComputeFunction(snes, x, r));
   if (s->report->status.bad) PetscCall(Finish_Private(snes, s, SNES_DIVERGED_FUNCTION_DOMAIN, "the start of the step has an inverted cell"));
