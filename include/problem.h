@@ -43,6 +43,8 @@ PetscErrorCode ProblemOrderCaps(const SceneData *, Forest, int8_t (**cap)[3]);
 /* Collective. Scene data and forest must outlive the problem. */
 PetscErrorCode ProblemCreate(const SceneData *, Forest, const int8_t leaf_order[], Problem *);
 PetscErrorCode ProblemDestroy(Problem *);
+/* MechanicsFindInverted over all ranks. Collective. */
+PetscErrorCode ProblemFindInverted(Problem, PetscInt *order, PetscReal X[3]);
 
 PetscErrorCode ProblemGetScene(Problem, const SceneData **);
 PetscErrorCode ProblemGetForest(Problem, Forest *);

@@ -58,6 +58,8 @@ void           CellKernelHistory(CellKernel, PetscInt *num_points, PetscInt *num
 PetscErrorCode CellKernelEvaluate(CellKernel, CellBatch *);
 /* Weight times reference volume of the integration points of a cell with nodes X[n][d] (axisymmetric: of the full revolution). */
 PetscErrorCode CellKernelVolumes(CellKernel, const PetscReal *X, PetscReal *volume);
+/* One of nc cells with nodes X[nc][n][d] that is inverted at an integration point, or lies beyond the axis there; -1: none. */
+PetscErrorCode CellKernelFindInverted(CellKernel, PetscInt nc, const PetscReal *X, PetscInt *cell);
 
 /* Fibre directions at the integration points of one cell with nodes X[n][dim], which lies in the coarse cell root: num = 3 num_fibers points numbers,
  * [num_fibers][3][points]. */
@@ -240,11 +242,11 @@ struct _p_CellKernel {
   }
 
 /* cellfield.c */
-PetscErrorCode CellKernelGeometry_Private(CellKernel);                                            /* X -> inverse, volume, hoop_inverse */
-void           CellKernelDeformation_Private(CellKernel, Lanes *min_det);                         /* u -> F, measure[0] when mixed */
-void           CellKernelFlux_Private(CellKernel, Lanes *flux);                                   /* P -> flux [d][r][q] */
-void           CellKernelIntegrate_Private(CellKernel, const Lanes *flux, Lanes *result);         /* [d][r][q] -> [d][n] */
-void           CellKernelPullBack_Private(CellKernel, PetscInt q, const Lanes T[9], Lanes *flux); /* flux [d][r][q] at q of a stress-like T, times volume */
+PetscInt CellKernelGeometry_Private(CellKernel); /* X -> inverse, volume, hoop_inverse; a lane with a volume that is not positive, -1: none */
+void     CellKernelDeformation_Private(CellKernel, Lanes *min_det);                         /* u -> F, measure[0] when mixed */
+void     CellKernelFlux_Private(CellKernel, Lanes *flux);                                   /* P -> flux [d][r][q] */
+void     CellKernelIntegrate_Private(CellKernel, const Lanes *flux, Lanes *result);         /* [d][r][q] -> [d][n] */
+void     CellKernelPullBack_Private(CellKernel, PetscInt q, const Lanes T[9], Lanes *flux); /* flux [d][r][q] at q of a stress-like T, times volume */
 /* cellpressure.c */
 void CellKernelProject_Private(CellKernel);                                                     /* measure -> mass, moment, coefficient */
 void CellKernelAddPressure_Private(CellKernel);                                                 /* P += pi g' cof */
