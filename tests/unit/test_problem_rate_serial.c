@@ -112,7 +112,7 @@ static void Integrate(const Solved *s, Figures *f)
     const PetscInt p = v->cell_order[c], n = ElementNumNodes(3, p), np = CellGauss(3, p + 3, xi, weight);
     OK(HPSpaceGatherPositions(s->space, c, X));
     OK(HPSpaceGather(s->space, c, s->u, u));
-    OK(MechanicsPoints(s->mechanics, c, np, xi, s->u, F, P, NULL));
+    OK(MechanicsPoints(s->mechanics, c, np, xi, s->u, &(PointValues){.F = F, .P = P}));
     for (PetscInt q = 0; q < np; ++q) {
       PetscReal at[3] = {0}, uh[3] = {0}, J[9] = {0}, exact[3], H[9], h1 = 0, l2 = 0, norm = 0;
       OK(ElementEvaluate(3, p, xi + 3 * q, N, D));
