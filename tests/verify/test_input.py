@@ -247,6 +247,15 @@ def test_refused(check, edit, words):
         refused(result, *words)
 
 
+def test_many_long_names(check):
+    """Forty groups of sixty characters are more than the message has room for: it ends among them."""
+    names = [f"group_{i}_{'x' * 60}"[:60] for i in range(40)]
+    geo = GEO + "".join(f'Physical Curve("{name}", {20 + i}) = {{{(2, 4, 12, 14)[i % 4]}}};\n' for i, name in enumerate(names))
+    result = check([("boundary:\n", "boundary:\n  tip: {fix: x}\n")], geo=geo)
+    refused(result, "no boundary group 'tip'", names[0])
+    assert names[-1] not in result.stderr, result
+
+
 NO_PAIR = ("contact:\n  pair: {nonmortar: upper_bottom, mortar: lower_top, friction: 0}\n", "")
 
 
