@@ -389,6 +389,13 @@ def test_solver_option_misspelt(run):
         assert result.stderr == "mortise: -solve_rtoll is no option of the solver; the nearest one is -solve_rtol\n", result.stderr
 
 
+@pytest.mark.parametrize("option,said", [("-snes_monitorr", "mortise: nothing used the option -snes_monitorr; is it spelt right?\n"), ("-options_view", "")])
+def test_option_of_petsc(run, option, said):
+    """One that nothing uses is named once, by us, not by PETSc; one that PETSc reads last of all is no such option."""
+    result = run("inputs/patch2d.yml", option)
+    assert result.returncode == 0 and result.stderr == said and "unused" not in result.stdout, result
+
+
 def test_command_line_wins(check):
     result = check((), "-material_rubber_E", "26", "-order", "3", "-boundary_bottom_fix", "y", "-mesh_parameter_n", "3")
     assert result.returncode == 0, result
