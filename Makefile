@@ -102,7 +102,8 @@ $(BUILD)/bench/%: tests/bench/%.c $(LIBRARY)
 
 units: $(UNITS)
 unit: $(UNITS)
-	@for t in $(UNITS); do echo "== $$t"; $$t || exit 1; done
+	@mkdir -p $(BUILD)/unit/run
+	@cd $(BUILD)/unit/run && for t in $(abspath $(UNITS)); do echo "== $$t"; $$t || exit 1; done
 
 # ---- what a newcomer types: `bootstrap` first, then a second make that finds the compiler ------------------------------
 

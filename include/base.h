@@ -32,6 +32,10 @@ PetscErrorCode HelpRow(MPI_Comm, const char *name, const char *allowed, const ch
 
 /* Install the error handler that keeps quiet about input errors and prints PETSc's traceback for all others. */
 PetscErrorCode ErrorHandlerPush(void);
+/* Between the two an error of PETSc whose message has these words is no end but an answer: *met, without a word on the screen; any other returns from the
+   second call as ever. code: what the call in question returned, without PetscCall around it; it must return the same on all ranks. No nesting. */
+PetscErrorCode ErrorForesee(const char *words);
+PetscErrorCode ErrorForeseen(PetscErrorCode code, PetscBool *met);
 
 /* ---- stages (base/log.c): a PetscLogEvent and accumulated wall seconds each ------------------------------------- */
 

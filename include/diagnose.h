@@ -14,7 +14,7 @@ typedef struct {
   PetscReal moment_imbalance; /* |sum over both sides| / (total * diameter of the nonmortar side) */
   PetscReal max_pressure;     /* largest multiplier */
   PetscReal area;             /* in contact: sum of the tributary lengths (areas) of active nodes */
-  PetscReal radius;           /* two dimensions: largest |x| of a touching point, see BalanceZone; 0 without contact */
+  PetscReal radius;           /* two dimensions: largest |x| of a touching point, see BalanceZone; three: of a circle of this area; 0 without contact */
   PetscReal min_gap, max_gap; /* over covered nodes, gt_j / w_j; negative: penetration. 0 when nothing is covered */
   PetscInt  unusable;         /* overlaps that could not be used (ContactView) */
   PetscReal adjusted;         /* largest initial gap that was closed at a node (initial_gap: adjust) */

@@ -64,6 +64,10 @@ static inline PetscBool MaterialIsLimit(const MaterialParameter *p, PetscReal va
   return (PetscBool)(value == p->max && (!strcmp(p->name, "nu") || !strcmp(p->name, "kappa")));
 }
 
+/* What the tangent expects of points on their yield surface but for round-off, as every step finds them that follows one in which they flowed: the side they
+   are on, which is the derivative; that they flow on; or that they become elastic. */
+typedef enum { EDGE_AS_IT_IS, EDGE_FLOWS, EDGE_RESTS } MaterialEdge;
+
 /* Points at which a law is asked, structure of arrays with stride n. Outputs that are NULL are skipped. */
 typedef struct {
   PetscInt         n;
@@ -76,7 +80,7 @@ typedef struct {
      functions of F and history alone. */
   const PetscReal *history;
   PetscReal       *trial;
-  PetscBool        rests; /* points just at the edge of flow are expected to stay elastic: A is then the elastic one there; else that of further flow */
+  MaterialEdge     edge; /* for A */
   PetscBool held; /* trial alone: points beyond the yield surface go back to it without any flow, the elastic strain radially, plastic strain unchanged */
   PetscBool bad;  /* out: set at points with det F <= 0, or where the law has no answer (the energy exceeds all numbers, the yield stress is used up) (numerical
                      status, no error); never reset */

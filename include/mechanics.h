@@ -77,6 +77,10 @@ PetscErrorCode MechanicsSupportsDestroy(Supports *);
 /* After HPSpaceSetUp. Takes a reference to nothing: space, spec and supports must outlive it. */
 PetscErrorCode MechanicsCreate(HPSpace, const MechanicsSpec *, const Supports *, Mechanics *);
 PetscErrorCode MechanicsDestroy(Mechanics *);
+/* Is a cell of this rank inverted in the reference mesh (Jacobian determinant not positive at an integration point)? Then its order and a node of it; order 0:
+   none is. Cells are images of the nodes of their order, which hang from coarser neighbours: a valid curved coarse mesh does not rule it out. Forces of such a
+   mesh must not be asked for. Not collective. */
+PetscErrorCode MechanicsFindInverted(Mechanics, PetscInt *order, PetscReal X[3]);
 
 /* Pseudo-time: evaluates dead loads and prescribed values. */
 PetscErrorCode MechanicsSetTime(Mechanics, PetscReal t);
@@ -176,8 +180,8 @@ PetscErrorCode MechanicsCommit(Mechanics, const PetscReal u[], PetscReal history
 PetscErrorCode MechanicsAdmit(Mechanics, const PetscReal u[], PetscReal history[]);
 /* At how many integration points of this rank material flows on the way from the history last set to u. Not collective. */
 PetscErrorCode MechanicsNumFlowing(Mechanics, const PetscReal u[], PetscInt *num);
-/* What the tangent expects of points on their yield surface: that they flow on (the default), or that they rest. */
-PetscErrorCode MechanicsSetRest(Mechanics, PetscBool rests);
+/* What the tangent expects of points on their yield surface. Not collective. */
+PetscErrorCode MechanicsSetEdge(Mechanics, MaterialEdge);
 /* The integration points of a cell of this order: tensor products of this table's, the first direction fastest. Not collective. */
 PetscErrorCode MechanicsPointRule(PetscInt order, const Basis1D **);
 /* Where an owned cell's numbers lie in the array; num 0: no history, rigid, or a ghost. */

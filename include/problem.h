@@ -43,6 +43,8 @@ PetscErrorCode ProblemOrderCaps(const SceneData *, Forest, int8_t (**cap)[3]);
 /* Collective. Scene data and forest must outlive the problem. */
 PetscErrorCode ProblemCreate(const SceneData *, Forest, const int8_t leaf_order[], Problem *);
 PetscErrorCode ProblemDestroy(Problem *);
+/* MechanicsFindInverted over all ranks. Collective. */
+PetscErrorCode ProblemFindInverted(Problem, PetscInt *order, PetscReal X[3]);
 
 PetscErrorCode ProblemGetScene(Problem, const SceneData **);
 PetscErrorCode ProblemGetForest(Problem, Forest *);
@@ -225,10 +227,10 @@ PetscErrorCode ProblemRelease(Problem, PetscBool *any);
    pressure: as far as supports say how the bodies move along it. Collective. */
 PetscErrorCode ProblemReleaseSlips(Problem, PetscBool *any);
 PetscErrorCode ProblemEngage(Problem);
-/* At the start of a step, where dx is the linear step there: would most points on their yield surface leave it? Then the next tangents take such points for
-   elastic, until ProblemFlow. Collective. */
-PetscErrorCode ProblemRest(Problem, Vec x, Vec dx, PetscBool *rests);
-PetscErrorCode ProblemFlow(Problem);
+/* What tangents expect of points on their yield surface. Not collective. */
+PetscErrorCode ProblemSetEdge(Problem, MaterialEdge);
+/* At the start of a step, where dx is the linear step there: would most points on their yield surface leave it? Collective. */
+PetscErrorCode ProblemRests(Problem, Vec x, Vec dx, PetscBool *rests);
 /* A number that tells active sets of this problem apart, the same on every rank. Collective. */
 PetscErrorCode ProblemActiveSetHash(Problem, uint64_t *hash);
 /* A Newton step: Begin remembers where it starts; Move sets x = start + step dx and the prescribed motion likewise (may be called again with a shorter step)

@@ -28,6 +28,6 @@ typedef struct {
 PetscErrorCode TransferPack(Problem, const State *, Pack *);
 /* The other way, on any partition of the same forest with the same orders and physics: solution, pressures, history and multipliers of a created state; t and
    orders stay. The problem's matrix is made anew. *jump: largest difference between a prescribed displacement as applied and as packed, against the largest
-   displacement packed. Collective. */
+   displacement packed. Fields that are missing or of another size (of other versions) are an input error. Collective. */
 PetscErrorCode TransferUnpack(Problem, const Pack *, State *, PetscReal *jump);
 PetscErrorCode PackDestroy(Pack *);

@@ -66,18 +66,32 @@ static PetscErrorCode PrescribeAt_Private(Problem problem, PetscReal t)
 }
 
 /* The level on the adapted forest with both states carried over, each under the prescribed motion of its own time: new nodes near a support are
-   interpolated from prescribed ones. Both take the history of the accepted one, made admissible there; of a step that went in pieces, too. */
-static PetscErrorCode MoveTo_Private(App *app, Forest forest, const int8_t old_order[], const ForestMap *map)
+   interpolated from prescribed ones. Both take the history of the accepted one, made admissible there; of a step that went in pieces, too. Where the mesh has
+   inverted cells (sides that hang from coarser cells cut across curved ones) the level stays: *inverted. */
+static PetscErrorCode MoveTo_Private(App *app, Forest forest, const int8_t old_order[], const ForestMap *map, PetscBool *inverted)
 {
   const Level *old = &app->level;
   Level        next;
   int8_t      *orders;
   PetscBool    following;
-  PetscReal    length;
+  PetscReal    length, X[3];
+  PetscInt     order;
 
   PetscFunctionBegin;
   PetscCall(TransferOrders(map, old_order, &orders));
   PetscCall(LevelCreate(app->data, forest, orders, old->state.t, &next));
+  PetscCall(PetscFree(orders));
+  PetscCall(ProblemFindInverted(next.problem, &order, X));
+  *inverted = (PetscBool)(order > 0);
+  if (*inverted) {
+    PetscCall(PetscPrintf(app->comm,
+                          "note: refinement would invert a curved cell of order %" PetscInt_FMT
+                          " at (%g, %g, %g): the coarser mesh stays; smaller cells there, "
+                          "a higher order or mesh.order: 1 avoid it\n",
+                          order, (double)X[0], (double)X[1], (double)X[2]));
+    PetscCall(LevelDestroy(&next));
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
   PetscCall(StageBegin(STAGE_TRANSFER));
   next.accepted.t = old->accepted.t;
   PetscCall(TransferState(old->problem, &old->state, next.problem, map, &next.state));
@@ -90,7 +104,6 @@ static PetscErrorCode MoveTo_Private(App *app, Forest forest, const int8_t old_o
   PetscCall(ProblemIsFollowing(old->problem, &following));
   if (following) PetscCall(ProblemFollow(next.problem, next.accepted.x, next.state.x, &length));
   PetscCall(StageEnd(STAGE_TRANSFER));
-  PetscCall(PetscFree(orders));
   app->level = next;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -158,7 +171,8 @@ static PetscErrorCode Reequilibrate_Private(App *app, PetscInt *iterations, Pets
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Adapt to the layers marked at contact faces, if any, else mark and adapt; *adapted false when nothing may or need be refined. */
+/* Adapt to the layers marked at contact faces, if any, else mark and adapt; *adapted false when nothing may or need be refined, and adaptation ends with that.
+ */
 static PetscErrorCode Refine_Private(App *app, MarkList *layers, PetscBool *adapted)
 {
   const ForestTables *t;
@@ -168,6 +182,7 @@ static PetscErrorCode Refine_Private(App *app, MarkList *layers, PetscBool *adap
   ForestMap           map;
   int8_t             *order  = NULL;
   PetscReal          *weight = NULL;
+  PetscBool           inverted;
 
   PetscFunctionBegin;
   PetscCall(ForestGetTables(app->level.forest, &t));
@@ -178,13 +193,16 @@ static PetscErrorCode Refine_Private(App *app, MarkList *layers, PetscBool *adap
     PetscCall(PetscArraycpy(order, app->level.state.leaf_order, t->num_leaves));
   for (PetscInt l = 0; order && l < t->num_leaves; ++l) weight[l] = PetscPowInt(order[l], t->dim);
   *adapted = (PetscBool)(marked > 0);
+  if (!*adapted) app->adapt_stop = app->estimate.num_leaves >= app->data->adapt.max_cells / 2 ? "max_cells" : "nothing left to refine";
   if (*adapted) {
     PetscCall(AppContactPairs(app, &num_pairs, &pairs));
     PetscCall(StageBegin(STAGE_MESH));
     PetscCall(ForestAdapt(app->level.forest, &list, weight, num_pairs, (const PetscInt(*)[2])pairs, &forest, &map));
     PetscCall(StageEnd(STAGE_MESH));
     PetscCall(PetscFree(pairs));
-    PetscCall(MoveTo_Private(app, forest, order ? order : app->level.state.leaf_order, &map));
+    PetscCall(MoveTo_Private(app, forest, order ? order : app->level.state.leaf_order, &map, &inverted));
+    if (inverted) app->adapt_stop = "refinement inverts a curved cell";
+    *adapted = (PetscBool)!inverted;
     PetscCall(ForestMapDestroy(&map));
   }
   PetscCall(MarkListDestroy(&list));
@@ -201,8 +219,7 @@ static PetscErrorCode Pass_Private(App *app, MarkList *layers, PetscInt *iterati
   PetscFunctionBegin;
   PetscCall(Refine_Private(app, layers, more));
   if (!*more) {
-    *iterations     = 0;
-    app->adapt_stop = app->estimate.num_leaves >= app->data->adapt.max_cells / 2 ? "max_cells" : "nothing left to refine";
+    *iterations = 0;
     PetscFunctionReturn(PETSC_SUCCESS);
   }
   PetscCall(Reequilibrate_Private(app, iterations, more));

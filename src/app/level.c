@@ -16,6 +16,20 @@ PetscErrorCode LevelCreate(const SceneData *data, Forest forest, const int8_t le
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscErrorCode LevelCheck(const Level *level)
+{
+  PetscInt  order;
+  PetscReal X[3];
+
+  PetscFunctionBegin;
+  PetscCall(ProblemFindInverted(level->problem, &order, X));
+  PetscCheckInput(!order,
+                  "mesh: a cell of order %" PetscInt_FMT " at (%g, %g, %g) is inverted, for sides that are straight or hang from coarser cells cut across "
+                  "curved ones; take smaller cells there, a higher order or mesh.order: 1, or other refinements",
+                  order, (double)X[0], (double)X[1], (double)X[2]);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode LevelDestroy(Level *level)
 {
   PetscFunctionBegin;

@@ -9,6 +9,7 @@ static PetscErrorCode Begin_Private(App *app, Forest forest)
   PetscFunctionBegin;
   PetscCall(ProblemInitialOrders(app->data, forest, &orders));
   PetscCall(LevelCreate(app->data, forest, orders, 0, &app->level));
+  PetscCall(LevelCheck(&app->level));
   PetscCall(PetscFree(orders));
   app->dt         = app->data->load.step;
   app->adapt_stop = "";

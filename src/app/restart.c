@@ -159,6 +159,7 @@ static PetscErrorCode Level_Private(App *app, Checkpoint c, Forest coarse, Level
   PetscCall(CheckpointForest(c, coarse, &forest));
   PetscCall(CheckpointOrders(c, &orders));
   PetscCall(LevelCreate(app->data, forest, orders, t, level));
+  PetscCall(LevelCheck(level));
   PetscCall(CheckpointState(c, level->problem, &level->state));
   PetscCall(StateCopy(&level->state, &level->accepted));
   PetscCall(ForestGetTables(forest, &tables));

@@ -23,11 +23,17 @@ PetscErrorCode ErrorInput(const char *format, ...)
   return MORTISE_ERR_INPUT;
 }
 
-/* PETSc calls the handler once per PetscCall level, with PETSC_ERROR_REPEAT from the second on: the code alone decides. */
+static const char *foreseen;
+static PetscBool   foreseen_met;
+
+/* PETSc calls the handler once per PetscCall level, with PETSC_ERROR_REPEAT from the second on: the code alone decides, and whether the first words were
+   foreseen. */
 static PetscErrorCode ErrorHandler_Private(MPI_Comm comm, int line, const char *function, const char *file, PetscErrorCode code, PetscErrorType type,
                                            const char *message, void *context)
 {
   if (code == MORTISE_ERR_INPUT) return code;
+  if (foreseen && type == PETSC_ERROR_INITIAL && message && strstr(message, foreseen)) foreseen_met = PETSC_TRUE;
+  if (foreseen_met) return code;
   return PetscTraceBackErrorHandler(comm, line, function, file, code, type, message, context);
 }
 
@@ -35,5 +41,25 @@ PetscErrorCode ErrorHandlerPush(void)
 {
   PetscFunctionBegin;
   PetscCall(PetscPushErrorHandler(ErrorHandler_Private, NULL));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode ErrorForesee(const char *words)
+{
+  PetscFunctionBegin;
+  foreseen     = words;
+  foreseen_met = PETSC_FALSE;
+  PetscCall(ErrorHandlerPush());
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode ErrorForeseen(PetscErrorCode code, PetscBool *met)
+{
+  *met         = foreseen_met;
+  foreseen     = NULL;
+  foreseen_met = PETSC_FALSE;
+  PetscFunctionBegin;
+  PetscCall(PetscPopErrorHandler());
+  if (!*met) PetscCall(code);
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -1,6 +1,6 @@
 /* Where mortar facets lie behind one another in a facet's view (folds, thin bodies, layers), the nearest counts: overlaps are taken by growing distance, and
-   one that shares more than a millionth of the facet and a tenth of its own or the other's area with one already taken is dropped. (Neighbours on curved
-   surfaces may share slivers where nodes hang.) */
+   one is dropped of which those already taken hide more than a millionth of the facet and a tenth of its own area. What is hidden of one that stays counts
+   twice. (Neighbours on curved surfaces may share slivers where nodes hang.) */
 #include "facetimpl.h"
 
 enum { MOST = 2 * FACET_VERTICES };
@@ -69,14 +69,10 @@ void ContactUnfold(PetscInt *num, Overlap overlap[], PetscInt order[], PetscReal
     overlap[k] = o, order[k] = n;
   }
   for (PetscInt i = 0; i < *num; i++) {
-    PetscBool free = PETSC_TRUE;
+    PetscReal hidden = 0;
 
-    for (PetscInt k = 0; k < kept && free; k++) {
-      const PetscReal least = PetscMin(overlap[k].area, overlap[i].area);
-
-      free = (PetscBool)(Shared_Private(&overlap[k], &overlap[i]) <= PetscMax(SHARED * area, SLIVER * least));
-    }
-    if (!free) continue;
+    for (PetscInt k = 0; k < kept; k++) hidden += Shared_Private(&overlap[k], &overlap[i]);
+    if (hidden > PetscMax(SHARED * area, SLIVER * overlap[i].area)) continue;
     overlap[kept] = overlap[i], order[kept++] = order[i];
   }
   *num = kept;

@@ -52,17 +52,6 @@ static PetscErrorCode Radius_Private(const ContactView *v, PetscReal *radius)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Three dimensions: largest distance of an active node of this rank from the z axis. */
-static PetscReal AxisDistance_Private(const ContactView *v)
-{
-  PetscReal radius = 0;
-
-  for (PetscInt n = 0; n < v->nonmortar.num_nodes; ++n) {
-    if (v->nonmortar.owned[n] && v->active[n]) radius = PetscMax(radius, PetscSqrtReal(PetscSqr(v->nonmortar.x[3 * n]) + PetscSqr(v->nonmortar.x[3 * n + 1])));
-  }
-  return radius;
-}
-
 PetscErrorCode BalanceZone(MPI_Comm comm, const ContactView *v, PairFigures *f)
 {
   PetscReal sum[3] = {0, 0, 0}, most[4] = {0, PETSC_MIN_REAL, PETSC_MIN_REAL, 0}; /* active, covered, area; pressure, - gap, gap, radius */
@@ -79,10 +68,7 @@ PetscErrorCode BalanceZone(MPI_Comm comm, const ContactView *v, PairFigures *f)
     sum[0] += 1;
     sum[2] += v->weight[n];
   }
-  if (v->nonmortar.dim == 2)
-    PetscCall(Radius_Private(v, &most[3]));
-  else
-    most[3] = AxisDistance_Private(v);
+  if (v->nonmortar.dim == 2) PetscCall(Radius_Private(v, &most[3]));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 3, MPIU_REAL, MPI_SUM, comm));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, most, 4, MPIU_REAL, MPI_MAX, comm));
   f->active_nodes  = (PetscInt)sum[0];
@@ -91,7 +77,7 @@ PetscErrorCode BalanceZone(MPI_Comm comm, const ContactView *v, PairFigures *f)
   f->max_pressure  = most[0];
   f->min_gap       = f->covered_nodes ? -most[1] : 0;
   f->max_gap       = f->covered_nodes ? most[2] : 0;
-  f->radius        = most[3];
+  f->radius        = v->nonmortar.dim == 2 ? most[3] : PetscSqrtReal(f->area / PETSC_PI);
   f->adjusted      = v->adjusted;
   f->unusable      = v->unusable;
   PetscFunctionReturn(PETSC_SUCCESS);

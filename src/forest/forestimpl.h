@@ -116,7 +116,10 @@ static inline int8_t ForestCoarseKey(const Coarse *coarse, PetscInt cell, const 
 
 /* Position (and Jacobian [3][dim] unless NULL) at xi in [0,1]^dim of a coarse cell. */
 void ForestCoarseMapPoint(const CoarseMesh *, PetscInt cell, const PetscReal xi[], PetscReal X[3], PetscReal jacobian[]);
-/* Sign of the Jacobian determinant over sample points of the cell: 1, -1, or 0 when it changes sign or vanishes. */
+
+/* ---- jacobian.c --------------------------------------------------------------------------------------------------- */
+
+/* Sign of the Jacobian determinant all over the cell: 1, -1, or 0 when it changes sign or vanishes. (Determinants of a degree above 11: at sample points.) */
 PetscInt ForestCoarseJacobianSign(const CoarseMesh *, PetscInt cell);
 
 /* ---- tree.c -------------------------------------------------------------------------------------------------------- */

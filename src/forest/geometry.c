@@ -46,25 +46,6 @@ void ForestCoarseMapPoint(const CoarseMesh *mesh, PetscInt cell, const PetscReal
       }
 }
 
-PetscInt ForestCoarseJacobianSign(const CoarseMesh *mesh, PetscInt cell)
-{
-  const PetscInt dim = mesh->dim, n = mesh->geometry_order + 2, nz = dim == 3 ? n : 1;
-  PetscReal      lowest = PETSC_MAX_REAL, highest = -PETSC_MAX_REAL, J[9], X[3];
-
-  for (PetscInt k = 0; k < nz; ++k)
-    for (PetscInt j = 0; j < n; ++j)
-      for (PetscInt i = 0; i < n; ++i) {
-        const PetscReal xi[3] = {(PetscReal)i / (n - 1), (PetscReal)j / (n - 1), (PetscReal)k / (n - 1)};
-        ForestCoarseMapPoint(mesh, cell, xi, X, J);
-        const PetscReal det = dim == 3 ? Det3(J) : J[0] * J[3] - J[1] * J[2];
-        lowest              = PetscMin(lowest, det);
-        highest             = PetscMax(highest, det);
-      }
-  /* A corner of a nearly flat angle is not inverted by rounding alone: the sign must be clear against the largest value. */
-  const PetscReal small = 1e-12 * PetscMax(PetscAbsReal(lowest), PetscAbsReal(highest));
-  return lowest > small ? 1 : highest < -small ? -1 : 0;
-}
-
 PetscErrorCode ForestMapPoint(Forest forest, PetscInt leaf, const PetscReal xi[], PetscReal X[3])
 {
   const ForestTables *t = &forest->tables;

@@ -10,9 +10,7 @@
 
 enum { YIELD = 5, HARDENING, SATURATION, SATURATION_RATE }; /* after the elastic parameters */
 #define ROOT23 0.81649658092772603273                       /* sqrt(2/3) */
-#define ON_SURFACE                                                                                                                                             \
-  1e-9 /* a step that starts so near the yield surface is expected to flow, unless it is told to rest: a much better start for Newton's method than the        \
-        * elastic tangent */
+#define ON_SURFACE 1e-9                                     /* share of its radius within which a point is on the yield surface but for round-off */
 
 const MaterialParameter MaterialJ2Parameters[] = {
     {"E", "stress", "Young's modulus", 0, PETSC_MAX_REAL},
@@ -148,8 +146,17 @@ INLINE void Trial_Private(const MaterialSpec *spec, const Deformation *d, Step *
   for (int l = 0; l < NUM_LANES; l++) t->length[l] = PetscSqrtReal(t->length[l]);
 }
 
+/* Points flow, for the tangent, from this multiple of the yield surface's radius on. */
+INLINE PetscReal Edge_Private(const Deformation *d)
+{
+  if (d->held || d->edge == EDGE_RESTS) return 1 + ON_SURFACE;
+  return d->edge == EDGE_FLOWS ? 1 - ON_SURFACE : 1;
+}
+
 INLINE void Step_Private(const MaterialSpec *spec, const Deformation *d, Step *t)
 {
+  const PetscReal edge = Edge_Private(d);
+
   Trial_Private(spec, d, t);
   t->alpha = d->history[6];
   t->dg = t->slope = (Lanes){0};
@@ -158,7 +165,7 @@ INLINE void Step_Private(const MaterialSpec *spec, const Deformation *d, Step *t
     PetscReal       dg, slope;
     const PetscReal radius = ROOT23 * YieldStress_Private(spec, t->alpha[l], &slope);
 
-    if (!(t->length[l] > (1 + (d->rests || d->held ? ON_SURFACE : -ON_SURFACE)) * radius)) continue;
+    if (!(t->length[l] > edge * radius)) continue;
     t->flows[l] = -1;
     t->slope[l] = slope;
     if (!(t->length[l] > radius)) continue;

@@ -8,11 +8,12 @@ typedef long LanesMask __attribute__((vector_size(NUM_LANES * sizeof(long)), may
 
 /* What the laws need to know of a deformation. J - 1 is built from H = F - 1, so that small strains keep their digits. */
 typedef struct {
-  Lanes     F[9], H[9], cof[9]; /* cof = J F^-T */
-  Lanes     fiber[MATERIAL_MAX_FIBERS][3];
-  Lanes     jm1, J, lnJ;
-  Lanes     history[MATERIAL_MAX_HISTORY]; /* of laws that have one */
-  PetscBool rests, held;                   /* as in MaterialPoints */
+  Lanes        F[9], H[9], cof[9]; /* cof = J F^-T */
+  Lanes        fiber[MATERIAL_MAX_FIBERS][3];
+  Lanes        jm1, J, lnJ;
+  Lanes        history[MATERIAL_MAX_HISTORY]; /* of laws that have one */
+  MaterialEdge edge;                          /* as in MaterialPoints */
+  PetscBool    held;
 } Deformation;
 
 /* What they answer. W alone, or with P, or with P and A, as asked. */
@@ -198,8 +199,8 @@ INLINE void PointLoop(PointLaw law, const PetscInt num_history, const MaterialSp
     LoadPoints(3 * spec->num_fibers, n, i, count, points->fiber, d.fiber[0]);
     if (num_history) LoadPoints(num_history, n, i, count, points->history, d.history);
     DeformationSet(&d, &any);
-    d.rests = points->rests;
-    d.held  = points->held;
+    d.edge = points->edge;
+    d.held = points->held;
     law(spec, part, &d, &r);
     StorePoints(1, n, i, count, &r.W, points->W);
     StorePoints(9, n, i, count, r.P, points->P);

@@ -197,8 +197,20 @@ PetscErrorCode CellKernelVolumes(CellKernel k, const PetscReal *X, PetscReal *vo
 {
   PetscFunctionBegin;
   Load_Private(1, k->num_nodes, k->dim, X, k->X);
-  PetscCall(CellKernelGeometry_Private(k));
+  (void)CellKernelGeometry_Private(k);
   for (PetscInt q = 0; q < k->num_points; q++) volume[q] = k->volume[q][0];
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode CellKernelFindInverted(CellKernel k, PetscInt nc, const PetscReal *X, PetscInt *cell)
+{
+  PetscFunctionBegin;
+  *cell = -1;
+  for (PetscInt first = 0; first < nc && *cell < 0; first += NUM_LANES) {
+    Load_Private(PetscMin(NUM_LANES, nc - first), k->num_nodes, k->dim, X + first * k->num_nodes * k->dim, k->X);
+    const PetscInt lane = CellKernelGeometry_Private(k);
+    if (lane >= 0) *cell = PetscMin(first + lane, nc - 1); /* lanes beyond the last cell repeat it */
+  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -243,7 +255,7 @@ static PetscErrorCode Law_Private(CellKernel k, PetscBool tangent, const CellBat
                              .A       = tangent ? (PetscReal *)k->A : NULL,
                              .history = (PetscReal *)&k->history[s * h * slab],
                              .trial   = (PetscReal *)&k->trial[s * h * slab],
-                             .rests   = b->rests,
+                             .edge    = b->edge,
                              .held    = b->held};
 
     PetscCall(MaterialEvaluate(&k->material, part, &points));
@@ -294,7 +306,7 @@ static PetscErrorCode Chunk_Private(CellKernel k, CellBatch *b, PetscInt first, 
              "The law %s needs the history of its points", k->material.law->name);
   Load_Private(num, n, d, b->X + first * size, k->X);
   Load_Private(num, n, d, b->u + first * size, k->u);
-  PetscCall(CellKernelGeometry_Private(k));
+  PetscCheck(CellKernelGeometry_Private(k) < 0, PETSC_COMM_SELF, PETSC_ERR_ARG_WRONGSTATE, "A cell is inverted in the reference mesh (MechanicsFindInverted)");
   CellKernelDeformation_Private(k, &min_det);
   for (PetscInt l = 0; l < num; l++) {
     if (b->min_det) b->min_det[first + l] = min_det[l];

@@ -160,13 +160,12 @@ INLINE Lanes Invert3_Private(const Lanes G[9], Lanes inv[9])
   return det;
 }
 
-PetscErrorCode CellKernelGeometry_Private(CellKernel k)
+PetscInt CellKernelGeometry_Private(CellKernel k)
 {
   const PetscInt nq = k->num_points, d = k->dim, r = k->num_derivatives;
   Lanes         *G        = k->gradient;
   PetscInt       inverted = -1;
 
-  PetscFunctionBegin;
   Gradient_Private(k, k->X, G);
   for (PetscInt q = 0; q < nq; q++) {
     Lanes det;
@@ -196,10 +195,7 @@ PetscErrorCode CellKernelGeometry_Private(CellKernel k)
     for (int l = 0; l < NUM_LANES; l++)
       if (!(k->volume[q][l] > 0)) inverted = l;
   }
-  PetscCheck(inverted < 0, PETSC_COMM_SELF, PETSC_ERR_ARG_WRONG,
-             "A cell of order %" PetscInt_FMT " at (%g, %g, %g) is inverted, or lies beyond the axis, in the reference mesh", k->order,
-             (double)k->X[0][inverted], (double)k->X[k->num_nodes][inverted], d == 3 ? (double)k->X[2 * k->num_nodes][inverted] : 0.);
-  PetscFunctionReturn(PETSC_SUCCESS);
+  return inverted;
 }
 
 /* H = grad u at point q: H_iJ = sum_r du_i/dxi_r dxi_r/dX_J; hoop: H_33 = u_r / R. */

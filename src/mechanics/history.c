@@ -237,10 +237,10 @@ PetscErrorCode MechanicsNumFlowing(Mechanics m, const PetscReal u[], PetscInt *n
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode MechanicsSetRest(Mechanics m, PetscBool rests)
+PetscErrorCode MechanicsSetEdge(Mechanics m, MaterialEdge edge)
 {
   PetscFunctionBegin;
-  m->rests = rests;
+  m->edge = edge;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -175,7 +175,7 @@ PetscErrorCode MechanicsTangent(Mechanics m, const PetscReal u[], const PetscRea
                          .place     = g->place,
                          .num_inner = g->num_inner,
                          .inner     = g->factor + first * g->num_inner * m->dim * nd,
-                         .rests     = m->rests,
+                         .edge      = m->edge,
                          .history   = MechanicsBatchHistory_Private(m, g, first)};
       PetscCall(GatherBatch_Private(m, g, first, batch.nc, u, b.u));
       if (g->m) {

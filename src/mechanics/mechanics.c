@@ -154,6 +154,23 @@ PetscErrorCode MechanicsDestroy(Mechanics *mechanics)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscErrorCode MechanicsFindInverted(Mechanics m, PetscInt *order, PetscReal X[3])
+{
+  PetscInt cell = -1;
+
+  PetscFunctionBegin;
+  *order = 0;
+  X[0] = X[1] = X[2] = 0;
+  for (PetscInt g = 0; g < m->num_groups && cell < 0; ++g) {
+    const CellGroup *group = &m->groups[g];
+    PetscCall(CellKernelFindInverted(group->kernel, group->num_cells, group->X, &cell));
+    if (cell < 0) continue;
+    *order = group->order;
+    for (PetscInt i = 0; i < m->dim; ++i) X[i] = group->X[cell * group->n * m->dim + i];
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode MechanicsSetTime(Mechanics m, PetscReal t)
 {
   PetscFunctionBegin;

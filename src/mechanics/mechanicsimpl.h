@@ -22,7 +22,7 @@ typedef struct {
   PetscReal       *residual; /* [nc][n*d] dE/du, row node*d + component; a function of u alone */
   const PetscReal *history;  /* [nc][points][num_history] of laws with history, as the last accepted step left it */
   PetscReal       *trial;    /* [nc][points][num_history] as a step that ended at u would leave it */
-  PetscBool        rests;    /* tangent: points at the edge of flow are expected to stay elastic */
+  MaterialEdge     edge;     /* for the tangent */
   PetscBool        held;     /* trial alone: as in MaterialPoints */
   PetscReal       *tangent;  /* [nc][n*d][n*d] full, symmetric unless the law is not; exact derivative of residual when pressure is NULL or consistent */
   const PetscInt  *place;    /* [n] NULL, or where the nodes stand, inner ones first: then of the symmetric matrix only K[row <= column] are written,
@@ -58,6 +58,8 @@ void           CellKernelHistory(CellKernel, PetscInt *num_points, PetscInt *num
 PetscErrorCode CellKernelEvaluate(CellKernel, CellBatch *);
 /* Weight times reference volume of the integration points of a cell with nodes X[n][d] (axisymmetric: of the full revolution). */
 PetscErrorCode CellKernelVolumes(CellKernel, const PetscReal *X, PetscReal *volume);
+/* One of nc cells with nodes X[nc][n][d] that is inverted at an integration point, or lies beyond the axis there; -1: none. */
+PetscErrorCode CellKernelFindInverted(CellKernel, PetscInt nc, const PetscReal *X, PetscInt *cell);
 
 /* Fibre directions at the integration points of one cell with nodes X[n][dim], which lies in the coarse cell root: num = 3 num_fibers points numbers,
  * [num_fibers][3][points]. */
@@ -142,10 +144,10 @@ struct _p_Mechanics {
   PetscReal *volume_scale;  /* owned [num_owned_cells] E / h: what turns int q g(J) into a force */
 
   /* history.c */
-  PetscInt   num_history, *cell_history; /* numbers of owned cells; owned [num_cells] where those of a cell, ghosts too, start in history */
-  PetscReal *history;                    /* owned: as the last accepted step left it, own cells first, then ghosts */
-  PetscBool  rests;                      /* points at the edge of flow are expected to stay elastic */
-  PetscSF    history_sf;                 /* owned: ghosts' numbers from their owners; NULL: no law has history */
+  PetscInt     num_history, *cell_history; /* numbers of owned cells; owned [num_cells] where those of a cell, ghosts too, start in history */
+  PetscReal   *history;                    /* owned: as the last accepted step left it, own cells first, then ghosts */
+  MaterialEdge edge;                       /* for the tangent */
+  PetscSF      history_sf;                 /* owned: ghosts' numbers from their owners; NULL: no law has history */
 };
 
 /* History of the cells of a group from position `first` on; NULL: its law has none. */
@@ -240,11 +242,11 @@ struct _p_CellKernel {
   }
 
 /* cellfield.c */
-PetscErrorCode CellKernelGeometry_Private(CellKernel);                                            /* X -> inverse, volume, hoop_inverse */
-void           CellKernelDeformation_Private(CellKernel, Lanes *min_det);                         /* u -> F, measure[0] when mixed */
-void           CellKernelFlux_Private(CellKernel, Lanes *flux);                                   /* P -> flux [d][r][q] */
-void           CellKernelIntegrate_Private(CellKernel, const Lanes *flux, Lanes *result);         /* [d][r][q] -> [d][n] */
-void           CellKernelPullBack_Private(CellKernel, PetscInt q, const Lanes T[9], Lanes *flux); /* flux [d][r][q] at q of a stress-like T, times volume */
+PetscInt CellKernelGeometry_Private(CellKernel); /* X -> inverse, volume, hoop_inverse; a lane with a volume that is not positive, -1: none */
+void     CellKernelDeformation_Private(CellKernel, Lanes *min_det);                         /* u -> F, measure[0] when mixed */
+void     CellKernelFlux_Private(CellKernel, Lanes *flux);                                   /* P -> flux [d][r][q] */
+void     CellKernelIntegrate_Private(CellKernel, const Lanes *flux, Lanes *result);         /* [d][r][q] -> [d][n] */
+void     CellKernelPullBack_Private(CellKernel, PetscInt q, const Lanes T[9], Lanes *flux); /* flux [d][r][q] at q of a stress-like T, times volume */
 /* cellpressure.c */
 void CellKernelProject_Private(CellKernel);                                                     /* measure -> mass, moment, coefficient */
 void CellKernelAddPressure_Private(CellKernel);                                                 /* P += pi g' cof */

@@ -131,7 +131,7 @@ PetscErrorCode CheckpointGetNumber(Checkpoint c, const char *name, PetscReal *va
 
   PetscFunctionBegin;
   while (i < c->num_numbers && strcmp(c->number[i].name, name)) ++i;
-  PetscCheckInput(i < c->num_numbers, "-restart %s: the number %s is not in it", c->path, name);
+  PetscCheckInput(i < c->num_numbers, "-restart %s: it has no number %s: another version of mortise wrote it", c->path, name);
   *value = c->number[i].value;
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -241,6 +241,19 @@ static PetscErrorCode ReadNumbers_Private(Checkpoint c, hid_t file)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Has it all that this version reads? Others may have written less. */
+static PetscErrorCode Complete_Private(hid_t file, const char *path)
+{
+  static const char *const link[] = {"physics", "note", "split", "order", "owner", "fields", "numbers"}, *const attribute[] = {"mesh", "revision", "ranks"};
+
+  PetscFunctionBegin;
+  for (size_t i = 0; i < PETSC_STATIC_ARRAY_LENGTH(link); ++i)
+    PetscCheckInput(H5Lexists(file, link[i], H5P_DEFAULT) > 0, "-restart %s: it has no %s: another version of mortise wrote it", path, link[i]);
+  for (size_t i = 0; i < PETSC_STATIC_ARRAY_LENGTH(attribute); ++i)
+    PetscCheckInput(H5Aexists(file, attribute[i]) > 0, "-restart %s: it has no %s: another version of mortise wrote it", path, attribute[i]);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode CheckpointRead(MPI_Comm comm, const char *path, Checkpoint *checkpoint)
 {
   Checkpoint c;
@@ -255,6 +268,7 @@ PetscErrorCode CheckpointRead(MPI_Comm comm, const char *path, Checkpoint *check
   PetscCall(OutputAccess(comm, &access));
   PetscCallH5Id(file, H5Fopen(path, H5F_ACC_RDONLY, access));
   PetscCallH5(H5Pclose(access));
+  PetscCall(Complete_Private(file, path));
   PetscCall(ReadText_Private(file, "physics", &c->physics));
   PetscCall(ReadText_Private(file, "note", &note));
   PetscCall(PetscStrncpy(c->note, note, sizeof(c->note)));

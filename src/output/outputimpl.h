@@ -32,6 +32,7 @@ PetscErrorCode OutputPhysics(const SceneData *, const CoarseMesh *, OutputText *
 /* Where two such texts first differ: what each has there, "" where it has ended. PETSC_FALSE: nowhere. */
 PetscBool OutputFirstDifference(const char *a, const char *b, char what[2][OUTPUT_DIFFERENCE]);
 
+/* To be raised when what stands under a name changes its meaning; what has come under a new name is missed where it is not. */
 #define CHECKPOINT_FORMAT 1
 struct _p_Checkpoint {
   MPI_Comm          comm;

@@ -71,7 +71,7 @@ static void AddPair_Private(cJSON *contact, PetscInt dim, const char *name, cons
   AddNumber_Private(pair, "moment_imbalance", f->moment_imbalance);
   AddNumber_Private(pair, "max_pressure", f->max_pressure);
   AddNumber_Private(pair, "area", f->area);
-  if (dim == 2) AddNumber_Private(pair, "radius", f->radius);
+  AddNumber_Private(pair, dim == 2 ? "radius" : "equivalent_radius", f->radius);
   AddNumber_Private(pair, "active_nodes", (PetscReal)f->active_nodes);
   AddNumber_Private(pair, "covered_nodes", (PetscReal)f->covered_nodes);
   AddNumber_Private(pair, "min_gap", f->min_gap);

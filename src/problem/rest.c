@@ -6,7 +6,7 @@
 #define SMALL                                                                                                                                                  \
   1e-6 /* share of the linear step that is looked at: far enough to tell the sides of the yield surface apart, too little to reach the other end of it */
 
-PetscErrorCode ProblemRest(Problem p, Vec x, Vec dx, PetscBool *rests)
+PetscErrorCode ProblemRests(Problem p, Vec x, Vec dx, PetscBool *rests)
 {
   const HPTables *v;
   PetscReal      *u;
@@ -25,14 +25,13 @@ PetscErrorCode ProblemRest(Problem p, Vec x, Vec dx, PetscBool *rests)
   }
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, num, 2, MPIU_INT, MPI_SUM, p->comm));
   *rests = (PetscBool)(num[1] > num[0]);
-  PetscCall(MechanicsSetRest(p->mechanics, *rests));
   PetscCall(PetscFree(u));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode ProblemFlow(Problem p)
+PetscErrorCode ProblemSetEdge(Problem p, MaterialEdge edge)
 {
   PetscFunctionBegin;
-  PetscCall(MechanicsSetRest(p->mechanics, PETSC_FALSE));
+  PetscCall(MechanicsSetEdge(p->mechanics, edge));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -134,13 +134,44 @@ static PetscErrorCode Factor_Private(Solver s, Mat A)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* MUMPS out of memory, or off the rails, while it solves: PETSc makes an error of it, which here is a solution that is not found. The preconditioner was left
+   in the middle of its work: another takes its place. */
+static PetscErrorCode Solve_Private(Solver s, Vec rhs, Vec x, PetscBool *ok)
+{
+  PetscErrorCode     code;
+  KSPConvergedReason reason;
+  PetscReal          norm;
+  PetscBool          failed;
+  KSP                ksp;
+  PC                 pc;
+
+  PetscFunctionBegin;
+  PetscCall(SNESGetKSP(s->snes, &ksp));
+  PetscCall(ErrorForesee("MUMPS in solve"));
+  code = KSPSolve(ksp, rhs, x);
+  PetscCall(ErrorForeseen(code, &failed));
+  *ok = PETSC_FALSE;
+  if (failed) {
+    PetscCall(PetscInfo(s->snes, "MUMPS failed in the solve\n"));
+    PetscCall(KSPDestroy(&s->refine));
+    PetscCall(PCCreate(PetscObjectComm((PetscObject)ksp), &pc));
+    PetscCall(KSPSetPC(ksp, pc));
+    PetscCall(Double_Private(s, pc));
+    PetscCall(PCSetFromOptions(pc));
+    PetscCall(PCDestroy(&pc));
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
+  PetscCall(KSPGetConvergedReason(ksp, &reason));
+  PetscCall(VecNorm(x, NORM_2, &norm));
+  *ok = (PetscBool)(reason >= 0 && !PetscIsInfOrNanReal(norm));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* Factorise A and solve. Where a factor in single precision does not serve, those in double take over for good. */
 PetscErrorCode SolverDirect_Private(Solver s, Mat A, Vec rhs, Vec x, PetscBool *ok)
 {
-  KSPConvergedReason reason;
-  PetscReal          norm;
-  KSP                ksp;
-  PC                 pc;
+  KSP ksp;
+  PC  pc;
 
   PetscFunctionBegin;
   PetscCall(SNESGetKSP(s->snes, &ksp));
@@ -163,11 +194,8 @@ PetscErrorCode SolverDirect_Private(Solver s, Mat A, Vec rhs, Vec x, PetscBool *
   PetscCall(Factor_Private(s, A));
   PetscCall(StageEnd(STAGE_FACTOR));
   PetscCall(StageBegin(STAGE_SOLVE));
-  PetscCall(KSPSolve(ksp, rhs, x));
+  PetscCall(Solve_Private(s, rhs, x, ok));
   PetscCall(StageEnd(STAGE_SOLVE));
-  PetscCall(KSPGetConvergedReason(ksp, &reason));
-  PetscCall(VecNorm(x, NORM_2, &norm));
-  *ok = (PetscBool)(reason >= 0 && !PetscIsInfOrNanReal(norm));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -226,11 +226,11 @@ static PetscErrorCode Rest_Private(SNES snes, Solver s, Vec x, Vec r, Vec dx, Pe
   PetscBool rests;
 
   PetscFunctionBegin;
-  PetscCall(ProblemRest(s->problem, x, dx, &rests));
+  PetscCall(ProblemRests(s->problem, x, dx, &rests));
   if (!rests) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(PetscInfo(snes, "flow ends: the step begins elastic\n"));
+  PetscCall(ProblemSetEdge(s->problem, EDGE_RESTS));
   PetscCall(Linearise_Private(snes, s, x, r, dx, ok));
-  PetscCall(ProblemFlow(s->problem));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -264,9 +264,11 @@ static PetscErrorCode Iterate_Private(SNES snes, Solver s, Vec x, Vec r, Vec dx)
 
   PetscFunctionBegin;
   if (s->test) PetscCall(Test_Private(snes, s, x));
-  if (snes->iter == 0)
+  if (snes->iter == 0) {
+    PetscCall(ProblemSetEdge(s->problem, EDGE_FLOWS));
     PetscCall(First_Private(snes, s, x, r, dx, &ok));
-  else
+    PetscCall(ProblemSetEdge(s->problem, EDGE_AS_IT_IS));
+  } else
     PetscCall(Linearise_Private(snes, s, x, r, dx, &ok));
   if (ok) PetscCall(Step_Private(snes, s, x, dx, r));
   if (!ok)

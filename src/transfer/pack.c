@@ -310,7 +310,7 @@ static PetscErrorCode Find_Private(const Pack *pack, const char *format, const c
   PetscFunctionBegin;
   PetscCall(PetscSNPrintf(full, sizeof(full), format, name));
   *field = Look_Private(pack, full);
-  PetscCheck(*field, PETSC_COMM_SELF, PETSC_ERR_ARG_INCOMP, "The packed state has no field %s", full);
+  PetscCheckInput(*field, "-restart: the checkpoint has no field %s: another version of mortise wrote it", full);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

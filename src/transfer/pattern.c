@@ -56,6 +56,7 @@ PetscErrorCode PatternPack_Private(Problem problem, PetscInt pair, Vec *field)
 PetscErrorCode PatternUnpack_Private(Problem problem, PetscInt pair, Vec field)
 {
   const ContactView *view;
+  const SceneData   *scene;
   PetscInt           total, *first, *node;
   Places             p;
 
@@ -63,14 +64,18 @@ PetscErrorCode PatternUnpack_Private(Problem problem, PetscInt pair, Vec field)
   PetscCall(ProblemGetContact(problem, pair, &view));
   const PetscInt num = view->nonmortar.num_facets;
   PetscCall(VecGetSize(field, &total));
+  PetscCall(ProblemGetScene(problem, &scene));
+  PetscCheckInput(total >= num, "-restart: pattern.%s of the checkpoint has %" PetscInt_FMT " numbers, less than faces: another version of mortise wrote it",
+                  scene->contacts[pair].name, total);
   PetscCall(PlacesCreate_Private(total, total, &p)); /* a rank needs those of facets around its own, too */
   for (PetscInt i = 0; i < total; ++i) p.index[i] = i;
   PetscCall(PlacesFetch_Private(field, &p));
   PetscCall(PetscMalloc2(num + 1, &first, total - num, &node));
   first[0] = 0;
   for (PetscInt f = 0; f < num; ++f) first[f + 1] = first[f] + (PetscInt)p.value[f];
-  PetscCheck(num + first[num] == total, PETSC_COMM_SELF, PETSC_ERR_ARG_SIZ, "A packed pattern of %" PetscInt_FMT " numbers for %" PetscInt_FMT " facets", total,
-             num);
+  PetscCheckInput(num + first[num] == total,
+                  "-restart: pattern.%s of the checkpoint has %" PetscInt_FMT " numbers, not %" PetscInt_FMT ": another version of mortise wrote it",
+                  scene->contacts[pair].name, total, num + first[num]);
   for (PetscInt i = 0; i < first[num]; ++i) node[i] = (PetscInt)p.value[num + i];
   PetscCall(ProblemSetPattern(problem, pair, first, node));
   PetscCall(PetscFree2(first, node));

@@ -36,8 +36,9 @@ PetscErrorCode PlacesFetch_Private(Vec field, Places *p)
 
   PetscFunctionBegin;
   PetscCall(VecGetSize(field, &size));
-  PetscCheck(size == p->total, PETSC_COMM_SELF, PETSC_ERR_ARG_SIZ, "A packed field of %" PetscInt_FMT " numbers for a problem with %" PetscInt_FMT, size,
-             p->total);
+  PetscCheckInput(size == p->total,
+                  "-restart: a field of the checkpoint has %" PetscInt_FMT " numbers, not %" PetscInt_FMT ": another version of mortise wrote it", size,
+                  p->total);
   PetscCall(VecCreateSeqWithArray(PETSC_COMM_SELF, 1, p->num, p->value, &values));
   PetscCall(ISCreateGeneral(PETSC_COMM_SELF, p->num, p->index, PETSC_USE_POINTER, &index));
   PetscCall(VecScatterCreate(field, index, values, NULL, &scatter));

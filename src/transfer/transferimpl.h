@@ -67,6 +67,7 @@ typedef struct {
 PetscErrorCode PlacesCreate_Private(PetscInt num, PetscInt total, Places *);
 PetscErrorCode PlacesDestroy_Private(Places *);
 PetscErrorCode PlacesSend_Private(MPI_Comm, const Places *, Vec *field);
+/* An input error when the field has another size. */
 PetscErrorCode PlacesFetch_Private(Vec field, Places *);
 /* pattern.c: a pair's room in the matrix as a field, and back. Collective. */
 PetscErrorCode PatternPack_Private(Problem, PetscInt pair, Vec *field);

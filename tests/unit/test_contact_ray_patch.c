@@ -1,4 +1,5 @@
-/* Contact along a continuous direction: exact sums on flat surfaces that do not match, and orders of convergence on curved ones. */
+/* Contact along a continuous direction: exact sums on flat surfaces that do not match, of facets and of their children, and orders of convergence on curved
+   ones. */
 #include "rayfixture.h"
 
 typedef struct {
@@ -171,9 +172,104 @@ static void test_round(void **state)
   }
 }
 
+/* Sums over nodes of a finer mesh with the functions of the coarse one, n x n facets of [0, 1]^2, one for each of its nodes. */
+static void Restrict(const Patch *coarse, PetscInt n, const Patch *fine, const PetscReal values[], PetscReal sums[])
+{
+  const PetscInt q = coarse->order;
+
+  for (PetscInt j = 0; j < fine->s.num_nodes; j++) {
+    PetscReal N[2][MORTISE_MAX_ORDER + 1];
+    PetscInt  at[2];
+
+    for (int c = 0; c < 2; c++) {
+      const PetscReal place = (PetscReal)n * fine->u[2 * j + c];
+
+      at[c] = PetscMin((PetscInt)(place + 1e-9), n - 1);
+      CHECK_CALL(ElementEvaluate1D(q, place - (PetscReal)at[c], N[c], NULL));
+    }
+    for (PetscInt k = 0; k < (q + 1) * (q + 1); k++)
+      sums[coarse->lattice[coarse->first[at[0] + n * at[1]] + k]] += N[0][k % (q + 1)] * N[1][k / (q + 1)] * values[j];
+  }
+}
+
+typedef struct {
+  PetscInt  order, mortar, coarse, fine; /* orders of both sides; facets of the nonmortar side each way */
+  PetscBool refined, standard, partly;   /* the last facet of the finer mesh in four: nodes hang on it */
+} Family;
+
+static void EvaluateFlat(const Family *k, PetscInt n, PetscBool refined, uint64_t seed, Patch *nonmortar, Sum *s)
+{
+  const ContactSpec spec = {.standard = k->standard, .continuous = PETSC_TRUE};
+  Patch             mortar;
+  ContactPair       pair;
+
+  PatchCreate(nonmortar, 3, k->order, n, 0, 1, PETSC_TRUE, refined);
+  PatchCreate(&mortar, 3, k->mortar, 3, k->partly ? 0.31 : -0.35, 1.35, PETSC_FALSE, PETSC_FALSE);
+  Place(nonmortar, Flat, 0);
+  Place(&mortar, Flat, 0);
+  for (PetscInt v = 0; v < mortar.s.num_nodes; v++) mortar.x[3 * v + 2] = mortar.X[3 * v + 2] = 0.1 + 0.03 * Random(&seed);
+  CHECK_CALL(ContactPairCreate(3, PETSC_FALSE, &spec, &pair));
+  SearchAll(pair, nonmortar, &mortar, 0.4, 0);
+  SumCreate(s, nonmortar, &mortar);
+  SumEvaluate(s, pair, nonmortar, &mortar, NULL, PETSC_FALSE);
+  assert_false(s->failed);
+  CHECK_CALL(ContactPairDestroy(&pair));
+  PatchDestroy(&mortar);
+}
+
+/* Difference of the gaps (or weights) of a coarse mesh and of those that its functions make of the finer one's: node by node where both have their own
+   functions, else of the integral over all. */
+static PetscReal FamilyError(const Family *k, const Patch *coarse, const PetscReal parent[], const Patch *fine, const PetscReal child[])
+{
+  PetscReal *sums = calloc((size_t)coarse->s.num_nodes, sizeof(PetscReal)), error = 0, total = 0, size = Largest(parent, coarse->s.num_nodes);
+
+  Restrict(coarse, k->coarse, fine, child, sums);
+  for (PetscInt i = 0; i < coarse->s.num_nodes; i++) {
+    error = PetscMax(error, PetscAbsReal(sums[i] - parent[i]));
+    total += sums[i] - parent[i];
+  }
+  free(sums);
+  return (k->standard && !k->partly ? error : PetscAbsReal(total)) / size;
+}
+
+/* O-103: flat facets of any order and the finer ones in their place carry the same weighted gaps against a mortar side that is bent at random, nodes that hang
+   included: integrals of g N_i, N_i the parent's functions, where multipliers are standard; of g, where they are dual or facets are covered in part. */
+static void test_children(void **state)
+{
+  static const Family Families[] = {{1, 1, 1, 2, 0, 1, 0}, {2, 2, 1, 2, 0, 1, 0}, {2, 1, 1, 4, 0, 1, 0}, {2, 3, 2, 2, 1, 1, 0}, {3, 2, 1, 2, 0, 1, 0},
+                                    {3, 3, 2, 2, 1, 1, 0}, {4, 2, 1, 2, 0, 1, 0}, {4, 4, 2, 2, 1, 1, 0}, {2, 2, 1, 4, 0, 0, 0}, {3, 2, 2, 2, 1, 0, 0},
+                                    {2, 2, 1, 4, 0, 1, 1}, {3, 3, 2, 2, 1, 1, 1}, {4, 2, 2, 2, 1, 0, 1}};
+
+  (void)state;
+  for (size_t k = 0; k < sizeof(Families) / sizeof(Families[0]); k++) {
+    const Family *family   = &Families[k];
+    PetscReal     error[2] = {0, 0};
+
+    for (uint64_t seed = 1; seed <= 4; seed++) {
+      Patch coarse, fine;
+      Sum   parent, child;
+
+      EvaluateFlat(family, family->coarse, PETSC_FALSE, seed, &coarse, &parent);
+      EvaluateFlat(family, family->fine, family->refined, seed, &fine, &child);
+      assert_true(Largest(parent.gap, parent.nn) > 1e-3);
+      error[0] = PetscMax(error[0], FamilyError(family, &coarse, parent.gap, &fine, child.gap));
+      error[1] = PetscMax(error[1], FamilyError(family, &coarse, parent.weight, &fine, child.weight));
+      SumDestroy(&parent);
+      SumDestroy(&child);
+      PatchDestroy(&coarse);
+      PatchDestroy(&fine);
+    }
+    print_message("children, orders %d/%d, %d on %d%s %s%s: weighted gap differs by %.1e, weights by %.1e\n", (int)family->order, (int)family->mortar,
+                  (int)family->coarse, (int)family->fine, family->refined ? " hanging" : "", family->standard ? "standard" : "dual",
+                  family->partly ? " partly" : "", error[0], error[1]);
+    assert_true(error[0] < 1e-12);
+    assert_true(error[1] < 1e-12);
+  }
+}
+
 int main(int argc, char **argv)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(test_flat), cmocka_unit_test(test_round)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(test_flat), cmocka_unit_test(test_children), cmocka_unit_test(test_round)};
   int                     failed;
 
   if (PetscInitialize(&argc, &argv, NULL, NULL)) return 1;

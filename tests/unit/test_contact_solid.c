@@ -170,9 +170,54 @@ static void test_unusable(void **state)
   CHECK_CALL(ContactPairDestroy(&pair));
 }
 
+/* One nonmortar facet below a mortar facet of its size, and nearer ones of the given width side by side in between. Area that is covered. */
+static PetscReal CoveredBehind(PetscInt num, PetscReal width)
+{
+  const ContactSpec   spec = {.standard = PETSC_FALSE};
+  const ContactFacet *facets;
+  Sheet               nonmortar, mortar;
+  ContactPair         pair;
+  PetscInt            n;
+  PetscReal           area = 0;
+  PetscBool           failed;
+
+  SheetCreate(&nonmortar, 1, 1, 0, 1, 0, PETSC_TRUE);
+  SheetCreate(&mortar, num + 2, 1, 0, 1, 0.03, PETSC_FALSE); /* facet 0: the large one; 1: none; the rest: the nearer ones */
+  mortar.x[3] = mortar.x[3 * (num + 4)] = 1;
+  for (PetscInt k = 0; k <= num; k++) {
+    PetscReal *low = mortar.x + 3 * (2 + k), *high = mortar.x + 3 * (num + 5 + k);
+
+    low[0] = high[0] = 0.3 + width * (PetscReal)k;
+    low[1]           = 0.3;
+    high[1]          = 0.3 + width * (PetscReal)num;
+    low[2] = high[2] = 0.02;
+  }
+  memmove(mortar.facets + 4, mortar.facets + 8, (size_t)(4 * num) * sizeof(PetscInt));
+  mortar.s.num_facets = num + 1;
+  CHECK_CALL(ContactPairCreate(3, PETSC_FALSE, &spec, &pair));
+  SearchAll(pair, &nonmortar, &mortar, 0.5, 0.3);
+  CHECK_CALL(ContactPairEvaluate(pair, &nonmortar.s, &mortar.s, NULL, NULL, PETSC_TRUE, PETSC_FALSE, &n, &facets, &failed));
+  assert_false(failed);
+  for (PetscInt i = 0; i < n; i++) area += facets[i].area;
+  SheetDestroy(&nonmortar);
+  SheetDestroy(&mortar);
+  CHECK_CALL(ContactPairDestroy(&pair));
+  return area;
+}
+
+/* What lies behind something tiny still counts; what lies behind many small ones that hide a good part of it does not. */
+static void test_behind(void **state)
+{
+  (void)state;
+  assert_near(CoveredBehind(1, 0.05), 1 + 0.05 * 0.05, 1e-12);
+  assert_near(CoveredBehind(3, 0.05), 1 + 0.15 * 0.15, 1e-12);
+  assert_near(CoveredBehind(8, 0.05), 0.4 * 0.4, 1e-12);
+}
+
 int main(int argc, char **argv)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(test_standard), cmocka_unit_test(test_dual), cmocka_unit_test(test_unusable)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(test_standard), cmocka_unit_test(test_dual), cmocka_unit_test(test_unusable),
+                                     cmocka_unit_test(test_behind)};
   int                     failed;
 
   if (PetscInitialize(&argc, &argv, NULL, NULL)) return 1;

@@ -190,6 +190,35 @@ static void TangentInAllBranches(void **state)
   }
 }
 
+/* A step that starts on the yield surface, a little on or back: the derivative, unless something else is expected there. */
+static void TangentAtTheEdge(void **state)
+{
+  static const PetscReal side[2] = {1e-13, -1e-13};
+  PetscReal              A[2][3][81], flow = 0;
+  Point                  p;
+
+  PointMake(&p, 'B');
+  Diagonal(&p, 1.02, 0.99);
+  Evaluate(&p);
+  Commit(&p);
+  for (int s = 0; s < 2; s++) {
+    Diagonal(&p, 1.02 + side[s], 0.99);
+    for (int e = 0; e < 3; e++) {
+      MaterialPoints point = {.n = 1, .F = p.F, .A = A[s][e], .history = p.history, .trial = p.trial, .edge = (MaterialEdge)e};
+      OK(MaterialEvaluate(&p.spec, MATERIAL_FULL, &point));
+    }
+  }
+  for (int k = 0; k < 81; k++) {
+    const PetscReal near = 1e-6 * p.spec.mu;
+    assert_near(A[0][EDGE_AS_IT_IS][k], A[0][EDGE_FLOWS][k], near);
+    assert_near(A[1][EDGE_AS_IT_IS][k], A[1][EDGE_RESTS][k], near);
+    assert_near(A[1][EDGE_FLOWS][k], A[0][EDGE_FLOWS][k], near);
+    assert_near(A[0][EDGE_RESTS][k], A[1][EDGE_RESTS][k], near);
+    flow = PetscMax(flow, PetscAbsReal(A[1][EDGE_RESTS][k] - A[1][EDGE_FLOWS][k]));
+  }
+  assert_true(flow > p.spec.mu);
+}
+
 /* |dev tau| - sqrt(2/3) k(alpha), k of set S, tau = P F^T. */
 static PetscReal YieldExcess(const Point *p)
 {
@@ -271,7 +300,8 @@ static void PlasticWork(void **state)
 int main(int argc, char **argv)
 {
   const struct CMUnitTest tests[] = {cmocka_unit_test(UniaxialBars),        cmocka_unit_test(SimpleShear),      cmocka_unit_test(TangentInAllBranches),
-                                     cmocka_unit_test(HistoryIsAdmissible), cmocka_unit_test(SofteningRunsOut), cmocka_unit_test(PlasticWork)};
+                                     cmocka_unit_test(HistoryIsAdmissible), cmocka_unit_test(SofteningRunsOut), cmocka_unit_test(PlasticWork),
+                                     cmocka_unit_test(TangentAtTheEdge)};
 
   if (PetscInitialize(&argc, &argv, NULL, NULL)) return 1;
   const int failed = cmocka_run_group_tests(tests, NULL, NULL);

@@ -41,3 +41,12 @@ def test_unit(name, ranks, options, tmp_path):
         pytest.fail(f"{name} on {ranks} ranks: no end after {SECONDS} s\n{output}", pytrace=False)
     if process.returncode:
         pytest.fail(f"{name} on {ranks} ranks: exit {process.returncode}\n{output}", pytrace=False)
+
+
+def test_make_unit_leaves_nothing_in_the_source():
+    """A program that writes files: below the build directory, however it is run."""
+    source, program = HERE.parent.parent, BUILD.resolve() / "unit" / "test_forest_gmsh"
+    before = sorted(os.listdir(source))
+    command = ["make", "-o", str(program), "unit", f"BUILD={BUILD.resolve()}", f"UNITS={program}"]  # -o: as it is
+    assert subprocess.run(command, cwd=source, capture_output=True, timeout=SECONDS).returncode == 0
+    assert sorted(os.listdir(source)) == before and (BUILD / "unit" / "run" / "test.geo").exists()

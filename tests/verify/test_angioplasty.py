@@ -1,6 +1,7 @@
 """Balloon, sleeve and artery in the cross-section (O-70, inputs/angioplasty2d.yml): three bodies, two gaps that open and close, plastic flow and recoil; exact
 answer. Pressures to 1 %, resultants and at every node, radii to 0.2 %, recoil to 5 %, plastic strain at both faces of the sleeve; uniform and adapted meshes of orders
-1 and 2 of the quarter and of the full ring, coarser load steps, roles of the contact faces exchanged (O-91), ranks; and how the sleeve is about to neck."""
+1 and 2 of the quarter and of the full ring, curved contact faces and linear ones, coarser load steps, roles of the contact faces exchanged (O-91), ranks; and how the
+sleeve is about to neck."""
 import math
 
 import numpy
@@ -15,12 +16,12 @@ STATES = [  # t; radius of the bore; pressure in it, balloon on sleeve, sleeve o
     (1.4, .40, 0, 0, 6.64698, 1.1767998, 1.4459453, .83137, .69037),
 ]
 RECOIL = 0.012451
-LINEAR1, LINEAR2 = (("-order", order, "-contact_inside_subdivide", 0, "-contact_outside_subdivide", 0) for order in (1, 2))
-FULL = ("-contact_inside_order", "full", "-contact_outside_order", "full", "-contact_inside_subdivide", 0, "-contact_outside_subdivide", 0)
+LINEAR1, LINEAR2 = (("-order", order, "-contact_inside_order", 1, "-contact_outside_order", 1) for order in (1, 2))  # the scene's contact faces are curved
+SUBDIVIDED = (*LINEAR2, "-contact_inside_subdivide", 1, "-contact_outside_subdivide", 1)
 EXCHANGED = ("-contact_inside_nonmortar", "sleeve_bore", "-contact_inside_mortar", "balloon_skin",
              "-contact_outside_nonmortar", "sleeve_skin", "-contact_outside_mortar", "artery_bore")
 FINE1 = (*LINEAR1, "-mesh_refine", 1)
-ADAPTIVE1, ADAPTIVE2 = (*FINE1, "-adapt_tolerance", 0.1), (*LINEAR2, "-adapt_tolerance", 0.05)
+ADAPTIVE1, ADAPTIVE2 = (*FINE1, "-adapt_tolerance", 0.1), ("-adapt_tolerance", 0.003)
 RING = ("-mesh_parameter_sectors", 4)
 LARGE = ("-load_step", 0.2)
 PRESSURE, RADIUS = 0.01, 0.002  # tolerances
@@ -86,7 +87,7 @@ def accurate(result, strains, **local):
 
 
 def adapted(result, first):
-    cells = {row["cells"] for row in result.history}
+    cells = {row["cells"] for row in result.adapt}
     assert min(cells) == first < max(cells), cells
 
 
@@ -101,12 +102,12 @@ def test_o70_steps_four_times_larger(run):
 @pytest.mark.parametrize("options", [ADAPTIVE1, ADAPTIVE2], ids=["order_1", "order_2"])
 def test_o70_adaptive_steps_four_times_larger(run, options):
     result = solve(run, *options, *LARGE)
-    accurate(result, 0.04, back=0.015, rms=0.009)
+    accurate(result, 0.04, rms=0.009)
     adapted(result, 720 if options is ADAPTIVE1 else 180)
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("options, strains", [((), 0.02), (FINE1, 0.03), (FULL, 0.003)], ids=["order_2", "order_1", "full_faces"])
+@pytest.mark.parametrize("options, strains", [((), 0.003), (FINE1, 0.03), (SUBDIVIDED, 0.02)], ids=["order_2", "order_1", "linear_faces"])
 def test_o70(run, options, strains):
     result = solve(run, *options)
     accurate(result, strains)
@@ -114,14 +115,24 @@ def test_o70(run, options, strains):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("options, tolerance, back", [(LINEAR2, 0.05, PRESSURE), (LINEAR2, 0.03, 0.07), (LINEAR2, 0.02, PRESSURE), (LINEAR2, 0.015, 0.04), ((), 0.02, PRESSURE)],
-                         ids=["0.05", "0.03", "0.02", "0.015", "faces_subdivided_0.02"])
-def test_o70_adaptive(run, options, tolerance, back):
-    """Order 2, linear faces; histories are carried from mesh to mesh, also after the balloon has left. Where faces of the sleeve are split on the way back, the polygon
-    as which it has flowed stays: 5e-5 of the radius, against 8000 of shear modulus 6 % of the pressure at single nodes (back)."""
+@pytest.mark.parametrize("tolerance, last", [(0.005, 1.35), (0.003, 0.1), (0.0015, 1.2)])
+def test_o70_adaptive(run, tolerance, last):
+    """Order 2; histories are carried from mesh to mesh, also after the balloon has left (last: when cells are split for the last time)."""
+    result = solve(run, "-adapt_tolerance", tolerance)
+    accurate(result, 0.003)
+    adapted(result, 180)
+    assert abs(max(row["t"] for row in result.adapt if row["pass"]) - last) < 1e-9, result
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("options, tolerance, back", [(LINEAR2, 0.05, PRESSURE), (LINEAR2, 0.03, 0.07), (LINEAR2, 0.02, PRESSURE), (LINEAR2, 0.015, 0.04), (SUBDIVIDED, 0.02, PRESSURE)],
+                         ids=["0.05", "0.03", "0.02", "0.015", "subdivided_0.02"])
+def test_o70_adaptive_linear_faces(run, options, tolerance, back):
+    """Linear faces before cells of order 2. Where faces of sleeve and artery are split on the way back, the polygon as which the sleeve has flowed stays, 5e-5 of the
+    radius, and the artery's finer faces feel it, against 8000 of shear modulus 6 % of the pressure at single nodes (back)."""
     result = solve(run, *options, "-adapt_tolerance", tolerance)
     accurate(result, 0.03, back=back)
-    adapted(result, 180 if options else 432)
+    adapted(result, 180 if options is LINEAR2 else 432)
 
 
 @pytest.mark.slow
@@ -140,7 +151,7 @@ def test_o70_is_beyond_bifurcations(run):
         paths = []
         for load in (1e-3, -1e-3):
             traction = f"{load}*cos({n}*atan2(Y,X))*"
-            result = solve(run, *FULL, "-output_fields", "false", "-load_end", 0.5, "-boundary_sleeve_skin_traction_x", traction + "X/0.65", "-boundary_sleeve_skin_traction_y", traction + "Y/0.65")
+            result = solve(run, "-output_fields", "false", "-load_end", 0.5, "-boundary_sleeve_skin_traction_x", traction + "X/0.65", "-boundary_sleeve_skin_traction_y", traction + "Y/0.65")
             assert result.summary["step_cuts"] == 0, result
             paths.append({round(row["t"], 6): row["probe.sleeve.displacement.x"] - row["probe.sleeve_bore.displacement.x"] for row in result.history})
         return {t: (paths[0][t] - paths[1][t]) / 2 for t in paths[0] if t > 0.06}  # the balloon has met the sleeve, which flows
@@ -162,9 +173,11 @@ def test_o70_final_state_forgets_the_steps(run):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("options, local", [((), 0.05), (("-mesh_refine", 1), 0.012), (FINE1, 0.03)], ids=["order_2", "order_2_finer", "order_1"])
+@pytest.mark.parametrize("options, local", [((), 0.005), (("-mesh_refine", 1), 0.0025), (FINE1, 0.03), (SUBDIVIDED, 0.05), ((*SUBDIVIDED, "-mesh_refine", 1), 0.012)],
+                         ids=["order_2", "order_2_finer", "order_1", "linear_faces", "linear_faces_finer"])
 def test_o91_roles_exchanged(run, options, local):
-    """Resultants and radii alike; plastic strains at the corners of linear faces are not, nor are pressures at nodes of the stiff sleeve, until the mesh is finer."""
+    """Resultants and radii alike; pressures at nodes of the stiff sleeve with curved faces, too. With linear ones they are not until the mesh is finer, nor are plastic
+    strains at the corners of the faces."""
     one, other = (solve(run, *options, *roles) for roles in ((), EXCHANGED))
     accurate(other, 0.03, pressure=local, back=local, rms=0.7 * local)
     for t, values in states(one).items():
@@ -173,21 +186,22 @@ def test_o91_roles_exchanged(run, options, local):
 
 
 def test_o70_full_ring_meets_the_artery(run):
-    result = solve(run, *RING, *LINEAR2, "-adapt_tolerance", 0.04, *LARGE, "-load_end", 0.35)
+    result = solve(run, *RING, *ADAPTIVE2, "-load_step", 0.1, "-load_end", 0.35)
     assert result.summary["step_cuts"] == 0, result
     accurate_everywhere(result)
     adapted(result, 720)
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("options, strains, back, rms, first", [((), 0.02, PRESSURE, RMS, 0), (ADAPTIVE1, 0.03, PRESSURE, RMS, 2880), (ADAPTIVE2, 0.03, PRESSURE, RMS, 720),
-                                                          ((*ADAPTIVE1, *LARGE), 0.04, PRESSURE, 0.009, 2880), ((*ADAPTIVE2, *LARGE), 0.04, 0.015, 0.009, 720)],
+@pytest.mark.parametrize("options, strains, rms, first, cuts", [((), 0.003, RMS, 0, 0), (ADAPTIVE1, 0.03, RMS, 2880, 0), (ADAPTIVE2, 0.003, RMS, 720, 0),
+                                                                ((*ADAPTIVE1, *LARGE), 0.04, 0.009, 2880, 0), ((*ADAPTIVE2, *LARGE), 0.03, 0.009, 720, 1)],
                          ids=["order_2", "adaptive_order_1", "adaptive_order_2", "adaptive_order_1_larger_steps", "adaptive_order_2_larger_steps"])
-def test_o70_full_ring(run, options, strains, back, rms, first):
-    """There and back without support but on one ray: pressures at all nodes of both gaps, which hold the resultants, and radii all round; figures of the ray."""
+def test_o70_full_ring(run, options, strains, rms, first, cuts):
+    """There and back without support but on one ray: pressures at all nodes of both gaps, which hold the resultants, and radii all round; figures of the ray. Only
+    the large step in which the sleeve crosses the gap to an artery that nothing else holds along x may be cut, with curved faces."""
     result = solve(run, *RING, *options)
-    assert result.summary["step_cuts"] == 0, result
-    accurate_everywhere(result, back=back, rms=rms)
+    assert result.summary["step_cuts"] <= cuts, result
+    accurate_everywhere(result, rms=rms)
     rows = states(result)
     for t, _, *reference in STATES:
         print(t, ["%+.1e" % (value / ref - 1 if ref else value) for value, ref in zip(rows[t][3:], reference[3:])])
@@ -197,7 +211,7 @@ def test_o70_full_ring(run, options, strains, back, rms, first):
     if first:
         adapted(result, first)
         changes = [row["force_change"] for row in result.adapt if row["pass"]]
-        assert changes and 1e-6 < max(changes) < 2e-3, changes  # the resultants cancel, what they are measured against does not
+        assert changes and 1e-8 < max(changes) < 2e-3, changes  # the resultants cancel, what they are measured against does not
 
 
 @pytest.mark.slow
@@ -248,10 +262,10 @@ PLACES = {"middle": ("stent_middle", .519615242, .3), "end": ("stent_end", .6, 0
 # adapt.tolerance, max_passes, max_cells
 STENT_MESHES = ((0.055, 1, 400), (0.05, 2, 800), (0.04, 3, 1400))
 # at the widest and afterwards: figure, share by which any of the three meshes may be off it, and by which one and the next may differ
-STENT_FIGURES = ({"middle": (0.8155, .01, .003), "end": (0.8215, .01, .004), "lumen": (2.27, .01, .005), "shortening": (0.0159, .05, .02), "force": (1.36, .05, .02),
-                  "work": (0.0450, .05, .03), "mean": (0.0149, .05, .03)},
-                 {"middle": (0.732, .01, .007), "end": (0.699, .01, .007), "lumen": (1.88, .01, .01), "shortening": (0.0047, .1, .1), "force": (0.176, .1, .08),
-                  "work": (0.0496, .05, .02), "mean": (0.0163, .05, .03), "recoil": (0.1025, .05, .04)})
+STENT_FIGURES = ({"middle": (0.8157, .003, .001), "end": (0.8207, .003, .002), "lumen": (2.278, .003, .002), "shortening": (0.0158, .03, .02), "force": (1.366, .02, .01),
+                  "work": (0.0447, .02, .01), "mean": (0.0148, .02, .015)},
+                 {"middle": (0.732, .003, .002), "end": (0.6995, .004, .002), "lumen": (1.880, .004, .003), "shortening": (0.0046, .1, .1), "force": (0.1715, .02, .01),
+                  "work": (0.0496, .02, .02), "mean": (0.0163, .03, .02), "recoil": (0.1028, .02, .01)})
 
 
 def stent_figures(result):
@@ -269,9 +283,11 @@ def stent_figures(result):
 
 
 def opened_stent(run, tolerance, passes, cells):
-    """There and back without a cut, forces balanced at every step; the artery stays open when the balloon has gone."""
+    """There and back, forces balanced at every step; the artery stays open when the balloon has gone. A step may be cut where the last nodes leave the balloon: the
+    rim of the stent runs along lines of the artery's mesh."""
     result = run("inputs/angioplasty3d.yml", "-output_fields", "false", "-adapt_tolerance", tolerance, "-adapt_max_passes", passes, "-adapt_max_cells", cells, timeout=3000)
-    assert result.returncode == 0 and result.summary["step_cuts"] == 0 and result.summary["adapt_stop"] in ("tolerance", "max_cells"), result
+    assert result.returncode == 0 and result.summary["step_cuts"] <= 2 and result.summary["adapt_stop"] in ("tolerance", "max_cells"), result
+    assert result.summary["newton_iterations"] < 260, result
     assert max(row["contact_imbalance"] for row in result.history) < 1e-12 and max(row["support_imbalance"] for row in result.history) < 1e-9
     assert result.summary["contact"]["balloon_in_stent"]["active_nodes"] == 0 and result.summary["contact"]["stent_in_artery"]["active_nodes"] > 5
     figures = stent_figures(result)
@@ -292,7 +308,6 @@ def test_o71_touches(run):
 
 
 @pytest.mark.slow
-@pytest.mark.xfail(strict=True, reason="the second path cuts one step since transferred states are projected; the others not measured since")
 def test_o71_slotted_stent(run):
     """A slotted stent opens, meets the artery and keeps it open when the balloon has gone, on meshes that adapt on the way up and on the way back: every one of them
     finds equilibrium with the history that was carried over. Three such paths, finer and finer, tell the same."""
@@ -304,4 +319,4 @@ def test_o71_slotted_stent(run):
             for key, (_, _, change) in bands.items():
                 assert abs(b[key] / a[key] - 1) < change, (t, key, a, b)
         dogboning = [path[0]["end"] / path[0]["middle"] - 1 for path in (coarse, fine)]
-        assert abs(dogboning[1] - dogboning[0]) < 0.005, dogboning
+        assert abs(dogboning[1] - dogboning[0]) < 0.001, dogboning

@@ -11,6 +11,7 @@ import signal
 import subprocess
 import time
 
+import h5py
 import numpy as np
 import pytest
 
@@ -374,6 +375,54 @@ def test_file_is_refused(run, broken_off, tmp_path):
     for foreign in (broken_off / "fields_0000.h5", ROOT / SMALL[0]):
         assert_refused(run, broken_off, foreign, words="no checkpoint")
     assert_refused(run, broken_off, tmp_path / "none.h5", words="No such file")
+
+
+def seal(path):
+    """The seal of src/output/seal.c on a file that was changed."""
+    data, value = path.read_bytes(), 0xcbf29ce484222325
+    for byte in data[512:]:
+        value = (value ^ byte) * 0x100000001b3 & (1 << 64) - 1
+    path.write_bytes(f"mortise checkpoint, format 1\n{len(data)} bytes\nchecksum {value:016x}\n".encode().ljust(512, b"\0") + data[512:])
+
+
+def resized(path, name, change):
+    with h5py.File(path, "r+") as file:
+        values = file[name][...]
+        del file[name]
+        file[name] = change(values)
+
+
+@pytest.mark.parametrize("name,words", [("owner", "no owner"), ("fields", "no fields"), ("@revision", "no revision"), ("numbers@haste", "no number haste"), ("numbers@t", "no number t"),
+                                        ("fields/scalars", "no field scalars"), ("fields/pattern.disc_on_block", "no field pattern.disc_on_block"),
+                                        ("fields/displacement", "no field displacement")])
+def test_other_version_is_refused(run, broken_off, tmp_path, name, words):
+    """Whole files that lack what this version reads."""
+    old = tmp_path / "old.h5"
+    shutil.copy(broken_off / "checkpoint.h5", old)
+    seal(old)
+    assert old.read_bytes() == (broken_off / "checkpoint.h5").read_bytes()
+    with h5py.File(old, "r+") as file:
+        place, _, attribute = name.partition("@")
+        if attribute:
+            del file[place or "/"].attrs[attribute]
+        else:
+            del file[place]
+    seal(old)
+    assert_refused(run, broken_off, old, words=words)
+
+
+@pytest.mark.parametrize("name", ["displacement", "multiplier.disc_on_block", "pattern.disc_on_block", "history"])
+@pytest.mark.parametrize("change", [lambda values: values[:-1] if len(values) else np.ones(3), lambda values: np.append(values, 1.0), lambda values: values[:5]],
+                         ids=["less", "more", "few"])
+def test_other_size_is_refused(run, broken_off, tmp_path, name, change):
+    old = tmp_path / "old.h5"
+    shutil.copy(broken_off / "checkpoint.h5", old)
+    resized(old, "fields/" + name, change)
+    seal(old)
+    with h5py.File(old) as file, h5py.File(broken_off / "checkpoint.h5") as whole:
+        if len(file["fields"][name]) == len(whole["fields"][name]):
+            pytest.skip("nothing to leave out")
+    assert_refused(run, broken_off, old, words="another version of mortise")
 
 
 def test_tables_of_another_run_are_refused(run, broken_off, tmp_path):

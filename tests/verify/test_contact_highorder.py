@@ -14,6 +14,7 @@ ONE_MESH = ("-adapt_tolerance", 0)
 HERTZ = 0.01875797  # reaction of hertz2d with exact arcs, to 1e-6: docs/results.md has the runs that agree on it
 LINEAR = ("-mesh_order", 4, "-contact_disc_on_block_order", 1)
 FULL = ("-mesh_order", 4, "-contact_disc_on_block_order", "full")
+PRESSURE = 65.93406593  # of shrinkfit.yml and shrinkfit3d.yml, exact
 FLAT, CENTRE, PEAK = -1.5625292, -1.3080466, 3485.1  # of cylinder.yml: full order 3 and 4 at estimates of 1e-3 and 5e-4 agree to 1e-7 and 4e-5
 
 
@@ -186,17 +187,52 @@ def test_o50_reference(run, options, roles):
 
 # ---- O-45: curved faces -------------------------------------------------------------------------------------------------------------------
 
+def fit(run, scene, order, n, *options, depth=1, text=None):
+    """Shrink fit with full faces: root mean square and largest error of the nodal pressure, and the error of the mean, relative."""
+    result = solved(run, scene, "-contact_fit_order", "full", "-order", order, "-mesh_order", order, "-mesh_parameter_n", n, "-mesh_parameter_m", n, *options, text=text)
+    z = contact(result)["contact_pressure"] / PRESSURE - 1
+    mean = math.hypot(*result.summary["contact"]["fit"]["force"][:2]) / (math.sqrt(2) * 10 * depth * PRESSURE) - 1  # a quarter under pressure p: p R both ways
+    return math.sqrt(numpy.mean(z**2)), numpy.abs(z).max(), abs(mean)
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize("order, sizes", [(2, (6, 12, 24)), (3, (4, 8, 16)), (4, (3, 6, 12))])
 def test_o45_rates(run, order, sizes):
     """Shrink fit on circles that do not match: the root mean square and the largest error of the pressure fall as h^p. Linear faces: as h, test_contact_shrinkfit.py."""
-    errors = []
-    for n in sizes:
-        result = solved(run, "inputs/shrinkfit.yml", "-contact_fit_order", "full", "-order", order, "-mesh_order", order, "-mesh_parameter_n", n, "-mesh_parameter_m", n)
-        z = contact(result)["contact_pressure"] / 65.93406593 - 1
-        errors.append((math.sqrt(numpy.mean(z**2)), numpy.abs(z).max()))
+    errors = [fit(run, "inputs/shrinkfit.yml", order, n)[:2] for n in sizes]
     print(order, errors, [rates(e) for e in zip(*errors)])
     assert all(r > order - 0.15 for e in zip(*errors) for r in rates(e)), errors
+
+
+def ring(run, path, *arguments):
+    """fit() for shrinkfit3d.yml, with one cell along the axis in the inner tube and two in the outer one."""
+    geometry = (ROOT / "inputs/shrinkfit3d.geo").read_text().replace("= l + 1;", "= l * (1 + b) + 1;")
+    path.write_text(geometry)
+    text = (ROOT / "inputs/shrinkfit3d.yml").read_text().replace("file: shrinkfit3d.geo", f"file: {path}").replace(" projection: continuous,", "")
+    assert "l * (1 + b)" in geometry and str(path) in text and "projection" not in text
+    return fit(run, "ring.yml", *arguments, depth=2, text=text)
+
+
+def test_o45_space(run, tmp_path):
+    """On cylinders in space, matching neither around nor along the axis, full faces have the errors that they have in the plane: there is no ripple."""
+    space = ring(run, tmp_path / "ring.geo", 2, 3)
+    plane = fit(run, "inputs/shrinkfit.yml", 2, 3)
+    print(space, plane)
+    assert all(abs(a / b - 1) < 1e-5 for a, b in zip(space, plane))
+
+
+SWAP = ("-contact_fit_nonmortar", "outer_bore", "-contact_fit_mortar", "inner_shell")
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("order, sizes", [(2, (3, 6, 12)), (3, (2, 4, 8))])
+@pytest.mark.parametrize("roles", [(), SWAP], ids=["inner", "outer"])
+def test_o45_rates_space(run, tmp_path, order, sizes, roles):
+    """The pressure's errors fall as h^p, with either tube nonmortar."""
+    errors = [ring(run, tmp_path / "ring.geo", order, n, *roles) for n in sizes]
+    found = [rates(e) for e in zip(*errors)]
+    print(order, errors, found)
+    assert all(r[-1] > order - 0.15 for r in found[:2]), errors
 
 
 # ---- O-106: rates on an interface that stays closed ------------------------------------------------------------------------------------------

@@ -325,6 +325,7 @@ def test_o94_tangent(run, tmp_path, seed, nonmortar, multiplier):
     print(ratios, pair["area"], pair["active_nodes"])
     assert len(ratios) >= 3 and max(ratios) < 1e-6
     assert 0.05 < pair["area"] < 0.7
+    assert pair["equivalent_radius"] == pytest.approx(numpy.sqrt(pair["area"] / numpy.pi), rel=1e-9)
 
 
 def test_rim_held_across_the_face(run):

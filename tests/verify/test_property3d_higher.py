@@ -1,11 +1,14 @@
 """Properties O-90 to O-104 in space once more, with cells of order 2 and 4, contact faces linear and of the order of the cells: the tests of test_property3d.py with these options
 added. At order 4 the boxes have fewer cells."""
 import functools
+import math
 
 import numpy as np
 import pytest
 
+import test_checkpoint as checkpoint
 import test_property3d as space
+from contactkit import contact
 from higher import faces, fails, higher
 from test_property3d import ADAPTED, LOWER, UPPER, Frame, hold, pairs
 
@@ -264,3 +267,68 @@ def test_on_ranks(solve, name, ranks):
 @faces(kinds=("2-1", "4-1"))
 def test_o103_hanging_nodes_follow(solve):
     space.test_o103_hanging_nodes_follow(functools.partial(solve, **FEW))
+
+
+def polynomials(grid):
+    """(place, polynomial) of each facet, of boxes that are not turned: corners [2][2], and values at places [n][2] from those at all nodes; and its nodes."""
+    for cell in np.unique(grid["cell"]):
+        nodes = np.unique(grid["cells"][grid["cell"] == cell])
+        nodes = nodes[np.lexsort(grid["X"][nodes, :2].round(9).T)]  # along x, then y
+        number = math.isqrt(len(nodes))
+        lines = grid["X"][nodes[:number], 0], grid["X"][nodes[::number], 1]
+        assert number**2 == len(nodes) and np.abs(grid["X"][nodes, 0] - np.tile(lines[0], number)).max() < 1e-12
+
+        def evaluate(values, at, lines=lines, nodes=nodes):
+            N = [np.stack([np.prod([(at[:, c] - b) / (a - b) for b in lines[c] if b != a], axis=0) for a in lines[c]]) for c in (0, 1)]
+            return np.einsum("in,jn,ji...->n...", *N, values[nodes].reshape(len(lines[1]), len(lines[0]), *values.shape[1:]))
+
+        yield np.array([[x[0], x[-1]] for x in lines]), evaluate, nodes
+
+
+def check_hanging(grid, names):
+    """Nodes that lie on a facet but are none of its own have the values of its polynomial. The number of them, and the largest difference of each field."""
+    number, worst = 0, dict.fromkeys(names, 0)
+    for (x, y), evaluate, own in polynomials(grid):
+        X = grid["X"][:, :2]
+        inside = (X > (x[0] - 1e-9, y[0] - 1e-9)).all(axis=1) & (X < (x[1] + 1e-9, y[1] + 1e-9)).all(axis=1)
+        hanging = np.setdiff1d(np.flatnonzero(inside), own)
+        number += len(hanging)
+        for name in names if len(hanging) else ():
+            difference = np.abs(evaluate(grid[name], X[hanging]) - grid[name][hanging]).max()
+            worst[name] = max(worst[name], float(difference / np.abs(grid[name]).max()))
+    return number, worst
+
+
+@faces("2-full", kinds=("2-full", "4-full"))
+@CARRIES
+def test_o103_hanging_nodes_follow_facets(solve, carries):
+    """Nodes that hang on full faces carry no multiplier of their own: what they show is the polynomial of the facet that they hang on; so is their place."""
+    result = solve(**FEW, **space.GRADED, contact=pairs(carries))
+    space.good(result)
+    for side in (0, 1):
+        number, worst = check_hanging(contact(result, side), ("displacement", "contact_pressure") if side == 0 else ("displacement",))
+        print(number, worst)
+        assert number > 2 and max(worst.values()) < 1e-12
+
+
+# ---- O-102: restart -------------------------------------------------------------------------------------------------------------------------
+
+FEW_BLOCKS = ("-mesh_parameter_n1", 1, "-mesh_parameter_n2", 2, "-mesh_parameter_m", 1)  # 5 cells
+FLOW = ("-material_rubber_law", "j2", "-material_rubber_yield", 0.03, "-material_rubber_hardening", 0.1)
+
+
+RESTARTS = ((1, 1), (1, 2), (3, 1), (2, 3))  # ranks before and after
+
+
+@pytest.mark.parametrize("kind,options,restarts", [pytest.param("2-full", (), RESTARTS[:1], id="2-full-quick"), *(
+    pytest.param(kind, options, RESTARTS, marks=slow, id=f"{kind}-{name}") for kind in ("2-full", "4-1", "4-full") for name, options in (("elastic", ()), ("flow", FLOW)))])
+def test_o102_restart(higher, options, restarts):
+    """Broken off after half the load, adapted in both halves; with flow, what the points remember is read again and projected to finer cells."""
+    def run(scene, *more, **keys):
+        return higher(scene, *more, *FEW_BLOCKS, *options, **keys)
+
+    whole = run("inputs/blocks3d.yml", *checkpoint.TILTED)
+    assert whole.returncode == 0, whole
+    assert all(row["active_nodes"] > 0 for row in whole.history) and (not options or all(row["plastic.strain"] > 0 for row in whole.history))
+    for ranks, then in restarts:
+        checkpoint.assert_same_run(whole, checkpoint.break_off_and_go_on(run, "space", ranks, then))

@@ -178,6 +178,20 @@ def test_on_ranks(higher, name, ranks):
 
 
 @faces("2-full")
+@pytest.mark.parametrize("ranks", [2, pytest.param(3, marks=slow)])
+def test_o92_on_ranks(higher, ranks):
+    """A quarter of the cells that one process turns above."""
+    plane.test_o92_rigid_rotation(lambda scene, *options, **keys: higher(scene, *options, "-mesh_refine", 1, ranks=ranks, **keys))
+
+
+@faces("2-full")
+@pytest.mark.parametrize("ranks", [2, pytest.param(3, marks=slow)])
+@pytest.mark.parametrize("change,length,stress,shift", [("both", 1e-3, 1e6, 0), pytest.param("large", 1e3, 1e-6, 0, marks=slow), pytest.param("shift", 1, 1, 1e4, marks=slow)])
+def test_o93_on_ranks(higher, tmp_path, disc_mesh, ranks, change, length, stress, shift):
+    plane.test_o93_units_and_origin(functools.partial(higher, ranks=ranks), tmp_path, disc_mesh, change, length, stress, shift, 3e-7 if shift else 1e-8)
+
+
+@faces("2-full")
 @pytest.mark.parametrize("options", [("-adapt_max_passes", 4), ONE_MESH])
 def test_o104_separation(higher, options):
     robust.test_o104_separation(higher, options)
