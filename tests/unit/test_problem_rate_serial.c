@@ -62,19 +62,19 @@ static Expression BodyForce(PetscInt i)
   char gradient[8000] = "";
 
   for (PetscInt k = 0; k < 3; ++k) { /* J,k = cof : F,k */
-    OK(PetscStrlcat(gradient, k ? "+" : "", sizeof(gradient)));
-    OK(PetscStrlcat(gradient, cofactor[i][k], sizeof(gradient)));
-    OK(PetscStrlcat(gradient, "*(0", sizeof(gradient)));
+    TextAppend(sizeof(gradient), gradient, k ? "+" : "");
+    TextAppend(sizeof(gradient), gradient, cofactor[i][k]);
+    TextAppend(sizeof(gradient), gradient, "*(0");
     for (PetscInt row = 0; row < 3; ++row) {
       for (PetscInt column = 0; column < 3; ++column) {
         if (!derivative[column][row][k]) continue;
-        OK(PetscStrlcat(gradient, "+", sizeof(gradient)));
-        OK(PetscStrlcat(gradient, cofactor[row][column], sizeof(gradient)));
-        OK(PetscStrlcat(gradient, "*", sizeof(gradient)));
-        OK(PetscStrlcat(gradient, derivative[column][row][k], sizeof(gradient)));
+        TextAppend(sizeof(gradient), gradient, "+");
+        TextAppend(sizeof(gradient), gradient, cofactor[row][column]);
+        TextAppend(sizeof(gradient), gradient, "*");
+        TextAppend(sizeof(gradient), gradient, derivative[column][row][k]);
       }
     }
-    OK(PetscStrlcat(gradient, ")", sizeof(gradient)));
+    TextAppend(sizeof(gradient), gradient, ")");
   }
   return BulkExpression("-%s-(3-2*ln(" DET "))/(" DET ")^2*(%s)", laplace[i], gradient);
 }
