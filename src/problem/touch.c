@@ -10,14 +10,14 @@
 PetscErrorCode ContactTouch_Private(Problem p, const Contact *c, PetscReal *least)
 {
   const Surface *s        = &c->side[0];
-  PetscReal      range[3] = {0, -PETSC_MAX_REAL, -PETSC_MAX_REAL}; /* bears; largest overlap and minus the least of nodes that would begin to bear */
+  PetscReal      range[3] = {0, -PETSC_MAX_REAL, -PETSC_MAX_REAL}; /* largest pressure; largest overlap and minus the least of nodes that would begin to bear */
   PetscReal      more     = 0;                                     /* of them than of active ones */
 
   PetscFunctionBegin;
   for (PetscInt i = 0; i < s->num_own; ++i) {
     const PetscInt j = s->own[i];
     if (c->zlocal[j] < 0) continue;
-    if (ContactPressed_Private(c, j)) range[0] = 1;
+    range[0] = PetscMax(range[0], PetscAbsReal(c->z[j])); /* round-off, too, tells of a pair that has borne before: what snaps back is found as it was left */
     if (!c->near[j] || !ContactCovered_Private(c, j)) continue;
     if (c->active[j]) more -= 1;
     if (c->active[j] || !(ContactOverlap_Private(c, j) > 0)) continue;
