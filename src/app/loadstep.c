@@ -21,11 +21,14 @@ void AppCount(App *app, const SolverReport *report)
 /* One attempt from the accepted state of this mesh to time t. */
 static PetscErrorCode Attempt_Private(App *app, PetscReal t, SolverReport *report)
 {
-  Level *l = &app->level;
+  Level      *l = &app->level;
+  const char *words;
 
   PetscFunctionBegin;
   PetscCall(ProblemSetTime(l->problem, t));
   PetscCall(SolverSolve(l->solver, &l->state, report));
+  PetscCall(ExpressionTrouble(app->comm, &words));
+  if (words && !report->converged) report->reason = words;
   AppCount(app, report);
   if (report->converged) l->state.t = t;
   PetscFunctionReturn(PETSC_SUCCESS);
