@@ -71,8 +71,8 @@ PetscErrorCode SceneSetUp(Scene, Forest *forest);
 PetscErrorCode SceneGetData(Scene, const SceneData **);
 PetscErrorCode SceneDestroy(Scene *);
 PetscBool      SceneCheckOnly(Scene); /* -check given */
-/* A short readable report of what would be solved; after SceneSetUp. Collective. */
-PetscErrorCode SceneView(Scene, PetscViewer);
+/* A short readable report of what would be solved on this forest; after SceneSetUp. Collective. */
+PetscErrorCode SceneView(Scene, Forest, PetscViewer);
 
 /* The manual (-help) and the catalogue (-list), made from the option table and the tables of laws; written to stdout by rank 0. */
 PetscErrorCode ScenePrintHelp(MPI_Comm);

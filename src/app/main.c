@@ -140,7 +140,7 @@ static PetscErrorCode Solve_Private(int argc, char **argv, int *status)
   if (SceneCheckOnly(app.scene)) {
     if (app.restart[0]) PetscCall(AppReadCheckpoint(&app, forest));
     PetscCall(CheckpointDestroy(&app.snapshot));
-    PetscCall(SceneView(app.scene, PETSC_VIEWER_STDOUT_WORLD));
+    PetscCall(SceneView(app.scene, forest, PETSC_VIEWER_STDOUT_WORLD));
     PetscCall(ForestDestroy(&forest));
   } else {
     PetscCall(Open_Private(&app, forest));

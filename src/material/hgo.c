@@ -1,4 +1,4 @@
-/* Artery wall of Holzapfel, Gasser and Ogden (HGO of docs/theory.md): an isotropic ground substance with families of fibres M_i that carry tension only,
+/* Artery wall of Holzapfel, Gasser and Ogden (hgo of docs/theory.md): an isotropic ground substance with families of fibres M_i that carry tension only,
      W = U(J) + c/2 (J^(-2/3) I1 - 3) + c2/2 (J^(-4/3) I2 - 3) + sum_i k1/(2 k2) (exp(k2 <E_i>^2) - 1),   E_i = J^(-2/3) |F M_i|^2 - 1,  <x> = max(x, 0).
    The stress of a family vanishes where it goes slack; its modulus jumps there from k1 to 0, which Newton's method takes as it is (semismooth). */
 #include "invariants.h"

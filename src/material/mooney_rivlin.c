@@ -1,4 +1,4 @@
-/* Mooney-Rivlin solid. With the quadratic or Simo's volume term (MR of docs/theory.md) W = U(J) + c1 (J^(-2/3) I1 - 3) + c2 (J^(-4/3) I2 - 3),
+/* Mooney-Rivlin solid. With the quadratic or Simo's volume term (docs/theory.md) W = U(J) + c1 (J^(-2/3) I1 - 3) + c2 (J^(-4/3) I2 - 3),
    with the logarithmic one
      W = c1 (I1 - 3) + c2 (I2 - 3) - (2 c1 + 4 c2) ln J + log_modulus/2 (ln J)^2.
    To second order in the strain e the terms of c2 are 2 c2 (e:e + (tr e)^2): of Lame's first parameter 4 c2 is in them. */

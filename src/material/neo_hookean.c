@@ -1,4 +1,4 @@
-/* Compressible neo-Hookean solid. With the logarithmic volume term (NHc of docs/theory.md)
+/* Compressible neo-Hookean solid. With the logarithmic volume term (docs/theory.md)
      W = mu/2 (tr C - 3) - mu ln J + lambda/2 (ln J)^2,
    with the quadratic or Simo's volume term (NHq, NHs)  W = U(J) + mu/2 (J^(-2/3) tr C - 3). */
 #include "invariants.h"

@@ -68,20 +68,21 @@ static PetscReal Poisson_Private(const MaterialSpec *spec)
   return (3 - 2 * ratio) / (2 * (3 + ratio));
 }
 
-/* The elastic pairs E,nu | mu,kappa | mu,lambda; exactly one of them. */
+/* The elastic pairs E,nu | mu,nu | mu,kappa | mu,lambda; exactly one of them. */
 PetscErrorCode MaterialSetUpElastic(MaterialSpec *spec)
 {
-  static const int8_t pairs[3][2] = {
+  static const int8_t pairs[4][2] = {
       {0, 1}, /* E, nu */
       {2, 3}, /* mu, kappa */
-      {2, 4}  /* mu, lambda */
+      {2, 4}, /* mu, lambda */
+      {2, 1}  /* mu, nu */
   };
   PetscReal *v    = spec->parameter;
   PetscInt   pair = -1;
 
   PetscFunctionBegin;
-  for (PetscInt k = 0; k < 3; k++) {
-    if (!PetscIsNanReal(v[pairs[k][0]]) && !PetscIsNanReal(v[pairs[k][1]])) pair = k;
+  for (PetscInt k = 0; k < 4; k++) {
+    if (pair < 0 && !PetscIsNanReal(v[pairs[k][0]]) && !PetscIsNanReal(v[pairs[k][1]])) pair = k;
   }
   if (pair < 0) {
     const PetscInt missing = !PetscIsNanReal(v[0])                            ? 1
@@ -90,21 +91,23 @@ PetscErrorCode MaterialSetUpElastic(MaterialSpec *spec)
                              : !PetscIsNanReal(v[3]) || !PetscIsNanReal(v[4]) ? 2
                                                                               : 0;
 
-    PetscFunctionReturn(ErrorInput("material.%s.%s: missing; %s needs E and nu, or mu and kappa, or mu and lambda", spec->name,
+    PetscFunctionReturn(ErrorInput("material.%s.%s: missing; %s needs E and nu, or mu and nu, kappa or lambda", spec->name,
                                    MaterialElasticParameters[missing].name, spec->law->name));
   }
   for (PetscInt k = 0; k < 5; k++) {
     PetscCheckInput(PetscIsNanReal(v[k]) || k == pairs[pair][0] || k == pairs[pair][1],
-                    "material.%s.%s: one parameter too many; %s takes E and nu, or mu and kappa, or mu and lambda", spec->name,
-                    MaterialElasticParameters[k].name, spec->law->name);
+                    "material.%s.%s: one parameter too many; %s takes E and nu, or mu and nu, kappa or lambda", spec->name, MaterialElasticParameters[k].name,
+                    spec->law->name);
   }
-  spec->mu     = pair == 0 ? v[0] / (2 * (1 + v[1])) : v[2];
-  spec->lambda = pair == 0 ? v[0] * v[1] / ((1 + v[1]) * (1 - 2 * v[1])) : pair == 1 ? v[3] - 2 * v[2] / 3 : v[4];
-  spec->kappa  = pair == 1 ? v[3] : pair == 0 ? v[0] / (3 * (1 - 2 * v[1])) : v[4] + 2 * v[2] / 3;
+  const PetscBool ratio = (PetscBool)(pairs[pair][1] == 1);
+  const PetscReal E     = pair == 0 ? v[0] : 2 * v[2] * (1 + v[1]); /* with ratio */
+  spec->mu              = pair == 0 ? E / (2 * (1 + v[1])) : v[2];
+  spec->lambda          = ratio ? E * v[1] / ((1 + v[1]) * (1 - 2 * v[1])) : pair == 1 ? v[3] - 2 * v[2] / 3 : v[4];
+  spec->kappa           = ratio ? E / (3 * (1 - 2 * v[1])) : pair == 1 ? v[3] : v[4] + 2 * v[2] / 3;
   PetscCheckInput(spec->kappa > 0, "material.%s.lambda: %g gives the bulk modulus %g, which must be positive", spec->name, (double)v[4], (double)spec->kappa);
   spec->log_modulus = spec->lambda;
   v[0]              = MaterialYoung(spec);
-  v[1]              = pair == 0 ? v[1] : Poisson_Private(spec);
+  v[1]              = ratio ? v[1] : Poisson_Private(spec);
   v[2]              = spec->mu;
   v[3]              = spec->kappa;
   v[4]              = spec->lambda;

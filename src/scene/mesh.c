@@ -3,6 +3,7 @@
 #include <ctype.h>
 #include <errno.h>
 #include <fcntl.h>
+#include <signal.h>
 #include <spawn.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
@@ -136,6 +137,9 @@ static void Gmsh_Private(Scene s, const char *geo, PetscBool subdivide, MeshResu
                    geo);
   else if (error)
     (void)snprintf(r->message, sizeof(r->message), "mesh.file %s: gmsh could not be started: %s", geo, strerror(error));
+  else if (WIFSIGNALED(status))
+    (void)snprintf(r->message, sizeof(r->message), "mesh.file %s: gmsh crashed (%s); another Mesh.Algorithm or other sizes may help", geo,
+                   strsignal(WTERMSIG(status)));
   else if (status || reason[0])
     (void)snprintf(r->message, sizeof(r->message), "gmsh rejects mesh.file %s: %s", geo, reason[0] ? reason : "it failed without saying why");
 }

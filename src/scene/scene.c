@@ -265,7 +265,31 @@ static PetscErrorCode ViewBody_Private(const BodySpec *b, PetscViewer viewer)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SceneView(Scene s, PetscViewer viewer)
+/* How many cells, and where: a wrong unit of length shows here. */
+static PetscErrorCode ViewMesh_Private(const char *file, Forest forest, PetscViewer viewer)
+{
+  const ForestTables *t;
+  const CoarseMesh   *mesh;
+  PetscReal           lo[3], hi[3];
+
+  PetscFunctionBegin;
+  PetscCall(ForestGetTables(forest, &t));
+  PetscCall(ForestGetCoarse(forest, &mesh));
+  const PetscInt num = mesh->num_cells * PetscPowInt(mesh->geometry_order + 1, mesh->dim);
+  for (PetscInt c = 0; c < 3; ++c) lo[c] = hi[c] = mesh->cell_geometry[c];
+  for (PetscInt i = 0; i < 3 * num; ++i) {
+    lo[i % 3] = PetscMin(lo[i % 3], mesh->cell_geometry[i]);
+    hi[i % 3] = PetscMax(hi[i % 3], mesh->cell_geometry[i]);
+  }
+  PetscCall(PetscViewerASCIIPrintf(viewer, "  mesh %s: %" PetscInt_FMT " cells", file, t->num_leaves));
+  PetscCall(PetscViewerASCIIUseTabs(viewer, PETSC_FALSE));
+  for (PetscInt c = 0; c < mesh->dim; ++c)
+    PetscCall(PetscViewerASCIIPrintf(viewer, ", %c = %.6g .. %.6g%s", 'x' + (int)c, (double)lo[c], (double)hi[c], c == mesh->dim - 1 ? "\n" : ""));
+  PetscCall(PetscViewerASCIIUseTabs(viewer, PETSC_TRUE));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SceneView(Scene s, Forest forest, PetscViewer viewer)
 {
   static const char *const models[] = {"plane strain", "axisymmetric", "3d"};
   const SceneData         *d        = &s->data;
@@ -273,8 +297,9 @@ PetscErrorCode SceneView(Scene s, PetscViewer viewer)
   PetscFunctionBegin;
   PetscCheck(s->setup, s->comm, PETSC_ERR_ORDER, "SceneView before SceneSetUp");
   PetscCall(PetscViewerASCIIPrintf(viewer, "scene %s: %s\n", d->file, d->title));
-  PetscCall(PetscViewerASCIIPrintf(viewer, "  model %s, %s kinematics, mesh %s\n", models[d->mechanics.model],
-                                   d->mechanics.kinematics == KINEMATICS_SMALL ? "small" : "finite", s->mesh_file));
+  PetscCall(PetscViewerASCIIPrintf(viewer, "  model %s, %s kinematics\n", models[d->mechanics.model],
+                                   d->mechanics.kinematics == KINEMATICS_SMALL ? "small" : "finite"));
+  PetscCall(ViewMesh_Private(s->mesh_file, forest, viewer));
   for (PetscInt i = 0; i < s->num_bodies; ++i) PetscCall(ViewBody_Private(&d->bodies[i], viewer));
   for (PetscInt i = 0; i < s->num_boundaries; ++i) PetscCall(ViewBoundary_Private(&d->boundaries[i], viewer));
   for (PetscInt i = 0; i < d->num_contacts; ++i) PetscCall(ViewContact_Private(&s->contact[i], viewer));

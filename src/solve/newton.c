@@ -236,13 +236,15 @@ static PetscErrorCode Rest_Private(SNES snes, Solver s, Vec x, Vec r, Vec dx, Pe
 
 /* The first linear step. Where contact moves along a surface, by what supports prescribe or else by what the linear step says, one that only carries the bodies
    to their new places takes its place: by the prescribed motion, without the pairs that move, and without the residual, so that loads on a body that nothing
-   but such a pair holds wait for the next iteration. */
-static PetscErrorCode First_Private(SNES snes, Solver s, Vec x, Vec r, Vec dx, PetscBool *ok)
+   but such a pair holds wait for the next iteration. That one begins elastic: what was carried along still stands on its yield surface, and where the pair was
+   the load comes off. */
+static PetscErrorCode First_Private(SNES snes, Solver s, Vec x, Vec r, Vec dx, MaterialEdge *next, PetscBool *ok)
 {
   PetscBool moved;
 
   PetscFunctionBegin;
-  *ok = PETSC_TRUE;
+  *ok   = PETSC_TRUE;
+  *next = EDGE_AS_IT_IS;
   PetscCall(ProblemReleaseSlips(s->problem, &moved));
   if (!moved) {
     PetscCall(Linearise_Private(snes, s, x, r, dx, ok));
@@ -254,22 +256,24 @@ static PetscErrorCode First_Private(SNES snes, Solver s, Vec x, Vec r, Vec dx, P
   PetscCall(VecZeroEntries(r));
   PetscCall(Linearise_Private(snes, s, x, r, dx, ok));
   PetscCall(ProblemEngage(s->problem));
+  *next = EDGE_RESTS;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* One linearisation and the step it gives; snes->reason is set when there is none to be had. */
 static PetscErrorCode Iterate_Private(SNES snes, Solver s, Vec x, Vec r, Vec dx)
 {
-  PetscBool ok;
+  PetscBool    ok;
+  MaterialEdge next = EDGE_AS_IT_IS;
 
   PetscFunctionBegin;
   if (s->test) PetscCall(Test_Private(snes, s, x));
   if (snes->iter == 0) {
     PetscCall(ProblemSetEdge(s->problem, EDGE_FLOWS));
-    PetscCall(First_Private(snes, s, x, r, dx, &ok));
-    PetscCall(ProblemSetEdge(s->problem, EDGE_AS_IT_IS));
+    PetscCall(First_Private(snes, s, x, r, dx, &next, &ok));
   } else
     PetscCall(Linearise_Private(snes, s, x, r, dx, &ok));
+  PetscCall(ProblemSetEdge(s->problem, next));
   if (ok) PetscCall(Step_Private(snes, s, x, dx, r));
   if (!ok)
     PetscCall(Finish_Private(snes, s, SNES_DIVERGED_LINEAR_SOLVE, "the tangent is singular"));

@@ -67,6 +67,10 @@ static void PairsAreEquivalent(void **state)
   OK(Try("linear", 2, NAMES("mu", "lambda"), VALUES(1, 4)));
   assert_near(spec.kappa, 14. / 3, 1e-14);
   assert_near(spec.parameter[1], 0.4, 1e-15);
+  OK(Try("neo_hookean", 2, NAMES("mu", "nu"), VALUES(1, 0.4)));
+  assert_near(spec.lambda, 4, 1e-14);
+  assert_near(spec.kappa, 14. / 3, 1e-14);
+  assert_near(spec.parameter[0], 2.8, 1e-14);
   OK(Try("mooney_rivlin", 3, NAMES("c1", "c2", "kappa"), VALUES(.3, .2, 50)));
   assert_near(spec.mu, 1, 1e-15);
   assert_near(spec.kappa, 50, 0);
@@ -93,11 +97,12 @@ static void MixedIsResolved(void **state)
 
 static void IncompressibleLimit(void **state)
 {
-  for (int i = 0; i < 4; i++) {
+  for (int i = 0; i < 5; i++) {
     if (i == 0) OK(Try("neo_hookean", 2, NAMES("E", "nu"), VALUES(3, 0.5)));
     if (i == 1) OK(Try("neo_hookean", 2, NAMES("mu", "kappa"), VALUES(1, INFINITY)));
     if (i == 2) OK(Try("mooney_rivlin", 3, NAMES("c1", "c2", "kappa"), VALUES(0.3, 0.2, INFINITY)));
     if (i == 3) OK(Try("linear", 2, NAMES("E", "nu"), VALUES(3, 0.5)));
+    if (i == 4) OK(Try("neo_hookean", 2, NAMES("mu", "nu"), VALUES(1, 0.5)));
     assert_true(spec.incompressible && spec.mixed && PetscIsInfReal(spec.kappa));
     assert_float_equal(spec.mu, 1, 1e-15);
     assert_float_equal(MaterialYoung(&spec), 3, 1e-15);
@@ -135,11 +140,10 @@ static void WrongSetsAreRefused(void **state)
   REFUSED("Nu: unknown; nearest known: nu (neo_hookean has E, nu, mu, kappa, lambda)", "neo_hookean", 2, NAMES("E", "Nu"), VALUES(1, 0.3));
   REFUSED("kapa: unknown; nearest known: kappa (mooney_rivlin has c1, c2, kappa)", "mooney_rivlin", 1, NAMES("kapa"), VALUES(1));
   REFUSED("E: the law rigid takes no parameters", "rigid", 1, NAMES("E"), VALUES(1));
-  REFUSED("nu: missing; neo_hookean needs E and nu, or mu and kappa, or mu and lambda", "neo_hookean", 1, NAMES("E"), VALUES(1));
-  REFUSED("E: missing; linear needs E and nu, or mu and kappa, or mu and lambda", "linear", 0, NULL, NULL);
+  REFUSED("nu: missing; neo_hookean needs E and nu, or mu and nu, kappa or lambda", "neo_hookean", 1, NAMES("E"), VALUES(1));
+  REFUSED("E: missing; linear needs E and nu, or mu and nu, kappa or lambda", "linear", 0, NULL, NULL);
   REFUSED("c2: missing; mooney_rivlin needs c1, c2 and kappa", "mooney_rivlin", 2, NAMES("c1", "kappa"), VALUES(1, 2));
-  REFUSED("mu: one parameter too many; neo_hookean takes E and nu, or mu and kappa, or mu and lambda", "neo_hookean", 3, NAMES("E", "nu", "mu"),
-          VALUES(1, 0.3, 2));
+  REFUSED("mu: one parameter too many; neo_hookean takes E and nu, or mu and nu, kappa or lambda", "neo_hookean", 3, NAMES("E", "nu", "mu"), VALUES(1, 0.3, 2));
 }
 
 static void WrongVariantsAreRefused(void **state)

@@ -1,4 +1,4 @@
-"""The three contact scenes of inputs/: reference forces, robustness on every mesh with either side nonmortar, Newton's order, the tangent by differences."""
+"""The contact scenes of inputs/: reference forces, robustness on every mesh with either side nonmortar, Newton's order, the tangent by differences."""
 import re
 
 import pytest
@@ -136,3 +136,16 @@ def test_o94_tangent(run, scene, order, roles):
     ratios = [float(value) for value in re.findall(r"\|\|J - Jfd\|\|_F/\|\|J\|\|_F = (\S+?),", result.stdout)]
     assert len(ratios) >= 3, result
     assert max(ratios[1:]) < 1e-6, ratios
+
+
+# ---- O-ring ---------------------------------------------------------------------------------------------------------------------------------
+
+def test_oring(run):
+    """One surface of the ring in two pairs, against floor, wall and lid at a time; nothing but contact holds it along the axis."""
+    result = solve(run, "oring")
+    s = result.summary
+    assert s["step_cuts"] == 0 and s["newton_iterations"] <= 70 and s["estimated_error"] < 0.05, s
+    lid, groove = s["contact"]["under_lid"], s["contact"]["in_groove"]
+    assert abs(s["reaction"]["lid_top"][1] + 224.8) < 0.005 * 224.8 and abs(lid["max_pressure"] - 2.547) < 0.005 * 2.547, s
+    assert abs(lid["force"][1] + groove["force"][1]) < 1e-8 * 224.8  # floor and lid balance; the wall bears along the radius alone
+    assert groove["force"][0] < -20 and abs(lid["force"][0]) < 0.01, (groove, lid)

@@ -83,6 +83,7 @@ def test_good(check):
     assert not result.directory.exists()
     for word in ("two squares", "rubber", "upper_bottom", "plane strain"):
         assert word in result.stdout
+    assert re.search(r"\n  mesh \S+: \d+ cells, x = 0 \.\. \S+, y = \S+ \.\. \S+\n", result.stdout), result.stdout
 
 
 def test_good_on_two_ranks(check):
@@ -330,6 +331,12 @@ def test_gmsh_syntax(check):
 
 def test_gmsh_missing(check, tmp_path):
     refused(check(env={"PATH": str(tmp_path)}), "gmsh, which is not installed")
+
+
+def test_gmsh_crashes(check, tmp_path):
+    (tmp_path / "gmsh").write_text("#!/bin/sh\nkill -SEGV $$\n")
+    (tmp_path / "gmsh").chmod(0o755)
+    refused(check(env={"PATH": str(tmp_path)}), "gmsh crashed", "Segmentation fault")
 
 
 def test_mesh_is_garbage(check, tmp_path):

@@ -207,6 +207,16 @@ def test_newton_is_quadratic_through_yield(run, tmp_path, formulation):
         assert len(residuals) <= 9 and is_quadratic(residuals), residuals
 
 
+def test_contact_slides_along_material_that_flows(run):
+    """A bush pressed into a tight housing: what contact leaves behind unloads, what it comes to yields. (Without a first elastic tangent after
+    contact was carried along, three cuts or more.)"""
+    result = run("tests/verify/scenes/pressfit.yml")
+    assert result.returncode == 0, result
+    s = result.summary
+    assert s["plastic_strain"] > 0.03 and s["contact"]["fit"]["max_pressure"] > 150, s
+    assert s["step_cuts"] <= 1 and s["newton_iterations"] < 7 * s["load_steps"], s
+
+
 @pytest.mark.parametrize("formulation", ["displacement", "mixed"])
 def test_o94_tangent(run, formulation):
     """PETSc's difference quotients of the residual at every iterate but those on the yield surface itself, where steps start: a kink."""
