@@ -26,9 +26,16 @@ static PetscErrorCode Attempt_Private(App *app, PetscReal t, SolverReport *repor
 
   PetscFunctionBegin;
   PetscCall(ProblemSetTime(l->problem, t));
-  PetscCall(SolverSolve(l->solver, &l->state, report));
-  PetscCall(ExpressionTrouble(app->comm, &words));
-  if (words && !report->converged) report->reason = words;
+  PetscCall(ExpressionTrouble(app->comm, &words)); /* of prescribed motion and dead loads; the others are asked for on the way */
+  PetscCall(PetscMemzero(report, sizeof(*report)));
+  if (!words) {
+    PetscCall(SolverSolve(l->solver, &l->state, report));
+    PetscCall(ExpressionTrouble(app->comm, &words));
+  }
+  if (words) {
+    report->converged = PETSC_FALSE;
+    report->reason    = words;
+  }
   AppCount(app, report);
   if (report->converged) l->state.t = t;
   PetscFunctionReturn(PETSC_SUCCESS);
