@@ -84,7 +84,13 @@ PetscErrorCode MechanicsFindInverted(Mechanics, PetscInt *order, PetscReal X[3])
 
 /* Pseudo-time: evaluates dead loads and prescribed values. */
 PetscErrorCode MechanicsSetTime(Mechanics, PetscReal t);
-/* Write the prescribed dofs of time t into a local array of dofs; other entries stay. */
+/* Part (0, 1] of the diagonal that bodies without support get in the tangent; 1 at first. */
+PetscErrorCode MechanicsLoosen(Mechanics, PetscReal part);
+/* Sum of q q^T over the supported directions q of the nodes of each body and those joined to it (axisymmetric: the radial direction is supported):
+   hold[num_bodies][9]. */
+PetscErrorCode MechanicsGetHold(Mechanics, const PetscReal **hold);
+/* Write the prescribed dofs of time t into a local array of dofs; other entries stay. At t = 0 all are 0: bodies are at rest where the mesh puts them, and
+   motion that begins with a jump is carried through them by the first step. */
 PetscErrorCode MechanicsPrescribe(Mechanics, PetscReal local[]);
 
 /* Derivative by t, by differences over 2 dt, of dead loads and follower pressures at displacement u, as they enter the residual: added to the local array rate.

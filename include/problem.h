@@ -226,6 +226,10 @@ PetscErrorCode ProblemRelease(Problem, PetscBool *any);
 /* The same, before any linear step, for pairs whose bodies the prescribed motion still to come slides along each other by a good part of the zone under
    pressure: as far as supports say how the bodies move along it. Collective. */
 PetscErrorCode ProblemReleaseSlips(Problem, PetscBool *any);
+/* By how much (unit: length) the solution dx of the linear step slides a body that only contact holds too far along the surface, the pair with the largest
+   ratio to what is allowed; 0: none does. force, of the matrix: forces along that slide, of sum 1 on one side and -1 on the other, whose product with a
+   solution of the matrix is its slide. Not while prescribed motion is still to come. Collective. */
+PetscErrorCode ProblemDrift(Problem, Vec dx, Vec force, PetscReal *excess);
 PetscErrorCode ProblemEngage(Problem);
 /* What tangents expect of points on their yield surface. Not collective. */
 PetscErrorCode ProblemSetEdge(Problem, MaterialEdge);

@@ -1,9 +1,10 @@
 /* Bodies that no support holds (before contact closes, or in the directions contact leaves free).
 
    Their tangent gets a small diagonal, FREE_BODY_STIFFNESS of the cells' own stiffness against shear weighted by the cell's share of the body's volume, so that
-   the first linear solve has one solution; the residual is left alone, hence no force of it survives in the result. Newton's method converges linearly with
-   that small factor instead of quadratically in the free directions. (A share of the stiffness against compression, 1e4 times as much in nearly incompressible
-   cells, would be no small one beside soft neighbours.) */
+   the first linear solve has one solution; the residual is left alone, hence no force of it survives in the result. What holds a body that slides on another is
+   hardly more, and of either sign: with -0.3 of the diagonal Newton's method would grow by 1.4 in each iteration. So only a part of it counts once the residual
+   has fallen (MechanicsLoosen), as in the method of Levenberg and Marquardt. (A share of the stiffness against compression, 1e4 times as much in nearly
+   incompressible cells, would be no small one beside soft neighbours.) */
 #include "mechanicsimpl.h"
 #include <petscblaslapack.h>
 
@@ -124,6 +125,35 @@ static PetscErrorCode Gram_Private(Mechanics m, const PetscInt root[], const Pet
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscErrorCode MechanicsLoosen(Mechanics m, PetscReal part)
+{
+  PetscFunctionBegin;
+  m->free_part = part;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The translations' part of the Gram matrices. */
+static PetscErrorCode Hold_Private(Mechanics m, PetscInt modes, const PetscInt root[], const PetscReal gram[])
+{
+  PetscFunctionBegin;
+  PetscCall(PetscCalloc1(9 * m->spec->num_bodies, &m->hold));
+  for (PetscInt b = 0; b < m->spec->num_bodies; ++b) {
+    const PetscReal *G    = gram + 36 * root[b];
+    PetscReal       *hold = m->hold + 9 * b;
+    if (m->spec->model == MODEL_AXISYMMETRIC) hold[0] = 1, hold[4] = G[0];
+    for (PetscInt i = 0; i < m->dim && modes > 1; ++i)
+      for (PetscInt j = 0; j < m->dim; ++j) hold[3 * i + j] = G[i * modes + j];
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode MechanicsGetHold(Mechanics m, const PetscReal **hold)
+{
+  PetscFunctionBegin;
+  *hold = m->hold;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode MechanicsFreeBodies_Private(Mechanics m)
 {
   const HPTables     *v;
@@ -166,6 +196,7 @@ PetscErrorCode MechanicsFreeBodies_Private(Mechanics m)
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, gram, (PetscMPIInt)(36 * nb), MPIU_REAL, MPI_SUM, comm));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, volume, (PetscMPIInt)nb, MPIU_REAL, MPI_SUM, comm));
   modes = m->spec->model == MODEL_AXISYMMETRIC ? 1 : 3 * m->dim - 3;
+  PetscCall(Hold_Private(m, modes, root, gram));
   for (PetscInt b = 0; b < nb; ++b) {
     PetscBool held;
     PetscCall(FullRank_Private(modes, gram + 36 * b, &held));

@@ -126,7 +126,7 @@ static PetscErrorCode SendMatrix_Private(Mechanics m, CellGroup *g, PetscInt i, 
   if (m->free_share[cell] > 0) {
     PetscReal trace = 0;
     for (PetscInt k = 0; k < nd; ++k) trace += *Diagonal_Private(m, g, i, K, k);
-    for (PetscInt k = 0; k < nd; ++k) *Diagonal_Private(m, g, i, K, k) += m->free_share[cell] * trace / nd;
+    for (PetscInt k = 0; k < nd; ++k) *Diagonal_Private(m, g, i, K, k) += m->free_share[cell] * m->free_part * trace / nd;
   }
   if (m->condense_work) {
     PetscCall(StageBegin(STAGE_CONDENSE));

@@ -109,9 +109,10 @@ PetscErrorCode MechanicsCreate(HPSpace space, const MechanicsSpec *spec, const S
 
   PetscFunctionBegin;
   PetscCall(PetscNew(&m));
-  m->space    = space;
-  m->spec     = spec;
-  m->supports = supports;
+  m->space     = space;
+  m->spec      = spec;
+  m->supports  = supports;
+  m->free_part = 1;
   PetscCall(HPSpaceGetTables(space, &v));
   PetscCall(HPSpaceGetForest(space, &forest));
   PetscCall(ForestGetTables(forest, &t));
@@ -148,6 +149,7 @@ PetscErrorCode MechanicsDestroy(Mechanics *mechanics)
   PetscCall(PetscFree2(m->control, m->control_pressure));
   PetscCall(PetscFree(m->dead));
   PetscCall(PetscFree(m->free_share));
+  PetscCall(PetscFree(m->hold));
   PetscCall(PetscFree2(m->linear, m->dpressure));
   PetscCall(PetscFree(m->work));
   PetscCall(PetscFree(*mechanics));

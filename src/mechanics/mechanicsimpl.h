@@ -132,6 +132,8 @@ struct _p_Mechanics {
   PetscReal           *dead;               /* owned local array: dead loads at t, negative as in the residual; NULL: none */
   PetscReal           *linear, *dpressure; /* owned: linearised pressure and derivative of the last tangent; dpressure holds [m][n*dim] cell by cell */
   PetscReal           *free_share;         /* owned [num_owned_cells] diagonal of cells of unsupported bodies relative to their stiffness, else 0 */
+  PetscReal            free_part;          /* part of it that counts */
+  PetscReal           *hold;               /* owned [num_bodies][9], see MechanicsGetHold */
   PetscReal           *work;               /* owned batch buffers */
   PetscInt             work_size;
   PetscReal           *condense_work; /* owned: condense.c */

@@ -254,9 +254,11 @@ PetscErrorCode MechanicsPrescribe(Mechanics m, PetscReal local[])
     PetscCall(HPSpaceGetFrame(m->space, n, &frame));
     for (PetscInt c = 0; c < m->dim; ++c) {
       const PetscInt cause = m->supports->cause[3 * n + c];
-      PetscReal      u[3];
+      PetscReal      u[3]  = {0, 0, 0};
       if (!((m->supports->fixed[n] >> c) & 1)) continue;
-      if (cause <= -2)
+      if (m->t == 0)
+        ; /* at rest */
+      else if (cause <= -2)
         PetscCall(BodyMotion_Private(&m->spec->bodies[-2 - cause], m->dim, m->t, u));
       else
         PetscCall(BoundaryValue_Private(&m->spec->boundaries[cause], m->dim, v->X + 3 * n, m->t, u));

@@ -48,7 +48,8 @@ static int Replace_Private(const char *path, const char *text)
   errno = 0;
   if (!(file = fopen(temporary, "w"))) return errno ? errno : EIO;
   failed = fwrite(text, 1, length, file) != length;
-  failed = fclose(file) != 0 || failed; /* a full disk may show only here */
+  if (length && text[length - 1] != '\n') failed = fputc('\n', file) == EOF || failed; /* cJSON ends without */
+  failed = fclose(file) != 0 || failed;                                                /* a full disk may show only here */
   if (!failed && rename(temporary, path) == 0) return 0;
   failed = errno ? errno : EIO;
   unlink(temporary);

@@ -9,6 +9,8 @@
 /* A solve that goes wrong is recognised early: a shorter load step, or another start, costs less than waiting for the iteration limit. */
 #define STALLED 7  /* iterations without a new least residual */
 #define HALVINGS 8 /* of steps that left the domain, in one solve */
+#define LOOSE 1e-2 /* least part of what holds bodies that nothing else does: round-off of factors is far below */
+#define HOLDS 3    /* pairs that are held back from sliding in one linear step */
 
 /* What a cell of incompressible material may gain or lose of its volume, whatever the forces: where prescribed motion leaves it no choice, pressures grow
    without bounds, and next to them every residual is small. */
@@ -202,6 +204,44 @@ static PetscErrorCode Obey_Private(SNES snes, Solver s)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Bodies that nothing holds are held less the smaller the residual is, as far as the digits of the linear solver allow. */
+static PetscErrorCode Loosen_Private(SNES snes, Solver s)
+{
+  const PetscBool digits = (PetscBool)(!s->single && !s->saddle);
+  Mechanics       mechanics;
+
+  PetscFunctionBegin;
+  PetscCall(ProblemGetMechanics(s->problem, &mechanics));
+  PetscCall(MechanicsLoosen(mechanics, snes->iter > 0 && digits ? PetscMax(LOOSE, PetscMin(1, s->report->residual / s->first_norm)) : 1));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Where the linear step slides bodies that only contact holds too far, the step with forces that hold them back. */
+static PetscErrorCode Drift_Private(SNES snes, Solver s, Vec x, Vec dx, PetscBool *ok)
+{
+  Vec       force;
+  PetscReal excess, slide;
+
+  PetscFunctionBegin;
+  PetscCall(VecDuplicate(s->rhs, &force));
+  for (PetscInt hold = 0; hold < HOLDS; ++hold) {
+    PetscCall(ProblemDrift(s->problem, dx, force, &excess));
+    if (excess == 0) break;
+    PetscCall(PetscInfo(snes, "a body that only contact holds would slide too far, by %g: it is held back\n", (double)excess));
+    PetscCall(VecSwap(s->rhs, force));
+    PetscCall(MatrixSolve_Private(snes, s, PETSC_FALSE, ok));
+    PetscCall(VecSwap(s->rhs, force));
+    if (!*ok) break;
+    PetscCall(VecDot(force, s->y, &slide));
+    PetscCall(VecAXPY(s->rhs, -excess / slide, force));
+    PetscCall(LinearStep_Private(snes, s, x, dx, ok));
+    if (!*ok) break;
+    s->best_iter = snes->iter; /* a slide is progress */
+  }
+  PetscCall(VecDestroy(&force));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* The linearisation at x and its solution. */
 static PetscErrorCode Linearise_Private(SNES snes, Solver s, Vec x, Vec r, Vec dx, PetscBool *ok)
 {
@@ -210,6 +250,7 @@ static PetscErrorCode Linearise_Private(SNES snes, Solver s, Vec x, Vec r, Vec d
   PetscFunctionBegin;
   ++s->report->iterations;
   PetscCall(VecZeroEntries(s->lift));
+  PetscCall(Loosen_Private(snes, s));
   PetscCall(ProblemTangent(s->problem, x, s->pressure, s->lift, &bad));
   PetscCall(ProblemGetSymmetric(s->problem, &symmetric));
   if (s->symmetric && !symmetric) PetscCall(SolverUnsymmetric_Private(s));
@@ -217,6 +258,7 @@ static PetscErrorCode Linearise_Private(SNES snes, Solver s, Vec x, Vec r, Vec d
   if (bad) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(ProblemRightSide(s->problem, r, s->lift, s->rhs));
   PetscCall(LinearStep_Private(snes, s, x, dx, ok));
+  if (*ok) PetscCall(Drift_Private(snes, s, x, dx, ok));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

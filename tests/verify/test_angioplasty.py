@@ -99,7 +99,7 @@ def test_o70_steps_four_times_larger(run):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("options", [ADAPTIVE1, ADAPTIVE2], ids=["order_1", "order_2"])
+@pytest.mark.parametrize("options", [ADAPTIVE1, ADAPTIVE2, ("-adapt_tolerance", 0.005)], ids=["order_1", "order_2", "order_2_after_flow"])
 def test_o70_adaptive_steps_four_times_larger(run, options):
     result = solve(run, *options, *LARGE)
     accurate(result, 0.04, rms=0.009)

@@ -228,14 +228,14 @@ def test_o92_rigid_rotation(solve):
 @SOLVERS
 @pytest.mark.parametrize("change,length,stress,shift", [("lengths", 1e-3, 1, 0), ("stresses", 1, 1e6, 0), ("both", 1e-3, 1e6, 0), ("large", 1e3, 1e-6, 0),
                                                          ("shift", 1, 1, 1e4)])
-def test_o93_units_and_origin(solve, change, length, stress, shift, linear):
+def test_o93_units_and_origin(solve, change, length, stress, shift, linear, sooner=0):
     """Same meshes, same iterations, same figures to 1e-8; a shift by 1e4 edges leaves 12 decimals of the positions."""
     frame = Frame(None, length, shift)
     one = solve(*ADAPTED, "-solve_linear", linear, gap=0.01)  # not touching: gaps that vanish exactly are a kink
     other = solve(*ADAPTED, "-solve_linear", linear, gap=0.01, frame=frame, bodies={name: {**RUBBER, "E": stress} for name in BODIES})
     assert_equal(figures(one), figures(other, frame, stress), 1e-8)
     assert [row["cells"] for row in one.adapt] == [row["cells"] for row in other.adapt]
-    assert iterations(one) == iterations(other)
+    assert all(0 <= a - b <= sooner for a, b in zip(iterations(one), iterations(other), strict=True))
 
 
 # ---- O-94, O-95: the tangent and what it makes of Newton's method ---------------------------------------------------------
@@ -319,7 +319,8 @@ def test_o97_free_fall(solve, gap, search, linear):
 @SOLVERS
 @pytest.mark.parametrize("lift,top", [(0, ("0", "0", "-0.1")), (0, ("0.05", "0", "-0.1 - 0.02*{x}")), (0.05, ("0", "0", "-0.2"))])
 def test_o97_held_by_contact_only(run, tmp_path, lift, top, linear):
-    """A block between two others that nothing else holds, touching or with gaps to both: it ends between them, in balance."""
+    """A block between two others that nothing else holds, touching or with gaps to both: it ends between them, in balance (where it would be pushed out to either side:
+    unstable along the surfaces), at once."""
     parts = {"lower": Box((0, 0, 0), (1, 1, 0.5), (3, 3, 1)), "middle": Box((0.1, 0.15, 0.5 + lift), (0.7, 0.7, 0.5), (2, 2, 1)),
              "upper": Box((0, 0, 1 + 2 * lift), (1, 1, 0.5), (3, 3, 1))}
     boxes(tmp_path / "stack.msh", parts)
@@ -327,7 +328,7 @@ def test_o97_held_by_contact_only(run, tmp_path, lift, top, linear):
     result = run("stack.yml", *QUIET, "-solve_linear", linear, text=scene("stack.msh", {name: RUBBER for name in parts}, hold(top), contacts))
     c = good(result)["contact"]
     size = np.linalg.norm(c["below"]["force"])
-    assert size > 0.02 and np.linalg.norm(np.add(c["below"]["force"], c["above"]["force"])) < 1e-8 * size
+    assert result.summary["step_cuts"] == 0 and size > 0.02 and np.linalg.norm(np.add(c["below"]["force"], c["above"]["force"])) < 1e-8 * size
     assert np.linalg.norm(np.add(c["below"]["moment"], c["above"]["moment"])) < 1e-8 * size
 
 

@@ -110,9 +110,10 @@ UNITS = {"both": (1e-3, 1e6, 0), "large": (1e3, 1e-6, 0), "shift": (1, 1, 1e4)}
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name,kind", [(name, kind) for name in UNITS for kind in BOTH if (name, kind) != ("shift", "4-full")])
-def test_o93_units_and_origin(solve, name):
-    space.test_o93_units_and_origin(solve, "", *UNITS[name], "direct")
+@pytest.mark.parametrize("name,kind", [(name, kind) for name in UNITS for kind in BOTH])
+def test_o93_units_and_origin(solve, name, kind):
+    """At order 4 the round-off that the shift leaves in positions, 2e-12, ends a solve one iteration sooner."""
+    space.test_o93_units_and_origin(solve, "", *UNITS[name], "direct", sooner=(name, kind) == ("shift", "4-full"))
 
 
 @faces(kinds=("2-1", "2-full", "3-full"))
@@ -162,19 +163,25 @@ def test_o96_zero_load(solve):
     space.test_o96_zero_load(solve, hold(("0", "0", "0")))
 
 
-@faces("2-full", kinds=SECOND)
+@faces("2-full", kinds=BOTH)
 @pytest.mark.parametrize("gap,search", [(0.05, 0), (0.1, 10)])
 def test_o97_free_fall(solve, gap, search):
     space.test_o97_free_fall(solve, gap, search, "direct")
 
 
-SOFT = fails("order 4, one cell: Newton's method does not find how far the free block slides and tilts between its neighbours")
 HELD = {"touching": (0, ("0.05", "0", "-0.1 - 0.02*{x}")), "apart": (0.05, ("0", "0", "-0.2"))}
 
 
-@pytest.mark.parametrize("kind,name", [pytest.param(kind, name, marks=SOFT if (kind, name) == ("4-full", "touching") else slow) for kind in BOTH for name in HELD])
+@faces("2-1", kinds=BOTH)
+@pytest.mark.parametrize("name", HELD)
 def test_o97_held_by_contact_only(higher, tmp_path, name):
     space.test_o97_held_by_contact_only(higher, tmp_path, *HELD[name], "direct")
+
+
+@faces(kinds=("2-full",))
+@pytest.mark.parametrize("ranks", [2, 3])
+def test_o97_held_on_ranks(higher, tmp_path, ranks):
+    space.test_o97_held_by_contact_only(functools.partial(higher, ranks=ranks), tmp_path, *HELD["touching"], "direct")
 
 
 @faces(kinds=BOTH)
@@ -205,7 +212,7 @@ def test_o104_separation(solve):
     space.test_o104_separation(solve, "direct")
 
 
-@pytest.mark.parametrize("kind", [pytest.param(kind, marks=slow) for kind in (*SECOND, "4-1")])
+@faces("2-full", kinds=BOTH)
 def test_o104_open_and_close(solve):
     space.test_o104_open_and_close(solve, "direct")
 

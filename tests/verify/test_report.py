@@ -20,6 +20,7 @@ def test_patch_reports_agree(run, ranks, order):
     s = result.summary
     assert all(key in s for key in KEYS) and all(key in s["time"] for key in TIMES)
     assert s["status"] == "converged" and s["ranks"] == ranks and s["order_max"] == order
+    assert all((result.directory / name).read_text().endswith("\n") for name in ("summary.json", "history.csv", "adapt.csv", "fields.xdmf"))
     pair = s["contact"]["upper_on_lower"]
     assert all(key in pair for key in PAIR)
     pressure = 0.0688979013617
