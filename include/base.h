@@ -23,6 +23,10 @@ PetscErrorCode ErrorInput(const char *format, ...) PETSC_ATTRIBUTE_FORMAT(1, 2);
 PetscInt    NameDistance(const char *a, const char *b);
 const char *NameNearest(const char *name, PetscInt num, const char *const names[]);
 
+/* Append to a text in an array of capacity bytes; what has no room is cut. PetscStrlcat, when it has to cut, writes beyond the array: by one byte in PETSc
+   3.26, by more in 3.18. */
+void TextAppend(size_t capacity, char text[], const char *more);
+
 /* One row of -help: a name, what it may be, and on a line of its own what it means. Collective. */
 PetscErrorCode HelpRow(MPI_Comm, const char *name, const char *allowed, const char *text);
 

@@ -10,6 +10,15 @@
 
 #if PETSC_VERSION_GE(3, 22, 0)
 #define CompatSectionCreateGlobal(s, sf, g) PetscSectionCreateGlobalSection(s, sf, PETSC_TRUE, PETSC_FALSE, PETSC_FALSE, g)
+#define CompatVecSetInf(x) VecFlag(x, 1)
 #else
 #define CompatSectionCreateGlobal(s, sf, g) PetscSectionCreateGlobalSection(s, sf, PETSC_FALSE, PETSC_FALSE, g)
+#define CompatVecSetInf(x) VecSetInf(x)
+#endif
+
+/* The MPI type of a PetscBool: it was an enumeration, of the size of an int, and is a C bool since. */
+#if PETSC_VERSION_GE(3, 24, 0)
+#define COMPAT_MPI_BOOL MPI_C_BOOL
+#else
+#define COMPAT_MPI_BOOL MPIU_BOOL
 #endif

@@ -27,6 +27,23 @@ PetscErrorCode ElementEvaluate1D(PetscInt order, PetscReal xi, PetscReal value[]
 /* Values [n] and gradients [n][dim] (unless NULL) of the n = (p+1)^dim tensor functions at xi[dim]. */
 PetscErrorCode ElementEvaluate(PetscInt dim, PetscInt order, const PetscReal xi[], PetscReal value[], PetscReal gradient[]);
 
+#define ELEMENT_MOST_LINE (MORTISE_MAX_ORDER + 1)
+
+/* Up to NUM_LANES fields on the nodes of one cell, one in each lane, and what is kept from one point to the next. About 60 kB. */
+typedef struct {
+  PetscInt  dim, order;
+  PetscReal at[3], N[3][ELEMENT_MOST_LINE], D[3][ELEMENT_MOST_LINE]; /* the last point; functions of a line there */
+  Lanes     node[ELEMENT_MOST_LINE * ELEMENT_MOST_LINE * ELEMENT_MOST_LINE];
+  Lanes     plane[2][ELEMENT_MOST_LINE * ELEMENT_MOST_LINE]; /* at z: values, derivatives by z */
+  Lanes     line[3][ELEMENT_MOST_LINE];                      /* at y, z: values, derivatives by y, by z */
+} ElementFields;
+
+/* No field yet; then values[n][num] into the lanes from `first` on. */
+void ElementFieldsBegin(ElementFields *, PetscInt dim, PetscInt order);
+void ElementFieldsAdd(ElementFields *, PetscInt first, PetscInt num, const PetscReal values[]);
+/* Values at xi[dim], value[0], and derivatives by each coordinate, value[1..dim]. Cheapest from one point to the next when the last coordinates stay. */
+PetscErrorCode ElementFieldsAt(ElementFields *, const PetscReal xi[], Lanes value[]);
+
 /* A matrix M[to][from] applied in every direction of a tensor of from^dim entries of num components (fastest): out[to^dim][num]. out and work need room for
    max(from, to)^dim * num numbers. */
 PetscErrorCode ElementTransform(PetscInt dim, PetscInt from, PetscInt to, PetscInt num, const PetscReal M[], const PetscReal in[], PetscReal out[],

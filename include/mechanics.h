@@ -204,9 +204,15 @@ PetscErrorCode MechanicsPlasticStrain(Mechanics, PetscInt cell, PetscInt np, con
    Cartesian; reaction[num_boundaries][3], this rank's part. */
 PetscErrorCode MechanicsReactions(Mechanics, const PetscReal r[], PetscReal reaction[][3]);
 
-/* Point values in cell at np reference points: F, P [np][9] and strain energy density W (NULL: skip). Owned and ghost cells (a ghost's pressure is consistent
- * with u). */
-PetscErrorCode MechanicsPoints(Mechanics, PetscInt cell, PetscInt np, const PetscReal xi[], const PetscReal u[], PetscReal F[], PetscReal P[], PetscReal W[]);
+/* What is wanted at points of a cell; NULL: skipped. */
+typedef struct {
+  PetscReal *X, *J; /* [np][3] reference position, third 0 in the plane; [np][9] dX/dxi, in the plane 1 in the third direction */
+  PetscReal *F, *P; /* [np][9] */
+  PetscReal *W;     /* [np] strain energy density */
+} PointValues;
+
+/* Point values in cell at np reference points xi[np][dim]. Owned and ghost cells (a ghost's pressure is consistent with u). */
+PetscErrorCode MechanicsPoints(Mechanics, PetscInt cell, PetscInt np, const PetscReal xi[], const PetscReal u[], const PointValues *);
 
 /* Where the coefficients of an owned cell lie in the pressure array; num 0: none are condensed (not mixed, incompressible, rigid), or a ghost. */
 PetscErrorCode MechanicsPressureRange(Mechanics, PetscInt cell, PetscInt *first, PetscInt *num);

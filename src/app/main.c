@@ -161,15 +161,18 @@ static PetscBool Asked_Private(int argc, char **argv, const char *option)
   return PETSC_FALSE;
 }
 
-/* Options of PETSc that nothing asked for are most likely mistyped: say so. */
+/* Options of PETSc that nothing asked for are most likely mistyped: say so. PetscFinalize asks for two more. */
 static PetscErrorCode UnusedOptions_Private(void)
 {
   PetscMPIInt rank;
   PetscInt    num;
+  PetscBool   set;
   char      **names, **values;
 
   PetscFunctionBegin;
   PetscCallMPI(MPI_Comm_rank(PETSC_COMM_WORLD, &rank));
+  PetscCall(PetscOptionsHasName(NULL, NULL, "-options_left", &set));
+  PetscCall(PetscOptionsHasName(NULL, NULL, "-options_view", &set));
   PetscCall(PetscOptionsLeftGet(NULL, &num, &names, &values));
   for (PetscInt i = 0; i < num && rank == 0; ++i) fprintf(stderr, "mortise: nothing used the option -%s; is it spelt right?\n", names[i]);
   PetscCall(PetscOptionsLeftRestore(NULL, &num, &names, &values));
@@ -215,6 +218,15 @@ static void End_Private(void)
   if (size == 1) _exit(2);
 }
 
+/* PETSc's own list of options that nothing used would repeat ours, or stand beside the sentence about wrong input: current releases print it unasked. */
+static PetscErrorCode Finalize_Private(void)
+{
+  PetscBool asked;
+
+  if (!PetscOptionsHasName(NULL, NULL, "-options_left", &asked) && !asked) (void)PetscOptionsSetValue(NULL, "-options_left", "0");
+  return PetscFinalize();
+}
+
 int main(int argc, char **argv)
 {
   int            status = 0;
@@ -230,9 +242,9 @@ int main(int argc, char **argv)
     /* An error other than wrong input leaves ranks anywhere: no orderly end. */
     if (ErrorIsPlain(ierr)) End_Private();
     if (ierr != MORTISE_ERR_INPUT) MPI_Abort(PETSC_COMM_WORLD, 2);
-    (void)PetscFinalize();
+    (void)Finalize_Private();
     return 1;
   }
-  ierr = PetscFinalize();
+  ierr = Finalize_Private();
   return ierr ? 2 : status;
 }

@@ -1,5 +1,12 @@
-/* Names of keys and options: their rows of -help, and how alike they are, for messages about those that are not known. */
+/* Names of keys and options: their rows of -help, lists of them, and how alike they are, for messages about those that are not known. */
 #include "base.h"
+
+void TextAppend(size_t capacity, char text[], const char *more)
+{
+  const size_t used = strlen(text);
+
+  (void)snprintf(text + used, capacity - used, "%s", more);
+}
 
 PetscInt NameDistance(const char *a, const char *b)
 {

@@ -79,11 +79,10 @@ PetscErrorCode EstimateBulk_Private(EstimateSum *);
 typedef struct {
   PetscInt   order, n1, num; /* n1 points in each direction */
   PetscReal *xi, *weight;    /* owned [num][dim], [num] */
-  PetscReal *N, *G;          /* owned [num][n], [num][n][dim] displacement basis and its gradient */
   PetscReal  D[ESTIMATE_MOST_1D][ESTIMATE_MOST_1D];
-  PetscInt   num_functions;     /* of the recovered pressure */
-  PetscReal *value, *gradient;  /* owned [num][num_functions], [num][num_functions][dim]; NULL: not mixed */
-  PetscReal *matrix, *solution; /* owned, work */
+  PetscInt   num_functions;                        /* of the recovered pressure; rows of the arrays below are that many rounded up to whole lanes */
+  PetscReal *value, *gradient;                     /* owned [num], [num][dim] rows; NULL: not mixed */
+  PetscReal *matrix, *solution, *force, *weighted; /* owned, work */
 } VolumeTable;
 
 /* Buffers of one cell. */
@@ -97,8 +96,6 @@ PetscErrorCode RecoveryDestroy_Private(VolumeTable *);
 /* Recover the pressure of a mixed cell: adds its share to w->R and to P at the facet points, leaves q at the Gauss points in w->recovered. */
 PetscErrorCode EstimateRecover_Private(const EstimateSum *, VolumeTable *, CellWork *w, PetscInt traces, const PetscReal xi[], const PetscReal F[],
                                        PetscReal P[]);
-/* indicator.c: position [3] (third 0 in the plane) and Jacobian dX/dxi (third direction: unit) of a cell with nodes X[n][dim] */
-PetscErrorCode EstimateGeometry_Private(PetscInt dim, PetscInt order, const PetscReal X[], const PetscReal xi[], PetscReal position[3], PetscReal J[9]);
 /* direction.c: what of the interior term comes from each axis, S[num][3] being |dP/dxi_d . (grad xi_d)/|grad xi_d||^2; then axes that no jump tells of */
 void           EstimateInterior_Private(EstimateSum *, PetscInt leaf, PetscInt num, const PetscReal weight[], const PetscReal S[], PetscReal eta2);
 PetscErrorCode EstimateDoubts_Private(EstimateSum *);
@@ -120,7 +117,7 @@ void FacetConditions_Private(const MechanicsSpec *, uint64_t groups, PetscInt di
 void FacetSidePoint_Private(const FacetSide *, PetscInt dim, const PetscReal eta[], PetscReal xi[3]);
 /* jump.c: reference points of a cell's facets, xi[...][dim]; then the defects at them; then the sums */
 PetscErrorCode EstimateTracePoints_Private(const EstimateSum *, PetscInt cell, PetscReal xi[]);
-PetscErrorCode EstimateTraces_Private(EstimateSum *, PetscInt cell, const PetscReal X[], const PetscReal xi[], const PetscReal F[], const PetscReal P[]);
+PetscErrorCode EstimateTraces_Private(EstimateSum *, PetscInt cell, const PetscReal position[], const PetscReal J[], const PetscReal F[], const PetscReal P[]);
 PetscErrorCode EstimateFacets_Private(EstimateSum *, const PetscReal height[][3]);
 /* contactterm.c */
 PetscErrorCode ContactTermsCreate_Private(Problem, ContactTerms *);

@@ -30,7 +30,7 @@ static void LagrangeDerivative_Private(PetscInt n, const PetscReal x[], PetscRea
 /* order+1 points in each direction; mixed: one more, for the recovered pressure has more coefficients. */
 static PetscErrorCode TableCreate_Private(PetscInt dim, PetscInt order, PetscBool mixed, VolumeTable *table)
 {
-  const PetscInt n1 = order + (mixed ? 2 : 1), n = ElementNumNodes(dim, order), num = ElementNumNodes(dim, n1 - 1);
+  const PetscInt n1 = order + (mixed ? 2 : 1), num = ElementNumNodes(dim, n1 - 1);
   const Basis1D *gauss;
 
   PetscFunctionBegin;
@@ -39,39 +39,10 @@ static PetscErrorCode TableCreate_Private(PetscInt dim, PetscInt order, PetscBoo
   table->order = order;
   table->n1    = n1;
   table->num   = num;
-  PetscCall(PetscMalloc4(num * dim, &table->xi, num, &table->weight, num * n, &table->N, num * n * dim, &table->G));
-  for (PetscInt q = 0; q < num; ++q) {
-    table->weight[q] = 1;
-    for (PetscInt d = 0, i = q; d < dim; ++d, i /= table->n1) {
-      table->xi[q * dim + d] = gauss->points[i % table->n1];
-      table->weight[q] *= gauss->weights[i % table->n1];
-    }
-    PetscCall(ElementEvaluate(dim, order, table->xi + q * dim, table->N + q * n, table->G + q * n * dim));
-  }
+  PetscCall(PetscMalloc2(num * dim, &table->xi, num, &table->weight));
+  for (PetscInt q = 0; q < num; ++q) table->weight[q] = Basis1DPoint(gauss, dim, q, table->xi + q * dim);
   LagrangeDerivative_Private(table->n1, gauss->points, table->D);
   if (mixed) PetscCall(RecoveryCreate_Private(dim, table));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-static void Geometry_Private(PetscInt dim, PetscInt n, const PetscReal X[], const PetscReal N[], const PetscReal G[], PetscReal position[3], PetscReal J[9])
-{
-  for (PetscInt k = 0; k < 9; ++k) J[k] = k % 4 == 0 && k / 3 >= dim;
-  position[0] = position[1] = position[2] = 0;
-  for (PetscInt i = 0; i < n; ++i) {
-    for (PetscInt c = 0; c < dim; ++c) {
-      position[c] += N[i] * X[i * dim + c];
-      for (PetscInt d = 0; d < dim; ++d) J[3 * c + d] += G[i * dim + d] * X[i * dim + c];
-    }
-  }
-}
-
-PetscErrorCode EstimateGeometry_Private(PetscInt dim, PetscInt order, const PetscReal X[], const PetscReal xi[], PetscReal position[3], PetscReal J[9])
-{
-  PetscReal N[ESTIMATE_MOST_NODES], G[3 * ESTIMATE_MOST_NODES];
-
-  PetscFunctionBegin;
-  PetscCall(ElementEvaluate(dim, order, xi, N, G));
-  Geometry_Private(dim, ElementNumNodes(dim, order), X, N, G, position, J);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -191,12 +162,9 @@ static PetscErrorCode Volume_Private(const EstimateSum *sum, const MaterialSpec 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static void VolumeGeometry_Private(const EstimateSum *sum, const VolumeTable *table, CellWork *w)
+static void Weights_Private(const EstimateSum *sum, const VolumeTable *table, CellWork *w)
 {
-  const PetscInt dim = sum->v->dim, n = ElementNumNodes(dim, table->order);
-
   for (PetscInt q = 0; q < table->num; ++q) {
-    Geometry_Private(dim, n, w->X, table->N + q * n, table->G + q * n * dim, w->position + 3 * q, w->J + 9 * q);
     w->weight[q] = table->weight[q] * Det3(w->J + 9 * q);
     if (sum->spec->model == MODEL_AXISYMMETRIC) w->weight[q] *= 2 * PETSC_PI * w->position[3 * q];
   }
@@ -237,7 +205,7 @@ static PetscErrorCode Unfold_Private(const EstimateSum *sum, PetscInt cell, Pets
     for (PetscInt eighth = 7; eighth >= 0 && !(Det3(w->F + 9 * q) > 0); --eighth) {
       PetscReal xi[3];
       for (PetscInt c = 0; c < dim; ++c) xi[c] = 0.5 + 0.125 * (PetscReal)eighth * (w->xi[q * dim + c] - 0.5);
-      PetscCall(MechanicsPoints(sum->mechanics, cell, 1, xi, sum->u, w->F + 9 * q, w->P + 9 * q, w->W + q));
+      PetscCall(MechanicsPoints(sum->mechanics, cell, 1, xi, sum->u, &(PointValues){.F = w->F + 9 * q, .P = w->P + 9 * q, .W = w->W + q}));
     }
   }
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -264,12 +232,12 @@ static PetscErrorCode Cell_Private(EstimateSum *sum, PetscInt cell, VolumeTable 
     num = table->num;
     PetscCall(PetscArraycpy(w->xi, table->xi, num * dim));
   }
-  PetscReal *xi = w->xi + num * dim, *F = w->F + 9 * num, *P = w->P + 9 * num;
+  PetscReal *xi = w->xi + num * dim, *F = w->F + 9 * num, *P = w->P + 9 * num, *J = w->J + 9 * num, *position = w->position + 3 * num;
   PetscCall(EstimateTracePoints_Private(sum, cell, xi));
-  PetscCall(MechanicsPoints(sum->mechanics, cell, num + traces, w->xi, sum->u, w->F, w->P, w->W));
+  PetscCall(MechanicsPoints(sum->mechanics, cell, num + traces, w->xi, sum->u, &(PointValues){w->position, w->J, w->F, w->P, w->W}));
   PetscCall(Unfold_Private(sum, cell, num + traces, w));
   if (num) {
-    VolumeGeometry_Private(sum, table, w);
+    Weights_Private(sum, table, w);
     PetscCall(Residual_Private(sum, body, table, w));
   }
   if (mixed) PetscCall(EstimateRecover_Private(sum, table, w, traces, xi, F, P));
@@ -277,7 +245,7 @@ static PetscErrorCode Cell_Private(EstimateSum *sum, PetscInt cell, VolumeTable 
     Height_Private(dim, order, w->X, height[cell]);
     PetscCall(OwnedCell_Private(sum, cell, table, w, height[cell]));
   }
-  PetscCall(EstimateTraces_Private(sum, cell, w->X, xi, F, P));
+  PetscCall(EstimateTraces_Private(sum, cell, position, J, F, P));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -288,16 +256,17 @@ static PetscErrorCode WorkCreate_Private(const EstimateSum *sum, CellWork *w)
   PetscFunctionBegin;
   for (PetscInt c = 0; c < sum->v->num_cells; ++c) most = PetscMax(most, ElementNumNodes(sum->v->dim, sum->v->cell_order[c] + 1));
   const PetscInt points = most + sum->facets.most_points;
-  PetscCall(PetscMalloc5(3 * most, &w->X, 3 * points, &w->xi, 9 * points, &w->F, 9 * points, &w->P, points, &w->W));
-  PetscCall(PetscMalloc7(9 * most, &w->J, 3 * most, &w->position, most, &w->weight, 2 * most, &w->g, 3 * most, &w->R, 3 * most, &w->S, most, &w->recovered));
+  PetscCall(
+      PetscMalloc7(3 * most, &w->X, 3 * points, &w->xi, 3 * points, &w->position, 9 * points, &w->J, 9 * points, &w->F, 9 * points, &w->P, points, &w->W));
+  PetscCall(PetscMalloc5(most, &w->weight, 2 * most, &w->g, 3 * most, &w->R, 3 * most, &w->S, most, &w->recovered));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 static PetscErrorCode WorkDestroy_Private(CellWork *w)
 {
   PetscFunctionBegin;
-  PetscCall(PetscFree5(w->X, w->xi, w->F, w->P, w->W));
-  PetscCall(PetscFree7(w->J, w->position, w->weight, w->g, w->R, w->S, w->recovered));
+  PetscCall(PetscFree7(w->X, w->xi, w->position, w->J, w->F, w->P, w->W));
+  PetscCall(PetscFree5(w->weight, w->g, w->R, w->S, w->recovered));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -315,7 +284,7 @@ static PetscErrorCode Cells_Private(EstimateSum *sum, PetscReal height[][3])
   for (PetscInt i = 2; i < 2 * (MORTISE_MAX_ORDER + 1); ++i) {
     VolumeTable *table = &tables[i / 2][i % 2];
     if (!table->order) continue;
-    PetscCall(PetscFree4(table->xi, table->weight, table->N, table->G));
+    PetscCall(PetscFree2(table->xi, table->weight));
     PetscCall(RecoveryDestroy_Private(table));
   }
   PetscCall(WorkDestroy_Private(&w));

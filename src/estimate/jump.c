@@ -92,10 +92,11 @@ static PetscErrorCode Defect_Private(EstimateSum *sum, const FacetPlace *f, Pets
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Defects at the facet points xi[][dim] of a cell with nodes X, where F and P [][9] are known. */
-PetscErrorCode EstimateTraces_Private(EstimateSum *sum, PetscInt cell, const PetscReal X[], const PetscReal xi[], const PetscReal F[], const PetscReal P[])
+/* Defects at the facet points of a cell, where position [][3], dX/dxi, F and P [][9] are known. */
+PetscErrorCode EstimateTraces_Private(EstimateSum *sum, PetscInt cell, const PetscReal position[], const PetscReal J[], const PetscReal F[],
+                                      const PetscReal P[])
 {
-  const PetscInt      dim = sum->v->dim, order = sum->v->cell_order[cell];
+  const PetscInt      dim      = sum->v->dim;
   const MaterialSpec *material = sum->spec->bodies[sum->t->leaf_body[sum->v->cell_leaf[cell]]].material;
 
   PetscFunctionBegin;
@@ -106,10 +107,9 @@ PetscErrorCode EstimateTraces_Private(EstimateSum *sum, PetscInt cell, const Pet
     const PetscReal   scale   = PetscAbsReal(side->slope[0]) * (dim == 3 ? PetscAbsReal(side->slope[1]) : 1);
     const Basis1D    *gauss;
     PetscCall(Basis1DGet(1, f->num_1d, &gauss));
-    for (PetscInt q = 0; q < NumPoints_Private(dim, f); ++q, xi += dim, F += 9, P += 9) {
+    for (PetscInt q = 0; q < NumPoints_Private(dim, f); ++q, position += 3, J += 9, F += 9, P += 9) {
       const PetscInt point = f->first_point + q;
-      PetscReal      position[3], J[9], normal[3], weight = scale * gauss->weights[q % f->num_1d];
-      PetscCall(EstimateGeometry_Private(dim, order, X, xi, position, J));
+      PetscReal      normal[3], weight = scale * gauss->weights[q % f->num_1d];
       if (dim == 3) weight *= gauss->weights[q / f->num_1d];
       if (sum->spec->model == MODEL_AXISYMMETRIC) weight *= 2 * PETSC_PI * position[0];
       sum->dA[point] = weight * OutwardArea_Private(side->side, J, normal);

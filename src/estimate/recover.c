@@ -36,18 +36,32 @@ static PetscErrorCode Functions_Private(PetscInt dim, PetscInt degree, const Pet
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* The functions a row of lanes is made of: NUM_LANES of them to a block, zeros beyond the last. */
+static PetscInt NumBlocks_Private(const VolumeTable *t)
+{
+  return (t->num_functions + NUM_LANES - 1) / NUM_LANES;
+}
+
 PetscErrorCode RecoveryCreate_Private(PetscInt dim, VolumeTable *table)
 {
   const PetscInt degree = table->order + RECOVERY_EXTRA, n = (dim == 2 ? (degree + 1) * (degree + 2) / 2 : (degree + 1) * (degree + 2) * (degree + 3) / 6) - 1;
+  PetscReal     *value, *gradient;
 
   PetscFunctionBegin;
   table->num_functions = n;
-  PetscCall(PetscMalloc2(table->num * n, &table->value, table->num * n * dim, &table->gradient));
-  PetscCall(PetscMalloc2(n * n, &table->matrix, n * (dim + 1), &table->solution));
+  const PetscInt width = NUM_LANES * NumBlocks_Private(table), rows = table->num * dim;
+  PetscCall(PetscMalloc2(n, &value, n * dim, &gradient));
+  PetscCall(PetscCalloc2(table->num * width, &table->value, rows * width, &table->gradient));
+  PetscCall(PetscMalloc4(width * width, &table->matrix, 2 * width, &table->solution, rows * width, &table->force, rows * width, &table->weighted));
   for (PetscInt q = 0; q < table->num; ++q) {
     PetscInt num;
-    PetscCall(Functions_Private(dim, degree, table->xi + q * dim, table->value + q * n, table->gradient + q * n * dim, &num));
+    PetscCall(Functions_Private(dim, degree, table->xi + q * dim, value, gradient, &num));
+    for (PetscInt a = 0; a < n; ++a) {
+      table->value[q * width + a] = value[a];
+      for (PetscInt r = 0; r < dim; ++r) table->gradient[(q * dim + r) * width + a] = gradient[a * dim + r];
+    }
   }
+  PetscCall(PetscFree2(value, gradient));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -56,7 +70,7 @@ PetscErrorCode RecoveryDestroy_Private(VolumeTable *table)
   PetscFunctionBegin;
   if (!table->value) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(PetscFree2(table->value, table->gradient));
-  PetscCall(PetscFree2(table->matrix, table->solution));
+  PetscCall(PetscFree4(table->matrix, table->solution, table->force, table->weighted));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -84,82 +98,119 @@ static void GradientMap_Private(PetscInt dim, Kinematics kinematics, const Petsc
   }
 }
 
-/* In-place Cholesky solution of A x = b, lower triangle. A direction without stiffness (to round-off) gets 0. */
-static void Solve_Private(PetscInt n, PetscReal A[], PetscReal b[])
+/* In-place Cholesky solution of A x = b, A = U^T U by rows of `width`, upper triangle. A direction without stiffness (to round-off) gets 0. diagonal[n]: work.
+ */
+static void Solve_Private(PetscInt n, PetscInt width, PetscReal A[], PetscReal b[], PetscReal diagonal[])
 {
+  for (PetscInt j = 0; j < n; ++j) diagonal[j] = A[j * width + j];
   for (PetscInt j = 0; j < n; ++j) {
-    const PetscReal before = A[j * n + j];
-    for (PetscInt k = 0; k < j; ++k) A[j * n + j] -= A[j * n + k] * A[j * n + k];
-    const PetscBool dead = (PetscBool)(A[j * n + j] < 1e-13 * before);
-    A[j * n + j]         = dead ? PETSC_MAX_REAL : PetscSqrtReal(A[j * n + j]);
+    PetscReal      *row  = A + j * width;
+    const PetscBool dead = (PetscBool)(row[j] < 1e-13 * diagonal[j]);
+    row[j]               = dead ? PETSC_MAX_REAL : PetscSqrtReal(row[j]);
+    for (PetscInt k = j + 1; k < n; ++k) row[k] = dead ? 0 : row[k] / row[j];
     for (PetscInt i = j + 1; i < n; ++i) {
-      for (PetscInt k = 0; k < j; ++k) A[i * n + j] -= A[i * n + k] * A[j * n + k];
-      A[i * n + j] = dead ? 0 : A[i * n + j] / A[j * n + j];
+      PetscReal      *to = A + i * width;
+      const PetscReal u  = row[i];
+      for (PetscInt k = i; k < n; ++k) to[k] -= u * row[k];
     }
   }
-  for (PetscInt i = 0; i < n; ++i) {
-    for (PetscInt k = 0; k < i; ++k) b[i] -= A[i * n + k] * b[k];
-    b[i] /= A[i * n + i];
+  for (PetscInt j = 0; j < n; ++j) {
+    b[j] /= A[j * width + j];
+    for (PetscInt i = j + 1; i < n; ++i) b[i] -= A[j * width + i] * b[j];
   }
   for (PetscInt i = n - 1; i >= 0; --i) {
-    for (PetscInt k = i + 1; k < n; ++k) b[i] -= A[k * n + i] * b[k];
-    b[i] /= A[i * n + i];
+    for (PetscInt k = i + 1; k < n; ++k) b[i] -= A[i * width + k] * b[k];
+    b[i] /= A[i * width + i];
   }
 }
 
-/* Force T grad of every function at a Gauss point, [num_functions][dim]. */
-static void Forces_Private(PetscInt dim, Kinematics kinematics, const VolumeTable *t, const CellWork *w, PetscInt q, PetscReal force[])
+/* Force T grad of every function at the Gauss points, one row for each point and direction; and the same times the point's weight. */
+static void Forces_Private(PetscInt dim, Kinematics kinematics, const VolumeTable *t, const CellWork *w)
 {
-  const PetscReal *g = t->gradient + q * t->num_functions * dim;
-  PetscReal        T[9];
+  const PetscInt width = NUM_LANES * NumBlocks_Private(t);
 
-  GradientMap_Private(dim, kinematics, w->F + 9 * q, w->J + 9 * q, T);
-  for (PetscInt a = 0; a < t->num_functions; ++a) {
+  for (PetscInt q = 0; q < t->num; ++q) {
+    PetscReal T[9];
+    GradientMap_Private(dim, kinematics, w->F + 9 * q, w->J + 9 * q, T);
     for (PetscInt i = 0; i < dim; ++i) {
-      force[a * dim + i] = 0;
-      for (PetscInt r = 0; r < dim; ++r) force[a * dim + i] += T[i * dim + r] * g[a * dim + r];
+      PetscReal *force = t->force + (q * dim + i) * width, *weighted = t->weighted + (q * dim + i) * width;
+      for (PetscInt a = 0; a < width; a += NUM_LANES) {
+        Lanes sum = {0};
+        for (PetscInt r = 0; r < dim; ++r) sum += T[i * dim + r] * *(const LanesAny *)(t->gradient + (q * dim + r) * width + a);
+        *(LanesAny *)(force + a)    = sum;
+        *(LanesAny *)(weighted + a) = w->weight[q] * sum;
+      }
+    }
+  }
+}
+
+#define TILE 4 /* rows of the matrix, by two blocks of lanes: as many sums as stay in registers */
+
+/* A = sum over rows of weighted (x) force, blocks on and right of the diagonal. */
+static void Matrix_Private(PetscInt rows, const VolumeTable *t)
+{
+  const PetscInt width = NUM_LANES * NumBlocks_Private(t);
+
+  for (PetscInt a = 0; a < width; a += TILE) {
+    for (PetscInt c = a / NUM_LANES * NUM_LANES; c < width; c += 2 * NUM_LANES) {
+      const PetscInt next         = c + NUM_LANES < width ? NUM_LANES : 0; /* the last block may stand alone: then it is summed twice */
+      Lanes          sum[TILE][2] = {{{0}}};
+      for (PetscInt k = 0; k < rows; ++k) {
+        const PetscReal *f = t->weighted + k * width + a;
+        const Lanes      x = *(const LanesAny *)(t->force + k * width + c), y = *(const LanesAny *)(t->force + k * width + c + next);
+        for (PetscInt i = 0; i < TILE; ++i) {
+          sum[i][0] += f[i] * x;
+          sum[i][1] += f[i] * y;
+        }
+      }
+      for (PetscInt i = 0; i < TILE; ++i) {
+        *(LanesAny *)(t->matrix + (a + i) * width + c)        = sum[i][0];
+        *(LanesAny *)(t->matrix + (a + i) * width + c + next) = sum[i][1];
+      }
     }
   }
 }
 
 /* Least squares fit of the coefficients, in table->solution. */
-static void Fit_Private(PetscInt dim, Kinematics kinematics, VolumeTable *t, const CellWork *w)
+static void Fit_Private(PetscInt dim, VolumeTable *t, const CellWork *w)
 {
-  const PetscInt n = t->num_functions;
-  PetscReal     *A = t->matrix, *b = t->solution, *force = t->solution + n;
+  const PetscInt width = NUM_LANES * NumBlocks_Private(t);
+  PetscReal     *b     = t->solution;
 
-  for (PetscInt k = 0; k < n * n; ++k) A[k] = 0;
-  for (PetscInt k = 0; k < n; ++k) b[k] = 0;
-  for (PetscInt q = 0; q < t->num; ++q) {
-    Forces_Private(dim, kinematics, t, w, q, force);
-    for (PetscInt a = 0; a < n; ++a) {
-      for (PetscInt i = 0; i < dim; ++i) {
-        const PetscReal f = w->weight[q] * force[a * dim + i];
-        b[a] -= f * w->R[3 * q + i];
-        for (PetscInt c = 0; c <= a; ++c) A[a * n + c] += f * force[c * dim + i];
-      }
-    }
+  Matrix_Private(t->num * dim, t);
+  for (PetscInt a = 0; a < width; ++a) b[a] = 0;
+  for (PetscInt k = 0; k < t->num * dim; ++k) {
+    const PetscReal R = w->R[3 * (k / dim) + k % dim];
+    for (PetscInt a = 0; a < width; ++a) b[a] -= R * t->weighted[k * width + a];
   }
-  Solve_Private(n, A, b);
+  Solve_Private(t->num_functions, width, t->matrix, b, b + width);
+}
+
+/* sum over n numbers of a b, in lanes. */
+static PetscReal Product_Private(PetscInt n, const PetscReal a[], const PetscReal b[])
+{
+  Lanes     sum   = {0};
+  PetscReal total = 0;
+
+  for (PetscInt i = 0; i < n; i += NUM_LANES) sum += *(const LanesAny *)(a + i) * *(const LanesAny *)(b + i);
+  for (PetscInt l = 0; l < NUM_LANES; ++l) total += sum[l];
+  return total;
 }
 
 PetscErrorCode EstimateRecover_Private(const EstimateSum *sum, VolumeTable *t, CellWork *w, PetscInt traces, const PetscReal xi[], const PetscReal F[],
                                        PetscReal P[])
 {
-  const PetscInt   dim = sum->v->dim, n = t->num_functions;
+  const PetscInt   dim = sum->v->dim, n = t->num_functions, width = NUM_LANES * NumBlocks_Private(t);
   const Kinematics kinematics = sum->spec->kinematics;
-  PetscReal        mean = 0, volume = 0, value[ESTIMATE_MOST_NODES], cof[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1}, *force = t->solution + n;
+  PetscReal        mean = 0, volume = 0, value[ESTIMATE_MOST_NODES], cof[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
   PetscInt         num;
 
   PetscFunctionBegin;
-  Fit_Private(dim, kinematics, t, w);
+  Forces_Private(dim, kinematics, t, w);
+  Fit_Private(dim, t, w);
   for (PetscInt q = 0; q < t->num; ++q) {
-    Forces_Private(dim, kinematics, t, w, q, force);
-    w->recovered[q] = 0;
-    for (PetscInt a = 0; a < n; ++a) {
-      w->recovered[q] += t->solution[a] * t->value[q * n + a];
-      for (PetscInt i = 0; i < dim; ++i) w->R[3 * q + i] += t->solution[a] * force[a * dim + i];
-    }
+    w->recovered[q] = Product_Private(width, t->solution, t->value + q * width);
+    for (PetscInt i = 0; i < dim; ++i) w->R[3 * q + i] += Product_Private(width, t->solution, t->force + (q * dim + i) * width);
     mean += w->weight[q] * w->recovered[q];
     volume += w->weight[q];
   }

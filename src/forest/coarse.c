@@ -87,7 +87,7 @@ static PetscErrorCode BuilderCreate_Private(const CoarseMesh *mesh, Builder *b)
   *b = (Builder){.dim = mesh->dim, .num_cells = mesh->num_cells, .num = {mesh->num_vertices, 0, 0}};
   for (PetscInt d = 1; d <= b->dim; ++d) {
     const PetscInt n = d == b->dim ? mesh->num_cells : mesh->num_cells * most[b->dim - 2][d];
-    if (d < b->dim) PetscCall(ForestHashCreate(n, &b->hash[d]));
+    if (d < b->dim) PetscCall(ForestHashCreate(4 * mesh->num_cells, &b->hash[d])); /* a block of boxes has 2 (plane) or 3 of each to a cell; it grows */
     PetscCall(PetscMalloc2(n * ForestPow3[d], &b->closure[d], n * ForestPow3[d], &b->orientation[d]));
   }
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -558,11 +558,31 @@ static PetscErrorCode LabelTags_Private(DM dm, const char label_name[], DMLabel 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Points with a tag; the caller frees them. */
+static PetscErrorCode TaggedPoints_Private(DMLabel label, PetscInt tag, PetscInt *num, PetscInt **points)
+{
+  IS              set;
+  const PetscInt *p;
+
+  PetscFunctionBegin;
+  *num    = 0;
+  *points = NULL;
+  PetscCall(DMLabelGetStratumIS(label, tag, &set));
+  if (!set) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(ISGetLocalSize(set, num));
+  PetscCall(PetscMalloc1(*num, points));
+  PetscCall(ISGetIndices(set, &p));
+  PetscCall(PetscArraycpy(*points, p, *num));
+  PetscCall(ISRestoreIndices(set, &p));
+  PetscCall(ISDestroy(&set));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 static PetscErrorCode ReadBodies_Private(Reader *r)
 {
   CoarseMesh *mesh = r->mesh;
   DMLabel     label;
-  PetscInt    num, *tags, start, end, body;
+  PetscInt    num, *tags, start, end, body, num_points, *point;
 
   PetscFunctionBegin;
   PetscCall(DMPlexGetHeightStratum(r->dm, 0, &start, &end));
@@ -574,14 +594,14 @@ static PetscErrorCode ReadBodies_Private(Reader *r)
     char name[MORTISE_NAME];
     PetscCall(NameOf_Private(r, mesh->dim, tags[i], name));
     PetscCall(Enter_Private(mesh->body_name, &mesh->num_bodies, name, &body));
-    for (PetscInt c = start; c < end; ++c) {
-      PetscInt *b = &mesh->cell_body[c - start];
-      PetscBool inside;
-      PetscCall(DMLabelStratumHasPoint(label, tags[i], c, &inside));
-      if (!inside) continue;
+    PetscCall(TaggedPoints_Private(label, tags[i], &num_points, &point));
+    for (PetscInt k = 0; k < num_points; ++k) {
+      if (point[k] < start || point[k] >= end) continue;
+      PetscInt *b = &mesh->cell_body[point[k] - start];
       if (*b >= 0 && *b != body) FAIL(r, "mesh file '%s': a cell is in two bodies, \"%s\" and \"%s\"", r->spec->file, mesh->body_name[*b], name);
       *b = body;
     }
+    PetscCall(PetscFree(point));
   }
   PetscCall(PetscFree(tags));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -607,7 +627,7 @@ static PetscErrorCode MarkFacets_Private(Reader *r, PetscInt start, PetscInt end
   static const char *const reserved[] = {"depth", "celltype", "body"};
   CoarseMesh              *mesh       = r->mesh;
   DMLabel                  label;
-  PetscInt                 num, *tags, bit;
+  PetscInt                 num, *tags, bit, num_points, *point;
 
   PetscFunctionBegin;
   PetscCall(LabelTags_Private(r->dm, "Face Sets", &label, &num, &tags));
@@ -619,11 +639,10 @@ static PetscErrorCode MarkFacets_Private(Reader *r, PetscInt start, PetscInt end
       if (!strcmp(name, reserved[k])) FAIL(r, "mesh file '%s': a boundary group cannot be called \"%s\", that name is reserved", r->spec->file, name);
     PetscCall(Enter_Private(mesh->boundary_name, &mesh->num_boundaries, name, &bit));
     if (bit >= 64) FAIL(r, "mesh file '%s' has more than 64 boundary groups", r->spec->file);
-    for (PetscInt f = start; f < end; ++f) {
-      PetscBool inside;
-      PetscCall(DMLabelStratumHasPoint(label, tags[i], f, &inside));
-      if (inside) mask[f - start] |= (uint64_t)1 << bit;
-    }
+    PetscCall(TaggedPoints_Private(label, tags[i], &num_points, &point));
+    for (PetscInt k = 0; k < num_points; ++k)
+      if (point[k] >= start && point[k] < end) mask[point[k] - start] |= (uint64_t)1 << bit;
+    PetscCall(PetscFree(point));
   }
   PetscCall(PetscFree(tags));
   PetscFunctionReturn(PETSC_SUCCESS);

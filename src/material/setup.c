@@ -42,8 +42,8 @@ static PetscErrorCode Unknown_Private(const MaterialSpec *spec, const char *name
   PetscCheckInput(known->name, "material.%s.%s: the law %s takes no parameters", spec->name, name, spec->law->name);
   for (const MaterialParameter *p = known; p->name; p++) {
     if (Distance_Private(name, p->name) < Distance_Private(name, nearest->name)) nearest = p;
-    PetscCall(PetscStrlcat(list, p == known ? "" : ", ", sizeof(list)));
-    PetscCall(PetscStrlcat(list, p->name, sizeof(list)));
+    TextAppend(sizeof(list), list, p == known ? "" : ", ");
+    TextAppend(sizeof(list), list, p->name);
   }
   PetscFunctionReturn(ErrorInput("material.%s.%s: unknown; nearest known: %s (%s has %s)", spec->name, name, nearest->name, spec->law->name, list));
 }

@@ -27,34 +27,39 @@ static PetscReal Invert_Private(PetscInt dim, const PetscReal G[9], PetscReal in
   return det;
 }
 
-/* Reference position of xi, a third component 0 in the plane; and grad u there, embedded in 3x3. */
-static PetscErrorCode PointGradient_Private(CellKernel k, const PetscReal *xi, const PetscReal *X, const PetscReal *u, PetscReal position[3], PetscReal H[9])
+/* A cell's positions and displacements, in lanes 0..d-1 and d..2d-1. */
+static void Fields_Private(CellKernel k, const PetscReal *X, const PetscReal *u, ElementFields *fields)
+{
+  ElementFieldsBegin(fields, k->dim, k->order);
+  ElementFieldsAdd(fields, 0, k->dim, X);
+  ElementFieldsAdd(fields, k->dim, k->dim, u);
+}
+
+/* Reference position of xi, a third component 0 in the plane; dX/dxi and F = 1 + grad u there, embedded in 3x3. */
+static PetscErrorCode PointGradient_Private(CellKernel k, ElementFields *fields, const PetscReal *xi, PetscReal position[3], PetscReal J[9], PetscReal F[9])
 {
   const PetscInt d = k->dim;
-  PetscReal      value[MOST_NODES], gradient[3 * MOST_NODES], G[9] = {0}, g[9] = {0}, inv[9], ur = 0;
+  Lanes          value[4];
+  PetscReal      G[9], inv[9];
 
   PetscFunctionBegin;
-  PetscCall(PetscArrayzero(position, 3));
-  PetscCall(ElementEvaluate(d, k->order, xi, value, gradient));
-  for (PetscInt node = 0; node < k->num_nodes; node++) {
-    for (PetscInt i = 0; i < d; i++) {
-      for (PetscInt r = 0; r < d; r++) {
-        G[i * d + r] += X[node * d + i] * gradient[node * d + r];
-        g[i * d + r] += u[node * d + i] * gradient[node * d + r];
-      }
-      position[i] += value[node] * X[node * d + i];
-    }
-    ur += value[node] * u[node * d];
+  PetscCall(ElementFieldsAt(fields, xi, value));
+  PetscCall(PetscArrayzero(F, 9));
+  for (PetscInt c = 0; c < 9; c++) J[c] = c % 4 == 0;
+  position[2] = 0;
+  for (PetscInt i = 0; i < d; i++) {
+    position[i] = value[0][i];
+    for (PetscInt r = 0; r < d; r++) J[3 * i + r] = G[i * d + r] = value[1 + r][i];
   }
   Invert_Private(d, G, inv);
-  PetscCall(PetscArrayzero(H, 9));
   for (PetscInt i = 0; i < d; i++) {
     for (PetscInt r = 0; r < d; r++) {
-      for (PetscInt J = 0; J < d; J++) H[3 * i + J] += g[i * d + r] * inv[r * d + J];
+      for (PetscInt K = 0; K < d; K++) F[3 * i + K] += value[1 + r][d + i] * inv[r * d + K];
     }
   }
   /* On the axis the hoop strain is the limit u_r/R -> du_r/dR. */
-  if (k->hoop) H[8] = position[0] > 0 ? ur / position[0] : H[0];
+  if (k->hoop) F[8] = position[0] > 0 ? value[0][d] / position[0] : F[0];
+  for (PetscInt c = 0; c < 9; c += 4) F[c] += 1;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -119,18 +124,17 @@ static PetscErrorCode AddPointPressure_Private(CellKernel k, const PetscReal *xi
 #define REMEMBERED 10 /* Kirchhoff stress, energy density */
 
 /* What a law with history answers at the integration points: [num_points][REMEMBERED]. */
-static PetscErrorCode Remembered_Private(CellKernel k, const PetscReal *X, const PetscReal *u, const PetscReal *history, PetscReal *values, PetscBool *bad)
+static PetscErrorCode Remembered_Private(CellKernel k, ElementFields *fields, const PetscReal *history, PetscReal *values, PetscBool *bad)
 {
   const PetscInt h = k->material.law->num_history;
 
   PetscFunctionBegin;
   for (PetscInt q = 0; q < k->num_points; q++, values += REMEMBERED, history += h) {
-    PetscReal      xi[3], F[9], P[9], position[3];
+    PetscReal      xi[3], F[9], J[9], P[9], position[3];
     MaterialPoints point = {.n = 1, .F = F, .W = values + 9, .P = P, .history = history};
 
     Basis1DPoint(k->basis, k->dim, q, xi);
-    PetscCall(PointGradient_Private(k, xi, X, u, position, F));
-    for (int c = 0; c < 9; c += 4) F[c] += 1;
+    PetscCall(PointGradient_Private(k, fields, xi, position, J, F));
     PetscCall(MaterialEvaluate(&k->material, k->mixed ? MATERIAL_ISOCHORIC : MATERIAL_FULL, &point));
     if (point.bad) *bad = PETSC_TRUE;
     for (int c = 0; c < 9; c++) values[c] = Dot3(P + 3 * (c / 3), F + 3 * (c % 3));
@@ -147,36 +151,73 @@ static void FirstPiola_Private(const PetscReal tau[9], const PetscReal F[9], Pet
   for (int c = 0; c < 9; c++) P[c] = Dot3(tau + 3 * (c / 3), inv + 3 * (c % 3));
 }
 
-PetscErrorCode CellKernelPoints(CellKernel k, PetscInt root, PetscInt np, const PetscReal *xi, const PetscReal *X, const PetscReal *u,
-                                const PetscReal *pressure, const PetscReal *history, PetscReal *F, PetscReal *P, PetscReal *W, PetscBool *bad)
+/* What the laws see and answer at up to NUM_LANES points, [..][points]. */
+typedef struct {
+  PetscReal fiber[3 * MATERIAL_MAX_FIBERS * NUM_LANES], F[9 * NUM_LANES], P[9 * NUM_LANES], W[NUM_LANES];
+} Pack;
+
+static void PackFibers_Private(CellKernel k, PetscInt root, const PetscReal position[3], PetscInt at, PetscInt n, PetscReal *fiber)
 {
-  const PetscBool remembers = (PetscBool)(k->material.law->num_history > 0);
-  PetscReal      *values    = NULL;
+  PetscReal direction[MATERIAL_MAX_FIBERS][3];
+
+  MaterialFiberDirections(&k->material, root, position, direction);
+  for (PetscInt i = 0; i < 3 * k->material.num_fibers; i++) fiber[i * n + at] = direction[i / 3][i % 3];
+}
+
+/* n points from xi on; remembered: NULL, or what a law with history knows. */
+static PetscErrorCode Points_Private(CellKernel k, PetscInt root, PetscInt n, const PetscReal *xi, ElementFields *fields, const PetscReal *pressure,
+                                     const PetscReal *remembered, const PointValues *out, PetscBool *bad)
+{
+  Pack      pack;
+  PetscReal t[REMEMBERED], J[NUM_LANES][9], F[NUM_LANES][9], P[NUM_LANES][9], position[NUM_LANES][3];
+
+  PetscFunctionBegin;
+  for (PetscInt q = 0; q < n; q++) {
+    PetscCall(PointGradient_Private(k, fields, xi + q * k->dim, position[q], J[q], F[q]));
+    PackFibers_Private(k, root, position[q], q, n, pack.fiber);
+    for (PetscInt c = 0; c < 9; c++) pack.F[c * n + q] = F[q][c];
+  }
+  if (!remembered) {
+    MaterialPoints point = {.n = n, .F = pack.F, .fiber = pack.fiber, .W = pack.W, .P = pack.P};
+    PetscCall(MaterialEvaluate(&k->material, k->mixed ? MATERIAL_ISOCHORIC : MATERIAL_FULL, &point));
+    if (point.bad) *bad = PETSC_TRUE;
+  }
+  for (PetscInt q = 0; q < n; q++) {
+    for (PetscInt c = 0; !remembered && c < 9; c++) P[q][c] = pack.P[c * n + q];
+    if (remembered) {
+      Basis1DInterpolate(k->basis, k->dim, xi + q * k->dim, REMEMBERED, remembered, t);
+      FirstPiola_Private(t, F[q], P[q]);
+      pack.W[q] = t[9];
+    }
+    if (k->mixed) PetscCall(AddPointPressure_Private(k, xi + q * k->dim, pressure, F[q], P[q], &pack.W[q]));
+  }
+  if (out->X) PetscCall(PetscArraycpy(out->X, position[0], 3 * n));
+  if (out->J) PetscCall(PetscArraycpy(out->J, J[0], 9 * n));
+  if (out->F) PetscCall(PetscArraycpy(out->F, F[0], 9 * n));
+  if (out->P) PetscCall(PetscArraycpy(out->P, P[0], 9 * n));
+  if (out->W) PetscCall(PetscArraycpy(out->W, pack.W, n));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode CellKernelPoints(CellKernel k, PetscInt root, PetscInt np, const PetscReal *xi, const PetscReal *X, const PetscReal *u,
+                                const PetscReal *pressure, const PetscReal *history, const PointValues *values, PetscBool *bad)
+{
+  PetscReal    *remembered = NULL;
+  ElementFields fields;
 
   PetscFunctionBegin;
   PetscCheck(!k->mixed || pressure, PETSC_COMM_SELF, PETSC_ERR_ARG_NULL, "A mixed cell needs its pressure coefficients");
   *bad = PETSC_FALSE;
-  if (remembers) PetscCall(PetscMalloc1(k->num_points * REMEMBERED, &values));
-  if (remembers) PetscCall(Remembered_Private(k, X, u, history, values, bad));
-  for (PetscInt q = 0; q < np; q++) {
-    PetscReal      f[9], p[9], w, t[REMEMBERED], position[3], fiber[MATERIAL_MAX_FIBERS][3];
-    MaterialPoints point = {.n = 1, .F = f, .fiber = fiber[0], .W = &w, .P = p};
-
-    PetscCall(PointGradient_Private(k, xi + q * k->dim, X, u, position, f));
-    MaterialFiberDirections(&k->material, root, position, fiber);
-    for (int c = 0; c < 9; c += 4) f[c] += 1;
-    if (remembers) {
-      Basis1DInterpolate(k->basis, k->dim, xi + q * k->dim, REMEMBERED, values, t);
-      FirstPiola_Private(t, f, p);
-      w = t[9];
-    } else
-      PetscCall(MaterialEvaluate(&k->material, k->mixed ? MATERIAL_ISOCHORIC : MATERIAL_FULL, &point));
-    if (point.bad) *bad = PETSC_TRUE;
-    if (k->mixed) PetscCall(AddPointPressure_Private(k, xi + q * k->dim, pressure, f, p, &w));
-    if (F) PetscCall(PetscArraycpy(F + 9 * q, f, 9));
-    if (P) PetscCall(PetscArraycpy(P + 9 * q, p, 9));
-    if (W) W[q] = w;
+  Fields_Private(k, X, u, &fields);
+  if (k->material.law->num_history > 0) {
+    PetscCall(PetscMalloc1(k->num_points * REMEMBERED, &remembered));
+    PetscCall(Remembered_Private(k, &fields, history, remembered, bad));
   }
-  PetscCall(PetscFree(values));
+  for (PetscInt q = 0; q < np; q += NUM_LANES) {
+    const PointValues from = {values->X ? values->X + 3 * q : NULL, values->J ? values->J + 9 * q : NULL, values->F ? values->F + 9 * q : NULL,
+                              values->P ? values->P + 9 * q : NULL, values->W ? values->W + q : NULL};
+    PetscCall(Points_Private(k, root, PetscMin(NUM_LANES, np - q), xi + q * k->dim, &fields, pressure, remembered, &from, bad));
+  }
+  PetscCall(PetscFree(remembered));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -221,7 +221,7 @@ PetscErrorCode MechanicsUpdatePressure(Mechanics m, const PetscReal du[], PetscR
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode MechanicsPoints(Mechanics m, PetscInt cell, PetscInt np, const PetscReal xi[], const PetscReal u[], PetscReal F[], PetscReal P[], PetscReal W[])
+PetscErrorCode MechanicsPoints(Mechanics m, PetscInt cell, PetscInt np, const PetscReal xi[], const PetscReal u[], const PointValues *points)
 {
   const CellGroup    *g;
   const HPTables     *v;
@@ -246,7 +246,7 @@ PetscErrorCode MechanicsPoints(Mechanics m, PetscInt cell, PetscInt np, const Pe
     pressure = consistent;
   }
   if (g->num_unknown) pressure = m->pressure + m->unknown_first[cell];
-  PetscCall(CellKernelPoints(g->kernel, t->leaf_root[v->cell_leaf[cell]], np, xi, X, values, pressure, g->h ? m->history + m->cell_history[cell] : NULL, F, P,
-                             W, &bad));
+  PetscCall(CellKernelPoints(g->kernel, t->leaf_root[v->cell_leaf[cell]], np, xi, X, values, pressure, g->h ? m->history + m->cell_history[cell] : NULL, points,
+                             &bad));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

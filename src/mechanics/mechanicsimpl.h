@@ -67,10 +67,10 @@ void           CellKernelNumFibers(CellKernel, PetscInt *num);
 PetscErrorCode CellKernelFibers(CellKernel, PetscInt root, const PetscReal *X, PetscReal *fiber);
 
 /* Point values for output and estimation at given reference points xi[np][dim] of one cell of the coarse cell root with nodes X, u ([n][dim]) and pressure
-   coefficients (mixed, else NULL): F[np][9], P[np][9] (with the pressure field's volumetric part), J, weight-free. Laws with history know their stress at the
-   integration points alone, from history[points][num_history] (else NULL): elsewhere the Kirchhoff stress and W are the polynomials through these. */
+   coefficients (mixed, else NULL; P then has the pressure field's volumetric part). Laws with history know their stress at the integration points alone, from
+   history[points][num_history] (else NULL): elsewhere the Kirchhoff stress and W are the polynomials through these. */
 PetscErrorCode CellKernelPoints(CellKernel, PetscInt root, PetscInt np, const PetscReal *xi, const PetscReal *X, const PetscReal *u, const PetscReal *pressure,
-                                const PetscReal *history, PetscReal *F, PetscReal *P, PetscReal *W, PetscBool *bad);
+                                const PetscReal *history, const PointValues *, PetscBool *bad);
 
 /* ---- facets (facet.c): loads on one facet, given by its (p+1)^(dim-1) trace nodes ------------------------------------ */
 

@@ -194,7 +194,7 @@ static PetscErrorCode Values_Private(Problem problem, PetscInt cell, const Petsc
   PetscCall(PetscFree2(nodal, N));
   if (scene->mechanics.bodies[t->leaf_body[v->cell_leaf[cell]]].material->law->rigid) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(ProblemGetMechanics(problem, &mechanics));
-  PetscCall(MechanicsPoints(mechanics, cell, 1, xi, u, F, P, NULL));
+  PetscCall(MechanicsPoints(mechanics, cell, 1, xi, u, &(PointValues){.F = F, .P = P}));
   OutputCauchy(scene->mechanics.kinematics, F, P, value->stress, NULL);
   PetscCall(MechanicsPlasticStrain(mechanics, cell, 1, xi, u, &value->plastic_strain));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -49,7 +49,7 @@ PetscErrorCode OutputSampleCell(Problem problem, PetscInt cell, const PetscReal 
   PetscCall(Basis1DGet(p, p, &basis));
   PetscCall(PetscMalloc3(np * v->dim, &xi, np * 9, &F, np * 9, &P));
   Points_Private(v->dim, basis, np, xi);
-  PetscCall(MechanicsPoints(mechanics, cell, np, xi, u, F, P, NULL));
+  PetscCall(MechanicsPoints(mechanics, cell, np, xi, u, &(PointValues){.F = F, .P = P}));
   for (PetscInt i = 0; i < np; ++i) OutputCauchy(scene->mechanics.kinematics, F + 9 * i, P + 9 * i, samples + 7 * i, samples + 7 * i + 6);
   PetscCall(PetscFree3(xi, F, P));
   PetscFunctionReturn(PETSC_SUCCESS);

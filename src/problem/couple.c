@@ -687,6 +687,6 @@ PetscErrorCode ContactHoldsRims_Private(Problem p, PetscBool *holds)
       for (PetscInt k = 0; k < e->num_rows && e->push; ++k) mine = (PetscBool)(mine || c->active[e->nodes[k]]);
     }
   }
-  if (higher && p->dim == 3) PetscCallMPI(MPI_Allreduce(&mine, holds, 1, MPIU_BOOL, MPI_LOR, p->comm));
+  if (higher && p->dim == 3) PetscCallMPI(MPI_Allreduce(&mine, holds, 1, COMPAT_MPI_BOOL, MPI_LOR, p->comm));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

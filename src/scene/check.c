@@ -51,8 +51,8 @@ PetscErrorCode SceneListNames(PetscInt num, char (*names)[MORTISE_NAME], size_t 
   PetscFunctionBegin;
   PetscCall(PetscStrncpy(list, num ? "" : "none", capacity));
   for (PetscInt i = 0; i < num; ++i) {
-    if (i) PetscCall(PetscStrlcat(list, ", ", capacity));
-    PetscCall(PetscStrlcat(list, names[i], capacity));
+    if (i) TextAppend(capacity, list, ", ");
+    TextAppend(capacity, list, names[i]);
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -67,8 +67,8 @@ static PetscErrorCode Unknown_Private(const SceneNode *root, const SceneNode *no
 
   PetscFunctionBegin;
   for (PetscInt i = 0; i < num; ++i) {
-    if (i) PetscCall(PetscStrlcat(path, ".", sizeof(path)));
-    PetscCall(PetscStrlcat(path, keys[i], sizeof(path)));
+    if (i) TextAppend(sizeof(path), path, ".");
+    TextAppend(sizeof(path), path, keys[i]);
   }
   PetscCall(OptionNearest(root, path, '.', sizeof(nearest), nearest));
   PetscCall(ErrorInput("%s is not a key of a scene; the nearest one is %s", NodeWhere(node), nearest));

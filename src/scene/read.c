@@ -38,8 +38,8 @@ static PetscErrorCode Law_Private(const SceneNode *node, const char *name, const
   *law = MaterialLawFind(name);
   if (*law) PetscFunctionReturn(PETSC_SUCCESS);
   for (const MaterialLaw *row = MaterialLaws; row->name; ++row) {
-    if (list[0]) PetscCall(PetscStrlcat(list, ", ", sizeof(list)));
-    PetscCall(PetscStrlcat(list, row->name, sizeof(list)));
+    if (list[0]) TextAppend(sizeof(list), list, ", ");
+    TextAppend(sizeof(list), list, row->name);
   }
   PetscCall(ErrorInput("%s is '%.64s', which is no law; allowed: %s", NodeWhere(node), name, list));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -221,7 +221,7 @@ static PetscErrorCode Apply_Private(PC pc, Vec x, Vec y)
   if (f->mumps.infog[0] < 0) { /* GMRES sees it and says that it did not converge */
     PetscCall(PetscInfo(pc, "single factor: solve failed with status %d\n", (int)f->mumps.infog[0]));
     PetscCall(PCSetFailedReason(pc, PC_SUBPC_ERROR));
-    PetscCall(VecSetInf(y));
+    PetscCall(CompatVecSetInf(y));
     PetscFunctionReturn(PETSC_SUCCESS);
   }
   PetscCall(VecScatterBegin(f->gather, f->all, y, INSERT_VALUES, SCATTER_REVERSE));

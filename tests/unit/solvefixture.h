@@ -117,32 +117,27 @@ static inline PetscReal BulkError(const Bulk *b, void (*gradient)(const PetscRea
   for (PetscInt c = 0; c < v->num_owned_cells; ++c) {
     const PetscInt p = v->cell_order[c], dim = v->dim;
     const Basis1D *gauss;
-    PetscReal     *X, *xi, *F, *P;
-    PetscInt       np = 1, nodes = 1;
+    PetscReal     *X, *xi, *J, *F, *P;
+    PetscInt       np = 1;
     OK(Basis1DGet(p, p + 3, &gauss));
-    for (PetscInt d = 0; d < dim; ++d) {
-      np *= gauss->num_points;
-      nodes *= p + 1;
-    }
-    OK(PetscMalloc4(nodes * dim, &X, np * dim, &xi, 9 * np, &F, 9 * np, &P));
+    for (PetscInt d = 0; d < dim; ++d) np *= gauss->num_points;
+    OK(PetscMalloc5(3 * np, &X, np * dim, &xi, 9 * np, &J, 9 * np, &F, 9 * np, &P));
     for (PetscInt q = 0; q < np; ++q)
       for (PetscInt d = 0, i = q; d < dim; ++d, i /= gauss->num_points) xi[q * dim + d] = gauss->points[i % gauss->num_points];
-    OK(HPSpaceGatherPositions(b->space, c, X));
-    OK(MechanicsPoints(b->mechanics, c, np, xi, u, F, P, NULL));
+    OK(MechanicsPoints(b->mechanics, c, np, xi, u, &(PointValues){.X = X, .J = J, .F = F, .P = P}));
     for (PetscInt q = 0; q < np; ++q) {
-      PetscReal position[3], J[9], H[9], E[9], weight = 1, trace = 0, exact_trace, square = 0;
-      OK(EstimateGeometry_Private(dim, p, X, xi + q * dim, position, J));
+      PetscReal H[9], E[9], weight = 1, trace = 0, exact_trace, square = 0;
       for (PetscInt d = 0, i = q; d < dim; ++d, i /= gauss->num_points) weight *= gauss->weights[i % gauss->num_points];
-      gradient(position, H);
+      gradient(X + 3 * q, H);
       exact_trace = H[0] + H[4] + H[8];
       for (PetscInt i = 0; i < 3; ++i)
         for (PetscInt k = 0; k < 3; ++k) E[3 * i + k] = 0.5 * (F[9 * q + 3 * i + k] + F[9 * q + 3 * k + i] - H[3 * i + k] - H[3 * k + i]) - (i == k);
       trace = E[0] + E[4] + E[8];
       for (PetscInt k = 0; k < 9; ++k) square += 2 * mu * PetscSqr(E[k] - (k % 4 == 0 ? trace / 3 : 0));
       square += PetscSqr((P[9 * q] + P[9 * q + 4] + P[9 * q + 8]) / 3 - kappa * exact_trace) / kappa;
-      sum += weight * Det3(J) * square;
+      sum += weight * Det3(J + 9 * q) * square;
     }
-    OK(PetscFree4(X, xi, F, P));
+    OK(PetscFree5(X, xi, J, F, P));
   }
   return PetscSqrtReal(sum);
 }

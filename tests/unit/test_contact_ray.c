@@ -166,9 +166,8 @@ static void CheckSeed(const Kind *kind, uint64_t seed, PetscInt first, PetscInt 
   PetscInt          columns;
 
   MakePair(kind, &seed, &nonmortar, &mortar);
-  z = calloc((size_t)nonmortar.s.num_nodes, sizeof(PetscReal));
+  CHECK_CALL(PetscMalloc2(nonmortar.s.num_nodes, &z, nonmortar.s.num_nodes, &softness));
   for (int j = 0; j < nonmortar.s.num_nodes; j++) z[j] = Random(&seed);
-  softness = calloc((size_t)nonmortar.s.num_nodes, sizeof(PetscReal));
   for (int j = 0; j < nonmortar.s.num_nodes; j++) softness[j] = 20 + 10 * Random(&seed); /* so that facets covered in part give as much as their gaps */
   CHECK_CALL(ContactPairCreate(kind->dim, kind->ring, &spec, &pair));
   if (!kind->hanging) CHECK_CALL(ContactPairSetSoftness(pair, softness));
@@ -223,8 +222,7 @@ static void CheckSeed(const Kind *kind, uint64_t seed, PetscInt first, PetscInt 
   SumDestroy(&exact);
   PatchDestroy(&nonmortar);
   PatchDestroy(&mortar);
-  free(z);
-  free(softness);
+  CHECK_CALL(PetscFree2(z, softness));
   CHECK_CALL(ContactPairDestroy(&pair));
 }
 

@@ -158,12 +158,59 @@ static void LegendreIsOrthogonal(void **state)
   for (PetscInt i = 0; i < 8; i++) assert_near(d[i], (plus[i] - minus[i]) / 2e-5, 1e-6);
 }
 
+/* Three fields of a cell at points that share coordinates with the one before, in all ways, and at points that share none: as by all the functions, to 1e-12.
+ */
+static void FieldsAreTheSumsOverAllFunctions(void **state)
+{
+  static const PetscReal place[][3] = {{0.1, 0.2, 0.3}, {0.7, 0.2, 0.3}, {0.7, 1, 0.3},   {0.7, 1, 0},
+                                       {0.1, 1, 0.9},   {0.1, 0.2, 0.9}, {0.1, 0.2, 0.9}, {0.4, 0.5, 0.6}};
+  static ElementFields   f;
+
+  for (PetscInt dim = 2; dim <= 3; dim++) {
+    for (PetscInt p = 1; p <= MORTISE_MAX_ORDER; p++) {
+      static PetscReal two[2 * 729], one[729], N[729], G[3 * 729];
+      const PetscInt   n = ElementNumNodes(dim, p);
+
+      for (PetscInt i = 0; i < n; i++) {
+        two[2 * i]     = PetscSinReal(i);
+        two[2 * i + 1] = PetscCosReal(2 * i);
+        one[i]         = PetscSinReal(3 * i + 1);
+      }
+      ElementFieldsBegin(&f, dim, p);
+      ElementFieldsAdd(&f, 0, 2, two);
+      ElementFieldsAdd(&f, 2, 1, one);
+      for (size_t q = 0; q < sizeof(place) / sizeof(place[0]); q++) {
+        Lanes     value[4];
+        PetscReal sum[4][3] = {{0}};
+
+        OK(ElementFieldsAt(&f, place[q], value));
+        OK(ElementEvaluate(dim, p, place[q], N, G));
+        for (PetscInt i = 0; i < n; i++) {
+          const PetscReal at[3] = {two[2 * i], two[2 * i + 1], one[i]};
+          for (PetscInt c = 0; c < 3; c++) {
+            sum[0][c] += N[i] * at[c];
+            for (PetscInt d = 0; d < dim; d++) sum[1 + d][c] += G[i * dim + d] * at[c];
+          }
+        }
+        for (PetscInt k = 0; k <= dim; k++) {
+          for (PetscInt c = 0; c < 3; c++) assert_near(value[k][c], sum[k][c], 1e-12 * p * p);
+        }
+      }
+    }
+  }
+}
+
 int main(int argc, char **argv)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(NodesAreGaussLobatto),      cmocka_unit_test(KroneckerIsExact),
-                                     cmocka_unit_test(PolynomialsAreReproduced),  cmocka_unit_test(QuadratureIsExact),
-                                     cmocka_unit_test(TableAgreesWithEvaluation), cmocka_unit_test(TensorFunctionsAreLexicographic),
-                                     cmocka_unit_test(LegendreIsOrthogonal)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(NodesAreGaussLobatto),
+                                     cmocka_unit_test(KroneckerIsExact),
+                                     cmocka_unit_test(PolynomialsAreReproduced),
+
+                                     cmocka_unit_test(QuadratureIsExact),
+                                     cmocka_unit_test(TableAgreesWithEvaluation),
+                                     cmocka_unit_test(TensorFunctionsAreLexicographic),
+                                     cmocka_unit_test(LegendreIsOrthogonal),
+                                     cmocka_unit_test(FieldsAreTheSumsOverAllFunctions)};
 
   if (PetscInitialize(&argc, &argv, NULL, NULL)) return 1;
   const int failed = cmocka_run_group_tests(tests, NULL, NULL);

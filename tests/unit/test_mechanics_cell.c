@@ -233,7 +233,7 @@ static void PatchIsExact(void **state)
         assert_near(cell.min_det, Det3(F1), 1e-13);
         volume = cell.energy / W1;
         for (PetscInt i = 0; i < 5 * dim; i++) xi[i] = 0.5 + Random();
-        OK(CellKernelPoints(cell.kernel, 0, 5, xi, cell.X, cell.u, cell.m ? cell.c : NULL, NULL, F, P, W, &bad));
+        OK(CellKernelPoints(cell.kernel, 0, 5, xi, cell.X, cell.u, cell.m ? cell.c : NULL, NULL, &(PointValues){.F = F, .P = P, .W = W}, &bad));
         assert_false(bad);
         for (int i = 0; i < 45; i++) {
           assert_near(F[i], F1[i % 9], 1e-13);
@@ -381,7 +381,7 @@ static void PressureIsProjection(void **state)
     PetscReal       F[9];
     PetscBool       bad;
 
-    OK(CellKernelPoints(cell.kernel, 0, 1, xi, cell.X, cell.u, cell.c, NULL, F, NULL, NULL, &bad));
+    OK(CellKernelPoints(cell.kernel, 0, 1, xi, cell.X, cell.u, cell.c, NULL, &(PointValues){.F = F}, &bad));
     volume += 0.25;
     mean += 0.25 * (Det3(F) - 1);
   }

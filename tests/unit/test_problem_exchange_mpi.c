@@ -159,7 +159,7 @@ static void FarRanksSendNothing(void **state)
 
   MPI_Comm_size(PETSC_COMM_WORLD, &size);
   for (PetscInt corner = 0; corner < 4; ++corner) Corner(corner, counts);
-  MPI_Allreduce(MPI_IN_PLACE, counts, 3, MPIU_INT, MPI_SUM, PETSC_COMM_WORLD);
+  OK(MPI_Allreduce(MPI_IN_PLACE, counts, 3, MPIU_INT, MPI_SUM, PETSC_COMM_WORLD));
   if (size == 3) assert_true(counts[0] > 0 && counts[1] > 0 && counts[2] > 0); /* the test has something to say */
   if (size == 1) assert_int_equal(counts[0] + counts[1] + counts[2], 0);
 }

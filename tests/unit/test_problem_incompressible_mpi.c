@@ -64,7 +64,7 @@ static void Errors(const Solved *s, PetscReal pi, PetscReal *u, PetscReal *stres
   *u = *stress = 0;
   for (PetscInt c = 0; c < v->num_owned_cells; ++c) {
     const PetscInt np = CellGauss(v->dim, v->cell_order[c] + 1, xi, weight);
-    OK(MechanicsPoints(s->mechanics, c, np, xi, s->u, Fq, Pq, NULL));
+    OK(MechanicsPoints(s->mechanics, c, np, xi, s->u, &(PointValues){.F = Fq, .P = Pq}));
     for (PetscInt q = 0; q < 9 * np; ++q) *stress = PetscMax(*stress, PetscAbsReal(Pq[q] - P[q % 9]));
     OK(HPSpaceGatherPositions(s->space, c, X));
     OK(HPSpaceGather(s->space, c, s->u, value));

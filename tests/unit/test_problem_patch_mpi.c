@@ -80,7 +80,7 @@ static PetscReal StressError(const Solved *s, PetscReal *scale)
   for (PetscInt k = 0; k < 9; ++k) *scale = PetscMax(*scale, PetscAbsReal(P[k]));
   for (PetscInt c = 0; c < v->num_owned_cells; ++c) {
     const PetscInt np = CellGauss(v->dim, v->cell_order[c] + 1, xi, weight);
-    OK(MechanicsPoints(s->mechanics, c, np, xi, s->u, Fq, Pq, NULL));
+    OK(MechanicsPoints(s->mechanics, c, np, xi, s->u, &(PointValues){.F = Fq, .P = Pq}));
     for (PetscInt q = 0; q < 9 * np; ++q) error = PetscMax(error, PetscAbsReal(Pq[q] - P[q % 9]));
   }
   return LargestOfRanks(error);

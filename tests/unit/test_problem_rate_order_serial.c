@@ -49,7 +49,7 @@ static Errors Integrate(const Solved *s)
     const PetscInt p = v->cell_order[c], n = ElementNumNodes(2, p), np = CellGauss(2, p + 3, xi, weight);
     OK(HPSpaceGatherPositions(s->space, c, X));
     OK(HPSpaceGather(s->space, c, s->u, u));
-    OK(MechanicsPoints(s->mechanics, c, np, xi, s->u, F, P, NULL));
+    OK(MechanicsPoints(s->mechanics, c, np, xi, s->u, &(PointValues){.F = F, .P = P}));
     for (PetscInt q = 0; q < np; ++q) {
       const PetscReal *G     = F + 9 * q;
       PetscReal        at[3] = {0}, uh[2] = {0}, J[4] = {0}, exact[2], H[4];

@@ -62,19 +62,19 @@ static Expression BodyForce(PetscInt i)
   char gradient[8000] = "";
 
   for (PetscInt k = 0; k < 3; ++k) { /* J,k = cof : F,k */
-    OK(PetscStrlcat(gradient, k ? "+" : "", sizeof(gradient)));
-    OK(PetscStrlcat(gradient, cofactor[i][k], sizeof(gradient)));
-    OK(PetscStrlcat(gradient, "*(0", sizeof(gradient)));
+    TextAppend(sizeof(gradient), gradient, k ? "+" : "");
+    TextAppend(sizeof(gradient), gradient, cofactor[i][k]);
+    TextAppend(sizeof(gradient), gradient, "*(0");
     for (PetscInt row = 0; row < 3; ++row) {
       for (PetscInt column = 0; column < 3; ++column) {
         if (!derivative[column][row][k]) continue;
-        OK(PetscStrlcat(gradient, "+", sizeof(gradient)));
-        OK(PetscStrlcat(gradient, cofactor[row][column], sizeof(gradient)));
-        OK(PetscStrlcat(gradient, "*", sizeof(gradient)));
-        OK(PetscStrlcat(gradient, derivative[column][row][k], sizeof(gradient)));
+        TextAppend(sizeof(gradient), gradient, "+");
+        TextAppend(sizeof(gradient), gradient, cofactor[row][column]);
+        TextAppend(sizeof(gradient), gradient, "*");
+        TextAppend(sizeof(gradient), gradient, derivative[column][row][k]);
       }
     }
-    OK(PetscStrlcat(gradient, ")", sizeof(gradient)));
+    TextAppend(sizeof(gradient), gradient, ")");
   }
   return BulkExpression("-%s-(3-2*ln(" DET "))/(" DET ")^2*(%s)", laplace[i], gradient);
 }
@@ -112,7 +112,7 @@ static void Integrate(const Solved *s, Figures *f)
     const PetscInt p = v->cell_order[c], n = ElementNumNodes(3, p), np = CellGauss(3, p + 3, xi, weight);
     OK(HPSpaceGatherPositions(s->space, c, X));
     OK(HPSpaceGather(s->space, c, s->u, u));
-    OK(MechanicsPoints(s->mechanics, c, np, xi, s->u, F, P, NULL));
+    OK(MechanicsPoints(s->mechanics, c, np, xi, s->u, &(PointValues){.F = F, .P = P}));
     for (PetscInt q = 0; q < np; ++q) {
       PetscReal at[3] = {0}, uh[3] = {0}, J[9] = {0}, exact[3], H[9], h1 = 0, l2 = 0, norm = 0;
       OK(ElementEvaluate(3, p, xi + 3 * q, N, D));

@@ -377,7 +377,7 @@ static void GhostsKnowTheirHistory(void **state)
     for (PetscInt c = ghost ? v->num_owned_cells : 0; c < (ghost ? v->num_cells : v->num_owned_cells); ++c) {
       const PetscReal xi[2] = {0.2, 0.9};
       PetscReal       P[9];
-      OK(MechanicsPoints(b.mechanics, c, 1, xi, u, NULL, P, NULL));
+      OK(MechanicsPoints(b.mechanics, c, 1, xi, u, &(PointValues){.P = P}));
       assert_true(PetscAbsReal(P[0]) + PetscAbsReal(P[4]) + PetscAbsReal(P[8]) > 1e-4);
       if (ghost)
         assert_near(P[0], sum[v->cell_leaf[c]], 1e-14);

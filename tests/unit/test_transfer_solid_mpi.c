@@ -104,7 +104,7 @@ static void RemovedMultipliers(void **state)
     checked += X[0] < 0.5;
     assert_near(new_z[n], Field(at), 1e-13);
   }
-  MPI_Allreduce(MPI_IN_PLACE, &checked, 1, MPIU_INT, MPI_SUM, PETSC_COMM_WORLD);
+  OK(MPI_Allreduce(MPI_IN_PLACE, &checked, 1, MPIU_INT, MPI_SUM, PETSC_COMM_WORLD));
   assert_int_equal(checked, 14); /* two rows of seven nodes */
   OK(PetscFree2(z, has));
   OK(PetscFree(new_z));

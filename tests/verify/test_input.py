@@ -248,6 +248,15 @@ def test_refused(check, edit, words):
         refused(result, *words)
 
 
+def test_many_long_names(check):
+    """Forty groups of sixty characters are more than the message has room for: it ends among them."""
+    names = [f"group_{i}_{'x' * 60}"[:60] for i in range(40)]
+    geo = GEO + "".join(f'Physical Curve("{name}", {20 + i}) = {{{(2, 4, 12, 14)[i % 4]}}};\n' for i, name in enumerate(names))
+    result = check([("boundary:\n", "boundary:\n  tip: {fix: x}\n")], geo=geo)
+    refused(result, "no boundary group 'tip'", names[0])
+    assert names[-1] not in result.stderr, result
+
+
 NO_PAIR = ("contact:\n  pair: {nonmortar: upper_bottom, mortar: lower_top, friction: 0}\n", "")
 
 
@@ -385,6 +394,13 @@ def test_solver_option_misspelt(run):
         result = run("inputs/patch2d.yml", "-solve_rtoll", "1e-8", *check)
         assert result.returncode == 1 and not result.stdout, result
         assert result.stderr == "mortise: -solve_rtoll is no option of the solver; the nearest one is -solve_rtol\n", result.stderr
+
+
+@pytest.mark.parametrize("option,said", [("-snes_monitorr", "mortise: nothing used the option -snes_monitorr; is it spelt right?\n"), ("-options_view", "")])
+def test_option_of_petsc(run, option, said):
+    """One that nothing uses is named once, by us, not by PETSc; one that PETSc reads last of all is no such option."""
+    result = run("inputs/patch2d.yml", option)
+    assert result.returncode == 0 and result.stderr == said and "unused" not in result.stdout, result
 
 
 def test_command_line_wins(check):

@@ -16,7 +16,8 @@ slow = pytest.mark.slow
 SECOND = ("2-1", "2-full")
 BOTH = (*SECOND, "4-1", "4-full")
 FEW = {"lower": LOWER._replace(number=(2, 2, 1)), "upper": UPPER._replace(number=(1, 1, 1))}
-PUNCH = fails("full faces of the rigid punch as nonmortar side, coarser than the block it slides on with sharp edges: steps are cut")
+PUNCH = fails("full faces of the rigid punch as nonmortar side, coarser than the block it slides on with sharp edges: on the refined mesh a mortar facet drops out of some "
+              "iterates as unusable, with 1 % of the area, and the residual jumps from 2e-5 to 2e-3")
 CARRIES = pytest.mark.parametrize("carries", ["upper", pytest.param("lower", marks=slow)])
 
 
