@@ -32,6 +32,8 @@ PetscErrorCode HelpRow(MPI_Comm, const char *name, const char *allowed, const ch
 
 /* Install the error handler that keeps quiet about input errors and prints PETSc's traceback for all others. */
 PetscErrorCode ErrorHandlerPush(void);
+/* Errors of the machine (files that cannot be written, memory): told in one sentence, like input errors, though the run ends as after any other error. */
+PetscBool ErrorIsPlain(PetscErrorCode);
 /* Between the two an error of PETSc whose message has these words is no end but an answer: *met, without a word on the screen; any other returns from the
    second call as ever. code: what the call in question returned, without PetscCall around it; it must return the same on all ranks. No nesting. */
 PetscErrorCode ErrorForesee(const char *words);
@@ -87,6 +89,8 @@ typedef struct _p_Expression *Expression;
    A text that is no expression is an input error that quotes key, text and the parser's reason. */
 PetscErrorCode ExpressionCreate(const char *key, const char *text, Expression *);
 PetscErrorCode ExpressionEvaluate(Expression, const PetscReal X[3], PetscReal t, PetscReal *value);
+/* Was a value not finite since this was last asked? Then a sentence that says which and where, which lives until it is asked again; else NULL. Collective. */
+PetscErrorCode ExpressionTrouble(MPI_Comm, const char **words);
 PetscBool      ExpressionUsesTime(Expression);  /* t occurs in it */
 PetscBool      ExpressionUsesPlace(Expression); /* X, Y or Z */
 const char    *ExpressionText(Expression);      /* as given; borrowed */

@@ -67,8 +67,9 @@ static PetscErrorCode PrescribeAt_Private(Problem problem, PetscReal t)
 
 /* The level on the adapted forest with both states carried over, each under the prescribed motion of its own time: new nodes near a support are
    interpolated from prescribed ones. Both take the history of the accepted one, made admissible there; of a step that went in pieces, too. Where the mesh has
-   inverted cells (sides that hang from coarser cells cut across curved ones) the level stays: *inverted. */
-static PetscErrorCode MoveTo_Private(App *app, Forest forest, const int8_t old_order[], const ForestMap *map, PetscBool *inverted)
+   inverted cells (sides that hang from coarser cells cut across curved ones), or a prescribed value is not finite at a new node, the level stays: *refused says
+   why, else NULL. */
+static PetscErrorCode MoveTo_Private(App *app, Forest forest, const int8_t old_order[], const ForestMap *map, const char **refused)
 {
   const Level *old = &app->level;
   Level        next;
@@ -82,13 +83,16 @@ static PetscErrorCode MoveTo_Private(App *app, Forest forest, const int8_t old_o
   PetscCall(LevelCreate(app->data, forest, orders, old->state.t, &next));
   PetscCall(PetscFree(orders));
   PetscCall(ProblemFindInverted(next.problem, &order, X));
-  *inverted = (PetscBool)(order > 0);
-  if (*inverted) {
+  PetscCall(ExpressionTrouble(app->comm, refused));
+  if (order > 0) {
+    *refused = "refinement inverts a curved cell";
     PetscCall(PetscPrintf(app->comm,
                           "note: refinement would invert a curved cell of order %" PetscInt_FMT
                           " at (%g, %g, %g): the coarser mesh stays; smaller cells there, "
                           "a higher order or mesh.order: 1 avoid it\n",
                           order, (double)X[0], (double)X[1], (double)X[2]));
+  }
+  if (*refused) {
     PetscCall(LevelDestroy(&next));
     PetscFunctionReturn(PETSC_SUCCESS);
   }
@@ -182,7 +186,7 @@ static PetscErrorCode Refine_Private(App *app, MarkList *layers, PetscBool *adap
   ForestMap           map;
   int8_t             *order  = NULL;
   PetscReal          *weight = NULL;
-  PetscBool           inverted;
+  const char         *refused;
 
   PetscFunctionBegin;
   PetscCall(ForestGetTables(app->level.forest, &t));
@@ -200,9 +204,9 @@ static PetscErrorCode Refine_Private(App *app, MarkList *layers, PetscBool *adap
     PetscCall(ForestAdapt(app->level.forest, &list, weight, num_pairs, (const PetscInt(*)[2])pairs, &forest, &map));
     PetscCall(StageEnd(STAGE_MESH));
     PetscCall(PetscFree(pairs));
-    PetscCall(MoveTo_Private(app, forest, order ? order : app->level.state.leaf_order, &map, &inverted));
-    if (inverted) app->adapt_stop = "refinement inverts a curved cell";
-    *adapted = (PetscBool)!inverted;
+    PetscCall(MoveTo_Private(app, forest, order ? order : app->level.state.leaf_order, &map, &refused));
+    if (refused) app->adapt_stop = refused;
+    *adapted = (PetscBool)!refused;
     PetscCall(ForestMapDestroy(&map));
   }
   PetscCall(MarkListDestroy(&list));

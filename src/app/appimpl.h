@@ -83,6 +83,6 @@ PetscErrorCode AppReadCheckpoint(App *, Forest coarse);
 PetscErrorCode AppResume(App *, Forest *coarse);
 
 PetscErrorCode LevelCreate(const SceneData *, Forest, const int8_t leaf_order[], PetscReal t, Level *);
-/* An input error when a cell of it is inverted in the reference mesh. Collective. */
+/* An input error when a cell of it is inverted in the reference mesh, or a value at its time is not finite. Collective. */
 PetscErrorCode LevelCheck(const Level *);
 PetscErrorCode LevelDestroy(Level *);

@@ -4,7 +4,10 @@
 /* Takes the forest over. The states start at rest at time t. */
 PetscErrorCode LevelCreate(const SceneData *data, Forest forest, const int8_t leaf_order[], PetscReal t, Level *level)
 {
+  const char *earlier;
+
   PetscFunctionBegin;
+  PetscCall(ExpressionTrouble(ForestComm(forest), &earlier));
   level->forest = forest;
   PetscCall(ProblemCreate(data, forest, leaf_order, &level->problem));
   PetscCall(ProblemSetTime(level->problem, t));
@@ -18,10 +21,13 @@ PetscErrorCode LevelCreate(const SceneData *data, Forest forest, const int8_t le
 
 PetscErrorCode LevelCheck(const Level *level)
 {
-  PetscInt  order;
-  PetscReal X[3];
+  PetscInt    order;
+  PetscReal   X[3];
+  const char *words;
 
   PetscFunctionBegin;
+  PetscCall(ExpressionTrouble(ForestComm(level->forest), &words));
+  PetscCheckInput(!words, "%s", words);
   PetscCall(ProblemFindInverted(level->problem, &order, X));
   PetscCheckInput(!order,
                   "mesh: a cell of order %" PetscInt_FMT " at (%g, %g, %g) is inverted, for sides that are straight or hang from coarser cells cut across "

@@ -21,11 +21,21 @@ void AppCount(App *app, const SolverReport *report)
 /* One attempt from the accepted state of this mesh to time t. */
 static PetscErrorCode Attempt_Private(App *app, PetscReal t, SolverReport *report)
 {
-  Level *l = &app->level;
+  Level      *l = &app->level;
+  const char *words;
 
   PetscFunctionBegin;
   PetscCall(ProblemSetTime(l->problem, t));
-  PetscCall(SolverSolve(l->solver, &l->state, report));
+  PetscCall(ExpressionTrouble(app->comm, &words)); /* of prescribed motion and dead loads; the others are asked for on the way */
+  PetscCall(PetscMemzero(report, sizeof(*report)));
+  if (!words) {
+    PetscCall(SolverSolve(l->solver, &l->state, report));
+    PetscCall(ExpressionTrouble(app->comm, &words));
+  }
+  if (words) {
+    report->converged = PETSC_FALSE;
+    report->reason    = words;
+  }
   AppCount(app, report);
   if (report->converged) l->state.t = t;
   PetscFunctionReturn(PETSC_SUCCESS);

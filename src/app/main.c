@@ -1,6 +1,7 @@
 /* mortise: finite-deformation contact with error control. The story goes on in loadstep.c and adaptstep.c. */
 #include "appimpl.h"
 #include <signal.h>
+#include <unistd.h>
 
 static PetscErrorCode Begin_Private(App *app, Forest forest)
 {
@@ -207,6 +208,16 @@ static PetscErrorCode Main_Private(int argc, char **argv, int *status)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* One process ends without the words of MPI_Abort, and without those of libraries that would still close their files. */
+static void End_Private(void)
+{
+  PetscMPIInt size;
+
+  MPI_Comm_size(PETSC_COMM_WORLD, &size);
+  fflush(stdout);
+  if (size == 1) _exit(2);
+}
+
 /* PETSc's own list of options that nothing used would repeat ours, or stand beside the sentence about wrong input: current releases print it unasked. */
 static PetscErrorCode Finalize_Private(void)
 {
@@ -224,10 +235,12 @@ int main(int argc, char **argv)
   ierr = AppInitialize(argc, argv);
   if (ierr) return 2;
   (void)signal(SIGPIPE, SIG_DFL); /* output cut short by `head` is no error to report */
+  (void)signal(SIGXFSZ, SIG_IGN); /* a file that may not grow is told of as a full disk is */
   ierr = ErrorHandlerPush();
   if (!ierr) ierr = Main_Private(argc, argv, &status);
   if (ierr) {
     /* An error other than wrong input leaves ranks anywhere: no orderly end. */
+    if (ErrorIsPlain(ierr)) End_Private();
     if (ierr != MORTISE_ERR_INPUT) MPI_Abort(PETSC_COMM_WORLD, 2);
     (void)Finalize_Private();
     return 1;

@@ -23,6 +23,25 @@ PetscErrorCode ErrorInput(const char *format, ...)
   return MORTISE_ERR_INPUT;
 }
 
+PetscBool ErrorIsPlain(PetscErrorCode code)
+{
+  return (PetscBool)(code == PETSC_ERR_FILE_WRITE || code == PETSC_ERR_MEM);
+}
+
+/* No fault of the program: a sentence will do, of the first process or of the one whose own matter it is. */
+static void Plain_Private(MPI_Comm comm, const char *function, PetscErrorCode code, const char *message)
+{
+  PetscMPIInt rank = 0;
+
+  if (comm != PETSC_COMM_SELF) MPI_Comm_rank(comm, &rank);
+  if (rank) return;
+  if (code == PETSC_ERR_MEM)
+    fprintf(stderr, "mortise: out of memory (in %s): take a smaller problem, or more processes on more machines\n", function);
+  else
+    fprintf(stderr, "mortise: %s\n", message);
+  fflush(stderr);
+}
+
 static const char *foreseen;
 static PetscBool   foreseen_met;
 
@@ -34,6 +53,10 @@ static PetscErrorCode ErrorHandler_Private(MPI_Comm comm, int line, const char *
   if (code == MORTISE_ERR_INPUT) return code;
   if (foreseen && type == PETSC_ERROR_INITIAL && message && strstr(message, foreseen)) foreseen_met = PETSC_TRUE;
   if (foreseen_met) return code;
+  if (ErrorIsPlain(code)) {
+    if (type == PETSC_ERROR_INITIAL) Plain_Private(comm, function, code, message);
+    return code;
+  }
   return PetscTraceBackErrorHandler(comm, line, function, file, code, type, message, context);
 }
 

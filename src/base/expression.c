@@ -13,6 +13,8 @@ struct _p_Expression {
   PetscBool        uses[4]; /* X, Y, Z, t occur in the text */
 };
 
+static char trouble[PETSC_MAX_PATH_LEN + 512]; /* the first value that was not finite, since that was last asked for */
+
 static const char *const VariableNames[4] = {"X", "Y", "Z", "t"};
 
 /* muParser calls this at each error; the error is asked for afterwards instead. */
@@ -95,9 +97,31 @@ PetscErrorCode ExpressionEvaluate(Expression e, const PetscReal X[3], PetscReal 
     for (int i = 0; i < 3; ++i) e->variable[i] = X[i];
     e->variable[3] = t;
     *value         = mupEval(e->parser);
-    PetscCheck(!PetscIsInfOrNanReal(*value), PETSC_COMM_SELF, PETSC_ERR_FP, "%s: \"%s\" is not finite at X = %g, Y = %g, Z = %g, t = %g", e->key, e->text,
-               (double)X[0], (double)X[1], (double)X[2], (double)t);
+    if (PetscIsInfOrNanReal(*value) && !trouble[0]) {
+      PetscCall(PetscSNPrintf(trouble, sizeof(trouble), "%s: \"%.200s\" is not finite at X = %g, Y = %g, Z = %g, t = %g", e->key, e->text, (double)X[0],
+                              (double)X[1], (double)X[2], (double)t));
+    }
   }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode ExpressionTrouble(MPI_Comm comm, const char **words)
+{
+  static char told[sizeof(trouble)];
+  PetscMPIInt rank, size, first;
+
+  PetscFunctionBegin;
+  PetscCallMPI(MPI_Comm_rank(comm, &rank));
+  PetscCallMPI(MPI_Comm_size(comm, &size));
+  if (!trouble[0]) rank = size;
+  PetscCallMPI(MPI_Allreduce(&rank, &first, 1, MPI_INT, MPI_MIN, comm));
+  *words = NULL;
+  if (first < size) {
+    PetscCall(PetscStrncpy(told, trouble, sizeof(told)));
+    PetscCallMPI(MPI_Bcast(told, sizeof(told), MPI_CHAR, first, comm));
+    *words = told;
+  }
+  trouble[0] = 0;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -38,6 +38,7 @@ PetscErrorCode OutputAccess(MPI_Comm comm, hid_t *access)
   PetscMPIInt size;
 
   PetscFunctionBegin;
+  PetscCallH5(H5Eset_auto2(H5E_DEFAULT, NULL, NULL)); /* errors are told once, in one sentence */
   PetscCallMPI(MPI_Comm_size(comm, &size));
   PetscCallH5Id(*access, H5Pcreate(H5P_FILE_ACCESS));
   if (size > 1) PetscCallH5(H5Pset_fapl_mpio(*access, comm, MPI_INFO_NULL));

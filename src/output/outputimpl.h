@@ -1,13 +1,14 @@
 /* Private to output: the XDMF index that the writer keeps, whole-file replacement, fields of contact surfaces. */
 #pragma once
 #include "output.h"
+#include <errno.h>
 #include <hdf5.h>
 
 /* Rank 0 writes text to path.tmp and renames it to path; every rank returns the same error. Collective. */
 PetscErrorCode OutputReplaceFile(MPI_Comm, const char *path, const char *text);
 
-#define PetscCallH5(call) PetscCheck((call) >= 0, PETSC_COMM_SELF, PETSC_ERR_FILE_WRITE, "HDF5 failed in %s", #call)
-#define PetscCallH5Id(id, call) PetscCheck(((id) = (call)) >= 0, PETSC_COMM_SELF, PETSC_ERR_FILE_WRITE, "HDF5 failed in %s", #call)
+#define PetscCallH5(call) PetscCheck((call) >= 0, PETSC_COMM_SELF, PETSC_ERR_FILE_WRITE, "HDF5 failed in %s: %s", #call, strerror(errno))
+#define PetscCallH5Id(id, call) PetscCheck(((id) = (call)) >= 0, PETSC_COMM_SELF, PETSC_ERR_FILE_WRITE, "HDF5 failed in %s: %s", #call, strerror(errno))
 
 /* Scalar attributes of an HDF5 object (output/hdf5.c): of any type, 64-bit integer, double. */
 PetscErrorCode OutputAttribute(hid_t object, const char *name, hid_t stored, hid_t type, const void *value);

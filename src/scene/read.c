@@ -272,6 +272,11 @@ static PetscErrorCode ReadContact_Private(Scene s, SceneNode *node, ContactEntry
   c->spec.standard       = c->multiplier == 1 ? PETSC_TRUE : PETSC_FALSE;
   c->spec.continuous     = s->data.mesh.dim == 3 && c->projection == 0 ? PETSC_TRUE : PETSC_FALSE;
   PetscCheckInput(c->spec.friction == 0, "%s is %g: friction is not built yet; allowed: 0", NodeWhere(NodeFind(node, "friction")), (double)c->spec.friction);
+  PetscCheckInput(!strchr(node->key, '/'), "%s: the name of a pair has no '/' in it", NodeWhere(node));
+  for (PetscInt i = 0; &s->contact[i] < c; ++i) {
+    PetscCheckInput(strcmp(c->nonmortar, s->contact[i].nonmortar) || strcmp(c->mortar, s->contact[i].mortar),
+                    "%s: '%s' and '%s' are the sides of pair '%s' already", NodeWhere(node), c->nonmortar, c->mortar, s->contact[i].spec.name);
+  }
   PetscCheckInput(strcmp(c->nonmortar, c->mortar), "%s: both sides are '%s'; a pair needs two different surfaces", NodeWhere(node), c->mortar);
   PetscCheckInput(s->data.mesh.dim == 2 || !c->spec.node_to_segment,
                   "%s: node-to-segment contact is for comparison in two dimensions only; allowed here: false", NodeWhere(NodeFind(node, "node_to_segment")));

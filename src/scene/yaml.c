@@ -139,6 +139,8 @@ static PetscErrorCode Key_Private(Reader *r, const SceneNode *map, char key[MORT
                   (int)r->event.start_mark.column + 1);
   PetscCall(Scalar_Private(r, &text));
   PetscCheckInput(text[0], "%s:%d: an empty key", r->origin, (int)Line_Private(r));
+  PetscCheckInput(!text[strcspn(text, ",\"\n\r\t")], "%s:%d: key \"%.20s…\" has a comma, quotation mark, tabulator or line break in it", r->origin,
+                  (int)Line_Private(r), text);
   PetscCheckInput(strlen(text) < MORTISE_NAME, "%s:%d: key \"%.20s…\" is longer than %d characters", r->origin, (int)Line_Private(r), text, MORTISE_NAME - 1);
   twin = NodeFind(map, text);
   PetscCheckInput(!twin, "%s is given twice, in lines %d and %d", NodeWhere(twin), (int)twin->line, (int)Line_Private(r));

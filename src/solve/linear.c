@@ -106,6 +106,17 @@ static PetscErrorCode MoreWorkspace_Private(PC pc, PetscBool *again)
 }
 #endif
 
+/* Are all entries finite? With others MUMPS ends in a signal. */
+static PetscErrorCode IsFinite_Private(Mat A, PetscBool *yes)
+{
+  PetscReal norm;
+
+  PetscFunctionBegin;
+  PetscCall(MatNorm(A, NORM_FROBENIUS, &norm));
+  *yes = (PetscBool)!PetscIsInfOrNanReal(norm);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* Factorise A. A failure shows in the solve that follows. */
 static PetscErrorCode Factor_Private(Solver s, Mat A)
 {
@@ -174,6 +185,8 @@ PetscErrorCode SolverDirect_Private(Solver s, Mat A, Vec rhs, Vec x, PetscBool *
   PC  pc;
 
   PetscFunctionBegin;
+  PetscCall(IsFinite_Private(A, ok));
+  if (!*ok) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SNESGetKSP(s->snes, &ksp));
   if (s->single) {
     PetscCall(StageBegin(STAGE_FACTOR));
