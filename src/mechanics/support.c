@@ -254,14 +254,13 @@ PetscErrorCode MechanicsPrescribe(Mechanics m, PetscReal local[])
     PetscCall(HPSpaceGetFrame(m->space, n, &frame));
     for (PetscInt c = 0; c < m->dim; ++c) {
       const PetscInt cause = m->supports->cause[3 * n + c];
-      PetscReal      u[3]  = {0, 0, 0};
+      PetscReal      u[3];
       if (!((m->supports->fixed[n] >> c) & 1)) continue;
-      if (m->t == 0)
-        ; /* at rest */
-      else if (cause <= -2)
+      if (cause <= -2)
         PetscCall(BodyMotion_Private(&m->spec->bodies[-2 - cause], m->dim, m->t, u));
       else
         PetscCall(BoundaryValue_Private(&m->spec->boundaries[cause], m->dim, v->X + 3 * n, m->t, u));
+      for (PetscInt a = 0; a < m->dim && m->t == 0; ++a) u[a] = 0; /* at rest; asked all the same, for values that are not finite */
       if (!frame)
         local[n * m->dim + c] = u[c];
       else {
