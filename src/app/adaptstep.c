@@ -214,6 +214,22 @@ static PetscErrorCode Refine_Private(App *app, MarkList *layers, PetscBool *adap
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Where surfaces nearly fit, linear contact faces on a mesh that is curved miss each other by more than their clearance, and touch at corners. */
+static PetscErrorCode Advise_Private(const App *app)
+{
+  const CoarseMesh *mesh;
+
+  PetscFunctionBegin;
+  PetscCall(ForestGetCoarse(app->level.forest, &mesh));
+  for (PetscInt i = 0; mesh->geometry_order > 1 && i < app->data->num_contacts; ++i) {
+    const ContactSpec *pair = &app->data->contacts[i];
+    if (!pair->full)
+      PetscCall(PetscPrintf(app->comm, "note: the contact faces of pair %s are linear on a mesh that is curved; contact.%s.order: full follows it\n",
+                            pair->name, pair->name));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* Refine and find equilibrium again. When there is none to be found on the finer mesh (material that collapses at a singular corner, say), the solution on
    the mesh at hand stands, and adaptation ends with that reason. *more: a finer mesh was reached. */
 static PetscErrorCode Pass_Private(App *app, MarkList *layers, PetscInt *iterations, PetscBool *more)
@@ -236,6 +252,7 @@ static PetscErrorCode Pass_Private(App *app, MarkList *layers, PetscInt *iterati
     app->level      = old;
     app->adapt_stop = "no equilibrium found on a finer mesh";
     PetscCall(PrescribeAt_Private(old.problem, old.state.t));
+    PetscCall(Advise_Private(app));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

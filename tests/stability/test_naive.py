@@ -152,6 +152,21 @@ def test_dead_load_in_one_step(run, ranks):
     assert ours.returncode == 0 and ours.summary["energy"] == pytest.approx(slow.summary["energy"], rel=1e-7)
 
 
+def test_pin_in_its_bore(run):
+    """A pin of radius 5 in a bore of 5.1, tons of load on a mesh of 12 faces around: chords of linear faces are off the arcs by half the clearance, contact is at corners, the
+    estimate is that of no answer at all, and finer meshes find no equilibrium; the program says so, and what to take. Curved faces: one solve."""
+    linear = run("tests/verify/scenes/lug.yml", "-output_fields", "false", timeout=600)
+    curved = run("tests/verify/scenes/lug.yml", "-output_fields", "false", "-contact_bearing_order", "full")
+    finer = run("tests/verify/scenes/lug.yml", "-output_fields", "false", "-contact_bearing_order", "full", "-adapt_tolerance", 0.05)
+    for result in (linear, curved, finer):
+        print({key: result.summary[key] for key in ("dofs", "newton_iterations", "estimated_error", "energy", "adapt_stop")})
+    assert linear.returncode == 0 and linear.summary["estimated_error"] > 0.8 and linear.summary["adapt_stop"] == "no equilibrium found on a finer mesh"
+    assert "contact.bearing.order: full" in linear.stdout
+    for result, tolerance in ((curved, 0.1), (finer, 0.05)):
+        assert result.returncode == 0 and result.summary["estimated_error"] < tolerance and result.summary["newton_iterations"] <= 15 and "note:" not in result.stdout, result
+    assert abs(curved.summary["energy"] / finer.summary["energy"] - 1) < 0.1**2
+
+
 def test_checkerboard_on_an_isolated_refined_cell(run):
     """Four cells where one was, around them coarser ones: constant pressures on bilinear cells oscillate there (no refinement cures it), linear ones on biquadratic
     cells do not. Cook's membrane, kappa/mu = 5000; alternating part of the four mean pressures against their mean."""
