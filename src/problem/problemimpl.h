@@ -288,6 +288,10 @@ static inline PetscReal ContactRowGap_Private(const Contact *c, PetscInt j)
 {
   return c->gap[j] + c->spring[j] * c->z[j];
 }
+/* carrier.c: w0, extent and c of the nodes; which of them carry a multiplier. */
+PetscErrorCode ContactNodeScales_Private(Problem, Contact *);
+PetscErrorCode ContactCarriers_Private(Problem, Contact *);
+PetscReal      SurfaceFacetMeasure_Private(const Surface *, PetscInt facet, PetscBool axisymmetric);
 /* couple.c: factors of grad w and of grad area in a facet's part of a row's derivative, [grad gt - mean grad w + along grad area]; as a row of an active node,
    or (row false) of the forces by z_j. */
 void ContactRowFactors_Private(const Contact *, const ContactFacet *, PetscInt k, PetscBool row, PetscReal *mean, PetscReal *along);

@@ -1,0 +1,139 @@
+/* Nodes of the nonmortar side of a contact pair: their measure, extent and scale, and which of them carry a multiplier. */
+#include "problemimpl.h"
+
+#define HELD 0.05 /* a node whose normal has no larger free part than that is held across the surface */
+
+/* Length or area of a facet at the reference positions (axisymmetric: area). */
+PetscReal SurfaceFacetMeasure_Private(const Surface *s, PetscInt f, PetscBool axisymmetric)
+{
+  const PetscInt *node  = s->facets + s->corners * f;
+  const PetscReal plain = SurfaceMeasure_Private(s, s->X, f);
+
+  return axisymmetric ? plain * PETSC_PI * (s->X[2 * node[0]] + s->X[2 * node[1]]) : plain;
+}
+
+/* Shares of a facet's nodes in its measure (axisymmetric: of revolution) at the reference positions, and in its plain length or area as far as that tells how
+   close nodes are. Corners have equal shares of both. On a lattice the first is int N_k, the second that of the trapezoidal rule on as many equal parts: nodes
+   at a corner of a Gauss-Lobatto lattice have much less weight than room. */
+static PetscErrorCode FacetShares_Private(const Surface *s, PetscInt f, PetscBool axisymmetric, PetscReal share[], PetscReal room[])
+{
+  const PetscInt  q = SurfaceOrder_Private(s, f), *node, num = SurfaceNodes_Private(s, f, &node);
+  const PetscReal plain = SurfaceFacetMeasure_Private(s, f, PETSC_FALSE);
+  const Basis1D  *gauss;
+  PetscReal       N[SURFACE_MOST_NODES];
+
+  PetscFunctionBegin;
+  if (q == 0) {
+    const PetscReal whole = SurfaceFacetMeasure_Private(s, f, axisymmetric);
+    for (PetscInt k = 0; k < num; ++k) {
+      share[k] = whole / (PetscReal)s->corners;
+      room[k]  = plain / (PetscReal)s->corners;
+    }
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
+  PetscCall(PetscArrayzero(share, num));
+  PetscCall(Basis1DGet(1, q + 2, &gauss));
+  for (PetscInt i = 0; i < (s->dim == 2 ? 1 : gauss->num_points) * gauss->num_points; ++i) {
+    const PetscInt  a = i % gauss->num_points, b = i / gauss->num_points;
+    const PetscReal xi[2]  = {2 * gauss->points[a] - 1, 2 * gauss->points[b] - 1};
+    const PetscReal weight = 2 * gauss->weights[a] * (s->dim == 2 ? 1 : 2 * gauss->weights[b]) * SurfacePoint_Private(s, f, s->X, xi, axisymmetric, N);
+    for (PetscInt k = 0; k < num; ++k) share[k] += weight * N[k];
+  }
+  for (PetscInt k = 0; k < num; ++k) {
+    const PetscInt i = k % (q + 1), j = k / (q + 1);
+    room[k] = plain / (s->dim == 2 ? q : q * q) * (i % q ? 1 : 0.5) * (s->dim == 2 || j % q ? 1 : 0.5);
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Tributary measure w0, its extent along the surface (an edge's length, the root of a face's area; of higher order: divided by the order), and the constant
+   c = E / extent of the complementarity: a pressure per gap, in any model. E of the softer body (a rigid one does not count). */
+PetscErrorCode ContactNodeScales_Private(Problem p, Contact *c)
+{
+  const Surface      *s            = &c->side[0];
+  const PetscBool     axisymmetric = (PetscBool)(p->scene->mechanics.model == MODEL_AXISYMMETRIC);
+  const ForestTables *t;
+  PetscReal           young = PETSC_MAX_REAL, share[SURFACE_MOST_NODES], room[SURFACE_MOST_NODES];
+
+  PetscFunctionBegin;
+  PetscCall(ForestGetTables(p->forest, &t));
+  for (PetscInt side = 0; side < 2; ++side) {
+    for (PetscInt e = 0; e < c->side[side].num_facets; ++e) {
+      const MaterialSpec *m = p->scene->bodies[t->leaf_body[c->side[side].facet_leaf[e]]].material;
+      if (!m->law->rigid) young = PetscMin(young, MaterialYoung(m));
+    }
+  }
+  for (PetscInt f = 0; f < s->num_facets; ++f) {
+    const PetscInt *node, num = SurfaceNodes_Private(s, f, &node);
+    PetscCall(FacetShares_Private(s, f, axisymmetric, share, room));
+    for (PetscInt k = 0; k < num; ++k) {
+      const PetscInt n = node[k];
+      c->w0[n] += share[k];
+      c->extent[n] += room[k];
+      for (PetscInt i = s->hang[n]; i < s->hang[n + 1]; ++i) {
+        c->w0[s->hang_master[i]] += s->hang_weight[i] * share[k];
+        c->extent[s->hang_master[i]] += PetscAbsReal(s->hang_weight[i]) * room[k];
+      }
+    }
+  }
+  for (PetscInt n = 0; n < s->num_nodes; ++n) {
+    if (p->dim == 3) c->extent[n] = PetscSqrtReal(c->extent[n]);
+    c->c[n] = young / c->extent[n];
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Mean unit normal of the facets at a node, those between the corners, reference positions. */
+static void NodeNormal_Private(const Surface *s, PetscInt n, PetscReal normal[3])
+{
+  PetscReal N[3], length;
+
+  for (PetscInt c = 0; c < 3; ++c) normal[c] = 0;
+  for (PetscInt k = s->node_first[n]; k < s->node_first[n + 1]; ++k) {
+    ContactFacetVector(s->dim, s->X, s->facets + s->corners * s->node_facet[k], N);
+    length = PetscSqrtReal(Dot3(N, N));
+    for (PetscInt c = 0; c < 3; ++c) normal[c] += N[c] / length;
+  }
+  length = PetscSqrtReal(Dot3(normal, normal));
+  for (PetscInt c = 0; c < 3 && length > 0; ++c) normal[c] /= length;
+}
+
+/* Is the node held across the surface? */
+static PetscBool IsHeld_Private(const Surface *s, PetscInt n)
+{
+  const PetscInt fixed = s->dof[s->dim * n];
+  PetscReal      normal[3], free2 = 0;
+
+  if (fixed == 0) return PETSC_FALSE;
+  NodeNormal_Private(s, n, normal);
+  for (PetscInt d = 0; d < s->dim; ++d) {
+    const PetscReal *axis = s->frame + s->dim * (s->dim * n + d);
+    PetscReal        sum  = 0;
+    for (PetscInt c = 0; c < s->dim; ++c) sum += axis[c] * normal[c];
+    if (!((fixed >> d) & 1)) free2 += PetscSqr(sum);
+  }
+  return (PetscBool)(free2 < PetscSqr(HELD));
+}
+
+#define WEIGHTLESS 1e-10 /* share in the largest of all nodes' below which a node carries nothing: on the axis int N_j R dR = 0 from order 2 on */
+
+/* A node that a support holds across the surface carries no multiplier: its constraint would have nothing of its own to act on, and where the nonmortar side is
+   finer a row of such nodes leaves no multiplier unique. (Nodes of rigid bodies keep theirs: the other side moves.) Hanging nodes have none: their masters act
+   for them. */
+PetscErrorCode ContactCarriers_Private(Problem p, Contact *c)
+{
+  const ForestTables *t;
+  const Surface      *s       = &c->side[0];
+  PetscReal           largest = 0;
+
+  PetscFunctionBegin;
+  PetscCall(ForestGetTables(p->forest, &t));
+  for (PetscInt n = 0; n < s->num_nodes; ++n) largest = PetscMax(largest, c->w0[n]);
+  for (PetscInt n = 0; n < s->num_nodes; ++n) {
+    if (s->hang[n] < s->hang[n + 1] || (s->order && c->w0[n] <= WEIGHTLESS * largest)) continue;
+    const PetscInt  facet = s->node_facet[s->node_first[n]];
+    const PetscBool rigid = p->scene->bodies[t->leaf_body[s->facet_leaf[facet]]].material->law->rigid;
+    c->has_multiplier[n]  = (PetscBool)(rigid || !IsHeld_Private(s, n));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

@@ -1,0 +1,75 @@
+/* Forces of contact pairs and the rows of their multipliers in the residual. */
+#include "problemimpl.h"
+
+/* Contact forces z_j grad gt_j, or z_j push_j, of this rank's facets into both sides' arrays. */
+static void FacetForces_Private(Contact *c)
+{
+  const PetscInt dim = c->side[0].dim;
+
+  for (PetscInt k = 0; k < 2; ++k) {
+    Surface *s = &c->side[k];
+    for (PetscInt n = 0; n < s->num_nodes; ++n)
+      for (PetscInt d = 0; d < dim && s->has[n]; ++d) s->force[dim * n + d] = 0;
+  }
+  for (PetscInt i = 0; i < c->num_facets; ++i) {
+    const ContactFacet *e    = &c->facets[i];
+    const PetscReal    *push = e->push ? e->push : e->dgap;
+    if (!c->mine[e->facet] || !e->dgap) continue;
+    for (PetscInt a = 0; a < e->num; ++a) {
+      PetscReal *f = c->side[NODE_SIDE(e->nodes[a])].force + dim * NODE_INDEX(e->nodes[a]);
+      for (PetscInt k = 0; k < e->num_rows; ++k) {
+        const PetscReal z = c->has_multiplier[e->nodes[k]] ? c->z[e->nodes[k]] : 0;
+        for (PetscInt d = 0; d < dim && z != 0; ++d) f[d] += z * push[dim * (k * e->num + a) + d];
+      }
+    }
+  }
+}
+
+/* Nodal contact forces -dL_c/dx = z_j grad gt_j on both sides; residual r -= force (at the owner, in the node's frame). */
+PetscErrorCode ContactForces_Private(Problem p, Contact *c, PetscReal r[])
+{
+  const PetscInt dim = p->dim;
+
+  PetscFunctionBegin;
+  FacetForces_Private(c);
+  for (PetscInt k = 0; k < 2; ++k) {
+    Surface *s = &c->side[k];
+    PetscCall(LinkCollect_Private(p, &s->values, dim, s->force));
+    for (PetscInt n = 0; n < s->num_nodes; ++n) {
+      for (PetscInt d = 0; d < dim && !s->owned[n] && s->hang[n] == s->hang[n + 1]; ++d) s->force[dim * n + d] = NAN; /* a part, which is with the owner */
+    }
+    for (PetscInt i = 0; i < s->num_own; ++i) {
+      const PetscInt n = s->own[i];
+      for (PetscInt d = 0; d < dim; ++d)
+        for (PetscInt a = 0; a < dim; ++a) r[dim * s->local[n] + d] -= s->frame[dim * (dim * n + d) + a] * s->force[dim * n + a];
+    }
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Complementarity rows into this rank's part of the residual. */
+void ContactRows_Private(const Contact *c, PetscReal r[])
+{
+  for (PetscInt j = 0; j < c->side[0].num_nodes; ++j) {
+    if (c->zlocal[j] < 0) continue;
+    r[c->zlocal[j]] = c->w0[j] * (c->active[j] ? c->c[j] * ContactRowGap_Private(c, j) / ContactRowMeasure_Private(c, j) : c->z[j]);
+  }
+}
+
+PetscErrorCode ContactHoldsRims_Private(Problem p, PetscBool *holds)
+{
+  PetscBool mine = PETSC_FALSE, higher = PETSC_FALSE;
+
+  PetscFunctionBegin;
+  *holds = PETSC_FALSE;
+  for (PetscInt i = 0; i < p->num_contacts; ++i) {
+    const Contact *c = &p->contacts[i];
+    if (c->side[0].order) higher = PETSC_TRUE;
+    for (PetscInt f = 0; f < c->num_facets && !c->released; ++f) {
+      const ContactFacet *e = &c->facets[f];
+      for (PetscInt k = 0; k < e->num_rows && e->push; ++k) mine = (PetscBool)(mine || c->active[e->nodes[k]]);
+    }
+  }
+  if (higher && p->dim == 3) PetscCallMPI(MPI_Allreduce(&mine, holds, 1, COMPAT_MPI_BOOL, MPI_LOR, p->comm));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
