@@ -6,7 +6,8 @@
 
 #define MOST 729 /* nodes of a cell of order 8 in space */
 
-static const PetscReal F1[9] = {1.2, .15, -.1, .05, .9, .2, -.08, .12, 1.05};
+static const PetscReal Most[9] = {1.2, .15, -.1, .05, .9, .2, -.08, .12, 1.05};
+static PetscReal       F1[9];
 
 static PetscReal worst[3]; /* linear field: error of u, of P relative to P(F1); quadratic field: error of u */
 
@@ -92,6 +93,8 @@ static void LinearField(PetscInt dim, PetscInt q, PetscInt high, PetscInt split,
   PetscReal scale;
 
   HangingMesh(&s, dim, q, split, seed);
+  /* Homogeneous states of nearly incompressible material are not the only ones near them at this strain: of high order a third of it */
+  for (PetscInt k = 0; k < 9; ++k) F1[k] = (k % 4 == 0) + (high > 4 && mixed ? 0.3 : 1) * (Most[k] - (k % 4 == 0));
   BulkInit(&s.bulk, dim, dim == 2 ? MODEL_PLANE_STRAIN : MODEL_3D, KINEMATICS_FINITE);
   BulkMaterial(&s.bulk.material, "neo_hookean", mixed ? VOLUMETRIC_SIMO : VOLUMETRIC_LOG, mixed ? FORMULATION_MIXED : FORMULATION_DISPLACEMENT, 1,
                mixed ? 50 : 8. / 3);
@@ -106,7 +109,7 @@ static void LinearField(PetscInt dim, PetscInt q, PetscInt high, PetscInt split,
   SolvedCreate(&s, 1, high);
   CheckDirections(&s);
   OK(VecSetRandom(s.state.x, NULL));               /* off the line to the answer, which one linear solve would find */
-  OK(VecScale(s.state.x, high > 4 ? 5e-6 : 1e-3)); /* nodes of higher order are close together: from 2e-5 on, two ranks found another equilibrium */
+  OK(VecScale(s.state.x, high > 4 ? 2e-5 : 1e-3)); /* nodes of higher order are close together */
   SolvedSolve(&s);
   assert_true(s.report.iterations > 2);
   const PetscReal u = FieldError(&s, Linear), P = StressError(&s, &scale);
