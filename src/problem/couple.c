@@ -214,6 +214,7 @@ PetscErrorCode ContactCreate_Private(Problem p, const ContactSpec *spec, Contact
   PetscCall(ListFacets_Private(p, c));
   SearchDistance_Private(c);
   View_Private(c);
+  PetscCall(ContactFreedom_Private(p, c));
   PetscCall(Offset_Private(p, c));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -12,21 +12,35 @@
 #define ROUND 1e-6 /* round-off of a slide that is held back already */
 #define HELD 1e-9  /* share of the sum over supports below which a direction is free */
 
-/* The part of t along which the supports of the bodies of one side leave a translation free. */
-static PetscErrorCode Free_Private(Problem p, const Surface *s, const PetscReal t[3], PetscReal along[3])
+/* P = (1 + A / tiny)^-1 of the supports A of the bodies of one side: what they leave free of a translation. */
+static PetscErrorCode Free_Private(Problem p, const Surface *s, PetscReal P[9])
 {
   const ForestTables *tables;
   const PetscReal    *hold;
-  PetscReal           A[9] = {0}, trace;
+  PetscReal           A[9] = {0};
 
   PetscFunctionBegin;
   PetscCall(ForestGetTables(p->forest, &tables));
   PetscCall(MechanicsGetHold(p->mechanics, &hold));
   for (PetscInt f = 0; f < s->num_facets; ++f)
     for (int i = 0; i < 9; ++i) A[i] += hold[9 * tables->leaf_body[s->facet_leaf[f]] + i];
-  trace = A[0] + A[4] + A[8];
+  const PetscReal trace = A[0] + A[4] + A[8];
   for (int i = 0; i < 9; ++i) A[i] = (i % 4 == 0) + (trace > 0 ? A[i] / (HELD * trace) : 0);
-  if (!Solve3(A, t, along)) along[0] = along[1] = along[2] = 0;
+  for (int i = 0; i < 3; ++i) {
+    const PetscReal unit[3] = {i == 0, i == 1, i == 2};
+    (void)Solve3(A, unit, P + 3 * i); /* at least 1; rows for columns: P is symmetric */
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode ContactFreedom_Private(Problem p, Contact *c)
+{
+  PetscFunctionBegin;
+  c->drifts = PETSC_FALSE;
+  for (PetscInt k = 0; k < 2; ++k) {
+    PetscCall(Free_Private(p, &c->side[k], c->freedom[k]));
+    for (PetscInt d = 0; d < p->dim; ++d) c->drifts = (PetscBool)(c->drifts || c->freedom[k][4 * d] > sqrt(HELD));
+  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -73,7 +87,8 @@ static PetscErrorCode Slide_Private(Problem p, Contact *c, PetscReal e[3], Petsc
   if (sum[0] == 0 || sum[1] == 0 || size == 0) PetscFunctionReturn(PETSC_SUCCESS);
   const PetscReal normal = Dot3(t, n) / (size * size);
   for (int d = 0; d < 3; ++d) t[d] -= normal * n[d];
-  for (int k = 0; k < 2; ++k) PetscCall(Free_Private(p, &c->side[k], t, along[k]));
+  for (int k = 0; k < 2; ++k)
+    for (int d = 0; d < 3; ++d) along[k][d] = Dot3(c->freedom[k] + 3 * d, t);
   const PetscReal *free = Dot3(along[0], along[0]) > Dot3(along[1], along[1]) ? along[0] : along[1];
   *length               = PetscSqrtReal(Dot3(free, free));
   *limit                = REACH * distance;
@@ -108,17 +123,19 @@ static PetscErrorCode Forces_Private(Problem p, const Contact *c, const PetscRea
 PetscErrorCode ProblemDrift(Problem p, Vec dx, Vec force, PetscReal *excess)
 {
   PetscReal worst = 1 + ROUND, pending;
+  PetscBool any   = PETSC_FALSE;
 
   PetscFunctionBegin;
   *excess = 0;
-  if (p->num_contacts == 0 || p->scene->mechanics.kinematics == KINEMATICS_SMALL) PetscFunctionReturn(PETSC_SUCCESS);
+  for (PetscInt i = 0; i < p->num_contacts; ++i) any = (PetscBool)(any || p->contacts[i].drifts);
+  if (!any || p->scene->mechanics.kinematics == KINEMATICS_SMALL) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(ProblemPending(p, &pending));
   if (pending > 0) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(ProblemIncrement_Private(p, dx, 1.0));
   for (PetscInt i = 0; i < p->num_contacts; ++i) {
     Contact  *c = &p->contacts[i];
     PetscReal e[3], length, limit, sum[2];
-    if (c->released) continue;
+    if (c->released || !c->drifts) continue;
     PetscCall(Slide_Private(p, c, e, &length, &limit, sum));
     if (length <= worst * limit) continue;
     worst   = length / limit;

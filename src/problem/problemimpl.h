@@ -59,6 +59,8 @@ typedef struct {
   ContactPair         pair;
   Surface             side[2]; /* 0 nonmortar, 1 mortar */
   ContactView         view;
+  PetscReal           freedom[2][9];                  /* of a translation of the bodies of either side, what supports leave free: drift.c */
+  PetscBool           drifts;                         /* they leave some */
   PetscInt           *zdof;                           /* [n] row of the matrix, -1: no multiplier */
   PetscInt           *zlocal;                         /* [n] position in this rank's part of the vector, -1: not here */
   PetscReal          *z, *gap, *weight, *spring;      /* [n] spring: K_j of contact.h */
@@ -288,6 +290,8 @@ static inline PetscReal ContactRowGap_Private(const Contact *c, PetscInt j)
 {
   return c->gap[j] + c->spring[j] * c->z[j];
 }
+/* drift.c: which translations the supports of both sides' bodies leave free. */
+PetscErrorCode ContactFreedom_Private(Problem, Contact *);
 /* carrier.c: w0, extent and c of the nodes; which of them carry a multiplier. */
 PetscErrorCode ContactNodeScales_Private(Problem, Contact *);
 PetscErrorCode ContactCarriers_Private(Problem, Contact *);

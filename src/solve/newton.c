@@ -219,26 +219,23 @@ static PetscErrorCode Loosen_Private(SNES snes, Solver s)
 /* Where the linear step slides bodies that only contact holds too far, the step with forces that hold them back. */
 static PetscErrorCode Drift_Private(SNES snes, Solver s, Vec x, Vec dx, PetscBool *ok)
 {
-  Vec       force;
   PetscReal excess, slide;
 
   PetscFunctionBegin;
-  PetscCall(VecDuplicate(s->rhs, &force));
   for (PetscInt hold = 0; hold < HOLDS; ++hold) {
-    PetscCall(ProblemDrift(s->problem, dx, force, &excess));
+    PetscCall(ProblemDrift(s->problem, dx, s->hold, &excess));
     if (excess == 0) break;
     PetscCall(PetscInfo(snes, "a body that only contact holds would slide too far, by %g: it is held back\n", (double)excess));
-    PetscCall(VecSwap(s->rhs, force));
+    PetscCall(VecSwap(s->rhs, s->hold));
     PetscCall(MatrixSolve_Private(snes, s, PETSC_FALSE, ok));
-    PetscCall(VecSwap(s->rhs, force));
+    PetscCall(VecSwap(s->rhs, s->hold));
     if (!*ok) break;
-    PetscCall(VecDot(force, s->y, &slide));
-    PetscCall(VecAXPY(s->rhs, -excess / slide, force));
+    PetscCall(VecDot(s->hold, s->y, &slide));
+    PetscCall(VecAXPY(s->rhs, -excess / slide, s->hold));
     PetscCall(LinearStep_Private(snes, s, x, dx, ok));
     if (!*ok) break;
     s->best_iter = snes->iter; /* a slide is progress */
   }
-  PetscCall(VecDestroy(&force));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -19,9 +19,9 @@ typedef enum { FACTOR_AUTO, FACTOR_SINGLE, FACTOR_DOUBLE } FactorKind;
 struct _p_Solver {
   Problem       problem; /* borrowed */
   SNES          snes;
-  Vec           lift, rhs, y; /* of the matrix: effect of the motion to come, right-hand side, solution */
-  Vec           best;         /* solution of the active-set pass that contradicts itself least */
-  PetscReal    *pressure;     /* of the state being solved, borrowed during SolverSolve */
+  Vec           lift, rhs, y, hold; /* of the matrix: effect of the motion to come, right-hand side, solution, forces that hold bodies back */
+  Vec           best;               /* solution of the active-set pass that contradicts itself least */
+  PetscReal    *pressure;           /* of the state being solved, borrowed during SolverSolve */
   PetscReal     rtol;
   PetscBool     symmetric; /* LDL^T of the symmetric form */
   PetscInt      max_it, passes, cuts;

@@ -166,6 +166,7 @@ PetscErrorCode SolverCreate(Problem problem, Solver *solver)
   PetscCall(ProblemCreateRightSide(problem, &s->lift));
   PetscCall(VecDuplicate(s->lift, &s->rhs));
   PetscCall(VecDuplicate(s->lift, &s->y));
+  PetscCall(VecDuplicate(s->lift, &s->hold));
   PetscCall(ProblemCreateVector(problem, &s->best));
   *solver = s;
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -183,6 +184,7 @@ PetscErrorCode SolverDestroy(Solver *solver)
   PetscCall(VecDestroy(&s->lift));
   PetscCall(VecDestroy(&s->rhs));
   PetscCall(VecDestroy(&s->y));
+  PetscCall(VecDestroy(&s->hold));
   PetscCall(VecDestroy(&s->best));
   PetscCall(SetHistoryDestroy_Private(&s->pass_sets));
   PetscCall(SetHistoryDestroy_Private(&s->iterate_sets));
