@@ -1,6 +1,8 @@
 /* Adaptation at one time: estimate, mark, adapt the forest, transfer, find equilibrium again; until the tolerance or a limit is met. */
 #include "appimpl.h"
 
+#define NONE_FINER "no equilibrium found on a finer mesh"
+
 #define STRESSED 10 /* nodal forces below this multiple of their round-off are nothing to estimate an error of: refining would chase noise */
 
 #define MOST_PIECES 8 /* of the way from the accepted state, when equilibrium on a finer mesh is hard to find */
@@ -84,8 +86,9 @@ static PetscErrorCode MoveTo_Private(App *app, Forest forest, const int8_t old_o
   PetscCall(PetscFree(orders));
   PetscCall(ProblemFindInverted(next.problem, &order, X));
   PetscCall(ExpressionTrouble(app->comm, refused));
-  if (order > 0) {
-    *refused = "refinement inverts a curved cell";
+  if (order > 0) *refused = "refinement inverts a curved cell";
+  if (order > 0 && !app->inversion_told) {
+    app->inversion_told = PETSC_TRUE;
     PetscCall(PetscPrintf(app->comm,
                           "note: refinement would invert a curved cell of order %" PetscInt_FMT
                           " at (%g, %g, %g): the coarser mesh stays; smaller cells there, "
@@ -197,8 +200,9 @@ static PetscErrorCode Refine_Private(App *app, MarkList *layers, PetscBool *adap
     PetscCall(PetscArraycpy(order, app->level.state.leaf_order, t->num_leaves));
   for (PetscInt l = 0; order && l < t->num_leaves; ++l) weight[l] = PetscPowInt(order[l], t->dim);
   *adapted = (PetscBool)(marked > 0);
-  if (!*adapted) app->adapt_stop = app->estimate.num_leaves >= app->data->adapt.max_cells / 2 ? "max_cells" : "nothing left to refine";
-  if (*adapted) {
+  if (!*adapted)
+    app->adapt_stop = app->estimate.num_leaves >= app->data->adapt.max_cells / 2 ? "max_cells" : "nothing left to refine";
+  else {
     PetscCall(AppContactPairs(app, &num_pairs, &pairs));
     PetscCall(StageBegin(STAGE_MESH));
     PetscCall(ForestAdapt(app->level.forest, &list, weight, num_pairs, (const PetscInt(*)[2])pairs, &forest, &map));
@@ -211,22 +215,6 @@ static PetscErrorCode Refine_Private(App *app, MarkList *layers, PetscBool *adap
   }
   PetscCall(MarkListDestroy(&list));
   PetscCall(PetscFree2(order, weight));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* Where surfaces nearly fit, linear contact faces on a mesh that is curved miss each other by more than their clearance, and touch at corners. */
-static PetscErrorCode Advise_Private(const App *app)
-{
-  const CoarseMesh *mesh;
-
-  PetscFunctionBegin;
-  PetscCall(ForestGetCoarse(app->level.forest, &mesh));
-  for (PetscInt i = 0; mesh->geometry_order > 1 && i < app->data->num_contacts; ++i) {
-    const ContactSpec *pair = &app->data->contacts[i];
-    if (!pair->full)
-      PetscCall(PetscPrintf(app->comm, "note: the contact faces of pair %s are linear on a mesh that is curved; contact.%s.order: full follows it\n",
-                            pair->name, pair->name));
-  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -250,9 +238,8 @@ static PetscErrorCode Pass_Private(App *app, MarkList *layers, PetscInt *iterati
   } else {
     PetscCall(LevelDestroy(&app->level));
     app->level      = old;
-    app->adapt_stop = "no equilibrium found on a finer mesh";
+    app->adapt_stop = NONE_FINER;
     PetscCall(PrescribeAt_Private(old.problem, old.state.t));
-    PetscCall(Advise_Private(app));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -303,6 +290,23 @@ PetscErrorCode AppAdapt(App *app)
     app->last.accepted          = PETSC_TRUE;
     app->last.newton_iterations = iterations;
     PetscCall(MonitorRow(app->monitor, &app->last));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Where surfaces nearly fit, linear contact faces on a mesh that is curved miss each other by more than their clearance, and touch at corners. */
+PetscErrorCode AppAdvise(const App *app)
+{
+  const CoarseMesh *mesh;
+
+  PetscFunctionBegin;
+  if (strcmp(app->adapt_stop, NONE_FINER)) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(ForestGetCoarse(app->level.forest, &mesh));
+  for (PetscInt i = 0; mesh->geometry_order > 1 && i < app->data->num_contacts; ++i) {
+    const ContactSpec *pair = &app->data->contacts[i];
+    if (!pair->full)
+      PetscCall(PetscPrintf(app->comm, "note: the contact faces of pair %s are linear on a mesh that is curved; contact.%s.order: full follows it\n",
+                            pair->name, pair->name));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -39,8 +39,9 @@ typedef struct {
   const char    *failure;        /* why the run gave up, NULL while it goes on */
   PetscBool      stopped;        /* the run was asked to stop */
   char           stop_reason[PETSC_MAX_PATH_LEN + MORTISE_NAME];
-  const char    *adapt_stop; /* why the last adaptation ended: tolerance, max_passes, max_cells, … */
-  PetscInt      *subdivided; /* owned [num_contacts] by contact.<pair>.subdivide: auto, so often, or tried */
+  const char    *adapt_stop;     /* why the last adaptation ended: tolerance, max_passes, max_cells, … */
+  PetscBool      inversion_told; /* that refinement would invert a cell, once */
+  PetscInt      *subdivided;     /* owned [num_contacts] by contact.<pair>.subdivide: auto, so often, or tried */
   ReportRow      last;
   PetscReal      dt;                                                          /* length of the next load step */
   Checkpoint     snapshot;                                                    /* owned: copy of the state at the end of the last accepted load step */
@@ -55,6 +56,8 @@ PetscErrorCode AppInitialize(int argc, char **argv);
 PetscErrorCode AppRun(App *);
 /* adaptstep.c: after a solution at the current time, refine and solve again until the tolerance or a limit is met. */
 PetscErrorCode AppAdapt(App *);
+/* At the end of a run whose adaptation found no equilibrium on a finer mesh: what may help. Collective. */
+PetscErrorCode AppAdvise(const App *);
 /* arcstep.c. A step of app->arc along the path; app->failure is set when there is none. Collective. */
 PetscErrorCode AppPathStep(App *, PetscBool *ok);
 /* The state is about to become the accepted one: the path goes on in the direction from there to here. Collective. */

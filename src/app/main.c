@@ -104,6 +104,7 @@ static PetscErrorCode Summarise_Private(App *app)
   summary.probes             = app->probes;
   PetscCall(OutputSummary(app->comm, app->data, &summary));
   PetscCall(MonitorFooter(app->monitor, status, summary.reason, app->adapt_stop, app->written, app->load_steps ? &app->last : NULL));
+  PetscCall(AppAdvise(app));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
