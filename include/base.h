@@ -81,6 +81,9 @@ uint64_t HashBytes(uint64_t seed, const void *bytes, size_t num);
 PetscErrorCode SparseExchange(MPI_Comm, PetscMPIInt num_to, const PetscMPIInt to[], const PetscInt first[], size_t entry, const void *send,
                               PetscInt *num_received, void *received);
 
+/* The first rank of which `mine` holds; -1: of none. Collective. */
+PetscErrorCode RankFirst(MPI_Comm, PetscBool mine, PetscMPIInt *first);
+
 /* ---- expressions in X, Y, Z, t (base/expression.c, on muParser) -------------------------------------------------- */
 
 typedef struct _p_Expression *Expression;

@@ -108,15 +108,12 @@ PetscErrorCode ExpressionEvaluate(Expression e, const PetscReal X[3], PetscReal 
 PetscErrorCode ExpressionTrouble(MPI_Comm comm, const char **words)
 {
   static char told[sizeof(trouble)];
-  PetscMPIInt rank, size, first;
+  PetscMPIInt first;
 
   PetscFunctionBegin;
-  PetscCallMPI(MPI_Comm_rank(comm, &rank));
-  PetscCallMPI(MPI_Comm_size(comm, &size));
-  if (!trouble[0]) rank = size;
-  PetscCallMPI(MPI_Allreduce(&rank, &first, 1, MPI_INT, MPI_MIN, comm));
+  PetscCall(RankFirst(comm, (PetscBool)(trouble[0] != 0), &first));
   *words = NULL;
-  if (first < size) {
+  if (first >= 0) {
     PetscCall(PetscStrncpy(told, trouble, sizeof(told)));
     PetscCallMPI(MPI_Bcast(told, sizeof(told), MPI_CHAR, first, comm));
     *words = told;

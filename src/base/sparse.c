@@ -48,3 +48,16 @@ PetscErrorCode SparseExchange(MPI_Comm comm, PetscMPIInt num_to, const PetscMPII
   *(void **)received = buffer;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
+
+PetscErrorCode RankFirst(MPI_Comm comm, PetscBool mine, PetscMPIInt *first)
+{
+  PetscMPIInt rank, size;
+
+  PetscFunctionBegin;
+  PetscCallMPI(MPI_Comm_size(comm, &size));
+  PetscCallMPI(MPI_Comm_rank(comm, &rank));
+  if (!mine) rank = size;
+  PetscCallMPI(MPI_Allreduce(&rank, first, 1, MPI_INT, MPI_MIN, comm));
+  if (*first == size) *first = -1;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

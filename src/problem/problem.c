@@ -396,15 +396,12 @@ PetscErrorCode ProblemStepAccept(Problem p, PetscReal step, PetscReal pressure[]
 
 PetscErrorCode ProblemFindInverted(Problem p, PetscInt *order, PetscReal X[3])
 {
-  PetscMPIInt rank, first;
+  PetscMPIInt first;
 
   PetscFunctionBegin;
   PetscCall(MechanicsFindInverted(p->mechanics, order, X));
-  PetscCallMPI(MPI_Comm_size(p->comm, &rank));
-  if (*order > 0) rank = p->rank;
-  PetscCallMPI(MPI_Allreduce(&rank, &first, 1, MPI_INT, MPI_MIN, p->comm));
-  PetscCallMPI(MPI_Comm_size(p->comm, &rank));
-  if (first == rank) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(RankFirst(p->comm, (PetscBool)(*order > 0), &first));
+  if (first < 0) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCallMPI(MPI_Bcast(order, 1, MPIU_INT, first, p->comm));
   PetscCallMPI(MPI_Bcast(X, 3, MPIU_REAL, first, p->comm));
   PetscFunctionReturn(PETSC_SUCCESS);
