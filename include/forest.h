@@ -94,6 +94,8 @@ PetscErrorCode ForestCreateFromCoarse(MPI_Comm, CoarseMesh *mesh, PetscInt num_f
 PetscErrorCode ForestDestroy(Forest *);
 
 PetscErrorCode ForestGetCoarse(Forest, const CoarseMesh **);
+/* The box of all geometry nodes. Not collective. */
+void           ForestCoarseBox(const CoarseMesh *, PetscReal lo[3], PetscReal hi[3]);
 PetscErrorCode ForestGetTables(Forest, const ForestTables **);
 MPI_Comm       ForestComm(Forest);
 

@@ -46,6 +46,17 @@ void ForestCoarseMapPoint(const CoarseMesh *mesh, PetscInt cell, const PetscReal
       }
 }
 
+void ForestCoarseBox(const CoarseMesh *mesh, PetscReal lo[3], PetscReal hi[3])
+{
+  const PetscInt num = mesh->num_cells * PetscPowInt(mesh->geometry_order + 1, mesh->dim);
+
+  for (PetscInt c = 0; c < 3; ++c) lo[c] = hi[c] = mesh->cell_geometry[c];
+  for (PetscInt i = 0; i < 3 * num; ++i) {
+    lo[i % 3] = PetscMin(lo[i % 3], mesh->cell_geometry[i]);
+    hi[i % 3] = PetscMax(hi[i % 3], mesh->cell_geometry[i]);
+  }
+}
+
 PetscErrorCode ForestMapPoint(Forest forest, PetscInt leaf, const PetscReal xi[], PetscReal X[3])
 {
   const ForestTables *t = &forest->tables;

@@ -161,23 +161,16 @@ PetscErrorCode MechanicsFreeBodies_Private(Mechanics m)
   const CoarseMesh   *mesh;
   Forest              forest;
   MPI_Comm            comm;
-  PetscReal *gram, *volume, lo[3] = {PETSC_MAX_REAL, PETSC_MAX_REAL, PETSC_MAX_REAL}, hi[3] = {PETSC_MIN_REAL, PETSC_MIN_REAL, PETSC_MIN_REAL}, centre[3],
-                            size = 0;
-  PetscInt *root, nb = m->spec->num_bodies, modes;
+  PetscReal          *gram, *volume, lo[3], hi[3], centre[3], size = 0;
+  PetscInt           *root, nb = m->spec->num_bodies, modes;
 
   PetscFunctionBegin;
   PetscCall(HPSpaceGetTables(m->space, &v));
   PetscCall(HPSpaceGetForest(m->space, &forest));
   PetscCall(ForestGetTables(forest, &t));
   PetscCall(ForestGetCoarse(forest, &mesh));
-  comm             = ForestComm(forest);
-  const PetscInt q = mesh->geometry_order + 1, nodes = mesh->num_cells * q * q * (m->dim == 3 ? q : 1);
-  for (PetscInt i = 0; i < nodes; ++i) {
-    for (PetscInt c = 0; c < 3; ++c) {
-      lo[c] = PetscMin(lo[c], mesh->cell_geometry[3 * i + c]);
-      hi[c] = PetscMax(hi[c], mesh->cell_geometry[3 * i + c]);
-    }
-  }
+  comm = ForestComm(forest);
+  ForestCoarseBox(mesh, lo, hi);
   for (PetscInt c = 0; c < 3; ++c) {
     centre[c] = 0.5 * (lo[c] + hi[c]);
     size      = PetscMax(size, hi[c] - lo[c]);

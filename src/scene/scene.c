@@ -275,12 +275,7 @@ static PetscErrorCode ViewMesh_Private(const char *file, Forest forest, PetscVie
   PetscFunctionBegin;
   PetscCall(ForestGetTables(forest, &t));
   PetscCall(ForestGetCoarse(forest, &mesh));
-  const PetscInt num = mesh->num_cells * PetscPowInt(mesh->geometry_order + 1, mesh->dim);
-  for (PetscInt c = 0; c < 3; ++c) lo[c] = hi[c] = mesh->cell_geometry[c];
-  for (PetscInt i = 0; i < 3 * num; ++i) {
-    lo[i % 3] = PetscMin(lo[i % 3], mesh->cell_geometry[i]);
-    hi[i % 3] = PetscMax(hi[i % 3], mesh->cell_geometry[i]);
-  }
+  ForestCoarseBox(mesh, lo, hi);
   PetscCall(PetscViewerASCIIPrintf(viewer, "  mesh %s: %" PetscInt_FMT " cells", file, t->num_leaves));
   PetscCall(PetscViewerASCIIUseTabs(viewer, PETSC_FALSE));
   for (PetscInt c = 0; c < mesh->dim; ++c)
