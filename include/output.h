@@ -118,8 +118,9 @@ PetscErrorCode ProbesEvaluate(Probes, Problem, Vec x, ProbeValue value[]);
 
 /* ---- history.csv and adapt.csv (output/history.c) ------------------------------------------------------------------------ */
 
-/* Columns of adapt.csv: step, pass (of the step; adapt.repeat: path: of the whole path, all of which are there), t, cells, dofs, newton_iterations, active_nodes, estimated_error, estimate, energy, min_det, min_gap, contact_force,
-   seconds, accepted. Columns of history.csv, names as in summary.json:
+/* Columns of adapt.csv: step, pass (adaptive ones at this load step; adapt.repeat: path: of the whole path, every one of which is there), t, cells, dofs,
+   newton_iterations, active_nodes, estimated_error, estimate, energy, min_det, min_gap, contact_force, seconds, accepted. Columns of history.csv, names as in
+   summary.json:
    - step, t, dt, pass (of the accepted solution), step_cuts, cells, dofs, newton_iterations, active_nodes, estimated_error, energy, min_det, min_gap,
      contact_force, contact_imbalance, moment_imbalance, support_imbalance, seconds;
    - with plastic materials plastic.strain (largest), plastic.work, and body.<name>.mean_plastic_strain of each body that flows: int alpha dV / int dV over its

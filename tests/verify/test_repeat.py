@@ -77,9 +77,9 @@ def test_limits(block, options, stop):
     assert result.summary["adapt_stop"] == stop and result.summary["cells"] <= 55, result
 
 
-@pytest.mark.parametrize("ranks, passes", [((2,), 1), pytest.param((2, 3), 10, marks=pytest.mark.slow)])
-def test_ranks(block, ranks, passes):
-    one, *others = [block(*PATH, "-adapt_max_passes", passes, ranks=n) for n in (1, *ranks)]
+@pytest.mark.parametrize("ranks, limits", [((2,), ("-adapt_max_passes", 1, "-load_end", 0.75)), pytest.param((2, 3), (), marks=pytest.mark.slow)])
+def test_ranks(block, ranks, limits):
+    one, *others = [block(*PATH, *limits, ranks=n) for n in (1, *ranks)]
     for other in others:
         assert_same_path(one.adapt, other.adapt)
         assert_same_path(one.history, other.history)
