@@ -24,6 +24,7 @@ FINE1 = (*LINEAR1, "-mesh_refine", 1)
 ADAPTIVE1, ADAPTIVE2 = (*FINE1, "-adapt_tolerance", 0.1), ("-adapt_tolerance", 0.003)
 RING = ("-mesh_parameter_sectors", 4)
 LARGE = ("-load_step", 0.2)
+AGAIN = ("-adapt_repeat", "path", "-adapt_alike", 0.5)
 PRESSURE, RADIUS = 0.01, 0.002  # tolerances
 RMS = 0.007  # of the pressures at the nodes
 
@@ -133,6 +134,16 @@ def test_o70_adaptive_linear_faces(run, options, tolerance, back):
     result = solve(run, *options, "-adapt_tolerance", tolerance)
     accurate(result, 0.03, back=back)
     adapted(result, 180 if options is LINEAR2 else 432)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("tolerance", [0.05, 0.03, 0.02, 0.015])
+def test_o70_adaptive_linear_faces_path_again(run, tolerance):
+    """Where the sleeve flows on the mesh that it has at the end, its faces are right at every node there and back."""
+    result = solve(run, *LINEAR2, *AGAIN, "-adapt_tolerance", tolerance)
+    accurate(result, 0.03)
+    adapted(result, 180)
+    assert result.summary["step_cuts"] == 0 and max(row["estimated_error"] for row in result.history) <= tolerance, result
 
 
 @pytest.mark.slow
