@@ -407,6 +407,17 @@ PetscErrorCode ProblemFindInverted(Problem p, PetscInt *order, PetscReal X[3])
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscErrorCode ProblemFindConflict(Problem p, PetscReal t, size_t size, char words[])
+{
+  PetscMPIInt first;
+
+  PetscFunctionBegin;
+  PetscCall(MechanicsFindConflict(p->mechanics, t, size, words));
+  PetscCall(RankFirst(p->comm, (PetscBool)(words[0] != 0), &first));
+  if (first >= 0) PetscCallMPI(MPI_Bcast(words, (PetscMPIInt)size, MPI_CHAR, first, p->comm));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode StateCreate(Problem p, State *s)
 {
   const ForestTables *t;
