@@ -91,7 +91,7 @@ static PetscErrorCode View_Private(App *app)
   if (app->restart[0]) PetscCall(CheckFiles_Private(app));
   PetscCall(SceneView(app->scene, app->level.forest, PETSC_VIEWER_STDOUT_WORLD));
   PetscCall(ProblemNumDofs(app->level.problem, &dofs));
-  PetscCall(PetscPrintf(app->comm, "  %" PetscInt_FMT " unknowns at t = %g\n", dofs, (double)app->level.accepted.t));
+  PetscCall(PetscPrintf(app->comm, "  %" PetscInt_FMT " unknowns at t = %.6g\n", dofs, (double)app->level.accepted.t));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -45,6 +45,7 @@ static PetscErrorCode AdaptTree_Private(Forest forest, const MarkList *marks, Tr
 
   PetscFunctionBegin;
   for (PetscInt l = 0; l < forest->tables.num_leaves; ++l) more += ForestNumChildren(marks->split[l] & all);
+  ErrorAsked("%lld cells", (long long)more);
   PetscCall(ForestCheckSize(more << dim)); /* a cell brings as many entities at least: before memory is asked for */
   PetscCall(ForestTreeCopy(&forest->tree, &tree));
   for (PetscInt r = 0; r < num_roots; ++r) next = NumberLeaves_Private(&tree, r, next);

@@ -1,4 +1,5 @@
 """Scenes as somebody who means no good would write them: one sentence, the exit status of the contract, and no half of a file under a name that promises a whole one."""
+import contextlib
 import json
 import resource
 
@@ -139,16 +140,31 @@ def test_a_directory_in_the_way(run, tmp_path, name):
     assert result.returncode == 2 and len(result.stderr.splitlines()) == 1 and result.stderr.startswith("mortise: "), result
 
 
+@contextlib.contextmanager
+def limited(what, kilobytes):
+    before = resource.getrlimit(what)
+    resource.setrlimit(what, (1024 * kilobytes, before[1]))
+    try:
+        yield
+    finally:
+        resource.setrlimit(what, before)
+
+
+@pytest.mark.parametrize("megabytes,words", [(600, "for 1048576 cells (mesh.refine: 9)"), (200, "(ulimit -v)")])
+def test_out_of_memory(run, tmp_path, megabytes, words):
+    """One sentence that says for what."""
+    text = block(tmp_path)
+    with limited(resource.RLIMIT_AS, 1024 * megabytes):
+        result = run("s.yml", "-mesh_refine", 9, text=text)
+    assert result.returncode == 2 and len(result.stderr.splitlines()) == 1 and result.stderr.startswith("mortise: out of memory") and words in result.stderr, result
+
+
 @pytest.mark.parametrize("kilobytes", [1, 4, 40])
 def test_full_disk(run, tmp_path, kilobytes):
     """What was written before stays readable: no row or state without its end."""
-    before = resource.getrlimit(resource.RLIMIT_FSIZE)
     text = block(tmp_path, mesh={"file": "block.msh", "refine": 3})
-    resource.setrlimit(resource.RLIMIT_FSIZE, (1024 * kilobytes, before[1]))
-    try:
+    with limited(resource.RLIMIT_FSIZE, kilobytes):
         result = run("s.yml", text=text)
-    finally:
-        resource.setrlimit(resource.RLIMIT_FSIZE, before)
     assert result.returncode == 2 and len(result.stderr.splitlines()) == 1 and result.stderr.startswith("mortise: "), result
     assert "File too large" in result.stderr, result
     assert not (result.directory / "checkpoint.h5").exists() and len(result.states()) == len(result.history), result
