@@ -32,63 +32,13 @@ static PetscErrorCode Prepare_Private(App *app, Forest *forest)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Fields and tables to go on with. */
-static PetscErrorCode ResumeFields_Private(App *app)
-{
-  PetscReal states;
-
-  PetscFunctionBegin;
-  PetscCall(CheckpointGetNumber(app->snapshot, "states", &states));
-  if (app->data->output.fields && states > 0) PetscCall(WriterResume(app->comm, app->data->output.directory, app->load_steps, (PetscInt)states, &app->writer));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-static PetscErrorCode OpenTables_Private(App *app)
-{
-  PetscFunctionBegin;
-  PetscCall(HistoryCreate(app->comm, app->data, app->probes, app->restart[0] ? app->load_steps : -1, app->level.accepted.t, &app->history));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* Tables and fields, afresh or after the load step to go on from: first everything that may refuse. */
-static PetscErrorCode OpenFiles_Private(App *app)
-{
-  PetscFunctionBegin;
-  PetscCall(OutputDirectoryCreate(app->comm, app->data->output.directory));
-  if (app->restart[0]) PetscCall(ResumeFields_Private(app));
-  PetscCall(OpenTables_Private(app));
-  if (app->data->output.fields && !app->writer) PetscCall(WriterCreate(app->comm, app->data->output.directory, &app->writer));
-  if (!app->restart[0]) PetscCall(AppForget(app));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* -check: would the files in output.directory be refused to go on with? Tables that are not there would be made: nothing to ask. */
-static PetscErrorCode CheckFiles_Private(App *app)
-{
-  static const char *const tables[] = {"history.csv", "adapt.csv"};
-  PetscBool                there    = PETSC_TRUE;
-  PetscMPIInt              rank;
-
-  PetscFunctionBegin;
-  PetscCall(ResumeFields_Private(app));
-  PetscCallMPI(MPI_Comm_rank(app->comm, &rank));
-  for (int i = 0; i < 2 && rank == 0; ++i) {
-    char path[PETSC_MAX_PATH_LEN];
-    PetscCall(PetscSNPrintf(path, sizeof(path), "%s/%s", app->data->output.directory, tables[i]));
-    there = (PetscBool)(there && !access(path, F_OK));
-  }
-  PetscCallMPI(MPI_Bcast(&there, 1, MPIU_BOOL, 0, app->comm));
-  if (there) PetscCall(OpenTables_Private(app));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 /* -check: what would be solved, and from what on. */
 static PetscErrorCode View_Private(App *app)
 {
   PetscInt dofs;
 
   PetscFunctionBegin;
-  if (app->restart[0]) PetscCall(CheckFiles_Private(app));
+  PetscCall(AppCheckFiles(app));
   PetscCall(SceneView(app->scene, app->level.forest, PETSC_VIEWER_STDOUT_WORLD));
   PetscCall(ProblemNumDofs(app->level.problem, &dofs));
   PetscCall(PetscPrintf(app->comm, "  %" PetscInt_FMT " unknowns at t = %.6g\n", dofs, (double)app->level.accepted.t));
@@ -100,7 +50,7 @@ static PetscErrorCode Open_Private(App *app)
   PetscLogDouble now;
 
   PetscFunctionBegin;
-  PetscCall(OpenFiles_Private(app));
+  PetscCall(AppOpenFiles(app));
   PetscCall(MonitorCreate(app->comm, app->data, &app->monitor));
   PetscCall(MonitorHeader(app->monitor, app->level.problem));
   PetscCall(PetscTime(&now));
@@ -171,6 +121,7 @@ static PetscErrorCode Close_Private(App *app)
   if (app->writer) PetscCall(WriterDestroy(&app->writer));
   PetscCall(ProbesDestroy(&app->probes));
   if (app->estimated) PetscCall(EstimateDestroy(&app->estimate));
+  PetscCall(EstimateDestroy(&app->most));
   if (app->balance.reaction) PetscCall(BalanceDestroy(&app->balance));
   PetscCall(LevelDestroy(&app->level));
   PetscCall(CheckpointDestroy(&app->snapshot));

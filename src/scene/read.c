@@ -43,6 +43,9 @@ static PetscErrorCode ReadGeneral_Private(Scene s)
   if (d->load.step_max == 0) d->load.step_max = d->load.step;
   if (d->load.step_min == 0) d->load.step_min = d->load.step / 1024;
   PetscCall(CheckSteps_Private(s->root->origin, &d->load));
+  PetscCheckInput(d->adapt.repeat == REPEAT_STEP || d->adapt.coarsen == 0,
+                  "%s is %g, but with adapt.repeat: path one mesh is for all load steps and cells are refined only; allowed with it: 0",
+                  NodeWhere(NodeFind(NodeFind(s->root, "adapt"), "coarsen")), (double)d->adapt.coarsen);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
