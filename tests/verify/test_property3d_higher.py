@@ -152,6 +152,14 @@ def test_faces_that_end_within_facets(solve):
     assert s["step_cuts"] == 0 and s["newton_iterations"] <= 6
 
 
+@faces("2-full", kinds=SECOND)
+@CARRIES
+def test_middle_lines_meet(solve, carries):
+    """Lines of both meshes lie on each other in the middle, where curved facets see a mortar corner on their side and the next one beside it."""
+    s = space.good(solve(*space.QUIET, "-mesh_refine", 1, boundary=hold(("0", "0", "-0.03")), contact=pairs(carries)))
+    assert s["step_cuts"] == 0 and s["newton_iterations"] <= 5
+
+
 @faces(kinds=BOTH)
 @CARRIES
 @pytest.mark.parametrize("x", [0, 1e-3, -1e-3])
