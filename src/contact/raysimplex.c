@@ -13,7 +13,7 @@
 #include <petscblaslapack.h>
 
 #define MOST_POINTS 144
-#define SMALL 0.01     /* sine of an angle */
+#define SMALL 0.01    /* sine of an angle */
 #define COINCIDE 1e-5 /* the same, below which the place of the crossing tells nothing */
 #define JOINT 8       /* line between the two corners at one place */
 
