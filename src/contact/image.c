@@ -1,6 +1,8 @@
 /* Image of a mortar vertex v on a facet: xi with x(xi) + s d(xi) = v, and its place Y(xi) in the chart. Vertices far beyond a bilinear facet may have none:
-   there the map folds where opposite sides meet. So beyond [-1, 1]^2 the mixed terms of x, d and Y are those of h(xi_1) h(xi_2), h bounded and twice
-   continuous: on flat facets Y is linear in x everywhere.
+   there the map folds where opposite sides meet. So beyond [-1, 1]^2 x, d and Y are f(h) + sum_i (xi_i - h_i) sigma_i, h(xi_i) bounded and twice continuous,
+   sigma_i a slope between corners: on flat facets Y is linear in x everywhere. The slope is the mean of the two sides in direction i; but where one of them
+   lies in a plane of symmetry, that side's: its line goes on in the plane, in which x and d lie, and there the mortar side ends, too. Where both do, it changes
+   from one to the other, linearly in h of the other direction: the map then folds where the planes meet.
 
    A (dxi, ds) = dv - sum N_a dx_a - s sum V_v dd_v,   A = [t_i + s d,i, d] (plane: and e_z);
    A (d2xi, d2s) = -2 (dt_i + s dd,i + ds d,i) dxi_i - 2 ds dd - (x,ij + s d,ij) dxi_i dxi_j: half of w . d2Y is three products. */
@@ -23,16 +25,32 @@ static void Bound_Private(PetscReal xi, PetscReal h[3])
   h[2] = -6 * sign * v * h[1] * root * root;
 }
 
-/* Slope of the functions in direction i that takes over beyond the facet: that between the corners. */
-static void Slope_Private(PetscInt order, PetscReal slope[2][RAY_LATTICE])
+void ContactImageBeyond(const PetscBool kept[4], RayFacet *f)
+{
+  for (int i = 0; i < 2; i++) {
+    const PetscBool low = i ? kept[3] : kept[0], high = i ? kept[1] : kept[2]; /* sides in direction i, where the other coordinate is -1 and 1 */
+
+    f->share[i] = low == high ? 0.5 : high;
+    f->turn[i]  = low && high ? 0.5 : 0;
+  }
+}
+
+/* Slopes of the functions that take over beyond the facet, between the corners, and their derivatives by the other coordinate's h. */
+static void Slope_Private(const RayFacet *f, PetscInt order, const PetscReal h[2], PetscReal slope[2][RAY_LATTICE], PetscReal turn[2][RAY_LATTICE])
 {
   const PetscInt num = (order + 1) * (order + 1), corner[4] = {0, order, num - 1 - order, num - 1};
 
-  memset(slope[0], 0, (size_t)num * sizeof(PetscReal));
-  memset(slope[1], 0, (size_t)num * sizeof(PetscReal));
-  for (int k = 0; k < 4; k++) {
-    slope[0][corner[k]] = k % 2 ? 0.25 : -0.25;
-    slope[1][corner[k]] = k / 2 ? 0.25 : -0.25;
+  for (int i = 0; i < 2; i++) {
+    const PetscReal high = f->share[i] + f->turn[i] * h[1 - i];
+
+    memset(slope[i], 0, (size_t)num * sizeof(PetscReal));
+    memset(turn[i], 0, (size_t)num * sizeof(PetscReal));
+    for (int k = 0; k < 4; k++) {
+      const PetscBool to = (PetscBool)(i ? k / 2 : k % 2), on = (PetscBool)(i ? k % 2 : k / 2); /* end and side of direction i */
+
+      slope[i][corner[k]] = (to ? 0.5 : -0.5) * (on ? high : 1 - high);
+      turn[i][corner[k]]  = (to == on ? 0.5 : -0.5) * f->turn[i];
+    }
   }
 }
 
@@ -40,7 +58,7 @@ static void Slope_Private(PetscInt order, PetscReal slope[2][RAY_LATTICE])
 static void Functions_Private(const RayFacet *f, PetscInt order, const PetscReal xi[2], int depth, RayFunctions *to)
 {
   const PetscInt num = (order + 1) * (order + 1);
-  PetscReal      h[2][3], slope[2][RAY_LATTICE], at[2];
+  PetscReal      h[2][3], slope[2][RAY_LATTICE], turn[2][RAY_LATTICE], at[2], past[2];
 
   if (f->m == 1 || PetscMax(PetscAbsReal(xi[0]), PetscAbsReal(xi[1])) <= 1) {
     ContactRayFunctions(f->m, order, xi, depth, to);
@@ -48,44 +66,39 @@ static void Functions_Private(const RayFacet *f, PetscInt order, const PetscReal
   }
   for (int i = 0; i < 2; i++) {
     Bound_Private(xi[i], h[i]);
-    at[i] = h[i][0];
+    at[i]   = h[i][0];
+    past[i] = xi[i] - at[i];
   }
-  Slope_Private(order, slope);
+  Slope_Private(f, order, at, slope, turn);
   ContactRayFunctions(2, order, at, depth, to);
   for (PetscInt a = 0; a < num; a++) {
-    for (int i = 0; i < 2; i++) to->N[a] += (xi[i] - at[i]) * slope[i][a];
-    for (int i = 0; i < 2 && depth > 1; i++) to->dd[2 * i][a] = to->dd[2 * i][a] * PetscSqr(h[i][1]) + (to->d[i][a] - slope[i][a]) * h[i][2];
-    if (depth > 1) to->dd[1][a] *= h[0][1] * h[1][1];
-    for (int i = 0; i < 2; i++) to->d[i][a] = slope[i][a] + (to->d[i][a] - slope[i][a]) * h[i][1];
+    if (depth > 1) to->dd[1][a] = to->dd[1][a] * h[0][1] * h[1][1] + turn[0][a] * (1 - h[0][1]) * h[1][1] + turn[1][a] * (1 - h[1][1]) * h[0][1];
+    for (int i = 0; i < 2; i++) {
+      const PetscReal more = to->d[i][a] - slope[i][a] + past[1 - i] * turn[1 - i][a];
+
+      to->N[a] += past[i] * slope[i][a];
+      if (depth > 1) to->dd[2 * i][a] = to->dd[2 * i][a] * PetscSqr(h[i][1]) + more * h[i][2];
+      to->d[i][a] = slope[i][a] + more * h[i][1];
+    }
   }
 }
 
-/* Y with derivatives 1 2, 11 12 22. */
+/* Y with derivatives 1 2, 11 12 22, from the functions of order 1. */
 typedef struct {
   PetscReal Y[2], d[2][2], dd[3][2];
 } Picture;
 
-static void Picture_Private(const RayFacet *f, const PetscReal xi[2], Picture *p)
+static void Picture_Private(const RayFacet *f, const RayFunctions *V, int depth, Picture *p)
 {
-  PetscReal     h[2][3];
-  RayChartPoint c;
-
   memset(p, 0, sizeof(*p));
-  if (f->m == 1) {
-    ContactChartAt(f, xi, &c);
-    memcpy(p->Y, c.Y, sizeof(p->Y));
-    memcpy(p->d, c.J, sizeof(p->d));
-    memcpy(p->dd[1], c.mixed, sizeof(p->dd[1]));
-    return;
-  }
-  Bound_Private(xi[0], h[0]);
-  Bound_Private(xi[1], h[1]);
-  for (int i = 0; i < 2; i++) {
-    p->Y[i]    = f->c[0][i] + f->c[1][i] * xi[0] + f->c[2][i] * xi[1] + f->c[3][i] * h[0][0] * h[1][0];
-    p->d[0][i] = f->c[1][i] + f->c[3][i] * h[0][1] * h[1][0];
-    p->d[1][i] = f->c[2][i] + f->c[3][i] * h[0][0] * h[1][1];
-    for (int k = 0; k < 3; k++) p->dd[k][i] = f->c[3][i] * h[0][2 - k] * h[1][k];
-  }
+  for (PetscInt a = 0; a < f->nv; a++)
+    for (PetscInt i = 0; i < f->m; i++) {
+      const PetscReal Y = f->chart.Y[a < 2 ? a : 5 - a][i];
+
+      p->Y[i] += V->N[a] * Y;
+      for (PetscInt k = 0; k < f->m; k++) p->d[k][i] += V->d[k][a] * Y;
+      for (PetscInt k = 0; k < 2 * f->m - 1 && depth > 1; k++) p->dd[k][i] += V->dd[k][a] * Y;
+    }
 }
 
 static void Place_Private(const RayFacet *f, const PetscReal xi[2], PetscReal s, int depth, Place *p)
@@ -143,8 +156,9 @@ void ContactImageFind(const RayFacet *f, RayImage *image)
   if (step < RAY_SOLVED) {
     Picture c;
 
-    Picture_Private(f, image->xi, &c);
-    image->Y[0] = c.Y[0], image->Y[1] = f->m == 2 ? c.Y[1] : 0;
+    Functions_Private(f, 1, image->xi, 1, &p.V);
+    Picture_Private(f, &p.V, 1, &c);
+    image->Y[0] = c.Y[0], image->Y[1] = c.Y[1];
     image->found = PETSC_TRUE;
   }
 }
@@ -185,7 +199,7 @@ void ContactImageRows(const RayFacet *f, const RayImage *image, PetscInt vertex,
   Place   p;
 
   Place_Private(f, image->xi, image->s, 1, &p);
-  Picture_Private(f, image->xi, &chart);
+  Picture_Private(f, &p.V, 1, &chart);
   for (PetscInt i = 0; i < f->m; i++) {
     PetscReal v[3] = {0, 0, 0};
 
@@ -203,7 +217,7 @@ void ContactImageCurvature(const RayFacet *f, const RayImage *image, PetscInt ve
   Place          p;
 
   Place_Private(f, image->xi, image->s, 2, &p);
-  Picture_Private(f, image->xi, &chart);
+  Picture_Private(f, &p.V, 2, &chart);
   for (PetscInt i = 0; i < f->m; i++)
     for (int c = 0; c < 3; c++) mu[c] += Dot2(w, chart.d[i]) * p.inverse[i][c];
   for (PetscInt i = 0; i < 4 * n; i++) work[i] = 0;

@@ -52,7 +52,7 @@ PetscErrorCode ContactRayWorkDestroy(RayWork *work)
   PetscFunctionBegin;
   if (!w) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(ContactResultDestroy(&w->result));
-  PetscCall(PetscFree4(w->ring_first, w->ring_facet, w->parent, w->d));
+  PetscCall(PetscFree5(w->ring_first, w->ring_facet, w->parent, w->d, w->kept));
   PetscCall(PetscFree(w->mortar_parent));
   PetscCall(PetscFree(w->image));
   PetscCall(PetscFree(w->overlap));

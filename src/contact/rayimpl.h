@@ -40,12 +40,13 @@ typedef struct {
 
 /* Nonmortar facet. */
 typedef struct {
-  PetscInt   D, m, nv; /* dimension of space and facet, corners */
-  RayLattice s, d;     /* d: directions, order 1 */
-  PlaneQuad  chart;    /* counterclockwise */
-  PetscReal  c[4][2];  /* Y = c_0 + c_1 xi_1 + c_2 xi_2 + c_3 xi_1 xi_2 */
-  PetscReal  area;     /* of the chart */
-  PetscReal  ring;     /* 2 pi or 0 */
+  PetscInt   D, m, nv;          /* dimension of space and facet, corners */
+  RayLattice s, d;              /* d: directions, order 1 */
+  PlaneQuad  chart;             /* counterclockwise */
+  PetscReal  c[4][2];           /* Y = c_0 + c_1 xi_1 + c_2 xi_2 + c_3 xi_1 xi_2 */
+  PetscReal  area;              /* of the chart */
+  PetscReal  ring;              /* 2 pi or 0 */
+  PetscReal  share[2], turn[2]; /* beyond the facet: of the side at 1 in the slope along direction i, share + turn h of the other coordinate (image.c) */
 } RayFacet;
 
 /* Image of a mortar vertex. Of one that hangs in the middle of an edge: the mean of those of the edge's ends, which come before it in the list, so that the
@@ -88,6 +89,7 @@ struct _p_RayWork {
   /* topology of the nonmortar surface */
   PetscInt  *ring_first, *ring_facet, *parent; /* facets around each corner; ends of the edge on which a corner hangs, -1 */
   PetscReal *d;                                /* [num_nodes][3] directions at corners */
+  PetscBool *kept;                             /* [num_facets][4] does the side from corner k on lie in a plane of symmetry? (space) */
   PetscInt  *mortar_parent;                    /* [mortar num_nodes][2] */
   /* one facet */
   RayFacet   facet;
@@ -142,6 +144,8 @@ void      ContactChartAt(const RayFacet *, const PetscReal xi[2], RayChartPoint 
 PetscBool ContactChartLocate(const RayFacet *, const PetscReal Y[2], PetscReal xi[2]);
 
 /* image.c */
+/* How the facet's map goes on beyond it: sides that lie in planes of symmetry, along these. */
+void ContactImageBeyond(const PetscBool kept[4], RayFacet *);
 void ContactImageFind(const RayFacet *, RayImage *);
 /* rows[m][n] += derivatives of Y; vertex: its place among the facet's nodes. */
 void ContactImageRows(const RayFacet *, const RayImage *, PetscInt vertex, PetscInt n, PetscReal rows[]);
