@@ -96,6 +96,8 @@ static PetscErrorCode Summarise_Private(App *app)
   summary.active_set_cycles  = app->set_cycles;
   summary.factorisations     = app->factorisations;
   summary.single_failures    = app->single_failures;
+  summary.relaxed_steps      = app->relaxed_steps;
+  summary.drag_work          = app->all_drag_work;
   summary.unstable           = app->judged ? (PetscReal)app->unstable : (PetscReal)NAN;
   summary.adapt_stop         = app->adapt_stop;
   summary.problem            = app->level.problem;
