@@ -196,6 +196,17 @@ def test_snap(run):
     assert max(row["support_imbalance"] for row in ours.history if row["contact_force"] > 1e-3) < 1e-8
 
 
+@pytest.mark.slow
+def test_press_fit_on_a_fine_mesh(run):
+    """The press fit of test_plastic.py adapted: contact is a tenth of a millimetre wide, flows, and moves on by half that in a step. From an elastic start at the new place Newton's method
+    overshoots, since what flows is a hundred times softer; cutting steps ends where they move contact by less than a facet. Under drag they are a hundred times as long."""
+    options = ("-order", 2, "-mesh_parameter_size", 2, "-adapt_tolerance", 0.1, "-load_end", 1, "-load_max_steps", 10)
+    ours, naive = (run("tests/verify/scenes/pressfit.yml", *options, "-load_relax", relax).summary for relax in ("true", "false"))
+    for s in (ours, naive):
+        print({key: s[key] for key in ("t", "load_steps", "step_cuts", "newton_iterations", "relaxed_steps", "drag_work")})
+    assert ours["t"] > 0.155 and ours["step_cuts"] <= 2 and naive["t"] < 0.142
+
+
 def test_checkerboard_on_an_isolated_refined_cell(run):
     """Four cells where one was, around them coarser ones: constant pressures on bilinear cells oscillate there (no refinement cures it), linear ones on biquadratic
     cells do not. Cook's membrane, kappa/mu = 5000; alternating part of the four mean pressures against their mean."""
