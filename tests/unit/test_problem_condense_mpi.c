@@ -142,9 +142,9 @@ static void DragForces(Solved *s, PetscReal rate, Vec from, Vec x, Vec f)
 
   OK(VecDuplicate(x, &r));
   OK(ProblemSetDrag(s->problem, 0, NULL));
-  OK(ProblemResidual(s->problem, x, r, &status));
+  OK(ProblemResidual(s->problem, x, NULL, r, &status));
   OK(ProblemSetDrag(s->problem, rate, from));
-  OK(ProblemResidual(s->problem, x, f, &status));
+  OK(ProblemResidual(s->problem, x, NULL, f, &status));
   OK(VecAXPY(f, -1, r));
   OK(VecDestroy(&r));
 }
