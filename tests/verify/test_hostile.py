@@ -174,6 +174,7 @@ def test_full_disk(run, tmp_path, kilobytes):
     assert result.returncode == 2 and len(result.stderr.splitlines()) == 1 and result.stderr.startswith("mortise: "), result
     assert "File too large" in result.stderr, result
     assert not (result.directory / "checkpoint.h5").exists() and len(result.states()) == len(result.history), result
+    assert len(list(result.directory.glob("fields_*.h5"))) == len(result.states()), result
 
 
 def test_unconnected_nodes(run, tmp_path):
