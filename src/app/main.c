@@ -45,22 +45,28 @@ static PetscErrorCode View_Private(App *app)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* What the run took so far. */
+static ReportRow Total_Private(const App *app)
+{
+  PetscLogDouble now = 0;
+
+  (void)PetscTime(&now);
+  return (ReportRow){.step              = app->load_steps,
+                     .step_cuts         = app->step_cuts,
+                     .newton_iterations = app->newton_iterations,
+                     .t                 = app->level.accepted.t,
+                     .seconds           = now - app->start};
+}
+
 static PetscErrorCode Open_Private(App *app)
 {
-  PetscLogDouble now;
+  const ReportRow total = Total_Private(app);
 
   PetscFunctionBegin;
   PetscCall(AppOpenFiles(app));
   PetscCall(MonitorCreate(app->comm, app->data, &app->monitor));
   PetscCall(MonitorHeader(app->monitor, app->level.problem));
-  PetscCall(PetscTime(&now));
-  if (app->restart[0])
-    PetscCall(MonitorResume(app->monitor, app->restart,
-                            &(ReportRow){.step              = app->load_steps,
-                                         .step_cuts         = app->step_cuts,
-                                         .newton_iterations = app->newton_iterations,
-                                         .t                 = app->level.accepted.t,
-                                         .seconds           = now - app->start}));
+  if (app->restart[0]) PetscCall(MonitorResume(app->monitor, app->restart, &total));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -85,14 +91,13 @@ static PetscErrorCode Figures_Private(App *app)
 
 static PetscErrorCode Summarise_Private(App *app)
 {
-  const char    *status = app->failure ? "failed" : app->stopped ? "stopped" : "converged";
-  const char    *reason = app->failure ? app->failure : app->stop_reason;
-  PetscLogDouble now;
+  const char *status = app->failure ? "failed" : app->stopped ? "stopped" : "converged";
+  const char *reason = app->failure ? app->failure : app->stop_reason;
 
   PetscFunctionBegin;
   PetscCall(Figures_Private(app));
-  PetscCall(PetscTime(&now));
-  RunSummary summary         = {.status = status, .reason = reason, .t = app->level.accepted.t, .seconds = now - app->start, .load_steps = app->load_steps};
+  const ReportRow total      = Total_Private(app);
+  RunSummary      summary    = {.status = status, .reason = reason, .t = total.t, .seconds = total.seconds, .load_steps = app->load_steps};
   summary.step_cuts          = app->step_cuts;
   summary.adapt_passes       = app->adapt_passes;
   summary.newton_iterations  = app->newton_iterations;
@@ -108,7 +113,7 @@ static PetscErrorCode Summarise_Private(App *app)
   summary.estimate           = app->estimated && !app->failure && !app->stopped ? &app->estimate : NULL;
   summary.probes             = app->probes;
   PetscCall(OutputSummary(app->comm, app->data, &summary));
-  PetscCall(MonitorFooter(app->monitor, status, summary.reason, app->adapt_stop, app->written, app->load_steps ? &app->last : NULL));
+  PetscCall(MonitorFooter(app->monitor, status, summary.reason, app->adapt_stop, app->written, &total, app->load_steps ? &app->last : NULL));
   PetscCall(AppAdvise(app));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
