@@ -48,10 +48,10 @@ typedef struct {
   PetscReal  ring;     /* 2 pi or 0 */
 } RayFacet;
 
-/* Image of a mortar vertex. Of one that hangs in the middle of an edge: the mean of those of the edge's ends, which come before it in the list, so that the
-   straight pictures of both sides of the edge are the same. */
+/* Image of a mortar vertex, or the mean of two images that come before it in the list: of a vertex that hangs in the middle of a straight edge those of the
+   edge's ends, and in a facet that is seen in pieces (cover.c). */
 typedef struct {
-  PetscInt  node, parent[2]; /* nodes, -1: does not hang */
+  PetscInt  node, parent[2]; /* names (cover.c): nodes and others; -1: it is the vertex's own */
   PetscBool found;
   PetscReal v[3], xi[2], s, Y[2];
 } RayImage;
@@ -88,7 +88,8 @@ struct _p_RayWork {
   /* topology of the nonmortar surface */
   PetscInt  *ring_first, *ring_facet, *parent; /* facets around each corner; ends of the edge on which a corner hangs, -1 */
   PetscReal *d;                                /* [num_nodes][3] directions at corners */
-  PetscInt  *mortar_parent;                    /* [mortar num_nodes][2] */
+  PetscInt  *mortar_parent;                    /* [mortar num_nodes][2] of nodes that hang on straight sides */
+  PetscInt  *mortar_middle;                    /* [mortar num_facets][4] nodes that hang in the middle of curved sides, -1 */
   /* one facet */
   RayFacet   facet;
   PetscInt   num_images, num_overlaps, num_mortar, num_tests;
@@ -123,8 +124,8 @@ void     ContactRayLatticePolynomial(RayLattice *);
 void     ContactRayTestFunctions(const RayFacet *, const RayTest *, const PetscReal xi[2], RayFunctions *);
 
 /* direction.c */
-/* parent[num_nodes][2]: ends of the edge in whose middle a corner hangs, -1. */
-PetscErrorCode ContactParents(const ContactSurface *, PetscInt parent[]);
+/* parent[num_nodes][2]: ends of the edge in whose middle a corner hangs, -1. middle[num_facets][4] (or NULL): the corner that hangs on a side, -1. */
+PetscErrorCode ContactParents(const ContactSurface *, PetscInt parent[], PetscInt middle[]);
 PetscErrorCode ContactDirectionTopology(RayWork, const ContactSurface *);
 void           ContactDirections(RayWork, const ContactSurface *);
 PetscBool      ContactDirectionUsable(RayWork, const ContactSurface *, PetscInt node);
@@ -231,7 +232,7 @@ typedef struct {
 void      ContactRayGuess(const RayFacet *, const RayLattice *mortar, const Overlap *, RayGuess *);
 PetscBool ContactRayPoint(const RayFacet *, const RayLattice *mortar, const Overlap *, const RayGuess *, const RaySimplex *, const PetscReal beta[3], int depth,
                           RayPoint *);
-void      ContactRayPlaces(const RayWork, const ContactSurface *mortar, PetscInt facet, PetscInt nb, PetscInt place[]);
+void      ContactRayPlaces(const RayWork, const ContactSurface *mortar, PetscInt overlap, PetscInt nb, PetscInt place[]);
 
 /* raysum.c, raycurve.c: integrals over the overlaps of the facet at hand */
 void           ContactRayOverDet(const RayFacet *, const RayChartPoint *, PetscReal factor, const RayWeight *, RayWeight *);
