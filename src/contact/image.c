@@ -37,13 +37,13 @@ static void Slope_Private(PetscInt order, PetscReal slope[2][RAY_LATTICE])
 }
 
 /* f(h) + sum_i (xi_i - h_i) slope_i */
-static void Functions_Private(const RayFacet *f, PetscInt order, const PetscReal xi[2], int depth, RayFunctions *to)
+void ContactRayBeyond(PetscInt m, PetscInt order, const PetscReal xi[2], int depth, RayFunctions *to)
 {
   const PetscInt num = (order + 1) * (order + 1);
   PetscReal      h[2][3], slope[2][RAY_LATTICE], at[2];
 
-  if (f->m == 1 || PetscMax(PetscAbsReal(xi[0]), PetscAbsReal(xi[1])) <= 1) {
-    ContactRayFunctions(f->m, order, xi, depth, to);
+  if (m == 1 || PetscMax(PetscAbsReal(xi[0]), PetscAbsReal(xi[1])) <= 1) {
+    ContactRayFunctions(m, order, xi, depth, to);
     return;
   }
   for (int i = 0; i < 2; i++) {
@@ -90,8 +90,8 @@ static void Picture_Private(const RayFacet *f, const PetscReal xi[2], Picture *p
 
 static void Place_Private(const RayFacet *f, const PetscReal xi[2], PetscReal s, int depth, Place *p)
 {
-  Functions_Private(f, f->s.order, xi, depth, &p->S);
-  Functions_Private(f, 1, xi, depth, &p->V);
+  ContactRayBeyond(f->m, f->s.order, xi, depth, &p->S);
+  ContactRayBeyond(f->m, 1, xi, depth, &p->V);
   ContactRayLatticeSum(&f->s, p->S.N, p->p);
   ContactRayLatticeSum(&f->d, p->V.N, p->d);
   for (PetscInt i = 0; i < 2; i++) {

@@ -117,6 +117,7 @@ struct _p_RayWork {
 PetscErrorCode ContactRayLatticePrepare(void);
 /* depth: highest derivative. Beyond [-1, 1] continued by its tangent, which keeps one derivative continuous. */
 void     ContactRayFunctions(PetscInt m, PetscInt order, const PetscReal xi[2], int depth, RayFunctions *);
+void     ContactRayBeyond(PetscInt m, PetscInt order, const PetscReal xi[2], int depth, RayFunctions *);
 void     ContactRayLatticeSum(const RayLattice *, const PetscReal f[], PetscReal v[3]);
 PetscInt ContactRayLatticeNodes(const ContactSurface *, PetscInt facet, const PetscInt **nodes, PetscInt order1[4]);
 void     ContactRayLatticeGather(const ContactSurface *, PetscInt facet, RayLattice *);
