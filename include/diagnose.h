@@ -74,6 +74,8 @@ PetscErrorCode MonitorCreate(MPI_Comm, const SceneData *, Monitor *);
 PetscErrorCode MonitorHeader(Monitor, Problem); /* version, scene, model, cells, dofs, ranks; names of the columns */
 /* The run goes on from a file: step, step_cuts, newton_iterations (of the whole run), t and seconds so far. */
 PetscErrorCode MonitorResume(Monitor, const char *file, const ReportRow *so_far);
+/* The path of loads begins again, for the number-th time, on a finer mesh; error: the largest estimate of the one before. */
+PetscErrorCode MonitorAgain(Monitor, PetscInt number, PetscInt cells, PetscReal error);
 PetscErrorCode MonitorRow(Monitor, const ReportRow *); /* one line; on a terminal a bar with the time left below it */
 /* What was computed, estimated error, where results are. status as in summary.json; reason may be empty; checkpoint: one was written; last accepted
    row, NULL: none. */

@@ -26,6 +26,12 @@ typedef struct {
 /* Indicators at a converged state whose prescribed motion the problem stands at; evaluates the residual when there is contact. Collective. */
 PetscErrorCode EstimateCompute(Problem, const State *, Estimate *);
 PetscErrorCode EstimateDestroy(Estimate *);
+/* Over several states of one mesh: *most, all zero before the first, takes in the estimate of one more. Of each leaf the largest eta2 / (norm^2 + total^2),
+   with what that state's estimate tells of the leaf besides; most->relative is the largest of all; total, norm and part stay 0. Not collective. */
+PetscErrorCode EstimateMost(const Estimate *, Estimate *most);
+/* It as numbers, values[*num], freed by the caller, and back. Not collective. */
+PetscErrorCode EstimateStore(const Estimate *most, PetscInt *num, PetscReal **values);
+PetscErrorCode EstimateLoad(PetscInt num_leaves, PetscInt num, const PetscReal values[], Estimate *most);
 /* What to do next. Bulk (Dörfler) marking by spec->fraction; splits in all directions or, spec->anisotropic, in those that matter (src/estimate/split.c), or
    higher orders (src/estimate/choose.c), written to order[num_leaves], the orders the leaves are to have (NULL with strategy h); coarsening or lower orders of
    leaves whose eta2 is below spec->coarsen^2 times the mean; leaves of rigid bodies, eta2 = 0, never. Never more than spec->max_cells leaves expected (before

@@ -15,6 +15,8 @@ PetscErrorCode WriterCreate(MPI_Comm, const char *directory, Writer *);
 /* Go on with the series in directory: `num` states, the last of a load step; those of later steps are dropped when the next state is written. No index: it
  * begins with the next state, whose number is num. An input error when the index lists other states up to this step. Collective. */
 PetscErrorCode WriterResume(MPI_Comm, const char *directory, PetscInt step, PetscInt num, Writer *);
+/* The series begins again: what it has so far is dropped when the next state is written. Collective. */
+PetscErrorCode WriterAgain(Writer);
 PetscErrorCode WriterNumStates(Writer, PetscInt *num); /* completed so far */
 PetscErrorCode WriterDestroy(Writer *);
 /* Begin state number k (0, 1, …) at XDMF time `time` (strictly increasing), with scalar attributes. One file directory/fields_KKKK.h5, collective parallel
@@ -33,9 +35,18 @@ PetscErrorCode WriterEnd(Writer); /* flush, attribute "complete", close, rewrite
 /* csv with named columns, written by rank 0, flushed after each row. Columns: names[n]; rows: values[n], %.12g. */
 typedef struct _p_Table *Table;
 PetscErrorCode           TableCreate(MPI_Comm, const char *path, PetscInt n, const char *const names[], Table *);
-/* Go on with the table in path after the rows of a step (first column; column t: its time); what follows them is dropped when the next row is written. No file:
- * a new one. An input error when it has other columns, or no row of this step at this t. */
-PetscErrorCode TableResume(MPI_Comm, const char *path, PetscInt n, const char *const names[], PetscInt step, PetscReal t, Table *);
+/* Where a table stands: after the rows of a step (first column; 0: before the first), which ended at t (column t). The path of loads may be computed several
+ * times (adapt.repeat: path), by number: column pass; -1: it is not. Rows of the paths before may stand above (earlier). */
+typedef struct {
+  PetscInt  step, path;
+  PetscReal t;
+  PetscBool earlier;
+} TablePlace;
+/* Go on with the table in path from there; what follows is dropped when the next row is written. No file: a new one. An input error when it has other columns,
+ * or no row of this step at this t. */
+PetscErrorCode TableResume(MPI_Comm, const char *path, PetscInt n, const char *const names[], const TablePlace *, Table *);
+/* All rows go when the next one is written. Not collective. */
+PetscErrorCode TableAgain(Table);
 PetscErrorCode TableRow(Table, const PetscReal values[]);
 PetscErrorCode TableDestroy(Table *);
 
@@ -107,8 +118,9 @@ PetscErrorCode ProbesEvaluate(Probes, Problem, Vec x, ProbeValue value[]);
 
 /* ---- history.csv and adapt.csv (output/history.c) ------------------------------------------------------------------------ */
 
-/* Columns of adapt.csv: step, pass, t, cells, dofs, newton_iterations, active_nodes, estimated_error, estimate, energy, min_det, min_gap, contact_force,
-   seconds, accepted. Columns of history.csv, names as in summary.json:
+/* Columns of adapt.csv: step, pass (adaptive ones at this load step; adapt.repeat: path: of the whole path, every one of which is there), t, cells, dofs,
+   newton_iterations, active_nodes, estimated_error, estimate, energy, min_det, min_gap, contact_force, seconds, accepted. Columns of history.csv, names as in
+   summary.json:
    - step, t, dt, pass (of the accepted solution), step_cuts, cells, dofs, newton_iterations, active_nodes, estimated_error, energy, min_det, min_gap,
      contact_force, contact_imbalance, moment_imbalance, support_imbalance, seconds;
    - with plastic materials plastic.strain (largest), plastic.work, and body.<name>.mean_plastic_strain of each body that flows: int alpha dV / int dV over its
@@ -118,8 +130,11 @@ PetscErrorCode ProbesEvaluate(Probes, Problem, Vec x, ProbeValue value[]);
    - contact.<pair>.force.x …, .moment (3-D: .moment.x …), .max_pressure, .area, .radius (2-D), .active_nodes, .min_gap;
    - probe.<name>.displacement.x …, .stress.xx … (2-D: xx xy yy zz), with plastic materials .plastic_strain. */
 typedef struct _p_History *History;
-/* Open both in the output directory, which must exist: afresh (after < 0), or to go on after a load step that ended at t (TableResume). Collective. */
-PetscErrorCode HistoryCreate(MPI_Comm, const SceneData *, Probes, PetscInt after, PetscReal t, History *);
+/* Open both in the output directory, which must exist: afresh (after NULL), or to go on after a load step (TableResume; `earlier` is set here: adapt.csv has
+   the rows of all paths, history.csv those of the last). Collective. */
+PetscErrorCode HistoryCreate(MPI_Comm, const SceneData *, Probes, const TablePlace *after, History *);
+/* The path of loads begins again: history.csv does. Not collective. */
+PetscErrorCode HistoryAgain(History);
 PetscErrorCode HistoryPass(History, const ReportRow *);                                          /* a row of adapt.csv. Collective. */
 PetscErrorCode HistoryStep(History, const ReportRow *, const Balance *, Problem, const State *); /* a row of history.csv. Collective. */
 PetscErrorCode HistoryDestroy(History *);
@@ -154,7 +169,7 @@ PetscBool BoundarySupports(const BoundarySpec *);
      /physics, /note                   texts: what must agree with the scene (OutputPhysics); the caller's
      attributes of /: mesh, revision, ranks   hash of the coarse mesh; revision of the forest; ranks that wrote it
      /split, /order, /owner            int8 by tree node (ForestGetSplits), int8 and int32 by leaf
-     /fields/<name>                    float64, as in Pack
+     /fields/<name>                    float64, as in Pack; values: CheckpointPutValues
      attributes of /numbers            float64 each */
 typedef struct _p_Checkpoint *Checkpoint;
 typedef struct {
@@ -165,6 +180,9 @@ typedef struct {
 /* Copy a state, with the prescribed motion as applied; among its numbers is "t". Collective. */
 PetscErrorCode CheckpointCreate(Problem, const State *, PetscInt num, const CheckpointNumber numbers[], const char *note, Checkpoint *);
 PetscErrorCode CheckpointDestroy(Checkpoint *);
+/* Any amount of further numbers of the caller, the same on every rank; put once. values[*num] is freed by the caller; none: *num 0. Collective. */
+PetscErrorCode CheckpointPutValues(Checkpoint, PetscInt num, const PetscReal values[]);
+PetscErrorCode CheckpointGetValues(Checkpoint, PetscInt *num, PetscReal **values);
 /* Write path, or leave the file that is there as it is: a kill at any moment leaves one of the two, whole. Collective. */
 PetscErrorCode CheckpointWrite(Checkpoint, const char *path);
 /* Read a file on any number of ranks; one sentence (ErrorInput) when it is not there, cut short, damaged, of another format or no checkpoint. Collective. */

@@ -13,6 +13,7 @@ typedef struct {
 } LoadSpec;
 
 typedef enum { ADAPT_H, ADAPT_P, ADAPT_HP } AdaptStrategy;
+typedef enum { REPEAT_STEP, REPEAT_PATH } AdaptRepeat; /* what is computed again on a finer mesh: the load step at hand, or all from t = 0 */
 typedef struct {
   PetscReal     tolerance; /* relative; 0: no adaptation */
   PetscInt      max_passes, max_cells;
@@ -24,6 +25,7 @@ typedef struct {
   PetscReal     aspect;      /* a split must not leave a cell more than this many times as long as its shortest edge */
   AdaptStrategy strategy;
   PetscInt      max_order; /* p, hp: no order above */
+  AdaptRepeat   repeat;
 } AdaptSpec;
 
 typedef struct {

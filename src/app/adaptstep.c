@@ -1,9 +1,7 @@
-/* Adaptation at one time: estimate, mark, adapt the forest, transfer, find equilibrium again; until the tolerance or a limit is met. */
+/* Adaptation at one time: estimate, refine, find equilibrium again; until the tolerance or a limit is met. */
 #include "appimpl.h"
 
 #define NONE_FINER "no equilibrium found on a finer mesh"
-
-#define STRESSED 10 /* nodal forces below this multiple of their round-off are nothing to estimate an error of: refining would chase noise */
 
 #define MOST_PIECES 8 /* of the way from the accepted state, when equilibrium on a finer mesh is hard to find */
 
@@ -34,7 +32,7 @@ static PetscErrorCode ReportPass_Private(App *app, PetscInt iterations, PetscBoo
   PetscCall(ReportRowFill(l->problem, &l->state, app->estimated ? &app->estimate : NULL, &app->balance, &app->last));
   PetscCall(PetscTime(&now));
   app->last.step              = app->load_steps + 1;
-  app->last.pass              = app->passes_in_step;
+  app->last.pass              = app->path + app->passes_in_step;
   app->last.newton_iterations = iterations;
   app->last.step_cuts         = app->cuts_in_step;
   app->last.set_cycles        = app->set_cycles - app->told_cycles;
@@ -53,65 +51,8 @@ static PetscErrorCode ReportPass_Private(App *app, PetscInt iterations, PetscBoo
   const PetscReal apart = 1e-6 * app->data->load.end;
   const PetscReal time  = app->data->load.control == LOAD_TIME ? l->state.t : app->data->load.end * (app->load_steps + 1); /* on a path t may fall */
   PetscCall(OutputWriteState(app->writer, l->problem, &l->state, app->estimated ? &app->estimate : NULL, time + apart * app->passes_in_step,
-                             app->load_steps + 1, app->passes_in_step));
+                             app->load_steps + 1, app->path + app->passes_in_step));
   PetscCall(StageEnd(STAGE_OUTPUT));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* Prescribed motion as it was at time t. */
-static PetscErrorCode PrescribeAt_Private(Problem problem, PetscReal t)
-{
-  PetscFunctionBegin;
-  PetscCall(ProblemSetTime(problem, t));
-  PetscCall(ProblemJump(problem));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* The level on the adapted forest with both states carried over, each under the prescribed motion of its own time: new nodes near a support are
-   interpolated from prescribed ones. Both take the history of the accepted one, made admissible there; of a step that went in pieces, too. Where the mesh has
-   inverted cells (sides that hang from coarser cells cut across curved ones), or a prescribed value is not finite at a new node, the level stays: *refused says
-   why, else NULL. */
-static PetscErrorCode MoveTo_Private(App *app, Forest forest, const int8_t old_order[], const ForestMap *map, const char **refused)
-{
-  const Level *old = &app->level;
-  Level        next;
-  int8_t      *orders;
-  PetscBool    following;
-  PetscReal    length, X[3];
-  PetscInt     order;
-
-  PetscFunctionBegin;
-  PetscCall(TransferOrders(map, old_order, &orders));
-  PetscCall(LevelCreate(app->data, forest, orders, old->state.t, &next));
-  PetscCall(PetscFree(orders));
-  PetscCall(ProblemFindInverted(next.problem, &order, X));
-  PetscCall(ExpressionTrouble(app->comm, refused));
-  if (order > 0) *refused = "refinement inverts a curved cell";
-  if (order > 0 && !app->inversion_told) {
-    app->inversion_told = PETSC_TRUE;
-    PetscCall(PetscPrintf(app->comm,
-                          "note: refinement would invert a curved cell of order %" PetscInt_FMT
-                          " at (%g, %g, %g): the coarser mesh stays; smaller cells there, "
-                          "a higher order or mesh.order: 1 avoid it\n",
-                          order, (double)X[0], (double)X[1], (double)X[2]));
-  }
-  if (*refused) {
-    PetscCall(LevelDestroy(&next));
-    PetscFunctionReturn(PETSC_SUCCESS);
-  }
-  PetscCall(StageBegin(STAGE_TRANSFER));
-  next.accepted.t = old->accepted.t;
-  PetscCall(TransferState(old->problem, &old->state, next.problem, map, &next.state));
-  PetscCall(PrescribeAt_Private(old->problem, old->accepted.t));
-  PetscCall(PrescribeAt_Private(next.problem, next.accepted.t));
-  PetscCall(TransferState(old->problem, &old->accepted, next.problem, map, &next.accepted));
-  PetscCall(StateAdmit(next.problem, &next.accepted));
-  PetscCall(PetscArraycpy(next.state.history, next.accepted.history, next.accepted.num_history));
-  PetscCall(PrescribeAt_Private(next.problem, next.state.t));
-  PetscCall(ProblemIsFollowing(old->problem, &following));
-  if (following) PetscCall(ProblemFollow(next.problem, next.accepted.x, next.state.x, &length));
-  PetscCall(StageEnd(STAGE_TRANSFER));
-  app->level = next;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -123,7 +64,7 @@ static PetscErrorCode StartBetween_Private(App *app, const State *transferred, P
 
   PetscFunctionBegin;
   PetscCall(StateBlend(&l->accepted, transferred, share, &l->state));
-  PetscCall(PrescribeAt_Private(l->problem, l->accepted.t));
+  PetscCall(AppPrescribeAt(l->problem, l->accepted.t));
   PetscCall(ProblemSetTime(l->problem, transferred->t));
   PetscCall(ProblemApplyShare(l->problem, share));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -171,50 +112,10 @@ static PetscErrorCode Reequilibrate_Private(App *app, PetscInt *iterations, Pets
   if (following) PetscCall(ProblemGetTime(l->problem, l->state.x, &l->state.t));
   if (!*ok && !following && !app->stopped) {
     PetscCall(StateCopy(&l->accepted, &l->state));
-    PetscCall(PrescribeAt_Private(l->problem, l->accepted.t));
+    PetscCall(AppPrescribeAt(l->problem, l->accepted.t));
     PetscCall(AppAdvance(app, t, (t - l->accepted.t) / MOST_PIECES, ok));
   }
   *iterations = app->newton_iterations - before;
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* Adapt to the layers marked at contact faces, if any, else mark and adapt; *adapted false when nothing may or need be refined, and adaptation ends with that.
- */
-static PetscErrorCode Refine_Private(App *app, MarkList *layers, PetscBool *adapted)
-{
-  const ForestTables *t;
-  MarkList            list   = *layers;
-  PetscInt            marked = 1, num_pairs, (*pairs)[2];
-  Forest              forest;
-  ForestMap           map;
-  int8_t             *order  = NULL;
-  PetscReal          *weight = NULL;
-  const char         *refused;
-
-  PetscFunctionBegin;
-  PetscCall(ForestGetTables(app->level.forest, &t));
-  if (app->data->adapt.strategy != ADAPT_H) PetscCall(PetscMalloc2(t->num_leaves, &order, t->num_leaves, &weight));
-  if (!layers->split)
-    PetscCall(EstimateMark(&app->estimate, &app->data->adapt, app->level.forest, &list, order, &marked));
-  else if (order)
-    PetscCall(PetscArraycpy(order, app->level.state.leaf_order, t->num_leaves));
-  for (PetscInt l = 0; order && l < t->num_leaves; ++l) weight[l] = PetscPowInt(order[l], t->dim);
-  *adapted = (PetscBool)(marked > 0);
-  if (!*adapted)
-    app->adapt_stop = app->estimate.num_leaves >= app->data->adapt.max_cells / 2 ? "max_cells" : "nothing left to refine";
-  else {
-    PetscCall(AppContactPairs(app, &num_pairs, &pairs));
-    PetscCall(StageBegin(STAGE_MESH));
-    PetscCall(ForestAdapt(app->level.forest, &list, weight, num_pairs, (const PetscInt(*)[2])pairs, &forest, &map));
-    PetscCall(StageEnd(STAGE_MESH));
-    PetscCall(PetscFree(pairs));
-    PetscCall(MoveTo_Private(app, forest, order ? order : app->level.state.leaf_order, &map, &refused));
-    if (refused) app->adapt_stop = refused;
-    *adapted = (PetscBool)!refused;
-    PetscCall(ForestMapDestroy(&map));
-  }
-  PetscCall(MarkListDestroy(&list));
-  PetscCall(PetscFree2(order, weight));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -225,7 +126,7 @@ static PetscErrorCode Pass_Private(App *app, MarkList *layers, PetscInt *iterati
   Level old = app->level;
 
   PetscFunctionBegin;
-  PetscCall(Refine_Private(app, layers, more));
+  PetscCall(AppRefine(app, &app->estimate, layers, PETSC_FALSE, more));
   if (!*more) {
     *iterations = 0;
     PetscFunctionReturn(PETSC_SUCCESS);
@@ -239,7 +140,7 @@ static PetscErrorCode Pass_Private(App *app, MarkList *layers, PetscInt *iterati
     PetscCall(LevelDestroy(&app->level));
     app->level      = old;
     app->adapt_stop = NONE_FINER;
-    PetscCall(PrescribeAt_Private(old.problem, old.state.t));
+    PetscCall(AppPrescribeAt(old.problem, old.state.t));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -250,38 +151,23 @@ static const char *Stop_Private(const App *app)
   const AdaptSpec *spec = &app->data->adapt;
 
   if (spec->tolerance > 0 && app->estimate.relative <= spec->tolerance) return "tolerance";
-  if (app->status.scale <= STRESSED * app->status.noise) return "free of stress";
+  if (!AppIsStressed(app)) return "free of stress";
   return app->passes_in_step >= spec->max_passes ? "max_passes" : "";
-}
-
-/* Layers at contact faces to be subdivided first (subdivide: auto); layers->split NULL: none. Where nothing else is to be adapted, adaptation ends with the
-   last one. */
-static PetscErrorCode Layers_Private(App *app, MarkList *layers)
-{
-  PetscInt  num;
-  PetscBool room;
-
-  PetscFunctionBegin;
-  PetscCall(EstimateMarkLayers(&app->estimate, app->data, app->level.forest, app->level.state.leaf_order, app->subdivided, layers, &num, &room));
-  if (num > 0) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(MarkListDestroy(layers));
-  if (app->data->adapt.tolerance <= 0) app->adapt_stop = room ? "contact faces fine enough" : "max_cells";
-  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode AppAdapt(App *app)
 {
-  PetscInt  iterations = app->iterations_in_step;
-  PetscBool adaptive = (PetscBool)(app->data->adapt.tolerance > 0), more = PETSC_TRUE;
+  PetscInt        iterations = app->iterations_in_step;
+  const PetscBool here       = (PetscBool)(AppIsAdaptive(app) && app->data->adapt.repeat == REPEAT_STEP);
+  PetscBool       more       = PETSC_TRUE;
 
   PetscFunctionBegin;
-  for (PetscInt i = 0; i < app->data->num_contacts; ++i) adaptive = (PetscBool)(adaptive || app->data->contacts[i].subdivide_auto);
   while (more) {
     MarkList layers = {0};
     PetscCall(AppEstimate(app));
-    app->adapt_stop = adaptive ? Stop_Private(app) : "";
-    if (adaptive && !app->adapt_stop[0]) PetscCall(Layers_Private(app, &layers));
-    const PetscBool enough = (PetscBool)(!adaptive || app->adapt_stop[0]);
+    app->adapt_stop = here ? Stop_Private(app) : "";
+    if (here && !app->adapt_stop[0]) PetscCall(AppLayers(app, &app->estimate, &layers));
+    const PetscBool enough = (PetscBool)(!here || app->adapt_stop[0]);
     PetscCall(ReportPass_Private(app, iterations, enough));
     if (enough) break;
     PetscCall(Pass_Private(app, &layers, &iterations, &more));
@@ -291,6 +177,7 @@ PetscErrorCode AppAdapt(App *app)
     app->last.newton_iterations = iterations;
     PetscCall(MonitorRow(app->monitor, &app->last));
   }
+  PetscCall(AppRemember(app));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -300,6 +187,8 @@ PetscErrorCode AppAdvise(const App *app)
   const CoarseMesh *mesh;
 
   PetscFunctionBegin;
+  if (app->failure && app->path > 0)
+    PetscCall(PetscPrintf(app->comm, "note: the mesh before was good for the whole path; -adapt_max_passes %" PetscInt_FMT " ends with it\n", app->path - 1));
   if (strcmp(app->adapt_stop, NONE_FINER)) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(ForestGetCoarse(app->level.forest, &mesh));
   for (PetscInt i = 0; mesh->geometry_order > 1 && i < app->data->num_contacts; ++i) {

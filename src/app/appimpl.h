@@ -30,6 +30,8 @@ typedef struct {
   Writer           writer;
   History          history;
   Monitor          monitor;
+  PetscInt         path; /* adapt.repeat: path: how often it has begun again; else 0 */
+  Estimate         most; /* with it: of the steps of this path that were above the tolerance */
   PetscInt       load_steps, step_cuts, adapt_passes, newton_iterations, passes_in_step, iterations_in_step, cuts_in_step, set_changes, set_cycles, told_cycles;
   PetscInt       factorisations, single_failures, unstable, judged; /* judged: solutions of which it is known whether they are stable */
   ProblemStatus  status;                                            /* of the last solution */
@@ -56,7 +58,22 @@ PetscErrorCode AppInitialize(int argc, char **argv);
 PetscErrorCode AppRun(App *);
 /* adaptstep.c: after a solution at the current time, refine and solve again until the tolerance or a limit is met. */
 PetscErrorCode AppAdapt(App *);
-/* At the end of a run whose adaptation found no equilibrium on a finer mesh: what may help. Collective. */
+/* refine.c: the prescribed motion as it was at time t. Collective. */
+PetscErrorCode AppPrescribeAt(Problem, PetscReal t);
+/* Layers at contact faces to be subdivided first (subdivide: auto); layers->split NULL: none. Where nothing else is to be adapted, adaptation ends with the
+   last one: app->adapt_stop. */
+PetscErrorCode AppLayers(App *, const Estimate *, MarkList *layers);
+/* Adapt to these layers (taken over), if any, else mark and adapt. The level is another one then, its states carried over or (afresh) at rest at t = 0, and the
+   old one is the caller's; *adapted false when nothing may or need be refined, and app->adapt_stop says why. Collective. */
+PetscErrorCode AppRefine(App *, const Estimate *, MarkList *layers, PetscBool afresh, PetscBool *adapted);
+/* repeat.c: is the mesh to be adapted at all? Is there stress of which an error can be estimated? Not collective. */
+PetscBool AppIsAdaptive(const App *);
+PetscBool AppIsStressed(const App *);
+/* A load step of a path that may be computed again was solved and its error estimated. */
+PetscErrorCode AppRemember(App *);
+/* At the end of the path: begin again, at rest at t = 0 on a finer mesh, where a step was above the tolerance and no limit is met. Collective. */
+PetscErrorCode AppRepeat(App *, PetscBool *again);
+/* At the end of a run that found no equilibrium on a finer mesh: what may help. Collective. */
 PetscErrorCode AppAdvise(const App *);
 /* arcstep.c. A step of app->arc along the path; app->failure is set when there is none. Collective. */
 PetscErrorCode AppPathStep(App *, PetscBool *ok);

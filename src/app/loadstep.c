@@ -164,17 +164,27 @@ static PetscErrorCode Accept_Private(App *app, PetscReal t0)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+static PetscBool Arrived_Private(const App *app)
+{
+  const LoadSpec *load = &app->data->load;
+
+  return (PetscBool)(app->level.accepted.t >= load->end || (load->stop_displacement > 0 && app->status.largest >= load->stop_displacement));
+}
+
 PetscErrorCode AppRun(App *app)
 {
   const LoadSpec *load = &app->data->load;
   PetscBool       ok   = PETSC_TRUE;
 
   PetscFunctionBegin;
-  while (ok && !app->failure && app->level.accepted.t < load->end) {
+  while (ok && !app->failure) {
     const PetscReal t0 = app->level.accepted.t;
+    if (Arrived_Private(app)) {
+      PetscCall(AppRepeat(app, &ok));
+      continue;
+    }
     PetscCall(StopAsked(app->comm, &app->stopped));
     if (app->stopped) break;
-    if (load->stop_displacement > 0 && app->status.largest >= load->stop_displacement) break;
     if (app->load_steps == load->max_steps) {
       app->failure = "load.max_steps was reached before load.end";
       break;

@@ -23,12 +23,13 @@ static PetscErrorCode OpenFiles_Private(App *app)
 {
   const char *directory = app->data->output.directory;
   PetscReal   states    = 0;
+  TablePlace  place     = {.step = app->load_steps, .t = app->level.accepted.t, .path = app->data->adapt.repeat == REPEAT_PATH ? app->path : -1};
 
   PetscFunctionBegin;
   PetscCall(OutputDirectoryCreate(app->comm, directory));
   if (app->restart[0]) PetscCall(CheckpointGetNumber(app->snapshot, "states", &states));
   if (app->data->output.fields && states > 0) PetscCall(WriterResume(app->comm, directory, app->load_steps, (PetscInt)states, &app->writer));
-  PetscCall(HistoryCreate(app->comm, app->data, app->probes, app->restart[0] ? app->load_steps : -1, app->level.accepted.t, &app->history));
+  PetscCall(HistoryCreate(app->comm, app->data, app->probes, app->restart[0] ? &place : NULL, &app->history));
   if (app->data->output.fields && !app->writer) PetscCall(WriterCreate(app->comm, directory, &app->writer));
   if (!app->restart[0]) PetscCall(AppForget(app));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -116,6 +117,7 @@ static PetscErrorCode Close_Private(App *app)
   if (app->writer) PetscCall(WriterDestroy(&app->writer));
   PetscCall(ProbesDestroy(&app->probes));
   if (app->estimated) PetscCall(EstimateDestroy(&app->estimate));
+  PetscCall(EstimateDestroy(&app->most));
   if (app->balance.reaction) PetscCall(BalanceDestroy(&app->balance));
   PetscCall(LevelDestroy(&app->level));
   PetscCall(CheckpointDestroy(&app->snapshot));

@@ -9,6 +9,7 @@ static const struct {
   const char *name;
   size_t      at;
 } Counters[] = {
+    {"path", offsetof(App, path)},
     {"load_steps", offsetof(App, load_steps)},
     {"step_cuts", offsetof(App, step_cuts)},
     {"adapt_passes", offsetof(App, adapt_passes)},
@@ -30,6 +31,7 @@ static const struct {
     {"first_arc", offsetof(App, arc_first)},
     {"haste", offsetof(App, haste)},
     {"largest_displacement", offsetof(App, status.largest)},
+    {"largest_error", offsetof(App, most.relative)},
 };
 enum {
   NUM_COUNTERS = PETSC_STATIC_ARRAY_LENGTH(Counters),
@@ -98,6 +100,30 @@ static void Number_Private(CheckpointNumber numbers[], PetscInt *num, const char
   numbers[(*num)++].value = value;
 }
 
+static PetscErrorCode PutMost_Private(App *app)
+{
+  PetscInt   num;
+  PetscReal *values;
+
+  PetscFunctionBegin;
+  PetscCall(EstimateStore(&app->most, &num, &values));
+  PetscCall(CheckpointPutValues(app->snapshot, num, values));
+  PetscCall(PetscFree(values));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode GetMost_Private(App *app)
+{
+  PetscInt   num;
+  PetscReal *values;
+
+  PetscFunctionBegin;
+  PetscCall(CheckpointGetValues(app->snapshot, &num, &values));
+  if (num) PetscCall(EstimateLoad(app->level.accepted.num_leaves, num, values, &app->most));
+  PetscCall(PetscFree(values));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode AppSnapshot(App *app)
 {
   const PetscInt      num_contacts = app->data->num_contacts;
@@ -128,6 +154,7 @@ PetscErrorCode AppSnapshot(App *app)
   PetscCall(CheckpointDestroy(&app->snapshot));
   PetscCall(CheckpointCreate(app->level.problem, &app->level.accepted, num, numbers, app->adapt_stop, &app->snapshot));
   PetscCall(PetscFree(numbers));
+  if (app->most.num_leaves) PetscCall(PutMost_Private(app));
   PetscCall(ForestGetTables(app->level.forest, &t));
   app->snapshot_revision = t->revision;
   app->written           = PETSC_FALSE;
@@ -217,6 +244,7 @@ PetscErrorCode AppResume(App *app, Forest *coarse)
   PetscCall(AppReadCheckpoint(app, *coarse));
   PetscCall(Level_Private(app, app->snapshot, *coarse, &app->level));
   PetscCall(ForestDestroy(coarse));
+  PetscCall(GetMost_Private(app));
   for (PetscInt i = 0; i < NUM_COUNTERS; ++i) {
     PetscCall(CheckpointGetNumber(app->snapshot, Counters[i].name, &value));
     *Counter_Private(app, i) = (PetscInt)value;

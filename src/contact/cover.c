@@ -318,6 +318,7 @@ PetscErrorCode ContactCover(ContactPair pair, const ContactSurface *nonmortar, c
   if (f->m == 2) ContactRayLatticePolynomial(&f->d);
   if (!ContactChartCreate(nonmortar, facet, f)) *failed = PETSC_TRUE;
   if (*failed) PetscFunctionReturn(PETSC_SUCCESS);
+  if (f->m == 2) ContactRayBeyondSides(w->kept + 4 * facet, &f->beyond);
   PetscCall(Whole_Private(w));
   for (PetscInt k = pair->start[slot]; k < pair->start[slot + 1]; k++) PetscCall(See_Private(pair, mortar, pair->candidate[k]));
   ContactUnfold(&w->num_overlaps, w->overlap, w->mortar, f->area);

@@ -3,7 +3,8 @@
    plane, quadratic in space. */
 #include "rayimpl.h"
 
-#define DEPTH 6 /* of corners that hang on edges whose ends hang */
+#define DEPTH 6   /* of corners that hang on edges whose ends hang */
+#define SAME 1e-9 /* 1 - cosine between the normals of one plane, square of the sine between it and what lies in it */
 
 typedef struct {
   PetscInt from, to, facet;
@@ -79,13 +80,28 @@ PetscErrorCode ContactParents(const ContactSurface *s, PetscInt parent[], PetscI
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Do both ends of a side lie in one plane of symmetry? (Not in two that are parallel.) */
+static PetscBool IsKept_Private(const ContactSurface *s, PetscInt a, PetscInt b)
+{
+  PetscReal e[3];
+
+  for (int c = 0; c < 3; c++) e[c] = s->X[3 * b + c] - s->X[3 * a + c];
+  for (int i = 0; i < 2; i++)
+    for (int j = 0; j < 2; j++) {
+      const PetscReal *p = s->mirror + 6 * a + 3 * i, *q = s->mirror + 6 * b + 3 * j;
+
+      if (PetscAbsReal(Dot3(p, q)) > 1 - SAME && PetscSqr(Dot3(p, e)) < SAME * Dot3(e, e)) return PETSC_TRUE;
+    }
+  return PETSC_FALSE;
+}
+
 PetscErrorCode ContactDirectionTopology(RayWork w, const ContactSurface *s)
 {
   const PetscInt nv = s->dim == 2 ? 2 : 4, num = nv * s->num_facets;
 
   PetscFunctionBegin;
-  PetscCall(PetscFree4(w->ring_first, w->ring_facet, w->parent, w->d));
-  PetscCall(PetscCalloc4(s->num_nodes + 2, &w->ring_first, num, &w->ring_facet, 2 * s->num_nodes, &w->parent, 3 * s->num_nodes, &w->d));
+  PetscCall(PetscFree5(w->ring_first, w->ring_facet, w->parent, w->d, w->kept));
+  PetscCall(PetscCalloc5(s->num_nodes + 2, &w->ring_first, num, &w->ring_facet, 2 * s->num_nodes, &w->parent, 3 * s->num_nodes, &w->d, num, &w->kept));
   for (PetscInt i = 0; i < num; i++) {
     PetscCheck(s->facets[i] >= 0 && s->facets[i] < s->num_nodes, PETSC_COMM_SELF, PETSC_ERR_ARG_OUTOFRANGE,
                "nonmortar facet %" PetscInt_FMT " has node %" PetscInt_FMT ", must lie in [0, %" PetscInt_FMT ")", i / nv, s->facets[i], s->num_nodes);
@@ -93,6 +109,7 @@ PetscErrorCode ContactDirectionTopology(RayWork w, const ContactSurface *s)
   }
   for (PetscInt i = 2; i < s->num_nodes + 2; i++) w->ring_first[i] += w->ring_first[i - 1];
   for (PetscInt i = 0; i < num; i++) w->ring_facet[w->ring_first[s->facets[i] + 1]++] = i / nv;
+  for (PetscInt k = 0; k < num && s->dim == 3 && s->mirror; k++) w->kept[k] = IsKept_Private(s, s->facets[k], s->facets[4 * (k / 4) + (k + 1) % 4]);
   PetscCall(ContactParents(s, w->parent, NULL));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -138,7 +138,7 @@ PetscErrorCode ContactFacetsEvaluate(const EvaluateContext *, PetscBool *failed)
 /* region.c: what one facet may meet. */
 typedef struct {
   FacetFrame frame;
-  PetscReal  x[4][3], reach, slack, box[6];
+  PetscReal  x[4][3], reach, depth, slack, box[6]; /* how far out of the body, into it, to the sides */
 } FacetRegion;
 void      ContactRegionCreate(ContactPair, const ContactSurface *, PetscInt facet, FacetRegion *);
 PetscBool ContactRegionMeets(const FacetRegion *, const ContactSurface *mortar, PetscInt facet);

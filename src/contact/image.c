@@ -1,6 +1,5 @@
-/* Image of a mortar vertex v on a facet: xi with x(xi) + s d(xi) = v, and its place Y(xi) in the chart. Vertices far beyond a bilinear facet may have none:
-   there the map folds where opposite sides meet. So beyond [-1, 1]^2 the mixed terms of x, d and Y are those of h(xi_1) h(xi_2), h bounded and twice
-   continuous: on flat facets Y is linear in x everywhere.
+/* Image of a mortar vertex v on a facet: xi with x(xi) + s d(xi) = v, and its place Y(xi) in the chart. Beyond the facet x, d and Y go on as in raybeyond.c:
+   on flat facets Y is linear in x everywhere.
 
    A (dxi, ds) = dv - sum N_a dx_a - s sum V_v dd_v,   A = [t_i + s d,i, d] (plane: and e_z);
    A (d2xi, d2s) = -2 (dt_i + s dd,i + ds d,i) dxi_i - 2 ds dd - (x,ij + s d,ij) dxi_i dxi_j: half of w . d2Y is three products. */
@@ -13,85 +12,28 @@ typedef struct {
   PetscReal    det;
 } Place;
 
-/* h = xi in [-1, 1], at most 1.5; with two derivatives. */
-static void Bound_Private(PetscReal xi, PetscReal h[3])
-{
-  const PetscReal sign = xi < 0 ? -1 : 1, v = 2 * PetscMax(0, PetscAbsReal(xi) - 1), root = 1 / PetscSqrtReal(1 + v * v);
-
-  h[0] = v > 0 ? sign * (1 + 0.5 * v * root) : xi;
-  h[1] = root * root * root;
-  h[2] = -6 * sign * v * h[1] * root * root;
-}
-
-/* Slope of the functions in direction i that takes over beyond the facet: that between the corners. */
-static void Slope_Private(PetscInt order, PetscReal slope[2][RAY_LATTICE])
-{
-  const PetscInt num = (order + 1) * (order + 1), corner[4] = {0, order, num - 1 - order, num - 1};
-
-  memset(slope[0], 0, (size_t)num * sizeof(PetscReal));
-  memset(slope[1], 0, (size_t)num * sizeof(PetscReal));
-  for (int k = 0; k < 4; k++) {
-    slope[0][corner[k]] = k % 2 ? 0.25 : -0.25;
-    slope[1][corner[k]] = k / 2 ? 0.25 : -0.25;
-  }
-}
-
-/* f(h) + sum_i (xi_i - h_i) slope_i */
-void ContactRayBeyond(PetscInt m, PetscInt order, const PetscReal xi[2], int depth, RayFunctions *to)
-{
-  const PetscInt num = (order + 1) * (order + 1);
-  PetscReal      h[2][3], slope[2][RAY_LATTICE], at[2];
-
-  if (m == 1 || PetscMax(PetscAbsReal(xi[0]), PetscAbsReal(xi[1])) <= 1) {
-    ContactRayFunctions(m, order, xi, depth, to);
-    return;
-  }
-  for (int i = 0; i < 2; i++) {
-    Bound_Private(xi[i], h[i]);
-    at[i] = h[i][0];
-  }
-  Slope_Private(order, slope);
-  ContactRayFunctions(2, order, at, depth, to);
-  for (PetscInt a = 0; a < num; a++) {
-    for (int i = 0; i < 2; i++) to->N[a] += (xi[i] - at[i]) * slope[i][a];
-    for (int i = 0; i < 2 && depth > 1; i++) to->dd[2 * i][a] = to->dd[2 * i][a] * PetscSqr(h[i][1]) + (to->d[i][a] - slope[i][a]) * h[i][2];
-    if (depth > 1) to->dd[1][a] *= h[0][1] * h[1][1];
-    for (int i = 0; i < 2; i++) to->d[i][a] = slope[i][a] + (to->d[i][a] - slope[i][a]) * h[i][1];
-  }
-}
-
-/* Y with derivatives 1 2, 11 12 22. */
+/* Y with derivatives 1 2, 11 12 22, from the functions of order 1. */
 typedef struct {
   PetscReal Y[2], d[2][2], dd[3][2];
 } Picture;
 
-static void Picture_Private(const RayFacet *f, const PetscReal xi[2], Picture *p)
+static void Picture_Private(const RayFacet *f, const RayFunctions *V, int depth, Picture *p)
 {
-  PetscReal     h[2][3];
-  RayChartPoint c;
-
   memset(p, 0, sizeof(*p));
-  if (f->m == 1) {
-    ContactChartAt(f, xi, &c);
-    memcpy(p->Y, c.Y, sizeof(p->Y));
-    memcpy(p->d, c.J, sizeof(p->d));
-    memcpy(p->dd[1], c.mixed, sizeof(p->dd[1]));
-    return;
-  }
-  Bound_Private(xi[0], h[0]);
-  Bound_Private(xi[1], h[1]);
-  for (int i = 0; i < 2; i++) {
-    p->Y[i]    = f->c[0][i] + f->c[1][i] * xi[0] + f->c[2][i] * xi[1] + f->c[3][i] * h[0][0] * h[1][0];
-    p->d[0][i] = f->c[1][i] + f->c[3][i] * h[0][1] * h[1][0];
-    p->d[1][i] = f->c[2][i] + f->c[3][i] * h[0][0] * h[1][1];
-    for (int k = 0; k < 3; k++) p->dd[k][i] = f->c[3][i] * h[0][2 - k] * h[1][k];
-  }
+  for (PetscInt a = 0; a < f->nv; a++)
+    for (PetscInt i = 0; i < f->m; i++) {
+      const PetscReal Y = f->chart.Y[a < 2 ? a : 5 - a][i];
+
+      p->Y[i] += V->N[a] * Y;
+      for (PetscInt k = 0; k < f->m; k++) p->d[k][i] += V->d[k][a] * Y;
+      for (PetscInt k = 0; k < 2 * f->m - 1 && depth > 1; k++) p->dd[k][i] += V->dd[k][a] * Y;
+    }
 }
 
 static void Place_Private(const RayFacet *f, const PetscReal xi[2], PetscReal s, int depth, Place *p)
 {
-  ContactRayBeyond(f->m, f->s.order, xi, depth, &p->S);
-  ContactRayBeyond(f->m, 1, xi, depth, &p->V);
+  ContactRayBeyond(&f->beyond, f->m, f->s.order, xi, depth, &p->S);
+  ContactRayBeyond(&f->beyond, f->m, 1, xi, depth, &p->V);
   ContactRayLatticeSum(&f->s, p->S.N, p->p);
   ContactRayLatticeSum(&f->d, p->V.N, p->d);
   for (PetscInt i = 0; i < 2; i++) {
@@ -143,8 +85,9 @@ void ContactImageFind(const RayFacet *f, RayImage *image)
   if (step < RAY_SOLVED) {
     Picture c;
 
-    Picture_Private(f, image->xi, &c);
-    image->Y[0] = c.Y[0], image->Y[1] = f->m == 2 ? c.Y[1] : 0;
+    ContactRayBeyond(&f->beyond, f->m, 1, image->xi, 1, &p.V);
+    Picture_Private(f, &p.V, 1, &c);
+    image->Y[0] = c.Y[0], image->Y[1] = c.Y[1];
     image->found = PETSC_TRUE;
   }
 }
@@ -185,7 +128,7 @@ void ContactImageRows(const RayFacet *f, const RayImage *image, PetscInt vertex,
   Place   p;
 
   Place_Private(f, image->xi, image->s, 1, &p);
-  Picture_Private(f, image->xi, &chart);
+  Picture_Private(f, &p.V, 1, &chart);
   for (PetscInt i = 0; i < f->m; i++) {
     PetscReal v[3] = {0, 0, 0};
 
@@ -203,7 +146,7 @@ void ContactImageCurvature(const RayFacet *f, const RayImage *image, PetscInt ve
   Place          p;
 
   Place_Private(f, image->xi, image->s, 2, &p);
-  Picture_Private(f, image->xi, &chart);
+  Picture_Private(f, &p.V, 2, &chart);
   for (PetscInt i = 0; i < f->m; i++)
     for (int c = 0; c < 3; c++) mu[c] += Dot2(w, chart.d[i]) * p.inverse[i][c];
   for (PetscInt i = 0; i < 4 * n; i++) work[i] = 0;

@@ -62,7 +62,7 @@ PetscErrorCode ContactRayWorkDestroy(RayWork *work)
   PetscFunctionBegin;
   if (!w) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(ContactResultDestroy(&w->result));
-  PetscCall(PetscFree4(w->ring_first, w->ring_facet, w->parent, w->d));
+  PetscCall(PetscFree5(w->ring_first, w->ring_facet, w->parent, w->d, w->kept));
   PetscCall(PetscFree2(w->mortar_parent, w->mortar_middle));
   PetscCall(PetscFree(w->image));
   PetscCall(PetscFree(w->overlap));

@@ -22,6 +22,7 @@
 #define RAY_MOMENTS (2 * RAY_LATTICE + 10)
 #define RAY_GRAZE 1e-3 /* cosine between the ray and the normal of a facet below which they do not meet */
 #define RAY_SOLVED 1e-9
+#define RAY_OUTSIDE 3 /* parametric coordinate up to which rays meet a mortar facet beyond its curved sides */
 
 /* Functions of a lattice at a point of [-1, 1]^m: values and derivatives 1 2, 11 12 22, 111 112 122 222. */
 typedef struct {
@@ -38,6 +39,11 @@ typedef struct {
   PetscReal Y[2], J[2][2] /* J[i]: Y,i */, inverse[2][2] /* dxi_i / dY_c */, mixed[2], det, ddet[2];
 } RayChartPoint;
 
+/* Slopes beyond a facet: that of the side at 1 has the share + turn h of the other coordinate in the one along direction i (raybeyond.c). */
+typedef struct {
+  PetscReal share[2], turn[2];
+} RayBeyond;
+
 /* Nonmortar facet. */
 typedef struct {
   PetscInt   D, m, nv; /* dimension of space and facet, corners */
@@ -46,6 +52,7 @@ typedef struct {
   PetscReal  c[4][2];  /* Y = c_0 + c_1 xi_1 + c_2 xi_2 + c_3 xi_1 xi_2 */
   PetscReal  area;     /* of the chart */
   PetscReal  ring;     /* 2 pi or 0 */
+  RayBeyond  beyond;
 } RayFacet;
 
 /* Image of a mortar vertex, or the mean of two images that come before it in the list: of a vertex that hangs in the middle of a straight edge those of the
@@ -88,6 +95,7 @@ struct _p_RayWork {
   /* topology of the nonmortar surface */
   PetscInt  *ring_first, *ring_facet, *parent; /* facets around each corner; ends of the edge on which a corner hangs, -1 */
   PetscReal *d;                                /* [num_nodes][3] directions at corners */
+  PetscBool *kept;                             /* [num_facets][4] does the side from corner k on lie in a plane of symmetry? (space) */
   PetscInt  *mortar_parent;                    /* [mortar num_nodes][2] of nodes that hang on straight sides */
   PetscInt  *mortar_middle;                    /* [mortar num_facets][4] nodes that hang in the middle of curved sides, -1 */
   /* one facet */
@@ -117,12 +125,16 @@ struct _p_RayWork {
 PetscErrorCode ContactRayLatticePrepare(void);
 /* depth: highest derivative. Beyond [-1, 1] continued by its tangent, which keeps one derivative continuous. */
 void     ContactRayFunctions(PetscInt m, PetscInt order, const PetscReal xi[2], int depth, RayFunctions *);
-void     ContactRayBeyond(PetscInt m, PetscInt order, const PetscReal xi[2], int depth, RayFunctions *);
 void     ContactRayLatticeSum(const RayLattice *, const PetscReal f[], PetscReal v[3]);
 PetscInt ContactRayLatticeNodes(const ContactSurface *, PetscInt facet, const PetscInt **nodes, PetscInt order1[4]);
 void     ContactRayLatticeGather(const ContactSurface *, PetscInt facet, RayLattice *);
 void     ContactRayLatticePolynomial(RayLattice *);
 void     ContactRayTestFunctions(const RayFacet *, const RayTest *, const PetscReal xi[2], RayFunctions *);
+
+/* raybeyond.c: the same, but beyond [-1, 1]^2 (m = 2) turning to the slope between the corners. */
+void ContactRayBeyond(const RayBeyond *, PetscInt m, PetscInt order, const PetscReal xi[2], int depth, RayFunctions *);
+/* kept[k]: the side from corner k on lies in a plane of symmetry. */
+void ContactRayBeyondSides(const PetscBool kept[4], RayBeyond *);
 
 /* direction.c */
 /* parent[num_nodes][2]: ends of the edge in whose middle a corner hangs, -1. middle[num_facets][4] (or NULL): the corner that hangs on a side, -1. */

@@ -1,7 +1,8 @@
 /* Candidate search for rays along a continuous direction: what a facet may meet while no node moves more than the pair's margin.
 
    A mortar facet is kept when the vectors of the facets oppose, N_s . N_m < -0.1, and the boxes around its lattice nodes and around the rays of length
-   `distance` to both sides meet in the facet's own axes. With a margin the box of the rays grows by 2 margin (1 + distance / h), h the facet's shortest side.
+   `distance` to both sides meet in the facet's own axes. With a margin the box of the rays grows by 2 margin (1 + distance / h), h the facet's shortest side,
+   but not into the body: what lies deeper is no overlap but another body behind this one, which would be pulled through it.
    The box of the rays also has an eighth of the facet's size to all sides but the rays' for the bulge of curved facets between their nodes. */
 #include "rayimpl.h"
 
@@ -39,7 +40,7 @@ static void Enclose_Private(RayRegion *r, const PetscReal x[3], PetscReal slack)
 void ContactRayRegion(ContactPair pair, const ContactSurface *s, PetscInt facet, RayRegion *r)
 {
   const PetscInt nv       = 2 * (s->dim - 1);
-  PetscReal      shortest = PETSC_MAX_REAL, size, reach, bulge;
+  PetscReal      shortest = PETSC_MAX_REAL, lowest = PETSC_MAX_REAL, size, reach, bulge;
   RayLattice     l;
 
   for (int i = 0; i < 3; i++) {
@@ -60,7 +61,10 @@ void ContactRayRegion(ContactPair pair, const ContactSurface *s, PetscInt facet,
   reach    = pair->distance + r->slack;
   ContactRayLatticeGather(s, facet, &l);
   bulge = l.order > 1 ? 0.125 * (s->dim == 2 ? size : PetscSqrtReal(size)) : 0;
-  for (PetscInt a = 0; a < l.num; a++) Enclose_Private(r, l.x[a], r->slack + bulge);
+  for (PetscInt a = 0; a < l.num; a++) {
+    Enclose_Private(r, l.x[a], r->slack + bulge);
+    lowest = PetscMin(lowest, Dot3(r->axis[2], l.x[a]));
+  }
   for (PetscInt a = 0; a < nv; a++) {
     const PetscInt   node = s->facets[nv * facet + a];
     const PetscReal *d = pair->ray->d + 3 * node, length = PetscSqrtReal(Dot3(d, d));
@@ -72,6 +76,7 @@ void ContactRayRegion(ContactPair pair, const ContactSurface *s, PetscInt facet,
       Enclose_Private(r, end, r->slack + bulge);
     }
   }
+  r->lo[2] = PetscMax(r->lo[2], lowest - pair->distance);
   if (s->dim == 2) r->box[2] = r->box[5] = 0;
 }
 

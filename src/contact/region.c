@@ -1,8 +1,9 @@
 /* Candidate search in three dimensions: what a nonmortar facet may meet while no node moves more than the pair's margin.
 
    A mortar facet is kept when the unit normals of the vector areas oppose, N_s . N_m < -0.1, and some of it lies in the prism over the facet along its normal,
-   up to `distance` to both sides; with a margin the prism grows to all sides by slack = 2 margin (1 + distance / h), h the facet's shortest side: relative
-   motion of the nodes plus the turn 2 margin / h of the normal at that distance. */
+   up to `distance` to both sides; with a margin the prism grows to all sides but into the body by slack = 2 margin (1 + distance / h), h the facet's shortest
+   side: relative motion of the nodes plus the turn 2 margin / h of the normal at that distance. What lies deeper in the body is no overlap but another body
+   behind this one, which would be pulled through it. */
 #include "facetimpl.h"
 
 static void Corners_Private(const ContactSurface *s, PetscInt facet, PetscReal x[4][3])
@@ -33,11 +34,12 @@ void ContactRegionCreate(ContactPair pair, const ContactSurface *s, PetscInt fac
   r->reach = r->slack = -1;
   if (!ContactFacetFrame(r->x, &r->frame) || !(shortest > 0)) return; /* meets nothing; the evaluation says so */
   r->slack = 2 * pair->margin * (1 + pair->distance / shortest);
-  r->reach = pair->distance + r->slack;
+  r->depth = pair->distance;
+  r->reach = r->depth + r->slack;
   for (int a = 0; a < 4; a++)
     for (int side = -1; side <= 1; side += 2)
       for (int i = 0; i < 3; i++) {
-        const PetscReal end = r->x[a][i] + side * r->reach * r->frame.E[2][i];
+        const PetscReal end = r->x[a][i] + (side > 0 ? r->reach : -r->depth) * r->frame.E[2][i];
 
         r->box[i]     = PetscMin(r->box[i], end - r->slack);
         r->box[3 + i] = PetscMax(r->box[3 + i], end + r->slack);
@@ -61,8 +63,8 @@ PetscBool ContactRegionMeets(const FacetRegion *r, const ContactSurface *mortar,
       lo[0] = PetscMin(lo[0], X[a][i]), hi[0] = PetscMax(hi[0], X[a][i]);
       lo[1] = PetscMin(lo[1], r->frame.X[a][i]), hi[1] = PetscMax(hi[1], r->frame.X[a][i]);
     }
-    const PetscReal room = i == 2 ? r->reach : r->slack;
-    if (lo[0] > hi[1] + room || hi[0] < lo[1] - room) return PETSC_FALSE;
+    const PetscReal out = i == 2 ? r->reach : r->slack, in = i == 2 ? r->depth : r->slack;
+    if (lo[0] > hi[1] + out || hi[0] < lo[1] - in) return PETSC_FALSE;
   }
   return PETSC_TRUE;
 }

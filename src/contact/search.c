@@ -3,7 +3,8 @@
    Two dimensions (three: region.c; rays along a continuous direction: rayregion.c): a pair is kept when the unit normals oppose, N_s . N_m < -0.1, and the
    mortar edge reaches into the region swept by the nonmortar edge's rays up to `distance` to both sides, |g| < distance (with margin 0 exactly that; with a
    margin the region grows by slack = 2 margin (1 + distance / h): relative motion of the nodes plus the turn 2 margin / h of normals of edges of length h at
-   that distance). Distances and normals are judged here and nowhere else: between two searches the result changes continuously with the positions. */
+   that distance; not into the body, where what lies deeper is no overlap but another body behind this one, which would be pulled through it). Distances and
+   normals are judged here and nowhere else: between two searches the result changes continuously with the positions. */
 #include "rayimpl.h"
 
 typedef struct {
@@ -56,7 +57,7 @@ static PetscBool Candidate_Private(ContactPair pair, const EdgeFrame *f, const R
   if (ContactRaySide(f->x[1], f->n[1], c) > r->slack && ContactRaySide(f->x[1], f->n[1], d) > r->slack) return PETSC_FALSE;
   if (!ContactSegmentBuild(f, mortar, edge, &s)) return pair->margin > 0 || pair->node_to_segment ? PETSC_TRUE : PETSC_FALSE;
   for (int k = 0; k < 2; k++) g[k] = ContactGapAt(f, c, d, s.lambda[k], &cosine, &tau);
-  return (g[0] > r->reach && g[1] > r->reach) || (g[0] < -r->reach && g[1] < -r->reach) ? PETSC_FALSE : PETSC_TRUE;
+  return (g[0] > r->reach && g[1] > r->reach) || (g[0] < -pair->distance && g[1] < -pair->distance) ? PETSC_FALSE : PETSC_TRUE;
 }
 
 /* Nodes that shape a facet: its corners, or its lattice. */

@@ -174,6 +174,18 @@ PetscErrorCode MonitorResume(Monitor m, const char *file, const ReportRow *so_fa
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscErrorCode MonitorAgain(Monitor m, PetscInt number, PetscInt cells, PetscReal error)
+{
+  PetscFunctionBegin;
+  PetscCall(Hide_Private(m));
+  m->steps = 0;
+  m->t     = 0;
+  Say_Private(m, "pass %" PetscInt_FMT ": the path again from t = 0, on %" PetscInt_FMT " cells; the error before was up to %.3e\n", number, cells,
+              (double)error);
+  PetscCall(MonitorShow_Private(m));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode MonitorRow(Monitor m, const ReportRow *row)
 {
   char           error[16] = "-", force[16] = "-", end[80] = "";

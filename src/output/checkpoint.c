@@ -1,6 +1,7 @@
 /* Checkpoints in memory: made of a state, or read from a file, and turned into forest and state again. */
 #include "outputimpl.h"
 
+#define VALUES "values"  /* field of the caller's, beside those of Pack */
 #define SAME_MOTION 1e-9 /* prescribed values that differ by less than this of the largest displacement are the same */
 
 static PetscErrorCode Number_Private(Checkpoint c, const char *name, PetscReal value)
@@ -52,6 +53,49 @@ PetscErrorCode CheckpointCreate(Problem problem, const State *state, PetscInt nu
   for (PetscInt i = 0; i < num; ++i) PetscCall(Number_Private(c, numbers[i].name, numbers[i].value));
   PetscCall(TransferPack(problem, state, &c->pack));
   *checkpoint = c;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode CheckpointPutValues(Checkpoint c, PetscInt num, const PetscReal values[])
+{
+  Pack      *pack = &c->pack;
+  PetscInt   lo, hi;
+  PetscReal *mine;
+
+  PetscFunctionBegin;
+  PetscCall(PetscRealloc(sizeof(*pack->field) * (size_t)(pack->num + 1), &pack->field));
+  PackField *f = &pack->field[pack->num++];
+  PetscCall(PetscStrncpy(f->name, VALUES, sizeof(f->name)));
+  PetscCall(VecCreateMPI(c->comm, PETSC_DECIDE, num, &f->values));
+  PetscCall(VecGetOwnershipRange(f->values, &lo, &hi));
+  PetscCall(VecGetArray(f->values, &mine));
+  PetscCall(PetscArraycpy(mine, values + lo, hi - lo));
+  PetscCall(VecRestoreArray(f->values, &mine));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode CheckpointGetValues(Checkpoint c, PetscInt *num, PetscReal **values)
+{
+  PetscInt         i = 0;
+  const PetscReal *all;
+  VecScatter       scatter;
+  Vec              whole;
+
+  PetscFunctionBegin;
+  *num    = 0;
+  *values = NULL;
+  while (i < c->pack.num && strcmp(c->pack.field[i].name, VALUES)) ++i;
+  if (i == c->pack.num) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(VecScatterCreateToAll(c->pack.field[i].values, &scatter, &whole));
+  PetscCall(VecScatterBegin(scatter, c->pack.field[i].values, whole, INSERT_VALUES, SCATTER_FORWARD));
+  PetscCall(VecScatterEnd(scatter, c->pack.field[i].values, whole, INSERT_VALUES, SCATTER_FORWARD));
+  PetscCall(VecGetLocalSize(whole, num));
+  PetscCall(PetscMalloc1(*num, values));
+  PetscCall(VecGetArrayRead(whole, &all));
+  PetscCall(PetscArraycpy(*values, all, *num));
+  PetscCall(VecRestoreArrayRead(whole, &all));
+  PetscCall(VecScatterDestroy(&scatter));
+  PetscCall(VecDestroy(&whole));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

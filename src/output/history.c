@@ -111,21 +111,21 @@ static PetscErrorCode Columns_Private(const SceneData *scene, PetscInt num_probe
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode Open_Private(MPI_Comm comm, History h, const char *file, PetscInt n, const char *const names[], PetscInt after, PetscReal t, Table *table)
+static PetscErrorCode Open_Private(MPI_Comm comm, History h, const char *file, PetscInt n, const char *const names[], const TablePlace *after, Table *table)
 {
   char path[PETSC_MAX_PATH_LEN];
 
   PetscFunctionBegin;
   PetscCall(PetscSNPrintf(path, sizeof(path), "%s/%s", h->scene->output.directory, file));
-  if (after < 0)
-    PetscCall(TableCreate(comm, path, n, names, table));
+  if (after)
+    PetscCall(TableResume(comm, path, n, names, after, table));
   else
-    PetscCall(TableResume(comm, path, n, names, after, t, table));
+    PetscCall(TableCreate(comm, path, n, names, table));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* history.csv: fixed columns, then those of the scene. */
-static PetscErrorCode OpenHistory_Private(MPI_Comm comm, History h, PetscInt after, PetscReal t)
+static PetscErrorCode OpenHistory_Private(MPI_Comm comm, History h, const TablePlace *after)
 {
   const PetscInt fixed = (PetscInt)PETSC_STATIC_ARRAY_LENGTH(step_columns), num_probes = h->probes ? h->scene->num_probes : 0;
   const char   **names;
@@ -139,14 +139,15 @@ static PetscErrorCode OpenHistory_Private(MPI_Comm comm, History h, PetscInt aft
   c.num = 0;
   PetscCall(Columns_Private(h->scene, num_probes, NULL, NULL, &c));
   for (PetscInt i = 0; i < h->num; ++i) names[i] = i < fixed ? step_columns[i] : c.names[i - fixed];
-  PetscCall(Open_Private(comm, h, "history.csv", h->num, names, after, t, &h->history));
+  PetscCall(Open_Private(comm, h, "history.csv", h->num, names, after, &h->history));
   PetscCall(PetscFree2(c.names, names));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode HistoryCreate(MPI_Comm comm, const SceneData *scene, Probes probes, PetscInt after, PetscReal t, History *history)
+PetscErrorCode HistoryCreate(MPI_Comm comm, const SceneData *scene, Probes probes, const TablePlace *after, History *history)
 {
-  History h;
+  TablePlace all = after ? *after : (TablePlace){0};
+  History    h;
 
   PetscFunctionBegin;
   PetscCall(PetscNew(&h));
@@ -154,8 +155,16 @@ PetscErrorCode HistoryCreate(MPI_Comm comm, const SceneData *scene, Probes probe
   h->scene               = scene;
   h->probes              = probes;
   const PetscInt columns = (PetscInt)PETSC_STATIC_ARRAY_LENGTH(adapt_columns) - (MechanicsIsPlastic(&scene->mechanics) ? 0 : PLASTIC_COLUMNS);
-  PetscCall(OpenHistory_Private(comm, h, after, t));
-  PetscCall(Open_Private(comm, h, "adapt.csv", columns, adapt_columns, after, t, &h->adapt));
+  all.earlier            = PETSC_TRUE;
+  PetscCall(OpenHistory_Private(comm, h, after));
+  PetscCall(Open_Private(comm, h, "adapt.csv", columns, adapt_columns, after ? &all : NULL, &h->adapt));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode HistoryAgain(History h)
+{
+  PetscFunctionBegin;
+  PetscCall(TableAgain(h->history));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

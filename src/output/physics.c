@@ -43,6 +43,18 @@ static PetscErrorCode Pair_Private(const ContactSpec *c, const CoarseMesh *mesh,
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* What the steps so far of a path that may be computed again were judged by. */
+static PetscErrorCode Repeat_Private(const AdaptSpec *a, OutputText *text)
+{
+  static const char *const strategy[] = {[ADAPT_H] = "h", [ADAPT_P] = "p", [ADAPT_HP] = "hp"};
+
+  PetscFunctionBegin;
+  PetscCall(OutputTextPrint(text, "adapt.repeat: %s", a->repeat == REPEAT_PATH ? "path" : "step"));
+  if (a->repeat == REPEAT_PATH) PetscCall(OutputTextPrint(text, ", tolerance %.15g, strategy %s", (double)a->tolerance, strategy[a->strategy]));
+  PetscCall(OutputTextPrint(text, "\n"));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode OutputPhysics(const SceneData *scene, const CoarseMesh *mesh, OutputText *text)
 {
   const MechanicsSpec *m = &scene->mechanics;
@@ -50,6 +62,7 @@ PetscErrorCode OutputPhysics(const SceneData *scene, const CoarseMesh *mesh, Out
   PetscFunctionBegin;
   PetscCall(OutputTextPrint(text, "model: %s\nkinematics: %s\n", ModelNames[m->model], KinematicsNames[m->kinematics]));
   PetscCall(OutputTextPrint(text, "load.control: %s\n", scene->load.control == LOAD_TIME ? "time" : "arc_length"));
+  PetscCall(Repeat_Private(&scene->adapt, text));
   for (PetscInt b = 0; b < m->num_boundaries; ++b) {
     const BoundarySpec *spec = &m->boundaries[b];
     if (spec->volume || spec->advance) PetscCall(OutputTextPrint(text, "boundary.%s: %s\n", spec->name, spec->volume ? "volume" : "advance"));

@@ -7,7 +7,8 @@ struct _p_Table {
   MPI_Comm comm;
   PetscInt n;                        /* columns */
   FILE    *file;                     /* owned; rank 0, else NULL */
-  long     keep;                     /* continued: bytes that stay; the rest goes when the first row comes. -1: all */
+  long     begin;                    /* where its rows begin */
+  long     keep;                     /* bytes that stay; the rest goes when the next row comes. -1: all */
   char     path[PETSC_MAX_PATH_LEN]; /* for messages */
 };
 
@@ -42,6 +43,7 @@ PetscErrorCode TableCreate(MPI_Comm comm, const char *path, PetscInt n, const ch
       fputc('\n', t->file);
     }
     if (!t->file || fflush(t->file)) failed = errno ? errno : EIO;
+    if (t->file) t->begin = ftell(t->file);
   }
   *table = t;
   PetscCall(TableCheck_Private(t, failed));
@@ -70,55 +72,75 @@ static double Column_Private(const char *line, PetscInt column)
   return line ? strtod(line, NULL) : NAN;
 }
 
-/* Where the rows up to a step end, and whether the last of them is of that step and at t. A row without its end (the run was killed) is none. */
-static int Find_Private(FILE *file, PetscInt n, const char *const names[], PetscInt step, PetscReal t, long *keep)
+/* The number of a column. */
+static PetscInt Number_Private(PetscInt n, const char *const names[], const char *name)
 {
-  char    *line    = NULL;
-  size_t   size    = 0;
-  PetscInt time    = 0;
-  double   last[2] = {0, 0};
+  PetscInt i = 0;
+
+  while (i + 1 < n && strcmp(names[i], name)) ++i;
+  return i;
+}
+
+/* Where the rows up to a place begin and end, and whether the last of them is of its step and at its time. A row without its end (the run was killed) is none.
+ */
+static int Find_Private(FILE *file, PetscInt n, const char *const names[], const TablePlace *place, long *begin, long *keep)
+{
+  char  *line    = NULL;
+  size_t size    = 0;
+  double last[2] = {0, 0};
 
   if (!SameNames_Private(file, n, names)) return TABLE_COLUMNS;
-  while (time + 1 < n && strcmp(names[time], "t")) ++time;
-  *keep = ftell(file);
-  while (getline(&line, &size, file) > 0 && strchr(line, '\n') && Column_Private(line, 0) <= step) {
-    last[0] = Column_Private(line, 0);
-    last[1] = Column_Private(line, time);
+  const PetscInt time = Number_Private(n, names, "t"), pass = Number_Private(n, names, "pass");
+  *begin = *keep = ftell(file);
+  while (getline(&line, &size, file) > 0 && strchr(line, '\n')) {
+    const double path = place->path < 0 ? -1 : Column_Private(line, pass);
+    if (path != place->path && !(place->earlier && path < place->path)) break;
+    if (path == place->path && Column_Private(line, 0) > place->step) break;
+    last[0] = path == place->path ? Column_Private(line, 0) : 0;
+    last[1] = path == place->path ? Column_Private(line, time) : 0;
     *keep   = ftell(file);
   }
   free(line);
-  if (last[0] != step || PetscAbsReal(last[1] - t) > 1e-11 * PetscAbsReal(t)) return TABLE_OTHER; /* written with 12 digits */
+  if (last[0] != place->step || PetscAbsReal(last[1] - place->t) > 1e-11 * PetscAbsReal(place->t)) return TABLE_OTHER; /* written with 12 digits */
   return TABLE_FITS;
 }
 
-PetscErrorCode TableResume(MPI_Comm comm, const char *path, PetscInt n, const char *const names[], PetscInt step, PetscReal t, Table *table)
+PetscErrorCode TableResume(MPI_Comm comm, const char *path, PetscInt n, const char *const names[], const TablePlace *place, Table *table)
 {
   PetscMPIInt rank;
-  FILE       *file    = NULL;
-  long        keep    = -1;
+  FILE       *file  = NULL;
+  long        begin = 0, keep = -1;
   int         verdict = TABLE_ABSENT;
 
   PetscFunctionBegin;
   PetscCallMPI(MPI_Comm_rank(comm, &rank));
   if (rank == 0) file = fopen(path, "r+");
-  if (file) verdict = Find_Private(file, n, names, step, t, &keep);
+  if (file) verdict = Find_Private(file, n, names, place, &begin, &keep);
   PetscCallMPI(MPI_Bcast(&verdict, 1, MPI_INT, 0, comm));
   if (file && verdict != TABLE_FITS) fclose(file);
   PetscCheckInput(verdict != TABLE_COLUMNS, "-restart: %s has other columns than this scene; give another output.directory", path);
   PetscCheckInput(verdict != TABLE_OTHER,
                   "-restart: %s is not of the run that wrote the checkpoint, it has no row of step %" PetscInt_FMT
                   " at t = %.12g; give another output.directory",
-                  path, step, (double)t);
+                  path, place->step, (double)place->t);
   if (verdict == TABLE_ABSENT) {
     PetscCall(TableCreate(comm, path, n, names, table));
     PetscFunctionReturn(PETSC_SUCCESS);
   }
   PetscCall(PetscNew(table));
-  (*table)->comm = comm;
-  (*table)->n    = n;
-  (*table)->file = file;
-  (*table)->keep = keep;
+  (*table)->comm  = comm;
+  (*table)->n     = n;
+  (*table)->file  = file;
+  (*table)->begin = begin;
+  (*table)->keep  = keep;
   PetscCall(PetscStrncpy((*table)->path, path, sizeof((*table)->path)));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode TableAgain(Table t)
+{
+  PetscFunctionBegin;
+  t->keep = t->begin;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

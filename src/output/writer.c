@@ -16,7 +16,7 @@ struct _p_Writer {
   char        directory[PETSC_MAX_PATH_LEN];
   Index       index;     /* owned; rank 0, else NULL */
   PetscInt    num;       /* states completed */
-  PetscBool   resumed;   /* files of later states are still there */
+  PetscBool   resumed;   /* files of later states, or of an earlier series, are still there */
   IndexState  state;     /* the open state, or the last one */
   hid_t       file;      /* owned; -1 between states */
   hid_t       group;     /* owned: the open grid; -1 when none */
@@ -127,6 +127,17 @@ PetscErrorCode WriterResume(MPI_Comm comm, const char *directory, PetscInt step,
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscErrorCode WriterAgain(Writer w)
+{
+  PetscFunctionBegin;
+  w->num     = 0;
+  w->resumed = PETSC_TRUE;
+  if (!w->index) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(IndexDestroy(&w->index));
+  PetscCall(IndexCreate(&w->index));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode WriterNumStates(Writer w, PetscInt *num)
 {
   PetscFunctionBegin;
@@ -155,6 +166,7 @@ PetscErrorCode WriterBegin(Writer w, PetscReal time, PetscInt step, PetscInt pas
   PetscCheck(w->file < 0, w->comm, PETSC_ERR_ORDER, "State %" PetscInt_FMT " was not ended", w->num);
   PetscCheck(w->num == 0 || time > w->state.time, w->comm, PETSC_ERR_ARG_OUTOFRANGE, "Time of a state must increase: %g after %g", (double)time,
              (double)w->state.time);
+  if (w->resumed) PetscCall(WriterIndex_Private(w)); /* never lists files that have gone */
   if (w->resumed && w->rank == 0) PetscCall(WriterClear_Private(w->directory, w->num));
   w->resumed = PETSC_FALSE;
   w->state   = (IndexState){.time = time, .load_time = load_time, .step = step, .pass = pass};

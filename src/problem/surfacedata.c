@@ -1,6 +1,8 @@
 /* Fields of the nodes of a contact surface: positions, supports, places in the problem's vector, and their exchange between ranks. */
 #include "problemimpl.h"
 
+#define FLAT 1e-6 /* distance from a plane, over that along it, of what lies in it */
+
 /* A node where the surface ends on a plane along which it may only slide: its normal is averaged with its mirror image. A support that holds the end across the
    surface is no such plane: the image would cancel the normal. */
 static void NodeMirror_Private(Surface *s, PetscInt n, PetscInt fixed)
@@ -15,32 +17,63 @@ static void NodeMirror_Private(Surface *s, PetscInt n, PetscInt fixed)
   for (PetscInt c = 0; c < 2; ++c) s->mirror[2 * n + c] = s->frame[4 * n + 2 * k + c];
 }
 
-/* The same in space, up to two planes: directions in which a corner is held, all of whose facets lie to one side of the plane and meet it steeply. */
+/* The same in space: is the plane through a node with this unit normal one in which its facets end, all to one side of it, with an edge in it, and steeply? */
+static PetscBool IsMirror_Private(const Surface *s, PetscInt n, const PetscReal plane[3])
+{
+  PetscReal lo = 0, hi = 0, N[3] = {0, 0, 0};
+  PetscInt  on = 0;
+
+  for (PetscInt f = s->node_first[n]; f < s->node_first[n + 1]; ++f) {
+    const PetscInt *node = s->facets + 4 * s->node_facet[f];
+    PetscReal       vector[3], e[3];
+
+    ContactFacetVector(3, s->X, node, vector);
+    for (PetscInt c = 0; c < 3; ++c) N[c] += vector[c];
+    for (PetscInt a = 0; a < 4; ++a) {
+      for (PetscInt c = 0; c < 3; ++c) e[c] = s->X[3 * node[a] + c] - s->X[3 * n + c];
+      const PetscReal along = Dot3(plane, e);
+
+      lo = PetscMin(lo, along), hi = PetscMax(hi, along);
+      if (node[a] != n && PetscSqr(along) < PetscSqr(FLAT) * Dot3(e, e)) ++on;
+    }
+  }
+  return (PetscBool)(on > 0 && PetscMin(-lo, hi) <= FLAT * PetscMax(-lo, hi) && PetscSqr(Dot3(plane, N)) <= 0.5 * Dot3(N, N));
+}
+
+static void AddMirror_Private(Surface *s, PetscInt n, const PetscReal plane[3], PetscInt *num)
+{
+  if (*num == 2 || !IsMirror_Private(s, n, plane)) return;
+  if (*num == 1 && PetscAbsReal(Dot3(plane, s->mirror + 6 * n)) > 1 - FLAT) return;
+  for (PetscInt c = 0; c < 3; ++c) s->mirror[6 * n + 3 * (*num) + c] = plane[c];
+  ++(*num);
+}
+
+/* Up to two planes: directions in which a corner is held. Where two planes meet at an angle these are orthonormal, the second of them no plane's normal: then
+   also the normals to the line along which it may slide and to an edge. */
 static void NodeMirrors_Private(Surface *s, PetscInt n, PetscInt fixed)
 {
-  PetscInt num = 0;
+  PetscInt         num = 0, held[3], num_held = 0;
+  const PetscReal *frame = s->frame + 9 * n;
 
-  for (PetscInt k = 0; k < 3 && num < 2; ++k) {
-    const PetscReal *plane = s->frame + 9 * n + 3 * k;
-    PetscReal        lo = 0, hi = 0, N[3] = {0, 0, 0}, reach;
+  for (PetscInt k = 0; k < 3; ++k) {
+    if (fixed >> k & 1) held[num_held++] = k;
+  }
+  for (PetscInt k = 0; k < num_held; ++k) AddMirror_Private(s, n, frame + 3 * held[k], &num);
+  if (num_held != 2) return;
+  for (PetscInt f = s->node_first[n]; f < s->node_first[n + 1]; ++f) {
+    const PetscInt *node = s->facets + 4 * s->node_facet[f];
 
-    if (!(fixed >> k & 1)) continue;
-    for (PetscInt f = s->node_first[n]; f < s->node_first[n + 1]; ++f) {
-      const PetscInt *node = s->facets + 4 * s->node_facet[f];
-      PetscReal       vector[3];
+    for (PetscInt a = 0; a < 4; ++a) {
+      PetscReal line[3], e[3], plane[3], length;
 
-      ContactFacetVector(3, s->X, node, vector);
-      for (PetscInt c = 0; c < 3; ++c) N[c] += vector[c];
-      for (PetscInt a = 0; a < 4; ++a) {
-        const PetscReal along = Dot3(plane, s->X + 3 * node[a]) - Dot3(plane, s->X + 3 * n);
-
-        lo = PetscMin(lo, along), hi = PetscMax(hi, along);
-      }
+      for (PetscInt c = 0; c < 3; ++c) e[c] = s->X[3 * node[a] + c] - s->X[3 * n + c];
+      Cross3(frame + 3 * held[0], frame + 3 * held[1], line);
+      Cross3(line, e, plane);
+      length = PetscSqrtReal(Dot3(plane, plane));
+      if (!(length > 0.1 * PetscSqrtReal(Dot3(e, e)))) continue; /* n itself, or an edge along the line */
+      for (PetscInt c = 0; c < 3; ++c) plane[c] /= length;
+      AddMirror_Private(s, n, plane, &num);
     }
-    reach = PetscMax(-lo, hi);
-    if (PetscMin(-lo, hi) > 1e-6 * reach || PetscSqr(Dot3(plane, N)) > 0.5 * Dot3(N, N)) continue;
-    for (PetscInt c = 0; c < 3; ++c) s->mirror[6 * n + 3 * num + c] = plane[c];
-    ++num;
   }
 }
 

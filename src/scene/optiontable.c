@@ -114,7 +114,7 @@ const Option Options[] = {
 
     {"adapt.tolerance", KEY_REAL, "", "0", "[0,1)", "relative estimated error to reach, in the energy-like norm; 0: no adaptation",
      SCENE(data.adapt.tolerance)},
-    {"adapt.max_passes", KEY_INT, "", "10", "[0,100]", "adaptive passes at each load step", SCENE(data.adapt.max_passes)},
+    {"adapt.max_passes", KEY_INT, "", "10", "[0,100]", "adaptive passes at each load step; repeat: path: of the whole path", SCENE(data.adapt.max_passes)},
     {"adapt.max_cells", KEY_INT, "", "200000", "[1,100000000]",
      "no refinement beyond this number of cells, counted as in summary.json: with those of rigid bodies", SCENE(data.adapt.max_cells)},
     {"adapt.fraction", KEY_REAL, "", "0.8", "(0,1]", "share of the squared estimate that the cells to be refined carry", SCENE(data.adapt.fraction)},
@@ -129,6 +129,9 @@ const Option Options[] = {
      SCENE(data.adapt.aspect)},
     {"adapt.strategy", KEY_WORD, "", "h", "h|p|hp", "what adaptation changes: cells are split, their orders raised, or whichever suits the solution in each",
      SCENE(data.adapt.strategy)},
+    {"adapt.repeat", KEY_WORD, "", "step", "step|path",
+     "what is computed again on a refined mesh: the load step, with the state carried over; or the whole path of loads from t = 0, with nothing carried over",
+     SCENE(data.adapt.repeat)},
     {"adapt.max_order", KEY_INT, "", "8", "[1,8]", "strategies p and hp: no cell above this order", SCENE(data.adapt.max_order)},
 
     {"output.directory", KEY_TEXT, "", "", "", "relative to the working directory; default: out/<name of the scene>", SCENE(data.output.directory)},

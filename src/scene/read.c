@@ -25,6 +25,9 @@ static PetscErrorCode ReadGeneral_Private(Scene s)
   PetscCheckInput(d->load.step <= d->load.end, "%s: load.step is %g, but load.end only %g", s->root->origin, (double)d->load.step, (double)d->load.end);
   PetscCheckInput(d->load.step_min <= d->load.step && d->load.step <= d->load.step_max, "%s: load.step is %g; it must lie between step_min %g and step_max %g",
                   s->root->origin, (double)d->load.step, (double)d->load.step_min, (double)d->load.step_max);
+  PetscCheckInput(d->adapt.repeat == REPEAT_STEP || d->adapt.coarsen == 0,
+                  "%s is %g, but with adapt.repeat: path one mesh is for all load steps and cells are refined only; allowed with it: 0",
+                  NodeWhere(NodeFind(NodeFind(s->root, "adapt"), "coarsen")), (double)d->adapt.coarsen);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -167,6 +167,20 @@ def test_pin_in_its_bore(run):
     assert abs(curved.summary["energy"] / finer.summary["energy"] - 1) < 0.1**2
 
 
+def test_bodies_that_pass_each_other(run):
+    """A snap hook beside its catch, before it and behind it: the far side of the catch faces the back of the nose as if the two overlapped by all that lies between. A search that
+    takes it for that (distance 20 edges) ends at t = 0; overlaps are bounded by half the smaller side, whatever room the search leaves for motion, sharp nose or round."""
+    naive = run("tests/verify/scenes/snaphook.yml", "-contact_snap_search", 20)
+    print("naive", naive.returncode, naive.summary["t"])
+    assert naive.returncode == 2 and naive.summary["load_steps"] == 0
+    for radius in (0, 0.3):
+        ours = run("tests/verify/scenes/snaphook.yml", "-mesh_parameter_r", radius)
+        force = [row["contact_force"] for row in ours.history]
+        print("ours, radius", radius, {key: ours.summary[key] for key in ("load_steps", "step_cuts", "newton_iterations")}, "largest force", max(force))
+        assert ours.returncode == 0 and ours.summary["step_cuts"] == 0 and ours.summary["newton_iterations"] <= 5 * ours.summary["load_steps"], ours
+        assert 1.3 < max(force) < 1.8 and force[0] == 0 and force[-1] < 1e-20 and ours.summary["energy"] < 1e-12
+
+
 def test_checkerboard_on_an_isolated_refined_cell(run):
     """Four cells where one was, around them coarser ones: constant pressures on bilinear cells oscillate there (no refinement cures it), linear ones on biquadratic
     cells do not. Cook's membrane, kappa/mu = 5000; alternating part of the four mean pressures against their mean."""

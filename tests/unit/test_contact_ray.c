@@ -6,7 +6,9 @@
 
 typedef struct {
   PetscInt  dim, order, mortar; /* orders of both sides */
-  PetscBool standard, partly, hanging, mirror, ring;
+  PetscBool standard, partly, hanging;
+  PetscInt  mirror; /* 1: planes of symmetry on two sides; 2: on all four of a single facet (space) */
+  PetscBool ring;
 } Kind;
 
 typedef struct {
@@ -14,9 +16,35 @@ typedef struct {
   PetscInt  columns, kinks;
 } Errors;
 
+/* Planes x = 0 and, in space, y = 0, tilted a little; or four. In space the reference positions lie in them, so that their sides are known for such. */
+static void MakePlanes(const Kind *kind, Patch *p)
+{
+  static const PetscReal Plane[2][2][3] = {{{0.995, 0, 0.0998749217771909}, {0.96, 0.28, 0}}, {{0, 1, 0}, {-0.28, 0.96, 0}}};
+  const PetscInt         D              = kind->dim;
+
+  for (PetscInt n = 0; n < p->s.num_nodes; n++) {
+    PetscReal *m   = p->mirror + (D == 2 ? 2 : 6) * n;
+    PetscInt   num = 0;
+
+    if (D == 2 && p->u[2 * n] == 0) m[0] = 0.995, m[1] = 0.0998749217771909;
+    for (int i = 0; i < 2 && D == 3; i++)
+      for (int k = 0; k < kind->mirror; k++) {
+        if (p->u[2 * n + i] == k) memcpy(m + 3 * num++, Plane[i][k], sizeof(Plane[i][k]));
+      }
+    for (int sweep = 0; sweep < 200; sweep++) /* of two planes, one after the other */
+      for (int k = 0; k < num; k++) {
+        PetscReal      *X     = p->X + 3 * n;
+        const PetscInt  i     = m[3 * k] > 0.5 ? 0 : 1;
+        const PetscReal at[3] = {i == 0 ? p->u[2 * n] : 0, i == 1 ? p->u[2 * n + 1] : 0, 0}, off = Dot3(m + 3 * k, X) - Dot3(m + 3 * k, at);
+
+        for (int c = 0; c < 3; c++) X[c] -= off * m[3 * k + c];
+      }
+  }
+}
+
 static void MakePair(const Kind *kind, uint64_t *seed, Patch *nonmortar, Patch *mortar)
 {
-  const PetscInt  D = kind->dim, ns = D == 2 ? 4 : 2, nm = D == 2 ? 5 : 3;
+  const PetscInt  D = kind->dim, ns = D == 2 ? 4 : kind->mirror == 2 ? 1 : 2, nm = D == 2 ? 5 : 3;
   const PetscReal curve = 0.15 * Random(seed), bend = 0.1 * Random(seed), tilt = 0.1 * Random(seed), turn = 0.3 * Random(seed);
 
   /* nonmortar: outward +z (plane: +y), body below; in the plane that runs from right to left */
@@ -42,14 +70,7 @@ static void MakePair(const Kind *kind, uint64_t *seed, Patch *nonmortar, Patch *
     }
     PatchFollow(p);
   }
-  for (PetscInt n = 0; n < nonmortar->s.num_nodes && kind->mirror; n++) { /* planes x = 0 and, in space, y = 0, tilted a little */
-    PetscReal *m = nonmortar->mirror + 2 * (D - 1) * n;
-
-    if (D == 2 && nonmortar->u[2 * n] == 0) m[0] = cos(0.1), m[1] = sin(0.1);
-    if (D == 3 && nonmortar->u[2 * n] == 0) m[0] = cos(0.1), m[2] = sin(0.1);
-    if (D == 3 && nonmortar->u[2 * n + 1] == 0) m[4] = 1;
-    if (D == 2) m[2] = m[3] = 0;
-  }
+  if (kind->mirror) MakePlanes(kind, nonmortar);
 }
 
 static uint64_t Signature(ContactPair pair)
@@ -176,7 +197,7 @@ static void CheckSeed(const Kind *kind, uint64_t seed, PetscInt first, PetscInt 
   SumEvaluate(&exact, pair, &nonmortar, &mortar, z, PETSC_TRUE);
   signature = Signature(pair);
   assert_false(exact.failed);
-  assert_true(exact.num >= 2);
+  assert_true(exact.num >= (kind->mirror == 2 ? 1 : 2));
   scale[0] = Largest(exact.dgap, exact.nn * exact.size);
   scale[1] = Largest(exact.dweight, exact.nn * exact.size);
   scale[2] = Largest(exact.hessian, exact.size * exact.size);
@@ -234,8 +255,12 @@ static void CheckKind(const Kind *kind, PetscInt seeds, PetscInt stride)
   print_message("%dD orders %d/%d %s%s%s%s%s: gradient %.1e, weight %.1e, Hessian %.1e, symmetry %.1e, force %.1e, moment %.1e, motion %.1e, again %.1e; %d of "
                 "%d kinks\n",
                 (int)kind->dim, (int)kind->order, (int)kind->mortar, kind->standard ? "standard" : "dual", kind->partly ? " partly" : "",
-                kind->hanging ? " hanging" : "", kind->mirror ? " mirror" : "", kind->ring ? " ring" : "", err.gradient, err.weight, err.hessian, err.symmetry,
-                err.force, err.moment, err.motion, err.again, (int)err.kinks, (int)err.columns);
+                kind->hanging ? " hanging" : "",
+                kind->mirror == 2 ? " between mirrors"
+                : kind->mirror    ? " mirror"
+                                  : "",
+                kind->ring ? " ring" : "", err.gradient, err.weight, err.hessian, err.symmetry, err.force, err.moment, err.motion, err.again, (int)err.kinks,
+                (int)err.columns);
   assert_true(err.kinks < err.columns / 4);
   assert_true(err.gradient < 1e-8);
   assert_true(err.weight < 1e-8);
@@ -258,8 +283,9 @@ static void test_plane(void **state)
 
 static void test_space(void **state)
 {
-  static const Kind Kinds[] = {{3, 1, 1, 1, 0, 0, 0, 0}, {3, 1, 1, 0, 1, 0, 1, 0}, {3, 1, 1, 0, 1, 1, 0, 0}, {3, 1, 2, 0, 0, 1, 1, 0}, {3, 2, 2, 0, 0, 0, 1, 0},
-                               {3, 2, 1, 0, 1, 1, 0, 0}, {3, 2, 3, 0, 1, 0, 1, 0}, {3, 3, 3, 0, 1, 0, 0, 0}, {3, 3, 2, 0, 0, 1, 1, 0}};
+  static const Kind Kinds[] = {{3, 1, 1, 1, 0, 0, 0, 0}, {3, 1, 1, 0, 1, 0, 1, 0}, {3, 1, 1, 0, 1, 1, 0, 0}, {3, 1, 2, 0, 0, 1, 1, 0},
+                               {3, 2, 2, 0, 0, 0, 1, 0}, {3, 2, 1, 0, 1, 1, 0, 0}, {3, 2, 3, 0, 1, 0, 1, 0}, {3, 3, 3, 0, 1, 0, 0, 0},
+                               {3, 3, 2, 0, 0, 1, 1, 0}, {3, 1, 1, 0, 0, 0, 2, 0}, {3, 2, 2, 0, 0, 0, 2, 0}};
 
   (void)state;
   for (size_t k = 0; k < sizeof(Kinds) / sizeof(Kinds[0]); k++)

@@ -143,6 +143,27 @@ static void Layers(void **state)
   }
 }
 
+/* A face of another body below one of this body: pressed into it by up to `distance` it is an overlap, farther down it is behind the body. The room that a
+   margin gives for motion, here more than four times the distance, is none for overlaps. */
+static void Behind(void **state)
+{
+  for (int k = 0; k < 4; k++) {
+    const PetscReal gap = (const PetscReal[]){2, -0.49, -0.51, -2}[k];
+    Chain           nonmortar, mortar;
+    ContactPair     pair;
+    Sum             s;
+
+    ChainLine(&nonmortar, 51, 1, 0, 0, 0);
+    ChainLine(&mortar, 9, 0, gap, 1, gap);
+    PairCreate(PETSC_FALSE, PETSC_FALSE, &pair);
+    SearchAll(pair, &nonmortar, &mortar, 0.5, 0.05);
+    SumCreate(&s, 51, 9);
+    SumEvaluate(&s, pair, &nonmortar, &mortar, NULL, PETSC_TRUE, PETSC_FALSE);
+    assert_near(s.area, k < 2 ? 1 : 0, 1e-13);
+    Cleanup(&nonmortar, &mortar, &pair, &s);
+  }
+}
+
 /* A short block slides over a long one, ten times its length in 100 steps, search at every step: always fully covered at the exact gap. */
 static void LargeSliding(void **state)
 {
@@ -271,5 +292,5 @@ static void Time(void **state)
   assert_true(t[1] < 60 * t[0]);
 }
 
-CONTACT_TEST_MAIN("contact: search", cmocka_unit_test(BruteForce), cmocka_unit_test(Margin), cmocka_unit_test(Layers), cmocka_unit_test(LargeSliding),
-                  cmocka_unit_test(Empty), cmocka_unit_test(Time))
+CONTACT_TEST_MAIN("contact: search", cmocka_unit_test(BruteForce), cmocka_unit_test(Margin), cmocka_unit_test(Layers), cmocka_unit_test(Behind),
+                  cmocka_unit_test(LargeSliding), cmocka_unit_test(Empty), cmocka_unit_test(Time))

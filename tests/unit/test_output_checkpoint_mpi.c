@@ -150,6 +150,34 @@ static void GivesBack(void **unused)
   }
 }
 
+/* Any amount of numbers of the caller, in memory and from a file; none. */
+static void KeepsValues(void **unused)
+{
+  const PetscReal given[] = {1, -2, 1. / 3, 4, 5e300, 6, 7};
+  PetscReal      *values;
+  PetscInt        num;
+  Patch           p;
+  Checkpoint      c, read;
+
+  Begin(&p, 0);
+  c = Copy(&p);
+  OK(CheckpointGetValues(c, &num, &values));
+  assert_int_equal(num, 0);
+  OK(CheckpointPutValues(c, 7, given));
+  OK(CheckpointWrite(c, path));
+  OK(CheckpointRead(PETSC_COMM_WORLD, path, &read));
+  for (PetscInt i = 0; i < 2; ++i) {
+    OK(CheckpointGetValues(i ? read : c, &num, &values));
+    assert_int_equal(num, 7);
+    assert_memory_equal(values, given, sizeof(given));
+    OK(PetscFree(values));
+  }
+  Same(&p, read, 0, PETSC_FALSE);
+  OK(CheckpointDestroy(&read));
+  OK(CheckpointDestroy(&c));
+  PatchDestroy(&p);
+}
+
 static void RefusesOthers(void **unused)
 {
   Patch      p;
@@ -169,7 +197,10 @@ static void RefusesOthers(void **unused)
   p.data.num_contacts--;
   assert_int_equal(CheckpointCheck(c, &p.data, p.forest), MORTISE_ERR_INPUT);
   p.data.num_contacts++;
-  p.data.load.end = 2; /* may change */
+  p.data.adapt.repeat = REPEAT_PATH;
+  assert_int_equal(CheckpointCheck(c, &p.data, p.forest), MORTISE_ERR_INPUT);
+  p.data.adapt.repeat = REPEAT_STEP;
+  p.data.load.end     = 2; /* may change */
   OK(CheckpointCheck(c, &p.data, p.forest));
   other = PatchForest((const PetscInt[2]){5, 3});
   assert_int_equal(CheckpointCheck(c, &p.data, other), MORTISE_ERR_INPUT);
@@ -241,7 +272,8 @@ static int Start(void **unused)
 
 int main(int argc, char **argv)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(GivesBack), cmocka_unit_test(RefusesOthers), cmocka_unit_test(RefusesDamage)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(GivesBack), cmocka_unit_test(KeepsValues), cmocka_unit_test(RefusesOthers),
+                                     cmocka_unit_test(RefusesDamage)};
   if (PetscInitialize(&argc, &argv, NULL, NULL) || ErrorHandlerPush()) return 1;
   MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
   MPI_Comm_size(PETSC_COMM_WORLD, &size);

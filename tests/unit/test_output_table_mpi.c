@@ -104,36 +104,75 @@ static void TableGoesOn(void **unused)
 
   snprintf(path, sizeof(path), "%s/b.csv", directory);
   Put(whole);
-  assert_int_equal(TableResume(PETSC_COMM_WORLD, path, 3, names, 2, 0.2, &t), 0);
+  assert_int_equal(TableResume(PETSC_COMM_WORLD, path, 3, names, &(TablePlace){.step = 2, .path = -1, .t = 0.2}, &t), 0);
   if (rank == 0) assert_string_equal(Text(), whole);
   assert_int_equal(TableRow(t, row), 0);
   assert_int_equal(TableRow(t, row), 0);
   assert_int_equal(TableDestroy(&t), 0);
   if (rank == 0) assert_string_equal(Text(), "step,pass,t\n1,0,0.1\n2,0,0.2\n2,1,0.2\n3,0,0.333333333333\n3,0,0.333333333333\n");
-  assert_int_equal(TableResume(PETSC_COMM_WORLD, path, 3, names, 0, 0, &t), 0); /* before the first step */
+  assert_int_equal(TableResume(PETSC_COMM_WORLD, path, 3, names, &(TablePlace){.step = 0, .path = -1, .t = 0}, &t), 0); /* before the first step */
   assert_int_equal(TableRow(t, row), 0);
   assert_int_equal(TableDestroy(&t), 0);
   if (rank == 0) assert_string_equal(Text(), "step,pass,t\n3,0,0.333333333333\n");
 
   assert_int_equal(ErrorHandlerPush(), 0);
   Put(whole);
-  assert_int_equal(TableResume(PETSC_COMM_WORLD, path, 3, others, 2, 0.2, &t), MORTISE_ERR_INPUT);
-  assert_int_equal(TableResume(PETSC_COMM_WORLD, path, 2, names, 2, 0.2, &t), MORTISE_ERR_INPUT);
-  assert_int_equal(TableResume(PETSC_COMM_WORLD, path, 3, names, 2, 0.3, &t), MORTISE_ERR_INPUT); /* another run's */
-  assert_int_equal(TableResume(PETSC_COMM_WORLD, path, 3, names, 4, 0.5, &t), MORTISE_ERR_INPUT); /* row 4 has no end */
+  assert_int_equal(TableResume(PETSC_COMM_WORLD, path, 3, others, &(TablePlace){.step = 2, .path = -1, .t = 0.2}, &t), MORTISE_ERR_INPUT);
+  assert_int_equal(TableResume(PETSC_COMM_WORLD, path, 2, names, &(TablePlace){.step = 2, .path = -1, .t = 0.2}, &t), MORTISE_ERR_INPUT);
+  assert_int_equal(TableResume(PETSC_COMM_WORLD, path, 3, names, &(TablePlace){.step = 2, .path = -1, .t = 0.3}, &t), MORTISE_ERR_INPUT); /* another run's */
+  assert_int_equal(TableResume(PETSC_COMM_WORLD, path, 3, names, &(TablePlace){.step = 4, .path = -1, .t = 0.5}, &t), MORTISE_ERR_INPUT); /* row 4 has no end */
   if (rank == 0) assert_string_equal(Text(), whole);
   assert_int_equal(PetscPopErrorHandler(), 0);
   if (rank == 0) unlink(path);
   assert_int_equal(MPI_Barrier(PETSC_COMM_WORLD), 0);
-  assert_int_equal(TableResume(PETSC_COMM_WORLD, path, 3, names, 2, 0.2, &t), 0); /* not there: a new one */
+  assert_int_equal(TableResume(PETSC_COMM_WORLD, path, 3, names, &(TablePlace){.step = 2, .path = -1, .t = 0.2}, &t), 0); /* not there: a new one */
   assert_int_equal(TableDestroy(&t), 0);
   if (rank == 0) assert_string_equal(Text(), "step,pass,t\n");
+}
+
+/* A path that is computed again: in a table of all paths, and in one of the last. */
+static void TableOfPathsGoesOn(void **unused)
+{
+  const char *const names[] = {"step", "pass", "t"};
+  const PetscReal   row[]   = {2, 1, 0.5};
+  static const char all[] = "step,pass,t\n1,0,0.1\n2,0,0.2\n3,0,0.3\n1,1,0.1\n2,1,0.4\n3,1,0.5\n", last[] = "step,pass,t\n1,1,0.1\n2,1,0.4\n";
+  static const struct {
+    const char *before, *after; /* NULL: refused */
+    TablePlace  place;
+  } cases[] = {
+      {all, "step,pass,t\n1,0,0.1\n2,0,0.2\n3,0,0.3\n1,1,0.1\n2,1,0.5\n", {.step = 1, .path = 1, .t = 0.1, .earlier = PETSC_TRUE}},
+      {all, "step,pass,t\n1,0,0.1\n2,0,0.2\n3,0,0.3\n2,1,0.5\n", {.step = 0, .path = 1, .t = 0, .earlier = PETSC_TRUE}},
+      {all, "step,pass,t\n1,0,0.1\n2,0,0.2\n2,1,0.5\n", {.step = 2, .path = 0, .t = 0.2, .earlier = PETSC_TRUE}},
+      {all, NULL, {.step = 2, .path = 1, .t = 0.2, .earlier = PETSC_TRUE}},
+      {all, NULL, {.step = 1, .path = 2, .t = 0.1, .earlier = PETSC_TRUE}},
+      {last, "step,pass,t\n1,1,0.1\n2,1,0.5\n", {.step = 1, .path = 1, .t = 0.1}},
+      {last, "step,pass,t\n2,1,0.5\n", {.step = 0, .path = 1, .t = 0}},
+      {last, NULL, {.step = 1, .path = 0, .t = 0.1}}, /* the same time of another path */
+      {last, NULL, {.step = 1, .path = 2, .t = 0.1}},
+  };
+  Table t;
+
+  assert_int_equal(ErrorHandlerPush(), 0);
+  snprintf(path, sizeof(path), "%s/c.csv", directory);
+  for (size_t i = 0; i < PETSC_STATIC_ARRAY_LENGTH(cases); ++i) {
+    Put(cases[i].before);
+    assert_int_equal(TableResume(PETSC_COMM_WORLD, path, 3, names, &cases[i].place, &t), cases[i].after ? 0 : MORTISE_ERR_INPUT);
+    if (!cases[i].after) continue;
+    assert_int_equal(TableRow(t, row), 0);
+    if (rank == 0) assert_string_equal(Text(), cases[i].after);
+    assert_int_equal(TableAgain(t), 0);
+    if (rank == 0) assert_string_equal(Text(), cases[i].after);
+    assert_int_equal(TableRow(t, row), 0);
+    if (rank == 0) assert_string_equal(Text(), "step,pass,t\n2,1,0.5\n");
+    assert_int_equal(TableDestroy(&t), 0);
+  }
+  assert_int_equal(PetscPopErrorHandler(), 0);
 }
 
 int main(int argc, char **argv)
 {
   const struct CMUnitTest tests[] = {cmocka_unit_test(RowsAreThereAtOnce), cmocka_unit_test(DocumentIsReplaced), cmocka_unit_test(TableGoesOn),
-                                     cmocka_unit_test(UnwritablePlaceFailsOnAllRanks)};
+                                     cmocka_unit_test(TableOfPathsGoesOn), cmocka_unit_test(UnwritablePlaceFailsOnAllRanks)};
   int                     failed;
 
   if (PetscInitialize(&argc, &argv, NULL, NULL)) return 1;

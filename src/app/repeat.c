@@ -1,0 +1,77 @@
+/* The whole path of loads again on a finer mesh (adapt.repeat: path): bodies that flow remember the mesh they flowed on, so nothing is carried over. One mesh
+   is for all steps of a path; it is refined where any of them that was above the tolerance needs it. */
+#include "appimpl.h"
+
+#define STRESSED 10 /* nodal forces below this multiple of their round-off are nothing to estimate an error of: refining would chase noise */
+
+PetscBool AppIsAdaptive(const App *app)
+{
+  PetscBool adaptive = (PetscBool)(app->data->adapt.tolerance > 0);
+
+  for (PetscInt i = 0; i < app->data->num_contacts; ++i) adaptive = (PetscBool)(adaptive || app->data->contacts[i].subdivide_auto);
+  return adaptive;
+}
+
+PetscBool AppIsStressed(const App *app)
+{
+  return (PetscBool)(app->status.scale > STRESSED * app->status.noise);
+}
+
+PetscErrorCode AppRemember(App *app)
+{
+  const AdaptSpec *spec = &app->data->adapt;
+
+  PetscFunctionBegin;
+  if (spec->repeat != REPEAT_PATH || !AppIsAdaptive(app) || !AppIsStressed(app) || app->estimate.relative <= spec->tolerance)
+    PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(EstimateMost(&app->estimate, &app->most));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Everything that a path counts, as before its first step. */
+static void Begin_Private(App *app)
+{
+  app->load_steps = 0;
+  app->dt         = app->data->load.step;
+  app->arc = app->arc_first = app->haste = 0;
+  app->status                            = (ProblemStatus){0};
+}
+
+/* Files and screen: a checkpoint first, for it alone tells tables and fields of one path from those of another. */
+static PetscErrorCode Tell_Private(App *app, PetscReal error)
+{
+  const ForestTables *t;
+
+  PetscFunctionBegin;
+  PetscCall(AppSnapshot(app));
+  if (app->data->output.checkpoint > 0) PetscCall(AppCheckpoint(app));
+  PetscCall(HistoryAgain(app->history));
+  PetscCall(ForestGetTables(app->level.forest, &t));
+  PetscCall(MonitorAgain(app->monitor, app->path, t->num_leaves, error));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode AppRepeat(App *app, PetscBool *again)
+{
+  const AdaptSpec *spec   = &app->data->adapt;
+  Level            old    = app->level;
+  MarkList         layers = {0};
+
+  PetscFunctionBegin;
+  *again = PETSC_FALSE;
+  if (spec->repeat != REPEAT_PATH || !AppIsAdaptive(app)) PetscFunctionReturn(PETSC_SUCCESS);
+  app->adapt_stop = !app->most.num_leaves ? "tolerance" : app->path >= spec->max_passes ? "max_passes" : "";
+  if (!app->adapt_stop[0]) PetscCall(AppLayers(app, &app->most, &layers));
+  if (app->adapt_stop[0]) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(AppRefine(app, &app->most, &layers, PETSC_TRUE, again));
+  if (!*again) PetscFunctionReturn(PETSC_SUCCESS);
+  const PetscReal error = app->most.relative;
+  PetscCall(LevelDestroy(&old));
+  PetscCall(EstimateDestroy(&app->most));
+  ++app->path;
+  ++app->adapt_passes;
+  Begin_Private(app);
+  if (app->writer) PetscCall(WriterAgain(app->writer));
+  PetscCall(Tell_Private(app, error));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
