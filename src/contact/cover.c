@@ -1,51 +1,5 @@
-/* What covers a nonmortar facet: images of the mortar facets' corners, polygons in the chart, and the cells over which the gap is weighed.
-
-   Both sides of an edge must have one picture of it, straight from image to image. Where a corner hangs in the middle of a straight edge, that is the line
-   between the images of the edge's ends, and the corner is seen in its middle. Where the edge is curved the corner lies as far beside that line as the edge
-   bends, often by more than the facets on its finer side are wide, and rays would leave them: it is seen where it is, and the facet on the coarser side in
-   pieces, halves or quarters, whose corners are its own, those that hang on its sides, and the middles of the straight lines between. */
+/* What covers a nonmortar facet: images of the mortar facets' corners, polygons in the chart, and the cells over which the gap is weighed. */
 #include "rayimpl.h"
-
-/* Names of images: the mortar node, or beyond the nodes five for each mortar facet, the middles of its sides and of itself. */
-static PetscInt Middle_Private(const RayWork w, const ContactSurface *mortar, PetscInt facet, PetscInt side)
-{
-  const PetscInt hangs = w->mortar_middle[4 * facet + side];
-
-  return hangs >= 0 ? hangs : mortar->num_nodes + 5 * facet + side;
-}
-
-/* The images in the middle of which an image lies; -1: it is a mortar node's own. */
-static void Parents_Private(const RayWork w, const ContactSurface *mortar, PetscInt name, PetscInt parent[2])
-{
-  const PetscInt facet = (name - mortar->num_nodes) / 5, k = (name - mortar->num_nodes) % 5;
-
-  for (int e = 0; e < 2; e++) {
-    if (name < mortar->num_nodes)
-      parent[e] = w->mortar_parent[2 * name + e];
-    else
-      parent[e] = k < 4 ? mortar->facets[4 * facet + (k + e) % 4] : Middle_Private(w, mortar, facet, 2 * e);
-  }
-}
-
-/* Corners of the pieces in which a mortar facet is seen, in its own order. Returns their number. */
-static PetscInt Pieces_Private(const RayWork w, const ContactSurface *mortar, PetscInt facet, PetscInt corner[4][4])
-{
-  const PetscInt  nv = w->facet.nv, *c = mortar->facets + nv * facet, *hangs = w->mortar_middle + 4 * facet;
-  const PetscBool first = (PetscBool)(nv == 4 && (hangs[0] >= 0 || hangs[2] >= 0)), second = (PetscBool)(nv == 4 && (hangs[1] >= 0 || hangs[3] >= 0));
-  PetscInt        at[3][3]; /* the facet's corners and middles, as they lie */
-
-  for (PetscInt k = 0; k < nv; k++) corner[0][k] = c[k];
-  if (!first && !second) return 1;
-  at[0][0] = c[0], at[0][1] = Middle_Private(w, mortar, facet, 0), at[0][2] = c[1];
-  at[1][0] = Middle_Private(w, mortar, facet, 3), at[1][1] = mortar->num_nodes + 5 * facet + 4, at[1][2] = Middle_Private(w, mortar, facet, 1);
-  at[2][0] = c[3], at[2][1] = Middle_Private(w, mortar, facet, 2), at[2][2] = c[2];
-  for (PetscInt k = 0, u = first ? 1 : 2, v = second ? 1 : 2; k < (first ? 2 : 1) * (second ? 2 : 1); k++) {
-    const PetscInt i = first ? k % 2 : 0, j = second ? k / (first ? 2 : 1) : 0;
-
-    corner[k][0] = at[j][i], corner[k][1] = at[j][i + u], corner[k][2] = at[j + v][i + u], corner[k][3] = at[j + v][i];
-  }
-  return (first ? 2 : 1) * (second ? 2 : 1);
-}
 
 /* Share of the chart that may be uncovered where the functions of a whole facet are still used: a tenth of what belongs to a corner, so that no weight gets
    near zero. Images of hanging mortar nodes leave slivers beside the straight picture of the side they hang on; their size must not change the functions. */
@@ -72,7 +26,7 @@ static PetscErrorCode Image_Private(RayWork w, const ContactSurface *mortar, Pet
   PetscFunctionBegin;
   for (*place = 0; *place < w->num_images; (*place)++)
     if (w->image[*place].node == node) PetscFunctionReturn(PETSC_SUCCESS);
-  Parents_Private(w, mortar, node, parent);
+  ContactRayParents(w, mortar, node, parent);
   for (int k = 0; k < 2 && parent[0] >= 0; k++) PetscCall(Image_Private(w, mortar, parent[k], &end[k]));
   PetscCall(ContactGrow(w->num_images + 1, sizeof(RayImage), &w->size_image, &w->image));
   *place           = w->num_images++;
@@ -174,7 +128,7 @@ static PetscErrorCode See_Private(ContactPair pair, const ContactSurface *mortar
 {
   RayWork        w = pair->ray;
   PetscInt       corner[4][4];
-  const PetscInt num = Pieces_Private(w, mortar, facet, corner);
+  const PetscInt num = ContactRayPieces(w, mortar, facet, corner);
 
   PetscFunctionBegin;
   for (PetscInt k = 0; k < num; k++) {

@@ -56,9 +56,9 @@ typedef struct {
 } RayFacet;
 
 /* Image of a mortar vertex, or the mean of two images that come before it in the list: of a vertex that hangs in the middle of a straight edge those of the
-   edge's ends, and in a facet that is seen in pieces (cover.c). */
+   edge's ends, and in a facet that is seen in pieces (raypieces.c). */
 typedef struct {
-  PetscInt  node, parent[2]; /* names (cover.c): nodes and others; -1: it is the vertex's own */
+  PetscInt  node, parent[2]; /* names (raypieces.c); -1: it is the vertex's own */
   PetscBool found;
   PetscReal v[3], xi[2], s, Y[2];
 } RayImage;
@@ -163,6 +163,12 @@ void ContactImageRows(const RayFacet *, const RayImage *, PetscInt vertex, Petsc
 void ContactImagesFold(RayWork, PetscInt num, PetscReal rows[], PetscInt ld);
 /* W += half of w . d2Y */
 void ContactImageCurvature(const RayFacet *, const RayImage *, PetscInt vertex, const PetscReal w[2], PetscInt n, PetscReal W[], PetscReal work[]);
+
+/* raypieces.c. Names of images are those of mortar nodes, and others. */
+/* The two images in the middle of which one lies, -1: it is a mortar node's own. */
+void ContactRayParents(const RayWork, const ContactSurface *mortar, PetscInt name, PetscInt parent[2]);
+/* Corners of the pieces in which a mortar facet is seen, in its own order. Returns their number. */
+PetscInt ContactRayPieces(const RayWork, const ContactSurface *mortar, PetscInt facet, PetscInt corner[4][4]);
 
 /* cover.c: what covers a facet */
 PetscErrorCode ContactCover(ContactPair, const ContactSurface *nonmortar, const ContactSurface *mortar, PetscInt slot, PetscBool hats, PetscBool *failed);
