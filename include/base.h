@@ -32,6 +32,8 @@ PetscErrorCode HelpRow(MPI_Comm, const char *name, const char *allowed, const ch
 
 /* Install the error handler that keeps quiet about input errors and prints PETSc's traceback for all others. */
 PetscErrorCode ErrorHandlerPush(void);
+/* What memory is asked for from now on, in few words that follow "out of memory for ": the size of a mesh, of a problem. Not collective. */
+void ErrorAsked(const char *format, ...) PETSC_ATTRIBUTE_FORMAT(1, 2);
 /* Errors of the machine (files that cannot be written, memory): told in one sentence, like input errors, though the run ends as after any other error. */
 PetscBool ErrorIsPlain(PetscErrorCode);
 /* Between the two an error of PETSc whose message has these words is no end but an answer: *met, without a word on the screen; any other returns from the

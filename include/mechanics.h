@@ -56,7 +56,7 @@ typedef struct {
   const BoundarySpec *boundaries;
 } MechanicsSpec;
 
-/* ---- the bulk of one mesh (mechanics.c, support.c, load.c, integrate.c) ------------------------------------------------ */
+/* ---- the bulk of one mesh (mechanics.c, support.c, prescribe.c, load.c, integrate.c) ------------------------------------------------ */
 
 typedef struct _p_Mechanics *Mechanics;
 
@@ -66,7 +66,8 @@ typedef struct {
   int8_t  *fixed;
   PetscInt num_frames, *frame_node;
   PetscReal (*frame)[9];
-  int8_t *cause; /* [num_nodes][3] boundary index that prescribes this component, -1 none, -2 rigid body */
+  int8_t *cause;          /* [num_nodes][3] boundary index that prescribes this component, -1 none, -2 - body rigid body */
+  PetscReal (*normal)[3]; /* [num_boundaries] of those fixed along their normal */
 } Supports;
 
 /* Value of an expression times the amplitude; an expression that speaks of t itself takes the amplitude only when one is given. */
@@ -92,6 +93,10 @@ PetscErrorCode MechanicsGetHold(Mechanics, const PetscReal **hold);
 /* Write the prescribed dofs of time t into a local array of dofs; other entries stay. At t = 0 all are 0: bodies are at rest where the mesh puts them, and
    motion that begins with a jump is carried through them by the first step. */
 PetscErrorCode MechanicsPrescribe(Mechanics, PetscReal local[]);
+
+/* Where two boundaries, or one and the motion of a rigid body, prescribe different displacements of a node of this rank at time t beyond round-off: a sentence;
+   "" where all agree. Values that are not finite are no contradiction. Not collective. */
+PetscErrorCode MechanicsFindConflict(Mechanics, PetscReal t, size_t size, char words[]);
 
 /* Derivative by t, by differences over 2 dt, of dead loads and follower pressures at displacement u, as they enter the residual: added to the local array rate.
  */

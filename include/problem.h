@@ -45,6 +45,8 @@ PetscErrorCode ProblemCreate(const SceneData *, Forest, const int8_t leaf_order[
 PetscErrorCode ProblemDestroy(Problem *);
 /* MechanicsFindInverted over all ranks. Collective. */
 PetscErrorCode ProblemFindInverted(Problem, PetscInt *order, PetscReal X[3]);
+/* MechanicsFindConflict over all ranks. Collective. */
+PetscErrorCode ProblemFindConflict(Problem, PetscReal t, size_t size, char words[]);
 
 PetscErrorCode ProblemGetScene(Problem, const SceneData **);
 PetscErrorCode ProblemGetForest(Problem, Forest *);

@@ -79,6 +79,8 @@ PetscErrorCode AppAdvise(const App *);
 PetscErrorCode AppPathStep(App *, PetscBool *ok);
 /* The state is about to become the accepted one: the path goes on in the direction from there to here. Collective. */
 PetscErrorCode AppPathAccept(App *);
+/* Where a step of dt from t ends: not beyond the end, nor beyond a corner of an amplitude. */
+PetscReal AppStepEnd(const SceneData *, PetscReal t, PetscReal dt);
 /* Count what a solve took. */
 void AppCount(App *, const SolverReport *);
 /* Bring level.state from its time to t on the current mesh, in as many pieces as it takes, all but the last committed; *ok false when even one of length
@@ -99,10 +101,15 @@ PetscErrorCode AppForget(App *);
 PetscErrorCode AppStop(App *);
 /* Read the checkpoint to go on from and check it against scene and coarse mesh; then the level and all counters from it (destroys *coarse). Nothing is written.
    Collective. */
-PetscErrorCode AppReadCheckpoint(App *, Forest coarse);
 PetscErrorCode AppResume(App *, Forest *coarse);
 
+/* files.c. Tables and fields, afresh or after the load step to go on from: first everything that may refuse. Collective. */
+PetscErrorCode AppOpenFiles(App *);
+/* Would those in output.directory be refused to go on with? Writes nothing. Collective. */
+PetscErrorCode AppCheckFiles(App *);
+
 PetscErrorCode LevelCreate(const SceneData *, Forest, const int8_t leaf_order[], PetscReal t, Level *);
-/* An input error when a cell of it is inverted in the reference mesh, or a value at its time is not finite. Collective. */
-PetscErrorCode LevelCheck(const Level *);
+/* An input error when a cell of it is inverted in the reference mesh, a value at its time is not finite, or supports contradict each other until the end.
+   Collective. */
+PetscErrorCode LevelCheck(const SceneData *, const Level *);
 PetscErrorCode LevelDestroy(Level *);

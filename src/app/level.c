@@ -19,7 +19,26 @@ PetscErrorCode LevelCreate(const SceneData *data, Forest forest, const int8_t le
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode LevelCheck(const Level *level)
+#define MOST_TIMES 100 /* at which supports are compared, beside the corners of amplitudes */
+
+/* Supports that meet must agree, at the end of each step planned at least where these are few. What is not finite then is told when its time comes. */
+static PetscErrorCode CheckSupports_Private(const SceneData *data, const Level *level)
+{
+  const PetscReal dt            = PetscMax(data->load.step, data->load.end / MOST_TIMES);
+  char            conflict[512] = "";
+  const char     *words;
+
+  PetscFunctionBegin;
+  for (PetscReal t = level->state.t; t < data->load.end && !conflict[0];) {
+    t = AppStepEnd(data, t, dt);
+    PetscCall(ProblemFindConflict(level->problem, t, sizeof(conflict), conflict));
+  }
+  PetscCall(ExpressionTrouble(ForestComm(level->forest), &words));
+  PetscCheckInput(!conflict[0], "%s", conflict);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode LevelCheck(const SceneData *data, const Level *level)
 {
   PetscInt    order;
   PetscReal   X[3];
@@ -33,6 +52,7 @@ PetscErrorCode LevelCheck(const Level *level)
                   "mesh: a cell of order %" PetscInt_FMT " at (%g, %g, %g) is inverted, for sides that are straight or hang from coarser cells cut across "
                   "curved ones; take smaller cells there, a higher order or mesh.order: 1, or other refinements",
                   order, (double)X[0], (double)X[1], (double)X[2]);
+  PetscCall(CheckSupports_Private(data, level));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

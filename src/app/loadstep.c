@@ -81,8 +81,8 @@ PetscErrorCode AppAdvance(App *app, PetscReal t, PetscReal smallest, PetscBool *
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Where a step of dt from t0 ends: not beyond the end, nor beyond a corner of an amplitude, which the path must not cut. */
-static PetscReal StepEnd_Private(const SceneData *data, PetscReal t0, PetscReal dt)
+/* The path must not cut a corner of an amplitude. */
+PetscReal AppStepEnd(const SceneData *data, PetscReal t0, PetscReal dt)
 {
   const MechanicsSpec *m    = &data->mechanics;
   const PetscReal      tiny = ROUND_OFF * data->load.end;
@@ -118,7 +118,7 @@ static PetscErrorCode LoadStep_Private(App *app, PetscBool *ok)
   PetscFunctionBegin;
   app->iterations_in_step = app->cuts_in_step = app->passes_in_step = 0;
   for (;;) {
-    const PetscReal t = StepEnd_Private(app->data, t0, *dt);
+    const PetscReal t = AppStepEnd(app->data, t0, *dt);
     PetscCall(Attempt_Private(app, t, &report));
     *ok = report.converged;
     if (*ok) break;

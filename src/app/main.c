@@ -3,14 +3,15 @@
 #include <signal.h>
 #include <unistd.h>
 
-static PetscErrorCode Begin_Private(App *app, Forest forest)
+static PetscErrorCode Begin_Private(App *app, Forest *forest)
 {
   int8_t *orders;
 
   PetscFunctionBegin;
-  PetscCall(ProblemInitialOrders(app->data, forest, &orders));
-  PetscCall(LevelCreate(app->data, forest, orders, 0, &app->level));
-  PetscCall(LevelCheck(&app->level));
+  PetscCall(ProblemInitialOrders(app->data, *forest, &orders));
+  PetscCall(LevelCreate(app->data, *forest, orders, 0, &app->level));
+  *forest = NULL;
+  PetscCall(LevelCheck(app->data, &app->level));
   PetscCall(PetscFree(orders));
   app->dt         = app->data->load.step;
   app->adapt_stop = "";
@@ -18,35 +19,38 @@ static PetscErrorCode Begin_Private(App *app, Forest forest)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Tables and fields, afresh or after the load step to go on from: first everything that may refuse. */
-static PetscErrorCode OpenFiles_Private(App *app)
+/* Everything that may refuse before the first solve, but for what is found in output.directory. Takes the forest over. */
+static PetscErrorCode Prepare_Private(App *app, Forest *forest)
 {
-  const char *directory = app->data->output.directory;
-  PetscReal   states    = 0;
-  TablePlace  place     = {.step = app->load_steps, .t = app->level.accepted.t, .path = app->data->adapt.repeat == REPEAT_PATH ? app->path : -1};
-
   PetscFunctionBegin;
-  PetscCall(OutputDirectoryCreate(app->comm, directory));
-  if (app->restart[0]) PetscCall(CheckpointGetNumber(app->snapshot, "states", &states));
-  if (app->data->output.fields && states > 0) PetscCall(WriterResume(app->comm, directory, app->load_steps, (PetscInt)states, &app->writer));
-  PetscCall(HistoryCreate(app->comm, app->data, app->probes, app->restart[0] ? &place : NULL, &app->history));
-  if (app->data->output.fields && !app->writer) PetscCall(WriterCreate(app->comm, directory, &app->writer));
-  if (!app->restart[0]) PetscCall(AppForget(app));
+  PetscCall(ProbesCreate(app->data, *forest, &app->probes));
+  PetscCall(PetscCalloc1(app->data->num_contacts, &app->subdivided));
+  if (app->restart[0])
+    PetscCall(AppResume(app, forest));
+  else
+    PetscCall(Begin_Private(app, forest));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode Open_Private(App *app, Forest forest)
+/* -check: what would be solved, and from what on. */
+static PetscErrorCode View_Private(App *app)
+{
+  PetscInt dofs;
+
+  PetscFunctionBegin;
+  PetscCall(AppCheckFiles(app));
+  PetscCall(SceneView(app->scene, app->level.forest, PETSC_VIEWER_STDOUT_WORLD));
+  PetscCall(ProblemNumDofs(app->level.problem, &dofs));
+  PetscCall(PetscPrintf(app->comm, "  %" PetscInt_FMT " unknowns at t = %.6g\n", dofs, (double)app->level.accepted.t));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode Open_Private(App *app)
 {
   PetscLogDouble now;
 
   PetscFunctionBegin;
-  PetscCall(ProbesCreate(app->data, forest, &app->probes));
-  PetscCall(PetscCalloc1(app->data->num_contacts, &app->subdivided));
-  if (app->restart[0])
-    PetscCall(AppResume(app, &forest));
-  else
-    PetscCall(Begin_Private(app, forest));
-  PetscCall(OpenFiles_Private(app));
+  PetscCall(AppOpenFiles(app));
   PetscCall(MonitorCreate(app->comm, app->data, &app->monitor));
   PetscCall(MonitorHeader(app->monitor, app->level.problem));
   PetscCall(PetscTime(&now));
@@ -140,17 +144,15 @@ static PetscErrorCode Solve_Private(int argc, char **argv, int *status)
   PetscCall(StageBegin(STAGE_MESH));
   PetscCall(SceneSetUp(app.scene, &forest));
   PetscCall(StageEnd(STAGE_MESH));
-  if (SceneCheckOnly(app.scene)) {
-    if (app.restart[0]) PetscCall(AppReadCheckpoint(&app, forest));
-    PetscCall(CheckpointDestroy(&app.snapshot));
-    PetscCall(SceneView(app.scene, forest, PETSC_VIEWER_STDOUT_WORLD));
-    PetscCall(ForestDestroy(&forest));
-  } else {
-    PetscCall(Open_Private(&app, forest));
+  PetscCall(Prepare_Private(&app, &forest));
+  if (SceneCheckOnly(app.scene))
+    PetscCall(View_Private(&app));
+  else {
+    PetscCall(Open_Private(&app));
     PetscCall(AppRun(&app));
     PetscCall(Summarise_Private(&app));
-    PetscCall(Close_Private(&app));
   }
+  PetscCall(Close_Private(&app));
   PetscCall(SceneDestroy(&app.scene));
   *status = app.failure ? 2 : app.stopped ? 3 : 0;
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -186,7 +186,7 @@ static PetscErrorCode Level_Private(App *app, Checkpoint c, Forest coarse, Level
   PetscCall(CheckpointForest(c, coarse, &forest));
   PetscCall(CheckpointOrders(c, &orders));
   PetscCall(LevelCreate(app->data, forest, orders, t, level));
-  PetscCall(LevelCheck(level));
+  PetscCall(LevelCheck(app->data, level));
   PetscCall(CheckpointState(c, level->problem, &level->state));
   PetscCall(StateCopy(&level->state, &level->accepted));
   PetscCall(ForestGetTables(forest, &tables));
@@ -222,7 +222,8 @@ PetscErrorCode AppForget(App *app)
 
 /* ---- going on --------------------------------------------------------------------------------------------------------------------- */
 
-PetscErrorCode AppReadCheckpoint(App *app, Forest coarse)
+/* Read the checkpoint to go on from and check it against scene and coarse mesh. Collective. */
+static PetscErrorCode Read_Private(App *app, Forest coarse)
 {
   PetscReal t;
 
@@ -241,7 +242,7 @@ PetscErrorCode AppResume(App *app, Forest *coarse)
   PetscReal       value;
 
   PetscFunctionBegin;
-  PetscCall(AppReadCheckpoint(app, *coarse));
+  PetscCall(Read_Private(app, *coarse));
   PetscCall(Level_Private(app, app->snapshot, *coarse, &app->level));
   PetscCall(ForestDestroy(coarse));
   PetscCall(GetMost_Private(app));

@@ -1,6 +1,7 @@
 /* Starting MPI cheaply: a single process needs no network and no daemon. Half the processor time of the start and 0.3 s of waiting go. */
 #include "appimpl.h"
 #include <stdlib.h>
+#include <unistd.h>
 
 static const char *const Alone[][2] = {
     {"OMPI_MCA_pml", "ob1"},
@@ -39,6 +40,21 @@ static void OneThread_Private(void)
   if (openblas_set_num_threads && !getenv("OPENBLAS_NUM_THREADS") && !getenv("OMP_NUM_THREADS")) openblas_set_num_threads(1);
 }
 
+#define BLAS_ROOM (((size_t)1 << 27) + ((size_t)1 << 24)) /* bytes of its buffer, and of what comes before */
+
+/* OpenBLAS asks for its buffer at its first call, and where there is no room (ulimit -v) for ever: told now. */
+static void CheckRoom_Private(void)
+{
+  void *volatile room = openblas_set_num_threads ? malloc(BLAS_ROOM) : NULL;
+
+  if (openblas_set_num_threads && !room) {
+    fprintf(stderr, "mortise: out of memory: fewer than %d MB are left to begin with (ulimit -v)\n", (int)(BLAS_ROOM >> 20));
+    fflush(stderr);
+    _exit(2); /* mpiexec ends the other processes */
+  }
+  free(room);
+}
+
 /* PetscInitialize with those settings when no launcher started this process; what the user has set wins. */
 PetscErrorCode AppInitialize(int argc, char **argv)
 {
@@ -54,5 +70,6 @@ PetscErrorCode AppInitialize(int argc, char **argv)
   for (int i = 0; i < NUM_ALONE; ++i) {
     if (set[i]) unsetenv(Alone[i][0]); /* programs we start (gmsh) do not inherit them */
   }
+  CheckRoom_Private();
   return ierr;
 }

@@ -28,15 +28,32 @@ PetscBool ErrorIsPlain(PetscErrorCode code)
   return (PetscBool)(code == PETSC_ERR_FILE_WRITE || code == PETSC_ERR_MEM);
 }
 
+static char asked[128]; /* what memory is being asked for */
+
+void ErrorAsked(const char *format, ...)
+{
+  va_list arguments;
+
+  va_start(arguments, format);
+  (void)vsnprintf(asked, sizeof(asked), format, arguments);
+  va_end(arguments);
+}
+
+/* PETSc tells of memory in its own code of errors only where malloc does: realloc gives a line number (3.18), posix_memalign an error of a library (3.26). */
+static PetscErrorCode Code_Private(const char *function, PetscErrorCode code)
+{
+  return function && (!strcmp(function, "PetscReallocAlign") || !strcmp(function, "PetscMallocAlign")) ? PETSC_ERR_MEM : code;
+}
+
 /* No fault of the program: a sentence will do, of the first process or of the one whose own matter it is. */
-static void Plain_Private(MPI_Comm comm, const char *function, PetscErrorCode code, const char *message)
+static void Plain_Private(MPI_Comm comm, PetscErrorCode code, const char *message)
 {
   PetscMPIInt rank = 0;
 
   if (comm != PETSC_COMM_SELF) MPI_Comm_rank(comm, &rank);
   if (rank) return;
   if (code == PETSC_ERR_MEM)
-    fprintf(stderr, "mortise: out of memory (in %s): take a smaller problem, or more processes on more machines\n", function);
+    fprintf(stderr, "mortise: out of memory%s%s: take a smaller problem, or more processes on more machines\n", asked[0] ? " for " : "", asked);
   else
     fprintf(stderr, "mortise: %s\n", message);
   fflush(stderr);
@@ -51,10 +68,11 @@ static PetscErrorCode ErrorHandler_Private(MPI_Comm comm, int line, const char *
                                            const char *message, void *context)
 {
   if (code == MORTISE_ERR_INPUT) return code;
+  if (type == PETSC_ERROR_INITIAL) code = Code_Private(function, code);
   if (foreseen && type == PETSC_ERROR_INITIAL && message && strstr(message, foreseen)) foreseen_met = PETSC_TRUE;
   if (foreseen_met) return code;
   if (ErrorIsPlain(code)) {
-    if (type == PETSC_ERROR_INITIAL) Plain_Private(comm, function, code, message);
+    if (type == PETSC_ERROR_INITIAL) Plain_Private(comm, code, message);
     return code;
   }
   return PetscTraceBackErrorHandler(comm, line, function, file, code, type, message, context);

@@ -155,12 +155,30 @@ static void Simplex_Private(const RayFacet *f, const RaySimplex *s, const Batch 
   }
 }
 
+/* slipped = V^T W S + S^T W V, W the corners' part of all[N][N], V and S how corners move and slip. */
+static void Slips_Private(const Overlap *o, const RayMove move[], PetscInt nq, const PetscReal all[], PetscReal slipped[RAY_IMAGES][RAY_IMAGES])
+{
+  const PetscInt N = nq + CORNERS;
+
+  for (PetscInt v = 0; v < o->num; v++) {
+    if (!move[v].slips) continue;
+    for (PetscInt i = 2 * v; i < 2 * v + 2; i++)
+      for (PetscInt k = 0; k < 2 * o->num; k++) {
+        const PetscReal *d = move[k / 2].d[k % 2], *s = move[v].slip[i % 2], below = all[(nq + k) * N + nq + i], above = all[(nq + i) * N + nq + k];
+
+        for (int l = 0; l < RAY_IMAGES; l++)
+          for (int j = 0; j < RAY_IMAGES; j++) slipped[l][j] += below * d[l] * s[j] + above * s[l] * d[j];
+      }
+  }
+}
+
 /* From corners to images: all[N][N] -> its first nq + RAY_IMAGES rows and columns. */
 static void Collapse_Private(const RayFacet *f, const Overlap *o, const RayMove move[], const PetscReal corner[], PetscInt nq, PetscReal all[])
 {
-  const PetscInt m = f->m, N = nq + CORNERS, nc = m * (f->m == 1 ? 2 : o->num);
-  PetscReal      fold[RAY_IMAGES][CORNERS], row[RAY_IMAGES];
+  const PetscInt m = f->m, N = nq + CORNERS, nc                                              = m * (f->m == 1 ? 2 : o->num);
+  PetscReal      fold[RAY_IMAGES][CORNERS], row[RAY_IMAGES], slipped[RAY_IMAGES][RAY_IMAGES] = {{0}};
 
+  if (m == 2) Slips_Private(o, move, nq, all, slipped);
   for (PetscInt i = 0; i < nc; i++)
     for (int l = 0; l < RAY_IMAGES; l++) fold[l][i] = move[i / m].d[i % m][l];
   for (PetscInt i = nq; i < nq + nc; i++) {
@@ -177,6 +195,8 @@ static void Collapse_Private(const RayFacet *f, const Overlap *o, const RayMove 
     }
     for (int l = 0; l < RAY_IMAGES; l++) all[(nq + l) * N + k] = row[l];
   }
+  for (int l = 0; l < RAY_IMAGES; l++)
+    for (int j = 0; j < RAY_IMAGES; j++) all[(nq + l) * N + nq + j] += slipped[l][j];
   for (PetscInt v = 0; v < o->num && m == 2; v++) { /* curvature of crossings */
     const RayMove  *c    = &move[v];
     const PetscReal w[2] = {corner[2 * v], corner[2 * v + 1]};

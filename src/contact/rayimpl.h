@@ -229,6 +229,8 @@ void ContactRaySecond(const RayFacet *, const RayLattice *mortar, const RayPoint
 typedef struct {
   PetscReal d[2][RAY_IMAGES], dt[RAY_IMAGES], e[2], nu[2];
   PetscInt  a, b; /* a = -1: no crossing */
+  PetscBool slips;
+  PetscReal slip[2][RAY_IMAGES]; /* one of two corners at a place: half of how the place moves besides d */
 } RayMove;
 /* A simplex: places of its corners in the polygon, size and derivatives by its m + 1 corners, m numbers each. */
 typedef struct {

@@ -4,15 +4,18 @@
    half of d2C = dt (de - e nu.de / nu.e).
 
    Where both meet at a small angle the crossing runs along them with the angle's inverse, and what rounding and quadrature leave in derivatives by its place
-   with it: two meshes whose lines lie on each other would press by forces that flicker. Such a crossing is taken as two corners at one place, the first of
-   which rests on the line and the second goes with a point of the side. Nothing lies between them, and as derivatives of an integral depend on how the sides
-   move across themselves, first derivatives are exact. Of second ones they leave out the change of the crossing's place. */
+   with it (quadrature of facets of order 4: 1e-10 over the angle): two meshes whose lines nearly lie on each other would press by forces that flicker. Such a
+   crossing is taken as two corners at one place, the first of which rests on the line, V = 0, and the second goes with a point of the side, V = (1 - t) dY_a +
+   t dY_b. Nothing lies between them, and as derivatives of an integral depend on how the sides move across themselves, first derivatives are exact,
+   dF = sum_k F,k . V_k. Their change has besides F,kl V_k V_l what comes of the place's motion P along both lines, F,kl V_k . (P - V)_l + F,k . dV_k, dV = dt
+   (dY_b - dY_a), symmetric but for quadrature. Where lines coincide but for rounding there is no such place, and it is left out. */
 #include "rayimpl.h"
 #include <petscblaslapack.h>
 
 #define MOST_POINTS 144
-#define SMALL 1e-5 /* sine of an angle */
-#define JOINT 8    /* line between the two corners at one place */
+#define SMALL 0.01    /* sine of an angle */
+#define COINCIDE 1e-5 /* the same, below which the place of the crossing tells nothing */
+#define JOINT 8       /* line between the two corners at one place */
 
 /* W[nl][nr] += factor sum_k left[k][nl] right[k][nr] */
 void ContactRayProducts(PetscInt num, PetscReal factor, PetscInt nl, const PetscReal left[], PetscInt ldl, PetscInt nr, const PetscReal right[], PetscInt ldr,
@@ -56,6 +59,15 @@ PetscErrorCode ContactRayRule(PetscInt m, PetscInt order_s, PetscInt order_m, Pe
 
 /* ---- polygons ------------------------------------------------------------------------------------------------------------------------ */
 
+/* Sine of the angle between lines a and b, one of either facet. */
+static PetscReal Sine_Private(const Overlap *o, int a, int b)
+{
+  const PetscReal *p = o->side[a / 4].Y[a % 4], *P = o->side[a / 4].Y[(a + 1) % 4], *q = o->side[b / 4].Y[b % 4], *Q = o->side[b / 4].Y[(b + 1) % 4];
+  const PetscReal  d[2] = {P[0] - p[0], P[1] - p[1]}, e[2] = {Q[0] - q[0], Q[1] - q[1]};
+
+  return PetscAbsReal(Cross2(d, e)) / PetscSqrtReal(Dot2(d, d) * Dot2(e, e));
+}
+
 static void Crossing_Private(const Overlap *o, PetscInt k, int side, int image, RayMove *move)
 {
   const PetscReal *p = o->side[0].Y[side], *P = o->side[0].Y[(side + 1) % 4], *a = o->side[1].Y[image], *b = o->side[1].Y[(image + 1) % 4];
@@ -83,29 +95,26 @@ static void Crossing_Private(const Overlap *o, PetscInt k, int side, int image, 
   }
 }
 
-/* The corner that goes with a point of an image's side. */
-static void Along_Private(const Overlap *o, PetscInt k, int image, RayMove *move)
+/* One of two corners at a place: the one that goes with a point of the image's side, or the one that rests. */
+static void Joint_Private(const Overlap *o, PetscInt k, int side, int image, PetscBool along, RayMove *move)
 {
-  const PetscReal *a = o->side[1].Y[image], *b = o->side[1].Y[(image + 1) % 4], e[2] = {b[0] - a[0], b[1] - a[1]},
-                  r[2] = {o->v[k][0] - a[0], o->v[k][1] - a[1]};
-  const PetscReal t    = Dot2(r, e) / Dot2(e, e);
+  const int        next = (image + 1) % 4;
+  const PetscReal *a = o->side[1].Y[image], *b = o->side[1].Y[next], e[2] = {b[0] - a[0], b[1] - a[1]}, r[2] = {o->v[k][0] - a[0], o->v[k][1] - a[1]};
+  const PetscReal  t        = Dot2(r, e) / Dot2(e, e);
+  RayMove          crossing = {.a = -1};
 
-  for (int i = 0; i < 2; i++) {
-    move->d[i][2 * image + i]             = 1 - t;
-    move->d[i][2 * ((image + 1) % 4) + i] = t;
+  for (int i = 0; i < 2 && along; i++) {
+    move->d[i][2 * image + i] = 1 - t;
+    move->d[i][2 * next + i]  = t;
   }
-}
-
-/* Do lines a and b, one of either facet, meet at a small angle? */
-static PetscBool IsSmall_Private(const Overlap *o, int a, int b)
-{
-  const PetscReal *p, *P, *q, *Q;
-
-  if (a / 4 == b / 4) return PETSC_FALSE;
-  p = o->side[a / 4].Y[a % 4], P = o->side[a / 4].Y[(a + 1) % 4], q = o->side[b / 4].Y[b % 4], Q = o->side[b / 4].Y[(b + 1) % 4];
-  const PetscReal d[2] = {P[0] - p[0], P[1] - p[1]}, e[2] = {Q[0] - q[0], Q[1] - q[1]};
-
-  return (PetscBool)(PetscAbsReal(Cross2(d, e)) < SMALL * PetscSqrtReal(Dot2(d, d) * Dot2(e, e)));
+  if (Sine_Private(o, side, 4 + image) > COINCIDE) Crossing_Private(o, k, side, image, &crossing);
+  if (crossing.a < 0) return;
+  move->slips = PETSC_TRUE;
+  for (int j = 0; j < RAY_IMAGES; j++) {
+    for (int i = 0; i < 2; i++) move->slip[i][j] = 0.5 * (crossing.d[i][j] - move->d[i][j]);
+    move->dt[j] = 0.5 * crossing.dt[j];
+  }
+  if (along) move->a = image, move->b = next;
 }
 
 void ContactRaySplit(const RayFacet *f, const Overlap *o, Overlap *to)
@@ -114,7 +123,8 @@ void ContactRaySplit(const RayFacet *f, const Overlap *o, Overlap *to)
   if (f->m == 1) return;
   to->num = 0;
   for (PetscInt k = 0; k < o->num; k++) {
-    const PetscBool split = (PetscBool)(IsSmall_Private(o, o->line[(k + o->num - 1) % o->num], o->line[k]) && to->num + o->num - k < FACET_VERTICES);
+    const int       a = o->line[(k + o->num - 1) % o->num], b = o->line[k];
+    const PetscBool split = (PetscBool)(a / 4 != b / 4 && to->num + o->num - k < FACET_VERTICES && Sine_Private(o, a, b) < SMALL);
 
     for (int twice = split ? 1 : 0; twice >= 0; twice--) {
       for (int i = 0; i < 2; i++) to->v[to->num][i] = o->v[k][i];
@@ -135,9 +145,9 @@ void ContactRayMoves(const RayFacet *f, const Overlap *o, RayMove move[])
       continue;
     }
     if (a == JOINT || b == JOINT) {
-      const int line = a == JOINT ? b : a;
+      const int line = a == JOINT ? b : a, other = a == JOINT ? o->line[(k + o->num - 2) % o->num] : o->line[(k + 1) % o->num];
 
-      if (line >= 4) Along_Private(o, k, line % 4, &move[k]);
+      Joint_Private(o, k, PetscMin(line, other), PetscMax(line, other) % 4, (PetscBool)(line >= 4), &move[k]);
     } else if (a >= 4 && b >= 4) {
       const int image = (a + 1) % 4 == b % 4 ? b % 4 : a % 4;
 

@@ -40,9 +40,13 @@ static PetscErrorCode AdaptTree_Private(Forest forest, const MarkList *marks, Tr
   const PetscInt dim = forest->tables.dim, num_roots = forest->coarse->mesh.num_cells;
   const int8_t   all       = (int8_t)((1 << dim) - 1);
   PetscInt       num_fresh = 0, num_leaves, *leaves, *fresh, next = 0;
+  PetscInt64     more = 0;
   Tree           tree;
 
   PetscFunctionBegin;
+  for (PetscInt l = 0; l < forest->tables.num_leaves; ++l) more += ForestNumChildren(marks->split[l] & all);
+  ErrorAsked("%lld cells", (long long)more);
+  PetscCall(ForestCheckSize(more << dim)); /* a cell brings as many entities at least: before memory is asked for */
   PetscCall(ForestTreeCopy(&forest->tree, &tree));
   for (PetscInt r = 0; r < num_roots; ++r) next = NumberLeaves_Private(&tree, r, next);
   PetscCall(ForestTreeLeaves(&tree, num_roots, &num_leaves, &leaves));

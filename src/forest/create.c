@@ -69,6 +69,12 @@ PetscErrorCode ForestCreate(MPI_Comm comm, const ForestSpec *spec, Forest *fores
     return ErrorInput("%s", message);
   }
   PetscCall(Broadcast_Private(comm, &mesh, &num_facets, &facet_vertices, &facet_groups));
+  const double cells = ldexp((double)mesh.num_cells, (int)(mesh.dim * spec->refine));
+  PetscCheckInput(cells <= FOREST_ENTITIES >> mesh.dim, /* a cell brings 2^dim entities at least */
+                  "mesh.refine is %" PetscInt_FMT ": %.0f cells, of %" PetscInt_FMT " in the mesh; at most %" PetscInt_FMT
+                  " fit; refine.<name> refines where it matters",
+                  spec->refine, cells, mesh.num_cells, FOREST_ENTITIES >> mesh.dim);
+  ErrorAsked("%.0f cells (mesh.refine: %" PetscInt_FMT ")", cells, spec->refine);
   const PetscErrorCode status = ForestCreateFromCoarse(comm, &mesh, num_facets, facet_vertices, facet_groups, spec->refine, forest);
   PetscCall(PetscFree(facet_vertices));
   PetscCall(PetscFree(facet_groups));

@@ -156,7 +156,8 @@ PetscErrorCode ForestCheckSize(PetscInt64 num_entities)
 {
   PetscFunctionBegin;
   PetscCheckInput(num_entities <= FOREST_ENTITIES,
-                  "the mesh has %lld vertices, edges, faces and cells, more than the %" PetscInt_FMT " that fit this PETSc's %d-bit integers: refine less",
+                  "the mesh would have %lld vertices, edges, faces and cells, more than the %" PetscInt_FMT
+                  " that fit this PETSc's %d-bit integers: refine less",
                   (long long)num_entities, FOREST_ENTITIES, (int)(8 * sizeof(PetscInt)));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -68,19 +68,27 @@ void CellKernelNumFibers(CellKernel k, PetscInt *num)
   *num = 3 * k->material.num_fibers * k->num_points;
 }
 
+/* Directions at point `at` of n into fiber [num_fibers][3][n]. */
+static void PackFibers_Private(CellKernel k, PetscInt root, const PetscReal position[3], PetscInt at, PetscInt n, PetscReal *fiber)
+{
+  PetscReal direction[MATERIAL_MAX_FIBERS][3];
+
+  MaterialFiberDirections(&k->material, root, position, direction);
+  for (PetscInt i = 0; i < 3 * k->material.num_fibers; i++) fiber[i * n + at] = direction[i / 3][i % 3];
+}
+
 PetscErrorCode CellKernelFibers(CellKernel k, PetscInt root, const PetscReal *X, PetscReal *fiber)
 {
   PetscReal value[MOST_NODES];
 
   PetscFunctionBegin;
   for (PetscInt q = 0; q < k->num_points; q++) {
-    PetscReal xi[3], place[3] = {0, 0, 0}, direction[MATERIAL_MAX_FIBERS][3];
+    PetscReal xi[3], place[3] = {0, 0, 0};
 
     Basis1DPoint(k->basis, k->dim, q, xi);
     PetscCall(ElementEvaluate(k->dim, k->order, xi, value, NULL));
     for (PetscInt i = 0; i < k->num_nodes * k->dim; i++) place[i % k->dim] += value[i / k->dim] * X[i];
-    MaterialFiberDirections(&k->material, root, place, direction);
-    for (PetscInt i = 0; i < 3 * k->material.num_fibers; i++) fiber[i * k->num_points + q] = direction[i / 3][i % 3];
+    PackFibers_Private(k, root, place, q, k->num_points, fiber);
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -155,14 +163,6 @@ static void FirstPiola_Private(const PetscReal tau[9], const PetscReal F[9], Pet
 typedef struct {
   PetscReal fiber[3 * MATERIAL_MAX_FIBERS * NUM_LANES], F[9 * NUM_LANES], P[9 * NUM_LANES], W[NUM_LANES];
 } Pack;
-
-static void PackFibers_Private(CellKernel k, PetscInt root, const PetscReal position[3], PetscInt at, PetscInt n, PetscReal *fiber)
-{
-  PetscReal direction[MATERIAL_MAX_FIBERS][3];
-
-  MaterialFiberDirections(&k->material, root, position, direction);
-  for (PetscInt i = 0; i < 3 * k->material.num_fibers; i++) fiber[i * n + at] = direction[i / 3][i % 3];
-}
 
 /* n points from xi on; remembered: NULL, or what a law with history knows. */
 static PetscErrorCode Points_Private(CellKernel k, PetscInt root, PetscInt n, const PetscReal *xi, ElementFields *fields, const PetscReal *pressure,

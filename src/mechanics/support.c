@@ -1,38 +1,8 @@
-/* Supports: which dofs are prescribed, in which frame, by whom, and their values. */
+/* Supports: which dofs are prescribed, in which frame, and by whom. */
 #include "mechanicsimpl.h"
 
 const char *const ModelNames[]      = {"plane_strain", "axisymmetric", "3d", "Model", "MODEL_", NULL};
 const char *const KinematicsNames[] = {"finite", "small", "Kinematics", "KINEMATICS_", NULL};
-
-PetscErrorCode MechanicsValue(Expression expression, const Amplitude *amplitude, const PetscReal X[3], PetscReal t, PetscReal *value)
-{
-  PetscFunctionBegin;
-  PetscCall(ExpressionEvaluate(expression, X, t, value));
-  if (amplitude->num > 0 || !ExpressionUsesTime(expression)) *value *= AmplitudeEvaluate(amplitude, t);
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* Directions prescribed at one node so far: orthonormal, and who asked for each. */
-typedef struct {
-  PetscInt  num;
-  PetscReal direction[3][3];
-  int8_t    cause[3];
-} NodeSupport;
-
-/* Add the part of a direction that is new. */
-static void AddDirection_Private(PetscInt dim, const PetscReal direction[3], int8_t cause, NodeSupport *s)
-{
-  PetscReal v[3] = {direction[0], direction[1], direction[2]};
-  if (s->num == dim) return;
-  for (PetscInt k = 0; k < s->num; ++k) {
-    const PetscReal along = Dot3(v, s->direction[k]);
-    for (PetscInt c = 0; c < 3; ++c) v[c] -= along * s->direction[k][c];
-  }
-  const PetscReal length = PetscSqrtReal(Dot3(v, v));
-  if (length < 1e-6) return;
-  for (PetscInt c = 0; c < 3; ++c) s->direction[s->num][c] = v[c] / length;
-  s->cause[s->num++] = cause;
-}
 
 /* Outward normal of a leaf facet from its corners (2-D: edge, 3-D: the mean of a bilinear face). */
 static PetscErrorCode FacetNormal_Private(Forest forest, const ForestTables *t, PetscInt facet, PetscReal normal[3])
@@ -90,18 +60,6 @@ static PetscErrorCode GroupNormal_Private(HPSpace space, const BoundarySpec *b, 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode BoundaryDirections_Private(PetscInt dim, const BoundarySpec *b, int8_t cause, const PetscReal normal[3], NodeSupport *s)
-{
-  PetscFunctionBegin;
-  for (PetscInt c = 0; c < dim; ++c) {
-    PetscReal unit[3] = {0, 0, 0};
-    unit[c]           = 1;
-    if (b->fix[c] || b->displacement[c] || b->rotation) AddDirection_Private(dim, unit, cause, s);
-  }
-  if (b->fix_normal) AddDirection_Private(dim, normal, cause, s);
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 static PetscBool IsUnit_Private(const PetscReal v[3])
 {
   PetscInt ones = 0;
@@ -131,7 +89,7 @@ static void NodeResult_Private(PetscInt dim, PetscInt node, NodeSupport *s, Supp
   for (PetscInt c = 0; c < dim; ++c) {
     PetscReal unit[3] = {0, 0, 0};
     unit[c]           = 1;
-    AddDirection_Private(dim, unit, -1, s);
+    MechanicsAsk_Private(dim, unit, 0, -1, s);
   }
   s->num                           = given;
   out->frame_node[out->num_frames] = node;
@@ -161,7 +119,6 @@ PetscErrorCode MechanicsSupportsCreate(HPSpace space, const MechanicsSpec *spec,
   const HPTables     *v;
   const ForestTables *t;
   Forest              forest;
-  PetscReal(*normal)[3];
 
   PetscFunctionBegin;
   PetscCall(HPSpaceGetTables(space, &v));
@@ -171,21 +128,16 @@ PetscErrorCode MechanicsSupportsCreate(HPSpace space, const MechanicsSpec *spec,
   PetscCall(PetscCalloc1(v->num_nodes, &out->fixed));
   PetscCall(PetscMalloc1(3 * v->num_nodes, &out->cause));
   PetscCall(PetscMalloc2(v->num_nodes, &out->frame_node, v->num_nodes, &out->frame));
-  PetscCall(PetscMalloc1(spec->num_boundaries, &normal));
+  PetscCall(PetscCalloc1(spec->num_boundaries, &out->normal));
   for (PetscInt i = 0; i < 3 * v->num_nodes; ++i) out->cause[i] = -1;
   for (PetscInt b = 0; b < spec->num_boundaries; ++b) {
-    if (spec->boundaries[b].fix_normal) PetscCall(GroupNormal_Private(space, &spec->boundaries[b], normal[b]));
+    if (spec->boundaries[b].fix_normal) PetscCall(GroupNormal_Private(space, &spec->boundaries[b], out->normal[b]));
   }
   for (PetscInt n = 0; n < v->num_nodes; ++n) {
-    const PetscInt entity = v->node_entity[n];
-    NodeSupport    s      = {0};
-    if (t->parent[entity] >= 0 || !t->boundary[entity]) continue;
-    for (PetscInt b = 0; b < spec->num_boundaries; ++b) {
-      if ((t->boundary[entity] >> spec->boundaries[b].group) & 1) PetscCall(BoundaryDirections_Private(v->dim, &spec->boundaries[b], (int8_t)b, normal[b], &s));
-    }
+    NodeSupport s = {0};
+    PetscCall(MechanicsNodeSupport_Private(spec, out->normal, v, t, n, NULL, &s));
     if (s.num) NodeResult_Private(v->dim, n, &s, out);
   }
-  PetscCall(PetscFree(normal));
   PetscCall(RigidNodes_Private(v, t, spec, out));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -196,79 +148,7 @@ PetscErrorCode MechanicsSupportsDestroy(Supports *s)
   PetscCall(PetscFree(s->fixed));
   PetscCall(PetscFree(s->cause));
   PetscCall(PetscFree2(s->frame_node, s->frame));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* Displacement of point X under a rotation by angle (degrees) about an axis through a point. */
-static void RotationValue_Private(const BoundarySpec *b, PetscReal degrees, const PetscReal X[3], PetscReal u[3])
-{
-  const PetscReal angle = degrees * PETSC_PI / 180, cosine = PetscCosReal(angle), sine = PetscSinReal(angle);
-  const PetscInt  i = (b->rotation_axis + 1) % 3, j = (b->rotation_axis + 2) % 3;
-  const PetscReal ri = X[i] - b->rotation_point[i], rj = X[j] - b->rotation_point[j];
-
-  u[b->rotation_axis] = 0;
-  u[i]                = cosine * ri - sine * rj - ri;
-  u[j]                = sine * ri + cosine * rj - rj;
-}
-
-/* Cartesian displacement that a boundary prescribes at X; unprescribed components 0. A rotation comes first, translations are added. */
-static PetscErrorCode BoundaryValue_Private(const BoundarySpec *b, PetscInt dim, const PetscReal X[3], PetscReal t, PetscReal u[3])
-{
-  PetscFunctionBegin;
-  u[0] = u[1] = u[2] = 0;
-  if (b->rotation) {
-    PetscReal degrees;
-    PetscCall(MechanicsValue(b->rotation_angle, &b->amplitude, X, t, &degrees));
-    RotationValue_Private(b, degrees, X, u);
-  }
-  for (PetscInt c = 0; c < dim; ++c) {
-    PetscReal value;
-    if (!b->displacement[c]) continue;
-    PetscCall(MechanicsValue(b->displacement[c], &b->amplitude, X, t, &value));
-    u[c] += value;
-  }
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-static PetscErrorCode BodyMotion_Private(const BodySpec *body, PetscInt dim, PetscReal t, PetscReal u[3])
-{
-  const PetscReal origin[3] = {0, 0, 0};
-
-  PetscFunctionBegin;
-  for (PetscInt c = 0; c < dim; ++c) {
-    u[c] = 0;
-    if (body->motion[c]) PetscCall(MechanicsValue(body->motion[c], &body->amplitude, origin, t, &u[c]));
-  }
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode MechanicsPrescribe(Mechanics m, PetscReal local[])
-{
-  const HPTables *v;
-
-  PetscFunctionBegin;
-  PetscCall(HPSpaceGetTables(m->space, &v));
-  for (PetscInt n = 0; n < v->num_nodes; ++n) {
-    const PetscReal *frame;
-    if (!m->supports->fixed[n]) continue;
-    PetscCall(HPSpaceGetFrame(m->space, n, &frame));
-    for (PetscInt c = 0; c < m->dim; ++c) {
-      const PetscInt cause = m->supports->cause[3 * n + c];
-      PetscReal      u[3];
-      if (!((m->supports->fixed[n] >> c) & 1)) continue;
-      if (cause <= -2)
-        PetscCall(BodyMotion_Private(&m->spec->bodies[-2 - cause], m->dim, m->t, u));
-      else
-        PetscCall(BoundaryValue_Private(&m->spec->boundaries[cause], m->dim, v->X + 3 * n, m->t, u));
-      for (PetscInt a = 0; a < m->dim && m->t == 0; ++a) u[a] = 0; /* at rest; asked all the same, for values that are not finite */
-      if (!frame)
-        local[n * m->dim + c] = u[c];
-      else {
-        local[n * m->dim + c] = 0;
-        for (PetscInt a = 0; a < m->dim; ++a) local[n * m->dim + c] += frame[3 * c + a] * u[a];
-      }
-    }
-  }
+  PetscCall(PetscFree(s->normal));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

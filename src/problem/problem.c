@@ -68,6 +68,7 @@ PetscErrorCode ProblemCreate(const SceneData *scene, Forest forest, const int8_t
   PetscCallMPI(MPI_Comm_size(p->comm, &p->size));
   PetscCall(ForestGetTables(forest, &t));
   p->dim = t->dim;
+  ErrorAsked("%" PetscInt_FMT " cells", t->num_leaves);
   for (PetscMPIInt k = 1; k < 4; ++k) {
     PetscCallMPI(MPI_Type_contiguous(k, MPIU_REAL, &p->unit[k]));
     PetscCallMPI(MPI_Type_commit(&p->unit[k]));
@@ -86,6 +87,7 @@ PetscErrorCode ProblemCreate(const SceneData *scene, Forest forest, const int8_t
   PetscCall(Vectors_Private(p));
   PetscCall(ScalarsCreate_Private(p));
   PetscCall(ProblemLayout_Private(p));
+  ErrorAsked("%" PetscInt_FMT " cells, %" PetscInt_FMT " unknowns", t->num_leaves, p->num_dofs);
   PetscCall(ProblemCreateVector(p, &p->start_x));
   PetscCall(StageEnd(STAGE_SETUP));
   *problem = p;
@@ -404,6 +406,17 @@ PetscErrorCode ProblemFindInverted(Problem p, PetscInt *order, PetscReal X[3])
   if (first < 0) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCallMPI(MPI_Bcast(order, 1, MPIU_INT, first, p->comm));
   PetscCallMPI(MPI_Bcast(X, 3, MPIU_REAL, first, p->comm));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode ProblemFindConflict(Problem p, PetscReal t, size_t size, char words[])
+{
+  PetscMPIInt first;
+
+  PetscFunctionBegin;
+  PetscCall(MechanicsFindConflict(p->mechanics, t, size, words));
+  PetscCall(RankFirst(p->comm, (PetscBool)(words[0] != 0), &first));
+  if (first >= 0) PetscCallMPI(MPI_Bcast(words, (PetscMPIInt)size, MPI_CHAR, first, p->comm));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -1,12 +1,32 @@
 /* Tree -> SceneData and the entries of the sections: everything that can be read and checked without the mesh. */
 #include "sceneimpl.h"
 
+#define LEAST_STEP 1e-8    /* of load.end: t tells times apart down to its round-off, which the smallest step by default (1/1024) is to stay above */
+#define MOST_STEPS 1000000 /* the most that load.max_steps may be */
+
 static const char *Stem_Private(const char *file, char stem[MORTISE_NAME])
 {
   const char *base = strrchr(file, '/') ? strrchr(file, '/') + 1 : file, *dot = strrchr(base, '.');
 
   (void)snprintf(stem, MORTISE_NAME, "%.*s", (int)(dot ? dot - base : (long)strlen(base)), base);
   return stem;
+}
+
+/* Steps that t can tell apart, and that may reach the end (unless a displacement ends the run before). */
+static PetscErrorCode CheckSteps_Private(const char *origin, const LoadSpec *load)
+{
+  PetscFunctionBegin;
+  PetscCheckInput(load->step <= load->end, "%s: load.step is %g, but load.end only %g", origin, (double)load->step, (double)load->end);
+  PetscCheckInput(load->step >= LEAST_STEP * load->end, "%s: load.step is %g; allowed: %g of load.end and more, %g", origin, (double)load->step, LEAST_STEP,
+                  (double)(LEAST_STEP * load->end));
+  PetscCheckInput(load->step_min >= LEAST_STEP / 1024 * load->end, "%s: load.step_min is %g; allowed: %g and more, which load.end = %g can tell apart", origin,
+                  (double)load->step_min, (double)(LEAST_STEP / 1024 * load->end), (double)load->end);
+  PetscCheckInput(load->step_min <= load->step && load->step <= load->step_max, "%s: load.step is %g; it must lie between step_min %g and step_max %g", origin,
+                  (double)load->step, (double)load->step_min, (double)load->step_max);
+  PetscCheckInput(load->stop_displacement > 0 || load->end / load->step_max <= MOST_STEPS,
+                  "%s: to load.end = %g more than %d steps of at most %g (load.step_max, by default load.step) lead; allowed: %g and more", origin,
+                  (double)load->end, MOST_STEPS, (double)load->step_max, (double)load->end / MOST_STEPS);
+  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 static PetscErrorCode ReadGeneral_Private(Scene s)
@@ -22,9 +42,7 @@ static PetscErrorCode ReadGeneral_Private(Scene s)
   if (d->load.step == 0) d->load.step = d->load.end / 10;
   if (d->load.step_max == 0) d->load.step_max = d->load.step;
   if (d->load.step_min == 0) d->load.step_min = d->load.step / 1024;
-  PetscCheckInput(d->load.step <= d->load.end, "%s: load.step is %g, but load.end only %g", s->root->origin, (double)d->load.step, (double)d->load.end);
-  PetscCheckInput(d->load.step_min <= d->load.step && d->load.step <= d->load.step_max, "%s: load.step is %g; it must lie between step_min %g and step_max %g",
-                  s->root->origin, (double)d->load.step, (double)d->load.step_min, (double)d->load.step_max);
+  PetscCall(CheckSteps_Private(s->root->origin, &d->load));
   PetscCheckInput(d->adapt.repeat == REPEAT_STEP || d->adapt.coarsen == 0,
                   "%s is %g, but with adapt.repeat: path one mesh is for all load steps and cells are refined only; allowed with it: 0",
                   NodeWhere(NodeFind(NodeFind(s->root, "adapt"), "coarsen")), (double)d->adapt.coarsen);
@@ -277,8 +295,11 @@ static PetscErrorCode ReadContact_Private(Scene s, SceneNode *node, ContactEntry
   PetscCheckInput(c->spec.friction == 0, "%s is %g: friction is not built yet; allowed: 0", NodeWhere(NodeFind(node, "friction")), (double)c->spec.friction);
   PetscCheckInput(!strchr(node->key, '/'), "%s: the name of a pair has no '/' in it", NodeWhere(node));
   for (PetscInt i = 0; &s->contact[i] < c; ++i) {
-    PetscCheckInput(strcmp(c->nonmortar, s->contact[i].nonmortar) || strcmp(c->mortar, s->contact[i].mortar),
-                    "%s: '%s' and '%s' are the sides of pair '%s' already", NodeWhere(node), c->nonmortar, c->mortar, s->contact[i].spec.name);
+    const ContactEntry *e    = &s->contact[i];
+    const PetscBool     same = (PetscBool)(!strcmp(c->nonmortar, e->nonmortar) && !strcmp(c->mortar, e->mortar));
+    const PetscBool     swap = (PetscBool)(!strcmp(c->nonmortar, e->mortar) && !strcmp(c->mortar, e->nonmortar));
+    PetscCheckInput(!same && !swap, "%s: '%s' and '%s' are the sides of pair '%s' already%s", NodeWhere(node), c->nonmortar, c->mortar, e->spec.name,
+                    swap ? ", the other way round" : "");
   }
   PetscCheckInput(strcmp(c->nonmortar, c->mortar), "%s: both sides are '%s'; a pair needs two different surfaces", NodeWhere(node), c->mortar);
   PetscCheckInput(s->data.mesh.dim == 2 || !c->spec.node_to_segment,

@@ -120,8 +120,9 @@ static PetscErrorCode IsFinite_Private(Mat A, PetscBool *yes)
 /* Factorise A. A failure shows in the solve that follows. */
 static PetscErrorCode Factor_Private(Solver s, Mat A)
 {
-  KSP ksp;
-  PC  pc;
+  PCFailedReason failed;
+  KSP            ksp;
+  PC             pc;
 
   PetscFunctionBegin;
   ++s->report->factorisations;
@@ -130,7 +131,6 @@ static PetscErrorCode Factor_Private(Solver s, Mat A)
   PetscCall(KSPSetUp(ksp));
 #if defined(PETSC_HAVE_MUMPS)
   for (PetscBool again = PETSC_TRUE; again;) {
-    PCFailedReason failed;
     again = PETSC_FALSE;
     PetscCall(KSPGetPC(ksp, &pc));
     PetscCall(PCGetFailedReason(pc, &failed));
@@ -141,6 +141,8 @@ static PetscErrorCode Factor_Private(Solver s, Mat A)
   }
 #endif
   PetscCall(KSPGetPC(ksp, &pc));
+  PetscCall(PCGetFailedReason(pc, &failed));
+  s->no_memory = (PetscBool)(failed == PC_FACTOR_OUTMEMORY);
   PetscCall(SolverInertia_Private(s, pc));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -315,7 +315,7 @@ static PetscErrorCode Iterate_Private(SNES snes, Solver s, Vec x, Vec r, Vec dx)
   PetscCall(ProblemSetEdge(s->problem, next));
   if (ok) PetscCall(Step_Private(snes, s, x, dx, r));
   if (!ok)
-    PetscCall(Finish_Private(snes, s, SNES_DIVERGED_LINEAR_SOLVE, "the tangent is singular"));
+    PetscCall(Finish_Private(snes, s, SNES_DIVERGED_LINEAR_SOLVE, s->no_memory ? "out of memory for a factor of the tangent" : "the tangent is singular"));
   else if (s->report->status.bad)
     PetscCall(Finish_Private(snes, s, SNES_DIVERGED_FUNCTION_DOMAIN, "every step along the Newton direction inverts a cell"));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -42,6 +42,7 @@ struct _p_Solver {
   PetscInt      best_iter;       /* … and its iteration */
   PetscInt      halvings;        /* steps shortened in this solve */
   PetscInt      negative;        /* pivots of the last factor of this solve beyond those of constraints, -1: not known */
+  PetscBool     no_memory;       /* for the last factor */
   SolverReport *report;
 };
 

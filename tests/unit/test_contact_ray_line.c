@@ -1,5 +1,7 @@
 /* Contact along a continuous direction where lines of both meshes lie on each other but for round-off, the mortar side ending inside: cells of hats see the
-   mortar facets on the same side of the line as the facet does, and forces are continuous. */
+   mortar facets on the same side of the line as the facet does, and forces are continuous. And where a mortar corner lies on a side of a facet, its line at a
+   small angle to it, since curved facets picture what lies beyond them a little beside a plane of symmetry: forces do not see by which of both the crossing is
+   found, and their derivatives are exact. */
 #include "rayfixture.h"
 
 #define ON 4.7e-10 /* steps of the line, about where clipping decides: 1e-9 of the root of a facet's area */
@@ -55,9 +57,88 @@ static void test_line_on_line(void **state)
   SumDestroy(&at);
 }
 
+/* Curved facets, 2 x 2 on either side, symmetric about y = 1/2 but for what the mortar corner that lies on a side there is moved by along y, whose number is
+ *corner. Sides of the nonmortar facets spread along x. */
+static void Spread(PetscInt order, PetscReal moved, PetscBool hessian, Sum *s, PetscInt *corner)
+{
+  const ContactSpec spec = {.continuous = PETSC_TRUE};
+  PetscReal         z[81];
+  Patch             nonmortar, mortar;
+  ContactPair       pair;
+
+  PatchCreate(&nonmortar, 3, order, 2, 0, 1, PETSC_TRUE, PETSC_FALSE);
+  PatchCreate(&mortar, 3, order, 2, 0, 1, PETSC_FALSE, PETSC_FALSE);
+  for (PetscInt n = 0; n < nonmortar.s.num_nodes; n++) {
+    PetscReal       *x = nonmortar.x + 3 * n, *y = mortar.x + 3 * n, *X = nonmortar.X + 3 * n;
+    const PetscReal *u = nonmortar.u + 2 * n, *v = mortar.u + 2 * n, b = u[1] - 0.5, c = v[1] - 0.5;
+
+    z[n] = 1 + u[0] + b * b;
+    X[0] = u[0], X[1] = u[1], X[2] = 0;
+    x[0] = u[0], x[1] = 0.5 + b * (1 + 0.02 * u[0] * u[0]), x[2] = 0.3 * (1 - cos(1.5 * (u[0] - 0.4))) + 0.1 * b * b;
+    y[0] = -0.35 + 1.8 * v[0], y[1] = 0.5 + 1.5 * c;
+    y[2] = 0.02 + 0.3 * (1 - cos(1.5 * (y[0] - 0.4))) + 0.2 * c * c + 0.05 * fabs(c);
+    if (v[0] != 0.5 || v[1] != 0.5) continue;
+    y[1] += moved;
+    *corner = 3 * (nonmortar.s.num_nodes + n) + 1;
+  }
+  memcpy(mortar.X, mortar.x, sizeof(PetscReal) * 3 * (size_t)mortar.s.num_nodes);
+  CHECK_CALL(ContactPairCreate(3, PETSC_FALSE, &spec, &pair));
+  SearchAll(pair, &nonmortar, &mortar, 0.5, 1e-3);
+  SumCreate(s, &nonmortar, &mortar);
+  SumEvaluate(s, pair, &nonmortar, &mortar, z, hessian);
+  assert_false(s->failed);
+  PatchDestroy(&nonmortar);
+  PatchDestroy(&mortar);
+  CHECK_CALL(ContactPairDestroy(&pair));
+}
+
+static void test_corner_on_line(void **state)
+{
+  (void)state;
+  for (PetscInt order = 2; order <= 4; order++) {
+    PetscReal worst = 0;
+    PetscInt  corner;
+    Sum       s;
+
+    for (int i = -8; i <= 8; i++) {
+      Spread(order, ON * i, PETSC_FALSE, &s, &corner);
+      worst = PetscMax(worst, PetscAbsReal(s.gradient[corner]) / Largest(s.gradient, s.size));
+      SumDestroy(&s);
+    }
+    print_message("order %d, corner within 4e-9 of a side: force across it %.1e\n", (int)order, worst);
+    assert_true(worst < 2e-9);
+  }
+}
+
+/* The crossing runs along the side with 100 times the corner's motion. */
+static void test_crossing_runs(void **state)
+{
+  const PetscReal moved = 1e-3, h = 2e-6, step[4] = {-2 * h, -h, h, 2 * h};
+
+  (void)state;
+  for (PetscInt order = 2; order <= 4; order++) {
+    PetscReal worst = 0;
+    PetscInt  corner;
+    Sum       at, s[4];
+
+    Spread(order, moved, PETSC_TRUE, &at, &corner);
+    for (int i = 0; i < 4; i++) Spread(order, moved + step[i], PETSC_FALSE, &s[i], &corner);
+    for (PetscInt k = 0; k < at.size; k++) {
+      const PetscReal f[4] = {s[0].gradient[k], s[1].gradient[k], s[2].gradient[k], s[3].gradient[k]};
+
+      worst = PetscMax(worst, PetscAbsReal(at.hessian[k * at.size + corner] - Difference(f, h)));
+    }
+    worst /= Largest(at.hessian, at.size * at.size);
+    print_message("order %d, crossing at a small angle: Hessian against differences %.1e\n", (int)order, worst);
+    assert_true(worst < 1e-6);
+    for (int i = 0; i < 4; i++) SumDestroy(&s[i]);
+    SumDestroy(&at);
+  }
+}
+
 int main(int argc, char **argv)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(test_line_on_line)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(test_line_on_line), cmocka_unit_test(test_corner_on_line), cmocka_unit_test(test_crossing_runs)};
   int                     failed;
 
   if (PetscInitialize(&argc, &argv, NULL, NULL)) return 1;

@@ -156,7 +156,7 @@ static void Tables(void **state)
   const ReportRow row            = {.step = 4, .t = 0.5, .cells = 99, .estimated_error = NAN, .seconds = 2.5, .accepted = PETSC_TRUE};
   History         history;
 
-  assert_int_equal(HistoryCreate(PETSC_COMM_WORLD, &scene, NULL, -1, 0, &history), 0);
+  assert_int_equal(HistoryCreate(PETSC_COMM_WORLD, &scene, NULL, NULL, &history), 0);
   assert_int_equal(HistoryPass(history, &row), 0);
   assert_int_equal(HistoryStep(history, &row, &balance, NULL, NULL), 0);
   assert_int_equal(HistoryDestroy(&history), 0);

@@ -1,4 +1,5 @@
 """Scenes as somebody who means no good would write them: one sentence, the exit status of the contract, and no half of a file under a name that promises a whole one."""
+import contextlib
 import json
 import resource
 
@@ -58,9 +59,73 @@ def test_beyond_numbers(run, tmp_path, E):
     gave_up(run("s.yml", text=block(tmp_path, material={"m": MATERIAL | {"E": E}})))
 
 
-def test_the_same_pair_twice(run, tmp_path):
-    sides = {"nonmortar": "y0_u", "mortar": "y1_l"}
-    refused(run("s.yml", text=blocks(tmp_path, one=sides, two=sides)), "contact.two", "the sides of pair 'one' already")
+@pytest.mark.parametrize("turned", [False, True])
+def test_the_same_pair_twice(run, tmp_path, turned):
+    sides = ["y0_u", "y1_l"]
+    one, two = ({"nonmortar": a, "mortar": b} for a, b in (sides, sides[::-1] if turned else sides))
+    refused(run("s.yml", text=blocks(tmp_path, one=one, two=two)), "contact.two", "the sides of pair 'one' already", "other way round" if turned else "")
+
+
+@pytest.mark.parametrize("load,words", [({"step": 1e-300}, ["load.step is 1e-300", "1e-08"]), ({"step": 0.1, "step_min": 1e-20}, ["load.step_min is 1e-20"]),
+                                        ({"step": 1e-7}, ["1000000 steps", "1e-07", "load.step_max"]),
+                                        ({"step": 1e-7, "step_max": 0.1}, None), ({"step": 1e-7, "stop_displacement": 1e-9}, None)])
+def test_steps_without_end(run, tmp_path, load, words):
+    """Refused where t could not tell them apart, or the end cannot be reached."""
+    result = run("s.yml", "-check", text=block(tmp_path, load=load))
+    if words:
+        refused(result, *words)
+    else:
+        assert result.returncode == 0, result
+
+
+def test_too_fine_a_mesh(run, tmp_path):
+    """Before memory is asked for."""
+    refused(run("s.yml", "-mesh_refine", 12, text=block(tmp_path)), "mesh.refine is 12", "67108864 cells")
+
+
+# ---- supports that meet -----------------------------------------------------------------------------------------------------------------
+
+
+def held(**boundary):
+    return {"boundary": {"y0": {"fix": "xy"}} | boundary}
+
+
+@pytest.mark.parametrize("keys,words", [
+    (held(x0={"displacement": {"x": 0.1}}), ["boundary.y0 and boundary.x0", "(0, 0, 0)", "in x: 0 and 0.05 at t = 0.5"]),
+    (held(x1={"displacement": {"y": "t < 0.6 ? 0 : 0.02"}}), ["boundary.y0 and boundary.x1", "(1, 0, 0)", "in y: 0 and 0.02 at t = 1"]),
+    (held(x1={"displacement": {"y": 0.02}, "amplitude": [0, 0, 0.3, 1, 0.4, 0]}), ["in y: 0 and 0.02 at t = 0.3"]),
+    (held(y1={"rotation": {"angle": 90, "point": {"x": 0, "y": 1}}}, x1={"fix": "y"}), ["boundary.y1 and boundary.x1", "(1, 1, 0)", "in y: 0.707107 and 0 at t = 0.5"]),
+    (held(y1={"rotation": {"angle": 90, "point": {"x": 0, "y": 1}}}, x0={"fix": "y"}), None),  # about the corner they share
+    (held(x0={"displacement": {"x": "1e-14*t"}}), None),  # round-off
+    (held(x1={"displacement": {"y": "t < 0.6 ? 0 : sqrt(X-2)"}}), None),  # not finite: told when the run comes there
+    (held(x0={"fix": "normal"}, y1={"displacement": {"x": 0.1}}), ["boundary.x0 and boundary.y1", "(0, 1, 0)"]),
+])
+def test_supports_that_contradict(run, tmp_path, keys, words):
+    """Two that hold a point of the mesh must move it alike, at any time of the run."""
+    result = run("s.yml", "-check", text=block(tmp_path, **keys))
+    if words:
+        refused(result, *words)
+    else:
+        assert result.returncode == 0, result
+
+
+def test_supports_that_contradict_on_two_processes(run, tmp_path):
+    """The process that has the point tells the others; without -check too."""
+    refused(run("s.yml", text=block(tmp_path, **held(x1={"displacement": {"x": 0.1}})), ranks=2), "boundary.y0 and boundary.x1", "(1, 0, 0)")
+
+
+def test_a_rigid_body_and_its_support(run, tmp_path):
+    die = {"body": {"body": {"material": "steel", "motion": {"y": -0.1}}}, "material": {"steel": {"law": "rigid"}}}
+    refused(run("s.yml", "-check", text=block(tmp_path, **die, **held())), "body.body.motion and boundary.y0", "in y: -0.05 and 0")
+
+
+def test_supports_at_an_angle(run, tmp_path):
+    """A floor that rises at 45 degrees, along which a side is pushed by 0.1 in x: the block moves by (0.1, 0.1) as a whole, the corner that both hold too."""
+    text = block(tmp_path, boundary={"y0": {"fix": "normal"}, "x0": {"displacement": {"x": 0.1}}}, probe={"corner": {"x": 0, "y": 0}})
+    write(tmp_path / "block.msh", [linspace(0, 1, 2)] * 2, lambda x, y: (x, y + x))
+    result = run("s.yml", text=text)
+    assert result.returncode == 0, result
+    assert result.summary["probe"]["corner"]["displacement"] == pytest.approx([0.1, 0.1], abs=1e-9) and result.summary["energy"] < 1e-15, result
 
 
 def test_names_that_files_cannot_bear(run, tmp_path):
@@ -75,16 +140,31 @@ def test_a_directory_in_the_way(run, tmp_path, name):
     assert result.returncode == 2 and len(result.stderr.splitlines()) == 1 and result.stderr.startswith("mortise: "), result
 
 
+@contextlib.contextmanager
+def limited(what, kilobytes):
+    before = resource.getrlimit(what)
+    resource.setrlimit(what, (1024 * kilobytes, before[1]))
+    try:
+        yield
+    finally:
+        resource.setrlimit(what, before)
+
+
+@pytest.mark.parametrize("megabytes,words", [(600, "for 1048576 cells (mesh.refine: 9)"), (200, "(ulimit -v)")])
+def test_out_of_memory(run, tmp_path, megabytes, words):
+    """One sentence that says for what."""
+    text = block(tmp_path)
+    with limited(resource.RLIMIT_AS, 1024 * megabytes):
+        result = run("s.yml", "-mesh_refine", 9, text=text)
+    assert result.returncode == 2 and len(result.stderr.splitlines()) == 1 and result.stderr.startswith("mortise: out of memory") and words in result.stderr, result
+
+
 @pytest.mark.parametrize("kilobytes", [1, 4, 40])
 def test_full_disk(run, tmp_path, kilobytes):
     """What was written before stays readable: no row or state without its end."""
-    before = resource.getrlimit(resource.RLIMIT_FSIZE)
     text = block(tmp_path, mesh={"file": "block.msh", "refine": 3})
-    resource.setrlimit(resource.RLIMIT_FSIZE, (1024 * kilobytes, before[1]))
-    try:
+    with limited(resource.RLIMIT_FSIZE, kilobytes):
         result = run("s.yml", text=text)
-    finally:
-        resource.setrlimit(resource.RLIMIT_FSIZE, before)
     assert result.returncode == 2 and len(result.stderr.splitlines()) == 1 and result.stderr.startswith("mortise: "), result
     assert "File too large" in result.stderr, result
     assert not (result.directory / "checkpoint.h5").exists() and len(result.states()) == len(result.history), result

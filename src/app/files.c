@@ -1,0 +1,55 @@
+/* What a run leaves in output.directory, opened: afresh, or where a checkpoint goes on. */
+#include "appimpl.h"
+#include <unistd.h>
+
+static const char *const Tables[] = {"history.csv", "adapt.csv"};
+
+/* Fields to go on with. */
+static PetscErrorCode ResumeFields_Private(App *app)
+{
+  PetscReal states;
+
+  PetscFunctionBegin;
+  PetscCall(CheckpointGetNumber(app->snapshot, "states", &states));
+  if (app->data->output.fields && states > 0) PetscCall(WriterResume(app->comm, app->data->output.directory, app->load_steps, (PetscInt)states, &app->writer));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode Tables_Private(App *app)
+{
+  const TablePlace place = {.step = app->load_steps, .t = app->level.accepted.t, .path = app->data->adapt.repeat == REPEAT_PATH ? app->path : -1};
+
+  PetscFunctionBegin;
+  PetscCall(HistoryCreate(app->comm, app->data, app->probes, app->restart[0] ? &place : NULL, &app->history));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode AppOpenFiles(App *app)
+{
+  PetscFunctionBegin;
+  PetscCall(OutputDirectoryCreate(app->comm, app->data->output.directory));
+  if (app->restart[0]) PetscCall(ResumeFields_Private(app));
+  PetscCall(Tables_Private(app));
+  if (app->data->output.fields && !app->writer) PetscCall(WriterCreate(app->comm, app->data->output.directory, &app->writer));
+  if (!app->restart[0]) PetscCall(AppForget(app));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode AppCheckFiles(App *app)
+{
+  PetscBool   there = PETSC_TRUE;
+  PetscMPIInt rank;
+
+  PetscFunctionBegin;
+  if (!app->restart[0]) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(ResumeFields_Private(app));
+  PetscCallMPI(MPI_Comm_rank(app->comm, &rank));
+  for (size_t i = 0; i < PETSC_STATIC_ARRAY_LENGTH(Tables) && rank == 0; ++i) {
+    char path[PETSC_MAX_PATH_LEN];
+    PetscCall(PetscSNPrintf(path, sizeof(path), "%s/%s", app->data->output.directory, Tables[i]));
+    there = (PetscBool)(there && !access(path, F_OK));
+  }
+  PetscCallMPI(MPI_Bcast(&there, 1, MPIU_BOOL, 0, app->comm));
+  if (there) PetscCall(Tables_Private(app)); /* those that are not there would be made */
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

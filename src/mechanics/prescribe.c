@@ -1,0 +1,215 @@
+/* What supports prescribe: displacements of nodes in time, and where two of them disagree. */
+#include "mechanicsimpl.h"
+
+#define NEW_DIRECTION 1e-6 /* the part of a direction beyond those before it, as a sine, that makes it one of its own */
+#define DISAGREE 1e-6      /* of the larger one: values further apart are not one value with round-off … */
+#define NOISE 1e-10        /* … nor, of the extent of the mesh, with that of its coordinates */
+
+PetscErrorCode MechanicsValue(Expression expression, const Amplitude *amplitude, const PetscReal X[3], PetscReal t, PetscReal *value)
+{
+  PetscFunctionBegin;
+  PetscCall(ExpressionEvaluate(expression, X, t, value));
+  if (amplitude->num > 0 || !ExpressionUsesTime(expression)) *value *= AmplitudeEvaluate(amplitude, t);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Displacement of point X under a rotation by angle (degrees) about an axis through a point. */
+static void RotationValue_Private(const BoundarySpec *b, PetscReal degrees, const PetscReal X[3], PetscReal u[3])
+{
+  const PetscReal angle = degrees * PETSC_PI / 180, cosine = PetscCosReal(angle), sine = PetscSinReal(angle);
+  const PetscInt  i = (b->rotation_axis + 1) % 3, j = (b->rotation_axis + 2) % 3;
+  const PetscReal ri = X[i] - b->rotation_point[i], rj = X[j] - b->rotation_point[j];
+
+  u[b->rotation_axis] = 0;
+  u[i]                = cosine * ri - sine * rj - ri;
+  u[j]                = sine * ri + cosine * rj - rj;
+}
+
+/* Cartesian displacement that a boundary prescribes at X; unprescribed components 0. A rotation comes first, translations are added. */
+static PetscErrorCode BoundaryValue_Private(const BoundarySpec *b, PetscInt dim, const PetscReal X[3], PetscReal t, PetscReal u[3])
+{
+  PetscFunctionBegin;
+  u[0] = u[1] = u[2] = 0;
+  if (b->rotation) {
+    PetscReal degrees;
+    PetscCall(MechanicsValue(b->rotation_angle, &b->amplitude, X, t, &degrees));
+    RotationValue_Private(b, degrees, X, u);
+  }
+  for (PetscInt c = 0; c < dim; ++c) {
+    PetscReal value;
+    if (!b->displacement[c]) continue;
+    PetscCall(MechanicsValue(b->displacement[c], &b->amplitude, X, t, &value));
+    u[c] += value;
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode BodyMotion_Private(const BodySpec *body, PetscInt dim, PetscReal t, PetscReal u[3])
+{
+  const PetscReal origin[3] = {0, 0, 0};
+
+  PetscFunctionBegin;
+  for (PetscInt c = 0; c < dim; ++c) {
+    u[c] = 0;
+    if (body->motion[c]) PetscCall(MechanicsValue(body->motion[c], &body->amplitude, origin, t, &u[c]));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- one node --------------------------------------------------------------------------------------------------------------------- */
+
+void MechanicsAsk_Private(PetscInt dim, const PetscReal direction[3], PetscReal value, int8_t cause, NodeSupport *s)
+{
+  PetscReal v[3] = {direction[0], direction[1], direction[2]}, rest = value, most = 0;
+  PetscInt  with = 0;
+
+  for (PetscInt k = 0; k < s->num; ++k) {
+    const PetscReal along = Dot3(v, s->direction[k]);
+    for (PetscInt c = 0; c < 3; ++c) v[c] -= along * s->direction[k][c];
+    rest -= along * s->value[k];
+    if (PetscAbsReal(along) > most) with = k;
+    most = PetscMax(most, PetscAbsReal(along));
+  }
+  const PetscReal length = PetscSqrtReal(Dot3(v, v));
+  if (s->num == dim || length < NEW_DIRECTION) {
+    if (PetscAbsReal(rest) > PetscAbsReal(s->asked - s->given)) {
+      s->rivals[0] = s->cause[with];
+      s->rivals[1] = cause;
+      s->given     = value - rest;
+      s->asked     = value;
+      for (PetscInt c = 0; c < 3; ++c) s->along[c] = direction[c];
+    }
+    return;
+  }
+  for (PetscInt c = 0; c < 3; ++c) s->direction[s->num][c] = v[c] / length;
+  s->value[s->num]   = rest / length;
+  s->cause[s->num++] = cause;
+}
+
+PetscErrorCode MechanicsNodeSupport_Private(const MechanicsSpec *spec, const PetscReal normal[][3], const HPTables *v, const ForestTables *t, PetscInt node,
+                                            const PetscReal *time, NodeSupport *s)
+{
+  const PetscInt   entity = v->node_entity[node];
+  const PetscReal *X      = v->X + 3 * node;
+
+  PetscFunctionBegin;
+  if (t->parent[entity] >= 0) PetscFunctionReturn(PETSC_SUCCESS);
+  for (PetscInt i = 0; i < spec->num_boundaries; ++i) {
+    const BoundarySpec *b    = &spec->boundaries[i];
+    PetscReal           u[3] = {0, 0, 0};
+    if (!((t->boundary[entity] >> b->group) & 1)) continue;
+    if (time) PetscCall(BoundaryValue_Private(b, v->dim, X, *time, u));
+    for (PetscInt c = 0; c < v->dim; ++c) {
+      PetscReal unit[3] = {0, 0, 0};
+      unit[c]           = 1;
+      if (b->fix[c] || b->displacement[c] || b->rotation) MechanicsAsk_Private(v->dim, unit, u[c], (int8_t)i, s);
+    }
+    if (b->fix_normal) MechanicsAsk_Private(v->dim, normal[i], 0, (int8_t)i, s);
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The prescribed components of a node in its frame: what boundaries ask along directions that are not at right angles has to be met by all of them together. */
+static PetscErrorCode FrameValues_Private(Mechanics m, const HPTables *v, const ForestTables *t, PetscInt node, PetscReal local[])
+{
+  NodeSupport s = {0};
+
+  PetscFunctionBegin;
+  PetscCall(MechanicsNodeSupport_Private(m->spec, (const PetscReal(*)[3])m->supports->normal, v, t, node, &m->t, &s));
+  for (PetscInt k = 0; k < s.num; ++k) local[k] = m->t == 0 ? 0 : s.value[k];
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode MechanicsPrescribe(Mechanics m, PetscReal local[])
+{
+  const HPTables     *v;
+  const ForestTables *t;
+  Forest              forest;
+
+  PetscFunctionBegin;
+  PetscCall(HPSpaceGetTables(m->space, &v));
+  PetscCall(HPSpaceGetForest(m->space, &forest));
+  PetscCall(ForestGetTables(forest, &t));
+  for (PetscInt n = 0; n < v->num_nodes; ++n) {
+    const PetscReal *frame;
+    if (!m->supports->fixed[n]) continue;
+    PetscCall(HPSpaceGetFrame(m->space, n, &frame));
+    if (frame && m->supports->cause[3 * n] > -2) {
+      PetscCall(FrameValues_Private(m, v, t, n, local + n * m->dim));
+      continue;
+    }
+    for (PetscInt c = 0; c < m->dim; ++c) {
+      const PetscInt cause = m->supports->cause[3 * n + c];
+      PetscReal      u[3]  = {0, 0, 0};
+      if (!((m->supports->fixed[n] >> c) & 1)) continue;
+      if (cause <= -2)
+        PetscCall(BodyMotion_Private(&m->spec->bodies[-2 - cause], m->dim, m->t, u));
+      else
+        PetscCall(BoundaryValue_Private(&m->spec->boundaries[cause], m->dim, v->X + 3 * n, m->t, u));
+      if (frame) u[c] = Dot3(frame + 3 * c, u);
+      local[n * m->dim + c] = m->t == 0 ? 0 : u[c]; /* at rest; asked all the same, for values that are not finite */
+    }
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- do they agree? ---------------------------------------------------------------------------------------------------------------- */
+
+static void Name_Private(const MechanicsSpec *spec, PetscInt cause, size_t size, char name[])
+{
+  if (cause <= -2)
+    (void)snprintf(name, size, "body.%s.motion", spec->bodies[-2 - cause].name);
+  else
+    (void)snprintf(name, size, "boundary.%s", spec->boundaries[cause].name);
+}
+
+static void Sentence_Private(const MechanicsSpec *spec, const NodeSupport *s, const PetscReal X[3], PetscReal time, size_t size, char words[])
+{
+  char name[2][MORTISE_NAME + 16], along[64];
+  int  axis = -1;
+
+  for (int c = 0; c < 3; ++c) {
+    if (PetscAbsReal(s->along[c]) == 1) axis = c;
+  }
+  for (int k = 0; k < 2; ++k) Name_Private(spec, s->rivals[k], sizeof(name[k]), name[k]);
+  if (axis >= 0)
+    (void)snprintf(along, sizeof(along), "in %c", 'x' + axis);
+  else
+    (void)snprintf(along, sizeof(along), "along (%.4g, %.4g, %.4g)", (double)s->along[0], (double)s->along[1], (double)s->along[2]);
+  (void)snprintf(words, size, "%s and %s move the point (%g, %g, %g), which both hold, by different displacements %s: %g and %g at t = %g", name[0], name[1],
+                 (double)X[0], (double)X[1], (double)X[2], along, (double)s->given, (double)s->asked, (double)time);
+}
+
+PetscErrorCode MechanicsFindConflict(Mechanics m, PetscReal time, size_t size, char words[])
+{
+  const HPTables     *v;
+  const ForestTables *t;
+  const CoarseMesh   *mesh;
+  Forest              forest;
+  PetscReal           lo[3], hi[3], extent = 0;
+
+  PetscFunctionBegin;
+  words[0] = 0;
+  PetscCall(HPSpaceGetTables(m->space, &v));
+  PetscCall(HPSpaceGetForest(m->space, &forest));
+  PetscCall(ForestGetTables(forest, &t));
+  PetscCall(ForestGetCoarse(forest, &mesh));
+  ForestCoarseBox(mesh, lo, hi);
+  for (PetscInt c = 0; c < m->dim; ++c) extent = PetscMax(extent, hi[c] - lo[c]);
+  for (PetscInt n = 0; n < v->num_nodes && !words[0]; ++n) {
+    const PetscInt cause = m->supports->cause[3 * n];
+    NodeSupport    s     = {0};
+    PetscReal      u[3];
+    if (!m->supports->fixed[n]) continue;
+    if (cause <= -2) PetscCall(BodyMotion_Private(&m->spec->bodies[-2 - cause], m->dim, time, u));
+    for (PetscInt c = 0; c < m->dim && cause <= -2; ++c) {
+      PetscReal unit[3] = {0, 0, 0};
+      unit[c]           = 1;
+      MechanicsAsk_Private(m->dim, unit, u[c], (int8_t)cause, &s);
+    }
+    PetscCall(MechanicsNodeSupport_Private(m->spec, (const PetscReal(*)[3])m->supports->normal, v, t, n, &time, &s));
+    if (PetscAbsReal(s.asked - s.given) > PetscMax(NOISE * extent, DISAGREE * PetscMax(PetscAbsReal(s.asked), PetscAbsReal(s.given))))
+      Sentence_Private(m->spec, &s, v->X + 3 * n, time, size, words);
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

@@ -1,0 +1,129 @@
+/* The iterative solution of the symmetric tangent (saddle.c) where rows of multipliers are compliant (B and C < 0 in one row, as where facets of higher order
+   are covered in part) among firm ones and inactive ones: the direct solution, for compliances over nine decades. */
+#include "patchfixture.h"
+#include "solveimpl.h"
+
+static PetscReal Solve(Saddle saddle, Mat A, Vec rhs, Vec x)
+{
+  PetscBool ok;
+  PetscReal norm, residual;
+  Vec       r;
+
+  OK(VecDuplicate(rhs, &r));
+  OK(SaddleSetUp_Private(saddle, A));
+  OK(SaddleSolve_Private(saddle, rhs, 1e-12, PETSC_FALSE, x, &ok));
+  assert_true(ok);
+  OK(MatMult(A, x, r));
+  OK(VecAXPY(r, -1, rhs));
+  OK(VecNorm(r, NORM_2, &residual));
+  OK(VecNorm(rhs, NORM_2, &norm));
+  OK(VecDestroy(&r));
+  return residual / norm;
+}
+
+static void Direct(Mat A, Vec rhs, Vec x)
+{
+  KSP ksp;
+  PC  pc;
+
+  OK(KSPCreate(PETSC_COMM_WORLD, &ksp));
+  OK(KSPSetOperators(ksp, A, A));
+  OK(KSPSetType(ksp, KSPPREONLY));
+  OK(KSPGetPC(ksp, &pc));
+  OK(PCSetType(pc, PCLU));
+  OK(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS));
+  OK(KSPSolve(ksp, rhs, x));
+  OK(KSPDestroy(&ksp));
+}
+
+/* Every other active row of multipliers gets -compliance, relative to b D^-1 b^T of that row, on its diagonal. Returns the number of rows changed on all ranks.
+ */
+static PetscInt Soften(Patch *p, PetscReal compliance, Mat A)
+{
+  PetscInt num_u, num_z, dim, first, last, changed = 0;
+  Vec      diagonal;
+
+  OK(ProblemGetBlocks(p->problem, &num_u, &num_z, &dim));
+  OK(MatGetOwnershipRange(A, &first, &last));
+  OK(MatCreateVecs(A, &diagonal, NULL));
+  OK(MatGetDiagonal(A, diagonal));
+  for (PetscInt row = first + num_u; row < first + num_u + num_z; row += 2) {
+    const PetscInt    *column;
+    const PetscScalar *value;
+    PetscInt           num;
+    PetscReal          flexible = 0, own;
+    OK(VecGetValues(diagonal, 1, &row, &own));
+    OK(MatGetRow(A, row, &num, &column, &value));
+    for (PetscInt k = 0; k < num; ++k) {
+      PetscReal stiff = 1;
+      if (column[k] < first || column[k] >= first + num_u) continue; /* those of this rank will do */
+      OK(VecGetValues(diagonal, 1, &column[k], &stiff));
+      flexible += PetscSqr(value[k]) / stiff;
+    }
+    OK(MatRestoreRow(A, row, &num, &column, &value));
+    if (own != 0 || flexible == 0) continue;
+    flexible *= -compliance;
+    OK(VecSetValues(diagonal, 1, &row, &flexible, INSERT_VALUES));
+    ++changed;
+  }
+  OK(VecAssemblyBegin(diagonal));
+  OK(VecAssemblyEnd(diagonal));
+  OK(MatDiagonalSet(A, diagonal, INSERT_VALUES));
+  OK(VecDestroy(&diagonal));
+  OK(MPI_Allreduce(MPI_IN_PLACE, &changed, 1, MPIU_INT, MPI_SUM, PETSC_COMM_WORLD));
+  return changed;
+}
+
+static void CompliantRows(void **state)
+{
+  static const PetscReal compliance[] = {0, 1e-6, 1e-3, 1, 1e3};
+  const PetscInt         n[2]         = {12, 16};
+  Patch                  p;
+  Saddle                 saddle;
+  Mat                    A, soft;
+  Vec                    rhs, x, exact;
+  PetscBool              bad;
+  PetscReal              norm, error, firm = 0;
+
+  PatchScene(&p, 2, MODEL_PLANE_STRAIN, KINEMATICS_FINITE, FORMULATION_AUTO);
+  p.forest = PatchForest(n);
+  PatchStart(&p);
+  PatchSolve(p.problem, &p.state);
+  OK(ProblemSetSymmetric(p.problem, PETSC_TRUE));
+  OK(ProblemTangent(p.problem, p.state.x, p.state.pressure, NULL, &bad));
+  assert_false(bad);
+  OK(ProblemGetMatrix(p.problem, &A));
+  OK(MatCreateVecs(A, &rhs, &x));
+  OK(VecDuplicate(x, &exact));
+  OK(VecSetRandom(rhs, NULL));
+  OK(SaddleCreate_Private(p.problem, &saddle));
+  for (size_t i = 0; i < sizeof(compliance) / sizeof(compliance[0]); ++i) {
+    OK(MatDuplicate(A, MAT_COPY_VALUES, &soft));
+    if (compliance[i] > 0) assert_in_range(Soften(&p, compliance[i], soft), 4, 100);
+    Direct(soft, rhs, exact);
+    const PetscReal residual = Solve(saddle, soft, rhs, x);
+    OK(VecNorm(exact, NORM_2, &norm));
+    if (i == 0) firm = norm;
+    if (i > 0) assert_true(PetscAbsReal(norm / firm - 1) > 1e-9); /* another problem */
+    OK(VecAXPY(x, -1, exact));
+    OK(VecNorm(x, NORM_2, &error));
+    print_message("compliance %g: residual %.1e, error %.1e\n", (double)compliance[i], (double)residual, (double)(error / norm));
+    assert_true(residual < 1e-9 && error < 1e-8 * norm);
+    OK(MatDestroy(&soft));
+  }
+  OK(SaddleDestroy_Private(&saddle));
+  OK(VecDestroy(&rhs));
+  OK(VecDestroy(&x));
+  OK(VecDestroy(&exact));
+  PatchDestroy(&p);
+}
+
+int main(int argc, char **argv)
+{
+  const struct CMUnitTest tests[] = {cmocka_unit_test(CompliantRows)};
+  int                     failed;
+
+  if (PetscInitialize(&argc, &argv, NULL, NULL)) return 2;
+  failed = cmocka_run_group_tests(tests, NULL, NULL);
+  return PetscFinalize() ? 2 : failed;
+}
