@@ -1,19 +1,24 @@
-// An octant of two hollow spheres one in the other: radii 5 to 10 and 10 to 20. Three blocks around the diagonal each; or the one of them at the x axis.
+// An octant of two hollow spheres one in the other, or a narrower part of its hemisphere: radii 5 to 10 and 10 to 20. Three blocks each, around the middle; or the
+// one of them at the x axis.
 DefineConstant[
   n = 2,     // cells along half a quarter circle of the inner sphere; the outer one has 3n/2
   m = 2,     // cells through each wall
-  third = 0  // 1: one block, between the planes y = 0, z = 0, x = y and x = z
+  third = 0, // 1: one block, between the planes y = 0, z = 0, x = y and x = z
+  angle = 90 // between the planes plane_x and plane_y, through the z axis
 ];
+c1 = Cos(angle * Pi / 180);  s1 = Sin(angle * Pi / 180);
+c2 = Cos(angle * Pi / 360);  s2 = Sin(angle * Pi / 360);
+d = Sqrt(3 + 2 * c1); // length of the sum of the three corners' directions
 For b In {0:1} // numbers of sphere 1 are 1000 larger; no extrusion: it would join the two
   t = 1000 * b;
   For h In {0:1} // inside and outside
     c = t + 100 * h;
     r = 5 * (b + 1) * (h + 1);
     s = r / Sqrt(2);
-    q = r / Sqrt(3);
     Point(c + 10) = {0, 0, 0};
-    Point(c + 1) = {r, 0, 0};  Point(c + 2) = {0, r, 0};  Point(c + 3) = {0, 0, r};
-    Point(c + 4) = {s, s, 0};  Point(c + 5) = {0, s, s};  Point(c + 6) = {s, 0, s};  Point(c + 7) = {q, q, q};
+    Point(c + 1) = {r, 0, 0};  Point(c + 2) = {r * c1, r * s1, 0};  Point(c + 3) = {0, 0, r};
+    Point(c + 4) = {r * c2, r * s2, 0};  Point(c + 5) = {s * c1, s * s1, s};  Point(c + 6) = {s, 0, s};
+    Point(c + 7) = {r * (1 + c1) / d, r * s1 / d, r / d};
     Circle(c + 1) = {c + 1, c + 10, c + 4};  Circle(c + 2) = {c + 4, c + 10, c + 2};
     Circle(c + 3) = {c + 2, c + 10, c + 5};  Circle(c + 4) = {c + 5, c + 10, c + 3};
     Circle(c + 5) = {c + 3, c + 10, c + 6};  Circle(c + 6) = {c + 6, c + 10, c + 1};
