@@ -124,6 +124,12 @@ static inline PetscReal MaterialYoung(const MaterialSpec *spec)
   return 9 * spec->mu / (3 + spec->mu / spec->kappa);
 }
 
+/* Do its cells have a pressure of their own that is condensed there? */
+static inline PetscBool MaterialStoresPressure(const MaterialSpec *spec)
+{
+  return (PetscBool)(spec->mixed && !spec->incompressible);
+}
+
 /* Unit vectors of all families at the reference position X in a coarse cell (which families of a field ask for); none for laws without fibres. Not
    collective. */
 void MaterialFiberDirections(const MaterialSpec *, PetscInt cell, const PetscReal X[3], PetscReal fiber[][3]);

@@ -116,8 +116,8 @@ typedef struct {
 } MechanicsStatus;
 
 /* Add the residual (internal minus external forces) at displacement u (local array, prescribed dofs set) to r (local array, prescribed dofs included:
- * reactions). */
-PetscErrorCode MechanicsResidual(Mechanics, const PetscReal u[], PetscReal r[], MechanicsStatus *);
+   reactions), with these element pressures. NULL: those that u implies, whose round-off is that of det F times the bulk modulus; so is that of the residual. */
+PetscErrorCode MechanicsResidual(Mechanics, const PetscReal u[], const PetscReal pressure[], PetscReal r[], MechanicsStatus *);
 
 /* Receives K[num][num] for local dofs; of an owned cell (its masters in order, all but those inside it where they are condensed) or of a load (cell -1). */
 typedef PetscErrorCode (*MatrixSink)(void *context, PetscInt cell, PetscInt num, const PetscInt dofs[], const PetscReal K[]);
@@ -177,6 +177,8 @@ PetscErrorCode MechanicsVolumeTangent(Mechanics, VolumeSink, void *context);
 PetscErrorCode MechanicsNumPressure(Mechanics, PetscInt *num);
 /* pressure += step * (linearised pressure at the last tangent + its derivative . du - pressure), du local array. */
 PetscErrorCode MechanicsUpdatePressure(Mechanics, const PetscReal du[], PetscReal step, PetscReal pressure[]);
+/* Take a copy of them: stress at points is theirs from now on. Before, it is that of those u implies. Collective: ghosts get theirs. */
+PetscErrorCode MechanicsStorePressure(Mechanics, const PetscReal pressure[]);
 
 /* History of laws that have one: num numbers on this rank, cell after cell, [point][component] in each. Residual and tangent are functions of u and of the
    history last set, which is that of the last accepted step; at first that of the virgin material. */
@@ -216,7 +218,7 @@ typedef struct {
   PetscReal *W;     /* [np] strain energy density */
 } PointValues;
 
-/* Point values in cell at np reference points xi[np][dim]. Owned and ghost cells (a ghost's pressure is consistent with u). */
+/* Point values in cell at np reference points xi[np][dim]. Owned and ghost cells (MechanicsStorePressure). */
 PetscErrorCode MechanicsPoints(Mechanics, PetscInt cell, PetscInt np, const PetscReal xi[], const PetscReal u[], const PointValues *);
 
 /* Where the coefficients of an owned cell lie in the pressure array; num 0: none are condensed (not mixed, incompressible, rigid), or a ghost. */

@@ -55,8 +55,9 @@ PetscErrorCode ProblemGetMechanics(Problem, Mechanics *);
 PetscErrorCode ProblemCreateVector(Problem, Vec *);
 PetscErrorCode ProblemGetMatrix(Problem, Mat *);
 
-/* The history that residual and tangent start from, of a state of this problem; a copy is taken. Whoever is given a state sets it. Collective. */
-PetscErrorCode ProblemSetHistory(Problem, const PetscReal history[]);
+/* Copies of a state's history, which residual and tangent start from, and of its element pressures, for stress at points. Whoever is given a state of this
+   problem sets it. Collective. */
+PetscErrorCode ProblemSetState(Problem, const State *);
 
 /* Prescribed motion: SetTime fixes the target; Jump applies it at once (no lift); otherwise the part not yet applied enters the next linear solve. */
 PetscErrorCode ProblemSetTime(Problem, PetscReal t);
@@ -192,8 +193,9 @@ typedef struct {
   PetscBool bad;     /* outside the domain: det F <= 0 or a failed projection */
 } ProblemStatus;
 
-/* R(x) with the prescribed motion as applied and the history last set. Deterministic function of x. Collective; status is the same on every rank. */
-PetscErrorCode ProblemResidual(Problem, Vec x, Vec r, ProblemStatus *);
+/* R(x) with the prescribed motion as applied and the history last set, with these element pressures (NULL: those that x implies). Deterministic function of
+   both. Collective; status is the same on every rank. */
+PetscErrorCode ProblemResidual(Problem, Vec x, const PetscReal pressure[], Vec r, ProblemStatus *);
 /* Views of contact show the last evaluation: make it that of x. Collective. */
 PetscErrorCode ProblemRefresh(Problem, Vec x);
 /* Static condensation, chosen once, before the matrix is made: the matrix and its right-hand side leave out the unknowns of nodes inside cells; vectors of
@@ -253,9 +255,9 @@ PetscErrorCode ProblemPending(Problem, PetscReal *remaining);
 PetscErrorCode ProblemNoteImbalance(Problem, Vec x, PetscBool *usable);
 PetscErrorCode ProblemLeaveImbalance(Problem, PetscReal share);
 
-/* Forces of the supports at x: reaction[num_boundaries][3]; contact force and moment about the origin on the nonmortar side: force[num_contacts][3],
-   moment[num_contacts][3]; all ranks. Evaluates the residual. */
-PetscErrorCode ProblemForces(Problem, Vec x, PetscReal reaction[][3], PetscReal force[][3], PetscReal moment[][3], ProblemStatus *);
+/* Forces of the supports in a state, which is set: reaction[num_boundaries][3]; contact force and moment about the origin on the nonmortar side:
+   force[num_contacts][3], moment[num_contacts][3]; all ranks. Evaluates the residual. */
+PetscErrorCode ProblemForces(Problem, const State *, PetscReal reaction[][3], PetscReal force[][3], PetscReal moment[][3], ProblemStatus *);
 /* Displacement dofs and multipliers of this rank, in that order in its part of the matrix; dimension. Not collective. */
 PetscErrorCode ProblemGetBlocks(Problem, PetscInt *num_u, PetscInt *num_z, PetscInt *dim);
 /* For multigrid methods, the space of order 1 on the same mesh in whole blocks: interpolation from the dofs of all vertices that have a free one (dim of each)

@@ -94,7 +94,7 @@ static PetscErrorCode Loads_Private(Problem problem, Vec x, Model model, PetscRe
   PetscCall(HPSpaceGetTables(space, &v));
   PetscCall(PetscCalloc2(v->num_nodes * v->dim, &u, v->num_nodes * v->dim, &r));
   PetscCall(ProblemLocalDisplacement(problem, x, u));
-  PetscCall(MechanicsResidual(mechanics, u, r, &status));
+  PetscCall(MechanicsResidual(mechanics, u, NULL, r, &status));
   load[0] = load[1] = load[2] = 0;
   for (PetscInt n = 0; n < v->num_nodes; ++n) {
     const PetscReal *q, *f = r + n * v->dim;
@@ -223,8 +223,7 @@ PetscErrorCode BalanceCompute(Problem problem, const State *state, Balance *b)
   PetscCall(PetscCalloc5(b->num_boundaries, &b->reaction, b->num_contacts, &b->pair, b->num_boundaries, &b->pressure, b->num_boundaries, &b->control,
                          b->num_bodies, &b->mean_strain));
   PetscCall(PetscMalloc1(b->num_contacts, &view));
-  PetscCall(ProblemSetHistory(problem, state->history));
-  PetscCall(ProblemForces(problem, state->x, b->reaction, NULL, NULL, &b->status));
+  PetscCall(ProblemForces(problem, state, b->reaction, NULL, NULL, &b->status));
   for (PetscInt i = 0; i < b->num_contacts; ++i) {
     PetscCall(ProblemGetContact(problem, i, &view[i]));
     PetscCall(BalanceZone(ForestComm(forest), view[i], &b->pair[i]));

@@ -390,7 +390,7 @@ PetscErrorCode EstimateCompute(Problem problem, const State *state, Estimate *e)
   PetscCall(ProblemGetMechanics(problem, &sum.mechanics));
   PetscCall(HPSpaceGetTables(sum.space, &v));
   sum.spec = &scene->mechanics;
-  PetscCall(ProblemSetHistory(problem, state->history));
+  PetscCall(ProblemSetState(problem, state));
   if (scene->num_contacts) {
     PetscCall(ProblemRefresh(problem, state->x));
     PetscCall(ContactTermsCreate_Private(problem, &contact));

@@ -322,7 +322,6 @@ static PetscErrorCode Chunk_Private(CellKernel k, CellBatch *b, PetscInt first, 
     Load_Private(num, m, 1, b->pressure + first * m, k->stored);
     pressure = k->stored;
   }
-  if (k->incompressible && b->pressure) PetscCall(PetscArraycpy(k->coefficient, k->stored, m));
   if (b->history) LoadHistory_Private(k, num, b->history + first * k->num_points * k->material.law->num_history);
   if (fibers && (b->energy || b->residual || tangent)) LoadSlabs_Private(k, num, fibers, b->fiber + first * fibers * k->num_points, k->fiber);
   if (b->energy || b->residual || tangent || b->trial) PetscCall(Law_Private(k, tangent, b, pressure, &bad));
@@ -331,7 +330,7 @@ static PetscErrorCode Chunk_Private(CellKernel k, CellBatch *b, PetscInt first, 
   if (b->trial) StoreTrial_Private(k, num, b->trial + first * k->num_points * k->material.law->num_history);
   if (b->energy) Energy_Private(k, num, b->energy + first);
   if (b->residual) {
-    if (k->mixed) CellKernelAddPressure_Private(k);
+    if (k->mixed) CellKernelAddPressure_Private(k, k->incompressible || b->acts ? pressure : k->coefficient);
     CellKernelFlux_Private(k, k->gradient);
     CellKernelIntegrate_Private(k, k->gradient, k->u);
     Store_Private(num, n, d, k->u, b->residual + first * size);

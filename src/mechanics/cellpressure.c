@@ -86,13 +86,13 @@ INLINE void MeasureGradient_Private(CellKernel k, PetscInt q, Lanes grad[9])
   for (int c = 0; c < 9; c++) grad[c] = k->small ? (Lanes){0} + (c % 4 == 0 ? 1 : 0) : grad[c] * k->measure[2 * k->num_points + q];
 }
 
-void CellKernelAddPressure_Private(CellKernel k)
+void CellKernelAddPressure_Private(CellKernel k, const Lanes *coefficient)
 {
   const PetscInt slab = k->slab_points;
 
   for (PetscInt q = 0; q < k->num_points; q++) {
     Lanes      *P  = k->P + (q / slab) * 9 * slab + q % slab, grad[9];
-    const Lanes pi = Evaluate_Private(k, q, k->coefficient);
+    const Lanes pi = Evaluate_Private(k, q, coefficient);
 
     MeasureGradient_Private(k, q, grad);
     for (int c = 0; c < 9; c++) P[c * slab] += pi * grad[c];

@@ -1,99 +1,32 @@
-/* What laws remember at the integration points of cells: layout, ghosts, and the step from one accepted state to the next. */
+/* What laws remember at the integration points of cells: layout, and the step from one accepted state to the next. */
 #include "mechanicsimpl.h"
-
-/* Places of cells in the history array: own cells group after group, then ghosts. */
-static void Layout_Private(Mechanics m, const HPTables *v, PetscInt *total)
-{
-  *total = 0;
-  for (PetscInt i = 0; i < m->num_groups; ++i) {
-    CellGroup *g = &m->groups[i];
-    g->history   = *total;
-    *total += g->num_cells * g->num_points * g->h;
-  }
-  m->num_history = *total;
-  for (PetscInt c = 0; c < v->num_cells; ++c) {
-    if (m->cell_group[c] < 0) continue;
-    const CellGroup *g    = &m->groups[m->cell_group[c]];
-    const PetscInt   size = g->num_points * g->h;
-    m->cell_history[c]    = c < v->num_owned_cells ? g->history + m->cell_index[c] * size : *total;
-    if (c >= v->num_owned_cells) *total += size;
-  }
-}
-
-/* Ghosts' entries from their owners': first the owners say where theirs are, by leaf. */
-static PetscErrorCode Ghosts_Private(Mechanics m, const HPTables *v, const ForestTables *t, MPI_Comm comm, PetscInt total)
-{
-  PetscInt     num = 0, *owner_place, *place;
-  PetscSF      leaves;
-  PetscSFNode *remote;
-
-  PetscFunctionBegin;
-  PetscCall(PetscMalloc2(t->num_leaves, &owner_place, v->num_cells, &place));
-  PetscCall(PetscMalloc1(v->num_cells - v->num_owned_cells, &remote));
-  for (PetscInt c = 0; c < v->num_owned_cells; ++c) owner_place[v->cell_leaf[c]] = m->cell_history[c];
-  for (PetscInt c = v->num_owned_cells; c < v->num_cells; ++c) {
-    remote[c - v->num_owned_cells].rank  = t->leaf_rank[v->cell_leaf[c]];
-    remote[c - v->num_owned_cells].index = v->cell_leaf[c];
-  }
-  PetscCall(PetscSFCreate(comm, &leaves));
-  PetscCall(PetscSFSetGraph(leaves, t->num_leaves, v->num_cells - v->num_owned_cells, NULL, PETSC_OWN_POINTER, remote, PETSC_OWN_POINTER));
-  PetscCall(PetscSFBcastBegin(leaves, MPIU_INT, owner_place, place, MPI_REPLACE));
-  PetscCall(PetscSFBcastEnd(leaves, MPIU_INT, owner_place, place, MPI_REPLACE));
-  PetscCall(PetscSFDestroy(&leaves));
-
-  PetscInt *here;
-  PetscCall(PetscMalloc1(total - m->num_history, &remote));
-  PetscCall(PetscMalloc1(total - m->num_history, &here));
-  for (PetscInt c = v->num_owned_cells; c < v->num_cells; ++c) {
-    const CellGroup *g = m->cell_group[c] < 0 ? NULL : &m->groups[m->cell_group[c]];
-    for (PetscInt k = 0; g && k < g->num_points * g->h; ++k, ++num) {
-      remote[num].rank  = t->leaf_rank[v->cell_leaf[c]];
-      remote[num].index = place[c - v->num_owned_cells] + k;
-      here[num]         = m->cell_history[c] + k;
-    }
-  }
-  PetscCall(PetscSFCreate(comm, &m->history_sf));
-  PetscCall(PetscSFSetGraph(m->history_sf, m->num_history, num, here, PETSC_OWN_POINTER, remote, PETSC_OWN_POINTER));
-  PetscCall(PetscFree2(owner_place, place));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
 
 PetscErrorCode MechanicsHistoryCreate_Private(Mechanics m)
 {
-  const HPTables     *v;
-  const ForestTables *t;
-  Forest              forest;
-  PetscInt            total;
-  PetscBool           any = PETSC_FALSE;
+  PetscInt  num = 0, *size;
+  PetscBool any = PETSC_FALSE;
 
   PetscFunctionBegin;
   for (PetscInt b = 0; b < m->spec->num_bodies; ++b) any = (PetscBool)(any || m->spec->bodies[b].material->law->num_history > 0);
   if (!any) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(HPSpaceGetTables(m->space, &v));
-  PetscCall(HPSpaceGetForest(m->space, &forest));
-  PetscCall(ForestGetTables(forest, &t));
-  PetscCall(PetscMalloc1(v->num_cells, &m->cell_history));
-  Layout_Private(m, v, &total);
-  PetscCall(PetscMalloc1(total, &m->history));
-  PetscCall(Ghosts_Private(m, v, t, ForestComm(forest), total));
-  PetscCall(MechanicsInitialHistory(m, m->history));
-  PetscCall(MechanicsSetHistory(m, m->history));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode MechanicsHistoryDestroy_Private(Mechanics m)
-{
-  PetscFunctionBegin;
-  PetscCall(PetscFree(m->cell_history));
-  PetscCall(PetscFree(m->history));
-  PetscCall(PetscSFDestroy(&m->history_sf));
+  PetscCall(PetscMalloc1(m->num_groups, &size));
+  for (PetscInt i = 0; i < m->num_groups; ++i) {
+    CellGroup *g = &m->groups[i];
+    size[i]      = g->num_points * g->h;
+    g->history   = num;
+    num += g->num_cells * size[i];
+  }
+  PetscCall(CellNumbersCreate_Private(m, size, &m->history));
+  PetscCall(PetscFree(size));
+  PetscCall(MechanicsInitialHistory(m, m->history.values));
+  PetscCall(MechanicsSetHistory(m, m->history.values));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode MechanicsNumHistory(Mechanics m, PetscInt *num)
 {
   PetscFunctionBegin;
-  *num = m->num_history;
+  *num = m->history.num;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -110,10 +43,7 @@ PetscErrorCode MechanicsInitialHistory(Mechanics m, PetscReal history[])
 PetscErrorCode MechanicsSetHistory(Mechanics m, const PetscReal history[])
 {
   PetscFunctionBegin;
-  if (!m->history_sf) PetscFunctionReturn(PETSC_SUCCESS);
-  if (history != m->history) PetscCall(PetscArraycpy(m->history, history, m->num_history));
-  PetscCall(PetscSFBcastBegin(m->history_sf, MPIU_REAL, m->history, m->history, MPI_REPLACE));
-  PetscCall(PetscSFBcastEnd(m->history_sf, MPIU_REAL, m->history, m->history, MPI_REPLACE));
+  PetscCall(CellNumbersSet_Private(&m->history, history));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -121,10 +51,10 @@ PetscErrorCode MechanicsHistoryRange(Mechanics m, PetscInt cell, PetscInt *first
 {
   PetscFunctionBegin;
   *first = *num = 0;
-  if (!m->history_sf || m->cell_group[cell] < 0 || m->cell_index[cell] < 0) PetscFunctionReturn(PETSC_SUCCESS);
+  if (!m->history.ghosts || m->cell_group[cell] < 0 || m->cell_index[cell] < 0) PetscFunctionReturn(PETSC_SUCCESS);
   const CellGroup *g = &m->groups[m->cell_group[cell]];
   *num               = g->num_points * g->h;
-  *first             = m->cell_history[cell];
+  *first             = m->history.place[cell];
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -164,7 +94,7 @@ PetscErrorCode MechanicsAdmit(Mechanics m, const PetscReal u[], PetscReal histor
     for (PetscInt c = 0; c < g->num_cells && g->h; ++c) {
       PetscBool inverted = PETSC_FALSE;
       PetscCall(Trial_Private(m, g, c, 1, PETSC_TRUE, u, history + g->history + c * size, &inverted));
-      if (inverted) PetscCall(PetscArraycpy(history + g->history + c * size, m->history + g->history + c * size, size));
+      if (inverted) PetscCall(PetscArraycpy(history + g->history + c * size, m->history.values + g->history + c * size, size));
     }
   }
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -192,7 +122,7 @@ PetscErrorCode MechanicsPlastic(Mechanics m, const PetscReal u[], PetscReal *str
   PetscCall(ForestGetTables(forest, &t));
   PetscCall(PetscArrayzero(integral, m->spec->num_bodies));
   *strain = *work = 0;
-  PetscCall(PetscMalloc1(m->num_history, &trial));
+  PetscCall(PetscMalloc1(m->history.num, &trial));
   PetscCall(MechanicsCommit(m, u, trial, &bad));
   for (PetscInt i = 0; i < m->num_groups; ++i) {
     const CellGroup *g = &m->groups[i];
@@ -221,14 +151,14 @@ PetscErrorCode MechanicsNumFlowing(Mechanics m, const PetscReal u[], PetscInt *n
 
   PetscFunctionBegin;
   *num = 0;
-  PetscCall(PetscMalloc1(m->num_history, &trial));
+  PetscCall(PetscMalloc1(m->history.num, &trial));
   PetscCall(MechanicsCommit(m, u, trial, &bad));
   for (PetscInt i = 0; i < m->num_groups; ++i) {
     const CellGroup *g = &m->groups[i];
     for (PetscInt q = 0; q < g->num_cells * g->num_points && g->h && g->material->law->plastic; ++q) {
       const PetscInt at = g->history + q * g->h;
       PetscReal      before, after, work;
-      g->material->law->plastic(g->material, m->history + at, &before, &work);
+      g->material->law->plastic(g->material, m->history.values + at, &before, &work);
       g->material->law->plastic(g->material, trial + at, &after, &work);
       if (after > before) ++*num;
     }

@@ -28,16 +28,20 @@ static PetscErrorCode GatherBatch_Private(Mechanics m, const CellGroup *g, Petsc
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* An incompressible cell's noise is that of its shear modulus; its pressure adds its own. */
-static PetscReal Pressed_Private(const CellGroup *g, const PetscReal pressure[])
+/* By how much the noise of a cell's forces exceeds that for F = I: det F errs by epsilon |cof F : F|, and cof F turns the pressure of that into forces:
+   |cof F|^2 <= |F|^4/3. Where the pressure is given (NULL: it is not) the noise is that of the shear modulus, and the pressure adds its own. */
+static PetscReal Growth_Private(Mechanics m, const CellGroup *g, PetscReal stretch2, const PetscReal pressure[])
 {
-  PetscReal sum = MaterialYoung(g->material);
+  const PetscReal of_F = m->spec->kinematics == KINEMATICS_SMALL ? 1 : 3 * PetscSqr(stretch2), E = MaterialYoung(g->material);
+  PetscReal       sum = E;
 
-  for (PetscInt a = 0; a < g->num_unknown; ++a) sum += PetscAbsReal(pressure[a]);
-  return sum / MaterialYoung(g->material);
+  if (!pressure) return of_F;
+  for (PetscInt a = 0; a < g->m + g->num_unknown; ++a) sum += PetscAbsReal(pressure[a]);
+  return of_F * sum / E * MechanicsNoiseModulus_Private(g->material, PETSC_TRUE) / MechanicsNoiseModulus_Private(g->material, PETSC_FALSE);
 }
 
-static PetscErrorCode GroupResidual_Private(Mechanics m, const CellGroup *g, const PetscReal u[], PetscReal r[], MechanicsStatus *status)
+static PetscErrorCode GroupResidual_Private(Mechanics m, const CellGroup *g, const PetscReal u[], const PetscReal pressure[], PetscReal r[],
+                                            MechanicsStatus *status)
 {
   const Buffers  b  = CutBuffers_Private(m, g);
   const PetscInt nd = g->n * m->dim;
@@ -59,6 +63,10 @@ static PetscErrorCode GroupResidual_Private(Mechanics m, const CellGroup *g, con
       batch.pressure   = b.pressure;
       batch.consistent = b.consistent;
     }
+    if (g->m && pressure) {
+      batch.pressure = pressure + g->pressure + first * g->m;
+      batch.acts     = PETSC_TRUE;
+    }
     PetscCall(CellKernelEvaluate(g->kernel, &batch));
     for (PetscInt i = 0; i < batch.nc; ++i) status->min_det = PetscMin(status->min_det, b.min_det[i]);
     if (batch.bad) {
@@ -67,9 +75,7 @@ static PetscErrorCode GroupResidual_Private(Mechanics m, const CellGroup *g, con
     }
     if (g->num_unknown) MechanicsUnknownsRows_Private(m, g, first, batch.nc, b.consistent, &status->volume);
     for (PetscInt i = 0; i < batch.nc; ++i) {
-      /* det F errs by epsilon |cof F : F|, and cof F turns the pressure of that into forces: |cof F|^2 <= |F|^4/3. */
-      const PetscReal growth =
-          (m->spec->kinematics == KINEMATICS_SMALL ? 1 : 3 * PetscSqr(b.stretch2[i])) * Pressed_Private(g, b.pressure + i * g->num_unknown);
+      const PetscReal growth = Growth_Private(m, g, b.stretch2[i], batch.pressure ? batch.pressure + i * (g->m + g->num_unknown) : NULL);
       status->energy += b.energy[i];
       status->noise2 += g->noise2[first + i] * PetscSqr(growth);
       status->drift2 += g->drift2[first + i] * PetscSqr(growth);
@@ -80,7 +86,7 @@ static PetscErrorCode GroupResidual_Private(Mechanics m, const CellGroup *g, con
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode MechanicsResidual(Mechanics m, const PetscReal u[], PetscReal r[], MechanicsStatus *status)
+PetscErrorCode MechanicsResidual(Mechanics m, const PetscReal u[], const PetscReal pressure[], PetscReal r[], MechanicsStatus *status)
 {
   const HPTables *v;
 
@@ -95,7 +101,7 @@ PetscErrorCode MechanicsResidual(Mechanics m, const PetscReal u[], PetscReal r[]
   status->bad     = PETSC_FALSE;
   PetscCall(HPSpaceGetTables(m->space, &v));
   for (PetscInt i = 0; i < v->num_nodes * m->dim; ++i) status->largest = PetscMax(status->largest, PetscAbsReal(u[i]));
-  for (PetscInt g = 0; g < m->num_groups; ++g) PetscCall(GroupResidual_Private(m, &m->groups[g], u, r, status));
+  for (PetscInt g = 0; g < m->num_groups; ++g) PetscCall(GroupResidual_Private(m, &m->groups[g], u, pressure, r, status));
   if (m->dead) {
     for (PetscInt i = 0; i < v->num_nodes * m->dim; ++i) {
       r[i] += m->dead[i];
@@ -227,7 +233,8 @@ PetscErrorCode MechanicsPoints(Mechanics m, PetscInt cell, PetscInt np, const Pe
   const HPTables     *v;
   const ForestTables *t;
   Forest              forest;
-  PetscReal          *X, *values, consistent[MOST_PRESSURES], *pressure = NULL;
+  const PetscReal    *pressure = NULL;
+  PetscReal          *X, *values, consistent[MOST_PRESSURES];
   PetscBool           bad;
 
   PetscFunctionBegin;
@@ -240,13 +247,15 @@ PetscErrorCode MechanicsPoints(Mechanics m, PetscInt cell, PetscInt np, const Pe
   values = X + g->n * m->dim;
   PetscCall(HPSpaceGatherPositions(m->space, cell, X));
   PetscCall(HPSpaceGather(m->space, cell, u, values));
-  if (g->m) { /* the volume alone tells the pressure, no fibres */
+  if (g->m && m->has_stored)
+    pressure = m->stored.values + m->stored.place[cell];
+  else if (g->m) { /* the volume alone tells the pressure, no fibres */
     CellBatch batch = {.nc = 1, .X = X, .u = values, .consistent = consistent};
     PetscCall(CellKernelEvaluate(g->kernel, &batch));
     pressure = consistent;
   }
   if (g->num_unknown) pressure = m->pressure + m->unknown_first[cell];
-  PetscCall(CellKernelPoints(g->kernel, t->leaf_root[v->cell_leaf[cell]], np, xi, X, values, pressure, g->h ? m->history + m->cell_history[cell] : NULL, points,
-                             &bad));
+  PetscCall(CellKernelPoints(g->kernel, t->leaf_root[v->cell_leaf[cell]], np, xi, X, values, pressure, g->h ? m->history.values + m->history.place[cell] : NULL,
+                             points, &bad));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

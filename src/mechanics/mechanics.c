@@ -77,9 +77,8 @@ static PetscErrorCode FillGroups_Private(Mechanics m, const HPTables *v, const F
 static void Noise_Private(Mechanics m)
 {
   for (PetscInt g = 0; g < m->num_groups; ++g) {
-    const CellGroup    *group    = &m->groups[g];
-    const MaterialSpec *material = group->material;
-    const PetscReal     modulus  = (material->incompressible ? MaterialYoung(material) : material->kappa) + 4. / 3 * material->mu;
+    const CellGroup *group   = &m->groups[g];
+    const PetscReal  modulus = MechanicsNoiseModulus_Private(group->material, PETSC_FALSE);
     for (PetscInt c = 0; c < group->num_cells; ++c) {
       PetscReal lo[3] = {PETSC_MAX_REAL, PETSC_MAX_REAL, PETSC_MAX_REAL}, hi[3] = {PETSC_MIN_REAL, PETSC_MIN_REAL, PETSC_MIN_REAL}, most = 0,
                 least = PETSC_MAX_REAL;
@@ -124,6 +123,7 @@ PetscErrorCode MechanicsCreate(HPSpace space, const MechanicsSpec *spec, const S
   PetscCall(MechanicsControlsCreate_Private(m));
   PetscCall(MechanicsLoadFacets_Private(m));
   PetscCall(MechanicsFreeBodies_Private(m));
+  PetscCall(MechanicsStoredCreate_Private(m));
   PetscCall(MechanicsHistoryCreate_Private(m));
   *mechanics = m;
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -137,7 +137,8 @@ PetscErrorCode MechanicsDestroy(Mechanics *mechanics)
   if (!m) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(MechanicsCondenseDestroy_Private(m));
   PetscCall(MechanicsUnknownsDestroy_Private(m));
-  PetscCall(MechanicsHistoryDestroy_Private(m));
+  PetscCall(CellNumbersDestroy_Private(&m->history));
+  PetscCall(CellNumbersDestroy_Private(&m->stored));
   for (PetscInt g = 0; g < m->num_groups; ++g) {
     PetscCall(CellKernelDestroy(&m->groups[g].kernel));
     PetscCall(PetscFree(m->groups[g].fiber));

@@ -16,10 +16,11 @@ typedef struct {
   const PetscReal *u; /* [nc][n][d] displacements */
   const PetscReal
       *fiber; /* [nc][num_fibers][3][points] of CellKernelFibers; NULL for materials without fibres, and where no energy, residual or tangent is asked */
-  const PetscReal *pressure; /* [nc][m] stored pressure coefficients: enter the geometric stiffness only. NULL: the consistent ones are used.
-                                Incompressible: the pressure, never NULL where residual or tangent are asked for */
+  const PetscReal *pressure; /* [nc][m] stored pressure coefficients: enter the geometric stiffness only, and with `acts` the residual. NULL: the consistent
+                                ones are used. Incompressible: the pressure, never NULL where residual or tangent are asked for */
+  PetscBool        acts;     /* residual: that of the stored pressure */
   PetscReal       *energy;   /* [nc] */
-  PetscReal       *residual; /* [nc][n*d] dE/du, row node*d + component; a function of u alone */
+  PetscReal       *residual; /* [nc][n*d] dE/du, row node*d + component; a function of u alone unless the stored pressure acts */
   const PetscReal *history;  /* [nc][points][num_history] of laws with history, as the last accepted step left it */
   PetscReal       *trial;    /* [nc][points][num_history] as a step that ended at u would leave it */
   MaterialEdge     edge;     /* for the tangent */
@@ -128,6 +129,14 @@ typedef struct {
 
 #define MOST_PRESSURES ((MORTISE_MAX_ORDER * (MORTISE_MAX_ORDER + 1) * (MORTISE_MAX_ORDER + 2)) / 6) /* coefficients of a cell */
 
+/* Numbers that cells carry (numbers.c). */
+typedef struct {
+  PetscInt   num;    /* of owned cells */
+  PetscInt  *place;  /* owned [num_cells] where those of a cell, ghosts too, start */
+  PetscReal *values; /* owned: own cells group after group, then ghosts */
+  PetscSF    ghosts; /* owned: their numbers from their owners; NULL: not created */
+} CellNumbers;
+
 /* A facet that carries a load. */
 typedef struct {
   PetscInt cell, side, boundary; /* side = 2*direction + (high side) */
@@ -164,16 +173,21 @@ struct _p_Mechanics {
   PetscReal *volume_scale;  /* owned [num_owned_cells] E / h: what turns int q g(J) into a force */
 
   /* history.c */
-  PetscInt     num_history, *cell_history; /* numbers of owned cells; owned [num_cells] where those of a cell, ghosts too, start in history */
-  PetscReal   *history;                    /* owned: as the last accepted step left it, own cells first, then ghosts */
-  MaterialEdge edge;                       /* for the tangent */
-  PetscSF      history_sf;                 /* owned: ghosts' numbers from their owners; NULL: no law has history */
+  CellNumbers  stored;     /* element pressures that are condensed, as MechanicsStorePressure took them; no ghosts: there are none */
+  PetscBool    has_stored; /* it did */
+  CellNumbers  history;    /* as the last accepted step left it; no ghosts: no law has any */
+  MaterialEdge edge;       /* for the tangent */
 };
 
 /* History of the cells of a group from position `first` on; NULL: its law has none. */
 static inline const PetscReal *MechanicsBatchHistory_Private(Mechanics m, const CellGroup *g, PetscInt first)
 {
-  return g->h ? m->history + g->history + first * g->num_points * g->h : NULL;
+  return g->h ? m->history.values + g->history + first * g->num_points * g->h : NULL;
+}
+/* What round-off of F is multiplied by in nodal forces: where the pressure is given the bulk modulus has no part in it. */
+static inline PetscReal MechanicsNoiseModulus_Private(const MaterialSpec *material, PetscBool given)
+{
+  return (given || material->incompressible ? MaterialYoung(material) : material->kappa) + 4. / 3 * material->mu;
 }
 PetscErrorCode MechanicsLoadFacets_Private(Mechanics);
 PetscErrorCode MechanicsDeadLoads_Private(Mechanics);
@@ -187,9 +201,15 @@ PetscErrorCode MechanicsControlsCreate_Private(Mechanics);
    as CellBatch with place and inner = factor leaves it. K becomes what is left, full. *singular: it cannot be done. */
 PetscErrorCode MechanicsCondenseDestroy_Private(Mechanics);
 PetscErrorCode MechanicsCondenseCell_Private(Mechanics, CellGroup *, PetscInt i, PetscReal K[], PetscBool *singular);
+/* numbers.c: size[num_groups] numbers of each cell, 0 at first. Collective. */
+PetscErrorCode CellNumbersCreate_Private(Mechanics, const PetscInt size[], CellNumbers *);
+/* Take those of owned cells, ghosts get theirs; nothing where not created. Collective. */
+PetscErrorCode CellNumbersSet_Private(CellNumbers *, const PetscReal own[]);
+PetscErrorCode CellNumbersDestroy_Private(CellNumbers *);
+/* pressure.c: room for those that are stored. Collective. */
+PetscErrorCode MechanicsStoredCreate_Private(Mechanics);
 /* history.c: layout and initial values. Collective. */
 PetscErrorCode MechanicsHistoryCreate_Private(Mechanics);
-PetscErrorCode MechanicsHistoryDestroy_Private(Mechanics);
 /* free.c: free_share. Collective. */
 PetscErrorCode MechanicsFreeBodies_Private(Mechanics);
 /* incompressible.c: after the groups. */
@@ -269,7 +289,7 @@ void     CellKernelIntegrate_Private(CellKernel, const Lanes *flux, Lanes *resul
 void     CellKernelPullBack_Private(CellKernel, PetscInt q, const Lanes T[9], Lanes *flux); /* flux [d][r][q] at q of a stress-like T, times volume */
 /* cellpressure.c */
 void CellKernelProject_Private(CellKernel);                                                     /* measure -> mass, moment, coefficient */
-void CellKernelAddPressure_Private(CellKernel);                                                 /* P += pi g' cof */
+void CellKernelAddPressure_Private(CellKernel, const Lanes *coefficient);                       /* P += pi g' cof */
 void CellKernelAddPressureTangent_Private(CellKernel, PetscInt slab, const Lanes *coefficient); /* A += pi (g'' cof (x) cof + g' dcof/dF) */
 void CellKernelCouple_Private(CellKernel, PetscInt num_cells,
                               PetscReal *dpressure); /* coupling; dpressure [num_cells][m][n*d] unless NULL, incompressible: of int q g */

@@ -30,6 +30,29 @@ PetscErrorCode MechanicsPressureRange(Mechanics m, PetscInt cell, PetscInt *firs
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscErrorCode MechanicsStoredCreate_Private(Mechanics m)
+{
+  PetscInt *size;
+  PetscBool any = PETSC_FALSE;
+
+  PetscFunctionBegin;
+  for (PetscInt b = 0; b < m->spec->num_bodies; ++b) any = (PetscBool)(any || MaterialStoresPressure(m->spec->bodies[b].material));
+  if (!any) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(PetscMalloc1(m->num_groups, &size));
+  for (PetscInt g = 0; g < m->num_groups; ++g) size[g] = m->groups[g].m;
+  PetscCall(CellNumbersCreate_Private(m, size, &m->stored));
+  PetscCall(PetscFree(size));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode MechanicsStorePressure(Mechanics m, const PetscReal pressure[])
+{
+  PetscFunctionBegin;
+  PetscCall(CellNumbersSet_Private(&m->stored, pressure));
+  m->has_stored = PETSC_TRUE;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode MechanicsPressureEvaluate(PetscInt dim, PetscInt order, PetscInt np, const PetscReal xi[], const PetscReal pressure[], PetscReal values[])
 {
   PetscReal q[MOST_PRESSURES];

@@ -235,7 +235,7 @@ PetscErrorCode HistoryStep(History h, const ReportRow *r, const Balance *balance
 
   PetscFunctionBegin;
   PetscCall(PetscMalloc1(num_probes, &probe));
-  if (num_probes) PetscCall(ProblemSetHistory(problem, state->history));
+  if (num_probes) PetscCall(ProblemSetState(problem, state));
   if (num_probes) PetscCall(ProbesEvaluate(h->probes, problem, state->x, probe));
   PetscCall(PetscArraycpy(h->values, fixed, num_fixed));
   PetscCall(Columns_Private(h->scene, num_probes, balance, probe, &c));

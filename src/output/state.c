@@ -226,7 +226,7 @@ PetscErrorCode OutputWriteState(Writer writer, Problem problem, const State *sta
   PetscCall(ProblemGetSpace(problem, &space));
   PetscCall(HPSpaceGetTables(space, &v));
   PetscCall(PetscMalloc1(v->num_nodes * v->dim, &u));
-  PetscCall(ProblemSetHistory(problem, state->history));
+  PetscCall(ProblemSetState(problem, state));
   PetscCall(ProblemLocalDisplacement(problem, state->x, u));
   PetscCall(GridCreate_Private(scene, t, space, &grid));
   PetscCall(WriterBegin(writer, series_time, step, pass, state->t));

@@ -228,7 +228,7 @@ static PetscErrorCode GatherState_Private(const SceneData *scene, const RunSumma
   if (!s->probes) PetscFunctionReturn(PETSC_SUCCESS);
   g->num_probes = scene->num_probes;
   PetscCall(PetscMalloc1(g->num_probes, &g->probe));
-  PetscCall(ProblemSetHistory(s->problem, s->state->history));
+  PetscCall(ProblemSetState(s->problem, s->state));
   PetscCall(ProbesEvaluate(s->probes, s->problem, s->state->x, g->probe));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -21,7 +21,7 @@ PetscErrorCode ProblemNoteImbalance(Problem p, Vec x, PetscBool *usable)
   PetscCall(ProblemLeaveImbalance(p, 0));
   if (!p->imbalance) PetscCall(ProblemCreateVector(p, &p->imbalance));
   PetscCall(ProblemSearch(p, x));
-  PetscCall(ProblemResidual(p, x, p->imbalance, &status));
+  PetscCall(ProblemResidual(p, x, NULL, p->imbalance, &status));
   PetscCall(VecGetLocalSize(p->imbalance, &num));
   PetscCall(VecGetArray(p->imbalance, &r));
   PetscCall(PetscArrayzero(r + p->num_u, num - p->num_u)); /* other rows: by the gaps, or not at all */

@@ -200,10 +200,11 @@ PetscErrorCode ProblemIsSymmetric(Problem p, PetscBool *possible)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode ProblemSetHistory(Problem p, const PetscReal history[])
+PetscErrorCode ProblemSetState(Problem p, const State *s)
 {
   PetscFunctionBegin;
-  PetscCall(MechanicsSetHistory(p->mechanics, history));
+  PetscCall(MechanicsSetHistory(p->mechanics, s->history));
+  PetscCall(MechanicsStorePressure(p->mechanics, s->pressure));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -467,13 +468,13 @@ PetscErrorCode StateCommit(Problem p, State *s)
   PetscBool  bad;
 
   PetscFunctionBegin;
-  PetscCall(ProblemSetHistory(p, s->history));
+  PetscCall(ProblemSetState(p, s));
   PetscCall(VecGetArray(p->u_local, &local));
   PetscCall(ProblemLocalDisplacement(p, s->x, local));
   PetscCall(MechanicsCommit(p->mechanics, local, s->history, &bad));
   PetscCall(VecRestoreArray(p->u_local, &local));
   PetscCheck(!bad, PETSC_COMM_SELF, PETSC_ERR_ARG_WRONGSTATE, "a state outside the domain cannot be accepted");
-  PetscCall(ProblemSetHistory(p, s->history));
+  PetscCall(ProblemSetState(p, s));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -482,7 +483,7 @@ PetscErrorCode StateAdmit(Problem p, State *s)
   PetscReal *local;
 
   PetscFunctionBegin;
-  PetscCall(ProblemSetHistory(p, s->history));
+  PetscCall(ProblemSetState(p, s));
   PetscCall(VecGetArray(p->u_local, &local));
   PetscCall(ProblemLocalDisplacement(p, s->x, local));
   PetscCall(MechanicsAdmit(p->mechanics, local, s->history));

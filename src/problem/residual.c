@@ -40,8 +40,8 @@ static PetscReal ContactNoise2_Private(Problem p)
   return sum;
 }
 
-/* Bulk and contact forces into the local array r, status summed over ranks. u: local array. */
-static PetscErrorCode LocalForces_Private(Problem p, Vec x, const PetscReal u[], PetscReal r[], ProblemStatus *status)
+/* Bulk and contact forces into the local array r, status summed over ranks. u: local array; pressure: as in MechanicsResidual. */
+static PetscErrorCode LocalForces_Private(Problem p, Vec x, const PetscReal u[], const PetscReal pressure[], PetscReal r[], ProblemStatus *status)
 {
   MechanicsStatus bulk;
   PetscBool       failed = PETSC_FALSE;
@@ -51,7 +51,7 @@ static PetscErrorCode LocalForces_Private(Problem p, Vec x, const PetscReal u[],
   PetscCall(HPSpaceGetTables(p->space, &v));
   PetscCall(PetscArrayzero(r, v->num_nodes * p->dim));
   PetscCall(StageBegin(STAGE_ASSEMBLE));
-  PetscCall(MechanicsResidual(p->mechanics, u, r, &bulk));
+  PetscCall(MechanicsResidual(p->mechanics, u, pressure, r, &bulk));
   PetscCall(StageEnd(STAGE_ASSEMBLE));
   PetscCall(StageBegin(STAGE_CONTACT));
   for (PetscInt i = 0; i < p->num_contacts; ++i) {
@@ -74,7 +74,7 @@ static PetscErrorCode LocalForces_Private(Problem p, Vec x, const PetscReal u[],
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode ProblemResidual(Problem p, Vec x, Vec r, ProblemStatus *status)
+PetscErrorCode ProblemResidual(Problem p, Vec x, const PetscReal pressure[], Vec r, ProblemStatus *status)
 {
   PetscReal *u, *local, *array;
   DM         dm;
@@ -84,7 +84,7 @@ PetscErrorCode ProblemResidual(Problem p, Vec x, Vec r, ProblemStatus *status)
   PetscCall(VecGetArray(p->u_local, &u));
   PetscCall(VecGetArray(p->r_local, &local));
   PetscCall(ProblemLocalDisplacement(p, x, u));
-  PetscCall(LocalForces_Private(p, x, u, local, status));
+  PetscCall(LocalForces_Private(p, x, u, pressure, local, status));
   PetscCall(ScalarsMeasure_Private(p, u));
   PetscCall(VecRestoreArray(p->u_local, &u));
   PetscCall(VecRestoreArray(p->r_local, &local));
@@ -109,20 +109,21 @@ PetscErrorCode ProblemRefresh(Problem p, Vec x)
 
   PetscFunctionBegin;
   PetscCall(ProblemCreateVector(p, &r));
-  PetscCall(ProblemResidual(p, x, r, &status));
+  PetscCall(ProblemResidual(p, x, NULL, r, &status));
   PetscCall(VecDestroy(&r));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode ProblemForces(Problem p, Vec x, PetscReal reaction[][3], PetscReal force[][3], PetscReal moment[][3], ProblemStatus *status)
+PetscErrorCode ProblemForces(Problem p, const State *state, PetscReal reaction[][3], PetscReal force[][3], PetscReal moment[][3], ProblemStatus *status)
 {
   PetscReal *u, *r;
 
   PetscFunctionBegin;
   PetscCall(VecGetArray(p->u_local, &u));
   PetscCall(VecGetArray(p->r_local, &r));
-  PetscCall(ProblemLocalDisplacement(p, x, u));
-  PetscCall(LocalForces_Private(p, x, u, r, status));
+  PetscCall(ProblemSetState(p, state));
+  PetscCall(ProblemLocalDisplacement(p, state->x, u));
+  PetscCall(LocalForces_Private(p, state->x, u, state->pressure, r, status));
   if (reaction) {
     PetscCall(MechanicsReactions(p->mechanics, r, reaction));
     PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, reaction, (PetscMPIInt)(3 * p->scene->mechanics.num_boundaries), MPIU_REAL, MPI_SUM, p->comm));

@@ -123,9 +123,9 @@ static PetscErrorCode Finish_Private(SNES snes, Solver s, SNESConvergedReason re
 }
 
 /* The residual is small against the nodal forces, or down at the round-off of an unloaded body. */
-static PetscBool Small_Private(const Solver s, PetscReal norm)
+static PetscBool Small_Private(const Solver s, const ProblemStatus *status, PetscReal norm)
 {
-  return (PetscBool)(norm <= PetscMax(s->rtol * s->report->status.scale, s->report->status.noise));
+  return (PetscBool)(norm <= PetscMax(s->rtol * status->scale, status->noise));
 }
 
 static PetscBool KeepsVolume_Private(const Solver s)
@@ -136,17 +136,33 @@ static PetscBool KeepsVolume_Private(const Solver s)
 /* What to say of an iteration that ends without a solution. */
 static const char *Words_Private(const Solver s, PetscReal norm, const char *usual)
 {
-  return Small_Private(s, norm) && !KeepsVolume_Private(s) ? "incompressible material cannot keep its volume" : usual;
+  return Small_Private(s, &s->report->status, norm) && !KeepsVolume_Private(s) ? "incompressible material cannot keep its volume" : usual;
+}
+
+/* Are the forces of the element pressures that Newton's method has found in balance? Round-off of the displacements times the bulk modulus is in those of the
+   pressures that x implies, down to which the iteration ends, but not in these, so that they tell whether its last step was small. */
+static PetscErrorCode Balanced_Private(Solver s, Vec x, PetscBool *yes)
+{
+  ProblemStatus status;
+  PetscReal     norm;
+
+  PetscFunctionBegin;
+  PetscCall(ProblemResidual(s->problem, x, s->pressure, s->balance, &status));
+  PetscCall(VecNorm(s->balance, NORM_2, &norm));
+  *yes = Small_Private(s, &status, norm);
+  PetscCall(PetscInfo(s->snes, "with the element pressures found: %g of %g\n", (double)norm, (double)status.scale));
+  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* Converged when the residual is small, incompressible cells keep their volume, and nothing prescribed is left. */
-static PetscErrorCode Converged_Private(Solver s, PetscReal norm, PetscBool *yes)
+static PetscErrorCode Converged_Private(Solver s, Vec x, PetscReal norm, PetscBool *yes)
 {
   PetscReal pending;
 
   PetscFunctionBegin;
   PetscCall(ProblemPending(s->problem, &pending));
-  *yes = (PetscBool)(pending == 0 && KeepsVolume_Private(s) && Small_Private(s, norm));
+  *yes = (PetscBool)(pending == 0 && KeepsVolume_Private(s) && Small_Private(s, &s->report->status, norm));
+  if (*yes && s->balance) PetscCall(Balanced_Private(s, x, yes));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -173,7 +189,7 @@ static PetscErrorCode Verdict_Private(SNES snes, Solver s, PetscReal norm)
   uint64_t  hash;
 
   PetscFunctionBegin;
-  PetscCall(Converged_Private(s, norm, &done));
+  PetscCall(Converged_Private(s, snes->vec_sol, norm, &done));
   PetscCall(ProblemActiveSetHash(s->problem, &hash));
   PetscCall(SetHistoryAdd_Private(&s->iterate_sets, hash, norm, PETSC_TRUE, &repeats));
   if (snes->iter == 1) s->first_norm = s->best_norm = norm; /* the first iterate carries the whole prescribed motion: progress counts from there */

@@ -30,7 +30,7 @@ PetscErrorCode SolverSettle(Solver s, State *state, SolverReport *report)
   report->reason = "the state to settle has an inverted cell";
   PetscCall(StateCreate(s->problem, &start));
   PetscCall(StateCopy(state, &start));
-  PetscCall(ProblemSetHistory(s->problem, state->history));
+  PetscCall(ProblemSetState(s->problem, state));
   PetscCall(ProblemNoteImbalance(s->problem, state->x, &usable));
   while (usable && left > 0 && piece >= LEAST && !report->stopped) {
     const PetscReal next = PetscMax(0, left - piece);

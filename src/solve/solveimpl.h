@@ -21,6 +21,7 @@ struct _p_Solver {
   SNES          snes;
   Vec           lift, rhs, y, hold; /* of the matrix: effect of the motion to come, right-hand side, solution, forces that hold bodies back */
   Vec           best;               /* solution of the active-set pass that contradicts itself least */
+  Vec           balance;            /* residual with the element pressures found; NULL: none are condensed */
   PetscReal    *pressure;           /* of the state being solved, borrowed during SolverSolve */
   PetscReal     rtol;
   PetscBool     symmetric; /* LDL^T of the symmetric form */

@@ -14,7 +14,7 @@ static PetscErrorCode Function_Private(SNES snes, Vec x, Vec r, void *context)
   Solver s = (Solver)context;
 
   PetscFunctionBegin;
-  PetscCall(ProblemResidual(s->problem, x, r, &s->report->status));
+  PetscCall(ProblemResidual(s->problem, x, NULL, r, &s->report->status));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -138,12 +138,24 @@ static PetscErrorCode Condense_Private(Solver s)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Are there element pressures that are condensed? */
+static PetscErrorCode StoresPressure_Private(Problem p, PetscBool *yes)
+{
+  const SceneData *scene;
+
+  PetscFunctionBegin;
+  PetscCall(ProblemGetScene(p, &scene));
+  *yes = PETSC_FALSE;
+  for (PetscInt b = 0; b < scene->mechanics.num_bodies; ++b) *yes = (PetscBool)(*yes || MaterialStoresPressure(scene->mechanics.bodies[b].material));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode SolverCreate(Problem problem, Solver *solver)
 {
   Solver    s;
   Mat       A;
   Vec       r;
-  PetscBool multigrid;
+  PetscBool multigrid, stores;
 
   PetscFunctionBegin;
   PetscCall(PetscNew(&s));
@@ -168,6 +180,8 @@ PetscErrorCode SolverCreate(Problem problem, Solver *solver)
   PetscCall(VecDuplicate(s->lift, &s->y));
   PetscCall(VecDuplicate(s->lift, &s->hold));
   PetscCall(ProblemCreateVector(problem, &s->best));
+  PetscCall(StoresPressure_Private(problem, &stores));
+  if (stores) PetscCall(ProblemCreateVector(problem, &s->balance));
   *solver = s;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -186,6 +200,7 @@ PetscErrorCode SolverDestroy(Solver *solver)
   PetscCall(VecDestroy(&s->y));
   PetscCall(VecDestroy(&s->hold));
   PetscCall(VecDestroy(&s->best));
+  PetscCall(VecDestroy(&s->balance));
   PetscCall(SetHistoryDestroy_Private(&s->pass_sets));
   PetscCall(SetHistoryDestroy_Private(&s->iterate_sets));
   PetscCall(PetscFree(*solver));
@@ -199,8 +214,9 @@ PetscErrorCode SolverSolve(Solver s, State *state, SolverReport *report)
   report->reason = "";
   s->report      = report;
   s->pressure    = state->pressure;
-  PetscCall(ProblemSetHistory(s->problem, state->history));
+  PetscCall(ProblemSetState(s->problem, state));
   PetscCall(SNESSolve(s->snes, NULL, state->x));
+  PetscCall(ProblemSetState(s->problem, state)); /* points tell of the pressures found */
   s->report   = NULL;
   s->pressure = NULL;
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -75,7 +75,7 @@ PetscErrorCode TransferState(Problem old_problem, const State *from, Problem new
   PetscCall(TransferHistory_Private(&c, &old, to->history));
   PetscCall(OldCellsDestroy_Private(&old));
 
-  if (scene->num_contacts) PetscCall(ProblemSetHistory(old_problem, from->history));
+  if (scene->num_contacts) PetscCall(ProblemSetState(old_problem, from));
   if (scene->num_contacts) PetscCall(ProblemRefresh(old_problem, from->x));
   PetscCall(Multipliers_Private(&c, old_problem, new_problem, scene->num_contacts, to->x));
   PetscCall(Scalars_Private(old_problem, from->x, new_problem, to->x));

@@ -76,7 +76,7 @@ static inline void PatchSolve(Problem problem, State *state)
 static inline void PatchEvaluate(Problem problem, Vec x, Vec r, ProblemStatus *status)
 {
   OK(ProblemSearch(problem, x));
-  OK(ProblemResidual(problem, x, r, status));
+  OK(ProblemResidual(problem, x, NULL, r, status));
   assert_false(status->bad);
 }
 

@@ -72,7 +72,7 @@ static inline void BulkSolve(const Bulk *b, PetscReal u[])
     KSP             ksp;
     PC              pc;
     OK(PetscArrayzero(r, v->num_nodes * v->dim));
-    OK(MechanicsResidual(b->mechanics, u, r, &status));
+    OK(MechanicsResidual(b->mechanics, u, NULL, r, &status));
     assert_false(status.bad);
     OK(VecCreateSeq(PETSC_COMM_SELF, n, &rhs));
     OK(VecDuplicate(rhs, &dx));

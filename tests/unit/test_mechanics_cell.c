@@ -327,6 +327,39 @@ static void BatchesEqualCells(void **state)
   CellTearDown(&one);
 }
 
+/* Where it acts the stored pressure is in the residual too: the consistent one changes nothing, another its forces by int dg/du, and no energy. Q1/P0, whose
+   dpressure is kappa over the volume times that. */
+static void StoredPressureActs(void **state)
+{
+  Cell       cell;
+  PetscReal *r0, *dpressure, volume[16], e0, stored, sum = 0;
+  PetscInt   points;
+
+  CellSetUp(&cell, 3, MODEL_3D, KINEMATICS_FINITE, 1, &choices[2], FORMULATION_MIXED);
+  assert_int_equal(cell.m, 1);
+  r0 = New(cell.size), dpressure = New(cell.size);
+  CellMake(3, 1, 0.15, 0.02, cell.X);
+  for (PetscInt i = 0; i < cell.size; i++) cell.u[i] = 0.05 * Random();
+  CellKernelHistory(cell.kernel, &points, NULL);
+  OK(CellKernelVolumes(cell.kernel, cell.X, volume));
+  for (PetscInt q = 0; q < points; q++) sum += volume[q];
+  cell.batch.dpressure = dpressure;
+  OK(CellKernelEvaluate(cell.kernel, &cell.batch));
+  PetscMemcpy(r0, cell.r, cell.size * sizeof(PetscReal));
+  e0                  = cell.energy;
+  stored              = cell.c[0];
+  cell.batch.pressure = &stored;
+  cell.batch.acts     = PETSC_TRUE;
+  OK(CellKernelEvaluate(cell.kernel, &cell.batch));
+  for (PetscInt i = 0; i < cell.size; i++) assert_near(cell.r[i], r0[i], 0);
+  stored += 2;
+  OK(CellKernelEvaluate(cell.kernel, &cell.batch));
+  for (PetscInt i = 0; i < cell.size; i++) assert_near(cell.r[i] - r0[i], 2 * dpressure[i] * sum / 5, 1e-14);
+  assert_near(cell.energy, e0, 0);
+  free(r0), free(dpressure);
+  CellTearDown(&cell);
+}
+
 /* The stored pressure enters the tangent alone, and linearly: residual and energy stay; the consistent one gives the same tangent as none. */
 static void StoredPressureIsGeometric(void **state)
 {
@@ -577,10 +610,11 @@ int main(int argc, char **argv)
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(DerivativesAgree),          cmocka_unit_test(PatchIsExact),
       cmocka_unit_test(RigidRotationIsFree),       cmocka_unit_test(BatchesEqualCells),
-      cmocka_unit_test(StoredPressureIsGeometric), cmocka_unit_test(PressureIsProjection),
-      cmocka_unit_test(AxisymmetricHoopIsExact),   cmocka_unit_test(RingThroughAxisIsReported),
-      cmocka_unit_test(StretchIsReported),         cmocka_unit_test(SmallIsLinearised),
-      cmocka_unit_test(InversionIsReported),       cmocka_unit_test(ClampedCubeOfOrder4),
+      cmocka_unit_test(StoredPressureIsGeometric), cmocka_unit_test(StoredPressureActs),
+      cmocka_unit_test(PressureIsProjection),      cmocka_unit_test(AxisymmetricHoopIsExact),
+      cmocka_unit_test(RingThroughAxisIsReported), cmocka_unit_test(StretchIsReported),
+      cmocka_unit_test(SmallIsLinearised),         cmocka_unit_test(InversionIsReported),
+      cmocka_unit_test(ClampedCubeOfOrder4),
   };
 
   if (PetscInitialize(&argc, &argv, NULL, NULL)) return 1;

@@ -50,7 +50,7 @@ static void LinearStep(Solved *s, Vec x, PetscReal pressure, Vec dx, Mat *A, Vec
   OK(VecDuplicate(lift, rhs));
   OK(VecDuplicate(lift, &y));
   OK(VecSet(lift, 0));
-  OK(ProblemResidual(s->problem, x, r, &status));
+  OK(ProblemResidual(s->problem, x, NULL, r, &status));
   assert_false(status.bad);
   OK(ProblemTangent(s->problem, x, pressure != 0 ? pi : NULL, lift, &bad));
   assert_false(bad);

@@ -161,7 +161,7 @@ static void CheckTangent(Solved *s, const char *what)
   for (PetscInt k = 0; k < 2; ++k) {
     OK(VecDuplicate(x, &r[k]));
     OK(VecWAXPY(x, k ? h : -h, d, s->state.x));
-    OK(ProblemResidual(s->problem, x, r[k], &status));
+    OK(ProblemResidual(s->problem, x, NULL, r[k], &status));
     assert_false(status.bad);
   }
   OK(VecAXPY(r[1], -1, r[0]));

@@ -138,7 +138,7 @@ static void Derivative(PetscInt dim, PetscInt split, uint64_t seed)
   for (PetscInt k = 0; k < 2; ++k) {
     OK(VecDuplicate(x, &r[k]));
     OK(VecWAXPY(y, k ? -h : h, v, x));
-    OK(ProblemResidual(s.problem, y, r[k], &status));
+    OK(ProblemResidual(s.problem, y, NULL, r[k], &status));
     assert_false(status.bad);
   }
   OK(ProblemSetSymmetric(s.problem, PETSC_FALSE));
@@ -207,7 +207,7 @@ static void Transferred(void **state)
   OK(TransferState(s.problem, &s.state, fine.problem, &map, &fine.state));
   OK(ForestMapDestroy(&map));
   OK(ProblemCreateVector(fine.problem, &r));
-  OK(ProblemResidual(fine.problem, fine.state.x, r, &status));
+  OK(ProblemResidual(fine.problem, fine.state.x, NULL, r, &status));
   OK(VecNorm(r, NORM_2, &norm));
   assert_true(norm < 1e-11 * status.scale && status.volume < 1e-12);
   OK(PetscCalloc1(fine.tables->num_nodes * fine.tables->dim, &fine.u));

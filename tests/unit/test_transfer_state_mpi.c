@@ -22,7 +22,7 @@ static void Equilibrium(void **state)
       PatchMove(&p, 3, (PetscBool)(step % 2), PETSC_FALSE);
       OK(ProblemCreateVector(p.problem, &r));
       OK(ProblemSearch(p.problem, p.state.x));
-      OK(ProblemResidual(p.problem, p.state.x, r, &status));
+      OK(ProblemResidual(p.problem, p.state.x, NULL, r, &status));
       OK(VecNorm(r, NORM_INFINITY, &norm));
       assert_true(status.scale > 1e-3);
       assert_near(norm, 0, 1e-9 * status.scale);
@@ -56,7 +56,7 @@ static void RaisedOrders(void **state)
       PatchMove(&p, 3, (PetscBool)(step % 2), PETSC_TRUE);
       OK(ProblemCreateVector(p.problem, &r));
       OK(ProblemSearch(p.problem, p.state.x));
-      OK(ProblemResidual(p.problem, p.state.x, r, &status));
+      OK(ProblemResidual(p.problem, p.state.x, NULL, r, &status));
       OK(VecNorm(r, NORM_INFINITY, &norm));
       assert_true(status.scale > 1e-3);
       assert_near(norm, 0, 1e-9 * status.scale);
@@ -92,7 +92,7 @@ static void LinearMultipliers(void **state)
     PatchMove(&p, 3, (PetscBool)(step % 2), PETSC_FALSE);
     OK(ProblemCreateVector(p.problem, &r));
     OK(ProblemSearch(p.problem, p.state.x));
-    OK(ProblemResidual(p.problem, p.state.x, r, &status));
+    OK(ProblemResidual(p.problem, p.state.x, NULL, r, &status));
     OK(VecDestroy(&r));
     OK(ProblemGatherContactToAll(p.problem, 0, &view));
     for (PetscInt n = 0; n < view->nonmortar.num_nodes; ++n) assert_near(view->z[n], 0.1 + 0.03 * view->nonmortar.X[2 * n], 1e-13);

@@ -129,10 +129,9 @@ def test_o91_exchange_of_sides(solve):
 
 
 @pytest.mark.parametrize("path", [pytest.param("press", marks=slow), "press_and_slide"])
-def test_work_is_energy(solve, path):
+def test_work_is_energy(solve, path, lower=(6, 4, 1), upper=(2, 2, 1)):
     """Contact without friction does no work: the energy is the work of the top, to second order of the step (trapezoidal rule)."""
-    low = Box((0, 0, 0), (1.6, 1, 0.5), (6, 4, 1))
-    up = Box((0.15, 0.2, 0.5), (0.6, 0.55, 0.4), (2, 2, 1))
+    low, up = Box((0, 0, 0), (1.6, 1, 0.5), lower), Box((0.15, 0.2, 0.5), (0.6, 0.55, 0.4), upper)
     u = ("0", "0", "-0.06*t") if path == "press" else ("0.3*t*t", "0.1*t", "-0.06*t")
     error = []
     for n in (10, 20, 40):

@@ -86,9 +86,9 @@ def test_o91_exchange_of_sides_in_places(solve):
     assert difference.max() < 0.005 and difference[1].max() < 0.002 and difference[1].mean() < 0.5 * difference[0].mean()
 
 
-@faces(kinds=SECOND)
-def test_work_is_energy(solve):
-    space.test_work_is_energy(solve, "press_and_slide")
+@faces(kinds=BOTH)
+def test_work_is_energy(solve, kind):
+    space.test_work_is_energy(solve, "press_and_slide", *(((3, 2, 1), (1, 1, 1)) if kind[0] == "4" else ()))
 
 
 @faces(kinds=BOTH)
@@ -134,10 +134,13 @@ def test_o95_newton_order(solve, options):
 
 
 ADAPTED95 = ("-adapt_tolerance", 0.01, "-adapt_max_passes", 2)
-LOWER95 = [(kind, options) for kind in BOTH for options in ((), ADAPTED95) if (kind, options) != ("4-1", ADAPTED95)]
+SLIVER = fails("order 4, linear faces: the narrow body's edge ends 1 to 3 % of a facet beyond a line of the refined mesh; pressures at the facets' far nodes, which a sliver of their hats "
+               "alone holds, switch on and off at 2e3 times Young's modulus. With the edge 0.02 to one side or 0.04 to the other: 3 or 4 iterations")
+LOWER95 = {(kind, options): slow for kind in BOTH for options in ((), ADAPTED95)}
+LOWER95 |= {("2-full", ()): (), ("4-1", ADAPTED95): SLIVER}
 
 
-@pytest.mark.parametrize("kind,options", [pytest.param(*one, marks=() if one == ("2-full", ()) else slow) for one in LOWER95])
+@pytest.mark.parametrize("kind,options", [pytest.param(*one, marks=marks) for one, marks in LOWER95.items()])
 def test_o95_newton_order_lower(solve, options):
     """Full faces of the lower body end beyond the rim of the upper one: slivers of hats."""
     space.test_o95_newton_order(solve, options, "lower")
