@@ -78,7 +78,8 @@ PetscErrorCode MonitorResume(Monitor, const char *file, const ReportRow *so_far)
 /* The path of loads begins again, for the number-th time, on a finer mesh; error: the largest estimate of the one before. */
 PetscErrorCode MonitorAgain(Monitor, PetscInt number, PetscInt cells, PetscReal error);
 PetscErrorCode MonitorRow(Monitor, const ReportRow *); /* one line; on a terminal a bar with the time left below it */
-/* What was computed, estimated error, where results are. status as in summary.json; reason may be empty; checkpoint: one was written; last accepted
-   row, NULL: none. */
-PetscErrorCode MonitorFooter(Monitor, const char *status, const char *reason, const char *adapt_stop, PetscBool checkpoint, const ReportRow *last);
+/* What was computed, estimated error, where results are. status as in summary.json; reason may be empty; checkpoint: one was written; total: step, t,
+   newton_iterations, step_cuts and seconds of the whole run, with those of attempts that failed; last accepted row, NULL: none. */
+PetscErrorCode MonitorFooter(Monitor, const char *status, const char *reason, const char *adapt_stop, PetscBool checkpoint, const ReportRow *total,
+                             const ReportRow *last);
 PetscErrorCode MonitorDestroy(Monitor *);

@@ -29,6 +29,8 @@ PetscErrorCode WriterGrid(Writer, const char *grid, CellShape, PetscInt np, cons
  * as PetscReal. */
 PetscErrorCode WriterField(Writer, const char *name, PetscBool at_cells, PetscInt ncomp, const PetscReal *data);
 PetscErrorCode WriterEnd(Writer); /* flush, attribute "complete", close, rewrite the index */
+/* After an error between Begin and End (a full disk), before the run ends: the file of the open state goes, half of it is of no use. Not collective. */
+void WriterAbandon(Writer);
 
 /* ---- tables ------------------------------------------------------------------------------------------------------------ */
 

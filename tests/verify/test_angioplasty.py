@@ -24,6 +24,7 @@ FINE1 = (*LINEAR1, "-mesh_refine", 1)
 ADAPTIVE1, ADAPTIVE2 = (*FINE1, "-adapt_tolerance", 0.1), ("-adapt_tolerance", 0.003)
 RING = ("-mesh_parameter_sectors", 4)
 LARGE = ("-load_step", 0.2)
+AGAIN = ("-adapt_repeat", "path", "-adapt_alike", 0.5)
 PRESSURE, RADIUS = 0.01, 0.002  # tolerances
 RMS = 0.007  # of the pressures at the nodes
 
@@ -133,6 +134,16 @@ def test_o70_adaptive_linear_faces(run, options, tolerance, back):
     result = solve(run, *options, "-adapt_tolerance", tolerance)
     accurate(result, 0.03, back=back)
     adapted(result, 180 if options is LINEAR2 else 432)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("tolerance", [0.05, 0.03, 0.02, 0.015])
+def test_o70_adaptive_linear_faces_path_again(run, tolerance):
+    """Where the sleeve flows on the mesh that it has at the end, its faces are right at every node there and back."""
+    result = solve(run, *LINEAR2, *AGAIN, "-adapt_tolerance", tolerance)
+    accurate(result, 0.03)
+    adapted(result, 180)
+    assert result.summary["step_cuts"] == 0 and max(row["estimated_error"] for row in result.history) <= tolerance, result
 
 
 @pytest.mark.slow
@@ -259,13 +270,11 @@ def test_o70_ranks_adaptive(run, ranks, roles):
 # ---- O-71: the slotted stent in space ------------------------------------------------------------------------------------------------------
 
 PLACES = {"middle": ("stent_middle", .519615242, .3), "end": ("stent_end", .6, 0), "slot": ("lumen_slot", .71, 0), "strut": ("lumen_strut", .614878037, .355)}
-# adapt.tolerance, max_passes, max_cells
-STENT_MESHES = ((0.055, 1, 400), (0.05, 2, 800), (0.04, 3, 1400))
-# at the widest and afterwards: figure, share by which any of the three meshes may be off it, and by which one and the next may differ
-STENT_FIGURES = ({"middle": (0.8157, .003, .001), "end": (0.8207, .003, .002), "lumen": (2.278, .003, .002), "shortening": (0.0158, .03, .02), "force": (1.366, .02, .01),
-                  "work": (0.0447, .02, .01), "mean": (0.0148, .02, .015)},
-                 {"middle": (0.732, .003, .002), "end": (0.6995, .004, .002), "lumen": (1.880, .004, .003), "shortening": (0.0046, .1, .1), "force": (0.1715, .02, .01),
-                  "work": (0.0496, .02, .02), "mean": (0.0163, .03, .02), "recoil": (0.1028, .02, .01)})
+# at the widest and afterwards: figure, share by which it may be off, and by which it may change from the second mesh to the third
+STENT_FIGURES = ({"middle": (0.8154, .001, .001), "end": (0.8198, .001, .001), "lumen": (2.2784, .001, .001), "shortening": (0.0151, .02, .04), "force": (1.369, .01, .01),
+                  "work": (0.0437, .01, .01), "mean": (0.01446, .01, .01)},
+                 {"middle": (0.7358, .001, .001), "end": (0.7040, .001, .001), "lumen": (1.8978, .001, .001), "shortening": (0.00416, .03, .1), "force": (0.1861, .01, .01),
+                  "work": (0.0470, .01, .01), "mean": (0.01549, .01, .01), "recoil": (0.0976, .005, .005)})
 
 
 def stent_figures(result):
@@ -282,22 +291,17 @@ def stent_figures(result):
     return figures
 
 
-def opened_stent(run, tolerance, passes, cells):
-    """There and back, forces balanced at every step; the artery stays open when the balloon has gone. A step may be cut where the last nodes leave the balloon: the
-    rim of the stent runs along lines of the artery's mesh."""
-    result = run("inputs/angioplasty3d.yml", "-output_fields", "false", "-adapt_tolerance", tolerance, "-adapt_max_passes", passes, "-adapt_max_cells", cells, timeout=3000)
-    assert result.returncode == 0 and result.summary["step_cuts"] <= 2 and result.summary["adapt_stop"] in ("tolerance", "max_cells"), result
-    assert result.summary["newton_iterations"] < 260, result
+def opened_stent(run, passes, *options):
+    """There and back, forces balanced at every step; the artery stays open when the balloon has gone."""
+    result = run("inputs/angioplasty3d.yml", "-output_fields", "false", "-adapt_max_passes", passes, *options, timeout=3000)
+    assert result.returncode == 0 and result.summary["adapt_passes"] == passes and result.summary["adapt_stop"] == "max_passes", result
     assert max(row["contact_imbalance"] for row in result.history) < 1e-12 and max(row["support_imbalance"] for row in result.history) < 1e-9
     assert result.summary["contact"]["balloon_in_stent"]["active_nodes"] == 0 and result.summary["contact"]["stent_in_artery"]["active_nodes"] > 5
+    assert len({row["cells"] for row in result.history}) == 1
     figures = stent_figures(result)
     print(*figures, sep="\n")
-    assert 137 < figures[0]["cells"] < figures[1]["cells"]
-    for state, bands in zip(figures, STENT_FIGURES):
-        for key, (value, band, _) in bands.items():
-            assert abs(state[key] / value - 1) < band, (key, state)
     assert 0.004 < figures[0]["end"] / figures[0]["middle"] - 1 < 0.011, figures  # dogboning
-    return figures
+    return result, figures
 
 
 def test_o71_touches(run):
@@ -309,14 +313,31 @@ def test_o71_touches(run):
 
 @pytest.mark.slow
 def test_o71_slotted_stent(run):
-    """A slotted stent opens, meets the artery and keeps it open when the balloon has gone, on meshes that adapt on the way up and on the way back: every one of them
-    finds equilibrium with the history that was carried over. Three such paths, finer and finer, tell the same."""
-    paths = [opened_stent(run, *mesh) for mesh in STENT_MESHES]
-    for coarse, fine in zip(paths, paths[1:]):
-        for t, (a, b, bands) in enumerate(zip(coarse, fine, STENT_FIGURES), 1):
-            assert a["cells"] < b["cells"]
-            print("t =", t, {key: f"{b[key] / a[key] - 1:+.2%}" for key in a})
-            for key, (_, _, change) in bands.items():
-                assert abs(b[key] / a[key] - 1) < change, (t, key, a, b)
-        dogboning = [path[0]["end"] / path[0]["middle"] - 1 for path in (coarse, fine)]
-        assert abs(dogboning[1] - dogboning[0]) < 0.001, dogboning
+    """A slotted stent opens, meets the artery and keeps it open when the balloon has gone. The whole path on the mesh as it comes, and on two finer ones: the second
+    change is small; foreshortening, 2 % of the length and less, has no limit yet."""
+    paths, again = [], ()
+    for passes in range(3):
+        result, figures = opened_stent(run, passes, *again)
+        paths.append(figures)
+        again = ("-restart", result.directory / "checkpoint.h5")
+    assert result.summary["step_cuts"] < 12 and result.summary["newton_iterations"] < 500, result
+    for t, (a, b, bands) in enumerate(zip(*paths[1:], STENT_FIGURES), 1):
+        assert 137 < a["cells"] < b["cells"] <= 1200
+        print("t =", t, {key: f"{b[key] / a[key] - 1:+.2%}" for key in a})
+        for key, (value, band, change) in bands.items():
+            assert abs(b[key] / value - 1) < band and abs(b[key] / a[key] - 1) < change, (t, key, a, b)
+
+
+@pytest.mark.slow
+def test_o71_step_by_step(run):
+    """The stent's history is carried to finer meshes on the way up and on the way back, and each of them finds equilibrium; what this changes at the same load is
+    told, and what comes of it is near what the whole path on one mesh tells."""
+    result = run("inputs/angioplasty3d.yml", "-output_fields", "false", "-adapt_repeat", "step", "-adapt_tolerance", 0.055, "-adapt_max_cells", 400, "-adapt_fraction", 0.6, timeout=3000)
+    assert result.returncode == 0 and result.summary["step_cuts"] <= 2 and result.summary["newton_iterations"] < 260, result
+    assert max(row["contact_imbalance"] for row in result.history) < 1e-12 and max(row["support_imbalance"] for row in result.history) < 1e-9
+    carried = [(a["t"], b["contact_force"] / a["contact_force"] - 1, b["work_change"]) for a, b in zip(result.adapt, result.adapt[1:]) if b["pass"] > 0]
+    print("force and plastic work changed by", *("t = %g: %+.1e %+.1e;" % row for row in carried))
+    assert len(carried) >= 2 and carried[-1][0] > 1
+    for state, bands in zip(stent_figures(result), STENT_FIGURES):
+        for key in set(bands) - {"shortening"}:
+            assert abs(state[key] / bands[key][0] - 1) < 0.1, (key, state)

@@ -1,6 +1,7 @@
 """adapt.repeat: path. The whole path of loads is computed again on the finer mesh, with nothing carried over: the last path is that of a run on its mesh from the
 start; what stands where in tables and fields; restarts in the middle of any path, kills at any moment; ranks; limits; what is refused."""
 import json
+import math
 import os
 import random
 import shutil
@@ -142,14 +143,20 @@ def test_what_is_refused(block, run):
         assert f"it was written with 'adapt.repeat: {was}', the scene has 'adapt.repeat: {has}'" in result.stderr, result
 
 
-@pytest.mark.slow
 def test_arc_length(run, tmp_path):
-    """Steps along a path of equilibria, through a limit point: on the mesh of the second pass as on that mesh from the start."""
-    options = ("-load_step", 0.05, "-load_step_max", 0.1, "-output_fields", "false")
-    two, fine = run("inputs/arch.yml", *TWO, *options), run("inputs/arch.yml", *options, "-mesh_refine", 1)
-    assert two.returncode == fine.returncode == 0, (two, fine)
-    assert len({row["cells"] for row in two.adapt}) == 2
-    assert_same_path(two.history, fine.history, 1e-6)
+    """Steps along a path of equilibria, a shallow arch that snaps through: on the mesh of the second pass as on that mesh from the start."""
+    def arc(x, y):
+        return (99.5 + y) * math.sin(0.25 * x), (99.5 + y) * math.cos(0.25 * x) - 100
+
+    write(tmp_path / "arch.msh", [linspace(0, 1, 4), linspace(0, 1, 1)], arc, order=2)
+    scene = {"mesh": {"file": "arch.msh"}, "model": "plane_strain", "order": 2, "body": {"body": {"material": "m"}},
+             "material": {"m": {"law": "neo_hookean", "E": 1e4, "nu": 0.3}}, "boundary": {"x0": {"fix": "x"}, "x1": {"fix": "xy"}, "y1": {"traction": {"y": -3}}},
+             "load": {"step": 0.02, "step_max": 0.2, "control": "arc_length"}, "output": {"fields": False}, "probe": {"top": {"x": 0, "y": 0}}}
+    two, fine = (run("arch.yml", *options, text=json.dumps(scene)) for options in (TWO, ("-mesh_refine", 1)))
+    assert two.returncode == fine.returncode == 0 and {row["cells"] for row in two.adapt} == {4, 16}, (two, fine)
+    t = [row["t"] for row in fine.history]
+    assert any(b < a for a, b in zip(t, t[1:]))
+    assert_same_path(two.history, fine.history, 1e-7)
 
 
 @pytest.mark.slow
