@@ -57,6 +57,7 @@ typedef struct {
   PetscInt  set_cycles; /* active sets that repeated on the way to this row */
   PetscReal t, dt, estimated_error /* relative; NaN: not estimated */, estimate /* absolute */, energy, min_det, min_gap, contact_force, seconds;
   PetscReal force_imbalance, moment_imbalance, support_imbalance;
+  PetscReal drag_work; /* energy that drag took on the way to an equilibrium that was not near by; else 0 */
   PetscReal plastic_strain, plastic_work;
   PetscReal force_change, work_change, strain_change; /* by the adaptation before this pass, at the same load: see BalanceChange */
   PetscBool accepted;
@@ -77,7 +78,8 @@ PetscErrorCode MonitorResume(Monitor, const char *file, const ReportRow *so_far)
 /* The path of loads begins again, for the number-th time, on a finer mesh; error: the largest estimate of the one before. */
 PetscErrorCode MonitorAgain(Monitor, PetscInt number, PetscInt cells, PetscReal error);
 PetscErrorCode MonitorRow(Monitor, const ReportRow *); /* one line; on a terminal a bar with the time left below it */
-/* What was computed, estimated error, where results are. status as in summary.json; reason may be empty; checkpoint: one was written; last accepted
-   row, NULL: none. */
-PetscErrorCode MonitorFooter(Monitor, const char *status, const char *reason, const char *adapt_stop, PetscBool checkpoint, const ReportRow *last);
+/* What was computed, estimated error, where results are. status as in summary.json; reason may be empty; checkpoint: one was written; total: step, t,
+   newton_iterations, step_cuts and seconds of the whole run, with those of attempts that failed; last accepted row, NULL: none. */
+PetscErrorCode MonitorFooter(Monitor, const char *status, const char *reason, const char *adapt_stop, PetscBool checkpoint, const ReportRow *total,
+                             const ReportRow *last);
 PetscErrorCode MonitorDestroy(Monitor *);

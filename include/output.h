@@ -29,6 +29,8 @@ PetscErrorCode WriterGrid(Writer, const char *grid, CellShape, PetscInt np, cons
  * as PetscReal. */
 PetscErrorCode WriterField(Writer, const char *name, PetscBool at_cells, PetscInt ncomp, const PetscReal *data);
 PetscErrorCode WriterEnd(Writer); /* flush, attribute "complete", close, rewrite the index */
+/* After an error between Begin and End (a full disk), before the run ends: the file of the open state goes, half of it is of no use. Not collective. */
+void WriterAbandon(Writer);
 
 /* ---- tables ------------------------------------------------------------------------------------------------------------ */
 
@@ -122,7 +124,7 @@ PetscErrorCode ProbesEvaluate(Probes, Problem, Vec x, ProbeValue value[]);
    newton_iterations, active_nodes, estimated_error, estimate, energy, min_det, min_gap, contact_force, seconds, accepted. Columns of history.csv, names as in
    summary.json:
    - step, t, dt, pass (of the accepted solution), step_cuts, cells, dofs, newton_iterations, active_nodes, estimated_error, energy, min_det, min_gap,
-     contact_force, contact_imbalance, moment_imbalance, support_imbalance, seconds;
+     contact_force, contact_imbalance, moment_imbalance, support_imbalance, seconds, drag_work (energy that drag took where no equilibrium was near by);
    - with plastic materials plastic.strain (largest), plastic.work, and body.<name>.mean_plastic_strain of each body that flows: int alpha dV / int dV over its
      reference volume, which converges where the largest, at a notch, does not;
    - reaction.<boundary>.x … for boundaries with supports;
@@ -146,12 +148,14 @@ typedef struct {
   const char     *adapt_stop;      /* why the last adaptation ended: "tolerance", "max_passes", "max_cells", …; NULL or "": there was none */
   PetscReal       t, seconds;      /* pseudo-time reached; wall time so far */
   PetscInt        load_steps, step_cuts, adapt_passes, newton_iterations, active_set_changes, active_set_cycles, factorisations, single_failures;
-  PetscReal       unstable; /* solutions found to be unstable equilibria; NaN: not known of any */
-  Problem         problem;  /* of the last accepted state; NULL: nothing was solved */
-  const State    *state;    /* with problem */
-  const Balance  *balance;  /* with problem; NULL: no figures */
-  const Estimate *estimate; /* NULL: not estimated */
-  Probes          probes;   /* NULL: none */
+  PetscInt        relaxed_steps; /* to an equilibrium that was not near by, under drag */
+  PetscReal       drag_work;     /* energy that drag took in them */
+  PetscReal       unstable;      /* solutions found to be unstable equilibria; NaN: not known of any */
+  Problem         problem;       /* of the last accepted state; NULL: nothing was solved */
+  const State    *state;         /* with problem */
+  const Balance  *balance;       /* with problem; NULL: no figures */
+  const Estimate *estimate;      /* NULL: not estimated */
+  Probes          probes;        /* NULL: none */
 } RunSummary;
 
 /* Write summary.json into the scene's output directory. Unknown figures are null. peak_memory_mb is the sum over ranks,

@@ -65,6 +65,11 @@ PetscErrorCode ProblemJump(Problem);
 /* Apply this share of what is left to the target. */
 PetscErrorCode ProblemApplyShare(Problem, PetscReal share);
 
+/* Drag against the deformation since x = from, with the prescribed motion as applied now (MechanicsSetDrag; rate 0: none, from NULL); the energy that it takes
+   on the way to x. Collective. */
+PetscErrorCode ProblemSetDrag(Problem, PetscReal rate, Vec from);
+PetscErrorCode ProblemDragWork(Problem, Vec x, PetscReal *work);
+
 /* Are pressures of incompressible cells among the unknowns? Then neither condensation nor multigrid is to be had. */
 PetscErrorCode ProblemIsIncompressible(Problem, PetscBool *);
 /* Set them in x: those of this rank's cells, as MechanicsSetPressure takes them. */

@@ -36,10 +36,12 @@ typedef struct {
   PetscInt       factorisations, single_failures, unstable, judged; /* judged: solutions of which it is known whether they are stable */
   ProblemStatus  status;                                            /* of the last solution */
   PetscLogDouble start;
-  PetscReal      arc, arc_first; /* along a path: length of the next step, of the first one; 0: not yet */
-  PetscReal      haste;          /* displacement per time in the last step, over that since the start */
-  const char    *failure;        /* why the run gave up, NULL while it goes on */
-  PetscBool      stopped;        /* the run was asked to stop */
+  PetscReal      arc, arc_first;           /* along a path: length of the next step, of the first one; 0: not yet */
+  PetscReal      haste;                    /* displacement per time in the last step, over that since the start */
+  PetscInt       relaxed_steps;            /* steps to an equilibrium that was not near by */
+  PetscReal      drag_work, all_drag_work; /* energy that drag took in the step at hand, in all */
+  const char    *failure;                  /* why the run gave up, NULL while it goes on */
+  PetscBool      stopped;                  /* the run was asked to stop */
   char           stop_reason[PETSC_MAX_PATH_LEN + MORTISE_NAME];
   const char    *adapt_stop;     /* why the last adaptation ended: tolerance, max_passes, max_cells, … */
   PetscBool      inversion_told; /* that refinement would invert a cell, once */
@@ -86,6 +88,8 @@ void AppCount(App *, const SolverReport *);
 /* Bring level.state from its time to t on the current mesh, in as many pieces as it takes, all but the last committed; *ok false when even one of length
  * `smallest` failed. */
 PetscErrorCode AppAdvance(App *, PetscReal t, PetscReal smallest, PetscBool *ok);
+/* relax.c: from the accepted state to an equilibrium at t that may be far from it; app->drag_work is what drag took on the way. Collective. */
+PetscErrorCode AppRelax(App *, PetscReal t, PetscBool *ok);
 PetscErrorCode AppEstimate(App *);
 /* coupling.c: pairs of leaves that face each other in contact, each once, the same on every rank (one rank: none); freed by the caller. Collective. */
 PetscErrorCode AppContactPairs(App *, PetscInt *num, PetscInt (**pairs)[2]);

@@ -2,7 +2,9 @@
 #include "appimpl.h"
 
 #define ROUND_OFF 1e-12
-#define HASTE 10 /* times as fast as on the way there do displacements grow where the step ends at a limit point: at its distance d like d^(-1/2) */
+#define SHORT 0.75     /* of load.step: a step that was cut before */
+#define AGAIN (1. / 8) /* of the last step that drag did not help */
+#define HASTE 10       /* times as fast as on the way there do displacements grow where the step ends at a limit point: at its distance d like d^(-1/2) */
 
 void AppCount(App *app, const SolverReport *report)
 {
@@ -107,16 +109,41 @@ static PetscBool Loaded_Private(const SceneData *data)
   return PETSC_FALSE;
 }
 
+/* Is it time for an equilibrium that is not near by? Where contact is and a shorter step failed too; again when the step has become much shorter than the last
+   one tried so. Not at limit points of loads, whose user is told. */
+static PetscBool RelaxNow_Private(const App *app, PetscReal dt, PetscReal tried)
+{
+  if (!app->data->load.relax || app->data->num_contacts == 0 || (app->haste > HASTE && Loaded_Private(app->data))) return PETSC_FALSE;
+  return (PetscBool)(tried > 0 ? dt <= AGAIN * tried : app->cuts_in_step > 0 || dt < SHORT * app->data->load.step);
+}
+
+static PetscErrorCode Relax_Private(App *app, PetscReal t, PetscBool *ok)
+{
+  PetscFunctionBegin;
+  PetscCall(AppRelax(app, t, ok));
+  if (*ok) {
+    ++app->relaxed_steps;
+    app->all_drag_work += app->drag_work;
+    PetscCall(PetscPrintf(app->comm, "note: no equilibrium near by at t = %g; one farther off was found under drag, which took %.3g of energy\n", (double)t,
+                          (double)app->drag_work));
+  } else {
+    app->drag_work = 0;
+    PetscCall(Restore_Private(app, &app->level.accepted));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* One accepted load step of at most app->dt: the first piece that converges, then adaptation at its time. */
 static PetscErrorCode LoadStep_Private(App *app, PetscBool *ok)
 {
   Level          *l  = &app->level;
   const PetscReal t0 = l->accepted.t;
-  PetscReal      *dt = &app->dt;
+  PetscReal      *dt = &app->dt, tried;
   SolverReport    report;
 
   PetscFunctionBegin;
   app->iterations_in_step = app->cuts_in_step = app->passes_in_step = 0;
+  app->drag_work = tried = 0;
   for (;;) {
     const PetscReal t = AppStepEnd(app->data, t0, *dt);
     PetscCall(Attempt_Private(app, t, &report));
@@ -124,6 +151,12 @@ static PetscErrorCode LoadStep_Private(App *app, PetscBool *ok)
     if (*ok) break;
     PetscCall(Restore_Private(app, &l->accepted));
     if (app->stopped) PetscFunctionReturn(PETSC_SUCCESS);
+    if (RelaxNow_Private(app, t - t0, tried)) {
+      tried = t - t0;
+      PetscCall(Relax_Private(app, t, ok));
+      if (*ok) break;
+      if (app->stopped) PetscFunctionReturn(PETSC_SUCCESS);
+    }
     *dt = 0.5 * (t - t0);
     ++app->step_cuts;
     ++app->cuts_in_step;
@@ -133,7 +166,7 @@ static PetscErrorCode LoadStep_Private(App *app, PetscBool *ok)
                        : report.reason;
     PetscFunctionReturn(PETSC_SUCCESS);
   }
-  const PetscBool easy = (PetscBool)(report.iterations <= EASY_ITERATIONS && app->cuts_in_step == 0);
+  const PetscBool easy = (PetscBool)(report.converged && report.iterations <= EASY_ITERATIONS && app->cuts_in_step == 0);
   PetscCall(AppAdapt(app));
   *ok = (PetscBool)!app->stopped;
   if (easy) *dt = PetscMin(GROWTH * *dt, app->data->load.step_max);
@@ -158,6 +191,7 @@ static PetscErrorCode Accept_Private(App *app, PetscReal t0)
   app->last.step              = app->load_steps;
   app->last.newton_iterations = app->iterations_in_step;
   app->last.step_cuts         = app->cuts_in_step;
+  app->last.drag_work         = app->drag_work;
   PetscCall(HistoryStep(app->history, &app->last, &app->balance, l->problem, &l->state));
   PetscCall(AppSnapshot(app));
   if (every > 0 && app->load_steps % every == 0) PetscCall(AppCheckpoint(app));

@@ -45,22 +45,28 @@ static PetscErrorCode View_Private(App *app)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* What the run took so far. */
+static ReportRow Total_Private(const App *app)
+{
+  PetscLogDouble now = 0;
+
+  (void)PetscTime(&now);
+  return (ReportRow){.step              = app->load_steps,
+                     .step_cuts         = app->step_cuts,
+                     .newton_iterations = app->newton_iterations,
+                     .t                 = app->level.accepted.t,
+                     .seconds           = now - app->start};
+}
+
 static PetscErrorCode Open_Private(App *app)
 {
-  PetscLogDouble now;
+  const ReportRow total = Total_Private(app);
 
   PetscFunctionBegin;
   PetscCall(AppOpenFiles(app));
   PetscCall(MonitorCreate(app->comm, app->data, &app->monitor));
   PetscCall(MonitorHeader(app->monitor, app->level.problem));
-  PetscCall(PetscTime(&now));
-  if (app->restart[0])
-    PetscCall(MonitorResume(app->monitor, app->restart,
-                            &(ReportRow){.step              = app->load_steps,
-                                         .step_cuts         = app->step_cuts,
-                                         .newton_iterations = app->newton_iterations,
-                                         .t                 = app->level.accepted.t,
-                                         .seconds           = now - app->start}));
+  if (app->restart[0]) PetscCall(MonitorResume(app->monitor, app->restart, &total));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -85,14 +91,13 @@ static PetscErrorCode Figures_Private(App *app)
 
 static PetscErrorCode Summarise_Private(App *app)
 {
-  const char    *status = app->failure ? "failed" : app->stopped ? "stopped" : "converged";
-  const char    *reason = app->failure ? app->failure : app->stop_reason;
-  PetscLogDouble now;
+  const char *status = app->failure ? "failed" : app->stopped ? "stopped" : "converged";
+  const char *reason = app->failure ? app->failure : app->stop_reason;
 
   PetscFunctionBegin;
   PetscCall(Figures_Private(app));
-  PetscCall(PetscTime(&now));
-  RunSummary summary         = {.status = status, .reason = reason, .t = app->level.accepted.t, .seconds = now - app->start, .load_steps = app->load_steps};
+  const ReportRow total      = Total_Private(app);
+  RunSummary      summary    = {.status = status, .reason = reason, .t = total.t, .seconds = total.seconds, .load_steps = app->load_steps};
   summary.step_cuts          = app->step_cuts;
   summary.adapt_passes       = app->adapt_passes;
   summary.newton_iterations  = app->newton_iterations;
@@ -100,6 +105,8 @@ static PetscErrorCode Summarise_Private(App *app)
   summary.active_set_cycles  = app->set_cycles;
   summary.factorisations     = app->factorisations;
   summary.single_failures    = app->single_failures;
+  summary.relaxed_steps      = app->relaxed_steps;
+  summary.drag_work          = app->all_drag_work;
   summary.unstable           = app->judged ? (PetscReal)app->unstable : (PetscReal)NAN;
   summary.adapt_stop         = app->adapt_stop;
   summary.problem            = app->level.problem;
@@ -108,7 +115,7 @@ static PetscErrorCode Summarise_Private(App *app)
   summary.estimate           = app->estimated && !app->failure && !app->stopped ? &app->estimate : NULL;
   summary.probes             = app->probes;
   PetscCall(OutputSummary(app->comm, app->data, &summary));
-  PetscCall(MonitorFooter(app->monitor, status, summary.reason, app->adapt_stop, app->written, app->load_steps ? &app->last : NULL));
+  PetscCall(MonitorFooter(app->monitor, status, summary.reason, app->adapt_stop, app->written, &total, app->load_steps ? &app->last : NULL));
   PetscCall(AppAdvise(app));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -192,6 +199,9 @@ static PetscErrorCode Help_Private(void)
   PetscCall(AppPrintHelp(PETSC_COMM_WORLD));
   PetscCall(
       PetscPrintf(PETSC_COMM_WORLD,
+                  "\nA run prints a line for each adaptive pass: load step, pass, t, cells, unknowns (dofs), Newton iterations, nodes under contact pressure,\n"
+                  "relative estimated error, magnitude of the contact force (of several pairs the sum of the magnitudes; one by one in history.csv),\n"
+                  "seconds since the start. What else is known of each pass and each load step: adapt.csv, history.csv, summary.json.\n"
                   "\nOptions of PETSc work as everywhere: -snes_monitor, -ksp_monitor, -log_view, ...\n"
                   "Exit status: 0 converged to the end; 1 bad input, nothing was solved; 2 the solver gave up; 3 stopped, by SIGTERM, SIGUSR1, SIGINT or\n"
                   "-max_seconds, with a checkpoint for -restart.\n"));

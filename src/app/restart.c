@@ -21,6 +21,7 @@ static const struct {
     {"single_factor_failures", offsetof(App, single_failures)},
     {"unstable", offsetof(App, unstable)},
     {"judged", offsetof(App, judged)},
+    {"relaxed_steps", offsetof(App, relaxed_steps)},
 };
 static const struct {
   const char *name;
@@ -30,6 +31,7 @@ static const struct {
     {"arc", offsetof(App, arc)},
     {"first_arc", offsetof(App, arc_first)},
     {"haste", offsetof(App, haste)},
+    {"drag_work", offsetof(App, all_drag_work)},
     {"largest_displacement", offsetof(App, status.largest)},
     {"largest_error", offsetof(App, most.relative)},
 };

@@ -10,34 +10,35 @@ static PetscReal Sliver_Private(const RayFacet *f)
   return 0.1 * (f->m == 1 ? end : end * end);
 }
 
-static void Middle_Private(const RayImage *a, const RayImage *b, RayImage *to)
+static void Between_Private(const RayImage *a, const RayImage *b, RayImage *to)
 {
   to->found = (PetscBool)(a->found && b->found);
   to->s     = 0.5 * (a->s + b->s);
   for (int i = 0; i < 2; i++) to->Y[i] = 0.5 * (a->Y[i] + b->Y[i]);
 }
 
-/* Place of a mortar node's image; found when new. */
+/* Place of an image; found when new. */
 static PetscErrorCode Image_Private(RayWork w, const ContactSurface *mortar, PetscInt node, PetscInt *place)
 {
-  const PetscInt *parent = w->mortar_parent + 2 * node;
-  PetscInt        end[2] = {-1, -1};
-  RayImage       *image;
+  PetscInt  parent[2], end[2] = {-1, -1};
+  RayImage *image;
 
   PetscFunctionBegin;
   for (*place = 0; *place < w->num_images; (*place)++)
     if (w->image[*place].node == node) PetscFunctionReturn(PETSC_SUCCESS);
+  ContactRayParents(w, mortar, node, parent);
   for (int k = 0; k < 2 && parent[0] >= 0; k++) PetscCall(Image_Private(w, mortar, parent[k], &end[k]));
   PetscCall(ContactGrow(w->num_images + 1, sizeof(RayImage), &w->size_image, &w->image));
   *place           = w->num_images++;
   image            = &w->image[*place];
   image->node      = node;
   image->parent[0] = parent[0], image->parent[1] = parent[1];
+  if (end[0] >= 0) {
+    Between_Private(&w->image[end[0]], &w->image[end[1]], image);
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
   for (PetscInt c = 0; c < 3; c++) image->v[c] = c < mortar->dim ? mortar->x[mortar->dim * node + c] : 0;
-  if (end[0] >= 0)
-    Middle_Private(&w->image[end[0]], &w->image[end[1]], image);
-  else
-    ContactImageFind(&w->facet, image);
+  ContactImageFind(&w->facet, image);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -73,8 +74,8 @@ static void Window_Private(const RayFacet *f, const PetscReal lo[2], const Petsc
   }
 }
 
-/* One mortar facet seen in a cell. Its corners run backwards. *known: all images were found, and their overlap is one. */
-static PetscErrorCode Meet_Private(RayWork w, const ContactSurface *mortar, PetscInt facet, const PlaneQuad *window, Overlap *o, PetscBool *known,
+/* One piece of a mortar facet seen in a cell. Its corners run backwards. *known: all images were found, and their overlap is one. */
+static PetscErrorCode Meet_Private(RayWork w, const ContactSurface *mortar, const PetscInt corner[4], const PlaneQuad *window, Overlap *o, PetscBool *known,
                                    PetscBool *meets)
 {
   const RayFacet *f      = &w->facet;
@@ -89,7 +90,8 @@ static PetscErrorCode Meet_Private(RayWork w, const ContactSurface *mortar, Pets
   for (PetscInt k = 0; k < f->nv; k++) {
     PetscInt place;
 
-    PetscCall(Image_Private(w, mortar, mortar->facets[f->nv * facet + f->nv - 1 - k], &place));
+    o->corner[k] = corner[f->nv - 1 - k];
+    PetscCall(Image_Private(w, mortar, o->corner[k], &place));
     if (!w->image[place].found) *known = PETSC_FALSE;
     for (int i = 0; i < 2; i++) o->side[1].Y[k][i] = w->image[place].Y[i];
     o->side[1].h[k] = length * w->image[place].s;
@@ -121,6 +123,25 @@ static PetscErrorCode Push_Private(RayWork w, const Overlap *o, PetscInt mortar,
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* All of a mortar facet that the nonmortar facet sees. */
+static PetscErrorCode See_Private(ContactPair pair, const ContactSurface *mortar, PetscInt facet)
+{
+  RayWork        w = pair->ray;
+  PetscInt       corner[4][4];
+  const PetscInt num = ContactRayPieces(w, mortar, facet, corner);
+
+  PetscFunctionBegin;
+  for (PetscInt k = 0; k < num; k++) {
+    Overlap   o;
+    PetscBool known, meets;
+
+    PetscCall(Meet_Private(w, mortar, corner[k], &w->facet.chart, &o, &known, &meets));
+    if (!known) pair->num_degenerate++;
+    if (meets) PetscCall(Push_Private(w, &o, facet, 0));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* Hats on the cells of the facet's lattice, for every mortar facet that counts. */
 static PetscErrorCode Cells_Private(ContactPair pair, const ContactSurface *mortar)
 {
@@ -128,13 +149,15 @@ static PetscErrorCode Cells_Private(ContactPair pair, const ContactSurface *mort
   const RayFacet  *f = &w->facet;
   const PetscInt   p = f->s.order, cells = f->m == 1 ? p : p * p, num = w->num_overlaps;
   const PetscReal *node;
-  PetscInt        *facets;
+  PetscInt        *facets, (*corners)[4];
 
   PetscFunctionBegin;
   PetscCall(ElementGetNodes(p, &node));
   PetscCall(ContactGrow(cells, sizeof(RayTest), &w->size_test, &w->test));
-  PetscCall(PetscMalloc1(num, &facets));
+  PetscCall(PetscMalloc2(num, &facets, num, &corners));
   PetscCall(PetscArraycpy(facets, w->mortar, num));
+  for (PetscInt k = 0; k < num; k++)
+    for (PetscInt v = 0; v < f->nv; v++) corners[k][v] = w->overlap[k].corner[f->nv - 1 - v];
   w->num_overlaps = 0;
   w->num_tests    = cells;
   for (PetscInt c = 0; c < cells; c++) {
@@ -155,23 +178,23 @@ static PetscErrorCode Cells_Private(ContactPair pair, const ContactSurface *mort
       Overlap   o;
       PetscBool known, meets;
 
-      PetscCall(Meet_Private(w, mortar, facets[k], &window, &o, &known, &meets));
+      PetscCall(Meet_Private(w, mortar, corners[k], &window, &o, &known, &meets));
       if (!known) pair->num_degenerate++;
       if (meets) PetscCall(Push_Private(w, &o, facets[k], c));
     }
   }
-  PetscCall(PetscFree(facets));
+  PetscCall(PetscFree2(facets, corners));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Is an image one of a facet that counts, or of an end of an edge on which one of images [from, ..) hangs? */
-static PetscBool Used_Private(const RayWork w, const ContactSurface *mortar, PetscInt i, PetscInt from)
+/* Is an image a corner of what counts, or one in the middle of which one of images [from, ..) lies? */
+static PetscBool Used_Private(const RayWork w, PetscInt i, PetscInt from)
 {
   const PetscInt nv = w->facet.nv, node = w->image[i].node;
 
   for (PetscInt k = 0; k < w->num_overlaps; k++)
     for (PetscInt a = 0; a < nv; a++)
-      if (mortar->facets[nv * w->mortar[k] + a] == node) return PETSC_TRUE;
+      if (w->overlap[k].corner[a] == node) return PETSC_TRUE;
   for (PetscInt k = from; k < w->num_images; k++)
     if (w->image[k].parent[0] == node || w->image[k].parent[1] == node) return PETSC_TRUE;
   return PETSC_FALSE;
@@ -194,7 +217,7 @@ static PetscErrorCode Nodes_Private(RayWork w, const ContactSurface *mortar)
 
   PetscFunctionBegin;
   for (PetscInt i = w->num_images - 1; i >= 0; i--) /* from the back, where those that hang are */
-    if (Used_Private(w, mortar, i, first)) w->image[--first] = w->image[i];
+    if (Used_Private(w, i, first)) w->image[--first] = w->image[i];
   w->num_images -= first;
   memmove(w->image, w->image + first, (size_t)w->num_images * sizeof(RayImage));
   w->num_mortar = 0;
@@ -206,7 +229,8 @@ static PetscErrorCode Nodes_Private(RayWork w, const ContactSurface *mortar)
     num = ElementNumNodes(w->facet.m, ContactRayLatticeNodes(mortar, w->mortar[k], &node, order1));
     for (PetscInt a = 0; a < num; a++) PetscCall(AddVertex_Private(w, node[a]));
   }
-  for (PetscInt i = 0; i < w->num_images; i++) PetscCall(AddVertex_Private(w, w->image[i].node));
+  for (PetscInt i = 0; i < w->num_images; i++)
+    if (w->image[i].parent[0] < 0) PetscCall(AddVertex_Private(w, w->image[i].node));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -248,16 +272,9 @@ PetscErrorCode ContactCover(ContactPair pair, const ContactSurface *nonmortar, c
   if (f->m == 2) ContactRayLatticePolynomial(&f->d);
   if (!ContactChartCreate(nonmortar, facet, f)) *failed = PETSC_TRUE;
   if (*failed) PetscFunctionReturn(PETSC_SUCCESS);
-  if (f->m == 2) ContactImageBeyond(w->kept + 4 * facet, f);
+  if (f->m == 2) ContactRayBeyondSides(w->kept + 4 * facet, &f->beyond);
   PetscCall(Whole_Private(w));
-  for (PetscInt k = pair->start[slot]; k < pair->start[slot + 1]; k++) {
-    Overlap   o;
-    PetscBool known, meets;
-
-    PetscCall(Meet_Private(w, mortar, pair->candidate[k], &f->chart, &o, &known, &meets));
-    if (!known) pair->num_degenerate++;
-    if (meets) PetscCall(Push_Private(w, &o, pair->candidate[k], 0));
-  }
+  for (PetscInt k = pair->start[slot]; k < pair->start[slot + 1]; k++) PetscCall(See_Private(pair, mortar, pair->candidate[k]));
   ContactUnfold(&w->num_overlaps, w->overlap, w->mortar, f->area);
   for (PetscInt k = 0; k < w->num_overlaps; k++) covered += w->overlap[k].area;
   w->full = (PetscBool)(covered >= (1 - Sliver_Private(f)) * f->area);

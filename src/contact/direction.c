@@ -51,13 +51,14 @@ static PetscBool Follows_Private(const ContactSurface *s, PetscInt node, PetscIn
 }
 
 /* A side u -> v without partner, against which v -> h -> u run, carries h. */
-PetscErrorCode ContactParents(const ContactSurface *s, PetscInt parent[])
+PetscErrorCode ContactParents(const ContactSurface *s, PetscInt parent[], PetscInt middle[])
 {
   const PetscInt num = 4 * s->num_facets;
   Side          *side;
 
   PetscFunctionBegin;
   for (PetscInt i = 0; i < 2 * s->num_nodes; i++) parent[i] = -1;
+  for (PetscInt i = 0; i < num && middle; i++) middle[i] = -1;
   if (s->dim == 2) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(PetscMalloc1(num, &side));
   for (PetscInt k = 0; k < num; k++) side[k] = (Side){s->facets[k], s->facets[4 * (k / 4) + (k + 1) % 4], k / 4};
@@ -71,6 +72,8 @@ PetscErrorCode ContactParents(const ContactSurface *s, PetscInt parent[])
 
       if (!HasSide_Private(num, side, h, u) || !Follows_Private(s, h, side[k].facet)) continue;
       parent[2 * h] = u, parent[2 * h + 1] = v;
+      for (PetscInt i = 4 * side[k].facet; i < 4 * (side[k].facet + 1) && middle; i++)
+        if (s->facets[i] == u) middle[i] = h;
     }
   }
   PetscCall(PetscFree(side));
@@ -107,7 +110,7 @@ PetscErrorCode ContactDirectionTopology(RayWork w, const ContactSurface *s)
   for (PetscInt i = 2; i < s->num_nodes + 2; i++) w->ring_first[i] += w->ring_first[i - 1];
   for (PetscInt i = 0; i < num; i++) w->ring_facet[w->ring_first[s->facets[i] + 1]++] = i / nv;
   for (PetscInt k = 0; k < num && s->dim == 3 && s->mirror; k++) w->kept[k] = IsKept_Private(s, s->facets[k], s->facets[4 * (k / 4) + (k + 1) % 4]);
-  PetscCall(ContactParents(s, w->parent));
+  PetscCall(ContactParents(s, w->parent, NULL));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

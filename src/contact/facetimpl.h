@@ -37,6 +37,7 @@ typedef struct {
   PetscReal v[FACET_VERTICES][2];
   int8_t    line[FACET_VERTICES]; /* from vertex k to k + 1 */
   PetscReal area;
+  PetscInt  corner[4]; /* rays: names of the images at the corners of side[1] (raypieces.c) */
 } Overlap;
 
 extern const PetscReal ContactMixed[4]; /* d2 N_a / dxi_1 dxi_2 */

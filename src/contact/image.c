@@ -1,8 +1,5 @@
-/* Image of a mortar vertex v on a facet: xi with x(xi) + s d(xi) = v, and its place Y(xi) in the chart. Vertices far beyond a bilinear facet may have none:
-   there the map folds where opposite sides meet. So beyond [-1, 1]^2 x, d and Y are f(h) + sum_i (xi_i - h_i) sigma_i, h(xi_i) bounded and twice continuous,
-   sigma_i a slope between corners: on flat facets Y is linear in x everywhere. The slope is the mean of the two sides in direction i; but where one of them
-   lies in a plane of symmetry, that side's: its line goes on in the plane, in which x and d lie, and there the mortar side ends, too. Where both do, it changes
-   from one to the other, linearly in h of the other direction: the map then folds where the planes meet.
+/* Image of a mortar vertex v on a facet: xi with x(xi) + s d(xi) = v, and its place Y(xi) in the chart. Beyond the facet x, d and Y go on as in raybeyond.c:
+   on flat facets Y is linear in x everywhere.
 
    A (dxi, ds) = dv - sum N_a dx_a - s sum V_v dd_v,   A = [t_i + s d,i, d] (plane: and e_z);
    A (d2xi, d2s) = -2 (dt_i + s dd,i + ds d,i) dxi_i - 2 ds dd - (x,ij + s d,ij) dxi_i dxi_j: half of w . d2Y is three products. */
@@ -14,74 +11,6 @@ typedef struct {
   PetscReal    inverse[3][3]; /* rows: dxi_1, dxi_2, ds */
   PetscReal    det;
 } Place;
-
-/* h = xi in [-1, 1], at most 1.5; with two derivatives. */
-static void Bound_Private(PetscReal xi, PetscReal h[3])
-{
-  const PetscReal sign = xi < 0 ? -1 : 1, v = 2 * PetscMax(0, PetscAbsReal(xi) - 1), root = 1 / PetscSqrtReal(1 + v * v);
-
-  h[0] = v > 0 ? sign * (1 + 0.5 * v * root) : xi;
-  h[1] = root * root * root;
-  h[2] = -6 * sign * v * h[1] * root * root;
-}
-
-void ContactImageBeyond(const PetscBool kept[4], RayFacet *f)
-{
-  for (int i = 0; i < 2; i++) {
-    const PetscBool low = i ? kept[3] : kept[0], high = i ? kept[1] : kept[2]; /* sides in direction i, where the other coordinate is -1 and 1 */
-
-    f->share[i] = low == high ? 0.5 : high;
-    f->turn[i]  = low && high ? 0.5 : 0;
-  }
-}
-
-/* Slopes of the functions that take over beyond the facet, between the corners, and their derivatives by the other coordinate's h. */
-static void Slope_Private(const RayFacet *f, PetscInt order, const PetscReal h[2], PetscReal slope[2][RAY_LATTICE], PetscReal turn[2][RAY_LATTICE])
-{
-  const PetscInt num = (order + 1) * (order + 1), corner[4] = {0, order, num - 1 - order, num - 1};
-
-  for (int i = 0; i < 2; i++) {
-    const PetscReal high = f->share[i] + f->turn[i] * h[1 - i];
-
-    memset(slope[i], 0, (size_t)num * sizeof(PetscReal));
-    memset(turn[i], 0, (size_t)num * sizeof(PetscReal));
-    for (int k = 0; k < 4; k++) {
-      const PetscBool to = (PetscBool)(i ? k / 2 : k % 2), on = (PetscBool)(i ? k % 2 : k / 2); /* end and side of direction i */
-
-      slope[i][corner[k]] = (to ? 0.5 : -0.5) * (on ? high : 1 - high);
-      turn[i][corner[k]]  = (to == on ? 0.5 : -0.5) * f->turn[i];
-    }
-  }
-}
-
-/* f(h) + sum_i (xi_i - h_i) slope_i */
-static void Functions_Private(const RayFacet *f, PetscInt order, const PetscReal xi[2], int depth, RayFunctions *to)
-{
-  const PetscInt num = (order + 1) * (order + 1);
-  PetscReal      h[2][3], slope[2][RAY_LATTICE], turn[2][RAY_LATTICE], at[2], past[2];
-
-  if (f->m == 1 || PetscMax(PetscAbsReal(xi[0]), PetscAbsReal(xi[1])) <= 1) {
-    ContactRayFunctions(f->m, order, xi, depth, to);
-    return;
-  }
-  for (int i = 0; i < 2; i++) {
-    Bound_Private(xi[i], h[i]);
-    at[i]   = h[i][0];
-    past[i] = xi[i] - at[i];
-  }
-  Slope_Private(f, order, at, slope, turn);
-  ContactRayFunctions(2, order, at, depth, to);
-  for (PetscInt a = 0; a < num; a++) {
-    if (depth > 1) to->dd[1][a] = to->dd[1][a] * h[0][1] * h[1][1] + turn[0][a] * (1 - h[0][1]) * h[1][1] + turn[1][a] * (1 - h[1][1]) * h[0][1];
-    for (int i = 0; i < 2; i++) {
-      const PetscReal more = to->d[i][a] - slope[i][a] + past[1 - i] * turn[1 - i][a];
-
-      to->N[a] += past[i] * slope[i][a];
-      if (depth > 1) to->dd[2 * i][a] = to->dd[2 * i][a] * PetscSqr(h[i][1]) + more * h[i][2];
-      to->d[i][a] = slope[i][a] + more * h[i][1];
-    }
-  }
-}
 
 /* Y with derivatives 1 2, 11 12 22, from the functions of order 1. */
 typedef struct {
@@ -103,8 +32,8 @@ static void Picture_Private(const RayFacet *f, const RayFunctions *V, int depth,
 
 static void Place_Private(const RayFacet *f, const PetscReal xi[2], PetscReal s, int depth, Place *p)
 {
-  Functions_Private(f, f->s.order, xi, depth, &p->S);
-  Functions_Private(f, 1, xi, depth, &p->V);
+  ContactRayBeyond(&f->beyond, f->m, f->s.order, xi, depth, &p->S);
+  ContactRayBeyond(&f->beyond, f->m, 1, xi, depth, &p->V);
   ContactRayLatticeSum(&f->s, p->S.N, p->p);
   ContactRayLatticeSum(&f->d, p->V.N, p->d);
   for (PetscInt i = 0; i < 2; i++) {
@@ -156,7 +85,7 @@ void ContactImageFind(const RayFacet *f, RayImage *image)
   if (step < RAY_SOLVED) {
     Picture c;
 
-    Functions_Private(f, 1, image->xi, 1, &p.V);
+    ContactRayBeyond(&f->beyond, f->m, 1, image->xi, 1, &p.V);
     Picture_Private(f, &p.V, 1, &c);
     image->Y[0] = c.Y[0], image->Y[1] = c.Y[1];
     image->found = PETSC_TRUE;

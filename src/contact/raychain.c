@@ -105,11 +105,12 @@ static inline PetscInt Width_Private(const RayFacet *f)
   return f->D * (f->s.num + f->nv + 1);
 }
 
-/* Place of the first number of image k's vertex. */
+/* Place of the first number of image k's vertex, -1 where it has none of its own. */
 static PetscInt Vertex_Private(RayWork w, PetscInt k)
 {
   PetscInt at = 0;
 
+  if (w->image[k].parent[0] >= 0) return -1;
   while (w->vertex[at] != w->image[k].node) at++;
   return w->facet.D * (w->facet.s.num + w->facet.nv + at);
 }
@@ -138,7 +139,7 @@ static void FoldImages_Private(RayWork w, PetscInt num, const PetscReal X[], Pet
   for (PetscInt k = 0; k < w->num_images; k++) {
     const PetscInt at = Vertex_Private(w, k);
 
-    for (PetscInt i = f->m * k; i < f->m * (k + 1); i++)
+    for (PetscInt i = f->m * k; i < f->m * (k + 1) && at >= 0; i++)
       for (PetscInt c = 0; c < f->D; c++) {
         const PetscReal factor = w->R[i * width + own + c];
 
@@ -204,7 +205,7 @@ PetscErrorCode ContactRayChainHessian(RayWork w, PetscReal H[])
   for (PetscInt k = 0; k < w->num_images; k++) {
     const PetscInt at = Vertex_Private(w, k);
 
-    for (PetscInt j = f->m * k; j < f->m * (k + 1); j++)
+    for (PetscInt j = f->m * k; j < f->m * (k + 1) && at >= 0; j++)
       for (PetscInt i = 0; i < mi; i++)
         for (PetscInt c = 0; c < D; c++) Z[i * nodes + at + c] += W[(nodes + j) * n + nodes + i] * w->R[j * width + own + c];
   }
@@ -240,7 +241,7 @@ static void HalfChained_Private(RayWork w, PetscInt nodes, PetscReal Kin[], Pets
   for (PetscInt k = 0; k < w->num_images; k++) {
     const PetscInt at = Vertex_Private(w, k);
 
-    for (PetscInt q = f->m * k; q < f->m * (k + 1); q++)
+    for (PetscInt q = f->m * k; q < f->m * (k + 1) && at >= 0; q++)
       for (PetscInt i = 0; i < nodes; i++)
         for (PetscInt c = 0; c < f->D; c++) K[i * nodes + at + c] += Kin[q * nodes + i] * w->R[q * width + own + c];
   }

@@ -333,7 +333,7 @@ PetscErrorCode ContactRayHessian(ContactPair pair, const ContactSurface *mortar,
     slope           = pair_sums.turn + 3 * pairs;
     PetscCall(Overlap_Private(w, &facet, k, y, D, &at, &pair_sums, w->part, slope));
     AddPairs_Private(w, &pair_sums);
-    ContactRayPlaces(w, mortar, w->mortar[k], facet.num, place);
+    ContactRayPlaces(w, mortar, k, facet.num, place);
     for (PetscInt a = 0; a < width; a++) gradient[place[a]] += slope[a];
     for (PetscInt a = 0; a < width; a++)
       for (PetscInt b = 0; b < width; b++) w->W[place[a] * n + place[b]] += w->part[a * N + b];

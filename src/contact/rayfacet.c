@@ -22,10 +22,20 @@ PetscErrorCode ContactRayTopology(ContactPair pair, const ContactSurface *s)
 
 PetscErrorCode ContactRayMortarTopology(RayWork w, const ContactSurface *mortar)
 {
+  PetscInt *side;
+
   PetscFunctionBegin;
-  PetscCall(PetscFree(w->mortar_parent));
-  PetscCall(PetscMalloc1(2 * mortar->num_nodes, &w->mortar_parent));
-  PetscCall(ContactParents(mortar, w->mortar_parent));
+  PetscCall(PetscFree2(w->mortar_parent, w->mortar_middle));
+  PetscCall(PetscMalloc2(2 * mortar->num_nodes, &w->mortar_parent, 4 * mortar->num_facets, &w->mortar_middle));
+  PetscCall(ContactParents(mortar, w->mortar_parent, w->mortar_middle));
+  side = w->mortar_middle;
+  for (PetscInt i = 0; i < 4 * mortar->num_facets; i++) {
+    if (side[i] < 0) continue;
+    if (mortar->order && mortar->order[i / 4] > 1)
+      w->mortar_parent[2 * side[i]] = w->mortar_parent[2 * side[i] + 1] = -1;
+    else
+      side[i] = -1;
+  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -53,7 +63,7 @@ PetscErrorCode ContactRayWorkDestroy(RayWork *work)
   if (!w) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(ContactResultDestroy(&w->result));
   PetscCall(PetscFree5(w->ring_first, w->ring_facet, w->parent, w->d, w->kept));
-  PetscCall(PetscFree(w->mortar_parent));
+  PetscCall(PetscFree2(w->mortar_parent, w->mortar_middle));
   PetscCall(PetscFree(w->image));
   PetscCall(PetscFree(w->overlap));
   PetscCall(PetscFree(w->mortar));

@@ -22,6 +22,7 @@
 #define RAY_MOMENTS (2 * RAY_LATTICE + 10)
 #define RAY_GRAZE 1e-3 /* cosine between the ray and the normal of a facet below which they do not meet */
 #define RAY_SOLVED 1e-9
+#define RAY_OUTSIDE 3 /* parametric coordinate up to which rays meet a mortar facet beyond its curved sides */
 
 /* Functions of a lattice at a point of [-1, 1]^m: values and derivatives 1 2, 11 12 22, 111 112 122 222. */
 typedef struct {
@@ -38,21 +39,26 @@ typedef struct {
   PetscReal Y[2], J[2][2] /* J[i]: Y,i */, inverse[2][2] /* dxi_i / dY_c */, mixed[2], det, ddet[2];
 } RayChartPoint;
 
+/* Slopes beyond a facet: that of the side at 1 has the share + turn h of the other coordinate in the one along direction i (raybeyond.c). */
+typedef struct {
+  PetscReal share[2], turn[2];
+} RayBeyond;
+
 /* Nonmortar facet. */
 typedef struct {
-  PetscInt   D, m, nv;          /* dimension of space and facet, corners */
-  RayLattice s, d;              /* d: directions, order 1 */
-  PlaneQuad  chart;             /* counterclockwise */
-  PetscReal  c[4][2];           /* Y = c_0 + c_1 xi_1 + c_2 xi_2 + c_3 xi_1 xi_2 */
-  PetscReal  area;              /* of the chart */
-  PetscReal  ring;              /* 2 pi or 0 */
-  PetscReal  share[2], turn[2]; /* beyond the facet: of the side at 1 in the slope along direction i, share + turn h of the other coordinate (image.c) */
+  PetscInt   D, m, nv; /* dimension of space and facet, corners */
+  RayLattice s, d;     /* d: directions, order 1 */
+  PlaneQuad  chart;    /* counterclockwise */
+  PetscReal  c[4][2];  /* Y = c_0 + c_1 xi_1 + c_2 xi_2 + c_3 xi_1 xi_2 */
+  PetscReal  area;     /* of the chart */
+  PetscReal  ring;     /* 2 pi or 0 */
+  RayBeyond  beyond;
 } RayFacet;
 
-/* Image of a mortar vertex. Of one that hangs in the middle of an edge: the mean of those of the edge's ends, which come before it in the list, so that the
-   straight pictures of both sides of the edge are the same. */
+/* Image of a mortar vertex, or the mean of two images that come before it in the list: of a vertex that hangs in the middle of a straight edge those of the
+   edge's ends, and in a facet that is seen in pieces (raypieces.c). */
 typedef struct {
-  PetscInt  node, parent[2]; /* nodes, -1: does not hang */
+  PetscInt  node, parent[2]; /* names (raypieces.c); -1: it is the vertex's own */
   PetscBool found;
   PetscReal v[3], xi[2], s, Y[2];
 } RayImage;
@@ -90,7 +96,8 @@ struct _p_RayWork {
   PetscInt  *ring_first, *ring_facet, *parent; /* facets around each corner; ends of the edge on which a corner hangs, -1 */
   PetscReal *d;                                /* [num_nodes][3] directions at corners */
   PetscBool *kept;                             /* [num_facets][4] does the side from corner k on lie in a plane of symmetry? (space) */
-  PetscInt  *mortar_parent;                    /* [mortar num_nodes][2] */
+  PetscInt  *mortar_parent;                    /* [mortar num_nodes][2] of nodes that hang on straight sides */
+  PetscInt  *mortar_middle;                    /* [mortar num_facets][4] nodes that hang in the middle of curved sides, -1 */
   /* one facet */
   RayFacet   facet;
   PetscInt   num_images, num_overlaps, num_mortar, num_tests;
@@ -124,9 +131,14 @@ void     ContactRayLatticeGather(const ContactSurface *, PetscInt facet, RayLatt
 void     ContactRayLatticePolynomial(RayLattice *);
 void     ContactRayTestFunctions(const RayFacet *, const RayTest *, const PetscReal xi[2], RayFunctions *);
 
+/* raybeyond.c: the same, but beyond [-1, 1]^2 (m = 2) turning to the slope between the corners. */
+void ContactRayBeyond(const RayBeyond *, PetscInt m, PetscInt order, const PetscReal xi[2], int depth, RayFunctions *);
+/* kept[k]: the side from corner k on lies in a plane of symmetry. */
+void ContactRayBeyondSides(const PetscBool kept[4], RayBeyond *);
+
 /* direction.c */
-/* parent[num_nodes][2]: ends of the edge in whose middle a corner hangs, -1. */
-PetscErrorCode ContactParents(const ContactSurface *, PetscInt parent[]);
+/* parent[num_nodes][2]: ends of the edge in whose middle a corner hangs, -1. middle[num_facets][4] (or NULL): the corner that hangs on a side, -1. */
+PetscErrorCode ContactParents(const ContactSurface *, PetscInt parent[], PetscInt middle[]);
 PetscErrorCode ContactDirectionTopology(RayWork, const ContactSurface *);
 void           ContactDirections(RayWork, const ContactSurface *);
 PetscBool      ContactDirectionUsable(RayWork, const ContactSurface *, PetscInt node);
@@ -144,8 +156,6 @@ void      ContactChartAt(const RayFacet *, const PetscReal xi[2], RayChartPoint 
 PetscBool ContactChartLocate(const RayFacet *, const PetscReal Y[2], PetscReal xi[2]);
 
 /* image.c */
-/* How the facet's map goes on beyond it: sides that lie in planes of symmetry, along these. */
-void ContactImageBeyond(const PetscBool kept[4], RayFacet *);
 void ContactImageFind(const RayFacet *, RayImage *);
 /* rows[m][n] += derivatives of Y; vertex: its place among the facet's nodes. */
 void ContactImageRows(const RayFacet *, const RayImage *, PetscInt vertex, PetscInt n, PetscReal rows[]);
@@ -153,6 +163,12 @@ void ContactImageRows(const RayFacet *, const RayImage *, PetscInt vertex, Petsc
 void ContactImagesFold(RayWork, PetscInt num, PetscReal rows[], PetscInt ld);
 /* W += half of w . d2Y */
 void ContactImageCurvature(const RayFacet *, const RayImage *, PetscInt vertex, const PetscReal w[2], PetscInt n, PetscReal W[], PetscReal work[]);
+
+/* raypieces.c. Names of images are those of mortar nodes, and others. */
+/* The two images in the middle of which one lies, -1: it is a mortar node's own. */
+void ContactRayParents(const RayWork, const ContactSurface *mortar, PetscInt name, PetscInt parent[2]);
+/* Corners of the pieces in which a mortar facet is seen, in its own order. Returns their number. */
+PetscInt ContactRayPieces(const RayWork, const ContactSurface *mortar, PetscInt facet, PetscInt corner[4][4]);
 
 /* cover.c: what covers a facet */
 PetscErrorCode ContactCover(ContactPair, const ContactSurface *nonmortar, const ContactSurface *mortar, PetscInt slot, PetscBool hats, PetscBool *failed);
@@ -237,7 +253,7 @@ typedef struct {
 void      ContactRayGuess(const RayFacet *, const RayLattice *mortar, const Overlap *, RayGuess *);
 PetscBool ContactRayPoint(const RayFacet *, const RayLattice *mortar, const Overlap *, const RayGuess *, const RaySimplex *, const PetscReal beta[3], int depth,
                           RayPoint *);
-void      ContactRayPlaces(const RayWork, const ContactSurface *mortar, PetscInt facet, PetscInt nb, PetscInt place[]);
+void      ContactRayPlaces(const RayWork, const ContactSurface *mortar, PetscInt overlap, PetscInt nb, PetscInt place[]);
 
 /* raysum.c, raycurve.c: integrals over the overlaps of the facet at hand */
 void           ContactRayOverDet(const RayFacet *, const RayChartPoint *, PetscReal factor, const RayWeight *, RayWeight *);

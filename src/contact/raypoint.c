@@ -5,6 +5,8 @@
    d(d.n) = n.V + (t_2 x d).T_1 + (d x t_1).T_2. */
 #include "rayimpl.h"
 
+static const RayBeyond Mean = {{0.5, 0.5}, {0, 0}};
+
 /* Facet and directions at xi. */
 static void Facet_Private(const RayFacet *f, int depth, RayPoint *r)
 {
@@ -51,7 +53,7 @@ PetscBool ContactRayInverse(RayPoint *r)
 /* Mortar facet at eta; K^-1. */
 static PetscBool Mortar_Private(const RayFacet *f, const RayLattice *mortar, int depth, RayPoint *r)
 {
-  ContactRayFunctions(f->m, mortar->order, r->eta, PetscMin(depth, 2), &r->M);
+  ContactRayBeyond(&Mean, f->m, mortar->order, r->eta, PetscMin(depth, 2), &r->M);
   ContactRayLatticeSum(mortar, r->M.N, r->X);
   r->Xi[1][0] = r->Xi[1][1] = 0, r->Xi[1][2] = 1;
   for (PetscInt i = 0; i < f->m; i++) ContactRayLatticeSum(mortar, r->M.d[i], r->Xi[i]);
@@ -70,7 +72,7 @@ static void Along_Private(RayPoint *r, PetscReal e[3])
 static PetscBool Inside_Private(const RayFacet *f, const RayPoint *r)
 {
   for (PetscInt i = 0; i < f->m; i++)
-    if (!(PetscAbsReal(r->eta[i]) < FACET_OUTSIDE)) return PETSC_FALSE;
+    if (!(PetscAbsReal(r->eta[i]) < (f->m == 2 ? RAY_OUTSIDE : FACET_OUTSIDE))) return PETSC_FALSE;
   return PETSC_TRUE;
 }
 

@@ -231,7 +231,7 @@ PetscBool ContactRayPoint(const RayFacet *f, const RayLattice *mortar, const Ove
 }
 
 /* Places of an overlap's numbers among the facet's: of its three groups of nodes, component by component, then m for each image. */
-void ContactRayPlaces(const RayWork w, const ContactSurface *mortar, PetscInt facet, PetscInt nb, PetscInt place[])
+void ContactRayPlaces(const RayWork w, const ContactSurface *mortar, PetscInt overlap, PetscInt nb, PetscInt place[])
 {
   const RayFacet *f = &w->facet;
   const PetscInt  D = f->D, own = f->s.num + f->nv, images = D * (own + w->num_mortar);
@@ -242,13 +242,13 @@ void ContactRayPlaces(const RayWork w, const ContactSurface *mortar, PetscInt fa
     for (PetscInt a = 0; a < f->s.num; a++) place[c * f->s.num + a] = D * a + c;
     for (PetscInt v = 0; v < f->nv; v++) place[D * f->s.num + c * f->nv + v] = D * (f->s.num + v) + c;
   }
-  ContactRayLatticeNodes(mortar, facet, &node, order1);
+  ContactRayLatticeNodes(mortar, w->mortar[overlap], &node, order1);
   for (PetscInt b = 0; b < nb; b++) {
     for (at = 0; at < w->num_mortar && w->vertex[at] != node[b]; at++) continue;
     for (PetscInt c = 0; c < D; c++) place[D * own + c * nb + b] = D * (own + at) + c;
   }
   for (PetscInt k = 0; k < f->nv; k++) {
-    for (at = 0; at < w->num_images && w->image[at].node != mortar->facets[f->nv * facet + f->nv - 1 - k]; at++) continue;
+    for (at = 0; at < w->num_images && w->image[at].node != w->overlap[overlap].corner[k]; at++) continue;
     for (PetscInt i = 0; i < f->m; i++) place[D * (own + nb) + f->m * k + i] = images + f->m * at + i;
   }
 }

@@ -196,7 +196,7 @@ PetscErrorCode ContactRayMoments(ContactPair pair, const ContactSurface *mortar,
       pair->num_degenerate++;
       continue;
     }
-    ContactRayPlaces(w, mortar, w->mortar[k], facet.num, place);
+    ContactRayPlaces(w, mortar, k, facet.num, place);
     for (PetscInt i = 0; i < num; i++) {
       const PetscInt row = i < 2 * t->num ? na * (i / t->num) + t->place[i % t->num] : i;
 

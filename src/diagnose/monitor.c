@@ -11,12 +11,11 @@
 struct _p_Monitor {
   MPI_Comm         comm;
   PetscMPIInt      rank;
-  const SceneData *scene;                   /* borrowed */
-  PetscBool        terminal;                /* rank 0 only */
-  PetscBool        shown;                   /* the bar stands on the last line */
-  PetscLogDouble   start;                   /* of the run */
-  PetscInt         steps, cuts, iterations; /* accepted steps, their cuts, Newton iterations of all rows */
-  PetscReal        t;                       /* accepted pseudo-time */
+  const SceneData *scene;    /* borrowed */
+  PetscBool        terminal; /* rank 0 only */
+  PetscBool        shown;    /* the bar stands on the last line */
+  PetscLogDouble   start;    /* of the run */
+  PetscReal        t;        /* accepted pseudo-time */
 };
 
 PetscErrorCode MonitorCreate(MPI_Comm comm, const SceneData *scene, Monitor *monitor)
@@ -165,11 +164,8 @@ PetscErrorCode MonitorResume(Monitor m, const char *file, const ReportRow *so_fa
   PetscFunctionBegin;
   PetscCall(Hide_Private(m));
   PetscCall(PetscTime(&now));
-  m->start      = now - so_far->seconds;
-  m->steps      = so_far->step;
-  m->cuts       = so_far->step_cuts;
-  m->iterations = so_far->newton_iterations;
-  m->t          = so_far->t;
+  m->start = now - so_far->seconds;
+  m->t     = so_far->t;
   Say_Private(m, "goes on after load step %" PetscInt_FMT ", t = %g, from %s\n", so_far->step, (double)so_far->t, file);
   PetscCall(MonitorShow_Private(m));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -179,8 +175,7 @@ PetscErrorCode MonitorAgain(Monitor m, PetscInt number, PetscInt cells, PetscRea
 {
   PetscFunctionBegin;
   PetscCall(Hide_Private(m));
-  m->steps = 0;
-  m->t     = 0;
+  m->t = 0;
   Say_Private(m, "pass %" PetscInt_FMT ": the path again from t = 0, on %" PetscInt_FMT " cells; the error before was up to %.3e\n", number, cells,
               (double)error);
   PetscCall(MonitorShow_Private(m));
@@ -208,31 +203,26 @@ PetscErrorCode MonitorRow(Monitor m, const ReportRow *row)
   }
   Say_Private(m, "%5" PetscInt_FMT " %4" PetscInt_FMT " %11.5g %8" PetscInt_FMT " %9" PetscInt_FMT " %6" PetscInt_FMT " %6" PetscInt_FMT " %10s %12s %8.2f%s\n",
               row->step, row->pass, (double)row->t, row->cells, row->dofs, row->newton_iterations, row->active_nodes, error, force, (double)row->seconds, end);
-  m->iterations += row->newton_iterations;
-  if (row->accepted) {
-    m->steps++;
-    m->cuts += row->step_cuts;
-    m->t = row->t;
-  }
+  if (row->accepted) m->t = row->t;
   PetscCall(MonitorShow_Private(m));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode MonitorFooter(Monitor m, const char *status, const char *reason, const char *adapt_stop, PetscBool checkpoint, const ReportRow *last)
+PetscErrorCode MonitorFooter(Monitor m, const char *status, const char *reason, const char *adapt_stop, PetscBool checkpoint, const ReportRow *total,
+                             const ReportRow *last)
 {
-  PetscLogDouble now;
-  char           spent[32];
+  char spent[32];
 
   PetscFunctionBegin;
   PetscCall(Hide_Private(m));
-  PetscCall(PetscTime(&now));
-  if (now - m->start < 60)
-    snprintf(spent, sizeof(spent), "%.2f s", (double)(now - m->start));
+  if (total->seconds < 60)
+    snprintf(spent, sizeof(spent), "%.2f s", (double)total->seconds);
   else
-    Duration_Private(now - m->start, spent, sizeof(spent));
+    Duration_Private(total->seconds, spent, sizeof(spent));
   Say_Private(m, "%s%s%s: %" PetscInt_FMT " load %s to t = %g of %g, %" PetscInt_FMT " Newton %s, %" PetscInt_FMT " step %s, %s\n", status,
-              reason[0] ? ", " : "", reason, m->steps, m->steps == 1 ? "step" : "steps", (double)m->t, (double)m->scene->load.end, m->iterations,
-              m->iterations == 1 ? "iteration" : "iterations", m->cuts, m->cuts == 1 ? "cut" : "cuts", spent);
+              reason[0] ? ", " : "", reason, total->step, total->step == 1 ? "step" : "steps", (double)total->t, (double)m->scene->load.end,
+              total->newton_iterations, total->newton_iterations == 1 ? "iteration" : "iterations", total->step_cuts, total->step_cuts == 1 ? "cut" : "cuts",
+              spent);
   if (last) {
     if (PetscIsNanReal(last->estimated_error))
       Say_Private(m, "strain energy %.8g, error not estimated\n", (double)last->energy);

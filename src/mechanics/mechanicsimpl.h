@@ -160,6 +160,7 @@ struct _p_Mechanics {
   PetscReal           *linear, *dpressure; /* owned: linearised pressure and derivative of the last tangent; dpressure holds [m][n*dim] cell by cell */
   PetscReal           *free_share;         /* owned [num_owned_cells] diagonal of cells of unsupported bodies relative to their stiffness, else 0 */
   PetscReal            free_part;          /* part of it that counts */
+  PetscReal            drag, *drag_from;   /* rate, 0: none; owned local array: displacements it counts from */
   PetscReal           *hold;               /* owned [num_bodies][9], see MechanicsGetHold */
   PetscReal           *work;               /* owned batch buffers */
   PetscInt             work_size;
@@ -210,6 +211,9 @@ PetscErrorCode CellNumbersDestroy_Private(CellNumbers *);
 PetscErrorCode MechanicsStoredCreate_Private(Mechanics);
 /* history.c: layout and initial values. Collective. */
 PetscErrorCode MechanicsHistoryCreate_Private(Mechanics);
+/* drag.c: forces at displacements u[n][dim] of cell i of the group, added to r; their derivatives, to the cell's matrix as integrate.c has it. */
+PetscErrorCode MechanicsDragForces_Private(Mechanics, const CellGroup *, PetscInt i, const PetscReal u[], PetscReal r[]);
+void           MechanicsDragMatrix_Private(Mechanics, const CellGroup *, PetscInt i, PetscInt num_inner, PetscReal inner[], PetscReal K[]);
 /* free.c: free_share. Collective. */
 PetscErrorCode MechanicsFreeBodies_Private(Mechanics);
 /* incompressible.c: after the groups. */

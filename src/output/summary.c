@@ -176,6 +176,8 @@ static cJSON *Document_Private(const SceneData *scene, const RunSummary *s, cons
   AddNumber_Private(root, "active_set_cycles", (PetscReal)s->active_set_cycles);
   AddNumber_Private(root, "factorisations", (PetscReal)s->factorisations);
   AddNumber_Private(root, "single_factor_failures", (PetscReal)s->single_failures);
+  AddNumber_Private(root, "relaxed_steps", (PetscReal)s->relaxed_steps);
+  AddNumber_Private(root, "drag_work", s->drag_work);
   AddNumber_Private(root, "unstable_equilibria", s->unstable);
   AddNumber_Private(root, "cells", s->problem ? (PetscReal)g->cells : nan);
   AddNumber_Private(root, "dofs", s->problem ? (PetscReal)g->dofs : nan);

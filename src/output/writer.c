@@ -303,6 +303,14 @@ PetscErrorCode WriterField(Writer w, const char *name, PetscBool at_cells, Petsc
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+void WriterAbandon(Writer w)
+{
+  char path[PETSC_MAX_PATH_LEN];
+
+  (void)snprintf(path, sizeof(path), "%s/fields_%04d.h5", w->directory, (int)w->num);
+  if (w->file >= 0) (void)unlink(path);
+}
+
 PetscErrorCode WriterEnd(Writer w)
 {
   PetscFunctionBegin;

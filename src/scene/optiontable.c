@@ -65,7 +65,8 @@ const Option Options[] = {
     {"material.<name>.frame.point.<axis>", KEY_REAL, "length", "0", ANY, "a point of that axis", MAT(spec.frame.point)},
 
     {"boundary.<name>.displacement.<axis>", KEY_EXPRESSION, "length", "", ANY,
-     "prescribed displacement; components not given stay free; <name>: physical group of one dimension less", BOUND(spec.displacement)},
+     "prescribed displacement; components not given stay free; <name>: physical group of one dimension less; boundaries that meet must agree there",
+     BOUND(spec.displacement)},
     {"boundary.<name>.fix", KEY_AXES, "", "", "letters of xyz, or normal", "no displacement in these directions; normal: of a flat face of any direction",
      BOUND(spec.fix)},
     {"boundary.<name>.rotation.axis", KEY_WORD, "", "z", "x|y|z", "axis of a prescribed finite rotation", BOUND(rotation_axis)},
@@ -81,8 +82,9 @@ const Option Options[] = {
     {"boundary.<name>.amplitude", KEY_AMPLITUDE, "", "[0,0, 1,1]", "t rising",
      "t0,v0, t1,v1, ...: multiplies the values of this boundary, piecewise linear in t; load steps end at its times", BOUND(spec.amplitude)},
 
-    {"contact.<pair>.nonmortar", KEY_TEXT, "", NULL, "", "physical group that carries the multiplier", PAIR(nonmortar)},
-    {"contact.<pair>.mortar", KEY_TEXT, "", NULL, "", "physical group opposite", PAIR(mortar)},
+    {"contact.<pair>.nonmortar", KEY_TEXT, "", NULL, "",
+     "physical group of one dimension less: the side that carries the contact pressure (the multiplier), better the softer or coarser one", PAIR(nonmortar)},
+    {"contact.<pair>.mortar", KEY_TEXT, "", NULL, "", "physical group of the other side", PAIR(mortar)},
     {"contact.<pair>.friction", KEY_REAL, "", "0", NOT_BELOW, "coefficient of friction; not built yet: 0 only", PAIR(spec.friction)},
     {"contact.<pair>.order", KEY_WORD, "", "1", "1|full", "order of the contact faces; full: that of their cells, with their curved geometry", PAIR(order)},
     {"contact.<pair>.subdivide", KEY_WORD, "", "0", "0|1|2|3|4|5|6|7|8|auto",
@@ -101,19 +103,22 @@ const Option Options[] = {
     {"contact.<pair>.node_to_segment", KEY_BOOL, "", "false", "", "node-to-segment contact, for comparison only", PAIR(spec.node_to_segment)},
 
     {"load.end", KEY_REAL, "pseudo-time", "1", POSITIVE, "t runs from 0 to here", SCENE(data.load.end)},
-    {"load.step", KEY_REAL, "pseudo-time", "", POSITIVE, "first step; default: end/10", SCENE(data.load.step)},
-    {"load.step_min", KEY_REAL, "pseudo-time", "", POSITIVE, "a smaller step is given up; default: step/1024", SCENE(data.load.step_min)},
+    {"load.step", KEY_REAL, "pseudo-time", "", POSITIVE, "first step, 1e-8 of end or more; default: end/10", SCENE(data.load.step)},
+    {"load.step_min", KEY_REAL, "pseudo-time", "", POSITIVE, "a step that would have to be smaller is given up; default: step/1024", SCENE(data.load.step_min)},
     {"load.step_max", KEY_REAL, "pseudo-time", "", POSITIVE,
      "steps grow to this size; default: step; arc_length: lengths are to the first as step_min and step_max are to step", SCENE(data.load.step_max)},
-    {"load.max_steps", KEY_INT, "", "10000", "[1,1000000]", "more load steps are given up", SCENE(data.load.max_steps)},
+    {"load.max_steps", KEY_INT, "", "10000", "[1,1000000]", "a run that is not through after so many load steps is given up", SCENE(data.load.max_steps)},
 
     {"load.control", KEY_WORD, "", "time", "time|arc_length",
      "arc_length: t, the factor of all loads, is found along the path of equilibria, through limit points, until it reaches end", SCENE(data.load.control)},
+    {"load.relax", KEY_BOOL, "", "true", "",
+     "where a step with contact fails and so does a shorter one, bodies creep to an equilibrium farther off, as when they snap, under drag that then goes; "
+     "history.csv says how much energy it took",
+     SCENE(data.load.relax)},
     {"load.stop_displacement", KEY_REAL, "length", "0", NOT_BELOW, "the run ends once a displacement component is as large; 0: it does not",
      SCENE(data.load.stop_displacement)},
 
-    {"adapt.tolerance", KEY_REAL, "", "0", "[0,1)", "relative estimated error to reach, in the energy-like norm; 0: no adaptation",
-     SCENE(data.adapt.tolerance)},
+    {"adapt.tolerance", KEY_REAL, "", "0", "[0,1)", "relative estimated error to reach, in the energy norm; 0: no adaptation", SCENE(data.adapt.tolerance)},
     {"adapt.max_passes", KEY_INT, "", "10", "[0,100]", "adaptive passes at each load step; repeat: path: of the whole path", SCENE(data.adapt.max_passes)},
     {"adapt.max_cells", KEY_INT, "", "200000", "[1,100000000]",
      "no refinement beyond this number of cells, counted as in summary.json: with those of rigid bodies", SCENE(data.adapt.max_cells)},
@@ -138,7 +143,8 @@ const Option Options[] = {
     {"output.fields", KEY_BOOL, "", "true", "", "write fields.xdmf and its HDF5 files", SCENE(data.output.fields)},
     {"output.divide", KEY_WORD, "", "auto", "auto|1|2|3|4|5|6|7|8", "pieces of a cell in each direction in fields.xdmf; auto: as many as its order",
      SCENE(data.output.divide)},
-    {"output.segments", KEY_BOOL, "", "false", "", "write the contact segments too", SCENE(data.output.segments)},
+    {"output.segments", KEY_BOOL, "", "false", "", "write the pieces of facets that face each other (segments) as a grid of fields.xdmf too",
+     SCENE(data.output.segments)},
     {"output.checkpoint", KEY_INT, "load steps", "1", NOT_BELOW,
      "write checkpoint.h5, from which -restart goes on, every so many accepted load steps, and at the end; 0: only when the run is stopped",
      SCENE(data.output.checkpoint)},
@@ -151,16 +157,16 @@ static PetscErrorCode PrintRow_Private(MPI_Comm comm, const Option *row)
 {
   static const char *const kinds[] = {"text", "", "integer", "number", "true|false", "number or expression", "list of numbers", "", "number"};
   char                     key[128], kind[512];
-  const char              *axis = strstr(row->pattern, "<axis>");
+  const char              *axis = strstr(row->pattern, "<axis>"), *range = strcmp(row->range, ANY) ? row->range : "";
 
   PetscFunctionBegin;
   if (axis)
     PetscCall(PetscSNPrintf(key, sizeof(key), "%.*s<x|y|z>", (int)(axis - row->pattern), row->pattern));
   else
     PetscCall(PetscStrncpy(key, row->pattern, sizeof(key)));
-  PetscCall(PetscSNPrintf(kind, sizeof(kind), "%s%s%s%s%s%s%s%s", kinds[row->type], kinds[row->type][0] && row->range[0] ? " " : "",
-                          strcmp(row->range, ANY) ? row->range : "", row->unit[0] ? " [" : "", row->unit, row->unit[0] ? "]" : "",
-                          row->fallback ? (row->fallback[0] ? "; default " : "") : "; must be given", row->fallback ? row->fallback : ""));
+  PetscCall(PetscSNPrintf(kind, sizeof(kind), "%s%s%s%s%s%s%s%s", kinds[row->type], kinds[row->type][0] && range[0] ? " " : "", range, row->unit[0] ? " [" : "",
+                          row->unit, row->unit[0] ? "]" : "", row->fallback ? (row->fallback[0] ? "; default " : "") : "; must be given",
+                          row->fallback ? row->fallback : ""));
   PetscCall(HelpRow(comm, key, kind, row->help));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -173,7 +179,7 @@ PetscErrorCode ScenePrintHelp(MPI_Comm comm)
   PetscCall(PetscPrintf(comm,
                         "mortise %s: adaptive mortar contact of bodies that deform a lot\n\n"
                         "  mortise SCENE.yml [options]     solve; mpiexec -n 4 mortise ... on four processes\n"
-                        "  mortise SCENE.yml -check        read the scene and the mesh, say what would be solved, solve nothing\n"
+                        "  mortise SCENE.yml -check        say what would be solved, refuse what a run would refuse; solve and write nothing\n"
                         "  mortise -help                   this text\n"
                         "  mortise -list                   models, laws with their parameters, boundary kinds\n\n"
                         "Keys of a scene. Any of them can be set on the command line, which wins over the file: material.rubber.E is -material_rubber_E.\n"

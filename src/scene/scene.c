@@ -211,8 +211,8 @@ static PetscErrorCode ViewBoundary_Private(const BoundarySpec *b, PetscViewer vi
   if (b->rotation)
     PetscCall(PetscViewerASCIIPrintf(viewer, " rotation about %c by %s degrees", 'x' + (int)b->rotation_axis, ExpressionText(b->rotation_angle)));
   if (b->pressure) PetscCall(PetscViewerASCIIPrintf(viewer, " pressure %s", ExpressionText(b->pressure)));
-  if (b->volume) PetscCall(PetscViewerASCIIPrintf(viewer, " enclosed volume %s", ExpressionText(b->volume)));
-  if (b->advance) PetscCall(PetscViewerASCIIPrintf(viewer, " advance %s", ExpressionText(b->advance)));
+  if (b->volume) PetscCall(PetscViewerASCIIPrintf(viewer, " enclosed volume changes by %s, pressure found", ExpressionText(b->volume)));
+  if (b->advance) PetscCall(PetscViewerASCIIPrintf(viewer, " advances by %s, pressure found", ExpressionText(b->advance)));
   for (int c = 0; c < 3; ++c)
     if (b->traction[c]) PetscCall(PetscViewerASCIIPrintf(viewer, " traction_%c = %s", 'x' + c, ExpressionText(b->traction[c])));
   PetscCall(PetscViewerASCIIPrintf(viewer, "%s\n", b->amplitude.num ? " (amplitude)" : ""));
@@ -260,7 +260,12 @@ static PetscErrorCode ViewBody_Private(const BodySpec *b, PetscViewer viewer)
       PetscCall(PetscViewerASCIIPrintf(viewer, ", fibres %s at %.6g degrees around %c", fiber->name, (double)fiber->angle, 'x' + m->frame.axis));
     if (fiber->compression) PetscCall(PetscViewerASCIIPrintf(viewer, ", in compression too"));
   }
-  PetscCall(PetscViewerASCIIPrintf(viewer, ")\n"));
+  PetscCall(PetscViewerASCIIPrintf(viewer, ")"));
+  for (int c = 0; c < 3; ++c) {
+    if (b->motion[c]) PetscCall(PetscViewerASCIIPrintf(viewer, " motion_%c = %s", 'x' + c, ExpressionText(b->motion[c])));
+    if (b->force[c]) PetscCall(PetscViewerASCIIPrintf(viewer, " force_%c = %s", 'x' + c, ExpressionText(b->force[c])));
+  }
+  PetscCall(PetscViewerASCIIPrintf(viewer, "%s\n", b->amplitude.num ? " (amplitude)" : ""));
   PetscCall(PetscViewerASCIIUseTabs(viewer, PETSC_TRUE));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

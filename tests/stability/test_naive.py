@@ -182,6 +182,32 @@ def test_bodies_that_pass_each_other(run):
         assert 1.3 < max(force) < 1.8 and force[0] == 0 and force[-1] < 1e-20 and ours.summary["energy"] < 1e-12
 
 
+def test_snap(run):
+    """The snap hook with the nose as the side that carries the pressure: as it comes over either edge of the catch the path of equilibria has a limit point in the motion itself, behind
+    which there is none near by, however short the step. Cutting steps ends there. Under drag the hook creeps to the equilibrium it snaps to, which is one without drag: what is
+    left behind the catch is a hook without stress. What the snaps set free is told."""
+    sides = ("-contact_snap_nonmortar", "nose", "-contact_snap_mortar", "edge", "-mesh_parameter_r", 0.3)
+    naive = run("tests/verify/scenes/snaphook.yml", *sides, "-load_relax", "false")
+    ours = run("tests/verify/scenes/snaphook.yml", *sides)
+    s, told = ours.summary, [(row["t"], row["drag_work"]) for row in ours.history if row["drag_work"] > 0]
+    print("naive", naive.returncode, naive.summary["t"], naive.summary["newton_iterations"], "ours", s["load_steps"], s["step_cuts"], s["newton_iterations"], told)
+    assert naive.returncode == 2 and naive.summary["t"] < 0.5 and naive.summary["relaxed_steps"] == 0
+    assert ours.returncode == 0 and s["energy"] < 1e-12 and s["step_cuts"] <= 4
+    assert 1 <= s["relaxed_steps"] == len(told) <= 4 and sum(work for _, work in told) == pytest.approx(s["drag_work"]) and ours.stdout.count("under drag") == len(told)
+    assert max(row["support_imbalance"] for row in ours.history if row["contact_force"] > 1e-3) < 1e-8
+
+
+@pytest.mark.slow
+def test_press_fit_on_a_fine_mesh(run):
+    """The press fit of test_plastic.py adapted: contact is a tenth of a millimetre wide, flows, and moves on by half that in a step. From an elastic start at the new place Newton's method
+    overshoots, since what flows is a hundred times softer; cutting steps ends where they move contact by less than a facet. Under drag they are a hundred times as long."""
+    options = ("-order", 2, "-mesh_parameter_size", 2, "-adapt_tolerance", 0.1, "-load_end", 1, "-load_max_steps", 10)
+    ours, naive = (run("tests/verify/scenes/pressfit.yml", *options, "-load_relax", relax).summary for relax in ("true", "false"))
+    for s in (ours, naive):
+        print({key: s[key] for key in ("t", "load_steps", "step_cuts", "newton_iterations", "relaxed_steps", "drag_work")})
+    assert ours["t"] > 0.155 and ours["step_cuts"] <= 2 and naive["t"] < 0.142
+
+
 def test_checkerboard_on_an_isolated_refined_cell(run):
     """Four cells where one was, around them coarser ones: constant pressures on bilinear cells oscillate there (no refinement cures it), linear ones on biquadratic
     cells do not. Cook's membrane, kappa/mu = 5000; alternating part of the four mean pressures against their mean."""

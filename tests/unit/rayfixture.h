@@ -51,10 +51,28 @@ static inline void PatchFacet(Patch *p, PetscReal a, PetscReal da, PetscReal b, 
   }
 }
 
-/* n (x n) facets; refined: the last of them in four (space). */
-static inline void PatchCreate(Patch *p, PetscInt dim, PetscInt order, PetscInt n, PetscReal lo, PetscReal hi, PetscBool forward, PetscBool refined)
+/* Nodes on a side of a refined facet hang on the facet that shares it, from (a, b) on, along direction i of the chart, unless they are nodes of it, too. */
+static inline void PatchHang(Patch *p, PetscInt v, PetscReal a, PetscReal b, int i, PetscReal h, PetscInt *num)
 {
-  const PetscInt  m = dim - 1, most = m == 1 ? n : n * n + 3, num = m == 1 ? order + 1 : (order + 1) * (order + 1), nodes = most * num;
+  const PetscReal  from[2] = {a, b}, along = (p->u[2 * v + i] - from[i]) / h;
+  PetscReal        value[MORTISE_MAX_ORDER + 1];
+  const PetscReal *node;
+
+  if (*num > p->hang[v] || fabs(p->u[2 * v + 1 - i] - from[1 - i]) > 1e-9 || along < 0 || along > 1) return;
+  CHECK_CALL(ElementGetNodes(p->order, &node));
+  for (PetscInt k = 0; k <= p->order; k++)
+    if (fabs(node[k] - along) < 1e-9) return;
+  CHECK_CALL(ElementEvaluate1D(p->order, along, value, NULL));
+  for (PetscInt k = 0; k <= p->order; k++, (*num)++) {
+    p->hang_master[*num] = PatchNode(p, a + (i ? 0 : h * node[k]), b + (i ? h * node[k] : 0));
+    p->hang_weight[*num] = value[k];
+  }
+}
+
+/* n (x n) facets, those that are refined[n x n] (space; NULL: none) in four. */
+static inline void PatchRefined(Patch *p, PetscInt dim, PetscInt order, PetscInt n, PetscReal lo, PetscReal hi, PetscBool forward, const PetscBool refined[])
+{
+  const PetscInt  m = dim - 1, most = m == 1 ? n : 4 * n * n, num = m == 1 ? order + 1 : (order + 1) * (order + 1), nodes = most * num;
   const PetscReal h = (hi - lo) / (PetscReal)n;
 
   memset(p, 0, sizeof(*p));
@@ -74,31 +92,20 @@ static inline void PatchCreate(Patch *p, PetscInt dim, PetscInt order, PetscInt 
   for (PetscInt k = 0; k < (m == 1 ? n : n * n); k++) {
     const PetscReal a = lo + h * (PetscReal)(k % n), b = lo + h * (PetscReal)(k / n);
 
-    if (!refined || k != n * n - 1)
+    if (!refined || !refined[k])
       PatchFacet(p, a, h, b, h, forward);
     else
       for (int c = 0; c < 4; c++) PatchFacet(p, a + c % 2 * h / 2, h / 2, b + c / 2 * h / 2, h / 2, forward);
   }
-  for (PetscInt v = 0, num_hang = 0; v < p->s.num_nodes; v++) { /* nodes on the sides of the refined facet hang on those of the neighbours */
-    const PetscReal at = lo + h * (PetscReal)(n - 1);
-
+  for (PetscInt v = 0, num_hang = 0; v < p->s.num_nodes; v++) {
     p->hang[v] = num_hang;
-    for (int side = 0; side < 2 && refined; side++) {
-      PetscReal        value[MORTISE_MAX_ORDER + 1];
-      const PetscReal *node;
-      PetscBool        on = PETSC_FALSE;
+    for (PetscInt k = 0; k < n * n && refined; k++)
+      for (int side = 0; side < 4 && refined[k]; side++) {
+        const PetscInt i = side % 2, at[2] = {k % n, k / n}, across = at[1 - i] + (side / 2 ? 1 : -1), line = at[1 - i] + side / 2;
 
-      if (p->hang[v] < num_hang || fabs(p->u[2 * v + side] - at) > 1e-9 || p->u[2 * v + 1 - side] < at - 1e-9) continue;
-      CHECK_CALL(ElementGetNodes(order, &node));
-      for (PetscInt k = 0; k <= order; k++)
-        if (fabs(at + h * node[k] - p->u[2 * v + 1 - side]) < 1e-9) on = PETSC_TRUE;
-      if (on) continue;
-      CHECK_CALL(ElementEvaluate1D(order, (p->u[2 * v + 1 - side] - at) / h, value, NULL));
-      for (PetscInt k = 0; k <= order; k++, num_hang++) {
-        p->hang_master[num_hang] = PatchNode(p, side ? at + h * node[k] : at, side ? at : at + h * node[k]);
-        p->hang_weight[num_hang] = value[k];
+        if (across < 0 || across == n || refined[i ? n * at[1] + across : n * across + at[0]]) continue;
+        PatchHang(p, v, lo + h * (PetscReal)(i ? line : at[0]), lo + h * (PetscReal)(i ? at[1] : line), (int)i, h, &num_hang);
       }
-    }
     p->hang[v + 1] = num_hang;
   }
   for (PetscInt v = 0; v < p->s.num_nodes; v++)
@@ -106,6 +113,15 @@ static inline void PatchCreate(Patch *p, PetscInt dim, PetscInt order, PetscInt 
   p->s.dim = dim, p->s.facets = p->facets, p->s.x = p->x, p->s.X = p->X, p->s.mirror = p->mirror;
   p->s.order = p->orders, p->s.first = p->first, p->s.lattice = p->lattice;
   if (refined) p->s.hang = p->hang, p->s.hang_master = p->hang_master, p->s.hang_weight = p->hang_weight;
+}
+
+/* The same, refined: the last of them. */
+static inline void PatchCreate(Patch *p, PetscInt dim, PetscInt order, PetscInt n, PetscReal lo, PetscReal hi, PetscBool forward, PetscBool refined)
+{
+  PetscBool last[64] = {PETSC_FALSE};
+
+  if (refined) last[n * n - 1] = PETSC_TRUE;
+  PatchRefined(p, dim, order, n, lo, hi, forward, refined ? last : NULL);
 }
 
 static inline void PatchDestroy(Patch *p)

@@ -6,8 +6,9 @@
 
 typedef struct {
   PetscInt  dim, order, mortar; /* orders of both sides */
-  PetscBool standard, partly, hanging;
-  PetscInt  mirror; /* 1: planes of symmetry on two sides; 2: on all four of a single facet (space) */
+  PetscBool standard, partly;
+  PetscInt  hanging; /* 1: on one facet of either side; 2: on two of the mortar side, whose sides are curved by a third of the width of fine facets (space) */
+  PetscInt  mirror;  /* 1: planes of symmetry on two sides; 2: on all four of a single facet (space) */
   PetscBool ring;
 } Kind;
 
@@ -44,18 +45,22 @@ static void MakePlanes(const Kind *kind, Patch *p)
 
 static void MakePair(const Kind *kind, uint64_t *seed, Patch *nonmortar, Patch *mortar)
 {
-  const PetscInt  D = kind->dim, ns = D == 2 ? 4 : kind->mirror == 2 ? 1 : 2, nm = D == 2 ? 5 : 3;
-  const PetscReal curve = 0.15 * Random(seed), bend = 0.1 * Random(seed), tilt = 0.1 * Random(seed), turn = 0.3 * Random(seed);
+  const PetscInt         D = kind->dim, ns = D == 2 ? 4 : kind->mirror == 2 ? 1 : 2, nm = D == 2 ? 5 : 3;
+  static const PetscBool Refined[9] = {[1] = PETSC_TRUE, [3] = PETSC_TRUE};
+  const PetscReal        curve = 0.15 * Random(seed), bend = 0.1 * Random(seed), tilt = 0.1 * Random(seed), turn = 0.3 * Random(seed);
 
   /* nonmortar: outward +z (plane: +y), body below; in the plane that runs from right to left */
-  PatchCreate(nonmortar, D, kind->order, ns, 0, 1, D == 2 ? PETSC_FALSE : PETSC_TRUE, kind->hanging);
-  PatchCreate(mortar, D, kind->mortar, nm, kind->partly ? 0.31 : -0.35, kind->partly ? 1.4 : 1.35, D == 2 ? PETSC_TRUE : PETSC_FALSE,
-              (PetscBool)(kind->hanging && D == 3));
+  PatchCreate(nonmortar, D, kind->order, ns, 0, 1, D == 2 ? PETSC_FALSE : PETSC_TRUE, (PetscBool)(kind->hanging == 1));
+  if (kind->hanging == 2)
+    PatchRefined(mortar, 3, kind->mortar, nm, kind->partly ? 0.31 : -0.35, kind->partly ? 1.4 : 1.35, PETSC_FALSE, Refined);
+  else
+    PatchCreate(mortar, D, kind->mortar, nm, kind->partly ? 0.31 : -0.35, kind->partly ? 1.4 : 1.35, D == 2 ? PETSC_TRUE : PETSC_FALSE,
+                (PetscBool)(kind->hanging && D == 3));
   for (int side = 0; side < 2; side++) {
     Patch *p = side ? mortar : nonmortar;
 
     for (PetscInt n = 0; n < p->s.num_nodes; n++) {
-      const PetscReal a = p->u[2 * n] - 0.5, b = p->u[2 * n + 1] - 0.5, noise = 0.04 / (PetscReal)(p->order * p->order);
+      const PetscReal a = p->u[2 * n] - 0.5, b = p->u[2 * n + 1] - 0.5, noise = (side && kind->hanging == 2 ? 0.4 : 0.04) / (PetscReal)(p->order * p->order);
       PetscReal      *x = p->x + D * n, X[3];
 
       X[0] = side && D == 3 ? cos(turn) * a - sin(turn) * b : a;
@@ -255,7 +260,9 @@ static void CheckKind(const Kind *kind, PetscInt seeds, PetscInt stride)
   print_message("%dD orders %d/%d %s%s%s%s%s: gradient %.1e, weight %.1e, Hessian %.1e, symmetry %.1e, force %.1e, moment %.1e, motion %.1e, again %.1e; %d of "
                 "%d kinks\n",
                 (int)kind->dim, (int)kind->order, (int)kind->mortar, kind->standard ? "standard" : "dual", kind->partly ? " partly" : "",
-                kind->hanging ? " hanging" : "",
+                kind->hanging == 2 ? " bent"
+                : kind->hanging    ? " hanging"
+                                   : "",
                 kind->mirror == 2 ? " between mirrors"
                 : kind->mirror    ? " mirror"
                                   : "",
@@ -283,9 +290,9 @@ static void test_plane(void **state)
 
 static void test_space(void **state)
 {
-  static const Kind Kinds[] = {{3, 1, 1, 1, 0, 0, 0, 0}, {3, 1, 1, 0, 1, 0, 1, 0}, {3, 1, 1, 0, 1, 1, 0, 0}, {3, 1, 2, 0, 0, 1, 1, 0},
-                               {3, 2, 2, 0, 0, 0, 1, 0}, {3, 2, 1, 0, 1, 1, 0, 0}, {3, 2, 3, 0, 1, 0, 1, 0}, {3, 3, 3, 0, 1, 0, 0, 0},
-                               {3, 3, 2, 0, 0, 1, 1, 0}, {3, 1, 1, 0, 0, 0, 2, 0}, {3, 2, 2, 0, 0, 0, 2, 0}};
+  static const Kind Kinds[] = {{3, 1, 1, 1, 0, 0, 0, 0}, {3, 1, 1, 0, 1, 0, 1, 0}, {3, 1, 1, 0, 1, 1, 0, 0}, {3, 1, 2, 0, 0, 1, 1, 0}, {3, 2, 2, 0, 0, 0, 1, 0},
+                               {3, 2, 1, 0, 1, 1, 0, 0}, {3, 2, 3, 0, 1, 0, 1, 0}, {3, 3, 3, 0, 1, 0, 0, 0}, {3, 3, 2, 0, 0, 1, 1, 0}, {3, 1, 1, 0, 0, 0, 2, 0},
+                               {3, 2, 2, 0, 0, 0, 2, 0}, {3, 2, 2, 0, 0, 2, 0, 0}, {3, 1, 2, 0, 1, 2, 0, 0}, {3, 2, 3, 0, 1, 2, 0, 0}};
 
   (void)state;
   for (size_t k = 0; k < sizeof(Kinds) / sizeof(Kinds[0]); k++)

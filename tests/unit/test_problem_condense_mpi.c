@@ -1,6 +1,7 @@
 /* The linear step with the nodes inside cells condensed is the one without, to 1e-12 of its largest entry, and solves the whole system to round-off: distorted
    meshes with hanging nodes, orders 1..5 at random, prescribed motion still to come, compressible and mixed laws; and cells whose inner block is indefinite,
-   where the second alone is asked, since the whole matrix is close to singular too. */
+   where the second alone is asked, since the whole matrix is close to singular too. Drag: the same; its matrix is the derivative of its forces, and the energy
+   it takes is their work. */
 #include "mechanicsimpl.h"
 #include "problemfixture.h"
 
@@ -71,7 +72,7 @@ static void LinearStep(Solved *s, Vec x, PetscReal pressure, Vec dx, Mat *A, Vec
   OK(PetscFree(pi));
 }
 
-static void SameStep(PetscInt dim, PetscInt split, PetscBool mixed, PetscReal pressure, uint64_t seed)
+static void SameStep(PetscInt dim, PetscInt split, PetscBool mixed, PetscReal pressure, PetscReal drag, uint64_t seed)
 {
   Solved    s[2];
   PetscInt  rows[2], dofs, indefinite;
@@ -87,6 +88,7 @@ static void SameStep(PetscInt dim, PetscInt split, PetscBool mixed, PetscReal pr
   OK(VecScale(x, 1e-3));
   for (PetscInt k = 0; k < 2; ++k) {
     OK(VecDuplicate(x, &dx[k]));
+    OK(ProblemSetDrag(s[k].problem, drag, s[k].state.x));
     LinearStep(&s[k], x, pressure, dx[k], &A[k], &rhs[k]);
     OK(MatGetSize(A[k], &rows[k], NULL));
   }
@@ -115,21 +117,83 @@ static void SameStep(PetscInt dim, PetscInt split, PetscBool mixed, PetscReal pr
 static void Plane(void **state)
 {
   for (PetscInt split = 1; split <= 3; ++split)
-    for (uint64_t seed = 0; seed < 4; ++seed) SameStep(2, split, (PetscBool)(seed % 2), 0, seed);
+    for (uint64_t seed = 0; seed < 4; ++seed) SameStep(2, split, (PetscBool)(seed % 2), 0, 0, seed);
 }
 
 static void Space(void **state)
 {
-  SameStep(3, 7, PETSC_FALSE, 0, 1);
-  SameStep(3, 6, PETSC_TRUE, 0, 2);
-  SameStep(3, 3, PETSC_FALSE, 0, 3);
+  SameStep(3, 7, PETSC_FALSE, 0, 0, 1);
+  SameStep(3, 6, PETSC_TRUE, 0, 0, 2);
+  SameStep(3, 3, PETSC_FALSE, 0, 0, 3);
 }
 
 /* Large stored pressures make the geometric part of the stiffness dominate: neither definite nor singular. */
 static void IndefiniteCells(void **state)
 {
-  for (uint64_t seed = 0; seed < 3; ++seed) SameStep(2, 3, PETSC_TRUE, 60, seed);
-  SameStep(3, 7, PETSC_TRUE, -60, 1);
+  for (uint64_t seed = 0; seed < 3; ++seed) SameStep(2, 3, PETSC_TRUE, 60, 0, seed);
+  SameStep(3, 7, PETSC_TRUE, -60, 0, 1);
+}
+
+/* Forces of drag at x: those with it less those without. */
+static void DragForces(Solved *s, PetscReal rate, Vec from, Vec x, Vec f)
+{
+  ProblemStatus status;
+  Vec           r;
+
+  OK(VecDuplicate(x, &r));
+  OK(ProblemSetDrag(s->problem, 0, NULL));
+  OK(ProblemResidual(s->problem, x, NULL, r, &status));
+  OK(ProblemSetDrag(s->problem, rate, from));
+  OK(ProblemResidual(s->problem, x, NULL, f, &status));
+  OK(VecAXPY(f, -1, r));
+  OK(VecDestroy(&r));
+}
+
+/* Linear in x; no force where nothing moved; f . (x - from) is the work; f and the matrix agree. */
+static void Drag(void **state)
+{
+  for (PetscInt dim = 2; dim <= 3; ++dim) {
+    Solved    s;
+    PetscReal work, along, size, error, none;
+    Vec       x, from, f, Kx, lift;
+    Mat       A, B;
+    PetscBool bad;
+
+    SameStep(dim, dim == 2 ? 3 : 7, (PetscBool)(dim == 2), 0, 0.3, 5);
+    OK(PetscMemzero(&s, sizeof(s)));
+    Create(&s, dim, dim == 2 ? 3 : 7, PETSC_FALSE, 7, "no");
+    OK(VecDuplicate(s.state.x, &x));
+    OK(VecDuplicate(s.state.x, &from));
+    OK(VecDuplicate(s.state.x, &f));
+    OK(VecDuplicate(s.state.x, &Kx));
+    OK(VecSetRandom(x, NULL));
+    OK(VecScale(x, 1e-3));
+    OK(VecSetRandom(from, NULL));
+    OK(VecScale(from, -2e-3));
+    DragForces(&s, 0.3, x, x, f);
+    OK(VecNorm(f, NORM_INFINITY, &none));
+    DragForces(&s, 0.3, from, x, f);
+    OK(VecNorm(f, NORM_INFINITY, &size));
+    OK(ProblemDragWork(s.problem, x, &work));
+    OK(ProblemCreateRightSide(s.problem, &lift));
+    OK(ProblemTangent(s.problem, x, NULL, lift, &bad));
+    OK(ProblemGetMatrix(s.problem, &A));
+    OK(MatDuplicate(A, MAT_COPY_VALUES, &B));
+    OK(ProblemSetDrag(s.problem, 0, NULL));
+    OK(ProblemTangent(s.problem, x, NULL, lift, &bad));
+    OK(MatAXPY(B, -1, A, SAME_NONZERO_PATTERN));
+    OK(VecAXPY(x, -1, from));
+    OK(MatMult(B, x, Kx));
+    OK(VecDot(f, x, &along));
+    OK(VecAXPY(Kx, -1, f));
+    OK(VecNorm(Kx, NORM_INFINITY, &error));
+    if (!(none < 1e-12 * size) || !(error < 1e-10 * size) || !(work > 0) || !(PetscAbsReal(along - work) < 1e-10 * work))
+      fail_msg("dim %d: forces %g, %g where nothing moved; their matrix errs by %g; work %g, %g", (int)dim, (double)size, (double)none, (double)error,
+               (double)work, (double)along);
+    OK(MatDestroy(&B));
+    for (int k = 0; k < 5; ++k) OK(VecDestroy((Vec *[]){&x, &from, &f, &Kx, &lift}[k]));
+    SolvedDestroy(&s);
+  }
 }
 
 int main(int argc, char **argv)
@@ -138,6 +202,7 @@ int main(int argc, char **argv)
       cmocka_unit_test(Plane),
       cmocka_unit_test(Space),
       cmocka_unit_test(IndefiniteCells),
+      cmocka_unit_test(Drag),
   };
   int failed;
   if (PetscInitializeNoArguments()) return 2;

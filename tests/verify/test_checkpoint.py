@@ -345,6 +345,7 @@ def assert_refused(run, directory, restart, *options, words):
 ])
 def test_other_scene_is_refused(run, broken_off, options, words):
     assert_refused(run, broken_off, "auto", *options, words=words)
+    assert_refused(run, broken_off, "auto", *options, "-check", words=words)
 
 
 def test_file_is_refused(run, broken_off, tmp_path):

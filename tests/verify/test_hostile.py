@@ -114,6 +114,12 @@ def test_supports_that_contradict_on_two_processes(run, tmp_path):
     refused(run("s.yml", text=block(tmp_path, **held(x1={"displacement": {"x": 0.1}})), ranks=2), "boundary.y0 and boundary.x1", "(1, 0, 0)")
 
 
+def test_check_says_what_moves(run, tmp_path):
+    die = {"body": {"body": {"material": "steel", "motion": {"y": "-0.1*t"}}}, "material": {"steel": {"law": "rigid"}}, "boundary": {}}
+    said = run("s.yml", "-check", text=block(tmp_path, **die)).stdout
+    assert "body body: order 1, material steel (rigid) motion_y = -0.1*t\n" in said and "  0 unknowns at t = 0\n" in said, said
+
+
 def test_a_rigid_body_and_its_support(run, tmp_path):
     die = {"body": {"body": {"material": "steel", "motion": {"y": -0.1}}}, "material": {"steel": {"law": "rigid"}}}
     refused(run("s.yml", "-check", text=block(tmp_path, **die, **held())), "body.body.motion and boundary.y0", "in y: -0.05 and 0")
@@ -168,6 +174,7 @@ def test_full_disk(run, tmp_path, kilobytes):
     assert result.returncode == 2 and len(result.stderr.splitlines()) == 1 and result.stderr.startswith("mortise: "), result
     assert "File too large" in result.stderr, result
     assert not (result.directory / "checkpoint.h5").exists() and len(result.states()) == len(result.history), result
+    assert len(list(result.directory.glob("fields_*.h5"))) == len(result.states()), result
 
 
 def test_unconnected_nodes(run, tmp_path):

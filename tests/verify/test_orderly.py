@@ -69,3 +69,4 @@ def test_mumps_fails_in_the_solve(run, ranks):
     s = result.summary
     assert result.returncode == 2 and s["status"] == "failed" and s["reason"] and s["t"] == 0 and s["step_cuts"] > 5, result
     assert "PETSC ERROR" not in result.stderr and "MPI_ABORT" not in result.stderr, result
+    assert f", {s['step_cuts']} step cuts, " in result.stdout and f", {s['newton_iterations']} Newton iterations, " in result.stdout, result

@@ -47,3 +47,16 @@ def test_contact_is_drawn_on_one_side(run):
     assert np.allclose(contact.point["normal"], (0, 0, -1)) and len(bulk.cells) == 26
     plot.plot_mesh(result.directory, "von_mises", 1.0)
     assert (result.directory / "mesh.png").stat().st_size > 10000
+
+
+def test_pressures_found(tmp_path):
+    """Each over the volume or the way that it was found for, in a panel of their own."""
+    history = {"t": [1, 2], "pressure.bore": [3, 5], "volume.bore": [0.1, 0.3], "pressure.lid": [7, 8], "advance.lid": [0.2, 0.4]}
+    history = {name: np.array(values) for name, values in history.items()}
+    figure, axis = plot.plt.subplots()
+    plot.draw_pressures(axis, history, ["pressure.bore", "pressure.lid"])
+    assert [line.get_xydata().tolist() for line in axis.lines] == [[[0.1, 3], [0.3, 5]], [[0.2, 7], [0.4, 8]]]
+    assert axis.get_xlabel() == "advance, volume"
+    (tmp_path / "history.csv").write_text("t,pressure.bore,volume.bore\n1,3,0.1\n")
+    plot.plot_history(tmp_path)
+    assert (tmp_path / "history.png").stat().st_size > 5000

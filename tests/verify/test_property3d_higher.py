@@ -16,8 +16,6 @@ slow = pytest.mark.slow
 SECOND = ("2-1", "2-full")
 BOTH = (*SECOND, "4-1", "4-full")
 FEW = {"lower": LOWER._replace(number=(2, 2, 1)), "upper": UPPER._replace(number=(1, 1, 1))}
-PUNCH = fails("full faces of the rigid punch as nonmortar side, coarser than the block it slides on with sharp edges: on the refined mesh a mortar facet drops out of some "
-              "iterates as unusable, with 1 % of the area, and the residual jumps from 2e-5 to 2e-3")
 CARRIES = pytest.mark.parametrize("carries", ["upper", pytest.param("lower", marks=slow)])
 
 
@@ -206,9 +204,19 @@ def test_o99_one_step_or_ten(solve):
     space.test_o99_one_step_or_ten(solve, "direct", 0.25)
 
 
-@pytest.mark.parametrize("kind", [pytest.param("2-full", marks=fails("26 cells, ten steps: beyond a press of 0.29 the upper block's edge meets a crease between two faces of the lower body, steps are cut to the least"))])
+@pytest.mark.parametrize("kind", [pytest.param("2-full", marks=fails("26 cells, ten steps: the path of equilibria ends at a press of 0.294, where the edge of the leaning block slips over a crease between two faces of the lower body; one step finds another equilibrium, see below"))])
 def test_o99_deep(solve):
     space.test_o99_one_step_or_ten(solve, "direct")
+
+
+@faces(kinds=("2-full",))
+def test_o99_deep_has_two_equilibria(solve):
+    """At a press of 0.3 the block stands, as one step finds it, or leans, as when it was pressed 0.08 aside and brought back: its edge is then within the crease."""
+    stands = space.good(solve(*space.QUIET, boundary=hold(("0", "0", "-0.3*t"))))
+    leans = space.good(solve(*space.QUIET, boundary=hold(("0", "-0.08*min(t, 2 - t)", "-0.3*min(t, 1)")), load={"step": 0.05, "end": 2}))
+    print("energy", stands["energy"], leans["energy"], "side force", stands["reaction"]["upper_z1"][1], leans["reaction"]["upper_z1"][1])
+    assert leans["step_cuts"] == 0 and leans["energy"] < 0.97 * stands["energy"]
+    assert abs(leans["reaction"]["upper_z1"][1]) > 10 * abs(stands["reaction"]["upper_z1"][1])
 
 
 @faces(kinds=BOTH)
@@ -252,8 +260,9 @@ def test_nearly_incompressible(solve, carries):
     space.test_nearly_incompressible(solve, 2, carries, "direct", 0.85)
 
 
-@pytest.mark.parametrize("kind,carries", [pytest.param(kind, carries, marks=PUNCH if (kind, carries) == ("2-full", "upper") else slow) for kind in SECOND for carries in ("upper", "lower")])
+@pytest.mark.parametrize("kind,carries", [pytest.param(kind, carries, marks=() if (kind, carries) == ("2-full", "upper") else slow) for kind in SECOND for carries in ("upper", "lower")])
 def test_rigid_punch(solve, carries):
+    """Full faces of the punch are coarser than the sides they bend."""
     space.test_rigid_punch(solve, carries, "direct")
 
 

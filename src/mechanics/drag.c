@@ -1,0 +1,96 @@
+/* Drag: forces against the deformation since a given state, in residual and tangent alike. With it there is a solution near that state where without there is
+   none: what snaps creeps from one equilibrium to the next (app/relax.c).
+
+     r_i += c (d_i - mean of d over the cell's n nodes),   d = u - from,   c = rate E p^2 h^(dim-2) / n   (axisymmetric: times 2 pi R)
+
+   E Young's modulus, h the cell's extent: with rate 1 about what the cell answers itself. Cells that are only carried along feel nothing of it. */
+#include "mechanicsimpl.h"
+
+PetscErrorCode MechanicsSetDrag(Mechanics m, PetscReal rate, const PetscReal from[])
+{
+  const HPTables *v;
+
+  PetscFunctionBegin;
+  m->drag = rate;
+  if (rate == 0) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(HPSpaceGetTables(m->space, &v));
+  if (!m->drag_from) PetscCall(PetscMalloc1(v->num_nodes * m->dim, &m->drag_from));
+  PetscCall(PetscArraycpy(m->drag_from, from, v->num_nodes * m->dim));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* c of cell i of a group. */
+static PetscReal Coefficient_Private(Mechanics m, const CellGroup *g, PetscInt i)
+{
+  const PetscReal *X = g->X + i * g->n * m->dim;
+  PetscReal        lo[3], hi[3], size = 1;
+
+  for (PetscInt d = 0; d < m->dim; ++d) lo[d] = hi[d] = X[d];
+  for (PetscInt k = 0; k < g->n * m->dim; ++k) {
+    lo[k % m->dim] = PetscMin(lo[k % m->dim], X[k]);
+    hi[k % m->dim] = PetscMax(hi[k % m->dim], X[k]);
+  }
+  if (m->dim == 3) size = cbrt((hi[0] - lo[0]) * (hi[1] - lo[1]) * (hi[2] - lo[2]));
+  if (m->spec->model == MODEL_AXISYMMETRIC) size = PETSC_PI * (lo[0] + hi[0]);
+  return m->drag * MaterialYoung(g->material) * PetscSqr((PetscReal)g->order) * size / (PetscReal)g->n;
+}
+
+/* d less its mean, at displacements u[n][dim] of the cell; d[n][dim]. */
+static PetscErrorCode Change_Private(Mechanics m, const CellGroup *g, PetscInt i, const PetscReal u[], PetscReal d[])
+{
+  PetscReal mean[3] = {0, 0, 0};
+
+  PetscFunctionBegin;
+  PetscCall(HPSpaceGather(m->space, g->cells[i], m->drag_from, d));
+  for (PetscInt k = 0; k < g->n * m->dim; ++k) {
+    d[k] = u[k] - d[k];
+    mean[k % m->dim] += d[k] / (PetscReal)g->n;
+  }
+  for (PetscInt k = 0; k < g->n * m->dim; ++k) d[k] -= mean[k % m->dim];
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode MechanicsDragForces_Private(Mechanics m, const CellGroup *g, PetscInt i, const PetscReal u[], PetscReal r[])
+{
+  const PetscReal c = Coefficient_Private(m, g, i);
+  PetscReal      *d;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(g->n * m->dim, &d));
+  PetscCall(Change_Private(m, g, i, u, d));
+  for (PetscInt k = 0; k < g->n * m->dim; ++k) r[k] += c * d[k];
+  PetscCall(PetscFree(d));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The same for any order of the nodes: rows of those inside stand apart where they are condensed, without the transpose of their other columns. */
+void MechanicsDragMatrix_Private(Mechanics m, const CellGroup *g, PetscInt i, PetscInt num_inner, PetscReal inner[], PetscReal K[])
+{
+  const PetscReal c  = Coefficient_Private(m, g, i);
+  const PetscInt  nd = g->n * m->dim;
+
+  for (PetscInt k = 0; k < nd; ++k) {
+    for (PetscInt l = k < num_inner ? 0 : num_inner; l < nd; ++l) {
+      PetscReal *to = k < num_inner ? inner + k * nd + l : K + (k - num_inner) * (nd - num_inner) + l - num_inner;
+      if (k % m->dim == l % m->dim) *to += c * ((PetscReal)(k == l) - 1 / (PetscReal)g->n);
+    }
+  }
+}
+
+PetscErrorCode MechanicsDragWork(Mechanics m, const PetscReal u[], PetscReal *work)
+{
+  PetscFunctionBegin;
+  *work = 0;
+  for (PetscInt ig = 0; ig < m->num_groups && m->drag > 0; ++ig) {
+    const CellGroup *g = &m->groups[ig];
+    PetscReal       *d, *values;
+    PetscCall(PetscMalloc2(g->n * m->dim, &d, g->n * m->dim, &values));
+    for (PetscInt i = 0; i < g->num_cells; ++i) {
+      PetscCall(HPSpaceGather(m->space, g->cells[i], u, values));
+      PetscCall(Change_Private(m, g, i, values, d));
+      for (PetscInt k = 0; k < g->n * m->dim; ++k) *work += Coefficient_Private(m, g, i) * PetscSqr(d[k]);
+    }
+    PetscCall(PetscFree2(d, values));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
