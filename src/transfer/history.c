@@ -1,11 +1,14 @@
 /* Histories at integration points, from the old points to the new: polynomials through the old points of the leaf in which a new one lies, of quantities whose
-   every value is admissible. Components 0-5 are a symmetric positive tensor of determinant 1 (Cp^-1): its logarithm is a traceless tensor, and the
-   exponential of any such has determinant 1. Component 6 (alpha) must not fall below 0. Whether the stress is within the yield surface is a matter of the
-   displacement, too: StateAdmit sees to it. */
+   every value is admissible. Components 0-5 are a symmetric positive tensor G of determinant 1 (Cp^-1): the logarithm of such a tensor is traceless, and the
+   exponential of any traceless one has determinant 1. What is interpolated is not G, as large as the flow was, but the elastic strain be = Fbar G Fbar^T that
+   goes with the displacement, as small as stress is against the modulus: what a polynomial misses of G would be a stress, often beyond the yield surface, of
+   its own. Component 6 (alpha) must not fall below 0. What is still beyond the yield surface StateAdmit sees to. */
 #include "transferimpl.h"
 #include <petscblaslapack.h>
 
 #define H 7
+#define VALUES 13 /* at an old point: logarithms of be and of G, alpha */
+#define MOST_NODES ((MORTISE_MAX_ORDER + 1) * (MORTISE_MAX_ORDER + 1) * (MORTISE_MAX_ORDER + 1))
 #define OVERSHOOT 0.5 /* new points lie a little beyond the old ones: how far, in units of the old values' range, alpha may follow */
 
 /* out = f(in) of a symmetric tensor (xx xy xz yy yz zz) on its eigenvalues. */
@@ -37,12 +40,61 @@ static PetscReal Exp_Private(PetscReal x)
   return PetscExpReal(x);
 }
 
-/* Old points of one leaf: logarithms and alpha. */
+/* Fbar = J^(-1/3) F of the old leaf at xi; PETSC_FALSE: it is inverted there. */
+static PetscErrorCode Deformation_Private(const TransferContext *c, const OldCells *old, PetscInt leaf, const PetscReal xi[], PetscReal work[], PetscReal F[9],
+                                          PetscBool *valid)
+{
+  const PetscInt dim = c->old_t->dim;
+  PetscReal      dX[9], size;
+  OldPoint       p;
+
+  PetscFunctionBegin;
+  PetscCall(TransferOldPoint_Private(c, old, leaf, xi, work, &p));
+  for (PetscInt a = 0; a < 3; ++a) /* rows of F are those of dx/dxi times (dX/dxi)^-1: the transpose's solutions */
+    for (PetscInt b = 0; b < 3; ++b) dX[3 * a + b] = p.dX[b][a];
+  *valid = (PetscBool)(Det3(dX) > 0);
+  for (PetscInt a = 0; a < 3 && *valid; ++a) {
+    const PetscReal dx[3] = {p.dX[a][0] + p.du[a][0], p.dX[a][1] + p.du[a][1], p.dX[a][2] + p.du[a][2]};
+    (void)Solve3(dX, dx, F + 3 * a);
+  }
+  if (dim == 2 && c->spec->model == MODEL_AXISYMMETRIC) F[8] = 1 + p.u[0] / p.X[0];
+  size   = *valid ? Det3(F) : 0;
+  *valid = (PetscBool)(size > 0);
+  for (PetscInt k = 0; k < 9 && *valid; ++k) F[k] /= PetscCbrtReal(size);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* out = A in A^T of symmetric tensors. */
+static void Congruent_Private(const PetscReal A[9], const PetscReal in[6], PetscReal out[6])
+{
+  static const int8_t at[9] = {0, 1, 2, 1, 3, 4, 2, 4, 5};
+  PetscReal           B[9];
+
+  for (int i = 0; i < 3; ++i)
+    for (int J = 0; J < 3; ++J) B[3 * i + J] = A[3 * i] * in[at[J]] + A[3 * i + 1] * in[at[3 + J]] + A[3 * i + 2] * in[at[6 + J]];
+  for (int i = 0; i < 3; ++i)
+    for (int j = i; j < 3; ++j) out[at[3 * i + j]] = Dot3(B + 3 * i, A + 3 * j);
+}
+
+/* Inverse of a matrix of determinant 1. */
+static void Inverse_Private(const PetscReal A[9], PetscReal inverse[9])
+{
+  PetscReal c[3];
+
+  for (int i = 0; i < 3; ++i) {
+    Cross3(A + 3 * ((i + 1) % 3), A + 3 * ((i + 2) % 3), c);
+    for (int k = 0; k < 3; ++k) inverse[3 * k + i] = c[k];
+  }
+}
+
+/* Old points of one leaf: logarithms of be and of G, and alpha. */
 typedef struct {
   PetscInt       leaf, num; /* leaf -1: none yet */
   const Basis1D *basis;
-  PetscReal     *value; /* owned [num][H] */
+  PetscReal     *value; /* owned [num][VALUES] */
   PetscReal      lo, hi;
+  PetscBool      valid; /* is the leaf's deformation, at all its points? */
+  PetscReal      work[4 * MOST_NODES];
 } OldPoints;
 
 /* Where the history of an old leaf of this order starts. */
@@ -64,31 +116,56 @@ static PetscErrorCode Load_Private(const TransferContext *c, const OldCells *old
   p->num                = ElementNumNodes(dim, p->basis->num_points - 1);
   const PetscReal *from = OldHistory_Private(c, old, leaf, order);
   PetscCall(PetscFree(p->value));
-  PetscCall(PetscMalloc1(p->num * H, &p->value));
+  PetscCall(PetscMalloc1(p->num * VALUES, &p->value));
   p->lo = p->hi = from[6];
+  p->valid      = PETSC_TRUE;
   for (PetscInt q = 0; q < p->num; ++q, from += H) {
-    PetscCall(Function_Private(from, Log_Private, p->value + q * H));
-    p->value[q * H + 6] = from[6];
-    p->lo               = PetscMin(p->lo, from[6]);
-    p->hi               = PetscMax(p->hi, from[6]);
+    PetscReal *value = p->value + q * VALUES, xi[3], F[9], be[6];
+    PetscBool  valid;
+
+    (void)Basis1DPoint(p->basis, dim, q, xi);
+    PetscCall(Deformation_Private(c, old, leaf, xi, p->work, F, &valid));
+    p->valid = (PetscBool)(p->valid && valid);
+    if (valid) Congruent_Private(F, from, be);
+    PetscCall(Function_Private(valid ? be : from, Log_Private, value));
+    PetscCall(Function_Private(from, Log_Private, value + 6));
+    value[12] = from[6];
+    p->lo     = PetscMin(p->lo, from[6]);
+    p->hi     = PetscMax(p->hi, from[6]);
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* History at xi of the old leaf. */
-static PetscErrorCode Point_Private(PetscInt dim, const OldPoints *p, const PetscReal xi[], PetscReal history[])
+/* exp of its traceless part; what there is else is round-off. */
+static PetscErrorCode Exponential_Private(PetscReal log[6], PetscReal out[6])
 {
-  const PetscReal slack = OVERSHOOT * (p->hi - p->lo);
-  PetscReal       sum[H];
+  const PetscReal trace = (log[0] + log[3] + log[5]) / 3;
 
   PetscFunctionBegin;
-  Basis1DInterpolate(p->basis, dim, xi, H, p->value, sum);
-  const PetscReal trace = (sum[0] + sum[3] + sum[5]) / 3; /* round-off */
-  sum[0] -= trace;
-  sum[3] -= trace;
-  sum[5] -= trace;
-  PetscCall(Function_Private(sum, Exp_Private, history));
-  history[6] = PetscMax(0, PetscMin(PetscMax(sum[6], p->lo - slack), p->hi + slack));
+  log[0] -= trace;
+  log[3] -= trace;
+  log[5] -= trace;
+  PetscCall(Function_Private(log, Exp_Private, out));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* History at xi of the old leaf; where its deformation is inverted, from the logarithms of G. */
+static PetscErrorCode Point_Private(const TransferContext *c, const OldCells *old, OldPoints *p, const PetscReal xi[], PetscReal history[])
+{
+  const PetscReal slack = OVERSHOOT * (p->hi - p->lo);
+  PetscReal       sum[VALUES], F[9], inverse[9], be[6];
+  PetscBool       valid = p->valid;
+
+  PetscFunctionBegin;
+  Basis1DInterpolate(p->basis, c->old_t->dim, xi, VALUES, p->value, sum);
+  if (valid) PetscCall(Deformation_Private(c, old, p->leaf, xi, p->work, F, &valid));
+  PetscCall(Exponential_Private(valid ? sum : sum + 6, be));
+  if (valid) {
+    Inverse_Private(F, inverse);
+    Congruent_Private(inverse, be, history);
+  } else
+    PetscCall(PetscArraycpy(history, be, 6));
+  history[6] = PetscMax(0, PetscMin(PetscMax(sum[12], p->lo - slack), p->hi + slack));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -106,7 +183,7 @@ static PetscErrorCode Cell_Private(const TransferContext *c, const OldCells *old
     while (k < end && !TransferPlace_Private(c, leaf, place, k, xi)) ++k;
     PetscCheck(k < end, PETSC_COMM_SELF, PETSC_ERR_PLIB, "the old leaves of leaf %" PetscInt_FMT " do not cover it", leaf);
     PetscCall(Load_Private(c, old, k, p));
-    PetscCall(Point_Private(dim, p, xi, history + q * H));
+    PetscCall(Point_Private(c, old, p, xi, history + q * H));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -122,9 +199,11 @@ static PetscBool SameLeaf_Private(const TransferContext *c, PetscInt new_leaf, P
 
 PetscErrorCode TransferHistory_Private(const TransferContext *c, const OldCells *old, PetscReal history[])
 {
-  OldPoints p = {.leaf = -1};
+  OldPoints *p;
 
   PetscFunctionBegin;
+  PetscCall(PetscNew(&p));
+  p->leaf = -1;
   for (PetscInt cell = 0; cell < c->new_v->num_owned_cells; ++cell) {
     const PetscInt leaf = c->new_v->cell_leaf[cell], k = c->map->old_first[leaf];
     PetscInt       first, num, order;
@@ -135,8 +214,9 @@ PetscErrorCode TransferHistory_Private(const TransferContext *c, const OldCells 
     if (c->map->old_count[leaf] == 1 && order == c->new_v->cell_order[cell] && SameLeaf_Private(c, leaf, k)) /* bit by bit */
       PetscCall(PetscArraycpy(history + first, OldHistory_Private(c, old, k, order), num));
     else
-      PetscCall(Cell_Private(c, old, cell, &p, history + first));
+      PetscCall(Cell_Private(c, old, cell, p, history + first));
   }
-  PetscCall(PetscFree(p.value));
+  PetscCall(PetscFree(p->value));
+  PetscCall(PetscFree(p));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -53,40 +53,54 @@ static void Shift_Private(PetscInt dim, const PetscReal dX[3][3], const PetscRea
   }
 }
 
+PetscErrorCode TransferOldPoint_Private(const TransferContext *c, const OldCells *old, PetscInt leaf, const PetscReal xi[], PetscReal work[], OldPoint *p)
+{
+  const PetscInt dim = c->old_t->dim;
+  PetscInt       order;
+
+  PetscFunctionBegin;
+  *p = (OldPoint){.dX = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+  PetscCall(HPSpaceGetOrder(c->old_space, c->old_t->first[dim] + leaf, &order));
+  const PetscInt   n      = ElementNumNodes(dim, order);
+  const PetscReal *values = old->values + old->offset[leaf], *nodes = values + n * dim, *slope = work + n;
+  PetscCall(ElementEvaluate(dim, order, xi, work, work + n));
+  for (PetscInt a = 0; a < dim; ++a) {
+    p->dX[a][a] = 0;
+    for (PetscInt i = 0; i < n; ++i) {
+      p->u[a] += work[i] * values[i * dim + a];
+      p->X[a] += work[i] * nodes[i * dim + a];
+      for (PetscInt b = 0; b < dim; ++b) {
+        p->dX[a][b] += slope[i * dim + b] * nodes[i * dim + a];
+        p->du[a][b] += slope[i * dim + b] * values[i * dim + a];
+      }
+    }
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* The old displacement (Cartesian) for a node at X and at `place` of a new leaf. Where several old leaves meet they agree: the field is continuous. The place
    need not be where it was: linear faces that are split follow a curved boundary more closely. The displacement goes on along the old leaf's gradient then, so
    that the deformation stays the same; interpolated, a layer that is thinner by a share f would be strained by as much, against the bulk modulus. */
 static PetscErrorCode OldValue_Private(const TransferContext *c, const OldCells *old, PetscInt leaf, const PetscReal place[], const PetscReal X[],
-                                       PetscReal *basis, PetscReal u[3])
+                                       PetscReal work[], PetscReal u[3])
 {
   const PetscInt dim = c->old_t->dim;
-  PetscInt       k   = c->map->old_first[leaf], order;
-  PetscReal      xi[3], was[3] = {0}, away[3] = {0}, far2 = 0, size2 = 0, dX[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, du[3][3] = {{0}};
+  PetscInt       k   = c->map->old_first[leaf];
+  PetscReal      xi[3], away[3] = {0}, far2 = 0, size2 = 0;
+  OldPoint       p;
 
   PetscFunctionBegin;
   while (k < c->map->old_first[leaf] + c->map->old_count[leaf] && !TransferPlace_Private(c, leaf, place, k, xi)) ++k;
   PetscCheck(k < c->map->old_first[leaf] + c->map->old_count[leaf], PETSC_COMM_SELF, PETSC_ERR_PLIB, "the old leaves of leaf %" PetscInt_FMT " do not cover it",
              leaf);
-  PetscCall(HPSpaceGetOrder(c->old_space, c->old_t->first[dim] + k, &order));
-  const PetscInt   n      = ElementNumNodes(dim, order);
-  const PetscReal *values = old->values + old->offset[k], *nodes = values + n * dim;
-  PetscReal       *slope = basis + n;
-  PetscCall(ElementEvaluate(dim, order, xi, basis, slope));
+  PetscCall(TransferOldPoint_Private(c, old, k, xi, work, &p));
   for (PetscInt a = 0; a < dim; ++a) {
-    u[a] = dX[a][a] = 0;
-    for (PetscInt i = 0; i < n; ++i) {
-      u[a] += basis[i] * values[i * dim + a];
-      was[a] += basis[i] * nodes[i * dim + a];
-      for (PetscInt b = 0; b < dim; ++b) {
-        dX[a][b] += slope[i * dim + b] * nodes[i * dim + a];
-        du[a][b] += slope[i * dim + b] * values[i * dim + a];
-      }
-    }
-    away[a] = X[a] - was[a];
+    u[a]    = p.u[a];
+    away[a] = X[a] - p.X[a];
     far2 += PetscSqr(away[a]);
-    for (PetscInt b = 0; b < dim; ++b) size2 += PetscSqr(dX[a][b]);
+    for (PetscInt b = 0; b < dim; ++b) size2 += PetscSqr(p.dX[a][b]);
   }
-  if (far2 > PetscSqr(STILL) * size2) Shift_Private(dim, (const PetscReal(*)[3])dX, (const PetscReal(*)[3])du, away, u);
+  if (far2 > PetscSqr(STILL) * size2) Shift_Private(dim, (const PetscReal(*)[3])p.dX, (const PetscReal(*)[3])p.du, away, u);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

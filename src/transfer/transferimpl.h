@@ -34,13 +34,20 @@ PetscErrorCode OldCellsFetch_Private(const TransferContext *, const OldFields *,
 PetscErrorCode OldCellsDestroy_Private(OldCells *);
 /* solution.c: old coordinates xi of the point `place` of a new leaf; PETSC_FALSE: outside. */
 PetscBool TransferPlace_Private(const TransferContext *, PetscInt new_leaf, const PetscReal place[], PetscInt old_leaf, PetscReal xi[3]);
+/* The old fields at a point of a leaf: place, displacement, and their derivatives by the reference coordinates, [component][coordinate] (1 on the diagonal of
+   dX beyond the leaf's dimension). */
+typedef struct {
+  PetscReal X[3], u[3], dX[3][3], du[3][3];
+} OldPoint;
+/* work: [(1 + dim) (p+1)^dim] for its order. */
+PetscErrorCode TransferOldPoint_Private(const TransferContext *, const OldCells *, PetscInt old_leaf, const PetscReal xi[], PetscReal work[], OldPoint *);
 /* Cartesian components as dofs of a node, or (back) dofs as Cartesian components. */
 PetscErrorCode TransferTurn_Private(HPSpace, PetscInt dim, PetscInt node, PetscBool back, const PetscReal from[], PetscReal to[]);
 /* Dofs of the new space's true nodes owned here, in the frames of the new space; other entries of local stay. Not collective. */
 PetscErrorCode TransferDisplacement_Private(const TransferContext *, const OldCells *, PetscReal local[]);
 /* pressure.c: coefficients of the new mixed cells owned here, of incompressible ones in unknown (NULL: there are none). Not collective. */
 PetscErrorCode TransferPressure_Private(const TransferContext *, const OldCells *, PetscReal pressure[], PetscReal unknown[]);
-/* history.c: at the integration points of the new cells owned here. Not collective. */
+/* history.c: at the integration points of the new cells owned here; the displacement that was fetched is the one that goes with the history. Not collective. */
 PetscErrorCode TransferHistory_Private(const TransferContext *, const OldCells *, PetscReal history[]);
 /* Numbers at the nodes of a leaf of this order. */
 static inline PetscInt TransferNumNodal_Private(PetscInt dim, PetscInt order)

@@ -1,12 +1,12 @@
-/* Histories from mesh to mesh, on any number of ranks: fields whose logarithm and plastic strain are polynomials of the cells' order arrive as they are (split,
-   merged, orders raised and lowered, repartitioned); rough ones stay admissible: determinant 1, no plastic strain below 0 or far beyond the old cell's; those
-   of flow that interpolation takes beyond the yield surface go back to it radially, without flow; a cell that stays keeps its bits; ghosts know what their
-   owners do. */
+/* Histories from mesh to mesh, on any number of ranks: fields whose elastic strain (its logarithm) and plastic strain are polynomials of the cells' order
+   arrive as they are, however the cells are deformed (split, merged, orders raised and lowered, repartitioned); rough ones stay admissible: determinant 1, no
+   plastic strain below 0 or far beyond the old cell's; those of flow that interpolation takes beyond the yield surface go back to it radially, without flow; a
+   cell that stays keeps its bits; ghosts know what their owners do. */
 #include "bulkfixture.h"
 #include "transferimpl.h"
 
 enum { H = 7 };
-enum { ROUGH = -1, FLOWN = -2 }; /* fields that are no polynomials: any numbers; what two steps of plastic flow left */
+enum { ROUGH = -1, FLOWN = -2, DEFORMED = 2 }; /* fields that are no polynomials: any numbers; what two steps of plastic flow left. Degree with a motion */
 static const PetscReal Yield = 0.01, Hardening = 0.05;
 
 static void Setting(Bulk *b, PetscInt dim)
@@ -193,8 +193,27 @@ static void Admit(const Bulk *b, PetscReal history[])
   OK(PetscFree2(u, before));
 }
 
+/* G = Fbar^-1 be Fbar^-T at the end of the motion. */
+static void PullBack(PetscInt dim, const PetscReal X[3], PetscReal history[H])
+{
+  static const int at[9]      = {0, 1, 2, 1, 3, 4, 2, 4, 5};
+  const PetscReal  unit[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  PetscReal        u[3], F[9], inverse[9], column[3], out[6] = {0};
+
+  Motion(dim, 1, X, u, F);
+  for (int j = 0; j < 3; ++j) {
+    assert_true(Solve3(F, unit[j], column));
+    for (int i = 0; i < 3; ++i) inverse[3 * i + j] = column[i] * PetscCbrtReal(Det3(F));
+  }
+  for (int k = 0; k < 81; ++k) {
+    const int K = k / 27, L = k / 9 % 3, i = k / 3 % 3, j = k % 3;
+    if (K <= L) out[at[3 * K + L]] += inverse[3 * K + i] * history[at[3 * i + j]] * inverse[3 * L + j];
+  }
+  PetscMemcpy(history, out, sizeof(out));
+}
+
 /* degree < 0: rough, by leaf and point. */
-static void Fill(const Bulk *b, PetscInt degree, PetscReal history[])
+static void Fill(const Bulk *b, PetscInt degree, PetscBool deformed, PetscReal history[])
 {
   const HPTables *v;
 
@@ -215,6 +234,7 @@ static void Fill(const Bulk *b, PetscInt degree, PetscReal history[])
         to[6]  = PetscMax(0, r);
       }
       Exp(log, to);
+      if (deformed) PullBack(v->dim, X[q], to);
     }
   }
 }
@@ -222,7 +242,7 @@ static void Fill(const Bulk *b, PetscInt degree, PetscReal history[])
 static PetscInt num_kept, num_merged, num_split, num_orders;
 
 /* Is it what the field says, or (degree < 0) admissible? */
-static void Check(const Bulk *from, const Bulk *to, const ForestMap *map, PetscInt degree, const PetscReal history[])
+static void Check(const Bulk *from, const Bulk *to, const ForestMap *map, PetscInt degree, PetscBool deformed, const PetscReal history[])
 {
   const HPTables     *v;
   const ForestTables *t, *old;
@@ -248,12 +268,13 @@ static void Check(const Bulk *from, const Bulk *to, const ForestMap *map, PetscI
       PetscReal log[6], exact[H];
       Field(degree, X[q], log, &exact[6]);
       Exp(log, exact);
+      if (deformed) PullBack(v->dim, X[q], exact);
       for (int k = 0; k < H; ++k) assert_near(g[k], exact[k], 1e-11);
     }
   }
 }
 
-static void Step(PetscInt dim, PetscInt degree, PetscBool merge, PetscInt raise, uint64_t seed)
+static void Step(PetscInt dim, PetscInt degree, PetscBool deformed, PetscBool merge, PetscInt raise, uint64_t seed)
 {
   Bulk                from, to;
   Box                 box;
@@ -289,12 +310,13 @@ static void Step(PetscInt dim, PetscInt degree, PetscBool merge, PetscInt raise,
   if (degree == FLOWN)
     Flow(&from, u, history);
   else
-    Fill(&from, degree, history);
+    Fill(&from, degree, deformed, history);
+  if (deformed) Move(&from, 1, u);
   OK(OldCellsFetch_Private(&c, &(OldFields){.u = u, .history = history}, &old));
   OK(MechanicsNumHistory(to.mechanics, &num));
   OK(PetscMalloc1(num, &result));
   OK(TransferHistory_Private(&c, &old, result));
-  Check(&from, &to, &map, degree, result);
+  Check(&from, &to, &map, degree, deformed, result);
   if (degree == FLOWN) Admit(&to, result);
 
   /* cells that stay, on one rank: bit by bit */
@@ -333,14 +355,21 @@ static void PolynomialsArrive(void **state)
   for (PetscInt dim = 2; dim <= 3; ++dim)
     for (PetscInt degree = 1; degree <= 2; ++degree)
       for (uint64_t seed = 0; seed < 3; ++seed)
-        for (PetscInt merge = 0; merge < 2; ++merge) Step(dim, degree, (PetscBool)merge, seed == 2, seed);
+        for (PetscInt merge = 0; merge < 2; ++merge) Step(dim, degree, PETSC_FALSE, (PetscBool)merge, seed == 2, seed);
+}
+
+static void ElasticStrainsArrive(void **state)
+{
+  for (PetscInt dim = 2; dim <= 3; ++dim)
+    for (uint64_t seed = 0; seed < 3; ++seed)
+      for (PetscInt merge = 0; merge < 2; ++merge) Step(dim, DEFORMED, PETSC_TRUE, (PetscBool)merge, seed == 2, seed);
 }
 
 static void RoughOnesStayAdmissible(void **state)
 {
   for (PetscInt dim = 2; dim <= 3; ++dim)
     for (uint64_t seed = 0; seed < 3; ++seed)
-      for (PetscInt merge = 0; merge < 2; ++merge) Step(dim, ROUGH, (PetscBool)merge, seed == 2, seed);
+      for (PetscInt merge = 0; merge < 2; ++merge) Step(dim, ROUGH, PETSC_FALSE, (PetscBool)merge, seed == 2, seed);
   PetscMPIInt size;
   OK(MPI_Comm_size(PETSC_COMM_WORLD, &size));
   if (size == 1) assert_true(num_kept > 20 && num_split > 100 && num_merged > 20 && num_orders > 20);
@@ -350,7 +379,7 @@ static void FlowStaysWithinTheYieldSurface(void **state)
 {
   for (PetscInt dim = 2; dim <= 3; ++dim)
     for (uint64_t seed = 0; seed < 3; ++seed)
-      for (PetscInt merge = 0; merge < 2; ++merge) Step(dim, FLOWN, (PetscBool)merge, seed == 2, seed);
+      for (PetscInt merge = 0; merge < 2; ++merge) Step(dim, FLOWN, PETSC_FALSE, (PetscBool)merge, seed == 2, seed);
   assert_true(num_within > 100 && num_beyond > 100 && most_beyond > 1.05);
 }
 
@@ -371,7 +400,7 @@ static void GhostsKnowTheirHistory(void **state)
   OK(ForestGetTables(b.forest, &t));
   OK(MechanicsNumHistory(b.mechanics, &num));
   OK(PetscCalloc3(v->num_nodes * 2, &u, num, &history, t->num_leaves, &sum));
-  Fill(&b, 1, history);
+  Fill(&b, 1, PETSC_FALSE, history);
   OK(MechanicsSetHistory(b.mechanics, history));
   for (PetscInt ghost = 0; ghost < 2; ++ghost) {
     for (PetscInt c = ghost ? v->num_owned_cells : 0; c < (ghost ? v->num_cells : v->num_owned_cells); ++c) {
@@ -392,7 +421,7 @@ static void GhostsKnowTheirHistory(void **state)
 
 int main(int argc, char **argv)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(PolynomialsArrive), cmocka_unit_test(RoughOnesStayAdmissible),
+  const struct CMUnitTest tests[] = {cmocka_unit_test(PolynomialsArrive), cmocka_unit_test(ElasticStrainsArrive), cmocka_unit_test(RoughOnesStayAdmissible),
                                      cmocka_unit_test(FlowStaysWithinTheYieldSurface), cmocka_unit_test(GhostsKnowTheirHistory)};
 
   if (PetscInitialize(&argc, &argv, NULL, NULL)) return 1;
