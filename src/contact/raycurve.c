@@ -175,8 +175,9 @@ static void Slips_Private(const Overlap *o, const RayMove move[], PetscInt nq, c
 /* From corners to images: all[N][N] -> its first nq + RAY_IMAGES rows and columns. */
 static void Collapse_Private(const RayFacet *f, const Overlap *o, const RayMove move[], const PetscReal corner[], PetscInt nq, PetscReal all[])
 {
-  const PetscInt m = f->m, N = nq + CORNERS, nc                                              = m * (f->m == 1 ? 2 : o->num);
-  PetscReal      fold[RAY_IMAGES][CORNERS], row[RAY_IMAGES], slipped[RAY_IMAGES][RAY_IMAGES] = {{0}};
+  const PetscInt m = f->m, N = nq + CORNERS, nc = m * (f->m == 1 ? 2 : o->num);
+  PetscReal      fold[RAY_IMAGES][CORNERS], row[RAY_IMAGES];
+  PetscReal      slipped[RAY_IMAGES][RAY_IMAGES] = {{0}};
 
   if (m == 2) Slips_Private(o, move, nq, all, slipped);
   for (PetscInt i = 0; i < nc; i++)
