@@ -49,7 +49,7 @@ PetscErrorCode AppCheckFiles(App *app)
     PetscCall(PetscSNPrintf(path, sizeof(path), "%s/%s", app->data->output.directory, Tables[i]));
     there = (PetscBool)(there && !access(path, F_OK));
   }
-  PetscCallMPI(MPI_Bcast(&there, 1, MPIU_BOOL, 0, app->comm));
+  PetscCallMPI(MPI_Bcast(&there, 1, COMPAT_MPI_BOOL, 0, app->comm));
   if (there) PetscCall(Tables_Private(app)); /* those that are not there would be made */
   PetscFunctionReturn(PETSC_SUCCESS);
 }
