@@ -85,6 +85,8 @@ PetscErrorCode AppPathAccept(App *);
 PetscReal AppStepEnd(const SceneData *, PetscReal t, PetscReal dt);
 /* Count what a solve took. */
 void AppCount(App *, const SolverReport *);
+/* One solve from level.state for time t; counted; converged: level.state is at t. Collective. */
+PetscErrorCode AppAttempt(App *, PetscReal t, SolverReport *);
 /* Bring level.state from its time to t on the current mesh, in as many pieces as it takes, all but the last committed; *ok false when even one of length
  * `smallest` failed. */
 PetscErrorCode AppAdvance(App *, PetscReal t, PetscReal smallest, PetscBool *ok);

@@ -20,8 +20,7 @@ void AppCount(App *app, const SolverReport *report)
   if (report->stopped) app->stopped = PETSC_TRUE;
 }
 
-/* One attempt from the accepted state of this mesh to time t. */
-static PetscErrorCode Attempt_Private(App *app, PetscReal t, SolverReport *report)
+PetscErrorCode AppAttempt(App *app, PetscReal t, SolverReport *report)
 {
   Level      *l = &app->level;
   const char *words;
@@ -48,8 +47,7 @@ static PetscErrorCode Restore_Private(App *app, const State *from)
 {
   PetscFunctionBegin;
   PetscCall(StateCopy(from, &app->level.state));
-  PetscCall(ProblemSetTime(app->level.problem, from->t));
-  PetscCall(ProblemJump(app->level.problem));
+  PetscCall(AppPrescribeAt(app->level.problem, from->t));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -69,7 +67,7 @@ PetscErrorCode AppAdvance(App *app, PetscReal t, PetscReal smallest, PetscBool *
     if (arrived) PetscCall(StateCommit(l->problem, &l->state)); /* the last piece stays open, as a whole step does until it is accepted */
     arrived = PETSC_FALSE;
     PetscCall(StateCopy(&l->state, &start));
-    PetscCall(Attempt_Private(app, next, &report));
+    PetscCall(AppAttempt(app, next, &report));
     arrived = report.converged;
     if (arrived) continue;
     PetscCall(Restore_Private(app, &start));
@@ -146,7 +144,7 @@ static PetscErrorCode LoadStep_Private(App *app, PetscBool *ok)
   app->drag_work = tried = 0;
   for (;;) {
     const PetscReal t = AppStepEnd(app->data, t0, *dt);
-    PetscCall(Attempt_Private(app, t, &report));
+    PetscCall(AppAttempt(app, t, &report));
     *ok = report.converged;
     if (*ok) break;
     PetscCall(Restore_Private(app, &l->accepted));

@@ -14,10 +14,9 @@
 
 PetscErrorCode AppRelax(App *app, PetscReal t, PetscBool *ok)
 {
-  Level       *l     = &app->level;
-  PetscReal    rate  = FIRST, work;
-  PetscBool    began = PETSC_FALSE; /* some solve at t succeeded */
-  State        start;
+  Level       *l    = &app->level;
+  PetscReal    rate = FIRST, work;
+  State        start; /* the accepted one, or that of the last solve that succeeded */
   SolverReport report;
 
   PetscFunctionBegin;
@@ -26,27 +25,22 @@ PetscErrorCode AppRelax(App *app, PetscReal t, PetscBool *ok)
   PetscCall(StateCreate(l->problem, &start));
   PetscCall(StateCopy(&l->accepted, &start));
   for (PetscInt solve = 0, failures = 0; solve < SOLVES && failures < FAILURES && rate <= MOST && !*ok && !app->stopped; ++solve) {
-    PetscCall(ProblemSetTime(l->problem, began ? t : l->accepted.t));
-    PetscCall(ProblemJump(l->problem));
-    PetscCall(ProblemSetDrag(l->problem, rate, start.x));
-    PetscCall(ProblemSetTime(l->problem, t));
     PetscCall(StateCopy(&start, &l->state));
-    PetscCall(SolverSolve(l->solver, &l->state, &report));
-    AppCount(app, &report);
+    PetscCall(AppPrescribeAt(l->problem, start.t));
+    PetscCall(ProblemSetDrag(l->problem, rate, start.x));
+    PetscCall(AppAttempt(app, t, &report));
     PetscCall(PetscInfo(NULL, "drag %g: %s\n", (double)rate, report.converged ? "found" : report.reason));
     failures = report.converged ? 0 : failures + 1;
     if (report.converged) {
       PetscCall(ProblemDragWork(l->problem, l->state.x, &work));
       PetscCall(StateCopy(&l->state, &start));
       app->drag_work += work;
-      began = PETSC_TRUE;
-      *ok   = (PetscBool)(rate == 0);
-      rate  = rate > LEAST ? EASE * rate : 0;
+      *ok  = (PetscBool)(rate == 0);
+      rate = rate > LEAST ? EASE * rate : 0;
     } else
       rate = HARDER * PetscMax(rate, LEAST);
   }
   PetscCall(ProblemSetDrag(l->problem, 0, NULL));
   PetscCall(StateDestroy(&start));
-  l->state.t = t;
   PetscFunctionReturn(PETSC_SUCCESS);
 }

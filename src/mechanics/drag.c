@@ -9,12 +9,14 @@
 PetscErrorCode MechanicsSetDrag(Mechanics m, PetscReal rate, const PetscReal from[])
 {
   const HPTables *v;
+  PetscInt        most = 0;
 
   PetscFunctionBegin;
   m->drag = rate;
   if (rate == 0) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(HPSpaceGetTables(m->space, &v));
-  if (!m->drag_from) PetscCall(PetscMalloc1(v->num_nodes * m->dim, &m->drag_from));
+  for (PetscInt g = 0; g < m->num_groups; ++g) most = PetscMax(most, m->groups[g].n * m->dim);
+  if (!m->drag_from) PetscCall(PetscMalloc2(v->num_nodes * m->dim, &m->drag_from, 2 * most, &m->drag_work));
   PetscCall(PetscArraycpy(m->drag_from, from, v->num_nodes * m->dim));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -53,13 +55,10 @@ static PetscErrorCode Change_Private(Mechanics m, const CellGroup *g, PetscInt i
 PetscErrorCode MechanicsDragForces_Private(Mechanics m, const CellGroup *g, PetscInt i, const PetscReal u[], PetscReal r[])
 {
   const PetscReal c = Coefficient_Private(m, g, i);
-  PetscReal      *d;
 
   PetscFunctionBegin;
-  PetscCall(PetscMalloc1(g->n * m->dim, &d));
-  PetscCall(Change_Private(m, g, i, u, d));
-  for (PetscInt k = 0; k < g->n * m->dim; ++k) r[k] += c * d[k];
-  PetscCall(PetscFree(d));
+  PetscCall(Change_Private(m, g, i, u, m->drag_work));
+  for (PetscInt k = 0; k < g->n * m->dim; ++k) r[k] += c * m->drag_work[k];
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -83,14 +82,13 @@ PetscErrorCode MechanicsDragWork(Mechanics m, const PetscReal u[], PetscReal *wo
   *work = 0;
   for (PetscInt ig = 0; ig < m->num_groups && m->drag > 0; ++ig) {
     const CellGroup *g = &m->groups[ig];
-    PetscReal       *d, *values;
-    PetscCall(PetscMalloc2(g->n * m->dim, &d, g->n * m->dim, &values));
+    PetscReal       *d = m->drag_work, *values = d + g->n * m->dim;
     for (PetscInt i = 0; i < g->num_cells; ++i) {
+      const PetscReal c = Coefficient_Private(m, g, i);
       PetscCall(HPSpaceGather(m->space, g->cells[i], u, values));
       PetscCall(Change_Private(m, g, i, values, d));
-      for (PetscInt k = 0; k < g->n * m->dim; ++k) *work += Coefficient_Private(m, g, i) * PetscSqr(d[k]);
+      for (PetscInt k = 0; k < g->n * m->dim; ++k) *work += c * PetscSqr(d[k]);
     }
-    PetscCall(PetscFree2(d, values));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -151,7 +151,7 @@ PetscErrorCode MechanicsDestroy(Mechanics *mechanics)
   PetscCall(PetscFree(m->dead));
   PetscCall(PetscFree(m->free_share));
   PetscCall(PetscFree(m->hold));
-  PetscCall(PetscFree(m->drag_from));
+  PetscCall(PetscFree2(m->drag_from, m->drag_work));
   PetscCall(PetscFree2(m->linear, m->dpressure));
   PetscCall(PetscFree(m->work));
   PetscCall(PetscFree(*mechanics));

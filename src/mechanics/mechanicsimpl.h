@@ -161,6 +161,7 @@ struct _p_Mechanics {
   PetscReal           *free_share;         /* owned [num_owned_cells] diagonal of cells of unsupported bodies relative to their stiffness, else 0 */
   PetscReal            free_part;          /* part of it that counts */
   PetscReal            drag, *drag_from;   /* rate, 0: none; owned local array: displacements it counts from */
+  PetscReal           *drag_work;          /* owned: room for a cell's displacements, twice */
   PetscReal           *hold;               /* owned [num_bodies][9], see MechanicsGetHold */
   PetscReal           *work;               /* owned batch buffers */
   PetscInt             work_size;

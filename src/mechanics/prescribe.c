@@ -93,7 +93,7 @@ PetscErrorCode MechanicsNodeSupport_Private(const MechanicsSpec *spec, const Pet
   const PetscReal *X      = v->X + 3 * node;
 
   PetscFunctionBegin;
-  if (t->parent[entity] >= 0) PetscFunctionReturn(PETSC_SUCCESS);
+  if (t->parent[entity] >= 0 || !t->boundary[entity]) PetscFunctionReturn(PETSC_SUCCESS);
   for (PetscInt i = 0; i < spec->num_boundaries; ++i) {
     const BoundarySpec *b    = &spec->boundaries[i];
     PetscReal           u[3] = {0, 0, 0};
