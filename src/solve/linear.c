@@ -60,12 +60,8 @@ PetscErrorCode SolverUnsymmetric_Private(Solver s)
   PC  pc;
 
   PetscFunctionBegin;
-  PetscCall(PetscInfo(s->snes, "the tangent is not symmetric at the rim of a contact face: LU from here on\n"));
-  if (s->saddle)
-    PetscCall(PetscPrintf(PetscObjectComm((PetscObject)s->snes),
-                          "note: contact has come to the rim of a face of full order, where the tangent is not symmetric: direct solver from here on\n"));
+  PetscCall(PetscInfo(s->snes, "the tangent is not symmetric at the rim of a contact face: factors are LU from here on\n"));
   s->symmetric = s->factored = PETSC_FALSE;
-  PetscCall(SaddleDestroy_Private(&s->saddle));
   PetscCall(SNESGetKSP(s->snes, &ksp));
   PetscCall(KSPGetPC(ksp, &pc));
   PetscCall(PCReset(pc));

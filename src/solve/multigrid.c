@@ -110,7 +110,7 @@ static PetscErrorCode Galerkin_Private(Multigrid m)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* A: symmetric, borrowed until the next call. keep: the coarse matrix of the last one will do. */
+/* A: symmetric or nearly so, borrowed until the next call. keep: the coarse matrix of the last one will do. */
 PetscErrorCode MultigridSetUp_Private(Multigrid m, Mat A, PetscBool keep)
 {
   PetscFunctionBegin;

@@ -34,7 +34,7 @@ static PetscErrorCode MatrixSolve_Private(SNES snes, Solver s, PetscBool again, 
   PetscCall(ProblemGetMatrix(s->problem, &A));
   if (s->saddle) {
     PetscCall(StageBegin(STAGE_FACTOR));
-    PetscCall(SaddleSetUp_Private(s->saddle, A));
+    PetscCall(SaddleSetUp_Private(s->saddle, A, s->symmetric));
     PetscCall(StageEnd(STAGE_FACTOR));
     PetscCall(StageBegin(STAGE_SOLVE));
     PetscCall(SaddleSolve_Private(s->saddle, s->rhs, Forcing_Private(s), again, s->y, ok));

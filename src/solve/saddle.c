@@ -1,13 +1,15 @@
-/* Iterative solution of the symmetric tangent, displacements u and multipliers z:
+/* Iterative solution of the tangent, displacements u and multipliers z:
 
-     [ K  B^T ] [u]   [f]
-     [ B   C  ] [z] = [g],     rows of inactive nodes: B = 0, C = -w0/c; of active ones: C = 0, B = minus the normalised gradient
-                               (C < 0 where facets of higher order are covered in part).
+     [ K   F ] [u]   [f]
+     [ B   C ] [z] = [g],     rows of inactive nodes: B = 0, C = -w0/c; of active ones: C = 0, B = minus the normalised gradient
+                              (C < 0 where facets are covered in part). F, the forces of the multipliers, is B^T in the symmetric form.
 
-   Augmented form (Fortin & Glowinski): the same solution satisfies (K + B^T G B) u + B^T z = f + B^T G g, G diagonal over the active rows. With G_j = (b_j D
+   Augmented form (Fortin & Glowinski): the same solution satisfies (K + B^T G B) u + F z = f + B^T G g, G diagonal over the active rows. With G_j = (b_j D
    b_j^T) / (b_j b_j^T)^2, D = diag K, the augmentation is as stiff as the mesh itself: it spoils no multigrid method and holds bodies that only contact holds.
-   Right preconditioner [ M  B^T ] [ 0  -S  ],   M: one cycle of algebraic multigrid with rigid-body modes on K + B^T G B, S = G^-1 (active), -C (inactive):
-   with exact M the Schur complement times G has eigenvalues s/(1+s) < 1, s those of G B K^-1 B^T, which are bounded below on any mesh. GMRES. */
+   Right preconditioner [ M  F ] [ 0  -S  ],   M: one cycle of algebraic multigrid with rigid-body modes on K + B^T G B, S = G^-1 (active), -C (inactive):
+   with exact M the Schur complement times G has eigenvalues s/(1+s) < 1, s those of G B K^-1 B^T, which are bounded below on any mesh. GMRES.
+   Where forces hold the rim of a contact face (docs/theory.md, (5.8)) the tangent has its exact form: rows of inactive nodes C = w0, and columns are nearly
+   multiples of rows, f_j ~ sigma_j b_j^T; then S = sigma G^-1 - C. What else is not symmetric M does not see. */
 #include "solveimpl.h"
 
 struct _p_Saddle {
@@ -15,7 +17,7 @@ struct _p_Saddle {
   KSP       ksp;
   Multigrid multigrid;
   IS        is_u, is_z;
-  Mat       K, B, C; /* blocks of the last tangent; K with the augmentation B^T G B */
+  Mat       K, B, C, F; /* blocks of the last tangent; K with the augmentation B^T G B; F NULL: B^T */
   Mat       operator;
   Vec       G, S, scale, work_u, work_z, rhs; /* scale: of the rows of multipliers, to forces */
   PetscInt  iterations, first;                /* of the last solve, of the first one with this hierarchy (0: none yet) */
@@ -37,7 +39,18 @@ static PetscErrorCode BlocksRestore_Private(Saddle s, Vec x, Vec *u, Vec *z)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* y = [augmented B^T; B C] x */
+/* y += F x */
+static PetscErrorCode AddForces_Private(Saddle s, Vec x, Vec y)
+{
+  PetscFunctionBegin;
+  if (s->F)
+    PetscCall(MatMultAdd(s->F, x, y, y));
+  else
+    PetscCall(MatMultTransposeAdd(s->B, x, y, y));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* y = [augmented F; B C] x */
 static PetscErrorCode Operator_Private(Mat A, Vec x, Vec y)
 {
   Saddle s;
@@ -48,7 +61,7 @@ static PetscErrorCode Operator_Private(Mat A, Vec x, Vec y)
   PetscCall(Blocks_Private(s, x, &xu, &xz));
   PetscCall(Blocks_Private(s, y, &yu, &yz));
   PetscCall(MatMult(s->K, xu, yu));
-  PetscCall(MatMultTransposeAdd(s->B, xz, yu, yu));
+  PetscCall(AddForces_Private(s, xz, yu));
   PetscCall(MatMult(s->C, xz, yz));
   PetscCall(MatMultAdd(s->B, xu, yz, yz));
   PetscCall(VecPointwiseMult(yz, yz, s->scale));
@@ -68,9 +81,9 @@ static PetscErrorCode Precondition_Private(PC pc, Vec x, Vec y)
   PetscCall(Blocks_Private(s, y, &yu, &yz));
   PetscCall(VecPointwiseDivide(yz, xz, s->S));
   PetscCall(VecPointwiseDivide(yz, yz, s->scale));
+  PetscCall(VecCopy(xu, s->work_u)); /* xu - F yz, yz = -S^-1 xz */
+  PetscCall(AddForces_Private(s, yz, s->work_u));
   PetscCall(VecScale(yz, -1));
-  PetscCall(MatMultTranspose(s->B, yz, s->work_u));
-  PetscCall(VecAYPX(s->work_u, -1, xu));
   PetscCall(MultigridApply_Private(s->multigrid, s->work_u, yu));
   PetscCall(BlocksRestore_Private(s, x, &xu, &xz));
   PetscCall(BlocksRestore_Private(s, y, &yu, &yz));
@@ -128,14 +141,46 @@ static PetscErrorCode Square_Private(Mat A)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* G_j = (b_j D b_j^T) / (b_j b_j^T)^2, 0 for empty rows; S = 1/G or -C. GMRES measures one norm over forces and gaps: rows of multipliers are scaled to
+/* sigma_j = f_j b_j / b_j b_j^T of active rows, else 1: the least squares of f_j - sigma_j b_j^T. */
+static PetscErrorCode Ratios_Private(Saddle s, Vec sigma)
+{
+  const PetscInt    *column[2];
+  const PetscScalar *value[2];
+  PetscInt           first, last, num[2];
+  PetscScalar       *ratio;
+  Mat                side[2] = {s->B, NULL};
+
+  PetscFunctionBegin;
+  PetscCall(VecSet(sigma, 1));
+  if (!s->F) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(MatTranspose(s->F, MAT_INITIAL_MATRIX, &side[1]));
+  PetscCall(MatGetOwnershipRange(s->B, &first, &last));
+  PetscCall(VecGetArray(sigma, &ratio));
+  for (PetscInt i = first; i < last; ++i) {
+    PetscReal own = 0, product = 0;
+
+    for (int k = 0; k < 2; k++) PetscCall(MatGetRow(side[k], i, &num[k], &column[k], &value[k]));
+    for (PetscInt a = 0, b = 0; a < num[0]; ++a) {
+      own += value[0][a] * value[0][a];
+      while (b < num[1] && column[1][b] < column[0][a]) ++b;
+      if (b < num[1] && column[1][b] == column[0][a]) product += value[0][a] * value[1][b];
+    }
+    for (int k = 0; k < 2; k++) PetscCall(MatRestoreRow(side[k], i, &num[k], &column[k], &value[k]));
+    if (own > 0 && product != 0) ratio[i - first] = product / own;
+  }
+  PetscCall(VecRestoreArray(sigma, &ratio));
+  PetscCall(MatDestroy(&side[1]));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* G_j = (b_j D b_j^T) / (b_j b_j^T)^2, 0 for empty rows; S = sigma/G or -C. GMRES measures one norm over forces and gaps: rows of multipliers are scaled to
    the forces that their augmentation would exert, so that the unit of length does not matter. */
 static PetscErrorCode Weights_Private(Saddle s)
 {
-  Vec              D, square, weighted, C;
+  Vec              D, square, weighted, C, sigma;
   Mat              B2;
   PetscReal       *g, *sc, *d, sum[2] = {0, 0};
-  const PetscReal *q, *w, *c;
+  const PetscReal *q, *w, *c, *ratio;
   PetscInt         n;
 
   PetscFunctionBegin;
@@ -146,6 +191,8 @@ static PetscErrorCode Weights_Private(Saddle s)
   PetscCall(VecDuplicate(s->G, &square));
   PetscCall(VecDuplicate(s->G, &weighted));
   PetscCall(VecDuplicate(s->G, &C));
+  PetscCall(VecDuplicate(s->G, &sigma));
+  PetscCall(Ratios_Private(s, sigma));
   PetscCall(MatMult(B2, D, weighted));
   PetscCall(VecSet(D, 1));
   PetscCall(MatMult(B2, D, square));
@@ -156,10 +203,11 @@ static PetscErrorCode Weights_Private(Saddle s)
   PetscCall(VecGetArrayRead(square, &q));
   PetscCall(VecGetArrayRead(weighted, &w));
   PetscCall(VecGetArrayRead(C, &c));
+  PetscCall(VecGetArrayRead(sigma, &ratio));
   PetscCall(VecGetArray(s->scale, &d));
   for (PetscInt j = 0; j < n; ++j) {
     g[j]  = q[j] > 0 && c[j] == 0 ? w[j] / (q[j] * q[j]) : 0;
-    sc[j] = (q[j] > 0 ? q[j] * q[j] / w[j] : 0) - c[j];
+    sc[j] = (q[j] > 0 ? ratio[j] * q[j] * q[j] / w[j] : 0) - c[j];
     sum[0] += PetscSqrtReal(q[j]);
     sum[1] += q[j] > 0;
   }
@@ -171,10 +219,12 @@ static PetscErrorCode Weights_Private(Saddle s)
   PetscCall(VecRestoreArrayRead(square, &q));
   PetscCall(VecRestoreArrayRead(weighted, &w));
   PetscCall(VecRestoreArrayRead(C, &c));
+  PetscCall(VecRestoreArrayRead(sigma, &ratio));
   PetscCall(VecDestroy(&D));
   PetscCall(VecDestroy(&square));
   PetscCall(VecDestroy(&weighted));
   PetscCall(VecDestroy(&C));
+  PetscCall(VecDestroy(&sigma));
   PetscCall(MatDestroy(&B2));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -191,7 +241,7 @@ static PetscErrorCode Augment_Private(Saddle s)
   PetscCall(MatAXPY(s->K, 1, product, DIFFERENT_NONZERO_PATTERN));
   PetscCall(MatDestroy(&product));
   PetscCall(MatDestroy(&GB));
-  PetscCall(MatSetOption(s->K, MAT_SYMMETRIC, PETSC_TRUE));
+  PetscCall(MatSetOption(s->K, MAT_SYMMETRIC, (PetscBool)!s->F));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -216,6 +266,7 @@ PetscErrorCode SaddleDestroy_Private(Saddle *saddle)
   PetscCall(MatDestroy(&s->K));
   PetscCall(MatDestroy(&s->B));
   PetscCall(MatDestroy(&s->C));
+  PetscCall(MatDestroy(&s->F));
   PetscCall(MatDestroy(&s->operator));
   PetscCall(VecDestroy(&s->G));
   PetscCall(VecDestroy(&s->S));
@@ -226,8 +277,8 @@ PetscErrorCode SaddleDestroy_Private(Saddle *saddle)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* A: the symmetric tangent. The multigrid hierarchy stays as long as it serves: tangents of one load step differ little. */
-PetscErrorCode SaddleSetUp_Private(Saddle s, Mat A)
+/* A: the tangent. The multigrid hierarchy stays as long as it serves: tangents of one load step differ little. */
+PetscErrorCode SaddleSetUp_Private(Saddle s, Mat A, PetscBool symmetric)
 {
   const PetscBool keep = (PetscBool)(s->first > 0 && s->iterations <= s->first + s->first / 2 + 5);
 
@@ -237,9 +288,11 @@ PetscErrorCode SaddleSetUp_Private(Saddle s, Mat A)
   PetscCall(MatDestroy(&s->K));
   PetscCall(MatDestroy(&s->B));
   PetscCall(MatDestroy(&s->C));
+  PetscCall(MatDestroy(&s->F));
   PetscCall(MatCreateSubMatrix(A, s->is_u, s->is_u, MAT_INITIAL_MATRIX, &s->K));
   PetscCall(MatCreateSubMatrix(A, s->is_z, s->is_u, MAT_INITIAL_MATRIX, &s->B));
   PetscCall(MatCreateSubMatrix(A, s->is_z, s->is_z, MAT_INITIAL_MATRIX, &s->C));
+  if (!symmetric) PetscCall(MatCreateSubMatrix(A, s->is_u, s->is_z, MAT_INITIAL_MATRIX, &s->F));
   if (!s->G) {
     PetscCall(MatCreateVecs(s->B, &s->work_u, &s->G));
     PetscCall(VecDuplicate(s->G, &s->S));

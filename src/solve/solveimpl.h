@@ -69,10 +69,10 @@ PetscErrorCode SingleFactorNegative_Private(PC, PetscInt *negative); /* pivots *
 PetscErrorCode SolverInertiaSetUp_Private(Solver);
 PetscErrorCode SolverInertia_Private(Solver, PC);
 
-/* saddle.c: iterative solution of the symmetric tangent. */
+/* saddle.c: iterative solution of the tangent, in its symmetric form or not. */
 PetscErrorCode SaddleCreate_Private(Problem, Saddle *);
 PetscErrorCode SaddleDestroy_Private(Saddle *);
-PetscErrorCode SaddleSetUp_Private(Saddle, Mat);
+PetscErrorCode SaddleSetUp_Private(Saddle, Mat, PetscBool symmetric);
 PetscErrorCode SaddleSolve_Private(Saddle, Vec rhs, PetscReal rtol, PetscBool guess, Vec x, PetscBool *ok);
 /* multigrid.c: a cycle for the displacement block. */
 PetscErrorCode MultigridCreate_Private(Problem, Multigrid *);

@@ -2,6 +2,7 @@
 added. At order 4 the boxes have fewer cells."""
 import functools
 import math
+import re
 
 import numpy as np
 import pytest
@@ -151,6 +152,21 @@ def test_faces_that_end_within_facets(solve):
     s = space.good(result)
     print("iterations", s["newton_iterations"], "force", s["contact"]["pair"]["force"][2])
     assert s["step_cuts"] == 0 and s["newton_iterations"] <= 6
+
+
+@faces("2-full", kinds=("2-full", "3-full"))
+@pytest.mark.parametrize("ranks", [1, pytest.param(2, marks=pytest.mark.slow)])
+def test_multigrid_at_the_rim(solve, ranks):
+    """The same where forces hold the narrow one's edge and the tangent is not symmetric: GMRES with multigrid goes on, and ends where the factors do."""
+    scene = {"boundary": hold(("0.036", "0.024", "-0.12 - 0.06*{x} + 0.036*{y}")), "contact": pairs("lower"), "ranks": ranks}
+    direct, multigrid = (solve(*space.QUIET, "-solve_linear", linear, "-info", ":ksp,snes", **scene) for linear in ("direct", "iterative"))
+    a, b = space.good(direct), space.good(multigrid)
+    of_gmres = [int(number) for number in re.findall(r"(\d+) iterations of GMRES", multigrid.stdout)]
+    print("iterations", a["newton_iterations"], b["newton_iterations"], "factorisations", a["factorisations"], b["factorisations"], "GMRES", of_gmres)
+    assert max(of_gmres) < 60
+    assert "not symmetric at the rim" in multigrid.stdout and "multigrid failed" not in multigrid.stdout
+    assert b["factorisations"] == 0 and b["step_cuts"] == 0 and b["newton_iterations"] <= a["newton_iterations"] + 1
+    assert b["energy"] == pytest.approx(a["energy"], rel=1e-9) and b["contact"]["pair"]["force"] == pytest.approx(a["contact"]["pair"]["force"], rel=1e-8, abs=1e-10)
 
 
 @faces("2-full", kinds=SECOND)
