@@ -163,7 +163,7 @@ def test_multigrid_at_the_rim(solve, ranks):
     a, b = space.good(direct), space.good(multigrid)
     of_gmres = [int(number) for number in re.findall(r"(\d+) iterations of GMRES", multigrid.stdout)]
     print("iterations", a["newton_iterations"], b["newton_iterations"], "factorisations", a["factorisations"], b["factorisations"], "GMRES", of_gmres)
-    assert max(of_gmres) < 60
+    assert max(of_gmres) < 100
     assert "not symmetric at the rim" in multigrid.stdout and "multigrid failed" not in multigrid.stdout
     assert b["factorisations"] == 0 and b["step_cuts"] == 0 and b["newton_iterations"] <= a["newton_iterations"] + 1
     assert b["energy"] == pytest.approx(a["energy"], rel=1e-9) and b["contact"]["pair"]["force"] == pytest.approx(a["contact"]["pair"]["force"], rel=1e-8, abs=1e-10)
