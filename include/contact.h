@@ -109,6 +109,15 @@ typedef struct {
 PetscErrorCode ContactPairCreate(PetscInt dim, PetscBool axisymmetric, const ContactSpec *, ContactPair *);
 PetscErrorCode ContactPairDestroy(ContactPair *);
 
+/* What tells an overlap from the far side of a body that lies behind (src/contact/behind.c): all outer facets of the bodies at the reference positions,
+   X[num][2 or 4][dim] with corners in the order of ContactSurface, part[num]: what is connected has one number. Takes both arrays over. Not collective. */
+typedef struct _p_ContactHull *ContactHull;
+PetscErrorCode                 ContactHullCreate(PetscInt dim, PetscInt num, PetscInt part[], PetscReal X[], ContactHull *);
+PetscErrorCode                 ContactHullDestroy(ContactHull *);
+/* From now on the pair's searches pass over far sides. part, mortar_part: parts of the facets of its surfaces, which need reference positions; borrowed, as
+   is the hull. Not collective. */
+PetscErrorCode ContactPairSetHull(ContactPair, ContactHull, const PetscInt part[], const PetscInt mortar_part[]);
+
 /* Facets of higher order: which nodes have multipliers (carries[nonmortar num_nodes], NULL: all), for the functions of covered facets, which are dual in the
    reference positions; before the search. Without it the first search takes all nodes. The pair keeps the functions. Not collective. */
 PetscErrorCode ContactPairSetCarriers(ContactPair, const ContactSurface *nonmortar, const PetscBool carries[]);

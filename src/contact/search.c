@@ -60,8 +60,7 @@ static PetscBool Candidate_Private(ContactPair pair, const EdgeFrame *f, const R
   return (g[0] > r->reach && g[1] > r->reach) || (g[0] < -pair->distance && g[1] < -pair->distance) ? PETSC_FALSE : PETSC_TRUE;
 }
 
-/* Nodes that shape a facet: its corners, or its lattice. */
-static PetscInt FacetNodes_Private(const ContactSurface *s, PetscInt facet, const PetscInt **node)
+PetscInt ContactFacetNodes(const ContactSurface *s, PetscInt facet, const PetscInt **node)
 {
   const PetscInt corners = s->dim == 2 ? 2 : 4;
 
@@ -71,7 +70,7 @@ static PetscInt FacetNodes_Private(const ContactSurface *s, PetscInt facet, cons
 
 void ContactFacetBox(const ContactSurface *s, PetscInt facet, PetscReal box[6])
 {
-  const PetscInt *node, num = FacetNodes_Private(s, facet, &node);
+  const PetscInt *node, num = ContactFacetNodes(s, facet, &node);
 
   box[2] = box[5] = 0;
   for (PetscInt i = 0; i < s->dim; i++) {
@@ -86,7 +85,7 @@ void ContactFacetBox(const ContactSurface *s, PetscInt facet, PetscReal box[6])
 
 static PetscBool HasFacet_Private(const ContactSurface *s, PetscInt facet)
 {
-  const PetscInt *node, num = FacetNodes_Private(s, facet, &node);
+  const PetscInt *node, num = ContactFacetNodes(s, facet, &node);
 
   for (PetscInt k = 0; k < num; k++)
     if (!ContactHas(s, node[k])) return PETSC_FALSE;
@@ -179,7 +178,8 @@ static PetscErrorCode Candidates_Private(ContactPair pair, const ContactSurface 
     PetscCall(PetscSortInt(num, found)); /* results must not depend on the tree */
     PetscCall(ContactGrow(total + num, sizeof(PetscInt), &pair->size_candidate, &pair->candidate));
     for (PetscInt k = 0; k < num; k++)
-      if (Meets_Private(pair, &reach, mortar, found[k])) pair->candidate[total++] = found[k];
+      if (Meets_Private(pair, &reach, mortar, found[k]) && !ContactBehind(pair, nonmortar, pair->listed[i], mortar, found[k]))
+        pair->candidate[total++] = found[k];
   }
   pair->start[pair->num_listed] = total;
   PetscFunctionReturn(PETSC_SUCCESS);
