@@ -187,10 +187,13 @@ PetscErrorCode AppAdapt(App *app)
 PetscErrorCode AppAdvise(const App *app)
 {
   const CoarseMesh *mesh;
+  PetscBool         whole;
 
   PetscFunctionBegin;
-  if (app->failure && app->path > 0)
-    PetscCall(PetscPrintf(app->comm, "note: the mesh before was good for the whole path; -adapt_max_passes %" PetscInt_FMT " ends with it\n", app->path - 1));
+  PetscCall(OutputHasAside(app->comm, app->data->output.directory, &whole));
+  if (whole)
+    PetscCall(
+        PetscPrintf(app->comm, "note: the path on the mesh before came to its end; its results are in %s/" OUTPUT_ASIDE "\n", app->data->output.directory));
   if (strcmp(app->adapt_stop, NONE_FINER)) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(ForestGetCoarse(app->level.forest, &mesh));
   for (PetscInt i = 0; mesh->geometry_order > 1 && i < app->data->num_contacts; ++i) {

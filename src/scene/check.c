@@ -8,6 +8,7 @@ typedef struct {
   PetscInt           *num_facets;   /* [num_boundaries] outer facets of each group */
   PetscBool          *inner;        /* [num_boundaries] some facet of the group lies between two cells */
   PetscBool          *body_touches; /* [num_bodies][num_boundaries] the group has a facet of the body */
+  uint64_t           *together;     /* [num_boundaries] groups that have an outer facet of the group too */
   uint64_t           *cell_groups;  /* [num_cells] groups of the outer facets of each coarse cell */
 } Facets;
 
@@ -21,7 +22,7 @@ static PetscErrorCode FacetsCreate_Private(Forest forest, Facets *f)
   PetscCall(ForestGetTables(forest, &f->forest));
   t  = f->forest;
   nb = f->mesh->num_boundaries;
-  PetscCall(PetscCalloc4(nb, &f->num_facets, nb, &f->inner, f->mesh->num_bodies * nb, &f->body_touches, f->mesh->num_cells, &f->cell_groups));
+  PetscCall(PetscCalloc5(nb, &f->num_facets, nb, &f->inner, f->mesh->num_bodies * nb, &f->body_touches, nb, &f->together, f->mesh->num_cells, &f->cell_groups));
   for (PetscInt e = t->first[t->dim - 1]; e < t->first[t->dim]; ++e) {
     const PetscInt *leaf  = t->facet_leaf + 2 * (e - t->first[t->dim - 1]);
     const PetscBool outer = leaf[0] < 0 || leaf[1] < 0 ? PETSC_TRUE : PETSC_FALSE;
@@ -30,6 +31,7 @@ static PetscErrorCode FacetsCreate_Private(Forest forest, Facets *f)
       if (!(t->boundary[e] >> g & 1)) continue;
       f->num_facets[g] += outer;
       if (!outer) f->inner[g] = PETSC_TRUE;
+      if (outer) f->together[g] |= t->boundary[e];
       for (int side = 0; side < 2; ++side)
         if (leaf[side] >= 0) f->body_touches[t->leaf_body[leaf[side]] * nb + g] = PETSC_TRUE;
     }
@@ -148,6 +150,26 @@ static PetscErrorCode MatchBoundaries_Private(Scene s, const Facets *f)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Two facets that face each other in two pairs would have their gap closed twice, by pressures of which only the sum is known. One surface of several pairs is
+   good: its facets face others in each. */
+static PetscErrorCode CheckPairs_Private(Scene s, const Facets *f)
+{
+  PetscFunctionBegin;
+  for (PetscInt i = 0; i < s->data.num_contacts; ++i) {
+    const ContactSpec *a = &s->data.contacts[i];
+    for (PetscInt j = 0; j < i; ++j) {
+      const ContactSpec *b    = &s->data.contacts[j];
+      const PetscBool    same = (PetscBool)((f->together[a->nonmortar] >> b->nonmortar & 1) && (f->together[a->mortar] >> b->mortar & 1));
+      const PetscBool    swap = (PetscBool)((f->together[a->nonmortar] >> b->mortar & 1) && (f->together[a->mortar] >> b->nonmortar & 1));
+      PetscCheckInput(!same && !swap,
+                      "%s: '%s' and '%s' have facets in common with the sides of pair '%s', '%s' and '%s'; facets may face each other in one pair only",
+                      NodeWhere(s->contact[i].node), s->contact[i].nonmortar, s->contact[i].mortar, b->name,
+                      same ? s->contact[j].nonmortar : s->contact[j].mortar, same ? s->contact[j].mortar : s->contact[j].nonmortar);
+    }
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 static PetscErrorCode MatchContacts_Private(Scene s, const Facets *f)
 {
   PetscFunctionBegin;
@@ -176,6 +198,7 @@ static PetscErrorCode MatchContacts_Private(Scene s, const Facets *f)
     c->spec.mortar      = group[1];
     s->data.contacts[i] = c->spec;
   }
+  PetscCall(CheckPairs_Private(s, f));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -256,7 +279,7 @@ PetscErrorCode SceneCheckMesh(Scene s, Forest forest)
   PetscCall(SceneCheckFields(s, mesh));
   PetscCall(FacetsCreate_Private(forest, &f));
   status = Check_Private(s, &f);
-  PetscCall(PetscFree4(f.num_facets, f.inner, f.body_touches, f.cell_groups));
+  PetscCall(PetscFree5(f.num_facets, f.inner, f.body_touches, f.together, f.cell_groups));
   PetscCall(status);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
