@@ -55,6 +55,7 @@ typedef struct {
   PetscBool full;              /* facets have the order of their cells; else order 1 */
   PetscReal search;            /* search distance, in multiples of the larger edge length; default 0: automatic */
   PetscBool node_to_segment;   /* comparison only */
+  PetscBool see_through;       /* comparison only: searches take far sides of bodies behind for overlaps */
   PetscBool standard;          /* standard multipliers */
   PetscBool continuous;        /* three dimensions: gaps along a direction that is continuous over the surface, for facets of order 1 too */
   PetscBool adjust;            /* the gaps of the mesh at the reference positions count as closed */

@@ -3,8 +3,9 @@
    Two dimensions (three: region.c; rays along a continuous direction: rayregion.c): a pair is kept when the unit normals oppose, N_s . N_m < -0.1, and the
    mortar edge reaches into the region swept by the nonmortar edge's rays up to `distance` to both sides, |g| < distance (with margin 0 exactly that; with a
    margin the region grows by slack = 2 margin (1 + distance / h): relative motion of the nodes plus the turn 2 margin / h of normals of edges of length h at
-   that distance; not into the body, where what lies deeper is no overlap but another body behind this one, which would be pulled through it). Distances and
-   normals are judged here and nowhere else: between two searches the result changes continuously with the positions. */
+   that distance; not into the body, where what lies deeper is no overlap but another body behind this one, which would be pulled through it). Of what
+   is left the far sides of bodies behind go (behind.c). Distances and normals are judged here and nowhere else: between two searches the result changes
+   continuously with the positions. */
 #include "rayimpl.h"
 
 typedef struct {
