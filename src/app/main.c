@@ -24,7 +24,7 @@ static PetscErrorCode Prepare_Private(App *app, Forest *forest)
 {
   PetscFunctionBegin;
   PetscCall(ProbesCreate(app->data, *forest, &app->probes));
-  PetscCall(PetscCalloc1(app->data->num_contacts, &app->subdivided));
+  PetscCall(PetscCalloc2(app->data->num_contacts, &app->subdivided, app->data->num_contacts, &app->touched));
   if (app->restart[0])
     PetscCall(AppResume(app, forest));
   else
@@ -82,7 +82,7 @@ static PetscErrorCode Close_Private(App *app)
   if (app->balance.reaction) PetscCall(BalanceDestroy(&app->balance));
   PetscCall(LevelDestroy(&app->level));
   PetscCall(CheckpointDestroy(&app->snapshot));
-  PetscCall(PetscFree(app->subdivided));
+  PetscCall(PetscFree2(app->subdivided, app->touched));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -88,6 +88,13 @@ def test_pairs_that_share_facets(run, tmp_path, one, two, good):
         refused(result, "contact.two", "facets in common", "pair 'one'")
 
 
+def test_a_pair_of_a_surface_and_its_part(run, tmp_path):
+    text = blocks(tmp_path, pair={"nonmortar": "low", "mortar": "low_l"})
+    write(tmp_path / "blocks.msh", [linspace(0, 1, 2)] * 2, [lambda x, y: (x, y), lambda x, y: (x, y + 1.001)], body=lambda centre, b: "lu"[b],
+          side=lambda name, centre, b: [f"{name}_{'lu'[b]}", "low", "low_l"])
+    refused(run("s.yml", text=text), "'low' and 'low_l' share cell 0 at (0.25, 0.25, 0), and have facets in common")
+
+
 @pytest.mark.parametrize("load,words", [({"step": 1e-300}, ["load.step is 1e-300", "1e-08"]), ({"step": 0.1, "step_min": 1e-20}, ["load.step_min is 1e-20"]),
                                         ({"step": 1e-7}, ["1000000 steps", "1e-07", "load.step_max"]),
                                         ({"step": 1e-7, "step_max": 0.1}, None), ({"step": 1e-7, "stop_displacement": 1e-9}, None)])
