@@ -53,17 +53,18 @@ static PetscErrorCode Tell_Private(App *app, PetscReal error)
 
 PetscErrorCode AppRepeat(App *app, PetscBool *again)
 {
-  const AdaptSpec *spec   = &app->data->adapt;
-  Level            old    = app->level;
-  MarkList         layers = {0};
+  const AdaptSpec *spec    = &app->data->adapt;
+  Level            old     = app->level;
+  MarkList         layers  = {0};
+  PetscBool        refused = PETSC_FALSE;
 
   PetscFunctionBegin;
   *again = PETSC_FALSE;
   if (spec->repeat != REPEAT_PATH || !AppIsAdaptive(app)) PetscFunctionReturn(PETSC_SUCCESS);
   app->adapt_stop = !app->most.num_leaves ? "tolerance" : app->path >= spec->max_passes ? "max_passes" : "";
   if (!app->adapt_stop[0]) PetscCall(AppLayers(app, &app->most, &layers));
-  if (app->adapt_stop[0]) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(AppRefine(app, &app->most, &layers, PETSC_TRUE, again));
+  if (!app->adapt_stop[0]) PetscCall(AppRefine(app, &app->most, &layers, PETSC_TRUE, again, &refused));
+  if (!*again) AppJudge(app, app->most.num_leaves ? app->most.relative : 0, refused);
   if (!*again) PetscFunctionReturn(PETSC_SUCCESS);
   const PetscReal error = app->most.relative;
   PetscCall(LevelDestroy(&old));
