@@ -45,7 +45,6 @@ typedef struct {
   char           reason[PETSC_MAX_PATH_LEN + MORTISE_NAME]; /* why it was, or what its solutions lack */
   const char    *adapt_stop;                                /* why the last adaptation ended: tolerance, max_passes, max_cells, … */
   PetscReal      above_error;                               /* largest estimate of a load step that stayed above the tolerance; 0: none did */
-  const char    *above_stop;                                /* why; NULL where that was before a restart */
   PetscInt       gave_up;                                   /* 1: in one of them a mesh as fine as asked had no solution that was found, or could not be made */
   PetscBool      inversion_told;                            /* that refinement would invert a cell, once */
   PetscInt      *subdivided;                                /* owned [num_contacts] by contact.<pair>.subdivide: auto, so often, or tried */

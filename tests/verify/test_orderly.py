@@ -72,6 +72,7 @@ def test_it_is_not_forgotten(run, tmp_path):
     assert first.summary["status"] == "failed" and first.summary["load_steps"] == 1, first
     result = run("strip.yml", "-adapt_tolerance", 0.9, "-restart", first.directory / "checkpoint.h5", text=text)
     assert result.returncode == 2 and result.summary["status"] == "inaccurate" and result.summary["adapt_stop"] == "tolerance" and result.summary["load_steps"] == 2, result
+    assert "(in an earlier load step), the estimated error is up to" in result.summary["reason"], result
 
 
 @pytest.mark.parametrize("limit,value", [("max_passes", 1), ("max_cells", 5)])
