@@ -12,7 +12,7 @@
    -1/2 sum_j K_j z_j^2 is part of the Lagrangian, so that the tangent stays symmetric. */
 #include "facetimpl.h"
 
-#define EPSILON 0.006 /* far nodes of a strip of a quarter of a facet are held as stiffly as the cells hold them */
+#define EPSILON 0.015 /* far nodes of a strip of three tenths of a facet are held as stiffly as the cells hold them */
 #define LEAST 0.25    /* r: strips of half a facet */
 
 /* The reference measure of the hats of the result's rows. */
