@@ -212,7 +212,8 @@ PetscErrorCode ContactCreate_Private(Problem p, const ContactSpec *spec, Contact
   const ContactSurface nonmortar = SurfaceAt_Private(&c->side[0], c->side[0].X);
   PetscCall(ContactPairSetCarriers(c->pair, &nonmortar, c->has_multiplier));
   for (PetscInt j = 0; j < n; ++j) c->softness[j] = 1 / c->c[j];
-  PetscCall(ContactPairSetSoftness(c->pair, c->softness));
+  /* With small kinematics what facets cover does not change, and constraints of order 1 stay exact. */
+  if (higher || p->scene->mechanics.kinematics != KINEMATICS_SMALL) PetscCall(ContactPairSetSoftness(c->pair, c->softness));
   PetscCall(ListFacets_Private(p, c));
   SearchDistance_Private(c);
   View_Private(c);
@@ -361,7 +362,13 @@ void ContactRowFactors_Private(const Contact *c, const ContactFacet *e, PetscInt
 
   row    = (PetscBool)(row && c->active[j]);
   *mean  = row && ContactCovered_Private(c, j) ? ContactRowGap_Private(c, j) / ContactRowMeasure_Private(c, j) : 0;
-  *along = row && e->spring ? e->stiffening[k] * (c->z[j] - *mean * c->c[j]) : 0;
+  *along = 0;
+  if (!e->spring) return;
+  const PetscReal stiffer = e->stiffening[k] * (row ? c->z[j] - *mean * c->c[j] : c->z[j]);
+  if (!e->darea)
+    *mean -= stiffer; /* K depends on w, and so do the forces */
+  else if (row)
+    *along = stiffer;
 }
 
 PetscErrorCode ContactChange_Private(Problem p, Contact *c, const PetscReal increment[], PetscReal change[])
