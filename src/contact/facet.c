@@ -305,6 +305,7 @@ static PetscErrorCode Result_Private(FacetWork w, const FacetWeights *f, const P
   out->area    = w->covered;
   out->min_gap = w->moments.min_gap;
   out->dgap = out->dweight = out->push = out->hessian = out->reach = out->spring = NULL;
+  out->rim                                                                       = PETSC_FALSE;
   if (!derivatives) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(ContactGrow(3 * n + nn, sizeof(PetscReal), &w->size_row, &w->row));
   PetscCall(ContactStoreReserve(&w->result.store, 2 * nr * nn, &dgap));
