@@ -15,8 +15,6 @@ PetscErrorCode WriterCreate(MPI_Comm, const char *directory, Writer *);
 /* Go on with the series in directory: `num` states, the last of a load step; those of later steps are dropped when the next state is written. No index: it
  * begins with the next state, whose number is num. An input error when the index lists other states up to this step. Collective. */
 PetscErrorCode WriterResume(MPI_Comm, const char *directory, PetscInt step, PetscInt num, Writer *);
-/* The series begins again: what it has so far is dropped when the next state is written. Collective. */
-PetscErrorCode WriterAgain(Writer);
 PetscErrorCode WriterNumStates(Writer, PetscInt *num); /* completed so far */
 PetscErrorCode WriterDestroy(Writer *);
 /* Begin state number k (0, 1, …) at XDMF time `time` (strictly increasing), with scalar attributes. One file directory/fields_KKKK.h5, collective parallel
@@ -47,8 +45,8 @@ typedef struct {
 /* Go on with the table in path from there; what follows is dropped when the next row is written. No file: a new one. An input error when it has other columns,
  * or no row of this step at this t. */
 PetscErrorCode TableResume(MPI_Comm, const char *path, PetscInt n, const char *const names[], const TablePlace *, Table *);
-/* All rows go when the next one is written. Not collective. */
-PetscErrorCode TableAgain(Table);
+/* The number in a named column of a table's first row; NaN when there is none. One rank's. */
+PetscErrorCode TableFirst(const char *path, const char *name, PetscReal *value);
 PetscErrorCode TableRow(Table, const PetscReal values[]);
 PetscErrorCode TableDestroy(Table *);
 
@@ -135,7 +133,7 @@ typedef struct _p_History *History;
 /* Open both in the output directory, which must exist: afresh (after NULL), or to go on after a load step (TableResume; `earlier` is set here: adapt.csv has
    the rows of all paths, history.csv those of the last). Collective. */
 PetscErrorCode HistoryCreate(MPI_Comm, const SceneData *, Probes, const TablePlace *after, History *);
-/* The path of loads begins again: history.csv does. Not collective. */
+/* The path of loads begins again: so does history.csv, whose file has been moved (OutputSetAside). Collective. */
 PetscErrorCode HistoryAgain(History);
 PetscErrorCode HistoryPass(History, const ReportRow *);                                          /* a row of adapt.csv. Collective. */
 PetscErrorCode HistoryStep(History, const ReportRow *, const Balance *, Problem, const State *); /* a row of history.csv. Collective. */
@@ -165,6 +163,17 @@ PetscErrorCode OutputSummary(MPI_Comm, const SceneData *, const RunSummary *);
 PetscErrorCode OutputDirectoryCreate(MPI_Comm, const char *path);
 /* Does this boundary hold something (fix, displacement, rotation)? Then it has a reaction. */
 PetscBool BoundarySupports(const BoundarySpec *);
+
+/* ---- results put aside (output/aside.c) ----------------------------------------------------------------------------------- */
+
+#define OUTPUT_ASIDE "earlier_path" /* in output.directory: results of the last path of loads that came to its end, until a finer one does */
+/* Move history.csv, fields.xdmf with its files and summary.json there, in place of what is there. Collective. */
+PetscErrorCode OutputSetAside(MPI_Comm, const char *directory);
+/* Go on with that where it was broken off: when history.csv is of a path before this one. Collective. */
+PetscErrorCode OutputFinishAside(MPI_Comm, const char *directory, PetscInt path);
+/* Remove what was put aside, if anything. Collective. */
+PetscErrorCode OutputDropAside(MPI_Comm, const char *directory);
+PetscErrorCode OutputHasAside(MPI_Comm, const char *directory, PetscBool *has); /* collective */
 
 /* ---- checkpoints (output/checkpoint.c, checkpointfile.c) ------------------------------------------------------------------- */
 

@@ -1,8 +1,6 @@
 /* Adaptation at one time: estimate, refine, find equilibrium again; until the tolerance or a limit is met. */
 #include "appimpl.h"
 
-#define NONE_FINER "no equilibrium found on a finer mesh"
-
 #define MOST_PIECES 8 /* of the way from the accepted state, when equilibrium on a finer mesh is hard to find */
 
 PetscErrorCode AppEstimate(App *app)
@@ -26,6 +24,7 @@ static PetscErrorCode ReportPass_Private(App *app, PetscInt iterations, PetscBoo
 
   PetscFunctionBegin;
   PetscCall(BalanceCompute(l->problem, &l->state, &app->balance));
+  for (PetscInt i = 0; i < app->data->num_contacts; ++i) app->touched[i] = (PetscBool)(app->touched[i] || app->balance.pair[i].active_nodes > 0);
   if (before.reaction && app->passes_in_step > 0) BalanceChange(&before, &app->balance, change);
   if (before.reaction) PetscCall(BalanceDestroy(&before));
   PetscCall(PetscMemzero(&app->last, sizeof(app->last)));
@@ -180,24 +179,5 @@ PetscErrorCode AppAdapt(App *app)
     PetscCall(MonitorRow(app->monitor, &app->last));
   }
   PetscCall(AppRemember(app));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* Where surfaces nearly fit, linear contact faces on a mesh that is curved miss each other by more than their clearance, and touch at corners. */
-PetscErrorCode AppAdvise(const App *app)
-{
-  const CoarseMesh *mesh;
-
-  PetscFunctionBegin;
-  if (app->failure && app->path > 0)
-    PetscCall(PetscPrintf(app->comm, "note: the mesh before was good for the whole path; -adapt_max_passes %" PetscInt_FMT " ends with it\n", app->path - 1));
-  if (strcmp(app->adapt_stop, NONE_FINER)) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(ForestGetCoarse(app->level.forest, &mesh));
-  for (PetscInt i = 0; mesh->geometry_order > 1 && i < app->data->num_contacts; ++i) {
-    const ContactSpec *pair = &app->data->contacts[i];
-    if (!pair->full)
-      PetscCall(PetscPrintf(app->comm, "note: the contact faces of pair %s are linear on a mesh that is curved; contact.%s.order: full follows it\n",
-                            pair->name, pair->name));
-  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -8,6 +8,7 @@
 
 #define EASY_ITERATIONS 6 /* a step that took no more Newton iterations lets the next one grow */
 #define GROWTH 1.5
+#define NONE_FINER "no equilibrium found on a finer mesh"
 
 /* The part of a run that lives on one mesh; replaced as a whole at each adaptation. */
 typedef struct {
@@ -46,6 +47,7 @@ typedef struct {
   const char    *adapt_stop;     /* why the last adaptation ended: tolerance, max_passes, max_cells, … */
   PetscBool      inversion_told; /* that refinement would invert a cell, once */
   PetscInt      *subdivided;     /* owned [num_contacts] by contact.<pair>.subdivide: auto, so often, or tried */
+  PetscBool     *touched;        /* owned [num_contacts] a node was in contact at some time of this run */
   ReportRow      last;
   PetscReal      dt;                                                          /* length of the next load step */
   Checkpoint     snapshot;                                                    /* owned: copy of the state at the end of the last accepted load step */
@@ -73,9 +75,10 @@ PetscBool AppIsAdaptive(const App *);
 PetscBool AppIsStressed(const App *);
 /* A load step of a path that may be computed again was solved and its error estimated. */
 PetscErrorCode AppRemember(App *);
-/* At the end of the path: begin again, at rest at t = 0 on a finer mesh, where a step was above the tolerance and no limit is met. Collective. */
+/* At the end of the path: begin again, at rest at t = 0 on a finer mesh, where a step was above the tolerance and no limit is met; the results of the path are
+   put aside until the next one has come to its end (OutputSetAside). Collective. */
 PetscErrorCode AppRepeat(App *, PetscBool *again);
-/* At the end of a run that found no equilibrium on a finer mesh: what may help. Collective. */
+/* advise.c. At the end of a run: what there is besides, what looks wrong, and what may help. Collective. */
 PetscErrorCode AppAdvise(const App *);
 /* arcstep.c. A step of app->arc along the path; app->failure is set when there is none. Collective. */
 PetscErrorCode AppPathStep(App *, PetscBool *ok);
@@ -99,7 +102,8 @@ PetscErrorCode AppContactPairs(App *, PetscInt *num, PetscInt (**pairs)[2]);
 /* restart.c. The options -restart and -max_seconds; signals are heard from now on. Collective. */
 PetscErrorCode AppOptions(App *);
 PetscErrorCode AppPrintHelp(MPI_Comm);
-/* Copy the accepted state and all counters; write the copy, if its file is not yet that; remove the file of an earlier run. Collective. */
+/* Copy the accepted state and all counters; write the copy, if its file is not yet that; remove the file of an earlier run, and what
+   it put aside. Collective. */
 PetscErrorCode AppSnapshot(App *);
 PetscErrorCode AppCheckpoint(App *);
 PetscErrorCode AppForget(App *);
@@ -108,6 +112,11 @@ PetscErrorCode AppStop(App *);
 /* Read the checkpoint to go on from and check it against scene and coarse mesh; then the level and all counters from it (destroys *coarse). Nothing is written.
    Collective. */
 PetscErrorCode AppResume(App *, Forest *coarse);
+
+/* summary.c. What the run took so far. Not collective. */
+ReportRow AppTotal(const App *);
+/* Write summary.json, of the last accepted state. Collective. */
+PetscErrorCode AppSummary(App *, const char *status, const char *reason);
 
 /* files.c. Tables and fields, afresh or after the load step to go on from: first everything that may refuse. Collective. */
 PetscErrorCode AppOpenFiles(App *);

@@ -28,6 +28,7 @@ PetscErrorCode AppOpenFiles(App *app)
 {
   PetscFunctionBegin;
   PetscCall(OutputDirectoryCreate(app->comm, app->data->output.directory));
+  if (app->restart[0] && app->path > 0 && app->load_steps == 0) PetscCall(OutputFinishAside(app->comm, app->data->output.directory, app->path));
   if (app->restart[0]) PetscCall(ResumeFields_Private(app));
   PetscCall(Tables_Private(app));
   if (app->data->output.fields && !app->writer) PetscCall(WriterCreate(app->comm, app->data->output.directory, &app->writer));

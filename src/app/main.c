@@ -24,7 +24,7 @@ static PetscErrorCode Prepare_Private(App *app, Forest *forest)
 {
   PetscFunctionBegin;
   PetscCall(ProbesCreate(app->data, *forest, &app->probes));
-  PetscCall(PetscCalloc1(app->data->num_contacts, &app->subdivided));
+  PetscCall(PetscCalloc2(app->data->num_contacts, &app->subdivided, app->data->num_contacts, &app->touched));
   if (app->restart[0])
     PetscCall(AppResume(app, forest));
   else
@@ -45,22 +45,9 @@ static PetscErrorCode View_Private(App *app)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* What the run took so far. */
-static ReportRow Total_Private(const App *app)
-{
-  PetscLogDouble now = 0;
-
-  (void)PetscTime(&now);
-  return (ReportRow){.step              = app->load_steps,
-                     .step_cuts         = app->step_cuts,
-                     .newton_iterations = app->newton_iterations,
-                     .t                 = app->level.accepted.t,
-                     .seconds           = now - app->start};
-}
-
 static PetscErrorCode Open_Private(App *app)
 {
-  const ReportRow total = Total_Private(app);
+  const ReportRow total = AppTotal(app);
 
   PetscFunctionBegin;
   PetscCall(AppOpenFiles(app));
@@ -70,52 +57,15 @@ static PetscErrorCode Open_Private(App *app)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Figures of the last accepted state, which is what a run that failed or was stopped leaves behind, and of one that had nothing left to do. */
-static PetscErrorCode Figures_Private(App *app)
-{
-  const PetscBool given_up = (PetscBool)(app->failure || app->stopped), told = (PetscBool)(app->balance.reaction != NULL);
-  Level          *l = &app->level;
-
-  PetscFunctionBegin;
-  if (!given_up && told) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(ProblemSetTime(l->problem, l->accepted.t));
-  PetscCall(ProblemJump(l->problem));
-  PetscCall(ProblemSearch(l->problem, l->accepted.x)); /* this mesh may not have seen any solution yet */
-  if (told) PetscCall(BalanceDestroy(&app->balance));
-  if (!given_up) PetscCall(AppEstimate(app));
-  PetscCall(BalanceCompute(l->problem, &l->accepted, &app->balance));
-  if (app->failure) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(ReportRowFill(l->problem, &l->accepted, given_up ? NULL : &app->estimate, &app->balance, &app->last));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 static PetscErrorCode Summarise_Private(App *app)
 {
   const char *status = app->failure ? "failed" : app->stopped ? "stopped" : "converged";
   const char *reason = app->failure ? app->failure : app->stop_reason;
 
   PetscFunctionBegin;
-  PetscCall(Figures_Private(app));
-  const ReportRow total      = Total_Private(app);
-  RunSummary      summary    = {.status = status, .reason = reason, .t = total.t, .seconds = total.seconds, .load_steps = app->load_steps};
-  summary.step_cuts          = app->step_cuts;
-  summary.adapt_passes       = app->adapt_passes;
-  summary.newton_iterations  = app->newton_iterations;
-  summary.active_set_changes = app->set_changes;
-  summary.active_set_cycles  = app->set_cycles;
-  summary.factorisations     = app->factorisations;
-  summary.single_failures    = app->single_failures;
-  summary.relaxed_steps      = app->relaxed_steps;
-  summary.drag_work          = app->all_drag_work;
-  summary.unstable           = app->judged ? (PetscReal)app->unstable : (PetscReal)NAN;
-  summary.adapt_stop         = app->adapt_stop;
-  summary.problem            = app->level.problem;
-  summary.state              = &app->level.accepted;
-  summary.balance            = &app->balance;
-  summary.estimate           = app->estimated && !app->failure && !app->stopped ? &app->estimate : NULL;
-  summary.probes             = app->probes;
-  PetscCall(OutputSummary(app->comm, app->data, &summary));
-  PetscCall(MonitorFooter(app->monitor, status, summary.reason, app->adapt_stop, app->written, &total, app->load_steps ? &app->last : NULL));
+  PetscCall(AppSummary(app, status, reason));
+  const ReportRow total = AppTotal(app);
+  PetscCall(MonitorFooter(app->monitor, status, reason, app->adapt_stop, app->written, &total, app->load_steps ? &app->last : NULL));
   PetscCall(AppAdvise(app));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -132,7 +82,7 @@ static PetscErrorCode Close_Private(App *app)
   if (app->balance.reaction) PetscCall(BalanceDestroy(&app->balance));
   PetscCall(LevelDestroy(&app->level));
   PetscCall(CheckpointDestroy(&app->snapshot));
-  PetscCall(PetscFree(app->subdivided));
+  PetscCall(PetscFree2(app->subdivided, app->touched));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

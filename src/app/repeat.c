@@ -37,41 +37,56 @@ static void Begin_Private(App *app)
   app->status                            = (ProblemStatus){0};
 }
 
-/* Files and screen: a checkpoint first, for it alone tells tables and fields of one path from those of another. */
+/* Files and screen: a checkpoint first, for it alone tells tables and fields of one path from those of another; then what the path left goes aside. */
 static PetscErrorCode Tell_Private(App *app, PetscReal error)
 {
   const ForestTables *t;
 
   PetscFunctionBegin;
+  if (app->writer) PetscCall(WriterDestroy(&app->writer)); /* the checkpoint is of a path without states */
   PetscCall(AppSnapshot(app));
   if (app->data->output.checkpoint > 0) PetscCall(AppCheckpoint(app));
+  PetscCall(OutputSetAside(app->comm, app->data->output.directory));
+  if (app->data->output.fields) PetscCall(WriterCreate(app->comm, app->data->output.directory, &app->writer));
   PetscCall(HistoryAgain(app->history));
   PetscCall(ForestGetTables(app->level.forest, &t));
   PetscCall(MonitorAgain(app->monitor, app->path, t->num_leaves, error));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode AppRepeat(App *app, PetscBool *again)
+/* The finer mesh, if there is to be one. */
+static PetscErrorCode Refine_Private(App *app, PetscBool *refined)
 {
   const AdaptSpec *spec   = &app->data->adapt;
-  Level            old    = app->level;
   MarkList         layers = {0};
 
   PetscFunctionBegin;
-  *again = PETSC_FALSE;
-  if (spec->repeat != REPEAT_PATH || !AppIsAdaptive(app)) PetscFunctionReturn(PETSC_SUCCESS);
   app->adapt_stop = !app->most.num_leaves ? "tolerance" : app->path >= spec->max_passes ? "max_passes" : "";
   if (!app->adapt_stop[0]) PetscCall(AppLayers(app, &app->most, &layers));
   if (app->adapt_stop[0]) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(AppRefine(app, &app->most, &layers, PETSC_TRUE, again));
-  if (!*again) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(AppSummary(app, "converged", ""));
+  PetscCall(AppRefine(app, &app->most, &layers, PETSC_TRUE, refined));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode AppRepeat(App *app, PetscBool *again)
+{
+  Level old = app->level;
+
+  PetscFunctionBegin;
+  *again = PETSC_FALSE;
+  if (app->data->adapt.repeat != REPEAT_PATH || !AppIsAdaptive(app)) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(Refine_Private(app, again));
+  if (!*again) {
+    PetscCall(OutputDropAside(app->comm, app->data->output.directory)); /* this path came to its end too */
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
   const PetscReal error = app->most.relative;
   PetscCall(LevelDestroy(&old));
   PetscCall(EstimateDestroy(&app->most));
   ++app->path;
   ++app->adapt_passes;
   Begin_Private(app);
-  if (app->writer) PetscCall(WriterAgain(app->writer));
   PetscCall(Tell_Private(app, error));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -219,6 +219,7 @@ PetscErrorCode AppForget(App *app)
   PetscFunctionBegin;
   PetscCallMPI(MPI_Comm_rank(app->comm, &rank));
   if (rank == 0) (void)unlink(app->checkpoint);
+  PetscCall(OutputDropAside(app->comm, app->data->output.directory));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

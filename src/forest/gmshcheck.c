@@ -126,7 +126,7 @@ static PetscErrorCode ScanNodes_Private(Scan *s)
       SkipReals_Private(s, num * (3 + (parametric && dim > 0 ? dim : 0)));
     }
   }
-  qsort(s->tag, (size_t)s->num_nodes, sizeof(int64_t), CompareTags_Private);
+  if (s->num_nodes) qsort(s->tag, (size_t)s->num_nodes, sizeof(int64_t), CompareTags_Private);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

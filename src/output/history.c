@@ -5,6 +5,7 @@
 #define COLUMN_NAME (2 * MORTISE_NAME)
 
 struct _p_History {
+  MPI_Comm         comm;
   const SceneData *scene;  /* borrowed */
   Probes           probes; /* borrowed, may be NULL */
   Table            adapt, history;
@@ -112,21 +113,21 @@ static PetscErrorCode Columns_Private(const SceneData *scene, PetscInt num_probe
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode Open_Private(MPI_Comm comm, History h, const char *file, PetscInt n, const char *const names[], const TablePlace *after, Table *table)
+static PetscErrorCode Open_Private(History h, const char *file, PetscInt n, const char *const names[], const TablePlace *after, Table *table)
 {
   char path[PETSC_MAX_PATH_LEN];
 
   PetscFunctionBegin;
   PetscCall(PetscSNPrintf(path, sizeof(path), "%s/%s", h->scene->output.directory, file));
   if (after)
-    PetscCall(TableResume(comm, path, n, names, after, table));
+    PetscCall(TableResume(h->comm, path, n, names, after, table));
   else
-    PetscCall(TableCreate(comm, path, n, names, table));
+    PetscCall(TableCreate(h->comm, path, n, names, table));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* history.csv: fixed columns, then those of the scene. */
-static PetscErrorCode OpenHistory_Private(MPI_Comm comm, History h, const TablePlace *after)
+static PetscErrorCode OpenHistory_Private(History h, const TablePlace *after)
 {
   const PetscInt fixed = (PetscInt)PETSC_STATIC_ARRAY_LENGTH(step_columns), num_probes = h->probes ? h->scene->num_probes : 0;
   const char   **names;
@@ -140,7 +141,7 @@ static PetscErrorCode OpenHistory_Private(MPI_Comm comm, History h, const TableP
   c.num = 0;
   PetscCall(Columns_Private(h->scene, num_probes, NULL, NULL, &c));
   for (PetscInt i = 0; i < h->num; ++i) names[i] = i < fixed ? step_columns[i] : c.names[i - fixed];
-  PetscCall(Open_Private(comm, h, "history.csv", h->num, names, after, &h->history));
+  PetscCall(Open_Private(h, "history.csv", h->num, names, after, &h->history));
   PetscCall(PetscFree2(c.names, names));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -153,19 +154,22 @@ PetscErrorCode HistoryCreate(MPI_Comm comm, const SceneData *scene, Probes probe
   PetscFunctionBegin;
   PetscCall(PetscNew(&h));
   *history               = h;
+  h->comm                = comm;
   h->scene               = scene;
   h->probes              = probes;
   const PetscInt columns = (PetscInt)PETSC_STATIC_ARRAY_LENGTH(adapt_columns) - (MechanicsIsPlastic(&scene->mechanics) ? 0 : PLASTIC_COLUMNS);
   all.earlier            = PETSC_TRUE;
-  PetscCall(OpenHistory_Private(comm, h, after));
-  PetscCall(Open_Private(comm, h, "adapt.csv", columns, adapt_columns, after ? &all : NULL, &h->adapt));
+  PetscCall(OpenHistory_Private(h, after));
+  PetscCall(Open_Private(h, "adapt.csv", columns, adapt_columns, after ? &all : NULL, &h->adapt));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode HistoryAgain(History h)
 {
   PetscFunctionBegin;
-  PetscCall(TableAgain(h->history));
+  PetscCall(TableDestroy(&h->history));
+  PetscCall(PetscFree(h->values));
+  PetscCall(OpenHistory_Private(h, NULL));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

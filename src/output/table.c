@@ -7,7 +7,6 @@ struct _p_Table {
   MPI_Comm comm;
   PetscInt n;                        /* columns */
   FILE    *file;                     /* owned; rank 0, else NULL */
-  long     begin;                    /* where its rows begin */
   long     keep;                     /* bytes that stay; the rest goes when the next row comes. -1: all */
   char     path[PETSC_MAX_PATH_LEN]; /* for messages */
 };
@@ -43,7 +42,6 @@ PetscErrorCode TableCreate(MPI_Comm comm, const char *path, PetscInt n, const ch
       fputc('\n', t->file);
     }
     if (!t->file || fflush(t->file)) failed = errno ? errno : EIO;
-    if (t->file) t->begin = ftell(t->file);
   }
   *table = t;
   PetscCall(TableCheck_Private(t, failed));
@@ -81,9 +79,9 @@ static PetscInt Number_Private(PetscInt n, const char *const names[], const char
   return i;
 }
 
-/* Where the rows up to a place begin and end, and whether the last of them is of its step and at its time. A row without its end (the run was killed) is none.
+/* Where the rows up to a place end, and whether the last of them is of its step and at its time. A row without its end (the run was killed) is none.
  */
-static int Find_Private(FILE *file, PetscInt n, const char *const names[], const TablePlace *place, long *begin, long *keep)
+static int Find_Private(FILE *file, PetscInt n, const char *const names[], const TablePlace *place, long *keep)
 {
   char  *line    = NULL;
   size_t size    = 0;
@@ -91,7 +89,7 @@ static int Find_Private(FILE *file, PetscInt n, const char *const names[], const
 
   if (!SameNames_Private(file, n, names)) return TABLE_COLUMNS;
   const PetscInt time = Number_Private(n, names, "t"), pass = Number_Private(n, names, "pass");
-  *begin = *keep = ftell(file);
+  *keep = ftell(file);
   while (getline(&line, &size, file) > 0 && strchr(line, '\n')) {
     const double path = place->path < 0 ? -1 : Column_Private(line, pass);
     if (path != place->path && !(place->earlier && path < place->path)) break;
@@ -108,14 +106,14 @@ static int Find_Private(FILE *file, PetscInt n, const char *const names[], const
 PetscErrorCode TableResume(MPI_Comm comm, const char *path, PetscInt n, const char *const names[], const TablePlace *place, Table *table)
 {
   PetscMPIInt rank;
-  FILE       *file  = NULL;
-  long        begin = 0, keep = -1;
+  FILE       *file    = NULL;
+  long        keep    = -1;
   int         verdict = TABLE_ABSENT;
 
   PetscFunctionBegin;
   PetscCallMPI(MPI_Comm_rank(comm, &rank));
   if (rank == 0) file = fopen(path, "r+");
-  if (file) verdict = Find_Private(file, n, names, place, &begin, &keep);
+  if (file) verdict = Find_Private(file, n, names, place, &keep);
   PetscCallMPI(MPI_Bcast(&verdict, 1, MPI_INT, 0, comm));
   if (file && verdict != TABLE_FITS) fclose(file);
   PetscCheckInput(verdict != TABLE_COLUMNS, "-restart: %s has other columns than this scene; give another output.directory", path);
@@ -128,19 +126,30 @@ PetscErrorCode TableResume(MPI_Comm comm, const char *path, PetscInt n, const ch
     PetscFunctionReturn(PETSC_SUCCESS);
   }
   PetscCall(PetscNew(table));
-  (*table)->comm  = comm;
-  (*table)->n     = n;
-  (*table)->file  = file;
-  (*table)->begin = begin;
-  (*table)->keep  = keep;
+  (*table)->comm = comm;
+  (*table)->n    = n;
+  (*table)->file = file;
+  (*table)->keep = keep;
   PetscCall(PetscStrncpy((*table)->path, path, sizeof((*table)->path)));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode TableAgain(Table t)
+PetscErrorCode TableFirst(const char *path, const char *name, PetscReal *value)
 {
+  FILE  *file = fopen(path, "r");
+  char  *line = NULL, *at;
+  size_t size = 0;
+
   PetscFunctionBegin;
-  t->keep = t->begin;
+  *value = NAN;
+  if (file && getline(&line, &size, file) > 0) {
+    PetscInt column           = 0;
+    line[strcspn(line, "\n")] = 0;
+    for (at = strtok(line, ","); at && strcmp(at, name); at = strtok(NULL, ",")) ++column;
+    if (at && getline(&line, &size, file) > 0 && strchr(line, '\n')) *value = (PetscReal)Column_Private(line, column);
+  }
+  free(line);
+  if (file) fclose(file);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -16,7 +16,7 @@ struct _p_Writer {
   char        directory[PETSC_MAX_PATH_LEN];
   Index       index;     /* owned; rank 0, else NULL */
   PetscInt    num;       /* states completed */
-  PetscBool   resumed;   /* files of later states, or of an earlier series, are still there */
+  PetscBool   resumed;   /* files of later states are still there */
   IndexState  state;     /* the open state, or the last one */
   hid_t       file;      /* owned; -1 between states */
   hid_t       group;     /* owned: the open grid; -1 when none */
@@ -124,17 +124,6 @@ PetscErrorCode WriterResume(MPI_Comm comm, const char *directory, PetscInt step,
   (*writer)->num        = num;
   (*writer)->state.time = time;
   (*writer)->resumed    = PETSC_TRUE;
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode WriterAgain(Writer w)
-{
-  PetscFunctionBegin;
-  w->num     = 0;
-  w->resumed = PETSC_TRUE;
-  if (!w->index) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(IndexDestroy(&w->index));
-  PetscCall(IndexCreate(&w->index));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -3,11 +3,13 @@
 
 /* What one pass over the facets of the mesh finds. */
 typedef struct {
+  Forest              whole;
   const CoarseMesh   *mesh;
   const ForestTables *forest;
   PetscInt           *num_facets;   /* [num_boundaries] outer facets of each group */
   PetscBool          *inner;        /* [num_boundaries] some facet of the group lies between two cells */
   PetscBool          *body_touches; /* [num_bodies][num_boundaries] the group has a facet of the body */
+  uint64_t           *together;     /* [num_boundaries] groups that have an outer facet of the group too */
   uint64_t           *cell_groups;  /* [num_cells] groups of the outer facets of each coarse cell */
 } Facets;
 
@@ -19,9 +21,10 @@ static PetscErrorCode FacetsCreate_Private(Forest forest, Facets *f)
   PetscFunctionBegin;
   PetscCall(ForestGetCoarse(forest, &f->mesh));
   PetscCall(ForestGetTables(forest, &f->forest));
-  t  = f->forest;
-  nb = f->mesh->num_boundaries;
-  PetscCall(PetscCalloc4(nb, &f->num_facets, nb, &f->inner, f->mesh->num_bodies * nb, &f->body_touches, f->mesh->num_cells, &f->cell_groups));
+  f->whole = forest;
+  t        = f->forest;
+  nb       = f->mesh->num_boundaries;
+  PetscCall(PetscCalloc5(nb, &f->num_facets, nb, &f->inner, f->mesh->num_bodies * nb, &f->body_touches, nb, &f->together, f->mesh->num_cells, &f->cell_groups));
   for (PetscInt e = t->first[t->dim - 1]; e < t->first[t->dim]; ++e) {
     const PetscInt *leaf  = t->facet_leaf + 2 * (e - t->first[t->dim - 1]);
     const PetscBool outer = leaf[0] < 0 || leaf[1] < 0 ? PETSC_TRUE : PETSC_FALSE;
@@ -30,6 +33,7 @@ static PetscErrorCode FacetsCreate_Private(Forest forest, Facets *f)
       if (!(t->boundary[e] >> g & 1)) continue;
       f->num_facets[g] += outer;
       if (!outer) f->inner[g] = PETSC_TRUE;
+      if (outer) f->together[g] |= t->boundary[e];
       for (int side = 0; side < 2; ++side)
         if (leaf[side] >= 0) f->body_touches[t->leaf_body[leaf[side]] * nb + g] = PETSC_TRUE;
     }
@@ -71,7 +75,32 @@ static PetscErrorCode FindGroup_Private(const CoarseMesh *m, const char *where, 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscErrorCode SceneVertex(Forest forest, PetscInt vertex, PetscReal X[3])
+{
+  const ForestTables *t;
+
+  PetscFunctionBegin;
+  PetscCall(ForestGetTables(forest, &t));
+  const PetscInt  leaf = t->entity_leaf[vertex];
+  const PetscInt *at   = t->closure + t->closure_offset[t->first[t->dim] + leaf];
+  PetscInt        i    = 0;
+  while (at[i] != vertex) ++i;
+  const PetscReal xi[3] = {0.5 * (i % 3), 0.5 * (i / 3 % 3), 0.5 * (i / 9)};
+  PetscCall(ForestMapPoint(forest, leaf, xi, X));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* ---- bodies ------------------------------------------------------------------------------------------------------------------------- */
+
+/* Mean of the geometry nodes of a coarse cell. */
+static void Centre_Private(const CoarseMesh *m, PetscInt cell, PetscReal centre[3])
+{
+  PetscInt nodes = 1;
+
+  for (PetscInt d = 0; d < m->dim; ++d) nodes *= m->geometry_order + 1;
+  for (PetscInt i = 0; i < 3; ++i) centre[i] = 0;
+  for (PetscInt i = 0; i < 3 * nodes; ++i) centre[i % 3] += m->cell_geometry[3 * nodes * cell + i] / nodes;
+}
 
 static PetscErrorCode CheckCells_Private(Scene s, const CoarseMesh *m)
 {
@@ -80,12 +109,10 @@ static PetscErrorCode CheckCells_Private(Scene s, const CoarseMesh *m)
   PetscFunctionBegin;
   for (PetscInt d = 0; d < m->dim; ++d) nodes *= m->geometry_order + 1;
   for (PetscInt c = 0; c < m->num_cells; ++c) {
-    const PetscReal *X         = m->cell_geometry + 3 * nodes * c;
-    PetscReal        centre[3] = {0, 0, 0}, scale = 0;
-    for (PetscInt i = 0; i < 3 * nodes; ++i) {
-      centre[i % 3] += X[i] / nodes;
-      scale = PetscMax(scale, PetscAbsReal(X[i]));
-    }
+    const PetscReal *X = m->cell_geometry + 3 * nodes * c;
+    PetscReal        centre[3], scale = 0;
+    Centre_Private(m, c, centre);
+    for (PetscInt i = 0; i < 3 * nodes; ++i) scale = PetscMax(scale, PetscAbsReal(X[i]));
     PetscCheckInput(m->cell_body[c] >= 0, "mesh: cell %d at (%g, %g, %g) is in no physical group of dimension %d, so in no body", (int)c, (double)centre[0],
                     (double)centre[1], (double)centre[2], (int)m->dim);
     for (PetscInt i = 0; i < nodes; ++i) {
@@ -148,6 +175,50 @@ static PetscErrorCode MatchBoundaries_Private(Scene s, const Facets *f)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Two facets that face each other in two pairs would have their gap closed twice, by pressures of which only the sum is known. One surface of several pairs is
+   good: its facets face others in each. */
+static PetscErrorCode CheckPairs_Private(Scene s, const Facets *f)
+{
+  PetscFunctionBegin;
+  for (PetscInt i = 0; i < s->data.num_contacts; ++i) {
+    const ContactSpec *a = &s->data.contacts[i];
+    for (PetscInt j = 0; j < i; ++j) {
+      const ContactSpec *b    = &s->data.contacts[j];
+      const PetscBool    same = (PetscBool)((f->together[a->nonmortar] >> b->nonmortar & 1) && (f->together[a->mortar] >> b->mortar & 1));
+      const PetscBool    swap = (PetscBool)((f->together[a->nonmortar] >> b->mortar & 1) && (f->together[a->mortar] >> b->nonmortar & 1));
+      PetscCheckInput(!same && !swap,
+                      "%s: '%s' and '%s' have facets in common with the sides of pair '%s', '%s' and '%s'; facets may face each other in one pair only",
+                      NodeWhere(s->contact[i].node), s->contact[i].nonmortar, s->contact[i].mortar, b->name,
+                      same ? s->contact[j].nonmortar : s->contact[j].mortar, same ? s->contact[j].mortar : s->contact[j].nonmortar);
+    }
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The sides of a pair are apart. */
+static PetscErrorCode CheckSides_Private(const ContactEntry *c, const Facets *f, const PetscInt group[2])
+{
+  const uint64_t  both   = UINT64_C(1) << group[0] | UINT64_C(1) << group[1];
+  const PetscBool facets = (PetscBool)(f->together[group[0]] >> group[1] & 1);
+  PetscReal       X[3];
+
+  PetscFunctionBegin;
+  for (PetscInt cell = 0; cell < f->mesh->num_cells; ++cell) {
+    if ((f->cell_groups[cell] & both) != both) continue;
+    Centre_Private(f->mesh, cell, X);
+    PetscCall(ErrorInput("%s: '%s' and '%s' share cell %d at (%g, %g, %g)%s; the sides of a pair must have cells of their own", NodeWhere(c->node),
+                         c->nonmortar, c->mortar, (int)cell, (double)X[0], (double)X[1], (double)X[2], facets ? ", and have facets in common" : ""));
+  }
+  for (PetscInt v = 0; v < f->forest->first[1]; ++v) {
+    if ((f->forest->boundary[v] & both) != both) continue;
+    PetscCall(SceneVertex(f->whole, v, X));
+    PetscCall(ErrorInput("%s: '%s' and '%s' share vertex %d of the mesh at (%g, %g, %g); bodies in contact must have vertices of their own (gmsh merges points "
+                         "closer than 1e-8 of the model, and those that Extrude makes twice)",
+                         NodeWhere(c->node), c->nonmortar, c->mortar, (int)v, (double)X[0], (double)X[1], (double)X[2]));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 static PetscErrorCode MatchContacts_Private(Scene s, const Facets *f)
 {
   PetscFunctionBegin;
@@ -162,20 +233,12 @@ static PetscErrorCode MatchContacts_Private(Scene s, const Facets *f)
       PetscCheckInput(!f->inner[group[side]], "%s: '%s' lies between two cells; a contact surface must be a free one", NodeWhere(c->node), name);
       PetscCheckInput(f->num_facets[group[side]], "%s: '%s' has no facets", NodeWhere(c->node), name);
     }
-    for (PetscInt cell = 0; cell < f->mesh->num_cells; ++cell)
-      PetscCheckInput(!(f->cell_groups[cell] >> group[0] & 1) || !(f->cell_groups[cell] >> group[1] & 1),
-                      "%s: '%s' and '%s' share cell %d; the sides of a pair must have cells of their own", NodeWhere(c->node), c->nonmortar, c->mortar,
-                      (int)cell);
-    for (PetscInt v = 0; v < f->forest->first[1]; ++v)
-      PetscCheckInput(
-          !(f->forest->boundary[v] >> group[0] & 1) || !(f->forest->boundary[v] >> group[1] & 1),
-          "%s: '%s' and '%s' share vertex %d of the mesh; bodies in contact must have vertices of their own (gmsh merges points closer than 1e-8 of the "
-          "model, and those that Extrude makes twice)",
-          NodeWhere(c->node), c->nonmortar, c->mortar, (int)v);
+    PetscCall(CheckSides_Private(c, f, group));
     c->spec.nonmortar   = group[0];
     c->spec.mortar      = group[1];
     s->data.contacts[i] = c->spec;
   }
+  PetscCall(CheckPairs_Private(s, f));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -256,7 +319,7 @@ PetscErrorCode SceneCheckMesh(Scene s, Forest forest)
   PetscCall(SceneCheckFields(s, mesh));
   PetscCall(FacetsCreate_Private(forest, &f));
   status = Check_Private(s, &f);
-  PetscCall(PetscFree4(f.num_facets, f.inner, f.body_touches, f.cell_groups));
+  PetscCall(PetscFree5(f.num_facets, f.inner, f.body_touches, f.together, f.cell_groups));
   PetscCall(status);
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -140,6 +140,8 @@ PetscErrorCode SceneMakeMesh(Scene);
 PetscErrorCode SceneRemoveMesh(Scene);
 /* Match names with the groups of the mesh, fill data.bodies, boundaries, contacts, and check them (check.c). Collective. */
 PetscErrorCode SceneCheckMesh(Scene, Forest);
+/* Reference position of a vertex (check.c). Not collective. */
+PetscErrorCode SceneVertex(Forest, PetscInt vertex, PetscReal X[3]);
 /* "a, b, c" or "none" (check.c). */
 PetscErrorCode SceneListNames(PetscInt num, char (*names)[MORTISE_NAME], size_t capacity, char list[]);
 /* fiber.c. Families of fibres find their fields in the mesh. Bodies are matched already. Not collective. */

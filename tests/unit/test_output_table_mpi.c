@@ -160,19 +160,42 @@ static void TableOfPathsGoesOn(void **unused)
     if (!cases[i].after) continue;
     assert_int_equal(TableRow(t, row), 0);
     if (rank == 0) assert_string_equal(Text(), cases[i].after);
-    assert_int_equal(TableAgain(t), 0);
-    if (rank == 0) assert_string_equal(Text(), cases[i].after);
-    assert_int_equal(TableRow(t, row), 0);
-    if (rank == 0) assert_string_equal(Text(), "step,pass,t\n2,1,0.5\n");
     assert_int_equal(TableDestroy(&t), 0);
   }
   assert_int_equal(PetscPopErrorHandler(), 0);
 }
 
+static void FirstRowIsRead(void **unused)
+{
+  static const struct {
+    const char *text, *name;
+    PetscReal   value; /* below 0: none */
+  } cases[] = {{"step,pass,t\n1,3,0.1\n2,4,0.2\n", "pass", 3},
+               {"step,pass,t\n1,3,0.1\n", "t", 0.1},
+               {"step,pass,t\n1,3,0.1\n", "pas", -1},
+               {"step,pass,t\n1,3,0.", "pass", -1},
+               {"step,pass,t\n", "step", -1},
+               {"", "step", -1}};
+  PetscReal value;
+
+  snprintf(path, sizeof(path), "%s/d%d.csv", directory, (int)rank);
+  for (size_t i = 0; i < PETSC_STATIC_ARRAY_LENGTH(cases); ++i) {
+    FILE *file = fopen(path, "w");
+    fputs(cases[i].text, file);
+    fclose(file);
+    assert_int_equal(TableFirst(path, cases[i].name, &value), 0);
+    assert_true(cases[i].value < 0 ? PetscIsNanReal(value) : value == cases[i].value);
+  }
+  unlink(path);
+  assert_int_equal(TableFirst(path, "step", &value), 0);
+  assert_true(PetscIsNanReal(value));
+}
+
 int main(int argc, char **argv)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(RowsAreThereAtOnce), cmocka_unit_test(DocumentIsReplaced), cmocka_unit_test(TableGoesOn),
-                                     cmocka_unit_test(TableOfPathsGoesOn), cmocka_unit_test(UnwritablePlaceFailsOnAllRanks)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(RowsAreThereAtOnce), cmocka_unit_test(DocumentIsReplaced),
+                                     cmocka_unit_test(TableGoesOn),        cmocka_unit_test(TableOfPathsGoesOn),
+                                     cmocka_unit_test(FirstRowIsRead),     cmocka_unit_test(UnwritablePlaceFailsOnAllRanks)};
   int                     failed;
 
   if (PetscInitialize(&argc, &argv, NULL, NULL)) return 1;

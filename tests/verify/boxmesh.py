@@ -3,7 +3,7 @@
     write(path, [linspace(0, 1, 8), linspace(0, 1, 8)], to=lambda x, y: (x, y), order=1)
 
 Several maps of the same lattice make several blocks, joined where their points coincide. Sides are named x0, x1, y0, y1 (z0, z1) after the parameters;
-`side(name, centre, block)` may rename one of their facets (centre in parameters) or drop it (None); `body(centre, block)` names the body of a cell. ring, disc and sphere are maps for it.
+`side(name, centre, block)` may rename one of their facets (centre in parameters), drop it (None) or give it several names (a list); `body(centre, block)` names the body of a cell. ring, disc and sphere are maps for it.
 """
 import itertools
 import math
@@ -51,16 +51,15 @@ def write(path, breaks, to=lambda *x: x, order=1, side=lambda name, centre, bloc
                 centre = [breaks[axis][-high]] * dim
                 for d, i in zip(others, facet):
                     centre[d] = (breaks[d][i] + breaks[d][i + 1]) / 2
-                name = side("xyz"[axis] + str(high), tuple(centre), block)
-                if name is None:
-                    continue
+                group = side("xyz"[axis] + str(high), tuple(centre), block)
                 nodes = []
                 for place in places(dim - 1, order):
                     index = [high * (len(lattice[axis]) - 1)] * dim
                     for d, i, p in zip(others, facet, place):
                         index[d] = order * i + p
                     nodes.append(number_of[tuple(index)])
-                elements.append((TYPE[dim - 1, order], names.setdefault(name, 1 + len(names)), nodes))
+                for name in group if isinstance(group, list) else [group] * (group is not None):
+                    elements.append((TYPE[dim - 1, order], names.setdefault(name, 1 + len(names)), nodes))
     with open(path, "w") as file:
         file.write("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n%d\n" % (len(bodies) + len(names)))
         for d, group in ((dim, bodies), (dim - 1, names)):

@@ -66,6 +66,35 @@ def test_the_same_pair_twice(run, tmp_path, turned):
     refused(run("s.yml", text=blocks(tmp_path, one=one, two=two)), "contact.two", "the sides of pair 'one' already", "other way round" if turned else "")
 
 
+@pytest.mark.parametrize("one,two,good", [
+    (("low_l", "y1_l"), ("low", "y1_l"), False),  # parts of both, under other names
+    (("low_l", "y1_l"), ("y1_l", "low"), False),  # the other way round
+    (("low_l", "y1_l"), ("low_r", "y1_l"), True),  # two halves of one side
+    (("low", "y1_l"), ("low_l", "x0_l"), True),  # one side against two
+])
+def test_pairs_that_share_facets(run, tmp_path, one, two, good):
+    """The lower side of the upper block is one group and, by halves, two more."""
+    def up(x, y):
+        return x, y + 1.001
+
+    text = blocks(tmp_path, one=dict(zip(("nonmortar", "mortar"), one)), two=dict(zip(("nonmortar", "mortar"), two)))
+    write(tmp_path / "blocks.msh", [linspace(0, 1, 2)] * 2, [lambda x, y: (x, y), up], body=lambda centre, b: "lu"[b],
+          side=lambda name, centre, b: [f"{name}_{'lu'[b]}"] if (name, b) != ("y0", 1) else ["low", "low_l" if centre[0] < 0.5 else "low_r"])
+    result = run("s.yml", text=text)
+    if good:
+        alone = run("s.yml", text=json.dumps(json.loads(text) | {"contact": {"whole": {"nonmortar": "low", "mortar": "y1_l"}}}))
+        assert result.summary["reaction"]["y1_u"] == pytest.approx(alone.summary["reaction"]["y1_u"], abs=1e-9) and result.summary["reaction"]["y1_u"][1] < -0.02, result
+    else:
+        refused(result, "contact.two", "facets in common", "pair 'one'")
+
+
+def test_a_pair_of_a_surface_and_its_part(run, tmp_path):
+    text = blocks(tmp_path, pair={"nonmortar": "low", "mortar": "low_l"})
+    write(tmp_path / "blocks.msh", [linspace(0, 1, 2)] * 2, [lambda x, y: (x, y), lambda x, y: (x, y + 1.001)], body=lambda centre, b: "lu"[b],
+          side=lambda name, centre, b: [f"{name}_{'lu'[b]}", "low", "low_l"])
+    refused(run("s.yml", text=text), "'low' and 'low_l' share cell 0 at (0.25, 0.25, 0), and have facets in common")
+
+
 @pytest.mark.parametrize("load,words", [({"step": 1e-300}, ["load.step is 1e-300", "1e-08"]), ({"step": 0.1, "step_min": 1e-20}, ["load.step_min is 1e-20"]),
                                         ({"step": 1e-7}, ["1000000 steps", "1e-07", "load.step_max"]),
                                         ({"step": 1e-7, "step_max": 0.1}, None), ({"step": 1e-7, "stop_displacement": 1e-9}, None)])

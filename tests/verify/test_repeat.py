@@ -11,7 +11,7 @@ import subprocess
 import pytest
 
 from boxmesh import linspace, write
-from conftest import PROGRAM
+from conftest import PROGRAM, Result
 from test_checkpoint import assert_same_run, exact
 
 PATH = ("-adapt_repeat", "path", "-adapt_tolerance", 0.25)
@@ -96,15 +96,49 @@ def test_broken_off(block, strategy, ranks, then):
     again = ("-output_directory", first.directory, "-restart", "auto")
     ended = block(*options, *again, "-adapt_max_passes", 0, ranks=then)
     assert "goes on after load step 4" in ended.stdout and "adaptation ended: max_passes" in ended.stdout
+    ended.directory = first.directory
+    ended_history = ended.history
     middle = block(*options, *again, "-load_max_steps", 3, ranks=ranks, status=2)
     middle.directory = first.directory
     assert [(row["pass"], row["step"]) for row in middle.history] == [(1, k) for k in (1, 2, 3)] and middle.summary["status"] == "failed"
     assert [time for time, _ in middle.states()] == [row["t"] for row in middle.history]
-    assert "note: the mesh before was good for the whole path; -adapt_max_passes 0 ends with it" in middle.stdout
+    earlier = aside(middle)
+    assert_same_path(earlier.history, ended_history)
+    assert [time for time, _ in earlier.states()] == [row["t"] for row in earlier.history] and (earlier.summary["status"], earlier.summary["cells"]) == ("converged", 9)
+    assert f"note: the path on the mesh before came to its end; its results are in {first.directory}/earlier_path" in middle.stdout
     last = block(*options, *again, ranks=then)
     last.directory = first.directory
-    assert "goes on after load step 3" in last.stdout
+    assert "goes on after load step 3" in last.stdout and not earlier.directory.exists() and "note: the path on" not in last.stdout
     assert_same_run(whole, last, exact if ranks == then == 1 else lambda key: 1e-9)
+
+
+def aside(result):
+    return Result(result.command, result.returncode, "", "", result.directory / "earlier_path")
+
+
+def test_put_aside(block):
+    """The finer path fails in its first step: the results of the one before are there, whole. Broken off while they were moved, moving goes on; a fresh run removes
+    them."""
+    whole = block(*TWO, "-adapt_max_passes", 0)
+    first = block(*TWO, "-adapt_max_passes", 0)
+    again = ("-output_directory", first.directory, "-restart", "auto")
+    failed = block(*TWO, *again, "-boundary_y1_displacement_y", "t < 1.4 ? sqrt(0-t) : -0.02*t", status=2)
+    earlier = aside(first)
+
+    def assert_whole():
+        assert_same_path(earlier.history, whole.history)
+        assert earlier.summary["t"] == 1.5 and earlier.summary["energy"] == pytest.approx(whole.summary["energy"], rel=1e-9)
+        assert len(list(earlier.directory.glob("fields_*.h5"))) == len(earlier.states()) == 6
+
+    assert_whole()
+    assert f"its results are in {earlier.directory}\n" in failed.stdout and not first.history and not first.states()
+    for name in ("fields_0005.h5", "fields.xdmf", "summary.json", "history.csv"):
+        (earlier.directory / name).replace(first.directory / name)
+    block(*TWO, *again, "-load_max_steps", 2, status=2)
+    assert_whole()
+    assert [row["pass"] for row in first.history] == [1, 1] and len(first.states()) == 2
+    block(*TWO, "-adapt_max_passes", 0, "-output_directory", first.directory)
+    assert not earlier.directory.exists() and len(first.history) == 6
 
 
 @pytest.mark.slow

@@ -1,10 +1,12 @@
 """What a run leaves behind: keys of summary.json, tables that agree with it, fields that readers understand, on one rank and on two."""
 import math
+import re
 
 import numpy as np
 import pytest
 
 from contactkit import surface
+from test_hostile import blocks
 
 KEYS = """mortise scene status reason t model ranks load_steps step_cuts adapt_passes newton_iterations cells dofs order_min order_max
           estimated_error energy reaction contact probe time peak_memory_mb""".split()
@@ -72,6 +74,34 @@ def test_failed_run_is_told(run):
     assert result.returncode == 2 and s["status"] == "failed" and s["reason"] and s["load_steps"] == 2 and 0 < s["t"] < 1
     assert s["energy"] > 0 and len(result.history) == 2
     assert s["probe"]["tip"]["displacement"][1] == pytest.approx(result.history[-1]["probe.tip.displacement.y"], rel=1e-9)
+
+
+HERTZ = ("inputs/hertz2d.yml", "-adapt_tolerance", 0, "-order", 1, "-contact_disc_on_block_order", 1, "-output_fields", "false")
+
+
+def test_where_the_error_is(run):
+    """A run that gave up names the cell that has most of the estimate, here under the contact; one that ended by the number of its steps does not."""
+    result = run(*HERTZ, "-load_step", 0.5, "-load_step_min", 0.2, "-boundary_top_displacement_y", "t < 0.6 ? -0.02*t : -1.9*t")
+    assert result.returncode == 2 and result.summary["load_steps"] == 1, result
+    x, y = map(float, re.search(r"note: \d+ % of the squared error estimate are in one cell, at \((\S+), (\S+), 0\) of body (?:disc|block): ", result.stdout).groups())
+    assert math.hypot(x, y) < 0.4, result
+    assert "note:" not in run(*HERTZ, "-load_step", 0.5, "-load_max_steps", 1).stdout
+
+
+@pytest.mark.parametrize("y,words", [(0.05, "at the end they are 0.051 apart"), (-0.05, None), ("t < 0.6 ? -0.05*t : 0.05", None), (3, "do not face each other")])
+def test_pairs_in_vain(run, tmp_path, y, words):
+    """Told of pairs that never touched: far from each other, or of other facets than was meant; not of those that parted."""
+    text = blocks(tmp_path, pair={"nonmortar": "y0_u", "mortar": "y1_l", "search": 1})
+    result = run("s.yml", "-boundary_y1_u_displacement_y", y, text=text)
+    note = re.findall("note: the sides of pair pair have not touched; (.*)\n", result.stdout)
+    assert result.returncode == 0 and len(note) == (words is not None) and (not note or words in note[0]), result
+
+
+def test_check_says_where(run, tmp_path):
+    """Groups of boundaries and pairs with their boxes."""
+    said = run("s.yml", "-check", text=blocks(tmp_path, pair={"nonmortar": "y0_u", "mortar": "y1_l"})).stdout
+    assert "  boundary y0_l: fix x fix y [x = 0 .. 1, y = 0]\n" in said, said
+    assert "  contact pair: y0_u (nonmortar) [x = 0 .. 1, y = 1.001] on y1_l [x = 0 .. 1, y = 1]\n" in said, said
 
 
 def test_probe_outside_is_wrong_input(run):

@@ -1,0 +1,109 @@
+/* The last words of a run: what there is besides, what looks wrong, and what may help. */
+#include "appimpl.h"
+
+#define MUCH 0.3    /* share of the squared estimate in one cell that says where a run is stuck */
+#define CURVED 1e-4 /* of an edge: its middle is off the middle of its ends */
+
+/* Where most of the error is, when it is in one place. */
+static PetscErrorCode Worst_Private(const App *app)
+{
+  const Estimate     *e     = &app->estimate;
+  const PetscReal     mid[] = {0.5, 0.5, 0.5};
+  const ForestTables *t;
+  const CoarseMesh   *mesh;
+  PetscInt            worst = 0;
+  PetscReal           X[3];
+
+  PetscFunctionBegin;
+  PetscCall(ForestGetTables(app->level.forest, &t));
+  if (!app->estimated || e->num_leaves != t->num_leaves) PetscFunctionReturn(PETSC_SUCCESS);
+  for (PetscInt l = 1; l < e->num_leaves; ++l)
+    if (e->eta2[l] > e->eta2[worst]) worst = l;
+  const PetscReal share = e->total > 0 ? e->eta2[worst] / (e->total * e->total) : 0;
+  if (share < MUCH) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(ForestGetCoarse(app->level.forest, &mesh));
+  PetscCall(ForestMapPoint(app->level.forest, worst, mid, X));
+  PetscCall(PetscPrintf(app->comm,
+                        "note: %.0f %% of the squared error estimate are in one cell, at (%.4g, %.4g, %.4g) of body %s: a sharp corner or the end of a support "
+                        "there may be in the way\n",
+                        100 * (double)share, (double)X[0], (double)X[1], (double)X[2], mesh->body_name[t->leaf_body[worst]]));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Pairs that were in vain; most likely a group is of other facets than was meant. Of a run that goes on from another one nobody knows. */
+static PetscErrorCode Untouched_Private(const App *app)
+{
+  PetscFunctionBegin;
+  for (PetscInt i = 0; i < app->data->num_contacts; ++i) {
+    const PairFigures *f = &app->balance.pair[i];
+    if (app->touched[i]) continue;
+    if (f->covered_nodes)
+      PetscCall(PetscPrintf(app->comm, "note: the sides of pair %s have not touched; at the end they are %.3g apart\n", app->data->contacts[i].name,
+                            (double)f->min_gap));
+    else
+      PetscCall(PetscPrintf(app->comm, "note: the sides of pair %s have not touched; at the end they do not face each other\n", app->data->contacts[i].name));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Has a leaf at these boundary groups a curved edge? */
+static PetscErrorCode Curved_Private(Forest forest, uint64_t groups, PetscBool *curved)
+{
+  const ForestTables *t;
+
+  PetscFunctionBegin;
+  *curved = PETSC_FALSE;
+  PetscCall(ForestGetTables(forest, &t));
+  for (PetscInt l = 0; l < t->num_leaves && !*curved; ++l) {
+    if (!ForestLeafTouches(t, l, groups)) continue;
+    for (PetscInt edge = 0; edge < (t->dim == 2 ? 4 : 12); ++edge) {
+      const PetscInt d = edge % t->dim, place = edge / t->dim;
+      PetscReal      xi[3] = {0, 0, 0}, X[3][3], length = 0, off = 0;
+      xi[(d + 1) % t->dim] = place % 2;
+      if (t->dim == 3) xi[(d + 2) % 3] = place / 2;
+      for (PetscInt k = 0; k < 3; ++k) {
+        xi[d] = 0.5 * (PetscReal)k;
+        PetscCall(ForestMapPoint(forest, l, xi, X[k]));
+      }
+      for (PetscInt c = 0; c < t->dim; ++c) {
+        length += PetscSqr(X[2][c] - X[0][c]);
+        off += PetscSqr(X[1][c] - 0.5 * (X[0][c] + X[2][c]));
+      }
+      *curved = (PetscBool)(*curved || off > PetscSqr(CURVED) * length);
+    }
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Where surfaces nearly fit, linear contact faces on a mesh that is curved miss each other by more than their clearance, and touch at corners. */
+static PetscErrorCode Linear_Private(const App *app)
+{
+  PetscBool curved;
+
+  PetscFunctionBegin;
+  for (PetscInt i = 0; i < app->data->num_contacts; ++i) {
+    const ContactSpec *pair = &app->data->contacts[i];
+    if (pair->full) continue;
+    PetscCall(Curved_Private(app->level.forest, UINT64_C(1) << pair->nonmortar | UINT64_C(1) << pair->mortar, &curved));
+    if (curved)
+      PetscCall(PetscPrintf(app->comm, "note: the contact faces of pair %s are linear on a mesh that is curved; contact.%s.order: full follows it\n",
+                            pair->name, pair->name));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode AppAdvise(const App *app)
+{
+  const PetscBool stuck = (PetscBool)!strcmp(app->adapt_stop, NONE_FINER);
+  PetscBool       whole;
+
+  PetscFunctionBegin;
+  PetscCall(OutputHasAside(app->comm, app->data->output.directory, &whole));
+  if (whole)
+    PetscCall(
+        PetscPrintf(app->comm, "note: the path on the mesh before came to its end; its results are in %s/" OUTPUT_ASIDE "\n", app->data->output.directory));
+  if (!app->failure && !app->stopped && !app->restart[0]) PetscCall(Untouched_Private(app));
+  if (stuck || (app->failure && app->cuts_in_step > 0)) PetscCall(Worst_Private(app));
+  if (stuck) PetscCall(Linear_Private(app));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
