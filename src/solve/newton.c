@@ -11,7 +11,7 @@
 #define HALVINGS 8 /* of steps that left the domain, in one solve */
 #define LOOSE 1e-2 /* least part of what holds bodies that nothing else does: round-off of factors is far below */
 #define CLOSE 1e-2 /* residual over that of the first iterate from which on Newton's method squares it; … */
-#define SLOW 0.1   /* … more than this part of the residual before, and it does not */
+#define SLOW 0.03  /* … more than this part of the residual before, and it does not */
 #define HOLDS 3    /* pairs that are held back from sliding in one linear step */
 
 /* What a cell of incompressible material may gain or lose of its volume, whatever the forces: where prescribed motion leaves it no choice, pressures grow
