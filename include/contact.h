@@ -55,6 +55,7 @@ typedef struct {
   PetscBool full;              /* facets have the order of their cells; else order 1 */
   PetscReal search;            /* search distance, in multiples of the larger edge length; default 0: automatic */
   PetscBool node_to_segment;   /* comparison only */
+  PetscBool see_through;       /* comparison only: searches take far sides of bodies behind for overlaps */
   PetscBool standard;          /* standard multipliers */
   PetscBool continuous;        /* three dimensions: gaps along a direction that is continuous over the surface, for facets of order 1 too */
   PetscBool adjust;            /* the gaps of the mesh at the reference positions count as closed */
@@ -91,10 +92,10 @@ typedef struct {
   const PetscReal *dweight;      /* [num_rows][dim*num] */
   const PetscReal *push;         /* [num_rows][dim*num] force by z_j where that is not dgap: lines are held (theory (5.8)); with dgap. NULL: dgap */
   PetscBool        rim;          /* one of these lines is the rim of the mortar side */
-  const PetscReal *hessian;      /* [dim*num][dim*num] derivatives of the forces sum_j z_j dgap_j, or push_j (rows); NULL unless asked, or where z vanishes */
-  const PetscReal *spring;       /* [num_rows] compliances K_j, which depend on the covered area only (ContactPairSetSoftness); NULL: none */
-  const PetscReal *stiffening;   /* [num_rows] dK_j / d area */
-  const PetscReal *darea;        /* [dim*num] of area; with spring and dgap */
+  const PetscReal *hessian;      /* [dim*num][dim*num] derivatives of the forces (rows); NULL unless asked, or where z vanishes */
+  const PetscReal *spring;       /* [num_rows] compliances K_j (ContactPairSetSoftness); NULL: none */
+  const PetscReal *stiffening;   /* [num_rows] dK_j / d area; without darea dK_j / dw_j, and then forces are z_j dgap_j + z_j^2/2 stiffening_j dweight_j */
+  const PetscReal *darea;        /* [dim*num] of area; with spring and dgap, where K_j depends on it */
   PetscReal        area;         /* covered length or area (axisymmetric: area) */
   PetscReal        min_gap;
 } ContactFacet;
@@ -110,13 +111,24 @@ typedef struct {
 PetscErrorCode ContactPairCreate(PetscInt dim, PetscBool axisymmetric, const ContactSpec *, ContactPair *);
 PetscErrorCode ContactPairDestroy(ContactPair *);
 
+/* What tells an overlap from the far side of a body that lies behind (src/contact/behind.c): all outer facets of the bodies at the reference positions,
+   X[num][2 or 4][dim] with corners in the order of ContactSurface, part[num]: what is connected has one number. Takes both arrays over. Not collective. */
+typedef struct _p_ContactHull *ContactHull;
+PetscErrorCode                 ContactHullCreate(PetscInt dim, PetscInt num, PetscInt part[], PetscReal X[], ContactHull *);
+PetscErrorCode                 ContactHullDestroy(ContactHull *);
+/* From now on the pair's searches pass over far sides. part, mortar_part: parts of the facets of its surfaces, which need reference positions; borrowed, as
+   is the hull. Not collective. */
+PetscErrorCode ContactPairSetHull(ContactPair, ContactHull, const PetscInt part[], const PetscInt mortar_part[]);
+
 /* Facets of higher order: which nodes have multipliers (carries[nonmortar num_nodes], NULL: all), for the functions of covered facets, which are dual in the
    reference positions; before the search. Without it the first search takes all nodes. The pair keeps the functions. Not collective. */
 PetscErrorCode ContactPairSetCarriers(ContactPair, const ContactSurface *nonmortar, const PetscBool carries[]);
-/* Facets of higher order in space that are covered in part: constraints with compliances and forces without the motion of the mortar side's rim,
-     rows gt_j + K_j z_j, forces z_j push_j, push_j = grad gt_j at a held covered part,
-   K_j = 4 epsilon s (1 - s) softness_j (reference measure of j's hat on the facet), s the share of the facet that is covered. softness[nonmortar num_nodes]:
-   facet size / Young's modulus; borrowed. Without it there are no compliances. Not collective. */
+/* Compliances of constraints in space, rows gt_j + K_j z_j. Facets of higher order that are covered in part: forces without the motion of the mortar side's
+   rim, z_j push_j, push_j = grad gt_j at a held covered part,
+     K_j = 4 epsilon s (1 - s) softness_j (reference measure of j's hat on the facet), s the share of the facet that is covered.
+   Facets of order 1 seen along their own direction, where they carry next to nothing of j's weight: K_j of w_j (src/contact/sliver.c), forces the derivatives
+   of sum_j z_j gt_j + K_j z_j^2 / 2. softness[nonmortar num_nodes]: facet size / Young's modulus; borrowed. Without it there are no compliances. Not
+   collective. */
 PetscErrorCode ContactPairSetSoftness(ContactPair, const PetscReal softness[]);
 /* Nodes that carry no multiplier, of facets of higher order: the pressure there is z_n = sum_k weight[k] z_donor[k], k from first[n] to first[n+1] (empty:
    nothing says), since their functions went to those nodes. All NULL: facets of order 1. Valid as long as the carriers. Not collective. */

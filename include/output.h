@@ -142,7 +142,7 @@ PetscErrorCode HistoryDestroy(History *);
 /* ---- summary.json (output/summary.c) ------------------------------------------------------------------------------------- */
 
 typedef struct {
-  const char     *status, *reason; /* "converged", "failed", "stopped"; why, or "" */
+  const char     *status, *reason; /* "converged", "inaccurate" (the mesh could not be refined as asked), "failed", "stopped"; why, or what is lacking, or "" */
   const char     *adapt_stop;      /* why the last adaptation ended: "tolerance", "max_passes", "max_cells", …; NULL or "": there was none */
   PetscReal       t, seconds;      /* pseudo-time reached; wall time so far */
   PetscInt        load_steps, step_cuts, adapt_passes, newton_iterations, active_set_changes, active_set_cycles, factorisations, single_failures;

@@ -28,7 +28,7 @@ static PetscErrorCode ReportPass_Private(App *app, PetscInt iterations, PetscBoo
   if (before.reaction && app->passes_in_step > 0) BalanceChange(&before, &app->balance, change);
   if (before.reaction) PetscCall(BalanceDestroy(&before));
   PetscCall(PetscMemzero(&app->last, sizeof(app->last)));
-  PetscCall(ReportRowFill(l->problem, &l->state, app->estimated ? &app->estimate : NULL, &app->balance, &app->last));
+  PetscCall(ReportRowFill(l->problem, &l->state, AppIsStressed(app) ? &app->estimate : NULL, &app->balance, &app->last));
   PetscCall(PetscTime(&now));
   app->last.step              = app->load_steps + 1;
   app->last.pass              = app->path + app->passes_in_step;
@@ -121,13 +121,13 @@ static PetscErrorCode Reequilibrate_Private(App *app, PetscInt *iterations, Pets
 }
 
 /* Refine and find equilibrium again. When there is none to be found on the finer mesh (material that collapses at a singular corner, say), the solution on
-   the mesh at hand stands, and adaptation ends with that reason. *more: a finer mesh was reached. */
-static PetscErrorCode Pass_Private(App *app, MarkList *layers, PetscInt *iterations, PetscBool *more)
+   the mesh at hand stands, and adaptation ends with that reason. *more: a finer mesh was reached; *gave_up: it was not, and no limit is the reason. */
+static PetscErrorCode Pass_Private(App *app, MarkList *layers, PetscInt *iterations, PetscBool *more, PetscBool *gave_up)
 {
   Level old = app->level;
 
   PetscFunctionBegin;
-  PetscCall(AppRefine(app, &app->estimate, layers, PETSC_FALSE, more));
+  PetscCall(AppRefine(app, &app->estimate, layers, PETSC_FALSE, more, gave_up));
   if (!*more) {
     *iterations = 0;
     PetscFunctionReturn(PETSC_SUCCESS);
@@ -141,6 +141,7 @@ static PetscErrorCode Pass_Private(App *app, MarkList *layers, PetscInt *iterati
     PetscCall(LevelDestroy(&app->level));
     app->level      = old;
     app->adapt_stop = NONE_FINER;
+    *gave_up        = PETSC_TRUE;
     PetscCall(AppPrescribeAt(old.problem, old.state.t));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -160,7 +161,7 @@ PetscErrorCode AppAdapt(App *app)
 {
   PetscInt        iterations = app->iterations_in_step;
   const PetscBool here       = (PetscBool)(AppIsAdaptive(app) && app->data->adapt.repeat == REPEAT_STEP);
-  PetscBool       more       = PETSC_TRUE;
+  PetscBool       more = PETSC_TRUE, gave_up = PETSC_FALSE;
 
   PetscFunctionBegin;
   while (more) {
@@ -171,13 +172,14 @@ PetscErrorCode AppAdapt(App *app)
     const PetscBool enough = (PetscBool)(!here || app->adapt_stop[0]);
     PetscCall(ReportPass_Private(app, iterations, enough));
     if (enough) break;
-    PetscCall(Pass_Private(app, &layers, &iterations, &more));
+    PetscCall(Pass_Private(app, &layers, &iterations, &more, &gave_up));
     if (more) continue;
     if (app->stopped) break;
     app->last.accepted          = PETSC_TRUE;
     app->last.newton_iterations = iterations;
     PetscCall(MonitorRow(app->monitor, &app->last));
   }
+  if (here && !app->stopped) AppJudge(app, app->estimate.relative, gave_up);
   PetscCall(AppRemember(app));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

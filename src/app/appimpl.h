@@ -37,17 +37,19 @@ typedef struct {
   PetscInt       factorisations, single_failures, unstable, judged; /* judged: solutions of which it is known whether they are stable */
   ProblemStatus  status;                                            /* of the last solution */
   PetscLogDouble start;
-  PetscReal      arc, arc_first;           /* along a path: length of the next step, of the first one; 0: not yet */
-  PetscReal      haste;                    /* displacement per time in the last step, over that since the start */
-  PetscInt       relaxed_steps;            /* steps to an equilibrium that was not near by */
-  PetscReal      drag_work, all_drag_work; /* energy that drag took in the step at hand, in all */
-  const char    *failure;                  /* why the run gave up, NULL while it goes on */
-  PetscBool      stopped;                  /* the run was asked to stop */
-  char           stop_reason[PETSC_MAX_PATH_LEN + MORTISE_NAME];
-  const char    *adapt_stop;     /* why the last adaptation ended: tolerance, max_passes, max_cells, … */
-  PetscBool      inversion_told; /* that refinement would invert a cell, once */
-  PetscInt      *subdivided;     /* owned [num_contacts] by contact.<pair>.subdivide: auto, so often, or tried */
-  PetscBool     *touched;        /* owned [num_contacts] a node was in contact at some time of this run */
+  PetscReal      arc, arc_first;                            /* along a path: length of the next step, of the first one; 0: not yet */
+  PetscReal      haste;                                     /* displacement per time in the last step, over that since the start */
+  PetscInt       relaxed_steps;                             /* steps to an equilibrium that was not near by */
+  PetscReal      drag_work, all_drag_work;                  /* energy that drag took in the step at hand, in all */
+  const char    *failure;                                   /* why the run gave up, NULL while it goes on */
+  PetscBool      stopped;                                   /* the run was asked to stop */
+  char           reason[PETSC_MAX_PATH_LEN + MORTISE_NAME]; /* why it was, or what its solutions lack */
+  const char    *adapt_stop;                                /* why the last adaptation ended: tolerance, max_passes, max_cells, … */
+  PetscReal      above_error;                               /* largest estimate of a load step that stayed above the tolerance; 0: none did */
+  PetscInt       gave_up;                                   /* 1: in one of them a mesh as fine as asked had no solution that was found, or could not be made */
+  PetscBool      inversion_told;                            /* that refinement would invert a cell, once */
+  PetscInt      *subdivided;                                /* owned [num_contacts] by contact.<pair>.subdivide: auto, so often, or tried */
+  PetscBool     *touched;                                   /* owned [num_contacts] a node was in contact at some time of this run */
   ReportRow      last;
   PetscReal      dt;                                                          /* length of the next load step */
   Checkpoint     snapshot;                                                    /* owned: copy of the state at the end of the last accepted load step */
@@ -68,8 +70,14 @@ PetscErrorCode AppPrescribeAt(Problem, PetscReal t);
    last one: app->adapt_stop. */
 PetscErrorCode AppLayers(App *, const Estimate *, MarkList *layers);
 /* Adapt to these layers (taken over), if any, else mark and adapt. The level is another one then, its states carried over or (afresh) at rest at t = 0, and the
-   old one is the caller's; *adapted false when nothing may or need be refined, and app->adapt_stop says why. Collective. */
-PetscErrorCode AppRefine(App *, const Estimate *, MarkList *layers, PetscBool afresh, PetscBool *adapted);
+   old one is the caller's; *adapted false when nothing may or need be refined, or (refused) the mesh could not be made, and app->adapt_stop says why.
+   Collective. */
+PetscErrorCode AppRefine(App *, const Estimate *, MarkList *layers, PetscBool afresh, PetscBool *adapted, PetscBool *refused);
+/* verdict.c: adaptation has ended at app->adapt_stop with this estimate; gave_up: for want of a finer mesh with a solution, not by a limit. */
+void AppJudge(App *, PetscReal error, PetscBool gave_up);
+/* Status of the run as in summary.json, and the words that go with it, "" when there is nothing to say; valid as long as the run. */
+const char    *AppStatus(const App *);
+PetscErrorCode AppReason(App *, const char **reason);
 /* repeat.c: is the mesh to be adapted at all? Is there stress of which an error can be estimated? Not collective. */
 PetscBool AppIsAdaptive(const App *);
 PetscBool AppIsStressed(const App *);

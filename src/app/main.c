@@ -59,10 +59,10 @@ static PetscErrorCode Open_Private(App *app)
 
 static PetscErrorCode Summarise_Private(App *app)
 {
-  const char *status = app->failure ? "failed" : app->stopped ? "stopped" : "converged";
-  const char *reason = app->failure ? app->failure : app->stop_reason;
+  const char *status = AppStatus(app), *reason;
 
   PetscFunctionBegin;
+  PetscCall(AppReason(app, &reason));
   PetscCall(AppSummary(app, status, reason));
   const ReportRow total = AppTotal(app);
   PetscCall(MonitorFooter(app->monitor, status, reason, app->adapt_stop, app->written, &total, app->load_steps ? &app->last : NULL));
@@ -111,7 +111,7 @@ static PetscErrorCode Solve_Private(int argc, char **argv, int *status)
   }
   PetscCall(Close_Private(&app));
   PetscCall(SceneDestroy(&app.scene));
-  *status = app.failure ? 2 : app.stopped ? 3 : 0;
+  *status = app.failure ? 2 : app.stopped ? 3 : app.gave_up ? 2 : 0;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -147,14 +147,15 @@ static PetscErrorCode Help_Private(void)
   PetscCall(ScenePrintHelp(PETSC_COMM_WORLD));
   PetscCall(SolverPrintHelp(PETSC_COMM_WORLD));
   PetscCall(AppPrintHelp(PETSC_COMM_WORLD));
-  PetscCall(
-      PetscPrintf(PETSC_COMM_WORLD,
-                  "\nA run prints a line for each adaptive pass: load step, pass, t, cells, unknowns (dofs), Newton iterations, nodes under contact pressure,\n"
-                  "relative estimated error, magnitude of the contact force (of several pairs the sum of the magnitudes; one by one in history.csv),\n"
-                  "seconds since the start. What else is known of each pass and each load step: adapt.csv, history.csv, summary.json.\n"
-                  "\nOptions of PETSc work as everywhere: -snes_monitor, -ksp_monitor, -log_view, ...\n"
-                  "Exit status: 0 converged to the end; 1 bad input, nothing was solved; 2 the solver gave up; 3 stopped, by SIGTERM, SIGUSR1, SIGINT or\n"
-                  "-max_seconds, with a checkpoint for -restart.\n"));
+  PetscCall(PetscPrintf(
+      PETSC_COMM_WORLD,
+      "\nA run prints a line for each adaptive pass: load step, pass, t, cells, unknowns (dofs), Newton iterations, nodes under contact pressure,\n"
+      "relative estimated error, magnitude of the contact force (of several pairs the sum of the magnitudes; one by one in history.csv),\n"
+      "seconds since the start. What else is known of each pass and each load step: adapt.csv, history.csv, summary.json.\n"
+      "\nOptions of PETSc work as everywhere: -snes_monitor, -ksp_monitor, -log_view, ...\n"
+      "Exit status: 0 converged to the end; 1 bad input, nothing was solved; 2 the solver gave up: status failed, or inaccurate where all load steps\n"
+      "were solved, but not on meshes as fine as adapt.tolerance asks; 3 stopped, by SIGTERM, SIGUSR1, SIGINT or -max_seconds, with a checkpoint for\n"
+      "-restart.\n"));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -85,7 +85,7 @@ PetscErrorCode AppLayers(App *app, const Estimate *e, MarkList *layers)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode AppRefine(App *app, const Estimate *e, MarkList *layers, PetscBool afresh, PetscBool *adapted)
+PetscErrorCode AppRefine(App *app, const Estimate *e, MarkList *layers, PetscBool afresh, PetscBool *adapted, PetscBool *refused)
 {
   const ForestTables *t;
   MarkList            list   = *layers;
@@ -94,7 +94,7 @@ PetscErrorCode AppRefine(App *app, const Estimate *e, MarkList *layers, PetscBoo
   ForestMap           map;
   int8_t             *order  = NULL;
   PetscReal          *weight = NULL;
-  const char         *refused;
+  const char         *words  = NULL;
 
   PetscFunctionBegin;
   PetscCall(ForestGetTables(app->level.forest, &t));
@@ -113,11 +113,12 @@ PetscErrorCode AppRefine(App *app, const Estimate *e, MarkList *layers, PetscBoo
     PetscCall(ForestAdapt(app->level.forest, &list, weight, num_pairs, (const PetscInt(*)[2])pairs, &forest, &map));
     PetscCall(StageEnd(STAGE_MESH));
     PetscCall(PetscFree(pairs));
-    PetscCall(MoveTo_Private(app, forest, order ? order : app->level.state.leaf_order, &map, afresh, &refused));
-    if (refused) app->adapt_stop = refused;
-    *adapted = (PetscBool)!refused;
+    PetscCall(MoveTo_Private(app, forest, order ? order : app->level.state.leaf_order, &map, afresh, &words));
+    if (words) app->adapt_stop = words;
+    *adapted = (PetscBool)!words;
     PetscCall(ForestMapDestroy(&map));
   }
+  *refused = (PetscBool)(words != NULL);
   PetscCall(MarkListDestroy(&list));
   PetscCall(PetscFree2(order, weight));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -57,15 +57,18 @@ static PetscErrorCode Tell_Private(App *app, PetscReal error)
 /* The finer mesh, if there is to be one. */
 static PetscErrorCode Refine_Private(App *app, PetscBool *refined)
 {
-  const AdaptSpec *spec   = &app->data->adapt;
-  MarkList         layers = {0};
+  const AdaptSpec *spec    = &app->data->adapt;
+  MarkList         layers  = {0};
+  PetscBool        refused = PETSC_FALSE;
 
   PetscFunctionBegin;
   app->adapt_stop = !app->most.num_leaves ? "tolerance" : app->path >= spec->max_passes ? "max_passes" : "";
   if (!app->adapt_stop[0]) PetscCall(AppLayers(app, &app->most, &layers));
-  if (app->adapt_stop[0]) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(AppSummary(app, "converged", ""));
-  PetscCall(AppRefine(app, &app->most, &layers, PETSC_TRUE, refined));
+  if (!app->adapt_stop[0]) {
+    PetscCall(AppSummary(app, "converged", "a finer path is under way"));
+    PetscCall(AppRefine(app, &app->most, &layers, PETSC_TRUE, refined, &refused));
+  }
+  if (!*refined) AppJudge(app, app->most.num_leaves ? app->most.relative : 0, refused);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -22,6 +22,7 @@ static const struct {
     {"unstable", offsetof(App, unstable)},
     {"judged", offsetof(App, judged)},
     {"relaxed_steps", offsetof(App, relaxed_steps)},
+    {"gave_up", offsetof(App, gave_up)},
 };
 static const struct {
   const char *name;
@@ -34,6 +35,7 @@ static const struct {
     {"drag_work", offsetof(App, all_drag_work)},
     {"largest_displacement", offsetof(App, status.largest)},
     {"largest_error", offsetof(App, most.relative)},
+    {"above_error", offsetof(App, above_error)},
 };
 enum {
   NUM_COUNTERS = PETSC_STATIC_ARRAY_LENGTH(Counters),
@@ -203,7 +205,7 @@ PetscErrorCode AppStop(App *app)
 
   PetscFunctionBegin;
   PetscCall(AppCheckpoint(app));
-  PetscCall(PetscSNPrintf(app->stop_reason, sizeof(app->stop_reason), "%s; -restart %s goes on", StopReason(), app->checkpoint));
+  PetscCall(PetscSNPrintf(app->reason, sizeof(app->reason), "%s; -restart %s goes on", StopReason(), app->checkpoint));
   app->adapt_stop = CheckpointNote(app->snapshot);
   PetscCall(ForestGetTables(old.forest, &t));
   if (t->revision == app->snapshot_revision) PetscFunctionReturn(PETSC_SUCCESS);

@@ -191,8 +191,27 @@ static void Combine_Private(const FacetWork w, const PetscReal factor[FACET_MOME
   }
 }
 
-/* W: half Hessian by X of sum_j z_j gt_j over the facet's vertices. */
-static PetscErrorCode HalfHessian_Private(FacetWork w, const FacetWeights *f, const PetscReal z[4])
+/* Adds sum_j y_j w_j to what the Hessian is of, but for the tilt: the hats sum up to 1, so int N_j = sum_k int N_j N_k. */
+static void AddWeights_Private(const PetscReal y[4], FacetWeights *f)
+{
+  for (int j = 0; j < 4; j++)
+    for (int k = 0; k < 4; k++) f->D[j][k] += 0.5 * (y[j] + y[k]);
+}
+
+/* Second derivative of the tilt's factor in weights, (1 + |s|^2)^-1/2. */
+static void TiltWeights_Private(FacetWork w, const PetscReal y[4])
+{
+  const PetscInt n   = 3 * w->num_vertices;
+  PetscReal      sum = 0;
+
+  for (int j = 0; j < 4; j++) sum += y[j] * w->moments.q[4 + j];
+  for (int i = 0; i < 2 && sum != 0; i++)
+    for (int a = 0; a < 12; a++)
+      for (int b = 0; b < 12; b++) w->W[a * n + b] -= 0.5 * sum * w->frame.sigma[i][a] * w->frame.sigma[i][b];
+}
+
+/* W: half Hessian by X of sum_j z_j gt_j + y_j w_j over the facet's vertices, the latter part of f already. */
+static PetscErrorCode HalfHessian_Private(FacetWork w, const FacetWeights *f, const PetscReal z[4], const PetscReal y[4])
 {
   const PetscInt n = 3 * w->num_vertices;
   PetscReal      part[FACET_LOCAL][FACET_LOCAL], factor[FACET_MOMENTS] = {0}, *left = w->row, *right = w->row + n;
@@ -217,9 +236,10 @@ static PetscErrorCode HalfHessian_Private(FacetWork w, const FacetWeights *f, co
       for (PetscInt b = 0; b < n; b++) w->W[a * n + b] += left[a] * right[b];
   }
   for (int j = 0; j < 4; j++)
-    for (int q = 0; q < FACET_MOMENTS; q++) factor[q] += z[j] * f->dgap[j][q];
+    for (int q = 0; q < FACET_MOMENTS; q++) factor[q] += z[j] * f->dgap[j][q] + (q == 4 + j ? y[j] : 0);
   Combine_Private(w, factor, left);
   ContactTiltHessian(&w->frame, n, w->X, left, w->W, right);
+  TiltWeights_Private(w, y);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -286,11 +306,42 @@ static void CarryHessian_Private(const FacetWork w, PetscReal half[], PetscReal 
   for (PetscInt i = 0; i < nn; i++) Carry_Private(w, half + i * n, H + i * nn);
 }
 
-/* Weighted gaps, weights and what derivatives are asked for. */
-static PetscErrorCode Result_Private(FacetWork w, const FacetWeights *f, const PetscReal z[4], PetscBool derivatives, PetscBool hessian, ContactFacet *out)
+/* Hessian of sum_j z_j gt_j + K_j z_j^2 / 2; K: as sliver.c gives it, or NULL. */
+static PetscErrorCode Hessian_Private(FacetWork w, FacetWeights *f, const PetscReal z[4], const PetscReal all_z[], const PetscReal K[], ContactFacet *out)
 {
   const PetscInt n = 3 * w->num_vertices, nn = 3 * w->result.num_nodes, nr = w->result.num_rows;
-  PetscReal      factor[FACET_MOMENTS], *gap, *weight, *dgap, *dweight, *half;
+  PetscReal      y[4] = {0, 0, 0, 0}, *half, *H;
+
+  PetscFunctionBegin;
+  for (int j = 0; j < 4 && K; j++)
+    for (PetscInt k = w->result.row_first[j]; k < w->result.row_first[j + 1]; k++) {
+      const PetscInt row = w->result.row_node[k];
+
+      y[j] += 0.5 * w->result.row_weight[k] * K[nr + row] * PetscSqr(all_z[w->result.node[row]]);
+    }
+  if (K) AddWeights_Private(y, f);
+  PetscCall(HalfHessian_Private(w, f, z, y));
+  PetscCall(ContactStoreReserve(&w->result.store, nn * nn, &H));
+  PetscCall(ContactStoreReserve(&w->result.store, nn * n, &half));
+  CarryHessian_Private(w, half, H);
+  w->result.store.used -= nn * n; /* only work */
+  for (PetscInt row = 0; row < nr && K; row++) {
+    const PetscReal bend = 0.5 * K[2 * nr + row] * PetscSqr(all_z[w->result.node[row]]), *dweight = out->dweight + row * nn;
+
+    for (PetscInt a = 0; a < nn && bend != 0; a++)
+      for (PetscInt b = 0; b < nn; b++) H[a * nn + b] += bend * dweight[a] * dweight[b];
+  }
+  out->hessian = H;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Weighted gaps, weights and what derivatives are asked for. */
+static PetscErrorCode Result_Private(const EvaluateContext *ctx, PetscInt facet, FacetWeights *f, const PetscReal z[4], PetscBool derivatives,
+                                     PetscBool hessian, ContactFacet *out)
+{
+  FacetWork      w = ctx->pair->facet;
+  const PetscInt n = 3 * w->num_vertices, nn = 3 * w->result.num_nodes, nr = w->result.num_rows;
+  PetscReal      factor[FACET_MOMENTS], *gap, *weight, *dgap, *dweight;
 
   PetscFunctionBegin;
   PetscCall(ContactStoreReserve(&w->result.store, 2 * nr, &gap));
@@ -304,8 +355,10 @@ static PetscErrorCode Result_Private(FacetWork w, const FacetWeights *f, const P
   out->weight  = weight;
   out->area    = w->covered;
   out->min_gap = w->moments.min_gap;
-  out->dgap = out->dweight = out->push = out->hessian = out->reach = out->spring = NULL;
-  out->rim                                                                       = PETSC_FALSE;
+  out->dgap = out->dweight = out->push = out->hessian = out->reach = out->darea = NULL;
+  out->rim                                                                      = PETSC_FALSE;
+  PetscCall(ContactSliver(ctx->pair, ctx->nonmortar, facet, &w->result, weight, &out->spring));
+  out->stiffening = out->spring ? out->spring + nr : NULL;
   if (!derivatives) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(ContactGrow(3 * n + nn, sizeof(PetscReal), &w->size_row, &w->row));
   PetscCall(ContactStoreReserve(&w->result.store, 2 * nr * nn, &dgap));
@@ -317,12 +370,7 @@ static PetscErrorCode Result_Private(FacetWork w, const FacetWeights *f, const P
   }
   out->dgap    = dgap;
   out->dweight = dweight;
-  if (!hessian) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(HalfHessian_Private(w, f, z));
-  PetscCall(ContactStoreReserve(&w->result.store, nn * nn, (PetscReal **)&out->hessian));
-  PetscCall(ContactStoreReserve(&w->result.store, nn * n, &half));
-  CarryHessian_Private(w, half, (PetscReal *)out->hessian);
-  w->result.store.used -= nn * n; /* only work */
+  if (hessian) PetscCall(Hessian_Private(w, f, z, ctx->z, out->spring, out));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -375,7 +423,7 @@ static PetscErrorCode Facet_Private(const EvaluateContext *ctx, PetscInt slot, C
   PetscCall(Moments_Private(pair, w, derivatives));
   if (w->num_overlaps == 0 || !ContactFacetWeights(pair->standard, w->moments.q, z, &f)) PetscFunctionReturn(PETSC_SUCCESS);
   if (!ctx->again) PetscCall(Segments_Private(pair, slot, w));
-  PetscCall(Result_Private(w, &f, z, derivatives, (PetscBool)(ctx->hessian && loaded && !pair->held), out));
+  PetscCall(Result_Private(ctx, pair->listed[slot], &f, z, derivatives, (PetscBool)(ctx->hessian && loaded && !pair->held), out));
   *use = PETSC_TRUE;
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -114,6 +114,9 @@ PetscErrorCode ContactResultSegment(ContactPair, PetscInt facet, PetscInt mortar
 typedef PetscErrorCode (*ResultFunction)(const EvaluateContext *, PetscInt slot, ContactFacet *, PetscBool *use, PetscBool *failed);
 PetscErrorCode ContactResultsEvaluate(const EvaluateContext *, Result *, ResultFunction, PetscBool *failed);
 
+/* sliver.c: compliances K_j of the result's rows, their first and second derivatives by the facet's part of w_j, [3][num_rows]; NULL: all are 0. */
+PetscErrorCode ContactSliver(ContactPair, const ContactSurface *nonmortar, PetscInt facet, Result *, const PetscReal weight[], const PetscReal **spring);
+
 /* facet.c: everything about one nonmortar facet. Vertices: the facet's four, then the mortar facets' ones; n = 3 * their number. */
 struct _p_FacetWork {
   FacetFrame   frame;

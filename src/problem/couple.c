@@ -197,6 +197,8 @@ PetscErrorCode ContactCreate_Private(Problem p, const ContactSpec *spec, Contact
   PetscCall(SurfaceCreate_Private(p, spec->nonmortar, higher, &c->side[0]));
   PetscCall(SurfaceCreate_Private(p, spec->mortar, higher, &c->side[1]));
   PetscCall(ContactPairCreate(p->dim, axisymmetric, spec, &c->pair));
+  for (PetscInt k = 0; k < 2; ++k) PetscCall(HullParts_Private(p, &c->side[k], &c->part[k]));
+  if (!spec->see_through) PetscCall(ContactPairSetHull(c->pair, p->hull, c->part[0], c->part[1]));
   const PetscInt n = c->side[0].num_nodes;
   PetscCall(PetscCalloc6(n, &c->z, n, &c->gap, n, &c->weight, n, &c->w0, n, &c->extent, n, &c->c));
   PetscCall(PetscCalloc2(n, &c->spring, n, &c->softness));
@@ -210,7 +212,8 @@ PetscErrorCode ContactCreate_Private(Problem p, const ContactSpec *spec, Contact
   const ContactSurface nonmortar = SurfaceAt_Private(&c->side[0], c->side[0].X);
   PetscCall(ContactPairSetCarriers(c->pair, &nonmortar, c->has_multiplier));
   for (PetscInt j = 0; j < n; ++j) c->softness[j] = 1 / c->c[j];
-  PetscCall(ContactPairSetSoftness(c->pair, c->softness));
+  /* With small kinematics what facets cover does not change, and constraints of order 1 stay exact. */
+  if (higher || p->scene->mechanics.kinematics != KINEMATICS_SMALL) PetscCall(ContactPairSetSoftness(c->pair, c->softness));
   PetscCall(ListFacets_Private(p, c));
   SearchDistance_Private(c);
   View_Private(c);
@@ -237,6 +240,7 @@ PetscErrorCode ContactDestroy_Private(Contact *c)
   PetscFunctionBegin;
   PetscCall(FrozenDestroy_Private(c));
   PetscCall(ContactPairDestroy(&c->pair));
+  for (PetscInt k = 0; k < 2; ++k) PetscCall(PetscFree(c->part[k]));
   PetscCall(SurfaceDestroy_Private(&c->side[0]));
   PetscCall(SurfaceDestroy_Private(&c->side[1]));
   PetscCall(PetscFree6(c->z, c->gap, c->weight, c->w0, c->extent, c->c));
@@ -358,7 +362,13 @@ void ContactRowFactors_Private(const Contact *c, const ContactFacet *e, PetscInt
 
   row    = (PetscBool)(row && c->active[j]);
   *mean  = row && ContactCovered_Private(c, j) ? ContactRowGap_Private(c, j) / ContactRowMeasure_Private(c, j) : 0;
-  *along = row && e->spring ? e->stiffening[k] * (c->z[j] - *mean * c->c[j]) : 0;
+  *along = 0;
+  if (!e->spring) return;
+  const PetscReal stiffer = e->stiffening[k] * (row ? c->z[j] - *mean * c->c[j] : c->z[j]);
+  if (!e->darea)
+    *mean -= stiffer; /* K depends on w, and so do the forces */
+  else if (row)
+    *along = stiffer;
 }
 
 PetscErrorCode ContactChange_Private(Problem p, Contact *c, const PetscReal increment[], PetscReal change[])

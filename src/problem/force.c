@@ -1,7 +1,7 @@
 /* Forces of contact pairs and the rows of their multipliers in the residual. */
 #include "problemimpl.h"
 
-/* Contact forces z_j grad gt_j, or z_j push_j, of this rank's facets into both sides' arrays. */
+/* Contact forces z_j grad gt_j, or z_j push_j, and what compliances that depend on w_j add to them, of this rank's facets into both sides' arrays. */
 static void FacetForces_Private(Contact *c)
 {
   const PetscInt dim = c->side[0].dim;
@@ -18,8 +18,11 @@ static void FacetForces_Private(Contact *c)
     for (PetscInt a = 0; a < e->num; ++a) {
       PetscReal *f = c->side[NODE_SIDE(e->nodes[a])].force + dim * NODE_INDEX(e->nodes[a]);
       for (PetscInt k = 0; k < e->num_rows; ++k) {
-        const PetscReal z = c->has_multiplier[e->nodes[k]] ? c->z[e->nodes[k]] : 0;
-        for (PetscInt d = 0; d < dim && z != 0; ++d) f[d] += z * push[dim * (k * e->num + a) + d];
+        const PetscReal z  = c->has_multiplier[e->nodes[k]] ? c->z[e->nodes[k]] : 0;
+        const PetscInt  at = dim * (k * e->num + a);
+        for (PetscInt d = 0; d < dim && z != 0; ++d) f[d] += z * push[at + d];
+        if (!e->spring || e->darea) continue;
+        for (PetscInt d = 0; d < dim && z != 0; ++d) f[d] += 0.5 * z * z * e->stiffening[k] * e->dweight[at + d];
       }
     }
   }

@@ -130,7 +130,9 @@ static PetscErrorCode ContactBlocks_Private(Problem p, Contact *c)
     for (PetscInt k = 0; k < e->num_rows && !p->symmetric; ++k) {
       const PetscInt z = c->zdof[e->nodes[k]];
       if (z < 0 || !c->near[e->nodes[k]]) continue;
-      for (PetscInt a = 0; a < n; ++a) p->work_value[a] = e->push ? -e->push[k * n + a] : -e->dgap[k * n + a];
+      PetscReal mean, along;
+      ContactRowFactors_Private(c, e, k, PETSC_FALSE, &mean, &along);
+      for (PetscInt a = 0; a < n; ++a) p->work_value[a] = (e->push ? -e->push[k * n + a] : -e->dgap[k * n + a]) + mean * e->dweight[k * n + a];
       for (PetscInt a = 0; a < e->num; ++a) Turn_Private(dim, Frame_Private(c, e->nodes[a]), p->work_value + dim * a, 1);
       PetscCall(ProblemInsert_Private(p, n, p->work_index, 1, &z, p->work_value, ADD_VALUES));
     }

@@ -10,8 +10,6 @@
 #define STALLED 7  /* iterations without a new least residual */
 #define HALVINGS 8 /* of steps that left the domain, in one solve */
 #define LOOSE 1e-2 /* least part of what holds bodies that nothing else does: round-off of factors is far below */
-#define CLOSE 1e-2 /* residual over that of the first iterate from which on Newton's method squares it; … */
-#define SLOW 0.03  /* … more than this part of the residual before, and it does not */
 #define HOLDS 3    /* pairs that are held back from sliding in one linear step */
 
 /* What a cell of incompressible material may gain or lose of its volume, whatever the forces: where prescribed motion leaves it no choice, pressures grow
@@ -195,8 +193,6 @@ static PetscErrorCode Verdict_Private(SNES snes, Solver s, PetscReal norm)
   PetscCall(ProblemActiveSetHash(s->problem, &hash));
   PetscCall(SetHistoryAdd_Private(&s->iterate_sets, hash, norm, PETSC_TRUE, &repeats));
   if (snes->iter == 1) s->first_norm = s->best_norm = norm; /* the first iterate carries the whole prescribed motion: progress counts from there */
-  s->slow      = (PetscBool)(snes->iter > 1 && norm < CLOSE * s->first_norm && norm > SLOW * s->last_norm);
-  s->last_norm = norm;
   if (norm < s->best_norm) {
     s->best_norm = norm;
     s->best_iter = snes->iter;
@@ -259,13 +255,13 @@ static PetscErrorCode Drift_Private(SNES snes, Solver s, Vec x, Vec dx, PetscBoo
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Where forces hold lines of the mortar side the symmetric form is only nearly their derivative. Mostly that costs nothing; where it does, the exact one. */
+/* Where forces hold lines of the mortar side the symmetric form is only nearly their derivative: with factors the exact one from there on. */
 static PetscErrorCode Exact_Private(Solver s)
 {
   PetscBool holds;
 
   PetscFunctionBegin;
-  if (!s->symmetric || !s->slow || s->saddle) PetscFunctionReturn(PETSC_SUCCESS);
+  if (!s->symmetric || s->saddle) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(ProblemHoldsLines(s->problem, &holds));
   if (holds) PetscCall(ProblemSetSymmetric(s->problem, PETSC_FALSE));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -368,7 +364,6 @@ static PetscErrorCode SNESSolve_ContactNewton(SNES snes)
   s->best_norm        = PETSC_MAX_REAL;
   s->best_iter        = 0;
   s->halvings         = 0;
-  s->slow             = PETSC_FALSE;
   s->negative         = -1;
   PetscCall(ProblemSearch(s->problem, x));
   PetscCall(SNESComputeFunction(snes, x, r));

@@ -39,8 +39,6 @@ struct _p_Solver {
   SetHistory    pass_sets;       /* active sets of the passes of one linearisation */
   SetHistory    iterate_sets;    /* active sets of the Newton iterates */
   PetscReal     first_norm;      /* residual after the first iteration */
-  PetscReal     last_norm;       /* residual before */
-  PetscBool     slow;            /* the last iteration brought little, close to the solution */
   PetscReal     best_norm;       /* least residual of this solve … */
   PetscInt      best_iter;       /* … and its iteration */
   PetscInt      halvings;        /* steps shortened in this solve */

@@ -21,11 +21,11 @@ static inline PetscReal Random(uint64_t *state)
 
 /* Unknowns: dim * node + component, mortar nodes after the nonmortar ones. */
 typedef struct {
-  PetscInt   dim, nn, nm, size, num;
-  PetscReal *gap, *weight;   /* [nn] */
-  PetscReal *dgap, *dweight; /* [nn][size] */
-  PetscReal *gradient;       /* [size] forces: of S = sum z gap, rims held */
-  PetscReal *hessian;        /* [size][size] */
+  PetscInt   dim, nn, nm, size, num, springs; /* springs: compliances of rows */
+  PetscReal *gap, *weight;                    /* [nn] */
+  PetscReal *dgap, *dweight;                  /* [nn][size] */
+  PetscReal *gradient;                        /* [size] forces: of S = sum z gap, and z^2 spring / 2 where that depends on weights; rims held */
+  PetscReal *hessian;                         /* [size][size] */
   PetscReal  area, min_gap, S;
   PetscBool  failed;
 } Sum;
@@ -62,13 +62,15 @@ static inline void SumAdd(Sum *s, const ContactFacet *f, const PetscReal z[])
 
     s->gap[node] += f->gap[j];
     s->weight[node] += f->weight[j];
-    if (z) s->S += z[node] * f->gap[j];
+    if (z) s->S += z[node] * (f->gap[j] + (f->spring && !f->darea ? 0.5 * z[node] * f->spring[j] : 0));
+    if (f->spring && f->spring[j] > 0) s->springs++;
     for (PetscInt a = 0; a < n && f->dgap; a++) {
       const PetscInt row = SumRow(s, f, a);
 
       s->dgap[node * s->size + row] += f->dgap[j * n + a];
       s->dweight[node * s->size + row] += f->dweight[j * n + a];
       if (z) s->gradient[row] += z[node] * (f->push ? f->push : f->dgap)[j * n + a];
+      if (z && f->spring && !f->darea) s->gradient[row] += 0.5 * z[node] * z[node] * f->stiffening[j] * f->dweight[j * n + a];
     }
   }
   for (PetscInt a = 0; a < n && f->hessian; a++)
@@ -90,6 +92,7 @@ static inline void SumSurfaces(Sum *s, ContactPair pair, const ContactSurface *n
   memset(s->gradient, 0, (size_t)s->size * sizeof(PetscReal));
   memset(s->hessian, 0, (size_t)(s->size * s->size) * sizeof(PetscReal));
   s->area = s->S = 0;
+  s->springs     = 0;
   s->min_gap     = PETSC_MAX_REAL;
   CHECK_CALL(ContactPairEvaluate(pair, nonmortar, mortar, z, NULL, derivatives, hessian, &s->num, &facets, &s->failed));
   for (PetscInt i = 0; i < s->num; i++) SumAdd(s, &facets[i], z);

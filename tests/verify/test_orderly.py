@@ -40,9 +40,49 @@ def test_adaptation_keeps_the_coarser_mesh(run, tmp_path, ranks):
     """The cells at one end alone are to be refined."""
     adapt = {"adapt": {"tolerance": 1e-6, "max_passes": 3, "fraction": 0.01}}
     result = run("ring.yml", text=thin_ring(tmp_path, **adapt), ranks=ranks)
-    assert result.returncode == 0 and result.summary["status"] == "converged", result
+    assert result.returncode == 2 and result.summary["status"] == "inaccurate" and "tolerance 1e-06 was not reached" in result.summary["reason"], result
     assert "inverts a curved cell" in result.summary["adapt_stop"] and "note: refinement would invert" in result.stdout, result
     assert result.summary["cells"] == result.adapt[-1]["cells"] and result.history[-1]["t"] == 1
+
+
+def strip(path, top, **scene):
+    """Four cells held below, pressed by `top` above."""
+    write(path / "strip.msh", [linspace(0, 1, 2)] * 2)
+    return json.dumps({"mesh": {"file": "strip.msh"}, "model": "plane_strain", "body": {"body": {"material": "m"}}, "material": {"m": {"law": "neo_hookean", "E": 1, "nu": 0.3}},
+                       "boundary": {"y0": {"fix": "xy"}, "y1": {"displacement": {"x": 0, "y": top}}}, "adapt": {"tolerance": 0.01, "fraction": 1}} | scene)
+
+
+WAVE = "-t*(0.1 + 3*sin(2*pi*X)^2)"  # smooth to the nodes there are; those of a finer mesh are to go through the floor
+
+
+def test_no_equilibrium_on_a_finer_mesh(run, tmp_path):
+    """The run ends with the coarse mesh, and neither its exit status nor a word of it says that it has what was asked for."""
+    result = run("strip.yml", text=strip(tmp_path, WAVE, load={"step": 1}))
+    s = result.summary
+    assert result.returncode == 2 and s["status"] == "inaccurate" and s["adapt_stop"] == "no equilibrium found on a finer mesh", result
+    words = f"adapt.tolerance 0.01 was not reached ({s['adapt_stop']}), the estimated error is up to 23.9 %"
+    assert s["reason"] == words and f"inaccurate, {words}: 1 load step to t = 1 of 1" in result.stdout and "converged" not in result.stdout, result
+    assert s["cells"] == 4 and s["t"] == 1 and 0.2 < s["estimated_error"] < 0.3 and s["energy"] > 0 and len(result.history) == 1
+
+
+def test_it_is_not_forgotten(run, tmp_path):
+    """A later load step that needs no finer mesh, in a run that goes on from a checkpoint, does not make the first one better."""
+    text = strip(tmp_path, WAVE, load={"step": 0.5})
+    first = run("strip.yml", "-load_max_steps", 1, text=text)
+    assert first.summary["status"] == "failed" and first.summary["load_steps"] == 1, first
+    result = run("strip.yml", "-adapt_tolerance", 0.9, "-restart", first.directory / "checkpoint.h5", text=text)
+    assert result.returncode == 2 and result.summary["status"] == "inaccurate" and result.summary["adapt_stop"] == "tolerance" and result.summary["load_steps"] == 2, result
+    assert "(in an earlier load step), the estimated error is up to" in result.summary["reason"], result
+
+
+@pytest.mark.parametrize("limit,value", [("max_passes", 1), ("max_cells", 5)])
+def test_limits_are_told(run, tmp_path, limit, value):
+    """Limits are the user's: converged, and a word about the tolerance that they leave out of reach. Within it there is nothing to say."""
+    text = strip(tmp_path, "-0.2*t*X", load={"step": 1})
+    result = run("strip.yml", f"-adapt_{limit}", value, text=text)
+    assert result.returncode == 0 and f"converged, adapt.tolerance 0.01 was not reached ({limit}), the estimated error is up to" in result.stdout, result
+    enough = run("strip.yml", "-adapt_tolerance", 0.5, text=text)
+    assert enough.returncode == 0 and enough.summary["reason"] == "" and "converged: 1 load step" in enough.stdout, enough
 
 
 @pytest.mark.parametrize("shift,fine", [(0.24, True), (0.27, False)])

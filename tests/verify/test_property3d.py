@@ -270,6 +270,27 @@ def test_o95_newton_order(solve, options, carries):
             assert len(one) < 3 or is_quadratic(one), one
 
 
+SLIVERS = (-0.02, 0, 1e-4, 1e-3, 0.01, 0.05, 0.1, 0.2)  # of a face
+
+
+@pytest.mark.parametrize("order,widths", [(1, (1e-4, 0.01, 0.05, 0.1)), pytest.param(1, SLIVERS, marks=slow), pytest.param(2, SLIVERS, marks=slow)])
+def test_slivers(solve, order, widths):
+    """The narrow body ends just beyond lines of the wide one's mesh, which carries the multipliers; pressed and tilted, it bulges through the whole range of widths. How much of the faces
+    there is covered decides neither how many iterations it takes nor what comes out: without a compliance of what slivers hold, steps are cut, or no equilibrium is found."""
+    forces, largest = [], []
+    for width in widths:
+        lo, size = 0.25 * (1 - width), 0.5 * (1 + width)
+        s = good(solve(*QUIET, "-order", order, lower=LOWER._replace(number=(4, 4, 2)), upper=Box((lo, lo, 1), (size, size, 0.8), (2, 2, 2)),
+                       boundary=hold(("0", "0", "-0.1 - 0.05*{x} + 0.03*{y}")), contact=pairs("lower")))
+        print(width, s["newton_iterations"], s["contact"]["pair"]["force"][2], s["contact"]["pair"]["max_pressure"])
+        assert s["step_cuts"] == 0 and s["relaxed_steps"] == 0 and s["newton_iterations"] <= 8
+        forces.append(s["contact"]["pair"]["force"][2])
+        largest.append(s["contact"]["pair"]["max_pressure"])
+    apart = np.abs(np.polyval(np.polyfit(widths, forces, 2), widths) / forces - 1).max()
+    print("forces apart from a smooth curve", apart)
+    assert max(largest) < 1 and apart < 5e-4
+
+
 # ---- O-96 to O-99: what must not break a run ------------------------------------------------------------------------------
 
 
