@@ -220,6 +220,8 @@ PetscErrorCode ProblemTangent(Problem, Vec x, const PetscReal pressure[], Vec li
    Only for problems whose bulk tangent is symmetric (ProblemIsSymmetric): no follower pressures, no plastic flow, no scalars. Default: exact form. */
 PetscErrorCode ProblemSetSymmetric(Problem, PetscBool symmetric);
 PetscErrorCode ProblemGetSymmetric(Problem, PetscBool *symmetric); /* the form of the last tangent, or set since */
+/* Does the symmetric form lack part of the derivative, where forces hold lines inside the mortar side (ContactFacet.push)? Collective. */
+PetscErrorCode ProblemHoldsLines(Problem, PetscBool *holds);
 PetscErrorCode ProblemIsSymmetric(Problem, PetscBool *possible);
 /* rhs = -(r + lift), condensed like the last tangent, multiplier rows in its form; r of the problem, lift and rhs of the matrix. */
 PetscErrorCode ProblemRightSide(Problem, Vec r, Vec lift, Vec rhs);

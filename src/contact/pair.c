@@ -100,6 +100,7 @@ static void PrepareResult_Private(const EvaluateContext *ctx, PetscInt slot, Con
   for (PetscInt i = 0; i < mortar; i++) (*ids)[own + i] = ~pair->node[pair->first_node[slot] + i];
   *ids += own + mortar;
   out->reach = out->spring = out->dgap = out->dweight = out->push = out->hessian = NULL;
+  out->rim                                                                       = PETSC_FALSE;
   if (ctx->derivatives) {
     out->dgap    = *real;
     out->dweight = *real + 2 * n;

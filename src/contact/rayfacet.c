@@ -326,6 +326,7 @@ static PetscErrorCode Result_Private(const EvaluateContext *ctx, PetscInt facet,
   out->area    = w->covered;
   out->min_gap = w->min_gap;
   out->dgap = out->dweight = out->push = out->hessian = out->darea = NULL;
+  out->rim                                                         = PETSC_FALSE;
   PetscCall(ContactRaySpring(ctx->pair, ctx->nonmortar, facet, &spring));
   PetscCall(Spring_Private(w, &spring, out));
   if (!derivatives) PetscFunctionReturn(PETSC_SUCCESS);
@@ -335,6 +336,7 @@ static PetscErrorCode Result_Private(const EvaluateContext *ctx, PetscInt facet,
   out->dweight = dgap + nr * nn;
   if (w->frozen) PetscCall(ContactStoreReserve(&w->result.store, nr * nn, &push));
   out->push = push;
+  out->rim  = w->test[0].hats;
   PetscCall(Rows_Private(w, o, dgap, push));
   PetscCall(Rows_Private(w, NULL, dgap + nr * nn, NULL));
   if (spring.on) {

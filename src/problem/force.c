@@ -59,7 +59,7 @@ void ContactRows_Private(const Contact *c, PetscReal r[])
   }
 }
 
-PetscErrorCode ContactHoldsRims_Private(Problem p, PetscBool *holds)
+PetscErrorCode ContactHolds_Private(Problem p, PetscBool lines, PetscBool *holds)
 {
   PetscBool mine = PETSC_FALSE, higher = PETSC_FALSE;
 
@@ -70,9 +70,16 @@ PetscErrorCode ContactHoldsRims_Private(Problem p, PetscBool *holds)
     if (c->side[0].order) higher = PETSC_TRUE;
     for (PetscInt f = 0; f < c->num_facets && !c->released; ++f) {
       const ContactFacet *e = &c->facets[f];
-      for (PetscInt k = 0; k < e->num_rows && e->push; ++k) mine = (PetscBool)(mine || c->active[e->nodes[k]]);
+      for (PetscInt k = 0; k < e->num_rows && e->push && (e->rim || lines); ++k) mine = (PetscBool)(mine || c->active[e->nodes[k]]);
     }
   }
   if (higher && p->dim == 3) PetscCallMPI(MPI_Allreduce(&mine, holds, 1, COMPAT_MPI_BOOL, MPI_LOR, p->comm));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode ProblemHoldsLines(Problem p, PetscBool *holds)
+{
+  PetscFunctionBegin;
+  PetscCall(ContactHolds_Private(p, PETSC_TRUE, holds));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

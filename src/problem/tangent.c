@@ -64,6 +64,13 @@ static inline void Turn_Private(PetscInt dim, const PetscReal *q, PetscReal v[],
   for (PetscInt d = 0; d < dim; ++d) v[d * stride] = t[d];
 }
 
+/* H and its transpose, half of each. */
+static void Mean_Private(PetscInt n, PetscReal H[])
+{
+  for (PetscInt i = 0; i < n; ++i)
+    for (PetscInt j = 0; j < i; ++j) H[i * n + j] = H[j * n + i] = 0.5 * (H[i * n + j] + H[j * n + i]);
+}
+
 static PetscErrorCode FacetHessian_Private(Problem p, const Contact *c, const ContactFacet *e, const PetscInt dofs[])
 {
   const PetscInt dim = p->dim, n = dim * e->num;
@@ -94,6 +101,7 @@ static PetscErrorCode FacetHessian_Private(Problem p, const Contact *c, const Co
   for (PetscInt j = 0; j < n; ++j) {
     for (PetscInt a = 0; a < e->num; ++a) Turn_Private(dim, Frame_Private(c, e->nodes[a]), H + dim * a * n + j, n);
   }
+  if (p->symmetric && e->push) Mean_Private(n, H);
   PetscCall(ProblemInsert_Private(p, n, dofs, n, dofs, H, ADD_VALUES));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -327,7 +335,7 @@ PetscErrorCode ProblemTangent(Problem p, Vec x, const PetscReal pressure[], Vec 
     PetscCall(ContactEvaluate_Private(p, c, x, local, PETSC_TRUE, PETSC_TRUE, &failed));
     PetscCall(ContactPairHold(c->pair, PETSC_FALSE));
   }
-  if (p->symmetric) PetscCall(ContactHoldsRims_Private(p, &holds));
+  if (p->symmetric) PetscCall(ContactHolds_Private(p, PETSC_FALSE, &holds));
   if (holds) p->symmetric = PETSC_FALSE;
   PetscCall(StageEnd(STAGE_CONTACT));
   p->lifting = (PetscBool)(lift != NULL);

@@ -60,7 +60,7 @@ PetscErrorCode SolverUnsymmetric_Private(Solver s)
   PC  pc;
 
   PetscFunctionBegin;
-  PetscCall(PetscInfo(s->snes, "the tangent is not symmetric at the rim of a contact face: LU from here on\n"));
+  PetscCall(PetscInfo(s->snes, "forces hold lines of the mortar side, the tangent is not symmetric: LU from here on\n"));
   if (s->saddle)
     PetscCall(PetscPrintf(PetscObjectComm((PetscObject)s->snes),
                           "note: contact has come to the rim of a face of full order, where the tangent is not symmetric: direct solver from here on\n"));

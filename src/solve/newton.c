@@ -255,6 +255,18 @@ static PetscErrorCode Drift_Private(SNES snes, Solver s, Vec x, Vec dx, PetscBoo
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Where forces hold lines of the mortar side the symmetric form is only nearly their derivative: with factors the exact one from there on. */
+static PetscErrorCode Exact_Private(Solver s)
+{
+  PetscBool holds;
+
+  PetscFunctionBegin;
+  if (!s->symmetric || s->saddle) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(ProblemHoldsLines(s->problem, &holds));
+  if (holds) PetscCall(ProblemSetSymmetric(s->problem, PETSC_FALSE));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* The linearisation at x and its solution. */
 static PetscErrorCode Linearise_Private(SNES snes, Solver s, Vec x, Vec r, Vec dx, PetscBool *ok)
 {
@@ -264,6 +276,7 @@ static PetscErrorCode Linearise_Private(SNES snes, Solver s, Vec x, Vec r, Vec d
   ++s->report->iterations;
   PetscCall(VecZeroEntries(s->lift));
   PetscCall(Loosen_Private(snes, s));
+  PetscCall(Exact_Private(s));
   PetscCall(ProblemTangent(s->problem, x, s->pressure, s->lift, &bad));
   PetscCall(ProblemGetSymmetric(s->problem, &symmetric));
   if (s->symmetric && !symmetric) PetscCall(SolverUnsymmetric_Private(s));
