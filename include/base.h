@@ -139,6 +139,14 @@ static inline PetscBool Solve3(const PetscReal A[9], const PetscReal b[3], Petsc
   return PETSC_TRUE;
 }
 
+/* ---- sets that grow together: parent[i] leads to i's representative, which is its own parent ------------------------ */
+
+static inline PetscInt GroupRoot(PetscInt parent[], PetscInt i)
+{
+  while (parent[i] != i) i = parent[i] = parent[parent[i]];
+  return i;
+}
+
 /* ---- lanes: several numbers in one register, each of another point or cell (GCC vector extension, portable) --------- */
 
 #pragma GCC diagnostic ignored "-Wpsabi" /* lanes never cross a translation unit by value */

@@ -55,6 +55,7 @@ typedef struct {
   PetscBool full;              /* facets have the order of their cells; else order 1 */
   PetscReal search;            /* search distance, in multiples of the larger edge length; default 0: automatic */
   PetscBool node_to_segment;   /* comparison only */
+  PetscBool see_through;       /* comparison only: searches take far sides of bodies behind for overlaps */
   PetscBool standard;          /* standard multipliers */
   PetscBool continuous;        /* three dimensions: gaps along a direction that is continuous over the surface, for facets of order 1 too */
   PetscBool adjust;            /* the gaps of the mesh at the reference positions count as closed */
@@ -108,6 +109,15 @@ typedef struct {
 
 PetscErrorCode ContactPairCreate(PetscInt dim, PetscBool axisymmetric, const ContactSpec *, ContactPair *);
 PetscErrorCode ContactPairDestroy(ContactPair *);
+
+/* What tells an overlap from the far side of a body that lies behind (src/contact/behind.c): all outer facets of the bodies at the reference positions,
+   X[num][2 or 4][dim] with corners in the order of ContactSurface, part[num]: what is connected has one number. Takes both arrays over. Not collective. */
+typedef struct _p_ContactHull *ContactHull;
+PetscErrorCode                 ContactHullCreate(PetscInt dim, PetscInt num, PetscInt part[], PetscReal X[], ContactHull *);
+PetscErrorCode                 ContactHullDestroy(ContactHull *);
+/* From now on the pair's searches pass over far sides. part, mortar_part: parts of the facets of its surfaces, which need reference positions; borrowed, as
+   is the hull. Not collective. */
+PetscErrorCode ContactPairSetHull(ContactPair, ContactHull, const PetscInt part[], const PetscInt mortar_part[]);
 
 /* Facets of higher order: which nodes have multipliers (carries[nonmortar num_nodes], NULL: all), for the functions of covered facets, which are dual in the
    reference positions; before the search. Without it the first search takes all nodes. The pair keeps the functions. Not collective. */

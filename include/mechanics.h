@@ -206,8 +206,9 @@ PetscErrorCode MechanicsPointRule(PetscInt order, const Basis1D **);
 PetscErrorCode MechanicsHistoryRange(Mechanics, PetscInt cell, PetscInt *first, PetscInt *num);
 /* Does any body flow? */
 PetscBool MechanicsIsPlastic(const MechanicsSpec *);
-/* Plastic flow up to u on this rank: largest plastic strain at an integration point, plastic work, and for each body that flows integral[num_bodies][2] =
-   int alpha dV and int dV over the reference volume, 0 for the others (axisymmetric: of the full revolution). Not collective. */
+/* Plastic flow up to u on this rank: largest plastic strain, at integration points and at cells' nodes by polynomials through these points; plastic work; and
+   for each body that flows integral[num_bodies][2] = int alpha dV and int dV over the reference volume, 0 for the others (axisymmetric: of the full
+   revolution). Not collective. */
 PetscErrorCode MechanicsPlastic(Mechanics, const PetscReal u[], PetscReal *strain, PetscReal *work, PetscReal integral[][2]);
 /* Plastic strain at np reference points of an owned cell, by polynomials through the integration points; 0 for laws without. Not collective. */
 PetscErrorCode MechanicsPlasticStrain(Mechanics, PetscInt cell, PetscInt np, const PetscReal xi[], const PetscReal u[], PetscReal strain[]);

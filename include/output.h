@@ -123,8 +123,8 @@ PetscErrorCode ProbesEvaluate(Probes, Problem, Vec x, ProbeValue value[]);
    summary.json:
    - step, t, dt, pass (of the accepted solution), step_cuts, cells, dofs, newton_iterations, active_nodes, estimated_error, energy, min_det, min_gap,
      contact_force, contact_imbalance, moment_imbalance, support_imbalance, seconds, drag_work (energy that drag took where no equilibrium was near by);
-   - with plastic materials plastic.strain (largest), plastic.work, and body.<name>.mean_plastic_strain of each body that flows: int alpha dV / int dV over its
-     reference volume, which converges where the largest, at a notch, does not;
+   - with plastic materials plastic.strain (largest, surfaces included), plastic.work, and body.<name>.mean_plastic_strain of each body that flows: int alpha dV
+   / int dV over its reference volume, which converges where the largest, at a notch, does not;
    - reaction.<boundary>.x … for boundaries with supports;
    - pressure.<boundary>, and volume.<boundary> or advance.<boundary>, where the pressure is found;
    - contact.<pair>.force.x …, .moment (3-D: .moment.x …), .max_pressure, .area, .radius (2-D), .active_nodes, .min_gap;

@@ -1,9 +1,10 @@
 // Two tubes one in the other, quarter: radii 5 to 10 and 10 to 20, symmetry planes x = 0 and y = 0.
 DefineConstant[
-  n = 6, // cells along the quarter of the inner tube; the outer one has 3n/2
-  m = 4  // cells through each wall
+  n = 6,       // cells along the quarter of the inner tube
+  ratio = 1.5, // of cells along the outer one to these
+  m = 4        // cells through each wall
 ];
-k = Ceil(1.5 * n);
+k = Ceil(ratio * n);
 Point(1) = {0, 0, 0};
 Point(2) = {5, 0, 0};    Point(3) = {10, 0, 0};  Point(4) = {0, 10, 0};  Point(5) = {0, 5, 0};
 Point(12) = {10, 0, 0};  Point(13) = {20, 0, 0}; Point(14) = {0, 20, 0}; Point(15) = {0, 10, 0};

@@ -28,7 +28,7 @@ static PetscErrorCode ReportPass_Private(App *app, PetscInt iterations, PetscBoo
   if (before.reaction && app->passes_in_step > 0) BalanceChange(&before, &app->balance, change);
   if (before.reaction) PetscCall(BalanceDestroy(&before));
   PetscCall(PetscMemzero(&app->last, sizeof(app->last)));
-  PetscCall(ReportRowFill(l->problem, &l->state, app->estimated ? &app->estimate : NULL, &app->balance, &app->last));
+  PetscCall(ReportRowFill(l->problem, &l->state, AppIsStressed(app) ? &app->estimate : NULL, &app->balance, &app->last));
   PetscCall(PetscTime(&now));
   app->last.step              = app->load_steps + 1;
   app->last.pass              = app->path + app->passes_in_step;

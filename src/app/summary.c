@@ -52,7 +52,7 @@ PetscErrorCode AppSummary(App *app, const char *status, const char *reason)
   summary.problem            = app->level.problem;
   summary.state              = &app->level.accepted;
   summary.balance            = &app->balance;
-  summary.estimate           = app->estimated && !app->failure && !app->stopped ? &app->estimate : NULL;
+  summary.estimate           = app->estimated && !app->failure && !app->stopped && !PetscIsNanReal(app->last.estimated_error) ? &app->estimate : NULL;
   summary.probes             = app->probes;
   PetscCall(OutputSummary(app->comm, app->data, &summary));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -79,6 +79,8 @@ typedef struct {
   PetscReal (*box)[6]; /* owned, [num items] */
 } Tree;
 
+#define TREE_DEPTH 128 /* of a stack for a walk through it; median splits need log2(items) + 1 */
+
 /* Of the last evaluation in the general form (result.c): positions and multipliers (loaded: they were given). */
 typedef struct {
   PetscBool  stands, loaded;
@@ -103,8 +105,10 @@ struct _p_ContactPair {
   PetscInt  num_nodes, num_facets, num_mortar_nodes, num_mortar_facets;
   PetscInt *prev, *next; /* owned, [num_nodes] */
   /* candidates: mortar edges of listed edge i are candidate[start[i] .. start[i+1]), ascending */
-  PetscInt  num_listed, *listed, *start, *candidate, size_candidate; /* owned */
-  PetscReal distance, margin;
+  PetscInt        num_listed, *listed, *start, *candidate, size_candidate; /* owned */
+  PetscReal       distance, margin;
+  ContactHull     hull;    /* borrowed; NULL: thicknesses are not known */
+  const PetscInt *part[2]; /* borrowed: of the facets of both sides */
   /* results of the last evaluation, all owned; sizes only grow */
   PetscReal      *normal; /* [num_nodes][2] */
   PetscInt        num_segments, size_segments;
@@ -145,6 +149,15 @@ PetscErrorCode ContactGrow(PetscInt num, size_t entry, PetscInt *size, void *arr
 PetscErrorCode ContactTreeBuild(PetscInt num, PetscReal (*box)[6], Tree *);
 PetscErrorCode ContactTreeDestroy(Tree *);
 PetscInt       ContactTreeQuery(const Tree *, const PetscReal box[6], PetscInt max, PetscInt items[]);
+
+/* Nodes that shape a facet: its corners, or its lattice; returns their number. */
+PetscInt ContactFacetNodes(const ContactSurface *, PetscInt facet, const PetscInt **node);
+
+/* hull.c: from x, inside or on a facet of this part of the bodies, along the unit vector d to where the ray leaves the part; most: not before. x, d: [dim],
+   reference positions. */
+PetscReal ContactHullAcross(ContactHull, PetscInt part, const PetscReal x[], const PetscReal d[], PetscReal most);
+/* behind.c: does the mortar facet lie behind the nonmortar one and both bodies? */
+PetscBool ContactBehind(ContactPair, const ContactSurface *nonmortar, PetscInt facet, const ContactSurface *mortar, PetscInt other);
 
 /* normal.c */
 PetscErrorCode ContactTopologyBuild(ContactPair, const ContactSurface *);

@@ -1,15 +1,6 @@
 /* Multiplier functions of a surface: which facets are made together, how far functions of held nodes are extrapolated, the result in one piece. */
 #include "multiplierimpl.h"
 
-static PetscInt Root_Private(PetscInt parent[], PetscInt f)
-{
-  while (parent[f] != f) {
-    parent[f] = parent[parent[f]];
-    f         = parent[f];
-  }
-  return f;
-}
-
 /* Joins facets that share a corner that hangs. A group with facets of different order, or with such a corner that belongs to one facet only, is left to
    P^T psi_L. */
 static PetscErrorCode GroupsBuild_Private(MultiplierWork *w)
@@ -27,14 +18,14 @@ static PetscErrorCode GroupsBuild_Private(MultiplierWork *w)
 
     if (!ContactNodeHangs(s, n)) continue;
     if (first[n] != PETSC_MAX_INT) {
-      const PetscInt a = Root_Private(w->parent, f), b = Root_Private(w->parent, first[n] < 0 ? ~first[n] : first[n]);
+      const PetscInt a = GroupRoot(w->parent, f), b = GroupRoot(w->parent, first[n] < 0 ? ~first[n] : first[n]);
 
       w->parent[PetscMax(a, b)] = PetscMin(a, b);
     }
     first[n] = first[n] == PETSC_MAX_INT ? f : first[n] < 0 ? first[n] : ~first[n];
   }
   for (PetscInt f = 0; f < s->num_facets; f++) {
-    const PetscInt root = Root_Private(w->parent, f);
+    const PetscInt root = GroupRoot(w->parent, f);
 
     if (ContactLatticeOrder(s, f) != ContactLatticeOrder(s, root)) w->exact[root] = PETSC_TRUE;
     for (PetscInt k = 0; k < corners; k++) {
@@ -43,7 +34,7 @@ static PetscErrorCode GroupsBuild_Private(MultiplierWork *w)
       if (ContactNodeHangs(s, n) && first[n] >= 0) w->exact[root] = PETSC_TRUE;
     }
   }
-  for (PetscInt f = 0; f < s->num_facets; f++) w->exact[f] = w->exact[Root_Private(w->parent, f)];
+  for (PetscInt f = 0; f < s->num_facets; f++) w->exact[f] = w->exact[GroupRoot(w->parent, f)];
   PetscCall(PetscFree(first));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -143,7 +134,7 @@ static PetscErrorCode Groups_Private(MultiplierWork *w, const PetscReal whole[])
   PetscFunctionBegin;
   PetscCall(PetscMalloc3(num_facets, &root, num_facets, &facets, num_facets + 1, &start));
   for (PetscInt f = 0; f < num_facets; f++) {
-    root[f]   = Root_Private(w->parent, f);
+    root[f]   = GroupRoot(w->parent, f);
     facets[f] = f;
   }
   PetscCall(PetscSortIntWithArray(num_facets, root, facets));

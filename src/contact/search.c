@@ -3,8 +3,9 @@
    Two dimensions (three: region.c; rays along a continuous direction: rayregion.c): a pair is kept when the unit normals oppose, N_s . N_m < -0.1, and the
    mortar edge reaches into the region swept by the nonmortar edge's rays up to `distance` to both sides, |g| < distance (with margin 0 exactly that; with a
    margin the region grows by slack = 2 margin (1 + distance / h): relative motion of the nodes plus the turn 2 margin / h of normals of edges of length h at
-   that distance; not into the body, where what lies deeper is no overlap but another body behind this one, which would be pulled through it). Distances and
-   normals are judged here and nowhere else: between two searches the result changes continuously with the positions. */
+   that distance; not into the body, where what lies deeper is no overlap but another body behind this one, which would be pulled through it). Of what
+   is left the far sides of bodies behind go (behind.c). Distances and normals are judged here and nowhere else: between two searches the result changes
+   continuously with the positions. */
 #include "rayimpl.h"
 
 typedef struct {
@@ -60,8 +61,7 @@ static PetscBool Candidate_Private(ContactPair pair, const EdgeFrame *f, const R
   return (g[0] > r->reach && g[1] > r->reach) || (g[0] < -pair->distance && g[1] < -pair->distance) ? PETSC_FALSE : PETSC_TRUE;
 }
 
-/* Nodes that shape a facet: its corners, or its lattice. */
-static PetscInt FacetNodes_Private(const ContactSurface *s, PetscInt facet, const PetscInt **node)
+PetscInt ContactFacetNodes(const ContactSurface *s, PetscInt facet, const PetscInt **node)
 {
   const PetscInt corners = s->dim == 2 ? 2 : 4;
 
@@ -71,7 +71,7 @@ static PetscInt FacetNodes_Private(const ContactSurface *s, PetscInt facet, cons
 
 void ContactFacetBox(const ContactSurface *s, PetscInt facet, PetscReal box[6])
 {
-  const PetscInt *node, num = FacetNodes_Private(s, facet, &node);
+  const PetscInt *node, num = ContactFacetNodes(s, facet, &node);
 
   box[2] = box[5] = 0;
   for (PetscInt i = 0; i < s->dim; i++) {
@@ -86,7 +86,7 @@ void ContactFacetBox(const ContactSurface *s, PetscInt facet, PetscReal box[6])
 
 static PetscBool HasFacet_Private(const ContactSurface *s, PetscInt facet)
 {
-  const PetscInt *node, num = FacetNodes_Private(s, facet, &node);
+  const PetscInt *node, num = ContactFacetNodes(s, facet, &node);
 
   for (PetscInt k = 0; k < num; k++)
     if (!ContactHas(s, node[k])) return PETSC_FALSE;
@@ -179,7 +179,8 @@ static PetscErrorCode Candidates_Private(ContactPair pair, const ContactSurface 
     PetscCall(PetscSortInt(num, found)); /* results must not depend on the tree */
     PetscCall(ContactGrow(total + num, sizeof(PetscInt), &pair->size_candidate, &pair->candidate));
     for (PetscInt k = 0; k < num; k++)
-      if (Meets_Private(pair, &reach, mortar, found[k])) pair->candidate[total++] = found[k];
+      if (Meets_Private(pair, &reach, mortar, found[k]) && !ContactBehind(pair, nonmortar, pair->listed[i], mortar, found[k]))
+        pair->candidate[total++] = found[k];
   }
   pair->start[pair->num_listed] = total;
   PetscFunctionReturn(PETSC_SUCCESS);

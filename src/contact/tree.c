@@ -1,7 +1,7 @@
 /* Bounding-volume tree: median split of box centres along the longest side, at most 4 items per leaf. Build O(n log n), query O(log n + hits). */
 #include "contactimpl.h"
 
-enum { LEAF = 4, DEPTH = 128 };
+enum { LEAF = 4 };
 
 static void Enclose_Private(const Tree *t, TreeNode *node)
 {
@@ -99,7 +99,7 @@ PetscBool ContactBoxesMeet(const PetscReal a[6], const PetscReal b[6])
 /* Items whose boxes meet `box`, at most max (room in items[]); returns their number. Median splits bound the depth by log2(num) + 1. */
 PetscInt ContactTreeQuery(const Tree *t, const PetscReal box[6], PetscInt max, PetscInt items[])
 {
-  PetscInt stack[DEPTH], top = 0, found = 0;
+  PetscInt stack[TREE_DEPTH], top = 0, found = 0;
 
   stack[top++] = 0;
   while (top) {

@@ -108,12 +108,31 @@ PetscBool MechanicsIsPlastic(const MechanicsSpec *spec)
   return PETSC_FALSE;
 }
 
+/* The largest of values at a cell's integration points and of the polynomial through them at its nodes: these lie on its faces, where flow is largest, and
+   which the points are short of by a tenth of the cell. */
+static PetscErrorCode Largest_Private(Mechanics m, const CellGroup *g, const PetscReal values[], PetscReal *largest)
+{
+  const PetscInt p = g->order, n = p + 1;
+  const Basis1D *rule;
+
+  PetscFunctionBegin;
+  PetscCall(MechanicsPointRule(p, &rule));
+  for (PetscInt q = 0; q < g->num_points; ++q) *largest = PetscMax(*largest, values[q]);
+  for (PetscInt i = 0; i < ElementNumNodes(m->dim, p); ++i) {
+    const PetscReal xi[3] = {(PetscReal)(i % n) / p, (PetscReal)(i / n % n) / p, (PetscReal)(i / (n * n)) / p};
+    PetscReal       value;
+    Basis1DInterpolate(rule, m->dim, xi, 1, values, &value);
+    *largest = PetscMax(*largest, value);
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode MechanicsPlastic(Mechanics m, const PetscReal u[], PetscReal *strain, PetscReal *work, PetscReal integral[][2])
 {
   const HPTables     *v;
   const ForestTables *t;
   Forest              forest;
-  PetscReal          *trial;
+  PetscReal          *trial, *alpha;
   PetscBool           bad;
 
   PetscFunctionBegin;
@@ -122,7 +141,7 @@ PetscErrorCode MechanicsPlastic(Mechanics m, const PetscReal u[], PetscReal *str
   PetscCall(ForestGetTables(forest, &t));
   PetscCall(PetscArrayzero(integral, m->spec->num_bodies));
   *strain = *work = 0;
-  PetscCall(PetscMalloc1(m->history.num, &trial));
+  PetscCall(PetscMalloc2(m->history.num, &trial, m->history.num, &alpha)); /* of one cell: as large as all there is to remember is enough */
   PetscCall(MechanicsCommit(m, u, trial, &bad));
   for (PetscInt i = 0; i < m->num_groups; ++i) {
     const CellGroup *g = &m->groups[i];
@@ -131,16 +150,16 @@ PetscErrorCode MechanicsPlastic(Mechanics m, const PetscReal u[], PetscReal *str
       PetscReal     *volume = m->work;
       PetscCall(CellKernelVolumes(g->kernel, g->X + c * g->n * m->dim, volume));
       for (PetscInt q = 0; q < g->num_points; ++q) {
-        PetscReal alpha, density;
-        g->material->law->plastic(g->material, trial + g->history + (c * g->num_points + q) * g->h, &alpha, &density);
-        *strain = PetscMax(*strain, alpha);
+        PetscReal density;
+        g->material->law->plastic(g->material, trial + g->history + (c * g->num_points + q) * g->h, &alpha[q], &density);
         *work += volume[q] * density;
-        integral[body][0] += volume[q] * alpha;
+        integral[body][0] += volume[q] * alpha[q];
         integral[body][1] += volume[q];
       }
+      PetscCall(Largest_Private(m, g, alpha, strain));
     }
   }
-  PetscCall(PetscFree(trial));
+  PetscCall(PetscFree2(trial, alpha));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -197,6 +197,8 @@ PetscErrorCode ContactCreate_Private(Problem p, const ContactSpec *spec, Contact
   PetscCall(SurfaceCreate_Private(p, spec->nonmortar, higher, &c->side[0]));
   PetscCall(SurfaceCreate_Private(p, spec->mortar, higher, &c->side[1]));
   PetscCall(ContactPairCreate(p->dim, axisymmetric, spec, &c->pair));
+  for (PetscInt k = 0; k < 2; ++k) PetscCall(HullParts_Private(p, &c->side[k], &c->part[k]));
+  if (!spec->see_through) PetscCall(ContactPairSetHull(c->pair, p->hull, c->part[0], c->part[1]));
   const PetscInt n = c->side[0].num_nodes;
   PetscCall(PetscCalloc6(n, &c->z, n, &c->gap, n, &c->weight, n, &c->w0, n, &c->extent, n, &c->c));
   PetscCall(PetscCalloc2(n, &c->spring, n, &c->softness));
@@ -238,6 +240,7 @@ PetscErrorCode ContactDestroy_Private(Contact *c)
   PetscFunctionBegin;
   PetscCall(FrozenDestroy_Private(c));
   PetscCall(ContactPairDestroy(&c->pair));
+  for (PetscInt k = 0; k < 2; ++k) PetscCall(PetscFree(c->part[k]));
   PetscCall(SurfaceDestroy_Private(&c->side[0]));
   PetscCall(SurfaceDestroy_Private(&c->side[1]));
   PetscCall(PetscFree6(c->z, c->gap, c->weight, c->w0, c->extent, c->c));

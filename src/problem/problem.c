@@ -83,6 +83,7 @@ PetscErrorCode ProblemCreate(const SceneData *scene, Forest forest, const int8_t
   PetscCall(MechanicsCreate(p->space, &scene->mechanics, &p->supports, &p->mechanics));
   p->num_contacts = scene->num_contacts;
   PetscCall(PetscCalloc1(p->num_contacts, &p->contacts));
+  if (p->num_contacts) PetscCall(HullCreate_Private(p));
   for (PetscInt i = 0; i < p->num_contacts; ++i) PetscCall(ContactCreate_Private(p, &scene->contacts[i], &p->contacts[i]));
   PetscCall(Vectors_Private(p));
   PetscCall(ScalarsCreate_Private(p));
@@ -104,6 +105,7 @@ PetscErrorCode ProblemDestroy(Problem *problem)
   for (PetscMPIInt k = 1; k < 4; ++k) PetscCallMPI(MPI_Type_free(&p->unit[k]));
   for (PetscInt i = 0; i < p->num_contacts; ++i) PetscCall(ContactDestroy_Private(&p->contacts[i]));
   PetscCall(PetscFree(p->contacts));
+  PetscCall(HullDestroy_Private(p));
   PetscCall(PetscFree(p->leaf_order));
   PetscCall(PetscFree2(p->index, p->row));
   PetscCall(PetscFree2(p->scatter_first, p->scatter));

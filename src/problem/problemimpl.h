@@ -57,6 +57,7 @@ typedef struct {
 typedef struct {
   const ContactSpec  *spec;
   ContactPair         pair;
+  PetscInt           *part[2]; /* of the facets of both sides */
   Surface             side[2]; /* 0 nonmortar, 1 mortar */
   ContactView         view;
   PetscReal           freedom[2][9];                  /* of a translation of the bodies of either side, what supports leave free: drift.c */
@@ -103,6 +104,8 @@ struct _p_Problem {
   PetscInt         num_contacts;
   Contact         *contacts;
   int8_t          *leaf_order;
+  ContactHull      hull; /* hull.c; NULL without contact */
+  PetscInt        *part; /* [num_cells of the coarse mesh] */
 
   /* layout */
   PetscInt   num_u, num_z, start; /* this rank's displacement dofs and multipliers, first index */
@@ -250,6 +253,13 @@ PetscBool      ContactSees_Private(const Contact *, PetscInt node);
 PetscErrorCode ContactSearch_Private(Problem, Contact *, PetscBool reference, PetscReal margin);
 /* gather.c */
 PetscErrorCode ContactGatherDestroy_Private(Contact *);
+
+/* Reference positions X[2 or 4][dim] of a facet's corners, in the order of Surface.facets. Not collective. */
+PetscErrorCode SurfaceCorners_Private(Forest, PetscInt facet, PetscInt leaf, PetscReal X[]);
+/* hull.c: p->hull and p->part; parts of a surface's facets, freed by the caller. Not collective. */
+PetscErrorCode HullCreate_Private(Problem);
+PetscErrorCode HullDestroy_Private(Problem);
+PetscErrorCode HullParts_Private(Problem, const Surface *, PetscInt **part);
 
 PetscErrorCode ContactCreate_Private(Problem, const ContactSpec *, Contact *);
 PetscErrorCode ContactDestroy_Private(Contact *);

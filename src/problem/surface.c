@@ -31,6 +31,26 @@ static void FacetVertices_Private(const ForestTables *t, PetscInt facet, PetscIn
     FaceVertices_Private(cl, index, vertex);
 }
 
+PetscErrorCode SurfaceCorners_Private(Forest forest, PetscInt facet, PetscInt leaf, PetscReal X[])
+{
+  const ForestTables *t;
+  PetscInt            vertex[4];
+
+  PetscFunctionBegin;
+  PetscCall(ForestGetTables(forest, &t));
+  const PetscInt *cl = t->closure + t->closure_offset[t->first[t->dim] + leaf];
+  FacetVertices_Private(t, facet, leaf, vertex);
+  for (PetscInt k = 0; k < (t->dim == 2 ? 2 : 4); ++k) {
+    PetscReal x[3];
+    PetscInt  index = 0;
+    while (cl[index] != vertex[k]) index++;
+    const PetscReal xi[3] = {0.5 * (PetscReal)(index % 3), 0.5 * (PetscReal)(index / 3 % 3), 0.5 * (PetscReal)(index / 9)};
+    PetscCall(ForestMapPoint(forest, leaf, xi, x));
+    PetscCall(PetscArraycpy(X + t->dim * k, x, t->dim));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 static PetscErrorCode SurfaceTopology_Private(const ForestTables *t, PetscInt group, Surface *s)
 {
   const PetscInt first = t->first[t->dim - 1], last = t->first[t->dim];
@@ -114,12 +134,6 @@ static PetscErrorCode SurfaceHanging_Private(const ForestTables *t, Surface *s)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscInt Root_Private(PetscInt group[], PetscInt facet)
-{
-  while (group[facet] != facet) facet = group[facet] = group[group[facet]];
-  return facet;
-}
-
 /* Facets whose multiplier functions are made together: lattices that share a hanging corner (macro dual functions), else each is alone. next[f]: the facet
    after f in its group, round. */
 static PetscErrorCode Groups_Private(const Surface *s, PetscInt next[])
@@ -136,11 +150,11 @@ static PetscErrorCode Groups_Private(const Surface *s, PetscInt next[])
     const PetscInt n = s->facets[i], facet = i / s->corners;
     if (s->hang[n] == s->hang[n + 1]) continue;
     if (at[n] < 0) at[n] = facet;
-    const PetscInt a = Root_Private(group, at[n]), b = Root_Private(group, facet);
+    const PetscInt a = GroupRoot(group, at[n]), b = GroupRoot(group, facet);
     group[PetscMax(a, b)] = PetscMin(a, b);
   }
   for (PetscInt f = 0; f < s->num_facets; ++f) { /* into the ring of its root */
-    const PetscInt root = Root_Private(group, f);
+    const PetscInt root = GroupRoot(group, f);
     if (root == f) continue;
     next[f]    = next[root];
     next[root] = f;

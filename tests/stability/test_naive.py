@@ -172,7 +172,7 @@ def test_pin_in_its_bore(run):
 def test_bodies_that_pass_each_other(run):
     """A snap hook beside its catch, before it and behind it: the far side of the catch faces the back of the nose as if the two overlapped by all that lies between. A search that
     takes it for that (distance 20 edges) ends at t = 0; overlaps are bounded by half the smaller side, whatever room the search leaves for motion, sharp nose or round."""
-    naive = run("tests/verify/scenes/snaphook.yml", "-contact_snap_search", 20)
+    naive = run("tests/verify/scenes/snaphook.yml", "-contact_snap_search", 20, "-contact_snap_see_through", "true")
     print("naive", naive.returncode, naive.summary["t"])
     assert naive.returncode == 2 and naive.summary["load_steps"] == 0
     for radius in (0, 0.3):
@@ -181,6 +181,26 @@ def test_bodies_that_pass_each_other(run):
         print("ours, radius", radius, {key: ours.summary[key] for key in ("load_steps", "step_cuts", "newton_iterations")}, "largest force", max(force))
         assert ours.returncode == 0 and ours.summary["step_cuts"] == 0 and ours.summary["newton_iterations"] <= 5 * ours.summary["load_steps"], ours
         assert 1.3 < max(force) < 1.8 and force[0] == 0 and force[-1] < 1e-20 and ours.summary["energy"] < 1e-12
+
+
+@pytest.mark.parametrize("scene, pair", [("inputs/thread.yml", "thread"), ("tests/verify/scenes/comb.yml", "teeth")])
+def test_teeth_behind_each_other(run, scene, pair):
+    """Teeth of a bolt that go on beyond the nut, fingers of a comb beyond the other one: through itself and through the next tooth of the other body each sees that one's far
+    flank, which opposes it as if the bodies overlapped by both. A search that looks through bodies ends at t = 0. Far sides are passed over, and what is found is what a
+    search no further than a facet finds; with clearance and with flanks that overlap at the beginning."""
+    quick = ("-order", 1, "-output_fields", "false", "-load_step_min", 0.25, "-load_relax", "false")
+    naive = run(scene, *quick, f"-contact_{pair}_see_through", "true")
+    print("naive", naive.returncode, naive.summary["t"], naive.summary["newton_iterations"])
+    assert naive.returncode == 2 and naive.summary["load_steps"] == 0
+    for gap in (0.01, -0.005):
+        options = (*quick, "-mesh_parameter_gap", gap)
+        ours, near = run(scene, *options), run(scene, *options, f"-contact_{pair}_search", 1)
+        s, force = ours.summary, ours.summary["contact"][pair]["force"]
+        print("ours, gap", gap, {key: s[key] for key in ("load_steps", "step_cuts", "newton_iterations", "energy")}, "force", force, "near", near.summary["energy"])
+        assert ours.returncode == 0 and s["step_cuts"] == 0 and s["newton_iterations"] <= 5 * s["load_steps"], ours
+        assert s["energy"] == pytest.approx(near.summary["energy"], rel=1e-9)
+        held = s["reaction"]["bearing" if pair == "thread" else "left_back"]
+        assert abs(force[1]) == pytest.approx(abs(held[1]), rel=1e-8) and abs(force[1]) > 0
 
 
 def test_snap(run):

@@ -1,5 +1,6 @@
 /* Search: same pairs as brute force, margin kept, layers told apart, large sliding, n log n, time. */
 #include "contactfixture.h"
+#include "contactimpl.h"
 #include <time.h>
 
 static void Cleanup(Chain *nonmortar, Chain *mortar, ContactPair *pair, Sum *s)
@@ -292,5 +293,67 @@ static void Time(void **state)
   assert_true(t[1] < 60 * t[0]);
 }
 
+/* A bar 4 long between y0 and y1: its contour counterclockwise in edges of length 1, which go to the hull, too. */
+static void Bar(Chain *c, PetscReal y0, PetscReal y1, PetscInt part, PetscInt *num, PetscInt *parts, PetscReal *X)
+{
+  ChainCreate(c, 10, PETSC_TRUE);
+  for (PetscInt i = 0; i < 10; i++) c->x[2 * i] = i < 5 ? (PetscReal)i : (PetscReal)(9 - i), c->x[2 * i + 1] = i < 5 ? y0 : y1;
+  c->s.X = c->x;
+  for (PetscInt e = 0; e < 10; e++) {
+    for (int k = 0; k < 4; k++) X[4 * *num + k] = c->x[2 * c->edges[2 * e + k / 2] + k % 2];
+    parts[(*num)++] = part;
+  }
+}
+
+/* A bar over a bar, whole contours, 0.1 apart or overlapping by 0.3 of their thickness of 1: the upper one's top faces the lower one's bottom, which lies 2.1
+   or 1.7 deep, just like an overlap. With the hull it is passed over, near sides are found as ever. Inside the bars the hull measures what they do. */
+static void FarSides(void **state)
+{
+  for (int overlap = 0; overlap < 2; overlap++) {
+    const PetscReal top = overlap ? 0.3 : -0.1;
+    PetscInt        num = 0, *parts = NULL;
+    PetscReal      *X       = NULL;
+    PetscInt        near[2] = {0, 0}, far[2] = {0, 0}, facet[2] = {0, 0};
+    ContactHull     hull;
+    ContactPair     pair;
+    Chain           upper, lower;
+
+    CHECK_CALL(PetscMalloc1(20, &parts));
+    CHECK_CALL(PetscMalloc1(80, &X));
+    Bar(&upper, 0, 1, 0, &num, parts, X);
+    Bar(&lower, top - 1, top, 1, &num, parts, X);
+    CHECK_CALL(ContactHullCreate(2, num, parts, X, &hull));
+    for (int k = 0; k < 2; k++) {
+      const PetscReal from[2] = {1.3, k ? top : 0}, along[2] = {0.6, k ? -0.8 : 0.8};
+
+      assert_true(PetscAbsReal(ContactHullAcross(hull, k, from, along, 10) - 1.25) < 1e-14);
+      assert_true(ContactHullAcross(hull, k, from, along, 1) == 1);
+    }
+    for (int with = 0; with < 2; with++) {
+      PetscInt part[2][10];
+
+      for (int e = 0; e < 10; e++) part[0][e] = 0, part[1][e] = 1;
+      PairCreate(PETSC_FALSE, PETSC_FALSE, &pair);
+      if (with) CHECK_CALL(ContactPairSetHull(pair, hull, part[0], part[1]));
+      SearchAll(pair, &upper, &lower, 3, 0.3);
+      const PetscInt *start, *candidate;
+      CHECK_CALL(ContactPairGetCandidates(pair, &start, &candidate));
+      for (PetscInt i = 0; i < 10; i++)
+        for (PetscInt k = start[i]; k < start[i + 1]; k++) {
+          facet[0] = i, facet[1] = candidate[k];
+          near[with] += facet[0] < 4 && facet[1] > 4 && facet[1] < 9; /* bottom of the upper bar, top of the lower one */
+          far[with] += facet[0] > 4 && facet[0] < 9 && facet[1] < 4;
+        }
+      CHECK_CALL(ContactPairDestroy(&pair));
+    }
+    print_message("overlap %g: near %d %d, far %d %d\n", (double)top, (int)near[0], (int)near[1], (int)far[0], (int)far[1]);
+    assert_true(near[0] == near[1] && near[0] >= 4);
+    assert_true(far[0] >= 4 && far[1] == 0);
+    CHECK_CALL(ContactHullDestroy(&hull));
+    ChainDestroy(&upper);
+    ChainDestroy(&lower);
+  }
+}
+
 CONTACT_TEST_MAIN("contact: search", cmocka_unit_test(BruteForce), cmocka_unit_test(Margin), cmocka_unit_test(Layers), cmocka_unit_test(Behind),
-                  cmocka_unit_test(LargeSliding), cmocka_unit_test(Empty), cmocka_unit_test(Time))
+                  cmocka_unit_test(FarSides), cmocka_unit_test(LargeSliding), cmocka_unit_test(Empty), cmocka_unit_test(Time))

@@ -74,7 +74,7 @@ def test_o32_tube(run, tmp_path, kappa):
         close(pressure[ri], reference, 3e-3)
     # elastic unloading is all but linear: its last two pressures tell the radius without pressure
     (r0, o0, p0, row), (r1, o1, p1, _) = rows[-2:]
-    close(row["plastic.strain"], .38599, 0.02)  # at the first integration point, a little inside
+    close(row["plastic.strain"], .38599, 0.005)  # at the bore; the first integration point, a little inside, has 1.2 % less
     free = -p1 / (p1 - p0)
     close(1 - (r1 + free * (r1 - r0)) / 1.4, 0.002146, 0.02)
     close(r1 + free * (r1 - r0), 1.3969955, 1e-4)

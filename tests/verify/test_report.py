@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from contactkit import surface
-from test_hostile import blocks
+from test_hostile import block, blocks
 
 KEYS = """mortise scene status reason t model ranks load_steps step_cuts adapt_passes newton_iterations cells dofs order_min order_max
           estimated_error energy reaction contact probe time peak_memory_mb""".split()
@@ -86,6 +86,15 @@ def test_where_the_error_is(run):
     x, y = map(float, re.search(r"note: \d+ % of the squared error estimate are in one cell, at \((\S+), (\S+), 0\) of body (?:disc|block): ", result.stdout).groups())
     assert math.hypot(x, y) < 0.4, result
     assert "note:" not in run(*HERTZ, "-load_step", 0.5, "-load_max_steps", 1).stdout
+
+
+def test_no_error_of_no_stress(run, tmp_path):
+    """A block that is turned as a whole has round-off in place of stress: nothing to estimate an error of."""
+    turn = {"y0": {"rotation": {"angle": "90*min(t, 1)"}}, "y1": {"pressure": "0.01*max(t - 1, 0)"}}
+    result = run("s.yml", "-load_end", 2, text=block(tmp_path, boundary=turn, load={"step": 1}))
+    assert [math.isnan(row["estimated_error"]) for row in result.history] == [True, False] and result.summary["estimated_error"] > 0, result
+    result = run("s.yml", text=block(tmp_path, boundary=turn, load={"step": 1}))
+    assert result.summary["estimated_error"] is None and "error not estimated" in result.stdout, result
 
 
 @pytest.mark.parametrize("y,words", [(0.05, "at the end they are 0.051 apart"), (-0.05, None), ("t < 0.6 ? -0.05*t : 0.05", None), (3, "do not face each other")])

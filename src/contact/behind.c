@@ -1,0 +1,183 @@
+/* Sides of bodies that lie behind one another. The far side of a neighbour opposes a facet just like the near side of a body that overlaps its own: a tooth of
+   a thread sees, through itself and through the next tooth of the nut, that one's other flank. What tells them apart is how far in they are. Along a ray of the
+   nonmortar facet into its body, which meets the mortar facet at depth d, the own body measures t, and the other one, from there back towards the ray's
+   start, t'. If the bodies overlap, the mortar facet lies inside the own body or the start inside the other one: d <= max(t, t'). If it is the far side of a
+   body behind, all of both lies between: d >= t + t'. So what is deeper than (t + t') / 2 is no overlap.
+
+   Thicknesses are those at the reference positions, along directions that turn with the facets. */
+#include "rayimpl.h"
+
+enum { LEVELS = 6 }; /* of the search for the ray to the middle of the mortar facet: to 1/32 of the facet */
+
+/* A facet by its corners: now and at the reference positions, axes (the last one the outward normal). */
+typedef struct {
+  PetscInt  dim, nv;
+  PetscReal x[4][3], X[4][3], axis[3][3], axis0[3][3];
+} Plane;
+
+static void Axes_Private(PetscInt dim, const PetscReal x[4][3], PetscReal axis[3][3])
+{
+  static const PetscInt node[4] = {0, 1, 2, 3};
+  PetscReal            *n       = axis[dim - 1], e[3], N[3], flat[4][2], along, length;
+
+  for (int a = 0; a < 4; a++) flat[a][0] = x[a][0], flat[a][1] = x[a][1];
+  ContactFacetVector(dim, dim == 2 ? flat[0] : x[0], node, N);
+  length = PetscSqrtReal(Dot3(N, N));
+  for (int c = 0; c < 3; c++) n[c] = N[c] / length, e[c] = x[1][c] - x[0][c];
+  along = Dot3(e, n);
+  for (int c = 0; c < 3; c++) e[c] -= along * n[c];
+  length = PetscSqrtReal(Dot3(e, e));
+  for (int c = 0; c < 3; c++) axis[0][c] = e[c] / length;
+  if (dim == 3) Cross3(n, axis[0], axis[1]);
+}
+
+static void Plane_Private(const ContactSurface *s, PetscInt facet, Plane *p)
+{
+  const PetscInt dim = p->dim = s->dim;
+
+  p->nv = dim == 2 ? 2 : 4;
+  memset(p->x, 0, sizeof(p->x));
+  memset(p->X, 0, sizeof(p->X));
+  for (PetscInt a = 0; a < p->nv; a++)
+    for (PetscInt c = 0; c < dim; c++) {
+      p->x[a][c] = s->x[dim * s->facets[p->nv * facet + a] + c];
+      p->X[a][c] = s->X[dim * s->facets[p->nv * facet + a] + c];
+    }
+  Axes_Private(dim, p->x, p->axis);
+  Axes_Private(dim, p->X, p->axis0);
+}
+
+/* Hats at xi in [-1, 1]^(dim - 1). */
+static void Hats_Private(const Plane *p, const PetscReal xi[2], PetscReal N[4])
+{
+  for (PetscInt a = 0; a < p->nv; a++) {
+    const PetscReal u = a == 1 || a == 2 ? 1 : -1, v = a > 1 ? 1 : -1;
+
+    N[a] = 0.5 * (1 + u * xi[0]) * (p->nv == 2 ? 1 : 0.5 * (1 + v * xi[1]));
+  }
+}
+
+static void Point_Private(const Plane *p, const PetscReal x[4][3], const PetscReal xi[2], PetscReal y[3])
+{
+  PetscReal N[4];
+
+  Hats_Private(p, xi, N);
+  for (int c = 0; c < 3; c++) {
+    y[c] = 0;
+    for (PetscInt a = 0; a < p->nv; a++) y[c] += N[a] * x[a][c];
+  }
+}
+
+/* The place on the facet, taken for a parallelogram, that is nearest to y along its sides. */
+static void Locate_Private(const Plane *p, const PetscReal y[3], PetscReal xi[2])
+{
+  PetscReal g[2][3] = {{0, 0, 0}, {0, 0, 0}}, r[3], a[2][2], b[2], det;
+
+  for (int c = 0; c < 3; c++) {
+    r[c] = y[c];
+    for (PetscInt k = 0; k < p->nv; k++) {
+      r[c] -= p->x[k][c] / (PetscReal)p->nv;
+      g[0][c] += (k == 1 || k == 2 ? 1 : -1) * p->x[k][c] / (PetscReal)p->nv;
+      g[1][c] += (k > 1 ? 1 : -1) * p->x[k][c] / (PetscReal)p->nv;
+    }
+  }
+  for (int i = 0; i < 2; i++) {
+    b[i] = Dot3(g[i], r);
+    for (int j = 0; j < 2; j++) a[i][j] = Dot3(g[i], g[j]);
+  }
+  det   = a[0][0] * a[1][1] - a[0][1] * a[1][0];
+  xi[0] = p->dim == 2 ? b[0] / a[0][0] : (b[0] * a[1][1] - b[1] * a[0][1]) / det;
+  xi[1] = p->dim == 2 ? 0 : (b[1] * a[0][0] - b[0] * a[1][0]) / det;
+  for (int i = 0; i < 2; i++) xi[i] = PetscMax(-1, PetscMin(1, xi[i]));
+}
+
+/* Unit direction of the nonmortar facet's rays at its corners, as the kernel in use has it. */
+static void Directions_Private(ContactPair pair, const ContactSurface *s, PetscInt facet, const Plane *p, PetscReal d[4][3])
+{
+  for (PetscInt a = 0; a < p->nv; a++) {
+    const PetscInt node = s->facets[p->nv * facet + a];
+
+    for (PetscInt c = 0; c < 3; c++) {
+      if (pair->rays)
+        d[a][c] = pair->ray->d[3 * node + c];
+      else
+        d[a][c] = p->dim == 3 ? p->axis[2][c] : c < 2 ? pair->normal[2 * node + c] : 0;
+    }
+  }
+}
+
+/* What the part measures from xi on its facet into it, along the direction that has turned to d by now. */
+static PetscReal Across_Private(ContactHull hull, PetscInt part, const Plane *p, const PetscReal xi[2], const PetscReal d[3], PetscReal most)
+{
+  PetscReal X[3], D[3] = {0, 0, 0};
+
+  Point_Private(p, p->X, xi, X);
+  for (PetscInt k = 0; k < p->dim; k++)
+    for (int c = 0; c < 3; c++) D[c] += Dot3(p->axis[k], d) * p->axis0[k][c];
+  return ContactHullAcross(hull, part, X, D, most);
+}
+
+/* The ray from xi: its start, its unit direction n; returns the square of the distance at which it passes y. */
+static PetscReal Pass_Private(const Plane *s, const PetscReal d[4][3], const PetscReal xi[2], const PetscReal y[3], PetscReal x[3], PetscReal n[3])
+{
+  PetscReal r[3], length, along;
+
+  Point_Private(s, d, xi, n);
+  Point_Private(s, s->x, xi, x);
+  length = PetscSqrtReal(Dot3(n, n));
+  for (int c = 0; c < 3; c++) n[c] /= length, r[c] = y[c] - x[c];
+  along = Dot3(r, n);
+  return Dot3(r, r) - along * along;
+}
+
+/* The place whose ray passes nearest to y, by trial, since rays may cross behind the facet; its ray. */
+static void Aim_Private(const Plane *s, const PetscReal d[4][3], const PetscReal y[3], PetscReal xi[2], PetscReal x[3], PetscReal n[3])
+{
+  PetscReal least = PETSC_MAX_REAL, step = 1;
+
+  xi[0] = xi[1] = 0;
+  for (int level = 0; level < LEVELS; level++, step *= 0.5) {
+    const PetscReal from[2] = {xi[0], xi[1]};
+
+    for (int k = 0; k < (s->dim == 2 ? 3 : 9); k++) {
+      const PetscReal at[2]    = {PetscMax(-1, PetscMin(1, from[0] + (k % 3 - 1) * step)),
+                               s->dim == 2 ? 0 : PetscMax(-1, PetscMin(1, from[1] + (k / 3 - 1) * step))};
+      const PetscReal distance = Pass_Private(s, d, at, y, x, n);
+
+      if (distance < least) least = distance, xi[0] = at[0], xi[1] = at[1];
+    }
+  }
+  (void)Pass_Private(s, d, xi, y, x, n);
+}
+
+PetscBool ContactBehind(ContactPair pair, const ContactSurface *nonmortar, PetscInt facet, const ContactSurface *mortar, PetscInt other)
+{
+  const PetscReal centre[2] = {0, 0}, *N;
+  PetscReal       d[4][3], n[3], x[3], middle[3], r[3], xi[2], eta[2], depth, own;
+  Plane           s, m;
+
+  if (!pair->hull) return PETSC_FALSE;
+  Plane_Private(nonmortar, facet, &s);
+  Plane_Private(mortar, other, &m);
+  Directions_Private(pair, nonmortar, facet, &s, d);
+  Point_Private(&m, m.x, centre, middle);
+  N = m.axis[m.dim - 1];
+  Aim_Private(&s, d, middle, xi, x, n);
+  for (int c = 0; c < 3; c++) r[c] = middle[c] - x[c];
+  depth = -Dot3(r, N) / Dot3(n, N);
+  if (!(Dot3(n, N) < -CONTACT_GRAZE) || !(depth > 0)) return PETSC_FALSE;
+  for (int c = 0; c < 3; c++) x[c] -= depth * n[c], r[c] = -n[c];
+  own = Across_Private(pair->hull, pair->part[0][facet], &s, xi, r, 2 * depth);
+  if (own >= 2 * depth) return PETSC_FALSE;
+  Locate_Private(&m, x, eta);
+  return (PetscBool)(Across_Private(pair->hull, pair->part[1][other], &m, eta, n, 2 * depth - own) < 2 * depth - own);
+}
+
+PetscErrorCode ContactPairSetHull(ContactPair pair, ContactHull hull, const PetscInt part[], const PetscInt mortar_part[])
+{
+  PetscFunctionBegin;
+  pair->hull    = hull;
+  pair->part[0] = part;
+  pair->part[1] = mortar_part;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

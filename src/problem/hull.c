@@ -1,0 +1,75 @@
+/* All outer facets of the mesh at their reference positions, and which of them belong together: for the search, which asks how thick bodies are. */
+#include "problemimpl.h"
+
+/* Parts: coarse cells that share vertices. */
+static PetscErrorCode Parts_Private(const CoarseMesh *mesh, PetscInt part[])
+{
+  const PetscInt corners = 1 << mesh->dim;
+  PetscInt      *root;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(mesh->num_vertices, &root));
+  for (PetscInt v = 0; v < mesh->num_vertices; ++v) root[v] = v;
+  for (PetscInt i = 0; i < corners * mesh->num_cells; ++i) {
+    const PetscInt a = GroupRoot(root, mesh->cell_vertices[i]), b = GroupRoot(root, mesh->cell_vertices[i - i % corners]);
+    root[PetscMax(a, b)] = PetscMin(a, b);
+  }
+  for (PetscInt c = 0; c < mesh->num_cells; ++c) part[c] = GroupRoot(root, mesh->cell_vertices[corners * c]);
+  PetscCall(PetscFree(root));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode HullCreate_Private(Problem p)
+{
+  const CoarseMesh   *mesh;
+  const ForestTables *t;
+  const PetscInt      dim = p->dim, corners = dim == 2 ? 2 : 4;
+  PetscInt            num = 0, *part;
+  PetscBool          *inner;
+  PetscReal          *X;
+
+  PetscFunctionBegin;
+  PetscCall(ForestGetCoarse(p->forest, &mesh));
+  PetscCall(ForestGetTables(p->forest, &t));
+  const PetscInt first = t->first[dim - 1], last = t->first[dim];
+  PetscCall(PetscMalloc1(mesh->num_cells, &p->part));
+  PetscCall(Parts_Private(mesh, p->part));
+  PetscCall(PetscCalloc1(last - first, &inner));
+  for (PetscInt f = first; f < last; ++f) {
+    const PetscInt *leaf = t->facet_leaf + 2 * (f - first);
+    if (leaf[0] < 0 || leaf[1] >= 0 || t->parent[f] >= first) inner[f - first] = PETSC_TRUE;
+    if (t->parent[f] >= first) inner[t->parent[f] - first] = PETSC_TRUE; /* finer cells on its other side */
+  }
+  for (PetscInt f = first; f < last; ++f) num += !inner[f - first];
+  PetscCall(PetscMalloc1(num, &part));
+  PetscCall(PetscMalloc1(dim * corners * num, &X));
+  num = 0;
+  for (PetscInt f = first; f < last; ++f) {
+    const PetscInt leaf = t->facet_leaf[2 * (f - first)];
+    if (inner[f - first]) continue;
+    PetscCall(SurfaceCorners_Private(p->forest, f, leaf, X + dim * corners * num));
+    part[num++] = p->part[t->leaf_root[leaf]];
+  }
+  PetscCall(PetscFree(inner));
+  PetscCall(ContactHullCreate(dim, num, part, X, &p->hull));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode HullDestroy_Private(Problem p)
+{
+  PetscFunctionBegin;
+  PetscCall(ContactHullDestroy(&p->hull));
+  PetscCall(PetscFree(p->part));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode HullParts_Private(Problem p, const Surface *s, PetscInt **part)
+{
+  const ForestTables *t;
+
+  PetscFunctionBegin;
+  PetscCall(ForestGetTables(p->forest, &t));
+  PetscCall(PetscMalloc1(s->num_facets, part));
+  for (PetscInt f = 0; f < s->num_facets; ++f) (*part)[f] = p->part[t->leaf_root[s->facet_leaf[f]]];
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
