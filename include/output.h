@@ -104,7 +104,8 @@ PetscErrorCode OutputExtend(PetscInt dim, PetscInt order, PetscInt pieces, Petsc
 /* ---- probes (output/probe.c) --------------------------------------------------------------------------------------------- */
 
 /* The scene's probes, found once in the coarse mesh (exact geometry): places survive adaptation. A point outside all cells by more than 1 % of a cell is an
-   input error that names the probe; one that lies outside by less is moved onto the cell. Not collective (input is replicated). */
+   input error that names the probe; one that lies outside by less is moved onto the cell. Where several bodies meet and the probe names none, the first one's,
+   and a note. Collective. */
 typedef struct _p_Probes *Probes;
 PetscErrorCode            ProbesCreate(const SceneData *, Forest, Probes *);
 PetscErrorCode            ProbesDestroy(Probes *);

@@ -39,6 +39,7 @@ typedef struct {
 typedef struct {
   char      name[MORTISE_NAME];
   PetscReal X[3];
+  char      body[MORTISE_NAME]; /* it is a point of this body; "": of any */
 } ProbeSpec;
 
 typedef struct {

@@ -3,6 +3,7 @@
 
 #define PROBE_OUTSIDE 1e-2 /* share of a coarse cell by which a point may lie outside: on curved edges the mesh is not the user's drawing */
 #define PROBE_NEWTON 30
+#define TOUCHING 1e-6 /* share of a coarse cell: the point is in it, or on its side */
 
 struct _p_Probes {
   PetscInt num;
@@ -101,6 +102,51 @@ static void Invert_Private(const CoarseMesh *mesh, PetscInt cell, const PetscRea
 
 /* ---- places ------------------------------------------------------------------------------------------------------------- */
 
+/* Number of the body that a probe is to be in, -1: any. */
+static PetscErrorCode Body_Private(const ProbeSpec *spec, const CoarseMesh *mesh, PetscInt *body)
+{
+  PetscFunctionBegin;
+  *body = -1;
+  for (PetscInt b = 0; b < mesh->num_bodies && spec->body[0]; ++b)
+    if (!strcmp(mesh->body_name[b], spec->body)) *body = b;
+  PetscCheckInput(*body >= 0 || !spec->body[0], "probe.%s.body: the mesh has no body '%s'", spec->name, spec->body);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The cell nearest to a probe, the first of several. */
+static PetscErrorCode Find_Private(Probes p, PetscInt probe, const ProbeSpec *spec, const CoarseMesh *mesh)
+{
+  PetscReal best = PETSC_MAX_REAL;
+  PetscInt  body;
+
+  PetscFunctionBegin;
+  PetscCall(Body_Private(spec, mesh, &body));
+  for (PetscInt cell = 0; cell < mesh->num_cells && best > 0; ++cell) {
+    PetscReal xi[3], outside;
+    if ((body >= 0 && mesh->cell_body[cell] != body) || !Near_Private(mesh, cell, spec->X)) continue;
+    Invert_Private(mesh, cell, spec->X, xi, &outside);
+    if (outside >= best) continue;
+    best                 = outside;
+    p->place[probe].root = cell;
+    for (PetscInt d = 0; d < 3; ++d) p->place[probe].xi[d] = PetscMax(0., PetscMin(1., xi[d]));
+  }
+  PetscCheckInput(best < PROBE_OUTSIDE, "probe.%s: the point (%g, %g, %g) lies outside %s%s", spec->name, (double)spec->X[0], (double)spec->X[1],
+                  (double)spec->X[2], spec->body[0] ? "body " : "all bodies", spec->body);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Another body that has the point too, -1: none. */
+static PetscInt Also_Private(const ProbeSpec *spec, const CoarseMesh *mesh, PetscInt body)
+{
+  for (PetscInt cell = 0; cell < mesh->num_cells; ++cell) {
+    PetscReal xi[3], outside;
+    if (mesh->cell_body[cell] == body || !Near_Private(mesh, cell, spec->X)) continue;
+    Invert_Private(mesh, cell, spec->X, xi, &outside);
+    if (outside <= TOUCHING) return mesh->cell_body[cell];
+  }
+  return -1;
+}
+
 PetscErrorCode ProbesCreate(const SceneData *scene, Forest forest, Probes *probes)
 {
   const CoarseMesh *mesh;
@@ -114,18 +160,11 @@ PetscErrorCode ProbesCreate(const SceneData *scene, Forest forest, Probes *probe
   PetscCall(PetscCalloc1(p->num, &p->place));
   for (PetscInt i = 0; i < p->num; ++i) {
     const ProbeSpec *spec = &scene->probes[i];
-    PetscReal        best = PETSC_MAX_REAL;
-    for (PetscInt cell = 0; cell < mesh->num_cells && best > 0; ++cell) {
-      PetscReal xi[3], outside;
-      if (!Near_Private(mesh, cell, spec->X)) continue;
-      Invert_Private(mesh, cell, spec->X, xi, &outside);
-      if (outside >= best) continue;
-      best             = outside;
-      p->place[i].root = cell;
-      for (PetscInt d = 0; d < 3; ++d) p->place[i].xi[d] = PetscMax(0., PetscMin(1., xi[d]));
-    }
-    PetscCheckInput(best < PROBE_OUTSIDE, "probe.%s: the point (%g, %g, %g) lies outside all bodies", spec->name, (double)spec->X[0], (double)spec->X[1],
-                    (double)spec->X[2]);
+    PetscCall(Find_Private(p, i, spec, mesh));
+    const PetscInt body = mesh->cell_body[p->place[i].root], also = spec->body[0] ? -1 : Also_Private(spec, mesh, body);
+    if (also < 0) continue;
+    PetscCall(PetscPrintf(ForestComm(forest), "note: bodies %s and %s meet at probe %s; it is a point of %s unless probe.%s.body says otherwise\n",
+                          mesh->body_name[body], mesh->body_name[also], spec->name, mesh->body_name[body], spec->name));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -152,6 +152,7 @@ const Option Options[] = {
      SCENE(data.output.checkpoint)},
 
     {"probe.<name>.<axis>", KEY_REAL, "length", "0", ANY, "reference point whose fields go to history.csv and summary.json", PROBE(spec.X)},
+    {"probe.<name>.body", KEY_TEXT, "", "", "", "the body it is a point of, where several touch; default: the first that has it", PROBE(spec.body)},
     {NULL, KEY_TEXT, NULL, NULL, NULL, NULL, NOWHERE},
 };
 

@@ -152,8 +152,8 @@ PetscErrorCode SceneView(Scene s, Forest forest, PetscViewer viewer)
   else
     PetscCall(PetscViewerASCIIPrintf(viewer, "  no adaptation\n"));
   for (PetscInt i = 0; i < d->num_probes; ++i)
-    PetscCall(PetscViewerASCIIPrintf(viewer, "  probe %s at (%.6g, %.6g, %.6g)\n", d->probes[i].name, (double)d->probes[i].X[0], (double)d->probes[i].X[1],
-                                     (double)d->probes[i].X[2]));
+    PetscCall(PetscViewerASCIIPrintf(viewer, "  probe %s at (%.6g, %.6g, %.6g)%s%s\n", d->probes[i].name, (double)d->probes[i].X[0], (double)d->probes[i].X[1],
+                                     (double)d->probes[i].X[2], d->probes[i].body[0] ? " of body " : "", d->probes[i].body));
   PetscCall(PetscViewerASCIIPrintf(viewer, "  output %s\n", d->output.directory));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -154,16 +154,16 @@ def test_dead_load_in_one_step(run, ranks):
 
 
 def test_pin_in_its_bore(run):
-    """A pin of radius 5 in a bore of 5.1, tons of load on a mesh of 12 faces around: chords of linear faces are off the arcs by half the clearance, contact is at corners, the
-    estimate is that of no answer at all, and finer meshes find no equilibrium; the program says so, and what to take. Curved faces: one solve."""
-    linear = run("tests/verify/scenes/lug.yml", "-output_fields", "false", timeout=600)
+    """A pin of radius 5 in a bore of 5.1, tons of load on a mesh of 12 faces around: chords of linear faces are off the arcs by half the clearance, contact is at corners, and the
+    estimate is that of no answer at all; refined it comes down (without the compliance of what slivers of faces hold, finer meshes found no equilibrium). Curved faces: one solve."""
+    linear = run("tests/verify/scenes/lug.yml", "-output_fields", "false", "-adapt_max_passes", 4)
     curved = run("tests/verify/scenes/lug.yml", "-output_fields", "false", "-contact_bearing_order", "full")
     finer = run("tests/verify/scenes/lug.yml", "-output_fields", "false", "-contact_bearing_order", "full", "-adapt_tolerance", 0.05)
     for result in (linear, curved, finer):
         print({key: result.summary[key] for key in ("dofs", "newton_iterations", "estimated_error", "energy", "adapt_stop")})
-    assert linear.returncode == 2 and linear.summary["status"] == "inaccurate" and linear.summary["estimated_error"] > 0.8
-    assert linear.summary["adapt_stop"] == "no equilibrium found on a finer mesh" and linear.summary["adapt_stop"] in linear.summary["reason"]
-    assert "contact.bearing.order: full" in linear.stdout
+    errors = [row["estimated_error"] for row in linear.adapt]
+    assert linear.returncode == 0 and len(errors) == 5 and errors[0] > 0.8 and errors[-1] < 0.35, linear
+    assert linear.summary["newton_iterations"] <= 30 and "adapt.tolerance 0.1 was not reached (max_passes)" in linear.summary["reason"], linear
     for result, tolerance in ((curved, 0.1), (finer, 0.05)):
         assert result.returncode == 0 and result.summary["estimated_error"] < tolerance and result.summary["newton_iterations"] <= 15 and "note:" not in result.stdout, result
     assert abs(curved.summary["energy"] / finer.summary["energy"] - 1) < 0.1**2

@@ -5,6 +5,7 @@ import re
 import numpy as np
 import pytest
 
+from boxmesh import linspace, write
 from contactkit import surface
 from test_hostile import block, blocks
 
@@ -104,6 +105,19 @@ def test_pairs_in_vain(run, tmp_path, y, words):
     result = run("s.yml", "-boundary_y1_u_displacement_y", y, text=text)
     note = re.findall("note: the sides of pair pair have not touched; (.*)\n", result.stdout)
     assert result.returncode == 0 and len(note) == (words is not None) and (not note or words in note[0]), result
+
+
+def test_probe_where_two_bodies_meet(run, tmp_path):
+    """The lower block stands, the upper one rises: a note, and the body that the scene names."""
+    text = blocks(tmp_path, pair={"nonmortar": "y0_u", "mortar": "y1_l"})
+    write(tmp_path / "blocks.msh", [linspace(0, 1, 2)] * 2, [lambda x, y: (x, y), lambda x, y: (x, y + 1 + 2e-9)], side=lambda name, centre, b: f"{name}_{'lu'[b]}",
+          body=lambda centre, b: "lu"[b])
+    options = ("-boundary_y1_u_displacement_y", 0.1, "-probe_p_x", 0.3, "-probe_p_y", 1)
+    result = run("s.yml", *options, text=text)
+    assert "note: bodies l and u meet at probe p; it is a point of l unless probe.p.body says otherwise" in result.stdout and result.summary["probe"]["p"]["displacement"][1] == pytest.approx(0, abs=1e-9), result
+    result = run("s.yml", *options, "-probe_p_body", "u", text=text)
+    assert "meet at" not in result.stdout and result.summary["probe"]["p"]["displacement"][1] == pytest.approx(0.1), result
+    assert "probe.p.body: the mesh has no body 'v'" in run("s.yml", *options, "-probe_p_body", "v", text=text).stderr
 
 
 def test_check_says_where(run, tmp_path):
