@@ -150,6 +150,17 @@ static void Aim_Private(const Plane *s, const PetscReal d[4][3], const PetscReal
   (void)Pass_Private(s, d, xi, y, x, n);
 }
 
+/* Is all of s in front of m? Then no ray of it meets m at a depth. */
+static PetscBool IsInFront_Private(const Plane *s, const PetscReal middle[3], const PetscReal N[3])
+{
+  for (PetscInt a = 0; a < s->nv; a++) {
+    const PetscReal r[3] = {middle[0] - s->x[a][0], middle[1] - s->x[a][1], middle[2] - s->x[a][2]};
+
+    if (Dot3(r, N) > 0) return PETSC_FALSE;
+  }
+  return PETSC_TRUE;
+}
+
 PetscBool ContactBehind(ContactPair pair, const ContactSurface *nonmortar, PetscInt facet, const ContactSurface *mortar, PetscInt other)
 {
   const PetscReal centre[2] = {0, 0}, *N;
@@ -159,9 +170,10 @@ PetscBool ContactBehind(ContactPair pair, const ContactSurface *nonmortar, Petsc
   if (!pair->hull) return PETSC_FALSE;
   Plane_Private(nonmortar, facet, &s);
   Plane_Private(mortar, other, &m);
-  Directions_Private(pair, nonmortar, facet, &s, d);
   Point_Private(&m, m.x, centre, middle);
   N = m.axis[m.dim - 1];
+  if (IsInFront_Private(&s, middle, N)) return PETSC_FALSE;
+  Directions_Private(pair, nonmortar, facet, &s, d);
   Aim_Private(&s, d, middle, xi, x, n);
   for (int c = 0; c < 3; c++) r[c] = middle[c] - x[c];
   depth = -Dot3(r, N) / Dot3(n, N);

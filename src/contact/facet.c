@@ -356,7 +356,6 @@ static PetscErrorCode Result_Private(const EvaluateContext *ctx, PetscInt facet,
   out->area    = w->covered;
   out->min_gap = w->moments.min_gap;
   out->dgap = out->dweight = out->push = out->hessian = out->reach = out->darea = NULL;
-  out->rim                                                                      = PETSC_FALSE;
   PetscCall(ContactSliver(ctx->pair, ctx->nonmortar, facet, &w->result, weight, &out->spring));
   out->stiffening = out->spring ? out->spring + nr : NULL;
   if (!derivatives) PetscFunctionReturn(PETSC_SUCCESS);

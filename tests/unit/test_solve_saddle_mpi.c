@@ -1,16 +1,16 @@
-/* The iterative solution of the symmetric tangent (saddle.c) where rows of multipliers are compliant (B and C < 0 in one row, as where facets of higher order
-   are covered in part) among firm ones and inactive ones: the direct solution, for compliances over nine decades. */
+/* The iterative solution of the tangent (saddle.c) where rows of multipliers are compliant (B and C in one row, as where facets are covered in part) among firm
+   ones and inactive ones: the direct solution, for compliances over nine decades, of the symmetric and of the exact form. */
 #include "patchfixture.h"
 #include "solveimpl.h"
 
-static PetscReal Solve(Saddle saddle, Mat A, Vec rhs, Vec x)
+static PetscReal Solve(Saddle saddle, Mat A, PetscBool symmetric, Vec rhs, Vec x)
 {
   PetscBool ok;
   PetscReal norm, residual;
   Vec       r;
 
   OK(VecDuplicate(rhs, &r));
-  OK(SaddleSetUp_Private(saddle, A));
+  OK(SaddleSetUp_Private(saddle, A, symmetric));
   OK(SaddleSolve_Private(saddle, rhs, 1e-12, PETSC_FALSE, x, &ok));
   assert_true(ok);
   OK(MatMult(A, x, r));
@@ -36,9 +36,10 @@ static void Direct(Mat A, Vec rhs, Vec x)
   OK(KSPDestroy(&ksp));
 }
 
-/* Every other active row of multipliers gets -compliance, relative to b D^-1 b^T of that row, on its diagonal. Returns the number of rows changed on all ranks.
+/* Every other active row of multipliers gets -compliance (exact form: +, the sign of its row), relative to b D^-1 b^T of that row, on its diagonal. Returns the
+ * number of rows changed on all ranks.
  */
-static PetscInt Soften(Patch *p, PetscReal compliance, Mat A)
+static PetscInt Soften(Patch *p, PetscBool symmetric, PetscReal compliance, Mat A)
 {
   PetscInt num_u, num_z, dim, first, last, changed = 0;
   Vec      diagonal;
@@ -62,7 +63,7 @@ static PetscInt Soften(Patch *p, PetscReal compliance, Mat A)
     }
     OK(MatRestoreRow(A, row, &num, &column, &value));
     if (own != 0 || flexible == 0) continue;
-    flexible *= -compliance;
+    flexible *= symmetric ? -compliance : compliance;
     OK(VecSetValues(diagonal, 1, &row, &flexible, INSERT_VALUES));
     ++changed;
   }
@@ -74,7 +75,7 @@ static PetscInt Soften(Patch *p, PetscReal compliance, Mat A)
   return changed;
 }
 
-static void CompliantRows(void **state)
+static void CompliantRows(PetscBool symmetric)
 {
   static const PetscReal compliance[] = {0, 1e-6, 1e-3, 1, 1e3};
   const PetscInt         n[2]         = {12, 16};
@@ -89,7 +90,7 @@ static void CompliantRows(void **state)
   p.forest = PatchForest(n);
   PatchStart(&p);
   PatchSolve(p.problem, &p.state);
-  OK(ProblemSetSymmetric(p.problem, PETSC_TRUE));
+  OK(ProblemSetSymmetric(p.problem, symmetric));
   OK(ProblemTangent(p.problem, p.state.x, p.state.pressure, NULL, &bad));
   assert_false(bad);
   OK(ProblemGetMatrix(p.problem, &A));
@@ -99,9 +100,9 @@ static void CompliantRows(void **state)
   OK(SaddleCreate_Private(p.problem, &saddle));
   for (size_t i = 0; i < sizeof(compliance) / sizeof(compliance[0]); ++i) {
     OK(MatDuplicate(A, MAT_COPY_VALUES, &soft));
-    if (compliance[i] > 0) assert_in_range(Soften(&p, compliance[i], soft), 4, 100);
+    if (compliance[i] > 0) assert_in_range(Soften(&p, symmetric, compliance[i], soft), 4, 100);
     Direct(soft, rhs, exact);
-    const PetscReal residual = Solve(saddle, soft, rhs, x);
+    const PetscReal residual = Solve(saddle, soft, symmetric, rhs, x);
     OK(VecNorm(exact, NORM_2, &norm));
     if (i == 0) firm = norm;
     if (i > 0) assert_true(PetscAbsReal(norm / firm - 1) > 1e-9); /* another problem */
@@ -118,9 +119,19 @@ static void CompliantRows(void **state)
   PatchDestroy(&p);
 }
 
+static void SymmetricForm(void **state)
+{
+  CompliantRows(PETSC_TRUE);
+}
+
+static void ExactForm(void **state)
+{
+  CompliantRows(PETSC_FALSE);
+}
+
 int main(int argc, char **argv)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(CompliantRows)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(SymmetricForm), cmocka_unit_test(ExactForm)};
   int                     failed;
 
   if (PetscInitialize(&argc, &argv, NULL, NULL)) return 2;
