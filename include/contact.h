@@ -90,7 +90,7 @@ typedef struct {
   const PetscReal *reach;        /* [num_rows] change of gt_j when the gap grows by 1 along its direction everywhere; NULL: weight */
   const PetscReal *dgap;         /* [num_rows][dim*num]; NULL unless asked, or where z vanishes and no Hessian is asked */
   const PetscReal *dweight;      /* [num_rows][dim*num] */
-  const PetscReal *push;         /* [num_rows][dim*num] force by z_j where that is not dgap: lines are held (theory (5.8)); with dgap. NULL: dgap */
+  const PetscReal *push;         /* [num_rows][dim*num] force by z_j where that is not dgap: the rim is held (theory (5.8)); with dgap. NULL: dgap */
   const PetscReal *hessian;      /* [dim*num][dim*num] derivatives of the forces (rows); NULL unless asked, or where z vanishes */
   const PetscReal *spring;       /* [num_rows] compliances K_j (ContactPairSetSoftness); NULL: none */
   const PetscReal *stiffening;   /* [num_rows] dK_j / d area; without darea dK_j / dw_j, and then forces are z_j dgap_j + z_j^2/2 stiffening_j dweight_j */

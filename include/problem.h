@@ -213,7 +213,7 @@ PetscErrorCode ProblemCreateRightSide(Problem, Vec *);
 PetscErrorCode ProblemRecover(Problem, Vec y, Vec dx);
 /* dR/dx with the stored element pressures in the geometric stiffness (NULL: consistent). When lift is given, the change of R that the remaining
    prescribed motion makes to first order is added to it, and pairs whose open gaps under pressure are still wide against their facets are linearised at
-   fixed directions. Assembles the problem's matrix; gives the symmetric form up for good when active constraints hold lines of the mortar side
+   fixed directions. Assembles the problem's matrix; gives the symmetric form up for good when active constraints hold the rim of a mortar side
    (ContactFacet.push), which has none. Collective. */
 PetscErrorCode ProblemTangent(Problem, Vec x, const PetscReal pressure[], Vec lift, PetscBool *bad);
 /* Symmetric form of the tangent: same solution, symmetric matrix, right-hand side by ProblemRightSide; its multiplier columns are exact to second order.

@@ -59,7 +59,7 @@ void ContactRows_Private(const Contact *c, PetscReal r[])
   }
 }
 
-PetscErrorCode ContactHolds_Private(Problem p, PetscBool *holds)
+PetscErrorCode ContactHoldsRims_Private(Problem p, PetscBool *holds)
 {
   PetscBool mine = PETSC_FALSE, higher = PETSC_FALSE;
 

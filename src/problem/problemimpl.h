@@ -267,8 +267,8 @@ PetscErrorCode ContactNumber_Private(Problem, PetscInt counts[]); /* multipliers
 PetscErrorCode ContactEvaluate_Private(Problem, Contact *, Vec x, const PetscReal local[], PetscBool derivatives, PetscBool hessian, PetscBool *failed);
 PetscErrorCode ContactForces_Private(Problem, Contact *, PetscReal r[]);
 void           ContactRows_Private(const Contact *, PetscReal r[]);
-/* Has the last evaluation active constraints whose forces hold lines of the mortar side (ContactFacet.push)? Collective. */
-PetscErrorCode ContactHolds_Private(Problem, PetscBool *holds);
+/* Has the last evaluation active constraints whose forces hold the rim of the mortar side (ContactFacet.push)? Collective. */
+PetscErrorCode ContactHoldsRims_Private(Problem, PetscBool *holds);
 /* tangent.c: multipliers from the unknowns of the symmetric form. dx: this rank's part of a vector. */
 void ContactScaleIncrement_Private(Problem, PetscReal dx[]);
 /* far.c: at the last evaluation, are the gaps under pressure too wide for turning directions to mean anything? Collective. */

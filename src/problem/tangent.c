@@ -327,7 +327,7 @@ PetscErrorCode ProblemTangent(Problem p, Vec x, const PetscReal pressure[], Vec 
     PetscCall(ContactEvaluate_Private(p, c, x, local, PETSC_TRUE, PETSC_TRUE, &failed));
     PetscCall(ContactPairHold(c->pair, PETSC_FALSE));
   }
-  if (p->symmetric) PetscCall(ContactHolds_Private(p, &holds));
+  if (p->symmetric) PetscCall(ContactHoldsRims_Private(p, &holds));
   if (holds) p->symmetric = PETSC_FALSE;
   PetscCall(StageEnd(STAGE_CONTACT));
   p->lifting = (PetscBool)(lift != NULL);

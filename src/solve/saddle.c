@@ -8,7 +8,7 @@
    b_j^T) / (b_j b_j^T)^2, D = diag K, the augmentation is as stiff as the mesh itself: it spoils no multigrid method and holds bodies that only contact holds.
    Right preconditioner [ M  F ] [ 0  -S  ],   M: one cycle of algebraic multigrid with rigid-body modes on K + B^T G B, S = G^-1 (active), -C (inactive):
    with exact M the Schur complement times G has eigenvalues s/(1+s) < 1, s those of G B K^-1 B^T, which are bounded below on any mesh. GMRES.
-   Where forces hold lines of the mortar side (docs/theory.md, (5.8)) the tangent has its exact form: rows of inactive nodes C = w0, and columns are nearly
+   Where forces hold the rim of a contact face (docs/theory.md, (5.8)) the tangent has its exact form: rows of inactive nodes C = w0, and columns are nearly
    multiples of rows, f_j ~ sigma_j b_j^T; then S = sigma G^-1 - C. What else is not symmetric M does not see. */
 #include "solveimpl.h"
 
