@@ -2,16 +2,18 @@
 // Slots of two kinds alternate around the stent: those around the middle (angle 0) reach to z = middle_slot, those of the ends (angle 180/slots)
 // reach from z = end_slot to the end; they overlap, and what is between them bends when the stent expands.
 DefineConstant[
-  slots = 6,           // slots around the circumference, of each kind
+  slots = 5,           // slots around the circumference, of each kind
   stent = 1.0,         // half length of the stent
   balloon = 1.15,      // of the balloon
   artery = 1.4,        // of the artery
-  middle_slot = 0.75,  // where slots of the middle end
-  end_slot = 0.25,     // where slots of the ends begin
-  width = 0.25,        // of a slot, as a share of 180/slots degrees on each side of the slot's middle line
-  round = 1,           // length of a slot's round end over half the slot's width, halfway through the wall; 1: a half circle
-  edge = 0.03,         // radius of the rounded edges of the wall
-  n = 1                // divisions of everything
+  middle_slot = 0.8,   // where slots of the middle end
+  end_slot = 0.2,      // where slots of the ends begin
+  width = 0.32,        // of a slot, as a share of 180/slots degrees on each side of the slot's middle line
+  round = 1.3,         // length of a slot's round end over half the slot's width, halfway through the wall; 1: a half circle
+  edge = 0.05,         // radius of the rounded edges of the wall; half its thickness: all round
+  n = 1,               // divisions of balloon and artery
+  fine = 2,            // of the stent: of an eighth of a slot's round end; strut and links in proportion, rounded edges are one cell wide
+  layers = 1           // through the stent's wall
 ];
 angle = Pi / slots;
 cut = width * angle; // half a slot
@@ -42,18 +44,18 @@ For i In {0:35}
       : angle - cut - (slope_a[i] > 0 ? 0 : wide / 0.6);
   h = j < 6 ? (tip + offset) * Sin(j % 3 * Pi / 4) : j == 6 || j == 8 ? 0 : j == 7 || j == 9 ? low : j > 13 || k == 1 ? up : up - wide;
   turn[] += Fabs(k * angle - a);
-  along[] += k == 0 ? middle_slot - tip + h : end_slot + tip - h;
+  height[] += k == 0 ? middle_slot - tip + h : end_slot + tip - h;
 EndFor
 quad[] = {0,1,4,3, 3,4,9,8, 8,9,7,6, 1,2,5,4, 4,5,11,10, 4,10,12,9, 9,12,13,7, 18,19,22,21, 21,22,27,26, 26,27,25,24, 19,20,23,22, 22,23,29,28, 22,28,30,27,
           27,30,31,25, 0,3,26,24, 3,8,21,26, 8,6,18,21, 10,11,15,14, 12,10,14,16, 13,12,16,17};
 num = #quad[] / 4;
 For i In {0:31}
   For j In {0:1}
-    radius = 0.55 + 0.1 * j + (1 - 2 * j) * edge * (2 - Cos(slope_a[i]) - Cos(slope_z[i]));
-    Point(100 * j + i + 1) = {radius * Cos(turn[i]), radius * Sin(turn[i]), along[i]};
+    radius = 0.55 + 0.1 * j + (1 - 2 * j) * edge * (1 - Cos(slope_a[i]) * Cos(slope_z[i]));
+    Point(100 * j + i + 1) = {radius * Cos(turn[i]), radius * Sin(turn[i]), height[i]};
   EndFor
   Line(5001 + i) = {i + 1, 101 + i};
-  Transfinite Curve {5001 + i} = n + 1;
+  Transfinite Curve {5001 + i} = layers + 1;
 EndFor
 // Curves are known by their ends p < q: 64 p + q. Two of one ellipse or of two neighbouring ones are joined in polar coordinates.
 made[] = {};
@@ -69,7 +71,9 @@ For m In {0:4 * num - 1}
   pj = p % 18;
   qj = q % 18;
   same = (p < 18) == (q < 18);
-  steps = !same ? 3 * n : pj < 10 && qj > 9 ? 2 * n : n;
+  rim = (pj < 3 && qj == pj + 3) || (pj == 6 && qj == 8) || (pj == 7 && qj == 9) || (pj == 12 && qj == 13) || (pj == 16 && qj == 17) || (pj < 14 && qj > 13);
+  across = (pj > 2 && pj < 5 && qj == pj + 5) || (pj == 10 && qj == 12) || (pj == 14 && qj == 16);
+  steps = !same ? 3 * fine : rim || across ? 1 : pj < 10 && qj > 9 ? 2 * fine : fine;
   If (made[id] == 0)
     made[id] = 1;
     For j In {0:1}
@@ -93,9 +97,9 @@ For m In {0:4 * num - 1}
             tz = (Sin(sz) - Sin(slope_z[p])) / (Sin(slope_z[q]) - Sin(slope_z[p]));
           EndIf
           a = turn[p] + ta * (turn[q] - turn[p]);
-          z = along[p] + tz * (along[q] - along[p]);
+          z = height[p] + tz * (height[q] - height[p]);
         EndIf
-        radius = 0.55 + 0.1 * j + (1 - 2 * j) * edge * (2 - Cos(sa) - Cos(sz));
+        radius = 0.55 + 0.1 * j + (1 - 2 * j) * edge * (1 - Cos(sa) * Cos(sz));
         way[i] = 100000 * (j + 1) + 8 * id + i;
         Point(way[i]) = {radius * Cos(a), radius * Sin(a), z};
       EndFor
@@ -135,7 +139,7 @@ For i In {0:4}
   Point(300 + i) = {r[i], 0, 0};
   Point(310 + i) = {r[i], 0, l};
   Line(320 + i) = {300 + i, 310 + i};
-  Transfinite Curve {320 + i} = (i < 2 ? 8 : 9) * n + 1;
+  Transfinite Curve {320 + i} = (i < 2 ? 8 : 11) * n + 1;
 EndFor
 For i In {0:3}
   If (i != 1)
