@@ -40,9 +40,11 @@ static int MoveAll_Private(const char *from, const char *to)
   return failed ? failed : Move_Private(from, "history.csv", to);
 }
 
-static int Drop_Private(const char *aside)
+static int Drop_Private(const char *directory, const char *aside)
 {
   const int failed = MoveAll_Private(aside, NULL);
+
+  (void)directory;
   return failed ? failed : rmdir(aside) && errno != ENOENT && errno != ENOTEMPTY && errno != EEXIST ? errno : 0;
 }
 
@@ -53,7 +55,7 @@ static int SetAside_Private(const char *directory, const char *aside)
   int         failed = 0;
 
   (void)snprintf(whole, sizeof(whole), "%s/history.csv", aside);
-  if (!stat(whole, &info)) failed = Drop_Private(aside);
+  if (!stat(whole, &info)) failed = Drop_Private(directory, aside);
   if (!failed && mkdir(aside, 0777) && errno != EEXIST) failed = errno;
   return failed ? failed : MoveAll_Private(directory, aside);
 }
@@ -65,7 +67,8 @@ static PetscErrorCode Name_Private(const char *directory, char aside[PETSC_MAX_P
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode OutputSetAside(MPI_Comm comm, const char *directory)
+/* One rank acts, all know whether it could. */
+static PetscErrorCode Act_Private(MPI_Comm comm, const char *directory, int (*act)(const char *directory, const char *aside), const char *what)
 {
   char        aside[PETSC_MAX_PATH_LEN];
   PetscMPIInt rank;
@@ -74,9 +77,16 @@ PetscErrorCode OutputSetAside(MPI_Comm comm, const char *directory)
   PetscFunctionBegin;
   PetscCall(Name_Private(directory, aside));
   PetscCallMPI(MPI_Comm_rank(comm, &rank));
-  if (rank == 0) failed = SetAside_Private(directory, aside);
+  if (rank == 0) failed = act(directory, aside);
   PetscCallMPI(MPI_Bcast(&failed, 1, MPI_INT, 0, comm));
-  PetscCheck(!failed, comm, PETSC_ERR_FILE_WRITE, "Cannot move results to %s: %s", aside, strerror(failed));
+  PetscCheck(!failed, comm, PETSC_ERR_FILE_WRITE, "Cannot %s %s: %s", what, aside, strerror(failed));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode OutputSetAside(MPI_Comm comm, const char *directory)
+{
+  PetscFunctionBegin;
+  PetscCall(Act_Private(comm, directory, SetAside_Private, "move results to"));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -97,16 +107,8 @@ PetscErrorCode OutputFinishAside(MPI_Comm comm, const char *directory, PetscInt 
 
 PetscErrorCode OutputDropAside(MPI_Comm comm, const char *directory)
 {
-  char        aside[PETSC_MAX_PATH_LEN];
-  PetscMPIInt rank;
-  int         failed = 0;
-
   PetscFunctionBegin;
-  PetscCall(Name_Private(directory, aside));
-  PetscCallMPI(MPI_Comm_rank(comm, &rank));
-  if (rank == 0) failed = Drop_Private(aside);
-  PetscCallMPI(MPI_Bcast(&failed, 1, MPI_INT, 0, comm));
-  PetscCheck(!failed, comm, PETSC_ERR_FILE_WRITE, "Cannot remove %s: %s", aside, strerror(failed));
+  PetscCall(Act_Private(comm, directory, Drop_Private, "remove"));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
