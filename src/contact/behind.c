@@ -9,12 +9,6 @@
 
 enum { LEVELS = 6 }; /* of the search for the ray to the middle of the mortar facet: to 1/32 of the facet */
 
-/* A facet by its corners: now and at the reference positions, axes (the last one the outward normal). */
-typedef struct {
-  PetscInt  dim, nv;
-  PetscReal x[4][3], X[4][3], axis[3][3], axis0[3][3];
-} Plane;
-
 static void Axes_Private(PetscInt dim, const PetscReal x[4][3], PetscReal axis[3][3])
 {
   static const PetscInt node[4] = {0, 1, 2, 3};
@@ -31,13 +25,14 @@ static void Axes_Private(PetscInt dim, const PetscReal x[4][3], PetscReal axis[3
   if (dim == 3) Cross3(n, axis[0], axis[1]);
 }
 
-static void Plane_Private(const ContactSurface *s, PetscInt facet, Plane *p)
+static void Corners_Private(const ContactSurface *s, PetscInt facet, FacetCorners *p)
 {
   const PetscInt dim = p->dim = s->dim;
 
   p->nv = dim == 2 ? 2 : 4;
   memset(p->x, 0, sizeof(p->x));
   memset(p->X, 0, sizeof(p->X));
+  memset(p->d, 0, sizeof(p->d));
   for (PetscInt a = 0; a < p->nv; a++)
     for (PetscInt c = 0; c < dim; c++) {
       p->x[a][c] = s->x[dim * s->facets[p->nv * facet + a] + c];
@@ -47,29 +42,24 @@ static void Plane_Private(const ContactSurface *s, PetscInt facet, Plane *p)
   Axes_Private(dim, p->X, p->axis0);
 }
 
-/* Hats at xi in [-1, 1]^(dim - 1). */
-static void Hats_Private(const Plane *p, const PetscReal xi[2], PetscReal N[4])
+/* Hats at xi in [-1, 1]^(dim - 1); those of corners that edges do not have are 0. */
+static void Hats_Private(const FacetCorners *p, const PetscReal xi[2], PetscReal N[4])
 {
-  for (PetscInt a = 0; a < p->nv; a++) {
-    const PetscReal u = a == 1 || a == 2 ? 1 : -1, v = a > 1 ? 1 : -1;
+  const PetscReal low = p->nv == 2 ? 1 : 0.5 * (1 - xi[1]), high = p->nv == 2 ? 0 : 0.5 * (1 + xi[1]);
 
-    N[a] = 0.5 * (1 + u * xi[0]) * (p->nv == 2 ? 1 : 0.5 * (1 + v * xi[1]));
-  }
+  N[0] = 0.5 * (1 - xi[0]) * low;
+  N[1] = 0.5 * (1 + xi[0]) * low;
+  N[2] = 0.5 * (1 + xi[0]) * high;
+  N[3] = 0.5 * (1 - xi[0]) * high;
 }
 
-static void Point_Private(const Plane *p, const PetscReal x[4][3], const PetscReal xi[2], PetscReal y[3])
+static void Sum_Private(const PetscReal x[4][3], const PetscReal N[4], PetscReal y[3])
 {
-  PetscReal N[4];
-
-  Hats_Private(p, xi, N);
-  for (int c = 0; c < 3; c++) {
-    y[c] = 0;
-    for (PetscInt a = 0; a < p->nv; a++) y[c] += N[a] * x[a][c];
-  }
+  for (int c = 0; c < 3; c++) y[c] = N[0] * x[0][c] + N[1] * x[1][c] + N[2] * x[2][c] + N[3] * x[3][c];
 }
 
 /* The place on the facet, taken for a parallelogram, that is nearest to y along its sides. */
-static void Locate_Private(const Plane *p, const PetscReal y[3], PetscReal xi[2])
+static void Locate_Private(const FacetCorners *p, const PetscReal y[3], PetscReal xi[2])
 {
   PetscReal g[2][3] = {{0, 0, 0}, {0, 0, 0}}, r[3], a[2][2], b[2], det;
 
@@ -92,38 +82,40 @@ static void Locate_Private(const Plane *p, const PetscReal y[3], PetscReal xi[2]
 }
 
 /* Unit direction of the nonmortar facet's rays at its corners, as the kernel in use has it. */
-static void Directions_Private(ContactPair pair, const ContactSurface *s, PetscInt facet, const Plane *p, PetscReal d[4][3])
+static void Directions_Private(ContactPair pair, const ContactSurface *s, PetscInt facet, FacetCorners *p)
 {
   for (PetscInt a = 0; a < p->nv; a++) {
     const PetscInt node = s->facets[p->nv * facet + a];
 
     for (PetscInt c = 0; c < 3; c++) {
       if (pair->rays)
-        d[a][c] = pair->ray->d[3 * node + c];
+        p->d[a][c] = pair->ray->d[3 * node + c];
       else
-        d[a][c] = p->dim == 3 ? p->axis[2][c] : c < 2 ? pair->normal[2 * node + c] : 0;
+        p->d[a][c] = p->dim == 3 ? p->axis[2][c] : c < 2 ? pair->normal[2 * node + c] : 0;
     }
   }
 }
 
 /* What the part measures from xi on its facet into it, along the direction that has turned to d by now. */
-static PetscReal Across_Private(ContactHull hull, PetscInt part, const Plane *p, const PetscReal xi[2], const PetscReal d[3], PetscReal most)
+static PetscReal Across_Private(ContactHull hull, PetscInt part, const FacetCorners *p, const PetscReal xi[2], const PetscReal d[3], PetscReal most)
 {
-  PetscReal X[3], D[3] = {0, 0, 0};
+  PetscReal X[3], N[4], D[3] = {0, 0, 0};
 
-  Point_Private(p, p->X, xi, X);
+  Hats_Private(p, xi, N);
+  Sum_Private(p->X, N, X);
   for (PetscInt k = 0; k < p->dim; k++)
     for (int c = 0; c < 3; c++) D[c] += Dot3(p->axis[k], d) * p->axis0[k][c];
   return ContactHullAcross(hull, part, X, D, most);
 }
 
 /* The ray from xi: its start, its unit direction n; returns the square of the distance at which it passes y. */
-static PetscReal Pass_Private(const Plane *s, const PetscReal d[4][3], const PetscReal xi[2], const PetscReal y[3], PetscReal x[3], PetscReal n[3])
+static PetscReal Pass_Private(const FacetCorners *s, const PetscReal xi[2], const PetscReal y[3], PetscReal x[3], PetscReal n[3])
 {
-  PetscReal r[3], length, along;
+  PetscReal r[3], N[4], length, along;
 
-  Point_Private(s, d, xi, n);
-  Point_Private(s, s->x, xi, x);
+  Hats_Private(s, xi, N);
+  Sum_Private(s->d, N, n);
+  Sum_Private(s->x, N, x);
   length = PetscSqrtReal(Dot3(n, n));
   for (int c = 0; c < 3; c++) n[c] /= length, r[c] = y[c] - x[c];
   along = Dot3(r, n);
@@ -131,7 +123,7 @@ static PetscReal Pass_Private(const Plane *s, const PetscReal d[4][3], const Pet
 }
 
 /* The place whose ray passes nearest to y, by trial, since rays may cross behind the facet; its ray. */
-static void Aim_Private(const Plane *s, const PetscReal d[4][3], const PetscReal y[3], PetscReal xi[2], PetscReal x[3], PetscReal n[3])
+static void Aim_Private(const FacetCorners *s, const PetscReal y[3], PetscReal xi[2], PetscReal x[3], PetscReal n[3])
 {
   PetscReal least = PETSC_MAX_REAL, step = 1;
 
@@ -142,17 +134,25 @@ static void Aim_Private(const Plane *s, const PetscReal d[4][3], const PetscReal
     for (int k = 0; k < (s->dim == 2 ? 3 : 9); k++) {
       const PetscReal at[2]    = {PetscMax(-1, PetscMin(1, from[0] + (k % 3 - 1) * step)),
                                s->dim == 2 ? 0 : PetscMax(-1, PetscMin(1, from[1] + (k / 3 - 1) * step))};
-      const PetscReal distance = Pass_Private(s, d, at, y, x, n);
+      const PetscReal distance = Pass_Private(s, at, y, x, n);
 
       if (distance < least) least = distance, xi[0] = at[0], xi[1] = at[1];
     }
   }
-  (void)Pass_Private(s, d, xi, y, x, n);
+  (void)Pass_Private(s, xi, y, x, n);
 }
 
-/* Is all of s in front of m? Then no ray of it meets m at a depth. */
-static PetscBool IsInFront_Private(const Plane *s, const PetscReal middle[3], const PetscReal N[3])
+/* Is all of s in front of the mortar facet? Then no ray of it meets that one at a depth. middle: of the mortar facet. */
+static PetscBool IsInFront_Private(const FacetCorners *s, const ContactSurface *mortar, PetscInt other, PetscReal middle[3])
 {
+  const PetscInt *node = mortar->facets + s->nv * other;
+  PetscReal       N[3];
+
+  ContactFacetVector(s->dim, mortar->x, node, N);
+  for (PetscInt c = 0; c < 3; c++) {
+    middle[c] = 0;
+    for (PetscInt a = 0; c < s->dim && a < s->nv; a++) middle[c] += mortar->x[s->dim * node[a] + c] / (PetscReal)s->nv;
+  }
   for (PetscInt a = 0; a < s->nv; a++) {
     const PetscReal r[3] = {middle[0] - s->x[a][0], middle[1] - s->x[a][1], middle[2] - s->x[a][2]};
 
@@ -161,25 +161,28 @@ static PetscBool IsInFront_Private(const Plane *s, const PetscReal middle[3], co
   return PETSC_TRUE;
 }
 
-PetscBool ContactBehind(ContactPair pair, const ContactSurface *nonmortar, PetscInt facet, const ContactSurface *mortar, PetscInt other)
+void ContactCorners(ContactPair pair, const ContactSurface *nonmortar, PetscInt facet, FacetCorners *s)
 {
-  const PetscReal centre[2] = {0, 0}, *N;
-  PetscReal       d[4][3], n[3], x[3], middle[3], r[3], xi[2], eta[2], depth, own;
-  Plane           s, m;
+  if (!pair->hull) return;
+  Corners_Private(nonmortar, facet, s);
+  Directions_Private(pair, nonmortar, facet, s);
+}
 
-  if (!pair->hull) return PETSC_FALSE;
-  Plane_Private(nonmortar, facet, &s);
-  Plane_Private(mortar, other, &m);
-  Point_Private(&m, m.x, centre, middle);
+PetscBool ContactBehind(ContactPair pair, PetscInt facet, const FacetCorners *s, const ContactSurface *mortar, PetscInt other)
+{
+  PetscReal        n[3], x[3], middle[3], r[3], xi[2], eta[2], depth, own;
+  const PetscReal *N;
+  FacetCorners     m;
+
+  if (!pair->hull || IsInFront_Private(s, mortar, other, middle)) return PETSC_FALSE;
+  Corners_Private(mortar, other, &m);
   N = m.axis[m.dim - 1];
-  if (IsInFront_Private(&s, middle, N)) return PETSC_FALSE;
-  Directions_Private(pair, nonmortar, facet, &s, d);
-  Aim_Private(&s, d, middle, xi, x, n);
+  Aim_Private(s, middle, xi, x, n);
   for (int c = 0; c < 3; c++) r[c] = middle[c] - x[c];
   depth = -Dot3(r, N) / Dot3(n, N);
   if (!(Dot3(n, N) < -CONTACT_GRAZE) || !(depth > 0)) return PETSC_FALSE;
   for (int c = 0; c < 3; c++) x[c] -= depth * n[c], r[c] = -n[c];
-  own = Across_Private(pair->hull, pair->part[0][facet], &s, xi, r, 2 * depth);
+  own = Across_Private(pair->hull, pair->part[0][facet], s, xi, r, 2 * depth);
   if (own >= 2 * depth) return PETSC_FALSE;
   Locate_Private(&m, x, eta);
   return (PetscBool)(Across_Private(pair->hull, pair->part[1][other], &m, eta, n, 2 * depth - own) < 2 * depth - own);

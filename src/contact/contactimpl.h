@@ -156,8 +156,17 @@ PetscInt ContactFacetNodes(const ContactSurface *, PetscInt facet, const PetscIn
 /* hull.c: from x, inside or on a facet of this part of the bodies, along the unit vector d to where the ray leaves the part; most: not before. x, d: [dim],
    reference positions. */
 PetscReal ContactHullAcross(ContactHull, PetscInt part, const PetscReal x[], const PetscReal d[], PetscReal most);
-/* behind.c: does the mortar facet lie behind the nonmortar one and both bodies? */
-PetscBool ContactBehind(ContactPair, const ContactSurface *nonmortar, PetscInt facet, const ContactSurface *mortar, PetscInt other);
+/* behind.c. A facet by its corners: now and at the reference positions, axes (the last one the outward normal); of a nonmortar facet, the unit directions of
+   its rays. */
+typedef struct {
+  PetscInt  dim, nv;
+  PetscReal x[4][3], X[4][3], axis[3][3], axis0[3][3], d[4][3];
+} FacetCorners;
+
+/* Once for a nonmortar facet, nothing where the pair knows no hull. */
+void ContactCorners(ContactPair, const ContactSurface *nonmortar, PetscInt facet, FacetCorners *);
+/* Does the mortar facet lie behind the nonmortar one and both bodies? */
+PetscBool ContactBehind(ContactPair, PetscInt facet, const FacetCorners *nonmortar, const ContactSurface *mortar, PetscInt other);
 
 /* normal.c */
 PetscErrorCode ContactTopologyBuild(ContactPair, const ContactSurface *);

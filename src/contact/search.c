@@ -166,8 +166,9 @@ static PetscBool Meets_Private(ContactPair pair, const Reach *r, const ContactSu
 static PetscErrorCode Candidates_Private(ContactPair pair, const ContactSurface *nonmortar, const ContactSurface *mortar, const Tree *tree,
                                          const PetscInt known[], PetscInt found[])
 {
-  PetscInt total = 0;
-  Reach    reach;
+  PetscInt     total = 0;
+  Reach        reach;
+  FacetCorners corners;
 
   PetscFunctionBegin;
   for (PetscInt i = 0; i < pair->num_listed; i++) {
@@ -176,10 +177,11 @@ static PetscErrorCode Candidates_Private(ContactPair pair, const ContactSurface 
     pair->start[i] = total;
     num            = ContactTreeQuery(tree, Reach_Private(pair, nonmortar, pair->listed[i], &reach), mortar->num_facets, found);
     for (PetscInt k = 0; k < num; k++) found[k] = known[found[k]];
+    ContactCorners(pair, nonmortar, pair->listed[i], &corners);
     PetscCall(PetscSortInt(num, found)); /* results must not depend on the tree */
     PetscCall(ContactGrow(total + num, sizeof(PetscInt), &pair->size_candidate, &pair->candidate));
     for (PetscInt k = 0; k < num; k++)
-      if (Meets_Private(pair, &reach, mortar, found[k]) && !ContactBehind(pair, nonmortar, pair->listed[i], mortar, found[k]))
+      if (Meets_Private(pair, &reach, mortar, found[k]) && !ContactBehind(pair, pair->listed[i], &corners, mortar, found[k]))
         pair->candidate[total++] = found[k];
   }
   pair->start[pair->num_listed] = total;
