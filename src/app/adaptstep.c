@@ -152,8 +152,8 @@ static const char *Stop_Private(const App *app)
 {
   const AdaptSpec *spec = &app->data->adapt;
 
-  if (spec->tolerance > 0 && app->estimate.relative <= spec->tolerance) return "tolerance";
-  if (!AppIsStressed(app)) return "free of stress";
+  if (spec->tolerance > 0 && app->estimate.relative <= spec->tolerance) return WITHIN_TOLERANCE;
+  if (!AppIsStressed(app)) return UNSTRESSED;
   return app->passes_in_step >= spec->max_passes ? "max_passes" : "";
 }
 

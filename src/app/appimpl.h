@@ -8,6 +8,10 @@
 
 #define EASY_ITERATIONS 6 /* a step that took no more Newton iterations lets the next one grow */
 #define GROWTH 1.5
+/* Reasons to end adaptation that decide how a run has ended (verdict.c). */
+#define WITHIN_TOLERANCE "tolerance"
+#define UNSTRESSED "free of stress"
+#define FACES_FINE "contact faces fine enough"
 #define NONE_FINER "no equilibrium found on a finer mesh"
 
 /* The part of a run that lives on one mesh; replaced as a whole at each adaptation. */

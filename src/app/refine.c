@@ -81,7 +81,7 @@ PetscErrorCode AppLayers(App *app, const Estimate *e, MarkList *layers)
   PetscCall(EstimateMarkLayers(e, app->data, app->level.forest, app->level.state.leaf_order, app->subdivided, layers, &num, &room));
   if (num > 0) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(MarkListDestroy(layers));
-  if (app->data->adapt.tolerance <= 0) app->adapt_stop = room ? "contact faces fine enough" : "max_cells";
+  if (app->data->adapt.tolerance <= 0) app->adapt_stop = room ? FACES_FINE : "max_cells";
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

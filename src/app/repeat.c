@@ -62,7 +62,7 @@ static PetscErrorCode Refine_Private(App *app, PetscBool *refined)
   PetscBool        refused = PETSC_FALSE;
 
   PetscFunctionBegin;
-  app->adapt_stop = !app->most.num_leaves ? "tolerance" : app->path >= spec->max_passes ? "max_passes" : "";
+  app->adapt_stop = !app->most.num_leaves ? WITHIN_TOLERANCE : app->path >= spec->max_passes ? "max_passes" : "";
   if (!app->adapt_stop[0]) PetscCall(AppLayers(app, &app->most, &layers));
   if (!app->adapt_stop[0]) {
     PetscCall(AppSummary(app, "converged", "a finer path is under way"));

@@ -21,8 +21,7 @@ static PetscErrorCode Figures_Private(App *app)
 
   PetscFunctionBegin;
   if (!given_up && told) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(ProblemSetTime(l->problem, l->accepted.t));
-  PetscCall(ProblemJump(l->problem));
+  PetscCall(AppPrescribeAt(l->problem, l->accepted.t));
   PetscCall(ProblemSearch(l->problem, l->accepted.x)); /* this mesh may not have seen any solution yet */
   if (told) PetscCall(BalanceDestroy(&app->balance));
   if (!given_up) PetscCall(AppEstimate(app));

@@ -6,7 +6,7 @@
 /* Reasons to end adaptation with which nothing is lacking. */
 static PetscBool IsEnough_Private(const char *stop)
 {
-  return (PetscBool)(!stop[0] || !strcmp(stop, "tolerance") || !strcmp(stop, "free of stress") || !strcmp(stop, "contact faces fine enough"));
+  return (PetscBool)(!stop[0] || !strcmp(stop, WITHIN_TOLERANCE) || !strcmp(stop, UNSTRESSED) || !strcmp(stop, FACES_FINE));
 }
 
 void AppJudge(App *app, PetscReal error, PetscBool gave_up)

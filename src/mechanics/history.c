@@ -133,6 +133,7 @@ PetscErrorCode MechanicsPlastic(Mechanics m, const PetscReal u[], PetscReal *str
   const ForestTables *t;
   Forest              forest;
   PetscReal          *trial, *alpha;
+  PetscInt            most = 0;
   PetscBool           bad;
 
   PetscFunctionBegin;
@@ -141,7 +142,8 @@ PetscErrorCode MechanicsPlastic(Mechanics m, const PetscReal u[], PetscReal *str
   PetscCall(ForestGetTables(forest, &t));
   PetscCall(PetscArrayzero(integral, m->spec->num_bodies));
   *strain = *work = 0;
-  PetscCall(PetscMalloc2(m->history.num, &trial, m->history.num, &alpha)); /* of one cell: as large as all there is to remember is enough */
+  for (PetscInt i = 0; i < m->num_groups; ++i) most = PetscMax(most, m->groups[i].num_points);
+  PetscCall(PetscMalloc2(m->history.num, &trial, most, &alpha));
   PetscCall(MechanicsCommit(m, u, trial, &bad));
   for (PetscInt i = 0; i < m->num_groups; ++i) {
     const CellGroup *g = &m->groups[i];
