@@ -1,4 +1,4 @@
-/* Effectivity eta / |e| of solved manufactured problems with known energy error (the fields of O-05 in small and finite kinematics), and its robustness as
+/* Effectivity eta / |e| of solved manufactured problems with known energy error (the fields of O-05 in small kinematics), and its robustness as
    kappa/mu grows (O-82). |e|^2 = int 2 mu |dev eps(e)|^2 + (p - p_h)^2/kappa, p the mean stress (displacement formulation: 2 mu |eps|^2 + lambda tr^2, the same
    number). Bounds: 0.3..5 on every mesh; a factor 3 between kappa/mu = 1, 1e2, 1e4 (mixed; meshes of 4 cells a side and more: on 2^3 linear cells
    the sine of O-05 is not resolved, the drift there is 3.4). In space orders 1, 2 and 5; with -slow 3 to 6. */

@@ -49,9 +49,9 @@ def check_o40(run, pairing, nonmortar, order, *keys):
                    kinematics="small", order=order)
     result = run("o40.yml", text=scene)
     assert result.returncode == 0, result
-    assert spread(contact(result)["contact_pressure"], 1e5) < 1e-10
-    assert spread(contact(result)["displacement"][:, 1], -0.05) < 1e-10
-    assert spread(components(bulk(result)["stress"])[:, 2], -1e5) < 1e-10
+    error = [spread(contact(result)["contact_pressure"], 1e5), spread(contact(result)["displacement"][:, 1], -0.05), spread(components(bulk(result)["stress"])[:, 2], -1e5)]
+    print(error)
+    assert max(error) < 1e-10, error
 
 
 def check_o41a(run, pairing, nonmortar, order, *keys):
@@ -60,8 +60,9 @@ def check_o41a(run, pairing, nonmortar, order, *keys):
                    refined(side), *keys, order=order)
     result = run("o41.yml", "-snes_monitor", text=scene)
     assert result.returncode == 0, result
-    assert spread(contact(result)["contact_pressure"], PRESSURE) < 1e-8
-    assert spread(contact(result)["displacement"][:, 1], 0.7347128571 - 1) < 1e-8
+    error = [spread(contact(result)["contact_pressure"], PRESSURE), spread(contact(result)["displacement"][:, 1], 0.7347128571 - 1)]
+    print(error)
+    assert max(error) < 1e-8, error
     assert result.summary["load_steps"] == 1 and result.summary["step_cuts"] == 0
     assert is_quadratic(steps(result)[0]), steps(result)
     return result
@@ -74,9 +75,10 @@ def check_o42(run, pairing, nonmortar, order, *keys):
                    {**parameter, "angle": 20}, refined(side, 20), *keys, order=order)
     result = run("o42.yml", text=scene)
     assert result.returncode == 0, result
-    assert spread(contact(result)["contact_pressure"], PRESSURE) < 1e-8
     u = contact(result)["displacement"][:, :2] @ turned(0, 1, 20)
-    assert spread(u, 0.7347128571 - 1) < 1e-8
+    error = [spread(contact(result)["contact_pressure"], PRESSURE), spread(u, 0.7347128571 - 1)]
+    print(error)
+    assert max(error) < 1e-8, error
 
 
 @matrix

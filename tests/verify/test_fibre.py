@@ -78,14 +78,17 @@ CASES += [pytest.param(MEDIA, {0: x, 1: y}, {}, {0: P, 1: Q}, id=f"media-{x}-{y}
 
 @pytest.mark.parametrize("layer, given, stretch, nominal", CASES)
 def test_o20_strip(run, tmp_path, layer, given, stretch, nominal):
-    """The incompressible table, to its digits; the strip of kappa = 1e5 c, which differs from it by up to 6e-5, to those of its own solution."""
+    """The incompressible table, to its digits; the strip of kappa = 1e5 c, which differs from it by up to 1e-4, to those of its own solution."""
     stretches, stresses = pull(run, tmp_path, layer, math.inf, given, 1)
+    print("kappa: inf", {i: stretches[i] / value - 1 for i, value in stretch.items()}, {i: stresses[i] / value - 1 for i, value in nominal.items()})
     for i, value in stretch.items():
         close(stretches[i], value, 1e-9)
     for i, value in nominal.items():
         close(stresses[i], value, 1e-9)
     stretches, stresses = pull(run, tmp_path, layer, 1e5, given, 2)
     exact = answer(layer, 1e5, given, stretch)
+    print("kappa = 1e5 c", [a / b - 1 for a, b in zip(stretches, exact[0])], {i: stresses[i] / exact[1][i] - 1 for i in given}, "off the table by",
+          {i: stresses[i] / value - 1 for i, value in nominal.items()})
     for i in range(3):
         close(stretches[i], exact[0][i], 1e-8)
     for i in given:
@@ -117,6 +120,7 @@ def artery(tmp_path, breaks, model, boundary, frame, to, centre=(0, 0), interfac
 def inflated(run, scene, radii):
     result = run("artery.yml", text=json.dumps(scene))
     assert result.returncode == 0, result
+    print("radii", [(r + result.summary["probe"][f"r{i}"]["displacement"][0]) / deformed - 1 for i, (r, deformed) in enumerate(zip(RADII, radii))])
     for i, (r, deformed) in enumerate(zip(RADII, radii)):
         assert abs((r + result.summary["probe"][f"r{i}"]["displacement"][0]) / deformed - 1) < 2e-3, (i, result.summary["probe"])
     return result.summary
@@ -129,6 +133,7 @@ def test_o21_axisymmetric(run, tmp_path, stretch, p, radii, force):
                    {"x0": {"pressure": p}, "y0": {"fix": "y"}, "y1": {"displacement": {"y": 0.1 * (stretch - 1)}}}, {}, lambda r, z: (r, z))
     s = inflated(run, scene, radii)
     bore = math.pi * radii[0] ** 2 * p
+    print("force, share of that on the bore", (s["reaction"]["y1"][1] - bore - force) / bore)
     assert abs(s["reaction"]["y1"][1] - bore - force) < 5e-3 * bore, s["reaction"]
 
 
@@ -146,6 +151,7 @@ def test_o21_interface(run, tmp_path):
     scene = artery(tmp_path, [WALL, [0, 0.1]], "axisymmetric", {"x0": {"pressure": 10}, "y0": {"fix": "y"}, "y1": {"fix": "y"}}, {}, lambda r, z: (r, z))
     scene.update(order=4, probe={**scene["probe"], "between": {"x": RADII[1] + 1e-6, "y": 0.05}})
     s = inflated(run, scene, ARTERY[1][2])
+    print("stress between the layers", s["probe"]["between"]["stress"][0])
     assert abs(s["probe"]["between"]["stress"][0] + .04115369) < 2e-5, s["probe"]
 
 
@@ -210,9 +216,10 @@ def in_space(run, *options, **keywords):
 def test_o21_in_space(run):
     stretch, p, radii, force = ARTERY[3]
     values = in_space(run)
+    bore = math.pi * radii[0] ** 2 * p
+    print("radii", [value / radius - 1 for value, radius in zip(values, radii)], "force, share of that on the bore", (4 * values[3] - bore - force) / bore)
     for value, radius in zip(values, radii):
         assert abs(value / radius - 1) < 2e-3, (values, radii)
-    bore = math.pi * radii[0] ** 2 * p
     assert abs(4 * values[3] - bore - force) < 5e-3 * bore, values
 
 

@@ -116,6 +116,15 @@ def test_o93_units_and_origin(solve, name, kind):
     space.test_o93_units_and_origin(solve, "", *UNITS[name], "direct", sooner=(name, kind) == ("shift", "4-full"))
 
 
+@faces(kinds=("4-1", "4-full"))
+@pytest.mark.parametrize("name", ["upper", "lower", "turned"])
+def test_o94_tangent_order_4(solve, name):
+    """The same with order 4, a cell on a cell."""
+    small = {"lower": LOWER._replace(number=(1, 1, 1)), "upper": UPPER._replace(number=(1, 1, 1))}
+    keys = {"upper": {}, "lower": {"contact": pairs("lower")}, "turned": {"frame": Frame(4)}}
+    space.test_o94_tangent(solve, (), {**small, **keys[name]})
+
+
 @faces(kinds=("2-1", "2-full", "3-full"))
 @pytest.mark.parametrize("name", ["upper", "lower", "turned", "hanging", "mixed"])
 def test_o94_tangent(solve, kind, name):
