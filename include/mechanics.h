@@ -95,6 +95,8 @@ PetscErrorCode MechanicsDragWork(Mechanics, const PetscReal u[], PetscReal *work
 /* Sum of q q^T over the supported directions q of the nodes of each body and those joined to it (axisymmetric: the radial direction is supported):
    hold[num_bodies][9]. */
 PetscErrorCode MechanicsGetHold(Mechanics, const PetscReal **hold);
+/* Do supports hold it against every rigid motion, rotations too? Not collective. */
+PetscBool MechanicsIsHeld(Mechanics, PetscInt body);
 /* Write the prescribed dofs of time t into a local array of dofs; other entries stay. At t = 0 all are 0: bodies are at rest where the mesh puts them, and
    motion that begins with a jump is carried through them by the first step. */
 PetscErrorCode MechanicsPrescribe(Mechanics, PetscReal local[]);

@@ -273,3 +273,5 @@ PetscErrorCode ProblemProlongation(Problem, Mat *prolongation, Mat *pinned, MatN
    incompressible cells), less those that condensation met at the last tangent. Collective. */
 PetscErrorCode ProblemNumNegative(Problem, PetscInt *num);
 PetscErrorCode ProblemNumDofs(Problem, PetscInt *free_dofs); /* global: u, z and pi */
+/* Axes along which no support holds the body or any that is joined to it: bit c for axis c; turns: it is held along all, and can turn. Not collective. */
+PetscErrorCode ProblemFreeAxes(Problem, PetscInt body, PetscInt *axes, PetscBool *turns);

@@ -1,4 +1,4 @@
-/* The last words of a run: what there is besides, what looks wrong, and what may help. */
+/* Words before and after a run: what looks wrong, what there is besides, and what may help. */
 #include "appimpl.h"
 
 #define MUCH 0.3    /* share of the squared estimate in one cell that says where a run is stuck */
@@ -88,6 +88,25 @@ static PetscErrorCode Linear_Private(const App *app)
     if (curved)
       PetscCall(PetscPrintf(app->comm, "note: the contact faces of pair %s are linear on a mesh that is curved; contact.%s.order: full follows it\n",
                             pair->name, pair->name));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode AppTellFree(const App *app)
+{
+  static const char *const along[] = {"", "x", "y", "x and y", "z", "x and z", "y and z", "x, y and z"};
+  const CoarseMesh        *mesh;
+
+  PetscFunctionBegin;
+  PetscCall(ForestGetCoarse(app->level.forest, &mesh));
+  for (PetscInt b = 0; b < mesh->num_bodies; ++b) {
+    PetscInt  axes;
+    PetscBool turns;
+
+    PetscCall(ProblemFreeAxes(app->level.problem, b, &axes, &turns));
+    if (axes)
+      PetscCall(PetscPrintf(app->comm, "note: no support holds body %s along %s: it takes contact for an equilibrium\n", mesh->body_name[b], along[axes]));
+    if (turns) PetscCall(PetscPrintf(app->comm, "note: the supports of body %s let it turn: it takes contact for an equilibrium\n", mesh->body_name[b]));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -90,7 +90,9 @@ PetscErrorCode AppRemember(App *);
 /* At the end of the path: begin again, at rest at t = 0 on a finer mesh, where a step was above the tolerance and no limit is met; the results of the path are
    put aside until the next one has come to its end (OutputSetAside). Collective. */
 PetscErrorCode AppRepeat(App *, PetscBool *again);
-/* advise.c. At the end of a run: what there is besides, what looks wrong, and what may help. Collective. */
+/* advise.c. At its beginning: bodies that only contact holds, on standard output. Collective. */
+PetscErrorCode AppTellFree(const App *);
+/* At the end of a run: what there is besides, what looks wrong, and what may help. Collective. */
 PetscErrorCode AppAdvise(const App *);
 /* arcstep.c. A step of app->arc along the path; app->failure is set when there is none. Collective. */
 PetscErrorCode AppPathStep(App *, PetscBool *ok);

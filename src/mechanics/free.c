@@ -154,6 +154,11 @@ PetscErrorCode MechanicsGetHold(Mechanics m, const PetscReal **hold)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscBool MechanicsIsHeld(Mechanics m, PetscInt body)
+{
+  return m->held[body];
+}
+
 PetscErrorCode MechanicsFreeBodies_Private(Mechanics m)
 {
   const HPTables     *v;
@@ -177,6 +182,7 @@ PetscErrorCode MechanicsFreeBodies_Private(Mechanics m)
   }
   PetscCall(PetscMalloc1(nb, &root));
   PetscCall(PetscCalloc2(36 * nb, &gram, nb, &volume));
+  PetscCall(PetscMalloc1(nb, &m->held));
   PetscCall(PetscCalloc1(v->num_owned_cells, &m->free_share));
   PetscCall(Joined_Private(mesh, root));
   PetscCall(Gram_Private(m, root, centre, size, gram));
@@ -191,9 +197,9 @@ PetscErrorCode MechanicsFreeBodies_Private(Mechanics m)
   modes = m->spec->model == MODEL_AXISYMMETRIC ? 1 : 3 * m->dim - 3;
   PetscCall(Hold_Private(m, modes, root, gram));
   for (PetscInt b = 0; b < nb; ++b) {
-    PetscBool held;
-    PetscCall(FullRank_Private(modes, gram + 36 * b, &held));
-    volume[b] = held ? 0 : volume[b];
+    if (root[b] == b) PetscCall(FullRank_Private(modes, gram + 36 * b, &m->held[b])); /* roots come first */
+    m->held[b] = m->held[root[b]];
+    volume[b] = m->held[b] ? 0 : volume[b];
   }
   for (PetscInt c = 0; c < v->num_owned_cells; ++c) {
     const PetscInt  body  = t->leaf_body[v->cell_leaf[c]];

@@ -1,6 +1,8 @@
 /* Sums over the cells: residual, tangent, element pressures, point values. */
 #include "mechanicsimpl.h"
 
+#define MOST_STRETCH2 400 /* mean square of the stretches up to which the noise of forces grows with them */
+
 /* Buffers of one batch, cut from the work array. */
 typedef struct {
   PetscReal *u, *r, *K, *consistent, *pressure, *energy, *min_det, *stretch2;
@@ -29,10 +31,11 @@ static PetscErrorCode GatherBatch_Private(Mechanics m, const CellGroup *g, Petsc
 }
 
 /* By how much the noise of a cell's forces exceeds that for F = I: det F errs by epsilon |cof F : F|, and cof F turns the pressure of that into forces:
-   |cof F|^2 <= |F|^4/3. Where the pressure is given (NULL: it is not) the noise is that of the shear modulus, and the pressure adds its own. */
+   |cof F|^2 <= |F|^4/3. Where the pressure is given (NULL: it is not) the noise is that of the shear modulus, and the pressure adds its own. Beyond stretches
+   that any material bears it does not grow any more, or a body that has flown apart would be in balance within its noise. */
 static PetscReal Growth_Private(Mechanics m, const CellGroup *g, PetscReal stretch2, const PetscReal pressure[])
 {
-  const PetscReal of_F = m->spec->kinematics == KINEMATICS_SMALL ? 1 : 3 * PetscSqr(stretch2), E = MaterialYoung(g->material);
+  const PetscReal of_F = m->spec->kinematics == KINEMATICS_SMALL ? 1 : 3 * PetscSqr(PetscMin(stretch2, MOST_STRETCH2)), E = MaterialYoung(g->material);
   PetscReal       sum = E;
 
   if (!pressure) return of_F;

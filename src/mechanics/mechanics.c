@@ -150,6 +150,7 @@ PetscErrorCode MechanicsDestroy(Mechanics *mechanics)
   PetscCall(PetscFree2(m->control, m->control_pressure));
   PetscCall(PetscFree(m->dead));
   PetscCall(PetscFree(m->free_share));
+  PetscCall(PetscFree(m->held));
   PetscCall(PetscFree(m->hold));
   PetscCall(PetscFree2(m->drag_from, m->drag_work));
   PetscCall(PetscFree2(m->linear, m->dpressure));

@@ -163,6 +163,7 @@ struct _p_Mechanics {
   PetscReal            drag, *drag_from;   /* rate, 0: none; owned local array: displacements it counts from */
   PetscReal           *drag_work;          /* owned: room for a cell's displacements, twice */
   PetscReal           *hold;               /* owned [num_bodies][9], see MechanicsGetHold */
+  PetscBool           *held;               /* owned [num_bodies], see MechanicsIsHeld */
   PetscReal           *work;               /* owned batch buffers */
   PetscInt             work_size;
   PetscReal           *condense_work; /* owned: condense.c */

@@ -12,6 +12,20 @@
 #define ROUND 1e-6 /* round-off of a slide that is held back already */
 #define HELD 1e-9  /* share of the sum over supports below which a direction is free */
 
+PetscErrorCode ProblemFreeAxes(Problem p, PetscInt body, PetscInt *axes, PetscBool *turns)
+{
+  const PetscReal *hold;
+
+  PetscFunctionBegin;
+  PetscCall(MechanicsGetHold(p->mechanics, &hold));
+  hold += 9 * body;
+  *axes = 0;
+  for (PetscInt c = 0; c < p->dim; ++c)
+    if (hold[4 * c] <= HELD * (hold[0] + hold[4] + hold[8])) *axes |= 1 << c;
+  *turns = (PetscBool)(!*axes && !MechanicsIsHeld(p->mechanics, body));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* P = (1 + A / tiny)^-1 of the supports A of the bodies of one side: what they leave free of a translation. */
 static PetscErrorCode Free_Private(Problem p, const Surface *s, PetscReal P[9])
 {
