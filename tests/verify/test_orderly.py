@@ -1,10 +1,13 @@
 """What goes wrong on the way ends in order: one sentence and exit status 1 where the input is the cause, else the last good state stays and is told of."""
 import json
 import math
+import os
+import subprocess
 
 import pytest
 
 from boxmesh import linspace, ring, write
+from conftest import PROGRAM, ROOT
 
 
 def refused(result, *words):
@@ -110,3 +113,15 @@ def test_mumps_fails_in_the_solve(run, ranks):
     assert result.returncode == 2 and s["status"] == "failed" and s["reason"] and s["t"] == 0 and s["step_cuts"] > 5, result
     assert "PETSC ERROR" not in result.stderr and "MPI_ABORT" not in result.stderr, result
     assert f", {s['step_cuts']} step cuts, " in result.stdout and f", {s['newton_iterations']} Newton iterations, " in result.stdout, result
+
+
+def test_batch(tmp_path):
+    """Several scenes in a row: each its log, the worst exit status; two of one name would write to the same files."""
+    bad = tmp_path / "bad.yml"
+    bad.write_text("title: no mesh\n")
+    command, env = [str(ROOT / "scripts/hpc/batch"), str(ROOT / "inputs/cube.yml"), str(bad)], {**os.environ, "MORTISE": str(PROGRAM)}
+    done = subprocess.run([*command, "--", "-output_directory", str(tmp_path / "out")], cwd=tmp_path, env=env, capture_output=True, text=True)
+    assert done.returncode == 1 and [line.split("(")[0].split() for line in done.stdout.splitlines()] == [["cube", "converged"], ["bad", "wrong", "input"]], done
+    assert "converged" in (tmp_path / "cube.log").read_text() and "mesh.file" in (tmp_path / "bad.log").read_text()
+    done = subprocess.run([*command, str(ROOT / "inputs/cube.yml")], cwd=tmp_path, env=env, capture_output=True, text=True)
+    assert done.returncode == 1 and "two scenes are called cube" in done.stderr and not done.stdout, done
