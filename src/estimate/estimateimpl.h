@@ -72,7 +72,7 @@ typedef struct {
 /* Fill space, mechanics, spec, contact, time, u, eta2 and along (zeroed); get this rank's sums. Not collective. */
 PetscErrorCode EstimateBulk_Private(EstimateSum *);
 
-#define ESTIMATE_MOST_1D (MORTISE_MAX_ORDER + 2)
+#define ESTIMATE_MOST_1D (MORTISE_MAX_ORDER + 4)
 #define ESTIMATE_MOST_NODES ((MORTISE_MAX_ORDER + 1) * (MORTISE_MAX_ORDER + 1) * (MORTISE_MAX_ORDER + 1))
 
 /* Gauss points of a cell of one order, the derivative of the Lagrange polynomials through them, and what mixed cells need to recover their pressure. */

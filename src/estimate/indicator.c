@@ -27,10 +27,16 @@ static void LagrangeDerivative_Private(PetscInt n, const PetscReal x[], PetscRea
   }
 }
 
-/* order+1 points in each direction; mixed: one more, for the recovered pressure has more coefficients. */
+/* Points in each direction: order+1; mixed: one more, for the recovered pressure has more coefficients. From order 5 on one more an order, because stresses are
+   no polynomials: the difference between Div P and that of the polynomial through as few values would be more than the error that is to be told. */
+static PetscInt LinePoints_Private(PetscInt order, PetscBool mixed)
+{
+  return PetscMin(ESTIMATE_MOST_1D, order + (mixed ? 2 : 1) + PetscMax(0, order - 4));
+}
+
 static PetscErrorCode TableCreate_Private(PetscInt dim, PetscInt order, PetscBool mixed, VolumeTable *table)
 {
-  const PetscInt n1 = order + (mixed ? 2 : 1), num = ElementNumNodes(dim, n1 - 1);
+  const PetscInt n1 = LinePoints_Private(order, mixed), num = ElementNumNodes(dim, n1 - 1);
   const Basis1D *gauss;
 
   PetscFunctionBegin;
@@ -254,7 +260,8 @@ static PetscErrorCode WorkCreate_Private(const EstimateSum *sum, CellWork *w)
   PetscInt most = 0;
 
   PetscFunctionBegin;
-  for (PetscInt c = 0; c < sum->v->num_cells; ++c) most = PetscMax(most, ElementNumNodes(sum->v->dim, sum->v->cell_order[c] + 1));
+  for (PetscInt c = 0; c < sum->v->num_cells; ++c)
+    most = PetscMax(most, ElementNumNodes(sum->v->dim, LinePoints_Private(sum->v->cell_order[c], PETSC_TRUE) - 1));
   const PetscInt points = most + sum->facets.most_points;
   PetscCall(
       PetscMalloc7(3 * most, &w->X, 3 * points, &w->xi, 3 * points, &w->position, 9 * points, &w->J, 9 * points, &w->F, 9 * points, &w->P, points, &w->W));

@@ -332,7 +332,11 @@ RANKS = {
     "o90": lambda solve: space.test_o90_momentum(solve, (), "direct"),
     "o92": lambda solve: space.test_o92_rotated_scene(solve, 1, "direct"),
     "o93": lambda solve: space.test_o93_units_and_origin(solve, "", 1e-3, 1e6, 0, "direct"),
+    "o95": lambda solve: space.test_o95_newton_order(solve, (), "upper"),
     "o96": lambda solve: space.test_o96_edges_on_edges(solve, 1e-3, "lower", "direct"),
+    "o97": lambda solve: space.test_o97_free_fall(solve, 0.05, 0, "direct"),
+    "o99": lambda solve: space.test_o99_one_step_or_ten(solve, "direct", 0.25),
+    "o100": lambda solve: space.test_o100_uniform_pressure_of_unequal_meshes(solve, (4, 4, 1), (1, 1, 1), "upper"),
     "o104": lambda solve: space.test_o104_separation(solve, "direct"),
 }
 

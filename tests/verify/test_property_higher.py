@@ -162,19 +162,25 @@ def test_o101_ranks(higher, name, ranks):
     parallel.compare(higher, *parallel.SCENES[name], ranks)
 
 
+TILTED = ("-boundary_top_displacement_x", 0.0123, *ONE_MESH)
 RANKS = {
-    "o90": lambda run: plane.test_o90_momentum(run, "hertz2d", ONE_MESH),
-    "o96": lambda run: robust.test_o96_edge_node_on_the_corner(run, 1e-3, "upper_bottom", "lower_top"),
-    "o98": lambda run: robust.test_o98_contact_face_on_symmetry_planes(run, "both", "lower_top", "upper_bottom", 2),
-    "o104": lambda run: robust.test_o104_separation(run, ONE_MESH),
+    "o90": lambda run, path: plane.test_o90_momentum(run, "hertz2d", ONE_MESH),
+    "o95": lambda run, path: plane.test_o95_newton_order(run, "hertz2d", TILTED),
+    "o96": lambda run, path: robust.test_o96_edge_node_on_the_corner(run, 1e-3, "upper_bottom", "lower_top"),
+    "o97": lambda run, path: robust.test_o97_free_fall(run, path),
+    "o98": lambda run, path: robust.test_o98_contact_face_on_symmetry_planes(run, "both", "lower_top", "upper_bottom", 2),
+    "o99": lambda run, path: robust.test_o99_one_step_or_ten(run),
+    "o100": lambda run, path: test_o100_uniform_pressure_of_unequal_meshes(run, "upper", {"nl": 1, "nu": 8}),
+    "o103": lambda run, path: robust.test_o103_no_multiplier_on_constrained_nodes(run),
+    "o104": lambda run, path: robust.test_o104_separation(run, ONE_MESH),
 }
 
 
 @faces()
 @pytest.mark.parametrize("ranks", [2, 3])
 @pytest.mark.parametrize("name", RANKS)
-def test_on_ranks(higher, name, ranks):
-    RANKS[name](functools.partial(higher, ranks=ranks))
+def test_on_ranks(higher, tmp_path, name, ranks):
+    RANKS[name](functools.partial(higher, ranks=ranks), tmp_path)
 
 
 @faces("2-full")
