@@ -1,4 +1,4 @@
-/* Image of a mortar vertex v on a facet: xi with x(xi) + s d(xi) = v, and its place Y(xi) in the chart. Beyond the facet x, d and Y go on as in raybeyond.c:
+/* Image of a mortar vertex v on a facet: xi with x(xi) + s d(xi) = v, and its place Y(xi) in the chart. Beyond the facet x, Y and d go on as in raybeyond.c:
    on flat facets Y is linear in x everywhere.
 
    A (dxi, ds) = dv - sum N_a dx_a - s sum V_v dd_v,   A = [t_i + s d,i, d] (plane: and e_z);
@@ -6,7 +6,7 @@
 #include "rayimpl.h"
 
 typedef struct {
-  RayFunctions S, V;
+  RayFunctions S, V; /* V: of directions */
   PetscReal    p[3], d[3], A[2][3], d12[3], di[2][3];
   PetscReal    inverse[3][3]; /* rows: dxi_1, dxi_2, ds */
   PetscReal    det;
@@ -17,8 +17,11 @@ typedef struct {
   PetscReal Y[2], d[2][2], dd[3][2];
 } Picture;
 
-static void Picture_Private(const RayFacet *f, const RayFunctions *V, int depth, Picture *p)
+static void Picture_Private(const RayFacet *f, const PetscReal xi[2], int depth, Picture *p)
 {
+  RayFunctions functions, *V = &functions;
+
+  ContactRayBeyond(&f->beyond, f->m, 1, xi, depth, V);
   memset(p, 0, sizeof(*p));
   for (PetscInt a = 0; a < f->nv; a++)
     for (PetscInt i = 0; i < f->m; i++) {
@@ -33,7 +36,7 @@ static void Picture_Private(const RayFacet *f, const RayFunctions *V, int depth,
 static void Place_Private(const RayFacet *f, const PetscReal xi[2], PetscReal s, int depth, Place *p)
 {
   ContactRayBeyond(&f->beyond, f->m, f->s.order, xi, depth, &p->S);
-  ContactRayBeyond(&f->beyond, f->m, 1, xi, depth, &p->V);
+  ContactRayTurn(f->m, xi, depth, &p->V);
   ContactRayLatticeSum(&f->s, p->S.N, p->p);
   ContactRayLatticeSum(&f->d, p->V.N, p->d);
   for (PetscInt i = 0; i < 2; i++) {
@@ -54,24 +57,22 @@ static void Place_Private(const RayFacet *f, const PetscReal xi[2], PetscReal s,
     for (int c = 0; c < 3; c++) p->inverse[i][c] /= p->det;
 }
 
-void ContactImageFind(const RayFacet *f, RayImage *image)
+/* Newton's method from (0, 0); ahead: the first step is along the ray, which leads to what is near by, but may end beyond the point where rays cross. */
+static PetscBool Find_Private(const RayFacet *f, PetscBool ahead, RayImage *image)
 {
-  PetscReal step = 1;
-  Place     p;
+  Place p;
 
-  image->found = PETSC_FALSE;
   image->xi[0] = image->xi[1] = image->s = 0;
   for (int k = 0; k < 30; k++) {
-    PetscReal r[3];
+    PetscReal r[3], step = 0;
 
     Place_Private(f, image->xi, image->s, 1, &p);
-    if (!(p.det > 0)) return; /* beyond the point where rays cross */
+    if (!(p.det > 0)) return PETSC_FALSE; /* beyond the point where rays cross */
     for (int c = 0; c < 3; c++) r[c] = image->v[c] - p.p[c] - image->s * p.d[c];
-    if (k == 0) { /* first along the ray: rays turn with distance */
+    if (ahead && k == 0) {
       image->s = Dot3(r, p.d) / Dot3(p.d, p.d);
       continue;
     }
-    step = 0;
     for (PetscInt i = 0; i < f->m; i++) {
       const PetscReal dx = Dot3(p.inverse[i], r);
 
@@ -79,17 +80,24 @@ void ContactImageFind(const RayFacet *f, RayImage *image)
       step = PetscMax(step, PetscAbsReal(dx));
     }
     image->s += Dot3(p.inverse[2], r);
-    if (!(step < 1e3)) return;
-    if (step < RAY_SOLVED) break;
+    if (!(step < 1e3)) return PETSC_FALSE;
+    if (step < RAY_SOLVED) return PETSC_TRUE;
   }
-  if (step < RAY_SOLVED) {
-    Picture c;
+  return PETSC_FALSE;
+}
 
-    ContactRayBeyond(&f->beyond, f->m, 1, image->xi, 1, &p.V);
-    Picture_Private(f, &p.V, 1, &c);
-    image->Y[0] = c.Y[0], image->Y[1] = c.Y[1];
-    image->found = PETSC_TRUE;
+void ContactImageFind(const RayFacet *f, RayImage *image)
+{
+  Picture c;
+
+  image->found = Find_Private(f, PETSC_TRUE, image);
+  if (!image->found && f->m == 2) image->found = Find_Private(f, PETSC_FALSE, image);
+  if (!image->found) {
+    image->xi[0] = image->xi[1] = image->s = 0;
+    return;
   }
+  Picture_Private(f, image->xi, 1, &c);
+  image->Y[0] = c.Y[0], image->Y[1] = c.Y[1];
 }
 
 /* row += factor v . (dv - sum N_a dx_a - s sum V_v dd_v) */
@@ -128,7 +136,7 @@ void ContactImageRows(const RayFacet *f, const RayImage *image, PetscInt vertex,
   Place   p;
 
   Place_Private(f, image->xi, image->s, 1, &p);
-  Picture_Private(f, &p.V, 1, &chart);
+  Picture_Private(f, image->xi, 1, &chart);
   for (PetscInt i = 0; i < f->m; i++) {
     PetscReal v[3] = {0, 0, 0};
 
@@ -146,7 +154,7 @@ void ContactImageCurvature(const RayFacet *f, const RayImage *image, PetscInt ve
   Place          p;
 
   Place_Private(f, image->xi, image->s, 2, &p);
-  Picture_Private(f, &p.V, 2, &chart);
+  Picture_Private(f, image->xi, 2, &chart);
   for (PetscInt i = 0; i < f->m; i++)
     for (int c = 0; c < 3; c++) mu[c] += Dot2(w, chart.d[i]) * p.inverse[i][c];
   for (PetscInt i = 0; i < 4 * n; i++) work[i] = 0;

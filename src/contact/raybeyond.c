@@ -5,6 +5,9 @@
    two sides in direction i; but where one of them lies in a plane of symmetry, that side's: its line goes on in the plane, in which x and d lie, and there the
    mortar side ends, too. Where both do, it changes from one to the other, linearly in h of the other direction: the map then folds where the planes meet.
 
+   Directions are taken at h alone: turning on by their slope they would cross at the distance of the facet's radius of curvature, and corners of what it sees
+   that lie beyond, behind the tangent plane at a round edge, would have no image.
+
    Of mortar facets: rays from the strip between a curved side and its straight picture miss the facet itself. Where it is bent, its tangent at the side may be
    a fraction of that slope, across the rays, or fold; with it alone rays met it far away, or not at all. */
 #include "rayimpl.h"
@@ -74,5 +77,27 @@ void ContactRayBeyond(const RayBeyond *b, PetscInt m, PetscInt order, const Pets
       if (depth > 1) to->dd[2 * i][a] = to->dd[2 * i][a] * PetscSqr(h[i][1]) + more * h[i][2];
       to->d[i][a] = slope[i][a] + more * h[i][1];
     }
+  }
+}
+
+void ContactRayTurn(PetscInt m, const PetscReal xi[2], int depth, RayFunctions *to)
+{
+  PetscReal h[2][3], at[2];
+
+  if (m == 1 || PetscMax(PetscAbsReal(xi[0]), PetscAbsReal(xi[1])) <= 1) {
+    ContactRayFunctions(m, 1, xi, depth, to);
+    return;
+  }
+  for (int i = 0; i < 2; i++) {
+    Bound_Private(xi[i], h[i]);
+    at[i] = h[i][0];
+  }
+  ContactRayFunctions(2, 1, at, depth, to);
+  for (PetscInt a = 0; a < 4; a++) {
+    if (depth > 1) {
+      to->dd[1][a] *= h[0][1] * h[1][1];
+      for (int i = 0; i < 2; i++) to->dd[2 * i][a] = to->d[i][a] * h[i][2]; /* bilinear: no second derivative of its own */
+    }
+    for (int i = 0; i < 2; i++) to->d[i][a] *= h[i][1];
   }
 }

@@ -133,6 +133,8 @@ void     ContactRayTestFunctions(const RayFacet *, const RayTest *, const PetscR
 
 /* raybeyond.c: the same, but beyond [-1, 1]^2 (m = 2) turning to the slope between the corners. */
 void ContactRayBeyond(const RayBeyond *, PetscInt m, PetscInt order, const PetscReal xi[2], int depth, RayFunctions *);
+/* Of directions (order 1): beyond [-1, 1]^2 at h. */
+void ContactRayTurn(PetscInt m, const PetscReal xi[2], int depth, RayFunctions *);
 /* kept[k]: the side from corner k on lies in a plane of symmetry. */
 void ContactRayBeyondSides(const PetscBool kept[4], RayBeyond *);
 
