@@ -199,7 +199,7 @@ PetscErrorCode MechanicsFreeBodies_Private(Mechanics m)
   for (PetscInt b = 0; b < nb; ++b) {
     if (root[b] == b) PetscCall(FullRank_Private(modes, gram + 36 * b, &m->held[b])); /* roots come first */
     m->held[b] = m->held[root[b]];
-    volume[b] = m->held[b] ? 0 : volume[b];
+    volume[b]  = m->held[b] ? 0 : volume[b];
   }
   for (PetscInt c = 0; c < v->num_owned_cells; ++c) {
     const PetscInt  body  = t->leaf_body[v->cell_leaf[c]];
