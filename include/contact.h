@@ -56,6 +56,7 @@ typedef struct {
   PetscReal search;            /* search distance, in multiples of the larger edge length; default 0: automatic */
   PetscBool node_to_segment;   /* comparison only */
   PetscBool see_through;       /* comparison only: searches take far sides of bodies behind for overlaps */
+  PetscBool hold_lines;        /* comparison only: forces hold lines of the mortar side throughout (ContactPairHoldLines) */
   PetscBool standard;          /* standard multipliers */
   PetscBool continuous;        /* three dimensions: gaps along a direction that is continuous over the surface, for facets of order 1 too */
   PetscBool adjust;            /* the gaps of the mesh at the reference positions count as closed */
@@ -90,7 +91,7 @@ typedef struct {
   const PetscReal *reach;        /* [num_rows] change of gt_j when the gap grows by 1 along its direction everywhere; NULL: weight */
   const PetscReal *dgap;         /* [num_rows][dim*num]; NULL unless asked, or where z vanishes and no Hessian is asked */
   const PetscReal *dweight;      /* [num_rows][dim*num] */
-  const PetscReal *push;         /* [num_rows][dim*num] force by z_j where that is not dgap: the rim is held (theory (5.8)); with dgap. NULL: dgap */
+  const PetscReal *push;         /* [num_rows][dim*num] force by z_j where that is not dgap: rim or lines are held (theory (5.8)); with dgap. NULL: dgap */
   const PetscReal *hessian;      /* [dim*num][dim*num] derivatives of the forces (rows); NULL unless asked, or where z vanishes */
   const PetscReal *spring;       /* [num_rows] compliances K_j (ContactPairSetSoftness); NULL: none */
   const PetscReal *stiffening;   /* [num_rows] dK_j / d area; without darea dK_j / dw_j, and then forces are z_j dgap_j + z_j^2/2 stiffening_j dweight_j */
@@ -168,6 +169,10 @@ PetscErrorCode ContactPairForget(ContactPair);
    change, there are no Hessians. Where gaps are wide against facets that tells more than the derivative itself. Facets along directions of their own (three
    dimensions, no continuous direction) keep their first derivatives. Not collective. */
 PetscErrorCode ContactPairHold(ContactPair, PetscBool held);
+/* From now on forces of facets of higher order in space are those at held lines of the mortar side, between its facets too (`push` on all of them), or (as
+   created) at a held rim only, where the mortar side ends within the facet (theory (5.8)). Gaps, weights and their derivatives do not change. Not collective.
+ */
+PetscErrorCode ContactPairHoldLines(ContactPair, PetscBool held);
 PetscErrorCode ContactPairGetSegments(ContactPair, PetscInt *num, const ContactSegment **segments);
 /* Nodal normals of the last evaluation [num_nodes][dim]; NaN at nodes with neighbours that are not known here. */
 PetscErrorCode ContactPairGetNormals(ContactPair, const PetscReal **normals);

@@ -123,7 +123,8 @@ PetscErrorCode ProbesEvaluate(Probes, Problem, Vec x, ProbeValue value[]);
    newton_iterations, active_nodes, estimated_error, estimate, energy, min_det, min_gap, contact_force, seconds, accepted. Columns of history.csv, names as in
    summary.json:
    - step, t, dt, pass (of the accepted solution), step_cuts, cells, dofs, newton_iterations, active_nodes, estimated_error, energy, min_det, min_gap,
-     contact_force, contact_imbalance, moment_imbalance, support_imbalance, seconds, drag_work (energy that drag took where no equilibrium was near by);
+     contact_force, contact_imbalance, moment_imbalance, support_imbalance, seconds, drag_work (energy that drag took where no equilibrium was near by),
+     lines_held (1: contact forces hold lines of mortar sides, State.lines_held);
    - with plastic materials plastic.strain (largest, surfaces included), plastic.work, and body.<name>.mean_plastic_strain of each body that flows: int alpha dV
    / int dV over its reference volume, which converges where the largest, at a notch, does not;
    - reaction.<boundary>.x … for boundaries with supports;

@@ -16,15 +16,16 @@ typedef struct {
   PetscInt   num_pressure;
   PetscReal *pressure; /* owned [num_pressure] element pressures of this rank that are condensed */
   PetscInt   num_history;
-  PetscReal *history; /* owned [num_history] what the laws of this rank's cells remember from the last accepted step (MechanicsHistoryRange) */
-  PetscReal  t;       /* pseudo-time of this state */
+  PetscReal *history;    /* owned [num_history] what the laws of this rank's cells remember from the last accepted step (MechanicsHistoryRange) */
+  PetscReal  t;          /* pseudo-time of this state */
+  PetscBool  lines_held; /* its contact forces hold all lines of mortar sides (ContactPairHoldLines) */
   PetscInt   num_leaves;
   int8_t    *leaf_order; /* owned [num_leaves], replicated */
 } State;
 
 PetscErrorCode StateCreate(Problem, State *);
 PetscErrorCode StateCopy(const State *from, State *to); /* same problem */
-/* to = (1 - share) a + share b, at the time and with the history of a; all of the same problem. */
+/* to = (1 - share) a + share b, at the time and with the history of a, forces in the form of b; all of the same problem. */
 PetscErrorCode StateBlend(const State *a, const State *b, PetscReal share, State *to);
 PetscErrorCode StateDestroy(State *);
 /* The step that led to s->x is accepted: the history becomes what it left. Stress and forces at s->x stay the same. The problem's prescribed motion must be
@@ -58,6 +59,9 @@ PetscErrorCode ProblemGetMatrix(Problem, Mat *);
 /* Copies of a state's history, which residual and tangent start from, and of its element pressures, for stress at points. Whoever is given a state of this
    problem sets it. Collective. */
 PetscErrorCode ProblemSetState(Problem, const State *);
+/* Forces hold all lines of mortar sides from now on, until another state is set (State.lines_held). *changed: there are pressed facets, at the last evaluation,
+   whose forces are others then; else, and under drag, nothing is done. Collective. */
+PetscErrorCode ProblemHoldLines(Problem, PetscBool *changed);
 
 /* Prescribed motion: SetTime fixes the target; Jump applies it at once (no lift); otherwise the part not yet applied enters the next linear solve. */
 PetscErrorCode ProblemSetTime(Problem, PetscReal t);

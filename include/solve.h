@@ -13,6 +13,7 @@ typedef struct {
   PetscInt      single_failures; /* factors in single precision that did not serve: a solver has at most one, then it takes double */
   PetscInt      set_changes;     /* contact nodes that active-set passes switched */
   PetscInt      set_cycles;      /* linearisations whose active sets repeated, and 1 when Newton's own did */
+  PetscBool     held_lines;      /* forces began to hold lines of mortar sides in it (State.lines_held) */
   PetscInt      unstable; /* converged: 1 when the last tangent factorised goes down in energy along some motion the constraints allow, -1: not known, else 0 */
   PetscReal     residual, scale;
   ProblemStatus status;

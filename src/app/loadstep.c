@@ -20,6 +20,39 @@ void AppCount(App *app, const SolverReport *report)
   if (report->stopped) app->stopped = PETSC_TRUE;
 }
 
+/* Back to a state and its time. */
+static PetscErrorCode Restore_Private(App *app, const State *from)
+{
+  PetscFunctionBegin;
+  PetscCall(StateCopy(from, &app->level.state));
+  PetscCall(AppPrescribeAt(app->level.problem, from->t));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Solve at time t. Where forces hold lines of mortar sides since an earlier solve (solve/newton.c) and there is no solution to be found: once more from the
+   start, with held rims only. */
+static PetscErrorCode Solve_Private(App *app, PetscReal t, SolverReport *report)
+{
+  Level          *l    = &app->level;
+  const PetscBool held = l->state.lines_held;
+  State           start;
+
+  PetscFunctionBegin;
+  if (held) PetscCall(StateCreate(l->problem, &start));
+  if (held) PetscCall(StateCopy(&l->state, &start));
+  PetscCall(SolverSolve(l->solver, &l->state, report));
+  if (held && !report->converged && !report->stopped) {
+    PetscCall(PetscInfo(NULL, "lines are let go: %s\n", report->reason));
+    AppCount(app, report);
+    start.lines_held = PETSC_FALSE;
+    PetscCall(Restore_Private(app, &start));
+    PetscCall(ProblemSetTime(l->problem, t));
+    PetscCall(SolverSolve(l->solver, &l->state, report));
+  }
+  if (held) PetscCall(StateDestroy(&start));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode AppAttempt(App *app, PetscReal t, SolverReport *report)
 {
   Level      *l = &app->level;
@@ -30,7 +63,7 @@ PetscErrorCode AppAttempt(App *app, PetscReal t, SolverReport *report)
   PetscCall(ExpressionTrouble(app->comm, &words)); /* of prescribed motion and dead loads; the others are asked for on the way */
   PetscCall(PetscMemzero(report, sizeof(*report)));
   if (!words) {
-    PetscCall(SolverSolve(l->solver, &l->state, report));
+    PetscCall(Solve_Private(app, t, report));
     PetscCall(ExpressionTrouble(app->comm, &words));
   }
   if (words) {
@@ -39,15 +72,6 @@ PetscErrorCode AppAttempt(App *app, PetscReal t, SolverReport *report)
   }
   AppCount(app, report);
   if (report->converged) l->state.t = t;
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* Back to a state and its time. */
-static PetscErrorCode Restore_Private(App *app, const State *from)
-{
-  PetscFunctionBegin;
-  PetscCall(StateCopy(from, &app->level.state));
-  PetscCall(AppPrescribeAt(app->level.problem, from->t));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -296,7 +296,7 @@ PetscErrorCode ContactCover(ContactPair pair, const ContactSurface *nonmortar, c
   w->full = (PetscBool)(covered >= (1 - Sliver_Private(f)) * f->area);
   if (f->s.order > 1) w->full = HasWhole_Private(&pair->coverage[facet], w->full);
   if (hats && !w->full && f->s.order > 1 && w->num_overlaps) PetscCall(Cells_Private(pair, mortar));
-  w->frozen = (PetscBool)(f->D == 3 && w->test[0].hats);
+  w->frozen = (PetscBool)(f->D == 3 && (w->test[0].hats || (pair->lines_held && f->s.order > 1)));
   PetscCall(Nodes_Private(w, mortar));
   w->n = f->D * (f->s.num + f->nv + w->num_mortar) + f->m * w->num_images;
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -107,7 +107,7 @@ struct _p_RayWork {
   PetscInt  *vertex;          /* [num_mortar] mortar nodes */
   RayTest   *test;
   PetscBool  full;   /* the mortar side covers all of it */
-  PetscBool  frozen; /* forces without the motion of the mortar side's rim */
+  PetscBool  frozen; /* forces without the motion of the mortar side's rim, or of all its lines */
   PetscInt   n, nn, num_moments;
   PetscReal  q[RAY_MOMENTS], reach[RAY_LATTICE], covered, min_gap; /* reach: moments of a gap of 1 along unit directions */
   PetscReal *dq, *W, *J, *R, *WJ, *part, *buffer;                  /* dq [num_moments][n], W [n][n]; J, R: raychain.c */

@@ -259,6 +259,7 @@ PetscErrorCode ReportRowFill(Problem problem, const State *state, const Estimate
   PetscCall(ProblemNumDofs(problem, &row->dofs));
   row->t                 = state->t;
   row->cells             = t->num_leaves;
+  row->lines_held        = state->lines_held;
   row->active_nodes      = 0;
   row->contact_force     = 0;
   row->min_gap           = b->num_contacts ? PETSC_MAX_REAL : 0;

@@ -9,6 +9,7 @@ PetscErrorCode ProblemSetDrag(Problem p, PetscReal rate, Vec from)
   PetscCall(VecGetArray(p->u_local, &u));
   if (rate > 0) PetscCall(ProblemLocalDisplacement(p, from, u));
   PetscCall(MechanicsSetDrag(p->mechanics, rate, u));
+  p->dragged = (PetscBool)(rate > 0);
   PetscCall(VecRestoreArray(p->u_local, &u));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

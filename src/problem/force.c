@@ -76,3 +76,29 @@ PetscErrorCode ContactHoldsRims_Private(Problem p, PetscBool *holds)
   if (higher && p->dim == 3) PetscCallMPI(MPI_Allreduce(&mine, holds, 1, COMPAT_MPI_BOOL, MPI_LOR, p->comm));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
+
+/* Does one of this rank's facets bear whose forces do not hold lines yet but could? */
+static PetscBool Movable_Private(const Contact *c)
+{
+  for (PetscInt f = 0; f < c->num_facets; ++f) {
+    const ContactFacet *e = &c->facets[f];
+    if (e->push || c->side[0].order[e->facet] == 1) continue;
+    for (PetscInt k = 0; k < e->num_rows; ++k) {
+      if (c->active[e->nodes[k]]) return PETSC_TRUE;
+    }
+  }
+  return PETSC_FALSE;
+}
+
+PetscErrorCode ProblemHoldLines(Problem p, PetscBool *changed)
+{
+  PetscBool mine = PETSC_FALSE;
+
+  PetscFunctionBegin;
+  *changed = PETSC_FALSE;
+  if (p->dim == 2 || p->dragged || p->scene->mechanics.kinematics == KINEMATICS_SMALL) PetscFunctionReturn(PETSC_SUCCESS);
+  for (PetscInt i = 0; i < p->num_contacts && !mine; ++i) mine = (PetscBool)(p->contacts[i].side[0].order && Movable_Private(&p->contacts[i]));
+  PetscCallMPI(MPI_Allreduce(&mine, changed, 1, COMPAT_MPI_BOOL, MPI_LOR, p->comm));
+  for (PetscInt i = 0; i < p->num_contacts && *changed; ++i) PetscCall(ContactPairHoldLines(p->contacts[i].pair, PETSC_TRUE));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

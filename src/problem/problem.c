@@ -207,6 +207,7 @@ PetscErrorCode ProblemSetState(Problem p, const State *s)
   PetscFunctionBegin;
   PetscCall(MechanicsSetHistory(p->mechanics, s->history));
   PetscCall(MechanicsStorePressure(p->mechanics, s->pressure));
+  for (PetscInt i = 0; i < p->num_contacts; ++i) PetscCall(ContactPairHoldLines(p->contacts[i].pair, s->lines_held));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -449,7 +450,8 @@ PetscErrorCode StateCopy(const State *from, State *to)
   PetscCall(PetscArraycpy(to->pressure, from->pressure, from->num_pressure));
   PetscCall(PetscArraycpy(to->history, from->history, from->num_history));
   PetscCall(PetscArraycpy(to->leaf_order, from->leaf_order, from->num_leaves));
-  to->t = from->t;
+  to->t          = from->t;
+  to->lines_held = from->lines_held;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -460,7 +462,8 @@ PetscErrorCode StateBlend(const State *a, const State *b, PetscReal share, State
   PetscCall(VecAXPBY(to->x, share, 1 - share, b->x));
   for (PetscInt i = 0; i < to->num_pressure; ++i) to->pressure[i] = (1 - share) * a->pressure[i] + share * b->pressure[i];
   PetscCall(PetscArraycpy(to->history, a->history, a->num_history));
-  to->t = a->t;
+  to->t          = a->t;
+  to->lines_held = b->lines_held;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

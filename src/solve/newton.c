@@ -10,6 +10,8 @@
 #define STALLED 7  /* iterations without a new least residual */
 #define HALVINGS 8 /* of steps that left the domain, in one solve */
 #define LOOSE 1e-2 /* least part of what holds bodies that nothing else does: round-off of factors is far below */
+#define NEAR 1e-5  /* residual over the nodal forces from which on it should not grow */
+#define CLEAR 10   /* tolerances: what is less is round-off's */
 #define HOLDS 3    /* pairs that are held back from sliding in one linear step */
 
 /* What a cell of incompressible material may gain or lose of its volume, whatever the forces: where prescribed motion leaves it no choice, pressures grow
@@ -179,6 +181,49 @@ static PetscErrorCode Test_Private(SNES snes, Solver s, Vec x)
   PetscCall(SNESSetJacobian(snes, A, A, NULL, NULL));
   PetscCall(SNESComputeJacobian(snes, x, A, A));
   PetscCall(ProblemSetSymmetric(s->problem, s->symmetric));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Does the residual come and go with the same active set? Near the solution it should not grow at all, elsewhere not after it has grown and fallen, if it is
+   below that after the first iteration. */
+static PetscErrorCode ComesAndGoes_Private(Solver s, PetscReal norm, PetscBool *yes)
+{
+  const ProblemStatus *status = &s->report->status;
+  const PetscReal      last = s->last_norm, tolerance = PetscMax(s->rtol * status->scale, status->noise);
+  uint64_t             hash;
+  PetscReal            pending;
+
+  PetscFunctionBegin;
+  PetscCall(ProblemActiveSetHash(s->problem, &hash));
+  PetscCall(ProblemPending(s->problem, &pending));
+  const PetscBool same = (PetscBool)(last > CLEAR * tolerance && hash == s->last_set);
+  *yes                 = (PetscBool)(same && norm >= last && (last <= NEAR * status->scale || (s->fell && last < s->first_norm)));
+  s->grew              = (PetscBool)(s->grew || (same && norm >= last));
+  s->fell              = (PetscBool)(s->fell || (s->grew && norm < last));
+  s->last_norm         = pending == 0 ? norm : 0;
+  s->last_set          = hash;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Where a crease of the mortar side comes to lie on a side of a nonmortar facet, derivatives of weighted gaps jump (docs/theory.md, after (5.8)), and residuals
+   come and go. From then on forces are those at held lines, which do not jump. */
+static PetscErrorCode Lines_Private(SNES snes, Solver s, Vec x, Vec r)
+{
+  PetscReal norm;
+  PetscBool yes, changed;
+
+  PetscFunctionBegin;
+  if (s->report->held_lines) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(VecNorm(r, NORM_2, &norm));
+  PetscCall(ComesAndGoes_Private(s, norm, &yes));
+  if (!yes) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(ProblemHoldLines(s->problem, &changed));
+  if (!changed) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(PetscInfo(snes, "residuals come and go: forces hold lines of mortar sides from here on\n"));
+  s->report->held_lines = PETSC_TRUE;
+  s->iterate_sets.num   = 0;
+  s->best_norm          = PETSC_MAX_REAL;
+  PetscCall(SNESComputeFunction(snes, x, r));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -352,10 +397,14 @@ static PetscErrorCode SNESSolve_ContactNewton(SNES snes)
   s->best_iter        = 0;
   s->halvings         = 0;
   s->negative         = -1;
+  s->last_norm        = 0;
+  s->last_set         = 0;
+  s->grew = s->fell = PETSC_FALSE;
   PetscCall(ProblemSearch(s->problem, x));
   PetscCall(SNESComputeFunction(snes, x, r));
   if (s->report->status.bad) PetscCall(Finish_Private(snes, s, SNES_DIVERGED_FUNCTION_DOMAIN, "the start of the step has an inverted cell"));
   while (snes->reason == SNES_CONVERGED_ITERATING) {
+    if (snes->iter > 0) PetscCall(Lines_Private(snes, s, x, r));
     PetscCall(VecNorm(r, NORM_2, &norm));
     snes->norm          = norm;
     s->report->residual = norm;

@@ -41,6 +41,9 @@ struct _p_Solver {
   PetscReal     first_norm;      /* residual after the first iteration */
   PetscReal     best_norm;       /* least residual of this solve … */
   PetscInt      best_iter;       /* … and its iteration */
+  PetscReal     last_norm;       /* residual of the last iterate, 0: prescribed motion was left … */
+  uint64_t      last_set;        /* … and its active set */
+  PetscBool     grew, fell;      /* has the residual grown in this solve while the set stayed, and fallen since? */
   PetscInt      halvings;        /* steps shortened in this solve */
   PetscInt      negative;        /* pivots of the last factor of this solve beyond those of constraints, -1: not known */
   PetscBool     no_memory;       /* for the last factor */

@@ -216,6 +216,7 @@ PetscErrorCode SolverSolve(Solver s, State *state, SolverReport *report)
   s->pressure    = state->pressure;
   PetscCall(ProblemSetState(s->problem, state));
   PetscCall(SNESSolve(s->snes, NULL, state->x));
+  if (report->held_lines) state->lines_held = PETSC_TRUE;
   PetscCall(ProblemSetState(s->problem, state)); /* points tell of the pressures found */
   s->report   = NULL;
   s->pressure = NULL;

@@ -1,7 +1,8 @@
 /* Contact along a continuous direction where lines of both meshes lie on each other but for round-off, the mortar side ending inside: cells of hats see the
    mortar facets on the same side of the line as the facet does, and forces are continuous. And where a mortar corner lies on a side of a facet, its line at a
    small angle to it, since curved facets picture what lies beyond them a little beside a plane of symmetry: forces do not see by which of both the crossing is
-   found, and their derivatives are exact. */
+   found, and their derivatives are exact. And where a crease of the mortar side, which is not quite the straight line as which it is seen, comes to lie on a
+   side of a facet along its whole length: forces at held lines are continuous, derivatives of the weighted gaps are not. */
 #include "rayfixture.h"
 
 #define ON 4.7e-10 /* steps of the line, about where clipping decides: 1e-9 of the root of a facet's area */
@@ -136,9 +137,61 @@ static void test_crossing_runs(void **state)
   }
 }
 
+/* Flat facets of order 2, 2 x 2 on either side, under a roof: its ridge, bent by 0.01 between its corners, lies at y = 1/2 + moved, where two facets meet.
+   held: forces hold it and its picture. */
+static void Roof(PetscReal moved, PetscBool held, Sum *s)
+{
+  const ContactSpec spec = {.continuous = PETSC_TRUE};
+  PetscReal         z[25];
+  Patch             nonmortar, mortar;
+  ContactPair       pair;
+
+  PatchCreate(&nonmortar, 3, 2, 2, 0, 1, PETSC_TRUE, PETSC_FALSE);
+  PatchCreate(&mortar, 3, 2, 2, 0, 1, PETSC_FALSE, PETSC_FALSE);
+  for (PetscInt n = 0; n < nonmortar.s.num_nodes; n++) {
+    PetscReal       *x = nonmortar.x + 3 * n, *y = mortar.x + 3 * n;
+    const PetscReal *u = nonmortar.u + 2 * n, *v = mortar.u + 2 * n, c = v[1] - 0.5, side = fmod(2 * v[0], 1);
+
+    z[n] = 1 + 0.5 * (PetscReal)(n % 3);
+    x[0] = u[0], x[1] = u[1], x[2] = 0;
+    y[0] = -0.2 + 1.4 * v[0], y[1] = 0.5 + 1.4 * c + moved + (c == 0 ? 0.04 * side * (1 - side) : 0), y[2] = 0.02 - 0.3 * fabs(c);
+  }
+  memcpy(nonmortar.X, nonmortar.x, sizeof(PetscReal) * 3 * (size_t)nonmortar.s.num_nodes);
+  memcpy(mortar.X, mortar.x, sizeof(PetscReal) * 3 * (size_t)mortar.s.num_nodes);
+  CHECK_CALL(ContactPairCreate(3, PETSC_FALSE, &spec, &pair));
+  CHECK_CALL(ContactPairHoldLines(pair, held));
+  SearchAll(pair, &nonmortar, &mortar, 0.5, 1e-3);
+  SumCreate(s, &nonmortar, &mortar);
+  SumEvaluate(s, pair, &nonmortar, &mortar, z, PETSC_FALSE);
+  assert_false(s->failed);
+  PatchDestroy(&nonmortar);
+  PatchDestroy(&mortar);
+  CHECK_CALL(ContactPairDestroy(&pair));
+}
+
+static void test_crease_on_line(void **state)
+{
+  const PetscReal step = 1e-7;
+  PetscReal       jump[2], size;
+  Sum             s[2];
+
+  (void)state;
+  for (int held = 0; held < 2; held++) {
+    for (int i = 0; i < 2; i++) Roof(i ? step : -step, held ? PETSC_TRUE : PETSC_FALSE, &s[i]);
+    assert_true(s[0].size == 150);
+    size       = Largest(s[0].gradient, s[0].size);
+    jump[held] = 0;
+    for (PetscInt k = 0; k < s[0].size; k++) jump[held] = PetscMax(jump[held], PetscAbsReal(s[1].gradient[k] - s[0].gradient[k]) / size);
+    for (int i = 0; i < 2; i++) SumDestroy(&s[i]);
+  }
+  print_message("a crease passes a side: derivatives of weighted gaps change by %.1e, forces at held lines by %.1e\n", jump[0], jump[1]);
+  assert_true(jump[1] < 10 * step && jump[0] > 1e-4);
+}
+
 int main(int argc, char **argv)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(test_line_on_line), cmocka_unit_test(test_corner_on_line), cmocka_unit_test(test_crossing_runs)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(test_line_on_line), cmocka_unit_test(test_corner_on_line), cmocka_unit_test(test_crossing_runs),
+                                     cmocka_unit_test(test_crease_on_line)};
   int                     failed;
 
   if (PetscInitialize(&argc, &argv, NULL, NULL)) return 1;
