@@ -297,7 +297,7 @@ def test_held_lines_change_little(solve):
         free, held = (space.good(solve(*space.QUIET, "-contact_pair_hold_lines", value, **keys)) for value in ("false", "true"))
         change.append([abs(held["energy"] / free["energy"] - 1), abs(held["contact"]["pair"]["force"][2] / free["contact"]["pair"]["force"][2] - 1)])
     print("energy, force", change)
-    assert change[0][0] < 2e-6 and change[0][1] < 2e-4 and change[1][0] < 5e-8 and change[1][1] < 2e-5
+    assert change[0][0] < 2e-6 and change[0][1] < 2e-4 and change[1][0] < 2e-7 and change[1][1] < 4e-5
 
 
 @faces("2-full", kinds=("2-full",))
