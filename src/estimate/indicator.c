@@ -27,16 +27,19 @@ static void LagrangeDerivative_Private(PetscInt n, const PetscReal x[], PetscRea
   }
 }
 
-/* Points in each direction: order+1; mixed: one more, for the recovered pressure has more coefficients. From order 5 on one more an order, because stresses are
-   no polynomials: the difference between Div P and that of the polynomial through as few values would be more than the error that is to be told. */
-static PetscInt LinePoints_Private(PetscInt order, PetscBool mixed)
+/* Points in each direction: order+1; mixed: one more, for the recovered pressure has more coefficients. From order 5 on one more an order, in space from 4 on
+   two at least, because stresses are no polynomials: the difference between Div P and that of the polynomial through as few values would be more than the error
+   that is to be told. */
+static PetscInt LinePoints_Private(PetscInt dim, PetscInt order, PetscBool mixed)
 {
-  return PetscMin(ESTIMATE_MOST_1D, order + (mixed ? 2 : 1) + PetscMax(0, order - 4));
+  const PetscInt more = dim < 3 ? PetscMax(0, order - 4) : order < 4 ? 0 : PetscMax(2, order - 3);
+
+  return PetscMin(ESTIMATE_MOST_1D, order + (mixed ? 2 : 1) + more);
 }
 
 static PetscErrorCode TableCreate_Private(PetscInt dim, PetscInt order, PetscBool mixed, VolumeTable *table)
 {
-  const PetscInt n1 = LinePoints_Private(order, mixed), num = ElementNumNodes(dim, n1 - 1);
+  const PetscInt n1 = LinePoints_Private(dim, order, mixed), num = ElementNumNodes(dim, n1 - 1);
   const Basis1D *gauss;
 
   PetscFunctionBegin;
@@ -261,7 +264,7 @@ static PetscErrorCode WorkCreate_Private(const EstimateSum *sum, CellWork *w)
 
   PetscFunctionBegin;
   for (PetscInt c = 0; c < sum->v->num_cells; ++c)
-    most = PetscMax(most, ElementNumNodes(sum->v->dim, LinePoints_Private(sum->v->cell_order[c], PETSC_TRUE) - 1));
+    most = PetscMax(most, ElementNumNodes(sum->v->dim, LinePoints_Private(sum->v->dim, sum->v->cell_order[c], PETSC_TRUE) - 1));
   const PetscInt points = most + sum->facets.most_points;
   PetscCall(
       PetscMalloc7(3 * most, &w->X, 3 * points, &w->xi, 3 * points, &w->position, 9 * points, &w->J, 9 * points, &w->F, 9 * points, &w->P, points, &w->W));

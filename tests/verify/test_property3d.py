@@ -111,16 +111,16 @@ def test_o90_momentum_on_a_ball(run, order, tolerance=1e-10):
 # ---- O-91: exchange of the sides ------------------------------------------------------------------------------------------
 
 
-def exchange(solve, n, origin=UPPER.origin):
+def exchange(solve, n, origin=UPPER.origin, lower=LOWER, upper=UPPER):
     """|change of the total force| when the sides are exchanged, cells divided by n."""
-    low, up = LOWER._replace(number=(3 * n, 3 * n, 2 * n)), UPPER._replace(number=(2 * n, 2 * n, 2 * n), origin=origin)
+    low, up = (box._replace(number=tuple(n * count for count in box.number)) for box in (lower, upper._replace(origin=origin)))
     one, other = (only(solve(*QUIET, lower=low, upper=up, contact=pairs(side))) for side in ("upper", "lower"))
     return abs(other["force"][2] / -one["force"][2] - 1)
 
 
-def test_o91_exchange_of_sides(solve):
+def test_o91_exchange_of_sides(solve, lower=LOWER, upper=UPPER):
     """The upper block wide and the lower one narrow or the other way: total forces come together as h falls."""
-    difference = [exchange(solve, n) for n in (1, 3)]
+    difference = [exchange(solve, n, upper.origin, lower, upper) for n in (1, 3)]
     print("force", difference)
     assert difference[1] < 0.01 and (difference[1] < 0.4 * difference[0] or max(difference) < 1e-3)
 
@@ -455,9 +455,9 @@ def test_o104_from_out_of_reach(solve, step, linear):
 
 
 @SOLVERS
-def test_sliding_over_many_facets(solve, linear):
+def test_sliding_over_many_facets(solve, linear, lower=(9, 6, 2), upper=(3, 3, 2)):
     """Slid over four facets in nine steps, or carried there in one: the same state."""
-    keys = {"lower": Box((0, 0, 0), (2, 1.2, 0.5), (9, 6, 2)), "upper": Box((0.1, 0.1, 0.5), (0.6, 0.5, 0.5), (3, 3, 2))}
+    keys = {"lower": Box((0, 0, 0), (2, 1.2, 0.5), lower), "upper": Box((0.1, 0.1, 0.5), (0.6, 0.5, 0.5), upper)}
     path = ("0.5*max(t - 0.2, 0)", "0.25*max(t - 0.2, 0)", "-0.05*min(t/0.2, 1)")
     steps_, once = (solve(*QUIET, "-solve_linear", linear, **keys, boundary=hold(path), load={"end": 2, "step": step}) for step in (0.2, 2))
     assert good(steps_)["energy"] == pytest.approx(good(once)["energy"], rel=1e-8) and np.allclose(only(steps_)["force"], only(once)["force"], atol=1e-9)

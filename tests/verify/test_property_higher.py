@@ -165,6 +165,8 @@ def test_o101_ranks(higher, name, ranks):
 TILTED = ("-boundary_top_displacement_x", 0.0123, *ONE_MESH)
 RANKS = {
     "o90": lambda run, path: plane.test_o90_momentum(run, "hertz2d", ONE_MESH),
+    "o91": lambda run, path: plane.test_o91_exchange_of_sides(run),
+    "o94": lambda run, path: plane.test_o94_tangent(run, "hertz2d", 2, ()),
     "o95": lambda run, path: plane.test_o95_newton_order(run, "hertz2d", TILTED),
     "o96": lambda run, path: robust.test_o96_edge_node_on_the_corner(run, 1e-3, "upper_bottom", "lower_top"),
     "o97": lambda run, path: robust.test_o97_free_fall(run, path),
