@@ -4,7 +4,6 @@
     def test_o96_zero_load(higher):
         robust.test_o96_zero_load(higher, "upper_bottom", "lower_top")
 """
-import functools
 import re
 
 import pytest
@@ -20,20 +19,9 @@ def faces(*quick, kinds=KINDS):
     return pytest.mark.parametrize("kind", [pytest.param(kind, marks=() if kind in quick else pytest.mark.slow) for kind in kinds])
 
 
-def fails(reason):
-    """What does not hold; slow, and given up soon where a run does not end."""
-    return [pytest.mark.slow, pytest.mark.xfail(strict=True, reason=reason)]
-
-
-PATIENCE = 100  # seconds for a run of a test that is expected to fail
-
-
 @pytest.fixture
-def higher(request, run, kind):
+def higher(run, kind):
     order, face = (int(part) if part.isdigit() else part for part in kind.split("-"))
-
-    if request.node.get_closest_marker("xfail"):
-        run = functools.partial(run, timeout=PATIENCE)
 
     def start(scene, *options, text=None, **keys):
         names = re.findall(r"(\w+):\s*\{?\s*nonmortar:", text or (ROOT / scene).read_text())
