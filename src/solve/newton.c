@@ -186,36 +186,32 @@ static PetscErrorCode Test_Private(SNES snes, Solver s, Vec x)
 
 /* Does the residual come and go with the same active set? Near the solution it should not grow at all, elsewhere not after it has grown and fallen, if it is
    below that after the first iteration. */
-static PetscErrorCode ComesAndGoes_Private(Solver s, PetscReal norm, PetscBool *yes)
+static PetscErrorCode ComesAndGoes_Private(Solver s, PetscReal norm, uint64_t set, PetscBool *yes)
 {
   const ProblemStatus *status = &s->report->status;
   const PetscReal      last = s->last_norm, tolerance = PetscMax(s->rtol * status->scale, status->noise);
-  uint64_t             hash;
   PetscReal            pending;
 
   PetscFunctionBegin;
-  PetscCall(ProblemActiveSetHash(s->problem, &hash));
   PetscCall(ProblemPending(s->problem, &pending));
-  const PetscBool same = (PetscBool)(last > CLEAR * tolerance && hash == s->last_set);
+  const PetscBool same = (PetscBool)(last > CLEAR * tolerance && set == s->last_set);
   *yes                 = (PetscBool)(same && norm >= last && (last <= NEAR * status->scale || (s->fell && last < s->first_norm)));
   s->grew              = (PetscBool)(s->grew || (same && norm >= last));
   s->fell              = (PetscBool)(s->fell || (s->grew && norm < last));
   s->last_norm         = pending == 0 ? norm : 0;
-  s->last_set          = hash;
+  s->last_set          = set;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* Where a crease of the mortar side comes to lie on a side of a nonmortar facet, derivatives of weighted gaps jump (docs/theory.md, after (5.8)), and residuals
-   come and go. From then on forces are those at held lines, which do not jump. */
-static PetscErrorCode Lines_Private(SNES snes, Solver s, Vec x, Vec r)
+   come and go. From then on forces are those at held lines, which do not jump, and so are r, its norm and the active set. */
+static PetscErrorCode Lines_Private(SNES snes, Solver s, Vec x, Vec r, PetscReal *norm, uint64_t *set)
 {
-  PetscReal norm;
   PetscBool yes, changed;
 
   PetscFunctionBegin;
   if (s->report->held_lines) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(VecNorm(r, NORM_2, &norm));
-  PetscCall(ComesAndGoes_Private(s, norm, &yes));
+  PetscCall(ComesAndGoes_Private(s, *norm, *set, &yes));
   if (!yes) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(ProblemHoldLines(s->problem, &changed));
   if (!changed) PetscFunctionReturn(PETSC_SUCCESS);
@@ -224,19 +220,19 @@ static PetscErrorCode Lines_Private(SNES snes, Solver s, Vec x, Vec r)
   s->iterate_sets.num   = 0;
   s->best_norm          = PETSC_MAX_REAL;
   PetscCall(SNESComputeFunction(snes, x, r));
+  PetscCall(VecNorm(r, NORM_2, norm));
+  PetscCall(ProblemActiveSetHash(s->problem, set));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* Is the iteration over at residual norm? Then snes->reason is set. */
-static PetscErrorCode Verdict_Private(SNES snes, Solver s, PetscReal norm)
+static PetscErrorCode Verdict_Private(SNES snes, Solver s, PetscReal norm, uint64_t set)
 {
   PetscBool done, repeats;
-  uint64_t  hash;
 
   PetscFunctionBegin;
   PetscCall(Converged_Private(s, snes->vec_sol, norm, &done));
-  PetscCall(ProblemActiveSetHash(s->problem, &hash));
-  PetscCall(SetHistoryAdd_Private(&s->iterate_sets, hash, norm, PETSC_TRUE, &repeats));
+  PetscCall(SetHistoryAdd_Private(&s->iterate_sets, set, norm, PETSC_TRUE, &repeats));
   if (snes->iter == 1) s->first_norm = s->best_norm = norm; /* the first iterate carries the whole prescribed motion: progress counts from there */
   if (norm < s->best_norm) {
     s->best_norm = norm;
@@ -387,6 +383,7 @@ static PetscErrorCode SNESSolve_ContactNewton(SNES snes)
   Solver    s = NULL;
   Vec       x = snes->vec_sol, r = snes->vec_func;
   PetscReal norm;
+  uint64_t  set;
 
   PetscFunctionBegin;
   PetscCall(SNESGetApplicationContext(snes, &s));
@@ -404,13 +401,14 @@ static PetscErrorCode SNESSolve_ContactNewton(SNES snes)
   PetscCall(SNESComputeFunction(snes, x, r));
   if (s->report->status.bad) PetscCall(Finish_Private(snes, s, SNES_DIVERGED_FUNCTION_DOMAIN, "the start of the step has an inverted cell"));
   while (snes->reason == SNES_CONVERGED_ITERATING) {
-    if (snes->iter > 0) PetscCall(Lines_Private(snes, s, x, r));
     PetscCall(VecNorm(r, NORM_2, &norm));
+    PetscCall(ProblemActiveSetHash(s->problem, &set));
+    if (snes->iter > 0) PetscCall(Lines_Private(snes, s, x, r, &norm, &set));
     snes->norm          = norm;
     s->report->residual = norm;
     s->report->scale    = s->report->status.scale;
     PetscCall(SNESMonitor(snes, snes->iter, norm));
-    PetscCall(Verdict_Private(snes, s, norm));
+    PetscCall(Verdict_Private(snes, s, norm, set));
     if (snes->reason == SNES_CONVERGED_ITERATING) PetscCall(Obey_Private(snes, s));
     if (snes->reason != SNES_CONVERGED_ITERATING) break;
     PetscCall(Iterate_Private(snes, s, x, r, snes->vec_sol_update));
