@@ -7,13 +7,29 @@
 
 #define ON 4.7e-10 /* steps of the line, about where clipping decides: 1e-9 of the root of a facet's area */
 
+/* Sums over the pair of these patches, the mortar side at its reference positions; both are destroyed. held: forces hold lines. */
+static void Take(Patch *nonmortar, Patch *mortar, const PetscReal z[], PetscBool held, PetscBool hessian, Sum *s)
+{
+  const ContactSpec spec = {.continuous = PETSC_TRUE};
+  ContactPair       pair;
+
+  memcpy(mortar->X, mortar->x, sizeof(PetscReal) * 3 * (size_t)mortar->s.num_nodes);
+  CHECK_CALL(ContactPairCreate(3, PETSC_FALSE, &spec, &pair));
+  CHECK_CALL(ContactPairHoldLines(pair, held));
+  SearchAll(pair, nonmortar, mortar, 0.5, 1e-3);
+  SumCreate(s, nonmortar, mortar);
+  SumEvaluate(s, pair, nonmortar, mortar, z, hessian);
+  assert_false(s->failed);
+  PatchDestroy(nonmortar);
+  PatchDestroy(mortar);
+  CHECK_CALL(ContactPairDestroy(&pair));
+}
+
 /* Flat facets of order 2, 2 x 2 on either side, a wedge of a gap between them; the mortar side covers x < 0.7, its line y = 1/2 runs from low to high. */
 static void Evaluate(PetscReal low, PetscReal high, Sum *s)
 {
-  const ContactSpec spec = {.continuous = PETSC_TRUE};
-  PetscReal         z[25];
-  Patch             nonmortar, mortar;
-  ContactPair       pair;
+  PetscReal z[25];
+  Patch     nonmortar, mortar;
 
   PatchCreate(&nonmortar, 3, 2, 2, 0, 1, PETSC_TRUE, PETSC_FALSE);
   PatchCreate(&mortar, 3, 2, 2, 0, 1, PETSC_FALSE, PETSC_FALSE);
@@ -27,16 +43,8 @@ static void Evaluate(PetscReal low, PetscReal high, Sum *s)
     if (v[1] == 0.5) y[1] += low + (high - low) * v[0];
   }
   memcpy(nonmortar.X, nonmortar.x, sizeof(PetscReal) * 3 * (size_t)nonmortar.s.num_nodes);
-  memcpy(mortar.X, mortar.x, sizeof(PetscReal) * 3 * (size_t)mortar.s.num_nodes);
-  CHECK_CALL(ContactPairCreate(3, PETSC_FALSE, &spec, &pair));
-  SearchAll(pair, &nonmortar, &mortar, 0.5, 1e-3);
-  SumCreate(s, &nonmortar, &mortar);
-  SumEvaluate(s, pair, &nonmortar, &mortar, z, PETSC_FALSE);
-  assert_false(s->failed);
+  Take(&nonmortar, &mortar, z, PETSC_FALSE, PETSC_FALSE, s);
   assert_near(s->area, 0.7, 1e-8);
-  PatchDestroy(&nonmortar);
-  PatchDestroy(&mortar);
-  CHECK_CALL(ContactPairDestroy(&pair));
 }
 
 static void test_line_on_line(void **state)
@@ -62,10 +70,8 @@ static void test_line_on_line(void **state)
  *corner. Sides of the nonmortar facets spread along x. */
 static void Spread(PetscInt order, PetscReal moved, PetscBool hessian, Sum *s, PetscInt *corner)
 {
-  const ContactSpec spec = {.continuous = PETSC_TRUE};
-  PetscReal         z[81];
-  Patch             nonmortar, mortar;
-  ContactPair       pair;
+  PetscReal z[81];
+  Patch     nonmortar, mortar;
 
   PatchCreate(&nonmortar, 3, order, 2, 0, 1, PETSC_TRUE, PETSC_FALSE);
   PatchCreate(&mortar, 3, order, 2, 0, 1, PETSC_FALSE, PETSC_FALSE);
@@ -82,15 +88,7 @@ static void Spread(PetscInt order, PetscReal moved, PetscBool hessian, Sum *s, P
     y[1] += moved;
     *corner = 3 * (nonmortar.s.num_nodes + n) + 1;
   }
-  memcpy(mortar.X, mortar.x, sizeof(PetscReal) * 3 * (size_t)mortar.s.num_nodes);
-  CHECK_CALL(ContactPairCreate(3, PETSC_FALSE, &spec, &pair));
-  SearchAll(pair, &nonmortar, &mortar, 0.5, 1e-3);
-  SumCreate(s, &nonmortar, &mortar);
-  SumEvaluate(s, pair, &nonmortar, &mortar, z, hessian);
-  assert_false(s->failed);
-  PatchDestroy(&nonmortar);
-  PatchDestroy(&mortar);
-  CHECK_CALL(ContactPairDestroy(&pair));
+  Take(&nonmortar, &mortar, z, PETSC_FALSE, hessian, s);
 }
 
 static void test_corner_on_line(void **state)
@@ -141,10 +139,8 @@ static void test_crossing_runs(void **state)
    held: forces hold it and its picture. */
 static void Roof(PetscReal moved, PetscBool held, Sum *s)
 {
-  const ContactSpec spec = {.continuous = PETSC_TRUE};
-  PetscReal         z[25];
-  Patch             nonmortar, mortar;
-  ContactPair       pair;
+  PetscReal z[25];
+  Patch     nonmortar, mortar;
 
   PatchCreate(&nonmortar, 3, 2, 2, 0, 1, PETSC_TRUE, PETSC_FALSE);
   PatchCreate(&mortar, 3, 2, 2, 0, 1, PETSC_FALSE, PETSC_FALSE);
@@ -157,16 +153,7 @@ static void Roof(PetscReal moved, PetscBool held, Sum *s)
     y[0] = -0.2 + 1.4 * v[0], y[1] = 0.5 + 1.4 * c + moved + (c == 0 ? 0.04 * side * (1 - side) : 0), y[2] = 0.02 - 0.3 * fabs(c);
   }
   memcpy(nonmortar.X, nonmortar.x, sizeof(PetscReal) * 3 * (size_t)nonmortar.s.num_nodes);
-  memcpy(mortar.X, mortar.x, sizeof(PetscReal) * 3 * (size_t)mortar.s.num_nodes);
-  CHECK_CALL(ContactPairCreate(3, PETSC_FALSE, &spec, &pair));
-  CHECK_CALL(ContactPairHoldLines(pair, held));
-  SearchAll(pair, &nonmortar, &mortar, 0.5, 1e-3);
-  SumCreate(s, &nonmortar, &mortar);
-  SumEvaluate(s, pair, &nonmortar, &mortar, z, PETSC_FALSE);
-  assert_false(s->failed);
-  PatchDestroy(&nonmortar);
-  PatchDestroy(&mortar);
-  CHECK_CALL(ContactPairDestroy(&pair));
+  Take(&nonmortar, &mortar, z, held, PETSC_FALSE, s);
 }
 
 static void test_crease_on_line(void **state)
