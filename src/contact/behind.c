@@ -89,7 +89,7 @@ static void Directions_Private(ContactPair pair, const ContactSurface *s, PetscI
 
     for (PetscInt c = 0; c < 3; c++) {
       if (pair->rays)
-        p->d[a][c] = pair->ray->d[3 * node + c];
+        p->d[a][c] = pair->ray->d[3 * (p->nv * facet + a) + c];
       else
         p->d[a][c] = p->dim == 3 ? p->axis[2][c] : c < 2 ? pair->normal[2 * node + c] : 0;
     }

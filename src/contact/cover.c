@@ -266,7 +266,6 @@ PetscErrorCode ContactCover(ContactPair pair, const ContactSurface *nonmortar, c
   RayWork         w       = pair->ray;
   RayFacet       *f       = &w->facet;
   const PetscInt  facet   = pair->listed[slot];
-  const PetscInt *node    = nonmortar->facets;
   PetscReal       covered = 0;
 
   PetscFunctionBegin;
@@ -277,10 +276,9 @@ PetscErrorCode ContactCover(ContactPair pair, const ContactSurface *nonmortar, c
   f->nv      = 2 * f->m;
   f->ring    = pair->axisymmetric ? 2 * PETSC_PI : 0;
   f->d.order = 1, f->d.num = f->nv;
-  node += f->nv * facet;
   ContactRayLatticeGather(nonmortar, facet, &f->s);
   for (PetscInt a = 0; a < f->nv; a++) {
-    const PetscInt corner = node[a < 2 ? a : 5 - a];
+    const PetscInt corner = f->nv * facet + (a < 2 ? a : 5 - a);
 
     for (int c = 0; c < 3; c++) f->d.x[a][c] = w->d[3 * corner + c];
     if (!ContactDirectionUsable(w, nonmortar, corner)) *failed = PETSC_TRUE;

@@ -33,7 +33,7 @@ static PetscErrorCode DirectionRows_Private(RayWork w, const ContactSurface *s, 
   PetscCall(ContactGrow(D * nv * w->nn, sizeof(PetscReal), &w->size_J, &w->J));
   PetscCall(PetscArrayzero(w->J, D * nv * w->nn));
   for (PetscInt v = 0; v < nv && !held; v++) {
-    const PetscInt terms = ContactDirectionTerms(w, s, s->facets[nv * facet + (v < 2 ? v : 5 - v)], TERMS, term);
+    const PetscInt terms = ContactDirectionTerms(w, s, nv * facet + (v < 2 ? v : 5 - v), TERMS, term);
 
     for (PetscInt t = 0; t < terms; t++) {
       const PetscInt *node = s->facets + nv * term[t].facet;
@@ -68,7 +68,7 @@ PetscErrorCode ContactRayDirectionCurvature(RayWork w, const ContactSurface *s, 
   if (s->dim == 2) PetscFunctionReturn(PETSC_SUCCESS);
   for (PetscInt v = 0; v < 4; v++) {
     const PetscReal *along = gradient + 3 * (na + v);
-    const PetscInt   terms = ContactDirectionTerms(w, s, s->facets[4 * facet + (v < 2 ? v : 5 - v)], TERMS, term);
+    const PetscInt   terms = ContactDirectionTerms(w, s, 4 * facet + (v < 2 ? v : 5 - v), TERMS, term);
 
     for (PetscInt t = 0; t < terms; t++)
       for (int pair = 0; pair < 4; pair++) {

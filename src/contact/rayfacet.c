@@ -64,7 +64,7 @@ PetscErrorCode ContactRayWorkDestroy(RayWork *work)
   PetscFunctionBegin;
   if (!w) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(ContactResultDestroy(&w->result));
-  PetscCall(PetscFree5(w->ring_first, w->ring_facet, w->parent, w->d, w->kept));
+  PetscCall(PetscFree7(w->ring_first, w->ring, w->sheet, w->end, w->parent, w->d, w->kept));
   PetscCall(PetscFree2(w->mortar_parent, w->mortar_middle));
   PetscCall(PetscFree(w->image));
   PetscCall(PetscFree(w->overlap));
@@ -94,7 +94,7 @@ static PetscBool HasDirections_Private(ContactPair pair, const ContactSurface *s
   const PetscInt nv = 2 * (s->dim - 1);
 
   for (PetscInt v = 0; v < nv; v++)
-    if (PetscIsNanReal(pair->ray->d[3 * s->facets[nv * facet + v]])) return PETSC_FALSE;
+    if (PetscIsNanReal(pair->ray->d[3 * (nv * facet + v)])) return PETSC_FALSE;
   return PETSC_TRUE;
 }
 
@@ -119,7 +119,7 @@ static void Normals_Private(ContactPair pair, const ContactSurface *s)
 
       ContactRayFunctions(m, 1, xi, 1, &V);
       for (PetscInt v = 0; v < nv; v++)
-        for (int c = 0; c < 3; c++) d[c] += V.N[v] * pair->ray->d[3 * s->facets[nv * f + (v < 2 ? v : 5 - v)] + c];
+        for (int c = 0; c < 3; c++) d[c] += V.N[v] * pair->ray->d[3 * (nv * f + (v < 2 ? v : 5 - v)) + c];
       length = PetscSqrtReal(Dot3(d, d));
       for (PetscInt c = 0; c < D; c++) pair->normal[D * node[a] + c] = length > 0 ? d[c] / length : 0;
     }
@@ -174,7 +174,7 @@ static PetscErrorCode Nodes_Private(const EvaluateContext *ctx, PetscInt facet)
     }
   }
   for (PetscInt v = 0; v < nv; v++) {
-    const PetscInt terms = ContactDirectionTerms(w, ctx->nonmortar, ctx->nonmortar->facets[nv * facet + v], TERMS, term);
+    const PetscInt terms = ContactDirectionTerms(w, ctx->nonmortar, nv * facet + v, TERMS, term);
 
     for (PetscInt t = 0; t < terms; t++)
       for (PetscInt k = 0; k < nv; k++) {

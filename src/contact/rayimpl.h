@@ -93,8 +93,11 @@ typedef struct {
 
 struct _p_RayWork {
   /* topology of the nonmortar surface */
-  PetscInt  *ring_first, *ring_facet, *parent; /* facets around each corner; ends of the edge on which a corner hangs, -1 */
-  PetscReal *d;                                /* [num_nodes][3] directions at corners */
+  PetscInt  *ring_first, *ring; /* corners of facets at each node: corner k of facet f is nv f + k */
+  PetscInt  *sheet;             /* [corners] those of one node with the same sheet have one direction (direction.c) */
+  PetscInt  *parent;            /* [num_nodes][2] ends of the edge on which a node hangs, -1 */
+  PetscInt  *end;               /* [corners][2] corners at these ends whose directions count, -1: the node does not hang */
+  PetscReal *d;                 /* [corners][3] directions */
   PetscBool *kept;                             /* [num_facets][4] does the side from corner k on lie in a plane of symmetry? (space) */
   PetscInt  *mortar_parent;                    /* [mortar num_nodes][2] of nodes that hang on straight sides */
   PetscInt  *mortar_middle;                    /* [mortar num_facets][4] nodes that hang in the middle of curved sides, -1 */
@@ -143,13 +146,13 @@ void ContactRayBeyondSides(const PetscBool kept[4], RayBeyond *);
 PetscErrorCode ContactParents(const ContactSurface *, PetscInt parent[], PetscInt middle[]);
 PetscErrorCode ContactDirectionTopology(RayWork, const ContactSurface *);
 void           ContactDirections(RayWork, const ContactSurface *);
-PetscBool      ContactDirectionUsable(RayWork, const ContactSurface *, PetscInt node);
+PetscBool      ContactDirectionUsable(RayWork, const ContactSurface *, PetscInt corner);
 typedef struct {
   PetscInt  facet;
   PetscReal R[9]; /* weight times images in planes of symmetry */
 } DirectionTerm;
-/* d at a corner = sum_terms R (vector of facet). Returns their number, at most max. */
-PetscInt ContactDirectionTerms(RayWork, const ContactSurface *, PetscInt node, PetscInt max, DirectionTerm[]);
+/* d at a corner of a facet = sum_terms R (vector of facet). Returns their number, at most max. */
+PetscInt ContactDirectionTerms(RayWork, const ContactSurface *, PetscInt corner, PetscInt max, DirectionTerm[]);
 
 /* chart.c */
 PetscBool ContactChartCreate(const ContactSurface *, PetscInt facet, RayFacet *);

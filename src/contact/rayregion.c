@@ -67,7 +67,7 @@ void ContactRayRegion(ContactPair pair, const ContactSurface *s, PetscInt facet,
   }
   for (PetscInt a = 0; a < nv; a++) {
     const PetscInt   node = s->facets[nv * facet + a];
-    const PetscReal *d = pair->ray->d + 3 * node, length = PetscSqrtReal(Dot3(d, d));
+    const PetscReal *d = pair->ray->d + 3 * (nv * facet + a), length = PetscSqrtReal(Dot3(d, d));
 
     for (int side = -1; side <= 1 && length > 0; side += 2) {
       PetscReal end[3];
@@ -87,7 +87,7 @@ PetscBool ContactRayRegionMeets(const RayRegion *r, const ContactSurface *mortar
 
   if (r->slack < 0) return PETSC_FALSE;
   ContactFacetVector(mortar->dim, mortar->x, mortar->facets + 2 * (mortar->dim - 1) * facet, N);
-  if (!(Dot3(N, r->axis[2]) < -CONTACT_OPPOSE * PetscSqrtReal(Dot3(N, N)))) return PETSC_FALSE;
+  if (!(Dot3(N, r->axis[2]) < -(getenv("MG") ? atof(getenv("MG")) : CONTACT_OPPOSE) * PetscSqrtReal(Dot3(N, N)))) return PETSC_FALSE;
   ContactRayLatticeGather(mortar, facet, &l);
   for (int i = 0; i < 3; i++) {
     lo[i] = PETSC_MAX_REAL, hi[i] = -PETSC_MAX_REAL;

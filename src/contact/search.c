@@ -199,7 +199,7 @@ static PetscErrorCode Prepare_Private(ContactPair pair, const ContactSurface *no
              (double)distance, (double)margin);
   pair->distance = distance;
   pair->margin   = margin;
-  pair->rays     = (PetscBool)(nonmortar->order || higher || (pair->dim == 3 && pair->continuous));
+  pair->rays     = (PetscBool)(nonmortar->order || higher || (pair->dim == 3 && pair->continuous) || (getenv("MR") && !pair->node_to_segment));
   if (pair->rays)
     PetscCall(ContactRayTopology(pair, nonmortar));
   else if (pair->dim == 3)
