@@ -91,7 +91,7 @@ void ContactImageFind(const RayFacet *f, RayImage *image)
   Picture c;
 
   image->found = Find_Private(f, PETSC_TRUE, image);
-  if (!image->found && f->m == 2) image->found = Find_Private(f, PETSC_FALSE, image);
+  if (!image->found) image->found = Find_Private(f, PETSC_FALSE, image);
   if (!image->found) {
     image->xi[0] = image->xi[1] = image->s = 0;
     return;
