@@ -54,7 +54,7 @@ def test_overlap_deeper_than_a_cell(run, tmp_path, carries, overlap):
 # ---- beyond a plane of symmetry ---------------------------------------------------------------------------------------------------------
 
 @pytest.mark.parametrize("beyond", [0.5, 5])
-@pytest.mark.parametrize("order", [3, 4])
+@pytest.mark.parametrize("order", [2, 3, 4])
 def test_a_floor_that_goes_on_beyond_the_plane_of_symmetry(run, order, beyond):
     """Corners of the floor far behind the fine curved facets at the edge of the zone have their place in the view of those all the same."""
     result = run("floor.yml", *QUIET, "-order", order, "-mesh_parameter_a", beyond, text=floor())
