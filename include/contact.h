@@ -51,6 +51,7 @@ typedef struct {
 typedef struct {
   char      name[MORTISE_NAME];
   PetscInt  nonmortar, mortar; /* boundary groups */
+  PetscBool exchanged;         /* the scene names them the other way round, but its nonmortar side is rigid; figures are of the sides as the scene names them */
   PetscReal friction;          /* 0 here: anything else is an input error until friction is built */
   PetscBool full;              /* facets have the order of their cells; else order 1 */
   PetscReal search;            /* search distance, in multiples of the larger edge length; default 0: automatic */
@@ -116,9 +117,12 @@ PetscErrorCode ContactPairDestroy(ContactPair *);
 typedef struct _p_ContactHull *ContactHull;
 PetscErrorCode                 ContactHullCreate(PetscInt dim, PetscInt num, PetscInt part[], PetscReal X[], ContactHull *);
 PetscErrorCode                 ContactHullDestroy(ContactHull *);
+/* How far its part of the bodies reaches behind a facet of the surface at the reference positions, straight inwards from the facet's middle: the most of all
+   its facets. part[num_facets]. Not collective. */
+PetscErrorCode ContactHullThickness(ContactHull, const ContactSurface *, const PetscInt part[], PetscReal *most);
 /* From now on the pair's searches pass over far sides. part, mortar_part: parts of the facets of its surfaces, which need reference positions; borrowed, as
-   is the hull. Not collective. */
-PetscErrorCode ContactPairSetHull(ContactPair, ContactHull, const PetscInt part[], const PetscInt mortar_part[]);
+   is the hull. deepest: overlaps are looked for down to here, whatever the search distance is; 0: down to the search distance. Not collective. */
+PetscErrorCode ContactPairSetHull(ContactPair, ContactHull, const PetscInt part[], const PetscInt mortar_part[], PetscReal deepest);
 
 /* Facets of higher order: which nodes have multipliers (carries[nonmortar num_nodes], NULL: all), for the functions of covered facets, which are dual in the
    reference positions; before the search. Without it the first search takes all nodes. The pair keeps the functions. Not collective. */
@@ -135,7 +139,8 @@ PetscErrorCode ContactPairSetSoftness(ContactPair, const PetscReal softness[]);
 PetscErrorCode ContactPairGetDonors(ContactPair, const PetscInt **first, const PetscInt **donor, const PetscReal **weight);
 
 /* Candidate search at the given positions: for each listed nonmortar facet (facets[num], those this rank owns) the mortar facets it may meet while no
-   node moves more than `margin`: facet normals N_s . N_m < -0.1, |g| < distance to both sides somewhere on the pair (margin > 0: more, but no deeper).
+   node moves more than `margin`: facet normals N_s . N_m < -0.1, -depth < g < distance somewhere on the pair (margin > 0: more, but no deeper); depth is the
+   distance, or what ContactPairSetHull says.
    Distances and normals are judged here only, so between two searches the evaluation is continuous. Bounding-volume tree, O(n log n). Call between Newton
    iterations only; the result is kept. Not collective. */
 PetscErrorCode ContactPairSearch(ContactPair, const ContactSurface *nonmortar, const ContactSurface *mortar, PetscInt num, const PetscInt facets[],

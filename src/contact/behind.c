@@ -188,10 +188,33 @@ PetscBool ContactBehind(ContactPair pair, PetscInt facet, const FacetCorners *s,
   return (PetscBool)(Across_Private(pair->hull, pair->part[1][other], &m, eta, n, 2 * depth - own) < 2 * depth - own);
 }
 
-PetscErrorCode ContactPairSetHull(ContactPair pair, ContactHull hull, const PetscInt part[], const PetscInt mortar_part[])
+PetscErrorCode ContactHullThickness(ContactHull hull, const ContactSurface *s, const PetscInt part[], PetscReal *most)
+{
+  const ContactSurface reference = {.dim = s->dim, .facets = s->facets, .x = s->X, .X = s->X};
+  FacetCorners         p;
+
+  PetscFunctionBegin;
+  *most = 0;
+  for (PetscInt f = 0; f < s->num_facets; f++) {
+    PetscReal x[3] = {0, 0, 0}, d[3];
+
+    Corners_Private(&reference, f, &p);
+    for (int c = 0; c < 3; c++) {
+      for (PetscInt a = 0; a < p.nv; a++) x[c] += p.X[a][c] / (PetscReal)p.nv;
+      d[c] = -p.axis0[p.dim - 1][c];
+    }
+    const PetscReal across = ContactHullAcross(hull, part[f], x, d, PETSC_MAX_REAL);
+
+    if (across < PETSC_MAX_REAL) *most = PetscMax(*most, across); /* else through a crack between facets of curved bodies */
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode ContactPairSetHull(ContactPair pair, ContactHull hull, const PetscInt part[], const PetscInt mortar_part[], PetscReal deepest)
 {
   PetscFunctionBegin;
   pair->hull    = hull;
+  pair->deepest = deepest;
   pair->part[0] = part;
   pair->part[1] = mortar_part;
   PetscFunctionReturn(PETSC_SUCCESS);

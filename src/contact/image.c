@@ -64,7 +64,7 @@ static PetscBool Find_Private(const RayFacet *f, PetscBool ahead, RayImage *imag
 
   image->xi[0] = image->xi[1] = image->s = 0;
   for (int k = 0; k < 30; k++) {
-    PetscReal r[3], step = 0;
+    PetscReal r[3], step = 0, size = 1;
 
     Place_Private(f, image->xi, image->s, 1, &p);
     if (!(p.det > 0)) return PETSC_FALSE; /* beyond the point where rays cross */
@@ -78,10 +78,11 @@ static PetscBool Find_Private(const RayFacet *f, PetscBool ahead, RayImage *imag
 
       image->xi[i] += dx;
       step = PetscMax(step, PetscAbsReal(dx));
+      size = PetscMax(size, PetscAbsReal(image->xi[i]));
     }
     image->s += Dot3(p.inverse[2], r);
-    if (!(step < 1e3)) return PETSC_FALSE;
-    if (step < RAY_SOLVED) return PETSC_TRUE;
+    if (!(size < RAY_FAR)) return PETSC_FALSE;
+    if (step < RAY_SOLVED * size) return PETSC_TRUE;
   }
   return PETSC_FALSE;
 }
@@ -91,7 +92,7 @@ void ContactImageFind(const RayFacet *f, RayImage *image)
   Picture c;
 
   image->found = Find_Private(f, PETSC_TRUE, image);
-  if (!image->found && f->m == 2) image->found = Find_Private(f, PETSC_FALSE, image);
+  if (!image->found) image->found = Find_Private(f, PETSC_FALSE, image);
   if (!image->found) {
     image->xi[0] = image->xi[1] = image->s = 0;
     return;

@@ -51,14 +51,34 @@ static void Slope_Private(const RayBeyond *b, PetscInt order, const PetscReal h[
   }
 }
 
+/* Of an edge: f(h) + (xi - h) chord / 2 */
+static void BeyondEdge_Private(PetscInt order, PetscReal xi, int depth, RayFunctions *to)
+{
+  PetscReal h[3];
+
+  Bound_Private(xi, h);
+  ContactRayFunctions(1, order, h, depth, to);
+  for (PetscInt a = 0; a <= order; a++) {
+    const PetscReal slope = a == 0 ? -0.5 : a == order ? 0.5 : 0, more = to->d[0][a] - slope;
+
+    to->N[a] += (xi - h[0]) * slope;
+    if (depth > 1) to->dd[0][a] = to->dd[0][a] * PetscSqr(h[1]) + more * h[2];
+    to->d[0][a] = slope + more * h[1];
+  }
+}
+
 /* f(h) + sum_i (xi_i - h_i) slope_i */
 void ContactRayBeyond(const RayBeyond *b, PetscInt m, PetscInt order, const PetscReal xi[2], int depth, RayFunctions *to)
 {
   const PetscInt num = (order + 1) * (order + 1);
   PetscReal      h[2][3], slope[2][RAY_LATTICE], turn[2][RAY_LATTICE], at[2], past[2];
 
-  if (m == 1 || PetscMax(PetscAbsReal(xi[0]), PetscAbsReal(xi[1])) <= 1) {
+  if (PetscMax(PetscAbsReal(xi[0]), m == 1 ? 0 : PetscAbsReal(xi[1])) <= 1) {
     ContactRayFunctions(m, order, xi, depth, to);
+    return;
+  }
+  if (m == 1) {
+    BeyondEdge_Private(order, xi[0], depth, to);
     return;
   }
   for (int i = 0; i < 2; i++) {
@@ -84,8 +104,17 @@ void ContactRayTurn(PetscInt m, const PetscReal xi[2], int depth, RayFunctions *
 {
   PetscReal h[2][3], at[2];
 
-  if (m == 1 || PetscMax(PetscAbsReal(xi[0]), PetscAbsReal(xi[1])) <= 1) {
+  if (PetscMax(PetscAbsReal(xi[0]), m == 1 ? 0 : PetscAbsReal(xi[1])) <= 1) {
     ContactRayFunctions(m, 1, xi, depth, to);
+    return;
+  }
+  if (m == 1) {
+    Bound_Private(xi[0], h[0]);
+    ContactRayFunctions(1, 1, h[0], depth, to);
+    for (PetscInt a = 0; a < 2; a++) {
+      if (depth > 1) to->dd[0][a] = to->d[0][a] * h[0][2]; /* linear: no second derivative of its own */
+      to->d[0][a] *= h[0][1];
+    }
     return;
   }
   for (int i = 0; i < 2; i++) {

@@ -22,6 +22,7 @@
 #define RAY_MOMENTS (2 * RAY_LATTICE + 10)
 #define RAY_GRAZE 1e-3 /* cosine between the ray and the normal of a facet below which they do not meet */
 #define RAY_SOLVED 1e-9
+#define RAY_FAR 1e7   /* parametric coordinate up to which images are looked for: a facet may be 10^7 times as small as what it sees */
 #define RAY_OUTSIDE 3 /* parametric coordinate up to which rays meet a mortar facet beyond its curved sides */
 
 /* Functions of a lattice at a point of [-1, 1]^m: values and derivatives 1 2, 11 12 22, 111 112 122 222. */

@@ -1,7 +1,7 @@
 /* Candidate search for rays along a continuous direction: what a facet may meet while no node moves more than the pair's margin.
 
-   A mortar facet is kept when the vectors of the facets oppose, N_s . N_m < -0.1, and the boxes around its lattice nodes and around the rays of length
-   `distance` to both sides meet in the facet's own axes. With a margin the box of the rays grows by 2 margin (1 + distance / h), h the facet's shortest side,
+   A mortar facet is kept when the vectors of the facets oppose, N_s . N_m < -0.1, and the boxes around its lattice nodes and around the rays, `distance`
+   long outwards and `depth` inwards, meet in the facet's own axes. With a margin the box of the rays grows by 2 margin (1 + distance / h), h the facet's shortest side,
    but not into the body: what lies deeper is no overlap but another body behind this one, which would be pulled through it.
    The box of the rays also has an eighth of the facet's size to all sides but the rays' for the bulge of curved facets between their nodes. */
 #include "rayimpl.h"
@@ -72,11 +72,11 @@ void ContactRayRegion(ContactPair pair, const ContactSurface *s, PetscInt facet,
     for (int side = -1; side <= 1 && length > 0; side += 2) {
       PetscReal end[3];
 
-      for (PetscInt c = 0; c < 3; c++) end[c] = (c < s->dim ? s->x[s->dim * node + c] : 0) + side * reach / length * d[c];
+      for (PetscInt c = 0; c < 3; c++) end[c] = (c < s->dim ? s->x[s->dim * node + c] : 0) + (side > 0 ? reach : -pair->depth) / length * d[c];
       Enclose_Private(r, end, r->slack + bulge);
     }
   }
-  r->lo[2] = PetscMax(r->lo[2], lowest - pair->distance);
+  r->lo[2] = PetscMax(r->lo[2], lowest - pair->depth);
   if (s->dim == 2) r->box[2] = r->box[5] = 0;
 }
 
@@ -87,7 +87,7 @@ PetscBool ContactRayRegionMeets(const RayRegion *r, const ContactSurface *mortar
 
   if (r->slack < 0) return PETSC_FALSE;
   ContactFacetVector(mortar->dim, mortar->x, mortar->facets + 2 * (mortar->dim - 1) * facet, N);
-  if (!(Dot3(N, r->axis[2]) < -(getenv("MG") ? atof(getenv("MG")) : CONTACT_OPPOSE) * PetscSqrtReal(Dot3(N, N)))) return PETSC_FALSE;
+  if (!(Dot3(N, r->axis[2]) < -CONTACT_OPPOSE * PetscSqrtReal(Dot3(N, N)))) return PETSC_FALSE;
   ContactRayLatticeGather(mortar, facet, &l);
   for (int i = 0; i < 3; i++) {
     lo[i] = PETSC_MAX_REAL, hi[i] = -PETSC_MAX_REAL;

@@ -1,7 +1,7 @@
 /* Candidate search in three dimensions: what a nonmortar facet may meet while no node moves more than the pair's margin.
 
    A mortar facet is kept when the unit normals of the vector areas oppose, N_s . N_m < -0.1, and some of it lies in the prism over the facet along its normal,
-   up to `distance` to both sides; with a margin the prism grows to all sides but into the body by slack = 2 margin (1 + distance / h), h the facet's shortest
+   up to `distance` above and `depth` below; with a margin the prism grows to all sides but into the body by slack = 2 margin (1 + distance / h), h the facet's shortest
    side: relative motion of the nodes plus the turn 2 margin / h of the normal at that distance. What lies deeper in the body is no overlap but another body
    behind this one, which would be pulled through it. */
 #include "facetimpl.h"
@@ -34,8 +34,8 @@ void ContactRegionCreate(ContactPair pair, const ContactSurface *s, PetscInt fac
   r->reach = r->slack = -1;
   if (!ContactFacetFrame(r->x, &r->frame) || !(shortest > 0)) return; /* meets nothing; the evaluation says so */
   r->slack = 2 * pair->margin * (1 + pair->distance / shortest);
-  r->depth = pair->distance;
-  r->reach = r->depth + r->slack;
+  r->depth = pair->depth;
+  r->reach = pair->distance + r->slack;
   for (int a = 0; a < 4; a++)
     for (int side = -1; side <= 1; side += 2)
       for (int i = 0; i < 3; i++) {

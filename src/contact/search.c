@@ -1,7 +1,8 @@
 /* Candidate search: which mortar facets a nonmortar facet may meet while no node moves more than `margin`.
 
    Two dimensions (three: region.c; rays along a continuous direction: rayregion.c): a pair is kept when the unit normals oppose, N_s . N_m < -0.1, and the
-   mortar edge reaches into the region swept by the nonmortar edge's rays up to `distance` to both sides, |g| < distance (with margin 0 exactly that; with a
+   mortar edge reaches into the region swept by the nonmortar edge's rays, -depth < g < distance, where the bodies' thickness says how deep an overlap may be
+   (behind.c), without them the distance does (with margin 0 exactly that; with a
    margin the region grows by slack = 2 margin (1 + distance / h): relative motion of the nodes plus the turn 2 margin / h of normals of edges of length h at
    that distance; not into the body, where what lies deeper is no overlap but another body behind this one, which would be pulled through it). Of what
    is left the far sides of bodies behind go (behind.c). Distances and normals are judged here and nowhere else: between two searches the result changes
@@ -31,13 +32,13 @@ static void Region_Private(ContactPair pair, const ContactSurface *s, PetscInt e
   if (pair->next[b] >= 0) shortest = PetscMin(shortest, NodeDistance_Private(s, b, pair->next[b]));
   r->slack = 2 * pair->margin * (1 + pair->distance / shortest);
   r->reach = pair->distance + r->slack;
-  stretch  = r->reach / PetscSqrtReal(Dot2(mid, mid));
+  stretch  = 1 / PetscSqrtReal(Dot2(mid, mid));
   for (int i = 0; i < 2; i++) r->box[i] = PETSC_MAX_REAL, r->box[3 + i] = -PETSC_MAX_REAL;
   r->box[2] = r->box[5] = 0;
   for (int k = 0; k < 2; k++)
     for (int side = -1; side <= 1; side += 2)
       for (int i = 0; i < 2; i++) {
-        const PetscReal end = f->x[k][i] + side * stretch * f->n[k][i];
+        const PetscReal end = f->x[k][i] + (side > 0 ? r->reach : -pair->depth) * stretch * f->n[k][i];
 
         r->box[i]     = PetscMin(r->box[i], end - r->slack);
         r->box[3 + i] = PetscMax(r->box[3 + i], end + r->slack);
@@ -58,7 +59,7 @@ static PetscBool Candidate_Private(ContactPair pair, const EdgeFrame *f, const R
   if (ContactRaySide(f->x[1], f->n[1], c) > r->slack && ContactRaySide(f->x[1], f->n[1], d) > r->slack) return PETSC_FALSE;
   if (!ContactSegmentBuild(f, mortar, edge, &s)) return pair->margin > 0 || pair->node_to_segment ? PETSC_TRUE : PETSC_FALSE;
   for (int k = 0; k < 2; k++) g[k] = ContactGapAt(f, c, d, s.lambda[k], &cosine, &tau);
-  return (g[0] > r->reach && g[1] > r->reach) || (g[0] < -pair->distance && g[1] < -pair->distance) ? PETSC_FALSE : PETSC_TRUE;
+  return (g[0] > r->reach && g[1] > r->reach) || (g[0] < -pair->depth && g[1] < -pair->depth) ? PETSC_FALSE : PETSC_TRUE;
 }
 
 PetscInt ContactFacetNodes(const ContactSurface *s, PetscInt facet, const PetscInt **node)
@@ -199,7 +200,8 @@ static PetscErrorCode Prepare_Private(ContactPair pair, const ContactSurface *no
              (double)distance, (double)margin);
   pair->distance = distance;
   pair->margin   = margin;
-  pair->rays     = (PetscBool)(nonmortar->order || higher || (pair->dim == 3 && pair->continuous) || (getenv("MR") && !pair->node_to_segment));
+  pair->rays     = (PetscBool)!pair->node_to_segment;
+  pair->depth    = pair->hull && pair->deepest > 0 ? pair->deepest : distance;
   if (pair->rays)
     PetscCall(ContactRayTopology(pair, nonmortar));
   else if (pair->dim == 3)

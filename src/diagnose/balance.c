@@ -137,6 +137,19 @@ static void Supports_Private(const MechanicsSpec *spec, const ForestTables *t, c
   b->support_imbalance = magnitude > 0 ? Norm_Private(total) / magnitude : 0;
 }
 
+/* A pair whose roles were exchanged: the side that the scene calls nonmortar comes first. */
+static void ExchangeSides_Private(PairFigures *f)
+{
+  for (PetscInt c = 0; c < 3; ++c) {
+    const PetscReal force = f->force[0][c], moment = f->moment[0][c];
+
+    f->force[0][c]  = f->force[1][c];
+    f->force[1][c]  = force;
+    f->moment[0][c] = f->moment[1][c];
+    f->moment[1][c] = moment;
+  }
+}
+
 static PetscErrorCode Plastic_Private(Problem problem, Vec x, Balance *b)
 {
   Mechanics       mechanics;
@@ -234,6 +247,8 @@ PetscErrorCode BalanceCompute(Problem problem, const State *state, Balance *b)
   }
   PetscCall(Loads_Private(problem, state->x, scene->mechanics.model, b->load));
   Supports_Private(&scene->mechanics, t, view, b);
+  for (PetscInt i = 0; i < b->num_contacts; ++i)
+    if (view[i]->spec->exchanged) ExchangeSides_Private(&b->pair[i]);
   PetscCall(Controls_Private(problem, state->x, b));
   PetscCall(PetscFree(view));
   if (MechanicsIsPlastic(&scene->mechanics)) PetscCall(Plastic_Private(problem, state->x, b));

@@ -59,10 +59,11 @@ static void AddEstimate_Private(cJSON *root, const Estimate *e)
   for (PetscInt i = 0; i < 5; ++i) AddNumber_Private(object, part[i], PetscSqrtReal(e->part[i]));
 }
 
-static void AddPair_Private(cJSON *contact, PetscInt dim, const char *name, const PairFigures *f)
+static void AddPair_Private(cJSON *contact, PetscInt dim, const ContactSpec *spec, const PairFigures *f)
 {
-  cJSON *pair = cJSON_AddObjectToObject(contact, name);
+  cJSON *pair = cJSON_AddObjectToObject(contact, spec->name);
 
+  cJSON_AddBoolToObject(pair, "roles_exchanged", spec->exchanged);
   AddArray_Private(pair, "force", dim, f->force[0]);
   AddMoment_Private(pair, "moment", dim, f->moment[0]);
   AddArray_Private(pair, "mortar_force", dim, f->force[1]);
@@ -106,7 +107,7 @@ static void AddForces_Private(cJSON *root, const SceneData *scene, const Balance
   }
   if (b) AddControls_Private(root, scene, b);
   contact = cJSON_AddObjectToObject(root, "contact");
-  for (PetscInt i = 0; b && i < b->num_contacts; ++i) AddPair_Private(contact, dim, scene->contacts[i].name, &b->pair[i]);
+  for (PetscInt i = 0; b && i < b->num_contacts; ++i) AddPair_Private(contact, dim, &scene->contacts[i], &b->pair[i]);
   if (!b) return;
   cJSON *balance = cJSON_AddObjectToObject(root, "balance");
   AddArray_Private(balance, "load", dim, b->load);

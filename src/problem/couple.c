@@ -198,7 +198,9 @@ PetscErrorCode ContactCreate_Private(Problem p, const ContactSpec *spec, Contact
   PetscCall(SurfaceCreate_Private(p, spec->mortar, higher, &c->side[1]));
   PetscCall(ContactPairCreate(p->dim, axisymmetric, spec, &c->pair));
   for (PetscInt k = 0; k < 2; ++k) PetscCall(HullParts_Private(p, &c->side[k], &c->part[k]));
-  if (!spec->see_through) PetscCall(ContactPairSetHull(c->pair, p->hull, c->part[0], c->part[1]));
+  PetscReal deepest;
+  PetscCall(HullDepth_Private(p, c, &deepest));
+  if (!spec->see_through) PetscCall(ContactPairSetHull(c->pair, p->hull, c->part[0], c->part[1], deepest));
   const PetscInt n = c->side[0].num_nodes;
   PetscCall(PetscCalloc6(n, &c->z, n, &c->gap, n, &c->weight, n, &c->w0, n, &c->extent, n, &c->c));
   PetscCall(PetscCalloc2(n, &c->spring, n, &c->softness));

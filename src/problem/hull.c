@@ -73,3 +73,18 @@ PetscErrorCode HullParts_Private(Problem p, const Surface *s, PetscInt **part)
   for (PetscInt f = 0; f < s->num_facets; ++f) (*part)[f] = p->part[t->leaf_root[s->facet_leaf[f]]];
   PetscFunctionReturn(PETSC_SUCCESS);
 }
+
+PetscErrorCode HullDepth_Private(Problem p, const Contact *c, PetscReal *deepest)
+{
+  PetscFunctionBegin;
+  *deepest = 0;
+  if (c->spec->search > 0) PetscFunctionReturn(PETSC_SUCCESS);
+  for (PetscInt k = 0; k < 2; ++k) {
+    const ContactSurface side = SurfaceAt_Private(&c->side[k], c->side[k].X);
+    PetscReal            most;
+
+    PetscCall(ContactHullThickness(p->hull, &side, c->part[k], &most));
+    *deepest += 0.5 * most;
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

@@ -263,6 +263,8 @@ PetscErrorCode SurfaceCorners_Private(Forest, PetscInt facet, PetscInt leaf, Pet
 PetscErrorCode HullCreate_Private(Problem);
 PetscErrorCode HullDestroy_Private(Problem);
 PetscErrorCode HullParts_Private(Problem, const Surface *, PetscInt **part);
+/* The deepest overlap of a pair that can be told from a far side: half of what both bodies measure; 0 where the scene limits the search. Not collective. */
+PetscErrorCode HullDepth_Private(Problem, const Contact *, PetscReal *deepest);
 
 PetscErrorCode ContactCreate_Private(Problem, const ContactSpec *, Contact *);
 PetscErrorCode ContactDestroy_Private(Contact *);

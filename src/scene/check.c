@@ -219,6 +219,32 @@ static PetscErrorCode CheckSides_Private(const ContactEntry *c, const Facets *f,
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Do all facets of the group belong to rigid bodies? */
+static PetscBool IsRigid_Private(Scene s, const Facets *f, PetscInt group)
+{
+  for (PetscInt b = 0; b < f->mesh->num_bodies; ++b)
+    if (f->body_touches[b * f->mesh->num_boundaries + group] && !s->data.bodies[b].material->law->rigid) return PETSC_FALSE;
+  return PETSC_TRUE;
+}
+
+/* Multipliers press on what deforms: on a rigid side nothing of its own makes each of them felt, and where that side is the finer one many leave the other
+   side's nodes as they are. So a rigid side is the mortar one, whatever the scene calls it. */
+static PetscErrorCode Roles_Private(Scene s, const Facets *f, ContactEntry *c)
+{
+  const PetscInt  nonmortar = c->spec.nonmortar;
+  const PetscBool rigid[2]  = {IsRigid_Private(s, f, c->spec.nonmortar), IsRigid_Private(s, f, c->spec.mortar)};
+
+  PetscFunctionBegin;
+  PetscCheckInput(!rigid[0] || !rigid[1], "%s: '%s' and '%s' are both sides of rigid bodies; one side of a pair must be of a body that deforms",
+                  NodeWhere(c->node), c->nonmortar, c->mortar);
+  if (!rigid[0]) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(PetscPrintf(s->comm, "note: %s: '%s' is rigid and becomes the mortar side, '%s' the nonmortar side\n", NodeWhere(c->node), c->nonmortar, c->mortar));
+  c->spec.exchanged = PETSC_TRUE;
+  c->spec.nonmortar = c->spec.mortar;
+  c->spec.mortar    = nonmortar;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 static PetscErrorCode MatchContacts_Private(Scene s, const Facets *f)
 {
   PetscFunctionBegin;
@@ -234,8 +260,9 @@ static PetscErrorCode MatchContacts_Private(Scene s, const Facets *f)
       PetscCheckInput(f->num_facets[group[side]], "%s: '%s' has no facets", NodeWhere(c->node), name);
     }
     PetscCall(CheckSides_Private(c, f, group));
-    c->spec.nonmortar   = group[0];
-    c->spec.mortar      = group[1];
+    c->spec.nonmortar = group[0];
+    c->spec.mortar    = group[1];
+    PetscCall(Roles_Private(s, f, c));
     s->data.contacts[i] = c->spec;
   }
   PetscCall(CheckPairs_Private(s, f));

@@ -61,13 +61,14 @@ static PetscErrorCode ViewContact_Private(const ContactEntry *c, Forest forest, 
     PetscCall(PetscStrncpy(layer, ", cells at both subdivided as the estimate asks", sizeof(layer)));
   else if (c->subdivide)
     PetscCall(PetscSNPrintf(layer, sizeof(layer), ", cells at both subdivided %dx", c->subdivide));
-  PetscCall(PetscViewerASCIIPrintf(viewer, "  contact %s: %s (nonmortar)", c->spec.name, c->nonmortar));
+  PetscCall(PetscViewerASCIIPrintf(viewer, "  contact %s: %s (nonmortar)", c->spec.name, c->spec.exchanged ? c->mortar : c->nonmortar));
   PetscCall(ViewGroup_Private(c->spec.nonmortar, forest, viewer));
   PetscCall(PetscViewerASCIIUseTabs(viewer, PETSC_FALSE));
-  PetscCall(PetscViewerASCIIPrintf(viewer, " on %s", c->mortar));
+  PetscCall(PetscViewerASCIIPrintf(viewer, " on %s", c->spec.exchanged ? c->nonmortar : c->mortar));
   PetscCall(ViewGroup_Private(c->spec.mortar, forest, viewer));
   PetscCall(PetscViewerASCIIUseTabs(viewer, PETSC_FALSE));
-  PetscCall(PetscViewerASCIIPrintf(viewer, "%s%s%s\n", c->spec.full ? ", full order" : "", c->spec.node_to_segment ? ", node to segment" : "", layer));
+  PetscCall(PetscViewerASCIIPrintf(viewer, "%s%s%s%s\n", c->spec.full ? ", full order" : "", c->spec.node_to_segment ? ", node to segment" : "", layer,
+                                   c->spec.exchanged ? ", roles exchanged: the nonmortar side of the scene is rigid" : ""));
   PetscCall(PetscViewerASCIIUseTabs(viewer, PETSC_TRUE));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -78,6 +78,62 @@ static void Check(PetscInt order, PetscReal most, PetscReal gap)
   SumDestroy(&fine);
 }
 
+/* The same in the plane. */
+static void EvaluatePlane(PetscInt order, PetscReal most, PetscReal gap, PetscInt n, Sum *s)
+{
+  const ContactSpec spec = {.continuous = PETSC_TRUE};
+  Patch             nonmortar, mortar;
+  PetscInt          degenerate;
+  ContactPair       pair;
+
+  PatchCreate(&nonmortar, 2, order, 6, 0, 1, PETSC_TRUE, PETSC_FALSE);
+  for (PetscInt v = 0; v < nonmortar.s.num_nodes; v++) {
+    const PetscReal a = most * nonmortar.u[2 * v];
+
+    nonmortar.x[2 * v] = -RADIUS * sin(a), nonmortar.x[2 * v + 1] = RADIUS * cos(a);
+  }
+  PatchCreate(&mortar, 2, 1, n, 0, 1, PETSC_TRUE, PETSC_FALSE);
+  for (PetscInt v = 0; v < mortar.s.num_nodes; v++) mortar.x[2 * v] = 400 * mortar.u[2 * v] - 210.1, mortar.x[2 * v + 1] = RADIUS + gap;
+  memcpy(nonmortar.X, nonmortar.x, sizeof(PetscReal) * 2 * (size_t)nonmortar.s.num_nodes);
+  memcpy(mortar.X, mortar.x, sizeof(PetscReal) * 2 * (size_t)mortar.s.num_nodes);
+  CHECK_CALL(ContactPairCreate(2, PETSC_FALSE, &spec, &pair));
+  SearchAll(pair, &nonmortar, &mortar, 0.5, 1e-3);
+  SumCreate(s, &nonmortar, &mortar);
+  SumEvaluate(s, pair, &nonmortar, &mortar, NULL, PETSC_FALSE);
+  CHECK_CALL(ContactPairGetDegenerate(pair, &degenerate));
+  assert_int_equal(degenerate, 0);
+  PatchDestroy(&nonmortar);
+  PatchDestroy(&mortar);
+  CHECK_CALL(ContactPairDestroy(&pair));
+}
+
+/* Weights and gaps on mortar sides of one to five facets, up to 10^5 times as long as those of the edge, are those on many. */
+static void test_plane(void **state)
+{
+  (void)state;
+  for (PetscInt order = 1; order <= 4; order++)
+    for (int g = 0; g < 3; g++) {
+      Sum fine;
+
+      EvaluatePlane(order, PETSC_PI / 6, g * 0.2 * RADIUS, 400, &fine);
+      for (PetscInt n = 1; n <= 5; n++) {
+        PetscReal off = 0;
+        Sum       s;
+
+        EvaluatePlane(order, PETSC_PI / 6, g * 0.2 * RADIUS, n, &s);
+        for (PetscInt j = 0; j < s.nn; j++)
+          off = PetscMax(off, PetscMax(PetscAbsReal(s.weight[j] - fine.weight[j]) / Largest(fine.weight, s.nn),
+                                       PetscAbsReal(s.gap[j] - fine.gap[j]) / Largest(fine.gap, s.nn)));
+        print_message("plane, order %d, gap %g radii, %d facets: area off by %.1e, weights and gaps by %.1e\n", (int)order, g * 0.2, (int)n,
+                      (double)(s.area / fine.area - 1), (double)off);
+        assert_false(s.failed);
+        assert_true(PetscAbsReal(s.area / fine.area - 1) < 1e-12 && off < 1e-7);
+        SumDestroy(&s);
+      }
+      SumDestroy(&fine);
+    }
+}
+
 static void test_far(void **state)
 {
   (void)state;
@@ -88,7 +144,7 @@ static void test_far(void **state)
 
 int main(int argc, char **argv)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(test_far)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(test_far), cmocka_unit_test(test_plane)};
   int                     failed;
 
   if (PetscInitialize(&argc, &argv, NULL, NULL)) return 1;

@@ -334,7 +334,7 @@ static void FarSides(void **state)
 
       for (int e = 0; e < 10; e++) part[0][e] = 0, part[1][e] = 1;
       PairCreate(PETSC_FALSE, PETSC_FALSE, &pair);
-      if (with) CHECK_CALL(ContactPairSetHull(pair, hull, part[0], part[1]));
+      if (with) CHECK_CALL(ContactPairSetHull(pair, hull, part[0], part[1], 0));
       SearchAll(pair, &upper, &lower, 3, 0.3);
       const PetscInt *start, *candidate;
       CHECK_CALL(ContactPairGetCandidates(pair, &start, &candidate));

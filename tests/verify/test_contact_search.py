@@ -1,0 +1,81 @@
+"""What a nonmortar side sees of the mortar side: deep overlaps, a side that goes on beyond a plane of symmetry, rigid sides."""
+import pytest
+
+from boxmesh import linspace, write
+from contactkit import BLOCKS, yaml
+
+QUIET = ("-output_fields", "false")
+SWAPPED = ("-contact_pair_nonmortar", "floor_top", "-contact_pair_mortar", "cup")
+FLOOR = """
+mesh: {file: SCENES/floor.geo, order: 4}
+model: plane_strain
+body: {disc: {material: rubber}, floor: {material: hard}}
+material: {rubber: {law: neo_hookean, volumetric: quadratic, E: 1, nu: 0.3}, hard: {law: rigid}}
+boundary: {top: {displacement: {x: 0, y: -0.05}}, sym: {fix: x}}
+contact: {pair: {nonmortar: cup, mortar: floor_top, order: full}}
+load: {step: 1}
+adapt: {tolerance: 0.002, max_passes: 20}
+"""
+FORCE = 0.03753295  # of the whole half disc, to 1e-8
+
+
+def floor(*edits):
+    text = FLOOR.replace("SCENES", str(BLOCKS.parent))
+    for old, new in edits:
+        assert old in text
+        text = text.replace(old, new)
+    return text
+
+
+def overlapping(path, overlap, carries, **keys):
+    """Two blocks of height 1 in a channel, the upper one (u) from 1 - overlap on."""
+    write(path / "overlap.msh", [linspace(0, 1, 5)] * 2, [lambda x, y: (x, y), lambda x, y: (x + 0.2 * x * (1 - x), y + 1 - overlap)],
+          side=lambda name, centre, b: f"{name}_{'lu'[b]}", body=lambda centre, b: "lu"[b])
+    sides = ("y0_u", "y1_l") if carries == "upper" else ("y1_l", "y0_u")
+    scene = {"mesh": {"file": "overlap.msh"}, "model": "plane_strain", "body": {name: {"material": "m"} for name in "lu"},
+             "material": {"m": {"law": "neo_hookean", "volumetric": "log", "E": 1, "nu": 0}},
+             "boundary": {"y0_l": {"fix": "y"}, "y1_u": {"fix": "y"}, **{f"x{k}_{b}": {"fix": "x"} for k in (0, 1) for b in "lu"}},
+             "contact": {"pair": dict(zip(("nonmortar", "mortar"), sides))}, "load": {"step": 1}, **keys}
+    return "\n".join(f"{key}: {yaml(value)}" for key, value in scene.items()) + "\n"
+
+
+# ---- overlap at the start ---------------------------------------------------------------------------------------------------------------
+
+@pytest.mark.parametrize("carries", ["upper", "lower"])
+@pytest.mark.parametrize("overlap", [0.3, 0.55, 0.9])
+def test_overlap_deeper_than_a_cell(run, tmp_path, carries, overlap):
+    """Two blocks of height 1 between walls, the upper one set down into the lower one: each is shortened by half the overlap, whatever the facets measure."""
+    result = run("overlap.yml", *QUIET, text=overlapping(tmp_path, overlap, carries))
+    assert result.returncode == 0, result
+    stretch = 1 - overlap / 2
+    assert abs(result.summary["reaction"]["y0_l"][1] / ((1 / stretch - stretch) / 2) - 1) < 1e-6
+
+
+# ---- beyond a plane of symmetry ---------------------------------------------------------------------------------------------------------
+
+@pytest.mark.parametrize("beyond", [0.5, 5])
+@pytest.mark.parametrize("order", [2, 3, 4])
+def test_a_floor_that_goes_on_beyond_the_plane_of_symmetry(run, order, beyond):
+    """Corners of the floor far behind the fine curved facets at the edge of the zone have their place in the view of those all the same."""
+    result = run("floor.yml", *QUIET, "-order", order, "-mesh_parameter_a", beyond, text=floor())
+    assert result.returncode == 0 and result.summary["step_cuts"] == 0, result
+    assert abs(-2 * result.summary["reaction"]["top"][1] / FORCE - 1) < 1e-5
+
+
+# ---- rigid sides ------------------------------------------------------------------------------------------------------------------------
+
+def test_a_rigid_nonmortar_side(run):
+    """The roles are exchanged, and it says so; figures are those of the sides as the scene names them."""
+    plain, swapped = run("floor.yml", *QUIET, "-order", 3, text=floor()), run("floor.yml", *QUIET, "-order", 3, *SWAPPED, text=floor())
+    assert plain.returncode == swapped.returncode == 0, swapped
+    assert "is rigid and becomes the mortar side" in swapped.stdout and "becomes the mortar" not in plain.stdout
+    first, second = plain.summary["contact"]["pair"], swapped.summary["contact"]["pair"]
+    assert second["roles_exchanged"] is True and first["roles_exchanged"] is False
+    assert second["force"] == first["mortar_force"] and second["mortar_force"] == first["force"] and second["moment"] == first["mortar_moment"]
+    assert second["max_pressure"] == first["max_pressure"] and swapped.summary["reaction"] == plain.summary["reaction"]
+
+
+def test_two_rigid_sides(run):
+    result = run("floor.yml", text=floor(("disc: {material: rubber}", "disc: {material: hard}"), ("rubber: {law: neo_hookean, volumetric: quadratic, E: 1, nu: 0.3}, ", ""), ("{top: {displacement: {x: 0, y: -0.05}}, sym: {fix: x}}", "{}")))
+    assert result.returncode == 1 and result.stderr.count("\n") == 1, result
+    assert "contact.pair" in result.stderr and "'cup' and 'floor_top' are both sides of rigid bodies" in result.stderr
