@@ -4,8 +4,14 @@
    start, t'. If the bodies overlap, the mortar facet lies inside the own body or the start inside the other one: d <= max(t, t'). If it is the far side of a
    body behind, all of both lies between: d >= t + t'. So what is deeper than (t + t') / 2 is no overlap.
 
+   Nor is what lies round a corner. Where the edge of one body touches the other from below, its side faces the far side of that one, through all of it, along
+   the surface in between: both ends of the ray are at a surface other than the one they are measured from. A body that has entered through a side is no
+   closer to another one: an overlap of depth d has at least one of its ends d / 2 away from all other sides of the body it has entered.
+
    Thicknesses are those at the reference positions, along directions that turn with the facets. */
 #include "rayimpl.h"
+
+#define BESIDE 0.5 /* of the depth: a side closer than that is the one that the other body has entered through */
 
 enum { LEVELS = 6 }; /* of the search for the ray to the middle of the mortar facet: to 1/32 of the facet */
 
@@ -96,16 +102,35 @@ static void Directions_Private(ContactPair pair, const ContactSurface *s, PetscI
   }
 }
 
-/* What the part measures from xi on its facet into it, along the direction that has turned to d by now. */
-static PetscReal Across_Private(ContactHull hull, PetscInt part, const FacetCorners *p, const PetscReal xi[2], const PetscReal d[3], PetscReal most)
+/* The place X of xi on the facet of a body, at the reference positions, and what was there the direction d of now: it turns with the facet. */
+static void Reference_Private(const FacetCorners *p, const PetscReal xi[2], const PetscReal d[3], PetscReal X[3], PetscReal D[3])
 {
-  PetscReal X[3], N[4], D[3] = {0, 0, 0};
+  PetscReal N[4];
 
   Hats_Private(p, xi, N);
   Sum_Private(p->X, N, X);
+  D[0] = D[1] = D[2] = 0;
   for (PetscInt k = 0; k < p->dim; k++)
     for (int c = 0; c < 3; c++) D[c] += Dot3(p->axis[k], d) * p->axis0[k][c];
+}
+
+/* What the part measures from xi on its facet into it, along d. */
+static PetscReal Across_Private(ContactHull hull, PetscInt part, const FacetCorners *p, const PetscReal xi[2], const PetscReal d[3], PetscReal most)
+{
+  PetscReal X[3], D[3];
+
+  Reference_Private(p, xi, d, X, D);
   return ContactHullAcross(hull, part, X, D, most);
+}
+
+/* Is the place at this depth below xi much closer to another side of the part? */
+static PetscBool Beside_Private(ContactHull hull, PetscInt part, const FacetCorners *p, const PetscReal xi[2], const PetscReal d[3], PetscReal depth)
+{
+  PetscReal X[3], D[3];
+
+  Reference_Private(p, xi, d, X, D);
+  for (int c = 0; c < 3; c++) X[c] += depth * D[c];
+  return ContactHullWithin(hull, part, X, BESIDE * depth);
 }
 
 /* The ray from xi: its start, its unit direction n; returns the square of the distance at which it passes y. */
@@ -182,9 +207,10 @@ PetscBool ContactBehind(ContactPair pair, PetscInt facet, const FacetCorners *s,
   depth = -Dot3(r, N) / Dot3(n, N);
   if (!(Dot3(n, N) < -CONTACT_GRAZE) || !(depth > 0)) return PETSC_FALSE;
   for (int c = 0; c < 3; c++) x[c] -= depth * n[c], r[c] = -n[c];
+  Locate_Private(&m, x, eta);
+  if (Beside_Private(pair->hull, pair->part[0][facet], s, xi, r, depth) && Beside_Private(pair->hull, pair->part[1][other], &m, eta, n, depth)) return PETSC_TRUE;
   own = Across_Private(pair->hull, pair->part[0][facet], s, xi, r, 2 * depth);
   if (own >= 2 * depth) return PETSC_FALSE;
-  Locate_Private(&m, x, eta);
   return (PetscBool)(Across_Private(pair->hull, pair->part[1][other], &m, eta, n, 2 * depth - own) < 2 * depth - own);
 }
 

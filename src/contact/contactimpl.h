@@ -167,6 +167,8 @@ PetscInt ContactFacetNodes(const ContactSurface *, PetscInt facet, const PetscIn
 /* hull.c: from x, inside or on a facet of this part of the bodies, along the unit vector d to where the ray leaves the part; most: not before. x, d: [dim],
    reference positions. */
 PetscReal ContactHullAcross(ContactHull, PetscInt part, const PetscReal x[], const PetscReal d[], PetscReal most);
+/* Is a facet of the part closer to x than the radius, at the reference positions? */
+PetscBool ContactHullWithin(ContactHull, PetscInt part, const PetscReal x[], PetscReal radius);
 /* behind.c. A facet by its corners: now and at the reference positions, axes (the last one the outward normal); of a nonmortar facet, the unit directions of
    its rays. */
 typedef struct {

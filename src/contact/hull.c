@@ -131,3 +131,71 @@ PetscReal ContactHullAcross(ContactHull h, PetscInt part, const PetscReal x[], c
   }
   return most;
 }
+
+/* ---- distance ------------------------------------------------------------------------------------------------------------------------ */
+
+static PetscReal Clamp_Private(PetscReal s)
+{
+  return PetscMax(0, PetscMin(1, s));
+}
+
+/* Square of the distance from x to the segment a b. */
+static PetscReal ToSegment_Private(const PetscReal a[3], const PetscReal b[3], const PetscReal x[3])
+{
+  PetscReal e[3], r[3], s;
+
+  for (int i = 0; i < 3; i++) e[i] = b[i] - a[i], r[i] = x[i] - a[i];
+  s = Dot3(e, e) > 0 ? Clamp_Private(Dot3(r, e) / Dot3(e, e)) : 0;
+  for (int i = 0; i < 3; i++) r[i] -= s * e[i];
+  return Dot3(r, r);
+}
+
+/* The same to a triangle: along its normal where that meets it, else to its sides. */
+static PetscReal ToTriangle_Private(const PetscReal a[3], const PetscReal b[3], const PetscReal c[3], const PetscReal x[3])
+{
+  PetscReal e[3], f[3], r[3], N[3], q[3], u, v;
+
+  for (int i = 0; i < 3; i++) e[i] = b[i] - a[i], f[i] = c[i] - a[i], r[i] = x[i] - a[i];
+  Cross3(e, f, N);
+  Cross3(r, f, q);
+  u = Dot3(q, N) / Dot3(N, N);
+  Cross3(e, r, q);
+  v = Dot3(q, N) / Dot3(N, N);
+  if (u >= 0 && v >= 0 && u + v <= 1) return PetscSqr(Dot3(r, N)) / Dot3(N, N);
+  return PetscMin(ToSegment_Private(a, b, x), PetscMin(ToSegment_Private(b, c, x), ToSegment_Private(c, a, x)));
+}
+
+static PetscReal ToFacet_Private(const ContactHull h, PetscInt facet, const PetscReal x[3])
+{
+  const PetscReal *X = h->X + h->dim * Corners_Private(h->dim) * facet;
+
+  if (h->dim == 2) {
+    const PetscReal a[3] = {X[0], X[1], 0}, b[3] = {X[2], X[3], 0};
+    return ToSegment_Private(a, b, x);
+  }
+  return PetscMin(ToTriangle_Private(X, X + 3, X + 6, x), ToTriangle_Private(X, X + 6, X + 9, x));
+}
+
+PetscBool ContactHullWithin(ContactHull h, PetscInt part, const PetscReal x[], PetscReal radius)
+{
+  const Tree     *t    = &h->tree;
+  const PetscReal y[3] = {x[0], x[1], h->dim == 3 ? x[2] : 0};
+  PetscInt        stack[TREE_DEPTH], top = 0;
+
+  stack[top++] = 0;
+  while (top) {
+    const TreeNode *node = &t->node[stack[--top]];
+    PetscBool       far  = PETSC_FALSE;
+
+    for (int i = 0; i < 3; i++) far = (PetscBool)(far || y[i] < node->box[i] - radius || y[i] > node->box[3 + i] + radius);
+    if (far) continue;
+    if (node->child >= 0) {
+      stack[top++] = node->child;
+      stack[top++] = node->child + 1;
+      continue;
+    }
+    for (PetscInt k = node->first; k < node->first + node->count; k++)
+      if (h->part[t->item[k]] == part && ToFacet_Private(h, t->item[k], y) < PetscSqr(radius)) return PETSC_TRUE;
+  }
+  return PETSC_FALSE;
+}
