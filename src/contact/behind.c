@@ -4,16 +4,16 @@
    start, t'. If the bodies overlap, the mortar facet lies inside the own body or the start inside the other one: d <= max(t, t'). If it is the far side of a
    body behind, all of both lies between: d >= t + t'. So what is deeper than (t + t') / 2 is no overlap.
 
-   Nor is what lies round a corner. Where the edge of one body touches the other from below, its side faces the far side of that one, through all of it, along
-   the surface in between: both ends of the ray are at a surface other than the one they are measured from. A body that has entered through a side is no
-   closer to another one: an overlap of depth d has at least one of its ends d / 2 away from all other sides of the body it has entered.
+   Nor is what lies round a corner. Where the edge of one body lies on the other, its side faces the far side of that one, through all of it, along the surface
+   on which they touch. There sides of both bodies that face each other run beside the ray: a to one side of its end, b to the other of its start. Across it the
+   bodies overlap by a + b; where that is less than half of d they have met there.
 
    Thicknesses are those at the reference positions, along directions that turn with the facets. */
 #include "rayimpl.h"
 
-#define BESIDE 0.5 /* of the depth: a side closer than that is the one that the other body has entered through */
+#define BESIDE 0.5 /* of the depth: bodies that overlap less than that across the ray have met there */
 
-enum { LEVELS = 6 }; /* of the search for the ray to the middle of the mortar facet: to 1/32 of the facet */
+enum { MOST_SIDES = 32, LEVELS = 6 }; /* of the search for the ray to the middle of the mortar facet: to 1/32 of the facet */
 
 static void Axes_Private(PetscInt dim, const PetscReal x[4][3], PetscReal axis[3][3])
 {
@@ -123,14 +123,33 @@ static PetscReal Across_Private(ContactHull hull, PetscInt part, const FacetCorn
   return ContactHullAcross(hull, part, X, D, most);
 }
 
-/* Is the place at this depth below xi much closer to another side of the part? */
-static PetscBool Beside_Private(ContactHull hull, PetscInt part, const FacetCorners *p, const PetscReal xi[2], const PetscReal d[3], PetscReal depth)
+/* Sides of the part that run along d and are closer to the place at this depth below xi than the reach; normals as they have turned with the facet. */
+static PetscInt Beside_Private(ContactHull hull, PetscInt part, const FacetCorners *p, const PetscReal xi[2], const PetscReal d[3], PetscReal depth,
+                               PetscReal reach, HullSide side[MOST_SIDES])
 {
   PetscReal X[3], D[3];
+  PetscInt  num;
 
   Reference_Private(p, xi, d, X, D);
   for (int c = 0; c < 3; c++) X[c] += depth * D[c];
-  return ContactHullWithin(hull, part, X, BESIDE * depth);
+  num = ContactHullBeside(hull, part, X, D, reach, MOST_SIDES, side);
+  for (PetscInt i = 0; i < num; i++) {
+    PetscReal n[3] = {0, 0, 0};
+
+    for (PetscInt k = 0; k < p->dim; k++)
+      for (int c = 0; c < 3; c++) n[c] += Dot3(p->axis0[k], side[i].N) * p->axis[k][c];
+    for (int c = 0; c < 3; c++) side[i].N[c] = n[c];
+  }
+  return num;
+}
+
+/* Do the bodies overlap less across the ray than along it? Their sides there face each other. */
+static PetscBool IsBeside_Private(PetscInt num_a, const HullSide a[], PetscInt num_b, const HullSide b[], PetscReal reach)
+{
+  for (PetscInt i = 0; i < num_a; i++)
+    for (PetscInt j = 0; j < num_b; j++)
+      if (a[i].distance + b[j].distance < reach && Dot3(a[i].N, b[j].N) < -CONTACT_OPPOSE) return PETSC_TRUE;
+  return PETSC_FALSE;
 }
 
 /* The ray from xi: its start, its unit direction n; returns the square of the distance at which it passes y. */
@@ -196,6 +215,8 @@ void ContactCorners(ContactPair pair, const ContactSurface *nonmortar, PetscInt 
 PetscBool ContactBehind(ContactPair pair, PetscInt facet, const FacetCorners *s, const ContactSurface *mortar, PetscInt other)
 {
   PetscReal        n[3], x[3], middle[3], r[3], xi[2], eta[2], depth, own;
+  PetscInt         num_own, num_other;
+  HullSide         side[2][MOST_SIDES];
   const PetscReal *N;
   FacetCorners     m;
 
@@ -208,7 +229,9 @@ PetscBool ContactBehind(ContactPair pair, PetscInt facet, const FacetCorners *s,
   if (!(Dot3(n, N) < -CONTACT_GRAZE) || !(depth > 0)) return PETSC_FALSE;
   for (int c = 0; c < 3; c++) x[c] -= depth * n[c], r[c] = -n[c];
   Locate_Private(&m, x, eta);
-  if (Beside_Private(pair->hull, pair->part[0][facet], s, xi, r, depth) && Beside_Private(pair->hull, pair->part[1][other], &m, eta, n, depth)) return PETSC_TRUE;
+  num_own   = Beside_Private(pair->hull, pair->part[0][facet], s, xi, r, depth, BESIDE * depth, side[0]);
+  num_other = num_own ? Beside_Private(pair->hull, pair->part[1][other], &m, eta, n, depth, BESIDE * depth, side[1]) : 0;
+  if (IsBeside_Private(num_own, side[0], num_other, side[1], BESIDE * depth)) return PETSC_TRUE;
   own = Across_Private(pair->hull, pair->part[0][facet], s, xi, r, 2 * depth);
   if (own >= 2 * depth) return PETSC_FALSE;
   return (PetscBool)(Across_Private(pair->hull, pair->part[1][other], &m, eta, n, 2 * depth - own) < 2 * depth - own);

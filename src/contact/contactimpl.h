@@ -167,8 +167,12 @@ PetscInt ContactFacetNodes(const ContactSurface *, PetscInt facet, const PetscIn
 /* hull.c: from x, inside or on a facet of this part of the bodies, along the unit vector d to where the ray leaves the part; most: not before. x, d: [dim],
    reference positions. */
 PetscReal ContactHullAcross(ContactHull, PetscInt part, const PetscReal x[], const PetscReal d[], PetscReal most);
-/* Is a facet of the part closer to x than the radius, at the reference positions? */
-PetscBool ContactHullWithin(ContactHull, PetscInt part, const PetscReal x[], PetscReal radius);
+/* A side of a part near a place: its distance, its unit normal; reference positions. */
+typedef struct {
+  PetscReal distance, N[3];
+} HullSide;
+/* Facets of the part closer to x than the radius that run along the direction d rather than across it, at most `most`. Returns their number. */
+PetscInt ContactHullBeside(ContactHull, PetscInt part, const PetscReal x[], const PetscReal d[], PetscReal radius, PetscInt most, HullSide side[]);
 /* behind.c. A facet by its corners: now and at the reference positions, axes (the last one the outward normal); of a nonmortar facet, the unit directions of
    its rays. */
 typedef struct {

@@ -1,6 +1,7 @@
 /* How thick bodies are: a ray through one of them, from its outer facets at the reference positions. */
 #include "contactimpl.h"
 
+#define ACROSS 0.70710678118654752 /* cosine between a direction and the normal of a side beside it: at most that of 45 degrees */
 #define ROUND 1e-9 /* of a facet, by which it is larger than it is: rays through corners leave the body, too */
 
 struct _p_ContactHull {
@@ -176,11 +177,22 @@ static PetscReal ToFacet_Private(const ContactHull h, PetscInt facet, const Pets
   return PetscMin(ToTriangle_Private(X, X + 3, X + 6, x), ToTriangle_Private(X, X + 6, X + 9, x));
 }
 
-PetscBool ContactHullWithin(ContactHull h, PetscInt part, const PetscReal x[], PetscReal radius)
+/* Unit normal of a facet, outward. */
+static void Normal_Private(const ContactHull h, PetscInt facet, PetscReal N[3])
+{
+  static const PetscInt node[4] = {0, 1, 2, 3};
+  PetscReal             length;
+
+  ContactFacetVector(h->dim, h->X + h->dim * Corners_Private(h->dim) * facet, node, N);
+  length = PetscSqrtReal(Dot3(N, N));
+  for (int i = 0; i < 3; i++) N[i] /= length;
+}
+
+PetscInt ContactHullBeside(ContactHull h, PetscInt part, const PetscReal x[], const PetscReal d[], PetscReal radius, PetscInt most, HullSide side[])
 {
   const Tree     *t    = &h->tree;
   const PetscReal y[3] = {x[0], x[1], h->dim == 3 ? x[2] : 0};
-  PetscInt        stack[TREE_DEPTH], top = 0;
+  PetscInt        stack[TREE_DEPTH], top = 0, num = 0;
 
   stack[top++] = 0;
   while (top) {
@@ -194,8 +206,13 @@ PetscBool ContactHullWithin(ContactHull h, PetscInt part, const PetscReal x[], P
       stack[top++] = node->child + 1;
       continue;
     }
-    for (PetscInt k = node->first; k < node->first + node->count; k++)
-      if (h->part[t->item[k]] == part && ToFacet_Private(h, t->item[k], y) < PetscSqr(radius)) return PETSC_TRUE;
+    for (PetscInt k = node->first; k < node->first + node->count && num < most; k++) {
+      if (h->part[t->item[k]] != part) continue;
+      side[num].distance = PetscSqrtReal(ToFacet_Private(h, t->item[k], y));
+      if (side[num].distance >= radius) continue;
+      Normal_Private(h, t->item[k], side[num].N);
+      if (PetscAbsReal(Dot3(side[num].N, d)) < ACROSS) num++;
+    }
   }
-  return PETSC_FALSE;
+  return num;
 }
