@@ -116,7 +116,7 @@ struct _p_ContactPair {
   PetscInt         num_listed, *listed, *start, *candidate, size_candidate; /* owned */
   ContactCoverage *coverage;                                                /* owned, [num_facets], since the last ContactPairForget; rays only */
   PetscReal        distance, margin;
-  PetscReal        depth; /* of overlaps that are looked for */
+  PetscReal        depth;   /* of overlaps that are looked for */
   ContactHull      hull;    /* borrowed; NULL: thicknesses are not known */
   PetscReal        deepest; /* overlap between its parts that can be told; 0: the search distance */
   const PetscInt  *part[2]; /* borrowed: of the facets of both sides */

@@ -263,10 +263,10 @@ static PetscErrorCode Whole_Private(RayWork w)
 
 PetscErrorCode ContactCover(ContactPair pair, const ContactSurface *nonmortar, const ContactSurface *mortar, PetscInt slot, PetscBool hats, PetscBool *failed)
 {
-  RayWork         w       = pair->ray;
-  RayFacet       *f       = &w->facet;
-  const PetscInt  facet   = pair->listed[slot];
-  PetscReal       covered = 0;
+  RayWork        w       = pair->ray;
+  RayFacet      *f       = &w->facet;
+  const PetscInt facet   = pair->listed[slot];
+  PetscReal      covered = 0;
 
   PetscFunctionBegin;
   w->num_images = w->num_overlaps = w->num_mortar = 0;

@@ -8,10 +8,9 @@
    corners of facets: corner k of facet f is number nv f + k. */
 #include "rayimpl.h"
 
-#define DEPTH 6   /* of corners that hang on edges whose ends hang */
+#define DEPTH 6                   /* of corners that hang on edges whose ends hang */
 #define SHARP 0.76604444311897804 /* cosine of 40 degrees: a surface that turns by more has an edge */
-#define TILTED 0.34202014332566873 /* sine of half of it: one that meets its mirror image at an edge */
-#define SAME 1e-9 /* 1 - cosine between the normals of one plane, square of the sine between it and what lies in it */
+#define SAME 1e-9                 /* 1 - cosine between the normals of one plane, square of the sine between it and what lies in it */
 
 typedef struct {
   PetscInt from, to, facet;
@@ -253,18 +252,15 @@ PetscErrorCode ContactDirectionTopology(RayWork w, const ContactSurface *s)
 
 /* ---- directions ---------------------------------------------------------------------------------------------------------------------- */
 
-/* Mean over the images in the planes of symmetry through a corner: 1 - n n^T for one, l l^T / l^2 for two with the common line l. A facet that meets its image
-   at an edge keeps its own direction. */
-static void Images_Private(const ContactSurface *s, PetscInt corner, PetscReal R[9])
+/* Mean over the images in the planes of symmetry through a node: 1 - n n^T for one, l l^T / l^2 for two with the common line l. */
+static void Images_Private(const ContactSurface *s, PetscInt node, PetscReal R[9])
 {
-  const PetscInt nv = 2 * (s->dim - 1), node = s->facets[corner];
-  PetscReal      n[2][3] = {{0}}, l[3], N[3];
-  int            num     = 0;
+  PetscReal n[2][3] = {{0}}, l[3];
+  int       num     = 0;
 
-  ContactFacetVector(s->dim, s->X, s->facets + nv * (corner / nv), N);
   for (int k = 0; s->mirror && k < (s->dim == 2 ? 1 : 2); k++) {
     for (PetscInt c = 0; c < s->dim; c++) n[num][c] = s->dim == 2 ? s->mirror[2 * node + c] : s->mirror[6 * node + 3 * k + c];
-    if (Dot3(n[num], n[num]) > 0 && PetscAbsReal(Dot3(n[num], N)) < TILTED * PetscSqrtReal(Dot3(N, N))) num++;
+    if (Dot3(n[num], n[num]) > 0) num++;
   }
   if (num == 2) {
     Cross3(n[0], n[1], l);
@@ -282,7 +278,7 @@ static void Images_Private(const ContactSurface *s, PetscInt corner, PetscReal R
    facets, beyond which they are continued to the images of mortar nodes. */
 static PetscReal Around_Private(RayWork w, const ContactSurface *s, PetscInt corner)
 {
-  const PetscInt nv  = s->dim == 2 ? 2 : 4, node = s->facets[corner];
+  const PetscInt nv = s->dim == 2 ? 2 : 4, node = s->facets[corner];
   PetscReal      sum = 0, N[3];
 
   for (PetscInt k = w->ring_first[node]; k < w->ring_first[node + 1]; k++) {
@@ -296,6 +292,7 @@ static PetscReal Around_Private(RayWork w, const ContactSurface *s, PetscInt cor
 static PetscInt Terms_Private(RayWork w, const ContactSurface *s, PetscInt corner, PetscReal weight, int depth, PetscInt max, DirectionTerm term[])
 {
   const PetscInt nv = s->dim == 2 ? 2 : 4, node = s->facets[corner];
+  PetscReal      R[9];
   PetscInt       num = 0;
 
   if (w->end[2 * corner] >= 0 && depth < DEPTH) {
@@ -303,11 +300,9 @@ static PetscInt Terms_Private(RayWork w, const ContactSurface *s, PetscInt corne
     return num + Terms_Private(w, s, w->end[2 * corner + 1], 0.5 * weight, depth + 1, max - num, term + num);
   }
   weight /= Around_Private(w, s, corner);
+  Images_Private(s, node, R);
   for (PetscInt k = w->ring_first[node]; k < w->ring_first[node + 1] && num < max; k++) {
-    PetscReal R[9];
-
     if (w->sheet[w->ring[k]] != w->sheet[corner]) continue;
-    Images_Private(s, w->ring[k], R);
     term[num].facet = w->ring[k] / nv;
     for (int i = 0; i < 9; i++) term[num].R[i] = weight * R[i];
     num++;

@@ -2,7 +2,7 @@
 #include "contactimpl.h"
 
 #define ACROSS 0.70710678118654752 /* cosine between a direction and the normal of a side beside it: at most that of 45 degrees */
-#define ROUND 1e-9 /* of a facet, by which it is larger than it is: rays through corners leave the body, too */
+#define ROUND 1e-9                 /* of a facet, by which it is larger than it is: rays through corners leave the body, too */
 
 struct _p_ContactHull {
   PetscInt   dim, *part;

@@ -99,9 +99,9 @@ struct _p_RayWork {
   PetscInt  *parent;            /* [num_nodes][2] ends of the edge on which a node hangs, -1 */
   PetscInt  *end;               /* [corners][2] corners at these ends whose directions count, -1: the node does not hang */
   PetscReal *d;                 /* [corners][3] directions */
-  PetscBool *kept;                             /* [num_facets][4] does the side from corner k on lie in a plane of symmetry? (space) */
-  PetscInt  *mortar_parent;                    /* [mortar num_nodes][2] of nodes that hang on straight sides */
-  PetscInt  *mortar_middle;                    /* [mortar num_facets][4] nodes that hang in the middle of curved sides, -1 */
+  PetscBool *kept;              /* [num_facets][4] does the side from corner k on lie in a plane of symmetry? (space) */
+  PetscInt  *mortar_parent;     /* [mortar num_nodes][2] of nodes that hang on straight sides */
+  PetscInt  *mortar_middle;     /* [mortar num_facets][4] nodes that hang in the middle of curved sides, -1 */
   /* one facet */
   RayFacet   facet;
   PetscInt   num_images, num_overlaps, num_mortar, num_tests;

@@ -200,7 +200,7 @@ static PetscErrorCode Prepare_Private(ContactPair pair, const ContactSurface *no
              (double)distance, (double)margin);
   pair->distance = distance;
   pair->margin   = margin;
-  pair->rays     = (PetscBool)!pair->node_to_segment;
+  pair->rays     = (PetscBool)(nonmortar->order || higher || pair->continuous);
   pair->depth    = pair->hull && pair->deepest > 0 ? pair->deepest : distance;
   if (pair->rays)
     PetscCall(ContactRayTopology(pair, nonmortar));
