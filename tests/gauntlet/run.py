@@ -20,6 +20,7 @@ import json
 import os
 import pathlib
 import resource
+import signal
 import subprocess
 import sys
 import tempfile
@@ -49,17 +50,18 @@ def rows(folder, only="", quick=False, settings=""):
 
 
 def execute(program, scene_file, options, directory, seconds):
-    """Exit status (None: out of time), what it said on stderr, seconds of processor time of the run and of the mesher it calls."""
+    """Exit status (None: out of time), what it said on stderr, seconds of processor time of the run and of the mesher it calls. MPI keeps its session below TMPDIR, which runs side by
+    side must not share."""
     limited = ["sh", "-c", f'ulimit -t {int(seconds) + 1}; exec "$0" "$@"', program, str(scene_file), "-output_directory", directory, "-output_fields", "false", *options]
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
     try:
-        process = subprocess.run(limited, capture_output=True, text=True, timeout=WALL * seconds, env={**os.environ, "OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"})
+        process = subprocess.run(limited, capture_output=True, text=True, timeout=WALL * seconds, env={**os.environ, "TMPDIR": directory, "OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"})
         code, said = process.returncode, process.stderr
     except subprocess.TimeoutExpired:
         code, said = None, ""
     after = resource.getrusage(resource.RUSAGE_CHILDREN)
     used = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
-    return (None if used > seconds else code), said, used
+    return (None if used > seconds or code in (-signal.SIGKILL, -signal.SIGXCPU) else code), said, used
 
 
 def read(directory):
@@ -110,7 +112,7 @@ def judge(scene, options, code, said, summary, history):
         return ("WRONG" if wrong else "short" if short else "ok"), "; ".join(wrong)
     if code == 1 and scene.get("told") and said.strip().count("\n") == 0:
         return "ok", said.strip()
-    return ("inaccurate" if summary.get("status") == "inaccurate" else "failed"), summary.get("reason") or said.strip()
+    return ("inaccurate" if summary.get("status") == "inaccurate" else "failed"), summary.get("reason") or said.strip().split("\n")[0]
 
 
 def solve(program, folder, scene, variant, options):
