@@ -68,7 +68,7 @@ UNITS   := $(patsubst tests/unit/%.c,$(BUILD)/unit/%,$(wildcard tests/unit/test_
 BENCHES := $(patsubst tests/bench/%.c,$(BUILD)/bench/%,$(wildcard tests/bench/*.c))
 TRACKED  = $(wildcard $(shell git ls-files '*.c' '*.h'))
 
-.PHONY: all units unit bootstrap demo run-demo test run-test verify run-verify chart bench run-bench format format-check lint floors sizes clean FORCE
+.PHONY: all units unit bootstrap demo run-demo test run-test verify run-verify gauntlet run-gauntlet chart bench run-bench format format-check lint floors sizes clean FORCE
 all: $(PROGRAM)
 
 $(BUILD)/mortise: $(BUILD)/app/main.o $(LIBRARY)
@@ -130,6 +130,13 @@ verify: bootstrap
 	@$(MAKE) --no-print-directory run-verify
 run-verify:
 	@$(PYTEST) tests/unit tests/verify tests/stability
+
+# Contact scenes without any setting, in every variant (docs/gauntlet.md): a table on the screen and in out/gauntlet.csv. GAUNTLET="--only slide --jobs 2"
+gauntlet: bootstrap
+	@$(MAKE) --no-print-directory -j2 all
+	@$(MAKE) --no-print-directory run-gauntlet
+run-gauntlet:
+	@$(PYTHON) -B tests/gauntlet/run.py --program $(PROGRAM) --csv out/gauntlet.csv $(GAUNTLET)
 
 chart: bootstrap
 	@$(MAKE) --no-print-directory -j2 all $(BUILD)/bench/contact

@@ -1,0 +1,90 @@
+#!/usr/bin/env python3
+"""Figures of scenes.json that have a closed form, from the data of the scenes: `closed_forms.py` prints them, tests/verify/test_gauntlet.py compares them with scenes.json.
+
+Material: W = mu/2 (I1 - 3) - mu ln J + lambda/2 (ln J)^2 (volumetric: log); a is the stretch along the load, b the one across, P the nominal stress along the load.
+"""
+import math
+
+
+def root(f, low, high):
+    """The zero of f between low and high, by bisection."""
+    sign = f(low) > 0
+    for _ in range(200):
+        middle = 0.5 * (low + high)
+        low, high = (middle, high) if (f(middle) > 0) == sign else (low, middle)
+    return 0.5 * (low + high)
+
+
+def lame(E, nu):
+    return E / (2 * (1 + nu)), E * nu / ((1 + nu) * (1 - 2 * nu))
+
+
+def stress(a, J, E, nu):
+    """Nominal stress where the stretch is a and the change of volume J."""
+    mu, lam = lame(E, nu)
+    return mu * (a - 1 / a) + lam * math.log(J) / a
+
+
+def confined(a, E, nu):
+    """Uniaxial strain."""
+    return stress(a, a, E, nu)
+
+
+def free(a, E, nu, sides):
+    """Uniaxial stress: `sides` directions across are free of stress (plane strain: 1, in space: 2)."""
+    b = root(lambda b: stress(b, a * b**sides, E, nu), 0.3, 3)
+    return stress(a, a * b**sides, E, nu)
+
+
+def stacked(heights, laws, shortening):
+    """Nominal stress of two confined blocks, one on the other, that together are shortened."""
+    def balance(first):
+        return confined(1 - first / heights[0], *laws[0]) - confined(1 - (shortening - first) / heights[1], *laws[1])
+
+    first = root(balance, max(0, shortening - 0.95 * heights[1]), min(shortening, 0.95 * heights[0]))
+    return confined(1 - first / heights[0], *laws[0])
+
+
+def shrink(r, E, nu):
+    """Displacement of the outer rim of a hub (radii r[2] at rest, r[3]) shrunk on a shaft (r[0], r[1]), axial strain 0: Lame. Pressures on the two faces carry the same force."""
+    def widening(p_inner, r_inner, p_outer, r_outer, E, nu, at):
+        """Radial displacement of a tube under pressures inside and outside."""
+        d = r_outer**2 - r_inner**2
+        uniform, hoop = (p_inner * r_inner**2 - p_outer * r_outer**2) / d, (p_inner - p_outer) * r_inner**2 * r_outer**2 / d
+        return (1 + nu) / E * ((1 - 2 * nu) * uniform * at + hoop / at)
+
+    hub = widening(1, r[2], 0, r[3], E[1], nu[1], r[2])
+    shaft = widening(0, r[0], r[2] / r[1], r[1], E[0], nu[0], r[1])
+    p = (r[1] - r[2]) / (hub - shaft)
+    return widening(p, r[2], 0, r[3], E[1], nu[1], r[3])
+
+
+def upset(area, rounded_off, height, plane_strain):
+    """Force on a billet upset to `height` (1 at rest) without friction: all of it yields alike, its rounded edge has become flat."""
+    factor = 2 / math.sqrt(3) if plane_strain else 1
+    return factor * (4 + 3 * factor * math.log(1 / height)) * (area - rounded_off) / height
+
+
+EDGE = (1 - math.pi / 4) * 0.15**2  # what is missing at the rounded edge
+FIGURES = {
+    "sunk": -1.2 * stacked((1, 0.7), ((6, 0.3), (2, 0.2)), 0.2),
+    "sunk_deep": -1.2 * stacked((1, 0.7), ((6, 0.3), (2, 0.2)), 0.45),
+    "sunk_through": -1.2 * stacked((1, 0.7), ((6, 0.3), (2, 0.2)), 0.62),
+    "sunk3d": -0.99 * stacked((0.8, 0.6), ((3, 0.25), (5, 0.3)), 0.25),
+    "half_patch": -0.8 * free(1 - 0.2 / 0.9, 3, 0.3, 1),
+    "cylinder": -math.pi * 0.8**2 * free(1 - 0.2 / 0.9, 3, 0.3, 2),
+    "quarter_patch": -0.7 * 0.9 * free(0.8, 3, 0.3, 2),
+    "layers": -stacked((0.5, 0.8), ((1e5, 0.3), (1, 0.3)), 0.3),
+    "layers_soft_below": -stacked((0.5, 0.8), ((1, 0.3), (1e5, 0.3)), 0.3),
+    "rigid3d": -0.6 * 0.5 * free(0.7, 4, 0.25, 2),
+    "ratio": -free(1 - 0.25 / 1.1, 2, 0.35, 1),
+    "ratio3d": -free(0.8, 2, 0.35, 2),
+    "shrink": shrink((0.5, 1, 0.98, 2), (210, 70), (0.3, 0.33)),
+    "upset": upset(math.pi, 2 * math.pi * (1 - 0.2234 * 0.15) * EDGE, 0.8, False),  # its centroid is 0.2234 radii from the edge
+    "upset_strip": upset(1, EDGE, 0.85, True),
+    "shrink_reversed": shrink((0.5, 1, 0.98, 2), (70, 210), (0.33, 0.3)),
+}
+
+if __name__ == "__main__":
+    for name, value in FIGURES.items():
+        print(f"{name:20} {value:.12g}")

@@ -1,0 +1,20 @@
+// A quarter of a cushion (a x a, h high) whose underside is part of a sphere (radius q, touching z = 0 at the axis), g above a block [w, b] x [w, b] x [-t, 0].
+DefineConstant[ a = 0.5, h = 0.5, q = 1, w = -0.3, b = 1.1, g = 0, t = 0.2, n = 3, m = 2, nb = 3, mb = 1 ];
+za = q - Sqrt(q * q - a * a); zc = q - Sqrt(q * q - 2 * a * a);
+Point(1) = {0, 0, 0}; Point(2) = {a, 0, za}; Point(3) = {a, a, zc}; Point(4) = {0, a, za}; Point(5) = {0, 0, h}; Point(6) = {a, 0, h}; Point(7) = {a, a, h}; Point(8) = {0, a, h};
+Point(9) = {0, 0, q}; Point(10) = {a, 0, q}; Point(11) = {0, a, q};
+Circle(1) = {1, 9, 2}; Circle(2) = {2, 10, 3}; Circle(3) = {4, 11, 3}; Circle(4) = {1, 9, 4};
+Line(5) = {5, 6}; Line(6) = {6, 7}; Line(7) = {8, 7}; Line(8) = {5, 8}; Line(9) = {1, 5}; Line(10) = {2, 6}; Line(11) = {3, 7}; Line(12) = {4, 8};
+Curve Loop(1) = {1, 2, -3, -4}; Surface(1) = {1} In Sphere {9};
+Curve Loop(2) = {5, 6, -7, -8}; Plane Surface(2) = {2};
+Curve Loop(3) = {1, 10, -5, -9}; Plane Surface(3) = {3}; Curve Loop(4) = {2, 11, -6, -10}; Plane Surface(4) = {4};
+Curve Loop(5) = {3, 11, -7, -12}; Plane Surface(5) = {5}; Curve Loop(6) = {4, 12, -8, -9}; Plane Surface(6) = {6};
+Surface Loop(1) = {1:6}; Volume(1) = {1};
+Point(21) = {w, w, -t - g}; Point(22) = {b, w, -t - g}; Point(23) = {b, b, -t - g}; Point(24) = {w, b, -t - g};
+Line(21) = {21, 22}; Line(22) = {22, 23}; Line(23) = {23, 24}; Line(24) = {24, 21}; Curve Loop(21) = {21:24}; Plane Surface(21) = {21};
+Transfinite Curve {1:8} = n + 1; Transfinite Curve {9:12} = m + 1; Transfinite Surface {1:6}; Transfinite Volume {1};
+Transfinite Curve {21:24} = nb + 1; Transfinite Surface {21}; Recombine Surface {1:6, 21};
+f[] = Extrude {0, 0, t} { Surface{21}; Layers{mb}; Recombine; };
+Physical Volume("cushion") = {1}; Physical Volume("floor") = {f[1]};
+Physical Surface("dome") = {1}; Physical Surface("top") = {2}; Physical Surface("y0") = {3}; Physical Surface("x0") = {6}; Physical Surface("floor_face") = {f[0]}; Physical Surface("bottom") = {21};
+Physical Surface("floor_sides") = {f[2], f[5]};
