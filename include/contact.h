@@ -139,7 +139,7 @@ PetscErrorCode ContactPairSetSoftness(ContactPair, const PetscReal softness[]);
 PetscErrorCode ContactPairGetDonors(ContactPair, const PetscInt **first, const PetscInt **donor, const PetscReal **weight);
 
 /* Candidate search at the given positions: for each listed nonmortar facet (facets[num], those this rank owns) the mortar facets it may meet while no
-   node moves more than `margin`: facet normals N_s . N_m < -0.1, -depth < g < distance somewhere on the pair (margin > 0: more, but no deeper); depth is the
+   node moves more than `margin`: facet normals N_s . N_m < -0.3, -depth < g < distance somewhere on the pair (margin > 0: more, but no deeper); depth is the
    distance, or what ContactPairSetHull says.
    Distances and normals are judged here only, so between two searches the evaluation is continuous. Bounding-volume tree, O(n log n). Call between Newton
    iterations only; the result is kept. Not collective. */

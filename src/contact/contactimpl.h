@@ -13,7 +13,7 @@
    g is linear and 3 points would be exact (4 axisymmetric); 5 leave an error below 1e-9 of the gap for normals 0.35 rad apart (test_contact_gap). */
 #define CONTACT_GAUSS 5
 #define CONTACT_SNAP 5e-10     /* in lambda, 1e-9 in xi: bounds this close to an edge's end are that end, and do not move */
-#define CONTACT_OPPOSE 0.1     /* search keeps pairs with N_s . N_m < -0.1 */
+#define CONTACT_OPPOSE 0.3     /* search keeps pairs with N_s . N_m < -0.3 */
 #define CONTACT_GRAZE 1e-4     /* evaluation: rays that meet a mortar edge at a flatter angle (cosine) do not see it */
 #define CONTACT_SINGULAR 1e-13 /* det D2 / (tr D2)^2 of an edge that is too little covered to have a dual basis */
 #define CONTACT_FOLDED 1e-6    /* |sum of unit edge normals| below which a node has no normal */

@@ -24,7 +24,7 @@ static PetscBool Hit(const Chain *nonmortar, const Chain *mortar, const PetscRea
   const PetscReal  s = (-r[0] * E[1] + E[0] * r[1]) / det, tau = (n[0] * r[1] - n[1] * r[0]) / det;
 
   *g = s * hypot(n[0], n[1]);
-  return tau >= 0 && tau <= 1 && t[0] * E[0] + t[1] * E[1] < -0.1 * hypot(t[0], t[1]) * hypot(E[0], E[1]) ? PETSC_TRUE : PETSC_FALSE;
+  return tau >= 0 && tau <= 1 && t[0] * E[0] + t[1] * E[1] < -CONTACT_OPPOSE * hypot(t[0], t[1]) * hypot(E[0], E[1]) ? PETSC_TRUE : PETSC_FALSE;
 }
 
 /* Sample points of every edge: covered by a facing mortar edge within `distance` if and only if one is there; by that one when there is just one. */
