@@ -144,6 +144,27 @@ static void Layers(void **state)
   }
 }
 
+/* Rays that a facet would meet at more than 72.5 degrees from its normal, it does not look for. */
+static void Grazing(void **state)
+{
+  for (int steep = 0; steep < 2; steep++) {
+    const PetscReal angle = (steep ? 75 : 70) * PETSC_PI / 180;
+    const PetscInt *start, *candidate;
+    Chain           nonmortar, mortar;
+    ContactPair     pair;
+
+    ChainLine(&nonmortar, 2, 1, 0, 0, 0);
+    ChainLine(&mortar, 2, 0.5 - 0.5 * cos(angle), 0.1, 0.5 + 0.5 * cos(angle), 0.1 + sin(angle));
+    PairCreate(PETSC_FALSE, PETSC_FALSE, &pair);
+    SearchAll(pair, &nonmortar, &mortar, 2, 0.1);
+    CHECK_CALL(ContactPairGetCandidates(pair, &start, &candidate));
+    assert_int_equal(start[1], steep ? 0 : 1);
+    CHECK_CALL(ContactPairDestroy(&pair));
+    ChainDestroy(&nonmortar);
+    ChainDestroy(&mortar);
+  }
+}
+
 /* A face of another body below one of this body: pressed into it by up to `distance` it is an overlap, farther down it is behind the body. The room that a
    margin gives for motion, here more than four times the distance, is none for overlaps. */
 static void Behind(void **state)
@@ -355,5 +376,5 @@ static void FarSides(void **state)
   }
 }
 
-CONTACT_TEST_MAIN("contact: search", cmocka_unit_test(BruteForce), cmocka_unit_test(Margin), cmocka_unit_test(Layers), cmocka_unit_test(Behind),
+CONTACT_TEST_MAIN("contact: search", cmocka_unit_test(BruteForce), cmocka_unit_test(Margin), cmocka_unit_test(Layers), cmocka_unit_test(Behind), cmocka_unit_test(Grazing),
                   cmocka_unit_test(FarSides), cmocka_unit_test(LargeSliding), cmocka_unit_test(Empty), cmocka_unit_test(Time))
