@@ -146,6 +146,10 @@ PetscErrorCode ContactPairGetDonors(ContactPair, const PetscInt **first, const P
 PetscErrorCode ContactPairSearch(ContactPair, const ContactSurface *nonmortar, const ContactSurface *mortar, PetscInt num, const PetscInt facets[],
                                  PetscReal distance, PetscReal margin);
 
+/* How deep the last search found sides of another body that it took for far ones, though they are not clearly as deep as both bodies measure: overlaps beyond
+   what can be told. 0: none. Not collective. */
+PetscErrorCode ContactPairGetUntold(ContactPair, PetscReal *depth);
+
 /* Boxes (xmin, ymin, zmin, xmax, ymax, zmax), at most `most`, that meet the box (ContactFacetBox) of every mortar facet that ContactPairSearch with the same
    arguments may find; either both sides have facets of higher order or none. Not collective. */
 PetscErrorCode ContactPairReach(ContactPair, const ContactSurface *nonmortar, PetscInt num, const PetscInt facets[], PetscReal distance, PetscReal margin,

@@ -7,6 +7,9 @@
    Thicknesses are those at the reference positions, along directions that turn with the facets. */
 #include "rayimpl.h"
 
+#define CLOSE 0.1    /* of a facet's half width */
+#define CLEARLY 0.75 /* of what both bodies measure: what lies deeper is surely no overlap, or one that is seen from its own side, too */
+
 enum { LEVELS = 6 }; /* of the search for the ray to the middle of the mortar facet: to 1/32 of the facet */
 
 static void Axes_Private(PetscInt dim, const PetscReal x[4][3], PetscReal axis[3][3])
@@ -161,6 +164,19 @@ static PetscBool IsInFront_Private(const FacetCorners *s, const ContactSurface *
   return PETSC_TRUE;
 }
 
+/* Has x, in the plane of the mortar facet, come close to its middle? */
+static PetscBool IsOver_Private(const FacetCorners *m, const PetscReal x[3], const PetscReal middle[3])
+{
+  PetscReal size = 0, r[3];
+
+  for (PetscInt a = 0; a < m->nv; a++) {
+    for (int c = 0; c < 3; c++) r[c] = m->x[a][c] - middle[c];
+    size = PetscMax(size, Dot3(r, r));
+  }
+  for (int c = 0; c < 3; c++) r[c] = x[c] - middle[c];
+  return (PetscBool)(Dot3(r, r) <= CLOSE * CLOSE * size);
+}
+
 void ContactCorners(ContactPair pair, const ContactSurface *nonmortar, PetscInt facet, FacetCorners *s)
 {
   if (!pair->hull) return;
@@ -173,6 +189,7 @@ PetscBool ContactBehind(ContactPair pair, PetscInt facet, const FacetCorners *s,
   PetscReal        n[3], x[3], middle[3], r[3], xi[2], eta[2], depth, own;
   const PetscReal *N;
   FacetCorners     m;
+  PetscBool        behind;
 
   if (!pair->hull || IsInFront_Private(s, mortar, other, middle)) return PETSC_FALSE;
   Corners_Private(mortar, other, &m);
@@ -185,7 +202,17 @@ PetscBool ContactBehind(ContactPair pair, PetscInt facet, const FacetCorners *s,
   own = Across_Private(pair->hull, pair->part[0][facet], s, xi, r, 2 * depth);
   if (own >= 2 * depth) return PETSC_FALSE;
   Locate_Private(&m, x, eta);
-  return (PetscBool)(Across_Private(pair->hull, pair->part[1][other], &m, eta, n, 2 * depth - own) < 2 * depth - own);
+  own += Across_Private(pair->hull, pair->part[1][other], &m, eta, n, 2 * depth - own);
+  behind = (PetscBool)(own < 2 * depth);
+  if (behind && depth < CLEARLY * own && IsOver_Private(&m, x, middle)) pair->untold = PetscMax(pair->untold, depth);
+  return behind;
+}
+
+PetscErrorCode ContactPairGetUntold(ContactPair pair, PetscReal *depth)
+{
+  PetscFunctionBegin;
+  *depth = pair->untold;
+  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode ContactHullThickness(ContactHull hull, const ContactSurface *s, const PetscInt part[], PetscReal *most)

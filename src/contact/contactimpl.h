@@ -118,6 +118,7 @@ struct _p_ContactPair {
   PetscReal        distance, margin;
   PetscReal        depth; /* of overlaps that are looked for */
   ContactHull      hull;    /* borrowed; NULL: thicknesses are not known */
+  PetscReal        untold;  /* by the last search */
   PetscReal        deepest; /* overlap between its parts that can be told; 0: the search distance */
   const PetscInt  *part[2]; /* borrowed: of the facets of both sides */
   /* results of the last evaluation, all owned; sizes only grow */

@@ -200,6 +200,7 @@ static PetscErrorCode Prepare_Private(ContactPair pair, const ContactSurface *no
              (double)distance, (double)margin);
   pair->distance = distance;
   pair->margin   = margin;
+  pair->untold   = 0;
   pair->depth    = pair->hull && pair->deepest > 0 ? pair->deepest : distance;
   pair->rays     = (PetscBool)(nonmortar->order || higher || (pair->dim == 3 && pair->continuous));
   if (pair->rays)
