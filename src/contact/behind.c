@@ -4,9 +4,13 @@
    start, t'. If the bodies overlap, the mortar facet lies inside the own body or the start inside the other one: d <= max(t, t'). If it is the far side of a
    body behind, all of both lies between: d >= t + t'. So what is deeper than (t + t') / 2 is no overlap.
 
-   Thicknesses are those at the reference positions, along directions that turn with the facets. */
+   Nor is it one where out of the own body from the mortar facet, or out of the other one from the ray's start, the way is much shorter through another facet of
+   the pair: where a block is pressed into another one by little, sides that are upright see far ones through both in the strip that overlaps.
+
+   Thicknesses and ways out are those at the reference positions, along directions that turn with the facets. */
 #include "rayimpl.h"
 
+#define SHORTER 0.3  /* of the depth: a way out this short is the way the bodies came */
 #define CLOSE 0.1    /* of a facet's half width */
 #define CLEARLY 0.75 /* of what both bodies measure: what lies deeper is surely no overlap, or one that is seen from its own side, too */
 
@@ -99,16 +103,67 @@ static void Directions_Private(ContactPair pair, const ContactSurface *s, PetscI
   }
 }
 
-/* What the part measures from xi on its facet into it, along the direction that has turned to d by now. */
-static PetscReal Across_Private(ContactHull hull, PetscInt part, const FacetCorners *p, const PetscReal xi[2], const PetscReal d[3], PetscReal most)
+/* The place xi at the reference positions, and the direction there that has turned to d by now. */
+static void Start_Private(const FacetCorners *p, const PetscReal xi[2], const PetscReal d[3], PetscReal X[3], PetscReal D[3])
 {
-  PetscReal X[3], N[4], D[3] = {0, 0, 0};
+  PetscReal N[4];
 
   Hats_Private(p, xi, N);
   Sum_Private(p->X, N, X);
+  D[0] = D[1] = D[2] = 0;
   for (PetscInt k = 0; k < p->dim; k++)
     for (int c = 0; c < 3; c++) D[c] += Dot3(p->axis[k], d) * p->axis0[k][c];
+}
+
+/* What the part measures from xi on its facet into it, along the direction that has turned to d by now. */
+static PetscReal Across_Private(ContactHull hull, PetscInt part, const FacetCorners *p, const PetscReal xi[2], const PetscReal d[3], PetscReal most)
+{
+  PetscReal X[3], D[3];
+
+  Start_Private(p, xi, d, X, D);
   return ContactHullAcross(hull, part, X, D, most);
+}
+
+/* Does a facet of the surface at its reference positions, other than one behind (facet p's normal), come nearer to X than `reach`? */
+static PetscBool ComesNear_Private(const ContactSurface *s, PetscInt facet, const FacetCorners *p, const PetscReal X[3], PetscReal reach)
+{
+  const ContactSurface reference = {.dim = s->dim, .facets = s->facets, .x = s->X, .X = s->X};
+  FacetCorners         q;
+  PetscReal            eta[2], N[4], Y[3], r[3];
+
+  Corners_Private(&reference, facet, &q);
+  if (Dot3(q.axis[q.dim - 1], p->axis0[p->dim - 1]) < -CONTACT_OPPOSE) return PETSC_FALSE;
+  Locate_Private(&q, X, eta);
+  Hats_Private(&q, eta, N);
+  Sum_Private(q.x, N, Y);
+  for (int c = 0; c < 3; c++) r[c] = Y[c] - X[c];
+  return (PetscBool)(Dot3(r, r) < reach * reach);
+}
+
+/* From xi on facet p, of the surface whose facets are in the tree, `depth` far along d: is there a much shorter way out of the body through that surface? */
+static PetscBool IsShorter_Private(const Tree *tree, const ContactSurface *s, const FacetCorners *p, const PetscReal xi[2], const PetscReal d[3],
+                                   PetscReal depth)
+{
+  const PetscReal reach = SHORTER * depth;
+  PetscReal       X[3], D[3], box[6];
+  PetscInt        stack[TREE_DEPTH], top = 0;
+
+  Start_Private(p, xi, d, X, D);
+  for (int c = 0; c < 3; c++) X[c] += depth * D[c], box[c] = X[c] - reach, box[3 + c] = X[c] + reach;
+  stack[top++] = 0;
+  while (top) {
+    const TreeNode *node = &tree->node[stack[--top]];
+
+    if (!ContactBoxesMeet(node->box, box)) continue;
+    if (node->child >= 0) {
+      stack[top++] = node->child;
+      stack[top++] = node->child + 1;
+      continue;
+    }
+    for (PetscInt k = node->first; k < node->first + node->count; k++)
+      if (ComesNear_Private(s, tree->item[k], p, X, reach)) return PETSC_TRUE;
+  }
+  return PETSC_FALSE;
 }
 
 /* The ray from xi: its start, its unit direction n; returns the square of the distance at which it passes y. */
@@ -184,7 +239,30 @@ void ContactCorners(ContactPair pair, const ContactSurface *nonmortar, PetscInt 
   Directions_Private(pair, nonmortar, facet, s);
 }
 
-PetscBool ContactBehind(ContactPair pair, PetscInt facet, const FacetCorners *s, const ContactSurface *mortar, PetscInt other)
+/* A tree over the facets of a surface at the reference positions, once. */
+static PetscErrorCode Tree_Private(const ContactSurface *s, Tree *tree)
+{
+  const ContactSurface reference = {.dim = s->dim, .facets = s->facets, .x = s->X};
+  PetscReal(*box)[6];
+
+  PetscFunctionBegin;
+  if (tree->node) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(PetscMalloc1(s->num_facets, &box));
+  for (PetscInt f = 0; f < s->num_facets; f++) ContactFacetBox(&reference, f, box[f]);
+  PetscCall(ContactTreeBuild(s->num_facets, box, tree));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode ContactBehindPrepare(ContactPair pair, const ContactSurface *nonmortar, const ContactSurface *mortar)
+{
+  PetscFunctionBegin;
+  if (!pair->hull) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(Tree_Private(nonmortar, &pair->reference[0]));
+  PetscCall(Tree_Private(mortar, &pair->reference[1]));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscBool ContactBehind(ContactPair pair, const ContactSurface *nonmortar, PetscInt facet, const FacetCorners *s, const ContactSurface *mortar, PetscInt other)
 {
   PetscReal        n[3], x[3], middle[3], r[3], xi[2], eta[2], depth, own;
   const PetscReal *N;
@@ -200,9 +278,10 @@ PetscBool ContactBehind(ContactPair pair, PetscInt facet, const FacetCorners *s,
   if (!(Dot3(n, N) < -CONTACT_GRAZE) || !(depth > 0)) return PETSC_FALSE;
   for (int c = 0; c < 3; c++) x[c] -= depth * n[c], r[c] = -n[c];
   own = Across_Private(pair->hull, pair->part[0][facet], s, xi, r, 2 * depth);
-  if (own >= 2 * depth) return PETSC_FALSE;
   Locate_Private(&m, x, eta);
-  own += Across_Private(pair->hull, pair->part[1][other], &m, eta, n, 2 * depth - own);
+  own += Across_Private(pair->hull, pair->part[1][other], &m, eta, n, PetscMax(0, 2 * depth - own));
+  if (IsShorter_Private(&pair->reference[0], nonmortar, s, xi, r, depth) || IsShorter_Private(&pair->reference[1], mortar, &m, eta, n, depth))
+    return PETSC_TRUE;
   behind = (PetscBool)(own < 2 * depth);
   if (behind && depth < CLEARLY * own && IsOver_Private(&m, x, middle)) pair->untold = PetscMax(pair->untold, depth);
   return behind;

@@ -120,6 +120,7 @@ struct _p_ContactPair {
   ContactHull      hull;    /* borrowed; NULL: thicknesses are not known */
   PetscReal        untold;  /* by the last search */
   PetscReal        deepest; /* overlap between its parts that can be told; 0: the search distance */
+  Tree             reference[2]; /* owned; with the hull, over the facets of both sides at the reference positions */
   const PetscInt  *part[2]; /* borrowed: of the facets of both sides */
   /* results of the last evaluation, all owned; sizes only grow */
   PetscReal      *normal; /* [num_nodes][2] */
@@ -177,8 +178,10 @@ typedef struct {
 
 /* Once for a nonmortar facet, nothing where the pair knows no hull. */
 void ContactCorners(ContactPair, const ContactSurface *nonmortar, PetscInt facet, FacetCorners *);
-/* Does the mortar facet lie behind the nonmortar one and both bodies? */
-PetscBool ContactBehind(ContactPair, PetscInt facet, const FacetCorners *nonmortar, const ContactSurface *mortar, PetscInt other);
+/* Before the first of a search. */
+PetscErrorCode ContactBehindPrepare(ContactPair, const ContactSurface *nonmortar, const ContactSurface *mortar);
+/* Does the mortar facet lie behind the nonmortar one and both bodies, or did the bodies come to overlap another way? */
+PetscBool ContactBehind(ContactPair, const ContactSurface *, PetscInt facet, const FacetCorners *nonmortar, const ContactSurface *mortar, PetscInt other);
 
 /* normal.c */
 PetscErrorCode ContactTopologyBuild(ContactPair, const ContactSurface *);

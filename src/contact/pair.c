@@ -33,6 +33,7 @@ PetscErrorCode ContactPairDestroy(ContactPair *pair)
   PetscCall(PetscFree(p->ids));
   PetscCall(PetscFree(p->result));
   PetscCall(PetscFree(p->coverage));
+  for (int k = 0; k < 2; k++) PetscCall(ContactTreeDestroy(&p->reference[k]));
   PetscCall(PetscFree(p->slot));
   PetscCall(ContactStateDestroy(p));
   PetscCall(PetscFree(p->real));

@@ -182,7 +182,7 @@ static PetscErrorCode Candidates_Private(ContactPair pair, const ContactSurface 
     PetscCall(PetscSortInt(num, found)); /* results must not depend on the tree */
     PetscCall(ContactGrow(total + num, sizeof(PetscInt), &pair->size_candidate, &pair->candidate));
     for (PetscInt k = 0; k < num; k++)
-      if (Meets_Private(pair, &reach, mortar, found[k]) && !ContactBehind(pair, pair->listed[i], &corners, mortar, found[k]))
+      if (Meets_Private(pair, &reach, mortar, found[k]) && !ContactBehind(pair, nonmortar, pair->listed[i], &corners, mortar, found[k]))
         pair->candidate[total++] = found[k];
   }
   pair->start[pair->num_listed] = total;
@@ -226,6 +226,7 @@ PetscErrorCode ContactPairSearch(ContactPair pair, const ContactSurface *nonmort
   pair->num_mortar_nodes  = mortar->num_nodes;
   pair->num_mortar_facets = mortar->num_facets;
   if (pair->rays) PetscCall(ContactRayMortarTopology(pair->ray, mortar));
+  PetscCall(ContactBehindPrepare(pair, nonmortar, mortar));
   PetscCall(PetscMalloc2(mortar->num_facets, &found, mortar->num_facets, &known));
   PetscCall(MortarTree_Private(mortar, known, &tree));
   PetscCall(Candidates_Private(pair, nonmortar, mortar, &tree, known, found));
