@@ -5,7 +5,8 @@
    body behind, all of both lies between: d >= t + t'. So what is deeper than (t + t') / 2 is no overlap.
 
    Nor is it one where out of the own body from the mortar facet, or out of the other one from the ray's start, the way is much shorter through another facet of
-   the pair: where a block is pressed into another one by little, sides that are upright see far ones through both in the strip that overlaps.
+   the pair: where a block is pressed into another one by little, sides that are upright see far ones through both in the strip that overlaps. (Not where it
+   is less deep than the nonmortar facet is long: near corners other facets are always near.)
 
    Thicknesses and ways out are those at the reference positions, along directions that turn with the facets. */
 #include "rayimpl.h"
@@ -219,6 +220,20 @@ static PetscBool IsInFront_Private(const FacetCorners *s, const ContactSurface *
   return PETSC_TRUE;
 }
 
+/* Longest distance of a corner from the first one. */
+static PetscReal Size_Private(const FacetCorners *s)
+{
+  PetscReal most = 0;
+
+  for (PetscInt a = 1; a < s->nv; a++) {
+    PetscReal sum = 0;
+
+    for (int c = 0; c < 3; c++) sum += PetscSqr(s->x[a][c] - s->x[0][c]);
+    most = PetscMax(most, sum);
+  }
+  return PetscSqrtReal(most);
+}
+
 /* Has x, in the plane of the mortar facet, come close to its middle? */
 static PetscBool IsOver_Private(const FacetCorners *m, const PetscReal x[3], const PetscReal middle[3])
 {
@@ -280,7 +295,8 @@ PetscBool ContactBehind(ContactPair pair, const ContactSurface *nonmortar, Petsc
   own = Across_Private(pair->hull, pair->part[0][facet], s, xi, r, 2 * depth);
   Locate_Private(&m, x, eta);
   own += Across_Private(pair->hull, pair->part[1][other], &m, eta, n, PetscMax(0, 2 * depth - own));
-  if (IsShorter_Private(&pair->reference[0], nonmortar, s, xi, r, depth) || IsShorter_Private(&pair->reference[1], mortar, &m, eta, n, depth))
+  if (depth > Size_Private(s) && (IsShorter_Private(&pair->reference[0], nonmortar, s, xi, r, depth) ||
+                                  IsShorter_Private(&pair->reference[1], mortar, &m, eta, n, depth)))
     return PETSC_TRUE;
   behind = (PetscBool)(own < 2 * depth);
   if (behind && depth < CLEARLY * own && IsOver_Private(&m, x, middle)) pair->untold = PetscMax(pair->untold, depth);
