@@ -295,8 +295,8 @@ PetscBool ContactBehind(ContactPair pair, const ContactSurface *nonmortar, Petsc
   own = Across_Private(pair->hull, pair->part[0][facet], s, xi, r, 2 * depth);
   Locate_Private(&m, x, eta);
   own += Across_Private(pair->hull, pair->part[1][other], &m, eta, n, PetscMax(0, 2 * depth - own));
-  if (depth > Size_Private(s) && (IsShorter_Private(&pair->reference[0], nonmortar, s, xi, r, depth) ||
-                                  IsShorter_Private(&pair->reference[1], mortar, &m, eta, n, depth)))
+  if (depth > Size_Private(s) &&
+      (IsShorter_Private(&pair->reference[0], nonmortar, s, xi, r, depth) || IsShorter_Private(&pair->reference[1], mortar, &m, eta, n, depth)))
     return PETSC_TRUE;
   behind = (PetscBool)(own < 2 * depth);
   if (behind && depth < CLEARLY * own && IsOver_Private(&m, x, middle)) pair->untold = PetscMax(pair->untold, depth);

@@ -116,12 +116,12 @@ struct _p_ContactPair {
   PetscInt         num_listed, *listed, *start, *candidate, size_candidate; /* owned */
   ContactCoverage *coverage;                                                /* owned, [num_facets], since the last ContactPairForget; rays only */
   PetscReal        distance, margin;
-  PetscReal        depth; /* of overlaps that are looked for */
-  ContactHull      hull;    /* borrowed; NULL: thicknesses are not known */
-  PetscReal        untold;  /* by the last search */
-  PetscReal        deepest; /* overlap between its parts that can be told; 0: the search distance */
+  PetscReal        depth;        /* of overlaps that are looked for */
+  ContactHull      hull;         /* borrowed; NULL: thicknesses are not known */
+  PetscReal        untold;       /* by the last search */
+  PetscReal        deepest;      /* overlap between its parts that can be told; 0: the search distance */
   Tree             reference[2]; /* owned; with the hull, over the facets of both sides at the reference positions */
-  const PetscInt  *part[2]; /* borrowed: of the facets of both sides */
+  const PetscInt  *part[2];      /* borrowed: of the facets of both sides */
   /* results of the last evaluation, all owned; sizes only grow */
   PetscReal      *normal; /* [num_nodes][2] */
   PetscInt        num_segments, size_segments;

@@ -238,7 +238,8 @@ static PetscErrorCode Roles_Private(Scene s, const Facets *f, ContactEntry *c)
   PetscCheckInput(!rigid[0] || !rigid[1], "%s: '%s' and '%s' are both sides of rigid bodies; one side of a pair must be of a body that deforms",
                   NodeWhere(c->node), c->nonmortar, c->mortar);
   if (!rigid[0]) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(PetscPrintf(s->comm, "note: %s: '%s' is rigid and becomes the mortar side, '%s' the nonmortar side\n", NodeWhere(c->node), c->nonmortar, c->mortar));
+  PetscCall(
+      PetscPrintf(s->comm, "note: %s: '%s' is rigid and becomes the mortar side, '%s' the nonmortar side\n", NodeWhere(c->node), c->nonmortar, c->mortar));
   c->spec.exchanged = PETSC_TRUE;
   c->spec.nonmortar = c->spec.mortar;
   c->spec.mortar    = nonmortar;

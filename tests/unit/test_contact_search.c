@@ -376,5 +376,39 @@ static void FarSides(void **state)
   }
 }
 
-CONTACT_TEST_MAIN("contact: search", cmocka_unit_test(BruteForce), cmocka_unit_test(Margin), cmocka_unit_test(Layers), cmocka_unit_test(Behind), cmocka_unit_test(Grazing),
-                  cmocka_unit_test(FarSides), cmocka_unit_test(LargeSliding), cmocka_unit_test(Empty), cmocka_unit_test(Time))
+/* A bar on a bar, whole contours, moved by half its length and pressed in by 0.1: through the strip in which they overlap its left side, upright, sees the
+   other's right one, 2 deep in bars 4 long. Its bottom sees the other's top. */
+static void Strip(void **state)
+{
+  PetscInt        num = 0, seen = 0, *parts = NULL, part[2][10];
+  PetscReal      *X = NULL;
+  const PetscInt *start, *candidate;
+  ContactHull     hull;
+  ContactPair     pair;
+  Chain           upper, lower;
+
+  CHECK_CALL(PetscMalloc1(20, &parts));
+  CHECK_CALL(PetscMalloc1(80, &X));
+  Bar(&upper, 0, 1, 0, &num, parts, X);
+  Bar(&lower, -1, 0, 1, &num, parts, X);
+  CHECK_CALL(ContactHullCreate(2, num, parts, X, &hull));
+  for (int e = 0; e < 10; e++) part[0][e] = 0, part[1][e] = 1;
+  upper.s.X = memcpy(malloc(20 * sizeof(PetscReal)), upper.x, 20 * sizeof(PetscReal));
+  ChainMove(&upper, 0, 2, -0.1);
+  PairCreate(PETSC_FALSE, PETSC_FALSE, &pair);
+  CHECK_CALL(ContactPairSetHull(pair, hull, part[0], part[1], 4));
+  SearchAll(pair, &upper, &lower, 1, 0.1);
+  CHECK_CALL(ContactPairGetCandidates(pair, &start, &candidate));
+  assert_int_equal(start[10] - start[9], 0); /* the left side */
+  for (PetscInt k = start[0]; k < start[4]; k++) seen += candidate[k] > 4 && candidate[k] < 9;
+  assert_true(seen >= 2);
+  CHECK_CALL(ContactPairDestroy(&pair));
+  CHECK_CALL(ContactHullDestroy(&hull));
+  free((void *)upper.s.X);
+  ChainDestroy(&upper);
+  ChainDestroy(&lower);
+}
+
+CONTACT_TEST_MAIN("contact: search", cmocka_unit_test(BruteForce), cmocka_unit_test(Margin), cmocka_unit_test(Layers), cmocka_unit_test(Behind),
+                  cmocka_unit_test(Grazing), cmocka_unit_test(FarSides), cmocka_unit_test(Strip), cmocka_unit_test(LargeSliding), cmocka_unit_test(Empty),
+                  cmocka_unit_test(Time))
