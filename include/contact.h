@@ -139,12 +139,16 @@ PetscErrorCode ContactPairSetSoftness(ContactPair, const PetscReal softness[]);
 PetscErrorCode ContactPairGetDonors(ContactPair, const PetscInt **first, const PetscInt **donor, const PetscReal **weight);
 
 /* Candidate search at the given positions: for each listed nonmortar facet (facets[num], those this rank owns) the mortar facets it may meet while no
-   node moves more than `margin`: facet normals N_s . N_m < -0.1, -depth < g < distance somewhere on the pair (margin > 0: more, but no deeper); depth is the
+   node moves more than `margin`: facet normals N_s . N_m < -0.3, -depth < g < distance somewhere on the pair (margin > 0: more, but no deeper); depth is the
    distance, or what ContactPairSetHull says.
    Distances and normals are judged here only, so between two searches the evaluation is continuous. Bounding-volume tree, O(n log n). Call between Newton
    iterations only; the result is kept. Not collective. */
 PetscErrorCode ContactPairSearch(ContactPair, const ContactSurface *nonmortar, const ContactSurface *mortar, PetscInt num, const PetscInt facets[],
                                  PetscReal distance, PetscReal margin);
+
+/* How deep the last search found sides of another body that it took for far ones, though they are not clearly as deep as both bodies measure: overlaps beyond
+   what can be told. 0: none. Not collective. */
+PetscErrorCode ContactPairGetUntold(ContactPair, PetscReal *depth);
 
 /* Boxes (xmin, ymin, zmin, xmax, ymax, zmax), at most `most`, that meet the box (ContactFacetBox) of every mortar facet that ContactPairSearch with the same
    arguments may find; either both sides have facets of higher order or none. Not collective. */

@@ -5,7 +5,8 @@
 
 /* ---- figures of a state (diagnose/balance.c, zone.c) ------------------------------------------------------------------ */
 
-/* One contact pair; sides: 0 nonmortar, 1 mortar, as the scene names them (ContactSpec.exchanged). In two dimensions forces have two components and moments one, the last (about z). */
+/* One contact pair; sides: 0 nonmortar, 1 mortar, as the scene names them (ContactSpec.exchanged). In two dimensions forces have two components and moments
+ * one, the last (about z). */
 typedef struct {
   PetscReal force[2][3];      /* total contact force on each side; axisymmetric: over the full revolution */
   PetscReal moment[2][3];     /* its moment about the origin, in the current configuration (small kinematics: the reference) */

@@ -277,5 +277,8 @@ PetscErrorCode ProblemProlongation(Problem, Mat *prolongation, Mat *pinned, MatN
    incompressible cells), less those that condensation met at the last tangent. Collective. */
 PetscErrorCode ProblemNumNegative(Problem, PetscInt *num);
 PetscErrorCode ProblemNumDofs(Problem, PetscInt *free_dofs); /* global: u, z and pi */
+/* The deepest overlap of a pair's sides, at the reference positions or where they are now, that the search passes over since it cannot tell it from the far
+   side of a body behind; 0: none. The next solve searches anew. Collective. */
+PetscErrorCode ProblemUntoldOverlap(Problem, PetscInt pair, PetscBool reference, PetscReal *depth);
 /* Axes along which no support holds the body or any that is joined to it: bit c for axis c; turns: it is held along all, and can turn. Not collective. */
 PetscErrorCode ProblemFreeAxes(Problem, PetscInt body, PetscInt *axes, PetscBool *turns);

@@ -30,6 +30,22 @@ static PetscErrorCode Worst_Private(const App *app)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Overlaps that the search cannot tell from the far sides of bodies behind. */
+static PetscErrorCode TellOverlap_Private(const App *app, PetscInt pair, PetscBool reference)
+{
+  const ContactSpec *c = &app->data->contacts[pair];
+  PetscReal          depth;
+
+  PetscFunctionBegin;
+  PetscCall(ProblemUntoldOverlap(app->level.problem, pair, reference, &depth));
+  if (depth > 0)
+    PetscCall(PetscPrintf(app->comm,
+                          "note: the sides of pair %s overlap by %.4g%s, more than half of what both bodies measure there: that is taken for the far side of a "
+                          "body behind, and does not count\n",
+                          c->name, (double)depth, reference ? " at the start" : ""));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* Pairs that were in vain; most likely a group is of other facets than was meant. Of a run that goes on from another one nobody knows. */
 static PetscErrorCode Untouched_Private(const App *app)
 {
@@ -37,6 +53,7 @@ static PetscErrorCode Untouched_Private(const App *app)
   for (PetscInt i = 0; i < app->data->num_contacts; ++i) {
     const PairFigures *f = &app->balance.pair[i];
     if (app->touched[i]) continue;
+    PetscCall(TellOverlap_Private(app, i, PETSC_FALSE));
     if (f->covered_nodes)
       PetscCall(PetscPrintf(app->comm, "note: the sides of pair %s have not touched; at the end they are %.3g apart\n", app->data->contacts[i].name,
                             (double)f->min_gap));
@@ -98,6 +115,7 @@ PetscErrorCode AppTellFree(const App *app)
   const CoarseMesh        *mesh;
 
   PetscFunctionBegin;
+  for (PetscInt i = 0; i < app->data->num_contacts; ++i) PetscCall(TellOverlap_Private(app, i, PETSC_TRUE));
   PetscCall(ForestGetCoarse(app->level.forest, &mesh));
   for (PetscInt b = 0; b < mesh->num_bodies; ++b) {
     PetscInt  axes;

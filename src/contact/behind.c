@@ -11,7 +11,9 @@
    Thicknesses are those at the reference positions, along directions that turn with the facets. */
 #include "rayimpl.h"
 
-#define BESIDE 0.5 /* of the depth: bodies that overlap less than that across the ray have met there */
+#define BESIDE 0.5   /* of the depth: bodies that overlap less than that across the ray have met there */
+#define CLOSE 0.1    /* of a facet's half width */
+#define CLEARLY 0.75 /* of what both bodies measure: what lies deeper is surely no overlap, or one that is seen from its own side, too */
 
 enum { MOST_SIDES = 32, LEVELS = 6 }; /* of the search for the ray to the middle of the mortar facet: to 1/32 of the facet */
 
@@ -205,6 +207,19 @@ static PetscBool IsInFront_Private(const FacetCorners *s, const ContactSurface *
   return PETSC_TRUE;
 }
 
+/* Has x, in the plane of the mortar facet, come close to its middle? */
+static PetscBool IsOver_Private(const FacetCorners *m, const PetscReal x[3], const PetscReal middle[3])
+{
+  PetscReal size = 0, r[3];
+
+  for (PetscInt a = 0; a < m->nv; a++) {
+    for (int c = 0; c < 3; c++) r[c] = m->x[a][c] - middle[c];
+    size = PetscMax(size, Dot3(r, r));
+  }
+  for (int c = 0; c < 3; c++) r[c] = x[c] - middle[c];
+  return (PetscBool)(Dot3(r, r) <= CLOSE * CLOSE * size);
+}
+
 void ContactCorners(ContactPair pair, const ContactSurface *nonmortar, PetscInt facet, FacetCorners *s)
 {
   if (!pair->hull) return;
@@ -219,6 +234,7 @@ PetscBool ContactBehind(ContactPair pair, PetscInt facet, const FacetCorners *s,
   HullSide         side[2][MOST_SIDES];
   const PetscReal *N;
   FacetCorners     m;
+  PetscBool        behind;
 
   if (!pair->hull || IsInFront_Private(s, mortar, other, middle)) return PETSC_FALSE;
   Corners_Private(mortar, other, &m);
@@ -233,8 +249,17 @@ PetscBool ContactBehind(ContactPair pair, PetscInt facet, const FacetCorners *s,
   num_other = num_own ? Beside_Private(pair->hull, pair->part[1][other], &m, eta, n, depth, BESIDE * depth, side[1]) : 0;
   if (IsBeside_Private(num_own, side[0], num_other, side[1], BESIDE * depth)) return PETSC_TRUE;
   own = Across_Private(pair->hull, pair->part[0][facet], s, xi, r, 2 * depth);
-  if (own >= 2 * depth) return PETSC_FALSE;
-  return (PetscBool)(Across_Private(pair->hull, pair->part[1][other], &m, eta, n, 2 * depth - own) < 2 * depth - own);
+  own += Across_Private(pair->hull, pair->part[1][other], &m, eta, n, PetscMax(0, 2 * depth - own));
+  behind = (PetscBool)(own < 2 * depth);
+  if (behind && depth < CLEARLY * own && IsOver_Private(&m, x, middle)) pair->untold = PetscMax(pair->untold, depth);
+  return behind;
+}
+
+PetscErrorCode ContactPairGetUntold(ContactPair pair, PetscReal *depth)
+{
+  PetscFunctionBegin;
+  *depth = pair->untold;
+  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode ContactHullThickness(ContactHull hull, const ContactSurface *s, const PetscInt part[], PetscReal *most)

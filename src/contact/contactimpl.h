@@ -118,6 +118,7 @@ struct _p_ContactPair {
   PetscReal        distance, margin;
   PetscReal        depth;   /* of overlaps that are looked for */
   ContactHull      hull;    /* borrowed; NULL: thicknesses are not known */
+  PetscReal        untold;  /* by the last search */
   PetscReal        deepest; /* overlap between its parts that can be told; 0: the search distance */
   const PetscInt  *part[2]; /* borrowed: of the facets of both sides */
   /* results of the last evaluation, all owned; sizes only grow */
@@ -182,7 +183,7 @@ typedef struct {
 
 /* Once for a nonmortar facet, nothing where the pair knows no hull. */
 void ContactCorners(ContactPair, const ContactSurface *nonmortar, PetscInt facet, FacetCorners *);
-/* Does the mortar facet lie behind the nonmortar one and both bodies? */
+/* Does the mortar facet lie behind the nonmortar one and both bodies, or did the bodies come to overlap another way? */
 PetscBool ContactBehind(ContactPair, PetscInt facet, const FacetCorners *nonmortar, const ContactSurface *mortar, PetscInt other);
 
 /* normal.c */

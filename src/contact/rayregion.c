@@ -1,6 +1,6 @@
 /* Candidate search for rays along a continuous direction: what a facet may meet while no node moves more than the pair's margin.
 
-   A mortar facet is kept when the vectors of the facets oppose, N_s . N_m < -0.1, and the boxes around its lattice nodes and around the rays, `distance`
+   A mortar facet is kept when the vectors of the facets oppose, N_s . N_m < -0.3, and the boxes around its lattice nodes and around the rays, `distance`
    long outwards and `depth` inwards, meet in the facet's own axes. With a margin the box of the rays grows by 2 margin (1 + distance / h), h the facet's
    shortest side, but not into the body: what lies deeper is no overlap but another body behind this one, which would be pulled through it. The box of the rays
    also has an eighth of the facet's size to all sides but the rays' for the bulge of curved facets between their nodes. */

@@ -1,6 +1,6 @@
 /* Candidate search in three dimensions: what a nonmortar facet may meet while no node moves more than the pair's margin.
 
-   A mortar facet is kept when the unit normals of the vector areas oppose, N_s . N_m < -0.1, and some of it lies in the prism over the facet along its normal,
+   A mortar facet is kept when the unit normals of the vector areas oppose, N_s . N_m < -0.3, and some of it lies in the prism over the facet along its normal,
    up to `distance` above and `depth` below; with a margin the prism grows to all sides but into the body by slack = 2 margin (1 + distance / h), h the facet's
    shortest side: relative motion of the nodes plus the turn 2 margin / h of the normal at that distance. What lies deeper in the body is no overlap but another
    body behind this one, which would be pulled through it. */

@@ -1,6 +1,6 @@
 /* Candidate search: which mortar facets a nonmortar facet may meet while no node moves more than `margin`.
 
-   Two dimensions (three: region.c; rays along a continuous direction: rayregion.c): a pair is kept when the unit normals oppose, N_s . N_m < -0.1, and the
+   Two dimensions (three: region.c; rays along a continuous direction: rayregion.c): a pair is kept when the unit normals oppose, N_s . N_m < -0.3, and the
    mortar edge reaches into the region swept by the nonmortar edge's rays, -depth < g < distance, where the bodies' thickness says how deep an overlap may be
    (behind.c), without them the distance does (with margin 0 exactly that; with a
    margin the region grows by slack = 2 margin (1 + distance / h): relative motion of the nodes plus the turn 2 margin / h of normals of edges of length h at
@@ -200,8 +200,9 @@ static PetscErrorCode Prepare_Private(ContactPair pair, const ContactSurface *no
              (double)distance, (double)margin);
   pair->distance = distance;
   pair->margin   = margin;
-  pair->rays     = (PetscBool)(nonmortar->order || higher || pair->continuous);
+  pair->untold   = 0;
   pair->depth    = pair->hull && pair->deepest > 0 ? pair->deepest : distance;
+  pair->rays     = (PetscBool)(nonmortar->order || higher || pair->continuous);
   if (pair->rays)
     PetscCall(ContactRayTopology(pair, nonmortar));
   else if (pair->dim == 3)

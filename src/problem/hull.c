@@ -88,3 +88,20 @@ PetscErrorCode HullDepth_Private(Problem p, const Contact *c, PetscReal *deepest
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
+
+PetscErrorCode ProblemUntoldOverlap(Problem p, PetscInt pair, PetscBool reference, PetscReal *depth)
+{
+  Contact  *c = &p->contacts[pair];
+  PetscReal deepest;
+
+  PetscFunctionBegin;
+  *depth = 0;
+  PetscCall(HullDepth_Private(p, c, &deepest));
+  if (!(deepest > 0) || c->spec->see_through) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(ContactPairSetHull(c->pair, p->hull, c->part[0], c->part[1], 2 * deepest));
+  PetscCall(ContactSearch_Private(p, c, reference, 0));
+  PetscCall(ContactPairGetUntold(c->pair, depth));
+  PetscCall(ContactPairSetHull(c->pair, p->hull, c->part[0], c->part[1], deepest));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, depth, 1, MPIU_REAL, MPI_MAX, p->comm));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

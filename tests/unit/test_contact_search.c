@@ -24,7 +24,7 @@ static PetscBool Hit(const Chain *nonmortar, const Chain *mortar, const PetscRea
   const PetscReal  s = (-r[0] * E[1] + E[0] * r[1]) / det, tau = (n[0] * r[1] - n[1] * r[0]) / det;
 
   *g = s * hypot(n[0], n[1]);
-  return tau >= 0 && tau <= 1 && t[0] * E[0] + t[1] * E[1] < -0.1 * hypot(t[0], t[1]) * hypot(E[0], E[1]) ? PETSC_TRUE : PETSC_FALSE;
+  return tau >= 0 && tau <= 1 && t[0] * E[0] + t[1] * E[1] < -CONTACT_OPPOSE * hypot(t[0], t[1]) * hypot(E[0], E[1]) ? PETSC_TRUE : PETSC_FALSE;
 }
 
 /* Sample points of every edge: covered by a facing mortar edge within `distance` if and only if one is there; by that one when there is just one. */
@@ -141,6 +141,27 @@ static void Layers(void **state)
     for (int j = 0; j < 12; j++) assert_near(s.gap[j], gap * s.weight[j], 1e-15);
     assert_near(s.area, 1, 1e-14);
     Cleanup(&nonmortar, &mortar, &pair, &s);
+  }
+}
+
+/* Rays that a facet would meet at more than 72.5 degrees from its normal, it does not look for. */
+static void Grazing(void **state)
+{
+  for (int steep = 0; steep < 2; steep++) {
+    const PetscReal angle = (steep ? 75 : 70) * PETSC_PI / 180;
+    const PetscInt *start, *candidate;
+    Chain           nonmortar, mortar;
+    ContactPair     pair;
+
+    ChainLine(&nonmortar, 2, 1, 0, 0, 0);
+    ChainLine(&mortar, 2, 0.5 - 0.5 * cos(angle), 0.1, 0.5 + 0.5 * cos(angle), 0.1 + sin(angle));
+    PairCreate(PETSC_FALSE, PETSC_FALSE, &pair);
+    SearchAll(pair, &nonmortar, &mortar, 2, 0.1);
+    CHECK_CALL(ContactPairGetCandidates(pair, &start, &candidate));
+    assert_int_equal(start[1], steep ? 0 : 1);
+    CHECK_CALL(ContactPairDestroy(&pair));
+    ChainDestroy(&nonmortar);
+    ChainDestroy(&mortar);
   }
 }
 
@@ -355,5 +376,39 @@ static void FarSides(void **state)
   }
 }
 
+/* A bar on a bar, whole contours, moved by half its length and pressed in by 0.1: through the strip in which they overlap its left side, upright, sees the
+   other's right one, 2 deep in bars 4 long. Its bottom sees the other's top. */
+static void Strip(void **state)
+{
+  PetscInt        num = 0, seen = 0, *parts = NULL, part[2][10];
+  PetscReal      *X = NULL;
+  const PetscInt *start, *candidate;
+  ContactHull     hull;
+  ContactPair     pair;
+  Chain           upper, lower;
+
+  CHECK_CALL(PetscMalloc1(20, &parts));
+  CHECK_CALL(PetscMalloc1(80, &X));
+  Bar(&upper, 0, 1, 0, &num, parts, X);
+  Bar(&lower, -1, 0, 1, &num, parts, X);
+  CHECK_CALL(ContactHullCreate(2, num, parts, X, &hull));
+  for (int e = 0; e < 10; e++) part[0][e] = 0, part[1][e] = 1;
+  upper.s.X = memcpy(malloc(20 * sizeof(PetscReal)), upper.x, 20 * sizeof(PetscReal));
+  ChainMove(&upper, 0, 2, -0.1);
+  PairCreate(PETSC_FALSE, PETSC_FALSE, &pair);
+  CHECK_CALL(ContactPairSetHull(pair, hull, part[0], part[1], 4));
+  SearchAll(pair, &upper, &lower, 1, 0.1);
+  CHECK_CALL(ContactPairGetCandidates(pair, &start, &candidate));
+  assert_int_equal(start[10] - start[9], 0); /* the left side */
+  for (PetscInt k = start[0]; k < start[4]; k++) seen += candidate[k] > 4 && candidate[k] < 9;
+  assert_true(seen >= 2);
+  CHECK_CALL(ContactPairDestroy(&pair));
+  CHECK_CALL(ContactHullDestroy(&hull));
+  free((void *)upper.s.X);
+  ChainDestroy(&upper);
+  ChainDestroy(&lower);
+}
+
 CONTACT_TEST_MAIN("contact: search", cmocka_unit_test(BruteForce), cmocka_unit_test(Margin), cmocka_unit_test(Layers), cmocka_unit_test(Behind),
-                  cmocka_unit_test(FarSides), cmocka_unit_test(LargeSliding), cmocka_unit_test(Empty), cmocka_unit_test(Time))
+                  cmocka_unit_test(Grazing), cmocka_unit_test(FarSides), cmocka_unit_test(Strip), cmocka_unit_test(LargeSliding), cmocka_unit_test(Empty),
+                  cmocka_unit_test(Time))

@@ -62,6 +62,28 @@ def test_a_floor_that_goes_on_beyond_the_plane_of_symmetry(run, order, beyond):
     assert abs(-2 * result.summary["reaction"]["top"][1] / FORCE - 1) < 1e-5
 
 
+# ---- corners ----------------------------------------------------------------------------------------------------------------------------
+
+EDGE = """
+mesh: {file: SCENES/edge.geo, order: 1}
+model: plane_strain
+body: {slider: {material: m}, block: {material: m}}
+material: {m: {law: neo_hookean, E: 10, nu: 0.3}}
+boundary: {top: {displacement: {x: "2.2*max(t-1,0)", y: "-0.1*min(t,1)"}}, bottom: {fix: xy}}
+contact: {pair: {nonmortar: skin, mortar: hull}}
+load: {end: 2, step: 0.2}
+"""
+
+
+@pytest.mark.parametrize("options", [(), ("-load_step", 0.1), ("-mesh_parameter_k", 2), ("-order", 2), ("-contact_pair_order", "full")], ids=str)
+@pytest.mark.parametrize("roles", [(), ("-contact_pair_nonmortar", "hull", "-contact_pair_mortar", "skin")], ids=["slider", "block"])
+def test_off_an_edge(run, roles, options):
+    """A slider pushed over the edge of a block, whole contours: side faces at the corners, bulged by some degrees, do not take what they graze for a contact."""
+    result = run("edge.yml", *QUIET, *roles, *options, text=EDGE.replace("SCENES", str(BLOCKS.parent)))
+    assert result.returncode == 0 and result.summary["step_cuts"] == 0, result
+    assert abs(result.history[-1]["contact_force"]) < 1e-9 and result.summary["newton_iterations"] < 15 * result.summary["load_steps"]
+
+
 # ---- rigid sides ------------------------------------------------------------------------------------------------------------------------
 
 def test_a_rigid_nonmortar_side(run):
