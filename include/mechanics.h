@@ -126,6 +126,9 @@ typedef struct {
    reactions), with these element pressures. NULL: those that u implies, whose round-off is that of det F times the bulk modulus; so is that of the residual. */
 PetscErrorCode MechanicsResidual(Mechanics, const PetscReal u[], const PetscReal pressure[], PetscReal r[], MechanicsStatus *);
 
+/* Work of dead loads on the displacements u (local array): this rank's part. Not collective. */
+PetscErrorCode MechanicsDeadWork(Mechanics, const PetscReal u[], PetscReal *work);
+
 /* Receives K[num][num] for local dofs; of an owned cell (its masters in order, all but those inside it where they are condensed) or of a load (cell -1). */
 typedef PetscErrorCode (*MatrixSink)(void *context, PetscInt cell, PetscInt num, const PetscInt dofs[], const PetscReal K[]);
 /* Tangent at u with the stored pressure (NULL: consistent with u); remembers the linearised pressure for MechanicsUpdatePressure. */

@@ -264,6 +264,20 @@ PetscErrorCode ProblemPending(Problem, PetscReal *remaining);
 PetscErrorCode ProblemNoteImbalance(Problem, Vec x, PetscBool *usable);
 PetscErrorCode ProblemLeaveImbalance(Problem, PetscReal share);
 
+/* energy.c. The augmented Lagrangian Phi(u; lambda), with penalties kappa_j = factor c_j. HasEnergy: is there one? Not with follower loads, plastic flow,
+   pressures among the unknowns, small kinematics, drag. Not collective. */
+PetscErrorCode ProblemHasEnergy(Problem, PetscBool *yes);
+/* Phi at the displacements of x and the prescribed motion as applied, and its gradient (NULL: not wanted; 0 but for displacements). lambda: multipliers, in a
+   vector of the problem whose other entries are not looked at. The multipliers of x become max(0, lambda_j - kappa_j g_j). merit: the largest number where
+   status->bad. Collective. */
+PetscErrorCode ProblemMerit(Problem, PetscReal factor, Vec lambda, Vec x, Vec gradient, PetscReal *merit, ProblemStatus *status);
+/* The Hessian of Phi as a matrix that has it for its Schur complement (symmetric; the multipliers' block is negative definite), at x as ProblemMerit left it,
+   into the problem's matrix. With lift: of the bodies alone, without contact, and in lift the forces of the prescribed motion still to come. Collective. */
+PetscErrorCode ProblemMeritTangent(Problem, PetscReal factor, Vec x, Vec lift, PetscBool *bad);
+/* rhs = -(gradient + lift) of that matrix (lift NULL: none); dx from its solution y. Collective. */
+PetscErrorCode ProblemMeritSide(Problem, Vec gradient, Vec lift, Vec rhs);
+PetscErrorCode ProblemMeritRecover(Problem, Vec y, Vec dx);
+
 /* Forces of the supports in a state, which is set: reaction[num_boundaries][3]; contact force and moment about the origin on the nonmortar side:
    force[num_contacts][3], moment[num_contacts][3]; all ranks. Evaluates the residual. */
 PetscErrorCode ProblemForces(Problem, const State *, PetscReal reaction[][3], PetscReal force[][3], PetscReal moment[][3], ProblemStatus *);

@@ -43,6 +43,7 @@ typedef struct {
   PetscLogDouble start;
   PetscReal      arc, arc_first;                            /* along a path: length of the next step, of the first one; 0: not yet */
   PetscReal      haste;                                     /* displacement per time in the last step, over that since the start */
+  PetscInt       descended_steps;                           /* steps whose equilibrium was found by descent */
   PetscInt       relaxed_steps;                             /* steps to an equilibrium that was not near by */
   PetscReal      drag_work, all_drag_work;                  /* energy that drag took in the step at hand, in all */
   const char    *failure;                                   /* why the run gave up, NULL while it goes on */
@@ -66,6 +67,8 @@ typedef struct {
 PetscErrorCode AppInitialize(int argc, char **argv);
 /* loadstep.c: all load steps; app->failure is set when the solver gives up. Collective. */
 PetscErrorCode AppRun(App *);
+/* descend.c: from the accepted state to an equilibrium at time t by descent; state and time are restored where there is none to be found. Collective. */
+PetscErrorCode AppDescend(App *, PetscReal t, PetscBool *ok);
 /* adaptstep.c: after a solution at the current time, refine and solve again until the tolerance or a limit is met. */
 PetscErrorCode AppAdapt(App *);
 /* refine.c: the prescribed motion as it was at time t. Collective. */

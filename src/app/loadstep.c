@@ -139,6 +139,13 @@ static PetscBool RelaxNow_Private(const App *app, PetscReal dt, PetscReal tried)
   return (PetscBool)(tried > 0 ? dt <= AGAIN * tried : app->cuts_in_step > 0 || dt < SHORT * app->data->load.step);
 }
 
+/* Before drag, at the first failure: a descent tells soon whether it helps. */
+static PetscBool DescendNow_Private(const App *app, PetscReal dt, PetscReal descended)
+{
+  if (app->data->num_contacts == 0 || (app->haste > HASTE && Loaded_Private(app->data))) return PETSC_FALSE;
+  return (PetscBool)(descended == 0 || dt <= AGAIN * descended);
+}
+
 static PetscErrorCode Relax_Private(App *app, PetscReal t, PetscBool *ok)
 {
   PetscFunctionBegin;
@@ -160,12 +167,12 @@ static PetscErrorCode LoadStep_Private(App *app, PetscBool *ok)
 {
   Level          *l  = &app->level;
   const PetscReal t0 = l->accepted.t;
-  PetscReal      *dt = &app->dt, tried;
+  PetscReal      *dt = &app->dt, tried, descended;
   SolverReport    report;
 
   PetscFunctionBegin;
   app->iterations_in_step = app->cuts_in_step = app->passes_in_step = 0;
-  app->drag_work = tried = 0;
+  app->drag_work = tried = descended = 0;
   for (;;) {
     const PetscReal t = AppStepEnd(app->data, t0, *dt);
     PetscCall(AppAttempt(app, t, &report));
@@ -173,6 +180,12 @@ static PetscErrorCode LoadStep_Private(App *app, PetscBool *ok)
     if (*ok) break;
     PetscCall(Restore_Private(app, &l->accepted));
     if (app->stopped) PetscFunctionReturn(PETSC_SUCCESS);
+    if (DescendNow_Private(app, t - t0, descended)) {
+      descended = t - t0;
+      PetscCall(AppDescend(app, t, ok));
+      if (*ok) break;
+      if (app->stopped) PetscFunctionReturn(PETSC_SUCCESS);
+    }
     if (RelaxNow_Private(app, t - t0, tried)) {
       tried = t - t0;
       PetscCall(Relax_Private(app, t, ok));

@@ -1,0 +1,359 @@
+/* Descent: the last resort where Newton's method with the active set finds no equilibrium.
+
+   Frictionless contact of hyperelastic bodies is minimisation. Of the augmented Lagrangian Phi(u; lambda) (problem/energy.c) Newton's method with a shift
+   against negative curvature and a line search on Phi itself finds a minimum from anywhere: each iterate lowers Phi, so that none comes back. The multipliers
+   follow, lambda <- z, and once the constraints that press are known the exact problem is solved from there by SolverSolve. */
+#include "solveimpl.h"
+
+#define PENALTY 10          /* kappa over E / h: stiff against the cells, soft enough for the line search */
+#define OUTER 4             /* descents, each with the multipliers of the one before: what helps does so after one or two */
+#define ITERATIONS 60       /* of one descent */
+#define MOVES 40            /* pieces of the prescribed motion */
+#define FAR_RTOL 1e-4       /* forces out of balance over the nodal forces where a descent ends: in the first … */
+#define NEAR_RTOL 1e-6      /* … and the others */
+#define FIRST_SHIFT 1e-4    /* over the rows' largest entries */
+#define MORE_SHIFT 4        /* times the last, where the matrix is not positive yet */
+#define LESS_SHIFT (1. / 8) /* where it was in the last iteration */
+#define LARGEST_SHIFT 1e6   /* next to which the matrix is nothing */
+#define ARMIJO 1e-4         /* least share of the decrease that the slope promises */
+#define SHORTEST 1e-8       /* step of a line search */
+#define ROUND_OFF 1e-14     /* of Phi: a smaller decrease is none */
+
+typedef struct {
+  Solver        solver;
+  Problem       problem;
+  KSP           ksp;
+  Vec           trial, gradient, dx, lambda;  /* of the problem */
+  Vec           lift, rhs, y, diagonal, work; /* of the matrix; diagonal: of the shift, 0 at multipliers */
+  PetscBool     measured;                     /* diagonal is known */
+  PetscReal     shift;                        /* last that made the matrix positive; 0: none was needed */
+  PetscReal     merit;                        /* at the iterate */
+  ProblemStatus status;
+  SolverReport *report;
+} Descent;
+
+PetscErrorCode SolverDescends(Solver s, PetscBool *yes)
+{
+  PetscFunctionBegin;
+  *yes = PETSC_FALSE;
+#if defined(PETSC_HAVE_MUMPS)
+  PetscCall(ProblemHasEnergy(s->problem, yes));
+  if (!s->descent || s->saddle) *yes = PETSC_FALSE;
+#endif
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Options of the factors before they are made: all pivots are counted (inertia.c), more room. */
+static PetscErrorCode FactorOption_Private(const char *name, const char *value)
+{
+  PetscBool set;
+
+  PetscFunctionBegin;
+  PetscCall(PetscOptionsHasName(NULL, NULL, name, &set));
+  if (!set) PetscCall(PetscOptionsSetValue(NULL, name, value));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode Create_Private(Solver s, SolverReport *report, Descent *d)
+{
+  PC pc;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMemzero(d, sizeof(*d)));
+  d->solver  = s;
+  d->problem = s->problem;
+  d->report  = report;
+  PetscCall(ProblemCreateVector(s->problem, &d->trial));
+  PetscCall(VecDuplicate(d->trial, &d->gradient));
+  PetscCall(VecDuplicate(d->trial, &d->dx));
+  PetscCall(VecDuplicate(d->trial, &d->lambda));
+  PetscCall(ProblemCreateRightSide(s->problem, &d->lift));
+  PetscCall(VecDuplicate(d->lift, &d->rhs));
+  PetscCall(VecDuplicate(d->lift, &d->y));
+  PetscCall(VecDuplicate(d->lift, &d->diagonal));
+  PetscCall(VecDuplicate(d->lift, &d->work));
+  PetscCall(FactorOption_Private("-descent_mat_mumps_icntl_13", "1"));
+  PetscCall(FactorOption_Private("-descent_mat_mumps_icntl_14", "80"));
+  PetscCall(KSPCreate(PetscObjectComm((PetscObject)d->trial), &d->ksp));
+  PetscCall(KSPSetOptionsPrefix(d->ksp, "descent_"));
+  PetscCall(KSPSetType(d->ksp, KSPPREONLY));
+  PetscCall(KSPGetPC(d->ksp, &pc));
+  PetscCall(PCSetType(pc, PCCHOLESKY));
+#if defined(PETSC_HAVE_MUMPS)
+  PetscCall(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS));
+#endif
+  PetscCall(PCSetFromOptions(pc));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode Destroy_Private(Descent *d)
+{
+  PetscFunctionBegin;
+  PetscCall(KSPDestroy(&d->ksp));
+  PetscCall(VecDestroy(&d->trial));
+  PetscCall(VecDestroy(&d->gradient));
+  PetscCall(VecDestroy(&d->dx));
+  PetscCall(VecDestroy(&d->lambda));
+  PetscCall(VecDestroy(&d->lift));
+  PetscCall(VecDestroy(&d->rhs));
+  PetscCall(VecDestroy(&d->y));
+  PetscCall(VecDestroy(&d->diagonal));
+  PetscCall(VecDestroy(&d->work));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* What shifts are measured by: the largest entry of each row of displacements at the first matrix. */
+static PetscErrorCode Measure_Private(Descent *d, Mat A)
+{
+  PetscReal *array;
+  PetscInt   num_u, num_z, dim, num;
+
+  PetscFunctionBegin;
+  if (d->measured) PetscFunctionReturn(PETSC_SUCCESS);
+  d->measured = PETSC_TRUE;
+  PetscCall(ProblemGetBlocks(d->problem, &num_u, &num_z, &dim));
+  PetscCall(MatGetRowMaxAbs(A, d->diagonal, NULL));
+  PetscCall(VecGetLocalSize(d->diagonal, &num));
+  PetscCall(VecGetArray(d->diagonal, &array));
+  for (PetscInt i = num_u; i < num; ++i) array[i] = 0;
+  PetscCall(VecRestoreArray(d->diagonal, &array));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Factorise the matrix, whose shift is there. *negative: directions of negative curvature; < 0: there is no factor. */
+static PetscErrorCode Factor_Private(Descent *d, Mat A, PetscInt *negative)
+{
+  PCFailedReason failed;
+  PetscInt       constraints;
+  PC             pc;
+
+  PetscFunctionBegin;
+  *negative = -1;
+  PetscCall(StageBegin(STAGE_FACTOR));
+  ++d->report->factorisations;
+  PetscCall(KSPSetOperators(d->ksp, A, A));
+  PetscCall(KSPSetUp(d->ksp));
+  PetscCall(StageEnd(STAGE_FACTOR));
+  PetscCall(KSPGetPC(d->ksp, &pc));
+  PetscCall(PCGetFailedReason(pc, &failed));
+  if (failed != PC_NOERROR) PetscFunctionReturn(PETSC_SUCCESS);
+#if defined(PETSC_HAVE_MUMPS)
+  Mat F;
+  PetscCall(PCFactorGetMatrix(pc, &F));
+  PetscCall(MatMumpsGetInfog(F, 12, negative));
+#endif
+  PetscCall(ProblemNumNegative(d->problem, &constraints));
+  *negative = PetscMax(0, *negative - constraints);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* y = A^-1 rhs with the last factor, dx from it. */
+static PetscErrorCode Apply_Private(Descent *d, PetscBool *ok)
+{
+  KSPConvergedReason reason;
+  PetscReal          norm;
+
+  PetscFunctionBegin;
+  PetscCall(StageBegin(STAGE_SOLVE));
+  PetscCall(KSPSolve(d->ksp, d->rhs, d->y));
+  PetscCall(StageEnd(STAGE_SOLVE));
+  PetscCall(KSPGetConvergedReason(d->ksp, &reason));
+  PetscCall(VecNorm(d->y, NORM_2, &norm));
+  *ok = (PetscBool)(reason >= 0 && !PetscIsInfOrNanReal(norm));
+  if (*ok) PetscCall(ProblemMeritRecover(d->problem, d->y, d->dx));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The direction -(H + shift)^-1 gradient, with the least shift, of those tried, for which it goes down along positive curvature; its slope. */
+static PetscErrorCode Direction_Private(Descent *d, PetscReal *slope, PetscBool *ok)
+{
+  PetscReal shift = d->shift * LESS_SHIFT, now = 0;
+  PetscInt  negative;
+  Mat       A;
+
+  PetscFunctionBegin;
+  PetscCall(ProblemGetMatrix(d->problem, &A));
+  PetscCall(Measure_Private(d, A));
+  PetscCall(ProblemMeritSide(d->problem, d->gradient, NULL, d->rhs));
+  if (shift < FIRST_SHIFT) shift = 0;
+  for (*ok = PETSC_FALSE; !*ok && shift < LARGEST_SHIFT && !d->report->stopped; shift = PetscMax(FIRST_SHIFT, MORE_SHIFT * shift)) {
+    PetscCall(VecCopy(d->diagonal, d->work));
+    PetscCall(VecScale(d->work, shift - now));
+    if (shift != now) PetscCall(MatDiagonalSet(A, d->work, ADD_VALUES));
+    now = d->shift = shift;
+    PetscCall(Factor_Private(d, A, &negative));
+    PetscCall(StopAsked(PetscObjectComm((PetscObject)A), &d->report->stopped));
+    if (negative != 0) continue;
+    PetscCall(Apply_Private(d, ok));
+    if (!*ok) continue;
+    PetscCall(VecDot(d->gradient, d->dx, slope));
+    *ok = (PetscBool)(*slope < 0);
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Phi at x + step dx, in trial. */
+static PetscErrorCode Try_Private(Descent *d, Vec x, PetscReal step, PetscReal *merit, ProblemStatus *status)
+{
+  PetscFunctionBegin;
+  PetscCall(VecWAXPY(d->trial, step, d->dx, x));
+  PetscCall(ProblemSearch(d->problem, d->trial));
+  PetscCall(ProblemMerit(d->problem, PENALTY, d->lambda, d->trial, NULL, merit, status));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* x += step dx with the longest step 1, 1/2, … that lowers Phi as the slope promises. */
+static PetscErrorCode Search_Private(Descent *d, Vec x, PetscReal slope, PetscBool *ok)
+{
+  PetscReal     merit, step = 1;
+  ProblemStatus status;
+
+  PetscFunctionBegin;
+  for (*ok = PETSC_FALSE; step > SHORTEST; step *= 0.5) {
+    PetscCall(Try_Private(d, x, step, &merit, &status));
+    *ok = (PetscBool)(!status.bad && merit <= d->merit + ARMIJO * step * slope);
+    if (*ok) break;
+  }
+  if (*ok) PetscCall(VecCopy(d->trial, x));
+  PetscCall(PetscInfo(d->ksp, "shift %g, slope %g, step %g%s\n", (double)d->shift, (double)slope, (double)step, *ok ? "" : ": nothing lower"));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Down to a minimum of Phi, whose multipliers x then has. *ok: it is one. */
+static PetscErrorCode Minimise_Private(Descent *d, PetscReal rtol, Vec x, PetscBool *ok)
+{
+  PetscReal norm, slope;
+  PetscBool bad;
+
+  PetscFunctionBegin;
+  *ok = PETSC_FALSE;
+  PetscCall(ProblemSearch(d->problem, x));
+  for (PetscInt i = 0; i < ITERATIONS && !d->report->stopped; ++i) {
+    PetscCall(ProblemMerit(d->problem, PENALTY, d->lambda, x, d->gradient, &d->merit, &d->status));
+    if (d->status.bad) break;
+    PetscCall(VecNorm(d->gradient, NORM_2, &norm));
+    PetscCall(PetscInfo(d->ksp, "descent %" PetscInt_FMT ": Phi %.15g, forces out of balance %g of %g\n", i, (double)d->merit, (double)norm,
+                        (double)d->status.scale));
+    *ok = (PetscBool)(norm <= rtol * d->status.scale);
+    if (*ok && d->shift == 0 && i > 0) break;
+    ++d->report->iterations;
+    PetscCall(ProblemMeritTangent(d->problem, PENALTY, x, NULL, &bad));
+    if (bad) break;
+    PetscBool found;
+    PetscCall(Direction_Private(d, &slope, &found));
+    if (!found || -slope <= ROUND_OFF * PetscAbsReal(d->merit)) break;
+    if (*ok && d->shift == 0) break;
+    PetscCall(Search_Private(d, x, slope, &found));
+    if (!found) break;
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The prescribed motion that is left is put in by the bodies alone, as if they were linear and did not touch, in pieces that invert no cell. */
+static PetscErrorCode Move_Private(Descent *d, Vec x, PetscBool *ok)
+{
+  PetscReal pending, step = 1;
+  PetscBool bad;
+  Mat       A;
+
+  PetscFunctionBegin;
+  *ok = PETSC_TRUE;
+  PetscCall(ProblemPending(d->problem, &pending));
+  for (PetscInt piece = 0; piece < MOVES && pending > 0 && *ok && !d->report->stopped; ++piece) {
+    PetscCall(ProblemSearch(d->problem, x));
+    PetscCall(ProblemMeritTangent(d->problem, PENALTY, x, d->lift, &bad));
+    *ok = (PetscBool)!bad;
+    if (bad) break;
+    PetscInt negative;
+    PetscCall(ProblemGetMatrix(d->problem, &A));
+    PetscCall(VecSet(d->gradient, 0));
+    PetscCall(ProblemMeritSide(d->problem, d->gradient, d->lift, d->rhs));
+    PetscCall(Factor_Private(d, A, &negative));
+    PetscCall(StopAsked(PetscObjectComm((PetscObject)A), &d->report->stopped));
+    *ok = (PetscBool)(negative >= 0);
+    if (*ok) PetscCall(Apply_Private(d, ok));
+    if (!*ok) break;
+    PetscCall(ProblemStepBegin(d->problem, x, d->dx));
+    *ok = PETSC_FALSE;
+    for (step = 1; step > SHORTEST && !*ok; step *= 0.5) {
+      PetscCall(ProblemStepMove(d->problem, d->dx, step, x));
+      PetscCall(ProblemMerit(d->problem, PENALTY, d->lambda, x, NULL, &d->merit, &d->status));
+      *ok = (PetscBool)!d->status.bad;
+    }
+    PetscCall(ProblemPending(d->problem, &pending));
+  }
+  *ok = (PetscBool)(*ok && pending == 0);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Element pressures are those that x implies. */
+static PetscErrorCode Pressures_Private(Descent *d, State *state)
+{
+  PetscBool bad;
+
+  PetscFunctionBegin;
+  PetscCall(ProblemMeritTangent(d->problem, PENALTY, state->x, NULL, &bad));
+  if (bad) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(VecSet(d->dx, 0));
+  PetscCall(ProblemStepBegin(d->problem, state->x, d->dx));
+  PetscCall(ProblemStepAccept(d->problem, 1, state->pressure));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The exact problem from where the descent is; the state is its solution, or stays. */
+static PetscErrorCode Exact_Private(Descent *d, State *state)
+{
+  SolverReport *total = d->report, last;
+  State         trial;
+
+  PetscFunctionBegin;
+  PetscCall(Pressures_Private(d, state));
+  PetscCall(StateCreate(d->problem, &trial));
+  PetscCall(StateCopy(state, &trial));
+  PetscCall(SolverSolve(d->solver, &trial, &last));
+  last.iterations += total->iterations;
+  last.factorisations += total->factorisations;
+  last.single_failures += total->single_failures;
+  last.set_changes += total->set_changes;
+  last.set_cycles += total->set_cycles;
+  last.descents = total->descents;
+  *total        = last;
+  if (last.converged) PetscCall(StateCopy(&trial, state));
+  PetscCall(StateDestroy(&trial));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* x's multipliers become those of the next descent. */
+static PetscErrorCode Follow_Private(Descent *d, Vec x)
+{
+  PetscFunctionBegin;
+  PetscCall(VecCopy(x, d->lambda));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SolverDescend(Solver s, State *state, SolverReport *report)
+{
+  Descent   d;
+  PetscBool ok;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMemzero(report, sizeof(*report)));
+  report->reason   = "no descent leads to an equilibrium";
+  report->unstable = -1;
+  PetscCall(ProblemSetState(s->problem, state));
+  PetscCall(Create_Private(s, report, &d));
+  PetscCall(Follow_Private(&d, state->x));
+  PetscCall(Move_Private(&d, state->x, &ok));
+  for (PetscInt outer = 0; outer < OUTER && ok && !report->converged && !report->stopped; ++outer) {
+    ++report->descents;
+    PetscCall(Minimise_Private(&d, outer < 2 ? FAR_RTOL : NEAR_RTOL, state->x, &ok));
+    PetscCall(PetscInfo(d.ksp, "descent %s\n", ok ? "has come down" : "ends early"));
+    ok = (PetscBool)!d.status.bad;
+    if (!ok || report->stopped) break;
+    PetscCall(Follow_Private(&d, state->x));
+    PetscCall(Exact_Private(&d, state));
+    PetscCall(PetscInfo(d.ksp, "exact: %s\n", report->converged ? "found" : report->reason));
+  }
+  PetscCall(Destroy_Private(&d));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
