@@ -1,9 +1,8 @@
 /* The augmented Lagrangian of frictionless contact: a function of the displacements alone whose minima, with the right multipliers, are the stable equilibria.
 
-     Phi(u; lambda) = Pi(u) + sum_j w_j / (2 kappa_j) max(0, lambda_j - kappa_j g_j)^2,  g_j = gt_j / w_j,  kappa_j = factor c_j;
-     z_j = max(0, lambda_j - kappa_j g_j):
-     dPhi = dPi - sum_j z_j dgt_j + sum_j a_j dw_j,  a_j = z_j^2 / (2 kappa_j) + z_j g_j;
-     Hessian: K - sum_j z_j d2gt_j + sum_active kappa_j / w_j b_j b_j^T,  b_j = dgt_j - g_j dw_j   (a_j d2w_j, small beside kappa_j, is left out).
+     Phi(u; lambda) = Pi(u) + sum_j w_j / (2 kappa_j) (z_j^2 - lambda_j^2),  z_j = max(0, lambda_j - kappa_j g_j),  g_j = gt_j / w_j,  kappa_j = factor c_j;
+     dPhi = dPi - sum_j z_j dgt_j + sum_j a_j dw_j,  a_j = (z_j^2 - lambda_j^2) / (2 kappa_j) + z_j g_j,  0 at a solution;
+     Hessian: K - sum_j z_j d2gt_j + sum_pressed kappa_j / w_j b_j b_j^T,  b_j = dgt_j - g_j dw_j   (a_j d2w_j, small beside kappa_j, is left out).
 
    w f(gt/w) is convex in (gt, w) for convex f and goes to 0 with w, so that a barely covered node has no more force than its weight. The Hessian is not made:
    eliminating the multipliers of
@@ -35,8 +34,27 @@ static PetscErrorCode Softness_Private(Problem p, PetscBool on)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* z_j of this rank's nodes into x, from the gaps of the last evaluation; *energy grows by their part of Phi. */
-static PetscErrorCode Multipliers_Private(const Contact *c, PetscReal factor, Vec lambda, Vec x, PetscReal *energy)
+static PetscReal Pressure_Private(const Contact *c, PetscInt j, PetscReal factor, PetscReal lambda)
+{
+  return c->has_multiplier[j] && ContactCovered_Private(c, j) ? PetscMax(0, lambda - factor * c->c[j] * c->gap[j] / c->weight[j]) : 0;
+}
+
+/* Multipliers of a vector from those of another, or from the gaps: z_j = max(0, lambda_j - kappa_j g_j), lambda_j in change. plus: z_j + lambda_j. */
+static PetscErrorCode SetMultipliers_Private(const Contact *c, PetscReal factor, PetscBool plus, Vec x)
+{
+  PetscReal *to;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetArray(x, &to));
+  for (PetscInt i = 0; i < c->side[0].num_own; ++i) {
+    const PetscInt j = c->side[0].own[i];
+    if (c->zlocal[j] >= 0) to[c->zlocal[j]] = Pressure_Private(c, j, factor, c->change[j]) + (plus ? c->change[j] : 0);
+  }
+  PetscCall(VecRestoreArray(x, &to));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode CopyMultipliers_Private(const Contact *c, Vec lambda, Vec x)
 {
   const PetscReal *from;
   PetscReal       *to;
@@ -45,19 +63,28 @@ static PetscErrorCode Multipliers_Private(const Contact *c, PetscReal factor, Ve
   PetscCall(VecGetArrayRead(lambda, &from));
   PetscCall(VecGetArray(x, &to));
   for (PetscInt i = 0; i < c->side[0].num_own; ++i) {
-    const PetscInt  j     = c->side[0].own[i];
-    const PetscReal kappa = factor * c->c[j];
-    if (c->zlocal[j] < 0) continue;
-    PetscReal z = ContactCovered_Private(c, j) ? PetscMax(0, from[c->zlocal[j]] - kappa * c->gap[j] / c->weight[j]) : 0;
-    *energy += z > 0 ? c->weight[j] * z * z / (2 * kappa) : 0;
-    to[c->zlocal[j]] = z;
+    const PetscInt k = c->zlocal[c->side[0].own[i]];
+    if (k >= 0) to[k] = from[k];
   }
   PetscCall(VecRestoreArray(x, &to));
   PetscCall(VecRestoreArrayRead(lambda, &from));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* z_j dgt_j - a_j dw_j of this rank's facets into both sides' arrays. */
+/* This rank's part of Phi, lambda_j in change. */
+static PetscReal Energy_Private(const Contact *c, PetscReal factor)
+{
+  PetscReal sum = 0;
+
+  for (PetscInt i = 0; i < c->side[0].num_own; ++i) {
+    const PetscInt j = c->side[0].own[i];
+    if (c->zlocal[j] < 0 || !ContactCovered_Private(c, j)) continue;
+    sum += c->weight[j] * (PetscSqr(Pressure_Private(c, j, factor, c->change[j])) - PetscSqr(c->change[j])) / (2 * factor * c->c[j]);
+  }
+  return sum;
+}
+
+/* z_j dgt_j - a_j dw_j of this rank's facets into both sides' arrays, lambda_j in change. */
 static void FacetForces_Private(Contact *c, PetscReal factor)
 {
   const PetscInt dim = c->side[0].dim;
@@ -67,10 +94,11 @@ static void FacetForces_Private(Contact *c, PetscReal factor)
     const ContactFacet *e = &c->facets[i];
     if (!c->mine[e->facet] || !e->dgap) continue;
     for (PetscInt k = 0; k < e->num_rows; ++k) {
-      const PetscInt  j = e->nodes[k];
-      const PetscReal z = c->has_multiplier[j] ? c->z[j] : 0;
-      if (z == 0) continue;
-      const PetscReal a = z * (z / (2 * factor * c->c[j]) + c->gap[j] / c->weight[j]);
+      const PetscInt j = e->nodes[k];
+      if (!c->has_multiplier[j] || !ContactCovered_Private(c, j)) continue;
+      const PetscReal z = Pressure_Private(c, j, factor, c->change[j]);
+      const PetscReal a = (z * z - PetscSqr(c->change[j])) / (2 * factor * c->c[j]) + z * c->gap[j] / c->weight[j];
+      if (z == 0 && a == 0) continue;
       for (PetscInt n = 0; n < e->num; ++n) {
         PetscReal     *f  = c->side[NODE_SIDE(e->nodes[n])].force + dim * NODE_INDEX(e->nodes[n]);
         const PetscInt at = dim * (k * e->num + n);
@@ -119,6 +147,26 @@ static PetscErrorCode Bulk_Private(Problem p, const PetscReal u[], PetscReal r[]
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* One pair: its part of Phi, its forces off r (NULL: not wanted), its multipliers into x. Derivatives come of facets whose multipliers do not vanish: for them
+   x has z + lambda. */
+static PetscErrorCode Contact_Private(Problem p, Contact *c, PetscReal factor, Vec lambda, const PetscReal u[], PetscReal r[], Vec x, PetscReal *energy,
+                                      PetscBool *failed)
+{
+  PetscFunctionBegin;
+  PetscCall(CopyMultipliers_Private(c, lambda, x));
+  PetscCall(ContactEvaluate_Private(p, c, x, u, PETSC_FALSE, PETSC_FALSE, failed));
+  PetscCall(PetscArraycpy(c->change, c->z, c->side[0].num_nodes));
+  *energy += Energy_Private(c, factor);
+  if (r) {
+    PetscCall(SetMultipliers_Private(c, factor, PETSC_TRUE, x));
+    PetscCall(ContactEvaluate_Private(p, c, x, u, PETSC_TRUE, PETSC_FALSE, failed));
+    FacetForces_Private(c, factor);
+    PetscCall(ContactForcesSubtract_Private(p, c, r));
+  }
+  PetscCall(SetMultipliers_Private(c, factor, PETSC_FALSE, x));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode ProblemMerit(Problem p, PetscReal factor, Vec lambda, Vec x, Vec gradient, PetscReal *merit, ProblemStatus *status)
 {
   PetscReal *u, *r, energy = 0;
@@ -132,13 +180,7 @@ PetscErrorCode ProblemMerit(Problem p, PetscReal factor, Vec lambda, Vec x, Vec 
   if (!status->bad) {
     PetscCall(Softness_Private(p, PETSC_FALSE));
     for (PetscInt i = 0; i < p->num_contacts; ++i) {
-      Contact *c = &p->contacts[i];
-      PetscCall(ContactEvaluate_Private(p, c, x, u, PETSC_FALSE, PETSC_FALSE, &failed));
-      PetscCall(Multipliers_Private(c, factor, lambda, x, &energy));
-      if (!gradient) continue;
-      PetscCall(ContactEvaluate_Private(p, c, x, u, PETSC_TRUE, PETSC_FALSE, &failed));
-      FacetForces_Private(c, factor);
-      PetscCall(ContactForcesSubtract_Private(p, c, r));
+      PetscCall(Contact_Private(p, &p->contacts[i], factor, lambda, u, gradient ? r : NULL, x, &energy, &failed));
     }
     PetscCall(Softness_Private(p, PETSC_TRUE));
   }
