@@ -45,6 +45,11 @@ PetscErrorCode SolverSolve(Solver, State *, SolverReport *);
    after one descent or two. Slow, and nothing cycles. Descends: is it to be had (ProblemHasEnergy, -solve_descent, factors of MUMPS)? Collective. */
 PetscErrorCode SolverDescends(Solver, PetscBool *yes);
 PetscErrorCode SolverDescend(Solver, State *, SolverReport *);
+/* From an equilibrium that is unstable (report.unstable) to one that is stable, or less so: along the eigenvector of the lowest eigenvalue, where the energy
+   falls more, and by descent. Not converged: there is no such eigenvalue, or no equilibrium was found. HasDescent: is there an energy, and are there the
+   factors? Collective. */
+PetscErrorCode SolverHasDescent(Solver, PetscBool *yes);
+PetscErrorCode SolverStabilise(Solver, State *, SolverReport *);
 
 /* The same from a state far from equilibrium, such as one carried over from another mesh: a share of its imbalance of forces and gaps (ProblemNoteImbalance),
    falling from 1 to 0, counts as none. It is a path that starts at the state given. The prescribed motion must be applied. Pieces of the way are halved where

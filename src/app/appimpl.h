@@ -44,6 +44,7 @@ typedef struct {
   PetscReal      arc, arc_first;                            /* along a path: length of the next step, of the first one; 0: not yet */
   PetscReal      haste;                                     /* displacement per time in the last step, over that since the start */
   PetscInt       descended_steps;                           /* steps whose equilibrium was found by descent */
+  PetscInt       stabilised_steps;                          /* solutions found first were unstable */
   PetscInt       relaxed_steps;                             /* steps to an equilibrium that was not near by */
   PetscReal      drag_work, all_drag_work;                  /* energy that drag took in the step at hand, in all */
   const char    *failure;                                   /* why the run gave up, NULL while it goes on */
@@ -69,6 +70,8 @@ PetscErrorCode AppInitialize(int argc, char **argv);
 PetscErrorCode AppRun(App *);
 /* descend.c: from the accepted state to an equilibrium at time t by descent; state and time are restored where there is none to be found. Collective. */
 PetscErrorCode AppDescend(App *, PetscReal t, PetscBool *ok);
+/* load.stable: the level's state, a solution at time t with this report, gives way to a stable one where it is unstable and that can be had. Collective. */
+PetscErrorCode AppStabilise(App *, PetscReal t, SolverReport *);
 /* adaptstep.c: after a solution at the current time, refine and solve again until the tolerance or a limit is met. */
 PetscErrorCode AppAdapt(App *);
 /* refine.c: the prescribed motion as it was at time t. Collective. */
@@ -105,6 +108,7 @@ PetscErrorCode AppPathAccept(App *);
 PetscReal AppStepEnd(const SceneData *, PetscReal t, PetscReal dt);
 /* Count what a solve took. */
 void AppCount(App *, const SolverReport *);
+void AppCountWork(App *, const SolverReport *); /* what it took only */
 /* One solve from level.state for time t; counted; converged: level.state is at t. Collective. */
 PetscErrorCode AppAttempt(App *, PetscReal t, SolverReport *);
 /* Bring level.state from its time to t on the current mesh, in as many pieces as it takes, all but the last committed; *ok false when even one of length

@@ -6,7 +6,7 @@
 #define AGAIN (1. / 8) /* of the last step that drag did not help */
 #define HASTE 10       /* times as fast as on the way there do displacements grow where the step ends at a limit point: at its distance d like d^(-1/2) */
 
-void AppCount(App *app, const SolverReport *report)
+void AppCountWork(App *app, const SolverReport *report)
 {
   app->newton_iterations += report->iterations;
   app->iterations_in_step += report->iterations;
@@ -14,6 +14,11 @@ void AppCount(App *app, const SolverReport *report)
   app->set_cycles += report->set_cycles;
   app->factorisations += report->factorisations;
   app->single_failures += report->single_failures;
+}
+
+void AppCount(App *app, const SolverReport *report)
+{
+  AppCountWork(app, report);
   if (report->converged && report->unstable >= 0) ++app->judged;
   if (report->converged && report->unstable > 0) ++app->unstable;
   if (report->converged) app->status = report->status;
@@ -64,6 +69,7 @@ PetscErrorCode AppAttempt(App *app, PetscReal t, SolverReport *report)
   PetscCall(PetscMemzero(report, sizeof(*report)));
   if (!words) {
     PetscCall(Solve_Private(app, t, report));
+    PetscCall(AppStabilise(app, t, report));
     PetscCall(ExpressionTrouble(app->comm, &words));
   }
   if (words) {

@@ -5,41 +5,38 @@
    follow, lambda <- z, and once the constraints that press are known the exact problem is solved from there by SolverSolve. */
 #include "solveimpl.h"
 
-#define PENALTY 10          /* kappa over E / h: stiff against the cells, soft enough for the line search */
-#define OUTER 4             /* descents, each with the multipliers of the one before: what helps does so after one or two */
-#define ITERATIONS 60       /* of one descent */
-#define MOVES 40            /* pieces of the prescribed motion */
-#define FAR_RTOL 1e-4       /* forces out of balance over the nodal forces where a descent ends: in the first … */
-#define NEAR_RTOL 1e-6      /* … and the others */
-#define FIRST_SHIFT 1e-4    /* over the rows' largest entries */
-#define MORE_SHIFT 4        /* times the last, where the matrix is not positive yet */
-#define LESS_SHIFT (1. / 8) /* where it was in the last iteration */
-#define LARGEST_SHIFT 1e6   /* next to which the matrix is nothing */
-#define ARMIJO 1e-4         /* least share of the decrease that the slope promises */
-#define SHORTEST 1e-8       /* step of a line search */
-#define ROUND_OFF 1e-14     /* of Phi: a smaller decrease is none */
+#define PENALTY 10           /* kappa over E / h: stiff against the cells, soft enough for the line search */
+#define OUTER 3              /* descents, each with the multipliers of the one before: what helps does so after one or two */
+#define ITERATIONS 60        /* of one descent */
+#define MOVES 20             /* pieces of the prescribed motion */
+#define RTOL 1e-6            /* forces out of balance over the nodal forces at a minimum */
+#define FIRST_SHIFT 1e-9     /* over the rows' largest entries */
+#define MORE_SHIFT 16        /* times the last, where the matrix is not positive yet */
+#define LESS_SHIFT (1. / 16) /* where it was in the last iteration */
+#define SHORTER_SHIFT 1e-3   /* at least, and as many times MORE_SHIFT, where steps along the last direction have to be short */
+#define LARGEST_SHIFT 1e3    /* next to which the matrix is nothing */
+#define ARMIJO 1e-4          /* least share of the decrease that the slope promises */
+#define SHORT (1. / 16)      /* step of a line search from which on the next direction is to be shorter instead */
+#define SHORTEST 1e-3        /* … that gives up */
+#define LONGEST 64
+#define ROUND_OFF 1e-13 /* of Phi: a smaller decrease is none */
 
-typedef struct {
-  Solver        solver;
-  Problem       problem;
-  KSP           ksp;
-  Vec           trial, gradient, dx, lambda;  /* of the problem */
-  Vec           lift, rhs, y, diagonal, work; /* of the matrix; diagonal: of the shift, 0 at multipliers */
-  PetscBool     measured;                     /* diagonal is known */
-  PetscReal     shift;                        /* last that made the matrix positive; 0: none was needed */
-  PetscReal     merit;                        /* at the iterate */
-  ProblemStatus status;
-  SolverReport *report;
-} Descent;
-
-PetscErrorCode SolverDescends(Solver s, PetscBool *yes)
+PetscErrorCode SolverHasDescent(Solver s, PetscBool *yes)
 {
   PetscFunctionBegin;
   *yes = PETSC_FALSE;
 #if defined(PETSC_HAVE_MUMPS)
   PetscCall(ProblemHasEnergy(s->problem, yes));
-  if (!s->descent || s->saddle) *yes = PETSC_FALSE;
+  if (s->saddle) *yes = PETSC_FALSE;
 #endif
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SolverDescends(Solver s, PetscBool *yes)
+{
+  PetscFunctionBegin;
+  PetscCall(SolverHasDescent(s, yes));
+  if (!s->descent) *yes = PETSC_FALSE;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -54,7 +51,7 @@ static PetscErrorCode FactorOption_Private(const char *name, const char *value)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode Create_Private(Solver s, SolverReport *report, Descent *d)
+PetscErrorCode DescentCreate_Private(Solver s, SolverReport *report, Descent *d)
 {
   PC pc;
 
@@ -86,7 +83,7 @@ static PetscErrorCode Create_Private(Solver s, SolverReport *report, Descent *d)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode Destroy_Private(Descent *d)
+PetscErrorCode DescentDestroy_Private(Descent *d)
 {
   PetscFunctionBegin;
   PetscCall(KSPDestroy(&d->ksp));
@@ -147,8 +144,7 @@ static PetscErrorCode Factor_Private(Descent *d, Mat A, PetscInt *negative)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* y = A^-1 rhs with the last factor, dx from it. */
-static PetscErrorCode Apply_Private(Descent *d, PetscBool *ok)
+PetscErrorCode DescentApply_Private(Descent *d, PetscBool *ok)
 {
   KSPConvergedReason reason;
   PetscReal          norm;
@@ -164,10 +160,9 @@ static PetscErrorCode Apply_Private(Descent *d, PetscBool *ok)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The direction -(H + shift)^-1 gradient, with the least shift, of those tried, for which it goes down along positive curvature; its slope. */
-static PetscErrorCode Direction_Private(Descent *d, PetscReal *slope, PetscBool *ok)
+PetscErrorCode DescentDirection_Private(Descent *d, PetscReal *slope, PetscBool *ok)
 {
-  PetscReal shift = d->shift * LESS_SHIFT, now = 0;
+  PetscReal shift = d->least < FIRST_SHIFT ? 0 : d->least;
   PetscInt  negative;
   Mat       A;
 
@@ -175,76 +170,92 @@ static PetscErrorCode Direction_Private(Descent *d, PetscReal *slope, PetscBool 
   PetscCall(ProblemGetMatrix(d->problem, &A));
   PetscCall(Measure_Private(d, A));
   PetscCall(ProblemMeritSide(d->problem, d->gradient, NULL, d->rhs));
-  if (shift < FIRST_SHIFT) shift = 0;
   for (*ok = PETSC_FALSE; !*ok && shift < LARGEST_SHIFT && !d->report->stopped; shift = PetscMax(FIRST_SHIFT, MORE_SHIFT * shift)) {
     PetscCall(VecCopy(d->diagonal, d->work));
-    PetscCall(VecScale(d->work, shift - now));
-    if (shift != now) PetscCall(MatDiagonalSet(A, d->work, ADD_VALUES));
-    now = d->shift = shift;
+    PetscCall(VecScale(d->work, shift - d->added));
+    if (shift != d->added) PetscCall(MatDiagonalSet(A, d->work, ADD_VALUES));
+    d->added = d->shift = shift;
     PetscCall(Factor_Private(d, A, &negative));
     PetscCall(StopAsked(PetscObjectComm((PetscObject)A), &d->report->stopped));
     if (negative != 0) continue;
-    PetscCall(Apply_Private(d, ok));
+    PetscCall(DescentApply_Private(d, ok));
     if (!*ok) continue;
     PetscCall(VecDot(d->gradient, d->dx, slope));
-    *ok = (PetscBool)(*slope < 0);
+    *ok = (PetscBool)(*slope <= 0);
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Phi at x + step dx, in trial. */
-static PetscErrorCode Try_Private(Descent *d, Vec x, PetscReal step, PetscReal *merit, ProblemStatus *status)
+PetscErrorCode DescentTry_Private(Descent *d, Vec x, PetscReal step, PetscReal *merit)
 {
-  PetscFunctionBegin;
-  PetscCall(VecWAXPY(d->trial, step, d->dx, x));
-  PetscCall(ProblemSearch(d->problem, d->trial));
-  PetscCall(ProblemMerit(d->problem, PENALTY, d->lambda, d->trial, NULL, merit, status));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* x += step dx with the longest step 1, 1/2, … that lowers Phi as the slope promises. */
-static PetscErrorCode Search_Private(Descent *d, Vec x, PetscReal slope, PetscBool *ok)
-{
-  PetscReal     merit, step = 1;
   ProblemStatus status;
 
   PetscFunctionBegin;
+  PetscCall(VecWAXPY(d->trial, step, d->dx, x));
+  PetscCall(ProblemSearch(d->problem, d->trial));
+  PetscCall(ProblemMerit(d->problem, PENALTY, d->lambda, d->trial, NULL, merit, &status));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* x += step dx with the longest step 1, 1/2, … that lowers Phi as the slope promises; where the direction is a short one, 2, 4, … as long as Phi falls. */
+static PetscErrorCode Search_Private(Descent *d, Vec x, PetscReal slope, PetscBool *ok)
+{
+  PetscReal merit, further, step = 1;
+
+  PetscFunctionBegin;
   for (*ok = PETSC_FALSE; step > SHORTEST; step *= 0.5) {
-    PetscCall(Try_Private(d, x, step, &merit, &status));
-    *ok = (PetscBool)(!status.bad && merit <= d->merit + ARMIJO * step * slope);
+    PetscCall(DescentTry_Private(d, x, step, &merit));
+    *ok = (PetscBool)(merit <= d->merit + ARMIJO * step * slope);
     if (*ok) break;
   }
-  if (*ok) PetscCall(VecCopy(d->trial, x));
+  while (*ok && d->shift > 0 && step >= 1 && step < LONGEST) {
+    PetscCall(DescentTry_Private(d, x, 2 * step, &further));
+    if (further >= merit) break;
+    merit = further;
+    step *= 2;
+  }
+  if (*ok) PetscCall(VecAXPY(x, step, d->dx));
+  d->least = *ok && step >= SHORT ? d->shift * LESS_SHIFT : PetscMax(SHORTER_SHIFT, MORE_SHIFT * d->shift);
   PetscCall(PetscInfo(d->ksp, "shift %g, slope %g, step %g%s\n", (double)d->shift, (double)slope, (double)step, *ok ? "" : ": nothing lower"));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Down to a minimum of Phi, whose multipliers x then has. *ok: it is one. */
-static PetscErrorCode Minimise_Private(Descent *d, PetscReal rtol, Vec x, PetscBool *ok)
+PetscErrorCode DescentLinearise_Private(Descent *d, Vec x, PetscBool *done, PetscBool *ok)
 {
-  PetscReal norm, slope;
+  PetscReal norm;
   PetscBool bad;
 
   PetscFunctionBegin;
-  *ok = PETSC_FALSE;
   PetscCall(ProblemSearch(d->problem, x));
+  PetscCall(ProblemMerit(d->problem, PENALTY, d->lambda, x, d->gradient, &d->merit, &d->status));
+  *ok = (PetscBool)!d->status.bad;
+  if (!*ok) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(VecNorm(d->gradient, NORM_2, &norm));
+  PetscCall(PetscInfo(d->ksp, "Phi %.15g, forces out of balance %g of %g\n", (double)d->merit, (double)norm, (double)d->status.scale));
+  *done = (PetscBool)(norm <= RTOL * d->status.scale);
+  ++d->report->iterations;
+  PetscCall(ProblemMeritTangent(d->problem, PENALTY, x, NULL, &bad));
+  *ok      = (PetscBool)!bad;
+  d->added = 0;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Down to a minimum of Phi, whose multipliers x then has. *ok: it is one. */
+static PetscErrorCode Minimise_Private(Descent *d, Vec x, PetscBool *ok)
+{
+  PetscReal slope;
+  PetscBool found = PETSC_TRUE, moved = PETSC_TRUE, done = PETSC_FALSE;
+
+  PetscFunctionBegin;
+  *ok      = PETSC_FALSE;
+  d->least = 0;
   for (PetscInt i = 0; i < ITERATIONS && !d->report->stopped; ++i) {
-    PetscCall(ProblemMerit(d->problem, PENALTY, d->lambda, x, d->gradient, &d->merit, &d->status));
-    if (d->status.bad) break;
-    PetscCall(VecNorm(d->gradient, NORM_2, &norm));
-    PetscCall(PetscInfo(d->ksp, "descent %" PetscInt_FMT ": Phi %.15g, forces out of balance %g of %g\n", i, (double)d->merit, (double)norm,
-                        (double)d->status.scale));
-    *ok = (PetscBool)(norm <= rtol * d->status.scale);
-    if (*ok && d->shift == 0 && i > 0) break;
-    ++d->report->iterations;
-    PetscCall(ProblemMeritTangent(d->problem, PENALTY, x, NULL, &bad));
-    if (bad) break;
-    PetscBool found;
-    PetscCall(Direction_Private(d, &slope, &found));
-    if (!found || -slope <= ROUND_OFF * PetscAbsReal(d->merit)) break;
-    if (*ok && d->shift == 0) break;
-    PetscCall(Search_Private(d, x, slope, &found));
+    if (moved) PetscCall(DescentLinearise_Private(d, x, &done, &found));
     if (!found) break;
+    PetscCall(DescentDirection_Private(d, &slope, &found));
+    *ok = (PetscBool)(found && done && (d->shift == 0 || -slope <= ROUND_OFF * PetscAbsReal(d->merit)));
+    if (!found || *ok || -slope <= ROUND_OFF * PetscAbsReal(d->merit)) break;
+    PetscCall(Search_Private(d, x, slope, &moved));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -271,7 +282,7 @@ static PetscErrorCode Move_Private(Descent *d, Vec x, PetscBool *ok)
     PetscCall(Factor_Private(d, A, &negative));
     PetscCall(StopAsked(PetscObjectComm((PetscObject)A), &d->report->stopped));
     *ok = (PetscBool)(negative >= 0);
-    if (*ok) PetscCall(Apply_Private(d, ok));
+    if (*ok) PetscCall(DescentApply_Private(d, ok));
     if (!*ok) break;
     PetscCall(ProblemStepBegin(d->problem, x, d->dx));
     *ok = PETSC_FALSE;
@@ -323,11 +334,21 @@ static PetscErrorCode Exact_Private(Descent *d, State *state)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* x's multipliers become those of the next descent. */
-static PetscErrorCode Follow_Private(Descent *d, Vec x)
+PetscErrorCode DescentFinish_Private(Descent *d, State *state)
 {
+  PetscBool ok = PETSC_TRUE;
+
   PetscFunctionBegin;
-  PetscCall(VecCopy(x, d->lambda));
+  for (PetscInt outer = 0; outer < OUTER && ok && !d->report->converged && !d->report->stopped; ++outer) {
+    ++d->report->descents;
+    PetscCall(Minimise_Private(d, state->x, &ok));
+    PetscCall(PetscInfo(d->ksp, "descent %s\n", ok ? "has come down" : "ends early"));
+    if (d->status.bad || d->report->stopped) break;
+    PetscCall(VecCopy(state->x, d->lambda));
+    PetscCall(Exact_Private(d, state));
+    PetscCall(PetscInfo(d->ksp, "exact: %s\n", d->report->converged ? "found" : d->report->reason));
+    if (d->report->converged && d->report->unstable < 0 && ok) d->report->unstable = 0; /* no tangent was factorised: the minimum it is */
+  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -341,19 +362,10 @@ PetscErrorCode SolverDescend(Solver s, State *state, SolverReport *report)
   report->reason   = "no descent leads to an equilibrium";
   report->unstable = -1;
   PetscCall(ProblemSetState(s->problem, state));
-  PetscCall(Create_Private(s, report, &d));
-  PetscCall(Follow_Private(&d, state->x));
+  PetscCall(DescentCreate_Private(s, report, &d));
+  PetscCall(VecCopy(state->x, d.lambda));
   PetscCall(Move_Private(&d, state->x, &ok));
-  for (PetscInt outer = 0; outer < OUTER && ok && !report->converged && !report->stopped; ++outer) {
-    ++report->descents;
-    PetscCall(Minimise_Private(&d, outer < 2 ? FAR_RTOL : NEAR_RTOL, state->x, &ok));
-    PetscCall(PetscInfo(d.ksp, "descent %s\n", ok ? "has come down" : "ends early"));
-    ok = (PetscBool)!d.status.bad;
-    if (!ok || report->stopped) break;
-    PetscCall(Follow_Private(&d, state->x));
-    PetscCall(Exact_Private(&d, state));
-    PetscCall(PetscInfo(d.ksp, "exact: %s\n", report->converged ? "found" : report->reason));
-  }
-  PetscCall(Destroy_Private(&d));
+  if (ok) PetscCall(DescentFinish_Private(&d, state));
+  PetscCall(DescentDestroy_Private(&d));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
