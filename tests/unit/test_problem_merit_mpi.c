@@ -1,5 +1,5 @@
-/* The augmented Lagrangian of contact: its gradient is the derivative of its value; its matrix, once the multipliers are eliminated, that of the gradient but for
-   the small term of second derivatives of weights; at a solution with its multipliers the gradient vanishes. */
+/* The augmented Lagrangian of contact: its gradient is the derivative of its value; its matrix, once the multipliers are eliminated, that of the gradient but
+   for the small term of second derivatives of weights; at a solution with its multipliers the gradient vanishes. */
 #include "patchfixture.h"
 
 #define FACTOR 10.
