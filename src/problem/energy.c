@@ -195,6 +195,24 @@ PetscErrorCode ProblemMerit(Problem p, PetscReal factor, Vec lambda, Vec x, Vec 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscErrorCode ProblemMeritDepth(Problem p, Vec depth)
+{
+  PetscReal *to;
+
+  PetscFunctionBegin;
+  PetscCall(VecSet(depth, 0));
+  PetscCall(VecGetArray(depth, &to));
+  for (PetscInt i = 0; i < p->num_contacts; ++i) {
+    const Contact *c = &p->contacts[i];
+    for (PetscInt k = 0; k < c->side[0].num_own; ++k) {
+      const PetscInt j = c->side[0].own[k];
+      if (c->zlocal[j] >= 0) to[c->zlocal[j]] = ContactCovered_Private(c, j) ? PetscMax(0, -c->gap[j] / (c->weight[j] * c->extent[j])) : -1;
+    }
+  }
+  PetscCall(VecRestoreArray(depth, &to));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* Rows and columns of the multipliers of this rank: c_j b_j of those that press, each times -1, and the diagonal. */
 static PetscErrorCode Rows_Private(Problem p, Contact *c, PetscReal factor)
 {

@@ -19,6 +19,7 @@
 #define SHORT (1. / 16)      /* step of a line search from which on the next direction is to be shorter instead */
 #define SHORTEST 1e-3        /* … that gives up */
 #define LONGEST 64
+#define DEEP 0.25       /* overlap over the extent of a node along the surface: bodies must not pass through each other */
 #define ROUND_OFF 1e-13 /* of Phi: a smaller decrease is none */
 
 PetscErrorCode SolverHasDescent(Solver s, PetscBool *yes)
@@ -64,6 +65,8 @@ PetscErrorCode DescentCreate_Private(Solver s, SolverReport *report, Descent *d)
   PetscCall(VecDuplicate(d->trial, &d->gradient));
   PetscCall(VecDuplicate(d->trial, &d->dx));
   PetscCall(VecDuplicate(d->trial, &d->lambda));
+  PetscCall(VecDuplicate(d->trial, &d->depth));
+  PetscCall(VecDuplicate(d->trial, &d->next));
   PetscCall(ProblemCreateRightSide(s->problem, &d->lift));
   PetscCall(VecDuplicate(d->lift, &d->rhs));
   PetscCall(VecDuplicate(d->lift, &d->y));
@@ -91,6 +94,8 @@ PetscErrorCode DescentDestroy_Private(Descent *d)
   PetscCall(VecDestroy(&d->gradient));
   PetscCall(VecDestroy(&d->dx));
   PetscCall(VecDestroy(&d->lambda));
+  PetscCall(VecDestroy(&d->depth));
+  PetscCall(VecDestroy(&d->next));
   PetscCall(VecDestroy(&d->lift));
   PetscCall(VecDestroy(&d->rhs));
   PetscCall(VecDestroy(&d->y));
@@ -186,14 +191,36 @@ PetscErrorCode DescentDirection_Private(Descent *d, PetscReal *slope, PetscBool 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Is there a node that is deep in the other side at the iterate and has lost it at the trial? The energy falls when bodies pass through each other. */
+static PetscErrorCode Through_Private(Descent *d, PetscBool *yes)
+{
+  const PetscReal *depth, *next;
+  PetscInt         num;
+  PetscBool        mine = PETSC_FALSE;
+
+  PetscFunctionBegin;
+  PetscCall(ProblemMeritDepth(d->problem, d->next));
+  PetscCall(VecGetLocalSize(d->next, &num));
+  PetscCall(VecGetArrayRead(d->depth, &depth));
+  PetscCall(VecGetArrayRead(d->next, &next));
+  for (PetscInt i = 0; i < num; ++i) mine = (PetscBool)(mine || (depth[i] > DEEP && next[i] < 0));
+  PetscCall(VecRestoreArrayRead(d->depth, &depth));
+  PetscCall(VecRestoreArrayRead(d->next, &next));
+  PetscCallMPI(MPI_Allreduce(&mine, yes, 1, COMPAT_MPI_BOOL, MPI_LOR, PetscObjectComm((PetscObject)d->trial)));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode DescentTry_Private(Descent *d, Vec x, PetscReal step, PetscReal *merit)
 {
   ProblemStatus status;
+  PetscBool     through;
 
   PetscFunctionBegin;
   PetscCall(VecWAXPY(d->trial, step, d->dx, x));
   PetscCall(ProblemSearch(d->problem, d->trial));
   PetscCall(ProblemMerit(d->problem, PENALTY, d->lambda, d->trial, NULL, merit, &status));
+  PetscCall(Through_Private(d, &through));
+  if (through) *merit = PETSC_MAX_REAL;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -230,6 +257,7 @@ PetscErrorCode DescentLinearise_Private(Descent *d, Vec x, PetscBool *done, Pets
   PetscCall(ProblemMerit(d->problem, PENALTY, d->lambda, x, d->gradient, &d->merit, &d->status));
   *ok = (PetscBool)!d->status.bad;
   if (!*ok) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(ProblemMeritDepth(d->problem, d->depth));
   PetscCall(VecNorm(d->gradient, NORM_2, &norm));
   PetscCall(PetscInfo(d->ksp, "Phi %.15g, forces out of balance %g of %g\n", (double)d->merit, (double)norm, (double)d->status.scale));
   *done = (PetscBool)(norm <= RTOL * d->status.scale);

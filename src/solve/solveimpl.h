@@ -78,13 +78,13 @@ typedef struct {
   Solver        solver;
   Problem       problem;
   KSP           ksp;
-  Vec           trial, gradient, dx, lambda;  /* of the problem */
-  Vec           lift, rhs, y, diagonal, work; /* of the matrix; diagonal: of the shift, 0 at multipliers */
-  PetscBool     measured;                     /* diagonal is known */
-  PetscReal     shift;                        /* of the last direction */
-  PetscReal     least;                        /* that the next one begins with */
-  PetscReal     added;                        /* to the matrix */
-  PetscReal     merit;                        /* at the iterate */
+  Vec           trial, gradient, dx, lambda, depth, next; /* of the problem; depth: overlaps at the iterate (ProblemMeritDepth), next: at a trial */
+  Vec           lift, rhs, y, diagonal, work;             /* of the matrix; diagonal: of the shift, 0 at multipliers */
+  PetscBool     measured;                                 /* diagonal is known */
+  PetscReal     shift;                                    /* of the last direction */
+  PetscReal     least;                                    /* that the next one begins with */
+  PetscReal     added;                                    /* to the matrix */
+  PetscReal     merit;                                    /* at the iterate */
   ProblemStatus status;
   SolverReport *report;
 } Descent;
