@@ -224,8 +224,7 @@ PetscErrorCode DescentTry_Private(Descent *d, Vec x, PetscReal step, PetscReal *
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* x += step dx with the longest step 1, 1/2, … that lowers Phi as the slope promises; where the direction is a short one, 2, 4, … as long as Phi falls. */
-static PetscErrorCode Search_Private(Descent *d, Vec x, PetscReal slope, PetscBool *ok)
+PetscErrorCode DescentSearch_Private(Descent *d, Vec x, PetscReal slope, PetscBool *ok)
 {
   PetscReal merit, further, step = 1;
 
@@ -283,7 +282,7 @@ static PetscErrorCode Minimise_Private(Descent *d, Vec x, PetscBool *ok)
     PetscCall(DescentDirection_Private(d, &slope, &found));
     *ok = (PetscBool)(found && done && (d->shift == 0 || -slope <= ROUND_OFF * PetscAbsReal(d->merit)));
     if (!found || *ok || -slope <= ROUND_OFF * PetscAbsReal(d->merit)) break;
-    PetscCall(Search_Private(d, x, slope, &moved));
+    PetscCall(DescentSearch_Private(d, x, slope, &moved));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

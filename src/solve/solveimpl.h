@@ -97,6 +97,8 @@ PetscErrorCode DescentLinearise_Private(Descent *, Vec x, PetscBool *done, Petsc
 PetscErrorCode DescentDirection_Private(Descent *, PetscReal *slope, PetscBool *ok);
 /* y = A^-1 rhs with the last factor, dx from it. */
 PetscErrorCode DescentApply_Private(Descent *, PetscBool *ok);
+/* x += step dx with the longest step 1, 1/2, … that lowers Phi as the slope promises; where the direction is a short one, 2, 4, … as long as Phi falls. */
+PetscErrorCode DescentSearch_Private(Descent *, Vec x, PetscReal slope, PetscBool *ok);
 /* Phi at x + step dx, in trial; the largest number outside the domain. */
 PetscErrorCode DescentTry_Private(Descent *, Vec x, PetscReal step, PetscReal *merit);
 /* Down from the state, whose prescribed motion is put in, and to a solution of the exact problem; the report says whether. */
