@@ -22,6 +22,8 @@ static const struct {
     {"unstable", offsetof(App, unstable)},
     {"judged", offsetof(App, judged)},
     {"relaxed_steps", offsetof(App, relaxed_steps)},
+    {"descended_steps", offsetof(App, descended_steps)},
+    {"stabilised", offsetof(App, stabilised_steps)},
     {"gave_up", offsetof(App, gave_up)},
 };
 static const struct {

@@ -45,6 +45,8 @@ PetscErrorCode AppSummary(App *app, const char *status, const char *reason)
   summary.factorisations     = app->factorisations;
   summary.single_failures    = app->single_failures;
   summary.relaxed_steps      = app->relaxed_steps;
+  summary.descended_steps    = app->descended_steps;
+  summary.stabilised         = app->stabilised_steps;
   summary.drag_work          = app->all_drag_work;
   summary.unstable           = app->judged ? (PetscReal)app->unstable : (PetscReal)NAN;
   summary.adapt_stop         = app->adapt_stop;
