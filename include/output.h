@@ -148,16 +148,17 @@ typedef struct {
   const char     *adapt_stop;      /* why the last adaptation ended: "tolerance", "max_passes", "max_cells", …; NULL or "": there was none */
   PetscReal       t, seconds;      /* pseudo-time reached; wall time so far */
   PetscInt        load_steps, step_cuts, adapt_passes, newton_iterations, active_set_changes, active_set_cycles, factorisations, single_failures;
-  PetscInt        relaxed_steps;   /* to an equilibrium that was not near by, under drag */
-  PetscInt        descended_steps; /* the same by descent of the energy */
-  PetscInt        stabilised;      /* solutions that took the place of unstable ones */
-  PetscReal       drag_work;       /* energy that drag took in them */
-  PetscReal       unstable;        /* solutions found to be unstable equilibria; NaN: not known of any */
-  Problem         problem;         /* of the last accepted state; NULL: nothing was solved */
-  const State    *state;           /* with problem */
-  const Balance  *balance;         /* with problem; NULL: no figures */
-  const Estimate *estimate;        /* NULL: not estimated */
-  Probes          probes;          /* NULL: none */
+  PetscInt        relaxed_steps;      /* to an equilibrium that was not near by, under drag */
+  PetscInt        descent_iterations; /* tangents of descents, besides newton_iterations */
+  PetscInt        descended_steps;    /* the same by descent of the energy */
+  PetscInt        stabilised;         /* solutions that took the place of unstable ones */
+  PetscReal       drag_work;          /* energy that drag took in them */
+  PetscReal       unstable;           /* solutions found to be unstable equilibria; NaN: not known of any */
+  Problem         problem;            /* of the last accepted state; NULL: nothing was solved */
+  const State    *state;              /* with problem */
+  const Balance  *balance;            /* with problem; NULL: no figures */
+  const Estimate *estimate;           /* NULL: not estimated */
+  Probes          probes;             /* NULL: none */
 } RunSummary;
 
 /* Write summary.json into the scene's output directory. Unknown figures are null. peak_memory_mb is the sum over ranks,

@@ -16,6 +16,7 @@ typedef struct {
   PetscBool     held_lines;      /* forces began to hold lines of mortar sides in it (State.lines_held) */
   PetscInt      unstable; /* converged: 1 when the last tangent factorised goes down in energy along some motion the constraints allow, -1: not known, else 0 */
   PetscInt      descents; /* of SolverDescend, each with multipliers of its own */
+  PetscInt      descent_iterations; /* their tangent assemblies */
   PetscReal     residual, scale;
   ProblemStatus status;
 } SolverReport;

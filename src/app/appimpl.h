@@ -43,6 +43,7 @@ typedef struct {
   PetscLogDouble start;
   PetscReal      arc, arc_first;                            /* along a path: length of the next step, of the first one; 0: not yet */
   PetscReal      haste;                                     /* displacement per time in the last step, over that since the start */
+  PetscInt       descent_iterations;                        /* tangents of descents, which Newton's method has not */
   PetscInt       descended_steps;                           /* steps whose equilibrium was found by descent */
   PetscInt       stabilised_steps;                          /* solutions found first were unstable */
   PetscInt       relaxed_steps;                             /* steps to an equilibrium that was not near by */

@@ -48,9 +48,11 @@ PetscErrorCode AppStabilise(App *app, PetscReal t, SolverReport *report)
     AppCountWork(app, &further);
     PetscCall(StateCopy(&unstable, &l->state));
     PetscCall(ProblemSetState(l->problem, &l->state));
+    PetscCall(ProblemSearch(l->problem, l->state.x));
     PetscCall(ProblemRefresh(l->problem, l->state.x));
-    report->iterations = report->factorisations = report->single_failures = report->set_changes = report->set_cycles = 0; /* counted */
-    report->stopped                                                                                                  = further.stopped;
+    report->iterations = report->descent_iterations = report->factorisations = report->single_failures = report->set_changes = report->set_cycles =
+        0; /* counted */
+    report->stopped = further.stopped;
   }
   if (report->unstable == 0) ++app->stabilised_steps;
   if (report->unstable == 0 && app->stabilised_steps == 1)

@@ -14,6 +14,7 @@ void AppCountWork(App *app, const SolverReport *report)
   app->set_cycles += report->set_cycles;
   app->factorisations += report->factorisations;
   app->single_failures += report->single_failures;
+  app->descent_iterations += report->descent_iterations;
 }
 
 void AppCount(App *app, const SolverReport *report)
@@ -207,7 +208,7 @@ static PetscErrorCode LoadStep_Private(App *app, PetscBool *ok)
                        : report.reason;
     PetscFunctionReturn(PETSC_SUCCESS);
   }
-  const PetscBool easy = (PetscBool)(report.converged && report.iterations <= EASY_ITERATIONS && app->cuts_in_step == 0);
+  const PetscBool easy = (PetscBool)(report.converged && report.iterations <= EASY_ITERATIONS && report.descents == 0 && app->cuts_in_step == 0);
   PetscCall(AppAdapt(app));
   *ok = (PetscBool)!app->stopped;
   if (easy) *dt = PetscMin(GROWTH * *dt, app->data->load.step_max);

@@ -22,6 +22,7 @@ static const struct {
     {"unstable", offsetof(App, unstable)},
     {"judged", offsetof(App, judged)},
     {"relaxed_steps", offsetof(App, relaxed_steps)},
+    {"descent_iterations", offsetof(App, descent_iterations)},
     {"descended_steps", offsetof(App, descended_steps)},
     {"stabilised", offsetof(App, stabilised_steps)},
     {"gave_up", offsetof(App, gave_up)},

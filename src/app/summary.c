@@ -45,6 +45,7 @@ PetscErrorCode AppSummary(App *app, const char *status, const char *reason)
   summary.factorisations     = app->factorisations;
   summary.single_failures    = app->single_failures;
   summary.relaxed_steps      = app->relaxed_steps;
+  summary.descent_iterations = app->descent_iterations;
   summary.descended_steps    = app->descended_steps;
   summary.stabilised         = app->stabilised_steps;
   summary.drag_work          = app->all_drag_work;

@@ -177,6 +177,7 @@ static cJSON *Document_Private(const SceneData *scene, const RunSummary *s, cons
   AddNumber_Private(root, "factorisations", (PetscReal)s->factorisations);
   AddNumber_Private(root, "single_factor_failures", (PetscReal)s->single_failures);
   AddNumber_Private(root, "relaxed_steps", (PetscReal)s->relaxed_steps);
+  AddNumber_Private(root, "descent_iterations", (PetscReal)s->descent_iterations);
   AddNumber_Private(root, "descended_steps", (PetscReal)s->descended_steps);
   AddNumber_Private(root, "stabilised", (PetscReal)s->stabilised);
   AddNumber_Private(root, "drag_work", s->drag_work);

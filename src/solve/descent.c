@@ -19,6 +19,7 @@
 #define SHORT (1. / 16)      /* step of a line search from which on the next direction is to be shorter instead */
 #define SHORTEST 1e-3        /* … that gives up */
 #define LONGEST 64
+#define DEEPER 1        /* the same, by how much a piece of the prescribed motion may drive a node in */
 #define DEEP 0.25       /* overlap over the extent of a node along the surface: bodies must not pass through each other */
 #define ROUND_OFF 1e-13 /* of Phi: a smaller decrease is none */
 
@@ -52,10 +53,25 @@ static PetscErrorCode FactorOption_Private(const char *name, const char *value)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode DescentCreate_Private(Solver s, SolverReport *report, Descent *d)
+static PetscErrorCode Factors_Private(Descent *d)
 {
   PC pc;
 
+  PetscFunctionBegin;
+  PetscCall(KSPCreate(PetscObjectComm((PetscObject)d->trial), &d->ksp));
+  PetscCall(KSPSetOptionsPrefix(d->ksp, "descent_"));
+  PetscCall(KSPSetType(d->ksp, KSPPREONLY));
+  PetscCall(KSPGetPC(d->ksp, &pc));
+  PetscCall(PCSetType(pc, PCCHOLESKY));
+#if defined(PETSC_HAVE_MUMPS)
+  PetscCall(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS));
+#endif
+  PetscCall(PCSetFromOptions(pc));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode DescentCreate_Private(Solver s, SolverReport *report, Descent *d)
+{
   PetscFunctionBegin;
   PetscCall(PetscMemzero(d, sizeof(*d)));
   d->solver  = s;
@@ -74,15 +90,7 @@ PetscErrorCode DescentCreate_Private(Solver s, SolverReport *report, Descent *d)
   PetscCall(VecDuplicate(d->lift, &d->work));
   PetscCall(FactorOption_Private("-descent_mat_mumps_icntl_13", "1"));
   PetscCall(FactorOption_Private("-descent_mat_mumps_icntl_14", "80"));
-  PetscCall(KSPCreate(PetscObjectComm((PetscObject)d->trial), &d->ksp));
-  PetscCall(KSPSetOptionsPrefix(d->ksp, "descent_"));
-  PetscCall(KSPSetType(d->ksp, KSPPREONLY));
-  PetscCall(KSPGetPC(d->ksp, &pc));
-  PetscCall(PCSetType(pc, PCCHOLESKY));
-#if defined(PETSC_HAVE_MUMPS)
-  PetscCall(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS));
-#endif
-  PetscCall(PCSetFromOptions(pc));
+  PetscCall(Factors_Private(d));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -122,7 +130,10 @@ static PetscErrorCode Measure_Private(Descent *d, Mat A)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Factorise the matrix, whose shift is there. *negative: directions of negative curvature; < 0: there is no factor. */
+#define NO_FACTOR (-1) /* the matrix is singular */
+#define NO_MEMORY (-2)
+
+/* Factorise the matrix, whose shift is there. *negative: directions of negative curvature, or why there is no factor. */
 static PetscErrorCode Factor_Private(Descent *d, Mat A, PetscInt *negative)
 {
   PCFailedReason failed;
@@ -130,7 +141,7 @@ static PetscErrorCode Factor_Private(Descent *d, Mat A, PetscInt *negative)
   PC             pc;
 
   PetscFunctionBegin;
-  *negative = -1;
+  *negative = NO_FACTOR;
   PetscCall(StageBegin(STAGE_FACTOR));
   ++d->report->factorisations;
   PetscCall(KSPSetOperators(d->ksp, A, A));
@@ -138,6 +149,7 @@ static PetscErrorCode Factor_Private(Descent *d, Mat A, PetscInt *negative)
   PetscCall(StageEnd(STAGE_FACTOR));
   PetscCall(KSPGetPC(d->ksp, &pc));
   PetscCall(PCGetFailedReason(pc, &failed));
+  if (failed == PC_FACTOR_OUTMEMORY) *negative = NO_MEMORY;
   if (failed != PC_NOERROR) PetscFunctionReturn(PETSC_SUCCESS);
 #if defined(PETSC_HAVE_MUMPS)
   Mat F;
@@ -153,11 +165,21 @@ PetscErrorCode DescentApply_Private(Descent *d, PetscBool *ok)
 {
   KSPConvergedReason reason;
   PetscReal          norm;
+  PetscErrorCode     code;
+  PetscBool          failed;
 
   PetscFunctionBegin;
+  *ok = PETSC_FALSE;
   PetscCall(StageBegin(STAGE_SOLVE));
-  PetscCall(KSPSolve(d->ksp, d->rhs, d->y));
+  PetscCall(ErrorForesee("MUMPS in solve"));
+  code = KSPSolve(d->ksp, d->rhs, d->y);
+  PetscCall(ErrorForeseen(code, &failed));
   PetscCall(StageEnd(STAGE_SOLVE));
+  if (failed) { /* as in linear.c */
+    PetscCall(KSPDestroy(&d->ksp));
+    PetscCall(Factors_Private(d));
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
   PetscCall(KSPGetConvergedReason(d->ksp, &reason));
   PetscCall(VecNorm(d->y, NORM_2, &norm));
   *ok = (PetscBool)(reason >= 0 && !PetscIsInfOrNanReal(norm));
@@ -182,6 +204,7 @@ PetscErrorCode DescentDirection_Private(Descent *d, PetscReal *slope, PetscBool 
     d->added = d->shift = shift;
     PetscCall(Factor_Private(d, A, &negative));
     PetscCall(StopAsked(PetscObjectComm((PetscObject)A), &d->report->stopped));
+    if (negative == NO_MEMORY) break;
     if (negative != 0) continue;
     PetscCall(DescentApply_Private(d, ok));
     if (!*ok) continue;
@@ -191,35 +214,42 @@ PetscErrorCode DescentDirection_Private(Descent *d, PetscReal *slope, PetscBool 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Is there a node that is deep in the other side at the iterate and has lost it at the trial? The energy falls when bodies pass through each other. */
-static PetscErrorCode Through_Private(Descent *d, PetscBool *yes)
+/* Is there a node that is deep in the other side at the iterate and has lost it at the trial? The energy falls when bodies pass through each other. *deeper: by
+   how much one is deeper at the trial. */
+static PetscErrorCode Through_Private(Descent *d, PetscBool *yes, PetscReal *deeper)
 {
   const PetscReal *depth, *next;
   PetscInt         num;
-  PetscBool        mine = PETSC_FALSE;
+  PetscReal        largest[2] = {0, 0};
 
   PetscFunctionBegin;
   PetscCall(ProblemMeritDepth(d->problem, d->next));
   PetscCall(VecGetLocalSize(d->next, &num));
   PetscCall(VecGetArrayRead(d->depth, &depth));
   PetscCall(VecGetArrayRead(d->next, &next));
-  for (PetscInt i = 0; i < num; ++i) mine = (PetscBool)(mine || (depth[i] > DEEP && next[i] < 0));
+  for (PetscInt i = 0; i < num; ++i) {
+    if (depth[i] > DEEP && next[i] < 0) largest[0] = 1;
+    largest[1] = PetscMax(largest[1], next[i] - PetscMax(depth[i], 0));
+  }
   PetscCall(VecRestoreArrayRead(d->depth, &depth));
   PetscCall(VecRestoreArrayRead(d->next, &next));
-  PetscCallMPI(MPI_Allreduce(&mine, yes, 1, COMPAT_MPI_BOOL, MPI_LOR, PetscObjectComm((PetscObject)d->trial)));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, largest, 2, MPIU_REAL, MPI_MAX, PetscObjectComm((PetscObject)d->trial)));
+  *yes    = (PetscBool)(largest[0] > 0);
+  *deeper = largest[1];
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode DescentTry_Private(Descent *d, Vec x, PetscReal step, PetscReal *merit)
 {
   ProblemStatus status;
+  PetscReal     deeper;
   PetscBool     through;
 
   PetscFunctionBegin;
   PetscCall(VecWAXPY(d->trial, step, d->dx, x));
   PetscCall(ProblemSearch(d->problem, d->trial));
   PetscCall(ProblemMerit(d->problem, PENALTY, d->lambda, d->trial, NULL, merit, &status));
-  PetscCall(Through_Private(d, &through));
+  PetscCall(Through_Private(d, &through, &deeper));
   if (through) *merit = PETSC_MAX_REAL;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -260,7 +290,7 @@ PetscErrorCode DescentLinearise_Private(Descent *d, Vec x, PetscBool *done, Pets
   PetscCall(VecNorm(d->gradient, NORM_2, &norm));
   PetscCall(PetscInfo(d->ksp, "Phi %.15g, forces out of balance %g of %g\n", (double)d->merit, (double)norm, (double)d->status.scale));
   *done = (PetscBool)(norm <= RTOL * d->status.scale);
-  ++d->report->iterations;
+  ++d->report->descent_iterations;
   PetscCall(ProblemMeritTangent(d->problem, PENALTY, x, NULL, &bad));
   *ok      = (PetscBool)!bad;
   d->added = 0;
@@ -287,40 +317,55 @@ static PetscErrorCode Minimise_Private(Descent *d, Vec x, PetscBool *ok)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The prescribed motion that is left is put in by the bodies alone, as if they were linear and did not touch, in pieces that invert no cell. */
+/* One piece of the prescribed motion that is left, put in by the bodies alone as if they were linear and did not touch: the largest share of 1, 1/2, … that
+   inverts no cell and drives no node far into the other side. */
+static PetscErrorCode Piece_Private(Descent *d, Vec x, PetscBool *ok)
+{
+  PetscBool bad, through;
+  PetscReal deeper;
+  PetscInt  negative;
+  Mat       A;
+
+  PetscFunctionBegin;
+  *ok = PETSC_FALSE;
+  PetscCall(ProblemSearch(d->problem, x));
+  PetscCall(ProblemMerit(d->problem, PENALTY, d->lambda, x, NULL, &d->merit, &d->status));
+  if (d->status.bad) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(ProblemMeritDepth(d->problem, d->depth));
+  PetscCall(ProblemMeritTangent(d->problem, PENALTY, x, d->lift, &bad));
+  if (bad) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(ProblemGetMatrix(d->problem, &A));
+  PetscCall(VecSet(d->gradient, 0));
+  PetscCall(ProblemMeritSide(d->problem, d->gradient, d->lift, d->rhs));
+  PetscCall(Factor_Private(d, A, &negative));
+  PetscCall(StopAsked(PetscObjectComm((PetscObject)A), &d->report->stopped));
+  if (negative < 0) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(DescentApply_Private(d, ok));
+  if (!*ok) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(ProblemStepBegin(d->problem, x, d->dx));
+  *ok = PETSC_FALSE;
+  for (PetscReal step = 1; step > SHORTEST && !*ok; step *= 0.5) {
+    PetscCall(ProblemStepMove(d->problem, d->dx, step, x));
+    PetscCall(ProblemMerit(d->problem, PENALTY, d->lambda, x, NULL, &d->merit, &d->status));
+    PetscCall(Through_Private(d, &through, &deeper));
+    *ok = (PetscBool)(!d->status.bad && !through && deeper <= DEEPER);
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 static PetscErrorCode Move_Private(Descent *d, Vec x, PetscBool *ok)
 {
-  PetscReal pending, step = 1;
-  PetscBool bad;
-  Mat       A;
+  PetscReal pending;
 
   PetscFunctionBegin;
   *ok = PETSC_TRUE;
   PetscCall(ProblemPending(d->problem, &pending));
   for (PetscInt piece = 0; piece < MOVES && pending > 0 && *ok && !d->report->stopped; ++piece) {
-    PetscCall(ProblemSearch(d->problem, x));
-    PetscCall(ProblemMeritTangent(d->problem, PENALTY, x, d->lift, &bad));
-    *ok = (PetscBool)!bad;
-    if (bad) break;
-    PetscInt negative;
-    PetscCall(ProblemGetMatrix(d->problem, &A));
-    PetscCall(VecSet(d->gradient, 0));
-    PetscCall(ProblemMeritSide(d->problem, d->gradient, d->lift, d->rhs));
-    PetscCall(Factor_Private(d, A, &negative));
-    PetscCall(StopAsked(PetscObjectComm((PetscObject)A), &d->report->stopped));
-    *ok = (PetscBool)(negative >= 0);
-    if (*ok) PetscCall(DescentApply_Private(d, ok));
-    if (!*ok) break;
-    PetscCall(ProblemStepBegin(d->problem, x, d->dx));
-    *ok = PETSC_FALSE;
-    for (step = 1; step > SHORTEST && !*ok; step *= 0.5) {
-      PetscCall(ProblemStepMove(d->problem, d->dx, step, x));
-      PetscCall(ProblemMerit(d->problem, PENALTY, d->lambda, x, NULL, &d->merit, &d->status));
-      *ok = (PetscBool)!d->status.bad;
-    }
+    PetscCall(Piece_Private(d, x, ok));
     PetscCall(ProblemPending(d->problem, &pending));
   }
   *ok = (PetscBool)(*ok && pending == 0);
+  PetscCall(PetscInfo(d->ksp, "prescribed motion %s\n", *ok ? "put in" : "cannot be put in"));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -354,8 +399,9 @@ static PetscErrorCode Exact_Private(Descent *d, State *state)
   last.single_failures += total->single_failures;
   last.set_changes += total->set_changes;
   last.set_cycles += total->set_cycles;
-  last.descents = total->descents;
-  *total        = last;
+  last.descents           = total->descents;
+  last.descent_iterations = total->descent_iterations;
+  *total                  = last;
   if (last.converged) PetscCall(StateCopy(&trial, state));
   PetscCall(StateDestroy(&trial));
   PetscFunctionReturn(PETSC_SUCCESS);
