@@ -161,13 +161,17 @@ PetscErrorCode AppAdapt(App *app)
 {
   PetscInt        iterations = app->iterations_in_step;
   const PetscBool here       = (PetscBool)(AppIsAdaptive(app) && app->data->adapt.repeat == REPEAT_STEP);
-  PetscBool       more = PETSC_TRUE, gave_up = PETSC_FALSE;
+  PetscBool       more = PETSC_TRUE, gave_up = PETSC_FALSE, judged = PETSC_FALSE;
 
   PetscFunctionBegin;
   while (more) {
     MarkList layers = {0};
     PetscCall(AppEstimate(app));
     app->adapt_stop = here ? Stop_Private(app) : "";
+    if ((!here || app->adapt_stop[0]) && !judged) { /* of this step, and of coarser meshes nobody asks */
+      PetscCall(AppStabilise(app, &judged));
+      if (judged) continue;
+    }
     if (here && !app->adapt_stop[0]) PetscCall(AppLayers(app, &app->estimate, &layers));
     const PetscBool enough = (PetscBool)(!here || app->adapt_stop[0]);
     PetscCall(ReportPass_Private(app, iterations, enough));

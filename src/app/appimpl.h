@@ -45,6 +45,7 @@ typedef struct {
   PetscReal      haste;                                     /* displacement per time in the last step, over that since the start */
   PetscInt       descent_iterations;                        /* tangents of descents, which Newton's method has not */
   PetscInt       descended_steps;                           /* steps whose equilibrium was found by descent */
+  PetscBool      unstable_now;                              /* the last solution is an unstable equilibrium */
   PetscInt       stabilised_steps;                          /* solutions found first were unstable */
   PetscInt       relaxed_steps;                             /* steps to an equilibrium that was not near by */
   PetscReal      drag_work, all_drag_work;                  /* energy that drag took in the step at hand, in all */
@@ -71,8 +72,8 @@ PetscErrorCode AppInitialize(int argc, char **argv);
 PetscErrorCode AppRun(App *);
 /* descend.c: from the accepted state to an equilibrium at time t by descent; state and time are restored where there is none to be found. Collective. */
 PetscErrorCode AppDescend(App *, PetscReal t, PetscBool *ok);
-/* load.stable: the level's state, a solution at time t with this report, gives way to a stable one where it is unstable and that can be had. Collective. */
-PetscErrorCode AppStabilise(App *, PetscReal t, SolverReport *);
+/* load.stable: a solution that is unstable gives way to a stable one, where that can be had. *changed: it did. Collective. */
+PetscErrorCode AppStabilise(App *, PetscBool *changed);
 /* adaptstep.c: after a solution at the current time, refine and solve again until the tolerance or a limit is met. */
 PetscErrorCode AppAdapt(App *);
 /* refine.c: the prescribed motion as it was at time t. Collective. */

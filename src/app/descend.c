@@ -27,38 +27,46 @@ PetscErrorCode AppDescend(App *app, PetscReal t, PetscBool *ok)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode AppStabilise(App *app, PetscReal t, SolverReport *report)
+/* Back to the solution there was. */
+static PetscErrorCode Keep_Private(Level *l, const State *unstable)
+{
+  PetscFunctionBegin;
+  PetscCall(StateCopy(unstable, &l->state));
+  PetscCall(ProblemSetState(l->problem, &l->state));
+  PetscCall(ProblemSearch(l->problem, l->state.x));
+  PetscCall(ProblemRefresh(l->problem, l->state.x));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode AppStabilise(App *app, PetscBool *changed)
 {
   Level       *l = &app->level;
-  SolverReport further;
+  SolverReport report;
   State        unstable;
-  PetscBool    ok;
+  PetscBool    possible;
 
   PetscFunctionBegin;
-  PetscCall(SolverHasDescent(l->solver, &ok));
-  if (!report->converged || report->unstable <= 0 || !ok || !app->data->load.stable) PetscFunctionReturn(PETSC_SUCCESS);
+  *changed = PETSC_FALSE;
+  PetscCall(SolverHasDescent(l->solver, &possible));
+  if (!app->unstable_now || !possible || !app->data->load.stable) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(StateCreate(l->problem, &unstable));
   PetscCall(StateCopy(&l->state, &unstable));
-  PetscCall(SolverStabilise(l->solver, &l->state, &further));
-  PetscCall(PetscInfo(NULL, "unstable equilibrium: %s\n", further.converged ? "another was found" : further.reason));
-  AppCountWork(app, report);
-  if (further.converged)
-    *report = further;
-  else {
-    AppCountWork(app, &further);
-    PetscCall(StateCopy(&unstable, &l->state));
-    PetscCall(ProblemSetState(l->problem, &l->state));
-    PetscCall(ProblemSearch(l->problem, l->state.x));
-    PetscCall(ProblemRefresh(l->problem, l->state.x));
-    report->iterations = report->descent_iterations = report->factorisations = report->single_failures = report->set_changes = report->set_cycles =
-        0; /* counted */
-    report->stopped = further.stopped;
-  }
-  if (report->unstable == 0) ++app->stabilised_steps;
-  if (report->unstable == 0 && app->stabilised_steps == 1)
-    PetscCall(PetscPrintf(
-        app->comm, "note: the equilibrium found first at t = %g is unstable; from there on stable ones that lie lower in energy are taken (load.stable)\n",
-        (double)t));
+  PetscCall(SolverStabilise(l->solver, &l->state, &report));
+  PetscCall(PetscInfo(NULL, "unstable equilibrium: %s\n", report.converged ? "another was found" : report.reason));
+  AppCountWork(app, &report);
+  if (report.stopped) app->stopped = PETSC_TRUE;
+  *changed = (PetscBool)(report.converged && report.unstable == 0);
+  if (*changed) {
+    --app->unstable; /* it is gone */
+    app->unstable_now = PETSC_FALSE;
+    app->status       = report.status;
+    if (app->stabilised_steps++ == 0)
+      PetscCall(PetscPrintf(
+          app->comm,
+          "note: the equilibrium found at t = %g is unstable; a stable one of less energy takes its place, there and where that happens again (load.stable)\n",
+          (double)l->state.t));
+  } else
+    PetscCall(Keep_Private(l, &unstable));
   PetscCall(StateDestroy(&unstable));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

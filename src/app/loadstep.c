@@ -23,6 +23,7 @@ void AppCount(App *app, const SolverReport *report)
   if (report->converged && report->unstable >= 0) ++app->judged;
   if (report->converged && report->unstable > 0) ++app->unstable;
   if (report->converged) app->status = report->status;
+  if (report->converged) app->unstable_now = (PetscBool)(report->unstable > 0);
   if (report->stopped) app->stopped = PETSC_TRUE;
 }
 
@@ -70,7 +71,6 @@ PetscErrorCode AppAttempt(App *app, PetscReal t, SolverReport *report)
   PetscCall(PetscMemzero(report, sizeof(*report)));
   if (!words) {
     PetscCall(Solve_Private(app, t, report));
-    PetscCall(AppStabilise(app, t, report));
     PetscCall(ExpressionTrouble(app->comm, &words));
   }
   if (words) {
