@@ -98,8 +98,11 @@ static PetscErrorCode Solve_Private(int argc, char **argv, int *status)
   PetscCheckInput(argc > 1, "no scene was named; say mortise SCENE.yml, or mortise -help");
   PetscCall(SceneCreate(app.comm, argc, argv, &app.scene));
   PetscCall(SceneGetData(app.scene, &app.data));
+  app.path.level = &app.level;
+  app.path.data  = app.data;
   PetscCall(AppOptions(&app));
   PetscCall(SolverCheckOptions());
+  PetscCall(PathOptions(&app.path));
   PetscCall(StageBegin(STAGE_MESH));
   PetscCall(SceneSetUp(app.scene, &forest));
   PetscCall(StageEnd(STAGE_MESH));
@@ -113,7 +116,7 @@ static PetscErrorCode Solve_Private(int argc, char **argv, int *status)
   }
   PetscCall(Close_Private(&app));
   PetscCall(SceneDestroy(&app.scene));
-  *status = app.failure ? 2 : app.stopped ? 3 : app.gave_up ? 2 : 0;
+  *status = app.failure ? 2 : app.path.stopped ? 3 : app.gave_up ? 2 : 0;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -148,6 +151,7 @@ static PetscErrorCode Help_Private(void)
   PetscFunctionBegin;
   PetscCall(ScenePrintHelp(PETSC_COMM_WORLD));
   PetscCall(SolverPrintHelp(PETSC_COMM_WORLD));
+  PetscCall(PathPrintHelp(PETSC_COMM_WORLD));
   PetscCall(AppPrintHelp(PETSC_COMM_WORLD));
   PetscCall(PetscPrintf(
       PETSC_COMM_WORLD,

@@ -1,14 +1,6 @@
 /* From an estimate to the level on a finer mesh: mark, adapt the forest, carry the states over or begin afresh. */
 #include "appimpl.h"
 
-PetscErrorCode AppPrescribeAt(Problem problem, PetscReal t)
-{
-  PetscFunctionBegin;
-  PetscCall(ProblemSetTime(problem, t));
-  PetscCall(ProblemJump(problem));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 /* The level on the adapted forest, its states at rest at time t. NULL where the mesh has inverted cells (sides that hang from coarser cells cut across curved
    ones), or a prescribed value is not finite at a new node: *refused says why, else NULL. */
 static PetscErrorCode Create_Private(App *app, Forest forest, const int8_t old_order[], const ForestMap *map, PetscReal t, Level *next, const char **refused)
@@ -46,12 +38,12 @@ static PetscErrorCode Carry_Private(const Level *old, const ForestMap *map, Leve
   PetscFunctionBegin;
   next->accepted.t = old->accepted.t;
   PetscCall(TransferState(old->problem, &old->state, next->problem, map, &next->state));
-  PetscCall(AppPrescribeAt(old->problem, old->accepted.t));
-  PetscCall(AppPrescribeAt(next->problem, next->accepted.t));
+  PetscCall(PathPrescribe(old->problem, old->accepted.t));
+  PetscCall(PathPrescribe(next->problem, next->accepted.t));
   PetscCall(TransferState(old->problem, &old->accepted, next->problem, map, &next->accepted));
   PetscCall(StateAdmit(next->problem, &next->accepted));
   PetscCall(PetscArraycpy(next->state.history, next->accepted.history, next->accepted.num_history));
-  PetscCall(AppPrescribeAt(next->problem, next->state.t));
+  PetscCall(PathPrescribe(next->problem, next->state.t));
   PetscCall(ProblemIsFollowing(old->problem, &following));
   if (following) PetscCall(ProblemFollow(next->problem, next->accepted.x, next->state.x, &length));
   PetscFunctionReturn(PETSC_SUCCESS);

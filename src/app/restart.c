@@ -9,19 +9,18 @@ static const struct {
   const char *name;
   size_t      at;
 } Counters[] = {
-    {"path", offsetof(App, path)},
+    {"path", offsetof(App, repeats)},
     {"load_steps", offsetof(App, load_steps)},
-    {"step_cuts", offsetof(App, step_cuts)},
+    {"step_cuts", offsetof(App, path.step_cuts)},
     {"adapt_passes", offsetof(App, adapt_passes)},
-    {"newton_iterations", offsetof(App, newton_iterations)},
-    {"active_set_changes", offsetof(App, set_changes)},
-    {"active_set_cycles", offsetof(App, set_cycles)},
+    {"newton_iterations", offsetof(App, path.newton_iterations)},
+    {"active_set_changes", offsetof(App, path.set_changes)},
+    {"active_set_cycles", offsetof(App, path.set_cycles)},
     {"reported_cycles", offsetof(App, told_cycles)},
-    {"factorisations", offsetof(App, factorisations)},
-    {"single_factor_failures", offsetof(App, single_failures)},
-    {"unstable", offsetof(App, unstable)},
-    {"judged", offsetof(App, judged)},
-    {"relaxed_steps", offsetof(App, relaxed_steps)},
+    {"factorisations", offsetof(App, path.factorisations)},
+    {"single_factor_failures", offsetof(App, path.single_failures)},
+    {"unstable", offsetof(App, path.unstable)},
+    {"judged", offsetof(App, path.judged)},
     {"gave_up", offsetof(App, gave_up)},
 };
 static const struct {
@@ -31,16 +30,16 @@ static const struct {
     {"dt", offsetof(App, dt)},
     {"arc", offsetof(App, arc)},
     {"first_arc", offsetof(App, arc_first)},
-    {"haste", offsetof(App, haste)},
-    {"drag_work", offsetof(App, all_drag_work)},
-    {"largest_displacement", offsetof(App, status.largest)},
+    {"speed", offsetof(App, speed)},
+    {"viscous_work", offsetof(App, path.all_viscous_work)},
+    {"largest_displacement", offsetof(App, path.status.largest)},
     {"largest_error", offsetof(App, most.relative)},
     {"above_error", offsetof(App, above_error)},
 };
 enum {
   NUM_COUNTERS = PETSC_STATIC_ARRAY_LENGTH(Counters),
   NUM_REALS    = PETSC_STATIC_ARRAY_LENGTH(Reals),
-  NUM_NUMBERS  = NUM_COUNTERS + NUM_REALS + 2 + NUM_STAGES
+  NUM_NUMBERS  = NUM_COUNTERS + NUM_REALS + 2 * PATH_RECOVERIES + 2 + NUM_STAGES
 };
 
 static PetscInt *Counter_Private(App *app, PetscInt i)
@@ -151,6 +150,10 @@ PetscErrorCode AppSnapshot(App *app)
     PetscCall(PetscSNPrintf(pair, sizeof(pair), "%" PetscInt_FMT, i));
     Number_Private(numbers, &num, "subdivided.", pair, (PetscReal)app->subdivided[i]);
   }
+  for (PetscInt i = 0; i < PathNumRecoveries(); ++i) {
+    Number_Private(numbers, &num, "tried.", PathRecoveryName(i), (PetscReal)app->path.recovery[i].tried);
+    Number_Private(numbers, &num, "succeeded.", PathRecoveryName(i), (PetscReal)app->path.recovery[i].succeeded);
+  }
   for (PetscInt i = 0; i < NUM_REALS; ++i) Number_Private(numbers, &num, "", Reals[i].name, *Real_Private(app, i));
   Number_Private(numbers, &num, "", "states", (PetscReal)states);
   Number_Private(numbers, &num, "", "seconds", seconds[NUM_STAGES]);
@@ -260,6 +263,14 @@ PetscErrorCode AppResume(App *app, Forest *coarse)
     PetscCall(PetscSNPrintf(name, sizeof(name), "subdivided.%" PetscInt_FMT, i));
     PetscCall(CheckpointGetNumber(app->snapshot, name, &value));
     app->subdivided[i] = (PetscInt)value;
+  }
+  for (PetscInt i = 0; i < PathNumRecoveries(); ++i) {
+    PetscCall(PetscSNPrintf(name, sizeof(name), "tried.%s", PathRecoveryName(i)));
+    PetscCall(CheckpointGetNumber(app->snapshot, name, &value));
+    app->path.recovery[i].tried = (PetscInt)value;
+    PetscCall(PetscSNPrintf(name, sizeof(name), "succeeded.%s", PathRecoveryName(i)));
+    PetscCall(CheckpointGetNumber(app->snapshot, name, &value));
+    app->path.recovery[i].succeeded = (PetscInt)value;
   }
   app->dt = PetscMax(PetscMin(app->dt, load->step_max), load->step_min);
   for (PetscInt s = 0; s < NUM_STAGES; ++s) {

@@ -21,7 +21,7 @@ void AppJudge(App *app, PetscReal error, PetscBool gave_up)
 
 const char *AppStatus(const App *app)
 {
-  return app->failure ? "failed" : app->stopped ? "stopped" : app->gave_up ? "inaccurate" : "converged";
+  return app->failure ? "failed" : app->path.stopped ? "stopped" : app->gave_up ? "inaccurate" : "converged";
 }
 
 PetscErrorCode AppReason(App *app, const char **reason)
@@ -31,7 +31,7 @@ PetscErrorCode AppReason(App *app, const char **reason)
 
   PetscFunctionBegin;
   *reason = app->failure ? app->failure : app->reason;
-  if (app->failure || app->stopped || !(app->above_error > 0)) PetscFunctionReturn(PETSC_SUCCESS);
+  if (app->failure || app->path.stopped || !(app->above_error > 0)) PetscFunctionReturn(PETSC_SUCCESS);
   if (tolerance > 0) PetscCall(PetscSNPrintf(asked, sizeof(asked), "adapt.tolerance %g was not reached", (double)tolerance));
   PetscCall(PetscSNPrintf(app->reason, sizeof(app->reason), "%s (%s), the estimated error is up to %.3g %%", asked,
                           IsEnough_Private(app->adapt_stop) ? "in an earlier load step" : app->adapt_stop, 100 * (double)app->above_error));

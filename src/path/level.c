@@ -1,5 +1,5 @@
 /* Everything bound to one mesh. */
-#include "appimpl.h"
+#include "path.h"
 
 /* Takes the forest over. The states start at rest at time t. */
 PetscErrorCode LevelCreate(const SceneData *data, Forest forest, const int8_t leaf_order[], PetscReal t, Level *level)
@@ -30,7 +30,7 @@ static PetscErrorCode CheckSupports_Private(const SceneData *data, const Level *
 
   PetscFunctionBegin;
   for (PetscReal t = level->state.t; t < data->load.end && !conflict[0];) {
-    t = AppStepEnd(data, t, dt);
+    t = PathStepEnd(data, t, dt);
     PetscCall(ProblemFindConflict(level->problem, t, sizeof(conflict), conflict));
   }
   PetscCall(ExpressionTrouble(ForestComm(level->forest), &words));
