@@ -81,7 +81,7 @@ PetscErrorCode MechanicsDestroy(Mechanics *);
 /* Is a cell of this rank inverted in the reference mesh (Jacobian determinant not positive at an integration point)? Then its order and a node of it; order 0:
    none is. Cells are images of the nodes of their order, which hang from coarser neighbours: a valid curved coarse mesh does not rule it out. Forces of such a
    mesh must not be asked for. Not collective. */
-PetscErrorCode MechanicsFindInverted(Mechanics, PetscInt *order, PetscReal X[3]);
+PetscErrorCode MechanicsFindInverted(Mechanics, PetscInt *order, PetscReal X[3], PetscInt *leaf);
 
 /* Pseudo-time: evaluates dead loads and prescribed values. */
 PetscErrorCode MechanicsSetTime(Mechanics, PetscReal t);

@@ -45,7 +45,7 @@ PetscErrorCode ProblemOrderCaps(const SceneData *, Forest, int8_t (**cap)[3]);
 PetscErrorCode ProblemCreate(const SceneData *, Forest, const int8_t leaf_order[], Problem *);
 PetscErrorCode ProblemDestroy(Problem *);
 /* MechanicsFindInverted over all ranks. Collective. */
-PetscErrorCode ProblemFindInverted(Problem, PetscInt *order, PetscReal X[3]);
+PetscErrorCode ProblemFindInverted(Problem, PetscInt *order, PetscReal X[3], PetscInt *leaf);
 /* MechanicsFindConflict over all ranks. Collective. */
 PetscErrorCode ProblemFindConflict(Problem, PetscReal t, size_t size, char words[]);
 

@@ -141,7 +141,7 @@ PetscErrorCode AppAdapt(App *app)
     app->last.newton_iterations = iterations;
     PetscCall(MonitorRow(app->monitor, &app->last));
   }
-  if (here && !app->path.stopped) AppJudge(app, app->estimate.relative, gave_up);
+  if (here && !app->path.stopped) PetscCall(AppJudge(app, app->estimate.total, app->estimate.norm, gave_up));
   PetscCall(AppRemember(app));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

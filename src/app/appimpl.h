@@ -11,6 +11,14 @@
 #define UNSTRESSED "free of stress"
 #define FACES_FINE "contact faces fine enough"
 #define NONE_FINER "no equilibrium found on a finer mesh"
+#define NOTHING_LEFT "nothing left to refine"
+#define INVERTS "refinement inverts a curved cell"
+
+/* A load step whose estimated error stayed above the tolerance: at t, and why; norm: largest energy norm from it to the step at hand. */
+typedef struct {
+  PetscReal t, error, norm;
+  PetscInt  cause; /* verdict.c */
+} Missed;
 
 typedef struct {
   MPI_Comm         comm;
@@ -26,25 +34,25 @@ typedef struct {
   Monitor          monitor;
   Path             path;
   PetscInt         repeats; /* adapt.repeat: path: how often it has begun again; else 0 */
-  Estimate         most; /* with it: of the steps of this path that were above the tolerance */
-  PetscInt       load_steps, adapt_passes, passes_in_step, told_cycles;
-  PetscLogDouble start;
-  PetscReal      arc, arc_first;                            /* along a path: length of the next step, of the first one; 0: not yet */
-  PetscReal      speed;                                     /* limit-point indicator: displacement per time in the last step, over that since the start */
-  const char    *failure;                                   /* why the run gave up, NULL while it goes on */
-  char           reason[PETSC_MAX_PATH_LEN + MORTISE_NAME]; /* why it was, or what its solutions lack */
-  const char    *adapt_stop;                                /* why the last adaptation ended: tolerance, max_passes, max_cells, … */
-  PetscReal      above_error;                               /* largest estimate of a load step that stayed above the tolerance; 0: none did */
-  PetscInt       gave_up;                                   /* 1: in one of them a mesh as fine as asked had no solution that was found, or could not be made */
-  PetscBool      inversion_told;                            /* that refinement would invert a cell, once */
-  PetscInt      *subdivided;                                /* owned [num_contacts] by contact.<pair>.subdivide: auto, so often, or tried */
-  PetscBool     *touched;                                   /* owned [num_contacts] a node was in contact at some time of this run */
-  ReportRow      last;
-  PetscReal      dt;                                                          /* length of the next load step */
-  Checkpoint     snapshot;                                                    /* owned: copy of the state at the end of the last accepted load step */
-  PetscInt       snapshot_revision;                                           /* of the forest it stands on */
-  PetscBool      written;                                                     /* the file is this copy */
-  char           checkpoint[PETSC_MAX_PATH_LEN], restart[PETSC_MAX_PATH_LEN]; /* file to write; file to go on from, "": none */
+  Estimate         most;    /* with it: of the steps of this path that were above the tolerance */
+  PetscInt         load_steps, adapt_passes, passes_in_step, told_cycles;
+  PetscLogDouble   start;
+  PetscReal        arc, arc_first;                            /* along a path: length of the next step, of the first one; 0: not yet */
+  PetscReal        speed;                                     /* limit-point indicator: displacement per time in the last step, over that since the start */
+  const char      *failure;                                   /* why the run gave up, NULL while it goes on */
+  char             reason[PETSC_MAX_PATH_LEN + MORTISE_NAME]; /* why it was, or what its solutions lack */
+  const char      *adapt_stop;                                /* why the last adaptation ended: tolerance, max_passes, max_cells, … */
+  PetscInt         num_missed;
+  Missed          *missed;         /* owned [num_missed] */
+  PetscBool        inversion_told; /* that refinement would invert a cell, once */
+  PetscInt        *subdivided;     /* owned [num_contacts] by contact.<pair>.subdivide: auto, so often, or tried */
+  PetscBool       *touched;        /* owned [num_contacts] a node was in contact at some time of this run */
+  ReportRow        last;
+  PetscReal        dt;                                                          /* length of the next load step */
+  Checkpoint       snapshot;                                                    /* owned: copy of the state at the end of the last accepted load step */
+  PetscInt         snapshot_revision;                                           /* of the forest it stands on */
+  PetscBool        written;                                                     /* the file is this copy */
+  char             checkpoint[PETSC_MAX_PATH_LEN], restart[PETSC_MAX_PATH_LEN]; /* file to write; file to go on from, "": none */
 } App;
 
 /* start.c: PetscInitialize, cheaply for a single process. */
@@ -60,8 +68,9 @@ PetscErrorCode AppLayers(App *, const Estimate *, MarkList *layers);
    old one is the caller's; *adapted false when nothing may or need be refined, or (refused) the mesh could not be made, and app->adapt_stop says why.
    Collective. */
 PetscErrorCode AppRefine(App *, const Estimate *, MarkList *layers, PetscBool afresh, PetscBool *adapted, PetscBool *refused);
-/* verdict.c: adaptation has ended at app->adapt_stop with this estimate; gave_up: for want of a finer mesh with a solution, not by a limit. */
-void AppJudge(App *, PetscReal error, PetscBool gave_up);
+/* verdict.c: adaptation of the state has ended at app->adapt_stop with this estimated error (absolute) and energy norm; refused: the mesh could not be refined
+   as asked. */
+PetscErrorCode AppJudge(App *, PetscReal error, PetscReal norm, PetscBool refused);
 /* Status of the run as in summary.json, and the words that go with it, "" when there is nothing to say; valid as long as the run. */
 const char    *AppStatus(const App *);
 PetscErrorCode AppReason(App *, const char **reason);
@@ -104,4 +113,3 @@ PetscErrorCode AppSummary(App *, const char *status, const char *reason);
 PetscErrorCode AppOpenFiles(App *);
 /* Would those in output.directory be refused to go on with? Writes nothing. Collective. */
 PetscErrorCode AppCheckFiles(App *);
-

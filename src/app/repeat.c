@@ -68,7 +68,8 @@ static PetscErrorCode Refine_Private(App *app, PetscBool *refined)
     PetscCall(AppSummary(app, "converged", "a finer path is under way"));
     PetscCall(AppRefine(app, &app->most, &layers, PETSC_TRUE, refined, &refused));
   }
-  if (!*refined) AppJudge(app, app->most.num_leaves ? app->most.relative : 0, refused);
+  const PetscReal error = app->most.num_leaves ? app->most.relative : 0; /* of the step's own norm */
+  if (!*refined) PetscCall(AppJudge(app, error, PetscSqrtReal(1 - PetscSqr(error)), refused));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -40,14 +40,14 @@ static PetscErrorCode CheckSupports_Private(const SceneData *data, const Level *
 
 PetscErrorCode LevelCheck(const SceneData *data, const Level *level)
 {
-  PetscInt    order;
+  PetscInt    order, leaf;
   PetscReal   X[3];
   const char *words;
 
   PetscFunctionBegin;
   PetscCall(ExpressionTrouble(ForestComm(level->forest), &words));
   PetscCheckInput(!words, "%s", words);
-  PetscCall(ProblemFindInverted(level->problem, &order, X));
+  PetscCall(ProblemFindInverted(level->problem, &order, X, &leaf));
   PetscCheckInput(!order,
                   "mesh: a cell of order %" PetscInt_FMT " at (%g, %g, %g) is inverted, for sides that are straight or hang from coarser cells cut across "
                   "curved ones; take smaller cells there, a higher order or mesh.order: 1, or other refinements",

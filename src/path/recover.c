@@ -12,7 +12,7 @@
 #define FIRST_CREEP 10   /* pseudo-time: over it cells answer to a change of shape with a tenth of their stiffness more */
 #define LEAST_CREEP 0.01 /* hardly anything moves */
 #define LONG_CREEP 1e6   /* from here on as good as without viscosity */
-#define CREEP_SOLVES 40
+#define CREEP_SOLVES 20
 
 typedef struct {
   const char *name, *help;
