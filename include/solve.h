@@ -38,8 +38,3 @@ PetscErrorCode SolverPrintHelp(MPI_Comm);
    once, so that the load step is cut. A request to stop (StopAsked) is heard before each factorisation. Failure is a report, not an error: the state is then of
    no use (restore a copy). */
 PetscErrorCode SolverSolve(Solver, State *, SolverReport *);
-
-/* The same from a state far from equilibrium, such as one carried over from another mesh: a share of its imbalance of forces and gaps (ProblemNoteImbalance),
-   falling from 1 to 0, counts as none. It is a path that starts at the state given. The prescribed motion must be applied. Pieces of the way are halved where
-   Newton's method fails, down to 1/64, and doubled where it does not. The report sums up all solves. */
-PetscErrorCode SolverSettle(Solver, State *, SolverReport *);

@@ -152,7 +152,7 @@ PetscErrorCode MechanicsDestroy(Mechanics *mechanics)
   PetscCall(PetscFree(m->free_share));
   PetscCall(PetscFree(m->held));
   PetscCall(PetscFree(m->hold));
-  PetscCall(PetscFree2(m->drag_from, m->drag_work));
+  PetscCall(PetscFree2(m->viscous_from, m->viscous_room));
   PetscCall(PetscFree2(m->linear, m->dpressure));
   PetscCall(PetscFree(m->work));
   PetscCall(PetscFree(*mechanics));

@@ -114,7 +114,7 @@ static PetscReal ViscousEnd_Private(const Path *p, const PathLoop *loop)
 static PetscErrorCode ViscousSet_Private(Path *p, const PathLoop *loop, PetscReal to)
 {
   PetscFunctionBegin;
-  PetscCall(ProblemSetDrag(p->level->problem, to < loop->stop ? 1 / (to - loop->s) : 0, p->level->state.x));
+  PetscCall(ProblemSetViscosity(p->level->problem, to < loop->stop ? 1 / (to - loop->s) : 0, p->level->state.x));
   PetscCall(loop->load->metric->set(p, loop->load, loop->at));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -130,7 +130,7 @@ static PetscErrorCode ViscousFound_Private(Path *p, const PathLoop *loop, PetscR
     PetscFunctionReturn(PETSC_SUCCESS);
   }
   PetscCall(ProblemGetTime(l->problem, l->state.x, &l->state.t));
-  PetscCall(ProblemDragWork(l->problem, l->state.x, &work));
+  PetscCall(ProblemViscousWork(l->problem, l->state.x, &work));
   p->viscous_work += work;
   PetscFunctionReturn(PETSC_SUCCESS);
 }

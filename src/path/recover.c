@@ -118,7 +118,7 @@ static PetscErrorCode Viscous_Private(Path *p, const PathLoop *load, PetscReal t
   PetscFunctionBegin;
   PetscCall(Begin_Private(p, NULL));
   PetscCall(PathFollow(p, &loop, report));
-  PetscCall(ProblemSetDrag(p->level->problem, 0, NULL));
+  PetscCall(ProblemSetViscosity(p->level->problem, 0, NULL));
   if (!report->converged) p->viscous_work = before;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
