@@ -2,7 +2,7 @@
 #pragma once
 #include "solve.h"
 
-#define PATH_RECOVERIES 8 /* most rows of the table (recover.c) */
+#define PATH_RECOVERIES 5 /* rows of the table of recoveries */
 
 /* The part of a run that lives on one mesh; replaced as a whole at each adaptation. */
 typedef struct {
@@ -90,12 +90,19 @@ PetscReal PathStepEnd(const SceneData *, PetscReal t, PetscReal dt);
 /* ---- recoveries (recover.c) --------------------------------------------------------------------------------------------------- */
 
 /* Where an attempt at s = `to` of the load loop failed. guess: the state it began with if that is near `to` (after adaptation: carried over), NULL: it was the
-   accepted one. Rows of the table are tried in turn until one finds level->state at `to`. Collective. */
+   accepted one. */
+typedef struct {
+  const char *name, *help;
+  PetscBool   far; /* what it finds may lie on another branch of equilibria: auto tries it where a shorter step failed too */
+  PetscBool (*applies)(const Path *, const State *guess);
+  /* Look for level->state at `to`; level->state is any, and of no use afterwards where report->converged is false. Collective. */
+  PetscErrorCode (*run)(Path *, const PathLoop *load, PetscReal to, const State *guess, SolverReport *);
+} Recovery;
+
+extern const Recovery PathRecoveries[PATH_RECOVERIES];
+
+/* Try the rows of the table in turn until one finds level->state; *report is of that one then, else as it was. Collective. */
 PetscErrorCode PathRecover(Path *, const PathLoop *load, PetscReal to, const State *guess, SolverReport *);
-/* The recovery of this name alone, whatever its mode; counted. An error when there is none. Collective. */
-PetscErrorCode PathRecoverBy(Path *, const char *name, const PathLoop *load, PetscReal to, const State *guess, SolverReport *);
-PetscInt       PathNumRecoveries(void);
-const char    *PathRecoveryName(PetscInt row);
 /* Options -path_<name> on|off|auto: an input error when one is unknown or its value not allowed. */
 PetscErrorCode PathOptions(Path *);
 PetscErrorCode PathPrintHelp(MPI_Comm);

@@ -122,9 +122,9 @@ static PetscErrorCode Numbers_Private(App *app, Numbers *n)
   for (size_t i = 0; i < PETSC_STATIC_ARRAY_LENGTH(Reals); ++i)
     PetscCall(Number_Private(n, "", -1, Reals[i].name, NULL, (PetscReal *)(void *)((char *)app + Reals[i].at)));
   for (PetscInt i = 0; i < app->data->num_contacts; ++i) PetscCall(Number_Private(n, "subdivided.", i, "", &app->subdivided[i], NULL));
-  for (PetscInt i = 0; i < PathNumRecoveries(); ++i) {
-    PetscCall(Number_Private(n, "tried.", -1, PathRecoveryName(i), &app->path.recovery[i].tried, NULL));
-    PetscCall(Number_Private(n, "succeeded.", -1, PathRecoveryName(i), &app->path.recovery[i].succeeded, NULL));
+  for (PetscInt i = 0; i < PATH_RECOVERIES; ++i) {
+    PetscCall(Number_Private(n, "tried.", -1, PathRecoveries[i].name, &app->path.recovery[i].tried, NULL));
+    PetscCall(Number_Private(n, "succeeded.", -1, PathRecoveries[i].name, &app->path.recovery[i].succeeded, NULL));
   }
   if (n->from) PetscCall(PetscRealloc((size_t)app->num_missed * sizeof(*app->missed), &app->missed));
   for (PetscInt i = 0; i < app->num_missed; ++i) {

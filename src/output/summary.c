@@ -158,8 +158,8 @@ static void AddRecoveries_Private(cJSON *root, const Path *path)
 {
   cJSON *object = cJSON_AddObjectToObject(root, "recoveries");
 
-  for (PetscInt i = 0; i < PathNumRecoveries(); ++i) {
-    cJSON *row = cJSON_AddObjectToObject(object, PathRecoveryName(i));
+  for (PetscInt i = 0; i < PATH_RECOVERIES; ++i) {
+    cJSON *row = cJSON_AddObjectToObject(object, PathRecoveries[i].name);
     AddNumber_Private(row, "tried", (PetscReal)path->recovery[i].tried);
     AddNumber_Private(row, "succeeded", (PetscReal)path->recovery[i].succeeded);
   }

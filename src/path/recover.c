@@ -14,13 +14,6 @@
 #define LONG_CREEP 1e6   /* from here on as good as without viscosity */
 #define CREEP_SOLVES 20
 
-typedef struct {
-  const char *name, *help;
-  PetscBool   far; /* what it finds may lie on another branch of equilibria: where a shorter step failed too */
-  PetscBool (*applies)(const Path *, const State *guess);
-  PetscErrorCode (*run)(Path *, const PathLoop *load, PetscReal to, const State *guess, SolverReport *);
-} Recovery;
-
 static PetscErrorCode Begin_Private(Path *p, const State *guess)
 {
   PetscFunctionBegin;
@@ -125,7 +118,7 @@ static PetscErrorCode Viscous_Private(Path *p, const PathLoop *load, PetscReal t
 
 /* ---- the table --------------------------------------------------------------------------------------------------------------------- */
 
-static const Recovery Table[] = {
+const Recovery PathRecoveries[PATH_RECOVERIES] = {
     {"unfreeze", "once more from the start of the step, with the segmentation of contact no longer frozen", PETSC_FALSE, IsFrozen_Private, Unfreeze_Private},
     {"homotopy", "residual homotopy: the imbalance of a state carried over to another mesh is taken away in pieces", PETSC_FALSE, IsCarried_Private,
      Homotopy_Private},
@@ -133,18 +126,6 @@ static const Recovery Table[] = {
     {"cut", "on another mesh, the way of the load from the accepted state again, in pieces", PETSC_FALSE, IsCarried_Private, Cut_Private},
     {"viscous", "viscous regularisation: bodies creep to an equilibrium that is not near by, as when they snap", PETSC_TRUE, Always_Private, Viscous_Private},
 };
-enum { NUM_ROWS = PETSC_STATIC_ARRAY_LENGTH(Table) };
-_Static_assert((int)NUM_ROWS <= PATH_RECOVERIES, "PATH_RECOVERIES");
-
-PetscInt PathNumRecoveries(void)
-{
-  return NUM_ROWS;
-}
-
-const char *PathRecoveryName(PetscInt row)
-{
-  return Table[row].name;
-}
 
 /* Is it time for an equilibrium farther off? Bodies in contact snap, or flow far; the end of what a load can be is no such place, and the user is told. A
    shorter step failed too. Then again each time the failures have doubled: what was in vain at a step may not be at a much shorter one. */
@@ -156,7 +137,7 @@ static PetscBool FarNow_Private(const Path *p, const State *guess)
 
 static PetscBool Applies_Private(const Path *p, PetscInt row, const State *guess)
 {
-  const Recovery    *r    = &Table[row];
+  const Recovery    *r    = &PathRecoveries[row];
   const RecoveryMode mode = p->recovery[row].mode;
 
   if (mode == RECOVERY_OFF) return PETSC_FALSE;
@@ -171,14 +152,14 @@ static PetscErrorCode Try_Private(Path *p, PetscInt row, const PathLoop *load, P
 
   PetscFunctionBegin;
   ++p->recovery[row].tried;
-  PetscCall(Table[row].run(p, load, to, guess, &own));
-  PetscCall(PetscInfo(NULL, "recovery %s: %s\n", Table[row].name, own.converged ? "found" : own.reason));
+  PetscCall(PathRecoveries[row].run(p, load, to, guess, &own));
+  PetscCall(PetscInfo(NULL, "recovery %s: %s\n", PathRecoveries[row].name, own.converged ? "found" : own.reason));
   if (!own.converged) PetscFunctionReturn(PETSC_SUCCESS);
   ++p->recovery[row].succeeded;
   *report = own;
-  if (Table[row].far)
+  if (PathRecoveries[row].far)
     PetscCall(PetscPrintf(ForestComm(p->level->forest), "note: no equilibrium near by at t = %g; one farther off was found (-path_%s)\n",
-                          (double)p->level->state.t, Table[row].name));
+                          (double)p->level->state.t, PathRecoveries[row].name));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -186,21 +167,10 @@ PetscErrorCode PathRecover(Path *p, const PathLoop *load, PetscReal to, const St
 {
   PetscFunctionBegin;
   if (!guess) ++p->failures;
-  for (PetscInt row = 0; row < NUM_ROWS && !report->converged && !p->stopped; ++row) {
+  for (PetscInt row = 0; row < PATH_RECOVERIES && !report->converged && !p->stopped; ++row) {
     if (Applies_Private(p, row, guess)) PetscCall(Try_Private(p, row, load, to, guess, report));
   }
   if (!report->converged && !guess) PetscCall(PathRestore(p, &p->level->accepted));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode PathRecoverBy(Path *p, const char *name, const PathLoop *load, PetscReal to, const State *guess, SolverReport *report)
-{
-  PetscInt row = 0;
-
-  PetscFunctionBegin;
-  while (row < NUM_ROWS && strcmp(Table[row].name, name)) ++row;
-  PetscCheck(row < NUM_ROWS, PETSC_COMM_SELF, PETSC_ERR_ARG_OUTOFRANGE, "no recovery %s", name);
-  PetscCall(Try_Private(p, row, load, to, guess, report));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -209,16 +179,16 @@ PetscErrorCode PathRecoverBy(Path *p, const char *name, const PathLoop *load, Pe
 PetscErrorCode PathOptions(Path *p)
 {
   static const char *const modes[] = {"auto", "on", "off", "RecoveryMode", "", NULL};
-  const char              *known[NUM_ROWS];
+  const char              *known[PATH_RECOVERIES];
   char                     name[64], text[64], unknown[64] = "", **names, **values;
   PetscInt                 num;
 
   PetscFunctionBegin;
-  for (PetscInt row = 0; row < NUM_ROWS; ++row) {
+  for (PetscInt row = 0; row < PATH_RECOVERIES; ++row) {
     PetscBool set, found = PETSC_TRUE;
     PetscInt  mode = p->recovery[row].mode;
-    known[row]     = Table[row].name;
-    PetscCall(PetscSNPrintf(name, sizeof(name), "-" PREFIX "%s", Table[row].name));
+    known[row]     = PathRecoveries[row].name;
+    PetscCall(PetscSNPrintf(name, sizeof(name), "-" PREFIX "%s", PathRecoveries[row].name));
     PetscCall(PetscOptionsGetString(NULL, NULL, name, text, sizeof(text), &set));
     if (set) PetscCall(PetscEListFind(3, modes, text, &mode, &found));
     PetscCheckInput(found, "%s is '%s'; allowed: %s", name, text, MODES);
@@ -229,7 +199,7 @@ PetscErrorCode PathOptions(Path *p)
     if (!strncmp(names[i], PREFIX, strlen(PREFIX))) PetscCall(PetscStrncpy(unknown, names[i] + strlen(PREFIX), sizeof(unknown)));
   }
   PetscCall(PetscOptionsLeftRestore(NULL, &num, &names, &values));
-  PetscCheckInput(!unknown[0], "-" PREFIX "%s is no recovery; the nearest one is -" PREFIX "%s", unknown, NameNearest(unknown, NUM_ROWS, known));
+  PetscCheckInput(!unknown[0], "-" PREFIX "%s is no recovery; the nearest one is -" PREFIX "%s", unknown, NameNearest(unknown, PATH_RECOVERIES, known));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -241,9 +211,9 @@ PetscErrorCode PathPrintHelp(MPI_Comm comm)
   PetscCall(PetscPrintf(comm,
                         "\nRecoveries where a step or a finer mesh has no equilibrium that is found, in this order; on the command line only, default auto.\n"
                         "summary.json counts them. on: whenever possible, not only after a shorter step has failed too.\n\n"));
-  for (PetscInt row = 0; row < NUM_ROWS; ++row) {
-    PetscCall(PetscSNPrintf(name, sizeof(name), "-" PREFIX "%s", Table[row].name));
-    PetscCall(HelpRow(comm, name, MODES, Table[row].help));
+  for (PetscInt row = 0; row < PATH_RECOVERIES; ++row) {
+    PetscCall(PetscSNPrintf(name, sizeof(name), "-" PREFIX "%s", PathRecoveries[row].name));
+    PetscCall(HelpRow(comm, name, MODES, PathRecoveries[row].help));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -82,7 +82,10 @@ static void Follow(PetscReal size, PetscBool alone)
   OK(PathRestore(&path, &off));
   OK(PathAttempt(&path, &load, 1, &report));
   assert_int_equal(report.converged, alone);
-  OK(PathRecoverBy(&path, "homotopy", &load, 1, &off, &report));
+  for (PetscInt row = 0; row < PATH_RECOVERIES; ++row) path.recovery[row].mode = row == 1 ? RECOVERY_ON : RECOVERY_OFF;
+  assert_string_equal(PathRecoveries[1].name, "homotopy");
+  report.converged = PETSC_FALSE;
+  OK(PathRecover(&path, &load, 1, &off, &report));
   if (!report.converged) fail_msg("no solution: %s", report.reason);
   assert_int_equal(path.recovery[1].tried, 1);
   assert_int_equal(path.recovery[1].succeeded, 1);

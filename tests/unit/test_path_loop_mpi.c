@@ -1,5 +1,5 @@
-/* The loop that all continuation goes through: pieces are halved where they fail, grow where they are found at once, are given up when they are too short or too
-   many; what failed leaves no trace; recoveries are tried when they are due, and counted. The problem stays the same, what refuses is the metric. */
+/* The loop that all continuation goes through: pieces are halved where they fail, grow where they are found at once, are given up when they are too short or
+   too many; what failed leaves no trace; recoveries are tried when they are due, and counted. The problem stays the same, what refuses is the metric. */
 #include "patchfixture.h"
 #include "path.h"
 
@@ -110,14 +110,14 @@ static void GivesUp(void **state)
 /* The first failure of a step is answered by a shorter one; an equilibrium farther off is looked for at the second, the fourth, … */
 static void Recovers(void **state)
 {
-  const PetscInt viscous = PathNumRecoveries() - 1;
+  const PetscInt viscous = PATH_RECOVERIES - 1;
 
   for (PetscInt off = 0; off < 2; ++off) {
     PathLoop     loop = {.metric = &Load, .stop = 1, .piece = 1, .least = 0.1, .most = 1, .step = PETSC_TRUE};
     SolverReport report;
     Run          r;
     Create(&r);
-    assert_string_equal(PathRecoveryName(viscous), "viscous");
+    assert_string_equal(PathRecoveries[viscous].name, "viscous");
     r.path.recovery[viscous].mode = off ? RECOVERY_OFF : RECOVERY_AUTO;
     longest                       = PETSC_MAX_REAL;
     refusals                      = off ? -1 : 2;
