@@ -45,7 +45,7 @@ PetscErrorCode ProblemOrderCaps(const SceneData *, Forest, int8_t (**cap)[3]);
 PetscErrorCode ProblemCreate(const SceneData *, Forest, const int8_t leaf_order[], Problem *);
 PetscErrorCode ProblemDestroy(Problem *);
 /* MechanicsFindInverted over all ranks. Collective. */
-PetscErrorCode ProblemFindInverted(Problem, PetscInt *order, PetscReal X[3]);
+PetscErrorCode ProblemFindInverted(Problem, PetscInt *order, PetscReal X[3], PetscInt *leaf);
 /* MechanicsFindConflict over all ranks. Collective. */
 PetscErrorCode ProblemFindConflict(Problem, PetscReal t, size_t size, char words[]);
 
@@ -60,7 +60,7 @@ PetscErrorCode ProblemGetMatrix(Problem, Mat *);
    problem sets it. Collective. */
 PetscErrorCode ProblemSetState(Problem, const State *);
 /* Forces hold all lines of mortar sides from now on, until another state is set (State.lines_held). *changed: there are pressed facets, at the last evaluation,
-   whose forces are others then; else, and under drag, nothing is done. Collective. */
+   whose forces are others then; else, and under viscous regularisation, nothing is done. Collective. */
 PetscErrorCode ProblemHoldLines(Problem, PetscBool *changed);
 
 /* Prescribed motion: SetTime fixes the target; Jump applies it at once (no lift); otherwise the part not yet applied enters the next linear solve. */
@@ -69,10 +69,10 @@ PetscErrorCode ProblemJump(Problem);
 /* Apply this share of what is left to the target. */
 PetscErrorCode ProblemApplyShare(Problem, PetscReal share);
 
-/* Drag against the deformation since x = from, with the prescribed motion as applied now (MechanicsSetDrag; rate 0: none, from NULL); the energy that it takes
-   on the way to x. Collective. */
-PetscErrorCode ProblemSetDrag(Problem, PetscReal rate, Vec from);
-PetscErrorCode ProblemDragWork(Problem, Vec x, PetscReal *work);
+/* Viscous forces against the deformation since x = from, with the prescribed motion as applied now (MechanicsSetViscosity; rate 0: none, from NULL); the energy
+   that they dissipate on the way to x. Collective. */
+PetscErrorCode ProblemSetViscosity(Problem, PetscReal rate, Vec from);
+PetscErrorCode ProblemViscousWork(Problem, Vec x, PetscReal *work);
 
 /* Are pressures of incompressible cells among the unknowns? Then neither condensation nor multigrid is to be had. */
 PetscErrorCode ProblemIsIncompressible(Problem, PetscBool *);

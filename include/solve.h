@@ -22,7 +22,7 @@ typedef struct {
 } SolverReport;
 
 /* SNES of the registered type "contactnewton" over the problem's residual and tangent. Options: snes_*, ksp_*, pc_*, mat_mumps_*, and
-   -solve_rtol (1e-10: residual against the nodal forces), -solve_max_it (25), -solve_active_set_passes (10), -solve_cuts (6), -solve_descent (yes),
+   -solve_rtol (1e-10: residual against the nodal forces), -solve_max_it (25), -solve_active_set_passes (10), -solve_cuts (6),
    -solve_condense auto|yes|no (auto: from order 3 in the plane and 4 in space the unknowns of nodes inside cells are eliminated there, before the linear
    solver), -solve_linear auto|direct|iterative (auto: multigrid and GMRES for large three-dimensional problems of compressible material with a symmetric
    tangent; a factorisation where that fails and everywhere else), -solve_factor auto|single|double (precision of factors; auto: single in three dimensions from
@@ -43,16 +43,10 @@ PetscErrorCode SolverSolve(Solver, State *, SolverReport *);
 
 /* The same, where SolverSolve finds nothing, by descent: from the state at the start of the step, with the prescribed motion put in by the bodies alone, down
    to a minimum of the augmented Lagrangian (ProblemMerit), each iterate lower than the one before; multipliers follow; then SolverSolve from there, as a rule
-   after one descent or two. Slow, and nothing cycles. Descends: is it to be had (ProblemHasEnergy, -solve_descent, factors of MUMPS)? Collective. */
-PetscErrorCode SolverDescends(Solver, PetscBool *yes);
+   after one descent or two. Slow, and nothing cycles. Collective. */
 PetscErrorCode SolverDescend(Solver, State *, SolverReport *);
 /* From an equilibrium that is unstable (report.unstable) to one that is stable, or less so: along the eigenvector of the lowest eigenvalue, where the energy
    falls more, and by descent. Not converged: there is no such eigenvalue, or no equilibrium was found. HasDescent: is there an energy, and are there the
    factors? Collective. */
 PetscErrorCode SolverHasDescent(Solver, PetscBool *yes);
 PetscErrorCode SolverStabilise(Solver, State *, SolverReport *);
-
-/* The same from a state far from equilibrium, such as one carried over from another mesh: a share of its imbalance of forces and gaps (ProblemNoteImbalance),
-   falling from 1 to 0, counts as none. It is a path that starts at the state given. The prescribed motion must be applied. Pieces of the way are halved where
-   Newton's method fails, down to 1/64, and doubled where it does not. The report sums up all solves. */
-PetscErrorCode SolverSettle(Solver, State *, SolverReport *);

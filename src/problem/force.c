@@ -108,7 +108,7 @@ PetscErrorCode ProblemHoldLines(Problem p, PetscBool *changed)
 
   PetscFunctionBegin;
   *changed = PETSC_FALSE;
-  if (p->dim == 2 || p->dragged || p->scene->mechanics.kinematics == KINEMATICS_SMALL) PetscFunctionReturn(PETSC_SUCCESS);
+  if (p->dim == 2 || p->viscous || p->scene->mechanics.kinematics == KINEMATICS_SMALL) PetscFunctionReturn(PETSC_SUCCESS);
   for (PetscInt i = 0; i < p->num_contacts && !mine; ++i) mine = (PetscBool)(p->contacts[i].side[0].order && Movable_Private(&p->contacts[i]));
   PetscCallMPI(MPI_Allreduce(&mine, changed, 1, COMPAT_MPI_BOOL, MPI_LOR, p->comm));
   for (PetscInt i = 0; i < p->num_contacts && *changed; ++i) PetscCall(ContactPairHoldLines(p->contacts[i].pair, PETSC_TRUE));

@@ -147,7 +147,7 @@ struct _p_Problem {
   PetscObjectState scatter_state; /* pattern the places belong to */
   PetscBool        symmetric;     /* tangent in the symmetric form */
   PetscBool        lifting;
-  PetscBool        dragged; /* there is drag (ProblemSetDrag) */
+  PetscBool        viscous; /* there are viscous forces (ProblemSetViscosity) */
   Vec              lift;
   PetscReal        t;
   MPI_Datatype     unit[4]; /* as many reals */

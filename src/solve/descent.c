@@ -34,14 +34,6 @@ PetscErrorCode SolverHasDescent(Solver s, PetscBool *yes)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SolverDescends(Solver s, PetscBool *yes)
-{
-  PetscFunctionBegin;
-  PetscCall(SolverHasDescent(s, yes));
-  if (!s->descent) *yes = PETSC_FALSE;
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 /* Options of the factors before they are made: all pivots are counted (inertia.c), more room. */
 static PetscErrorCode FactorOption_Private(const char *name, const char *value)
 {

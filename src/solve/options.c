@@ -20,7 +20,6 @@ static const SolverOption Options[] = {
     {"-solve_max_it", KIND_COUNT, COUNT, AT(max_it), "Newton iterations before a step is given up; default 25"},
     {"-solve_active_set_passes", KIND_COUNT, COUNT, AT(passes), "active-set passes against one linearisation; default 10"},
     {"-solve_cuts", KIND_COUNT, COUNT, AT(cuts), "halvings of a Newton step that leaves the domain; default 6"},
-    {"-solve_descent", KIND_BOOL, "0|1|false|true|no|yes", AT(descent), "where a load step fails, descend to a minimum of the energy; default yes"},
     {"-solve_symmetric", KIND_BOOL, "0|1|false|true|no|yes", AT(symmetric),
      "LDL^T of the tangent's symmetric form, or LU of the exact one; default: where possible"},
     {"-solve_linear", KIND_CHOICE, "auto|direct|iterative", AT(linear), "factorisation, or multigrid and GMRES; default auto: by size"},

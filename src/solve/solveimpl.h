@@ -25,7 +25,6 @@ struct _p_Solver {
   PetscReal    *pressure;           /* of the state being solved, borrowed during SolverSolve */
   PetscReal     rtol;
   PetscBool     symmetric; /* LDL^T of the symmetric form */
-  PetscBool     descent;   /* may be tried (descent.c) */
   PetscInt      max_it, passes, cuts;
   LinearKind    linear;   /* as asked */
   FactorKind    factor;   /* as asked */

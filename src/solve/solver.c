@@ -39,7 +39,6 @@ static PetscErrorCode Options_Private(Solver s)
   s->passes = 10;
   s->cuts   = 6;
 
-  s->descent     = PETSC_TRUE;
   s->linear      = LINEAR_AUTO;
   s->factor      = FACTOR_AUTO;
   s->linear_rtol = 1e-9;
