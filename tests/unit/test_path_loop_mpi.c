@@ -107,10 +107,10 @@ static void GivesUp(void **state)
   }
 }
 
-/* The first failure of a step is answered by a shorter one; an equilibrium farther off is looked for at the second, the fourth, … */
+/* Without descent, the first failure of a step is answered by a shorter one; an equilibrium farther off is looked for at the second, the fourth, … */
 static void Recovers(void **state)
 {
-  const PetscInt viscous = PATH_RECOVERIES - 1;
+  const PetscInt viscous = PATH_RECOVERIES - 1, descent = viscous - 1;
 
   for (PetscInt off = 0; off < 2; ++off) {
     PathLoop     loop = {.metric = &Load, .stop = 1, .piece = 1, .least = 0.1, .most = 1, .step = PETSC_TRUE};
@@ -118,6 +118,8 @@ static void Recovers(void **state)
     Run          r;
     Create(&r);
     assert_string_equal(PathRecoveries[viscous].name, "viscous");
+    assert_string_equal(PathRecoveries[descent].name, "descent");
+    r.path.recovery[descent].mode = RECOVERY_OFF;
     r.path.recovery[viscous].mode = off ? RECOVERY_OFF : RECOVERY_AUTO;
     longest                       = PETSC_MAX_REAL;
     refusals                      = off ? -1 : 2;
