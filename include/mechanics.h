@@ -81,17 +81,17 @@ PetscErrorCode MechanicsDestroy(Mechanics *);
 /* Is a cell of this rank inverted in the reference mesh (Jacobian determinant not positive at an integration point)? Then its order and a node of it; order 0:
    none is. Cells are images of the nodes of their order, which hang from coarser neighbours: a valid curved coarse mesh does not rule it out. Forces of such a
    mesh must not be asked for. Not collective. */
-PetscErrorCode MechanicsFindInverted(Mechanics, PetscInt *order, PetscReal X[3]);
+PetscErrorCode MechanicsFindInverted(Mechanics, PetscInt *order, PetscReal X[3], PetscInt *leaf);
 
 /* Pseudo-time: evaluates dead loads and prescribed values. */
 PetscErrorCode MechanicsSetTime(Mechanics, PetscReal t);
 /* Part (0, 1] of the diagonal that bodies without support get in the tangent; 1 at first. */
 PetscErrorCode MechanicsLoosen(Mechanics, PetscReal part);
-/* From now on residual and tangent have drag against what cells deform since the displacements from[] (local array; a copy is taken): rate 1 is about as stiff
-   as the material; 0: none, from is not looked at. Not collective. */
-PetscErrorCode MechanicsSetDrag(Mechanics, PetscReal rate, const PetscReal from[]);
+/* From now on residual and tangent have viscous forces against what cells deform since the displacements from[] (local array; a copy is taken): rate 1 is about
+   as stiff as the material; 0: none, from is not looked at. Not collective. */
+PetscErrorCode MechanicsSetViscosity(Mechanics, PetscReal rate, const PetscReal from[]);
 /* Its forces at u times the motion since then: this rank's part of the energy that it takes. Not collective. */
-PetscErrorCode MechanicsDragWork(Mechanics, const PetscReal u[], PetscReal *work);
+PetscErrorCode MechanicsViscousWork(Mechanics, const PetscReal u[], PetscReal *work);
 /* Sum of q q^T over the supported directions q of the nodes of each body and those joined to it (axisymmetric: the radial direction is supported):
    hold[num_bodies][9]. */
 PetscErrorCode MechanicsGetHold(Mechanics, const PetscReal **hold);
@@ -125,6 +125,9 @@ typedef struct {
 /* Add the residual (internal minus external forces) at displacement u (local array, prescribed dofs set) to r (local array, prescribed dofs included:
    reactions), with these element pressures. NULL: those that u implies, whose round-off is that of det F times the bulk modulus; so is that of the residual. */
 PetscErrorCode MechanicsResidual(Mechanics, const PetscReal u[], const PetscReal pressure[], PetscReal r[], MechanicsStatus *);
+
+/* Work of dead loads on the displacements u (local array): this rank's part. Not collective. */
+PetscErrorCode MechanicsDeadWork(Mechanics, const PetscReal u[], PetscReal *work);
 
 /* Receives K[num][num] for local dofs; of an owned cell (its masters in order, all but those inside it where they are condensed) or of a load (cell -1). */
 typedef PetscErrorCode (*MatrixSink)(void *context, PetscInt cell, PetscInt num, const PetscInt dofs[], const PetscReal K[]);

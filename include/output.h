@@ -1,6 +1,7 @@
 /* Floor 8. Files of a run: HDF5 + XDMF field files, csv tables, summary.json. */
 #pragma once
 #include "diagnose.h"
+#include "path.h"
 #include "transfer.h"
 
 /* ---- field files (output/writer.c): fields.xdmf + one HDF5 file per state -------------------------------------------- */
@@ -123,7 +124,7 @@ PetscErrorCode ProbesEvaluate(Probes, Problem, Vec x, ProbeValue value[]);
    newton_iterations, active_nodes, estimated_error, estimate, energy, min_det, min_gap, contact_force, seconds, accepted. Columns of history.csv, names as in
    summary.json:
    - step, t, dt, pass (of the accepted solution), step_cuts, cells, dofs, newton_iterations, active_nodes, estimated_error, energy, min_det, min_gap,
-     contact_force, contact_imbalance, moment_imbalance, support_imbalance, seconds, drag_work (energy that drag took where no equilibrium was near by),
+     contact_force, contact_imbalance, moment_imbalance, support_imbalance, seconds, viscous_work (energy that viscous regularisation dissipated),
      lines_held (1: contact forces hold lines of mortar sides, State.lines_held);
    - with plastic materials plastic.strain (largest, surfaces included), plastic.work, and body.<name>.mean_plastic_strain of each body that flows: int alpha dV
    / int dV over its reference volume, which converges where the largest, at a notch, does not;
@@ -148,14 +149,13 @@ typedef struct {
   const char     *adapt_stop;      /* why the last adaptation ended: "tolerance", "max_passes", "max_cells", …; NULL or "": there was none */
   PetscReal       t, seconds;      /* pseudo-time reached; wall time so far */
   PetscInt        load_steps, step_cuts, adapt_passes, newton_iterations, active_set_changes, active_set_cycles, factorisations, single_failures;
-  PetscInt        relaxed_steps; /* to an equilibrium that was not near by, under drag */
-  PetscReal       drag_work;     /* energy that drag took in them */
-  PetscReal       unstable;      /* solutions found to be unstable equilibria; NaN: not known of any */
-  Problem         problem;       /* of the last accepted state; NULL: nothing was solved */
-  const State    *state;         /* with problem */
-  const Balance  *balance;       /* with problem; NULL: no figures */
-  const Estimate *estimate;      /* NULL: not estimated */
-  Probes          probes;        /* NULL: none */
+  const Path     *path;     /* recoveries and what they took; NULL: none */
+  PetscReal       unstable; /* solutions found to be unstable equilibria; NaN: not known of any */
+  Problem         problem;  /* of the last accepted state; NULL: nothing was solved */
+  const State    *state;    /* with problem */
+  const Balance  *balance;  /* with problem; NULL: no figures */
+  const Estimate *estimate; /* NULL: not estimated */
+  Probes          probes;   /* NULL: none */
 } RunSummary;
 
 /* Write summary.json into the scene's output directory. Unknown figures are null. peak_memory_mb is the sum over ranks,

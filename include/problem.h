@@ -45,7 +45,7 @@ PetscErrorCode ProblemOrderCaps(const SceneData *, Forest, int8_t (**cap)[3]);
 PetscErrorCode ProblemCreate(const SceneData *, Forest, const int8_t leaf_order[], Problem *);
 PetscErrorCode ProblemDestroy(Problem *);
 /* MechanicsFindInverted over all ranks. Collective. */
-PetscErrorCode ProblemFindInverted(Problem, PetscInt *order, PetscReal X[3]);
+PetscErrorCode ProblemFindInverted(Problem, PetscInt *order, PetscReal X[3], PetscInt *leaf);
 /* MechanicsFindConflict over all ranks. Collective. */
 PetscErrorCode ProblemFindConflict(Problem, PetscReal t, size_t size, char words[]);
 
@@ -60,7 +60,7 @@ PetscErrorCode ProblemGetMatrix(Problem, Mat *);
    problem sets it. Collective. */
 PetscErrorCode ProblemSetState(Problem, const State *);
 /* Forces hold all lines of mortar sides from now on, until another state is set (State.lines_held). *changed: there are pressed facets, at the last evaluation,
-   whose forces are others then; else, and under drag, nothing is done. Collective. */
+   whose forces are others then; else, and under viscous regularisation, nothing is done. Collective. */
 PetscErrorCode ProblemHoldLines(Problem, PetscBool *changed);
 
 /* Prescribed motion: SetTime fixes the target; Jump applies it at once (no lift); otherwise the part not yet applied enters the next linear solve. */
@@ -69,10 +69,10 @@ PetscErrorCode ProblemJump(Problem);
 /* Apply this share of what is left to the target. */
 PetscErrorCode ProblemApplyShare(Problem, PetscReal share);
 
-/* Drag against the deformation since x = from, with the prescribed motion as applied now (MechanicsSetDrag; rate 0: none, from NULL); the energy that it takes
-   on the way to x. Collective. */
-PetscErrorCode ProblemSetDrag(Problem, PetscReal rate, Vec from);
-PetscErrorCode ProblemDragWork(Problem, Vec x, PetscReal *work);
+/* Viscous forces against the deformation since x = from, with the prescribed motion as applied now (MechanicsSetViscosity; rate 0: none, from NULL); the energy
+   that they dissipate on the way to x. Collective. */
+PetscErrorCode ProblemSetViscosity(Problem, PetscReal rate, Vec from);
+PetscErrorCode ProblemViscousWork(Problem, Vec x, PetscReal *work);
 
 /* Are pressures of incompressible cells among the unknowns? Then neither condensation nor multigrid is to be had. */
 PetscErrorCode ProblemIsIncompressible(Problem, PetscBool *);
@@ -263,6 +263,23 @@ PetscErrorCode ProblemPending(Problem, PetscReal *remaining);
    is in the domain. Collective. */
 PetscErrorCode ProblemNoteImbalance(Problem, Vec x, PetscBool *usable);
 PetscErrorCode ProblemLeaveImbalance(Problem, PetscReal share);
+
+/* energy.c. The augmented Lagrangian Phi(u; lambda), with penalties kappa_j = factor c_j. HasEnergy: is there one? Not with follower loads, plastic flow,
+   pressures among the unknowns, small kinematics, drag. Not collective. */
+PetscErrorCode ProblemHasEnergy(Problem, PetscBool *yes);
+/* Phi at the displacements of x and the prescribed motion as applied, and its gradient (NULL: not wanted; 0 but for displacements). lambda: multipliers, in a
+   vector of the problem whose other entries are not looked at. The multipliers of x become max(0, lambda_j - kappa_j g_j). merit: the largest number where
+   status->bad. Collective. */
+PetscErrorCode ProblemMerit(Problem, PetscReal factor, Vec lambda, Vec x, Vec gradient, PetscReal *merit, ProblemStatus *status);
+/* At the last ProblemMerit, in a vector of the problem: overlap at each node over its extent along the surface, 0: open, -1: it meets nothing. Not collective.
+ */
+PetscErrorCode ProblemMeritDepth(Problem, Vec depth);
+/* The Hessian of Phi as a matrix that has it for its Schur complement (symmetric; the multipliers' block is negative definite), at x as ProblemMerit left it,
+   into the problem's matrix. With lift: of the bodies alone, without contact, and in lift the forces of the prescribed motion still to come. Collective. */
+PetscErrorCode ProblemMeritTangent(Problem, PetscReal factor, Vec x, Vec lift, PetscBool *bad);
+/* rhs = -(gradient + lift) of that matrix (lift NULL: none); dx from its solution y. Collective. */
+PetscErrorCode ProblemMeritSide(Problem, Vec gradient, Vec lift, Vec rhs);
+PetscErrorCode ProblemMeritRecover(Problem, Vec y, Vec dx);
 
 /* Forces of the supports in a state, which is set: reaction[num_boundaries][3]; contact force and moment about the origin on the nonmortar side:
    force[num_contacts][3], moment[num_contacts][3]; all ranks. Evaluates the residual. */

@@ -9,7 +9,7 @@ typedef struct {
   PetscReal   end, step, step_min, step_max; /* pseudo-time */
   PetscInt    max_steps;
   LoadControl control;
-  PetscBool   relax;             /* where no equilibrium is near by, look for one farther off */
+  PetscBool   stable;            /* where an equilibrium is unstable, a stable one is looked for */
   PetscReal   stop_displacement; /* the run ends when a displacement component has reached this; 0: it does not */
 } LoadSpec;
 

@@ -15,6 +15,8 @@ typedef struct {
   PetscInt      set_cycles;      /* linearisations whose active sets repeated, and 1 when Newton's own did */
   PetscBool     held_lines;      /* forces began to hold lines of mortar sides in it (State.lines_held) */
   PetscInt      unstable; /* converged: 1 when the last tangent factorised goes down in energy along some motion the constraints allow, -1: not known, else 0 */
+  PetscInt      descents; /* of SolverDescend, each with multipliers of its own */
+  PetscInt      descent_iterations; /* their tangent assemblies */
   PetscReal     residual, scale;
   ProblemStatus status;
 } SolverReport;
@@ -39,7 +41,12 @@ PetscErrorCode SolverPrintHelp(MPI_Comm);
    no use (restore a copy). */
 PetscErrorCode SolverSolve(Solver, State *, SolverReport *);
 
-/* The same from a state far from equilibrium, such as one carried over from another mesh: a share of its imbalance of forces and gaps (ProblemNoteImbalance),
-   falling from 1 to 0, counts as none. It is a path that starts at the state given. The prescribed motion must be applied. Pieces of the way are halved where
-   Newton's method fails, down to 1/64, and doubled where it does not. The report sums up all solves. */
-PetscErrorCode SolverSettle(Solver, State *, SolverReport *);
+/* The same, where SolverSolve finds nothing, by descent: from the state at the start of the step, with the prescribed motion put in by the bodies alone, down
+   to a minimum of the augmented Lagrangian (ProblemMerit), each iterate lower than the one before; multipliers follow; then SolverSolve from there, as a rule
+   after one descent or two. Slow, and nothing cycles. Collective. */
+PetscErrorCode SolverDescend(Solver, State *, SolverReport *);
+/* From an equilibrium that is unstable (report.unstable) to one that is stable, or less so: along the eigenvector of the lowest eigenvalue, where the energy
+   falls more, and by descent. Not converged: there is no such eigenvalue, or no equilibrium was found. HasDescent: is there an energy, and are there the
+   factors? Collective. */
+PetscErrorCode SolverHasDescent(Solver, PetscBool *yes);
+PetscErrorCode SolverStabilise(Solver, State *, SolverReport *);

@@ -139,8 +139,8 @@ PetscErrorCode AppAdvise(const App *app)
   if (whole)
     PetscCall(
         PetscPrintf(app->comm, "note: the path on the mesh before came to its end; its results are in %s/" OUTPUT_ASIDE "\n", app->data->output.directory));
-  if (!app->failure && !app->stopped && !app->restart[0]) PetscCall(Untouched_Private(app));
-  if (stuck || (app->failure && app->cuts_in_step > 0)) PetscCall(Worst_Private(app));
+  if (!app->failure && !app->path.stopped && !app->restart[0]) PetscCall(Untouched_Private(app));
+  if (stuck || (app->failure && app->path.cuts_in_step > 0)) PetscCall(Worst_Private(app));
   if (stuck) PetscCall(Linear_Private(app));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -3,25 +3,22 @@
 #include "diagnose.h"
 #include "estimate.h"
 #include "output.h"
-#include "solve.h"
+#include "path.h"
 #include "transfer.h"
 
-#define EASY_ITERATIONS 6 /* a step that took no more Newton iterations lets the next one grow */
-#define GROWTH 1.5
 /* Reasons to end adaptation that decide how a run has ended (verdict.c). */
 #define WITHIN_TOLERANCE "tolerance"
 #define UNSTRESSED "free of stress"
 #define FACES_FINE "contact faces fine enough"
 #define NONE_FINER "no equilibrium found on a finer mesh"
+#define NOTHING_LEFT "nothing left to refine"
+#define INVERTS "refinement inverts a curved cell"
 
-/* The part of a run that lives on one mesh; replaced as a whole at each adaptation. */
+/* A load step whose estimated error stayed above the tolerance: at t, and why; norm: largest energy norm from it to the step at hand. */
 typedef struct {
-  Forest  forest;
-  Problem problem;
-  Solver  solver;
-  State   state;    /* being computed; its history is that of the start of the step (or of the last piece of it) */
-  State   accepted; /* at the end of the last accepted load step */
-} Level;
+  PetscReal t, error, norm;
+  PetscInt  cause; /* verdict.c */
+} Missed;
 
 typedef struct {
   MPI_Comm         comm;
@@ -35,31 +32,27 @@ typedef struct {
   Writer           writer;
   History          history;
   Monitor          monitor;
-  PetscInt         path; /* adapt.repeat: path: how often it has begun again; else 0 */
-  Estimate         most; /* with it: of the steps of this path that were above the tolerance */
-  PetscInt       load_steps, step_cuts, adapt_passes, newton_iterations, passes_in_step, iterations_in_step, cuts_in_step, set_changes, set_cycles, told_cycles;
-  PetscInt       factorisations, single_failures, unstable, judged; /* judged: solutions of which it is known whether they are stable */
-  ProblemStatus  status;                                            /* of the last solution */
-  PetscLogDouble start;
-  PetscReal      arc, arc_first;                            /* along a path: length of the next step, of the first one; 0: not yet */
-  PetscReal      haste;                                     /* displacement per time in the last step, over that since the start */
-  PetscInt       relaxed_steps;                             /* steps to an equilibrium that was not near by */
-  PetscReal      drag_work, all_drag_work;                  /* energy that drag took in the step at hand, in all */
-  const char    *failure;                                   /* why the run gave up, NULL while it goes on */
-  PetscBool      stopped;                                   /* the run was asked to stop */
-  char           reason[PETSC_MAX_PATH_LEN + MORTISE_NAME]; /* why it was, or what its solutions lack */
-  const char    *adapt_stop;                                /* why the last adaptation ended: tolerance, max_passes, max_cells, … */
-  PetscReal      above_error;                               /* largest estimate of a load step that stayed above the tolerance; 0: none did */
-  PetscInt       gave_up;                                   /* 1: in one of them a mesh as fine as asked had no solution that was found, or could not be made */
-  PetscBool      inversion_told;                            /* that refinement would invert a cell, once */
-  PetscInt      *subdivided;                                /* owned [num_contacts] by contact.<pair>.subdivide: auto, so often, or tried */
-  PetscBool     *touched;                                   /* owned [num_contacts] a node was in contact at some time of this run */
-  ReportRow      last;
-  PetscReal      dt;                                                          /* length of the next load step */
-  Checkpoint     snapshot;                                                    /* owned: copy of the state at the end of the last accepted load step */
-  PetscInt       snapshot_revision;                                           /* of the forest it stands on */
-  PetscBool      written;                                                     /* the file is this copy */
-  char           checkpoint[PETSC_MAX_PATH_LEN], restart[PETSC_MAX_PATH_LEN]; /* file to write; file to go on from, "": none */
+  Path             path;
+  PetscInt         repeats; /* adapt.repeat: path: how often it has begun again; else 0 */
+  Estimate         most;    /* with it: of the steps of this path that were above the tolerance */
+  PetscInt         load_steps, adapt_passes, passes_in_step, told_cycles;
+  PetscLogDouble   start;
+  PetscReal        arc, arc_first;                            /* along a path: length of the next step, of the first one; 0: not yet */
+  PetscReal        speed;                                     /* limit-point indicator: displacement per time in the last step, over that since the start */
+  const char      *failure;                                   /* why the run gave up, NULL while it goes on */
+  char             reason[PETSC_MAX_PATH_LEN + MORTISE_NAME]; /* why it was, or what its solutions lack */
+  const char      *adapt_stop;                                /* why the last adaptation ended: tolerance, max_passes, max_cells, … */
+  PetscInt         num_missed;
+  Missed          *missed;         /* owned [num_missed] */
+  PetscBool        inversion_told; /* that refinement would invert a cell, once */
+  PetscInt        *subdivided;     /* owned [num_contacts] by contact.<pair>.subdivide: auto, so often, or tried */
+  PetscBool       *touched;        /* owned [num_contacts] a node was in contact at some time of this run */
+  ReportRow        last;
+  PetscReal        dt;                                                          /* length of the next load step */
+  Checkpoint       snapshot;                                                    /* owned: copy of the state at the end of the last accepted load step */
+  PetscInt         snapshot_revision;                                           /* of the forest it stands on */
+  PetscBool        written;                                                     /* the file is this copy */
+  char             checkpoint[PETSC_MAX_PATH_LEN], restart[PETSC_MAX_PATH_LEN]; /* file to write; file to go on from, "": none */
 } App;
 
 /* start.c: PetscInitialize, cheaply for a single process. */
@@ -68,8 +61,6 @@ PetscErrorCode AppInitialize(int argc, char **argv);
 PetscErrorCode AppRun(App *);
 /* adaptstep.c: after a solution at the current time, refine and solve again until the tolerance or a limit is met. */
 PetscErrorCode AppAdapt(App *);
-/* refine.c: the prescribed motion as it was at time t. Collective. */
-PetscErrorCode AppPrescribeAt(Problem, PetscReal t);
 /* Layers at contact faces to be subdivided first (subdivide: auto); layers->split NULL: none. Where nothing else is to be adapted, adaptation ends with the
    last one: app->adapt_stop. */
 PetscErrorCode AppLayers(App *, const Estimate *, MarkList *layers);
@@ -77,8 +68,9 @@ PetscErrorCode AppLayers(App *, const Estimate *, MarkList *layers);
    old one is the caller's; *adapted false when nothing may or need be refined, or (refused) the mesh could not be made, and app->adapt_stop says why.
    Collective. */
 PetscErrorCode AppRefine(App *, const Estimate *, MarkList *layers, PetscBool afresh, PetscBool *adapted, PetscBool *refused);
-/* verdict.c: adaptation has ended at app->adapt_stop with this estimate; gave_up: for want of a finer mesh with a solution, not by a limit. */
-void AppJudge(App *, PetscReal error, PetscBool gave_up);
+/* verdict.c: adaptation of the state has ended at app->adapt_stop with this estimated error (absolute) and energy norm; refused: the mesh could not be refined
+   as asked. */
+PetscErrorCode AppJudge(App *, PetscReal error, PetscReal norm, PetscBool refused);
 /* Status of the run as in summary.json, and the words that go with it, "" when there is nothing to say; valid as long as the run. */
 const char    *AppStatus(const App *);
 PetscErrorCode AppReason(App *, const char **reason);
@@ -94,21 +86,6 @@ PetscErrorCode AppRepeat(App *, PetscBool *again);
 PetscErrorCode AppTellFree(const App *);
 /* At the end of a run: what there is besides, what looks wrong, and what may help. Collective. */
 PetscErrorCode AppAdvise(const App *);
-/* arcstep.c. A step of app->arc along the path; app->failure is set when there is none. Collective. */
-PetscErrorCode AppPathStep(App *, PetscBool *ok);
-/* The state is about to become the accepted one: the path goes on in the direction from there to here. Collective. */
-PetscErrorCode AppPathAccept(App *);
-/* Where a step of dt from t ends: not beyond the end, nor beyond a corner of an amplitude. */
-PetscReal AppStepEnd(const SceneData *, PetscReal t, PetscReal dt);
-/* Count what a solve took. */
-void AppCount(App *, const SolverReport *);
-/* One solve from level.state for time t; counted; converged: level.state is at t. Collective. */
-PetscErrorCode AppAttempt(App *, PetscReal t, SolverReport *);
-/* Bring level.state from its time to t on the current mesh, in as many pieces as it takes, all but the last committed; *ok false when even one of length
- * `smallest` failed. */
-PetscErrorCode AppAdvance(App *, PetscReal t, PetscReal smallest, PetscBool *ok);
-/* relax.c: from the accepted state to an equilibrium at t that may be far from it; app->drag_work is what drag took on the way. Collective. */
-PetscErrorCode AppRelax(App *, PetscReal t, PetscBool *ok);
 PetscErrorCode AppEstimate(App *);
 /* coupling.c: pairs of leaves that face each other in contact, each once, the same on every rank (one rank: none); freed by the caller. Collective. */
 PetscErrorCode AppContactPairs(App *, PetscInt *num, PetscInt (**pairs)[2]);
@@ -136,9 +113,3 @@ PetscErrorCode AppSummary(App *, const char *status, const char *reason);
 PetscErrorCode AppOpenFiles(App *);
 /* Would those in output.directory be refused to go on with? Writes nothing. Collective. */
 PetscErrorCode AppCheckFiles(App *);
-
-PetscErrorCode LevelCreate(const SceneData *, Forest, const int8_t leaf_order[], PetscReal t, Level *);
-/* An input error when a cell of it is inverted in the reference mesh, a value at its time is not finite, or supports contradict each other until the end.
-   Collective. */
-PetscErrorCode LevelCheck(const SceneData *, const Level *);
-PetscErrorCode LevelDestroy(Level *);

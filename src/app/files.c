@@ -17,7 +17,7 @@ static PetscErrorCode ResumeFields_Private(App *app)
 
 static PetscErrorCode Tables_Private(App *app)
 {
-  const TablePlace place = {.step = app->load_steps, .t = app->level.accepted.t, .path = app->data->adapt.repeat == REPEAT_PATH ? app->path : -1};
+  const TablePlace place = {.step = app->load_steps, .t = app->level.accepted.t, .path = app->data->adapt.repeat == REPEAT_PATH ? app->repeats : -1};
 
   PetscFunctionBegin;
   PetscCall(HistoryCreate(app->comm, app->data, app->probes, app->restart[0] ? &place : NULL, &app->history));
@@ -28,7 +28,7 @@ PetscErrorCode AppOpenFiles(App *app)
 {
   PetscFunctionBegin;
   PetscCall(OutputDirectoryCreate(app->comm, app->data->output.directory));
-  if (app->restart[0] && app->path > 0 && app->load_steps == 0) PetscCall(OutputFinishAside(app->comm, app->data->output.directory, app->path));
+  if (app->restart[0] && app->repeats > 0 && app->load_steps == 0) PetscCall(OutputFinishAside(app->comm, app->data->output.directory, app->repeats));
   if (app->restart[0]) PetscCall(ResumeFields_Private(app));
   PetscCall(Tables_Private(app));
   if (app->data->output.fields && !app->writer) PetscCall(WriterCreate(app->comm, app->data->output.directory, &app->writer));

@@ -85,6 +85,7 @@ static PetscErrorCode Close_Private(App *app)
   PetscCall(LevelDestroy(&app->level));
   PetscCall(CheckpointDestroy(&app->snapshot));
   PetscCall(PetscFree2(app->subdivided, app->touched));
+  PetscCall(PetscFree(app->missed));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -98,8 +99,11 @@ static PetscErrorCode Solve_Private(int argc, char **argv, int *status)
   PetscCheckInput(argc > 1, "no scene was named; say mortise SCENE.yml, or mortise -help");
   PetscCall(SceneCreate(app.comm, argc, argv, &app.scene));
   PetscCall(SceneGetData(app.scene, &app.data));
+  app.path.level = &app.level;
+  app.path.data  = app.data;
   PetscCall(AppOptions(&app));
   PetscCall(SolverCheckOptions());
+  PetscCall(PathOptions(&app.path));
   PetscCall(StageBegin(STAGE_MESH));
   PetscCall(SceneSetUp(app.scene, &forest));
   PetscCall(StageEnd(STAGE_MESH));
@@ -113,7 +117,7 @@ static PetscErrorCode Solve_Private(int argc, char **argv, int *status)
   }
   PetscCall(Close_Private(&app));
   PetscCall(SceneDestroy(&app.scene));
-  *status = app.failure ? 2 : app.stopped ? 3 : app.gave_up ? 2 : 0;
+  *status = app.failure ? 2 : app.path.stopped ? 3 : app.num_missed ? 2 : 0;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -148,6 +152,7 @@ static PetscErrorCode Help_Private(void)
   PetscFunctionBegin;
   PetscCall(ScenePrintHelp(PETSC_COMM_WORLD));
   PetscCall(SolverPrintHelp(PETSC_COMM_WORLD));
+  PetscCall(PathPrintHelp(PETSC_COMM_WORLD));
   PetscCall(AppPrintHelp(PETSC_COMM_WORLD));
   PetscCall(PetscPrintf(
       PETSC_COMM_WORLD,
@@ -156,7 +161,8 @@ static PetscErrorCode Help_Private(void)
       "seconds since the start. What else is known of each pass and each load step: adapt.csv, history.csv, summary.json.\n"
       "\nOptions of PETSc work as everywhere: -snes_monitor, -ksp_monitor, -log_view, ...\n"
       "Exit status: 0 converged to the end; 1 bad input, nothing was solved; 2 the solver gave up: status failed, or inaccurate where all load steps\n"
-      "were solved, but not on meshes as fine as adapt.tolerance asks; 3 stopped, by SIGTERM, SIGUSR1, SIGINT or -max_seconds, with a checkpoint for\n"
+      "were solved, but adapt.tolerance was not reached in all of them, whatever the reason; 3 stopped, by SIGTERM, SIGUSR1, SIGINT or -max_seconds, with a "
+      "checkpoint for\n"
       "-restart.\n"));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

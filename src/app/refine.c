@@ -1,37 +1,70 @@
 /* From an estimate to the level on a finer mesh: mark, adapt the forest, carry the states over or begin afresh. */
 #include "appimpl.h"
 
-PetscErrorCode AppPrescribeAt(Problem problem, PetscReal t)
+/* Split an old leaf in all directions. marked: how many are, at most `room`; *more: it was not yet. */
+static void MarkWhole_Private(PetscInt dim, PetscInt old, PetscInt room, MarkList *list, PetscInt *marked, PetscBool *more)
 {
+  const int8_t whole = (int8_t)((1 << dim) - 1);
+
+  if (list->split[old] == whole || list->coarsen[old] || *marked >= room) return;
+  *marked += !list->split[old];
+  list->split[old] = whole;
+  *more            = PETSC_TRUE;
+}
+
+/* A leaf of a finer forest is inverted: it is too long for its curved side, or sides of it hang from coarser cells cut across curved ones. Those are to be
+   split too. */
+static PetscErrorCode MarkInverted_Private(Forest finer, const ForestMap *map, PetscInt leaf, PetscInt room, MarkList *list, PetscInt *marked, PetscBool *more)
+{
+  const ForestTables *t;
+
   PetscFunctionBegin;
-  PetscCall(ProblemSetTime(problem, t));
-  PetscCall(ProblemJump(problem));
+  PetscCall(ForestGetTables(finer, &t));
+  const PetscInt  size = t->dim == 2 ? 9 : 27, *first = &t->closure_offset[t->first[t->dim]];
+  const PetscInt *own = &t->closure[first[leaf]];
+  MarkWhole_Private(t->dim, map->old_first[leaf], room, list, marked, more);
+  for (PetscInt i = 0; i < size * t->num_leaves; ++i) {
+    const PetscInt entity = t->closure[first[i / size] + i % size];
+    for (PetscInt k = 0; k < size; ++k) {
+      if (t->parent[own[k]] == entity) MarkWhole_Private(t->dim, map->old_first[i / size], room, list, marked, more);
+    }
+  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The level on the adapted forest, its states at rest at time t. NULL where the mesh has inverted cells (sides that hang from coarser cells cut across curved
-   ones), or a prescribed value is not finite at a new node: *refused says why, else NULL. */
-static PetscErrorCode Create_Private(App *app, Forest forest, const int8_t old_order[], const ForestMap *map, PetscReal t, Level *next, const char **refused)
+static PetscErrorCode TellInverted_Private(App *app, PetscInt order, const PetscReal X[3])
 {
-  int8_t   *orders;
-  PetscReal X[3];
-  PetscInt  order;
+  PetscFunctionBegin;
+  if (app->inversion_told) PetscFunctionReturn(PETSC_SUCCESS);
+  app->inversion_told = PETSC_TRUE;
+  PetscCall(PetscPrintf(app->comm,
+                        "note: refinement would invert a curved cell of order %" PetscInt_FMT " at (%g, %g, %g): the coarser mesh stays; smaller cells there, "
+                        "a higher order or mesh.order: 1 avoid it\n",
+                        order, (double)X[0], (double)X[1], (double)X[2]));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The level on the adapted forest, its states at rest at time t. There is none where the mesh has inverted cells or a prescribed value is not finite at a new
+   node: *refused says why, else NULL. *more: with the further cells that are marked then there may be. */
+static PetscErrorCode Create_Private(App *app, Forest forest, const int8_t old_order[], const ForestMap *map, PetscReal t, MarkList *list, PetscInt *marked,
+                                     Level *next, const char **refused, PetscBool *more)
+{
+  const AdaptSpec *spec = &app->data->adapt;
+  int8_t          *orders;
+  PetscReal        X[3];
+  PetscInt         order, leaf;
 
   PetscFunctionBegin;
+  *more = PETSC_FALSE;
   PetscCall(TransferOrders(map, old_order, &orders));
   PetscCall(LevelCreate(app->data, forest, orders, t, next));
   PetscCall(PetscFree(orders));
-  PetscCall(ProblemFindInverted(next->problem, &order, X));
+  PetscCall(ProblemFindInverted(next->problem, &order, X, &leaf));
   PetscCall(ExpressionTrouble(app->comm, refused));
-  if (order > 0) *refused = "refinement inverts a curved cell";
-  if (order > 0 && !app->inversion_told) {
-    app->inversion_told = PETSC_TRUE;
-    PetscCall(PetscPrintf(app->comm,
-                          "note: refinement would invert a curved cell of order %" PetscInt_FMT
-                          " at (%g, %g, %g): the coarser mesh stays; smaller cells there, "
-                          "a higher order or mesh.order: 1 avoid it\n",
-                          order, (double)X[0], (double)X[1], (double)X[2]));
-  }
+  if (order > 0) *refused = INVERTS;
+  if (order > 0 && spec->strategy != ADAPT_P)
+    PetscCall(MarkInverted_Private(forest, map, leaf, spec->max_cells - app->level.state.num_leaves, list, marked, more));
+  if (order > 0 && !*more) PetscCall(TellInverted_Private(app, order, X));
   if (*refused) PetscCall(LevelDestroy(next));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -46,29 +79,40 @@ static PetscErrorCode Carry_Private(const Level *old, const ForestMap *map, Leve
   PetscFunctionBegin;
   next->accepted.t = old->accepted.t;
   PetscCall(TransferState(old->problem, &old->state, next->problem, map, &next->state));
-  PetscCall(AppPrescribeAt(old->problem, old->accepted.t));
-  PetscCall(AppPrescribeAt(next->problem, next->accepted.t));
+  PetscCall(PathPrescribe(old->problem, old->accepted.t));
+  PetscCall(PathPrescribe(next->problem, next->accepted.t));
   PetscCall(TransferState(old->problem, &old->accepted, next->problem, map, &next->accepted));
   PetscCall(StateAdmit(next->problem, &next->accepted));
   PetscCall(PetscArraycpy(next->state.history, next->accepted.history, next->accepted.num_history));
-  PetscCall(AppPrescribeAt(next->problem, next->state.t));
+  PetscCall(PathPrescribe(next->problem, next->state.t));
   PetscCall(ProblemIsFollowing(old->problem, &following));
   if (following) PetscCall(ProblemFollow(next->problem, next->accepted.x, next->state.x, &length));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The next level takes the place of the one at hand, which is the caller's then; refused: it stays. */
-static PetscErrorCode MoveTo_Private(App *app, Forest forest, const int8_t old_order[], const ForestMap *map, PetscBool afresh, const char **refused)
+/* The level on the mesh that the list asks for takes the place of the one at hand, which is the caller's then; refused: it stays. */
+static PetscErrorCode MoveTo_Private(App *app, MarkList *list, PetscInt *marked, const int8_t order[], const PetscReal weight[], PetscBool afresh,
+                                     const char **refused, PetscBool *more)
 {
-  Level next;
+  PetscInt  num_pairs, (*pairs)[2];
+  Level     next;
+  Forest    forest;
+  ForestMap map;
 
   PetscFunctionBegin;
-  PetscCall(Create_Private(app, forest, old_order, map, afresh ? 0 : app->level.state.t, &next, refused));
-  if (*refused) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(StageBegin(STAGE_TRANSFER));
-  if (!afresh) PetscCall(Carry_Private(&app->level, map, &next));
-  PetscCall(StageEnd(STAGE_TRANSFER));
-  app->level = next;
+  PetscCall(AppContactPairs(app, &num_pairs, &pairs));
+  PetscCall(StageBegin(STAGE_MESH));
+  PetscCall(ForestAdapt(app->level.forest, list, weight, num_pairs, (const PetscInt(*)[2])pairs, &forest, &map));
+  PetscCall(StageEnd(STAGE_MESH));
+  PetscCall(PetscFree(pairs));
+  PetscCall(Create_Private(app, forest, order, &map, afresh ? 0 : app->level.state.t, list, marked, &next, refused, more));
+  if (!*refused) {
+    PetscCall(StageBegin(STAGE_TRANSFER));
+    if (!afresh) PetscCall(Carry_Private(&app->level, &map, &next));
+    PetscCall(StageEnd(STAGE_TRANSFER));
+    app->level = next;
+  }
+  PetscCall(ForestMapDestroy(&map));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -89,9 +133,8 @@ PetscErrorCode AppRefine(App *app, const Estimate *e, MarkList *layers, PetscBoo
 {
   const ForestTables *t;
   MarkList            list   = *layers;
-  PetscInt            marked = 1, num_pairs, (*pairs)[2];
-  Forest              forest;
-  ForestMap           map;
+  PetscInt            marked = 1;
+  PetscBool           more   = PETSC_TRUE;
   int8_t             *order  = NULL;
   PetscReal          *weight = NULL;
   const char         *words  = NULL;
@@ -104,20 +147,10 @@ PetscErrorCode AppRefine(App *app, const Estimate *e, MarkList *layers, PetscBoo
   else if (order)
     PetscCall(PetscArraycpy(order, app->level.state.leaf_order, t->num_leaves));
   for (PetscInt l = 0; order && l < t->num_leaves; ++l) weight[l] = PetscPowInt(order[l], t->dim);
-  *adapted = (PetscBool)(marked > 0);
-  if (!*adapted)
-    app->adapt_stop = e->num_leaves >= app->data->adapt.max_cells / 2 ? "max_cells" : "nothing left to refine";
-  else {
-    PetscCall(AppContactPairs(app, &num_pairs, &pairs));
-    PetscCall(StageBegin(STAGE_MESH));
-    PetscCall(ForestAdapt(app->level.forest, &list, weight, num_pairs, (const PetscInt(*)[2])pairs, &forest, &map));
-    PetscCall(StageEnd(STAGE_MESH));
-    PetscCall(PetscFree(pairs));
-    PetscCall(MoveTo_Private(app, forest, order ? order : app->level.state.leaf_order, &map, afresh, &words));
-    if (words) app->adapt_stop = words;
-    *adapted = (PetscBool)!words;
-    PetscCall(ForestMapDestroy(&map));
-  }
+  if (marked == 0) app->adapt_stop = e->num_leaves >= app->data->adapt.max_cells / 2 ? "max_cells" : NOTHING_LEFT;
+  while (marked > 0 && more) PetscCall(MoveTo_Private(app, &list, &marked, order ? order : app->level.state.leaf_order, weight, afresh, &words, &more));
+  if (words) app->adapt_stop = words;
+  *adapted = (PetscBool)(marked > 0 && !words);
   *refused = (PetscBool)(words != NULL);
   PetscCall(MarkListDestroy(&list));
   PetscCall(PetscFree2(order, weight));

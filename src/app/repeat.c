@@ -14,7 +14,7 @@ PetscBool AppIsAdaptive(const App *app)
 
 PetscBool AppIsStressed(const App *app)
 {
-  return (PetscBool)(app->status.scale > STRESSED * app->status.noise);
+  return (PetscBool)(app->path.status.scale > STRESSED * app->path.status.noise);
 }
 
 PetscErrorCode AppRemember(App *app)
@@ -33,8 +33,8 @@ static void Begin_Private(App *app)
 {
   app->load_steps = 0;
   app->dt         = app->data->load.step;
-  app->arc = app->arc_first = app->haste = 0;
-  app->status                            = (ProblemStatus){0};
+  app->arc = app->arc_first = app->speed = 0;
+  app->path.status                       = (ProblemStatus){0};
 }
 
 /* Files and screen: a checkpoint first, for it alone tells tables and fields of one path from those of another; then what the path left goes aside. */
@@ -50,7 +50,7 @@ static PetscErrorCode Tell_Private(App *app, PetscReal error)
   if (app->data->output.fields) PetscCall(WriterCreate(app->comm, app->data->output.directory, &app->writer));
   PetscCall(HistoryAgain(app->history));
   PetscCall(ForestGetTables(app->level.forest, &t));
-  PetscCall(MonitorAgain(app->monitor, app->path, t->num_leaves, error));
+  PetscCall(MonitorAgain(app->monitor, app->repeats, t->num_leaves, error));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -62,13 +62,14 @@ static PetscErrorCode Refine_Private(App *app, PetscBool *refined)
   PetscBool        refused = PETSC_FALSE;
 
   PetscFunctionBegin;
-  app->adapt_stop = !app->most.num_leaves ? WITHIN_TOLERANCE : app->path >= spec->max_passes ? "max_passes" : "";
+  app->adapt_stop = !app->most.num_leaves ? WITHIN_TOLERANCE : app->repeats >= spec->max_passes ? "max_passes" : "";
   if (!app->adapt_stop[0]) PetscCall(AppLayers(app, &app->most, &layers));
   if (!app->adapt_stop[0]) {
     PetscCall(AppSummary(app, "converged", "a finer path is under way"));
     PetscCall(AppRefine(app, &app->most, &layers, PETSC_TRUE, refined, &refused));
   }
-  if (!*refined) AppJudge(app, app->most.num_leaves ? app->most.relative : 0, refused);
+  const PetscReal error = app->most.num_leaves ? app->most.relative : 0; /* of the step's own norm */
+  if (!*refined) PetscCall(AppJudge(app, error, PetscSqrtReal(1 - PetscSqr(error)), refused));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -87,7 +88,7 @@ PetscErrorCode AppRepeat(App *app, PetscBool *again)
   const PetscReal error = app->most.relative;
   PetscCall(LevelDestroy(&old));
   PetscCall(EstimateDestroy(&app->most));
-  ++app->path;
+  ++app->repeats;
   ++app->adapt_passes;
   Begin_Private(app);
   PetscCall(Tell_Private(app, error));

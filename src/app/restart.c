@@ -9,20 +9,21 @@ static const struct {
   const char *name;
   size_t      at;
 } Counters[] = {
-    {"path", offsetof(App, path)},
+    {"path", offsetof(App, repeats)},
     {"load_steps", offsetof(App, load_steps)},
-    {"step_cuts", offsetof(App, step_cuts)},
+    {"step_cuts", offsetof(App, path.step_cuts)},
     {"adapt_passes", offsetof(App, adapt_passes)},
-    {"newton_iterations", offsetof(App, newton_iterations)},
-    {"active_set_changes", offsetof(App, set_changes)},
-    {"active_set_cycles", offsetof(App, set_cycles)},
+    {"newton_iterations", offsetof(App, path.newton_iterations)},
+    {"active_set_changes", offsetof(App, path.set_changes)},
+    {"active_set_cycles", offsetof(App, path.set_cycles)},
     {"reported_cycles", offsetof(App, told_cycles)},
-    {"factorisations", offsetof(App, factorisations)},
-    {"single_factor_failures", offsetof(App, single_failures)},
-    {"unstable", offsetof(App, unstable)},
-    {"judged", offsetof(App, judged)},
-    {"relaxed_steps", offsetof(App, relaxed_steps)},
-    {"gave_up", offsetof(App, gave_up)},
+    {"factorisations", offsetof(App, path.factorisations)},
+    {"single_factor_failures", offsetof(App, path.single_failures)},
+    {"unstable", offsetof(App, path.unstable)},
+    {"judged", offsetof(App, path.judged)},
+    {"stabilised", offsetof(App, path.stabilised)},
+    {"descent_iterations", offsetof(App, path.descent_iterations)},
+    {"missed", offsetof(App, num_missed)},
 };
 static const struct {
   const char *name;
@@ -31,28 +32,11 @@ static const struct {
     {"dt", offsetof(App, dt)},
     {"arc", offsetof(App, arc)},
     {"first_arc", offsetof(App, arc_first)},
-    {"haste", offsetof(App, haste)},
-    {"drag_work", offsetof(App, all_drag_work)},
-    {"largest_displacement", offsetof(App, status.largest)},
+    {"speed", offsetof(App, speed)},
+    {"viscous_work", offsetof(App, path.all_viscous_work)},
+    {"largest_displacement", offsetof(App, path.status.largest)},
     {"largest_error", offsetof(App, most.relative)},
-    {"above_error", offsetof(App, above_error)},
 };
-enum {
-  NUM_COUNTERS = PETSC_STATIC_ARRAY_LENGTH(Counters),
-  NUM_REALS    = PETSC_STATIC_ARRAY_LENGTH(Reals),
-  NUM_NUMBERS  = NUM_COUNTERS + NUM_REALS + 2 + NUM_STAGES
-};
-
-static PetscInt *Counter_Private(App *app, PetscInt i)
-{
-  return (PetscInt *)(void *)((char *)app + Counters[i].at);
-}
-
-static PetscReal *Real_Private(App *app, PetscInt i)
-{
-  return (PetscReal *)(void *)((char *)app + Reals[i].at);
-}
-
 /* ---- options ------------------------------------------------------------------------------------------------------------------- */
 
 static const struct {
@@ -98,10 +82,61 @@ PetscErrorCode AppOptions(App *app)
 
 /* ---- copies and checkpoints ----------------------------------------------------------------------------------------------------- */
 
-static void Number_Private(CheckpointNumber numbers[], PetscInt *num, const char *prefix, const char *name, PetscReal value)
+/* Numbers of a checkpoint, gathered for one or taken from one. */
+typedef struct {
+  Checkpoint        from; /* NULL: gathered */
+  PetscInt          num, room;
+  CheckpointNumber *number; /* owned [room] */
+} Numbers;
+
+/* One more, which is *real or else *integer; name: prefix, index (negative: none), suffix. */
+static PetscErrorCode Number_Private(Numbers *n, const char *prefix, PetscInt index, const char *suffix, PetscInt *integer, PetscReal *real)
 {
-  snprintf(numbers[*num].name, sizeof(numbers[0].name), "%s%s", prefix, name);
-  numbers[(*num)++].value = value;
+  CheckpointNumber one;
+  char             at[16] = "";
+
+  PetscFunctionBegin;
+  if (index >= 0) PetscCall(PetscSNPrintf(at, sizeof(at), "%" PetscInt_FMT, index));
+  PetscCall(PetscSNPrintf(one.name, sizeof(one.name), "%s%s%s", prefix, at, suffix));
+  if (n->from) {
+    PetscCall(CheckpointGetNumber(n->from, one.name, &one.value));
+    if (real)
+      *real = one.value;
+    else
+      *integer = (PetscInt)one.value;
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
+  one.value = real ? *real : (PetscReal)*integer;
+  if (n->num == n->room) {
+    n->room = 2 * n->room + 64;
+    PetscCall(PetscRealloc((size_t)n->room * sizeof(one), &n->number));
+  }
+  n->number[n->num++] = one;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Everything a run counts, but for its times. */
+static PetscErrorCode Numbers_Private(App *app, Numbers *n)
+{
+  PetscFunctionBegin;
+  for (size_t i = 0; i < PETSC_STATIC_ARRAY_LENGTH(Counters); ++i)
+    PetscCall(Number_Private(n, "", -1, Counters[i].name, (PetscInt *)(void *)((char *)app + Counters[i].at), NULL));
+  for (size_t i = 0; i < PETSC_STATIC_ARRAY_LENGTH(Reals); ++i)
+    PetscCall(Number_Private(n, "", -1, Reals[i].name, NULL, (PetscReal *)(void *)((char *)app + Reals[i].at)));
+  for (PetscInt i = 0; i < app->data->num_contacts; ++i) PetscCall(Number_Private(n, "subdivided.", i, "", &app->subdivided[i], NULL));
+  for (PetscInt i = 0; i < PATH_RECOVERIES; ++i) {
+    PetscCall(Number_Private(n, "tried.", -1, PathRecoveries[i].name, &app->path.recovery[i].tried, NULL));
+    PetscCall(Number_Private(n, "succeeded.", -1, PathRecoveries[i].name, &app->path.recovery[i].succeeded, NULL));
+  }
+  if (n->from) PetscCall(PetscRealloc((size_t)app->num_missed * sizeof(*app->missed), &app->missed));
+  for (PetscInt i = 0; i < app->num_missed; ++i) {
+    Missed *m = &app->missed[i];
+    PetscCall(Number_Private(n, "missed.", i, ".t", NULL, &m->t));
+    PetscCall(Number_Private(n, "missed.", i, ".error", NULL, &m->error));
+    PetscCall(Number_Private(n, "missed.", i, ".norm", NULL, &m->norm));
+    PetscCall(Number_Private(n, "missed.", i, ".cause", &m->cause, NULL));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 static PetscErrorCode PutMost_Private(App *app)
@@ -130,13 +165,11 @@ static PetscErrorCode GetMost_Private(App *app)
 
 PetscErrorCode AppSnapshot(App *app)
 {
-  const PetscInt      num_contacts = app->data->num_contacts;
-  CheckpointNumber   *numbers;
-  char                pair[MORTISE_NAME];
+  Numbers             n = {0};
   const ForestTables *t;
   PetscLogDouble      now;
   PetscReal           seconds[1 + NUM_STAGES];
-  PetscInt            num = 0, states = 0;
+  PetscInt            states = 0;
 
   PetscFunctionBegin;
   PetscCall(StageBegin(STAGE_OUTPUT));
@@ -145,19 +178,13 @@ PetscErrorCode AppSnapshot(App *app)
   for (PetscInt s = 0; s < NUM_STAGES; ++s) seconds[s] = StageSeconds((Stage)s);
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, seconds, 1 + NUM_STAGES, MPIU_REAL, MPI_MAX, app->comm));
   if (app->writer) PetscCall(WriterNumStates(app->writer, &states));
-  PetscCall(PetscMalloc1(NUM_NUMBERS + num_contacts, &numbers));
-  for (PetscInt i = 0; i < NUM_COUNTERS; ++i) Number_Private(numbers, &num, "", Counters[i].name, (PetscReal)*Counter_Private(app, i));
-  for (PetscInt i = 0; i < num_contacts; ++i) {
-    PetscCall(PetscSNPrintf(pair, sizeof(pair), "%" PetscInt_FMT, i));
-    Number_Private(numbers, &num, "subdivided.", pair, (PetscReal)app->subdivided[i]);
-  }
-  for (PetscInt i = 0; i < NUM_REALS; ++i) Number_Private(numbers, &num, "", Reals[i].name, *Real_Private(app, i));
-  Number_Private(numbers, &num, "", "states", (PetscReal)states);
-  Number_Private(numbers, &num, "", "seconds", seconds[NUM_STAGES]);
-  for (PetscInt s = 0; s < NUM_STAGES; ++s) Number_Private(numbers, &num, "seconds.", StageNames[s], seconds[s]);
+  PetscCall(Numbers_Private(app, &n));
+  PetscCall(Number_Private(&n, "", -1, "states", &states, NULL));
+  PetscCall(Number_Private(&n, "", -1, "seconds", NULL, &seconds[NUM_STAGES]));
+  for (PetscInt s = 0; s < NUM_STAGES; ++s) PetscCall(Number_Private(&n, "seconds.", -1, StageNames[s], NULL, &seconds[s]));
   PetscCall(CheckpointDestroy(&app->snapshot));
-  PetscCall(CheckpointCreate(app->level.problem, &app->level.accepted, num, numbers, app->adapt_stop, &app->snapshot));
-  PetscCall(PetscFree(numbers));
+  PetscCall(CheckpointCreate(app->level.problem, &app->level.accepted, n.num, n.number, app->adapt_stop, &app->snapshot));
+  PetscCall(PetscFree(n.number));
   if (app->most.num_leaves) PetscCall(PutMost_Private(app));
   PetscCall(ForestGetTables(app->level.forest, &t));
   app->snapshot_revision = t->revision;
@@ -243,7 +270,7 @@ static PetscErrorCode Read_Private(App *app, Forest coarse)
 PetscErrorCode AppResume(App *app, Forest *coarse)
 {
   const LoadSpec *load = &app->data->load;
-  char            name[MORTISE_NAME];
+  Numbers         n    = {0};
   PetscReal       value;
 
   PetscFunctionBegin;
@@ -251,20 +278,11 @@ PetscErrorCode AppResume(App *app, Forest *coarse)
   PetscCall(Level_Private(app, app->snapshot, *coarse, &app->level));
   PetscCall(ForestDestroy(coarse));
   PetscCall(GetMost_Private(app));
-  for (PetscInt i = 0; i < NUM_COUNTERS; ++i) {
-    PetscCall(CheckpointGetNumber(app->snapshot, Counters[i].name, &value));
-    *Counter_Private(app, i) = (PetscInt)value;
-  }
-  for (PetscInt i = 0; i < NUM_REALS; ++i) PetscCall(CheckpointGetNumber(app->snapshot, Reals[i].name, Real_Private(app, i)));
-  for (PetscInt i = 0; i < app->data->num_contacts; ++i) {
-    PetscCall(PetscSNPrintf(name, sizeof(name), "subdivided.%" PetscInt_FMT, i));
-    PetscCall(CheckpointGetNumber(app->snapshot, name, &value));
-    app->subdivided[i] = (PetscInt)value;
-  }
+  n.from = app->snapshot;
+  PetscCall(Numbers_Private(app, &n));
   app->dt = PetscMax(PetscMin(app->dt, load->step_max), load->step_min);
   for (PetscInt s = 0; s < NUM_STAGES; ++s) {
-    PetscCall(PetscSNPrintf(name, sizeof(name), "seconds.%s", StageNames[s]));
-    PetscCall(CheckpointGetNumber(app->snapshot, name, &value));
+    PetscCall(Number_Private(&n, "seconds.", -1, StageNames[s], NULL, &value));
     PetscCall(StageAdd((Stage)s, value));
   }
   PetscCall(CheckpointGetNumber(app->snapshot, "seconds", &value));

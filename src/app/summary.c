@@ -7,8 +7,8 @@ ReportRow AppTotal(const App *app)
 
   (void)PetscTime(&now);
   return (ReportRow){.step              = app->load_steps,
-                     .step_cuts         = app->step_cuts,
-                     .newton_iterations = app->newton_iterations,
+                     .step_cuts         = app->path.step_cuts,
+                     .newton_iterations = app->path.newton_iterations,
                      .t                 = app->level.accepted.t,
                      .seconds           = now - app->start};
 }
@@ -16,12 +16,12 @@ ReportRow AppTotal(const App *app)
 /* Figures of the last accepted state, which is what a run that failed or was stopped leaves behind, and of one that had nothing left to do. */
 static PetscErrorCode Figures_Private(App *app)
 {
-  const PetscBool given_up = (PetscBool)(app->failure || app->stopped), told = (PetscBool)(app->balance.reaction != NULL);
+  const PetscBool given_up = (PetscBool)(app->failure || app->path.stopped), told = (PetscBool)(app->balance.reaction != NULL);
   Level          *l = &app->level;
 
   PetscFunctionBegin;
   if (!given_up && told) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(AppPrescribeAt(l->problem, l->accepted.t));
+  PetscCall(PathPrescribe(l->problem, l->accepted.t));
   PetscCall(ProblemSearch(l->problem, l->accepted.x)); /* this mesh may not have seen any solution yet */
   if (told) PetscCall(BalanceDestroy(&app->balance));
   if (!given_up) PetscCall(AppEstimate(app));
@@ -37,21 +37,20 @@ PetscErrorCode AppSummary(App *app, const char *status, const char *reason)
   PetscCall(Figures_Private(app));
   const ReportRow total      = AppTotal(app);
   RunSummary      summary    = {.status = status, .reason = reason, .t = total.t, .seconds = total.seconds, .load_steps = app->load_steps};
-  summary.step_cuts          = app->step_cuts;
+  summary.step_cuts          = app->path.step_cuts;
   summary.adapt_passes       = app->adapt_passes;
-  summary.newton_iterations  = app->newton_iterations;
-  summary.active_set_changes = app->set_changes;
-  summary.active_set_cycles  = app->set_cycles;
-  summary.factorisations     = app->factorisations;
-  summary.single_failures    = app->single_failures;
-  summary.relaxed_steps      = app->relaxed_steps;
-  summary.drag_work          = app->all_drag_work;
-  summary.unstable           = app->judged ? (PetscReal)app->unstable : (PetscReal)NAN;
+  summary.newton_iterations  = app->path.newton_iterations;
+  summary.active_set_changes = app->path.set_changes;
+  summary.active_set_cycles  = app->path.set_cycles;
+  summary.factorisations     = app->path.factorisations;
+  summary.single_failures    = app->path.single_failures;
+  summary.path               = &app->path;
+  summary.unstable           = app->path.judged ? (PetscReal)app->path.unstable : (PetscReal)NAN;
   summary.adapt_stop         = app->adapt_stop;
   summary.problem            = app->level.problem;
   summary.state              = &app->level.accepted;
   summary.balance            = &app->balance;
-  summary.estimate           = app->estimated && !app->failure && !app->stopped && !PetscIsNanReal(app->last.estimated_error) ? &app->estimate : NULL;
+  summary.estimate           = app->estimated && !app->failure && !app->path.stopped && !PetscIsNanReal(app->last.estimated_error) ? &app->estimate : NULL;
   summary.probes             = app->probes;
   PetscCall(OutputSummary(app->comm, app->data, &summary));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -82,7 +82,7 @@ static PetscErrorCode GroupResidual_Private(Mechanics m, const CellGroup *g, con
       status->energy += b.energy[i];
       status->noise2 += g->noise2[first + i] * PetscSqr(growth);
       status->drift2 += g->drift2[first + i] * PetscSqr(growth);
-      if (m->drag > 0) PetscCall(MechanicsDragForces_Private(m, g, first + i, b.u + i * nd, b.r + i * nd));
+      if (m->viscosity > 0) PetscCall(MechanicsViscousForces_Private(m, g, first + i, b.u + i * nd, b.r + i * nd));
       for (PetscInt k = 0; k < nd; ++k) status->scale2 += PetscSqr(b.r[i * nd + k]);
       PetscCall(HPSpaceScatterAdd(m->space, g->cells[first + i], b.r + i * nd, r));
     }
@@ -138,9 +138,9 @@ static PetscErrorCode SendMatrix_Private(Mechanics m, CellGroup *g, PetscInt i, 
     for (PetscInt k = 0; k < nd; ++k) trace += *Diagonal_Private(m, g, i, K, k);
     for (PetscInt k = 0; k < nd; ++k) *Diagonal_Private(m, g, i, K, k) += m->free_share[cell] * m->free_part * trace / nd;
   }
-  if (m->drag > 0) {
+  if (m->viscosity > 0) {
     const PetscInt ni = m->condense_work ? g->num_inner * m->dim : 0;
-    MechanicsDragMatrix_Private(m, g, i, ni, g->factor + i * ni * nd, K);
+    MechanicsViscousMatrix_Private(m, g, i, ni, g->factor + i * ni * nd, K);
   }
   if (m->condense_work) {
     PetscCall(StageBegin(STAGE_CONDENSE));

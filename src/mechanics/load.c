@@ -183,6 +183,17 @@ PetscErrorCode MechanicsDeadLoads_Private(Mechanics m)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscErrorCode MechanicsDeadWork(Mechanics m, const PetscReal u[], PetscReal *work)
+{
+  const HPTables *v;
+
+  PetscFunctionBegin;
+  *work = 0;
+  PetscCall(HPSpaceGetTables(m->space, &v));
+  for (PetscInt i = 0; i < v->num_nodes * m->dim && m->dead; ++i) *work -= m->dead[i] * u[i];
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* Follower pressure on one facet: residual into r, tangent (full cell matrix in K) when asked. Small kinematics: the load stays on the reference facet. */
 static PetscErrorCode FacetFollower_Private(Mechanics m, const LoadFacet *f, const PetscReal u[], PetscReal *values, PetscReal *r, PetscReal *K)
 {

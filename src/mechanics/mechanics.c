@@ -152,25 +152,29 @@ PetscErrorCode MechanicsDestroy(Mechanics *mechanics)
   PetscCall(PetscFree(m->free_share));
   PetscCall(PetscFree(m->held));
   PetscCall(PetscFree(m->hold));
-  PetscCall(PetscFree2(m->drag_from, m->drag_work));
+  PetscCall(PetscFree2(m->viscous_from, m->viscous_room));
   PetscCall(PetscFree2(m->linear, m->dpressure));
   PetscCall(PetscFree(m->work));
   PetscCall(PetscFree(*mechanics));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode MechanicsFindInverted(Mechanics m, PetscInt *order, PetscReal X[3])
+PetscErrorCode MechanicsFindInverted(Mechanics m, PetscInt *order, PetscReal X[3], PetscInt *leaf)
 {
-  PetscInt cell = -1;
+  const HPTables *v;
+  PetscInt        cell = -1;
 
   PetscFunctionBegin;
+  PetscCall(HPSpaceGetTables(m->space, &v));
   *order = 0;
+  *leaf  = -1;
   X[0] = X[1] = X[2] = 0;
   for (PetscInt g = 0; g < m->num_groups && cell < 0; ++g) {
     const CellGroup *group = &m->groups[g];
     PetscCall(CellKernelFindInverted(group->kernel, group->num_cells, group->X, &cell));
     if (cell < 0) continue;
     *order = group->order;
+    *leaf  = v->cell_leaf[group->cells[cell]];
     for (PetscInt i = 0; i < m->dim; ++i) X[i] = group->X[cell * group->n * m->dim + i];
   }
   PetscFunctionReturn(PETSC_SUCCESS);

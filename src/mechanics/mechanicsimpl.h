@@ -156,15 +156,15 @@ struct _p_Mechanics {
   PetscInt             num_controls, *control;  /* owned: boundaries whose pressure is found */
   PetscReal           *control_pressure;        /* owned [num_controls] */
   PetscReal            t;
-  PetscReal           *dead;               /* owned local array: dead loads at t, negative as in the residual; NULL: none */
-  PetscReal           *linear, *dpressure; /* owned: linearised pressure and derivative of the last tangent; dpressure holds [m][n*dim] cell by cell */
-  PetscReal           *free_share;         /* owned [num_owned_cells] diagonal of cells of unsupported bodies relative to their stiffness, else 0 */
-  PetscReal            free_part;          /* part of it that counts */
-  PetscReal            drag, *drag_from;   /* rate, 0: none; owned local array: displacements it counts from */
-  PetscReal           *drag_work;          /* owned: room for a cell's displacements, twice */
-  PetscReal           *hold;               /* owned [num_bodies][9], see MechanicsGetHold */
-  PetscBool           *held;               /* owned [num_bodies], see MechanicsIsHeld */
-  PetscReal           *work;               /* owned batch buffers */
+  PetscReal           *dead;                     /* owned local array: dead loads at t, negative as in the residual; NULL: none */
+  PetscReal           *linear, *dpressure;       /* owned: linearised pressure and derivative of the last tangent; dpressure holds [m][n*dim] cell by cell */
+  PetscReal           *free_share;               /* owned [num_owned_cells] diagonal of cells of unsupported bodies relative to their stiffness, else 0 */
+  PetscReal            free_part;                /* part of it that counts */
+  PetscReal            viscosity, *viscous_from; /* rate, 0: none; owned local array: displacements it counts from */
+  PetscReal           *viscous_room;             /* owned: room for a cell's displacements, twice */
+  PetscReal           *hold;                     /* owned [num_bodies][9], see MechanicsGetHold */
+  PetscBool           *held;                     /* owned [num_bodies], see MechanicsIsHeld */
+  PetscReal           *work;                     /* owned batch buffers */
   PetscInt             work_size;
   PetscReal           *condense_work; /* owned: condense.c */
   PetscInt             num_negative;  /* eigenvalues of the blocks eliminated at the last tangent */
@@ -213,9 +213,9 @@ PetscErrorCode CellNumbersDestroy_Private(CellNumbers *);
 PetscErrorCode MechanicsStoredCreate_Private(Mechanics);
 /* history.c: layout and initial values. Collective. */
 PetscErrorCode MechanicsHistoryCreate_Private(Mechanics);
-/* drag.c: forces at displacements u[n][dim] of cell i of the group, added to r; their derivatives, to the cell's matrix as integrate.c has it. */
-PetscErrorCode MechanicsDragForces_Private(Mechanics, const CellGroup *, PetscInt i, const PetscReal u[], PetscReal r[]);
-void           MechanicsDragMatrix_Private(Mechanics, const CellGroup *, PetscInt i, PetscInt num_inner, PetscReal inner[], PetscReal K[]);
+/* viscous.c: forces at displacements u[n][dim] of cell i of the group, added to r; their derivatives, to the cell's matrix as integrate.c has it. */
+PetscErrorCode MechanicsViscousForces_Private(Mechanics, const CellGroup *, PetscInt i, const PetscReal u[], PetscReal r[]);
+void           MechanicsViscousMatrix_Private(Mechanics, const CellGroup *, PetscInt i, PetscInt num_inner, PetscReal inner[], PetscReal K[]);
 /* free.c: free_share. Collective. */
 PetscErrorCode MechanicsFreeBodies_Private(Mechanics);
 /* incompressible.c: after the groups. */

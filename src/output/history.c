@@ -35,7 +35,7 @@ static const char *const step_columns[]  = {"step",
                                             "moment_imbalance",
                                             "support_imbalance",
                                             "seconds",
-                                            "drag_work",
+                                            "viscous_work",
                                             "lines_held"};
 static const char *const axis_name[]     = {"x", "y", "z"};
 static const char *const stress_name[]   = {"xx", "xy", "xz", "yy", "yz", "zz"};
@@ -235,7 +235,7 @@ PetscErrorCode HistoryStep(History h, const ReportRow *r, const Balance *balance
                                r->moment_imbalance,
                                r->support_imbalance,
                                r->seconds,
-                               r->drag_work,
+                               r->viscous_work,
                                (PetscReal)r->lines_held};
   const PetscInt  num_fixed = (PetscInt)PETSC_STATIC_ARRAY_LENGTH(fixed), num_probes = h->probes ? h->scene->num_probes : 0;
   Columns         c = {0, NULL, h->values + num_fixed};

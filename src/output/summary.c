@@ -154,6 +154,21 @@ static void AddTimes_Private(cJSON *root, PetscReal total, const Gathered *g)
   AddNumber_Private(root, "peak_memory_rank_mb", g->memory[1]);
 }
 
+/* What was tried where a step or a finer mesh had no solution, and how often one was found so. */
+static void AddRecoveries_Private(cJSON *root, const Path *path)
+{
+  cJSON *object = cJSON_AddObjectToObject(root, "recoveries");
+
+  for (PetscInt i = 0; i < PATH_RECOVERIES; ++i) {
+    cJSON *row = cJSON_AddObjectToObject(object, PathRecoveries[i].name);
+    AddNumber_Private(row, "tried", (PetscReal)path->recovery[i].tried);
+    AddNumber_Private(row, "succeeded", (PetscReal)path->recovery[i].succeeded);
+  }
+  AddNumber_Private(root, "viscous_work", path->all_viscous_work);
+  AddNumber_Private(root, "descent_iterations", (PetscReal)path->descent_iterations);
+  AddNumber_Private(root, "stabilised", (PetscReal)path->stabilised);
+}
+
 static cJSON *Document_Private(const SceneData *scene, const RunSummary *s, const Gathered *g)
 {
   const char     *slash = strrchr(scene->file, '/');
@@ -177,8 +192,7 @@ static cJSON *Document_Private(const SceneData *scene, const RunSummary *s, cons
   AddNumber_Private(root, "active_set_cycles", (PetscReal)s->active_set_cycles);
   AddNumber_Private(root, "factorisations", (PetscReal)s->factorisations);
   AddNumber_Private(root, "single_factor_failures", (PetscReal)s->single_failures);
-  AddNumber_Private(root, "relaxed_steps", (PetscReal)s->relaxed_steps);
-  AddNumber_Private(root, "drag_work", s->drag_work);
+  if (s->path) AddRecoveries_Private(root, s->path);
   AddNumber_Private(root, "unstable_equilibria", s->unstable);
   AddNumber_Private(root, "cells", s->problem ? (PetscReal)g->cells : nan);
   AddNumber_Private(root, "dofs", s->problem ? (PetscReal)g->dofs : nan);

@@ -1,16 +1,21 @@
 /* Forces of contact pairs and the rows of their multipliers in the residual. */
 #include "problemimpl.h"
 
+void ContactForcesZero_Private(Contact *c)
+{
+  for (PetscInt k = 0; k < 2; ++k) {
+    Surface *s = &c->side[k];
+    for (PetscInt n = 0; n < s->num_nodes; ++n)
+      for (PetscInt d = 0; d < s->dim && s->has[n]; ++d) s->force[s->dim * n + d] = 0;
+  }
+}
+
 /* Contact forces z_j grad gt_j, or z_j push_j, and what compliances that depend on w_j add to them, of this rank's facets into both sides' arrays. */
 static void FacetForces_Private(Contact *c)
 {
   const PetscInt dim = c->side[0].dim;
 
-  for (PetscInt k = 0; k < 2; ++k) {
-    Surface *s = &c->side[k];
-    for (PetscInt n = 0; n < s->num_nodes; ++n)
-      for (PetscInt d = 0; d < dim && s->has[n]; ++d) s->force[dim * n + d] = 0;
-  }
+  ContactForcesZero_Private(c);
   for (PetscInt i = 0; i < c->num_facets; ++i) {
     const ContactFacet *e    = &c->facets[i];
     const PetscReal    *push = e->push ? e->push : e->dgap;
@@ -28,13 +33,11 @@ static void FacetForces_Private(Contact *c)
   }
 }
 
-/* Nodal contact forces -dL_c/dx = z_j grad gt_j on both sides; residual r -= force (at the owner, in the node's frame). */
-PetscErrorCode ContactForces_Private(Problem p, Contact *c, PetscReal r[])
+PetscErrorCode ContactForcesSubtract_Private(Problem p, Contact *c, PetscReal r[])
 {
   const PetscInt dim = p->dim;
 
   PetscFunctionBegin;
-  FacetForces_Private(c);
   for (PetscInt k = 0; k < 2; ++k) {
     Surface *s = &c->side[k];
     PetscCall(LinkCollect_Private(p, &s->values, dim, s->force));
@@ -47,6 +50,15 @@ PetscErrorCode ContactForces_Private(Problem p, Contact *c, PetscReal r[])
         for (PetscInt a = 0; a < dim; ++a) r[dim * s->local[n] + d] -= s->frame[dim * (dim * n + d) + a] * s->force[dim * n + a];
     }
   }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Nodal contact forces -dL_c/dx = z_j grad gt_j on both sides; residual r -= force. */
+PetscErrorCode ContactForces_Private(Problem p, Contact *c, PetscReal r[])
+{
+  PetscFunctionBegin;
+  FacetForces_Private(c);
+  PetscCall(ContactForcesSubtract_Private(p, c, r));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -96,7 +108,7 @@ PetscErrorCode ProblemHoldLines(Problem p, PetscBool *changed)
 
   PetscFunctionBegin;
   *changed = PETSC_FALSE;
-  if (p->dim == 2 || p->dragged || p->scene->mechanics.kinematics == KINEMATICS_SMALL) PetscFunctionReturn(PETSC_SUCCESS);
+  if (p->dim == 2 || p->viscous || p->scene->mechanics.kinematics == KINEMATICS_SMALL) PetscFunctionReturn(PETSC_SUCCESS);
   for (PetscInt i = 0; i < p->num_contacts && !mine; ++i) mine = (PetscBool)(p->contacts[i].side[0].order && Movable_Private(&p->contacts[i]));
   PetscCallMPI(MPI_Allreduce(&mine, changed, 1, COMPAT_MPI_BOOL, MPI_LOR, p->comm));
   for (PetscInt i = 0; i < p->num_contacts && *changed; ++i) PetscCall(ContactPairHoldLines(p->contacts[i].pair, PETSC_TRUE));

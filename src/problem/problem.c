@@ -400,15 +400,16 @@ PetscErrorCode ProblemStepAccept(Problem p, PetscReal step, PetscReal pressure[]
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode ProblemFindInverted(Problem p, PetscInt *order, PetscReal X[3])
+PetscErrorCode ProblemFindInverted(Problem p, PetscInt *order, PetscReal X[3], PetscInt *leaf)
 {
   PetscMPIInt first;
 
   PetscFunctionBegin;
-  PetscCall(MechanicsFindInverted(p->mechanics, order, X));
+  PetscCall(MechanicsFindInverted(p->mechanics, order, X, leaf));
   PetscCall(RankFirst(p->comm, (PetscBool)(*order > 0), &first));
   if (first < 0) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCallMPI(MPI_Bcast(order, 1, MPIU_INT, first, p->comm));
+  PetscCallMPI(MPI_Bcast(leaf, 1, MPIU_INT, first, p->comm));
   PetscCallMPI(MPI_Bcast(X, 3, MPIU_REAL, first, p->comm));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

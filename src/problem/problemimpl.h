@@ -147,7 +147,7 @@ struct _p_Problem {
   PetscObjectState scatter_state; /* pattern the places belong to */
   PetscBool        symmetric;     /* tangent in the symmetric form */
   PetscBool        lifting;
-  PetscBool        dragged; /* there is drag (ProblemSetDrag) */
+  PetscBool        viscous; /* there are viscous forces (ProblemSetViscosity) */
   Vec              lift;
   PetscReal        t;
   MPI_Datatype     unit[4]; /* as many reals */
@@ -271,9 +271,18 @@ PetscErrorCode ContactDestroy_Private(Contact *);
 PetscErrorCode ContactNumber_Private(Problem, PetscInt counts[]); /* multipliers of each rank, contacts' zdof as offsets in the rank's block */
 PetscErrorCode ContactEvaluate_Private(Problem, Contact *, Vec x, const PetscReal local[], PetscBool derivatives, PetscBool hessian, PetscBool *failed);
 PetscErrorCode ContactForces_Private(Problem, Contact *, PetscReal r[]);
+/* force.c: nodal forces of both sides, 0; from this rank's facets to the owners of their nodes, and there off r, in the nodes' frames. Collective. */
+void           ContactForcesZero_Private(Contact *);
+PetscErrorCode ContactForcesSubtract_Private(Problem, Contact *, PetscReal r[]);
 void           ContactRows_Private(const Contact *, PetscReal r[]);
 /* Has the last evaluation active constraints whose forces hold the rim of the mortar side (ContactFacet.push)? Collective. */
 PetscErrorCode ContactHoldsRims_Private(Problem, PetscBool *holds);
+/* tangent.c: the matrix with room for all of contact, zero; a cell's matrix into it (MatrixSink); Hessians of contact, added; the gradient of node j's gap,
+   normalised or not, times a factor, in work_index and work_value. */
+PetscErrorCode ProblemReadyMatrix_Private(Problem);
+PetscErrorCode ProblemCellSink_Private(void *context, PetscInt cell, PetscInt num, const PetscInt dofs[], const PetscReal K[]);
+PetscErrorCode ContactHessians_Private(Problem, const Contact *);
+PetscErrorCode ContactNodeGradient_Private(Problem, const Contact *, PetscInt j, PetscReal factor, PetscBool normalised, PetscInt *num);
 /* tangent.c: multipliers from the unknowns of the symmetric form. dx: this rank's part of a vector. */
 void ContactScaleIncrement_Private(Problem, PetscReal dx[]);
 /* far.c: at the last evaluation, are the gaps under pressure too wide for turning directions to mean anything? Collective. */

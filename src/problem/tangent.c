@@ -13,7 +13,7 @@ PetscErrorCode ProblemWork_Private(Problem p, PetscInt size)
 }
 
 /* A cell's matrix: free rows and columns to the matrix, columns of prescribed dofs times their motion to the lift. */
-static PetscErrorCode CellSink_Private(void *context, PetscInt cell, PetscInt num, const PetscInt dofs[], const PetscReal K[])
+PetscErrorCode ProblemCellSink_Private(void *context, PetscInt cell, PetscInt num, const PetscInt dofs[], const PetscReal K[])
 {
   Problem   p          = (Problem)context;
   PetscBool prescribed = PETSC_FALSE, added;
@@ -98,6 +98,19 @@ static PetscErrorCode FacetHessian_Private(Problem p, const Contact *c, const Co
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscErrorCode ContactHessians_Private(Problem p, const Contact *c)
+{
+  PetscFunctionBegin;
+  for (PetscInt i = 0; i < c->num_facets; ++i) {
+    const ContactFacet *e = &c->facets[i];
+    if (!c->mine[e->facet] || !e->hessian) continue;
+    PetscCall(ProblemWork_Private(p, p->dim * e->num));
+    FacetDofs_Private(c, e, p->work_index);
+    PetscCall(FacetHessian_Private(p, c, e, p->work_index));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* Blocks of the last evaluation: Hessian and columns, added; the rows are inserted afterwards. */
 static PetscErrorCode ContactBlocks_Private(Problem p, Contact *c)
 {
@@ -143,7 +156,7 @@ static PetscInt RowSize_Private(const Contact *c, PetscInt j)
 
 /* Collects the gradient of node j's normalised gap, times a factor, from its facets, in work_index and work_value: over the whole pattern, sorted indices, so
    that a switch leaves nothing of another form behind. normalised false: the plain derivative of the forces by z_j. */
-static PetscErrorCode NodeGradient_Private(Problem p, const Contact *c, PetscInt j, PetscReal factor, PetscBool normalised, PetscInt *num)
+PetscErrorCode ContactNodeGradient_Private(Problem p, const Contact *c, PetscInt j, PetscReal factor, PetscBool normalised, PetscInt *num)
 {
   const Surface *s   = &c->side[0];
   const PetscInt dim = p->dim;
@@ -197,7 +210,7 @@ static PetscErrorCode ContactInsertRow_Private(Problem p, Contact *c, PetscInt j
   PetscInt        num, at;
 
   PetscFunctionBegin;
-  PetscCall(NodeGradient_Private(p, c, j, c->active[j] ? active : 0, PETSC_TRUE, &num));
+  PetscCall(ContactNodeGradient_Private(p, c, j, c->active[j] ? active : 0, PETSC_TRUE, &num));
   PetscCall(PetscFindInt(c->zdof[j], num, p->work_index, &at));
   p->work_value[at] = c->active[j] ? active * c->spring[j] : p->symmetric ? -c->w0[j] : c->w0[j];
   if (p->symmetric) p->work_value[at] *= c->c[j];
@@ -224,7 +237,7 @@ static PetscErrorCode InactiveShift_Private(Problem p, Contact *c, PetscInt j, P
 
   PetscFunctionBegin;
   if (!p->symmetric || c->released || c->z[j] == 0 || !c->near[j]) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(NodeGradient_Private(p, c, j, -share * c->z[j], PETSC_FALSE, &num));
+  PetscCall(ContactNodeGradient_Private(p, c, j, -share * c->z[j], PETSC_FALSE, &num));
   PetscCall(PetscFindInt(c->zdof[j], num, p->work_index, &at));
   p->work_value[at] = 0;
   PetscCall(VecSetValues(rhs, num, p->work_index, p->work_value, ADD_VALUES));
@@ -288,7 +301,7 @@ static PetscErrorCode ContactRowsInsert_Private(Problem p, Contact *c)
 }
 
 /* The matrix with room for all of contact, zero. */
-static PetscErrorCode ReadyMatrix_Private(Problem p)
+PetscErrorCode ProblemReadyMatrix_Private(Problem p)
 {
   int ok = p->matrix ? 1 : 0;
 
@@ -335,8 +348,8 @@ PetscErrorCode ProblemTangent(Problem p, Vec x, const PetscReal pressure[], Vec 
   if (lift) PetscCall(VecSetOption(lift, VEC_IGNORE_NEGATIVE_INDICES, PETSC_TRUE));
   for (PetscInt i = 0; i < v->num_nodes * p->dim; ++i) p->increment[i] = p->target[i] - p->applied[i];
   PetscCall(StageBegin(STAGE_ASSEMBLE));
-  PetscCall(ReadyMatrix_Private(p));
-  PetscCall(MechanicsTangent(p->mechanics, local, pressure, CellSink_Private, p, bad));
+  PetscCall(ProblemReadyMatrix_Private(p));
+  PetscCall(MechanicsTangent(p->mechanics, local, pressure, ProblemCellSink_Private, p, bad));
   if (!*bad) PetscCall(PressureBlocks_Private(p));
   PetscCall(ScalarsTangent_Private(p, local));
   PetscCall(StageEnd(STAGE_ASSEMBLE));

@@ -118,10 +118,10 @@ const Option Options[] = {
 
     {"load.control", KEY_WORD, "", "time", "time|arc_length",
      "arc_length: t, the factor of all loads, is found along the path of equilibria, through limit points, until it reaches end", SCENE(data.load.control)},
-    {"load.relax", KEY_BOOL, "", "true", "",
-     "where a step with contact fails and so does a shorter one, bodies creep to an equilibrium farther off, as when they snap, under drag that then goes; "
-     "history.csv says how much energy it took",
-     SCENE(data.load.relax)},
+    {"load.stable", KEY_BOOL, "", "true", "",
+     "where the equilibrium found is unstable, as that of a column beyond its critical load, a stable one of less energy is taken; not along a path "
+     "(arc_length), nor where there is no energy: follower loads, plastic flow, incompressible material",
+     SCENE(data.load.stable)},
     {"load.stop_displacement", KEY_REAL, "length", "0", NOT_BELOW, "the run ends once a displacement component is as large; 0: it does not",
      SCENE(data.load.stop_displacement)},
 

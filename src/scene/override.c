@@ -65,11 +65,21 @@ static void Expand_Private(Search *s, PetscInt num, char words[OPTION_DEPTH][MOR
   }
 }
 
+/* What has taken the place of keys of earlier versions. */
+static const char *const Replaced[][2] = {{"load.relax", "path_viscous auto|on|off"}};
+
 PetscErrorCode OptionNearest(const SceneNode *root, const char *path, char separator, size_t capacity, char nearest[])
 {
   Search s;
 
   PetscFunctionBegin;
+  for (size_t i = 0; i < PETSC_STATIC_ARRAY_LENGTH(Replaced); ++i) {
+    const char  *dot = strchr(Replaced[i][0], '.');
+    const size_t n   = (size_t)(dot - Replaced[i][0]);
+    if (strncmp(path, Replaced[i][0], n) || path[n] != separator || strcmp(path + n + 1, dot + 1)) continue;
+    PetscCall(PetscSNPrintf(nearest, capacity, "%s%s", separator == '.' ? "the option -" : "", Replaced[i][1]));
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
   PetscCall(PetscMemzero(&s, sizeof(s)));
   s.path      = path;
   s.separator = separator;

@@ -1,20 +1,23 @@
 /* The inertia of the symmetric tangent. At a stable equilibrium K is positive on every motion the constraints allow, and the matrix [K B^T; B 0] then has one
    negative eigenvalue for each constraint. Each one more is a direction of motion in which the energy falls: the equilibrium is unstable. Newton's method finds
-   such states as it finds others, and along a path that load or motion prescribes they may be what is wanted (behind a bifurcation, beyond a limit point): they
-   are counted, not refused. */
+   such states as it finds others. Where there is an energy a stable equilibrium is looked for from there (stable.c, load.stable); elsewhere, and along a path
+   that load or motion prescribes, where they may be what is wanted (behind a bifurcation, beyond a limit point), they are counted, not refused. */
 #include "solveimpl.h"
 
-/* MUMPS leaves the root of a distributed factor to ScaLAPACK, which does not count pivots, unless ICNTL(13) is 1: so chosen with incompressible material alone,
-   for elsewhere it would cost time. */
+/* MUMPS leaves the root of a distributed factor to ScaLAPACK, which does not count pivots, unless ICNTL(13) is 1: so chosen where somebody wants to know, with
+   incompressible material and where unstable equilibria give way to stable ones, on any number of ranks. */
 PetscErrorCode SolverInertiaSetUp_Private(Solver s)
 {
-  PetscBool incompressible, set;
+  const SceneData *scene;
+  PetscBool        incompressible, energy, set;
 
   PetscFunctionBegin;
   s->negative = -1;
+  PetscCall(ProblemGetScene(s->problem, &scene));
   PetscCall(ProblemIsIncompressible(s->problem, &incompressible));
+  PetscCall(ProblemHasEnergy(s->problem, &energy));
   PetscCall(PetscOptionsHasName(NULL, NULL, "-mat_mumps_icntl_13", &set));
-  if (incompressible && !set) PetscCall(PetscOptionsSetValue(NULL, "-mat_mumps_icntl_13", "1"));
+  if ((incompressible || (energy && scene->load.stable)) && !set) PetscCall(PetscOptionsSetValue(NULL, "-mat_mumps_icntl_13", "1"));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -72,6 +72,37 @@ PetscErrorCode SingleFactorNegative_Private(PC, PetscInt *negative); /* pivots *
 PetscErrorCode SolverInertiaSetUp_Private(Solver);
 PetscErrorCode SolverInertia_Private(Solver, PC);
 
+/* descent.c: minimisation of the augmented Lagrangian Phi. */
+typedef struct {
+  Solver        solver;
+  Problem       problem;
+  KSP           ksp;
+  Vec           trial, gradient, dx, lambda, depth, next; /* of the problem; depth: overlaps at the iterate (ProblemMeritDepth), next: at a trial */
+  Vec           lift, rhs, y, diagonal, work;             /* of the matrix; diagonal: of the shift, 0 at multipliers */
+  PetscBool     measured;                                 /* diagonal is known */
+  PetscReal     shift;                                    /* of the last direction */
+  PetscReal     least;                                    /* that the next one begins with */
+  PetscReal     added;                                    /* to the matrix */
+  PetscReal     merit;                                    /* at the iterate */
+  ProblemStatus status;
+  SolverReport *report;
+} Descent;
+
+PetscErrorCode DescentCreate_Private(Solver, SolverReport *, Descent *);
+PetscErrorCode DescentDestroy_Private(Descent *);
+/* Phi, its gradient and its matrix at x. *ok: they are to be had. *done: x is a stationary point. */
+PetscErrorCode DescentLinearise_Private(Descent *, Vec x, PetscBool *done, PetscBool *ok);
+/* dx = -(H + shift)^-1 gradient with the least of the shifts tried, from `least` on, for which the curvature is positive; its slope. */
+PetscErrorCode DescentDirection_Private(Descent *, PetscReal *slope, PetscBool *ok);
+/* y = A^-1 rhs with the last factor, dx from it. */
+PetscErrorCode DescentApply_Private(Descent *, PetscBool *ok);
+/* x += step dx with the longest step 1, 1/2, … that lowers Phi as the slope promises; where the direction is a short one, 2, 4, … as long as Phi falls. */
+PetscErrorCode DescentSearch_Private(Descent *, Vec x, PetscReal slope, PetscBool *ok);
+/* Phi at x + step dx, in trial; the largest number outside the domain. */
+PetscErrorCode DescentTry_Private(Descent *, Vec x, PetscReal step, PetscReal *merit);
+/* Down from the state, whose prescribed motion is put in, and to a solution of the exact problem; the report says whether. */
+PetscErrorCode DescentFinish_Private(Descent *, State *);
+
 /* saddle.c: iterative solution of the tangent, in its symmetric form or not. */
 PetscErrorCode SaddleCreate_Private(Problem, Saddle *);
 PetscErrorCode SaddleDestroy_Private(Saddle *);

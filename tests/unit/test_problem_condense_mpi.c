@@ -1,6 +1,6 @@
 /* The linear step with the nodes inside cells condensed is the one without, to 1e-12 of its largest entry, and solves the whole system to round-off: distorted
    meshes with hanging nodes, orders 1..5 at random, prescribed motion still to come, compressible and mixed laws; and cells whose inner block is indefinite,
-   where the second alone is asked, since the whole matrix is close to singular too. Drag: the same; its matrix is the derivative of its forces, and the energy
+   where the second alone is asked, since the whole matrix is close to singular too. Viscous forces: the same; its matrix is the derivative of its forces, and the energy
    it takes is their work. */
 #include "mechanicsimpl.h"
 #include "problemfixture.h"
@@ -72,7 +72,7 @@ static void LinearStep(Solved *s, Vec x, PetscReal pressure, Vec dx, Mat *A, Vec
   OK(PetscFree(pi));
 }
 
-static void SameStep(PetscInt dim, PetscInt split, PetscBool mixed, PetscReal pressure, PetscReal drag, uint64_t seed)
+static void SameStep(PetscInt dim, PetscInt split, PetscBool mixed, PetscReal pressure, PetscReal rate, uint64_t seed)
 {
   Solved    s[2];
   PetscInt  rows[2], dofs, indefinite;
@@ -88,7 +88,7 @@ static void SameStep(PetscInt dim, PetscInt split, PetscBool mixed, PetscReal pr
   OK(VecScale(x, 1e-3));
   for (PetscInt k = 0; k < 2; ++k) {
     OK(VecDuplicate(x, &dx[k]));
-    OK(ProblemSetDrag(s[k].problem, drag, s[k].state.x));
+    OK(ProblemSetViscosity(s[k].problem, rate, s[k].state.x));
     LinearStep(&s[k], x, pressure, dx[k], &A[k], &rhs[k]);
     OK(MatGetSize(A[k], &rows[k], NULL));
   }
@@ -134,23 +134,23 @@ static void IndefiniteCells(void **state)
   SameStep(3, 7, PETSC_TRUE, -60, 0, 1);
 }
 
-/* Forces of drag at x: those with it less those without. */
-static void DragForces(Solved *s, PetscReal rate, Vec from, Vec x, Vec f)
+/* Viscous forces at x: those with it less those without. */
+static void ViscousForces(Solved *s, PetscReal rate, Vec from, Vec x, Vec f)
 {
   ProblemStatus status;
   Vec           r;
 
   OK(VecDuplicate(x, &r));
-  OK(ProblemSetDrag(s->problem, 0, NULL));
+  OK(ProblemSetViscosity(s->problem, 0, NULL));
   OK(ProblemResidual(s->problem, x, NULL, r, &status));
-  OK(ProblemSetDrag(s->problem, rate, from));
+  OK(ProblemSetViscosity(s->problem, rate, from));
   OK(ProblemResidual(s->problem, x, NULL, f, &status));
   OK(VecAXPY(f, -1, r));
   OK(VecDestroy(&r));
 }
 
 /* Linear in x; no force where nothing moved; f . (x - from) is the work; f and the matrix agree. */
-static void Drag(void **state)
+static void Viscous(void **state)
 {
   for (PetscInt dim = 2; dim <= 3; ++dim) {
     Solved    s;
@@ -170,16 +170,16 @@ static void Drag(void **state)
     OK(VecScale(x, 1e-3));
     OK(VecSetRandom(from, NULL));
     OK(VecScale(from, -2e-3));
-    DragForces(&s, 0.3, x, x, f);
+    ViscousForces(&s, 0.3, x, x, f);
     OK(VecNorm(f, NORM_INFINITY, &none));
-    DragForces(&s, 0.3, from, x, f);
+    ViscousForces(&s, 0.3, from, x, f);
     OK(VecNorm(f, NORM_INFINITY, &size));
-    OK(ProblemDragWork(s.problem, x, &work));
+    OK(ProblemViscousWork(s.problem, x, &work));
     OK(ProblemCreateRightSide(s.problem, &lift));
     OK(ProblemTangent(s.problem, x, NULL, lift, &bad));
     OK(ProblemGetMatrix(s.problem, &A));
     OK(MatDuplicate(A, MAT_COPY_VALUES, &B));
-    OK(ProblemSetDrag(s.problem, 0, NULL));
+    OK(ProblemSetViscosity(s.problem, 0, NULL));
     OK(ProblemTangent(s.problem, x, NULL, lift, &bad));
     OK(MatAXPY(B, -1, A, SAME_NONZERO_PATTERN));
     OK(VecAXPY(x, -1, from));
@@ -202,7 +202,7 @@ int main(int argc, char **argv)
       cmocka_unit_test(Plane),
       cmocka_unit_test(Space),
       cmocka_unit_test(IndefiniteCells),
-      cmocka_unit_test(Drag),
+      cmocka_unit_test(Viscous),
   };
   int failed;
   if (PetscInitializeNoArguments()) return 2;

@@ -381,7 +381,7 @@ def resized(path, name, change):
         file[name] = change(values)
 
 
-@pytest.mark.parametrize("name,words", [("owner", "no owner"), ("fields", "no fields"), ("@revision", "no revision"), ("numbers@haste", "no number haste"), ("numbers@t", "no number t"),
+@pytest.mark.parametrize("name,words", [("owner", "no owner"), ("fields", "no fields"), ("@revision", "no revision"), ("numbers@speed", "no number speed"), ("numbers@t", "no number t"),
                                         ("fields/scalars", "no field scalars"), ("fields/pattern.disc_on_block", "no field pattern.disc_on_block"),
                                         ("fields/displacement", "no field displacement")])
 def test_other_version_is_refused(run, broken_off, tmp_path, name, words):

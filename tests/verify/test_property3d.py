@@ -283,7 +283,7 @@ def test_slivers(solve, order, widths):
         s = good(solve(*QUIET, "-order", order, lower=LOWER._replace(number=(4, 4, 2)), upper=Box((lo, lo, 1), (size, size, 0.8), (2, 2, 2)),
                        boundary=hold(("0", "0", "-0.1 - 0.05*{x} + 0.03*{y}")), contact=pairs("lower")))
         print(width, s["newton_iterations"], s["contact"]["pair"]["force"][2], s["contact"]["pair"]["max_pressure"])
-        assert s["step_cuts"] == 0 and s["relaxed_steps"] == 0 and s["newton_iterations"] <= 8
+        assert s["step_cuts"] == 0 and s["recoveries"]["viscous"]["tried"] == 0 and s["newton_iterations"] <= 8
         forces.append(s["contact"]["pair"]["force"][2])
         largest.append(s["contact"]["pair"]["max_pressure"])
     apart = np.abs(np.polyval(np.polyfit(widths, forces, 2), widths) / forces - 1).max()
@@ -345,7 +345,7 @@ def test_o97_held_by_contact_only(run, tmp_path, lift, top, linear):
              "upper": Box((0, 0, 1 + 2 * lift), (1, 1, 0.5), (3, 3, 1))}
     boxes(tmp_path / "stack.msh", parts)
     contacts = {"below": {"nonmortar": "middle_z0", "mortar": "lower_z1"}, "above": {"nonmortar": "middle_z1", "mortar": "upper_z0"}}
-    result = run("stack.yml", *QUIET, "-solve_linear", linear, text=scene("stack.msh", {name: RUBBER for name in parts}, hold(top), contacts))
+    result = run("stack.yml", *QUIET, "-solve_linear", linear, "-load_stable", False, text=scene("stack.msh", {name: RUBBER for name in parts}, hold(top), contacts))
     c = good(result)["contact"]
     size = np.linalg.norm(c["below"]["force"])
     assert result.summary["step_cuts"] == 0 and size > 0.02 and np.linalg.norm(np.add(c["below"]["force"], c["above"]["force"])) < 1e-8 * size

@@ -1,6 +1,7 @@
 /* A state out of balance in its forces and its gaps: with all of the imbalance left it is a solution to the last digit, with none the problem is what it was;
    taken away little by little it leads to the solution, from places where Newton's method alone finds none. */
 #include "patchfixture.h"
+#include "path.h"
 
 static void Create(Patch *p)
 {
@@ -61,52 +62,60 @@ static void ShareCounts(void **state)
   PatchDestroy(&p);
 }
 
-/* From a disturbance to the solution, step by step; alone: does Newton's method get there at once? */
-static void Settle(PetscReal size, PetscBool alone)
+/* From a disturbance to the solution, piece by piece; alone: does Newton's method get there at once? */
+static void Follow(PetscReal size, PetscBool alone)
 {
   Patch        p;
   State        off;
-  Solver       solver;
   SolverReport report;
   PetscReal    error, norm;
 
   Create(&p);
-  OK(SolverCreate(p.problem, &solver));
+  Level    level = {.forest = p.forest, .problem = p.problem, .accepted = p.state};
+  Path     path  = {.level = &level, .data = &p.data};
+  PathLoop load  = {.metric = &PathTime, .stop = 1};
+  OK(SolverCreate(p.problem, &level.solver));
+  OK(StateCreate(p.problem, &level.state));
   OK(StateCreate(p.problem, &off));
   OK(StateCopy(&p.state, &off));
   Disturb(&p, size, off.x);
-  OK(SolverSolve(solver, &off, &report));
+  OK(PathRestore(&path, &off));
+  OK(PathAttempt(&path, &load, 1, &report));
   assert_int_equal(report.converged, alone);
-  OK(StateCopy(&p.state, &off));
-  Disturb(&p, size, off.x);
-  OK(SolverSettle(solver, &off, &report));
-  if (!report.converged) fail_msg("does not settle: %s", report.reason);
+  for (PetscInt row = 0; row < PATH_RECOVERIES; ++row) path.recovery[row].mode = row == 1 ? RECOVERY_ON : RECOVERY_OFF;
+  assert_string_equal(PathRecoveries[1].name, "homotopy");
+  report.converged = PETSC_FALSE;
+  OK(PathRecover(&path, &load, 1, &off, &report));
+  if (!report.converged) fail_msg("no solution: %s", report.reason);
+  assert_int_equal(path.recovery[1].tried, 1);
+  assert_int_equal(path.recovery[1].succeeded, 1);
   OK(VecNorm(p.state.x, NORM_2, &norm));
-  OK(VecAXPY(off.x, -1, p.state.x));
-  OK(VecNorm(off.x, NORM_2, &error));
+  OK(VecAXPY(level.state.x, -1, p.state.x));
+  OK(VecNorm(level.state.x, NORM_2, &error));
   assert_true(error < 1e-8 * norm);
   OK(StateDestroy(&off));
-  OK(SolverDestroy(&solver));
+  OK(StateDestroy(&level.state));
+  OK(SolverDestroy(&level.solver));
   PatchDestroy(&p);
 }
 
-static void Settles(void **state)
+static void Arrives(void **state)
 {
-  Settle(0.02, PETSC_TRUE);
+  Follow(0.02, PETSC_TRUE);
 }
 
-static void SettlesWhereNewtonStalls(void **state)
+static void ArrivesWhereNewtonStalls(void **state)
 {
   PetscMPIInt size;
 
   OK(MPI_Comm_size(PETSC_COMM_WORLD, &size));
   if (size > 1) skip(); /* the disturbance goes by the numbers of unknowns */
-  Settle(0.05, PETSC_FALSE);
+  Follow(0.05, PETSC_FALSE);
 }
 
 int main(int argc, char **argv)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(ShareCounts), cmocka_unit_test(Settles), cmocka_unit_test(SettlesWhereNewtonStalls)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(ShareCounts), cmocka_unit_test(Arrives), cmocka_unit_test(ArrivesWhereNewtonStalls)};
   int                     failed;
 
   if (PetscInitialize(&argc, &argv, NULL, NULL)) return 2;

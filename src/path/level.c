@@ -1,5 +1,5 @@
 /* Everything bound to one mesh. */
-#include "appimpl.h"
+#include "path.h"
 
 /* Takes the forest over. The states start at rest at time t. */
 PetscErrorCode LevelCreate(const SceneData *data, Forest forest, const int8_t leaf_order[], PetscReal t, Level *level)
@@ -30,7 +30,7 @@ static PetscErrorCode CheckSupports_Private(const SceneData *data, const Level *
 
   PetscFunctionBegin;
   for (PetscReal t = level->state.t; t < data->load.end && !conflict[0];) {
-    t = AppStepEnd(data, t, dt);
+    t = PathStepEnd(data, t, dt);
     PetscCall(ProblemFindConflict(level->problem, t, sizeof(conflict), conflict));
   }
   PetscCall(ExpressionTrouble(ForestComm(level->forest), &words));
@@ -40,14 +40,14 @@ static PetscErrorCode CheckSupports_Private(const SceneData *data, const Level *
 
 PetscErrorCode LevelCheck(const SceneData *data, const Level *level)
 {
-  PetscInt    order;
+  PetscInt    order, leaf;
   PetscReal   X[3];
   const char *words;
 
   PetscFunctionBegin;
   PetscCall(ExpressionTrouble(ForestComm(level->forest), &words));
   PetscCheckInput(!words, "%s", words);
-  PetscCall(ProblemFindInverted(level->problem, &order, X));
+  PetscCall(ProblemFindInverted(level->problem, &order, X, &leaf));
   PetscCheckInput(!order,
                   "mesh: a cell of order %" PetscInt_FMT " at (%g, %g, %g) is inverted, for sides that are straight or hang from coarser cells cut across "
                   "curved ones; take smaller cells there, a higher order or mesh.order: 1, or other refinements",

@@ -1,23 +1,23 @@
-/* Drag: forces against the deformation since a given state, in residual and tangent alike. With it there is a solution near that state where without there is
-   none: what snaps creeps from one equilibrium to the next (app/relax.c).
+/* Viscous regularisation: forces against the deformation since a given state, in residual and tangent alike. With it there is a solution near that state where without there is
+   none: what snaps creeps from one equilibrium to the next (path/recover.c).
 
      r_i += c (d_i - mean of d over the cell's n nodes),   d = u - from,   c = rate E p^2 h^(dim-2) / n   (axisymmetric: times 2 pi R)
 
    E Young's modulus, h the cell's extent: with rate 1 about what the cell answers itself. Cells that are only carried along feel nothing of it. */
 #include "mechanicsimpl.h"
 
-PetscErrorCode MechanicsSetDrag(Mechanics m, PetscReal rate, const PetscReal from[])
+PetscErrorCode MechanicsSetViscosity(Mechanics m, PetscReal rate, const PetscReal from[])
 {
   const HPTables *v;
   PetscInt        most = 0;
 
   PetscFunctionBegin;
-  m->drag = rate;
+  m->viscosity = rate;
   if (rate == 0) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(HPSpaceGetTables(m->space, &v));
   for (PetscInt g = 0; g < m->num_groups; ++g) most = PetscMax(most, m->groups[g].n * m->dim);
-  if (!m->drag_from) PetscCall(PetscMalloc2(v->num_nodes * m->dim, &m->drag_from, 2 * most, &m->drag_work));
-  PetscCall(PetscArraycpy(m->drag_from, from, v->num_nodes * m->dim));
+  if (!m->viscous_from) PetscCall(PetscMalloc2(v->num_nodes * m->dim, &m->viscous_from, 2 * most, &m->viscous_room));
+  PetscCall(PetscArraycpy(m->viscous_from, from, v->num_nodes * m->dim));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -34,7 +34,7 @@ static PetscReal Coefficient_Private(Mechanics m, const CellGroup *g, PetscInt i
   }
   if (m->dim == 3) size = cbrt((hi[0] - lo[0]) * (hi[1] - lo[1]) * (hi[2] - lo[2]));
   if (m->spec->model == MODEL_AXISYMMETRIC) size = PETSC_PI * (lo[0] + hi[0]);
-  return m->drag * MaterialYoung(g->material) * PetscSqr((PetscReal)g->order) * size / (PetscReal)g->n;
+  return m->viscosity * MaterialYoung(g->material) * PetscSqr((PetscReal)g->order) * size / (PetscReal)g->n;
 }
 
 /* d less its mean, at displacements u[n][dim] of the cell; d[n][dim]. */
@@ -43,7 +43,7 @@ static PetscErrorCode Change_Private(Mechanics m, const CellGroup *g, PetscInt i
   PetscReal mean[3] = {0, 0, 0};
 
   PetscFunctionBegin;
-  PetscCall(HPSpaceGather(m->space, g->cells[i], m->drag_from, d));
+  PetscCall(HPSpaceGather(m->space, g->cells[i], m->viscous_from, d));
   for (PetscInt k = 0; k < g->n * m->dim; ++k) {
     d[k] = u[k] - d[k];
     mean[k % m->dim] += d[k] / (PetscReal)g->n;
@@ -52,18 +52,18 @@ static PetscErrorCode Change_Private(Mechanics m, const CellGroup *g, PetscInt i
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode MechanicsDragForces_Private(Mechanics m, const CellGroup *g, PetscInt i, const PetscReal u[], PetscReal r[])
+PetscErrorCode MechanicsViscousForces_Private(Mechanics m, const CellGroup *g, PetscInt i, const PetscReal u[], PetscReal r[])
 {
   const PetscReal c = Coefficient_Private(m, g, i);
 
   PetscFunctionBegin;
-  PetscCall(Change_Private(m, g, i, u, m->drag_work));
-  for (PetscInt k = 0; k < g->n * m->dim; ++k) r[k] += c * m->drag_work[k];
+  PetscCall(Change_Private(m, g, i, u, m->viscous_room));
+  for (PetscInt k = 0; k < g->n * m->dim; ++k) r[k] += c * m->viscous_room[k];
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* The same for any order of the nodes: rows of those inside stand apart where they are condensed, without the transpose of their other columns. */
-void MechanicsDragMatrix_Private(Mechanics m, const CellGroup *g, PetscInt i, PetscInt num_inner, PetscReal inner[], PetscReal K[])
+void MechanicsViscousMatrix_Private(Mechanics m, const CellGroup *g, PetscInt i, PetscInt num_inner, PetscReal inner[], PetscReal K[])
 {
   const PetscReal c  = Coefficient_Private(m, g, i);
   const PetscInt  nd = g->n * m->dim;
@@ -76,13 +76,13 @@ void MechanicsDragMatrix_Private(Mechanics m, const CellGroup *g, PetscInt i, Pe
   }
 }
 
-PetscErrorCode MechanicsDragWork(Mechanics m, const PetscReal u[], PetscReal *work)
+PetscErrorCode MechanicsViscousWork(Mechanics m, const PetscReal u[], PetscReal *work)
 {
   PetscFunctionBegin;
   *work = 0;
-  for (PetscInt ig = 0; ig < m->num_groups && m->drag > 0; ++ig) {
+  for (PetscInt ig = 0; ig < m->num_groups && m->viscosity > 0; ++ig) {
     const CellGroup *g = &m->groups[ig];
-    PetscReal       *d = m->drag_work, *values = d + g->n * m->dim;
+    PetscReal       *d = m->viscous_room, *values = d + g->n * m->dim;
     for (PetscInt i = 0; i < g->num_cells; ++i) {
       const PetscReal c = Coefficient_Private(m, g, i);
       PetscCall(HPSpaceGather(m->space, g->cells[i], u, values));

@@ -1,0 +1,120 @@
+/* Floor 7. From one equilibrium to the next: the loop that follows a parameter in pieces, and the recoveries where a piece leads to no solution. */
+#pragma once
+#include "solve.h"
+
+#define PATH_RECOVERIES 6 /* rows of the table of recoveries */
+
+/* The part of a run that lives on one mesh; replaced as a whole at each adaptation. */
+typedef struct {
+  Forest  forest;
+  Problem problem;
+  Solver  solver;
+  State   state;    /* being computed; its history is that of the start of the step (or of the last piece of it) */
+  State   accepted; /* at the end of the last accepted load step */
+} Level;
+
+/* Takes the forest over. The states start at rest at time t. Collective. */
+PetscErrorCode LevelCreate(const SceneData *, Forest, const int8_t leaf_order[], PetscReal t, Level *);
+/* An input error when a cell of it is inverted in the reference mesh, a value at its time is not finite, or supports contradict each other until the end.
+   Collective. */
+PetscErrorCode LevelCheck(const SceneData *, const Level *);
+PetscErrorCode LevelDestroy(Level *);
+
+typedef enum { RECOVERY_AUTO, RECOVERY_ON, RECOVERY_OFF } RecoveryMode;
+typedef struct {
+  RecoveryMode mode;
+  PetscInt     tried, succeeded;
+} RecoveryCount;
+
+/* What a run knows of its path, whatever mesh it is on: what solves took, what recoveries did. */
+typedef struct {
+  Level           *level; /* borrowed */
+  const SceneData *data;  /* borrowed */
+  PetscInt         step_cuts, newton_iterations, set_changes, set_cycles, factorisations, single_failures;
+  PetscInt         descent_iterations; /* tangents of descents, besides Newton's */
+  PetscInt         unstable, judged;   /* judged: equilibria of which it is known whether they are stable */
+  PetscInt         stabilised;         /* that took the place of unstable ones */
+  PetscBool        unstable_now;       /* the last equilibrium found is unstable */
+  PetscInt         iterations_in_step, cuts_in_step;
+  PetscInt         failures;                       /* attempts of this load step in vain; a step shorter than asked for begins with one */
+  PetscReal        viscous_work, all_viscous_work; /* energy that viscous regularisation dissipated in the step at hand, in all steps accepted */
+  PetscBool        limit_point;                    /* loads are near a limit point: no equilibrium farther off is looked for */
+  PetscBool        stopped;                        /* the run was asked to stop */
+  ProblemStatus    status;                         /* of the last solution */
+  RecoveryCount    recovery[PATH_RECOVERIES];      /* by row of the table */
+} Path;
+
+/* ---- the loop (follow.c) ----------------------------------------------------------------------------------------------------- */
+
+typedef struct _p_PathLoop PathLoop;
+
+/* A parameter s that equilibria are followed in (metric.c). All functions are collective; those that are NULL do nothing. */
+typedef struct {
+  const char *name;
+  PetscReal   cut, growth; /* factors of the length of a piece: after one that failed, after one that was found at once (along the load: easily) */
+  PetscBool   load;        /* it carries the load: each piece is committed before the next begins, its cuts count, it grows after easy pieces only */
+  /* Where a piece of length loop->piece from loop->s ends. */
+  PetscReal (*end)(const Path *, const PathLoop *);
+  /* level->state is the start of the piece, the prescribed motion its own: the problem becomes that at `to`. */
+  PetscErrorCode (*set)(Path *, const PathLoop *, PetscReal to);
+  /* level->state is the solution at `to`: note what follows, or refuse it (report->converged false, report->reason). */
+  PetscErrorCode (*found)(Path *, const PathLoop *, PetscReal to, SolverReport *);
+} PathMetric;
+
+struct _p_PathLoop {
+  const PathMetric *metric;
+  PetscReal         s, stop;     /* where it stands, where it ends */
+  PetscReal         piece;       /* length of the next piece */
+  PetscReal         least, most; /* a shorter one is given up; it does not grow beyond */
+  PetscInt          attempts;    /* that are left; 0: as many as it takes */
+  PetscBool         step;        /* a load step: recoveries are tried, and the first piece found is the last */
+  PetscReal         origin;      /* of the load: s of the accepted state */
+  const PathLoop   *load;        /* of a loop at fixed load: that, … */
+  PetscReal         at;          /* … and where it stands */
+};
+
+extern const PathMetric PathTime, PathArc, PathHomotopy, PathViscous;
+
+/* Follow loop->s from level->state: attempt a piece; accept it and go on from there, or go back to its start and try a shorter one. report: of the last
+   attempt; converged: level->state is the solution where the loop ended. Else level->state and prescribed motion are those of the start of the piece that
+   failed. Collective. */
+PetscErrorCode PathFollow(Path *, PathLoop *, SolverReport *);
+/* One piece, to s = `to`; counted. Collective. */
+PetscErrorCode PathAttempt(Path *, const PathLoop *, PetscReal to, SolverReport *);
+/* What a solve took; equilibrium: what was found is one, not a step on the way to it. */
+void PathCount(Path *, const SolverReport *, PetscBool equilibrium);
+/* level->state := from, with its time and prescribed motion. Collective. */
+PetscErrorCode PathRestore(Path *, const State *from);
+/* The prescribed motion as it was at time t. Collective. */
+PetscErrorCode PathPrescribe(Problem, PetscReal t);
+/* A load step begins: counters of one step. is_short: it is shorter than asked for, since an earlier one failed. */
+void PathBegin(Path *, PetscBool is_short);
+/* Where a step of dt from t ends: not beyond load.end, nor beyond a corner of an amplitude. */
+PetscReal PathStepEnd(const SceneData *, PetscReal t, PetscReal dt);
+
+/* ---- recoveries (recover.c) --------------------------------------------------------------------------------------------------- */
+
+/* Where an attempt at s = `to` of the load loop failed. guess: the state it began with if that is near `to` (after adaptation: carried over), NULL: it was the
+   accepted one. */
+typedef struct {
+  const char *name, *help;
+  PetscInt    far; /* what it finds may lie on another branch of equilibria: auto tries it where a load step has failed so often, and then each time failures
+ have doubled; 0: it does not */
+  PetscBool (*applies)(const Path *, const State *guess);
+  /* Look for level->state at `to`; level->state is any, and of no use afterwards where report->converged is false. Collective. */
+  PetscErrorCode (*run)(Path *, const PathLoop *load, PetscReal to, const State *guess, SolverReport *);
+} Recovery;
+
+/* descend.c: the row of descent (solve/descent.c). */
+PetscBool      PathCanDescend(const Path *, const State *guess);
+PetscErrorCode PathDescend(Path *, const PathLoop *load, PetscReal to, const State *guess, SolverReport *);
+/* load.stable: where the last equilibrium, level->state, is unstable, it gives way to a stable one, if that can be had. *changed: it did. Collective. */
+PetscErrorCode PathStabilise(Path *, PetscBool *changed);
+
+extern const Recovery PathRecoveries[PATH_RECOVERIES];
+
+/* Try the rows of the table in turn until one finds level->state; *report is of that one then, else as it was. Collective. */
+PetscErrorCode PathRecover(Path *, const PathLoop *load, PetscReal to, const State *guess, SolverReport *);
+/* Options -path_<name> on|off|auto: an input error when one is unknown or its value not allowed. */
+PetscErrorCode PathOptions(Path *);
+PetscErrorCode PathPrintHelp(MPI_Comm);

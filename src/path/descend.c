@@ -1,0 +1,67 @@
+/* Down on the energy: where Newton's method finds no equilibrium (solve/descent.c), and where it finds one that is unstable (solve/stable.c). */
+#include "path.h"
+
+PetscBool PathCanDescend(const Path *p, const State *guess)
+{
+  PetscBool yes = PETSC_FALSE;
+
+  (void)SolverHasDescent(p->level->solver, &yes);
+  return yes;
+}
+
+PetscErrorCode PathDescend(Path *p, const PathLoop *load, PetscReal to, const State *guess, SolverReport *report)
+{
+  Level *l = p->level;
+
+  PetscFunctionBegin;
+  PetscCall(PathRestore(p, &l->accepted));
+  PetscCall(load->metric->set(p, load, to));
+  PetscCall(SolverDescend(l->solver, &l->state, report));
+  PathCount(p, report, PETSC_TRUE);
+  if (report->converged && load->metric->found) PetscCall(load->metric->found(p, load, to, report));
+  PetscCall(PetscInfo(NULL, "%" PetscInt_FMT " descents, %" PetscInt_FMT " factorisations: %s\n", report->descents, report->factorisations,
+                      report->converged ? "found" : report->reason));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Back to the solution there was. */
+static PetscErrorCode Keep_Private(Level *l, const State *unstable)
+{
+  PetscFunctionBegin;
+  PetscCall(StateCopy(unstable, &l->state));
+  PetscCall(ProblemSetState(l->problem, &l->state));
+  PetscCall(ProblemSearch(l->problem, l->state.x));
+  PetscCall(ProblemRefresh(l->problem, l->state.x));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode PathStabilise(Path *p, PetscBool *changed)
+{
+  Level       *l = p->level;
+  SolverReport report;
+  State        unstable;
+
+  PetscFunctionBegin;
+  *changed = PETSC_FALSE;
+  if (!p->unstable_now || !p->data->load.stable || !PathCanDescend(p, NULL)) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(StateCreate(l->problem, &unstable));
+  PetscCall(StateCopy(&l->state, &unstable));
+  PetscCall(SolverStabilise(l->solver, &l->state, &report));
+  PetscCall(PetscInfo(NULL, "unstable equilibrium: %s\n", report.converged ? "another was found" : report.reason));
+  *changed         = (PetscBool)(report.converged && report.unstable == 0);
+  report.converged = *changed;
+  PathCount(p, &report, PETSC_FALSE);
+  if (*changed) {
+    --p->unstable; /* it is gone */
+    p->unstable_now = PETSC_FALSE;
+    if (p->stabilised++ == 0)
+      PetscCall(
+          PetscPrintf(ForestComm(l->forest),
+                      "note: the equilibrium found at t = %g is unstable; a stable one of less energy takes its place, there and where that happens again "
+                      "(load.stable)\n",
+                      (double)l->state.t));
+  } else
+    PetscCall(Keep_Private(l, &unstable));
+  PetscCall(StateDestroy(&unstable));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

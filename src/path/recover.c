@@ -1,0 +1,221 @@
+/* What is tried, in this order, where a step has no solution that Newton's method finds from where it stands: after a failed load step, in time or along a
+   path, and after adaptation on the new mesh. Each row can be switched: -path_<name> on|off|auto. */
+#include "path.h"
+
+#define MODES "auto|on|off"
+#define PREFIX "path_"
+
+/* Shortest pieces, first ones and longest ones of the loops; lengths of the first are of the whole way. */
+#define LEAST_WAY (1. / 8)
+#define FIRST_SHARE 0.25
+#define LEAST_SHARE (1. / 64)
+#define FIRST_CREEP 10   /* pseudo-time: over it cells answer to a change of shape with a tenth of their stiffness more */
+#define LEAST_CREEP 0.01 /* hardly anything moves */
+#define LONG_CREEP 1e6   /* from here on as good as without viscosity */
+#define CREEP_SOLVES 20
+
+static PetscErrorCode Begin_Private(Path *p, const State *guess)
+{
+  PetscFunctionBegin;
+  PetscCall(PathRestore(p, guess ? guess : &p->level->accepted));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- segmentation no longer frozen ------------------------------------------------------------------------------------------------- */
+
+static PetscBool IsFrozen_Private(const Path *p, const State *guess)
+{
+  return guess ? guess->lines_held : p->level->accepted.lines_held;
+}
+
+static PetscErrorCode Unfreeze_Private(Path *p, const PathLoop *load, PetscReal to, const State *guess, SolverReport *report)
+{
+  PetscFunctionBegin;
+  PetscCall(Begin_Private(p, guess));
+  p->level->state.lines_held = PETSC_FALSE;
+  PetscCall(PathAttempt(p, load, to, report));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- from what was carried over to another mesh ------------------------------------------------------------------------------------ */
+
+static PetscBool IsCarried_Private(const Path *p, const State *guess)
+{
+  return (PetscBool)(guess != NULL);
+}
+
+static PetscErrorCode Homotopy_Private(Path *p, const PathLoop *load, PetscReal to, const State *guess, SolverReport *report)
+{
+  PathLoop  loop    = {.metric = &PathHomotopy, .stop = 1, .piece = FIRST_SHARE, .least = LEAST_SHARE, .most = 1, .load = load, .at = to};
+  Problem   problem = p->level->problem;
+  PetscBool usable;
+
+  PetscFunctionBegin;
+  PetscCall(Begin_Private(p, guess));
+  PetscCall(ProblemSetState(problem, &p->level->state));
+  PetscCall(ProblemNoteImbalance(problem, p->level->state.x, &usable));
+  if (usable) PetscCall(PathFollow(p, &loop, report));
+  PetscCall(ProblemLeaveImbalance(problem, 0));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* From states between the accepted and the carried one, each under its share of the prescribed motion: the rest is left to the solver. */
+static PetscErrorCode Blend_Private(Path *p, const PathLoop *load, PetscReal to, const State *guess, SolverReport *report)
+{
+  static const PetscReal Shares[] = {0.8, 0.5};
+  Level                 *l        = p->level;
+
+  PetscFunctionBegin;
+  for (size_t i = 0; i < PETSC_STATIC_ARRAY_LENGTH(Shares) && !report->converged && !p->stopped; ++i) {
+    PetscCall(StateBlend(&l->accepted, guess, Shares[i], &l->state));
+    PetscCall(PathPrescribe(l->problem, l->accepted.t));
+    PetscCall(ProblemSetTime(l->problem, guess->t));
+    PetscCall(ProblemApplyShare(l->problem, Shares[i]));
+    PetscCall(PathAttempt(p, load, to, report));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The way of the load from the accepted state again, in as many pieces as it takes. */
+static PetscErrorCode Cut_Private(Path *p, const PathLoop *load, PetscReal to, const State *guess, SolverReport *report)
+{
+  const PetscReal way  = to - load->origin;
+  PathLoop        loop = {.metric = load->metric, .s = load->origin, .stop = to, .piece = way, .least = LEAST_WAY * way, .most = way, .origin = load->origin};
+
+  PetscFunctionBegin;
+  PetscCall(Begin_Private(p, NULL));
+  PetscCall(PathFollow(p, &loop, report));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- to an equilibrium farther off ------------------------------------------------------------------------------------------------- */
+
+static PetscBool Always_Private(const Path *p, const State *guess)
+{
+  return PETSC_TRUE;
+}
+
+static PetscErrorCode Viscous_Private(Path *p, const PathLoop *load, PetscReal to, const State *guess, SolverReport *report)
+{
+  PathLoop loop = {.metric   = &PathViscous,
+                   .stop     = PETSC_INFINITY,
+                   .piece    = FIRST_CREEP,
+                   .least    = LEAST_CREEP,
+                   .most     = LONG_CREEP,
+                   .attempts = CREEP_SOLVES,
+                   .load     = load,
+                   .at       = to};
+
+  const PetscReal before = p->viscous_work;
+
+  PetscFunctionBegin;
+  PetscCall(Begin_Private(p, NULL));
+  PetscCall(PathFollow(p, &loop, report));
+  PetscCall(ProblemSetViscosity(p->level->problem, 0, NULL));
+  if (!report->converged) p->viscous_work = before;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- the table --------------------------------------------------------------------------------------------------------------------- */
+
+const Recovery PathRecoveries[PATH_RECOVERIES] = {
+    {"unfreeze", "once more from the start of the step, with the segmentation of contact no longer frozen", 0, IsFrozen_Private, Unfreeze_Private},
+    {"homotopy", "residual homotopy: the imbalance of a state carried over to another mesh is taken away in pieces", 0, IsCarried_Private, Homotopy_Private},
+    {"blend", "from between the accepted state and the one carried over to another mesh", 0, IsCarried_Private, Blend_Private},
+    {"cut", "on another mesh, the way of the load from the accepted state again, in pieces", 0, IsCarried_Private, Cut_Private},
+    {"descent", "down on the energy of contact and bodies, each iterate lower than the one before, to an equilibrium that is not near by", 1, PathCanDescend,
+     PathDescend},
+    {"viscous", "viscous regularisation: bodies creep to an equilibrium that is not near by, as when they snap", 2, Always_Private, Viscous_Private},
+};
+
+/* Is it time for an equilibrium farther off? Bodies in contact snap, or flow far; the end of what a load can be is no such place, and the user is told. A
+   descent tells soon whether it helps; for viscosity a shorter step failed too. Then again each time the failures have doubled: what was in vain at a step may
+   not be at a much shorter one. */
+static PetscBool FarNow_Private(const Path *p, PetscInt first, const State *guess)
+{
+  if (p->data->num_contacts == 0 || p->limit_point) return PETSC_FALSE;
+  return (PetscBool)(guess || (p->failures >= first && !(p->failures & (p->failures - 1))));
+}
+
+static PetscBool Applies_Private(const Path *p, PetscInt row, const State *guess)
+{
+  const Recovery    *r    = &PathRecoveries[row];
+  const RecoveryMode mode = p->recovery[row].mode;
+
+  if (mode == RECOVERY_OFF) return PETSC_FALSE;
+  if (mode == RECOVERY_AUTO && r->far && !FarNow_Private(p, r->far, guess)) return PETSC_FALSE;
+  return r->applies(p, guess);
+}
+
+/* Run a row; *report is replaced where it succeeds. */
+static PetscErrorCode Try_Private(Path *p, PetscInt row, const PathLoop *load, PetscReal to, const State *guess, SolverReport *report)
+{
+  SolverReport own = {.reason = "not tried"};
+
+  PetscFunctionBegin;
+  ++p->recovery[row].tried;
+  PetscCall(PathRecoveries[row].run(p, load, to, guess, &own));
+  PetscCall(PetscInfo(NULL, "recovery %s: %s\n", PathRecoveries[row].name, own.converged ? "found" : own.reason));
+  if (!own.converged) PetscFunctionReturn(PETSC_SUCCESS);
+  ++p->recovery[row].succeeded;
+  *report = own;
+  if (PathRecoveries[row].far)
+    PetscCall(PetscPrintf(ForestComm(p->level->forest), "note: no equilibrium near by at t = %g; one farther off was found (-path_%s)\n",
+                          (double)p->level->state.t, PathRecoveries[row].name));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode PathRecover(Path *p, const PathLoop *load, PetscReal to, const State *guess, SolverReport *report)
+{
+  PetscFunctionBegin;
+  if (!guess) ++p->failures;
+  for (PetscInt row = 0; row < PATH_RECOVERIES && !report->converged && !p->stopped; ++row) {
+    if (Applies_Private(p, row, guess)) PetscCall(Try_Private(p, row, load, to, guess, report));
+  }
+  if (!report->converged && !guess) PetscCall(PathRestore(p, &p->level->accepted));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- options ------------------------------------------------------------------------------------------------------------------------ */
+
+PetscErrorCode PathOptions(Path *p)
+{
+  static const char *const modes[] = {"auto", "on", "off", "RecoveryMode", "", NULL};
+  const char              *known[PATH_RECOVERIES];
+  char                     name[64], text[64], unknown[64] = "", **names, **values;
+  PetscInt                 num;
+
+  PetscFunctionBegin;
+  for (PetscInt row = 0; row < PATH_RECOVERIES; ++row) {
+    PetscBool set, found = PETSC_TRUE;
+    PetscInt  mode = p->recovery[row].mode;
+    known[row]     = PathRecoveries[row].name;
+    PetscCall(PetscSNPrintf(name, sizeof(name), "-" PREFIX "%s", PathRecoveries[row].name));
+    PetscCall(PetscOptionsGetString(NULL, NULL, name, text, sizeof(text), &set));
+    if (set) PetscCall(PetscEListFind(3, modes, text, &mode, &found));
+    PetscCheckInput(found, "%s is '%s'; allowed: %s", name, text, MODES);
+    p->recovery[row].mode = (RecoveryMode)mode;
+  }
+  PetscCall(PetscOptionsLeftGet(NULL, &num, &names, &values));
+  for (PetscInt i = num - 1; i >= 0; --i) {
+    if (!strncmp(names[i], PREFIX, strlen(PREFIX))) PetscCall(PetscStrncpy(unknown, names[i] + strlen(PREFIX), sizeof(unknown)));
+  }
+  PetscCall(PetscOptionsLeftRestore(NULL, &num, &names, &values));
+  PetscCheckInput(!unknown[0], "-" PREFIX "%s is no recovery; the nearest one is -" PREFIX "%s", unknown, NameNearest(unknown, PATH_RECOVERIES, known));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode PathPrintHelp(MPI_Comm comm)
+{
+  char name[64];
+
+  PetscFunctionBegin;
+  PetscCall(PetscPrintf(comm,
+                        "\nRecoveries where a step or a finer mesh has no equilibrium that is found, in this order; on the command line only, default auto.\n"
+                        "summary.json counts them. on: whenever possible, not only after a shorter step has failed too.\n\n"));
+  for (PetscInt row = 0; row < PATH_RECOVERIES; ++row) {
+    PetscCall(PetscSNPrintf(name, sizeof(name), "-" PREFIX "%s", PathRecoveries[row].name));
+    PetscCall(HelpRow(comm, name, MODES, PathRecoveries[row].help));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

@@ -1,0 +1,436 @@
+/* Descent: the last resort where Newton's method with the active set finds no equilibrium.
+
+   Frictionless contact of hyperelastic bodies is minimisation. Of the augmented Lagrangian Phi(u; lambda) (problem/energy.c) Newton's method with a shift
+   against negative curvature and a line search on Phi itself finds a minimum from anywhere: each iterate lowers Phi, so that none comes back. The multipliers
+   follow, lambda <- z, and once the constraints that press are known the exact problem is solved from there by SolverSolve. */
+#include "solveimpl.h"
+
+#define PENALTY 10           /* kappa over E / h: stiff against the cells, soft enough for the line search */
+#define OUTER 3              /* descents, each with the multipliers of the one before: what helps does so after one or two */
+#define ITERATIONS 60        /* of one descent */
+#define MOVES 20             /* pieces of the prescribed motion */
+#define RTOL 1e-6            /* forces out of balance over the nodal forces at a minimum */
+#define FIRST_SHIFT 1e-9     /* over the rows' largest entries */
+#define MORE_SHIFT 16        /* times the last, where the matrix is not positive yet */
+#define LESS_SHIFT (1. / 16) /* where it was in the last iteration */
+#define SHORTER_SHIFT 1e-3   /* at least, and as many times MORE_SHIFT, where steps along the last direction have to be short */
+#define LARGEST_SHIFT 1e3    /* next to which the matrix is nothing */
+#define ARMIJO 1e-4          /* least share of the decrease that the slope promises */
+#define SHORT (1. / 16)      /* step of a line search from which on the next direction is to be shorter instead */
+#define SHORTEST 1e-3        /* … that gives up */
+#define LONGEST 64
+#define DEEPER 1        /* the same, by how much a piece of the prescribed motion may drive a node in */
+#define DEEP 0.25       /* overlap over the extent of a node along the surface: bodies must not pass through each other */
+#define ROUND_OFF 1e-13 /* of Phi: a smaller decrease is none */
+
+PetscErrorCode SolverHasDescent(Solver s, PetscBool *yes)
+{
+  PetscFunctionBegin;
+  *yes = PETSC_FALSE;
+#if defined(PETSC_HAVE_MUMPS)
+  PetscCall(ProblemHasEnergy(s->problem, yes));
+  if (s->saddle) *yes = PETSC_FALSE;
+#endif
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Options of the factors before they are made: all pivots are counted (inertia.c), more room. */
+static PetscErrorCode FactorOption_Private(const char *name, const char *value)
+{
+  PetscBool set;
+
+  PetscFunctionBegin;
+  PetscCall(PetscOptionsHasName(NULL, NULL, name, &set));
+  if (!set) PetscCall(PetscOptionsSetValue(NULL, name, value));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode Factors_Private(Descent *d)
+{
+  PC pc;
+
+  PetscFunctionBegin;
+  PetscCall(KSPCreate(PetscObjectComm((PetscObject)d->trial), &d->ksp));
+  PetscCall(KSPSetOptionsPrefix(d->ksp, "descent_"));
+  PetscCall(KSPSetType(d->ksp, KSPPREONLY));
+  PetscCall(KSPGetPC(d->ksp, &pc));
+  PetscCall(PCSetType(pc, PCCHOLESKY));
+#if defined(PETSC_HAVE_MUMPS)
+  PetscCall(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS));
+#endif
+  PetscCall(PCSetFromOptions(pc));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode DescentCreate_Private(Solver s, SolverReport *report, Descent *d)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscMemzero(d, sizeof(*d)));
+  d->solver  = s;
+  d->problem = s->problem;
+  d->report  = report;
+  PetscCall(ProblemCreateVector(s->problem, &d->trial));
+  PetscCall(VecDuplicate(d->trial, &d->gradient));
+  PetscCall(VecDuplicate(d->trial, &d->dx));
+  PetscCall(VecDuplicate(d->trial, &d->lambda));
+  PetscCall(VecDuplicate(d->trial, &d->depth));
+  PetscCall(VecDuplicate(d->trial, &d->next));
+  PetscCall(ProblemCreateRightSide(s->problem, &d->lift));
+  PetscCall(VecDuplicate(d->lift, &d->rhs));
+  PetscCall(VecDuplicate(d->lift, &d->y));
+  PetscCall(VecDuplicate(d->lift, &d->diagonal));
+  PetscCall(VecDuplicate(d->lift, &d->work));
+  PetscCall(FactorOption_Private("-descent_mat_mumps_icntl_13", "1"));
+  PetscCall(FactorOption_Private("-descent_mat_mumps_icntl_14", "80"));
+  PetscCall(Factors_Private(d));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode DescentDestroy_Private(Descent *d)
+{
+  PetscFunctionBegin;
+  PetscCall(KSPDestroy(&d->ksp));
+  PetscCall(VecDestroy(&d->trial));
+  PetscCall(VecDestroy(&d->gradient));
+  PetscCall(VecDestroy(&d->dx));
+  PetscCall(VecDestroy(&d->lambda));
+  PetscCall(VecDestroy(&d->depth));
+  PetscCall(VecDestroy(&d->next));
+  PetscCall(VecDestroy(&d->lift));
+  PetscCall(VecDestroy(&d->rhs));
+  PetscCall(VecDestroy(&d->y));
+  PetscCall(VecDestroy(&d->diagonal));
+  PetscCall(VecDestroy(&d->work));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* What shifts are measured by: the largest entry of each row of displacements at the first matrix. */
+static PetscErrorCode Measure_Private(Descent *d, Mat A)
+{
+  PetscReal *array;
+  PetscInt   num_u, num_z, dim, num;
+
+  PetscFunctionBegin;
+  if (d->measured) PetscFunctionReturn(PETSC_SUCCESS);
+  d->measured = PETSC_TRUE;
+  PetscCall(ProblemGetBlocks(d->problem, &num_u, &num_z, &dim));
+  PetscCall(MatGetRowMaxAbs(A, d->diagonal, NULL));
+  PetscCall(VecGetLocalSize(d->diagonal, &num));
+  PetscCall(VecGetArray(d->diagonal, &array));
+  for (PetscInt i = num_u; i < num; ++i) array[i] = 0;
+  PetscCall(VecRestoreArray(d->diagonal, &array));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+#define NO_FACTOR (-1) /* the matrix is singular */
+#define NO_MEMORY (-2)
+
+/* Factorise the matrix, whose shift is there. *negative: directions of negative curvature, or why there is no factor. */
+static PetscErrorCode Factor_Private(Descent *d, Mat A, PetscInt *negative)
+{
+  PCFailedReason failed;
+  PetscInt       constraints;
+  PC             pc;
+
+  PetscFunctionBegin;
+  *negative = NO_FACTOR;
+  PetscCall(StageBegin(STAGE_FACTOR));
+  ++d->report->factorisations;
+  PetscCall(KSPSetOperators(d->ksp, A, A));
+  PetscCall(KSPSetUp(d->ksp));
+  PetscCall(StageEnd(STAGE_FACTOR));
+  PetscCall(KSPGetPC(d->ksp, &pc));
+  PetscCall(PCGetFailedReason(pc, &failed));
+  if (failed == PC_FACTOR_OUTMEMORY) *negative = NO_MEMORY;
+  if (failed != PC_NOERROR) PetscFunctionReturn(PETSC_SUCCESS);
+#if defined(PETSC_HAVE_MUMPS)
+  Mat F;
+  PetscCall(PCFactorGetMatrix(pc, &F));
+  PetscCall(MatMumpsGetInfog(F, 12, negative));
+#endif
+  PetscCall(ProblemNumNegative(d->problem, &constraints));
+  *negative = PetscMax(0, *negative - constraints);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode DescentApply_Private(Descent *d, PetscBool *ok)
+{
+  KSPConvergedReason reason;
+  PetscReal          norm;
+  PetscErrorCode     code;
+  PetscBool          failed;
+
+  PetscFunctionBegin;
+  *ok = PETSC_FALSE;
+  PetscCall(StageBegin(STAGE_SOLVE));
+  PetscCall(ErrorForesee("MUMPS in solve"));
+  code = KSPSolve(d->ksp, d->rhs, d->y);
+  PetscCall(ErrorForeseen(code, &failed));
+  PetscCall(StageEnd(STAGE_SOLVE));
+  if (failed) { /* as in linear.c */
+    PetscCall(KSPDestroy(&d->ksp));
+    PetscCall(Factors_Private(d));
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
+  PetscCall(KSPGetConvergedReason(d->ksp, &reason));
+  PetscCall(VecNorm(d->y, NORM_2, &norm));
+  *ok = (PetscBool)(reason >= 0 && !PetscIsInfOrNanReal(norm));
+  if (*ok) PetscCall(ProblemMeritRecover(d->problem, d->y, d->dx));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode DescentDirection_Private(Descent *d, PetscReal *slope, PetscBool *ok)
+{
+  PetscReal shift = d->least < FIRST_SHIFT ? 0 : d->least;
+  PetscInt  negative;
+  Mat       A;
+
+  PetscFunctionBegin;
+  PetscCall(ProblemGetMatrix(d->problem, &A));
+  PetscCall(Measure_Private(d, A));
+  PetscCall(ProblemMeritSide(d->problem, d->gradient, NULL, d->rhs));
+  for (*ok = PETSC_FALSE; !*ok && shift < LARGEST_SHIFT && !d->report->stopped; shift = PetscMax(FIRST_SHIFT, MORE_SHIFT * shift)) {
+    PetscCall(VecCopy(d->diagonal, d->work));
+    PetscCall(VecScale(d->work, shift - d->added));
+    if (shift != d->added) PetscCall(MatDiagonalSet(A, d->work, ADD_VALUES));
+    d->added = d->shift = shift;
+    PetscCall(Factor_Private(d, A, &negative));
+    PetscCall(StopAsked(PetscObjectComm((PetscObject)A), &d->report->stopped));
+    if (negative == NO_MEMORY) break;
+    if (negative != 0) continue;
+    PetscCall(DescentApply_Private(d, ok));
+    if (!*ok) continue;
+    PetscCall(VecDot(d->gradient, d->dx, slope));
+    *ok = (PetscBool)(*slope <= 0);
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Is there a node that is deep in the other side at the iterate and has lost it at the trial? The energy falls when bodies pass through each other. *deeper: by
+   how much one is deeper at the trial. */
+static PetscErrorCode Through_Private(Descent *d, PetscBool *yes, PetscReal *deeper)
+{
+  const PetscReal *depth, *next;
+  PetscInt         num;
+  PetscReal        largest[2] = {0, 0};
+
+  PetscFunctionBegin;
+  PetscCall(ProblemMeritDepth(d->problem, d->next));
+  PetscCall(VecGetLocalSize(d->next, &num));
+  PetscCall(VecGetArrayRead(d->depth, &depth));
+  PetscCall(VecGetArrayRead(d->next, &next));
+  for (PetscInt i = 0; i < num; ++i) {
+    if (depth[i] > DEEP && next[i] < 0) largest[0] = 1;
+    largest[1] = PetscMax(largest[1], next[i] - PetscMax(depth[i], 0));
+  }
+  PetscCall(VecRestoreArrayRead(d->depth, &depth));
+  PetscCall(VecRestoreArrayRead(d->next, &next));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, largest, 2, MPIU_REAL, MPI_MAX, PetscObjectComm((PetscObject)d->trial)));
+  *yes    = (PetscBool)(largest[0] > 0);
+  *deeper = largest[1];
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode DescentTry_Private(Descent *d, Vec x, PetscReal step, PetscReal *merit)
+{
+  ProblemStatus status;
+  PetscReal     deeper;
+  PetscBool     through;
+
+  PetscFunctionBegin;
+  PetscCall(VecWAXPY(d->trial, step, d->dx, x));
+  PetscCall(ProblemSearch(d->problem, d->trial));
+  PetscCall(ProblemMerit(d->problem, PENALTY, d->lambda, d->trial, NULL, merit, &status));
+  PetscCall(Through_Private(d, &through, &deeper));
+  if (through) *merit = PETSC_MAX_REAL;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode DescentSearch_Private(Descent *d, Vec x, PetscReal slope, PetscBool *ok)
+{
+  PetscReal merit, further, step = 1;
+
+  PetscFunctionBegin;
+  for (*ok = PETSC_FALSE; step > SHORTEST; step *= 0.5) {
+    PetscCall(DescentTry_Private(d, x, step, &merit));
+    *ok = (PetscBool)(merit <= d->merit + ARMIJO * step * slope);
+    if (*ok) break;
+  }
+  while (*ok && d->shift > 0 && step >= 1 && step < LONGEST) {
+    PetscCall(DescentTry_Private(d, x, 2 * step, &further));
+    if (further >= merit) break;
+    merit = further;
+    step *= 2;
+  }
+  if (*ok) PetscCall(VecAXPY(x, step, d->dx));
+  d->least = *ok && step >= SHORT ? d->shift * LESS_SHIFT : PetscMax(SHORTER_SHIFT, MORE_SHIFT * d->shift);
+  PetscCall(PetscInfo(d->ksp, "shift %g, slope %g, step %g%s\n", (double)d->shift, (double)slope, (double)step, *ok ? "" : ": nothing lower"));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode DescentLinearise_Private(Descent *d, Vec x, PetscBool *done, PetscBool *ok)
+{
+  PetscReal norm;
+  PetscBool bad;
+
+  PetscFunctionBegin;
+  PetscCall(ProblemSearch(d->problem, x));
+  PetscCall(ProblemMerit(d->problem, PENALTY, d->lambda, x, d->gradient, &d->merit, &d->status));
+  *ok = (PetscBool)!d->status.bad;
+  if (!*ok) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(ProblemMeritDepth(d->problem, d->depth));
+  PetscCall(VecNorm(d->gradient, NORM_2, &norm));
+  PetscCall(PetscInfo(d->ksp, "Phi %.15g, forces out of balance %g of %g\n", (double)d->merit, (double)norm, (double)d->status.scale));
+  *done = (PetscBool)(norm <= RTOL * d->status.scale);
+  ++d->report->descent_iterations;
+  PetscCall(ProblemMeritTangent(d->problem, PENALTY, x, NULL, &bad));
+  *ok      = (PetscBool)!bad;
+  d->added = 0;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Down to a minimum of Phi, whose multipliers x then has. *ok: it is one. */
+static PetscErrorCode Minimise_Private(Descent *d, Vec x, PetscBool *ok)
+{
+  PetscReal slope;
+  PetscBool found = PETSC_TRUE, moved = PETSC_TRUE, done = PETSC_FALSE;
+
+  PetscFunctionBegin;
+  *ok      = PETSC_FALSE;
+  d->least = 0;
+  for (PetscInt i = 0; i < ITERATIONS && !d->report->stopped; ++i) {
+    if (moved) PetscCall(DescentLinearise_Private(d, x, &done, &found));
+    if (!found) break;
+    PetscCall(DescentDirection_Private(d, &slope, &found));
+    *ok = (PetscBool)(found && done && (d->shift == 0 || -slope <= ROUND_OFF * PetscAbsReal(d->merit)));
+    if (!found || *ok || -slope <= ROUND_OFF * PetscAbsReal(d->merit)) break;
+    PetscCall(DescentSearch_Private(d, x, slope, &moved));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* One piece of the prescribed motion that is left, put in by the bodies alone as if they were linear and did not touch: the largest share of 1, 1/2, … that
+   inverts no cell and drives no node far into the other side. */
+static PetscErrorCode Piece_Private(Descent *d, Vec x, PetscBool *ok)
+{
+  PetscBool bad, through;
+  PetscReal deeper;
+  PetscInt  negative;
+  Mat       A;
+
+  PetscFunctionBegin;
+  *ok = PETSC_FALSE;
+  PetscCall(ProblemSearch(d->problem, x));
+  PetscCall(ProblemMerit(d->problem, PENALTY, d->lambda, x, NULL, &d->merit, &d->status));
+  if (d->status.bad) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(ProblemMeritDepth(d->problem, d->depth));
+  PetscCall(ProblemMeritTangent(d->problem, PENALTY, x, d->lift, &bad));
+  if (bad) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(ProblemGetMatrix(d->problem, &A));
+  PetscCall(VecSet(d->gradient, 0));
+  PetscCall(ProblemMeritSide(d->problem, d->gradient, d->lift, d->rhs));
+  PetscCall(Factor_Private(d, A, &negative));
+  PetscCall(StopAsked(PetscObjectComm((PetscObject)A), &d->report->stopped));
+  if (negative < 0) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(DescentApply_Private(d, ok));
+  if (!*ok) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(ProblemStepBegin(d->problem, x, d->dx));
+  *ok = PETSC_FALSE;
+  for (PetscReal step = 1; step > SHORTEST && !*ok; step *= 0.5) {
+    PetscCall(ProblemStepMove(d->problem, d->dx, step, x));
+    PetscCall(ProblemMerit(d->problem, PENALTY, d->lambda, x, NULL, &d->merit, &d->status));
+    PetscCall(Through_Private(d, &through, &deeper));
+    *ok = (PetscBool)(!d->status.bad && !through && deeper <= DEEPER);
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode Move_Private(Descent *d, Vec x, PetscBool *ok)
+{
+  PetscReal pending;
+
+  PetscFunctionBegin;
+  *ok = PETSC_TRUE;
+  PetscCall(ProblemPending(d->problem, &pending));
+  for (PetscInt piece = 0; piece < MOVES && pending > 0 && *ok && !d->report->stopped; ++piece) {
+    PetscCall(Piece_Private(d, x, ok));
+    PetscCall(ProblemPending(d->problem, &pending));
+  }
+  *ok = (PetscBool)(*ok && pending == 0);
+  PetscCall(PetscInfo(d->ksp, "prescribed motion %s\n", *ok ? "put in" : "cannot be put in"));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Element pressures are those that x implies. */
+static PetscErrorCode Pressures_Private(Descent *d, State *state)
+{
+  PetscBool bad;
+
+  PetscFunctionBegin;
+  PetscCall(ProblemMeritTangent(d->problem, PENALTY, state->x, NULL, &bad));
+  if (bad) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(VecSet(d->dx, 0));
+  PetscCall(ProblemStepBegin(d->problem, state->x, d->dx));
+  PetscCall(ProblemStepAccept(d->problem, 1, state->pressure));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The exact problem from where the descent is; the state is its solution, or stays. */
+static PetscErrorCode Exact_Private(Descent *d, State *state)
+{
+  SolverReport *total = d->report, last;
+  State         trial;
+
+  PetscFunctionBegin;
+  PetscCall(Pressures_Private(d, state));
+  PetscCall(StateCreate(d->problem, &trial));
+  PetscCall(StateCopy(state, &trial));
+  PetscCall(SolverSolve(d->solver, &trial, &last));
+  last.iterations += total->iterations;
+  last.factorisations += total->factorisations;
+  last.single_failures += total->single_failures;
+  last.set_changes += total->set_changes;
+  last.set_cycles += total->set_cycles;
+  last.descents           = total->descents;
+  last.descent_iterations = total->descent_iterations;
+  *total                  = last;
+  if (last.converged) PetscCall(StateCopy(&trial, state));
+  PetscCall(StateDestroy(&trial));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode DescentFinish_Private(Descent *d, State *state)
+{
+  PetscBool ok = PETSC_TRUE;
+
+  PetscFunctionBegin;
+  for (PetscInt outer = 0; outer < OUTER && ok && !d->report->converged && !d->report->stopped; ++outer) {
+    ++d->report->descents;
+    PetscCall(Minimise_Private(d, state->x, &ok));
+    PetscCall(PetscInfo(d->ksp, "descent %s\n", ok ? "has come down" : "ends early"));
+    if (d->status.bad || d->report->stopped) break;
+    PetscCall(VecCopy(state->x, d->lambda));
+    PetscCall(Exact_Private(d, state));
+    PetscCall(PetscInfo(d->ksp, "exact: %s\n", d->report->converged ? "found" : d->report->reason));
+    if (d->report->converged && d->report->unstable < 0 && ok) d->report->unstable = 0; /* no tangent was factorised: the minimum it is */
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SolverDescend(Solver s, State *state, SolverReport *report)
+{
+  Descent   d;
+  PetscBool ok;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMemzero(report, sizeof(*report)));
+  report->reason   = "no descent leads to an equilibrium";
+  report->unstable = -1;
+  PetscCall(ProblemSetState(s->problem, state));
+  PetscCall(DescentCreate_Private(s, report, &d));
+  PetscCall(VecCopy(state->x, d.lambda));
+  PetscCall(Move_Private(&d, state->x, &ok));
+  if (ok) PetscCall(DescentFinish_Private(&d, state));
+  PetscCall(DescentDestroy_Private(&d));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

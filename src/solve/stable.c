@@ -1,0 +1,121 @@
+/* From an unstable equilibrium to a stable one. The inertia of its tangent tells that it is unstable (inertia.c); Newton's method finds it as it finds others,
+   and a body that buckles would stay straight. Along the eigenvector of the lowest eigenvalue the energy falls to both sides: down on the side that is lower,
+   and from there to a minimum (descent.c). The start of the iteration for the eigenvector is a function of the reference positions, so that the side is the
+   same on any number of ranks where both are equal, as for a body that may buckle either way. */
+#include "solveimpl.h"
+
+#define ITERATIONS 30 /* inverse ones, with one factor */
+#define SETTLED 1e-3  /* change of the eigenvalue, of the distance to the shift */
+#define DROP 1e-6     /* share of the strain energy that the first step is to set free */
+#define LOWER 1e-6    /* one side is lower than the other by more than this share of what it sets free */
+#define DOUBLINGS 40
+
+/* Forces without symmetry, from the reference positions. */
+static PetscErrorCode Start_Private(Descent *d)
+{
+  const HPTables *v;
+  PetscReal      *local;
+  HPSpace         space;
+
+  PetscFunctionBegin;
+  PetscCall(ProblemGetSpace(d->problem, &space));
+  PetscCall(HPSpaceGetTables(space, &v));
+  PetscCall(PetscMalloc1(v->num_nodes * v->dim, &local));
+  for (PetscInt i = 0; i < v->num_nodes * v->dim; ++i) {
+    const PetscReal *X = v->X + 3 * (i / v->dim), a = 1 + (PetscReal)(i % v->dim);
+    local[i] = 1 / a + PetscSinReal(X[0] + 1.7 * X[1] + 2.3 * X[2] + a);
+  }
+  PetscCall(VecSet(d->gradient, 0));
+  PetscCall(ProblemSetDisplacement(d->problem, local, d->gradient));
+  PetscCall(PetscFree(local));
+  PetscCall(ProblemMeritSide(d->problem, d->gradient, NULL, d->rhs));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* (H + shift D) y = D v, again and again: dx is the eigenvector of the lowest eigenvalue of H against D, *curvature = dx . H dx, of the displacements that the
+   matrix knows. The factor is there. */
+static PetscErrorCode Lowest_Private(Descent *d, PetscReal *curvature, PetscBool *ok)
+{
+  PetscReal theta = 0, last, norm2, product;
+
+  PetscFunctionBegin;
+  PetscCall(Start_Private(d));
+  PetscCall(DescentApply_Private(d, ok));
+  PetscCall(VecSet(d->gradient, 0)); /* nothing acts inside cells */
+  PetscCall(ProblemMeritSide(d->problem, d->gradient, NULL, d->rhs));
+  for (PetscInt i = 0; i < ITERATIONS && *ok; ++i) {
+    PetscCall(VecPointwiseMult(d->rhs, d->diagonal, d->y));
+    PetscCall(VecDot(d->rhs, d->y, &norm2));
+    PetscCall(VecScale(d->rhs, 1 / PetscSqrtReal(norm2)));
+    PetscCall(DescentApply_Private(d, ok));
+    PetscCall(VecPointwiseMult(d->work, d->diagonal, d->y));
+    PetscCall(VecDot(d->work, d->y, &norm2));
+    PetscCall(VecDot(d->rhs, d->y, &product));
+    last  = theta;
+    theta = product / norm2;
+    if (PetscAbsReal(theta - last) <= SETTLED * theta) break;
+  }
+  *curvature = (theta - d->shift) * norm2;
+  PetscCall(PetscInfo(d->ksp, "lowest eigenvalue %g, shift %g\n", (double)(theta - d->shift), (double)d->shift));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The lowest of Phi at +- first, 2 first, 4 first, … along dx as long as it falls; step 0: it does not. */
+static PetscErrorCode Side_Private(Descent *d, Vec x, PetscReal first, PetscReal *step, PetscReal *merit)
+{
+  PetscReal next;
+
+  PetscFunctionBegin;
+  *merit = d->merit;
+  *step  = 0;
+  for (PetscInt i = 0; i < DOUBLINGS; ++i, first *= 2) {
+    PetscCall(DescentTry_Private(d, x, first, &next));
+    if (next >= *merit) break;
+    *merit = next;
+    *step  = first;
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Off the equilibrium, down. */
+static PetscErrorCode Leave_Private(Descent *d, Vec x, PetscBool *ok)
+{
+  PetscReal slope, curvature, first, step[2], merit[2];
+  PetscBool done;
+
+  PetscFunctionBegin;
+  PetscCall(DescentLinearise_Private(d, x, &done, ok));
+  if (!*ok) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(DescentDirection_Private(d, &slope, ok));
+  *ok = (PetscBool)(d->shift > 0 && d->added == d->shift);
+  if (!*ok) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(Lowest_Private(d, &curvature, ok));
+  *ok = (PetscBool)(*ok && curvature < 0);
+  if (!*ok) PetscFunctionReturn(PETSC_SUCCESS);
+  first = PetscSqrtReal(-2 * DROP * d->status.energy / curvature);
+  for (PetscInt k = 0; k < 2; ++k) PetscCall(Side_Private(d, x, k ? -first : first, &step[k], &merit[k]));
+  const PetscInt k = merit[1] < merit[0] - LOWER * PetscAbsReal(d->merit - merit[0]) ? 1 : 0;
+  PetscCall(PetscInfo(d->ksp, "energy falls by %g at %g, by %g at %g\n", (double)(d->merit - merit[0]), (double)step[0], (double)(d->merit - merit[1]),
+                      (double)step[1]));
+  *ok = (PetscBool)(step[k] != 0);
+  PetscCall(VecAXPY(x, step[k], d->dx));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SolverStabilise(Solver s, State *state, SolverReport *report)
+{
+  Descent   d;
+  PetscBool ok;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMemzero(report, sizeof(*report)));
+  report->reason   = "no stable equilibrium was found";
+  report->unstable = -1;
+  PetscCall(ProblemSetState(s->problem, state));
+  PetscCall(DescentCreate_Private(s, report, &d));
+  PetscCall(VecCopy(state->x, d.lambda));
+  PetscCall(Leave_Private(&d, state->x, &ok));
+  if (ok) PetscCall(DescentFinish_Private(&d, state));
+  PetscCall(DescentDestroy_Private(&d));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

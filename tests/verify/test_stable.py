@@ -1,0 +1,65 @@
+"""Stable equilibria (load.stable): columns beyond their critical load, free, against a wall, and as many ranks find the same; what is left as it is; descent (-solve_descent)."""
+import json
+import math
+
+import pytest
+
+from boxmesh import linspace, write
+
+LENGTH, HEIGHT, E, NU = 20, 1, 100, 0.3
+EULER = math.pi**2 / 3 * (HEIGHT / LENGTH) ** 2  # strain; a little less for the column's shear
+
+
+def column(tmp_path, strain, steps, force=0, order=2, **load):
+    """Between clamped ends, one of which is pushed towards the other."""
+    write(tmp_path / "column.msh", [linspace(0, LENGTH, 16), linspace(0, HEIGHT, 1)])
+    return json.dumps({"mesh": {"file": "column.msh"}, "model": "plane_strain", "order": order, "body": {"body": {"material": "m", "force": {"y": force}}},
+                       "material": {"m": {"law": "neo_hookean", "E": E, "nu": NU}},
+                       "boundary": {"x0": {"fix": "xy"}, "x1": {"displacement": {"x": -strain * LENGTH, "y": 0}}}, "load": {"step": 1 / steps, "step_max": 1 / steps, **load},
+                       "probe": {"middle": {"x": LENGTH / 2, "y": HEIGHT / 2}}, "output": {"fields": False}})
+
+
+def solved(run, text, *options, ranks=1):
+    result = run("column.yml", *options, text=text, ranks=ranks)
+    assert result.returncode == 0, result
+    return result
+
+
+def test_column_buckles(run, tmp_path):
+    """Straight below the load of Euler; beyond it a deflection as that of a column which is not quite straight, a load that grows little from that of Euler on, in every step
+    a stable state. Without the key it stays straight, and that is counted."""
+    below = solved(run, column(tmp_path, 0.9 * EULER, 1)).summary
+    assert below["stabilised"] == below["unstable_equilibria"] == 0 and abs(below["probe"]["middle"]["displacement"][1]) < 1e-10
+    free = solved(run, column(tmp_path, 3 * EULER, 3))
+    bent = solved(run, column(tmp_path, 3 * EULER, 3, force=1e-5))
+    straight = solved(run, column(tmp_path, 3 * EULER, 3, stable=False))
+    s = free.summary
+    deflection = [abs(x.summary["probe"]["middle"]["displacement"][1]) for x in (free, bent, straight)]
+    print("deflection", deflection, "load", [x.summary["reaction"]["x0"][0] for x in (free, bent, straight)], "energy", [x.summary["energy"] for x in (free, bent, straight)])
+    assert s["unstable_equilibria"] == 0 and 1 <= s["stabilised"] <= 2 and "unstable" in free.stdout
+    assert deflection[0] == pytest.approx(deflection[1], rel=0.01) and deflection[0] > 1
+    assert s["reaction"]["x0"][0] == pytest.approx(E / (1 - NU**2) * EULER * HEIGHT, rel=0.05)
+    assert straight.summary["unstable_equilibria"] == 2 and straight.summary["stabilised"] == 0 and deflection[2] < 1e-8
+    assert s["energy"] < 0.7 * straight.summary["energy"]
+
+
+@pytest.mark.parametrize("order,condense", [(1, "no"), (3, "yes")])
+def test_same_side_on_any_number_of_ranks(run, tmp_path, order, condense):
+    one, two = (solved(run, column(tmp_path, 3 * EULER, 1, order=order), "-solve_condense", condense, ranks=ranks).summary for ranks in (1, 2))
+    assert one["stabilised"] == two["stabilised"] == 1
+    assert one["probe"]["middle"]["displacement"] == pytest.approx(two["probe"]["middle"]["displacement"], rel=1e-8)
+
+
+@pytest.mark.parametrize("side", [1, -1])
+def test_lower_side(run, tmp_path, side):
+    """A small load across decides to which side the column goes, however large the step."""
+    s = solved(run, column(tmp_path, 3 * EULER, 1, force=side * 1e-4)).summary
+    assert side * s["probe"]["middle"]["displacement"][1] > 1 and s["unstable_equilibria"] == 0
+
+
+def test_incompressible_columns_are_told(run, tmp_path):
+    """No energy of the displacements alone: nothing is done but counted."""
+    scene = json.loads(column(tmp_path, 3 * EULER, 1))
+    scene["material"]["m"]["nu"] = 0.5
+    s = solved(run, json.dumps(scene)).summary
+    assert s["unstable_equilibria"] == 1 and s["stabilised"] == 0
