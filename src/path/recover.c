@@ -5,14 +5,11 @@
 #define MODES "auto|on|off"
 #define PREFIX "path_"
 
-/* Shortest pieces, first ones and longest ones of the loops; lengths of the first are of the whole way. */
-#define LEAST_WAY (1. / 8)
-#define FIRST_SHARE 0.25
-#define LEAST_SHARE (1. / 64)
-#define FIRST_CREEP 10   /* pseudo-time: over it cells answer to a change of shape with a tenth of their stiffness more */
-#define LEAST_CREEP 0.01 /* hardly anything moves */
-#define LONG_CREEP 1e6   /* from here on as good as without viscosity */
-#define CREEP_SOLVES 20
+#define LEAST_WAY (1. / 8) /* of the way of the load on another mesh */
+#define LEAST (1. / 64)    /* of the first piece of other loops: a shorter one is given up */
+#define CREEP 10           /* first step of pseudo-time: cells answer to a change of shape with a tenth of their stiffness more */
+#define LONG 1e6           /* a step as good as infinite */
+#define CREEP_STEPS 20     /* attempts in all */
 
 static PetscErrorCode Begin_Private(Path *p, const State *guess)
 {
@@ -46,7 +43,7 @@ static PetscBool IsCarried_Private(const Path *p, const State *guess)
 
 static PetscErrorCode Homotopy_Private(Path *p, const PathLoop *load, PetscReal to, const State *guess, SolverReport *report)
 {
-  PathLoop  loop    = {.metric = &PathHomotopy, .stop = 1, .piece = FIRST_SHARE, .least = LEAST_SHARE, .most = 1, .load = load, .at = to};
+  PathLoop  loop    = {.metric = &PathHomotopy, .stop = 1, .piece = PathHomotopy.cut, .least = LEAST, .most = 1, .load = load, .at = to};
   Problem   problem = p->level->problem;
   PetscBool usable;
 
@@ -97,14 +94,8 @@ static PetscBool Always_Private(const Path *p, const State *guess)
 
 static PetscErrorCode Viscous_Private(Path *p, const PathLoop *load, PetscReal to, const State *guess, SolverReport *report)
 {
-  PathLoop loop = {.metric   = &PathViscous,
-                   .stop     = PETSC_INFINITY,
-                   .piece    = FIRST_CREEP,
-                   .least    = LEAST_CREEP,
-                   .most     = LONG_CREEP,
-                   .attempts = CREEP_SOLVES,
-                   .load     = load,
-                   .at       = to};
+  PathLoop loop = {
+      .metric = &PathViscous, .stop = PETSC_INFINITY, .piece = CREEP, .least = LEAST * CREEP, .most = LONG, .attempts = CREEP_STEPS, .load = load, .at = to};
 
   const PetscReal before = p->viscous_work;
 

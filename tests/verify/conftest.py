@@ -27,6 +27,13 @@ class Result:
         return f"<{' '.join(self.command)}: exit {self.returncode}\n{self.stdout[-3000:]}\n{self.stderr[-3000:]}>"
 
     @property
+    def solved(self):
+        """All load steps are done, on meshes as fine as asked for or as the limits allow that a test sets."""
+        if self.returncode == 2 and self.summary["status"] == "inaccurate":
+            return any(f"({limit}" in self.summary["reason"] for limit in ("max_passes", "max_cells", "nothing left to refine"))
+        return self.returncode == 0 and self.summary["status"] == "converged"
+
+    @property
     def summary(self):
         """summary.json as a dict."""
         return json.loads((self.directory / "summary.json").read_text())

@@ -79,7 +79,7 @@ def slope(dofs, error):
 
 def adaptive(run, *options):
     result = run(SCENE, "-adapt_tolerance", 1e-6, "-adapt_fraction", 0.5, *options)
-    assert result.returncode == 0, result
+    assert result.solved, result
     return result
 
 
