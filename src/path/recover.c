@@ -56,23 +56,6 @@ static PetscErrorCode Homotopy_Private(Path *p, const PathLoop *load, PetscReal 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* From states between the accepted and the carried one, each under its share of the prescribed motion: the rest is left to the solver. */
-static PetscErrorCode Blend_Private(Path *p, const PathLoop *load, PetscReal to, const State *guess, SolverReport *report)
-{
-  static const PetscReal Shares[] = {0.8, 0.5};
-  Level                 *l        = p->level;
-
-  PetscFunctionBegin;
-  for (size_t i = 0; i < PETSC_STATIC_ARRAY_LENGTH(Shares) && !report->converged && !p->stopped; ++i) {
-    PetscCall(StateBlend(&l->accepted, guess, Shares[i], &l->state));
-    PetscCall(PathPrescribe(l->problem, l->accepted.t));
-    PetscCall(ProblemSetTime(l->problem, guess->t));
-    PetscCall(ProblemApplyShare(l->problem, Shares[i]));
-    PetscCall(PathAttempt(p, load, to, report));
-  }
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 /* The way of the load from the accepted state again, in as many pieces as it takes. */
 static PetscErrorCode Cut_Private(Path *p, const PathLoop *load, PetscReal to, const State *guess, SolverReport *report)
 {
@@ -113,7 +96,6 @@ const Recovery PathRecoveries[PATH_RECOVERIES] = {
     {"unfreeze", "once more from the start of the step, with the segmentation of contact no longer frozen", PETSC_FALSE, IsFrozen_Private, Unfreeze_Private},
     {"homotopy", "residual homotopy: the imbalance of a state carried over to another mesh is taken away in pieces", PETSC_FALSE, IsCarried_Private,
      Homotopy_Private},
-    {"blend", "from between the accepted state and the one carried over to another mesh", PETSC_FALSE, IsCarried_Private, Blend_Private},
     {"cut", "on another mesh, the way of the load from the accepted state again, in pieces", PETSC_FALSE, IsCarried_Private, Cut_Private},
     {"viscous", "viscous regularisation: bodies creep to an equilibrium that is not near by, as when they snap", PETSC_TRUE, Always_Private, Viscous_Private},
 };

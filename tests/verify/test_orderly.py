@@ -157,3 +157,13 @@ def test_batch(tmp_path):
     assert "converged" in (tmp_path / "cube.log").read_text() and "mesh.file" in (tmp_path / "bad.log").read_text()
     done = subprocess.run([*command, str(ROOT / "inputs/cube.yml")], cwd=tmp_path, env=env, capture_output=True, text=True)
     assert done.returncode == 1 and "two scenes are called cube" in done.stderr and not done.stdout, done
+
+
+def test_recoveries_are_switched(run):
+    """Each row of the table of recoveries: off, auto, on; anything else is refused. summary.json counts them."""
+    done = run("inputs/patch2d.yml", "-path_viscous", "off", "-path_cut", "on", "-output_fields", "false")
+    recoveries = done.summary["recoveries"]
+    assert done.returncode == 0 and {"homotopy", "cut", "viscous"} <= set(recoveries) and all(row == {"tried": 0, "succeeded": 0} for row in recoveries.values()), done
+    refused(run("inputs/patch2d.yml", "-path_viscous", "maybe"), "-path_viscous is 'maybe'", "auto|on|off")
+    refused(run("inputs/patch2d.yml", "-path_viscos", "on"), "-path_viscos", "-path_viscous")
+    refused(run("inputs/patch2d.yml", "-load_relax", "false"), "-path_viscous")
