@@ -45,7 +45,7 @@ def compare(run, scene, options, counts, exact=False):
     force = max([np.abs(r).max() for r in one.summary["reaction"].values()])
     for ranks in counts:
         many = run(f"inputs/{scene}.yml", *options, ranks=ranks)
-        assert many.returncode == 0 and many.summary["ranks"] == ranks, many
+        assert many.solved and many.summary["ranks"] == ranks, many
         worst = assert_same(*({k: v for k, v in r.summary.items() if k not in left_out} for r in (one, many)), force)
         print(scene, ranks, "largest difference", worst)
         assert worst[0] <= 1e-8, worst
