@@ -2,7 +2,7 @@
 #pragma once
 #include "solve.h"
 
-#define PATH_RECOVERIES 6 /* rows of the table of recoveries */
+#define PATH_RECOVERIES 5 /* rows of the table of recoveries */
 
 /* The part of a run that lives on one mesh; replaced as a whole at each adaptation. */
 typedef struct {

@@ -25,8 +25,6 @@ typedef struct {
 
 PetscErrorCode StateCreate(Problem, State *);
 PetscErrorCode StateCopy(const State *from, State *to); /* same problem */
-/* to = (1 - share) a + share b, at the time and with the history of a, forces in the form of b; all of the same problem. */
-PetscErrorCode StateBlend(const State *a, const State *b, PetscReal share, State *to);
 PetscErrorCode StateDestroy(State *);
 /* The step that led to s->x is accepted: the history becomes what it left. Stress and forces at s->x stay the same. The problem's prescribed motion must be
    that of the state. Collective. */
@@ -66,8 +64,6 @@ PetscErrorCode ProblemHoldLines(Problem, PetscBool *changed);
 /* Prescribed motion: SetTime fixes the target; Jump applies it at once (no lift); otherwise the part not yet applied enters the next linear solve. */
 PetscErrorCode ProblemSetTime(Problem, PetscReal t);
 PetscErrorCode ProblemJump(Problem);
-/* Apply this share of what is left to the target. */
-PetscErrorCode ProblemApplyShare(Problem, PetscReal share);
 
 /* Viscous forces against the deformation since x = from, with the prescribed motion as applied now (MechanicsSetViscosity; rate 0: none, from NULL); the energy
    that they dissipate on the way to x. Collective. */

@@ -32,7 +32,7 @@ def run(scene, *options, directory=None):
         before = seconds_of_children()
         done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
         spent = seconds_of_children() - before
-        if done.returncode:
+        if done.returncode and "\ninaccurate, " not in done.stdout: # a limit that was set may leave the tolerance out of reach
             raise SystemExit(f"{' '.join(command)}: exit {done.returncode}\n{done.stdout[-2000:]}")
         summary = json.loads((out / "summary.json").read_text())
         with open(out / "adapt.csv", newline="") as file:

@@ -1,32 +1,32 @@
 /* From an estimate to the level on a finer mesh: mark, adapt the forest, carry the states over or begin afresh. */
 #include "appimpl.h"
 
-/* Split an old leaf in all directions. marked: how many are, at most `room`; *more: it was not yet. */
-static void MarkWhole_Private(PetscInt dim, PetscInt old, PetscInt room, MarkList *list, PetscInt *marked, PetscBool *more)
+/* Split an old leaf in all directions, if it was not to be and there is room for so many cells more. */
+static void MarkWhole_Private(PetscInt dim, PetscInt old, MarkList *list, PetscInt *room, PetscBool *more)
 {
-  const int8_t whole = (int8_t)((1 << dim) - 1);
+  const PetscInt added = (1 << dim) - (1 << __builtin_popcount((unsigned)list->split[old]));
 
-  if (list->split[old] == whole || list->coarsen[old] || *marked >= room) return;
-  *marked += !list->split[old];
-  list->split[old] = whole;
-  *more            = PETSC_TRUE;
+  if (added == 0 || added > *room || list->coarsen[old]) return;
+  list->split[old] = (int8_t)((1 << dim) - 1);
+  *room -= added;
+  *more = PETSC_TRUE;
 }
 
 /* A leaf of a finer forest is inverted: it is too long for its curved side, or sides of it hang from coarser cells cut across curved ones. Those are to be
-   split too. */
-static PetscErrorCode MarkInverted_Private(Forest finer, const ForestMap *map, PetscInt leaf, PetscInt room, MarkList *list, PetscInt *marked, PetscBool *more)
+   split too; *more: there is one that was not. */
+static PetscErrorCode MarkInverted_Private(Forest finer, const ForestMap *map, PetscInt leaf, PetscInt max_cells, MarkList *list, PetscBool *more)
 {
   const ForestTables *t;
 
   PetscFunctionBegin;
   PetscCall(ForestGetTables(finer, &t));
-  const PetscInt  size = t->dim == 2 ? 9 : 27, *first = &t->closure_offset[t->first[t->dim]];
-  const PetscInt *own = &t->closure[first[leaf]];
-  MarkWhole_Private(t->dim, map->old_first[leaf], room, list, marked, more);
+  const PetscInt size = t->dim == 2 ? 9 : 27, *first = &t->closure_offset[t->first[t->dim]], *own = &t->closure[first[leaf]];
+  PetscInt       room = max_cells - t->num_leaves;
+  MarkWhole_Private(t->dim, map->old_first[leaf], list, &room, more);
   for (PetscInt i = 0; i < size * t->num_leaves; ++i) {
     const PetscInt entity = t->closure[first[i / size] + i % size];
     for (PetscInt k = 0; k < size; ++k) {
-      if (t->parent[own[k]] == entity) MarkWhole_Private(t->dim, map->old_first[i / size], room, list, marked, more);
+      if (t->parent[own[k]] == entity) MarkWhole_Private(t->dim, map->old_first[i / size], list, &room, more);
     }
   }
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -46,8 +46,8 @@ static PetscErrorCode TellInverted_Private(App *app, PetscInt order, const Petsc
 
 /* The level on the adapted forest, its states at rest at time t. There is none where the mesh has inverted cells or a prescribed value is not finite at a new
    node: *refused says why, else NULL. *more: with the further cells that are marked then there may be. */
-static PetscErrorCode Create_Private(App *app, Forest forest, const int8_t old_order[], const ForestMap *map, PetscReal t, MarkList *list, PetscInt *marked,
-                                     Level *next, const char **refused, PetscBool *more)
+static PetscErrorCode Create_Private(App *app, Forest forest, const int8_t old_order[], const ForestMap *map, PetscReal t, MarkList *list, Level *next,
+                                     const char **refused, PetscBool *more)
 {
   const AdaptSpec *spec = &app->data->adapt;
   int8_t          *orders;
@@ -62,8 +62,7 @@ static PetscErrorCode Create_Private(App *app, Forest forest, const int8_t old_o
   PetscCall(ProblemFindInverted(next->problem, &order, X, &leaf));
   PetscCall(ExpressionTrouble(app->comm, refused));
   if (order > 0) *refused = INVERTS;
-  if (order > 0 && spec->strategy != ADAPT_P)
-    PetscCall(MarkInverted_Private(forest, map, leaf, spec->max_cells - app->level.state.num_leaves, list, marked, more));
+  if (order > 0 && spec->strategy != ADAPT_P) PetscCall(MarkInverted_Private(forest, map, leaf, spec->max_cells, list, more));
   if (order > 0 && !*more) PetscCall(TellInverted_Private(app, order, X));
   if (*refused) PetscCall(LevelDestroy(next));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -91,8 +90,8 @@ static PetscErrorCode Carry_Private(const Level *old, const ForestMap *map, Leve
 }
 
 /* The level on the mesh that the list asks for takes the place of the one at hand, which is the caller's then; refused: it stays. */
-static PetscErrorCode MoveTo_Private(App *app, MarkList *list, PetscInt *marked, const int8_t order[], const PetscReal weight[], PetscBool afresh,
-                                     const char **refused, PetscBool *more)
+static PetscErrorCode MoveTo_Private(App *app, MarkList *list, const int8_t order[], const PetscReal weight[], PetscBool afresh, const char **refused,
+                                     PetscBool *more)
 {
   PetscInt  num_pairs, (*pairs)[2];
   Level     next;
@@ -105,7 +104,7 @@ static PetscErrorCode MoveTo_Private(App *app, MarkList *list, PetscInt *marked,
   PetscCall(ForestAdapt(app->level.forest, list, weight, num_pairs, (const PetscInt(*)[2])pairs, &forest, &map));
   PetscCall(StageEnd(STAGE_MESH));
   PetscCall(PetscFree(pairs));
-  PetscCall(Create_Private(app, forest, order, &map, afresh ? 0 : app->level.state.t, list, marked, &next, refused, more));
+  PetscCall(Create_Private(app, forest, order, &map, afresh ? 0 : app->level.state.t, list, &next, refused, more));
   if (!*refused) {
     PetscCall(StageBegin(STAGE_TRANSFER));
     if (!afresh) PetscCall(Carry_Private(&app->level, &map, &next));
@@ -148,7 +147,7 @@ PetscErrorCode AppRefine(App *app, const Estimate *e, MarkList *layers, PetscBoo
     PetscCall(PetscArraycpy(order, app->level.state.leaf_order, t->num_leaves));
   for (PetscInt l = 0; order && l < t->num_leaves; ++l) weight[l] = PetscPowInt(order[l], t->dim);
   if (marked == 0) app->adapt_stop = e->num_leaves >= app->data->adapt.max_cells / 2 ? "max_cells" : NOTHING_LEFT;
-  while (marked > 0 && more) PetscCall(MoveTo_Private(app, &list, &marked, order ? order : app->level.state.leaf_order, weight, afresh, &words, &more));
+  while (marked > 0 && more) PetscCall(MoveTo_Private(app, &list, order ? order : app->level.state.leaf_order, weight, afresh, &words, &more));
   if (words) app->adapt_stop = words;
   *adapted = (PetscBool)(marked > 0 && !words);
   *refused = (PetscBool)(words != NULL);

@@ -65,7 +65,7 @@ static PetscErrorCode Refine_Private(App *app, PetscBool *refined)
   app->adapt_stop = !app->most.num_leaves ? WITHIN_TOLERANCE : app->repeats >= spec->max_passes ? "max_passes" : "";
   if (!app->adapt_stop[0]) PetscCall(AppLayers(app, &app->most, &layers));
   if (!app->adapt_stop[0]) {
-    PetscCall(AppSummary(app, "converged", "a finer path is under way"));
+    PetscCall(AppSummary(app, "inaccurate", "a finer path is under way"));
     PetscCall(AppRefine(app, &app->most, &layers, PETSC_TRUE, refined, &refused));
   }
   const PetscReal error = app->most.num_leaves ? app->most.relative : 0; /* of the step's own norm */

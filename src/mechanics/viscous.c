@@ -1,5 +1,5 @@
-/* Viscous regularisation: forces against the deformation since a given state, in residual and tangent alike. With it there is a solution near that state where without there is
-   none: what snaps creeps from one equilibrium to the next (path/recover.c).
+/* Viscous regularisation: forces against the deformation since a given state, in residual and tangent alike. With it there is a solution near that state where
+   without there is none: what snaps creeps from one equilibrium to the next (path/recover.c).
 
      r_i += c (d_i - mean of d over the cell's n nodes),   d = u - from,   c = rate E p^2 h^(dim-2) / n   (axisymmetric: times 2 pi R)
 

@@ -5,14 +5,11 @@
 #define MODES "auto|on|off"
 #define PREFIX "path_"
 
-/* Shortest pieces, first ones and longest ones of the loops; lengths of the first are of the whole way. */
-#define LEAST_WAY (1. / 8)
-#define FIRST_SHARE 0.25
-#define LEAST_SHARE (1. / 64)
-#define FIRST_CREEP 10   /* pseudo-time: over it cells answer to a change of shape with a tenth of their stiffness more */
-#define LEAST_CREEP 0.01 /* hardly anything moves */
-#define LONG_CREEP 1e6   /* from here on as good as without viscosity */
-#define CREEP_SOLVES 20
+#define LEAST_WAY (1. / 8) /* of the way of the load on another mesh */
+#define LEAST (1. / 64)    /* of the first piece of other loops: a shorter one is given up */
+#define CREEP 10           /* first step of pseudo-time: cells answer to a change of shape with a tenth of their stiffness more */
+#define LONG 1e6           /* a step as good as infinite */
+#define CREEP_STEPS 20     /* attempts in all */
 
 static PetscErrorCode Begin_Private(Path *p, const State *guess)
 {
@@ -46,7 +43,7 @@ static PetscBool IsCarried_Private(const Path *p, const State *guess)
 
 static PetscErrorCode Homotopy_Private(Path *p, const PathLoop *load, PetscReal to, const State *guess, SolverReport *report)
 {
-  PathLoop  loop    = {.metric = &PathHomotopy, .stop = 1, .piece = FIRST_SHARE, .least = LEAST_SHARE, .most = 1, .load = load, .at = to};
+  PathLoop  loop    = {.metric = &PathHomotopy, .stop = 1, .piece = PathHomotopy.cut, .least = LEAST, .most = 1, .load = load, .at = to};
   Problem   problem = p->level->problem;
   PetscBool usable;
 
@@ -56,23 +53,6 @@ static PetscErrorCode Homotopy_Private(Path *p, const PathLoop *load, PetscReal 
   PetscCall(ProblemNoteImbalance(problem, p->level->state.x, &usable));
   if (usable) PetscCall(PathFollow(p, &loop, report));
   PetscCall(ProblemLeaveImbalance(problem, 0));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* From states between the accepted and the carried one, each under its share of the prescribed motion: the rest is left to the solver. */
-static PetscErrorCode Blend_Private(Path *p, const PathLoop *load, PetscReal to, const State *guess, SolverReport *report)
-{
-  static const PetscReal Shares[] = {0.8, 0.5};
-  Level                 *l        = p->level;
-
-  PetscFunctionBegin;
-  for (size_t i = 0; i < PETSC_STATIC_ARRAY_LENGTH(Shares) && !report->converged && !p->stopped; ++i) {
-    PetscCall(StateBlend(&l->accepted, guess, Shares[i], &l->state));
-    PetscCall(PathPrescribe(l->problem, l->accepted.t));
-    PetscCall(ProblemSetTime(l->problem, guess->t));
-    PetscCall(ProblemApplyShare(l->problem, Shares[i]));
-    PetscCall(PathAttempt(p, load, to, report));
-  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -97,14 +77,8 @@ static PetscBool Always_Private(const Path *p, const State *guess)
 
 static PetscErrorCode Viscous_Private(Path *p, const PathLoop *load, PetscReal to, const State *guess, SolverReport *report)
 {
-  PathLoop loop = {.metric   = &PathViscous,
-                   .stop     = PETSC_INFINITY,
-                   .piece    = FIRST_CREEP,
-                   .least    = LEAST_CREEP,
-                   .most     = LONG_CREEP,
-                   .attempts = CREEP_SOLVES,
-                   .load     = load,
-                   .at       = to};
+  PathLoop loop = {
+      .metric = &PathViscous, .stop = PETSC_INFINITY, .piece = CREEP, .least = LEAST * CREEP, .most = LONG, .attempts = CREEP_STEPS, .load = load, .at = to};
 
   const PetscReal before = p->viscous_work;
 
@@ -121,7 +95,6 @@ static PetscErrorCode Viscous_Private(Path *p, const PathLoop *load, PetscReal t
 const Recovery PathRecoveries[PATH_RECOVERIES] = {
     {"unfreeze", "once more from the start of the step, with the segmentation of contact no longer frozen", 0, IsFrozen_Private, Unfreeze_Private},
     {"homotopy", "residual homotopy: the imbalance of a state carried over to another mesh is taken away in pieces", 0, IsCarried_Private, Homotopy_Private},
-    {"blend", "from between the accepted state and the one carried over to another mesh", 0, IsCarried_Private, Blend_Private},
     {"cut", "on another mesh, the way of the load from the accepted state again, in pieces", 0, IsCarried_Private, Cut_Private},
     {"descent", "down on the energy of contact and bodies, each iterate lower than the one before, to an equilibrium that is not near by", 1, PathCanDescend,
      PathDescend},

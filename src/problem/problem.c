@@ -248,16 +248,6 @@ PetscErrorCode ProblemJump(Problem p)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode ProblemApplyShare(Problem p, PetscReal share)
-{
-  const HPTables *v;
-
-  PetscFunctionBegin;
-  PetscCall(HPSpaceGetTables(p->space, &v));
-  for (PetscInt i = 0; i < v->num_nodes * p->dim; ++i) p->applied[i] = share == 1 ? p->target[i] : p->applied[i] + share * (p->target[i] - p->applied[i]);
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 PetscErrorCode ProblemPending(Problem p, PetscReal *remaining)
 {
   const HPTables *v;
@@ -453,18 +443,6 @@ PetscErrorCode StateCopy(const State *from, State *to)
   PetscCall(PetscArraycpy(to->leaf_order, from->leaf_order, from->num_leaves));
   to->t          = from->t;
   to->lines_held = from->lines_held;
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode StateBlend(const State *a, const State *b, PetscReal share, State *to)
-{
-  PetscFunctionBegin;
-  PetscCall(VecCopy(a->x, to->x));
-  PetscCall(VecAXPBY(to->x, share, 1 - share, b->x));
-  for (PetscInt i = 0; i < to->num_pressure; ++i) to->pressure[i] = (1 - share) * a->pressure[i] + share * b->pressure[i];
-  PetscCall(PetscArraycpy(to->history, a->history, a->num_history));
-  to->t          = a->t;
-  to->lines_held = b->lines_held;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

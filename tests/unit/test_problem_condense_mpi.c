@@ -1,7 +1,7 @@
 /* The linear step with the nodes inside cells condensed is the one without, to 1e-12 of its largest entry, and solves the whole system to round-off: distorted
    meshes with hanging nodes, orders 1..5 at random, prescribed motion still to come, compressible and mixed laws; and cells whose inner block is indefinite,
-   where the second alone is asked, since the whole matrix is close to singular too. Viscous forces: the same; its matrix is the derivative of its forces, and the energy
-   it takes is their work. */
+   where the second alone is asked, since the whole matrix is close to singular too. Viscous forces: the same; its matrix is the derivative of its forces, and
+   the energy it takes is their work. */
 #include "mechanicsimpl.h"
 #include "problemfixture.h"
 

@@ -8,6 +8,7 @@ import csv
 import json
 import os
 import pathlib
+import re
 import subprocess
 import xml.etree.ElementTree
 
@@ -25,6 +26,12 @@ class Result:
 
     def __repr__(self):  # what pytest shows when an assertion on a result fails
         return f"<{' '.join(self.command)}: exit {self.returncode}\n{self.stdout[-3000:]}\n{self.stderr[-3000:]}>"
+
+    @property
+    def solved(self):
+        """All load steps are done, on meshes as fine as asked for or as the limits allow that a test sets."""
+        told = re.search(r"^(converged: |inaccurate, .* was not reached \((max_passes|max_cells|nothing left to refine)\b)", self.stdout, re.MULTILINE)
+        return self.returncode in (0, 2) and told is not None and (self.returncode == 0) == told[0].startswith("converged")
 
     @property
     def summary(self):

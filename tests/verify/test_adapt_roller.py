@@ -8,13 +8,13 @@ SCENE = "inputs/roller.yml"
 
 def force(result):
     """Of the quarter that is modelled: half a section, half of length 4."""
-    assert result.returncode == 0, result
+    assert result.solved, result
     return -result.summary["reaction"]["top"][2]
 
 
 def adapted(run, order, passes, anisotropic, *options):
     result = run(SCENE, "-order", order, "-adapt_anisotropic", str(anisotropic).lower(), "-adapt_tolerance", 1e-6, "-adapt_max_passes", passes, *options)
-    assert result.returncode == 0, result
+    assert result.solved, result
     assert len(result.adapt) == passes + 1
     return result
 

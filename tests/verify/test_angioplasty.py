@@ -298,7 +298,7 @@ def stent_figures(result):
 def opened_stent(run, passes, *options):
     """There and back, forces balanced at every step; the artery stays open when the balloon has gone."""
     result = run("inputs/angioplasty3d.yml", "-output_fields", "false", "-adapt_max_passes", passes, *options, timeout=3000)
-    assert result.returncode == 0 and result.summary["adapt_passes"] == passes and result.summary["adapt_stop"] == "max_passes", result
+    assert result.solved and result.summary["adapt_passes"] == passes and result.summary["adapt_stop"] == "max_passes", result
     assert max(row["contact_imbalance"] for row in result.history) < 1e-12 and max(row["support_imbalance"] for row in result.history) < 1e-9
     assert result.summary["contact"]["balloon_in_stent"]["active_nodes"] == 0 and result.summary["contact"]["stent_in_artery"]["active_nodes"] > 5
     assert len({row["cells"] for row in result.history}) == 1

@@ -15,7 +15,7 @@ QUIET = ("-output_fields", "false")
 
 def solved(run, *arguments, **keys):
     result = run(*arguments, **keys)
-    assert result.returncode == 0 and result.summary["step_cuts"] == 0, result
+    assert result.solved and result.summary["step_cuts"] == 0, result
     return result
 
 

@@ -22,7 +22,7 @@ FLAT, CENTRE, PEAK = -1.5625292, -1.3080466, 3485.1  # of cylinder.yml: full ord
 
 def solved(run, *arguments, **keys):
     result = run(*arguments, **keys)
-    assert result.returncode == 0 and result.summary["step_cuts"] == 0, result
+    assert result.solved and result.summary["step_cuts"] == 0, result
     return result
 
 

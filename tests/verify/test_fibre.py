@@ -315,7 +315,7 @@ def pulled(mesh, dim, fiber, **keys):
 
 def outcome(run, scene, *options, ranks=1):
     result = run("field.yml", *options, text=json.dumps(scene), ranks=ranks)
-    assert result.returncode == 0, result
+    assert result.solved, result
     return result
 
 

@@ -15,7 +15,7 @@ QUIET = ("-output_fields", "false")
 
 
 def done(result):
-    assert result.returncode == 0, result
+    assert result.solved, result
     return result.summary
 
 

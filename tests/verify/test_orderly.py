@@ -39,10 +39,19 @@ def test_refined_at_the_start(run, tmp_path, ranks):
 
 
 @pytest.mark.parametrize("ranks", [1, 2])
-def test_adaptation_keeps_the_coarser_mesh(run, tmp_path, ranks):
-    """The cells at one end alone are to be refined."""
+def test_adaptation_splits_what_it_would_invert(run, tmp_path, ranks):
+    """The cells at one end alone are to be refined; where that inverts one, it and its coarser neighbours are split too."""
     adapt = {"adapt": {"tolerance": 1e-6, "max_passes": 3, "fraction": 0.01}}
     result = run("ring.yml", text=thin_ring(tmp_path, **adapt), ranks=ranks)
+    assert result.solved and result.summary["adapt_stop"] == "max_passes" and "note: refinement would invert" not in result.stdout, result
+    cells = [row["cells"] for row in result.adapt]
+    assert cells[0] < cells[1] < cells[2] < cells[3] and result.history[-1]["t"] == 1
+
+
+def test_adaptation_keeps_the_coarser_mesh(run, tmp_path):
+    """With room for no cell more there is no mesh to go on with."""
+    adapt = {"adapt": {"tolerance": 1e-6, "max_passes": 3, "fraction": 0.01, "max_cells": 10}}
+    result = run("ring.yml", text=thin_ring(tmp_path, **adapt))
     assert result.returncode == 2 and result.summary["status"] == "inaccurate" and "tolerance 1e-06 was not reached" in result.summary["reason"], result
     assert "inverts a curved cell" in result.summary["adapt_stop"] and "note: refinement would invert" in result.stdout, result
     assert result.summary["cells"] == result.adapt[-1]["cells"] and result.history[-1]["t"] == 1
@@ -69,21 +78,44 @@ def test_no_equilibrium_on_a_finer_mesh(run, tmp_path):
 
 
 def test_it_is_not_forgotten(run, tmp_path):
-    """A later load step that needs no finer mesh, in a run that goes on from a checkpoint, does not make the first one better."""
-    text = strip(tmp_path, WAVE, load={"step": 0.5})
+    """A later load step that is within the tolerance, in a run that goes on from a checkpoint, does not make the first one better."""
+    text = strip(tmp_path, f"t <= 0.5 ? {WAVE} : -(1 - t)*(0.1 + 3*sin(2*pi*X)^2) - 0.05*(t - 0.5)", load={"step": 0.5})
     first = run("strip.yml", "-load_max_steps", 1, text=text)
     assert first.summary["status"] == "failed" and first.summary["load_steps"] == 1, first
-    result = run("strip.yml", "-adapt_tolerance", 0.9, "-restart", first.directory / "checkpoint.h5", text=text)
+    result = run("strip.yml", "-adapt_tolerance", 0.2, "-restart", first.directory / "checkpoint.h5", text=text)
     assert result.returncode == 2 and result.summary["status"] == "inaccurate" and result.summary["adapt_stop"] == "tolerance" and result.summary["load_steps"] == 2, result
-    assert "(in an earlier load step), the estimated error is up to" in result.summary["reason"], result
+    assert "(no equilibrium found on a finer mesh at t = 0.5), the estimated error is up to" in result.summary["reason"], result
+
+
+def test_judged_by_the_load_to_come(run, tmp_path):
+    """Half of the way has 1/16 of the load: an error above the tolerance there is none against the load at the end. The other way round it is one."""
+    limits = ("-adapt_max_passes", 2, "-adapt_tolerance", 0.1)
+    rising, falling = (run("strip.yml", *limits, text=strip(tmp_path, top, load={"step": 0.5})) for top in ("-0.1*t^4*(1 + X)", "-0.1*(1.0625 - t^4)*(1 + X)"))
+    for result in rising, falling:
+        errors = [row["estimated_error"] for row in result.history]
+        assert errors[0] > 0.1 > errors[1], result
+    assert rising.returncode == 0 and rising.summary["reason"] == "", rising
+    assert falling.returncode == 2 and "(max_passes at t = 0.5)" in falling.summary["reason"], falling
+
+
+@pytest.mark.parametrize("dimension", [2, 3])
+def test_rigid_motion_converges(run, tmp_path, dimension):
+    """Far away and turned half round a body is free of stress, and what is left is round-off."""
+    write(tmp_path / "box.msh", [linspace(0, 1, 2)] * dimension)
+    turn = {"x": "1000*t + X*(cos(pi*t) - 1) - Y*sin(pi*t)", "y": "X*sin(pi*t) + Y*(cos(pi*t) - 1)"} | ({"z": "5*t"} if dimension == 3 else {})
+    scene = {"mesh": {"file": "box.msh"}, "model": "plane_strain" if dimension == 2 else "3d", "order": 2, "body": {"body": {"material": "m"}},
+             "material": {"m": {"law": "neo_hookean", "E": 2e11, "nu": 0.3}}, "boundary": {"y0": {"displacement": turn}}, "load": {"step": 0.125}}
+    result = run("box.yml", "-output_fields", "false", text=json.dumps(scene))
+    assert result.returncode == 0 and result.summary["step_cuts"] == 0 and result.summary["energy"] < 1e-15 * 2e11, result
 
 
 @pytest.mark.parametrize("limit,value", [("max_passes", 1), ("max_cells", 5)])
 def test_limits_are_told(run, tmp_path, limit, value):
-    """Limits are the user's: converged, and a word about the tolerance that they leave out of reach. Within it there is nothing to say."""
+    """Limits are the user's, but a tolerance that they leave out of reach is not met. Within it there is nothing to say."""
     text = strip(tmp_path, "-0.2*t*X", load={"step": 1})
     result = run("strip.yml", f"-adapt_{limit}", value, text=text)
-    assert result.returncode == 0 and f"converged, adapt.tolerance 0.01 was not reached ({limit}), the estimated error is up to" in result.stdout, result
+    assert result.returncode == 2 and result.solved, result
+    assert f"inaccurate, adapt.tolerance 0.01 was not reached ({limit}), the estimated error is up to" in result.stdout, result
     enough = run("strip.yml", "-adapt_tolerance", 0.5, text=text)
     assert enough.returncode == 0 and enough.summary["reason"] == "" and "converged: 1 load step" in enough.stdout, enough
 
@@ -125,3 +157,13 @@ def test_batch(tmp_path):
     assert "converged" in (tmp_path / "cube.log").read_text() and "mesh.file" in (tmp_path / "bad.log").read_text()
     done = subprocess.run([*command, str(ROOT / "inputs/cube.yml")], cwd=tmp_path, env=env, capture_output=True, text=True)
     assert done.returncode == 1 and "two scenes are called cube" in done.stderr and not done.stdout, done
+
+
+def test_recoveries_are_switched(run):
+    """Each row of the table of recoveries: off, auto, on; anything else is refused. summary.json counts them."""
+    done = run("inputs/patch2d.yml", "-path_viscous", "off", "-path_cut", "on", "-output_fields", "false")
+    recoveries = done.summary["recoveries"]
+    assert done.returncode == 0 and {"homotopy", "cut", "viscous"} <= set(recoveries) and all(row == {"tried": 0, "succeeded": 0} for row in recoveries.values()), done
+    refused(run("inputs/patch2d.yml", "-path_viscous", "maybe"), "-path_viscous is 'maybe'", "auto|on|off")
+    refused(run("inputs/patch2d.yml", "-path_viscos", "on"), "-path_viscos", "-path_viscous")
+    refused(run("inputs/patch2d.yml", "-load_relax", "false"), "-path_viscous")

@@ -97,7 +97,7 @@ ADAPTIVE = ("-mesh_parameter_n", 2, "-mesh_parameter_grade", 1, "-adapt_toleranc
 
 def necking(run, end, *options, ranks=1):
     result = run("inputs/necking.yml", "-load_end", end / 7, "-output_fields", "false", *options, ranks=ranks)
-    assert result.returncode == 0, result
+    assert result.solved, result
     return result
 
 

@@ -69,7 +69,7 @@ def solve(run, tmp_path):
 
 
 def good(result):
-    assert result.returncode == 0 and result.summary["status"] == "converged", result
+    assert result.solved, result
     return result.summary
 
 

@@ -20,7 +20,7 @@ def pair(result, name="disc_on_block"):
 
 
 def assert_converged(result):
-    assert result.returncode == 0 and result.summary["status"] == "converged", result
+    assert result.solved, result
 
 
 # ---- O-90, O-91: balance, exchange of the sides ---------------------------------------------------------------------------

@@ -13,7 +13,7 @@ PRESSURE = 0.0688979013617  # of the patch, see the header of inputs/patch2d.yml
 
 
 def assert_converged(result):
-    assert result.returncode == 0 and result.summary["status"] == "converged", result
+    assert result.solved, result
 
 
 # ---- O-96: active sets that hesitate --------------------------------------------------------------------------------------
