@@ -62,7 +62,7 @@ typedef struct {
   char           checkpoint[PETSC_MAX_PATH_LEN], restart[PETSC_MAX_PATH_LEN]; /* file to write; file to go on from, "": none */
 } App;
 
-/* start.c: PetscInitialize, cheaply for a single process. */
+/* start.c: PetscInitialize, cheaply for a single process. A file of -options_file that cannot be read is an input error. */
 PetscErrorCode AppInitialize(int argc, char **argv);
 /* loadstep.c: all load steps; app->failure is set when the solver gives up. Collective. */
 PetscErrorCode AppRun(App *);
@@ -116,6 +116,8 @@ PetscErrorCode AppContactPairs(App *, PetscInt *num, PetscInt (**pairs)[2]);
 /* restart.c. The options -restart and -max_seconds; signals are heard from now on. Collective. */
 PetscErrorCode AppOptions(App *);
 PetscErrorCode AppPrintHelp(MPI_Comm);
+/* unknown.c. After all that ask for options of their own: is there one that nobody knows, PETSc included? An input error. Not collective. */
+PetscErrorCode AppCheckOptions(Scene);
 /* Copy the accepted state and all counters; write the copy, if its file is not yet that; remove the file of an earlier run, and what
    it put aside. Collective. */
 PetscErrorCode AppSnapshot(App *);

@@ -100,6 +100,7 @@ static PetscErrorCode Solve_Private(int argc, char **argv, int *status)
   PetscCall(SceneGetData(app.scene, &app.data));
   PetscCall(AppOptions(&app));
   PetscCall(SolverCheckOptions());
+  PetscCall(AppCheckOptions(app.scene));
   PetscCall(StageBegin(STAGE_MESH));
   PetscCall(SceneSetUp(app.scene, &forest));
   PetscCall(StageEnd(STAGE_MESH));
@@ -125,7 +126,7 @@ static PetscBool Asked_Private(int argc, char **argv, const char *option)
   return PETSC_FALSE;
 }
 
-/* Options of PETSc that nothing asked for are most likely mistyped: say so. PetscFinalize asks for two more. */
+/* Options with a first word of PETSc's that nothing asked for are most likely mistyped: say so. PetscFinalize asks for two more. */
 static PetscErrorCode UnusedOptions_Private(void)
 {
   PetscMPIInt rank;
@@ -201,7 +202,7 @@ int main(int argc, char **argv)
   PetscErrorCode ierr;
 
   ierr = AppInitialize(argc, argv);
-  if (ierr) return 2;
+  if (ierr) return ierr == MORTISE_ERR_INPUT ? 1 : 2;
   (void)signal(SIGPIPE, SIG_DFL); /* output cut short by `head` is no error to report */
   (void)signal(SIGXFSZ, SIG_IGN); /* a file that may not grow is told of as a full disk is */
   ierr = ErrorHandlerPush();

@@ -301,7 +301,9 @@ static PetscErrorCode ReadContact_Private(Scene s, SceneNode *node, ContactEntry
     PetscCheckInput(!same && !swap, "%s: '%s' and '%s' are the sides of pair '%s' already%s", NodeWhere(node), c->nonmortar, c->mortar, e->spec.name,
                     swap ? ", the other way round" : "");
   }
-  PetscCheckInput(strcmp(c->nonmortar, c->mortar), "%s: both sides are '%s'; a pair needs two different surfaces", NodeWhere(node), c->mortar);
+  PetscCheckInput(strcmp(c->nonmortar, c->mortar),
+                  "%s: both sides are '%s'; contact of a surface with itself is not offered: a pair needs two surfaces, without a cell in common",
+                  NodeWhere(node), c->mortar);
   PetscCheckInput(s->data.mesh.dim == 2 || !c->spec.node_to_segment,
                   "%s: node-to-segment contact is for comparison in two dimensions only; allowed here: false", NodeWhere(NodeFind(node, "node_to_segment")));
   PetscCheckInput((s->data.mesh.dim == 3 && !c->spec.full) || !NodeFind(node, "projection"),

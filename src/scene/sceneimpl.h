@@ -6,13 +6,15 @@
 
 typedef enum { NODE_SCALAR, NODE_LIST, NODE_MAP } NodeKind;
 
+enum { NODE_COMMAND_LINE = 0, NODE_DATABASE = -1 }; /* lines of nodes that are in no scene file: options, as given or from -options_file or PETSC_OPTIONS */
+
 typedef struct _SceneNode SceneNode;
 struct _SceneNode {
   NodeKind    kind;
   char       *key;    /* owned; "" for the root and for items of a list */
   char       *text;   /* owned; value of a scalar, else NULL */
   PetscBool   quoted; /* the scalar stood in quotes */
-  PetscInt    line;   /* in the file, from 1; 0: from the command line */
+  PetscInt    line;   /* in the file, from 1; NODE_COMMAND_LINE, NODE_DATABASE */
   const char *origin; /* borrowed; name of the file */
   SceneNode  *parent, *first, *last, *next;
 };
@@ -26,6 +28,7 @@ SceneNode     *NodeFind(const SceneNode *map, const char *key); /* child or NULL
 PetscInt       NodeCount(const SceneNode *);                    /* children; NULL: 0 */
 PetscBool      NodeIsEmpty(const SceneNode *);                  /* `key:` with nothing after it */
 const char    *NodeWhere(const SceneNode *);                    /* "file:line: a.b.c" in a buffer that lives until the eighth next call */
+const char    *NodeOptions(PetscInt line);                      /* where options with this line come from, in words */
 
 /* ---- the option table (optiontable.c) ----------------------------------------------------------------------------------- */
 
@@ -117,7 +120,8 @@ PetscErrorCode OptionsCheckTree(const SceneNode *root);
 PetscErrorCode OptionsRead(const char *section, const SceneNode *, PetscInt dim, void *object);
 /* A number as text, finite, whole text. */
 PetscBool OptionParseReal(const char *text, PetscReal *);
-/* Put the options of the command line that are scene keys into the tree and take them out of PETSc's global database. */
+/* Put the options that are scene keys into the tree and take them out of PETSc's global database: what is there besides (-options_file), then the command
+ * line's. */
 PetscErrorCode OptionsOverride(SceneNode *root, int argc, char **argv);
 /* Whether s is one of the keys at the top of a scene, s not necessarily ended by 0. */
 PetscBool OptionIsTopKey(const char *s, size_t length);

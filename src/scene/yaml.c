@@ -78,6 +78,11 @@ PetscBool NodeIsEmpty(const SceneNode *node)
   return node->kind == NODE_SCALAR && !node->quoted && !node->text[0] ? PETSC_TRUE : PETSC_FALSE;
 }
 
+const char *NodeOptions(PetscInt line)
+{
+  return line == NODE_DATABASE ? "-options_file or PETSC_OPTIONS" : "command line";
+}
+
 const char *NodeWhere(const SceneNode *node)
 {
   static char      buffer[8][1024];
@@ -88,10 +93,10 @@ const char *NodeWhere(const SceneNode *node)
   size_t           n;
 
   for (const SceneNode *up = node; up && up->parent && num < YAML_MAX_DEPTH; up = up->parent) chain[num++] = up;
-  if (node->line)
+  if (node->line > 0)
     n = (size_t)snprintf(s, sizeof(buffer[0]), "%s:%d: ", node->origin, (int)node->line);
   else
-    n = (size_t)snprintf(s, sizeof(buffer[0]), "command line: ");
+    n = (size_t)snprintf(s, sizeof(buffer[0]), "%s: ", NodeOptions(node->line));
   for (int i = num - 1; i >= 0 && n < sizeof(buffer[0]); --i) n += (size_t)snprintf(s + n, sizeof(buffer[0]) - n, "%s%s", chain[i]->key, i ? "." : "");
   return s;
 }
