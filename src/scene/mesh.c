@@ -7,6 +7,7 @@
 #include <spawn.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
+#include <time.h>
 #include <unistd.h>
 
 #define MESH_MAX_PARAMETERS 64
@@ -45,8 +46,24 @@ static void FirstError_Private(const char *log, char *message, size_t capacity)
   if (f) (void)fclose(f);
 }
 
+/* Wait for the program, which may never end, until the run is asked to stop: then it is killed. Returns errno. */
+static int Wait_Private(pid_t pid, int *status, PetscBool *stopped)
+{
+  struct timespec pause = {.tv_nsec = 1000000};
+  pid_t           ended;
+
+  *stopped = PETSC_FALSE;
+  while ((ended = waitpid(pid, status, *stopped ? 0 : WNOHANG)) == 0 || (ended < 0 && errno == EINTR)) {
+    if (StopAsked(PETSC_COMM_SELF, stopped)) *stopped = PETSC_TRUE;
+    if (*stopped) (void)kill(pid, SIGKILL);
+    (void)nanosleep(&pause, NULL);
+    pause.tv_nsec = PetscMin(2 * pause.tv_nsec, 50000000);
+  }
+  return ended < 0 ? errno : 0;
+}
+
 /* Run a program without a shell, both outputs to log. Returns errno of the start, and the program's exit status. */
-static int Run_Private(char *const argv[], const char *log, int *status)
+static int Run_Private(char *const argv[], const char *log, int *status, PetscBool *stopped)
 {
   posix_spawn_file_actions_t actions;
   pid_t                      pid;
@@ -59,9 +76,7 @@ static int Run_Private(char *const argv[], const char *log, int *status)
   error = posix_spawnp(&pid, argv[0], &actions, NULL, argv, environ);
   posix_spawn_file_actions_destroy(&actions);
   if (error) return error;
-  while (waitpid(pid, status, 0) < 0)
-    if (errno != EINTR) return errno;
-  return 0;
+  return Wait_Private(pid, status, stopped);
 }
 
 /* Cells in an ASCII .msh 4.1: highest dimension, and whether there are simplices of it. */
@@ -112,6 +127,7 @@ static void Gmsh_Private(Scene s, const char *geo, PetscBool subdivide, MeshResu
   char        order[16], log[PETSC_MAX_PATH_LEN + 16], reason[MESSAGE_LENGTH];
   const char *argv[32 + 3 * MESH_MAX_PARAMETERS];
   int         n = 0, status = 0, error;
+  PetscBool   stopped   = PETSC_FALSE;
   PetscInt    dim       = s->data.mesh.dim;
   SceneNode  *parameter = NodeFind(NodeFind(s->root, "mesh"), "parameter");
 
@@ -130,13 +146,15 @@ static void Gmsh_Private(Scene s, const char *geo, PetscBool subdivide, MeshResu
   }
   argv[n++] = geo;
   argv[n]   = NULL;
-  error     = Run_Private((char *const *)(const void *)argv, log, &status);
+  error     = Run_Private((char *const *)(const void *)argv, log, &status, &stopped);
   FirstError_Private(log, reason, sizeof(reason));
   if (error == ENOENT)
     (void)snprintf(r->message, sizeof(r->message), "mesh.file %s needs the program gmsh, which is not installed (or not in PATH); install it or give a .msh",
                    geo);
   else if (error)
     (void)snprintf(r->message, sizeof(r->message), "mesh.file %s: gmsh could not be started: %s", geo, strerror(error));
+  else if (stopped)
+    (void)snprintf(r->message, sizeof(r->message), "mesh.file %s: gmsh had not come to an end when the run was asked to stop (%s)", geo, StopReason());
   else if (WIFSIGNALED(status))
     (void)snprintf(r->message, sizeof(r->message), "mesh.file %s: gmsh crashed (%s); another Mesh.Algorithm or other sizes may help", geo,
                    strsignal(WTERMSIG(status)));
@@ -150,6 +168,8 @@ static void Generate_Private(Scene s, const char *geo, MeshResult *r)
   PetscInt    dim;
   PetscBool   simplices;
 
+  GeoCheck(geo, sizeof(r->message), r->message);
+  if (r->message[0]) return;
   (void)snprintf(r->temporary, sizeof(r->temporary), "%s/mortise-XXXXXX", base && base[0] ? base : "/tmp");
   if (!mkdtemp(r->temporary)) {
     (void)snprintf(r->message, sizeof(r->message), "no temporary directory for the mesh can be made: %s: %s", r->temporary, strerror(errno));

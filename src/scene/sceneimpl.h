@@ -142,6 +142,8 @@ PetscErrorCode SceneCheckControl(Scene, const SceneNode *boundary, const char *k
 /* Mesh the .geo, or take the .msh as it is: data.mesh.file is set (mesh.c). Collective. */
 PetscErrorCode SceneMakeMesh(Scene);
 PetscErrorCode SceneRemoveMesh(Scene);
+/* A sentence when the .geo, or one that it includes, calls a program or writes a file, else "" (geo.c). */
+void GeoCheck(const char *file, size_t capacity, char message[]);
 /* Match names with the groups of the mesh, fill data.bodies, boundaries, contacts, and check them (check.c). Collective. */
 PetscErrorCode SceneCheckMesh(Scene, Forest);
 /* Reference position of a vertex (check.c). Not collective. */

@@ -131,6 +131,7 @@ static PetscErrorCode Scalar_Private(Reader *r, const char **text)
                   "%s:%d: anchors and tags of YAML are not used in a scene", r->origin, (int)Line_Private(r));
   *text = (const char *)r->event.data.scalar.value;
   PetscCheckInput(strlen(*text) == r->event.data.scalar.length, "%s:%d: a zero character in a text", r->origin, (int)Line_Private(r));
+  PetscCheckInput(TextIsPlain(*text, "\n\r\t"), "%s:%d: a control character in a text", r->origin, (int)Line_Private(r));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -144,8 +145,8 @@ static PetscErrorCode Key_Private(Reader *r, const SceneNode *map, char key[MORT
                   (int)r->event.start_mark.column + 1);
   PetscCall(Scalar_Private(r, &text));
   PetscCheckInput(text[0], "%s:%d: an empty key", r->origin, (int)Line_Private(r));
-  PetscCheckInput(!text[strcspn(text, ",\"\n\r\t")], "%s:%d: key \"%.20s…\" has a comma, quotation mark, tabulator or line break in it", r->origin,
-                  (int)Line_Private(r), text);
+  PetscCheckInput(!text[strcspn(text, ",\"")] && TextIsPlain(text, ""), "%s:%d: key \"%.20s…\" has a comma, quotation mark or control character in it",
+                  r->origin, (int)Line_Private(r), text);
   PetscCheckInput(strlen(text) < MORTISE_NAME, "%s:%d: key \"%.20s…\" is longer than %d characters", r->origin, (int)Line_Private(r), text, MORTISE_NAME - 1);
   twin = NodeFind(map, text);
   PetscCheckInput(!twin, "%s is given twice, in lines %d and %d", NodeWhere(twin), (int)twin->line, (int)Line_Private(r));
