@@ -44,6 +44,11 @@ PetscBool ErrorIsPlain(PetscErrorCode);
 PetscErrorCode ErrorForesee(const char *words);
 PetscErrorCode ErrorForeseen(PetscErrorCode code, PetscBool *met);
 
+/* Warn of something that has not stopped the run (base/warning.c): printed as "warning: <text>", kept for summary.json; the same text only once. The text is
+   the same on every rank. Collective. */
+PetscErrorCode WarningAdd(MPI_Comm, const char *format, ...) PETSC_ATTRIBUTE_FORMAT(2, 3);
+const char    *WarningText(PetscInt i); /* the i-th so far, from 0; NULL: there are no more */
+
 /* Between the two a signal that a library raises over the numbers of a file (SIGSEGV, SIGABRT, …) ends the process with exit status 1 and this sentence
    (base/guard.c). No nesting. */
 void GuardBegin(const char *format, ...) PETSC_ATTRIBUTE_FORMAT(1, 2);

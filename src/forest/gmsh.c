@@ -312,6 +312,7 @@ static PetscErrorCode LoadShapes_Private(Reader *r)
             "curvature\n",
             r->spec->file, r->spec->dim == 2 ? "quads" : "hexes");
   PetscCall(Convert_Private(r));
+  r->mesh->from_simplices = (PetscBool)(r->spec->dim == 3);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -19,6 +19,7 @@ extern char **environ;
 typedef struct {
   char message[PETSC_MAX_PATH_LEN + MESSAGE_LENGTH];
   char file[PETSC_MAX_PATH_LEN], temporary[PETSC_MAX_PATH_LEN];
+  int  subdivided; /* hexahedra are made out of tetrahedra */
 } MeshResult;
 
 static PetscBool HasSuffix_Private(const char *file, const char *suffix)
@@ -185,6 +186,7 @@ static void Generate_Private(Scene s, const char *geo, MeshResult *r)
   Scan_Private(r->file, &dim, &simplices);
   if (simplices && dim == s->data.mesh.dim) {
     Gmsh_Private(s, geo, PETSC_TRUE, r);
+    r->subdivided = dim == 3;
     if (r->message[0]) return;
     Scan_Private(r->file, &dim, &simplices);
   }
@@ -238,6 +240,7 @@ PetscErrorCode SceneMakeMesh(Scene s)
   PetscCallMPI(MPI_Bcast(&r, (PetscMPIInt)sizeof(r), MPI_CHAR, 0, s->comm));
   PetscCall(PetscStrncpy(s->temporary, r.temporary, sizeof(s->temporary)));
   PetscCall(PetscStrncpy(s->data.mesh.file, r.file, sizeof(s->data.mesh.file)));
+  s->subdivided = (PetscBool)r.subdivided;
   PetscCheckInput(!r.message[0], "%s", r.message);
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -169,9 +169,8 @@ static PetscErrorCode ReadMaterial_Private(Scene s, SceneNode *node, MaterialEnt
   PetscCall(ReadFibers_Private(s, node, m));
   PetscCall(MaterialSetUp(&m->spec, num, names, values));
   if (MaterialSoftens(&m->spec))
-    PetscCall(PetscPrintf(s->comm,
-                          "warning: the yield stress of material %s falls with plastic strain: zones of flow shrink to a cell, results depend on the mesh\n",
-                          m->spec.name));
+    PetscCall(WarningAdd(s->comm, "the yield stress of material %s falls with plastic strain: zones of flow shrink to a cell, results depend on the mesh",
+                         m->spec.name));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -174,6 +174,7 @@ PetscErrorCode SceneSetUp(Scene s, Forest *forest)
   status = SceneCheckMesh(s, *forest);
   if (status) PetscCall(ForestDestroy(forest));
   PetscCall(status);
+  PetscCall(SceneTellMesh(s, *forest));
   for (PetscInt i = 0; i < d->num_refines; ++i) PetscCall(ForestRefine(forest, &d->refines[i]));
   PetscCall(Subdivide_Private(s, forest));
   d->mechanics.num_bodies     = s->num_bodies;

@@ -101,6 +101,7 @@ struct _p_Scene {
   char       mesh_file[PETSC_MAX_PATH_LEN]; /* as written in the scene */
   PetscInt   mesh_order, order;
   PetscBool  setup;
+  PetscBool  subdivided;                    /* gmsh made hexahedra out of tetrahedra */
   char       directory[PETSC_MAX_PATH_LEN]; /* of the scene file, with '/' at its end */
   char       temporary[PETSC_MAX_PATH_LEN]; /* directory of the generated mesh, "" when none; rank 0 removes it */
 
@@ -146,6 +147,8 @@ PetscErrorCode SceneRemoveMesh(Scene);
 void GeoCheck(const char *file, size_t capacity, char message[]);
 /* Match names with the groups of the mesh, fill data.bodies, boundaries, contacts, and check them (check.c). Collective. */
 PetscErrorCode SceneCheckMesh(Scene, Forest);
+/* Warnings and notes on a mesh that may not be what is meant (pieces.c); after SceneCheckMesh. Collective. */
+PetscErrorCode SceneTellMesh(Scene, Forest);
 /* Reference position of a vertex (check.c). Not collective. */
 PetscErrorCode SceneVertex(Forest, PetscInt vertex, PetscReal X[3]);
 /* "a, b, c" or "none" (check.c). */
