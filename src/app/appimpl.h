@@ -54,6 +54,9 @@ typedef struct {
   PetscBool      inversion_told;                            /* that refinement would invert a cell, once */
   PetscInt      *subdivided;                                /* owned [num_contacts] by contact.<pair>.subdivide: auto, so often, or tried */
   PetscBool     *touched;                                   /* owned [num_contacts] a node was in contact at some time of this run */
+  PetscReal      rough_error, rough_t;                      /* largest estimate of an accepted step, and its time */
+  PetscReal      unstable_t;                                /* when a solution was first found unstable … */
+  PetscBool      unstable_known, passage_told;              /* … if one was; that a surface passes through itself */
   ReportRow      last;
   PetscReal      dt;                                                          /* length of the next load step */
   Checkpoint     snapshot;                                                    /* owned: copy of the state at the end of the last accepted load step */
@@ -128,6 +131,11 @@ PetscErrorCode AppStop(App *);
 /* Read the checkpoint to go on from and check it against scene and coarse mesh; then the level and all counters from it (destroys *coarse). Nothing is written.
    Collective. */
 PetscErrorCode AppResume(App *, Forest *coarse);
+
+/* watch.c. After each accepted load step: does its state ask for a warning? Collective. */
+PetscErrorCode AppWatch(App *);
+/* The warnings that sum up a run, before its summary is written. Collective. */
+PetscErrorCode AppWarn(App *);
 
 /* summary.c. What the run took so far. Not collective. */
 ReportRow AppTotal(const App *);

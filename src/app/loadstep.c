@@ -215,6 +215,7 @@ static PetscErrorCode Accept_Private(App *app, PetscReal t0)
   app->last.step_cuts         = app->cuts_in_step;
   app->last.drag_work         = app->drag_work;
   PetscCall(HistoryStep(app->history, &app->last, &app->balance, l->problem, &l->state));
+  PetscCall(AppWatch(app));
   PetscCall(AppSnapshot(app));
   if (every > 0 && app->load_steps % every == 0) PetscCall(AppCheckpoint(app));
   PetscFunctionReturn(PETSC_SUCCESS);

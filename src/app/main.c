@@ -64,6 +64,7 @@ static PetscErrorCode Summarise_Private(App *app)
   const char *status = AppStatus(app), *reason;
 
   PetscFunctionBegin;
+  PetscCall(AppWarn(app));
   PetscCall(AppReason(app, &reason));
   PetscCall(AppSummary(app, status, reason));
   const ReportRow total = AppTotal(app);
