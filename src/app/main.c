@@ -156,6 +156,7 @@ static PetscErrorCode Help_Private(void)
       "\nA run prints a line for each adaptive pass: load step, pass, t, cells, unknowns (dofs), Newton iterations, nodes under contact pressure,\n"
       "relative estimated error, magnitude of the contact force (of several pairs the sum of the magnitudes; one by one in history.csv),\n"
       "seconds since the start. What else is known of each pass and each load step: adapt.csv, history.csv, summary.json.\n"
+      "A line \"warning: ...\" tells of something that a run can be right with but its user may not mean; summary.json lists them.\n"
       "\nOptions of PETSc work as everywhere: -snes_monitor, -ksp_monitor, -log_view, ...\n"
       "Exit status: 0 converged to the end; 1 bad input, nothing was solved; 2 the solver gave up: status failed, or inaccurate where all load steps\n"
       "were solved, but not on meshes as fine as adapt.tolerance asks; 3 stopped, by SIGTERM, SIGUSR1, SIGINT or -max_seconds, with a checkpoint for\n"
