@@ -54,7 +54,7 @@ typedef struct {
   PetscBool      inversion_told;                            /* that refinement would invert a cell, once */
   PetscInt      *subdivided;                                /* owned [num_contacts] by contact.<pair>.subdivide: auto, so often, or tried */
   PetscBool     *touched;                                   /* owned [num_contacts] a node was in contact at some time of this run */
-  PetscReal      rough_error, rough_t;                      /* largest estimate of an accepted step, and its time */
+  PetscReal      rough_error, rough_t, rough_norm;          /* largest estimate of an accepted step, its time; largest norm */
   PetscReal      unstable_t;                                /* when a solution was first found unstable … */
   PetscBool      unstable_known, passage_told;              /* … if one was; that a surface passes through itself */
   ReportRow      last;

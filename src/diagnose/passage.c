@@ -3,7 +3,7 @@
    Pieces that may meet are found by sort and sweep; each rank tests its own, and those of others in the box of its own. */
 #include "diagnose.h"
 
-#define DEEP 1e-2  /* of the smaller piece: less is no passage but how curved faces are drawn */
+#define DEEP 1e-2  /* of the smaller piece: what ends nearer to a piece does not pass through it; curved faces are drawn no better */
 #define CLOSE 1e-9 /* of a piece: corners no farther apart at the reference positions are one */
 
 typedef struct {
@@ -183,20 +183,19 @@ static PetscReal Height_Private(const Piece *p, const PetscReal x[3])
   return p->N[0] * (x[0] - p->x[0]) + p->N[1] * (x[1] - p->x[1]) + p->N[2] * (x[2] - p->x[2]);
 }
 
-/* Does the segment a-b, with these heights above the piece, cut it? */
-static PetscBool Cuts_Private(PetscInt dim, const Piece *p, const PetscReal a[3], const PetscReal b[3], PetscReal ha, PetscReal hb)
+/* Does the segment a-b, with these heights above the piece, cut it? Neither where it ends nor at the border of the piece: there hanging corners meet what they
+   hang on. */
+static PetscBool Cuts_Private(PetscInt dim, const Piece *p, const PetscReal a[3], const PetscReal b[3], PetscReal ha, PetscReal hb, PetscReal off)
 {
   PetscReal y[3], edge[3], to[3], turn[3];
 
-  if (!(ha * hb < 0)) return PETSC_FALSE;
+  if (!(ha * hb < 0) || PetscMin(PetscAbsReal(ha), PetscAbsReal(hb)) <= off) return PETSC_FALSE;
   for (PetscInt c = 0; c < 3; ++c) y[c] = a[c] + ha / (ha - hb) * (b[c] - a[c]);
   for (PetscInt k = 0; k < (dim == 2 ? 2 : 3); ++k) {
     const PetscReal *from = p->x + 3 * k, *on = p->x + 3 * ((k + 1) % dim);
     for (PetscInt c = 0; c < 3; ++c) edge[c] = on[c] - from[c], to[c] = y[c] - from[c];
-    if (dim == 2 && Dot3(edge, to) < 0) return PETSC_FALSE;
-    if (dim == 2) continue;
     Cross3(edge, to, turn);
-    if (Dot3(turn, p->N) < 0) return PETSC_FALSE;
+    if ((dim == 2 ? Dot3(edge, to) : Dot3(turn, p->N)) <= off * PetscSqrtReal(Dot3(edge, edge))) return PETSC_FALSE; /* this far from its border */
   }
   return PETSC_TRUE;
 }
@@ -204,12 +203,13 @@ static PetscBool Cuts_Private(PetscInt dim, const Piece *p, const PetscReal a[3]
 /* How deep corners of q lie behind p where an edge of q cuts p; 0: none does. */
 static PetscReal Depth_Private(PetscInt dim, const Piece *p, const Piece *q)
 {
-  PetscReal height[3], depth = 0;
+  const PetscReal off = DEEP * PetscMin(p->size, q->size);
+  PetscReal       height[3], depth = 0;
 
   for (PetscInt a = 0; a < dim; ++a) height[a] = Height_Private(p, q->x + 3 * a);
   for (PetscInt a = 0; a < (dim == 2 ? 1 : 3); ++a) {
     const PetscInt b = (a + 1) % dim;
-    if (Cuts_Private(dim, p, q->x + 3 * a, q->x + 3 * b, height[a], height[b])) depth = PetscMax(depth, -PetscMin(height[a], height[b]));
+    if (Cuts_Private(dim, p, q->x + 3 * a, q->x + 3 * b, height[a], height[b], off)) depth = PetscMax(depth, -PetscMin(height[a], height[b]));
   }
   return depth;
 }
@@ -220,7 +220,7 @@ static void Test_Private(const Pieces *s, const Piece *p, const Piece *q, Passag
 
   if (p->part != q->part || Neighbours_Private(s->dim, p, q) || InPair_Private(s->scene, p->groups, q->groups)) return;
   depth = PetscMax(Depth_Private(s->dim, p, q), Depth_Private(s->dim, q, p));
-  if (depth <= DEEP * PetscMin(p->size, q->size) || depth <= worst->depth) return;
+  if (depth <= worst->depth) return;
   worst->depth   = depth;
   worst->body[0] = PetscMin(p->body, q->body);
   worst->body[1] = PetscMax(p->body, q->body);
