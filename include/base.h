@@ -83,6 +83,7 @@ PetscErrorCode StopWatch(PetscReal seconds);
 /* Is there such a request on any rank of comm? It stays. Never without StopWatch. Collective. */
 PetscErrorCode StopAsked(MPI_Comm comm, PetscBool *stop);
 const char    *StopReason(void); /* name of the signal, or -max_seconds; "": nobody asked */
+const char    *StopWish(void);   /* the same, of a request to this rank that the others need not know of yet. Not collective. */
 
 /* ---- checksums (base/hash.c) --------------------------------------------------------------------------------------- */
 

@@ -12,6 +12,7 @@
 
 #define MESH_MAX_PARAMETERS 64
 #define MESSAGE_LENGTH 512
+#define GRACE 3 /* seconds for gmsh to come to an end when the run is asked to stop */
 
 extern char **environ;
 
@@ -47,15 +48,18 @@ static void FirstError_Private(const char *log, char *message, size_t capacity)
   if (f) (void)fclose(f);
 }
 
-/* Wait for the program, which may never end, until the run is asked to stop: then it is killed. Returns errno. */
+/* Wait for the program, which may never end. Once the run is asked to stop it has GRACE seconds left: a mesh that is nearly there makes a checkpoint possible.
+   Returns errno. */
 static int Wait_Private(pid_t pid, int *status, PetscBool *stopped)
 {
   struct timespec pause = {.tv_nsec = 1000000};
+  PetscReal       left  = GRACE;
   pid_t           ended;
 
   *stopped = PETSC_FALSE;
   while ((ended = waitpid(pid, status, *stopped ? 0 : WNOHANG)) == 0 || (ended < 0 && errno == EINTR)) {
-    if (StopAsked(PETSC_COMM_SELF, stopped)) *stopped = PETSC_TRUE;
+    if (StopWish()[0]) left -= 1e-9 * (PetscReal)pause.tv_nsec;
+    *stopped = (PetscBool)(left <= 0);
     if (*stopped) (void)kill(pid, SIGKILL);
     (void)nanosleep(&pause, NULL);
     pause.tv_nsec = PetscMin(2 * pause.tv_nsec, 50000000);
@@ -155,7 +159,7 @@ static void Gmsh_Private(Scene s, const char *geo, PetscBool subdivide, MeshResu
   else if (error)
     (void)snprintf(r->message, sizeof(r->message), "mesh.file %s: gmsh could not be started: %s", geo, strerror(error));
   else if (stopped)
-    (void)snprintf(r->message, sizeof(r->message), "mesh.file %s: gmsh had not come to an end when the run was asked to stop (%s)", geo, StopReason());
+    (void)snprintf(r->message, sizeof(r->message), "mesh.file %s: gmsh had not come to an end when the run was asked to stop (%s)", geo, StopWish());
   else if (WIFSIGNALED(status))
     (void)snprintf(r->message, sizeof(r->message), "mesh.file %s: gmsh crashed (%s); another Mesh.Algorithm or other sizes may help", geo,
                    strsignal(WTERMSIG(status)));
