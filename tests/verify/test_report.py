@@ -172,6 +172,12 @@ def test_a_body_that_passes_through_itself(run, tmp_path, dim, ranks):
     assert not [text for text in run("s.yml", text=open_ring(tmp_path, 0.12, dim), ranks=ranks).summary["warnings"] if "passes" in text], result
 
 
+def test_hanging_facets_pass_through_nothing(run):
+    """A round surface with linear faces of different sizes: corners that hang lie on what they hang on."""
+    result = run("inputs/hertz3d.yml", "-adapt_max_passes", 4, "-output_fields", "false")
+    assert result.adapt[-1]["cells"] > result.adapt[0]["cells"] and not result.summary["warnings"], result
+
+
 def test_a_rough_estimate(run, tmp_path):
     assert float(re.search(r"up to (\S+) %", warned(run("s.yml", text=open_ring(tmp_path, 0.1)), "estimated error")).group(1)) > 50
 
