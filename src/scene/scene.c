@@ -172,6 +172,7 @@ PetscErrorCode SceneSetUp(Scene s, Forest *forest)
   PetscCall(SceneRemoveMesh(s)); /* also after an error */
   PetscCall(status);
   status = SceneCheckMesh(s, *forest);
+  if (!status) status = SceneCheckOverlap(s, *forest);
   if (status) PetscCall(ForestDestroy(forest));
   PetscCall(status);
   PetscCall(SceneTellMesh(s, *forest));

@@ -147,6 +147,9 @@ PetscErrorCode SceneRemoveMesh(Scene);
 void GeoCheck(const char *file, size_t capacity, char message[]);
 /* Match names with the groups of the mesh, fill data.bodies, boundaries, contacts, and check them (check.c). Collective. */
 PetscErrorCode SceneCheckMesh(Scene, Forest);
+/* No pair's sides overlap in the mesh by more than contact looks for (overlap.c); after SceneCheckMesh, before any refinement but the uniform one. Collective.
+ */
+PetscErrorCode SceneCheckOverlap(Scene, Forest);
 /* Warnings and notes on a mesh that may not be what is meant (pieces.c); after SceneCheckMesh. Collective. */
 PetscErrorCode SceneTellMesh(Scene, Forest);
 /* Reference position of a vertex (check.c). Not collective. */

@@ -88,6 +88,26 @@ def test_pairs_that_share_facets(run, tmp_path, one, two, good):
         refused(result, "contact.two", "facets in common", "pair 'one'")
 
 
+@pytest.mark.parametrize("dim", [2, 3])
+@pytest.mark.parametrize("swap", [False, True])
+@pytest.mark.parametrize("overlap,options,words", [(0.3, (), None), (0.8, (), "overlap by 0.8"), (0.9, (), "overlap by 0.9"), (0.8, ("-contact_pair_search", 9), None)])
+def test_an_overlap_too_deep_to_be_seen(run, tmp_path, dim, swap, overlap, options, words):
+    """Told before anything is solved, where contact would press nothing; what is not as deep, or looked for, is pressed apart."""
+    sides = ["y0_u", "y1_l"][::-1 if swap else 1]
+    text = json.loads(blocks(tmp_path, pair=dict(zip(("nonmortar", "mortar"), sides))))
+    text["boundary"] |= {"y1_u": {"fix": "y"}, "x0_l": {"fix": "x"}, "x0_u": {"fix": "x"}, "y0_l": {"fix": "y"}}
+    if dim == 3:
+        text["boundary"] |= {name: {"fix": "z"} for name in ("z0_l", "z0_u", "z1_l", "z1_u")}
+        text["model"] = "3d"
+    write(tmp_path / "blocks.msh", [linspace(0, 1, 2)] * 2 + [linspace(0, 1, 1)] * (dim - 2), [lambda *x: x, lambda x, y, *z: (x + 1e-6, y + 1 - overlap, *z)],
+          side=lambda name, centre, b: f"{name}_{'lu'[b]}", body=lambda centre, b: "lu"[b])
+    result = run("s.yml", *options, text=json.dumps(text))
+    if words:
+        refused(result, "contact.pair", words, "deeper than contact looks for", "pair.search")
+    else:
+        assert result.returncode == 0 and result.summary["contact"]["pair"]["active_nodes"] > 0, result
+
+
 def test_a_pair_of_a_surface_and_its_part(run, tmp_path):
     text = blocks(tmp_path, pair={"nonmortar": "low", "mortar": "low_l"})
     write(tmp_path / "blocks.msh", [linspace(0, 1, 2)] * 2, [lambda x, y: (x, y), lambda x, y: (x, y + 1.001)], body=lambda centre, b: "lu"[b],
