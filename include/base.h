@@ -23,6 +23,9 @@ PetscErrorCode ErrorInput(const char *format, ...) PETSC_ATTRIBUTE_FORMAT(1, 2);
 PetscInt    NameDistance(const char *a, const char *b);
 const char *NameNearest(const char *name, PetscInt num, const char *const names[]);
 
+/* Is it without control characters, C1 in UTF-8 included, but for those allowed? They would speak to the terminal. */
+PetscBool TextIsPlain(const char *text, const char *allowed);
+
 /* Append to a text in an array of capacity bytes; what has no room is cut. PetscStrlcat, when it has to cut, writes beyond the array: by one byte in PETSc
    3.26, by more in 3.18. */
 void TextAppend(size_t capacity, char text[], const char *more);
@@ -40,6 +43,16 @@ PetscBool ErrorIsPlain(PetscErrorCode);
    second call as ever. code: what the call in question returned, without PetscCall around it; it must return the same on all ranks. No nesting. */
 PetscErrorCode ErrorForesee(const char *words);
 PetscErrorCode ErrorForeseen(PetscErrorCode code, PetscBool *met);
+
+/* Warn of something that has not stopped the run (base/warning.c): printed as "warning: <text>", kept for summary.json; the same text only once. The text is
+   the same on every rank. Collective. */
+PetscErrorCode WarningAdd(MPI_Comm, const char *format, ...) PETSC_ATTRIBUTE_FORMAT(2, 3);
+const char    *WarningText(PetscInt i); /* the i-th so far, from 0; NULL: there are no more */
+
+/* Between the two a signal that a library raises over the numbers of a file (SIGSEGV, SIGABRT, …) ends the process with exit status 1 and this sentence
+   (base/guard.c). No nesting. */
+void GuardBegin(const char *format, ...) PETSC_ATTRIBUTE_FORMAT(1, 2);
+void GuardEnd(void);
 
 /* ---- stages (base/log.c): a PetscLogEvent and accumulated wall seconds each ------------------------------------- */
 
@@ -70,6 +83,7 @@ PetscErrorCode StopWatch(PetscReal seconds);
 /* Is there such a request on any rank of comm? It stays. Never without StopWatch. Collective. */
 PetscErrorCode StopAsked(MPI_Comm comm, PetscBool *stop);
 const char    *StopReason(void); /* name of the signal, or -max_seconds; "": nobody asked */
+const char    *StopWish(void);   /* the same, of a request to this rank that the others need not know of yet. Not collective. */
 
 /* ---- checksums (base/hash.c) --------------------------------------------------------------------------------------- */
 

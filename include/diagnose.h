@@ -49,6 +49,18 @@ void BalanceChange(const Balance *from, const Balance *to, PetscReal change[3]);
    smooth bodies falls with the root of the distance), at most to the next node; where it does not fall, the zone ends in the middle of the edge. */
 PetscErrorCode BalanceZone(MPI_Comm comm, const ContactView *, PairFigures *);
 
+/* ---- surfaces that pass through themselves (diagnose/passage.c) ---------------------------------------------------------- */
+
+typedef struct {
+  PetscReal depth;   /* of what lies behind the surface; 0: nothing does */
+  PetscReal x[3];    /* about there */
+  PetscInt  body[2]; /* bodies of one part: one body, or two that are joined */
+} Passage;
+
+/* The deepest place at a state, which the problem stands at, the same on every rank. Rigid bodies and the sides of a contact pair, which contact keeps apart,
+   are left out. O(n log n) for n outer facets, on the rank that has them. Collective. */
+PetscErrorCode PassageFind(Problem, const State *, Passage *);
+
 /* Figures of one pass or accepted step, also the rows of adapt.csv and history.csv. */
 typedef struct {
   PetscInt  step, pass, cells, dofs;

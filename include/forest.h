@@ -42,6 +42,7 @@ typedef struct {
   PetscInt  *cell_vertices;            /* [num_cells][2^dim] lexicographic */
   PetscReal *cell_geometry;            /* [num_cells][(q+1)^dim][3] positions at equispaced nodes, lexicographic, q = geometry_order */
   PetscInt  *cell_body;                /* [num_cells] index of the body, -1: in none (input error reported by the scene with the cell's place) */
+  PetscBool  from_simplices;           /* in space: its cells were made out of tetrahedra */
   PetscInt   num_fields;               /* views $ElementData of three components in the file */
   char (*field_name)[MORTISE_NAME];    /* [num_fields] */
   PetscReal *field;                    /* [num_fields][num_cells][3] the vector of each cell as the file has it, NaN: none */
@@ -94,6 +95,8 @@ PetscErrorCode ForestCreateFromCoarse(MPI_Comm, CoarseMesh *mesh, PetscInt num_f
 PetscErrorCode ForestDestroy(Forest *);
 
 PetscErrorCode ForestGetCoarse(Forest, const CoarseMesh **);
+/* part[num_cells]: cells that share a vertex, and those that hang together by others, have the same number below *num. Not collective. */
+PetscErrorCode ForestCoarseParts(const CoarseMesh *, PetscInt *num, PetscInt part[]);
 /* The box of all geometry nodes. Not collective. */
 void           ForestCoarseBox(const CoarseMesh *, PetscReal lo[3], PetscReal hi[3]);
 PetscErrorCode ForestGetTables(Forest, const ForestTables **);

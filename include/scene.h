@@ -66,7 +66,8 @@ typedef struct _p_Scene *Scene;
 
 /* Read the scene named in the arguments (the first that ends in .yml or .yaml, else the first argument) and the overrides; validate everything that
    needs no mesh. Options whose first word is a top key of a scene (title, mesh, refine, model, kinematics, order, body, material, boundary, contact, load,
-   adapt, output, probe) are overrides: they are taken out of PETSc's global database, as is -check; all others stay there.
+   adapt, output, probe) are overrides, those of -options_file and PETSC_OPTIONS too, over which the command line wins: they are taken out of PETSc's global
+   database, as is -check; all others stay there.
    Every wrong input is one sentence (ErrorInput). Nothing is written. Collective. */
 PetscErrorCode SceneCreate(MPI_Comm, int argc, char **argv, Scene *);
 /* Mesh a .geo with gmsh in a temporary directory (rank 0); read the coarse mesh into *forest and validate names, bodies, contact pairs and supports
@@ -75,6 +76,8 @@ PetscErrorCode SceneSetUp(Scene, Forest *forest);
 PetscErrorCode SceneGetData(Scene, const SceneData **);
 PetscErrorCode SceneDestroy(Scene *);
 PetscBool      SceneCheckOnly(Scene); /* -check given */
+/* The key of this scene, as an option without its dash, that is nearest to a name. Not collective. */
+PetscErrorCode SceneNearestOption(Scene, const char *name, size_t capacity, char nearest[]);
 /* A short readable report of what would be solved on this forest; after SceneSetUp. Collective. */
 PetscErrorCode SceneView(Scene, Forest, PetscViewer);
 

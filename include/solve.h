@@ -32,6 +32,8 @@ PetscErrorCode SolverCreate(Problem, Solver *);
 PetscErrorCode SolverDestroy(Solver *);
 /* Are all -solve_* options known, and their values allowed? An input error when one is not. Collective. */
 PetscErrorCode SolverCheckOptions(void);
+/* The one of them, without its dash, that is nearest to a name. Not collective. */
+const char *SolverNearestOption(const char *name);
 /* The -solve_* options as text for -help. */
 PetscErrorCode SolverPrintHelp(MPI_Comm);
 

@@ -47,6 +47,9 @@ typedef struct {
   PetscBool        inversion_told; /* that refinement would invert a cell, once */
   PetscInt        *subdivided;     /* owned [num_contacts] by contact.<pair>.subdivide: auto, so often, or tried */
   PetscBool       *touched;        /* owned [num_contacts] a node was in contact at some time of this run */
+  PetscReal        rough_error, rough_t, rough_norm;     /* largest estimate of an accepted step, its time; largest norm */
+  PetscReal        unstable_t;                           /* when a solution was first found unstable … */
+  PetscBool        unstable_known, passage_told;         /* … if one was; that a surface passes through itself */
   ReportRow        last;
   PetscReal        dt;                                                          /* length of the next load step */
   Checkpoint       snapshot;                                                    /* owned: copy of the state at the end of the last accepted load step */
@@ -55,7 +58,7 @@ typedef struct {
   char             checkpoint[PETSC_MAX_PATH_LEN], restart[PETSC_MAX_PATH_LEN]; /* file to write; file to go on from, "": none */
 } App;
 
-/* start.c: PetscInitialize, cheaply for a single process. */
+/* start.c: PetscInitialize, cheaply for a single process. A file of -options_file that cannot be read is an input error. */
 PetscErrorCode AppInitialize(int argc, char **argv);
 /* loadstep.c: all load steps; app->failure is set when the solver gives up. Collective. */
 PetscErrorCode AppRun(App *);
@@ -93,6 +96,8 @@ PetscErrorCode AppContactPairs(App *, PetscInt *num, PetscInt (**pairs)[2]);
 /* restart.c. The options -restart and -max_seconds; signals are heard from now on. Collective. */
 PetscErrorCode AppOptions(App *);
 PetscErrorCode AppPrintHelp(MPI_Comm);
+/* unknown.c. After all that ask for options of their own: is there one that nobody knows, PETSc included? An input error. Not collective. */
+PetscErrorCode AppCheckOptions(Scene);
 /* Copy the accepted state and all counters; write the copy, if its file is not yet that; remove the file of an earlier run, and what
    it put aside. Collective. */
 PetscErrorCode AppSnapshot(App *);
@@ -103,6 +108,11 @@ PetscErrorCode AppStop(App *);
 /* Read the checkpoint to go on from and check it against scene and coarse mesh; then the level and all counters from it (destroys *coarse). Nothing is written.
    Collective. */
 PetscErrorCode AppResume(App *, Forest *coarse);
+
+/* watch.c. After each accepted load step: does its state ask for a warning? Collective. */
+PetscErrorCode AppWatch(App *);
+/* The warnings that sum up a run, before its summary is written. Collective. */
+PetscErrorCode AppWarn(App *);
 
 /* summary.c. What the run took so far. Not collective. */
 ReportRow AppTotal(const App *);

@@ -88,6 +88,7 @@ static PetscErrorCode Accept_Private(App *app)
   app->last.step_cuts         = app->path.cuts_in_step;
   app->last.viscous_work      = app->path.viscous_work;
   PetscCall(HistoryStep(app->history, &app->last, &app->balance, l->problem, &l->state));
+  PetscCall(AppWatch(app));
   PetscCall(AppSnapshot(app));
   if (every > 0 && app->load_steps % every == 0) PetscCall(AppCheckpoint(app));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -64,6 +64,7 @@ static PetscErrorCode Summarise_Private(App *app)
   const char *status = AppStatus(app), *reason;
 
   PetscFunctionBegin;
+  PetscCall(AppWarn(app));
   PetscCall(AppReason(app, &reason));
   PetscCall(AppSummary(app, status, reason));
   const ReportRow total = AppTotal(app);
@@ -104,6 +105,7 @@ static PetscErrorCode Solve_Private(int argc, char **argv, int *status)
   PetscCall(AppOptions(&app));
   PetscCall(SolverCheckOptions());
   PetscCall(PathOptions(&app.path));
+  PetscCall(AppCheckOptions(app.scene));
   PetscCall(StageBegin(STAGE_MESH));
   PetscCall(SceneSetUp(app.scene, &forest));
   PetscCall(StageEnd(STAGE_MESH));
@@ -129,7 +131,7 @@ static PetscBool Asked_Private(int argc, char **argv, const char *option)
   return PETSC_FALSE;
 }
 
-/* Options of PETSc that nothing asked for are most likely mistyped: say so. PetscFinalize asks for two more. */
+/* Options with a first word of PETSc's that nothing asked for are most likely mistyped: say so. PetscFinalize asks for two more. */
 static PetscErrorCode UnusedOptions_Private(void)
 {
   PetscMPIInt rank;
@@ -159,6 +161,7 @@ static PetscErrorCode Help_Private(void)
       "\nA run prints a line for each adaptive pass: load step, pass, t, cells, unknowns (dofs), Newton iterations, nodes under contact pressure,\n"
       "relative estimated error, magnitude of the contact force (of several pairs the sum of the magnitudes; one by one in history.csv),\n"
       "seconds since the start. What else is known of each pass and each load step: adapt.csv, history.csv, summary.json.\n"
+      "A line \"warning: ...\" tells of something that a run can be right with but its user may not mean; summary.json lists them.\n"
       "\nOptions of PETSc work as everywhere: -snes_monitor, -ksp_monitor, -log_view, ...\n"
       "Exit status: 0 converged to the end; 1 bad input, nothing was solved; 2 the solver gave up: status failed, or inaccurate where all load steps\n"
       "were solved, but adapt.tolerance was not reached in all of them, whatever the reason; 3 stopped, by SIGTERM, SIGUSR1, SIGINT or -max_seconds, with a "
@@ -207,7 +210,7 @@ int main(int argc, char **argv)
   PetscErrorCode ierr;
 
   ierr = AppInitialize(argc, argv);
-  if (ierr) return 2;
+  if (ierr) return ierr == MORTISE_ERR_INPUT ? 1 : 2;
   (void)signal(SIGPIPE, SIG_DFL); /* output cut short by `head` is no error to report */
   (void)signal(SIGXFSZ, SIG_IGN); /* a file that may not grow is told of as a full disk is */
   ierr = ErrorHandlerPush();

@@ -55,6 +55,40 @@ static void CheckRoom_Private(void)
   free(room);
 }
 
+/* What PETSc says while it starts. The one thing wrong then that is a user's is a file of -options_file. */
+static char words[1 << 14];
+
+static PetscErrorCode Keep_Private(const char format[], ...)
+{
+  const size_t used = strlen(words);
+  va_list      arguments;
+
+  va_start(arguments, format);
+  (void)vsnprintf(words + used, sizeof(words) - used, format, arguments);
+  va_end(arguments);
+  return PETSC_SUCCESS;
+}
+
+/* One sentence of it, if it is of such a file, else all. */
+static PetscErrorCode Tell_Private(PetscErrorCode ierr)
+{
+  char       *line    = strstr(words, "options file");
+  int         running = 0;
+  PetscMPIInt rank    = 0;
+
+  MPI_Initialized(&running);
+  if (running) MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  if (!line) {
+    fputs(words, stderr);
+    return ierr;
+  }
+  while (line > words && line[-1] != '\n') --line;
+  line[strcspn(line, "\n")] = 0;
+  if (rank == 0) fprintf(stderr, "mortise: -options_file: %s\n", line);
+  if (running) MPI_Finalize();
+  return MORTISE_ERR_INPUT;
+}
+
 /* PetscInitialize with those settings when no launcher started this process; what the user has set wins. */
 PetscErrorCode AppInitialize(int argc, char **argv)
 {
@@ -65,8 +99,12 @@ PetscErrorCode AppInitialize(int argc, char **argv)
 
   for (int i = 0; alone && i < NUM_ALONE; ++i) set[i] = !getenv(Alone[i][0]) && !setenv(Alone[i][0], Alone[i][1], 1);
   OneThread_Private();
-  arguments = Arguments_Private(&argc, argv);
-  ierr      = PetscInitialize(&argc, &arguments, NULL, NULL);
+  arguments                                        = Arguments_Private(&argc, argv);
+  PetscErrorCode (*const print)(const char[], ...) = PetscErrorPrintf;
+  PetscErrorPrintf                                 = Keep_Private;
+  ierr                                             = PetscInitialize(&argc, &arguments, NULL, NULL);
+  if (PetscErrorPrintf == Keep_Private) PetscErrorPrintf = print; /* options may have set another one */
+  if (ierr) return Tell_Private(ierr);
   for (int i = 0; i < NUM_ALONE; ++i) {
     if (set[i]) unsetenv(Alone[i][0]); /* programs we start (gmsh) do not inherit them */
   }

@@ -3,6 +3,20 @@
 #include <stdarg.h>
 #include <stdio.h>
 
+/* What comes from files does not speak to the terminal. */
+static void Print_Private(const char *format, va_list arguments)
+{
+  char line[8192];
+
+  (void)vsnprintf(line, sizeof(line), format, arguments);
+  for (unsigned char *c = (unsigned char *)line; *c; ++c) {
+    if (*c == 0xc2 && c[1] >= 0x80 && c[1] < 0xa0) *c = '?', c[1] = '?'; /* C1 in UTF-8 */
+    if (*c < ' ' || *c == 0x7f) *c = '?';
+  }
+  fprintf(stderr, "mortise: %s\n", line);
+  fflush(stderr);
+}
+
 PetscErrorCode ErrorInput(const char *format, ...)
 {
   PetscMPIInt rank = 0, initialized = 0, finalized = 0;
@@ -13,12 +27,9 @@ PetscErrorCode ErrorInput(const char *format, ...)
   MPI_Finalized(&finalized);
   if (initialized && !finalized) MPI_Comm_rank(PetscInitializeCalled ? PETSC_COMM_WORLD : MPI_COMM_WORLD, &rank);
   if (rank == 0) {
-    fputs("mortise: ", stderr);
     va_start(arguments, format);
-    vfprintf(stderr, format, arguments);
+    Print_Private(format, arguments);
     va_end(arguments);
-    fputc('\n', stderr);
-    fflush(stderr);
   }
   return MORTISE_ERR_INPUT;
 }

@@ -38,6 +38,15 @@ const char *NameNearest(const char *name, PetscInt num, const char *const names[
   return best;
 }
 
+PetscBool TextIsPlain(const char *text, const char *allowed)
+{
+  for (const unsigned char *c = (const unsigned char *)text; *c; ++c) {
+    if ((*c < ' ' || *c == 0x7f) && !strchr(allowed, *c)) return PETSC_FALSE;
+    if (*c == 0xc2 && c[1] >= 0x80 && c[1] < 0xa0) return PETSC_FALSE;
+  }
+  return PETSC_TRUE;
+}
+
 PetscErrorCode HelpRow(MPI_Comm comm, const char *name, const char *allowed, const char *text)
 {
   PetscFunctionBegin;

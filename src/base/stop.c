@@ -35,25 +35,43 @@ PetscErrorCode StopWatch(PetscReal seconds)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* What this rank was asked: signal, TIME_UP or 0. */
+static int Wish_Private(void)
+{
+  PetscLogDouble now = stop_start;
+
+  if (stop_signal) return (int)stop_signal;
+  (void)PetscTime(&now);
+  return stop_watched && stop_seconds > 0 && now - stop_start >= stop_seconds ? TIME_UP : 0;
+}
+
 PetscErrorCode StopAsked(MPI_Comm comm, PetscBool *stop)
 {
-  PetscLogDouble now;
-  int            wish = (int)stop_signal;
+  int wish;
 
   PetscFunctionBegin;
   *stop = (PetscBool)(stop_decided != 0);
   if (!stop_watched || stop_decided) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(PetscTime(&now));
-  if (!wish && stop_seconds > 0 && now - stop_start >= stop_seconds) wish = TIME_UP;
+  wish = Wish_Private();
   PetscCallMPI(MPI_Allreduce(&wish, &stop_decided, 1, MPI_INT, MPI_MAX, comm));
   *stop = (PetscBool)(stop_decided != 0);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-const char *StopReason(void)
+static const char *Name_Private(int wish)
 {
   for (size_t i = 0; i < PETSC_STATIC_ARRAY_LENGTH(Signals); ++i) {
-    if (stop_decided == Signals[i].number) return Signals[i].name;
+    if (wish == Signals[i].number) return Signals[i].name;
   }
-  return stop_decided == TIME_UP ? "-max_seconds" : "";
+  return wish == TIME_UP ? "-max_seconds" : "";
+}
+
+const char *StopReason(void)
+{
+  return Name_Private(stop_decided);
+}
+
+const char *StopWish(void)
+{
+  return Name_Private(Wish_Private());
 }

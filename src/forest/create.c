@@ -19,13 +19,13 @@ static PetscErrorCode BroadcastNames_Private(MPI_Comm comm, PetscMPIInt rank, Pe
 
 static PetscErrorCode Broadcast_Private(MPI_Comm comm, CoarseMesh *mesh, PetscInt *num_facets, PetscInt **facet_vertices, uint64_t **facet_groups)
 {
-  PetscInt    size[8] = {mesh->dim,        mesh->num_cells,      mesh->num_vertices, mesh->geometry_order,
-                         mesh->num_bodies, mesh->num_boundaries, *num_facets,        mesh->num_fields};
+  PetscInt    size[9] = {mesh->dim,   mesh->num_cells,  mesh->num_vertices,  mesh->geometry_order, mesh->num_bodies, mesh->num_boundaries,
+                         *num_facets, mesh->num_fields, mesh->from_simplices};
   PetscMPIInt rank;
 
   PetscFunctionBegin;
   PetscCallMPI(MPI_Comm_rank(comm, &rank));
-  PetscCallMPI(MPI_Bcast(size, 8, MPIU_INT, 0, comm));
+  PetscCallMPI(MPI_Bcast(size, 9, MPIU_INT, 0, comm));
   mesh->dim            = size[0];
   mesh->num_cells      = size[1];
   mesh->num_vertices   = size[2];
@@ -34,6 +34,7 @@ static PetscErrorCode Broadcast_Private(MPI_Comm comm, CoarseMesh *mesh, PetscIn
   mesh->num_boundaries = size[5];
   *num_facets          = size[6];
   mesh->num_fields     = size[7];
+  mesh->from_simplices = (PetscBool)size[8];
   const PetscInt q1 = mesh->geometry_order + 1, reals = 3 * mesh->num_cells * q1 * q1 * (mesh->dim == 3 ? q1 : 1);
   PetscCall(BroadcastNames_Private(comm, rank, mesh->num_bodies, &mesh->body_name));
   PetscCall(BroadcastNames_Private(comm, rank, mesh->num_boundaries, &mesh->boundary_name));

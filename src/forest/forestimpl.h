@@ -188,7 +188,7 @@ PetscErrorCode ForestReadGmsh(const ForestSpec *, CoarseMesh *, PetscInt *num_fa
                               char message[]);
 
 /* gmshcheck.c: are the sections of a gmsh file whole, and all nodes that its elements name there? Not collective. */
-PetscErrorCode ForestCheckGmsh(const char *file, int major, PetscBool binary, PetscBool *fine);
+PetscErrorCode ForestCheckGmsh(const char *file, int major, PetscBool binary, PetscBool *fine, int64_t *range);
 
 /* gmshfield.c: the fields of mesh from an ASCII file that has num_elements of the mesh's dimension; source[num_cells]: the element, in the order of DMPlex, in
    which each cell lies (NULL: its own). *damage: what is wrong with the file, NULL: nothing. Not collective. */

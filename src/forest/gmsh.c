@@ -2,8 +2,6 @@
 #include "forestimpl.h"
 #include <petscdmplextransform.h>
 #include <petscfe.h>
-#include <signal.h>
-#include <unistd.h>
 
 typedef struct {
   PetscInt dim, tag;
@@ -48,6 +46,7 @@ static PetscErrorCode ReadNames_Private(Reader *r, FILE *file)
     if (!close || close == open || sscanf(line, "%d %d %n", &dim, &tag, &start) != 2)
       FAIL(r, "mesh file '%s' is damaged: its section $PhysicalNames ends too early", r->spec->file);
     *close = 0;
+    if (!TextIsPlain(open + 1, "")) FAIL(r, "mesh file '%s': the name \"%s\" of a physical group has a control character in it", r->spec->file, open + 1);
     if (strlen(open + 1) >= MORTISE_NAME)
       FAIL(r, "mesh file '%s': the name \"%s\" of a physical group is longer than %d characters", r->spec->file, open + 1, MORTISE_NAME - 1);
     r->name[r->num_names] = (GroupName){.dim = dim, .tag = tag};
@@ -135,10 +134,17 @@ static PetscErrorCode ReadHeader_Private(Reader *r)
   PetscCall(status);
   if (r->message[0]) PetscFunctionReturn(PETSC_SUCCESS);
   PetscBool fine;
-  PetscCall(ForestCheckGmsh(r->spec->file, r->major, r->binary, &fine));
+  int64_t   range;
+  PetscCall(ForestCheckGmsh(r->spec->file, r->major, r->binary, &fine, &range));
   if (!fine)
-    FAIL(r, "mesh file '%s' is truncated or damaged: its nodes or elements are incomplete, or an element names a node twice or one that is not there",
+    FAIL(r,
+         "mesh file '%s' is truncated or damaged: its nodes or elements are incomplete, two nodes have one number, a position is no finite number, or an "
+         "element "
+         "names a node twice or one that is not there",
          r->spec->file);
+  if (range)
+    FAIL(r, "mesh file '%s': the numbers of its nodes go up to %lld; number them from 1 on (gmsh does when it writes format 4.1)", r->spec->file,
+         (long long)range);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -172,42 +178,16 @@ static PetscErrorCode LoadWithOptions_Private(const char *file, int major, Petsc
   PetscFunctionReturn(status);
 }
 
-/* PETSc's reader trusts a file's numbers. What ForestCheckGmsh does not see (binary entities, say) may end in a signal there; the user then gets the sentence
-   and exit status 1 of wrong input all the same. Nothing can be cleaned up any more: the heap may be broken. */
-static char      damaged_sentence[PETSC_MAX_PATH_LEN + 64];
-static const int DamageSignals[] = {SIGSEGV, SIGBUS, SIGABRT, SIGFPE, SIGILL};
-enum { NUM_DAMAGE_SIGNALS = sizeof(DamageSignals) / sizeof(DamageSignals[0]) };
-
-static void Damaged_Private(int number)
-{
-  if (write(STDERR_FILENO, damaged_sentence, strlen(damaged_sentence)) < 0) _exit(2);
-  _exit(1);
-}
-
-static void GuardBegin_Private(const char *file, struct sigaction old[])
-{
-  struct sigaction guard = {.sa_handler = Damaged_Private};
-
-  snprintf(damaged_sentence, sizeof(damaged_sentence), "mortise: mesh file '%s' is damaged: its numbers contradict each other\n", file);
-  for (int i = 0; i < NUM_DAMAGE_SIGNALS; ++i) sigaction(DamageSignals[i], &guard, &old[i]);
-}
-
-static void GuardEnd_Private(const struct sigaction old[])
-{
-  for (int i = 0; i < NUM_DAMAGE_SIGNALS; ++i) sigaction(DamageSignals[i], &old[i], NULL);
-}
-
 static PetscErrorCode Load_Private(Reader *r, PetscBool curved)
 {
-  char             text[256] = "";
-  struct sigaction old[NUM_DAMAGE_SIGNALS];
+  char text[256] = "";
 
   PetscFunctionBegin;
   PetscCall(DMDestroy(&r->dm));
   PetscCall(PetscPushErrorHandler(KeepMessage_Private, text));
-  GuardBegin_Private(r->spec->file, old);
+  GuardBegin("mesh file '%s' is damaged: its numbers contradict each other", r->spec->file); /* what ForestCheckGmsh does not see: binary entities, say */
   const PetscErrorCode status = LoadWithOptions_Private(r->spec->file, r->major, curved, &r->dm);
-  GuardEnd_Private(old);
+  GuardEnd();
   PetscCall(PetscPopErrorHandler());
   if (status) {
     r->dm = NULL;
@@ -332,6 +312,7 @@ static PetscErrorCode LoadShapes_Private(Reader *r)
             "curvature\n",
             r->spec->file, r->spec->dim == 2 ? "quads" : "hexes");
   PetscCall(Convert_Private(r));
+  r->mesh->from_simplices = (PetscBool)(r->spec->dim == 3);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -1,6 +1,8 @@
-/* Before PETSc reads a gmsh file: are the sections $Nodes and $Elements whole, and does every element name nodes that exist? PETSc 3.18 follows the
-   number of a node without looking, so a file that lost a separator would end in a signal. Formats 2.2 and 4.1, text and binary. */
+/* Before PETSc reads a gmsh file: are the sections $Nodes and $Elements whole, has every node a number of its own and a place, and does every element name
+   nodes that exist? PETSc 3.18 follows numbers without looking, so a damaged file would end in a signal or never. Formats 2.2 and 4.1, text and binary. */
 #include "forestimpl.h"
+
+#define WIDE 100000000 /* PETSc keeps an integer for each number between the least and the largest of a node: so many are 400 MB */
 
 typedef struct {
   const char *at, *end;
@@ -69,24 +71,40 @@ static int64_t Count_Private(Scan *s, int bytes)
   return count < 0 || count > s->end - s->at ? Fail_Private(s) : count;
 }
 
-/* Pass over n real numbers. */
+/* A count that stands as a line of text in binary files too. */
+static int64_t TextCount_Private(Scan *s)
+{
+  const PetscBool binary = s->binary;
+
+  s->binary           = PETSC_FALSE;
+  const int64_t count = Count_Private(s, 4);
+  s->binary           = binary;
+  if (binary && s->at < s->end) ++s->at; /* the end of the line */
+  return count;
+}
+
+/* Pass over n real numbers, which must be finite. */
 static void SkipReals_Private(Scan *s, int64_t n)
 {
-  if (s->binary) {
-    if (n > (s->end - s->at) / 8)
-      (void)Fail_Private(s);
-    else
-      s->at += 8 * n;
-    return;
-  }
+  double value = 0;
+
+  if (s->binary && n > (s->end - s->at) / 8) (void)Fail_Private(s);
   for (int64_t i = 0; i < n && s->fine; ++i) {
-    char *stop;
-    (void)strtod(s->at, &stop); /* the buffer ends with a zero byte */
-    if (stop == s->at || stop >= s->end || !IsSpace_Private(*stop))
-      (void)Fail_Private(s);
+    char *stop = NULL;
+    if (s->binary)
+      memcpy(&value, s->at, sizeof(value));
     else
-      s->at = stop;
+      value = strtod(s->at, &stop); /* the buffer ends with a zero byte */
+    if (!s->binary && (stop == s->at || stop >= s->end || !IsSpace_Private(*stop))) (void)Fail_Private(s);
+    if (PetscIsInfOrNanReal((PetscReal)value)) (void)Fail_Private(s);
+    if (s->fine) s->at += s->binary ? 8 : stop - s->at;
   }
+}
+
+static void End_Private(Scan *s, const char *name)
+{
+  while (s->at < s->end && IsSpace_Private(*s->at)) ++s->at;
+  if (s->fine && ((size_t)(s->end - s->at) < strlen(name) || memcmp(s->at, name, strlen(name)))) (void)Fail_Private(s);
 }
 
 static PetscErrorCode AddTag_Private(Scan *s, int64_t tag)
@@ -110,7 +128,7 @@ static PetscErrorCode ScanNodes_Private(Scan *s)
 {
   PetscFunctionBegin;
   if (s->major == 2) {
-    const int64_t num = Count_Private(s, 4);
+    const int64_t num = TextCount_Private(s);
     for (int64_t i = 0; i < num && s->fine; ++i) {
       PetscCall(AddTag_Private(s, Integer_Private(s, 4)));
       SkipReals_Private(s, 3);
@@ -126,7 +144,11 @@ static PetscErrorCode ScanNodes_Private(Scan *s)
       SkipReals_Private(s, num * (3 + (parametric && dim > 0 ? dim : 0)));
     }
   }
+  End_Private(s, "$EndNodes");
   if (s->num_nodes) qsort(s->tag, (size_t)s->num_nodes, sizeof(int64_t), CompareTags_Private);
+  for (PetscInt i = 1; i < s->num_nodes && s->fine; ++i) {
+    if (s->tag[i] == s->tag[i - 1]) (void)Fail_Private(s);
+  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -148,7 +170,7 @@ static void ElementNodes_Private(Scan *s, int nodes, int bytes)
 /* Stops quietly at a type it does not know: the reader has its own word on those. */
 static void ScanElements_Private(Scan *s)
 {
-  int64_t left = Count_Private(s, s->major == 2 ? 4 : 8);
+  int64_t left = s->major == 2 ? TextCount_Private(s) : Count_Private(s, 8);
 
   for (int k = 0; s->major == 4 && k < 3; ++k) (void)Integer_Private(s, 8);
   while (left > 0 && s->fine) {
@@ -173,6 +195,7 @@ static void ScanElements_Private(Scan *s)
     }
     left -= s->major == 4 ? 1 : num;
   }
+  if (s->fine) End_Private(s, "$EndElements");
 }
 
 /* To what follows the line `name`; the count of a 2.2 file is text there even when the rest is binary. False: there is no such section. */
@@ -202,8 +225,8 @@ static PetscErrorCode ScanText_Private(Scan *s, const char *begin)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* *fine: sections whole, all nodes of elements there. Binary files of format 2.2 have their counts as text and are left to the reader. Not collective. */
-PetscErrorCode ForestCheckGmsh(const char *name, int major, PetscBool binary, PetscBool *fine)
+/* *fine: sections whole, all nodes of elements there. *range: 0, or how far the numbers of nodes reach when that is too far for PETSc. Not collective. */
+PetscErrorCode ForestCheckGmsh(const char *name, int major, PetscBool binary, PetscBool *fine, int64_t *range)
 {
   Scan  s    = {.major = major, .binary = binary};
   FILE *file = fopen(name, "rb");
@@ -211,9 +234,10 @@ PetscErrorCode ForestCheckGmsh(const char *name, int major, PetscBool binary, Pe
   char *text;
 
   PetscFunctionBegin;
-  *fine = PETSC_TRUE;
+  *fine  = PETSC_TRUE;
+  *range = 0;
   if (file && !fseek(file, 0, SEEK_END)) size = ftell(file);
-  if (!file || size <= 0 || (major == 2 && binary)) {
+  if (!file || size <= 0) {
     if (file) fclose(file);
     PetscFunctionReturn(PETSC_SUCCESS);
   }
@@ -225,6 +249,7 @@ PetscErrorCode ForestCheckGmsh(const char *name, int major, PetscBool binary, Pe
   s.end     = text + got;
   PetscCall(ScanText_Private(&s, text));
   *fine = s.fine;
+  if (s.num_nodes && s.tag[s.num_nodes - 1] - s.tag[0] > PetscMax(WIDE, (int64_t)s.num_nodes)) *range = s.tag[s.num_nodes - 1];
   PetscCall(PetscFree(text));
   PetscCall(PetscFree(s.tag));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -120,11 +120,15 @@ PetscErrorCode CheckpointWrite(Checkpoint c, const char *path)
 
 static PetscErrorCode ReadText_Private(hid_t file, const char *name, char **text)
 {
-  hid_t set, type;
+  hid_t set, type, space;
 
   PetscFunctionBegin;
   PetscCallH5Id(set, H5Dopen2(file, name, H5P_DEFAULT));
   PetscCallH5Id(type, H5Dget_type(set));
+  PetscCallH5Id(space, H5Dget_space(set));
+  PetscCheck(H5Tget_class(type) == H5T_STRING && H5Tis_variable_str(type) == 0 && H5Sget_simple_extent_npoints(space) == 1, PETSC_COMM_SELF,
+             PETSC_ERR_FILE_READ, "%s is no text", name);
+  PetscCallH5(H5Sclose(space));
   PetscCall(PetscCalloc1(H5Tget_size(type) + 1, text));
   PetscCallH5(H5Dread(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, *text));
   PetscCallH5(H5Tclose(type));
@@ -168,10 +172,13 @@ static PetscErrorCode ReadArray_Private(hid_t file, const char *name, hid_t type
 
 static PetscErrorCode ReadAttribute_Private(hid_t object, const char *name, hid_t type, void *value)
 {
-  hid_t attribute;
+  hid_t attribute, space;
 
   PetscFunctionBegin;
   PetscCallH5Id(attribute, H5Aopen(object, name, H5P_DEFAULT));
+  PetscCallH5Id(space, H5Aget_space(attribute));
+  PetscCheck(H5Sget_simple_extent_npoints(space) == 1, PETSC_COMM_SELF, PETSC_ERR_FILE_READ, "%s is not one number", name);
+  PetscCallH5(H5Sclose(space));
   PetscCallH5(H5Aread(attribute, type, value));
   PetscCallH5(H5Aclose(attribute));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -195,6 +202,10 @@ static PetscErrorCode ReadForest_Private(Checkpoint c, hid_t file)
   PetscCall(ReadArray_Private(file, "split", H5T_NATIVE_INT8, 0, c->num_splits, c->split));
   PetscCall(ReadArray_Private(file, "order", H5T_NATIVE_INT8, 0, c->num_leaves, c->order));
   PetscCall(ReadArray_Private(file, "owner", H5T_NATIVE_INT, 0, c->num_leaves, c->owner));
+  for (PetscInt l = 0; l < c->num_leaves; ++l) {
+    PetscCheck(c->order[l] >= 1 && c->order[l] <= MORTISE_MAX_ORDER && c->owner[l] >= 0 && c->owner[l] < c->ranks, PETSC_COMM_SELF, PETSC_ERR_FILE_READ,
+               "leaf %" PetscInt_FMT ": order %d, owner %d of %d", l, (int)c->order[l], (int)c->owner[l], (int)c->ranks);
+  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -254,18 +265,13 @@ static PetscErrorCode Complete_Private(hid_t file, const char *path)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode CheckpointRead(MPI_Comm comm, const char *path, Checkpoint *checkpoint)
+static PetscErrorCode ReadFile_Private(Checkpoint c, const char *path)
 {
-  Checkpoint c;
-  hid_t      access, file;
-  char      *note;
+  hid_t access, file;
+  char *note;
 
   PetscFunctionBegin;
-  PetscCall(CheckpointVerify(comm, path));
-  PetscCall(PetscNew(&c));
-  PetscCall(PetscCommDuplicate(comm, &c->comm, NULL));
-  PetscCall(PetscStrncpy(c->path, path, sizeof(c->path)));
-  PetscCall(OutputAccess(comm, &access));
+  PetscCall(OutputAccess(c->comm, &access));
   PetscCallH5Id(file, H5Fopen(path, H5F_ACC_RDONLY, access));
   PetscCallH5(H5Pclose(access));
   PetscCall(Complete_Private(file, path));
@@ -277,6 +283,25 @@ PetscErrorCode CheckpointRead(MPI_Comm comm, const char *path, Checkpoint *check
   PetscCall(ReadFields_Private(c, file));
   PetscCall(ReadNumbers_Private(c, file));
   PetscCallH5(H5Fclose(file));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode CheckpointRead(MPI_Comm comm, const char *path, Checkpoint *checkpoint)
+{
+  Checkpoint c;
+
+  PetscFunctionBegin;
+  PetscCall(CheckpointVerify(comm, path));
+  PetscCall(PetscNew(&c));
+  PetscCall(PetscCommDuplicate(comm, &c->comm, NULL));
+  PetscCall(PetscStrncpy(c->path, path, sizeof(c->path)));
+  GuardBegin("-restart %s: damaged, though its checksum holds", path);
+  PetscCall(PetscPushErrorHandler(PetscReturnErrorHandler, NULL)); /* the sentence below says it */
+  const PetscErrorCode status = ReadFile_Private(c, path);
+  PetscCall(PetscPopErrorHandler());
+  GuardEnd();
+  PetscCheckInput(!status || status == MORTISE_ERR_INPUT || ErrorIsPlain(status), "-restart %s: damaged, though its checksum holds", path);
+  PetscCall(status);
   *checkpoint = c;
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -45,6 +45,14 @@ static void AddMoment_Private(cJSON *object, const char *key, PetscInt dim, cons
   AddArray_Private(object, key, dim == 2 ? 1 : 3, dim == 2 ? moment + 2 : moment);
 }
 
+static void AddWarnings_Private(cJSON *object)
+{
+  cJSON      *array = cJSON_AddArrayToObject(object, "warnings");
+  const char *text;
+
+  for (PetscInt i = 0; (text = WarningText(i)); ++i) cJSON_AddItemToArray(array, cJSON_CreateString(text));
+}
+
 /* ---- sections --------------------------------------------------------------------------------------------------------------- */
 
 static void AddEstimate_Private(cJSON *root, const Estimate *e)
@@ -180,6 +188,7 @@ static cJSON *Document_Private(const SceneData *scene, const RunSummary *s, cons
   cJSON_AddStringToObject(root, "title", scene->title);
   cJSON_AddStringToObject(root, "status", s->status);
   cJSON_AddStringToObject(root, "reason", s->reason ? s->reason : "");
+  AddWarnings_Private(root);
   AddNumber_Private(root, "t", s->t);
   cJSON_AddStringToObject(root, "model", ModelNames[scene->mechanics.model]);
   AddNumber_Private(root, "ranks", (PetscReal)g->ranks);

@@ -1,30 +1,12 @@
 /* All outer facets of the mesh at their reference positions, and which of them belong together: for the search, which asks how thick bodies are. */
 #include "problemimpl.h"
 
-/* Parts: coarse cells that share vertices. */
-static PetscErrorCode Parts_Private(const CoarseMesh *mesh, PetscInt part[])
-{
-  const PetscInt corners = 1 << mesh->dim;
-  PetscInt      *root;
-
-  PetscFunctionBegin;
-  PetscCall(PetscMalloc1(mesh->num_vertices, &root));
-  for (PetscInt v = 0; v < mesh->num_vertices; ++v) root[v] = v;
-  for (PetscInt i = 0; i < corners * mesh->num_cells; ++i) {
-    const PetscInt a = GroupRoot(root, mesh->cell_vertices[i]), b = GroupRoot(root, mesh->cell_vertices[i - i % corners]);
-    root[PetscMax(a, b)] = PetscMin(a, b);
-  }
-  for (PetscInt c = 0; c < mesh->num_cells; ++c) part[c] = GroupRoot(root, mesh->cell_vertices[corners * c]);
-  PetscCall(PetscFree(root));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 PetscErrorCode HullCreate_Private(Problem p)
 {
   const CoarseMesh   *mesh;
   const ForestTables *t;
   const PetscInt      dim = p->dim, corners = dim == 2 ? 2 : 4;
-  PetscInt            num = 0, *part;
+  PetscInt            num = 0, num_parts, *part;
   PetscBool          *inner;
   PetscReal          *X;
 
@@ -33,7 +15,7 @@ PetscErrorCode HullCreate_Private(Problem p)
   PetscCall(ForestGetTables(p->forest, &t));
   const PetscInt first = t->first[dim - 1], last = t->first[dim];
   PetscCall(PetscMalloc1(mesh->num_cells, &p->part));
-  PetscCall(Parts_Private(mesh, p->part));
+  PetscCall(ForestCoarseParts(mesh, &num_parts, p->part));
   PetscCall(PetscCalloc1(last - first, &inner));
   for (PetscInt f = first; f < last; ++f) {
     const PetscInt *leaf = t->facet_leaf + 2 * (f - first);

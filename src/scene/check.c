@@ -206,8 +206,10 @@ static PetscErrorCode CheckSides_Private(const ContactEntry *c, const Facets *f,
   for (PetscInt cell = 0; cell < f->mesh->num_cells; ++cell) {
     if ((f->cell_groups[cell] & both) != both) continue;
     Centre_Private(f->mesh, cell, X);
-    PetscCall(ErrorInput("%s: '%s' and '%s' share cell %d at (%g, %g, %g)%s; the sides of a pair must have cells of their own", NodeWhere(c->node),
-                         c->nonmortar, c->mortar, (int)cell, (double)X[0], (double)X[1], (double)X[2], facets ? ", and have facets in common" : ""));
+    PetscCall(ErrorInput(
+        "%s: '%s' and '%s' share cell %d at (%g, %g, %g)%s; the sides of a pair must have cells of their own (contact of a surface with itself is not "
+        "offered)",
+        NodeWhere(c->node), c->nonmortar, c->mortar, (int)cell, (double)X[0], (double)X[1], (double)X[2], facets ? ", and have facets in common" : ""));
   }
   for (PetscInt v = 0; v < f->forest->first[1]; ++v) {
     if ((f->forest->boundary[v] & both) != both) continue;

@@ -7,10 +7,12 @@
 #include <spawn.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
+#include <time.h>
 #include <unistd.h>
 
 #define MESH_MAX_PARAMETERS 64
 #define MESSAGE_LENGTH 512
+#define GRACE 3 /* seconds for gmsh to come to an end when the run is asked to stop */
 
 extern char **environ;
 
@@ -18,6 +20,7 @@ extern char **environ;
 typedef struct {
   char message[PETSC_MAX_PATH_LEN + MESSAGE_LENGTH];
   char file[PETSC_MAX_PATH_LEN], temporary[PETSC_MAX_PATH_LEN];
+  int  subdivided; /* hexahedra are made out of tetrahedra */
 } MeshResult;
 
 static PetscBool HasSuffix_Private(const char *file, const char *suffix)
@@ -45,8 +48,27 @@ static void FirstError_Private(const char *log, char *message, size_t capacity)
   if (f) (void)fclose(f);
 }
 
+/* Wait for the program, which may never end. Once the run is asked to stop it has GRACE seconds left: a mesh that is nearly there makes a checkpoint possible.
+   Returns errno. */
+static int Wait_Private(pid_t pid, int *status, PetscBool *stopped)
+{
+  struct timespec pause = {.tv_nsec = 1000000};
+  PetscReal       left  = GRACE;
+  pid_t           ended;
+
+  *stopped = PETSC_FALSE;
+  while ((ended = waitpid(pid, status, *stopped ? 0 : WNOHANG)) == 0 || (ended < 0 && errno == EINTR)) {
+    if (StopWish()[0]) left -= 1e-9 * (PetscReal)pause.tv_nsec;
+    *stopped = (PetscBool)(left <= 0);
+    if (*stopped) (void)kill(pid, SIGKILL);
+    (void)nanosleep(&pause, NULL);
+    pause.tv_nsec = PetscMin(2 * pause.tv_nsec, 50000000);
+  }
+  return ended < 0 ? errno : 0;
+}
+
 /* Run a program without a shell, both outputs to log. Returns errno of the start, and the program's exit status. */
-static int Run_Private(char *const argv[], const char *log, int *status)
+static int Run_Private(char *const argv[], const char *log, int *status, PetscBool *stopped)
 {
   posix_spawn_file_actions_t actions;
   pid_t                      pid;
@@ -59,9 +81,7 @@ static int Run_Private(char *const argv[], const char *log, int *status)
   error = posix_spawnp(&pid, argv[0], &actions, NULL, argv, environ);
   posix_spawn_file_actions_destroy(&actions);
   if (error) return error;
-  while (waitpid(pid, status, 0) < 0)
-    if (errno != EINTR) return errno;
-  return 0;
+  return Wait_Private(pid, status, stopped);
 }
 
 /* Cells in an ASCII .msh 4.1: highest dimension, and whether there are simplices of it. */
@@ -112,6 +132,7 @@ static void Gmsh_Private(Scene s, const char *geo, PetscBool subdivide, MeshResu
   char        order[16], log[PETSC_MAX_PATH_LEN + 16], reason[MESSAGE_LENGTH];
   const char *argv[32 + 3 * MESH_MAX_PARAMETERS];
   int         n = 0, status = 0, error;
+  PetscBool   stopped   = PETSC_FALSE;
   PetscInt    dim       = s->data.mesh.dim;
   SceneNode  *parameter = NodeFind(NodeFind(s->root, "mesh"), "parameter");
 
@@ -130,13 +151,15 @@ static void Gmsh_Private(Scene s, const char *geo, PetscBool subdivide, MeshResu
   }
   argv[n++] = geo;
   argv[n]   = NULL;
-  error     = Run_Private((char *const *)(const void *)argv, log, &status);
+  error     = Run_Private((char *const *)(const void *)argv, log, &status, &stopped);
   FirstError_Private(log, reason, sizeof(reason));
   if (error == ENOENT)
     (void)snprintf(r->message, sizeof(r->message), "mesh.file %s needs the program gmsh, which is not installed (or not in PATH); install it or give a .msh",
                    geo);
   else if (error)
     (void)snprintf(r->message, sizeof(r->message), "mesh.file %s: gmsh could not be started: %s", geo, strerror(error));
+  else if (stopped)
+    (void)snprintf(r->message, sizeof(r->message), "mesh.file %s: gmsh had not come to an end when the run was asked to stop (%s)", geo, StopWish());
   else if (WIFSIGNALED(status))
     (void)snprintf(r->message, sizeof(r->message), "mesh.file %s: gmsh crashed (%s); another Mesh.Algorithm or other sizes may help", geo,
                    strsignal(WTERMSIG(status)));
@@ -150,6 +173,8 @@ static void Generate_Private(Scene s, const char *geo, MeshResult *r)
   PetscInt    dim;
   PetscBool   simplices;
 
+  GeoCheck(geo, sizeof(r->message), r->message);
+  if (r->message[0]) return;
   (void)snprintf(r->temporary, sizeof(r->temporary), "%s/mortise-XXXXXX", base && base[0] ? base : "/tmp");
   if (!mkdtemp(r->temporary)) {
     (void)snprintf(r->message, sizeof(r->message), "no temporary directory for the mesh can be made: %s: %s", r->temporary, strerror(errno));
@@ -165,6 +190,7 @@ static void Generate_Private(Scene s, const char *geo, MeshResult *r)
   Scan_Private(r->file, &dim, &simplices);
   if (simplices && dim == s->data.mesh.dim) {
     Gmsh_Private(s, geo, PETSC_TRUE, r);
+    r->subdivided = dim == 3;
     if (r->message[0]) return;
     Scan_Private(r->file, &dim, &simplices);
   }
@@ -218,6 +244,7 @@ PetscErrorCode SceneMakeMesh(Scene s)
   PetscCallMPI(MPI_Bcast(&r, (PetscMPIInt)sizeof(r), MPI_CHAR, 0, s->comm));
   PetscCall(PetscStrncpy(s->temporary, r.temporary, sizeof(s->temporary)));
   PetscCall(PetscStrncpy(s->data.mesh.file, r.file, sizeof(s->data.mesh.file)));
+  s->subdivided = (PetscBool)r.subdivided;
   PetscCheckInput(!r.message[0], "%s", r.message);
   PetscFunctionReturn(PETSC_SUCCESS);
 }

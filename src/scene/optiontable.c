@@ -191,6 +191,7 @@ PetscErrorCode ScenePrintHelp(MPI_Comm comm)
                         "  mortise -help                   this text\n"
                         "  mortise -list                   models, laws with their parameters, boundary kinds\n\n"
                         "Keys of a scene. Any of them can be set on the command line, which wins over the file: material.rubber.E is -material_rubber_E.\n"
+                        "-options_file FILE reads such options from a file, one a line, values with spaces in quotes; the command line wins over it too.\n"
                         "Expressions are in X, Y, Z (reference position), t (pseudo-time) and pi: \"0.1*Y*sin(pi*t)\". The program is free of units: use any\n"
                         "consistent set; a word in [] names the kind of quantity.\n",
                         MORTISE_VERSION));

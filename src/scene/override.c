@@ -1,5 +1,7 @@
-/* The command line: which options are keys of the scene, what path each one means (names may contain '_'), and the nearest known key. */
+/* Options that are keys of the scene, of the command line or of PETSc's database (-options_file, PETSC_OPTIONS): what path each one means (names may contain
+   '_'), and the nearest known key. */
 #include "sceneimpl.h"
+#include <strings.h>
 
 /* ---- nearest names ------------------------------------------------------------------------------------------------------------ */
 
@@ -165,7 +167,7 @@ static PetscErrorCode SetList_Private(SceneNode *list, const char *value)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode Set_Private(SceneNode *root, const Match *m, const char *value)
+static PetscErrorCode Set_Private(SceneNode *root, const Match *m, const char *value, PetscInt line)
 {
   SceneNode *at = root;
 
@@ -174,14 +176,13 @@ static PetscErrorCode Set_Private(SceneNode *root, const Match *m, const char *v
     NodeKind   kind  = i + 1 < m->num ? NODE_MAP : m->type == KEY_AMPLITUDE ? NODE_LIST : NODE_SCALAR;
     SceneNode *child = NodeFind(at, m->keys[i]);
     if (!child) PetscCall(NodeCreate(at, m->keys[i], kind, root->origin, 0, &child));
-    PetscCheckInput(kind != NODE_MAP || child->kind == NODE_MAP || NodeIsEmpty(child),
-                    "command line: a key below %s, which is %s; give it as a map {key: value}", NodeWhere(child),
-                    child->kind == NODE_LIST ? "a list" : child->text);
+    PetscCheckInput(kind != NODE_MAP || child->kind == NODE_MAP || NodeIsEmpty(child), "%s: a key below %s, which is %s; give it as a map {key: value}",
+                    NodeOptions(line), NodeWhere(child), child->kind == NODE_LIST ? "a list" : child->text);
     if (kind == NODE_MAP) child->kind = NODE_MAP; /* an empty section becomes a map */
     at = child;
   }
   at->kind = m->type == KEY_AMPLITUDE ? NODE_LIST : NODE_SCALAR;
-  at->line = 0;
+  at->line = line;
   for (SceneNode *child = at->first, *next; child; child = next) {
     next = child->next;
     PetscCall(NodeDestroy(&child));
@@ -195,7 +196,7 @@ static PetscErrorCode Set_Private(SceneNode *root, const Match *m, const char *v
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode Override_Private(SceneNode *root, const char *name, const char *value)
+static PetscErrorCode Override_Private(SceneNode *root, const char *name, const char *value, PetscInt line)
 {
   Match best, m;
   char  nearest[256];
@@ -211,16 +212,46 @@ static PetscErrorCode Override_Private(SceneNode *root, const char *name, const 
   }
   if (!best.num) {
     PetscCall(OptionNearest(root, name, '_', sizeof(nearest), nearest));
-    PetscCall(ErrorInput("command line: -%.200s is not a key of this scene; the nearest one is -%s", name, nearest));
+    PetscCall(ErrorInput("%s: -%.200s is not a key of this scene; the nearest one is -%s", NodeOptions(line), name, nearest));
   }
-  PetscCheckInput(value, "command line: -%s needs a value", name);
-  PetscCall(Set_Private(root, &best, value));
+  PetscCheckInput(value && value[0], "%s: -%s needs a value", NodeOptions(line), name);
+  PetscCall(Set_Private(root, &best, value, line));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscBool OnCommandLine_Private(const char *name, int argc, char **argv)
+{
+  for (int i = 1; i < argc; ++i) {
+    if (argv[i][0] == '-' && !strcasecmp(argv[i] + strspn(argv[i], "-"), name)) return PETSC_TRUE; /* PETSc's names know no case */
+  }
+  return PETSC_FALSE;
+}
+
+/* Keys of the scene in PETSc's database that the command line does not give. */
+static PetscErrorCode OverrideFromDatabase_Private(SceneNode *root, int argc, char **argv)
+{
+  PetscInt       num;
+  char         **names, **values;
+  PetscErrorCode status = PETSC_SUCCESS;
+
+  PetscFunctionBegin;
+  PetscCall(PetscOptionsLeftGet(NULL, &num, &names, &values));
+  for (PetscInt i = 0; i < num && !status; ++i) {
+    char option[1024];
+    if (!OptionIsTopKey(names[i], strcspn(names[i], "_")) || OnCommandLine_Private(names[i], argc, argv)) continue;
+    status = Override_Private(root, names[i], values[i], NODE_DATABASE);
+    PetscCall(PetscSNPrintf(option, sizeof(option), "-%s", names[i]));
+    PetscCall(PetscOptionsClearValue(NULL, option));
+  }
+  PetscCall(PetscOptionsLeftRestore(NULL, &num, &names, &values));
+  PetscCall(status);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode OptionsOverride(SceneNode *root, int argc, char **argv)
 {
   PetscFunctionBegin;
+  PetscCall(OverrideFromDatabase_Private(root, argc, argv));
   for (int i = 1; i < argc; ++i) {
     const char *name = argv[i], *value = NULL;
     PetscBool   next;
@@ -232,9 +263,16 @@ PetscErrorCode OptionsOverride(SceneNode *root, int argc, char **argv)
       PetscCall(PetscOptionsValidKey(argv[i + 1], &next));
       if (!next) value = argv[++i];
     }
-    PetscCall(Override_Private(root, name, value));
+    PetscCall(Override_Private(root, name, value, NODE_COMMAND_LINE));
     PetscCall(PetscSNPrintf(option, sizeof(option), "-%s", name));
     PetscCall(PetscOptionsClearValue(NULL, option));
   }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SceneNearestOption(Scene s, const char *name, size_t capacity, char nearest[])
+{
+  PetscFunctionBegin;
+  PetscCall(OptionNearest(s->root, name, '_', capacity, nearest));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -169,9 +169,8 @@ static PetscErrorCode ReadMaterial_Private(Scene s, SceneNode *node, MaterialEnt
   PetscCall(ReadFibers_Private(s, node, m));
   PetscCall(MaterialSetUp(&m->spec, num, names, values));
   if (MaterialSoftens(&m->spec))
-    PetscCall(PetscPrintf(s->comm,
-                          "warning: the yield stress of material %s falls with plastic strain: zones of flow shrink to a cell, results depend on the mesh\n",
-                          m->spec.name));
+    PetscCall(WarningAdd(s->comm, "the yield stress of material %s falls with plastic strain: zones of flow shrink to a cell, results depend on the mesh",
+                         m->spec.name));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -301,7 +300,9 @@ static PetscErrorCode ReadContact_Private(Scene s, SceneNode *node, ContactEntry
     PetscCheckInput(!same && !swap, "%s: '%s' and '%s' are the sides of pair '%s' already%s", NodeWhere(node), c->nonmortar, c->mortar, e->spec.name,
                     swap ? ", the other way round" : "");
   }
-  PetscCheckInput(strcmp(c->nonmortar, c->mortar), "%s: both sides are '%s'; a pair needs two different surfaces", NodeWhere(node), c->mortar);
+  PetscCheckInput(strcmp(c->nonmortar, c->mortar),
+                  "%s: both sides are '%s'; contact of a surface with itself is not offered: a pair needs two surfaces, without a cell in common",
+                  NodeWhere(node), c->mortar);
   PetscCheckInput(s->data.mesh.dim == 2 || !c->spec.node_to_segment,
                   "%s: node-to-segment contact is for comparison in two dimensions only; allowed here: false", NodeWhere(NodeFind(node, "node_to_segment")));
   PetscCheckInput(!c->spec.full || !NodeFind(node, "projection"), "%s: only faces of order 1 have a choice of projection; leave it out",

@@ -22,10 +22,11 @@ static PetscErrorCode FindFile_Private(int argc, char **argv, const char **file)
     if (IsYAML_Private(argv[i]) && strncmp(argv[i - 1], "-options_file", 13)) at = i;
   if (!at && argc > 1 && argv[1][0] != '-') at = 1;
   PetscCheckInput(at, "no scene given; run: mortise SCENE.yml [options], or mortise -help");
-  for (int i = at + 1; i < argc; ++i) {
-    PetscBool stray = i == at + 1 && argv[i][0] != '-' ? PETSC_TRUE : PETSC_FALSE;
-    if (IsYAML_Private(argv[i]) && (argv[i - 1][0] != '-' || !strcmp(argv[i - 1], "-check"))) stray = PETSC_TRUE;
-    PetscCheckInput(!stray, "'%s' after the scene is neither an option nor its value; one run solves one scene", argv[i]);
+  for (int i = 1; i < argc; ++i) { /* an option takes the word behind it as its value, unless that is an option itself */
+    PetscBool option, value = PETSC_FALSE;
+    PetscCall(PetscOptionsValidKey(argv[i], &option));
+    if (i > 1 && strcmp(argv[i - 1], "-check")) PetscCall(PetscOptionsValidKey(argv[i - 1], &value));
+    PetscCheckInput(i == at || option || value, "'%s' is neither the scene nor an option nor its value; one run solves one scene", argv[i]);
   }
   *file = argv[at];
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -117,8 +118,7 @@ static PetscErrorCode Create_Private(Scene s, int argc, char **argv)
   PetscCall(SceneParse(s->data.file, s->text, (size_t)length, &s->root));
   PetscCall(SceneRead(s, argc, argv));
   PetscCall(CheckOutput_Private(s));
-  for (int i = 1; i < argc; ++i)
-    if (!strcmp(argv[i], "-check")) s->check = PETSC_TRUE;
+  PetscCall(PetscOptionsHasName(NULL, NULL, "-check", &s->check));
   PetscCall(PetscOptionsClearValue(NULL, "-check"));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -174,6 +174,7 @@ PetscErrorCode SceneSetUp(Scene s, Forest *forest)
   status = SceneCheckMesh(s, *forest);
   if (status) PetscCall(ForestDestroy(forest));
   PetscCall(status);
+  PetscCall(SceneTellMesh(s, *forest));
   for (PetscInt i = 0; i < d->num_refines; ++i) PetscCall(ForestRefine(forest, &d->refines[i]));
   PetscCall(Subdivide_Private(s, forest));
   d->mechanics.num_bodies     = s->num_bodies;

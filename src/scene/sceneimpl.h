@@ -6,13 +6,15 @@
 
 typedef enum { NODE_SCALAR, NODE_LIST, NODE_MAP } NodeKind;
 
+enum { NODE_COMMAND_LINE = 0, NODE_DATABASE = -1 }; /* lines of nodes that are in no scene file: options, as given or from -options_file or PETSC_OPTIONS */
+
 typedef struct _SceneNode SceneNode;
 struct _SceneNode {
   NodeKind    kind;
   char       *key;    /* owned; "" for the root and for items of a list */
   char       *text;   /* owned; value of a scalar, else NULL */
   PetscBool   quoted; /* the scalar stood in quotes */
-  PetscInt    line;   /* in the file, from 1; 0: from the command line */
+  PetscInt    line;   /* in the file, from 1; NODE_COMMAND_LINE, NODE_DATABASE */
   const char *origin; /* borrowed; name of the file */
   SceneNode  *parent, *first, *last, *next;
 };
@@ -26,6 +28,7 @@ SceneNode     *NodeFind(const SceneNode *map, const char *key); /* child or NULL
 PetscInt       NodeCount(const SceneNode *);                    /* children; NULL: 0 */
 PetscBool      NodeIsEmpty(const SceneNode *);                  /* `key:` with nothing after it */
 const char    *NodeWhere(const SceneNode *);                    /* "file:line: a.b.c" in a buffer that lives until the eighth next call */
+const char    *NodeOptions(PetscInt line);                      /* where options with this line come from, in words */
 
 /* ---- the option table (optiontable.c) ----------------------------------------------------------------------------------- */
 
@@ -98,6 +101,7 @@ struct _p_Scene {
   char       mesh_file[PETSC_MAX_PATH_LEN]; /* as written in the scene */
   PetscInt   mesh_order, order;
   PetscBool  setup;
+  PetscBool  subdivided;                    /* gmsh made hexahedra out of tetrahedra */
   char       directory[PETSC_MAX_PATH_LEN]; /* of the scene file, with '/' at its end */
   char       temporary[PETSC_MAX_PATH_LEN]; /* directory of the generated mesh, "" when none; rank 0 removes it */
 
@@ -117,7 +121,8 @@ PetscErrorCode OptionsCheckTree(const SceneNode *root);
 PetscErrorCode OptionsRead(const char *section, const SceneNode *, PetscInt dim, void *object);
 /* A number as text, finite, whole text. */
 PetscBool OptionParseReal(const char *text, PetscReal *);
-/* Put the options of the command line that are scene keys into the tree and take them out of PETSc's global database. */
+/* Put the options that are scene keys into the tree and take them out of PETSc's global database: what is there besides (-options_file), then the command
+ * line's. */
 PetscErrorCode OptionsOverride(SceneNode *root, int argc, char **argv);
 /* Whether s is one of the keys at the top of a scene, s not necessarily ended by 0. */
 PetscBool OptionIsTopKey(const char *s, size_t length);
@@ -138,8 +143,12 @@ PetscErrorCode SceneCheckControl(Scene, const SceneNode *boundary, const char *k
 /* Mesh the .geo, or take the .msh as it is: data.mesh.file is set (mesh.c). Collective. */
 PetscErrorCode SceneMakeMesh(Scene);
 PetscErrorCode SceneRemoveMesh(Scene);
+/* A sentence when the .geo, or one that it includes, calls a program or writes a file, else "" (geo.c). */
+void GeoCheck(const char *file, size_t capacity, char message[]);
 /* Match names with the groups of the mesh, fill data.bodies, boundaries, contacts, and check them (check.c). Collective. */
 PetscErrorCode SceneCheckMesh(Scene, Forest);
+/* Warnings and notes on a mesh that may not be what is meant (pieces.c); after SceneCheckMesh. Collective. */
+PetscErrorCode SceneTellMesh(Scene, Forest);
 /* Reference position of a vertex (check.c). Not collective. */
 PetscErrorCode SceneVertex(Forest, PetscInt vertex, PetscReal X[3]);
 /* "a, b, c" or "none" (check.c). */

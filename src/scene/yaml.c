@@ -78,6 +78,11 @@ PetscBool NodeIsEmpty(const SceneNode *node)
   return node->kind == NODE_SCALAR && !node->quoted && !node->text[0] ? PETSC_TRUE : PETSC_FALSE;
 }
 
+const char *NodeOptions(PetscInt line)
+{
+  return line == NODE_DATABASE ? "-options_file or PETSC_OPTIONS" : "command line";
+}
+
 const char *NodeWhere(const SceneNode *node)
 {
   static char      buffer[8][1024];
@@ -88,10 +93,10 @@ const char *NodeWhere(const SceneNode *node)
   size_t           n;
 
   for (const SceneNode *up = node; up && up->parent && num < YAML_MAX_DEPTH; up = up->parent) chain[num++] = up;
-  if (node->line)
+  if (node->line > 0)
     n = (size_t)snprintf(s, sizeof(buffer[0]), "%s:%d: ", node->origin, (int)node->line);
   else
-    n = (size_t)snprintf(s, sizeof(buffer[0]), "command line: ");
+    n = (size_t)snprintf(s, sizeof(buffer[0]), "%s: ", NodeOptions(node->line));
   for (int i = num - 1; i >= 0 && n < sizeof(buffer[0]); --i) n += (size_t)snprintf(s + n, sizeof(buffer[0]) - n, "%s%s", chain[i]->key, i ? "." : "");
   return s;
 }
@@ -126,6 +131,7 @@ static PetscErrorCode Scalar_Private(Reader *r, const char **text)
                   "%s:%d: anchors and tags of YAML are not used in a scene", r->origin, (int)Line_Private(r));
   *text = (const char *)r->event.data.scalar.value;
   PetscCheckInput(strlen(*text) == r->event.data.scalar.length, "%s:%d: a zero character in a text", r->origin, (int)Line_Private(r));
+  PetscCheckInput(TextIsPlain(*text, "\n\r\t"), "%s:%d: a control character in a text", r->origin, (int)Line_Private(r));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -139,8 +145,8 @@ static PetscErrorCode Key_Private(Reader *r, const SceneNode *map, char key[MORT
                   (int)r->event.start_mark.column + 1);
   PetscCall(Scalar_Private(r, &text));
   PetscCheckInput(text[0], "%s:%d: an empty key", r->origin, (int)Line_Private(r));
-  PetscCheckInput(!text[strcspn(text, ",\"\n\r\t")], "%s:%d: key \"%.20s…\" has a comma, quotation mark, tabulator or line break in it", r->origin,
-                  (int)Line_Private(r), text);
+  PetscCheckInput(!text[strcspn(text, ",\"")] && TextIsPlain(text, ""), "%s:%d: key \"%.20s…\" has a comma, quotation mark or control character in it",
+                  r->origin, (int)Line_Private(r), text);
   PetscCheckInput(strlen(text) < MORTISE_NAME, "%s:%d: key \"%.20s…\" is longer than %d characters", r->origin, (int)Line_Private(r), text, MORTISE_NAME - 1);
   twin = NodeFind(map, text);
   PetscCheckInput(!twin, "%s is given twice, in lines %d and %d", NodeWhere(twin), (int)twin->line, (int)Line_Private(r));

@@ -74,7 +74,7 @@ PetscErrorCode SolverOptions_Private(Solver s)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static const char *Nearest_Private(const char *name)
+const char *SolverNearestOption(const char *name)
 {
   const char *names[PETSC_STATIC_ARRAY_LENGTH(Options)];
 
@@ -95,7 +95,7 @@ PetscErrorCode SolverCheckOptions(void)
     if (!strncmp(names[i], "solve_", 6)) PetscCall(PetscStrncpy(unknown, names[i], sizeof(unknown)));
   }
   PetscCall(PetscOptionsLeftRestore(NULL, &num, &names, &values));
-  PetscCheckInput(!unknown[0], "-%s is no option of the solver; the nearest one is -%s", unknown, Nearest_Private(unknown));
+  PetscCheckInput(!unknown[0], "-%s is no option of the solver; the nearest one is -%s", unknown, SolverNearestOption(unknown));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

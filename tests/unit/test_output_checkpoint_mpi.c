@@ -265,6 +265,27 @@ static void RefusesDamage(void **unused)
   free(bytes);
 }
 
+/* A seal that holds says nothing of the numbers behind it. */
+static void RefusesNonsense(void **unused)
+{
+  Patch      p;
+  Checkpoint c, read;
+  char       nonsense[PETSC_MAX_PATH_LEN];
+
+  Begin(&p, 1);
+  snprintf(nonsense, sizeof(nonsense), "%s/nonsense.h5", directory);
+  c           = Copy(&p);
+  c->owner[0] = size;
+  OK(CheckpointWrite(c, nonsense));
+  assert_int_equal(CheckpointRead(PETSC_COMM_WORLD, nonsense, &read), MORTISE_ERR_INPUT);
+  c->owner[0] = 0;
+  c->order[0] = MORTISE_MAX_ORDER + 1;
+  OK(CheckpointWrite(c, nonsense));
+  assert_int_equal(CheckpointRead(PETSC_COMM_WORLD, nonsense, &read), MORTISE_ERR_INPUT);
+  OK(CheckpointDestroy(&c));
+  PatchDestroy(&p);
+}
+
 static int Start(void **unused)
 {
   return DirectoryCreate(unused) || snprintf(path, sizeof(path), "%s/checkpoint.h5", directory) < 0;
@@ -273,7 +294,7 @@ static int Start(void **unused)
 int main(int argc, char **argv)
 {
   const struct CMUnitTest tests[] = {cmocka_unit_test(GivesBack), cmocka_unit_test(KeepsValues), cmocka_unit_test(RefusesOthers),
-                                     cmocka_unit_test(RefusesDamage)};
+                                     cmocka_unit_test(RefusesDamage), cmocka_unit_test(RefusesNonsense)};
   if (PetscInitialize(&argc, &argv, NULL, NULL) || ErrorHandlerPush()) return 1;
   MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
   MPI_Comm_size(PETSC_COMM_WORLD, &size);

@@ -42,7 +42,7 @@ def test_damaged_scene(run, tmp_path, part):
         assert not result.directory.exists()
 
 
-FORMATS = ["msh22", "msh41", "msh41b"]
+FORMATS = ["msh22", "msh41", "msh22b", "msh41b"]
 MESHED = {"patch2d": "-2", "blocks3d": "-3"}
 
 

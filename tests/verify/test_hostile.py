@@ -88,6 +88,23 @@ def test_pairs_that_share_facets(run, tmp_path, one, two, good):
         refused(result, "contact.two", "facets in common", "pair 'one'")
 
 
+@pytest.mark.parametrize("dim", [2, 3])
+@pytest.mark.parametrize("swap", [False, True])
+@pytest.mark.parametrize("overlap", [0.3, 0.8, 0.9])
+def test_deep_overlaps_are_pressed_apart(run, tmp_path, dim, swap, overlap):
+    """Overlaps in the mesh of up to what half of both bodies measures."""
+    sides = ["y0_u", "y1_l"][::-1 if swap else 1]
+    text = json.loads(blocks(tmp_path, pair=dict(zip(("nonmortar", "mortar"), sides))))
+    text["boundary"] |= {"y1_u": {"fix": "y"}, "x0_l": {"fix": "x"}, "x0_u": {"fix": "x"}, "y0_l": {"fix": "y"}}
+    if dim == 3:
+        text["boundary"] |= {name: {"fix": "z"} for name in ("z0_l", "z0_u", "z1_l", "z1_u")}
+        text["model"] = "3d"
+    write(tmp_path / "blocks.msh", [linspace(0, 1, 2)] * 2 + [linspace(0, 1, 1)] * (dim - 2), [lambda *x: x, lambda x, y, *z: (x + 1e-6, y + 1 - overlap, *z)],
+          side=lambda name, centre, b: f"{name}_{'lu'[b]}", body=lambda centre, b: "lu"[b])
+    result = run("s.yml", text=json.dumps(text))
+    assert result.returncode == 0 and result.summary["contact"]["pair"]["active_nodes"] > 0, result
+
+
 def test_a_pair_of_a_surface_and_its_part(run, tmp_path):
     text = blocks(tmp_path, pair={"nonmortar": "low", "mortar": "low_l"})
     write(tmp_path / "blocks.msh", [linspace(0, 1, 2)] * 2, [lambda x, y: (x, y), lambda x, y: (x, y + 1.001)], body=lambda centre, b: "lu"[b],
@@ -236,6 +253,57 @@ def test_unconnected_nodes(run, tmp_path):
     (tmp_path / "block.msh").write_text("\n".join(lines) + "\n")
     result = run("s.yml", text=text)
     assert result.returncode == 0 and result.summary["cells"] == 4, result
+
+
+@pytest.mark.parametrize("old,new,words", [
+    ("\n1 0 0 0\n", "\n1 nan 0 0\n", ["no finite number"]),
+    ("\n2 ", "\n1 ", ["two nodes have one number"]),
+    ("\n1 0 0 0\n", "\n2000000000 0 0 0\n", ["one that is not there"]),
+    ("\n1 0 0 0\n", "\n2000000000 7 7 0\n1 0 0 0\n", ["numbers of its nodes go up to 2000000000", "from 1 on"]),
+    ('"body"', '"\033[31mbody"', ["?[31mbody", "control character"]),
+    ('"body"', '"b\u009b31mody"', ["control character"]),
+])
+def test_meshes_of_ill_will(run, tmp_path, old, new, words):
+    text = block(tmp_path)
+    mesh = (tmp_path / "block.msh").read_text()
+    at = mesh.index("$Nodes") if old[0] == "\n" else 0
+    mesh = mesh[:at] + mesh[at:].replace(old, new, 1)
+    if words[0].startswith("numbers"):
+        num = mesh[at:].splitlines()[1]
+        mesh = mesh.replace(f"$Nodes\n{num}\n", f"$Nodes\n{int(num) + 1}\n")
+    (tmp_path / "block.msh").write_text(mesh)
+    result = run("s.yml", text=text)
+    refused(result, *words)
+    assert "\033" not in result.stderr and "\u009b" not in result.stderr, result
+
+
+def test_words_for_the_terminal(run, tmp_path):
+    refused(run("s.yml", text=block(tmp_path).replace('"model"', '"title": "\\u001b[31m", "model"')), "control character in a text")
+
+
+GEO = """Point(1) = {0, 0, 0}; Line(1) = {1, 1}; // SystemCall "a comment";
+/* System "another"; */ Printf("SystemCall on the screen");
+"""
+
+
+@pytest.mark.parametrize("line,words", [
+    ('SystemCall "touch here";', ["s.geo:3: SystemCall calls a program"]), ('System "touch here";', ["s.geo:3: System calls"]),
+    ('Printf("%g, (", 1) >> "here";', ["s.geo:3: Printf writes a file"]), ('Include "more.geo";', ["more.geo:2: SystemCall calls a program"]),
+    ("", ["no cells of dimension 2"]),
+])
+def test_a_geo_is_no_program(run, tmp_path, line, words):
+    (tmp_path / "s.geo").write_text(GEO + line + "\n")
+    (tmp_path / "more.geo").write_text("// of another file\nSystemCall StrCat('touch ', 'here');\n")
+    refused(run("s.yml", text=block(tmp_path, mesh={"file": "s.geo"})), *words)
+
+
+def test_a_geo_without_end(run, tmp_path):
+    """gmsh is ended with the run, and its directory goes."""
+    (tmp_path / "s.geo").write_text("For i In {1:2000000000}\nx = i;\nEndFor\n")
+    (tmp_path / "tmp").mkdir()
+    result = run("s.yml", "-max_seconds", 0.5, text=block(tmp_path, mesh={"file": "s.geo"}), timeout=20, env={"TMPDIR": str(tmp_path / "tmp")})
+    refused(result, "gmsh had not come to an end", "-max_seconds")
+    assert not list((tmp_path / "tmp").glob("mortise-*"))
 
 
 @pytest.mark.parametrize("name", ["a b ü ☃.yml"])

@@ -230,7 +230,7 @@ def test_good_on_two_ranks(check):
     (("boundary:\n", "boundary:\n  upper: {fix: x}\n"), ["'upper' is a body"]),
     (("material:\n", "material:\n  steel: {law: neo_hookean, E: 2, nu: 0.3}\n"), ["material.steel is used by no body"]),
     # pairs and supports
-    (("mortar: lower_top", "mortar: upper_bottom"), ["both sides are 'upper_bottom'"]),
+    (("mortar: lower_top", "mortar: upper_bottom"), ["both sides are 'upper_bottom'", "contact of a surface with itself is not offered"]),
     (("nonmortar: upper_bottom", "nonmortar: lower_side"), [r"'lower_side' and 'lower_top' share cell \d at \(0.75, 0.75, 0\);"]),
     (("contact:\n  pair: {nonmortar: upper_bottom, mortar: lower_top, friction: 0}\n", ""), None),  # both held: good
     # mesh
@@ -371,6 +371,11 @@ def test_output_cannot_be_written(check):
     (["-adapt_tolernce", "1"], ["-adapt_tolernce", "-adapt_tolerance"]),
     (["-order"], ["-order needs a value"]),
     (["second.yml"], ["second.yml"]),
+    (["-order", "2", "3"], ["'3' is neither the scene nor an option nor its value"]),
+    (["-adaptt_tolerance", "1"], ["-adaptt_tolerance is no key of a scene and no option", "-adapt_tolerance"]),
+    (["-max_second", "1"], ["-max_second is no key of a scene and no option", "-max_seconds"]),
+    (["-newton", "1", "-ksp_monitor"], ["-newton is no key of a scene and no option"]),
+    (["-options_file", "nowhere.txt"], ["-options_file: .*nowhere.txt"]),
 ])
 def test_command_line(check, options, words):
     refused(check((), *options), *words)
@@ -401,6 +406,35 @@ def test_option_of_petsc(run, option, said):
     """One that nothing uses is named once, by us, not by PETSc; one that PETSc reads last of all is no such option."""
     result = run("inputs/patch2d.yml", option)
     assert result.returncode == 0 and result.stderr == said and "unused" not in result.stdout, result
+
+
+@pytest.mark.parametrize("ranks", [1, 2])
+def test_options_file(check, tmp_path, ranks):
+    """Keys of the scene and options of the solver, in PETSc's form; the command line wins over both."""
+    options = tmp_path / "options.txt"
+    options.write_text('# of several runs\n-material_rubber_E 26\n-boundary_top_displacement_y "-0.02 * t"\n-order 3\n-solve_max_it 30\n')
+    result = check((), "-options_file", options, "-order", 2, "-solve_max_it", 20, ranks=ranks)
+    assert result.returncode == 0 and "mu = 10," in result.stdout and "order 2" in result.stdout and "u_y = -0.02 * t" in result.stdout, result
+
+
+@pytest.mark.parametrize("line,words", [
+    ("-material_ruber_E 2", ["-options_file or PETSC_OPTIONS: -material_ruber_E", "-material_rubber_E"]),
+    ("-material_rubber_E x", ["-options_file or PETSC_OPTIONS: material.rubber.E is 'x'"]),
+    ("-order", ["-order needs a value"]),
+    ("-solve_rtoll 1e-8", ["-solve_rtoll is no option of the solver"]),
+    ("-tolerance 1", ["-tolerance is no key of a scene and no option"]),
+    ("order 2", ["-options_file: .* line 1: order"]),
+    ("-boundary_top_displacement_y -0.02 * t", ["-options_file: .* line 1: extra token"]),
+])
+def test_options_file_refused(check, tmp_path, line, words):
+    (tmp_path / "options.txt").write_text(line + "\n")
+    refused(check((), "-options_file", tmp_path / "options.txt"), *words)
+
+
+def test_options_of_petsc_stay(check):
+    """Those that nothing asks for before the run are no mistake."""
+    result = check((), "-log_view", "-ksp_monitor", "-pc_factor_shift_type", "none", "-mat_mumps_icntl_14", 30, "-multigrid_pc_type", "lu")
+    assert result.returncode == 0 and "mortise: -" not in result.stderr, result
 
 
 def test_command_line_wins(check):

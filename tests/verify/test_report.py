@@ -1,11 +1,13 @@
 """What a run leaves behind: keys of summary.json, tables that agree with it, fields that readers understand, on one rank and on two."""
+import json
 import math
 import re
+import subprocess
 
 import numpy as np
 import pytest
 
-from boxmesh import linspace, write
+from boxmesh import linspace, ring, write
 from contactkit import surface
 from test_hostile import block, blocks
 
@@ -136,3 +138,86 @@ def test_pipe_has_no_bar(run):
     result = run("inputs/cook.yml")
     assert result.returncode == 0 and "\r" not in result.stdout and "\033" not in result.stdout
     assert math.isfinite(result.summary["time"]["total"]) and "results in" in result.stdout
+
+
+# ---- warnings: on the screen and in summary.json ----------------------------------------------------------------------------------------
+
+
+def warned(result, *words):
+    """One warning with these words, in both places."""
+    found = [text for text in result.summary["warnings"] if all(word in text for word in words)]
+    assert result.returncode == 0 and len(found) == 1 and result.stdout.count(f"warning: {found[0]}\n") == 1, result
+    return found[0]
+
+
+def test_no_warning(run):
+    result = run("inputs/patch2d.yml")
+    assert result.summary["warnings"] == [] and "warning:" not in result.stdout and "note:" not in result.stdout, result
+
+
+def open_ring(path, close, dim=2, **keys):
+    """A ring with a gap of 0.16 whose one end is moved across it by `close`, to an end that is held."""
+    write(path / "block.msh", [linspace(0.8, 1, 1), linspace(0.1, 2 * math.pi - 0.1, 16), linspace(0, 0.4, 2)][:dim], ring)
+    return json.dumps({"mesh": {"file": "block.msh"}, "model": "plane_strain" if dim == 2 else "3d", "body": {"body": {"material": "m"}},
+                       "material": {"m": {"law": "neo_hookean", "E": 1, "nu": 0.3}}, "load": {"step": 0.25},
+                       "boundary": {"y0": {"fix": "xyz"[:dim]}, "y1": {"displacement": {axis: close * (axis == "y") for axis in "xyz"[:dim]}}}} | keys)
+
+
+@pytest.mark.parametrize("dim,ranks", [(2, 1), (2, 3), (3, 1), (3, 2)])
+def test_a_body_that_passes_through_itself(run, tmp_path, dim, ranks):
+    """Told when the gap is closed, with the place, the same on any number of ranks; and the estimate of such a coarse mesh."""
+    result = run("s.yml", text=open_ring(tmp_path, 0.3, dim), ranks=ranks)
+    t, x, y = map(float, re.search(r"at t = (\S+), at \((\S+), (\S+),", warned(result, "surface of body body passes through itself")).groups())
+    assert 0.16 <= 0.3 * t <= 0.3 and 0.75 < x < 1.05 and -0.1 < y < 0.2, result
+    assert not [text for text in run("s.yml", text=open_ring(tmp_path, 0.12, dim), ranks=ranks).summary["warnings"] if "passes" in text], result
+
+
+def test_hanging_facets_pass_through_nothing(run):
+    """A round surface with linear faces of different sizes: corners that hang lie on what they hang on."""
+    result = run("inputs/hertz3d.yml", "-adapt_max_passes", 4, "-output_fields", "false")
+    assert result.adapt[-1]["cells"] > result.adapt[0]["cells"] and not result.summary["warnings"], result
+
+
+def test_a_rough_estimate(run, tmp_path):
+    assert float(re.search(r"up to (\S+) %", warned(run("s.yml", text=open_ring(tmp_path, 0.1)), "estimated error")).group(1)) > 50
+
+
+def test_bodies_in_pieces(run, tmp_path):
+    """Two squares of one body that only look joined; a third one of another body on them, in no pair."""
+    text = blocks(tmp_path, pair={"nonmortar": "y0_u", "mortar": "y1_l"})
+    maps = [lambda x, y: (x, y), lambda x, y: (x + 1 + 1e-8, y), lambda x, y: (x, y + 1 + 1e-8)]
+    write(tmp_path / "blocks.msh", [linspace(0, 1, 2)] * 2, maps, side=lambda name, centre, b: f"{name}_{'llu'[b]}", body=lambda centre, b: "llu"[b])
+    result = run("s.yml", text=text)
+    warned(result, "body l is in 2 pieces", "at (1.25, 0.25, 0)")
+    assert "note: 3 nodes coincide with others of their own body and are not merged, one of l at (1, " in result.stdout, result
+    assert "of another body" not in result.stdout, result
+    result = run("s.yml", text=json.dumps({key: value for key, value in json.loads(text).items() if key != "contact"}))
+    assert "note: 3 nodes coincide with those of another body, neither merged nor on the sides of a pair, one of l and u at (" in result.stdout, result
+
+
+BOX = """SetFactory("OpenCASCADE");
+Box(1) = {0, 0, 0, 1, 1, 1};
+Mesh.CharacteristicLengthMin = 1;
+Mesh.CharacteristicLengthMax = 1;
+Physical Volume("body") = {1};
+Physical Surface("y0") = {3};
+Physical Surface("y1") = {4};
+"""
+
+
+def test_tetrahedra_become_hexahedra(run, tmp_path):
+    """Of a .geo by gmsh, of a .msh here: how many cells come of it."""
+    (tmp_path / "box.geo").write_text(BOX)
+    subprocess.run(["gmsh", "-3", "-format", "msh22", "-o", "box.msh", "box.geo"], cwd=tmp_path, check=True, capture_output=True)
+    for file in ("box.geo", "box.msh"):
+        mesh = {"file": file} | ({"order": 1} if file.endswith("geo") else {})
+        result = run("s.yml", text=block(tmp_path, mesh=mesh, model="3d", boundary={"y0": {"fix": "xyz"}, "y1": {"displacement": {"y": -0.01}}}))
+        assert f"{result.summary['cells']} cells come of it" in warned(result, "tetrahedra"), result
+
+
+def test_an_unstable_equilibrium(run, tmp_path):
+    """A slender strut beyond Euler's load, straight by symmetry of its mesh."""
+    text = block(tmp_path, order=2, boundary={"y0": {"fix": "xy"}, "y1": {"displacement": {"x": 0, "y": "-0.1*t"}}}, load={"step": 0.25})
+    write(tmp_path / "block.msh", [linspace(0, 0.1, 2), linspace(0, 1, 10)])
+    t = float(re.search(r"the first at t = (\S+):", warned(run("s.yml", text=text), "unstable")).group(1))
+    assert 0.25 <= t <= 0.75

@@ -1,0 +1,55 @@
+/* What is looked at after each accepted load step: states that the equations allow and their user may not mean. Told once. */
+#include "appimpl.h"
+
+#define ROUGH 0.5 /* estimate, of the norm of the largest solution, above which figures say little */
+
+static PetscErrorCode WatchPassage_Private(App *app)
+{
+  const CoarseMesh *mesh;
+  Passage           p;
+
+  PetscFunctionBegin;
+  if (app->passage_told || app->data->mechanics.kinematics == KINEMATICS_SMALL) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(PassageFind(app->level.problem, &app->level.accepted, &p));
+  if (!(p.depth > 0)) PetscFunctionReturn(PETSC_SUCCESS);
+  app->passage_told = PETSC_TRUE;
+  PetscCall(ForestGetCoarse(app->level.forest, &mesh));
+  PetscCall(WarningAdd(app->comm, "the surface of body %s passes through %s%s at t = %.6g, at (%.4g, %.4g, %.4g); no contact is there to stop it",
+                       mesh->body_name[p.body[0]], p.body[0] == p.body[1] ? "itself" : "body ", p.body[0] == p.body[1] ? "" : mesh->body_name[p.body[1]],
+                       (double)app->level.accepted.t, (double)p.x[0], (double)p.x[1], (double)p.x[2]));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The largest error of all steps, and the largest norm: a step with next to no load has an error that says little, be it as large as its solution. */
+static void WatchEstimate_Private(App *app)
+{
+  const PetscReal error = app->last.estimate, whole = error / app->last.estimated_error;
+
+  if (app->load_steps == 1) app->rough_error = app->rough_norm = 0; /* perhaps of a path before this one, on a coarser mesh */
+  if (!(app->last.estimated_error > 0)) return;                     /* NaN: not estimated */
+  app->rough_norm = PetscMax(app->rough_norm, whole);
+  if (error > app->rough_error) app->rough_error = error, app->rough_t = app->level.accepted.t;
+}
+
+PetscErrorCode AppWatch(App *app)
+{
+  PetscFunctionBegin;
+  WatchEstimate_Private(app);
+  if (app->path.unstable > 0 && !app->unstable_known) app->unstable_t = app->level.accepted.t;
+  app->unstable_known = (PetscBool)(app->path.unstable > 0);
+  PetscCall(WatchPassage_Private(app));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode AppWarn(App *app)
+{
+  PetscFunctionBegin;
+  if (app->rough_error > ROUGH * app->rough_norm)
+    PetscCall(WarningAdd(app->comm, "the estimated error is up to %.3g %% of the largest solution, at t = %.6g: figures of this run say little",
+                         100 * (double)(app->rough_error / app->rough_norm), (double)app->rough_t));
+  if (app->path.unstable > 0)
+    PetscCall(WarningAdd(app->comm, "%" PetscInt_FMT " %s unstable, the first %sat t = %.6g: the least disturbance would lead to another equilibrium",
+                         app->path.unstable, app->path.unstable == 1 ? "solution is" : "solutions are", app->restart[0] ? "since the restart " : "",
+                         (double)app->unstable_t));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
