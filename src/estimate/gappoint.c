@@ -101,14 +101,20 @@ static void Gap_Private(const EstimateSum *sum, const ContactTerm *term, const C
   p->height = Dot3(middle, y);
 }
 
-/* Functions of the nonmortar facet's nodes: pressure, and the gap that the constraints know of. */
+/* Functions of the nonmortar facet's nodes: pressure, and the gap that the constraints know of. On facets of order 1 the dual functions are the hats three
+   times as steep about the middle, products of 2 N0 - N1 and 2 N1 - N0: theirs is the pressure that works, for which the facets' vertices are placed so that
+   their bulges do none (src/hp/surface.c). */
 static void Nodal_Private(const ContactTerm *term, PetscInt facet, const PetscReal N[], GapPoint *p)
 {
-  const PetscInt *node, num = SurfaceFacetNodes(&term->view->nonmortar, facet, &node);
+  const SurfaceView *s = &term->view->nonmortar;
+  const PetscInt    *node, num = SurfaceFacetNodes(s, facet, &node);
+  const PetscReal    steep[2] = {3 * p->xi[0], 3 * p->xi[1]};
+  PetscReal          dual[SURFACE_MOST_NODES], gap;
 
+  ContactShape_Private(s, facet, s->order || term->view->spec->standard ? p->xi : steep, dual);
   for (PetscInt a = 0; a < num; ++a) {
-    PetscReal gap;
     p->pressure += N[a] * term->z[node[a]];
+    p->trace += dual[a] * term->z[node[a]];
     if (ContactNodalGap_Private(term->view, node[a], 0, &gap)) p->nodal += N[a] * gap;
   }
   p->pressure = PetscMax(p->pressure, 0);
@@ -143,9 +149,9 @@ static PetscErrorCode AddTriangle_Private(const EstimateSum *sum, const ContactT
                                           GapPoints *to)
 {
   const PetscReal *const p[3] = {segment->xi[0], segment->xi[k], segment->xi[k + 1]}, *const e[3] = {segment->eta[0], segment->eta[k], segment->eta[k + 1]};
-  const PetscReal        twice = PetscAbsReal((p[1][0] - p[0][0]) * (p[2][1] - p[0][1]) - (p[1][1] - p[0][1]) * (p[2][0] - p[0][0]));
-  const PetscInt         n1    = NumPoints_Private(&term->view->nonmortar, segment->facet);
-  const Basis1D         *gauss;
+  const PetscReal twice = PetscAbsReal((p[1][0] - p[0][0]) * (p[2][1] - p[0][1]) - (p[1][1] - p[0][1]) * (p[2][0] - p[0][0]));
+  const PetscInt  n1    = NumPoints_Private(&term->view->nonmortar, segment->facet);
+  const Basis1D  *gauss;
 
   PetscFunctionBegin;
   PetscCall(Basis1DGet(1, n1, &gauss));

@@ -3,7 +3,8 @@
 
    A gap a cos(k x) between two bodies, of a wavelength that is small against them, presses with E* k a/2 and takes an energy of E* k a^2/8 per area,
    1/E* = (1 - nu^2)/E of one + that of the other (a rigid one: 0). In the squared energy norm that is s g^2 in the mean, s = E* k/2. The longest wave that
-   functions of order p on a facet of size h miss is k = 2 pi p/h. So eta^2 = int s r^2 with r = g where surfaces overlap, and where they gape under a pressure z
+   functions of order p on a facet of size h miss is k = 2 pi p/h. So eta^2 = int s r^2 with r = g where surfaces overlap, and where they gape under a pressure
+   z
 
      r = min(g - gn, z/s)
 
@@ -44,8 +45,8 @@ static PetscReal Bend_Private(const GapPoints *points)
   PetscReal A[3][4] = {{0}}, square = 0;
 
   for (PetscInt i = 0; i < points->num; ++i) {
-    const GapPoint *p    = &points->points[i];
-    const PetscReal y    = p->height - points->points[0].height, v[4] = {1, p->xi[0], p->xi[1], y};
+    const GapPoint *p = &points->points[i];
+    const PetscReal y = p->height - points->points[0].height, v[4] = {1, p->xi[0], p->xi[1], y};
     for (PetscInt r = 0; r < 3; ++r) {
       for (PetscInt c = 0; c < 4; ++c) A[r][c] += p->weight * v[r] * v[c];
     }
@@ -66,10 +67,10 @@ static PetscReal Bend_Private(const GapPoints *points)
    plane here and stiffer does neither: bend is how far it is from that, 0 to 1. A bulge is the facet's whose it is. */
 static PetscReal MortarShare_Private(const ContactTerm *term, const GapPoint *p, const PetscReal compliance[2], PetscReal bend)
 {
-  const PetscReal size[2]  = {Size_Private(&term->view->nonmortar, p->segment->facet), Size_Private(&term->view->mortar, p->segment->mortar_facet)};
-  const PetscReal coarser  = PetscSqr(size[1]) / (PetscSqr(size[0]) + PetscSqr(size[1])), softer = compliance[1] / (compliance[0] + compliance[1]);
+  const PetscReal size[2] = {Size_Private(&term->view->nonmortar, p->segment->facet), Size_Private(&term->view->mortar, p->segment->mortar_facet)};
+  const PetscReal coarser = PetscSqr(size[1]) / (PetscSqr(size[0]) + PetscSqr(size[1])), softer = compliance[1] / (compliance[0] + compliance[1]);
   const PetscReal bulge[2] = {PetscSqr(p->bulge[0] - p->mean[0]), PetscSqr(p->bulge[1] - p->mean[1])}, gap = PetscSqr(p->gap);
-  const PetscReal whole    = gap + bulge[0] + bulge[1];
+  const PetscReal whole = gap + bulge[0] + bulge[1];
 
   return whole > 0 ? (coarser * PetscMax(softer, bend) * gap + bulge[1]) / whole : 0;
 }
@@ -101,7 +102,7 @@ static void Facet_Private(EstimateSum *sum, const ContactTerm *term, PetscInt fa
     sum->eta2[other] += share * square;
     sum->part[PART_CONTACT] += square;
     for (PetscInt k = 0; k < 2; ++k) {
-      const PetscReal done = 2 * p->weight * p->pressure * p->bulge[k];
+      const PetscReal done = 2 * p->weight * p->trace * p->bulge[k];
       work->sum[0] += done;
       work->sum[1] += PetscAbsReal(done);
       work->leaf[k ? other : leaf] += PetscAbsReal(done);
