@@ -67,22 +67,31 @@ static PetscReal Stretch_Private(const ContactTerms *terms, const SurfaceView *s
   return ratio * x[0] / X[0];
 }
 
-/* T += factor * z n at a place of a nonmortar facet. */
-static void Push_Private(const ContactTerm *term, PetscBool finite, PetscInt facet, const PetscReal xi[2], PetscReal factor, PetscReal T[3])
+void ContactNormal_Private(const ContactTerm *term, PetscBool finite, PetscInt facet, const PetscReal xi[2], const PetscReal N[], PetscReal n[3])
 {
   const SurfaceView *s = &term->view->nonmortar;
-  const PetscInt    *node, num = SurfaceFacetNodes(s, facet, &node);
-  PetscReal          N[SURFACE_MOST_NODES], n[3], t[2][3], z = 0;
+  PetscReal          t[2][3];
 
-  ContactShape_Private(s, facet, xi, N);
   if (s->order) {
     SurfaceTangents(s, facet, finite ? term->x : s->X, xi, t);
     Cross3(t[0], t[1], n);
   } else
     ContactPosition_Private(s, facet, term->normal, N, n);
-  for (PetscInt a = 0; a < num; ++a) z += N[a] * term->z[node[a]];
   const PetscReal length = PetscSqrtReal(Dot3(n, n));
-  for (PetscInt c = 0; c < s->dim && length > 0; ++c) T[c] += factor * z * n[c] / length;
+  for (PetscInt c = 0; c < 3 && length > 0; ++c) n[c] /= length;
+}
+
+/* T += factor * z n at a place of a nonmortar facet. */
+static void Push_Private(const ContactTerm *term, PetscBool finite, PetscInt facet, const PetscReal xi[2], PetscReal factor, PetscReal T[3])
+{
+  const SurfaceView *s = &term->view->nonmortar;
+  const PetscInt    *node, num = SurfaceFacetNodes(s, facet, &node);
+  PetscReal          N[SURFACE_MOST_NODES], n[3], z = 0;
+
+  ContactShape_Private(s, facet, xi, N);
+  ContactNormal_Private(term, finite, facet, xi, N, n);
+  for (PetscInt a = 0; a < num; ++a) z += N[a] * term->z[node[a]];
+  for (PetscInt c = 0; c < s->dim; ++c) T[c] += factor * z * n[c];
 }
 
 /* Does the part of a mortar edge hold eta? Then xi on its nonmortar edge. */

@@ -191,8 +191,7 @@ PetscBool ContactTermsHave_Private(const ContactTerms *terms, PetscInt facet)
   return PETSC_FALSE;
 }
 
-/* Gap at a node from the weighted gap; PETSC_FALSE where the node, or one that it hangs on, sees (almost) nothing. */
-static PetscBool NodalGap_Private(const ContactView *view, PetscInt node, PetscReal measure, PetscReal *gap)
+PetscBool ContactNodalGap_Private(const ContactView *view, PetscInt node, PetscReal measure, PetscReal *gap)
 {
   const SurfaceView *s   = &view->nonmortar;
   const PetscBool    own = (PetscBool)(s->hang[node] == s->hang[node + 1]);
@@ -208,8 +207,7 @@ static PetscBool NodalGap_Private(const ContactView *view, PetscInt node, PetscR
   return PETSC_TRUE;
 }
 
-/* Measure at a place of a nonmortar facet per unit of xi: length or area, axisymmetric: of the revolution. */
-static PetscReal Measure_Private(const ContactTerms *terms, const SurfaceView *s, PetscInt facet, const PetscReal xi[2], const PetscReal N[])
+PetscReal ContactTermsMeasure_Private(const ContactTerms *terms, const SurfaceView *s, PetscInt facet, const PetscReal xi[2], const PetscReal N[])
 {
   const PetscReal *x = terms->kinematics == KINEMATICS_FINITE ? s->x : s->X;
   PetscReal        tangent[2][3], position[3];
@@ -220,8 +218,8 @@ static PetscReal Measure_Private(const ContactTerms *terms, const SurfaceView *s
   return 2 * PETSC_PI * position[0] * ContactMeasure_Private(tangent);
 }
 
-/* int z+ g+ and int g-^2 over a nonmortar facet (current measure), z and g by the functions of its nodes, order + 2 Gauss points in each direction. */
-static PetscErrorCode FacetIntegrals_Private(const ContactTerms *terms, const ContactTerm *term, PetscInt facet, PetscReal *product, PetscReal *penetration)
+/* int z+ g+ over a nonmortar facet (current measure), z and g by the functions of its nodes, order + 2 Gauss points in each direction. */
+static PetscErrorCode FacetProduct_Private(const ContactTerms *terms, const ContactTerm *term, PetscInt facet, PetscReal *product)
 {
   const SurfaceView *s = &term->view->nonmortar;
   const PetscInt    *node, num = SurfaceFacetNodes(s, facet, &node), points = PetscMax(1, SurfaceFacetOrder(s, facet)) + 2;
@@ -230,11 +228,11 @@ static PetscErrorCode FacetIntegrals_Private(const ContactTerms *terms, const Co
   PetscReal          N[SURFACE_MOST_NODES], g[SURFACE_MOST_NODES];
 
   PetscFunctionBegin;
-  *product = *penetration = 0;
+  *product = 0;
   ContactShape_Private(s, facet, middle, N);
-  const PetscReal measure = (s->dim == 3 ? 4 : 2) * Measure_Private(terms, s, facet, middle, N);
+  const PetscReal measure = (s->dim == 3 ? 4 : 2) * ContactTermsMeasure_Private(terms, s, facet, middle, N);
   for (PetscInt a = 0; a < num; ++a) {
-    if (!NodalGap_Private(term->view, node[a], measure, &g[a])) PetscFunctionReturn(PETSC_SUCCESS);
+    if (!ContactNodalGap_Private(term->view, node[a], measure, &g[a])) PetscFunctionReturn(PETSC_SUCCESS);
   }
   PetscCall(Basis1DGet(1, points, &gauss));
   for (PetscInt q = 0; q < (s->dim == 3 ? points : 1) * points; ++q) {
@@ -242,33 +240,30 @@ static PetscErrorCode FacetIntegrals_Private(const ContactTerms *terms, const Co
     const PetscReal xi[2] = {2 * gauss->points[i] - 1, 2 * gauss->points[j] - 1};
     PetscReal       z = 0, gap = 0, weight = 2 * gauss->weights[i] * (s->dim == 3 ? 2 * gauss->weights[j] : 1);
     ContactShape_Private(s, facet, xi, N);
-    weight *= Measure_Private(terms, s, facet, xi, N);
+    weight *= ContactTermsMeasure_Private(terms, s, facet, xi, N);
     for (PetscInt a = 0; a < num; ++a) {
-      z += N[a] * term->view->z[node[a]];
+      z += N[a] * term->z[node[a]];
       gap += N[a] * g[a];
     }
     *product += weight * PetscMax(z, 0) * PetscMax(gap, 0);
-    *penetration += weight * PetscSqr(PetscMin(gap, 0));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode EstimateComplementarity_Private(EstimateSum *sum, const PetscReal height[][3])
+PetscErrorCode EstimateComplementarity_Private(EstimateSum *sum)
 {
   PetscFunctionBegin;
   for (PetscInt i = 0; i < sum->facets.num; ++i) {
     const FacetPlace *f    = &sum->facets.facets[i];
     const FacetSide  *side = f->side[0].cell >= 0 ? &f->side[0] : &f->side[1];
     if (side->cell >= sum->v->num_owned_cells) continue;
-    const PetscInt  leaf   = sum->v->cell_leaf[side->cell];
-    const PetscReal factor = sum->spec->bodies[sum->t->leaf_body[leaf]].material->mu * f->order / height[side->cell][side->side / 2];
     for (PetscInt k = 0; k < sum->contact->num; ++k) {
       const ContactTerm *term = &sum->contact->terms[k];
-      PetscReal          product, penetration;
+      PetscReal          product;
       if (term->facet_place[0][f->facet] < 0) continue;
-      PetscCall(FacetIntegrals_Private(sum->contact, term, term->facet_place[0][f->facet], &product, &penetration));
-      sum->eta2[leaf] += product + factor * penetration;
-      sum->part[PART_CONTACT] += product + factor * penetration;
+      PetscCall(FacetProduct_Private(sum->contact, term, term->facet_place[0][f->facet], &product));
+      sum->eta2[sum->v->cell_leaf[side->cell]] += product;
+      sum->part[PART_CONTACT] += product;
     }
   }
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -48,6 +48,21 @@ typedef struct {
   ContactTerm *terms; /* owned */
 } ContactTerms;
 
+/* Two surfaces at a point of the interface. Pairs: nonmortar, mortar side. */
+typedef struct {
+  const ContactSegment *segment;
+  PetscReal             xi[2], weight;     /* place on the nonmortar facet; weight times measure there */
+  PetscReal             gap, nodal;        /* between the two facets; as the nodes show it, by their functions */
+  PetscReal             pressure, trace;   /* by the functions of the nodes, not negative; by the multiplier's functions */
+  PetscReal             height;            /* of the mortar side along the middle normal of the nonmortar facet */
+  PetscReal             bulge[2], mean[2]; /* what the round surfaces stand out of the facets; its mean over the facet */
+} GapPoint;
+
+typedef struct {
+  PetscInt  num, most;
+  GapPoint *points; /* owned [most] */
+} GapPoints;
+
 /* What the sums run over. The caller owns everything but facets, which EstimateBulk_Private makes and frees. */
 typedef struct {
   HPSpace              space;
@@ -69,7 +84,7 @@ typedef struct {
   PetscReal part[NUM_PARTS], energy;
 } EstimateSum;
 
-/* Fill space, mechanics, spec, contact, time, u, eta2 and along (zeroed); get this rank's sums. Not collective. */
+/* Fill space, mechanics, spec, contact, time, u, eta2 and along (zeroed); get this rank's sums. Collective where there is contact. */
 PetscErrorCode EstimateBulk_Private(EstimateSum *);
 
 #define ESTIMATE_MOST_1D (MORTISE_MAX_ORDER + 4)
@@ -117,19 +132,29 @@ void FacetConditions_Private(const MechanicsSpec *, uint64_t groups, PetscInt di
 void FacetSidePoint_Private(const FacetSide *, PetscInt dim, const PetscReal eta[], PetscReal xi[3]);
 /* jump.c: reference points of a cell's facets, xi[...][dim]; then the defects at them; then the sums */
 PetscErrorCode EstimateTracePoints_Private(const EstimateSum *, PetscInt cell, PetscReal xi[]);
-PetscErrorCode EstimateTraces_Private(EstimateSum *, PetscInt cell, const PetscReal position[], const PetscReal J[], const PetscReal F[], const PetscReal P[]);
+PetscErrorCode EstimateTraces_Private(EstimateSum *, PetscInt cell, const PetscReal position[], const PetscReal J[], const PetscReal F[], const PetscReal P[],
+                                      PetscReal modulus);
 PetscErrorCode EstimateFacets_Private(EstimateSum *, const PetscReal height[][3]);
 /* contactterm.c */
 PetscErrorCode ContactTermsCreate_Private(Problem, ContactTerms *);
 PetscErrorCode ContactTermsDestroy_Private(ContactTerms *);
 PetscBool      ContactTermsHave_Private(const ContactTerms *, PetscInt facet);
-/* Complementarity: int z+ g+ + mu p/h |g-|^2 on the nonmortar facets of owned leaves. */
-PetscErrorCode EstimateComplementarity_Private(EstimateSum *, const PetscReal height[][3]);
+/* Complementarity: int z+ g+ of nodal gaps on the nonmortar facets of owned leaves. */
+PetscErrorCode EstimateComplementarity_Private(EstimateSum *);
+/* Measure at a place of a nonmortar facet per unit of xi: length or area, axisymmetric: of the revolution. */
+PetscReal ContactTermsMeasure_Private(const ContactTerms *, const SurfaceView *, PetscInt facet, const PetscReal xi[2], const PetscReal N[]);
+/* Gap at a node from the weighted gap; PETSC_FALSE where the node, or one that it hangs on, sees next to nothing of this measure. */
+PetscBool ContactNodalGap_Private(const ContactView *, PetscInt node, PetscReal measure, PetscReal *gap);
+/* gappoint.c: points of a facet from its segments; gapterm.c: overlap, and opening under pressure, from point to point, with the exact geometry. Collective. */
+PetscErrorCode GapPointsFind_Private(const EstimateSum *, const ContactTerm *, PetscInt num, const ContactSegment segments[], GapPoints *);
+PetscErrorCode EstimateGap_Private(EstimateSum *);
 /* contactpoint.c: at xi in [-1, 1]^(dim-1) of a facet: functions of its nodes, N[SURFACE_MOST_NODES], length or area per unit of xi from its tangents
    (SurfaceTangents), and nodal positions (or normals) x[num_nodes][dim] interpolated (two dimensions: third component 0) */
 void      ContactShape_Private(const SurfaceView *, PetscInt facet, const PetscReal xi[2], PetscReal N[]);
 PetscReal ContactMeasure_Private(const PetscReal tangent[2][3]);
 void      ContactPosition_Private(const SurfaceView *, PetscInt facet, const PetscReal x[], const PetscReal N[], PetscReal position[3]);
+/* Direction of a nonmortar facet there, of length 1. */
+void ContactNormal_Private(const ContactTerm *, PetscBool finite, PetscInt facet, const PetscReal xi[2], const PetscReal N[], PetscReal n[3]);
 /* The box of a segment. */
 void ContactSegmentBox_Private(const ContactSegment *, PetscReal box[4]);
 /* Add the contact traction (per reference area) on a facet at reference position X. */

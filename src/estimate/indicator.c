@@ -158,14 +158,16 @@ static PetscReal VolumetricModulus_Private(const EstimateSum *sum, const Materia
   return sum->spec->kinematics == KINEMATICS_FINITE ? MaterialVolumetricModulus(material) : material->kappa;
 }
 
-/* Incompressibility: 1/kappa |q|^2, the error of the pressure as recovered, and w |g - Proj g|^2, w = 2 mu / (1 + 2 mu / kappa): a volume error that the
-   pressure space does not see is answered by shear, however stiff the material is against its mean. */
-static PetscErrorCode Volume_Private(const EstimateSum *sum, const MaterialSpec *material, const VolumeTable *table, CellWork *w, PetscReal *square)
+/* Incompressibility: 1/kappa |q|^2, the error of the pressure as recovered (modulus for kappa where that is more, for q balances the error of the stress), and
+   w |g - Proj g|^2, w = 2 mu / (1 + 2 mu / kappa): a volume error that the pressure space does not see is answered by shear, however stiff the material is
+   against its mean. */
+static PetscErrorCode Volume_Private(const EstimateSum *sum, const MaterialSpec *material, const VolumeTable *table, PetscReal modulus, CellWork *w,
+                                     PetscReal *square)
 {
   const PetscReal kappa = VolumetricModulus_Private(sum, material);
 
   PetscFunctionBegin;
-  *square = WeightedSquare_Private(table->num, 1, w->weight, w->recovered) / kappa;
+  *square = WeightedSquare_Private(table->num, 1, w->weight, w->recovered) / PetscMax(kappa, modulus);
   PetscCall(UnseenVolume_Private(sum, material, table, w));
   *square += 2 * material->mu / (1 + 2 * material->mu / kappa) * WeightedSquare_Private(table->num, 1, w->weight, w->g);
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -179,24 +181,22 @@ static void Weights_Private(const EstimateSum *sum, const VolumeTable *table, Ce
   }
 }
 
-/* Energy, interior residual and incompressibility of an owned cell. Where it collapses, the derivative of P takes the steepness of its stiffest point:
-   the weight is that point's, too. */
-static PetscErrorCode OwnedCell_Private(EstimateSum *sum, PetscInt cell, const VolumeTable *table, CellWork *w, const PetscReal height[3])
+/* Energy, interior residual and incompressibility of an owned cell. modulus: of its stiffest point. */
+static PetscErrorCode OwnedCell_Private(EstimateSum *sum, PetscInt cell, const VolumeTable *table, CellWork *w, const PetscReal height[3], PetscReal modulus)
 {
   const PetscInt      leaf     = sum->v->cell_leaf[cell];
   const MaterialSpec *material = sum->spec->bodies[sum->t->leaf_body[leaf]].material;
-  PetscReal           h = height[0], square, modulus = 0;
+  PetscReal           h        = height[0], square;
 
   PetscFunctionBegin;
   for (PetscInt q = 0; q < table->num; ++q) sum->energy += w->weight[q] * w->W[q];
   for (PetscInt d = 1; d < sum->v->dim; ++d) h = PetscMin(h, height[d]);
-  for (PetscInt q = 0; q < table->num; ++q) modulus = PetscMax(modulus, EstimateTangent_Private(material, sum->spec->kinematics, w->F + 9 * q, w->P + 9 * q));
   square = WeightedSquare_Private(table->num, 3, w->weight, w->R) * EstimateScale_Private(table->order) * PetscSqr(h / table->order) / modulus;
   sum->eta2[leaf] += square;
   sum->part[PART_INTERIOR] += square;
   EstimateInterior_Private(sum, leaf, table->num, w->weight, w->S, square);
   if (!material->mixed) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(Volume_Private(sum, material, table, w, &square));
+  PetscCall(Volume_Private(sum, material, table, modulus, w, &square));
   sum->eta2[leaf] += square;
   sum->part[PART_VOLUME] += square;
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -220,14 +220,17 @@ static PetscErrorCode Unfold_Private(const EstimateSum *sum, PetscInt cell, Pets
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* One call of the material for all points of a cell: Gauss points first, then those of its facets. A ghost needs the former only to recover its pressure. */
+/* One call of the material for all points of a cell: Gauss points first, then those of its facets. Where a cell collapses, its polynomials and their
+   derivatives take the steepness of its stiffest point everywhere: the weight of all its terms is that point's, too. A ghost's Gauss points tell that, and its
+   pressure. */
 static PetscErrorCode Cell_Private(EstimateSum *sum, PetscInt cell, VolumeTable tables[][2], CellWork *w, PetscReal height[][3])
 {
   const PetscInt  dim = sum->v->dim, order = sum->v->cell_order[cell];
   const BodySpec *body  = &sum->spec->bodies[sum->t->leaf_body[sum->v->cell_leaf[cell]]];
   const PetscBool owned = (PetscBool)(cell < sum->v->num_owned_cells), mixed = body->material->mixed;
-  VolumeTable    *table = &tables[order][mixed];
-  PetscInt        num = 0, traces = 0;
+  VolumeTable    *table   = &tables[order][mixed];
+  PetscInt        traces  = 0;
+  PetscReal       modulus = 0;
 
   PetscFunctionBegin;
   for (PetscInt i = sum->facets.cell_first[cell]; i < sum->facets.cell_first[cell + 1]; ++i) {
@@ -237,24 +240,23 @@ static PetscErrorCode Cell_Private(EstimateSum *sum, PetscInt cell, VolumeTable 
   if (!owned && !traces) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(TableCreate_Private(dim, order, mixed, table));
   PetscCall(HPSpaceGatherPositions(sum->space, cell, w->X));
-  if (owned || mixed) {
-    num = table->num;
-    PetscCall(PetscArraycpy(w->xi, table->xi, num * dim));
-  }
+  const PetscInt num = table->num;
+  PetscCall(PetscArraycpy(w->xi, table->xi, num * dim));
   PetscReal *xi = w->xi + num * dim, *F = w->F + 9 * num, *P = w->P + 9 * num, *J = w->J + 9 * num, *position = w->position + 3 * num;
   PetscCall(EstimateTracePoints_Private(sum, cell, xi));
   PetscCall(MechanicsPoints(sum->mechanics, cell, num + traces, w->xi, sum->u, &(PointValues){w->position, w->J, w->F, w->P, w->W}));
   PetscCall(Unfold_Private(sum, cell, num + traces, w));
-  if (num) {
+  if (owned || mixed) {
     Weights_Private(sum, table, w);
     PetscCall(Residual_Private(sum, body, table, w));
   }
+  for (PetscInt q = 0; q < num; ++q) modulus = PetscMax(modulus, EstimateTangent_Private(body->material, sum->spec->kinematics, w->F + 9 * q, w->P + 9 * q));
   if (mixed) PetscCall(EstimateRecover_Private(sum, table, w, traces, xi, F, P));
   if (owned) {
     Height_Private(dim, order, w->X, height[cell]);
-    PetscCall(OwnedCell_Private(sum, cell, table, w, height[cell]));
+    PetscCall(OwnedCell_Private(sum, cell, table, w, height[cell], modulus));
   }
-  PetscCall(EstimateTraces_Private(sum, cell, position, J, F, P));
+  PetscCall(EstimateTraces_Private(sum, cell, position, J, F, P, modulus));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -318,7 +320,10 @@ PetscErrorCode EstimateBulk_Private(EstimateSum *sum)
   PetscCall(PetscCalloc1(sum->v->num_owned_cells, &height));
   PetscCall(Cells_Private(sum, height));
   PetscCall(EstimateFacets_Private(sum, height));
-  if (sum->contact) PetscCall(EstimateComplementarity_Private(sum, height));
+  if (sum->contact) {
+    PetscCall(EstimateComplementarity_Private(sum));
+    PetscCall(EstimateGap_Private(sum));
+  }
   if (sum->along) PetscCall(EstimateDoubts_Private(sum));
   PetscCall(PetscFree(height));
   PetscCall(PetscFree4(sum->defect, sum->normal, sum->dA, sum->modulus));

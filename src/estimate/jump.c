@@ -94,7 +94,7 @@ static PetscErrorCode Defect_Private(EstimateSum *sum, const FacetPlace *f, Pets
 
 /* Defects at the facet points of a cell, where position [][3], dX/dxi, F and P [][9] are known. */
 PetscErrorCode EstimateTraces_Private(EstimateSum *sum, PetscInt cell, const PetscReal position[], const PetscReal J[], const PetscReal F[],
-                                      const PetscReal P[])
+                                      const PetscReal P[], PetscReal modulus)
 {
   const PetscInt      dim      = sum->v->dim;
   const MaterialSpec *material = sum->spec->bodies[sum->t->leaf_body[sum->v->cell_leaf[cell]]].material;
@@ -114,7 +114,8 @@ PetscErrorCode EstimateTraces_Private(EstimateSum *sum, PetscInt cell, const Pet
       if (sum->spec->model == MODEL_AXISYMMETRIC) weight *= 2 * PETSC_PI * position[0];
       sum->dA[point] = weight * OutwardArea_Private(side->side, J, normal);
       if (side == &f->side[0]) PetscCall(PetscArraycpy(sum->normal[point], normal, 3));
-      sum->modulus[point] += EstimateTangent_Private(material, sum->spec->kinematics, F, P) * (f->side[0].cell >= 0 && f->side[1].cell >= 0 ? 0.5 : 1);
+      sum->modulus[point] +=
+          PetscMax(modulus, EstimateTangent_Private(material, sum->spec->kinematics, F, P)) * (f->side[0].cell >= 0 && f->side[1].cell >= 0 ? 0.5 : 1);
       PetscCall(Defect_Private(sum, f, touches, position, normal, F, P, sum->defect[point]));
     }
   }
@@ -153,9 +154,10 @@ PetscErrorCode EstimateFacets_Private(EstimateSum *sum, const PetscReal height[]
     const PetscBool   inside = (PetscBool)(f->side[0].cell >= 0 && f->side[1].cell >= 0);
     const PetscReal   weight = EstimateScale_Private(f->order) * (inside ? 0.5 : 1) / f->order;
     const PetscInt    part   = inside ? PART_JUMP : ContactTermsHave_Private(sum->contact, f->facet) ? PART_CONTACT : PART_BOUNDARY;
-    PetscReal         square = 0;
+    PetscReal         square = 0, modulus = 0;
+    for (PetscInt q = f->first_point; q < f->first_point + NumPoints_Private(dim, f); ++q) modulus = PetscMax(modulus, sum->modulus[q]);
     for (PetscInt q = f->first_point; q < f->first_point + NumPoints_Private(dim, f); ++q)
-      square += sum->dA[q] / sum->modulus[q] * Free_Private(dim, f->fixed, (PetscBool)(!inside && !f->loaded), sum->normal[q], sum->defect[q]);
+      square += sum->dA[q] / modulus * Free_Private(dim, f->fixed, (PetscBool)(!inside && !f->loaded), sum->normal[q], sum->defect[q]);
     for (PetscInt s = 0; s < 2; ++s) {
       const FacetSide *side = &f->side[s];
       if (side->cell < 0 || side->cell >= sum->v->num_owned_cells) continue;

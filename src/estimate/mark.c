@@ -61,7 +61,13 @@ static PetscReal Rank_Private(const Estimate *e, const int8_t split[], const int
   return total;
 }
 
-/* Leaves with eta2 exactly 0 (rigid bodies) never coarsen: their surface is geometry, not solution. */
+/* Rigid bodies: their surface is geometry, not solution, and nothing of their estimate comes from an axis. */
+static PetscBool IsRigid_Private(const Estimate *e, PetscInt leaf)
+{
+  return (PetscBool)(e->along && !(e->along[leaf][0] + e->along[leaf][1] + e->along[leaf][2] > 0));
+}
+
+/* Leaves of rigid bodies never coarsen. */
 static void Low_Private(const Estimate *e, const AdaptSpec *spec, const ForestTables *t, MarkList *marks, int8_t order[])
 {
   PetscReal total = 0;
@@ -69,7 +75,7 @@ static void Low_Private(const Estimate *e, const AdaptSpec *spec, const ForestTa
   for (PetscInt l = 0; l < e->num_leaves; ++l) total += e->eta2[l];
   const PetscReal low = PetscSqr(spec->coarsen) * total / PetscMax(e->num_leaves, 1);
   for (PetscInt l = 0; l < e->num_leaves; ++l) {
-    if (marks->split[l] || !(e->eta2[l] > 0 && e->eta2[l] < low)) continue;
+    if (marks->split[l] || IsRigid_Private(e, l) || !(e->eta2[l] > 0 && e->eta2[l] < low)) continue;
     if (!order)
       marks->coarsen[l] = 1;
     else if (order[l] == e->order[l])

@@ -129,8 +129,8 @@ static PetscReal ContactShare(Patch *p, PetscReal d, PetscReal z)
   return share;
 }
 
-/* Area over the height of the cell behind it, summed over the nonmortar facets. */
-static PetscReal AreaOverHeight(const Patch *p)
+/* Area over the size of the facet, summed over the nonmortar facets. */
+static PetscReal AreaOverSize(const Patch *p)
 {
   const ContactView  *view;
   const ForestTables *t;
@@ -140,13 +140,13 @@ static PetscReal AreaOverHeight(const Patch *p)
   OK(ProblemGetContact(p->problem, 0, &view));
   for (PetscInt f = 0; f < view->nonmortar.num_facets; ++f) {
     const int8_t *level = t->leaf_level + 3 * view->nonmortar.facet_leaf[f];
-    sum += 4. / 9 / (PetscReal)(1 << (level[0] + level[1])) * (PetscReal)(1 << level[2]);
+    sum += PetscSqrtReal(4. / 9 / (PetscReal)(1 << (level[0] + level[1])));
   }
   return sum;
 }
 
 /* Moved apart by d under z = 1/10: int z g = d z on area 4, besides the traction that no stress answers, twice 1/6 z^2 h/(p m) by facets. Moved into each
- * other, z = 0: mu p/h d^2. */
+ * other, z = 0: pi E* d^2 / size, E* half of E/(1 - nu^2). */
 static void Complementarity(void **state)
 {
   const PetscReal z = 0.1;
@@ -163,7 +163,8 @@ static void Complementarity(void **state)
     OK(ProblemJump(p.problem));
     share[k] = ContactShare(&p, d[k], k < 2 ? z : 0);
     if (k == 2) {
-      const PetscReal expected = p.material.mu * PetscSqr(d[k]) * AreaOverHeight(&p);
+      const PetscReal mu = p.material.mu, kappa = p.material.kappa, both = (3 * kappa + 4 * mu) / (2 * mu * (3 * kappa + mu));
+      const PetscReal expected = PETSC_PI / both * PetscSqr(d[k]) * AreaOverSize(&p);
       assert_near(share[k], expected, 1e-9 * expected);
     }
     PatchDestroy(&p);

@@ -1,0 +1,211 @@
+/* The gap between two surfaces at Gauss points of the segments of a nonmortar facet, and how far the round surfaces that the mesh stands for (ForestMapPoint)
+   stand out of the facets there. */
+#include "estimateimpl.h"
+
+/* Place in its leaf of a place on a facet: both are known by their corners. */
+static void LeafPoint_Private(const ForestTables *t, const SurfaceView *s, PetscInt facet, const PetscReal xi[2], PetscReal place[3])
+{
+  const PetscInt offset = t->closure_offset[t->first[t->dim] + s->facet_leaf[facet]];
+  PetscReal      N[4];
+
+  SurfaceShape(s->dim, 0, xi, N, NULL);
+  for (PetscInt d = 0; d < 3; ++d) place[d] = 0;
+  for (PetscInt k = 0; k < s->corners; ++k) {
+    for (PetscInt v = 0; v < 1 << t->dim; ++v) {
+      const PetscInt index = 2 * ((v & 1) + 3 * ((v >> 1) & 1) + 9 * (v >> 2)); /* in the 3^dim closure table */
+      if (t->closure[offset + index] != s->node_entity[s->facets[s->corners * facet + k]]) continue;
+      for (PetscInt d = 0; d < t->dim; ++d) place[d] += N[k] * ((v >> d) & 1);
+    }
+  }
+}
+
+/* How far the round surface stands out of a facet at xi. */
+static PetscErrorCode Bulge_Private(const EstimateSum *sum, const SurfaceView *s, PetscInt facet, const PetscReal xi[2], PetscReal *bulge)
+{
+  PetscReal place[3], N[SURFACE_MOST_NODES], X[3], exact[3], t[2][3], n[3];
+  Forest    forest;
+
+  PetscFunctionBegin;
+  PetscCall(HPSpaceGetForest(sum->space, &forest));
+  LeafPoint_Private(sum->t, s, facet, xi, place);
+  PetscCall(ForestMapPoint(forest, s->facet_leaf[facet], place, exact));
+  ContactShape_Private(s, facet, xi, N);
+  ContactPosition_Private(s, facet, s->X, N, X);
+  SurfaceTangents(s, facet, s->X, xi, t);
+  Cross3(t[0], t[1], n);
+  for (PetscInt c = 0; c < 3; ++c) X[c] = c < s->dim ? exact[c] - X[c] : 0;
+  *bulge = Dot3(X, n) / PetscSqrtReal(Dot3(n, n));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Gauss points in each direction of a facet. */
+static PetscInt NumPoints_Private(const SurfaceView *s, PetscInt facet)
+{
+  return PetscMax(1, SurfaceFacetOrder(s, facet)) + 2;
+}
+
+/* Its mean over the facet. */
+static PetscErrorCode MeanBulge_Private(const EstimateSum *sum, const SurfaceView *s, PetscInt facet, PetscReal *mean)
+{
+  const PetscInt n1 = NumPoints_Private(s, facet);
+  const Basis1D *gauss;
+
+  PetscFunctionBegin;
+  PetscCall(Basis1DGet(1, n1, &gauss));
+  *mean = 0;
+  for (PetscInt q = 0; q < (s->dim == 3 ? n1 : 1) * n1; ++q) {
+    const PetscReal xi[2] = {2 * gauss->points[q % n1] - 1, 2 * gauss->points[q / n1] - 1};
+    PetscReal       bulge;
+    PetscCall(Bulge_Private(sum, s, facet, xi, &bulge));
+    *mean += gauss->weights[q % n1] * (s->dim == 3 ? gauss->weights[q / n1] : 1) * bulge;
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Where the ray from x along n meets a mortar facet at these positions, from a place eta near it: t0 d0 + t1 d1 - g n = x - y by Newton's method. */
+static void Ray_Private(const SurfaceView *s, const PetscReal positions[], PetscInt facet, const PetscReal x[3], const PetscReal n[3], PetscReal eta[2])
+{
+  for (PetscInt iteration = 0; iteration < 3; ++iteration) {
+    PetscReal N[SURFACE_MOST_NODES], y[3], t[2][3], a[3], b[3];
+    ContactShape_Private(s, facet, eta, N);
+    ContactPosition_Private(s, facet, positions, N, y);
+    SurfaceTangents(s, facet, positions, eta, t);
+    for (PetscInt i = 0; i < 3; ++i) y[i] = x[i] - y[i];
+    Cross3(t[1], n, a);
+    Cross3(n, t[0], b);
+    const PetscReal det = Dot3(t[0], a);
+    if (det == 0) return;
+    eta[0] += Dot3(y, a) / det;
+    if (s->dim == 3) eta[1] += Dot3(y, b) / det;
+  }
+}
+
+/* Gap and height of the mortar side at a point. With small kinematics contact is linearised at the reference positions: the places that face each other are
+   those of the reference, the gap is that of the displaced ones. */
+static void Gap_Private(const EstimateSum *sum, const ContactTerm *term, const ContactSegment *segment, const PetscReal N[], PetscReal eta[2], GapPoint *p)
+{
+  const PetscBool    finite = (PetscBool)(sum->spec->kinematics == KINEMATICS_FINITE);
+  const SurfaceView *s = &term->view->nonmortar, *m = &term->view->mortar;
+  const PetscReal    center[2] = {0, 0};
+  PetscReal          M[SURFACE_MOST_NODES], x[3], y[3], n[3], middle[3];
+
+  ContactNormal_Private(term, finite, segment->facet, p->xi, N, n);
+  ContactPosition_Private(s, segment->facet, finite ? s->x : s->X, N, x);
+  Ray_Private(m, finite ? m->x : m->X, segment->mortar_facet, x, n, eta);
+  ContactPosition_Private(s, segment->facet, s->x, N, x);
+  ContactShape_Private(m, segment->mortar_facet, eta, M);
+  ContactPosition_Private(m, segment->mortar_facet, m->x, M, y);
+  ContactShape_Private(s, segment->facet, center, M);
+  ContactNormal_Private(term, finite, segment->facet, center, M, middle);
+  p->gap    = Dot3(n, y) - Dot3(n, x) - term->view->spec->interference;
+  p->height = Dot3(middle, y);
+}
+
+/* Functions of the nonmortar facet's nodes: pressure, and the gap that the constraints know of. On facets of order 1 the dual functions are the hats three
+   times as steep about the middle, products of 2 N0 - N1 and 2 N1 - N0: theirs is the pressure that works, for which the facets' vertices are placed so that
+   their bulges do none (src/hp/surface.c). */
+static void Nodal_Private(const ContactTerm *term, PetscInt facet, const PetscReal N[], GapPoint *p)
+{
+  const SurfaceView *s = &term->view->nonmortar;
+  const PetscInt    *node, num = SurfaceFacetNodes(s, facet, &node);
+  const PetscReal    steep[2] = {3 * p->xi[0], 3 * p->xi[1]};
+  PetscReal          dual[SURFACE_MOST_NODES], gap;
+
+  ContactShape_Private(s, facet, s->order || term->view->spec->standard ? p->xi : steep, dual);
+  for (PetscInt a = 0; a < num; ++a) {
+    p->pressure += N[a] * term->z[node[a]];
+    p->trace += dual[a] * term->z[node[a]];
+    if (ContactNodalGap_Private(term->view, node[a], 0, &gap)) p->nodal += N[a] * gap;
+  }
+  p->pressure = PetscMax(p->pressure, 0);
+}
+
+static PetscErrorCode AddPoint_Private(const EstimateSum *sum, const ContactTerm *term, const ContactSegment *segment, const PetscReal mean[2],
+                                       const PetscReal xi[2], PetscReal eta[2], PetscReal weight, GapPoints *to)
+{
+  const SurfaceView *s = &term->view->nonmortar, *m = &term->view->mortar;
+  PetscReal          N[SURFACE_MOST_NODES];
+  GapPoint           p = {.xi = {xi[0], xi[1]}, .segment = segment, .mean = {mean[0], mean[1]}};
+
+  PetscFunctionBegin;
+  ContactShape_Private(s, segment->facet, xi, N);
+  Nodal_Private(term, segment->facet, N, &p);
+  Gap_Private(sum, term, segment, N, eta, &p);
+  p.weight = weight * ContactTermsMeasure_Private(sum->contact, s, segment->facet, xi, N);
+  if (p.pressure > 0 && !term->view->spec->adjust) {
+    PetscCall(Bulge_Private(sum, s, segment->facet, xi, &p.bulge[0]));
+    PetscCall(Bulge_Private(sum, m, segment->mortar_facet, eta, &p.bulge[1]));
+  }
+  if (to->num == to->most) {
+    to->most = 2 * to->most + 64;
+    PetscCall(PetscRealloc(sizeof(GapPoint) * (size_t)to->most, &to->points));
+  }
+  to->points[to->num++] = p;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Triangle k of the fan that a polygon is: a square with one side drawn together. */
+static PetscErrorCode AddTriangle_Private(const EstimateSum *sum, const ContactTerm *term, const ContactSegment *segment, PetscInt k, const PetscReal mean[2],
+                                          GapPoints *to)
+{
+  const PetscReal *const p[3] = {segment->xi[0], segment->xi[k], segment->xi[k + 1]}, *const e[3] = {segment->eta[0], segment->eta[k], segment->eta[k + 1]};
+  const PetscReal twice = PetscAbsReal((p[1][0] - p[0][0]) * (p[2][1] - p[0][1]) - (p[1][1] - p[0][1]) * (p[2][0] - p[0][0]));
+  const PetscInt  n1    = NumPoints_Private(&term->view->nonmortar, segment->facet);
+  const Basis1D  *gauss;
+
+  PetscFunctionBegin;
+  PetscCall(Basis1DGet(1, n1, &gauss));
+  for (PetscInt q = 0; q < n1 * n1; ++q) {
+    const PetscReal a = gauss->points[q % n1], b = gauss->points[q / n1], share[3] = {1 - a, a * (1 - b), a * b};
+    PetscReal       xi[2] = {0, 0}, eta[2] = {0, 0};
+    for (PetscInt i = 0; i < 3; ++i) {
+      for (PetscInt d = 0; d < 2; ++d) xi[d] += share[i] * p[i][d], eta[d] += share[i] * e[i][d];
+    }
+    PetscCall(AddPoint_Private(sum, term, segment, mean, xi, eta, gauss->weights[q % n1] * gauss->weights[q / n1] * a * twice, to));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode AddPart_Private(const EstimateSum *sum, const ContactTerm *term, const ContactSegment *segment, const PetscReal mean[2], GapPoints *to)
+{
+  const PetscInt n1 = NumPoints_Private(&term->view->nonmortar, segment->facet);
+  const Basis1D *gauss;
+
+  PetscFunctionBegin;
+  PetscCall(Basis1DGet(1, n1, &gauss));
+  for (PetscInt q = 0; q < n1; ++q) {
+    const PetscReal a = gauss->points[q], xi[2] = {(1 - a) * segment->xi[0][0] + a * segment->xi[1][0], 0};
+    PetscReal       eta[2] = {(1 - a) * segment->eta[0][0] + a * segment->eta[1][0], 0};
+    PetscCall(AddPoint_Private(sum, term, segment, mean, xi, eta, gauss->weights[q] * PetscAbsReal(segment->xi[1][0] - segment->xi[0][0]), to));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* initial_gap: adjust counts the gaps of the mesh as closed, which leaves what differs from their mean. */
+static void Adjust_Private(GapPoints *points)
+{
+  PetscReal area = 0, mean = 0;
+
+  for (PetscInt i = 0; i < points->num; ++i) {
+    area += points->points[i].weight;
+    mean += points->points[i].weight * (points->points[i].gap - points->points[i].nodal);
+  }
+  for (PetscInt i = 0; i < points->num && area > 0; ++i) points->points[i].gap -= mean / area;
+}
+
+PetscErrorCode GapPointsFind_Private(const EstimateSum *sum, const ContactTerm *term, PetscInt num, const ContactSegment segments[], GapPoints *points)
+{
+  PetscFunctionBegin;
+  points->num = 0;
+  for (PetscInt i = 0; i < num; ++i) {
+    PetscReal mean[2] = {0, 0};
+    if (!term->view->spec->adjust) {
+      PetscCall(MeanBulge_Private(sum, &term->view->nonmortar, segments[i].facet, &mean[0]));
+      PetscCall(MeanBulge_Private(sum, &term->view->mortar, segments[i].mortar_facet, &mean[1]));
+    }
+    if (segments[i].num == 2) PetscCall(AddPart_Private(sum, term, &segments[i], mean, points));
+    for (PetscInt k = 1; k + 1 < segments[i].num; ++k) PetscCall(AddTriangle_Private(sum, term, &segments[i], k, mean, points));
+  }
+  if (term->view->spec->adjust) Adjust_Private(points);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

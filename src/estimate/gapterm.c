@@ -1,0 +1,166 @@
+/* What the constraints do not see of the gap. They know its mean over the multiplier's functions alone: there may be overlap and opening between nodes, where
+   the functions are too coarse for what lies opposite, or chords of a round body press their corners in.
+
+   A gap a cos(k x) between two bodies, of a wavelength that is small against them, presses with E* k a/2 and takes an energy of E* k a^2/8 per area,
+   1/E* = (1 - nu^2)/E of one + that of the other (a rigid one: 0). In the squared energy norm that is s g^2 in the mean, s = E* k/2. The longest wave that
+   functions of order p on a facet of size h miss is k = 2 pi p/h. So eta^2 = int s r^2 with r = g where surfaces overlap, and where they gape under a pressure
+   z
+
+     r = min(g - gn, z/s)
+
+   gn: the gap that the nodes show, which EstimateComplementarity_Private has; no gap takes more than the pressure that closes it does.
+
+   Exact geometry: g is less by what the round surfaces of both sides stand out of their facets, without its mean over the facet, which moves the bodies as a
+   whole. That changes the energy by the work of the pressure on it, signed: it cancels where surfaces stand out here and in there. */
+#include "estimateimpl.h"
+
+/* Shares of the pressure's work on the bulges of both sides: signed and absolute sums of a pair, absolute ones of leaves. */
+typedef struct {
+  PetscReal  sum[2];
+  PetscReal *leaf; /* owned [num_leaves] */
+} BulgeWork;
+
+/* (1 - nu^2)/E. */
+static PetscReal Compliance_Private(const EstimateSum *sum, PetscInt leaf)
+{
+  const MaterialSpec *m = sum->spec->bodies[sum->t->leaf_body[leaf]].material;
+
+  return m->law->rigid ? 0 : (3 * m->kappa + 4 * m->mu) / (4 * m->mu * (3 * m->kappa + m->mu));
+}
+
+/* Size of a facet over the order of its functions. */
+static PetscReal Size_Private(const SurfaceView *s, PetscInt facet)
+{
+  const PetscReal middle[2] = {0, 0};
+  PetscReal       t[2][3];
+
+  SurfaceTangents(s, facet, s->x, middle, t);
+  const PetscReal measure = ContactMeasure_Private(t);
+  return (s->dim == 3 ? PetscSqrtReal(4 * measure) : 2 * measure) / (PetscReal)PetscMax(1, SurfaceFacetOrder(s, facet));
+}
+
+/* How far the mortar side is from plane over a facet: int (y - c0 - c1 xi_1 - c2 xi_2)^2, y its height, by orthogonalising these functions one by one. */
+static PetscReal Bend_Private(const GapPoints *points)
+{
+  PetscReal A[3][4] = {{0}}, square = 0;
+
+  for (PetscInt i = 0; i < points->num; ++i) {
+    const GapPoint *p = &points->points[i];
+    const PetscReal y = p->height - points->points[0].height, v[4] = {1, p->xi[0], p->xi[1], y};
+    for (PetscInt r = 0; r < 3; ++r) {
+      for (PetscInt c = 0; c < 4; ++c) A[r][c] += p->weight * v[r] * v[c];
+    }
+    square += p->weight * PetscSqr(y);
+  }
+  for (PetscInt k = 0; k < 3; ++k) {
+    if (!(A[k][k] > 0)) continue;
+    square -= PetscSqr(A[k][3]) / A[k][k];
+    for (PetscInt r = k + 1; r < 3; ++r) {
+      const PetscReal factor = A[r][k] / A[k][k];
+      for (PetscInt c = k; c < 4; ++c) A[r][c] -= factor * A[k][c];
+    }
+  }
+  return PetscMax(square, 0);
+}
+
+/* Who is to be refined: share of the mortar cell. A gap that is not of the geometry is for the coarser side to follow or to let go, but a mortar side that is
+   plane here and stiffer does neither: bend is how far it is from that, 0 to 1. A bulge is the facet's whose it is. */
+static PetscReal MortarShare_Private(const ContactTerm *term, const GapPoint *p, const PetscReal compliance[2], PetscReal bend)
+{
+  const PetscReal size[2] = {Size_Private(&term->view->nonmortar, p->segment->facet), Size_Private(&term->view->mortar, p->segment->mortar_facet)};
+  const PetscReal coarser = PetscSqr(size[1]) / (PetscSqr(size[0]) + PetscSqr(size[1])), softer = compliance[1] / (compliance[0] + compliance[1]);
+  const PetscReal bulge[2] = {PetscSqr(p->bulge[0] - p->mean[0]), PetscSqr(p->bulge[1] - p->mean[1])}, gap = PetscSqr(p->gap);
+  const PetscReal whole = gap + bulge[0] + bulge[1];
+
+  return whole > 0 ? (coarser * PetscMax(softer, bend) * gap + bulge[1]) / whole : 0;
+}
+
+/* s r^2 at a point, per weight. */
+static PetscReal Square_Private(const GapPoint *p, PetscReal s)
+{
+  const PetscReal gap = p->pressure > 0 ? p->gap - (p->bulge[0] - p->mean[0]) - (p->bulge[1] - p->mean[1]) : p->gap;
+
+  if (gap < 0) return s * PetscSqr(gap);
+  return s * PetscSqr(PetscMin(PetscMax(gap - PetscMax(p->nodal, 0), 0), p->pressure / s));
+}
+
+static void Facet_Private(EstimateSum *sum, const ContactTerm *term, PetscInt facet, const GapPoints *points, BulgeWork *work)
+{
+  const PetscInt  leaf = term->view->nonmortar.facet_leaf[facet];
+  const PetscReal size = Size_Private(&term->view->nonmortar, facet), bend = Bend_Private(points);
+  PetscReal       gaps = 0;
+
+  for (PetscInt i = 0; i < points->num; ++i) gaps += points->points[i].weight * PetscSqr(points->points[i].gap);
+  for (PetscInt i = 0; i < points->num; ++i) {
+    const GapPoint *p             = &points->points[i];
+    const PetscInt  other         = term->view->mortar.facet_leaf[p->segment->mortar_facet];
+    const PetscReal compliance[2] = {Compliance_Private(sum, leaf), Compliance_Private(sum, other)}, both = compliance[0] + compliance[1];
+    if (!(both > 0)) continue;
+    const PetscReal square = p->weight * Square_Private(p, PETSC_PI / (size * both));
+    const PetscReal share  = MortarShare_Private(term, p, compliance, gaps > bend ? bend / gaps : 1);
+    sum->eta2[leaf] += (1 - share) * square;
+    sum->eta2[other] += share * square;
+    sum->part[PART_CONTACT] += square;
+    for (PetscInt k = 0; k < 2; ++k) {
+      const PetscReal done = 2 * p->weight * p->trace * p->bulge[k];
+      work->sum[0] += done;
+      work->sum[1] += PetscAbsReal(done);
+      work->leaf[k ? other : leaf] += PetscAbsReal(done);
+    }
+  }
+}
+
+/* The work of a pair as a change of energy, to the leaves by what they take part in it. */
+static PetscErrorCode Work_Private(EstimateSum *sum, MPI_Comm comm, const BulgeWork *work)
+{
+  PetscReal total[2];
+
+  PetscFunctionBegin;
+  PetscCallMPI(MPI_Allreduce(work->sum, total, 2, MPIU_REAL, MPI_SUM, comm));
+  for (PetscInt l = 0; l < sum->t->num_leaves && total[1] > 0; ++l) {
+    const PetscReal square = work->leaf[l] * PetscAbsReal(total[0]) / total[1];
+    sum->eta2[l] += square;
+    sum->part[PART_CONTACT] += square;
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Segments come by nonmortar facet, each from the rank that owns its leaf. */
+static PetscErrorCode Pair_Private(EstimateSum *sum, PetscMPIInt rank, const ContactTerm *term, GapPoints *points, BulgeWork *work)
+{
+  const ContactSegment *segments;
+  PetscInt              num;
+
+  PetscFunctionBegin;
+  work->sum[0] = work->sum[1] = 0;
+  PetscCall(PetscArrayzero(work->leaf, sum->t->num_leaves));
+  PetscCall(ContactPairGetSegments(term->view->pair, &num, &segments));
+  for (PetscInt i = 0, end; i < num; i = end) {
+    const PetscInt facet = segments[i].facet;
+    for (end = i; end < num && segments[end].facet == facet;) ++end;
+    if (sum->t->leaf_rank[term->view->nonmortar.facet_leaf[facet]] != rank) continue;
+    PetscCall(GapPointsFind_Private(sum, term, end - i, segments + i, points));
+    Facet_Private(sum, term, facet, points, work);
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode EstimateGap_Private(EstimateSum *sum)
+{
+  GapPoints   points = {0};
+  BulgeWork   work   = {.leaf = NULL};
+  PetscMPIInt rank;
+  Forest      forest;
+
+  PetscFunctionBegin;
+  PetscCall(HPSpaceGetForest(sum->space, &forest));
+  PetscCallMPI(MPI_Comm_rank(ForestComm(forest), &rank));
+  PetscCall(PetscMalloc1(sum->t->num_leaves, &work.leaf));
+  for (PetscInt i = 0; i < sum->contact->num; ++i) {
+    PetscCall(Pair_Private(sum, rank, &sum->contact->terms[i], &points, &work));
+    PetscCall(Work_Private(sum, ForestComm(forest), &work));
+  }
+  PetscCall(PetscFree(points.points));
+  PetscCall(PetscFree(work.leaf));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
