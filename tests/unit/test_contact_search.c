@@ -376,35 +376,51 @@ static void FarSides(void **state)
   }
 }
 
-/* A bar on a bar, whole contours, moved by half its length and pressed in by 0.1: through the strip in which they overlap its left side, upright, sees the
-   other's right one, 2 deep in bars 4 long. Its bottom sees the other's top. */
+/* A block [0, 2] x [y0, y0 + 1]: its contour counterclockwise in edges of length 1/4, which go to the hull, too. */
+static void Block(Chain *c, PetscReal y0, PetscInt part, PetscInt *num, PetscInt *parts, PetscReal *X)
+{
+  ChainCreate(c, 24, PETSC_TRUE);
+  for (PetscInt i = 0; i < 24; i++) {
+    c->x[2 * i]     = 0.25 * (PetscReal)(i < 8 ? i : i < 12 ? 8 : i < 20 ? 20 - i : 0);
+    c->x[2 * i + 1] = y0 + 0.25 * (PetscReal)(i < 8 ? 0 : i < 12 ? i - 8 : i < 20 ? 4 : 24 - i);
+  }
+  for (PetscInt e = 0; e < 24; e++) {
+    for (int k = 0; k < 4; k++) X[4 * *num + k] = c->x[2 * c->edges[2 * e + k / 2] + k % 2];
+    parts[(*num)++] = part;
+  }
+  c->s.X = memcpy(malloc(48 * sizeof(PetscReal)), c->x, 48 * sizeof(PetscReal));
+}
+
+/* A block on a block, moved by half its length and pressed in by 0.5: through the strip in which they overlap its left side, upright, sees the other's right
+   one, 1 deep in blocks 2 long; but the short way out is up. Its bottom sees the other's top. */
 static void Strip(void **state)
 {
-  PetscInt        num = 0, seen = 0, *parts = NULL, part[2][10];
+  PetscInt        num = 0, seen = 0, *parts = NULL, part[2][24];
   PetscReal      *X = NULL;
   const PetscInt *start, *candidate;
   ContactHull     hull;
   ContactPair     pair;
   Chain           upper, lower;
 
-  CHECK_CALL(PetscMalloc1(20, &parts));
-  CHECK_CALL(PetscMalloc1(80, &X));
-  Bar(&upper, 0, 1, 0, &num, parts, X);
-  Bar(&lower, -1, 0, 1, &num, parts, X);
+  CHECK_CALL(PetscMalloc1(48, &parts));
+  CHECK_CALL(PetscMalloc1(192, &X));
+  Block(&upper, 0, 0, &num, parts, X);
+  Block(&lower, -1, 1, &num, parts, X);
   CHECK_CALL(ContactHullCreate(2, num, parts, X, &hull));
-  for (int e = 0; e < 10; e++) part[0][e] = 0, part[1][e] = 1;
-  upper.s.X = memcpy(malloc(20 * sizeof(PetscReal)), upper.x, 20 * sizeof(PetscReal));
-  ChainMove(&upper, 0, 2, -0.1);
+  for (int e = 0; e < 24; e++) part[0][e] = 0, part[1][e] = 1;
+  ChainMove(&upper, 0, 1, -0.5);
   PairCreate(PETSC_FALSE, PETSC_FALSE, &pair);
-  CHECK_CALL(ContactPairSetHull(pair, hull, part[0], part[1], 4));
-  SearchAll(pair, &upper, &lower, 1, 0.1);
+  CHECK_CALL(ContactPairSetHull(pair, hull, part[0], part[1], 2));
+  SearchAll(pair, &upper, &lower, 1, 0.01);
   CHECK_CALL(ContactPairGetCandidates(pair, &start, &candidate));
-  assert_int_equal(start[10] - start[9], 0); /* the left side */
-  for (PetscInt k = start[0]; k < start[4]; k++) seen += candidate[k] > 4 && candidate[k] < 9;
-  assert_true(seen >= 2);
+  assert_int_equal(start[24] - start[20], 0); /* the left side */
+  for (PetscInt i = 1; i < 3; i++)
+    for (PetscInt k = start[i]; k < start[i + 1]; k++) seen += candidate[k] >= 12 && candidate[k] < 20;
+  assert_true(seen >= 2); /* the bottom, but for its ends */
   CHECK_CALL(ContactPairDestroy(&pair));
   CHECK_CALL(ContactHullDestroy(&hull));
   free((void *)upper.s.X);
+  free((void *)lower.s.X);
   ChainDestroy(&upper);
   ChainDestroy(&lower);
 }

@@ -84,6 +84,33 @@ def test_off_an_edge(run, roles, options):
     assert abs(result.history[-1]["contact_force"]) < 1e-9 and result.summary["newton_iterations"] < 15 * result.summary["load_steps"]
 
 
+EDGE3D = """
+mesh: {file: SCENES/edge3d.geo, order: 1}
+model: 3d
+body: {slider: {material: m}, block: {material: m}}
+material: {m: {law: neo_hookean, E: 10, nu: 0.3}}
+boundary: {top: {displacement: {x: "1.6*max(t-1,0)", y: 0, z: "-0.05*min(t,1)"}}, bottom: {fix: xyz}}
+contact: {pair: {nonmortar: skin, mortar: hull}}
+load: {end: 2, step: 0.2}
+"""
+
+
+@pytest.mark.parametrize("step", [0.1, 0.2, 0.4])
+@pytest.mark.parametrize("roles", [(), ("-contact_pair_nonmortar", "hull", "-contact_pair_mortar", "skin")], ids=["slider", "block"])
+def test_off_an_edge_in_space(run, roles, step):
+    """The same aslant. In the strip in which the bodies overlap at first, upright sides see far ones through both: no contact."""
+    result = run("edge3d.yml", *QUIET, *roles, "-load_step", step, text=EDGE3D.replace("SCENES", str(BLOCKS.parent)))
+    assert result.returncode == 0 and result.summary["step_cuts"] == 0, result
+    assert abs(result.history[-1]["contact_force"]) < 1e-9 and result.summary["newton_iterations"] < 10 * result.summary["load_steps"]
+
+
+def test_an_overlap_that_cannot_be_told(run, tmp_path):
+    """More than half of what both blocks measure may be the far side of one behind: a note says so, and that the pair does not touch."""
+    result = run("overlap.yml", *QUIET, text=overlapping(tmp_path, 1.2, "upper"))
+    assert "note: the sides of pair pair overlap by 1.2 at the start, more than half" in result.stdout, result
+    assert "overlap by" not in run("overlap.yml", *QUIET, text=overlapping(tmp_path, 0.9, "upper")).stdout
+
+
 # ---- rigid sides ------------------------------------------------------------------------------------------------------------------------
 
 def test_a_rigid_nonmortar_side(run):
