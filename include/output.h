@@ -124,7 +124,7 @@ PetscErrorCode ProbesEvaluate(Probes, Problem, Vec x, ProbeValue value[]);
    summary.json:
    - step, t, dt, pass (of the accepted solution), step_cuts, cells, dofs, newton_iterations, active_nodes, estimated_error, energy, min_det, min_gap,
      contact_force, contact_imbalance, moment_imbalance, support_imbalance, seconds, drag_work (energy that drag took where no equilibrium was near by),
-     lines_held (1: contact forces hold lines of mortar sides, State.lines_held);
+     frozen_segmentation (1: contact forces at held lines of mortar sides, Form), modifiers (interventions of Newton's modifiers, all together);
    - with plastic materials plastic.strain (largest, surfaces included), plastic.work, and body.<name>.mean_plastic_strain of each body that flows: int alpha dV
    / int dV over its reference volume, which converges where the largest, at a notch, does not;
    - reaction.<boundary>.x … for boundaries with supports;
@@ -143,11 +143,20 @@ PetscErrorCode HistoryDestroy(History *);
 
 /* ---- summary.json (output/summary.c) ------------------------------------------------------------------------------------- */
 
+#define SUMMARY_MOST_MODIFIERS 12
+
+typedef struct {
+  const char *name;
+  PetscInt    count;
+} ModifierCount;
+
 typedef struct {
   const char     *status, *reason; /* "converged", "inaccurate" (the mesh could not be refined as asked), "failed", "stopped"; why, or what is lacking, or "" */
   const char     *adapt_stop;      /* why the last adaptation ended: "tolerance", "max_passes", "max_cells", …; NULL or "": there was none */
   PetscReal       t, seconds;      /* pseudo-time reached; wall time so far */
   PetscInt        load_steps, step_cuts, adapt_passes, newton_iterations, active_set_changes, active_set_cycles, factorisations, single_failures;
+  PetscInt        num_modifiers; /* of Newton's iteration, and how often each intervened */
+  ModifierCount   modifier[SUMMARY_MOST_MODIFIERS];
   PetscInt        relaxed_steps; /* to an equilibrium that was not near by, under drag */
   PetscReal       drag_work;     /* energy that drag took in them */
   PetscReal       unstable;      /* solutions found to be unstable equilibria; NaN: not known of any */

@@ -38,8 +38,9 @@ typedef struct {
   PetscInt         path; /* adapt.repeat: path: how often it has begun again; else 0 */
   Estimate         most; /* with it: of the steps of this path that were above the tolerance */
   PetscInt       load_steps, step_cuts, adapt_passes, newton_iterations, passes_in_step, iterations_in_step, cuts_in_step, set_changes, set_cycles, told_cycles;
-  PetscInt       factorisations, single_failures, unstable, judged; /* judged: solutions of which it is known whether they are stable */
-  ProblemStatus  status;                                            /* of the last solution */
+  PetscInt       factorisations, single_failures, unstable, judged;   /* judged: solutions of which it is known whether they are stable */
+  PetscInt       modifiers[SOLVER_MOST_MODIFIERS], modifiers_in_step; /* interventions of Newton's modifiers; of all of them in this step */
+  ProblemStatus  status;                                              /* of the last solution */
   PetscLogDouble start;
   PetscReal      arc, arc_first;                            /* along a path: length of the next step, of the first one; 0: not yet */
   PetscReal      haste;                                     /* displacement per time in the last step, over that since the start */

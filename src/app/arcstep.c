@@ -62,7 +62,7 @@ PetscErrorCode AppPathStep(App *app, PetscBool *ok)
   SolverReport    report;
 
   PetscFunctionBegin;
-  app->iterations_in_step = app->cuts_in_step = app->passes_in_step = 0;
+  app->modifiers_in_step = app->iterations_in_step = app->cuts_in_step = app->passes_in_step = 0;
   for (;;) {
     PetscCall(Attempt_Private(app, &report));
     *ok = report.converged;

@@ -14,6 +14,10 @@ void AppCount(App *app, const SolverReport *report)
   app->set_cycles += report->set_cycles;
   app->factorisations += report->factorisations;
   app->single_failures += report->single_failures;
+  for (PetscInt i = 0; i < SolverNumModifiers(); ++i) {
+    app->modifiers[i] += report->modifiers[i];
+    app->modifiers_in_step += report->modifiers[i];
+  }
   if (report->converged && report->unstable >= 0) ++app->judged;
   if (report->converged && report->unstable > 0) ++app->unstable;
   if (report->converged) app->status = report->status;
@@ -34,7 +38,7 @@ static PetscErrorCode Restore_Private(App *app, const State *from)
 static PetscErrorCode Solve_Private(App *app, PetscReal t, SolverReport *report)
 {
   Level          *l    = &app->level;
-  const PetscBool held = l->state.lines_held;
+  const PetscBool held = l->state.form.frozen_segmentation;
   State           start;
 
   PetscFunctionBegin;
@@ -44,7 +48,7 @@ static PetscErrorCode Solve_Private(App *app, PetscReal t, SolverReport *report)
   if (held && !report->converged && !report->stopped) {
     PetscCall(PetscInfo(NULL, "lines are let go: %s\n", report->reason));
     AppCount(app, report);
-    start.lines_held = PETSC_FALSE;
+    start.form.frozen_segmentation = PETSC_FALSE;
     PetscCall(Restore_Private(app, &start));
     PetscCall(ProblemSetTime(l->problem, t));
     PetscCall(SolverSolve(l->solver, &l->state, report));
@@ -164,7 +168,7 @@ static PetscErrorCode LoadStep_Private(App *app, PetscBool *ok)
   SolverReport    report;
 
   PetscFunctionBegin;
-  app->iterations_in_step = app->cuts_in_step = app->passes_in_step = 0;
+  app->modifiers_in_step = app->iterations_in_step = app->cuts_in_step = app->passes_in_step = 0;
   app->drag_work = tried = 0;
   for (;;) {
     const PetscReal t = AppStepEnd(app->data, t0, *dt);
@@ -213,6 +217,7 @@ static PetscErrorCode Accept_Private(App *app, PetscReal t0)
   app->last.step              = app->load_steps;
   app->last.newton_iterations = app->iterations_in_step;
   app->last.step_cuts         = app->cuts_in_step;
+  app->last.modifiers         = app->modifiers_in_step;
   app->last.drag_work         = app->drag_work;
   PetscCall(HistoryStep(app->history, &app->last, &app->balance, l->problem, &l->state));
   PetscCall(AppSnapshot(app));

@@ -5,10 +5,26 @@
 #define CHECKPOINT "checkpoint.h5"
 #define AUTO "auto"
 
+#define MODIFIER(i)                                                                                                                                            \
+  {                                                                                                                                                            \
+    "modifier_" #i, offsetof(App, modifiers) + (i) * sizeof(PetscInt)                                                                                          \
+  }
 static const struct {
   const char *name;
   size_t      at;
 } Counters[] = {
+    MODIFIER(0),
+    MODIFIER(1),
+    MODIFIER(2),
+    MODIFIER(3),
+    MODIFIER(4),
+    MODIFIER(5),
+    MODIFIER(6),
+    MODIFIER(7),
+    MODIFIER(8),
+    MODIFIER(9),
+    MODIFIER(10),
+    MODIFIER(11),
     {"path", offsetof(App, path)},
     {"load_steps", offsetof(App, load_steps)},
     {"step_cuts", offsetof(App, step_cuts)},

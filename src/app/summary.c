@@ -44,15 +44,17 @@ PetscErrorCode AppSummary(App *app, const char *status, const char *reason)
   summary.active_set_cycles  = app->set_cycles;
   summary.factorisations     = app->factorisations;
   summary.single_failures    = app->single_failures;
-  summary.relaxed_steps      = app->relaxed_steps;
-  summary.drag_work          = app->all_drag_work;
-  summary.unstable           = app->judged ? (PetscReal)app->unstable : (PetscReal)NAN;
-  summary.adapt_stop         = app->adapt_stop;
-  summary.problem            = app->level.problem;
-  summary.state              = &app->level.accepted;
-  summary.balance            = &app->balance;
-  summary.estimate           = app->estimated && !app->failure && !app->stopped && !PetscIsNanReal(app->last.estimated_error) ? &app->estimate : NULL;
-  summary.probes             = app->probes;
+  summary.num_modifiers      = SolverNumModifiers();
+  for (PetscInt i = 0; i < summary.num_modifiers; ++i) summary.modifier[i] = (ModifierCount){SolverModifierName(i), app->modifiers[i]};
+  summary.relaxed_steps = app->relaxed_steps;
+  summary.drag_work     = app->all_drag_work;
+  summary.unstable      = app->judged ? (PetscReal)app->unstable : (PetscReal)NAN;
+  summary.adapt_stop    = app->adapt_stop;
+  summary.problem       = app->level.problem;
+  summary.state         = &app->level.accepted;
+  summary.balance       = &app->balance;
+  summary.estimate      = app->estimated && !app->failure && !app->stopped && !PetscIsNanReal(app->last.estimated_error) ? &app->estimate : NULL;
+  summary.probes        = app->probes;
   PetscCall(OutputSummary(app->comm, app->data, &summary));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

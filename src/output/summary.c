@@ -176,6 +176,8 @@ static cJSON *Document_Private(const SceneData *scene, const RunSummary *s, cons
   AddNumber_Private(root, "active_set_cycles", (PetscReal)s->active_set_cycles);
   AddNumber_Private(root, "factorisations", (PetscReal)s->factorisations);
   AddNumber_Private(root, "single_factor_failures", (PetscReal)s->single_failures);
+  cJSON *modifiers = cJSON_AddObjectToObject(root, "modifiers");
+  for (PetscInt i = 0; i < s->num_modifiers; ++i) AddNumber_Private(modifiers, s->modifier[i].name, (PetscReal)s->modifier[i].count);
   AddNumber_Private(root, "relaxed_steps", (PetscReal)s->relaxed_steps);
   AddNumber_Private(root, "drag_work", s->drag_work);
   AddNumber_Private(root, "unstable_equilibria", s->unstable);

@@ -104,7 +104,7 @@ static PetscErrorCode ContactBlocks_Private(Problem p, Contact *c)
   const PetscInt dim = p->dim;
 
   PetscFunctionBegin;
-  if (c->released) {
+  if (ContactIsReleased_Private(p, c)) {
     PetscCall(PetscArrayzero(c->active, c->side[0].num_nodes));
     PetscFunctionReturn(PETSC_SUCCESS);
   }
@@ -223,7 +223,7 @@ static PetscErrorCode InactiveShift_Private(Problem p, Contact *c, PetscInt j, P
   PetscInt num, at;
 
   PetscFunctionBegin;
-  if (!p->symmetric || c->released || c->z[j] == 0 || !c->near[j]) PetscFunctionReturn(PETSC_SUCCESS);
+  if (!p->symmetric || ContactIsReleased_Private(p, c) || c->z[j] == 0 || !c->near[j]) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(NodeGradient_Private(p, c, j, -share * c->z[j], PETSC_FALSE, &num));
   PetscCall(PetscFindInt(c->zdof[j], num, p->work_index, &at));
   p->work_value[at] = 0;
@@ -311,7 +311,7 @@ static PetscErrorCode ReadyMatrix_Private(Problem p)
 PetscErrorCode ProblemTangent(Problem p, Vec x, const PetscReal pressure[], Vec lift, PetscBool *bad)
 {
   PetscReal      *local;
-  PetscBool       failed = PETSC_FALSE, far = PETSC_FALSE, holds = PETSC_FALSE;
+  PetscBool       failed = PETSC_FALSE, holds = PETSC_FALSE;
   HPSpace         space = p->space;
   const HPTables *v;
 
@@ -322,13 +322,12 @@ PetscErrorCode ProblemTangent(Problem p, Vec x, const PetscReal pressure[], Vec 
   PetscCall(StageBegin(STAGE_CONTACT));
   for (PetscInt i = 0; i < p->num_contacts; ++i) {
     Contact *c = &p->contacts[i];
-    if (lift) PetscCall(ContactIsFar_Private(p, c, &far)); /* without lift the tangent is the derivative itself */
-    PetscCall(ContactPairHold(c->pair, far));
+    PetscCall(ContactPairHold(c->pair, FormHas(p->form.frozen_normals, i)));
     PetscCall(ContactEvaluate_Private(p, c, x, local, PETSC_TRUE, PETSC_TRUE, &failed));
     PetscCall(ContactPairHold(c->pair, PETSC_FALSE));
   }
-  if (p->symmetric) PetscCall(ContactHoldsRims_Private(p, &holds));
-  if (holds) p->symmetric = PETSC_FALSE;
+  if (p->form.symmetric) PetscCall(ContactHoldsRims_Private(p, &holds));
+  p->symmetric = (PetscBool)(p->form.symmetric && !holds);
   PetscCall(StageEnd(STAGE_CONTACT));
   p->lifting = (PetscBool)(lift != NULL);
   p->lift    = lift;
@@ -371,9 +370,9 @@ static PetscErrorCode ContactSwitch_Private(Problem p, Contact *c, const PetscRe
   PetscReal      least = 0;
 
   PetscFunctionBegin;
-  if (c->released) PetscFunctionReturn(PETSC_SUCCESS);
+  if (ContactIsReleased_Private(p, c)) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(ContactChange_Private(p, c, p->increment, c->change));
-  PetscCall(ContactTouch_Private(p, c, &least));
+  if (FormHas(p->form.deepest_first, (PetscInt)(c - p->contacts))) PetscCall(ContactLeastOverlap_Private(p, c, &least));
   for (PetscInt i = 0; i < s->num_own; ++i) {
     const PetscInt j = s->own[i];
     if (c->zlocal[j] < 0 || !c->near[j] || !ContactCovered_Private(c, j)) continue;

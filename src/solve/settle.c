@@ -16,7 +16,7 @@ static void Gather_Private(const SolverReport *last, SolverReport *all)
   all->single_failures += before.single_failures;
   all->set_changes += before.set_changes;
   all->set_cycles += before.set_cycles;
-  all->held_lines = (PetscBool)(all->held_lines || before.held_lines);
+  for (PetscInt i = 0; i < SolverNumModifiers(); ++i) all->modifiers[i] += before.modifiers[i];
 }
 
 PetscErrorCode SolverSettle(Solver s, State *state, SolverReport *report)

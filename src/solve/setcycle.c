@@ -34,3 +34,23 @@ PetscErrorCode SetHistoryDestroy_Private(SetHistory *h)
   h->num = h->size = 0;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
+
+static PetscErrorCode Begin_Private(Solver s)
+{
+  PetscFunctionBegin;
+  s->iterate_sets.num = 0;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode Verdict_Private(Solver s, Iterate *it, PetscBool always, PetscBool *acts)
+{
+  PetscFunctionBegin;
+  PetscCall(SetHistoryAdd_Private(&s->iterate_sets, it->set, it->norm, PETSC_TRUE, acts));
+  if (!*acts) PetscFunctionReturn(PETSC_SUCCESS);
+  it->trouble = "the active set of contact repeats itself";
+  it->reason  = SNES_DIVERGED_INNER;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+const Modifier ModifierSetCycle = {"set_cycle", "a solve whose iterates come back to the same active set and residual is given up at once",
+                                   .begin = Begin_Private, .verdict = Verdict_Private};

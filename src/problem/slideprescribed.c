@@ -107,22 +107,22 @@ static PetscErrorCode Slips_Private(Problem p, const Contact *c, const PetscReal
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode ProblemReleaseSlips(Problem p, PetscBool *any)
+PetscErrorCode ProblemFindSliding(Problem p, uint64_t *pairs)
 {
   const PetscInt nb = p->scene->mechanics.num_bodies;
   PetscReal     *motion, *share, pending;
+  PetscBool      slides;
 
   PetscFunctionBegin;
-  *any = PETSC_FALSE;
+  *pairs = 0;
   if (p->num_contacts == 0 || p->scene->mechanics.kinematics == KINEMATICS_SMALL) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(ProblemPending(p, &pending));
   if (pending == 0) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(PetscCalloc2(MOTION * nb, &motion, 2 * nb, &share));
   PetscCall(Prescribed_Private(p, motion));
   for (PetscInt i = 0; i < p->num_contacts; ++i) {
-    Contact *c = &p->contacts[i];
-    PetscCall(Slips_Private(p, c, motion, share, &c->released));
-    if (c->released) *any = PETSC_TRUE;
+    PetscCall(Slips_Private(p, &p->contacts[i], motion, share, &slides));
+    if (slides) *pairs |= (uint64_t)1 << i;
   }
   PetscCall(PetscFree2(motion, share));
   PetscFunctionReturn(PETSC_SUCCESS);
