@@ -250,16 +250,12 @@ PetscErrorCode ProblemIsSymmetric(Problem, PetscBool *possible);
 /* rhs = -(r + lift), condensed like the last tangent, multiplier rows in its form; r of the problem, lift and rhs of the matrix. */
 PetscErrorCode ProblemRightSide(Problem, Vec r, Vec lift, Vec rhs);
 /* Active-set passes against the last tangent: given the solution dx of tangent . dx = -rhs, decide anew which constraints are active, rewrite their rows in the
-   matrix and the right-hand side. *changed: number of nodes that switched (all ranks); *violation: by how much dx contradicts the set it was found with, the
-   sum over those nodes of w0 |z - c gt/w| (unit: force). */
-PetscErrorCode ProblemSwitchActiveSet(Problem, Vec dx, Vec rhs, PetscInt *changed, PetscReal *violation);
+   matrix and the right-hand side. *changed: number of nodes that switched (all ranks). Collective. */
+PetscErrorCode ProblemSwitchActiveSet(Problem, Vec dx, Vec rhs, PetscInt *changed);
 /* ---- what a form may be chosen by, at the last residual. All collective ---- */
 
 /* Pairs (of those not released) whose active set of the last linear step moves along the surface, while prescribed motion is still to come and kinematics are
    finite: gaps linearised at the old place say little of the new one. */
-PetscErrorCode ProblemFindMoving(Problem, uint64_t *pairs);
-/* The same, before any linear step, for pairs whose bodies the prescribed motion still to come slides along each other by a good part of the zone under
-   pressure: as far as supports say how the bodies move along it. */
 PetscErrorCode ProblemFindSliding(Problem, uint64_t *pairs);
 /* Pairs whose open gaps under pressure are too wide, against their facets, for the turning of directions to mean anything; and those without pressure. */
 PetscErrorCode ProblemFindWide(Problem, uint64_t *pairs);

@@ -363,8 +363,8 @@ PetscErrorCode ProblemTangent(Problem p, Vec x, const PetscReal pressure[], Vec 
 }
 
 /* New activity of this rank's nodes of one pair for the increment dx: rows that switch are rewritten, multiplier right-hand sides go to b, force shifts to rhs.
-   sum: switches, violation. dx: this rank's part of the increment. */
-static PetscErrorCode ContactSwitch_Private(Problem p, Contact *c, const PetscReal dx[], Vec rhs, PetscReal sum[2])
+   dx: this rank's part of the increment; num grows by the switches. */
+static PetscErrorCode ContactSwitch_Private(Problem p, Contact *c, const PetscReal dx[], Vec rhs, PetscInt *num)
 {
   const Surface *s     = &c->side[0];
   PetscReal      least = 0;
@@ -380,30 +380,25 @@ static PetscErrorCode ContactSwitch_Private(Problem p, Contact *c, const PetscRe
     const PetscBool active = (PetscBool)(pushed > 0);
     if (active == c->active[j] || (active && ContactOverlap_Private(c, j) < least)) continue;
     c->active[j] = active;
-    sum[0] += 1;
-    sum[1] += c->w0[j] * PetscAbsReal(pushed);
+    ++*num;
     PetscCall(ContactInsertRow_Private(p, c, j));
     PetscCall(InactiveShift_Private(p, c, j, active ? -1 : 1, rhs));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode ProblemSwitchActiveSet(Problem p, Vec dx, Vec rhs, PetscInt *changed, PetscReal *violation)
+PetscErrorCode ProblemSwitchActiveSet(Problem p, Vec dx, Vec rhs, PetscInt *changed)
 {
   const PetscReal *d;
-  PetscReal        sum[2] = {0, 0};
 
   PetscFunctionBegin;
-  *changed   = 0;
-  *violation = 0;
+  *changed = 0;
   if (!p->num_contacts) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(ProblemIncrement_Private(p, dx, 1.0));
   PetscCall(VecGetArrayRead(dx, &d));
-  for (PetscInt i = 0; i < p->num_contacts; ++i) PetscCall(ContactSwitch_Private(p, &p->contacts[i], d, rhs, sum));
+  for (PetscInt i = 0; i < p->num_contacts; ++i) PetscCall(ContactSwitch_Private(p, &p->contacts[i], d, rhs, changed));
   PetscCall(VecRestoreArrayRead(dx, &d));
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 2, MPIU_REAL, MPI_SUM, p->comm));
-  *changed   = (PetscInt)sum[0];
-  *violation = sum[1];
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, changed, 1, MPIU_INT, MPI_SUM, p->comm));
   if (*changed) {
     PetscCall(VecAssemblyBegin(rhs));
     PetscCall(VecAssemblyEnd(rhs));

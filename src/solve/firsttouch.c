@@ -9,4 +9,5 @@ static PetscErrorCode Linearise_Private(Solver s, const Iterate *it, const Form 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-const Modifier ModifierFirstTouch = {"first_touch", "at first touch the active set begins with the nodes that overlap the most", .linearise = Linearise_Private};
+const Modifier ModifierFirstTouch = {"first_touch", "at first touch the active set begins with the nodes that overlap the most",
+                                     .linearise = Linearise_Private};

@@ -12,4 +12,5 @@ static PetscErrorCode Linearise_Private(Solver s, const Iterate *it, const Form 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-const Modifier ModifierFrozenNormals = {"frozen_normals", "tangents at fixed directions of contact where gaps are wide against facets; on: always", .linearise = Linearise_Private};
+const Modifier ModifierFrozenNormals = {"frozen_normals", "tangents at fixed directions of contact where gaps are wide against facets; on: always",
+                                        .linearise = Linearise_Private};

@@ -43,12 +43,11 @@ static PetscErrorCode Verdict_Private(Solver s, Iterate *it, PetscBool always, P
   if (!*acts) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(PetscInfo(s->snes, "residuals come and go: the segmentation of mortar sides is frozen in forces from here on\n"));
   s->form.frozen_segmentation = PETSC_TRUE;
-  s->iterate_sets.num         = 0;
   s->best_norm                = PETSC_MAX_REAL;
   PetscCall(ProblemSetForm(s->problem, &s->form));
   PetscCall(SolverLook_Private(s, it));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-const Modifier ModifierFrozenSegmentation = {"frozen_segmentation", "contact forces at held lines of the mortar side where residuals come and go; on: always", .begin = Begin_Private,
-                                             .verdict = Verdict_Private};
+const Modifier ModifierFrozenSegmentation = {"frozen_segmentation", "contact forces at held lines of the mortar side where residuals come and go; on: always",
+                                             .begin = Begin_Private, .verdict = Verdict_Private};

@@ -1,9 +1,9 @@
-/* The table of modifiers: what Newton's iteration does besides linearising, solving, moving and judging. Each row has its file, its switch -newton_<name> and its
-   counter; docs/ablation.md says what each is needed for. Rows act in this order: who corrects a linear step sees what the rows above have made of it. */
+/* The table of modifiers: what Newton's iteration does besides linearising, solving, moving and judging. Each row has its file, its switch -newton_<name> and
+   its counter; docs/ablation.md says what each is needed for. Rows act in this order: who corrects a linear step sees what the rows above have made of it. */
 #include "solveimpl.h"
 
-static const Modifier *const Modifiers[] = {&ModifierFrozenSegmentation, &ModifierSetCycle,       &ModifierStall,     &ModifierFrozenNormals, &ModifierFirstTouch,
-                                            &ModifierProximalShift,      &ModifierSlideLimiter, &ModifierYieldEdge, &ModifierSlidePredictor};
+static const Modifier *const Modifiers[] = {&ModifierFrozenSegmentation, &ModifierStall,        &ModifierFrozenNormals, &ModifierFirstTouch,
+                                            &ModifierProximalShift,      &ModifierSlideLimiter, &ModifierYieldEdge,     &ModifierSlidePredictor};
 #define NUM ((PetscInt)PETSC_STATIC_ARRAY_LENGTH(Modifiers))
 _Static_assert(PETSC_STATIC_ARRAY_LENGTH(Modifiers) <= SOLVER_MOST_MODIFIERS, "SolverReport has no room for all modifiers");
 

@@ -1,4 +1,5 @@
-/* Modifier: where the linear step slides bodies that only contact holds too far, the step is made with forces that hold them back (src/problem/slidelimit.c). */
+/* Modifier: where the linear step slides bodies that only contact holds too far, the step is made with forces that hold them back (src/problem/slidelimit.c).
+ */
 #include "solveimpl.h"
 
 #define MOST_PAIRS 3 /* that are held back in one linear step */
@@ -23,4 +24,5 @@ static PetscErrorCode Correct_Private(Solver s, const Iterate *it, Vec dx, Petsc
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-const Modifier ModifierSlideLimiter = {"slide_limiter", "bodies that only contact holds slide at most half the distance of two nodes in a linear step", .correct = Correct_Private};
+const Modifier ModifierSlideLimiter = {"slide_limiter", "bodies that only contact holds slide at most half the distance of two nodes in a linear step",
+                                       .correct = Correct_Private};

@@ -2,13 +2,6 @@
 #pragma once
 #include "solve.h"
 
-/* Active sets met so far, to notice a repetition. */
-typedef struct {
-  PetscInt   num, size;
-  uint64_t  *hash; /* owned [size] */
-  PetscReal *norm; /* owned [size] what goes with the set: contradiction of a pass, residual of an iterate */
-} SetHistory;
-
 typedef enum { MODIFIER_AUTO, MODIFIER_ON, MODIFIER_OFF } ModifierMode;
 
 typedef struct _p_Saddle    *Saddle;
@@ -32,7 +25,6 @@ struct _p_Solver {
   Problem       problem; /* borrowed */
   SNES          snes;
   Vec           lift, rhs, y, hold; /* of the matrix: effect of the motion to come, right-hand side, solution, forces that hold bodies back */
-  Vec           best;               /* solution of the active-set pass that contradicts itself least */
   Vec           balance;            /* residual with the element pressures found; NULL: none are condensed */
   PetscReal    *pressure;           /* of the state being solved, borrowed during SolverSolve */
   PetscReal     rtol;
@@ -53,8 +45,7 @@ struct _p_Solver {
   PetscBool     reuse, factored; /* may an earlier factor serve; there is one */
   PetscBool     single;          /* factors are in single precision */
   PetscBool     test;            /* -snes_test_jacobian was given */
-  SetHistory    pass_sets;       /* active sets of the passes of one linearisation */
-  SetHistory    iterate_sets;    /* active sets of the Newton iterates */
+  uint64_t     *pass_sets;       /* owned [passes+1] hashes of the active sets of the passes of one linearisation */
   PetscReal     first_norm;      /* residual after the first iteration */
   PetscReal     best_norm;       /* least residual of this solve … */
   PetscInt      best_iter;       /* … and its iteration */
@@ -97,17 +88,14 @@ typedef struct {
   PetscErrorCode (*verdict)(Solver, Iterate *, PetscBool always, PetscBool *acts);
 } Modifier;
 
-extern const Modifier ModifierFrozenSegmentation, ModifierSetCycle, ModifierStall, ModifierFrozenNormals, ModifierFirstTouch, ModifierProximalShift,
-    ModifierSlideLimiter, ModifierYieldEdge, ModifierSlidePredictor;
+extern const Modifier ModifierFrozenSegmentation, ModifierStall, ModifierFrozenNormals, ModifierFirstTouch, ModifierProximalShift, ModifierSlideLimiter,
+    ModifierYieldEdge, ModifierSlidePredictor;
 /* modifier.c: all that are not off, in the order of the table. */
 const Modifier *SolverModifier_Private(PetscInt);
 PetscErrorCode  ModifiersBegin_Private(Solver);
 PetscErrorCode  ModifiersLinearise_Private(Solver, const Iterate *);
 PetscErrorCode  ModifiersCorrect_Private(Solver, const Iterate *, Vec dx, PetscBool *again);
 PetscErrorCode  ModifiersVerdict_Private(Solver, Iterate *);
-/* setcycle.c: append a set. *repeats: an earlier one was the same with a different one between them, and (compare) had the same norm to round-off. */
-PetscErrorCode SetHistoryAdd_Private(SetHistory *, uint64_t hash, PetscReal norm, PetscBool compare, PetscBool *repeats);
-PetscErrorCode SetHistoryDestroy_Private(SetHistory *);
 /* linear.c: solve with the matrix as it stands for rhs, to s->y; again: only the active set has changed since the last solution, which is there.
    s->no_solution: there is none. Collective. */
 PetscErrorCode SolverMatrixSolve_Private(Solver, Vec rhs, PetscBool again);

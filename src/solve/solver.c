@@ -195,9 +195,9 @@ PetscErrorCode SolverCreate(Problem problem, Solver *solver)
   PetscCall(VecDuplicate(s->lift, &s->rhs));
   PetscCall(VecDuplicate(s->lift, &s->y));
   PetscCall(VecDuplicate(s->lift, &s->hold));
-  PetscCall(ProblemCreateVector(problem, &s->best));
   PetscCall(StoresPressure_Private(problem, &stores));
   if (stores) PetscCall(ProblemCreateVector(problem, &s->balance));
+  PetscCall(PetscMalloc1(s->passes + 1, &s->pass_sets));
   *solver = s;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -215,10 +215,8 @@ PetscErrorCode SolverDestroy(Solver *solver)
   PetscCall(VecDestroy(&s->rhs));
   PetscCall(VecDestroy(&s->y));
   PetscCall(VecDestroy(&s->hold));
-  PetscCall(VecDestroy(&s->best));
   PetscCall(VecDestroy(&s->balance));
-  PetscCall(SetHistoryDestroy_Private(&s->pass_sets));
-  PetscCall(SetHistoryDestroy_Private(&s->iterate_sets));
+  PetscCall(PetscFree(s->pass_sets));
   PetscCall(PetscFree(*solver));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -3,7 +3,6 @@
 
 #define STALLED 7  /* iterations without a new least residual */
 #define HALVINGS 8 /* of steps that left the domain, in one solve */
-#define GROWN 1e4  /* times the residual of the first iterate */
 
 static PetscErrorCode Begin_Private(Solver s)
 {
@@ -21,13 +20,12 @@ static PetscErrorCode Verdict_Private(Solver s, Iterate *it, PetscBool always, P
     s->best_norm = it->norm;
     s->best_iter = it->number;
   }
-  const PetscBool stalls = (PetscBool)(it->number - s->best_iter >= STALLED || s->halvings >= HALVINGS), grew = (PetscBool)(it->number > 3 && it->norm > GROWN * s->first_norm);
-  *acts = (PetscBool)(stalls || grew);
+  *acts = (PetscBool)(it->number - s->best_iter >= STALLED || s->halvings >= HALVINGS);
   if (!*acts) PetscFunctionReturn(PETSC_SUCCESS);
-  it->trouble = stalls ? "Newton stalls" : "the Newton residual grew";
-  it->reason  = stalls ? SNES_DIVERGED_LINE_SEARCH : SNES_DIVERGED_DTOL;
+  it->trouble = "Newton stalls";
+  it->reason  = SNES_DIVERGED_LINE_SEARCH;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-const Modifier ModifierStall = {"stall", "a solve whose residual does not fall for seven iterations, or grows, is given up at once", .begin = Begin_Private,
+const Modifier ModifierStall = {"stall", "a solve whose residual does not fall for seven iterations is given up at once", .begin = Begin_Private,
                                 .verdict = Verdict_Private};

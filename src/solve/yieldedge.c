@@ -1,6 +1,6 @@
-/* Modifier: the side of the yield surface that the tangent takes points on it to be. The first linear step of a solve expects them to flow on; when it takes the
-   load off most of them, it is made again elastic (src/problem/yieldedge.c). After a step that only carried bodies along, material is elastic, too: what was
-   carried still stands on its yield surface, and where the pair was the load comes off. */
+/* Modifier: the side of the yield surface that the tangent takes points on it to be. The first linear step of a solve expects them to flow on; when it takes
+   the load off most of them, it is made again elastic (src/problem/yieldedge.c). After a step that only carried bodies along, material is elastic, too: what
+   was carried still stands on its yield surface, and where the pair was the load comes off. */
 #include "solveimpl.h"
 
 static PetscErrorCode Linearise_Private(Solver s, const Iterate *it, const Form *last, PetscBool always, PetscBool *acts)
@@ -22,5 +22,5 @@ static PetscErrorCode Correct_Private(Solver s, const Iterate *it, Vec dx, Petsc
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-const Modifier ModifierYieldEdge = {"yield_edge", "steps of plastic material begin as flow, or elastic where the load comes off", .linearise = Linearise_Private,
-                                    .correct = Correct_Private};
+const Modifier ModifierYieldEdge = {"yield_edge", "steps of plastic material begin as flow, or elastic where the load comes off",
+                                    .linearise = Linearise_Private, .correct = Correct_Private};

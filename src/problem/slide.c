@@ -33,7 +33,7 @@ static PetscErrorCode HasMoved_Private(Problem p, const Contact *c, PetscBool *m
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode ProblemFindMoving(Problem p, uint64_t *pairs)
+PetscErrorCode ProblemFindSliding(Problem p, uint64_t *pairs)
 {
   PetscReal pending;
   PetscBool moved;
