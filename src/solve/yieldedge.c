@@ -5,8 +5,13 @@
 
 static PetscErrorCode Linearise_Private(Solver s, const Iterate *it, const Form *last, PetscBool always, PetscBool *acts)
 {
+  const SceneData *scene;
+
   PetscFunctionBegin;
+  PetscCall(ProblemGetScene(s->problem, &scene));
+  if (!MechanicsIsPlastic(&scene->mechanics)) PetscFunctionReturn(PETSC_SUCCESS);
   s->form.edge = it->number == 0 ? EDGE_FLOWS : last->released ? EDGE_RESTS : EDGE_AS_IT_IS;
+  *acts        = (PetscBool)(s->form.edge != EDGE_AS_IT_IS);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
