@@ -1,4 +1,5 @@
-/* Modifier: the active set of a pair that has borne nothing yet begins with the nodes that overlap the most (src/problem/firsttouch.c). */
+/* Modifier: the active set of a pair that has borne nothing yet begins with the nodes that overlap the most
+   (src/problem/firsttouch.c). */
 #include "solveimpl.h"
 
 static PetscErrorCode Linearise_Private(Solver s, const Iterate *it, const Form *last, PetscBool always, PetscBool *acts)

@@ -1,4 +1,5 @@
-/* Modifier: tangents at fixed directions of pairs whose gaps are wide against their facets (src/problem/widegap.c); on: of all pairs. */
+/* Modifier: tangents at fixed directions of pairs whose gaps are wide against their facets (src/problem/widegap.c); on:
+   of all pairs. */
 #include "solveimpl.h"
 
 static PetscErrorCode Linearise_Private(Solver s, const Iterate *it, const Form *last, PetscBool always, PetscBool *acts)

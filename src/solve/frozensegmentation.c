@@ -1,5 +1,6 @@
-/* Modifier: where a crease of the mortar side comes to lie on a side of a nonmortar facet, derivatives of weighted gaps jump (docs/theory.md, after (5.8)), and
-   residuals come and go. From then on forces are those at held lines, which do not jump; on: from the first iterate on. */
+/* Modifier: where a crease of the mortar side comes to lie on a side of a nonmortar facet, derivatives of weighted gaps
+   jump (docs/theory.md, after (5.8)), and residuals come and go. From then on forces are those at held lines, which do
+   not jump; on: from the first iterate on. */
 #include "solveimpl.h"
 
 #define NEAR 1e-5 /* residual over the nodal forces from which on it should not grow */
@@ -14,8 +15,8 @@ static PetscErrorCode Begin_Private(Solver s)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Does the residual come and go with the same active set? Near the solution it should not grow at all, elsewhere not after it has grown and fallen, if it is
-   below that after the first iteration. */
+/* Does the residual come and go with the same active set? Near the solution it should not grow at all, elsewhere not
+   after it has grown and fallen, if it is below that after the first iteration. */
 static PetscErrorCode ComesAndGoes_Private(Solver s, const Iterate *it, PetscBool *yes)
 {
   const PetscReal last = s->last_norm;

@@ -2,8 +2,8 @@
 #include "solveimpl.h"
 #include <petsc/private/snesimpl.h>
 
-/* What a cell of incompressible material may gain or lose of its volume, whatever the forces: where prescribed motion leaves it no choice, pressures grow
-   without bounds, and next to them every residual is small. */
+/* What a cell of incompressible material may gain or lose of its volume, whatever the forces: where prescribed motion
+   leaves it no choice, pressures grow without bounds, and next to them every residual is small. */
 #define VOLUME 1e-8
 
 PetscReal SolverTolerance_Private(const Solver s, const ProblemStatus *status)
@@ -11,7 +11,8 @@ PetscReal SolverTolerance_Private(const Solver s, const ProblemStatus *status)
   return PetscMax(s->rtol * status->scale, status->noise);
 }
 
-/* The residual is small against the nodal forces, or down at the round-off of an unloaded body; or as small as -snes_atol or -snes_rtol ask. */
+/* The residual is small against the nodal forces, or down at the round-off of an unloaded body; or as small as
+   -snes_atol or -snes_rtol ask. */
 static PetscBool Small_Private(const Solver s, const ProblemStatus *status, PetscReal norm)
 {
   return (PetscBool)(norm <= PetscMax(SolverTolerance_Private(s, status), PetscMax(s->snes->abstol, s->snes->rtol * s->first_norm)));
@@ -27,8 +28,9 @@ const char *SolverWords_Private(const Solver s, PetscReal norm, const char *usua
   return Small_Private(s, &s->report->status, norm) && !KeepsVolume_Private(s) ? "incompressible material cannot keep its volume" : usual;
 }
 
-/* Are the forces of the element pressures that Newton's method has found in balance? Round-off of the displacements times the bulk modulus is in those of the
-   pressures that x implies, down to which the iteration ends, but not in these, so that they tell whether its last step was small. */
+/* Are the forces of the element pressures that Newton's method has found in balance? Round-off of the displacements
+   times the bulk modulus is in those of the pressures that x implies, down to which the iteration ends, but not in
+   these, so that they tell whether its last step was small. */
 static PetscErrorCode Balanced_Private(Solver s, Vec x, PetscBool *yes)
 {
   ProblemStatus status;

@@ -1,5 +1,6 @@
-/* The table of modifiers: what Newton's iteration does besides linearising, solving, moving and judging. Each row has its file, its switch -newton_<name> and
-   its counter; docs/ablation.md says what each is needed for. Rows act in this order: who corrects a linear step sees what the rows above have made of it. */
+/* The table of modifiers: what Newton's iteration does besides linearising, solving, moving and judging. Each row has
+   its file, its switch -newton_<name> and its counter; docs/ablation.md says what each is needed for. Rows act in this
+   order: who corrects a linear step sees what the rows above have made of it. */
 #include "solveimpl.h"
 
 static const Modifier *const Modifiers[] = {&ModifierFrozenSegmentation, &ModifierStall,        &ModifierFrozenNormals, &ModifierFirstTouch,

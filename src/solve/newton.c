@@ -1,6 +1,7 @@
-/* The nonlinear iteration as a SNES type: linearise, solve with the active set iterated against that linearisation, move, judge. Prescribed motion still to
-   come enters the linear solve (docs/theory.md, solution). There is no merit function: a step is shortened only when it would leave the domain (det F <= 0),
-   and the rest of the prescribed motion then stays for the next iteration. Whatever else is done is a row of modifier.c. */
+/* The nonlinear iteration as a SNES type: linearise, solve with the active set iterated against that linearisation,
+   move, judge. Prescribed motion still to come enters the linear solve (docs/theory.md, solution). There is no merit
+   function: a step is shortened only when it would leave the domain (det F <= 0), and the rest of the prescribed motion
+   then stays for the next iteration. Whatever else is done is a row of modifier.c. */
 #include "solveimpl.h"
 #include <petsc/private/snesimpl.h>
 
@@ -12,7 +13,8 @@ static PetscErrorCode LinearSolve_Private(Solver s, PetscBool again, Vec dx)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Was this set there before one that is the last? Sets of passes go in circles where a gap and a pressure vanish together. */
+/* Was this set there before one that is the last? Sets of passes go in circles where a gap and a pressure vanish
+   together. */
 static PetscBool Repeats_Private(Solver s, PetscInt num, uint64_t hash)
 {
   for (PetscInt i = 0; i + 1 < num; ++i)

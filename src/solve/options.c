@@ -1,5 +1,5 @@
-/* Options of the solver: no keys of a scene but, like PETSc's own, of the command line. Wrong values are told as those of keys are, and of PETSc's own those of
-   SNES that cannot act in this iteration are refused by name. */
+/* Options of the solver: no keys of a scene but, like PETSc's own, of the command line. Wrong values are told as those
+   of keys are, and of PETSc's own those of SNES that cannot act in this iteration are refused by name. */
 #include "solveimpl.h"
 
 typedef enum { KIND_REAL, KIND_TOLERANCE, KIND_COUNT, KIND_BOOL, KIND_CHOICE } ValueKind;

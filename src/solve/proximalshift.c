@@ -1,5 +1,6 @@
-/* Modifier: bodies that nothing holds get a small stiffness in the tangent (src/mechanics/free.c), the less the smaller the residual is, as far as the digits
-   of the linear solver allow: the method of Levenberg and Marquardt. Without it the tangent of a body that no support holds may be singular. */
+/* Modifier: bodies that nothing holds get a small stiffness in the tangent (src/mechanics/free.c), the less the smaller
+   the residual is, as far as the digits of the linear solver allow: the method of Levenberg and Marquardt. Without it
+   the tangent of a body that no support holds may be singular. */
 #include "solveimpl.h"
 
 #define LEAST 1e-2 /* least part of it: round-off of factors is far below */

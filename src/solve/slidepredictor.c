@@ -1,6 +1,7 @@
-/* Modifier: where contact moves along a surface, by what supports prescribe or else by what the first linear step says, one that only carries the bodies to
-   their new places takes its place: by the prescribed motion, without the pairs that move, and without the residual, so that loads on a body that nothing but
-   such a pair holds wait for the next iteration (src/problem/slide.c). */
+/* Modifier: where contact moves along a surface, by what supports prescribe or else by what the first linear step says,
+   one that only carries the bodies to their new places takes its place: by the prescribed motion, without the pairs
+   that move, and without the residual, so that loads on a body that nothing but such a pair holds wait for the next
+   iteration (src/problem/slide.c). */
 #include "solveimpl.h"
 
 static PetscErrorCode Correct_Private(Solver s, const Iterate *it, Vec dx, PetscBool *acts, PetscBool *again)

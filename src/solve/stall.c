@@ -1,4 +1,5 @@
-/* Modifier: a solve that goes wrong is recognised early; a shorter load step, or another start, costs less than waiting for the iteration limit. */
+/* Modifier: a solve that goes wrong is recognised early; a shorter load step, or another start, costs less than waiting
+   for the iteration limit. */
 #include "solveimpl.h"
 
 #define STALLED 7  /* iterations without a new least residual */

@@ -1,6 +1,7 @@
-/* Modifier: the side of the yield surface that the tangent takes points on it to be. The first linear step of a solve expects them to flow on; when it takes
-   the load off most of them, it is made again elastic (src/problem/yieldedge.c). After a step that only carried bodies along, material is elastic, too: what
-   was carried still stands on its yield surface, and where the pair was the load comes off. */
+/* Modifier: the side of the yield surface that the tangent takes points on it to be. The first linear step of a solve
+   expects them to flow on; when it takes the load off most of them, it is made again elastic (src/problem/yieldedge.c).
+   After a step that only carried bodies along, material is elastic, too: what was carried still stands on its yield
+   surface, and where the pair was the load comes off. */
 #include "solveimpl.h"
 
 static PetscErrorCode Linearise_Private(Solver s, const Iterate *it, const Form *last, PetscBool always, PetscBool *acts)

@@ -1,5 +1,6 @@
-/* Residual and tangent are functions of x and of the form, whatever was evaluated or chosen in between, and whatever is chosen for tangents alone leaves the
-   residual as it is. Two blocks pressed on each other, at random displacements near their solution. */
+/* Residual and tangent are functions of x and of the form, whatever was evaluated or chosen in between, and whatever is
+   chosen for tangents alone leaves the residual as it is. Two blocks pressed on each other, at random displacements
+   near their solution. */
 #include "patchfixture.h"
 
 typedef struct {
