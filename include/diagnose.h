@@ -70,8 +70,9 @@ typedef struct {
   PetscInt  set_cycles; /* active sets that repeated on the way to this row */
   PetscReal t, dt, estimated_error /* relative; NaN: not estimated */, estimate /* absolute */, energy, min_det, min_gap, contact_force, seconds;
   PetscReal force_imbalance, moment_imbalance, support_imbalance;
-  PetscBool lines_held;   /* of the state (State) */
-  PetscReal viscous_work; /* energy that viscous regularisation dissipated in this step */
+  PetscBool frozen_segmentation; /* of the state (Form) */
+  PetscInt  modifiers;           /* interventions of Newton's modifiers on the way to this row */
+  PetscReal viscous_work;        /* energy that viscous regularisation dissipated in this step */
   PetscReal plastic_strain, plastic_work;
   PetscReal force_change, work_change, strain_change; /* by the adaptation before this pass, at the same load: see BalanceChange */
   PetscBool accepted;

@@ -125,7 +125,7 @@ PetscErrorCode ProbesEvaluate(Probes, Problem, Vec x, ProbeValue value[]);
    summary.json:
    - step, t, dt, pass (of the accepted solution), step_cuts, cells, dofs, newton_iterations, active_nodes, estimated_error, energy, min_det, min_gap,
      contact_force, contact_imbalance, moment_imbalance, support_imbalance, seconds, viscous_work (energy that viscous regularisation dissipated),
-     lines_held (1: contact forces hold lines of mortar sides, State.lines_held);
+     frozen_segmentation (1: contact forces at held lines of mortar sides, Form), modifiers (interventions of Newton's modifiers, all together);
    - with plastic materials plastic.strain (largest, surfaces included), plastic.work, and body.<name>.mean_plastic_strain of each body that flows: int alpha dV
    / int dV over its reference volume, which converges where the largest, at a notch, does not;
    - reaction.<boundary>.x … for boundaries with supports;
@@ -149,7 +149,7 @@ typedef struct {
   const char     *adapt_stop;      /* why the last adaptation ended: "tolerance", "max_passes", "max_cells", …; NULL or "": there was none */
   PetscReal       t, seconds;      /* pseudo-time reached; wall time so far */
   PetscInt        load_steps, step_cuts, adapt_passes, newton_iterations, active_set_changes, active_set_cycles, factorisations, single_failures;
-  const Path     *path;     /* recoveries and what they took; NULL: none */
+  const Path     *path;     /* modifiers of Newton's iteration, recoveries and what they took; NULL: none */
   PetscReal       unstable; /* solutions found to be unstable equilibria; NaN: not known of any */
   Problem         problem;  /* of the last accepted state; NULL: nothing was solved */
   const State    *state;    /* with problem */

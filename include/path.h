@@ -31,11 +31,12 @@ typedef struct {
   Level           *level; /* borrowed */
   const SceneData *data;  /* borrowed */
   PetscInt         step_cuts, newton_iterations, set_changes, set_cycles, factorisations, single_failures;
-  PetscInt         descent_iterations; /* tangents of descents, besides Newton's */
-  PetscInt         unstable, judged;   /* judged: equilibria of which it is known whether they are stable */
-  PetscInt         stabilised;         /* that took the place of unstable ones */
-  PetscBool        unstable_now;       /* the last equilibrium found is unstable */
-  PetscInt         iterations_in_step, cuts_in_step;
+  PetscInt         descent_iterations;               /* tangents of descents, besides Newton's */
+  PetscInt         unstable, judged;                 /* judged: equilibria of which it is known whether they are stable */
+  PetscInt         stabilised;                       /* that took the place of unstable ones */
+  PetscBool        unstable_now;                     /* the last equilibrium found is unstable */
+  PetscInt         modifiers[SOLVER_MOST_MODIFIERS]; /* interventions of Newton's modifiers */
+  PetscInt         modifiers_in_step, iterations_in_step, cuts_in_step;
   PetscInt         failures;                       /* attempts of this load step in vain; a step shorter than asked for begins with one */
   PetscReal        viscous_work, all_viscous_work; /* energy that viscous regularisation dissipated in the step at hand, in all steps accepted */
   PetscBool        limit_point;                    /* loads are near a limit point: no equilibrium farther off is looked for */

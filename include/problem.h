@@ -10,15 +10,40 @@
 
 typedef struct _p_Problem *Problem;
 
+/* What is chosen, besides x: residual, gaps and tangent are functions of x and of this. Choices are made between Newton iterations (src/solve, its modifiers)
+   and set by one call (ProblemSetForm). Sets of contact pairs: bit i for pair i. Of the residual, and kept with its state: */
+typedef struct {
+  PetscBool frozen_segmentation; /* contact forces at held lines of the mortar side (ContactPairHoldLines) */
+  /* of a linearisation only: */
+  PetscBool    symmetric;      /* the tangent in its symmetric form, where there is one */
+  uint64_t     released;       /* pairs that take no part in the tangent, their multipliers go to 0 */
+  uint64_t     frozen_normals; /* pairs with tangents at fixed directions */
+  uint64_t     deepest_first;  /* pairs of which those nodes join the active set first that overlap the most */
+  MaterialEdge edge;           /* what tangents expect of points on their yield surface */
+  PetscReal    proximal;       /* share of the small stiffness of bodies that no support holds (MechanicsLoosen) */
+} Form;
+
+#define FORM_PAIRS 64 /* most contact pairs of a scene */
+
+static inline PetscBool FormHas(uint64_t pairs, PetscInt pair)
+{
+  return (PetscBool)((pairs >> pair) & 1);
+}
+/* The derivative itself, in its exact form. */
+static inline Form FormPlain(PetscBool frozen_segmentation)
+{
+  return (Form){.frozen_segmentation = frozen_segmentation, .edge = EDGE_AS_IT_IS};
+}
+
 /* Everything that evolves, besides the forest. */
 typedef struct {
   Vec        x; /* owned: global (u, z, pi) of the problem it belongs to */
   PetscInt   num_pressure;
   PetscReal *pressure; /* owned [num_pressure] element pressures of this rank that are condensed */
   PetscInt   num_history;
-  PetscReal *history;    /* owned [num_history] what the laws of this rank's cells remember from the last accepted step (MechanicsHistoryRange) */
-  PetscReal  t;          /* pseudo-time of this state */
-  PetscBool  lines_held; /* its contact forces hold all lines of mortar sides (ContactPairHoldLines) */
+  PetscReal *history; /* owned [num_history] what the laws of this rank's cells remember from the last accepted step (MechanicsHistoryRange) */
+  PetscReal  t;       /* pseudo-time of this state */
+  Form       form;
   PetscInt   num_leaves;
   int8_t    *leaf_order; /* owned [num_leaves], replicated */
 } State;
@@ -54,12 +79,11 @@ PetscErrorCode ProblemGetMechanics(Problem, Mechanics *);
 PetscErrorCode ProblemCreateVector(Problem, Vec *);
 PetscErrorCode ProblemGetMatrix(Problem, Mat *);
 
-/* Copies of a state's history, which residual and tangent start from, and of its element pressures, for stress at points. Whoever is given a state of this
-   problem sets it. Collective. */
+/* Copies of a state's history, which residual and tangent start from, of its element pressures, for stress at points, and of its form. Whoever is given a
+   state of this problem sets it. Collective. */
 PetscErrorCode ProblemSetState(Problem, const State *);
-/* Forces hold all lines of mortar sides from now on, until another state is set (State.lines_held). *changed: there are pressed facets, at the last evaluation,
-   whose forces are others then; else, and under viscous regularisation, nothing is done. Collective. */
-PetscErrorCode ProblemHoldLines(Problem, PetscBool *changed);
+/* Residual and tangent are those of this form from now on, until another one or a state is set. Not collective. */
+PetscErrorCode ProblemSetForm(Problem, const Form *);
 
 /* Prescribed motion: SetTime fixes the target; Jump applies it at once (no lift); otherwise the part not yet applied enters the next linear solve. */
 PetscErrorCode ProblemSetTime(Problem, PetscReal t);
@@ -211,39 +235,37 @@ PetscErrorCode ProblemCreateRightSide(Problem, Vec *);
 /* dx = y, multipliers in the unit of pressures (the symmetric form has them over E/h), and the solution at nodes inside cells where they are condensed (with
    the lift of the last tangent). Collective. */
 PetscErrorCode ProblemRecover(Problem, Vec y, Vec dx);
-/* dR/dx with the stored element pressures in the geometric stiffness (NULL: consistent). When lift is given, the change of R that the remaining
-   prescribed motion makes to first order is added to it, and pairs whose open gaps under pressure are still wide against their facets are linearised at
-   fixed directions. Assembles the problem's matrix; gives the symmetric form up for good when active constraints hold the rim of a mortar side
-   (ContactFacet.push), which has none. Collective. */
+/* dR/dx, as far as the form does not say otherwise, with the stored element pressures in the geometric stiffness (NULL: consistent). When lift is given, the
+   change of R that the remaining prescribed motion makes to first order is added to it. Assembles the problem's matrix. Collective. */
 PetscErrorCode ProblemTangent(Problem, Vec x, const PetscReal pressure[], Vec lift, PetscBool *bad);
 /* Symmetric form of the tangent: same solution, symmetric matrix, right-hand side by ProblemRightSide; its multiplier columns are exact to second order.
-   Only for problems whose bulk tangent is symmetric (ProblemIsSymmetric): no follower pressures, no plastic flow, no scalars. Default: exact form. */
-PetscErrorCode ProblemSetSymmetric(Problem, PetscBool symmetric);
-PetscErrorCode ProblemGetSymmetric(Problem, PetscBool *symmetric); /* the form of the last tangent, or set since */
+   Only for problems whose bulk tangent is symmetric (ProblemIsSymmetric): no follower pressures, no plastic flow, no scalars; and where no active constraint
+   holds the rim of a mortar side (ContactFacet.push). Get: was the last tangent in it? */
+PetscErrorCode ProblemGetSymmetric(Problem, PetscBool *symmetric);
 PetscErrorCode ProblemIsSymmetric(Problem, PetscBool *possible);
 /* rhs = -(r + lift), condensed like the last tangent, multiplier rows in its form; r of the problem, lift and rhs of the matrix. */
 PetscErrorCode ProblemRightSide(Problem, Vec r, Vec lift, Vec rhs);
 /* Active-set passes against the last tangent: given the solution dx of tangent . dx = -rhs, decide anew which constraints are active, rewrite their rows in the
-   matrix and the right-hand side. *changed: number of nodes that switched (all ranks); *violation: by how much dx contradicts the set it was found with, the
-   sum over those nodes of w0 |z - c gt/w| (unit: force). Of a pair that bears nothing
-   yet those nodes come first that overlap the most. */
-PetscErrorCode ProblemSwitchActiveSet(Problem, Vec dx, Vec rhs, PetscInt *changed, PetscReal *violation);
-/* Where the active set of the last linear step moves along the surface, gaps linearised at the old place say little of the new one. Release takes
-   pairs that move so (prescribed motion still to come, finite kinematics) out of the tangent: the next linear step carries their bodies along without
-   them and sets their multipliers to 0. *any: is there one? Engage puts all pairs back. Collective. */
-PetscErrorCode ProblemRelease(Problem, PetscBool *any);
-/* The same, before any linear step, for pairs whose bodies the prescribed motion still to come slides along each other by a good part of the zone under
-   pressure: as far as supports say how the bodies move along it. Collective. */
-PetscErrorCode ProblemReleaseSlips(Problem, PetscBool *any);
+   matrix and the right-hand side. *changed: number of nodes that switched (all ranks). Collective. */
+PetscErrorCode ProblemSwitchActiveSet(Problem, Vec dx, Vec rhs, PetscInt *changed);
+/* ---- what a form may be chosen by, at the last residual. All collective ---- */
+
+/* Pairs (of those not released) whose active set of the last linear step moves along the surface, while prescribed motion is still to come and kinematics are
+   finite: gaps linearised at the old place say little of the new one. */
+PetscErrorCode ProblemFindSliding(Problem, uint64_t *pairs);
+/* Pairs whose open gaps under pressure are too wide, against their facets, for the turning of directions to mean anything; and those without pressure. */
+PetscErrorCode ProblemFindWide(Problem, uint64_t *pairs);
+/* Pairs that have borne nothing yet. */
+PetscErrorCode ProblemFindUntouched(Problem, uint64_t *pairs);
+/* Are there facets under pressure whose forces frozen segmentation would change? Under viscous regularisation: no. */
+PetscErrorCode ProblemMayFreezeSegmentation(Problem, PetscBool *yes);
+/* At the start of a step, where dx is the linear step there: would most points on their yield surface leave it? */
+PetscErrorCode ProblemUnloads(Problem, Vec x, Vec dx, PetscBool *yes);
 /* By how much (unit: length) the solution dx of the linear step slides a body that only contact holds too far along the surface, the pair with the largest
    ratio to what is allowed; 0: none does. force, of the matrix: forces along that slide, of sum 1 on one side and -1 on the other, whose product with a
-   solution of the matrix is its slide. Not while prescribed motion is still to come. Collective. */
-PetscErrorCode ProblemDrift(Problem, Vec dx, Vec force, PetscReal *excess);
-PetscErrorCode ProblemEngage(Problem);
-/* What tangents expect of points on their yield surface. Not collective. */
-PetscErrorCode ProblemSetEdge(Problem, MaterialEdge);
-/* At the start of a step, where dx is the linear step there: would most points on their yield surface leave it? Collective. */
-PetscErrorCode ProblemRests(Problem, Vec x, Vec dx, PetscBool *rests);
+   solution of the matrix is its slide. Not while prescribed motion is still to come. */
+PetscErrorCode ProblemFindSlide(Problem, Vec dx, Vec force, PetscReal *excess);
+
 /* A number that tells active sets of this problem apart, the same on every rank. Collective. */
 PetscErrorCode ProblemActiveSetHash(Problem, uint64_t *hash);
 /* A Newton step: Begin remembers where it starts; Move sets x = start + step dx and the prescribed motion likewise (may be called again with a shorter step)
@@ -261,7 +283,7 @@ PetscErrorCode ProblemNoteImbalance(Problem, Vec x, PetscBool *usable);
 PetscErrorCode ProblemLeaveImbalance(Problem, PetscReal share);
 
 /* energy.c. The augmented Lagrangian Phi(u; lambda), with penalties kappa_j = factor c_j. HasEnergy: is there one? Not with follower loads, plastic flow,
-   pressures among the unknowns, small kinematics, drag. Not collective. */
+   pressures among the unknowns, small kinematics, viscous regularisation. Not collective. */
 PetscErrorCode ProblemHasEnergy(Problem, PetscBool *yes);
 /* Phi at the displacements of x and the prescribed motion as applied, and its gradient (NULL: not wanted; 0 but for displacements). lambda: multipliers, in a
    vector of the problem whose other entries are not looked at. The multipliers of x become max(0, lambda_j - kappa_j g_j). merit: the largest number where
@@ -293,5 +315,7 @@ PetscErrorCode ProblemNumDofs(Problem, PetscInt *free_dofs); /* global: u, z and
 /* The deepest overlap of a pair's sides, at the reference positions or where they are now, that the search passes over since it cannot tell it from the far
    side of a body behind; 0: none. The next solve searches anew. Collective. */
 PetscErrorCode ProblemUntoldOverlap(Problem, PetscInt pair, PetscBool reference, PetscReal *depth);
+/* Is there a body that supports do not hold? Not collective. */
+PetscErrorCode ProblemHasFreeBody(Problem, PetscBool *yes);
 /* Axes along which no support holds the body or any that is joined to it: bit c for axis c; turns: it is held along all, and can turn. Not collective. */
 PetscErrorCode ProblemFreeAxes(Problem, PetscInt body, PetscInt *axes, PetscBool *turns);

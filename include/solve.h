@@ -4,16 +4,18 @@
 
 typedef struct _p_Solver *Solver;
 
+#define SOLVER_MOST_MODIFIERS 12
+
 typedef struct {
   PetscBool     converged;
   PetscBool     stopped;    /* given up because somebody asked to (StopAsked) */
   const char   *reason;     /* why not, in words */
   PetscInt      iterations; /* tangent assemblies */
   PetscInt      factorisations;
-  PetscInt      single_failures; /* factors in single precision that did not serve: a solver has at most one, then it takes double */
-  PetscInt      set_changes;     /* contact nodes that active-set passes switched */
-  PetscInt      set_cycles;      /* linearisations whose active sets repeated, and 1 when Newton's own did */
-  PetscBool     held_lines;      /* forces began to hold lines of mortar sides in it (State.lines_held) */
+  PetscInt      single_failures;                  /* factors in single precision that did not serve: a solver has at most one, then it takes double */
+  PetscInt      set_changes;                      /* contact nodes that active-set passes switched */
+  PetscInt      set_cycles;                       /* linearisations whose active sets repeated, and 1 when Newton's own did */
+  PetscInt      modifiers[SOLVER_MOST_MODIFIERS]; /* how often each modifier intervened */
   PetscInt      unstable; /* converged: 1 when the last tangent factorised goes down in energy along some motion the constraints allow, -1: not known, else 0 */
   PetscInt      descents; /* of SolverDescend, each with multipliers of its own */
   PetscInt      descent_iterations; /* their tangent assemblies */
@@ -21,8 +23,14 @@ typedef struct {
   ProblemStatus status;
 } SolverReport;
 
-/* SNES of the registered type "contactnewton" over the problem's residual and tangent. Options: snes_*, ksp_*, pc_*, mat_mumps_*, and
-   -solve_rtol (1e-10: residual against the nodal forces), -solve_max_it (25), -solve_active_set_passes (10), -solve_cuts (6),
+/* Modifiers of Newton's iteration, mechanisms besides linearising, solving, moving and judging (src/solve/modifier.c): number and names; each has a switch
+   -newton_<name> on|off|auto. Not collective. */
+PetscInt    SolverNumModifiers(void);
+const char *SolverModifierName(PetscInt);
+
+/* SNES of the registered type "contactnewton" over the problem's residual and tangent. Options: ksp_*, pc_*, mat_mumps_*, -newton_<modifier>,
+   -snes_max_it (25), -snes_rtol, -snes_atol, -snes_stol, -snes_max_funcs and monitors, and -solve_rtol (1e-10: residual against the nodal forces),
+   -solve_active_set_passes (10), -solve_cuts (6),
    -solve_condense auto|yes|no (auto: from order 3 in the plane and 4 in space the unknowns of nodes inside cells are eliminated there, before the linear
    solver), -solve_linear auto|direct|iterative (auto: multigrid and GMRES for large three-dimensional problems of compressible material with a symmetric
    tangent; a factorisation where that fails and everywhere else), -solve_factor auto|single|double (precision of factors; auto: single in three dimensions from
@@ -30,11 +38,11 @@ typedef struct {
    multigrid_smoother_*, again_ksp_* (GMRES on a factor in single precision or of an earlier tangent). Collective. */
 PetscErrorCode SolverCreate(Problem, Solver *);
 PetscErrorCode SolverDestroy(Solver *);
-/* Are all -solve_* options known, and their values allowed? An input error when one is not. Collective. */
+/* Are all -solve_*, -newton_* and -snes_* options known, can they act, and are their values allowed? An input error when one is not. Collective. */
 PetscErrorCode SolverCheckOptions(void);
 /* The one of them, without its dash, that is nearest to a name. Not collective. */
 const char *SolverNearestOption(const char *name);
-/* The -solve_* options as text for -help. */
+/* The -solve_*, -newton_* and -snes_* options as text for -help. */
 PetscErrorCode SolverPrintHelp(MPI_Comm);
 
 /* Solve at the problem's current time, starting from state (x, pressure), which is changed. The prescribed motion not yet applied enters the first linear

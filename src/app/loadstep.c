@@ -86,6 +86,7 @@ static PetscErrorCode Accept_Private(App *app)
   app->last.step              = app->load_steps;
   app->last.newton_iterations = app->path.iterations_in_step;
   app->last.step_cuts         = app->path.cuts_in_step;
+  app->last.modifiers         = app->path.modifiers_in_step;
   app->last.viscous_work      = app->path.viscous_work;
   PetscCall(HistoryStep(app->history, &app->last, &app->balance, l->problem, &l->state));
   PetscCall(AppWatch(app));

@@ -201,9 +201,9 @@ PetscErrorCode MonitorRow(Monitor m, const ReportRow *row)
     const size_t used = strlen(end);
     snprintf(end + used, sizeof(end) - used, "%s %d active-set %s", used ? "," : " ", (int)row->set_cycles, row->set_cycles == 1 ? "cycle" : "cycles");
   }
-  if (row->lines_held) {
+  if (row->frozen_segmentation) {
     const size_t used = strlen(end);
-    snprintf(end + used, sizeof(end) - used, "%s lines held", used ? "," : " ");
+    snprintf(end + used, sizeof(end) - used, "%s frozen segmentation", used ? "," : " ");
   }
   Say_Private(m, "%5" PetscInt_FMT " %4" PetscInt_FMT " %11.5g %8" PetscInt_FMT " %9" PetscInt_FMT " %6" PetscInt_FMT " %6" PetscInt_FMT " %10s %12s %8.2f%s\n",
               row->step, row->pass, (double)row->t, row->cells, row->dofs, row->newton_iterations, row->active_nodes, error, force, (double)row->seconds, end);

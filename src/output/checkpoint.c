@@ -50,7 +50,7 @@ PetscErrorCode CheckpointCreate(Problem problem, const State *state, PetscInt nu
   PetscCall(CopyForest_Private(c, forest, state));
   PetscCall(PetscMalloc1(num + 2, &c->number));
   PetscCall(Number_Private(c, "t", state->t));
-  PetscCall(Number_Private(c, "lines_held", state->lines_held));
+  PetscCall(Number_Private(c, "frozen_segmentation", state->form.frozen_segmentation));
   for (PetscInt i = 0; i < num; ++i) PetscCall(Number_Private(c, numbers[i].name, numbers[i].value));
   PetscCall(TransferPack(problem, state, &c->pack));
   *checkpoint = c;
@@ -159,12 +159,12 @@ PetscErrorCode CheckpointOrders(Checkpoint c, const int8_t **leaf_order)
 
 PetscErrorCode CheckpointState(Checkpoint c, Problem problem, State *state)
 {
-  PetscReal jump, lines_held;
+  PetscReal jump, frozen;
 
   PetscFunctionBegin;
   PetscCall(CheckpointGetNumber(c, "t", &state->t));
-  PetscCall(CheckpointGetNumber(c, "lines_held", &lines_held));
-  state->lines_held = (PetscBool)(lines_held != 0);
+  PetscCall(CheckpointGetNumber(c, "frozen_segmentation", &frozen));
+  state->form = FormPlain((PetscBool)(frozen != 0));
   PetscCall(TransferUnpack(problem, &c->pack, state, &jump));
   PetscCheckInput(jump <= SAME_MOTION,
                   "-restart %s: at t = %g the scene prescribes other displacements than it was written with (difference %.3g of the largest)", c->path,

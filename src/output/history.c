@@ -36,7 +36,8 @@ static const char *const step_columns[]  = {"step",
                                             "support_imbalance",
                                             "seconds",
                                             "viscous_work",
-                                            "lines_held"};
+                                            "frozen_segmentation",
+                                            "modifiers"};
 static const char *const axis_name[]     = {"x", "y", "z"};
 static const char *const stress_name[]   = {"xx", "xy", "xz", "yy", "yz", "zz"};
 static const char *const zone_name[]     = {"max_pressure", "area", "radius", "active_nodes", "min_gap"};
@@ -236,7 +237,8 @@ PetscErrorCode HistoryStep(History h, const ReportRow *r, const Balance *balance
                                r->support_imbalance,
                                r->seconds,
                                r->viscous_work,
-                               (PetscReal)r->lines_held};
+                               (PetscReal)r->frozen_segmentation,
+                               (PetscReal)r->modifiers};
   const PetscInt  num_fixed = (PetscInt)PETSC_STATIC_ARRAY_LENGTH(fixed), num_probes = h->probes ? h->scene->num_probes : 0;
   Columns         c = {0, NULL, h->values + num_fixed};
   ProbeValue     *probe;

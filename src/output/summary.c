@@ -163,6 +163,13 @@ static void AddTimes_Private(cJSON *root, PetscReal total, const Gathered *g)
 }
 
 /* What was tried where a step or a finer mesh had no solution, and how often one was found so. */
+static void AddModifiers_Private(cJSON *root, const Path *path)
+{
+  cJSON *object = cJSON_AddObjectToObject(root, "modifiers");
+
+  for (PetscInt i = 0; i < SolverNumModifiers(); ++i) AddNumber_Private(object, SolverModifierName(i), (PetscReal)path->modifiers[i]);
+}
+
 static void AddRecoveries_Private(cJSON *root, const Path *path)
 {
   cJSON *object = cJSON_AddObjectToObject(root, "recoveries");
@@ -201,6 +208,7 @@ static cJSON *Document_Private(const SceneData *scene, const RunSummary *s, cons
   AddNumber_Private(root, "active_set_cycles", (PetscReal)s->active_set_cycles);
   AddNumber_Private(root, "factorisations", (PetscReal)s->factorisations);
   AddNumber_Private(root, "single_factor_failures", (PetscReal)s->single_failures);
+  if (s->path) AddModifiers_Private(root, s->path);
   if (s->path) AddRecoveries_Private(root, s->path);
   AddNumber_Private(root, "unstable_equilibria", s->unstable);
   AddNumber_Private(root, "cells", s->problem ? (PetscReal)g->cells : nan);

@@ -21,9 +21,9 @@ PetscErrorCode PathRestore(Path *p, const State *from)
 
 void PathBegin(Path *p, PetscBool is_short)
 {
-  p->failures           = is_short;
-  p->iterations_in_step = p->cuts_in_step = 0;
-  p->viscous_work                         = 0;
+  p->failures          = is_short;
+  p->modifiers_in_step = p->iterations_in_step = p->cuts_in_step = 0;
+  p->viscous_work                                                = 0;
 }
 
 void PathCount(Path *p, const SolverReport *report, PetscBool equilibrium)
@@ -35,6 +35,10 @@ void PathCount(Path *p, const SolverReport *report, PetscBool equilibrium)
   p->factorisations += report->factorisations;
   p->single_failures += report->single_failures;
   p->descent_iterations += report->descent_iterations;
+  for (PetscInt i = 0; i < SolverNumModifiers(); ++i) {
+    p->modifiers[i] += report->modifiers[i];
+    p->modifiers_in_step += report->modifiers[i];
+  }
   if (report->stopped) p->stopped = PETSC_TRUE;
   if (!report->converged) return;
   p->status = report->status;

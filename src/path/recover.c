@@ -22,14 +22,14 @@ static PetscErrorCode Begin_Private(Path *p, const State *guess)
 
 static PetscBool IsFrozen_Private(const Path *p, const State *guess)
 {
-  return guess ? guess->lines_held : p->level->accepted.lines_held;
+  return guess ? guess->form.frozen_segmentation : p->level->accepted.form.frozen_segmentation;
 }
 
 static PetscErrorCode Unfreeze_Private(Path *p, const PathLoop *load, PetscReal to, const State *guess, SolverReport *report)
 {
   PetscFunctionBegin;
   PetscCall(Begin_Private(p, guess));
-  p->level->state.lines_held = PETSC_FALSE;
+  p->level->state.form.frozen_segmentation = PETSC_FALSE;
   PetscCall(PathAttempt(p, load, to, report));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -80,7 +80,7 @@ PetscErrorCode ContactHoldsRims_Private(Problem p, PetscBool *holds)
   for (PetscInt i = 0; i < p->num_contacts; ++i) {
     const Contact *c = &p->contacts[i];
     if (c->side[0].order) higher = PETSC_TRUE;
-    for (PetscInt f = 0; f < c->num_facets && !c->released; ++f) {
+    for (PetscInt f = 0; f < c->num_facets && !ContactIsReleased_Private(p, c); ++f) {
       const ContactFacet *e = &c->facets[f];
       for (PetscInt k = 0; k < e->num_rows && e->push; ++k) mine = (PetscBool)(mine || c->active[e->nodes[k]]);
     }
@@ -102,15 +102,14 @@ static PetscBool Movable_Private(const Contact *c)
   return PETSC_FALSE;
 }
 
-PetscErrorCode ProblemHoldLines(Problem p, PetscBool *changed)
+PetscErrorCode ProblemMayFreezeSegmentation(Problem p, PetscBool *yes)
 {
   PetscBool mine = PETSC_FALSE;
 
   PetscFunctionBegin;
-  *changed = PETSC_FALSE;
+  *yes = PETSC_FALSE;
   if (p->dim == 2 || p->viscous || p->scene->mechanics.kinematics == KINEMATICS_SMALL) PetscFunctionReturn(PETSC_SUCCESS);
   for (PetscInt i = 0; i < p->num_contacts && !mine; ++i) mine = (PetscBool)(p->contacts[i].side[0].order && Movable_Private(&p->contacts[i]));
-  PetscCallMPI(MPI_Allreduce(&mine, changed, 1, COMPAT_MPI_BOOL, MPI_LOR, p->comm));
-  for (PetscInt i = 0; i < p->num_contacts && *changed; ++i) PetscCall(ContactPairHoldLines(p->contacts[i].pair, PETSC_TRUE));
+  PetscCallMPI(MPI_Allreduce(&mine, yes, 1, COMPAT_MPI_BOOL, MPI_LOR, p->comm));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -54,6 +54,7 @@ static PetscErrorCode Vectors_Private(Problem p)
 
 PetscErrorCode ProblemCreate(const SceneData *scene, Forest forest, const int8_t leaf_order[], Problem *problem)
 {
+  const Form          plain = FormPlain(PETSC_FALSE);
   const ForestTables *t;
   Problem             p;
   int8_t(*cap)[3];
@@ -82,9 +83,11 @@ PetscErrorCode ProblemCreate(const SceneData *scene, Forest forest, const int8_t
   PetscCall(HPSpaceSetUp(p->space, p->supports.fixed, p->supports.num_frames, p->supports.frame_node, (const PetscReal(*)[9])p->supports.frame));
   PetscCall(MechanicsCreate(p->space, &scene->mechanics, &p->supports, &p->mechanics));
   p->num_contacts = scene->num_contacts;
+  PetscCheckInput(p->num_contacts <= FORM_PAIRS, "%" PetscInt_FMT " contact pairs; at most %d are possible", p->num_contacts, FORM_PAIRS);
   PetscCall(PetscCalloc1(p->num_contacts, &p->contacts));
   if (p->num_contacts) PetscCall(HullCreate_Private(p));
   for (PetscInt i = 0; i < p->num_contacts; ++i) PetscCall(ContactCreate_Private(p, &scene->contacts[i], &p->contacts[i]));
+  PetscCall(ProblemSetForm(p, &plain));
   PetscCall(Vectors_Private(p));
   PetscCall(ScalarsCreate_Private(p));
   PetscCall(ProblemLayout_Private(p));
@@ -173,13 +176,6 @@ PetscErrorCode ProblemGetMatrix(Problem p, Mat *matrix)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode ProblemSetSymmetric(Problem p, PetscBool symmetric)
-{
-  PetscFunctionBegin;
-  p->symmetric = symmetric;
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 PetscErrorCode ProblemGetSymmetric(Problem p, PetscBool *symmetric)
 {
   PetscFunctionBegin;
@@ -207,7 +203,17 @@ PetscErrorCode ProblemSetState(Problem p, const State *s)
   PetscFunctionBegin;
   PetscCall(MechanicsSetHistory(p->mechanics, s->history));
   PetscCall(MechanicsStorePressure(p->mechanics, s->pressure));
-  for (PetscInt i = 0; i < p->num_contacts; ++i) PetscCall(ContactPairHoldLines(p->contacts[i].pair, s->lines_held));
+  PetscCall(ProblemSetForm(p, &s->form));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode ProblemSetForm(Problem p, const Form *form)
+{
+  PetscFunctionBegin;
+  p->form = *form;
+  PetscCall(MechanicsSetEdge(p->mechanics, form->edge));
+  PetscCall(MechanicsLoosen(p->mechanics, form->proximal));
+  for (PetscInt i = 0; i < p->num_contacts; ++i) PetscCall(ContactPairHoldLines(p->contacts[i].pair, form->frozen_segmentation));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -428,6 +434,7 @@ PetscErrorCode StateCreate(Problem p, State *s)
   PetscCall(MechanicsNumHistory(p->mechanics, &s->num_history));
   PetscCall(PetscMalloc1(s->num_history, &s->history));
   PetscCall(MechanicsInitialHistory(p->mechanics, s->history));
+  s->form       = FormPlain(PETSC_FALSE);
   s->num_leaves = t->num_leaves;
   PetscCall(PetscMalloc1(s->num_leaves, &s->leaf_order));
   PetscCall(PetscArraycpy(s->leaf_order, p->leaf_order, s->num_leaves));
@@ -441,8 +448,8 @@ PetscErrorCode StateCopy(const State *from, State *to)
   PetscCall(PetscArraycpy(to->pressure, from->pressure, from->num_pressure));
   PetscCall(PetscArraycpy(to->history, from->history, from->num_history));
   PetscCall(PetscArraycpy(to->leaf_order, from->leaf_order, from->num_leaves));
-  to->t          = from->t;
-  to->lines_held = from->lines_held;
+  to->t    = from->t;
+  to->form = from->form;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -60,7 +60,7 @@ typedef struct {
   PetscInt           *part[2]; /* of the facets of both sides */
   Surface             side[2]; /* 0 nonmortar, 1 mortar */
   ContactView         view;
-  PetscReal           freedom[2][9];                  /* of a translation of the bodies of either side, what supports leave free: drift.c */
+  PetscReal           freedom[2][9];                  /* of a translation of the bodies of either side, what supports leave free: slidelimit.c */
   PetscBool           drifts;                         /* they leave some */
   PetscInt           *zdof;                           /* [n] row of the matrix, -1: no multiplier */
   PetscInt           *zlocal;                         /* [n] position in this rank's part of the vector, -1: not here */
@@ -85,7 +85,6 @@ typedef struct {
   const ContactFacet *facets;
   ContactFacet       *frozen; /* small kinematics: linearised once at the reference positions */
   PetscBool           is_frozen;
-  PetscBool           released;                 /* takes no part in the tangent: carry.c */
   PetscReal          *gap0;                     /* [n] reference gaps, small kinematics */
   PetscReal          *offset;                   /* [n] constant part of gt_j that does not count: initial gaps closed, interference */
   PetscReal          *misfit;                   /* [n] imbalance.c: what else does not count, times the share left */
@@ -145,7 +144,8 @@ struct _p_Problem {
   ptrdiff_t       *scatter_first; /* [num_owned_cells] where a cell's places start in scatter, -1: it goes by MatSetValues */
   uint16_t        *scatter;       /* scatter.c */
   PetscObjectState scatter_state; /* pattern the places belong to */
-  PetscBool        symmetric;     /* tangent in the symmetric form */
+  Form             form;
+  PetscBool        symmetric; /* the last tangent is in the symmetric form */
   PetscBool        lifting;
   PetscBool        viscous; /* there are viscous forces (ProblemSetViscosity) */
   Vec              lift;
@@ -275,6 +275,11 @@ PetscErrorCode ContactForces_Private(Problem, Contact *, PetscReal r[]);
 void           ContactForcesZero_Private(Contact *);
 PetscErrorCode ContactForcesSubtract_Private(Problem, Contact *, PetscReal r[]);
 void           ContactRows_Private(const Contact *, PetscReal r[]);
+/* Does the form take the pair out of the tangent? */
+static inline PetscBool ContactIsReleased_Private(Problem p, const Contact *c)
+{
+  return FormHas(p->form.released, (PetscInt)(c - p->contacts));
+}
 /* Has the last evaluation active constraints whose forces hold the rim of the mortar side (ContactFacet.push)? Collective. */
 PetscErrorCode ContactHoldsRims_Private(Problem, PetscBool *holds);
 /* tangent.c: the matrix with room for all of contact, zero; a cell's matrix into it (MatrixSink); Hessians of contact, added; the gradient of node j's gap,
@@ -285,8 +290,6 @@ PetscErrorCode ContactHessians_Private(Problem, const Contact *);
 PetscErrorCode ContactNodeGradient_Private(Problem, const Contact *, PetscInt j, PetscReal factor, PetscBool normalised, PetscInt *num);
 /* tangent.c: multipliers from the unknowns of the symmetric form. dx: this rank's part of a vector. */
 void ContactScaleIncrement_Private(Problem, PetscReal dx[]);
-/* far.c: at the last evaluation, are the gaps under pressure too wide for turning directions to mean anything? Collective. */
-PetscErrorCode ContactIsFar_Private(Problem, const Contact *, PetscBool *far);
 /* Change of every owned node's weighted gap, at fixed measure, under a local array of increments. Collective. */
 PetscErrorCode          ContactChange_Private(Problem, Contact *, const PetscReal increment[], PetscReal change[]);
 static inline PetscBool ContactCovered_Private(const Contact *c, PetscInt j)
@@ -303,8 +306,8 @@ static inline PetscReal ContactOverlap_Private(const Contact *c, PetscInt j)
 {
   return -(c->gap[j] + c->change[j]) / c->weight[j];
 }
-/* touch.c: the overlap from which on nodes begin to bear; 0 for pairs that bear already. Collective. */
-PetscErrorCode ContactTouch_Private(Problem, const Contact *, PetscReal *least);
+/* firsttouch.c: the overlap from which on nodes join the active set, of a pair that has borne nothing yet. Collective. */
+PetscErrorCode ContactLeastOverlap_Private(Problem, const Contact *, PetscReal *least);
 /* What the row of an active node is made of: (gt + K z) / Q, Q = w + c K, so that it stays of the size of a gap however small w is. */
 static inline PetscReal ContactRowMeasure_Private(const Contact *c, PetscInt j)
 {
@@ -314,7 +317,7 @@ static inline PetscReal ContactRowGap_Private(const Contact *c, PetscInt j)
 {
   return c->gap[j] + c->spring[j] * c->z[j];
 }
-/* drift.c: which translations the supports of both sides' bodies leave free. */
+/* slidelimit.c: which translations the supports of both sides' bodies leave free. */
 PetscErrorCode ContactFreedom_Private(Problem, Contact *);
 /* carrier.c: w0, extent and c of the nodes; which of them carry a multiplier. */
 PetscErrorCode ContactNodeScales_Private(Problem, Contact *);

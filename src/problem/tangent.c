@@ -117,7 +117,7 @@ static PetscErrorCode ContactBlocks_Private(Problem p, Contact *c)
   const PetscInt dim = p->dim;
 
   PetscFunctionBegin;
-  if (c->released) {
+  if (ContactIsReleased_Private(p, c)) {
     PetscCall(PetscArrayzero(c->active, c->side[0].num_nodes));
     PetscFunctionReturn(PETSC_SUCCESS);
   }
@@ -236,7 +236,7 @@ static PetscErrorCode InactiveShift_Private(Problem p, Contact *c, PetscInt j, P
   PetscInt num, at;
 
   PetscFunctionBegin;
-  if (!p->symmetric || c->released || c->z[j] == 0 || !c->near[j]) PetscFunctionReturn(PETSC_SUCCESS);
+  if (!p->symmetric || ContactIsReleased_Private(p, c) || c->z[j] == 0 || !c->near[j]) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(ContactNodeGradient_Private(p, c, j, -share * c->z[j], PETSC_FALSE, &num));
   PetscCall(PetscFindInt(c->zdof[j], num, p->work_index, &at));
   p->work_value[at] = 0;
@@ -324,7 +324,7 @@ PetscErrorCode ProblemReadyMatrix_Private(Problem p)
 PetscErrorCode ProblemTangent(Problem p, Vec x, const PetscReal pressure[], Vec lift, PetscBool *bad)
 {
   PetscReal      *local;
-  PetscBool       failed = PETSC_FALSE, far = PETSC_FALSE, holds = PETSC_FALSE;
+  PetscBool       failed = PETSC_FALSE, holds = PETSC_FALSE;
   HPSpace         space = p->space;
   const HPTables *v;
 
@@ -335,13 +335,12 @@ PetscErrorCode ProblemTangent(Problem p, Vec x, const PetscReal pressure[], Vec 
   PetscCall(StageBegin(STAGE_CONTACT));
   for (PetscInt i = 0; i < p->num_contacts; ++i) {
     Contact *c = &p->contacts[i];
-    if (lift) PetscCall(ContactIsFar_Private(p, c, &far)); /* without lift the tangent is the derivative itself */
-    PetscCall(ContactPairHold(c->pair, far));
+    PetscCall(ContactPairHold(c->pair, FormHas(p->form.frozen_normals, i)));
     PetscCall(ContactEvaluate_Private(p, c, x, local, PETSC_TRUE, PETSC_TRUE, &failed));
     PetscCall(ContactPairHold(c->pair, PETSC_FALSE));
   }
-  if (p->symmetric) PetscCall(ContactHoldsRims_Private(p, &holds));
-  if (holds) p->symmetric = PETSC_FALSE;
+  if (p->form.symmetric) PetscCall(ContactHoldsRims_Private(p, &holds));
+  p->symmetric = (PetscBool)(p->form.symmetric && !holds);
   PetscCall(StageEnd(STAGE_CONTACT));
   p->lifting = (PetscBool)(lift != NULL);
   p->lift    = lift;
@@ -377,16 +376,16 @@ PetscErrorCode ProblemTangent(Problem p, Vec x, const PetscReal pressure[], Vec 
 }
 
 /* New activity of this rank's nodes of one pair for the increment dx: rows that switch are rewritten, multiplier right-hand sides go to b, force shifts to rhs.
-   sum: switches, violation. dx: this rank's part of the increment. */
-static PetscErrorCode ContactSwitch_Private(Problem p, Contact *c, const PetscReal dx[], Vec rhs, PetscReal sum[2])
+   dx: this rank's part of the increment; num grows by the switches. */
+static PetscErrorCode ContactSwitch_Private(Problem p, Contact *c, const PetscReal dx[], Vec rhs, PetscInt *num)
 {
   const Surface *s     = &c->side[0];
   PetscReal      least = 0;
 
   PetscFunctionBegin;
-  if (c->released) PetscFunctionReturn(PETSC_SUCCESS);
+  if (ContactIsReleased_Private(p, c)) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(ContactChange_Private(p, c, p->increment, c->change));
-  PetscCall(ContactTouch_Private(p, c, &least));
+  if (FormHas(p->form.deepest_first, (PetscInt)(c - p->contacts))) PetscCall(ContactLeastOverlap_Private(p, c, &least));
   for (PetscInt i = 0; i < s->num_own; ++i) {
     const PetscInt j = s->own[i];
     if (c->zlocal[j] < 0 || !c->near[j] || !ContactCovered_Private(c, j)) continue;
@@ -394,30 +393,25 @@ static PetscErrorCode ContactSwitch_Private(Problem p, Contact *c, const PetscRe
     const PetscBool active = (PetscBool)(pushed > 0);
     if (active == c->active[j] || (active && ContactOverlap_Private(c, j) < least)) continue;
     c->active[j] = active;
-    sum[0] += 1;
-    sum[1] += c->w0[j] * PetscAbsReal(pushed);
+    ++*num;
     PetscCall(ContactInsertRow_Private(p, c, j));
     PetscCall(InactiveShift_Private(p, c, j, active ? -1 : 1, rhs));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode ProblemSwitchActiveSet(Problem p, Vec dx, Vec rhs, PetscInt *changed, PetscReal *violation)
+PetscErrorCode ProblemSwitchActiveSet(Problem p, Vec dx, Vec rhs, PetscInt *changed)
 {
   const PetscReal *d;
-  PetscReal        sum[2] = {0, 0};
 
   PetscFunctionBegin;
-  *changed   = 0;
-  *violation = 0;
+  *changed = 0;
   if (!p->num_contacts) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(ProblemIncrement_Private(p, dx, 1.0));
   PetscCall(VecGetArrayRead(dx, &d));
-  for (PetscInt i = 0; i < p->num_contacts; ++i) PetscCall(ContactSwitch_Private(p, &p->contacts[i], d, rhs, sum));
+  for (PetscInt i = 0; i < p->num_contacts; ++i) PetscCall(ContactSwitch_Private(p, &p->contacts[i], d, rhs, changed));
   PetscCall(VecRestoreArrayRead(dx, &d));
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 2, MPIU_REAL, MPI_SUM, p->comm));
-  *changed   = (PetscInt)sum[0];
-  *violation = sum[1];
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, changed, 1, MPIU_INT, MPI_SUM, p->comm));
   if (*changed) {
     PetscCall(VecAssemblyBegin(rhs));
     PetscCall(VecAssemblyEnd(rhs));

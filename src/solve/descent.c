@@ -391,6 +391,7 @@ static PetscErrorCode Exact_Private(Descent *d, State *state)
   last.single_failures += total->single_failures;
   last.set_changes += total->set_changes;
   last.set_cycles += total->set_cycles;
+  for (PetscInt i = 0; i < SolverNumModifiers(); ++i) last.modifiers[i] += total->modifiers[i];
   last.descents           = total->descents;
   last.descent_iterations = total->descent_iterations;
   *total                  = last;

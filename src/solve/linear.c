@@ -2,6 +2,8 @@
  * with GMRES in double where that pays; every option of KSP and PC works as usual. */
 #include "solveimpl.h"
 
+/* A factor as preconditioner: with less than this, nodes at the edge of contact switch wrongly, and a slide that needs no cut is cut. */
+#define REFINE_RTOL 1e-10
 #define REFINEMENTS 20   /* triangular solves worth less than a factorisation in three dimensions */
 #define LARGE 20000      /* unknowns from which single precision pays */
 #define FRESH_RTOL 1e-12 /* with the factor of the very matrix: nearly what one in double gives, for an iteration more */
@@ -274,5 +276,41 @@ PetscErrorCode SolverRefine_Private(Solver s, Mat A, Vec rhs, PetscReal rtol, Ve
   PetscCall(PCSetReusePreconditioner(pc, PETSC_FALSE));
   *ok = (PetscBool)(reason > 0);
   if (*ok) PetscCall(IsSolution_Private(A, rhs, x, TRUE_RTOL, ok));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* How far GMRES need go: so far that no Newton iteration is lost, which costs more than the few more of GMRES. */
+static PetscReal Forcing_Private(Solver s)
+{
+  return PetscMin(1e-8, PetscMax(s->linear_rtol, 0.01 * s->report->residual / PetscMax(s->report->scale, PETSC_MIN_REAL)));
+}
+
+PetscErrorCode SolverMatrixSolve_Private(Solver s, Vec rhs, PetscBool again)
+{
+  PetscBool ok;
+  Mat       A;
+
+  PetscFunctionBegin;
+  s->no_solution = PETSC_FALSE;
+  PetscCall(ProblemGetMatrix(s->problem, &A));
+  if (s->saddle) {
+    PetscCall(StageBegin(STAGE_FACTOR));
+    PetscCall(SaddleSetUp_Private(s->saddle, A, s->symmetric));
+    PetscCall(StageEnd(STAGE_FACTOR));
+    PetscCall(StageBegin(STAGE_SOLVE));
+    PetscCall(SaddleSolve_Private(s->saddle, rhs, Forcing_Private(s), again, s->y, &ok));
+    PetscCall(StageEnd(STAGE_SOLVE));
+    if (ok) PetscFunctionReturn(PETSC_SUCCESS);
+    PetscCall(PetscInfo(s->snes, "multigrid failed: factorising\n"));
+  }
+  if (s->factored) {
+    PetscCall(StageBegin(STAGE_SOLVE));
+    PetscCall(SolverRefine_Private(s, A, rhs, PetscMin(REFINE_RTOL, Forcing_Private(s)), s->y, &ok));
+    PetscCall(StageEnd(STAGE_SOLVE));
+    if (ok) PetscFunctionReturn(PETSC_SUCCESS);
+  }
+  PetscCall(SolverDirect_Private(s, A, rhs, s->y, &ok));
+  s->no_solution = (PetscBool)!ok;
+  s->factored    = (PetscBool)(ok && s->reuse);
   PetscFunctionReturn(PETSC_SUCCESS);
 }

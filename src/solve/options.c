@@ -1,7 +1,8 @@
-/* Options of the solver: no keys of a scene but, like PETSc's own, of the command line. Wrong values are told as those of keys are. */
+/* Options of the solver: no keys of a scene but, like PETSc's own, of the command line. Wrong values are told as those
+   of keys are, and of PETSc's own those of SNES that cannot act in this iteration are refused by name. */
 #include "solveimpl.h"
 
-typedef enum { KIND_REAL, KIND_COUNT, KIND_BOOL, KIND_CHOICE } ValueKind;
+typedef enum { KIND_REAL, KIND_TOLERANCE, KIND_COUNT, KIND_BOOL, KIND_CHOICE } ValueKind;
 
 typedef struct {
   const char *name;
@@ -12,12 +13,12 @@ typedef struct {
 } SolverOption;
 
 #define NUMBER "a number above 0"
+#define TOLERANCE "a number, 0 or more"
 #define COUNT "an integer, 0 or more"
 #define AT(member) offsetof(struct _p_Solver, member)
 
 static const SolverOption Options[] = {
     {"-solve_rtol", KIND_REAL, NUMBER, AT(rtol), "residual against the root of the summed squared nodal forces; default 1e-10"},
-    {"-solve_max_it", KIND_COUNT, COUNT, AT(max_it), "Newton iterations before a step is given up; default 25"},
     {"-solve_active_set_passes", KIND_COUNT, COUNT, AT(passes), "active-set passes against one linearisation; default 10"},
     {"-solve_cuts", KIND_COUNT, COUNT, AT(cuts), "halvings of a Newton step that leaves the domain; default 6"},
     {"-solve_symmetric", KIND_BOOL, "0|1|false|true|no|yes", AT(symmetric),
@@ -26,7 +27,18 @@ static const SolverOption Options[] = {
     {"-solve_linear_rtol", KIND_REAL, NUMBER, AT(linear_rtol), "least residual of GMRES against the right-hand side; default 1e-9"},
     {"-solve_factor", KIND_CHOICE, "auto|single|double", AT(factor), "precision of factors; GMRES in double refines single ones; default auto: by size"},
     {"-solve_condense", KIND_CHOICE, "auto|yes|no", AT(condense), "eliminate the unknowns inside each cell before the linear solver; default auto: by order"},
+    {"-snes_max_it", KIND_COUNT, COUNT, AT(max_it), "Newton iterations before a step is given up; default 25"},
+    {"-snes_max_funcs", KIND_COUNT, COUNT, AT(max_funcs), "residuals before a step is given up; default: any number"},
+    {"-snes_rtol", KIND_TOLERANCE, TOLERANCE, AT(snes_rtol), "a residual this small against that of the first iterate is enough, too; default 0"},
+    {"-snes_atol", KIND_TOLERANCE, TOLERANCE, AT(snes_atol), "a residual this small is enough, too; default 0"},
+    {"-snes_stol", KIND_TOLERANCE, TOLERANCE, AT(snes_stol), "a Newton step this small against the unknowns is enough, too; default 0"},
 };
+
+#define SWITCH "auto|on|off"
+
+/* Other options of SNES that act; what begins with one that ends in an underscore does, too. */
+static const char *const SnesActs[] = {"snes_monitor", "snes_monitor_",      "snes_converged_reason", "snes_converged_reason_",     "snes_view",
+                                       "snes_view_",   "snes_test_jacobian", "snes_test_jacobian_",   "snes_error_if_not_converged"};
 
 /* Which of "a|b|c" the word is, -1: none. */
 static PetscInt Word_Private(const char *allowed, const char *word)
@@ -58,7 +70,24 @@ static PetscBool Parse_Private(const SolverOption *o, const char *text, void *to
     return (PetscBool)(end != text && !*end && count >= 0 && count <= PETSC_MAX_INT);
   }
   *(PetscReal *)to = (PetscReal)strtod(text, &end);
-  return (PetscBool)(end != text && !*end && *(PetscReal *)to > 0);
+  return (PetscBool)(end != text && !*end && (*(PetscReal *)to > 0 || (o->kind == KIND_TOLERANCE && *(PetscReal *)to == 0)));
+}
+
+/* Switches of the modifiers. */
+static PetscErrorCode Switches_Private(Solver s)
+{
+  PetscFunctionBegin;
+  for (PetscInt i = 0; i < SolverNumModifiers(); ++i) {
+    char      name[64], text[64];
+    PetscBool set;
+    PetscCall(PetscSNPrintf(name, sizeof(name), "-newton_%s", SolverModifierName(i)));
+    PetscCall(PetscOptionsGetString(NULL, NULL, name, text, sizeof(text), &set));
+    if (!set) continue;
+    const PetscInt word = Word_Private(SWITCH, text);
+    PetscCheckInput(word >= 0, "%s is '%s'; allowed: %s", name, text, SWITCH);
+    s->mode[i] = (ModifierMode)word;
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode SolverOptions_Private(Solver s)
@@ -71,15 +100,44 @@ PetscErrorCode SolverOptions_Private(Solver s)
     PetscCall(PetscOptionsGetString(NULL, NULL, o->name, text, sizeof(text), &set));
     if (set) PetscCheckInput(Parse_Private(o, text, (char *)s + o->at), "%s is '%s'; allowed: %s", o->name, text, o->allowed);
   }
+  PetscCall(Switches_Private(s));
   PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscBool ActsInSnes_Private(const char *name)
+{
+  for (size_t i = 0; i < PETSC_STATIC_ARRAY_LENGTH(SnesActs); ++i) {
+    const size_t n = strlen(SnesActs[i]);
+    if (SnesActs[i][n - 1] == '_' ? !strncmp(name, SnesActs[i], n) : !strcmp(name, SnesActs[i])) return PETSC_TRUE;
+  }
+  return PETSC_FALSE;
 }
 
 const char *SolverNearestOption(const char *name)
 {
-  const char *names[PETSC_STATIC_ARRAY_LENGTH(Options)];
+  static char modifier[SOLVER_MOST_MODIFIERS][64];
+  const char *names[PETSC_STATIC_ARRAY_LENGTH(Options) + SOLVER_MOST_MODIFIERS];
+  PetscInt    num = 0;
 
-  for (size_t i = 0; i < PETSC_STATIC_ARRAY_LENGTH(Options); ++i) names[i] = Options[i].name + 1; /* without the dash */
-  return NameNearest(name, PETSC_STATIC_ARRAY_LENGTH(Options), names);
+  for (size_t i = 0; i < PETSC_STATIC_ARRAY_LENGTH(Options); ++i) names[num++] = Options[i].name + 1; /* without the dash */
+  for (PetscInt i = 0; i < SolverNumModifiers(); ++i) {
+    (void)snprintf(modifier[i], sizeof(modifier[i]), "newton_%s", SolverModifierName(i));
+    names[num++] = modifier[i];
+  }
+  return NameNearest(name, num, names);
+}
+
+/* An input error for an option of ours, or of SNES, that does nothing. */
+static PetscErrorCode Refuse_Private(const char *unknown)
+{
+  PetscFunctionBegin;
+  PetscCheckInput(
+      strncmp(unknown, "snes_", 5),
+      "-%s cannot act here; of PETSc's options of SNES these can: -snes_max_it, _max_funcs, _rtol, _atol, _stol, _monitor, _view, _converged_reason, "
+      "_test_jacobian",
+      unknown);
+  PetscCheckInput(!unknown[0], "-%s is no option of the solver; the nearest one is -%s", unknown, SolverNearestOption(unknown));
+  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode SolverCheckOptions(void)
@@ -92,10 +150,11 @@ PetscErrorCode SolverCheckOptions(void)
   PetscCall(SolverOptions_Private(&nobody));
   PetscCall(PetscOptionsLeftGet(NULL, &num, &names, &values)); /* those of the table are asked for by now */
   for (PetscInt i = num - 1; i >= 0; --i) {
-    if (!strncmp(names[i], "solve_", 6)) PetscCall(PetscStrncpy(unknown, names[i], sizeof(unknown)));
+    const PetscBool ours = (PetscBool)(!strncmp(names[i], "solve_", 6) || !strncmp(names[i], "newton_", 7)), snes = (PetscBool)!strncmp(names[i], "snes_", 5);
+    if (ours || (snes && !ActsInSnes_Private(names[i]))) PetscCall(PetscStrncpy(unknown, names[i], sizeof(unknown)));
   }
   PetscCall(PetscOptionsLeftRestore(NULL, &num, &names, &values));
-  PetscCheckInput(!unknown[0], "-%s is no option of the solver; the nearest one is -%s", unknown, SolverNearestOption(unknown));
+  if (unknown[0]) PetscCall(Refuse_Private(unknown));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -104,5 +163,12 @@ PetscErrorCode SolverPrintHelp(MPI_Comm comm)
   PetscFunctionBegin;
   PetscCall(PetscPrintf(comm, "\nOptions of the solver, on the command line only.\n\n"));
   for (size_t i = 0; i < PETSC_STATIC_ARRAY_LENGTH(Options); ++i) PetscCall(HelpRow(comm, Options[i].name, Options[i].allowed, Options[i].text));
+  PetscCall(
+      PetscPrintf(comm, "\nModifiers of Newton's iteration (docs/ablation.md). auto: each by its own criterion; on: as auto where nothing else is said.\n\n"));
+  for (PetscInt i = 0; i < SolverNumModifiers(); ++i) {
+    char name[64];
+    PetscCall(PetscSNPrintf(name, sizeof(name), "-newton_%s", SolverModifierName(i)));
+    PetscCall(HelpRow(comm, name, SWITCH, SolverModifier_Private(i)->help));
+  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -2,12 +2,7 @@
 #pragma once
 #include "solve.h"
 
-/* Active sets met so far, to notice a repetition. */
-typedef struct {
-  PetscInt   num, size;
-  uint64_t  *hash; /* owned [size] */
-  PetscReal *norm; /* owned [size] what goes with the set: contradiction of a pass, residual of an iterate */
-} SetHistory;
+typedef enum { MODIFIER_AUTO, MODIFIER_ON, MODIFIER_OFF } ModifierMode;
 
 typedef struct _p_Saddle    *Saddle;
 typedef struct _p_Multigrid *Multigrid;
@@ -16,28 +11,41 @@ typedef enum { CONDENSE_AUTO, CONDENSE_YES, CONDENSE_NO } CondenseKind;
 typedef enum { LINEAR_AUTO, LINEAR_DIRECT, LINEAR_ITERATIVE } LinearKind;
 typedef enum { FACTOR_AUTO, FACTOR_SINGLE, FACTOR_DOUBLE } FactorKind;
 
+/* One iterate of Newton's method. */
+typedef struct {
+  PetscInt            number;
+  Vec                 x, r;    /* borrowed; r: its residual */
+  PetscReal           norm;    /* of r */
+  uint64_t            set;     /* hash of its active set */
+  const char         *trouble; /* why the solve is to be given up, NULL: it is not */
+  SNESConvergedReason reason;  /* with trouble */
+} Iterate;
+
 struct _p_Solver {
   Problem       problem; /* borrowed */
   SNES          snes;
   Vec           lift, rhs, y, hold; /* of the matrix: effect of the motion to come, right-hand side, solution, forces that hold bodies back */
-  Vec           best;               /* solution of the active-set pass that contradicts itself least */
   Vec           balance;            /* residual with the element pressures found; NULL: none are condensed */
   PetscReal    *pressure;           /* of the state being solved, borrowed during SolverSolve */
   PetscReal     rtol;
   PetscBool     symmetric; /* LDL^T of the symmetric form */
-  PetscInt      max_it, passes, cuts;
-  LinearKind    linear;   /* as asked */
-  FactorKind    factor;   /* as asked */
-  CondenseKind  condense; /* as asked */
-  Saddle        saddle;   /* iterative solution, NULL: direct */
+  PetscInt      passes, cuts;
+  PetscInt      max_it, max_funcs; /* as SNES has them, and */
+  PetscReal     snes_rtol, snes_atol, snes_stol;
+  Form          form;                        /* of the residual at hand; transient parts of the last tangent */
+  ModifierMode  mode[SOLVER_MOST_MODIFIERS]; /* switches, as asked */
+  PetscBool     no_solution;                 /* the last linear system has none that was found */
+  LinearKind    linear;                      /* as asked */
+  FactorKind    factor;                      /* as asked */
+  CondenseKind  condense;                    /* as asked */
+  Saddle        saddle;                      /* iterative solution, NULL: direct */
   PetscReal     linear_rtol;
   KSP           refine;          /* GMRES on a factor in single precision or of an earlier tangent; made when first needed */
   PetscReal     refine_first;    /* residual it started from */
   PetscBool     reuse, factored; /* may an earlier factor serve; there is one */
   PetscBool     single;          /* factors are in single precision */
   PetscBool     test;            /* -snes_test_jacobian was given */
-  SetHistory    pass_sets;       /* active sets of the passes of one linearisation */
-  SetHistory    iterate_sets;    /* active sets of the Newton iterates */
+  uint64_t     *pass_sets;       /* owned [passes+1] hashes of the active sets of the passes of one linearisation */
   PetscReal     first_norm;      /* residual after the first iteration */
   PetscReal     best_norm;       /* least residual of this solve … */
   PetscInt      best_iter;       /* … and its iteration */
@@ -54,10 +62,44 @@ struct _p_Solver {
 PetscErrorCode SolverOptions_Private(Solver);
 /* newton.c: the SNES type. */
 PetscErrorCode SNESCreate_ContactNewton(SNES);
-/* cycle.c: append a set. *repeats: an earlier one was the same with a different one between them, and (compare) had the same norm to round-off. */
-PetscErrorCode SetHistoryAdd_Private(SetHistory *, uint64_t hash, PetscReal norm, PetscBool compare, PetscBool *repeats);
-PetscErrorCode SetHistoryDestroy_Private(SetHistory *);
-/* linear.c: direct solver by default, everything open to options. */
+/* Norm and active set of an iterate whose residual is there. Collective. */
+PetscErrorCode SolverLook_Private(Solver, Iterate *);
+/* Solve tangent . dx = rhs with the active set iterated: until it stays, or repeats (then the solution that contradicted its own set least is taken), or the
+   passes are used up. s->no_solution: there is none. Collective. */
+PetscErrorCode SolverActiveSetSolve_Private(Solver, Vec dx);
+/* judge.c: is the residual small, do incompressible cells keep their volume, and is nothing prescribed left? reason > 0: yes. Collective. */
+PetscErrorCode SolverConverged_Private(Solver, const Iterate *, SNESConvergedReason *reason);
+/* A residual that counts as none, unit: force. */
+PetscReal SolverTolerance_Private(const Solver, const ProblemStatus *);
+/* What to say of an iteration that ends without a solution. */
+const char *SolverWords_Private(const Solver, PetscReal norm, const char *usual);
+/* solver.c: PETSc's finite-difference test of the tangent at x (-snes_test_jacobian), on a matrix whose pattern already fits x. Collective. */
+PetscErrorCode SolverTest_Private(Solver, Vec x);
+
+/* A modifier of Newton's iteration; NULL: it has nothing to say there. *acts: it changed something, which is counted. All collective. */
+typedef struct {
+  const char *name, *help;
+  PetscErrorCode (*begin)(Solver); /* of a solve */
+  /* Chooses s->form for the tangent at an iterate; what is not chosen is plain. last: the one before. always: the switch is on. */
+  PetscErrorCode (*linearise)(Solver, const Iterate *, const Form *last, PetscBool always, PetscBool *acts);
+  /* Looks at the linear step dx and changes it, or changes s->form and asks for it again. */
+  PetscErrorCode (*correct)(Solver, const Iterate *, Vec dx, PetscBool *acts, PetscBool *again);
+  /* Looks at an iterate before it is judged: may change s->form and what of the iterate depends on it, or set it->trouble and it->reason. */
+  PetscErrorCode (*verdict)(Solver, Iterate *, PetscBool always, PetscBool *acts);
+} Modifier;
+
+extern const Modifier ModifierFrozenSegmentation, ModifierStall, ModifierFrozenNormals, ModifierFirstTouch, ModifierProximalShift, ModifierSlideLimiter,
+    ModifierYieldEdge, ModifierSlidePredictor;
+/* modifier.c: all that are not off, in the order of the table. */
+const Modifier *SolverModifier_Private(PetscInt);
+PetscErrorCode  ModifiersBegin_Private(Solver);
+PetscErrorCode  ModifiersLinearise_Private(Solver, const Iterate *);
+PetscErrorCode  ModifiersCorrect_Private(Solver, const Iterate *, Vec dx, PetscBool *again);
+PetscErrorCode  ModifiersVerdict_Private(Solver, Iterate *);
+/* linear.c: solve with the matrix as it stands for rhs, to s->y; again: only the active set has changed since the last solution, which is there.
+   s->no_solution: there is none. Collective. */
+PetscErrorCode SolverMatrixSolve_Private(Solver, Vec rhs, PetscBool again);
+/* direct solver by default, everything open to options. */
 PetscErrorCode SolverLinear_Private(Solver);
 /* From the next factorisation on, the exact tangent by LU. */
 PetscErrorCode SolverUnsymmetric_Private(Solver);

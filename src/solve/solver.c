@@ -29,15 +29,31 @@ static PetscErrorCode Jacobian_Private(SNES snes, Vec x, Mat J, Mat P, void *con
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscErrorCode SolverTest_Private(Solver s, Vec x)
+{
+  const Form plain = FormPlain(s->form.frozen_segmentation);
+  Mat        A;
+  PetscBool  bad;
+
+  PetscFunctionBegin;
+  PetscCall(ProblemSetForm(s->problem, &plain));
+  PetscCall(ProblemTangent(s->problem, x, NULL, NULL, &bad));
+  PetscCall(ProblemGetMatrix(s->problem, &A));
+  PetscCall(SNESSetJacobian(s->snes, A, A, NULL, NULL));
+  PetscCall(SNESComputeJacobian(s->snes, x, A, A));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 static PetscErrorCode Options_Private(Solver s)
 {
   PetscBool possible;
 
   PetscFunctionBegin;
-  s->rtol   = 1e-10;
-  s->max_it = 25;
-  s->passes = 10;
-  s->cuts   = 6;
+  s->rtol      = 1e-10;
+  s->max_it    = 25;
+  s->max_funcs = PETSC_MAX_INT;
+  s->passes    = 10;
+  s->cuts      = 6;
 
   s->linear      = LINEAR_AUTO;
   s->factor      = FACTOR_AUTO;
@@ -46,7 +62,6 @@ static PetscErrorCode Options_Private(Solver s)
   s->symmetric = possible;
   PetscCall(SolverOptions_Private(s));
   s->symmetric = (PetscBool)(s->symmetric && possible);
-  PetscCall(ProblemSetSymmetric(s->problem, s->symmetric));
   PetscCall(PetscOptionsHasName(NULL, NULL, "-snes_test_jacobian", &s->test));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -170,6 +185,7 @@ PetscErrorCode SolverCreate(Problem problem, Solver *solver)
   PetscCall(UseMultigrid_Private(s, &multigrid));
   PetscCall(Condense_Private(s));
   if (multigrid) PetscCall(SaddleCreate_Private(problem, &s->saddle));
+  PetscCall(SNESSetTolerances(s->snes, s->snes_atol, s->snes_rtol, s->snes_stol, s->max_it, s->max_funcs));
   PetscCall(SNESSetFromOptions(s->snes));
   PetscCall(SNESSetFunction(s->snes, r, Function_Private, s));
   PetscCall(VecDestroy(&r));
@@ -179,9 +195,9 @@ PetscErrorCode SolverCreate(Problem problem, Solver *solver)
   PetscCall(VecDuplicate(s->lift, &s->rhs));
   PetscCall(VecDuplicate(s->lift, &s->y));
   PetscCall(VecDuplicate(s->lift, &s->hold));
-  PetscCall(ProblemCreateVector(problem, &s->best));
   PetscCall(StoresPressure_Private(problem, &stores));
   if (stores) PetscCall(ProblemCreateVector(problem, &s->balance));
+  PetscCall(PetscMalloc1(s->passes + 1, &s->pass_sets));
   *solver = s;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -199,10 +215,8 @@ PetscErrorCode SolverDestroy(Solver *solver)
   PetscCall(VecDestroy(&s->rhs));
   PetscCall(VecDestroy(&s->y));
   PetscCall(VecDestroy(&s->hold));
-  PetscCall(VecDestroy(&s->best));
   PetscCall(VecDestroy(&s->balance));
-  PetscCall(SetHistoryDestroy_Private(&s->pass_sets));
-  PetscCall(SetHistoryDestroy_Private(&s->iterate_sets));
+  PetscCall(PetscFree(s->pass_sets));
   PetscCall(PetscFree(*solver));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -214,9 +228,10 @@ PetscErrorCode SolverSolve(Solver s, State *state, SolverReport *report)
   report->reason = "";
   s->report      = report;
   s->pressure    = state->pressure;
+  s->form        = state->form;
   PetscCall(ProblemSetState(s->problem, state));
   PetscCall(SNESSolve(s->snes, NULL, state->x));
-  if (report->held_lines) state->lines_held = PETSC_TRUE;
+  state->form = FormPlain(s->form.frozen_segmentation);
   PetscCall(ProblemSetState(s->problem, state)); /* points tell of the pressures found */
   s->report   = NULL;
   s->pressure = NULL;

@@ -79,7 +79,7 @@ PetscErrorCode TransferState(Problem old_problem, const State *from, Problem new
   if (scene->num_contacts) PetscCall(ProblemRefresh(old_problem, from->x));
   PetscCall(Multipliers_Private(&c, old_problem, new_problem, scene->num_contacts, to->x));
   PetscCall(Scalars_Private(old_problem, from->x, new_problem, to->x));
-  to->lines_held = from->lines_held;
+  to->form = from->form;
   PetscCall(StageEnd(STAGE_TRANSFER));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

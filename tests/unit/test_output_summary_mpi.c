@@ -153,9 +153,16 @@ static void Tables(void **state)
   PetscReal       reaction[2][3] = {{1, -2, 0}, {7, 7, 7}};
   PairFigures     pair           = {.force = {{0.25, 3}}, .moment = {{0, 0, 5}}, .radius = 0.206, .active_nodes = 17};
   const Balance   balance        = {.num_boundaries = 2, .num_contacts = 1, .reaction = reaction, .pair = &pair};
-  const ReportRow row            = {
-                 .step = 4, .t = 0.5, .cells = 99, .estimated_error = NAN, .seconds = 2.5, .viscous_work = 0.125, .lines_held = PETSC_TRUE, .accepted = PETSC_TRUE};
-  History history;
+  const ReportRow row            = {.step                = 4,
+                                    .t                   = 0.5,
+                                    .cells               = 99,
+                                    .estimated_error     = NAN,
+                                    .seconds             = 2.5,
+                                    .viscous_work        = 0.125,
+                                    .frozen_segmentation = PETSC_TRUE,
+                                    .modifiers           = 3,
+                                    .accepted            = PETSC_TRUE};
+  History         history;
 
   assert_int_equal(HistoryCreate(PETSC_COMM_WORLD, &scene, NULL, NULL, &history), 0);
   assert_int_equal(HistoryPass(history, &row), 0);
@@ -164,11 +171,10 @@ static void Tables(void **state)
   if (rank) return;
   char *text = Read("history.csv"), *values = strchr(text, '\n') + 1;
   assert_int_equal(Fields(text), Fields(values));
-  assert_non_null(strstr(
-      text,
-      ",seconds,viscous_work,lines_held,reaction.top.x,reaction.top.y,contact.pair.force.x,contact.pair.force.y,contact.pair.moment,contact.pair.max_pressure,"
-      "contact.pair.area,contact.pair.radius,contact.pair.active_nodes,contact.pair.min_gap\n"));
-  assert_non_null(strstr(values, ",2.5,0.125,1,1,-2,0.25,3,5,0,0,0.206,17,0\n"));
+  assert_non_null(strstr(text, ",seconds,viscous_work,frozen_segmentation,modifiers,reaction.top.x,reaction.top.y,contact.pair.force.x,contact.pair.force.y,"
+                               "contact.pair.moment,contact.pair.max_pressure,"
+                               "contact.pair.area,contact.pair.radius,contact.pair.active_nodes,contact.pair.min_gap\n"));
+  assert_non_null(strstr(values, ",2.5,0.125,1,3,1,-2,0.25,3,5,0,0,0.206,17,0\n"));
   free(text);
   text   = Read("adapt.csv");
   values = strchr(text, '\n') + 1;

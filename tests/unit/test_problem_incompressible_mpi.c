@@ -117,8 +117,9 @@ static void UniformSpace(void **state)
 
 static void Derivative(PetscInt dim, PetscInt split, uint64_t seed)
 {
-  const PetscReal h = 3e-6;
-  Solved          s = {0};
+  const PetscReal h              = 3e-6;
+  const Form      symmetric_form = {.symmetric = PETSC_TRUE};
+  Solved          s              = {0};
   ProblemStatus   status;
   PetscBool       bad, symmetric;
   PetscReal       error, size;
@@ -141,7 +142,6 @@ static void Derivative(PetscInt dim, PetscInt split, uint64_t seed)
     OK(ProblemResidual(s.problem, y, NULL, r[k], &status));
     assert_false(status.bad);
   }
-  OK(ProblemSetSymmetric(s.problem, PETSC_FALSE));
   OK(ProblemTangent(s.problem, x, NULL, NULL, &bad));
   assert_false(bad);
   OK(ProblemGetMatrix(s.problem, &A));
@@ -153,7 +153,7 @@ static void Derivative(PetscInt dim, PetscInt split, uint64_t seed)
   worst[2] = PetscMax(worst[2], error / (2 * h * size));
   if (!(error < 1e-7 * 2 * h * size))
     fail_msg("dim %d split %d seed %d: tangent errs by %g of %g", (int)dim, (int)split, (int)seed, (double)(error / (2 * h)), (double)size);
-  OK(ProblemSetSymmetric(s.problem, PETSC_TRUE));
+  OK(ProblemSetForm(s.problem, &symmetric_form));
   OK(ProblemTangent(s.problem, x, NULL, NULL, &bad));
   OK(MatIsSymmetric(A, 1e-12, &symmetric));
   assert_true(symmetric);

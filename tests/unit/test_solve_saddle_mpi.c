@@ -85,12 +85,13 @@ static void CompliantRows(PetscBool symmetric)
   Vec                    rhs, x, exact;
   PetscBool              bad;
   PetscReal              norm, error, firm = 0;
+  const Form             form = {.symmetric = symmetric, .proximal = 1};
 
   PatchScene(&p, 2, MODEL_PLANE_STRAIN, KINEMATICS_FINITE, FORMULATION_AUTO);
   p.forest = PatchForest(n);
   PatchStart(&p);
   PatchSolve(p.problem, &p.state);
-  OK(ProblemSetSymmetric(p.problem, symmetric));
+  OK(ProblemSetForm(p.problem, &form));
   OK(ProblemTangent(p.problem, p.state.x, p.state.pressure, NULL, &bad));
   assert_false(bad);
   OK(ProblemGetMatrix(p.problem, &A));

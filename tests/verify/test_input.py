@@ -383,8 +383,9 @@ def test_command_line(check, options, words):
 
 @pytest.mark.parametrize("option,value,allowed", [
     ("-solve_factor", "half", "auto|single|double"), ("-solve_condense", "maybe", "auto|yes|no"), ("-solve_linear", "cg", "auto|direct|iterative"),
-    ("-solve_symmetric", "2", "0|1|false|true|no|yes"), ("-solve_max_it", "few", "an integer, 0 or more"), ("-solve_cuts", "-1", "an integer, 0 or more"),
-    ("-solve_rtol", "1e-8x", "a number above 0"), ("-solve_linear_rtol", "0", "a number above 0"),
+    ("-solve_symmetric", "2", "0|1|false|true|no|yes"), ("-snes_max_it", "few", "an integer, 0 or more"), ("-solve_cuts", "-1", "an integer, 0 or more"),
+    ("-solve_rtol", "1e-8x", "a number above 0"), ("-solve_linear_rtol", "0", "a number above 0"), ("-snes_rtol", "-1", "a number, 0 or more"),
+    ("-newton_stall", "no", "auto|on|off"),
 ])
 def test_solver_options(run, option, value, allowed):
     result = run("inputs/patch2d.yml", option, value)
@@ -401,11 +402,33 @@ def test_solver_option_misspelt(run):
         assert result.stderr == "mortise: -solve_rtoll is no option of the solver; the nearest one is -solve_rtol\n", result.stderr
 
 
-@pytest.mark.parametrize("option,said", [("-snes_monitorr", "mortise: nothing used the option -snes_monitorr; is it spelt right?\n"), ("-options_view", "")])
-def test_option_of_petsc(run, option, said):
+@pytest.mark.parametrize("option", ["-snes_monitorr", "-snes_linesearch_type", "-snes_type", "-snes_lag_jacobian"])
+def test_option_of_snes_that_cannot_act(run, option):
+    """Newton's iteration is the program's own: what SNES would do in others is refused by name, before anything is solved."""
+    for check in ((), ("-check",)):
+        result = run("inputs/patch2d.yml", option, "bt", *check)
+        assert result.returncode == 1 and not result.stdout and result.stderr.startswith(f"mortise: {option} cannot act here; "), result
+        assert result.stderr.count("\n") == 1
+
+
+def test_options_of_snes_that_act(run):
+    """Limits cut the run short, with their names; a looser tolerance takes fewer iterations than the default; monitors print."""
+    disc = ("inputs/hertz2d.yml", "-adapt_tolerance", 0, "-output_fields", "false")
+    plain = run(*disc).summary["newton_iterations"]
+    for limit in ("max_it", "max_funcs"):
+        short = run("inputs/patch2d.yml", f"-snes_{limit}", 1, "-load_step_min", 0.6)
+        assert short.returncode == 2 and f"-snes_{limit}" in short.summary["reason"], short
+    for tolerance in (("-snes_rtol", 0.1), ("-snes_atol", 1e-5), ("-snes_stol", 0.1)):
+        loose = run(*disc, *tolerance)
+        assert loose.returncode == 0 and loose.summary["newton_iterations"] < plain, loose
+    assert "SNES Function norm" in run("inputs/patch2d.yml", "-snes_monitor").stdout
+
+
+def test_option_of_petsc(run):
     """One that nothing uses is named once, by us, not by PETSc; one that PETSc reads last of all is no such option."""
-    result = run("inputs/patch2d.yml", option)
-    assert result.returncode == 0 and result.stderr == said and "unused" not in result.stdout, result
+    for option, said in (("-ksp_monitorr", "mortise: nothing used the option -ksp_monitorr; is it spelt right?\n"), ("-options_view", "")):
+        result = run("inputs/patch2d.yml", option)
+        assert result.returncode == 0 and result.stderr == said and "unused" not in result.stdout, result
 
 
 @pytest.mark.parametrize("ranks", [1, 2])

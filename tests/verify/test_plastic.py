@@ -233,7 +233,7 @@ def test_steps_that_are_cut_leave_no_trace(run, tmp_path):
     """A first step far too long is halved until it converges; the run then equals, bit by bit, one that starts with the step that converged."""
     boundary = {"y0": {"fix": "xy"}, "y1": {"fix": "x", "displacement": {"y": "0.8*t"}}}
     def pulled(step, *options):
-        return solve(run, tmp_path, SET_B, 2, boundary, 1, [linspace(0, 1, 4), linspace(0, 1, 4)], None, "-solve_max_it", 4, *options,
+        return solve(run, tmp_path, SET_B, 2, boundary, 1, [linspace(0, 1, 4), linspace(0, 1, 4)], None, "-snes_max_it", 4, *options,
                      load={"step": step, "step_max": step, "step_min": 1e-4})
     cut = pulled(1)
     cuts = int(cut.history[0]["step_cuts"])

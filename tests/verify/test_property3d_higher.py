@@ -263,7 +263,7 @@ def halves(box):
 @faces("2-full", kinds=("2-full",))
 def test_lines_on_lines(solve):
     """Lines of both meshes lie in the plane x = 0.5 about which the bodies are symmetric, pressed until the surface has a crease there: as half of the model between supports in that plane, where no line
-    can leave it; symmetric to round-off. Derivatives of weighted gaps jump there (without lines held 227 iterations to t = 0.84, and no further)."""
+    can leave it; symmetric to round-off. Derivatives of weighted gaps jump there (without frozen segmentation 227 iterations to t = 0.84, and no further)."""
     keys, press = {"lower": LOWER._replace(number=(2, 3, 1)), "upper": UPPER._replace(number=(2, 2, 1))}, hold(("0", "0", "-0.3*t"))
     one = space.good(solve(*space.QUIET, boundary=press, load={"step": 0.1}, **keys))
     held = {f"{name}_x1": {"fix": "x"} for name in keys}
@@ -283,8 +283,8 @@ def test_lines_are_held(solve, name):
     lower, upper, cuts = MESHES[name]
     deep = 0.25 if name == "refined" else 0.3
     result = solve(*space.QUIET, "-path_viscous", "off", boundary=hold(("0", "0", f"-{deep}*t")), load={"step": 0.1}, lower=LOWER._replace(number=lower), upper=UPPER._replace(number=upper))
-    s, held = space.good(result), [row["t"] for row in result.history if row["lines_held"]]
-    print("iterations", s["newton_iterations"], "cuts", s["step_cuts"], "lines held from", held[0], "across", s["reaction"]["upper_z1"][0] / s["reaction"]["upper_z1"][2])
+    s, held = space.good(result), [row["t"] for row in result.history if row["frozen_segmentation"]]
+    print("iterations", s["newton_iterations"], "cuts", s["step_cuts"], "frozen from", held[0], "across", s["reaction"]["upper_z1"][0] / s["reaction"]["upper_z1"][2])
     assert s["step_cuts"] <= cuts and s["newton_iterations"] < 100 and held[0] > 0.5 and held[-1] == 1
     assert abs(s["reaction"]["upper_z1"][0]) < 1e-8 * abs(s["reaction"]["upper_z1"][2])
 
@@ -309,7 +309,7 @@ def test_lines_stay_held(solve, ranks):
     whole = space.good(solve(*space.QUIET, **keys))
     half = solve(*space.QUIET, "-load_end", 0.9, ranks=ranks, **keys)
     last = solve(*space.QUIET, "-restart", half.directory / "checkpoint.h5", ranks=ranks, **keys)
-    assert [row["lines_held"] for row in half.history[-2:]] == [1, 1] and half.history[0]["lines_held"] == 0 and "lines held" in half.stdout
+    assert [row["frozen_segmentation"] for row in half.history[-2:]] == [1, 1] and half.history[0]["frozen_segmentation"] == 0 and "frozen segmentation" in half.stdout
     s, tolerance = space.good(last), 1e-12 if ranks == 1 else 1e-8
     print("iterations", whole["newton_iterations"], s["newton_iterations"], "energy", s["energy"] / whole["energy"] - 1)
     assert s["newton_iterations"] == whole["newton_iterations"] and s["energy"] == pytest.approx(whole["energy"], rel=tolerance)

@@ -26,6 +26,14 @@ PetscErrorCode ProblemFreeAxes(Problem p, PetscInt body, PetscInt *axes, PetscBo
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscErrorCode ProblemHasFreeBody(Problem p, PetscBool *yes)
+{
+  PetscFunctionBegin;
+  *yes = PETSC_FALSE;
+  for (PetscInt b = 0; b < p->scene->mechanics.num_bodies; ++b) *yes = (PetscBool)(*yes || !MechanicsIsHeld(p->mechanics, b));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* P = (1 + A / tiny)^-1 of the supports A of the bodies of one side: what they leave free of a translation. */
 static PetscErrorCode Free_Private(Problem p, const Surface *s, PetscReal P[9])
 {
@@ -134,7 +142,7 @@ static PetscErrorCode Forces_Private(Problem p, const Contact *c, const PetscRea
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode ProblemDrift(Problem p, Vec dx, Vec force, PetscReal *excess)
+PetscErrorCode ProblemFindSlide(Problem p, Vec dx, Vec force, PetscReal *excess)
 {
   PetscReal worst = 1 + ROUND, pending;
   PetscBool any   = PETSC_FALSE;
@@ -149,7 +157,7 @@ PetscErrorCode ProblemDrift(Problem p, Vec dx, Vec force, PetscReal *excess)
   for (PetscInt i = 0; i < p->num_contacts; ++i) {
     Contact  *c = &p->contacts[i];
     PetscReal e[3], length, limit, sum[2];
-    if (c->released || !c->drifts) continue;
+    if (ContactIsReleased_Private(p, c) || !c->drifts) continue;
     PetscCall(Slide_Private(p, c, e, &length, &limit, sum));
     if (length <= worst * limit) continue;
     worst   = length / limit;

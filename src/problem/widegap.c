@@ -3,15 +3,15 @@
    A gap is measured along a direction that turns with the nonmortar surface: by du/h. Across a gap g that moves the end of the ray by g du/h. At the solution g
    is small against h and Newton's method needs this. Where gaps are wide against the facets, as at the first touch of a large load, it outweighs the motion
    itself: a linear step then closes gaps by folding the surface facet by facet, and it does so with pressures that alternate. What pressure there is acts
-   like a row of struts under compression that turn likewise: a negative stiffness that grows as z g/h^2. There directions are held in the linearisation, rows,
-   forces and curvature alike, of the whole pair: where facets that are held meet others the surface folds, too. Overlaps are struts in tension and do no harm:
-   a slide, which leaves gaps of both signs, is no such case. Before there is any pressure nothing tells how wide the gaps are that matter; where they are
-   narrow, held directions change little. */
+   like a row of struts under compression that turn likewise: a negative stiffness that grows as z g/h^2. There directions are frozen in the linearisation,
+   rows, forces and curvature alike, of the whole pair: where facets that are held meet others the surface folds, too. Overlaps are struts in tension and do no
+   harm: a slide, which leaves gaps of both signs, is no such case. Before there is any pressure nothing tells how wide the gaps are that matter; where they are
+   narrow, frozen directions change little. */
 #include "problemimpl.h"
 
-#define FAR 0.1 /* mean open gap in lengths of facets */
+#define WIDE 0.1 /* mean open gap in lengths of facets */
 
-PetscErrorCode ContactIsFar_Private(Problem p, const Contact *c, PetscBool *far)
+static PetscErrorCode IsWide_Private(Problem p, const Contact *c, PetscBool *wide)
 {
   const Surface *s      = &c->side[0];
   PetscReal      sum[3] = {0, 0, 0}; /* open gaps, forces, forces of a pressure as large as Young's modulus */
@@ -30,6 +30,19 @@ PetscErrorCode ContactIsFar_Private(Problem p, const Contact *c, PetscBool *far)
     }
   }
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 3, MPIU_REAL, MPI_SUM, p->comm));
-  *far = (PetscBool)(sum[1] <= SLACK * sum[2] || sum[0] > FAR * sum[1]);
+  *wide = (PetscBool)(sum[1] <= SLACK * sum[2] || sum[0] > WIDE * sum[1]);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode ProblemFindWide(Problem p, uint64_t *pairs)
+{
+  PetscBool wide;
+
+  PetscFunctionBegin;
+  *pairs = 0;
+  for (PetscInt i = 0; i < p->num_contacts; ++i) {
+    PetscCall(IsWide_Private(p, &p->contacts[i], &wide));
+    if (wide) *pairs |= (uint64_t)1 << i;
+  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

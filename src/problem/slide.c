@@ -1,15 +1,17 @@
-/* Slides along a good part of the zone of contact. Seen from the side that stays, a body of radius R that moves by s along the other leaves a gap (X - s)^2 /
-   2R, of which the linearisation at s = 0 lacks s^2 / 2R: too deep against a depth of contact of a^2 / R, half width a, from about s = a on. The linear step
-   then presses the body far into the other, and Newton's method does not find back. Where supports do not tell beforehand (slip.c), what it does tell is that
-   contact moves: its active set leaves nodes that carry pressure and takes as many new ones (never more than half of the old: the linear gap below the centre
-   does not change). The bodies are then brought to their new places first. */
+/* Slides along a good part of the zone of contact. Seen from the side that stays, a body of radius R that moves by s
+   along the other leaves a gap (X - s)^2 / 2R, of which the linearisation at s = 0 lacks s^2 / 2R: too deep against a
+   depth of contact of a^2 / R, half width a, from about s = a on. The linear step then presses the body far into the
+   other, and Newton's method does not find back. What it does tell
+   is that contact moves: its active set leaves nodes that carry pressure and takes as many new ones (never
+   more than half of the old: the linear gap below the centre does not change). The bodies are then brought to their new
+   places first. */
 #include "problemimpl.h"
 
 #define STAYS 0.85   /* share of the smaller of the old and the new zone that both have in common, below which contact moves */
 #define PRESSED 1e-8 /* of the largest pressure: less is round-off of an open node */
 
-/* Does contact, by the active set at hand, leave nodes that carry pressure for others? By reference length, so that graded meshes count alike. A zone that only
-   grows or only shrinks does not move. */
+/* Does contact, by the active set at hand, leave nodes that carry pressure for others? By reference length, so that
+   graded meshes count alike. A zone that only grows or only shrinks does not move. */
 static PetscErrorCode HasMoved_Private(Problem p, const Contact *c, PetscBool *moved)
 {
   const Surface *s      = &c->side[0];
@@ -33,25 +35,18 @@ static PetscErrorCode HasMoved_Private(Problem p, const Contact *c, PetscBool *m
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode ProblemRelease(Problem p, PetscBool *any)
+PetscErrorCode ProblemFindSliding(Problem p, uint64_t *pairs)
 {
   PetscReal pending;
+  PetscBool moved;
 
   PetscFunctionBegin;
-  *any = PETSC_FALSE;
+  *pairs = 0;
   if (p->num_contacts == 0 || p->scene->mechanics.kinematics == KINEMATICS_SMALL) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(ProblemPending(p, &pending));
   for (PetscInt i = 0; pending > 0 && i < p->num_contacts; ++i) {
-    Contact *c = &p->contacts[i];
-    PetscCall(HasMoved_Private(p, c, &c->released));
-    if (c->released) *any = PETSC_TRUE;
+    PetscCall(HasMoved_Private(p, &p->contacts[i], &moved));
+    if (moved) *pairs |= (uint64_t)1 << i;
   }
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode ProblemEngage(Problem p)
-{
-  PetscFunctionBegin;
-  for (PetscInt i = 0; i < p->num_contacts; ++i) p->contacts[i].released = PETSC_FALSE;
   PetscFunctionReturn(PETSC_SUCCESS);
 }

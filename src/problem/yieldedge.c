@@ -6,14 +6,14 @@
 #define SMALL                                                                                                                                                  \
   1e-6 /* share of the linear step that is looked at: far enough to tell the sides of the yield surface apart, too little to reach the other end of it */
 
-PetscErrorCode ProblemRests(Problem p, Vec x, Vec dx, PetscBool *rests)
+PetscErrorCode ProblemUnloads(Problem p, Vec x, Vec dx, PetscBool *yes)
 {
   const HPTables *v;
   PetscReal      *u;
   PetscInt        num[2];
 
   PetscFunctionBegin;
-  *rests = PETSC_FALSE;
+  *yes = PETSC_FALSE;
   if (!MechanicsIsPlastic(&p->scene->mechanics)) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(HPSpaceGetTables(p->space, &v));
   PetscCall(PetscMalloc1(v->num_nodes * p->dim, &u));
@@ -24,14 +24,7 @@ PetscErrorCode ProblemRests(Problem p, Vec x, Vec dx, PetscBool *rests)
     PetscCall(MechanicsNumFlowing(p->mechanics, u, &num[side]));
   }
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, num, 2, MPIU_INT, MPI_SUM, p->comm));
-  *rests = (PetscBool)(num[1] > num[0]);
+  *yes = (PetscBool)(num[1] > num[0]);
   PetscCall(PetscFree(u));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode ProblemSetEdge(Problem p, MaterialEdge edge)
-{
-  PetscFunctionBegin;
-  PetscCall(MechanicsSetEdge(p->mechanics, edge));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

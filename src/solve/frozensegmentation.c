@@ -1,0 +1,54 @@
+/* Modifier: where a crease of the mortar side comes to lie on a side of a nonmortar facet, derivatives of weighted gaps
+   jump (docs/theory.md, after (5.8)), and residuals come and go. From then on forces are those at held lines, which do
+   not jump; on: from the first iterate on. */
+#include "solveimpl.h"
+
+#define NEAR 1e-5 /* residual over the nodal forces from which on it should not grow */
+#define CLEAR 10  /* tolerances: what is less is round-off's */
+
+static PetscErrorCode Begin_Private(Solver s)
+{
+  PetscFunctionBegin;
+  s->last_norm = 0;
+  s->last_set  = 0;
+  s->grew = s->fell = PETSC_FALSE;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Does the residual come and go with the same active set? Near the solution it should not grow at all, elsewhere not
+   after it has grown and fallen, if it is below that after the first iteration. */
+static PetscErrorCode ComesAndGoes_Private(Solver s, const Iterate *it, PetscBool *yes)
+{
+  const PetscReal last = s->last_norm;
+  PetscReal       pending;
+
+  PetscFunctionBegin;
+  PetscCall(ProblemPending(s->problem, &pending));
+  const PetscBool same = (PetscBool)(last > CLEAR * SolverTolerance_Private(s, &s->report->status) && it->set == s->last_set);
+  *yes                 = (PetscBool)(same && it->norm >= last && (last <= NEAR * s->report->status.scale || (s->fell && last < s->first_norm)));
+  s->grew              = (PetscBool)(s->grew || (same && it->norm >= last));
+  s->fell              = (PetscBool)(s->fell || (s->grew && it->norm < last));
+  s->last_norm         = pending == 0 ? it->norm : 0;
+  s->last_set          = it->set;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode Verdict_Private(Solver s, Iterate *it, PetscBool always, PetscBool *acts)
+{
+  PetscBool yes = always;
+
+  PetscFunctionBegin;
+  if (s->form.frozen_segmentation || (it->number == 0 && !always)) PetscFunctionReturn(PETSC_SUCCESS);
+  if (!always) PetscCall(ComesAndGoes_Private(s, it, &yes));
+  if (yes) PetscCall(ProblemMayFreezeSegmentation(s->problem, acts));
+  if (!*acts) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(PetscInfo(s->snes, "residuals come and go: the segmentation of mortar sides is frozen in forces from here on\n"));
+  s->form.frozen_segmentation = PETSC_TRUE;
+  s->best_norm                = PETSC_MAX_REAL;
+  PetscCall(ProblemSetForm(s->problem, &s->form));
+  PetscCall(SolverLook_Private(s, it));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+const Modifier ModifierFrozenSegmentation = {"frozen_segmentation", "contact forces at held lines of the mortar side where residuals come and go; on: always",
+                                             .begin = Begin_Private, .verdict = Verdict_Private};

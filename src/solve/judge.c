@@ -1,0 +1,75 @@
+/* When is an iterate the solution? */
+#include "solveimpl.h"
+#include <petsc/private/snesimpl.h>
+
+/* What a cell of incompressible material may gain or lose of its volume, whatever the forces: where prescribed motion
+   leaves it no choice, pressures grow without bounds, and next to them every residual is small. */
+#define VOLUME 1e-8
+
+PetscReal SolverTolerance_Private(const Solver s, const ProblemStatus *status)
+{
+  return PetscMax(s->rtol * status->scale, status->noise);
+}
+
+/* The residual is small against the nodal forces, or down at the round-off of an unloaded body; or as small as
+   -snes_atol or -snes_rtol ask. */
+static PetscBool Small_Private(const Solver s, const ProblemStatus *status, PetscReal norm)
+{
+  return (PetscBool)(norm <= PetscMax(SolverTolerance_Private(s, status), PetscMax(s->snes->abstol, s->snes->rtol * s->first_norm)));
+}
+
+static PetscBool KeepsVolume_Private(const Solver s)
+{
+  return (PetscBool)(s->report->status.volume <= PetscMax(VOLUME, s->rtol));
+}
+
+const char *SolverWords_Private(const Solver s, PetscReal norm, const char *usual)
+{
+  return Small_Private(s, &s->report->status, norm) && !KeepsVolume_Private(s) ? "incompressible material cannot keep its volume" : usual;
+}
+
+/* Are the forces of the element pressures that Newton's method has found in balance? Round-off of the displacements
+   times the bulk modulus is in those of the pressures that x implies, down to which the iteration ends, but not in
+   these, so that they tell whether its last step was small. */
+static PetscErrorCode Balanced_Private(Solver s, Vec x, PetscBool *yes)
+{
+  ProblemStatus status;
+  PetscReal     norm;
+
+  PetscFunctionBegin;
+  PetscCall(ProblemResidual(s->problem, x, s->pressure, s->balance, &status));
+  PetscCall(VecNorm(s->balance, NORM_2, &norm));
+  *yes = Small_Private(s, &status, norm);
+  PetscCall(PetscInfo(s->snes, "with the element pressures found: %g of %g\n", (double)norm, (double)status.scale));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Was the last step as small as -snes_stol asks? */
+static PetscErrorCode StepIsSmall_Private(Solver s, const Iterate *it, PetscBool *yes)
+{
+  PetscReal step, x;
+
+  PetscFunctionBegin;
+  *yes = PETSC_FALSE;
+  if (s->snes->stol <= 0 || it->number == 0) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(VecNorm(s->snes->vec_sol_update, NORM_2, &step));
+  PetscCall(VecNorm(it->x, NORM_2, &x));
+  *yes = (PetscBool)(step < s->snes->stol * x);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SolverConverged_Private(Solver s, const Iterate *it, SNESConvergedReason *reason)
+{
+  PetscReal pending;
+  PetscBool small, step;
+
+  PetscFunctionBegin;
+  *reason = SNES_CONVERGED_ITERATING;
+  PetscCall(ProblemPending(s->problem, &pending));
+  if (pending > 0 || !KeepsVolume_Private(s)) PetscFunctionReturn(PETSC_SUCCESS);
+  small = Small_Private(s, &s->report->status, it->norm);
+  if (small && s->balance) PetscCall(Balanced_Private(s, it->x, &small));
+  PetscCall(StepIsSmall_Private(s, it, &step));
+  if (small || step) *reason = small ? SNES_CONVERGED_FNORM_RELATIVE : SNES_CONVERGED_SNORM_RELATIVE;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

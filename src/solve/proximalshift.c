@@ -1,0 +1,20 @@
+/* Modifier: bodies that nothing holds get a small stiffness in the tangent (src/mechanics/free.c), the less the smaller
+   the residual is, as far as the digits of the linear solver allow: the method of Levenberg and Marquardt. Without it
+   the tangent of a body that no support holds may be singular. */
+#include "solveimpl.h"
+
+#define LEAST 1e-2 /* least part of it: round-off of factors is far below */
+
+static PetscErrorCode Linearise_Private(Solver s, const Iterate *it, const Form *last, PetscBool always, PetscBool *acts)
+{
+  const PetscBool digits = (PetscBool)(!s->single && !s->saddle);
+
+  PetscFunctionBegin;
+  s->form.proximal = 1;
+  if (it->number > 0 && digits && !always) s->form.proximal = PetscMax(LEAST, PetscMin(1, it->norm / s->first_norm));
+  PetscCall(ProblemHasFreeBody(s->problem, acts));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+const Modifier ModifierProximalShift = {"proximal_shift", "a small stiffness of bodies that no support holds, less as Newton converges; on: all of it always",
+                                        .linearise = Linearise_Private};

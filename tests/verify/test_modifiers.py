@@ -1,0 +1,39 @@
+"""Each modifier of Newton's iteration earns its place: a scene that takes clearly more, or finds nothing, without it (docs/ablation.md has all scenes)."""
+import re
+
+import pytest
+
+QUIET = ("-output_fields", "false")
+DEEP = ("inputs/slide2d.yml", "-adapt_tolerance", 0, "-mesh_parameter_n", 8, "-order", 1, "-boundary_top_displacement_x", "0.8*max(t - 1, 0)",
+        "-boundary_top_displacement_y", "-0.3*min(t, 1)", "-material_rubber_nu", 0.499, "-contact_disc_on_block_nonmortar", "block_top",
+        "-contact_disc_on_block_mortar", "disc_surface")
+DRIVEN = ("inputs/cylinder.yml", "-boundary_flat_traction_y", 0, "-boundary_flat_displacement_y", -1.6, "-load_step", 1, "-mesh_parameter_n", 4,
+          "-mesh_parameter_m", 4, "-refine_arc_levels", 3, "-refine_top_levels", 3, "-adapt_tolerance", 0, "-order", 2, "-contact_cylinder_on_block_order", "full")
+NEEDED = [  # modifier, figure of summary.json, how many times as large it is without, scene
+    ("slide_predictor", "newton_iterations", 2, DEEP),
+    ("first_touch", "factorisations", 1.5, DRIVEN),
+    ("yield_edge", "newton_iterations", 1.3, ("inputs/necking.yml", "-load_end", 0.1)),
+    ("frozen_normals", "newton_iterations", 2, ("tests/verify/scenes/pressed_cylinder.yml", "-load_step", 1)),
+]
+
+
+@pytest.mark.parametrize("name,figure,times,scene", NEEDED, ids=[row[0] for row in NEEDED])
+def test_needed(run, name, figure, times, scene):
+    """The same solution with and without, and clearly more work without."""
+    plain, without = (run(*scene, *QUIET, f"-newton_{name}", word) for word in ("auto", "off"))
+    for result in (plain, without): assert result.returncode == 0, result
+    assert plain.summary["modifiers"][name] > 0 == without.summary["modifiers"][name]
+    print(figure, plain.summary[figure], without.summary[figure])
+    assert without.summary[figure] > times * plain.summary[figure]
+    assert without.summary["energy"] == pytest.approx(plain.summary["energy"], rel=1e-3)
+
+
+def test_switches_and_counters(run):
+    """Each has a row in -help and a counter in summary.json, steps of history.csv add up to them, and none acts when it is off."""
+    names = re.findall(r"^  -newton_(\w+) +auto\|on\|off$", run("inputs/patch2d.yml", "-help").stdout, re.M)
+    plain = run("inputs/patch2d.yml", *QUIET)
+    assert len(names) >= 5 and sorted(plain.summary["modifiers"]) == sorted(names) and sum(plain.summary["modifiers"].values()) > 0
+    assert sum(row["modifiers"] for row in plain.history) == sum(plain.summary["modifiers"].values())
+    off = run("inputs/patch2d.yml", *QUIET, *(word for name in names for word in (f"-newton_{name}", "off")))
+    assert off.returncode == 0 and not any(off.summary["modifiers"].values())
+    assert off.summary["energy"] == pytest.approx(plain.summary["energy"], rel=1e-9)
