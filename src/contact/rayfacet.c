@@ -404,7 +404,7 @@ static PetscErrorCode Facet_Private(const EvaluateContext *ctx, PetscInt slot, C
     if (y[a] != 0) loaded = PETSC_TRUE;
   }
   derivatives = ContactResultDerivatives(ctx, w->result.num_rows, w->result.node, loaded);
-  o.dual      = (PetscBool)(!pair->standard && w->facet.s.order == 1);
+  o.dual      = (PetscBool)(!pair->standard && w->facet.s.order == 1 && !w->test[0].hats);
   if (ctx->again && !pair->held && out->dgap && !o.dual && !out->spring && w->first_place[slot] >= 0) { /* nothing else is missing */
     w->places = w->place + w->first_place[slot];
     PetscCall(Curve_Private(ctx, facet, y, out));

@@ -33,7 +33,7 @@ SIDES = {"stiff": ("face", "surface"), "soft": ("surface", "face")}
 def punch(run, nonmortar, *options):
     text = SCENE.replace("NONMORTAR", SIDES[nonmortar][0]).replace("MORTAR", SIDES[nonmortar][1])
     result = run("punch.yml", *options, text=text)
-    assert result.returncode == 0, result
+    assert result.solved, result
     return result.summary["estimated_error"], -result.summary["probe"]["top"]["displacement"][1] / DEPTH - 1
 
 
