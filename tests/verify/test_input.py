@@ -416,7 +416,7 @@ def test_options_of_snes_that_act(run):
     disc = ("inputs/hertz2d.yml", "-adapt_tolerance", 0, "-output_fields", "false")
     plain = run(*disc).summary["newton_iterations"]
     for limit in ("max_it", "max_funcs"):
-        short = run("inputs/patch2d.yml", f"-snes_{limit}", 1, "-load_step_min", 0.6)
+        short = run("inputs/patch2d.yml", f"-snes_{limit}", 1, "-load_step_min", 0.6, "-path_descent", "off")
         assert short.returncode == 2 and f"-snes_{limit}" in short.summary["reason"], short
     for tolerance in (("-snes_rtol", 0.1), ("-snes_atol", 1e-5), ("-snes_stol", 0.1)):
         loose = run(*disc, *tolerance)
