@@ -6,12 +6,11 @@
 
    Nor is what lies round a corner. Where the edge of one body lies on the other, its side faces the far side of that one, through all of it, along the surface
    on which they touch. There sides of both bodies that face each other run beside the ray: a to one side of its end, b to the other of its start. Across it the
-   bodies overlap by a + b; where that is less than half of d they have met there.
+   bodies overlap by a + b; where that is less than d they have met there.
 
    Thicknesses are those at the reference positions, along directions that turn with the facets. */
 #include "rayimpl.h"
 
-#define BESIDE 0.5   /* of the depth: bodies that overlap less than that across the ray have met there */
 #define CLOSE 0.1    /* of a facet's half width */
 #define CLEARLY 0.75 /* of what both bodies measure: what lies deeper is surely no overlap, or one that is seen from its own side, too */
 
@@ -245,9 +244,9 @@ PetscBool ContactBehind(ContactPair pair, PetscInt facet, const FacetCorners *s,
   if (!(Dot3(n, N) < -CONTACT_GRAZE) || !(depth > 0)) return PETSC_FALSE;
   for (int c = 0; c < 3; c++) x[c] -= depth * n[c], r[c] = -n[c];
   Locate_Private(&m, x, eta);
-  num_own   = Beside_Private(pair->hull, pair->part[0][facet], s, xi, r, depth, BESIDE * depth, side[0]);
-  num_other = num_own ? Beside_Private(pair->hull, pair->part[1][other], &m, eta, n, depth, BESIDE * depth, side[1]) : 0;
-  if (IsBeside_Private(num_own, side[0], num_other, side[1], BESIDE * depth)) return PETSC_TRUE;
+  num_own   = Beside_Private(pair->hull, pair->part[0][facet], s, xi, r, depth, depth, side[0]);
+  num_other = num_own ? Beside_Private(pair->hull, pair->part[1][other], &m, eta, n, depth, depth, side[1]) : 0;
+  if (IsBeside_Private(num_own, side[0], num_other, side[1], depth)) return PETSC_TRUE;
   own = Across_Private(pair->hull, pair->part[0][facet], s, xi, r, 2 * depth);
   own += Across_Private(pair->hull, pair->part[1][other], &m, eta, n, PetscMax(0, 2 * depth - own));
   behind = (PetscBool)(own < 2 * depth);

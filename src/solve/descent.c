@@ -206,11 +206,11 @@ PetscErrorCode DescentDirection_Private(Descent *d, PetscReal *slope, PetscBool 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Is there a node that is deep in the other side at the iterate and has lost it at the trial? The energy falls when bodies pass through each other. *deeper: by
-   how much one is deeper at the trial. */
-static PetscErrorCode Through_Private(Descent *d, PetscBool *yes, PetscReal *deeper)
+/* Is there a node that is deep in the other side at the iterate, or (pressed) presses on it, and has lost it at the trial? The energy falls when bodies pass
+   through each other. *deeper: by how much one is deeper at the trial. */
+static PetscErrorCode Through_Private(Descent *d, PetscBool pressed, PetscBool *yes, PetscReal *deeper)
 {
-  const PetscReal *depth, *next;
+  const PetscReal *depth, *next, *lambda;
   PetscInt         num;
   PetscReal        largest[2] = {0, 0};
 
@@ -219,10 +219,12 @@ static PetscErrorCode Through_Private(Descent *d, PetscBool *yes, PetscReal *dee
   PetscCall(VecGetLocalSize(d->next, &num));
   PetscCall(VecGetArrayRead(d->depth, &depth));
   PetscCall(VecGetArrayRead(d->next, &next));
+  PetscCall(VecGetArrayRead(d->lambda, &lambda));
   for (PetscInt i = 0; i < num; ++i) {
-    if (depth[i] > DEEP && next[i] < 0) largest[0] = 1;
+    if ((depth[i] > DEEP || (pressed && depth[i] >= 0 && lambda[i] > 0)) && next[i] < 0) largest[0] = 1;
     largest[1] = PetscMax(largest[1], next[i] - PetscMax(depth[i], 0));
   }
+  PetscCall(VecRestoreArrayRead(d->lambda, &lambda));
   PetscCall(VecRestoreArrayRead(d->depth, &depth));
   PetscCall(VecRestoreArrayRead(d->next, &next));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, largest, 2, MPIU_REAL, MPI_MAX, PetscObjectComm((PetscObject)d->trial)));
@@ -241,7 +243,7 @@ PetscErrorCode DescentTry_Private(Descent *d, Vec x, PetscReal step, PetscReal *
   PetscCall(VecWAXPY(d->trial, step, d->dx, x));
   PetscCall(ProblemSearch(d->problem, d->trial));
   PetscCall(ProblemMerit(d->problem, PENALTY, d->lambda, d->trial, NULL, merit, &status));
-  PetscCall(Through_Private(d, &through, &deeper));
+  PetscCall(Through_Private(d, PETSC_FALSE, &through, &deeper));
   if (through) *merit = PETSC_MAX_REAL;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -339,7 +341,7 @@ static PetscErrorCode Piece_Private(Descent *d, Vec x, PetscBool *ok)
   for (PetscReal step = 1; step > SHORTEST && !*ok; step *= 0.5) {
     PetscCall(ProblemStepMove(d->problem, d->dx, step, x));
     PetscCall(ProblemMerit(d->problem, PENALTY, d->lambda, x, NULL, &d->merit, &d->status));
-    PetscCall(Through_Private(d, &through, &deeper));
+    PetscCall(Through_Private(d, PETSC_TRUE, &through, &deeper));
     *ok = (PetscBool)(!d->status.bad && !through && deeper <= DEEPER);
   }
   PetscFunctionReturn(PETSC_SUCCESS);
