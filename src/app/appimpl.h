@@ -43,13 +43,13 @@ typedef struct {
   char             reason[PETSC_MAX_PATH_LEN + MORTISE_NAME]; /* why it was, or what its solutions lack */
   const char      *adapt_stop;                                /* why the last adaptation ended: tolerance, max_passes, max_cells, … */
   PetscInt         num_missed;
-  Missed          *missed;         /* owned [num_missed] */
-  PetscBool        inversion_told; /* that refinement would invert a cell, once */
-  PetscInt        *subdivided;     /* owned [num_contacts] by contact.<pair>.subdivide: auto, so often, or tried */
-  PetscBool       *touched;        /* owned [num_contacts] a node was in contact at some time of this run */
-  PetscReal        rough_error, rough_t, rough_norm;     /* largest estimate of an accepted step, its time; largest norm */
-  PetscReal        unstable_t;                           /* when a solution was first found unstable … */
-  PetscBool        unstable_known, passage_told;         /* … if one was; that a surface passes through itself */
+  Missed          *missed;                           /* owned [num_missed] */
+  PetscBool        inversion_told;                   /* that refinement would invert a cell, once */
+  PetscInt        *subdivided;                       /* owned [num_contacts] by contact.<pair>.subdivide: auto, so often, or tried */
+  PetscBool       *touched;                          /* owned [num_contacts] a node was in contact at some time of this run */
+  PetscReal        rough_error, rough_t, rough_norm; /* largest estimate of an accepted step, its time; largest norm */
+  PetscReal        unstable_t;                       /* when a solution was first found unstable … */
+  PetscBool        unstable_known, passage_told;     /* … if one was; that a surface passes through itself */
   ReportRow        last;
   PetscReal        dt;                                                          /* length of the next load step */
   Checkpoint       snapshot;                                                    /* owned: copy of the state at the end of the last accepted load step */
