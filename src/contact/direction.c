@@ -10,6 +10,7 @@
 
 #define DEPTH 6                   /* of corners that hang on edges whose ends hang */
 #define SHARP 0.76604444311897804 /* cosine of 40 degrees: a surface that turns by more has an edge */
+#define ALONG 0.70710678118654752 /* cosine: a facet whose normal is closer than 45 degrees to that of a plane lies along it and has no image there */
 #define SAME 1e-9                 /* 1 - cosine between the normals of one plane, square of the sine between it and what lies in it */
 
 typedef struct {
@@ -229,14 +230,27 @@ static PetscErrorCode Sheets_Private(RayWork w, const ContactSurface *s)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Does a facet lie along plane of symmetry k through one of its corners, rather than meet it? */
+static PetscBool LiesAlong_Private(const ContactSurface *s, PetscInt corner, int k)
+{
+  const PetscInt   nv = 2 * (s->dim - 1), node = s->facets[corner];
+  const PetscReal *mirror = s->mirror + (s->dim == 2 ? 2 * node : 6 * node + 3 * k);
+  PetscReal        N[3], n[3] = {mirror[0], mirror[1], s->dim == 3 ? mirror[2] : 0};
+
+  ContactFacetVector(s->dim, s->x, s->facets + nv * (corner / nv), N);
+  return (PetscBool)(PetscAbsReal(Dot3(n, N)) > ALONG * PetscSqrtReal(Dot3(N, N)));
+}
+
 PetscErrorCode ContactDirectionTopology(RayWork w, const ContactSurface *s)
 {
   const PetscInt nv = s->dim == 2 ? 2 : 4, num = nv * s->num_facets;
 
   PetscFunctionBegin;
+  PetscCall(PetscFree(w->along));
   PetscCall(PetscFree7(w->ring_first, w->ring, w->sheet, w->end, w->parent, w->d, w->kept));
   PetscCall(PetscCalloc7(s->num_nodes + 2, &w->ring_first, num, &w->ring, num, &w->sheet, 2 * num, &w->end, 2 * s->num_nodes, &w->parent, 3 * num, &w->d, num,
                          &w->kept));
+  PetscCall(PetscCalloc1(2 * num, &w->along));
   for (PetscInt i = 0; i < num; i++) {
     PetscCheck(s->facets[i] >= 0 && s->facets[i] < s->num_nodes, PETSC_COMM_SELF, PETSC_ERR_ARG_OUTOFRANGE,
                "nonmortar facet %" PetscInt_FMT " has node %" PetscInt_FMT ", must lie in [0, %" PetscInt_FMT ")", i / nv, s->facets[i], s->num_nodes);
@@ -245,6 +259,7 @@ PetscErrorCode ContactDirectionTopology(RayWork w, const ContactSurface *s)
   for (PetscInt i = 2; i < s->num_nodes + 2; i++) w->ring_first[i] += w->ring_first[i - 1];
   for (PetscInt i = 0; i < num; i++) w->ring[w->ring_first[s->facets[i] + 1]++] = i;
   for (PetscInt k = 0; k < num && s->dim == 3 && s->mirror; k++) w->kept[k] = IsKept_Private(s, s->facets[k], s->facets[4 * (k / 4) + (k + 1) % 4]);
+  for (PetscInt k = 0; k < 2 * num && s->mirror; k++) w->along[k] = LiesAlong_Private(s, k / 2, (int)(k % 2));
   PetscCall(ContactParents(s, w->parent, NULL));
   PetscCall(Sheets_Private(w, s));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -252,15 +267,16 @@ PetscErrorCode ContactDirectionTopology(RayWork w, const ContactSurface *s)
 
 /* ---- directions ---------------------------------------------------------------------------------------------------------------------- */
 
-/* Mean over the images in the planes of symmetry through a node: 1 - n n^T for one, l l^T / l^2 for two with the common line l. */
-static void Images_Private(const ContactSurface *s, PetscInt node, PetscReal R[9])
+/* Mean over the images of a facet in the planes of symmetry through its corner: 1 - n n^T for one, l l^T / l^2 for two with the common line l. */
+static void Images_Private(RayWork w, const ContactSurface *s, PetscInt corner, PetscReal R[9])
 {
-  PetscReal n[2][3] = {{0}}, l[3];
-  int       num     = 0;
+  const PetscInt node    = s->facets[corner];
+  PetscReal      n[2][3] = {{0}}, l[3];
+  int            num     = 0;
 
   for (int k = 0; s->mirror && k < (s->dim == 2 ? 1 : 2); k++) {
     for (PetscInt c = 0; c < s->dim; c++) n[num][c] = s->dim == 2 ? s->mirror[2 * node + c] : s->mirror[6 * node + 3 * k + c];
-    if (Dot3(n[num], n[num]) > 0) num++;
+    if (Dot3(n[num], n[num]) > 0 && !w->along[2 * corner + k]) num++;
   }
   if (num == 2) {
     Cross3(n[0], n[1], l);
@@ -300,9 +316,9 @@ static PetscInt Terms_Private(RayWork w, const ContactSurface *s, PetscInt corne
     return num + Terms_Private(w, s, w->end[2 * corner + 1], 0.5 * weight, depth + 1, max - num, term + num);
   }
   weight /= Around_Private(w, s, corner);
-  Images_Private(s, node, R);
   for (PetscInt k = w->ring_first[node]; k < w->ring_first[node + 1] && num < max; k++) {
     if (w->sheet[w->ring[k]] != w->sheet[corner]) continue;
+    Images_Private(w, s, w->ring[k], R);
     term[num].facet = w->ring[k] / nv;
     for (int i = 0; i < 9; i++) term[num].R[i] = weight * R[i];
     num++;

@@ -185,6 +185,7 @@ static PetscErrorCode General_Private(EvaluateContext *ctx, PetscBool *failed)
   if (!*failed) PetscCall(pair->rays ? ContactRayEvaluate(ctx, failed) : ContactFacetsEvaluate(ctx, failed));
   pair->state.stands = PETSC_FALSE;
   if (!*failed) PetscCall(ContactStateKeep(pair, ctx->nonmortar, ctx->mortar, ctx->z));
+  if (*failed) pair->num_results = pair->num_segments = 0;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

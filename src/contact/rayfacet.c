@@ -64,6 +64,7 @@ PetscErrorCode ContactRayWorkDestroy(RayWork *work)
   PetscFunctionBegin;
   if (!w) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(ContactResultDestroy(&w->result));
+  PetscCall(PetscFree(w->along));
   PetscCall(PetscFree7(w->ring_first, w->ring, w->sheet, w->end, w->parent, w->d, w->kept));
   PetscCall(PetscFree2(w->mortar_parent, w->mortar_middle));
   PetscCall(PetscFree(w->image));

@@ -98,6 +98,7 @@ struct _p_RayWork {
   PetscInt  *sheet;             /* [corners] those of one node with the same sheet have one direction (direction.c) */
   PetscInt  *parent;            /* [num_nodes][2] ends of the edge on which a node hangs, -1 */
   PetscInt  *end;               /* [corners][2] corners at these ends whose directions count, -1: the node does not hang */
+  PetscBool *along;             /* [corners][2] does the facet lie along this plane of symmetry, as it was at the search? */
   PetscReal *d;                 /* [corners][3] directions */
   PetscBool *kept;              /* [num_facets][4] does the side from corner k on lie in a plane of symmetry? (space) */
   PetscInt  *mortar_parent;     /* [mortar num_nodes][2] of nodes that hang on straight sides */
