@@ -210,7 +210,7 @@ def ring(run, path, *arguments):
     """fit() for shrinkfit3d.yml, with one cell along the axis in the inner tube and two in the outer one."""
     geometry = (ROOT / "inputs/shrinkfit3d.geo").read_text().replace("= l + 1;", "= l * (1 + b) + 1;")
     path.write_text(geometry)
-    text = (ROOT / "inputs/shrinkfit3d.yml").read_text().replace("file: shrinkfit3d.geo", f"file: {path}").replace(" projection: continuous,", "")
+    text = (ROOT / "inputs/shrinkfit3d.yml").read_text().replace("file: shrinkfit3d.geo", f"file: {path}")
     assert "l * (1 + b)" in geometry and str(path) in text and "projection" not in text
     return fit(run, "ring.yml", *arguments, depth=2, text=text)
 
