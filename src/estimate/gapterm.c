@@ -20,12 +20,12 @@ typedef struct {
   PetscReal *leaf; /* owned [num_leaves] */
 } BulgeWork;
 
-/* (1 - nu^2)/E. */
+/* (1 - nu^2)/E, from mu/kappa: 1/(4 mu) where kappa is infinite. */
 static PetscReal Compliance_Private(const EstimateSum *sum, PetscInt leaf)
 {
   const MaterialSpec *m = sum->spec->bodies[sum->t->leaf_body[leaf]].material;
 
-  return m->law->rigid ? 0 : (3 * m->kappa + 4 * m->mu) / (4 * m->mu * (3 * m->kappa + m->mu));
+  return m->law->rigid ? 0 : (3 + 4 * m->mu / m->kappa) / (4 * m->mu * (3 + m->mu / m->kappa));
 }
 
 /* Size of a facet over the order of its functions. */

@@ -161,15 +161,16 @@ def test_ranks_agree(run, scene):
 
 
 def test_tangent(run):
-    """PETSc's finite-difference test in contact, on an adapted mesh, and quadratic convergence."""
+    """PETSc's finite-difference test in contact, on an adapted mesh, and quadratic convergence down to round-off (a tolerance that asks for it: at the default
+    one, how small the last residual is depends on where the last step but one lands)."""
     result = run(*RUBBER, "-material_rubber_nu", 0.5, "-order", 2, "-adapt_tolerance", 0, "-refine_spot_x", 0.1, "-refine_spot_y", 0, "-refine_spot_levels", 1,
-                 "-snes_test_jacobian", "-snes_monitor")
+                 "-snes_test_jacobian", "-snes_monitor", "-solve_rtol", 1e-13)
     done(result)
     error = [float(line.split("=")[1].split(",")[0]) for line in result.stdout.splitlines() if line.strip().startswith("||J - Jfd||_F/||J||_F =")]
     norm = [float(line.split()[-1]) for line in result.stdout.splitlines() if "SNES Function norm" in line]
     print(error, norm)
     assert len(error) > 3 and max(error[-2:]) < 1e-6
-    assert norm[-1] < 1e-12 and all(after < 20 * before**2 + 1e-14 for before, after in zip(norm[-3:], norm[-2:]))
+    assert norm[-1] < 1e-12 * max(norm) and all(after < 20 * before**2 + 1e-14 for before, after in zip(norm[-4:], norm[-3:]))
 
 
 @pytest.mark.slow
