@@ -244,14 +244,14 @@ PetscBool ContactBehind(ContactPair pair, PetscInt facet, const FacetCorners *s,
   if (!(Dot3(n, N) < -CONTACT_GRAZE) || !(depth > 0)) return PETSC_FALSE;
   for (int c = 0; c < 3; c++) x[c] -= depth * n[c], r[c] = -n[c];
   Locate_Private(&m, x, eta);
-  num_own   = Beside_Private(pair->hull, pair->part[0][facet], s, xi, r, depth, depth, side[0]);
-  num_other = num_own ? Beside_Private(pair->hull, pair->part[1][other], &m, eta, n, depth, depth, side[1]) : 0;
-  if (IsBeside_Private(num_own, side[0], num_other, side[1], depth)) return PETSC_TRUE;
   own = Across_Private(pair->hull, pair->part[0][facet], s, xi, r, 2 * depth);
   own += Across_Private(pair->hull, pair->part[1][other], &m, eta, n, PetscMax(0, 2 * depth - own));
   behind = (PetscBool)(own < 2 * depth);
   if (behind && depth < CLEARLY * own && IsOver_Private(&m, x, middle)) pair->untold = PetscMax(pair->untold, depth);
-  return behind;
+  if (behind) return PETSC_TRUE;
+  num_own   = Beside_Private(pair->hull, pair->part[0][facet], s, xi, r, depth, depth, side[0]);
+  num_other = num_own ? Beside_Private(pair->hull, pair->part[1][other], &m, eta, n, depth, depth, side[1]) : 0;
+  return IsBeside_Private(num_own, side[0], num_other, side[1], depth);
 }
 
 PetscErrorCode ContactPairGetUntold(ContactPair pair, PetscReal *depth)
