@@ -73,19 +73,18 @@ void ContactRows_Private(const Contact *c, PetscReal r[])
 
 PetscErrorCode ContactHoldsRims_Private(Problem p, PetscBool *holds)
 {
-  PetscBool mine = PETSC_FALSE, higher = PETSC_FALSE;
+  PetscBool mine = PETSC_FALSE;
 
   PetscFunctionBegin;
   *holds = PETSC_FALSE;
   for (PetscInt i = 0; i < p->num_contacts; ++i) {
     const Contact *c = &p->contacts[i];
-    if (c->side[0].order) higher = PETSC_TRUE;
     for (PetscInt f = 0; f < c->num_facets && !ContactIsReleased_Private(p, c); ++f) {
       const ContactFacet *e = &c->facets[f];
       for (PetscInt k = 0; k < e->num_rows && e->push; ++k) mine = (PetscBool)(mine || c->active[e->nodes[k]]);
     }
   }
-  if (higher && p->dim == 3) PetscCallMPI(MPI_Allreduce(&mine, holds, 1, COMPAT_MPI_BOOL, MPI_LOR, p->comm));
+  if (p->dim == 3 && p->num_contacts) PetscCallMPI(MPI_Allreduce(&mine, holds, 1, COMPAT_MPI_BOOL, MPI_LOR, p->comm));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

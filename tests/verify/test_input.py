@@ -435,8 +435,8 @@ def test_option_of_petsc(run):
 def test_options_file(check, tmp_path, ranks):
     """Keys of the scene and options of the solver, in PETSc's form; the command line wins over both."""
     options = tmp_path / "options.txt"
-    options.write_text('# of several runs\n-material_rubber_E 26\n-boundary_top_displacement_y "-0.02 * t"\n-order 3\n-solve_max_it 30\n')
-    result = check((), "-options_file", options, "-order", 2, "-solve_max_it", 20, ranks=ranks)
+    options.write_text('# of several runs\n-material_rubber_E 26\n-boundary_top_displacement_y "-0.02 * t"\n-order 3\n-snes_max_it 30\n')
+    result = check((), "-options_file", options, "-order", 2, "-snes_max_it", 20, ranks=ranks)
     assert result.returncode == 0 and "mu = 10," in result.stdout and "order 2" in result.stdout and "u_y = -0.02 * t" in result.stdout, result
 
 
