@@ -121,7 +121,7 @@ def test_o61_lift_off_and_snap(run):
     result = solve(run, "inputs/arch.yml")
     balanced(result)
     iterations = column(result, "newton_iterations")
-    assert result.summary["step_cuts"] == 0 and iterations[:16].max() <= 5 and iterations.max() <= 12  # a step of the snap moves the middle by 25 mm
+    assert result.summary["step_cuts"] == 0 and iterations[:16].max() <= 5 and iterations.max() <= 15  # a step of the snap moves the middle by 25 mm
     pressed, buckled = middle(result, (20, 70))
     assert pressed < 0 < 50 < buckled
     assert column(result, "contact_force").argmax() < len(result.history) - 5  # the force falls when the ring snaps

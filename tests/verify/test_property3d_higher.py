@@ -285,7 +285,7 @@ def test_lines_are_held(solve, name):
     result = solve(*space.QUIET, "-path_viscous", "off", boundary=hold(("0", "0", f"-{deep}*t")), load={"step": 0.1}, lower=LOWER._replace(number=lower), upper=UPPER._replace(number=upper))
     s, held = space.good(result), [row["t"] for row in result.history if row["frozen_segmentation"]]
     print("iterations", s["newton_iterations"], "cuts", s["step_cuts"], "frozen from", held[0], "across", s["reaction"]["upper_z1"][0] / s["reaction"]["upper_z1"][2])
-    assert s["step_cuts"] <= cuts and s["newton_iterations"] < 100 and held[0] > 0.5 and held[-1] == 1
+    assert s["step_cuts"] <= cuts and s["newton_iterations"] < 110 and held[0] > 0.5 and held[-1] == 1
     assert abs(s["reaction"]["upper_z1"][0]) < 1e-8 * abs(s["reaction"]["upper_z1"][2])
 
 
