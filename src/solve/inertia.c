@@ -18,6 +18,7 @@ PetscErrorCode SolverInertiaSetUp_Private(Solver s)
   PetscCall(ProblemHasEnergy(s->problem, &energy));
   PetscCall(PetscOptionsHasName(NULL, NULL, "-mat_mumps_icntl_13", &set));
   if ((incompressible || (energy && scene->load.stable)) && !set) PetscCall(PetscOptionsSetValue(NULL, "-mat_mumps_icntl_13", "1"));
+  PetscCall(PetscOptionsHasName(NULL, NULL, "-mat_mumps_icntl_13", &set)); /* ours: not one that nothing used, where nothing is factorised */
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
