@@ -59,7 +59,7 @@ typedef struct {
   PetscBool see_through;       /* comparison only: searches take far sides of bodies behind for overlaps */
   PetscBool hold_lines;        /* comparison only: forces hold lines of the mortar side throughout (ContactPairHoldLines) */
   PetscBool standard;          /* standard multipliers */
-  PetscBool continuous;        /* three dimensions: gaps along a direction that is continuous over the surface, for facets of order 1 too */
+  PetscBool continuous;        /* in the plane, facets of order 1 too: gaps along rays; in space always */
   PetscBool adjust;            /* the gaps of the mesh at the reference positions count as closed */
   PetscReal interference;      /* overlap at the reference positions, besides that of the geometry */
   PetscBool subdivide_auto;    /* cells behind linear facets are subdivided as the estimate asks (estimate/layer.c) */
@@ -95,8 +95,8 @@ typedef struct {
   const PetscReal *push;         /* [num_rows][dim*num] force by z_j where that is not dgap: rim or lines are held (theory (5.8)); with dgap. NULL: dgap */
   const PetscReal *hessian;      /* [dim*num][dim*num] derivatives of the forces (rows); NULL unless asked, or where z vanishes */
   const PetscReal *spring;       /* [num_rows] compliances K_j (ContactPairSetSoftness); NULL: none */
-  const PetscReal *stiffening;   /* [num_rows] dK_j / d area; without darea dK_j / dw_j, and then forces are z_j dgap_j + z_j^2/2 stiffening_j dweight_j */
-  const PetscReal *darea;        /* [dim*num] of area; with spring and dgap, where K_j depends on it */
+  const PetscReal *stiffening;   /* [num_rows] dK_j / d area */
+  const PetscReal *darea;        /* [dim*num] of area; with spring and dgap */
   PetscReal        area;         /* covered length or area (axisymmetric: area) */
   PetscReal        min_gap;
 } ContactFacet;
@@ -130,8 +130,7 @@ PetscErrorCode ContactPairSetCarriers(ContactPair, const ContactSurface *nonmort
 /* Compliances of constraints in space, rows gt_j + K_j z_j. Facets of higher order that are covered in part: forces without the motion of the mortar side's
    rim, z_j push_j, push_j = grad gt_j at a held covered part,
      K_j = 4 epsilon s (1 - s) softness_j (reference measure of j's hat on the facet), s the share of the facet that is covered.
-   Facets of order 1 seen along their own direction, where they carry next to nothing of j's weight: K_j of w_j (src/contact/sliver.c), forces the derivatives
-   of sum_j z_j gt_j + K_j z_j^2 / 2. softness[nonmortar num_nodes]: facet size / Young's modulus; borrowed. Without it there are no compliances. Not
+   softness[nonmortar num_nodes]: facet size / Young's modulus; borrowed. Without it there are no compliances. Not
    collective. */
 PetscErrorCode ContactPairSetSoftness(ContactPair, const PetscReal softness[]);
 /* Nodes that carry no multiplier, of facets of higher order: the pressure there is z_n = sum_k weight[k] z_donor[k], k from first[n] to first[n+1] (empty:
@@ -175,8 +174,7 @@ PetscErrorCode ContactPairEvaluate(ContactPair, const ContactSurface *nonmortar,
    that is not; while it is on the edge it changes from one to the other only so often.) Before a search. Not collective. */
 PetscErrorCode ContactPairForget(ContactPair);
 /* From now on directions are held (or follow the surface again): first derivatives are those at fixed directions of the nonmortar side, gaps and weights do not
-   change, there are no Hessians. Where gaps are wide against facets that tells more than the derivative itself. Facets along directions of their own (three
-   dimensions, no continuous direction) keep their first derivatives. Not collective. */
+   change, there are no Hessians. Where gaps are wide against facets that tells more than the derivative itself. Not collective. */
 PetscErrorCode ContactPairHold(ContactPair, PetscBool held);
 /* From now on forces of facets of higher order in space are those at held lines of the mortar side, between its facets too (`push` on all of them), or (as
    created) at a held rim only, where the mortar side ends within the facet (theory (5.8)). Gaps, weights and their derivatives do not change. Not collective.

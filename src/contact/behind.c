@@ -98,7 +98,7 @@ static void Directions_Private(ContactPair pair, const ContactSurface *s, PetscI
       if (pair->rays)
         p->d[a][c] = pair->ray->d[3 * (p->nv * facet + a) + c];
       else
-        p->d[a][c] = p->dim == 3 ? p->axis[2][c] : c < 2 ? pair->normal[2 * node + c] : 0;
+        p->d[a][c] = c < 2 ? pair->normal[2 * node + c] : 0;
     }
   }
 }

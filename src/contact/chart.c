@@ -17,10 +17,37 @@ static void Polynomial_Private(RayFacet *f)
   }
 }
 
+/* Corners along the first diagonal and across it, origin in their middle. False: the facet has no area, or is not convex. */
+static PetscBool Corners_Private(const PetscReal x[4][3], RayFacet *f)
+{
+  PetscReal d[3], e[3], E[2][3], N[3], length, normal;
+
+  for (int i = 0; i < 3; i++) {
+    d[i] = x[2][i] - x[0][i];
+    e[i] = x[3][i] - x[1][i];
+  }
+  Cross3(d, e, N);
+  length = PetscSqrtReal(Dot3(d, d));
+  normal = PetscSqrtReal(Dot3(N, N));
+  if (!(normal > 0)) return PETSC_FALSE;
+  for (int i = 0; i < 3; i++) {
+    E[0][i] = d[i] / length;
+    N[i] /= normal;
+  }
+  Cross3(N, E[0], E[1]);
+  f->area = 0.5 * normal;
+  for (int a = 0; a < 4; a++) {
+    PetscReal r[3];
+
+    for (int i = 0; i < 3; i++) r[i] = x[a][i] - 0.25 * (x[0][i] + x[1][i] + x[2][i] + x[3][i]);
+    for (int i = 0; i < 2; i++) f->chart.Y[a][i] = Dot3(E[i], r);
+  }
+  return ContactQuadIsConvex(&f->chart);
+}
+
 PetscBool ContactChartCreate(const ContactSurface *s, PetscInt facet, RayFacet *f)
 {
-  PetscReal  x[4][3];
-  FacetFrame frame;
+  PetscReal x[4][3];
 
   for (int a = 0; a < 4; a++) {
     f->chart.h[a]    = 0;
@@ -33,9 +60,7 @@ PetscBool ContactChartCreate(const ContactSurface *s, PetscInt facet, RayFacet *
   }
   for (int a = 0; a < 4; a++)
     for (int c = 0; c < 3; c++) x[a][c] = s->X[3 * s->facets[4 * facet + a] + c];
-  if (!ContactFacetFrame(x, &frame)) return PETSC_FALSE;
-  for (int a = 0; a < 4; a++) f->chart.Y[a][0] = frame.X[a][0], f->chart.Y[a][1] = frame.X[a][1];
-  f->area = frame.area;
+  if (!Corners_Private(x, f)) return PETSC_FALSE;
   Polynomial_Private(f);
   return PETSC_TRUE;
 }

@@ -94,8 +94,7 @@ typedef struct {
   PetscInt  returns;
 } ContactCoverage;
 
-typedef struct _p_FacetWork *FacetWork;
-typedef struct _p_RayWork   *RayWork;
+typedef struct _p_RayWork *RayWork;
 
 struct _p_ContactPair {
   PetscInt                  dim;
@@ -105,7 +104,6 @@ struct _p_ContactPair {
   PetscBool                 always_held;    /* lines, whatever the caller says */
   PetscBool                 lines_held;     /* forces without the motion of any line of the mortar side */
   PetscInt                  num_degenerate; /* overlaps of the last evaluation that could not be used */
-  FacetWork                 facet;          /* three dimensions without a continuous direction: work space, NULL until needed */
   struct ContactMultiplier *multiplier;     /* functions of facets of higher order, else NULL */
   const PetscReal          *softness;       /* borrowed; NULL: no compliance */
   RayWork                   ray;            /* rays along a continuous direction: work space, NULL until needed */

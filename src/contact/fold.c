@@ -9,14 +9,13 @@ enum { MOST = 2 * FACET_VERTICES };
 
 static PetscReal Distance_Private(const Overlap *o)
 {
-  PetscReal  Y[2] = {0, 0}, sum = 0;
-  PlanePoint p[2];
+  PetscReal Y[2] = {0, 0}, N[2][4], sum = 0;
 
   for (PetscInt k = 0; k < o->num; k++)
     for (int i = 0; i < 2; i++) Y[i] += o->v[k][i] / (PetscReal)o->num;
   for (int s = 0; s < 2; s++)
-    if (!ContactQuadLocate(&o->side[s], Y, &p[s])) return PETSC_MAX_REAL;
-  for (int a = 0; a < 4; a++) sum += p[1].N[a] * o->side[1].h[a] - p[0].N[a] * o->side[0].h[a];
+    if (!ContactQuadLocate(&o->side[s], Y, N[s])) return PETSC_MAX_REAL;
+  for (int a = 0; a < 4; a++) sum += N[1][a] * o->side[1].h[a] - N[0][a] * o->side[0].h[a];
   return PetscAbsReal(sum);
 }
 

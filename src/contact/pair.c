@@ -37,7 +37,6 @@ PetscErrorCode ContactPairDestroy(ContactPair *pair)
   PetscCall(ContactStateDestroy(p));
   PetscCall(PetscFree(p->real));
   PetscCall(PetscFree(p->work));
-  PetscCall(ContactFacetWorkDestroy(&p->facet));
   PetscCall(ContactRayWorkDestroy(&p->ray));
   PetscCall(ContactMultiplierDestroy(&p->multiplier));
   PetscCall(PetscFree(*pair));
@@ -174,15 +173,15 @@ PetscErrorCode ContactPairHoldLines(ContactPair pair, PetscBool held)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Rays and facets in space. */
-static PetscErrorCode General_Private(EvaluateContext *ctx, PetscBool *failed)
+/* Along rays. */
+static PetscErrorCode Rays_Private(EvaluateContext *ctx, PetscBool *failed)
 {
   ContactPair pair = ctx->pair;
 
   PetscFunctionBegin;
   ctx->again = (PetscBool)(!*failed && ContactStateStands(pair, ctx->nonmortar, ctx->mortar));
   if (!ctx->again) pair->num_results = pair->num_segments = 0;
-  if (!*failed) PetscCall(pair->rays ? ContactRayEvaluate(ctx, failed) : ContactFacetsEvaluate(ctx, failed));
+  if (!*failed) PetscCall(ContactRayEvaluate(ctx, failed));
   pair->state.stands = PETSC_FALSE;
   if (!*failed) PetscCall(ContactStateKeep(pair, ctx->nonmortar, ctx->mortar, ctx->z));
   if (*failed) pair->num_results = pair->num_segments = 0;
@@ -193,8 +192,8 @@ PetscErrorCode ContactPairEvaluate(ContactPair pair, const ContactSurface *nonmo
                                    const PetscBool wanted[], PetscBool derivatives, PetscBool hessian, PetscInt *num, const ContactFacet **facets,
                                    PetscBool *failed)
 {
-  const PetscBool general = (PetscBool)(pair->rays || pair->dim == 3), derives = (PetscBool)(derivatives || hessian);
-  EvaluateContext ctx = {pair, nonmortar, mortar, z, wanted, derives, (PetscBool)(hessian && (general || !pair->held)), PETSC_FALSE};
+  const PetscBool derives = (PetscBool)(derivatives || hessian);
+  EvaluateContext ctx     = {pair, nonmortar, mortar, z, wanted, derives, (PetscBool)(hessian && (pair->rays || !pair->held)), PETSC_FALSE};
 
   PetscFunctionBegin;
   PetscCheck(nonmortar->num_nodes == pair->num_nodes && nonmortar->num_facets == pair->num_facets && mortar->num_nodes == pair->num_mortar_nodes &&
@@ -204,8 +203,8 @@ PetscErrorCode ContactPairEvaluate(ContactPair pair, const ContactSurface *nonmo
   *failed = IsFinite_Private(nonmortar) && IsFinite_Private(mortar) ? PETSC_FALSE : PETSC_TRUE;
   *num    = 0;
   *facets = pair->result;
-  if (general) {
-    PetscCall(General_Private(&ctx, failed));
+  if (pair->rays) {
+    PetscCall(Rays_Private(&ctx, failed));
     *num = pair->num_results;
     PetscFunctionReturn(PETSC_SUCCESS);
   }

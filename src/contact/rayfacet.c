@@ -215,7 +215,7 @@ static PetscBool Dual_Private(const RayWork w, PetscReal z[4], Weights *o)
     o->place[i]    = w->facet.m == 1 ? Edge[i] : (int)i;
     q[o->place[i]] = w->q[i];
   }
-  if (!ContactFacetWeights(PETSC_FALSE, q, z, &o->f)) return PETSC_FALSE;
+  if (!ContactFacetWeights(q, z, &o->f)) return PETSC_FALSE;
   for (PetscInt a = 0; a < w->facet.nv; a++) {
     o->gap[a]   = o->f.gap[a];
     o->y[a]     = o->f.g[a];

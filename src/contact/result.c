@@ -1,4 +1,4 @@
-/* Results of facets in the general form (facet.c, rayfacet.c): the nodes that do not hang on which one depends, the vertices it is computed with by these
+/* Results of facets along rays (rayfacet.c): the nodes that do not hang on which one depends, the vertices it is computed with by these
    nodes, and the storage in which results are handed out. */
 #include "facetimpl.h"
 

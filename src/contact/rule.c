@@ -1,16 +1,8 @@
-/* Symmetric rules on triangles, exact to degree 10, 12 and 14 [Dunavant 1985]; weights sum up to 1.
-
-   The integrands over an overlap are polynomials of degree 4 where both facets are parallelograms in the facet's view; else inverses of bilinear
-   maps make them rational, and any rule leaves an error that grows with the distortion of the facets. Error of the contact patch test over the
-   pressure, where columns of cells are moved by up to the given share of a cell (docs/results.md):
-     distortion           0.05     0.1      0.2      0.3
-     degree 5, 7 points   3e-8     4e-7     8e-6     8e-5
-     degree 8, 16 points  1e-13    3e-11    1e-8     1e-6
-     degree 10, 25 points 4e-14    1e-13    3e-10    1e-7
-     degree 12, 33 points 4e-14    4e-14    4e-11    6e-8 */
+/* Symmetric rules on triangles, exact to degree 10, 12 and 14 [Dunavant 1985]; weights sum up to 1. */
 #include "facetimpl.h"
 
-const PetscReal ContactRulePoint[CONTACT_RULE][3] = {
+#define LEAST_POINTS 25
+static const PetscReal LeastPoint[LEAST_POINTS][3] = {
     {0.333333333333333315, 0.333333333333333315, 0.333333333333333315}, {0.028844733232685327, 0.485577633383657337, 0.485577633383657337},
     {0.485577633383657337, 0.028844733232685327, 0.485577633383657337}, {0.485577633383657337, 0.485577633383657337, 0.028844733232685327},
     {0.781036849029924873, 0.109481575485037563, 0.109481575485037563}, {0.109481575485037563, 0.781036849029924873, 0.109481575485037563},
@@ -25,7 +17,7 @@ const PetscReal ContactRulePoint[CONTACT_RULE][3] = {
     {0.066803251012200096, 0.923655933587500089, 0.009540815400299871}, {0.923655933587500089, 0.009540815400299871, 0.066803251012200096},
     {0.923655933587500089, 0.066803251012200096, 0.009540815400299871},
 };
-const PetscReal ContactRuleWeight[CONTACT_RULE] = {
+static const PetscReal LeastWeight[LEAST_POINTS] = {
     0.090817990382753691, 0.036725957756466858, 0.036725957756466858, 0.036725957756466858, 0.045321059435527784, 0.045321059435527784, 0.045321059435527784,
     0.072757916845419990, 0.072757916845419990, 0.072757916845419990, 0.072757916845419990, 0.072757916845419990, 0.072757916845419990, 0.028327242531057534,
     0.028327242531057534, 0.028327242531057534, 0.028327242531057534, 0.028327242531057534, 0.028327242531057534, 0.009421666963732889, 0.009421666963732889,
@@ -82,7 +74,7 @@ PetscBool ContactRuleGet(PetscInt degree, PetscInt *num, const PetscReal (**poin
   PetscReal(*to)[3] = HigherPoint[at], *w = HigherWeight[at];
 
   if (degree > 14) return PETSC_FALSE;
-  *num = CONTACT_RULE, *point = ContactRulePoint, *weight = ContactRuleWeight;
+  *num = LEAST_POINTS, *point = LeastPoint, *weight = LeastWeight;
   if (degree <= 10) return PETSC_TRUE;
   *num = 3 * o->num3 + 6 * o->num6, *point = (const PetscReal(*)[3])to, *weight = w;
   if (w[0] != 0) return PETSC_TRUE;

@@ -1,6 +1,6 @@
 /* Candidate search: which mortar facets a nonmortar facet may meet while no node moves more than `margin`.
 
-   Two dimensions (three: region.c; rays along a continuous direction: rayregion.c): a pair is kept when the unit normals oppose, N_s . N_m < -0.3, and the
+   Edges by nodal normals (rays: rayregion.c): a pair is kept when the unit normals oppose, N_s . N_m < -0.3, and the
    mortar edge reaches into the region swept by the nonmortar edge's rays, -depth < g < distance, where the bodies' thickness says how deep an overlap may be
    (behind.c), without them the distance does (with margin 0 exactly that; with a
    margin the region grows by slack = 2 margin (1 + distance / h): relative motion of the nodes plus the turn 2 margin / h of normals of edges of length h at
@@ -136,10 +136,9 @@ static PetscErrorCode ListFacets_Private(ContactPair pair, const ContactSurface 
 
 /* The region of a listed facet, by the kernel in use. */
 typedef struct {
-  EdgeFrame   edge;
-  Region      swept;
-  FacetRegion prism;
-  RayRegion   rays;
+  EdgeFrame edge;
+  Region    swept;
+  RayRegion rays;
 } Reach;
 
 static const PetscReal *Reach_Private(ContactPair pair, const ContactSurface *nonmortar, PetscInt facet, Reach *r)
@@ -147,10 +146,6 @@ static const PetscReal *Reach_Private(ContactPair pair, const ContactSurface *no
   if (pair->rays) {
     ContactRayRegion(pair, nonmortar, facet, &r->rays);
     return r->rays.box;
-  }
-  if (pair->dim == 3) {
-    ContactRegionCreate(pair, nonmortar, facet, &r->prism);
-    return r->prism.box;
   }
   ContactFrame(pair, nonmortar, facet, &r->edge);
   Region_Private(pair, nonmortar, facet, &r->edge, &r->swept);
@@ -160,7 +155,7 @@ static const PetscReal *Reach_Private(ContactPair pair, const ContactSurface *no
 static PetscBool Meets_Private(ContactPair pair, const Reach *r, const ContactSurface *mortar, PetscInt facet)
 {
   if (pair->rays) return ContactRayRegionMeets(&r->rays, mortar, facet);
-  return pair->dim == 3 ? ContactRegionMeets(&r->prism, mortar, facet) : Candidate_Private(pair, &r->edge, &r->swept, mortar, facet);
+  return Candidate_Private(pair, &r->edge, &r->swept, mortar, facet);
 }
 
 /* Query the tree for every listed facet. found: room for all mortar facets. */
@@ -202,11 +197,9 @@ static PetscErrorCode Prepare_Private(ContactPair pair, const ContactSurface *no
   pair->margin   = margin;
   pair->untold   = 0;
   pair->depth    = pair->hull && pair->deepest > 0 ? pair->deepest : distance;
-  pair->rays     = (PetscBool)(nonmortar->order || higher || pair->continuous);
+  pair->rays     = (PetscBool)(pair->dim == 3 || nonmortar->order || higher || pair->continuous);
   if (pair->rays)
     PetscCall(ContactRayTopology(pair, nonmortar));
-  else if (pair->dim == 3)
-    PetscCall(ContactFacetTopology(pair, nonmortar));
   else {
     PetscCall(ContactTopologyBuild(pair, nonmortar));
     PetscCall(ContactNormalsBuild(pair, nonmortar, &failed)); /* a failure shows again, and is reported, in the evaluation */

@@ -1,10 +1,8 @@
 /* Weighted gaps of one facet from its moments G_j = int N_j g, D_j = int N_j, M_jk = int N_j N_k over the covered part.
 
-   Standard multipliers: psi = N,               gt_j = G_j.
-   Dual multipliers:     psi = diag(D) M^-1 N,  gt_j = D_j c_j,  c = M^-1 G:
+   Dual multipliers: psi = diag(D) M^-1 N,  gt_j = D_j c_j,  c = M^-1 G:
      dgt_j = c_j dD_j + D_j dc_j,  dc = M^-1 (dG - dM c), and with S = sum_j z_j gt_j, y_j = z_j D_j, lambda = M^-1 y
-     dS = sum_j z_j c_j dD_j + lambda . (dG - dM c),   d2S / 2 = (first derivatives times d2 moments) / 2 + sum_k (z_k dD_k - sum_l lambda_l dM_lk) dc_k.
-   w_j = D_j in both. */
+     dS = sum_j z_j c_j dD_j + lambda . (dG - dM c),   d2S / 2 = (first derivatives times d2 moments) / 2 + sum_k (z_k dD_k - sum_l lambda_l dM_lk) dc_k. */
 #include "facetimpl.h"
 
 enum { G = 0, D = 4, M = 8 };
@@ -50,19 +48,11 @@ static PetscBool Inverse_Private(const PetscReal q[FACET_MOMENTS], PetscReal inv
   return PETSC_TRUE;
 }
 
-static void Standard_Private(const PetscReal q[FACET_MOMENTS], const PetscReal z[4], FacetWeights *w)
-{
-  for (int j = 0; j < 4; j++) {
-    w->gap[j]         = q[G + j];
-    w->dgap[j][G + j] = 1;
-    w->g[j]           = z[j];
-  }
-}
-
-static PetscBool Dual_Private(const PetscReal q[FACET_MOMENTS], const PetscReal z[4], FacetWeights *w)
+PetscBool ContactFacetWeights(const PetscReal q[FACET_MOMENTS], const PetscReal z[4], FacetWeights *w)
 {
   PetscReal inverse[4][4], c[4], lambda[4];
 
+  memset(w, 0, sizeof(*w));
   if (!Inverse_Private(q, inverse)) return PETSC_FALSE;
   for (int j = 0; j < 4; j++) {
     c[j] = lambda[j] = 0;
@@ -86,14 +76,5 @@ static PetscBool Dual_Private(const PetscReal q[FACET_MOMENTS], const PetscReal 
     for (int k = 0; k < 4; k++) w->D[j][k] = 0.5 * (z[j] * c[j] + z[k] * c[k] - lambda[j] * c[k] - lambda[k] * c[j]);
   }
   w->num_pairs = 4;
-  return PETSC_TRUE;
-}
-
-PetscBool ContactFacetWeights(PetscBool standard, const PetscReal q[FACET_MOMENTS], const PetscReal z[4], FacetWeights *w)
-{
-  memset(w, 0, sizeof(*w));
-  for (int j = 0; j < 4; j++) w->weight[j] = q[D + j];
-  if (!standard) return Dual_Private(q, z, w);
-  Standard_Private(q, z, w);
   return PETSC_TRUE;
 }

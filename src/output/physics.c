@@ -36,9 +36,9 @@ static PetscErrorCode Material_Private(const MaterialSpec *m, PetscInt num_cells
 static PetscErrorCode Pair_Private(const ContactSpec *c, const CoarseMesh *mesh, OutputText *text)
 {
   PetscFunctionBegin;
-  PetscCall(OutputTextPrint(text, "contact.%s: nonmortar %s, mortar %s, order %s, multiplier %s, projection %s, initial_gap %s, friction %.15g, ", c->name,
+  PetscCall(OutputTextPrint(text, "contact.%s: nonmortar %s, mortar %s, order %s, multiplier %s, initial_gap %s, friction %.15g, ", c->name,
                             mesh->boundary_name[c->nonmortar], mesh->boundary_name[c->mortar], c->full ? "full" : "1", c->standard ? "standard" : "dual",
-                            c->continuous ? "continuous" : "facet", c->adjust ? "adjust" : "keep", (double)c->friction));
+                            c->adjust ? "adjust" : "keep", (double)c->friction));
   PetscCall(OutputTextPrint(text, "interference %.15g%s\n", (double)c->interference, c->node_to_segment ? ", node_to_segment" : ""));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -365,12 +365,7 @@ void ContactRowFactors_Private(const Contact *c, const ContactFacet *e, PetscInt
   row    = (PetscBool)(row && c->active[j]);
   *mean  = row && ContactCovered_Private(c, j) ? ContactRowGap_Private(c, j) / ContactRowMeasure_Private(c, j) : 0;
   *along = 0;
-  if (!e->spring) return;
-  const PetscReal stiffer = e->stiffening[k] * (row ? c->z[j] - *mean * c->c[j] : c->z[j]);
-  if (!e->darea)
-    *mean -= stiffer; /* K depends on w, and so do the forces */
-  else if (row)
-    *along = stiffer;
+  if (e->spring && row) *along = e->stiffening[k] * (c->z[j] - *mean * c->c[j]);
 }
 
 PetscErrorCode ContactChange_Private(Problem p, Contact *c, const PetscReal increment[], PetscReal change[])

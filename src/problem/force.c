@@ -26,8 +26,6 @@ static void FacetForces_Private(Contact *c)
         const PetscReal z  = c->has_multiplier[e->nodes[k]] ? c->z[e->nodes[k]] : 0;
         const PetscInt  at = dim * (k * e->num + a);
         for (PetscInt d = 0; d < dim && z != 0; ++d) f[d] += z * push[at + d];
-        if (!e->spring || e->darea) continue;
-        for (PetscInt d = 0; d < dim && z != 0; ++d) f[d] += 0.5 * z * z * e->stiffening[k] * e->dweight[at + d];
       }
     }
   }

@@ -98,10 +98,6 @@ const Option Options[] = {
      PAIR(spec.interference)},
     {"contact.<pair>.multiplier", KEY_WORD, "", "dual", "dual|standard",
      "basis of the contact pressure: dual to the hats on the covered part of each facet, or the hats themselves", PAIR(multiplier)},
-    {"contact.<pair>.projection", KEY_WORD, "", "continuous", "continuous|facet",
-     "direction of the gap: continuous over smooth surfaces; facet, for comparison only, faces of order 1: nodal normals in the plane, each face's own in "
-     "space",
-     PAIR(projection)},
     {"contact.<pair>.node_to_segment", KEY_BOOL, "", "false", "", "node-to-segment contact, for comparison only", PAIR(spec.node_to_segment)},
     {"contact.<pair>.see_through", KEY_BOOL, "", "false", "",
      "for comparison only: searches look through bodies and take the far side of one behind, within their distance, for an overlap", PAIR(spec.see_through)},

@@ -290,7 +290,7 @@ static PetscErrorCode ReadContact_Private(Scene s, SceneNode *node, ContactEntry
   c->spec.subdivide_auto = c->subdivide == SUBDIVIDE_AUTO ? PETSC_TRUE : PETSC_FALSE;
   c->spec.adjust         = c->initial_gap == 1 ? PETSC_TRUE : PETSC_FALSE;
   c->spec.standard       = c->multiplier == 1 ? PETSC_TRUE : PETSC_FALSE;
-  c->spec.continuous     = c->projection == 0 && !c->spec.node_to_segment ? PETSC_TRUE : PETSC_FALSE;
+  c->spec.continuous     = c->spec.node_to_segment ? PETSC_FALSE : PETSC_TRUE;
   PetscCheckInput(c->spec.friction == 0, "%s is %g: friction is not built yet; allowed: 0", NodeWhere(NodeFind(node, "friction")), (double)c->spec.friction);
   PetscCheckInput(!strchr(node->key, '/'), "%s: the name of a pair has no '/' in it", NodeWhere(node));
   for (PetscInt i = 0; &s->contact[i] < c; ++i) {
@@ -305,8 +305,6 @@ static PetscErrorCode ReadContact_Private(Scene s, SceneNode *node, ContactEntry
                   NodeWhere(node), c->mortar);
   PetscCheckInput(s->data.mesh.dim == 2 || !c->spec.node_to_segment,
                   "%s: node-to-segment contact is for comparison in two dimensions only; allowed here: false", NodeWhere(NodeFind(node, "node_to_segment")));
-  PetscCheckInput(!c->spec.full || !NodeFind(node, "projection"), "%s: only faces of order 1 have a choice of projection; leave it out",
-                  NodeWhere(NodeFind(node, "projection")));
   PetscCheckInput(!c->spec.full || !c->spec.subdivide_auto, "%s is auto, but faces of full order need no finer layer; allowed here: 0|1|2|3|4|5|6|7|8",
                   NodeWhere(NodeFind(node, "subdivide")));
   PetscCheckInput(!c->spec.full || !c->spec.node_to_segment, "%s: faces of full order and node_to_segment do not go together; allowed here: 1",

@@ -75,7 +75,7 @@ typedef struct {
 typedef struct {
   ContactSpec spec;
   char        nonmortar[MORTISE_NAME], mortar[MORTISE_NAME];
-  int         order, initial_gap, multiplier, projection;
+  int         order, initial_gap, multiplier;
   int         subdivide; /* isotropic subdivisions of the cells that touch either side; SUBDIVIDE_AUTO */
   SceneNode  *node;
 } ContactEntry;

@@ -1,6 +1,6 @@
 /* Contact in three dimensions: seconds of search and evaluation against the number of facets, two wavy sheets of n x n and about 1.5 n x 1.5 n facets pressed
    together everywhere. Comma separated: nonmortar facets, mortar facets, segments, search, values, gradients (forces), gradients and Hessian (tangent).
-   -continuous: along a continuous direction. -order P: facets of order P, on lattices. */
+   -order P: facets of order P, on lattices. */
 #include "contact.h"
 #include "element.h"
 #include <petsctime.h>
@@ -67,16 +67,14 @@ int main(int argc, char **argv)
 {
   static const PetscInt Sizes[] = {10, 18, 32, 56, 100, 178, 316};
   PetscInt              most = 316, order = 1;
-  PetscBool             rays = PETSC_FALSE;
 
   OK(PetscInitialize(&argc, &argv, NULL, NULL));
   OK(PetscOptionsGetInt(NULL, NULL, "-most", &most, NULL));
   OK(PetscOptionsGetInt(NULL, NULL, "-order", &order, NULL));
-  OK(PetscOptionsGetBool(NULL, NULL, "-continuous", &rays, NULL));
   printf("nonmortar,mortar,segments,search,values,forces,tangent\n");
   for (size_t i = 0; i < sizeof(Sizes) / sizeof(Sizes[0]) && Sizes[i] <= most; ++i) {
     const PetscInt        n = Sizes[i], m = n + n / 2;
-    const ContactSpec     spec = {.continuous = rays};
+    const ContactSpec     spec = {0};
     const ContactSegment *segments;
     PetscLogDouble        search = 1e9, start, end;
     PetscInt             *list, num;

@@ -24,7 +24,7 @@ typedef struct {
   PetscInt   dim, nn, nm, size, num, springs; /* springs: compliances of rows */
   PetscReal *gap, *weight;                    /* [nn] */
   PetscReal *dgap, *dweight;                  /* [nn][size] */
-  PetscReal *gradient;                        /* [size] forces: of S = sum z gap, and z^2 spring / 2 where that depends on weights; rims held */
+  PetscReal *gradient;                        /* [size] forces: of S = sum z gap; rims held */
   PetscReal *hessian;                         /* [size][size] */
   PetscReal  area, min_gap, S;
   PetscBool  failed;
@@ -62,7 +62,7 @@ static inline void SumAdd(Sum *s, const ContactFacet *f, const PetscReal z[])
 
     s->gap[node] += f->gap[j];
     s->weight[node] += f->weight[j];
-    if (z) s->S += z[node] * (f->gap[j] + (f->spring && !f->darea ? 0.5 * z[node] * f->spring[j] : 0));
+    if (z) s->S += z[node] * f->gap[j];
     if (f->spring && f->spring[j] > 0) s->springs++;
     for (PetscInt a = 0; a < n && f->dgap; a++) {
       const PetscInt row = SumRow(s, f, a);
@@ -70,7 +70,6 @@ static inline void SumAdd(Sum *s, const ContactFacet *f, const PetscReal z[])
       s->dgap[node * s->size + row] += f->dgap[j * n + a];
       s->dweight[node * s->size + row] += f->dweight[j * n + a];
       if (z) s->gradient[row] += z[node] * (f->push ? f->push : f->dgap)[j * n + a];
-      if (z && f->spring && !f->darea) s->gradient[row] += 0.5 * z[node] * z[node] * f->stiffening[j] * f->dweight[j * n + a];
     }
   }
   for (PetscInt a = 0; a < n && f->hessian; a++)

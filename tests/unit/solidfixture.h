@@ -27,7 +27,7 @@ static inline void SheetCreate(Sheet *c, PetscInt n, PetscInt m, PetscReal lo, P
 
       for (PetscInt k = 0; k < 4; k++) c->facets[4 * (j * n + i) + k] = around[up ? k : 3 - k];
     }
-  c->s = (ContactSurface){.dim = 3, .num_nodes = (n + 1) * (m + 1), .num_facets = n * m, .facets = c->facets, .x = c->x};
+  c->s = (ContactSurface){.dim = 3, .num_nodes = (n + 1) * (m + 1), .num_facets = n * m, .facets = c->facets, .x = c->x, .X = c->x};
 }
 
 static inline void SheetDestroy(Sheet *c)

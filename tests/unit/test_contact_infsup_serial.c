@@ -1,7 +1,8 @@
 /* O-100: inf-sup constants of contact in three dimensions, dual and standard multipliers. B = derivatives of the weighted gaps by the normal displacements of
    both sides, flat sheets over the unit square; beta = least singular value of B in the norms ||u||^2 = sum over facets of both sides of int u^2 / h and
-   ||lambda||^2 = sum h int lambda^2, lambda = sum z_j psi_j, over the covered part. With facets of one size and all nodes free the nonmortar side alone
-   gives 1. Held: the rim of the nonmortar side cannot move; its multipliers are kept or (as in the program where all of a node's motion is prescribed) dropped.
+   ||lambda||^2 = sum h int lambda^2, lambda = sum z_j psi_j, over the covered part; facets covered in part have hats. With facets of one size and all nodes
+   free the nonmortar side alone gives 1. Held: the rim of the nonmortar side cannot move; its multipliers are kept or (as in the program where all of a node's
+   motion is prescribed) dropped.
  */
 #include "solidfixture.h"
 #include <petscblaslapack.h>
@@ -60,6 +61,7 @@ static void Island(Side *c, PetscInt n)
                                     .num_facets  = facets,
                                     .facets      = c->sheet.facets,
                                     .x           = c->sheet.x,
+                                    .X           = c->sheet.x,
                                     .hang        = c->hang,
                                     .hang_master = c->master,
                                     .hang_weight = c->weight};
@@ -115,7 +117,7 @@ static void Norm(const Side *c, PetscReal start, PetscReal power, PetscBool dual
 
       Line(low[d], h, start, M, D);
       memcpy(K[d], M, sizeof(M));
-      if (dual) Dual(M, D, K[d]);
+      if (dual && PetscMin(low[0], low[1]) > start - 1e-12) Dual(M, D, K[d]);
     }
     for (int a = 0; a < 4; a++)
       for (int b = 0; b < 4; b++) {

@@ -69,12 +69,9 @@ def test_o45_roles(run):
 
 
 def test_o45_case(run):
-    """24 and 36 divisions: mean 0.3 %, ripple 1 %, as in the plane. A facet that projects along its own normal presses along it too, not along one that turns:
-    at mortar nodes off its middle a tangential load O(h), which shows."""
+    """24 and 36 divisions: mean 0.3 %, ripple 1 %, as in the plane."""
     _, mean, ripple = ring(run, 6)
     assert abs(mean - 1) < 3e-3 and ripple < 2e-3, (mean, ripple)
-    _, mean, ripple = ring(run, 6, "-contact_fit_projection", "facet")
-    assert abs(mean - 1) < 5e-3 and ripple > 0.02, (mean, ripple)
 
 
 # ---- O-52 -------------------------------------------------------------------------------------------------------------------------------

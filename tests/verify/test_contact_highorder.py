@@ -211,7 +211,7 @@ def ring(run, path, *arguments):
     geometry = (ROOT / "inputs/shrinkfit3d.geo").read_text().replace("= l + 1;", "= l * (1 + b) + 1;")
     path.write_text(geometry)
     text = (ROOT / "inputs/shrinkfit3d.yml").read_text().replace("file: shrinkfit3d.geo", f"file: {path}")
-    assert "l * (1 + b)" in geometry and str(path) in text and "projection" not in text
+    assert "l * (1 + b)" in geometry and str(path) in text
     return fit(run, "ring.yml", *arguments, depth=2, text=text)
 
 

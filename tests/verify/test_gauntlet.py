@@ -43,7 +43,7 @@ def test_scenes():
         assert not settings, (scene["name"], settings)
     for file in FOLDER.glob("*.yml"):
         contact = [line for line in file.read_text().splitlines() if line.startswith("contact:")]
-        assert all(word not in line for line in contact for word in ("order", "subdivide", "search", "multiplier", "projection", "initial_gap", "interference")), file
+        assert all(word not in line for line in contact for word in ("order", "subdivide", "search", "multiplier", "initial_gap", "interference")), file
 
 
 def test_closed_forms():

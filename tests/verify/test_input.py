@@ -157,8 +157,7 @@ def test_good_on_two_ranks(check):
     (("friction: 0", "subdivide: auto"), None),
     # not built yet
     (("friction: 0", "friction: 0.3"), ["contact.pair.friction is 0.3", "not built yet"]),
-    (("friction: 0", "projection: along"), ["contact.pair.projection is 'along'", "continuous, facet|continuous.*facet"]),
-    (("friction: 0", "order: full, projection: facet"), ["contact.pair.projection: only faces of order 1"]),
+    (("friction: 0", "projection: facet"), ["contact.pair.projection is not a key"]),
     (("friction: 0", "order: full, node_to_segment: true"), ["contact.pair.order", "do not go together"]),
     # what drives
     (("bottom: {fix: xy}", "bottom: {fix: xy}\n  lower_side: {pressure: 1, volume: t}"), ["boundary.lower_side.volume", "take pressure away"]),
