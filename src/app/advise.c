@@ -103,7 +103,7 @@ static PetscErrorCode Linear_Private(const App *app)
     if (pair->full) continue;
     PetscCall(Curved_Private(app->level.forest, UINT64_C(1) << pair->nonmortar | UINT64_C(1) << pair->mortar, &curved));
     if (curved)
-      PetscCall(PetscPrintf(app->comm, "note: the contact faces of pair %s are linear on a mesh that is curved; contact.%s.order: full follows it\n",
+      PetscCall(PetscPrintf(app->comm, "note: the contact faces of pair %s are linear on a mesh that is curved; without contact.%s.order they follow it\n",
                             pair->name, pair->name));
   }
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -280,13 +280,24 @@ static PetscErrorCode ReadBoundary_Private(Scene s, SceneNode *node, BoundaryEnt
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* What is left to the program: faces of the order of their cells, unless the scene asks for what only linear ones can do. */
+static PetscBool FacesAreFull_Private(const struct _p_Scene *s, const ContactEntry *c)
+{
+  if (c->order != 2) return c->order == 1 ? PETSC_TRUE : PETSC_FALSE;
+  if (c->subdivide || c->spec.node_to_segment) return PETSC_FALSE;
+  for (PetscInt b = 0; b < s->num_bodies; ++b) {
+    if (s->body[b].spec.order_along[0]) return PETSC_FALSE;
+  }
+  return PETSC_TRUE;
+}
+
 static PetscErrorCode ReadContact_Private(Scene s, SceneNode *node, ContactEntry *c)
 {
   PetscFunctionBegin;
   c->node = node;
   PetscCall(PetscStrncpy(c->spec.name, node->key, MORTISE_NAME));
   PetscCall(OptionsRead("contact", node, s->data.mesh.dim, c));
-  c->spec.full           = c->order == 1 ? PETSC_TRUE : PETSC_FALSE;
+  c->spec.full           = FacesAreFull_Private(s, c);
   c->spec.subdivide_auto = c->subdivide == SUBDIVIDE_AUTO ? PETSC_TRUE : PETSC_FALSE;
   c->spec.adjust         = c->initial_gap == 1 ? PETSC_TRUE : PETSC_FALSE;
   c->spec.standard       = c->multiplier == 1 ? PETSC_TRUE : PETSC_FALSE;
