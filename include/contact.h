@@ -51,7 +51,7 @@ typedef struct {
 typedef struct {
   char      name[MORTISE_NAME];
   PetscInt  nonmortar, mortar; /* boundary groups */
-  PetscBool exchanged;         /* the scene names them the other way round, but its nonmortar side is rigid; figures are of the sides as the scene names them */
+  PetscBool exchanged;         /* the scene names them the other way round, figures are of the sides as the scene names them */
   PetscReal friction;          /* 0 here: anything else is an input error until friction is built */
   PetscBool full;              /* facets have the order of their cells; else order 1 */
   PetscReal search;            /* search distance, in multiples of the larger edge length; default 0: automatic */

@@ -221,27 +221,31 @@ static PetscErrorCode CheckSides_Private(const ContactEntry *c, const Facets *f,
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Do all facets of the group belong to rigid bodies? */
-static PetscBool IsRigid_Private(Scene s, const Facets *f, PetscInt group)
+/* Young's modulus of the softest body that has facets in the group; infinite where all are rigid. */
+static PetscReal Stiffness_Private(Scene s, const Facets *f, PetscInt group)
 {
-  for (PetscInt b = 0; b < f->mesh->num_bodies; ++b)
-    if (f->body_touches[b * f->mesh->num_boundaries + group] && !s->data.bodies[b].material->law->rigid) return PETSC_FALSE;
-  return PETSC_TRUE;
+  PetscReal least = PETSC_INFINITY;
+  for (PetscInt b = 0; b < f->mesh->num_bodies; ++b) {
+    const MaterialSpec *m = s->data.bodies[b].material;
+    if (f->body_touches[b * f->mesh->num_boundaries + group] && !m->law->rigid) least = PetscMin(least, MaterialYoung(m));
+  }
+  return least;
 }
 
-/* Multipliers press on what deforms: on a rigid side nothing of its own makes each of them felt, and where that side is the finer one many leave the other
-   side's nodes as they are. So a rigid side is the mortar one, whatever the scene calls it. */
+/* The softer side carries the multiplier, whatever the scene calls it. On a stiffer side the constraints are as coarse as its facets while the other side
+   deforms between its nodes; on a rigid one nothing of its own makes each of them felt. */
 static PetscErrorCode Roles_Private(Scene s, const Facets *f, ContactEntry *c)
 {
-  const PetscInt  nonmortar = c->spec.nonmortar;
-  const PetscBool rigid[2]  = {IsRigid_Private(s, f, c->spec.nonmortar), IsRigid_Private(s, f, c->spec.mortar)};
+  const PetscInt  nonmortar    = c->spec.nonmortar;
+  const PetscReal stiffness[2] = {Stiffness_Private(s, f, c->spec.nonmortar), Stiffness_Private(s, f, c->spec.mortar)};
+  const PetscBool rigid[2]     = {(PetscBool)(stiffness[0] >= PETSC_INFINITY), (PetscBool)(stiffness[1] >= PETSC_INFINITY)};
 
   PetscFunctionBegin;
   PetscCheckInput(!rigid[0] || !rigid[1], "%s: '%s' and '%s' are both sides of rigid bodies; one side of a pair must be of a body that deforms",
                   NodeWhere(c->node), c->nonmortar, c->mortar);
-  if (!rigid[0]) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(
-      PetscPrintf(s->comm, "note: %s: '%s' is rigid and becomes the mortar side, '%s' the nonmortar side\n", NodeWhere(c->node), c->nonmortar, c->mortar));
+  if (c->roles == ROLES_GIVEN ? !rigid[0] : stiffness[0] <= stiffness[1]) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(PetscPrintf(s->comm, "note: %s: '%s' is %s and becomes the mortar side, '%s' the nonmortar side\n", NodeWhere(c->node), c->nonmortar,
+                        rigid[0] ? "rigid" : "the stiffer one", c->mortar));
   c->spec.exchanged = PETSC_TRUE;
   c->spec.nonmortar = c->spec.mortar;
   c->spec.mortar    = nonmortar;

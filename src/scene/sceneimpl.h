@@ -70,12 +70,13 @@ typedef struct {
   SceneNode   *node;
 } BoundaryEntry;
 
+#define ROLES_GIVEN 1    /* place of the word given among those of contact.<pair>.roles */
 #define SUBDIVIDE_AUTO 9 /* place of the word auto among those of contact.<pair>.subdivide: after 0 to 8 */
 
 typedef struct {
   ContactSpec spec;
   char        nonmortar[MORTISE_NAME], mortar[MORTISE_NAME];
-  int         order, initial_gap, multiplier;
+  int         order, initial_gap, multiplier, roles;
   int         subdivide; /* isotropic subdivisions of the cells that touch either side; SUBDIVIDE_AUTO */
   SceneNode  *node;
 } ContactEntry;

@@ -19,7 +19,7 @@ RECOIL = 0.012451
 LINEAR1, LINEAR2 = (("-order", order, "-contact_inside_order", 1, "-contact_outside_order", 1) for order in (1, 2))  # the scene's contact faces are curved
 SUBDIVIDED = (*LINEAR2, "-contact_inside_subdivide", 1, "-contact_outside_subdivide", 1)
 EXCHANGED = ("-contact_inside_nonmortar", "sleeve_bore", "-contact_inside_mortar", "balloon_skin",
-             "-contact_outside_nonmortar", "sleeve_skin", "-contact_outside_mortar", "artery_bore")
+             "-contact_outside_nonmortar", "sleeve_skin", "-contact_outside_mortar", "artery_bore", "-contact_inside_roles", "given", "-contact_outside_roles", "given")
 FINE1 = (*LINEAR1, "-mesh_refine", 1)
 ADAPTIVE1, ADAPTIVE2 = (*FINE1, "-adapt_tolerance", 0.1), ("-adapt_tolerance", 0.003)
 POLYGONS2, FINER_POLYGONS2 = ((*LINEAR2, "-adapt_tolerance", tolerance) for tolerance in (0.05, 0.02))

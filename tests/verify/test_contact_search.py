@@ -124,6 +124,18 @@ def test_a_rigid_nonmortar_side(run):
     assert second["max_pressure"] == first["max_pressure"] and swapped.summary["reaction"] == plain.summary["reaction"]
 
 
+def test_a_stiffer_nonmortar_side(run, tmp_path):
+    """The softer side carries the multiplier, whatever the scene calls it; `roles: given` keeps the scene's roles."""
+    text = overlapping(tmp_path, 0.1, "upper", body={"l": {"material": "m"}, "u": {"material": "stiff"}},
+                       material={name: {"law": "neo_hookean", "volumetric": "log", "E": E, "nu": 0} for name, E in (("m", 1), ("stiff", 1000))})
+    swap = ("-contact_pair_nonmortar", "y1_l", "-contact_pair_mortar", "y0_u")
+    stiff, soft, given = (run("overlap.yml", *QUIET, *options, text=text) for options in ((), swap, ("-contact_pair_roles", "given")))
+    assert stiff.returncode == soft.returncode == given.returncode == 0, stiff
+    assert "'y0_u' is the stiffer one and becomes the mortar side" in stiff.stdout
+    assert "becomes the mortar" not in soft.stdout + given.stdout and given.summary["contact"]["pair"]["roles_exchanged"] is False
+    assert stiff.summary["reaction"] == soft.summary["reaction"]
+
+
 def test_two_rigid_sides(run):
     result = run("floor.yml", text=floor(("disc: {material: rubber}", "disc: {material: hard}"), ("rubber: {law: neo_hookean, volumetric: quadratic, E: 1, nu: 0.3}, ", ""), ("{top: {displacement: {x: 0, y: -0.05}}, sym: {fix: x}}", "{}")))
     assert result.returncode == 1 and result.stderr.count("\n") == 1, result

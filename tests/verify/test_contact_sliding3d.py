@@ -108,7 +108,7 @@ def test_o60_plane_against_slice(run):
 
 # O-61, double-layer arch: imposed displacement of the ends and published displacement of the middle, mm.
 ARCH = {20: -5.8, 30: -5.2, 40: -3.5, 50: 0.6, 55: 8.5, 57.5: 27, 60: 40, 65: 50.5, 70: 56.7}
-ARCH_ROLES = ("-contact_ring_on_block_nonmortar", "block_top", "-contact_ring_on_block_mortar", "ring_skin")
+ARCH_ROLES = ("-contact_ring_on_block_nonmortar", "block_top", "-contact_ring_on_block_mortar", "ring_skin", "-contact_ring_on_block_roles", "given")
 ARCH_SLICE = ("-mesh_parameter_d", 25, "-model", "3d", "-boundary_back_fix", "z", "-boundary_front_fix", "z", "-boundary_ends_displacement_z", 0, "-boundary_bottom_fix", "xyz")
 
 
@@ -178,7 +178,8 @@ def test_o62_ring(run):
         nonmortar = numpy.unique(state["cells"].astype(int)[state["side"] == 0])
         x, z = (state["X"] + state["displacement"])[nonmortar, 0], state["contact_pressure"][nonmortar]
         assert (x[z.argmax()] > 1) == split
-    swapped = solve(run, "inputs/ring.yml", *QUIET, *PLANE_STRAIN, "-mesh_parameter_k", 16, "-contact_ring_on_plate_nonmortar", "plate_top", "-contact_ring_on_plate_mortar", "outside")
+    swapped = solve(run, "inputs/ring.yml", *QUIET, *PLANE_STRAIN, "-mesh_parameter_k", 16, "-contact_ring_on_plate_nonmortar", "plate_top", "-contact_ring_on_plate_mortar", "outside",
+                    "-contact_ring_on_plate_roles", "given")
     assert numpy.abs(ring_force(swapped) / ring_force(result) - 1).max() < 0.01
 
 
@@ -191,7 +192,7 @@ def test_o62_plane_stress(run):
 # O-63, crossing tubes
 TUBES_FINE = ("-order", 2, "-mesh_parameter_m", 1)
 TUBES_COARSE = ("-mesh_parameter_n", 4, "-mesh_parameter_k", 8, "-contact_tubes_multiplier", "standard")
-TUBES_ROLES = ("-contact_tubes_nonmortar", "lower_skin", "-contact_tubes_mortar", "upper_skin")
+TUBES_ROLES = ("-contact_tubes_nonmortar", "lower_skin", "-contact_tubes_mortar", "upper_skin", "-contact_tubes_roles", "given")
 WALL = 0.2
 
 
