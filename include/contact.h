@@ -170,9 +170,6 @@ PetscErrorCode ContactPairSetCandidates(ContactPair, const ContactSurface *nonmo
    extent, a nonmortar node whose edge normals cancel. Surfaces must have the topology of the last search. Not collective. */
 PetscErrorCode ContactPairEvaluate(ContactPair, const ContactSurface *nonmortar, const ContactSurface *mortar, const PetscReal z[], const PetscBool wanted[],
                                    PetscBool derivatives, PetscBool hessian, PetscInt *num, const ContactFacet **facets, PetscBool *failed);
-/* A solve begins: what facets of higher order have been weighed with on the way to here is forgotten. (One that is covered wholly has other functions than one
-   that is not; while it is on the edge it changes from one to the other only so often.) Before a search. Not collective. */
-PetscErrorCode ContactPairForget(ContactPair);
 /* From now on directions are held (or follow the surface again): first derivatives are those at fixed directions of the nonmortar side, gaps and weights do not
    change, there are no Hessians. Where gaps are wide against facets that tells more than the derivative itself. Not collective. */
 PetscErrorCode ContactPairHold(ContactPair, PetscBool held);

@@ -207,7 +207,7 @@ PetscErrorCode ProblemGetMultipliers(Problem, PetscInt pair, Vec x, PetscReal z[
    made anew when next asked for. Not collective. */
 PetscErrorCode ProblemGetPattern(Problem, PetscInt pair, const PetscInt **first, const PetscInt **node);
 PetscErrorCode ProblemSetPattern(Problem, PetscInt pair, const PetscInt first[], const PetscInt node[]);
-/* The candidate search at x, where a solve begins; between Newton iterations only. */
+/* The candidate search at x; between Newton iterations only. */
 PetscErrorCode ProblemSearch(Problem, Vec x);
 
 /* ---- residual and tangent --------------------------------------------------------------------------------------------------- */

@@ -88,12 +88,6 @@ typedef struct {
   PetscInt   size_x[2], size_z;
 } ContactState;
 
-/* Which functions a facet of higher order had last, and how often it has gone back to those of a covered one (cover.c). */
-typedef struct {
-  PetscBool known, whole;
-  PetscInt  returns;
-} ContactCoverage;
-
 typedef struct _p_RayWork *RayWork;
 
 struct _p_ContactPair {
@@ -111,14 +105,13 @@ struct _p_ContactPair {
   PetscInt  num_nodes, num_facets, num_mortar_nodes, num_mortar_facets;
   PetscInt *prev, *next; /* owned, [num_nodes] */
   /* candidates: mortar edges of listed edge i are candidate[start[i] .. start[i+1]), ascending */
-  PetscInt         num_listed, *listed, *start, *candidate, size_candidate; /* owned */
-  ContactCoverage *coverage;                                                /* owned, [num_facets], since the last ContactPairForget; rays only */
-  PetscReal        distance, margin;
-  PetscReal        depth;   /* of overlaps that are looked for */
-  ContactHull      hull;    /* borrowed; NULL: thicknesses are not known */
-  PetscReal        untold;  /* by the last search */
-  PetscReal        deepest; /* overlap between its parts that can be told; 0: the search distance */
-  const PetscInt  *part[2]; /* borrowed: of the facets of both sides */
+  PetscInt        num_listed, *listed, *start, *candidate, size_candidate; /* owned */
+  PetscReal       distance, margin;
+  PetscReal       depth;   /* of overlaps that are looked for */
+  ContactHull     hull;    /* borrowed; NULL: thicknesses are not known */
+  PetscReal       untold;  /* by the last search */
+  PetscReal       deepest; /* overlap between its parts that can be told; 0: the search distance */
+  const PetscInt *part[2]; /* borrowed: of the facets of both sides */
   /* results of the last evaluation, all owned; sizes only grow */
   PetscReal      *normal; /* [num_nodes][2] */
   PetscInt        num_segments, size_segments;

@@ -10,22 +10,6 @@ static PetscReal Sliver_Private(const RayFacet *f)
   return 0.1 * (f->m == 1 ? end : end * end);
 }
 
-/* Constant functions of a facet that is covered wholly and hats of one that is not weigh gaps differently, so that where the rim of the mortar side stands just
-   at the facet's, each may lead to the other, and neither to an equilibrium. A facet may therefore go back from hats, which suit whatever is covered, to its
-   constant functions only so many times in one solve. */
-#define RETURNS 2
-
-static PetscBool HasWhole_Private(ContactCoverage *c, PetscBool covered)
-{
-  const PetscBool returns = (PetscBool)(covered && c->known && !c->whole);
-
-  if (returns && c->returns == RETURNS) covered = PETSC_FALSE;
-  if (returns && covered) c->returns++;
-  c->known = PETSC_TRUE;
-  c->whole = covered;
-  return covered;
-}
-
 static void Between_Private(const RayImage *a, const RayImage *b, RayImage *to)
 {
   to->found = (PetscBool)(a->found && b->found);
@@ -292,7 +276,6 @@ PetscErrorCode ContactCover(ContactPair pair, const ContactSurface *nonmortar, c
   ContactUnfold(&w->num_overlaps, w->overlap, w->mortar, f->area);
   for (PetscInt k = 0; k < w->num_overlaps; k++) covered += w->overlap[k].area;
   w->full = (PetscBool)(covered >= (1 - Sliver_Private(f)) * f->area);
-  if (f->s.order > 1) w->full = HasWhole_Private(&pair->coverage[facet], w->full);
   if (hats && !w->full && (f->s.order > 1 || f->m == 2) && w->num_overlaps) PetscCall(Cells_Private(pair, mortar));
   w->frozen = (PetscBool)(f->D == 3 && (w->test[0].hats || (pair->lines_held && f->s.order > 1)));
   PetscCall(Nodes_Private(w, mortar));

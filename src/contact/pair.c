@@ -32,7 +32,6 @@ PetscErrorCode ContactPairDestroy(ContactPair *pair)
   PetscCall(PetscFree(p->node));
   PetscCall(PetscFree(p->ids));
   PetscCall(PetscFree(p->result));
-  PetscCall(PetscFree(p->coverage));
   PetscCall(PetscFree(p->slot));
   PetscCall(ContactStateDestroy(p));
   PetscCall(PetscFree(p->real));
@@ -40,14 +39,6 @@ PetscErrorCode ContactPairDestroy(ContactPair *pair)
   PetscCall(ContactRayWorkDestroy(&p->ray));
   PetscCall(ContactMultiplierDestroy(&p->multiplier));
   PetscCall(PetscFree(*pair));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode ContactPairForget(ContactPair pair)
-{
-  PetscFunctionBegin;
-  if (pair->coverage) PetscCall(PetscArrayzero(pair->coverage, pair->num_facets));
-  pair->state.stands = PETSC_FALSE;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

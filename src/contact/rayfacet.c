@@ -11,8 +11,6 @@ PetscErrorCode ContactRayTopology(ContactPair pair, const ContactSurface *s)
   PetscCall(ContactRayLatticePrepare());
   PetscCheck(s->X, PETSC_COMM_SELF, PETSC_ERR_ARG_NULL, "contact along a continuous direction needs the reference positions of the nonmortar surface");
   PetscCall(PetscFree(pair->normal));
-  if (pair->coverage && pair->num_facets != s->num_facets) PetscCall(PetscFree(pair->coverage));
-  if (!pair->coverage) PetscCall(PetscCalloc1(s->num_facets, &pair->coverage));
   pair->num_nodes  = s->num_nodes;
   pair->num_facets = s->num_facets;
   PetscCall(PetscCalloc1(s->dim * s->num_nodes, &pair->normal));

@@ -385,7 +385,7 @@ PetscErrorCode ProblemStepMove(Problem p, Vec dx, PetscReal step, Vec x)
   PetscCall(VecWAXPY(x, step, dx, p->start_x));
   for (PetscInt i = 0; i < v->num_nodes * p->dim; ++i)
     p->applied[i] = step == 1 ? p->target[i] : p->start_applied[i] + step * (p->target[i] - p->start_applied[i]);
-  PetscCall(ProblemSearchOn_Private(p, x));
+  PetscCall(ProblemSearch(p, x));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -250,8 +250,6 @@ void SurfaceForget_Private(Surface *);
 /* After a search: what this rank needs until the next one. */
 PetscErrorCode ContactLink_Private(Problem, Contact *);
 PetscBool      ContactSees_Private(const Contact *, PetscInt node);
-/* residual.c: the search at x in the course of a solve. */
-PetscErrorCode ProblemSearchOn_Private(Problem, Vec x);
 /* nearby.c: search at the positions at hand, X when reference is set, where facets meet over the boundaries of ranks. Collective. */
 PetscErrorCode ContactSearch_Private(Problem, Contact *, PetscBool reference, PetscReal margin);
 /* gather.c */

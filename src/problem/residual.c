@@ -3,14 +3,6 @@
 
 PetscErrorCode ProblemSearch(Problem p, Vec x)
 {
-  PetscFunctionBegin;
-  for (PetscInt i = 0; i < p->num_contacts; ++i) PetscCall(ContactPairForget(p->contacts[i].pair));
-  PetscCall(ProblemSearchOn_Private(p, x));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode ProblemSearchOn_Private(Problem p, Vec x)
-{
   PetscReal *local;
 
   PetscFunctionBegin;
