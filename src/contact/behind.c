@@ -88,21 +88,6 @@ static void Locate_Private(const FacetCorners *p, const PetscReal y[3], PetscRea
   for (int i = 0; i < 2; i++) xi[i] = PetscMax(-1, PetscMin(1, xi[i]));
 }
 
-/* Unit direction of the nonmortar facet's rays at its corners, as the kernel in use has it. */
-static void Directions_Private(ContactPair pair, const ContactSurface *s, PetscInt facet, FacetCorners *p)
-{
-  for (PetscInt a = 0; a < p->nv; a++) {
-    const PetscInt node = s->facets[p->nv * facet + a];
-
-    for (PetscInt c = 0; c < 3; c++) {
-      if (pair->rays)
-        p->d[a][c] = pair->ray->d[3 * (p->nv * facet + a) + c];
-      else
-        p->d[a][c] = c < 2 ? pair->normal[2 * node + c] : 0;
-    }
-  }
-}
-
 /* The place X of xi on the facet of a body, at the reference positions, and what was there the direction d of now: it turns with the facet. */
 static void Reference_Private(const FacetCorners *p, const PetscReal xi[2], const PetscReal d[3], PetscReal X[3], PetscReal D[3])
 {
@@ -223,7 +208,7 @@ void ContactCorners(ContactPair pair, const ContactSurface *nonmortar, PetscInt 
 {
   if (!pair->hull) return;
   Corners_Private(nonmortar, facet, s);
-  Directions_Private(pair, nonmortar, facet, s);
+  memcpy(s->d, pair->ray->d + 3 * s->nv * facet, sizeof(PetscReal) * 3 * (size_t)s->nv);
 }
 
 PetscBool ContactBehind(ContactPair pair, PetscInt facet, const FacetCorners *s, const ContactSurface *mortar, PetscInt other)

@@ -83,6 +83,7 @@ static PetscErrorCode Meet_Private(RayWork w, const ContactSurface *mortar, cons
 
   PetscFunctionBegin;
   *known = PETSC_TRUE, *meets = PETSC_FALSE;
+  o->node    = -1;
   o->side[0] = *window;
   for (PetscInt a = 0; a < f->nv; a++)
     for (int c = 0; c < 3; c++) sum[c] += f->d.x[a][c] / (PetscReal)f->nv;
@@ -245,7 +246,7 @@ static PetscErrorCode Whole_Private(RayWork w)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode ContactCover(ContactPair pair, const ContactSurface *nonmortar, const ContactSurface *mortar, PetscInt slot, PetscBool hats, PetscBool *failed)
+PetscErrorCode ContactCover(ContactPair pair, const ContactSurface *nonmortar, const ContactSurface *mortar, PetscInt slot, PetscBool *failed)
 {
   RayWork        w       = pair->ray;
   RayFacet      *f       = &w->facet;
@@ -274,9 +275,10 @@ PetscErrorCode ContactCover(ContactPair pair, const ContactSurface *nonmortar, c
   PetscCall(Whole_Private(w));
   for (PetscInt k = pair->start[slot]; k < pair->start[slot + 1]; k++) PetscCall(See_Private(pair, mortar, pair->candidate[k]));
   ContactUnfold(&w->num_overlaps, w->overlap, w->mortar, f->area);
+  if (pair->node_to_segment) ContactNodeHits(w);
   for (PetscInt k = 0; k < w->num_overlaps; k++) covered += w->overlap[k].area;
   w->full = (PetscBool)(covered >= (1 - Sliver_Private(f)) * f->area);
-  if (hats && !w->full && (f->s.order > 1 || f->m == 2) && w->num_overlaps) PetscCall(Cells_Private(pair, mortar));
+  if (!w->full && (f->s.order > 1 || f->m == 2) && w->num_overlaps) PetscCall(Cells_Private(pair, mortar));
   w->frozen = (PetscBool)(f->D == 3 && (w->test[0].hats || (pair->lines_held && f->s.order > 1)));
   PetscCall(Nodes_Private(w, mortar));
   w->n = f->D * (f->s.num + f->nv + w->num_mortar) + f->m * w->num_images;

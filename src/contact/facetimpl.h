@@ -23,7 +23,8 @@ typedef struct {
   PetscReal v[FACET_VERTICES][2];
   int8_t    line[FACET_VERTICES]; /* from vertex k to k + 1 */
   PetscReal area;
-  PetscInt  corner[4]; /* rays: names of the images at the corners of side[1] (raypieces.c) */
+  PetscInt  corner[4]; /* names of the images at the corners of side[1] (raypieces.c) */
+  int       node;      /* node to segment: the edge's end whose ray meets the mortar edge, else -1 */
 } Overlap;
 
 /* quad.c: hats at a point of the plane. False: no such point (degenerate quadrilateral, or far outside). */

@@ -232,7 +232,7 @@ static PetscErrorCode Overlap_Private(RayWork w, const RayLattice *mortar, Petsc
 
   PetscFunctionBegin;
   ContactRaySplit(f, &w->overlap[k], &split);
-  PetscCall(ContactRayRule(f->m, f->s.order, mortar->order, &points, &point, &weight));
+  PetscCall(ContactRayRule(f, o, mortar->order, &points, &point, &weight));
   PetscCall(ContactGrow(points * (b.nf + f->D * nq + OWN * (b.na + b.no) + f->m * (nq + 12) + f->nv + 7 * na) + 8 * (nq + 6), sizeof(PetscReal),
                         &w->size_buffer, &w->buffer));
   b.basis         = w->buffer;

@@ -42,7 +42,7 @@ PetscErrorCode ContactRayMortarTopology(RayWork w, const ContactSurface *mortar)
 PetscErrorCode ContactPairGetMortarParents(ContactPair pair, const PetscInt **parent)
 {
   PetscFunctionBegin;
-  *parent = pair->rays ? pair->ray->mortar_parent : NULL;
+  *parent = pair->ray->mortar_parent;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -378,6 +378,8 @@ static PetscErrorCode Segments_Private(const EvaluateContext *ctx, PetscInt face
     ContactRayGuess(&w->facet, &mortar, o, &at);
     memcpy(s->xi, at.xi, sizeof(s->xi));
     memcpy(s->eta, at.eta, sizeof(s->eta));
+    if (o->node < 0) continue;
+    for (int i = 0; i < 2; i++) s->xi[1 - o->node][i] = s->xi[o->node][i], s->eta[1 - o->node][i] = s->eta[o->node][i];
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -394,7 +396,7 @@ static PetscErrorCode Facet_Private(const EvaluateContext *ctx, PetscInt slot, C
   Weights        o;
 
   PetscFunctionBegin;
-  PetscCall(ContactCover(pair, ctx->nonmortar, ctx->mortar, slot, PETSC_TRUE, failed));
+  PetscCall(ContactCover(pair, ctx->nonmortar, ctx->mortar, slot, failed));
   if (*failed || w->num_overlaps == 0) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(Nodes_Private(ctx, facet));
   for (PetscInt a = 0; a < w->facet.s.num; a++) {

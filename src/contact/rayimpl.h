@@ -178,7 +178,10 @@ void ContactRayParents(const RayWork, const ContactSurface *mortar, PetscInt nam
 PetscInt ContactRayPieces(const RayWork, const ContactSurface *mortar, PetscInt facet, PetscInt corner[4][4]);
 
 /* cover.c: what covers a facet */
-PetscErrorCode ContactCover(ContactPair, const ContactSurface *nonmortar, const ContactSurface *mortar, PetscInt slot, PetscBool hats, PetscBool *failed);
+PetscErrorCode ContactCover(ContactPair, const ContactSurface *nonmortar, const ContactSurface *mortar, PetscInt slot, PetscBool *failed);
+
+/* nodetosegment.c: of what covers the facet, the hits of its nodes' rays */
+void ContactNodeHits(RayWork);
 
 /* raypoint.c. False: the ray misses. */
 PetscBool ContactRaySolve(const RayFacet *, const RayLattice *mortar, const PetscReal xi[2], int depth, RayPoint *);
@@ -247,7 +250,8 @@ typedef struct {
 /* W[nl][nr] += factor sum_k left[k][nl] right[k][nr]; ld: length of rows in memory */
 void ContactRayProducts(PetscInt num, PetscReal factor, PetscInt nl, const PetscReal left[], PetscInt ldl, PetscInt nr, const PetscReal right[], PetscInt ldr,
                         PetscReal W[], PetscInt ldw);
-PetscErrorCode ContactRayRule(PetscInt m, PetscInt order_s, PetscInt order_m, PetscInt *num, const PetscReal (**point)[3], const PetscReal **weight);
+/* On a simplex of this overlap. */
+PetscErrorCode ContactRayRule(const RayFacet *, const Overlap *, PetscInt mortar_order, PetscInt *num, const PetscReal (**point)[3], const PetscReal **weight);
 /* The same polygon, with crossings at a small angle as two corners at one place. */
 void     ContactRaySplit(const RayFacet *, const Overlap *, Overlap *to);
 void     ContactRayMoves(const RayFacet *, const Overlap *, RayMove[]);

@@ -32,14 +32,19 @@ void ContactRayProducts(PetscInt num, PetscReal factor, PetscInt nl, const Petsc
 /* ---- quadrature ---------------------------------------------------------------------------------------------------------------------- */
 
 /* Barycentric points and weights. What is integrated between parallelograms is a polynomial of degree 2 order_s + 2 order_m at most; two degrees more, at
-   least, are for others. Gauss points on intervals; on triangles symmetric rules (rule.c), beyond them conical products. */
-PetscErrorCode ContactRayRule(PetscInt m, PetscInt order_s, PetscInt order_m, PetscInt *num, const PetscReal (**point)[3], const PetscReal **weight)
+   least, are for others. Gauss points on intervals; on triangles symmetric rules (rule.c), beyond them conical products. Node to segment: the node. */
+PetscErrorCode ContactRayRule(const RayFacet *f, const Overlap *o, PetscInt mortar_order, PetscInt *num, const PetscReal (**point)[3], const PetscReal **weight)
 {
-  static PetscReal P[2][2 * RAY_ORDER + 1][MOST_POINTS][3], Q[2][2 * RAY_ORDER + 1][MOST_POINTS];
-  const PetscInt   sum = order_s + order_m, n = PetscMin(m == 1 ? sum + 3 : sum + 2, RAY_ORDER + 4);
-  const Basis1D   *gauss;
+  static const PetscReal End[2][3] = {{1, 0, 0}, {0, 1, 0}}, Half = 0.5;
+  static PetscReal       P[2][2 * RAY_ORDER + 1][MOST_POINTS][3], Q[2][2 * RAY_ORDER + 1][MOST_POINTS];
+  const PetscInt         m = f->m, sum = f->s.order + mortar_order, n = PetscMin(m == 1 ? sum + 3 : sum + 2, RAY_ORDER + 4);
+  const Basis1D         *gauss;
 
   PetscFunctionBegin;
+  if (o->node >= 0) {
+    *num = 1, *point = End + o->node, *weight = &Half;
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
   if (m == 2 && ContactRuleGet(2 * sum + 2, num, point, weight)) PetscFunctionReturn(PETSC_SUCCESS);
   *num    = m == 1 ? n : n * n;
   *point  = (const PetscReal(*)[3])P[m - 1][sum];

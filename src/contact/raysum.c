@@ -125,7 +125,7 @@ static PetscErrorCode Overlap_Private(RayWork w, const RayLattice *mortar, Petsc
   simplices = ContactRaySimplices(f, o);
   *good     = PETSC_TRUE;
   b.num = num, b.nq = nq, b.na = D * f->s.num;
-  PetscCall(ContactRayRule(m, f->s.order, mortar->order, &points, &point, &weight));
+  PetscCall(ContactRayRule(f, o, mortar->order, &points, &point, &weight));
   PetscCall(ContactGrow(points * (num + nq + b.na + m * num) + m * (m + 1) * num, sizeof(PetscReal), &w->size_buffer, &w->buffer));
   PetscCall(ContactGrow(w->num_places + simplices * points, sizeof(RayPlace), &w->size_places, &w->place));
   b.weight = w->buffer, b.gap = b.weight + points * num, b.area = b.gap + points * nq, b.along = b.area + points * b.na;
