@@ -10,12 +10,12 @@
    Directions d at the corners of nonmortar facets are means of the vectors of the facets there (and of their mirror images in planes of symmetry), interpolated
    between them; across an edge where the surface turns by more than 40 degrees each side keeps its own. Gap: x_s + s d = x_m on the mortar side,
    g = s d.n, n the unit normal at x_s; positive when open. What of the mortar side a facet sees are the pictures of mortar facets by those of their corners
-   (rayimpl.h); where several lie behind one another the nearest counts, so nothing is covered twice; a change of that choice is a jump.
+   (kernelimpl.h); where several lie behind one another the nearest counts, so nothing is covered twice; a change of that choice is a jump.
    Node to segment (comparison, two dimensions): the same integrals by the trapezoidal rule: w_j = rho L / 2, gt_j = g_j w_j for an edge of length L (rho = 1
    or 2 pi r_j), with exact derivatives.
    Nodes may hang (hang): their positions follow their masters', and results are given for the masters: gt_T = sum_L P_LT gt_L.
 
-   Facets of higher order: multiplier functions are one constant matrix per facet, dual in the reference measure (src/contact/multiplierimpl.h). */
+   Facets of higher order: multiplier functions are one constant matrix per facet, dual in the reference measure (src/contact/function/functionimpl.h). */
 #pragma once
 #include "base.h"
 
@@ -104,7 +104,7 @@ typedef struct {
 PetscErrorCode ContactPairCreate(PetscInt dim, PetscBool axisymmetric, const ContactSpec *, ContactPair *);
 PetscErrorCode ContactPairDestroy(ContactPair *);
 
-/* What tells an overlap from the far side of a body that lies behind (src/contact/behind.c): all outer facets of the bodies at the reference positions,
+/* What tells an overlap from the far side of a body that lies behind (src/contact/culling.c): all outer facets of the bodies at the reference positions,
    X[num][2 or 4][dim] with corners in the order of ContactSurface, part[num]: what is connected has one number. Takes both arrays over. Not collective. */
 typedef struct _p_ContactHull *ContactHull;
 PetscErrorCode                 ContactHullCreate(PetscInt dim, PetscInt num, PetscInt part[], PetscReal X[], ContactHull *);

@@ -1,4 +1,4 @@
-/* Private to contact: what the parts of the pair share. The kernel's own: rayimpl.h. */
+/* Private to contact: what the parts of the pair share. The kernel's own: kernelimpl.h. */
 #pragma once
 #include "contact.h"
 
@@ -95,7 +95,7 @@ typedef struct {
 } HullSide;
 /* Facets of the part closer to x than the radius that run along the direction d rather than across it, at most `most`. Returns their number. */
 PetscInt ContactHullBeside(ContactHull, PetscInt part, const PetscReal x[], const PetscReal d[], PetscReal radius, PetscInt most, HullSide side[]);
-/* behind.c. A facet by its corners: now and at the reference positions, axes (the last one the outward normal); of a nonmortar facet, the unit directions of
+/* culling.c. A facet by its corners: now and at the reference positions, axes (the last one the outward normal); of a nonmortar facet, the unit directions of
    its rays. */
 typedef struct {
   PetscInt  dim, nv;
@@ -117,8 +117,39 @@ typedef struct {
   PetscBool             again; /* the positions of the last evaluation, whose results are completed */
 } EvaluateContext;
 
-/* again.c. Are these the positions of the last evaluation, and its multipliers? */
+/* reuse.c. Are these the positions of the last evaluation, and its multipliers? */
 PetscBool      ContactStateStands(ContactPair, const ContactSurface *nonmortar, const ContactSurface *mortar);
 PetscBool      ContactStateLoads(ContactPair, const PetscReal z[]);
 PetscErrorCode ContactStateKeep(ContactPair, const ContactSurface *nonmortar, const ContactSurface *mortar, const PetscReal z[]);
 PetscErrorCode ContactStateDestroy(ContactPair);
+
+/* result.c. Storage of results: blocks that are kept and filled anew at each evaluation; pointers into them stay valid until then. */
+typedef struct {
+  PetscInt    num, size, at, *room, used;
+  PetscReal **block;
+} Store;
+/* Room for num zeros. */
+PetscErrorCode ContactStoreReserve(Store *, PetscInt num, PetscReal **array);
+
+/* One facet's result in the making. Rows of the result belong to the first num_rows nodes. */
+typedef struct {
+  PetscInt   num_rows, num_nodes, *node; /* nodes of the result, as in ContactFacet */
+  PetscInt  *row_first, *row_node;       /* masters of the vertices: [vertices + 1] offsets, places in node */
+  PetscReal *row_weight;
+  PetscInt   size_node, size_row_first, size_row_node, size_row_weight;
+  Store      store; /* of all results */
+} Result;
+PetscErrorCode ContactResultDestroy(Result *);
+/* Place of a node; new ones are added. */
+PetscErrorCode ContactResultNode(Result *, PetscInt id, PetscInt *place);
+/* Masters of a node: itself when it does not hang. */
+PetscInt ContactMasters(const ContactSurface *, const PetscInt *node, const PetscInt **master, const PetscReal **weight);
+/* Row of vertex v by places among the nodes; row_first has room for v + 1, *num entries are there. */
+PetscErrorCode ContactResultRow(Result *, const ContactSurface *, PetscInt node, PetscBool mortar, PetscInt v, PetscInt *num);
+/* Do derivatives have a use? node[num_rows]: the facet's multipliers; loaded: one of them is not zero. */
+PetscBool      ContactResultDerivatives(const EvaluateContext *, PetscInt num_rows, const PetscInt node[], PetscBool loaded);
+PetscErrorCode ContactResultSegment(ContactPair, PetscInt facet, PetscInt mortar_facet, PetscInt num, ContactSegment **);
+/* Calls the function for every listed facet and hands out those results it sets *use for. At the positions of the last evaluation (again) for those only
+   whose results lack what is asked for; they stand in the function's ContactFacet when it is called. */
+typedef PetscErrorCode (*ResultFunction)(const EvaluateContext *, PetscInt slot, ContactFacet *, PetscBool *use, PetscBool *failed);
+PetscErrorCode ContactResultsEvaluate(const EvaluateContext *, Result *, ResultFunction, PetscBool *failed);

@@ -1,5 +1,5 @@
 /* The contact pair: life cycle, what callers ask of it, evaluations. */
-#include "rayimpl.h"
+#include "kernelimpl.h"
 
 PetscErrorCode ContactGrow(PetscInt num, size_t entry, PetscInt *size, void *array)
 {

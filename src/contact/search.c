@@ -1,8 +1,8 @@
 /* Candidate search: which mortar facets a nonmortar facet may meet while no node moves more than `margin`.
 
-   Which mortar facets reach into the region of a nonmortar facet's rays: rayregion.c; of what is left the far sides of bodies behind go (behind.c).
+   Which mortar facets reach into the region of a nonmortar facet's rays: region.c; of what is left the far sides of bodies behind go (culling.c).
    Distances and normals are judged here and nowhere else: between two searches the result changes continuously with the positions. */
-#include "rayimpl.h"
+#include "kernelimpl.h"
 
 PetscInt ContactFacetNodes(const ContactSurface *s, PetscInt facet, const PetscInt **node)
 {
