@@ -57,10 +57,11 @@ else
   OPT := -O3 -g $(if $(PORTABLE),,-march=native)
 endif
 CFLAGS   := -std=gnu11 $(OPT) -Wall -Wextra -Wshadow -Wstrict-prototypes -Wno-unused-parameter -Wno-maybe-uninitialized -Wno-psabi -Wno-format-truncation -Werror -fno-math-errno -MMD -MP
-CPPFLAGS := -Iinclude $(addprefix -Isrc/,$(MODULES)) $(PETSC_CFLAGS) $(HDF5_CFLAGS) $(if $(SMUMPS),-DMORTISE_SMUMPS)
+FOLDERS  := $(foreach m,$(MODULES),src/$(m) $(patsubst %/,%,$(wildcard src/$(m)/*/)))
+CPPFLAGS := -Iinclude $(addprefix -I,$(FOLDERS)) $(PETSC_CFLAGS) $(HDF5_CFLAGS) $(if $(SMUMPS),-DMORTISE_SMUMPS)
 LDLIBS   := -Wl,--no-as-needed -lopenblas $(LOAD_FIRST) -Wl,--as-needed $(PETSC_LIBS) -lmetis -ldmumps $(SMUMPS) -lmumps_common $(HDF5_LIBS) -lmuparser -lcjson -lyaml -lm
 
-SOURCES := $(foreach m,$(MODULES),$(wildcard src/$(m)/*.c))
+SOURCES := $(foreach f,$(FOLDERS),$(wildcard $(f)/*.c))
 OBJECTS := $(SOURCES:src/%.c=$(BUILD)/%.o)
 LIBRARY := $(BUILD)/libmortise.a
 LIBOBJS := $(filter-out $(BUILD)/app/main.o,$(OBJECTS))

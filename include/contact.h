@@ -6,23 +6,16 @@
    Basis of the multipliers: *dual*, psi = A N on each facet with A = diag(int N_j) [int N_j N_k]^-1 over its covered part (a facet whose second matrix is
    singular to 1e-13 contributes nothing); *standard*, psi = N.
 
-   Two dimensions. Facets are straight edges (a, b), the body to the left of a -> b: t = (x_b - x_a)/|x_b - x_a|, N = (t_y, -t_x). Nodal normal n_j: normalised
-   sum of the unit normals of its (one or two) edges; at a node on a symmetry plane the mirror image of its edge's normal takes part (mirror[j] = plane's unit
-   normal, zero elsewhere). Along an edge the nodal normals are interpolated and not renormalised, n(xi) = sum N_k(xi) n_k: only the direction counts.
-   Gap: g(xi) = n . (x_m - x_s) / |n| = A |n| / B, A = (c - x_s) x (d - c), B = n x (d - c): a length along the unit direction, positive when open;
-   x_m is where the ray x_s + s n meets the mortar edge (c, d).
-   Segment bounds: root of f(xi) = n(xi) x (x_m - x_s(xi)) for a mortar node, the edge's end where the signs of f at both ends say so; roots with
-   |xi| > 1 - 1e-9 are that end and do not move. Where several mortar edges face the same part, each piece between bounds goes to the one with the
-   least |g| at its middle (segment.c), so nothing is covered twice; a change of that choice is a jump.
-   Node to segment (comparison): g_j along n_j to the edge that the node's ray hits; per edge of current length L: w_j = rho L / 2, gt_j = g_j w_j (rho = 1 or
-   2 pi r_j), with exact derivatives of both.
+   Facets. Two dimensions: edges (a, b), the body to the left of a -> b; three: quadrilaterals, corners counterclockwise seen from outside. Of any order.
+   Directions d at the corners of nonmortar facets are means of the vectors of the facets there (and of their mirror images in planes of symmetry), interpolated
+   between them; across an edge where the surface turns by more than 40 degrees each side keeps its own. Gap: x_s + s d = x_m on the mortar side,
+   g = s d.n, n the unit normal at x_s; positive when open. What of the mortar side a facet sees are the pictures of mortar facets by those of their corners
+   (kernelimpl.h); where several lie behind one another the nearest counts, so nothing is covered twice; a change of that choice is a jump.
+   Node to segment (comparison, two dimensions): the same integrals by the trapezoidal rule: w_j = rho L / 2, gt_j = g_j w_j for an edge of length L (rho = 1
+   or 2 pi r_j), with exact derivatives.
+   Nodes may hang (hang): their positions follow their masters', and results are given for the masters: gt_T = sum_L P_LT gt_L.
 
-   Three dimensions. Facets are bilinear quadrilaterals, nodes counterclockwise seen from outside. Each nonmortar facet has its auxiliary plane, normal to its
-   vector area; both sides are seen along that normal, mortar facets are clipped by the nonmortar one, and the gap is the distance along the normal. Segments
-   are the polygons where one mortar facet covers one nonmortar facet (facetimpl.h). Nodes may hang (hang): their positions follow their masters', and results
-   are given for the masters: gt_T = sum_L P_LT gt_L.
-
-   Facets of higher order: multiplier functions are one constant matrix per facet, dual in the reference measure (src/contact/multiplierimpl.h). */
+   Facets of higher order: multiplier functions are one constant matrix per facet, dual in the reference measure (src/contact/function/functionimpl.h). */
 #pragma once
 #include "base.h"
 
@@ -59,7 +52,6 @@ typedef struct {
   PetscBool see_through;       /* comparison only: searches take far sides of bodies behind for overlaps */
   PetscBool hold_lines;        /* comparison only: forces hold lines of the mortar side throughout (ContactPairHoldLines) */
   PetscBool standard;          /* standard multipliers */
-  PetscBool continuous;        /* in the plane, facets of order 1 too: gaps along rays; in space always */
   PetscBool adjust;            /* the gaps of the mesh at the reference positions count as closed */
   PetscReal interference;      /* overlap at the reference positions, besides that of the geometry */
   PetscBool subdivide_auto;    /* cells behind linear facets are subdivided as the estimate asks (estimate/layer.c) */
@@ -80,16 +72,16 @@ static inline void ContactFacetVector(PetscInt dim, const PetscReal x[], const P
 
 typedef struct _p_ContactPair *ContactPair;
 
-/* One nonmortar facet with everything it meets. Nodes: first those that carry its multipliers (2-D: the edge's two; 3-D: the facet's, hanging ones replaced by
-   their masters), then other nonmortar nodes it depends on (2-D: outer neighbours, which enter the nodal normals; a closed surface of three edges lists one
-   twice: derivatives add), then the mortar nodes it meets. Derivatives with respect to the positions of all `num` nodes, dim components each. */
+/* One nonmortar facet with everything it meets. Nodes: first those that carry its multipliers (the facet's, hanging ones replaced by their masters), then other
+   nonmortar nodes it depends on (those of facets around its corners, which enter the directions), then the mortar nodes it meets. Derivatives with respect to
+   the positions of all `num` nodes, dim components each. */
 typedef struct {
   PetscInt         facet;        /* nonmortar facet */
   PetscInt         num_rows;     /* its multipliers: nodes[0 .. num_rows) */
   PetscInt         num;          /* nodes it depends on */
   const PetscInt  *nodes;        /* [num] nonmortar node id, or ~id (bitwise not) of a mortar node */
   const PetscReal *gap, *weight; /* [num_rows] contributions to gt_j, w_j (raw: sums over facets give the nodal values) */
-  const PetscReal *reach;        /* [num_rows] change of gt_j when the gap grows by 1 along its direction everywhere; NULL: weight */
+  const PetscReal *reach;        /* [num_rows] change of gt_j when the gap grows by 1 along its direction everywhere */
   const PetscReal *dgap;         /* [num_rows][dim*num]; NULL unless asked, or where z vanishes and no Hessian is asked */
   const PetscReal *dweight;      /* [num_rows][dim*num] */
   const PetscReal *push;         /* [num_rows][dim*num] force by z_j where that is not dgap: rim or lines are held (theory (5.8)); with dgap. NULL: dgap */
@@ -103,7 +95,7 @@ typedef struct {
 
 /* One segment, for output and estimation, by its corners in the parametric coordinates of both facets, [-1, 1] each. Two dimensions: num = 2, part [xi0, xi1]
    of a nonmortar edge that faces part [eta0, eta1] of a mortar edge (eta0 > eta1: the edges run against each other); node to segment: a hit, xi0 = xi1 = -1
-   or 1. Three dimensions: polygon, counterclockwise on the nonmortar facet. Ordered by listed facet (two dimensions: then along the edge). */
+   or 1. Three dimensions: polygon, counterclockwise on the nonmortar facet. Ordered by listed facet. */
 typedef struct {
   PetscInt  facet, mortar_facet, num;
   PetscReal xi[CONTACT_SEGMENT][2], eta[CONTACT_SEGMENT][2];
@@ -112,7 +104,7 @@ typedef struct {
 PetscErrorCode ContactPairCreate(PetscInt dim, PetscBool axisymmetric, const ContactSpec *, ContactPair *);
 PetscErrorCode ContactPairDestroy(ContactPair *);
 
-/* What tells an overlap from the far side of a body that lies behind (src/contact/behind.c): all outer facets of the bodies at the reference positions,
+/* What tells an overlap from the far side of a body that lies behind (src/contact/culling.c): all outer facets of the bodies at the reference positions,
    X[num][2 or 4][dim] with corners in the order of ContactSurface, part[num]: what is connected has one number. Takes both arrays over. Not collective. */
 typedef struct _p_ContactHull *ContactHull;
 PetscErrorCode                 ContactHullCreate(PetscInt dim, PetscInt num, PetscInt part[], PetscReal X[], ContactHull *);
@@ -155,8 +147,8 @@ PetscErrorCode ContactPairReach(ContactPair, const ContactSurface *nonmortar, Pe
                                 PetscInt most, PetscInt *num_boxes, PetscReal box[][6]);
 void           ContactFacetBox(const ContactSurface *, PetscInt facet, PetscReal box[6]);
 PetscBool      ContactBoxesMeet(const PetscReal a[6], const PetscReal b[6]);
-/* Rays along a continuous direction (else NULL): the pictures of mortar corners that hang in the middle of an edge follow those of its ends,
-   parent[mortar num_nodes][2], -1: does not hang. Not collective. */
+/* The pictures of mortar corners that hang in the middle of an edge follow those of its ends,
+   parent[mortar num_nodes][2], -1: does not hang. After a search. Not collective. */
 PetscErrorCode ContactPairGetMortarParents(ContactPair, const PetscInt **parent);
 /* Candidates of the last search: mortar facets of listed facet i are candidate[start[i] .. start[i+1]), ascending. Set: the search went on elsewhere, these
    facets are evaluated here (and listed from now on) with these candidates. */
@@ -180,5 +172,6 @@ PetscErrorCode ContactPairHoldLines(ContactPair, PetscBool held);
 PetscErrorCode ContactPairGetSegments(ContactPair, PetscInt *num, const ContactSegment **segments);
 /* Nodal normals of the last evaluation [num_nodes][dim]; NaN at nodes with neighbours that are not known here. */
 PetscErrorCode ContactPairGetNormals(ContactPair, const PetscReal **normals);
-/* Overlaps of the last evaluation that could not be used (three dimensions: facets that are folded over or not convex in the other's view). */
+/* Overlaps of the last evaluation that could not be used: mortar facets whose corners have no picture, lie folded over or are not convex in the facet's view,
+   or that rays miss. */
 PetscErrorCode ContactPairGetDegenerate(ContactPair, PetscInt *num);

@@ -1,11 +1,42 @@
-/* Results of facets along rays (rayfacet.c): the nodes that do not hang on which one depends, the vertices it is computed with by these
+/* Results of facets along rays (facet.c): the nodes that do not hang on which one depends, the vertices it is computed with by these
    nodes, and the storage in which results are handed out. */
-#include "facetimpl.h"
+#include "contactimpl.h"
+
+#define BLOCK 131072
+
+static PetscErrorCode StoreDestroy_Private(Store *s)
+{
+  PetscFunctionBegin;
+  for (PetscInt i = 0; i < s->num; i++) PetscCall(PetscFree(s->block[i]));
+  PetscCall(PetscFree(s->block));
+  PetscCall(PetscFree(s->room));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode ContactStoreReserve(Store *s, PetscInt num, PetscReal **array)
+{
+  PetscFunctionBegin;
+  while (s->at < s->num && s->used + num > s->room[s->at]) s->at++, s->used = 0;
+  if (s->at == s->num) {
+    PetscInt size = s->size;
+
+    PetscCall(ContactGrow(s->num + 1, sizeof(PetscReal *), &size, &s->block));
+    PetscCall(ContactGrow(s->num + 1, sizeof(PetscInt), &s->size, &s->room));
+    s->room[s->num] = PetscMax(num, BLOCK);
+    PetscCall(PetscMalloc1(s->room[s->num], &s->block[s->num]));
+    s->num++;
+    s->used = 0;
+  }
+  *array = s->block[s->at] + s->used;
+  s->used += num;
+  PetscCall(PetscArrayzero(*array, num));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
 
 PetscErrorCode ContactResultDestroy(Result *r)
 {
   PetscFunctionBegin;
-  PetscCall(ContactStoreDestroy(&r->store));
+  PetscCall(StoreDestroy_Private(&r->store));
   PetscCall(PetscFree(r->node));
   PetscCall(PetscFree(r->row_first));
   PetscCall(PetscFree(r->row_node));

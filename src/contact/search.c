@@ -1,66 +1,8 @@
 /* Candidate search: which mortar facets a nonmortar facet may meet while no node moves more than `margin`.
 
-   Edges by nodal normals (rays: rayregion.c): a pair is kept when the unit normals oppose, N_s . N_m < -0.3, and the
-   mortar edge reaches into the region swept by the nonmortar edge's rays, -depth < g < distance, where the bodies' thickness says how deep an overlap may be
-   (behind.c), without them the distance does (with margin 0 exactly that; with a
-   margin the region grows by slack = 2 margin (1 + distance / h): relative motion of the nodes plus the turn 2 margin / h of normals of edges of length h at
-   that distance; not into the body, where what lies deeper is no overlap but another body behind this one, which would be pulled through it). Of what
-   is left the far sides of bodies behind go (behind.c). Distances and normals are judged here and nowhere else: between two searches the result changes
-   continuously with the positions. */
-#include "rayimpl.h"
-
-typedef struct {
-  PetscReal reach, slack; /* distance along the normal and lateral allowance */
-  PetscReal box[6];
-} Region;
-
-static PetscReal NodeDistance_Private(const ContactSurface *s, PetscInt a, PetscInt b)
-{
-  const PetscReal d[2] = {s->x[2 * a] - s->x[2 * b], s->x[2 * a + 1] - s->x[2 * b + 1]};
-
-  return PetscSqrtReal(Dot2(d, d));
-}
-
-/* Box around x +- reach n / |n| along the edge. At the middle n is shorter than 1, so chords between the ray ends are lengthened by 1 / |n|. */
-static void Region_Private(ContactPair pair, const ContactSurface *s, PetscInt edge, const EdgeFrame *f, Region *r)
-{
-  const PetscInt  a = s->facets[2 * edge], b = s->facets[2 * edge + 1];
-  const PetscReal mid[2]   = {0.5 * (f->n[0][0] + f->n[1][0]), 0.5 * (f->n[0][1] + f->n[1][1])};
-  PetscReal       shortest = f->length, stretch;
-
-  if (pair->prev[a] >= 0) shortest = PetscMin(shortest, NodeDistance_Private(s, pair->prev[a], a));
-  if (pair->next[b] >= 0) shortest = PetscMin(shortest, NodeDistance_Private(s, b, pair->next[b]));
-  r->slack = 2 * pair->margin * (1 + pair->distance / shortest);
-  r->reach = pair->distance + r->slack;
-  stretch  = 1 / PetscSqrtReal(Dot2(mid, mid));
-  for (int i = 0; i < 2; i++) r->box[i] = PETSC_MAX_REAL, r->box[3 + i] = -PETSC_MAX_REAL;
-  r->box[2] = r->box[5] = 0;
-  for (int k = 0; k < 2; k++)
-    for (int side = -1; side <= 1; side += 2)
-      for (int i = 0; i < 2; i++) {
-        const PetscReal end = f->x[k][i] + (side > 0 ? r->reach : -pair->depth) * stretch * f->n[k][i];
-
-        r->box[i]     = PetscMin(r->box[i], end - r->slack);
-        r->box[3 + i] = PetscMax(r->box[3 + i], end + r->slack);
-      }
-}
-
-/* May the pair meet? */
-static PetscBool Candidate_Private(ContactPair pair, const EdgeFrame *f, const Region *r, const ContactSurface *mortar, PetscInt edge)
-{
-  const PetscInt  *node = &mortar->facets[2 * edge];
-  const PetscReal *c = &mortar->x[2 * node[0]], *d = &mortar->x[2 * node[1]], e[2] = {d[0] - c[0], d[1] - c[1]};
-  const PetscReal  turn = Dot2(f->dx, e), length = PetscSqrtReal(Dot2(e, e)) * f->length; /* N_s . N_m = t_s . t_m */
-  PetscReal        g[2], cosine, tau;
-  Segment          s;
-
-  if (!(turn < -CONTACT_OPPOSE * length)) return PETSC_FALSE;
-  if (ContactRaySide(f->x[0], f->n[0], c) < -r->slack && ContactRaySide(f->x[0], f->n[0], d) < -r->slack) return PETSC_FALSE;
-  if (ContactRaySide(f->x[1], f->n[1], c) > r->slack && ContactRaySide(f->x[1], f->n[1], d) > r->slack) return PETSC_FALSE;
-  if (!ContactSegmentBuild(f, mortar, edge, &s)) return pair->margin > 0 || pair->node_to_segment ? PETSC_TRUE : PETSC_FALSE;
-  for (int k = 0; k < 2; k++) g[k] = ContactGapAt(f, c, d, s.lambda[k], &cosine, &tau);
-  return (g[0] > r->reach && g[1] > r->reach) || (g[0] < -pair->depth && g[1] < -pair->depth) ? PETSC_FALSE : PETSC_TRUE;
-}
+   Which mortar facets reach into the region of a nonmortar facet's rays: region.c; of what is left the far sides of bodies behind go (culling.c).
+   Distances and normals are judged here and nowhere else: between two searches the result changes continuously with the positions. */
+#include "kernelimpl.h"
 
 PetscInt ContactFacetNodes(const ContactSurface *s, PetscInt facet, const PetscInt **node)
 {
@@ -118,11 +60,9 @@ static PetscErrorCode ListFacets_Private(ContactPair pair, const ContactSurface 
   PetscCall(PetscFree(pair->listed));
   PetscCall(PetscFree(pair->start));
   PetscCall(PetscFree(pair->result));
-  PetscCall(PetscFree2(pair->first_segment, pair->first_node));
   PetscCall(PetscMalloc1(num, &pair->listed));
   PetscCall(PetscMalloc1(num + 1, &pair->start));
   PetscCall(PetscMalloc1(num, &pair->result));
-  PetscCall(PetscCalloc2(num + 1, &pair->first_segment, num + 1, &pair->first_node));
   for (PetscInt i = 0; i < num; i++) {
     PetscCheck(facets[i] >= 0 && facets[i] < nonmortar->num_facets, PETSC_COMM_SELF, PETSC_ERR_ARG_OUTOFRANGE,
                "nonmortar facet %" PetscInt_FMT " is outside [0, %" PetscInt_FMT ")", facets[i], nonmortar->num_facets);
@@ -134,36 +74,12 @@ static PetscErrorCode ListFacets_Private(ContactPair pair, const ContactSurface 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The region of a listed facet, by the kernel in use. */
-typedef struct {
-  EdgeFrame edge;
-  Region    swept;
-  RayRegion rays;
-} Reach;
-
-static const PetscReal *Reach_Private(ContactPair pair, const ContactSurface *nonmortar, PetscInt facet, Reach *r)
-{
-  if (pair->rays) {
-    ContactRayRegion(pair, nonmortar, facet, &r->rays);
-    return r->rays.box;
-  }
-  ContactFrame(pair, nonmortar, facet, &r->edge);
-  Region_Private(pair, nonmortar, facet, &r->edge, &r->swept);
-  return r->swept.box;
-}
-
-static PetscBool Meets_Private(ContactPair pair, const Reach *r, const ContactSurface *mortar, PetscInt facet)
-{
-  if (pair->rays) return ContactRayRegionMeets(&r->rays, mortar, facet);
-  return Candidate_Private(pair, &r->edge, &r->swept, mortar, facet);
-}
-
 /* Query the tree for every listed facet. found: room for all mortar facets. */
 static PetscErrorCode Candidates_Private(ContactPair pair, const ContactSurface *nonmortar, const ContactSurface *mortar, const Tree *tree,
                                          const PetscInt known[], PetscInt found[])
 {
   PetscInt     total = 0;
-  Reach        reach;
+  RayRegion    region;
   FacetCorners corners;
 
   PetscFunctionBegin;
@@ -171,25 +87,24 @@ static PetscErrorCode Candidates_Private(ContactPair pair, const ContactSurface 
     PetscInt num;
 
     pair->start[i] = total;
-    num            = ContactTreeQuery(tree, Reach_Private(pair, nonmortar, pair->listed[i], &reach), mortar->num_facets, found);
+    ContactRayRegion(pair, nonmortar, pair->listed[i], &region);
+    num = ContactTreeQuery(tree, region.box, mortar->num_facets, found);
     for (PetscInt k = 0; k < num; k++) found[k] = known[found[k]];
     ContactCorners(pair, nonmortar, pair->listed[i], &corners);
     PetscCall(PetscSortInt(num, found)); /* results must not depend on the tree */
     PetscCall(ContactGrow(total + num, sizeof(PetscInt), &pair->size_candidate, &pair->candidate));
     for (PetscInt k = 0; k < num; k++)
-      if (Meets_Private(pair, &reach, mortar, found[k]) && !ContactBehind(pair, pair->listed[i], &corners, mortar, found[k]))
+      if (ContactRayRegionMeets(&region, mortar, found[k]) && !ContactBehind(pair, pair->listed[i], &corners, mortar, found[k]))
         pair->candidate[total++] = found[k];
   }
   pair->start[pair->num_listed] = total;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* What a search knows of the nonmortar side: neighbours, normals, the list. higher: the mortar side has facets of higher order. */
-static PetscErrorCode Prepare_Private(ContactPair pair, const ContactSurface *nonmortar, PetscBool higher, PetscInt num, const PetscInt facets[],
-                                      PetscReal distance, PetscReal margin)
+/* What a search knows of the nonmortar side: directions, the list. */
+static PetscErrorCode Prepare_Private(ContactPair pair, const ContactSurface *nonmortar, PetscInt num, const PetscInt facets[], PetscReal distance,
+                                      PetscReal margin)
 {
-  PetscBool failed = PETSC_FALSE;
-
   PetscFunctionBegin;
   PetscCheck(distance > 0 && margin >= 0, PETSC_COMM_SELF, PETSC_ERR_ARG_OUTOFRANGE, "search distance %g must be positive, margin %g not negative",
              (double)distance, (double)margin);
@@ -197,13 +112,7 @@ static PetscErrorCode Prepare_Private(ContactPair pair, const ContactSurface *no
   pair->margin   = margin;
   pair->untold   = 0;
   pair->depth    = pair->hull && pair->deepest > 0 ? pair->deepest : distance;
-  pair->rays     = (PetscBool)(pair->dim == 3 || nonmortar->order || higher || pair->continuous);
-  if (pair->rays)
-    PetscCall(ContactRayTopology(pair, nonmortar));
-  else {
-    PetscCall(ContactTopologyBuild(pair, nonmortar));
-    PetscCall(ContactNormalsBuild(pair, nonmortar, &failed)); /* a failure shows again, and is reported, in the evaluation */
-  }
+  PetscCall(ContactRayTopology(pair, nonmortar));
   PetscCall(ListFacets_Private(pair, nonmortar, num, facets));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -215,10 +124,10 @@ PetscErrorCode ContactPairSearch(ContactPair pair, const ContactSurface *nonmort
   Tree      tree;
 
   PetscFunctionBegin;
-  PetscCall(Prepare_Private(pair, nonmortar, (PetscBool)(mortar->order != NULL), num, facets, distance, margin));
+  PetscCall(Prepare_Private(pair, nonmortar, num, facets, distance, margin));
   pair->num_mortar_nodes  = mortar->num_nodes;
   pair->num_mortar_facets = mortar->num_facets;
-  if (pair->rays) PetscCall(ContactRayMortarTopology(pair->ray, mortar));
+  PetscCall(ContactRayMortarTopology(pair->ray, mortar));
   PetscCall(PetscMalloc2(mortar->num_facets, &found, mortar->num_facets, &known));
   PetscCall(MortarTree_Private(mortar, known, &tree));
   PetscCall(Candidates_Private(pair, nonmortar, mortar, &tree, known, found));
@@ -273,18 +182,18 @@ PetscErrorCode ContactPairReach(ContactPair pair, const ContactSurface *nonmorta
                                 PetscInt most, PetscInt *num_boxes, PetscReal box[][6])
 {
   PetscReal(*all)[6];
-  Reach reach;
-  Tree  tree;
+  Tree tree;
 
   PetscFunctionBegin;
   *num_boxes = 0;
-  PetscCall(Prepare_Private(pair, nonmortar, (PetscBool)(nonmortar->order != NULL), num, facets, distance, margin));
+  PetscCall(Prepare_Private(pair, nonmortar, num, facets, distance, margin));
   if (num == 0) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(PetscMalloc1(num, &all));
   for (PetscInt i = 0; i < num; i++) {
-    const PetscReal *own = Reach_Private(pair, nonmortar, facets[i], &reach);
+    RayRegion region;
 
-    for (int k = 0; k < 6; k++) all[i][k] = own[k];
+    ContactRayRegion(pair, nonmortar, facets[i], &region);
+    for (int k = 0; k < 6; k++) all[i][k] = region.box[k];
   }
   PetscCall(ContactTreeBuild(num, all, &tree));
   UpperBoxes_Private(&tree, most, num_boxes, box);

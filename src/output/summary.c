@@ -86,7 +86,7 @@ static void AddPair_Private(cJSON *contact, PetscInt dim, const ContactSpec *spe
   AddNumber_Private(pair, "min_gap", f->min_gap);
   AddNumber_Private(pair, "max_gap", f->max_gap);
   AddNumber_Private(pair, "adjusted_gap", f->adjusted);
-  if (dim == 3) AddNumber_Private(pair, "unusable_overlaps", (PetscReal)f->unusable);
+  AddNumber_Private(pair, "unusable_overlaps", (PetscReal)f->unusable);
 }
 
 /* Pressures that are found, and what they follow: in the objects `pressure`, `volume` and `advance`, by boundary; none where there are none. */

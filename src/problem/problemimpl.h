@@ -4,7 +4,7 @@
 
 #include <petscsf.h>
 
-#define COVERED_HIGHER 1e-9 /* the same for facets of higher order, whose forces have faded before: spring.c in contact */
+#define COVERED_HIGHER 1e-9 /* the same for facets of higher order, whose forces have faded before: compliance.c in contact */
 #define COVERED 1e-5        /* share of a node's tributary measure below which it counts as uncovered: its constraint would be all but free of its pressure */
 
 #define SLACK 1e-10 /* pressure over Young's modulus that is none: what round-off leaves */

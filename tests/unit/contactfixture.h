@@ -6,7 +6,7 @@
 typedef struct {
   ContactSurface s;
   PetscInt      *edges;
-  PetscReal     *x, *mirror;
+  PetscReal     *x, *X, *mirror;
 } Chain;
 
 static inline void ChainCreate(Chain *c, PetscInt num_nodes, PetscBool closed)
@@ -15,16 +15,24 @@ static inline void ChainCreate(Chain *c, PetscInt num_nodes, PetscBool closed)
 
   c->edges  = calloc((size_t)(2 * ne), sizeof(PetscInt));
   c->x      = calloc((size_t)(2 * num_nodes), sizeof(PetscReal));
+  c->X      = calloc((size_t)(2 * num_nodes), sizeof(PetscReal));
   c->mirror = calloc((size_t)(2 * num_nodes), sizeof(PetscReal));
   for (PetscInt e = 0; e < ne; e++) c->edges[2 * e] = e, c->edges[2 * e + 1] = (e + 1) % num_nodes;
-  c->s = (ContactSurface){.dim = 2, .num_nodes = num_nodes, .num_facets = ne, .facets = c->edges, .x = c->x, .mirror = c->mirror};
+  c->s = (ContactSurface){.dim = 2, .num_nodes = num_nodes, .num_facets = ne, .facets = c->edges, .x = c->x, .X = c->X, .mirror = c->mirror};
 }
 
 static inline void ChainDestroy(Chain *c)
 {
   free(c->edges);
   free(c->x);
+  free(c->X);
   free(c->mirror);
+}
+
+/* The places of now are the reference positions. */
+static inline void ChainReference(Chain *c)
+{
+  memcpy(c->X, c->x, sizeof(PetscReal) * 2 * (size_t)c->s.num_nodes);
 }
 
 /* Straight chain from a to b, equal edges. */
@@ -37,6 +45,7 @@ static inline void ChainLine(Chain *c, PetscInt num_nodes, PetscReal ax, PetscRe
     c->x[2 * i]     = ax + t * (bx - ax);
     c->x[2 * i + 1] = ay + t * (by - ay);
   }
+  ChainReference(c);
 }
 
 static inline void ChainMove(Chain *c, PetscReal angle, PetscReal dx, PetscReal dy)
@@ -51,6 +60,24 @@ static inline void ChainMove(Chain *c, PetscReal angle, PetscReal dx, PetscReal 
     c->mirror[2 * i]     = cs * mx - sn * my;
     c->mirror[2 * i + 1] = sn * mx + cs * my;
   }
+}
+
+/* Direction of the rays at end v of edge e of an open chain: mean vector of the edges there, but for one that turns by more than 40 degrees. */
+static inline void ChainDirection(const Chain *c, PetscInt e, int v, PetscReal d[2])
+{
+  const PetscInt edge[2] = {e, e + 2 * v - 1};
+  PetscReal      N[2][2], length[2];
+
+  for (int k = 0; k < 2; k++) {
+    const PetscReal *a = c->x + 2 * edge[k], *b = a + 2;
+
+    if (edge[k] < 0 || edge[k] >= c->s.num_facets) continue;
+    N[k][0] = b[1] - a[1], N[k][1] = a[0] - b[0];
+    length[k] = hypot(N[k][0], N[k][1]);
+  }
+  if (edge[1] < 0 || edge[1] >= c->s.num_facets || N[0][0] * N[1][0] + N[0][1] * N[1][1] <= cos(40 * PETSC_PI / 180) * length[0] * length[1])
+    N[1][0] = N[1][1] = length[1] = 0;
+  for (int i = 0; i < 2; i++) d[i] = (N[0][i] + N[1][i]) / (length[0] + length[1]);
 }
 
 /* Random curved, tilted, non-matching pair near x in [0, 1], distance about `gap`, nonmortar partly covered. */
@@ -107,10 +134,12 @@ static inline PetscReal *Unknown(Chain *nonmortar, Chain *mortar, PetscInt i)
     return PetscFinalize() ? 1 : failures;                                                                                                                     \
   }
 
-/* One evaluation: pair created, searched, evaluated into s (created here). Destroy both. */
+/* One evaluation of undeformed surfaces: pair created, searched, evaluated into s (created here). Destroy both. */
 static inline void EvaluateOnce(Chain *nonmortar, Chain *mortar, PetscBool axisymmetric, PetscBool nts, PetscReal distance, const PetscReal z[],
                                 ContactPair *pair, Sum *s)
 {
+  ChainReference(nonmortar);
+  ChainReference(mortar);
   PairCreate(axisymmetric, nts, pair);
   SearchAll(*pair, nonmortar, mortar, distance, 0);
   SumCreate(s, nonmortar->s.num_nodes, mortar->s.num_nodes);

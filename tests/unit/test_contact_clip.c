@@ -1,7 +1,7 @@
 /* The overlap of two quadrilaterals with sides on lines that nearly coincide: its corners stay with both and its area is theirs. Of others
    that are not convex, or folded: signed areas, and never more corners than there is room for. */
 #include "contactfixture.h"
-#include "facetimpl.h"
+#include "kernelimpl.h"
 
 /* Nonmortar: the unit square. Mortar: its lower side runs above y = 0 by `low` at x = a and by `high` at x = b, both near 1e-9, where clipping decides. */
 static void Make(PetscReal a, PetscReal b, PetscReal low, PetscReal high, Overlap *o)

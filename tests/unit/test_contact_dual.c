@@ -1,8 +1,8 @@
 /* Multiplier functions of facets of any order: closed form, partition of unity, biorthogonality, polynomials they reproduce, held nodes, inf-sup numbers. */
 #include "contactfixture.h"
 
+#include "functionimpl.h"
 #include "latticefixture.h"
-#include "multiplierimpl.h"
 #include <petscblaslapack.h>
 
 #define POINTS 10 /* Gauss points along a facet */

@@ -89,6 +89,8 @@ static void CheckSeed(const Kind *kind, uint64_t seed, Errors *err)
 
   MakePair(kind, &seed, &nonmortar, &mortar);
   for (int j = 0; j < NN; j++) z[j] = Random(&seed);
+  ChainReference(&nonmortar);
+  ChainReference(&mortar);
   PairCreate(kind->axisymmetric, kind->nts, &pair);
   SearchAll(pair, &nonmortar, &mortar, 0.6, 1e-3);
   SumCreate(&exact, nonmortar.s.num_nodes, NM);

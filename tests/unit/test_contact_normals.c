@@ -1,4 +1,4 @@
-/* Nodal normals: outward side, average of unit normals, symmetry planes. */
+/* Nodal normals: outward side, means of the edges' vectors, symmetry planes. */
 #include "contactfixture.h"
 
 static const PetscReal *Normals(Chain *nonmortar, Chain *mortar, ContactPair *pair, Sum *s)
@@ -34,7 +34,7 @@ static void Circle(void **state)
   Cleanup(&c, &m, &pair, &s);
 }
 
-/* A corner: average of unit normals, whatever the lengths. */
+/* A corner, flat enough to be no edge: mean of both edges' vectors, the longer counts for more. */
 static void Corner(void **state)
 {
   Chain            c, m;
@@ -43,12 +43,12 @@ static void Corner(void **state)
   const PetscReal *n;
 
   ChainCreate(&c, 3, PETSC_FALSE);
-  memcpy(c.x, (const PetscReal[6]){1, -0.2, 1, 0, -5, 0}, 6 * sizeof(PetscReal)); /* up the right side, then along the top: length .2 and 6 */
-  ChainLine(&m, 2, -1, 0.2, 1, 0.2);
+  memcpy(c.x, (const PetscReal[6]){4, -3 * 0.5, 0, 0, -1, 0}, 6 * sizeof(PetscReal)); /* up a slope, then along the top */
+  ChainLine(&m, 2, -1, 0.2, 5, 0.2);
   n = Normals(&c, &m, &pair, &s);
-  assert_near(n[0], 1, 1e-15);
-  assert_near(n[2], sqrt(0.5), 1e-15);
-  assert_near(n[3], sqrt(0.5), 1e-15);
+  assert_near(n[0], 1.5 / hypot(1.5, 4), 1e-15);
+  assert_near(n[2], 1.5 / hypot(1.5, 5), 1e-15);
+  assert_near(n[3], 5 / hypot(1.5, 5), 1e-15);
   assert_near(n[5], 1, 1e-15);
   Cleanup(&c, &m, &pair, &s);
 }

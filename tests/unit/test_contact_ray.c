@@ -183,7 +183,7 @@ static void CheckAgain(Errors *err, const Sum *s, ContactPair pair, Patch *nonmo
 static void CheckSeed(const Kind *kind, uint64_t seed, PetscInt first, PetscInt stride, Errors *err)
 {
   const PetscReal   step[4] = {-2, -1, 1, 2};
-  const ContactSpec spec    = {.standard = kind->standard, .continuous = PETSC_TRUE};
+  const ContactSpec spec    = {.standard = kind->standard};
   Patch             nonmortar, mortar;
   ContactPair       pair;
   Sum               exact, moved[4];

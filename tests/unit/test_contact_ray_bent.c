@@ -34,7 +34,7 @@ static PetscReal Beyond(ContactPair pair)
 static void Check(PetscInt order, PetscInt mortar_order, PetscBool standard, PetscReal bend)
 {
   static const PetscBool Refined[16] = {[1] = PETSC_TRUE, [5] = PETSC_TRUE, [7] = PETSC_TRUE, [10] = PETSC_TRUE};
-  const ContactSpec      spec        = {.standard = standard, .continuous = PETSC_TRUE};
+  const ContactSpec      spec        = {.standard = standard};
   PetscReal              worst = 0, area = 0;
   Patch                  nonmortar, mortar;
   PetscInt               degenerate;

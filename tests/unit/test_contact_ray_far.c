@@ -31,7 +31,7 @@ static void Plane(Patch *p, PetscReal gap)
 /* On a mortar side of n x n facets. */
 static PetscInt Evaluate(PetscInt order, PetscReal most, PetscReal gap, PetscInt n, PetscBool hanging, Sum *s)
 {
-  const ContactSpec spec = {.continuous = PETSC_TRUE};
+  const ContactSpec spec = {.friction = 0};
   Patch             nonmortar, mortar;
   PetscInt          degenerate;
   ContactPair       pair;
@@ -81,7 +81,7 @@ static void Check(PetscInt order, PetscReal most, PetscReal gap)
 /* The same in the plane. */
 static void EvaluatePlane(PetscInt order, PetscReal most, PetscReal gap, PetscInt n, Sum *s)
 {
-  const ContactSpec spec = {.continuous = PETSC_TRUE};
+  const ContactSpec spec = {.friction = 0};
   Patch             nonmortar, mortar;
   PetscInt          degenerate;
   ContactPair       pair;

@@ -10,7 +10,7 @@
 /* Sums over the pair of these patches, the mortar side at its reference positions; both are destroyed. held: forces hold lines. */
 static void Take(Patch *nonmortar, Patch *mortar, const PetscReal z[], PetscBool held, PetscBool hessian, Sum *s)
 {
-  const ContactSpec spec = {.continuous = PETSC_TRUE};
+  const ContactSpec spec = {.friction = 0};
   ContactPair       pair;
 
   memcpy(mortar->X, mortar->x, sizeof(PetscReal) * 3 * (size_t)mortar->s.num_nodes);

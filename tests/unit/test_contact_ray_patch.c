@@ -61,7 +61,7 @@ static void Straighten(Patch *p)
    largest error of the forces of nonmortar nodes against int N_a (z = 1), and of the sum over mortar nodes against the area. */
 static PetscReal PatchError(const Kind *k, PetscReal bend)
 {
-  const ContactSpec spec = {.standard = PETSC_TRUE, .continuous = PETSC_TRUE};
+  const ContactSpec spec = {.standard = PETSC_TRUE};
   const PetscInt    D    = k->dim;
   Patch             nonmortar, mortar;
   ContactPair       pair;
@@ -118,7 +118,7 @@ static void test_flat(void **state)
 /* Root mean square of gap / weight and of the angle between the gap's gradient and the radius on a round interface with n and 1.5 n facets, inside. */
 static void RoundError(const Kind *k, PetscInt n, PetscReal error[2])
 {
-  const ContactSpec spec = {.standard = PETSC_TRUE, .continuous = PETSC_TRUE};
+  const ContactSpec spec = {.standard = PETSC_TRUE};
   const PetscInt    D    = k->dim;
   Patch             nonmortar, mortar;
   ContactPair       pair;
@@ -199,7 +199,7 @@ typedef struct {
 
 static void EvaluateFlat(const Family *k, PetscInt n, PetscBool refined, uint64_t seed, Patch *nonmortar, Sum *s)
 {
-  const ContactSpec spec = {.standard = k->standard, .continuous = PETSC_TRUE};
+  const ContactSpec spec = {.standard = k->standard};
   Patch             mortar;
   ContactPair       pair;
 

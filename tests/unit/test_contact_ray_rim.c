@@ -35,7 +35,7 @@ static void Make(Patch *p, PetscInt order, PetscInt n, PetscReal lo, PetscReal h
 /* Area that a mortar side of m facets along each direction, from lo to hi, covers of a nonmortar side of n from 0 to 1. */
 static PetscReal Area(const PetscInt order[2], PetscBool strip, PetscInt n, PetscInt m, PetscReal lo, PetscReal hi)
 {
-  const ContactSpec spec = {.continuous = PETSC_TRUE};
+  const ContactSpec spec = {.friction = 0};
   Patch             nonmortar, mortar;
   ContactPair       pair;
   Sum               s;

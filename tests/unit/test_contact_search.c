@@ -11,34 +11,36 @@ static void Cleanup(Chain *nonmortar, Chain *mortar, ContactPair *pair, Sum *s)
   SumDestroy(s);
 }
 
-/* Gap along the ray from parameter l of edge e to mortar edge m by solving x + g nhat = c + tau (d - c); false: not hit or not facing. */
-static PetscBool Hit(const Chain *nonmortar, const Chain *mortar, const PetscReal *normal, PetscInt e, PetscReal l, PetscInt m, PetscReal *g)
+/* Gap along the ray from parameter l of edge e to mortar edge m by solving x + s n = c + tau (d - c); false: not hit or not facing. */
+static PetscBool Hit(const Chain *nonmortar, const Chain *mortar, PetscInt e, PetscReal l, PetscInt m, PetscReal *g)
 {
   const PetscInt   a = nonmortar->edges[2 * e], b = nonmortar->edges[2 * e + 1];
   const PetscReal *c = &mortar->x[2 * mortar->edges[2 * m]], *d = &mortar->x[2 * mortar->edges[2 * m + 1]];
   const PetscReal *xa = &nonmortar->x[2 * a], *xb = &nonmortar->x[2 * b];
   const PetscReal  x[2] = {(1 - l) * xa[0] + l * xb[0], (1 - l) * xa[1] + l * xb[1]};
-  const PetscReal  n[2] = {(1 - l) * normal[2 * a] + l * normal[2 * b], (1 - l) * normal[2 * a + 1] + l * normal[2 * b + 1]};
-  const PetscReal  E[2] = {d[0] - c[0], d[1] - c[1]}, t[2] = {xb[0] - xa[0], xb[1] - xa[1]};
-  const PetscReal  det = -n[0] * E[1] + E[0] * n[1], r[2] = {c[0] - x[0], c[1] - x[1]};
-  const PetscReal  s = (-r[0] * E[1] + E[0] * r[1]) / det, tau = (n[0] * r[1] - n[1] * r[0]) / det;
+  PetscReal        na[2], nb[2];
+
+  ChainDirection(nonmortar, e, 0, na);
+  ChainDirection(nonmortar, e, 1, nb);
+  const PetscReal n[2] = {(1 - l) * na[0] + l * nb[0], (1 - l) * na[1] + l * nb[1]};
+  const PetscReal E[2] = {d[0] - c[0], d[1] - c[1]}, t[2] = {xb[0] - xa[0], xb[1] - xa[1]};
+  const PetscReal det = -n[0] * E[1] + E[0] * n[1], r[2] = {c[0] - x[0], c[1] - x[1]};
+  const PetscReal s = (-r[0] * E[1] + E[0] * r[1]) / det, tau = (n[0] * r[1] - n[1] * r[0]) / det;
 
   *g = s * hypot(n[0], n[1]);
   return tau >= 0 && tau <= 1 && t[0] * E[0] + t[1] * E[1] < -CONTACT_OPPOSE * hypot(t[0], t[1]) * hypot(E[0], E[1]) ? PETSC_TRUE : PETSC_FALSE;
 }
 
-/* Sample points of every edge: covered by a facing mortar edge within `distance` if and only if one is there; by that one when there is just one. */
-static void CheckBrute(Chain *nonmortar, Chain *mortar, PetscReal distance, uint64_t *rng, PetscInt *samples, PetscInt *covered, PetscInt *farther)
+/* Sample points of every edge: covered by a facing mortar edge within `distance` if and only if one is there; by the nearest. */
+static void CheckBrute(Chain *nonmortar, Chain *mortar, PetscReal distance, uint64_t *rng, PetscInt *samples, PetscInt *covered)
 {
   ContactPair           pair;
   Sum                   s;
   const ContactSegment *seg;
-  const PetscReal      *normal;
   PetscInt              num;
 
   EvaluateOnce(nonmortar, mortar, PETSC_FALSE, PETSC_FALSE, distance, NULL, &pair, &s);
   CHECK_CALL(ContactPairGetSegments(pair, &num, &seg));
-  CHECK_CALL(ContactPairGetNormals(pair, &normal));
   for (PetscInt i = 0; i < 20 * nonmortar->s.num_facets; i++) {
     const PetscInt  e    = i / 20;
     const PetscReal l    = 0.5 + 0.499 * Random(rng);
@@ -48,7 +50,7 @@ static void CheckBrute(Chain *nonmortar, Chain *mortar, PetscReal distance, uint
     for (PetscInt m = 0; m < mortar->s.num_facets; m++) {
       PetscReal g;
 
-      if (!Hit(nonmortar, mortar, normal, e, l, m, &g)) continue;
+      if (!Hit(nonmortar, mortar, e, l, m, &g)) continue;
       near += PetscAbsReal(g) < distance;
       least = PetscMin(least, PetscAbsReal(g));
       if (PetscAbsReal(g) < 2 * distance) all++, only = m;
@@ -58,8 +60,8 @@ static void CheckBrute(Chain *nonmortar, Chain *mortar, PetscReal distance, uint
     if (near > 0) assert_true(got >= 0);
     if (near > 0 && all == 1) assert_int_equal(got, only);
     if (all == 0) assert_int_equal(got, -1);
-    if (got >= 0) (void)Hit(nonmortar, mortar, normal, e, l, got, &g_got);
-    *farther += got >= 0 && PetscAbsReal(g_got) > least + 1e-12;
+    if (got >= 0) (void)Hit(nonmortar, mortar, e, l, got, &g_got);
+    if (got >= 0) assert_true(PetscAbsReal(g_got) < least + 1e-12);
     *covered += got >= 0;
     (*samples)++;
   }
@@ -69,7 +71,7 @@ static void CheckBrute(Chain *nonmortar, Chain *mortar, PetscReal distance, uint
 
 static void BruteForce(void **state)
 {
-  PetscInt samples = 0, covered = 0, farther = 0;
+  PetscInt samples = 0, covered = 0;
 
   for (uint64_t seed = 1; seed <= 60; seed++) {
     uint64_t rng = seed * 13;
@@ -77,13 +79,11 @@ static void BruteForce(void **state)
 
     RandomPair(&rng, 20, 31, 0.05, &nonmortar, &mortar);
     for (PetscInt i = 0; i < 31; i++) mortar.x[2 * i + 1] += 0.1 * (1 + sin(9 * mortar.x[2 * i] + (PetscReal)seed)); /* partly out of reach */
-    if (seed % 2) mortar.x[20] -= 0.05, mortar.x[21] += 0.02;                                                        /* and folded */
-    CheckBrute(&nonmortar, &mortar, 0.12, &rng, &samples, &covered, &farther);
+    CheckBrute(&nonmortar, &mortar, 0.12, &rng, &samples, &covered);
     ChainDestroy(&nonmortar);
     ChainDestroy(&mortar);
   }
-  print_message("%d samples, %d covered, %d not by the nearest of several\n", (int)samples, (int)covered, (int)farther);
-  assert_true(farther * 200 <= covered); /* the choice is made at the middle of a piece: sheets may cross elsewhere */
+  print_message("%d samples, %d covered\n", (int)samples, (int)covered);
   assert_true(covered > samples / 4 && covered < samples * 9 / 10);
 }
 
@@ -103,7 +103,10 @@ static void Margin(void **state)
     for (PetscInt i = 0; i < 2 * (9 + 11); i++) *Unknown(&nonmortar, &mortar, i) += margin / sqrt(2) * (i % 2 ? 0.2 : 1) * Random(&rng);
     SumCreate(&s, 9, 11);
     SumEvaluate(&s, pair, &nonmortar, &mortar, NULL, PETSC_TRUE, PETSC_FALSE);
-    EvaluateOnce(&nonmortar, &mortar, PETSC_FALSE, PETSC_FALSE, 0.5, NULL, &fresh, &t);
+    PairCreate(PETSC_FALSE, PETSC_FALSE, &fresh);
+    SearchAll(fresh, &nonmortar, &mortar, 0.5, 0);
+    SumCreate(&t, 9, 11);
+    SumEvaluate(&t, fresh, &nonmortar, &mortar, NULL, PETSC_TRUE, PETSC_FALSE);
     for (int j = 0; j < 9; j++) assert_true(s.gap[j] == t.gap[j] && s.weight[j] == t.weight[j]);
     CHECK_CALL(ContactPairDestroy(&fresh));
     SumDestroy(&t);
@@ -296,6 +299,7 @@ static void Time(void **state)
       for (int r = 0; r < 5; r++) {
         const PetscLogDouble start = Now();
 
+        mortar.x[0] += 1e-13; /* else the last results stand */
         CHECK_CALL(ContactPairEvaluate(pair, &nonmortar.s, &mortar.s, z, NULL, mode > 0, mode > 1, &num, &edges, &failed));
         best = PetscMin(best, Now() - start);
       }
@@ -319,7 +323,7 @@ static void Bar(Chain *c, PetscReal y0, PetscReal y1, PetscInt part, PetscInt *n
 {
   ChainCreate(c, 10, PETSC_TRUE);
   for (PetscInt i = 0; i < 10; i++) c->x[2 * i] = i < 5 ? (PetscReal)i : (PetscReal)(9 - i), c->x[2 * i + 1] = i < 5 ? y0 : y1;
-  c->s.X = c->x;
+  ChainReference(c);
   for (PetscInt e = 0; e < 10; e++) {
     for (int k = 0; k < 4; k++) X[4 * *num + k] = c->x[2 * c->edges[2 * e + k / 2] + k % 2];
     parts[(*num)++] = part;
@@ -388,7 +392,7 @@ static void Block(Chain *c, PetscReal y0, PetscInt part, PetscInt *num, PetscInt
     for (int k = 0; k < 4; k++) X[4 * *num + k] = c->x[2 * c->edges[2 * e + k / 2] + k % 2];
     parts[(*num)++] = part;
   }
-  c->s.X = memcpy(malloc(48 * sizeof(PetscReal)), c->x, 48 * sizeof(PetscReal));
+  ChainReference(c);
 }
 
 /* A block on a block, moved by half its length and pressed in by 0.5: through the strip in which they overlap its left side, upright, sees the other's right
@@ -419,8 +423,6 @@ static void Strip(void **state)
   assert_true(seen >= 2); /* the bottom, but for its ends */
   CHECK_CALL(ContactPairDestroy(&pair));
   CHECK_CALL(ContactHullDestroy(&hull));
-  free((void *)upper.s.X);
-  free((void *)lower.s.X);
   ChainDestroy(&upper);
   ChainDestroy(&lower);
 }

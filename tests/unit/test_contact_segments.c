@@ -111,21 +111,46 @@ static void Degenerate(void **state)
   Cleanup(&nonmortar, &mortar, &pair);
 }
 
-/* x_s + g n / |n| lies on the mortar edge at eta. */
-static void CheckProjection(const Chain *nonmortar, const Chain *mortar, const PetscReal *normal, const ContactSegment *s)
+/* A hollow of three edges, whose rays cross 0.7 above it: what lies beyond has no picture there, and that is told. Below nothing is lost. */
+static void Lost(void **state)
+{
+  for (int beyond = 0; beyond < 2; beyond++) {
+    const PetscReal z[4] = {0};
+    Chain           nonmortar, mortar;
+    ContactPair     pair;
+    Sum             sum;
+    PetscInt        lost;
+
+    ChainCreate(&nonmortar, 4, PETSC_FALSE);
+    memcpy(nonmortar.x, (const PetscReal[8]){0.5, 0.2, 0.2, 0, -0.2, 0, -0.5, 0.2}, 8 * sizeof(PetscReal));
+    ChainLine(&mortar, 4, -0.3, beyond ? 2 : 0.1, 0.3, beyond ? 2 : 0.1);
+    EvaluateOnce(&nonmortar, &mortar, PETSC_FALSE, PETSC_FALSE, 3, z, &pair, &sum);
+    CHECK_CALL(ContactPairGetDegenerate(pair, &lost));
+    print_message("%s the crossing: %d lost, area %g\n", beyond ? "beyond" : "before", (int)lost, (double)sum.area);
+    assert_true(beyond ? lost > 0 : lost == 0 && sum.area > 0.4);
+    SumDestroy(&sum);
+    Cleanup(&nonmortar, &mortar, &pair);
+  }
+}
+
+/* x_s + s d lies on the mortar edge at eta. */
+static void CheckProjection(const Chain *nonmortar, const Chain *mortar, const ContactSegment *s)
 {
   for (int k = 0; k < 2; k++) {
     PetscReal x[2] = {0, 0}, n[2] = {0, 0}, m[2] = {0, 0};
 
-    for (int i = 0; i < 2; i++)
-      for (int v = 0; v < 2; v++) {
-        const PetscReal N = 0.5 * (1 + (2 * v - 1) * s->xi[k][0]), M = 0.5 * (1 + (2 * v - 1) * s->eta[k][0]);
-        const PetscInt  a = nonmortar->edges[2 * s->facet + v], b = mortar->edges[2 * s->mortar_facet + v];
+    for (int v = 0; v < 2; v++) {
+      const PetscReal N = 0.5 * (1 + (2 * v - 1) * s->xi[k][0]), M = 0.5 * (1 + (2 * v - 1) * s->eta[k][0]);
+      const PetscInt  a = nonmortar->edges[2 * s->facet + v], b = mortar->edges[2 * s->mortar_facet + v];
+      PetscReal       d[2];
 
+      ChainDirection(nonmortar, s->facet, v, d);
+      for (int i = 0; i < 2; i++) {
         x[i] += N * nonmortar->x[2 * a + i];
-        n[i] += N * normal[2 * a + i];
+        n[i] += N * d[i];
         m[i] += M * mortar->x[2 * b + i];
       }
+    }
     assert_near(n[0] * (m[1] - x[1]) - n[1] * (m[0] - x[0]), 0, 1e-13);
     assert_true(PetscAbsReal(s->eta[k][0]) < 1 + 1e-12);
   }
@@ -146,6 +171,14 @@ static void CheckSeams(PetscInt num, const ContactSegment *s)
   }
 }
 
+static int Along(const void *a, const void *b)
+{
+  const ContactSegment *s = a, *t = b;
+
+  if (s->facet != t->facet) return s->facet < t->facet ? -1 : 1;
+  return (s->xi[0][0] > t->xi[0][0]) - (s->xi[0][0] < t->xi[0][0]);
+}
+
 static void RandomSurfaces(void **state)
 {
   PetscInt total = 0;
@@ -155,22 +188,24 @@ static void RandomSurfaces(void **state)
     Chain                 nonmortar, mortar;
     ContactPair           pair;
     const ContactSegment *s;
-    const PetscReal      *normal;
+    ContactSegment       *sorted;
     PetscInt              n;
 
     RandomPair(&rng, 5 + (PetscInt)(seed % 9), 4 + (PetscInt)(seed % 13), 0.04, &nonmortar, &mortar);
     ChainMove(&nonmortar, (PetscReal)seed, 0, 0);
     ChainMove(&mortar, (PetscReal)seed, 0, 0);
     Segments(&nonmortar, &mortar, &pair, &n, &s);
-    CHECK_CALL(ContactPairGetNormals(pair, &normal));
     assert_true(n > 0);
-    CheckSeams(n, s);
-    for (PetscInt i = 0; i < n; i++) CheckProjection(&nonmortar, &mortar, normal, &s[i]);
+    sorted = memcpy(malloc((size_t)n * sizeof(*s)), s, (size_t)n * sizeof(*s));
+    qsort(sorted, (size_t)n, sizeof(*s), Along);
+    CheckSeams(n, sorted);
+    for (PetscInt i = 0; i < n; i++) CheckProjection(&nonmortar, &mortar, &s[i]);
+    free(sorted);
     total += n;
     Cleanup(&nonmortar, &mortar, &pair);
   }
   print_message("400 random pairs, %d segments\n", (int)total);
 }
 
-CONTACT_TEST_MAIN("contact: segments", cmocka_unit_test(CoveredLength), cmocka_unit_test(VertexOnRay), cmocka_unit_test(Degenerate),
+CONTACT_TEST_MAIN("contact: segments", cmocka_unit_test(CoveredLength), cmocka_unit_test(VertexOnRay), cmocka_unit_test(Degenerate), cmocka_unit_test(Lost),
                   cmocka_unit_test(RandomSurfaces))

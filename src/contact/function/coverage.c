@@ -1,0 +1,286 @@
+/* What covers a nonmortar facet: images of the mortar facets' corners, polygons in the chart, and the cells over which the gap is weighed. */
+#include "kernelimpl.h"
+
+/* Share of the chart that may be uncovered where the functions of a whole facet are still used: a tenth of what belongs to a corner, so that no weight gets
+   near zero. Images of hanging mortar nodes leave slivers beside the straight picture of the side they hang on; their size must not change the functions. */
+static PetscReal Sliver_Private(const RayFacet *f)
+{
+  const PetscReal end = 1. / (PetscReal)(f->s.order * (f->s.order + 1));
+
+  return 0.1 * (f->m == 1 ? end : end * end);
+}
+
+static void Between_Private(const RayImage *a, const RayImage *b, RayImage *to)
+{
+  to->found = (PetscBool)(a->found && b->found);
+  to->s     = 0.5 * (a->s + b->s);
+  for (int i = 0; i < 2; i++) to->Y[i] = 0.5 * (a->Y[i] + b->Y[i]);
+}
+
+/* Place of an image; found when new. */
+static PetscErrorCode Image_Private(RayWork w, const ContactSurface *mortar, PetscInt node, PetscInt *place)
+{
+  PetscInt  parent[2], end[2] = {-1, -1};
+  RayImage *image;
+
+  PetscFunctionBegin;
+  for (*place = 0; *place < w->num_images; (*place)++)
+    if (w->image[*place].node == node) PetscFunctionReturn(PETSC_SUCCESS);
+  ContactRayParents(w, mortar, node, parent);
+  for (int k = 0; k < 2 && parent[0] >= 0; k++) PetscCall(Image_Private(w, mortar, parent[k], &end[k]));
+  PetscCall(ContactGrow(w->num_images + 1, sizeof(RayImage), &w->size_image, &w->image));
+  *place           = w->num_images++;
+  image            = &w->image[*place];
+  image->node      = node;
+  image->parent[0] = parent[0], image->parent[1] = parent[1];
+  if (end[0] >= 0) {
+    Between_Private(&w->image[end[0]], &w->image[end[1]], image);
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
+  for (PetscInt c = 0; c < 3; c++) image->v[c] = c < mortar->dim ? mortar->x[mortar->dim * node + c] : 0;
+  ContactImageFind(&w->facet, image);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The part of an interval that the image covers, as a strip; its ends' images, or -1, in line[0] and line[1]. */
+static PetscBool ClipInterval_Private(Overlap *o)
+{
+  const PetscReal lo = o->side[0].Y[0][0], hi = o->side[0].Y[1][0], on = FACET_ON * (hi - lo);
+  PetscReal       a = o->side[1].Y[0][0], b = o->side[1].Y[1][0];
+
+  o->line[0] = a > lo + on ? 0 : -1;
+  o->line[1] = b < hi - on ? 1 : -1;
+  if (o->line[0] < 0) a = lo;
+  if (o->line[1] < 0) b = hi;
+  if (!(a < b) || a >= hi - on || b <= lo + on) return PETSC_FALSE; /* the neighbour then reaches the end and does not move */
+  o->num = 4;
+  for (int k = 0; k < 4; k++) {
+    o->v[k][0] = k == 0 || k == 3 ? a : b;
+    o->v[k][1] = k < 2 ? -1 : 1;
+  }
+  o->area = 2 * (b - a);
+  return PETSC_TRUE;
+}
+
+/* Corners of cell (lo, lo + size) in the chart. */
+static void Window_Private(const RayFacet *f, const PetscReal lo[2], const PetscReal size[2], PlaneQuad *q)
+{
+  for (int k = 0; k < 4; k++) {
+    const PetscReal xi[2] = {lo[0] + (k == 1 || k == 2 ? size[0] : 0), f->m == 1 ? (k < 2 ? -1 : 1) : lo[1] + (k > 1 ? size[1] : 0)};
+    RayChartPoint   c;
+
+    ContactChartAt(f, xi, &c);
+    q->Y[k][0] = c.Y[0], q->Y[k][1] = c.Y[1], q->h[k] = 0;
+  }
+}
+
+/* One piece of a mortar facet seen in a cell. Its corners run backwards. *known: all images were found, and their overlap is one. */
+static PetscErrorCode Meet_Private(RayWork w, const ContactSurface *mortar, const PetscInt corner[4], const PlaneQuad *window, Overlap *o, PetscBool *known,
+                                   PetscBool *meets)
+{
+  const RayFacet *f      = &w->facet;
+  PetscReal       sum[3] = {0, 0, 0}, length;
+
+  PetscFunctionBegin;
+  *known = PETSC_TRUE, *meets = PETSC_FALSE;
+  o->node    = -1;
+  o->side[0] = *window;
+  for (PetscInt a = 0; a < f->nv; a++)
+    for (int c = 0; c < 3; c++) sum[c] += f->d.x[a][c] / (PetscReal)f->nv;
+  length = PetscSqrtReal(Dot3(sum, sum));
+  for (PetscInt k = 0; k < f->nv; k++) {
+    PetscInt place;
+
+    o->corner[k] = corner[f->nv - 1 - k];
+    PetscCall(Image_Private(w, mortar, o->corner[k], &place));
+    if (!w->image[place].found) *known = PETSC_FALSE;
+    for (int i = 0; i < 2; i++) o->side[1].Y[k][i] = w->image[place].Y[i];
+    o->side[1].h[k] = length * w->image[place].s;
+  }
+  if (!*known) PetscFunctionReturn(PETSC_SUCCESS);
+  if (f->m == 1) {
+    for (int k = 0; k < 2; k++) {
+      o->side[1].Y[3 - k][0] = o->side[1].Y[k][0];
+      o->side[1].Y[k][1] = -1, o->side[1].Y[3 - k][1] = 1;
+      o->side[1].h[3 - k] = o->side[1].h[k];
+    }
+    *meets = ClipInterval_Private(o);
+  } else {
+    *meets = ContactClip(o, PetscSqrtReal(f->area));
+    if (o->num > FACET_VERTICES) *known = PETSC_FALSE;
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode Push_Private(RayWork w, const Overlap *o, PetscInt mortar, PetscInt window)
+{
+  PetscFunctionBegin;
+  PetscCall(ContactGrow(w->num_overlaps + 1, sizeof(Overlap), &w->size_overlap, &w->overlap));
+  PetscCall(ContactGrow(w->num_overlaps + 1, sizeof(PetscInt), &w->size_mortar, &w->mortar));
+  PetscCall(ContactGrow(w->num_overlaps + 1, sizeof(PetscInt), &w->size_window, &w->window));
+  w->overlap[w->num_overlaps]  = *o;
+  w->mortar[w->num_overlaps]   = mortar;
+  w->window[w->num_overlaps++] = window;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* All of a mortar facet that the nonmortar facet sees. */
+static PetscErrorCode See_Private(ContactPair pair, const ContactSurface *mortar, PetscInt facet)
+{
+  RayWork        w = pair->ray;
+  PetscInt       corner[4][4];
+  const PetscInt num = ContactRayPieces(w, mortar, facet, corner);
+
+  PetscFunctionBegin;
+  for (PetscInt k = 0; k < num; k++) {
+    Overlap   o;
+    PetscBool known, meets;
+
+    PetscCall(Meet_Private(w, mortar, corner[k], &w->facet.chart, &o, &known, &meets));
+    if (!known) pair->num_degenerate++;
+    if (meets) PetscCall(Push_Private(w, &o, facet, 0));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Hats on the cells of the facet's lattice, for every mortar facet that counts. */
+static PetscErrorCode Cells_Private(ContactPair pair, const ContactSurface *mortar)
+{
+  RayWork          w = pair->ray;
+  const RayFacet  *f = &w->facet;
+  const PetscInt   p = f->s.order, cells = f->m == 1 ? p : p * p, num = w->num_overlaps;
+  const PetscReal *node;
+  PetscInt        *facets, (*corners)[4];
+
+  PetscFunctionBegin;
+  PetscCall(ElementGetNodes(p, &node));
+  PetscCall(ContactGrow(cells, sizeof(RayTest), &w->size_test, &w->test));
+  PetscCall(PetscMalloc2(num, &facets, num, &corners));
+  PetscCall(PetscArraycpy(facets, w->mortar, num));
+  for (PetscInt k = 0; k < num; k++)
+    for (PetscInt v = 0; v < f->nv; v++) corners[k][v] = w->overlap[k].corner[f->nv - 1 - v];
+  w->num_overlaps = 0;
+  w->num_tests    = cells;
+  for (PetscInt c = 0; c < cells; c++) {
+    RayTest       *t     = &w->test[c];
+    const PetscInt at[2] = {c % p, c / p};
+    PlaneQuad      window;
+
+    t->hats = PETSC_TRUE;
+    t->num  = f->nv;
+    for (PetscInt i = 0; i < f->m; i++) {
+      t->lo[i]   = 2 * node[at[i]] - 1;
+      t->size[i] = 2 * (node[at[i] + 1] - node[at[i]]);
+    }
+    for (PetscInt a = 0; a < f->nv; a++) t->place[a] = (at[1] + a / 2) * (p + 1) + at[0] + a % 2;
+    if (f->m == 1) t->place[0] = c, t->place[1] = c + 1;
+    Window_Private(f, t->lo, t->size, &window);
+    for (PetscInt k = 0; k < num; k++) {
+      Overlap   o;
+      PetscBool known, meets;
+
+      PetscCall(Meet_Private(w, mortar, corners[k], &window, &o, &known, &meets));
+      if (!known) pair->num_degenerate++;
+      if (meets) PetscCall(Push_Private(w, &o, facets[k], c));
+    }
+  }
+  PetscCall(PetscFree2(facets, corners));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Is an image a corner of what counts, or one in the middle of which one of images [from, ..) lies? */
+static PetscBool Used_Private(const RayWork w, PetscInt i, PetscInt from)
+{
+  const PetscInt nv = w->facet.nv, node = w->image[i].node;
+
+  for (PetscInt k = 0; k < w->num_overlaps; k++)
+    for (PetscInt a = 0; a < nv; a++)
+      if (w->overlap[k].corner[a] == node) return PETSC_TRUE;
+  for (PetscInt k = from; k < w->num_images; k++)
+    if (w->image[k].parent[0] == node || w->image[k].parent[1] == node) return PETSC_TRUE;
+  return PETSC_FALSE;
+}
+
+static PetscErrorCode AddVertex_Private(RayWork w, PetscInt node)
+{
+  PetscFunctionBegin;
+  for (PetscInt at = 0; at < w->num_mortar; at++)
+    if (w->vertex[at] == node) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(ContactGrow(w->num_mortar + 1, sizeof(PetscInt), &w->size_vertex, &w->vertex));
+  w->vertex[w->num_mortar++] = node;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Keep the images of the facets that count, and those they hang on; list the mortar nodes. */
+static PetscErrorCode Nodes_Private(RayWork w, const ContactSurface *mortar)
+{
+  PetscInt first = w->num_images;
+
+  PetscFunctionBegin;
+  for (PetscInt i = w->num_images - 1; i >= 0; i--) /* from the back, where those that hang are */
+    if (Used_Private(w, i, first)) w->image[--first] = w->image[i];
+  w->num_images -= first;
+  memmove(w->image, w->image + first, (size_t)w->num_images * sizeof(RayImage));
+  w->num_mortar = 0;
+  for (PetscInt k = 0; k < w->num_overlaps; k++) {
+    PetscInt        order1[4], num;
+    const PetscInt *node;
+
+    if (k && w->mortar[k] == w->mortar[k - 1]) continue;
+    num = ElementNumNodes(w->facet.m, ContactRayLatticeNodes(mortar, w->mortar[k], &node, order1));
+    for (PetscInt a = 0; a < num; a++) PetscCall(AddVertex_Private(w, node[a]));
+  }
+  for (PetscInt i = 0; i < w->num_images; i++)
+    if (w->image[i].parent[0] < 0) PetscCall(AddVertex_Private(w, w->image[i].node));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode Whole_Private(RayWork w)
+{
+  PetscFunctionBegin;
+  PetscCall(ContactGrow(1, sizeof(RayTest), &w->size_test, &w->test));
+  w->num_tests    = 1;
+  w->test[0].hats = PETSC_FALSE;
+  w->test[0].num  = w->facet.s.num;
+  for (PetscInt a = 0; a < w->facet.s.num; a++) w->test[0].place[a] = a;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode ContactCover(ContactPair pair, const ContactSurface *nonmortar, const ContactSurface *mortar, PetscInt slot, PetscBool *failed)
+{
+  RayWork        w       = pair->ray;
+  RayFacet      *f       = &w->facet;
+  const PetscInt facet   = pair->listed[slot];
+  PetscReal      covered = 0;
+
+  PetscFunctionBegin;
+  w->num_images = w->num_overlaps = w->num_mortar = 0;
+  if (pair->start[slot] == pair->start[slot + 1]) PetscFunctionReturn(PETSC_SUCCESS);
+  f->D       = nonmortar->dim;
+  f->m       = f->D - 1;
+  f->nv      = 2 * f->m;
+  f->ring    = pair->axisymmetric ? 2 * PETSC_PI : 0;
+  f->d.order = 1, f->d.num = f->nv;
+  ContactRayLatticeGather(nonmortar, facet, &f->s);
+  for (PetscInt a = 0; a < f->nv; a++) {
+    const PetscInt corner = f->nv * facet + (a < 2 ? a : 5 - a);
+
+    for (int c = 0; c < 3; c++) f->d.x[a][c] = w->d[3 * corner + c];
+    if (!ContactDirectionUsable(w, nonmortar, corner)) *failed = PETSC_TRUE;
+  }
+  if (f->m == 2) ContactRayLatticePolynomial(&f->d);
+  if (!ContactChartCreate(nonmortar, facet, f)) *failed = PETSC_TRUE;
+  if (*failed) PetscFunctionReturn(PETSC_SUCCESS);
+  if (f->m == 2) ContactRayBeyondSides(w->kept + 4 * facet, &f->beyond);
+  PetscCall(Whole_Private(w));
+  for (PetscInt k = pair->start[slot]; k < pair->start[slot + 1]; k++) PetscCall(See_Private(pair, mortar, pair->candidate[k]));
+  ContactUnfold(&w->num_overlaps, w->overlap, w->mortar, f->area);
+  if (pair->node_to_segment) ContactNodeHits(w);
+  for (PetscInt k = 0; k < w->num_overlaps; k++) covered += w->overlap[k].area;
+  w->full = (PetscBool)(covered >= (1 - Sliver_Private(f)) * f->area);
+  if (!w->full && (f->s.order > 1 || f->m == 2) && w->num_overlaps) PetscCall(Cells_Private(pair, mortar));
+  w->frozen = (PetscBool)(f->D == 3 && (w->test[0].hats || (pair->lines_held && f->s.order > 1)));
+  PetscCall(Nodes_Private(w, mortar));
+  w->n = f->D * (f->s.num + f->nv + w->num_mortar) + f->m * w->num_images;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

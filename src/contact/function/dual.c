@@ -1,0 +1,217 @@
+/* Multiplier functions of one facet, or of the facets that hanging nodes join (functionimpl.h has the definitions). */
+#include "functionimpl.h"
+
+/* Facets whose functions are made together, and their true nodes. */
+typedef struct {
+  const PetscInt *facet;
+  PetscInt        num_facets, num, *node;
+  PetscBool       hangs, held; /* some lattice node hangs; some node carries nothing */
+} Group;
+
+/* True nodes of the group's facets, in the order of their lattices. */
+static PetscErrorCode GroupOpen_Private(MultiplierWork *w, PetscInt num_facets, const PetscInt facet[], Group *g)
+{
+  PetscInt         lattice[MULTIPLIER_LATTICE], room = 0;
+  const PetscInt  *master;
+  const PetscReal *weight;
+
+  PetscFunctionBegin;
+  *g = (Group){.facet = facet, .num_facets = num_facets};
+  for (int pass = 0; pass < 2; pass++) {
+    if (pass) PetscCall(PetscMalloc1(room, &g->node));
+    for (PetscInt f = 0; f < num_facets; f++) {
+      const PetscInt num = ContactLatticeNodes(w->s, facet[f], lattice);
+
+      for (PetscInt a = 0; a < num; a++) {
+        const PetscInt masters = ContactNodeRow(w->s, lattice + a, &master, &weight);
+
+        room += masters;
+        for (PetscInt i = 0; pass && i < masters; i++) {
+          PetscCheck(!ContactNodeHangs(w->s, master[i]), PETSC_COMM_SELF, PETSC_ERR_PLIB, "a node of a contact surface hangs on a node that hangs");
+          if (w->place[master[i]] >= 0) continue;
+          w->place[master[i]] = g->num;
+          g->node[g->num++]   = master[i];
+          if (!w->carries[master[i]]) g->held = PETSC_TRUE;
+        }
+        if (ContactNodeHangs(w->s, lattice[a])) g->hangs = PETSC_TRUE;
+      }
+    }
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode GroupClose_Private(MultiplierWork *w, Group *g)
+{
+  PetscFunctionBegin;
+  for (PetscInt i = 0; i < g->num; i++) w->place[g->node[i]] = -1;
+  PetscCall(PetscFree(g->node));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* T = P^T C of a facet, C[lattice][lattice] (NULL: one). */
+static void Restrict_Private(const MultiplierWork *w, PetscInt facet, const PetscReal C[], PetscReal T[])
+{
+  PetscInt         lattice[MULTIPLIER_LATTICE];
+  const PetscInt   num = ContactLatticeNodes(w->s, facet, lattice), *master;
+  const PetscReal *weight;
+
+  for (PetscInt a = 0; a < num; a++) {
+    const PetscInt masters = ContactNodeRow(w->s, lattice + a, &master, &weight);
+
+    for (PetscInt i = 0; i < masters; i++)
+      for (PetscInt b = 0; b < num; b++) T[num * w->place[master[i]] + b] += weight[i] * (C ? C[num * a + b] : (PetscReal)(a == b));
+  }
+}
+
+/* M_E += P^T M P of a facet, D_E += P^T D. */
+static void AddMass_Private(const MultiplierWork *w, PetscInt facet, const PetscReal M[], const PetscReal D[], PetscInt size, PetscReal ME[], PetscReal DE[])
+{
+  PetscInt         lattice[MULTIPLIER_LATTICE];
+  const PetscInt   num = ContactLatticeNodes(w->s, facet, lattice), *row, *column;
+  const PetscReal *p, *q;
+
+  for (PetscInt a = 0; a < num; a++) {
+    const PetscInt rows = ContactNodeRow(w->s, lattice + a, &row, &p);
+
+    for (PetscInt i = 0; i < rows; i++) DE[w->place[row[i]]] += p[i] * D[a];
+    for (PetscInt b = 0; b < num; b++) {
+      const PetscInt columns = ContactNodeRow(w->s, lattice + b, &column, &q);
+
+      for (PetscInt i = 0; i < rows; i++)
+        for (PetscInt k = 0; k < columns; k++) ME[size * w->place[row[i]] + w->place[column[k]]] += p[i] * q[k] * M[num * a + b];
+    }
+  }
+}
+
+/* Room for a row of every node of the group on each of its facets. */
+static PetscErrorCode RowsOpen_Private(MultiplierWork *w, const Group *g)
+{
+  PetscInt lattice[MULTIPLIER_LATTICE];
+
+  PetscFunctionBegin;
+  for (PetscInt f = 0; f < g->num_facets; f++) {
+    MultiplierRows *r = w->rows + g->facet[f];
+
+    PetscCall(PetscFree2(r->node, r->T));
+    PetscCall(PetscCalloc2(g->num, &r->node, g->num * ContactLatticeNodes(w->s, g->facet[f], lattice), &r->T));
+    r->num = g->num;
+    PetscCall(PetscArraycpy(r->node, g->node, g->num));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* diag(int_E chi) M_E^-1 P^T on each facet of the group. */
+static PetscErrorCode GroupDual_Private(MultiplierWork *w, const Group *g, PetscBool *regular)
+{
+  PetscInt   lattice[MULTIPLIER_LATTICE], columns = 0;
+  PetscReal *M, *ME, *DE, *B, D[MULTIPLIER_LATTICE];
+
+  PetscFunctionBegin;
+  for (PetscInt f = 0; f < g->num_facets; f++) columns += ContactLatticeNodes(w->s, g->facet[f], lattice);
+  PetscCall(PetscMalloc1(MULTIPLIER_LATTICE * MULTIPLIER_LATTICE, &M));
+  PetscCall(PetscCalloc3(g->num * g->num, &ME, g->num, &DE, g->num * columns, &B));
+  columns = 0;
+  for (PetscInt f = 0; f < g->num_facets; f++) {
+    const PetscInt num = ContactLatticeNodes(w->s, g->facet[f], lattice);
+    PetscReal     *T   = w->rows[g->facet[f]].T;
+
+    PetscCall(ContactLatticeMass(w->s, g->facet[f], w->axisymmetric, M, D));
+    AddMass_Private(w, g->facet[f], M, D, g->num, ME, DE);
+    Restrict_Private(w, g->facet[f], NULL, T);
+    for (PetscInt i = 0; i < g->num; i++)
+      for (PetscInt b = 0; b < num; b++) B[g->num * (columns + b) + i] = T[num * i + b];
+    columns += num;
+  }
+  PetscCall(ContactSolveSymmetric(g->num, ME, columns, B, regular));
+  columns = 0;
+  for (PetscInt f = 0; f < g->num_facets; f++) {
+    const PetscInt num = ContactLatticeNodes(w->s, g->facet[f], lattice);
+
+    for (PetscInt i = 0; i < g->num; i++)
+      for (PetscInt b = 0; b < num; b++) w->rows[g->facet[f]].T[num * i + b] = DE[i] * B[g->num * (columns + b) + i];
+    columns += num;
+  }
+  PetscCall(PetscFree3(ME, DE, B));
+  PetscCall(PetscFree(M));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* P^T diag(int N) M^-1 N on one facet; a facet without measure has P^T N. */
+static PetscErrorCode LatticeDual_Private(MultiplierWork *w, PetscInt facet)
+{
+  PetscInt   lattice[MULTIPLIER_LATTICE];
+  PetscInt   num = ContactLatticeNodes(w->s, facet, lattice);
+  PetscReal *M, *C, D[MULTIPLIER_LATTICE];
+  PetscBool  regular;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc2(num * num, &M, num * num, &C));
+  PetscCall(ContactLatticeMass(w->s, facet, w->axisymmetric, M, D));
+  for (PetscInt a = 0; a < num; a++)
+    for (PetscInt b = 0; b < num; b++) C[num * a + b] = (PetscReal)(a == b);
+  PetscCall(ContactSolveSymmetric(num, M, num, C, &regular));
+  for (PetscInt a = 0; a < num; a++)
+    for (PetscInt b = 0; b < num; b++) C[num * a + b] *= D[a];
+  Restrict_Private(w, facet, regular ? C : NULL, w->rows[facet].T);
+  PetscCall(PetscFree2(M, C));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Functions of nodes that carry nothing go to the others; their rows go. */
+static PetscErrorCode GroupRemove_Private(MultiplierWork *w, const Group *g, PetscInt degree)
+{
+  PetscInt   lattice[MULTIPLIER_LATTICE], kept = 0;
+  PetscBool *carries;
+  PetscReal *W;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(g->num, &carries));
+  for (PetscInt i = 0; i < g->num; i++) kept += carries[i] = w->carries[g->node[i]];
+  PetscCall(PetscCalloc1(kept ? g->num * g->num : 0, &W));
+  if (kept && !g->hangs) PetscCall(ContactExtrapolateLattice(w->s->dim, ContactLatticeOrder(w->s, g->facet[0]), degree, carries, W));
+  if (kept && g->hangs) PetscCall(ContactExtrapolateNodes(w->s, g->num_facets, g->facet, degree, g->num, g->node, carries, W));
+  if (kept) PetscCall(ContactDonorsKeep(w->donors + g->facet[0], g->num, g->node, carries, W));
+  for (PetscInt f = 0; f < g->num_facets; f++) {
+    const PetscInt  num = ContactLatticeNodes(w->s, g->facet[f], lattice);
+    MultiplierRows *r   = w->rows + g->facet[f];
+
+    r->num = 0;
+    for (PetscInt i = 0; i < g->num; i++) {
+      if (!carries[i]) continue;
+      for (PetscInt e = 0; e < g->num; e++)
+        for (PetscInt b = 0; !carries[e] && b < num; b++) r->T[num * i + b] += W[g->num * e + i] * r->T[num * e + b];
+    }
+    for (PetscInt i = 0; i < g->num; i++) { /* rows that stay, in place: the place is never behind the row */
+      if (!carries[i]) continue;
+      PetscCall(PetscArraymove(r->T + num * r->num, r->T + num * i, num));
+      r->node[r->num++] = g->node[i];
+    }
+  }
+  PetscCall(PetscFree(carries));
+  PetscCall(PetscFree(W));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode ContactMultiplierGroup(MultiplierWork *w, PetscInt num_facets, const PetscInt facet[], PetscInt degree, PetscBool *held)
+{
+  PetscBool regular = PETSC_FALSE;
+  Group     g;
+
+  PetscFunctionBegin;
+  PetscCall(GroupOpen_Private(w, num_facets, facet, &g));
+  PetscCall(RowsOpen_Private(w, &g));
+  if (!w->standard && !w->exact[facet[0]]) {
+    PetscCall(GroupDual_Private(w, &g, &regular));
+    if (!regular) PetscCall(RowsOpen_Private(w, &g));
+  }
+  for (PetscInt f = 0; f < num_facets && !regular; f++) {
+    if (w->standard)
+      Restrict_Private(w, facet[f], NULL, w->rows[facet[f]].T);
+    else
+      PetscCall(LatticeDual_Private(w, facet[f]));
+  }
+  *held = g.held;
+  if (g.held) PetscCall(GroupRemove_Private(w, &g, degree));
+  PetscCall(GroupClose_Private(w, &g));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

@@ -1,0 +1,234 @@
+/* Multiplier functions of a surface: which facets are made together, how far functions of held nodes are extrapolated, the result in one piece. */
+#include "functionimpl.h"
+
+/* Joins facets that share a corner that hangs. A group with facets of different order, or with such a corner that belongs to one facet only, is left to
+   P^T psi_L. */
+static PetscErrorCode GroupsBuild_Private(MultiplierWork *w)
+{
+  const ContactSurface *s       = w->s;
+  const PetscInt        corners = 2 * (s->dim - 1);
+  PetscInt             *first; /* facet first seen at a corner, ~facet when joined to others */
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(s->num_nodes, &first));
+  for (PetscInt n = 0; n < s->num_nodes; n++) first[n] = PETSC_MAX_INT;
+  for (PetscInt f = 0; f < s->num_facets; f++) w->parent[f] = f;
+  for (PetscInt i = 0; i < corners * s->num_facets; i++) {
+    const PetscInt n = s->facets[i], f = i / corners;
+
+    if (!ContactNodeHangs(s, n)) continue;
+    if (first[n] != PETSC_MAX_INT) {
+      const PetscInt a = GroupRoot(w->parent, f), b = GroupRoot(w->parent, first[n] < 0 ? ~first[n] : first[n]);
+
+      w->parent[PetscMax(a, b)] = PetscMin(a, b);
+    }
+    first[n] = first[n] == PETSC_MAX_INT ? f : first[n] < 0 ? first[n] : ~first[n];
+  }
+  for (PetscInt f = 0; f < s->num_facets; f++) {
+    const PetscInt root = GroupRoot(w->parent, f);
+
+    if (ContactLatticeOrder(s, f) != ContactLatticeOrder(s, root)) w->exact[root] = PETSC_TRUE;
+    for (PetscInt k = 0; k < corners; k++) {
+      const PetscInt n = s->facets[corners * f + k];
+
+      if (ContactNodeHangs(s, n) && first[n] >= 0) w->exact[root] = PETSC_TRUE;
+    }
+  }
+  for (PetscInt f = 0; f < s->num_facets; f++) w->exact[f] = w->exact[GroupRoot(w->parent, f)];
+  PetscCall(PetscFree(first));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* weight += sign * int psi over the facet. */
+static PetscErrorCode AddWeights_Private(MultiplierWork *w, PetscInt facet, PetscReal sign)
+{
+  const MultiplierRows *r = w->rows + facet;
+  PetscInt              lattice[MULTIPLIER_LATTICE], num = ContactLatticeNodes(w->s, facet, lattice);
+  PetscReal            *M, D[MULTIPLIER_LATTICE];
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(num * num, &M));
+  PetscCall(ContactLatticeMass(w->s, facet, w->axisymmetric, M, D));
+  for (PetscInt i = 0; i < r->num; i++)
+    for (PetscInt a = 0; a < num; a++) w->weight[r->node[i]] += sign * r->T[num * i + a] * D[a];
+  PetscCall(PetscFree(M));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* whole[num_nodes] = int chi_j. Axisymmetric: on the axis it vanishes from order 2 on (int chi_j R dR = 0 on a straight edge), and such a node carries nothing.
+ */
+static PetscErrorCode Whole_Private(const MultiplierWork *w, PetscReal whole[], PetscBool carries[])
+{
+  PetscInt         lattice[MULTIPLIER_LATTICE];
+  const PetscInt  *master;
+  const PetscReal *weight;
+  PetscReal       *M, D[MULTIPLIER_LATTICE];
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(MULTIPLIER_LATTICE * MULTIPLIER_LATTICE, &M));
+  for (PetscInt f = 0; f < w->s->num_facets; f++) {
+    const PetscInt num  = ContactLatticeNodes(w->s, f, lattice);
+    PetscReal      area = 0;
+
+    PetscCall(ContactLatticeMass(w->s, f, w->axisymmetric, M, D));
+    for (PetscInt a = 0; a < num; a++) {
+      const PetscInt masters = ContactNodeRow(w->s, lattice + a, &master, &weight);
+
+      for (PetscInt i = 0; i < masters; i++) whole[master[i]] += weight[i] * D[a];
+      area += D[a];
+    }
+    for (PetscInt end = 0; w->axisymmetric && end < 2; end++) /* an end's share of an edge is 1 / (p (p + 1)) */
+      if (D[end * (num - 1)] < MULTIPLIER_LEAST * area / (PetscReal)(num * (num - 1))) carries[lattice[end * (num - 1)]] = PETSC_FALSE;
+  }
+  PetscCall(PetscFree(M));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Some function of the facets has too little weight left. */
+static PetscBool IsLight_Private(const MultiplierWork *w, PetscInt num_facets, const PetscInt facet[], const PetscReal whole[])
+{
+  for (PetscInt f = 0; f < num_facets; f++)
+    for (PetscInt i = 0; i < w->rows[facet[f]].num; i++) {
+      const PetscInt n = w->rows[facet[f]].node[i];
+
+      if (whole[n] > 0 && w->weight[n] < MULTIPLIER_LEAST * whole[n]) return PETSC_TRUE;
+    }
+  return PETSC_FALSE;
+}
+
+/* All groups: facets[start[g] .. start[g+1]). Where int psi_j beside held nodes comes out too small, again with a lower degree. */
+static PetscErrorCode GroupsMake_Private(MultiplierWork *w, PetscInt num, const PetscInt start[], const PetscInt facets[], const PetscReal whole[])
+{
+  PetscInt *degree;
+  PetscBool held, again = PETSC_TRUE;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(num, &degree));
+  for (PetscInt g = 0; g < num; g++) {
+    degree[g] = MORTISE_MAX_ORDER;
+    for (PetscInt i = start[g]; i < start[g + 1]; i++) degree[g] = PetscMin(degree[g], ContactLatticeOrder(w->s, facets[i]) - 1);
+    PetscCall(ContactMultiplierGroup(w, start[g + 1] - start[g], facets + start[g], degree[g], &held));
+    for (PetscInt i = start[g]; i < start[g + 1]; i++) PetscCall(AddWeights_Private(w, facets[i], 1));
+    if (!held) degree[g] = 0;
+  }
+  while (again) {
+    again = PETSC_FALSE;
+    for (PetscInt g = 0; g < num; g++) {
+      if (degree[g] == 0 || !IsLight_Private(w, start[g + 1] - start[g], facets + start[g], whole)) continue;
+      for (PetscInt i = start[g]; i < start[g + 1]; i++) PetscCall(AddWeights_Private(w, facets[i], -1));
+      PetscCall(ContactMultiplierGroup(w, start[g + 1] - start[g], facets + start[g], --degree[g], &held));
+      for (PetscInt i = start[g]; i < start[g + 1]; i++) PetscCall(AddWeights_Private(w, facets[i], 1));
+      again = PETSC_TRUE;
+    }
+  }
+  PetscCall(PetscFree(degree));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Facets sorted by their roots. */
+static PetscErrorCode Groups_Private(MultiplierWork *w, const PetscReal whole[])
+{
+  const PetscInt num_facets = w->s->num_facets;
+  PetscInt      *root, *facets, *start, num = 0;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc3(num_facets, &root, num_facets, &facets, num_facets + 1, &start));
+  for (PetscInt f = 0; f < num_facets; f++) {
+    root[f]   = GroupRoot(w->parent, f);
+    facets[f] = f;
+  }
+  PetscCall(PetscSortIntWithArray(num_facets, root, facets));
+  for (PetscInt f = 0; f < num_facets; f++)
+    if (f == 0 || root[f] != root[f - 1]) start[num++] = f;
+  start[num] = num_facets;
+  PetscCall(GroupsMake_Private(w, num, start, facets, whole));
+  PetscCall(PetscFree3(root, facets, start));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Rows that vanish on their facet go (a node of a group that the facet does not have). */
+static void Drop_Private(PetscInt num, MultiplierRows *r)
+{
+  PetscInt rows = 0;
+
+  for (PetscInt i = 0; i < r->num; i++) {
+    PetscBool zero = PETSC_TRUE;
+
+    for (PetscInt a = 0; a < num; a++) {
+      r->T[num * rows + a] = r->T[num * i + a];
+      if (r->T[num * i + a] != 0) zero = PETSC_FALSE;
+    }
+    r->node[rows] = r->node[i];
+    rows += !zero;
+  }
+  r->num = rows;
+}
+
+static PetscErrorCode Pack_Private(const MultiplierWork *w, ContactMultiplier **out)
+{
+  PetscInt           lattice[MULTIPLIER_LATTICE], rows = 0, size = 0;
+  ContactMultiplier *m;
+
+  PetscFunctionBegin;
+  PetscCall(PetscNew(&m));
+  m->num_facets = w->s->num_facets;
+  PetscCall(PetscMalloc2(m->num_facets + 1, &m->row_first, m->num_facets, &m->offset));
+  for (PetscInt f = 0; f < m->num_facets; f++) {
+    Drop_Private(ContactLatticeNodes(w->s, f, lattice), w->rows + f);
+    m->row_first[f] = rows;
+    m->offset[f]    = size;
+    rows += w->rows[f].num;
+    size += w->rows[f].num * ContactLatticeNodes(w->s, f, lattice);
+  }
+  m->row_first[m->num_facets] = rows;
+  PetscCall(PetscMalloc2(rows, &m->row_node, size, &m->T));
+  for (PetscInt f = 0; f < m->num_facets; f++) {
+    PetscCall(PetscArraycpy(m->row_node + m->row_first[f], w->rows[f].node, w->rows[f].num));
+    PetscCall(PetscArraycpy(m->T + m->offset[f], w->rows[f].T, w->rows[f].num * ContactLatticeNodes(w->s, f, lattice)));
+  }
+  PetscCall(ContactDonorsPack(w, m));
+  *out = m;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode ContactMultiplierCreate(const ContactSurface *s, PetscBool axisymmetric, PetscBool standard, const PetscBool carries[], ContactMultiplier **out)
+{
+  MultiplierWork w = {.s = s, .axisymmetric = axisymmetric, .standard = standard};
+  PetscBool     *own;
+  PetscReal     *whole;
+
+  PetscFunctionBegin;
+  PetscCheck(s->X, PETSC_COMM_SELF, PETSC_ERR_PLIB, "multiplier functions need the surface's reference positions");
+  PetscCheck(s->dim == 3 || !s->hang || s->hang[s->num_nodes] == 0, PETSC_COMM_SELF, PETSC_ERR_PLIB, "a node of a curve hangs");
+  PetscCheck(s->dim == 2 || !axisymmetric, PETSC_COMM_SELF, PETSC_ERR_PLIB, "axisymmetric surface in three dimensions");
+  PetscCall(PetscMalloc3(s->num_facets, &w.parent, s->num_nodes, &w.place, s->num_nodes, &own));
+  PetscCall(PetscCalloc5(s->num_facets, &w.exact, s->num_nodes, &w.weight, s->num_facets, &w.rows, s->num_facets, &w.donors, s->num_nodes, &whole));
+  for (PetscInt n = 0; n < s->num_nodes; n++) {
+    w.place[n] = -1;
+    own[n]     = (PetscBool)(!carries || carries[n]);
+  }
+  w.carries = own;
+  PetscCall(Whole_Private(&w, whole, own));
+  PetscCall(GroupsBuild_Private(&w));
+  PetscCall(Groups_Private(&w, whole));
+  PetscCall(Pack_Private(&w, out));
+  for (PetscInt f = 0; f < s->num_facets; f++) {
+    PetscCall(PetscFree2(w.rows[f].node, w.rows[f].T));
+    PetscCall(PetscFree3(w.donors[f].to, w.donors[f].from, w.donors[f].weight));
+  }
+  PetscCall(PetscFree3(w.parent, w.place, own));
+  PetscCall(PetscFree5(w.exact, w.weight, w.rows, w.donors, whole));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode ContactMultiplierDestroy(ContactMultiplier **m)
+{
+  PetscFunctionBegin;
+  if (!*m) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(PetscFree2((*m)->row_first, (*m)->offset));
+  PetscCall(PetscFree2((*m)->row_node, (*m)->T));
+  PetscCall(PetscFree((*m)->donor_first));
+  PetscCall(PetscFree2((*m)->donor, (*m)->donor_weight));
+  PetscCall(PetscFree(*m));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

@@ -1,0 +1,344 @@
+/* Private to contact, the kernel: gaps along a direction that is continuous over the nonmortar surface, for facets of any order in two and three dimensions.
+
+   Facet. Position x(xi) = sum N_a x_a on the Gauss-Lobatto lattice, tangents t_k = x,k, n = t_1 x t_2 (plane: t_2 = e_z). Directions d_v at corners are means
+   of facet vectors (direction.c), d(xi) their multilinear interpolation. Ray: x(xi) + s d(xi) = x_m(eta). Gap density g = s d.n per dxi: (x_m - x).n, so that
+   where both surfaces coincide the forces are z n whatever d is. Axisymmetric: times 2 pi r.
+
+   Chart. Integration is over a constant plane picture of the facet, Y(xi) multilinear: corners of the reference facet (plane: the square, Y = xi). Mortar
+   facets are seen in it by the images of their corners, joined by straight lines: neighbours share images, so they tile the chart. Points of the plane problem
+   have Y_2 = 0; polygons are then strips over an interval.
+
+   Numbers of a facet: D * node + component for the lattice nodes, the directions at the corners, the mortar nodes it meets; then m numbers for each image.
+   Those of one overlap stand component by component in each of the three groups, so that sums over functions run along memory.
+   Vectors have three components everywhere; plane problems leave the third zero. Order-1 lattices list the corners 0 1 3 2 (plane: 0 1). */
+#pragma once
+#include "element.h"
+#include "functionimpl.h"
+
+#define RAY_ORDER MORTISE_MAX_ORDER
+#define RAY_LATTICE ((RAY_ORDER + 1) * (RAY_ORDER + 1))
+#define RAY_ROOM (RAY_LATTICE + 12) /* values of a lattice's functions: loops of fixed length write beyond the last */
+#define RAY_MOMENTS (2 * RAY_LATTICE + 10)
+#define RAY_GRAZE 1e-3 /* cosine between the ray and the normal of a facet below which they do not meet */
+#define RAY_SOLVED 1e-9
+#define RAY_FAR 1e7   /* parametric coordinate up to which images are looked for: a facet may be 10^7 times as small as what it sees */
+#define RAY_OUTSIDE 3 /* parametric coordinate up to which rays meet a mortar facet beyond its curved sides */
+
+/* Overlap. Where a mortar facet covers the nonmortar one, in the chart: a convex polygon whose sides lie on lines 0..3 (sides of the nonmortar facet, line i
+   from node i to node i + 1) and 4..7 (sides of the mortar facet, nodes listed backwards so that both run counterclockwise). Vertices are intersections of
+   neighbouring lines. */
+#define FACET_VERTICES 8  /* of an overlap */
+#define FACET_ON 1e-9     /* distance from a line, over the facet's size, within which a vertex is on it */
+#define FACET_STRAY 1e-3  /* distance, over the facet's size, from the side that is cut, beyond which a crossing is not taken */
+#define FACET_OUTSIDE 1.5 /* parametric coordinate up to which the projection on a facet may lie outside */
+
+/* A facet in the plane's axes. */
+typedef struct {
+  PetscReal Y[4][2], h[4];
+} PlaneQuad;
+
+typedef struct {
+  PlaneQuad side[2]; /* nonmortar, mortar (backwards) */
+  PetscInt  num;
+  PetscReal v[FACET_VERTICES][2];
+  int8_t    line[FACET_VERTICES]; /* from vertex k to k + 1 */
+  PetscReal area;
+  PetscInt  corner[4]; /* names of the images at the corners of side[1] (pieces.c) */
+  int       node;      /* node to segment: the edge's end whose ray meets the mortar edge, else -1 */
+} Overlap;
+
+/* bilinear.c: hats at a point of the plane. False: no such point (degenerate quadrilateral, or far outside). */
+PetscBool ContactQuadLocate(const PlaneQuad *, const PetscReal Y[2], PetscReal N[4]);
+PetscBool ContactQuadIsConvex(const PlaneQuad *);
+
+/* clip.c. size: root of the area of the whole facet, of which side[0] may be a part. False: no overlap, or (num > FACET_VERTICES) none that could be used. */
+PetscBool ContactClip(Overlap *, PetscReal size);
+
+/* quadrature.c: barycentric points and weights on a triangle. */
+/* The symmetric rule of the lowest degree, 10 at least, that is exact to `degree`. False: none is. */
+PetscBool ContactRuleGet(PetscInt degree, PetscInt *num, const PetscReal (**point)[3], const PetscReal **weight);
+
+/* occlusion.c: drop overlaps that lie behind others in the facet's view. */
+void ContactUnfold(PetscInt *num, Overlap overlap[], PetscInt order[], PetscReal area);
+
+/* Functions of a lattice at a point of [-1, 1]^m: values and derivatives 1 2, 11 12 22, 111 112 122 222. */
+typedef struct {
+  PetscReal N[RAY_ROOM], d[2][RAY_ROOM], dd[3][RAY_ROOM], ddd[4][RAY_ROOM];
+} RayFunctions;
+
+typedef struct {
+  PetscInt  order, num;
+  PetscReal x[RAY_LATTICE][4]; /* the fourth, zero, fills a vector register */
+  PetscReal c[4][3];           /* bilinear: x = c_0 + c_1 xi_1 + c_2 xi_2 + c_3 xi_1 xi_2 */
+} RayLattice;
+
+typedef struct {
+  PetscReal Y[2], J[2][2] /* J[i]: Y,i */, inverse[2][2] /* dxi_i / dY_c */, mixed[2], det, ddet[2];
+} RayChartPoint;
+
+/* Slopes beyond a facet: that of the side at 1 has the share + turn h of the other coordinate in the one along direction i (continuation.c). */
+typedef struct {
+  PetscReal share[2], turn[2];
+} RayBeyond;
+
+/* Nonmortar facet. */
+typedef struct {
+  PetscInt   D, m, nv; /* dimension of space and facet, corners */
+  RayLattice s, d;     /* d: directions, order 1 */
+  PlaneQuad  chart;    /* counterclockwise */
+  PetscReal  c[4][2];  /* Y = c_0 + c_1 xi_1 + c_2 xi_2 + c_3 xi_1 xi_2 */
+  PetscReal  area;     /* of the chart */
+  PetscReal  ring;     /* 2 pi or 0 */
+  RayBeyond  beyond;
+} RayFacet;
+
+/* Image of a mortar vertex, or the mean of two images that come before it in the list: of a vertex that hangs in the middle of a straight edge those of the
+   edge's ends, and in a facet that is seen in pieces (pieces.c). */
+typedef struct {
+  PetscInt  node, parent[2]; /* names (pieces.c); -1: it is the vertex's own */
+  PetscBool found;
+  PetscReal v[3], xi[2], s, Y[2];
+} RayImage;
+
+/* What weighs the gap: functions of the facet's lattice, or hats of one of its cells [lo, lo + size]. */
+typedef struct {
+  PetscInt  num, place[RAY_LATTICE];
+  PetscBool hats;
+  PetscReal lo[2], size[2];
+} RayTest;
+
+/* A ray and all that varies with it. */
+typedef struct {
+  RayFunctions  S, V, M; /* facet, directions, mortar facet */
+  RayChartPoint chart;
+  PetscReal     p[3], t[2][3], tt[3][3], ttt[4][3], d[3], di[2][3], dij[3];
+  PetscReal     X[3], Xi[2][3], Xij[3][3];
+  PetscReal     xi[2], eta[2], s;
+  PetscReal     n[3], unit[3], a, beta, rho, turn; /* turn: drho / dr */
+  PetscReal     kappa[3], zeta[2][3];              /* ds = kappa . r, deta = zeta . r, r = variation of x + s d - x_m */
+} RayPoint;
+
+/* Where a ray starts and ends. */
+typedef struct {
+  PetscReal xi[2], eta[2];
+} RayPlace;
+
+/* Weights of gap density and area density at a point with derivatives by xi. */
+typedef struct {
+  PetscReal v, d[2], dd[3];
+} RayWeight;
+
+struct _p_RayWork {
+  /* topology of the nonmortar surface */
+  PetscInt  *ring_first, *ring; /* corners of facets at each node: corner k of facet f is nv f + k */
+  PetscInt  *sheet;             /* [corners] those of one node with the same sheet have one direction (direction.c) */
+  PetscInt  *parent;            /* [num_nodes][2] ends of the edge on which a node hangs, -1 */
+  PetscInt  *end;               /* [corners][2] corners at these ends whose directions count, -1: the node does not hang */
+  PetscBool *along;             /* [corners][2] does the facet lie along this plane of symmetry, as it was at the search? */
+  PetscReal *d;                 /* [corners][3] directions */
+  PetscBool *kept;              /* [num_facets][4] does the side from corner k on lie in a plane of symmetry? (space) */
+  PetscInt  *mortar_parent;     /* [mortar num_nodes][2] of nodes that hang on straight sides */
+  PetscInt  *mortar_middle;     /* [mortar num_facets][4] nodes that hang in the middle of curved sides, -1 */
+  /* one facet */
+  RayFacet   facet;
+  PetscInt   num_images, num_overlaps, num_mortar, num_tests;
+  RayImage  *image;
+  Overlap   *overlap;
+  PetscInt  *mortar, *window; /* [num_overlaps] mortar facet, test */
+  PetscInt  *vertex;          /* [num_mortar] mortar nodes */
+  RayTest   *test;
+  PetscBool  full;   /* the mortar side covers all of it */
+  PetscBool  frozen; /* forces without the motion of the mortar side's rim, or of all its lines */
+  PetscInt   n, nn, num_moments;
+  PetscReal  q[RAY_MOMENTS], reach[RAY_LATTICE], covered, min_gap; /* reach: moments of a gap of 1 along unit directions */
+  PetscReal *dq, *W, *J, *R, *WJ, *part, *buffer;                  /* dq [num_moments][n], W [n][n]; J, R: chainrule.c */
+  PetscReal *T, *rows, *softness;                                  /* [num_rows][lattice]; [n][num_rows] */
+  Result     result;                                               /* vertices: lattice, then mortar nodes */
+  PetscInt   size_image, size_overlap, size_mortar, size_window, size_vertex, size_test, size_dq, size_W, size_J, size_R, size_WJ, size_part, size_buffer;
+  PetscInt   size_T, size_rows, size_softness;
+  /* where the rays of the integration points met, overlap after overlap: the Hessian is integrated there again */
+  PetscInt        num_places, size_places, *first_place, size_first_place; /* first_place[num_listed]: -1: some overlap was dropped */
+  RayPlace       *place;
+  const RayPlace *places; /* of the facet at hand */
+};
+
+/* lagrange.c */
+PetscErrorCode ContactRayLatticePrepare(void);
+/* depth: highest derivative. Beyond [-1, 1] continued by its tangent, which keeps one derivative continuous. */
+void     ContactRayFunctions(PetscInt m, PetscInt order, const PetscReal xi[2], int depth, RayFunctions *);
+void     ContactRayLatticeSum(const RayLattice *, const PetscReal f[], PetscReal v[3]);
+PetscInt ContactRayLatticeNodes(const ContactSurface *, PetscInt facet, const PetscInt **nodes, PetscInt order1[4]);
+void     ContactRayLatticeGather(const ContactSurface *, PetscInt facet, RayLattice *);
+void     ContactRayLatticePolynomial(RayLattice *);
+void     ContactRayTestFunctions(const RayFacet *, const RayTest *, const PetscReal xi[2], RayFunctions *);
+
+/* continuation.c: the same, but beyond [-1, 1]^2 (m = 2) turning to the slope between the corners. */
+void ContactRayBeyond(const RayBeyond *, PetscInt m, PetscInt order, const PetscReal xi[2], int depth, RayFunctions *);
+/* Of directions (order 1): beyond [-1, 1]^2 at h. */
+void ContactRayTurn(PetscInt m, const PetscReal xi[2], int depth, RayFunctions *);
+/* kept[k]: the side from corner k on lies in a plane of symmetry. */
+void ContactRayBeyondSides(const PetscBool kept[4], RayBeyond *);
+
+/* direction.c */
+/* parent[num_nodes][2]: ends of the edge in whose middle a corner hangs, -1. middle[num_facets][4] (or NULL): the corner that hangs on a side, -1. */
+PetscErrorCode ContactParents(const ContactSurface *, PetscInt parent[], PetscInt middle[]);
+PetscErrorCode ContactDirectionTopology(RayWork, const ContactSurface *);
+void           ContactDirections(RayWork, const ContactSurface *);
+PetscBool      ContactDirectionUsable(RayWork, const ContactSurface *, PetscInt corner);
+typedef struct {
+  PetscInt  facet;
+  PetscReal R[9]; /* weight times images in planes of symmetry */
+} DirectionTerm;
+/* d at a corner of a facet = sum_terms R (vector of facet). Returns their number, at most max. */
+PetscInt ContactDirectionTerms(RayWork, const ContactSurface *, PetscInt corner, PetscInt max, DirectionTerm[]);
+
+/* chart.c */
+PetscBool ContactChartCreate(const ContactSurface *, PetscInt facet, RayFacet *);
+void      ContactChartAt(const RayFacet *, const PetscReal xi[2], RayChartPoint *);
+/* xi: a first guess. */
+PetscBool ContactChartLocate(const RayFacet *, const PetscReal Y[2], PetscReal xi[2]);
+
+/* image.c */
+void ContactImageFind(const RayFacet *, RayImage *);
+/* rows[m][n] += derivatives of Y; vertex: its place among the facet's nodes. */
+void ContactImageRows(const RayFacet *, const RayImage *, PetscInt vertex, PetscInt n, PetscReal rows[]);
+/* Columns of rows[num][ld] that belong to images that hang, halves of them to those of their edge's ends. */
+void ContactImagesFold(RayWork, PetscInt num, PetscReal rows[], PetscInt ld);
+/* W += half of w . d2Y */
+void ContactImageCurvature(const RayFacet *, const RayImage *, PetscInt vertex, const PetscReal w[2], PetscInt n, PetscReal W[], PetscReal work[]);
+
+/* pieces.c. Names of images are those of mortar nodes, and others. */
+/* The two images in the middle of which one lies, -1: it is a mortar node's own. */
+void ContactRayParents(const RayWork, const ContactSurface *mortar, PetscInt name, PetscInt parent[2]);
+/* Corners of the pieces in which a mortar facet is seen, in its own order. Returns their number. */
+PetscInt ContactRayPieces(const RayWork, const ContactSurface *mortar, PetscInt facet, PetscInt corner[4][4]);
+
+/* coverage.c: what covers a facet */
+PetscErrorCode ContactCover(ContactPair, const ContactSurface *nonmortar, const ContactSurface *mortar, PetscInt slot, PetscBool *failed);
+
+/* nodetosegment.c: of what covers the facet, the hits of its nodes' rays */
+void ContactNodeHits(RayWork);
+
+/* ray.c. False: the ray misses. */
+PetscBool ContactRaySolve(const RayFacet *, const RayLattice *mortar, const PetscReal xi[2], int depth, RayPoint *);
+/* Where they are known to meet. */
+PetscBool ContactRayAgain(const RayFacet *, const RayLattice *mortar, const RayPlace *, int depth, RayPoint *);
+/* K^-1 from the ray and the tangents of the mortar facet. */
+PetscBool ContactRayInverse(RayPoint *);
+PetscReal ContactRayGap(const RayPoint *);
+PetscReal ContactRayArea(const RayPoint *);
+void      ContactRayFirst(const RayFacet *, const RayLattice *mortar, const RayPoint *, PetscReal gap[], PetscReal area[], PetscReal gap_xi[2],
+                          PetscReal area_xi[2]);
+
+/* to[c * num + a] = f_a v_c */
+static inline void ContactRaySet(PetscInt D, PetscInt num, const PetscReal f[restrict], const PetscReal v[3], PetscReal to[restrict])
+{
+  for (PetscInt c = 0; c < D; c++)
+    for (PetscInt a = 0; a < num; a++) to[c * num + a] = f[a] * v[c];
+}
+
+/* to[c * num + a] += f_a v_c */
+static inline void ContactRayAdd(PetscInt D, PetscInt num, const PetscReal f[restrict], const PetscReal v[3], PetscReal to[restrict])
+{
+  for (PetscInt c = 0; c < D; c++)
+    for (PetscInt a = 0; a < num; a++) to[c * num + a] += f[a] * v[c];
+}
+
+/* to[c * num + a] = f_a v_c + g1_a w1_c (+ g2_a w2_c, m = 2) */
+static inline void ContactRaySlopes(PetscInt D, PetscInt m, PetscInt num, const PetscReal f[restrict], const PetscReal v[3],
+                                    const PetscReal g[restrict][RAY_ROOM], const PetscReal w[2][3], PetscReal to[restrict])
+{
+  for (PetscInt c = 0; c < D; c++)
+    for (PetscInt a = 0; a < num; a++) to[c * num + a] = f[a] * v[c] + g[0][a] * w[0][c] + (m == 2 ? g[1][a] * w[1][c] : 0);
+}
+
+/* raybilinear.c: the same between bilinear facets. */
+PetscBool ContactRayBilinear(const RayFacet *, const RayLattice *mortar, const PetscReal xi[2], int depth, RayPoint *);
+
+/* raysecond.c: weighted sum phi gap + chi area. */
+typedef struct {
+  PetscReal *basis, *right[3]; /* products (basis_f at component c) x right[c] by the numbers of facet, directions and mortar facet */
+  PetscInt   num_own;          /* products own_left x own_right by the numbers of the lattice, of lattice and directions */
+  PetscReal *own_left[3], *own_right[3];
+  PetscReal *mixed[2]; /* rows by xi */
+  PetscReal  xi[2], xixi[3];
+  PetscReal *gradient;
+  /* d_v . (dx_a x u[v][a]), u[v][a] += turn_left[v] turn_right[.][a];   u[a][b] . (dx_a x dx_b), u[a][b] += twist_left[a] twist_right[.][b] */
+  PetscReal *turn_left, *turn_right, *twist_left, *twist_right;
+} RaySecond;
+/* Products and pairs are multiplied with weight. */
+void ContactRaySecond(const RayFacet *, const RayLattice *mortar, const RayPoint *, const RayWeight *phi, const RayWeight *chi, PetscReal weight, RaySecond *);
+
+/* polygon.c */
+#define RAY_IMAGES 8 /* numbers of the images of one mortar facet */
+/* How corner k of a polygon moves: rows by the RAY_IMAGES numbers; crossings: between which images, e and nu / nu.e. */
+typedef struct {
+  PetscReal d[2][RAY_IMAGES], dt[RAY_IMAGES], e[2], nu[2];
+  PetscInt  a, b; /* a = -1: no crossing */
+  PetscBool slips;
+  PetscReal slip[2][RAY_IMAGES]; /* one of two corners at a place: half of how the place moves besides d */
+} RayMove;
+/* A simplex: places of its corners in the polygon, size and derivatives by its m + 1 corners, m numbers each. */
+typedef struct {
+  PetscInt  corner[3];
+  PetscReal size, d[6];
+} RaySimplex;
+/* W[nl][nr] += factor sum_k left[k][nl] right[k][nr]; ld: length of rows in memory */
+void ContactRayProducts(PetscInt num, PetscReal factor, PetscInt nl, const PetscReal left[], PetscInt ldl, PetscInt nr, const PetscReal right[], PetscInt ldr,
+                        PetscReal W[], PetscInt ldw);
+/* On a simplex of this overlap. */
+PetscErrorCode ContactRayRule(const RayFacet *, const Overlap *, PetscInt mortar_order, PetscInt *num, const PetscReal (**point)[3], const PetscReal **weight);
+/* The same polygon, with crossings at a small angle as two corners at one place. */
+void     ContactRaySplit(const RayFacet *, const Overlap *, Overlap *to);
+void     ContactRayMoves(const RayFacet *, const Overlap *, RayMove[]);
+PetscInt ContactRaySimplices(const RayFacet *, const Overlap *);
+void     ContactRaySimplex(const RayFacet *, const Overlap *, PetscInt k, RaySimplex *);
+/* Where rays from the corners of an overlap meet the mortar facet; slope: deta_i / dxi_j. */
+typedef struct {
+  PetscReal xi[FACET_VERTICES][2], eta[FACET_VERTICES][2], slope[FACET_VERTICES][2][2];
+} RayGuess;
+void      ContactRayGuess(const RayFacet *, const RayLattice *mortar, const Overlap *, RayGuess *);
+PetscBool ContactRayPoint(const RayFacet *, const RayLattice *mortar, const Overlap *, const RayGuess *, const RaySimplex *, const PetscReal beta[3], int depth,
+                          RayPoint *);
+void      ContactRayPlaces(const RayWork, const ContactSurface *mortar, PetscInt overlap, PetscInt nb, PetscInt place[]);
+
+/* moments.c, hessian.c: integrals over the overlaps of the facet at hand */
+void           ContactRayOverDet(const RayFacet *, const RayChartPoint *, PetscReal factor, const RayWeight *, RayWeight *);
+PetscErrorCode ContactRayMoments(ContactPair, const ContactSurface *mortar, PetscBool mass, PetscBool derivatives);
+/* W of the work space: half Hessian of sum_a y_a G_a + sum_ab D[a][b] int N_a N_b dA (D NULL: none) at the facet's places; gradient[n] of it is set. Where the
+   rim is held the images' part of the gradient vanishes. */
+PetscErrorCode ContactRayHessian(ContactPair, const ContactSurface *mortar, const PetscReal y[], const PetscReal D[4][4], PetscReal gradient[]);
+
+/* compliance.c: compliances of a facet that is covered in part, with the derivative by the covered area. */
+typedef struct {
+  PetscBool  on;
+  PetscReal  share[2]; /* 4 epsilon s (1 - s) and its derivative */
+  PetscReal *softness; /* [num_rows] times the measure of the row's hats */
+} RaySpring;
+PetscErrorCode ContactRaySpring(ContactPair, const ContactSurface *nonmortar, PetscInt facet, RaySpring *);
+
+/* chainrule.c. held: directions do not vary. */
+PetscErrorCode ContactRayChain(RayWork, const ContactSurface *nonmortar, PetscInt facet, PetscBool held);
+/* X[n][num], by the facet's numbers: the part by the images is added to what they follow. */
+void ContactRayChainImages(RayWork, PetscInt num, PetscReal X[]);
+/* to[num][nn] += X^T by the nodes, without the part by the images. */
+void ContactRayChainNodes(RayWork, PetscInt num, const PetscReal X[], PetscReal to[]);
+/* H = both halves of the work space's W, which changes. */
+PetscErrorCode ContactRayChainHessian(RayWork, PetscReal H[]);
+/* The same for forces at a held rim, not symmetric: H[i][j] derivative of force i by position j. */
+PetscErrorCode ContactRayChainFrozen(RayWork, PetscReal H[]);
+PetscErrorCode ContactRayDirectionCurvature(RayWork, const ContactSurface *, PetscInt facet, const PetscReal gradient[], PetscReal H[]);
+
+/* facet.c */
+#define RAY_TERMS 64 /* most facets around a corner, over all it hangs on */
+PetscErrorCode ContactRayTopology(ContactPair, const ContactSurface *);
+PetscErrorCode ContactRayMortarTopology(RayWork, const ContactSurface *mortar);
+PetscErrorCode ContactRayEvaluate(const EvaluateContext *, PetscBool *failed);
+PetscErrorCode ContactRayWorkDestroy(RayWork *);
+
+/* region.c */
+typedef struct {
+  PetscReal box[6], axis[3][3], lo[3], hi[3], slack;
+} RayRegion;
+void      ContactRayRegion(ContactPair, const ContactSurface *, PetscInt facet, RayRegion *);
+PetscBool ContactRayRegionMeets(const RayRegion *, const ContactSurface *mortar, PetscInt facet);

@@ -1,0 +1,78 @@
+/* Where mortar facets lie behind one another in a facet's view (folds, thin bodies, layers), the nearest counts: overlaps are taken by growing distance, and
+   one is dropped of which those already taken hide more than a millionth of the facet and a tenth of its own area. What is hidden of one that stays counts
+   twice. (Neighbours on curved surfaces may share slivers where nodes hang.) */
+#include "kernelimpl.h"
+
+enum { MOST = 2 * FACET_VERTICES };
+#define SHARED 1e-6
+#define SLIVER 0.1
+
+static PetscReal Distance_Private(const Overlap *o)
+{
+  PetscReal Y[2] = {0, 0}, N[2][4], sum = 0;
+
+  for (PetscInt k = 0; k < o->num; k++)
+    for (int i = 0; i < 2; i++) Y[i] += o->v[k][i] / (PetscReal)o->num;
+  for (int s = 0; s < 2; s++)
+    if (!ContactQuadLocate(&o->side[s], Y, N[s])) return PETSC_MAX_REAL;
+  for (int a = 0; a < 4; a++) sum += N[1][a] * o->side[1].h[a] - N[0][a] * o->side[0].h[a];
+  return PetscAbsReal(sum);
+}
+
+/* Area that two convex polygons share. */
+static PetscReal Shared_Private(const Overlap *a, const Overlap *b)
+{
+  PetscReal v[MOST][2], to[MOST][2], sum = 0;
+  PetscInt  num = a->num;
+
+  for (PetscInt k = 0; k < num; k++) v[k][0] = a->v[k][0], v[k][1] = a->v[k][1];
+  for (PetscInt i = 0; i < b->num && num; i++) {
+    const PetscReal *p = b->v[i], *q = b->v[(i + 1) % b->num], e[2] = {q[0] - p[0], q[1] - p[1]};
+    PetscInt         kept = 0;
+
+    for (PetscInt k = 0; k < num && kept + 2 <= MOST; k++) {
+      const PetscReal *x = v[k], *y = v[(k + 1) % num], dx[2] = {x[0] - p[0], x[1] - p[1]}, dy[2] = {y[0] - p[0], y[1] - p[1]};
+      const PetscReal  s = Cross2(e, dx), t = Cross2(e, dy);
+
+      if (s > 0) to[kept][0] = x[0], to[kept++][1] = x[1];
+      if ((s > 0) != (t > 0)) {
+        for (int c = 0; c < 2; c++) to[kept][c] = x[c] + s / (s - t) * (y[c] - x[c]);
+        kept++;
+      }
+    }
+    num = kept;
+    memcpy(v, to, sizeof(v));
+  }
+  for (PetscInt k = 1; k + 1 < num; k++) {
+    const PetscReal d[2] = {v[k][0] - v[0][0], v[k][1] - v[0][1]}, e[2] = {v[k + 1][0] - v[0][0], v[k + 1][1] - v[0][1]};
+
+    sum += 0.5 * Cross2(d, e);
+  }
+  return sum;
+}
+
+void ContactUnfold(PetscInt *num, Overlap overlap[], PetscInt order[], PetscReal area)
+{
+  PetscReal covered = 0;
+  PetscInt  kept    = 0;
+
+  for (PetscInt i = 0; i < *num; i++) covered += overlap[i].area;
+  if (covered <= (1 + SHARED) * area) return;
+  for (PetscInt i = 0; i < *num; i++) { /* insertion sort by distance: few */
+    const Overlap   o = overlap[i];
+    const PetscInt  n = order[i];
+    const PetscReal d = Distance_Private(&o);
+    PetscInt        k = i;
+
+    for (; k > 0 && Distance_Private(&overlap[k - 1]) > d; k--) overlap[k] = overlap[k - 1], order[k] = order[k - 1];
+    overlap[k] = o, order[k] = n;
+  }
+  for (PetscInt i = 0; i < *num; i++) {
+    PetscReal hidden = 0;
+
+    for (PetscInt k = 0; k < kept; k++) hidden += Shared_Private(&overlap[k], &overlap[i]);
+    if (hidden > PetscMax(SHARED * area, SLIVER * overlap[i].area)) continue;
+    overlap[kept] = overlap[i], order[kept++] = order[i];
+  }
+  *num = kept;
+}

@@ -1,0 +1,158 @@
+/* A ray from a point of the facet to a mortar facet, the gap density g = s d.n (rho) and the area density |n| (rho), and first derivatives.
+
+   Variations at fixed xi: P = sum N_a dx_a, T_k = sum N_a,k dx_a, V = sum V_v dd_v, M = sum M_b dy_b.
+   K (deta, ds) = r = P + s V - M,   K = [x_m,1, x_m,2, -d] (plane: e_z for the second): ds = kappa . r, deta_i = zeta_i . r, kappa = -n_m / d.n_m;
+   d(d.n) = n.V + (t_2 x d).T_1 + (d x t_1).T_2. */
+#include "kernelimpl.h"
+
+static const RayBeyond Mean = {{0.5, 0.5}, {0, 0}};
+
+/* Facet and directions at xi. */
+static void Facet_Private(const RayFacet *f, int depth, RayPoint *r)
+{
+  static const PetscReal ez[3] = {0, 0, 1};
+
+  ContactRayFunctions(f->m, f->s.order, r->xi, depth, &r->S);
+  ContactRayFunctions(f->m, 1, r->xi, depth > 2 ? 2 : depth, &r->V);
+  ContactChartAt(f, r->xi, &r->chart);
+  ContactRayLatticeSum(&f->s, r->S.N, r->p);
+  ContactRayLatticeSum(&f->d, r->V.N, r->d);
+  memcpy(r->t[1], ez, sizeof(ez));
+  for (PetscInt i = 0; i < f->m; i++) {
+    ContactRayLatticeSum(&f->s, r->S.d[i], r->t[i]);
+    ContactRayLatticeSum(&f->d, r->V.d[i], r->di[i]);
+  }
+  for (PetscInt i = 0; i < 2 * f->m - 1 && depth > 1; i++) ContactRayLatticeSum(&f->s, r->S.dd[i], r->tt[i]);
+  for (PetscInt i = 0; i < 3 * f->m - 2 && depth > 2; i++) ContactRayLatticeSum(&f->s, r->S.ddd[i], r->ttt[i]);
+  if (f->m == 2 && depth > 1) ContactRayLatticeSum(&f->d, r->V.dd[1], r->dij);
+  Cross3(r->t[0], r->t[1], r->n);
+  r->a = PetscSqrtReal(Dot3(r->n, r->n));
+  for (int c = 0; c < 3; c++) r->unit[c] = r->n[c] / r->a;
+  r->beta = Dot3(r->d, r->n);
+  r->turn = f->ring;
+  r->rho  = f->ring > 0 ? f->ring * r->p[0] : 1;
+}
+
+PetscBool ContactRayInverse(RayPoint *r)
+{
+  PetscReal normal[3], det;
+
+  Cross3(r->Xi[0], r->Xi[1], normal);
+  det = -Dot3(r->d, normal);
+  if (!(det > RAY_GRAZE * PetscSqrtReal(Dot3(normal, normal) * Dot3(r->d, r->d)))) return PETSC_FALSE;
+  Cross3(r->d, r->Xi[1], r->zeta[0]);
+  Cross3(r->Xi[0], r->d, r->zeta[1]);
+  for (int c = 0; c < 3; c++) {
+    r->kappa[c] = normal[c] / det;
+    r->zeta[0][c] /= det;
+    r->zeta[1][c] /= det;
+  }
+  return PETSC_TRUE;
+}
+
+/* Mortar facet at eta; K^-1. */
+static PetscBool Mortar_Private(const RayFacet *f, const RayLattice *mortar, int depth, RayPoint *r)
+{
+  ContactRayBeyond(&Mean, f->m, mortar->order, r->eta, PetscMin(depth, 2), &r->M);
+  ContactRayLatticeSum(mortar, r->M.N, r->X);
+  r->Xi[1][0] = r->Xi[1][1] = 0, r->Xi[1][2] = 1;
+  for (PetscInt i = 0; i < f->m; i++) ContactRayLatticeSum(mortar, r->M.d[i], r->Xi[i]);
+  for (PetscInt i = 0; i < 2 * f->m - 1 && depth > 1; i++) ContactRayLatticeSum(mortar, r->M.dd[i], r->Xij[i]);
+  return ContactRayInverse(r);
+}
+
+/* e = x - x_m, and the length along the ray. Steps zeta . (e + s d) to where they meet do not depend on s: zeta . d = 0, kappa . d = -1. */
+static void Along_Private(RayPoint *r, PetscReal e[3])
+{
+  for (int c = 0; c < 3; c++) e[c] = r->p[c] - r->X[c];
+  r->s = Dot3(r->kappa, e);
+}
+
+/* Does the mortar facet reach as far as where the ray met it? */
+static PetscBool Inside_Private(const RayFacet *f, const RayPoint *r)
+{
+  for (PetscInt i = 0; i < f->m; i++)
+    if (!(PetscAbsReal(r->eta[i]) < (f->m == 2 ? RAY_OUTSIDE : FACET_OUTSIDE))) return PETSC_FALSE;
+  return PETSC_TRUE;
+}
+
+/* From r->eta as a first guess. */
+PetscBool ContactRaySolve(const RayFacet *f, const RayLattice *mortar, const PetscReal xi[2], int depth, RayPoint *r)
+{
+  PetscReal step = 1;
+
+  if (f->m == 2 && f->s.order == 1 && mortar->order == 1) return ContactRayBilinear(f, mortar, xi, depth, r);
+  r->xi[0] = xi[0], r->xi[1] = xi[1];
+  Facet_Private(f, depth, r);
+  for (int k = 0; k < 20; k++) {
+    const PetscBool last = (PetscBool)(step < RAY_SOLVED); /* the last step left a square of that */
+    PetscReal       e[3];
+
+    if (!Mortar_Private(f, mortar, last ? depth : 1, r)) return PETSC_FALSE;
+    Along_Private(r, e);
+    if (last) return Inside_Private(f, r);
+    step = 0;
+    for (PetscInt i = 0; i < f->m; i++) {
+      const PetscReal move = Dot3(r->zeta[i], e);
+
+      r->eta[i] += move;
+      step = PetscMax(step, PetscAbsReal(move));
+    }
+    if (!(step < 10)) return PETSC_FALSE;
+  }
+  return PETSC_FALSE;
+}
+
+PetscBool ContactRayAgain(const RayFacet *f, const RayLattice *mortar, const RayPlace *place, int depth, RayPoint *r)
+{
+  PetscReal e[3];
+
+  for (int i = 0; i < 2; i++) r->eta[i] = place->eta[i];
+  if (f->m == 2 && f->s.order == 1 && mortar->order == 1) return ContactRayBilinear(f, mortar, place->xi, depth, r);
+  for (int i = 0; i < 2; i++) r->xi[i] = place->xi[i];
+  Facet_Private(f, depth, r);
+  if (!Mortar_Private(f, mortar, depth, r)) return PETSC_FALSE;
+  Along_Private(r, e);
+  return PETSC_TRUE;
+}
+
+PetscReal ContactRayGap(const RayPoint *r)
+{
+  return r->s * r->beta * r->rho;
+}
+
+PetscReal ContactRayArea(const RayPoint *r)
+{
+  return r->a * r->rho;
+}
+
+void ContactRayFirst(const RayFacet *f, const RayLattice *mortar, const RayPoint *r, PetscReal gap[], PetscReal area[], PetscReal gap_xi[2],
+                     PetscReal area_xi[2])
+{
+  const PetscInt  D = f->D, na = f->s.num;
+  const PetscReal br = r->beta * r->rho, sr = r->s * r->rho;
+  PetscReal       A[3], B[2][3], C[3], E[3], Aa[3] = {r->a * r->turn, 0, 0}, Ba[2][3];
+
+  Cross3(r->t[1], r->d, B[0]);
+  Cross3(r->d, r->t[0], B[1]);
+  Cross3(r->t[1], r->unit, Ba[0]);
+  Cross3(r->unit, r->t[0], Ba[1]);
+  for (int c = 0; c < 3; c++) {
+    A[c] = br * r->kappa[c] + (c == 0 ? r->s * r->beta * r->turn : 0);
+    C[c] = br * r->s * r->kappa[c] + sr * r->n[c];
+    E[c] = -br * r->kappa[c];
+    for (int k = 0; k < 2; k++) B[k][c] *= sr, Ba[k][c] *= r->rho;
+  }
+  ContactRaySlopes(D, f->m, na, r->S.N, A, r->S.d, B, gap);
+  ContactRaySet(D, f->nv, r->V.N, C, gap + D * na);
+  ContactRaySet(D, mortar->num, r->M.N, E, gap + D * (na + f->nv));
+  ContactRaySlopes(D, f->m, na, r->S.N, Aa, r->S.d, Ba, area);
+  for (PetscInt i = 0; i < f->m; i++) {
+    gap_xi[i]  = Dot3(A, r->t[i]) + Dot3(C, r->di[i]);
+    area_xi[i] = Dot3(Aa, r->t[i]);
+    for (PetscInt k = 0; k < f->m; k++) {
+      gap_xi[i] += Dot3(B[k], r->tt[i + k]);
+      area_xi[i] += Dot3(Ba[k], r->tt[i + k]);
+    }
+  }
+}
