@@ -60,7 +60,7 @@ CFLAGS   := -std=gnu11 $(OPT) -Wall -Wextra -Wshadow -Wstrict-prototypes -Wno-un
 CPPFLAGS := -Iinclude $(addprefix -Isrc/,$(MODULES)) $(PETSC_CFLAGS) $(HDF5_CFLAGS) $(if $(SMUMPS),-DMORTISE_SMUMPS)
 LDLIBS   := -Wl,--no-as-needed -lopenblas $(LOAD_FIRST) -Wl,--as-needed $(PETSC_LIBS) -lmetis -ldmumps $(SMUMPS) -lmumps_common $(HDF5_LIBS) -lmuparser -lcjson -lyaml -lm
 
-SOURCES := $(foreach m,$(MODULES),$(wildcard src/$(m)/*.c))
+SOURCES := $(foreach m,$(MODULES),$(wildcard src/$(m)/*.c src/$(m)/*/*.c))
 OBJECTS := $(SOURCES:src/%.c=$(BUILD)/%.o)
 LIBRARY := $(BUILD)/libmortise.a
 LIBOBJS := $(filter-out $(BUILD)/app/main.o,$(OBJECTS))

@@ -88,7 +88,7 @@ typedef struct {
   const ContactSpec *spec;
   SurfaceView        nonmortar, mortar;
   const PetscReal   *z, *gap, *weight; /* [nonmortar.num_nodes] multiplier, gt_j, w_j at the last evaluation */
-  const PetscBool   *active;           /* [nonmortar.num_nodes] as the residual decided */
+  const int8_t      *active;           /* [nonmortar.num_nodes] as the residual decided: 0 open, else a state of the contact law */
   const PetscBool   *has_multiplier;   /* [nonmortar.num_nodes]; hanging nodes: no, their z is interpolated */
   ContactPair        pair;             /* segments of this rank's nonmortar facets */
   const PetscReal   *normal;           /* [nonmortar.num_nodes][dim] of views gathered to all; else NULL: ContactPairGetNormals */

@@ -193,6 +193,7 @@ PetscErrorCode ContactCreate_Private(Interface p, const ContactSpec *spec, Conta
   PetscFunctionBegin;
   PetscCall(PetscMemzero(c, sizeof(*c)));
   c->spec = spec;
+  c->law  = ContactLaws[spec->law];
   PetscCall(IsHigher_Private(p, spec, &higher));
   PetscCall(SurfaceCreate_Private(p, spec->nonmortar, higher, &c->side[0]));
   PetscCall(SurfaceCreate_Private(p, spec->mortar, higher, &c->side[1]));
@@ -276,8 +277,9 @@ static PetscErrorCode GatherMultipliers_Private(Interface p, Contact *c, Vec x)
 static void Activity_Private(Contact *c)
 {
   for (PetscInt i = 0; i < c->num_valued; ++i) {
-    const PetscInt j = c->valued_node[i];
-    c->active[j]     = (PetscBool)(c->has_multiplier[j] && ContactCovered_Private(c, j) && c->z[j] - c->c[j] * c->gap[j] / c->weight[j] > 0);
+    const PetscInt     j     = c->valued_node[i];
+    const ContactPoint point = ContactPoint_Private(c, j, 0);
+    c->active[j]             = c->has_multiplier[j] && ContactCovered_Private(c, j) ? c->law->state(&point) : 0;
   }
 }
 
@@ -338,16 +340,6 @@ static PetscReal FacetDot_Private(const Contact *c, const ContactFacet *e, const
   return sum;
 }
 
-void ContactRowFactors_Private(const Contact *c, const ContactFacet *e, PetscInt k, PetscBool row, PetscReal *mean, PetscReal *along)
-{
-  const PetscInt j = e->nodes[k];
-
-  row    = (PetscBool)(row && c->active[j]);
-  *mean  = row && ContactCovered_Private(c, j) ? ContactRowGap_Private(c, j) / ContactRowMeasure_Private(c, j) : 0;
-  *along = 0;
-  if (e->spring && row) *along = e->stiffening[k] * (c->z[j] - *mean * c->c[j]);
-}
-
 PetscErrorCode ContactChange_Private(Interface p, Contact *c, const PetscReal increment[], PetscReal change[])
 {
   const Surface *s = &c->side[0];
@@ -359,14 +351,14 @@ PetscErrorCode ContactChange_Private(Interface p, Contact *c, const PetscReal in
     const ContactFacet *e = &c->facets[i];
     for (PetscInt k = 0; k < e->num_rows && e->dgap; ++k) {
       const PetscInt j = e->nodes[k];
-      PetscReal      mean, along;
       if (!s->owned[j]) continue;
       change[j] += FacetDot_Private(c, e, e->dgap + p->dim * k * e->num);
       if (!ContactCovered_Private(c, j)) continue;
-      ContactRowFactors_Private(c, e, k, PETSC_TRUE, &mean, &along);
-      if (!c->active[j]) mean = c->gap[j] / c->weight[j];
-      change[j] -= mean * FacetDot_Private(c, e, e->dweight + p->dim * k * e->num);
-      if (along != 0) change[j] += along * FacetDot_Private(c, e, e->darea);
+      const ContactPoint point = ContactPoint_Private(c, j, 0);
+      ContactRow         row   = {.mean = c->gap[j] / c->weight[j]};
+      if (c->active[j]) c->law->rows(&point, PETSC_FALSE, &row);
+      change[j] -= row.mean * FacetDot_Private(c, e, e->dweight + p->dim * k * e->num);
+      if (e->spring && row.along != 0) change[j] += e->stiffening[k] * row.along * FacetDot_Private(c, e, e->darea);
     }
   }
   PetscFunctionReturn(PETSC_SUCCESS);

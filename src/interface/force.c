@@ -69,7 +69,10 @@ PetscErrorCode InterfaceRows(Interface p, PetscReal r[])
     const Contact *c = &p->contacts[i];
     for (PetscInt j = 0; j < c->side[0].num_nodes; ++j) {
       if (c->zlocal[j] < 0) continue;
-      r[c->zlocal[j]] = c->w0[j] * (c->active[j] ? c->c[j] * ContactRowGap_Private(c, j) / ContactRowMeasure_Private(c, j) : c->z[j]);
+      const ContactPoint point = ContactPoint_Private(c, j, 0);
+      ContactRow         row;
+      c->law->rows(&point, PETSC_FALSE, &row);
+      r[c->zlocal[j]] = -row.side;
     }
   }
   PetscFunctionReturn(PETSC_SUCCESS);

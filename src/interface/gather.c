@@ -44,7 +44,7 @@ static PetscErrorCode Activity_Private(Interface p, Contact *c)
   if (!c->all_active) PetscCall(PetscMalloc1(s->num_nodes, &c->all_active));
   PetscCall(PetscArrayzero(c->all_active, s->num_nodes));
   for (PetscInt i = 0; i < s->num_own; ++i) c->all_active[s->own[i]] = c->active[s->own[i]];
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, c->all_active, (PetscMPIInt)s->num_nodes, COMPAT_MPI_BOOL, MPI_LOR, p->comm));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, c->all_active, (PetscMPIInt)s->num_nodes, MPI_INT8_T, MPI_MAX, p->comm));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

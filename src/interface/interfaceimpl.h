@@ -20,6 +20,37 @@ typedef struct {
   PetscInt    num_told;         /* entries told to all of them together */
 } Link;
 
+/* ---- contact laws (law/): what the multipliers of a node fulfil -------------------------------------------------------------- */
+
+#define MOST_MULTIPLIERS 3 /* of a node */
+
+/* A node of the nonmortar side: what its rows are made of. */
+typedef struct {
+  const ContactSpec *spec;
+  int8_t             state;
+  PetscReal          z[MOST_MULTIPLIERS], gap, weight, spring, w0, c; /* as in Contact */
+  PetscReal          lift;                                            /* change of the gap by the motion still to come */
+} ContactPoint;
+
+/* One of its rows, linearised:  factor [grad gt - mean grad w + along grad K] . du + sum_k z_k dz_k = side.  value: of a node that bears, the gap that has to
+   vanish. push: the derivative of the forces by z_j (ContactFacet.push) stands for grad gt. */
+typedef struct {
+  PetscReal factor, mean, along, z[MOST_MULTIPLIERS], side, value;
+  PetscBool push;
+} ContactRow;
+
+/* state: that of a node with these multipliers, gap and weight, 0: open. rows: one for each multiplier, in this state; the residual is -side without lift.
+   symmetric: factor and z of a row such that it is a column of the symmetric tangent as well, its unknown z over c. */
+typedef struct {
+  const char *name;
+  int8_t (*state)(const ContactPoint *);
+  void (*rows)(const ContactPoint *, PetscBool symmetric, ContactRow row[]);
+} ContactLawOps;
+
+extern const ContactLawOps *const ContactLaws[];
+/* frictionless.c: row of a constraint with compliance S (length times measure over pressure) that grows with w by this slope. */
+void ContactCompliantRow_Private(const ContactPoint *, PetscReal S, PetscReal slope, PetscBool symmetric, ContactRow *);
+
 /* One side of a contact pair. Topology and what belongs to the mesh (reference positions, frames, places in the vector) are replicated on every rank; current
    values are not: a rank has those of nodes it owns, of nodes its cells or ghost cells depend on (positions), and of nodes that facets in contact need
    (exchange.c). All other entries are NaN. Hanging nodes have positions, which follow their masters', but no unknowns. */
@@ -55,40 +86,42 @@ typedef struct {
 } Surface;
 
 typedef struct {
-  const ContactSpec  *spec;
-  ContactPair         pair;
-  PetscInt           *part[2]; /* of the facets of both sides */
-  Surface             side[2]; /* 0 nonmortar, 1 mortar */
-  ContactView         view;
-  PetscReal           freedom[2][9];                  /* of a translation of the bodies of either side, what supports leave free: slidelimit.c */
-  PetscBool           drifts;                         /* they leave some */
-  PetscInt           *zdof;                           /* [n] row of the matrix, -1: no multiplier */
-  PetscInt           *zlocal;                         /* [n] position in this rank's part of the vector, -1: not here */
-  PetscReal          *z, *gap, *weight, *spring;      /* [n] spring: K_j of contact.h */
-  PetscReal          *softness;                       /* [n] extent / E */
-  PetscReal          *w0, *extent, *c;                /* [n] reference measure, its extent along the surface, E / extent */
-  PetscReal          *change;                         /* [n] work: change of gt_j at fixed measure under an increment */
-  PetscReal          *lift;                           /* [n] the same for the prescribed motion still to come */
-  PetscInt           *result;                         /* [num_facets] position of a facet in `facets`, -1: not evaluated here */
-  PetscBool          *active, *has_multiplier, *near; /* [n] near: takes part in the next linear solve */
-  PetscInt            num_listed, *listed;            /* nonmortar facets this rank evaluates */
-  PetscBool          *mine;                           /* [num_facets] a side of this rank's leaves */
-  PetscBool          *live;                           /* [num_facets] may meet the mortar side, as far as this rank is told (its own facets, those around) */
-  PetscBool          *valued;                         /* [n] z, gap, weight, activity known here */
-  PetscInt            num_valued, *valued_node;       /* their list */
-  PetscReal          *pack;                           /* [n][3] work: gap, weight and spring in one message */
-  PetscReal          *all_real[2];                    /* values gathered to all, see gather.c */
-  PetscBool          *all_active;
-  ContactView         all;
-  PetscReal           distance;   /* search distance */
-  PetscInt            num_facets; /* results of the last evaluation */
-  const ContactFacet *facets;
-  ContactFacet       *frozen; /* small kinematics: linearised once at the reference positions */
-  PetscBool           is_frozen;
-  PetscReal          *gap0;                     /* [n] reference gaps, small kinematics */
-  PetscReal          *offset;                   /* [n] constant part of gt_j that does not count: initial gaps closed, interference */
-  PetscReal          *misfit;                   /* [n] imbalance.c: what else does not count, times the share left */
-  PetscInt           *pattern_offset, *pattern; /* [num_facets+1]: nodes each facet has room for in the matrix */
+  const ContactSpec   *spec;
+  const ContactLawOps *law;
+  ContactPair          pair;
+  PetscInt            *part[2]; /* of the facets of both sides */
+  Surface              side[2]; /* 0 nonmortar, 1 mortar */
+  ContactView          view;
+  PetscReal            freedom[2][9];             /* of a translation of the bodies of either side, what supports leave free: slidelimit.c */
+  PetscBool            drifts;                    /* they leave some */
+  PetscInt            *zdof;                      /* [n] row of the matrix, -1: no multiplier */
+  PetscInt            *zlocal;                    /* [n] position in this rank's part of the vector, -1: not here */
+  PetscReal           *z, *gap, *weight, *spring; /* [n] spring: K_j of contact.h */
+  PetscReal           *softness;                  /* [n] extent / E */
+  PetscReal           *w0, *extent, *c;           /* [n] reference measure, its extent along the surface, E / extent */
+  PetscReal           *change;                    /* [n] work: change of gt_j at fixed measure under an increment */
+  PetscReal           *lift;                      /* [n] the same for the prescribed motion still to come */
+  PetscInt            *result;                    /* [num_facets] position of a facet in `facets`, -1: not evaluated here */
+  int8_t              *active;                    /* [n] state of the law; 0: open */
+  PetscBool           *has_multiplier, *near;     /* [n] near: takes part in the next linear solve */
+  PetscInt             num_listed, *listed;       /* nonmortar facets this rank evaluates */
+  PetscBool           *mine;                      /* [num_facets] a side of this rank's leaves */
+  PetscBool           *live;                      /* [num_facets] may meet the mortar side, as far as this rank is told (its own facets, those around) */
+  PetscBool           *valued;                    /* [n] z, gap, weight, activity known here */
+  PetscInt             num_valued, *valued_node;  /* their list */
+  PetscReal           *pack;                      /* [n][3] work: gap, weight and spring in one message */
+  PetscReal           *all_real[2];               /* values gathered to all, see gather.c */
+  int8_t              *all_active;
+  ContactView          all;
+  PetscReal            distance;   /* search distance */
+  PetscInt             num_facets; /* results of the last evaluation */
+  const ContactFacet  *facets;
+  ContactFacet        *frozen; /* small kinematics: linearised once at the reference positions */
+  PetscBool            is_frozen;
+  PetscReal           *gap0;                     /* [n] reference gaps, small kinematics */
+  PetscReal           *offset;                   /* [n] constant part of gt_j that does not count: initial gaps closed, interference */
+  PetscReal           *misfit;                   /* [n] imbalance.c: what else does not count, times the share left */
+  PetscInt            *pattern_offset, *pattern; /* [num_facets+1]: nodes each facet has room for in the matrix */
 } Contact;
 
 struct _p_Interface {
@@ -191,9 +224,15 @@ static inline PetscBool ContactIsReleased_Private(Interface p, const Contact *c)
 /* insert.c: as MatSetValues, of contact: values in the diagonal block. */
 PetscErrorCode ContactInsert_Private(Mat, PetscInt num_rows, const PetscInt rows[], PetscInt num_columns, const PetscInt columns[], const PetscReal K[],
                                      InsertMode);
-/* tangent.c: a facet's Hessian, added; the gradient of node j's gap, normalised or not, times a factor, in work_index and work_value. */
+/* tangent.c: a facet's Hessian, added; the gradient of a row of node j in work_index and work_value; its row, with its columns in the symmetric form. */
 PetscErrorCode ContactFacetHessian_Private(Interface, const InterfaceSystem *, const Contact *, const ContactFacet *);
-PetscErrorCode ContactNodeGradient_Private(Interface, const Contact *, PetscInt j, PetscReal factor, PetscBool normalised, PetscInt *num);
+PetscErrorCode ContactNodeGradient_Private(Interface, const Contact *, PetscInt j, const ContactRow *, PetscInt *num);
+PetscErrorCode ContactInsertRow_Private(Interface, const InterfaceSystem *, const Contact *, PetscInt j, const ContactRow *);
+/* Node j as its law sees it. */
+static inline ContactPoint ContactPoint_Private(const Contact *c, PetscInt j, PetscReal lift)
+{
+  return (ContactPoint){c->spec, c->active[j], {c->z[j]}, c->gap[j], c->weight[j], c->spring[j], c->w0[j], c->c[j], lift};
+}
 /* Change of every owned node's weighted gap, at fixed measure, under a local array of increments. Collective. */
 PetscErrorCode          ContactChange_Private(Interface, Contact *, const PetscReal increment[], PetscReal change[]);
 static inline PetscBool ContactCovered_Private(const Contact *c, PetscInt j)
@@ -212,24 +251,12 @@ static inline PetscReal ContactOverlap_Private(const Contact *c, PetscInt j)
 }
 /* firsttouch.c: the overlap from which on nodes join the active set, of a pair that has borne nothing yet. Collective. */
 PetscErrorCode ContactLeastOverlap_Private(Interface, const Contact *, PetscReal *least);
-/* What the row of an active node is made of: (gt + K z) / Q, Q = w + c K, so that it stays of the size of a gap however small w is. */
-static inline PetscReal ContactRowMeasure_Private(const Contact *c, PetscInt j)
-{
-  return c->weight[j] + c->c[j] * c->spring[j];
-}
-static inline PetscReal ContactRowGap_Private(const Contact *c, PetscInt j)
-{
-  return c->gap[j] + c->spring[j] * c->z[j];
-}
 /* slidelimit.c: which translations the supports of both sides' bodies leave free. */
 PetscErrorCode ContactFreedom_Private(Interface, Contact *);
 /* carrier.c: w0, extent and c of the nodes; which of them carry a multiplier. */
 PetscErrorCode ContactNodeScales_Private(Interface, Contact *);
 PetscErrorCode ContactCarriers_Private(Interface, Contact *);
 PetscReal      SurfaceFacetMeasure_Private(const Surface *, PetscInt facet, PetscBool axisymmetric);
-/* couple.c: factors of grad w and of grad area in a facet's part of a row's derivative, [grad gt - mean grad w + along grad area]; as a row of an active node,
-   or (row false) of the forces by z_j. */
-void ContactRowFactors_Private(const Contact *, const ContactFacet *, PetscInt k, PetscBool row, PetscReal *mean, PetscReal *along);
 /* pattern.c: room in the matrix for what facets may meet until the next search. */
 /* Rows of the matrix of everything in the pattern of one facet, dofs[ContactPatternSize_Private]; returns their number. */
 PetscInt ContactPatternDofs_Private(const Contact *, PetscInt facet, PetscInt dofs[]);

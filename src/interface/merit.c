@@ -160,18 +160,12 @@ PetscErrorCode InterfaceMeritHessians(Interface p, const InterfaceSystem *a)
 }
 
 /* Rows and columns of the multipliers of this rank: c_j b_j of those that press, each times -1, and the diagonal. */
-static PetscErrorCode Rows_Private(Interface p, const InterfaceSystem *a, Contact *c, PetscReal factor)
+static PetscErrorCode Rows_Private(Interface p, const InterfaceSystem *a, const Contact *c, PetscReal factor)
 {
-  PetscInt num, at;
-
   PetscFunctionBegin;
   for (PetscInt j = 0; j < c->side[0].num_nodes; ++j) {
-    if (c->zlocal[j] < 0) continue;
-    PetscCall(ContactNodeGradient_Private(p, c, j, c->active[j] ? -c->c[j] : 0, PETSC_TRUE, &num));
-    PetscCall(PetscFindInt(c->zdof[j], num, p->work_index, &at));
-    p->work_value[at] = -c->c[j] * (c->active[j] ? c->weight[j] / factor : c->w0[j]);
-    PetscCall(ContactInsert_Private(a->matrix, 1, &c->zdof[j], num, p->work_index, p->work_value, INSERT_VALUES));
-    PetscCall(ContactInsert_Private(a->matrix, num, p->work_index, 1, &c->zdof[j], p->work_value, INSERT_VALUES));
+    const ContactRow open = {.z = {-c->w0[j]}}, pressed = {.factor = -c->c[j], .mean = c->gap[j] / c->weight[j], .z = {-c->weight[j] / factor}};
+    if (c->zlocal[j] >= 0) PetscCall(ContactInsertRow_Private(p, a, c, j, c->active[j] ? &pressed : &open));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -103,9 +103,7 @@ static PetscErrorCode Blocks_Private(Interface p, const InterfaceSystem *a, Cont
     for (PetscInt k = 0; k < e->num_rows && !a->symmetric; ++k) {
       const PetscInt z = c->zdof[e->nodes[k]];
       if (z < 0 || !c->near[e->nodes[k]]) continue;
-      PetscReal mean, along;
-      ContactRowFactors_Private(c, e, k, PETSC_FALSE, &mean, &along);
-      for (PetscInt i = 0; i < n; ++i) p->work_value[i] = (e->push ? -e->push[k * n + i] : -e->dgap[k * n + i]) + mean * e->dweight[k * n + i];
+      for (PetscInt i = 0; i < n; ++i) p->work_value[i] = e->push ? -e->push[k * n + i] : -e->dgap[k * n + i];
       for (PetscInt b = 0; b < e->num; ++b) Turn_Private(dim, Frame_Private(c, e->nodes[b]), p->work_value + dim * b, 1);
       PetscCall(ContactInsert_Private(a->matrix, n, p->work_index, 1, &z, p->work_value, ADD_VALUES));
     }
@@ -129,13 +127,12 @@ static PetscInt RowSize_Private(const Contact *c, PetscInt j)
   return num;
 }
 
-/* Collects the gradient of node j's normalised gap, times a factor, from its facets, in work_index and work_value: over the whole pattern, sorted indices, so
-   that a switch leaves nothing of another form behind. normalised false: the plain derivative of the forces by z_j. */
-PetscErrorCode ContactNodeGradient_Private(Interface p, const Contact *c, PetscInt j, PetscReal factor, PetscBool normalised, PetscInt *num)
+/* Collects the gradient of a row of node j from its facets: over the whole pattern, sorted indices, so that a switch leaves nothing of another form behind. */
+PetscErrorCode ContactNodeGradient_Private(Interface p, const Contact *c, PetscInt j, const ContactRow *form, PetscInt *num)
 {
   const Surface *s   = &c->side[0];
   const PetscInt dim = p->dim;
-  PetscReal      mean, along, *values;
+  PetscReal     *values;
   PetscInt       at, *dofs;
 
   PetscFunctionBegin;
@@ -147,7 +144,7 @@ PetscErrorCode ContactNodeGradient_Private(Interface p, const Contact *c, PetscI
   dofs[(*num)++] = c->zdof[j];
   PetscCall(PetscSortRemoveDupsInt(num, dofs));
   PetscCall(PetscArrayzero(values, *num));
-  for (PetscInt k = s->node_first[j]; factor != 0 && k < s->node_first[j + 1]; ++k) {
+  for (PetscInt k = s->node_first[j]; form->factor != 0 && k < s->node_first[j + 1]; ++k) {
     const PetscInt facet = s->node_facet[k];
     if (c->result[facet] < 0) continue;
     const ContactFacet *e   = &c->facets[c->result[facet]];
@@ -155,60 +152,62 @@ PetscErrorCode ContactNodeGradient_Private(Interface p, const Contact *c, PetscI
     PetscInt            row = 0;
     while (row < e->num_rows && e->nodes[row] != j) ++row;
     if (row == e->num_rows || !e->dgap) continue;
-    const PetscReal *gradient = (!normalised && e->push ? e->push : e->dgap) + row * n;
-    ContactRowFactors_Private(c, e, row, normalised, &mean, &along);
+    const PetscReal *gradient = (form->push && e->push ? e->push : e->dgap) + row * n;
+    const PetscReal  along    = e->spring ? e->stiffening[row] * form->along : 0;
     for (PetscInt a = 0; a < e->num; ++a) {
       const Surface *side = &c->side[NODE_SIDE(e->nodes[a])];
       const PetscInt node = NODE_INDEX(e->nodes[a]);
       PetscReal      g[3] = {0, 0, 0};
       for (PetscInt d = 0; d < dim; ++d)
-        g[d] = gradient[dim * a + d] - mean * e->dweight[row * n + dim * a + d] + (along != 0 ? along * e->darea[dim * a + d] : 0);
+        g[d] = gradient[dim * a + d] - form->mean * e->dweight[row * n + dim * a + d] + (along != 0 ? along * e->darea[dim * a + d] : 0);
       Turn_Private(dim, Frame_Private(c, e->nodes[a]), g, 1);
       for (PetscInt d = 0; d < dim; ++d) {
         if (side->dof[dim * node + d] < 0) continue;
         PetscCall(PetscFindInt(side->dof[dim * node + d], *num, dofs, &at));
         PetscCheck(at >= 0, PETSC_COMM_SELF, PETSC_ERR_PLIB, "contact node outside the pattern of its facet");
-        values[at] += factor * g[d];
+        values[at] += form->factor * g[d];
       }
     }
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Row of node j. Exact form: w0 c / w_j (grad gt_j - gt_j/w_j grad w_j) when active, w0 on the diagonal when not. Symmetric form: minus the normalised gradient
-   as row *and* column when active, -w0/c on the diagonal when not; its column differs from -grad gt_j by gt_j times the change of z_j, small of second order.
-   There z_j = c_j times the unknown, and the row is c_j times that: a force by a length, as those of the displacements are, so that one norm over all rows
-   means the same in every unit. */
-static PetscErrorCode InsertRow_Private(Interface p, const InterfaceSystem *a, Contact *c, PetscInt j)
+/* Row of node j, in the symmetric form its column as well: that differs from -grad gt_j by gt_j times the change of z_j, small of second order. There z_j = c_j
+   times the unknown, and the row is c_j times that: a force by a length, as those of the displacements are, so that one norm over all rows means the same in
+   every unit. */
+PetscErrorCode ContactInsertRow_Private(Interface p, const InterfaceSystem *a, const Contact *c, PetscInt j, const ContactRow *row)
 {
-  const PetscReal active = a->symmetric ? -c->c[j] : c->active[j] ? c->w0[j] * c->c[j] / ContactRowMeasure_Private(c, j) : 0;
-  PetscInt        num, at;
+  PetscInt num, at;
 
   PetscFunctionBegin;
-  PetscCall(ContactNodeGradient_Private(p, c, j, c->active[j] ? active : 0, PETSC_TRUE, &num));
+  PetscCall(ContactNodeGradient_Private(p, c, j, row, &num));
   PetscCall(PetscFindInt(c->zdof[j], num, p->work_index, &at));
-  p->work_value[at] = c->active[j] ? active * c->spring[j] : a->symmetric ? -c->w0[j] : c->w0[j];
-  if (a->symmetric) p->work_value[at] *= c->c[j];
+  p->work_value[at] = a->symmetric ? row->z[0] * c->c[j] : row->z[0];
   PetscCall(ContactInsert_Private(a->matrix, 1, &c->zdof[j], num, p->work_index, p->work_value, INSERT_VALUES));
   if (a->symmetric) PetscCall(ContactInsert_Private(a->matrix, num, p->work_index, 1, &c->zdof[j], p->work_value, INSERT_VALUES));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Right-hand side of multiplier row j in the form of its row. Symmetric form, inactive: the known change -z_j of the multiplier goes to the forces
-   (share: 1 to put it there, -1 to take it back). */
-static PetscReal RowSide_Private(const InterfaceSystem *a, const Contact *c, PetscInt j)
+static PetscErrorCode InsertRow_Private(Interface p, const InterfaceSystem *a, const Contact *c, PetscInt j)
 {
-  if (!a->symmetric) return -c->w0[j] * (c->active[j] ? c->c[j] * (ContactRowGap_Private(c, j) + c->lift[j]) / ContactRowMeasure_Private(c, j) : c->z[j]);
-  return c->active[j] ? c->c[j] * (ContactRowGap_Private(c, j) + c->lift[j]) : c->w0[j] * c->z[j];
+  const ContactPoint point = ContactPoint_Private(c, j, 0);
+  ContactRow         row;
+
+  PetscFunctionBegin;
+  c->law->rows(&point, a->symmetric, &row);
+  PetscCall(ContactInsertRow_Private(p, a, c, j, &row));
+  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Symmetric form, inactive: the known change -z_j of the multiplier goes to the forces (share: 1 to put it there, -1 to take it back). */
 static PetscErrorCode InactiveShift_Private(Interface p, const InterfaceSystem *a, Contact *c, PetscInt j, PetscReal share, Vec rhs)
 {
-  PetscInt num, at;
+  const ContactRow forces = {.factor = -share * c->z[j], .push = PETSC_TRUE};
+  PetscInt         num, at;
 
   PetscFunctionBegin;
   if (!a->symmetric || ContactIsReleased_Private(p, c) || c->z[j] == 0 || !c->near[j]) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(ContactNodeGradient_Private(p, c, j, -share * c->z[j], PETSC_FALSE, &num));
+  PetscCall(ContactNodeGradient_Private(p, c, j, &forces, &num));
   PetscCall(PetscFindInt(c->zdof[j], num, p->work_index, &at));
   p->work_value[at] = 0;
   PetscCall(VecSetValues(rhs, num, p->work_index, p->work_value, ADD_VALUES));
@@ -223,9 +222,13 @@ static PetscErrorCode RowSides_Private(Interface p, const InterfaceSystem *a, Ve
   PetscFunctionBegin;
   PetscCall(VecGetArray(rhs, &b));
   for (PetscInt i = 0; i < p->num_contacts; ++i) {
-    Contact *c = &p->contacts[i];
+    const Contact *c = &p->contacts[i];
     for (PetscInt j = 0; j < c->side[0].num_nodes; ++j) {
-      if (c->zlocal[j] >= 0) b[c->zlocal[j] - p->num_inner] = RowSide_Private(a, c, j);
+      const ContactPoint point = ContactPoint_Private(c, j, c->lift[j]);
+      ContactRow         row;
+      if (c->zlocal[j] < 0) continue;
+      c->law->rows(&point, a->symmetric, &row);
+      b[c->zlocal[j] - p->num_inner] = row.side;
     }
   }
   PetscCall(VecRestoreArray(rhs, &b));
@@ -281,8 +284,10 @@ static PetscErrorCode Switch_Private(Interface p, const InterfaceSystem *a, Cont
   for (PetscInt i = 0; i < s->num_own; ++i) {
     const PetscInt j = s->own[i];
     if (c->zlocal[j] < 0 || !c->near[j] || !ContactCovered_Private(c, j)) continue;
-    const PetscReal pushed = c->z[j] + dx[c->zlocal[j]] - c->c[j] * (c->gap[j] + c->change[j]) / c->weight[j];
-    const PetscBool active = (PetscBool)(pushed > 0);
+    ContactPoint point = ContactPoint_Private(c, j, 0);
+    point.z[0] += dx[c->zlocal[j]];
+    point.gap += c->change[j];
+    const int8_t active = c->law->state(&point);
     if (active == c->active[j] || (active && ContactOverlap_Private(c, j) < least)) continue;
     c->active[j] = active;
     ++*num;
