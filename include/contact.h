@@ -41,20 +41,24 @@ typedef struct {
   const PetscBool *has;
 } ContactSurface;
 
+typedef enum { CONTACT_FRICTIONLESS, CONTACT_PENALTY } ContactLaw; /* in the order of the table of laws */
+
 typedef struct {
-  char      name[MORTISE_NAME];
-  PetscInt  nonmortar, mortar; /* boundary groups */
-  PetscBool exchanged;         /* the scene names them the other way round, figures are of the sides as the scene names them */
-  PetscReal friction;          /* 0 here: anything else is an input error until friction is built */
-  PetscBool full;              /* facets have the order of their cells; else order 1 */
-  PetscReal search;            /* search distance, in multiples of the larger edge length; default 0: automatic */
-  PetscBool node_to_segment;   /* comparison only */
-  PetscBool see_through;       /* comparison only: searches take far sides of bodies behind for overlaps */
-  PetscBool hold_lines;        /* comparison only: forces hold lines of the mortar side throughout (ContactPairHoldLines) */
-  PetscBool standard;          /* standard multipliers */
-  PetscBool adjust;            /* the gaps of the mesh at the reference positions count as closed */
-  PetscReal interference;      /* overlap at the reference positions, besides that of the geometry */
-  PetscBool subdivide_auto;    /* cells behind linear facets are subdivided as the estimate asks (estimate/layer.c) */
+  char       name[MORTISE_NAME];
+  PetscInt   nonmortar, mortar; /* boundary groups */
+  PetscBool  exchanged;         /* the scene names them the other way round, figures are of the sides as the scene names them */
+  ContactLaw law;               /* what its multipliers fulfil (interface/law/) */
+  PetscReal  penalty;           /* law penalty: stiffness, pressure over overlap */
+  PetscReal  friction;          /* 0 here: anything else is an input error until friction is built */
+  PetscBool  full;              /* facets have the order of their cells; else order 1 */
+  PetscReal  search;            /* search distance, in multiples of the larger edge length; default 0: automatic */
+  PetscBool  node_to_segment;   /* comparison only */
+  PetscBool  see_through;       /* comparison only: searches take far sides of bodies behind for overlaps */
+  PetscBool  hold_lines;        /* comparison only: forces hold lines of the mortar side throughout (ContactPairHoldLines) */
+  PetscBool  standard;          /* standard multipliers */
+  PetscBool  adjust;            /* the gaps of the mesh at the reference positions count as closed */
+  PetscReal  interference;      /* overlap at the reference positions, besides that of the geometry */
+  PetscBool  subdivide_auto;    /* cells behind linear facets are subdivided as the estimate asks (estimate/layer.c) */
 } ContactSpec;
 
 /* Vector of a facet with these nodes, x[..][dim], outward and as long as its length or area: edge x the axis out of the plane; in space half the product of the

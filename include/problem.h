@@ -6,34 +6,10 @@
    (unit: force). Tangent: exact, active set as decided by the residual. The last rank's part ends with
    the scalars (scalar.c): pressures that are found, and pseudo-time where a path is followed. */
 #pragma once
+#include "interface.h"
 #include "scene.h"
 
 typedef struct _p_Problem *Problem;
-
-/* What is chosen, besides x: residual, gaps and tangent are functions of x and of this. Choices are made between Newton iterations (src/solve, its modifiers)
-   and set by one call (ProblemSetForm). Sets of contact pairs: bit i for pair i. Of the residual, and kept with its state: */
-typedef struct {
-  PetscBool frozen_segmentation; /* contact forces at held lines of the mortar side (ContactPairHoldLines) */
-  /* of a linearisation only: */
-  PetscBool    symmetric;      /* the tangent in its symmetric form, where there is one */
-  uint64_t     released;       /* pairs that take no part in the tangent, their multipliers go to 0 */
-  uint64_t     frozen_normals; /* pairs with tangents at fixed directions */
-  uint64_t     deepest_first;  /* pairs of which those nodes join the active set first that overlap the most */
-  MaterialEdge edge;           /* what tangents expect of points on their yield surface */
-  PetscReal    proximal;       /* share of the small stiffness of bodies that no support holds (MechanicsLoosen) */
-} Form;
-
-#define FORM_PAIRS 64 /* most contact pairs of a scene */
-
-static inline PetscBool FormHas(uint64_t pairs, PetscInt pair)
-{
-  return (PetscBool)((pairs >> pair) & 1);
-}
-/* The derivative itself, in its exact form. */
-static inline Form FormPlain(PetscBool frozen_segmentation)
-{
-  return (Form){.frozen_segmentation = frozen_segmentation, .edge = EDGE_AS_IT_IS};
-}
 
 /* Everything that evolves, besides the forest. */
 typedef struct {
@@ -128,85 +104,10 @@ PetscErrorCode ProblemIsFollowing(Problem, PetscBool *following);
 /* Time of a state: its unknown, or as set. Collective. */
 PetscErrorCode ProblemGetTime(Problem, Vec x, PetscReal *t);
 
-/* ---- contact: replicated topology, values where they are needed ------------------------------------------------------------ */
+/* ---- contact (interface.h) ---------------------------------------------------------------------------------------------------- */
 
-/* Tables of all nodes and facets of both sides are the same on every rank, and so is what belongs to the mesh. Values of the last evaluation are not: each rank
-   has them at nodes it owns, at the nodes of its own facets (those of its leaves), and at those that its facets in contact depend on. Other entries are NaN;
-   ProblemGatherContactToAll knows all. */
-
-typedef struct {
-  PetscInt         dim, corners; /* of a facet: 2 or 4 */
-  PetscInt         num_nodes, num_facets;
-  const PetscInt  *node_entity;        /* [num_nodes] global vertex entity */
-  const PetscInt  *facets;             /* [num_facets][corners], body to the left; counterclockwise seen from outside */
-  const PetscInt  *facet_leaf;         /* [num_facets] */
-  const PetscInt  *facet_entity;       /* [num_facets] */
-  const PetscInt  *hang, *hang_master; /* [num_nodes+1] offsets: masters of a hanging node, in this table; empty: it does not hang */
-  const PetscReal *hang_weight;
-  const PetscReal *X;     /* [num_nodes][dim] */
-  const PetscReal *x;     /* [num_nodes][dim] at the last evaluation */
-  const PetscReal *force; /* [num_nodes][dim] contact force at the last residual, of owned nodes; none at hanging nodes */
-  const PetscBool *owned; /* [num_nodes] this rank answers for the node: sums over nodes run over these; hanging nodes belong to nobody */
-  const int8_t    *order; /* facets of higher order as in contact.h: their order and lattices of nodes; NULL: all are of order 1, their nodes the corners */
-  const PetscInt  *first, *lattice;
-} SurfaceView;
-
-#define SURFACE_MOST_NODES ((MORTISE_MAX_ORDER + 1) * (MORTISE_MAX_ORDER + 1)) /* of a facet */
-
-/* Nodes that shape a facet, and their number: its corners, or its lattice. */
-static inline PetscInt SurfaceFacetNodes(const SurfaceView *s, PetscInt facet, const PetscInt **nodes)
-{
-  *nodes = s->order ? s->lattice + s->first[facet] : s->facets + s->corners * facet;
-  return s->order ? s->first[facet + 1] - s->first[facet] : s->corners;
-}
-/* Its order; 0: the nodes are the corners. */
-static inline PetscInt SurfaceFacetOrder(const SurfaceView *s, PetscInt facet)
-{
-  return s->order ? s->order[facet] : 0;
-}
-/* Functions of these nodes at xi[dim-1] in [-1, 1], N[...], and their derivatives by xi (NULL: not wanted). order 0: hats of the corners, counterclockwise;
-   else of the lattice, lexicographic. */
-void SurfaceShape(PetscInt dim, PetscInt order, const PetscReal xi[], PetscReal N[], PetscReal dN[][2]);
-/* Tangents by xi of a facet at nodal positions x[num_nodes][dim]; two dimensions: the second is the unit vector across. */
-void SurfaceTangents(const SurfaceView *, PetscInt facet, const PetscReal x[], const PetscReal xi[], PetscReal tangent[2][3]);
-
-typedef struct {
-  const ContactSpec *spec;
-  SurfaceView        nonmortar, mortar;
-  const PetscReal   *z, *gap, *weight; /* [nonmortar.num_nodes] multiplier, gt_j, w_j at the last evaluation */
-  const PetscBool   *active;           /* [nonmortar.num_nodes] as the residual decided */
-  const PetscBool   *has_multiplier;   /* [nonmortar.num_nodes]; hanging nodes: no, their z is interpolated */
-  ContactPair        pair;             /* segments of this rank's nonmortar facets */
-  const PetscReal   *normal;           /* [nonmortar.num_nodes][dim] of views gathered to all; else NULL: ContactPairGetNormals */
-  PetscReal          area, min_gap;    /* totals over ranks */
-  PetscInt           unusable;         /* overlaps at the last evaluation that could not be used: facets folded over in the other's view */
-  PetscReal          adjusted;         /* largest mean initial gap, over or under, that was closed at a node (initial_gap: adjust) */
-} ContactView;
-
-PetscErrorCode ProblemGetContact(Problem, PetscInt pair, const ContactView **);
-/* The same with the values of all nodes (forces too) and `normal` on every rank: one reduction over both surfaces, for output and the like. They stay valid
-   until the next call for this pair. Collective. */
-PetscErrorCode ProblemGatherContactToAll(Problem, PetscInt pair, const ContactView **view);
-/* Multipliers and (NULL: not wanted) nodal normals and positions of the last evaluation at wanted[nonmortar.num_nodes] nodes, from the ranks that know them:
-   z[nonmortar num_nodes], normal[..][dim], x[..][dim], NaN at others. Collective. */
-PetscErrorCode ProblemFetchContact(Problem, PetscInt pair, const PetscBool wanted[], PetscReal z[], PetscReal normal[], PetscReal x[]);
-/* What contact has sent from this rank since the problem was created. Values: between searches; search: positions and lists of facets, sent where boxes meet.
-   Boxes of ranks and scalars, which all ranks reduce, are left out. */
-typedef struct {
-  PetscInt  evaluations, searches, messages, search_messages;
-  PetscReal bytes, search_bytes, seconds; /* seconds: wall time in the exchange of values, waiting included */
-} ContactTraffic;
-PetscErrorCode ProblemGetTraffic(Problem, ContactTraffic *);
-/* Set the multipliers of a pair from values[nonmortar.num_nodes] in x: each rank those of its own nodes. */
-PetscErrorCode ProblemSetMultipliers(Problem, PetscInt pair, const PetscReal z[], Vec x);
-/* The opposite: values of this rank's own nodes from x, z[nonmortar.num_nodes]; others and nodes without multiplier stay as they are. Not collective.
-   own[nonmortar.num_nodes] (NULL: not wanted): which these are. */
-PetscErrorCode ProblemGetMultipliers(Problem, PetscInt pair, Vec x, PetscReal z[], PetscBool own[]);
-/* What room facets of a pair have been given in the matrix so far: facet f for nodes node[first[f] .. first[f+1]), mortar ones as ~node; borrowed, of facets
-   evaluated on this rank; first NULL: none yet. Set: that room again, of all facets of the pair (those evaluated elsewhere are not looked at); the matrix is
-   made anew when next asked for. Not collective. */
-PetscErrorCode ProblemGetPattern(Problem, PetscInt pair, const PetscInt **first, const PetscInt **node);
-PetscErrorCode ProblemSetPattern(Problem, PetscInt pair, const PetscInt first[], const PetscInt node[]);
+/* All contact pairs of the problem. Not collective. */
+Interface ProblemInterface(Problem);
 /* The candidate search at x; between Newton iterations only. */
 PetscErrorCode ProblemSearch(Problem, Vec x);
 
@@ -250,13 +151,6 @@ PetscErrorCode ProblemRightSide(Problem, Vec r, Vec lift, Vec rhs);
 PetscErrorCode ProblemSwitchActiveSet(Problem, Vec dx, Vec rhs, PetscInt *changed);
 /* ---- what a form may be chosen by, at the last residual. All collective ---- */
 
-/* Pairs (of those not released) whose active set of the last linear step moves along the surface, while prescribed motion is still to come and kinematics are
-   finite: gaps linearised at the old place say little of the new one. */
-PetscErrorCode ProblemFindSliding(Problem, uint64_t *pairs);
-/* Pairs whose open gaps under pressure are too wide, against their facets, for the turning of directions to mean anything; and those without pressure. */
-PetscErrorCode ProblemFindWide(Problem, uint64_t *pairs);
-/* Pairs that have borne nothing yet. */
-PetscErrorCode ProblemFindUntouched(Problem, uint64_t *pairs);
 /* Are there facets under pressure whose forces frozen segmentation would change? Under viscous regularisation: no. */
 PetscErrorCode ProblemMayFreezeSegmentation(Problem, PetscBool *yes);
 /* At the start of a step, where dx is the linear step there: would most points on their yield surface leave it? */
@@ -266,8 +160,6 @@ PetscErrorCode ProblemUnloads(Problem, Vec x, Vec dx, PetscBool *yes);
    solution of the matrix is its slide. Not while prescribed motion is still to come. */
 PetscErrorCode ProblemFindSlide(Problem, Vec dx, Vec force, PetscReal *excess);
 
-/* A number that tells active sets of this problem apart, the same on every rank. Collective. */
-PetscErrorCode ProblemActiveSetHash(Problem, uint64_t *hash);
 /* A Newton step: Begin remembers where it starts; Move sets x = start + step dx and the prescribed motion likewise (may be called again with a shorter step)
    and refreshes the contact search; Accept updates the element pressures for the step taken. */
 PetscErrorCode ProblemStepBegin(Problem, Vec x, Vec dx);
@@ -312,9 +204,6 @@ PetscErrorCode ProblemProlongation(Problem, Mat *prolongation, Mat *pinned, MatN
    incompressible cells), less those that condensation met at the last tangent. Collective. */
 PetscErrorCode ProblemNumNegative(Problem, PetscInt *num);
 PetscErrorCode ProblemNumDofs(Problem, PetscInt *free_dofs); /* global: u, z and pi */
-/* The deepest overlap of a pair's sides, at the reference positions or where they are now, that the search passes over since it cannot tell it from the far
-   side of a body behind; 0: none. The next solve searches anew. Collective. */
-PetscErrorCode ProblemUntoldOverlap(Problem, PetscInt pair, PetscBool reference, PetscReal *depth);
 /* Is there a body that supports do not hold? Not collective. */
 PetscErrorCode ProblemHasFreeBody(Problem, PetscBool *yes);
 /* Axes along which no support holds the body or any that is joined to it: bit c for axis c; turns: it is held along all, and can turn. Not collective. */

@@ -37,7 +37,7 @@ static PetscErrorCode TellOverlap_Private(const App *app, PetscInt pair, PetscBo
   PetscReal          depth;
 
   PetscFunctionBegin;
-  PetscCall(ProblemUntoldOverlap(app->level.problem, pair, reference, &depth));
+  PetscCall(InterfaceUntoldOverlap(ProblemInterface(app->level.problem), pair, reference, &depth));
   if (depth > 0)
     PetscCall(PetscPrintf(app->comm,
                           "note: the sides of pair %s overlap by %.4g%s, more than half of what both bodies measure there: that is taken for the far side of a "

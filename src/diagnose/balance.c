@@ -238,7 +238,7 @@ PetscErrorCode BalanceCompute(Problem problem, const State *state, Balance *b)
   PetscCall(PetscMalloc1(b->num_contacts, &view));
   PetscCall(ProblemForces(problem, state, b->reaction, NULL, NULL, &b->status));
   for (PetscInt i = 0; i < b->num_contacts; ++i) {
-    PetscCall(ProblemGetContact(problem, i, &view[i]));
+    PetscCall(InterfaceGetContact(ProblemInterface(problem), i, &view[i]));
     PetscCall(BalanceZone(ForestComm(forest), view[i], &b->pair[i]));
     PetscCall(
         Imbalance_Private(ForestComm(forest), scene->mechanics.model, (PetscBool)(scene->mechanics.kinematics == KINEMATICS_SMALL), view[i], &b->pair[i]));

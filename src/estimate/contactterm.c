@@ -100,7 +100,7 @@ static PetscErrorCode Fields_Private(Problem problem, PetscInt pair, const Fores
     for (PetscInt k = 0; k < count && facet[f]; ++k) wanted[node[k]] = PETSC_TRUE;
   }
   PetscCall(PetscMalloc3(s->num_nodes, &term->z, s->dim * s->num_nodes, &term->normal, s->dim * s->num_nodes, &term->x));
-  PetscCall(ProblemFetchContact(problem, pair, wanted, term->z, term->normal, term->x));
+  PetscCall(InterfaceFetchContact(ProblemInterface(problem), pair, wanted, term->z, term->normal, term->x));
   PetscCall(PetscFree2(wanted, facet));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -158,7 +158,7 @@ PetscErrorCode ContactTermsCreate_Private(Problem problem, ContactTerms *terms)
     ContactTerm    *term = &terms->terms[i];
     ContactSegment *all;
     PetscInt        num;
-    PetscCall(ProblemGetContact(problem, i, &term->view));
+    PetscCall(InterfaceGetContact(ProblemInterface(problem), i, &term->view));
     PetscCall(FacetPlaces_Private(t, &term->view->nonmortar, &term->facet_place[0]));
     PetscCall(FacetPlaces_Private(t, &term->view->mortar, &term->facet_place[1]));
     PetscCall(GatherSegments_Private(ForestComm(forest), t, term->view, &num, &all));

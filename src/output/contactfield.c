@@ -250,7 +250,7 @@ PetscErrorCode OutputProjectFields(Problem problem, PetscInt pair, const Contact
 
   PetscFunctionBegin;
   PetscCall(ProblemGetForest(problem, &forest));
-  PetscCall(ProblemGetContact(problem, pair, &v));
+  PetscCall(InterfaceGetContact(ProblemInterface(problem), pair, &v));
   const PetscInt n = v->mortar.num_nodes;
   PetscCall(PetscCalloc1(NUM_SUMS * n, &sums));
   PetscCall(Sums_Private(problem, v, from, sums));

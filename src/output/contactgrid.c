@@ -111,7 +111,7 @@ static PetscErrorCode AppendPair_Private(ContactGrid *g, Problem problem, PetscI
 
   PetscFunctionBegin;
   PetscCall(ProblemGetScene(problem, &scene));
-  PetscCall(ProblemGatherContactToAll(problem, pair, &v));
+  PetscCall(InterfaceGatherContactToAll(ProblemInterface(problem), pair, &v));
   for (PetscInt side = 0; side < 2; ++side) {
     const SurfaceView *s  = side ? &v->mortar : &v->nonmortar;
     const PetscInt     at = AppendSurface_Private(g, s, pair, side);
@@ -134,7 +134,7 @@ static PetscErrorCode WriteSurfaces_Private(Writer writer, Problem problem, Pets
 
   PetscFunctionBegin;
   for (PetscInt i = 0; i < num_contacts; ++i) {
-    PetscCall(ProblemGetContact(problem, i, &v));
+    PetscCall(InterfaceGetContact(ProblemInterface(problem), i, &v));
     g.corners = v->nonmortar.corners;
     points += v->nonmortar.num_nodes + v->mortar.num_nodes;
     facets += AllPieces_Private(&v->nonmortar) + AllPieces_Private(&v->mortar);

@@ -86,7 +86,7 @@ static PetscErrorCode Collect_Private(Problem problem, PetscInt dim, SegmentGrid
   const PetscBool small = (PetscBool)(scene->mechanics.kinematics == KINEMATICS_SMALL);
   g->num_points = g->num_cells = 0;
   for (PetscInt i = 0; i < scene->num_contacts; ++i) {
-    PetscCall(ProblemGetContact(problem, i, &v));
+    PetscCall(InterfaceGetContact(ProblemInterface(problem), i, &v));
     PetscCall(ContactPairGetSegments(v->pair, &num, &segment));
     for (PetscInt s = 0; s < num; ++s) {
       if (t->leaf_rank[v->nonmortar.facet_leaf[segment[s].facet]] != rank) continue;

@@ -2,16 +2,14 @@
    the first of every rank's part of the problem's vector, since the space numbers them by cells, vertices, faces, edges: what the matrix knows is its tail. */
 #include "problemimpl.h"
 
-/* Numbers of the unknowns in the matrix: row, side[].dof, zdof, from those in the vector. */
+/* Numbers of the unknowns in the matrix from those in the vector. */
 PetscErrorCode ProblemRows_Private(Problem p)
 {
-  const HPTables     *v;
-  const ForestTables *t;
-  PetscInt           *inner, *counts;
+  const HPTables *v;
+  PetscInt       *inner, *counts;
 
   PetscFunctionBegin;
   PetscCall(HPSpaceGetTables(p->space, &v));
-  PetscCall(ForestGetTables(p->forest, &t));
   p->num_inner = 0;
   for (PetscInt i = 0; i < v->point_node[v->num_owned_cells] * p->dim && p->condensed; ++i) {
     if (p->index[i] < 0) continue;
@@ -35,16 +33,8 @@ PetscErrorCode ProblemRows_Private(Problem p)
     p->row[i] = p->index[i] - p->p_start[r] - inner[r] + p->row_start[r];
   }
   PetscCall(PressureRowNumbers_Private(p, inner));
-  PetscCall(ContactNumber_Private(p, counts));
-  for (PetscInt i = 0; i < p->num_contacts; ++i) {
-    Contact *c = &p->contacts[i];
-    for (PetscInt n = 0; n < c->side[0].num_nodes; ++n) {
-      const PetscMPIInt r = t->leaf_rank[t->entity_leaf[c->side[0].node_entity[n]]];
-      if (c->zdof[n] >= 0) c->zdof[n] += p->row_start[r] - inner[r];
-    }
-    PetscCall(SurfaceIndices_Private(p, &c->side[0]));
-    PetscCall(SurfaceIndices_Private(p, &c->side[1]));
-  }
+  for (PetscMPIInt r = 0; r < p->size; ++r) inner[r] = p->row_start[r] - inner[r];
+  PetscCall(InterfaceSetRows(p->interface, counts, inner, p->row, p->num_inner));
   PetscCall(PetscFree2(inner, counts));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -113,7 +103,7 @@ PetscErrorCode ProblemRecover(Problem p, Vec y, Vec dx)
   PetscCall(VecGetArray(dx, &to));
   PetscCall(PetscArrayzero(to, p->num_inner));
   PetscCall(PetscArraycpy(to + p->num_inner, from, p->num_rows));
-  ContactScaleIncrement_Private(p, to);
+  if (p->symmetric) InterfaceScaleIncrement(p->interface, to);
   PetscCall(VecRestoreArray(dx, &to));
   PetscCall(VecRestoreArrayRead(y, &from));
   if (!p->condensed) PetscFunctionReturn(PETSC_SUCCESS);

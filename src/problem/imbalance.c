@@ -4,13 +4,6 @@
    are split follow a curved boundary more closely, and gaps change by the height of the arc over a face. Forces and gaps are therefore taken note of alike. */
 #include "problemimpl.h"
 
-/* The constant by which the gap of a node contradicts its pressure: all of the gap where it presses, what lies over the other side where it does not. */
-static PetscReal Misfit_Private(const Contact *c, PetscInt j)
-{
-  if (!c->has_multiplier[j] || !ContactCovered_Private(c, j)) return 0;
-  return ContactPressed_Private(c, j) ? ContactRowGap_Private(c, j) : PetscMin(c->gap[j], 0);
-}
-
 PetscErrorCode ProblemNoteImbalance(Problem p, Vec x, PetscBool *usable)
 {
   ProblemStatus status;
@@ -26,10 +19,7 @@ PetscErrorCode ProblemNoteImbalance(Problem p, Vec x, PetscBool *usable)
   PetscCall(VecGetArray(p->imbalance, &r));
   PetscCall(PetscArrayzero(r + p->num_u, num - p->num_u)); /* other rows: by the gaps, or not at all */
   PetscCall(VecRestoreArray(p->imbalance, &r));
-  for (PetscInt i = 0; i < p->num_contacts; ++i) {
-    Contact *c = &p->contacts[i];
-    for (PetscInt k = 0; k < c->side[0].num_own; ++k) c->misfit[c->side[0].own[k]] = Misfit_Private(c, c->side[0].own[k]);
-  }
+  PetscCall(InterfaceNoteMisfit(p->interface));
   *usable = (PetscBool)!status.bad;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -37,13 +27,7 @@ PetscErrorCode ProblemNoteImbalance(Problem p, Vec x, PetscBool *usable)
 PetscErrorCode ProblemLeaveImbalance(Problem p, PetscReal share)
 {
   PetscFunctionBegin;
-  for (PetscInt i = 0; i < p->num_contacts; ++i) {
-    Contact *c = &p->contacts[i];
-    for (PetscInt k = 0; k < c->side[0].num_own; ++k) {
-      const PetscInt j = c->side[0].own[k];
-      c->offset[j] += (share - p->share) * c->misfit[j];
-    }
-  }
+  PetscCall(InterfaceLeaveMisfit(p->interface, share));
   p->share = share;
   PetscFunctionReturn(PETSC_SUCCESS);
 }

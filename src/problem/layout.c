@@ -26,7 +26,7 @@ PetscErrorCode ProblemLayout_Private(Problem p)
   PetscCallMPI(MPI_Allgather(&p->num_u, 1, MPIU_INT, counts, 1, MPIU_INT, p->comm));
   p->u_start[0] = 0;
   for (PetscMPIInt r = 0; r < p->size; ++r) p->u_start[r + 1] = p->u_start[r] + counts[r];
-  PetscCall(ContactNumber_Private(p, counts)); /* appends the multipliers of each rank */
+  PetscCall(InterfaceNumber(p->interface, counts)); /* appends the multipliers of each rank */
   p->num_z = counts[p->rank] - p->num_u;
   PetscCall(PressureNumber_Private(p, counts));
   counts[p->size - 1] += p->num_scalars;
@@ -133,44 +133,6 @@ static PetscErrorCode BulkPattern_Private(Problem p, PetscInt diagonal[], PetscI
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Upper bound of the contact entries, counted; without counters they are written as explicit zeros. */
-static PetscErrorCode ContactPattern_Private(Problem p, PetscInt diagonal[], PetscInt other[])
-{
-  PetscInt  *dofs, most = 0;
-  PetscReal *zeros;
-
-  PetscFunctionBegin;
-  for (PetscInt i = 0; i < p->num_contacts; ++i) {
-    for (PetscInt e = 0; e < p->contacts[i].side[0].num_facets; ++e) most = PetscMax(most, ContactPatternSize_Private(&p->contacts[i], e));
-  }
-  PetscCall(PetscMalloc1(most, &dofs));
-  for (PetscInt i = 0; i < p->num_contacts; ++i) {
-    const Contact *c = &p->contacts[i];
-    for (PetscInt e = 0; e < c->side[0].num_facets && c->pattern_offset; ++e) {
-      const PetscInt num = ContactPatternDofs_Private(c, e, dofs);
-      if (!diagonal) {
-        PetscCall(PetscSortInt(num, dofs)); /* new entries then move those behind them less */
-        PetscCall(PetscCalloc1(num * num, &zeros));
-        PetscCall(MatSetValues(p->matrix, num, dofs, num, dofs, zeros, ADD_VALUES));
-        PetscCall(PetscFree(zeros));
-        continue;
-      }
-      for (PetscInt a = 0; a < num; ++a) {
-        const PetscInt row = dofs[a] - p->first_row;
-        if (row < 0 || row >= p->num_rows) continue;
-        for (PetscInt b = 0; b < num; ++b) {
-          if (dofs[b] >= p->first_row && dofs[b] < p->first_row + p->num_rows)
-            ++diagonal[row];
-          else
-            ++other[row];
-        }
-      }
-    }
-  }
-  PetscCall(PetscFree(dofs));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 PetscErrorCode ProblemMatrix_Private(Problem p)
 {
   const PetscInt rows = p->num_rows;
@@ -181,7 +143,7 @@ PetscErrorCode ProblemMatrix_Private(Problem p)
   PetscCall(PetscCalloc2(rows, &diagonal, rows, &other));
   PetscCall(BulkPattern_Private(p, diagonal, other));
   PetscCall(PressurePattern_Private(p, diagonal, other));
-  PetscCall(ContactPattern_Private(p, diagonal, other));
+  PetscCall(InterfacePattern(p->interface, NULL, p->first_row, p->num_rows, diagonal, other));
   PetscCall(ScalarsPattern_Private(p, diagonal, other));
   for (PetscInt i = 0; i < rows; ++i) {
     diagonal[i] = PetscMin(diagonal[i] + 1, rows);
@@ -196,14 +158,8 @@ PetscErrorCode ProblemMatrix_Private(Problem p)
   PetscCall(PetscFree2(diagonal, other));
   PetscCall(BulkPattern_Private(p, NULL, NULL));
   PetscCall(PressurePattern_Private(p, NULL, NULL));
-  PetscCall(ContactPattern_Private(p, NULL, NULL));
+  PetscCall(InterfacePattern(p->interface, p->matrix, p->first_row, p->num_rows, NULL, NULL));
   PetscCall(ScalarsPattern_Private(p, NULL, NULL));
-  for (PetscInt i = 0; i < p->num_contacts; ++i) {
-    const Contact *c = &p->contacts[i];
-    for (PetscInt j = 0; j < c->side[0].num_nodes; ++j) {
-      if (c->zlocal[j] >= 0) PetscCall(MatSetValue(p->matrix, c->zdof[j], c->zdof[j], 0.0, ADD_VALUES));
-    }
-  }
   PetscCall(MatAssemblyBegin(p->matrix, MAT_FINAL_ASSEMBLY));
   PetscCall(MatAssemblyEnd(p->matrix, MAT_FINAL_ASSEMBLY));
   PetscCall(PetscFree2(p->scatter_first, p->scatter));

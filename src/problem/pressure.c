@@ -198,10 +198,10 @@ static PetscErrorCode Sink_Private(void *context, PetscInt cell, PetscInt num_ro
     for (PetscInt k = 0; k < num; ++k) p->work_value[k] = form * b[k];
     PetscCall(MatSetValues(p->matrix, 1, &row, num, p->work_index, p->work_value, ADD_VALUES));
     PetscCall(MatSetValue(p->matrix, row, row, -form * hold[a], ADD_VALUES));
-    for (PetscInt k = 0; k < num && p->lifting; ++k) {
+    for (PetscInt k = 0; k < num && p->lift; ++k) {
       if (p->work_index[k] < 0) change += b[k] * p->increment[dofs[k]];
     }
-    if (p->lifting) PetscCall(VecSetValue(p->lift, row, scale * change, ADD_VALUES));
+    if (p->lift) PetscCall(VecSetValue(p->lift, row, scale * change, ADD_VALUES));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -1,4 +1,4 @@
-/* Life cycle of a problem, its vectors, prescribed motion, views. */
+/* Life cycle of a problem, its vectors, prescribed motion. */
 #include "problemimpl.h"
 
 PetscErrorCode ProblemInitialOrders(const SceneData *scene, Forest forest, int8_t **leaf_order)
@@ -70,10 +70,6 @@ PetscErrorCode ProblemCreate(const SceneData *scene, Forest forest, const int8_t
   PetscCall(ForestGetTables(forest, &t));
   p->dim = t->dim;
   ErrorAsked("%" PetscInt_FMT " cells", t->num_leaves);
-  for (PetscMPIInt k = 1; k < 4; ++k) {
-    PetscCallMPI(MPI_Type_contiguous(k, MPIU_REAL, &p->unit[k]));
-    PetscCallMPI(MPI_Type_commit(&p->unit[k]));
-  }
   PetscCall(PetscMalloc1(t->num_leaves, &p->leaf_order));
   PetscCall(PetscArraycpy(p->leaf_order, leaf_order, t->num_leaves));
   PetscCall(ProblemOrderCaps(scene, forest, &cap));
@@ -82,11 +78,7 @@ PetscErrorCode ProblemCreate(const SceneData *scene, Forest forest, const int8_t
   PetscCall(MechanicsSupportsCreate(p->space, &scene->mechanics, &p->supports));
   PetscCall(HPSpaceSetUp(p->space, p->supports.fixed, p->supports.num_frames, p->supports.frame_node, (const PetscReal(*)[9])p->supports.frame));
   PetscCall(MechanicsCreate(p->space, &scene->mechanics, &p->supports, &p->mechanics));
-  p->num_contacts = scene->num_contacts;
-  PetscCheckInput(p->num_contacts <= FORM_PAIRS, "%" PetscInt_FMT " contact pairs; at most %d are possible", p->num_contacts, FORM_PAIRS);
-  PetscCall(PetscCalloc1(p->num_contacts, &p->contacts));
-  if (p->num_contacts) PetscCall(HullCreate_Private(p));
-  for (PetscInt i = 0; i < p->num_contacts; ++i) PetscCall(ContactCreate_Private(p, &scene->contacts[i], &p->contacts[i]));
+  PetscCall(InterfaceCreate(p->space, p->mechanics, &scene->mechanics, p->supports.fixed, scene->num_contacts, scene->contacts, &p->interface));
   PetscCall(ProblemSetForm(p, &plain));
   PetscCall(Vectors_Private(p));
   PetscCall(ScalarsCreate_Private(p));
@@ -104,11 +96,7 @@ PetscErrorCode ProblemDestroy(Problem *problem)
 
   PetscFunctionBegin;
   if (!p) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(TrafficReport_Private(p));
-  for (PetscMPIInt k = 1; k < 4; ++k) PetscCallMPI(MPI_Type_free(&p->unit[k]));
-  for (PetscInt i = 0; i < p->num_contacts; ++i) PetscCall(ContactDestroy_Private(&p->contacts[i]));
-  PetscCall(PetscFree(p->contacts));
-  PetscCall(HullDestroy_Private(p));
+  PetscCall(InterfaceDestroy(&p->interface));
   PetscCall(PetscFree(p->leaf_order));
   PetscCall(PetscFree2(p->index, p->row));
   PetscCall(PetscFree2(p->scatter_first, p->scatter));
@@ -116,7 +104,6 @@ PetscErrorCode ProblemDestroy(Problem *problem)
   PetscCall(PetscFree4(p->target, p->applied, p->increment, p->start_applied));
   PetscCall(PetscFree2(p->work_index, p->work_value));
   PetscCall(PressureDestroy_Private(p));
-  PetscCall(PetscFree(p->hessian));
   PetscCall(VecDestroy(&p->u_global));
   PetscCall(VecDestroy(&p->u_local));
   PetscCall(VecDestroy(&p->r_local));
@@ -158,6 +145,11 @@ PetscErrorCode ProblemGetMechanics(Problem p, Mechanics *mechanics)
   PetscFunctionBegin;
   *mechanics = p->mechanics;
   PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+Interface ProblemInterface(Problem p)
+{
+  return p->interface;
 }
 
 PetscErrorCode ProblemCreateVector(Problem p, Vec *x)
@@ -213,7 +205,7 @@ PetscErrorCode ProblemSetForm(Problem p, const Form *form)
   p->form = *form;
   PetscCall(MechanicsSetEdge(p->mechanics, form->edge));
   PetscCall(MechanicsLoosen(p->mechanics, form->proximal));
-  for (PetscInt i = 0; i < p->num_contacts; ++i) PetscCall(ContactPairHoldLines(p->contacts[i].pair, form->frozen_segmentation));
+  PetscCall(InterfaceSetForm(p->interface, &p->form));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -325,42 +317,6 @@ PetscErrorCode ProblemSetDisplacement(Problem p, const PetscReal local[], Vec x)
     if (p->index[i] >= 0 && row >= 0 && row < p->num_u) array[row] = local[i];
   }
   PetscCall(VecRestoreArray(x, &array));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode ProblemGetContact(Problem p, PetscInt pair, const ContactView **view)
-{
-  PetscFunctionBegin;
-  *view = &p->contacts[pair].view;
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode ProblemSetMultipliers(Problem p, PetscInt pair, const PetscReal z[], Vec x)
-{
-  const Contact *c = &p->contacts[pair];
-  PetscReal     *array;
-
-  PetscFunctionBegin;
-  PetscCall(VecGetArray(x, &array));
-  for (PetscInt j = 0; j < c->side[0].num_nodes; ++j) {
-    if (c->zlocal[j] >= 0) array[c->zlocal[j]] = z[j];
-  }
-  PetscCall(VecRestoreArray(x, &array));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode ProblemGetMultipliers(Problem p, PetscInt pair, Vec x, PetscReal z[], PetscBool own[])
-{
-  const Contact   *c = &p->contacts[pair];
-  const PetscReal *array;
-
-  PetscFunctionBegin;
-  PetscCall(VecGetArrayRead(x, &array));
-  for (PetscInt j = 0; j < c->side[0].num_nodes; ++j) {
-    if (c->zlocal[j] >= 0) z[j] = array[c->zlocal[j]];
-    if (own) own[j] = (PetscBool)(c->zlocal[j] >= 0);
-  }
-  PetscCall(VecRestoreArrayRead(x, &array));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -6,61 +6,36 @@ PetscErrorCode ProblemSearch(Problem p, Vec x)
   PetscReal *local;
 
   PetscFunctionBegin;
-  if (!p->num_contacts || p->scene->mechanics.kinematics == KINEMATICS_SMALL) PetscFunctionReturn(PETSC_SUCCESS);
+  if (!p->scene->num_contacts) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(StageBegin(STAGE_CONTACT));
   PetscCall(VecGetArray(p->u_local, &local));
   PetscCall(ProblemLocalDisplacement(p, x, local));
-  for (PetscInt i = 0; i < p->num_contacts; ++i) {
-    Contact *c = &p->contacts[i];
-    for (PetscInt k = 0; k < 2; ++k) {
-      SurfaceForget_Private(&c->side[k]);
-      SurfacePlace_Private(&c->side[k], local, c->side[k].X, c->side[k].x);
-    }
-    PetscCall(ContactSearch_Private(p, c, PETSC_FALSE, 0.1 * c->distance));
-  }
+  PetscCall(InterfaceSearch(p->interface, local));
   PetscCall(VecRestoreArray(p->u_local, &local));
   PetscCall(StageEnd(STAGE_CONTACT));
   PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* Square of what round-off of positions leaves in the rows and forces of this rank's active nodes: epsilon |x| (E + z) w0 / extent. */
-static PetscReal ContactNoise2_Private(Problem p)
-{
-  PetscReal sum = 0;
-
-  for (PetscInt i = 0; i < p->num_contacts; ++i) {
-    const Contact *c = &p->contacts[i];
-    for (PetscInt k = 0; k < c->side[0].num_own; ++k) {
-      const PetscInt j      = c->side[0].own[k];
-      PetscReal      square = 0;
-      for (PetscInt d = 0; d < p->dim; ++d) square += PetscSqr(c->side[0].x[p->dim * j + d]);
-      if (c->active[j]) sum += square * PetscSqr(PETSC_MACHINE_EPSILON * (c->w0[j] * (c->c[j] + PetscAbsReal(c->z[j]) / c->extent[j])));
-    }
-  }
-  return sum;
 }
 
 /* Bulk and contact forces into the local array r, status summed over ranks. u: local array; pressure: as in MechanicsResidual. */
 static PetscErrorCode LocalForces_Private(Problem p, Vec x, const PetscReal u[], const PetscReal pressure[], PetscReal r[], ProblemStatus *status)
 {
   MechanicsStatus bulk;
+  PetscReal       pending;
   PetscBool       failed = PETSC_FALSE;
   const HPTables *v;
 
   PetscFunctionBegin;
   PetscCall(HPSpaceGetTables(p->space, &v));
+  PetscCall(ProblemPending(p, &pending));
   PetscCall(PetscArrayzero(r, v->num_nodes * p->dim));
   PetscCall(StageBegin(STAGE_ASSEMBLE));
   PetscCall(MechanicsResidual(p->mechanics, u, pressure, r, &bulk));
   PetscCall(StageEnd(STAGE_ASSEMBLE));
   PetscCall(StageBegin(STAGE_CONTACT));
-  for (PetscInt i = 0; i < p->num_contacts; ++i) {
-    Contact *c = &p->contacts[i];
-    PetscCall(ContactEvaluate_Private(p, c, x, u, PETSC_TRUE, PETSC_FALSE, &failed));
-    PetscCall(ContactForces_Private(p, c, r));
-  }
+  PetscCall(InterfaceEvaluate(p->interface, x, u, pending, PETSC_FALSE, &failed));
+  PetscCall(InterfaceForces(p->interface, r));
   PetscCall(StageEnd(STAGE_CONTACT));
-  PetscReal sum[6]   = {bulk.energy, bulk.scale2, bulk.bad || failed, bulk.noise2, bulk.drift2, ContactNoise2_Private(p)};
+  PetscReal sum[6]   = {bulk.energy, bulk.scale2, bulk.bad || failed, bulk.noise2, bulk.drift2, InterfaceNoise2(p->interface)};
   PetscReal least[3] = {bulk.min_det, -bulk.largest, -bulk.volume};
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 6, MPIU_REAL, MPI_SUM, p->comm));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, least, 3, MPIU_REAL, MPI_MIN, p->comm));
@@ -94,7 +69,7 @@ PetscErrorCode ProblemResidual(Problem p, Vec x, const PetscReal pressure[], Vec
   PetscCall(DMLocalToGlobalBegin(dm, p->r_local, ADD_VALUES, p->u_global));
   PetscCall(DMLocalToGlobalEnd(dm, p->r_local, ADD_VALUES, p->u_global));
   PetscCall(VecResetArray(p->u_global));
-  for (PetscInt i = 0; i < p->num_contacts; ++i) ContactRows_Private(&p->contacts[i], array);
+  PetscCall(InterfaceRows(p->interface, array));
   PetscCall(PressureRows_Private(p, array));
   PetscCall(ScalarsResidual_Private(p, x, array));
   PetscCall(VecRestoreArray(r, &array));
@@ -130,19 +105,9 @@ PetscErrorCode ProblemForces(Problem p, const State *state, PetscReal reaction[]
   }
   PetscCall(VecRestoreArray(p->u_local, &u));
   PetscCall(VecRestoreArray(p->r_local, &r));
-  for (PetscInt i = 0; i < p->num_contacts; ++i) {
-    const Surface   *s      = &p->contacts[i].side[0];
-    const PetscReal *at     = p->scene->mechanics.kinematics == KINEMATICS_SMALL ? s->X : s->x; /* where the forces act */
-    PetscReal        sum[6] = {0}, *f = sum, *m = sum + 3;
-    for (PetscInt k = 0; k < s->num_own; ++k) {
-      const PetscReal *q = s->force + p->dim * s->own[k], *y = at + p->dim * s->own[k];
-      for (PetscInt d = 0; d < p->dim; ++d) f[d] += q[d];
-      m[2] += y[0] * q[1] - y[1] * q[0];
-      if (p->dim == 2) continue;
-      m[0] += y[1] * q[2] - y[2] * q[1];
-      m[1] += y[2] * q[0] - y[0] * q[2];
-    }
-    PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 6, MPIU_REAL, MPI_SUM, p->comm));
+  for (PetscInt i = 0; i < p->scene->num_contacts; ++i) {
+    PetscReal f[3], m[3];
+    PetscCall(InterfaceResultant(p->interface, i, f, m));
     if (force) PetscCall(PetscArraycpy(force[i], f, 3));
     if (moment) PetscCall(PetscArraycpy(moment[i], m, 3));
   }

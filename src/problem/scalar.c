@@ -255,7 +255,7 @@ static PetscErrorCode ControlRow_Private(Problem p, PetscInt k, const PetscReal 
     else if (p->index[i] < 0)
       motion += p->factor[k] * gradient[i] * p->increment[i];
   }
-  if (p->lifting) PetscCall(VecSetValue(p->lift, row, motion, ADD_VALUES));
+  if (p->lift) PetscCall(VecSetValue(p->lift, row, motion, ADD_VALUES));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

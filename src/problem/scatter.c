@@ -53,17 +53,6 @@ static PetscErrorCode CellPlaces_Private(Problem p, PetscInt num, const PetscInt
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode ProblemDiagonal_Private(Problem p, Mat *diagonal)
-{
-  PetscBool parallel;
-
-  PetscFunctionBegin;
-  *diagonal = p->matrix;
-  PetscCall(PetscObjectTypeCompare((PetscObject)p->matrix, MATMPIAIJ, &parallel));
-  if (parallel) PetscCall(MatMPIAIJGetSeqAIJ(p->matrix, diagonal, NULL, NULL));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 PetscErrorCode ProblemScatter_Private(Problem p)
 {
   const HPTables  *v;
@@ -75,7 +64,7 @@ PetscErrorCode ProblemScatter_Private(Problem p)
   Mat              A;
 
   PetscFunctionBegin;
-  PetscCall(ProblemDiagonal_Private(p, &A));
+  PetscCall(MatGetDiagonalBlock(p->matrix, &A));
   PetscCall(MatGetNonzeroState(A, &state));
   if (p->scatter_first && p->scatter_state == state) PetscFunctionReturn(PETSC_SUCCESS);
   p->scatter_state = state;
@@ -128,7 +117,7 @@ PetscErrorCode ProblemScatterAdd_Private(Problem p, PetscInt cell, PetscInt num_
   *added = (PetscBool)(cell >= 0 && p->scatter_first[cell] >= 0);
   if (!*added) PetscFunctionReturn(PETSC_SUCCESS);
   const uint16_t *place = p->scatter + p->scatter_first[cell];
-  PetscCall(ProblemDiagonal_Private(p, &A));
+  PetscCall(MatGetDiagonalBlock(p->matrix, &A));
   PetscCall(MatGetRowIJ(A, 0, PETSC_FALSE, PETSC_FALSE, &rows, &ai, &aj, &ok));
   PetscCall(MatSeqAIJGetArray(A, &values));
   for (PetscInt i = 0; i < num_dofs; ++i) whole = (PetscBool)(whole && p->row[dofs[i]] >= 0);

@@ -14,6 +14,14 @@ PetscErrorCode ProblemSetViscosity(Problem p, PetscReal rate, Vec from)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscErrorCode ProblemMayFreezeSegmentation(Problem p, PetscBool *yes)
+{
+  PetscFunctionBegin;
+  *yes = PETSC_FALSE;
+  if (!p->viscous) PetscCall(InterfaceMayFreezeSegmentation(p->interface, yes));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode ProblemViscousWork(Problem p, Vec x, PetscReal *work)
 {
   PetscReal *u;

@@ -301,6 +301,7 @@ static PetscErrorCode ReadContact_Private(Scene s, SceneNode *node, ContactEntry
   c->spec.subdivide_auto = c->subdivide == SUBDIVIDE_AUTO ? PETSC_TRUE : PETSC_FALSE;
   c->spec.adjust         = c->initial_gap == 1 ? PETSC_TRUE : PETSC_FALSE;
   c->spec.standard       = c->multiplier == 1 ? PETSC_TRUE : PETSC_FALSE;
+  PetscCheckInput((c->spec.law == CONTACT_PENALTY) == (c->spec.penalty > 0), "%s: law penalty and a stiffness penalty > 0 go together", NodeWhere(node));
   PetscCheckInput(c->spec.friction == 0, "%s is %g: friction is not built yet; allowed: 0", NodeWhere(NodeFind(node, "friction")), (double)c->spec.friction);
   PetscCheckInput(!strchr(node->key, '/'), "%s: the name of a pair has no '/' in it", NodeWhere(node));
   for (PetscInt i = 0; &s->contact[i] < c; ++i) {

@@ -1,11 +1,11 @@
 /* Modifier: the active set of a pair that has borne nothing yet begins with the nodes that overlap the most
-   (src/problem/firsttouch.c). */
+   (src/interface/firsttouch.c). */
 #include "solveimpl.h"
 
 static PetscErrorCode Linearise_Private(Solver s, const Iterate *it, const Form *last, PetscBool always, PetscBool *acts)
 {
   PetscFunctionBegin;
-  PetscCall(ProblemFindUntouched(s->problem, &s->form.deepest_first));
+  PetscCall(InterfaceFindUntouched(ProblemInterface(s->problem), &s->form.deepest_first));
   *acts = (PetscBool)(s->form.deepest_first != 0);
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -1,4 +1,4 @@
-/* Modifier: tangents at fixed directions of pairs whose gaps are wide against their facets (src/problem/widegap.c); on:
+/* Modifier: tangents at fixed directions of pairs whose gaps are wide against their facets (src/interface/widegap.c); on:
    of all pairs. */
 #include "solveimpl.h"
 
@@ -8,7 +8,7 @@ static PetscErrorCode Linearise_Private(Solver s, const Iterate *it, const Form 
   if (always)
     s->form.frozen_normals = ~(uint64_t)0;
   else
-    PetscCall(ProblemFindWide(s->problem, &s->form.frozen_normals));
+    PetscCall(InterfaceFindWide(ProblemInterface(s->problem), &s->form.frozen_normals));
   *acts = (PetscBool)(s->form.frozen_normals != 0);
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -26,7 +26,7 @@ PetscErrorCode SolverActiveSetSolve_Private(Solver s, Vec dx)
 {
   PetscFunctionBegin;
   for (PetscInt pass = 0, changed = 1; changed; ++pass) {
-    PetscCall(ProblemActiveSetHash(s->problem, &s->pass_sets[pass]));
+    PetscCall(InterfaceActiveSetHash(ProblemInterface(s->problem), &s->pass_sets[pass]));
     if (Repeats_Private(s, pass, s->pass_sets[pass])) {
       ++s->report->set_cycles;
       PetscCall(PetscInfo(s->snes, "active sets repeat after %" PetscInt_FMT " passes\n", pass));
@@ -112,7 +112,7 @@ PetscErrorCode SolverLook_Private(Solver s, Iterate *it)
 {
   PetscFunctionBegin;
   PetscCall(VecNorm(it->r, NORM_2, &it->norm));
-  PetscCall(ProblemActiveSetHash(s->problem, &it->set));
+  PetscCall(InterfaceActiveSetHash(ProblemInterface(s->problem), &it->set));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

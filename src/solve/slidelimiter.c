@@ -1,5 +1,5 @@
 /* Modifier: where the linear step slides bodies that only contact holds too far, the step is made with forces that hold
-   them back (src/problem/slidelimit.c). */
+   them back (src/interface/slidelimit.c). */
 #include "solveimpl.h"
 
 #define MOST_PAIRS 3 /* that are held back in one linear step */

@@ -192,10 +192,10 @@ static PetscErrorCode Multipliers_Private(Problem problem, PetscInt pair, Vec x,
   PetscInt           num = 0;
 
   PetscFunctionBegin;
-  PetscCall(ProblemGetContact(problem, pair, &view));
+  PetscCall(InterfaceGetContact(ProblemInterface(problem), pair, &view));
   const PetscInt total = view->nonmortar.num_nodes;
   PetscCall(PetscMalloc2(total, &z, total, &own));
-  PetscCall(ProblemGetMultipliers(problem, pair, x, z, own));
+  PetscCall(InterfaceGetMultipliers(ProblemInterface(problem), pair, x, z, own));
   PetscCall(PlacesCreate_Private(total, total, &p));
   for (PetscInt j = 0; j < total; ++j) {
     if (own[j]) p.index[num] = j, p.value[num++] = z[j];
@@ -204,7 +204,7 @@ static PetscErrorCode Multipliers_Private(Problem problem, PetscInt pair, Vec x,
   if (back) {
     PetscCall(PlacesFetch_Private(*field, &p));
     for (PetscInt i = 0; i < num; ++i) z[p.index[i]] = p.value[i];
-    PetscCall(ProblemSetMultipliers(problem, pair, z, x));
+    PetscCall(InterfaceSetMultipliers(ProblemInterface(problem), pair, z, x));
   } else
     PetscCall(PlacesSend_Private(PetscObjectComm((PetscObject)x), &p, field));
   PetscCall(PlacesDestroy_Private(&p));

@@ -43,10 +43,10 @@ PetscErrorCode PatternPack_Private(Problem problem, PetscInt pair, Vec *field)
   Places              p;
 
   PetscFunctionBegin;
-  PetscCall(ProblemGetContact(problem, pair, &view));
+  PetscCall(InterfaceGetContact(ProblemInterface(problem), pair, &view));
   PetscCall(ProblemGetForest(problem, &forest));
   PetscCall(ForestGetTables(forest, &t));
-  PetscCall(ProblemGetPattern(problem, pair, &first, &node));
+  PetscCall(InterfaceGetPattern(ProblemInterface(problem), pair, &first, &node));
   PetscCall(Fill_Private(ForestComm(forest), &view->nonmortar, t, first, node, &p));
   PetscCall(PlacesSend_Private(ForestComm(forest), &p, field));
   PetscCall(PlacesDestroy_Private(&p));
@@ -61,7 +61,7 @@ PetscErrorCode PatternUnpack_Private(Problem problem, PetscInt pair, Vec field)
   Places             p;
 
   PetscFunctionBegin;
-  PetscCall(ProblemGetContact(problem, pair, &view));
+  PetscCall(InterfaceGetContact(ProblemInterface(problem), pair, &view));
   const PetscInt num = view->nonmortar.num_facets;
   PetscCall(VecGetSize(field, &total));
   PetscCall(ProblemGetScene(problem, &scene));
@@ -77,7 +77,7 @@ PetscErrorCode PatternUnpack_Private(Problem problem, PetscInt pair, Vec field)
                   "-restart: pattern.%s of the checkpoint has %" PetscInt_FMT " numbers, not %" PetscInt_FMT ": another version of mortise wrote it",
                   scene->contacts[pair].name, total, num + first[num]);
   for (PetscInt i = 0; i < first[num]; ++i) node[i] = (PetscInt)p.value[num + i];
-  PetscCall(ProblemSetPattern(problem, pair, first, node));
+  PetscCall(InterfaceSetPattern(ProblemInterface(problem), pair, first, node));
   PetscCall(PetscFree2(first, node));
   PetscCall(PlacesDestroy_Private(&p));
   PetscFunctionReturn(PETSC_SUCCESS);

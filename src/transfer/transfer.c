@@ -8,13 +8,13 @@ static PetscErrorCode Multipliers_Private(const TransferContext *c, Problem old_
     const ContactView *from, *to;
     PetscReal         *old_z, *z;
     PetscBool         *wanted;
-    PetscCall(ProblemGetContact(old_problem, i, &from));
-    PetscCall(ProblemGetContact(new_problem, i, &to));
+    PetscCall(InterfaceGetContact(ProblemInterface(old_problem), i, &from));
+    PetscCall(InterfaceGetContact(ProblemInterface(new_problem), i, &to));
     PetscCall(PetscMalloc3(to->nonmortar.num_nodes, &z, from->nonmortar.num_nodes, &old_z, from->nonmortar.num_nodes, &wanted));
     PetscCall(TransferMultiplierNeeds_Private(c->old_t, &from->nonmortar, &to->nonmortar, c->map, wanted));
-    PetscCall(ProblemFetchContact(old_problem, i, wanted, old_z, NULL, NULL));
+    PetscCall(InterfaceFetchContact(ProblemInterface(old_problem), i, wanted, old_z, NULL, NULL));
     PetscCall(TransferMultiplier_Private(c->old_t, &from->nonmortar, old_z, from->has_multiplier, c->new_t, &to->nonmortar, c->map, z));
-    PetscCall(ProblemSetMultipliers(new_problem, i, z, x));
+    PetscCall(InterfaceSetMultipliers(ProblemInterface(new_problem), i, z, x));
     PetscCall(PetscFree3(z, old_z, wanted));
   }
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -46,7 +46,7 @@ static void Surfaces(void **state)
     p.forest = PatchForest(2, 3);
     Split(&p.forest, 4);
     PatchStart(&p);
-    OK(ProblemGetContact(p.problem, 0, &view));
+    OK(InterfaceGetContact(ProblemInterface(p.problem), 0, &view));
     Follow(&view->nonmortar);
     Follow(&view->mortar);
     PatchDestroy(&p);
@@ -65,7 +65,7 @@ static void PatchTest(void **state)
     p.forest = PatchForest(2, 3);
     Split(&p.forest, 4);
     PatchStart(&p);
-    OK(ProblemGetContact(p.problem, 0, &view));
+    OK(InterfaceGetContact(ProblemInterface(p.problem), 0, &view));
     assert_true(PatchHanging(&view->nonmortar) > 0 && PatchHanging(&view->mortar) > 0);
     PatchSolve(p.problem, &p.state);
     OK(EstimateCompute(p.problem, &p.state, &e));

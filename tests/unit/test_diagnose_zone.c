@@ -15,7 +15,8 @@
 typedef struct {
   PetscInt    edges[2 * MAX];
   PetscReal   x[2 * MAX], z[MAX], gap[MAX], weight[MAX];
-  PetscBool   active[MAX], has[MAX];
+  int8_t      active[MAX];
+  PetscBool   has[MAX];
   ContactView view;
 } Line;
 
@@ -27,7 +28,7 @@ static void LineMake(Line *l, PetscInt n, PetscReal lo, PetscReal hi, PetscReal 
   for (PetscInt i = 0; i < n; ++i) {
     l->x[2 * i]  = lo + h * (PetscReal)i;
     l->z[i]      = PetscMax(0., pressure(l->x[2 * i]));
-    l->active[i] = (PetscBool)(l->z[i] > 0);
+    l->active[i] = l->z[i] > 0;
     l->has[i]    = PETSC_TRUE;
     l->weight[i] = i == 0 || i == n - 1 ? h / 2 : h;
     l->gap[i]    = l->active[i] ? -1e-9 * l->weight[i] : l->weight[i] * (PetscAbsReal(l->x[2 * i]) - 1);
@@ -130,7 +131,7 @@ static void WholeSurface(void **state)
   for (PetscInt i = 6; i < 9; ++i) {
     l.weight[i] = 0;
     l.gap[i]    = NAN;
-    l.active[i] = PETSC_FALSE;
+    l.active[i] = 0;
     l.z[i]      = 0;
   }
   assert_int_equal(BalanceZone(PETSC_COMM_SELF, &l.view, &f), 0);

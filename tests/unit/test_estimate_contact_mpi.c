@@ -50,10 +50,10 @@ static void WrongPressure(void **state)
     OK(ProblemInitialOrders(&p.data, p.forest, &orders));
     PatchProblem(&p.data, p.forest, orders, &p.problem, &p.state);
     PatchSolve(p.problem, &p.state);
-    OK(ProblemGetContact(p.problem, 0, &view));
+    OK(InterfaceGetContact(ProblemInterface(p.problem), 0, &view));
     OK(PetscMalloc1(view->nonmortar.num_nodes, &z));
     for (PetscInt n = 0; n < view->nonmortar.num_nodes; ++n) z[n] = view->z[n] + d;
-    OK(ProblemSetMultipliers(p.problem, 0, z, p.state.x));
+    OK(InterfaceSetMultipliers(ProblemInterface(p.problem), 0, z, p.state.x));
     OK(EstimateCompute(p.problem, &p.state, &e));
     const PetscReal mu = p.material.mu, modulus = PetscSqrtReal(mu * (p.material.kappa + 4 * mu / 3)),
                     expected = 1. / 6 * 0.5 / modulus * d * d * 2 * (axisymmetric ? 4 * PETSC_PI : 2);

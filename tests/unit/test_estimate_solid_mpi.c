@@ -13,7 +13,7 @@ static void NoResidual(void **state)
     p.forest = PatchForest(2, 3);
     PatchRefine(&p.forest, 1);
     PatchStart(&p);
-    OK(ProblemGetContact(p.problem, 0, &view));
+    OK(InterfaceGetContact(ProblemInterface(p.problem), 0, &view));
     assert_true(PatchHanging(&view->nonmortar) > 0 && PatchHanging(&view->mortar) > 0);
     PatchSolve(p.problem, &p.state);
     OK(EstimateCompute(p.problem, &p.state, &e));
@@ -38,7 +38,7 @@ static void SetField(Patch *p, const ContactView *view)
 
   OK(PetscMalloc1(view->nonmortar.num_nodes, &z));
   for (PetscInt n = 0; n < view->nonmortar.num_nodes; ++n) z[n] = Field(view->nonmortar.X + 3 * n);
-  OK(ProblemSetMultipliers(p->problem, 0, z, p->state.x));
+  OK(InterfaceSetMultipliers(ProblemInterface(p->problem), 0, z, p->state.x));
   OK(PetscFree(z));
 }
 
@@ -81,7 +81,7 @@ static void BothSides(void **state)
     PatchRefine(&p.forest, 2);
     PatchStart(&p);
     OK(ForestGetTables(p.forest, &t));
-    OK(ProblemGetContact(p.problem, 0, &view));
+    OK(InterfaceGetContact(ProblemInterface(p.problem), 0, &view));
     assert_true(PatchHanging(&view->nonmortar) > 0 && PatchHanging(&view->mortar) > 0);
     SetField(&p, view);
     OK(ProblemCreateVector(p.problem, &r));
@@ -111,13 +111,13 @@ static PetscReal ContactShare(Patch *p, PetscReal d, PetscReal z)
   OK(ProblemGetSpace(p->problem, &space));
   OK(HPSpaceGetTables(space, &v));
   OK(ForestGetTables(p->forest, &t));
-  OK(ProblemGetContact(p->problem, 0, &view));
+  OK(InterfaceGetContact(ProblemInterface(p->problem), 0, &view));
   OK(PetscCalloc1(3 * v->num_nodes, &local));
   for (PetscInt n = 0; n < v->num_nodes; ++n) local[3 * n + 2] = t->leaf_body[t->entity_leaf[v->node_entity[n]]] == 1 ? d : 0;
   OK(ProblemSetDisplacement(p->problem, local, p->state.x));
   OK(PetscMalloc1(view->nonmortar.num_nodes, &all));
   for (PetscInt n = 0; n < view->nonmortar.num_nodes; ++n) all[n] = z;
-  OK(ProblemSetMultipliers(p->problem, 0, all, p->state.x));
+  OK(InterfaceSetMultipliers(ProblemInterface(p->problem), 0, all, p->state.x));
   OK(ProblemCreateVector(p->problem, &r));
   PatchEvaluate(p->problem, p->state.x, r, &status);
   OK(EstimateCompute(p->problem, &p->state, &e));
@@ -137,7 +137,7 @@ static PetscReal AreaOverSize(const Patch *p)
   PetscReal           sum = 0;
 
   OK(ForestGetTables(p->forest, &t));
-  OK(ProblemGetContact(p->problem, 0, &view));
+  OK(InterfaceGetContact(ProblemInterface(p->problem), 0, &view));
   for (PetscInt f = 0; f < view->nonmortar.num_facets; ++f) {
     const int8_t *level = t->leaf_level + 3 * view->nonmortar.facet_leaf[f];
     sum += PetscSqrtReal(4. / 9 / (PetscReal)(1 << (level[0] + level[1])));

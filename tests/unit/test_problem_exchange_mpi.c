@@ -23,8 +23,8 @@ static PetscInt Known(Problem problem)
   const ContactView *v, *all;
   PetscInt           without = 0;
 
-  OK(ProblemGetContact(problem, 0, &v));
-  OK(ProblemGatherContactToAll(problem, 0, &all));
+  OK(InterfaceGetContact(ProblemInterface(problem), 0, &v));
+  OK(InterfaceGatherContactToAll(ProblemInterface(problem), 0, &all));
   for (PetscInt n = 0; n < v->nonmortar.num_nodes; ++n) {
     if (!v->nonmortar.owned[n]) continue;
     assert_false(PetscIsNanReal(v->z[n] + v->gap[n] + v->weight[n] + v->nonmortar.x[3 * n] + v->nonmortar.force[3 * n]));
@@ -128,12 +128,12 @@ static void Corner(PetscInt corner, PetscInt counts[3])
   OK(ProblemJump(p.problem));
   Lift(&p, corner);
   OK(ForestGetTables(p.forest, &t));
-  OK(ProblemGetContact(p.problem, 0, &view));
+  OK(InterfaceGetContact(ProblemInterface(p.problem), 0, &view));
   OK(ProblemCreateVector(p.problem, &r));
   PatchEvaluate(p.problem, p.state.x, r, &status);
   PatchEvaluate(p.problem, p.state.x, r, &status);
   assert_true(view->area > 0.01 && view->area < 0.5);
-  OK(ProblemGetTraffic(p.problem, &traffic));
+  OK(InterfaceGetTraffic(ProblemInterface(p.problem), &traffic));
   assert_int_equal(traffic.evaluations, 2);
   assert_int_equal(traffic.searches, 2);
   const PetscBool far = (PetscBool)(IsFar(&view->nonmortar, t, corner) && IsFar(&view->mortar, t, corner));

@@ -3,6 +3,7 @@
    - a facet's polynomial is the trace of the cell behind it: positions, and any field, hanging nodes filled by their rows;
    - the shares of the nodes make up the surface's measure and are positive;
    - faces of order 1 have no lattice. */
+#include "interfaceimpl.h"
 #include "problemfixture.h"
 #include "problemimpl.h"
 
@@ -127,7 +128,7 @@ static void CheckTraces(Case *c, const Surface *s)
   OK(PetscMalloc1(v->num_nodes * s->dim, &local));
   OK(PetscMalloc1(s->num_nodes * s->dim, &values));
   for (PetscInt i = 0; i < v->num_nodes * s->dim; ++i) local[i] = Field(v->X + 3 * (i / s->dim), s->dim) + i % s->dim;
-  OK(SurfaceGather_Private(c->s.problem, s, local, NULL, values));
+  OK(SurfaceGather_Private(c->s.problem->interface, s, local, NULL, values));
   for (PetscInt f = 0; f < s->num_facets; ++f) {
     for (PetscInt cell = 0; cell < v->num_owned_cells; ++cell) {
       if (v->cell_leaf[cell] != s->facet_leaf[f]) continue;
@@ -169,7 +170,7 @@ static void test_lattice(void **state)
     for (PetscInt seed = 0; seed < (dim == 2 ? 8 : 5); ++seed) {
       Case c;
       CaseCreate(&c, dim, 1 + seed % 2, seed == 2 ? 2 : 4, PETSC_TRUE, (PetscBool)(seed % 2), (uint64_t)seed);
-      Contact *contact = &c.s.problem->contacts[0];
+      Contact *contact = &c.s.problem->interface->contacts[0];
       assert_non_null(contact->side[0].order);
       CheckNodes(&c, &contact->side[0], TOP(dim));
       CheckNodes(&c, &contact->side[1], BOTTOM(dim));
@@ -189,7 +190,7 @@ static void test_linear(void **state)
   for (PetscInt k = 0; k < 4; ++k) {
     Case c;
     CaseCreate(&c, 2 + k % 2, 1, k < 2 ? 3 : 1, k < 2 ? PETSC_FALSE : PETSC_TRUE, PETSC_FALSE, (uint64_t)k);
-    for (PetscInt side = 0; side < 2; ++side) assert_null(c.s.problem->contacts[0].side[side].order);
+    for (PetscInt side = 0; side < 2; ++side) assert_null(c.s.problem->interface->contacts[0].side[side].order);
     SolvedDestroy(&c.s);
   }
 }

@@ -87,7 +87,7 @@ static void Differences(PetscInt order, Model model, Formulation formulation)
   const ContactView *view;
   PetscReal         *a, *z;
   PetscBool         *own;
-  OK(ProblemGetContact(p.problem, 0, &view));
+  OK(InterfaceGetContact(ProblemInterface(p.problem), 0, &view));
   OK(PetscMalloc2(view->nonmortar.num_nodes, &z, view->nonmortar.num_nodes, &own));
   OK(VecCopy(at[0], in));
   OK(ProblemGetBlocks(p.problem, &num_u, &num_z, &dim));

@@ -36,11 +36,11 @@ static PetscBool Moves(PetscReal pressure)
   PatchScene(&p, 1, MODEL_PLANE_STRAIN, KINEMATICS_FINITE, FORMULATION_DISPLACEMENT);
   p.forest = PatchForest((const PetscInt[2]){7, 5});
   PatchStart(&p);
-  OK(ProblemGetContact(p.problem, 0, &view));
+  OK(InterfaceGetContact(ProblemInterface(p.problem), 0, &view));
   Turn(&p, view);
   OK(PetscCalloc1(view->nonmortar.num_nodes, &z));
   for (PetscInt j = 0; j < view->nonmortar.num_nodes; ++j) z[j] = view->nonmortar.X[2 * j] > 1 + 1e-9 ? pressure : 0;
-  OK(ProblemSetMultipliers(p.problem, 0, z, p.state.x));
+  OK(InterfaceSetMultipliers(ProblemInterface(p.problem), 0, z, p.state.x));
   OK(ProblemCreateVector(p.problem, &r));
   PatchEvaluate(p.problem, p.state.x, r, &status);
   for (PetscInt j = 0; j < view->nonmortar.num_nodes; ++j) {
@@ -50,7 +50,9 @@ static PetscBool Moves(PetscReal pressure)
   }
   assert_int_equal(MPI_Allreduce(MPI_IN_PLACE, sum, 2, MPIU_INT, MPI_SUM, PETSC_COMM_WORLD), 0);
   assert_true(sum[0] > 0 && sum[1] > 0);
-  OK(ProblemFindSliding(p.problem, &pairs));
+  PetscReal pending;
+  OK(ProblemPending(p.problem, &pending));
+  OK(InterfaceFindSliding(ProblemInterface(p.problem), pending, &pairs));
   OK(VecDestroy(&r));
   OK(PetscFree(z));
   PatchDestroy(&p);

@@ -45,10 +45,10 @@ static void BilinearMultipliers(void **state)
   p.forest = PatchForest(2, 3);
   PatchRefine(&p.forest, 2);
   PatchStart(&p);
-  OK(ProblemGetContact(p.problem, 0, &view));
+  OK(InterfaceGetContact(ProblemInterface(p.problem), 0, &view));
   OK(PetscMalloc1(view->nonmortar.num_nodes, &z));
   for (PetscInt n = 0; n < view->nonmortar.num_nodes; ++n) z[n] = Field(view->nonmortar.X + 3 * n);
-  OK(ProblemSetMultipliers(p.problem, 0, z, p.state.x));
+  OK(InterfaceSetMultipliers(ProblemInterface(p.problem), 0, z, p.state.x));
   OK(PetscFree(z));
   OK(ProblemSearch(p.problem, p.state.x));
   for (PetscInt step = 0; step < 4; ++step) {
@@ -56,7 +56,7 @@ static void BilinearMultipliers(void **state)
     OK(ProblemCreateVector(p.problem, &r));
     PatchEvaluate(p.problem, p.state.x, r, &status);
     OK(VecDestroy(&r));
-    OK(ProblemGatherContactToAll(p.problem, 0, &view));
+    OK(InterfaceGatherContactToAll(ProblemInterface(p.problem), 0, &view));
     hanging += PatchHanging(&view->nonmortar);
     for (PetscInt n = 0; n < view->nonmortar.num_nodes; ++n) assert_near(view->z[n], Field(view->nonmortar.X + 3 * n), 1e-13);
   }
@@ -86,8 +86,8 @@ static void RemovedMultipliers(void **state)
   PatchAdapt(p.forest, 1, PETSC_FALSE, &adapted, &map);
   OK(TransferOrders(&map, p.state.leaf_order, &orders));
   PatchProblem(&p.data, adapted, orders, &problem, &next);
-  OK(ProblemGetContact(p.problem, 0, &from));
-  OK(ProblemGetContact(problem, 0, &to));
+  OK(InterfaceGetContact(ProblemInterface(p.problem), 0, &from));
+  OK(InterfaceGetContact(ProblemInterface(problem), 0, &to));
   OK(ForestGetTables(p.forest, &old_t));
   OK(ForestGetTables(adapted, &new_t));
   OK(PetscMalloc2(from->nonmortar.num_nodes, &z, from->nonmortar.num_nodes, &has));

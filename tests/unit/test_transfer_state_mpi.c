@@ -83,10 +83,10 @@ static void LinearMultipliers(void **state)
   PatchProblem(&p.data, p.forest, orders, &p.problem, &p.state);
   OK(PetscFree(orders));
   PatchSolve(p.problem, &p.state);
-  OK(ProblemGetContact(p.problem, 0, &view));
+  OK(InterfaceGetContact(ProblemInterface(p.problem), 0, &view));
   OK(PetscMalloc1(view->nonmortar.num_nodes, &z));
   for (PetscInt n = 0; n < view->nonmortar.num_nodes; ++n) z[n] = 0.1 + 0.03 * view->nonmortar.X[2 * n];
-  OK(ProblemSetMultipliers(p.problem, 0, z, p.state.x));
+  OK(InterfaceSetMultipliers(ProblemInterface(p.problem), 0, z, p.state.x));
   OK(PetscFree(z));
   for (PetscInt step = 0; step < 4; ++step) {
     PatchMove(&p, 3, (PetscBool)(step % 2), PETSC_FALSE);
@@ -94,7 +94,7 @@ static void LinearMultipliers(void **state)
     OK(ProblemSearch(p.problem, p.state.x));
     OK(ProblemResidual(p.problem, p.state.x, NULL, r, &status));
     OK(VecDestroy(&r));
-    OK(ProblemGatherContactToAll(p.problem, 0, &view));
+    OK(InterfaceGatherContactToAll(ProblemInterface(p.problem), 0, &view));
     for (PetscInt n = 0; n < view->nonmortar.num_nodes; ++n) assert_near(view->z[n], 0.1 + 0.03 * view->nonmortar.X[2 * n], 1e-13);
   }
   PatchDestroy(&p);

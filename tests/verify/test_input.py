@@ -158,6 +158,7 @@ def test_good_on_two_ranks(check):
     # not built yet
     (("friction: 0", "friction: 0.3"), ["contact.pair.friction is 0.3", "not built yet"]),
     (("friction: 0", "projection: facet"), ["contact.pair.projection is not a key"]),
+    (("friction: 0", "law: penalty"), ["contact.pair", "law penalty and a stiffness penalty"]),
     (("friction: 0", "order: full, node_to_segment: true"), ["contact.pair.order", "do not go together"]),
     # what drives
     (("bottom: {fix: xy}", "bottom: {fix: xy}\n  lower_side: {pressure: 1, volume: t}"), ["boundary.lower_side.volume", "take pressure away"]),

@@ -1,6 +1,6 @@
 /* Room in the matrix for contact. An edge's pattern is a superset of the nodes it meets, so that sliding a little changes no pattern
    and the symbolic factorisation stands; it only grows. */
-#include "problemimpl.h"
+#include "interfaceimpl.h"
 
 static PetscBool Has_Private(const PetscInt *list, PetscInt num, PetscInt value)
 {
@@ -19,7 +19,7 @@ static PetscBool Enters_Private(const Contact *c, const ContactFacet *e)
   return PETSC_FALSE;
 }
 
-PetscBool ContactPatternHolds_Private(const Contact *c)
+static PetscBool Holds_Private(const Contact *c)
 {
   for (PetscInt i = 0; i < c->num_facets; ++i) {
     const ContactFacet *e = &c->facets[i];
@@ -84,7 +84,7 @@ static PetscErrorCode AppendAround_Private(const Surface *s, PetscInt node, Pets
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode ContactGrowPattern_Private(Contact *c)
+static PetscErrorCode Grow_Private(Contact *c)
 {
   const PetscInt ne = c->side[0].num_facets;
   PetscInt      *offset, *list = NULL, num = 0, size = 0;
@@ -112,6 +112,19 @@ PetscErrorCode ContactGrowPattern_Private(Contact *c)
   PetscCall(PetscFree(c->pattern));
   c->pattern_offset = offset;
   c->pattern        = list;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode InterfaceGrow(Interface p, PetscBool *grown)
+{
+  PetscFunctionBegin;
+  *grown   = p->grown;
+  p->grown = PETSC_FALSE;
+  for (PetscInt i = 0; i < p->num_contacts; ++i) {
+    if (Holds_Private(&p->contacts[i])) continue;
+    PetscCall(Grow_Private(&p->contacts[i]));
+    *grown = PETSC_TRUE;
+  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -143,7 +156,51 @@ PetscInt ContactPatternDofs_Private(const Contact *c, PetscInt facet, PetscInt d
   return num;
 }
 
-PetscErrorCode ProblemGetPattern(Problem p, PetscInt pair, const PetscInt **first, const PetscInt **node)
+/* Upper bound of the contact entries, counted; without counters they are written as explicit zeros. */
+PetscErrorCode InterfacePattern(Interface p, Mat matrix, PetscInt first_row, PetscInt num_rows, PetscInt diagonal[], PetscInt other[])
+{
+  PetscInt  *dofs, most = 0;
+  PetscReal *zeros;
+
+  PetscFunctionBegin;
+  for (PetscInt i = 0; i < p->num_contacts; ++i) {
+    for (PetscInt e = 0; e < p->contacts[i].side[0].num_facets; ++e) most = PetscMax(most, ContactPatternSize_Private(&p->contacts[i], e));
+  }
+  PetscCall(PetscMalloc1(most, &dofs));
+  for (PetscInt i = 0; i < p->num_contacts; ++i) {
+    const Contact *c = &p->contacts[i];
+    for (PetscInt e = 0; e < c->side[0].num_facets && c->pattern_offset; ++e) {
+      const PetscInt num = ContactPatternDofs_Private(c, e, dofs);
+      if (!diagonal) {
+        PetscCall(PetscSortInt(num, dofs)); /* new entries then move those behind them less */
+        PetscCall(PetscCalloc1(num * num, &zeros));
+        PetscCall(MatSetValues(matrix, num, dofs, num, dofs, zeros, ADD_VALUES));
+        PetscCall(PetscFree(zeros));
+        continue;
+      }
+      for (PetscInt a = 0; a < num; ++a) {
+        const PetscInt row = dofs[a] - first_row;
+        if (row < 0 || row >= num_rows) continue;
+        for (PetscInt b = 0; b < num; ++b) {
+          if (dofs[b] >= first_row && dofs[b] < first_row + num_rows)
+            ++diagonal[row];
+          else
+            ++other[row];
+        }
+      }
+    }
+  }
+  PetscCall(PetscFree(dofs));
+  for (PetscInt i = 0; i < p->num_contacts && !diagonal; ++i) {
+    const Contact *c = &p->contacts[i];
+    for (PetscInt j = 0; j < c->side[0].num_nodes; ++j) {
+      if (c->zlocal[j] >= 0) PetscCall(MatSetValue(matrix, c->zdof[j], c->zdof[j], 0.0, ADD_VALUES));
+    }
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode InterfaceGetPattern(Interface p, PetscInt pair, const PetscInt **first, const PetscInt **node)
 {
   PetscFunctionBegin;
   *first = p->contacts[pair].pattern_offset;
@@ -151,7 +208,7 @@ PetscErrorCode ProblemGetPattern(Problem p, PetscInt pair, const PetscInt **firs
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode ProblemSetPattern(Problem p, PetscInt pair, const PetscInt first[], const PetscInt node[])
+PetscErrorCode InterfaceSetPattern(Interface p, PetscInt pair, const PetscInt first[], const PetscInt node[])
 {
   Contact       *c   = &p->contacts[pair];
   const PetscInt num = c->side[0].num_facets;
@@ -167,6 +224,6 @@ PetscErrorCode ProblemSetPattern(Problem p, PetscInt pair, const PetscInt first[
   PetscCall(PetscFree(c->pattern));
   c->pattern_offset = offset;
   c->pattern        = list;
-  PetscCall(MatDestroy(&p->matrix));
+  p->grown          = PETSC_TRUE;
   PetscFunctionReturn(PETSC_SUCCESS);
 }

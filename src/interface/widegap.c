@@ -7,11 +7,11 @@
    rows, forces and curvature alike, of the whole pair: where facets that are held meet others the surface folds, too. Overlaps are struts in tension and do no
    harm: a slide, which leaves gaps of both signs, is no such case. Before there is any pressure nothing tells how wide the gaps are that matter; where they are
    narrow, frozen directions change little. */
-#include "problemimpl.h"
+#include "interfaceimpl.h"
 
 #define WIDE 0.1 /* mean open gap in lengths of facets */
 
-static PetscErrorCode IsWide_Private(Problem p, const Contact *c, PetscBool *wide)
+static PetscErrorCode IsWide_Private(Interface p, const Contact *c, PetscBool *wide)
 {
   const Surface *s      = &c->side[0];
   PetscReal      sum[3] = {0, 0, 0}; /* open gaps, forces, forces of a pressure as large as Young's modulus */
@@ -34,7 +34,7 @@ static PetscErrorCode IsWide_Private(Problem p, const Contact *c, PetscBool *wid
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode ProblemFindWide(Problem p, uint64_t *pairs)
+PetscErrorCode InterfaceFindWide(Interface p, uint64_t *pairs)
 {
   PetscBool wide;
 

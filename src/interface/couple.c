@@ -1,8 +1,8 @@
 /* One contact pair on one mesh: multipliers, nodal gaps, activity. */
-#include "problemimpl.h"
+#include "interfaceimpl.h"
 
 /* Facets evaluated here: those of owned leaves, and those that carry weight to an owned node, so that its owner knows the node's whole row. */
-static PetscErrorCode ListFacets_Private(Problem p, Contact *c)
+static PetscErrorCode ListFacets_Private(Interface p, Contact *c)
 {
   const Surface      *s = &c->side[0];
   const ForestTables *t;
@@ -65,7 +65,7 @@ static void View_Private(Contact *c)
 }
 
 /* Sums over facets to the nodes of this rank, which evaluates all facets that carry weight to them; area over ranks. */
-static PetscErrorCode NodeSums_Private(Problem p, Contact *c)
+static PetscErrorCode NodeSums_Private(Interface p, Contact *c)
 {
   const Surface *s      = &c->side[0];
   PetscReal      sum[2] = {0, 0};
@@ -92,7 +92,7 @@ static PetscErrorCode NodeSums_Private(Problem p, Contact *c)
 }
 
 /* Gaps, weights and compliances from the ranks of the nodes to those that use them. */
-static PetscErrorCode ShareGaps_Private(Problem p, Contact *c)
+static PetscErrorCode ShareGaps_Private(Interface p, Contact *c)
 {
   const Surface *s = &c->side[0];
 
@@ -125,7 +125,7 @@ static void Interference_Private(Contact *c)
 
 /* What counts as no gap: gt_j less a constant, so that forces and derivatives stay as they are. Initial gaps are those of this mesh at the reference
    positions; an interference is the change of all gaps by as much along their directions there. */
-static PetscErrorCode Offset_Private(Problem p, Contact *c)
+static PetscErrorCode Offset_Private(Interface p, Contact *c)
 {
   const Surface      *s       = &c->side[0];
   ContactSurface      side[2] = {SurfaceAt_Private(&c->side[0], c->side[0].X), SurfaceAt_Private(&c->side[1], c->side[1].X)};
@@ -151,7 +151,7 @@ static PetscErrorCode Offset_Private(Problem p, Contact *c)
 }
 
 /* Take off what counts as no gap; the smallest that is left. Then all users know. */
-static PetscErrorCode Subtract_Private(Problem p, Contact *c)
+static PetscErrorCode Subtract_Private(Interface p, Contact *c)
 {
   const Surface *s = &c->side[0];
 
@@ -168,7 +168,7 @@ static PetscErrorCode Subtract_Private(Problem p, Contact *c)
 }
 
 /* Does either side of a pair have facets of higher order? Then both are given by lattices. */
-static PetscErrorCode IsHigher_Private(Problem p, const ContactSpec *spec, PetscBool *higher)
+static PetscErrorCode IsHigher_Private(Interface p, const ContactSpec *spec, PetscBool *higher)
 {
   const uint64_t      groups = ((uint64_t)1 << spec->nonmortar) | ((uint64_t)1 << spec->mortar);
   const ForestTables *t;
@@ -185,14 +185,15 @@ static PetscErrorCode IsHigher_Private(Problem p, const ContactSpec *spec, Petsc
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode ContactCreate_Private(Problem p, const ContactSpec *spec, Contact *c)
+PetscErrorCode ContactCreate_Private(Interface p, const ContactSpec *spec, Contact *c)
 {
-  const PetscBool axisymmetric = (PetscBool)(p->scene->mechanics.model == MODEL_AXISYMMETRIC);
+  const PetscBool axisymmetric = (PetscBool)(p->spec->model == MODEL_AXISYMMETRIC);
   PetscBool       higher;
 
   PetscFunctionBegin;
   PetscCall(PetscMemzero(c, sizeof(*c)));
   c->spec = spec;
+  c->law  = ContactLaws[spec->law];
   PetscCall(IsHigher_Private(p, spec, &higher));
   PetscCall(SurfaceCreate_Private(p, spec->nonmortar, higher, &c->side[0]));
   PetscCall(SurfaceCreate_Private(p, spec->mortar, higher, &c->side[1]));
@@ -215,7 +216,7 @@ PetscErrorCode ContactCreate_Private(Problem p, const ContactSpec *spec, Contact
   PetscCall(ContactPairSetCarriers(c->pair, &nonmortar, c->has_multiplier));
   for (PetscInt j = 0; j < n; ++j) c->softness[j] = 1 / c->c[j];
   /* With small kinematics what facets cover does not change, and constraints of order 1 stay exact. */
-  if (higher || p->scene->mechanics.kinematics != KINEMATICS_SMALL) PetscCall(ContactPairSetSoftness(c->pair, c->softness));
+  if (higher || p->spec->kinematics != KINEMATICS_SMALL) PetscCall(ContactPairSetSoftness(c->pair, c->softness));
   PetscCall(ListFacets_Private(p, c));
   SearchDistance_Private(c);
   View_Private(c);
@@ -259,28 +260,8 @@ PetscErrorCode ContactDestroy_Private(Contact *c)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Multipliers live with the owner of their node; counts[rank] grows. */
-PetscErrorCode ContactNumber_Private(Problem p, PetscInt counts[])
-{
-  const ForestTables *t;
-
-  PetscFunctionBegin;
-  PetscCall(ForestGetTables(p->forest, &t));
-  for (PetscInt i = 0; i < p->num_contacts; ++i) {
-    Contact *c = &p->contacts[i];
-    for (PetscInt n = 0; n < c->side[0].num_nodes; ++n) {
-      const PetscMPIInt owner = t->leaf_rank[t->entity_leaf[c->side[0].node_entity[n]]];
-      c->zdof[n] = c->zlocal[n] = -1;
-      if (!c->has_multiplier[n]) continue;
-      c->zdof[n] = counts[owner]++;
-      if (owner == p->rank) c->zlocal[n] = c->zdof[n];
-    }
-  }
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 /* Multipliers from the vector to the ranks that use them. */
-static PetscErrorCode GatherMultipliers_Private(Problem p, Contact *c, Vec x)
+static PetscErrorCode GatherMultipliers_Private(Interface p, Contact *c, Vec x)
 {
   Surface         *s = &c->side[0];
   const PetscReal *array;
@@ -296,14 +277,15 @@ static PetscErrorCode GatherMultipliers_Private(Problem p, Contact *c, Vec x)
 static void Activity_Private(Contact *c)
 {
   for (PetscInt i = 0; i < c->num_valued; ++i) {
-    const PetscInt j = c->valued_node[i];
-    c->active[j]     = (PetscBool)(c->has_multiplier[j] && ContactCovered_Private(c, j) && c->z[j] - c->c[j] * c->gap[j] / c->weight[j] > 0);
+    const PetscInt     j     = c->valued_node[i];
+    const ContactPoint point = ContactPoint_Private(c, j, 0);
+    c->active[j]             = c->has_multiplier[j] && ContactCovered_Private(c, j) ? c->law->state(&point) : 0;
   }
 }
 
 /* Small kinematics: gaps are linear in the displacement. The weighted gap is frozen with its segments, measure and normals at the reference
    positions; grad gt - (gt/w) grad w is its derivative with the measure held. */
-static PetscErrorCode Freeze_Private(Problem p, Contact *c, PetscBool *failed)
+static PetscErrorCode Freeze_Private(Interface p, Contact *c, PetscBool *failed)
 {
   ContactSurface      side[2] = {SurfaceAt_Private(&c->side[0], c->side[0].X), SurfaceAt_Private(&c->side[1], c->side[1].X)};
   const ContactFacet *facets;
@@ -358,17 +340,7 @@ static PetscReal FacetDot_Private(const Contact *c, const ContactFacet *e, const
   return sum;
 }
 
-void ContactRowFactors_Private(const Contact *c, const ContactFacet *e, PetscInt k, PetscBool row, PetscReal *mean, PetscReal *along)
-{
-  const PetscInt j = e->nodes[k];
-
-  row    = (PetscBool)(row && c->active[j]);
-  *mean  = row && ContactCovered_Private(c, j) ? ContactRowGap_Private(c, j) / ContactRowMeasure_Private(c, j) : 0;
-  *along = 0;
-  if (e->spring && row) *along = e->stiffening[k] * (c->z[j] - *mean * c->c[j]);
-}
-
-PetscErrorCode ContactChange_Private(Problem p, Contact *c, const PetscReal increment[], PetscReal change[])
+PetscErrorCode ContactChange_Private(Interface p, Contact *c, const PetscReal increment[], PetscReal change[])
 {
   const Surface *s = &c->side[0];
 
@@ -379,21 +351,21 @@ PetscErrorCode ContactChange_Private(Problem p, Contact *c, const PetscReal incr
     const ContactFacet *e = &c->facets[i];
     for (PetscInt k = 0; k < e->num_rows && e->dgap; ++k) {
       const PetscInt j = e->nodes[k];
-      PetscReal      mean, along;
       if (!s->owned[j]) continue;
       change[j] += FacetDot_Private(c, e, e->dgap + p->dim * k * e->num);
       if (!ContactCovered_Private(c, j)) continue;
-      ContactRowFactors_Private(c, e, k, PETSC_TRUE, &mean, &along);
-      if (!c->active[j]) mean = c->gap[j] / c->weight[j];
-      change[j] -= mean * FacetDot_Private(c, e, e->dweight + p->dim * k * e->num);
-      if (along != 0) change[j] += along * FacetDot_Private(c, e, e->darea);
+      const ContactPoint point = ContactPoint_Private(c, j, 0);
+      ContactRow         row   = {.mean = c->gap[j] / c->weight[j]};
+      if (c->active[j]) c->law->rows(&point, PETSC_FALSE, &row);
+      change[j] -= row.mean * FacetDot_Private(c, e, e->dweight + p->dim * k * e->num);
+      if (e->spring && row.along != 0) change[j] += e->stiffening[k] * row.along * FacetDot_Private(c, e, e->darea);
     }
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* Gaps of this rank's nodes. */
-static void LinearGaps_Private(Problem p, Contact *c)
+static void LinearGaps_Private(Interface p, Contact *c)
 {
   const Surface *own = &c->side[0];
 
@@ -412,14 +384,12 @@ static void LinearGaps_Private(Problem p, Contact *c)
 
 /* Nodes that may take part in the next linear solve: pressed, or closer than half a facet beside what prescribed motion may still close. Three dimensions:
    the others get no row in the matrix, which they would only fill. Every rank that knows the node says the same. */
-static PetscErrorCode Near_Private(Problem p, Contact *c)
+static PetscErrorCode Near_Private(Interface p, Contact *c, PetscReal pending)
 {
   const Surface *s     = &c->side[0];
   PetscInt       order = 1; /* extents are those of facets over it */
-  PetscReal      pending;
 
   PetscFunctionBegin;
-  PetscCall(ProblemPending(p, &pending));
   for (PetscInt f = 0; f < s->num_facets && s->order; ++f) order = PetscMax(order, s->order[f]);
   for (PetscInt i = 0; i < c->num_valued; ++i) {
     const PetscInt  j     = c->valued_node[i];
@@ -432,7 +402,7 @@ static PetscErrorCode Near_Private(Problem p, Contact *c)
 
 /* The pressure at nodes without multiplier, shown there and used by the estimate. Supports hold them, or they lie on the axis: from the nodes that their
    functions went to, if all of those touch: else the zone of contact ends there, and nothing tells how; 0. Hanging: their masters'. */
-static PetscErrorCode ShownMultipliers_Private(Problem p, Contact *c)
+static PetscErrorCode ShownMultipliers_Private(Interface p, Contact *c)
 {
   const Surface   *s = &c->side[0];
   const PetscInt  *first, *donor;
@@ -458,9 +428,10 @@ static PetscErrorCode ShownMultipliers_Private(Problem p, Contact *c)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode ContactEvaluate_Private(Problem p, Contact *c, Vec x, const PetscReal local[], PetscBool derivatives, PetscBool hessian, PetscBool *failed)
+PetscErrorCode ContactEvaluate_Private(Interface p, Contact *c, Vec x, const PetscReal local[], PetscReal pending, PetscBool derivatives, PetscBool hessian,
+                                       PetscBool *failed)
 {
-  const PetscBool small = (PetscBool)(p->scene->mechanics.kinematics == KINEMATICS_SMALL);
+  const PetscBool small = (PetscBool)(p->spec->kinematics == KINEMATICS_SMALL);
 
   PetscFunctionBegin;
   p->traffic.evaluations++;
@@ -476,12 +447,12 @@ PetscErrorCode ContactEvaluate_Private(Problem p, Contact *c, Vec x, const Petsc
       PetscCall(NodeSums_Private(p, c));
       PetscCall(Subtract_Private(p, c));
     }
-    PetscCall(Near_Private(p, c));
+    PetscCall(Near_Private(p, c, pending));
     PetscCall(ContactPairEvaluate(c->pair, &side[0], &side[1], c->z, c->near, derivatives, hessian, &c->num_facets, &c->facets, failed));
     PetscCall(NodeSums_Private(p, c));
   }
   PetscCall(Subtract_Private(p, c));
-  if (small) PetscCall(Near_Private(p, c));
+  if (small) PetscCall(Near_Private(p, c, pending));
   for (PetscInt e = 0; e < c->side[0].num_facets; ++e) c->result[e] = -1;
   for (PetscInt i = 0; i < c->num_facets; ++i) c->result[c->facets[i].facet] = i;
   Activity_Private(c);

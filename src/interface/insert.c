@@ -1,27 +1,27 @@
 /* Blocks of contact into the matrix: rows of this rank whose columns have room there, without a search for each entry; the others by MatSetValues. */
-#include "problemimpl.h"
+#include "interfaceimpl.h"
 
 #define FEW 8 /* columns: searches take less than a walk along the row */
 
 typedef struct {
   PetscInt *column, *from,
       *place; /* [num] sorted, in this rank's diagonal block; where they stand in the caller's rows; where they go in a row of the matrix */
-  PetscInt        num;
+  PetscInt        num, first_row, last_row;
   PetscBool       mine; /* all columns are in the diagonal block */
   const PetscInt *ai, *aj;
   PetscReal      *values;
 } Insertion;
 
-static PetscErrorCode Columns_Private(Problem p, PetscInt num, const PetscInt columns[], Insertion *s)
+static PetscErrorCode Columns_Private(PetscInt num, const PetscInt columns[], Insertion *s)
 {
   PetscFunctionBegin;
   s->num  = 0;
   s->mine = PETSC_TRUE;
   for (PetscInt i = 0; i < num; ++i) {
     if (columns[i] < 0) continue;
-    s->column[s->num] = columns[i] - p->first_row;
+    s->column[s->num] = columns[i] - s->first_row;
     s->from[s->num]   = i;
-    if (s->column[s->num] < 0 || s->column[s->num] >= p->num_rows) s->mine = PETSC_FALSE;
+    if (columns[i] < s->first_row || columns[i] >= s->last_row) s->mine = PETSC_FALSE;
     ++s->num;
   }
   PetscCall(PetscSortIntWithArray(s->num, s->column, s->from));
@@ -47,7 +47,7 @@ static PetscErrorCode Places_Private(Insertion *s, PetscInt row, PetscBool *foun
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode ProblemInsert_Private(Problem p, PetscInt num_rows, const PetscInt rows[], PetscInt num_columns, const PetscInt columns[], const PetscReal K[],
+PetscErrorCode ContactInsert_Private(Mat matrix, PetscInt num_rows, const PetscInt rows[], PetscInt num_columns, const PetscInt columns[], const PetscReal K[],
                                      InsertMode mode)
 {
   PetscInt  lines;
@@ -56,17 +56,18 @@ PetscErrorCode ProblemInsert_Private(Problem p, PetscInt num_rows, const PetscIn
   Mat       A;
 
   PetscFunctionBegin;
-  PetscCall(ProblemDiagonal_Private(p, &A));
+  PetscCall(MatGetDiagonalBlock(matrix, &A));
+  PetscCall(MatGetOwnershipRange(matrix, &s.first_row, &s.last_row));
   PetscCall(PetscMalloc3(num_columns, &s.column, num_columns, &s.from, num_columns, &s.place));
-  PetscCall(Columns_Private(p, num_columns, columns, &s));
+  PetscCall(Columns_Private(num_columns, columns, &s));
   for (PetscInt r = 0; r < num_rows; ++r) {
-    const PetscInt   row  = rows[r] - p->first_row;
+    const PetscInt   row  = rows[r] - s.first_row;
     const PetscReal *from = K + r * num_columns;
 
     if (rows[r] < 0) continue;
     PetscCall(MatGetRowIJ(A, 0, PETSC_FALSE, PETSC_FALSE, &lines, &s.ai, &s.aj, &ok));
     found = PETSC_FALSE;
-    if (s.mine && row >= 0 && row < p->num_rows) PetscCall(Places_Private(&s, row, &found));
+    if (s.mine && row >= 0 && rows[r] < s.last_row) PetscCall(Places_Private(&s, row, &found));
     if (found) {
       PetscCall(MatSeqAIJGetArray(A, &s.values));
       PetscReal *to = s.values + s.ai[row];
@@ -74,7 +75,7 @@ PetscErrorCode ProblemInsert_Private(Problem p, PetscInt num_rows, const PetscIn
       PetscCall(MatSeqAIJRestoreArray(A, &s.values));
     }
     PetscCall(MatRestoreRowIJ(A, 0, PETSC_FALSE, PETSC_FALSE, &lines, &s.ai, &s.aj, &ok));
-    if (!found) PetscCall(MatSetValues(p->matrix, 1, &rows[r], num_columns, columns, from, mode));
+    if (!found) PetscCall(MatSetValues(matrix, 1, &rows[r], num_columns, columns, from, mode));
   }
   PetscCall(PetscFree3(s.column, s.from, s.place));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -6,36 +6,14 @@
    spread as the contact forces are, which let the bodies slide half the distance of two nodes past each other and no further; the next iteration is without.
    Unlike a shorter step this leaves what is pressed in balance with its new place, and unlike a stiffness it does not ask for the sign of what holds the body.
  */
-#include "problemimpl.h"
+#include "interfaceimpl.h"
 
 #define REACH 0.5  /* of the distance of two nodes */
 #define ROUND 1e-6 /* round-off of a slide that is held back already */
 #define HELD 1e-9  /* share of the sum over supports below which a direction is free */
 
-PetscErrorCode ProblemFreeAxes(Problem p, PetscInt body, PetscInt *axes, PetscBool *turns)
-{
-  const PetscReal *hold;
-
-  PetscFunctionBegin;
-  PetscCall(MechanicsGetHold(p->mechanics, &hold));
-  hold += 9 * body;
-  *axes = 0;
-  for (PetscInt c = 0; c < p->dim; ++c)
-    if (hold[4 * c] <= HELD * (hold[0] + hold[4] + hold[8])) *axes |= 1 << c;
-  *turns = (PetscBool)(!*axes && !MechanicsIsHeld(p->mechanics, body));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode ProblemHasFreeBody(Problem p, PetscBool *yes)
-{
-  PetscFunctionBegin;
-  *yes = PETSC_FALSE;
-  for (PetscInt b = 0; b < p->scene->mechanics.num_bodies; ++b) *yes = (PetscBool)(*yes || !MechanicsIsHeld(p->mechanics, b));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 /* P = (1 + A / tiny)^-1 of the supports A of the bodies of one side: what they leave free of a translation. */
-static PetscErrorCode Free_Private(Problem p, const Surface *s, PetscReal P[9])
+static PetscErrorCode Free_Private(Interface p, const Surface *s, PetscReal P[9])
 {
   const ForestTables *tables;
   const PetscReal    *hold;
@@ -55,7 +33,7 @@ static PetscErrorCode Free_Private(Problem p, const Surface *s, PetscReal P[9])
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode ContactFreedom_Private(Problem p, Contact *c)
+PetscErrorCode ContactFreedom_Private(Interface p, Contact *c)
 {
   PetscFunctionBegin;
   c->drifts = PETSC_FALSE;
@@ -67,7 +45,8 @@ PetscErrorCode ContactFreedom_Private(Problem p, Contact *c)
 }
 
 /* Means over the nodes of both sides, weighted with their forces: relative motion and distance of nodes; mean direction n of the forces; their sums. */
-static PetscErrorCode Means_Private(Problem p, Contact *c, PetscReal motion[3], PetscReal n[3], PetscReal *distance, PetscReal sum[2])
+static PetscErrorCode Means_Private(Interface p, Contact *c, const PetscReal increment[], PetscReal motion[3], PetscReal n[3], PetscReal *distance,
+                                    PetscReal sum[2])
 {
   const PetscInt dim     = p->dim;
   PetscReal      all[12] = {0}; /* motion of the sides, force, distance, sums */
@@ -75,7 +54,7 @@ static PetscErrorCode Means_Private(Problem p, Contact *c, PetscReal motion[3], 
   PetscFunctionBegin;
   for (PetscInt k = 0; k < 2; ++k) {
     Surface *s = &c->side[k];
-    PetscCall(SurfaceGather_Private(p, s, p->increment, NULL, s->du));
+    PetscCall(SurfaceGather_Private(p, s, increment, NULL, s->du));
     for (PetscInt i = 0; i < s->num_own; ++i) {
       const PetscInt   j = s->own[i];
       const PetscReal *f = s->force + dim * j, size = PetscSqrtReal(f[0] * f[0] + f[1] * f[1] + (dim == 3 ? f[2] * f[2] : 0));
@@ -98,13 +77,13 @@ static PetscErrorCode Means_Private(Problem p, Contact *c, PetscReal motion[3], 
 }
 
 /* Slide of one pair: its direction, length and limit, and sums of the forces' sizes on both sides. */
-static PetscErrorCode Slide_Private(Problem p, Contact *c, PetscReal e[3], PetscReal *length, PetscReal *limit, PetscReal sum[2])
+static PetscErrorCode Slide_Private(Interface p, Contact *c, const PetscReal increment[], PetscReal e[3], PetscReal *length, PetscReal *limit, PetscReal sum[2])
 {
   PetscReal t[3], n[3], along[2][3], size, distance;
 
   PetscFunctionBegin;
   *length = *limit = 0;
-  PetscCall(Means_Private(p, c, t, n, &distance, sum));
+  PetscCall(Means_Private(p, c, increment, t, n, &distance, sum));
   size = PetscSqrtReal(Dot3(n, n));
   if (sum[0] == 0 || sum[1] == 0 || size == 0) PetscFunctionReturn(PETSC_SUCCESS);
   const PetscReal normal = Dot3(t, n) / (size * size);
@@ -119,7 +98,7 @@ static PetscErrorCode Slide_Private(Problem p, Contact *c, PetscReal e[3], Petsc
 }
 
 /* Forces of sum 1 along e on the nonmortar side, -1 on the mortar side. */
-static PetscErrorCode Forces_Private(Problem p, const Contact *c, const PetscReal e[3], const PetscReal sum[2], Vec force)
+static PetscErrorCode Forces_Private(Interface p, const Contact *c, const PetscReal e[3], const PetscReal sum[2], Vec force)
 {
   const PetscInt dim = p->dim;
 
@@ -142,23 +121,18 @@ static PetscErrorCode Forces_Private(Problem p, const Contact *c, const PetscRea
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode ProblemFindSlide(Problem p, Vec dx, Vec force, PetscReal *excess)
+PetscErrorCode InterfaceFindSlide(Interface p, const PetscReal increment[], Vec force, PetscReal *excess)
 {
-  PetscReal worst = 1 + ROUND, pending;
-  PetscBool any   = PETSC_FALSE;
+  PetscReal worst = 1 + ROUND;
 
   PetscFunctionBegin;
   *excess = 0;
-  for (PetscInt i = 0; i < p->num_contacts; ++i) any = (PetscBool)(any || p->contacts[i].drifts);
-  if (!any || p->scene->mechanics.kinematics == KINEMATICS_SMALL) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(ProblemPending(p, &pending));
-  if (pending > 0) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(ProblemIncrement_Private(p, dx, 1.0));
+  if (p->spec->kinematics == KINEMATICS_SMALL) PetscFunctionReturn(PETSC_SUCCESS);
   for (PetscInt i = 0; i < p->num_contacts; ++i) {
     Contact  *c = &p->contacts[i];
     PetscReal e[3], length, limit, sum[2];
     if (ContactIsReleased_Private(p, c) || !c->drifts) continue;
-    PetscCall(Slide_Private(p, c, e, &length, &limit, sum));
+    PetscCall(Slide_Private(p, c, increment, e, &length, &limit, sum));
     if (length <= worst * limit) continue;
     worst   = length / limit;
     *excess = length - limit;

@@ -5,14 +5,14 @@
    is that contact moves: its active set leaves nodes that carry pressure and takes as many new ones (never
    more than half of the old: the linear gap below the centre does not change). The bodies are then brought to their new
    places first. */
-#include "problemimpl.h"
+#include "interfaceimpl.h"
 
 #define STAYS 0.85   /* share of the smaller of the old and the new zone that both have in common, below which contact moves */
 #define PRESSED 1e-8 /* of the largest pressure: less is round-off of an open node */
 
 /* Does contact, by the active set at hand, leave nodes that carry pressure for others? By reference length, so that
    graded meshes count alike. A zone that only grows or only shrinks does not move. */
-static PetscErrorCode HasMoved_Private(Problem p, const Contact *c, PetscBool *moved)
+static PetscErrorCode HasMoved_Private(Interface p, const Contact *c, PetscBool *moved)
 {
   const Surface *s      = &c->side[0];
   PetscReal      sum[3] = {0, 0, 0}, most = 0; /* pressed, active, both */
@@ -35,15 +35,13 @@ static PetscErrorCode HasMoved_Private(Problem p, const Contact *c, PetscBool *m
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode ProblemFindSliding(Problem p, uint64_t *pairs)
+PetscErrorCode InterfaceFindSliding(Interface p, PetscReal pending, uint64_t *pairs)
 {
-  PetscReal pending;
   PetscBool moved;
 
   PetscFunctionBegin;
   *pairs = 0;
-  if (p->num_contacts == 0 || p->scene->mechanics.kinematics == KINEMATICS_SMALL) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(ProblemPending(p, &pending));
+  if (p->spec->kinematics == KINEMATICS_SMALL) PetscFunctionReturn(PETSC_SUCCESS);
   for (PetscInt i = 0; pending > 0 && i < p->num_contacts; ++i) {
     PetscCall(HasMoved_Private(p, &p->contacts[i], &moved));
     if (moved) *pairs |= (uint64_t)1 << i;

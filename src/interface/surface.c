@@ -1,5 +1,5 @@
 /* Surfaces of facets for contact: their topology, replicated. */
-#include "problemimpl.h"
+#include "interfaceimpl.h"
 
 /* Ends of a leaf's side in the order that keeps the body on the left. */
 static void EdgeVertices_Private(const PetscInt *cl, PetscInt index, PetscInt vertex[])
@@ -228,7 +228,7 @@ static PetscErrorCode SurfaceNeighbours_Private(Surface *s)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SurfaceCreate_Private(Problem p, PetscInt group, PetscBool lattice, Surface *s)
+PetscErrorCode SurfaceCreate_Private(Interface p, PetscInt group, PetscBool lattice, Surface *s)
 {
   const ForestTables *t;
 

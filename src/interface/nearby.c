@@ -2,7 +2,7 @@
    cells. 1. Every rank tells all others a few boxes that hold what its nonmortar facets may meet. 2. Mortar facets go, with their positions, to the ranks whose
    boxes theirs meets. 3. Each rank searches over its own and what arrived. 4. Facets that may meet something, and what, are told to the ranks that evaluate
    them too or have facets beside them: positions decide in one place only, and everybody agrees. */
-#include "problemimpl.h"
+#include "interfaceimpl.h"
 
 #define BOXES 8 /* of a rank */
 
@@ -59,7 +59,7 @@ static PetscErrorCode MailDestroy_Private(Mail *m)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode Send_Private(Problem p, const Mail *m, const PetscInt first[], size_t entry, const void *send, PetscInt *num, void *received)
+static PetscErrorCode Send_Private(Interface p, const Mail *m, const PetscInt first[], size_t entry, const void *send, PetscInt *num, void *received)
 {
   PetscFunctionBegin;
   PetscCall(ExchangeBegin_Private(p));
@@ -71,7 +71,7 @@ static PetscErrorCode Send_Private(Problem p, const Mail *m, const PetscInt firs
 }
 
 /* To which ranks do nodes of the mortar side have to go? Those of this rank's facets that meet one of a rank's boxes. boxes[size][BOXES] of all ranks. */
-static PetscErrorCode Address_Private(Problem p, const Contact *c, const ContactSurface *mortar, PetscReal boxes[][6], Mail *m)
+static PetscErrorCode Address_Private(Interface p, const Contact *c, const ContactSurface *mortar, PetscReal boxes[][6], Mail *m)
 {
   const Surface *s = &c->side[1];
   PetscInt      *told; /* [num_nodes] rank + 1 */
@@ -98,7 +98,7 @@ static PetscErrorCode Address_Private(Problem p, const Contact *c, const Contact
 
 /* Nodes of the mortar side with their positions to where their facets may be met; those that arrive enter x and has. A facet is known where all its nodes are.
  */
-static PetscErrorCode Arrive_Private(Problem p, Contact *c, PetscReal boxes[][6])
+static PetscErrorCode Arrive_Private(Interface p, Contact *c, PetscReal boxes[][6])
 {
   Surface             *s   = &c->side[1];
   const PetscInt       dim = s->dim, room = 1 + dim;
@@ -126,7 +126,7 @@ static PetscErrorCode Arrive_Private(Problem p, Contact *c, PetscReal boxes[][6]
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode Boxes_Private(Problem p, Contact *c, const ContactSurface *nonmortar, PetscReal margin)
+static PetscErrorCode Boxes_Private(Interface p, Contact *c, const ContactSurface *nonmortar, PetscReal margin)
 {
   PetscReal(*boxes)[6], own[BOXES][6];
   PetscInt num;
@@ -143,7 +143,7 @@ static PetscErrorCode Boxes_Private(Problem p, Contact *c, const ContactSurface 
 }
 
 /* Ranks that evaluate a facet or have one beside it, this one left out. told[size]: work, facet + 1 where it is told already. */
-static PetscErrorCode Concerned_Private(Problem p, const Contact *c, const ForestTables *t, PetscInt facet, PetscInt item, PetscInt told[], Mail *m)
+static PetscErrorCode Concerned_Private(Interface p, const Contact *c, const ForestTables *t, PetscInt facet, PetscInt item, PetscInt told[], Mail *m)
 {
   const Surface *s = &c->side[0];
 
@@ -204,7 +204,7 @@ static PetscErrorCode Unpack_Private(PetscInt *num, PetscInt **got)
 }
 
 /* Candidates of this rank's facets to those concerned; what others told as (facet, number, candidates…). */
-static PetscErrorCode Tell_Private(Problem p, Contact *c, const PetscInt start[], const PetscInt candidate[], PetscInt *num, PetscInt **got)
+static PetscErrorCode Tell_Private(Interface p, Contact *c, const PetscInt start[], const PetscInt candidate[], PetscInt *num, PetscInt **got)
 {
   const Surface      *s = &c->side[0];
   const ForestTables *t;
@@ -269,7 +269,7 @@ static PetscErrorCode Merge_Private(Contact *c, const ContactSurface *nonmortar,
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode ContactSearch_Private(Problem p, Contact *c, PetscBool reference, PetscReal margin)
+PetscErrorCode ContactSearch_Private(Interface p, Contact *c, PetscBool reference, PetscReal margin)
 {
   ContactSurface  side[2];
   const PetscInt *start, *candidate;

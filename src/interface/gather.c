@@ -1,5 +1,5 @@
 /* Values of a contact pair beyond those a rank needs: all of them everywhere, for output; chosen ones from those who know them. */
-#include "problemimpl.h"
+#include "interfaceimpl.h"
 
 #define SIDE_REALS(dim) (3 * (dim) + 3) /* of a node: position, normal, force, z, gap, weight */
 
@@ -11,7 +11,7 @@ PetscErrorCode ContactGatherDestroy_Private(Contact *c)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode Side_Private(Problem p, Contact *c, PetscInt k)
+static PetscErrorCode Side_Private(Interface p, Contact *c, PetscInt k)
 {
   const Surface   *s = &c->side[k];
   const PetscInt   n = s->num_nodes, dim = s->dim;
@@ -36,7 +36,7 @@ static PetscErrorCode Side_Private(Problem p, Contact *c, PetscInt k)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode Activity_Private(Problem p, Contact *c)
+static PetscErrorCode Activity_Private(Interface p, Contact *c)
 {
   const Surface *s = &c->side[0];
 
@@ -44,11 +44,11 @@ static PetscErrorCode Activity_Private(Problem p, Contact *c)
   if (!c->all_active) PetscCall(PetscMalloc1(s->num_nodes, &c->all_active));
   PetscCall(PetscArrayzero(c->all_active, s->num_nodes));
   for (PetscInt i = 0; i < s->num_own; ++i) c->all_active[s->own[i]] = c->active[s->own[i]];
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, c->all_active, (PetscMPIInt)s->num_nodes, COMPAT_MPI_BOOL, MPI_LOR, p->comm));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, c->all_active, (PetscMPIInt)s->num_nodes, MPI_INT8_T, MPI_MAX, p->comm));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode ProblemGatherContactToAll(Problem p, PetscInt pair, const ContactView **view)
+PetscErrorCode InterfaceGatherContactToAll(Interface p, PetscInt pair, const ContactView **view)
 {
   Contact       *c = &p->contacts[pair];
   const PetscInt n = c->side[0].num_nodes, m = c->side[1].num_nodes, dim = p->dim;
@@ -70,7 +70,7 @@ PetscErrorCode ProblemGatherContactToAll(Problem p, PetscInt pair, const Contact
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode ProblemFetchContact(Problem p, PetscInt pair, const PetscBool wanted[], PetscReal z[], PetscReal normal[], PetscReal x[])
+PetscErrorCode InterfaceFetchContact(Interface p, PetscInt pair, const PetscBool wanted[], PetscReal z[], PetscReal normal[], PetscReal x[])
 {
   const Contact   *c    = &p->contacts[pair];
   const Surface   *s    = &c->side[0];

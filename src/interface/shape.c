@@ -1,5 +1,5 @@
 /* Functions of a contact facet's nodes. */
-#include "problem.h"
+#include "interface.h"
 
 static const PetscReal Corner[4][2] = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
 

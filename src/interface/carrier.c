@@ -1,5 +1,5 @@
 /* Nodes of the nonmortar side of a contact pair: their measure, extent and scale, and which of them carry a multiplier. */
-#include "problemimpl.h"
+#include "interfaceimpl.h"
 
 #define HELD 0.05 /* a node whose normal has no larger free part than that is held across the surface */
 
@@ -48,10 +48,10 @@ static PetscErrorCode FacetShares_Private(const Surface *s, PetscInt f, PetscBoo
 
 /* Tributary measure w0, its extent along the surface (an edge's length, the root of a face's area; of higher order: divided by the order), and the constant
    c = E / extent of the complementarity: a pressure per gap, in any model. E of the softer body (a rigid one does not count). */
-PetscErrorCode ContactNodeScales_Private(Problem p, Contact *c)
+PetscErrorCode ContactNodeScales_Private(Interface p, Contact *c)
 {
   const Surface      *s            = &c->side[0];
-  const PetscBool     axisymmetric = (PetscBool)(p->scene->mechanics.model == MODEL_AXISYMMETRIC);
+  const PetscBool     axisymmetric = (PetscBool)(p->spec->model == MODEL_AXISYMMETRIC);
   const ForestTables *t;
   PetscReal           young = PETSC_MAX_REAL, share[SURFACE_MOST_NODES], room[SURFACE_MOST_NODES];
 
@@ -59,7 +59,7 @@ PetscErrorCode ContactNodeScales_Private(Problem p, Contact *c)
   PetscCall(ForestGetTables(p->forest, &t));
   for (PetscInt side = 0; side < 2; ++side) {
     for (PetscInt e = 0; e < c->side[side].num_facets; ++e) {
-      const MaterialSpec *m = p->scene->bodies[t->leaf_body[c->side[side].facet_leaf[e]]].material;
+      const MaterialSpec *m = p->spec->bodies[t->leaf_body[c->side[side].facet_leaf[e]]].material;
       if (!m->law->rigid) young = PetscMin(young, MaterialYoung(m));
     }
   }
@@ -120,7 +120,7 @@ static PetscBool IsHeld_Private(const Surface *s, PetscInt n)
 /* A node that a support holds across the surface carries no multiplier: its constraint would have nothing of its own to act on, and where the nonmortar side is
    finer a row of such nodes leaves no multiplier unique. (Nodes of rigid bodies keep theirs: the other side moves.) Hanging nodes have none: their masters act
    for them. */
-PetscErrorCode ContactCarriers_Private(Problem p, Contact *c)
+PetscErrorCode ContactCarriers_Private(Interface p, Contact *c)
 {
   const ForestTables *t;
   const Surface      *s       = &c->side[0];
@@ -132,7 +132,7 @@ PetscErrorCode ContactCarriers_Private(Problem p, Contact *c)
   for (PetscInt n = 0; n < s->num_nodes; ++n) {
     if (s->hang[n] < s->hang[n + 1] || (s->order && c->w0[n] <= WEIGHTLESS * largest)) continue;
     const PetscInt  facet = s->node_facet[s->node_first[n]];
-    const PetscBool rigid = p->scene->bodies[t->leaf_body[s->facet_leaf[facet]]].material->law->rigid;
+    const PetscBool rigid = p->spec->bodies[t->leaf_body[s->facet_leaf[facet]]].material->law->rigid;
     c->has_multiplier[n]  = (PetscBool)(rigid || !IsHeld_Private(s, n));
   }
   PetscFunctionReturn(PETSC_SUCCESS);

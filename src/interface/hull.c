@@ -1,7 +1,7 @@
 /* All outer facets of the mesh at their reference positions, and which of them belong together: for the search, which asks how thick bodies are. */
-#include "problemimpl.h"
+#include "interfaceimpl.h"
 
-PetscErrorCode HullCreate_Private(Problem p)
+PetscErrorCode HullCreate_Private(Interface p)
 {
   const CoarseMesh   *mesh;
   const ForestTables *t;
@@ -37,7 +37,7 @@ PetscErrorCode HullCreate_Private(Problem p)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode HullDestroy_Private(Problem p)
+PetscErrorCode HullDestroy_Private(Interface p)
 {
   PetscFunctionBegin;
   PetscCall(ContactHullDestroy(&p->hull));
@@ -45,7 +45,7 @@ PetscErrorCode HullDestroy_Private(Problem p)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode HullParts_Private(Problem p, const Surface *s, PetscInt **part)
+PetscErrorCode HullParts_Private(Interface p, const Surface *s, PetscInt **part)
 {
   const ForestTables *t;
 
@@ -56,7 +56,7 @@ PetscErrorCode HullParts_Private(Problem p, const Surface *s, PetscInt **part)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode HullDepth_Private(Problem p, const Contact *c, PetscReal *deepest)
+PetscErrorCode HullDepth_Private(Interface p, const Contact *c, PetscReal *deepest)
 {
   PetscFunctionBegin;
   *deepest = 0;
@@ -71,7 +71,7 @@ PetscErrorCode HullDepth_Private(Problem p, const Contact *c, PetscReal *deepest
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode ProblemUntoldOverlap(Problem p, PetscInt pair, PetscBool reference, PetscReal *depth)
+PetscErrorCode InterfaceUntoldOverlap(Interface p, PetscInt pair, PetscBool reference, PetscReal *depth)
 {
   Contact  *c = &p->contacts[pair];
   PetscReal deepest;

@@ -2,7 +2,7 @@
 
    A facet's nodes are those of the space on it and on its sides; where a side has a lower order, or hangs, the lattice's nodes in it hang on the side's own.
    All of it follows from the replicated tables of the forest and the orders, so every rank makes the same surface. */
-#include "problemimpl.h"
+#include "interfaceimpl.h"
 #include <petsc/private/hashmapi.h>
 
 #define KEY(entity, index) (FOREST_PARTS * (entity) + (index))

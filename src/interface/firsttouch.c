@@ -1,13 +1,13 @@
 /* First touch: where a pair that bears nothing yet is moved into each other, the linearised gaps overlap far beyond the zone of contact to be, since the bodies
    have not given way. Sets that begin with all those nodes lose the superfluous ones from the edge inwards, a few at each linear solve; those that begin
    with too few grow to the edge at once. */
-#include "problemimpl.h"
+#include "interfaceimpl.h"
 
 /* Nodes in the deepest quarter begin. At the edge of Hertz's contact the undeformed bodies overlap by half of the deepest in space, by more in the plane. */
 #define DEEP 0.75
 #define ROUND 1e-6 /* where all overlap alike, round-off does not choose */
 
-PetscErrorCode ContactLeastOverlap_Private(Problem p, const Contact *c, PetscReal *least)
+PetscErrorCode ContactLeastOverlap_Private(Interface p, const Contact *c, PetscReal *least)
 {
   const Surface *s        = &c->side[0];
   PetscReal      range[2] = {-PETSC_MAX_REAL, -PETSC_MAX_REAL}; /* largest overlap and minus the least of nodes that would begin to bear */
@@ -29,7 +29,7 @@ PetscErrorCode ContactLeastOverlap_Private(Problem p, const Contact *c, PetscRea
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode ProblemFindUntouched(Problem p, uint64_t *pairs)
+PetscErrorCode InterfaceFindUntouched(Interface p, uint64_t *pairs)
 {
   PetscFunctionBegin;
   *pairs = 0;

@@ -6,11 +6,11 @@
    (LinkSpread); contact forces go back (LinkCollect). A rank whose facets meet nothing sends and receives nothing.
 
    Entries that a rank has not got are NaN, so that a value nobody sent cannot be used unseen. */
-#include "problemimpl.h"
+#include "interfaceimpl.h"
 
 static PetscLogEvent exchange_event;
 
-PetscErrorCode ExchangeBegin_Private(Problem p)
+PetscErrorCode ExchangeBegin_Private(Interface p)
 {
   PetscLogDouble now;
   PetscClassId   id;
@@ -26,7 +26,7 @@ PetscErrorCode ExchangeBegin_Private(Problem p)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode ExchangeEnd_Private(Problem p)
+PetscErrorCode ExchangeEnd_Private(Interface p)
 {
   PetscLogDouble now;
 
@@ -46,7 +46,7 @@ PetscErrorCode LinkDestroy_Private(Link *l)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode LinkSet_Private(Problem p, const Surface *s, PetscInt num, const PetscInt nodes[], Link *l)
+PetscErrorCode LinkSet_Private(Interface p, const Surface *s, PetscInt num, const PetscInt nodes[], Link *l)
 {
   PetscSFNode       *remote;
   PetscInt          *local;
@@ -74,7 +74,7 @@ PetscErrorCode LinkSet_Private(Problem p, const Surface *s, PetscInt num, const 
 }
 
 /* Owned nodes are no leaves and others no roots: one array serves both. */
-PetscErrorCode LinkSpread_Private(Problem p, const Link *l, PetscInt size, PetscReal values[])
+PetscErrorCode LinkSpread_Private(Interface p, const Link *l, PetscInt size, PetscReal values[])
 {
   PetscFunctionBegin;
   if (!l->sf) PetscFunctionReturn(PETSC_SUCCESS); /* one rank, or no search yet */
@@ -87,7 +87,7 @@ PetscErrorCode LinkSpread_Private(Problem p, const Link *l, PetscInt size, Petsc
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode LinkCollect_Private(Problem p, const Link *l, PetscInt size, PetscReal values[])
+PetscErrorCode LinkCollect_Private(Interface p, const Link *l, PetscInt size, PetscReal values[])
 {
   PetscFunctionBegin;
   if (!l->sf) PetscFunctionReturn(PETSC_SUCCESS); /* one rank, or no search yet */
@@ -187,7 +187,7 @@ static PetscErrorCode Need_Private(const Contact *c, PetscBool *need[2], PetscBo
 }
 
 /* Both links of a side made for what is needed, if that is not what they are made for. */
-static PetscErrorCode Links_Private(Problem p, Surface *s, const PetscBool need[])
+static PetscErrorCode Links_Private(Interface p, Surface *s, const PetscBool need[])
 {
   PetscInt *nodes[2], num[2] = {0, 0};
   PetscBool same = PETSC_FALSE;
@@ -232,7 +232,7 @@ static void Values_Private(Contact *c, const PetscBool need[], const PetscBool o
   for (PetscInt k = 0; k < 3; ++k) Poison_Private(num, c->valued, 1, values[k]);
 }
 
-PetscErrorCode ContactLink_Private(Problem p, Contact *c)
+PetscErrorCode ContactLink_Private(Interface p, Contact *c)
 {
   PetscBool *need[2], *own;
 
@@ -252,14 +252,14 @@ PetscErrorCode ContactLink_Private(Problem p, Contact *c)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode ProblemGetTraffic(Problem p, ContactTraffic *traffic)
+PetscErrorCode InterfaceGetTraffic(Interface p, ContactTraffic *traffic)
 {
   PetscFunctionBegin;
   *traffic = p->traffic;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode TrafficReport_Private(Problem p)
+PetscErrorCode TrafficReport_Private(Interface p)
 {
   const ContactTraffic *t      = &p->traffic;
   PetscInt              num[2] = {0, 0};

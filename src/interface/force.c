@@ -1,5 +1,5 @@
 /* Forces of contact pairs and the rows of their multipliers in the residual. */
-#include "problemimpl.h"
+#include "interfaceimpl.h"
 
 void ContactForcesZero_Private(Contact *c)
 {
@@ -31,7 +31,7 @@ static void FacetForces_Private(Contact *c)
   }
 }
 
-PetscErrorCode ContactForcesSubtract_Private(Problem p, Contact *c, PetscReal r[])
+PetscErrorCode ContactForcesSubtract_Private(Interface p, Contact *c, PetscReal r[])
 {
   const PetscInt dim = p->dim;
 
@@ -51,25 +51,34 @@ PetscErrorCode ContactForcesSubtract_Private(Problem p, Contact *c, PetscReal r[
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Nodal contact forces -dL_c/dx = z_j grad gt_j on both sides; residual r -= force. */
-PetscErrorCode ContactForces_Private(Problem p, Contact *c, PetscReal r[])
+/* Nodal contact forces -dL_c/dx = z_j grad gt_j on both sides. */
+PetscErrorCode InterfaceForces(Interface p, PetscReal local[])
 {
   PetscFunctionBegin;
-  FacetForces_Private(c);
-  PetscCall(ContactForcesSubtract_Private(p, c, r));
+  for (PetscInt i = 0; i < p->num_contacts; ++i) {
+    FacetForces_Private(&p->contacts[i]);
+    PetscCall(ContactForcesSubtract_Private(p, &p->contacts[i], local));
+  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Complementarity rows into this rank's part of the residual. */
-void ContactRows_Private(const Contact *c, PetscReal r[])
+PetscErrorCode InterfaceRows(Interface p, PetscReal r[])
 {
-  for (PetscInt j = 0; j < c->side[0].num_nodes; ++j) {
-    if (c->zlocal[j] < 0) continue;
-    r[c->zlocal[j]] = c->w0[j] * (c->active[j] ? c->c[j] * ContactRowGap_Private(c, j) / ContactRowMeasure_Private(c, j) : c->z[j]);
+  PetscFunctionBegin;
+  for (PetscInt i = 0; i < p->num_contacts; ++i) {
+    const Contact *c = &p->contacts[i];
+    for (PetscInt j = 0; j < c->side[0].num_nodes; ++j) {
+      if (c->zlocal[j] < 0) continue;
+      const ContactPoint point = ContactPoint_Private(c, j, 0);
+      ContactRow         row;
+      c->law->rows(&point, PETSC_FALSE, &row);
+      r[c->zlocal[j]] = -row.side;
+    }
   }
+  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode ContactHoldsRims_Private(Problem p, PetscBool *holds)
+PetscErrorCode InterfaceHoldsRims(Interface p, PetscBool *holds)
 {
   PetscBool mine = PETSC_FALSE;
 
@@ -99,14 +108,53 @@ static PetscBool Movable_Private(const Contact *c)
   return PETSC_FALSE;
 }
 
-PetscErrorCode ProblemMayFreezeSegmentation(Problem p, PetscBool *yes)
+PetscErrorCode InterfaceMayFreezeSegmentation(Interface p, PetscBool *yes)
 {
   PetscBool mine = PETSC_FALSE;
 
   PetscFunctionBegin;
   *yes = PETSC_FALSE;
-  if (p->dim == 2 || p->viscous || p->scene->mechanics.kinematics == KINEMATICS_SMALL) PetscFunctionReturn(PETSC_SUCCESS);
+  if (p->dim == 2 || p->spec->kinematics == KINEMATICS_SMALL) PetscFunctionReturn(PETSC_SUCCESS);
   for (PetscInt i = 0; i < p->num_contacts && !mine; ++i) mine = (PetscBool)(p->contacts[i].side[0].order && Movable_Private(&p->contacts[i]));
   PetscCallMPI(MPI_Allreduce(&mine, yes, 1, COMPAT_MPI_BOOL, MPI_LOR, p->comm));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Square of what round-off of positions leaves in the rows and forces of this rank's active nodes: epsilon |x| (E + z) w0 / extent. */
+PetscReal InterfaceNoise2(Interface p)
+{
+  PetscReal sum = 0;
+
+  for (PetscInt i = 0; i < p->num_contacts; ++i) {
+    const Contact *c = &p->contacts[i];
+    for (PetscInt k = 0; k < c->side[0].num_own; ++k) {
+      const PetscInt j      = c->side[0].own[k];
+      PetscReal      square = 0;
+      for (PetscInt d = 0; d < p->dim; ++d) square += PetscSqr(c->side[0].x[p->dim * j + d]);
+      if (c->active[j]) sum += square * PetscSqr(PETSC_MACHINE_EPSILON * (c->w0[j] * (c->c[j] + PetscAbsReal(c->z[j]) / c->extent[j])));
+    }
+  }
+  return sum;
+}
+
+/* Where the forces act: with small kinematics at the reference positions. */
+PetscErrorCode InterfaceResultant(Interface p, PetscInt pair, PetscReal force[3], PetscReal moment[3])
+{
+  const Surface   *s      = &p->contacts[pair].side[0];
+  const PetscReal *at     = p->spec->kinematics == KINEMATICS_SMALL ? s->X : s->x;
+  PetscReal        sum[6] = {0}, *f = sum, *m = sum + 3;
+
+  PetscFunctionBegin;
+  for (PetscInt k = 0; k < s->num_own; ++k) {
+    const PetscReal *q = s->force + p->dim * s->own[k], *y = at + p->dim * s->own[k];
+    for (PetscInt d = 0; d < p->dim; ++d) f[d] += q[d];
+    m[2] += y[0] * q[1] - y[1] * q[0];
+    if (p->dim == 2) continue;
+    m[0] += y[1] * q[2] - y[2] * q[1];
+    m[1] += y[2] * q[0] - y[0] * q[2];
+  }
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 6, MPIU_REAL, MPI_SUM, p->comm));
+  PetscCall(PetscArraycpy(force, f, 3));
+  PetscCall(PetscArraycpy(moment, m, 3));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

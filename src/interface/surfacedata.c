@@ -1,5 +1,5 @@
 /* Fields of the nodes of a contact surface: positions, supports, places in the problem's vector, and their exchange between ranks. */
-#include "problemimpl.h"
+#include "interfaceimpl.h"
 
 #define FLAT 1e-6 /* distance from a plane, over that along it, of what lies in it */
 
@@ -78,7 +78,7 @@ static void NodeMirrors_Private(Surface *s, PetscInt n, PetscInt fixed)
 }
 
 /* What this rank owns, and what it knows without asking: nodes that its cells and ghost cells depend on. */
-static PetscErrorCode Shares_Private(Problem p, const HPTables *v, const ForestTables *t, Surface *s)
+static PetscErrorCode Shares_Private(Interface p, const HPTables *v, const ForestTables *t, Surface *s)
 {
   PetscBool *used;
 
@@ -108,7 +108,7 @@ static PetscErrorCode Shares_Private(Problem p, const HPTables *v, const ForestT
 }
 
 /* Fields of the mesh that every rank has of all nodes: gathered to all from the owners, once per mesh. */
-PetscErrorCode SurfaceFields_Private(Problem p, Surface *s)
+PetscErrorCode SurfaceFields_Private(Interface p, Surface *s)
 {
   const PetscInt      dim = s->dim, room = dim + dim * dim + 1; /* of a node: position, frame, fixed bits */
   const HPTables     *v;
@@ -138,7 +138,7 @@ PetscErrorCode SurfaceFields_Private(Problem p, Surface *s)
     for (PetscInt c = 0; c < dim; ++c) b[c] = v->X[3 * s->local[n] + c];
     for (PetscInt k = 0; k < dim; ++k)
       for (PetscInt c = 0; c < dim; ++c) b[dim + dim * k + c] = frame ? frame[3 * k + c] : (PetscReal)(k == c);
-    b[room - 1] = p->supports.fixed[s->local[n]];
+    b[room - 1] = p->fixed[s->local[n]];
   }
   PetscCall(PetscFree(number));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, buffer, (PetscMPIInt)(room * s->num_nodes), MPIU_REAL, MPI_SUM, p->comm));
@@ -162,13 +162,13 @@ PetscErrorCode SurfaceFields_Private(Problem p, Surface *s)
 /* Rows of the nodes' dofs in the matrix, gathered to all from their owners once per mesh (stored +2 so that a sum works and -1 survives); hanging nodes have
  * none.
  */
-PetscErrorCode SurfaceIndices_Private(Problem p, Surface *s)
+PetscErrorCode SurfaceIndices_Private(Interface p, const PetscInt row[], Surface *s)
 {
   const PetscInt dim = s->dim;
 
   PetscFunctionBegin;
   for (PetscInt n = 0; n < s->num_nodes; ++n) {
-    for (PetscInt c = 0; c < dim; ++c) s->dof[dim * n + c] = s->owned[n] ? p->row[s->local[n] * dim + c] + 2 : 0;
+    for (PetscInt c = 0; c < dim; ++c) s->dof[dim * n + c] = s->owned[n] ? row[s->local[n] * dim + c] + 2 : 0;
   }
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, s->dof, (PetscMPIInt)(dim * s->num_nodes), MPIU_INT, MPI_SUM, p->comm));
   for (PetscInt n = 0; n < s->num_nodes; ++n) {
@@ -212,7 +212,7 @@ void SurfacePlace_Private(const Surface *s, const PetscReal local[], const Petsc
   Finish_Private(s, base, values);
 }
 
-PetscErrorCode SurfaceGather_Private(Problem p, const Surface *s, const PetscReal local[], const PetscReal base[], PetscReal values[])
+PetscErrorCode SurfaceGather_Private(Interface p, const Surface *s, const PetscReal local[], const PetscReal base[], PetscReal values[])
 {
   PetscFunctionBegin;
   Place_Private(s, local, values);

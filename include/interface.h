@@ -1,0 +1,203 @@
+/* Floor 4. Contact between the bodies of one mesh: the surfaces of all pairs, their multipliers z_j and weighted gaps at the nodes of the nonmortar sides,
+   which of them are active, nodal forces, and what all that has in a residual, a matrix and its right-hand side.
+
+   Row of z_j: the complementarity  R_j = w0_j [ z_j - max(0, z_j - c_j gt_j / w_j) ]  (unit: force), c_j = E / extent_j, w0_j the reference tributary length
+   (area) of the node. Local arrays are those of the space, [num_nodes][dim], in the frames of its nodes; vectors those of the problem that it is part of. */
+#pragma once
+#include "contact.h"
+#include "mechanics.h"
+
+typedef struct _p_Interface *Interface;
+
+/* What is chosen, besides x: residual, gaps and tangent are functions of x and of this. Choices are made between Newton iterations (src/solve, its modifiers)
+   and set by one call (ProblemSetForm). Sets of contact pairs: bit i for pair i. Of the residual, and kept with its state: */
+typedef struct {
+  PetscBool frozen_segmentation; /* contact forces at held lines of the mortar side (ContactPairHoldLines) */
+  /* of a linearisation only: */
+  PetscBool    symmetric;      /* the tangent in its symmetric form, where there is one */
+  uint64_t     released;       /* pairs that take no part in the tangent, their multipliers go to 0 */
+  uint64_t     frozen_normals; /* pairs with tangents at fixed directions */
+  uint64_t     deepest_first;  /* pairs of which those nodes join the active set first that overlap the most */
+  MaterialEdge edge;           /* what tangents expect of points on their yield surface */
+  PetscReal    proximal;       /* share of the small stiffness of bodies that no support holds (MechanicsLoosen) */
+} Form;
+
+#define FORM_PAIRS 64 /* most contact pairs of a scene */
+
+static inline PetscBool FormHas(uint64_t pairs, PetscInt pair)
+{
+  return (PetscBool)((pairs >> pair) & 1);
+}
+/* The derivative itself, in its exact form. */
+static inline Form FormPlain(PetscBool frozen_segmentation)
+{
+  return (Form){.frozen_segmentation = frozen_segmentation, .edge = EDGE_AS_IT_IS};
+}
+
+/* The linear system that contact writes to, as the form at hand wants it. Borrowed. */
+typedef struct {
+  Mat              matrix;
+  PetscBool        symmetric;
+  const PetscReal *increment; /* local array: of the Newton step under discussion, or the prescribed motion still to come */
+  Vec              lift;      /* takes the forces of the latter; NULL: not wanted */
+} InterfaceSystem;
+
+/* ---- replicated topology, values where they are needed ---------------------------------------------------------------------- */
+
+/* Tables of all nodes and facets of both sides are the same on every rank, and so is what belongs to the mesh. Values of the last evaluation are not: each rank
+   has them at nodes it owns, at the nodes of its own facets (those of its leaves), and at those that its facets in contact depend on. Other entries are NaN;
+   InterfaceGatherContactToAll knows all. */
+
+typedef struct {
+  PetscInt         dim, corners; /* of a facet: 2 or 4 */
+  PetscInt         num_nodes, num_facets;
+  const PetscInt  *node_entity;        /* [num_nodes] global vertex entity */
+  const PetscInt  *facets;             /* [num_facets][corners], body to the left; counterclockwise seen from outside */
+  const PetscInt  *facet_leaf;         /* [num_facets] */
+  const PetscInt  *facet_entity;       /* [num_facets] */
+  const PetscInt  *hang, *hang_master; /* [num_nodes+1] offsets: masters of a hanging node, in this table; empty: it does not hang */
+  const PetscReal *hang_weight;
+  const PetscReal *X;     /* [num_nodes][dim] */
+  const PetscReal *x;     /* [num_nodes][dim] at the last evaluation */
+  const PetscReal *force; /* [num_nodes][dim] contact force at the last residual, of owned nodes; none at hanging nodes */
+  const PetscBool *owned; /* [num_nodes] this rank answers for the node: sums over nodes run over these; hanging nodes belong to nobody */
+  const int8_t    *order; /* facets of higher order as in contact.h: their order and lattices of nodes; NULL: all are of order 1, their nodes the corners */
+  const PetscInt  *first, *lattice;
+} SurfaceView;
+
+#define SURFACE_MOST_NODES ((MORTISE_MAX_ORDER + 1) * (MORTISE_MAX_ORDER + 1)) /* of a facet */
+
+/* Nodes that shape a facet, and their number: its corners, or its lattice. */
+static inline PetscInt SurfaceFacetNodes(const SurfaceView *s, PetscInt facet, const PetscInt **nodes)
+{
+  *nodes = s->order ? s->lattice + s->first[facet] : s->facets + s->corners * facet;
+  return s->order ? s->first[facet + 1] - s->first[facet] : s->corners;
+}
+/* Its order; 0: the nodes are the corners. */
+static inline PetscInt SurfaceFacetOrder(const SurfaceView *s, PetscInt facet)
+{
+  return s->order ? s->order[facet] : 0;
+}
+/* Functions of these nodes at xi[dim-1] in [-1, 1], N[...], and their derivatives by xi (NULL: not wanted). order 0: hats of the corners, counterclockwise;
+   else of the lattice, lexicographic. */
+void SurfaceShape(PetscInt dim, PetscInt order, const PetscReal xi[], PetscReal N[], PetscReal dN[][2]);
+/* Tangents by xi of a facet at nodal positions x[num_nodes][dim]; two dimensions: the second is the unit vector across. */
+void SurfaceTangents(const SurfaceView *, PetscInt facet, const PetscReal x[], const PetscReal xi[], PetscReal tangent[2][3]);
+
+typedef struct {
+  const ContactSpec *spec;
+  SurfaceView        nonmortar, mortar;
+  const PetscReal   *z, *gap, *weight; /* [nonmortar.num_nodes] multiplier, gt_j, w_j at the last evaluation */
+  const int8_t      *active;           /* [nonmortar.num_nodes] as the residual decided: 0 open, else a state of the contact law */
+  const PetscBool   *has_multiplier;   /* [nonmortar.num_nodes]; hanging nodes: no, their z is interpolated */
+  ContactPair        pair;             /* segments of this rank's nonmortar facets */
+  const PetscReal   *normal;           /* [nonmortar.num_nodes][dim] of views gathered to all; else NULL: ContactPairGetNormals */
+  PetscReal          area, min_gap;    /* totals over ranks */
+  PetscInt           unusable;         /* overlaps at the last evaluation that could not be used: facets folded over in the other's view */
+  PetscReal          adjusted;         /* largest mean initial gap, over or under, that was closed at a node (initial_gap: adjust) */
+} ContactView;
+
+/* fixed[num_nodes]: as in Supports. All that is handed over must outlive the interface. Collective. */
+PetscErrorCode InterfaceCreate(HPSpace, Mechanics, const MechanicsSpec *, const int8_t fixed[], PetscInt num, const ContactSpec[], Interface *);
+PetscErrorCode InterfaceDestroy(Interface *);
+/* Of linearisations, from now on; borrowed. Not collective. */
+PetscErrorCode InterfaceSetForm(Interface, const Form *);
+
+/* counts[rank] of unknowns grow by the multipliers of each rank, which have the places from there on in its part of a vector. Not collective. */
+PetscErrorCode InterfaceNumber(Interface, PetscInt counts[]);
+/* Rows of the matrix: of multipliers, counted as before, with offset[rank] added; of local dofs row[num_nodes*dim], -1: none. num_inner: unknowns of this rank
+   that the matrix lacks, the first of its vector. Collective. */
+PetscErrorCode InterfaceSetRows(Interface, PetscInt counts[], const PetscInt offset[], const PetscInt row[], PetscInt num_inner);
+
+PetscErrorCode InterfaceGetContact(Interface, PetscInt pair, const ContactView **);
+/* The same with the values of all nodes (forces too) and `normal` on every rank: one reduction over both surfaces, for output and the like. They stay valid
+   until the next call for this pair. Collective. */
+PetscErrorCode InterfaceGatherContactToAll(Interface, PetscInt pair, const ContactView **view);
+/* Multipliers and (NULL: not wanted) nodal normals and positions of the last evaluation at wanted[nonmortar.num_nodes] nodes, from the ranks that know them:
+   z[nonmortar num_nodes], normal[..][dim], x[..][dim], NaN at others. Collective. */
+PetscErrorCode InterfaceFetchContact(Interface, PetscInt pair, const PetscBool wanted[], PetscReal z[], PetscReal normal[], PetscReal x[]);
+/* What contact has sent from this rank since the problem was created. Values: between searches; search: positions and lists of facets, sent where boxes meet.
+   Boxes of ranks and scalars, which all ranks reduce, are left out. */
+typedef struct {
+  PetscInt  evaluations, searches, messages, search_messages;
+  PetscReal bytes, search_bytes, seconds; /* seconds: wall time in the exchange of values, waiting included */
+} ContactTraffic;
+PetscErrorCode InterfaceGetTraffic(Interface, ContactTraffic *);
+/* Set the multipliers of a pair from values[nonmortar.num_nodes] in x: each rank those of its own nodes. */
+PetscErrorCode InterfaceSetMultipliers(Interface, PetscInt pair, const PetscReal z[], Vec x);
+/* The opposite: values of this rank's own nodes from x, z[nonmortar.num_nodes]; others and nodes without multiplier stay as they are. Not collective.
+   own[nonmortar.num_nodes] (NULL: not wanted): which these are. */
+PetscErrorCode InterfaceGetMultipliers(Interface, PetscInt pair, Vec x, PetscReal z[], PetscBool own[]);
+/* What room facets of a pair have been given in the matrix so far: facet f for nodes node[first[f] .. first[f+1]), mortar ones as ~node; borrowed, of facets
+   evaluated on this rank; first NULL: none yet. Set: that room again, of all facets of the pair (those evaluated elsewhere are not looked at); the matrix is
+   made anew when next asked for. Not collective. */
+PetscErrorCode InterfaceGetPattern(Interface, PetscInt pair, const PetscInt **first, const PetscInt **node);
+PetscErrorCode InterfaceSetPattern(Interface, PetscInt pair, const PetscInt first[], const PetscInt node[]);
+/* The deepest overlap of a pair's sides, at the reference positions or where they are now, that the search passes over since it cannot tell it from the far
+   side of a body behind; 0: none. The next solve searches anew. Collective. */
+PetscErrorCode InterfaceUntoldOverlap(Interface, PetscInt pair, PetscBool reference, PetscReal *depth);
+
+/* ---- residual ----------------------------------------------------------------------------------------------------------------- */
+
+/* The candidate search at the local displacements u. Collective. */
+PetscErrorCode InterfaceSearch(Interface, const PetscReal u[]);
+/* Gaps, weights, activity and facets at the multipliers of x and the displacements u, with derivatives of the gaps, and with Hessians too: then at the
+   directions that the form wants. pending: prescribed motion still to come. Views show the last evaluation. *failed stays unless it fails. Collective. */
+PetscErrorCode InterfaceEvaluate(Interface, Vec x, const PetscReal u[], PetscReal pending, PetscBool hessian, PetscBool *failed);
+/* Of the last evaluation: forces off a local array; multipliers' rows into this rank's part of a vector; square of what round-off of positions leaves in both,
+   this rank's part. Forces are collective. */
+PetscErrorCode InterfaceForces(Interface, PetscReal local[]);
+PetscErrorCode InterfaceRows(Interface, PetscReal r[]);
+PetscReal      InterfaceNoise2(Interface);
+/* Force and moment about the origin on the nonmortar side of a pair, on all ranks. Collective. */
+PetscErrorCode InterfaceResultant(Interface, PetscInt pair, PetscReal force[3], PetscReal moment[3]);
+/* Note: of each node the constant by which its gap contradicts its pressure. Leave: this share of it counts as no gap; at first, and after Note: 0. */
+PetscErrorCode InterfaceNoteMisfit(Interface);
+PetscErrorCode InterfaceLeaveMisfit(Interface, PetscReal share);
+
+/* ---- tangent, of the last evaluation -------------------------------------------------------------------------------------------- */
+
+/* *grown: there is more to write than has had room so far; it has from the next matrix on. Not collective. */
+PetscErrorCode InterfaceGrow(Interface, PetscBool *grown);
+/* Entries in the rows first_row .. first_row + num_rows of this rank: counted, or without counters written as explicit zeros. */
+PetscErrorCode InterfacePattern(Interface, Mat, PetscInt first_row, PetscInt num_rows, PetscInt diagonal[], PetscInt other[]);
+/* Has it active constraints whose forces hold the rim of the mortar side (ContactFacet.push)? Collective. */
+PetscErrorCode InterfaceHoldsRims(Interface, PetscBool *holds);
+/* Hessians and columns, added; then, after the matrix is flushed, rows, which replace what is there. Collective. */
+PetscErrorCode InterfaceBlocks(Interface, const InterfaceSystem *);
+PetscErrorCode InterfaceInsertRows(Interface, const InterfaceSystem *);
+/* Right-hand side of the multipliers' rows, and what goes to the forces with it. Multipliers from the unknowns of the symmetric form, in this rank's part of a
+   vector. Collective. */
+PetscErrorCode InterfaceRightSide(Interface, const InterfaceSystem *, Vec rhs);
+void           InterfaceScaleIncrement(Interface, PetscReal dx[]);
+/* One pass of the active set: as ProblemSwitchActiveSet. *changed: on this rank. */
+PetscErrorCode InterfaceSwitch(Interface, const InterfaceSystem *, Vec dx, Vec rhs, PetscInt *changed);
+
+/* ---- what a form may be chosen by, at the last evaluation. All collective ------------------------------------------------------- */
+
+/* Pairs (of those not released) whose active set of the last linear step moves along the surface, while prescribed motion is still to come and kinematics are
+   finite: gaps linearised at the old place say little of the new one. */
+PetscErrorCode InterfaceFindSliding(Interface, PetscReal pending, uint64_t *pairs);
+/* Pairs whose open gaps under pressure are too wide, against their facets, for the turning of directions to mean anything; and those without pressure. */
+PetscErrorCode InterfaceFindWide(Interface, uint64_t *pairs);
+/* Pairs that have borne nothing yet. */
+PetscErrorCode InterfaceFindUntouched(Interface, uint64_t *pairs);
+/* Are there facets under pressure whose forces frozen segmentation would change? */
+PetscErrorCode InterfaceMayFreezeSegmentation(Interface, PetscBool *yes);
+/* As ProblemFindSlide, for a step with this increment. */
+PetscErrorCode InterfaceFindSlide(Interface, const PetscReal increment[], Vec force, PetscReal *excess);
+/* A number that tells active sets of this problem apart, the same on every rank. Collective. */
+PetscErrorCode InterfaceActiveSetHash(Interface, uint64_t *hash);
+
+/* ---- augmented Lagrangian (merit.c): z_j = max(0, lambda_j - kappa_j g_j), kappa_j = factor c_j --------------------------------- */
+
+/* Its contact part at the displacements u, added to *energy (this rank's part); forces off the local array r (NULL: not wanted); x gets its multipliers from
+   those of lambda. Collective. */
+PetscErrorCode InterfaceMerit(Interface, PetscReal factor, Vec lambda, const PetscReal u[], PetscReal pending, PetscReal r[], Vec x, PetscReal *energy,
+                              PetscBool *failed);
+/* At the last one, into a vector of the problem: overlap at each node over its extent along the surface, 0: open, -1: it meets nothing. */
+PetscErrorCode InterfaceMeritDepth(Interface, Vec depth);
+/* Contact at x with its Hessian and which nodes press (open: none do); Hessians into the matrix, rows and columns of the multipliers. Collective. */
+PetscErrorCode InterfaceMeritEvaluate(Interface, Vec x, const PetscReal u[], PetscReal pending, PetscBool open, PetscBool *failed);
+PetscErrorCode InterfaceMeritHessians(Interface, const InterfaceSystem *);
+PetscErrorCode InterfaceMeritRows(Interface, const InterfaceSystem *, PetscReal factor);

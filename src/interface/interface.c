@@ -1,0 +1,159 @@
+/* All contact pairs of one mesh: their life, places of their multipliers, search and evaluation. */
+#include "interfaceimpl.h"
+
+PetscErrorCode InterfaceCreate(HPSpace space, Mechanics mechanics, const MechanicsSpec *spec, const int8_t fixed[], PetscInt num, const ContactSpec contacts[],
+                               Interface *interface)
+{
+  const ForestTables *t;
+  Interface           p;
+
+  PetscFunctionBegin;
+  PetscCheckInput(num <= FORM_PAIRS, "%" PetscInt_FMT " contact pairs; at most %d are possible", num, FORM_PAIRS);
+  PetscCall(PetscNew(&p));
+  p->space        = space;
+  p->mechanics    = mechanics;
+  p->spec         = spec;
+  p->fixed        = fixed;
+  p->num_contacts = num;
+  PetscCall(HPSpaceGetForest(space, &p->forest));
+  PetscCall(ForestGetTables(p->forest, &t));
+  p->dim  = t->dim;
+  p->comm = ForestComm(p->forest);
+  PetscCallMPI(MPI_Comm_rank(p->comm, &p->rank));
+  PetscCallMPI(MPI_Comm_size(p->comm, &p->size));
+  for (PetscMPIInt k = 1; k < 4; ++k) {
+    PetscCallMPI(MPI_Type_contiguous(k, MPIU_REAL, &p->unit[k]));
+    PetscCallMPI(MPI_Type_commit(&p->unit[k]));
+  }
+  PetscCall(PetscCalloc1(num, &p->contacts));
+  if (num) PetscCall(HullCreate_Private(p));
+  for (PetscInt i = 0; i < num; ++i) PetscCall(ContactCreate_Private(p, &contacts[i], &p->contacts[i]));
+  *interface = p;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode InterfaceDestroy(Interface *interface)
+{
+  Interface p = *interface;
+
+  PetscFunctionBegin;
+  if (!p) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(TrafficReport_Private(p));
+  for (PetscMPIInt k = 1; k < 4; ++k) PetscCallMPI(MPI_Type_free(&p->unit[k]));
+  for (PetscInt i = 0; i < p->num_contacts; ++i) PetscCall(ContactDestroy_Private(&p->contacts[i]));
+  PetscCall(PetscFree(p->contacts));
+  PetscCall(HullDestroy_Private(p));
+  PetscCall(PetscFree2(p->work_index, p->work_value));
+  PetscCall(PetscFree(p->hessian));
+  PetscCall(PetscFree(*interface));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode InterfaceSetForm(Interface p, const Form *form)
+{
+  PetscFunctionBegin;
+  p->form = form;
+  for (PetscInt i = 0; i < p->num_contacts; ++i) PetscCall(ContactPairHoldLines(p->contacts[i].pair, form->frozen_segmentation));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Multipliers live with the owner of their node. */
+PetscErrorCode InterfaceNumber(Interface p, PetscInt counts[])
+{
+  const ForestTables *t;
+
+  PetscFunctionBegin;
+  PetscCall(ForestGetTables(p->forest, &t));
+  for (PetscInt i = 0; i < p->num_contacts; ++i) {
+    Contact *c = &p->contacts[i];
+    for (PetscInt n = 0; n < c->side[0].num_nodes; ++n) {
+      const PetscMPIInt owner = t->leaf_rank[t->entity_leaf[c->side[0].node_entity[n]]];
+      c->zdof[n] = c->zlocal[n] = -1;
+      if (!c->has_multiplier[n]) continue;
+      c->zdof[n] = counts[owner]++;
+      if (owner == p->rank) c->zlocal[n] = c->zdof[n];
+    }
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode InterfaceSetRows(Interface p, PetscInt counts[], const PetscInt offset[], const PetscInt row[], PetscInt num_inner)
+{
+  const ForestTables *t;
+
+  PetscFunctionBegin;
+  p->num_inner = num_inner;
+  PetscCall(ForestGetTables(p->forest, &t));
+  PetscCall(InterfaceNumber(p, counts));
+  for (PetscInt i = 0; i < p->num_contacts; ++i) {
+    Contact *c = &p->contacts[i];
+    for (PetscInt n = 0; n < c->side[0].num_nodes; ++n) {
+      if (c->zdof[n] >= 0) c->zdof[n] += offset[t->leaf_rank[t->entity_leaf[c->side[0].node_entity[n]]]];
+    }
+    for (PetscInt k = 0; k < 2; ++k) PetscCall(SurfaceIndices_Private(p, row, &c->side[k]));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode InterfaceGetContact(Interface p, PetscInt pair, const ContactView **view)
+{
+  PetscFunctionBegin;
+  *view = &p->contacts[pair].view;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode InterfaceSetMultipliers(Interface p, PetscInt pair, const PetscReal z[], Vec x)
+{
+  const Contact *c = &p->contacts[pair];
+  PetscReal     *array;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetArray(x, &array));
+  for (PetscInt j = 0; j < c->side[0].num_nodes; ++j) {
+    if (c->zlocal[j] >= 0) array[c->zlocal[j]] = z[j];
+  }
+  PetscCall(VecRestoreArray(x, &array));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode InterfaceGetMultipliers(Interface p, PetscInt pair, Vec x, PetscReal z[], PetscBool own[])
+{
+  const Contact   *c = &p->contacts[pair];
+  const PetscReal *array;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetArrayRead(x, &array));
+  for (PetscInt j = 0; j < c->side[0].num_nodes; ++j) {
+    if (c->zlocal[j] >= 0) z[j] = array[c->zlocal[j]];
+    if (own) own[j] = (PetscBool)(c->zlocal[j] >= 0);
+  }
+  PetscCall(VecRestoreArrayRead(x, &array));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode InterfaceSearch(Interface p, const PetscReal u[])
+{
+  PetscFunctionBegin;
+  for (PetscInt i = 0; i < p->num_contacts; ++i) {
+    Contact *c = &p->contacts[i];
+    if (p->spec->kinematics == KINEMATICS_SMALL) continue;
+    for (PetscInt k = 0; k < 2; ++k) {
+      SurfaceForget_Private(&c->side[k]);
+      SurfacePlace_Private(&c->side[k], u, c->side[k].X, c->side[k].x);
+    }
+    PetscCall(ContactSearch_Private(p, c, PETSC_FALSE, 0.1 * c->distance));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode InterfaceEvaluate(Interface p, Vec x, const PetscReal u[], PetscReal pending, PetscBool hessian, PetscBool *failed)
+{
+  PetscFunctionBegin;
+  for (PetscInt i = 0; i < p->num_contacts; ++i) {
+    Contact *c = &p->contacts[i];
+    PetscCall(ContactPairHold(c->pair, (PetscBool)(hessian && FormHas(p->form->frozen_normals, i))));
+    PetscCall(ContactEvaluate_Private(p, c, x, u, pending, PETSC_TRUE, hessian, failed));
+    PetscCall(ContactPairHold(c->pair, PETSC_FALSE));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

@@ -1,0 +1,266 @@
+/* Private to interface. */
+#pragma once
+#include "interface.h"
+
+#include <petscsf.h>
+
+#define COVERED_HIGHER 1e-9 /* the same for facets of higher order, whose forces have faded before: compliance.c in contact */
+#define COVERED 1e-5        /* share of a node's tributary measure below which it counts as uncovered: its constraint would be all but free of its pressure */
+
+#define SLACK 1e-10 /* pressure over Young's modulus that is none: what round-off leaves */
+
+#define MOST_MASTERS 8          /* of a hanging vertex of a contact surface of order 1 */
+#define MOST_LATTICE_MASTERS 64 /* of a hanging node of a lattice: two ends that hang on edges themselves, and so on */
+
+/* Values of some nodes of a surface on their way between the ranks that own them and those that use them. */
+typedef struct {
+  PetscSF     sf;               /* roots and leaves have the nodes' numbers */
+  PetscInt    num, *nodes;      /* that this rank uses and does not own, ascending */
+  PetscMPIInt num_from, num_to; /* owners that this rank hears from, users that it tells */
+  PetscInt    num_told;         /* entries told to all of them together */
+} Link;
+
+/* ---- contact laws (law/): what the multipliers of a node fulfil -------------------------------------------------------------- */
+
+#define MOST_MULTIPLIERS 3 /* of a node */
+
+/* A node of the nonmortar side: what its rows are made of. */
+typedef struct {
+  const ContactSpec *spec;
+  int8_t             state;
+  PetscReal          z[MOST_MULTIPLIERS], gap, weight, spring, w0, c; /* as in Contact */
+  PetscReal          lift;                                            /* change of the gap by the motion still to come */
+} ContactPoint;
+
+/* One of its rows, linearised:  factor [grad gt - mean grad w + along grad K] . du + sum_k z_k dz_k = side.  value: of a node that bears, the gap that has to
+   vanish. push: the derivative of the forces by z_j (ContactFacet.push) stands for grad gt. */
+typedef struct {
+  PetscReal factor, mean, along, z[MOST_MULTIPLIERS], side, value;
+  PetscBool push;
+} ContactRow;
+
+/* state: that of a node with these multipliers, gap and weight, 0: open. rows: one for each multiplier, in this state; the residual is -side without lift.
+   symmetric: factor and z of a row such that it is a column of the symmetric tangent as well, its unknown z over c. */
+typedef struct {
+  const char *name;
+  int8_t (*state)(const ContactPoint *);
+  void (*rows)(const ContactPoint *, PetscBool symmetric, ContactRow row[]);
+} ContactLawOps;
+
+extern const ContactLawOps *const ContactLaws[];
+/* frictionless.c: row of a constraint with compliance S (length times measure over pressure) that grows with w by this slope. */
+void ContactCompliantRow_Private(const ContactPoint *, PetscReal S, PetscReal slope, PetscBool symmetric, ContactRow *);
+
+/* One side of a contact pair. Topology and what belongs to the mesh (reference positions, frames, places in the vector) are replicated on every rank; current
+   values are not: a rank has those of nodes it owns, of nodes its cells or ghost cells depend on (positions), and of nodes that facets in contact need
+   (exchange.c). All other entries are NaN. Hanging nodes have positions, which follow their masters', but no unknowns. */
+typedef struct {
+  PetscInt   dim, corners; /* 2 or 4 corners of a facet */
+  PetscInt   num_nodes, num_facets;
+  PetscInt  *node_entity;        /* [num_nodes] */
+  PetscInt  *node_index;         /* [num_nodes] place among the entity's nodes; -1: a lattice node in an edge of lower order, which is no node of the space */
+  PetscInt  *facets;             /* [num_facets][corners] body to the left; counterclockwise seen from outside */
+  PetscInt  *facet_leaf;         /* [num_facets] */
+  PetscInt  *facet_entity;       /* [num_facets] */
+  PetscInt  *hang, *hang_master; /* [num_nodes+1] offsets, nodes of this surface; empty: does not hang */
+  PetscReal *hang_weight;
+  int8_t    *order; /* facets of higher order as in contact.h; NULL: all are of order 1, their nodes the corners */
+  PetscInt  *first, *lattice;
+  PetscInt  *true_first, *true_node;  /* [num_facets+1] offsets, ascending: nodes of the facet, masters for those that hang, and of lattices that share a
+ hanging corner with it: their multiplier functions are made together */
+  PetscInt  *node_first, *node_facet; /* [num_nodes+1] offsets: facets that carry weight to the node, those with it as a true node */
+  PetscReal *X, *x, *du;              /* [num_nodes][dim] reference and current position; increment under discussion */
+  PetscReal *mirror;                  /* normals of symmetry planes as in ContactSurface, else 0 */
+  PetscReal *frame;                   /* [num_nodes][dim][dim] rows: directions of the dofs */
+  PetscInt  *dof;                     /* [num_nodes][dim] row of the matrix, -1: prescribed, hanging */
+  PetscInt  *local;                   /* [num_nodes] local node on this rank or -1 */
+  PetscBool *owned;                   /* [num_nodes] this rank owns the node and it does not hang */
+  PetscReal *force;                   /* [num_nodes][dim] contact force at the last residual: of owned nodes, 0 at hanging ones */
+
+  PetscMPIInt *owner;           /* [num_nodes] rank that knows the node's values: of a hanging one that of the first facet that has it */
+  PetscInt     num_own, *own;   /* nodes with `owned` */
+  PetscInt     num_mine, *mine; /* facets of this rank's leaves */
+  PetscBool   *here;            /* [num_nodes] does not hang, displacement in the local array of this rank */
+  PetscBool   *has;             /* [num_nodes] current position known here */
+  Link         places, values;  /* of nodes that are not here; of nodes that are not owned */
+} Surface;
+
+typedef struct {
+  const ContactSpec   *spec;
+  const ContactLawOps *law;
+  ContactPair          pair;
+  PetscInt            *part[2]; /* of the facets of both sides */
+  Surface              side[2]; /* 0 nonmortar, 1 mortar */
+  ContactView          view;
+  PetscReal            freedom[2][9];             /* of a translation of the bodies of either side, what supports leave free: slidelimit.c */
+  PetscBool            drifts;                    /* they leave some */
+  PetscInt            *zdof;                      /* [n] row of the matrix, -1: no multiplier */
+  PetscInt            *zlocal;                    /* [n] position in this rank's part of the vector, -1: not here */
+  PetscReal           *z, *gap, *weight, *spring; /* [n] spring: K_j of contact.h */
+  PetscReal           *softness;                  /* [n] extent / E */
+  PetscReal           *w0, *extent, *c;           /* [n] reference measure, its extent along the surface, E / extent */
+  PetscReal           *change;                    /* [n] work: change of gt_j at fixed measure under an increment */
+  PetscReal           *lift;                      /* [n] the same for the prescribed motion still to come */
+  PetscInt            *result;                    /* [num_facets] position of a facet in `facets`, -1: not evaluated here */
+  int8_t              *active;                    /* [n] state of the law; 0: open */
+  PetscBool           *has_multiplier, *near;     /* [n] near: takes part in the next linear solve */
+  PetscInt             num_listed, *listed;       /* nonmortar facets this rank evaluates */
+  PetscBool           *mine;                      /* [num_facets] a side of this rank's leaves */
+  PetscBool           *live;                      /* [num_facets] may meet the mortar side, as far as this rank is told (its own facets, those around) */
+  PetscBool           *valued;                    /* [n] z, gap, weight, activity known here */
+  PetscInt             num_valued, *valued_node;  /* their list */
+  PetscReal           *pack;                      /* [n][3] work: gap, weight and spring in one message */
+  PetscReal           *all_real[2];               /* values gathered to all, see gather.c */
+  int8_t              *all_active;
+  ContactView          all;
+  PetscReal            distance;   /* search distance */
+  PetscInt             num_facets; /* results of the last evaluation */
+  const ContactFacet  *facets;
+  ContactFacet        *frozen; /* small kinematics: linearised once at the reference positions */
+  PetscBool            is_frozen;
+  PetscReal           *gap0;                     /* [n] reference gaps, small kinematics */
+  PetscReal           *offset;                   /* [n] constant part of gt_j that does not count: initial gaps closed, interference */
+  PetscReal           *misfit;                   /* [n] imbalance.c: what else does not count, times the share left */
+  PetscInt            *pattern_offset, *pattern; /* [num_facets+1]: nodes each facet has room for in the matrix */
+} Contact;
+
+struct _p_Interface {
+  MPI_Comm             comm;
+  PetscMPIInt          rank, size;
+  PetscInt             dim;
+  Forest               forest;
+  HPSpace              space;
+  Mechanics            mechanics;
+  const MechanicsSpec *spec;
+  const int8_t        *fixed; /* as in Supports */
+  const Form          *form;
+  PetscInt             num_contacts;
+  Contact             *contacts;
+  ContactHull          hull;      /* hull.c; NULL without contact */
+  PetscInt            *part;      /* [num_cells of the coarse mesh] */
+  PetscInt             num_inner; /* unknowns of this rank that the matrix lacks, the first of its vector */
+  PetscReal            share;     /* of the misfit that counts as no gap */
+  PetscBool            grown;     /* the pattern, since the last matrix */
+  MPI_Datatype         unit[4];   /* as many reals */
+  ContactTraffic       traffic;
+  PetscInt            *work_index;
+  PetscReal           *work_value;
+  PetscInt             work_size;
+  PetscReal           *hessian; /* work: of a facet */
+  PetscInt             hessian_size;
+};
+
+PetscErrorCode SurfaceFields_Private(Interface, Surface *); /* after the topology */
+/* lattice: nodes of facets of higher order, else their corners only, which must be of order 1. */
+PetscErrorCode SurfaceCreate_Private(Interface, PetscInt group, PetscBool lattice, Surface *);
+/* lattice.c: after the corners: nodes on the lattices of the facets, rows of those that hang. */
+PetscErrorCode SurfaceLattice_Private(HPSpace, const ForestTables *, Surface *);
+/* Nodes of a facet: its corners, or its lattice; returns their number. */
+static inline PetscInt SurfaceNodes_Private(const Surface *s, PetscInt facet, const PetscInt **nodes)
+{
+  *nodes = s->order ? s->lattice + s->first[facet] : s->facets + s->corners * facet;
+  return s->order ? s->first[facet + 1] - s->first[facet] : s->corners;
+}
+static inline PetscInt SurfaceOrder_Private(const Surface *s, PetscInt facet)
+{
+  return s->order ? s->order[facet] : 0;
+}
+PetscErrorCode SurfaceDestroy_Private(Surface *);
+PetscErrorCode SurfaceIndices_Private(Interface, const PetscInt row[], Surface *);
+ContactSurface SurfaceAt_Private(const Surface *, const PetscReal x[]);
+/* shape.c: of a facet with nodes node[num] of an order as in SurfaceShape: the functions at xi and the tangents. */
+void SurfaceTangents_Private(PetscInt dim, PetscInt order, PetscInt num, const PetscInt node[], const PetscReal x[], const PetscReal xi[], PetscReal N[],
+                             PetscReal tangent[2][3]);
+/* Measure at xi of a facet per unit of xi (length or area, axisymmetric: of revolution) and the functions of its nodes there. */
+PetscReal SurfacePoint_Private(const Surface *, PetscInt facet, const PetscReal x[], const PetscReal xi[], PetscBool axisymmetric, PetscReal N[]);
+/* Length or area of a facet at positions x, between its corners. */
+PetscReal SurfaceMeasure_Private(const Surface *, const PetscReal x[], PetscInt facet);
+void      SurfaceFollow_Private(const Surface *, PetscInt num, PetscReal values[]);
+/* Cartesian values from a local array of dofs at the nodes that are here and those that follow them, added to base (NULL: 0). No exchange. */
+void SurfacePlace_Private(const Surface *, const PetscReal local[], const PetscReal base[], PetscReal values[]);
+/* The same at all nodes with `has`: through `places` from their owners. Collective. */
+PetscErrorCode SurfaceGather_Private(Interface, const Surface *, const PetscReal local[], const PetscReal base[], PetscReal values[]);
+
+/* exchange.c. Link: nodes (ascending, none owned) this rank uses from now on. Spread: owners' values[..][size] to the users; Collect: users' added to the
+   owners'. All collective, messages only between ranks that share a node. */
+PetscErrorCode LinkSet_Private(Interface, const Surface *, PetscInt num, const PetscInt nodes[], Link *);
+PetscErrorCode LinkDestroy_Private(Link *);
+PetscErrorCode LinkSpread_Private(Interface, const Link *, PetscInt size, PetscReal values[]);
+PetscErrorCode LinkCollect_Private(Interface, const Link *, PetscInt size, PetscReal values[]);
+PetscErrorCode TrafficReport_Private(Interface); /* with -info */
+PetscErrorCode ExchangeBegin_Private(Interface);
+PetscErrorCode ExchangeEnd_Private(Interface);
+/* Positions known without exchange; `has` says so and everything else is forgotten. */
+void SurfaceForget_Private(Surface *);
+/* After a search: what this rank needs until the next one. */
+PetscErrorCode ContactLink_Private(Interface, Contact *);
+PetscBool      ContactSees_Private(const Contact *, PetscInt node);
+/* nearby.c: search at the positions at hand, X when reference is set, where facets meet over the boundaries of ranks. Collective. */
+PetscErrorCode ContactSearch_Private(Interface, Contact *, PetscBool reference, PetscReal margin);
+/* gather.c */
+PetscErrorCode ContactGatherDestroy_Private(Contact *);
+
+/* Reference positions X[2 or 4][dim] of a facet's corners, in the order of Surface.facets. Not collective. */
+PetscErrorCode SurfaceCorners_Private(Forest, PetscInt facet, PetscInt leaf, PetscReal X[]);
+/* hull.c: p->hull and p->part; parts of a surface's facets, freed by the caller. Not collective. */
+PetscErrorCode HullCreate_Private(Interface);
+PetscErrorCode HullDestroy_Private(Interface);
+PetscErrorCode HullParts_Private(Interface, const Surface *, PetscInt **part);
+/* The deepest overlap of a pair that can be told from a far side: half of what both bodies measure; 0 where the scene limits the search. Not collective. */
+PetscErrorCode HullDepth_Private(Interface, const Contact *, PetscReal *deepest);
+
+PetscErrorCode ContactCreate_Private(Interface, const ContactSpec *, Contact *);
+PetscErrorCode ContactDestroy_Private(Contact *);
+PetscErrorCode ContactEvaluate_Private(Interface, Contact *, Vec x, const PetscReal local[], PetscReal pending, PetscBool derivatives, PetscBool hessian,
+                                       PetscBool *failed);
+/* force.c: nodal forces of both sides, 0; from this rank's facets to the owners of their nodes, and there off r, in the nodes' frames. Collective. */
+void           ContactForcesZero_Private(Contact *);
+PetscErrorCode ContactForcesSubtract_Private(Interface, Contact *, PetscReal r[]);
+/* Does the form take the pair out of the tangent? */
+static inline PetscBool ContactIsReleased_Private(Interface p, const Contact *c)
+{
+  return FormHas(p->form->released, (PetscInt)(c - p->contacts));
+}
+/* insert.c: as MatSetValues, of contact: values in the diagonal block. */
+PetscErrorCode ContactInsert_Private(Mat, PetscInt num_rows, const PetscInt rows[], PetscInt num_columns, const PetscInt columns[], const PetscReal K[],
+                                     InsertMode);
+/* tangent.c: a facet's Hessian, added; the gradient of a row of node j in work_index and work_value; its row, with its columns in the symmetric form. */
+PetscErrorCode ContactFacetHessian_Private(Interface, const InterfaceSystem *, const Contact *, const ContactFacet *);
+PetscErrorCode ContactNodeGradient_Private(Interface, const Contact *, PetscInt j, const ContactRow *, PetscInt *num);
+PetscErrorCode ContactInsertRow_Private(Interface, const InterfaceSystem *, const Contact *, PetscInt j, const ContactRow *);
+/* Node j as its law sees it. */
+static inline ContactPoint ContactPoint_Private(const Contact *c, PetscInt j, PetscReal lift)
+{
+  return (ContactPoint){c->spec, c->active[j], {c->z[j]}, c->gap[j], c->weight[j], c->spring[j], c->w0[j], c->c[j], lift};
+}
+/* Change of every owned node's weighted gap, at fixed measure, under a local array of increments. Collective. */
+PetscErrorCode          ContactChange_Private(Interface, Contact *, const PetscReal increment[], PetscReal change[]);
+static inline PetscBool ContactCovered_Private(const Contact *c, PetscInt j)
+{
+  return (PetscBool)(c->weight[j] > (c->side[0].order ? COVERED_HIGHER : COVERED) * c->w0[j]);
+}
+/* Does node j bear? Less than SLACK is all there is where the whole pair is open. */
+static inline PetscBool ContactPressed_Private(const Contact *c, PetscInt j)
+{
+  return (PetscBool)(c->has_multiplier[j] && c->z[j] > SLACK * c->c[j] * c->extent[j]);
+}
+/* How far node j and the other side are into each other, after the change as linearised. */
+static inline PetscReal ContactOverlap_Private(const Contact *c, PetscInt j)
+{
+  return -(c->gap[j] + c->change[j]) / c->weight[j];
+}
+/* firsttouch.c: the overlap from which on nodes join the active set, of a pair that has borne nothing yet. Collective. */
+PetscErrorCode ContactLeastOverlap_Private(Interface, const Contact *, PetscReal *least);
+/* slidelimit.c: which translations the supports of both sides' bodies leave free. */
+PetscErrorCode ContactFreedom_Private(Interface, Contact *);
+/* carrier.c: w0, extent and c of the nodes; which of them carry a multiplier. */
+PetscErrorCode ContactNodeScales_Private(Interface, Contact *);
+PetscErrorCode ContactCarriers_Private(Interface, Contact *);
+PetscReal      SurfaceFacetMeasure_Private(const Surface *, PetscInt facet, PetscBool axisymmetric);
+/* pattern.c: room in the matrix for what facets may meet until the next search. */
+/* Rows of the matrix of everything in the pattern of one facet, dofs[ContactPatternSize_Private]; returns their number. */
+PetscInt ContactPatternDofs_Private(const Contact *, PetscInt facet, PetscInt dofs[]);
+PetscInt ContactPatternSize_Private(const Contact *, PetscInt facet);
+
+#define NODE_SIDE(id) ((id) < 0)
+#define NODE_INDEX(id) ((id) < 0 ? ~(id) : (id))

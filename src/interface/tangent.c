@@ -1,0 +1,339 @@
+/* Contact in the tangent: Hessians, columns and rows of the multipliers, and the first-order effect of prescribed motion still to come; their right-hand
+   sides. */
+#include "interfaceimpl.h"
+
+static PetscErrorCode Work_Private(Interface p, PetscInt size)
+{
+  PetscFunctionBegin;
+  if (size > p->work_size) {
+    p->work_size = 2 * size;
+    PetscCall(PetscFree2(p->work_index, p->work_value));
+    PetscCall(PetscMalloc2(p->work_size, &p->work_index, p->work_size, &p->work_value));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The frame of a facet's node. */
+static inline const PetscReal *Frame_Private(const Contact *c, PetscInt id)
+{
+  const Surface *s = &c->side[NODE_SIDE(id)];
+  return s->frame + s->dim * s->dim * NODE_INDEX(id);
+}
+
+/* Indices of a facet's nodal dofs (dim*num, -1 where prescribed). */
+static void FacetDofs_Private(const Contact *c, const ContactFacet *e, PetscInt dofs[])
+{
+  const PetscInt dim = c->side[0].dim;
+  for (PetscInt a = 0; a < e->num; ++a) {
+    const Surface *s = &c->side[NODE_SIDE(e->nodes[a])];
+    const PetscInt n = NODE_INDEX(e->nodes[a]);
+    for (PetscInt d = 0; d < dim; ++d) dofs[dim * a + d] = s->dof[dim * n + d];
+  }
+}
+
+/* Components along the rows of the frame. */
+static inline void Turn_Private(PetscInt dim, const PetscReal *q, PetscReal v[], PetscInt stride)
+{
+  PetscReal t[3];
+  for (PetscInt d = 0; d < dim; ++d) {
+    t[d] = 0;
+    for (PetscInt a = 0; a < dim; ++a) t[d] += q[dim * d + a] * v[a * stride];
+  }
+  for (PetscInt d = 0; d < dim; ++d) v[d * stride] = t[d];
+}
+
+PetscErrorCode ContactFacetHessian_Private(Interface p, const InterfaceSystem *a, const Contact *c, const ContactFacet *e)
+{
+  const PetscInt dim = p->dim, n = dim * e->num, *dofs;
+  PetscReal     *H;
+
+  PetscFunctionBegin;
+  PetscCall(Work_Private(p, n));
+  FacetDofs_Private(c, e, p->work_index);
+  dofs = p->work_index;
+  if (n * n > p->hessian_size) {
+    p->hessian_size = 2 * n * n;
+    PetscCall(PetscFree(p->hessian));
+    PetscCall(PetscMalloc1(p->hessian_size, &p->hessian));
+  }
+  H = p->hessian;
+  for (PetscInt i = 0; i < n * n; ++i) H[i] = -e->hessian[i];
+  if (a->lift) {
+    for (PetscInt i = 0; i < n; ++i) {
+      p->work_value[i] = 0;
+      for (PetscInt b = 0; b < e->num; ++b) {
+        const PetscReal *du = c->side[NODE_SIDE(e->nodes[b])].du + dim * NODE_INDEX(e->nodes[b]);
+        for (PetscInt d = 0; d < dim; ++d) p->work_value[i] += H[i * n + dim * b + d] * du[d];
+      }
+    }
+    for (PetscInt b = 0; b < e->num; ++b) Turn_Private(dim, Frame_Private(c, e->nodes[b]), p->work_value + dim * b, 1);
+    PetscCall(VecSetValues(a->lift, n, dofs, p->work_value, ADD_VALUES));
+  }
+  for (PetscInt i = 0; i < n; ++i) {
+    for (PetscInt b = 0; b < e->num; ++b) Turn_Private(dim, Frame_Private(c, e->nodes[b]), H + i * n + dim * b, 1);
+  }
+  for (PetscInt j = 0; j < n; ++j) {
+    for (PetscInt b = 0; b < e->num; ++b) Turn_Private(dim, Frame_Private(c, e->nodes[b]), H + dim * b * n + j, n);
+  }
+  PetscCall(ContactInsert_Private(a->matrix, n, dofs, n, dofs, H, ADD_VALUES));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Blocks of the last evaluation: Hessian and columns, added; the rows are inserted afterwards. */
+static PetscErrorCode Blocks_Private(Interface p, const InterfaceSystem *a, Contact *c)
+{
+  const PetscInt dim = p->dim;
+
+  PetscFunctionBegin;
+  if (ContactIsReleased_Private(p, c)) {
+    PetscCall(PetscArrayzero(c->active, c->side[0].num_nodes));
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
+  if (a->lift)
+    PetscCall(ContactChange_Private(p, c, a->increment, c->lift));
+  else
+    PetscCall(PetscArrayzero(c->lift, c->side[0].num_nodes));
+  for (PetscInt f = 0; f < c->num_facets; ++f) {
+    const ContactFacet *e = &c->facets[f];
+    const PetscInt      n = dim * e->num;
+    if (!c->mine[e->facet] || !e->dgap) continue;
+    PetscCall(Work_Private(p, n));
+    FacetDofs_Private(c, e, p->work_index);
+    if (e->hessian) PetscCall(ContactFacetHessian_Private(p, a, c, e));
+    for (PetscInt k = 0; k < e->num_rows && !a->symmetric; ++k) {
+      const PetscInt z = c->zdof[e->nodes[k]];
+      if (z < 0 || !c->near[e->nodes[k]]) continue;
+      for (PetscInt i = 0; i < n; ++i) p->work_value[i] = e->push ? -e->push[k * n + i] : -e->dgap[k * n + i];
+      for (PetscInt b = 0; b < e->num; ++b) Turn_Private(dim, Frame_Private(c, e->nodes[b]), p->work_value + dim * b, 1);
+      PetscCall(ContactInsert_Private(a->matrix, n, p->work_index, 1, &z, p->work_value, ADD_VALUES));
+    }
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode InterfaceBlocks(Interface p, const InterfaceSystem *a)
+{
+  PetscFunctionBegin;
+  for (PetscInt i = 0; i < p->num_contacts; ++i) PetscCall(Blocks_Private(p, a, &p->contacts[i]));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Room that the row of node j takes. */
+static PetscInt RowSize_Private(const Contact *c, PetscInt j)
+{
+  const Surface *s   = &c->side[0];
+  PetscInt       num = 1;
+  for (PetscInt k = s->node_first[j]; k < s->node_first[j + 1]; ++k) num += ContactPatternSize_Private(c, s->node_facet[k]);
+  return num;
+}
+
+/* Collects the gradient of a row of node j from its facets: over the whole pattern, sorted indices, so that a switch leaves nothing of another form behind. */
+PetscErrorCode ContactNodeGradient_Private(Interface p, const Contact *c, PetscInt j, const ContactRow *form, PetscInt *num)
+{
+  const Surface *s   = &c->side[0];
+  const PetscInt dim = p->dim;
+  PetscReal     *values;
+  PetscInt       at, *dofs;
+
+  PetscFunctionBegin;
+  PetscCall(Work_Private(p, RowSize_Private(c, j)));
+  dofs   = p->work_index;
+  values = p->work_value;
+  *num   = 0;
+  for (PetscInt k = s->node_first[j]; k < s->node_first[j + 1] && c->near[j]; ++k) *num += ContactPatternDofs_Private(c, s->node_facet[k], dofs + *num);
+  dofs[(*num)++] = c->zdof[j];
+  PetscCall(PetscSortRemoveDupsInt(num, dofs));
+  PetscCall(PetscArrayzero(values, *num));
+  for (PetscInt k = s->node_first[j]; form->factor != 0 && k < s->node_first[j + 1]; ++k) {
+    const PetscInt facet = s->node_facet[k];
+    if (c->result[facet] < 0) continue;
+    const ContactFacet *e   = &c->facets[c->result[facet]];
+    const PetscInt      n   = dim * e->num;
+    PetscInt            row = 0;
+    while (row < e->num_rows && e->nodes[row] != j) ++row;
+    if (row == e->num_rows || !e->dgap) continue;
+    const PetscReal *gradient = (form->push && e->push ? e->push : e->dgap) + row * n;
+    const PetscReal  along    = e->spring ? e->stiffening[row] * form->along : 0;
+    for (PetscInt a = 0; a < e->num; ++a) {
+      const Surface *side = &c->side[NODE_SIDE(e->nodes[a])];
+      const PetscInt node = NODE_INDEX(e->nodes[a]);
+      PetscReal      g[3] = {0, 0, 0};
+      for (PetscInt d = 0; d < dim; ++d)
+        g[d] = gradient[dim * a + d] - form->mean * e->dweight[row * n + dim * a + d] + (along != 0 ? along * e->darea[dim * a + d] : 0);
+      Turn_Private(dim, Frame_Private(c, e->nodes[a]), g, 1);
+      for (PetscInt d = 0; d < dim; ++d) {
+        if (side->dof[dim * node + d] < 0) continue;
+        PetscCall(PetscFindInt(side->dof[dim * node + d], *num, dofs, &at));
+        PetscCheck(at >= 0, PETSC_COMM_SELF, PETSC_ERR_PLIB, "contact node outside the pattern of its facet");
+        values[at] += form->factor * g[d];
+      }
+    }
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Row of node j, in the symmetric form its column as well: that differs from -grad gt_j by gt_j times the change of z_j, small of second order. There z_j = c_j
+   times the unknown, and the row is c_j times that: a force by a length, as those of the displacements are, so that one norm over all rows means the same in
+   every unit. */
+PetscErrorCode ContactInsertRow_Private(Interface p, const InterfaceSystem *a, const Contact *c, PetscInt j, const ContactRow *row)
+{
+  PetscInt num, at;
+
+  PetscFunctionBegin;
+  PetscCall(ContactNodeGradient_Private(p, c, j, row, &num));
+  PetscCall(PetscFindInt(c->zdof[j], num, p->work_index, &at));
+  p->work_value[at] = a->symmetric ? row->z[0] * c->c[j] : row->z[0];
+  PetscCall(ContactInsert_Private(a->matrix, 1, &c->zdof[j], num, p->work_index, p->work_value, INSERT_VALUES));
+  if (a->symmetric) PetscCall(ContactInsert_Private(a->matrix, num, p->work_index, 1, &c->zdof[j], p->work_value, INSERT_VALUES));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode InsertRow_Private(Interface p, const InterfaceSystem *a, const Contact *c, PetscInt j)
+{
+  const ContactPoint point = ContactPoint_Private(c, j, 0);
+  ContactRow         row;
+
+  PetscFunctionBegin;
+  c->law->rows(&point, a->symmetric, &row);
+  PetscCall(ContactInsertRow_Private(p, a, c, j, &row));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Symmetric form, inactive: the known change -z_j of the multiplier goes to the forces (share: 1 to put it there, -1 to take it back). */
+static PetscErrorCode InactiveShift_Private(Interface p, const InterfaceSystem *a, Contact *c, PetscInt j, PetscReal share, Vec rhs)
+{
+  const ContactRow forces = {.factor = -share * c->z[j], .push = PETSC_TRUE};
+  PetscInt         num, at;
+
+  PetscFunctionBegin;
+  if (!a->symmetric || ContactIsReleased_Private(p, c) || c->z[j] == 0 || !c->near[j]) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(ContactNodeGradient_Private(p, c, j, &forces, &num));
+  PetscCall(PetscFindInt(c->zdof[j], num, p->work_index, &at));
+  p->work_value[at] = 0;
+  PetscCall(VecSetValues(rhs, num, p->work_index, p->work_value, ADD_VALUES));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* rhs: of the matrix, which misses the first num_inner of the vector. */
+static PetscErrorCode RowSides_Private(Interface p, const InterfaceSystem *a, Vec rhs)
+{
+  PetscReal *b;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetArray(rhs, &b));
+  for (PetscInt i = 0; i < p->num_contacts; ++i) {
+    const Contact *c = &p->contacts[i];
+    for (PetscInt j = 0; j < c->side[0].num_nodes; ++j) {
+      const ContactPoint point = ContactPoint_Private(c, j, c->lift[j]);
+      ContactRow         row;
+      if (c->zlocal[j] < 0) continue;
+      c->law->rows(&point, a->symmetric, &row);
+      b[c->zlocal[j] - p->num_inner] = row.side;
+    }
+  }
+  PetscCall(VecRestoreArray(rhs, &b));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode InterfaceRightSide(Interface p, const InterfaceSystem *a, Vec rhs)
+{
+  PetscFunctionBegin;
+  PetscCall(RowSides_Private(p, a, rhs));
+  for (PetscInt i = 0; i < p->num_contacts; ++i) {
+    Contact *c = &p->contacts[i];
+    for (PetscInt j = 0; j < c->side[0].num_nodes; ++j) {
+      if (c->zlocal[j] >= 0 && !c->active[j]) PetscCall(InactiveShift_Private(p, a, c, j, 1, rhs));
+    }
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+void InterfaceScaleIncrement(Interface p, PetscReal dx[])
+{
+  for (PetscInt i = 0; i < p->num_contacts; ++i) {
+    const Contact *c = &p->contacts[i];
+    for (PetscInt j = 0; j < c->side[0].num_nodes; ++j) {
+      if (c->zlocal[j] >= 0) dx[c->zlocal[j]] *= c->c[j];
+    }
+  }
+}
+
+PetscErrorCode InterfaceInsertRows(Interface p, const InterfaceSystem *a)
+{
+  PetscFunctionBegin;
+  for (PetscInt i = 0; i < p->num_contacts; ++i) {
+    Contact *c = &p->contacts[i];
+    for (PetscInt j = 0; j < c->side[0].num_nodes; ++j) {
+      if (c->zlocal[j] >= 0) PetscCall(InsertRow_Private(p, a, c, j));
+    }
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* New activity of this rank's nodes of one pair for the increment dx: rows that switch are rewritten, multiplier right-hand sides go to b, force shifts to rhs.
+   dx: this rank's part of the increment; num grows by the switches. */
+static PetscErrorCode Switch_Private(Interface p, const InterfaceSystem *a, Contact *c, const PetscReal dx[], Vec rhs, PetscInt *num)
+{
+  const Surface *s     = &c->side[0];
+  PetscReal      least = 0;
+
+  PetscFunctionBegin;
+  if (ContactIsReleased_Private(p, c)) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(ContactChange_Private(p, c, a->increment, c->change));
+  if (FormHas(p->form->deepest_first, (PetscInt)(c - p->contacts))) PetscCall(ContactLeastOverlap_Private(p, c, &least));
+  for (PetscInt i = 0; i < s->num_own; ++i) {
+    const PetscInt j = s->own[i];
+    if (c->zlocal[j] < 0 || !c->near[j] || !ContactCovered_Private(c, j)) continue;
+    ContactPoint point = ContactPoint_Private(c, j, 0);
+    point.z[0] += dx[c->zlocal[j]];
+    point.gap += c->change[j];
+    const int8_t active = c->law->state(&point);
+    if (active == c->active[j] || (active && ContactOverlap_Private(c, j) < least)) continue;
+    c->active[j] = active;
+    ++*num;
+    PetscCall(InsertRow_Private(p, a, c, j));
+    PetscCall(InactiveShift_Private(p, a, c, j, active ? -1 : 1, rhs));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode InterfaceSwitch(Interface p, const InterfaceSystem *a, Vec dx, Vec rhs, PetscInt *changed)
+{
+  const PetscReal *d;
+
+  PetscFunctionBegin;
+  *changed = 0;
+  PetscCall(VecGetArrayRead(dx, &d));
+  for (PetscInt i = 0; i < p->num_contacts; ++i) PetscCall(Switch_Private(p, a, &p->contacts[i], d, rhs, changed));
+  PetscCall(VecRestoreArrayRead(dx, &d));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, changed, 1, MPIU_INT, MPI_SUM, p->comm));
+  if (!*changed) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(VecAssemblyBegin(rhs));
+  PetscCall(VecAssemblyEnd(rhs));
+  PetscCall(RowSides_Private(p, a, rhs));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Finaliser of splitmix64: well mixed bits. */
+static uint64_t Mix_Private(uint64_t x)
+{
+  x += 0x9e3779b97f4a7c15ull;
+  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ull;
+  x = (x ^ (x >> 27)) * 0x94d049bb133111ebull;
+  return x ^ (x >> 31);
+}
+
+/* Sum over the active nodes, which each rank takes its part of. */
+PetscErrorCode InterfaceActiveSetHash(Interface p, uint64_t *hash)
+{
+  PetscFunctionBegin;
+  *hash = 0;
+  for (PetscInt i = 0; i < p->num_contacts; ++i) {
+    const Contact *c = &p->contacts[i];
+    for (PetscInt k = 0; k < c->side[0].num_own; ++k) {
+      if (c->active[c->side[0].own[k]]) *hash += Mix_Private(((uint64_t)i << 40) + (uint64_t)c->side[0].own[k]);
+    }
+  }
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, hash, 1, MPI_UINT64_T, MPI_SUM, p->comm));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
