@@ -4,6 +4,9 @@
 #include <errno.h>
 #include <hdf5.h>
 
+/* Number of a state by the name of its file; -1: the name is of no such file (output/foreign.c). */
+PetscInt OutputStateNumber(const char *name);
+
 /* Rank 0 writes text to path.tmp and renames it to path; every rank returns the same error. Collective. */
 PetscErrorCode OutputReplaceFile(MPI_Comm, const char *path, const char *text);
 
@@ -49,7 +52,8 @@ struct _p_Checkpoint {
   Pack              pack;
 };
 #define CHECKPOINT_SEAL 512 /* bytes */
-/* Put the seal on a finished HDF5 file, force it to the disk, rename it to path. One rank's; returns errno. (output/seal.c) */
+/* Put the seal on a finished HDF5 file, force it to the disk, rename it to path; the file that had the name stays under CHECKPOINT_BEFORE. One rank's; returns
+   errno. (output/seal.c) */
 int CheckpointSeal(const char *temporary, const char *path);
 /* Is the file whole and ours? An input error when not. Collective. */
 PetscErrorCode CheckpointVerify(MPI_Comm, const char *path);

@@ -36,9 +36,7 @@ static PetscErrorCode WriterClear_Private(const char *directory, PetscInt from)
   PetscFunctionBegin;
   if (!dir) PetscFunctionReturn(PETSC_SUCCESS);
   while ((entry = readdir(dir))) {
-    int number, length = 0;
-
-    if (sscanf(entry->d_name, "fields_%d.h5%n", &number, &length) != 1 || !length || entry->d_name[length] || number < from) continue;
+    if (OutputStateNumber(entry->d_name) < from) continue;
     PetscCall(PetscSNPrintf(path, sizeof(path), "%s/%s", directory, entry->d_name));
     unlink(path);
   }
