@@ -33,7 +33,8 @@ void WriterAbandon(Writer);
 
 /* ---- tables ------------------------------------------------------------------------------------------------------------ */
 
-/* csv with named columns, written by rank 0, flushed after each row. Columns: names[n]; rows: values[n], %.12g. */
+/* csv with named columns, written by rank 0, flushed after each row. Columns: names[n]; rows: values[n], %.12g; NaN: an empty
+   field, there is no such figure. */
 typedef struct _p_Table *Table;
 PetscErrorCode           TableCreate(MPI_Comm, const char *path, PetscInt n, const char *const names[], Table *);
 /* Where a table stands: after the rows of a step (first column; 0: before the first), which ended at t (column t). The path of loads may be computed several

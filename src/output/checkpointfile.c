@@ -79,7 +79,7 @@ static PetscErrorCode WriteFile_Private(Checkpoint c, const char *path)
   hid_t access, create, file, group;
 
   PetscFunctionBegin;
-  PetscCall(OutputAccess(c->comm, &access));
+  PetscCall(OutputAccess(c->comm, path, &access));
   PetscCallH5Id(create, H5Pcreate(H5P_FILE_CREATE));
   PetscCallH5(H5Pset_userblock(create, CHECKPOINT_SEAL));
   PetscCallH5Id(file, H5Fcreate(path, H5F_ACC_TRUNC, create, access));
@@ -271,7 +271,7 @@ static PetscErrorCode ReadFile_Private(Checkpoint c, const char *path)
   char *note;
 
   PetscFunctionBegin;
-  PetscCall(OutputAccess(c->comm, &access));
+  PetscCall(OutputAccess(c->comm, path, &access));
   PetscCallH5Id(file, H5Fopen(path, H5F_ACC_RDONLY, access));
   PetscCallH5(H5Pclose(access));
   PetscCall(Complete_Private(file, path));

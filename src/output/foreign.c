@@ -81,7 +81,7 @@ PetscErrorCode OutputCheckForeign(MPI_Comm comm, const char *directory)
   }
   if (dir) (void)closedir(dir);
   PetscCallMPI(MPI_Bcast(foreign, (PetscMPIInt)sizeof(foreign), MPI_CHAR, 0, comm));
-  PetscCheckInput(!foreign[0], "output.directory is '%s', in which %s is no file of a run of mortise; give another one, or output.overwrite: true to lose it",
+  PetscCheckInput(!foreign[0], "output.directory %s: %s in it is no file of a run of mortise; give another directory, or output.overwrite: true to lose it",
                   directory, foreign);
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -115,8 +115,8 @@ PetscErrorCode OutputLock(MPI_Comm comm, const char *directory)
   PetscCallMPI(MPI_Allreduce(&found.verdict, &verdict, 1, MPI_INT, MPI_MAX, comm));
   if (verdict != LOCK_TAKEN) OutputUnlock();
   PetscCheckInput(verdict != LOCK_FAILED, "output.directory: %s cannot be made: %s", path, strerror(found.number));
-  PetscCheckInput(verdict != LOCK_OTHERS, "output.directory is '%s', into which %s process %d on %s is writing; give another directory, or wait for its end",
-                  directory, Lives_Private(&found.other) ? "another run," : "what is left of a run,", found.other.pid, found.other.host);
+  PetscCheckInput(verdict != LOCK_OTHERS, "output.directory %s: %s process %d on %s, writes there; give another directory, or wait for its end", directory,
+                  Lives_Private(&found.other) ? "another run," : "what is left of a run,", found.other.pid, found.other.host);
   if (found.other.pid)
     PetscCall(PetscPrintf(comm, "note: the run before in %s, process %d on %s, did not come to its end\n", directory, found.other.pid, found.other.host));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -158,7 +158,7 @@ PetscErrorCode WriterBegin(Writer w, PetscReal time, PetscInt step, PetscInt pas
   w->resumed = PETSC_FALSE;
   w->state   = (IndexState){.time = time, .load_time = load_time, .step = step, .pass = pass};
   PetscCall(PetscSNPrintf(path, sizeof(path), "%s/fields_%04" PetscInt_FMT ".h5", w->directory, w->num));
-  PetscCall(OutputAccess(w->comm, &access));
+  PetscCall(OutputAccess(w->comm, path, &access));
   PetscCallH5Id(w->file, H5Fcreate(path, H5F_ACC_TRUNC, H5P_DEFAULT, access));
   PetscCallH5(H5Pclose(access));
   PetscCall(OutputAttributeReal(w->file, "time", time));

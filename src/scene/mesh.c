@@ -219,7 +219,7 @@ static void Find_Private(Scene s, MeshResult *r)
 
   (void)snprintf(r->file, sizeof(r->file), "%s%s", s->mesh_file[0] == '/' ? "" : s->directory, s->mesh_file);
   if (!geo && !HasSuffix_Private(s->mesh_file, ".msh"))
-    (void)snprintf(r->message, sizeof(r->message), "%s is '%.300s'; its name must end in .geo or .msh", where, s->mesh_file);
+    (void)snprintf(r->message, sizeof(r->message), "%s is '%.80s'; its name must end in .geo or .msh", where, s->mesh_file);
   else if (stat(r->file, &info))
     (void)snprintf(r->message, sizeof(r->message), "%s: there is no file %s", where, r->file);
   else if (!S_ISREG(info.st_mode) || access(r->file, R_OK))

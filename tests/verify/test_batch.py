@@ -102,7 +102,7 @@ def test_files_of_others_stay(run, tmp_path, name):
         assert result.returncode == 1 and len(result.stderr.splitlines()) == 1, result
         assert file.read_text() == "mine\n" and sorted(os.listdir(file.parent)) == sorted(["fields_1.h5", name]), result
         if options != ("-restart", "auto") or name != "checkpoint.h5":
-            assert f"in which {name} is no file of a run" in result.stderr and "output.overwrite" in result.stderr, result
+            assert f"{name} in it is no file of a run" in result.stderr and "output.overwrite" in result.stderr, result
     result = run("s.yml", "-output_directory", file.parent, "-output_overwrite", "true", text=text)
     assert result.returncode == 0 and file.read_bytes() != b"mine\n", result
     assert (file.parent / "fields_1.h5").read_text() == "mine\n"
@@ -228,3 +228,86 @@ def test_a_geo_that_is_trusted(run, tmp_path):
     (tmp_path / "s.geo").write_text(f'SystemCall "touch {tmp_path}/here";\n' + (ROOT / "inputs" / "cube.geo").read_text())
     scene = (ROOT / "inputs" / "cube.yml").read_text().replace("cube.geo", "s.geo")
     assert run("s.yml", "-check", "-mesh_trust", "true", text=scene).returncode == 0 and (tmp_path / "here").exists()
+
+
+# ---- what is told ---------------------------------------------------------------------------------------------------------------------------
+
+
+def test_options_of_the_working_directory(tmp_path):
+    text = block(tmp_path)
+    (tmp_path / ".petscrc").write_text("# of PETSc\n-snes_max_it 7\n")
+    for options, told in ((), True), (("-skip_petscrc",), False):
+        output, errors = start(tmp_path, "-check", *options, text=text).communicate(timeout=60)
+        assert ("note: options of .petscrc in the working directory act" in output) == told and not errors, (output, errors)
+
+
+@pytest.mark.parametrize("option", ["-order", "-model", "-load_step", "-boundary_y1_displacement_y", "-boundary_y0_fix", "-material_m_law", "-material_m_E", "-mesh_file",
+                                    "-solve_rtol", "-max_seconds", "-body_body_material", "-adapt_coarsen"])
+def test_long_values(run, tmp_path, option):
+    result = run("s.yml", "-check", option, "w" * 3000, text=block(tmp_path))
+    assert result.returncode == 1 and "w" * 81 not in result.stderr and len(result.stderr.splitlines()) == 1, result
+
+
+def test_control_characters(run, tmp_path):
+    refused(run("s.yml", "-title", "\033[31m", text=block(tmp_path)), "control character in the value of -title")
+    refused(run("a\033[31mb.yml", text=block(tmp_path)), "name of the scene has a control character", "a?[31mb.yml")
+
+
+def test_no_figure_no_number(run, tmp_path):
+    """Without load nothing can be estimated: the field is empty."""
+    text = block(tmp_path, boundary={"y0": {"fix": "xy"}, "y1": {"displacement": {"y": "t < 0.6 ? 0 : -0.05"}}})
+    result = run("s.yml", text=text)
+    assert result.returncode == 0 and "nan" not in (result.directory / "history.csv").read_text() + (result.directory / "adapt.csv").read_text(), result
+    first, last = (row.split(",") for row in (result.directory / "history.csv").read_text().splitlines()[1:])
+    assert first[9] == "" and float(last[9]) > 0 and str(result.history[0]["estimated_error"]) == "nan"
+
+
+def test_equilibrium_deserves_its_name(run, tmp_path):
+    refused(run("s.yml", "-solve_rtol", 0.01, text=block(tmp_path)), "-solve_rtol is '0.01'", "1e-3 at most")
+    assert run("s.yml", "-solve_rtol", 1e-3, text=block(tmp_path)).returncode == 0
+
+
+@pytest.mark.parametrize("name", ["fields_0000.h5", "checkpoint.h5.tmp"])
+def test_fields_name_their_file(run, tmp_path, name):
+    (tmp_path / "out1" / name).mkdir(parents=True)
+    result = run("s.yml", "-output_overwrite", "true", text=block(tmp_path))
+    assert result.returncode == 2 and f"{tmp_path}/out1/{name}: " in result.stderr and len(result.stderr.splitlines()) == 1, result
+
+
+def msh(nodes, cells, lines):
+    """Format 2.2: positions, cells of body `body`, lines of y0 and y1, by numbers of nodes."""
+    elements = [f"3 2 101 101 {' '.join(map(str, cell))}" for cell in cells] + [f"1 2 {group} {group} {a} {b}" for group, a, b in lines]
+    return "\n".join(["$MeshFormat", "2.2 0 8", "$EndMeshFormat", "$PhysicalNames", "3", '2 101 "body"', '1 3 "y0"', '1 4 "y1"', "$EndPhysicalNames", "$Nodes", str(len(nodes))]
+                     + [f"{i + 1} {x} {y} 0" for i, (x, y) in enumerate(nodes)] + ["$EndNodes", "$Elements", str(len(elements))]
+                     + [f"{i + 1} {element}" for i, element in enumerate(elements)] + ["$EndElements", ""])
+
+
+@pytest.mark.parametrize("turned", [False, True])
+def test_a_cell_listed_twice(run, tmp_path, turned):
+    text, nodes = block(tmp_path, mesh={"file": "d.msh"}), [(0, 0), (1, 0), (1, 1), (0, 1)]
+    (tmp_path / "d.msh").write_text(msh(nodes, [[1, 2, 3, 4], [2, 3, 4, 1] if turned else [1, 2, 3, 4]], [(3, 1, 2), (4, 3, 4)]))
+    refused(run("s.yml", "-check", text=text), "mesh cells 1 and 2", "one cell listed twice")
+
+
+@pytest.mark.parametrize("aside", [0, 1e-3])
+def test_a_mesh_that_hangs(run, tmp_path, aside):
+    """Two small cells on a large one."""
+    text = block(tmp_path, mesh={"file": "d.msh"})
+    nodes = [(0, 0), (1, 0), (1, 1), (0, 1), (0.5, 1 + aside), (0, 2), (0.5, 2), (1, 2)]
+    (tmp_path / "d.msh").write_text(msh(nodes, [[1, 2, 3, 4], [4, 5, 7, 6], [5, 3, 8, 7]], [(3, 1, 2), (4, 6, 7), (4, 7, 8)]))
+    said = run("s.yml", "-check", text=text).stdout
+    assert ("1 nodes lie on sides of cells whose corners they are not, one of body body on a side of body body at (0.5, 1, 0)" in said) == (aside == 0), said
+
+
+def test_what_hangs_in_space(run, tmp_path):
+    """Cells of half the size on a block; with a pair between them there is nothing to tell."""
+    from boxmesh import linspace, write
+    keys = {"mesh": {"file": "blocks.msh"}, "model": "3d", "body": {"l": {"material": "m"}, "u": {"material": "m"}},
+            "boundary": {"z0_l": {"fix": "xyz"}, "z1_u": {"displacement": {"x": 0, "y": 0, "z": -0.05}}}}
+    write(tmp_path / "blocks.msh", [linspace(0, 1, 1)] * 3, [lambda x, y, z: (x, y, z), lambda x, y, z: (x / 2 + 0.1, y / 2 + 0.1, 1 + z)],
+          side=lambda name, centre, b: f"{name}_{'lu'[b]}", body=lambda centre, b: "lu"[b])
+    pair = {"contact": {"p": {"nonmortar": "z0_u", "mortar": "z1_l"}}}
+    for more, told in ({}, True), (pair, False):
+        text = block(tmp_path, **keys, **more)
+        said = run("s.yml", "-check", text=text).stdout
+        assert ("4 nodes lie on sides of cells" in said) == told, said
