@@ -114,6 +114,8 @@ static PetscErrorCode Number_Private(Numbers *n, const char *prefix, PetscInt in
   PetscCall(PetscSNPrintf(one.name, sizeof(one.name), "%s%s%s", prefix, at, suffix));
   if (n->from) {
     PetscCall(CheckpointGetNumber(n->from, one.name, &one.value));
+    PetscCheckInput(real || (one.value >= 0 && one.value <= PETSC_MAX_INT), "-restart: %s of the checkpoint is %g, which counts nothing", one.name,
+                    (double)one.value);
     if (real)
       *real = one.value;
     else
@@ -143,6 +145,8 @@ static PetscErrorCode Numbers_Private(App *app, Numbers *n)
     PetscCall(Number_Private(n, "tried.", -1, PathRecoveries[i].name, &app->path.recovery[i].tried, NULL));
     PetscCall(Number_Private(n, "succeeded.", -1, PathRecoveries[i].name, &app->path.recovery[i].succeeded, NULL));
   }
+  PetscCheckInput(!n->from || app->num_missed <= app->load_steps + 1,
+                  "-restart: of %" PetscInt_FMT " steps of the checkpoint more, %" PetscInt_FMT ", missed the tolerance", app->load_steps, app->num_missed);
   if (n->from) PetscCall(PetscRealloc((size_t)app->num_missed * sizeof(*app->missed), &app->missed));
   for (PetscInt i = 0; i < app->num_missed; ++i) {
     Missed *m = &app->missed[i];
@@ -303,6 +307,7 @@ static PetscErrorCode Read_Private(App *app, Forest coarse)
   PetscCall(CheckpointRead(app->comm, app->restart, &app->snapshot));
   PetscCall(CheckpointCheck(app->snapshot, app->data, coarse));
   PetscCall(CheckpointGetNumber(app->snapshot, "t", &t));
+  PetscCheckInput(!PetscIsInfOrNanReal(t), "-restart %s: it stands at t = %g", app->restart, (double)t);
   PetscCheckInput(t <= app->data->load.end, "-restart %s: it stands at t = %g, beyond load.end = %g", app->restart, (double)t, (double)app->data->load.end);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
