@@ -117,9 +117,9 @@ PetscBool ForestLeafTouches(const ForestTables *, PetscInt leaf, uint64_t groups
    split[*num] is freed by the caller. Not collective. */
 PetscErrorCode ForestGetSplits(Forest, PetscInt *num, int8_t **split);
 /* The forest with this list over the coarse mesh of source, its leaves numbered as they were. leaf_rank[num_leaves]: who owns which leaf; NULL: a new
-   partition, leaves weighted by leaf_weight[num_leaves] (NULL: 1). Collective. */
-PetscErrorCode ForestRestore(Forest source, PetscInt num, const int8_t split[], PetscInt revision, const PetscMPIInt leaf_rank[], const PetscReal leaf_weight[],
-                             Forest *forest);
+   partition, leaves weighted by leaf_weight[num_leaves] (NULL: 1). A list of which no forest of so many leaves can be made is an input error. Collective. */
+PetscErrorCode ForestRestore(Forest source, PetscInt num, const int8_t split[], PetscInt revision, PetscInt num_leaves, const PetscMPIInt leaf_rank[],
+                             const PetscReal leaf_weight[], Forest *forest);
 /* Hash of the coarse mesh: cells, positions, bodies and boundaries with their names; the same on every rank. Not collective. */
 PetscErrorCode ForestCoarseHash(Forest, uint64_t *hash);
 

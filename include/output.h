@@ -33,7 +33,8 @@ void WriterAbandon(Writer);
 
 /* ---- tables ------------------------------------------------------------------------------------------------------------ */
 
-/* csv with named columns, written by rank 0, flushed after each row. Columns: names[n]; rows: values[n], %.12g. */
+/* csv with named columns, written by rank 0, flushed after each row. Columns: names[n]; rows: values[n], %.12g; NaN: an empty
+   field, there is no such figure. */
 typedef struct _p_Table *Table;
 PetscErrorCode           TableCreate(MPI_Comm, const char *path, PetscInt n, const char *const names[], Table *);
 /* Where a table stands: after the rows of a step (first column; 0: before the first), which ended at t (column t). The path of loads may be computed several
@@ -166,6 +167,18 @@ PetscErrorCode OutputDirectoryCreate(MPI_Comm, const char *path);
 /* Does this boundary hold something (fix, displacement, rotation)? Then it has a reaction. */
 PetscBool BoundarySupports(const BoundarySpec *);
 
+/* ---- whose directory it is (output/lock.c, foreign.c) ---------------------------------------------------------------------- */
+
+/* Take the directory for this run, until OutputUnlock or the end of all its processes; an input error that names the other run when there is one. Collective.
+ */
+PetscErrorCode OutputLock(MPI_Comm, const char *directory);
+/* Before anything is written: an error when the lock's file was taken away, and perhaps another run is there. Collective. */
+PetscErrorCode OutputHold(MPI_Comm);
+/* At any end; harmless without a lock. Not collective. */
+void OutputUnlock(void);
+/* An input error when the directory has files that a run would replace or remove and none has written. Collective. */
+PetscErrorCode OutputCheckForeign(MPI_Comm, const char *directory);
+
 /* ---- results put aside (output/aside.c) ----------------------------------------------------------------------------------- */
 
 #define OUTPUT_ASIDE "earlier_path" /* in output.directory: results of the last path of loads that came to its end, until a finer one does */
@@ -198,8 +211,12 @@ PetscErrorCode CheckpointDestroy(Checkpoint *);
 /* Any amount of further numbers of the caller, the same on every rank; put once. values[*num] is freed by the caller; none: *num 0. Collective. */
 PetscErrorCode CheckpointPutValues(Checkpoint, PetscInt num, const PetscReal values[]);
 PetscErrorCode CheckpointGetValues(Checkpoint, PetscInt *num, PetscReal **values);
+#define CHECKPOINT_FILE "checkpoint.h5"
+#define CHECKPOINT_BEFORE "checkpoint_before.h5" /* beside it: the one that had its name */
 /* Write path, or leave the file that is there as it is: a kill at any moment leaves one of the two, whole. Collective. */
 PetscErrorCode CheckpointWrite(Checkpoint, const char *path);
+/* Does its seal hold? Not collective. */
+PetscBool CheckpointIsWhole(const char *path);
 /* Read a file on any number of ranks; one sentence (ErrorInput) when it is not there, cut short, damaged, of another format or no checkpoint. Collective. */
 PetscErrorCode CheckpointRead(MPI_Comm, const char *path, Checkpoint *);
 /* Does it belong to this scene on this coarse mesh? An input error when not. Not collective (input is replicated). */

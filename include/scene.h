@@ -34,6 +34,7 @@ typedef struct {
   PetscBool fields, segments; /* write fields.xdmf; write segments */
   int       divide;           /* pieces of a cell in each direction; 0: as many as its order */
   PetscInt  checkpoint;       /* every so many load steps; 0: only when the run is stopped */
+  PetscBool overwrite;        /* also files that no run has written */
 } OutputSpec;
 
 typedef struct {

@@ -36,5 +36,5 @@ def run(scene, *options, directory=None):
             raise SystemExit(f"{' '.join(command)}: exit {done.returncode}\n{done.stdout[-2000:]}")
         summary = json.loads((out / "summary.json").read_text())
         with open(out / "adapt.csv", newline="") as file:
-            rows = [{key: float(value) for key, value in row.items()} for row in csv.DictReader(file)]
+            rows = [{key: float(value or "nan") for key, value in row.items()} for row in csv.DictReader(file)]
     return summary, rows, spent

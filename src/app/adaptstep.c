@@ -40,6 +40,7 @@ static PetscErrorCode ReportPass_Private(App *app, PetscInt iterations, PetscBoo
   app->last.strain_change     = change[2];
   app->last.accepted          = accepted;
   app->last.dt                = l->state.t - l->accepted.t;
+  PetscCall(OutputHold(app->comm));
   PetscCall(HistoryPass(app->history, &app->last));
   PetscCall(MonitorRow(app->monitor, &app->last));
   if (!app->data->output.fields) PetscFunctionReturn(PETSC_SUCCESS);

@@ -56,6 +56,7 @@ typedef struct {
   PetscInt         snapshot_revision;                                           /* of the forest it stands on */
   PetscBool        written;                                                     /* the file is this copy */
   char             checkpoint[PETSC_MAX_PATH_LEN], restart[PETSC_MAX_PATH_LEN]; /* file to write; file to go on from, "": none */
+  char             before[PETSC_MAX_PATH_LEN];                                  /* the checkpoint before it */
 } App;
 
 /* start.c: PetscInitialize, cheaply for a single process. A file of -options_file that cannot be read is an input error. */
@@ -103,6 +104,9 @@ PetscErrorCode AppCheckOptions(Scene);
 PetscErrorCode AppSnapshot(App *);
 PetscErrorCode AppCheckpoint(App *);
 PetscErrorCode AppForget(App *);
+PetscErrorCode AppForgetSummary(App *); /* of an earlier run: how that has ended says nothing of this one */
+/* At the end: the checkpoint before the last one goes, if that is whole. Collective. */
+PetscErrorCode AppKeepLast(App *);
 /* The run was asked to stop: write the copy and return to it. Collective. */
 PetscErrorCode AppStop(App *);
 /* Read the checkpoint to go on from and check it against scene and coarse mesh; then the level and all counters from it (destroys *coarse). Nothing is written.

@@ -70,6 +70,7 @@ static PetscErrorCode Summarise_Private(App *app)
   const ReportRow total = AppTotal(app);
   PetscCall(MonitorFooter(app->monitor, status, reason, app->adapt_stop, app->written, &total, app->load_steps ? &app->last : NULL));
   PetscCall(AppAdvise(app));
+  PetscCall(AppKeepLast(app));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -85,6 +86,7 @@ static PetscErrorCode Close_Private(App *app)
   if (app->balance.reaction) PetscCall(BalanceDestroy(&app->balance));
   PetscCall(LevelDestroy(&app->level));
   PetscCall(CheckpointDestroy(&app->snapshot));
+  OutputUnlock();
   PetscCall(PetscFree2(app->subdivided, app->touched));
   PetscCall(PetscFree(app->missed));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -164,9 +166,8 @@ static PetscErrorCode Help_Private(void)
       "A line \"warning: ...\" tells of something that a run can be right with but its user may not mean; summary.json lists them.\n"
       "\nOptions of PETSc work as everywhere: -snes_monitor, -ksp_monitor, -log_view, ...\n"
       "Exit status: 0 converged to the end; 1 bad input, nothing was solved; 2 the solver gave up: status failed, or inaccurate where all load steps\n"
-      "were solved, but adapt.tolerance was not reached in all of them, whatever the reason; 3 stopped, by SIGTERM, SIGUSR1, SIGINT or -max_seconds, with a "
-      "checkpoint for\n"
-      "-restart.\n"));
+      "were solved, but adapt.tolerance was not reached in all of them, whatever the reason; 3 stopped, by SIGTERM, SIGINT, SIGHUP, SIGQUIT,\n"
+      "SIGUSR1, SIGXCPU, SIGPIPE or -max_seconds, with a checkpoint for -restart.\n"));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -209,6 +210,7 @@ int main(int argc, char **argv)
   int            status = 0;
   PetscErrorCode ierr;
 
+  StopBegin();
   ierr = AppInitialize(argc, argv);
   if (ierr) return ierr == MORTISE_ERR_INPUT ? 1 : 2;
   (void)signal(SIGPIPE, SIG_DFL); /* output cut short by `head` is no error to report */
@@ -216,6 +218,7 @@ int main(int argc, char **argv)
   ierr = ErrorHandlerPush();
   if (!ierr) ierr = Main_Private(argc, argv, &status);
   if (ierr) {
+    OutputUnlock();
     /* An error other than wrong input leaves ranks anywhere: no orderly end. */
     if (ErrorIsPlain(ierr)) End_Private();
     if (ierr != MORTISE_ERR_INPUT) MPI_Abort(PETSC_COMM_WORLD, 2);

@@ -2,7 +2,6 @@
 #include "appimpl.h"
 #include <unistd.h>
 
-#define CHECKPOINT "checkpoint.h5"
 #define AUTO "auto"
 
 static const struct {
@@ -43,7 +42,8 @@ static const struct {
   const char *name, *allowed, *text;
 } Options[] = {
     {"-restart", "FILE|" AUTO,
-     "go on from a checkpoint of this scene, on any number of processes; " AUTO ": from " CHECKPOINT " in output.directory, from t = 0 when there is none"},
+     "go on from a checkpoint of this scene, on any number of processes; " AUTO ": from " CHECKPOINT_FILE
+     " in output.directory, from t = 0 when there is none"},
     {"-max_seconds", "a number above 0", "stop after this much wall time: a checkpoint, a summary, exit status 3"},
 };
 
@@ -55,13 +55,30 @@ PetscErrorCode AppPrintHelp(MPI_Comm comm)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* The file to go on from: the checkpoint, or the one before it where the disk has lost it. Without either from the start. Collective. */
+static PetscErrorCode Newest_Private(App *app)
+{
+  PetscMPIInt rank;
+  PetscBool   older = PETSC_FALSE;
+
+  PetscFunctionBegin;
+  PetscCall(PetscStrncpy(app->restart, app->checkpoint, sizeof(app->restart)));
+  PetscCallMPI(MPI_Comm_rank(app->comm, &rank));
+  if (rank == 0) older = (PetscBool)(!CheckpointIsWhole(app->checkpoint) && CheckpointIsWhole(app->before));
+  if (rank == 0 && older) PetscCall(PetscStrncpy(app->restart, app->before, sizeof(app->restart)));
+  if (rank == 0 && !older && access(app->checkpoint, F_OK)) app->restart[0] = 0;
+  PetscCallMPI(MPI_Bcast(app->restart, (PetscMPIInt)sizeof(app->restart), MPI_CHAR, 0, app->comm));
+  PetscCallMPI(MPI_Bcast(&older, 1, COMPAT_MPI_BOOL, 0, app->comm));
+  if (older) PetscCall(PetscPrintf(app->comm, "note: %s is not whole, the one before it is taken\n", app->checkpoint));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode AppOptions(App *app)
 {
-  char        text[64];
-  char       *end     = text;
-  PetscReal   seconds = 0;
-  PetscBool   set, is_auto;
-  PetscMPIInt rank;
+  char      text[64];
+  char     *end     = text;
+  PetscReal seconds = 0;
+  PetscBool set, is_auto;
 
   PetscFunctionBegin;
   PetscCall(PetscOptionsGetString(NULL, NULL, Options[1].name, text, sizeof(text), &set));
@@ -70,13 +87,10 @@ PetscErrorCode AppOptions(App *app)
   PetscCall(StopWatch(seconds));
   PetscCall(PetscOptionsGetString(NULL, NULL, Options[0].name, app->restart, sizeof(app->restart), &set));
   PetscCheckInput(!set || app->restart[0], "%s needs a file, or %s", Options[0].name, AUTO);
-  PetscCall(PetscSNPrintf(app->checkpoint, sizeof(app->checkpoint), "%s/%s", app->data->output.directory, CHECKPOINT));
+  PetscCall(PetscSNPrintf(app->checkpoint, sizeof(app->checkpoint), "%s/" CHECKPOINT_FILE, app->data->output.directory));
+  PetscCall(PetscSNPrintf(app->before, sizeof(app->before), "%s/" CHECKPOINT_BEFORE, app->data->output.directory));
   PetscCall(PetscStrcmp(app->restart, AUTO, &is_auto));
-  if (!is_auto) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(PetscStrncpy(app->restart, app->checkpoint, sizeof(app->restart)));
-  PetscCallMPI(MPI_Comm_rank(app->comm, &rank));
-  if (rank == 0 && access(app->checkpoint, F_OK)) app->restart[0] = 0;
-  PetscCallMPI(MPI_Bcast(app->restart, 1, MPI_CHAR, 0, app->comm));
+  if (is_auto) PetscCall(Newest_Private(app));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -100,6 +114,8 @@ static PetscErrorCode Number_Private(Numbers *n, const char *prefix, PetscInt in
   PetscCall(PetscSNPrintf(one.name, sizeof(one.name), "%s%s%s", prefix, at, suffix));
   if (n->from) {
     PetscCall(CheckpointGetNumber(n->from, one.name, &one.value));
+    PetscCheckInput(real || (one.value >= 0 && one.value <= PETSC_MAX_INT), "-restart: %s of the checkpoint is %g, which counts nothing", one.name,
+                    (double)one.value);
     if (real)
       *real = one.value;
     else
@@ -129,6 +145,8 @@ static PetscErrorCode Numbers_Private(App *app, Numbers *n)
     PetscCall(Number_Private(n, "tried.", -1, PathRecoveries[i].name, &app->path.recovery[i].tried, NULL));
     PetscCall(Number_Private(n, "succeeded.", -1, PathRecoveries[i].name, &app->path.recovery[i].succeeded, NULL));
   }
+  PetscCheckInput(!n->from || app->num_missed <= app->load_steps + 1,
+                  "-restart: of %" PetscInt_FMT " steps of the checkpoint more, %" PetscInt_FMT ", missed the tolerance", app->load_steps, app->num_missed);
   if (n->from) PetscCall(PetscRealloc((size_t)app->num_missed * sizeof(*app->missed), &app->missed));
   for (PetscInt i = 0; i < app->num_missed; ++i) {
     Missed *m = &app->missed[i];
@@ -199,6 +217,7 @@ PetscErrorCode AppCheckpoint(App *app)
   PetscFunctionBegin;
   if (app->written) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(StageBegin(STAGE_OUTPUT));
+  PetscCall(OutputHold(app->comm));
   PetscCall(CheckpointWrite(app->snapshot, app->checkpoint));
   PetscCall(StageEnd(STAGE_OUTPUT));
   app->written = PETSC_TRUE;
@@ -248,8 +267,32 @@ PetscErrorCode AppForget(App *app)
 
   PetscFunctionBegin;
   PetscCallMPI(MPI_Comm_rank(app->comm, &rank));
+  PetscCall(AppForgetSummary(app));
+  if (rank == 0) (void)unlink(app->before);
   if (rank == 0) (void)unlink(app->checkpoint);
   PetscCall(OutputDropAside(app->comm, app->data->output.directory));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode AppForgetSummary(App *app)
+{
+  char        path[PETSC_MAX_PATH_LEN];
+  PetscMPIInt rank;
+
+  PetscFunctionBegin;
+  PetscCallMPI(MPI_Comm_rank(app->comm, &rank));
+  PetscCall(PetscSNPrintf(path, sizeof(path), "%s/summary.json", app->data->output.directory));
+  if (rank == 0) (void)unlink(path);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode AppKeepLast(App *app)
+{
+  PetscMPIInt rank;
+
+  PetscFunctionBegin;
+  PetscCallMPI(MPI_Comm_rank(app->comm, &rank));
+  if (rank == 0 && !access(app->before, F_OK) && CheckpointIsWhole(app->checkpoint)) (void)unlink(app->before);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -264,6 +307,7 @@ static PetscErrorCode Read_Private(App *app, Forest coarse)
   PetscCall(CheckpointRead(app->comm, app->restart, &app->snapshot));
   PetscCall(CheckpointCheck(app->snapshot, app->data, coarse));
   PetscCall(CheckpointGetNumber(app->snapshot, "t", &t));
+  PetscCheckInput(!PetscIsInfOrNanReal(t), "-restart %s: it stands at t = %g", app->restart, (double)t);
   PetscCheckInput(t <= app->data->load.end, "-restart %s: it stands at t = %g, beyond load.end = %g", app->restart, (double)t, (double)app->data->load.end);
   PetscFunctionReturn(PETSC_SUCCESS);
 }

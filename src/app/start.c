@@ -8,6 +8,7 @@ static const char *const Alone[][2] = {
     {"OMPI_MCA_btl", "self"},
     {"OMPI_MCA_ess_singleton_isolated", "1"},
     {"OMPI_MCA_coll", "self,basic,libnbc"},
+    {"OMPI_MCA_orte_create_session_dirs", "0"}, /* which another start, or end, may take away while it is made */
     {"OMPI_MCA_osc", "^ucx"},
     {"HWLOC_COMPONENTS", "-linuxio,-pci,-opencl,-cuda,-nvml,-gl,-x86"},
 };
@@ -89,6 +90,29 @@ static PetscErrorCode Tell_Private(PetscErrorCode ierr)
   return MORTISE_ERR_INPUT;
 }
 
+/* Files of options that PETSc reads unasked, those of the working directory among them: whose they are a user may not know. They are named when they have any.
+ */
+static void TellFiles_Private(int argc, char **argv)
+{
+  static const char *const files[] = {".petscrc", "petscrc"};
+  char                     line[1024];
+  PetscMPIInt              rank = 0;
+
+  for (int i = 1; i < argc; ++i) {
+    if (!strcmp(argv[i], "-skip_petscrc")) return;
+  }
+  MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
+  for (int i = 0; i < 2 && rank == 0; ++i) {
+    FILE     *file = fopen(files[i], "r");
+    PetscBool acts = PETSC_FALSE;
+    while (file && !acts && fgets(line, sizeof(line), file)) acts = (PetscBool)(line[strspn(line, " \t")] == '-');
+    if (file) (void)fclose(file);
+    if (acts)
+      printf("note: options of %s in the working directory act, beginning with %.*s; -skip_petscrc leaves them out\n", files[i],
+             (int)PetscMin(80, strcspn(line, "\n")), line);
+  }
+}
+
 /* PetscInitialize with those settings when no launcher started this process; what the user has set wins. */
 PetscErrorCode AppInitialize(int argc, char **argv)
 {
@@ -109,5 +133,6 @@ PetscErrorCode AppInitialize(int argc, char **argv)
     if (set[i]) unsetenv(Alone[i][0]); /* programs we start (gmsh) do not inherit them */
   }
   CheckRoom_Private();
+  TellFiles_Private(argc, argv);
   return ierr;
 }

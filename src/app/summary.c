@@ -52,6 +52,7 @@ PetscErrorCode AppSummary(App *app, const char *status, const char *reason)
   summary.balance            = &app->balance;
   summary.estimate           = app->estimated && !app->failure && !app->path.stopped && !PetscIsNanReal(app->last.estimated_error) ? &app->estimate : NULL;
   summary.probes             = app->probes;
+  PetscCall(OutputHold(app->comm));
   PetscCall(OutputSummary(app->comm, app->data, &summary));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

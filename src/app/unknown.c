@@ -111,6 +111,6 @@ PetscErrorCode AppCheckOptions(Scene scene)
   PetscCall(PetscOptionsLeftRestore(NULL, &num, &names, &values));
   if (!unknown[0]) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(Nearest_Private(scene, unknown, sizeof(nearest), nearest));
-  PetscCall(ErrorInput("-%.200s is no key of a scene and no option of mortise or PETSc; the nearest one is -%s", unknown, nearest));
+  PetscCall(ErrorInput("-%.80s is no key of a scene and no option of mortise or PETSc; the nearest one is -%s", unknown, nearest));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

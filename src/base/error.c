@@ -11,16 +11,41 @@ static void Print_Private(const char *format, va_list arguments)
   (void)vsnprintf(line, sizeof(line), format, arguments);
   for (unsigned char *c = (unsigned char *)line; *c; ++c) {
     if (*c == 0xc2 && c[1] >= 0x80 && c[1] < 0xa0) *c = '?', c[1] = '?'; /* C1 in UTF-8 */
+    if (*c >= 0xc0 && (c[1] & 0xc0) != 0x80) *c = '?';                   /* the beginning of a character that was cut */
     if (*c < ' ' || *c == 0x7f) *c = '?';
   }
   fprintf(stderr, "mortise: %s\n", line);
   fflush(stderr);
 }
 
+#define ECHO "%.80s"
+
+/* The format with values, which stand in quotes or behind "is", cut at 80 characters: a file may have much of anything where a word is due. */
+static void Cut_Private(const char *format, size_t capacity, char cut[])
+{
+  static const char *const value[] = {"'%s'", "\"%s\"", " is %s"};
+  size_t                   used    = 0;
+
+  while (*format && used + sizeof(ECHO) + 8 < capacity) {
+    const char *found = NULL;
+    for (size_t i = 0; i < PETSC_STATIC_ARRAY_LENGTH(value); ++i) {
+      if (!strncmp(format, value[i], strlen(value[i]))) found = value[i];
+    }
+    if (found) {
+      const size_t before = strcspn(found, "%");
+      used += (size_t)snprintf(cut + used, capacity - used, "%.*s%s", (int)before, found, ECHO);
+      format += before + 2;
+    } else
+      cut[used++] = *format++;
+  }
+  (void)snprintf(cut + used, capacity - used, "%s", format);
+}
+
 PetscErrorCode ErrorInput(const char *format, ...)
 {
   PetscMPIInt rank = 0, initialized = 0, finalized = 0;
   va_list     arguments;
+  char        cut[4096];
 
   /* No PetscCall here: this is the origin of an error, and it must work before PetscInitialize as well. */
   MPI_Initialized(&initialized);
@@ -28,7 +53,8 @@ PetscErrorCode ErrorInput(const char *format, ...)
   if (initialized && !finalized) MPI_Comm_rank(PetscInitializeCalled ? PETSC_COMM_WORLD : MPI_COMM_WORLD, &rank);
   if (rank == 0) {
     va_start(arguments, format);
-    Print_Private(format, arguments);
+    Cut_Private(format, sizeof(cut), cut);
+    Print_Private(cut, arguments);
     va_end(arguments);
   }
   return MORTISE_ERR_INPUT;

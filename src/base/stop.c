@@ -14,24 +14,45 @@ static int                   stop_decided; /* by all ranks: signal or TIME_UP */
 static const struct {
   int         number;
   const char *name;
-} Signals[] = {{SIGTERM, "SIGTERM"}, {SIGUSR1, "SIGUSR1"}, {SIGINT, "SIGINT"}};
+  int         flags; /* SA_RESETHAND: the second one of the kind ends the program at once */
+} Signals[] = {
+    {SIGTERM, "SIGTERM", SA_RESETHAND},
+    {SIGUSR1, "SIGUSR1", SA_RESETHAND},
+    {SIGINT, "SIGINT", SA_RESETHAND},
+    {SIGQUIT, "SIGQUIT", SA_RESETHAND},
+    {SIGHUP, "SIGHUP", 0},   /* of terminal and shell, one after the other */
+    {SIGXCPU, "SIGXCPU", 0}, /* comes once a second */
+    {SIGPIPE, "SIGPIPE", 0}, /* at every line nobody reads */
+};
+static PetscBool stop_ignored[PETSC_STATIC_ARRAY_LENGTH(Signals)]; /* before anything of ours and of libraries: as under nohup */
 
 static void Note_Private(int number)
 {
   stop_signal = number;
 }
 
+void StopBegin(void)
+{
+  struct sigaction action;
+
+  for (size_t i = 0; i < PETSC_STATIC_ARRAY_LENGTH(Signals); ++i)
+    stop_ignored[i] = (PetscBool)(!sigaction(Signals[i].number, NULL, &action) && action.sa_handler == SIG_IGN);
+}
+
 PetscErrorCode StopWatch(PetscReal seconds)
 {
-  struct sigaction action = {.sa_handler = Note_Private, .sa_flags = SA_RESTART | SA_RESETHAND}; /* the second one of a kind ends the program at once */
+  struct sigaction action = {.sa_handler = Note_Private};
 
   PetscFunctionBegin;
   PetscCall(PetscTime(&stop_start));
   stop_seconds = seconds;
   stop_watched = PETSC_TRUE;
   sigemptyset(&action.sa_mask);
-  for (size_t i = 0; i < PETSC_STATIC_ARRAY_LENGTH(Signals); ++i)
+  for (size_t i = 0; i < PETSC_STATIC_ARRAY_LENGTH(Signals); ++i) {
+    action.sa_handler = stop_ignored[i] ? SIG_IGN : Note_Private;
+    action.sa_flags   = SA_RESTART | Signals[i].flags;
     PetscCheck(!sigaction(Signals[i].number, &action, NULL), PETSC_COMM_SELF, PETSC_ERR_SYS, "sigaction failed for %s", Signals[i].name);
+  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -182,6 +182,34 @@ static PetscErrorCode CheckCells_Private(const CoarseMesh *mesh)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Are they one cell, whatever the order of its vertices? */
+static PetscBool Same_Private(const CoarseMesh *mesh, PetscInt a, PetscInt b)
+{
+  const PetscInt num = 1 << mesh->dim, *v = mesh->cell_vertices + a * num, *w = mesh->cell_vertices + b * num;
+
+  for (PetscInt i = 0; i < num; ++i) {
+    PetscInt j = 0;
+    while (j < num && w[j] != v[i]) ++j;
+    if (j == num) return PETSC_FALSE;
+  }
+  return PETSC_TRUE;
+}
+
+/* Cells that share a facet differ. */
+static PetscErrorCode Twice_Private(const CoarseMesh *mesh, PetscInt a, PetscInt b)
+{
+  PetscReal X[3];
+
+  PetscFunctionBegin;
+  if (!Same_Private(mesh, a, b)) PetscFunctionReturn(PETSC_SUCCESS);
+  CellCentre_Private(mesh, b, X);
+  PetscCall(ErrorInput("mesh cells %" PetscInt_FMT " and %" PetscInt_FMT
+                       " (centre %g, %g, %g) are one cell listed twice; files of format 2.2 list a cell of two "
+                       "groups twice: leave it in one",
+                       a + 1, b + 1, (double)X[0], (double)X[1], (double)X[2]));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* Facet table: the cells of each, at most two. */
 static PetscErrorCode FacetCells_Private(Coarse *coarse)
 {
@@ -199,6 +227,7 @@ static PetscErrorCode FacetCells_Private(Coarse *coarse)
       if (ForestTensorDim[i] != dim - 1) continue;
       const PetscInt f    = coarse->closure[coarse->closure_offset[coarse->first[dim] + c] + i] - first;
       const PetscInt side = coarse->facet_cell[f][0] < 0 ? 0 : 1;
+      for (PetscInt k = 0; k < 2 && coarse->facet_cell[f][k] >= 0; ++k) PetscCall(Twice_Private(mesh, coarse->facet_cell[f][k], c));
       if (coarse->facet_cell[f][side] >= 0) {
         CellCentre_Private(mesh, c, X);
         return ErrorInput("mesh cells %" PetscInt_FMT ", %" PetscInt_FMT " and %" PetscInt_FMT " (centre %g, %g, %g) all share one %s: two at most may",

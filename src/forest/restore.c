@@ -18,30 +18,45 @@ PetscErrorCode ForestGetSplits(Forest forest, PetscInt *num, int8_t **split)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* The list may be anything. */
+static PetscBool MaySplit_Private(const TreeNode *node, PetscInt dim, int8_t directions)
+{
+  if (directions < 0 || directions >= 1 << dim) return PETSC_FALSE;
+  for (PetscInt i = 0; i < dim; ++i) {
+    if ((directions >> i & 1) && node->level[i] >= FOREST_MAX_LEVEL) return PETSC_FALSE;
+  }
+  return PETSC_TRUE;
+}
+
 /* Split a node and what comes below it as split[*at ..] says. */
-static PetscErrorCode Replay_Private(Tree *tree, PetscInt node, PetscInt num, const int8_t split[], PetscInt *at)
+static PetscErrorCode Replay_Private(Tree *tree, PetscInt dim, PetscInt node, PetscInt num, const int8_t split[], PetscInt *at)
 {
   PetscFunctionBegin;
-  PetscCheck(*at < num, PETSC_COMM_SELF, PETSC_ERR_ARG_SIZ, "The list of splits ends before the tree does");
+  PetscCheckInput(*at < num && MaySplit_Private(&tree->node[node], dim, split[*at]), "-restart: the splits of the checkpoint make no forest");
   const int8_t directions = split[(*at)++];
   if (!directions) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(ForestTreeSplit(tree, node, directions));
-  for (PetscInt c = 0, first = tree->node[node].child; c < ForestNumChildren(directions); ++c) PetscCall(Replay_Private(tree, first + c, num, split, at));
+  for (PetscInt c = 0, first = tree->node[node].child; c < ForestNumChildren(directions); ++c) PetscCall(Replay_Private(tree, dim, first + c, num, split, at));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode ForestRestore(Forest source, PetscInt num, const int8_t split[], PetscInt revision, const PetscMPIInt leaf_rank[], const PetscReal leaf_weight[],
-                             Forest *forest)
+PetscErrorCode ForestRestore(Forest source, PetscInt num, const int8_t split[], PetscInt revision, PetscInt num_leaves, const PetscMPIInt leaf_rank[],
+                             const PetscReal leaf_weight[], Forest *forest)
 {
   Coarse        *coarse    = source->coarse;
   const PetscInt num_roots = coarse->mesh.num_cells;
-  PetscInt       at        = 0;
+  PetscInt       at        = 0, leaves, *list;
   Tree           tree, compact;
 
   PetscFunctionBegin;
   PetscCall(ForestTreeCreate(num_roots, &tree));
-  for (PetscInt r = 0; r < num_roots; ++r) PetscCall(Replay_Private(&tree, r, num, split, &at));
-  PetscCheck(at == num, PETSC_COMM_SELF, PETSC_ERR_ARG_SIZ, "The tree ends before the list of splits does");
+  for (PetscInt r = 0; r < num_roots; ++r) PetscCall(Replay_Private(&tree, coarse->mesh.dim, r, num, split, &at));
+  PetscCall(ForestTreeLeaves(&tree, num_roots, &leaves, &list));
+  const PetscInt nodes = tree.num;
+  PetscCall(ForestTreeClose(coarse, &tree, leaves, list)); /* splits nothing: the forest was closed */
+  PetscCall(PetscFree(list));
+  PetscCheckInput(at == num && leaves == num_leaves && tree.num == nodes, "-restart: the splits of the checkpoint make no forest of %" PetscInt_FMT " cells",
+                  num_leaves);
   PetscCall(ForestTreeCompact(&tree, num_roots, &compact));
   PetscCall(ForestTreeDestroy(&tree));
   ++coarse->references;

@@ -8,10 +8,7 @@
 /* Is it a file of this path's: not tables of all paths, not the checkpoint. */
 static PetscBool IsOfPath_Private(const char *name)
 {
-  int number, length = 0;
-
-  if (!strcmp(name, "summary.json") || !strcmp(name, "fields.xdmf")) return PETSC_TRUE;
-  return (PetscBool)(sscanf(name, "fields_%d.h5%n", &number, &length) == 1 && length && !name[length]);
+  return (PetscBool)(!strcmp(name, "summary.json") || !strcmp(name, "fields.xdmf") || OutputStateNumber(name) >= 0);
 }
 
 /* from/name to to/name; to NULL: it goes. What is not there is no error. errno. */

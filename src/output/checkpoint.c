@@ -145,7 +145,7 @@ PetscErrorCode CheckpointForest(Checkpoint c, Forest coarse, Forest *forest)
   PetscCallMPI(MPI_Comm_size(c->comm, &ranks));
   PetscCall(PetscMalloc1(c->num_leaves, &weight));
   for (PetscInt l = 0; l < c->num_leaves; ++l) weight[l] = PetscPowInt(c->order[l], mesh->dim);
-  PetscCall(ForestRestore(coarse, c->num_splits, c->split, c->revision, ranks == c->ranks ? c->owner : NULL, weight, forest));
+  PetscCall(ForestRestore(coarse, c->num_splits, c->split, c->revision, c->num_leaves, ranks == c->ranks ? c->owner : NULL, weight, forest));
   PetscCall(PetscFree(weight));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -79,7 +79,7 @@ static PetscErrorCode WriteFile_Private(Checkpoint c, const char *path)
   hid_t access, create, file, group;
 
   PetscFunctionBegin;
-  PetscCall(OutputAccess(c->comm, &access));
+  PetscCall(OutputAccess(c->comm, path, &access));
   PetscCallH5Id(create, H5Pcreate(H5P_FILE_CREATE));
   PetscCallH5(H5Pset_userblock(create, CHECKPOINT_SEAL));
   PetscCallH5Id(file, H5Fcreate(path, H5F_ACC_TRUNC, create, access));
@@ -129,6 +129,7 @@ static PetscErrorCode ReadText_Private(hid_t file, const char *name, char **text
   PetscCheck(H5Tget_class(type) == H5T_STRING && H5Tis_variable_str(type) == 0 && H5Sget_simple_extent_npoints(space) == 1, PETSC_COMM_SELF,
              PETSC_ERR_FILE_READ, "%s is no text", name);
   PetscCallH5(H5Sclose(space));
+  PetscCheck(H5Dget_storage_size(set) >= H5Tget_size(type), PETSC_COMM_SELF, PETSC_ERR_FILE_READ, "%s is not all there", name);
   PetscCall(PetscCalloc1(H5Tget_size(type) + 1, text));
   PetscCallH5(H5Dread(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, *text));
   PetscCallH5(H5Tclose(type));
@@ -136,9 +137,10 @@ static PetscErrorCode ReadText_Private(hid_t file, const char *name, char **text
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* A list of numbers, all of which are in the file: memory is asked for what is there. */
 static PetscErrorCode ReadSize_Private(hid_t file, const char *name, PetscInt *size)
 {
-  hid_t    set, space;
+  hid_t    set, space, type;
   hssize_t num;
 
   PetscFunctionBegin;
@@ -147,6 +149,11 @@ static PetscErrorCode ReadSize_Private(hid_t file, const char *name, PetscInt *s
   num   = H5Sget_simple_extent_npoints(space);
   *size = (PetscInt)num;
   PetscCheck(num >= 0 && num <= PETSC_MAX_INT, PETSC_COMM_SELF, PETSC_ERR_FILE_READ, "%lld numbers in %s", (long long)num, name);
+  PetscCallH5Id(type, H5Dget_type(set));
+  PetscCheck(H5Sget_simple_extent_ndims(space) == 1 && (H5Tget_class(type) == H5T_INTEGER || H5Tget_class(type) == H5T_FLOAT), PETSC_COMM_SELF,
+             PETSC_ERR_FILE_READ, "%s is no list of numbers", name);
+  PetscCheck(H5Dget_storage_size(set) / H5Tget_size(type) >= (hsize_t)num, PETSC_COMM_SELF, PETSC_ERR_FILE_READ, "%s is not all there", name);
+  PetscCallH5(H5Tclose(type));
   PetscCallH5(H5Sclose(space));
   PetscCallH5(H5Dclose(set));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -186,7 +193,8 @@ static PetscErrorCode ReadAttribute_Private(hid_t object, const char *name, hid_
 
 static PetscErrorCode ReadForest_Private(Checkpoint c, hid_t file)
 {
-  int64_t revision, ranks;
+  int64_t  revision, ranks;
+  PetscInt owners;
 
   PetscFunctionBegin;
   PetscCall(ReadAttribute_Private(file, "mesh", H5T_NATIVE_UINT64, &c->mesh));
@@ -196,6 +204,8 @@ static PetscErrorCode ReadForest_Private(Checkpoint c, hid_t file)
   c->ranks    = (PetscMPIInt)ranks;
   PetscCall(ReadSize_Private(file, "split", &c->num_splits));
   PetscCall(ReadSize_Private(file, "order", &c->num_leaves));
+  PetscCall(ReadSize_Private(file, "owner", &owners));
+  PetscCheck(owners == c->num_leaves, PETSC_COMM_SELF, PETSC_ERR_FILE_READ, "%" PetscInt_FMT " owners of %" PetscInt_FMT " leaves", owners, c->num_leaves);
   PetscCall(PetscMalloc1(c->num_splits, &c->split));
   PetscCall(PetscMalloc1(c->num_leaves, &c->order));
   PetscCall(PetscMalloc1(c->num_leaves, &c->owner));
@@ -228,6 +238,8 @@ static PetscErrorCode ReadFields_Private(Checkpoint c, hid_t file)
     PetscCall(VecGetOwnershipRange(f->values, &lo, &hi));
     PetscCall(VecGetArray(f->values, &values));
     PetscCall(ReadArray_Private(group, f->name, H5T_NATIVE_DOUBLE, lo, hi - lo, values));
+    for (PetscInt i = 0; i < hi - lo; ++i)
+      PetscCheck(!PetscIsInfOrNanReal(values[i]), PETSC_COMM_SELF, PETSC_ERR_FILE_READ, "A number of %s is not finite", f->name);
     PetscCall(VecRestoreArray(f->values, &values));
   }
   PetscCallH5(H5Gclose(group));
@@ -271,7 +283,7 @@ static PetscErrorCode ReadFile_Private(Checkpoint c, const char *path)
   char *note;
 
   PetscFunctionBegin;
-  PetscCall(OutputAccess(c->comm, &access));
+  PetscCall(OutputAccess(c->comm, path, &access));
   PetscCallH5Id(file, H5Fopen(path, H5F_ACC_RDONLY, access));
   PetscCallH5(H5Pclose(access));
   PetscCall(Complete_Private(file, path));
@@ -286,6 +298,17 @@ static PetscErrorCode ReadFile_Private(Checkpoint c, const char *path)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* A rank that meets something wrong in its part of the fields is not alone with it. */
+static PetscErrorCode Agree_Private(MPI_Comm comm, PetscErrorCode *status)
+{
+  int code = (int)*status;
+
+  PetscFunctionBegin;
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &code, 1, MPI_INT, MPI_MAX, comm));
+  *status = (PetscErrorCode)code;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode CheckpointRead(MPI_Comm comm, const char *path, Checkpoint *checkpoint)
 {
   Checkpoint c;
@@ -297,10 +320,11 @@ PetscErrorCode CheckpointRead(MPI_Comm comm, const char *path, Checkpoint *check
   PetscCall(PetscStrncpy(c->path, path, sizeof(c->path)));
   GuardBegin("-restart %s: damaged, though its checksum holds", path);
   PetscCall(PetscPushErrorHandler(PetscReturnErrorHandler, NULL)); /* the sentence below says it */
-  const PetscErrorCode status = ReadFile_Private(c, path);
+  PetscErrorCode status = ReadFile_Private(c, path);
   PetscCall(PetscPopErrorHandler());
   GuardEnd();
-  PetscCheckInput(!status || status == MORTISE_ERR_INPUT || ErrorIsPlain(status), "-restart %s: damaged, though its checksum holds", path);
+  PetscCall(Agree_Private(comm, &status));
+  PetscCheckInput(!status || status == MORTISE_ERR_INPUT || status == PETSC_ERR_MEM, "-restart %s: damaged, though its checksum holds", path);
   PetscCall(status);
   *checkpoint = c;
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -33,11 +33,24 @@ PetscErrorCode OutputAttributeReal(hid_t object, const char *name, PetscReal val
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode OutputAccess(MPI_Comm comm, hid_t *access)
+static char accessed[PETSC_MAX_PATH_LEN];
+
+const char *OutputAccessed(void)
+{
+  return accessed;
+}
+
+const char *OutputErrno(void)
+{
+  return errno ? strerror(errno) : "no reason known";
+}
+
+PetscErrorCode OutputAccess(MPI_Comm comm, const char *path, hid_t *access)
 {
   PetscMPIInt size;
 
   PetscFunctionBegin;
+  PetscCall(PetscStrncpy(accessed, path, sizeof(accessed)));
   PetscCallH5(H5Eset_auto2(H5E_DEFAULT, NULL, NULL)); /* errors are told once, in one sentence */
   PetscCallMPI(MPI_Comm_size(comm, &size));
   PetscCallH5Id(*access, H5Pcreate(H5P_FILE_ACCESS));

@@ -4,18 +4,26 @@
 #include <errno.h>
 #include <hdf5.h>
 
+/* Number of a state by the name of its file; -1: the name is of no such file (output/foreign.c). */
+PetscInt OutputStateNumber(const char *name);
+
 /* Rank 0 writes text to path.tmp and renames it to path; every rank returns the same error. Collective. */
 PetscErrorCode OutputReplaceFile(MPI_Comm, const char *path, const char *text);
 
-#define PetscCallH5(call) PetscCheck((call) >= 0, PETSC_COMM_SELF, PETSC_ERR_FILE_WRITE, "HDF5 failed in %s: %s", #call, strerror(errno))
-#define PetscCallH5Id(id, call) PetscCheck(((id) = (call)) >= 0, PETSC_COMM_SELF, PETSC_ERR_FILE_WRITE, "HDF5 failed in %s: %s", #call, strerror(errno))
+/* An error of HDF5, with the file that OutputAccess was last asked for. */
+#define PetscCallH5(call)                                                                                                                                      \
+  PetscCheck((call) >= 0, PETSC_COMM_SELF, PETSC_ERR_FILE_WRITE, "%s: %s (HDF5 failed in %.24s)", OutputAccessed(), OutputErrno(), #call)
+#define PetscCallH5Id(id, call) PetscCallH5((id) = (call))
+const char *OutputAccessed(void);
+const char *OutputErrno(void); /* errno in words */
 
 /* Scalar attributes of an HDF5 object (output/hdf5.c): of any type, 64-bit integer, double. */
 PetscErrorCode OutputAttribute(hid_t object, const char *name, hid_t stored, hid_t type, const void *value);
 PetscErrorCode OutputAttributeInt(hid_t object, const char *name, PetscInt value);
 PetscErrorCode OutputAttributeReal(hid_t object, const char *name, PetscReal value);
-/* The access list with which all ranks open a file together; one rank: HDF5's own driver, which writes the same bytes and spares loading MPI-IO. */
-PetscErrorCode OutputAccess(MPI_Comm, hid_t *access);
+/* The access list with which all ranks open a file together; one rank: HDF5's own driver, which writes the same bytes and spares loading MPI-IO.
+   path: for messages, until the next one. */
+PetscErrorCode OutputAccess(MPI_Comm, const char *path, hid_t *access);
 
 /* Growable text; {0} is empty and valid. */
 typedef struct {
@@ -49,7 +57,8 @@ struct _p_Checkpoint {
   Pack              pack;
 };
 #define CHECKPOINT_SEAL 512 /* bytes */
-/* Put the seal on a finished HDF5 file, force it to the disk, rename it to path. One rank's; returns errno. (output/seal.c) */
+/* Put the seal on a finished HDF5 file, force it to the disk, rename it to path; the file that had the name stays under CHECKPOINT_BEFORE. One rank's; returns
+   errno. (output/seal.c) */
 int CheckpointSeal(const char *temporary, const char *path);
 /* Is the file whole and ours? An input error when not. Collective. */
 PetscErrorCode CheckpointVerify(MPI_Comm, const char *path);

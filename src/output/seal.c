@@ -44,11 +44,24 @@ static int Write_Private(const char *path)
   return failed;
 }
 
+/* A second name for the file that is there; a file system without such names goes without. */
+static void Keep_Private(const char *path)
+{
+  const char *slash = strrchr(path, '/');
+  char        before[PETSC_MAX_PATH_LEN];
+
+  if (snprintf(before, sizeof(before), "%.*s" CHECKPOINT_BEFORE, slash ? (int)(slash + 1 - path) : 0, path) >= (int)sizeof(before)) return;
+  if (access(path, F_OK)) return;
+  (void)unlink(before);
+  (void)!link(path, before);
+}
+
 /* The file is on the disk before it gets its name; whether the name is matters less: until then the earlier file has it. */
 int CheckpointSeal(const char *temporary, const char *path)
 {
   const int failed = Write_Private(temporary);
 
+  if (!failed) Keep_Private(path);
   return failed ? failed : rename(temporary, path) ? errno : 0;
 }
 
@@ -76,6 +89,17 @@ static int Judge_Private(FILE *file, long long number[2])
   if (failed) return number[0] = failed, SEAL_UNREADABLE;
   Text_Private(format, (int64_t)info.st_size, hash, right);
   return memcmp(seal, right, sizeof(seal)) ? SEAL_BROKEN : SEAL_HOLDS;
+}
+
+PetscBool CheckpointIsWhole(const char *path)
+{
+  FILE     *file = fopen(path, "r");
+  long long unused[2];
+
+  if (!file) return PETSC_FALSE;
+  const PetscBool whole = (PetscBool)(Judge_Private(file, unused) == SEAL_HOLDS);
+  fclose(file);
+  return whole;
 }
 
 PetscErrorCode CheckpointVerify(MPI_Comm comm, const char *path)

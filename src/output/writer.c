@@ -36,9 +36,7 @@ static PetscErrorCode WriterClear_Private(const char *directory, PetscInt from)
   PetscFunctionBegin;
   if (!dir) PetscFunctionReturn(PETSC_SUCCESS);
   while ((entry = readdir(dir))) {
-    int number, length = 0;
-
-    if (sscanf(entry->d_name, "fields_%d.h5%n", &number, &length) != 1 || !length || entry->d_name[length] || number < from) continue;
+    if (OutputStateNumber(entry->d_name) < from) continue;
     PetscCall(PetscSNPrintf(path, sizeof(path), "%s/%s", directory, entry->d_name));
     unlink(path);
   }
@@ -160,7 +158,7 @@ PetscErrorCode WriterBegin(Writer w, PetscReal time, PetscInt step, PetscInt pas
   w->resumed = PETSC_FALSE;
   w->state   = (IndexState){.time = time, .load_time = load_time, .step = step, .pass = pass};
   PetscCall(PetscSNPrintf(path, sizeof(path), "%s/fields_%04" PetscInt_FMT ".h5", w->directory, w->num));
-  PetscCall(OutputAccess(w->comm, &access));
+  PetscCall(OutputAccess(w->comm, path, &access));
   PetscCallH5Id(w->file, H5Fcreate(path, H5F_ACC_TRUNC, H5P_DEFAULT, access));
   PetscCallH5(H5Pclose(access));
   PetscCall(OutputAttributeReal(w->file, "time", time));

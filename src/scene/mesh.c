@@ -4,7 +4,7 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <signal.h>
-#include <spawn.h>
+#include <sys/prctl.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <time.h>
@@ -12,9 +12,8 @@
 
 #define MESH_MAX_PARAMETERS 64
 #define MESSAGE_LENGTH 512
-#define GRACE 3 /* seconds for gmsh to come to an end when the run is asked to stop */
-
-extern char **environ;
+#define GRACE 3          /* seconds for gmsh to come to an end when the run is asked to stop … */
+#define GRACE_KILLED 0.5 /* … by SIGTERM, after which mpiexec kills what is there a second later */
 
 /* What rank 0 tells the others: a sentence about wrong input, "" if all is well. */
 typedef struct {
@@ -48,18 +47,18 @@ static void FirstError_Private(const char *log, char *message, size_t capacity)
   if (f) (void)fclose(f);
 }
 
-/* Wait for the program, which may never end. Once the run is asked to stop it has GRACE seconds left: a mesh that is nearly there makes a checkpoint possible.
+/* Wait for the program, which may never end. Once the run is asked to stop it has a little time left: a mesh that is nearly there makes a checkpoint possible.
    Returns errno. */
 static int Wait_Private(pid_t pid, int *status, PetscBool *stopped)
 {
   struct timespec pause = {.tv_nsec = 1000000};
-  PetscReal       left  = GRACE;
+  PetscReal       spent = 0;
   pid_t           ended;
 
   *stopped = PETSC_FALSE;
   while ((ended = waitpid(pid, status, *stopped ? 0 : WNOHANG)) == 0 || (ended < 0 && errno == EINTR)) {
-    if (StopWish()[0]) left -= 1e-9 * (PetscReal)pause.tv_nsec;
-    *stopped = (PetscBool)(left <= 0);
+    if (StopWish()[0]) spent += 1e-9 * (PetscReal)pause.tv_nsec;
+    *stopped = (PetscBool)(spent >= (strcmp(StopWish(), "SIGTERM") ? GRACE : GRACE_KILLED));
     if (*stopped) (void)kill(pid, SIGKILL);
     (void)nanosleep(&pause, NULL);
     pause.tv_nsec = PetscMin(2 * pause.tv_nsec, 50000000);
@@ -67,21 +66,32 @@ static int Wait_Private(pid_t pid, int *status, PetscBool *stopped)
   return ended < 0 ? errno : 0;
 }
 
+/* The new process, which ends with this one. Between vfork and exec it runs in our memory: system calls only. Returns errno. */
+static int Start_Private(char *const argv[], int in, int out, pid_t *pid)
+{
+  const pid_t  parent = getpid();
+  volatile int failed = 0;
+
+  *pid = vfork();
+  if (*pid < 0) return errno;
+  if (*pid) return failed;
+  (void)prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (getppid() == parent && dup2(in, 0) >= 0 && dup2(out, 1) >= 0 && dup2(out, 2) >= 0) (void)execvp(argv[0], argv);
+  failed = errno;
+  _exit(127);
+}
+
 /* Run a program without a shell, both outputs to log. Returns errno of the start, and the program's exit status. */
 static int Run_Private(char *const argv[], const char *log, int *status, PetscBool *stopped)
 {
-  posix_spawn_file_actions_t actions;
-  pid_t                      pid;
-  int                        error;
+  const int in = open("/dev/null", O_RDONLY | O_CLOEXEC), out = open(log, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0600);
+  pid_t     pid    = -1;
+  const int failed = in < 0 || out < 0 ? errno : Start_Private(argv, in, out, &pid);
 
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_addopen(&actions, 0, "/dev/null", O_RDONLY, 0);
-  posix_spawn_file_actions_addopen(&actions, 1, log, O_WRONLY | O_CREAT | O_TRUNC, 0600);
-  posix_spawn_file_actions_adddup2(&actions, 1, 2);
-  error = posix_spawnp(&pid, argv[0], &actions, NULL, argv, environ);
-  posix_spawn_file_actions_destroy(&actions);
-  if (error) return error;
-  return Wait_Private(pid, status, stopped);
+  if (in >= 0) (void)close(in);
+  if (out >= 0) (void)close(out);
+  if (pid > 0 && failed) (void)waitpid(pid, status, 0);
+  return failed ? failed : Wait_Private(pid, status, stopped);
 }
 
 /* Cells in an ASCII .msh 4.1: highest dimension, and whether there are simplices of it. */
@@ -158,7 +168,7 @@ static void Gmsh_Private(Scene s, const char *geo, PetscBool subdivide, MeshResu
                    geo);
   else if (error)
     (void)snprintf(r->message, sizeof(r->message), "mesh.file %s: gmsh could not be started: %s", geo, strerror(error));
-  else if (stopped)
+  else if (stopped || (WIFSIGNALED(status) && StopWish()[0])) /* the terminal's SIGINT goes to both */
     (void)snprintf(r->message, sizeof(r->message), "mesh.file %s: gmsh had not come to an end when the run was asked to stop (%s)", geo, StopWish());
   else if (WIFSIGNALED(status))
     (void)snprintf(r->message, sizeof(r->message), "mesh.file %s: gmsh crashed (%s); another Mesh.Algorithm or other sizes may help", geo,
@@ -173,7 +183,7 @@ static void Generate_Private(Scene s, const char *geo, MeshResult *r)
   PetscInt    dim;
   PetscBool   simplices;
 
-  GeoCheck(geo, sizeof(r->message), r->message);
+  if (!s->trust) GeoCheck(geo, sizeof(r->message), r->message);
   if (r->message[0]) return;
   (void)snprintf(r->temporary, sizeof(r->temporary), "%s/mortise-XXXXXX", base && base[0] ? base : "/tmp");
   if (!mkdtemp(r->temporary)) {
@@ -209,7 +219,7 @@ static void Find_Private(Scene s, MeshResult *r)
 
   (void)snprintf(r->file, sizeof(r->file), "%s%s", s->mesh_file[0] == '/' ? "" : s->directory, s->mesh_file);
   if (!geo && !HasSuffix_Private(s->mesh_file, ".msh"))
-    (void)snprintf(r->message, sizeof(r->message), "%s is '%.300s'; its name must end in .geo or .msh", where, s->mesh_file);
+    (void)snprintf(r->message, sizeof(r->message), "%s is '%.80s'; its name must end in .geo or .msh", where, s->mesh_file);
   else if (stat(r->file, &info))
     (void)snprintf(r->message, sizeof(r->message), "%s: there is no file %s", where, r->file);
   else if (!S_ISREG(info.st_mode) || access(r->file, R_OK))

@@ -23,6 +23,8 @@ const Option Options[] = {
     {"mesh.file", KEY_TEXT, "", NULL, "", ".geo: meshed by gmsh; .msh (2.2, 4.1): read as it is; relative to the scene file", SCENE(mesh_file)},
     {"mesh.order", KEY_INT, "", "2", "[1,4]", "geometry order asked of gmsh for a .geo", SCENE(mesh_order)},
     {"mesh.refine", KEY_INT, "", "0", "[0,12]", "uniform refinements before the first solve", SCENE(data.mesh.refine)},
+    {"mesh.trust", KEY_BOOL, "", "false", "", "true: a .geo may run programs and write files, as gmsh lets it; only for one that you know all of",
+     SCENE(trust)},
     {"mesh.parameter.<constant>", KEY_PARAMETER, "", "", ANY, "value of a constant that the .geo declares with DefineConstant", NOWHERE},
 
     {"refine.<name>.boundary", KEY_TEXT, "", "", "", "before the first solve, refine the cells along this boundary", REFINE(boundary)},
@@ -151,13 +153,16 @@ const Option Options[] = {
     {"adapt.max_order", KEY_INT, "", "8", "[1,8]", "strategies p and hp: no cell above this order", SCENE(data.adapt.max_order)},
 
     {"output.directory", KEY_TEXT, "", "", "", "relative to the working directory; default: out/<name of the scene>", SCENE(data.output.directory)},
+    {"output.overwrite", KEY_BOOL, "", "false", "", "true: files in it that a run would write, but none has written, are replaced all the same",
+     SCENE(data.output.overwrite)},
     {"output.fields", KEY_BOOL, "", "true", "", "write fields.xdmf and its HDF5 files", SCENE(data.output.fields)},
     {"output.divide", KEY_WORD, "", "auto", "auto|1|2|3|4|5|6|7|8", "pieces of a cell in each direction in fields.xdmf; auto: as many as its order",
      SCENE(data.output.divide)},
     {"output.segments", KEY_BOOL, "", "false", "", "write the pieces of facets that face each other (segments) as a grid of fields.xdmf too",
      SCENE(data.output.segments)},
     {"output.checkpoint", KEY_INT, "load steps", "1", NOT_BELOW,
-     "write checkpoint.h5, from which -restart goes on, every so many accepted load steps, and at the end; 0: only when the run is stopped",
+     "write checkpoint.h5, from which -restart goes on, every so many accepted load steps, and at the end; 0: only when the run is stopped; the one before "
+     "stays beside it until the run ends",
      SCENE(data.output.checkpoint)},
 
     {"probe.<name>.<axis>", KEY_REAL, "length", "0", ANY, "reference point whose fields go to history.csv and summary.json", PROBE(spec.X)},

@@ -212,9 +212,10 @@ static PetscErrorCode Override_Private(SceneNode *root, const char *name, const 
   }
   if (!best.num) {
     PetscCall(OptionNearest(root, name, '_', sizeof(nearest), nearest));
-    PetscCall(ErrorInput("%s: -%.200s is not a key of this scene; the nearest one is -%s", NodeOptions(line), name, nearest));
+    PetscCall(ErrorInput("%s: -%.80s is not a key of this scene; the nearest one is -%s", NodeOptions(line), name, nearest));
   }
   PetscCheckInput(value && value[0], "%s: -%s needs a value", NodeOptions(line), name);
+  PetscCheckInput(TextIsPlain(value, "\n\r\t"), "%s: a control character in the value of -%.80s", NodeOptions(line), name);
   PetscCall(Set_Private(root, &best, value, line));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

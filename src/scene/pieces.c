@@ -1,4 +1,5 @@
-/* What a mesh is that its user may not mean: bodies in pieces, nodes at one place that are not merged, hexahedra out of tetrahedra. All of it can be solved. */
+/* What a mesh is that its user may not mean: bodies in pieces, nodes at one place that are not merged, nodes on sides of larger cells, hexahedra out of
+   tetrahedra. All of it can be solved. */
 #include "sceneimpl.h"
 
 #define COINCIDE 1e-6 /* of the diagonal of the model; gmsh merges what is closer than 1e-8 of it */
@@ -46,10 +47,10 @@ static int Compare_Private(const void *a, const void *b)
   return x < y ? -1 : x > y;
 }
 
+static const PetscReal along[3] = {0.540302305868, 0.628539361054, 0.559526129};
+
 static PetscErrorCode Places_Private(Forest forest, const ForestTables *t, Place **places)
 {
-  static const PetscReal along[3] = {0.540302305868, 0.628539361054, 0.559526129};
-
   PetscFunctionBegin;
   PetscCall(PetscMalloc1(t->first[1], places));
   for (PetscInt v = 0; v < t->first[1]; ++v) {
@@ -87,6 +88,130 @@ static void Note_Private(Coincident *c, const ForestTables *t, const Place *p, c
   for (PetscInt i = 0; i < 3; ++i) c->X[k][i] = p->X[i];
 }
 
+/* ---- nodes on sides of cells ---------------------------------------------------------------------------------------------------------- */
+
+/* The free side of a cell, straight between its corners. */
+typedef struct {
+  PetscInt  num, corner[4];
+  PetscReal X[4][3], lo, hi; /* lo, hi: its range along the direction of the places */
+} Side;
+
+/* Is the place on the side, away from its corners? Newton's method for the nearest point of the bilinear surface, of the straight line where there are two. */
+static PetscBool IsOn_Private(const Side *f, const PetscReal X[3], PetscReal near)
+{
+  PetscReal r = 0.5, s = f->num == 4 ? 0.5 : 0, d[3];
+
+  for (PetscInt i = 0; i < f->num; ++i) {
+    const PetscReal *C = f->X[i];
+    if (PetscMax(PetscMax(PetscAbsReal(C[0] - X[0]), PetscAbsReal(C[1] - X[1])), PetscAbsReal(C[2] - X[2])) <= near) return PETSC_FALSE;
+  }
+  for (int iteration = 0; iteration < 8; ++iteration) {
+    PetscReal a[3], b[3];
+    for (PetscInt c = 0; c < 3; ++c) {
+      const PetscReal x0 = f->X[0][c], x1 = f->X[1][c], x2 = f->num == 4 ? f->X[2][c] : x0, x3 = f->num == 4 ? f->X[3][c] : x1;
+      d[c] = X[c] - ((1 - s) * ((1 - r) * x0 + r * x1) + s * ((1 - r) * x2 + r * x3));
+      a[c] = (1 - s) * (x1 - x0) + s * (x3 - x2);
+      b[c] = (1 - r) * (x2 - x0) + r * (x3 - x1);
+    }
+    const PetscReal aa = Dot3(a, a), ab = Dot3(a, b), bb = f->num == 4 ? Dot3(b, b) : 1, det = aa * bb - ab * ab;
+    if (!(det > 0)) return PETSC_FALSE;
+    const PetscReal dr = (bb * Dot3(a, d) - ab * Dot3(b, d)) / det, ds = f->num == 4 ? (aa * Dot3(b, d) - ab * Dot3(a, d)) / det : 0;
+    r = PetscClipInterval(r + dr, -1, 2);
+    s = PetscClipInterval(s + ds, -1, 2);
+    if (PetscAbsReal(dr) + PetscAbsReal(ds) < 1e-12) break;
+  }
+  return (PetscBool)(r >= -COINCIDE && r <= 1 + COINCIDE && s >= -COINCIDE && s <= 1 + COINCIDE && Dot3(d, d) <= PetscSqr(near));
+}
+
+/* The sides of cells that have no neighbour there; the vertices on them are marked. */
+static PetscErrorCode FreeSides_Private(const ForestTables *t, PetscInt *num, PetscInt **facet, int8_t free_vertex[])
+{
+  const PetscInt first = t->first[t->dim - 1], all = t->first[t->dim] - first, n = t->dim == 2 ? 3 : 9;
+
+  PetscFunctionBegin;
+  *num = 0;
+  PetscCall(PetscMalloc1(all, facet));
+  for (PetscInt e = 0; e < all; ++e) {
+    if (t->facet_leaf[2 * e] >= 0 && t->facet_leaf[2 * e + 1] >= 0) continue;
+    (*facet)[(*num)++] = first + e;
+    for (PetscInt i = 0; i < n; ++i) {
+      const PetscInt v = t->closure[t->closure_offset[first + e] + i];
+      if (v < t->first[1]) free_vertex[v] = 1;
+    }
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode Side_Private(Forest forest, const ForestTables *t, PetscInt facet, Side *f)
+{
+  const PetscInt n = t->dim == 2 ? 3 : 9;
+
+  PetscFunctionBegin;
+  f->num = 0;
+  f->lo  = PETSC_MAX_REAL;
+  f->hi  = PETSC_MIN_REAL;
+  for (PetscInt i = 0; i < n; ++i) {
+    const PetscInt v = t->closure[t->closure_offset[facet] + i];
+    if (v >= t->first[1]) continue;
+    PetscCall(SceneVertex(forest, v, f->X[f->num]));
+    const PetscReal key = Dot3(along, f->X[f->num]);
+    f->lo               = PetscMin(f->lo, key);
+    f->hi               = PetscMax(f->hi, key);
+    f->corner[f->num++] = v;
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The first place from a key on. */
+static PetscInt From_Private(const Place places[], PetscInt num, PetscReal key)
+{
+  PetscInt lo = 0, hi = num;
+
+  while (lo < hi) {
+    const PetscInt middle = (lo + hi) / 2;
+    if (places[middle].key < key)
+      lo = middle + 1;
+    else
+      hi = middle;
+  }
+  return lo;
+}
+
+/* Such a mesh hangs: what meets there is not joined. */
+static PetscErrorCode TellHanging_Private(Scene s, Forest forest, const CoarseMesh *m, const Place places[], PetscReal near)
+{
+  const ForestTables *t;
+  PetscInt            num, *facet, told = 0, bodies[2] = {0, 0};
+  PetscReal           X[3] = {0, 0, 0};
+  int8_t             *free_vertex;
+
+  PetscFunctionBegin;
+  PetscCall(ForestGetTables(forest, &t));
+  PetscCall(PetscCalloc1(t->first[1], &free_vertex));
+  PetscCall(FreeSides_Private(t, &num, &facet, free_vertex));
+  for (PetscInt k = 0; k < num; ++k) {
+    Side f;
+    PetscCall(Side_Private(forest, t, facet[k], &f));
+    for (PetscInt i = From_Private(places, t->first[1], f.lo - near); i < t->first[1] && places[i].key <= f.hi + near; ++i) {
+      const Place *p = places + i;
+      if (!free_vertex[p->vertex] || !IsOn_Private(&f, p->X, near) || Facing_Private(s, t->boundary[p->vertex], t->boundary[facet[k]])) continue;
+      free_vertex[p->vertex] = 0; /* once */
+      if (told++) continue;
+      bodies[0] = t->leaf_body[t->entity_leaf[p->vertex]];
+      bodies[1] = t->leaf_body[t->entity_leaf[facet[k]]];
+      PetscCall(PetscArraycpy(X, p->X, 3));
+    }
+  }
+  PetscCall(PetscFree(free_vertex));
+  PetscCall(PetscFree(facet));
+  if (told)
+    PetscCall(WarningAdd(s->comm,
+                         "%" PetscInt_FMT " nodes lie on sides of cells whose corners they are not, one of body %s on a side of body %s at (%.4g, %.4g, %.4g): "
+                         "cells of different sizes meet there, and nothing joins them",
+                         told, m->body_name[bodies[0]], m->body_name[bodies[1]], (double)X[0], (double)X[1], (double)X[2]));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 static PetscErrorCode TellCoincident_Private(Scene s, Forest forest, const CoarseMesh *m)
 {
   const ForestTables *t;
@@ -109,6 +234,7 @@ static PetscErrorCode TellCoincident_Private(Scene s, Forest forest, const Coars
       break;
     }
   }
+  PetscCall(TellHanging_Private(s, forest, m, place, near));
   PetscCall(PetscFree(place));
   if (c.num[0])
     PetscCall(PetscPrintf(s->comm, "note: %" PetscInt_FMT " nodes coincide with others of their own body and are not merged, one of %s at (%.4g, %.4g, %.4g)\n",

@@ -108,6 +108,7 @@ static PetscErrorCode Create_Private(Scene s, int argc, char **argv)
   PetscFunctionBegin;
   PetscCall(FindFile_Private(argc, argv, &file));
   PetscCheckInput(strlen(file) < sizeof(s->data.file) - 1, "the name of the scene is too long");
+  PetscCheckInput(TextIsPlain(file, ""), "the name of the scene has a control character in it: %s", file);
   PetscCall(PetscStrncpy(s->data.file, file, sizeof(s->data.file)));
   slash = strrchr(file, '/');
   if (slash)

@@ -101,6 +101,7 @@ struct _p_Scene {
   char      *text;                          /* owned; the file */
   char       mesh_file[PETSC_MAX_PATH_LEN]; /* as written in the scene */
   PetscInt   mesh_order, order;
+  PetscBool  trust; /* mesh.trust */
   PetscBool  setup;
   PetscBool  subdivided;                    /* gmsh made hexahedra out of tetrahedra */
   char       directory[PETSC_MAX_PATH_LEN]; /* of the scene file, with '/' at its end */
@@ -144,7 +145,7 @@ PetscErrorCode SceneCheckControl(Scene, const SceneNode *boundary, const char *k
 /* Mesh the .geo, or take the .msh as it is: data.mesh.file is set (mesh.c). Collective. */
 PetscErrorCode SceneMakeMesh(Scene);
 PetscErrorCode SceneRemoveMesh(Scene);
-/* A sentence when the .geo, or one that it includes, calls a program or writes a file, else "" (geo.c). */
+/* A sentence when the .geo, or what it includes, can call a program or write a file, else "" (geo.c). */
 void GeoCheck(const char *file, size_t capacity, char message[]);
 /* Match names with the groups of the mesh, fill data.bodies, boundaries, contacts, and check them (check.c). Collective. */
 PetscErrorCode SceneCheckMesh(Scene, Forest);

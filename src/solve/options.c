@@ -2,7 +2,7 @@
    of keys are, and of PETSc's own those of SNES that cannot act in this iteration are refused by name. */
 #include "solveimpl.h"
 
-typedef enum { KIND_REAL, KIND_TOLERANCE, KIND_COUNT, KIND_BOOL, KIND_CHOICE } ValueKind;
+typedef enum { KIND_REAL, KIND_SMALL, KIND_TOLERANCE, KIND_COUNT, KIND_BOOL, KIND_CHOICE } ValueKind;
 
 typedef struct {
   const char *name;
@@ -13,12 +13,14 @@ typedef struct {
 } SolverOption;
 
 #define NUMBER "a number above 0"
+#define LOOSEST 1e-3 /* of an equilibrium that deserves the name */
+#define SMALL "a number above 0, 1e-3 at most"
 #define TOLERANCE "a number, 0 or more"
 #define COUNT "an integer, 0 or more"
 #define AT(member) offsetof(struct _p_Solver, member)
 
 static const SolverOption Options[] = {
-    {"-solve_rtol", KIND_REAL, NUMBER, AT(rtol), "residual against the root of the summed squared nodal forces; default 1e-10"},
+    {"-solve_rtol", KIND_SMALL, SMALL, AT(rtol), "residual against the root of the summed squared nodal forces; default 1e-10"},
     {"-solve_active_set_passes", KIND_COUNT, COUNT, AT(passes), "active-set passes against one linearisation; default 10"},
     {"-solve_cuts", KIND_COUNT, COUNT, AT(cuts), "halvings of a Newton step that leaves the domain; default 6"},
     {"-solve_symmetric", KIND_BOOL, "0|1|false|true|no|yes", AT(symmetric),
@@ -70,6 +72,7 @@ static PetscBool Parse_Private(const SolverOption *o, const char *text, void *to
     return (PetscBool)(end != text && !*end && count >= 0 && count <= PETSC_MAX_INT);
   }
   *(PetscReal *)to = (PetscReal)strtod(text, &end);
+  if (o->kind == KIND_SMALL && !(*(PetscReal *)to <= LOOSEST)) return PETSC_FALSE;
   return (PetscBool)(end != text && !*end && (*(PetscReal *)to > 0 || (o->kind == KIND_TOLERANCE && *(PetscReal *)to == 0)));
 }
 

@@ -72,11 +72,16 @@ PetscErrorCode PatternUnpack_Private(Problem problem, PetscInt pair, Vec field)
   PetscCall(PlacesFetch_Private(field, &p));
   PetscCall(PetscMalloc2(num + 1, &first, total - num, &node));
   first[0] = 0;
-  for (PetscInt f = 0; f < num; ++f) first[f + 1] = first[f] + (PetscInt)p.value[f];
+  for (PetscInt f = 0; f < num; ++f) first[f + 1] = first[f] + (PetscInt)PetscClipInterval(p.value[f], 0, total - first[f]);
   PetscCheckInput(num + first[num] == total,
                   "-restart: pattern.%s of the checkpoint has %" PetscInt_FMT " numbers, not %" PetscInt_FMT ": another version of mortise wrote it",
                   scene->contacts[pair].name, total, num + first[num]);
-  for (PetscInt i = 0; i < first[num]; ++i) node[i] = (PetscInt)p.value[num + i];
+  for (PetscInt i = 0; i < first[num]; ++i) {
+    const PetscReal value = p.value[num + i];
+    PetscCheckInput(value >= -view->mortar.num_nodes && value < view->nonmortar.num_nodes,
+                    "-restart: pattern.%s of the checkpoint names node %g, which is not there", scene->contacts[pair].name, (double)value);
+    node[i] = (PetscInt)value;
+  }
   PetscCall(InterfaceSetPattern(ProblemInterface(problem), pair, first, node));
   PetscCall(PetscFree2(first, node));
   PetscCall(PlacesDestroy_Private(&p));

@@ -30,7 +30,7 @@ static void Restored(Forest *forest, PetscInt round)
   OK(PetscMalloc1(t->num_leaves, &owner));
   for (PetscInt l = 0; l < t->num_leaves; ++l) owner[l] = size - 1 - t->leaf_rank[l];
   OK(ForestGetSplits(*forest, &num, &split));
-  OK(ForestRestore(*forest, num, split, t->revision, round % 2 ? owner : NULL, NULL, &other));
+  OK(ForestRestore(*forest, num, split, t->revision, t->num_leaves, round % 2 ? owner : NULL, NULL, &other));
   OK(PetscFree(split));
   OK(ForestGetTables(other, &u));
   SameTables(t, u);

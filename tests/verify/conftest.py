@@ -10,6 +10,7 @@ import os
 import pathlib
 import re
 import subprocess
+import tempfile
 import xml.etree.ElementTree
 
 import pytest
@@ -39,9 +40,9 @@ class Result:
         return json.loads((self.directory / "summary.json").read_text())
 
     def table(self, name):
-        """A csv table as a list of {column: float}."""
+        """A csv table as a list of {column: float}; nan: the field is empty."""
         with open(self.directory / name, newline="") as file:
-            return [{key: float(value) for key, value in row.items()} for row in csv.DictReader(file)]
+            return [{key: float(value or "nan") for key, value in row.items()} for row in csv.DictReader(file)]
 
     @property
     def adapt(self):
@@ -81,9 +82,14 @@ def leaves(value, kept, name=""):
 
 
 def execute(command, timeout=600, env=None):
-    """Run a command in its own process group; a timeout ends all its ranks and fails the test."""
-    process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, start_new_session=True, cwd=ROOT,
-                               env=None if env is None else {**os.environ, **env})
+    """Run a command in its own process group; a timeout ends all its ranks and fails the test. A directory of its own for what MPI keeps: starts at the same time
+    take it away from each other."""
+    with tempfile.TemporaryDirectory(prefix="m") as own:
+        return execute_in(command, timeout, {**os.environ, "TMPDIR": own, **(env or {})})
+
+
+def execute_in(command, timeout, env):
+    process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, start_new_session=True, cwd=ROOT, env=env)
     try:
         stdout, stderr = process.communicate(timeout=timeout)
     except subprocess.TimeoutExpired:

@@ -208,7 +208,9 @@ def test_names_that_files_cannot_bear(run, tmp_path):
 def test_a_directory_in_the_way(run, tmp_path, name):
     (tmp_path / "out1" / name).mkdir(parents=True)
     result = run("s.yml", text=block(tmp_path))
-    assert result.returncode == 2 and len(result.stderr.splitlines()) == 1 and result.stderr.startswith("mortise: "), result
+    assert result.returncode == 1 and len(result.stderr.splitlines()) == 1 and f"{name} in it is no file of a run" in result.stderr, result
+    result = run("s.yml", "-output_directory", tmp_path / "out1", "-output_overwrite", "true", text=block(tmp_path))
+    assert result.returncode == 2 and len(result.stderr.splitlines()) == 1 and result.stderr.startswith("mortise: ") and name in result.stderr, result
 
 
 @contextlib.contextmanager

@@ -1,0 +1,87 @@
+/* What stands in the output directory under names that a run writes or removes, but was not made by one: such files are never replaced unasked. Each kind of
+   ours is known by how it begins; a file of ours that was cut off by a kill or a full disk is empty at the worst. */
+#include "outputimpl.h"
+#include <dirent.h>
+#include <sys/stat.h>
+
+static const struct {
+  const char *name, *begins;
+} Kinds[] = {
+    {"summary.json", "{\n\t\"mortise\":"},
+    {"history.csv", "step,t,dt,"},
+    {"adapt.csv", "step,pass,t,"},
+    {"fields.xdmf", "<?xml version=\"1.0\"?>\n<Xdmf "},
+    {CHECKPOINT_FILE, "mortise checkpoint, "},
+    {CHECKPOINT_BEFORE, "mortise checkpoint, "},
+};
+
+PetscInt OutputStateNumber(const char *name)
+{
+  int  number;
+  char same[32];
+
+  if (sscanf(name, "fields_%d.h5", &number) != 1 || number < 0) return -1;
+  (void)snprintf(same, sizeof(same), "fields_%04d.h5", number);
+  return strcmp(name, same) ? -1 : number;
+}
+
+/* Is it one of our state files? One that was not closed cannot be opened: then the index beside it tells whose directory it is. */
+static PetscBool IsState_Private(const char *path, PetscBool series)
+{
+  hid_t  file;
+  htri_t ours;
+
+  (void)H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
+  file = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT);
+  if (file < 0) return series;
+  ours = H5Aexists(file, "load_time");
+  (void)H5Fclose(file);
+  return (PetscBool)(ours > 0);
+}
+
+/* Does the file begin like that, as far as it goes? */
+static PetscBool Begins_Private(const char *path, const char *begins)
+{
+  char   head[64] = "";
+  FILE  *file     = fopen(path, "rb");
+  size_t num;
+
+  if (!file) return PETSC_FALSE;
+  num = fread(head, 1, PetscMin(strlen(begins), sizeof(head) - 1), file);
+  (void)fclose(file);
+  return (PetscBool)!strncmp(head, begins, num);
+}
+
+static PetscBool IsForeign_Private(const char *path, const char *name, PetscBool series)
+{
+  struct stat info;
+
+  if (lstat(path, &info)) return PETSC_FALSE;
+  for (size_t i = 0; i < PETSC_STATIC_ARRAY_LENGTH(Kinds); ++i) {
+    if (!strcmp(name, Kinds[i].name)) return (PetscBool)(!S_ISREG(info.st_mode) || !Begins_Private(path, Kinds[i].begins));
+  }
+  return (PetscBool)(OutputStateNumber(name) >= 0 && (!S_ISREG(info.st_mode) || (info.st_size && !IsState_Private(path, series))));
+}
+
+PetscErrorCode OutputCheckForeign(MPI_Comm comm, const char *directory)
+{
+  char           path[2 * PETSC_MAX_PATH_LEN], foreign[256] = "";
+  struct dirent *entry;
+  PetscMPIInt    rank;
+  DIR           *dir = NULL;
+
+  PetscFunctionBegin;
+  PetscCallMPI(MPI_Comm_rank(comm, &rank));
+  if (rank == 0) dir = opendir(directory);
+  (void)snprintf(path, sizeof(path), "%s/fields.xdmf", directory);
+  const PetscBool series = (PetscBool)(dir && Begins_Private(path, Kinds[3].begins));
+  while (dir && !foreign[0] && (entry = readdir(dir))) {
+    (void)snprintf(path, sizeof(path), "%s/%s", directory, entry->d_name);
+    if (IsForeign_Private(path, entry->d_name, series)) (void)snprintf(foreign, sizeof(foreign), "%s", entry->d_name);
+  }
+  if (dir) (void)closedir(dir);
+  PetscCallMPI(MPI_Bcast(foreign, (PetscMPIInt)sizeof(foreign), MPI_CHAR, 0, comm));
+  PetscCheckInput(!foreign[0], "output.directory %s: %s in it is no file of a run of mortise; give another directory, or output.overwrite: true to lose it",
+                  directory, foreign);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

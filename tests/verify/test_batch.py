@@ -1,0 +1,313 @@
+"""A job that can be left alone: one run a directory, stops in order, nothing of others lost, no program run for a scene of somebody else's."""
+import json
+import os
+import pathlib
+import shutil
+import signal
+import socket
+import subprocess
+import time
+
+import pytest
+
+from conftest import PROGRAM, ROOT, Result
+from test_hostile import block
+from test_orderly import refused
+
+MANY = {"load": {"step": 0.002}, "output": {"fields": False}}  # some seconds in steps of milliseconds
+
+
+def start(path, *options, ranks=1, text=None, env=None, **keywords):
+    """The program in the background, in its own process group, on the scene in path."""
+    scene = path / "s.yml"
+    if text is not None:
+        scene.write_text(text)
+    command = [str(PROGRAM), str(scene), "-output_directory", str(path / "out"), *map(str, options)]
+    if ranks > 1:
+        command = ["mpiexec", "-n", str(ranks)] + command
+    return subprocess.Popen(command, **({"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "text": True, "start_new_session": True, "cwd": path,
+                                         "env": {**os.environ, **(env or {})}} | keywords))
+
+
+def wait_for(there, process, seconds=30):
+    end = time.time() + seconds
+    while not there() and process.poll() is None and time.time() < end:
+        time.sleep(0.01)
+    assert there(), process.communicate()
+
+
+def rows(directory):
+    path = directory / "history.csv"
+    return path.read_text().count("\n") - 1 if path.exists() else 0
+
+
+def resumed(path, *options):
+    process = start(path, *options, "-restart", "auto")
+    output, errors = process.communicate(timeout=60)
+    return Result([], process.returncode, output, errors, path / "out")
+
+
+# ---- one run a directory ------------------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("ranks", [1, 2])
+def test_the_other_run_is_named(tmp_path, ranks):
+    text = block(tmp_path, **MANY)
+    first = start(tmp_path, text=text)
+    wait_for(lambda: rows(tmp_path / "out") > 0, first)
+    second = start(tmp_path, ranks=ranks)
+    output, errors = second.communicate(timeout=60)
+    assert second.returncode == 1 and f"another run, process {first.pid} on {socket.gethostname()}" in errors, (output, errors)
+    first.terminate()
+    output, errors = first.communicate(timeout=60)
+    assert first.returncode == 3 and not (tmp_path / "out" / "lock").exists(), (output, errors)
+
+
+def test_what_a_killed_run_leaves(tmp_path):
+    """Its lock is told of and taken, and no word of the run before it stays."""
+    text = block(tmp_path, **MANY)
+    (tmp_path / "out").mkdir()
+    (tmp_path / "out" / "summary.json").write_text('{\n\t"mortise":\t"0", "status": "converged"}')
+    first = start(tmp_path, text=text)
+    wait_for(lambda: rows(tmp_path / "out") > 1, first)
+    assert not (tmp_path / "out" / "summary.json").exists()
+    first.kill()
+    first.communicate()
+    assert not (tmp_path / "out" / "summary.json").exists() and (tmp_path / "out" / "lock").exists()
+    second = resumed(tmp_path, "-max_seconds", 0.2)
+    assert second.returncode == 3 and f"process {first.pid} on {socket.gethostname()}, did not come to its end" in second.stdout, second
+    assert second.summary["status"] == "stopped" and not (tmp_path / "out" / "lock").exists()
+
+
+def test_nothing_is_written_without_the_lock(tmp_path):
+    text = block(tmp_path, **MANY)
+    first = start(tmp_path, text=text)
+    wait_for(lambda: rows(tmp_path / "out") > 1, first)
+    (tmp_path / "out" / "lock").unlink()
+    output, errors = first.communicate(timeout=60)
+    assert first.returncode == 2 and len(errors.splitlines()) == 1 and "Nothing more is written" in errors, (output, errors)
+
+
+# ---- files of others ----------------------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("name", ["summary.json", "history.csv", "adapt.csv", "fields.xdmf", "fields_0000.h5", "checkpoint.h5"])
+def test_files_of_others_stay(run, tmp_path, name):
+    text, file = block(tmp_path), tmp_path / "out1" / name
+    file.parent.mkdir()
+    file.write_text("mine\n")
+    (file.parent / "fields_1.h5").write_text("mine\n")  # no name of ours
+    for options in (), ("-check",), ("-restart", "auto"):
+        result = run("s.yml", *options, "-output_directory", file.parent, text=text)
+        assert result.returncode == 1 and len(result.stderr.splitlines()) == 1, result
+        assert file.read_text() == "mine\n" and sorted(os.listdir(file.parent)) == sorted(["fields_1.h5", name]), result
+        if options != ("-restart", "auto") or name != "checkpoint.h5":
+            assert f"{name} in it is no file of a run" in result.stderr and "output.overwrite" in result.stderr, result
+    result = run("s.yml", "-output_directory", file.parent, "-output_overwrite", "true", text=text)
+    assert result.returncode == 0 and file.read_bytes() != b"mine\n", result
+    assert (file.parent / "fields_1.h5").read_text() == "mine\n"
+    assert run("s.yml", "-output_directory", file.parent, text=text).returncode == 0  # ours now
+
+
+# ---- stops --------------------------------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGHUP, signal.SIGXCPU, signal.SIGQUIT])
+def test_signals_stop_in_order(tmp_path, number):
+    process = start(tmp_path, text=block(tmp_path, **MANY))
+    wait_for(lambda: rows(tmp_path / "out") > 1, process)
+    process.send_signal(number)
+    output, errors = process.communicate(timeout=60)
+    result = Result([], process.returncode, output, errors, tmp_path / "out")
+    assert result.returncode == 3 and result.summary["reason"].startswith(number.name) and not errors, result
+    assert sorted(os.listdir(tmp_path / "out")) == ["adapt.csv", "checkpoint.h5", "history.csv", "summary.json"]
+    assert result.summary["load_steps"] == rows(tmp_path / "out")
+
+
+def test_nobody_reads(tmp_path):
+    """Standard output into a pipe whose reader goes, as `head` does."""
+    process = start(tmp_path, text=block(tmp_path, **MANY))
+    process.stdout.readline()
+    process.stdout.close()
+    process.stdout = None
+    _, errors = process.communicate(timeout=60)
+    result = Result([], process.returncode, "", errors, tmp_path / "out")
+    assert result.returncode == 3 and result.summary["reason"].startswith("SIGPIPE"), result
+
+
+def test_nohup(tmp_path):
+    process = start(tmp_path, text=block(tmp_path, load={"step": 0.01}), preexec_fn=lambda: signal.signal(signal.SIGHUP, signal.SIG_IGN))
+    wait_for(lambda: rows(tmp_path / "out") > 1, process)
+    process.send_signal(signal.SIGHUP)
+    process.communicate(timeout=60)
+    assert process.returncode == 0
+
+
+def children(name):
+    """Processes of that name, by number."""
+    found = []
+    for entry in pathlib.Path("/proc").iterdir():
+        try:
+            if entry.name.isdigit() and (entry / "comm").read_text().strip() == name:
+                found.append((int(entry.name), (entry / "cmdline").read_text()))
+        except OSError:
+            pass
+    return found
+
+
+@pytest.mark.parametrize("number,ranks", [(signal.SIGTERM, 1), (signal.SIGTERM, 2), (signal.SIGKILL, 1)])
+def test_stopped_while_gmsh_meshes(tmp_path, number, ranks):
+    """No gmsh is left, and, but where nothing can be done any more, no directory."""
+    (tmp_path / "endless.geo").write_text("For i In {1:2000000000}\nx = i;\nEndFor\n")
+    (tmp_path / "tmp").mkdir()
+    text = block(tmp_path, mesh={"file": "endless.geo"})
+    process = start(tmp_path, text=text, ranks=ranks, env={"TMPDIR": str(tmp_path / "tmp")})
+
+    def meshing():
+        return [pid for pid, command in children("gmsh") if str(tmp_path) in command]
+
+    wait_for(meshing, process)
+    process.send_signal(number)
+    process.communicate(timeout=20)
+    end = time.time() + 3
+    while meshing() and time.time() < end:
+        time.sleep(0.05)
+    assert not meshing()
+    if number == signal.SIGTERM:
+        assert not list((tmp_path / "tmp").glob("mortise-*"))
+
+
+# ---- two checkpoints ----------------------------------------------------------------------------------------------------------------------
+
+
+def test_the_checkpoint_before(tmp_path):
+    """A checkpoint that the disk has lost costs a step more."""
+    process = start(tmp_path, text=block(tmp_path, **MANY))
+    checkpoint, before = tmp_path / "out" / "checkpoint.h5", tmp_path / "out" / "checkpoint_before.h5"
+    wait_for(lambda: rows(tmp_path / "out") > 3 and before.exists(), process)
+    process.kill()
+    process.communicate()
+    assert before.exists()
+    checkpoint.write_bytes(checkpoint.read_bytes()[:1000])
+    done = rows(tmp_path / "out")
+    result = resumed(tmp_path, "-max_seconds", 0.3)
+    assert result.returncode == 3 and "checkpoint.h5 is not whole, the one before it is taken" in result.stdout, result
+    goes_on = int(next(line for line in result.stdout.splitlines() if line.startswith("goes on after")).split()[5].rstrip(","))
+    assert done - 2 <= goes_on <= done and result.summary["load_steps"] == rows(tmp_path / "out") and not before.exists(), result
+
+
+# ---- a .geo that is a program -------------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("line,words", [
+    ("Printf('\"'); SystemCall \"touch here\"; Printf('\"');", "SystemCall calls a program"),  # quotes of either kind
+    ('/**//* " */ SystemCall "touch here"; //"', "SystemCall calls a program"),
+    ('StringToName["SystemCall"] "touch here";', "StringToName makes a statement"), ('S2N["SystemCall"] "touch here";', "S2N makes a statement"),
+    ('Error("x") > "here";', "Error writes a file"), ('Save "here.msh";', "Save writes a file"), ('Print "here.png";', "Print writes a file"),
+    ('CreateDir "here";', "CreateDir makes"), ('Include StrCat("mo", "re");', "at run time"), ('Merge "more";', "more:1: SystemCall"),
+    ('Field[1] = ExternalProcess; Field[1].CommandLine = "touch here";', "ExternalProcess calls"), ("\0\nSystemCall 'touch here';", "zero byte"),
+    ('Print.Format = 1; Mesh.SaveAll = 0; Merge "none.msh";', None), ('Printf("Save x > %g", 1);', None),
+])
+def test_a_geo_is_looked_through(run, tmp_path, line, words):
+    (tmp_path / "s.geo").write_text(f"Point(1) = {{0, 0, 0}};\n{line}\n")
+    (tmp_path / "more").write_text('SystemCall "touch here";')
+    result = run("s.yml", "-check", text=block(tmp_path, mesh={"file": "s.geo"}))
+    if words:
+        refused(result, words, "mesh.trust")
+    else:
+        assert "mesh.trust" not in result.stderr, result
+
+
+def test_options_beside_a_geo(run, tmp_path):
+    (tmp_path / "s.geo").write_text("Point(1) = {0, 0, 0};\n")
+    (tmp_path / "s.geo.opt").write_text('SystemCall "touch here";\n')  # gmsh reads it unasked
+    refused(run("s.yml", "-check", text=block(tmp_path, mesh={"file": "s.geo"})), "s.geo.opt:1: SystemCall")
+
+
+def test_a_geo_that_is_trusted(run, tmp_path):
+    (tmp_path / "s.geo").write_text(f'SystemCall "touch {tmp_path}/here";\n' + (ROOT / "inputs" / "cube.geo").read_text())
+    scene = (ROOT / "inputs" / "cube.yml").read_text().replace("cube.geo", "s.geo")
+    assert run("s.yml", "-check", "-mesh_trust", "true", text=scene).returncode == 0 and (tmp_path / "here").exists()
+
+
+# ---- what is told ---------------------------------------------------------------------------------------------------------------------------
+
+
+def test_options_of_the_working_directory(tmp_path):
+    text = block(tmp_path)
+    (tmp_path / ".petscrc").write_text("# of PETSc\n-snes_max_it 7\n")
+    for options, told in ((), True), (("-skip_petscrc",), False):
+        output, errors = start(tmp_path, "-check", *options, text=text).communicate(timeout=60)
+        assert ("note: options of .petscrc in the working directory act" in output) == told and not errors, (output, errors)
+
+
+@pytest.mark.parametrize("option", ["-order", "-model", "-load_step", "-boundary_y1_displacement_y", "-boundary_y0_fix", "-material_m_law", "-material_m_E", "-mesh_file",
+                                    "-solve_rtol", "-max_seconds", "-body_body_material", "-adapt_coarsen"])
+def test_long_values(run, tmp_path, option):
+    result = run("s.yml", "-check", option, "w" * 3000, text=block(tmp_path))
+    assert result.returncode == 1 and "w" * 81 not in result.stderr and len(result.stderr.splitlines()) == 1, result
+
+
+def test_control_characters(run, tmp_path):
+    refused(run("s.yml", "-title", "\033[31m", text=block(tmp_path)), "control character in the value of -title")
+    refused(run("a\033[31mb.yml", text=block(tmp_path)), "name of the scene has a control character", "a?[31mb.yml")
+
+
+def test_no_figure_no_number(run, tmp_path):
+    """Without load nothing can be estimated: the field is empty."""
+    text = block(tmp_path, boundary={"y0": {"fix": "xy"}, "y1": {"displacement": {"y": "t < 0.6 ? 0 : -0.05"}}})
+    result = run("s.yml", text=text)
+    assert result.returncode == 0 and "nan" not in (result.directory / "history.csv").read_text() + (result.directory / "adapt.csv").read_text(), result
+    first, last = (row.split(",") for row in (result.directory / "history.csv").read_text().splitlines()[1:])
+    assert first[9] == "" and float(last[9]) > 0 and str(result.history[0]["estimated_error"]) == "nan"
+
+
+def test_equilibrium_deserves_its_name(run, tmp_path):
+    refused(run("s.yml", "-solve_rtol", 0.01, text=block(tmp_path)), "-solve_rtol is '0.01'", "1e-3 at most")
+    assert run("s.yml", "-solve_rtol", 1e-3, text=block(tmp_path)).returncode == 0
+
+
+@pytest.mark.parametrize("name", ["fields_0000.h5", "checkpoint.h5.tmp"])
+def test_fields_name_their_file(run, tmp_path, name):
+    (tmp_path / "out1" / name).mkdir(parents=True)
+    result = run("s.yml", "-output_overwrite", "true", text=block(tmp_path))
+    assert result.returncode == 2 and f"{tmp_path}/out1/{name}: " in result.stderr and len(result.stderr.splitlines()) == 1, result
+
+
+def msh(nodes, cells, lines):
+    """Format 2.2: positions, cells of body `body`, lines of y0 and y1, by numbers of nodes."""
+    elements = [f"3 2 101 101 {' '.join(map(str, cell))}" for cell in cells] + [f"1 2 {group} {group} {a} {b}" for group, a, b in lines]
+    return "\n".join(["$MeshFormat", "2.2 0 8", "$EndMeshFormat", "$PhysicalNames", "3", '2 101 "body"', '1 3 "y0"', '1 4 "y1"', "$EndPhysicalNames", "$Nodes", str(len(nodes))]
+                     + [f"{i + 1} {x} {y} 0" for i, (x, y) in enumerate(nodes)] + ["$EndNodes", "$Elements", str(len(elements))]
+                     + [f"{i + 1} {element}" for i, element in enumerate(elements)] + ["$EndElements", ""])
+
+
+@pytest.mark.parametrize("turned", [False, True])
+def test_a_cell_listed_twice(run, tmp_path, turned):
+    text, nodes = block(tmp_path, mesh={"file": "d.msh"}), [(0, 0), (1, 0), (1, 1), (0, 1)]
+    (tmp_path / "d.msh").write_text(msh(nodes, [[1, 2, 3, 4], [2, 3, 4, 1] if turned else [1, 2, 3, 4]], [(3, 1, 2), (4, 3, 4)]))
+    refused(run("s.yml", "-check", text=text), "mesh cells 1 and 2", "one cell listed twice")
+
+
+@pytest.mark.parametrize("aside", [0, 1e-3])
+def test_a_mesh_that_hangs(run, tmp_path, aside):
+    """Two small cells on a large one."""
+    text = block(tmp_path, mesh={"file": "d.msh"})
+    nodes = [(0, 0), (1, 0), (1, 1), (0, 1), (0.5, 1 + aside), (0, 2), (0.5, 2), (1, 2)]
+    (tmp_path / "d.msh").write_text(msh(nodes, [[1, 2, 3, 4], [4, 5, 7, 6], [5, 3, 8, 7]], [(3, 1, 2), (4, 6, 7), (4, 7, 8)]))
+    said = run("s.yml", "-check", text=text).stdout
+    assert ("1 nodes lie on sides of cells whose corners they are not, one of body body on a side of body body at (0.5, 1, 0)" in said) == (aside == 0), said
+
+
+def test_what_hangs_in_space(run, tmp_path):
+    """Cells of half the size on a block; with a pair between them there is nothing to tell."""
+    from boxmesh import linspace, write
+    keys = {"mesh": {"file": "blocks.msh"}, "model": "3d", "body": {"l": {"material": "m"}, "u": {"material": "m"}},
+            "boundary": {"z0_l": {"fix": "xyz"}, "z1_u": {"displacement": {"x": 0, "y": 0, "z": -0.05}}}}
+    write(tmp_path / "blocks.msh", [linspace(0, 1, 1)] * 3, [lambda x, y, z: (x, y, z), lambda x, y, z: (x / 2 + 0.1, y / 2 + 0.1, 1 + z)],
+          side=lambda name, centre, b: f"{name}_{'lu'[b]}", body=lambda centre, b: "lu"[b])
+    pair = {"contact": {"p": {"nonmortar": "z0_u", "mortar": "z1_l"}}}
+    for more, told in ({}, True), (pair, False):
+        text = block(tmp_path, **keys, **more)
+        said = run("s.yml", "-check", text=text).stdout
+        assert ("4 nodes lie on sides of cells" in said) == told, said
