@@ -80,37 +80,23 @@ static void Ray_Private(const SurfaceView *s, const PetscReal positions[], Petsc
   }
 }
 
-/* With small kinematics contact is linearised at the reference positions, where gaps may be open: not the gap of the displaced places. With N along which the
-   ray x + sigma N = y meets the mortar facet, sigma |N|^2 is the gap times the measure, and
-
-     d sigma = Nm.(u_m - u_s - sigma dN) / (Nm.N),    g = |N| (sigma + d sigma) + 2 sigma N.dN/|N|,    axisymmetric: + |N| sigma u_r/R */
-static PetscReal LinearGap_Private(const EstimateSum *sum, const SurfaceView *s, PetscInt facet, const PetscReal xi[2], const PetscReal N[],
-                                   const SurfaceView *m, PetscInt mortar_facet, PetscReal eta[2])
+/* With small kinematics contact is linearised at the reference positions, where gaps may be open, with directions and measure held: not the gap of the displaced
+   places but, with the direction n and the normal nm of the mortar facet that it meets at y, n.(Y - X) + nm.(u_m - u_s)/(nm.n). */
+static PetscReal LinearGap_Private(const SurfaceView *m, PetscInt facet, const PetscReal eta[2], const PetscReal n[3],
+                                   const PetscReal X[3], const PetscReal x[3])
 {
-  PetscReal M[SURFACE_MOST_NODES], t[2][3], v[2][3], N0[3], N1[3], Nm[3], X[3], x[3], Y[3], y[3], change = 0, turn = 0;
+  PetscReal M[SURFACE_MOST_NODES], t[2][3], nm[3], Y[3], y[3], gap = 0, change = 0;
 
-  SurfaceTangents(s, facet, s->X, xi, t);
-  SurfaceTangents(s, facet, s->x, xi, v);
-  Cross3(t[0], t[1], N0);
-  for (PetscInt c = 0; c < 3; ++c) v[0][c] -= t[0][c], v[1][c] -= t[1][c];
-  Cross3(v[0], t[1], N1);
-  Cross3(t[0], v[1], X);
-  for (PetscInt c = 0; c < 3; ++c) N1[c] += X[c];
-  ContactPosition_Private(s, facet, s->X, N, X);
-  ContactPosition_Private(s, facet, s->x, N, x);
-  Ray_Private(m, m->X, mortar_facet, X, N0, eta);
-  ContactShape_Private(m, mortar_facet, eta, M);
-  ContactPosition_Private(m, mortar_facet, m->X, M, Y);
-  ContactPosition_Private(m, mortar_facet, m->x, M, y);
-  SurfaceTangents(m, mortar_facet, m->X, eta, t);
-  Cross3(t[0], t[1], Nm);
-  const PetscReal square = Dot3(N0, N0), length = PetscSqrtReal(square), facing = Dot3(Nm, N0), sigma = (Dot3(N0, Y) - Dot3(N0, X)) / square;
+  ContactShape_Private(m, facet, eta, M);
+  ContactPosition_Private(m, facet, m->X, M, Y);
+  ContactPosition_Private(m, facet, m->x, M, y);
+  SurfaceTangents(m, facet, m->X, eta, t);
+  Cross3(t[0], t[1], nm);
   for (PetscInt c = 0; c < 3; ++c) {
-    change += Nm[c] * (y[c] - Y[c] - (x[c] - X[c]) - sigma * N1[c]) / facing;
-    turn += N0[c] * N1[c];
+    gap += n[c] * (Y[c] - X[c]);
+    change += nm[c] * (y[c] - Y[c] - (x[c] - X[c]));
   }
-  if (sum->spec->model == MODEL_AXISYMMETRIC && X[0] > 0) change += sigma * (x[0] - X[0]) / X[0];
-  return length * (sigma + change) + 2 * sigma * turn / length;
+  return gap + change / Dot3(nm, n);
 }
 
 /* Gap and height of the mortar side at a point. */
@@ -119,19 +105,17 @@ static void Gap_Private(const EstimateSum *sum, const ContactTerm *term, const C
   const PetscBool    finite = (PetscBool)(sum->spec->kinematics == KINEMATICS_FINITE);
   const SurfaceView *s = &term->view->nonmortar, *m = &term->view->mortar;
   const PetscReal    center[2] = {0, 0};
-  PetscReal          M[SURFACE_MOST_NODES], x[3], y[3], n[3], middle[3];
+  PetscReal          M[SURFACE_MOST_NODES], X[3], x[3], y[3], n[3], middle[3];
 
-  if (finite) {
-    ContactNormal_Private(term, finite, segment->facet, p->xi, N, n);
-    ContactPosition_Private(s, segment->facet, s->x, N, x);
-    Ray_Private(m, m->x, segment->mortar_facet, x, n, eta);
-  } else
-    p->gap = LinearGap_Private(sum, s, segment->facet, p->xi, N, m, segment->mortar_facet, eta);
+  ContactNormal_Private(term, finite, segment->facet, p->xi, N, n);
+  ContactPosition_Private(s, segment->facet, finite ? s->x : s->X, N, X);
+  Ray_Private(m, finite ? m->x : m->X, segment->mortar_facet, X, n, eta);
+  ContactPosition_Private(s, segment->facet, s->x, N, x);
   ContactShape_Private(m, segment->mortar_facet, eta, M);
   ContactPosition_Private(m, segment->mortar_facet, m->x, M, y);
   ContactShape_Private(s, segment->facet, center, M);
   ContactNormal_Private(term, finite, segment->facet, center, M, middle);
-  if (finite) p->gap = Dot3(n, y) - Dot3(n, x);
+  p->gap = finite ? Dot3(n, y) - Dot3(n, x) : LinearGap_Private(m, segment->mortar_facet, eta, n, X, x);
   p->gap -= term->view->spec->interference;
   p->height = Dot3(middle, y);
 }

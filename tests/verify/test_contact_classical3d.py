@@ -182,7 +182,7 @@ def test_o56_stress(run):
 
 def test_o56_section(run):
     """Either role, and twice as fine: the same displacement to 1e-3, the stress of the benchmark to 4 %."""
-    values = [section(run), section(run, "-adapt_tolerance", 0.005), section(run, "-adapt_tolerance", 0.005, *SWAPPED)]
+    values = [section(run), section(run, "-adapt_tolerance", 0.005), section(run, "-adapt_tolerance", 0.005, "-adapt_max_passes", 18, *SWAPPED)]
     assert max(abs(u / values[0][0] - 1) for u, _ in values) < 1e-3, values
     assert max(abs(stress / BENCHMARK[1] - 1) for _, stress in values) < 0.04, values
 
