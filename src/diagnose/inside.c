@@ -1,6 +1,6 @@
-/* Do bodies of a contact pair lie inside each other where the pair bears nothing? Contact that is lost, by a motion across a whole body in one step say, opposes
-   no further motion, and what is found then is no solution. Of the pairs that bear nothing some places of either side, and places as far behind them in their
-   own body as their facet is long, are looked at: lines from a place inside a body leave it an odd number of times, whatever their direction. */
+/* Do bodies of a contact pair lie inside each other where the pair bears nothing? Contact that is lost, by a motion across a whole body in one step say,
+   opposes no further motion, and what is found then is no solution. Of the pairs that bear nothing some places of either side, and places as far behind them in
+   their own body as their facet is long, are looked at: lines from a place inside a body leave it an odd number of times, whatever their direction. */
 #include "diagnoseimpl.h"
 
 #define SAMPLES 32 /* places of one side of a pair on a rank */

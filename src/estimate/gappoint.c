@@ -80,10 +80,10 @@ static void Ray_Private(const SurfaceView *s, const PetscReal positions[], Petsc
   }
 }
 
-/* With small kinematics contact is linearised at the reference positions, where gaps may be open, with directions and measure held: not the gap of the displaced
-   places but, with the direction n and the normal nm of the mortar facet that it meets at y, n.(Y - X) + nm.(u_m - u_s)/(nm.n). */
-static PetscReal LinearGap_Private(const SurfaceView *m, PetscInt facet, const PetscReal eta[2], const PetscReal n[3],
-                                   const PetscReal X[3], const PetscReal x[3])
+/* With small kinematics contact is linearised at the reference positions, where gaps may be open, with directions and measure held: not the gap of the
+   displaced places but, with the direction n and the normal nm of the mortar facet that it meets at y, n.(Y - X) + nm.(u_m - u_s)/(nm.n). */
+static PetscReal LinearGap_Private(const SurfaceView *m, PetscInt facet, const PetscReal eta[2], const PetscReal n[3], const PetscReal X[3],
+                                   const PetscReal x[3])
 {
   PetscReal M[SURFACE_MOST_NODES], t[2][3], nm[3], Y[3], y[3], gap = 0, change = 0;
 

@@ -37,7 +37,7 @@ static PetscErrorCode Keep_Private(Level *l, const State *unstable)
 
 PetscErrorCode PathStabilise(Path *p, PetscBool *changed)
 {
-  Level       *l = p->level;
+  Level       *l     = p->level;
   const char  *words = NULL;
   SolverReport report;
   State        unstable;

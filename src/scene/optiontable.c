@@ -87,7 +87,8 @@ const Option Options[] = {
     {"contact.<pair>.mortar", KEY_TEXT, "", NULL, "", "physical group of the other side", PAIR(mortar)},
     {"contact.<pair>.friction", KEY_REAL, "", "0", NOT_BELOW, "coefficient of friction; not built yet: 0 only", PAIR(spec.friction)},
     {"contact.<pair>.order", KEY_WORD, "", "auto", "1|full|auto",
-     "order of the contact faces; full: that of their cells, with their curved geometry; auto: full, but 1 with subdivide, node_to_segment or orders per direction",
+     "order of the contact faces; full: that of their cells, with their curved geometry; auto: full, but 1 with subdivide, node_to_segment or orders per "
+     "direction",
      PAIR(order)},
     {"contact.<pair>.subdivide", KEY_WORD, "", "0", "0|1|2|3|4|5|6|7|8|auto",
      "before the first solve, how often to subdivide the cells that touch either side, so that linear faces are as accurate as the cells' order; auto: "
