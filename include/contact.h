@@ -54,7 +54,6 @@ typedef struct {
   PetscReal  search;            /* search distance, in multiples of the larger edge length; default 0: automatic */
   PetscBool  node_to_segment;   /* comparison only */
   PetscBool  see_through;       /* comparison only: searches take far sides of bodies behind for overlaps */
-  PetscBool  hold_lines;        /* comparison only: forces hold lines of the mortar side throughout (ContactPairHoldLines) */
   PetscBool  standard;          /* standard multipliers */
   PetscBool  adjust;            /* the gaps of the mesh at the reference positions count as closed */
   PetscReal  interference;      /* overlap at the reference positions, besides that of the geometry */

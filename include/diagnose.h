@@ -61,6 +61,10 @@ typedef struct {
    are left out. O(n log n) for n outer facets, on the rank that has them. Collective. */
 PetscErrorCode PassageFind(Problem, const State *, Passage *);
 
+/* inside.c: the first contact pair that bears nothing though its bodies lie inside each other, deeper than a facet is long and not so at the reference
+   positions; -1: there is none. At the state that was evaluated last. Finite kinematics. Collective. */
+PetscErrorCode InsideFind(Problem, const State *, PetscInt *pair);
+
 /* Figures of one pass or accepted step, also the rows of adapt.csv and history.csv. */
 typedef struct {
   PetscInt  step, pass, cells, dofs;

@@ -43,6 +43,8 @@ typedef struct {
   PetscBool        stopped;                        /* the run was asked to stop */
   ProblemStatus    status;                         /* of the last solution */
   RecoveryCount    recovery[PATH_RECOVERIES];      /* by row of the table */
+  /* Is what was found, level->state, no solution after all? *reason says why, else NULL. Collective. */
+  PetscErrorCode (*refuse)(Problem, const State *, const char **reason);
 } Path;
 
 /* ---- the loop (follow.c) ----------------------------------------------------------------------------------------------------- */
@@ -82,6 +84,8 @@ extern const PathMetric PathTime, PathArc, PathHomotopy, PathViscous;
 PetscErrorCode PathFollow(Path *, PathLoop *, SolverReport *);
 /* One piece, to s = `to`; counted. Collective. */
 PetscErrorCode PathAttempt(Path *, const PathLoop *, PetscReal to, SolverReport *);
+/* A solve has found level->state at s = `to`: what the metric notes; refused: report->converged false, report->reason. Collective. */
+PetscErrorCode PathFound(Path *, const PathLoop *, PetscReal to, SolverReport *);
 /* What a solve took; equilibrium: what was found is one, not a step on the way to it. */
 void PathCount(Path *, const SolverReport *, PetscBool equilibrium);
 /* level->state := from, with its time and prescribed motion. Collective. */

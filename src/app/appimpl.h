@@ -113,7 +113,9 @@ PetscErrorCode AppStop(App *);
    Collective. */
 PetscErrorCode AppResume(App *, Forest *coarse);
 
-/* watch.c. After each accepted load step: does its state ask for a warning? Collective. */
+/* watch.c. Path.refuse: states that no contact opposes though bodies lie inside each other are no solutions. Collective. */
+PetscErrorCode AppRefuse(Problem, const State *, const char **reason);
+/* After each accepted load step: does its state ask for a warning? Collective. */
 PetscErrorCode AppWatch(App *);
 /* The warnings that sum up a run, before its summary is written. Collective. */
 PetscErrorCode AppWarn(App *);

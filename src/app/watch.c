@@ -31,6 +31,16 @@ static void WatchEstimate_Private(App *app)
   if (error > app->rough_error) app->rough_error = error, app->rough_t = app->level.accepted.t;
 }
 
+PetscErrorCode AppRefuse(Problem problem, const State *state, const char **reason)
+{
+  PetscInt pair;
+
+  PetscFunctionBegin;
+  PetscCall(InsideFind(problem, state, &pair));
+  *reason = pair < 0 ? NULL : "bodies of a contact pair lie inside each other, too deep for contact to be seen";
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode AppWatch(App *app)
 {
   PetscFunctionBegin;

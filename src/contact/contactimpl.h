@@ -35,7 +35,6 @@ struct _p_ContactPair {
   PetscInt                  dim;
   PetscBool                 axisymmetric, node_to_segment, standard;
   PetscBool                 held;                                                       /* directions do not vary */
-  PetscBool                 always_held;                                                /* lines, whatever the caller says */
   PetscBool                 lines_held;                                                 /* forces without the motion of any line of the mortar side */
   PetscInt                  num_degenerate;                                             /* overlaps of the last evaluation that could not be used */
   struct ContactMultiplier *multiplier;                                                 /* functions of facets of higher order, else NULL */

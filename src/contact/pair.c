@@ -18,8 +18,6 @@ PetscErrorCode ContactPairCreate(PetscInt dim, PetscBool axisymmetric, const Con
   (*pair)->axisymmetric    = axisymmetric;
   (*pair)->node_to_segment = spec->node_to_segment;
   (*pair)->standard        = (PetscBool)(spec->standard || spec->node_to_segment);
-  (*pair)->always_held     = spec->hold_lines;
-  (*pair)->lines_held      = spec->hold_lines;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -87,7 +85,6 @@ PetscErrorCode ContactPairHold(ContactPair pair, PetscBool held)
 PetscErrorCode ContactPairHoldLines(ContactPair pair, PetscBool held)
 {
   PetscFunctionBegin;
-  if (pair->always_held) held = PETSC_TRUE;
   if (pair->lines_held != held) pair->state.stands = PETSC_FALSE; /* other forces */
   pair->lines_held = held;
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -1,24 +1,10 @@
 /* Does the surface of a part pass through itself? Outer facets as they are drawn, in straight pieces (segments, triangles), at a state: two pieces of one part
    that are no neighbours and of which one cuts the other. Sides of a contact pair are left out: contact keeps those apart.
    Pieces that may meet are found by sort and sweep; each rank tests its own, and those of others in the box of its own. */
-#include "diagnose.h"
+#include "diagnoseimpl.h"
 
 #define DEEP 1e-2  /* of the smaller piece: what ends nearer to a piece does not pass through it; curved faces are drawn no better */
 #define CLOSE 1e-9 /* of a piece: corners no farther apart at the reference positions are one */
-
-typedef struct {
-  PetscReal x[9], X[9]; /* corners, counterclockwise seen from outside (plane: the body to the left), now and at the reference positions */
-  PetscReal N[3], size; /* unit outward normal; longest edge */
-  PetscReal box[6];
-  uint64_t  groups; /* of its facet */
-  PetscInt  part, body;
-} Piece;
-
-typedef struct {
-  PetscInt         dim, num, room;
-  Piece           *piece; /* owned */
-  const SceneData *scene;
-} Pieces;
 
 /* ---- pieces ---------------------------------------------------------------------------------------------------------------------------- */
 
@@ -104,7 +90,7 @@ static PetscErrorCode Outer_Private(const ForestTables *t, PetscBool **outer)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode Collect_Private(Problem problem, const State *state, Pieces *s)
+PetscErrorCode PiecesCollect_Private(Problem problem, const State *state, PetscBool rigid, Pieces *s)
 {
   const ForestTables *t;
   const CoarseMesh   *mesh;
@@ -117,6 +103,7 @@ static PetscErrorCode Collect_Private(Problem problem, const State *state, Piece
 
   PetscFunctionBegin;
   PetscCall(ProblemGetForest(problem, &forest));
+  PetscCall(ProblemGetScene(problem, &s->scene));
   PetscCall(ForestGetTables(forest, &t));
   PetscCall(ForestGetCoarse(forest, &mesh));
   PetscCall(ProblemGetSpace(problem, &space));
@@ -125,6 +112,8 @@ static PetscErrorCode Collect_Private(Problem problem, const State *state, Piece
   for (PetscInt p = 0; p <= MORTISE_MAX_ORDER; ++p) most = PetscMax(most, ElementNumNodes(v->dim, pieces[p]));
   PetscCall(PetscMalloc3(v->num_nodes * v->dim, &u, 2 * most * v->dim, &X, mesh->num_cells, &part));
   PetscCall(ForestCoarseParts(mesh, &num_parts, part));
+  s->dim       = v->dim;
+  s->num_parts = num_parts;
   PetscCall(Outer_Private(t, &outer));
   PetscCall(ProblemLocalDisplacement(problem, state->x, u));
   for (PetscInt c = 0; c < v->num_owned_cells; ++c) {
@@ -133,7 +122,7 @@ static PetscErrorCode Collect_Private(Problem problem, const State *state, Piece
     PetscReal     *drawn = X + ElementNumNodes(v->dim, n) * v->dim;
     PetscBool      ready = PETSC_FALSE;
     Piece          like  = {.part = part[t->leaf_root[leaf]], .body = t->leaf_body[leaf]};
-    if (s->scene->mechanics.bodies[like.body].material->law->rigid) continue;
+    if (!rigid && s->scene->mechanics.bodies[like.body].material->law->rigid) continue;
     for (PetscInt side = 0; side < 2 * v->dim; ++side) {
       const PetscInt facet = closure[centre + (side % 2 ? 1 : -1) * step[side / 2]];
       if (!outer[facet - t->first[v->dim - 1]]) continue;
@@ -303,9 +292,7 @@ PetscErrorCode PassageFind(Problem problem, const State *state, Passage *worst)
   PetscFunctionBegin;
   *worst = (Passage){.depth = 0};
   PetscCall(ProblemGetForest(problem, &forest));
-  PetscCall(ProblemGetScene(problem, &s.scene));
-  s.dim = s.scene->mechanics.model == MODEL_3D ? 3 : 2;
-  PetscCall(Collect_Private(problem, state, &s));
+  PetscCall(PiecesCollect_Private(problem, state, PETSC_FALSE, &s));
   PetscCall(Exchange_Private(ForestComm(forest), &s));
   Sweep_Private(&s, worst);
   PetscCall(PetscFree(s.piece));

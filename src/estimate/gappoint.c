@@ -80,24 +80,43 @@ static void Ray_Private(const SurfaceView *s, const PetscReal positions[], Petsc
   }
 }
 
-/* Gap and height of the mortar side at a point. With small kinematics contact is linearised at the reference positions: the places that face each other are
-   those of the reference, the gap is that of the displaced ones. */
+/* With small kinematics contact is linearised at the reference positions, where gaps may be open, with directions and measure held: not the gap of the
+   displaced places but, with the direction n and the normal nm of the mortar facet that it meets at y, n.(Y - X) + nm.(u_m - u_s)/(nm.n). */
+static PetscReal LinearGap_Private(const SurfaceView *m, PetscInt facet, const PetscReal eta[2], const PetscReal n[3], const PetscReal X[3],
+                                   const PetscReal x[3])
+{
+  PetscReal M[SURFACE_MOST_NODES], t[2][3], nm[3], Y[3], y[3], gap = 0, change = 0;
+
+  ContactShape_Private(m, facet, eta, M);
+  ContactPosition_Private(m, facet, m->X, M, Y);
+  ContactPosition_Private(m, facet, m->x, M, y);
+  SurfaceTangents(m, facet, m->X, eta, t);
+  Cross3(t[0], t[1], nm);
+  for (PetscInt c = 0; c < 3; ++c) {
+    gap += n[c] * (Y[c] - X[c]);
+    change += nm[c] * (y[c] - Y[c] - (x[c] - X[c]));
+  }
+  return gap + change / Dot3(nm, n);
+}
+
+/* Gap and height of the mortar side at a point. */
 static void Gap_Private(const EstimateSum *sum, const ContactTerm *term, const ContactSegment *segment, const PetscReal N[], PetscReal eta[2], GapPoint *p)
 {
   const PetscBool    finite = (PetscBool)(sum->spec->kinematics == KINEMATICS_FINITE);
   const SurfaceView *s = &term->view->nonmortar, *m = &term->view->mortar;
   const PetscReal    center[2] = {0, 0};
-  PetscReal          M[SURFACE_MOST_NODES], x[3], y[3], n[3], middle[3];
+  PetscReal          M[SURFACE_MOST_NODES], X[3], x[3], y[3], n[3], middle[3];
 
   ContactNormal_Private(term, finite, segment->facet, p->xi, N, n);
-  ContactPosition_Private(s, segment->facet, finite ? s->x : s->X, N, x);
-  Ray_Private(m, finite ? m->x : m->X, segment->mortar_facet, x, n, eta);
+  ContactPosition_Private(s, segment->facet, finite ? s->x : s->X, N, X);
+  Ray_Private(m, finite ? m->x : m->X, segment->mortar_facet, X, n, eta);
   ContactPosition_Private(s, segment->facet, s->x, N, x);
   ContactShape_Private(m, segment->mortar_facet, eta, M);
   ContactPosition_Private(m, segment->mortar_facet, m->x, M, y);
   ContactShape_Private(s, segment->facet, center, M);
   ContactNormal_Private(term, finite, segment->facet, center, M, middle);
-  p->gap    = Dot3(n, y) - Dot3(n, x) - term->view->spec->interference;
+  p->gap = finite ? Dot3(n, y) - Dot3(n, x) : LinearGap_Private(m, segment->mortar_facet, eta, n, X, x);
+  p->gap -= term->view->spec->interference;
   p->height = Dot3(middle, y);
 }
 

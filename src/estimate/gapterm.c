@@ -95,7 +95,7 @@ static void Facet_Private(EstimateSum *sum, const ContactTerm *term, PetscInt fa
     const GapPoint *p             = &points->points[i];
     const PetscInt  other         = term->view->mortar.facet_leaf[p->segment->mortar_facet];
     const PetscReal compliance[2] = {Compliance_Private(sum, leaf), Compliance_Private(sum, other)}, both = compliance[0] + compliance[1];
-    if (!(both > 0)) continue;
+    if (both == 0) continue; /* both rigid: no energy; what is not a number is to show */
     const PetscReal square = p->weight * Square_Private(p, PETSC_PI / (size * both));
     const PetscReal share  = MortarShare_Private(term, p, compliance, gaps > bend ? bend / gaps : 1);
     sum->eta2[leaf] += (1 - share) * square;

@@ -115,7 +115,16 @@ static PetscBool IsHeld_Private(const Surface *s, PetscInt n)
   return (PetscBool)(free2 < PetscSqr(HELD));
 }
 
-#define WEIGHTLESS 1e-10 /* share in the largest of all nodes' below which a node carries nothing: on the axis int N_j R dR = 0 from order 2 on */
+#define ON_AXIS 1e-8 /* of its extent, from the axis */
+
+/* On the axis int N_j R dR = 0 from order 2 on, but for what the facet is curved: such a node carries nothing (ContactMultiplierCreate). */
+static PetscBool IsWeightless_Private(const Interface p, const Contact *c, PetscInt n, PetscInt facet)
+{
+  const Surface *s = &c->side[0];
+
+  if (p->spec->model != MODEL_AXISYMMETRIC || !s->order || s->order[facet] < 2) return PETSC_FALSE;
+  return (PetscBool)(PetscAbsReal(s->X[s->dim * n]) <= ON_AXIS * c->extent[n]);
+}
 
 /* A node that a support holds across the surface carries no multiplier: its constraint would have nothing of its own to act on, and where the nonmortar side is
    finer a row of such nodes leaves no multiplier unique. (Nodes of rigid bodies keep theirs: the other side moves.) Hanging nodes have none: their masters act
@@ -123,15 +132,13 @@ static PetscBool IsHeld_Private(const Surface *s, PetscInt n)
 PetscErrorCode ContactCarriers_Private(Interface p, Contact *c)
 {
   const ForestTables *t;
-  const Surface      *s       = &c->side[0];
-  PetscReal           largest = 0;
+  const Surface      *s = &c->side[0];
 
   PetscFunctionBegin;
   PetscCall(ForestGetTables(p->forest, &t));
-  for (PetscInt n = 0; n < s->num_nodes; ++n) largest = PetscMax(largest, c->w0[n]);
   for (PetscInt n = 0; n < s->num_nodes; ++n) {
-    if (s->hang[n] < s->hang[n + 1] || (s->order && c->w0[n] <= WEIGHTLESS * largest)) continue;
-    const PetscInt  facet = s->node_facet[s->node_first[n]];
+    const PetscInt facet = s->node_facet[s->node_first[n]];
+    if (s->hang[n] < s->hang[n + 1] || IsWeightless_Private(p, c, n, facet)) continue;
     const PetscBool rigid = p->spec->bodies[t->leaf_body[s->facet_leaf[facet]]].material->law->rigid;
     c->has_multiplier[n]  = (PetscBool)(rigid || !IsHeld_Private(s, n));
   }

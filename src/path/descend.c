@@ -18,7 +18,7 @@ PetscErrorCode PathDescend(Path *p, const PathLoop *load, PetscReal to, const St
   PetscCall(load->metric->set(p, load, to));
   PetscCall(SolverDescend(l->solver, &l->state, report));
   PathCount(p, report, PETSC_TRUE);
-  if (report->converged && load->metric->found) PetscCall(load->metric->found(p, load, to, report));
+  PetscCall(PathFound(p, load, to, report));
   PetscCall(PetscInfo(NULL, "%" PetscInt_FMT " descents, %" PetscInt_FMT " factorisations: %s\n", report->descents, report->factorisations,
                       report->converged ? "found" : report->reason));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -37,7 +37,8 @@ static PetscErrorCode Keep_Private(Level *l, const State *unstable)
 
 PetscErrorCode PathStabilise(Path *p, PetscBool *changed)
 {
-  Level       *l = p->level;
+  Level       *l     = p->level;
+  const char  *words = NULL;
   SolverReport report;
   State        unstable;
 
@@ -48,7 +49,8 @@ PetscErrorCode PathStabilise(Path *p, PetscBool *changed)
   PetscCall(StateCopy(&l->state, &unstable));
   PetscCall(SolverStabilise(l->solver, &l->state, &report));
   PetscCall(PetscInfo(NULL, "unstable equilibrium: %s\n", report.converged ? "another was found" : report.reason));
-  *changed         = (PetscBool)(report.converged && report.unstable == 0);
+  if (report.converged && p->refuse) PetscCall(p->refuse(l->problem, &l->state, &words));
+  *changed         = (PetscBool)(report.converged && report.unstable == 0 && !words);
   report.converged = *changed;
   PathCount(p, &report, PETSC_FALSE);
   if (*changed) {

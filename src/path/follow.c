@@ -47,6 +47,21 @@ void PathCount(Path *p, const SolverReport *report, PetscBool equilibrium)
   if (equilibrium) p->unstable_now = (PetscBool)(report->unstable > 0);
 }
 
+PetscErrorCode PathFound(Path *p, const PathLoop *loop, PetscReal to, SolverReport *report)
+{
+  const char *words = NULL;
+
+  PetscFunctionBegin;
+  if (!report->converged) PetscFunctionReturn(PETSC_SUCCESS);
+  if (p->refuse) PetscCall(p->refuse(p->level->problem, &p->level->state, &words));
+  if (words) {
+    report->converged = PETSC_FALSE;
+    report->reason    = words;
+  } else if (loop->metric->found)
+    PetscCall(loop->metric->found(p, loop, to, report));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode PathAttempt(Path *p, const PathLoop *loop, PetscReal to, SolverReport *report)
 {
   const MPI_Comm comm = ForestComm(p->level->forest);
@@ -65,7 +80,7 @@ PetscErrorCode PathAttempt(Path *p, const PathLoop *loop, PetscReal to, SolverRe
     report->converged = PETSC_FALSE;
     report->reason    = words;
   }
-  if (report->converged && loop->metric->found) PetscCall(loop->metric->found(p, loop, to, report));
+  PetscCall(PathFound(p, loop, to, report));
   PetscCall(PetscInfo(NULL, "%s %g, %" PetscInt_FMT " iterations: %s\n", loop->metric->name, (double)to, report->iterations,
                       report->converged ? "found" : report->reason));
   PetscFunctionReturn(PETSC_SUCCESS);

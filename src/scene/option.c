@@ -70,6 +70,7 @@ static PetscErrorCode Unknown_Private(const SceneNode *root, const SceneNode *no
     if (i) TextAppend(sizeof(path), path, ".");
     TextAppend(sizeof(path), path, keys[i]);
   }
+  PetscCall(OptionCheckFormer(NodeWhere(node), path, '.'));
   PetscCall(OptionNearest(root, path, '.', sizeof(nearest), nearest));
   PetscCall(ErrorInput("%s is not a key of a scene; the nearest one is %s", NodeWhere(node), nearest));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -67,21 +67,34 @@ static void Expand_Private(Search *s, PetscInt num, char words[OPTION_DEPTH][MOR
   }
 }
 
-/* What has taken the place of keys of earlier versions. */
-static const char *const Replaced[][2] = {{"load.relax", "path_viscous auto|on|off"}};
+/* Keys of earlier versions, by first and last word, and what to do instead. */
+static const struct {
+  const char *first, *last, *instead;
+} Former[] = {
+    {"load", "relax", "use the option -path_viscous auto|on|off"},
+    {"contact", "projection", "leave it out: gaps are measured along continuous directions now, whatever the order"},
+    {"contact", "hold_lines", "use the option -newton_frozen_segmentation on"},
+};
+
+PetscErrorCode OptionCheckFormer(const char *where, const char *path, char separator)
+{
+  const size_t length = strlen(path);
+
+  PetscFunctionBegin;
+  for (size_t i = 0; i < PETSC_STATIC_ARRAY_LENGTH(Former); ++i) {
+    const size_t n = strlen(Former[i].first), m = strlen(Former[i].last);
+    if (length <= n + m || strncmp(path, Former[i].first, n) || path[n] != separator) continue;
+    if (path[length - m - 1] != separator || strcmp(path + length - m, Former[i].last)) continue;
+    PetscCall(ErrorInput("%s is no key any more; %s", where, Former[i].instead));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
 
 PetscErrorCode OptionNearest(const SceneNode *root, const char *path, char separator, size_t capacity, char nearest[])
 {
   Search s;
 
   PetscFunctionBegin;
-  for (size_t i = 0; i < PETSC_STATIC_ARRAY_LENGTH(Replaced); ++i) {
-    const char  *dot = strchr(Replaced[i][0], '.');
-    const size_t n   = (size_t)(dot - Replaced[i][0]);
-    if (strncmp(path, Replaced[i][0], n) || path[n] != separator || strcmp(path + n + 1, dot + 1)) continue;
-    PetscCall(PetscSNPrintf(nearest, capacity, "%s%s", separator == '.' ? "the option -" : "", Replaced[i][1]));
-    PetscFunctionReturn(PETSC_SUCCESS);
-  }
   PetscCall(PetscMemzero(&s, sizeof(s)));
   s.path      = path;
   s.separator = separator;
@@ -211,6 +224,9 @@ static PetscErrorCode Override_Private(SceneNode *root, const char *name, const 
     Match_Private(num, words, 0, name, root, &m, &best);
   }
   if (!best.num) {
+    char option[320];
+    PetscCall(PetscSNPrintf(option, sizeof(option), "%s: -%.200s", NodeOptions(line), name));
+    PetscCall(OptionCheckFormer(option, name, '_'));
     PetscCall(OptionNearest(root, name, '_', sizeof(nearest), nearest));
     PetscCall(ErrorInput("%s: -%.80s is not a key of this scene; the nearest one is -%s", NodeOptions(line), name, nearest));
   }

@@ -130,6 +130,8 @@ PetscErrorCode OptionsOverride(SceneNode *root, int argc, char **argv);
 PetscBool OptionIsTopKey(const char *s, size_t length);
 /* Nearest known key to path ('.' or '_' between its words, as separator says). */
 PetscErrorCode OptionNearest(const SceneNode *root, const char *path, char separator, size_t capacity, char nearest[]);
+/* An input error, at `where`, for a key of an earlier version: what to use instead. */
+PetscErrorCode OptionCheckFormer(const char *where, const char *path, char separator);
 PetscBool      OptionKnowsParameter(const char *name); /* of any law of the table of laws */
 /* Split "a.b.c" into words; returns how many. */
 PetscInt OptionSplit(const char *pattern, char words[OPTION_DEPTH][MORTISE_NAME]);

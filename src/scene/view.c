@@ -67,7 +67,7 @@ static PetscErrorCode ViewContact_Private(const ContactEntry *c, Forest forest, 
   PetscCall(PetscViewerASCIIPrintf(viewer, " on %s", c->spec.exchanged ? c->nonmortar : c->mortar));
   PetscCall(ViewGroup_Private(c->spec.mortar, forest, viewer));
   PetscCall(PetscViewerASCIIUseTabs(viewer, PETSC_FALSE));
-  PetscCall(PetscViewerASCIIPrintf(viewer, "%s%s%s%s\n", c->spec.full ? ", full order" : "", c->spec.node_to_segment ? ", node to segment" : "", layer,
+  PetscCall(PetscViewerASCIIPrintf(viewer, "%s%s%s%s\n", c->spec.full ? "" : ", linear faces", c->spec.node_to_segment ? ", node to segment" : "", layer,
                                    c->spec.exchanged ? ", roles exchanged: the nonmortar side of the scene is the stiffer one" : ""));
   PetscCall(PetscViewerASCIIUseTabs(viewer, PETSC_TRUE));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -47,6 +47,7 @@ def test_depth_either_side(run, nonmortar, order):
 @pytest.mark.parametrize("order", [2, 3, 4])
 @pytest.mark.parametrize("passes", [0, 3])
 def test_few_facets_are_told(run, order, passes):
-    """The relative error of the depth under a given force is the square of that in the energy norm."""
-    estimate, error = punch(run, "stiff", "-order", order, "-adapt_max_passes", passes)
+    """Linear faces, whose multipliers are too coarse. The relative error of the depth under a given force is the square of that in the energy norm. (Of faces of
+    the order of the cells the depth is right by accident on some of these meshes.)"""
+    estimate, error = punch(run, "stiff", "-order", order, "-adapt_max_passes", passes, "-contact_pair_order", 1)
     assert 1 / 3 < estimate / abs(error) ** 0.5 < 3, (estimate, error)

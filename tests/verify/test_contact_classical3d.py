@@ -19,10 +19,10 @@ def solved(run, *arguments, **keys):
     return result
 
 
-def pair(result):
+def pair(result, moment=1e-5):
     """Moments: parts of symmetric models, whose directions at the planes of symmetry are those of the whole, need not balance to the last digit."""
     (only,) = result.summary["contact"].values()
-    assert only["force_imbalance"] < 1e-10 and only["moment_imbalance"] < 1e-5
+    assert only["force_imbalance"] < 1e-10 and only["moment_imbalance"] < moment
     return only
 
 
@@ -54,17 +54,18 @@ def test_o45_ring(run):
 def test_o45_nothing_depends_on_z(run):
     """Two cells deep, supports of plane strain: the same pressure at every depth, no force along z, force as with one cell."""
     result, mean, _ = ring(run, 6, "-mesh_parameter_l", 2)
+    rows = 5  # two faces of order 2 deep
     part = contact(result)
     angle, z = numpy.arctan2(part["X"][:, 1], part["X"][:, 0]), part["contact_pressure"]
     order = numpy.lexsort((part["X"][:, 2], angle.round(6)))
-    assert numpy.allclose(numpy.ptp(z[order].reshape(-1, 3), axis=1), 0, atol=1e-6 * PRESSURE)
+    assert numpy.allclose(numpy.ptp(z[order].reshape(-1, rows), axis=1), 0, atol=1e-6 * PRESSURE)
     assert abs(pair(result)["force"][2]) < 1e-8 * PRESSURE and abs(mean / ring(run, 6)[1] - 1) < 1e-8
 
 
 def test_o45_roles(run):
     """The outer tube nonmortar: second order in the mean, 0.3 % at 48 and 72 divisions."""
     swap = ("-contact_fit_nonmortar", "outer_bore", "-contact_fit_mortar", "inner_shell", "-contact_fit_roles", "given")
-    means = [ring(run, n, *swap)[1] - 1 for n in (6, 12)]
+    means = [ring(run, n, *swap, "-mesh_parameter_m", n)[1] - 1 for n in (6, 12)]
     assert abs(means[1]) < 3e-3 and abs(means[1]) < 0.35 * abs(means[0]), means
 
 
@@ -107,9 +108,11 @@ HERTZ_FORCE, HERTZ_PEAK = 586080.59, 2798.3287  # approach 2
 
 
 def ball(run, depth, spot, levels, tolerance):
+    """Small kinematics: forces act at reference positions a gap apart, so moments balance to the gap times the slope of the ball there, up to depth * 2 depth ** 0.5."""
     text = BALL.replace("DEPTH", str(depth)).replace("SPOT", str(spot)).replace("LEVELS", str(levels)).replace("TOLERANCE", str(tolerance))
     result = solved(run, "o52.yml", text=text)
-    return result, 4 * 50**2 * pair(result)["force"][2], pair(result)["max_pressure"]
+    only = pair(result, max(1e-5, depth * depth**0.5))
+    return result, 4 * 50**2 * only["force"][2], only["max_pressure"]
 
 
 @pytest.mark.parametrize("levels", [3, pytest.param(4, marks=pytest.mark.slow)], ids=["h_1.2", "h_0.6"])
@@ -153,7 +156,9 @@ BENCHMARK = (-0.130734, -91.1006)
 
 def section(run, *options):
     """Displacement and stress at the centre of the foundation's top."""
-    centre = solved(run, "round.yml", *QUIET, *options, text=ROUND).summary["probe"]["centre"]
+    result = solved(run, "round.yml", *QUIET, *options, text=ROUND)
+    assert result.returncode == 0, result  # the tolerance is reached
+    centre = result.summary["probe"]["centre"]
     return centre["displacement"][1], centre["stress"][3]
 
 
@@ -177,11 +182,16 @@ def test_o56_stress(run):
     assert abs(part["contact_pressure"][middle] / -stress - 1) < 0.03
 
 
-def test_o56_section(run):
-    """Either role, and twice as fine: the same displacement to 1e-3, the stress of the benchmark to 4 %."""
-    values = [section(run), section(run, "-adapt_tolerance", 0.005), section(run, "-adapt_tolerance", 0.005, *SWAPPED)]
-    assert max(abs(u / values[0][0] - 1) for u, _ in values) < 1e-3, values
-    assert max(abs(stress / BENCHMARK[1] - 1) for _, stress in values) < 0.04, values
+FINEST = (-0.1339807, -87.256)  # order 4 at an estimate of 1e-3; the benchmark's stress, of coarse cells, is 4.4 % more
+
+
+@pytest.mark.parametrize("faces, stress, tolerance", [(1, BENCHMARK[1], 0.04), ("full", FINEST[1], 4e-3)])
+def test_o56_section(run, faces, stress, tolerance):
+    """Either role, and twice as fine: the same displacement to 1e-3; stress, with linear faces that of the benchmark to 4 %."""
+    face = ("-contact_pair_order", faces)
+    values = [section(run, *face), section(run, *face, "-adapt_tolerance", 0.005), section(run, *face, "-adapt_tolerance", 0.005, "-adapt_max_passes", 18, *SWAPPED)]
+    assert max(abs(u / FINEST[0] - 1) for u, _ in values) < 1e-3, values
+    assert max(abs(s / stress - 1) for _, s in values) < tolerance, values
 
 
 @pytest.mark.xfail(strict=True, reason="the benchmark's displacement is an average of codes on coarse cells; both roles, orders 1 and 2 and the quarter in "

@@ -295,7 +295,7 @@ def test_held_lines_change_little(solve):
     change = []
     for sizes in ({"lower": LOWER._replace(number=(2, 3, 1)), "upper": UPPER._replace(number=(2, 2, 1))}, {}):
         keys = {"boundary": hold(("0", "0", "-0.21*t")), "load": {"step": 0.2}, **sizes}
-        free, held = (space.good(solve(*space.QUIET, "-contact_pair_hold_lines", value, **keys)) for value in ("false", "true"))
+        free, held = (space.good(solve(*space.QUIET, "-newton_frozen_segmentation", value, **keys)) for value in ("off", "on"))
         change.append([abs(held["energy"] / free["energy"] - 1), abs(held["contact"]["pair"]["force"][2] / free["contact"]["pair"]["force"][2] - 1)])
     print("energy, force", change)
     assert change[0][0] < 2e-6 and change[0][1] < 2e-4 and change[1][0] < 2e-7 and change[1][1] < 4e-5

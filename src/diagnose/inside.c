@@ -1,0 +1,192 @@
+/* Do bodies of a contact pair lie inside each other where the pair bears nothing? Contact that is lost, by a motion across a whole body in one step say,
+   opposes no further motion, and what is found then is no solution. Of the pairs that bear nothing some places of either side, and places as far behind them in
+   their own body as their facet is long, are looked at: lines from a place inside a body leave it an odd number of times, whatever their direction. */
+#include "diagnoseimpl.h"
+
+#define SAMPLES 32 /* places of one side of a pair on a rank */
+
+static const PetscReal Along[2][3] = {{0.7548776662, 0.5698402910, 0.3247179572}, {-0.4142135624, 0.7320508076, -0.6180339887}};
+
+typedef struct {
+  PetscReal x[3];
+  PetscInt  pair, side; /* of the facet whose place it is */
+} Place;
+
+/* Does the line from x along d leave through the piece? */
+static PetscBool Crosses_Private(PetscInt dim, const Piece *p, const PetscReal x[3], const PetscReal d[3])
+{
+  PetscReal r[3], e[3], f[3], n[3], q[3];
+
+  for (PetscInt c = 0; c < 3; ++c) {
+    r[c] = p->x[c] - x[c];
+    e[c] = p->x[3 + c] - p->x[c];
+    f[c] = dim == 3 ? p->x[6 + c] - p->x[c] : 0;
+  }
+  if (dim == 2) {
+    const PetscReal out = d[0] * e[1] - d[1] * e[0], at = (r[0] * d[1] - r[1] * d[0]) / out;
+    return (PetscBool)(out != 0 && (r[0] * e[1] - r[1] * e[0]) / out > 0 && at >= 0 && at < 1);
+  }
+  Cross3(e, f, n);
+  Cross3(r, d, q);
+  const PetscReal out = Dot3(n, d), u = -Dot3(q, f) / out, v = Dot3(q, e) / out;
+  return (PetscBool)(out != 0 && Dot3(n, r) / out > 0 && u >= 0 && v >= 0 && u + v < 1);
+}
+
+/* bare[pair]: no node of it is in contact. */
+static PetscErrorCode Bare_Private(Problem problem, MPI_Comm comm, PetscInt num, PetscInt bare[], PetscBool *any)
+{
+  const ContactView *v;
+
+  PetscFunctionBegin;
+  for (PetscInt i = 0; i < num; ++i) {
+    bare[i] = 1;
+    PetscCall(InterfaceGetContact(ProblemInterface(problem), i, &v));
+    for (PetscInt n = 0; n < v->nonmortar.num_nodes; ++n) {
+      if (v->nonmortar.owned[n] && v->active[n]) bare[i] = 0;
+    }
+  }
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, bare, (PetscMPIInt)num, MPIU_INT, MPI_MIN, comm));
+  *any = PETSC_FALSE;
+  for (PetscInt i = 0; i < num; ++i) *any = (PetscBool)(*any || bare[i]);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static uint64_t Group_Private(const ContactSpec *c, PetscInt side)
+{
+  return UINT64_C(1) << (side ? c->mortar : c->nonmortar);
+}
+
+/* Places of this rank, two to a piece: on it, and behind it in its own body. */
+static void Places_Private(const Pieces *s, const PetscInt bare[], PetscInt *num, Place place[])
+{
+  *num = 0;
+  for (PetscInt k = 0; k < 2 * s->scene->num_contacts; ++k) {
+    const uint64_t group = Group_Private(&s->scene->contacts[k / 2], k % 2);
+    PetscInt       count = 0, seen = 0;
+    if (!bare[k / 2]) continue;
+    for (PetscInt i = 0; i < s->num; ++i) count += (s->piece[i].groups & group) != 0;
+    const PetscInt every = (count + SAMPLES - 1) / SAMPLES;
+    for (PetscInt i = 0; i < s->num; ++i) {
+      const Piece *p = &s->piece[i];
+      if (!(p->groups & group) || seen++ % every) continue;
+      for (PetscInt behind = 0; behind < 2; ++behind) {
+        Place *to = &place[(*num)++];
+        *to       = (Place){.pair = k / 2, .side = k % 2};
+        for (PetscInt c = 0; c < 3; ++c) {
+          for (PetscInt a = 0; a < s->dim; ++a) to->x[c] += p->x[3 * a + c] / s->dim;
+          to->x[c] -= (PetscReal)behind * p->size * p->N[c];
+        }
+      }
+    }
+  }
+}
+
+/* is[part][2 pair + side]: the part has facets of this side. Collective. */
+static PetscErrorCode Parts_Private(const Pieces *s, MPI_Comm comm, int8_t **is)
+{
+  const PetscInt num = 2 * s->scene->num_contacts;
+
+  PetscFunctionBegin;
+  PetscCall(PetscCalloc1(num * s->num_parts, is));
+  for (PetscInt i = 0; i < s->num; ++i) {
+    for (PetscInt k = 0; k < num; ++k) {
+      if (s->piece[i].groups & Group_Private(&s->scene->contacts[k / 2], k % 2)) (*is)[num * s->piece[i].part + k] = 1;
+    }
+  }
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, *is, (PetscMPIInt)(num * s->num_parts), MPI_SIGNED_CHAR, MPI_MAX, comm));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* odd[place]: it lies inside a part with the other side of its pair that is not of its own side too. Collective. */
+static PetscErrorCode Count_Private(const Pieces *s, MPI_Comm comm, PetscInt num, const Place place[], PetscInt crossed[])
+{
+  const PetscInt columns = 2 * s->scene->num_contacts;
+  int8_t        *is;
+
+  PetscFunctionBegin;
+  PetscCall(Parts_Private(s, comm, &is));
+  PetscCall(PetscArrayzero(crossed, 2 * num));
+  for (PetscInt i = 0; i < s->num; ++i) {
+    const Piece  *p   = &s->piece[i];
+    const int8_t *own = is + columns * p->part;
+    for (PetscInt k = 0; k < num; ++k) {
+      const PetscInt at = 2 * place[k].pair;
+      if (!own[at + 1 - place[k].side] || own[at + place[k].side]) continue;
+      for (PetscInt d = 0; d < 2; ++d) crossed[2 * k + d] += Crosses_Private(s->dim, p, place[k].x, Along[d]);
+    }
+  }
+  PetscCall(PetscFree(is));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, crossed, (PetscMPIInt)(2 * num), MPIU_INT, MPI_SUM, comm));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Places of all ranks. */
+static PetscErrorCode Gather_Private(MPI_Comm comm, PetscInt num_mine, const Place mine[], PetscInt *num, Place **all)
+{
+  PetscMPIInt size, bytes = (PetscMPIInt)((size_t)num_mine * sizeof(Place)), *count, *offset;
+
+  PetscFunctionBegin;
+  PetscCallMPI(MPI_Comm_size(comm, &size));
+  PetscCall(PetscMalloc2(size, &count, size + 1, &offset));
+  PetscCallMPI(MPI_Allgather(&bytes, 1, MPI_INT, count, 1, MPI_INT, comm));
+  offset[0] = 0;
+  for (PetscMPIInt r = 0; r < size; ++r) offset[r + 1] = offset[r] + count[r];
+  *num = offset[size] / (PetscMPIInt)sizeof(Place);
+  PetscCall(PetscMalloc1(*num, all));
+  PetscCallMPI(MPI_Allgatherv(mine, bytes, MPI_BYTE, *all, count, offset, MPI_BYTE, comm));
+  PetscCall(PetscFree2(count, offset));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The pair of the first place that lies inside the other body, -1: none does. */
+static PetscErrorCode Find_Private(Problem problem, const State *state, MPI_Comm comm, const PetscInt bare[], PetscInt *pair)
+{
+  Pieces   s = {0};
+  PetscInt num_mine, num, *crossed;
+  Place   *mine, *all;
+
+  PetscFunctionBegin;
+  *pair = -1;
+  PetscCall(PiecesCollect_Private(problem, state, PETSC_TRUE, &s));
+  PetscCall(PetscMalloc1(4 * SAMPLES * s.scene->num_contacts, &mine));
+  Places_Private(&s, bare, &num_mine, mine);
+  PetscCall(Gather_Private(comm, num_mine, mine, &num, &all));
+  PetscCall(PetscMalloc1(2 * num, &crossed));
+  PetscCall(Count_Private(&s, comm, num, all, crossed));
+  for (PetscInt k = 0; k + 1 < num && *pair < 0; k += 2) {
+    if (crossed[2 * k] % 2 && crossed[2 * k + 1] % 2 && crossed[2 * k + 2] % 2 && crossed[2 * k + 3] % 2) *pair = all[k].pair;
+  }
+  PetscCall(PetscFree(crossed));
+  PetscCall(PetscFree(mine));
+  PetscCall(PetscFree(all));
+  PetscCall(PetscFree(s.piece));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode InsideFind(Problem problem, const State *state, PetscInt *pair)
+{
+  const SceneData *scene;
+  Forest           forest;
+  PetscInt        *bare, before = -1;
+  PetscBool        any;
+
+  PetscFunctionBegin;
+  *pair = -1;
+  PetscCall(ProblemGetScene(problem, &scene));
+  PetscCall(ProblemGetForest(problem, &forest));
+  if (scene->num_contacts == 0 || scene->mechanics.kinematics == KINEMATICS_SMALL) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(PetscMalloc1(scene->num_contacts, &bare));
+  PetscCall(Bare_Private(problem, ForestComm(forest), scene->num_contacts, bare, &any));
+  if (any) PetscCall(Find_Private(problem, state, ForestComm(forest), bare, pair));
+  if (*pair >= 0) { /* as the mesh has them? */
+    State reference;
+    for (PetscInt i = 0; i < scene->num_contacts; ++i) bare[i] = i == *pair;
+    PetscCall(StateCreate(problem, &reference));
+    PetscCall(VecZeroEntries(reference.x));
+    PetscCall(Find_Private(problem, &reference, ForestComm(forest), bare, &before));
+    PetscCall(StateDestroy(&reference));
+  }
+  if (before >= 0) *pair = -1;
+  PetscCall(PetscFree(bare));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
