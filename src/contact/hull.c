@@ -2,7 +2,7 @@
 #include "contactimpl.h"
 
 #define ACROSS 0.70710678118654752 /* cosine between a direction and the normal of a side beside it: at most that of 45 degrees */
-#define ROUND 1e-9                 /* of a facet, by which it is larger than it is: rays through corners leave the body, too */
+#define ROUND 1e-9                 /* of a facet, by which it is larger than it is: rays through corners leave the body, too, at once where they start at one */
 
 struct _p_ContactHull {
   PetscInt   dim, *part;
@@ -67,7 +67,7 @@ static PetscReal Edge_Private(const PetscReal a[2], const PetscReal b[2], const 
   if (!(out > 0)) return most; /* d . N = d x e with N = (e_y, -e_x) */
   s  = Cross2(r, e) / out;
   at = Cross2(r, d) / out;
-  return s > 0 && s < most && at >= -ROUND && at <= 1 + ROUND ? s : most;
+  return Cross2(r, e) >= -ROUND * Dot2(e, e) && s < most && at >= -ROUND && at <= 1 + ROUND ? PetscMax(0, s) : most;
 }
 
 /* The same through a triangle, counterclockwise seen from outside. */
@@ -83,7 +83,7 @@ static PetscReal Triangle_Private(const PetscReal a[3], const PetscReal b[3], co
   s = Dot3(r, N) / out;
   u = Dot3(q, f) / out;
   v = -Dot3(q, e) / out;
-  return s > 0 && s < most && u >= -ROUND && v >= -ROUND && u + v <= 1 + ROUND ? s : most;
+  return Dot3(r, N) >= -ROUND * PetscPowReal(Dot3(N, N), 0.75) && s < most && u >= -ROUND && v >= -ROUND && u + v <= 1 + ROUND ? PetscMax(0, s) : most;
 }
 
 static PetscReal Facet_Private(const ContactHull h, PetscInt facet, const PetscReal x[3], const PetscReal d[3], PetscReal most)

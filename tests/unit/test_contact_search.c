@@ -354,6 +354,12 @@ static void FarSides(void **state)
       assert_true(PetscAbsReal(ContactHullAcross(hull, k, from, along, 10) - 1.25) < 1e-14);
       assert_true(ContactHullAcross(hull, k, from, along, 1) == 1);
     }
+    {
+      const PetscReal from[2] = {0, 0}, inward[2] = {0.6, 0.8}, outward[2] = {-0.6, 0.8}; /* from a corner; out of it, beside the bar, nothing is measured */
+
+      assert_true(PetscAbsReal(ContactHullAcross(hull, 0, from, inward, 10) - 1.25) < 1e-14);
+      assert_true(ContactHullAcross(hull, 0, from, outward, 10) == 0);
+    }
     for (int with = 0; with < 2; with++) {
       PetscInt part[2][10];
 
