@@ -34,7 +34,7 @@ void ContactRayBundle(const RayFacet *f, RayBundle *b)
 
 PetscBool ContactRayBundleMeets(const RayBundle *b, const ContactSurface *mortar, PetscInt facet)
 {
-  const PetscInt  *node, num = ContactFacetNodes(mortar, facet, &node);
+  const PetscInt  *node, num              = ContactFacetNodes(mortar, facet, &node);
   const PetscReal *x[RAY_LATTICE], square = Dot3(b->D, b->D);
   PetscReal        r[3], radius, s, away = 0;
 
