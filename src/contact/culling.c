@@ -162,6 +162,7 @@ static void Aim_Private(const FacetCorners *s, const PetscReal y[3], PetscReal x
     const PetscReal from[2] = {xi[0], xi[1]};
 
     for (int k = 0; k < (s->dim == 2 ? 3 : 9); k++) {
+      if (level > 0 && k == (s->dim == 2 ? 1 : 4)) continue; /* where it stands */
       const PetscReal at[2]    = {PetscMax(-1, PetscMin(1, from[0] + (k % 3 - 1) * step)),
                                s->dim == 2 ? 0 : PetscMax(-1, PetscMin(1, from[1] + (k / 3 - 1) * step))};
       const PetscReal distance = Pass_Private(s, at, y, x, n);
@@ -230,7 +231,7 @@ PetscBool ContactBehind(ContactPair pair, PetscInt facet, const FacetCorners *s,
   for (int c = 0; c < 3; c++) x[c] -= depth * n[c], r[c] = -n[c];
   Locate_Private(&m, x, eta);
   own = Across_Private(pair->hull, pair->part[0][facet], s, xi, r, 2 * depth);
-  own += Across_Private(pair->hull, pair->part[1][other], &m, eta, n, PetscMax(0, 2 * depth - own));
+  if (own < 2 * depth) own += Across_Private(pair->hull, pair->part[1][other], &m, eta, n, 2 * depth - own);
   behind = (PetscBool)(own < 2 * depth);
   if (behind && depth < CLEARLY * own && IsOver_Private(&m, x, middle)) pair->untold = PetscMax(pair->untold, depth);
   if (behind) return PETSC_TRUE;

@@ -94,17 +94,17 @@ static PetscReal Facet_Private(const ContactHull h, PetscInt facet, const PetscR
   return Triangle_Private(X, X + 6, X + 9, x, d, Triangle_Private(X, X + 3, X + 6, x, d, most));
 }
 
-/* Does x + s d, 0 <= s <= most, meet the box? */
-static PetscBool Meets_Private(const PetscReal box[6], const PetscReal x[3], const PetscReal d[3], PetscReal most)
+/* Does x + s d, 0 <= s <= most, meet the box? over: 1 / d, infinite across a direction that d has no part in. */
+static PetscBool Meets_Private(const PetscReal box[6], const PetscReal x[3], const PetscReal over[3], PetscReal most)
 {
   PetscReal from = 0, to = most;
 
   for (int i = 0; i < 3; i++) {
-    if (d[i] == 0) {
+    if (PetscIsInfReal(over[i])) {
       if (x[i] < box[i] || x[i] > box[3 + i]) return PETSC_FALSE;
       continue;
     }
-    const PetscReal s = (box[i] - x[i]) / d[i], t = (box[3 + i] - x[i]) / d[i];
+    const PetscReal s = (box[i] - x[i]) * over[i], t = (box[3 + i] - x[i]) * over[i];
     from = PetscMax(from, PetscMin(s, t));
     to   = PetscMin(to, PetscMax(s, t));
   }
@@ -114,21 +114,21 @@ static PetscBool Meets_Private(const PetscReal box[6], const PetscReal x[3], con
 PetscReal ContactHullAcross(ContactHull h, PetscInt part, const PetscReal x[], const PetscReal d[], PetscReal most)
 {
   const Tree     *t    = &h->tree;
-  const PetscReal y[3] = {x[0], x[1], h->dim == 3 ? x[2] : 0}, e[3] = {d[0], d[1], h->dim == 3 ? d[2] : 0};
-  PetscInt        stack[TREE_DEPTH], top                            = 0;
+  const PetscReal y[3] = {x[0], x[1], h->dim == 3 ? x[2] : 0}, e[3] = {d[0], d[1], h->dim == 3 ? d[2] : 0}, over[3] = {1 / e[0], 1 / e[1], 1 / e[2]};
+  PetscInt        stack[TREE_DEPTH], top = 0;
 
   stack[top++] = 0;
   while (top) {
     const TreeNode *node = &t->node[stack[--top]];
 
-    if (!Meets_Private(node->box, y, e, most)) continue;
+    if (!Meets_Private(node->box, y, over, most)) continue;
     if (node->child >= 0) {
       stack[top++] = node->child;
       stack[top++] = node->child + 1;
       continue;
     }
     for (PetscInt k = node->first; k < node->first + node->count; k++)
-      if (h->part[t->item[k]] == part) most = Facet_Private(h, t->item[k], y, e, most);
+      if (h->part[t->item[k]] == part && Meets_Private(t->box[t->item[k]], y, over, most)) most = Facet_Private(h, t->item[k], y, e, most);
   }
   return most;
 }
@@ -190,28 +190,27 @@ static void Normal_Private(const ContactHull h, PetscInt facet, PetscReal N[3])
 
 PetscInt ContactHullBeside(ContactHull h, PetscInt part, const PetscReal x[], const PetscReal d[], PetscReal radius, PetscInt most, HullSide side[])
 {
-  const Tree     *t    = &h->tree;
-  const PetscReal y[3] = {x[0], x[1], h->dim == 3 ? x[2] : 0};
+  const Tree     *t      = &h->tree;
+  const PetscReal y[3]   = {x[0], x[1], h->dim == 3 ? x[2] : 0};
+  const PetscReal box[6] = {y[0] - radius, y[1] - radius, y[2] - radius, y[0] + radius, y[1] + radius, y[2] + radius};
   PetscInt        stack[TREE_DEPTH], top = 0, num = 0;
 
   stack[top++] = 0;
   while (top) {
     const TreeNode *node = &t->node[stack[--top]];
-    PetscBool       far  = PETSC_FALSE;
 
-    for (int i = 0; i < 3; i++) far = (PetscBool)(far || y[i] < node->box[i] - radius || y[i] > node->box[3 + i] + radius);
-    if (far) continue;
+    if (!ContactBoxesMeet(node->box, box)) continue;
     if (node->child >= 0) {
       stack[top++] = node->child;
       stack[top++] = node->child + 1;
       continue;
     }
     for (PetscInt k = node->first; k < node->first + node->count && num < most; k++) {
-      if (h->part[t->item[k]] != part) continue;
-      side[num].distance = PetscSqrtReal(ToFacet_Private(h, t->item[k], y));
-      if (side[num].distance >= radius) continue;
+      if (h->part[t->item[k]] != part || !ContactBoxesMeet(t->box[t->item[k]], box)) continue;
       Normal_Private(h, t->item[k], side[num].N);
-      if (PetscAbsReal(Dot3(side[num].N, d)) < ACROSS) num++;
+      if (PetscAbsReal(Dot3(side[num].N, d)) >= ACROSS) continue;
+      side[num].distance = PetscSqrtReal(ToFacet_Private(h, t->item[k], y));
+      if (side[num].distance < radius) num++;
     }
   }
   return num;

@@ -252,6 +252,7 @@ PetscErrorCode ContactCover(ContactPair pair, const ContactSurface *nonmortar, c
   RayFacet      *f       = &w->facet;
   const PetscInt facet   = pair->listed[slot];
   PetscReal      covered = 0;
+  RayBundle      rays;
 
   PetscFunctionBegin;
   w->num_images = w->num_overlaps = w->num_mortar = 0;
@@ -273,7 +274,9 @@ PetscErrorCode ContactCover(ContactPair pair, const ContactSurface *nonmortar, c
   if (*failed) PetscFunctionReturn(PETSC_SUCCESS);
   if (f->m == 2) ContactRayBeyondSides(w->kept + 4 * facet, &f->beyond);
   PetscCall(Whole_Private(w));
-  for (PetscInt k = pair->start[slot]; k < pair->start[slot + 1]; k++) PetscCall(See_Private(pair, mortar, pair->candidate[k]));
+  ContactRayBundle(f, &rays);
+  for (PetscInt k = pair->start[slot]; k < pair->start[slot + 1]; k++)
+    if (ContactRayBundleMeets(&rays, mortar, pair->candidate[k])) PetscCall(See_Private(pair, mortar, pair->candidate[k]));
   ContactUnfold(&w->num_overlaps, w->overlap, w->mortar, f->area);
   if (pair->node_to_segment) ContactNodeHits(w);
   for (PetscInt k = 0; k < w->num_overlaps; k++) covered += w->overlap[k].area;

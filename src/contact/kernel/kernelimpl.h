@@ -342,3 +342,10 @@ typedef struct {
 } RayRegion;
 void      ContactRayRegion(ContactPair, const ContactSurface *, PetscInt facet, RayRegion *);
 PetscBool ContactRayRegionMeets(const RayRegion *, const ContactSurface *mortar, PetscInt facet);
+
+/* raybundle.c */
+typedef struct {
+  PetscReal X[3], D[3], radius, spread;
+} RayBundle;
+void      ContactRayBundle(const RayFacet *, RayBundle *);
+PetscBool ContactRayBundleMeets(const RayBundle *, const ContactSurface *mortar, PetscInt facet);
