@@ -87,14 +87,16 @@ void SurfaceTangents(const SurfaceView *, PetscInt facet, const PetscReal x[], c
 typedef struct {
   const ContactSpec *spec;
   SurfaceView        nonmortar, mortar;
-  const PetscReal   *z, *gap, *weight; /* [nonmortar.num_nodes] multiplier, gt_j, w_j at the last evaluation */
-  const int8_t      *active;           /* [nonmortar.num_nodes] as the residual decided: 0 open, else a state of the contact law */
-  const PetscBool   *has_multiplier;   /* [nonmortar.num_nodes]; hanging nodes: no, their z is interpolated */
-  ContactPair        pair;             /* segments of this rank's nonmortar facets */
-  const PetscReal   *normal;           /* [nonmortar.num_nodes][dim] of views gathered to all; else NULL: ContactPairGetNormals */
-  PetscReal          area, min_gap;    /* totals over ranks */
-  PetscInt           unusable;         /* overlaps at the last evaluation that could not be used: facets folded over in the other's view */
-  PetscReal          adjusted;         /* largest mean initial gap, over or under, that was closed at a node (initial_gap: adjust) */
+  PetscInt           num_z;          /* multipliers of a node */
+  const PetscReal   *z;              /* [num_z][nonmortar.num_nodes] at the last evaluation: the pressure first */
+  const PetscReal   *gap, *weight;   /* [nonmortar.num_nodes] gt_j, w_j there */
+  const int8_t      *active;         /* [nonmortar.num_nodes] as the residual decided: 0 open, else a state of the contact law */
+  const PetscBool   *has_multiplier; /* [nonmortar.num_nodes]; hanging nodes: no, their z is interpolated */
+  ContactPair        pair;           /* segments of this rank's nonmortar facets */
+  const PetscReal   *normal;         /* [nonmortar.num_nodes][dim] of views gathered to all; else NULL: ContactPairGetNormals */
+  PetscReal          area, min_gap;  /* totals over ranks */
+  PetscInt           unusable;       /* overlaps at the last evaluation that could not be used: facets folded over in the other's view */
+  PetscReal          adjusted;       /* largest mean initial gap, over or under, that was closed at a node (initial_gap: adjust) */
 } ContactView;
 
 /* fixed[num_nodes]: as in Supports. All that is handed over must outlive the interface. Collective. */
@@ -114,7 +116,7 @@ PetscErrorCode InterfaceGetContact(Interface, PetscInt pair, const ContactView *
    until the next call for this pair. Collective. */
 PetscErrorCode InterfaceGatherContactToAll(Interface, PetscInt pair, const ContactView **view);
 /* Multipliers and (NULL: not wanted) nodal normals and positions of the last evaluation at wanted[nonmortar.num_nodes] nodes, from the ranks that know them:
-   z[nonmortar num_nodes], normal[..][dim], x[..][dim], NaN at others. Collective. */
+   z[num_z][nonmortar num_nodes], normal[..][dim], x[..][dim], NaN at others. Collective. */
 PetscErrorCode InterfaceFetchContact(Interface, PetscInt pair, const PetscBool wanted[], PetscReal z[], PetscReal normal[], PetscReal x[]);
 /* What contact has sent from this rank since the problem was created. Values: between searches; search: positions and lists of facets, sent where boxes meet.
    Boxes of ranks and scalars, which all ranks reduce, are left out. */
@@ -123,9 +125,9 @@ typedef struct {
   PetscReal bytes, search_bytes, seconds; /* seconds: wall time in the exchange of values, waiting included */
 } ContactTraffic;
 PetscErrorCode InterfaceGetTraffic(Interface, ContactTraffic *);
-/* Set the multipliers of a pair from values[nonmortar.num_nodes] in x: each rank those of its own nodes. */
+/* Set the multipliers of a pair from values[num_z][nonmortar.num_nodes] in x: each rank those of its own nodes. */
 PetscErrorCode InterfaceSetMultipliers(Interface, PetscInt pair, const PetscReal z[], Vec x);
-/* The opposite: values of this rank's own nodes from x, z[nonmortar.num_nodes]; others and nodes without multiplier stay as they are. Not collective.
+/* The opposite: values of this rank's own nodes from x, z[num_z][nonmortar.num_nodes]; others and nodes without multiplier stay as they are. Not collective.
    own[nonmortar.num_nodes] (NULL: not wanted): which these are. */
 PetscErrorCode InterfaceGetMultipliers(Interface, PetscInt pair, Vec x, PetscReal z[], PetscBool own[]);
 /* What room facets of a pair have been given in the matrix so far: facet f for nodes node[first[f] .. first[f+1]), mortar ones as ~node; borrowed, of facets
@@ -157,6 +159,8 @@ PetscErrorCode InterfaceLeaveMisfit(Interface, PetscReal share);
 
 /* ---- tangent, of the last evaluation -------------------------------------------------------------------------------------------- */
 
+/* Is its tangent symmetric but for the factors of rows? */
+PetscBool InterfaceIsSymmetric(Interface);
 /* *grown: there is more to write than has had room so far; it has from the next matrix on. Not collective. */
 PetscErrorCode InterfaceGrow(Interface, PetscBool *grown);
 /* Entries in the rows first_row .. first_row + num_rows of this rank: counted, or without counters written as explicit zeros. */

@@ -56,6 +56,7 @@ static void View_Private(Contact *c)
                            s->hang_master, s->hang_weight, s->X,         s->x,          s->force,       s->owned,  s->order,      s->first,        s->lattice};
   }
   v->spec           = c->spec;
+  v->num_z          = c->num;
   v->z              = c->z;
   v->gap            = c->gap;
   v->weight         = c->weight;
@@ -194,6 +195,7 @@ PetscErrorCode ContactCreate_Private(Interface p, const ContactSpec *spec, Conta
   PetscCall(PetscMemzero(c, sizeof(*c)));
   c->spec = spec;
   c->law  = ContactLaws[spec->law];
+  c->num  = c->law->num_multipliers(p->dim);
   PetscCall(IsHigher_Private(p, spec, &higher));
   PetscCall(SurfaceCreate_Private(p, spec->nonmortar, higher, &c->side[0]));
   PetscCall(SurfaceCreate_Private(p, spec->mortar, higher, &c->side[1]));
@@ -203,7 +205,7 @@ PetscErrorCode ContactCreate_Private(Interface p, const ContactSpec *spec, Conta
   PetscCall(HullDepth_Private(p, c, &deepest));
   if (!spec->see_through) PetscCall(ContactPairSetHull(c->pair, p->hull, c->part[0], c->part[1], deepest));
   const PetscInt n = c->side[0].num_nodes;
-  PetscCall(PetscCalloc6(n, &c->z, n, &c->gap, n, &c->weight, n, &c->w0, n, &c->extent, n, &c->c));
+  PetscCall(PetscCalloc6(c->num * n, &c->z, n, &c->gap, n, &c->weight, n, &c->w0, n, &c->extent, n, &c->c));
   PetscCall(PetscCalloc2(n, &c->spring, n, &c->softness));
   PetscCall(PetscCalloc5(n, &c->active, n, &c->has_multiplier, n, &c->lift, n, &c->change, n, &c->near));
   PetscCall(PetscMalloc1(c->side[0].num_facets, &c->result));
@@ -268,9 +270,12 @@ static PetscErrorCode GatherMultipliers_Private(Interface p, Contact *c, Vec x)
 
   PetscFunctionBegin;
   PetscCall(VecGetArrayRead(x, &array));
-  for (PetscInt i = 0; i < s->num_own; ++i) c->z[s->own[i]] = c->zlocal[s->own[i]] >= 0 ? array[c->zlocal[s->own[i]]] : 0;
+  for (PetscInt i = 0; i < c->num * s->num_own; ++i) {
+    const PetscInt j = s->own[i % s->num_own], k = i / s->num_own;
+    c->z[s->num_nodes * k + j] = c->zlocal[j] >= 0 ? array[c->zlocal[j] + k] : 0;
+  }
   PetscCall(VecRestoreArrayRead(x, &array));
-  PetscCall(LinkSpread_Private(p, &s->values, 1, c->z));
+  for (PetscInt k = 0; k < c->num; ++k) PetscCall(LinkSpread_Private(p, &s->values, 1, c->z + s->num_nodes * k));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -355,11 +360,11 @@ PetscErrorCode ContactChange_Private(Interface p, Contact *c, const PetscReal in
       if (!s->owned[j]) continue;
       change[j] += FacetDot_Private(c, e, e->dgap + p->dim * k * e->num);
       if (!ContactCovered_Private(c, j)) continue;
-      const ContactPoint point = ContactPoint_Private(c, j, 0);
-      ContactRow         row   = {.mean = c->gap[j] / c->weight[j]};
-      if (c->active[j]) c->law->rows(&point, PETSC_FALSE, &row);
-      change[j] -= row.mean * FacetDot_Private(c, e, e->dweight + p->dim * k * e->num);
-      if (e->spring && row.along != 0) change[j] += e->stiffening[k] * row.along * FacetDot_Private(c, e, e->darea);
+      const ContactPoint point                 = ContactPoint_Private(c, j, 0);
+      ContactRow         row[MOST_MULTIPLIERS] = {{.mean = c->gap[j] / c->weight[j]}};
+      if (c->active[j]) c->law->rows(&point, PETSC_FALSE, row);
+      change[j] -= row[0].mean * FacetDot_Private(c, e, e->dweight + p->dim * k * e->num);
+      if (e->spring && row[0].along != 0) change[j] += e->stiffening[k] * row[0].along * FacetDot_Private(c, e, e->darea);
     }
   }
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -425,7 +430,7 @@ static PetscErrorCode ShownMultipliers_Private(Interface p, Contact *c)
     if (touch) c->z[n] = PetscMax(z, 0);
   }
   if (first && first[s->num_nodes] > 0) PetscCall(LinkSpread_Private(p, &s->values, 1, c->z));
-  SurfaceFollow_Private(s, 1, c->z);
+  for (PetscInt k = 0; k < c->num; ++k) SurfaceFollow_Private(s, 1, c->z + s->num_nodes * k);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -214,13 +214,14 @@ static PetscErrorCode Links_Private(Interface p, Surface *s, const PetscBool nee
 /* Values that nobody needs to send are 0: nodes of this rank's facets that see nothing. */
 static void Values_Private(Contact *c, const PetscBool need[], const PetscBool own[])
 {
-  Surface       *s        = &c->side[0];
-  PetscReal     *values[] = {c->z, c->gap, c->weight};
-  const PetscInt num      = s->num_nodes;
+  Surface       *s   = &c->side[0];
+  const PetscInt num = s->num_nodes, lists = 2 + c->num;
+  PetscReal     *values[2 + MOST_MULTIPLIERS] = {c->gap, c->weight};
 
+  for (PetscInt k = 0; k < c->num; ++k) values[2 + k] = c->z + num * k;
   for (PetscInt n = 0; n < num; ++n) {
     c->valued[n] = (PetscBool)(s->owned[n] || need[n] || own[n]);
-    for (PetscInt k = 0; k < 3 && own[n] && !s->owned[n] && !need[n]; ++k) values[k][n] = 0;
+    for (PetscInt k = 0; k < lists && own[n] && !s->owned[n] && !need[n]; ++k) values[k][n] = 0;
   }
   Hanging_Private(s, c->valued);
   c->num_valued = 0;
@@ -229,7 +230,7 @@ static void Values_Private(Contact *c, const PetscBool need[], const PetscBool o
     if (!c->valued[n]) c->active[n] = c->near[n] = PETSC_FALSE;
     if (s->hang[n] < s->hang[n + 1]) c->gap[n] = c->weight[n] = 0;
   }
-  for (PetscInt k = 0; k < 3; ++k) Poison_Private(num, c->valued, 1, values[k]);
+  for (PetscInt k = 0; k < lists; ++k) Poison_Private(num, c->valued, 1, values[k]);
 }
 
 PetscErrorCode ContactLink_Private(Interface p, Contact *c)

@@ -70,9 +70,9 @@ PetscErrorCode InterfaceRows(Interface p, PetscReal r[])
     for (PetscInt j = 0; j < c->side[0].num_nodes; ++j) {
       if (c->zlocal[j] < 0) continue;
       const ContactPoint point = ContactPoint_Private(c, j, 0);
-      ContactRow         row;
-      c->law->rows(&point, PETSC_FALSE, &row);
-      r[c->zlocal[j]] = -row.side;
+      ContactRow         row[MOST_MULTIPLIERS];
+      c->law->rows(&point, PETSC_FALSE, row);
+      for (PetscInt k = 0; k < c->num; ++k) r[c->zlocal[j] + k] = -row[k].side;
     }
   }
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -1,7 +1,7 @@
 /* Values of a contact pair beyond those a rank needs: all of them everywhere, for output; chosen ones from those who know them. */
 #include "interfaceimpl.h"
 
-#define SIDE_REALS(dim) (3 * (dim) + 3) /* of a node: position, normal, force, z, gap, weight */
+#define SIDE_REALS(dim, num) (3 * (dim) + 2 + (num)) /* of a node: position, normal, force, gap, weight, multipliers */
 
 PetscErrorCode ContactGatherDestroy_Private(Contact *c)
 {
@@ -18,8 +18,8 @@ static PetscErrorCode Side_Private(Interface p, Contact *c, PetscInt k)
   const PetscReal *normal;
 
   PetscFunctionBegin;
-  if (!c->all_real[k]) PetscCall(PetscMalloc1(SIDE_REALS(dim) * n, &c->all_real[k]));
-  PetscCall(PetscArrayzero(c->all_real[k], SIDE_REALS(dim) * n));
+  if (!c->all_real[k]) PetscCall(PetscMalloc1(SIDE_REALS(dim, c->num) * n, &c->all_real[k]));
+  PetscCall(PetscArrayzero(c->all_real[k], SIDE_REALS(dim, c->num) * n));
   PetscReal *x = c->all_real[k], *direction = x + dim * n, *force = direction + dim * n, *value = force + dim * n;
   PetscCall(ContactPairGetNormals(c->pair, &normal));
   for (PetscInt j = 0; j < n; ++j) {
@@ -28,11 +28,11 @@ static PetscErrorCode Side_Private(Interface p, Contact *c, PetscInt k)
     PetscCall(PetscArraycpy(force + dim * j, s->force + dim * j, dim));
     if (k == 1) continue;
     if (normal) PetscCall(PetscArraycpy(direction + dim * j, normal + dim * j, dim));
-    value[j]         = c->z[j];
-    value[n + j]     = c->gap[j];
-    value[2 * n + j] = c->weight[j];
+    value[j]     = c->gap[j];
+    value[n + j] = c->weight[j];
+    for (PetscInt i = 0; i < c->num; ++i) value[(2 + i) * n + j] = c->z[i * n + j];
   }
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, c->all_real[k], (PetscMPIInt)(SIDE_REALS(dim) * n), MPIU_REAL, MPI_SUM, p->comm));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, c->all_real[k], (PetscMPIInt)(SIDE_REALS(dim, c->num) * n), MPIU_REAL, MPI_SUM, p->comm));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -60,9 +60,9 @@ PetscErrorCode InterfaceGatherContactToAll(Interface p, PetscInt pair, const Con
   c->all.nonmortar.x     = c->all_real[0];
   c->all.normal          = c->all_real[0] + dim * n;
   c->all.nonmortar.force = c->all_real[0] + 2 * dim * n;
-  c->all.z               = c->all_real[0] + 3 * dim * n;
-  c->all.gap             = c->all.z + n;
-  c->all.weight          = c->all.z + 2 * n;
+  c->all.gap             = c->all_real[0] + 3 * dim * n;
+  c->all.weight          = c->all.gap + n;
+  c->all.z               = c->all.gap + 2 * n;
   c->all.active          = c->all_active;
   c->all.mortar.x        = c->all_real[1];
   c->all.mortar.force    = c->all_real[1] + 2 * dim * m;
@@ -83,13 +83,13 @@ PetscErrorCode InterfaceFetchContact(Interface p, PetscInt pair, const PetscBool
   PetscCall(PetscMalloc1(s->num_nodes, &nodes));
   for (PetscInt n = 0; n < s->num_nodes; ++n) {
     const PetscBool mine = (PetscBool)(s->owner[n] == p->rank);
-    z[n]                 = mine ? c->z[n] : NAN;
+    for (PetscInt k = 0; k < c->num; ++k) z[s->num_nodes * k + n] = mine ? c->z[s->num_nodes * k + n] : NAN;
     for (PetscInt d = 0; d < s->dim && normal; ++d) normal[s->dim * n + d] = mine ? own[s->dim * n + d] : NAN;
     for (PetscInt d = 0; d < s->dim && x; ++d) x[s->dim * n + d] = mine ? s->x[s->dim * n + d] : NAN;
     if (wanted[n] && !mine) nodes[num++] = n;
   }
   PetscCall(LinkSet_Private(p, s, num, nodes, &link));
-  PetscCall(LinkSpread_Private(p, &link, 1, z));
+  for (PetscInt k = 0; k < c->num; ++k) PetscCall(LinkSpread_Private(p, &link, 1, z + s->num_nodes * k));
   if (normal) PetscCall(LinkSpread_Private(p, &link, s->dim, normal));
   if (x) PetscCall(LinkSpread_Private(p, &link, s->dim, x));
   PetscCall(LinkDestroy_Private(&link));

@@ -57,6 +57,14 @@ PetscErrorCode InterfaceSetForm(Interface p, const Form *form)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscBool InterfaceIsSymmetric(Interface p)
+{
+  for (PetscInt i = 0; i < p->num_contacts; ++i) {
+    if (!p->contacts[i].law->symmetric) return PETSC_FALSE;
+  }
+  return PETSC_TRUE;
+}
+
 /* Multipliers live with the owner of their node. */
 PetscErrorCode InterfaceNumber(Interface p, PetscInt counts[])
 {
@@ -70,7 +78,8 @@ PetscErrorCode InterfaceNumber(Interface p, PetscInt counts[])
       const PetscMPIInt owner = t->leaf_rank[t->entity_leaf[c->side[0].node_entity[n]]];
       c->zdof[n] = c->zlocal[n] = -1;
       if (!c->has_multiplier[n]) continue;
-      c->zdof[n] = counts[owner]++;
+      c->zdof[n] = counts[owner];
+      counts[owner] += c->num;
       if (owner == p->rank) c->zlocal[n] = c->zdof[n];
     }
   }
@@ -110,7 +119,7 @@ PetscErrorCode InterfaceSetMultipliers(Interface p, PetscInt pair, const PetscRe
   PetscFunctionBegin;
   PetscCall(VecGetArray(x, &array));
   for (PetscInt j = 0; j < c->side[0].num_nodes; ++j) {
-    if (c->zlocal[j] >= 0) array[c->zlocal[j]] = z[j];
+    for (PetscInt k = 0; k < c->num && c->zlocal[j] >= 0; ++k) array[c->zlocal[j] + k] = z[c->side[0].num_nodes * k + j];
   }
   PetscCall(VecRestoreArray(x, &array));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -124,7 +133,7 @@ PetscErrorCode InterfaceGetMultipliers(Interface p, PetscInt pair, Vec x, PetscR
   PetscFunctionBegin;
   PetscCall(VecGetArrayRead(x, &array));
   for (PetscInt j = 0; j < c->side[0].num_nodes; ++j) {
-    if (c->zlocal[j] >= 0) z[j] = array[c->zlocal[j]];
+    for (PetscInt k = 0; k < c->num && c->zlocal[j] >= 0; ++k) z[c->side[0].num_nodes * k + j] = array[c->zlocal[j] + k];
     if (own) own[j] = (PetscBool)(c->zlocal[j] >= 0);
   }
   PetscCall(VecRestoreArrayRead(x, &array));

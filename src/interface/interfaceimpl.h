@@ -39,17 +39,21 @@ typedef struct {
   PetscBool push;
 } ContactRow;
 
-/* state: that of a node with these multipliers, gap and weight, 0: open. rows: one for each multiplier, in this state; the residual is -side without lift.
+/* num_multipliers of a node in this dimension; the first is the pressure. symmetric: it has one, and its tangent is symmetric but for the factors of rows.
+   state: that of a node with these multipliers, gap and weight, 0: open. rows: one for each multiplier, in this state; the residual is -side without lift.
    symmetric: factor and z of a row such that it is a column of the symmetric tangent as well, its unknown z over c. */
 typedef struct {
   const char *name;
+  PetscBool   symmetric;
+  PetscInt (*num_multipliers)(PetscInt dim);
   int8_t (*state)(const ContactPoint *);
   void (*rows)(const ContactPoint *, PetscBool symmetric, ContactRow row[]);
 } ContactLawOps;
 
 extern const ContactLawOps *const ContactLaws[];
-/* frictionless.c: row of a constraint with compliance S (length times measure over pressure) that grows with w by this slope. */
-void ContactCompliantRow_Private(const ContactPoint *, PetscReal S, PetscReal slope, PetscBool symmetric, ContactRow *);
+/* frictionless.c: the pressure alone; its row, of a constraint with compliance S (length times measure over pressure) that grows with w by this slope. */
+PetscInt ContactOneMultiplier_Private(PetscInt dim);
+void     ContactCompliantRow_Private(const ContactPoint *, PetscReal S, PetscReal slope, PetscBool symmetric, ContactRow *);
 
 /* One side of a contact pair. Topology and what belongs to the mesh (reference positions, frames, places in the vector) are replicated on every rank; current
    values are not: a rank has those of nodes it owns, of nodes its cells or ghost cells depend on (positions), and of nodes that facets in contact need
@@ -88,29 +92,31 @@ typedef struct {
 typedef struct {
   const ContactSpec   *spec;
   const ContactLawOps *law;
+  PetscInt             num; /* multipliers of a node, which have rows and places side by side */
   ContactPair          pair;
   PetscInt            *part[2]; /* of the facets of both sides */
   Surface              side[2]; /* 0 nonmortar, 1 mortar */
   ContactView          view;
-  PetscReal            freedom[2][9];             /* of a translation of the bodies of either side, what supports leave free: slidelimit.c */
-  PetscBool            drifts;                    /* they leave some */
-  PetscInt            *zdof;                      /* [n] row of the matrix, -1: no multiplier */
-  PetscInt            *zlocal;                    /* [n] position in this rank's part of the vector, -1: not here */
-  PetscReal           *z, *gap, *weight, *spring; /* [n] spring: K_j of contact.h */
-  PetscReal           *softness;                  /* [n] extent / E */
-  PetscReal           *w0, *extent, *c;           /* [n] reference measure, its extent along the surface, E / extent */
-  PetscReal           *change;                    /* [n] work: change of gt_j at fixed measure under an increment */
-  PetscReal           *lift;                      /* [n] the same for the prescribed motion still to come */
-  PetscInt            *result;                    /* [num_facets] position of a facet in `facets`, -1: not evaluated here */
-  int8_t              *active;                    /* [n] state of the law; 0: open */
-  PetscBool           *has_multiplier, *near;     /* [n] near: takes part in the next linear solve */
-  PetscInt             num_listed, *listed;       /* nonmortar facets this rank evaluates */
-  PetscBool           *mine;                      /* [num_facets] a side of this rank's leaves */
-  PetscBool           *live;                      /* [num_facets] may meet the mortar side, as far as this rank is told (its own facets, those around) */
-  PetscBool           *valued;                    /* [n] z, gap, weight, activity known here */
-  PetscInt             num_valued, *valued_node;  /* their list */
-  PetscReal           *pack;                      /* [n][3] work: gap, weight and spring in one message */
-  PetscReal           *all_real[2];               /* values gathered to all, see gather.c */
+  PetscReal            freedom[2][9];            /* of a translation of the bodies of either side, what supports leave free: slidelimit.c */
+  PetscBool            drifts;                   /* they leave some */
+  PetscInt            *zdof;                     /* [n] row of the first in the matrix, -1: no multipliers */
+  PetscInt            *zlocal;                   /* [n] its position in this rank's part of the vector, -1: not here */
+  PetscReal           *z;                        /* [num][n] */
+  PetscReal           *gap, *weight, *spring;    /* [n] spring: K_j of contact.h */
+  PetscReal           *softness;                 /* [n] extent / E */
+  PetscReal           *w0, *extent, *c;          /* [n] reference measure, its extent along the surface, E / extent */
+  PetscReal           *change;                   /* [n] work: change of gt_j at fixed measure under an increment */
+  PetscReal           *lift;                     /* [n] the same for the prescribed motion still to come */
+  PetscInt            *result;                   /* [num_facets] position of a facet in `facets`, -1: not evaluated here */
+  int8_t              *active;                   /* [n] state of the law; 0: open */
+  PetscBool           *has_multiplier, *near;    /* [n] near: takes part in the next linear solve */
+  PetscInt             num_listed, *listed;      /* nonmortar facets this rank evaluates */
+  PetscBool           *mine;                     /* [num_facets] a side of this rank's leaves */
+  PetscBool           *live;                     /* [num_facets] may meet the mortar side, as far as this rank is told (its own facets, those around) */
+  PetscBool           *valued;                   /* [n] z, gap, weight, activity known here */
+  PetscInt             num_valued, *valued_node; /* their list */
+  PetscReal           *pack;                     /* [n][3] work: gap, weight and spring in one message */
+  PetscReal           *all_real[2];              /* values gathered to all, see gather.c */
   int8_t              *all_active;
   ContactView          all;
   PetscReal            distance;   /* search distance */
@@ -224,14 +230,17 @@ static inline PetscBool ContactIsReleased_Private(Interface p, const Contact *c)
 /* insert.c: as MatSetValues, of contact: values in the diagonal block. */
 PetscErrorCode ContactInsert_Private(Mat, PetscInt num_rows, const PetscInt rows[], PetscInt num_columns, const PetscInt columns[], const PetscReal K[],
                                      InsertMode);
-/* tangent.c: a facet's Hessian, added; the gradient of a row of node j in work_index and work_value; its row, with its columns in the symmetric form. */
+/* tangent.c: a facet's Hessian, added; the gradient of a row of node j in work_index and work_value; its rows, with their columns in the symmetric form. */
 PetscErrorCode ContactFacetHessian_Private(Interface, const InterfaceSystem *, const Contact *, const ContactFacet *);
 PetscErrorCode ContactNodeGradient_Private(Interface, const Contact *, PetscInt j, const ContactRow *, PetscInt *num);
-PetscErrorCode ContactInsertRow_Private(Interface, const InterfaceSystem *, const Contact *, PetscInt j, const ContactRow *);
+PetscErrorCode ContactInsertRow_Private(Interface, const InterfaceSystem *, const Contact *, PetscInt j, const ContactRow row[]);
 /* Node j as its law sees it. */
 static inline ContactPoint ContactPoint_Private(const Contact *c, PetscInt j, PetscReal lift)
 {
-  return (ContactPoint){c->spec, c->active[j], {c->z[j]}, c->gap[j], c->weight[j], c->spring[j], c->w0[j], c->c[j], lift};
+  ContactPoint point = {c->spec, c->active[j], {0}, c->gap[j], c->weight[j], c->spring[j], c->w0[j], c->c[j], lift};
+
+  for (PetscInt k = 0; k < c->num; ++k) point.z[k] = c->z[c->side[0].num_nodes * k + j];
+  return point;
 }
 /* Change of every owned node's weighted gap, at fixed measure, under a local array of increments. Collective. */
 PetscErrorCode          ContactChange_Private(Interface, Contact *, const PetscReal increment[], PetscReal change[]);

@@ -5,11 +5,11 @@
 static PetscReal Misfit_Private(const Contact *c, PetscInt j)
 {
   const ContactPoint point = ContactPoint_Private(c, j, 0);
-  ContactRow         row;
+  ContactRow         row[MOST_MULTIPLIERS];
 
   if (!c->has_multiplier[j] || !ContactCovered_Private(c, j)) return 0;
-  c->law->rows(&point, PETSC_FALSE, &row);
-  return ContactPressed_Private(c, j) ? row.value : PetscMin(c->gap[j], 0);
+  c->law->rows(&point, PETSC_FALSE, row);
+  return ContactPressed_Private(c, j) ? row[0].value : PetscMin(c->gap[j], 0);
 }
 
 PetscErrorCode InterfaceNoteMisfit(Interface p)

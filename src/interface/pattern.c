@@ -131,7 +131,7 @@ PetscErrorCode InterfaceGrow(Interface p, PetscBool *grown)
 PetscInt ContactPatternSize_Private(const Contact *c, PetscInt facet)
 {
   if (!c->pattern_offset) return 0; /* none of the facets evaluated on this rank has met anything yet */
-  return (c->side[0].dim + 1) * (c->pattern_offset[facet + 1] - c->pattern_offset[facet]);
+  return (c->side[0].dim + c->num) * (c->pattern_offset[facet + 1] - c->pattern_offset[facet]);
 }
 
 /* Is the nonmortar node one of the facet's multipliers? In two dimensions its outer neighbours stand in the pattern too. */
@@ -151,7 +151,8 @@ PetscInt ContactPatternDofs_Private(const Contact *c, PetscInt facet, PetscInt d
     for (PetscInt d = 0; d < dim; ++d) {
       if (dof[d] >= 0) dofs[num++] = dof[d];
     }
-    if (!NODE_SIDE(c->pattern[k]) && c->zdof[node] >= 0 && CarriesRow_Private(&c->side[0], facet, node)) dofs[num++] = c->zdof[node];
+    if (NODE_SIDE(c->pattern[k]) || c->zdof[node] < 0 || !CarriesRow_Private(&c->side[0], facet, node)) continue;
+    for (PetscInt i = 0; i < c->num; ++i) dofs[num++] = c->zdof[node] + i;
   }
   return num;
 }
@@ -194,7 +195,8 @@ PetscErrorCode InterfacePattern(Interface p, Mat matrix, PetscInt first_row, Pet
   for (PetscInt i = 0; i < p->num_contacts && !diagonal; ++i) {
     const Contact *c = &p->contacts[i];
     for (PetscInt j = 0; j < c->side[0].num_nodes; ++j) {
-      if (c->zlocal[j] >= 0) PetscCall(MatSetValue(matrix, c->zdof[j], c->zdof[j], 0.0, ADD_VALUES));
+      for (PetscInt k = 0; k < c->num * c->num && c->zlocal[j] >= 0; ++k)
+        PetscCall(MatSetValue(matrix, c->zdof[j] + k / c->num, c->zdof[j] + k % c->num, 0.0, ADD_VALUES));
     }
   }
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -122,7 +122,7 @@ PetscErrorCode InterfaceBlocks(Interface p, const InterfaceSystem *a)
 static PetscInt RowSize_Private(const Contact *c, PetscInt j)
 {
   const Surface *s   = &c->side[0];
-  PetscInt       num = 1;
+  PetscInt       num = c->num;
   for (PetscInt k = s->node_first[j]; k < s->node_first[j + 1]; ++k) num += ContactPatternSize_Private(c, s->node_facet[k]);
   return num;
 }
@@ -141,7 +141,7 @@ PetscErrorCode ContactNodeGradient_Private(Interface p, const Contact *c, PetscI
   values = p->work_value;
   *num   = 0;
   for (PetscInt k = s->node_first[j]; k < s->node_first[j + 1] && c->near[j]; ++k) *num += ContactPatternDofs_Private(c, s->node_facet[k], dofs + *num);
-  dofs[(*num)++] = c->zdof[j];
+  for (PetscInt k = 0; k < c->num; ++k) dofs[(*num)++] = c->zdof[j] + k;
   PetscCall(PetscSortRemoveDupsInt(num, dofs));
   PetscCall(PetscArrayzero(values, *num));
   for (PetscInt k = s->node_first[j]; form->factor != 0 && k < s->node_first[j + 1]; ++k) {
@@ -172,18 +172,21 @@ PetscErrorCode ContactNodeGradient_Private(Interface p, const Contact *c, PetscI
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Row of node j, in the symmetric form its column as well: that differs from -grad gt_j by gt_j times the change of z_j, small of second order. There z_j = c_j
-   times the unknown, and the row is c_j times that: a force by a length, as those of the displacements are, so that one norm over all rows means the same in
-   every unit. */
-PetscErrorCode ContactInsertRow_Private(Interface p, const InterfaceSystem *a, const Contact *c, PetscInt j, const ContactRow *row)
+/* Rows of node j, in the symmetric form its column as well: that differs from -grad gt_j by gt_j times the change of z_j, small of second order. There z_j =
+   c_j times the unknown, and the row is c_j times that: a force by a length, as those of the displacements are, so that one norm over all rows means the same
+   in every unit. */
+PetscErrorCode ContactInsertRow_Private(Interface p, const InterfaceSystem *a, const Contact *c, PetscInt j, const ContactRow row[])
 {
   PetscInt num, at;
 
   PetscFunctionBegin;
-  PetscCall(ContactNodeGradient_Private(p, c, j, row, &num));
-  PetscCall(PetscFindInt(c->zdof[j], num, p->work_index, &at));
-  p->work_value[at] = a->symmetric ? row->z[0] * c->c[j] : row->z[0];
-  PetscCall(ContactInsert_Private(a->matrix, 1, &c->zdof[j], num, p->work_index, p->work_value, INSERT_VALUES));
+  for (PetscInt i = 0; i < c->num; ++i) {
+    const PetscInt line = c->zdof[j] + i;
+    PetscCall(ContactNodeGradient_Private(p, c, j, &row[i], &num));
+    PetscCall(PetscFindInt(c->zdof[j], num, p->work_index, &at));
+    for (PetscInt k = 0; k < c->num; ++k) p->work_value[at + k] = a->symmetric ? row[i].z[k] * c->c[j] : row[i].z[k];
+    PetscCall(ContactInsert_Private(a->matrix, 1, &line, num, p->work_index, p->work_value, INSERT_VALUES));
+  }
   if (a->symmetric) PetscCall(ContactInsert_Private(a->matrix, num, p->work_index, 1, &c->zdof[j], p->work_value, INSERT_VALUES));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -191,11 +194,11 @@ PetscErrorCode ContactInsertRow_Private(Interface p, const InterfaceSystem *a, c
 static PetscErrorCode InsertRow_Private(Interface p, const InterfaceSystem *a, const Contact *c, PetscInt j)
 {
   const ContactPoint point = ContactPoint_Private(c, j, 0);
-  ContactRow         row;
+  ContactRow         row[MOST_MULTIPLIERS];
 
   PetscFunctionBegin;
-  c->law->rows(&point, a->symmetric, &row);
-  PetscCall(ContactInsertRow_Private(p, a, c, j, &row));
+  c->law->rows(&point, a->symmetric, row);
+  PetscCall(ContactInsertRow_Private(p, a, c, j, row));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -225,10 +228,10 @@ static PetscErrorCode RowSides_Private(Interface p, const InterfaceSystem *a, Ve
     const Contact *c = &p->contacts[i];
     for (PetscInt j = 0; j < c->side[0].num_nodes; ++j) {
       const ContactPoint point = ContactPoint_Private(c, j, c->lift[j]);
-      ContactRow         row;
+      ContactRow         row[MOST_MULTIPLIERS];
       if (c->zlocal[j] < 0) continue;
-      c->law->rows(&point, a->symmetric, &row);
-      b[c->zlocal[j] - p->num_inner] = row.side;
+      c->law->rows(&point, a->symmetric, row);
+      for (PetscInt k = 0; k < c->num; ++k) b[c->zlocal[j] + k - p->num_inner] = row[k].side;
     }
   }
   PetscCall(VecRestoreArray(rhs, &b));
@@ -285,7 +288,7 @@ static PetscErrorCode Switch_Private(Interface p, const InterfaceSystem *a, Cont
     const PetscInt j = s->own[i];
     if (c->zlocal[j] < 0 || !c->near[j] || !ContactCovered_Private(c, j)) continue;
     ContactPoint point = ContactPoint_Private(c, j, 0);
-    point.z[0] += dx[c->zlocal[j]];
+    for (PetscInt k = 0; k < c->num; ++k) point.z[k] += dx[c->zlocal[j] + k];
     point.gap += c->change[j];
     const int8_t active = c->law->state(&point);
     if (active == c->active[j] || (active && ContactOverlap_Private(c, j) < least)) continue;

@@ -193,12 +193,12 @@ static PetscErrorCode Multipliers_Private(Problem problem, PetscInt pair, Vec x,
 
   PetscFunctionBegin;
   PetscCall(InterfaceGetContact(ProblemInterface(problem), pair, &view));
-  const PetscInt total = view->nonmortar.num_nodes;
-  PetscCall(PetscMalloc2(total, &z, total, &own));
+  const PetscInt nodes = view->nonmortar.num_nodes, total = view->num_z * nodes;
+  PetscCall(PetscMalloc2(total, &z, nodes, &own));
   PetscCall(InterfaceGetMultipliers(ProblemInterface(problem), pair, x, z, own));
   PetscCall(PlacesCreate_Private(total, total, &p));
   for (PetscInt j = 0; j < total; ++j) {
-    if (own[j]) p.index[num] = j, p.value[num++] = z[j];
+    if (own[j % nodes]) p.index[num] = j, p.value[num++] = z[j];
   }
   p.num = num;
   if (back) {

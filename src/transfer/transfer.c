@@ -10,10 +10,14 @@ static PetscErrorCode Multipliers_Private(const TransferContext *c, Problem old_
     PetscBool         *wanted;
     PetscCall(InterfaceGetContact(ProblemInterface(old_problem), i, &from));
     PetscCall(InterfaceGetContact(ProblemInterface(new_problem), i, &to));
-    PetscCall(PetscMalloc3(to->nonmortar.num_nodes, &z, from->nonmortar.num_nodes, &old_z, from->nonmortar.num_nodes, &wanted));
+    PetscCall(PetscMalloc3(to->num_z * to->nonmortar.num_nodes, &z, from->num_z * from->nonmortar.num_nodes, &old_z, from->nonmortar.num_nodes, &wanted));
     PetscCall(TransferMultiplierNeeds_Private(c->old_t, &from->nonmortar, &to->nonmortar, c->map, wanted));
     PetscCall(InterfaceFetchContact(ProblemInterface(old_problem), i, wanted, old_z, NULL, NULL));
-    PetscCall(TransferMultiplier_Private(c->old_t, &from->nonmortar, old_z, from->has_multiplier, c->new_t, &to->nonmortar, c->map, z));
+    for (PetscInt k = 0; k < from->num_z; ++k) {
+      const PetscReal *old = old_z + k * from->nonmortar.num_nodes;
+      PetscCall(
+          TransferMultiplier_Private(c->old_t, &from->nonmortar, old, from->has_multiplier, c->new_t, &to->nonmortar, c->map, z + k * to->nonmortar.num_nodes));
+    }
     PetscCall(InterfaceSetMultipliers(ProblemInterface(new_problem), i, z, x));
     PetscCall(PetscFree3(z, old_z, wanted));
   }

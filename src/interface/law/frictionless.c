@@ -2,6 +2,11 @@
    w + c S in place of w in the row, so that it stays of the size of a gap however small w is. */
 #include "interfaceimpl.h"
 
+PetscInt ContactOneMultiplier_Private(PetscInt dim)
+{
+  return 1;
+}
+
 void ContactCompliantRow_Private(const ContactPoint *p, PetscReal S, PetscReal slope, PetscBool symmetric, ContactRow *row)
 {
   const PetscReal z = p->z[0], value = p->gap + S * z, measure = p->weight + p->c * S, mean = value / measure, along = z - mean * p->c;
@@ -25,4 +30,4 @@ static void Rows_Private(const ContactPoint *p, PetscBool symmetric, ContactRow 
   ContactCompliantRow_Private(p, p->spring, 0, symmetric, row);
 }
 
-const ContactLawOps ContactFrictionless = {"frictionless", State_Private, Rows_Private};
+const ContactLawOps ContactFrictionless = {"frictionless", PETSC_TRUE, ContactOneMultiplier_Private, State_Private, Rows_Private};

@@ -11,4 +11,4 @@ static void Rows_Private(const ContactPoint *p, PetscBool symmetric, ContactRow 
   ContactCompliantRow_Private(p, p->spring + p->weight / p->spec->penalty, 1 / p->spec->penalty, symmetric, row);
 }
 
-const ContactLawOps ContactPenalty = {"penalty", State_Private, Rows_Private};
+const ContactLawOps ContactPenalty = {"penalty", PETSC_TRUE, ContactOneMultiplier_Private, State_Private, Rows_Private};
