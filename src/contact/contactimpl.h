@@ -82,8 +82,11 @@ PetscErrorCode ContactTreeBuild(PetscInt num, PetscReal (*box)[6], Tree *);
 PetscErrorCode ContactTreeDestroy(Tree *);
 PetscInt       ContactTreeQuery(const Tree *, const PetscReal box[6], PetscInt max, PetscInt items[]);
 
-/* Nodes that shape a facet: its corners, or its lattice; returns their number. */
-PetscInt ContactFacetNodes(const ContactSurface *, PetscInt facet, const PetscInt **node);
+/* Nodes of a facet on its lattice, lexicographic; order1: room for those of a facet without one. Returns its order. */
+PetscInt  ContactFacetLattice(const ContactSurface *, PetscInt facet, const PetscInt **node, PetscInt order1[4]);
+PetscBool ContactNodeHangs(const ContactSurface *, PetscInt n);
+/* Row of node n: the nodes it follows with their weights, itself when it does not hang; returns their number. */
+PetscInt ContactNodeRow(const ContactSurface *, const PetscInt *n, const PetscInt **master, const PetscReal **weight);
 
 /* hull.c: from x, inside or on a facet of this part of the bodies, along the unit vector d to where the ray leaves the part; most: not before. x, d: [dim],
    reference positions. */
@@ -141,8 +144,6 @@ typedef struct {
 PetscErrorCode ContactResultDestroy(Result *);
 /* Place of a node; new ones are added. */
 PetscErrorCode ContactResultNode(Result *, PetscInt id, PetscInt *place);
-/* Masters of a node: itself when it does not hang. */
-PetscInt ContactMasters(const ContactSurface *, const PetscInt *node, const PetscInt **master, const PetscReal **weight);
 /* Row of vertex v by places among the nodes; row_first has room for v + 1, *num entries are there. */
 PetscErrorCode ContactResultRow(Result *, const ContactSurface *, PetscInt node, PetscBool mortar, PetscInt v, PetscInt *num);
 /* Do derivatives have a use? node[num_rows]: the facet's multipliers; loaded: one of them is not zero. */

@@ -54,23 +54,11 @@ PetscErrorCode ContactResultNode(Result *r, PetscInt id, PetscInt *place)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscInt ContactMasters(const ContactSurface *s, const PetscInt *node, const PetscInt **master, const PetscReal **weight)
-{
-  static const PetscReal one = 1;
-
-  if (!s->hang || s->hang[*node] == s->hang[*node + 1]) {
-    *master = node, *weight = &one;
-    return 1;
-  }
-  *master = s->hang_master + s->hang[*node], *weight = s->hang_weight + s->hang[*node];
-  return s->hang[*node + 1] - s->hang[*node];
-}
-
 PetscErrorCode ContactResultRow(Result *r, const ContactSurface *s, PetscInt node, PetscBool mortar, PetscInt v, PetscInt *num)
 {
   const PetscInt  *master;
   const PetscReal *weight;
-  const PetscInt   masters = ContactMasters(s, &node, &master, &weight);
+  const PetscInt   masters = ContactNodeRow(s, &node, &master, &weight);
 
   PetscFunctionBegin;
   PetscCall(ContactGrow(*num + masters, sizeof(PetscInt), &r->size_row_node, &r->row_node));

@@ -4,17 +4,11 @@
    Distances and normals are judged here and nowhere else: between two searches the result changes continuously with the positions. */
 #include "kernelimpl.h"
 
-PetscInt ContactFacetNodes(const ContactSurface *s, PetscInt facet, const PetscInt **node)
-{
-  const PetscInt corners = s->dim == 2 ? 2 : 4;
-
-  *node = s->order ? s->lattice + s->first[facet] : s->facets + corners * facet;
-  return s->order ? s->first[facet + 1] - s->first[facet] : corners;
-}
-
 void ContactFacetBox(const ContactSurface *s, PetscInt facet, PetscReal box[6])
 {
-  const PetscInt *node, num = ContactFacetNodes(s, facet, &node);
+  const PetscInt *node;
+  PetscInt        order1[4];
+  const PetscInt  num = ElementNumNodes(s->dim - 1, ContactFacetLattice(s, facet, &node, order1));
 
   box[2] = box[5] = 0;
   for (PetscInt i = 0; i < s->dim; i++) {
@@ -29,7 +23,9 @@ void ContactFacetBox(const ContactSurface *s, PetscInt facet, PetscReal box[6])
 
 static PetscBool HasFacet_Private(const ContactSurface *s, PetscInt facet)
 {
-  const PetscInt *node, num = ContactFacetNodes(s, facet, &node);
+  const PetscInt *node;
+  PetscInt        order1[4];
+  const PetscInt  num = ElementNumNodes(s->dim - 1, ContactFacetLattice(s, facet, &node, order1));
 
   for (PetscInt k = 0; k < num; k++)
     if (!ContactHas(s, node[k])) return PETSC_FALSE;

@@ -227,7 +227,7 @@ static PetscErrorCode Nodes_Private(RayWork w, const ContactSurface *mortar)
     const PetscInt *node;
 
     if (k && w->mortar[k] == w->mortar[k - 1]) continue;
-    num = ElementNumNodes(w->facet.m, ContactRayLatticeNodes(mortar, w->mortar[k], &node, order1));
+    num = ElementNumNodes(w->facet.m, ContactFacetLattice(mortar, w->mortar[k], &node, order1));
     for (PetscInt a = 0; a < num; a++) PetscCall(AddVertex_Private(w, node[a]));
   }
   for (PetscInt i = 0; i < w->num_images; i++)

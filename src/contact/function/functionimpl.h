@@ -48,9 +48,6 @@ PetscErrorCode ContactMultiplierDestroy(ContactMultiplier **);
 PetscInt ContactLatticeOrder(const ContactSurface *, PetscInt facet);
 /* Nodes of the facet's lattice; returns their number. */
 PetscInt ContactLatticeNodes(const ContactSurface *, PetscInt facet, PetscInt node[]);
-/* Row of node n: true nodes and weights; returns their number. */
-PetscInt  ContactNodeRow(const ContactSurface *, const PetscInt *n, const PetscInt **master, const PetscReal **weight);
-PetscBool ContactNodeHangs(const ContactSurface *, PetscInt n);
 /* M[num][num] = int N_a N_b, D[num] = int N_a in the reference measure. */
 PetscErrorCode ContactLatticeMass(const ContactSurface *, PetscInt facet, PetscBool axisymmetric, PetscReal M[], PetscReal D[]);
 /* B[k] = M^-1 B[k] for num vectors of n numbers one after another, by Cholesky with unit diagonal; M is overwritten. False: singular to 1e-10, B undefined. */

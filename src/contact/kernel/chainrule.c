@@ -43,7 +43,7 @@ static PetscErrorCode DirectionRows_Private(RayWork w, const ContactSurface *s, 
       for (PetscInt k = 0; k < nv; k++) {
         const PetscInt  *master;
         const PetscReal *weight, *g = h[k], X[3][3] = {{0, g[2], -g[1]}, {-g[2], 0, g[0]}, {g[1], -g[0], 0}};
-        const PetscInt   masters = ContactMasters(s, &node[k], &master, &weight);
+        const PetscInt   masters = ContactNodeRow(s, &node[k], &master, &weight);
         PetscInt         place;
 
         for (PetscInt i = 0; i < masters; i++) {
@@ -74,7 +74,7 @@ PetscErrorCode ContactRayDirectionCurvature(RayWork w, const ContactSurface *s, 
       for (int pair = 0; pair < 4; pair++) {
         const PetscInt  *node = s->facets + 4 * term[t].facet, *a = &node[pair % 2 ? 0 : 2], *b = &node[pair / 2 ? 1 : 3], *ma, *mb;
         const PetscReal *wa, *wb, sign = (pair % 2 ? -1 : 1) * (pair / 2 ? -0.5 : 0.5), *R = term[t].R;
-        const PetscInt   masters_a = ContactMasters(s, a, &ma, &wa), masters_b = ContactMasters(s, b, &mb, &wb);
+        const PetscInt   masters_a = ContactNodeRow(s, a, &ma, &wa), masters_b = ContactNodeRow(s, b, &mb, &wb);
         PetscInt         pa, pb;
 
         for (PetscInt i = 0; i < masters_a; i++) {

@@ -4,19 +4,6 @@
 
 static const PetscReal Square[4][2] = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
 
-/* Y(xi) = c_0 + c_1 xi_1 + c_2 xi_2 + c_3 xi_1 xi_2 */
-static void Polynomial_Private(RayFacet *f)
-{
-  for (int i = 0; i < 2; i++) {
-    const PetscReal a = f->chart.Y[0][i], b = f->chart.Y[1][i], d = f->chart.Y[2][i], e = f->chart.Y[3][i];
-
-    f->c[0][i] = 0.25 * (a + b + d + e);
-    f->c[1][i] = 0.25 * (b + d - a - e);
-    f->c[2][i] = 0.25 * (d + e - a - b);
-    f->c[3][i] = 0.25 * (a + d - b - e);
-  }
-}
-
 /* Corners along the first diagonal and across it, origin in their middle. False: the facet has no area, or is not convex. */
 static PetscBool Corners_Private(const PetscReal x[4][3], RayFacet *f)
 {
@@ -54,14 +41,10 @@ PetscBool ContactChartCreate(const ContactSurface *s, PetscInt facet, RayFacet *
     f->chart.Y[a][0] = Square[a][0], f->chart.Y[a][1] = Square[a][1];
   }
   f->area = 4;
-  if (s->dim == 2) {
-    Polynomial_Private(f);
-    return PETSC_TRUE;
-  }
-  for (int a = 0; a < 4; a++)
+  for (int a = 0; a < 4 && s->dim == 3; a++)
     for (int c = 0; c < 3; c++) x[a][c] = s->X[3 * s->facets[4 * facet + a] + c];
-  if (!Corners_Private(x, f)) return PETSC_FALSE;
-  Polynomial_Private(f);
+  if (s->dim == 3 && !Corners_Private(x, f)) return PETSC_FALSE;
+  ContactBilinear(f->chart.Y, f->c);
   return PETSC_TRUE;
 }
 
@@ -84,25 +67,7 @@ void ContactChartAt(const RayFacet *f, const PetscReal xi[2], RayChartPoint *p)
 
 PetscBool ContactChartLocate(const RayFacet *f, const PetscReal Y[2], PetscReal xi[2])
 {
-  const PetscReal(*c)[2] = f->c;
-
-  if (f->m == 1) {
-    xi[0] = Y[0], xi[1] = 0;
-    return PETSC_TRUE;
-  }
-  for (int k = 0; k < 20; k++) {
-    PetscReal J1[2], J2[2], r[2], d[2], det;
-
-    for (int i = 0; i < 2; i++) {
-      J1[i] = c[1][i] + c[3][i] * xi[1], J2[i] = c[2][i] + c[3][i] * xi[0];
-      r[i] = Y[i] - c[0][i] - c[1][i] * xi[0] - J2[i] * xi[1];
-    }
-    det = Cross2(J1, J2);
-    if (!(PetscAbsReal(det) > 0)) return PETSC_FALSE;
-    d[0] = Cross2(r, J2) / det, d[1] = Cross2(J1, r) / det;
-    xi[0] += d[0], xi[1] += d[1];
-    if (PetscMax(PetscAbsReal(d[0]), PetscAbsReal(d[1])) < RAY_SOLVED)
-      return PetscMax(PetscAbsReal(xi[0]), PetscAbsReal(xi[1])) < FACET_OUTSIDE ? PETSC_TRUE : PETSC_FALSE;
-  }
-  return PETSC_FALSE;
+  if (f->m == 2) return ContactBilinearLocate(f->c, Y, xi);
+  xi[0] = Y[0], xi[1] = 0;
+  return PETSC_TRUE;
 }

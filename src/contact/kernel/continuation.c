@@ -33,65 +33,49 @@ void ContactRayBeyondSides(const PetscBool kept[4], RayBeyond *b)
 }
 
 /* Slopes of the functions that take over beyond the facet, between the corners, and their derivatives by the other coordinate's h. */
-static void Slope_Private(const RayBeyond *b, PetscInt order, const PetscReal h[2], PetscReal slope[2][RAY_LATTICE], PetscReal turn[2][RAY_LATTICE])
+static void Slope_Private(const RayBeyond *b, PetscInt m, PetscInt order, const PetscReal h[2], PetscReal slope[2][RAY_LATTICE], PetscReal turn[2][RAY_LATTICE])
 {
-  const PetscInt num = (order + 1) * (order + 1), corner[4] = {0, order, num - 1 - order, num - 1};
+  const PetscInt num = ElementNumNodes(m, order), corner[4] = {0, order, num - 1 - order, num - 1};
 
-  for (int i = 0; i < 2; i++) {
-    const PetscReal high = b->share[i] + b->turn[i] * h[1 - i];
+  for (PetscInt i = 0; i < m; i++) {
+    const PetscReal high = m == 1 ? 0 : b->share[i] + b->turn[i] * h[1 - i];
 
     memset(slope[i], 0, (size_t)num * sizeof(PetscReal));
     memset(turn[i], 0, (size_t)num * sizeof(PetscReal));
-    for (int k = 0; k < 4; k++) {
+    for (int k = 0; k < 2 * m; k++) {
       const PetscBool to = (PetscBool)(i ? k / 2 : k % 2), on = (PetscBool)(i ? k % 2 : k / 2); /* end and side of direction i */
 
       slope[i][corner[k]] = (to ? 0.5 : -0.5) * (on ? high : 1 - high);
-      turn[i][corner[k]]  = (to == on ? 0.5 : -0.5) * b->turn[i];
+      if (m == 2) turn[i][corner[k]] = (to == on ? 0.5 : -0.5) * b->turn[i];
     }
   }
 }
 
-/* Of an edge: f(h) + (xi - h) chord / 2 */
-static void BeyondEdge_Private(PetscInt order, PetscReal xi, int depth, RayFunctions *to)
+static PetscBool Within_Private(PetscInt m, const PetscReal xi[2])
 {
-  PetscReal h[3];
-
-  Bound_Private(xi, h);
-  ContactRayFunctions(1, order, h, depth, to);
-  for (PetscInt a = 0; a <= order; a++) {
-    const PetscReal slope = a == 0 ? -0.5 : a == order ? 0.5 : 0, more = to->d[0][a] - slope;
-
-    to->N[a] += (xi - h[0]) * slope;
-    if (depth > 1) to->dd[0][a] = to->dd[0][a] * PetscSqr(h[1]) + more * h[2];
-    to->d[0][a] = slope + more * h[1];
-  }
+  return (PetscBool)(PetscMax(PetscAbsReal(xi[0]), m == 1 ? 0 : PetscAbsReal(xi[1])) <= 1);
 }
 
 /* f(h) + sum_i (xi_i - h_i) slope_i */
 void ContactRayBeyond(const RayBeyond *b, PetscInt m, PetscInt order, const PetscReal xi[2], int depth, RayFunctions *to)
 {
-  const PetscInt num = (order + 1) * (order + 1);
-  PetscReal      h[2][3], slope[2][RAY_LATTICE], turn[2][RAY_LATTICE], at[2], past[2];
+  PetscReal h[2][3], slope[2][RAY_LATTICE], turn[2][RAY_LATTICE], at[2] = {0, 0}, past[2] = {0, 0};
 
-  if (PetscMax(PetscAbsReal(xi[0]), m == 1 ? 0 : PetscAbsReal(xi[1])) <= 1) {
+  if (Within_Private(m, xi)) {
     ContactRayFunctions(m, order, xi, depth, to);
     return;
   }
-  if (m == 1) {
-    BeyondEdge_Private(order, xi[0], depth, to);
-    return;
-  }
-  for (int i = 0; i < 2; i++) {
+  for (PetscInt i = 0; i < m; i++) {
     Bound_Private(xi[i], h[i]);
     at[i]   = h[i][0];
     past[i] = xi[i] - at[i];
   }
-  Slope_Private(b, order, at, slope, turn);
-  ContactRayFunctions(2, order, at, depth, to);
-  for (PetscInt a = 0; a < num; a++) {
-    if (depth > 1) to->dd[1][a] = to->dd[1][a] * h[0][1] * h[1][1] + turn[0][a] * (1 - h[0][1]) * h[1][1] + turn[1][a] * (1 - h[1][1]) * h[0][1];
-    for (int i = 0; i < 2; i++) {
-      const PetscReal more = to->d[i][a] - slope[i][a] + past[1 - i] * turn[1 - i][a];
+  Slope_Private(b, m, order, at, slope, turn);
+  ContactRayFunctions(m, order, at, depth, to);
+  for (PetscInt a = 0; a < ElementNumNodes(m, order); a++) {
+    if (depth > 1 && m == 2) to->dd[1][a] = to->dd[1][a] * h[0][1] * h[1][1] + turn[0][a] * (1 - h[0][1]) * h[1][1] + turn[1][a] * (1 - h[1][1]) * h[0][1];
+    for (PetscInt i = 0; i < m; i++) {
+      const PetscReal more = to->d[i][a] - slope[i][a] + (m == 2 ? past[1 - i] * turn[1 - i][a] : 0);
 
       to->N[a] += past[i] * slope[i][a];
       if (depth > 1) to->dd[2 * i][a] = to->dd[2 * i][a] * PetscSqr(h[i][1]) + more * h[i][2];
@@ -102,31 +86,22 @@ void ContactRayBeyond(const RayBeyond *b, PetscInt m, PetscInt order, const Pets
 
 void ContactRayTurn(PetscInt m, const PetscReal xi[2], int depth, RayFunctions *to)
 {
-  PetscReal h[2][3], at[2];
+  PetscReal h[2][3], at[2] = {0, 0};
 
-  if (PetscMax(PetscAbsReal(xi[0]), m == 1 ? 0 : PetscAbsReal(xi[1])) <= 1) {
+  if (Within_Private(m, xi)) {
     ContactRayFunctions(m, 1, xi, depth, to);
     return;
   }
-  if (m == 1) {
-    Bound_Private(xi[0], h[0]);
-    ContactRayFunctions(1, 1, h[0], depth, to);
-    for (PetscInt a = 0; a < 2; a++) {
-      if (depth > 1) to->dd[0][a] = to->d[0][a] * h[0][2]; /* linear: no second derivative of its own */
-      to->d[0][a] *= h[0][1];
-    }
-    return;
-  }
-  for (int i = 0; i < 2; i++) {
+  for (PetscInt i = 0; i < m; i++) {
     Bound_Private(xi[i], h[i]);
     at[i] = h[i][0];
   }
-  ContactRayFunctions(2, 1, at, depth, to);
-  for (PetscInt a = 0; a < 4; a++) {
-    if (depth > 1) {
-      to->dd[1][a] *= h[0][1] * h[1][1];
-      for (int i = 0; i < 2; i++) to->dd[2 * i][a] = to->d[i][a] * h[i][2]; /* bilinear: no second derivative of its own */
+  ContactRayFunctions(m, 1, at, depth, to);
+  for (PetscInt a = 0; a < 2 * m; a++) {
+    if (depth > 1 && m == 2) to->dd[1][a] *= h[0][1] * h[1][1];
+    for (PetscInt i = 0; i < m; i++) {
+      if (depth > 1) to->dd[2 * i][a] = to->d[i][a] * h[i][2]; /* multilinear: no second derivative of its own */
+      to->d[i][a] *= h[i][1];
     }
-    for (int i = 0; i < 2; i++) to->d[i][a] *= h[i][1];
   }
 }

@@ -123,15 +123,9 @@ static void SideNormal_Private(const ContactSurface *s, PetscInt facet, PetscInt
   for (int c = 0; c < 3; c++) n[c] /= length;
 }
 
-static PetscInt Root_Private(PetscInt sheet[], PetscInt i)
-{
-  while (sheet[i] != i) i = sheet[i] = sheet[sheet[i]];
-  return i;
-}
-
 static void Join_Private(PetscInt sheet[], PetscInt a, PetscInt b)
 {
-  a = Root_Private(sheet, a), b = Root_Private(sheet, b);
+  a = GroupRoot(sheet, a), b = GroupRoot(sheet, b);
   sheet[PetscMax(a, b)] = PetscMin(a, b);
 }
 
@@ -225,7 +219,7 @@ static PetscErrorCode Sheets_Private(RayWork w, const ContactSurface *s)
     PetscCall(SheetsInSpace_Private(w, s));
   else
     SheetsInPlane_Private(w, s);
-  for (PetscInt i = 0; i < num; i++) w->sheet[i] = Root_Private(w->sheet, i);
+  for (PetscInt i = 0; i < num; i++) w->sheet[i] = GroupRoot(w->sheet, i);
   for (PetscInt i = 0; i < num; i++) HangingEnds_Private(w, s, i, w->end + 2 * i);
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -110,7 +110,7 @@ static void Normals_Private(ContactPair pair, const ContactSurface *s)
     PetscInt         order1[4], p;
 
     if (!HasDirections_Private(pair, s, f)) continue;
-    p = ContactRayLatticeNodes(s, f, &node, order1);
+    p = ContactFacetLattice(s, f, &node, order1);
     if (ElementGetNodes(p, &gauss)) continue;
     for (PetscInt a = 0; a < ElementNumNodes(m, p); a++) {
       const PetscReal xi[2] = {2 * gauss[a % (p + 1)] - 1, 2 * gauss[a / (p + 1)] - 1};
@@ -154,7 +154,7 @@ static PetscErrorCode Nodes_Private(const EvaluateContext *ctx, PetscInt facet)
 
   PetscFunctionBegin;
   w->result.num_nodes = 0;
-  ContactRayLatticeNodes(ctx->nonmortar, facet, &lattice, order1);
+  ContactFacetLattice(ctx->nonmortar, facet, &lattice, order1);
   if (constant) PetscCall(Functions_Private(w, ctx->pair->multiplier, facet));
   PetscCall(ContactGrow(na + w->num_mortar + 1, sizeof(PetscInt), &w->result.size_row_first, &w->result.row_first));
   for (PetscInt a = 0; a < na; a++) PetscCall(ContactResultRow(&w->result, ctx->nonmortar, lattice[a], PETSC_FALSE, a, &num));
@@ -179,7 +179,7 @@ static PetscErrorCode Nodes_Private(const EvaluateContext *ctx, PetscInt facet)
       for (PetscInt k = 0; k < nv; k++) {
         const PetscInt  *master;
         const PetscReal *weight;
-        const PetscInt   masters = ContactMasters(ctx->nonmortar, &ctx->nonmortar->facets[nv * term[t].facet + k], &master, &weight);
+        const PetscInt   masters = ContactNodeRow(ctx->nonmortar, &ctx->nonmortar->facets[nv * term[t].facet + k], &master, &weight);
 
         for (PetscInt i = 0; i < masters; i++) PetscCall(ContactResultNode(&w->result, master[i], &place));
       }

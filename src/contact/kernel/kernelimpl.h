@@ -47,8 +47,9 @@ typedef struct {
   int       node;      /* node to segment: the edge's end whose ray meets the mortar edge, else -1 */
 } Overlap;
 
-/* bilinear.c: hats at a point of the plane. False: no such point (degenerate quadrilateral, or far outside). */
-PetscBool ContactQuadLocate(const PlaneQuad *, const PetscReal Y[2], PetscReal N[4]);
+/* bilinear.c: the four coefficients of four corners; xi at Y from a first guess, False: no such point (degenerate quadrilateral, or far outside). */
+void      ContactBilinear(const PetscReal Y[][2], PetscReal c[][2]);
+PetscBool ContactBilinearLocate(const PetscReal c[4][2], const PetscReal Y[2], PetscReal xi[2]);
 PetscBool ContactQuadIsConvex(const PlaneQuad *);
 
 /* clip.c. size: root of the area of the whole facet, of which side[0] may be a part. False: no overlap, or (num > FACET_VERTICES) none that could be used. */
@@ -165,12 +166,11 @@ struct _p_RayWork {
 /* lagrange.c */
 PetscErrorCode ContactRayLatticePrepare(void);
 /* depth: highest derivative. Beyond [-1, 1] continued by its tangent, which keeps one derivative continuous. */
-void     ContactRayFunctions(PetscInt m, PetscInt order, const PetscReal xi[2], int depth, RayFunctions *);
-void     ContactRayLatticeSum(const RayLattice *, const PetscReal f[], PetscReal v[3]);
-PetscInt ContactRayLatticeNodes(const ContactSurface *, PetscInt facet, const PetscInt **nodes, PetscInt order1[4]);
-void     ContactRayLatticeGather(const ContactSurface *, PetscInt facet, RayLattice *);
-void     ContactRayLatticePolynomial(RayLattice *);
-void     ContactRayTestFunctions(const RayFacet *, const RayTest *, const PetscReal xi[2], RayFunctions *);
+void ContactRayFunctions(PetscInt m, PetscInt order, const PetscReal xi[2], int depth, RayFunctions *);
+void ContactRayLatticeSum(const RayLattice *, const PetscReal f[], PetscReal v[3]);
+void ContactRayLatticeGather(const ContactSurface *, PetscInt facet, RayLattice *);
+void ContactRayLatticePolynomial(RayLattice *);
+void ContactRayTestFunctions(const RayFacet *, const RayTest *, const PetscReal xi[2], RayFunctions *);
 
 /* continuation.c: the same, but beyond [-1, 1]^2 (m = 2) turning to the slope between the corners. */
 void ContactRayBeyond(const RayBeyond *, PetscInt m, PetscInt order, const PetscReal xi[2], int depth, RayFunctions *);
@@ -223,6 +223,8 @@ void ContactNodeHits(RayWork);
 PetscBool ContactRaySolve(const RayFacet *, const RayLattice *mortar, const PetscReal xi[2], int depth, RayPoint *);
 /* Where they are known to meet. */
 PetscBool ContactRayAgain(const RayFacet *, const RayLattice *mortar, const RayPlace *, int depth, RayPoint *);
+/* Normal and measures from the tangents of the nonmortar facet and the direction. */
+void ContactRayDensities(const RayFacet *, RayPoint *);
 /* K^-1 from the ray and the tangents of the mortar facet. */
 PetscBool ContactRayInverse(RayPoint *);
 PetscReal ContactRayGap(const RayPoint *);

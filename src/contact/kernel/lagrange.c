@@ -94,8 +94,7 @@ void ContactRayLatticeSum(const RayLattice *l, const PetscReal f[], PetscReal v[
   for (int c = 0; c < 3; c++) v[c] = sum[c];
 }
 
-/* Nodes of a facet on its lattice; order1: room for those of a facet without one. Returns the order. */
-PetscInt ContactRayLatticeNodes(const ContactSurface *s, PetscInt facet, const PetscInt **nodes, PetscInt order1[4])
+PetscInt ContactFacetLattice(const ContactSurface *s, PetscInt facet, const PetscInt **nodes, PetscInt order1[4])
 {
   const PetscInt nv = s->dim == 2 ? 2 : 4;
 
@@ -113,7 +112,7 @@ void ContactRayLatticeGather(const ContactSurface *s, PetscInt facet, RayLattice
   const PetscInt *node;
   PetscInt        order1[4];
 
-  l->order = ContactRayLatticeNodes(s, facet, &node, order1);
+  l->order = ContactFacetLattice(s, facet, &node, order1);
   l->num   = ElementNumNodes(s->dim - 1, l->order);
   for (PetscInt a = 0; a < l->num; a++)
     for (PetscInt c = 0; c < 4; c++) l->x[a][c] = c < s->dim ? s->x[s->dim * node[a] + c] : 0;

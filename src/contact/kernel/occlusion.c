@@ -7,16 +7,17 @@ enum { MOST = 2 * FACET_VERTICES };
 #define SHARED 1e-6
 #define SLIVER 0.1
 
+/* Of the mortar facet at the middle of the overlap. */
 static PetscReal Distance_Private(const Overlap *o)
 {
-  PetscReal Y[2] = {0, 0}, N[2][4], sum = 0;
+  const PlaneQuad *q    = &o->side[1];
+  PetscReal        Y[2] = {0, 0}, xi[2] = {0, 0}, c[4][2];
 
   for (PetscInt k = 0; k < o->num; k++)
     for (int i = 0; i < 2; i++) Y[i] += o->v[k][i] / (PetscReal)o->num;
-  for (int s = 0; s < 2; s++)
-    if (!ContactQuadLocate(&o->side[s], Y, N[s])) return PETSC_MAX_REAL;
-  for (int a = 0; a < 4; a++) sum += N[1][a] * o->side[1].h[a] - N[0][a] * o->side[0].h[a];
-  return PetscAbsReal(sum);
+  ContactBilinear(q->Y, c);
+  if (!ContactBilinearLocate(c, Y, xi)) return PETSC_MAX_REAL;
+  return PetscAbsReal(0.25 * ((1 - xi[1]) * ((1 - xi[0]) * q->h[0] + (1 + xi[0]) * q->h[1]) + (1 + xi[1]) * ((1 + xi[0]) * q->h[2] + (1 - xi[0]) * q->h[3])));
 }
 
 /* Area that two convex polygons share. */

@@ -247,7 +247,7 @@ void ContactRayPlaces(const RayWork w, const ContactSurface *mortar, PetscInt ov
     for (PetscInt a = 0; a < f->s.num; a++) place[c * f->s.num + a] = D * a + c;
     for (PetscInt v = 0; v < f->nv; v++) place[D * f->s.num + c * f->nv + v] = D * (f->s.num + v) + c;
   }
-  ContactRayLatticeNodes(mortar, w->mortar[overlap], &node, order1);
+  ContactFacetLattice(mortar, w->mortar[overlap], &node, order1);
   for (PetscInt b = 0; b < nb; b++) {
     for (at = 0; at < w->num_mortar && w->vertex[at] != node[b]; at++) continue;
     for (PetscInt c = 0; c < D; c++) place[D * own + c * nb + b] = D * (own + at) + c;

@@ -1,39 +1,26 @@
 /* Symmetric rules on triangles, exact to degree 10, 12 and 14 [Dunavant 1985]; weights sum up to 1. */
 #include "kernelimpl.h"
 
-#define LEAST_POINTS 25
-static const PetscReal LeastPoint[LEAST_POINTS][3] = {
-    {0.333333333333333315, 0.333333333333333315, 0.333333333333333315}, {0.028844733232685327, 0.485577633383657337, 0.485577633383657337},
-    {0.485577633383657337, 0.028844733232685327, 0.485577633383657337}, {0.485577633383657337, 0.485577633383657337, 0.028844733232685327},
-    {0.781036849029924873, 0.109481575485037563, 0.109481575485037563}, {0.109481575485037563, 0.781036849029924873, 0.109481575485037563},
-    {0.109481575485037563, 0.109481575485037563, 0.781036849029924873}, {0.141707219414879987, 0.307939838764121065, 0.550352941820998920},
-    {0.141707219414879987, 0.550352941820998920, 0.307939838764121065}, {0.307939838764121065, 0.141707219414879987, 0.550352941820998920},
-    {0.307939838764121065, 0.550352941820998920, 0.141707219414879987}, {0.550352941820998920, 0.141707219414879987, 0.307939838764121065},
-    {0.550352941820998920, 0.307939838764121065, 0.141707219414879987}, {0.025003534762686408, 0.246672560639902089, 0.728323904597411476},
-    {0.025003534762686408, 0.728323904597411476, 0.246672560639902089}, {0.246672560639902089, 0.025003534762686408, 0.728323904597411476},
-    {0.246672560639902089, 0.728323904597411476, 0.025003534762686408}, {0.728323904597411476, 0.025003534762686408, 0.246672560639902089},
-    {0.728323904597411476, 0.246672560639902089, 0.025003534762686408}, {0.009540815400299871, 0.066803251012200096, 0.923655933587500089},
-    {0.009540815400299871, 0.923655933587500089, 0.066803251012200096}, {0.066803251012200096, 0.009540815400299871, 0.923655933587500089},
-    {0.066803251012200096, 0.923655933587500089, 0.009540815400299871}, {0.923655933587500089, 0.009540815400299871, 0.066803251012200096},
-    {0.923655933587500089, 0.066803251012200096, 0.009540815400299871},
-};
-static const PetscReal LeastWeight[LEAST_POINTS] = {
-    0.090817990382753691, 0.036725957756466858, 0.036725957756466858, 0.036725957756466858, 0.045321059435527784, 0.045321059435527784, 0.045321059435527784,
-    0.072757916845419990, 0.072757916845419990, 0.072757916845419990, 0.072757916845419990, 0.072757916845419990, 0.072757916845419990, 0.028327242531057534,
-    0.028327242531057534, 0.028327242531057534, 0.028327242531057534, 0.028327242531057534, 0.028327242531057534, 0.009421666963732889, 0.009421666963732889,
-    0.009421666963732889, 0.009421666963732889, 0.009421666963732889, 0.009421666963732889};
-
-/* Higher ones by their orbits: weight, a for (1 - 2 a, a, a); weight, a, b for (a, b, 1 - a - b). */
+/* By their orbits: weight of the middle, 0: it is no point; weight, a for (1 - 2 a, a, a); weight, a, b for (a, b, 1 - a - b). */
 #define MOST_POINTS 42
 typedef struct {
   PetscInt  degree, num3, num6;
-  PetscReal orbit3[6][2], orbit6[4][3];
+  PetscReal middle, orbit3[6][2], orbit6[4][3];
 } Orbits;
 
-static const Orbits Higher[2] = {
+static const Orbits Rules[3] = {
+    {10,
+     2,
+     3,
+     0.090817990382753691,
+     {{0.036725957756466858, 0.485577633383657337}, {0.045321059435527784, 0.109481575485037563}},
+     {{0.072757916845419990, 0.141707219414879987, 0.307939838764121065},
+      {0.028327242531057534, 0.025003534762686408, 0.246672560639902089},
+      {0.009421666963732889, 0.009540815400299871, 0.066803251012200096}}},
     {12,
      5,
      3,
+     0,
      {{0.025731066440455322, 0.48821738977380486},
       {0.043692544538038454, 0.43972439229446031},
       {0.062858224217885117, 0.27121038501211592},
@@ -45,6 +32,7 @@ static const Orbits Higher[2] = {
     {14,
      6,
      4,
+     0,
      {{0.0218835813694289, 0.48896391036217868},
       {0.032788353544125355, 0.41764471934045394},
       {0.051774104507291585, 0.27347752830883865},
@@ -56,38 +44,39 @@ static const Orbits Higher[2] = {
       {0.01443630811353384, 0.014646950055654405, 0.29837288213625779},
       {0.005010228838500665, 0.0012683309328720186, 0.11897449769695674}}},
 };
-static PetscReal HigherPoint[2][MOST_POINTS][3], HigherWeight[2][MOST_POINTS];
+static PetscReal Points[3][MOST_POINTS][3], Weights[3][MOST_POINTS];
 
-/* The first num, 3 or 6, permutations of three numbers. */
-static void Orbit_Private(const PetscReal b[3], PetscInt num, PetscReal weight, PetscReal point[][3], PetscReal w[])
+/* The first num, 1, 3 or 6, permutations of three numbers; returns the place after them. */
+static PetscInt Orbit_Private(const PetscReal b[3], PetscInt num, PetscReal weight, PetscInt at, PetscReal point[][3], PetscReal w[])
 {
   for (PetscInt k = 0; k < num; k++) {
-    for (PetscInt i = 0; i < 3; i++) point[k][(i * (k < 3 ? 1 : 2) + k) % 3] = b[i];
-    w[k] = weight;
+    for (PetscInt i = 0; i < 3; i++) point[at + k][(i * (k < 3 ? 1 : 2) + k) % 3] = b[i];
+    w[at + k] = weight;
   }
+  return at + num;
 }
 
 PetscBool ContactRuleGet(PetscInt degree, PetscInt *num, const PetscReal (**point)[3], const PetscReal **weight)
 {
-  const PetscInt at = degree <= 12 ? 0 : 1;
-  const Orbits  *o  = &Higher[at];
-  PetscReal(*to)[3] = HigherPoint[at], *w = HigherWeight[at];
+  const Orbits *o;
+  PetscReal(*to)[3], *w;
+  PetscInt rule = 0, at = 0;
 
-  if (degree > 14) return PETSC_FALSE;
-  *num = LEAST_POINTS, *point = LeastPoint, *weight = LeastWeight;
-  if (degree <= 10) return PETSC_TRUE;
-  *num = 3 * o->num3 + 6 * o->num6, *point = (const PetscReal(*)[3])to, *weight = w;
+  while (rule < 3 && Rules[rule].degree < degree) rule++;
+  if (rule == 3) return PETSC_FALSE;
+  o = &Rules[rule], to = Points[rule], w = Weights[rule];
+  *num = (o->middle > 0) + 3 * o->num3 + 6 * o->num6, *point = (const PetscReal(*)[3])to, *weight = w;
   if (w[0] != 0) return PETSC_TRUE;
+  if (o->middle > 0) at = Orbit_Private((const PetscReal[3]){1. / 3, 1. / 3, 1. / 3}, 1, o->middle, at, to, w);
   for (PetscInt k = 0; k < o->num3; k++) {
-    const PetscReal a = o->orbit3[k][1], b[3] = {1 - 2 * a, a, a};
+    const PetscReal a = o->orbit3[k][1];
 
-    Orbit_Private(b, 3, o->orbit3[k][0], to + 3 * k, w + 3 * k);
+    at = Orbit_Private((const PetscReal[3]){1 - 2 * a, a, a}, 3, o->orbit3[k][0], at, to, w);
   }
   for (PetscInt k = 0; k < o->num6; k++) {
-    const PetscReal b[3] = {o->orbit6[k][1], o->orbit6[k][2], 1 - o->orbit6[k][1] - o->orbit6[k][2]};
-    const PetscInt  from = 3 * o->num3 + 6 * k;
+    const PetscReal a = o->orbit6[k][1], b = o->orbit6[k][2];
 
-    Orbit_Private(b, 6, o->orbit6[k][0], to + from, w + from);
+    at = Orbit_Private((const PetscReal[3]){a, b, 1 - a - b}, 6, o->orbit6[k][0], at, to, w);
   }
   return PETSC_TRUE;
 }

@@ -7,6 +7,16 @@
 
 static const RayBeyond Mean = {{0.5, 0.5}, {0, 0}};
 
+void ContactRayDensities(const RayFacet *f, RayPoint *r)
+{
+  Cross3(r->t[0], r->t[1], r->n);
+  r->a = PetscSqrtReal(Dot3(r->n, r->n));
+  for (int c = 0; c < 3; c++) r->unit[c] = r->n[c] / r->a;
+  r->beta = Dot3(r->d, r->n);
+  r->turn = f->ring;
+  r->rho  = f->ring > 0 ? f->ring * r->p[0] : 1;
+}
+
 /* Facet and directions at xi. */
 static void Facet_Private(const RayFacet *f, int depth, RayPoint *r)
 {
@@ -25,12 +35,7 @@ static void Facet_Private(const RayFacet *f, int depth, RayPoint *r)
   for (PetscInt i = 0; i < 2 * f->m - 1 && depth > 1; i++) ContactRayLatticeSum(&f->s, r->S.dd[i], r->tt[i]);
   for (PetscInt i = 0; i < 3 * f->m - 2 && depth > 2; i++) ContactRayLatticeSum(&f->s, r->S.ddd[i], r->ttt[i]);
   if (f->m == 2 && depth > 1) ContactRayLatticeSum(&f->d, r->V.dd[1], r->dij);
-  Cross3(r->t[0], r->t[1], r->n);
-  r->a = PetscSqrtReal(Dot3(r->n, r->n));
-  for (int c = 0; c < 3; c++) r->unit[c] = r->n[c] / r->a;
-  r->beta = Dot3(r->d, r->n);
-  r->turn = f->ring;
-  r->rho  = f->ring > 0 ? f->ring * r->p[0] : 1;
+  ContactRayDensities(f, r);
 }
 
 PetscBool ContactRayInverse(RayPoint *r)

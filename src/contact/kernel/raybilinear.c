@@ -37,12 +37,7 @@ static void Facet_Private(const RayFacet *f, int depth, RayPoint *r)
     memcpy(r->tt[1], f->s.c[3], sizeof(r->tt[1]));
     memcpy(r->dij, f->d.c[3], sizeof(r->dij));
   }
-  Cross3(r->t[0], r->t[1], r->n);
-  r->a = PetscSqrtReal(Dot3(r->n, r->n));
-  for (int c = 0; c < 3; c++) r->unit[c] = r->n[c] / r->a;
-  r->beta = Dot3(r->d, r->n);
-  r->turn = 0;
-  r->rho  = 1;
+  ContactRayDensities(f, r);
 }
 
 /* eta where the ray meets the mortar facet. */
