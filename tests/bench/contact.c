@@ -55,6 +55,7 @@ static double Evaluate(ContactPair pair, const Sheet *a, const Sheet *b, PetscBo
   PetscBool           failed;
 
   for (PetscInt repeat = 0; repeat < 3; ++repeat) {
+    b->x[0] += 1e-12; /* else the last results stand */
     OK(PetscTime(&start));
     OK(ContactPairEvaluate(pair, &a->s, &b->s, a->z, NULL, derivatives, hessian, &num, &facets, &failed));
     OK(PetscTime(&end));

@@ -1,6 +1,6 @@
 /* From the numbers of a facet (kernelimpl.h) to the nodes of its result, by exact first derivatives: images follow the facet's lattice, its directions and the
-   mortar vertex (R, few numbers each); directions the corners of the facets around (J); lattice and mortar nodes their masters. Half forms stay half forms:
-   a block W_in of numbers i = R n goes to R^T (W_in + W_ni^T + W_ii^T R). Forces at a held rim have derivatives by the images but none of their own. */
+   mortar vertex (R, few numbers each); directions the corners of the facets around (J); lattice and mortar nodes their masters. Forces at a held
+   rim have derivatives by the images but none of their own. */
 #include "kernelimpl.h"
 
 #define TERMS RAY_TERMS
@@ -189,76 +189,41 @@ static void Scatter_Private(const RayWork w, PetscReal factor, const PetscReal r
   }
 }
 
-PetscErrorCode ContactRayChainHessian(RayWork w, PetscReal H[])
-{
-  const RayFacet *f = &w->facet;
-  const PetscInt  D = f->D, na = f->s.num, nn = w->nn, n = w->n, nodes = D * (na + f->nv + w->num_mortar), mi = n - nodes, own = D * (na + f->nv);
-  const PetscInt  width = Width_Private(f), nd = D * f->nv;
-  PetscReal      *W = w->W, *Z, *column;
-
-  PetscFunctionBegin;
-  PetscCall(ContactGrow(PetscMax(mi * nodes, nd * nn + nodes), sizeof(PetscReal), &w->size_WJ, &w->WJ));
-  Z = w->WJ;
-  for (PetscInt i = 0; i < mi; i++)
-    for (PetscInt l = 0; l < nodes; l++) Z[i * nodes + l] = W[(nodes + i) * n + l] + W[l * n + nodes + i];
-  ContactRayProducts(mi, 1, mi, W + nodes * n + nodes, n, own, w->R, width, Z, nodes);
-  for (PetscInt k = 0; k < w->num_images; k++) {
-    const PetscInt at = Vertex_Private(w, k);
-
-    for (PetscInt j = f->m * k; j < f->m * (k + 1) && at >= 0; j++)
-      for (PetscInt i = 0; i < mi; i++)
-        for (PetscInt c = 0; c < D; c++) Z[i * nodes + at + c] += W[(nodes + j) * n + nodes + i] * w->R[j * width + own + c];
-  }
-  FoldImages_Private(w, nodes, Z, nodes, W, n);
-  for (PetscInt v = 0; v < na + w->num_mortar; v++)
-    for (PetscInt k = w->result.row_first[v]; k < w->result.row_first[v + 1]; k++)
-      for (PetscInt c = 0; c < D; c++) Scatter_Private(w, w->result.row_weight[k], W + (Row_Private(f, v) + c) * n, H + (D * w->result.row_node[k] + c) * nn);
-  PetscCall(PetscArrayzero(Z, nd * nn));
-  column = Z + nd * nn;
-  for (PetscInt i = 0; i < nd; i++) {
-    for (PetscInt l = 0; l < nodes; l++) column[l] = W[(D * na + i) * n + l] + W[l * n + D * na + i];
-    Scatter_Private(w, 1, column, Z + i * nn);
-  }
-  ContactRayProducts(nd, 1, nd, W + D * na * n + D * na, n, nn, w->J, nn, Z, nn);
-  ContactRayProducts(nd, 1, nn, w->J, nn, nn, Z, nn, H, nn);
-  for (PetscInt i = 0; i < nn; i++)
-    for (PetscInt j = 0; j <= i; j++) H[i * nn + j] = H[j * nn + i] = H[i * nn + j] + H[j * nn + i];
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* K[nodes][nodes] = K_nn + K_ni R, K both halves of W. */
-static void HalfChained_Private(RayWork w, PetscInt nodes, PetscReal Kin[], PetscReal K[])
+/* K[rows][nodes] = S_.n + S_.i R, S = W + W^T; work[images][rows]. */
+static void ImagesFollow_Private(RayWork w, PetscInt rows, PetscInt nodes, PetscReal work[], PetscReal K[])
 {
   const RayFacet  *f   = &w->facet;
-  const PetscInt   own = f->D * (f->s.num + f->nv), n = w->n, mi = n - nodes, width = Width_Private(f);
+  const PetscInt   own = f->D * (f->s.num + f->nv), n = w->n, width = Width_Private(f);
   const PetscReal *W = w->W;
 
-  for (PetscInt i = 0; i < nodes; i++)
+  for (PetscInt i = 0; i < rows; i++)
     for (PetscInt j = 0; j < nodes; j++) K[i * nodes + j] = W[i * n + j] + W[j * n + i];
-  for (PetscInt q = 0; q < mi; q++)
-    for (PetscInt i = 0; i < nodes; i++) Kin[q * nodes + i] = W[i * n + nodes + q] + W[(nodes + q) * n + i];
-  ContactRayProducts(mi, 1, nodes, Kin, nodes, own, w->R, width, K, nodes);
+  for (PetscInt q = 0; q < n - nodes; q++)
+    for (PetscInt i = 0; i < rows; i++) work[q * rows + i] = W[i * n + nodes + q] + W[(nodes + q) * n + i];
+  ContactRayProducts(n - nodes, 1, rows, work, rows, own, w->R, width, K, nodes);
   for (PetscInt k = 0; k < w->num_images; k++) {
     const PetscInt at = Vertex_Private(w, k);
 
     for (PetscInt q = f->m * k; q < f->m * (k + 1) && at >= 0; q++)
-      for (PetscInt i = 0; i < nodes; i++)
-        for (PetscInt c = 0; c < f->D; c++) K[i * nodes + at + c] += Kin[q * nodes + i] * w->R[q * width + own + c];
+      for (PetscInt i = 0; i < rows; i++)
+        for (PetscInt c = 0; c < f->D; c++) K[i * nodes + at + c] += work[q * rows + i] * w->R[q * width + own + c];
   }
 }
 
-PetscErrorCode ContactRayChainFrozen(RayWork w, PetscReal H[])
+PetscErrorCode ContactRayChainHessian(RayWork w, PetscReal H[])
 {
   const RayFacet *f = &w->facet;
   const PetscInt  D = f->D, na = f->s.num, nn = w->nn, nodes = D * (na + f->nv + w->num_mortar), mi = w->n - nodes, nd = D * f->nv;
+  const PetscInt  rows = w->frozen ? nodes : w->n;
   PetscReal      *K, *B, *columns;
 
   PetscFunctionBegin;
-  PetscCall(ContactGrow((mi + nodes + nn) * nodes + nd * nn, sizeof(PetscReal), &w->size_WJ, &w->WJ));
-  K       = w->WJ + mi * nodes;
-  B       = K + nodes * nodes;
+  PetscCall(ContactGrow(mi * rows + (rows + nn) * nodes + nd * nn, sizeof(PetscReal), &w->size_WJ, &w->WJ));
+  K       = w->WJ + mi * rows;
+  B       = K + rows * nodes;
   columns = B + nn * nodes;
-  HalfChained_Private(w, nodes, w->WJ, K);
+  ImagesFollow_Private(w, rows, nodes, w->WJ, K);
+  if (!w->frozen) FoldImages_Private(w, nodes, K + nodes * nodes, nodes, K, nodes);
   PetscCall(PetscArrayzero(B, nn * nodes));
   for (PetscInt v = 0; v < na + w->num_mortar; v++)
     for (PetscInt k = w->result.row_first[v]; k < w->result.row_first[v + 1]; k++)
@@ -273,5 +238,7 @@ PetscErrorCode ContactRayChainFrozen(RayWork w, PetscReal H[])
   for (PetscInt d = 0; d < nd; d++)
     for (PetscInt i = 0; i < nn; i++) columns[d * nn + i] = B[i * nodes + D * na + d];
   ContactRayProducts(nd, 1, nn, columns, nn, nn, w->J, nn, H, nn);
+  for (PetscInt i = 0; i < nn && !w->frozen; i++) /* symmetric but for rounding */
+    for (PetscInt j = 0; j < i; j++) H[i * nn + j] = H[j * nn + i] = 0.5 * (H[i * nn + j] + H[j * nn + i]);
   PetscFunctionReturn(PETSC_SUCCESS);
 }

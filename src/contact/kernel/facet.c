@@ -282,7 +282,7 @@ static PetscErrorCode Hessian_Private(const EvaluateContext *ctx, PetscInt facet
       }
     ContactRayProducts(1, 1, n, left, n, n, right, n, w->W, n);
   }
-  PetscCall(w->frozen ? ContactRayChainFrozen(w, H) : ContactRayChainHessian(w, H));
+  PetscCall(ContactRayChainHessian(w, H));
   ContactRayChainImages(w, 1, gradient);
   PetscCall(ContactRayDirectionCurvature(w, ctx->nonmortar, facet, gradient, H));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -325,10 +325,8 @@ PetscErrorCode ContactRayChain(RayWork, const ContactSurface *nonmortar, PetscIn
 void ContactRayChainImages(RayWork, PetscInt num, PetscReal X[]);
 /* to[num][nn] += X^T by the nodes, without the part by the images. */
 void ContactRayChainNodes(RayWork, PetscInt num, const PetscReal X[], PetscReal to[]);
-/* H = both halves of the work space's W, which changes. */
+/* H += both halves of the work space's W; forces at a held rim: not symmetric, H[i][j] derivative of force i by position j. */
 PetscErrorCode ContactRayChainHessian(RayWork, PetscReal H[]);
-/* The same for forces at a held rim, not symmetric: H[i][j] derivative of force i by position j. */
-PetscErrorCode ContactRayChainFrozen(RayWork, PetscReal H[]);
 PetscErrorCode ContactRayDirectionCurvature(RayWork, const ContactSurface *, PetscInt facet, const PetscReal gradient[], PetscReal H[]);
 
 /* facet.c */
