@@ -3,7 +3,7 @@
 
    All rays lie in a cone around the mean one: |x - X - s D| <= radius + |s| spread at length s. A mortar facet is seen when the ball around its nodes, twice as
    large since its picture in the chart has straight sides where its own are curved, meets the cone. */
-#include "rayimpl.h"
+#include "kernelimpl.h"
 
 /* Mean of points, and the greatest distance of one from it. */
 static PetscReal Ball_Private(PetscInt num, const PetscReal *x[], PetscInt dim, PetscReal middle[3])
@@ -34,7 +34,8 @@ void ContactRayBundle(const RayFacet *f, RayBundle *b)
 
 PetscBool ContactRayBundleMeets(const RayBundle *b, const ContactSurface *mortar, PetscInt facet)
 {
-  const PetscInt  *node, num              = ContactFacetNodes(mortar, facet, &node);
+  PetscInt         order1[4];
+  const PetscInt  *node, num              = ElementNumNodes(mortar->dim - 1, ContactFacetLattice(mortar, facet, &node, order1));
   const PetscReal *x[RAY_LATTICE], square = Dot3(b->D, b->D);
   PetscReal        r[3], radius, s, away = 0;
 
