@@ -1,8 +1,8 @@
-/* Sides of bodies that lie behind one another. The far side of a neighbour opposes a facet just like the near side of a body that overlaps its own: a tooth of
-   a thread sees, through itself and through the next tooth of the nut, that one's other flank. What tells them apart is how far in they are. Along a ray of the
-   nonmortar facet into its body, which meets the mortar facet at depth d, the own body measures t, and the other one, from there back towards the ray's
-   start, t'. If the bodies overlap, the mortar facet lies inside the own body or the start inside the other one: d <= max(t, t'). If it is the far side of a
-   body behind, all of both lies between: d >= t + t'. So what is deeper than (t + t') / 2 is no overlap.
+/* Culling of back faces. The far side of a neighbour opposes a facet just like the near side of a body that overlaps its own: a tooth of a thread sees, through
+   itself and through the next tooth of the nut, that one's other flank. What tells them apart is how far in they are. Along a ray of the nonmortar facet into
+   its body, which meets the mortar facet at depth d, the own body measures t, and the other one, from there back towards the ray's start, t'. If the bodies
+   overlap, the mortar facet lies inside the own body or the start inside the other one: d <= max(t, t'). If it is the far side of a body behind, all of both
+   lies between: d >= t + t'. So what is deeper than (t + t') / 2 is no overlap.
 
    Nor is what lies round a corner. Where the edge of one body lies on the other, its side faces the far side of that one, through all of it, along the surface
    on which they touch. There sides of both bodies that face each other run beside the ray: a to one side of its end, b to the other of its start. Across it the

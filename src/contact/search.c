@@ -1,6 +1,6 @@
 /* Candidate search: which mortar facets a nonmortar facet may meet while no node moves more than `margin`.
 
-   Which mortar facets reach into the region of a nonmortar facet's rays: region.c; of what is left the far sides of bodies behind go (culling.c).
+   Which mortar facets reach into the region of a nonmortar facet's rays: region.c; of what is left the far sides of bodies are culled (culling.c).
    Distances and normals are judged here and nowhere else: between two searches the result changes continuously with the positions. */
 #include "kernelimpl.h"
 
