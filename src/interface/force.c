@@ -1,31 +1,25 @@
 /* Forces of contact pairs and the rows of their multipliers in the residual. */
 #include "interfaceimpl.h"
 
-void ContactForcesZero_Private(Contact *c)
-{
-  for (PetscInt k = 0; k < 2; ++k) {
-    Surface *s = &c->side[k];
-    for (PetscInt n = 0; n < s->num_nodes; ++n)
-      for (PetscInt d = 0; d < s->dim && s->has[n]; ++d) s->force[s->dim * n + d] = 0;
-  }
-}
-
-/* Contact forces z_j grad gt_j, or z_j push_j, and what compliances that depend on w_j add to them, of this rank's facets into both sides' arrays. */
-static void FacetForces_Private(Contact *c)
+void ContactFacetForces_Private(Contact *c, const PetscReal z[], const PetscReal measure[])
 {
   const PetscInt dim = c->side[0].dim;
 
-  ContactForcesZero_Private(c);
+  for (PetscInt k = 0; k < 2; ++k) {
+    Surface *s = &c->side[k];
+    for (PetscInt n = 0; n < s->num_nodes; ++n)
+      for (PetscInt d = 0; d < dim && s->has[n]; ++d) s->force[dim * n + d] = 0;
+  }
   for (PetscInt i = 0; i < c->num_facets; ++i) {
     const ContactFacet *e    = &c->facets[i];
-    const PetscReal    *push = e->push ? e->push : e->dgap;
+    const PetscReal    *push = e->push && !measure ? e->push : e->dgap;
     if (!c->mine[e->facet] || !e->dgap) continue;
     for (PetscInt a = 0; a < e->num; ++a) {
       PetscReal *f = c->side[NODE_SIDE(e->nodes[a])].force + dim * NODE_INDEX(e->nodes[a]);
       for (PetscInt k = 0; k < e->num_rows; ++k) {
-        const PetscReal z  = c->has_multiplier[e->nodes[k]] ? c->z[e->nodes[k]] : 0;
-        const PetscInt  at = dim * (k * e->num + a);
-        for (PetscInt d = 0; d < dim && z != 0; ++d) f[d] += z * push[at + d];
+        const PetscInt j = e->nodes[k], at = dim * (k * e->num + a);
+        for (PetscInt d = 0; d < dim && c->has_multiplier[j] && z[j] != 0; ++d) f[d] += z[j] * push[at + d];
+        for (PetscInt d = 0; d < dim && measure && measure[j] != 0; ++d) f[d] -= measure[j] * e->dweight[at + d];
       }
     }
   }
@@ -56,7 +50,7 @@ PetscErrorCode InterfaceForces(Interface p, PetscReal local[])
 {
   PetscFunctionBegin;
   for (PetscInt i = 0; i < p->num_contacts; ++i) {
-    FacetForces_Private(&p->contacts[i]);
+    ContactFacetForces_Private(&p->contacts[i], p->contacts[i].z, NULL);
     PetscCall(ContactForcesSubtract_Private(p, &p->contacts[i], local));
   }
   PetscFunctionReturn(PETSC_SUCCESS);

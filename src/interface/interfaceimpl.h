@@ -146,7 +146,6 @@ struct _p_Interface {
   PetscInt            *part;      /* [num_cells of the coarse mesh] */
   PetscInt             num_inner; /* unknowns of this rank that the matrix lacks, the first of its vector */
   PetscReal            share;     /* of the misfit that counts as no gap */
-  PetscBool            grown;     /* the pattern, since the last matrix */
   MPI_Datatype         unit[4];   /* as many reals */
   ContactTraffic       traffic;
   PetscInt            *work_index;
@@ -219,8 +218,9 @@ PetscErrorCode ContactCreate_Private(Interface, const ContactSpec *, Contact *);
 PetscErrorCode ContactDestroy_Private(Contact *);
 PetscErrorCode ContactEvaluate_Private(Interface, Contact *, Vec x, const PetscReal local[], PetscReal pending, PetscBool derivatives, PetscBool hessian,
                                        PetscBool *failed);
-/* force.c: nodal forces of both sides, 0; from this rank's facets to the owners of their nodes, and there off r, in the nodes' frames. Collective. */
-void           ContactForcesZero_Private(Contact *);
+/* force.c: nodal forces sum_j z_j grad gt_j - measure_j grad w_j of this rank's facets on both sides; measure NULL: none, and held rims and lines count
+   (ContactFacet.push). From there to the owners of their nodes, and off r, in the nodes' frames. Collective. */
+void           ContactFacetForces_Private(Contact *, const PetscReal z[], const PetscReal measure[]);
 PetscErrorCode ContactForcesSubtract_Private(Interface, Contact *, PetscReal r[]);
 /* Does the form take the pair out of the tangent? */
 static inline PetscBool ContactIsReleased_Private(Interface p, const Contact *c)
