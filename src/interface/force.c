@@ -19,7 +19,7 @@ void ContactFacetForces_Private(Contact *c, const PetscReal z[], const PetscReal
       for (PetscInt k = 0; k < e->num_rows; ++k) {
         const PetscInt j = e->nodes[k], at = dim * (k * e->num + a);
         for (PetscInt d = 0; d < dim && c->has_multiplier[j] && z[j] != 0; ++d) f[d] += z[j] * push[at + d];
-        for (PetscInt d = 0; d < dim && measure && measure[j] != 0; ++d) f[d] -= measure[j] * e->dweight[at + d];
+        for (PetscInt d = 0; d < dim && measure && c->has_multiplier[j] && measure[j] != 0; ++d) f[d] -= measure[j] * e->dweight[at + d];
       }
     }
   }
@@ -45,13 +45,15 @@ PetscErrorCode ContactForcesSubtract_Private(Interface p, Contact *c, PetscReal 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Nodal contact forces -dL_c/dx = z_j grad gt_j on both sides. */
+/* Nodal contact forces -dL_c/dx = z_j grad gt_j on both sides, small kinematics: at fixed measure. */
 PetscErrorCode InterfaceForces(Interface p, PetscReal local[])
 {
   PetscFunctionBegin;
   for (PetscInt i = 0; i < p->num_contacts; ++i) {
-    ContactFacetForces_Private(&p->contacts[i], p->contacts[i].z, NULL);
-    PetscCall(ContactForcesSubtract_Private(p, &p->contacts[i], local));
+    Contact *c = &p->contacts[i];
+    for (PetscInt j = 0; j < c->side[0].num_nodes && c->mean0; ++j) c->change[j] = c->z[j] * c->mean0[j];
+    ContactFacetForces_Private(c, c->z, c->mean0 ? c->change : NULL);
+    PetscCall(ContactForcesSubtract_Private(p, c, local));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -63,9 +65,8 @@ PetscErrorCode InterfaceRows(Interface p, PetscReal r[])
     const Contact *c = &p->contacts[i];
     for (PetscInt j = 0; j < c->side[0].num_nodes; ++j) {
       if (c->zlocal[j] < 0) continue;
-      const ContactPoint point = ContactPoint_Private(c, j, 0);
-      ContactRow         row[MOST_MULTIPLIERS];
-      c->law->rows(&point, PETSC_FALSE, row);
+      ContactRow row[MOST_MULTIPLIERS];
+      ContactRows_Private(c, j, 0, PETSC_FALSE, row);
       for (PetscInt k = 0; k < c->num; ++k) r[c->zlocal[j] + k] = -row[k].side;
     }
   }
