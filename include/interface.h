@@ -131,8 +131,8 @@ PetscErrorCode InterfaceSetMultipliers(Interface, PetscInt pair, const PetscReal
    own[nonmortar.num_nodes] (NULL: not wanted): which these are. */
 PetscErrorCode InterfaceGetMultipliers(Interface, PetscInt pair, Vec x, PetscReal z[], PetscBool own[]);
 /* What room facets of a pair have been given in the matrix so far: facet f for nodes node[first[f] .. first[f+1]), mortar ones as ~node; borrowed, of facets
-   evaluated on this rank; first NULL: none yet. Set: that room again, of all facets of the pair (those evaluated elsewhere are not looked at); the matrix is
-   made anew when next asked for. Not collective. */
+   evaluated on this rank; first NULL: none yet. Set: that room again, of all facets of the pair (those evaluated elsewhere are not looked at). Not
+   collective. */
 PetscErrorCode InterfaceGetPattern(Interface, PetscInt pair, const PetscInt **first, const PetscInt **node);
 PetscErrorCode InterfaceSetPattern(Interface, PetscInt pair, const PetscInt first[], const PetscInt node[]);
 /* The deepest overlap of a pair's sides, at the reference positions or where they are now, that the search passes over since it cannot tell it from the far
@@ -199,7 +199,7 @@ PetscErrorCode InterfaceActiveSetHash(Interface, uint64_t *hash);
    those of lambda. Collective. */
 PetscErrorCode InterfaceMerit(Interface, PetscReal factor, Vec lambda, const PetscReal u[], PetscReal pending, PetscReal r[], Vec x, PetscReal *energy,
                               PetscBool *failed);
-/* At the last one, into a vector of the problem: overlap at each node over its extent along the surface, 0: open, -1: it meets nothing. */
+/* At the last one, in a vector of the problem: overlap at each node over its extent along the surface, 0: open, -1: it meets nothing. */
 PetscErrorCode InterfaceMeritDepth(Interface, Vec depth);
 /* Contact at x with its Hessian and which nodes press (open: none do); Hessians into the matrix, rows and columns of the multipliers. Collective. */
 PetscErrorCode InterfaceMeritEvaluate(Interface, Vec x, const PetscReal u[], PetscReal pending, PetscBool open, PetscBool *failed);

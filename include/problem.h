@@ -108,6 +108,8 @@ PetscErrorCode ProblemGetTime(Problem, Vec x, PetscReal *t);
 
 /* All contact pairs of the problem. Not collective. */
 Interface ProblemInterface(Problem);
+/* InterfaceSetPattern; the matrix is made anew when next asked for. Not collective. */
+PetscErrorCode ProblemSetPattern(Problem, PetscInt pair, const PetscInt first[], const PetscInt node[]);
 /* The candidate search at x; between Newton iterations only. */
 PetscErrorCode ProblemSearch(Problem, Vec x);
 
@@ -181,9 +183,6 @@ PetscErrorCode ProblemHasEnergy(Problem, PetscBool *yes);
    vector of the problem whose other entries are not looked at. The multipliers of x become max(0, lambda_j - kappa_j g_j). merit: the largest number where
    status->bad. Collective. */
 PetscErrorCode ProblemMerit(Problem, PetscReal factor, Vec lambda, Vec x, Vec gradient, PetscReal *merit, ProblemStatus *status);
-/* At the last ProblemMerit, in a vector of the problem: overlap at each node over its extent along the surface, 0: open, -1: it meets nothing. Not collective.
- */
-PetscErrorCode ProblemMeritDepth(Problem, Vec depth);
 /* The Hessian of Phi as a matrix that has it for its Schur complement (symmetric; the multipliers' block is negative definite), at x as ProblemMerit left it,
    into the problem's matrix. With lift: of the bodies alone, without contact, and in lift the forces of the prescribed motion still to come. Collective. */
 PetscErrorCode ProblemMeritTangent(Problem, PetscReal factor, Vec x, Vec lift, PetscBool *bad);

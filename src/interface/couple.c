@@ -227,23 +227,11 @@ PetscErrorCode ContactCreate_Private(Interface p, const ContactSpec *spec, Conta
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode FrozenDestroy_Private(Contact *c)
-{
-  PetscFunctionBegin;
-  if (!c->frozen) PetscFunctionReturn(PETSC_SUCCESS);
-  for (PetscInt i = 0; i < c->num_facets; ++i) {
-    PetscCall(PetscFree(c->frozen[i].nodes));
-    PetscCall(PetscFree(c->frozen[i].dgap));
-    PetscCall(PetscFree(c->frozen[i].dweight));
-  }
-  PetscCall(PetscFree(c->frozen));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 PetscErrorCode ContactDestroy_Private(Contact *c)
 {
   PetscFunctionBegin;
-  PetscCall(FrozenDestroy_Private(c));
+  PetscCall(PetscFree(c->frozen));
+  PetscCall(PetscFree(c->mean0));
   PetscCall(ContactPairDestroy(&c->pair));
   for (PetscInt k = 0; k < 2; ++k) PetscCall(PetscFree(c->part[k]));
   PetscCall(SurfaceDestroy_Private(&c->side[0]));
@@ -288,50 +276,37 @@ static void Activity_Private(Contact *c)
   }
 }
 
-/* Small kinematics: gaps are linear in the displacement. The weighted gap is frozen with its segments, measure and normals at the reference
-   positions; grad gt - (gt/w) grad w is its derivative with the measure held. */
+/* Small kinematics: gaps are linear in the displacement. The weighted gap is frozen with its segments, measure and normals at the reference positions, where
+   facets stay evaluated; grad gt - (gt/w) grad w is its derivative with the measure held. */
 static PetscErrorCode Freeze_Private(Interface p, Contact *c, PetscBool *failed)
 {
-  ContactSurface      side[2] = {SurfaceAt_Private(&c->side[0], c->side[0].X), SurfaceAt_Private(&c->side[1], c->side[1].X)};
-  const ContactFacet *facets;
+  const PetscInt num     = c->side[0].num_nodes;
+  ContactSurface side[2] = {SurfaceAt_Private(&c->side[0], c->side[0].X), SurfaceAt_Private(&c->side[1], c->side[1].X)};
 
   PetscFunctionBegin;
   PetscCall(ContactSearch_Private(p, c, PETSC_TRUE, 0));
   PetscCall(ContactPairHold(c->pair, PETSC_TRUE));
-  PetscCall(ContactPairEvaluate(c->pair, &side[0], &side[1], NULL, NULL, PETSC_TRUE, PETSC_FALSE, &c->num_facets, &facets, failed));
-  PetscCall(PetscMalloc1(c->num_facets, &c->frozen));
-  c->facets = facets;
+  PetscCall(ContactPairEvaluate(c->pair, &side[0], &side[1], NULL, NULL, PETSC_TRUE, PETSC_FALSE, &c->num_facets, &c->facets, failed));
   PetscCall(NodeSums_Private(p, c));
-  PetscCall(PetscArraycpy(c->gap0, c->gap, c->side[0].num_nodes));
+  PetscCall(PetscArraycpy(c->gap0, c->gap, num));
   PetscCall(ShareGaps_Private(p, c));
-  for (PetscInt i = 0; i < c->num_facets; ++i) {
-    const ContactFacet *f = &facets[i];
-    const PetscInt      n = p->dim * f->num;
-    PetscInt           *nodes;
-    PetscReal          *dgap, *dweight;
-    PetscCall(PetscMalloc1(f->num, &nodes));
-    PetscCall(PetscMalloc1(f->num_rows * n, &dgap));
-    PetscCall(PetscCalloc1(f->num_rows * n, &dweight));
-    PetscCall(PetscArraycpy(nodes, f->nodes, f->num));
-    for (PetscInt k = 0; k < f->num_rows; ++k) {
-      const PetscInt  j    = f->nodes[k];
-      const PetscReal mean = ContactCovered_Private(c, j) ? c->gap[j] / c->weight[j] : 0;
-      for (PetscInt a = 0; a < n; ++a) dgap[k * n + a] = f->dgap[k * n + a] - mean * f->dweight[k * n + a];
-    }
-    c->frozen[i]        = *f;
-    c->frozen[i].gap    = NULL; /* with gap0 */
-    c->frozen[i].weight = NULL;
-    c->frozen[i].reach  = NULL;
-    c->frozen[i].spring = c->frozen[i].stiffening = c->frozen[i].darea = NULL; /* with spring of the nodes */
-    c->frozen[i].nodes                                                 = nodes;
-    c->frozen[i].dgap                                                  = dgap;
-    c->frozen[i].dweight                                               = dweight;
-    c->frozen[i].hessian                                               = NULL;
-    c->frozen[i].push                                                  = NULL;
+  PetscCall(PetscCalloc1(num, &c->mean0));
+  for (PetscInt j = 0; j < num; ++j) {
+    if (ContactCovered_Private(c, j)) c->mean0[j] = c->gap[j] / c->weight[j];
   }
-  c->facets    = c->frozen;
-  c->is_frozen = PETSC_TRUE; /* also on a rank that has no edges: the next evaluation must not come here again */
+  PetscCall(PetscMalloc1(c->num_facets, &c->frozen));
+  PetscCall(PetscArraycpy(c->frozen, c->facets, c->num_facets));
+  for (PetscInt i = 0; i < c->num_facets; ++i) c->frozen[i].spring = c->frozen[i].push = NULL; /* compliances stay those of the nodes */
+  c->facets = c->frozen;
   PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+void ContactRows_Private(const Contact *c, PetscInt j, PetscReal lift, PetscBool symmetric, ContactRow row[])
+{
+  const ContactPoint point = ContactPoint_Private(c, j, lift);
+
+  c->law->rows(&point, symmetric, row);
+  for (PetscInt k = 0; k < c->num && c->mean0; ++k) row[k].mean = c->mean0[j];
 }
 
 /* Increment of the row of node k of an edge under nodal increments du of both sides. */
@@ -357,13 +332,13 @@ PetscErrorCode ContactChange_Private(Interface p, Contact *c, const PetscReal in
     const ContactFacet *e = &c->facets[i];
     for (PetscInt k = 0; k < e->num_rows && e->dgap; ++k) {
       const PetscInt j = e->nodes[k];
+      ContactRow     row[MOST_MULTIPLIERS];
       if (!s->owned[j]) continue;
       change[j] += FacetDot_Private(c, e, e->dgap + p->dim * k * e->num);
       if (!ContactCovered_Private(c, j)) continue;
-      const ContactPoint point                 = ContactPoint_Private(c, j, 0);
-      ContactRow         row[MOST_MULTIPLIERS] = {{.mean = c->gap[j] / c->weight[j]}};
-      if (c->active[j]) c->law->rows(&point, PETSC_FALSE, row);
-      change[j] -= row[0].mean * FacetDot_Private(c, e, e->dweight + p->dim * k * e->num);
+      ContactRows_Private(c, j, 0, PETSC_FALSE, row);
+      const PetscReal mean = c->active[j] || c->mean0 ? row[0].mean : c->gap[j] / c->weight[j];
+      change[j] -= mean * FacetDot_Private(c, e, e->dweight + p->dim * k * e->num);
       if (e->spring && row[0].along != 0) change[j] += e->stiffening[k] * row[0].along * FacetDot_Private(c, e, e->darea);
     }
   }
@@ -383,7 +358,8 @@ static void LinearGaps_Private(Interface p, Contact *c)
   for (PetscInt i = 0; i < c->num_facets; ++i) {
     const ContactFacet *e = &c->frozen[i];
     for (PetscInt k = 0; k < e->num_rows; ++k) {
-      if (own->owned[e->nodes[k]]) c->gap[e->nodes[k]] += FacetDot_Private(c, e, e->dgap + p->dim * k * e->num);
+      const PetscInt j = e->nodes[k], at = p->dim * k * e->num;
+      if (own->owned[j]) c->gap[j] += FacetDot_Private(c, e, e->dgap + at) - c->mean0[j] * FacetDot_Private(c, e, e->dweight + at);
     }
   }
 }
@@ -441,7 +417,7 @@ PetscErrorCode ContactEvaluate_Private(Interface p, Contact *c, Vec x, const Pet
 
   PetscFunctionBegin;
   p->traffic.evaluations++;
-  if (small && !c->is_frozen) PetscCall(Freeze_Private(p, c, failed));
+  if (small && !c->mean0) PetscCall(Freeze_Private(p, c, failed));
   PetscCall(GatherMultipliers_Private(p, c, x));
   for (PetscInt k = 0; k < 2; ++k) PetscCall(SurfaceGather_Private(p, &c->side[k], local, c->side[k].X, c->side[k].x));
   if (small)

@@ -1,31 +1,25 @@
 /* Forces of contact pairs and the rows of their multipliers in the residual. */
 #include "interfaceimpl.h"
 
-void ContactForcesZero_Private(Contact *c)
-{
-  for (PetscInt k = 0; k < 2; ++k) {
-    Surface *s = &c->side[k];
-    for (PetscInt n = 0; n < s->num_nodes; ++n)
-      for (PetscInt d = 0; d < s->dim && s->has[n]; ++d) s->force[s->dim * n + d] = 0;
-  }
-}
-
-/* Contact forces z_j grad gt_j, or z_j push_j, and what compliances that depend on w_j add to them, of this rank's facets into both sides' arrays. */
-static void FacetForces_Private(Contact *c)
+void ContactFacetForces_Private(Contact *c, const PetscReal z[], const PetscReal measure[])
 {
   const PetscInt dim = c->side[0].dim;
 
-  ContactForcesZero_Private(c);
+  for (PetscInt k = 0; k < 2; ++k) {
+    Surface *s = &c->side[k];
+    for (PetscInt n = 0; n < s->num_nodes; ++n)
+      for (PetscInt d = 0; d < dim && s->has[n]; ++d) s->force[dim * n + d] = 0;
+  }
   for (PetscInt i = 0; i < c->num_facets; ++i) {
     const ContactFacet *e    = &c->facets[i];
-    const PetscReal    *push = e->push ? e->push : e->dgap;
+    const PetscReal    *push = e->push && !measure ? e->push : e->dgap;
     if (!c->mine[e->facet] || !e->dgap) continue;
     for (PetscInt a = 0; a < e->num; ++a) {
       PetscReal *f = c->side[NODE_SIDE(e->nodes[a])].force + dim * NODE_INDEX(e->nodes[a]);
       for (PetscInt k = 0; k < e->num_rows; ++k) {
-        const PetscReal z  = c->has_multiplier[e->nodes[k]] ? c->z[e->nodes[k]] : 0;
-        const PetscInt  at = dim * (k * e->num + a);
-        for (PetscInt d = 0; d < dim && z != 0; ++d) f[d] += z * push[at + d];
+        const PetscInt j = e->nodes[k], at = dim * (k * e->num + a);
+        for (PetscInt d = 0; d < dim && c->has_multiplier[j] && z[j] != 0; ++d) f[d] += z[j] * push[at + d];
+        for (PetscInt d = 0; d < dim && measure && c->has_multiplier[j] && measure[j] != 0; ++d) f[d] -= measure[j] * e->dweight[at + d];
       }
     }
   }
@@ -51,13 +45,15 @@ PetscErrorCode ContactForcesSubtract_Private(Interface p, Contact *c, PetscReal 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Nodal contact forces -dL_c/dx = z_j grad gt_j on both sides. */
+/* Nodal contact forces -dL_c/dx = z_j grad gt_j on both sides, small kinematics: at fixed measure. */
 PetscErrorCode InterfaceForces(Interface p, PetscReal local[])
 {
   PetscFunctionBegin;
   for (PetscInt i = 0; i < p->num_contacts; ++i) {
-    FacetForces_Private(&p->contacts[i]);
-    PetscCall(ContactForcesSubtract_Private(p, &p->contacts[i], local));
+    Contact *c = &p->contacts[i];
+    for (PetscInt j = 0; j < c->side[0].num_nodes && c->mean0; ++j) c->change[j] = c->z[j] * c->mean0[j];
+    ContactFacetForces_Private(c, c->z, c->mean0 ? c->change : NULL);
+    PetscCall(ContactForcesSubtract_Private(p, c, local));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -69,9 +65,8 @@ PetscErrorCode InterfaceRows(Interface p, PetscReal r[])
     const Contact *c = &p->contacts[i];
     for (PetscInt j = 0; j < c->side[0].num_nodes; ++j) {
       if (c->zlocal[j] < 0) continue;
-      const ContactPoint point = ContactPoint_Private(c, j, 0);
-      ContactRow         row[MOST_MULTIPLIERS];
-      c->law->rows(&point, PETSC_FALSE, row);
+      ContactRow row[MOST_MULTIPLIERS];
+      ContactRows_Private(c, j, 0, PETSC_FALSE, row);
       for (PetscInt k = 0; k < c->num; ++k) r[c->zlocal[j] + k] = -row[k].side;
     }
   }

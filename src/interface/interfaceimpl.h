@@ -122,9 +122,8 @@ typedef struct {
   PetscReal            distance;   /* search distance */
   PetscInt             num_facets; /* results of the last evaluation */
   const ContactFacet  *facets;
-  ContactFacet        *frozen; /* small kinematics: linearised once at the reference positions */
-  PetscBool            is_frozen;
-  PetscReal           *gap0;                     /* [n] reference gaps, small kinematics */
+  ContactFacet        *frozen;                   /* small kinematics: those at the reference positions */
+  PetscReal           *gap0, *mean0;             /* [n] small kinematics: gaps there, over weights; mean0 NULL: not yet, or finite */
   PetscReal           *offset;                   /* [n] constant part of gt_j that does not count: initial gaps closed, interference */
   PetscReal           *misfit;                   /* [n] imbalance.c: what else does not count, times the share left */
   PetscInt            *pattern_offset, *pattern; /* [num_facets+1]: nodes each facet has room for in the matrix */
@@ -146,7 +145,6 @@ struct _p_Interface {
   PetscInt            *part;      /* [num_cells of the coarse mesh] */
   PetscInt             num_inner; /* unknowns of this rank that the matrix lacks, the first of its vector */
   PetscReal            share;     /* of the misfit that counts as no gap */
-  PetscBool            grown;     /* the pattern, since the last matrix */
   MPI_Datatype         unit[4];   /* as many reals */
   ContactTraffic       traffic;
   PetscInt            *work_index;
@@ -219,8 +217,9 @@ PetscErrorCode ContactCreate_Private(Interface, const ContactSpec *, Contact *);
 PetscErrorCode ContactDestroy_Private(Contact *);
 PetscErrorCode ContactEvaluate_Private(Interface, Contact *, Vec x, const PetscReal local[], PetscReal pending, PetscBool derivatives, PetscBool hessian,
                                        PetscBool *failed);
-/* force.c: nodal forces of both sides, 0; from this rank's facets to the owners of their nodes, and there off r, in the nodes' frames. Collective. */
-void           ContactForcesZero_Private(Contact *);
+/* force.c: nodal forces sum_j z_j grad gt_j - measure_j grad w_j of this rank's facets on both sides; measure NULL: none, and held rims and lines count
+   (ContactFacet.push). From there to the owners of their nodes, and off r, in the nodes' frames. Collective. */
+void           ContactFacetForces_Private(Contact *, const PetscReal z[], const PetscReal measure[]);
 PetscErrorCode ContactForcesSubtract_Private(Interface, Contact *, PetscReal r[]);
 /* Does the form take the pair out of the tangent? */
 static inline PetscBool ContactIsReleased_Private(Interface p, const Contact *c)
@@ -234,7 +233,7 @@ PetscErrorCode ContactInsert_Private(Mat, PetscInt num_rows, const PetscInt rows
 PetscErrorCode ContactFacetHessian_Private(Interface, const InterfaceSystem *, const Contact *, const ContactFacet *);
 PetscErrorCode ContactNodeGradient_Private(Interface, const Contact *, PetscInt j, const ContactRow *, PetscInt *num);
 PetscErrorCode ContactInsertRow_Private(Interface, const InterfaceSystem *, const Contact *, PetscInt j, const ContactRow row[]);
-/* Node j as its law sees it. */
+/* Node j as its law sees it, and its rows. */
 static inline ContactPoint ContactPoint_Private(const Contact *c, PetscInt j, PetscReal lift)
 {
   ContactPoint point = {c->spec, c->active[j], {0}, c->gap[j], c->weight[j], c->spring[j], c->w0[j], c->c[j], lift};
@@ -253,6 +252,7 @@ static inline PetscBool ContactPressed_Private(const Contact *c, PetscInt j)
 {
   return (PetscBool)(c->has_multiplier[j] && c->z[j] > SLACK * c->c[j] * c->extent[j]);
 }
+void ContactRows_Private(const Contact *, PetscInt j, PetscReal lift, PetscBool symmetric, ContactRow row[]);
 /* How far node j and the other side are into each other, after the change as linearised. */
 static inline PetscReal ContactOverlap_Private(const Contact *c, PetscInt j)
 {

@@ -15,7 +15,7 @@ static PetscReal Pressure_Private(const Contact *c, PetscInt j, PetscReal factor
   return c->has_multiplier[j] && ContactCovered_Private(c, j) ? PetscMax(0, lambda - factor * c->c[j] * c->gap[j] / c->weight[j]) : 0;
 }
 
-/* Multipliers of a vector from those of another, or from the gaps: z_j = max(0, lambda_j - kappa_j g_j), lambda_j in change. plus: z_j + lambda_j. */
+/* Multipliers of a vector from the gaps: z_j = max(0, lambda_j - kappa_j g_j), lambda_j in change. plus: z_j + lambda_j. */
 static PetscErrorCode SetMultipliers_Private(const Contact *c, PetscReal factor, PetscBool plus, Vec x)
 {
   PetscReal *to;
@@ -27,23 +27,6 @@ static PetscErrorCode SetMultipliers_Private(const Contact *c, PetscReal factor,
     if (c->zlocal[j] >= 0) to[c->zlocal[j]] = Pressure_Private(c, j, factor, c->change[j]) + (plus ? c->change[j] : 0);
   }
   PetscCall(VecRestoreArray(x, &to));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-static PetscErrorCode CopyMultipliers_Private(const Contact *c, Vec lambda, Vec x)
-{
-  const PetscReal *from;
-  PetscReal       *to;
-
-  PetscFunctionBegin;
-  PetscCall(VecGetArrayRead(lambda, &from));
-  PetscCall(VecGetArray(x, &to));
-  for (PetscInt i = 0; i < c->side[0].num_own; ++i) {
-    const PetscInt k = c->zlocal[c->side[0].own[i]];
-    if (k >= 0) to[k] = from[k];
-  }
-  PetscCall(VecRestoreArray(x, &to));
-  PetscCall(VecRestoreArrayRead(lambda, &from));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -60,28 +43,22 @@ static PetscReal Energy_Private(const Contact *c, PetscReal factor)
   return sum;
 }
 
-/* z_j dgt_j - a_j dw_j of this rank's facets into both sides' arrays, lambda_j in change. */
-static void FacetForces_Private(Contact *c, PetscReal factor)
+/* z_j dgt_j - a_j dw_j on both sides, lambda_j in change. */
+static PetscErrorCode Forces_Private(Contact *c, PetscReal factor)
 {
-  const PetscInt dim = c->side[0].dim;
+  PetscReal *z, *a;
 
-  ContactForcesZero_Private(c);
-  for (PetscInt i = 0; i < c->num_facets; ++i) {
-    const ContactFacet *e = &c->facets[i];
-    if (!c->mine[e->facet] || !e->dgap) continue;
-    for (PetscInt k = 0; k < e->num_rows; ++k) {
-      const PetscInt j = e->nodes[k];
-      if (!c->has_multiplier[j] || !ContactCovered_Private(c, j)) continue;
-      const PetscReal z = Pressure_Private(c, j, factor, c->change[j]);
-      const PetscReal a = (z * z - PetscSqr(c->change[j])) / (2 * factor * c->c[j]) + z * c->gap[j] / c->weight[j];
-      if (z == 0 && a == 0) continue;
-      for (PetscInt n = 0; n < e->num; ++n) {
-        PetscReal     *f  = c->side[NODE_SIDE(e->nodes[n])].force + dim * NODE_INDEX(e->nodes[n]);
-        const PetscInt at = dim * (k * e->num + n);
-        for (PetscInt d = 0; d < dim; ++d) f[d] += z * e->dgap[at + d] - a * e->dweight[at + d];
-      }
-    }
+  PetscFunctionBegin;
+  PetscCall(PetscCalloc2(c->side[0].num_nodes, &z, c->side[0].num_nodes, &a));
+  for (PetscInt i = 0; i < c->num_valued; ++i) {
+    const PetscInt j = c->valued_node[i];
+    if (!c->has_multiplier[j] || !ContactCovered_Private(c, j)) continue;
+    z[j] = Pressure_Private(c, j, factor, c->change[j]);
+    a[j] = (z[j] * z[j] - PetscSqr(c->change[j])) / (2 * factor * c->c[j]) + z[j] * c->gap[j] / c->weight[j];
   }
+  ContactFacetForces_Private(c, z, a);
+  PetscCall(PetscFree2(z, a));
+  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* One pair: its part of Phi, its forces off r (NULL: not wanted), its multipliers into x. Derivatives come of facets whose multipliers do not vanish: for them
@@ -90,14 +67,13 @@ static PetscErrorCode Pair_Private(Interface p, Contact *c, PetscReal factor, Ve
                                    PetscReal *energy, PetscBool *failed)
 {
   PetscFunctionBegin;
-  PetscCall(CopyMultipliers_Private(c, lambda, x));
-  PetscCall(ContactEvaluate_Private(p, c, x, u, pending, PETSC_FALSE, PETSC_FALSE, failed));
+  PetscCall(ContactEvaluate_Private(p, c, lambda, u, pending, PETSC_FALSE, PETSC_FALSE, failed));
   PetscCall(PetscArraycpy(c->change, c->z, c->side[0].num_nodes));
   *energy += Energy_Private(c, factor);
   if (r) {
     PetscCall(SetMultipliers_Private(c, factor, PETSC_TRUE, x));
     PetscCall(ContactEvaluate_Private(p, c, x, u, pending, PETSC_TRUE, PETSC_FALSE, failed));
-    FacetForces_Private(c, factor);
+    PetscCall(Forces_Private(c, factor));
     PetscCall(ContactForcesSubtract_Private(p, c, r));
   }
   PetscCall(SetMultipliers_Private(c, factor, PETSC_FALSE, x));
@@ -119,6 +95,7 @@ PetscErrorCode InterfaceMeritDepth(Interface p, Vec depth)
   PetscReal *to;
 
   PetscFunctionBegin;
+  PetscCall(VecSet(depth, 0));
   PetscCall(VecGetArray(depth, &to));
   for (PetscInt i = 0; i < p->num_contacts; ++i) {
     const Contact *c = &p->contacts[i];

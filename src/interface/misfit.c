@@ -4,11 +4,10 @@
 /* The constant by which the gap of a node contradicts its pressure: all of the gap where it presses, what lies over the other side where it does not. */
 static PetscReal Misfit_Private(const Contact *c, PetscInt j)
 {
-  const ContactPoint point = ContactPoint_Private(c, j, 0);
-  ContactRow         row[MOST_MULTIPLIERS];
+  ContactRow row[MOST_MULTIPLIERS];
 
   if (!c->has_multiplier[j] || !ContactCovered_Private(c, j)) return 0;
-  c->law->rows(&point, PETSC_FALSE, row);
+  ContactRows_Private(c, j, 0, PETSC_FALSE, row);
   return ContactPressed_Private(c, j) ? row[0].value : PetscMin(c->gap[j], 0);
 }
 

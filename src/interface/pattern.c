@@ -118,8 +118,7 @@ static PetscErrorCode Grow_Private(Contact *c)
 PetscErrorCode InterfaceGrow(Interface p, PetscBool *grown)
 {
   PetscFunctionBegin;
-  *grown   = p->grown;
-  p->grown = PETSC_FALSE;
+  *grown = PETSC_FALSE;
   for (PetscInt i = 0; i < p->num_contacts; ++i) {
     if (Holds_Private(&p->contacts[i])) continue;
     PetscCall(Grow_Private(&p->contacts[i]));
@@ -226,6 +225,5 @@ PetscErrorCode InterfaceSetPattern(Interface p, PetscInt pair, const PetscInt fi
   PetscCall(PetscFree(c->pattern));
   c->pattern_offset = offset;
   c->pattern        = list;
-  p->grown          = PETSC_TRUE;
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -101,9 +101,10 @@ static PetscErrorCode Blocks_Private(Interface p, const InterfaceSystem *a, Cont
     FacetDofs_Private(c, e, p->work_index);
     if (e->hessian) PetscCall(ContactFacetHessian_Private(p, a, c, e));
     for (PetscInt k = 0; k < e->num_rows && !a->symmetric; ++k) {
-      const PetscInt z = c->zdof[e->nodes[k]];
-      if (z < 0 || !c->near[e->nodes[k]]) continue;
-      for (PetscInt i = 0; i < n; ++i) p->work_value[i] = e->push ? -e->push[k * n + i] : -e->dgap[k * n + i];
+      const PetscInt  j = e->nodes[k], z = c->zdof[j];
+      const PetscReal mean = c->mean0 ? c->mean0[j] : 0;
+      if (z < 0 || !c->near[j]) continue;
+      for (PetscInt i = 0; i < n; ++i) p->work_value[i] = mean * e->dweight[k * n + i] - (e->push ? e->push : e->dgap)[k * n + i];
       for (PetscInt b = 0; b < e->num; ++b) Turn_Private(dim, Frame_Private(c, e->nodes[b]), p->work_value + dim * b, 1);
       PetscCall(ContactInsert_Private(a->matrix, n, p->work_index, 1, &z, p->work_value, ADD_VALUES));
     }
@@ -193,11 +194,10 @@ PetscErrorCode ContactInsertRow_Private(Interface p, const InterfaceSystem *a, c
 
 static PetscErrorCode InsertRow_Private(Interface p, const InterfaceSystem *a, const Contact *c, PetscInt j)
 {
-  const ContactPoint point = ContactPoint_Private(c, j, 0);
-  ContactRow         row[MOST_MULTIPLIERS];
+  ContactRow row[MOST_MULTIPLIERS];
 
   PetscFunctionBegin;
-  c->law->rows(&point, a->symmetric, row);
+  ContactRows_Private(c, j, 0, a->symmetric, row);
   PetscCall(ContactInsertRow_Private(p, a, c, j, row));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -205,7 +205,7 @@ static PetscErrorCode InsertRow_Private(Interface p, const InterfaceSystem *a, c
 /* Symmetric form, inactive: the known change -z_j of the multiplier goes to the forces (share: 1 to put it there, -1 to take it back). */
 static PetscErrorCode InactiveShift_Private(Interface p, const InterfaceSystem *a, Contact *c, PetscInt j, PetscReal share, Vec rhs)
 {
-  const ContactRow forces = {.factor = -share * c->z[j], .push = PETSC_TRUE};
+  const ContactRow forces = {.factor = -share * c->z[j], .mean = c->mean0 ? c->mean0[j] : 0, .push = PETSC_TRUE};
   PetscInt         num, at;
 
   PetscFunctionBegin;
@@ -227,10 +227,9 @@ static PetscErrorCode RowSides_Private(Interface p, const InterfaceSystem *a, Ve
   for (PetscInt i = 0; i < p->num_contacts; ++i) {
     const Contact *c = &p->contacts[i];
     for (PetscInt j = 0; j < c->side[0].num_nodes; ++j) {
-      const ContactPoint point = ContactPoint_Private(c, j, c->lift[j]);
-      ContactRow         row[MOST_MULTIPLIERS];
+      ContactRow row[MOST_MULTIPLIERS];
       if (c->zlocal[j] < 0) continue;
-      c->law->rows(&point, a->symmetric, row);
+      ContactRows_Private(c, j, c->lift[j], a->symmetric, row);
       for (PetscInt k = 0; k < c->num; ++k) b[c->zlocal[j] + k - p->num_inner] = row[k].side;
     }
   }

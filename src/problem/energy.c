@@ -90,14 +90,6 @@ PetscErrorCode ProblemMerit(Problem p, PetscReal factor, Vec lambda, Vec x, Vec 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode ProblemMeritDepth(Problem p, Vec depth)
-{
-  PetscFunctionBegin;
-  PetscCall(VecSet(depth, 0));
-  PetscCall(InterfaceMeritDepth(p->interface, depth));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 PetscErrorCode ProblemMeritTangent(Problem p, PetscReal factor, Vec x, Vec lift, PetscBool *bad)
 {
   const PetscBool alone = (PetscBool)(lift != NULL), symmetric = p->symmetric;

@@ -152,6 +152,14 @@ Interface ProblemInterface(Problem p)
   return p->interface;
 }
 
+PetscErrorCode ProblemSetPattern(Problem p, PetscInt pair, const PetscInt first[], const PetscInt node[])
+{
+  PetscFunctionBegin;
+  PetscCall(InterfaceSetPattern(p->interface, pair, first, node));
+  PetscCall(MatDestroy(&p->matrix));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode ProblemCreateVector(Problem p, Vec *x)
 {
   PetscFunctionBegin;

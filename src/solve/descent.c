@@ -215,7 +215,7 @@ static PetscErrorCode Through_Private(Descent *d, PetscBool pressed, PetscBool *
   PetscReal        largest[2] = {0, 0};
 
   PetscFunctionBegin;
-  PetscCall(ProblemMeritDepth(d->problem, d->next));
+  PetscCall(InterfaceMeritDepth(ProblemInterface(d->problem), d->next));
   PetscCall(VecGetLocalSize(d->next, &num));
   PetscCall(VecGetArrayRead(d->depth, &depth));
   PetscCall(VecGetArrayRead(d->next, &next));
@@ -280,7 +280,7 @@ PetscErrorCode DescentLinearise_Private(Descent *d, Vec x, PetscBool *done, Pets
   PetscCall(ProblemMerit(d->problem, PENALTY, d->lambda, x, d->gradient, &d->merit, &d->status));
   *ok = (PetscBool)!d->status.bad;
   if (!*ok) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(ProblemMeritDepth(d->problem, d->depth));
+  PetscCall(InterfaceMeritDepth(ProblemInterface(d->problem), d->depth));
   PetscCall(VecNorm(d->gradient, NORM_2, &norm));
   PetscCall(PetscInfo(d->ksp, "Phi %.15g, forces out of balance %g of %g\n", (double)d->merit, (double)norm, (double)d->status.scale));
   *done = (PetscBool)(norm <= RTOL * d->status.scale);
@@ -325,7 +325,7 @@ static PetscErrorCode Piece_Private(Descent *d, Vec x, PetscBool *ok)
   PetscCall(ProblemSearch(d->problem, x));
   PetscCall(ProblemMerit(d->problem, PENALTY, d->lambda, x, NULL, &d->merit, &d->status));
   if (d->status.bad) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(ProblemMeritDepth(d->problem, d->depth));
+  PetscCall(InterfaceMeritDepth(ProblemInterface(d->problem), d->depth));
   PetscCall(ProblemMeritTangent(d->problem, PENALTY, x, d->lift, &bad));
   if (bad) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(ProblemGetMatrix(d->problem, &A));

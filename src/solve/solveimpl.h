@@ -119,7 +119,7 @@ typedef struct {
   Solver        solver;
   Problem       problem;
   KSP           ksp;
-  Vec           trial, gradient, dx, lambda, depth, next; /* of the problem; depth: overlaps at the iterate (ProblemMeritDepth), next: at a trial */
+  Vec           trial, gradient, dx, lambda, depth, next; /* of the problem; depth: overlaps at the iterate (InterfaceMeritDepth), next: at a trial */
   Vec           lift, rhs, y, diagonal, work;             /* of the matrix; diagonal: of the shift, 0 at multipliers */
   PetscBool     measured;                                 /* diagonal is known */
   PetscReal     shift;                                    /* of the last direction */

@@ -82,7 +82,7 @@ PetscErrorCode PatternUnpack_Private(Problem problem, PetscInt pair, Vec field)
                     "-restart: pattern.%s of the checkpoint names node %g, which is not there", scene->contacts[pair].name, (double)value);
     node[i] = (PetscInt)value;
   }
-  PetscCall(InterfaceSetPattern(ProblemInterface(problem), pair, first, node));
+  PetscCall(ProblemSetPattern(problem, pair, first, node));
   PetscCall(PetscFree2(first, node));
   PetscCall(PlacesDestroy_Private(&p));
   PetscFunctionReturn(PETSC_SUCCESS);
