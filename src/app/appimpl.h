@@ -14,6 +14,9 @@
 #define NOTHING_LEFT "nothing left to refine"
 #define INVERTS "refinement inverts a curved cell"
 
+/* all: what is marked, states carried over; afresh: the same, states at rest; unfolded: all but the cells in which the state is folded. */
+typedef enum { REFINE_ALL, REFINE_AFRESH, REFINE_UNFOLDED } RefineMode;
+
 /* A load step whose estimated error stayed above the tolerance: at t, and why; norm: largest energy norm from it to the step at hand. */
 typedef struct {
   PetscReal t, error, norm;
@@ -71,7 +74,7 @@ PetscErrorCode AppLayers(App *, const Estimate *, MarkList *layers);
 /* Adapt to these layers (taken over), if any, else mark and adapt. The level is another one then, its states carried over or (afresh) at rest at t = 0, and the
    old one is the caller's; *adapted false when nothing may or need be refined, or (refused) the mesh could not be made, and app->adapt_stop says why.
    Collective. */
-PetscErrorCode AppRefine(App *, const Estimate *, MarkList *layers, PetscBool afresh, PetscBool *adapted, PetscBool *refused);
+PetscErrorCode AppRefine(App *, const Estimate *, MarkList *layers, RefineMode, PetscBool *adapted, PetscBool *refused);
 /* verdict.c: adaptation of the state has ended at app->adapt_stop with this estimated error (absolute) and energy norm; refused: the mesh could not be refined
    as asked. */
 PetscErrorCode AppJudge(App *, PetscReal error, PetscReal norm, PetscBool refused);

@@ -89,9 +89,37 @@ static PetscErrorCode Carry_Private(const Level *old, const ForestMap *map, Leve
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The level on the mesh that the list asks for takes the place of the one at hand, which is the caller's then; refused: it stays. */
-static PetscErrorCode MoveTo_Private(App *app, MarkList *list, const int8_t order[], const PetscReal weight[], PetscBool afresh, const char **refused,
-                                     PetscBool *more)
+/* Between its integration points a solution may be folded (at the end of a bonded edge, say): points of smaller cells see it, and there may be no equilibrium
+   on them. The cells of the list where the state that was carried over is folded stay as they are; *more: there are some. */
+static PetscErrorCode KeepFolded_Private(const Level *old, const ForestMap *map, const Level *next, MarkList *list, int8_t order[], PetscBool *more)
+{
+  int8_t *folded;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(map->num, &folded));
+  PetscCall(ProblemFindFolded(next->problem, next->state.x, folded));
+  for (PetscInt l = 0; l < map->num; ++l) {
+    const PetscInt leaf = map->old_first[l];
+    if (!folded[l] || (!list->split[leaf] && (!order || order[leaf] <= old->state.leaf_order[leaf]))) continue;
+    list->split[leaf] = 0;
+    if (order) order[leaf] = old->state.leaf_order[leaf];
+    *more = PETSC_TRUE;
+  }
+  PetscCall(PetscFree(folded));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Is anything left to refine? */
+static PetscBool IsMarked_Private(const Level *l, PetscInt num_leaves, const MarkList *list, const int8_t order[])
+{
+  for (PetscInt leaf = 0; leaf < num_leaves; ++leaf)
+    if (list->split[leaf] || (order && order[leaf] > l->state.leaf_order[leaf])) return PETSC_TRUE;
+  return PETSC_FALSE;
+}
+
+/* The level on the mesh that the list asks for takes the place of the one at hand, which is the caller's then; refused: it stays. *more: the list has changed.
+ */
+static PetscErrorCode MoveTo_Private(App *app, MarkList *list, int8_t order[], const PetscReal weight[], RefineMode mode, const char **refused, PetscBool *more)
 {
   PetscInt  num_pairs, (*pairs)[2];
   Level     next;
@@ -104,12 +132,17 @@ static PetscErrorCode MoveTo_Private(App *app, MarkList *list, const int8_t orde
   PetscCall(ForestAdapt(app->level.forest, list, weight, num_pairs, (const PetscInt(*)[2])pairs, &forest, &map));
   PetscCall(StageEnd(STAGE_MESH));
   PetscCall(PetscFree(pairs));
-  PetscCall(Create_Private(app, forest, order, &map, afresh ? 0 : app->level.state.t, list, &next, refused, more));
+  PetscCall(Create_Private(app, forest, order ? order : app->level.state.leaf_order, &map, mode == REFINE_AFRESH ? 0 : app->level.state.t, list, &next, refused,
+                           more));
   if (!*refused) {
     PetscCall(StageBegin(STAGE_TRANSFER));
-    if (!afresh) PetscCall(Carry_Private(&app->level, &map, &next));
+    if (mode != REFINE_AFRESH) PetscCall(Carry_Private(&app->level, &map, &next));
+    if (mode == REFINE_UNFOLDED) PetscCall(KeepFolded_Private(&app->level, &map, &next, list, order, more));
     PetscCall(StageEnd(STAGE_TRANSFER));
-    app->level = next;
+    if (*more)
+      PetscCall(LevelDestroy(&next));
+    else
+      app->level = next;
   }
   PetscCall(ForestMapDestroy(&map));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -128,7 +161,7 @@ PetscErrorCode AppLayers(App *app, const Estimate *e, MarkList *layers)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode AppRefine(App *app, const Estimate *e, MarkList *layers, PetscBool afresh, PetscBool *adapted, PetscBool *refused)
+PetscErrorCode AppRefine(App *app, const Estimate *e, MarkList *layers, RefineMode mode, PetscBool *adapted, PetscBool *refused)
 {
   const ForestTables *t;
   MarkList            list   = *layers;
@@ -147,7 +180,12 @@ PetscErrorCode AppRefine(App *app, const Estimate *e, MarkList *layers, PetscBoo
     PetscCall(PetscArraycpy(order, app->level.state.leaf_order, t->num_leaves));
   for (PetscInt l = 0; order && l < t->num_leaves; ++l) weight[l] = PetscPowInt(order[l], t->dim);
   if (marked == 0) app->adapt_stop = e->num_leaves >= app->data->adapt.max_cells / 2 ? "max_cells" : NOTHING_LEFT;
-  while (marked > 0 && more) PetscCall(MoveTo_Private(app, &list, order ? order : app->level.state.leaf_order, weight, afresh, &words, &more));
+  while (marked > 0 && more) {
+    PetscCall(MoveTo_Private(app, &list, order, weight, mode, &words, &more));
+    if (!more || IsMarked_Private(&app->level, t->num_leaves, &list, order)) continue;
+    words = NONE_FINER;
+    more  = PETSC_FALSE;
+  }
   if (words) app->adapt_stop = words;
   *adapted = (PetscBool)(marked > 0 && !words);
   *refused = (PetscBool)(words != NULL);
