@@ -79,6 +79,51 @@ def test_what_a_killed_run_leaves(tmp_path):
     assert second.summary["status"] == "stopped" and not (tmp_path / "out" / "lock").exists()
 
 
+def ranks_of(process):
+    """Processes that mpiexec has started."""
+    return [int(pid) for pid in subprocess.run(["ps", "-o", "pid=", "--ppid", str(process.pid)], capture_output=True, text=True).stdout.split()]
+
+
+def running(pid):
+    try:
+        return pathlib.Path(f"/proc/{pid}/stat").read_text().rsplit(")", 1)[1].split()[0] != "Z"
+    except OSError:
+        return False
+
+
+def test_what_is_left_of_a_run(tmp_path):
+    """A process that has not noticed that the others are gone keeps the next run away until it has."""
+    text = block(tmp_path, **MANY)
+    first = start(tmp_path, text=text, ranks=2)
+    wait_for(lambda: rows(tmp_path / "out") > 1, first)
+    leader = int((tmp_path / "out" / "lock").read_text().split()[1])
+    last, = [pid for pid in ranks_of(first) if pid != leader]
+    os.kill(last, signal.SIGSTOP)
+    for pid in first.pid, leader:
+        os.kill(pid, signal.SIGKILL)
+    first.communicate()
+    done = rows(tmp_path / "out")
+    refused_run = resumed(tmp_path)
+    assert refused_run.returncode == 1 and f"what is left of a run, process {leader}" in refused_run.stderr and rows(tmp_path / "out") == done, refused_run
+    os.kill(last, signal.SIGKILL)
+    end = time.time() + 10
+    while running(last) and time.time() < end:
+        time.sleep(0.02)
+    again = resumed(tmp_path, "-max_seconds", 0.2)
+    assert again.returncode == 3 and again.summary["load_steps"] >= done - 1, again
+
+
+def test_starts_at_the_same_time(tmp_path):
+    """None of them takes away what another has just made; without mpiexec there is nothing to take away."""
+    (tmp_path / "tmp").mkdir()
+    env = {**os.environ, "TMPDIR": str(tmp_path / "tmp")}
+    for _ in range(5):
+        processes = [subprocess.Popen([PROGRAM, "--version"], env=env, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) for _ in range(4)]
+        for process in processes:
+            assert process.communicate(timeout=60) == ("mortise 0.1.0\n", "") and process.returncode == 0
+            assert not os.listdir(tmp_path / "tmp")
+
+
 def test_nothing_is_written_without_the_lock(tmp_path):
     text = block(tmp_path, **MANY)
     first = start(tmp_path, text=text)
