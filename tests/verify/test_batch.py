@@ -104,8 +104,8 @@ def test_what_is_left_of_a_run(tmp_path):
     first.communicate()
     done = rows(tmp_path / "out")
     refused_run = resumed(tmp_path)
-    assert refused_run.returncode == 1 and f"what is left of a run, process {leader}" in refused_run.stderr and rows(tmp_path / "out") == done, refused_run
     os.kill(last, signal.SIGKILL)
+    assert refused_run.returncode == 1 and f"what is left of a run, process {leader}" in refused_run.stderr and rows(tmp_path / "out") == done, refused_run
     end = time.time() + 10
     while running(last) and time.time() < end:
         time.sleep(0.02)
