@@ -73,6 +73,15 @@ static PetscBool Facing_Private(Scene s, uint64_t a, uint64_t b)
   return PETSC_FALSE;
 }
 
+/* Is it on a side of a pair? Bodies in contact may also overlap. */
+static PetscBool InContact_Private(Scene s, uint64_t boundary)
+{
+  for (PetscInt i = 0; i < s->data.num_contacts; ++i) {
+    if ((boundary >> s->data.contacts[i].nonmortar | boundary >> s->data.contacts[i].mortar) & 1) return PETSC_TRUE;
+  }
+  return PETSC_FALSE;
+}
+
 /* Nodes that coincide with others of the body (0), or of another one (1): how many, and of which bodies and where the first is. */
 typedef struct {
   PetscInt  num[2], body[2][2];
@@ -94,6 +103,7 @@ static void Note_Private(Coincident *c, const ForestTables *t, const Place *p, c
 typedef struct {
   PetscInt  num, corner[4];
   PetscReal X[4][3], lo, hi; /* lo, hi: its range along the direction of the places */
+  uint64_t  boundary;        /* groups of it, its edges and corners */
 } Side;
 
 /* Is the place on the side, away from its corners? Newton's method for the nearest point of the bilinear surface, of the straight line where there are two. */
@@ -147,11 +157,10 @@ static PetscErrorCode Side_Private(Forest forest, const ForestTables *t, PetscIn
   const PetscInt n = t->dim == 2 ? 3 : 9;
 
   PetscFunctionBegin;
-  f->num = 0;
-  f->lo  = PETSC_MAX_REAL;
-  f->hi  = PETSC_MIN_REAL;
+  *f = (Side){.lo = PETSC_MAX_REAL, .hi = PETSC_MIN_REAL};
   for (PetscInt i = 0; i < n; ++i) {
     const PetscInt v = t->closure[t->closure_offset[facet] + i];
+    f->boundary |= t->boundary[v];
     if (v >= t->first[1]) continue;
     PetscCall(SceneVertex(forest, v, f->X[f->num]));
     const PetscReal key = Dot3(along, f->X[f->num]);
@@ -193,12 +202,13 @@ static PetscErrorCode TellHanging_Private(Scene s, Forest forest, const CoarseMe
     Side f;
     PetscCall(Side_Private(forest, t, facet[k], &f));
     for (PetscInt i = From_Private(places, t->first[1], f.lo - near); i < t->first[1] && places[i].key <= f.hi + near; ++i) {
-      const Place *p = places + i;
-      if (!free_vertex[p->vertex] || !IsOn_Private(&f, p->X, near) || Facing_Private(s, t->boundary[p->vertex], t->boundary[facet[k]])) continue;
+      const Place   *p       = places + i;
+      const PetscInt body[2] = {t->leaf_body[t->entity_leaf[p->vertex]], t->leaf_body[t->entity_leaf[facet[k]]]};
+      if (!free_vertex[p->vertex] || !IsOn_Private(&f, p->X, near) || Facing_Private(s, t->boundary[p->vertex], f.boundary)) continue;
+      if (body[0] != body[1] && InContact_Private(s, t->boundary[p->vertex])) continue;
       free_vertex[p->vertex] = 0; /* once */
       if (told++) continue;
-      bodies[0] = t->leaf_body[t->entity_leaf[p->vertex]];
-      bodies[1] = t->leaf_body[t->entity_leaf[facet[k]]];
+      PetscCall(PetscArraycpy(bodies, body, 2));
       PetscCall(PetscArraycpy(X, p->X, 3));
     }
   }

@@ -345,14 +345,12 @@ def test_a_mesh_that_hangs(run, tmp_path, aside):
 
 
 def test_what_hangs_in_space(run, tmp_path):
-    """Cells of half the size on a block; with a pair between them there is nothing to tell."""
+    """Cells of half the size on a block, a side of each in one plane; with a pair between them there is nothing to tell."""
     from boxmesh import linspace, write
-    keys = {"mesh": {"file": "blocks.msh"}, "model": "3d", "body": {"l": {"material": "m"}, "u": {"material": "m"}},
-            "boundary": {"z0_l": {"fix": "xyz"}, "z1_u": {"displacement": {"x": 0, "y": 0, "z": -0.05}}}}
-    write(tmp_path / "blocks.msh", [linspace(0, 1, 1)] * 3, [lambda x, y, z: (x, y, z), lambda x, y, z: (x / 2 + 0.1, y / 2 + 0.1, 1 + z)],
+    write(tmp_path / "blocks.msh", [linspace(0, 1, 1)] * 3, [lambda x, y, z: (x, y, z), lambda x, y, z: (x / 2 + 0.1, y / 2, 1 + z)],
           side=lambda name, centre, b: f"{name}_{'lu'[b]}", body=lambda centre, b: "lu"[b])
-    pair = {"contact": {"p": {"nonmortar": "z0_u", "mortar": "z1_l"}}}
-    for more, told in ({}, True), (pair, False):
-        text = block(tmp_path, **keys, **more)
+    for contact, told in ({}, True), ({"p": {"nonmortar": "z0_u", "mortar": "z1_l"}}, False):
+        text = block(tmp_path, mesh={"file": "blocks.msh"}, model="3d", body={"l": {"material": "m"}, "u": {"material": "m"}}, contact=contact,
+                     boundary={"z0_l": {"fix": "xyz"}, "z1_u": {"displacement": {"x": 0, "y": 0, "z": -0.05}}})
         said = run("s.yml", "-check", text=text).stdout
         assert ("4 nodes lie on sides of cells" in said) == told, said
