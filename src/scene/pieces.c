@@ -73,15 +73,6 @@ static PetscBool Facing_Private(Scene s, uint64_t a, uint64_t b)
   return PETSC_FALSE;
 }
 
-/* Is it on a side of a pair? Bodies in contact may also overlap. */
-static PetscBool InContact_Private(Scene s, uint64_t boundary)
-{
-  for (PetscInt i = 0; i < s->data.num_contacts; ++i) {
-    if ((boundary >> s->data.contacts[i].nonmortar | boundary >> s->data.contacts[i].mortar) & 1) return PETSC_TRUE;
-  }
-  return PETSC_FALSE;
-}
-
 /* Nodes that coincide with others of the body (0), or of another one (1): how many, and of which bodies and where the first is. */
 typedef struct {
   PetscInt  num[2], body[2][2];
@@ -133,8 +124,8 @@ static PetscBool IsOn_Private(const Side *f, const PetscReal X[3], PetscReal nea
   return (PetscBool)(r >= -COINCIDE && r <= 1 + COINCIDE && s >= -COINCIDE && s <= 1 + COINCIDE && Dot3(d, d) <= PetscSqr(near));
 }
 
-/* The sides of cells that have no neighbour there; the vertices on them are marked. */
-static PetscErrorCode FreeSides_Private(const ForestTables *t, PetscInt *num, PetscInt **facet, int8_t free_vertex[])
+/* The sides of cells that have no neighbour there; the vertices on them are marked. groups: of those of each body. */
+static PetscErrorCode FreeSides_Private(const ForestTables *t, PetscInt *num, PetscInt **facet, int8_t free_vertex[], uint64_t groups[])
 {
   const PetscInt first = t->first[t->dim - 1], all = t->first[t->dim] - first, n = t->dim == 2 ? 3 : 9;
 
@@ -144,6 +135,7 @@ static PetscErrorCode FreeSides_Private(const ForestTables *t, PetscInt *num, Pe
   for (PetscInt e = 0; e < all; ++e) {
     if (t->facet_leaf[2 * e] >= 0 && t->facet_leaf[2 * e + 1] >= 0) continue;
     (*facet)[(*num)++] = first + e;
+    groups[t->leaf_body[t->entity_leaf[first + e]]] |= t->boundary[first + e];
     for (PetscInt i = 0; i < n; ++i) {
       const PetscInt v = t->closure[t->closure_offset[first + e] + i];
       if (v < t->first[1]) free_vertex[v] = 1;
@@ -193,11 +185,12 @@ static PetscErrorCode TellHanging_Private(Scene s, Forest forest, const CoarseMe
   PetscInt            num, *facet, told = 0, bodies[2] = {0, 0};
   PetscReal           X[3] = {0, 0, 0};
   int8_t             *free_vertex;
+  uint64_t           *groups;
 
   PetscFunctionBegin;
   PetscCall(ForestGetTables(forest, &t));
-  PetscCall(PetscCalloc1(t->first[1], &free_vertex));
-  PetscCall(FreeSides_Private(t, &num, &facet, free_vertex));
+  PetscCall(PetscCalloc2(t->first[1], &free_vertex, m->num_bodies, &groups));
+  PetscCall(FreeSides_Private(t, &num, &facet, free_vertex, groups));
   for (PetscInt k = 0; k < num; ++k) {
     Side f;
     PetscCall(Side_Private(forest, t, facet[k], &f));
@@ -205,14 +198,14 @@ static PetscErrorCode TellHanging_Private(Scene s, Forest forest, const CoarseMe
       const Place   *p       = places + i;
       const PetscInt body[2] = {t->leaf_body[t->entity_leaf[p->vertex]], t->leaf_body[t->entity_leaf[facet[k]]]};
       if (!free_vertex[p->vertex] || !IsOn_Private(&f, p->X, near) || Facing_Private(s, t->boundary[p->vertex], f.boundary)) continue;
-      if (body[0] != body[1] && InContact_Private(s, t->boundary[p->vertex])) continue;
-      free_vertex[p->vertex] = 0; /* once */
+      if (body[0] != body[1] && Facing_Private(s, groups[body[0]], groups[body[1]])) continue; /* bodies in contact may overlap */
+      free_vertex[p->vertex] = 0;                                                              /* once */
       if (told++) continue;
       PetscCall(PetscArraycpy(bodies, body, 2));
       PetscCall(PetscArraycpy(X, p->X, 3));
     }
   }
-  PetscCall(PetscFree(free_vertex));
+  PetscCall(PetscFree2(free_vertex, groups));
   PetscCall(PetscFree(facet));
   if (told)
     PetscCall(WarningAdd(s->comm,
