@@ -178,6 +178,8 @@ static PetscErrorCode Main_Private(int argc, char **argv, int *status)
   PetscCall(StageRegister());
   if (Asked_Private(argc, argv, "-help") || Asked_Private(argc, argv, "--help") || Asked_Private(argc, argv, "-h"))
     PetscCall(Help_Private());
+  else if (Asked_Private(argc, argv, "--version"))
+    PetscCall(PetscPrintf(PETSC_COMM_WORLD, "mortise %s\n", MORTISE_VERSION));
   else if (Asked_Private(argc, argv, "-list"))
     PetscCall(ScenePrintList(PETSC_COMM_WORLD));
   else {

@@ -4,6 +4,7 @@
 #include <muParserDLL.h>
 
 #define EXPRESSION_LENGTH 4000 /* characters; muParser itself stops at 5000 */
+#define WORDS 80               /* of longer ones the place of an error is told only */
 
 struct _p_Expression {
   char            *key, *text; /* owned */
@@ -52,7 +53,11 @@ static PetscErrorCode Parse_Private(Expression e)
   mupSetExpr(e->parser, e->text);
   value = mupEvalMulti(e->parser, &num);
   if (mupError(e->parser)) {
-    PetscCall(ErrorInput("%s: \"%s\" is neither a number nor an expression in X, Y, Z, t and pi: %s", e->key, e->text, mupGetErrorMsg(e->parser)));
+    char place[64];
+    (void)snprintf(place, sizeof(place), "there is an error at character %d", PetscMax(mupGetErrorPos(e->parser) + 1, 1));
+    /* muParser's own words repeat what they speak of, in a buffer that has room for little of it. */
+    PetscCall(ErrorInput("%s: \"%s\" is neither a number nor an expression in X, Y, Z, t and pi: %s", e->key, e->text,
+                         strlen(e->text) > WORDS ? place : mupGetErrorMsg(e->parser)));
   }
   PetscCheckInput(value && num == 1, "%s: \"%s\" gives %d values, not one", e->key, e->text, num);
   for (int i = 0, n = mupGetExprVarNum(e->parser); i < n; ++i) {

@@ -40,13 +40,27 @@ static Holder Me_Private(void)
   return h;
 }
 
+/* Has the process of that number ended, though nobody has asked how? Then its number is still taken. */
+static PetscBool HasEnded_Private(int pid)
+{
+  char  path_of[64], line[512] = "";
+  FILE *file;
+
+  (void)snprintf(path_of, sizeof(path_of), "/proc/%d/stat", pid);
+  file = fopen(path_of, "r");
+  if (!file) return PETSC_FALSE;
+  const char *name = fgets(line, sizeof(line), file) ? strrchr(line, ')') : NULL; /* number (name) state */
+  (void)fclose(file);
+  return (PetscBool)(name && name[1] == ' ' && name[2] == 'Z');
+}
+
 /* Does a process of this machine have that number? Of other machines: yes. */
 static PetscBool Lives_Private(const Holder *h)
 {
   const Holder me = Me_Private();
 
   if (h->pid <= 0) return PETSC_FALSE;
-  return (PetscBool)(strcmp(h->host, me.host) || (h->pid != me.pid && (!kill(h->pid, 0) || errno == EPERM)));
+  return (PetscBool)(strcmp(h->host, me.host) || (h->pid != me.pid && (!kill(h->pid, 0) || errno == EPERM) && !HasEnded_Private(h->pid)));
 }
 
 /* The lock on an open file; 0, EWOULDBLOCK when others have it. Where there are no locks who is in the file decides. */

@@ -94,6 +94,7 @@ static void Note_Private(Coincident *c, const ForestTables *t, const Place *p, c
 typedef struct {
   PetscInt  num, corner[4];
   PetscReal X[4][3], lo, hi; /* lo, hi: its range along the direction of the places */
+  uint64_t  boundary;        /* groups of it, its edges and corners */
 } Side;
 
 /* Is the place on the side, away from its corners? Newton's method for the nearest point of the bilinear surface, of the straight line where there are two. */
@@ -123,8 +124,8 @@ static PetscBool IsOn_Private(const Side *f, const PetscReal X[3], PetscReal nea
   return (PetscBool)(r >= -COINCIDE && r <= 1 + COINCIDE && s >= -COINCIDE && s <= 1 + COINCIDE && Dot3(d, d) <= PetscSqr(near));
 }
 
-/* The sides of cells that have no neighbour there; the vertices on them are marked. */
-static PetscErrorCode FreeSides_Private(const ForestTables *t, PetscInt *num, PetscInt **facet, int8_t free_vertex[])
+/* The sides of cells that have no neighbour there; the vertices on them are marked. groups: of those of each body. */
+static PetscErrorCode FreeSides_Private(const ForestTables *t, PetscInt *num, PetscInt **facet, int8_t free_vertex[], uint64_t groups[])
 {
   const PetscInt first = t->first[t->dim - 1], all = t->first[t->dim] - first, n = t->dim == 2 ? 3 : 9;
 
@@ -134,6 +135,7 @@ static PetscErrorCode FreeSides_Private(const ForestTables *t, PetscInt *num, Pe
   for (PetscInt e = 0; e < all; ++e) {
     if (t->facet_leaf[2 * e] >= 0 && t->facet_leaf[2 * e + 1] >= 0) continue;
     (*facet)[(*num)++] = first + e;
+    groups[t->leaf_body[t->entity_leaf[first + e]]] |= t->boundary[first + e];
     for (PetscInt i = 0; i < n; ++i) {
       const PetscInt v = t->closure[t->closure_offset[first + e] + i];
       if (v < t->first[1]) free_vertex[v] = 1;
@@ -147,11 +149,10 @@ static PetscErrorCode Side_Private(Forest forest, const ForestTables *t, PetscIn
   const PetscInt n = t->dim == 2 ? 3 : 9;
 
   PetscFunctionBegin;
-  f->num = 0;
-  f->lo  = PETSC_MAX_REAL;
-  f->hi  = PETSC_MIN_REAL;
+  *f = (Side){.lo = PETSC_MAX_REAL, .hi = PETSC_MIN_REAL};
   for (PetscInt i = 0; i < n; ++i) {
     const PetscInt v = t->closure[t->closure_offset[facet] + i];
+    f->boundary |= t->boundary[v];
     if (v >= t->first[1]) continue;
     PetscCall(SceneVertex(forest, v, f->X[f->num]));
     const PetscReal key = Dot3(along, f->X[f->num]);
@@ -184,25 +185,27 @@ static PetscErrorCode TellHanging_Private(Scene s, Forest forest, const CoarseMe
   PetscInt            num, *facet, told = 0, bodies[2] = {0, 0};
   PetscReal           X[3] = {0, 0, 0};
   int8_t             *free_vertex;
+  uint64_t           *groups;
 
   PetscFunctionBegin;
   PetscCall(ForestGetTables(forest, &t));
-  PetscCall(PetscCalloc1(t->first[1], &free_vertex));
-  PetscCall(FreeSides_Private(t, &num, &facet, free_vertex));
+  PetscCall(PetscCalloc2(t->first[1], &free_vertex, m->num_bodies, &groups));
+  PetscCall(FreeSides_Private(t, &num, &facet, free_vertex, groups));
   for (PetscInt k = 0; k < num; ++k) {
     Side f;
     PetscCall(Side_Private(forest, t, facet[k], &f));
     for (PetscInt i = From_Private(places, t->first[1], f.lo - near); i < t->first[1] && places[i].key <= f.hi + near; ++i) {
-      const Place *p = places + i;
-      if (!free_vertex[p->vertex] || !IsOn_Private(&f, p->X, near) || Facing_Private(s, t->boundary[p->vertex], t->boundary[facet[k]])) continue;
-      free_vertex[p->vertex] = 0; /* once */
+      const Place   *p       = places + i;
+      const PetscInt body[2] = {t->leaf_body[t->entity_leaf[p->vertex]], t->leaf_body[t->entity_leaf[facet[k]]]};
+      if (!free_vertex[p->vertex] || !IsOn_Private(&f, p->X, near) || Facing_Private(s, t->boundary[p->vertex], f.boundary)) continue;
+      if (body[0] != body[1] && Facing_Private(s, groups[body[0]], groups[body[1]])) continue; /* bodies in contact may overlap */
+      free_vertex[p->vertex] = 0;                                                              /* once */
       if (told++) continue;
-      bodies[0] = t->leaf_body[t->entity_leaf[p->vertex]];
-      bodies[1] = t->leaf_body[t->entity_leaf[facet[k]]];
+      PetscCall(PetscArraycpy(bodies, body, 2));
       PetscCall(PetscArraycpy(X, p->X, 3));
     }
   }
-  PetscCall(PetscFree(free_vertex));
+  PetscCall(PetscFree2(free_vertex, groups));
   PetscCall(PetscFree(facet));
   if (told)
     PetscCall(WarningAdd(s->comm,

@@ -158,6 +158,7 @@ def hurt_checkpoint(path, chance):
                 file[name] = b"a text"
             elif kind < 0.95:
                 file.create_dataset(name, shape=(1 << 40,), dtype=values.dtype, chunks=(1024,))  # of no bytes
+                break
     path.write_bytes(seal(path.read_bytes()))
 
 

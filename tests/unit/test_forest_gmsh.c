@@ -358,6 +358,9 @@ static void test_bad_files(void **state)
   Refused("bad.msh", 2, "not plane");
   WriteFile("bad.msh", HEAD "$Nodes\n6\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n5 2 0 0\n6 2 1 0\n$EndNodes\n$Elements\n3\n1 3 2 1 1 1 2 3 4\n2 3 2 1 1 2 5 6 3\n3 "
                             "3 2 1 1 2 3 6 5\n$EndElements\n");
+  Refused("bad.msh", 2, "one cell listed twice");
+  WriteFile("bad.msh", HEAD "$Nodes\n8\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n5 2 0 0\n6 2 1 0\n7 2 -1 0\n8 2 .5 0\n$EndNodes\n$Elements\n3\n1 3 2 1 1 1 2 3 4\n"
+                            "2 3 2 1 1 2 5 6 3\n3 3 2 1 1 2 7 8 3\n$EndElements\n");
   Refused("bad.msh", 2, "share one edge");
   WriteFile("bad.msh", HEAD "$PhysicalNames\n1\n1 1 \"depth\"\n$EndPhysicalNames\n$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n$EndNodes\n"
                             "$Elements\n2\n1 1 2 1 1 1 2\n2 3 2 1 1 1 2 3 4\n$EndElements\n");

@@ -79,6 +79,51 @@ def test_what_a_killed_run_leaves(tmp_path):
     assert second.summary["status"] == "stopped" and not (tmp_path / "out" / "lock").exists()
 
 
+def ranks_of(process):
+    """Processes that mpiexec has started."""
+    return [int(pid) for pid in subprocess.run(["ps", "-o", "pid=", "--ppid", str(process.pid)], capture_output=True, text=True).stdout.split()]
+
+
+def running(pid):
+    try:
+        return pathlib.Path(f"/proc/{pid}/stat").read_text().rsplit(")", 1)[1].split()[0] != "Z"
+    except OSError:
+        return False
+
+
+def test_what_is_left_of_a_run(tmp_path):
+    """A process that has not noticed that the others are gone keeps the next run away until it has."""
+    text = block(tmp_path, **MANY)
+    first = start(tmp_path, text=text, ranks=2)
+    wait_for(lambda: rows(tmp_path / "out") > 1, first)
+    leader = int((tmp_path / "out" / "lock").read_text().split()[1])
+    last, = [pid for pid in ranks_of(first) if pid != leader]
+    os.kill(last, signal.SIGSTOP)
+    for pid in first.pid, leader:
+        os.kill(pid, signal.SIGKILL)
+    first.communicate()
+    done = rows(tmp_path / "out")
+    refused_run = resumed(tmp_path)
+    os.kill(last, signal.SIGKILL)
+    assert refused_run.returncode == 1 and f"what is left of a run, process {leader}" in refused_run.stderr and rows(tmp_path / "out") == done, refused_run
+    end = time.time() + 10
+    while running(last) and time.time() < end:
+        time.sleep(0.02)
+    again = resumed(tmp_path, "-max_seconds", 0.2)
+    assert again.returncode == 3 and again.summary["load_steps"] >= done - 1, again
+
+
+def test_starts_at_the_same_time(tmp_path):
+    """None of them takes away what another has just made; without mpiexec there is nothing to take away."""
+    (tmp_path / "tmp").mkdir()
+    env = {**os.environ, "TMPDIR": str(tmp_path / "tmp")}
+    for _ in range(5):
+        processes = [subprocess.Popen([PROGRAM, "--version"], env=env, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) for _ in range(4)]
+        for process in processes:
+            assert process.communicate(timeout=60) == ("mortise 0.1.0\n", "") and process.returncode == 0
+            assert not os.listdir(tmp_path / "tmp")
+
+
 def test_nothing_is_written_without_the_lock(tmp_path):
     text = block(tmp_path, **MANY)
     first = start(tmp_path, text=text)
@@ -300,14 +345,12 @@ def test_a_mesh_that_hangs(run, tmp_path, aside):
 
 
 def test_what_hangs_in_space(run, tmp_path):
-    """Cells of half the size on a block; with a pair between them there is nothing to tell."""
+    """Cells of half the size on a block, a side of each in one plane; with a pair between them there is nothing to tell."""
     from boxmesh import linspace, write
-    keys = {"mesh": {"file": "blocks.msh"}, "model": "3d", "body": {"l": {"material": "m"}, "u": {"material": "m"}},
-            "boundary": {"z0_l": {"fix": "xyz"}, "z1_u": {"displacement": {"x": 0, "y": 0, "z": -0.05}}}}
-    write(tmp_path / "blocks.msh", [linspace(0, 1, 1)] * 3, [lambda x, y, z: (x, y, z), lambda x, y, z: (x / 2 + 0.1, y / 2 + 0.1, 1 + z)],
+    write(tmp_path / "blocks.msh", [linspace(0, 1, 1)] * 3, [lambda x, y, z: (x, y, z), lambda x, y, z: (x / 2 + 0.1, y / 2, 1 + z)],
           side=lambda name, centre, b: f"{name}_{'lu'[b]}", body=lambda centre, b: "lu"[b])
-    pair = {"contact": {"p": {"nonmortar": "z0_u", "mortar": "z1_l"}}}
-    for more, told in ({}, True), (pair, False):
-        text = block(tmp_path, **keys, **more)
+    for contact, told in ({}, True), ({"p": {"nonmortar": "z0_u", "mortar": "z1_l"}}, False):
+        text = block(tmp_path, mesh={"file": "blocks.msh"}, model="3d", body={"l": {"material": "m"}, "u": {"material": "m"}}, contact=contact,
+                     boundary={"z0_l": {"fix": "xyz"}, "z1_u": {"displacement": {"x": 0, "y": 0, "z": -0.05}}})
         said = run("s.yml", "-check", text=text).stdout
         assert ("4 nodes lie on sides of cells" in said) == told, said
