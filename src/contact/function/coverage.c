@@ -276,7 +276,7 @@ PetscErrorCode ContactCover(ContactPair pair, const ContactSurface *nonmortar, c
   PetscCall(Whole_Private(w));
   ContactRayBundle(f, &rays);
   for (PetscInt k = pair->start[slot]; k < pair->start[slot + 1]; k++)
-    if (ContactRayBundleMeets(&rays, mortar, pair->candidate[k])) PetscCall(See_Private(pair, mortar, pair->candidate[k]));
+    if (ContactRayBundleMeets(&rays, &w->ball[pair->candidate[k]])) PetscCall(See_Private(pair, mortar, pair->candidate[k]));
   ContactUnfold(&w->num_overlaps, w->overlap, w->mortar, f->area);
   if (pair->node_to_segment) ContactNodeHits(w);
   for (PetscInt k = 0; k < w->num_overlaps; k++) covered += w->overlap[k].area;

@@ -65,6 +65,7 @@ PetscErrorCode ContactRayWorkDestroy(RayWork *work)
   PetscCall(PetscFree(w->along));
   PetscCall(PetscFree7(w->ring_first, w->ring, w->sheet, w->end, w->parent, w->d, w->kept));
   PetscCall(PetscFree2(w->mortar_parent, w->mortar_middle));
+  PetscCall(PetscFree(w->ball));
   PetscCall(PetscFree(w->image));
   PetscCall(PetscFree(w->overlap));
   PetscCall(PetscFree(w->mortar));
@@ -433,6 +434,7 @@ PetscErrorCode ContactRayEvaluate(const EvaluateContext *ctx, PetscBool *failed)
   if (!ctx->again) {
     ContactDirections(w, ctx->nonmortar);
     Normals_Private(ctx->pair, ctx->nonmortar);
+    if (ctx->pair->start[ctx->pair->num_listed]) PetscCall(ContactRayBalls(w, ctx->mortar));
     w->num_places = 0;
     PetscCall(ContactGrow(ctx->pair->num_listed, sizeof(PetscInt), &w->size_first_place, &w->first_place));
   }

@@ -30,12 +30,18 @@ static void Weights_Private(const RayFacet *f, const RayTest *t, const RayFuncti
     phi->v += ya * T->N[a];
     for (PetscInt i = 0; i < f->m; i++) phi->d[i] += ya * T->d[i][a];
     for (PetscInt i = 0; i < 2 * f->m - 1; i++) phi->dd[i] += ya * T->dd[i][a];
-    for (PetscInt b = 0; b < t->num && D; b++) {
-      chi->v += D[a][b] * T->N[a] * T->N[b];
-      for (PetscInt i = 0; i < f->m; i++) chi->d[i] += 2 * D[a][b] * T->d[i][a] * T->N[b];
-      for (PetscInt i = 0; i < f->m; i++)
-        for (PetscInt j = i; j < f->m; j++) chi->dd[i + j] += 2 * D[a][b] * (T->dd[i + j][a] * T->N[b] + T->d[i][a] * T->d[j][b]);
+  }
+  for (PetscInt a = 0; a < t->num && D; a++) { /* D is symmetric */
+    PetscReal sum = 0, along[2] = {0, 0};
+
+    for (PetscInt b = 0; b < t->num; b++) {
+      sum += D[a][b] * T->N[b];
+      for (PetscInt i = 0; i < f->m; i++) along[i] += D[a][b] * T->d[i][b];
     }
+    chi->v += sum * T->N[a];
+    for (PetscInt i = 0; i < f->m; i++) chi->d[i] += 2 * sum * T->d[i][a];
+    for (PetscInt i = 0; i < f->m; i++)
+      for (PetscInt j = i; j < f->m; j++) chi->dd[i + j] += 2 * (sum * T->dd[i + j][a] + T->d[i][a] * along[j]);
   }
 }
 

@@ -15,6 +15,7 @@
 #include "element.h"
 #include "functionimpl.h"
 
+#define INLINE static inline __attribute__((always_inline, unused))
 #define RAY_ORDER MORTISE_MAX_ORDER
 #define RAY_LATTICE ((RAY_ORDER + 1) * (RAY_ORDER + 1))
 #define RAY_ROOM (RAY_LATTICE + 12) /* values of a lattice's functions: loops of fixed length write beyond the last */
@@ -129,6 +130,11 @@ typedef struct {
   PetscReal v, d[2], dd[3];
 } RayWeight;
 
+/* Around points: their mean and the greatest distance of one from it. */
+typedef struct {
+  PetscReal x[3], radius;
+} RayBall;
+
 struct _p_RayWork {
   /* topology of the nonmortar surface */
   PetscInt  *ring_first, *ring; /* corners of facets at each node: corner k of facet f is nv f + k */
@@ -140,6 +146,8 @@ struct _p_RayWork {
   PetscBool *kept;              /* [num_facets][4] does the side from corner k on lie in a plane of symmetry? (space) */
   PetscInt  *mortar_parent;     /* [mortar num_nodes][2] of nodes that hang on straight sides */
   PetscInt  *mortar_middle;     /* [mortar num_facets][4] nodes that hang in the middle of curved sides, -1 */
+  RayBall   *ball;              /* [mortar num_facets], at the positions of the last evaluation */
+  PetscInt   size_ball;
   /* one facet */
   RayFacet   facet;
   PetscInt   num_images, num_overlaps, num_mortar, num_tests;
@@ -233,22 +241,22 @@ void      ContactRayFirst(const RayFacet *, const RayLattice *mortar, const RayP
                           PetscReal area_xi[2]);
 
 /* to[c * num + a] = f_a v_c */
-static inline void ContactRaySet(PetscInt D, PetscInt num, const PetscReal f[restrict], const PetscReal v[3], PetscReal to[restrict])
+INLINE void ContactRaySet(PetscInt D, PetscInt num, const PetscReal f[restrict], const PetscReal v[3], PetscReal to[restrict])
 {
   for (PetscInt c = 0; c < D; c++)
     for (PetscInt a = 0; a < num; a++) to[c * num + a] = f[a] * v[c];
 }
 
 /* to[c * num + a] += f_a v_c */
-static inline void ContactRayAdd(PetscInt D, PetscInt num, const PetscReal f[restrict], const PetscReal v[3], PetscReal to[restrict])
+INLINE void ContactRayAdd(PetscInt D, PetscInt num, const PetscReal f[restrict], const PetscReal v[3], PetscReal to[restrict])
 {
   for (PetscInt c = 0; c < D; c++)
     for (PetscInt a = 0; a < num; a++) to[c * num + a] += f[a] * v[c];
 }
 
 /* to[c * num + a] = f_a v_c + g1_a w1_c (+ g2_a w2_c, m = 2) */
-static inline void ContactRaySlopes(PetscInt D, PetscInt m, PetscInt num, const PetscReal f[restrict], const PetscReal v[3],
-                                    const PetscReal g[restrict][RAY_ROOM], const PetscReal w[2][3], PetscReal to[restrict])
+INLINE void ContactRaySlopes(PetscInt D, PetscInt m, PetscInt num, const PetscReal f[restrict], const PetscReal v[3], const PetscReal g[restrict][RAY_ROOM],
+                             const PetscReal w[2][3], PetscReal to[restrict])
 {
   for (PetscInt c = 0; c < D; c++)
     for (PetscInt a = 0; a < num; a++) to[c * num + a] = f[a] * v[c] + g[0][a] * w[0][c] + (m == 2 ? g[1][a] * w[1][c] : 0);
@@ -343,9 +351,12 @@ typedef struct {
 void      ContactRayRegion(ContactPair, const ContactSurface *, PetscInt facet, RayRegion *);
 PetscBool ContactRayRegionMeets(const RayRegion *, const ContactSurface *mortar, PetscInt facet);
 
-/* raybundle.c */
+/* bundle.c */
+/* Of all mortar facets, once for positions. */
+PetscErrorCode ContactRayBalls(RayWork, const ContactSurface *mortar);
 typedef struct {
-  PetscReal X[3], D[3], radius, spread;
+  RayBall   from, along; /* of the facet's nodes and its directions */
+  PetscReal over;        /* 1 / square of the mean direction */
 } RayBundle;
 void      ContactRayBundle(const RayFacet *, RayBundle *);
-PetscBool ContactRayBundleMeets(const RayBundle *, const ContactSurface *mortar, PetscInt facet);
+PetscBool ContactRayBundleMeets(const RayBundle *, const RayBall *);

@@ -81,6 +81,25 @@ static PetscBool Inside_Private(const RayFacet *f, const RayPoint *r)
   return PETSC_TRUE;
 }
 
+/* Where they are known to meet, at r->eta. */
+static PetscBool Known_Private(const RayFacet *f, const RayLattice *mortar, int depth, RayPoint *r)
+{
+  PetscReal e[3];
+
+  if (!Mortar_Private(f, mortar, depth, r)) return PETSC_FALSE;
+  Along_Private(r, e);
+  return PETSC_TRUE;
+}
+
+/* An edge of order 1 is straight, beyond its ends, too: (x_0 + x_1 + eta (x_1 - x_0)) / 2 on the ray. */
+static PetscReal Straight_Private(const RayLattice *mortar, const RayPoint *r)
+{
+  const PetscReal *a = mortar->x[0], *b = mortar->x[1], e[2] = {b[0] - a[0], b[1] - a[1]};
+  const PetscReal  from[2] = {2 * r->p[0] - a[0] - b[0], 2 * r->p[1] - a[1] - b[1]};
+
+  return Cross2(from, r->d) / Cross2(e, r->d);
+}
+
 /* From r->eta as a first guess. */
 PetscBool ContactRaySolve(const RayFacet *f, const RayLattice *mortar, const PetscReal xi[2], int depth, RayPoint *r)
 {
@@ -89,6 +108,10 @@ PetscBool ContactRaySolve(const RayFacet *f, const RayLattice *mortar, const Pet
   if (f->m == 2 && f->s.order == 1 && mortar->order == 1) return ContactRayBilinear(f, mortar, xi, depth, r);
   r->xi[0] = xi[0], r->xi[1] = xi[1];
   Facet_Private(f, depth, r);
+  if (f->m == 1 && mortar->order == 1) {
+    r->eta[0] = Straight_Private(mortar, r);
+    return (PetscBool)(Inside_Private(f, r) && Known_Private(f, mortar, depth, r));
+  }
   for (int k = 0; k < 20; k++) {
     const PetscBool last = (PetscBool)(step < RAY_SOLVED); /* the last step left a square of that */
     PetscReal       e[3];
@@ -110,15 +133,11 @@ PetscBool ContactRaySolve(const RayFacet *f, const RayLattice *mortar, const Pet
 
 PetscBool ContactRayAgain(const RayFacet *f, const RayLattice *mortar, const RayPlace *place, int depth, RayPoint *r)
 {
-  PetscReal e[3];
-
   for (int i = 0; i < 2; i++) r->eta[i] = place->eta[i];
   if (f->m == 2 && f->s.order == 1 && mortar->order == 1) return ContactRayBilinear(f, mortar, place->xi, depth, r);
   for (int i = 0; i < 2; i++) r->xi[i] = place->xi[i];
   Facet_Private(f, depth, r);
-  if (!Mortar_Private(f, mortar, depth, r)) return PETSC_FALSE;
-  Along_Private(r, e);
-  return PETSC_TRUE;
+  return Known_Private(f, mortar, depth, r);
 }
 
 PetscReal ContactRayGap(const RayPoint *r)
@@ -131,10 +150,10 @@ PetscReal ContactRayArea(const RayPoint *r)
   return r->a * r->rho;
 }
 
-void ContactRayFirst(const RayFacet *f, const RayLattice *mortar, const RayPoint *r, PetscReal gap[], PetscReal area[], PetscReal gap_xi[2],
-                     PetscReal area_xi[2])
+INLINE void First_Private(PetscInt D, PetscInt na, PetscInt nv, PetscInt nb, const RayPoint *r, PetscReal gap[], PetscReal area[], PetscReal gap_xi[2],
+                          PetscReal area_xi[2])
 {
-  const PetscInt  D = f->D, na = f->s.num;
+  const PetscInt  m  = D - 1;
   const PetscReal br = r->beta * r->rho, sr = r->s * r->rho;
   PetscReal       A[3], B[2][3], C[3], E[3], Aa[3] = {r->a * r->turn, 0, 0}, Ba[2][3];
 
@@ -148,16 +167,30 @@ void ContactRayFirst(const RayFacet *f, const RayLattice *mortar, const RayPoint
     E[c] = -br * r->kappa[c];
     for (int k = 0; k < 2; k++) B[k][c] *= sr, Ba[k][c] *= r->rho;
   }
-  ContactRaySlopes(D, f->m, na, r->S.N, A, r->S.d, B, gap);
-  ContactRaySet(D, f->nv, r->V.N, C, gap + D * na);
-  ContactRaySet(D, mortar->num, r->M.N, E, gap + D * (na + f->nv));
-  ContactRaySlopes(D, f->m, na, r->S.N, Aa, r->S.d, Ba, area);
-  for (PetscInt i = 0; i < f->m; i++) {
+  ContactRaySlopes(D, m, na, r->S.N, A, r->S.d, B, gap);
+  ContactRaySet(D, nv, r->V.N, C, gap + D * na);
+  ContactRaySet(D, nb, r->M.N, E, gap + D * (na + nv));
+  ContactRaySlopes(D, m, na, r->S.N, Aa, r->S.d, Ba, area);
+  for (PetscInt i = 0; i < m; i++) {
     gap_xi[i]  = Dot3(A, r->t[i]) + Dot3(C, r->di[i]);
     area_xi[i] = Dot3(Aa, r->t[i]);
-    for (PetscInt k = 0; k < f->m; k++) {
+    for (PetscInt k = 0; k < m; k++) {
       gap_xi[i] += Dot3(B[k], r->tt[i + k]);
       area_xi[i] += Dot3(Ba[k], r->tt[i + k]);
     }
   }
+}
+
+/* Facets of order 1 with numbers that are known here: loops are unrolled. */
+void ContactRayFirst(const RayFacet *f, const RayLattice *mortar, const RayPoint *r, PetscReal gap[], PetscReal area[], PetscReal gap_xi[2],
+                     PetscReal area_xi[2])
+{
+  const PetscInt num = f->s.num == mortar->num && f->s.num == f->nv ? f->nv : 0;
+
+  if (num == 2)
+    First_Private(2, 2, 2, 2, r, gap, area, gap_xi, area_xi);
+  else if (num == 4)
+    First_Private(3, 4, 4, 4, r, gap, area, gap_xi, area_xi);
+  else
+    First_Private(f->D, f->s.num, f->nv, mortar->num, r, gap, area, gap_xi, area_xi);
 }

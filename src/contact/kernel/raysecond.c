@@ -15,9 +15,9 @@ static inline void AddCross_Private(const PetscReal a[3], const PetscReal b[3], 
   for (int i = 0; i < 3; i++) c[i] += a[(i + 1) % 3] * b[(i + 2) % 3] - a[(i + 2) % 3] * b[(i + 1) % 3];
 }
 
-/* Places of the three groups of numbers in a row. */
+/* Dimensions of space and facet, functions of the three groups of numbers in a row. */
 typedef struct {
-  PetscInt D, na, nv, nb, n;
+  PetscInt D, m, na, nv, nb;
 } Layout;
 
 /* w: dn . h = T_1 . w_1 + T_2 . w_2 */
@@ -34,7 +34,7 @@ static inline void Scale_Private(PetscReal a, const PetscReal x[3], PetscReal y[
 
 /* Products of the residual's components, r_c = sum_f basis_f (number f, c), with rows: from ds, kappa_c (V.dn + d.(T_1 x T_2) + db drho ..), from deta the
    second derivatives of the mortar facet, Q, and its turn. */
-static void Products_Private(const RayFacet *f, const Layout *l, const RayPoint *r, PetscReal phi, PetscReal weight, RaySecond *o)
+INLINE void Products_Private(const Layout *l, const RayPoint *r, PetscReal phi, PetscReal weight, RaySecond *o)
 {
   const PetscInt  D       = l->D;
   const PetscReal br      = phi * r->beta * r->rho;
@@ -43,8 +43,8 @@ static void Products_Private(const RayFacet *f, const Layout *l, const RayPoint 
   for (PetscInt a = 0; a < l->na; a++) o->basis[a] = weight * r->S.N[a];
   for (PetscInt a = 0; a < l->nv; a++) o->basis[l->na + a] = weight * r->s * r->V.N[a];
   for (PetscInt a = 0; a < l->nb; a++) o->basis[l->na + l->nv + a] = -weight * r->M.N[a];
-  for (PetscInt i = 0; i < f->m; i++)
-    for (PetscInt j = 0; j < f->m; j++) {
+  for (PetscInt i = 0; i < l->m; i++)
+    for (PetscInt j = 0; j < l->m; j++) {
       const PetscReal x = -0.5 * br * Dot3(r->kappa, r->Xij[i + j]);
 
       for (PetscInt c = 0; c < D; c++) Axpy3_Private(x * r->zeta[i][c], r->zeta[j], Q[c]);
@@ -57,17 +57,17 @@ static void Products_Private(const RayFacet *f, const Layout *l, const RayPoint 
     Scale_Private(1, Q[c], h);
     h[0] += r->kappa[c] * phi * r->beta * r->turn;
     for (int k = 0; k < 2; k++) Scale_Private(r->kappa[c], w[k], slope[k]);
-    ContactRaySlopes(D, f->m, l->na, r->S.N, h, r->S.d, slope, own);
+    ContactRaySlopes(D, l->m, l->na, r->S.N, h, r->S.d, slope, own);
     for (int e = 0; e < 3; e++) h[e] = r->s * Q[c][e] + r->kappa[c] * (br * r->kappa[e] + phi * r->rho * r->n[e]);
     ContactRaySet(D, l->nv, r->V.N, h, across);
     Scale_Private(-1, Q[c], h);
     for (int k = 0; k < 2; k++) Scale_Private(-br * r->zeta[k][c], r->kappa, slope[k]);
-    ContactRaySlopes(D, f->m, l->nb, r->M.N, h, r->M.d, slope, mortar);
+    ContactRaySlopes(D, l->m, l->nb, r->M.N, h, r->M.d, slope, mortar);
   }
 }
 
 /* Products of numbers of the facet and its directions: drho, and dn along the facet. */
-static void Own_Private(const RayFacet *f, const Layout *l, const RayPoint *r, PetscReal phi, PetscReal chi, PetscReal weight, RaySecond *o)
+INLINE void Own_Private(const Layout *l, const RayPoint *r, PetscReal phi, PetscReal chi, PetscReal weight, RaySecond *o)
 {
   static const PetscReal none[3] = {0, 0, 0};
   const PetscInt         D = l->D, own = D * (l->na + l->nv);
@@ -82,26 +82,26 @@ static void Own_Private(const RayFacet *f, const Layout *l, const RayPoint *r, P
     ContactRaySet(D, l->na, r->S.N, v, left);
     for (int c = 0; c < 3; c++) v[c] = phi * r->s * r->d[c] + chi * r->unit[c];
     Normal_Private(r, v, w);
-    ContactRaySlopes(D, f->m, l->na, r->S.N, none, r->S.d, w, right);
+    ContactRaySlopes(D, l->m, l->na, r->S.N, none, r->S.d, w, right);
     Scale_Private(phi * r->s, r->n, v);
     ContactRaySet(D, l->nv, r->V.N, v, right + D * l->na);
   }
   if (chi == 0) return;
   Scale_Private(1 / PetscSqrtReal(Dot3(r->t[0], r->t[0])), r->t[0], e[0]);
   Cross3(r->unit, e[0], e[1]);
-  for (PetscInt k = 0; k < f->m; k++) {
+  for (PetscInt k = 0; k < l->m; k++) {
     PetscReal *left = o->own_left[o->num_own], *right = o->own_right[o->num_own];
 
     o->num_own++;
     for (PetscInt i = D * l->na; i < own; i++) right[i] = 0;
     Normal_Private(r, e[k], w);
-    ContactRaySlopes(D, f->m, l->na, r->S.N, none, r->S.d, w, left);
+    ContactRaySlopes(D, l->m, l->na, r->S.N, none, r->S.d, w, left);
     for (PetscInt i = 0; i < D * l->na; i++) right[i] = 0.5 * weight * chi * r->rho / r->a * left[i];
   }
 }
 
 /* Pairs of nodes. */
-static void Pairs_Private(const RayFacet *f, const Layout *l, const RayPoint *r, PetscReal phi, PetscReal chi, PetscReal weight, RaySecond *o)
+INLINE void Pairs_Private(const Layout *l, const RayPoint *r, PetscReal phi, PetscReal chi, PetscReal weight, RaySecond *o)
 {
   const PetscReal factor = weight * phi * r->s * r->rho;
   PetscReal       k[3], u[2][3];
@@ -113,24 +113,22 @@ static void Pairs_Private(const RayFacet *f, const Layout *l, const RayPoint *r,
   }
   for (PetscInt v = 0; v < l->nv; v++) o->turn_left[v] = r->V.N[v];
   ContactRaySet(3, l->na, r->S.d[0], u[0], o->turn_right);
-  if (f->m == 1) return;
+  if (l->m == 1) return;
   ContactRayAdd(3, l->na, r->S.d[1], u[1], o->turn_right);
   for (PetscInt a = 0; a < l->na; a++) o->twist_left[a] = r->S.d[0][a];
   ContactRaySet(3, l->na, r->S.d[1], k, o->twist_right);
 }
 
-void ContactRaySecond(const RayFacet *f, const RayLattice *mortar, const RayPoint *r, const RayWeight *phi, const RayWeight *chi, PetscReal weight,
-                      RaySecond *o)
+INLINE void Second_Private(const Layout *l, const RayPoint *r, const RayWeight *phi, const RayWeight *chi, PetscReal weight, RaySecond *o)
 {
-  const PetscInt  m = f->m, D = f->D, na = f->s.num;
-  const Layout    l  = {D, na, f->nv, mortar->num, D * (na + f->nv + mortar->num)};
+  const PetscInt  m = l->m, D = l->D, na = l->na, nv = l->nv, nb = l->nb;
   const PetscReal br = r->beta * r->rho, sr = r->s * r->rho, gap = ContactRayGap(r), area = ContactRayArea(r);
   PetscReal       Ag[3], Aa[3] = {r->a * r->turn, 0, 0}, Cg[3], k[3], A[3], B[2][3], C[3], E[3];
   PetscReal       sigma[2], etai[2][2], betai[2], rhoi[2], ni[2][3], ai[2], gi[2];
 
-  Products_Private(f, &l, r, phi->v, weight, o);
-  Own_Private(f, &l, r, phi->v, chi->v, weight, o);
-  Pairs_Private(f, &l, r, phi->v, chi->v, weight, o);
+  Products_Private(l, r, phi->v, weight, o);
+  Own_Private(l, r, phi->v, chi->v, weight, o);
+  Pairs_Private(l, r, phi->v, chi->v, weight, o);
   for (int c = 0; c < 3; c++) {
     Ag[c] = br * r->kappa[c] + (c == 0 ? r->s * r->beta * r->turn : 0);
     Cg[c] = br * r->s * r->kappa[c] + sr * r->n[c];
@@ -142,8 +140,8 @@ void ContactRaySecond(const RayFacet *f, const RayLattice *mortar, const RayPoin
   Cross3(r->t[1], k, B[0]);
   Cross3(k, r->t[0], B[1]);
   ContactRaySlopes(D, m, na, r->S.N, A, r->S.d, B, o->gradient);
-  ContactRaySet(D, f->nv, r->V.N, C, o->gradient + D * na);
-  ContactRaySet(D, mortar->num, r->M.N, E, o->gradient + D * (na + f->nv));
+  ContactRaySet(D, nv, r->V.N, C, o->gradient + D * na);
+  ContactRaySet(D, nb, r->M.N, E, o->gradient + D * (na + nv));
   for (PetscInt i = 0; i < m; i++) { /* how everything changes along the facet */
     PetscReal along[3];
 
@@ -184,12 +182,12 @@ void ContactRaySecond(const RayFacet *f, const RayLattice *mortar, const RayPoin
     for (PetscInt j = 0; j < m; j++) ContactRayAdd(D, na, r->S.dd[i + j], B[j], row);
     /* V */
     for (int c = 0; c < 3; c++) v[c] = r->s * u[c] + phi->d[i] * Cg[c] + phi->v * (br * sigma[i] * r->kappa[c] + sr * ni[i][c]) + b * r->n[c];
-    ContactRaySet(D, f->nv, r->V.N, v, row + D * na);
-    ContactRayAdd(D, f->nv, r->V.d[i], C, row + D * na);
+    ContactRaySet(D, nv, r->V.N, v, row + D * na);
+    ContactRayAdd(D, nv, r->V.d[i], C, row + D * na);
     /* M */
     for (int c = 0; c < 3; c++) v[c] = -u[c] - phi->d[i] * br * r->kappa[c];
     for (PetscInt j = 0; j < m; j++) Scale_Private(etai[j][i], E, w[j]);
-    ContactRaySlopes(D, m, mortar->num, r->M.N, v, r->M.d, w, row + D * (na + f->nv));
+    ContactRaySlopes(D, m, nb, r->M.N, v, r->M.d, w, row + D * (na + nv));
     o->xi[i] = phi->v * gi[i] + phi->d[i] * gap + chi->v * (ai[i] * r->rho + r->a * rhoi[i]) + chi->d[i] * area;
   }
   for (PetscInt i = 0; i < m; i++)
@@ -211,4 +209,19 @@ void ContactRaySecond(const RayFacet *f, const RayLattice *mortar, const RayPoin
       sum += chi->v * (rhoi[i] * ai[j] + rhoi[j] * ai[i] + r->rho / r->a * (Dot3(ni[i], ni[j]) - ai[i] * ai[j]));
       o->xixi[i + j] = sum;
     }
+}
+
+/* Facets of order 1 with numbers that are known here: loops are unrolled. */
+void ContactRaySecond(const RayFacet *f, const RayLattice *mortar, const RayPoint *r, const RayWeight *phi, const RayWeight *chi, PetscReal weight,
+                      RaySecond *o)
+{
+  const PetscInt num = f->s.num == mortar->num && f->s.num == f->nv ? f->nv : 0;
+  const Layout   l = {f->D, f->m, f->s.num, f->nv, mortar->num}, edges = {2, 1, 2, 2, 2}, quads = {3, 2, 4, 4, 4};
+
+  if (num == 2)
+    Second_Private(&edges, r, phi, chi, weight, o);
+  else if (num == 4)
+    Second_Private(&quads, r, phi, chi, weight, o);
+  else
+    Second_Private(&l, r, phi, chi, weight, o);
 }
