@@ -47,11 +47,32 @@ static PetscErrorCode Places_Private(Insertion *s, PetscInt row, PetscBool *foun
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+static PetscErrorCode Open_Private(Mat A, Insertion *s)
+{
+  PetscInt  lines;
+  PetscBool ok;
+
+  PetscFunctionBegin;
+  PetscCall(MatGetRowIJ(A, 0, PETSC_FALSE, PETSC_FALSE, &lines, &s->ai, &s->aj, &ok));
+  PetscCall(MatSeqAIJGetArray(A, &s->values));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode Close_Private(Mat A, Insertion *s)
+{
+  PetscInt  lines;
+  PetscBool ok;
+
+  PetscFunctionBegin;
+  PetscCall(MatSeqAIJRestoreArray(A, &s->values));
+  PetscCall(MatRestoreRowIJ(A, 0, PETSC_FALSE, PETSC_FALSE, &lines, &s->ai, &s->aj, &ok));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode ContactInsert_Private(Mat matrix, PetscInt num_rows, const PetscInt rows[], PetscInt num_columns, const PetscInt columns[], const PetscReal K[],
                                      InsertMode mode)
 {
-  PetscInt  lines;
-  PetscBool ok, found;
+  PetscBool found;
   Insertion s;
   Mat       A;
 
@@ -60,23 +81,24 @@ PetscErrorCode ContactInsert_Private(Mat matrix, PetscInt num_rows, const PetscI
   PetscCall(MatGetOwnershipRange(matrix, &s.first_row, &s.last_row));
   PetscCall(PetscMalloc3(num_columns, &s.column, num_columns, &s.from, num_columns, &s.place));
   PetscCall(Columns_Private(num_columns, columns, &s));
+  PetscCall(Open_Private(A, &s));
   for (PetscInt r = 0; r < num_rows; ++r) {
     const PetscInt   row  = rows[r] - s.first_row;
     const PetscReal *from = K + r * num_columns;
 
     if (rows[r] < 0) continue;
-    PetscCall(MatGetRowIJ(A, 0, PETSC_FALSE, PETSC_FALSE, &lines, &s.ai, &s.aj, &ok));
     found = PETSC_FALSE;
     if (s.mine && row >= 0 && rows[r] < s.last_row) PetscCall(Places_Private(&s, row, &found));
     if (found) {
-      PetscCall(MatSeqAIJGetArray(A, &s.values));
       PetscReal *to = s.values + s.ai[row];
       for (PetscInt i = 0; i < s.num; ++i) to[s.place[i]] = from[s.from[i]] + (mode == ADD_VALUES ? to[s.place[i]] : 0);
-      PetscCall(MatSeqAIJRestoreArray(A, &s.values));
+      continue;
     }
-    PetscCall(MatRestoreRowIJ(A, 0, PETSC_FALSE, PETSC_FALSE, &lines, &s.ai, &s.aj, &ok));
-    if (!found) PetscCall(MatSetValues(matrix, 1, &rows[r], num_columns, columns, from, mode));
+    PetscCall(Close_Private(A, &s));
+    PetscCall(MatSetValues(matrix, 1, &rows[r], num_columns, columns, from, mode));
+    PetscCall(Open_Private(A, &s));
   }
+  PetscCall(Close_Private(A, &s));
   PetscCall(PetscFree3(s.column, s.from, s.place));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

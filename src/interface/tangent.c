@@ -42,15 +42,33 @@ static inline void Turn_Private(PetscInt dim, const PetscReal *q, PetscReal v[],
   for (PetscInt d = 0; d < dim; ++d) v[d * stride] = t[d];
 }
 
+/* Nodes of a facet whose frames are not the axes. Returns their number. */
+static PetscInt TurnedNodes_Private(const Contact *c, const ContactFacet *e, PetscInt turned[])
+{
+  const PetscInt dim = c->side[0].dim;
+  PetscInt       num = 0;
+
+  for (PetscInt b = 0; b < e->num; ++b) {
+    const PetscReal *q     = Frame_Private(c, e->nodes[b]);
+    PetscBool        turns = PETSC_FALSE;
+    for (PetscInt i = 0; i < dim * dim; ++i) turns = (PetscBool)(turns || q[i] != (i % (dim + 1) == 0));
+    if (turns) turned[num++] = b;
+  }
+  return num;
+}
+
 PetscErrorCode ContactFacetHessian_Private(Interface p, const InterfaceSystem *a, const Contact *c, const ContactFacet *e)
 {
-  const PetscInt dim = p->dim, n = dim * e->num, *dofs;
+  const PetscInt dim = p->dim, n = dim * e->num;
+  PetscInt      *dofs, *turned, num_turned;
   PetscReal     *H;
 
   PetscFunctionBegin;
-  PetscCall(Work_Private(p, n));
-  FacetDofs_Private(c, e, p->work_index);
-  dofs = p->work_index;
+  PetscCall(Work_Private(p, n + e->num));
+  dofs   = p->work_index;
+  turned = dofs + n;
+  FacetDofs_Private(c, e, dofs);
+  num_turned = TurnedNodes_Private(c, e, turned);
   if (n * n > p->hessian_size) {
     p->hessian_size = 2 * n * n;
     PetscCall(PetscFree(p->hessian));
@@ -66,14 +84,18 @@ PetscErrorCode ContactFacetHessian_Private(Interface p, const InterfaceSystem *a
         for (PetscInt d = 0; d < dim; ++d) p->work_value[i] += H[i * n + dim * b + d] * du[d];
       }
     }
-    for (PetscInt b = 0; b < e->num; ++b) Turn_Private(dim, Frame_Private(c, e->nodes[b]), p->work_value + dim * b, 1);
+    for (PetscInt k = 0; k < num_turned; ++k) Turn_Private(dim, Frame_Private(c, e->nodes[turned[k]]), p->work_value + dim * turned[k], 1);
     PetscCall(VecSetValues(a->lift, n, dofs, p->work_value, ADD_VALUES));
   }
-  for (PetscInt i = 0; i < n; ++i) {
-    for (PetscInt b = 0; b < e->num; ++b) Turn_Private(dim, Frame_Private(c, e->nodes[b]), H + i * n + dim * b, 1);
+  for (PetscInt k = 0; k < num_turned; ++k) {
+    const PetscInt   b = turned[k];
+    const PetscReal *q = Frame_Private(c, e->nodes[b]);
+    for (PetscInt i = 0; i < n; ++i) Turn_Private(dim, q, H + i * n + dim * b, 1);
   }
-  for (PetscInt j = 0; j < n; ++j) {
-    for (PetscInt b = 0; b < e->num; ++b) Turn_Private(dim, Frame_Private(c, e->nodes[b]), H + dim * b * n + j, n);
+  for (PetscInt k = 0; k < num_turned; ++k) {
+    const PetscInt   b = turned[k];
+    const PetscReal *q = Frame_Private(c, e->nodes[b]);
+    for (PetscInt j = 0; j < n; ++j) Turn_Private(dim, q, H + dim * b * n + j, n);
   }
   PetscCall(ContactInsert_Private(a->matrix, n, dofs, n, dofs, H, ADD_VALUES));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -21,10 +21,8 @@ typedef struct {
   PetscReal v[RAY_MOMENTS], d[2][RAY_MOMENTS];
 } Factors;
 
-static void Factors_Private(const RayFacet *f, const RayTest *t, const RayFunctions *T, const RayChartPoint *chart, PetscBool mass, PetscBool derivatives,
-                            Factors *w)
+INLINE void FactorsOf_Private(PetscInt m, PetscInt n, const RayFunctions *T, const RayChartPoint *chart, PetscBool mass, PetscBool derivatives, Factors *w)
 {
-  const PetscInt   n = t->num;
   const PetscReal *N = T->N;
   PetscInt         num;
 
@@ -32,18 +30,27 @@ static void Factors_Private(const RayFacet *f, const RayTest *t, const RayFuncti
   num = 2 * n;
   for (PetscInt a = 0; a < n && mass; a++)
     for (PetscInt b = a; b < n; b++) w->v[num++] = N[a] * N[b];
-  for (PetscInt c = 0; c < f->m && derivatives; c++) {
+  for (PetscInt c = 0; c < m && derivatives; c++) {
     PetscReal *d = w->d[c];
 
     for (PetscInt a = 0; a < n; a++) {
       d[a] = 0;
-      for (PetscInt i = 0; i < f->m; i++) d[a] += chart->inverse[i][c] * T->d[i][a];
+      for (PetscInt i = 0; i < m; i++) d[a] += chart->inverse[i][c] * T->d[i][a];
       d[n + a] = d[a];
     }
     num = 2 * n;
     for (PetscInt a = 0; a < n && mass; a++)
       for (PetscInt b = a; b < n; b++) d[num++] = d[a] * N[b] + N[a] * d[b];
   }
+}
+
+static void Factors_Private(const RayFacet *f, const RayTest *t, const RayFunctions *T, const RayChartPoint *chart, PetscBool mass, PetscBool derivatives,
+                            Factors *w)
+{
+  if (f->m == 2 && t->num == 4)
+    FactorsOf_Private(2, 4, T, chart, mass, derivatives, w);
+  else
+    FactorsOf_Private(f->m, t->num, T, chart, mass, derivatives, w);
 }
 
 /* Sums over one simplex. */

@@ -40,17 +40,18 @@ static void Facet_Private(const RayFacet *f, int depth, RayPoint *r)
 
 PetscBool ContactRayInverse(RayPoint *r)
 {
-  PetscReal normal[3], det;
+  PetscReal normal[3], det, over;
 
   Cross3(r->Xi[0], r->Xi[1], normal);
   det = -Dot3(r->d, normal);
   if (!(det > RAY_GRAZE * PetscSqrtReal(Dot3(normal, normal) * Dot3(r->d, r->d)))) return PETSC_FALSE;
   Cross3(r->d, r->Xi[1], r->zeta[0]);
   Cross3(r->Xi[0], r->d, r->zeta[1]);
+  over = 1 / det;
   for (int c = 0; c < 3; c++) {
-    r->kappa[c] = normal[c] / det;
-    r->zeta[0][c] /= det;
-    r->zeta[1][c] /= det;
+    r->kappa[c] = normal[c] * over;
+    r->zeta[0][c] *= over;
+    r->zeta[1][c] *= over;
   }
   return PETSC_TRUE;
 }

@@ -25,6 +25,8 @@ static inline void At_Private(const RayLattice *l, const PetscReal xi[2], PetscR
 
 static void Facet_Private(const RayFacet *f, int depth, RayPoint *r)
 {
+  PetscReal over;
+
   Hats_Private(r->xi, depth, &r->S);
   memcpy(r->V.N, r->S.N, 4 * sizeof(PetscReal));
   for (int k = 0; k < 2; k++) memcpy(r->V.d[k], r->S.d[k], 4 * sizeof(PetscReal));
@@ -54,14 +56,14 @@ static PetscBool Meet_Private(const RayLattice *mortar, RayPoint *r)
     a[k][0] = Dot3(u, c), a[k][1] = Dot3(v, c);
   }
   for (int k = 0; k < 20; k++) {
-    PetscReal J1[2], J2[2], F[2], step[2], det, size;
+    PetscReal J1[2], J2[2], F[2], step[2], over, size;
 
     for (int i = 0; i < 2; i++) {
       J1[i] = a[1][i] + a[3][i] * r->eta[1], J2[i] = a[2][i] + a[3][i] * r->eta[0];
       F[i] = a[0][i] + a[1][i] * r->eta[0] + J2[i] * r->eta[1];
     }
-    det     = Cross2(J1, J2);
-    step[0] = Cross2(F, J2) / det, step[1] = Cross2(J1, F) / det;
+    over    = 1 / Cross2(J1, J2);
+    step[0] = Cross2(F, J2) * over, step[1] = Cross2(J1, F) * over;
     r->eta[0] -= step[0], r->eta[1] -= step[1];
     size = PetscMax(PetscAbsReal(step[0]), PetscAbsReal(step[1]));
     if (!(size < 10)) return PETSC_FALSE;
