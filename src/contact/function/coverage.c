@@ -273,6 +273,7 @@ PetscErrorCode ContactCover(ContactPair pair, const ContactSurface *nonmortar, c
   if (!ContactChartCreate(nonmortar, facet, f)) *failed = PETSC_TRUE;
   if (*failed) PetscFunctionReturn(PETSC_SUCCESS);
   if (f->m == 2) ContactRayBeyondSides(w->kept + 4 * facet, &f->beyond);
+  ContactImagesPrepare(f);
   PetscCall(Whole_Private(w));
   ContactRayBundle(f, &rays);
   for (PetscInt k = pair->start[slot]; k < pair->start[slot + 1]; k++)

@@ -7,7 +7,7 @@
 
 typedef struct {
   RayFunctions S, V; /* V: of directions */
-  PetscReal    p[3], d[3], A[2][3], d12[3], di[2][3];
+  RayFrame     at;
   PetscReal    inverse[3][3]; /* rows: dxi_1, dxi_2, ds */
   PetscReal    det;
 } Place;
@@ -33,56 +33,80 @@ static void Picture_Private(const RayFacet *f, const PetscReal xi[2], int depth,
     }
 }
 
+static void At_Private(const RayFacet *f, const PetscReal xi[2], int depth, RayFunctions *S, RayFunctions *V, RayFrame *at)
+{
+  static const PetscReal none[3] = {0, 0, 0}, ez[3] = {0, 0, 1};
+
+  ContactRayBeyond(&f->beyond, f->m, f->s.order, xi, depth, S);
+  ContactRayTurn(f->m, xi, depth, V);
+  ContactRayLatticeSum(&f->s, S->N, at->p);
+  ContactRayLatticeSum(&f->d, V->N, at->d);
+  memcpy(at->t[1], ez, sizeof(ez));
+  memcpy(at->di[1], none, sizeof(none));
+  for (PetscInt i = 0; i < f->m; i++) {
+    ContactRayLatticeSum(&f->s, S->d[i], at->t[i]);
+    ContactRayLatticeSum(&f->d, V->d[i], at->di[i]);
+  }
+}
+
+/* A^-1 at s; returns det A. */
+static PetscReal Inverse_Private(const RayFrame *at, PetscReal s, PetscReal inverse[3][3])
+{
+  PetscReal A[2][3], det, over;
+
+  for (int i = 0; i < 2; i++)
+    for (int c = 0; c < 3; c++) A[i][c] = at->t[i][c] + s * at->di[i][c];
+  Cross3(A[1], at->d, inverse[0]);
+  Cross3(at->d, A[0], inverse[1]);
+  Cross3(A[0], A[1], inverse[2]);
+  det  = Dot3(inverse[2], at->d);
+  over = 1 / det;
+  for (int i = 0; i < 3; i++)
+    for (int c = 0; c < 3; c++) inverse[i][c] *= over;
+  return det;
+}
+
 static void Place_Private(const RayFacet *f, const PetscReal xi[2], PetscReal s, int depth, Place *p)
 {
-  ContactRayBeyond(&f->beyond, f->m, f->s.order, xi, depth, &p->S);
-  ContactRayTurn(f->m, xi, depth, &p->V);
-  ContactRayLatticeSum(&f->s, p->S.N, p->p);
-  ContactRayLatticeSum(&f->d, p->V.N, p->d);
-  for (PetscInt i = 0; i < 2; i++) {
-    PetscReal t[3] = {0, 0, 1};
+  At_Private(f, xi, depth, &p->S, &p->V, &p->at);
+  p->det = Inverse_Private(&p->at, s, p->inverse);
+}
 
-    p->di[i][0] = p->di[i][1] = p->di[i][2] = 0;
-    if (i < f->m) {
-      ContactRayLatticeSum(&f->s, p->S.d[i], t);
-      ContactRayLatticeSum(&f->d, p->V.d[i], p->di[i]);
-    }
-    for (int c = 0; c < 3; c++) p->A[i][c] = t[c] + s * p->di[i][c];
-  }
-  Cross3(p->A[1], p->d, p->inverse[0]);
-  Cross3(p->d, p->A[0], p->inverse[1]);
-  Cross3(p->A[0], p->A[1], p->inverse[2]);
-  p->det = Dot3(p->inverse[2], p->d);
-  for (int i = 0; i < 3; i++)
-    for (int c = 0; c < 3; c++) p->inverse[i][c] /= p->det;
+void ContactImagesPrepare(RayFacet *f)
+{
+  const PetscReal middle[2] = {0, 0};
+  RayFunctions    S, V;
+
+  At_Private(f, middle, 1, &S, &V, &f->middle);
 }
 
 /* Newton's method from (0, 0); ahead: the first step is along the ray, which leads to what is near by, but may end beyond the point where rays cross. */
 static PetscBool Find_Private(const RayFacet *f, PetscBool ahead, RayImage *image)
 {
-  Place p;
+  RayFrame     at = f->middle;
+  RayFunctions S, V;
 
   image->xi[0] = image->xi[1] = image->s = 0;
   for (int k = 0; k < 30; k++) {
-    PetscReal r[3], step = 0, size = 1;
+    PetscReal r[3], inverse[3][3], step = 0, size = 1;
 
-    Place_Private(f, image->xi, image->s, 1, &p);
-    if (!(p.det > 0)) return PETSC_FALSE; /* beyond the point where rays cross */
-    for (int c = 0; c < 3; c++) r[c] = image->v[c] - p.p[c] - image->s * p.d[c];
+    if (!(Inverse_Private(&at, image->s, inverse) > 0)) return PETSC_FALSE; /* beyond the point where rays cross */
+    for (int c = 0; c < 3; c++) r[c] = image->v[c] - at.p[c] - image->s * at.d[c];
     if (ahead && k == 0) {
-      image->s = Dot3(r, p.d) / Dot3(p.d, p.d);
+      image->s = Dot3(r, at.d) / Dot3(at.d, at.d);
       continue;
     }
     for (PetscInt i = 0; i < f->m; i++) {
-      const PetscReal dx = Dot3(p.inverse[i], r);
+      const PetscReal dx = Dot3(inverse[i], r);
 
       image->xi[i] += dx;
       step = PetscMax(step, PetscAbsReal(dx));
       size = PetscMax(size, PetscAbsReal(image->xi[i]));
     }
-    image->s += Dot3(p.inverse[2], r);
+    image->s += Dot3(inverse[2], r);
     if (!(size < RAY_FAR)) return PETSC_FALSE;
     if (step < RAY_SOLVED * size) return PETSC_TRUE;
+    At_Private(f, image->xi, 1, &S, &V, &at);
   }
   return PETSC_FALSE;
 }
@@ -161,7 +185,7 @@ void ContactImageCurvature(const RayFacet *f, const RayImage *image, PetscInt ve
   for (PetscInt i = 0; i < 4 * n; i++) work[i] = 0;
   for (int i = 0; i < 3; i++) Motion_Private(f, &p, image->s, vertex, p.inverse[i], left[i]);
   for (PetscInt i = 0; i < f->m; i++) { /* left dxi_i: -mu . (dt_i + s dd,i + ds d,i) + sum_j G_ij dxi_j / 2 */
-    const PetscReal along = -Dot3(mu, p.di[i]);
+    const PetscReal along = -Dot3(mu, p.at.di[i]);
 
     for (PetscInt k = 0; k < n; k++) right[k] = along * left[2][k];
     for (PetscInt c = 0; c < D; c++) {

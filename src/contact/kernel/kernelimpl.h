@@ -83,6 +83,11 @@ typedef struct {
   PetscReal share[2], turn[2];
 } RayBeyond;
 
+/* Position, direction and their slopes at a point of a facet (plane: t_2 = e_z). */
+typedef struct {
+  PetscReal p[3], d[3], t[2][3], di[2][3];
+} RayFrame;
+
 /* Nonmortar facet. */
 typedef struct {
   PetscInt   D, m, nv; /* dimension of space and facet, corners */
@@ -92,6 +97,7 @@ typedef struct {
   PetscReal  area;     /* of the chart */
   PetscReal  ring;     /* 2 pi or 0 */
   RayBeyond  beyond;
+  RayFrame   middle;
 } RayFacet;
 
 /* Image of a mortar vertex, or the mean of two images that come before it in the list: of a vertex that hangs in the middle of a straight edge those of the
@@ -207,6 +213,8 @@ void      ContactChartAt(const RayFacet *, const PetscReal xi[2], RayChartPoint 
 PetscBool ContactChartLocate(const RayFacet *, const PetscReal Y[2], PetscReal xi[2]);
 
 /* image.c */
+/* Once for a facet. */
+void ContactImagesPrepare(RayFacet *);
 void ContactImageFind(const RayFacet *, RayImage *);
 /* rows[m][n] += derivatives of Y; vertex: its place among the facet's nodes. */
 void ContactImageRows(const RayFacet *, const RayImage *, PetscInt vertex, PetscInt n, PetscReal rows[]);
@@ -263,7 +271,7 @@ INLINE void ContactRaySlopes(PetscInt D, PetscInt m, PetscInt num, const PetscRe
 }
 
 /* raybilinear.c: the same between bilinear facets. */
-PetscBool ContactRayBilinear(const RayFacet *, const RayLattice *mortar, const PetscReal xi[2], int depth, RayPoint *);
+PetscBool ContactRayBilinear(const RayFacet *, const RayLattice *mortar, const PetscReal xi[2], PetscBool known, int depth, RayPoint *);
 
 /* raysecond.c: weighted sum phi gap + chi area. */
 typedef struct {

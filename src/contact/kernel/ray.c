@@ -106,7 +106,7 @@ PetscBool ContactRaySolve(const RayFacet *f, const RayLattice *mortar, const Pet
 {
   PetscReal step = 1;
 
-  if (f->m == 2 && f->s.order == 1 && mortar->order == 1) return ContactRayBilinear(f, mortar, xi, depth, r);
+  if (f->m == 2 && f->s.order == 1 && mortar->order == 1) return ContactRayBilinear(f, mortar, xi, PETSC_FALSE, depth, r);
   r->xi[0] = xi[0], r->xi[1] = xi[1];
   Facet_Private(f, depth, r);
   if (f->m == 1 && mortar->order == 1) {
@@ -135,7 +135,7 @@ PetscBool ContactRaySolve(const RayFacet *f, const RayLattice *mortar, const Pet
 PetscBool ContactRayAgain(const RayFacet *f, const RayLattice *mortar, const RayPlace *place, int depth, RayPoint *r)
 {
   for (int i = 0; i < 2; i++) r->eta[i] = place->eta[i];
-  if (f->m == 2 && f->s.order == 1 && mortar->order == 1) return ContactRayBilinear(f, mortar, place->xi, depth, r);
+  if (f->m == 2 && f->s.order == 1 && mortar->order == 1) return ContactRayBilinear(f, mortar, place->xi, PETSC_TRUE, depth, r);
   for (int i = 0; i < 2; i++) r->xi[i] = place->xi[i];
   Facet_Private(f, depth, r);
   return Known_Private(f, mortar, depth, r);

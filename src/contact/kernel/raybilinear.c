@@ -72,14 +72,14 @@ static PetscBool Meet_Private(const RayLattice *mortar, RayPoint *r)
   return PETSC_FALSE;
 }
 
-/* From r->eta as a first guess. */
-PetscBool ContactRayBilinear(const RayFacet *f, const RayLattice *mortar, const PetscReal xi[2], int depth, RayPoint *r)
+/* From r->eta as a first guess, unless it is known. */
+PetscBool ContactRayBilinear(const RayFacet *f, const RayLattice *mortar, const PetscReal xi[2], PetscBool known, int depth, RayPoint *r)
 {
   PetscReal square = 0, along = 0;
 
   r->xi[0] = xi[0], r->xi[1] = xi[1];
   Facet_Private(f, depth, r);
-  if (!Meet_Private(mortar, r)) return PETSC_FALSE;
+  if (!known && !Meet_Private(mortar, r)) return PETSC_FALSE;
   Hats_Private(r->eta, 1, &r->M);
   At_Private(mortar, r->eta, r->X, r->Xi[0], r->Xi[1]);
   if (depth > 1) {
