@@ -25,8 +25,6 @@ static inline void At_Private(const RayLattice *l, const PetscReal xi[2], PetscR
 
 static void Facet_Private(const RayFacet *f, int depth, RayPoint *r)
 {
-  PetscReal over;
-
   Hats_Private(r->xi, depth, &r->S);
   memcpy(r->V.N, r->S.N, 4 * sizeof(PetscReal));
   for (int k = 0; k < 2; k++) memcpy(r->V.d[k], r->S.d[k], 4 * sizeof(PetscReal));
