@@ -126,7 +126,7 @@ PetscErrorCode ProbesEvaluate(Probes, Problem, Vec x, ProbeValue value[]);
    summary.json:
    - step, t, dt, pass (of the accepted solution), step_cuts, cells, dofs, newton_iterations, active_nodes, estimated_error, energy, min_det, min_gap,
      contact_force, contact_imbalance, moment_imbalance, support_imbalance, seconds, viscous_work (energy that viscous regularisation dissipated),
-     frozen_segmentation (1: contact forces at held lines of mortar sides, Form), modifiers (interventions of Newton's modifiers, all together);
+     frozen_segmentation (1: contact forces with the lines of mortar sides frozen, Form), modifiers (interventions of Newton's modifiers, all together);
    - with plastic materials plastic.strain (largest, surfaces included), plastic.work, and body.<name>.mean_plastic_strain of each body that flows: int alpha dV
    / int dV over its reference volume, which converges where the largest, at a notch, does not;
    - reaction.<boundary>.x … for boundaries with supports;

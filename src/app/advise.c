@@ -123,7 +123,10 @@ PetscErrorCode AppTellFree(const App *app)
 
     PetscCall(ProblemFreeAxes(app->level.problem, b, &axes, &turns));
     if (axes)
-      PetscCall(PetscPrintf(app->comm, "note: no support holds body %s along %s: it takes contact for an equilibrium\n", mesh->body_name[b], along[axes]));
+      PetscCall(PetscPrintf(app->comm,
+                            "note: no support holds body %s along %s: it takes contact for an equilibrium; where contact does not hold it either, as along a "
+                            "flat face, its displacement along %s means nothing\n",
+                            mesh->body_name[b], along[axes], along[axes]));
     if (turns) PetscCall(PetscPrintf(app->comm, "note: the supports of body %s let it turn: it takes contact for an equilibrium\n", mesh->body_name[b]));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
