@@ -179,7 +179,7 @@ void OutputUnlock(void);
 /* An input error when the directory has files that a run would replace or remove and none has written. Collective. */
 PetscErrorCode OutputCheckForeign(MPI_Comm, const char *directory);
 
-/* ---- results put aside (output/aside.c) ----------------------------------------------------------------------------------- */
+/* ---- results put aside (output/earlierpath.c) ----------------------------------------------------------------------------------- */
 
 #define OUTPUT_ASIDE "earlier_path" /* in output.directory: results of the last path of loads that came to its end, until a finer one does */
 /* Move history.csv, fields.xdmf with its files and summary.json there, in place of what is there. Collective. */
