@@ -66,7 +66,7 @@ PetscErrorCode AppReason(App *app, const char **reason)
   if (worst->t < app->level.accepted.t) PetscCall(PetscSNPrintf(when, sizeof(when), " at t = %.6g", (double)worst->t));
   if (app->data->adapt.tolerance > 0)
     PetscCall(PetscSNPrintf(asked, sizeof(asked), "adapt.tolerance %g was not reached (", (double)app->data->adapt.tolerance));
-  PetscCall(PetscSNPrintf(app->reason, sizeof(app->reason), "%s%s%s%s, the estimated error is up to %.3g %%", asked, Causes[PetscMin(worst->cause, NUM_CAUSES - 1)], when,
-                          asked[0] ? ")" : "", 100 * (double)Relative_Private(worst)));
+  PetscCall(PetscSNPrintf(app->reason, sizeof(app->reason), "%s%s%s%s, the estimated error is up to %.3g %%", asked,
+                          Causes[PetscMin(worst->cause, NUM_CAUSES - 1)], when, asked[0] ? ")" : "", 100 * (double)Relative_Private(worst)));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
