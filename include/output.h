@@ -149,9 +149,8 @@ typedef struct {
   const char     *status, *reason; /* "converged", "inaccurate" (the mesh could not be refined as asked), "failed", "stopped"; why, or what is lacking, or "" */
   const char     *adapt_stop;      /* why the last adaptation ended: "tolerance", "max_passes", "max_cells", …; NULL or "": there was none */
   PetscReal       t, seconds;      /* pseudo-time reached; wall time so far */
-  PetscInt        load_steps, step_cuts, adapt_passes, newton_iterations, active_set_changes, active_set_cycles, factorisations, single_failures;
-  const Path     *path;     /* modifiers of Newton's iteration, recoveries and what they took; NULL: none */
-  PetscReal       unstable; /* solutions found to be unstable equilibria; NaN: not known of any */
+  PetscInt        load_steps, adapt_passes;
+  const Path     *path;     /* what its solutions took; NULL: nothing was solved */
   Problem         problem;  /* of the last accepted state; NULL: nothing was solved */
   const State    *state;    /* with problem */
   const Balance  *balance;  /* with problem; NULL: no figures */
