@@ -165,13 +165,13 @@ PetscErrorCode ContactPairSetCandidates(ContactPair, const ContactSurface *nonmo
    extent, a nonmortar node whose edge normals cancel. Surfaces must have the topology of the last search. Not collective. */
 PetscErrorCode ContactPairEvaluate(ContactPair, const ContactSurface *nonmortar, const ContactSurface *mortar, const PetscReal z[], const PetscBool wanted[],
                                    PetscBool derivatives, PetscBool hessian, PetscInt *num, const ContactFacet **facets, PetscBool *failed);
-/* From now on directions are held (or follow the surface again): first derivatives are those at fixed directions of the nonmortar side, gaps and weights do not
+/* From now on normals are frozen (or follow the surface again): first derivatives are those at fixed directions of the nonmortar side, gaps and weights do not
    change, there are no Hessians. Where gaps are wide against facets that tells more than the derivative itself. Not collective. */
-PetscErrorCode ContactPairHold(ContactPair, PetscBool held);
-/* From now on forces of facets of higher order in space are those at held lines of the mortar side, between its facets too (`push` on all of them), or (as
-   created) at a held rim only, where the mortar side ends within the facet (theory (5.8)). Gaps, weights and their derivatives do not change. Not collective.
- */
-PetscErrorCode ContactPairHoldLines(ContactPair, PetscBool held);
+PetscErrorCode ContactPairFreezeNormals(ContactPair, PetscBool frozen);
+/* From now on forces of facets of higher order in space are those of a frozen segmentation, without the motion of lines of the mortar side, between its facets
+   too (`push` on all of them), or (as created) without that of its rim only, where it ends within the facet (theory (5.8)). Gaps, weights and their derivatives
+   do not change. Not collective. */
+PetscErrorCode ContactPairFreezeSegmentation(ContactPair, PetscBool frozen);
 PetscErrorCode ContactPairGetSegments(ContactPair, PetscInt *num, const ContactSegment **segments);
 /* Nodal normals of the last evaluation [num_nodes][dim]; NaN at nodes with neighbours that are not known here. */
 PetscErrorCode ContactPairGetNormals(ContactPair, const PetscReal **normals);

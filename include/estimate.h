@@ -3,9 +3,9 @@
 #include "problem.h"
 
 enum {
-  ESTIMATE_HELD_FACE   = 1, /* the cell has a contact face of order 1, whose error stays */
-  ESTIMATE_HELD_RIM    = 2, /* it touches the edge of a contact zone, where the pressure starts like a root */
-  ESTIMATE_HELD_CORNER = 4, /* it touches a place where the kind of condition on the boundary changes */
+  ESTIMATE_IRREGULAR_FACE   = 1, /* the cell has a contact face of order 1, whose error stays */
+  ESTIMATE_IRREGULAR_RIM    = 2, /* it touches the edge of a contact zone, where the pressure starts like a root */
+  ESTIMATE_IRREGULAR_CORNER = 4, /* it touches a place where the kind of condition on the boundary changes */
 };
 
 typedef struct {
@@ -16,7 +16,7 @@ typedef struct {
                             replicated; NULL: not wanted (strategy h) */
   int8_t   *order;       /* owned [num_leaves] of the cells, replicated; NULL with decay */
   int8_t   *lowest;      /* owned [num_leaves] no order below: that of the scene; NULL with decay */
-  int8_t   *held;        /* owned [num_leaves] bits ESTIMATE_HELD_…, where a higher order gains little; NULL with decay */
+  int8_t   *irregular;   /* owned [num_leaves] bits ESTIMATE_IRREGULAR_…, where a higher order gains little; NULL with decay */
   PetscReal total;       /* sqrt of the sum */
   PetscReal norm;        /* energy-like norm of the solution: sqrt(2 * strain energy) */
   PetscReal relative;    /* total / sqrt(norm^2 + total^2) */
@@ -28,7 +28,7 @@ PetscErrorCode EstimateCompute(Problem, const State *, Estimate *);
 PetscErrorCode EstimateDestroy(Estimate *);
 /* Over several states of one mesh: *most, all zero before the first, takes in the estimate of one more. Of each leaf the largest eta2 / (norm^2 + total^2),
    with what that state's estimate tells of the leaf besides; most->relative is the largest of all; total, norm and part stay 0. Not collective. */
-PetscErrorCode EstimateMost(const Estimate *, Estimate *most);
+PetscErrorCode EstimateLargest(const Estimate *, Estimate *most);
 /* It as numbers, values[*num], freed by the caller, and back. Not collective. */
 PetscErrorCode EstimateStore(const Estimate *most, PetscInt *num, PetscReal **values);
 PetscErrorCode EstimateLoad(PetscInt num_leaves, PetscInt num, const PetscReal values[], Estimate *most);

@@ -12,14 +12,14 @@ typedef struct _p_Interface *Interface;
 /* What is chosen, besides x: residual, gaps and tangent are functions of x and of this. Choices are made between Newton iterations (src/solve, its modifiers)
    and set by one call (ProblemSetForm). Sets of contact pairs: bit i for pair i. Of the residual, and kept with its state: */
 typedef struct {
-  PetscBool frozen_segmentation; /* contact forces at held lines of the mortar side (ContactPairHoldLines) */
+  PetscBool frozen_segmentation; /* contact forces with the lines of the mortar side frozen (ContactPairFreezeSegmentation) */
   /* of a linearisation only: */
   PetscBool    symmetric;      /* the tangent in its symmetric form, where there is one */
   uint64_t     released;       /* pairs that take no part in the tangent, their multipliers go to 0 */
   uint64_t     frozen_normals; /* pairs with tangents at fixed directions */
   uint64_t     deepest_first;  /* pairs of which those nodes join the active set first that overlap the most */
   MaterialEdge edge;           /* what tangents expect of points on their yield surface */
-  PetscReal    proximal;       /* share of the small stiffness of bodies that no support holds (MechanicsLoosen) */
+  PetscReal    proximal;       /* share of the small stiffness of bodies that no support holds (MechanicsSetProximalShift) */
 } Form;
 
 #define FORM_PAIRS 64 /* most contact pairs of a scene */

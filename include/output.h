@@ -126,7 +126,7 @@ PetscErrorCode ProbesEvaluate(Probes, Problem, Vec x, ProbeValue value[]);
    summary.json:
    - step, t, dt, pass (of the accepted solution), step_cuts, cells, dofs, newton_iterations, active_nodes, estimated_error, energy, min_det, min_gap,
      contact_force, contact_imbalance, moment_imbalance, support_imbalance, seconds, viscous_work (energy that viscous regularisation dissipated),
-     frozen_segmentation (1: contact forces at held lines of mortar sides, Form), modifiers (interventions of Newton's modifiers, all together);
+     frozen_segmentation (1: contact forces with the lines of mortar sides frozen, Form), modifiers (interventions of Newton's modifiers, all together);
    - with plastic materials plastic.strain (largest, surfaces included), plastic.work, and body.<name>.mean_plastic_strain of each body that flows: int alpha dV
    / int dV over its reference volume, which converges where the largest, at a notch, does not;
    - reaction.<boundary>.x … for boundaries with supports;
@@ -149,9 +149,8 @@ typedef struct {
   const char     *status, *reason; /* "converged", "inaccurate" (the mesh could not be refined as asked), "failed", "stopped"; why, or what is lacking, or "" */
   const char     *adapt_stop;      /* why the last adaptation ended: "tolerance", "max_passes", "max_cells", …; NULL or "": there was none */
   PetscReal       t, seconds;      /* pseudo-time reached; wall time so far */
-  PetscInt        load_steps, step_cuts, adapt_passes, newton_iterations, active_set_changes, active_set_cycles, factorisations, single_failures;
-  const Path     *path;     /* modifiers of Newton's iteration, recoveries and what they took; NULL: none */
-  PetscReal       unstable; /* solutions found to be unstable equilibria; NaN: not known of any */
+  PetscInt        load_steps, adapt_passes;
+  const Path     *path;     /* what its solutions took; NULL: nothing was solved */
   Problem         problem;  /* of the last accepted state; NULL: nothing was solved */
   const State    *state;    /* with problem */
   const Balance  *balance;  /* with problem; NULL: no figures */
@@ -179,7 +178,7 @@ void OutputUnlock(void);
 /* An input error when the directory has files that a run would replace or remove and none has written. Collective. */
 PetscErrorCode OutputCheckForeign(MPI_Comm, const char *directory);
 
-/* ---- results put aside (output/aside.c) ----------------------------------------------------------------------------------- */
+/* ---- results put aside (output/earlierpath.c) ----------------------------------------------------------------------------------- */
 
 #define OUTPUT_ASIDE "earlier_path" /* in output.directory: results of the last path of loads that came to its end, until a finer one does */
 /* Move history.csv, fields.xdmf with its files and summary.json there, in place of what is there. Collective. */

@@ -1,8 +1,7 @@
 /* Words before and after a run: what looks wrong, what there is besides, and what may help. */
 #include "appimpl.h"
 
-#define MUCH 0.3    /* share of the squared estimate in one cell that says where a run is stuck */
-#define CURVED 1e-4 /* of an edge: its middle is off the middle of its ends */
+#define MUCH 0.3 /* share of the squared estimate in one cell that says where a run is stuck */
 
 /* Where most of the error is, when it is in one place. */
 static PetscErrorCode Worst_Private(const App *app)
@@ -63,52 +62,6 @@ static PetscErrorCode Untouched_Private(const App *app)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Has a leaf at these boundary groups a curved edge? */
-static PetscErrorCode Curved_Private(Forest forest, uint64_t groups, PetscBool *curved)
-{
-  const ForestTables *t;
-
-  PetscFunctionBegin;
-  *curved = PETSC_FALSE;
-  PetscCall(ForestGetTables(forest, &t));
-  for (PetscInt l = 0; l < t->num_leaves && !*curved; ++l) {
-    if (!ForestLeafTouches(t, l, groups)) continue;
-    for (PetscInt edge = 0; edge < (t->dim == 2 ? 4 : 12); ++edge) {
-      const PetscInt d = edge % t->dim, place = edge / t->dim;
-      PetscReal      xi[3] = {0, 0, 0}, X[3][3], length = 0, off = 0;
-      xi[(d + 1) % t->dim] = place % 2;
-      if (t->dim == 3) xi[(d + 2) % 3] = place / 2;
-      for (PetscInt k = 0; k < 3; ++k) {
-        xi[d] = 0.5 * (PetscReal)k;
-        PetscCall(ForestMapPoint(forest, l, xi, X[k]));
-      }
-      for (PetscInt c = 0; c < t->dim; ++c) {
-        length += PetscSqr(X[2][c] - X[0][c]);
-        off += PetscSqr(X[1][c] - 0.5 * (X[0][c] + X[2][c]));
-      }
-      *curved = (PetscBool)(*curved || off > PetscSqr(CURVED) * length);
-    }
-  }
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* Where surfaces nearly fit, linear contact faces on a mesh that is curved miss each other by more than their clearance, and touch at corners. */
-static PetscErrorCode Linear_Private(const App *app)
-{
-  PetscBool curved;
-
-  PetscFunctionBegin;
-  for (PetscInt i = 0; i < app->data->num_contacts; ++i) {
-    const ContactSpec *pair = &app->data->contacts[i];
-    if (pair->full) continue;
-    PetscCall(Curved_Private(app->level.forest, UINT64_C(1) << pair->nonmortar | UINT64_C(1) << pair->mortar, &curved));
-    if (curved)
-      PetscCall(PetscPrintf(app->comm, "note: the contact faces of pair %s are linear on a mesh that is curved; without contact.%s.order they follow it\n",
-                            pair->name, pair->name));
-  }
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 PetscErrorCode AppTellFree(const App *app)
 {
   static const char *const along[] = {"", "x", "y", "x and y", "z", "x and z", "y and z", "x, y and z"};
@@ -123,7 +76,10 @@ PetscErrorCode AppTellFree(const App *app)
 
     PetscCall(ProblemFreeAxes(app->level.problem, b, &axes, &turns));
     if (axes)
-      PetscCall(PetscPrintf(app->comm, "note: no support holds body %s along %s: it takes contact for an equilibrium\n", mesh->body_name[b], along[axes]));
+      PetscCall(PetscPrintf(app->comm,
+                            "note: no support holds body %s along %s: it takes contact for an equilibrium; where contact does not hold it either, as along a "
+                            "flat face, its displacement along %s means nothing\n",
+                            mesh->body_name[b], along[axes], along[axes]));
     if (turns) PetscCall(PetscPrintf(app->comm, "note: the supports of body %s let it turn: it takes contact for an equilibrium\n", mesh->body_name[b]));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -141,6 +97,5 @@ PetscErrorCode AppAdvise(const App *app)
         PetscPrintf(app->comm, "note: the path on the mesh before came to its end; its results are in %s/" OUTPUT_ASIDE "\n", app->data->output.directory));
   if (!app->failure && !app->path.stopped && !app->restart[0]) PetscCall(Untouched_Private(app));
   if (stuck || (app->failure && app->path.cuts_in_step > 0)) PetscCall(Worst_Private(app));
-  if (stuck) PetscCall(Linear_Private(app));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -37,7 +37,7 @@ typedef struct {
   Monitor          monitor;
   Path             path;
   PetscInt         repeats; /* adapt.repeat: path: how often it has begun again; else 0 */
-  Estimate         most;    /* with it: of the steps of this path that were above the tolerance */
+  Estimate         largest; /* with it: of the steps of this path that were above the tolerance */
   PetscInt         load_steps, adapt_passes, passes_in_step, told_cycles;
   PetscLogDouble   start;
   PetscReal        arc, arc_first;                            /* along a path: length of the next step, of the first one; 0: not yet */

@@ -82,7 +82,7 @@ static PetscErrorCode Close_Private(App *app)
   if (app->writer) PetscCall(WriterDestroy(&app->writer));
   PetscCall(ProbesDestroy(&app->probes));
   if (app->estimated) PetscCall(EstimateDestroy(&app->estimate));
-  PetscCall(EstimateDestroy(&app->most));
+  PetscCall(EstimateDestroy(&app->largest));
   if (app->balance.reaction) PetscCall(BalanceDestroy(&app->balance));
   PetscCall(LevelDestroy(&app->level));
   PetscCall(CheckpointDestroy(&app->snapshot));

@@ -24,7 +24,7 @@ PetscErrorCode AppRemember(App *app)
   PetscFunctionBegin;
   if (spec->repeat != REPEAT_PATH || !AppIsAdaptive(app) || !AppIsStressed(app) || app->estimate.relative <= spec->tolerance)
     PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(EstimateMost(&app->estimate, &app->most));
+  PetscCall(EstimateLargest(&app->estimate, &app->largest));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -62,13 +62,13 @@ static PetscErrorCode Refine_Private(App *app, PetscBool *refined)
   PetscBool        refused = PETSC_FALSE;
 
   PetscFunctionBegin;
-  app->adapt_stop = !app->most.num_leaves ? WITHIN_TOLERANCE : app->repeats >= spec->max_passes ? "max_passes" : "";
-  if (!app->adapt_stop[0]) PetscCall(AppLayers(app, &app->most, &layers));
+  app->adapt_stop = !app->largest.num_leaves ? WITHIN_TOLERANCE : app->repeats >= spec->max_passes ? "max_passes" : "";
+  if (!app->adapt_stop[0]) PetscCall(AppLayers(app, &app->largest, &layers));
   if (!app->adapt_stop[0]) {
     PetscCall(AppSummary(app, "inaccurate", "a finer path is under way"));
-    PetscCall(AppRefine(app, &app->most, &layers, REFINE_AFRESH, refined, &refused));
+    PetscCall(AppRefine(app, &app->largest, &layers, REFINE_AFRESH, refined, &refused));
   }
-  const PetscReal error = app->most.num_leaves ? app->most.relative : 0; /* of the step's own norm */
+  const PetscReal error = app->largest.num_leaves ? app->largest.relative : 0; /* of the step's own norm */
   if (!*refined) PetscCall(AppJudge(app, error, PetscSqrtReal(1 - PetscSqr(error)), refused));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -85,9 +85,9 @@ PetscErrorCode AppRepeat(App *app, PetscBool *again)
     PetscCall(OutputDropAside(app->comm, app->data->output.directory)); /* this path came to its end too */
     PetscFunctionReturn(PETSC_SUCCESS);
   }
-  const PetscReal error = app->most.relative;
+  const PetscReal error = app->largest.relative;
   PetscCall(LevelDestroy(&old));
-  PetscCall(EstimateDestroy(&app->most));
+  PetscCall(EstimateDestroy(&app->largest));
   ++app->repeats;
   ++app->adapt_passes;
   Begin_Private(app);

@@ -34,7 +34,7 @@ static const struct {
     {"speed", offsetof(App, speed)},
     {"viscous_work", offsetof(App, path.all_viscous_work)},
     {"largest_displacement", offsetof(App, path.status.largest)},
-    {"largest_error", offsetof(App, most.relative)},
+    {"largest_error", offsetof(App, largest.relative)},
 };
 /* ---- options ------------------------------------------------------------------------------------------------------------------- */
 
@@ -158,26 +158,26 @@ static PetscErrorCode Numbers_Private(App *app, Numbers *n)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode PutMost_Private(App *app)
+static PetscErrorCode PutLargest_Private(App *app)
 {
   PetscInt   num;
   PetscReal *values;
 
   PetscFunctionBegin;
-  PetscCall(EstimateStore(&app->most, &num, &values));
+  PetscCall(EstimateStore(&app->largest, &num, &values));
   PetscCall(CheckpointPutValues(app->snapshot, num, values));
   PetscCall(PetscFree(values));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode GetMost_Private(App *app)
+static PetscErrorCode GetLargest_Private(App *app)
 {
   PetscInt   num;
   PetscReal *values;
 
   PetscFunctionBegin;
   PetscCall(CheckpointGetValues(app->snapshot, &num, &values));
-  if (num) PetscCall(EstimateLoad(app->level.accepted.num_leaves, num, values, &app->most));
+  if (num) PetscCall(EstimateLoad(app->level.accepted.num_leaves, num, values, &app->largest));
   PetscCall(PetscFree(values));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -204,7 +204,7 @@ PetscErrorCode AppSnapshot(App *app)
   PetscCall(CheckpointDestroy(&app->snapshot));
   PetscCall(CheckpointCreate(app->level.problem, &app->level.accepted, n.num, n.number, app->adapt_stop, &app->snapshot));
   PetscCall(PetscFree(n.number));
-  if (app->most.num_leaves) PetscCall(PutMost_Private(app));
+  if (app->largest.num_leaves) PetscCall(PutLargest_Private(app));
   PetscCall(ForestGetTables(app->level.forest, &t));
   app->snapshot_revision = t->revision;
   app->written           = PETSC_FALSE;
@@ -322,7 +322,7 @@ PetscErrorCode AppResume(App *app, Forest *coarse)
   PetscCall(Read_Private(app, *coarse));
   PetscCall(Level_Private(app, app->snapshot, *coarse, &app->level));
   PetscCall(ForestDestroy(coarse));
-  PetscCall(GetMost_Private(app));
+  PetscCall(GetLargest_Private(app));
   n.from = app->snapshot;
   PetscCall(Numbers_Private(app, &n));
   app->dt = PetscMax(PetscMin(app->dt, load->step_max), load->step_min);

@@ -35,23 +35,21 @@ PetscErrorCode AppSummary(App *app, const char *status, const char *reason)
 {
   PetscFunctionBegin;
   PetscCall(Figures_Private(app));
-  const ReportRow total      = AppTotal(app);
-  RunSummary      summary    = {.status = status, .reason = reason, .t = total.t, .seconds = total.seconds, .load_steps = app->load_steps};
-  summary.step_cuts          = app->path.step_cuts;
-  summary.adapt_passes       = app->adapt_passes;
-  summary.newton_iterations  = app->path.newton_iterations;
-  summary.active_set_changes = app->path.set_changes;
-  summary.active_set_cycles  = app->path.set_cycles;
-  summary.factorisations     = app->path.factorisations;
-  summary.single_failures    = app->path.single_failures;
-  summary.path               = &app->path;
-  summary.unstable           = app->path.judged ? (PetscReal)app->path.unstable : (PetscReal)NAN;
-  summary.adapt_stop         = app->adapt_stop;
-  summary.problem            = app->level.problem;
-  summary.state              = &app->level.accepted;
-  summary.balance            = &app->balance;
-  summary.estimate           = app->estimated && !app->failure && !app->path.stopped && !PetscIsNanReal(app->last.estimated_error) ? &app->estimate : NULL;
-  summary.probes             = app->probes;
+  const PetscBool  estimated = (PetscBool)(app->estimated && !app->failure && !app->path.stopped && !PetscIsNanReal(app->last.estimated_error));
+  const ReportRow  total     = AppTotal(app);
+  const RunSummary summary   = {.status       = status,
+                                .reason       = reason,
+                                .adapt_stop   = app->adapt_stop,
+                                .t            = total.t,
+                                .seconds      = total.seconds,
+                                .load_steps   = app->load_steps,
+                                .adapt_passes = app->adapt_passes,
+                                .path         = &app->path,
+                                .problem      = app->level.problem,
+                                .state        = &app->level.accepted,
+                                .balance      = &app->balance,
+                                .estimate     = estimated ? &app->estimate : NULL,
+                                .probes       = app->probes};
   PetscCall(OutputHold(app->comm));
   PetscCall(OutputSummary(app->comm, app->data, &summary));
   PetscFunctionReturn(PETSC_SUCCESS);

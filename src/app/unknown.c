@@ -1,88 +1,21 @@
 /* Options that neither this program nor PETSc knows: refused before anything is meshed or solved. Of PETSc's own only the first word is known here: most are
    asked for when the object they belong to is first used. */
 #include "appimpl.h"
-#include <strings.h>
+#include <ctype.h>
 
-/* First words of PETSc's options: of the system, of objects, and of ours with a prefix (solve/). */
-static const char *const Petsc[] = {
-    "options",
-    "log",
-    "malloc",
-    "info",
-    "memory",
-    "mpi",
-    "on",
-    "fp",
-    "debug",
-    "debugger",
-    "stop",
-    "start",
-    "error",
-    "history",
-    "display",
-    "draw",
-    "x",
-    "nox",
-    "skip",
-    "version",
-    "help",
-    "check",
-    "viewer",
-    "view",
-    "viewerfrom",
-    "no",
-    "get",
-    "objects",
-    "citations",
-    "saws",
-    "tmp",
-    "shared",
-    "prefix",
-    "use",
-    "blas",
-    "device",
-    "root",
-    "cuda",
-    "hip",
-    "sycl",
-    "viewfromoptions",
-    "process",
-    "snes",
-    "ksp",
-    "pc",
-    "mat",
-    "vec",
-    "is",
-    "dm",
-    "sf",
-    "sub",
-    "mg",
-    "section",
-    "petscsection",
-    "petscpartitioner",
-    "petscspace",
-    "petscfe",
-    "petscdualspace",
-    "petscsf",
-    "matload",
-    "vecscatter",
-    "random",
-    "superlu",
-    "saddle",
-    "multigrid",
-    "again",
-    "dll",
-    "python",
-};
+/* First words of PETSc's options, a space before and after each: of the system, of objects, and of ours with a prefix (solve/). */
+static const char Petsc[] = " options log malloc info memory mpi on fp debug debugger stop start error history display draw x nox skip version help "
+                            "check viewer view viewerfrom no get objects citations saws tmp shared prefix use blas device root cuda hip sycl "
+                            "viewfromoptions process snes ksp pc mat vec is dm sf sub mg section petscsection petscpartitioner petscspace petscfe "
+                            "petscdualspace petscsf matload vecscatter random superlu saddle multigrid again dll python ";
 
 static PetscBool IsPetsc_Private(const char *name)
 {
-  const size_t length = strcspn(name, "_");
+  char word[64];
 
-  for (size_t i = 0; i < PETSC_STATIC_ARRAY_LENGTH(Petsc); ++i) {
-    if (strlen(Petsc[i]) == length && !strncasecmp(name, Petsc[i], length)) return PETSC_TRUE;
-  }
-  return PETSC_FALSE;
+  if (snprintf(word, sizeof(word), " %.*s ", (int)strcspn(name, "_"), name) >= (int)sizeof(word)) return PETSC_FALSE;
+  for (char *c = word; *c; ++c) *c = (char)tolower(*c);
+  return strstr(Petsc, word) ? PETSC_TRUE : PETSC_FALSE;
 }
 
 /* Of keys of the scene, options of the solver and of the run. */

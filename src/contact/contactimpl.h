@@ -35,7 +35,7 @@ struct _p_ContactPair {
   PetscInt                  dim;
   PetscBool                 axisymmetric, node_to_segment, standard;
   PetscBool                 held;                                                       /* directions do not vary */
-  PetscBool                 lines_held;                                                 /* forces without the motion of any line of the mortar side */
+  PetscBool                 frozen_segmentation;                                        /* forces without the motion of any line of the mortar side */
   PetscInt                  num_degenerate;                                             /* overlaps of the last evaluation that could not be used */
   struct ContactMultiplier *multiplier;                                                 /* functions of facets of higher order, else NULL */
   const PetscReal          *softness;                                                   /* borrowed; NULL: no compliance */

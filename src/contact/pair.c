@@ -74,19 +74,19 @@ static PetscBool IsFinite_Private(const ContactSurface *s)
   return sum == 0 ? PETSC_TRUE : PETSC_FALSE;
 }
 
-PetscErrorCode ContactPairHold(ContactPair pair, PetscBool held)
+PetscErrorCode ContactPairFreezeNormals(ContactPair pair, PetscBool frozen)
 {
   PetscFunctionBegin;
-  if (pair->held != held) pair->state.stands = PETSC_FALSE; /* other derivatives */
-  pair->held = held;
+  if (pair->held != frozen) pair->state.stands = PETSC_FALSE; /* other derivatives */
+  pair->held = frozen;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode ContactPairHoldLines(ContactPair pair, PetscBool held)
+PetscErrorCode ContactPairFreezeSegmentation(ContactPair pair, PetscBool frozen)
 {
   PetscFunctionBegin;
-  if (pair->lines_held != held) pair->state.stands = PETSC_FALSE; /* other forces */
-  pair->lines_held = held;
+  if (pair->frozen_segmentation != frozen) pair->state.stands = PETSC_FALSE; /* other forces */
+  pair->frozen_segmentation = frozen;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -21,15 +21,15 @@ static PetscBool Smooth_Private(const Estimate *e, PetscInt leaf)
 
 static PetscBool Pays_Private(const Estimate *e, PetscInt leaf)
 {
-  if (e->held[leaf] & (ESTIMATE_HELD_FACE | ESTIMATE_HELD_RIM)) return PETSC_FALSE;
+  if (e->irregular[leaf] & (ESTIMATE_IRREGULAR_FACE | ESTIMATE_IRREGULAR_RIM)) return PETSC_FALSE;
   if (e->order[leaf] > UNTOLD) return Smooth_Private(e, leaf);
-  return (PetscBool) !(e->held[leaf] & ESTIMATE_HELD_CORNER);
+  return (PetscBool) !(e->irregular[leaf] & ESTIMATE_IRREGULAR_CORNER);
 }
 
 void EstimateChoices_Private(const Estimate *e, const AdaptSpec *spec, int8_t split[], int8_t raise[])
 {
   for (PetscInt l = 0; l < e->num_leaves; ++l) {
-    const PetscBool wanted = spec->strategy == ADAPT_P || !split[l] ? (PetscBool) !(e->held[l] & ESTIMATE_HELD_FACE) : Pays_Private(e, l);
+    const PetscBool wanted = spec->strategy == ADAPT_P || !split[l] ? (PetscBool) !(e->irregular[l] & ESTIMATE_IRREGULAR_FACE) : Pays_Private(e, l);
     raise[l]               = (int8_t)(wanted && e->order[l] < spec->max_order);
     if (raise[l] || spec->strategy == ADAPT_P) split[l] = 0;
   }
@@ -43,7 +43,7 @@ PetscErrorCode EstimateEven_Private(const Estimate *e, Forest forest, int8_t ord
 
   PetscFunctionBegin;
   PetscCall(PetscMalloc1(e->num_leaves, &fixed));
-  for (PetscInt l = 0; l < e->num_leaves; ++l) fixed[l] = e->held[l] & ESTIMATE_HELD_FACE;
+  for (PetscInt l = 0; l < e->num_leaves; ++l) fixed[l] = e->irregular[l] & ESTIMATE_IRREGULAR_FACE;
   PetscCall(HPOrdersLimit(forest, MOST_DIFFERENCE, fixed, order));
   PetscCall(PetscFree(fixed));
   PetscFunctionReturn(PETSC_SUCCESS);

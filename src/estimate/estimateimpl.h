@@ -121,9 +121,9 @@ PetscErrorCode EstimateSplits_Private(const Estimate *, const AdaptSpec *, Fores
 void           EstimateChoices_Private(const Estimate *, const AdaptSpec *, int8_t split[], int8_t raise[]);
 PetscErrorCode EstimateEven_Private(const Estimate *, Forest, int8_t order[]);
 void           EstimateLower_Private(const Estimate *, const AdaptSpec *, const ForestTables *, PetscInt leaf, int8_t *coarsen, int8_t *order);
-/* decay.c, held.c: of this rank's leaves, others stay; after EstimateBulk_Private. The first is not collective, the second is. */
+/* decay.c, irregular.c: of this rank's leaves, others stay; after EstimateBulk_Private. The first is not collective, the second is. */
 PetscErrorCode EstimateDecay_Private(const EstimateSum *, PetscReal decay[]);
-PetscErrorCode EstimateHeld_Private(const EstimateSum *, int8_t held[]);
+PetscErrorCode EstimateIrregular_Private(const EstimateSum *, int8_t irregular[]);
 /* facet.c */
 PetscErrorCode FacetListCreate_Private(const EstimateSum *, FacetList *);
 PetscErrorCode FacetListDestroy_Private(FacetList *);

@@ -377,14 +377,14 @@ static PetscErrorCode Choice_Private(const SceneData *scene, const EstimateSum *
   if (scene->adapt.strategy == ADAPT_H) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(HPSpaceGetForest(sum->space, &forest));
   PetscCall(PetscCalloc1(num, &e->decay));
-  PetscCall(PetscCalloc1(num, &e->held));
+  PetscCall(PetscCalloc1(num, &e->irregular));
   PetscCall(PetscMalloc1(num, &e->order));
   PetscCall(PetscArraycpy(e->order, state->leaf_order, num));
   PetscCall(ProblemInitialOrders(scene, forest, &e->lowest));
   PetscCall(EstimateDecay_Private(sum, e->decay));
-  PetscCall(EstimateHeld_Private(sum, e->held));
+  PetscCall(EstimateIrregular_Private(sum, e->irregular));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, e->decay, num, MPIU_REAL, MPI_SUM, ForestComm(forest)));
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, e->held, num, MPI_SIGNED_CHAR, MPI_BOR, ForestComm(forest)));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, e->irregular, num, MPI_SIGNED_CHAR, MPI_BOR, ForestComm(forest)));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -438,7 +438,7 @@ PetscErrorCode EstimateDestroy(Estimate *e)
   PetscCall(PetscFree(e->decay));
   PetscCall(PetscFree(e->order));
   PetscCall(PetscFree(e->lowest));
-  PetscCall(PetscFree(e->held));
+  PetscCall(PetscFree(e->irregular));
   PetscCall(PetscMemzero(e, sizeof(*e)));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

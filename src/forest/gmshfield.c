@@ -114,7 +114,7 @@ static PetscBool ReadTags_Private(FILE *file, char name[MORTISE_NAME], long *com
   return PETSC_TRUE;
 }
 
-/* One view; elements of lower dimension are passed over. */
+/* One view; elements of lower dimension are skipped. */
 static PetscErrorCode ReadView_Private(Fields *f)
 {
   char name[MORTISE_NAME];

@@ -90,7 +90,7 @@ PetscErrorCode InterfaceHoldsRims(Interface p, PetscBool *holds)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Does one of this rank's facets bear whose forces do not hold lines yet but could? */
+/* Does one of this rank's facets bear whose segmentation is not frozen yet but could be? */
 static PetscBool Movable_Private(const Contact *c)
 {
   for (PetscInt f = 0; f < c->num_facets; ++f) {

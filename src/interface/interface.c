@@ -53,7 +53,7 @@ PetscErrorCode InterfaceSetForm(Interface p, const Form *form)
 {
   PetscFunctionBegin;
   p->form = form;
-  for (PetscInt i = 0; i < p->num_contacts; ++i) PetscCall(ContactPairHoldLines(p->contacts[i].pair, form->frozen_segmentation));
+  for (PetscInt i = 0; i < p->num_contacts; ++i) PetscCall(ContactPairFreezeSegmentation(p->contacts[i].pair, form->frozen_segmentation));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -160,9 +160,9 @@ PetscErrorCode InterfaceEvaluate(Interface p, Vec x, const PetscReal u[], PetscR
   PetscFunctionBegin;
   for (PetscInt i = 0; i < p->num_contacts; ++i) {
     Contact *c = &p->contacts[i];
-    PetscCall(ContactPairHold(c->pair, (PetscBool)(hessian && FormHas(p->form->frozen_normals, i))));
+    PetscCall(ContactPairFreezeNormals(c->pair, (PetscBool)(hessian && FormHas(p->form->frozen_normals, i))));
     PetscCall(ContactEvaluate_Private(p, c, x, u, pending, PETSC_TRUE, hessian, failed));
-    PetscCall(ContactPairHold(c->pair, PETSC_FALSE));
+    PetscCall(ContactPairFreezeNormals(c->pair, PETSC_FALSE));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

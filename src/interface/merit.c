@@ -1,5 +1,5 @@
-/* Contact in the augmented Lagrangian (src/problem/energy.c), without compliances and forces at held rims: gaps, weights and their derivatives are as the mesh
-   has them. */
+/* Contact in the augmented Lagrangian (src/problem/energy.c), without compliances and forces of a frozen segmentation: gaps, weights and their derivatives are
+   as the mesh has them. */
 #include "interfaceimpl.h"
 
 /* Constraints without compliance (on false), or as they were. */

@@ -3,8 +3,8 @@
    Their tangent gets a small diagonal, FREE_BODY_STIFFNESS of the cells' own stiffness against shear weighted by the cell's share of the body's volume, so that
    the first linear solve has one solution; the residual is left alone, hence no force of it survives in the result. What holds a body that slides on another is
    hardly more, and of either sign: with -0.3 of the diagonal Newton's method would grow by 1.4 in each iteration. So only a part of it counts once the residual
-   has fallen (MechanicsLoosen), as in the method of Levenberg and Marquardt. (A share of the stiffness against compression, 1e4 times as much in nearly
-   incompressible cells, would be no small one beside soft neighbours.) */
+   has fallen (MechanicsSetProximalShift), as in the method of Levenberg and Marquardt. (A share of the stiffness against compression, 1e4 times as much in
+   nearly incompressible cells, would be no small one beside soft neighbours.) */
 #include "mechanicsimpl.h"
 #include <petscblaslapack.h>
 
@@ -125,7 +125,7 @@ static PetscErrorCode Gram_Private(Mechanics m, const PetscInt root[], const Pet
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode MechanicsLoosen(Mechanics m, PetscReal part)
+PetscErrorCode MechanicsSetProximalShift(Mechanics m, PetscReal part)
 {
   PetscFunctionBegin;
   m->free_part = part;

@@ -3,7 +3,7 @@
 
      r_i += c (d_i - mean of d over the cell's n nodes),   d = u - from,   c = rate E p^2 h^(dim-2) / n   (axisymmetric: times 2 pi R)
 
-   E Young's modulus, h the cell's extent: with rate 1 about what the cell answers itself. Cells that are only carried along feel nothing of it. */
+   E Young's modulus, h the cell's extent: with rate 1 about what the cell answers itself. Cells that only move as a whole feel nothing of it. */
 #include "mechanicsimpl.h"
 
 PetscErrorCode MechanicsSetViscosity(Mechanics m, PetscReal rate, const PetscReal from[])

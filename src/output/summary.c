@@ -186,6 +186,7 @@ static void AddRecoveries_Private(cJSON *root, const Path *path)
 
 static cJSON *Document_Private(const SceneData *scene, const RunSummary *s, const Gathered *g)
 {
+  const Path      none = {.judged = 0}, *path = s->path ? s->path : &none;
   const char     *slash = strrchr(scene->file, '/');
   const PetscReal nan   = NAN;
   cJSON          *root  = cJSON_CreateObject();
@@ -200,17 +201,17 @@ static cJSON *Document_Private(const SceneData *scene, const RunSummary *s, cons
   cJSON_AddStringToObject(root, "model", ModelNames[scene->mechanics.model]);
   AddNumber_Private(root, "ranks", (PetscReal)g->ranks);
   AddNumber_Private(root, "load_steps", (PetscReal)s->load_steps);
-  AddNumber_Private(root, "step_cuts", (PetscReal)s->step_cuts);
+  AddNumber_Private(root, "step_cuts", (PetscReal)path->step_cuts);
   cJSON_AddStringToObject(root, "adapt_stop", s->adapt_stop ? s->adapt_stop : "");
   AddNumber_Private(root, "adapt_passes", (PetscReal)s->adapt_passes);
-  AddNumber_Private(root, "newton_iterations", (PetscReal)s->newton_iterations);
-  AddNumber_Private(root, "active_set_changes", (PetscReal)s->active_set_changes);
-  AddNumber_Private(root, "active_set_cycles", (PetscReal)s->active_set_cycles);
-  AddNumber_Private(root, "factorisations", (PetscReal)s->factorisations);
-  AddNumber_Private(root, "single_factor_failures", (PetscReal)s->single_failures);
-  if (s->path) AddModifiers_Private(root, s->path);
-  if (s->path) AddRecoveries_Private(root, s->path);
-  AddNumber_Private(root, "unstable_equilibria", s->unstable);
+  AddNumber_Private(root, "newton_iterations", (PetscReal)path->newton_iterations);
+  AddNumber_Private(root, "active_set_changes", (PetscReal)path->set_changes);
+  AddNumber_Private(root, "active_set_cycles", (PetscReal)path->set_cycles);
+  AddNumber_Private(root, "factorisations", (PetscReal)path->factorisations);
+  AddNumber_Private(root, "single_factor_failures", (PetscReal)path->single_failures);
+  AddModifiers_Private(root, path);
+  AddRecoveries_Private(root, path);
+  AddNumber_Private(root, "unstable_equilibria", path->judged ? (PetscReal)path->unstable : nan); /* not known of any */
   AddNumber_Private(root, "cells", s->problem ? (PetscReal)g->cells : nan);
   AddNumber_Private(root, "dofs", s->problem ? (PetscReal)g->dofs : nan);
   AddNumber_Private(root, "order_min", s->problem ? (PetscReal)g->order_min : nan);

@@ -11,7 +11,8 @@
      [ -B               -diag(w/kappa) ]
 
    gives it. That is the symmetric tangent with another diagonal, has its pattern, and as many negative eigenvalues more than constraints as the Hessian has.
-   Compliances of constraints and forces at held rims, which have no energy, are left out: gaps, weights and their derivatives are as the mesh has them. */
+   Compliances of constraints and forces of a frozen segmentation, which have no energy, are left out: gaps, weights and their derivatives are as the mesh has
+   them. */
 #include "problemimpl.h"
 
 PetscErrorCode ProblemHasEnergy(Problem p, PetscBool *yes)

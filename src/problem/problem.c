@@ -212,7 +212,7 @@ PetscErrorCode ProblemSetForm(Problem p, const Form *form)
   PetscFunctionBegin;
   p->form = *form;
   PetscCall(MechanicsSetEdge(p->mechanics, form->edge));
-  PetscCall(MechanicsLoosen(p->mechanics, form->proximal));
+  PetscCall(MechanicsSetProximalShift(p->mechanics, form->proximal));
   PetscCall(InterfaceSetForm(p->interface, &p->form));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -85,7 +85,7 @@ PetscErrorCode OptionCheckFormer(const char *where, const char *path, char separ
     const size_t n = strlen(Former[i].first), m = strlen(Former[i].last);
     if (length <= n + m || strncmp(path, Former[i].first, n) || path[n] != separator) continue;
     if (path[length - m - 1] != separator || strcmp(path + length - m, Former[i].last)) continue;
-    PetscCall(ErrorInput("%s is no key any more; %s", where, Former[i].instead));
+    PetscCall(ErrorInput("%s is not a key any more; %s", where, Former[i].instead));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -262,5 +262,6 @@ PetscErrorCode SceneTellMesh(Scene s, Forest forest)
                          m->num_cells));
   PetscCall(TellPieces_Private(s, m));
   PetscCall(TellCoincident_Private(s, forest, m));
+  PetscCall(SceneTellChords(s, forest));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -153,6 +153,8 @@ void GeoCheck(const char *file, size_t capacity, char message[]);
 PetscErrorCode SceneCheckMesh(Scene, Forest);
 /* Warnings and notes on a mesh that may not be what is meant (pieces.c); after SceneCheckMesh. Collective. */
 PetscErrorCode SceneTellMesh(Scene, Forest);
+/* The same on sides of contact pairs that are chords of what they stand for (chords.c). Collective. */
+PetscErrorCode SceneTellChords(Scene, Forest);
 /* Reference position of a vertex (check.c). Not collective. */
 PetscErrorCode SceneVertex(Forest, PetscInt vertex, PetscReal X[3]);
 /* "a, b, c" or "none" (check.c). */

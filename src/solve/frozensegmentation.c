@@ -1,6 +1,6 @@
 /* Modifier: where a crease of the mortar side comes to lie on a side of a nonmortar facet, derivatives of weighted gaps
-   jump (docs/theory.md, after (5.8)), and residuals come and go. From then on forces are those at held lines, which do
-   not jump; on: from the first iterate on. */
+   jump (docs/theory.md, after (5.8)), and residuals come and go. From then on the segmentation is frozen in forces, which do
+   not jump then; on: from the first iterate on. */
 #include "solveimpl.h"
 
 #define NEAR 1e-5 /* residual over the nodal forces from which on it should not grow */
@@ -50,5 +50,5 @@ static PetscErrorCode Verdict_Private(Solver s, Iterate *it, PetscBool always, P
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-const Modifier ModifierFrozenSegmentation = {"frozen_segmentation", "contact forces at held lines of the mortar side where residuals come and go; on: always",
+const Modifier ModifierFrozenSegmentation = {"frozen_segmentation", "contact forces of a frozen segmentation where residuals come and go; on: always",
                                              .begin = Begin_Private, .verdict = Verdict_Private};

@@ -186,7 +186,7 @@ def test_bodies_that_pass_each_other(run):
 @pytest.mark.parametrize("scene, pair", [("inputs/thread.yml", "thread"), ("tests/verify/scenes/comb.yml", "teeth")])
 def test_teeth_behind_each_other(run, scene, pair):
     """Teeth of a bolt that go on beyond the nut, fingers of a comb beyond the other one: through itself and through the next tooth of the other body each sees that one's far
-    flank, which opposes it as if the bodies overlapped by both. A search that looks through bodies ends at t = 0. Far sides are passed over, and what is found is what a
+    flank, which opposes it as if the bodies overlapped by both. A search that looks through bodies ends at t = 0. Back faces are dropped, and what is found is what a
     search no further than a facet finds; with clearance and with flanks that overlap at the beginning."""
     quick = ("-order", 1, "-output_fields", "false", "-load_step_min", 0.25, "-path_viscous", "off")
     naive = run(scene, *quick, f"-contact_{pair}_see_through", "true")

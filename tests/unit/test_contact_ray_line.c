@@ -2,12 +2,12 @@
    mortar facets on the same side of the line as the facet does, and forces are continuous. And where a mortar corner lies on a side of a facet, its line at a
    small angle to it, since curved facets picture what lies beyond them a little beside a plane of symmetry: forces do not see by which of both the crossing is
    found, and their derivatives are exact. And where a crease of the mortar side, which is not quite the straight line as which it is seen, comes to lie on a
-   side of a facet along its whole length: forces at held lines are continuous, derivatives of the weighted gaps are not. */
+   side of a facet along its whole length: forces of a frozen segmentation are continuous, derivatives of the weighted gaps are not. */
 #include "rayfixture.h"
 
 #define ON 4.7e-10 /* steps of the line, about where clipping decides: 1e-9 of the root of a facet's area */
 
-/* Sums over the pair of these patches, the mortar side at its reference positions; both are destroyed. held: forces hold lines. */
+/* Sums over the pair of these patches, the mortar side at its reference positions; both are destroyed. held: the segmentation is frozen. */
 static void Take(Patch *nonmortar, Patch *mortar, const PetscReal z[], PetscBool held, PetscBool hessian, Sum *s)
 {
   const ContactSpec spec = {.friction = 0};
@@ -15,7 +15,7 @@ static void Take(Patch *nonmortar, Patch *mortar, const PetscReal z[], PetscBool
 
   memcpy(mortar->X, mortar->x, sizeof(PetscReal) * 3 * (size_t)mortar->s.num_nodes);
   CHECK_CALL(ContactPairCreate(3, PETSC_FALSE, &spec, &pair));
-  CHECK_CALL(ContactPairHoldLines(pair, held));
+  CHECK_CALL(ContactPairFreezeSegmentation(pair, held));
   SearchAll(pair, nonmortar, mortar, 0.5, 1e-3);
   SumCreate(s, nonmortar, mortar);
   SumEvaluate(s, pair, nonmortar, mortar, z, hessian);
@@ -171,7 +171,7 @@ static void test_crease_on_line(void **state)
     for (PetscInt k = 0; k < s[0].size; k++) jump[held] = PetscMax(jump[held], PetscAbsReal(s[1].gradient[k] - s[0].gradient[k]) / size);
     for (int i = 0; i < 2; i++) SumDestroy(&s[i]);
   }
-  print_message("a crease passes a side: derivatives of weighted gaps change by %.1e, forces at held lines by %.1e\n", jump[0], jump[1]);
+  print_message("a crease passes a side: derivatives of weighted gaps change by %.1e, forces of a frozen segmentation by %.1e\n", jump[0], jump[1]);
   assert_true(jump[1] < 10 * step && jump[0] > 1e-4);
 }
 

@@ -331,7 +331,8 @@ static void Bar(Chain *c, PetscReal y0, PetscReal y1, PetscInt part, PetscInt *n
 }
 
 /* A bar over a bar, whole contours, 0.1 apart or overlapping by 0.3 of their thickness of 1: the upper one's top faces the lower one's bottom, which lies 2.1
-   or 1.7 deep, just like an overlap. With the hull it is passed over, near sides are found as ever. Inside the bars the hull measures what they do. */
+   or 1.7 deep, just like an overlap. With the hull it is dropped as a back face, near sides are found as ever. Inside the bars the hull measures what they do.
+ */
 static void FarSides(void **state)
 {
   for (int overlap = 0; overlap < 2; overlap++) {

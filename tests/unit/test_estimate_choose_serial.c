@@ -64,12 +64,12 @@ static void Rates(void **state)
 }
 
 enum { NUM = 9 };
-static PetscReal      eta2[NUM]   = {9, 9, 9, 9, 9, 9, 9, 9, 9};
-static PetscReal      decay[NUM]  = {0, 0, 2, 1, 2, 2, 2, 0, 2};
-static int8_t         order[NUM]  = {1, 2, 4, 4, 8, 4, 4, 2, 3};
-static int8_t         lowest[NUM] = {1, 1, 1, 1, 1, 1, 1, 1, 1};
-static int8_t         held[NUM]   = {0, 0, 0, 0, 0, ESTIMATE_HELD_FACE, ESTIMATE_HELD_RIM, ESTIMATE_HELD_CORNER, ESTIMATE_HELD_CORNER};
-static const Estimate e           = {.num_leaves = NUM, .eta2 = eta2, .decay = decay, .order = order, .lowest = lowest, .held = held};
+static PetscReal      eta2[NUM]      = {9, 9, 9, 9, 9, 9, 9, 9, 9};
+static PetscReal      decay[NUM]     = {0, 0, 2, 1, 2, 2, 2, 0, 2};
+static int8_t         order[NUM]     = {1, 2, 4, 4, 8, 4, 4, 2, 3};
+static int8_t         lowest[NUM]    = {1, 1, 1, 1, 1, 1, 1, 1, 1};
+static int8_t         irregular[NUM] = {0, 0, 0, 0, 0, ESTIMATE_IRREGULAR_FACE, ESTIMATE_IRREGULAR_RIM, ESTIMATE_IRREGULAR_CORNER, ESTIMATE_IRREGULAR_CORNER};
+static const Estimate e              = {.num_leaves = NUM, .eta2 = eta2, .decay = decay, .order = order, .lowest = lowest, .irregular = irregular};
 
 static void Choices(void **state)
 {
@@ -93,7 +93,7 @@ static void Choices(void **state)
   EstimateChoices_Private(&e, &spec, split, raise);
   for (PetscInt l = 0; l < NUM; ++l) {
     assert_int_equal(split[l], 0);
-    assert_int_equal(raise[l], order[l] < 4 && held[l] != ESTIMATE_HELD_FACE);
+    assert_int_equal(raise[l], order[l] < 4 && irregular[l] != ESTIMATE_IRREGULAR_FACE);
   }
 }
 

@@ -113,8 +113,8 @@ static void Figures(void **state)
                                      .active_nodes = 17};
   const Balance    balance        = {.num_boundaries = 2, .num_contacts = 1, .reaction = reaction, .pair = &pair, .status = {.energy = 1. / 3, .min_det = 0.9}};
   const Estimate   estimate       = {.total = 2, .norm = INFINITY, .relative = 0.5, .part = {4, 0, 0, 0, 0}};
-  const RunSummary summary        = {
-             .status = "converged", .reason = "", .t = 1, .load_steps = 3, .newton_iterations = 12, .balance = &balance, .estimate = &estimate};
+  const Path       path           = {.newton_iterations = 12};
+  const RunSummary summary        = {.status = "converged", .reason = "", .t = 1, .load_steps = 3, .path = &path, .balance = &balance, .estimate = &estimate};
 
   assert_int_equal(OutputSummary(PETSC_COMM_WORLD, &scene, &summary), 0);
   if (rank) return;

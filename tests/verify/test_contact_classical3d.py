@@ -145,7 +145,7 @@ order: 2
 body: {{punch: {{material: steel}}, foundation: {{material: aluminium}}}}
 material: {{steel: {{law: linear, E: 210e3, nu: 0.3}}, aluminium: {{law: linear, E: 70e3, nu: 0.3}}}}
 boundary: {{axis: {{fix: x}}, head: {{traction: {{y: -100}}}}, bottom: {{fix: xy}}}}
-contact: {{pair: {{nonmortar: foot, mortar: top}}}}
+contact: {{pair: {{nonmortar: foot, mortar: top, roles: given}}}}
 probe: {{centre: {{x: 0, y: -1e-6}}}}
 load: {{step: 1}}
 adapt: {{tolerance: 0.01, max_passes: 12}}

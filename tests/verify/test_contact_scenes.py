@@ -99,7 +99,7 @@ def test_rubber2d_every_mesh(run, n, order, roles):
                                pytest.param(24, marks=pytest.mark.slow), pytest.param(32, marks=pytest.mark.slow), pytest.param(48, marks=pytest.mark.slow)])
 def test_slide2d_every_mesh(run, n, order, roles):
     """One load step to press, one to slide over many cells. With the block nonmortar the slide, linearised at the old place, is no small step: it needs the bodies
-    carried along first. The count of the history contains the linearisation that this discards."""
+    taken to the new place first. The count of the history contains the linearisation that this discards."""
     result = solve(run, "slide2d", *UNIFORM, "-mesh_parameter_n", n, "-order", order, "-snes_monitor", *roles)
     assert result.summary["load_steps"] == 2
     solved_in_one_step(result, 8)

@@ -213,7 +213,7 @@ def test_newton_is_quadratic_through_yield(run, tmp_path, formulation):
 
 def test_contact_slides_along_material_that_flows(run):
     """A bush pressed into a tight housing: what contact leaves behind unloads, what it comes to yields. (Without a first elastic tangent after
-    contact was carried along, three cuts or more.)"""
+    the slide predictor, three cuts or more.)"""
     result = run("tests/verify/scenes/pressfit.yml")
     assert result.returncode == 0, result
     s = result.summary

@@ -290,8 +290,8 @@ def test_lines_are_held(solve, name):
 
 
 @faces("2-full", kinds=("2-full",))
-def test_held_lines_change_little(solve):
-    """Where both find equilibrium: forces at held lines against derivatives of weighted gaps, on 10 cells and on 26."""
+def test_frozen_segmentation_changes_little(solve):
+    """Where both find equilibrium: forces of a frozen segmentation against derivatives of weighted gaps, on 10 cells and on 26."""
     change = []
     for sizes in ({"lower": LOWER._replace(number=(2, 3, 1)), "upper": UPPER._replace(number=(2, 2, 1))}, {}):
         keys = {"boundary": hold(("0", "0", "-0.21*t")), "load": {"step": 0.2}, **sizes}
@@ -303,8 +303,8 @@ def test_held_lines_change_little(solve):
 
 @faces("2-full", kinds=("2-full",))
 @pytest.mark.parametrize("ranks", [1, pytest.param(2, marks=slow), pytest.param(3, marks=slow)])
-def test_lines_stay_held(solve, ranks):
-    """A run that goes on from where lines are held already holds them from its start: the same as one that was not broken off, on one process and on several."""
+def test_segmentation_stays_frozen(solve, ranks):
+    """A run that goes on from where the segmentation is frozen has it frozen from its start: the same as one that was not broken off, on one process and on several."""
     keys = {"lower": LOWER._replace(number=(2, 3, 1)), "upper": UPPER._replace(number=(2, 2, 1)), "boundary": hold(("0", "0", "-0.3*t")), "load": {"step": 0.1}}
     whole = space.good(solve(*space.QUIET, **keys))
     half = solve(*space.QUIET, "-load_end", 0.9, ranks=ranks, **keys)

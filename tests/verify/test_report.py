@@ -195,6 +195,13 @@ def test_bodies_in_pieces(run, tmp_path):
     assert "note: 3 nodes coincide with those of another body, neither merged nor on the sides of a pair, one of l and u at (" in result.stdout, result
 
 
+def test_chords_are_told(run):
+    """An arc of a mesh of order 1, not of one of order 4, nor a flat side."""
+    words = "side disc_surface of pair disc_on_block turns by up to 23 degrees"
+    assert words in run("inputs/hertz2d.yml", "-mesh_order", 1, "-check").stdout
+    assert "turns by" not in run("inputs/hertz2d.yml", "-check").stdout + run("inputs/patch2d.yml", "-check").stdout
+
+
 BOX = """SetFactory("OpenCASCADE");
 Box(1) = {0, 0, 0, 1, 1, 1};
 Mesh.CharacteristicLengthMin = 1;

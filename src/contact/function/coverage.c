@@ -283,7 +283,7 @@ PetscErrorCode ContactCover(ContactPair pair, const ContactSurface *nonmortar, c
   for (PetscInt k = 0; k < w->num_overlaps; k++) covered += w->overlap[k].area;
   w->full = (PetscBool)(covered >= (1 - Sliver_Private(f)) * f->area);
   if (!w->full && (f->s.order > 1 || f->m == 2) && w->num_overlaps) PetscCall(Cells_Private(pair, mortar));
-  w->frozen = (PetscBool)(f->D == 3 && (w->test[0].hats || (pair->lines_held && f->s.order > 1)));
+  w->frozen = (PetscBool)(f->D == 3 && (w->test[0].hats || (pair->frozen_segmentation && f->s.order > 1)));
   PetscCall(Nodes_Private(w, mortar));
   w->n = f->D * (f->s.num + f->nv + w->num_mortar) + f->m * w->num_images;
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -1,7 +1,7 @@
 /* One mesh for many states: the largest indicator of each leaf over all of them, each relative to its state, for marking what any of them needs. */
 #include "estimateimpl.h"
 
-#define ROOM_H 4 /* numbers by which a leaf is stored: eta2, along; more where orders are chosen: decay, order, lowest, held */
+#define ROOM_H 4 /* numbers by which a leaf is stored: eta2, along; more where orders are chosen: decay, order, lowest, irregular */
 #define ROOM_HP 8
 
 static PetscErrorCode Create_Private(PetscInt num_leaves, PetscBool orders, Estimate *most)
@@ -14,11 +14,11 @@ static PetscErrorCode Create_Private(PetscInt num_leaves, PetscBool orders, Esti
   PetscCall(PetscCalloc1(num_leaves, &most->decay));
   PetscCall(PetscCalloc1(num_leaves, &most->order));
   PetscCall(PetscCalloc1(num_leaves, &most->lowest));
-  PetscCall(PetscCalloc1(num_leaves, &most->held));
+  PetscCall(PetscCalloc1(num_leaves, &most->irregular));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode EstimateMost(const Estimate *e, Estimate *most)
+PetscErrorCode EstimateLargest(const Estimate *e, Estimate *most)
 {
   const PetscReal whole = PetscSqr(e->norm) + PetscSqr(e->total);
 
@@ -33,7 +33,7 @@ PetscErrorCode EstimateMost(const Estimate *e, Estimate *most)
     if (e->eta2[l] / whole <= most->eta2[l]) continue;
     most->eta2[l] = e->eta2[l] / whole;
     for (PetscInt d = 0; d < 3; ++d) most->along[l][d] = e->along[l][d] / whole;
-    if (e->decay) most->decay[l] = e->decay[l], most->held[l] = e->held[l];
+    if (e->decay) most->decay[l] = e->decay[l], most->irregular[l] = e->irregular[l];
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -53,7 +53,7 @@ PetscErrorCode EstimateStore(const Estimate *most, PetscInt *num, PetscReal **va
     *v++ = most->decay[l];
     *v++ = most->order[l];
     *v++ = most->lowest[l];
-    *v++ = most->held[l];
+    *v++ = most->irregular[l];
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -70,10 +70,10 @@ PetscErrorCode EstimateLoad(PetscInt num_leaves, PetscInt num, const PetscReal v
     most->eta2[l]      = *v++;
     for (PetscInt d = 0; d < 3; ++d) most->along[l][d] = *v++;
     if (!most->decay) continue;
-    most->decay[l]  = *v++;
-    most->order[l]  = (int8_t)*v++;
-    most->lowest[l] = (int8_t)*v++;
-    most->held[l]   = (int8_t)*v++;
+    most->decay[l]     = *v++;
+    most->order[l]     = (int8_t)*v++;
+    most->lowest[l]    = (int8_t)*v++;
+    most->irregular[l] = (int8_t)*v++;
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -37,14 +37,14 @@ static PetscErrorCode Rim_Private(MPI_Comm comm, const SurfaceView *s, int8_t to
     for (PetscInt k = 0; k < num; ++k) {
       if (s->hang[node[k]] == s->hang[node[k] + 1]) ++count[pressed[node[k]]]; /* a hanging one's masters carry its force */
     }
-    for (PetscInt k = 0; k < s->corners && count[0] && count[1]; ++k) touched[s->node_entity[s->facets[s->corners * e + k]]] |= ESTIMATE_HELD_RIM;
+    for (PetscInt k = 0; k < s->corners && count[0] && count[1]; ++k) touched[s->node_entity[s->facets[s->corners * e + k]]] |= ESTIMATE_IRREGULAR_RIM;
   }
   PetscCall(PetscFree(pressed));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* Contact facets of order 1 on cells of a higher one; of this rank's cells. */
-static PetscErrorCode Linear_Private(const EstimateSum *sum, const SurfaceView *s, const PetscInt leaf_cell[], int8_t held[])
+static PetscErrorCode Linear_Private(const EstimateSum *sum, const SurfaceView *s, const PetscInt leaf_cell[], int8_t irregular[])
 {
   PetscFunctionBegin;
   for (PetscInt e = 0; e < s->num_facets; ++e) {
@@ -52,7 +52,7 @@ static PetscErrorCode Linear_Private(const EstimateSum *sum, const SurfaceView *
     PetscInt       order;
     if (cell < 0 || cell >= sum->v->num_owned_cells) continue;
     PetscCall(HPSpaceGetOrder(sum->space, s->facet_entity[e], &order));
-    if (order == 1 && sum->v->cell_order[cell] > 1) held[s->facet_leaf[e]] |= ESTIMATE_HELD_FACE;
+    if (order == 1 && sum->v->cell_order[cell] > 1) irregular[s->facet_leaf[e]] |= ESTIMATE_IRREGULAR_FACE;
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -88,7 +88,7 @@ static PetscErrorCode Corners_Private(const EstimateSum *sum, int8_t touched[])
     const int8_t condition = (int8_t)Condition_Private(sum, f);
     for (PetscInt i = 0; i < (t->dim == 2 ? 3 : 9); ++i) {
       if (closure[i] < low || closure[i] >= first) continue;
-      if (seen[closure[i]] >= 0 && seen[closure[i]] != condition) touched[closure[i]] |= ESTIMATE_HELD_CORNER;
+      if (seen[closure[i]] >= 0 && seen[closure[i]] != condition) touched[closure[i]] |= ESTIMATE_IRREGULAR_CORNER;
       seen[closure[i]] = condition;
     }
   }
@@ -97,7 +97,7 @@ static PetscErrorCode Corners_Private(const EstimateSum *sum, int8_t touched[])
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode EstimateHeld_Private(const EstimateSum *sum, int8_t held[])
+PetscErrorCode EstimateIrregular_Private(const EstimateSum *sum, int8_t irregular[])
 {
   const ForestTables *t = sum->t;
   int8_t             *touched;
@@ -114,14 +114,14 @@ PetscErrorCode EstimateHeld_Private(const EstimateSum *sum, int8_t held[])
     const ContactView *view = sum->contact->terms[i].view;
     PetscCall(Rim_Private(ForestComm(forest), &view->nonmortar, touched));
     PetscCall(Rim_Private(ForestComm(forest), &view->mortar, touched));
-    PetscCall(Linear_Private(sum, &view->nonmortar, leaf_cell, held));
-    PetscCall(Linear_Private(sum, &view->mortar, leaf_cell, held));
+    PetscCall(Linear_Private(sum, &view->nonmortar, leaf_cell, irregular));
+    PetscCall(Linear_Private(sum, &view->mortar, leaf_cell, irregular));
   }
   PetscCall(Corners_Private(sum, touched));
   for (PetscInt c = 0; c < sum->v->num_owned_cells; ++c) {
     const PetscInt leaf = sum->v->cell_leaf[c], *closure = t->closure + t->closure_offset[t->first[t->dim] + leaf];
     for (PetscInt i = 0; i < (t->dim == 2 ? 9 : 27); ++i) {
-      held[leaf] |= touched[closure[i]];
+      irregular[leaf] |= touched[closure[i]];
     }
   }
   PetscCall(PetscFree(leaf_cell));
