@@ -17,8 +17,7 @@ enum { NUM_ALONE = sizeof(Alone) / sizeof(Alone[0]) };
 /* Our manual and catalogue, not PETSc's. */
 static int Ours_Private(const char *argument)
 {
-  return !strcmp(argument, "-help") || !strcmp(argument, "--help") || !strcmp(argument, "-h") || !strcmp(argument, "--version") ||
-         !strcmp(argument, "-list");
+  return !strcmp(argument, "-help") || !strcmp(argument, "--help") || !strcmp(argument, "-h") || !strcmp(argument, "--version") || !strcmp(argument, "-list");
 }
 
 /* The arguments without those; lives as long as the program (PETSc keeps the pointer). */
