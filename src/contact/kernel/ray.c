@@ -82,25 +82,6 @@ static PetscBool Inside_Private(const RayFacet *f, const RayPoint *r)
   return PETSC_TRUE;
 }
 
-/* Where they are known to meet, at r->eta. */
-static PetscBool Known_Private(const RayFacet *f, const RayLattice *mortar, int depth, RayPoint *r)
-{
-  PetscReal e[3];
-
-  if (!Mortar_Private(f, mortar, depth, r)) return PETSC_FALSE;
-  Along_Private(r, e);
-  return PETSC_TRUE;
-}
-
-/* An edge of order 1 is straight, beyond its ends, too: (x_0 + x_1 + eta (x_1 - x_0)) / 2 on the ray. */
-static PetscReal Straight_Private(const RayLattice *mortar, const RayPoint *r)
-{
-  const PetscReal *a = mortar->x[0], *b = mortar->x[1], e[2] = {b[0] - a[0], b[1] - a[1]};
-  const PetscReal  from[2] = {2 * r->p[0] - a[0] - b[0], 2 * r->p[1] - a[1] - b[1]};
-
-  return Cross2(from, r->d) / Cross2(e, r->d);
-}
-
 /* From r->eta as a first guess. */
 PetscBool ContactRaySolve(const RayFacet *f, const RayLattice *mortar, const PetscReal xi[2], int depth, RayPoint *r)
 {
@@ -109,10 +90,6 @@ PetscBool ContactRaySolve(const RayFacet *f, const RayLattice *mortar, const Pet
   if (f->m == 2 && f->s.order == 1 && mortar->order == 1) return ContactRayBilinear(f, mortar, xi, PETSC_FALSE, depth, r);
   r->xi[0] = xi[0], r->xi[1] = xi[1];
   Facet_Private(f, depth, r);
-  if (f->m == 1 && mortar->order == 1) {
-    r->eta[0] = Straight_Private(mortar, r);
-    return (PetscBool)(Inside_Private(f, r) && Known_Private(f, mortar, depth, r));
-  }
   for (int k = 0; k < 20; k++) {
     const PetscBool last = (PetscBool)(step < RAY_SOLVED); /* the last step left a square of that */
     PetscReal       e[3];
@@ -134,11 +111,15 @@ PetscBool ContactRaySolve(const RayFacet *f, const RayLattice *mortar, const Pet
 
 PetscBool ContactRayAgain(const RayFacet *f, const RayLattice *mortar, const RayPlace *place, int depth, RayPoint *r)
 {
+  PetscReal e[3];
+
   for (int i = 0; i < 2; i++) r->eta[i] = place->eta[i];
   if (f->m == 2 && f->s.order == 1 && mortar->order == 1) return ContactRayBilinear(f, mortar, place->xi, PETSC_TRUE, depth, r);
   for (int i = 0; i < 2; i++) r->xi[i] = place->xi[i];
   Facet_Private(f, depth, r);
-  return Known_Private(f, mortar, depth, r);
+  if (!Mortar_Private(f, mortar, depth, r)) return PETSC_FALSE;
+  Along_Private(r, e);
+  return PETSC_TRUE;
 }
 
 PetscReal ContactRayGap(const RayPoint *r)
