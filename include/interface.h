@@ -174,7 +174,7 @@ PetscErrorCode InterfaceInsertRows(Interface, const InterfaceSystem *);
    vector. Collective. */
 PetscErrorCode InterfaceRightSide(Interface, const InterfaceSystem *, Vec rhs);
 void           InterfaceScaleIncrement(Interface, PetscReal dx[]);
-/* One pass of the active set: as ProblemSwitchActiveSet. *changed: on this rank. */
+/* One pass of the active set: as ProblemSwitchActiveSet, but for the assembly of the matrix. */
 PetscErrorCode InterfaceSwitch(Interface, const InterfaceSystem *, Vec dx, Vec rhs, PetscInt *changed);
 
 /* ---- what a form may be chosen by, at the last evaluation. All collective ------------------------------------------------------- */
@@ -190,7 +190,7 @@ PetscErrorCode InterfaceFindUntouched(Interface, uint64_t *pairs);
 PetscErrorCode InterfaceMayFreezeSegmentation(Interface, PetscBool *yes);
 /* As ProblemFindSlide, for a step with this increment. */
 PetscErrorCode InterfaceFindSlide(Interface, const PetscReal increment[], Vec force, PetscReal *excess);
-/* A number that tells active sets of this problem apart, the same on every rank. Collective. */
+/* A number that tells active sets and their states apart, the same on every rank. Collective. */
 PetscErrorCode InterfaceActiveSetHash(Interface, uint64_t *hash);
 
 /* ---- augmented Lagrangian (merit.c): z_j = max(0, lambda_j - kappa_j g_j), kappa_j = factor c_j --------------------------------- */

@@ -355,7 +355,8 @@ PetscErrorCode InterfaceActiveSetHash(Interface p, uint64_t *hash)
   for (PetscInt i = 0; i < p->num_contacts; ++i) {
     const Contact *c = &p->contacts[i];
     for (PetscInt k = 0; k < c->side[0].num_own; ++k) {
-      if (c->active[c->side[0].own[k]]) *hash += Mix_Private(((uint64_t)i << 40) + (uint64_t)c->side[0].own[k]);
+      const PetscInt j = c->side[0].own[k];
+      if (c->active[j]) *hash += Mix_Private(((uint64_t)c->active[j] << 48) + ((uint64_t)i << 40) + (uint64_t)j);
     }
   }
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, hash, 1, MPI_UINT64_T, MPI_SUM, p->comm));
