@@ -34,7 +34,7 @@ PetscErrorCode SolverHasDescent(Solver s, PetscBool *yes)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Options of the factors before they are made: all pivots are counted (inertia.c), more room. */
+/* Options of the factors before they are made: all pivots are counted (inertia.c), more room. Asked for afterwards, they are none that nothing used. */
 static PetscErrorCode FactorOption_Private(const char *name, const char *value)
 {
   PetscBool set;
@@ -42,6 +42,7 @@ static PetscErrorCode FactorOption_Private(const char *name, const char *value)
   PetscFunctionBegin;
   PetscCall(PetscOptionsHasName(NULL, NULL, name, &set));
   if (!set) PetscCall(PetscOptionsSetValue(NULL, name, value));
+  PetscCall(PetscOptionsHasName(NULL, NULL, name, &set));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

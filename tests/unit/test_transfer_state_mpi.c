@@ -100,9 +100,41 @@ static void LinearMultipliers(void **state)
   PatchDestroy(&p);
 }
 
+/* No cell is folded at rest; all are in their mirror image. */
+static void Folded(void **state)
+{
+  const ForestTables *t;
+  const HPTables     *v;
+  Patch               p;
+  HPSpace             space;
+  PetscReal          *u;
+  int8_t             *orders, *folded;
+
+  PatchScene(&p, 2, MODEL_PLANE_STRAIN, KINEMATICS_FINITE, FORMULATION_DISPLACEMENT);
+  p.forest = PatchForest((const PetscInt[2]){3, 5});
+  OK(ProblemInitialOrders(&p.data, p.forest, &orders));
+  PatchProblem(&p.data, p.forest, orders, &p.problem, &p.state);
+  OK(PetscFree(orders));
+  OK(ForestGetTables(p.forest, &t));
+  OK(ProblemGetSpace(p.problem, &space));
+  OK(HPSpaceGetTables(space, &v));
+  OK(PetscMalloc1(t->num_leaves, &folded));
+  OK(PetscMalloc1(v->num_nodes * 2, &u));
+  OK(ProblemFindFolded(p.problem, p.state.x, folded));
+  for (PetscInt l = 0; l < t->num_leaves; ++l) assert_true(folded[l] == 0);
+  for (PetscInt i = 0; i < 2 * v->num_nodes; ++i) u[i] = i % 2 ? 0 : -2 * v->X[3 * (i / 2)];
+  OK(ProblemSetDisplacement(p.problem, u, p.state.x));
+  OK(ProblemFindFolded(p.problem, p.state.x, folded));
+  for (PetscInt l = 0; l < t->num_leaves; ++l) assert_true(folded[l] == 1);
+  OK(PetscFree(u));
+  OK(PetscFree(folded));
+  PatchDestroy(&p);
+}
+
 int main(int argc, char **argv)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(Equilibrium), cmocka_unit_test(RaisedOrders), cmocka_unit_test(LinearMultipliers)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(Folded), cmocka_unit_test(Equilibrium), cmocka_unit_test(RaisedOrders),
+                                     cmocka_unit_test(LinearMultipliers)};
   if (PetscInitialize(&argc, &argv, NULL, NULL)) return 1;
   const int failed = cmocka_run_group_tests(tests, NULL, NULL);
   return PetscFinalize() || failed;

@@ -189,3 +189,13 @@ def test_key(run):
         result = run("inputs/hertz2d.yml", *options)
         assert result.returncode == 1 and words in result.stderr and result.stderr.count("\n") == 1, result
     assert ", linear faces" not in run(*HERTZ, "-check").stdout
+
+
+@pytest.mark.parametrize("scene", ["slide", "slide3d"])
+def test_order_one(run, scene):
+    """Faces of full order on cells of order 1 are those of order 1: one discrete problem, off an edge too, to the last digit."""
+    full, one = (run(f"tests/gauntlet/{scene}.yml", "-order", 1, "-load_end", 1.5, "-contact_c_order", order, *QUIET) for order in ("full", 1))
+    assert full.solved and one.solved, (full, one)
+    assert len(full.history) == len(one.history)
+    for a, b in zip(full.history, one.history):
+        assert {k: v for k, v in a.items() if k != "seconds"} == {k: v for k, v in b.items() if k != "seconds"}
