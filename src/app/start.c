@@ -73,7 +73,7 @@ static PetscErrorCode Keep_Private(const char format[], ...)
 /* One sentence of it, if it is of such a file, else all. */
 static PetscErrorCode Tell_Private(PetscErrorCode ierr)
 {
-  char       *line    = strstr(words, "options file");
+  char       *file = strstr(words, "options file"), *line = file ? file : strstr(words, "-options_file filename");
   int         running = 0;
   PetscMPIInt rank    = 0;
 

@@ -249,7 +249,7 @@ PetscErrorCode ForestCheckGmsh(const char *name, int major, PetscBool binary, Pe
   s.end     = text + got;
   PetscCall(ScanText_Private(&s, text));
   *fine = s.fine;
-  if (s.num_nodes && s.tag[s.num_nodes - 1] - s.tag[0] > PetscMax(WIDE, (int64_t)s.num_nodes)) *range = s.tag[s.num_nodes - 1];
+  if (s.num_nodes && (double)s.tag[s.num_nodes - 1] - (double)s.tag[0] > PetscMax(WIDE, (double)s.num_nodes)) *range = s.tag[s.num_nodes - 1];
   PetscCall(PetscFree(text));
   PetscCall(PetscFree(s.tag));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -223,6 +223,7 @@ static PetscErrorCode ReadFields_Private(Checkpoint c, hid_t file)
 {
   hid_t      group;
   H5G_info_t info;
+  PetscInt   strange = 0;
 
   PetscFunctionBegin;
   PetscCallH5Id(group, H5Gopen2(file, "fields", H5P_DEFAULT));
@@ -238,10 +239,11 @@ static PetscErrorCode ReadFields_Private(Checkpoint c, hid_t file)
     PetscCall(VecGetOwnershipRange(f->values, &lo, &hi));
     PetscCall(VecGetArray(f->values, &values));
     PetscCall(ReadArray_Private(group, f->name, H5T_NATIVE_DOUBLE, lo, hi - lo, values));
-    for (PetscInt i = 0; i < hi - lo; ++i)
-      PetscCheck(!PetscIsInfOrNanReal(values[i]), PETSC_COMM_SELF, PETSC_ERR_FILE_READ, "A number of %s is not finite", f->name);
+    for (PetscInt i = 0; i < hi - lo; ++i) strange += PetscIsInfOrNanReal(values[i]);
     PetscCall(VecRestoreArray(f->values, &values));
   }
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &strange, 1, MPIU_INT, MPI_SUM, c->comm)); /* each rank has seen its part */
+  PetscCheck(!strange, PETSC_COMM_SELF, PETSC_ERR_FILE_READ, "%" PetscInt_FMT " numbers are not finite", strange);
   PetscCallH5(H5Gclose(group));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -298,17 +300,6 @@ static PetscErrorCode ReadFile_Private(Checkpoint c, const char *path)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* A rank that meets something wrong in its part of the fields is not alone with it. */
-static PetscErrorCode Agree_Private(MPI_Comm comm, PetscErrorCode *status)
-{
-  int code = (int)*status;
-
-  PetscFunctionBegin;
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &code, 1, MPI_INT, MPI_MAX, comm));
-  *status = (PetscErrorCode)code;
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 PetscErrorCode CheckpointRead(MPI_Comm comm, const char *path, Checkpoint *checkpoint)
 {
   Checkpoint c;
@@ -320,10 +311,9 @@ PetscErrorCode CheckpointRead(MPI_Comm comm, const char *path, Checkpoint *check
   PetscCall(PetscStrncpy(c->path, path, sizeof(c->path)));
   GuardBegin("-restart %s: damaged, though its checksum holds", path);
   PetscCall(PetscPushErrorHandler(PetscReturnErrorHandler, NULL)); /* the sentence below says it */
-  PetscErrorCode status = ReadFile_Private(c, path);
+  const PetscErrorCode status = ReadFile_Private(c, path);
   PetscCall(PetscPopErrorHandler());
   GuardEnd();
-  PetscCall(Agree_Private(comm, &status));
   PetscCheckInput(!status || status == MORTISE_ERR_INPUT || status == PETSC_ERR_MEM, "-restart %s: damaged, though its checksum holds", path);
   PetscCall(status);
   *checkpoint = c;

@@ -142,6 +142,7 @@ def hurt_checkpoint(path, chance):
                 del file[name]
                 file[name] = np.bytes_(damage(values.decode("latin1"), chance).encode("latin1", "replace")) if kind < 0.8 else 3.5
                 continue
+            if values.ndim != 1: continue
             if kind < 0.5 and values.size:
                 for _ in range(chance.randint(1, 4)):
                     values[chance.randrange(values.size)] = np.array(chance.choice(NUMBERS)).astype(values.dtype)
@@ -213,7 +214,7 @@ def make(kind, number, whole, folder):
 
 
 def environment():
-    return {**os.environ, "OMPI_ALLOW_RUN_AS_ROOT": "1", "OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1", "ASAN_OPTIONS": "detect_leaks=0"}
+    return {**os.environ, "OMPI_ALLOW_RUN_AS_ROOT": "1", "OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1", "ASAN_OPTIONS": "detect_leaks=0:allocator_may_return_null=1"}
 
 
 def fault(program, arguments, folder):

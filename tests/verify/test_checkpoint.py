@@ -470,3 +470,16 @@ def test_batch_job_goes_on_until_done(run, tmp_path):
     assert_same_run(whole, Result(command, 0, "", "", tmp_path / "out"))
     last = subprocess.run(command, cwd=ROOT, env={**environment, "SLURM_RESTART_COUNT": "1", "MORTISE_JOBS": "1", "MORTISE": "false"}, capture_output=True, text=True)
     assert last.returncode == 1 and not (tmp_path / "queued").exists()
+
+
+@pytest.mark.parametrize("ranks", [1, 2])
+@pytest.mark.parametrize("name,at,value", [("fields/displacement", 0, math.nan), ("fields/displacement", -1, math.inf), ("split", 0, 3), ("owner", 0, 7), ("fields/pattern.disc_on_block", -1, 1e6)])
+def test_forged_contents_are_refused(run, broken_off, tmp_path, name, at, value, ranks):
+    """Of a size and a seal as they should be: every rank ends, with one sentence."""
+    forged = tmp_path / "forged.h5"
+    shutil.copy(broken_off / "checkpoint.h5", forged)
+    with h5py.File(forged, "r+") as file:
+        file[name][at] = value
+    seal(forged)
+    result = go_on(run, broken_off, SMALL[0], *SMALL[1], "-check", restart=forged, ranks=ranks)
+    assert result.returncode == 1 and len([line for line in result.stderr.splitlines() if line.startswith("mortise: -restart")]) == 1, result
