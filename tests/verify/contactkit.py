@@ -31,7 +31,7 @@ def blocks(nonmortar, material, boundary, parameter, near=None, pair=None, **key
     """A scene: material {lower: {...}, upper: {...}}; near {name: {...}}: local refinement; pair: further keys of the contact pair."""
     scene = {"mesh": {"file": str(BLOCKS), "order": 1, "parameter": parameter}, "model": "plane_strain",
              "body": {name: {"material": name} for name in material}, "material": material, "boundary": boundary,
-             "contact": {"pair": {"nonmortar": SIDES[nonmortar][0], "mortar": SIDES[nonmortar][1], **(pair or {})}},
+             "contact": {"pair": {"nonmortar": SIDES[nonmortar][0], "mortar": SIDES[nonmortar][1], "roles": "given", **(pair or {})}},
              "load": {"step": 1}, **keys}
     if near:
         scene["refine"] = near

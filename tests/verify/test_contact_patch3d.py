@@ -41,7 +41,7 @@ def cubes(path, nl, nu, to=same, distortion=0.0, seed=1, m=1):
 
 def text(mesh, nonmortar, material, boundary, near=None, pair=None, **keys):
     scene = {"mesh": {"file": str(mesh)}, "model": "3d", "body": {name: {"material": name} for name in SIDES}, "material": material, "boundary": boundary,
-             "contact": {"pair": {"nonmortar": SIDES[nonmortar][0], "mortar": SIDES[nonmortar][1], **(pair or {})}}, "load": {"step": 1}, **keys}
+             "contact": {"pair": {"nonmortar": SIDES[nonmortar][0], "mortar": SIDES[nonmortar][1], "roles": "given", **(pair or {})}}, "load": {"step": 1}, **keys}
     if near:
         scene["refine"] = {"spot": near}
     return "\n".join(f"{key}: {yaml(value)}" for key, value in scene.items()) + "\n"
