@@ -9,6 +9,7 @@
 #include "kernelimpl.h"
 
 #define DEPTH 6                   /* of corners that hang on edges whose ends hang */
+#define SHARP 0.76604444311897804 /* cosine of 40 degrees: a surface that turns by more has an edge */
 #define ALONG 0.70710678118654752 /* cosine: a facet whose normal is closer than 45 degrees to that of a plane lies along it and has no image there */
 #define SAME 1e-9                 /* 1 - cosine between the normals of one plane, square of the sine between it and what lies in it */
 
@@ -146,7 +147,7 @@ static void JoinAlong_Private(RayWork w, const ContactSurface *s, const Side *a,
 
   SideNormal_Private(s, a->facet, CornerAt_Private(s, a->facet, a->from) % 4, n[0]);
   SideNormal_Private(s, b->facet, CornerAt_Private(s, b->facet, b->from) % 4, n[1]);
-  if (!(Dot3(n[0], n[1]) > CONTACT_SHARP)) return;
+  if (!(Dot3(n[0], n[1]) > SHARP)) return;
   for (int e = 0; e < 2; e++) {
     const PetscInt i = CornerAt_Private(s, a->facet, node[e]), j = CornerAt_Private(s, b->facet, node[e]);
 
@@ -186,7 +187,7 @@ static void SheetsInPlane_Private(RayWork w, const ContactSurface *s)
 
       SideNormal_Private(s, a / 2, a % 2, n[0]);
       SideNormal_Private(s, b / 2, b % 2, n[1]);
-      if (Dot3(n[0], n[1]) > CONTACT_SHARP) Join_Private(w->sheet, a, b);
+      if (Dot3(n[0], n[1]) > SHARP) Join_Private(w->sheet, a, b);
     }
 }
 
