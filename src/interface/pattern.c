@@ -133,10 +133,11 @@ PetscInt ContactPatternSize_Private(const Contact *c, PetscInt facet)
   return (c->side[0].dim + c->num) * (c->pattern_offset[facet + 1] - c->pattern_offset[facet]);
 }
 
-/* Is the nonmortar node one of the facet's multipliers? Those around, with which its directions turn, stand in the pattern too. */
+/* Is the nonmortar node one of the facet's multipliers? In two dimensions its outer neighbours stand in the pattern too. */
 static PetscBool CarriesRow_Private(const Surface *s, PetscInt facet, PetscInt node)
 {
-  return Has_Private(s->true_node + s->true_first[facet], s->true_first[facet + 1] - s->true_first[facet], node);
+  const PetscInt *own, num = SurfaceNodes_Private(s, facet, &own);
+  return (PetscBool)(s->dim == 3 || Has_Private(own, num, node));
 }
 
 PetscInt ContactPatternDofs_Private(const Contact *c, PetscInt facet, PetscInt dofs[])

@@ -168,6 +168,7 @@ static PetscErrorCode StoresPressure_Private(Problem p, PetscBool *yes)
 PetscErrorCode SolverCreate(Problem problem, Solver *solver)
 {
   Solver    s;
+  Mat       A;
   Vec       r;
   PetscBool multigrid, stores;
 
@@ -188,7 +189,8 @@ PetscErrorCode SolverCreate(Problem problem, Solver *solver)
   PetscCall(SNESSetFromOptions(s->snes));
   PetscCall(SNESSetFunction(s->snes, r, Function_Private, s));
   PetscCall(VecDestroy(&r));
-  PetscCall(SNESSetJacobian(s->snes, NULL, NULL, Jacobian_Private, s)); /* the first tangent makes the matrix, with room for contact */
+  PetscCall(ProblemGetMatrix(problem, &A));
+  PetscCall(SNESSetJacobian(s->snes, A, A, Jacobian_Private, s));
   PetscCall(ProblemCreateRightSide(problem, &s->lift));
   PetscCall(VecDuplicate(s->lift, &s->rhs));
   PetscCall(VecDuplicate(s->lift, &s->y));
