@@ -70,6 +70,63 @@ static PetscErrorCode ListFacets_Private(ContactPair pair, const ContactSurface 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+static void UnitNormal_Private(const ContactSurface *s, PetscInt facet, PetscReal n[3])
+{
+  PetscReal size;
+
+  ContactFacetVector(s->dim, s->x, s->facets + 2 * (s->dim - 1) * facet, n);
+  size = PetscSqrtReal(Dot3(n, n));
+  for (int c = 0; c < 3; c++) n[c] /= size;
+}
+
+/* Does a facet round a sharp edge of the nonmortar side face what this one grazes, of normal m? */
+static PetscBool NeighborFaces_Private(const RayWork w, const ContactSurface *s, PetscInt facet, const PetscReal m[3])
+{
+  const PetscInt nv = 2 * (s->dim - 1);
+  PetscReal      other[3];
+
+  for (PetscInt a = 0; a < nv; a++) {
+    const PetscInt node = s->facets[nv * facet + a];
+    for (PetscInt k = w->ring_first[node]; k < w->ring_first[node + 1]; k++) {
+      UnitNormal_Private(s, w->ring[k] / nv, other);
+      if (Dot3(other, m) < -CONTACT_FACE && ContactFacetJoint(s, facet, w->ring[k] / nv) == JOINT_SHARP) return PETSC_TRUE;
+    }
+  }
+  return PETSC_FALSE;
+}
+
+/* Round a sharp edge, of either side, one face lies in front and the other is met at a grazing angle. What the latter would see beside the edge is no gap of
+   this contact: it came and went by CONTACT_OPPOSE as facets tilt, and with it the mean gap of the nodes on the edge. around[num]: mortar facets in the region,
+   of which those that graze, round an edge or smoothly joined to such, get ~facet. */
+static void LeaveOutGrazing_Private(ContactPair pair, const ContactSurface *nonmortar, PetscInt facet, const ContactSurface *mortar, PetscInt num,
+                                    PetscInt around[])
+{
+  PetscReal n[3], m[3], other[3];
+  PetscBool more = PETSC_TRUE;
+
+  UnitNormal_Private(nonmortar, facet, n);
+  while (more) {
+    more = PETSC_FALSE;
+    for (PetscInt k = 0; k < num; k++) {
+      PetscBool grazes = PETSC_FALSE;
+
+      if (around[k] < 0) continue;
+      UnitNormal_Private(mortar, around[k], m);
+      if (!(Dot3(n, m) > -CONTACT_FACE && Dot3(n, m) < -CONTACT_OPPOSE)) continue;
+      for (PetscInt l = 0; l < num && !grazes; l++) {
+        const PetscInt f = around[l] < 0 ? ~around[l] : around[l];
+
+        UnitNormal_Private(mortar, f, other);
+        if (around[l] >= 0 && !(Dot3(other, n) < -CONTACT_FACE)) continue;
+        grazes = (PetscBool)(ContactFacetJoint(mortar, around[k], f) == (around[l] < 0 ? JOINT_SMOOTH : JOINT_SHARP));
+      }
+      if (!grazes && !NeighborFaces_Private(pair->ray, nonmortar, facet, m)) continue;
+      around[k] = ~around[k];
+      more      = PETSC_TRUE;
+    }
+  }
+}
+
 /* Query the tree for every listed facet. found: room for all mortar facets. */
 static PetscErrorCode Candidates_Private(ContactPair pair, const ContactSurface *nonmortar, const ContactSurface *mortar, const Tree *tree,
                                          const PetscInt known[], PetscInt found[])
@@ -89,8 +146,9 @@ static PetscErrorCode Candidates_Private(ContactPair pair, const ContactSurface 
     ContactCorners(pair, nonmortar, pair->listed[i], &corners);
     PetscCall(PetscSortInt(num, found)); /* results must not depend on the tree */
     PetscCall(ContactGrow(total + num, sizeof(PetscInt), &pair->size_candidate, &pair->candidate));
+    LeaveOutGrazing_Private(pair, nonmortar, pair->listed[i], mortar, num, found);
     for (PetscInt k = 0; k < num; k++)
-      if (ContactRayRegionMeets(&region, mortar, found[k]) && !ContactBehind(pair, pair->listed[i], &corners, mortar, found[k]))
+      if (found[k] >= 0 && ContactRayRegionMeets(&region, mortar, found[k]) && !ContactBehind(pair, pair->listed[i], &corners, mortar, found[k]))
         pair->candidate[total++] = found[k];
   }
   pair->start[pair->num_listed] = total;

@@ -9,7 +9,6 @@
 #include "kernelimpl.h"
 
 #define DEPTH 6                   /* of corners that hang on edges whose ends hang */
-#define SHARP 0.76604444311897804 /* cosine of 40 degrees: a surface that turns by more has an edge */
 #define ALONG 0.70710678118654752 /* cosine: a facet whose normal is closer than 45 degrees to that of a plane lies along it and has no image there */
 #define SAME 1e-9                 /* 1 - cosine between the normals of one plane, square of the sine between it and what lies in it */
 
@@ -104,23 +103,46 @@ static PetscBool IsKept_Private(const ContactSurface *s, PetscInt a, PetscInt b)
 
 /* ---- sheets -------------------------------------------------------------------------------------------------------------------------- */
 
-/* Unit normal of a facet at the reference positions in the middle of its side from corner k on (plane: at corner k). */
-static void SideNormal_Private(const ContactSurface *s, PetscInt facet, PetscInt k, PetscReal n[3])
+/* Unit normal of a facet at a place `at` at the reference positions. */
+static void NormalAt_Private(const ContactSurface *s, PetscInt facet, const PetscReal at[2], PetscReal n[3])
 {
-  static const PetscReal Middle[4][2] = {{0, -1}, {1, 0}, {0, 1}, {-1, 0}};
-  const PetscReal        at[2]        = {s->dim == 2 ? 2 * (PetscReal)k - 1 : Middle[k][0], s->dim == 2 ? 0 : Middle[k][1]};
-  ContactSurface         reference    = *s;
-  PetscReal              t[2][3]      = {{0, 0, 0}, {0, 0, 1}}, length;
-  RayFunctions           S;
-  RayLattice             l;
+  ContactSurface reference = *s;
+  PetscReal      t[2][3]   = {{0, 0, 0}, {0, 0, 1}}, length;
+  RayFunctions   S;
+  RayLattice     l;
 
-  reference.x = s->X;
+  if (s->X) reference.x = s->X;
   ContactRayLatticeGather(&reference, facet, &l);
   ContactRayFunctions(s->dim - 1, l.order, at, 1, &S);
   for (PetscInt i = 0; i < s->dim - 1; i++) ContactRayLatticeSum(&l, S.d[i], t[i]);
   Cross3(t[0], t[1], n);
   length = PetscSqrtReal(Dot3(n, n));
   for (int c = 0; c < 3; c++) n[c] /= length;
+}
+
+/* The same in the middle of its side from corner k on (plane: at corner k). */
+static void SideNormal_Private(const ContactSurface *s, PetscInt facet, PetscInt k, PetscReal n[3])
+{
+  static const PetscReal Middle[4][2] = {{0, -1}, {1, 0}, {0, 1}, {-1, 0}};
+  const PetscReal        at[2]        = {s->dim == 2 ? 2 * (PetscReal)k - 1 : Middle[k][0], s->dim == 2 ? 0 : Middle[k][1]};
+
+  NormalAt_Private(s, facet, at, n);
+}
+
+FacetJoint ContactFacetJoint(const ContactSurface *s, PetscInt a, PetscInt b)
+{
+  static const PetscReal Corner[4][2] = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}, End[2][2] = {{-1, 0}, {1, 0}};
+  const PetscInt         nv = 2 * (s->dim - 1);
+  PetscReal              n[2][3];
+
+  for (PetscInt k = 0; k < nv; k++)
+    for (PetscInt l = 0; l < nv; l++) {
+      if (s->facets[nv * a + k] != s->facets[nv * b + l]) continue;
+      NormalAt_Private(s, a, s->dim == 2 ? End[k] : Corner[k], n[0]);
+      NormalAt_Private(s, b, s->dim == 2 ? End[l] : Corner[l], n[1]);
+      return Dot3(n[0], n[1]) > CONTACT_OPPOSE ? JOINT_SMOOTH : JOINT_SHARP;
+    }
+  return JOINT_NONE;
 }
 
 static void Join_Private(PetscInt sheet[], PetscInt a, PetscInt b)
@@ -147,7 +169,7 @@ static void JoinAlong_Private(RayWork w, const ContactSurface *s, const Side *a,
 
   SideNormal_Private(s, a->facet, CornerAt_Private(s, a->facet, a->from) % 4, n[0]);
   SideNormal_Private(s, b->facet, CornerAt_Private(s, b->facet, b->from) % 4, n[1]);
-  if (!(Dot3(n[0], n[1]) > SHARP)) return;
+  if (!(Dot3(n[0], n[1]) > CONTACT_SHARP)) return;
   for (int e = 0; e < 2; e++) {
     const PetscInt i = CornerAt_Private(s, a->facet, node[e]), j = CornerAt_Private(s, b->facet, node[e]);
 
@@ -187,7 +209,7 @@ static void SheetsInPlane_Private(RayWork w, const ContactSurface *s)
 
       SideNormal_Private(s, a / 2, a % 2, n[0]);
       SideNormal_Private(s, b / 2, b % 2, n[1]);
-      if (Dot3(n[0], n[1]) > SHARP) Join_Private(w->sheet, a, b);
+      if (Dot3(n[0], n[1]) > CONTACT_SHARP) Join_Private(w->sheet, a, b);
     }
 }
 
