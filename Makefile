@@ -70,7 +70,7 @@ UNITS   := $(patsubst tests/unit/%.c,$(BUILD)/unit/%,$(wildcard tests/unit/test_
 BENCHES := $(patsubst tests/bench/%.c,$(BUILD)/bench/%,$(wildcard tests/bench/*.c))
 TRACKED  = $(wildcard $(shell git ls-files '*.c' '*.h'))
 
-.PHONY: all install units unit bootstrap demo run-demo test run-test verify run-verify gauntlet run-gauntlet chart bench run-bench format format-check lint floors sizes clean FORCE
+.PHONY: all install docs units unit bootstrap demo run-demo test run-test verify run-verify gauntlet run-gauntlet chart bench run-bench format format-check lint floors sizes clean FORCE
 all: $(PROGRAM)
 
 $(BUILD)/mortise: $(BUILD)/app/main.o $(LIBRARY)
@@ -182,6 +182,13 @@ install: all
 	$(DESCRIBE) man > $(SHAREDIR)/man/man1/mortise.1
 	$(DESCRIBE) bash > $(SHAREDIR)/bash-completion/completions/mortise
 	$(DESCRIBE) zsh > $(SHAREDIR)/zsh/site-functions/_mortise
+
+# The manual as a site, in out/manual: Markdown of docs/, and the reference from the program's own tables.
+docs:
+	@scripts/bootstrap mkdocs
+	@$(MAKE) --no-print-directory -j2 all
+	MORTISE=$(abspath $(PROGRAM)) scripts/manual build/manual
+	mkdocs build -q
 
 # ---- care of the source ------------------------------------------------------------------------------------------------
 
