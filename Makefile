@@ -174,6 +174,7 @@ install: all
 	install -d $(SHAREDIR)/bash-completion/completions $(SHAREDIR)/zsh/site-functions
 	install $(PROGRAM) $(BINDIR)/mortise
 	install scripts/plot $(BINDIR)/mortise-plot
+	install scripts/import $(BINDIR)/mortise-import
 	install scripts/hpc/batch $(BINDIR)/mortise-batch
 	install -m 644 scripts/hpc/slurm.sh $(SHAREDIR)/mortise/slurm.sh
 	install -m 644 inputs/* $(SHAREDIR)/mortise/examples
