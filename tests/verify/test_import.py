@@ -3,6 +3,7 @@
 The reference is two bent blocks written by boxmesh; its cells are written here in each format, order 2 without the nodes in the middle of faces and cells, which
 the map of the blocks, a polynomial of degree 2, gives back exactly.
 """
+import re
 import subprocess
 
 import boxmesh
@@ -294,6 +295,7 @@ def test_what_is_not_kept_is_told(tmp_path):
     ("a.inp", "*NODE\n1, 0, zero, 0\n", "is damaged or of another format"),
     ("a.inp", "*NODE\n1, 0, 0, 0\n2, 1, 0, 0\n3, 1, 1, 0\n4, 0, 1, 1\n*ELEMENT, TYPE=S4\n1, 1, 2, 3, 4\n", "is a surface in space"),
     ("a.inp", "*NODE\n1, 0, 0\n2, 1, 0\n*NGEN\n1, 2, 1\n", r"*NGEN makes nodes"),
+    ("a.step", "no", "gmsh finds no geometry in it"),
     ("a.cgns", "no", "is no HDF5 file"),
     ("a.unv", "    -1\n  2412\n 1 115\n    -1\n", "is damaged or of another format"),
 ])
@@ -303,6 +305,29 @@ def test_refused(tmp_path, name, text, words):
     done = convert(tmp_path / name, tmp_path / "out.msh")
     assert done.returncode == 1 and words in done.stderr and done.stderr.count("\n") == 1, done
     assert not (tmp_path / "out.msh").exists()
+
+
+def test_cad(run, tmp_path):
+    """STEP: a .geo with groups where the faces are; it replaces none."""
+    (tmp_path / "box.geo").write_text('SetFactory("OpenCASCADE");\nBox(1) = {0, 0, 0, 2, 1, 0.5};\n')
+    subprocess.run(["gmsh", "-0", "box.geo", "-o", "part.step"], cwd=tmp_path, capture_output=True, check=True)
+    done = convert(tmp_path / "part.step", tmp_path / "part.geo")
+    assert done.returncode == 0 and "1 body, 6 faces" in done.stdout, done
+    text = (tmp_path / "part.geo").read_text()
+    names = {what: re.search(rf'"(face_\d)".*// {what}$', text, re.M)[1] for what in ("x = 0, y = 0 .. 1, z = 0 .. 0.5", "x = 2, y = 0 .. 1, z = 0 .. 0.5")}
+    left, right = names.values()
+    scene = f"""mesh: {{file: {tmp_path}/part.geo, order: 1, parameter: {{size: 1}}}}
+model: 3d
+kinematics: small
+body: {{body_1: {{material: steel}}}}
+material: {{steel: {{law: linear, E: 1, nu: 0}}}}
+boundary: {{{left}: {{fix: xyz}}, {right}: {{displacement: {{x: 0.2}}}}}}
+load: {{step: 1}}
+"""
+    result = run("part.yml", "-output_fields", "false", text=scene)
+    assert result.summary["reaction"][left][0] == pytest.approx(-0.05, rel=1e-8)  # E A u / L
+    again = convert(tmp_path / "part.step", tmp_path / "part.geo")
+    assert again.returncode == 1 and "is there" in again.stderr and (tmp_path / "part.geo").read_text() == text
 
 
 def test_without_meshio(tmp_path):
