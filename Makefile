@@ -168,10 +168,11 @@ run-bench: $(BENCHES)
 PREFIX ?= /usr/local
 BINDIR   = $(DESTDIR)$(PREFIX)/bin
 SHAREDIR = $(DESTDIR)$(PREFIX)/share
+ZSHDIR   = $(PREFIX)/share/zsh/site-functions
 DESCRIBE = MORTISE=$(abspath $(PROGRAM)) scripts/describe
 install: all
 	install -d $(BINDIR) $(SHAREDIR)/mortise/examples $(SHAREDIR)/man/man1 $(SHAREDIR)/doc/mortise
-	install -d $(SHAREDIR)/bash-completion/completions $(SHAREDIR)/zsh/site-functions
+	install -d $(SHAREDIR)/bash-completion/completions $(DESTDIR)$(ZSHDIR)
 	install $(PROGRAM) $(BINDIR)/mortise
 	install scripts/plot $(BINDIR)/mortise-plot
 	install scripts/import $(BINDIR)/mortise-import
@@ -182,7 +183,7 @@ install: all
 	$(DESCRIBE) schema > $(SHAREDIR)/mortise/scene.schema.json
 	$(DESCRIBE) man > $(SHAREDIR)/man/man1/mortise.1
 	$(DESCRIBE) bash > $(SHAREDIR)/bash-completion/completions/mortise
-	$(DESCRIBE) zsh > $(SHAREDIR)/zsh/site-functions/_mortise
+	$(DESCRIBE) zsh > $(DESTDIR)$(ZSHDIR)/_mortise
 
 # The manual as a site, in out/manual: Markdown of docs/, and the reference from the program's own tables.
 docs:

@@ -74,6 +74,12 @@ def test_new_refuses_names(tmp_path, name):
     assert refused.returncode == 1 and "is no name for a scene" in refused.stderr and not os.listdir(tmp_path)
 
 
+def test_one_version():
+    version = execute([str(PROGRAM), "--version"])[1].split()[1]
+    assert (ROOT / "debian/changelog").read_text().startswith(f"mortise ({version})")
+    assert f"\nversion: {version}\n" in (ROOT / "CITATION.cff").read_text()
+
+
 def test_help_by_any_name():
     texts = {execute([str(PROGRAM), option])[1] for option in ("-help", "--help", "-h")}
     assert len(texts) == 1 and "mortise new NAME" in texts.pop()
