@@ -1,6 +1,7 @@
 # mortise: contact between bodies that deform a lot. `make demo` and `make test` do everything on a Debian 12 machine
 # that has git and make: they install what is missing, build, and run.
 #   make [DEBUG=1] [PORTABLE=1] [PETSC_DIR=… PETSC_ARCH=…] [BUILD=…]
+#   make install [PREFIX=/usr/local] [DESTDIR=]
 #   DEBUG=1     address and undefined sanitizers          PORTABLE=1  no -march=native (for a cluster's head node)
 # Every combination has its own build directory and program, so changing a flag never mixes objects.
 
@@ -58,7 +59,7 @@ else
 endif
 CFLAGS   := -std=gnu11 $(OPT) -Wall -Wextra -Wshadow -Wstrict-prototypes -Wno-unused-parameter -Wno-maybe-uninitialized -Wno-psabi -Wno-format-truncation -Werror -fno-math-errno -MMD -MP
 FOLDERS  := $(foreach m,$(MODULES),src/$(m) $(patsubst %/,%,$(wildcard src/$(m)/*/)))
-CPPFLAGS := -Iinclude $(addprefix -I,$(FOLDERS)) $(PETSC_CFLAGS) $(HDF5_CFLAGS) $(if $(SMUMPS),-DMORTISE_SMUMPS)
+CPPFLAGS := -Iinclude -I$(BUILD) $(addprefix -I,$(FOLDERS)) $(PETSC_CFLAGS) $(HDF5_CFLAGS) $(if $(SMUMPS),-DMORTISE_SMUMPS)
 LDLIBS   := -Wl,--no-as-needed -lopenblas $(LOAD_FIRST) -Wl,--as-needed $(PETSC_LIBS) -lmetis -ldmumps $(SMUMPS) -lmumps_common $(HDF5_LIBS) -lmuparser -lcjson -lyaml -lm
 
 SOURCES := $(foreach f,$(FOLDERS),$(wildcard $(f)/*.c))
@@ -69,7 +70,7 @@ UNITS   := $(patsubst tests/unit/%.c,$(BUILD)/unit/%,$(wildcard tests/unit/test_
 BENCHES := $(patsubst tests/bench/%.c,$(BUILD)/bench/%,$(wildcard tests/bench/*.c))
 TRACKED  = $(wildcard $(shell git ls-files '*.c' '*.h'))
 
-.PHONY: all units unit bootstrap demo run-demo test run-test verify run-verify gauntlet run-gauntlet chart bench run-bench format format-check lint floors sizes clean FORCE
+.PHONY: all install docs units unit bootstrap demo run-demo test run-test verify run-verify gauntlet run-gauntlet chart bench run-bench format format-check lint floors sizes clean FORCE
 all: $(PROGRAM)
 
 $(BUILD)/mortise: $(BUILD)/app/main.o $(LIBRARY)
@@ -89,6 +90,12 @@ $(BUILD)/%.o: src/%.c Makefile
 	@mkdir -p $(@D)
 	@echo "  CC   $<"
 	$(Q)$(CC) $(CFLAGS) $(CPPFLAGS) -c -o $@ $<
+
+# Files that the program carries with it (mortise new), as strings.
+$(BUILD)/app/new.o: $(BUILD)/app/new.yml.inc $(BUILD)/app/new.geo.inc
+$(BUILD)/app/new.%.inc: src/app/new.%
+	@mkdir -p $(@D)
+	$(Q)sed 's/[\\"]/\\&/g; s/^/"/; s/$$/\\n"/' $< > $@
 
 # cmocka.h wants these two before it, whatever order clang-format gives the includes.
 $(BUILD)/unit/%: tests/unit/%.c $(LIBRARY)
@@ -155,6 +162,35 @@ run-bench: $(BENCHES)
 	@for b in $(BENCHES); do echo "== $$b"; $$b || exit 1; done
 	@MORTISE=$(abspath $(PROGRAM)) scripts/bench
 	@MORTISE=$(abspath $(PROGRAM)) scripts/bench_condense --block
+
+# ---- installation: program, scripts, example scenes, and what scripts/describe makes of the program's own tables ---------------
+
+PREFIX ?= /usr/local
+BINDIR   = $(DESTDIR)$(PREFIX)/bin
+SHAREDIR = $(DESTDIR)$(PREFIX)/share
+ZSHDIR   = $(PREFIX)/share/zsh/site-functions
+DESCRIBE = MORTISE=$(abspath $(PROGRAM)) scripts/describe
+install: all
+	install -d $(BINDIR) $(SHAREDIR)/mortise/examples $(SHAREDIR)/man/man1 $(SHAREDIR)/doc/mortise
+	install -d $(SHAREDIR)/bash-completion/completions $(DESTDIR)$(ZSHDIR)
+	install $(PROGRAM) $(BINDIR)/mortise
+	install scripts/plot $(BINDIR)/mortise-plot
+	install scripts/import $(BINDIR)/mortise-import
+	install scripts/hpc/batch $(BINDIR)/mortise-batch
+	install -m 644 scripts/hpc/slurm.sh $(SHAREDIR)/mortise/slurm.sh
+	install -m 644 inputs/* $(SHAREDIR)/mortise/examples
+	install -m 644 LICENSE README.md $(SHAREDIR)/doc/mortise
+	$(DESCRIBE) schema > $(SHAREDIR)/mortise/scene.schema.json
+	$(DESCRIBE) man > $(SHAREDIR)/man/man1/mortise.1
+	$(DESCRIBE) bash > $(SHAREDIR)/bash-completion/completions/mortise
+	$(DESCRIBE) zsh > $(DESTDIR)$(ZSHDIR)/_mortise
+
+# The manual as a site, in out/manual: Markdown of docs/, and the reference from the program's own tables.
+docs:
+	@scripts/bootstrap mkdocs
+	@$(MAKE) --no-print-directory -j2 all
+	MORTISE=$(abspath $(PROGRAM)) scripts/manual build/manual
+	mkdocs build -q
 
 # ---- care of the source ------------------------------------------------------------------------------------------------
 

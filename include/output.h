@@ -121,18 +121,13 @@ PetscErrorCode ProbesEvaluate(Probes, Problem, Vec x, ProbeValue value[]);
 
 /* ---- history.csv and adapt.csv (output/history.c) ------------------------------------------------------------------------ */
 
-/* Columns of adapt.csv: step, pass (adaptive ones at this load step; adapt.repeat: path: of the whole path, every one of which is there), t, cells, dofs,
-   newton_iterations, active_nodes, estimated_error, estimate, energy, min_det, min_gap, contact_force, seconds, accepted. Columns of history.csv, names as in
-   summary.json:
-   - step, t, dt, pass (of the accepted solution), step_cuts, cells, dofs, newton_iterations, active_nodes, estimated_error, energy, min_det, min_gap,
-     contact_force, contact_imbalance, moment_imbalance, support_imbalance, seconds, viscous_work (energy that viscous regularisation dissipated),
-     frozen_segmentation (1: contact forces with the lines of mortar sides frozen, Form), modifiers (interventions of Newton's modifiers, all together);
-   - with plastic materials plastic.strain (largest, surfaces included), plastic.work, and body.<name>.mean_plastic_strain of each body that flows: int alpha dV
-   / int dV over its reference volume, which converges where the largest, at a notch, does not;
-   - reaction.<boundary>.x … for boundaries with supports;
-   - pressure.<boundary>, and volume.<boundary> or advance.<boundary>, where the pressure is found;
-   - contact.<pair>.force.x …, .moment (3-D: .moment.x …), .max_pressure, .area, .radius (2-D), .active_nodes, .min_gap;
-   - probe.<name>.displacement.x …, .stress.xx … (2-D: xx xy yy zz), with plastic materials .plastic_strain. */
+/* What stands in the files of a run, by name (output/fields.c): the columns are made from these rows, and so is the manual. In names <boundary>, <pair>, …
+   stand for any of a scene's. Ended by name NULL. */
+typedef struct {
+  const char *name, *unit, *help; /* unit: kind of quantity, as in the option table */
+} OutputField;
+extern const OutputField OutputAdaptColumns[], OutputHistoryColumns[], OutputSummaryFields[];
+
 typedef struct _p_History *History;
 /* Open both in the output directory, which must exist: afresh (after NULL), or to go on after a load step (TableResume; `earlier` is set here: adapt.csv has
    the rows of all paths, history.csv those of the last). Collective. */

@@ -85,3 +85,6 @@ PetscErrorCode SceneView(Scene, Forest, PetscViewer);
 /* The manual (-help) and the catalogue (-list), made from the option table and the tables of laws; written to stdout by rank 0. */
 PetscErrorCode ScenePrintHelp(MPI_Comm);
 PetscErrorCode ScenePrintList(MPI_Comm);
+/* The same tables as arrays "keys" and "laws" of a JSON object (describe.c). Not collective. */
+struct cJSON;
+PetscErrorCode SceneDescribe(struct cJSON *);

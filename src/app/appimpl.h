@@ -100,6 +100,16 @@ PetscErrorCode AppContactPairs(App *, PetscInt *num, PetscInt (**pairs)[2]);
 /* restart.c. The options -restart and -max_seconds; signals are heard from now on. Collective. */
 PetscErrorCode AppOptions(App *);
 PetscErrorCode AppPrintHelp(MPI_Comm);
+/* describe.c. Everything of the tables that a manual, an editor or a shell asks for, as one JSON object (-help json). Collective. */
+PetscErrorCode AppDescribe(MPI_Comm);
+/* What each exit status means, ended by text NULL (describe.c). */
+typedef struct {
+  int         status;
+  const char *text;
+} ExitStatus;
+extern const ExitStatus ExitStatuses[];
+/* new.c. `mortise new NAME`: a commented scene and its geometry to start from; an input error where one of both files is there. Collective. */
+PetscErrorCode AppNew(MPI_Comm, const char *name);
 /* unknown.c. After all that ask for options of their own: is there one that nobody knows, PETSc included? An input error. Not collective. */
 PetscErrorCode AppCheckOptions(Scene);
 /* Copy the accepted state and all counters; write the copy, if its file is not yet that; remove the file of an earlier run, and what

@@ -159,16 +159,14 @@ static PetscErrorCode Help_Private(void)
   PetscCall(SolverPrintHelp(PETSC_COMM_WORLD));
   PetscCall(PathPrintHelp(PETSC_COMM_WORLD));
   PetscCall(AppPrintHelp(PETSC_COMM_WORLD));
-  PetscCall(PetscPrintf(
-      PETSC_COMM_WORLD,
-      "\nA run prints a line for each adaptive pass: load step, pass, t, cells, unknowns (dofs), Newton iterations, nodes under contact pressure,\n"
-      "relative estimated error, magnitude of the contact force (of several pairs the sum of the magnitudes; one by one in history.csv),\n"
-      "seconds since the start. What else is known of each pass and each load step: adapt.csv, history.csv, summary.json.\n"
-      "A line \"warning: ...\" tells of something that a run can be right with but its user may not mean; summary.json lists them.\n"
-      "\nOptions of PETSc work as everywhere: -snes_monitor, -ksp_monitor, -log_view, ...\n"
-      "Exit status: 0 converged to the end; 1 bad input, nothing was solved; 2 the solver gave up: status failed, or inaccurate where all load steps\n"
-      "were solved, but adapt.tolerance was not reached in all of them, whatever the reason; 3 stopped, by SIGTERM, SIGINT, SIGHUP, SIGQUIT,\n"
-      "SIGUSR1, SIGXCPU, SIGPIPE or -max_seconds, with a checkpoint for -restart.\n"));
+  PetscCall(
+      PetscPrintf(PETSC_COMM_WORLD,
+                  "\nA run prints a line for each adaptive pass: load step, pass, t, cells, unknowns (dofs), Newton iterations, nodes under contact pressure,\n"
+                  "relative estimated error, magnitude of the contact force (of several pairs the sum of the magnitudes; one by one in history.csv),\n"
+                  "seconds since the start. What else is known of each pass and each load step: adapt.csv, history.csv, summary.json.\n"
+                  "A line \"warning: ...\" tells of something that a run can be right with but its user may not mean; summary.json lists them.\n"
+                  "\nOptions of PETSc work as everywhere: -snes_monitor, -ksp_monitor, -log_view, ...\n\nExit status:\n"));
+  for (const ExitStatus *e = ExitStatuses; e->text; ++e) PetscCall(PetscPrintf(PETSC_COMM_WORLD, "  %d  %s\n", e->status, e->text));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -176,7 +174,11 @@ static PetscErrorCode Main_Private(int argc, char **argv, int *status)
 {
   PetscFunctionBegin;
   PetscCall(StageRegister());
-  if (Asked_Private(argc, argv, "-help") || Asked_Private(argc, argv, "--help") || Asked_Private(argc, argv, "-h"))
+  if (argc > 1 && !strcmp(argv[1], "new"))
+    PetscCall(AppNew(PETSC_COMM_WORLD, argc > 2 ? argv[2] : ""));
+  else if (argc == 3 && !strcmp(argv[1], "-help") && !strcmp(argv[2], "json"))
+    PetscCall(AppDescribe(PETSC_COMM_WORLD));
+  else if (Asked_Private(argc, argv, "-help") || Asked_Private(argc, argv, "--help") || Asked_Private(argc, argv, "-h"))
     PetscCall(Help_Private());
   else if (Asked_Private(argc, argv, "--version"))
     PetscCall(PetscPrintf(PETSC_COMM_WORLD, "mortise %s\n", MORTISE_VERSION));

@@ -1,7 +1,8 @@
 /* history.csv and adapt.csv: what happened, one row per accepted load step and per adaptive pass. */
 #include "output.h"
 
-#define PLASTIC_COLUMNS 5 /* the last of adapt.csv */
+#define ADAPT_COLUMNS 20  /* of OutputAdaptColumns */
+#define PLASTIC_COLUMNS 5 /* the last of them */
 #define COLUMN_NAME (2 * MORTISE_NAME)
 
 struct _p_History {
@@ -13,34 +14,9 @@ struct _p_History {
   PetscReal       *values; /* owned [num] */
 };
 
-static const char *const adapt_columns[] = {"step", "pass", "t", "cells", "dofs", "newton_iterations", "active_nodes", "estimated_error", "estimate", "energy",
-                                            "min_det", "min_gap", "contact_force", "seconds", "accepted",
-                                            /* with plastic materials */
-                                            "plastic_strain", "plastic_work", "force_change", "work_change", "strain_change"};
-static const char *const step_columns[]  = {"step",
-                                            "t",
-                                            "dt",
-                                            "pass",
-                                            "step_cuts",
-                                            "cells",
-                                            "dofs",
-                                            "newton_iterations",
-                                            "active_nodes",
-                                            "estimated_error",
-                                            "energy",
-                                            "min_det",
-                                            "min_gap",
-                                            "contact_force",
-                                            "contact_imbalance",
-                                            "moment_imbalance",
-                                            "support_imbalance",
-                                            "seconds",
-                                            "viscous_work",
-                                            "frozen_segmentation",
-                                            "modifiers"};
-static const char *const axis_name[]     = {"x", "y", "z"};
-static const char *const stress_name[]   = {"xx", "xy", "xz", "yy", "yz", "zz"};
-static const char *const zone_name[]     = {"max_pressure", "area", "radius", "active_nodes", "min_gap"};
+static const char *const axis_name[]   = {"x", "y", "z"};
+static const char *const stress_name[] = {"xx", "xy", "xz", "yy", "yz", "zz"};
+static const char *const zone_name[]   = {"max_pressure", "area", "radius", "active_nodes", "min_gap"};
 
 /* Columns of a table under construction. With names NULL they are counted only; a value is put beside its name, so that both cannot drift apart. */
 typedef struct {
@@ -128,10 +104,34 @@ static PetscErrorCode Open_Private(History h, const char *file, PetscInt n, cons
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Columns that every scene has stand first in their table. */
+static PetscInt NumFixed_Private(const OutputField *field)
+{
+  PetscInt num = 0;
+
+  while (field[num].name && !strchr(field[num].name, '<') && strncmp(field[num].name, "plastic.", 8)) ++num;
+  return num;
+}
+
+static PetscErrorCode OpenAdapt_Private(History h, const TablePlace *after)
+{
+  const char *names[ADAPT_COLUMNS];
+  PetscInt    num = 0;
+
+  PetscFunctionBegin;
+  while (num < ADAPT_COLUMNS && OutputAdaptColumns[num].name) {
+    names[num] = OutputAdaptColumns[num].name;
+    ++num;
+  }
+  if (!MechanicsIsPlastic(&h->scene->mechanics)) num -= PLASTIC_COLUMNS;
+  PetscCall(Open_Private(h, "adapt.csv", num, names, after, &h->adapt));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* history.csv: fixed columns, then those of the scene. */
 static PetscErrorCode OpenHistory_Private(History h, const TablePlace *after)
 {
-  const PetscInt fixed = (PetscInt)PETSC_STATIC_ARRAY_LENGTH(step_columns), num_probes = h->probes ? h->scene->num_probes : 0;
+  const PetscInt fixed = NumFixed_Private(OutputHistoryColumns), num_probes = h->probes ? h->scene->num_probes : 0;
   const char   **names;
   Columns        c = {0};
 
@@ -142,7 +142,7 @@ static PetscErrorCode OpenHistory_Private(History h, const TablePlace *after)
   PetscCall(PetscMalloc2(c.num, &c.names, h->num, &names));
   c.num = 0;
   PetscCall(Columns_Private(h->scene, num_probes, NULL, NULL, &c));
-  for (PetscInt i = 0; i < h->num; ++i) names[i] = i < fixed ? step_columns[i] : c.names[i - fixed];
+  for (PetscInt i = 0; i < h->num; ++i) names[i] = i < fixed ? OutputHistoryColumns[i].name : c.names[i - fixed];
   PetscCall(Open_Private(h, "history.csv", h->num, names, after, &h->history));
   PetscCall(PetscFree2(c.names, names));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -155,14 +155,13 @@ PetscErrorCode HistoryCreate(MPI_Comm comm, const SceneData *scene, Probes probe
 
   PetscFunctionBegin;
   PetscCall(PetscNew(&h));
-  *history               = h;
-  h->comm                = comm;
-  h->scene               = scene;
-  h->probes              = probes;
-  const PetscInt columns = (PetscInt)PETSC_STATIC_ARRAY_LENGTH(adapt_columns) - (MechanicsIsPlastic(&scene->mechanics) ? 0 : PLASTIC_COLUMNS);
-  all.earlier            = PETSC_TRUE;
+  *history    = h;
+  h->comm     = comm;
+  h->scene    = scene;
+  h->probes   = probes;
+  all.earlier = PETSC_TRUE;
   PetscCall(OpenHistory_Private(h, after));
-  PetscCall(Open_Private(h, "adapt.csv", columns, adapt_columns, after ? &all : NULL, &h->adapt));
+  PetscCall(OpenAdapt_Private(h, after ? &all : NULL));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -186,7 +185,7 @@ PetscErrorCode HistoryDestroy(History *history)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Order of adapt_columns. */
+/* Order of OutputAdaptColumns. */
 PetscErrorCode HistoryPass(History h, const ReportRow *r)
 {
   const PetscReal values[] = {(PetscReal)r->step,
@@ -215,7 +214,7 @@ PetscErrorCode HistoryPass(History h, const ReportRow *r)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Order of step_columns. */
+/* Order of OutputHistoryColumns. */
 PetscErrorCode HistoryStep(History h, const ReportRow *r, const Balance *balance, Problem problem, const State *state)
 {
   const PetscReal fixed[]   = {(PetscReal)r->step,
