@@ -403,7 +403,8 @@ static PetscErrorCode Exact_Private(Descent *d, State *state)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode DescentFinish_Private(Descent *d, State *state)
+/* Down from the state, whose prescribed motion is put in, and to a solution of the exact problem; the report says whether. */
+static PetscErrorCode Finish_Private(Descent *d, State *state)
 {
   PetscBool ok = PETSC_TRUE;
 
@@ -421,20 +422,27 @@ PetscErrorCode DescentFinish_Private(Descent *d, State *state)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SolverDescend(Solver s, State *state, SolverReport *report)
+PetscErrorCode DescentRun_Private(Solver s, DescentStart start, const char *reason, State *state, SolverReport *report)
 {
   Descent   d;
   PetscBool ok;
 
   PetscFunctionBegin;
   PetscCall(PetscMemzero(report, sizeof(*report)));
-  report->reason   = "no descent leads to an equilibrium";
+  report->reason   = reason;
   report->unstable = -1;
   PetscCall(ProblemSetState(s->problem, state));
   PetscCall(DescentCreate_Private(s, report, &d));
   PetscCall(VecCopy(state->x, d.lambda));
-  PetscCall(Move_Private(&d, state->x, &ok));
-  if (ok) PetscCall(DescentFinish_Private(&d, state));
+  PetscCall(start(&d, state->x, &ok));
+  if (ok) PetscCall(Finish_Private(&d, state));
   PetscCall(DescentDestroy_Private(&d));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SolverDescend(Solver s, State *state, SolverReport *report)
+{
+  PetscFunctionBegin;
+  PetscCall(DescentRun_Private(s, Move_Private, "no descent leads to an equilibrium", state, report));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
