@@ -147,9 +147,7 @@ struct _p_Interface {
   PetscReal            share;     /* of the misfit that counts as no gap */
   MPI_Datatype         unit[4];   /* as many reals */
   ContactTraffic       traffic;
-  PetscInt            *work_index;
-  PetscReal           *work_value;
-  PetscInt             work_size;
+  RowBuffer            work;
   PetscReal           *hessian; /* work: of a facet */
   PetscInt             hessian_size;
 };
