@@ -29,6 +29,28 @@ def test_needed(run, name, figure, times, scene):
     assert without.summary["energy"] == pytest.approx(plain.summary["energy"], rel=1e-3)
 
 
+def test_inside(run):
+    """A half disc pressed through the top of a block by more than its radius in one step: Newton's method ends with the disc inside the block and no contact
+    at all. That is no solution; half the step is, and the force is that of ten steps."""
+    scene = ("inputs/hertz2d.yml", "-adapt_tolerance", 0, "-order", 1, "-boundary_top_displacement_y", "-1.1*t")
+    plain, fine, without = (run(*scene, *QUIET, *words) for words in ((), ("-load_step", 0.1), ("-path_inside", "off")))
+    for result in (plain, fine, without): assert result.returncode == 0, result
+    assert plain.summary["refused_solutions"] == 1 and plain.summary["step_cuts"] == 1 and fine.summary["refused_solutions"] == without.summary["refused_solutions"] == 0
+    force = [result.summary["contact"]["disc_on_block"]["force"][1] for result in (plain, fine, without)]
+    print(force)
+    assert force[0] > 1 and force[0] == pytest.approx(force[1], rel=1e-6) and force[2] == 0
+
+
+def test_unfolded(run):
+    """A soft disc on a stiff block folds under the ends of its bonded top, between integration points; on smaller cells there no equilibrium is found. The rest
+    of the mesh is refined, and the tolerance is reached; without, it is not."""
+    scene = ("tests/gauntlet/press.yml", "-material_a_E", 1, "-material_a_nu", 0.45, "-material_b_E", 1e5, "-material_b_nu", 0.3, "-adapt_tolerance", 0.0125)
+    plain, without = (run(*scene, *QUIET, "-path_unfolded", word) for word in ("auto", "off"))
+    print(plain.summary["estimated_error"], without.summary["estimated_error"])
+    assert plain.returncode == 0 and plain.summary["recoveries"]["unfolded"] == {"tried": 1, "succeeded": 1} and plain.summary["estimated_error"] < 0.0125, plain
+    assert without.summary["status"] == "inaccurate" and without.summary["recoveries"]["unfolded"]["tried"] == 0 and without.summary["estimated_error"] > 0.0125
+
+
 def test_switches_and_counters(run):
     """Each has a row in -help and a counter in summary.json, steps of history.csv add up to them, and none acts when it is off."""
     names = re.findall(r"^  -newton_(\w+) +auto\|on\|off$", run("inputs/patch2d.yml", "-help").stdout, re.M)
