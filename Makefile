@@ -205,6 +205,7 @@ lint: format-check floors
 	scripts/sizes --check
 sizes:
 	scripts/sizes
+	scripts/thresholds
 
 clean:
 	rm -rf build build-* bin out tests/.pytest_cache

@@ -93,6 +93,20 @@ const char    *StopWish(void);   /* the same, of a request to this rank that the
 /* Hash of num bytes, to go on from an earlier one (seed 0: begin). Bytes that differ in one place never have the same. */
 uint64_t HashBytes(uint64_t seed, const void *bytes, size_t num);
 
+/* ---- arrays (base/array.c) ----------------------------------------------------------------------------------------- */
+
+/* The first place of a sorted array whose entry is not less than the key, num: all are less. compare as for qsort, the entry first. */
+PetscInt SortedFrom(const void *key, const void *array, PetscInt num, size_t entry, int (*compare)(const void *, const void *));
+
+/* A row on its way to a matrix: indices and values, room for the longest one so far. Zero: none yet. */
+typedef struct {
+  PetscInt   size;
+  PetscInt  *index;
+  PetscReal *value;
+} RowBuffer;
+PetscErrorCode RowBufferGrow(RowBuffer *, PetscInt num); /* what it holds is lost where it grows */
+PetscErrorCode RowBufferDestroy(RowBuffer *);
+
 /* ---- messages between few of many ranks (base/sparse.c) ---------------------------------------------------------- */
 
 /* Message i, entries first[i] .. first[i+1] of `entry` bytes each of `send`, goes to rank to[i] (not this one; no message is empty); nobody else knows of it

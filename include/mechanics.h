@@ -96,7 +96,8 @@ PetscErrorCode MechanicsSetViscosity(Mechanics, PetscReal rate, const PetscReal 
 /* Its forces at u times the motion since then: this rank's part of the energy that it takes. Not collective. */
 PetscErrorCode MechanicsViscousWork(Mechanics, const PetscReal u[], PetscReal *work);
 /* Sum of q q^T over the supported directions q of the nodes of each body and those joined to it (axisymmetric: the radial direction is supported):
-   hold[num_bodies][9]. */
+   hold[num_bodies][9]. A direction of which a sum over bodies has no more than MECHANICS_FREE of its trace is free. */
+#define MECHANICS_FREE 1e-9
 PetscErrorCode MechanicsGetHold(Mechanics, const PetscReal **hold);
 /* Do supports hold it against every rigid motion, rotations too? Not collective. */
 PetscBool MechanicsIsHeld(Mechanics, PetscInt body);

@@ -2,7 +2,7 @@
 #pragma once
 #include "solve.h"
 
-#define PATH_RECOVERIES 5 /* rows of the table of recoveries */
+enum { PATH_UNFOLDED = 5, PATH_RECOVERIES }; /* rows of the table of recoveries */
 
 /* The part of a run that lives on one mesh; replaced as a whole at each adaptation. */
 typedef struct {
@@ -45,6 +45,8 @@ typedef struct {
   RecoveryCount    recovery[PATH_RECOVERIES];      /* by row of the table */
   /* Is what was found, level->state, no solution after all? *reason says why, else NULL. Collective. */
   PetscErrorCode (*refuse)(Problem, const State *, const char **reason);
+  RecoveryMode inside;  /* off: it is not asked */
+  PetscInt     refused; /* how often it was none */
 } Path;
 
 /* ---- the loop (follow.c) ----------------------------------------------------------------------------------------------------- */
@@ -86,6 +88,8 @@ PetscErrorCode PathFollow(Path *, PathLoop *, SolverReport *);
 PetscErrorCode PathAttempt(Path *, const PathLoop *, PetscReal to, SolverReport *);
 /* A solve has found level->state at s = `to`: what the metric notes; refused: report->converged false, report->reason. Collective. */
 PetscErrorCode PathFound(Path *, const PathLoop *, PetscReal to, SolverReport *);
+/* refuse of level->state, unless that is off; counted. Collective. */
+PetscErrorCode PathRefuse(Path *, const char **reason);
 /* What a solve took; equilibrium: what was found is one, not a step on the way to it. */
 void PathCount(Path *, const SolverReport *, PetscBool equilibrium);
 /* level->state := from, with its time and prescribed motion. Collective. */
@@ -106,7 +110,8 @@ typedef struct {
   PetscInt    far; /* what it finds may lie on another branch of equilibria: auto tries it where a load step has failed so often, and then each time failures
  have doubled; 0: it does not */
   PetscBool (*applies)(const Path *, const State *guess);
-  /* Look for level->state at `to`; level->state is any, and of no use afterwards where report->converged is false. Collective. */
+  /* NULL: the row is not of this mesh; who adapts tries it (app/adaptstep.c), and counts. Look for level->state at `to`; level->state is any, and of no use
+   * afterwards where report->converged is false. Collective. */
   PetscErrorCode (*run)(Path *, const PathLoop *load, PetscReal to, const State *guess, SolverReport *);
 } Recovery;
 
@@ -120,6 +125,6 @@ extern const Recovery PathRecoveries[PATH_RECOVERIES];
 
 /* Try the rows of the table in turn until one finds level->state; *report is of that one then, else as it was. Collective. */
 PetscErrorCode PathRecover(Path *, const PathLoop *load, PetscReal to, const State *guess, SolverReport *);
-/* Options -path_<name> on|off|auto: an input error when one is unknown or its value not allowed. */
+/* Options -path_<name> on|off|auto of recoveries and of refusals: an input error when one is unknown or its value not allowed. */
 PetscErrorCode PathOptions(Path *);
 PetscErrorCode PathPrintHelp(MPI_Comm);

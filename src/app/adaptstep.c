@@ -130,13 +130,17 @@ static PetscErrorCode RefineOnce_Private(App *app, RefineMode mode, MarkList *la
    solution is folded as they are; when there is none on that either, adaptation ends. */
 static PetscErrorCode Pass_Private(App *app, MarkList *layers, PetscInt *iterations, PetscBool *more, PetscBool *gave_up)
 {
-  MarkList  none = {0};
-  PetscBool folded;
+  RecoveryCount *unfolded = &app->path.recovery[PATH_UNFOLDED];
+  MarkList       none     = {0};
+  PetscBool      folded;
 
   PetscFunctionBegin;
   *iterations = 0;
   PetscCall(RefineOnce_Private(app, REFINE_ALL, layers, iterations, more, gave_up, &folded));
-  if (folded && !app->path.stopped) PetscCall(RefineOnce_Private(app, REFINE_UNFOLDED, &none, iterations, more, gave_up, &folded));
+  if (!folded || app->path.stopped || unfolded->mode == RECOVERY_OFF) PetscFunctionReturn(PETSC_SUCCESS);
+  ++unfolded->tried;
+  PetscCall(RefineOnce_Private(app, REFINE_UNFOLDED, &none, iterations, more, gave_up, &folded));
+  unfolded->succeeded += *more;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

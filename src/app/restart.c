@@ -20,6 +20,7 @@ static const struct {
     {"single_factor_failures", offsetof(App, path.single_failures)},
     {"unstable", offsetof(App, path.unstable)},
     {"judged", offsetof(App, path.judged)},
+    {"refused", offsetof(App, path.refused)},
     {"stabilised", offsetof(App, path.stabilised)},
     {"descent_iterations", offsetof(App, path.descent_iterations)},
     {"missed", offsetof(App, num_missed)},

@@ -5,7 +5,6 @@
 
 /* Nodes in the deepest quarter begin. At the edge of Hertz's contact the undeformed bodies overlap by half of the deepest in space, by more in the plane. */
 #define DEEP 0.75
-#define ROUND 1e-6 /* where all overlap alike, round-off does not choose */
 
 PetscErrorCode ContactLeastOverlap_Private(Interface p, const Contact *c, PetscReal *least)
 {
@@ -25,6 +24,7 @@ PetscErrorCode ContactLeastOverlap_Private(Interface p, const Contact *c, PetscR
   }
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, range, 2, MPIU_REAL, MPI_MAX, p->comm));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &more, 1, MPIU_REAL, MPI_SUM, p->comm));
+  /* where all overlap alike, round-off does not choose */
   *least = more <= 0 ? 0 : DEEP * range[0] + (1 - DEEP) * -range[1] - ROUND * range[0];
   PetscFunctionReturn(PETSC_SUCCESS);
 }

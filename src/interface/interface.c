@@ -43,7 +43,7 @@ PetscErrorCode InterfaceDestroy(Interface *interface)
   for (PetscInt i = 0; i < p->num_contacts; ++i) PetscCall(ContactDestroy_Private(&p->contacts[i]));
   PetscCall(PetscFree(p->contacts));
   PetscCall(HullDestroy_Private(p));
-  PetscCall(PetscFree2(p->work_index, p->work_value));
+  PetscCall(RowBufferDestroy(&p->work));
   PetscCall(PetscFree(p->hessian));
   PetscCall(PetscFree(*interface));
   PetscFunctionReturn(PETSC_SUCCESS);

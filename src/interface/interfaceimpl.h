@@ -7,6 +7,7 @@
 #define COVERED_HIGHER 1e-9 /* the same for facets of higher order, whose forces have faded before: compliance.c in contact */
 #define COVERED 1e-5        /* share of a node's tributary measure below which it counts as uncovered: its constraint would be all but free of its pressure */
 
+#define ROUND 1e-6  /* relative difference of two lengths that round-off may make */
 #define SLACK 1e-10 /* pressure over Young's modulus that is none: what round-off leaves */
 
 #define MOST_MASTERS 8          /* of a hanging vertex of a contact surface of order 1 */
@@ -147,9 +148,7 @@ struct _p_Interface {
   PetscReal            share;     /* of the misfit that counts as no gap */
   MPI_Datatype         unit[4];   /* as many reals */
   ContactTraffic       traffic;
-  PetscInt            *work_index;
-  PetscReal           *work_value;
-  PetscInt             work_size;
+  RowBuffer            work;
   PetscReal           *hessian; /* work: of a facet */
   PetscInt             hessian_size;
 };

@@ -10,6 +10,16 @@ static PetscBool Has_Private(const PetscInt *list, PetscInt num, PetscInt value)
   return PETSC_FALSE;
 }
 
+static PetscErrorCode Replace_Private(Contact *c, PetscInt offset[], PetscInt list[])
+{
+  PetscFunctionBegin;
+  PetscCall(PetscFree(c->pattern_offset));
+  PetscCall(PetscFree(c->pattern));
+  c->pattern_offset = offset;
+  c->pattern        = list;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* Does the facet have a node that takes part in the next linear solve? */
 static PetscBool Enters_Private(const Contact *c, const ContactFacet *e)
 {
@@ -108,10 +118,7 @@ static PetscErrorCode Grow_Private(Contact *c)
     }
   }
   offset[ne] = num;
-  PetscCall(PetscFree(c->pattern_offset));
-  PetscCall(PetscFree(c->pattern));
-  c->pattern_offset = offset;
-  c->pattern        = list;
+  PetscCall(Replace_Private(c, offset, list));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -221,9 +228,6 @@ PetscErrorCode InterfaceSetPattern(Interface p, PetscInt pair, const PetscInt fi
   for (PetscInt f = 0; f < num; ++f) offset[f + 1] += offset[f];
   PetscCall(PetscMalloc1(offset[num], &list));
   for (PetscInt f = 0; f < num; ++f) PetscCall(PetscArraycpy(list + offset[f], node + first[f], offset[f + 1] - offset[f]));
-  PetscCall(PetscFree(c->pattern_offset));
-  PetscCall(PetscFree(c->pattern));
-  c->pattern_offset = offset;
-  c->pattern        = list;
+  PetscCall(Replace_Private(c, offset, list));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

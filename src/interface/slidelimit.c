@@ -8,9 +8,7 @@
  */
 #include "interfaceimpl.h"
 
-#define REACH 0.5  /* of the distance of two nodes */
-#define ROUND 1e-6 /* round-off of a slide that is held back already */
-#define HELD 1e-9  /* share of the sum over supports below which a direction is free */
+#define REACH 0.5 /* of the distance of two nodes */
 
 /* P = (1 + A / tiny)^-1 of the supports A of the bodies of one side: what they leave free of a translation. */
 static PetscErrorCode Free_Private(Interface p, const Surface *s, PetscReal P[9])
@@ -25,7 +23,7 @@ static PetscErrorCode Free_Private(Interface p, const Surface *s, PetscReal P[9]
   for (PetscInt f = 0; f < s->num_facets; ++f)
     for (int i = 0; i < 9; ++i) A[i] += hold[9 * tables->leaf_body[s->facet_leaf[f]] + i];
   const PetscReal trace = A[0] + A[4] + A[8];
-  for (int i = 0; i < 9; ++i) A[i] = (i % 4 == 0) + (trace > 0 ? A[i] / (HELD * trace) : 0);
+  for (int i = 0; i < 9; ++i) A[i] = (i % 4 == 0) + (trace > 0 ? A[i] / (MECHANICS_FREE * trace) : 0);
   for (int i = 0; i < 3; ++i) {
     const PetscReal unit[3] = {i == 0, i == 1, i == 2};
     (void)Solve3(A, unit, P + 3 * i); /* at least 1; rows for columns: P is symmetric */
@@ -39,7 +37,7 @@ PetscErrorCode ContactFreedom_Private(Interface p, Contact *c)
   c->drifts = PETSC_FALSE;
   for (PetscInt k = 0; k < 2; ++k) {
     PetscCall(Free_Private(p, &c->side[k], c->freedom[k]));
-    for (PetscInt d = 0; d < p->dim; ++d) c->drifts = (PetscBool)(c->drifts || c->freedom[k][4 * d] > sqrt(HELD));
+    for (PetscInt d = 0; d < p->dim; ++d) c->drifts = (PetscBool)(c->drifts || c->freedom[k][4 * d] > sqrt(MECHANICS_FREE));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -123,7 +121,7 @@ static PetscErrorCode Forces_Private(Interface p, const Contact *c, const PetscR
 
 PetscErrorCode InterfaceFindSlide(Interface p, const PetscReal increment[], Vec force, PetscReal *excess)
 {
-  PetscReal worst = 1 + ROUND;
+  PetscReal worst = 1 + ROUND; /* a slide that is held back already is no more than that */
 
   PetscFunctionBegin;
   *excess = 0;

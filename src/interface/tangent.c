@@ -2,17 +2,6 @@
    sides. */
 #include "interfaceimpl.h"
 
-static PetscErrorCode Work_Private(Interface p, PetscInt size)
-{
-  PetscFunctionBegin;
-  if (size > p->work_size) {
-    p->work_size = 2 * size;
-    PetscCall(PetscFree2(p->work_index, p->work_value));
-    PetscCall(PetscMalloc2(p->work_size, &p->work_index, p->work_size, &p->work_value));
-  }
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 /* The frame of a facet's node. */
 static inline const PetscReal *Frame_Private(const Contact *c, PetscInt id)
 {
@@ -64,8 +53,8 @@ PetscErrorCode ContactFacetHessian_Private(Interface p, const InterfaceSystem *a
   PetscReal     *H;
 
   PetscFunctionBegin;
-  PetscCall(Work_Private(p, n + e->num));
-  dofs   = p->work_index;
+  PetscCall(RowBufferGrow(&p->work, n + e->num));
+  dofs   = p->work.index;
   turned = dofs + n;
   FacetDofs_Private(c, e, dofs);
   num_turned = TurnedNodes_Private(c, e, turned);
@@ -78,14 +67,14 @@ PetscErrorCode ContactFacetHessian_Private(Interface p, const InterfaceSystem *a
   for (PetscInt i = 0; i < n * n; ++i) H[i] = -e->hessian[i];
   if (a->lift) {
     for (PetscInt i = 0; i < n; ++i) {
-      p->work_value[i] = 0;
+      p->work.value[i] = 0;
       for (PetscInt b = 0; b < e->num; ++b) {
         const PetscReal *du = c->side[NODE_SIDE(e->nodes[b])].du + dim * NODE_INDEX(e->nodes[b]);
-        for (PetscInt d = 0; d < dim; ++d) p->work_value[i] += H[i * n + dim * b + d] * du[d];
+        for (PetscInt d = 0; d < dim; ++d) p->work.value[i] += H[i * n + dim * b + d] * du[d];
       }
     }
-    for (PetscInt k = 0; k < num_turned; ++k) Turn_Private(dim, Frame_Private(c, e->nodes[turned[k]]), p->work_value + dim * turned[k], 1);
-    PetscCall(VecSetValues(a->lift, n, dofs, p->work_value, ADD_VALUES));
+    for (PetscInt k = 0; k < num_turned; ++k) Turn_Private(dim, Frame_Private(c, e->nodes[turned[k]]), p->work.value + dim * turned[k], 1);
+    PetscCall(VecSetValues(a->lift, n, dofs, p->work.value, ADD_VALUES));
   }
   for (PetscInt k = 0; k < num_turned; ++k) {
     const PetscInt   b = turned[k];
@@ -119,16 +108,16 @@ static PetscErrorCode Blocks_Private(Interface p, const InterfaceSystem *a, Cont
     const ContactFacet *e = &c->facets[f];
     const PetscInt      n = dim * e->num;
     if (!c->mine[e->facet] || !e->dgap) continue;
-    PetscCall(Work_Private(p, n));
-    FacetDofs_Private(c, e, p->work_index);
+    PetscCall(RowBufferGrow(&p->work, n));
+    FacetDofs_Private(c, e, p->work.index);
     if (e->hessian) PetscCall(ContactFacetHessian_Private(p, a, c, e));
     for (PetscInt k = 0; k < e->num_rows && !a->symmetric; ++k) {
       const PetscInt  j = e->nodes[k], z = c->zdof[j];
       const PetscReal mean = c->mean0 ? c->mean0[j] : 0;
       if (z < 0 || !c->near[j]) continue;
-      for (PetscInt i = 0; i < n; ++i) p->work_value[i] = mean * e->dweight[k * n + i] - (e->push ? e->push : e->dgap)[k * n + i];
-      for (PetscInt b = 0; b < e->num; ++b) Turn_Private(dim, Frame_Private(c, e->nodes[b]), p->work_value + dim * b, 1);
-      PetscCall(ContactInsert_Private(a->matrix, n, p->work_index, 1, &z, p->work_value, ADD_VALUES));
+      for (PetscInt i = 0; i < n; ++i) p->work.value[i] = mean * e->dweight[k * n + i] - (e->push ? e->push : e->dgap)[k * n + i];
+      for (PetscInt b = 0; b < e->num; ++b) Turn_Private(dim, Frame_Private(c, e->nodes[b]), p->work.value + dim * b, 1);
+      PetscCall(ContactInsert_Private(a->matrix, n, p->work.index, 1, &z, p->work.value, ADD_VALUES));
     }
   }
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -159,9 +148,9 @@ PetscErrorCode ContactNodeGradient_Private(Interface p, const Contact *c, PetscI
   PetscInt       at, *dofs;
 
   PetscFunctionBegin;
-  PetscCall(Work_Private(p, RowSize_Private(c, j)));
-  dofs   = p->work_index;
-  values = p->work_value;
+  PetscCall(RowBufferGrow(&p->work, RowSize_Private(c, j)));
+  dofs   = p->work.index;
+  values = p->work.value;
   *num   = 0;
   for (PetscInt k = s->node_first[j]; k < s->node_first[j + 1] && c->near[j]; ++k) *num += ContactPatternDofs_Private(c, s->node_facet[k], dofs + *num);
   for (PetscInt k = 0; k < c->num; ++k) dofs[(*num)++] = c->zdof[j] + k;
@@ -206,11 +195,11 @@ PetscErrorCode ContactInsertRow_Private(Interface p, const InterfaceSystem *a, c
   for (PetscInt i = 0; i < c->num; ++i) {
     const PetscInt line = c->zdof[j] + i;
     PetscCall(ContactNodeGradient_Private(p, c, j, &row[i], &num));
-    PetscCall(PetscFindInt(c->zdof[j], num, p->work_index, &at));
-    for (PetscInt k = 0; k < c->num; ++k) p->work_value[at + k] = a->symmetric ? row[i].z[k] * c->c[j] : row[i].z[k];
-    PetscCall(ContactInsert_Private(a->matrix, 1, &line, num, p->work_index, p->work_value, INSERT_VALUES));
+    PetscCall(PetscFindInt(c->zdof[j], num, p->work.index, &at));
+    for (PetscInt k = 0; k < c->num; ++k) p->work.value[at + k] = a->symmetric ? row[i].z[k] * c->c[j] : row[i].z[k];
+    PetscCall(ContactInsert_Private(a->matrix, 1, &line, num, p->work.index, p->work.value, INSERT_VALUES));
   }
-  if (a->symmetric) PetscCall(ContactInsert_Private(a->matrix, num, p->work_index, 1, &c->zdof[j], p->work_value, INSERT_VALUES));
+  if (a->symmetric) PetscCall(ContactInsert_Private(a->matrix, num, p->work.index, 1, &c->zdof[j], p->work.value, INSERT_VALUES));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -233,9 +222,9 @@ static PetscErrorCode InactiveShift_Private(Interface p, const InterfaceSystem *
   PetscFunctionBegin;
   if (!a->symmetric || ContactIsReleased_Private(p, c) || c->z[j] == 0 || !c->near[j]) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(ContactNodeGradient_Private(p, c, j, &forces, &num));
-  PetscCall(PetscFindInt(c->zdof[j], num, p->work_index, &at));
-  p->work_value[at] = 0;
-  PetscCall(VecSetValues(rhs, num, p->work_index, p->work_value, ADD_VALUES));
+  PetscCall(PetscFindInt(c->zdof[j], num, p->work.index, &at));
+  p->work.value[at] = 0;
+  PetscCall(VecSetValues(rhs, num, p->work.index, p->work.value, ADD_VALUES));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

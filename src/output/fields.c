@@ -112,6 +112,7 @@ const OutputField OutputSummaryFields[] = {
     {"recoveries.<recovery>.succeeded", "", "and how often it found an equilibrium"},
     {"viscous_work", ENERGY, "energy that viscous regularisation dissipated in all steps"},
     {"descent_iterations", "", "iterations of descent on the energy"},
+    {"refused_solutions", "", "solutions found that are none: bodies of a pair inside each other that bear nothing (-path_inside)"},
     {"stabilised", "", "unstable equilibria that gave way to stable ones (load.stable)"},
     {"unstable_equilibria", "", "equilibria kept though unstable; null: not known"},
     {"cells", "", CELLS_HELP},

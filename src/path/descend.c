@@ -49,7 +49,7 @@ PetscErrorCode PathStabilise(Path *p, PetscBool *changed)
   PetscCall(StateCopy(&l->state, &unstable));
   PetscCall(SolverStabilise(l->solver, &l->state, &report));
   PetscCall(PetscInfo(NULL, "unstable equilibrium: %s\n", report.converged ? "another was found" : report.reason));
-  if (report.converged && p->refuse) PetscCall(p->refuse(l->problem, &l->state, &words));
+  if (report.converged) PetscCall(PathRefuse(p, &words));
   *changed         = (PetscBool)(report.converged && report.unstable == 0 && !words);
   report.converged = *changed;
   PathCount(p, &report, PETSC_FALSE);

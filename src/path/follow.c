@@ -47,13 +47,23 @@ void PathCount(Path *p, const SolverReport *report, PetscBool equilibrium)
   if (equilibrium) p->unstable_now = (PetscBool)(report->unstable > 0);
 }
 
+PetscErrorCode PathRefuse(Path *p, const char **reason)
+{
+  PetscFunctionBegin;
+  *reason = NULL;
+  if (!p->refuse || p->inside == RECOVERY_OFF) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(p->refuse(p->level->problem, &p->level->state, reason));
+  if (*reason) ++p->refused;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode PathFound(Path *p, const PathLoop *loop, PetscReal to, SolverReport *report)
 {
-  const char *words = NULL;
+  const char *words;
 
   PetscFunctionBegin;
   if (!report->converged) PetscFunctionReturn(PETSC_SUCCESS);
-  if (p->refuse) PetscCall(p->refuse(p->level->problem, &p->level->state, &words));
+  PetscCall(PathRefuse(p, &words));
   if (words) {
     report->converged = PETSC_FALSE;
     report->reason    = words;

@@ -4,6 +4,7 @@
 
 #define MODES "auto|on|off"
 #define PREFIX "path_"
+#define INSIDE "inside"
 
 #define LEAST_WAY (1. / 8) /* of the way of the load on another mesh */
 #define LEAST (1. / 64)    /* of the first piece of other loops: a shorter one is given up */
@@ -99,6 +100,8 @@ const Recovery PathRecoveries[PATH_RECOVERIES] = {
     {"descent", "down on the energy of contact and bodies, each iterate lower than the one before, to an equilibrium that is not near by", 1, PathCanDescend,
      PathDescend},
     {"viscous", "viscous regularisation: bodies creep to an equilibrium that is not near by, as when they snap", 2, Always_Private, Viscous_Private},
+    [PATH_UNFOLDED] = {"unfolded", "where a finer mesh has none, cells that would fold there stay as they are and the others are refined", 0, Always_Private,
+                       NULL},
 };
 
 /* Is it time for an equilibrium farther off? Bodies in contact snap, or flow far; the end of what a load can be is no such place, and the user is told. A
@@ -115,7 +118,7 @@ static PetscBool Applies_Private(const Path *p, PetscInt row, const State *guess
   const Recovery    *r    = &PathRecoveries[row];
   const RecoveryMode mode = p->recovery[row].mode;
 
-  if (mode == RECOVERY_OFF) return PETSC_FALSE;
+  if (mode == RECOVERY_OFF || !r->run) return PETSC_FALSE;
   if (mode == RECOVERY_AUTO && r->far && !FarNow_Private(p, r->far, guess)) return PETSC_FALSE;
   return r->applies(p, guess);
 }
@@ -151,30 +154,40 @@ PetscErrorCode PathRecover(Path *p, const PathLoop *load, PetscReal to, const St
 
 /* ---- options ------------------------------------------------------------------------------------------------------------------------ */
 
-PetscErrorCode PathOptions(Path *p)
+static PetscErrorCode Mode_Private(const char *row, RecoveryMode *mode)
 {
   static const char *const modes[] = {"auto", "on", "off", "RecoveryMode", "", NULL};
-  const char              *known[PATH_RECOVERIES];
-  char                     name[64], text[64], unknown[64] = "", **names, **values;
-  PetscInt                 num;
+  char                     name[64], text[64];
+  PetscBool                set, found = PETSC_TRUE;
+  PetscInt                 value = *mode;
+
+  PetscFunctionBegin;
+  PetscCall(PetscSNPrintf(name, sizeof(name), "-" PREFIX "%s", row));
+  PetscCall(PetscOptionsGetString(NULL, NULL, name, text, sizeof(text), &set));
+  if (set) PetscCall(PetscEListFind(3, modes, text, &value, &found));
+  PetscCheckInput(found, "%s is '%s'; allowed: %s", name, text, MODES);
+  *mode = (RecoveryMode)value;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode PathOptions(Path *p)
+{
+  const char *known[PATH_RECOVERIES + 1] = {[PATH_RECOVERIES] = INSIDE};
+  char        unknown[64]                = "", **names, **values;
+  PetscInt    num;
 
   PetscFunctionBegin;
   for (PetscInt row = 0; row < PATH_RECOVERIES; ++row) {
-    PetscBool set, found = PETSC_TRUE;
-    PetscInt  mode = p->recovery[row].mode;
-    known[row]     = PathRecoveries[row].name;
-    PetscCall(PetscSNPrintf(name, sizeof(name), "-" PREFIX "%s", PathRecoveries[row].name));
-    PetscCall(PetscOptionsGetString(NULL, NULL, name, text, sizeof(text), &set));
-    if (set) PetscCall(PetscEListFind(3, modes, text, &mode, &found));
-    PetscCheckInput(found, "%s is '%s'; allowed: %s", name, text, MODES);
-    p->recovery[row].mode = (RecoveryMode)mode;
+    known[row] = PathRecoveries[row].name;
+    PetscCall(Mode_Private(known[row], &p->recovery[row].mode));
   }
+  PetscCall(Mode_Private(INSIDE, &p->inside));
   PetscCall(PetscOptionsLeftGet(NULL, &num, &names, &values));
   for (PetscInt i = num - 1; i >= 0; --i) {
     if (!strncmp(names[i], PREFIX, strlen(PREFIX))) PetscCall(PetscStrncpy(unknown, names[i] + strlen(PREFIX), sizeof(unknown)));
   }
   PetscCall(PetscOptionsLeftRestore(NULL, &num, &names, &values));
-  PetscCheckInput(!unknown[0], "-" PREFIX "%s is no recovery; the nearest one is -" PREFIX "%s", unknown, NameNearest(unknown, PATH_RECOVERIES, known));
+  PetscCheckInput(!unknown[0], "-" PREFIX "%s is no recovery; the nearest one is -" PREFIX "%s", unknown, NameNearest(unknown, PATH_RECOVERIES + 1, known));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -190,5 +203,6 @@ PetscErrorCode PathPrintHelp(MPI_Comm comm)
     PetscCall(PetscSNPrintf(name, sizeof(name), "-" PREFIX "%s", PathRecoveries[row].name));
     PetscCall(HelpRow(comm, name, MODES, PathRecoveries[row].help));
   }
+  PetscCall(HelpRow(comm, "-" PREFIX INSIDE, MODES, "a solution in which bodies lie inside each other while their contact pair bears nothing is none"));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

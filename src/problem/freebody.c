@@ -1,8 +1,6 @@
 /* Bodies that supports do not hold. */
 #include "problemimpl.h"
 
-#define FREE 1e-9 /* share of the sum over supports below which a direction is free */
-
 PetscErrorCode ProblemFreeAxes(Problem p, PetscInt body, PetscInt *axes, PetscBool *turns)
 {
   const PetscReal *hold;
@@ -12,7 +10,7 @@ PetscErrorCode ProblemFreeAxes(Problem p, PetscInt body, PetscInt *axes, PetscBo
   hold += 9 * body;
   *axes = 0;
   for (PetscInt c = 0; c < p->dim; ++c)
-    if (hold[4 * c] <= FREE * (hold[0] + hold[4] + hold[8])) *axes |= 1 << c;
+    if (hold[4 * c] <= MECHANICS_FREE * (hold[0] + hold[4] + hold[8])) *axes |= 1 << c;
   *turns = (PetscBool)(!*axes && !MechanicsIsHeld(p->mechanics, body));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

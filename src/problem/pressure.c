@@ -186,20 +186,20 @@ static PetscErrorCode Sink_Private(void *context, PetscInt cell, PetscInt num_ro
   PetscReal form = p->symmetric ? 1 : scale;
 
   PetscFunctionBegin;
-  PetscCall(ProblemWork_Private(p, num));
-  for (PetscInt k = 0; k < num; ++k) p->work_index[k] = p->row[dofs[k]];
+  PetscCall(RowBufferGrow(&p->work, num));
+  for (PetscInt k = 0; k < num; ++k) p->work.index[k] = p->row[dofs[k]];
   PetscCall(MechanicsUnknownRange(p->mechanics, cell, &first, &n));
   for (PetscInt a = 0; a < num_rows; ++a) {
     const PetscInt   row    = p->pi_row[first + a];
     const PetscReal *b      = B + a * num;
     PetscReal        change = 0;
     p->pi_scale[first + a]  = scale;
-    PetscCall(MatSetValues(p->matrix, num, p->work_index, 1, &row, b, ADD_VALUES));
-    for (PetscInt k = 0; k < num; ++k) p->work_value[k] = form * b[k];
-    PetscCall(MatSetValues(p->matrix, 1, &row, num, p->work_index, p->work_value, ADD_VALUES));
+    PetscCall(MatSetValues(p->matrix, num, p->work.index, 1, &row, b, ADD_VALUES));
+    for (PetscInt k = 0; k < num; ++k) p->work.value[k] = form * b[k];
+    PetscCall(MatSetValues(p->matrix, 1, &row, num, p->work.index, p->work.value, ADD_VALUES));
     PetscCall(MatSetValue(p->matrix, row, row, -form * hold[a], ADD_VALUES));
     for (PetscInt k = 0; k < num && p->lift; ++k) {
-      if (p->work_index[k] < 0) change += b[k] * p->increment[dofs[k]];
+      if (p->work.index[k] < 0) change += b[k] * p->increment[dofs[k]];
     }
     if (p->lift) PetscCall(VecSetValue(p->lift, row, scale * change, ADD_VALUES));
   }

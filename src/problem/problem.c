@@ -102,7 +102,7 @@ PetscErrorCode ProblemDestroy(Problem *problem)
   PetscCall(PetscFree2(p->scatter_first, p->scatter));
   PetscCall(PetscFree3(p->u_start, p->p_start, p->row_start));
   PetscCall(PetscFree4(p->target, p->applied, p->increment, p->start_applied));
-  PetscCall(PetscFree2(p->work_index, p->work_value));
+  PetscCall(RowBufferDestroy(&p->work));
   PetscCall(PressureDestroy_Private(p));
   PetscCall(VecDestroy(&p->u_global));
   PetscCall(VecDestroy(&p->u_local));

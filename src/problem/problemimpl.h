@@ -57,9 +57,7 @@ struct _p_Problem {
   PetscBool        viscous;   /* there are viscous forces (ProblemSetViscosity) */
   Vec              lift;      /* of the tangent being made; NULL: not wanted */
   PetscReal        t;
-  PetscInt        *work_index;
-  PetscReal       *work_value;
-  PetscInt         work_size;
+  RowBuffer        work;
 };
 
 PetscErrorCode ProblemLayout_Private(Problem);
@@ -99,7 +97,6 @@ PetscErrorCode PressureSides_Private(Problem, Vec rhs);
 PetscErrorCode ProblemRows_Private(Problem);
 PetscErrorCode ProblemReduce_Private(Problem, Vec r, Vec rhs);
 PetscErrorCode ProblemMatrix_Private(Problem);
-PetscErrorCode ProblemWork_Private(Problem, PetscInt size);
 /* increment (local array) = free dofs of dx + share of the prescribed motion still to come. */
 PetscErrorCode ProblemIncrement_Private(Problem, Vec dx, PetscReal share);
 /* tangent.c: the system at hand; the matrix with room for all of contact, zero; a cell's matrix into it (MatrixSink). */

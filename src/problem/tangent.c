@@ -1,17 +1,6 @@
 /* The tangent and its right-hand side: bulk, contact, incompressible cells, scalars, and the first-order effect of prescribed motion still to come. */
 #include "problemimpl.h"
 
-PetscErrorCode ProblemWork_Private(Problem p, PetscInt size)
-{
-  PetscFunctionBegin;
-  if (size > p->work_size) {
-    p->work_size = 2 * size;
-    PetscCall(PetscFree2(p->work_index, p->work_value));
-    PetscCall(PetscMalloc2(p->work_size, &p->work_index, p->work_size, &p->work_value));
-  }
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 /* A cell's matrix: free rows and columns to the matrix, columns of prescribed dofs times their motion to the lift. */
 PetscErrorCode ProblemCellSink_Private(void *context, PetscInt cell, PetscInt num, const PetscInt dofs[], const PetscReal K[])
 {
@@ -19,19 +8,19 @@ PetscErrorCode ProblemCellSink_Private(void *context, PetscInt cell, PetscInt nu
   PetscBool prescribed = PETSC_FALSE, added;
 
   PetscFunctionBegin;
-  PetscCall(ProblemWork_Private(p, num));
+  PetscCall(RowBufferGrow(&p->work, num));
   for (PetscInt i = 0; i < num; ++i) {
-    p->work_index[i] = p->row[dofs[i]];
-    if (p->work_index[i] < 0 && p->lift && p->increment[dofs[i]] != 0) prescribed = PETSC_TRUE;
+    p->work.index[i] = p->row[dofs[i]];
+    if (p->work.index[i] < 0 && p->lift && p->increment[dofs[i]] != 0) prescribed = PETSC_TRUE;
   }
   PetscCall(ProblemScatterAdd_Private(p, cell, num, dofs, K, &added));
-  if (!added) PetscCall(MatSetValues(p->matrix, num, p->work_index, num, p->work_index, K, ADD_VALUES));
+  if (!added) PetscCall(MatSetValues(p->matrix, num, p->work.index, num, p->work.index, K, ADD_VALUES));
   if (!prescribed) PetscFunctionReturn(PETSC_SUCCESS);
   for (PetscInt i = 0; i < num; ++i) {
-    p->work_value[i] = 0;
-    for (PetscInt j = 0; j < num; ++j) p->work_value[i] += K[i * num + j] * p->increment[dofs[j]];
+    p->work.value[i] = 0;
+    for (PetscInt j = 0; j < num; ++j) p->work.value[i] += K[i * num + j] * p->increment[dofs[j]];
   }
-  PetscCall(VecSetValues(p->lift, num, p->work_index, p->work_value, ADD_VALUES));
+  PetscCall(VecSetValues(p->lift, num, p->work.index, p->work.value, ADD_VALUES));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

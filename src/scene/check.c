@@ -161,7 +161,8 @@ static PetscErrorCode MatchBoundaries_Private(Scene s, const Facets *f)
   for (PetscInt i = 0; i < s->num_boundaries; ++i) {
     BoundaryEntry *b = &s->boundary[i];
     PetscCall(FindGroup_Private(f->mesh, NodeWhere(b->node), b->spec.name, &b->spec.group));
-    PetscCheckInput(f->num_facets[b->spec.group] || f->inner[b->spec.group], "%s: the group has no facets", NodeWhere(b->node));
+    PetscCheckInput(f->num_facets[b->spec.group] || f->inner[b->spec.group], "%s: no facet of a cell is in group '%s' of the mesh", NodeWhere(b->node),
+                    b->spec.name);
     PetscCheckInput(!BoundaryHasPressure(&b->spec) || !f->inner[b->spec.group], "%s.%s: a facet of this group lies between two cells and has no outward normal",
                     NodeWhere(b->node), Pressure_Private(&b->spec));
     for (PetscInt body = 0; body < f->mesh->num_bodies; ++body) {
@@ -264,7 +265,7 @@ static PetscErrorCode MatchContacts_Private(Scene s, const Facets *f)
     for (int side = 0; side < 2; ++side) {
       const char *name = side ? c->mortar : c->nonmortar;
       PetscCheckInput(!f->inner[group[side]], "%s: '%s' lies between two cells; a contact surface must be a free one", NodeWhere(c->node), name);
-      PetscCheckInput(f->num_facets[group[side]], "%s: '%s' has no facets", NodeWhere(c->node), name);
+      PetscCheckInput(f->num_facets[group[side]], "%s: no facet of a cell is in group '%s' of the mesh", NodeWhere(c->node), name);
     }
     PetscCall(CheckSides_Private(c, f, group));
     c->spec.nonmortar = group[0];

@@ -22,7 +22,9 @@ PetscErrorCode SceneCheckPath(Scene s, const SceneNode *motion, Expression e)
   PetscFunctionBegin;
   if (s->data.load.control != LOAD_ARC_LENGTH || !e) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(IsZero_Private(e, &zero));
-  PetscCheckInput(zero, "%s: load.control: arc_length finds the factor of loads, so that nothing is moved by t; take control: time, or a load",
+  PetscCheckInput(zero,
+                  "%s: with load.control: arc_length the factor of the loads is found, and nothing may move with t; take load.control: time, or a load in "
+                  "place of this motion",
                   NodeWhere(motion));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -36,13 +38,13 @@ PetscErrorCode SceneCheckControl(Scene s, const SceneNode *boundary, const char 
 
   PetscFunctionBegin;
   if (!e) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCheckInput(!b->pressure, "%s: the pressure that makes it is found; take pressure away", NodeWhere(node));
+  PetscCheckInput(!b->pressure, "%s: the pressure that leads there is found, not given; take pressure away", NodeWhere(node));
   PetscCheckInput(!b->volume || !b->advance, "%s: one pressure cannot follow both volume and advance; take one away", NodeWhere(boundary));
   PetscCheckInput(!b->rotation &&
                       !((b->fix[0] || b->displacement[0]) && (b->fix[1] || b->displacement[1]) && (s->data.mesh.dim == 2 || b->fix[2] || b->displacement[2])),
                   "%s: all displacements of this boundary are prescribed, so no pressure moves it", NodeWhere(node));
-  PetscCheckInput(s->data.mechanics.kinematics == KINEMATICS_FINITE, "%s needs kinematics: finite; with small ones the reference volume is all there is",
-                  NodeWhere(node));
+  PetscCheckInput(s->data.mechanics.kinematics == KINEMATICS_FINITE,
+                  "%s needs kinematics: finite; with small ones no boundary moves away from its reference position", NodeWhere(node));
   PetscCheckInput(s->data.load.control == LOAD_TIME,
                   "%s and load.control: arc_length do not go together: that finds the factor of given loads; allowed here: time", NodeWhere(node));
   PetscCheckInput(!ExpressionUsesPlace(e), "%s is \"%s\": one number for the whole boundary, so an expression in t alone", NodeWhere(node), ExpressionText(e));

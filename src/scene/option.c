@@ -269,7 +269,7 @@ static PetscErrorCode Store_Private(const Option *row, const SceneNode *node, co
     break;
   case KEY_REAL:
     PetscCheckInput(OptionParseReal(text, (PetscReal *)(void *)place + c), "%s is '%s'; it must be a number", where, text);
-    PetscCheckInput(InRange_Private(row->range, ((PetscReal *)(void *)place)[c]), "%s is %s; allowed: %s", where, text, row->range);
+    PetscCheckInput(InRange_Private(row->range, ((PetscReal *)(void *)place)[c]), "%s is %s; allowed: a number in %s", where, text, row->range);
     break;
   case KEY_BOOL:
     PetscCall(Bool_Private(where, text, (PetscBool *)(void *)place));
@@ -309,7 +309,8 @@ static PetscErrorCode ReadRow_Private(const Option *row, PetscInt num, char word
   for (PetscInt c = 0; c < (axis ? 3 : 1); ++c) {
     const SceneNode *node = NodeFind(at, axis ? axes[c] : words[last]);
     if (node && node->kind == NODE_MAP) node = NULL; /* given by other rows */
-    PetscCheckInput(node || row->fallback, "%s must be given%s%s", Missing_Private(up, num, words), row->range[0] ? ": " : "", row->range);
+    PetscCheckInput(node || row->fallback, "%s must be given%s%s", Missing_Private(up, num, words), row->range[0] || row->help[0] ? ": " : "",
+                    row->range[0] ? row->range : row->help);
     PetscCheckInput(!node || c < dim, "%s is given, but a two-dimensional model has no z", NodeWhere(node));
     PetscCall(PetscStrncpy(where, node ? NodeWhere(node) : row->pattern, sizeof(where)));
     PetscCall(Store_Private(row, node, where, dim, c, object));

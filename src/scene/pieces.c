@@ -163,21 +163,6 @@ static PetscErrorCode Side_Private(Forest forest, const ForestTables *t, PetscIn
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The first place from a key on. */
-static PetscInt From_Private(const Place places[], PetscInt num, PetscReal key)
-{
-  PetscInt lo = 0, hi = num;
-
-  while (lo < hi) {
-    const PetscInt middle = (lo + hi) / 2;
-    if (places[middle].key < key)
-      lo = middle + 1;
-    else
-      hi = middle;
-  }
-  return lo;
-}
-
 /* Such a mesh hangs: what meets there is not joined. */
 static PetscErrorCode TellHanging_Private(Scene s, Forest forest, const CoarseMesh *m, const Place places[], PetscReal near)
 {
@@ -194,7 +179,8 @@ static PetscErrorCode TellHanging_Private(Scene s, Forest forest, const CoarseMe
   for (PetscInt k = 0; k < num; ++k) {
     Side f;
     PetscCall(Side_Private(forest, t, facet[k], &f));
-    for (PetscInt i = From_Private(places, t->first[1], f.lo - near); i < t->first[1] && places[i].key <= f.hi + near; ++i) {
+    const Place first = {.key = f.lo - near};
+    for (PetscInt i = SortedFrom(&first, places, t->first[1], sizeof(Place), Compare_Private); i < t->first[1] && places[i].key <= f.hi + near; ++i) {
       const Place   *p       = places + i;
       const PetscInt body[2] = {t->leaf_body[t->entity_leaf[p->vertex]], t->leaf_body[t->entity_leaf[facet[k]]]};
       if (!free_vertex[p->vertex] || !IsOn_Private(&f, p->X, near) || Facing_Private(s, t->boundary[p->vertex], f.boundary)) continue;

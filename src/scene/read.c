@@ -161,7 +161,8 @@ static PetscErrorCode ReadMaterial_Private(Scene s, SceneNode *node, MaterialEnt
   }
   PetscCheckInput(!(m->spec.law->rigid || m->spec.law->small || m->spec.law->whole) || !NodeFind(node, "volumetric"),
                   "%s: law %s has no volumetric energy to choose", NodeWhere(NodeFind(node, "volumetric")), m->law);
-  PetscCheckInput(!m->spec.law->rigid || !NodeFind(node, "formulation"), "%s: a rigid body has no formulation", NodeWhere(NodeFind(node, "formulation")));
+  PetscCheckInput(!m->spec.law->rigid || !NodeFind(node, "formulation"), "%s: a rigid body is not solved for and has no formulation; take it away",
+                  NodeWhere(NodeFind(node, "formulation")));
   PetscCheckInput(!m->spec.law->small || small, "%s: law %s is for small strains; set kinematics: small or take another law (neo_hookean)",
                   NodeWhere(NodeFind(node, "law")), m->law);
   PetscCheckInput(m->spec.law->small || m->spec.law->rigid || !small, "%s: kinematics: small needs law: linear, not %s", NodeWhere(NodeFind(node, "law")),
@@ -293,6 +294,8 @@ static PetscBool FacesAreFull_Private(const struct _p_Scene *s, const ContactEnt
 
 static PetscErrorCode ReadContact_Private(Scene s, SceneNode *node, ContactEntry *c)
 {
+  const SceneNode *stiffness = NodeFind(node, "penalty");
+
   PetscFunctionBegin;
   c->node = node;
   PetscCall(PetscStrncpy(c->spec.name, node->key, MORTISE_NAME));
@@ -301,7 +304,12 @@ static PetscErrorCode ReadContact_Private(Scene s, SceneNode *node, ContactEntry
   c->spec.subdivide_auto = c->subdivide == SUBDIVIDE_AUTO ? PETSC_TRUE : PETSC_FALSE;
   c->spec.adjust         = c->initial_gap == 1 ? PETSC_TRUE : PETSC_FALSE;
   c->spec.standard       = c->multiplier == 1 ? PETSC_TRUE : PETSC_FALSE;
-  PetscCheckInput((c->spec.law == CONTACT_PENALTY) == (c->spec.penalty > 0), "%s: law penalty and a stiffness penalty > 0 go together", NodeWhere(node));
+  PetscCheckInput(c->spec.law != CONTACT_PENALTY || stiffness,
+                  "%s.penalty must be given: with law: penalty it is the stiffness of the contact, pressure per overlap, a number above 0", NodeWhere(node));
+  PetscCheckInput(c->spec.law == CONTACT_PENALTY || !stiffness,
+                  "%s is the stiffness of law: penalty, but the law of this pair is frictionless, without overlaps and so without a stiffness; take "
+                  "penalty away, or set law: penalty",
+                  NodeWhere(stiffness));
   PetscCheckInput(c->spec.friction == 0, "%s is %g: friction is not built yet; allowed: 0", NodeWhere(NodeFind(node, "friction")), (double)c->spec.friction);
   PetscCheckInput(!strchr(node->key, '/'), "%s: the name of a pair has no '/' in it", NodeWhere(node));
   for (PetscInt i = 0; &s->contact[i] < c; ++i) {

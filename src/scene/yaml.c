@@ -103,15 +103,25 @@ const char *NodeWhere(const SceneNode *node)
 
 /* ---- events ------------------------------------------------------------------------------------------------------------------- */
 
+/* What the words of the parser most often come from. */
+static const char *Hint_Private(const char *problem)
+{
+  if (strstr(problem, "cannot start any token"))
+    return "; lines are indented by blanks, not by tabs, and a text that begins with @, ` or % needs quotation marks";
+  if (strstr(problem, "mapping values")) return "; a text with a colon in it needs quotation marks, a key the indentation of its neighbours";
+  return "";
+}
+
 static PetscErrorCode Next_Private(Reader *r)
 {
   PetscFunctionBegin;
   if (r->live) yaml_event_delete(&r->event);
   r->live = PETSC_FALSE;
   if (!yaml_parser_parse(&r->parser, &r->event)) {
-    const yaml_parser_t *p = &r->parser;
-    PetscCall(ErrorInput("%s:%d:%d: not valid YAML: %s%s%s", r->origin, (int)p->problem_mark.line + 1, (int)p->problem_mark.column + 1,
-                         p->problem ? p->problem : "unreadable text", p->context ? " " : "", p->context ? p->context : ""));
+    const yaml_parser_t *p       = &r->parser;
+    const char          *problem = p->problem ? p->problem : "unreadable text";
+    PetscCall(ErrorInput("%s:%d:%d: not valid YAML: %s%s%s%s", r->origin, (int)p->problem_mark.line + 1, (int)p->problem_mark.column + 1, problem,
+                         p->context ? " " : "", p->context ? p->context : "", Hint_Private(problem)));
   }
   r->live = PETSC_TRUE;
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -5,19 +5,17 @@
    follow, lambda <- z, and once the constraints that press are known the exact problem is solved from there by SolverSolve. */
 #include "solveimpl.h"
 
-#define PENALTY 10           /* kappa over E / h: stiff against the cells, soft enough for the line search */
-#define OUTER 3              /* descents, each with the multipliers of the one before: what helps does so after one or two */
-#define ITERATIONS 60        /* of one descent */
-#define MOVES 20             /* pieces of the prescribed motion */
-#define RTOL 1e-6            /* forces out of balance over the nodal forces at a minimum */
-#define FIRST_SHIFT 1e-9     /* over the rows' largest entries */
-#define MORE_SHIFT 16        /* times the last, where the matrix is not positive yet */
-#define LESS_SHIFT (1. / 16) /* where it was in the last iteration */
-#define SHORTER_SHIFT 1e-3   /* at least, and as many times MORE_SHIFT, where steps along the last direction have to be short */
-#define LARGEST_SHIFT 1e3    /* next to which the matrix is nothing */
-#define ARMIJO 1e-4          /* least share of the decrease that the slope promises */
-#define SHORT (1. / 16)      /* step of a line search from which on the next direction is to be shorter instead */
-#define SHORTEST 1e-3        /* … that gives up */
+#define PENALTY 10         /* kappa over E / h: stiff against the cells, soft enough for the line search */
+#define OUTER 3            /* descents, each with the multipliers of the one before: what helps does so after one or two */
+#define ITERATIONS 60      /* of one descent */
+#define MOVES 20           /* pieces of the prescribed motion */
+#define RTOL 1e-6          /* forces out of balance over the nodal forces at a minimum */
+#define FIRST_SHIFT 1e-9   /* over the rows' largest entries */
+#define MORE_SHIFT 16      /* times the last, where the matrix is not positive yet; where it was, as many times smaller in the next iteration */
+#define SHORTER_SHIFT 1e-3 /* at least, and MORE_SHIFT times the last, where that calls for a step shorter than 1 / MORE_SHIFT */
+#define LARGEST_SHIFT 1e3  /* next to which the matrix is nothing */
+#define ARMIJO 1e-4        /* least share of the decrease that the slope promises */
+#define SHORTEST 1e-3      /* step of a line search that gives up */
 #define LONGEST 64
 #define DEEPER 1        /* the same, by how much a piece of the prescribed motion may drive a node in */
 #define DEEP 0.25       /* overlap over the extent of a node along the surface: bodies must not pass through each other */
@@ -123,8 +121,7 @@ static PetscErrorCode Measure_Private(Descent *d, Mat A)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-#define NO_FACTOR (-1) /* the matrix is singular */
-#define NO_MEMORY (-2)
+enum { NO_FACTOR = -1 /* the matrix is singular */, NO_MEMORY = -2 };
 
 /* Factorise the matrix, whose shift is there. *negative: directions of negative curvature, or why there is no factor. */
 static PetscErrorCode Factor_Private(Descent *d, Mat A, PetscInt *negative)
@@ -266,7 +263,7 @@ PetscErrorCode DescentSearch_Private(Descent *d, Vec x, PetscReal slope, PetscBo
     step *= 2;
   }
   if (*ok) PetscCall(VecAXPY(x, step, d->dx));
-  d->least = *ok && step >= SHORT ? d->shift * LESS_SHIFT : PetscMax(SHORTER_SHIFT, MORE_SHIFT * d->shift);
+  d->least = *ok && step * MORE_SHIFT >= 1 ? d->shift / MORE_SHIFT : PetscMax(SHORTER_SHIFT, MORE_SHIFT * d->shift);
   PetscCall(PetscInfo(d->ksp, "shift %g, slope %g, step %g%s\n", (double)d->shift, (double)slope, (double)step, *ok ? "" : ": nothing lower"));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -403,7 +400,8 @@ static PetscErrorCode Exact_Private(Descent *d, State *state)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode DescentFinish_Private(Descent *d, State *state)
+/* Down from the state, whose prescribed motion is put in, and to a solution of the exact problem; the report says whether. */
+static PetscErrorCode Finish_Private(Descent *d, State *state)
 {
   PetscBool ok = PETSC_TRUE;
 
@@ -421,20 +419,27 @@ PetscErrorCode DescentFinish_Private(Descent *d, State *state)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SolverDescend(Solver s, State *state, SolverReport *report)
+PetscErrorCode DescentRun_Private(Solver s, DescentStart start, const char *reason, State *state, SolverReport *report)
 {
   Descent   d;
   PetscBool ok;
 
   PetscFunctionBegin;
   PetscCall(PetscMemzero(report, sizeof(*report)));
-  report->reason   = "no descent leads to an equilibrium";
+  report->reason   = reason;
   report->unstable = -1;
   PetscCall(ProblemSetState(s->problem, state));
   PetscCall(DescentCreate_Private(s, report, &d));
   PetscCall(VecCopy(state->x, d.lambda));
-  PetscCall(Move_Private(&d, state->x, &ok));
-  if (ok) PetscCall(DescentFinish_Private(&d, state));
+  PetscCall(start(&d, state->x, &ok));
+  if (ok) PetscCall(Finish_Private(&d, state));
   PetscCall(DescentDestroy_Private(&d));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SolverDescend(Solver s, State *state, SolverReport *report)
+{
+  PetscFunctionBegin;
+  PetscCall(DescentRun_Private(s, Move_Private, "no descent leads to an equilibrium", state, report));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -7,12 +7,8 @@
 #if defined(MORTISE_SMUMPS)
 #include <smumps_c.h>
 
-#define ANALYSE 1
-#define FACTORISE 2
-#define SOLVE 3
-#define BEGIN (-1)
-#define END (-2)
-#define MOST_RESERVE 1000 /* percent of workspace above MUMPS's estimate at which we give up */
+enum { BEGIN = -1, END = -2, ANALYSE = 1, FACTORISE = 2, SOLVE = 3 }; /* jobs of MUMPS */
+#define MOST_RESERVE 1000                                             /* percent of workspace above MUMPS's estimate at which we give up */
 
 typedef struct {
   SMUMPS_STRUC_C   mumps;

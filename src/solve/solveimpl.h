@@ -142,8 +142,9 @@ PetscErrorCode DescentApply_Private(Descent *, PetscBool *ok);
 PetscErrorCode DescentSearch_Private(Descent *, Vec x, PetscReal slope, PetscBool *ok);
 /* Phi at x + step dx, in trial; the largest number outside the domain. */
 PetscErrorCode DescentTry_Private(Descent *, Vec x, PetscReal step, PetscReal *merit);
-/* Down from the state, whose prescribed motion is put in, and to a solution of the exact problem; the report says whether. */
-PetscErrorCode DescentFinish_Private(Descent *, State *);
+/* A start, which moves x; down from there, and to a solution of the exact problem. The report says whether, else reason. */
+typedef PetscErrorCode (*DescentStart)(Descent *, Vec x, PetscBool *ok);
+PetscErrorCode DescentRun_Private(Solver, DescentStart, const char *reason, State *, SolverReport *);
 
 /* saddle.c: iterative solution of the tangent, in its symmetric form or not. */
 PetscErrorCode SaddleCreate_Private(Problem, Saddle *);

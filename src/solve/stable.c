@@ -104,18 +104,7 @@ static PetscErrorCode Leave_Private(Descent *d, Vec x, PetscBool *ok)
 
 PetscErrorCode SolverStabilise(Solver s, State *state, SolverReport *report)
 {
-  Descent   d;
-  PetscBool ok;
-
   PetscFunctionBegin;
-  PetscCall(PetscMemzero(report, sizeof(*report)));
-  report->reason   = "no stable equilibrium was found";
-  report->unstable = -1;
-  PetscCall(ProblemSetState(s->problem, state));
-  PetscCall(DescentCreate_Private(s, report, &d));
-  PetscCall(VecCopy(state->x, d.lambda));
-  PetscCall(Leave_Private(&d, state->x, &ok));
-  if (ok) PetscCall(DescentFinish_Private(&d, state));
-  PetscCall(DescentDestroy_Private(&d));
+  PetscCall(DescentRun_Private(s, Leave_Private, "no stable equilibrium was found", state, report));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

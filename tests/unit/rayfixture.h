@@ -149,6 +149,24 @@ static inline void SumCreate(Sum *s, const Patch *nonmortar, const Patch *mortar
 
 #define SumEvaluate(sum, pair, nonmortar, mortar, z, hessian) SumSurfaces(sum, pair, &(nonmortar)->s, &(mortar)->s, z, PETSC_TRUE, hessian)
 
+/* What a pair with nothing but these two patches gives, which are no longer needed then; how many facets were not seen. */
+static inline PetscInt SumBetween(Sum *s, Patch *nonmortar, Patch *mortar)
+{
+  const ContactSpec spec = {.friction = 0};
+  PetscInt          degenerate;
+  ContactPair       pair;
+
+  CHECK_CALL(ContactPairCreate(nonmortar->dim, PETSC_FALSE, &spec, &pair));
+  SearchAll(pair, nonmortar, mortar, 0.5, 1e-3);
+  SumCreate(s, nonmortar, mortar);
+  SumEvaluate(s, pair, nonmortar, mortar, NULL, PETSC_FALSE);
+  CHECK_CALL(ContactPairGetDegenerate(pair, &degenerate));
+  PatchDestroy(nonmortar);
+  PatchDestroy(mortar);
+  CHECK_CALL(ContactPairDestroy(&pair));
+  return degenerate;
+}
+
 /* Rotation of space about an axis through the origin and a shift, x only. */
 static inline void PatchMove(Patch *p, const PetscReal axis[3], PetscReal angle, const PetscReal shift[3])
 {

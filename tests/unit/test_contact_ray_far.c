@@ -31,24 +31,13 @@ static void Plane(Patch *p, PetscReal gap)
 /* On a mortar side of n x n facets. */
 static PetscInt Evaluate(PetscInt order, PetscReal most, PetscReal gap, PetscInt n, PetscBool hanging, Sum *s)
 {
-  const ContactSpec spec = {.friction = 0};
-  Patch             nonmortar, mortar;
-  PetscInt          degenerate;
-  ContactPair       pair;
+  Patch nonmortar, mortar;
 
   PatchCreate(&nonmortar, 3, order, 3, 0, 1, PETSC_TRUE, PETSC_FALSE);
   Edge(&nonmortar, most);
   PatchCreate(&mortar, 3, 1, n, 0, 1, PETSC_FALSE, hanging);
   Plane(&mortar, gap);
-  CHECK_CALL(ContactPairCreate(3, PETSC_FALSE, &spec, &pair));
-  SearchAll(pair, &nonmortar, &mortar, 0.5, 1e-3);
-  SumCreate(s, &nonmortar, &mortar);
-  SumEvaluate(s, pair, &nonmortar, &mortar, NULL, PETSC_FALSE);
-  CHECK_CALL(ContactPairGetDegenerate(pair, &degenerate));
-  PatchDestroy(&nonmortar);
-  PatchDestroy(&mortar);
-  CHECK_CALL(ContactPairDestroy(&pair));
-  return degenerate;
+  return SumBetween(s, &nonmortar, &mortar);
 }
 
 /* Area, weights and weighted gaps on coarse mortar sides are those on a fine one. */
@@ -81,10 +70,7 @@ static void Check(PetscInt order, PetscReal most, PetscReal gap)
 /* The same in the plane. */
 static void EvaluatePlane(PetscInt order, PetscReal most, PetscReal gap, PetscInt n, Sum *s)
 {
-  const ContactSpec spec = {.friction = 0};
-  Patch             nonmortar, mortar;
-  PetscInt          degenerate;
-  ContactPair       pair;
+  Patch nonmortar, mortar;
 
   PatchCreate(&nonmortar, 2, order, 6, 0, 1, PETSC_TRUE, PETSC_FALSE);
   for (PetscInt v = 0; v < nonmortar.s.num_nodes; v++) {
@@ -96,15 +82,7 @@ static void EvaluatePlane(PetscInt order, PetscReal most, PetscReal gap, PetscIn
   for (PetscInt v = 0; v < mortar.s.num_nodes; v++) mortar.x[2 * v] = 400 * mortar.u[2 * v] - 210.1, mortar.x[2 * v + 1] = RADIUS + gap;
   memcpy(nonmortar.X, nonmortar.x, sizeof(PetscReal) * 2 * (size_t)nonmortar.s.num_nodes);
   memcpy(mortar.X, mortar.x, sizeof(PetscReal) * 2 * (size_t)mortar.s.num_nodes);
-  CHECK_CALL(ContactPairCreate(2, PETSC_FALSE, &spec, &pair));
-  SearchAll(pair, &nonmortar, &mortar, 0.5, 1e-3);
-  SumCreate(s, &nonmortar, &mortar);
-  SumEvaluate(s, pair, &nonmortar, &mortar, NULL, PETSC_FALSE);
-  CHECK_CALL(ContactPairGetDegenerate(pair, &degenerate));
-  assert_int_equal(degenerate, 0);
-  PatchDestroy(&nonmortar);
-  PatchDestroy(&mortar);
-  CHECK_CALL(ContactPairDestroy(&pair));
+  assert_int_equal(SumBetween(s, &nonmortar, &mortar), 0);
 }
 
 /* Weights and gaps on mortar sides of one to five facets, up to 10^5 times as long as those of the edge, are those on many. */

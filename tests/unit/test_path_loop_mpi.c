@@ -110,7 +110,7 @@ static void GivesUp(void **state)
 /* Without descent, the first failure of a step is answered by a shorter one; an equilibrium farther off is looked for at the second, the fourth, … */
 static void Recovers(void **state)
 {
-  const PetscInt viscous = PATH_RECOVERIES - 1, descent = viscous - 1;
+  const PetscInt viscous = PATH_UNFOLDED - 1, descent = viscous - 1;
 
   for (PetscInt off = 0; off < 2; ++off) {
     PathLoop     loop = {.metric = &Load, .stop = 1, .piece = 1, .least = 0.1, .most = 1, .step = PETSC_TRUE};
@@ -129,7 +129,35 @@ static void Recovers(void **state)
     assert_int_equal(r.path.recovery[viscous].tried, !off);
     assert_int_equal(r.path.recovery[viscous].succeeded, !off);
     assert_int_equal(r.path.step_cuts, off ? 4 : 1);
+    assert_int_equal(r.path.recovery[PATH_UNFOLDED].tried, 0); /* not of this mesh */
     for (PetscInt row = 0; row < viscous; ++row) assert_int_equal(r.path.recovery[row].tried, 0);
+    Unchanged(&r);
+    Destroy(&r);
+  }
+}
+
+/* The first two that are found are none. */
+static PetscErrorCode RefuseTwo(Problem problem, const State *state, const char **reason)
+{
+  *reason = num_asked < 3 ? "looked at and refused" : NULL;
+  return PETSC_SUCCESS;
+}
+
+/* What is refused counts as not found, and is counted; a path that does not look takes it. */
+static void Refuses(void **state)
+{
+  for (PetscInt off = 0; off < 2; ++off) {
+    PathLoop     loop = {.metric = &Plain, .stop = 1, .piece = 1, .least = 0.01, .most = 1};
+    SolverReport report;
+    Run          r;
+    Create(&r);
+    longest       = PETSC_MAX_REAL;
+    r.path.refuse = RefuseTwo;
+    r.path.inside = off ? RECOVERY_OFF : RECOVERY_AUTO;
+    OK(PathFollow(&r.path, &loop, &report));
+    assert_true(report.converged);
+    assert_int_equal(r.path.refused, off ? 0 : 2);
+    assert_near(asked[2 - 2 * off], off ? 1 : 0.25, 1e-15);
     Unchanged(&r);
     Destroy(&r);
   }
@@ -137,7 +165,7 @@ static void Recovers(void **state)
 
 int main(int argc, char **argv)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(Pieces), cmocka_unit_test(GivesUp), cmocka_unit_test(Recovers)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(Pieces), cmocka_unit_test(GivesUp), cmocka_unit_test(Recovers), cmocka_unit_test(Refuses)};
   int                     failed;
 
   if (PetscInitialize(&argc, &argv, NULL, NULL)) return 2;

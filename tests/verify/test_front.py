@@ -130,7 +130,7 @@ def test_schema_refuses_what_the_program_refuses(validator, tmp_path, path, valu
     (tmp_path / "patch2d.geo").write_text("")
     (tmp_path / "wrong.yml").write_text(yaml.safe_dump(scene))
     status, _, error = execute([str(PROGRAM), str(tmp_path / "wrong.yml"), "-check"])
-    assert status == 1 and "gmsh" not in error, error
+    assert status == 1 and "cells of dimension" not in error, error  # before the mesh, which is empty, is looked at
 
 
 # ---- completion, man page, reference ------------------------------------------------------------------------------------------------

@@ -158,7 +158,8 @@ def test_good_on_two_ranks(check):
     # not built yet
     (("friction: 0", "friction: 0.3"), ["contact.pair.friction is 0.3", "not built yet"]),
     (("friction: 0", "projection: facet"), ["contact.pair.projection is not a key"]),
-    (("friction: 0", "law: penalty"), ["contact.pair", "law penalty and a stiffness penalty"]),
+    (("friction: 0", "law: penalty"), ["contact.pair.penalty must be given", "stiffness"]),
+    (("friction: 0", "penalty: 5"), ["contact.pair.penalty is the stiffness of law: penalty", "frictionless"]),
     (("friction: 0", "order: full, node_to_segment: true"), ["contact.pair.order", "do not go together"]),
     # what drives
     (("bottom: {fix: xy}", "bottom: {fix: xy}\n  lower_side: {pressure: 1, volume: t}"), ["boundary.lower_side.volume", "take pressure away"]),
@@ -170,7 +171,7 @@ def test_good_on_two_ranks(check):
     (("bottom: {fix: xy}", "bottom: {fix: xy}\n  lower_side: {volume: t}\n  lower_top: {advance: t}"), None),  # two of them: good
     (("step: 0.5", "step: 0.5, control: riks"), ["load.control is 'riks'", r"time\|arc_length"]),
     (("step: 0.5", "step: 0.5, stop_displacement: -1"), ["load.stop_displacement is -1", "inf"]),
-    (("step: 0.5", "step: 0.5, control: arc_length"), ["boundary.top.displacement", "arc_length", "factor of loads"]),
+    (("step: 0.5", "step: 0.5, control: arc_length"), ["boundary.top.displacement", "arc_length", "factor of the loads"]),
     # plasticity
     (("{law: neo_hookean, E: 1, nu: 0.3}", "{law: j2, E: 1, nu: 0.3}"), ["material.rubber.yield: missing"]),
     (("{law: neo_hookean, E: 1, nu: 0.3}", "{law: j2, E: 1, nu: 0.3, yield: 0}"), ["material.rubber.yield: 0 is not a finite number above 0"]),
@@ -215,6 +216,7 @@ def test_good_on_two_ranks(check):
     (("nu: 0.3}", "nu: 0.3, fiber: {a: {angle: 29}}}"), ["material.rubber.fiber: law neo_hookean has no fibres"]),
     # the file
     (("body:\n", "body: [\n"), [r"squares.yml:\d+:\d+: not valid YAML"]),
+    (("body:\n", "body:\n\t"), [r"squares.yml:\d+:\d+: not valid YAML", "not by tabs"]),
     (("title: two", "title: \"two"), [r"squares.yml:\d+:\d+: not valid YAML"]),
     ((SCENE, ""), ["empty"]),
     ((SCENE, "# nothing\n"), ["empty"]),

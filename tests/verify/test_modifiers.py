@@ -10,10 +10,12 @@ DEEP = ("inputs/slide2d.yml", "-adapt_tolerance", 0, "-mesh_parameter_n", 8, "-o
         "-contact_disc_on_block_mortar", "disc_surface")
 DRIVEN = ("inputs/cylinder.yml", "-boundary_flat_traction_y", 0, "-boundary_flat_displacement_y", -1.6, "-load_step", 1, "-mesh_parameter_n", 4,
           "-mesh_parameter_m", 4, "-refine_arc_levels", 3, "-refine_top_levels", 3, "-adapt_tolerance", 0, "-order", 2, "-contact_cylinder_on_block_order", "full")
+SOFT_ON_STIFF = ("tests/gauntlet/press.yml", "-material_a_E", 1, "-material_a_nu", 0.45, "-material_b_E", 1e5, "-material_b_nu", 0.3)
 NEEDED = [  # modifier, figure of summary.json, how many times as large it is without, scene
     ("slide_predictor", "newton_iterations", 2, DEEP),
     ("first_touch", "factorisations", 1.5, DRIVEN),
     ("yield_edge", "newton_iterations", 1.3, ("inputs/necking.yml", "-load_end", 0.1)),
+    ("stall", "factorisations", 2, ("tests/gauntlet/upset_strip.yml", "-adapt_tolerance", 0, "-load_step", 0.1)),
     ("frozen_normals", "newton_iterations", 2, ("tests/verify/scenes/pressed_cylinder.yml", "-load_step", 1, "-body_plate_motion_y", 0.13)),
 ]
 
@@ -27,6 +29,31 @@ def test_needed(run, name, figure, times, scene):
     print(figure, plain.summary[figure], without.summary[figure])
     assert without.summary[figure] > times * plain.summary[figure]
     assert without.summary["energy"] == pytest.approx(plain.summary["energy"], rel=1e-3)
+
+
+def test_inside(run):
+    """A half disc pressed through the top of a block by more than its radius in one step: Newton's method ends with the disc inside the block and no contact
+    at all. That is no solution; half the step is, and the force is that of ten steps."""
+    scene = ("inputs/hertz2d.yml", "-adapt_tolerance", 0, "-order", 1, "-boundary_top_displacement_y", "-1.1*t")
+    plain, fine, without = (run(*scene, *QUIET, *words) for words in ((), ("-load_step", 0.1), ("-path_inside", "off")))
+    for result in (plain, fine, without): assert result.returncode == 0, result
+    assert plain.summary["refused_solutions"] == 1 and plain.summary["step_cuts"] == 1 and fine.summary["refused_solutions"] == without.summary["refused_solutions"] == 0
+    force = [result.summary["contact"]["disc_on_block"]["force"][1] for result in (plain, fine, without)]
+    print(force)
+    assert force[0] > 1 and force[0] == pytest.approx(force[1], rel=1e-6) and force[2] == 0
+
+
+def test_finer_meshes(run):
+    """A soft disc on a stiff block folds under the ends of its bonded top, between integration points; on smaller cells there no equilibrium is found. The rest
+    of the mesh is refined, and the tolerance is reached; not without that, nor where the way of the load is not tried again on other meshes."""
+    scene = (*SOFT_ON_STIFF, "-adapt_tolerance", 0.0125, *QUIET)
+    plain = run(*scene)
+    assert plain.returncode == 0 and plain.summary["estimated_error"] < 0.0125, plain
+    for name in ("unfolded", "cut"):
+        without = run(*scene, f"-path_{name}", "off")
+        print(name, plain.summary["estimated_error"], without.summary["estimated_error"])
+        assert plain.summary["recoveries"][name]["succeeded"] > 0 == without.summary["recoveries"][name]["tried"]
+        assert without.summary["status"] == "inaccurate" and without.summary["estimated_error"] > 0.0125
 
 
 def test_switches_and_counters(run):

@@ -27,24 +27,12 @@ static int CompareSides_Private(const void *a, const void *b)
 /* First side from a node on. */
 static PetscInt FirstSide_Private(PetscInt num, const Side side[], PetscInt from)
 {
-  PetscInt lo = 0, hi = num;
-
-  while (lo < hi) {
-    const PetscInt mid = (lo + hi) / 2;
-
-    if (side[mid].from < from)
-      lo = mid + 1;
-    else
-      hi = mid;
-  }
-  return lo;
+  return SortedFrom(&(Side){.from = from, .to = -1}, side, num, sizeof(Side), CompareSides_Private);
 }
 
 static PetscBool HasSide_Private(PetscInt num, const Side side[], PetscInt from, PetscInt to)
 {
-  for (PetscInt k = FirstSide_Private(num, side, from); k < num && side[k].from == from; k++)
-    if (side[k].to == to) return PETSC_TRUE;
-  return PETSC_FALSE;
+  return (PetscBool)(bsearch(&(Side){.from = from, .to = to}, side, (size_t)num, sizeof(Side), CompareSides_Private) != NULL);
 }
 
 /* Does a node take its position from the facet: it hangs, or is one of its lattice? */
