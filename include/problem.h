@@ -164,6 +164,9 @@ PetscErrorCode ProblemUnloads(Problem, Vec x, Vec dx, PetscBool *yes);
    solution of the matrix is its slide. Not while prescribed motion is still to come. */
 PetscErrorCode ProblemFindSlide(Problem, Vec dx, Vec force, PetscReal *excess);
 
+/* Work of the forces r on the displacements of dx, those of prescribed motion not counted. Collective. */
+PetscErrorCode ProblemWork(Problem, Vec r, Vec dx, PetscReal *work);
+
 /* A Newton step: Begin remembers where it starts; Move sets x = start + step dx and the prescribed motion likewise (may be called again with a shorter step)
    and refreshes the contact search; Accept updates the element pressures for the step taken. */
 PetscErrorCode ProblemStepBegin(Problem, Vec x, Vec dx);

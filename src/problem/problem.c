@@ -328,6 +328,21 @@ PetscErrorCode ProblemSetDisplacement(Problem p, const PetscReal local[], Vec x)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscErrorCode ProblemWork(Problem p, Vec r, Vec dx, PetscReal *work)
+{
+  const PetscReal *force, *way;
+
+  PetscFunctionBegin;
+  *work = 0;
+  PetscCall(VecGetArrayRead(r, &force));
+  PetscCall(VecGetArrayRead(dx, &way));
+  for (PetscInt i = 0; i < p->num_u; ++i) *work += force[i] * way[i];
+  PetscCall(VecRestoreArrayRead(dx, &way));
+  PetscCall(VecRestoreArrayRead(r, &force));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, work, 1, MPIU_REAL, MPI_SUM, p->comm));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode ProblemStepBegin(Problem p, Vec x, Vec dx)
 {
   const HPTables *v;

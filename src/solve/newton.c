@@ -1,7 +1,7 @@
 /* The nonlinear iteration as a SNES type: linearise, solve with the active set iterated against that linearisation,
    move, judge. Prescribed motion still to come enters the linear solve (docs/theory.md, solution). There is no merit
-   function: a step is shortened only when it would leave the domain (det F <= 0), and the rest of the prescribed motion
-   then stays for the next iteration. Whatever else is done is a row of modifier.c. */
+   function: a step is shortened when it would leave the domain (det F <= 0), and the rest of the prescribed motion then
+   stays for the next iteration. Whatever else is done is a row of modifier.c. */
 #include "solveimpl.h"
 #include <petsc/private/snesimpl.h>
 
@@ -79,12 +79,13 @@ static PetscErrorCode Direction_Private(Solver s, const Iterate *it, Vec dx)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* x += step dx with the longest step 1, 1/2, … that stays in the domain; residual there. */
+/* x += step dx with the longest step 1, 1/2, … that stays in the domain, or a shorter one; residual there. */
 static PetscErrorCode Move_Private(Solver s, const Iterate *it, Vec dx)
 {
-  PetscReal step = 1;
+  PetscReal step = 1, slope;
 
   PetscFunctionBegin;
+  PetscCall(SolverSlope_Private(s, it->r, dx, &slope));
   PetscCall(ProblemStepBegin(s->problem, it->x, dx));
   for (PetscInt cut = 0; cut <= s->cuts; ++cut, step *= 0.5) {
     PetscCall(ProblemStepMove(s->problem, dx, step, it->x));
@@ -93,6 +94,7 @@ static PetscErrorCode Move_Private(Solver s, const Iterate *it, Vec dx)
     ++s->halvings;
     PetscCall(PetscInfo(s->snes, "step %g leaves the domain\n", (double)step));
   }
+  if (!s->report->status.bad) PetscCall(ModifiersShorten_Private(s, it, dx, slope, &step));
   if (!s->report->status.bad) PetscCall(ProblemStepAccept(s->problem, step, s->pressure));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -14,6 +14,7 @@ NEEDED = [  # modifier, figure of summary.json, how many times as large it is wi
     ("slide_predictor", "newton_iterations", 2, DEEP),
     ("first_touch", "factorisations", 1.5, DRIVEN),
     ("yield_edge", "newton_iterations", 1.3, ("inputs/necking.yml", "-load_end", 0.1)),
+    ("line_search", "newton_iterations", 2, ("tests/gauntlet/upset.yml", "-load_end", 0.05)),
     ("frozen_normals", "newton_iterations", 2, ("tests/verify/scenes/pressed_cylinder.yml", "-load_step", 1, "-body_plate_motion_y", 0.13)),
 ]
 
@@ -27,6 +28,14 @@ def test_needed(run, name, figure, times, scene):
     print(figure, plain.summary[figure], without.summary[figure])
     assert without.summary[figure] > times * plain.summary[figure]
     assert without.summary["energy"] == pytest.approx(plain.summary["energy"], rel=1e-3)
+
+
+def test_line_search_snaps(run):
+    """A tooth of order 1 slides over a peg; where steps go too far it stops half-way."""
+    plain, without = (run("tests/gauntlet/clip.yml", "-order", 1, *QUIET, *ALONE, "-newton_line_search", word) for word in ("auto", "off"))
+    assert (plain.returncode, without.returncode) == (0, 2), (plain, without)
+    assert plain.summary["modifiers"]["line_search"] > 0 == without.summary["modifiers"]["line_search"]
+    assert abs(plain.history[-1]["contact_force"]) < 1e-8 and without.summary["t"] < 0.9
 
 
 def test_switches_and_counters(run):
