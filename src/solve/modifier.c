@@ -61,13 +61,13 @@ PetscErrorCode ModifiersCorrect_Private(Solver s, const Iterate *it, Vec dx, Pet
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode ModifiersShorten_Private(Solver s, const Iterate *it, Vec dx, PetscReal slope, PetscReal *step)
+PetscErrorCode ModifiersShorten_Private(Solver s, const Iterate *it, Vec dx, PetscReal *step)
 {
   PetscFunctionBegin;
   for (PetscInt i = 0; i < NUM && !s->report->status.bad; ++i) {
     PetscBool acts = PETSC_FALSE;
     if (s->mode[i] == MODIFIER_OFF || !Modifiers[i]->shorten) continue;
-    PetscCall(Modifiers[i]->shorten(s, it, dx, slope, step, &acts));
+    PetscCall(Modifiers[i]->shorten(s, it, dx, step, &acts));
     if (acts) ++s->report->modifiers[i];
   }
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -82,19 +82,19 @@ static PetscErrorCode Direction_Private(Solver s, const Iterate *it, Vec dx)
 /* x += step dx with the longest step 1, 1/2, … that stays in the domain, or a shorter one; residual there. */
 static PetscErrorCode Move_Private(Solver s, const Iterate *it, Vec dx)
 {
-  PetscReal step = 1, slope;
+  PetscReal step = 1, pending;
 
   PetscFunctionBegin;
-  PetscCall(SolverSlope_Private(s, it->r, dx, &slope));
+  PetscCall(ProblemPending(s->problem, &pending));
   PetscCall(ProblemStepBegin(s->problem, it->x, dx));
   for (PetscInt cut = 0; cut <= s->cuts; ++cut, step *= 0.5) {
-    PetscCall(ProblemStepMove(s->problem, dx, step, it->x));
+    PetscCall(ProblemStepMove(s->problem, dx, step, PETSC_FALSE, it->x));
     PetscCall(SNESComputeFunction(s->snes, it->x, it->r));
     if (!s->report->status.bad) break;
     ++s->halvings;
     PetscCall(PetscInfo(s->snes, "step %g leaves the domain\n", (double)step));
   }
-  if (!s->report->status.bad) PetscCall(ModifiersShorten_Private(s, it, dx, slope, &step));
+  if (!s->report->status.bad && pending == 0) PetscCall(ModifiersShorten_Private(s, it, dx, &step));
   if (!s->report->status.bad) PetscCall(ProblemStepAccept(s->problem, step, s->pressure));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -30,14 +30,6 @@ def test_needed(run, name, figure, times, scene):
     assert without.summary["energy"] == pytest.approx(plain.summary["energy"], rel=1e-3)
 
 
-def test_line_search_snaps(run):
-    """A tooth of order 1 slides over a peg; where steps go too far it stops half-way."""
-    plain, without = (run("tests/gauntlet/clip.yml", "-order", 1, *QUIET, *ALONE, "-newton_line_search", word) for word in ("auto", "off"))
-    assert (plain.returncode, without.returncode) == (0, 2), (plain, without)
-    assert plain.summary["modifiers"]["line_search"] > 0 == without.summary["modifiers"]["line_search"]
-    assert abs(plain.history[-1]["contact_force"]) < 1e-8 and without.summary["t"] < 0.9
-
-
 def test_switches_and_counters(run):
     """Each has a row in -help and a counter in summary.json, steps of history.csv add up to them, and none acts when it is off."""
     names = re.findall(r"^  -newton_(\w+) +auto\|on\|off$", run("inputs/patch2d.yml", "-help").stdout, re.M)
