@@ -67,7 +67,8 @@ static PetscBool IsAtRest_Private(const Path *p, const State *guess)
   return (PetscBool)(norm == 0);
 }
 
-/* In as many pieces as it takes, with the whole load of the step from the first one on. */
+/* In as many pieces as it takes, with the whole load of the step from the start on: where that is not found with all of the overlap left, the load is at fault.
+ */
 static PetscErrorCode Overlap_Private(Path *p, const PathLoop *load, PetscReal to, const State *guess, SolverReport *report)
 {
   PathLoop  loop    = {.metric = &PathOverlap, .stop = 1, .piece = PathOverlap.cut, .least = LEAST, .most = 1, .load = load, .at = to};
@@ -78,7 +79,8 @@ static PetscErrorCode Overlap_Private(Path *p, const PathLoop *load, PetscReal t
   PetscCall(Begin_Private(p, NULL));
   PetscCall(ProblemSetState(problem, &p->level->state));
   PetscCall(ProblemNoteOverlap(problem, p->level->state.x, &deepest));
-  if (deepest > 0) PetscCall(PathFollow(p, &loop, report));
+  if (deepest > 0) PetscCall(PathAttempt(p, &loop, 0, report));
+  if (report->converged) PetscCall(PathFollow(p, &loop, report));
   PetscCall(ProblemLeaveOverlap(problem, 0));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
