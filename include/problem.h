@@ -164,10 +164,13 @@ PetscErrorCode ProblemUnloads(Problem, Vec x, Vec dx, PetscBool *yes);
    solution of the matrix is its slide. Not while prescribed motion is still to come. */
 PetscErrorCode ProblemFindSlide(Problem, Vec dx, Vec force, PetscReal *excess);
 
-/* A Newton step: Begin remembers where it starts; Move sets x = start + step dx and the prescribed motion likewise (may be called again with a shorter step)
-   and refreshes the contact search; Accept updates the element pressures for the step taken. */
+/* Work of the forces r on the displacements of dx, those of prescribed motion not counted. Collective. */
+PetscErrorCode ProblemWork(Problem, Vec r, Vec dx, PetscReal *work);
+
+/* A Newton step: Begin remembers where it starts; Move sets x = start + step dx and the prescribed motion likewise (may be called again with a shorter step),
+   whole: all but displacements to the end of the step, and refreshes the contact search; Accept updates the element pressures for the step taken. */
 PetscErrorCode ProblemStepBegin(Problem, Vec x, Vec dx);
-PetscErrorCode ProblemStepMove(Problem, Vec dx, PetscReal step, Vec x);
+PetscErrorCode ProblemStepMove(Problem, Vec dx, PetscReal step, PetscBool whole, Vec x);
 PetscErrorCode ProblemStepAccept(Problem, PetscReal step, PetscReal pressure[]);
 /* Largest part of the prescribed motion not yet applied, in the user's unit of length; 0 when the target is reached. */
 PetscErrorCode ProblemPending(Problem, PetscReal *remaining);
@@ -177,6 +180,10 @@ PetscErrorCode ProblemPending(Problem, PetscReal *remaining);
    is in the domain. Collective. */
 PetscErrorCode ProblemNoteImbalance(Problem, Vec x, PetscBool *usable);
 PetscErrorCode ProblemLeaveImbalance(Problem, PetscReal share);
+/* overlap.c. How deep the sides of pairs are in each other at x, at most (unit: length). Leave: from now on one side of each pair lies further in by this share
+   of its own; as created, and after Note: 0. Collective. */
+PetscErrorCode ProblemNoteOverlap(Problem, Vec x, PetscReal *deepest);
+PetscErrorCode ProblemLeaveOverlap(Problem, PetscReal share);
 
 /* energy.c. The augmented Lagrangian Phi(u; lambda), with penalties kappa_j = factor c_j. HasEnergy: is there one? Not with follower loads, plastic flow,
    pressures among the unknowns, small kinematics, viscous regularisation. Not collective. */

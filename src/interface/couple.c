@@ -245,6 +245,7 @@ PetscErrorCode ContactDestroy_Private(Contact *c)
   PetscCall(PetscFree4(c->live, c->valued, c->valued_node, c->pack));
   PetscCall(ContactGatherDestroy_Private(c));
   PetscCall(PetscFree2(c->listed, c->mine));
+  for (PetscInt k = 0; k < 2; ++k) PetscCall(PetscFree2(c->inward[k], c->moved[k]));
   PetscCall(PetscFree(c->pattern_offset));
   PetscCall(PetscFree(c->pattern));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -419,7 +420,7 @@ PetscErrorCode ContactEvaluate_Private(Interface p, Contact *c, Vec x, const Pet
   p->traffic.evaluations++;
   if (small && !c->mean0) PetscCall(Freeze_Private(p, c, failed));
   PetscCall(GatherMultipliers_Private(p, c, x));
-  for (PetscInt k = 0; k < 2; ++k) PetscCall(SurfaceGather_Private(p, &c->side[k], local, c->side[k].X, c->side[k].x));
+  for (PetscInt k = 0; k < 2; ++k) PetscCall(SurfaceGather_Private(p, &c->side[k], local, ContactBase_Private(c, k), c->side[k].x));
   if (small)
     LinearGaps_Private(p, c);
   else {

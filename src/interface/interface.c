@@ -148,7 +148,7 @@ PetscErrorCode InterfaceSearch(Interface p, const PetscReal u[])
     if (p->spec->kinematics == KINEMATICS_SMALL) continue;
     for (PetscInt k = 0; k < 2; ++k) {
       SurfaceForget_Private(&c->side[k]);
-      SurfacePlace_Private(&c->side[k], u, c->side[k].X, c->side[k].x);
+      SurfacePlace_Private(&c->side[k], u, ContactBase_Private(c, k), c->side[k].x);
     }
     PetscCall(ContactSearch_Private(p, c, PETSC_FALSE, 0.1 * c->distance));
   }

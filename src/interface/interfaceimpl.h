@@ -127,6 +127,9 @@ typedef struct {
   PetscReal           *gap0, *mean0;             /* [n] small kinematics: gaps there, over weights; mean0 NULL: not yet, or finite */
   PetscReal           *offset;                   /* [n] constant part of gt_j that does not count: initial gaps closed, interference */
   PetscReal           *misfit;                   /* [n] imbalance.c: what else does not count, times the share left */
+  PetscReal            overlap, allowance;       /* overlap.c: the deepest at the start, what of it counts as none … */
+  PetscInt             shrinks;                  /* … for which this side … */
+  PetscReal           *inward[2], *moved[2];     /* … lies further in: [n][dim] unit vectors, reference positions then; NULL: not yet made */
   PetscInt            *pattern_offset, *pattern; /* [num_facets+1]: nodes each facet has room for in the matrix */
 } Contact;
 
@@ -251,7 +254,9 @@ static inline PetscBool ContactPressed_Private(const Contact *c, PetscInt j)
 {
   return (PetscBool)(c->has_multiplier[j] && c->z[j] > SLACK * c->c[j] * c->extent[j]);
 }
-void ContactRows_Private(const Contact *, PetscInt j, PetscReal lift, PetscBool symmetric, ContactRow row[]);
+/* overlap.c: the positions that displacements of a side count from. */
+const PetscReal *ContactBase_Private(const Contact *, PetscInt side);
+void             ContactRows_Private(const Contact *, PetscInt j, PetscReal lift, PetscBool symmetric, ContactRow row[]);
 /* How far node j and the other side are into each other, after the change as linearised. */
 static inline PetscReal ContactOverlap_Private(const Contact *c, PetscInt j)
 {

@@ -104,6 +104,25 @@ static PetscErrorCode HomotopyFound_Private(Path *p, const PathLoop *loop, Petsc
 
 const PathMetric PathHomotopy = {"homotopy", 0.5, 2, PETSC_FALSE, End_Private, HomotopySet_Private, HomotopyFound_Private};
 
+/* ---- the part of the overlap at the start that is taken away (7.5): ProblemNoteOverlap comes first ----------------------------------- */
+
+static PetscErrorCode OverlapSet_Private(Path *p, const PathLoop *loop, PetscReal to)
+{
+  PetscFunctionBegin;
+  PetscCall(ProblemLeaveOverlap(p->level->problem, 1 - to));
+  PetscCall(loop->load->metric->set(p, loop->load, loop->at));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode OverlapFound_Private(Path *p, const PathLoop *loop, PetscReal to, SolverReport *report)
+{
+  PetscFunctionBegin;
+  PetscCall(loop->load->metric->found(p, loop->load, loop->at, report));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+const PathMetric PathOverlap = {"overlap", 0.5, 2, PETSC_FALSE, End_Private, OverlapSet_Private, OverlapFound_Private};
+
 /* ---- pseudo-time of a gradient flow (7.0): implicit Euler steps; one of infinite length finds an equilibrium without viscosity ------ */
 
 static PetscReal ViscousEnd_Private(const Path *p, const PathLoop *loop)

@@ -57,6 +57,35 @@ static PetscErrorCode Homotopy_Private(Path *p, const PathLoop *load, PetscReal 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* ---- from bodies at rest that overlap ----------------------------------------------------------------------------------------------- */
+
+static PetscBool IsAtRest_Private(const Path *p, const State *guess)
+{
+  PetscReal norm = 0;
+
+  if (!p->data->num_contacts || p->data->mechanics.kinematics == KINEMATICS_SMALL) return PETSC_FALSE;
+  (void)VecNorm(p->level->accepted.x, NORM_INFINITY, &norm);
+  return (PetscBool)(norm == 0);
+}
+
+/* In as many pieces as it takes, with the whole load of the step from the start on: where that is not found with all of the overlap left, the load is at fault.
+ */
+static PetscErrorCode Overlap_Private(Path *p, const PathLoop *load, PetscReal to, const State *guess, SolverReport *report)
+{
+  PathLoop  loop    = {.metric = &PathOverlap, .stop = 1, .piece = PathOverlap.cut, .least = LEAST, .most = 1, .load = load, .at = to};
+  Problem   problem = p->level->problem;
+  PetscReal deepest;
+
+  PetscFunctionBegin;
+  PetscCall(Begin_Private(p, NULL));
+  PetscCall(ProblemSetState(problem, &p->level->state));
+  PetscCall(ProblemNoteOverlap(problem, p->level->state.x, &deepest));
+  if (deepest > 0) PetscCall(PathAttempt(p, &loop, 0, report));
+  if (report->converged) PetscCall(PathFollow(p, &loop, report));
+  PetscCall(ProblemLeaveOverlap(problem, 0));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* The way of the load from the accepted state again, in as many pieces as it takes. */
 static PetscErrorCode Cut_Private(Path *p, const PathLoop *load, PetscReal to, const State *guess, SolverReport *report)
 {
@@ -96,6 +125,7 @@ static PetscErrorCode Viscous_Private(Path *p, const PathLoop *load, PetscReal t
 const Recovery PathRecoveries[PATH_RECOVERIES] = {
     {"unfreeze", "once more from the start of the step, with the segmentation of contact no longer frozen", 0, IsFrozen_Private, Unfreeze_Private},
     {"homotopy", "residual homotopy: the imbalance of a state carried over to another mesh is taken away in pieces", 0, IsCarried_Private, Homotopy_Private},
+    {"overlap", "overlap that bodies at rest begin with is taken away in pieces, the deepest place first", 0, IsAtRest_Private, Overlap_Private},
     {"cut", "on another mesh, the way of the load from the accepted state again, in pieces", 0, IsCarried_Private, Cut_Private},
     {"descent", "down on the energy of contact and bodies, each iterate lower than the one before, to an equilibrium that is not near by", 1, PathCanDescend,
      PathDescend},

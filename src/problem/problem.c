@@ -328,6 +328,21 @@ PetscErrorCode ProblemSetDisplacement(Problem p, const PetscReal local[], Vec x)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscErrorCode ProblemWork(Problem p, Vec r, Vec dx, PetscReal *work)
+{
+  const PetscReal *force, *way;
+
+  PetscFunctionBegin;
+  *work = 0;
+  PetscCall(VecGetArrayRead(r, &force));
+  PetscCall(VecGetArrayRead(dx, &way));
+  for (PetscInt i = 0; i < p->num_u; ++i) *work += force[i] * way[i];
+  PetscCall(VecRestoreArrayRead(dx, &way));
+  PetscCall(VecRestoreArrayRead(r, &force));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, work, 1, MPIU_REAL, MPI_SUM, p->comm));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode ProblemStepBegin(Problem p, Vec x, Vec dx)
 {
   const HPTables *v;
@@ -340,13 +355,33 @@ PetscErrorCode ProblemStepBegin(Problem p, Vec x, Vec dx)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode ProblemStepMove(Problem p, Vec dx, PetscReal step, Vec x)
+/* Multipliers and other unknowns beside displacements to the end of the step. */
+static PetscErrorCode Rest_Private(Problem p, Vec dx, Vec x)
+{
+  const PetscReal *start, *change;
+  PetscReal       *values;
+  PetscInt         num;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetLocalSize(x, &num));
+  PetscCall(VecGetArrayRead(p->start_x, &start));
+  PetscCall(VecGetArrayRead(dx, &change));
+  PetscCall(VecGetArray(x, &values));
+  for (PetscInt i = p->num_u; i < num; ++i) values[i] = start[i] + change[i];
+  PetscCall(VecRestoreArray(x, &values));
+  PetscCall(VecRestoreArrayRead(dx, &change));
+  PetscCall(VecRestoreArrayRead(p->start_x, &start));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode ProblemStepMove(Problem p, Vec dx, PetscReal step, PetscBool whole, Vec x)
 {
   const HPTables *v;
 
   PetscFunctionBegin;
   PetscCall(HPSpaceGetTables(p->space, &v));
   PetscCall(VecWAXPY(x, step, dx, p->start_x));
+  if (whole) PetscCall(Rest_Private(p, dx, x));
   for (PetscInt i = 0; i < v->num_nodes * p->dim; ++i)
     p->applied[i] = step == 1 ? p->target[i] : p->start_applied[i] + step * (p->target[i] - p->start_applied[i]);
   PetscCall(ProblemSearch(p, x));

@@ -337,7 +337,7 @@ static PetscErrorCode Piece_Private(Descent *d, Vec x, PetscBool *ok)
   PetscCall(ProblemStepBegin(d->problem, x, d->dx));
   *ok = PETSC_FALSE;
   for (PetscReal step = 1; step > SHORTEST && !*ok; step *= 0.5) {
-    PetscCall(ProblemStepMove(d->problem, d->dx, step, x));
+    PetscCall(ProblemStepMove(d->problem, d->dx, step, PETSC_FALSE, x));
     PetscCall(ProblemMerit(d->problem, PENALTY, d->lambda, x, NULL, &d->merit, &d->status));
     PetscCall(Through_Private(d, PETSC_TRUE, &through, &deeper));
     *ok = (PetscBool)(!d->status.bad && !through && deeper <= DEEPER);

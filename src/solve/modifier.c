@@ -3,8 +3,9 @@
    order: who corrects a linear step sees what the rows above have made of it. */
 #include "solveimpl.h"
 
-static const Modifier *const Modifiers[] = {&ModifierFrozenSegmentation, &ModifierStall,        &ModifierFrozenNormals, &ModifierFirstTouch,
-                                            &ModifierProximalShift,      &ModifierSlideLimiter, &ModifierYieldEdge,     &ModifierSlidePredictor};
+static const Modifier *const Modifiers[] = {&ModifierFrozenSegmentation, &ModifierStall,          &ModifierFrozenNormals,
+                                            &ModifierFirstTouch,         &ModifierProximalShift,  &ModifierSlideLimiter,
+                                            &ModifierYieldEdge,          &ModifierSlidePredictor, &ModifierLineSearch};
 #define NUM ((PetscInt)PETSC_STATIC_ARRAY_LENGTH(Modifiers))
 _Static_assert(PETSC_STATIC_ARRAY_LENGTH(Modifiers) <= SOLVER_MOST_MODIFIERS, "SolverReport has no room for all modifiers");
 
@@ -55,6 +56,18 @@ PetscErrorCode ModifiersCorrect_Private(Solver s, const Iterate *it, Vec dx, Pet
     PetscBool acts = PETSC_FALSE;
     if (s->mode[i] == MODIFIER_OFF || !Modifiers[i]->correct) continue;
     PetscCall(Modifiers[i]->correct(s, it, dx, &acts, again));
+    if (acts) ++s->report->modifiers[i];
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode ModifiersShorten_Private(Solver s, const Iterate *it, Vec dx, PetscReal *step)
+{
+  PetscFunctionBegin;
+  for (PetscInt i = 0; i < NUM && !s->report->status.bad; ++i) {
+    PetscBool acts = PETSC_FALSE;
+    if (s->mode[i] == MODIFIER_OFF || !Modifiers[i]->shorten) continue;
+    PetscCall(Modifiers[i]->shorten(s, it, dx, step, &acts));
     if (acts) ++s->report->modifiers[i];
   }
   PetscFunctionReturn(PETSC_SUCCESS);

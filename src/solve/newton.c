@@ -1,7 +1,7 @@
 /* The nonlinear iteration as a SNES type: linearise, solve with the active set iterated against that linearisation,
    move, judge. Prescribed motion still to come enters the linear solve (docs/theory.md, solution). There is no merit
-   function: a step is shortened only when it would leave the domain (det F <= 0), and the rest of the prescribed motion
-   then stays for the next iteration. Whatever else is done is a row of modifier.c. */
+   function: a step is shortened when it would leave the domain (det F <= 0), and the rest of the prescribed motion then
+   stays for the next iteration. Whatever else is done is a row of modifier.c. */
 #include "solveimpl.h"
 #include <petsc/private/snesimpl.h>
 
@@ -79,20 +79,22 @@ static PetscErrorCode Direction_Private(Solver s, const Iterate *it, Vec dx)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* x += step dx with the longest step 1, 1/2, … that stays in the domain; residual there. */
+/* x += step dx with the longest step 1, 1/2, … that stays in the domain, or a shorter one; residual there. */
 static PetscErrorCode Move_Private(Solver s, const Iterate *it, Vec dx)
 {
-  PetscReal step = 1;
+  PetscReal step = 1, pending;
 
   PetscFunctionBegin;
+  PetscCall(ProblemPending(s->problem, &pending));
   PetscCall(ProblemStepBegin(s->problem, it->x, dx));
   for (PetscInt cut = 0; cut <= s->cuts; ++cut, step *= 0.5) {
-    PetscCall(ProblemStepMove(s->problem, dx, step, it->x));
+    PetscCall(ProblemStepMove(s->problem, dx, step, PETSC_FALSE, it->x));
     PetscCall(SNESComputeFunction(s->snes, it->x, it->r));
     if (!s->report->status.bad) break;
     ++s->halvings;
     PetscCall(PetscInfo(s->snes, "step %g leaves the domain\n", (double)step));
   }
+  if (!s->report->status.bad && pending == 0) PetscCall(ModifiersShorten_Private(s, it, dx, &step));
   if (!s->report->status.bad) PetscCall(ProblemStepAccept(s->problem, step, s->pressure));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -84,18 +84,24 @@ typedef struct {
   PetscErrorCode (*linearise)(Solver, const Iterate *, const Form *last, PetscBool always, PetscBool *acts);
   /* Looks at the linear step dx and changes it, or changes s->form and asks for it again. */
   PetscErrorCode (*correct)(Solver, const Iterate *, Vec dx, PetscBool *acts, PetscBool *again);
+  /* Looks at the residual after a step, it->r, and takes back part of the step; it->norm: at its start. Not where motion was prescribed
+     on the way, whose work is not known. */
+  PetscErrorCode (*shorten)(Solver, const Iterate *, Vec dx, PetscReal *step, PetscBool *acts);
   /* Looks at an iterate before it is judged: may change s->form and what of the iterate depends on it, or set it->trouble and it->reason. */
   PetscErrorCode (*verdict)(Solver, Iterate *, PetscBool always, PetscBool *acts);
 } Modifier;
 
 extern const Modifier ModifierFrozenSegmentation, ModifierStall, ModifierFrozenNormals, ModifierFirstTouch, ModifierProximalShift, ModifierSlideLimiter,
-    ModifierYieldEdge, ModifierSlidePredictor;
+    ModifierYieldEdge, ModifierSlidePredictor, ModifierLineSearch;
 /* modifier.c: all that are not off, in the order of the table. */
 const Modifier *SolverModifier_Private(PetscInt);
 PetscErrorCode  ModifiersBegin_Private(Solver);
 PetscErrorCode  ModifiersLinearise_Private(Solver, const Iterate *);
 PetscErrorCode  ModifiersCorrect_Private(Solver, const Iterate *, Vec dx, PetscBool *again);
+PetscErrorCode  ModifiersShorten_Private(Solver, const Iterate *, Vec dx, PetscReal *step);
 PetscErrorCode  ModifiersVerdict_Private(Solver, Iterate *);
+/* linesearch.c: between s[0] and s[1], where g changes its sign: where it does if it is linear, a tenth of the way off either end. */
+PetscReal SolverInside_Private(const PetscReal s[2], const PetscReal g[2]);
 /* linear.c: solve with the matrix as it stands for rhs, to s->y; again: only the active set has changed since the last solution, which is there.
    s->no_solution: there is none. Collective. */
 PetscErrorCode SolverMatrixSolve_Private(Solver, Vec rhs, PetscBool again);

@@ -1,0 +1,67 @@
+/* Modifier: steps that go too far. Along a linear step du, dz the residual with the multipliers of its end does the work
+   g(s) = du . R(u + s du, z + dz), which is -du . K du at its start and would be 0 at its end. Where bodies answer more
+   stiffly on the way than their tangent said (flow that turns, cells that are squeezed), g is positive there: balance
+   along the step was left behind, and the next one comes back as far. Such a step is shortened to where little is left
+   of g [Matthies & Strang 1979], with the multipliers of its end: those of its start would hide that gaps close. Not
+   with element pressures (s->balance): the residual is that of the pressures x implies, bulk modulus times an error of
+   volume of second order, which the next step takes away whatever it is. */
+#include "solveimpl.h"
+
+#define LITTLE 0.5 /* share of the work, or of the residual, that may be left */
+#define TRIALS 6
+
+PetscReal SolverInside_Private(const PetscReal s[2], const PetscReal g[2])
+{
+  const PetscReal share = g[0] / (g[0] - g[1]);
+
+  return s[0] + PetscMax(0.1, PetscMin(0.9, share)) * (s[1] - s[0]);
+}
+
+/* Residual at a share of the displacements of the step; whole: multipliers are those at its end. Then its work along the step. */
+static PetscErrorCode Try_Private(Solver s, const Iterate *it, Vec dx, PetscReal step, PetscBool whole, PetscReal *work)
+{
+  PetscFunctionBegin;
+  PetscCall(ProblemStepMove(s->problem, dx, step, whole, it->x));
+  PetscCall(SNESComputeFunction(s->snes, it->x, it->r));
+  PetscCall(ProblemWork(s->problem, it->r, dx, work));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Work with the multipliers of the end at the start of the step and at the length at hand: too far? */
+static PetscErrorCode TooFar_Private(Solver s, const Iterate *it, Vec dx, PetscReal step, PetscReal g[2], PetscBool *yes)
+{
+  PetscReal none;
+
+  PetscFunctionBegin;
+  *yes = PETSC_FALSE;
+  PetscCall(ProblemWork(s->problem, it->r, dx, &g[1]));
+  if (g[1] <= 0) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(Try_Private(s, it, dx, 0, PETSC_TRUE, &g[0]));
+  *yes = (PetscBool)(g[0] < 0 && g[1] > -LITTLE * g[0]);
+  if (!*yes) PetscCall(Try_Private(s, it, dx, step, PETSC_FALSE, &none));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode Shorten_Private(Solver s, const Iterate *it, Vec dx, PetscReal *step, PetscBool *acts)
+{
+  PetscReal at[2] = {0, *step}, g[2], first, norm, now;
+
+  PetscFunctionBegin;
+  PetscCall(VecNorm(it->r, NORM_2, &norm));
+  if (s->balance || norm <= LITTLE * it->norm) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(TooFar_Private(s, it, dx, *step, g, acts));
+  first = g[0];
+  for (PetscInt trial = 0; trial < TRIALS && *acts; ++trial) {
+    *step = SolverInside_Private(at, g);
+    PetscCall(PetscInfo(s->snes, "step %g goes too far, work %g after %g: %g\n", (double)at[1], (double)g[1], (double)first, (double)*step));
+    PetscCall(Try_Private(s, it, dx, *step, PETSC_TRUE, &now));
+    PetscCall(VecNorm(it->r, NORM_2, &norm));
+    if (s->report->status.bad || norm <= LITTLE * it->norm || PetscAbsReal(now) <= -LITTLE * first) break;
+    at[now > 0] = *step;
+    g[now > 0]  = now;
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+const Modifier ModifierLineSearch = {"line_search", "a step at whose end forces along it point back is shortened to where they balance",
+                                     .shorten = Shorten_Private};
