@@ -42,13 +42,27 @@ static PetscErrorCode TooFar_Private(Solver s, const Iterate *it, Vec dx, PetscR
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Not for bodies with an energy that nothing touches: a load that carries them away, or past a limit point, is told by steps that fail. */
+static PetscErrorCode Applies_Private(Solver s, PetscBool *yes)
+{
+  const SceneData *scene;
+
+  PetscFunctionBegin;
+  PetscCall(ProblemGetScene(s->problem, &scene));
+  PetscCall(ProblemHasEnergy(s->problem, yes));
+  *yes = (PetscBool)(!s->balance && (scene->num_contacts > 0 || !*yes));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 static PetscErrorCode Shorten_Private(Solver s, const Iterate *it, Vec dx, PetscReal *step, PetscBool *acts)
 {
   PetscReal at[2] = {0, *step}, g[2], first, norm, now;
 
   PetscFunctionBegin;
   PetscCall(VecNorm(it->r, NORM_2, &norm));
-  if (s->balance || norm <= LITTLE * it->norm) PetscFunctionReturn(PETSC_SUCCESS);
+  if (norm <= LITTLE * it->norm) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(Applies_Private(s, acts));
+  if (!*acts) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(TooFar_Private(s, it, dx, *step, g, acts));
   first = g[0];
   for (PetscInt trial = 0; trial < TRIALS && *acts; ++trial) {
