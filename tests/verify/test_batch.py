@@ -14,7 +14,7 @@ from conftest import PROGRAM, ROOT, Result
 from test_hostile import block
 from test_orderly import refused
 
-MANY = {"load": {"step": 0.0002}, "output": {"fields": False}}  # some seconds in steps of milliseconds
+MANY = {"load": {"step": 0.00005}, "output": {"fields": False}}  # some seconds in steps of milliseconds
 
 
 def start(path, *options, ranks=1, text=None, env=None, **keywords):
