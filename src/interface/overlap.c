@@ -49,16 +49,14 @@ static PetscReal Left_Private(const Surface *s, PetscReal way, const PetscReal i
 /* The side that moves, its directions. */
 static PetscErrorCode Choose_Private(Contact *c)
 {
-  PetscReal *work, left[2];
+  PetscReal left[2];
 
   PetscFunctionBegin;
   for (PetscInt k = 0; k < 2; ++k) {
     const Surface *s = &c->side[k];
-    PetscCall(PetscMalloc1(s->dim * s->num_nodes, &work));
     if (!c->inward[k]) PetscCall(PetscMalloc2(s->dim * s->num_nodes, &c->inward[k], s->dim * s->num_nodes, &c->moved[k]));
     PetscCall(Inward_Private(s, c->inward[k]));
-    left[k] = Left_Private(s, c->overlap, c->inward[k], work);
-    PetscCall(PetscFree(work));
+    left[k] = Left_Private(s, c->overlap, c->inward[k], c->moved[k]);
   }
   c->shrinks = left[0] > left[1] ? 0 : 1;
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -56,7 +56,7 @@ static PetscErrorCode Applies_Private(Solver s, PetscBool *yes)
 
 static PetscErrorCode Shorten_Private(Solver s, const Iterate *it, Vec dx, PetscReal *step, PetscBool *acts)
 {
-  PetscReal at[2] = {0, *step}, g[2], first, norm, now;
+  PetscReal at[2] = {0, *step}, g[2] = {0, 0}, norm, now;
 
   PetscFunctionBegin;
   PetscCall(VecNorm(it->r, NORM_2, &norm));
@@ -64,7 +64,7 @@ static PetscErrorCode Shorten_Private(Solver s, const Iterate *it, Vec dx, Petsc
   PetscCall(Applies_Private(s, acts));
   if (!*acts) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(TooFar_Private(s, it, dx, *step, g, acts));
-  first = g[0];
+  const PetscReal first = g[0];
   for (PetscInt trial = 0; trial < TRIALS && *acts; ++trial) {
     *step = SolverInside_Private(at, g);
     PetscCall(PetscInfo(s->snes, "step %g goes too far, work %g after %g: %g\n", (double)at[1], (double)g[1], (double)first, (double)*step));
