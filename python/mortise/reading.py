@@ -83,13 +83,19 @@ class Run:
     def times(self, name="bulk"):
         return np.array([float(grid.find("Time").get("Value")) for grid in self._series[name]])
 
+    def load_times(self, name="bulk"):
+        """Times of the load. Adaptation passes of one load step share it; times() tells them apart."""
+        found = [grid.find("Information[@Name='load_time']") for grid in self._series[name]]
+        own = self.times(name)
+        return np.array([t if info is None else float(info.get("Value")) for info, t in zip(found, own)])
+
     def state(self, name="bulk", time=None, only=None):
-        """The grid `name` at the time next to `time`; without one, the last."""
-        away = 0 * self.times(name) if time is None else np.abs(self.times(name) - time)
-        at = np.flatnonzero(away == away.min())[-1]  # of several at one time, the last
+        """The grid `name` at the load time next to `time`, after its last pass; without one, the last of all."""
+        away = np.zeros(len(self._series[name])) if time is None else np.abs(self.load_times(name) - time)
+        at = np.flatnonzero(away == away.min())[-1]
         return State(self._series[name][at], self.directory, only)
 
     def contacts(self, time):
-        """Contact grids that stand exactly at `time`: the sides that carry the pressure."""
-        names = [name for name in self._series if name != "bulk" and time in self.times(name)]
-        return [self.state(name, time, ("side", 0)) for name in names]
+        """Contact grids of the bulk state whose own time (State.time) is `time`: the sides that carry the pressure."""
+        found = [(name, np.flatnonzero(self.times(name) == time)) for name in self._series if name != "bulk"]
+        return [State(self._series[name][at[-1]], self.directory, ("side", 0)) for name, at in found if len(at)]

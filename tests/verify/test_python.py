@@ -25,3 +25,12 @@ def test_times_and_tables(tmp_path):
 
 def test_empty_directory(tmp_path):
     assert mortise.Run(tmp_path).names() == []
+
+
+def test_passes_share_a_load_time(tmp_path):
+    passes = ((0.5, 0.5), (1, 1), (1.000001, 1))
+    info = """<Grid><Time Value="{}"/><Information Name="load_time" Value="{}"/></Grid>"""
+    (tmp_path / "fields.xdmf").write_text(INDEX.format("".join(info.format(*p) for p in passes)))
+    run = mortise.Run(tmp_path)
+    assert list(run.times()) == [0.5, 1, 1.000001]
+    assert list(run.load_times()) == [0.5, 1, 1]
