@@ -175,6 +175,8 @@ install: all
 	install -d $(SHAREDIR)/bash-completion/completions $(DESTDIR)$(ZSHDIR)
 	install $(PROGRAM) $(BINDIR)/mortise
 	install scripts/plot $(BINDIR)/mortise-plot
+	install -d $(SHAREDIR)/mortise/python/mortise
+	install -m 644 python/mortise/*.py $(SHAREDIR)/mortise/python/mortise
 	install scripts/import $(BINDIR)/mortise-import
 	install scripts/hpc/batch $(BINDIR)/mortise-batch
 	install -m 644 scripts/hpc/slurm.sh $(SHAREDIR)/mortise/slurm.sh

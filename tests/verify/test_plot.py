@@ -42,7 +42,7 @@ def test_contact_is_drawn_on_one_side(run):
     """Of the two sides of the contact grid the one that carries the pressure, its points numbered anew."""
     result = run("inputs/blocks3d.yml")
     assert result.returncode == 0, result
-    bulk, (contact,) = plot.last_states(result.directory)
+    bulk, (contact,) = plot.states(result.directory, None)
     assert contact.cells.shape == (9, 4) and len(contact.X) == 16 and set(contact.cell["side"]) == {0} and contact.cells.max() == 15
     assert np.allclose(contact.point["normal"], (0, 0, -1)) and len(bulk.cells) == 26
     plot.plot_mesh(result.directory, "von_mises", 1.0)
