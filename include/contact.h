@@ -3,8 +3,8 @@
 
    Sides: the *nonmortar* side carries the multiplier z_j >= 0, the contact pressure at its nodes. Weighted gap gt_j = int psi_j g dgamma over the covered part
    of the nonmortar facets, w_j = int psi_j; Lagrangian L = Pi(u) - sum_j z_j gt_j(u). Measure: current length or area (axisymmetric: times 2 pi r).
-   Basis of the multipliers: *dual*, psi = A N on each facet with A = diag(int N_j) [int N_j N_k]^-1 over its covered part (a facet whose second matrix is
-   singular to 1e-13 contributes nothing); *standard*, psi = N.
+   Basis of the multipliers: *dual*, one constant matrix per facet, dual in the reference measure (src/contact/function/functionimpl.h), or *standard*, psi = N;
+   on a facet that is covered in part a blend of it with Bernstein polynomials, which depends on the covered share (src/contact/function/blend.c).
 
    Facets. Two dimensions: edges (a, b), the body to the left of a -> b; three: quadrilaterals, corners counterclockwise seen from outside. Of any order.
    Directions d at the corners of nonmortar facets are means of the vectors of the facets there (and of their mirror images in planes of symmetry), interpolated
@@ -13,9 +13,7 @@
    (kernelimpl.h); where several lie behind one another the nearest counts, so nothing is covered twice; a change of that choice is a jump.
    Node to segment (comparison, two dimensions): the same integrals by the trapezoidal rule: w_j = rho L / 2, gt_j = g_j w_j for an edge of length L (rho = 1
    or 2 pi r_j), with exact derivatives.
-   Nodes may hang (hang): their positions follow their masters', and results are given for the masters: gt_T = sum_L P_LT gt_L.
-
-   Facets of higher order: multiplier functions are one constant matrix per facet, dual in the reference measure (src/contact/function/functionimpl.h). */
+   Nodes may hang (hang): their positions follow their masters', and results are given for the masters: gt_T = sum_L P_LT gt_L. */
 #pragma once
 #include "base.h"
 
@@ -87,11 +85,11 @@ typedef struct {
   const PetscReal *reach;        /* [num_rows] change of gt_j when the gap grows by 1 along its direction everywhere */
   const PetscReal *dgap;         /* [num_rows][dim*num]; NULL unless asked, or where z vanishes and no Hessian is asked */
   const PetscReal *dweight;      /* [num_rows][dim*num] */
-  const PetscReal *push;         /* [num_rows][dim*num] force by z_j where that is not dgap: rim or lines are held (theory (5.8)); with dgap. NULL: dgap */
+  const PetscReal *push;         /* [num_rows][dim*num] force by z_j where that is not dgap: lines are held (theory (5.8)); with dgap. NULL: dgap */
   const PetscReal *hessian;      /* [dim*num][dim*num] derivatives of the forces (rows); NULL unless asked, or where z vanishes */
-  const PetscReal *spring;       /* [num_rows] compliances K_j (ContactPairSetSoftness); NULL: none */
-  const PetscReal *stiffening;   /* [num_rows] dK_j / d area */
-  const PetscReal *darea;        /* [dim*num] of area; with spring and dgap */
+  const PetscReal *compliance;   /* [num_rows] m_j of S (below); NULL: none. kappa and its derivative by the share */
+  PetscReal        kappa[2];
+  const PetscReal *dshare;       /* [dim*num] derivative of the covered share; with dgap where the facet is covered in part, else NULL */
   PetscReal        area;         /* covered length or area (axisymmetric: area) */
   PetscReal        min_gap;
 } ContactFacet;
@@ -122,12 +120,31 @@ PetscErrorCode ContactPairSetHull(ContactPair, ContactHull, const PetscInt part[
 /* Facets of higher order: which nodes have multipliers (carries[nonmortar num_nodes], NULL: all), for the functions of covered facets, which are dual in the
    reference positions; before the search. Without it the first search takes all nodes. The pair keeps the functions. Not collective. */
 PetscErrorCode ContactPairSetCarriers(ContactPair, const ContactSurface *nonmortar, const PetscBool carries[]);
-/* Compliances of constraints in space, rows gt_j + K_j z_j. Facets of higher order that are covered in part: forces without the motion of the mortar side's
-   rim, z_j push_j, push_j = grad gt_j at a held covered part,
-     K_j = 4 epsilon s (1 - s) softness_j (reference measure of j's hat on the facet), s the share of the facet that is covered.
-   softness[nonmortar num_nodes]: facet size / Young's modulus; borrowed. Without it there are no compliances. Not
-   collective. */
+/* Compliances of facets that are covered in part: gaps count as gt + S z, S = kappa [diag m - m m^T / sum m], kappa(share) as in
+   src/contact/function/blend.c, m_j = softness times reference measure of j's function on the facet. A term z.S z / 2 of the Lagrangian, whose derivative by
+   positions belongs to the forces. softness[nonmortar num_nodes]: facet size / Young's modulus, averaged on a facet; borrowed. Without it there are no
+   compliances. Not collective. */
 PetscErrorCode ContactPairSetSoftness(ContactPair, const PetscReal softness[]);
+/* Mean of z by m on a facet with compliance; (S z)_j = kappa m_j (z_j - mean). */
+static inline PetscReal ContactFacetMean(const ContactFacet *f, const PetscInt node[], const PetscReal z[])
+{
+  PetscReal sum = 0, mz = 0;
+
+  for (PetscInt r = 0; r < f->num_rows; r++) {
+    sum += f->compliance[r];
+    mz += f->compliance[r] * z[node[r]];
+  }
+  return mz / sum;
+}
+/* z.S z / kappa */
+static inline PetscReal ContactFacetYield(const ContactFacet *f, const PetscInt node[], const PetscReal z[])
+{
+  const PetscReal mean = ContactFacetMean(f, node, z);
+  PetscReal       sum  = 0;
+
+  for (PetscInt r = 0; r < f->num_rows; r++) sum += f->compliance[r] * z[node[r]] * (z[node[r]] - mean);
+  return sum;
+}
 /* Nodes that carry no multiplier, of facets of higher order: the pressure there is z_n = sum_k weight[k] z_donor[k], k from first[n] to first[n+1] (empty:
    nothing says), since their functions went to those nodes. All NULL: facets of order 1. Valid as long as the carriers. Not collective. */
 PetscErrorCode ContactPairGetDonors(ContactPair, const PetscInt **first, const PetscInt **donor, const PetscReal **weight);
@@ -165,12 +182,11 @@ PetscErrorCode ContactPairSetCandidates(ContactPair, const ContactSurface *nonmo
    extent, a nonmortar node whose edge normals cancel. Surfaces must have the topology of the last search. Not collective. */
 PetscErrorCode ContactPairEvaluate(ContactPair, const ContactSurface *nonmortar, const ContactSurface *mortar, const PetscReal z[], const PetscBool wanted[],
                                    PetscBool derivatives, PetscBool hessian, PetscInt *num, const ContactFacet **facets, PetscBool *failed);
-/* From now on normals are frozen (or follow the surface again): first derivatives are those at fixed directions of the nonmortar side, gaps and weights do not
+/* From now on normals are frozen (or follow the surface again): first derivatives are those at fixed directions of the nonmortar side and a fixed segmentation, gaps and weights do not
    change, there are no Hessians. Where gaps are wide against facets that tells more than the derivative itself. Not collective. */
 PetscErrorCode ContactPairFreezeNormals(ContactPair, PetscBool frozen);
-/* From now on forces of facets of higher order in space are those of a frozen segmentation, without the motion of lines of the mortar side, between its facets
-   too (`push` on all of them), or (as created) without that of its rim only, where it ends within the facet (theory (5.8)). Gaps, weights and their derivatives
-   do not change. Not collective. */
+/* From now on forces of facets of higher order in space are those of a frozen segmentation (`push`), without the motion of lines of the mortar side, or (as
+   created) exact. Gaps, weights and their derivatives do not change. Not collective. */
 PetscErrorCode ContactPairFreezeSegmentation(ContactPair, PetscBool frozen);
 PetscErrorCode ContactPairGetSegments(ContactPair, PetscInt *num, const ContactSegment **segments);
 /* Nodal normals of the last evaluation [num_nodes][dim]; NaN at nodes with neighbours that are not known here. */

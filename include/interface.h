@@ -169,8 +169,8 @@ PetscBool InterfaceIsSymmetric(Interface);
 PetscErrorCode InterfaceGrow(Interface, PetscBool *grown);
 /* Entries in the rows first_row .. first_row + num_rows of this rank: counted, or without counters written as explicit zeros. */
 PetscErrorCode InterfacePattern(Interface, Mat, PetscInt first_row, PetscInt num_rows, PetscInt diagonal[], PetscInt other[]);
-/* Has it active constraints whose forces hold the rim of the mortar side (ContactFacet.push)? Collective. */
-PetscErrorCode InterfaceHoldsRims(Interface, PetscBool *holds);
+/* Has it active constraints whose forces hold lines of the mortar side (ContactFacet.push)? Collective. */
+PetscErrorCode InterfaceHoldsLines(Interface, PetscBool *holds);
 /* Hessians and columns, added; then, after the matrix is flushed, rows, which replace what is there. Collective. */
 PetscErrorCode InterfaceBlocks(Interface, const InterfaceSystem *);
 PetscErrorCode InterfaceInsertRows(Interface, const InterfaceSystem *);

@@ -6,7 +6,6 @@
 #define CONTACT_SHARP 0.76604444311897804 /* cosine of 40 degrees: a surface that turns by more has an edge */
 #define CONTACT_FACE 0.7       /* of two faces that meet in a sharp edge the one beyond this, -N_s . N_m, is not seen where the other is within (45 degrees) */
 #define CONTACT_GRAZE 1e-4     /* rays that meet a mortar facet at a flatter angle (cosine) tell nothing of what lies behind */
-#define CONTACT_SINGULAR 1e-13 /* pivot, over its diagonal, of the mass of a facet that is too little covered to have dual functions */
 #define CONTACT_FOLDED 1e-6    /* |sum of facet vectors| over the sum of their sizes, below which a corner has no direction */
 
 /* Bounding-volume tree over mortar facets: node i's children are child[i], child[i] + 1; leaves hold item[first .. first + count). In two dimensions the third
@@ -37,9 +36,9 @@ struct _p_ContactPair {
   PetscInt                  dim;
   PetscBool                 axisymmetric, node_to_segment, standard;
   PetscBool                 held;                                                       /* directions do not vary */
-  PetscBool                 frozen_segmentation;                                        /* forces without the motion of any line of the mortar side */
+  PetscBool                 frozen_segmentation;                                        /* forces without the motion of lines of the mortar side */
   PetscInt                  num_degenerate;                                             /* overlaps of the last evaluation that could not be used */
-  struct ContactMultiplier *multiplier;                                                 /* functions of facets of higher order, else NULL */
+  struct ContactMultiplier *multiplier;                                                 /* functions of the facets */
   const PetscReal          *softness;                                                   /* borrowed; NULL: no compliance */
   RayWork                   ray;                                                        /* work space; NULL before the first search */
   PetscInt                  num_nodes, num_facets, num_mortar_nodes, num_mortar_facets; /* of the last search */

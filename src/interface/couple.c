@@ -80,7 +80,7 @@ static PetscErrorCode NodeSums_Private(Interface p, Contact *c)
       if (!s->owned[e->nodes[k]]) continue;
       c->gap[e->nodes[k]] += e->gap[k];
       c->weight[e->nodes[k]] += e->weight[k];
-      if (e->spring) c->spring[e->nodes[k]] += e->spring[k];
+      if (e->compliance) c->spring[e->nodes[k]] += ContactCompliance_Private(e, k, k);
     }
     if (c->mine[e->facet]) sum[0] += e->area;
   }
@@ -92,7 +92,7 @@ static PetscErrorCode NodeSums_Private(Interface p, Contact *c)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Gaps, weights and compliances from the ranks of the nodes to those that use them. */
+/* Gaps, weights and what compliances add from the ranks of the nodes to those that use them. */
 static PetscErrorCode ShareGaps_Private(Interface p, Contact *c)
 {
   const Surface *s = &c->side[0];
@@ -100,15 +100,17 @@ static PetscErrorCode ShareGaps_Private(Interface p, Contact *c)
   PetscFunctionBegin;
   if (p->size == 1) PetscFunctionReturn(PETSC_SUCCESS);
   for (PetscInt i = 0; i < s->num_own; ++i) {
-    c->pack[3 * s->own[i]]     = c->gap[s->own[i]];
-    c->pack[3 * s->own[i] + 1] = c->weight[s->own[i]];
-    c->pack[3 * s->own[i] + 2] = c->spring[s->own[i]];
+    c->pack[4 * s->own[i]]     = c->gap[s->own[i]];
+    c->pack[4 * s->own[i] + 1] = c->weight[s->own[i]];
+    c->pack[4 * s->own[i] + 2] = c->spring[s->own[i]];
+    c->pack[4 * s->own[i] + 3] = c->coupled[s->own[i]];
   }
-  PetscCall(LinkSpread_Private(p, &s->values, 3, c->pack));
+  PetscCall(LinkSpread_Private(p, &s->values, 4, c->pack));
   for (PetscInt i = 0; i < s->values.num; ++i) {
-    c->gap[s->values.nodes[i]]    = c->pack[3 * s->values.nodes[i]];
-    c->weight[s->values.nodes[i]] = c->pack[3 * s->values.nodes[i] + 1];
-    c->spring[s->values.nodes[i]] = c->pack[3 * s->values.nodes[i] + 2];
+    c->gap[s->values.nodes[i]]     = c->pack[4 * s->values.nodes[i]];
+    c->weight[s->values.nodes[i]]  = c->pack[4 * s->values.nodes[i] + 1];
+    c->spring[s->values.nodes[i]]  = c->pack[4 * s->values.nodes[i] + 2];
+    c->coupled[s->values.nodes[i]] = c->pack[4 * s->values.nodes[i] + 3];
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -164,6 +166,7 @@ static PetscErrorCode Subtract_Private(Interface p, Contact *c)
     if (ContactCovered_Private(c, j)) c->view.min_gap = PetscMin(c->view.min_gap, c->gap[j] / c->weight[j]);
   }
   if (p->size > 1) PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &c->view.min_gap, 1, MPIU_REAL, MPI_MIN, p->comm));
+  ContactCoupling_Private(c, c->z, c->coupled);
   PetscCall(ShareGaps_Private(p, c));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -206,12 +209,12 @@ PetscErrorCode ContactCreate_Private(Interface p, const ContactSpec *spec, Conta
   if (!spec->see_through) PetscCall(ContactPairSetHull(c->pair, p->hull, c->part[0], c->part[1], deepest));
   const PetscInt n = c->side[0].num_nodes;
   PetscCall(PetscCalloc6(c->num * n, &c->z, n, &c->gap, n, &c->weight, n, &c->w0, n, &c->extent, n, &c->c));
-  PetscCall(PetscCalloc2(n, &c->spring, n, &c->softness));
+  PetscCall(PetscCalloc3(n, &c->spring, n, &c->coupled, n, &c->softness));
   PetscCall(PetscCalloc5(n, &c->active, n, &c->has_multiplier, n, &c->lift, n, &c->change, n, &c->near));
   PetscCall(PetscMalloc1(c->side[0].num_facets, &c->result));
   PetscCall(PetscCalloc1(n, &c->misfit));
   PetscCall(PetscMalloc4(n, &c->zdof, n, &c->zlocal, n, &c->gap0, n, &c->offset));
-  PetscCall(PetscCalloc4(c->side[0].num_facets, &c->live, n, &c->valued, n, &c->valued_node, 3 * n, &c->pack));
+  PetscCall(PetscCalloc4(c->side[0].num_facets, &c->live, n, &c->valued, n, &c->valued_node, 4 * n, &c->pack));
   PetscCall(ContactNodeScales_Private(p, c));
   PetscCall(ContactCarriers_Private(p, c));
   const ContactSurface nonmortar = SurfaceAt_Private(&c->side[0], c->side[0].X);
@@ -237,7 +240,7 @@ PetscErrorCode ContactDestroy_Private(Contact *c)
   PetscCall(SurfaceDestroy_Private(&c->side[0]));
   PetscCall(SurfaceDestroy_Private(&c->side[1]));
   PetscCall(PetscFree6(c->z, c->gap, c->weight, c->w0, c->extent, c->c));
-  PetscCall(PetscFree2(c->spring, c->softness));
+  PetscCall(PetscFree3(c->spring, c->coupled, c->softness));
   PetscCall(PetscFree5(c->active, c->has_multiplier, c->lift, c->change, c->near));
   PetscCall(PetscFree(c->result));
   PetscCall(PetscFree(c->misfit));
@@ -297,7 +300,7 @@ static PetscErrorCode Freeze_Private(Interface p, Contact *c, PetscBool *failed)
   }
   PetscCall(PetscMalloc1(c->num_facets, &c->frozen));
   PetscCall(PetscArraycpy(c->frozen, c->facets, c->num_facets));
-  for (PetscInt i = 0; i < c->num_facets; ++i) c->frozen[i].spring = c->frozen[i].push = NULL; /* compliances stay those of the nodes */
+  for (PetscInt i = 0; i < c->num_facets; ++i) c->frozen[i].dshare = c->frozen[i].push = NULL; /* what is covered stays */
   c->facets = c->frozen;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -340,7 +343,8 @@ PetscErrorCode ContactChange_Private(Interface p, Contact *c, const PetscReal in
       ContactRows_Private(c, j, 0, PETSC_FALSE, row);
       const PetscReal mean = c->active[j] || c->mean0 ? row[0].mean : c->gap[j] / c->weight[j];
       change[j] -= mean * FacetDot_Private(c, e, e->dweight + p->dim * k * e->num);
-      if (e->spring && row[0].along != 0) change[j] += e->stiffening[k] * row[0].along * FacetDot_Private(c, e, e->darea);
+      const PetscReal yield = ContactYield_Private(c, e, k, row[0].along);
+      if (yield != 0) change[j] += yield * FacetDot_Private(c, e, e->dshare);
     }
   }
   PetscFunctionReturn(PETSC_SUCCESS);

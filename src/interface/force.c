@@ -14,8 +14,10 @@ void ContactFacetForces_Private(Contact *c, const PetscReal z[], const PetscReal
     const ContactFacet *e    = &c->facets[i];
     const PetscReal    *push = e->push && !measure ? e->push : e->dgap;
     if (!c->mine[e->facet] || !e->dgap) continue;
+    const PetscReal yield = e->compliance && e->dshare && !e->push ? 0.5 * e->kappa[1] * ContactFacetYield(e, e->nodes, z) : 0;
     for (PetscInt a = 0; a < e->num; ++a) {
       PetscReal *f = c->side[NODE_SIDE(e->nodes[a])].force + dim * NODE_INDEX(e->nodes[a]);
+      for (PetscInt d = 0; d < dim && yield != 0; ++d) f[d] += yield * e->dshare[dim * a + d];
       for (PetscInt k = 0; k < e->num_rows; ++k) {
         const PetscInt j = e->nodes[k], at = dim * (k * e->num + a);
         for (PetscInt d = 0; d < dim && c->has_multiplier[j] && z[j] != 0; ++d) f[d] += z[j] * push[at + d];
@@ -45,7 +47,7 @@ PetscErrorCode ContactForcesSubtract_Private(Interface p, Contact *c, PetscReal 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Nodal contact forces -dL_c/dx = z_j grad gt_j on both sides, small kinematics: at fixed measure. */
+/* Nodal contact forces -dL_c/dx = grad (z_j gt_j + z_j S_jl z_l / 2) on both sides, small kinematics: at fixed measure. */
 PetscErrorCode InterfaceForces(Interface p, PetscReal local[])
 {
   PetscFunctionBegin;
@@ -73,7 +75,7 @@ PetscErrorCode InterfaceRows(Interface p, PetscReal r[])
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode InterfaceHoldsRims(Interface p, PetscBool *holds)
+PetscErrorCode InterfaceHoldsLines(Interface p, PetscBool *holds)
 {
   PetscBool mine = PETSC_FALSE;
 

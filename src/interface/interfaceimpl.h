@@ -4,8 +4,7 @@
 
 #include <petscsf.h>
 
-#define COVERED_HIGHER 1e-9 /* the same for facets of higher order, whose forces have faded before: compliance.c in contact */
-#define COVERED 1e-5        /* share of a node's tributary measure below which it counts as uncovered: its constraint would be all but free of its pressure */
+#define COVERED 1e-9 /* share of a node's tributary measure below which it counts as uncovered: forces have faded before (blend.c in contact) */
 
 #define ROUND 1e-6  /* relative difference of two lengths that round-off may make */
 #define SLACK 1e-10 /* pressure over Young's modulus that is none: what round-off leaves */
@@ -29,12 +28,12 @@ typedef struct {
 typedef struct {
   const ContactSpec *spec;
   int8_t             state;
-  PetscReal          z[MOST_MULTIPLIERS], gap, weight, spring, w0, c; /* as in Contact */
+  PetscReal          z[MOST_MULTIPLIERS], gap, weight, spring, w0, c; /* as in Contact; gap: with what the pressures of others add, S_jl z_l */
   PetscReal          lift;                                            /* change of the gap by the motion still to come */
 } ContactPoint;
 
-/* One of its rows, linearised:  factor [grad gt - mean grad w + along grad K] . du + sum_k z_k dz_k = side.  value: of a node that bears, the gap that has to
-   vanish. push: the derivative of the forces by z_j (ContactFacet.push) stands for grad gt. */
+/* One of its rows, linearised:  factor [grad (gt + S z)_j - mean grad w - along grad S_jj] . du + factor sum_l S_jl dz_l + sum_k z_k dz_k = side,  l other
+   nodes. value: of a node that bears, the gap that has to vanish. push: the derivative of the forces by z_j (ContactFacet.push) stands for the gradient. */
 typedef struct {
   PetscReal factor, mean, along, z[MOST_MULTIPLIERS], side, value;
   PetscBool push;
@@ -103,7 +102,8 @@ typedef struct {
   PetscInt            *zdof;                     /* [n] row of the first in the matrix, -1: no multipliers */
   PetscInt            *zlocal;                   /* [n] its position in this rank's part of the vector, -1: not here */
   PetscReal           *z;                        /* [num][n] */
-  PetscReal           *gap, *weight, *spring;    /* [n] spring: K_j of contact.h */
+  PetscReal           *gap, *weight, *spring;    /* [n] spring: S_jj of contact.h */
+  PetscReal           *coupled;                  /* [n] sum of S_jl z_l over other nodes */
   PetscReal           *softness;                 /* [n] extent / E */
   PetscReal           *w0, *extent, *c;          /* [n] reference measure, its extent along the surface, E / extent */
   PetscReal           *change;                   /* [n] work: change of gt_j at fixed measure under an increment */
@@ -116,7 +116,7 @@ typedef struct {
   PetscBool           *live;                     /* [num_facets] may meet the mortar side, as far as this rank is told (its own facets, those around) */
   PetscBool           *valued;                   /* [n] z, gap, weight, activity known here */
   PetscInt             num_valued, *valued_node; /* their list */
-  PetscReal           *pack;                     /* [n][3] work: gap, weight and spring in one message */
+  PetscReal           *pack;                     /* [n][4] work: gap, weight, spring and coupled in one message */
   PetscReal           *all_real[2];              /* values gathered to all, see gather.c */
   int8_t              *all_active;
   ContactView          all;
@@ -219,7 +219,7 @@ PetscErrorCode ContactCreate_Private(Interface, const ContactSpec *, Contact *);
 PetscErrorCode ContactDestroy_Private(Contact *);
 PetscErrorCode ContactEvaluate_Private(Interface, Contact *, Vec x, const PetscReal local[], PetscReal pending, PetscBool derivatives, PetscBool hessian,
                                        PetscBool *failed);
-/* force.c: nodal forces sum_j z_j grad gt_j - measure_j grad w_j of this rank's facets on both sides; measure NULL: none, and held rims and lines count
+/* force.c: nodal forces sum_j z_j grad gt_j - measure_j grad w_j of this rank's facets on both sides; measure NULL: none, and held lines count
    (ContactFacet.push). From there to the owners of their nodes, and off r, in the nodes' frames. Collective. */
 void           ContactFacetForces_Private(Contact *, const PetscReal z[], const PetscReal measure[]);
 PetscErrorCode ContactForcesSubtract_Private(Interface, Contact *, PetscReal r[]);
@@ -238,16 +238,29 @@ PetscErrorCode ContactInsertRow_Private(Interface, const InterfaceSystem *, cons
 /* Node j as its law sees it, and its rows. */
 static inline ContactPoint ContactPoint_Private(const Contact *c, PetscInt j, PetscReal lift)
 {
-  ContactPoint point = {c->spec, c->active[j], {0}, c->gap[j], c->weight[j], c->spring[j], c->w0[j], c->c[j], lift};
+  ContactPoint point = {c->spec, c->active[j], {0}, c->gap[j] + c->coupled[j], c->weight[j], c->spring[j], c->w0[j], c->c[j], lift};
 
   for (PetscInt k = 0; k < c->num; ++k) point.z[k] = c->z[c->side[0].num_nodes * k + j];
   return point;
 }
+/* compliance.c: (S z)_j without S_jj z_j at this rank's nodes; idle: of open nodes only, at node j. */
+void      ContactCoupling_Private(const Contact *, const PetscReal z[], PetscReal coupled[]);
+PetscReal ContactIdle_Private(const Contact *, PetscInt j);
+/* S_jl of facet e between rows k and l. */
+static inline PetscReal ContactCompliance_Private(const ContactFacet *e, PetscInt k, PetscInt l)
+{
+  PetscReal sum = 0;
+
+  for (PetscInt r = 0; r < e->num_rows; ++r) sum += e->compliance[r];
+  return e->kappa[0] * e->compliance[k] * ((PetscReal)(k == l) - e->compliance[l] / sum);
+}
+/* Derivative of (S z)_j - along S_jj by the facet's covered share, row k. */
+PetscReal ContactYield_Private(const Contact *, const ContactFacet *, PetscInt k, PetscReal along);
 /* Change of every owned node's weighted gap, at fixed measure, under a local array of increments. Collective. */
 PetscErrorCode          ContactChange_Private(Interface, Contact *, const PetscReal increment[], PetscReal change[]);
 static inline PetscBool ContactCovered_Private(const Contact *c, PetscInt j)
 {
-  return (PetscBool)(c->weight[j] > (c->side[0].order ? COVERED_HIGHER : COVERED) * c->w0[j]);
+  return (PetscBool)(c->weight[j] > COVERED * c->w0[j]);
 }
 /* Does node j bear? Less than SLACK is all there is where the whole pair is open. */
 static inline PetscBool ContactPressed_Private(const Contact *c, PetscInt j)

@@ -134,7 +134,7 @@ static PetscErrorCode SurfaceHanging_Private(const ForestTables *t, Surface *s)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Facets whose multiplier functions are made together: lattices that share a hanging corner (macro dual functions), else each is alone. next[f]: the facet
+/* Facets whose multiplier functions are made together: those that share a hanging corner (macro dual functions), else each is alone. next[f]: the facet
    after f in its group, round. */
 static PetscErrorCode Groups_Private(const Surface *s, PetscInt next[])
 {
@@ -142,7 +142,7 @@ static PetscErrorCode Groups_Private(const Surface *s, PetscInt next[])
 
   PetscFunctionBegin;
   for (PetscInt f = 0; f < s->num_facets; ++f) next[f] = f;
-  if (!s->order || s->dim == 2) PetscFunctionReturn(PETSC_SUCCESS);
+  if (s->dim == 2) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(PetscMalloc2(s->num_facets, &group, s->num_nodes, &at));
   for (PetscInt f = 0; f < s->num_facets; ++f) group[f] = f;
   for (PetscInt n = 0; n < s->num_nodes; ++n) at[n] = -1;

@@ -115,7 +115,9 @@ static PetscErrorCode Blocks_Private(Interface p, const InterfaceSystem *a, Cont
       const PetscInt  j = e->nodes[k], z = c->zdof[j];
       const PetscReal mean = c->mean0 ? c->mean0[j] : 0;
       if (z < 0 || !c->near[j]) continue;
+      const PetscReal yield = e->push ? 0 : ContactYield_Private(c, e, k, 0);
       for (PetscInt i = 0; i < n; ++i) p->work.value[i] = mean * e->dweight[k * n + i] - (e->push ? e->push : e->dgap)[k * n + i];
+      for (PetscInt i = 0; i < n && yield != 0; ++i) p->work.value[i] -= yield * e->dshare[i];
       for (PetscInt b = 0; b < e->num; ++b) Turn_Private(dim, Frame_Private(c, e->nodes[b]), p->work.value + dim * b, 1);
       PetscCall(ContactInsert_Private(a->matrix, n, p->work.index, 1, &z, p->work.value, ADD_VALUES));
     }
@@ -165,13 +167,13 @@ PetscErrorCode ContactNodeGradient_Private(Interface p, const Contact *c, PetscI
     while (row < e->num_rows && e->nodes[row] != j) ++row;
     if (row == e->num_rows || !e->dgap) continue;
     const PetscReal *gradient = (form->push && e->push ? e->push : e->dgap) + row * n;
-    const PetscReal  along    = e->spring ? e->stiffening[row] * form->along : 0;
+    const PetscReal  yield    = form->push && e->push ? 0 : ContactYield_Private(c, e, row, form->along);
     for (PetscInt a = 0; a < e->num; ++a) {
       const Surface *side = &c->side[NODE_SIDE(e->nodes[a])];
       const PetscInt node = NODE_INDEX(e->nodes[a]);
       PetscReal      g[3] = {0, 0, 0};
       for (PetscInt d = 0; d < dim; ++d)
-        g[d] = gradient[dim * a + d] - form->mean * e->dweight[row * n + dim * a + d] + (along != 0 ? along * e->darea[dim * a + d] : 0);
+        g[d] = gradient[dim * a + d] - form->mean * e->dweight[row * n + dim * a + d] + (yield != 0 ? yield * e->dshare[dim * a + d] : 0);
       Turn_Private(dim, Frame_Private(c, e->nodes[a]), g, 1);
       for (PetscInt d = 0; d < dim; ++d) {
         if (side->dof[dim * node + d] < 0) continue;
@@ -179,6 +181,31 @@ PetscErrorCode ContactNodeGradient_Private(Interface p, const Contact *c, PetscI
         PetscCheck(at >= 0, PETSC_COMM_SELF, PETSC_ERR_PLIB, "contact node outside the pattern of its facet");
         values[at] += form->factor * g[d];
       }
+    }
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* factor S_jl at the columns of the multipliers of others; in the symmetric form of those that bear, whose unknown is z_l over c_l. */
+static PetscErrorCode Couplings_Private(const InterfaceSystem *a, const Contact *c, PetscInt j, PetscReal factor, PetscInt num, const PetscInt dofs[],
+                                        PetscReal values[])
+{
+  const Surface *s = &c->side[0];
+  PetscInt       at;
+
+  PetscFunctionBegin;
+  for (PetscInt i = s->node_first[j]; factor != 0 && i < s->node_first[j + 1]; ++i) {
+    const PetscInt place = c->result[s->node_facet[i]];
+    if (place < 0 || !c->facets[place].compliance) continue;
+    const ContactFacet *e   = &c->facets[place];
+    PetscInt            row = 0;
+    while (row < e->num_rows && e->nodes[row] != j) ++row;
+    for (PetscInt k = 0; k < e->num_rows && row < e->num_rows; ++k) {
+      const PetscInt l = e->nodes[k];
+      if (k == row || c->zdof[l] < 0 || (a->symmetric && !c->active[l])) continue;
+      PetscCall(PetscFindInt(c->zdof[l], num, dofs, &at));
+      PetscCheck(at >= 0, PETSC_COMM_SELF, PETSC_ERR_PLIB, "multiplier outside the pattern of its facet");
+      values[at] += factor * ContactCompliance_Private(e, row, k) * (a->symmetric ? c->c[l] : 1);
     }
   }
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -195,6 +222,7 @@ PetscErrorCode ContactInsertRow_Private(Interface p, const InterfaceSystem *a, c
   for (PetscInt i = 0; i < c->num; ++i) {
     const PetscInt line = c->zdof[j] + i;
     PetscCall(ContactNodeGradient_Private(p, c, j, &row[i], &num));
+    PetscCall(Couplings_Private(a, c, j, row[i].factor, num, p->work.index, p->work.value));
     PetscCall(PetscFindInt(c->zdof[j], num, p->work.index, &at));
     for (PetscInt k = 0; k < c->num; ++k) p->work.value[at + k] = a->symmetric ? row[i].z[k] * c->c[j] : row[i].z[k];
     PetscCall(ContactInsert_Private(a->matrix, 1, &line, num, p->work.index, p->work.value, INSERT_VALUES));
@@ -241,6 +269,7 @@ static PetscErrorCode RowSides_Private(Interface p, const InterfaceSystem *a, Ve
       ContactRow row[MOST_MULTIPLIERS];
       if (c->zlocal[j] < 0) continue;
       ContactRows_Private(c, j, c->lift[j], a->symmetric, row);
+      if (a->symmetric && c->active[j]) row[0].side -= c->c[j] * ContactIdle_Private(c, j);
       for (PetscInt k = 0; k < c->num; ++k) b[c->zlocal[j] + k - p->num_inner] = row[k].side;
     }
   }
@@ -283,30 +312,69 @@ PetscErrorCode InterfaceInsertRows(Interface p, const InterfaceSystem *a)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* New activity of this rank's nodes of one pair for the increment dx: rows that switch are rewritten, multiplier right-hand sides go to b, force shifts to rhs.
-   dx: this rank's part of the increment; num grows by the switches. */
-static PetscErrorCode Switch_Private(Interface p, const InterfaceSystem *a, Contact *c, const PetscReal dx[], Vec rhs, PetscInt *num)
+/* The law's states of this rank's nodes for the increment dx of their multipliers, into c->active; those before into old, at all nodes known here. */
+static PetscErrorCode States_Private(Interface p, const InterfaceSystem *a, Contact *c, const PetscReal dx[], int8_t old[])
 {
-  const Surface *s     = &c->side[0];
-  PetscReal      least = 0;
+  Surface   *s     = &c->side[0];
+  PetscReal  least = 0;
+  PetscReal *z, *coupled;
 
   PetscFunctionBegin;
-  if (ContactIsReleased_Private(p, c)) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(PetscMalloc2(s->num_nodes, &z, s->num_nodes, &coupled));
+  PetscCall(PetscArraycpy(z, c->z, s->num_nodes));
+  for (PetscInt i = 0; i < s->num_own; ++i) z[s->own[i]] += c->zlocal[s->own[i]] >= 0 ? dx[c->zlocal[s->own[i]]] : 0;
+  PetscCall(LinkSpread_Private(p, &s->values, 1, z));
+  ContactCoupling_Private(c, z, coupled);
   PetscCall(ContactChange_Private(p, c, a->increment, c->change));
   if (FormHas(p->form->deepest_first, (PetscInt)(c - p->contacts))) PetscCall(ContactLeastOverlap_Private(p, c, &least));
+  PetscCall(PetscArraycpy(old, c->active, s->num_nodes));
   for (PetscInt i = 0; i < s->num_own; ++i) {
     const PetscInt j = s->own[i];
     if (c->zlocal[j] < 0 || !c->near[j] || !ContactCovered_Private(c, j)) continue;
     ContactPoint point = ContactPoint_Private(c, j, 0);
     for (PetscInt k = 0; k < c->num; ++k) point.z[k] += dx[c->zlocal[j] + k];
-    point.gap += c->change[j];
+    point.gap += c->change[j] + coupled[j] - c->coupled[j];
     const int8_t active = c->law->state(&point);
-    if (active == c->active[j] || (active && ContactOverlap_Private(c, j) < least)) continue;
-    c->active[j] = active;
-    ++*num;
-    PetscCall(InsertRow_Private(p, a, c, j));
-    PetscCall(InactiveShift_Private(p, a, c, j, active ? -1 : 1, rhs));
+    if (!active || ContactOverlap_Private(c, j) >= least) c->active[j] = active;
   }
+  PetscCall(PetscFree2(z, coupled));
+  for (PetscInt i = 0; i < s->num_own; ++i) c->pack[s->own[i]] = c->active[s->own[i]];
+  PetscCall(LinkSpread_Private(p, &s->values, 1, c->pack));
+  for (PetscInt i = 0; i < s->values.num; ++i) c->active[s->values.nodes[i]] = (int8_t)c->pack[s->values.nodes[i]];
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* New activity of the nodes of one pair for the increment dx: rows of this rank that switch, and those that compliances couple to them, are rewritten, force
+   shifts go to rhs. dx: this rank's part of the increment; num grows by the switches. */
+static PetscErrorCode Switch_Private(Interface p, const InterfaceSystem *a, Contact *c, const PetscReal dx[], Vec rhs, PetscInt *num)
+{
+  const Surface *s = &c->side[0];
+  int8_t        *old;
+  PetscBool     *again;
+
+  PetscFunctionBegin;
+  if (ContactIsReleased_Private(p, c)) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(PetscMalloc1(s->num_nodes, &old));
+  PetscCall(PetscCalloc1(s->num_nodes, &again));
+  PetscCall(States_Private(p, a, c, dx, old));
+  for (PetscInt i = 0; i < s->num_own; ++i) again[s->own[i]] = (PetscBool)(c->active[s->own[i]] != old[s->own[i]]);
+  for (PetscInt i = 0; i < s->num_own; ++i) {
+    const PetscInt j = s->own[i];
+    if (!again[j]) continue;
+    ++*num;
+    PetscCall(InactiveShift_Private(p, a, c, j, c->active[j] ? -1 : 1, rhs));
+  }
+  for (PetscInt i = 0; i < c->num_facets; ++i) {
+    const ContactFacet *e        = &c->facets[i];
+    PetscBool           switches = PETSC_FALSE;
+    for (PetscInt k = 0; k < e->num_rows && e->compliance; ++k) switches = (PetscBool)(switches || c->active[e->nodes[k]] != old[e->nodes[k]]);
+    for (PetscInt k = 0; k < e->num_rows && switches; ++k) again[e->nodes[k]] = PETSC_TRUE;
+  }
+  for (PetscInt i = 0; i < s->num_own; ++i) {
+    if (again[s->own[i]] && c->zlocal[s->own[i]] >= 0) PetscCall(InsertRow_Private(p, a, c, s->own[i]));
+  }
+  PetscCall(PetscFree(old));
+  PetscCall(PetscFree(again));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

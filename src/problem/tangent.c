@@ -76,7 +76,7 @@ PetscErrorCode ProblemTangent(Problem p, Vec x, const PetscReal pressure[], Vec 
   PetscCall(ProblemPending(p, &pending));
   PetscCall(StageBegin(STAGE_CONTACT));
   PetscCall(InterfaceEvaluate(p->interface, x, local, pending, PETSC_TRUE, &failed));
-  if (p->form.symmetric) PetscCall(InterfaceHoldsRims(p->interface, &holds));
+  if (p->form.symmetric) PetscCall(InterfaceHoldsLines(p->interface, &holds));
   p->symmetric = (PetscBool)(p->form.symmetric && !holds);
   PetscCall(StageEnd(STAGE_CONTACT));
   p->lift = lift;

@@ -1,14 +1,5 @@
-/* What covers a nonmortar facet: images of the mortar facets' corners, polygons in the chart, and the cells over which the gap is weighed. */
+/* What covers a nonmortar facet: images of the mortar facets' corners, polygons in the chart. */
 #include "kernelimpl.h"
-
-/* Share of the chart that may be uncovered where the functions of a whole facet are still used: a tenth of what belongs to a corner, so that no weight gets
-   near zero. Images of hanging mortar nodes leave slivers beside the straight picture of the side they hang on; their size must not change the functions. */
-static PetscReal Sliver_Private(const RayFacet *f)
-{
-  const PetscReal end = 1. / (PetscReal)(f->s.order * (f->s.order + 1));
-
-  return 0.1 * (f->m == 1 ? end : end * end);
-}
 
 static void Between_Private(const RayImage *a, const RayImage *b, RayImage *to)
 {
@@ -62,21 +53,8 @@ static PetscBool ClipInterval_Private(Overlap *o)
   return PETSC_TRUE;
 }
 
-/* Corners of cell (lo, lo + size) in the chart. */
-static void Window_Private(const RayFacet *f, const PetscReal lo[2], const PetscReal size[2], PlaneQuad *q)
-{
-  for (int k = 0; k < 4; k++) {
-    const PetscReal xi[2] = {lo[0] + (k == 1 || k == 2 ? size[0] : 0), f->m == 1 ? (k < 2 ? -1 : 1) : lo[1] + (k > 1 ? size[1] : 0)};
-    RayChartPoint   c;
-
-    ContactChartAt(f, xi, &c);
-    q->Y[k][0] = c.Y[0], q->Y[k][1] = c.Y[1], q->h[k] = 0;
-  }
-}
-
-/* One piece of a mortar facet seen in a cell. Its corners run backwards. *known: all images were found, and their overlap is one. */
-static PetscErrorCode Meet_Private(RayWork w, const ContactSurface *mortar, const PetscInt corner[4], const PlaneQuad *window, Overlap *o, PetscBool *known,
-                                   PetscBool *meets)
+/* One piece of a mortar facet seen in the facet. Its corners run backwards. *known: all images were found, and their overlap is one. */
+static PetscErrorCode Meet_Private(RayWork w, const ContactSurface *mortar, const PetscInt corner[4], Overlap *o, PetscBool *known, PetscBool *meets)
 {
   const RayFacet *f      = &w->facet;
   PetscReal       sum[3] = {0, 0, 0}, length;
@@ -84,7 +62,7 @@ static PetscErrorCode Meet_Private(RayWork w, const ContactSurface *mortar, cons
   PetscFunctionBegin;
   *known = PETSC_TRUE, *meets = PETSC_FALSE;
   o->node    = -1;
-  o->side[0] = *window;
+  o->side[0] = f->chart;
   for (PetscInt a = 0; a < f->nv; a++)
     for (int c = 0; c < 3; c++) sum[c] += f->d.x[a][c] / (PetscReal)f->nv;
   length = PetscSqrtReal(Dot3(sum, sum));
@@ -112,15 +90,13 @@ static PetscErrorCode Meet_Private(RayWork w, const ContactSurface *mortar, cons
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode Push_Private(RayWork w, const Overlap *o, PetscInt mortar, PetscInt window)
+static PetscErrorCode Push_Private(RayWork w, const Overlap *o, PetscInt mortar)
 {
   PetscFunctionBegin;
   PetscCall(ContactGrow(w->num_overlaps + 1, sizeof(Overlap), &w->size_overlap, &w->overlap));
   PetscCall(ContactGrow(w->num_overlaps + 1, sizeof(PetscInt), &w->size_mortar, &w->mortar));
-  PetscCall(ContactGrow(w->num_overlaps + 1, sizeof(PetscInt), &w->size_window, &w->window));
   w->overlap[w->num_overlaps]  = *o;
-  w->mortar[w->num_overlaps]   = mortar;
-  w->window[w->num_overlaps++] = window;
+  w->mortar[w->num_overlaps++] = mortar;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -136,55 +112,10 @@ static PetscErrorCode See_Private(ContactPair pair, const ContactSurface *mortar
     Overlap   o;
     PetscBool known, meets;
 
-    PetscCall(Meet_Private(w, mortar, corner[k], &w->facet.chart, &o, &known, &meets));
+    PetscCall(Meet_Private(w, mortar, corner[k], &o, &known, &meets));
     if (!known) pair->num_degenerate++;
-    if (meets) PetscCall(Push_Private(w, &o, facet, 0));
+    if (meets) PetscCall(Push_Private(w, &o, facet));
   }
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* Hats on the cells of the facet's lattice, for every mortar facet that counts. */
-static PetscErrorCode Cells_Private(ContactPair pair, const ContactSurface *mortar)
-{
-  RayWork          w = pair->ray;
-  const RayFacet  *f = &w->facet;
-  const PetscInt   p = f->s.order, cells = f->m == 1 ? p : p * p, num = w->num_overlaps;
-  const PetscReal *node;
-  PetscInt        *facets, (*corners)[4];
-
-  PetscFunctionBegin;
-  PetscCall(ElementGetNodes(p, &node));
-  PetscCall(ContactGrow(cells, sizeof(RayTest), &w->size_test, &w->test));
-  PetscCall(PetscMalloc2(num, &facets, num, &corners));
-  PetscCall(PetscArraycpy(facets, w->mortar, num));
-  for (PetscInt k = 0; k < num; k++)
-    for (PetscInt v = 0; v < f->nv; v++) corners[k][v] = w->overlap[k].corner[f->nv - 1 - v];
-  w->num_overlaps = 0;
-  w->num_tests    = cells;
-  for (PetscInt c = 0; c < cells; c++) {
-    RayTest       *t     = &w->test[c];
-    const PetscInt at[2] = {c % p, c / p};
-    PlaneQuad      window;
-
-    t->hats = PETSC_TRUE;
-    t->num  = f->nv;
-    for (PetscInt i = 0; i < f->m; i++) {
-      t->lo[i]   = 2 * node[at[i]] - 1;
-      t->size[i] = 2 * (node[at[i] + 1] - node[at[i]]);
-    }
-    for (PetscInt a = 0; a < f->nv; a++) t->place[a] = (at[1] + a / 2) * (p + 1) + at[0] + a % 2;
-    if (f->m == 1) t->place[0] = c, t->place[1] = c + 1;
-    Window_Private(f, t->lo, t->size, &window);
-    for (PetscInt k = 0; k < num; k++) {
-      Overlap   o;
-      PetscBool known, meets;
-
-      PetscCall(Meet_Private(w, mortar, corners[k], &window, &o, &known, &meets));
-      if (!known) pair->num_degenerate++;
-      if (meets) PetscCall(Push_Private(w, &o, facets[k], c));
-    }
-  }
-  PetscCall(PetscFree2(facets, corners));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -235,23 +166,11 @@ static PetscErrorCode Nodes_Private(RayWork w, const ContactSurface *mortar)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode Whole_Private(RayWork w)
-{
-  PetscFunctionBegin;
-  PetscCall(ContactGrow(1, sizeof(RayTest), &w->size_test, &w->test));
-  w->num_tests    = 1;
-  w->test[0].hats = PETSC_FALSE;
-  w->test[0].num  = w->facet.s.num;
-  for (PetscInt a = 0; a < w->facet.s.num; a++) w->test[0].place[a] = a;
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 PetscErrorCode ContactCover(ContactPair pair, const ContactSurface *nonmortar, const ContactSurface *mortar, PetscInt slot, PetscBool *failed)
 {
-  RayWork        w       = pair->ray;
-  RayFacet      *f       = &w->facet;
-  const PetscInt facet   = pair->listed[slot];
-  PetscReal      covered = 0;
+  RayWork        w     = pair->ray;
+  RayFacet      *f     = &w->facet;
+  const PetscInt facet = pair->listed[slot];
   RayBundle      rays;
 
   PetscFunctionBegin;
@@ -274,16 +193,12 @@ PetscErrorCode ContactCover(ContactPair pair, const ContactSurface *nonmortar, c
   if (*failed) PetscFunctionReturn(PETSC_SUCCESS);
   if (f->m == 2) ContactRayBeyondSides(w->kept + 4 * facet, &f->beyond);
   ContactImagesPrepare(f);
-  PetscCall(Whole_Private(w));
   ContactRayBundle(f, &rays);
   for (PetscInt k = pair->start[slot]; k < pair->start[slot + 1]; k++)
     if (ContactRayBundleMeets(&rays, &w->ball[pair->candidate[k]])) PetscCall(See_Private(pair, mortar, pair->candidate[k]));
   ContactUnfold(&w->num_overlaps, w->overlap, w->mortar, f->area);
   if (pair->node_to_segment) ContactNodeHits(w);
-  for (PetscInt k = 0; k < w->num_overlaps; k++) covered += w->overlap[k].area;
-  w->full = (PetscBool)(covered >= (1 - Sliver_Private(f)) * f->area);
-  if (!w->full && (f->s.order > 1 || f->m == 2) && w->num_overlaps) PetscCall(Cells_Private(pair, mortar));
-  w->frozen = (PetscBool)(f->D == 3 && (w->test[0].hats || (pair->frozen_segmentation && f->s.order > 1)));
+  w->frozen = (PetscBool)(f->D == 3 && pair->frozen_segmentation && f->s.order > 1);
   PetscCall(Nodes_Private(w, mortar));
   w->n = f->D * (f->s.num + f->nv + w->num_mortar) + f->m * w->num_images;
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -83,6 +83,29 @@ static void AddMass_Private(const MultiplierWork *w, PetscInt facet, const Petsc
   }
 }
 
+/* Rows of the Bernstein polynomials of a facet. */
+static PetscErrorCode Bernstein_Private(MultiplierWork *w, PetscInt facet)
+{
+  PetscInt         lattice[MULTIPLIER_LATTICE];
+  const PetscInt   num = ContactLatticeNodes(w->s, facet, lattice), *master;
+  const PetscReal *weight;
+  PetscReal       *C, *B = w->rows[facet].B;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(num * num, &C));
+  PetscCall(ContactBernstein(w->s->dim - 1, ContactLatticeOrder(w->s, facet), C));
+  for (PetscInt a = 0; a < num; a++) {
+    const PetscInt masters = ContactNodeRow(w->s, lattice + a, &master, &weight);
+    PetscReal      sum     = 0;
+
+    for (PetscInt i = 0; i < masters; i++) sum += PetscMax(0, weight[i]);
+    for (PetscInt i = 0; i < masters; i++)
+      for (PetscInt b = 0; b < num; b++) B[num * w->place[master[i]] + b] += PetscMax(0, weight[i]) / sum * C[num * a + b];
+  }
+  PetscCall(PetscFree(C));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* Room for a row of every node of the group on each of its facets. */
 static PetscErrorCode RowsOpen_Private(MultiplierWork *w, const Group *g)
 {
@@ -92,8 +115,10 @@ static PetscErrorCode RowsOpen_Private(MultiplierWork *w, const Group *g)
   for (PetscInt f = 0; f < g->num_facets; f++) {
     MultiplierRows *r = w->rows + g->facet[f];
 
-    PetscCall(PetscFree2(r->node, r->T));
-    PetscCall(PetscCalloc2(g->num, &r->node, g->num * ContactLatticeNodes(w->s, g->facet[f], lattice), &r->T));
+    const PetscInt size = g->num * ContactLatticeNodes(w->s, g->facet[f], lattice);
+
+    PetscCall(PetscFree3(r->node, r->T, r->B));
+    PetscCall(PetscCalloc3(g->num, &r->node, size, &r->T, size, &r->B));
     r->num = g->num;
     PetscCall(PetscArraycpy(r->node, g->node, g->num));
   }
@@ -157,6 +182,14 @@ static PetscErrorCode LatticeDual_Private(MultiplierWork *w, PetscInt facet)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+static PetscReal Positive_Private(PetscInt num, const PetscReal weight[])
+{
+  PetscReal sum = 0;
+
+  for (PetscInt i = 0; i < num; i++) sum += PetscMax(0, weight[i]);
+  return sum;
+}
+
 /* Functions of nodes that carry nothing go to the others; their rows go. */
 static PetscErrorCode GroupRemove_Private(MultiplierWork *w, const Group *g, PetscInt degree)
 {
@@ -178,12 +211,19 @@ static PetscErrorCode GroupRemove_Private(MultiplierWork *w, const Group *g, Pet
     r->num = 0;
     for (PetscInt i = 0; i < g->num; i++) {
       if (!carries[i]) continue;
-      for (PetscInt e = 0; e < g->num; e++)
-        for (PetscInt b = 0; !carries[e] && b < num; b++) r->T[num * i + b] += W[g->num * e + i] * r->T[num * e + b];
+      for (PetscInt e = 0; e < g->num; e++) {
+        const PetscReal weight = carries[e] ? 0 : W[g->num * e + i], positive = weight > 0 ? weight / Positive_Private(g->num, W + g->num * e) : 0;
+
+        for (PetscInt b = 0; weight != 0 && b < num; b++) {
+          r->T[num * i + b] += weight * r->T[num * e + b];
+          r->B[num * i + b] += positive * r->B[num * e + b];
+        }
+      }
     }
     for (PetscInt i = 0; i < g->num; i++) { /* rows that stay, in place: the place is never behind the row */
       if (!carries[i]) continue;
       PetscCall(PetscArraymove(r->T + num * r->num, r->T + num * i, num));
+      PetscCall(PetscArraymove(r->B + num * r->num, r->B + num * i, num));
       r->node[r->num++] = g->node[i];
     }
   }
@@ -210,6 +250,7 @@ PetscErrorCode ContactMultiplierGroup(MultiplierWork *w, PetscInt num_facets, co
     else
       PetscCall(LatticeDual_Private(w, facet[f]));
   }
+  for (PetscInt f = 0; f < num_facets; f++) PetscCall(Bernstein_Private(w, facet[f]));
   *held = g.held;
   if (g.held) PetscCall(GroupRemove_Private(w, &g, degree));
   PetscCall(GroupClose_Private(w, &g));

@@ -18,7 +18,10 @@
    would lose sum psi = 1 and all rates. At p = 1 that is constants: an edge with a held end has psi = 1 at the other, of a quadrilateral with a held side each
    held node's function goes to the node across, that of a lone corner by halves to its neighbours. The degree is lowered where otherwise int psi_j over the
    whole surface fell below a hundredth of int chi_j (even orders: the far end of a held facet gets 0 from it). int psi_j chi_k stays diagonal among nodes that
-   carry. A facet (or E) without nodes that carry has no functions. A node without any row has no multiplier. */
+   carry. A facet (or E) without nodes that carry has no functions. A node without any row has no multiplier.
+
+   Bernstein functions, for facets that are covered in part (blend.c): those of the facet's order, at nodes of its lattice; of a node that hangs in the ratio of
+   the positive weights of its row, of one that carries nothing in that of the positive weights of the extrapolation. They are positive and sum to 1. */
 #pragma once
 #include "contactimpl.h"
 #include "element.h"
@@ -34,6 +37,8 @@ typedef struct ContactMultiplier {
   PetscInt  *row_node;  /* [rows] true node, each once per facet */
   PetscInt  *offset;    /* [num_facets] into T */
   PetscReal *T;
+  PetscReal *B;           /* [as T] the same for the Bernstein functions */
+  PetscReal *measure;     /* [rows] their integrals over the facet in the reference measure */
   PetscInt  *donor_first; /* [num_nodes+1] nodes that carry nothing: what the pressure there follows from, else empty */
   PetscInt  *donor;
   PetscReal *donor_weight; /* sum 1 at a node */
@@ -63,7 +68,7 @@ PetscErrorCode ContactExtrapolateNodes(const ContactSurface *, PetscInt num_face
 /* While the functions are made (multiplier.c). */
 typedef struct {
   PetscInt   num, *node; /* rows, their true nodes */
-  PetscReal *T;          /* [num][lattice] */
+  PetscReal *T, *B;      /* [num][lattice] */
 } MultiplierRows;        /* of one facet */
 
 typedef struct {
@@ -90,15 +95,11 @@ PetscErrorCode ContactMultiplierGroup(MultiplierWork *, PetscInt num_facets, con
 PetscErrorCode ContactDonorsKeep(MultiplierDonors *, PetscInt n, const PetscInt node[], const PetscBool carries[], const PetscReal W[]);
 PetscErrorCode ContactDonorsPack(const MultiplierWork *, ContactMultiplier *);
 
-#define FACET_MOMENTS 18 /* G_j (4), D_j (4), D_jk, j <= k (10) */
-
-/* weights.c: from moments to weighted gaps. G_j -> gt_j and their derivatives in terms of the moments. */
+/* blend.c: what a facet of order p is to its functions and to its compliance when this share of it is covered; values and two derivatives by the share. */
 typedef struct {
-  PetscReal gap[4];
-  PetscReal dgap[4][FACET_MOMENTS];                          /* by moments */
-  PetscReal g[4], D[4][4];                                   /* derivative of sum_j z_j gt_j by G_j and int N_j N_k: weights of ContactRayHessian */
-  PetscReal left[4][FACET_MOMENTS], right[4][FACET_MOMENTS]; /* second derivatives of it by moments, half form: sum_k left_k x right_k */
-  int       num_pairs;
-} FacetWeights;
-/* False: too little covered to tell. */
-PetscBool ContactFacetWeights(const PetscReal q[FACET_MOMENTS], const PetscReal z[4], FacetWeights *);
+  PetscBool part; /* less than what counts as all of it */
+  PetscReal theta[3], kappa[3];
+} ContactShare;
+void ContactShareOf(PetscInt m, PetscInt order, PetscReal share, ContactShare *);
+/* C[num][num]: Bernstein polynomial j of a facet in m dimensions by the functions of its lattice. */
+PetscErrorCode ContactBernstein(PetscInt m, PetscInt order, PetscReal C[]);

@@ -156,12 +156,31 @@ static void Drop_Private(PetscInt num, MultiplierRows *r)
 
     for (PetscInt a = 0; a < num; a++) {
       r->T[num * rows + a] = r->T[num * i + a];
-      if (r->T[num * i + a] != 0) zero = PETSC_FALSE;
+      r->B[num * rows + a] = r->B[num * i + a];
+      if (r->T[num * i + a] != 0 || r->B[num * i + a] != 0) zero = PETSC_FALSE;
     }
     r->node[rows] = r->node[i];
     rows += !zero;
   }
   r->num = rows;
+}
+
+/* int B_j of a facet's rows; axisymmetric: of revolution. */
+static PetscErrorCode Measures_Private(const MultiplierWork *w, PetscInt facet, PetscReal measure[])
+{
+  const MultiplierRows *r = w->rows + facet;
+  PetscInt              lattice[MULTIPLIER_LATTICE], num = ContactLatticeNodes(w->s, facet, lattice);
+  PetscReal            *M, D[MULTIPLIER_LATTICE];
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(num * num, &M));
+  PetscCall(ContactLatticeMass(w->s, facet, w->axisymmetric, M, D));
+  for (PetscInt i = 0; i < r->num; i++) {
+    measure[i] = 0;
+    for (PetscInt a = 0; a < num; a++) measure[i] += (w->axisymmetric ? 2 * PETSC_PI : 1) * r->B[num * i + a] * D[a];
+  }
+  PetscCall(PetscFree(M));
+  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 static PetscErrorCode Pack_Private(const MultiplierWork *w, ContactMultiplier **out)
@@ -181,8 +200,10 @@ static PetscErrorCode Pack_Private(const MultiplierWork *w, ContactMultiplier **
     size += w->rows[f].num * ContactLatticeNodes(w->s, f, lattice);
   }
   m->row_first[m->num_facets] = rows;
-  PetscCall(PetscMalloc2(rows, &m->row_node, size, &m->T));
+  PetscCall(PetscMalloc4(rows, &m->row_node, rows, &m->measure, size, &m->T, size, &m->B));
   for (PetscInt f = 0; f < m->num_facets; f++) {
+    PetscCall(Measures_Private(w, f, m->measure + m->row_first[f]));
+    PetscCall(PetscArraycpy(m->B + m->offset[f], w->rows[f].B, w->rows[f].num * ContactLatticeNodes(w->s, f, lattice)));
     PetscCall(PetscArraycpy(m->row_node + m->row_first[f], w->rows[f].node, w->rows[f].num));
     PetscCall(PetscArraycpy(m->T + m->offset[f], w->rows[f].T, w->rows[f].num * ContactLatticeNodes(w->s, f, lattice)));
   }
@@ -213,7 +234,7 @@ PetscErrorCode ContactMultiplierCreate(const ContactSurface *s, PetscBool axisym
   PetscCall(Groups_Private(&w, whole));
   PetscCall(Pack_Private(&w, out));
   for (PetscInt f = 0; f < s->num_facets; f++) {
-    PetscCall(PetscFree2(w.rows[f].node, w.rows[f].T));
+    PetscCall(PetscFree3(w.rows[f].node, w.rows[f].T, w.rows[f].B));
     PetscCall(PetscFree3(w.donors[f].to, w.donors[f].from, w.donors[f].weight));
   }
   PetscCall(PetscFree3(w.parent, w.place, own));
@@ -226,7 +247,7 @@ PetscErrorCode ContactMultiplierDestroy(ContactMultiplier **m)
   PetscFunctionBegin;
   if (!*m) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(PetscFree2((*m)->row_first, (*m)->offset));
-  PetscCall(PetscFree2((*m)->row_node, (*m)->T));
+  PetscCall(PetscFree4((*m)->row_node, (*m)->measure, (*m)->T, (*m)->B));
   PetscCall(PetscFree((*m)->donor_first));
   PetscCall(PetscFree2((*m)->donor, (*m)->donor_weight));
   PetscCall(PetscFree(*m));

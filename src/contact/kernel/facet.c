@@ -16,7 +16,7 @@ PetscErrorCode ContactRayTopology(ContactPair pair, const ContactSurface *s)
   PetscCall(PetscCalloc1(s->dim * s->num_nodes, &pair->normal));
   PetscCall(ContactDirectionTopology(pair->ray, s));
   ContactDirections(pair->ray, s);
-  if (!pair->multiplier && s->order) PetscCall(ContactMultiplierCreate(s, pair->axisymmetric, pair->standard, NULL, &pair->multiplier));
+  if (!pair->multiplier) PetscCall(ContactMultiplierCreate(s, pair->axisymmetric, pair->standard, NULL, &pair->multiplier));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -51,7 +51,15 @@ PetscErrorCode ContactPairSetCarriers(ContactPair pair, const ContactSurface *no
   PetscFunctionBegin;
   pair->state.stands = PETSC_FALSE;
   PetscCall(ContactMultiplierDestroy(&pair->multiplier));
-  if (nonmortar->order) PetscCall(ContactMultiplierCreate(nonmortar, pair->axisymmetric, pair->standard, carries, &pair->multiplier));
+  PetscCall(ContactMultiplierCreate(nonmortar, pair->axisymmetric, pair->standard, carries, &pair->multiplier));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode ContactPairSetSoftness(ContactPair pair, const PetscReal softness[])
+{
+  PetscFunctionBegin;
+  pair->softness     = softness;
+  pair->state.stands = PETSC_FALSE;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -69,9 +77,7 @@ PetscErrorCode ContactRayWorkDestroy(RayWork *work)
   PetscCall(PetscFree(w->image));
   PetscCall(PetscFree(w->overlap));
   PetscCall(PetscFree(w->mortar));
-  PetscCall(PetscFree(w->window));
   PetscCall(PetscFree(w->vertex));
-  PetscCall(PetscFree(w->test));
   PetscCall(PetscFree(w->place));
   PetscCall(PetscFree(w->first_place));
   PetscCall(PetscFree(w->dq));
@@ -82,7 +88,6 @@ PetscErrorCode ContactRayWorkDestroy(RayWork *work)
   PetscCall(PetscFree(w->part));
   PetscCall(PetscFree(w->buffer));
   PetscCall(PetscFree(w->T));
-  PetscCall(PetscFree(w->softness));
   PetscCall(PetscFree(w->rows));
   PetscCall(PetscFree(*work));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -128,51 +133,23 @@ static void Normals_Private(ContactPair pair, const ContactSurface *s)
 
 /* ---- nodes --------------------------------------------------------------------------------------------------------------- */
 
-/* Rows and T from the constant functions of a facet that is covered. */
-static PetscErrorCode Functions_Private(RayWork w, const ContactMultiplier *multiplier, PetscInt facet)
-{
-  const PetscInt first = multiplier->row_first[facet], num = w->facet.s.num;
-  PetscInt       place;
-
-  PetscFunctionBegin;
-  w->result.num_rows = multiplier->row_first[facet + 1] - first;
-  for (PetscInt r = 0; r < w->result.num_rows; r++) PetscCall(ContactResultNode(&w->result, multiplier->row_node[first + r], &place));
-  PetscCall(ContactGrow(w->result.num_rows * num, sizeof(PetscReal), &w->size_T, &w->T));
-  PetscCall(PetscArraycpy(w->T, multiplier->T + multiplier->offset[facet], w->result.num_rows * num));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* Nodes of the result and T, the multiplier functions by those of the lattice: constant ones where the facet is covered, else those of the true nodes. Hats
-   of hanging nodes go to their masters in the ratio of the positive weights: functions stay positive, whatever is covered. */
+/* Nodes of the result: those of the facet's rows, then all that its directions and its mortar facets depend on. */
 static PetscErrorCode Nodes_Private(const EvaluateContext *ctx, PetscInt facet)
 {
-  RayWork         w  = ctx->pair->ray;
-  const PetscInt  na = w->facet.s.num, nv = w->facet.nv;
-  const PetscBool constant = (PetscBool)(ctx->pair->multiplier && w->full && w->facet.s.order > 1);
-  const PetscInt *lattice;
-  PetscInt        order1[4], num = 0, place;
-  DirectionTerm   term[TERMS];
+  const ContactMultiplier *multiplier = ctx->pair->multiplier;
+  RayWork                  w          = ctx->pair->ray;
+  const PetscInt           na = w->facet.s.num, nv = w->facet.nv, first = multiplier->row_first[facet];
+  const PetscInt          *lattice;
+  PetscInt                 order1[4], num = 0, place;
+  DirectionTerm            term[TERMS];
 
   PetscFunctionBegin;
   w->result.num_nodes = 0;
+  w->result.num_rows  = multiplier->row_first[facet + 1] - first;
+  for (PetscInt r = 0; r < w->result.num_rows; r++) PetscCall(ContactResultNode(&w->result, multiplier->row_node[first + r], &place));
   ContactFacetLattice(ctx->nonmortar, facet, &lattice, order1);
-  if (constant) PetscCall(Functions_Private(w, ctx->pair->multiplier, facet));
   PetscCall(ContactGrow(na + w->num_mortar + 1, sizeof(PetscInt), &w->result.size_row_first, &w->result.row_first));
   for (PetscInt a = 0; a < na; a++) PetscCall(ContactResultRow(&w->result, ctx->nonmortar, lattice[a], PETSC_FALSE, a, &num));
-  if (!constant) {
-    const PetscBool hats = w->test[0].hats;
-
-    w->result.num_rows = w->result.num_nodes;
-    PetscCall(ContactGrow(w->result.num_rows * na, sizeof(PetscReal), &w->size_T, &w->T));
-    PetscCall(PetscArrayzero(w->T, w->result.num_rows * na));
-    for (PetscInt a = 0; a < na; a++) {
-      PetscReal sum = 0;
-
-      for (PetscInt k = w->result.row_first[a]; k < w->result.row_first[a + 1]; k++) sum += PetscMax(0, w->result.row_weight[k]);
-      for (PetscInt k = w->result.row_first[a]; k < w->result.row_first[a + 1]; k++)
-        w->T[w->result.row_node[k] * na + a] += hats ? PetscMax(0, w->result.row_weight[k]) / sum : w->result.row_weight[k];
-    }
-  }
   for (PetscInt v = 0; v < nv; v++) {
     const PetscInt terms = ContactDirectionTerms(w, ctx->nonmortar, nv * facet + v, TERMS, term);
 
@@ -192,96 +169,73 @@ static PetscErrorCode Nodes_Private(const EvaluateContext *ctx, PetscInt facet)
 
 /* ---- results ------------------------------------------------------------------------------------------------------------------------- */
 
-/* Weighted gaps by the lattice: their derivatives by the moments are sparse (num_moments columns). */
-typedef struct {
-  PetscReal    gap[RAY_LATTICE], reach[RAY_LATTICE], y[RAY_LATTICE]; /* y: weights of the gap moments in sum z gt */
-  PetscBool    dual;
-  PetscInt     place[FACET_MOMENTS]; /* dual: where the moments stand among those of weights.c, -1 */
-  FacetWeights f;
-} Weights;
-
-/* Dual functions of the covered part of a facet of order 1; an edge is a facet whose other two nodes stand apart. */
-static PetscBool Dual_Private(const RayWork w, PetscReal z[4], Weights *o)
+/* psi_r = sum_a T[r][a] N_a and its derivative by the covered share, T[num_rows + r][a] (blend.c). */
+static PetscErrorCode Functions_Private(RayWork w, const ContactMultiplier *multiplier, PetscInt facet, PetscReal share)
 {
-  static const int Edge[7]          = {0, 1, 4, 5, 8, 9, 12};
-  PetscReal        q[FACET_MOMENTS] = {0};
-
-  if (w->facet.m == 1) {
-    q[15] = q[17] = 1;
-    z[2] = z[3] = 0;
-  }
-  for (PetscInt i = 0; i < w->num_moments; i++) {
-    o->place[i]    = w->facet.m == 1 ? Edge[i] : (int)i;
-    q[o->place[i]] = w->q[i];
-  }
-  if (!ContactFacetWeights(q, z, &o->f)) return PETSC_FALSE;
-  for (PetscInt a = 0; a < w->facet.nv; a++) {
-    o->gap[a]   = o->f.gap[a];
-    o->y[a]     = o->f.g[a];
-    o->reach[a] = 0;
-    for (PetscInt b = 0; b < w->facet.nv; b++) o->reach[a] += o->f.dgap[a][o->place[b]] * w->reach[b]; /* gaps are linear in their moments */
-  }
-  return PETSC_TRUE;
-}
-
-/* row[n] += factor * derivative of gap a */
-static void GapRow_Private(const RayWork w, const Weights *o, PetscInt a, PetscReal factor, PetscReal row[])
-{
-  for (PetscInt q = 0; q < w->num_moments; q++) {
-    const PetscReal f = factor * (o->dual ? o->f.dgap[a][o->place[q]] : q == a);
-
-    if (f == 0) continue;
-    for (PetscInt i = 0; i < w->n; i++) row[i] += f * w->dq[q * w->n + i];
-  }
-}
-
-/* to[num_rows][nn] = sum_a T[r][a] (gap a; without o: weight a) J; held (unless NULL): the same with the images held. */
-static PetscErrorCode Rows_Private(RayWork w, const Weights *o, PetscReal to[], PetscReal held[])
-{
-  const PetscInt na = w->facet.s.num, n = w->n, nr = w->result.num_rows;
-  PetscReal     *row;
+  const PetscInt   num  = w->result.num_rows * w->facet.s.num;
+  const PetscReal *dual = multiplier->T + multiplier->offset[facet], *bernstein = multiplier->B + multiplier->offset[facet];
 
   PetscFunctionBegin;
-  PetscCall(ContactGrow(n * nr + n * na, sizeof(PetscReal), &w->size_rows, &w->rows));
-  PetscCall(PetscArrayzero(w->rows, n * nr + n * na));
-  row = w->rows + n * nr;
-  for (PetscInt a = 0; a < na; a++)
-    if (o)
-      GapRow_Private(w, o, a, 1, row + a * n);
-    else
-      PetscCall(PetscArraycpy(row + a * n, w->dq + (na + a) * n, n));
-  for (PetscInt r = 0; r < nr; r++)
+  PetscCall(ContactGrow(2 * num, sizeof(PetscReal), &w->size_T, &w->T));
+  ContactShareOf(w->facet.m, w->facet.s.order, share, &w->share);
+  for (PetscInt i = 0; i < num; i++) {
+    w->T[i]       = w->share.part ? w->share.theta[0] * dual[i] + (1 - w->share.theta[0]) * bernstein[i] : dual[i];
+    w->T[num + i] = w->share.part ? w->share.theta[1] * (dual[i] - bernstein[i]) : 0;
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* to[num_rows][nn] = derivatives of sum_a T[r][a] q[from + a]; held (unless NULL): the same with the images held. */
+static PetscErrorCode Rows_Private(ContactPair pair, PetscInt from, PetscReal to[], PetscReal held[])
+{
+  RayWork          w  = pair->ray;
+  const PetscInt   na = w->facet.s.num, n = w->n, nr = w->result.num_rows;
+  const PetscReal *q = w->q + from, *dq = w->dq + from * n, *dshare = w->dq + 2 * na * n;
+
+  PetscFunctionBegin;
+  PetscCall(ContactGrow(n * nr, sizeof(PetscReal), &w->size_rows, &w->rows));
+  PetscCall(PetscArrayzero(w->rows, n * nr));
+  for (PetscInt r = 0; r < nr; r++) {
+    PetscReal slope = 0;
+
     for (PetscInt a = 0; a < na; a++) {
       const PetscReal t = w->T[r * na + a];
 
+      slope += w->T[(nr + r) * na + a] * q[a];
       if (t == 0) continue;
-      for (PetscInt i = 0; i < n; i++) w->rows[i * nr + r] += t * row[a * n + i];
+      for (PetscInt i = 0; i < n; i++) w->rows[i * nr + r] += t * dq[a * n + i];
     }
+    for (PetscInt i = 0; i < n && slope != 0; i++) w->rows[i * nr + r] += slope * dshare[i];
+  }
   if (held) ContactRayChainNodes(w, nr, w->rows, held);
-  ContactRayChainImages(w, nr, w->rows);
+  if (!pair->held) ContactRayChainImages(w, nr, w->rows);
   ContactRayChainNodes(w, nr, w->rows, to);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode Hessian_Private(const EvaluateContext *ctx, PetscInt facet, const Weights *o, const PetscReal y[], PetscReal H[])
+/* Of sum_r z_r gt_r + z.S z / 2, y = T^T z. The share's terms: half of y'.(dG ds + ds dG) + (y''.G + kappa'' Q / 2) ds ds + (y'.G + kappa' Q / 2) d2s,
+   Q = z.(S / kappa) z. */
+static PetscErrorCode Hessian_Private(const EvaluateContext *ctx, PetscInt facet, const PetscReal y[], const PetscReal y1[], PetscReal Q, PetscReal H[])
 {
-  RayWork        w = ctx->pair->ray;
-  const PetscInt n = w->n;
-  PetscReal     *gradient, *left, *right;
+  RayWork        w  = ctx->pair->ray;
+  const PetscInt n = w->n, na = w->facet.s.num;
+  PetscReal     *gradient, *left, slope = 0.5 * w->share.kappa[1] * Q, curve = 0.25 * w->share.kappa[2] * Q;
 
   PetscFunctionBegin;
-  PetscCall(ContactGrow(3 * n, sizeof(PetscReal), &w->size_rows, &w->rows));
-  PetscCall(PetscArrayzero(w->rows, 3 * n));
-  gradient = w->rows, left = gradient + n, right = left + n;
-  PetscCall(ContactRayHessian(ctx->pair, ctx->mortar, o->dual ? o->f.g : y, o->dual ? o->f.D : NULL, gradient));
-  for (int p = 0; o->dual && p < o->f.num_pairs; p++) {
-    for (PetscInt i = 0; i < 2 * n; i++) left[i] = 0;
-    for (PetscInt q = 0; q < w->num_moments; q++)
-      for (PetscInt i = 0; i < n; i++) {
-        left[i] += o->f.left[p][o->place[q]] * w->dq[q * n + i];
-        right[i] += o->f.right[p][o->place[q]] * w->dq[q * n + i];
-      }
-    ContactRayProducts(1, 1, n, left, n, n, right, n, w->W, n);
+  PetscCall(ContactGrow(2 * n, sizeof(PetscReal), &w->size_rows, &w->rows));
+  PetscCall(PetscArrayzero(w->rows, 2 * n));
+  gradient = w->rows, left = gradient + n;
+  for (PetscInt a = 0; a < na && w->share.part; a++) slope += y1[a] * w->q[a];
+  PetscCall(ContactRayHessian(ctx->pair, ctx->mortar, y, slope, gradient));
+  if (w->share.part) {
+    const PetscReal *dshare = w->dq + 2 * na * n, bend = w->share.theta[1] != 0 ? w->share.theta[2] / w->share.theta[1] : 0;
+
+    for (PetscInt a = 0; a < na; a++) {
+      for (PetscInt i = 0; i < n; i++) left[i] += y1[a] * w->dq[a * n + i];
+      curve += 0.5 * bend * y1[a] * w->q[a];
+    }
+    for (PetscInt i = 0; i < n; i++) left[i] += curve * dshare[i];
+    ContactRayProducts(1, 1, n, left, n, n, dshare, n, w->W, n);
   }
   PetscCall(ContactRayChainHessian(w, H));
   ContactRayChainImages(w, 1, gradient);
@@ -289,76 +243,104 @@ static PetscErrorCode Hessian_Private(const EvaluateContext *ctx, PetscInt facet
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode Spring_Private(RayWork w, const RaySpring *spring, ContactFacet *out)
+/* Compliance of a facet that is covered in part. */
+static PetscErrorCode Compliance_Private(ContactPair pair, PetscInt facet, ContactFacet *out)
 {
-  const PetscInt nr = w->result.num_rows;
-  PetscReal     *K;
+  RayWork                  w          = pair->ray;
+  const ContactMultiplier *multiplier = pair->multiplier;
+  const PetscInt           first = multiplier->row_first[facet], nr = w->result.num_rows;
+  PetscReal                sum = 0, softness = 0, *m;
 
   PetscFunctionBegin;
-  out->spring = out->stiffening = NULL;
-  if (!spring->on) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(ContactStoreReserve(&w->result.store, 2 * nr, &K));
-  for (PetscInt r = 0; r < nr; r++)
-    for (int i = 0; i < 2; i++) K[nr * i + r] = spring->share[i] * spring->softness[r];
-  out->spring     = K;
-  out->stiffening = K + nr;
+  out->compliance = NULL;
+  if (!w->share.part || !pair->softness || nr == 0) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(ContactStoreReserve(&w->result.store, nr, &m));
+  for (PetscInt r = 0; r < nr; r++) {
+    sum += multiplier->measure[first + r];
+    softness += multiplier->measure[first + r] * pair->softness[w->result.node[r]];
+  }
+  for (PetscInt r = 0; r < nr; r++) m[r] = multiplier->measure[first + r] * softness / sum;
+  out->compliance = m;
+  out->kappa[0]   = w->share.kappa[0];
+  out->kappa[1]   = w->share.kappa[1];
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode Result_Private(const EvaluateContext *ctx, PetscInt facet, const Weights *o, const PetscReal y[], PetscBool derivatives,
-                                     PetscBool hessian, ContactFacet *out)
+/* dshare[nn]: derivatives of the covered share. */
+static PetscErrorCode Share_Private(ContactPair pair, PetscReal to[])
 {
-  RaySpring      spring;
-  RayWork        w  = ctx->pair->ray;
-  const PetscInt na = w->facet.s.num, nr = w->result.num_rows, nn = w->nn;
-  PetscReal     *gap, *weight, *reach, *dgap, *push = NULL;
+  RayWork w = pair->ray;
+
+  PetscFunctionBegin;
+  if (pair->held) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(ContactGrow(w->n, sizeof(PetscReal), &w->size_rows, &w->rows));
+  PetscCall(PetscArraycpy(w->rows, w->dq + 2 * w->facet.s.num * w->n, w->n));
+  ContactRayChainImages(w, 1, w->rows);
+  ContactRayChainNodes(w, 1, w->rows, to);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* What the functions make of the moments. */
+static PetscErrorCode Values_Private(RayWork w, ContactFacet *out)
+{
+  const PetscInt na = w->facet.s.num, nr = w->result.num_rows;
+  PetscReal     *gap, *weight, *reach;
 
   PetscFunctionBegin;
   PetscCall(ContactStoreReserve(&w->result.store, 3 * nr, &gap));
   weight = gap + nr, reach = weight + nr;
   for (PetscInt r = 0; r < nr; r++)
     for (PetscInt a = 0; a < na; a++) {
-      gap[r] += w->T[r * na + a] * o->gap[a];
+      gap[r] += w->T[r * na + a] * w->q[a];
       weight[r] += w->T[r * na + a] * w->q[na + a];
-      reach[r] += w->T[r * na + a] * o->reach[a];
+      reach[r] += w->T[r * na + a] * w->reach[a];
     }
   out->gap     = gap;
   out->weight  = weight;
   out->reach   = w->facet.s.order == 1 ? reach : NULL; /* curved facets turn with their directions: a gap of 1 along the normal counts as its area */
   out->area    = w->covered;
   out->min_gap = w->min_gap;
-  out->dgap = out->dweight = out->push = out->hessian = out->darea = NULL;
-  PetscCall(ContactRaySpring(ctx->pair, ctx->nonmortar, facet, &spring));
-  PetscCall(Spring_Private(w, &spring, out));
-  if (!derivatives) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode Derivatives_Private(const EvaluateContext *ctx, PetscInt facet, ContactFacet *out)
+{
+  RayWork        w  = ctx->pair->ray;
+  const PetscInt nr = w->result.num_rows, nn = w->nn;
+  PetscReal     *dgap, *dshare, *push = NULL;
+
+  PetscFunctionBegin;
   PetscCall(ContactRayChain(w, ctx->nonmortar, facet, ctx->pair->held));
   PetscCall(ContactStoreReserve(&w->result.store, 2 * nr * nn, &dgap));
   out->dgap    = dgap;
   out->dweight = dgap + nr * nn;
   if (w->frozen) PetscCall(ContactStoreReserve(&w->result.store, nr * nn, &push));
   out->push = push;
-  PetscCall(Rows_Private(w, o, dgap, push));
-  PetscCall(Rows_Private(w, NULL, dgap + nr * nn, NULL));
-  if (spring.on) {
-    PetscCall(ContactStoreReserve(&w->result.store, nn, (PetscReal **)&out->darea));
-    for (PetscInt i = 0; i < nr * nn; i++) ((PetscReal *)out->darea)[i % nn] += out->dweight[i];
-  }
-  if (!hessian) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(ContactStoreReserve(&w->result.store, nn * nn, (PetscReal **)&out->hessian));
-  PetscCall(Hessian_Private(ctx, facet, o, y, (PetscReal *)out->hessian));
+  PetscCall(Rows_Private(ctx->pair, 0, dgap, push));
+  PetscCall(Rows_Private(ctx->pair, w->facet.s.num, dgap + nr * nn, NULL));
+  if (!w->share.part) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(ContactStoreReserve(&w->result.store, nn, &dshare));
+  PetscCall(Share_Private(ctx->pair, dshare));
+  out->dshare = dshare;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The Hessian of a result that has the rest. */
-static PetscErrorCode Curve_Private(const EvaluateContext *ctx, PetscInt facet, const PetscReal y[], ContactFacet *out)
+/* Needs derivatives, or those of a facet that is covered from the last evaluation. */
+static PetscErrorCode Curve_Private(const EvaluateContext *ctx, PetscInt facet, ContactFacet *out)
 {
-  const Weights plain = {.dual = PETSC_FALSE};
-  RayWork       w     = ctx->pair->ray;
+  RayWork        w  = ctx->pair->ray;
+  const PetscInt na = w->facet.s.num, nr = w->result.num_rows;
+  PetscReal      y[RAY_LATTICE] = {0}, y1[RAY_LATTICE] = {0}, Q = 0;
 
   PetscFunctionBegin;
-  PetscCall(ContactRayChain(w, ctx->nonmortar, facet, PETSC_FALSE));
+  for (PetscInt r = 0; r < nr; r++)
+    for (PetscInt a = 0; a < na; a++) {
+      y[a] += ctx->z[w->result.node[r]] * w->T[r * na + a];
+      y1[a] += ctx->z[w->result.node[r]] * w->T[(nr + r) * na + a];
+    }
+  if (out->compliance) Q = ContactFacetYield(out, w->result.node, ctx->z);
   PetscCall(ContactStoreReserve(&w->result.store, w->nn * w->nn, (PetscReal **)&out->hessian));
-  PetscCall(Hessian_Private(ctx, facet, &plain, y, (PetscReal *)out->hessian));
+  PetscCall(Hessian_Private(ctx, facet, y, y1, Q, (PetscReal *)out->hessian));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -391,37 +373,35 @@ static PetscErrorCode Facet_Private(const EvaluateContext *ctx, PetscInt slot, C
   ContactPair    pair  = ctx->pair;
   RayWork        w     = pair->ray;
   const PetscInt facet = pair->listed[slot];
-  PetscReal      y[RAY_LATTICE];
   PetscInt       first, overlaps;
   PetscBool      derivatives, loaded = PETSC_FALSE;
-  Weights        o;
 
   PetscFunctionBegin;
   PetscCall(ContactCover(pair, ctx->nonmortar, ctx->mortar, slot, failed));
   if (*failed || w->num_overlaps == 0) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(Nodes_Private(ctx, facet));
-  for (PetscInt a = 0; a < w->facet.s.num; a++) {
-    y[a] = 0;
-    for (PetscInt r = 0; r < w->result.num_rows && ctx->z; r++) y[a] += ctx->z[w->result.node[r]] * w->T[r * w->facet.s.num + a];
-    if (y[a] != 0) loaded = PETSC_TRUE;
-  }
+  for (PetscInt r = 0; r < w->result.num_rows && ctx->z; r++) loaded = (PetscBool)(loaded || ctx->z[w->result.node[r]] != 0);
   derivatives = ContactResultDerivatives(ctx, w->result.num_rows, w->result.node, loaded);
-  o.dual      = (PetscBool)(!pair->standard && w->facet.s.order == 1 && !w->test[0].hats);
-  if (ctx->again && !pair->held && out->dgap && !o.dual && !out->spring && w->first_place[slot] >= 0) { /* nothing else is missing */
+  if (ctx->again && !pair->held && out->dgap && !out->dshare && w->first_place[slot] >= 0) { /* nothing else is missing */
     w->places = w->place + w->first_place[slot];
-    PetscCall(Curve_Private(ctx, facet, y, out));
+    PetscCall(Functions_Private(w, pair->multiplier, facet, 1));
+    PetscCall(ContactRayChain(w, ctx->nonmortar, facet, PETSC_FALSE));
+    PetscCall(Curve_Private(ctx, facet, out));
     *use = PETSC_TRUE;
     PetscFunctionReturn(PETSC_SUCCESS);
   }
   first = w->num_places, overlaps = w->num_overlaps;
-  PetscCall(ContactRayMoments(pair, ctx->mortar, o.dual, derivatives));
+  PetscCall(ContactRayMoments(pair, ctx->mortar, derivatives));
   w->first_place[slot] = w->num_overlaps == overlaps ? first : -1;
   w->places            = w->place + first;
   if (w->num_overlaps == 0) PetscFunctionReturn(PETSC_SUCCESS);
-  for (PetscInt a = 0; a < w->facet.s.num; a++) o.gap[a] = w->q[a], o.reach[a] = w->reach[a];
-  if (o.dual && !Dual_Private(w, y, &o)) PetscFunctionReturn(PETSC_SUCCESS);
   if (!ctx->again) PetscCall(Segments_Private(ctx, facet));
-  PetscCall(Result_Private(ctx, facet, &o, y, derivatives, (PetscBool)(ctx->hessian && loaded && !pair->held), out));
+  PetscCall(Functions_Private(w, pair->multiplier, facet, w->q[2 * w->facet.s.num]));
+  PetscCall(Values_Private(w, out));
+  PetscCall(Compliance_Private(pair, facet, out));
+  out->dgap = out->dweight = out->dshare = out->push = out->hessian = NULL;
+  if (derivatives) PetscCall(Derivatives_Private(ctx, facet, out));
+  if (derivatives && ctx->hessian && loaded && !pair->held) PetscCall(Curve_Private(ctx, facet, out));
   *use = PETSC_TRUE;
   PetscFunctionReturn(PETSC_SUCCESS);
 }

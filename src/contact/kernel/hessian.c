@@ -5,7 +5,6 @@
 #include "kernelimpl.h"
 
 #define CORNERS (2 * FACET_VERTICES)
-#define OWN 3 /* most products of the facet's own numbers at a point */
 
 /* v_f eps_cef into W[row + c][column + e]; v_f: `apart` apart */
 static void AddSkew_Private(PetscInt D, const PetscReal v[], PetscInt apart, PetscReal *W, PetscInt n)
@@ -18,30 +17,14 @@ static void AddSkew_Private(PetscInt D, const PetscReal v[], PetscInt apart, Pet
   W[2 * n] += v[apart], W[2] -= v[apart];
 }
 
-/* Weights of gap and area at a point. */
-static void Weights_Private(const RayFacet *f, const RayTest *t, const RayFunctions *T, const PetscReal y[], const PetscReal D[4][4], RayWeight *phi,
-                            RayWeight *chi)
+/* Weight of the gap at a point. */
+static void Weight_Private(const RayFacet *f, const RayFunctions *S, const PetscReal y[], RayWeight *phi)
 {
   memset(phi, 0, sizeof(*phi));
-  memset(chi, 0, sizeof(*chi));
-  for (PetscInt a = 0; a < t->num; a++) {
-    const PetscReal ya = y[t->place[a]];
-
-    phi->v += ya * T->N[a];
-    for (PetscInt i = 0; i < f->m; i++) phi->d[i] += ya * T->d[i][a];
-    for (PetscInt i = 0; i < 2 * f->m - 1; i++) phi->dd[i] += ya * T->dd[i][a];
-  }
-  for (PetscInt a = 0; a < t->num && D; a++) { /* D is symmetric */
-    PetscReal sum = 0, along[2] = {0, 0};
-
-    for (PetscInt b = 0; b < t->num; b++) {
-      sum += D[a][b] * T->N[b];
-      for (PetscInt i = 0; i < f->m; i++) along[i] += D[a][b] * T->d[i][b];
-    }
-    chi->v += sum * T->N[a];
-    for (PetscInt i = 0; i < f->m; i++) chi->d[i] += 2 * sum * T->d[i][a];
-    for (PetscInt i = 0; i < f->m; i++)
-      for (PetscInt j = i; j < f->m; j++) chi->dd[i + j] += 2 * (sum * T->dd[i + j][a] + T->d[i][a] * along[j]);
+  for (PetscInt a = 0; a < f->s.num; a++) {
+    phi->v += y[a] * S->N[a];
+    for (PetscInt i = 0; i < f->m; i++) phi->d[i] += y[a] * S->d[i][a];
+    for (PetscInt i = 0; i < 2 * f->m - 1; i++) phi->dd[i] += y[a] * S->dd[i][a];
   }
 }
 
@@ -86,41 +69,36 @@ static void Corners_Private(const RayFacet *f, const RayPoint *r, const PetscRea
   }
 }
 
-/* place: where the rays met when the moments were found. */
-static PetscErrorCode Batch_Private(const RayWork w, const RayLattice *mortar, const RayTest *t, const RaySimplex *s, PetscInt points,
-                                    const PetscReal point[][3], const PetscReal weight[], const PetscReal y[], const PetscReal D[4][4], const RayPlace place[],
-                                    RayPoint *r, RaySecond *second, Batch *b)
+/* place: where the rays met when the moments were found. share: a density per area of the chart besides. */
+static PetscErrorCode Batch_Private(const RayWork w, const RayLattice *mortar, const RaySimplex *s, PetscInt points, const PetscReal point[][3],
+                                    const PetscReal weight[], const PetscReal y[], PetscReal share, const RayPlace place[], RayPoint *r, RaySecond *second,
+                                    Batch *b)
 {
   const RayFacet *f  = &w->facet;
   const PetscInt  na = f->s.num;
-  RayFunctions    T;
-  RayWeight       sum, mass, phi, chi;
+  RayWeight       sum, phi;
 
   PetscFunctionBegin;
   b->num_points = points;
   b->num_own = b->num_xi = 0;
-  b->mean                = 0;
+  b->mean                = share;
   for (PetscInt i = 0; i < b->nq + 6; i++) b->gradient[i] = 0;
   for (PetscInt k = 0; k < points; k++) {
     PetscCheck(ContactRayAgain(f, mortar, &place[k], 3, r), PETSC_COMM_SELF, PETSC_ERR_PLIB, "a ray that met the mortar facet does not meet it again");
-    if (t->hats) ContactRayTestFunctions(f, t, r->xi, &T);
-    Weights_Private(f, t, t->hats ? &T : &r->S, y, D, &sum, &mass);
+    Weight_Private(f, &r->S, y, &sum);
     ContactRayOverDet(f, &r->chart, weight[k], &sum, &phi);
-    ContactRayOverDet(f, &r->chart, weight[k], &mass, &chi);
     second->basis       = b->basis + k * b->nf;
     second->turn_left   = b->turn_left + k * f->nv;
     second->turn_right  = b->turn_right + k * 3 * na;
     second->twist_left  = b->twist_left + k * na;
     second->twist_right = b->twist_right + k * 3 * na;
     for (PetscInt c = 0; c < f->D; c++) second->right[c] = b->right + (c * points + k) * b->nq;
-    for (int i = 0; i < OWN; i++) {
-      second->own_left[i]  = b->own_left + (b->num_own + i) * b->na;
-      second->own_right[i] = b->own_right + (b->num_own + i) * b->no;
-    }
+    second->own_left  = b->own_left + b->num_own * b->na;
+    second->own_right = b->own_right + b->num_own * b->no;
     for (PetscInt i = 0; i < f->m; i++) second->mixed[i] = b->right_xi + (b->num_xi + i) * (b->nq + 6);
-    ContactRaySecond(f, mortar, r, &phi, &chi, s->size, second);
+    ContactRaySecond(f, mortar, r, &phi, s->size, second);
     b->num_own += second->num_own;
-    b->mean += phi.v * ContactRayGap(r) + chi.v * ContactRayArea(r);
+    b->mean += phi.v * ContactRayGap(r);
     for (PetscInt i = 0; i < b->nq; i++) b->gradient[i] += second->gradient[i];
     Corners_Private(f, r, point[k], second, b);
   }
@@ -221,7 +199,7 @@ static void Collapse_Private(const RayFacet *f, const Overlap *o, const RayMove 
 }
 
 /* *place: the overlap's first; moves on to the next one's. */
-static PetscErrorCode Overlap_Private(RayWork w, const RayLattice *mortar, PetscInt k, const PetscReal y[], const PetscReal D[4][4], const RayPlace **place,
+static PetscErrorCode Overlap_Private(RayWork w, const RayLattice *mortar, PetscInt k, const PetscReal y[], PetscReal share, const RayPlace **place,
                                       const Pairs *pairs, PetscReal all[], PetscReal gradient[])
 {
   const RayFacet *f  = &w->facet;
@@ -239,13 +217,13 @@ static PetscErrorCode Overlap_Private(RayWork w, const RayLattice *mortar, Petsc
   PetscFunctionBegin;
   ContactRaySplit(f, &w->overlap[k], &split);
   PetscCall(ContactRayRule(f, o, mortar->order, &points, &point, &weight));
-  PetscCall(ContactGrow(points * (b.nf + f->D * nq + OWN * (b.na + b.no) + f->m * (nq + 12) + f->nv + 7 * na) + 8 * (nq + 6), sizeof(PetscReal),
+  PetscCall(ContactGrow(points * (b.nf + f->D * nq + b.na + b.no + f->m * (nq + 12) + f->nv + 7 * na) + 8 * (nq + 6), sizeof(PetscReal),
                         &w->size_buffer, &w->buffer));
   b.basis         = w->buffer;
   b.right         = b.basis + points * b.nf;
   b.own_left      = b.right + points * f->D * nq;
-  b.own_right     = b.own_left + points * OWN * b.na;
-  b.left_xi       = b.own_right + points * OWN * b.no;
+  b.own_right     = b.own_left + points * b.na;
+  b.left_xi       = b.own_right + points * b.no;
   b.right_xi      = b.left_xi + points * f->m * 6;
   b.turn_left     = b.right_xi + points * f->m * (nq + 6);
   b.turn_right    = b.turn_left + points * f->nv;
@@ -258,7 +236,7 @@ static PetscErrorCode Overlap_Private(RayWork w, const RayLattice *mortar, Petsc
     RaySimplex s;
 
     ContactRaySimplex(f, o, j, &s);
-    PetscCall(Batch_Private(w, mortar, &w->test[w->window[k]], &s, points, point, weight, y, D, *place, &r, &second, &b));
+    PetscCall(Batch_Private(w, mortar, &s, points, point, weight, y, share, *place, &r, &second, &b));
     *place += points;
     Simplex_Private(f, &s, &b, pairs, all, corner);
     for (PetscInt i = 0; i < nq; i++) gradient[i] += s.size * b.gradient[i];
@@ -312,7 +290,7 @@ static void Transpose_Private(PetscInt n, PetscReal W[])
     }
 }
 
-PetscErrorCode ContactRayHessian(ContactPair pair, const ContactSurface *mortar, const PetscReal y[], const PetscReal D[4][4], PetscReal gradient[])
+PetscErrorCode ContactRayHessian(ContactPair pair, const ContactSurface *mortar, const PetscReal y[], PetscReal share, PetscReal gradient[])
 {
   RayWork         w   = pair->ray;
   const RayFacet *f   = &w->facet;
@@ -338,7 +316,7 @@ PetscErrorCode ContactRayHessian(ContactPair pair, const ContactSurface *mortar,
     pair_sums.turn  = w->part + N * N;
     pair_sums.twist = pair_sums.turn + 3 * f->nv * f->s.num;
     slope           = pair_sums.turn + 3 * pairs;
-    PetscCall(Overlap_Private(w, &facet, k, y, D, &at, &pair_sums, w->part, slope));
+    PetscCall(Overlap_Private(w, &facet, k, y, (f->m == 1 ? 2 : 1) * share / f->area, &at, &pair_sums, w->part, slope));
     AddPairs_Private(w, &pair_sums);
     ContactRayPlaces(w, mortar, k, facet.num, place);
     for (PetscInt a = 0; a < width; a++) gradient[place[a]] += slope[a];

@@ -19,7 +19,7 @@
 #define RAY_ORDER MORTISE_MAX_ORDER
 #define RAY_LATTICE ((RAY_ORDER + 1) * (RAY_ORDER + 1))
 #define RAY_ROOM (RAY_LATTICE + 12) /* values of a lattice's functions: loops of fixed length write beyond the last */
-#define RAY_MOMENTS (2 * RAY_LATTICE + 10)
+#define RAY_MOMENTS (2 * RAY_LATTICE + 1)
 #define RAY_GRAZE 1e-3 /* cosine between the ray and the normal of a facet below which they do not meet */
 #define RAY_SOLVED 1e-9
 #define RAY_FAR 1e7   /* parametric coordinate up to which images are looked for: a facet may be 10^7 times as small as what it sees */
@@ -108,13 +108,6 @@ typedef struct {
   PetscReal v[3], xi[2], s, Y[2];
 } RayImage;
 
-/* What weighs the gap: functions of the facet's lattice, or hats of one of its cells [lo, lo + size]. */
-typedef struct {
-  PetscInt  num, place[RAY_LATTICE];
-  PetscBool hats;
-  PetscReal lo[2], size[2];
-} RayTest;
-
 /* A ray and all that varies with it. */
 typedef struct {
   RayFunctions  S, V, M; /* facet, directions, mortar facet */
@@ -131,7 +124,7 @@ typedef struct {
   PetscReal xi[2], eta[2];
 } RayPlace;
 
-/* Weights of gap density and area density at a point with derivatives by xi. */
+/* Weight of the gap density at a point with derivatives by xi. */
 typedef struct {
   PetscReal v, d[2], dd[3];
 } RayWeight;
@@ -156,21 +149,20 @@ struct _p_RayWork {
   PetscInt   size_ball;
   /* one facet */
   RayFacet   facet;
-  PetscInt   num_images, num_overlaps, num_mortar, num_tests;
+  PetscInt   num_images, num_overlaps, num_mortar;
   RayImage  *image;
   Overlap   *overlap;
-  PetscInt  *mortar, *window; /* [num_overlaps] mortar facet, test */
-  PetscInt  *vertex;          /* [num_mortar] mortar nodes */
-  RayTest   *test;
-  PetscBool  full;   /* the mortar side covers all of it */
-  PetscBool  frozen; /* forces without the motion of the mortar side's rim, or of all its lines */
+  PetscInt  *mortar; /* [num_overlaps] mortar facet */
+  PetscInt  *vertex; /* [num_mortar] mortar nodes */
+  PetscBool  frozen; /* forces without the motion of the mortar side's lines */
   PetscInt   n, nn, num_moments;
   PetscReal  q[RAY_MOMENTS], reach[RAY_LATTICE], covered, min_gap; /* reach: moments of a gap of 1 along unit directions */
+  ContactShare share;
   PetscReal *dq, *W, *J, *R, *WJ, *part, *buffer;                  /* dq [num_moments][n], W [n][n]; J, R: chainrule.c */
-  PetscReal *T, *rows, *softness;                                  /* [num_rows][lattice]; [n][num_rows] */
+  PetscReal *T, *rows;                                             /* [num_rows][lattice], values and derivative by the share; [n][num_rows] */
   Result     result;                                               /* vertices: lattice, then mortar nodes */
-  PetscInt   size_image, size_overlap, size_mortar, size_window, size_vertex, size_test, size_dq, size_W, size_J, size_R, size_WJ, size_part, size_buffer;
-  PetscInt   size_T, size_rows, size_softness;
+  PetscInt   size_image, size_overlap, size_mortar, size_vertex, size_dq, size_W, size_J, size_R, size_WJ, size_part, size_buffer;
+  PetscInt   size_T, size_rows;
   /* where the rays of the integration points met, overlap after overlap: the Hessian is integrated there again */
   PetscInt        num_places, size_places, *first_place, size_first_place; /* first_place[num_listed]: -1: some overlap was dropped */
   RayPlace       *place;
@@ -184,7 +176,6 @@ void ContactRayFunctions(PetscInt m, PetscInt order, const PetscReal xi[2], int 
 void ContactRayLatticeSum(const RayLattice *, const PetscReal f[], PetscReal v[3]);
 void ContactRayLatticeGather(const ContactSurface *, PetscInt facet, RayLattice *);
 void ContactRayLatticePolynomial(RayLattice *);
-void ContactRayTestFunctions(const RayFacet *, const RayTest *, const PetscReal xi[2], RayFunctions *);
 
 /* continuation.c: the same, but beyond [-1, 1]^2 (m = 2) turning to the slope between the corners. */
 void ContactRayBeyond(const RayBeyond *, PetscInt m, PetscInt order, const PetscReal xi[2], int depth, RayFunctions *);
@@ -277,11 +268,11 @@ INLINE void ContactRaySlopes(PetscInt D, PetscInt m, PetscInt num, const PetscRe
 /* raybilinear.c: the same between bilinear facets. */
 PetscBool ContactRayBilinear(const RayFacet *, const RayLattice *mortar, const PetscReal xi[2], PetscBool known, int depth, RayPoint *);
 
-/* raysecond.c: weighted sum phi gap + chi area. */
+/* raysecond.c: weighted gap phi g. */
 typedef struct {
   PetscReal *basis, *right[3]; /* products (basis_f at component c) x right[c] by the numbers of facet, directions and mortar facet */
-  PetscInt   num_own;          /* products own_left x own_right by the numbers of the lattice, of lattice and directions */
-  PetscReal *own_left[3], *own_right[3];
+  PetscInt   num_own;          /* 0 or 1: product own_left x own_right by the numbers of the lattice, of lattice and directions */
+  PetscReal *own_left, *own_right;
   PetscReal *mixed[2]; /* rows by xi */
   PetscReal  xi[2], xixi[3];
   PetscReal *gradient;
@@ -289,7 +280,7 @@ typedef struct {
   PetscReal *turn_left, *turn_right, *twist_left, *twist_right;
 } RaySecond;
 /* Products and pairs are multiplied with weight. */
-void ContactRaySecond(const RayFacet *, const RayLattice *mortar, const RayPoint *, const RayWeight *phi, const RayWeight *chi, PetscReal weight, RaySecond *);
+void ContactRaySecond(const RayFacet *, const RayLattice *mortar, const RayPoint *, const RayWeight *phi, PetscReal weight, RaySecond *);
 
 /* polygon.c */
 #define RAY_IMAGES 8 /* numbers of the images of one mortar facet */
@@ -326,18 +317,11 @@ void      ContactRayPlaces(const RayWork, const ContactSurface *mortar, PetscInt
 
 /* moments.c, hessian.c: integrals over the overlaps of the facet at hand */
 void           ContactRayOverDet(const RayFacet *, const RayChartPoint *, PetscReal factor, const RayWeight *, RayWeight *);
-PetscErrorCode ContactRayMoments(ContactPair, const ContactSurface *mortar, PetscBool mass, PetscBool derivatives);
-/* W of the work space: half Hessian of sum_a y_a G_a + sum_ab D[a][b] int N_a N_b dA (D NULL: none) at the facet's places; gradient[n] of it is set. Where the
-   rim is held the images' part of the gradient vanishes. */
-PetscErrorCode ContactRayHessian(ContactPair, const ContactSurface *mortar, const PetscReal y[], const PetscReal D[4][4], PetscReal gradient[]);
-
-/* compliance.c: compliances of a facet that is covered in part, with the derivative by the covered area. */
-typedef struct {
-  PetscBool  on;
-  PetscReal  share[2]; /* 4 epsilon s (1 - s) and its derivative */
-  PetscReal *softness; /* [num_rows] times the measure of the row's hats */
-} RaySpring;
-PetscErrorCode ContactRaySpring(ContactPair, const ContactSurface *nonmortar, PetscInt facet, RaySpring *);
+/* q: gap moments, area moments, covered share of the chart. */
+PetscErrorCode ContactRayMoments(ContactPair, const ContactSurface *mortar, PetscBool derivatives);
+/* W of the work space: half Hessian of sum_a y_a G_a + share times the covered share at the facet's places; gradient[n] of it is set. Where lines are held the
+   images' part of the gradient vanishes. */
+PetscErrorCode ContactRayHessian(ContactPair, const ContactSurface *mortar, const PetscReal y[], PetscReal share, PetscReal gradient[]);
 
 /* chainrule.c. held: directions do not vary. */
 PetscErrorCode ContactRayChain(RayWork, const ContactSurface *nonmortar, PetscInt facet, PetscBool held);
@@ -345,7 +329,7 @@ PetscErrorCode ContactRayChain(RayWork, const ContactSurface *nonmortar, PetscIn
 void ContactRayChainImages(RayWork, PetscInt num, PetscReal X[]);
 /* to[num][nn] += X^T by the nodes, without the part by the images. */
 void ContactRayChainNodes(RayWork, PetscInt num, const PetscReal X[], PetscReal to[]);
-/* H += both halves of the work space's W; forces at a held rim: not symmetric, H[i][j] derivative of force i by position j. */
+/* H += both halves of the work space's W; forces at held lines: not symmetric, H[i][j] derivative of force i by position j. */
 PetscErrorCode ContactRayChainHessian(RayWork, PetscReal H[]);
 PetscErrorCode ContactRayDirectionCurvature(RayWork, const ContactSurface *, PetscInt facet, const PetscReal gradient[], PetscReal H[]);
 

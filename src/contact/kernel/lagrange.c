@@ -130,19 +130,3 @@ void ContactRayLatticePolynomial(RayLattice *l)
     l->c[3][i] = 0.25 * (a - b - d + e);
   }
 }
-
-/* Hats of a cell of the facet's lattice. */
-void ContactRayTestFunctions(const RayFacet *f, const RayTest *t, const PetscReal xi[2], RayFunctions *to)
-{
-  PetscReal at[2] = {0, 0}, scale[2] = {1, 1};
-
-  for (PetscInt i = 0; i < f->m; i++) {
-    scale[i] = 2 / t->size[i];
-    at[i]    = scale[i] * (xi[i] - t->lo[i]) - 1;
-  }
-  ContactRayFunctions(f->m, 1, at, 2, to);
-  for (PetscInt a = 0; a < t->num; a++) {
-    for (PetscInt i = 0; i < f->m; i++) to->d[i][a] *= scale[i];
-    if (f->m == 2) to->dd[1][a] *= scale[0] * scale[1];
-  }
-}

@@ -25,7 +25,6 @@ void ContactNodeHits(RayWork w)
     o->node = end;
     for (int k = 0; k < 4; k++) o->v[k][0] = k == 0 || k == 3 ? w->facet.chart.Y[0][0] : w->facet.chart.Y[1][0];
     o->line[0] = o->line[1]      = -1;
-    w->window[w->num_overlaps]   = 0;
     w->mortar[w->num_overlaps++] = mortar[end];
   }
 }

@@ -1,9 +1,8 @@
-/* Second derivatives of phi g + chi |n| rho at a point, g = s b rho, b = d.n, rho = 1 or 2 pi r, phi and chi functions of xi.
+/* Second derivatives of phi g at a point, g = s b rho, b = d.n, rho = 1 or 2 pi r, phi a function of xi.
 
    With r = P + s V - M (ray.c) half of d2g at fixed xi is
-     b rho (ds kappa.V - deta_i kappa.M,i - deta_i deta_j kappa.x_m,ij / 2) + s rho (V.dn + d.(T_1 x T_2)) + rho ds db + (b ds + s db) drho,
-   half of d2(|n| rho) is rho (unit.(T_1 x T_2) + |dn_tangential|^2 / 2 |n|) + d|n| drho. Products with few left factors: ds, deta_i, drho, dn; V.dn and
-   T_1 x T_2 couple nodes by one vector for each pair. Derivatives by xi follow with P -> P + t_i dxi_i and so on: mixed[i] are full rows, xixi full. */
+     b rho (ds kappa.V - deta_i kappa.M,i - deta_i deta_j kappa.x_m,ij / 2) + s rho (V.dn + d.(T_1 x T_2)) + rho ds db + (b ds + s db) drho.
+   Products with few left factors: ds, deta_i, drho; V.dn and T_1 x T_2 couple nodes by one vector for each pair. Derivatives by xi follow with P -> P + t_i dxi_i and so on: mixed[i] are full rows, xixi full. */
 #include "kernelimpl.h"
 
 static inline void Axpy3_Private(PetscReal a, const PetscReal x[3], PetscReal y[3])
@@ -66,48 +65,33 @@ INLINE void Products_Private(const Layout *l, const RayPoint *r, PetscReal phi, 
   }
 }
 
-/* Products of numbers of the facet and its directions: drho, and dn along the facet. */
-INLINE void Own_Private(const Layout *l, const RayPoint *r, PetscReal phi, PetscReal chi, PetscReal weight, RaySecond *o)
+/* Product of numbers of the facet and its directions: drho. */
+INLINE void Own_Private(const Layout *l, const RayPoint *r, PetscReal phi, PetscReal weight, RaySecond *o)
 {
   static const PetscReal none[3] = {0, 0, 0};
-  const PetscInt         D = l->D, own = D * (l->na + l->nv);
-  PetscReal              v[3], e[2][3], w[2][3];
+  const PetscInt         D       = l->D;
+  PetscReal              v[3], w[2][3];
 
   o->num_own = 0;
-  if (r->turn != 0) {
-    PetscReal *left = o->own_left[o->num_own], *right = o->own_right[o->num_own];
-
-    o->num_own++;
-    v[0] = weight * r->turn, v[1] = v[2] = 0;
-    ContactRaySet(D, l->na, r->S.N, v, left);
-    for (int c = 0; c < 3; c++) v[c] = phi * r->s * r->d[c] + chi * r->unit[c];
-    Normal_Private(r, v, w);
-    ContactRaySlopes(D, l->m, l->na, r->S.N, none, r->S.d, w, right);
-    Scale_Private(phi * r->s, r->n, v);
-    ContactRaySet(D, l->nv, r->V.N, v, right + D * l->na);
-  }
-  if (chi == 0) return;
-  Scale_Private(1 / PetscSqrtReal(Dot3(r->t[0], r->t[0])), r->t[0], e[0]);
-  Cross3(r->unit, e[0], e[1]);
-  for (PetscInt k = 0; k < l->m; k++) {
-    PetscReal *left = o->own_left[o->num_own], *right = o->own_right[o->num_own];
-
-    o->num_own++;
-    for (PetscInt i = D * l->na; i < own; i++) right[i] = 0;
-    Normal_Private(r, e[k], w);
-    ContactRaySlopes(D, l->m, l->na, r->S.N, none, r->S.d, w, left);
-    for (PetscInt i = 0; i < D * l->na; i++) right[i] = 0.5 * weight * chi * r->rho / r->a * left[i];
-  }
+  if (r->turn == 0) return;
+  o->num_own = 1;
+  v[0] = weight * r->turn, v[1] = v[2] = 0;
+  ContactRaySet(D, l->na, r->S.N, v, o->own_left);
+  Scale_Private(phi * r->s, r->d, v);
+  Normal_Private(r, v, w);
+  ContactRaySlopes(D, l->m, l->na, r->S.N, none, r->S.d, w, o->own_right);
+  Scale_Private(phi * r->s, r->n, v);
+  ContactRaySet(D, l->nv, r->V.N, v, o->own_right + D * l->na);
 }
 
 /* Pairs of nodes. */
-INLINE void Pairs_Private(const Layout *l, const RayPoint *r, PetscReal phi, PetscReal chi, PetscReal weight, RaySecond *o)
+INLINE void Pairs_Private(const Layout *l, const RayPoint *r, PetscReal phi, PetscReal weight, RaySecond *o)
 {
   const PetscReal factor = weight * phi * r->s * r->rho;
   PetscReal       k[3], u[2][3];
 
   for (int c = 0; c < 3; c++) {
-    k[c]    = weight * r->rho * (phi * r->s * r->d[c] + chi * r->unit[c]);
+    k[c]    = factor * r->d[c];
     u[0][c] = factor * r->t[1][c];
     u[1][c] = -factor * r->t[0][c];
   }
@@ -119,21 +103,21 @@ INLINE void Pairs_Private(const Layout *l, const RayPoint *r, PetscReal phi, Pet
   ContactRaySet(3, l->na, r->S.d[1], k, o->twist_right);
 }
 
-INLINE void Second_Private(const Layout *l, const RayPoint *r, const RayWeight *phi, const RayWeight *chi, PetscReal weight, RaySecond *o)
+INLINE void Second_Private(const Layout *l, const RayPoint *r, const RayWeight *phi, PetscReal weight, RaySecond *o)
 {
   const PetscInt  m = l->m, D = l->D, na = l->na, nv = l->nv, nb = l->nb;
-  const PetscReal br = r->beta * r->rho, sr = r->s * r->rho, gap = ContactRayGap(r), area = ContactRayArea(r);
-  PetscReal       Ag[3], Aa[3] = {r->a * r->turn, 0, 0}, Cg[3], k[3], A[3], B[2][3], C[3], E[3];
-  PetscReal       sigma[2], etai[2][2], betai[2], rhoi[2], ni[2][3], ai[2], gi[2];
+  const PetscReal br = r->beta * r->rho, sr = r->s * r->rho, gap = ContactRayGap(r);
+  PetscReal       Ag[3], Cg[3], k[3], A[3], B[2][3], C[3], E[3];
+  PetscReal       sigma[2], etai[2][2], betai[2], rhoi[2], ni[2][3], gi[2];
 
   Products_Private(l, r, phi->v, weight, o);
-  Own_Private(l, r, phi->v, chi->v, weight, o);
-  Pairs_Private(l, r, phi->v, chi->v, weight, o);
+  Own_Private(l, r, phi->v, weight, o);
+  Pairs_Private(l, r, phi->v, weight, o);
   for (int c = 0; c < 3; c++) {
     Ag[c] = br * r->kappa[c] + (c == 0 ? r->s * r->beta * r->turn : 0);
     Cg[c] = br * r->s * r->kappa[c] + sr * r->n[c];
-    k[c]  = phi->v * sr * r->d[c] + chi->v * r->rho * r->unit[c];
-    A[c]  = phi->v * Ag[c] + chi->v * Aa[c];
+    k[c]  = phi->v * sr * r->d[c];
+    A[c]  = phi->v * Ag[c];
     C[c]  = phi->v * Cg[c];
     E[c]  = -phi->v * br * r->kappa[c];
   }
@@ -150,7 +134,6 @@ INLINE void Second_Private(const Layout *l, const RayPoint *r, const RayWeight *
     for (PetscInt j = 0; j < m; j++) etai[j][i] = Dot3(r->zeta[j], along);
     Cross3(r->tt[i], r->t[1], ni[i]);
     if (m == 2) AddCross_Private(r->t[0], r->tt[i + 1], ni[i]);
-    ai[i]    = Dot3(r->unit, ni[i]);
     betai[i] = Dot3(r->n, r->di[i]) + Dot3(r->d, ni[i]);
     rhoi[i]  = r->turn * r->t[i][0];
     gi[i]    = br * sigma[i] + sr * betai[i] + r->s * r->beta * rhoi[i];
@@ -164,15 +147,10 @@ INLINE void Second_Private(const Layout *l, const RayPoint *r, const RayWeight *
     for (PetscInt j = 0; j < m; j++)
       for (PetscInt q = 0; q < m; q++) Axpy3_Private(-phi->v * br * Dot3(r->kappa, r->Xij[j + q]) * etai[j][i], r->zeta[q], u);
     /* P */
-    for (int c = 0; c < 3; c++) v[c] = u[c] + phi->d[i] * Ag[c] + chi->d[i] * Aa[c];
-    v[0] += (phi->v * (r->beta * sigma[i] + r->s * betai[i]) + chi->v * ai[i]) * r->turn;
+    for (int c = 0; c < 3; c++) v[c] = u[c] + phi->d[i] * Ag[c];
+    v[0] += phi->v * (r->beta * sigma[i] + r->s * betai[i]) * r->turn;
     /* T_k */
-    for (int c = 0; c < 3; c++) {
-      const PetscReal across = ni[i][c] - ai[i] * r->unit[c];
-
-      h[c] = phi->v * sr * r->di[i][c] + chi->v * r->rho * across / r->a + chi->v * rhoi[i] * r->unit[c] + b * r->d[c] + phi->d[i] * sr * r->d[c] +
-             chi->d[i] * r->rho * r->unit[c];
-    }
+    for (int c = 0; c < 3; c++) h[c] = phi->v * sr * r->di[i][c] + b * r->d[c] + phi->d[i] * sr * r->d[c];
     Normal_Private(r, h, n);
     if (m == 2) AddCross_Private(r->tt[i + 1], k, w[0]);
     AddCross_Private(k, r->tt[i], w[1]);
@@ -188,12 +166,11 @@ INLINE void Second_Private(const Layout *l, const RayPoint *r, const RayWeight *
     for (int c = 0; c < 3; c++) v[c] = -u[c] - phi->d[i] * br * r->kappa[c];
     for (PetscInt j = 0; j < m; j++) Scale_Private(etai[j][i], E, w[j]);
     ContactRaySlopes(D, m, nb, r->M.N, v, r->M.d, w, row + D * (na + nv));
-    o->xi[i] = phi->v * gi[i] + phi->d[i] * gap + chi->v * (ai[i] * r->rho + r->a * rhoi[i]) + chi->d[i] * area;
+    o->xi[i] = phi->v * gi[i] + phi->d[i] * gap;
   }
   for (PetscInt i = 0; i < m; i++)
     for (PetscInt j = i; j < m; j++) {
-      const PetscReal Ai = ai[i] * r->rho + r->a * rhoi[i], Aj = ai[j] * r->rho + r->a * rhoi[j];
-      PetscReal sum = phi->dd[i + j] * gap + chi->dd[i + j] * area + phi->d[i] * gi[j] + phi->d[j] * gi[i] + chi->d[i] * Aj + chi->d[j] * Ai, x[3] = {0, 0, 0};
+      PetscReal sum = phi->dd[i + j] * gap + phi->d[i] * gi[j] + phi->d[j] * gi[i], x[3] = {0, 0, 0};
 
       sum += Dot3(A, r->tt[i + j]) + phi->v * br * (sigma[i] * Dot3(r->kappa, r->di[j]) + sigma[j] * Dot3(r->kappa, r->di[i]));
       for (PetscInt q = 0; q < m; q++) sum += Dot3(B[q], r->ttt[i + j + q]);
@@ -206,22 +183,20 @@ INLINE void Second_Private(const Layout *l, const RayPoint *r, const RayWeight *
         AddCross_Private(r->tt[j], r->tt[i + 1], x);
       }
       sum += Dot3(k, x) + phi->v * ((r->beta * sigma[i] + r->s * betai[i]) * rhoi[j] + (r->beta * sigma[j] + r->s * betai[j]) * rhoi[i]);
-      sum += chi->v * (rhoi[i] * ai[j] + rhoi[j] * ai[i] + r->rho / r->a * (Dot3(ni[i], ni[j]) - ai[i] * ai[j]));
       o->xixi[i + j] = sum;
     }
 }
 
 /* Facets of order 1 with numbers that are known here: loops are unrolled. */
-void ContactRaySecond(const RayFacet *f, const RayLattice *mortar, const RayPoint *r, const RayWeight *phi, const RayWeight *chi, PetscReal weight,
-                      RaySecond *o)
+void ContactRaySecond(const RayFacet *f, const RayLattice *mortar, const RayPoint *r, const RayWeight *phi, PetscReal weight, RaySecond *o)
 {
   const PetscInt num = f->s.num == mortar->num && f->s.num == f->nv ? f->nv : 0;
   const Layout   l = {f->D, f->m, f->s.num, f->nv, mortar->num}, edges = {2, 1, 2, 2, 2}, quads = {3, 2, 4, 4, 4};
 
   if (num == 2)
-    Second_Private(&edges, r, phi, chi, weight, o);
+    Second_Private(&edges, r, phi, weight, o);
   else if (num == 4)
-    Second_Private(&quads, r, phi, chi, weight, o);
+    Second_Private(&quads, r, phi, weight, o);
   else
-    Second_Private(&l, r, phi, chi, weight, o);
+    Second_Private(&l, r, phi, weight, o);
 }
