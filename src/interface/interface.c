@@ -21,7 +21,7 @@ PetscErrorCode InterfaceCreate(HPSpace space, Mechanics mechanics, const Mechani
   p->comm = ForestComm(p->forest);
   PetscCallMPI(MPI_Comm_rank(p->comm, &p->rank));
   PetscCallMPI(MPI_Comm_size(p->comm, &p->size));
-  for (PetscMPIInt k = 1; k < 4; ++k) {
+  for (PetscMPIInt k = 1; k <= MOST_REALS; ++k) {
     PetscCallMPI(MPI_Type_contiguous(k, MPIU_REAL, &p->unit[k]));
     PetscCallMPI(MPI_Type_commit(&p->unit[k]));
   }
@@ -39,7 +39,7 @@ PetscErrorCode InterfaceDestroy(Interface *interface)
   PetscFunctionBegin;
   if (!p) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(TrafficReport_Private(p));
-  for (PetscMPIInt k = 1; k < 4; ++k) PetscCallMPI(MPI_Type_free(&p->unit[k]));
+  for (PetscMPIInt k = 1; k <= MOST_REALS; ++k) PetscCallMPI(MPI_Type_free(&p->unit[k]));
   for (PetscInt i = 0; i < p->num_contacts; ++i) PetscCall(ContactDestroy_Private(&p->contacts[i]));
   PetscCall(PetscFree(p->contacts));
   PetscCall(HullDestroy_Private(p));

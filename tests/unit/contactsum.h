@@ -21,10 +21,10 @@ static inline PetscReal Random(uint64_t *state)
 
 /* Unknowns: dim * node + component, mortar nodes after the nonmortar ones. */
 typedef struct {
-  PetscInt   dim, nn, nm, size, num, springs; /* springs: compliances of rows */
+  PetscInt   dim, nn, nm, size, num, springs; /* springs: facets with compliance */
   PetscReal *gap, *weight;                    /* [nn] */
   PetscReal *dgap, *dweight;                  /* [nn][size] */
-  PetscReal *gradient;                        /* [size] forces: of S = sum z gap; rims held */
+  PetscReal *gradient;                        /* [size] forces: of S = sum z gap + z.(compliance) z / 2; held lines held */
   PetscReal *hessian;                         /* [size][size] */
   PetscReal  area, min_gap, S;
   PetscBool  failed;
@@ -63,7 +63,6 @@ static inline void SumAdd(Sum *s, const ContactFacet *f, const PetscReal z[])
     s->gap[node] += f->gap[j];
     s->weight[node] += f->weight[j];
     if (z) s->S += z[node] * f->gap[j];
-    if (f->spring && f->spring[j] > 0) s->springs++;
     for (PetscInt a = 0; a < n && f->dgap; a++) {
       const PetscInt row = SumRow(s, f, a);
 
@@ -71,6 +70,13 @@ static inline void SumAdd(Sum *s, const ContactFacet *f, const PetscReal z[])
       s->dweight[node * s->size + row] += f->dweight[j * n + a];
       if (z) s->gradient[row] += z[node] * (f->push ? f->push : f->dgap)[j * n + a];
     }
+  }
+  if (f->compliance && f->kappa[0] > 0) s->springs++;
+  if (f->compliance && z) {
+    const PetscReal Q = ContactFacetYield(f, f->nodes, z);
+
+    s->S += 0.5 * f->kappa[0] * Q;
+    for (PetscInt a = 0; a < n && f->dshare && !f->push; a++) s->gradient[SumRow(s, f, a)] += 0.5 * f->kappa[1] * Q * f->dshare[a];
   }
   for (PetscInt a = 0; a < n && f->hessian; a++)
     for (PetscInt b = 0; b < n; b++) s->hessian[SumRow(s, f, a) * s->size + SumRow(s, f, b)] += f->hessian[a * n + b];

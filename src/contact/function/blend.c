@@ -1,26 +1,37 @@
-/* One continuous rule for facets that are covered in part. s: covered share of the chart, e = 1 / (p (p + 1))^(d - 1): a
-   corner's share of the weights.
+/* One continuous rule for facets that are covered in part.
 
-   Functions: psi(s) = theta(s) dual + (1 - theta(s)) Bernstein, of the facet's order. The dual ones have the best rates,
-   but int psi_j over a part of the facet may be negative; Bernstein polynomials are positive, so that weights are,
-   whatever is covered, and they sum to 1 and reproduce what is linear as well. theta = 1 while less than 0.3 e is
-   uncovered (no weight of a dual function gets near zero), 0 from e on, two derivatives continuous.
+   Share s: of the weight rho = prod_i 3/4 (1 - xi_i^2) that the mortar side covers. rho vanishes at the facet's sides, so that s has a continuous derivative
+   even where an end of the mortar side lies along one of them. What lies beyond a share x of a side has the weight P(x) = 3 x^2 - 2 x^3.
 
-   Compliance: gaps count as gt + S z, S = kappa(s) [diag m - m m^T / sum m]: pressure that is constant on a facet does not
-   see it. m_j: softness times reference measure of the Bernstein function. Where the mortar side ends a little beyond a
-   node, all that is covered of the facet's other functions is a sliver. Their constraints say nearly the same as the
-   first one's, and pressures that grow like powers of 1 / w_j would bend the facet so that the sliver fits. With kappa,
-   which vanishes with s slower than these w_j do, a sliver's pressure is that of the facet. kappa is 0 where theta = 1:
-   nothing that is covered is ever compliant. */
+   Functions: psi(s) = theta(s) dual + (1 - theta(s)) Bernstein, of the facet's order. The dual ones have the best rates, but int psi_j over a part of the facet
+   may be negative; Bernstein polynomials are positive, so that weights are, whatever is covered, and they sum to 1 and reproduce what is linear as well. With
+   e = P(1 / p (p + 1))^(d - 1), the weight about a corner that its function has a share of: theta = 1 while less than 0.1 e is uncovered (no weight of a dual
+   function gets near zero), 0 from e on, two derivatives continuous.
+
+   Compliance: gaps count as gt + S z, S = kappa(s) [diag m - m m^T / sum m]: pressure that is constant on a facet does not see it. m_j: softness times reference
+   measure of the Bernstein function. Where the mortar side ends a little beyond a node, all that is covered of the facet's other functions is a sliver. Their
+   constraints say nearly the same as the first one's, and pressures that grow like powers of 1 / w_j would bend the facet so that the sliver fits. With kappa,
+   which vanishes no faster with s than these w_j do, a sliver's pressure is that of the facet. kappa is 0 where theta = 1: nothing that is covered is ever
+   compliant. */
 #include "functionimpl.h"
 
-#define WHOLE 0.3     /* of a corner's share: what may be uncovered of a facet that counts as covered */
-#define EPSILON 0.002 /* order 1: a facet that is half covered has this share of the cells' compliance */
+#define WHOLE 0.1     /* of a corner's weight: what may be uncovered of a facet that counts as covered */
+#define EPSILON 0.002 /* order 1: a facet a third of which is covered has this share of the cells' compliance */
+
+void ContactShareWeight(PetscInt m, const PetscReal xi[2], PetscReal *v, PetscReal d[2], PetscReal dd[3])
+{
+  const PetscReal a[2] = {0.75 * (1 - xi[0] * xi[0]), m == 2 ? 0.75 * (1 - xi[1] * xi[1]) : 1}, b[2] = {-1.5 * xi[0], m == 2 ? -1.5 * xi[1] : 0};
+
+  *v   = a[0] * a[1];
+  d[0] = b[0] * a[1], d[1] = a[0] * b[1];
+  dd[0] = -1.5 * a[1], dd[1] = b[0] * b[1], dd[2] = m == 2 ? -1.5 * a[0] : 0;
+}
 
 void ContactShareOf(PetscInt m, PetscInt order, PetscReal share, ContactShare *o)
 {
-  const PetscReal p = (PetscReal)order, corner = m == 1 ? 1 / (p * (p + 1)) : 1 / (p * (p + 1) * p * (p + 1)), whole = 1 - WHOLE * corner;
-  const PetscReal u = (whole - share) / ((1 - WHOLE) * corner), du = -1 / ((1 - WHOLE) * corner), t = share / whole, factor = 16 * EPSILON / p;
+  const PetscReal e = 1 / (PetscReal)(order * (order + 1)), side = e * e * (3 - 2 * e), corner = m == 1 ? side : side * side, whole = 1 - WHOLE * corner;
+  const PetscReal u = (whole - share) / ((1 - WHOLE) * corner), du = -1 / ((1 - WHOLE) * corner), t = share / whole;
+  const PetscReal factor = 6.75 * EPSILON / (PetscReal)order; /* 1 at a third */
 
   *o = (ContactShare){.part = (PetscBool)(share < whole), .theta = {1, 0, 0}, .kappa = {0, 0, 0}};
   if (!o->part) return;
@@ -30,9 +41,9 @@ void ContactShareOf(PetscInt m, PetscInt order, PetscReal share, ContactShare *o
     o->theta[2] = -60 * u * (1 - u) * (1 - 2 * u) * du * du;
   } else
     o->theta[0] = 0;
-  o->kappa[0] = factor * t * t * (1 - t) * (1 - t);
-  o->kappa[1] = factor * 2 * t * (1 - t) * (1 - 2 * t) / whole;
-  o->kappa[2] = factor * 2 * (1 - 6 * t + 6 * t * t) / (whole * whole);
+  o->kappa[0] = factor * t * (1 - t) * (1 - t);
+  o->kappa[1] = factor * (1 - t) * (1 - 3 * t) / whole;
+  o->kappa[2] = factor * (6 * t - 4) / (whole * whole);
 }
 
 PetscErrorCode ContactBernstein(PetscInt m, PetscInt order, PetscReal C[])

@@ -100,6 +100,8 @@ typedef struct {
   PetscBool part; /* less than what counts as all of it */
   PetscReal theta[3], kappa[3];
 } ContactShare;
+/* Weight of a place of [-1, 1]^m in the share, integral 1, and derivatives 1 2, 11 12 22. */
+void ContactShareWeight(PetscInt m, const PetscReal xi[2], PetscReal *v, PetscReal d[2], PetscReal dd[3]);
 void ContactShareOf(PetscInt m, PetscInt order, PetscReal share, ContactShare *);
 /* C[num][num]: Bernstein polynomial j of a facet in m dimensions by the functions of its lattice. */
 PetscErrorCode ContactBernstein(PetscInt m, PetscInt order, PetscReal C[]);

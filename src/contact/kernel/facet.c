@@ -260,6 +260,7 @@ static PetscErrorCode Compliance_Private(ContactPair pair, PetscInt facet, Conta
     softness += multiplier->measure[first + r] * pair->softness[w->result.node[r]];
   }
   for (PetscInt r = 0; r < nr; r++) m[r] = multiplier->measure[first + r] * softness / sum;
+  out->num_rows   = nr;
   out->compliance = m;
   out->kappa[0]   = w->share.kappa[0];
   out->kappa[1]   = w->share.kappa[1];

@@ -69,24 +69,27 @@ static void Corners_Private(const RayFacet *f, const RayPoint *r, const PetscRea
   }
 }
 
-/* place: where the rays met when the moments were found. share: a density per area of the chart besides. */
+/* place: where the rays met when the moments were found. share: factor of the weight of the
+   covered share besides. */
 static PetscErrorCode Batch_Private(const RayWork w, const RayLattice *mortar, const RaySimplex *s, PetscInt points, const PetscReal point[][3],
                                     const PetscReal weight[], const PetscReal y[], PetscReal share, const RayPlace place[], RayPoint *r, RaySecond *second,
                                     Batch *b)
 {
   const RayFacet *f  = &w->facet;
   const PetscInt  na = f->s.num;
-  RayWeight       sum, phi;
+  RayWeight       sum, phi, rho, sigma;
 
   PetscFunctionBegin;
   b->num_points = points;
   b->num_own = b->num_xi = 0;
-  b->mean                = share;
+  b->mean                = 0;
   for (PetscInt i = 0; i < b->nq + 6; i++) b->gradient[i] = 0;
   for (PetscInt k = 0; k < points; k++) {
     PetscCheck(ContactRayAgain(f, mortar, &place[k], 3, r), PETSC_COMM_SELF, PETSC_ERR_PLIB, "a ray that met the mortar facet does not meet it again");
     Weight_Private(f, &r->S, y, &sum);
     ContactRayOverDet(f, &r->chart, weight[k], &sum, &phi);
+    ContactShareWeight(f->m, r->xi, &rho.v, rho.d, rho.dd);
+    ContactRayOverDet(f, &r->chart, share * weight[k], &rho, &sigma);
     second->basis       = b->basis + k * b->nf;
     second->turn_left   = b->turn_left + k * f->nv;
     second->turn_right  = b->turn_right + k * 3 * na;
@@ -98,7 +101,9 @@ static PetscErrorCode Batch_Private(const RayWork w, const RayLattice *mortar, c
     for (PetscInt i = 0; i < f->m; i++) second->mixed[i] = b->right_xi + (b->num_xi + i) * (b->nq + 6);
     ContactRaySecond(f, mortar, r, &phi, s->size, second);
     b->num_own += second->num_own;
-    b->mean += phi.v * ContactRayGap(r);
+    for (PetscInt i = 0; i < f->m; i++) second->xi[i] += sigma.d[i];
+    for (PetscInt i = 0; i < 2 * f->m - 1; i++) second->xixi[i] += sigma.dd[i];
+    b->mean += phi.v * ContactRayGap(r) + sigma.v;
     for (PetscInt i = 0; i < b->nq; i++) b->gradient[i] += second->gradient[i];
     Corners_Private(f, r, point[k], second, b);
   }
@@ -316,7 +321,7 @@ PetscErrorCode ContactRayHessian(ContactPair pair, const ContactSurface *mortar,
     pair_sums.turn  = w->part + N * N;
     pair_sums.twist = pair_sums.turn + 3 * f->nv * f->s.num;
     slope           = pair_sums.turn + 3 * pairs;
-    PetscCall(Overlap_Private(w, &facet, k, y, (f->m == 1 ? 2 : 1) * share / f->area, &at, &pair_sums, w->part, slope));
+    PetscCall(Overlap_Private(w, &facet, k, y, share, &at, &pair_sums, w->part, slope));
     AddPairs_Private(w, &pair_sums);
     ContactRayPlaces(w, mortar, k, facet.num, place);
     for (PetscInt a = 0; a < width; a++) gradient[place[a]] += slope[a];

@@ -317,7 +317,7 @@ void      ContactRayPlaces(const RayWork, const ContactSurface *mortar, PetscInt
 
 /* moments.c, hessian.c: integrals over the overlaps of the facet at hand */
 void           ContactRayOverDet(const RayFacet *, const RayChartPoint *, PetscReal factor, const RayWeight *, RayWeight *);
-/* q: gap moments, area moments, covered share of the chart. */
+/* q: gap moments, area moments, covered share (blend.c). */
 PetscErrorCode ContactRayMoments(ContactPair, const ContactSurface *mortar, PetscBool derivatives);
 /* W of the work space: half Hessian of sum_a y_a G_a + share times the covered share at the facet's places; gradient[n] of it is set. Where lines are held the
    images' part of the gradient vanishes. */

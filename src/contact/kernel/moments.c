@@ -1,4 +1,4 @@
-/* Moments int N_a g, int N_a dA of one facet over its overlaps, and the covered share of its chart, with exact first derivatives.
+/* Moments int N_a g, int N_a dA of one facet over its overlaps, and the covered share (blend.c), with exact first derivatives.
 
    Polygons are split into triangles (plane: intervals); a Gauss point Y = sum_k beta_k C_k, beta constant, moves with their corners C: dxi = J^-1 dY.
    Integrands per dY carry 1 / det Y,xi. */
@@ -16,9 +16,9 @@ void ContactRayOverDet(const RayFacet *f, const RayChartPoint *c, PetscReal fact
       to->dd[i + j] = (w->dd[i + j] - (w->d[i] * c->ddet[j] + w->d[j] * c->ddet[i]) / c->det + 2 * w->v * c->ddet[i] * c->ddet[j] / (c->det * c->det)) * over;
 }
 
-/* Functions of the lattice that weigh gap and area, with derivatives by Y. */
+/* Functions of the lattice that weigh gap and area, and the weight of the share behind them, with derivatives by Y. */
 typedef struct {
-  PetscReal v[RAY_LATTICE], d[2][RAY_LATTICE];
+  PetscReal v[RAY_LATTICE + 1], d[2][RAY_LATTICE + 1];
 } Factors;
 
 INLINE void FactorsOf_Private(PetscInt m, PetscInt n, const RayFunctions *S, const RayChartPoint *chart, PetscBool derivatives, Factors *w)
@@ -31,32 +31,39 @@ INLINE void FactorsOf_Private(PetscInt m, PetscInt n, const RayFunctions *S, con
     }
 }
 
-static void Factors_Private(const RayFacet *f, const RayFunctions *S, const RayChartPoint *chart, PetscBool derivatives, Factors *w)
+static void Factors_Private(const RayFacet *f, const RayFunctions *S, const PetscReal xi[2], const RayChartPoint *chart, PetscBool derivatives, Factors *w)
 {
+  PetscReal d[2], dd[3];
+
   if (f->m == 2 && f->s.num == 4)
     FactorsOf_Private(2, 4, S, chart, derivatives, w);
   else
     FactorsOf_Private(f->m, f->s.num, S, chart, derivatives, w);
+  ContactShareWeight(f->m, xi, &w->v[f->s.num], d, dd);
+  for (PetscInt c = 0; c < f->m && derivatives; c++) {
+    w->d[c][f->s.num] = 0;
+    for (PetscInt i = 0; i < f->m; i++) w->d[c][f->s.num] += chart->inverse[i][c] * d[i];
+  }
 }
 
 /* Sums over one simplex. */
 typedef struct {
   PetscInt   num, nq, na;                 /* functions, numbers, numbers of the lattice */
-  PetscReal *weight, *gap, *area, *along; /* [points][num], [points][nq], [points][na], [points][m][2 num] */
-  PetscReal *corner;                      /* [m + 1][m][2 num] derivatives by the simplex's corners */
+  PetscReal *weight, *gap, *area, *along; /* [points][num], [points][nq], [points][na], [points][m][2 num + 1] */
+  PetscReal *corner;                      /* [m + 1][m][2 num + 1] derivatives by the simplex's corners */
   PetscReal  mean[RAY_MOMENTS], reach[RAY_LATTICE];
 } Batch;
 
-/* along[m][2 num], its first num: derivatives by Y of functions over det times the density g. */
-static void Along_Private(const RayFacet *f, const RayChartPoint *chart, const Factors *w, PetscReal over, PetscReal g, const PetscReal g_xi[2], PetscInt num,
-                          PetscReal along[])
+/* along[m][ld]: derivatives by Y of functions from .. from + num over det times the density g. */
+static void Along_Private(const RayFacet *f, const RayChartPoint *chart, const Factors *w, PetscReal over, PetscReal g, const PetscReal g_xi[2], PetscInt from,
+                          PetscInt num, PetscInt ld, PetscReal along[])
 {
   for (PetscInt c = 0; c < f->m; c++) {
-    const PetscReal *d = w->d[c], y = over * g;
+    const PetscReal *d = w->d[c] + from, *v = w->v + from, y = over * g;
     PetscReal        x = 0;
 
     for (PetscInt i = 0; i < f->m; i++) x += chart->inverse[i][c] * over * (g_xi[i] - g * chart->ddet[i] / chart->det);
-    for (PetscInt q = 0; q < num; q++) along[2 * c * num + q] = x * w->v[q] + y * d[q];
+    for (PetscInt q = 0; q < num; q++) along[c * ld + q] = x * v[q] + y * d[q];
   }
 }
 
@@ -64,11 +71,12 @@ static PetscBool Batch_Private(RayWork w, const RayLattice *mortar, const Overla
                                const PetscReal point[][3], const PetscReal weight[], PetscBool derivatives, RayPoint *r, Batch *b)
 {
   const RayFacet *f     = &w->facet;
-  const PetscInt  num   = b->num;
+  const PetscInt  num = b->num, all = 2 * num + 1;
+  const PetscReal flat[2] = {0, 0};
   RayPlace       *place = w->place + w->num_places;
   Factors         factor;
 
-  for (PetscInt q = 0; q < 2 * num; q++) b->mean[q] = 0;
+  for (PetscInt q = 0; q < all; q++) b->mean[q] = 0;
   for (PetscInt k = 0; k < points; k++) {
     PetscReal gap_xi[2], area_xi[2], gap, area, over, unit;
 
@@ -77,18 +85,20 @@ static PetscBool Batch_Private(RayWork w, const RayLattice *mortar, const Overla
     gap = ContactRayGap(r), area = ContactRayArea(r), over = weight[k] / r->chart.det;
     w->min_gap = PetscMin(w->min_gap, r->s * r->beta / r->a);
     w->covered += s->size * area * over;
-    Factors_Private(f, &r->S, &r->chart, derivatives, &factor);
+    Factors_Private(f, &r->S, r->xi, &r->chart, derivatives, &factor);
     unit = s->size * over * r->beta * r->rho / PetscSqrtReal(Dot3(r->d, r->d));
     for (PetscInt q = 0; q < num; q++) {
       b->mean[q] += factor.v[q] * over * gap;
       b->mean[num + q] += factor.v[q] * over * area;
       b->reach[q] += factor.v[q] * unit;
     }
+    b->mean[2 * num] += factor.v[num] * over;
     if (!derivatives) continue;
     for (PetscInt q = 0; q < num; q++) b->weight[k * num + q] = factor.v[q] * over;
     ContactRayFirst(f, mortar, r, b->gap + k * b->nq, b->area + k * b->na, gap_xi, area_xi);
-    Along_Private(f, &r->chart, &factor, over, gap, gap_xi, num, b->along + 2 * k * f->m * num);
-    Along_Private(f, &r->chart, &factor, over, area, area_xi, num, b->along + 2 * k * f->m * num + num);
+    Along_Private(f, &r->chart, &factor, over, gap, gap_xi, 0, num, all, b->along + k * f->m * all);
+    Along_Private(f, &r->chart, &factor, over, area, area_xi, 0, num, all, b->along + k * f->m * all + num);
+    Along_Private(f, &r->chart, &factor, over, 1, flat, num, 1, all, b->along + k * f->m * all + 2 * num);
   }
   w->num_places += points;
   return PETSC_TRUE;
@@ -100,8 +110,7 @@ static PetscErrorCode Overlap_Private(RayWork w, const RayLattice *mortar, Petsc
   const RayFacet *f = &w->facet;
   Overlap         split;
   const Overlap  *o = &split;
-  const PetscInt  D = f->D, na = f->s.num, nq = D * (na + f->nv + mortar->num), width = nq + RAY_IMAGES, m = f->m;
-  const PetscReal height = m == 1 ? 2 : 1; /* of intervals in the chart */
+  const PetscInt  D = f->D, na = f->s.num, nq = D * (na + f->nv + mortar->num), width = nq + RAY_IMAGES, m = f->m, all = 2 * na + 1;
   RayMove         move[FACET_VERTICES];
   RayGuess        guess;
   Batch           b;
@@ -115,14 +124,14 @@ static PetscErrorCode Overlap_Private(RayWork w, const RayLattice *mortar, Petsc
   *good     = PETSC_TRUE;
   b.num = na, b.nq = nq, b.na = D * na;
   PetscCall(ContactRayRule(f, o, mortar->order, &points, &point, &weight));
-  PetscCall(ContactGrow(points * (na + nq + b.na + 2 * m * na) + 2 * m * (m + 1) * na, sizeof(PetscReal), &w->size_buffer, &w->buffer));
+  PetscCall(ContactGrow(points * (na + nq + b.na + m * all) + m * (m + 1) * all, sizeof(PetscReal), &w->size_buffer, &w->buffer));
   PetscCall(ContactGrow(w->num_places + simplices * points, sizeof(RayPlace), &w->size_places, &w->place));
   b.weight = w->buffer, b.gap = b.weight + points * na, b.area = b.gap + points * nq, b.along = b.area + points * b.na;
-  b.corner = b.along + points * 2 * m * na;
-  for (PetscInt i = 0; i <= 2 * na; i++) q[i] = 0;
+  b.corner = b.along + points * m * all;
+  for (PetscInt i = 0; i < all; i++) q[i] = 0;
   for (PetscInt i = 0; i < na; i++) b.reach[i] = 0;
   if (derivatives) {
-    PetscCall(PetscArrayzero(dq, (2 * na + 1) * width));
+    PetscCall(PetscArrayzero(dq, all * width));
     ContactRayMoves(f, o, move);
   }
   ContactRayGuess(f, mortar, o, &guess);
@@ -132,20 +141,18 @@ static PetscErrorCode Overlap_Private(RayWork w, const RayLattice *mortar, Petsc
     ContactRaySimplex(f, o, j, &s);
     *good = Batch_Private(w, mortar, o, &guess, &s, points, point, weight, derivatives, &r, &b);
     if (!*good) PetscFunctionReturn(PETSC_SUCCESS);
-    for (PetscInt i = 0; i < 2 * na; i++) q[i] += s.size * b.mean[i];
-    q[2 * na] += height * s.size / f->area;
+    for (PetscInt i = 0; i < all; i++) q[i] += s.size * b.mean[i];
     if (!derivatives) continue;
     ContactRayProducts(points, s.size, na, b.weight, na, nq, b.gap, nq, dq, width);
     ContactRayProducts(points, s.size, na, b.weight, na, b.na, b.area, b.na, dq + na * width, width);
-    PetscCall(PetscArrayzero(b.corner, 2 * m * (m + 1) * na));
-    ContactRayProducts(points, s.size, m + 1, point[0], 3, 2 * m * na, b.along, 2 * m * na, b.corner, 2 * m * na);
+    PetscCall(PetscArrayzero(b.corner, m * (m + 1) * all));
+    ContactRayProducts(points, s.size, m + 1, point[0], 3, m * all, b.along, m * all, b.corner, m * all);
     for (PetscInt v = 0; v <= m; v++)
       for (PetscInt c = 0; c < m; c++) {
-        const PetscReal *along = move[s.corner[v]].d[c], *corner = b.corner + 2 * (m * v + c) * na, d = s.d[m * v + c];
+        const PetscReal *along = move[s.corner[v]].d[c], *corner = b.corner + (m * v + c) * all, d = s.d[m * v + c];
 
-        for (PetscInt i = 0; i < 2 * na; i++)
+        for (PetscInt i = 0; i < all; i++)
           for (int l = 0; l < RAY_IMAGES; l++) dq[i * width + nq + l] += (corner[i] + b.mean[i] * d) * along[l];
-        for (int l = 0; l < RAY_IMAGES; l++) dq[2 * na * width + nq + l] += height * d / f->area * along[l];
       }
   }
   for (PetscInt i = 0; i < na; i++) w->reach[i] += b.reach[i];

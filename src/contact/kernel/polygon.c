@@ -31,13 +31,14 @@ void ContactRayProducts(PetscInt num, PetscReal factor, PetscInt nl, const Petsc
 
 /* ---- quadrature ---------------------------------------------------------------------------------------------------------------------- */
 
-/* Barycentric points and weights. What is integrated between parallelograms is a polynomial of degree 2 order_s + 2 order_m at most; two degrees more, at
-   least, are for others. Gauss points on intervals; on triangles symmetric rules (quadrature.c), beyond them conical products. Node to segment: the node. */
+/* Barycentric points and weights. What is integrated between flat parallelograms is a polynomial of degree 2 order_s + 2 order_m at most, 4 order_s where it is
+   a derivative by the facet's own nodes; two degrees more than the first, at least, are for others. Gauss points on intervals; on triangles symmetric rules (quadrature.c), beyond them conical products. Node to segment: the node. */
 PetscErrorCode ContactRayRule(const RayFacet *f, const Overlap *o, PetscInt mortar_order, PetscInt *num, const PetscReal (**point)[3], const PetscReal **weight)
 {
   static const PetscReal End[2][3] = {{1, 0, 0}, {0, 1, 0}}, Half = 0.5;
-  static PetscReal       P[2][2 * RAY_ORDER + 1][MOST_POINTS][3], Q[2][2 * RAY_ORDER + 1][MOST_POINTS];
-  const PetscInt         m = f->m, sum = f->s.order + mortar_order, n = PetscMin(m == 1 ? sum + 3 : sum + 2, RAY_ORDER + 4);
+  static PetscReal       P[2][RAY_ORDER + 5][MOST_POINTS][3], Q[2][RAY_ORDER + 5][MOST_POINTS];
+  const PetscInt         m = f->m, sum = f->s.order + mortar_order, half = PetscMax(sum + 1, 2 * f->s.order);
+  const PetscInt         n = PetscMin(m == 1 ? half + 2 : half + 1, RAY_ORDER + 4);
   const Basis1D         *gauss;
 
   PetscFunctionBegin;
@@ -45,19 +46,19 @@ PetscErrorCode ContactRayRule(const RayFacet *f, const Overlap *o, PetscInt mort
     *num = 1, *point = End + o->node, *weight = &Half;
     PetscFunctionReturn(PETSC_SUCCESS);
   }
-  if (m == 2 && ContactRuleGet(2 * sum + 2, num, point, weight)) PetscFunctionReturn(PETSC_SUCCESS);
+  if (m == 2 && ContactRuleGet(2 * half, num, point, weight)) PetscFunctionReturn(PETSC_SUCCESS);
   *num    = m == 1 ? n : n * n;
-  *point  = (const PetscReal(*)[3])P[m - 1][sum];
-  *weight = Q[m - 1][sum];
-  if (Q[m - 1][sum][0] != 0) PetscFunctionReturn(PETSC_SUCCESS);
+  *point  = (const PetscReal(*)[3])P[m - 1][n];
+  *weight = Q[m - 1][n];
+  if (Q[m - 1][n][0] != 0) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(Basis1DGet(1, n, &gauss));
   for (PetscInt k = 0; k < *num; k++) {
     const PetscReal u = gauss->points[k % n], v = m == 2 ? gauss->points[k / n] : 0;
 
-    P[m - 1][sum][k][0] = (1 - u) * (1 - v);
-    P[m - 1][sum][k][1] = u;
-    P[m - 1][sum][k][2] = v * (1 - u);
-    Q[m - 1][sum][k]    = gauss->weights[k % n] * (m == 2 ? 2 * (1 - u) * gauss->weights[k / n] : 1);
+    P[m - 1][n][k][0] = (1 - u) * (1 - v);
+    P[m - 1][n][k][1] = u;
+    P[m - 1][n][k][2] = v * (1 - u);
+    Q[m - 1][n][k]    = gauss->weights[k % n] * (m == 2 ? 2 * (1 - u) * gauss->weights[k / n] : 1);
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
