@@ -4,8 +4,9 @@
      [ B   C ] [z] = [g],     rows of inactive nodes: B = 0, C = -w0/c; of active ones: C = 0, B = minus the normalised gradient
                               (C < 0 where facets are covered in part). F, the forces of the multipliers, is B^T in the symmetric form.
 
-   Augmented form (Fortin & Glowinski): the same solution satisfies (K + B^T G B) u + F z = f + B^T G g, G diagonal over the active rows. With G_j = (b_j D
-   b_j^T) / (b_j b_j^T)^2, D = diag K, the augmentation is as stiff as the mesh itself: it spoils no multigrid method and holds bodies that only contact holds.
+   Augmented form (Fortin & Glowinski): the same solution satisfies (K + B^T G B) u + (F + B^T G C) z = f + B^T G g, G diagonal over the active rows. With
+   G_j = g_j = (b_j D b_j^T) / (b_j b_j^T)^2, D = diag K, the augmentation is as stiff as the mesh itself: it spoils no multigrid method and holds bodies that
+   only contact holds; where a constraint is compliant it is as stiff as both in a row, 1 / G_j = 1 / g_j + |C_jj|.
    Right preconditioner [ M  F ] [ 0  -S  ],   M: one cycle of algebraic multigrid with rigid-body modes on K + B^T G B, S = G^-1 (active), -C (inactive):
    with exact M the Schur complement times G has eigenvalues s/(1+s) < 1, s those of G B K^-1 B^T, which are bounded below on any mesh. GMRES.
    Where forces hold the rim of a contact face (docs/theory.md, (5.8)) the tangent has its exact form: rows of inactive nodes C = w0, and columns are nearly
@@ -39,10 +40,13 @@ static PetscErrorCode BlocksRestore_Private(Saddle s, Vec x, Vec *u, Vec *z)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* y += F x */
+/* y += (F + B^T G C) x */
 static PetscErrorCode AddForces_Private(Saddle s, Vec x, Vec y)
 {
   PetscFunctionBegin;
+  PetscCall(MatMult(s->C, x, s->work_z));
+  PetscCall(VecPointwiseMult(s->work_z, s->work_z, s->G));
+  PetscCall(MatMultTransposeAdd(s->B, s->work_z, y, y));
   if (s->F)
     PetscCall(MatMultAdd(s->F, x, y, y));
   else
@@ -206,7 +210,7 @@ static PetscErrorCode Weights_Private(Saddle s)
   PetscCall(VecGetArrayRead(sigma, &ratio));
   PetscCall(VecGetArray(s->scale, &d));
   for (PetscInt j = 0; j < n; ++j) {
-    g[j]  = q[j] > 0 && c[j] == 0 ? w[j] / (q[j] * q[j]) : 0;
+    g[j]  = q[j] > 0 ? 1 / (q[j] * q[j] / w[j] + PetscAbsReal(c[j] / ratio[j])) : 0;
     sc[j] = (q[j] > 0 ? ratio[j] * q[j] * q[j] / w[j] : 0) - c[j];
     sum[0] += PetscSqrtReal(q[j]);
     sum[1] += q[j] > 0;
@@ -272,6 +276,7 @@ PetscErrorCode SaddleDestroy_Private(Saddle *saddle)
   PetscCall(VecDestroy(&s->S));
   PetscCall(VecDestroy(&s->scale));
   PetscCall(VecDestroy(&s->work_u));
+  PetscCall(VecDestroy(&s->work_z));
   PetscCall(VecDestroy(&s->rhs));
   PetscCall(PetscFree(*saddle));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -297,6 +302,7 @@ PetscErrorCode SaddleSetUp_Private(Saddle s, Mat A, PetscBool symmetric)
     PetscCall(MatCreateVecs(s->B, &s->work_u, &s->G));
     PetscCall(VecDuplicate(s->G, &s->S));
     PetscCall(VecDuplicate(s->G, &s->scale));
+    PetscCall(VecDuplicate(s->G, &s->work_z));
   }
   PetscCall(Weights_Private(s));
   PetscCall(Augment_Private(s));

@@ -168,9 +168,10 @@ static PetscErrorCode Nodes_Private(RayWork w, const ContactSurface *mortar)
 
 PetscErrorCode ContactCover(ContactPair pair, const ContactSurface *nonmortar, const ContactSurface *mortar, PetscInt slot, PetscBool *failed)
 {
-  RayWork        w     = pair->ray;
-  RayFacet      *f     = &w->facet;
-  const PetscInt facet = pair->listed[slot];
+  RayWork        w       = pair->ray;
+  RayFacet      *f       = &w->facet;
+  const PetscInt facet   = pair->listed[slot];
+  PetscReal      covered = 0;
   RayBundle      rays;
 
   PetscFunctionBegin;
@@ -198,7 +199,8 @@ PetscErrorCode ContactCover(ContactPair pair, const ContactSurface *nonmortar, c
     if (ContactRayBundleMeets(&rays, &w->ball[pair->candidate[k]])) PetscCall(See_Private(pair, mortar, pair->candidate[k]));
   ContactUnfold(&w->num_overlaps, w->overlap, w->mortar, f->area);
   if (pair->node_to_segment) ContactNodeHits(w);
-  w->frozen = (PetscBool)(f->D == 3 && pair->frozen_segmentation && f->s.order > 1);
+  for (PetscInt k = 0; k < w->num_overlaps; k++) covered += w->overlap[k].area;
+  w->frozen = (PetscBool)(f->D == 3 && f->s.order > 1 && !pair->held && (pair->frozen_segmentation || covered < (1 - FACET_ON) * f->area));
   PetscCall(Nodes_Private(w, mortar));
   w->n = f->D * (f->s.num + f->nv + w->num_mortar) + f->m * w->num_images;
   PetscFunctionReturn(PETSC_SUCCESS);
