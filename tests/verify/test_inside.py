@@ -7,11 +7,11 @@ import pytest
 from boxmesh import linspace, write
 
 RUBBER = {"law": "neo_hookean", "E": 1, "nu": 0.3}
-GIVE_UP = ("-load_step_min", 0.6, "-path_viscous", "off", "-output_fields", "false")
+GIVE_UP = ("-load_step_min", 0.6, "-path_viscous", "off", "-path_through", "off", "-output_fields", "false")
 
 
-def scene(path, dim, heights, ways, law=RUBBER):
-    """A large block of height 1, and small ones, 0.2 high, whose bottoms begin at these heights and move down this far."""
+def scene(path, dim, heights, ways, law=RUBBER, across=0):
+    """A large block of height 1, and small ones, 0.2 high, whose bottoms begin at these heights and move down this far, and across."""
     up, num, rigid = "xyz"[dim - 1], len(heights), law["law"] == "rigid"
     names = ["large", *(f"small{k}" for k in range(num))]
 
@@ -22,7 +22,7 @@ def scene(path, dim, heights, ways, law=RUBBER):
         return {f"{up}0": "bottom_", f"{up}1": "top_"}[name] + names[block] if name[0] == up else None
 
     write(path / "blocks.msh", [linspace(0, 1, 3)] * dim, [lambda *x: x, *map(small, range(num))], side=side, body=lambda centre, block: names[block])
-    motion = [{axis: -way * (axis == up) for axis in "xyz"[:dim]} for way in ways]
+    motion = [{axis: -way if axis == up else across * (axis == "x") for axis in "xyz"[:dim]} for way in ways]
     return json.dumps({"mesh": {"file": "blocks.msh"}, "model": "plane_strain" if dim == 2 else "3d", "material": {"rubber": RUBBER, "other": law}, "load": {"step": 1},
                        "body": {"large": {"material": "rubber"}} | {name: {"material": "other"} | ({"motion": u} if rigid else {}) for name, u in zip(names[1:], motion)},
                        "boundary": {"bottom_large": {"fix": "xyz"[:dim]}} | {f"top_{name}": {"displacement": u} for name, u in zip(names[1:], motion) if not rigid},
