@@ -74,8 +74,10 @@ static PetscInt Roots_Private(const PetscReal c[4], PetscReal s[3], PetscBool up
     if (below == (PetscBool)(Value_Private(c, hi) < 0)) continue;
     for (PetscInt k = 0; k < HALVINGS; ++k) {
       const PetscReal at = (lo + hi) / 2;
-      if ((PetscBool)(Value_Private(c, at) < 0) == below) lo = at;
-      else hi = at;
+      if ((PetscBool)(Value_Private(c, at) < 0) == below)
+        lo = at;
+      else
+        hi = at;
     }
     up[num]  = below;
     s[num++] = hi;

@@ -1,6 +1,6 @@
-/* Did a body go right through the other one of a contact pair that bears nothing? Nothing overlaps any more when it is out at the far side, and no contact tells.
-   From the state that was set out from (s = 0) to the one found (s = 1) all outer facets, as they are drawn, move on straight lines. Of a middle that touches
-   the other body at s = 0, round-off decides on which side it is: the way is followed from s = -1 on. */
+/* Did a body go right through the other one of a contact pair that bears nothing? Nothing overlaps any more when it is out at the far side, and no contact
+   tells. From the state that was set out from (s = 0) to the one found (s = 1) all outer facets, as they are drawn, move on straight lines. Of a middle that
+   touches the other body at s = 0, round-off decides on which side it is: the way is followed from s = -1 on. */
 #include "diagnoseimpl.h"
 
 /* A piece on its way. */
@@ -97,7 +97,8 @@ static PetscBool Nears_Private(const Pieces *s, const int8_t is[], const PetscRe
 }
 
 /* The middles of pieces on the sides of bare pairs, of all ranks. Collective. */
-static PetscErrorCode Middles_Private(const Pieces *s, MPI_Comm comm, const PetscInt bare[], const int8_t is[], const Mover mover[], PetscInt *num, Mover **middle)
+static PetscErrorCode Middles_Private(const Pieces *s, MPI_Comm comm, const PetscInt bare[], const int8_t is[], const Mover mover[], PetscInt *num,
+                                      Mover **middle)
 {
   PetscInt mine = 0, most = 0;
   Mover   *own;
