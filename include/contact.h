@@ -192,6 +192,8 @@ PetscErrorCode ContactPairFreezeSegmentation(ContactPair, PetscBool frozen);
 PetscErrorCode ContactPairGetSegments(ContactPair, PetscInt *num, const ContactSegment **segments);
 /* Nodal normals of the last evaluation [num_nodes][dim]; NaN at nodes with neighbours that are not known here. */
 PetscErrorCode ContactPairGetNormals(ContactPair, const PetscReal **normals);
+/* [num_facets] share of the dual functions in those of each facet at its last evaluation, the rest being Bernstein polynomials (blend.c). */
+PetscErrorCode ContactPairGetDualShares(ContactPair, const PetscReal **theta);
 /* Overlaps of the last evaluation that could not be used: mortar facets whose corners have no picture, lie folded over or are not convex in the facet's view,
    or that rays miss. */
 PetscErrorCode ContactPairGetDegenerate(ContactPair, PetscInt *num);

@@ -31,6 +31,7 @@ PetscErrorCode ContactPairDestroy(ContactPair *pair)
   PetscCall(PetscFree(p->start));
   PetscCall(PetscFree(p->candidate));
   PetscCall(PetscFree(p->normal));
+  PetscCall(PetscFree(p->theta));
   PetscCall(PetscFree(p->output));
   PetscCall(PetscFree(p->ids));
   PetscCall(PetscFree(p->result));
@@ -61,6 +62,13 @@ PetscErrorCode ContactPairGetNormals(ContactPair pair, const PetscReal **normals
 {
   PetscFunctionBegin;
   *normals = pair->normal;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode ContactPairGetDualShares(ContactPair pair, const PetscReal **theta)
+{
+  PetscFunctionBegin;
+  *theta = pair->theta;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

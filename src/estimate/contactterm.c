@@ -159,6 +159,7 @@ PetscErrorCode ContactTermsCreate_Private(Problem problem, ContactTerms *terms)
     ContactSegment *all;
     PetscInt        num;
     PetscCall(InterfaceGetContact(ProblemInterface(problem), i, &term->view));
+    PetscCall(ContactPairGetDualShares(term->view->pair, &term->theta));
     PetscCall(FacetPlaces_Private(t, &term->view->nonmortar, &term->facet_place[0]));
     PetscCall(FacetPlaces_Private(t, &term->view->mortar, &term->facet_place[1]));
     PetscCall(GatherSegments_Private(ForestComm(forest), t, term->view, &num, &all));

@@ -34,6 +34,7 @@ typedef struct {
 /* Which contact facet a facet of the mesh is, and what presses on this rank's facets; built from the views of the problem. */
 typedef struct {
   const ContactView *view;
+  const PetscReal   *theta;          /* [nonmortar num_facets] borrowed: share of the dual functions */
   PetscReal         *z, *normal, *x; /* owned [nonmortar num_nodes], [..][dim]: at the nodes of nonmortar facets of this rank, or that its mortar facets face */
   PetscInt          *facet_place[2]; /* owned [num_facets] facet of the nonmortar, mortar side, or -1 */
   PetscInt          *segment_first;  /* owned [mortar num_facets + 1] */

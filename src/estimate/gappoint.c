@@ -122,18 +122,19 @@ static void Gap_Private(const EstimateSum *sum, const ContactTerm *term, const C
 
 /* Functions of the nonmortar facet's nodes: pressure, and the gap that the constraints know of. On facets of order 1 the dual functions are the hats three
    times as steep about the middle, products of 2 N0 - N1 and 2 N1 - N0: theirs is the pressure that works, for which the facets' vertices are placed so that
-   their bulges do none (src/hp/surface.c). */
+   their bulges do none (src/hp/surface.c); where a facet is covered in part they give way to the hats. */
 static void Nodal_Private(const ContactTerm *term, PetscInt facet, const PetscReal N[], GapPoint *p)
 {
   const SurfaceView *s = &term->view->nonmortar;
   const PetscInt    *node, num = SurfaceFacetNodes(s, facet, &node);
   const PetscReal    steep[2] = {3 * p->xi[0], 3 * p->xi[1]};
+  const PetscReal    theta    = s->order || term->view->spec->standard ? 0 : term->theta[facet];
   PetscReal          dual[SURFACE_MOST_NODES], gap;
 
-  ContactShape_Private(s, facet, s->order || term->view->spec->standard ? p->xi : steep, dual);
+  ContactShape_Private(s, facet, steep, dual);
   for (PetscInt a = 0; a < num; ++a) {
     p->pressure += N[a] * term->z[node[a]];
-    p->trace += dual[a] * term->z[node[a]];
+    p->trace += (theta * dual[a] + (1 - theta) * N[a]) * term->z[node[a]];
     if (ContactNodalGap_Private(term->view, node[a], 0, &gap)) p->nodal += N[a] * gap;
   }
   p->pressure = PetscMax(p->pressure, 0);

@@ -11,6 +11,9 @@ PetscErrorCode ContactRayTopology(ContactPair pair, const ContactSurface *s)
   PetscCall(ContactRayLatticePrepare());
   PetscCheck(s->X, PETSC_COMM_SELF, PETSC_ERR_ARG_NULL, "contact along a continuous direction needs the reference positions of the nonmortar surface");
   PetscCall(PetscFree(pair->normal));
+  PetscCall(PetscFree(pair->theta));
+  PetscCall(PetscMalloc1(s->num_facets, &pair->theta));
+  for (PetscInt f = 0; f < s->num_facets; f++) pair->theta[f] = 1;
   pair->num_nodes  = s->num_nodes;
   pair->num_facets = s->num_facets;
   PetscCall(PetscCalloc1(s->dim * s->num_nodes, &pair->normal));
@@ -398,6 +401,7 @@ static PetscErrorCode Facet_Private(const EvaluateContext *ctx, PetscInt slot, C
   if (w->num_overlaps == 0) PetscFunctionReturn(PETSC_SUCCESS);
   if (!ctx->again) PetscCall(Segments_Private(ctx, facet));
   PetscCall(Functions_Private(w, pair->multiplier, facet, w->q[2 * w->facet.s.num]));
+  pair->theta[facet] = w->share.theta[0];
   PetscCall(Values_Private(w, out));
   PetscCall(Compliance_Private(pair, facet, out));
   out->dgap = out->dweight = out->dshare = out->push = out->hessian = NULL;
