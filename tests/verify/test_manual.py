@@ -1,53 +1,37 @@
 """The manual: every command in it runs and prints what the page says, no link leads nowhere, and the site is built without a warning.
 
-In pages, a comment before a code block says what it is: `<!-- file: NAME -->` a file of that name, `<!-- output -->` lines that the command before printed
-("..." is anything), `<!-- exit: N -->` the exit status of the commands below. Blocks marked `sh` are run, in one folder for each page.
+How a page says what is to be run: scripts/pages.py.
 """
 import os
 import re
 import shutil
 import subprocess
+import sys
 
 import pytest
 from conftest import PROGRAM, ROOT
 
-PAGES = ["start.md", "howto.md"]
-BLOCK = re.compile(r"(?:^<!-- (\w+)(?:: (\S+))? -->\n)?^```(\w+)\n(.*?)^```$", re.M | re.S)
+sys.path.insert(0, str(ROOT / "scripts"))
+import pages
+
+TUTORIALS = sorted(f"tutorials/{path.name}" for path in (ROOT / "docs/tutorials").glob("*.md"))
 ENVIRONMENT = {**os.environ, "MORTISE": str(PROGRAM)}
 SITE = "mkdocs"
 
 
-@pytest.fixture
-def path(tmp_path):
-    """PATH with the programs as they are installed."""
-    folder = tmp_path / "bin"
-    folder.mkdir()
-    for name, file in (("mortise", PROGRAM), ("mortise-plot", ROOT / "scripts/plot"), ("mortise-batch", ROOT / "scripts/hpc/batch"),
-                       ("mortise-import", ROOT / "scripts/import")):
-        (folder / name).symlink_to(file)
-    return f"{folder}:{os.environ['PATH']}"
-
-
-def pattern(line):
-    return r"\s+".join(r".*".join(map(re.escape, word.split("..."))) for word in line.split())
-
-
-@pytest.mark.parametrize("page", PAGES)
-def test_commands(page, path, tmp_path):
+@pytest.mark.parametrize("page", ["start.md", "howto.md", *(pytest.param(page, marks=pytest.mark.slow) for page in TUTORIALS)])
+def test_commands(page, tmp_path):
     folder = tmp_path / "work"
     folder.mkdir()
-    said = ""
-    for kind, what, language, text in BLOCK.findall((ROOT / "docs" / page).read_text()):
-        if kind == "file":
-            (folder / what).write_text(text)
-        elif kind == "output":
-            missing = [line for line in text.splitlines() if not re.search(rf"^\s*{pattern(line)}\s*$", said, re.M)]
-            assert not missing, (missing, said)
-        elif language == "sh":
-            done = subprocess.run(["bash", "-euo", "pipefail", "-c", text], cwd=folder, env={**ENVIRONMENT, "PATH": path}, timeout=300,
-                                  stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
-            said = done.stdout
-            assert done.returncode == int(what if kind == "exit" else 0), (text, said)
+    pages.walk(ROOT / "docs" / page, folder, pages.environment(PROGRAM, tmp_path / "bin"))
+
+
+@pytest.mark.parametrize("page", TUTORIALS)
+def test_tutorials_have_a_picture_and_a_check(page):
+    """Each ends at a figure that theory confirms: check.py compares, with status 1 where it differs."""
+    text = (ROOT / "docs" / page).read_text()
+    assert pages.pictures(ROOT / "docs" / page)
+    assert "<!-- file: check.py -->" in text and "python3 check.py" in text and "assert" in text
 
 
 def test_no_dead_link(tmp_path):
@@ -78,7 +62,7 @@ def test_site(tmp_path):
     assert (tmp_path / "site/reference/keys.html").exists()
 
 
-@pytest.mark.parametrize("page", ["index.md", "start.md", "howto.md", "developer.md"])
+@pytest.mark.parametrize("page", ["index.md", "start.md", "howto.md", "developer.md", *TUTORIALS])
 def test_lines_are_short(page):
     """Of prose; not of code and tables."""
     text = re.sub(r"^```.*?^```$", "", (ROOT / "docs" / page).read_text(), flags=re.M | re.S)
