@@ -1,5 +1,5 @@
 # Copyright: the mortise authors. SPDX-License-Identifier: BSD-2-Clause
-"""Spack recipe. Until it is in a repository of Spack:
+"""Spack recipe; what of it was tried: packaging/README.md. Until it is in a repository of Spack:
 
     spack repo create mine && mkdir -p mine/packages/mortise && cp packaging/spack/package.py mine/packages/mortise/
     spack repo add mine && spack dev-build --source-path . mortise@0.1.0
