@@ -1,7 +1,7 @@
 """Overlap at the start that is deep against the radius of the tip: no load parameter scales it, so the step cannot be cut."""
 import pytest
 
-SCENES = {"rubber": (), "compressible": ("-mesh_parameter_r", 0.05, "-mesh_parameter_o", 0.6, "-material_rubber_nu", 0.4)}
+SCENES = {"rubber": ("-mesh_parameter_r", 0.05, "-mesh_parameter_o", 0.6), "compressible": ("-mesh_parameter_r", 0.05, "-mesh_parameter_o", 0.6, "-material_rubber_nu", 0.4)}
 
 
 @pytest.mark.parametrize("name", SCENES)
