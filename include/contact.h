@@ -57,6 +57,7 @@ typedef struct {
   PetscBool  standard;          /* standard multipliers */
   PetscBool  adjust;            /* the gaps of the mesh at the reference positions count as closed */
   PetscReal  interference;      /* overlap at the reference positions, besides that of the geometry */
+  PetscReal  about[3];          /* point that moments of its forces are counted about */
   PetscBool  subdivide_auto;    /* cells behind linear facets are subdivided as the estimate asks (estimate/layer.c) */
 } ContactSpec;
 

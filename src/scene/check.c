@@ -338,6 +338,7 @@ static PetscErrorCode Check_Private(Scene s, const Facets *f)
   PetscCall(MatchContacts_Private(s, f));
   PetscCall(MatchRefines_Private(s, f));
   PetscCall(CheckHeld_Private(s, f));
+  PetscCall(SceneSetPoints(s, f->mesh, f->body_touches));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

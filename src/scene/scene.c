@@ -226,6 +226,7 @@ PetscErrorCode SceneDestroy(Scene *scene)
       PetscCall(ExpressionDestroy(&s->body[i].spec.motion[c]));
       PetscCall(ExpressionDestroy(&s->body[i].spec.force[c]));
     }
+    PetscCall(ExpressionDestroy(&s->body[i].spec.rotation_angle));
     PetscCall(PetscFree(s->body[i].spec.amplitude.pairs));
   }
   for (PetscInt i = 0; s->boundary && i < s->num_boundaries; ++i) PetscCall(DestroyBoundary_Private(&s->boundary[i].spec));
@@ -235,6 +236,7 @@ PetscErrorCode SceneDestroy(Scene *scene)
   PetscCall(PetscFree(s->contact));
   PetscCall(PetscFree(s->probe));
   PetscCall(PetscFree(s->refine));
+  PetscCall(PetscFree(s->point));
   PetscCall(PetscFree(s->data.refines));
   PetscCall(PetscFree(s->data.materials));
   PetscCall(PetscFree(s->data.bodies));
