@@ -97,6 +97,8 @@ typedef struct {
   PetscReal          area, min_gap;  /* totals over ranks */
   PetscInt           unusable;       /* overlaps at the last evaluation that could not be used: facets folded over in the other's view */
   PetscReal          adjusted;       /* largest mean initial gap, over or under, that was closed at a node (initial_gap: adjust) */
+  PetscReal          interference;   /* at the time last set */
+  PetscReal          open;           /* share of initial overlaps that does not count then (initial_gap: ramp) */
 } ContactView;
 
 /* fixed[num_nodes]: as in Supports. All that is handed over must outlive the interface. Collective. */
@@ -104,6 +106,9 @@ PetscErrorCode InterfaceCreate(HPSpace, Mechanics, const MechanicsSpec *, const 
 PetscErrorCode InterfaceDestroy(Interface *);
 /* Of linearisations, from now on; borrowed. Not collective. */
 PetscErrorCode InterfaceSetForm(Interface, const Form *);
+
+/* Interferences and ramped initial overlaps are those of time t from now on; before, of t = 0. Not collective. */
+PetscErrorCode InterfaceSetTime(Interface, PetscReal t);
 
 /* counts[rank] of unknowns grow by the multipliers of each rank, which have the places from there on in its part of a vector. Not collective. */
 PetscErrorCode InterfaceNumber(Interface, PetscInt counts[]);

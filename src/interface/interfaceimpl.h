@@ -126,6 +126,8 @@ typedef struct {
   ContactFacet        *frozen;                   /* small kinematics: those at the reference positions */
   PetscReal           *gap0, *mean0;             /* [n] small kinematics: gaps there, over weights; mean0 NULL: not yet, or finite */
   PetscReal           *offset;                   /* [n] constant part of gt_j that does not count: initial gaps closed, interference */
+  PetscReal           *reach, *initial;          /* offset.c: [n] what an interference of 1 adds to the offset; initial gap closed or opened at first */
+  PetscReal            interference, open;       /* offset.c: as they are in the offset: interference; share of initial overlaps that does not count */
   PetscReal           *misfit;                   /* [n] imbalance.c: what else does not count, times the share left */
   PetscReal            overlap, allowance;       /* overlap.c: the deepest at the start, what of it counts as none … */
   PetscInt             shrinks;                  /* … for which this side … */
@@ -262,6 +264,10 @@ static inline PetscReal ContactOverlap_Private(const Contact *c, PetscInt j)
 {
   return -(c->gap[j] + c->change[j]) / c->weight[j];
 }
+/* couple.c: gaps, weights and compliances of the facets at hand at the nodes. Collective. */
+PetscErrorCode ContactNodeSums_Private(Interface, Contact *);
+/* offset.c: what counts as no gap, from the reference positions, at t = 0. Collective. */
+PetscErrorCode ContactOffset_Private(Interface, Contact *);
 /* firsttouch.c: the overlap from which on nodes join the active set, of a pair that has borne nothing yet. Collective. */
 PetscErrorCode ContactLeastOverlap_Private(Interface, const Contact *, PetscReal *least);
 /* slidelimit.c: which translations the supports of both sides' bodies leave free. */

@@ -241,6 +241,7 @@ PetscErrorCode ProblemSetTime(Problem p, PetscReal t)
   p->t = t;
   PetscCall(MechanicsSetTime(p->mechanics, t));
   PetscCall(MechanicsPrescribe(p->mechanics, p->target));
+  PetscCall(InterfaceSetTime(p->interface, t));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -318,6 +318,25 @@ static PetscBool FacesAreFull_Private(const struct _p_Scene *s, const ContactEnt
   return PETSC_TRUE;
 }
 
+/* Overlaps that change with t. */
+static PetscErrorCode CheckOverlap_Private(Scene s, const SceneNode *node, const ContactEntry *c)
+{
+  const SceneNode *interference = NodeFind(node, "interference");
+  const PetscBool  path         = (PetscBool)(s->data.load.control == LOAD_ARC_LENGTH);
+
+  PetscFunctionBegin;
+  PetscCheckInput(!interference || !ExpressionUsesPlace(c->spec.interference), "%s is \"%s\": one overlap for the whole pair, so an expression in t alone",
+                  NodeWhere(interference), ExpressionText(c->spec.interference));
+  PetscCheckInput(!interference || !path || !ExpressionUsesTime(c->spec.interference),
+                  "%s is \"%s\", but with load.control: arc_length the factor of the loads is found, and no overlap may change with it; allowed here: a number",
+                  NodeWhere(interference), ExpressionText(c->spec.interference));
+  PetscCheckInput(
+      !c->spec.ramp || !path,
+      "%s is ramp, but with load.control: arc_length the factor of the loads is found, and no overlap may change with it; allowed here: keep|adjust",
+      NodeWhere(NodeFind(node, "initial_gap")));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 static PetscErrorCode ReadContact_Private(Scene s, SceneNode *node, ContactEntry *c)
 {
   const SceneNode *stiffness = NodeFind(node, "penalty");
@@ -329,6 +348,7 @@ static PetscErrorCode ReadContact_Private(Scene s, SceneNode *node, ContactEntry
   c->spec.full           = FacesAreFull_Private(s, c);
   c->spec.subdivide_auto = c->subdivide == SUBDIVIDE_AUTO ? PETSC_TRUE : PETSC_FALSE;
   c->spec.adjust         = c->initial_gap == 1 ? PETSC_TRUE : PETSC_FALSE;
+  c->spec.ramp           = c->initial_gap == 2 ? PETSC_TRUE : PETSC_FALSE;
   c->spec.standard       = c->multiplier == 1 ? PETSC_TRUE : PETSC_FALSE;
   PetscCheckInput(c->spec.law != CONTACT_PENALTY || stiffness,
                   "%s.penalty must be given: with law: penalty it is the stiffness of the contact, pressure per overlap, a number above 0", NodeWhere(node));
@@ -338,6 +358,7 @@ static PetscErrorCode ReadContact_Private(Scene s, SceneNode *node, ContactEntry
                   NodeWhere(stiffness));
   PetscCheckInput(c->spec.friction == 0, "%s is %g: friction is not built yet; allowed: 0", NodeWhere(NodeFind(node, "friction")), (double)c->spec.friction);
   PetscCall(SceneFindPoint(s, node, c->moment_about, c->spec.about));
+  PetscCall(CheckOverlap_Private(s, node, c));
   PetscCheckInput(!strchr(node->key, '/'), "%s: the name of a pair has no '/' in it", NodeWhere(node));
   for (PetscInt i = 0; &s->contact[i] < c; ++i) {
     const ContactEntry *e    = &s->contact[i];

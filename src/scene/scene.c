@@ -233,6 +233,7 @@ PetscErrorCode SceneDestroy(Scene *scene)
   PetscCall(PetscFree(s->material));
   PetscCall(PetscFree(s->body));
   PetscCall(PetscFree(s->boundary));
+  for (PetscInt i = 0; s->contact && i < s->data.num_contacts; ++i) PetscCall(ExpressionDestroy(&s->contact[i].spec.interference));
   PetscCall(PetscFree(s->contact));
   PetscCall(PetscFree(s->probe));
   PetscCall(PetscFree(s->refine));
