@@ -110,6 +110,17 @@ PetscErrorCode InterfaceSetForm(Interface, const Form *);
 /* Interferences and ramped initial overlaps are those of time t from now on; before, of t = 0. Not collective. */
 PetscErrorCode InterfaceSetTime(Interface, PetscReal t);
 
+/* rigid.c. Rigid bodies that forces move: x = C + d + R (X - C), R a turn about `axis` through C = point; unknowns d (0 to 2) and length times the angle (3)
+   with rows of the matrix row[4], -1: not an unknown. Borrowed, and may change between evaluations; bodies must not. Before the pattern is asked for. */
+#define INTERFACE_LINKS 8 /* most such bodies */
+typedef struct {
+  PetscInt  body, row[4], axis;
+  PetscReal point[3], cosine, sine, length;
+} RigidLink;
+PetscErrorCode InterfaceSetRigid(Interface, PetscInt num, const RigidLink[]);
+/* Derivative of the position of the material point X[dim] by an unknown (motion: its place in row). Not collective. */
+void RigidDerivative(const RigidLink *, PetscInt motion, const PetscReal X[], PetscInt dim, PetscReal dx[3]);
+
 /* counts[rank] of unknowns grow by the multipliers of each rank, which have the places from there on in its part of a vector. Not collective. */
 PetscErrorCode InterfaceNumber(Interface, PetscInt counts[]);
 /* Rows of the matrix: of multipliers, counted as before, with offset[rank] added; of local dofs row[num_nodes*dim], -1: none. num_inner: unknowns of this rank

@@ -219,6 +219,21 @@ static PetscErrorCode Controls_Private(Problem problem, Vec x, Balance *b)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Where rigid bodies are. */
+static PetscErrorCode Motions_Private(Problem problem, const MechanicsSpec *spec, PetscReal (*motion)[4])
+{
+  Mechanics mechanics;
+
+  PetscFunctionBegin;
+  PetscCall(ProblemGetMechanics(problem, &mechanics));
+  for (PetscInt b = 0; b < spec->num_bodies; ++b) {
+    if (!spec->bodies[b].material->law->rigid) continue;
+    PetscCall(MechanicsBodyMotion(mechanics, b, spec->bodies[b].about, motion[b]));
+    PetscCall(MechanicsBodyAngle(mechanics, b, &motion[b][3]));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode BalanceCompute(Problem problem, const State *state, Balance *b)
 {
   const SceneData    *scene;
@@ -236,9 +251,10 @@ PetscErrorCode BalanceCompute(Problem problem, const State *state, Balance *b)
   b->num_bodies     = scene->mechanics.num_bodies;
   PetscCall(PetscCalloc5(b->num_boundaries, &b->reaction, b->num_contacts, &b->pair, b->num_boundaries, &b->pressure, b->num_boundaries, &b->control,
                          b->num_bodies, &b->mean_strain));
-  PetscCall(PetscCalloc2(b->num_boundaries, &b->support_moment, b->num_bodies, &b->body));
+  PetscCall(PetscCalloc3(b->num_boundaries, &b->support_moment, b->num_bodies, &b->body, b->num_bodies, &b->motion));
   PetscCall(PetscMalloc1(b->num_contacts, &view));
   PetscCall(ProblemForces(problem, state, b->reaction, b->support_moment, b->body, NULL, NULL, &b->status));
+  PetscCall(Motions_Private(problem, &scene->mechanics, b->motion));
   for (PetscInt i = 0; i < b->num_contacts; ++i) {
     PetscCall(InterfaceGetContact(ProblemInterface(problem), i, &view[i]));
     PetscCall(BalanceZone(ForestComm(forest), view[i], &b->pair[i]));
@@ -261,7 +277,7 @@ PetscErrorCode BalanceDestroy(Balance *b)
 {
   PetscFunctionBegin;
   PetscCall(PetscFree5(b->reaction, b->pair, b->pressure, b->control, b->mean_strain));
-  PetscCall(PetscFree2(b->support_moment, b->body));
+  PetscCall(PetscFree3(b->support_moment, b->body, b->motion));
   b->num_boundaries = b->num_contacts = b->num_bodies = 0;
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -206,6 +206,7 @@ PetscErrorCode ContactDestroy_Private(Contact *c)
   PetscCall(PetscFree(c->misfit));
   PetscCall(PetscFree4(c->zdof, c->zlocal, c->gap0, c->offset));
   PetscCall(PetscFree2(c->reach, c->initial));
+  for (PetscInt k = 0; k < 2; ++k) PetscCall(PetscFree(c->link[k]));
   PetscCall(PetscFree4(c->live, c->valued, c->valued_node, c->pack));
   PetscCall(ContactGatherDestroy_Private(c));
   PetscCall(PetscFree2(c->listed, c->mine));

@@ -69,7 +69,34 @@ PetscErrorCode MechanicsBodyMotion(Mechanics m, PetscInt body, const PetscReal X
 {
   PetscFunctionBegin;
   u[0] = u[1] = u[2] = 0;
-  if (m->t != 0) PetscCall(BodyMotion_Private(&m->spec->bodies[body], m->dim, X, m->t, u)); /* all is at rest at t = 0 */
+  const BodySpec *b  = &m->spec->bodies[body];
+  if (m->t != 0) PetscCall(BodyMotion_Private(b, m->dim, X, m->t, u)); /* all is at rest at t = 0 */
+  if (m->free_motion) {
+    PetscReal turn[3] = {0, 0, 0};
+    if (BodyTurnAxis(b) >= 0) RotationValue_Private(BodyTurnAxis(b), b->about, m->free_motion[body][3], X, turn);
+    for (PetscInt c = 0; c < m->dim; ++c) u[c] += m->free_motion[body][c] + turn[c];
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode MechanicsSetFreeMotion(Mechanics m, PetscInt body, const PetscReal translation[3], PetscReal angle)
+{
+  PetscFunctionBegin;
+  if (!m->free_motion) PetscCall(PetscCalloc1(m->spec->num_bodies, &m->free_motion));
+  for (PetscInt c = 0; c < 3; ++c) m->free_motion[body][c] = translation[c];
+  m->free_motion[body][3] = angle;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode MechanicsBodyAngle(Mechanics m, PetscInt body, PetscReal *angle)
+{
+  const PetscReal origin[3] = {0, 0, 0};
+  const BodySpec *b         = &m->spec->bodies[body];
+
+  PetscFunctionBegin;
+  *angle = 0;
+  if (b->rotation_angle && m->t != 0) PetscCall(MechanicsValue(b->rotation_angle, &b->amplitude, origin, m->t, angle));
+  if (m->free_motion) *angle += m->free_motion[body][3];
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -77,6 +77,10 @@ PetscErrorCode OutputPhysics(const SceneData *scene, const CoarseMesh *mesh, Out
     if (along[0] || along[1] || along[2])
       PetscCall(OutputTextPrint(text, "order %" PetscInt_FMT ", along x, y, z %" PetscInt_FMT " %" PetscInt_FMT " %" PetscInt_FMT ", ", m->bodies[b].order,
                                 along[0], along[1], along[2]));
+    for (PetscInt c = 0; c < 3; ++c) {
+      if (m->bodies[b].load[c]) PetscCall(OutputTextPrint(text, "load %c, ", 'x' + (int)c));
+      if (m->bodies[b].load_moment[c]) PetscCall(OutputTextPrint(text, "load moment_%c, ", 'x' + (int)c));
+    }
     PetscCall(Material_Private(m->bodies[b].material, mesh->num_cells, text));
   }
   for (PetscInt i = 0; i < scene->num_contacts; ++i) PetscCall(Pair_Private(&scene->contacts[i], mesh, text));

@@ -230,7 +230,7 @@ PetscErrorCode ProblemNumNegative(Problem p, PetscInt *num)
 
   PetscFunctionBegin;
   PetscCall(MechanicsNumNegative(p->mechanics, &inner));
-  *num = p->num_rows - (p->num_u - p->num_inner) - inner;
+  *num = p->num_rows - (p->num_u - p->num_inner) - inner - (p->rank == p->size - 1 ? p->num_rigid : 0);
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, num, 1, MPIU_INT, MPI_SUM, p->comm));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -295,6 +295,7 @@ PetscErrorCode ProblemLocalDisplacement(Problem p, Vec x, PetscReal local[])
   PetscFunctionBegin;
   PetscCall(ScalarsRead_Private(p, x));
   PetscCall(FillLocal_Private(p, x, p->applied, local));
+  PetscCall(RigidMove_Private(p, local));
   PetscCall(PressureSpread_Private(p, x));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -309,6 +310,13 @@ PetscErrorCode ProblemIncrement_Private(Problem p, Vec dx, PetscReal share)
   PetscCall(PetscMalloc1(v->num_nodes * p->dim, &pending));
   for (PetscInt i = 0; i < v->num_nodes * p->dim; ++i) pending[i] = share * (p->target[i] - p->applied[i]);
   PetscCall(FillLocal_Private(p, dx, pending, p->increment));
+  if (p->num_rigid) {
+    PetscReal *change;
+    PetscCall(PetscMalloc1(p->num_scalars, &change));
+    PetscCall(ProblemGetScalars(p, dx, change));
+    PetscCall(RigidIncrement_Private(p, change + p->num_controls, p->increment));
+    PetscCall(PetscFree(change));
+  }
   PetscCall(PetscFree(pending));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -368,7 +376,9 @@ static PetscErrorCode Rest_Private(Problem p, Vec dx, Vec x)
   PetscCall(VecGetArrayRead(p->start_x, &start));
   PetscCall(VecGetArrayRead(dx, &change));
   PetscCall(VecGetArray(x, &values));
-  for (PetscInt i = p->num_u; i < num; ++i) values[i] = start[i] + change[i];
+  const PetscInt rigid = RigidLocal_Private(p); /* motions, like displacements */
+  for (PetscInt i = p->num_u; i < num; ++i)
+    if (rigid < 0 || i < rigid || i >= rigid + p->num_rigid) values[i] = start[i] + change[i];
   PetscCall(VecRestoreArray(x, &values));
   PetscCall(VecRestoreArrayRead(dx, &change));
   PetscCall(VecRestoreArrayRead(p->start_x, &start));

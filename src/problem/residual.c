@@ -61,6 +61,7 @@ PetscErrorCode ProblemResidual(Problem p, Vec x, const PetscReal pressure[], Vec
   PetscCall(ProblemLocalDisplacement(p, x, u));
   PetscCall(LocalForces_Private(p, x, u, pressure, local, status));
   PetscCall(ScalarsMeasure_Private(p, u));
+  PetscCall(RigidMeasure_Private(p, local));
   PetscCall(VecRestoreArray(p->u_local, &u));
   PetscCall(VecRestoreArray(p->r_local, &local));
   PetscCall(VecGetArray(r, &array));

@@ -47,9 +47,15 @@ const Option Options[] = {
     {"body.<name>.motion.rotation.angle", KEY_EXPRESSION, "degrees", "", ANY, "angle of the rotation", BODY(spec.rotation_angle)},
     {"body.<name>.motion.rotation.point.<axis>", KEY_REAL, "length", "0", ANY,
      "a point of the axis at the reference positions; without point: the centre of the body", BODY(spec.rotation_point)},
+    {"body.<name>.load.<axis>", KEY_EXPRESSION, "force", "", ANY,
+     "force on a rigid body, which is free to go in this direction; 0: nothing holds it there but contact", BODY(spec.load)},
+    {"body.<name>.load.moment_x", KEY_EXPRESSION, "force times length", "", ANY,
+     "moment on a rigid body about its point (moment_about), and it is free to turn about this axis; about one axis only", BODY(spec.load_moment[0])},
+    {"body.<name>.load.moment_y", KEY_EXPRESSION, "force times length", "", ANY, "the same about y", BODY(spec.load_moment[1])},
+    {"body.<name>.load.moment_z", KEY_EXPRESSION, "force times length", "", ANY, "the same about z; in the plane", BODY(spec.load_moment[2])},
     {"body.<name>.force.<axis>", KEY_EXPRESSION, "force/volume", "", ANY, "dead force per reference volume", BODY(spec.force)},
     {"body.<name>.amplitude", KEY_AMPLITUDE, "", "[0,0, 1,1]", "t rising",
-     "t0,v0, t1,v1, ...: multiplies motion and force, piecewise linear in t; load steps end at its times", BODY(spec.amplitude)},
+     "t0,v0, t1,v1, ...: multiplies motion, load and force, piecewise linear in t; load steps end at its times", BODY(spec.amplitude)},
     {"body.<name>.moment_about", KEY_TEXT, "", "", "",
      "a name under point: of a rigid body, the point that moves with it and that moments on it are counted about; default: the body's centre",
      BODY(moment_about)},
@@ -274,6 +280,7 @@ PetscErrorCode ScenePrintList(MPI_Comm comm)
                               "  traction       {x, y, z}: dead, per reference area\n"
                               "\nbody kinds (body.<name>)\n"
                               "  material       deformable, or moved by motion {x, y, z, rotation} when its law is rigid\n"
+                              "  load           {x, y, z, moment_x, moment_y, moment_z}: forces and a moment that move a rigid body\n"
                               "  force          {x, y, z}: dead, per reference volume\n"
                               "\ncontact (contact.<pair>)\n"
                               "  mortar         dual multipliers on the nonmortar side, frictionless\n"

@@ -267,7 +267,9 @@ static PetscErrorCode ReadBody_Private(Scene s, SceneNode *node, BodyEntry *b)
   for (int c = 0; c < 3; ++c) PetscCall(SceneCheckPath(s, NodeFind(node, "motion"), b->spec.motion[c]));
   PetscCall(ReadRotation_Private(s, NodeFind(NodeFind(node, "motion"), "rotation"), b));
   b->spec.amplitude.endless = (PetscBool)(s->data.load.control == LOAD_ARC_LENGTH);
-  PetscCheckInput(!rigid || !NodeFind(node, "force"), "%s: a rigid body moves as told and takes no force", NodeWhere(NodeFind(node, "force")));
+  PetscCheckInput(!rigid || !NodeFind(node, "force"), "%s: the cells of a rigid body are not solved for and take no force per volume; give it a load",
+                  NodeWhere(NodeFind(node, "force")));
+  PetscCall(SceneCheckLoad(s, node, &b->spec));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -225,6 +225,8 @@ PetscErrorCode SceneDestroy(Scene *scene)
     for (int c = 0; c < 3; ++c) {
       PetscCall(ExpressionDestroy(&s->body[i].spec.motion[c]));
       PetscCall(ExpressionDestroy(&s->body[i].spec.force[c]));
+      PetscCall(ExpressionDestroy(&s->body[i].spec.load[c]));
+      PetscCall(ExpressionDestroy(&s->body[i].spec.load_moment[c]));
     }
     PetscCall(ExpressionDestroy(&s->body[i].spec.rotation_angle));
     PetscCall(PetscFree(s->body[i].spec.amplitude.pairs));

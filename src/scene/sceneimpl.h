@@ -158,6 +158,8 @@ PetscErrorCode SceneCheckControl(Scene, const SceneNode *boundary, const char *k
 PetscErrorCode SceneReadPoint(Scene, SceneNode *, PointEntry *);
 PetscErrorCode SceneFindPoint(Scene, const SceneNode *user, const char *name, PetscReal X[3]);
 PetscErrorCode SceneSetPoints(Scene, const CoarseMesh *, const PetscBool touches[]);
+/* What a rigid body's load asks of it and of the scene (drive.c). Not collective. */
+PetscErrorCode SceneCheckLoad(Scene, const SceneNode *body, const BodySpec *);
 /* Mesh the .geo, or take the .msh as it is: data.mesh.file is set (mesh.c). Collective. */
 PetscErrorCode SceneMakeMesh(Scene);
 PetscErrorCode SceneRemoveMesh(Scene);
