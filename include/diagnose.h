@@ -27,7 +27,7 @@ typedef struct {
   PetscReal (*reaction)[3]; /* owned [num_boundaries] force of each support on the body */
   PetscReal (
       *support_moment)[3]; /* owned [num_boundaries] its moment about BoundarySpec.about, current positions (small kinematics: reference); space, plane */
-  PetscReal (*motion)[4];  /* owned [num_bodies] displacement of BodySpec.about of rigid bodies, and the angle by which they are turned, degrees; else 0 */
+  PetscReal (*motion)[6];  /* owned [num_bodies] displacement of BodySpec.about of rigid bodies, and rotation vector, degrees; else 0 */
   Resultant    *body;      /* owned [num_bodies] force and moment on rigid bodies (MechanicsMoments), else 0 */
   PetscReal    *pressure, *control; /* owned [num_boundaries] where a pressure is found: it, and what it follows (change of volume, mean advance); else 0 */
   PairFigures  *pair;               /* owned [num_contacts] */

@@ -57,20 +57,20 @@ typedef struct {
   PetscInt            rotation_axis;
   PetscReal           rotation_point[3];
   Expression          load[3];        /* rigid bodies: forces in directions in which they are free to go; NULL: prescribed */
-  Expression          load_moment[3]; /* about at most one axis, through `about`: a moment, and they are free to turn about it */
+  Expression          load_moment[3]; /* moments about axes through `about`, about which they are free to turn */
   Expression          force[3];       /* dead force per reference volume */
   PetscReal           about[3];       /* point that moments are counted about, moving with the body; reference position */
   Amplitude           amplitude;      /* of motion, rotation, load and force */
 } BodySpec;
 
-/* Axis about which a rigid body is free to turn, -1: none; does it move by forces at all? */
-static inline PetscInt BodyTurnAxis(const BodySpec *b)
+/* How many axes a rigid body is free to turn about; does it move by forces at all? */
+static inline PetscInt BodyNumTurns(const BodySpec *b)
 {
-  return b->load_moment[0] ? 0 : b->load_moment[1] ? 1 : b->load_moment[2] ? 2 : -1;
+  return (b->load_moment[0] != NULL) + (b->load_moment[1] != NULL) + (b->load_moment[2] != NULL);
 }
 static inline PetscBool BodyIsLoaded(const BodySpec *b)
 {
-  return (PetscBool)(b->load[0] || b->load[1] || b->load[2] || BodyTurnAxis(b) >= 0);
+  return (PetscBool)(b->load[0] || b->load[1] || b->load[2] || BodyNumTurns(b) > 0);
 }
 
 typedef struct {
@@ -258,11 +258,13 @@ typedef struct {
   PetscReal force[3], moment[3];
 } Resultant;
 PetscErrorCode MechanicsMoments(Mechanics, const PetscReal r[], const PetscReal u[], PetscReal support[][3], Resultant body[]);
-/* What forces add to the motion of a rigid body that they move: a translation, and a turn (degrees) about the axis of its moment through BodySpec.about. Not
-   collective. */
-PetscErrorCode MechanicsSetFreeMotion(Mechanics, PetscInt body, const PetscReal translation[3], PetscReal angle);
-/* Angle (degrees) by which a rigid body is turned now, prescribed or found. Not collective. */
-PetscErrorCode MechanicsBodyAngle(Mechanics, PetscInt body, PetscReal *angle);
+/* What forces add to the motion of a rigid body that they move: a translation, and a rotation vector (radians) about BodySpec.about. Not collective. */
+PetscErrorCode MechanicsSetFreeMotion(Mechanics, PetscInt body, const PetscReal translation[3], const PetscReal rotation[3]);
+/* Rotation vector (degrees) by which a rigid body is turned now, prescribed or found. Not collective. */
+PetscErrorCode MechanicsBodyRotation(Mechanics, PetscInt body, PetscReal rotation[3]);
+/* rotation.c. Rotation by the vector phi (radians): matrix, row-major; spin J dphi of a change of phi. */
+void RotationMatrix(const PetscReal phi[3], PetscReal R[9]);
+void RotationSpin(const PetscReal phi[3], PetscReal J[9]);
 /* Displacement of the material point at X of a rigid body at the time last set. Not collective. */
 PetscErrorCode MechanicsBodyMotion(Mechanics, PetscInt body, const PetscReal X[3], PetscReal u[3]);
 

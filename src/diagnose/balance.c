@@ -220,7 +220,7 @@ static PetscErrorCode Controls_Private(Problem problem, Vec x, Balance *b)
 }
 
 /* Where rigid bodies are. */
-static PetscErrorCode Motions_Private(Problem problem, const MechanicsSpec *spec, PetscReal (*motion)[4])
+static PetscErrorCode Motions_Private(Problem problem, const MechanicsSpec *spec, PetscReal (*motion)[6])
 {
   Mechanics mechanics;
 
@@ -229,7 +229,7 @@ static PetscErrorCode Motions_Private(Problem problem, const MechanicsSpec *spec
   for (PetscInt b = 0; b < spec->num_bodies; ++b) {
     if (!spec->bodies[b].material->law->rigid) continue;
     PetscCall(MechanicsBodyMotion(mechanics, b, spec->bodies[b].about, motion[b]));
-    PetscCall(MechanicsBodyAngle(mechanics, b, &motion[b][3]));
+    PetscCall(MechanicsBodyRotation(mechanics, b, motion[b] + 3));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -133,8 +133,8 @@ typedef struct {
   PetscInt             shrinks;              /* … for which this side … */
   PetscReal           *inward[2], *moved[2]; /* … lies further in: [n][dim] unit vectors, reference positions then; NULL: not yet made */
   int8_t              *link[2];              /* rigid.c: [n] body of each side's nodes among the links; NULL: there are none */
-  PetscInt             num_q, q_row[4 * INTERFACE_LINKS], q_motion[4 * INTERFACE_LINKS]; /* unknowns of the bodies of this pair */
-  const RigidLink     *links, *q_link[4 * INTERFACE_LINKS];
+  PetscInt             num_q, q_row[INTERFACE_MOTIONS], q_motion[INTERFACE_MOTIONS]; /* unknowns of the bodies of this pair */
+  const RigidLink     *links, *q_link[INTERFACE_MOTIONS];
   PetscInt            *pattern_offset, *pattern; /* [num_facets+1]: nodes each facet has room for in the matrix */
 } Contact;
 
@@ -238,9 +238,9 @@ static inline PetscBool ContactIsReleased_Private(Interface p, const Contact *c)
 /* insert.c: as MatSetValues, of contact: values in the diagonal block. */
 PetscErrorCode ContactInsert_Private(Mat, PetscInt num_rows, const PetscInt rows[], PetscInt num_columns, const PetscInt columns[], const PetscReal K[],
                                      InsertMode);
-/* rigid.c, where bodies move by forces. Forces: q[num_q] = G^T v, v[dim num] the entries of a facet's nodes, each `stride` apart. Hessian: what a facet's adds
-   to the rows and columns of q. */
-void           ContactRigidForces_Private(const Contact *, const ContactFacet *, const PetscReal v[], PetscInt stride, PetscReal q[]);
+/* rigid.c, where bodies move by forces. Forces: rows q[num_q] from the entries v[dim num] of a facet's nodes. Hessian: what a facet's adds to the rows and
+   columns of q. */
+void           ContactRigidForces_Private(const Contact *, const ContactFacet *, const PetscReal v[], PetscReal q[]);
 PetscErrorCode ContactRigidHessian_Private(const InterfaceSystem *, const Contact *, const ContactFacet *, const PetscInt dofs[], const PetscReal H[]);
 /* tangent.c: a facet's Hessian, added; the gradient of a row of node j in work_index and work_value; its rows, with their columns in the symmetric form. */
 PetscErrorCode ContactFacetHessian_Private(Interface, const InterfaceSystem *, const Contact *, const ContactFacet *);

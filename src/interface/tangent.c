@@ -50,7 +50,7 @@ PetscErrorCode ContactFacetHessian_Private(Interface p, const InterfaceSystem *a
 {
   const PetscInt dim = p->dim, n = dim * e->num;
   PetscInt      *dofs, *turned, num_turned;
-  PetscReal     *H, q[4 * INTERFACE_LINKS];
+  PetscReal     *H, q[INTERFACE_MOTIONS];
 
   PetscFunctionBegin;
   PetscCall(RowBufferGrow(&p->work, n + e->num));
@@ -75,7 +75,7 @@ PetscErrorCode ContactFacetHessian_Private(Interface p, const InterfaceSystem *a
     }
     for (PetscInt k = 0; k < num_turned; ++k) Turn_Private(dim, Frame_Private(c, e->nodes[turned[k]]), p->work.value + dim * turned[k], 1);
     PetscCall(VecSetValues(a->lift, n, dofs, p->work.value, ADD_VALUES));
-    ContactRigidForces_Private(c, e, p->work.value, 1, q);
+    ContactRigidForces_Private(c, e, p->work.value, q);
     PetscCall(VecSetValues(a->lift, c->num_q, c->q_row, q, ADD_VALUES));
   }
   for (PetscInt k = 0; k < num_turned; ++k) {
@@ -97,7 +97,7 @@ PetscErrorCode ContactFacetHessian_Private(Interface p, const InterfaceSystem *a
 static PetscErrorCode Blocks_Private(Interface p, const InterfaceSystem *a, Contact *c)
 {
   const PetscInt dim = p->dim;
-  PetscReal      q[4 * INTERFACE_LINKS];
+  PetscReal      q[INTERFACE_MOTIONS];
 
   PetscFunctionBegin;
   if (ContactIsReleased_Private(p, c)) {
@@ -123,7 +123,7 @@ static PetscErrorCode Blocks_Private(Interface p, const InterfaceSystem *a, Cont
       for (PetscInt b = 0; b < e->num; ++b) Turn_Private(dim, Frame_Private(c, e->nodes[b]), p->work.value + dim * b, 1);
       PetscCall(ContactInsert_Private(a->matrix, n, p->work.index, 1, &z, p->work.value, ADD_VALUES));
       if (!c->num_q) continue;
-      ContactRigidForces_Private(c, e, p->work.value, 1, q);
+      ContactRigidForces_Private(c, e, p->work.value, q);
       PetscCall(ContactInsert_Private(a->matrix, c->num_q, c->q_row, 1, &z, q, ADD_VALUES));
     }
   }

@@ -153,7 +153,7 @@ struct _p_Mechanics {
   CellGroup           *groups;                  /* owned */
   PetscInt            *cell_group, *cell_index; /* owned [num_cells] group (-1: rigid) and position in it (-1: ghost) */
   LoadFacet           *facets;                  /* owned */
-  PetscReal (*free_motion)[4];                  /* owned [num_bodies] translation and angle that forces bring about; NULL: none do */
+  PetscReal (*free_motion)[6];                  /* owned [num_bodies] translation and rotation vector that forces bring about; NULL: none do */
   PetscInt   num_controls, *control;            /* owned: boundaries whose pressure is found */
   PetscReal *control_pressure;                  /* owned [num_controls] */
   PetscReal  t;

@@ -72,31 +72,34 @@ PetscErrorCode MechanicsBodyMotion(Mechanics m, PetscInt body, const PetscReal X
   const BodySpec *b  = &m->spec->bodies[body];
   if (m->t != 0) PetscCall(BodyMotion_Private(b, m->dim, X, m->t, u)); /* all is at rest at t = 0 */
   if (m->free_motion) {
-    PetscReal turn[3] = {0, 0, 0};
-    if (BodyTurnAxis(b) >= 0) RotationValue_Private(BodyTurnAxis(b), b->about, m->free_motion[body][3], X, turn);
-    for (PetscInt c = 0; c < m->dim; ++c) u[c] += m->free_motion[body][c] + turn[c];
+    const PetscReal *free = m->free_motion[body];
+    PetscReal        R[9];
+    RotationMatrix(free + 3, R);
+    for (PetscInt c = 0; c < m->dim; ++c) {
+      u[c] += free[c] - (X[c] - b->about[c]);
+      for (PetscInt d = 0; d < m->dim; ++d) u[c] += R[3 * c + d] * (X[d] - b->about[d]);
+    }
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode MechanicsSetFreeMotion(Mechanics m, PetscInt body, const PetscReal translation[3], PetscReal angle)
+PetscErrorCode MechanicsSetFreeMotion(Mechanics m, PetscInt body, const PetscReal translation[3], const PetscReal rotation[3])
 {
   PetscFunctionBegin;
   if (!m->free_motion) PetscCall(PetscCalloc1(m->spec->num_bodies, &m->free_motion));
-  for (PetscInt c = 0; c < 3; ++c) m->free_motion[body][c] = translation[c];
-  m->free_motion[body][3] = angle;
+  PetscCall(PetscArraycpy(m->free_motion[body], translation, 3));
+  PetscCall(PetscArraycpy(m->free_motion[body] + 3, rotation, 3));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode MechanicsBodyAngle(Mechanics m, PetscInt body, PetscReal *angle)
+PetscErrorCode MechanicsBodyRotation(Mechanics m, PetscInt body, PetscReal rotation[3])
 {
   const PetscReal origin[3] = {0, 0, 0};
   const BodySpec *b         = &m->spec->bodies[body];
 
   PetscFunctionBegin;
-  *angle = 0;
-  if (b->rotation_angle && m->t != 0) PetscCall(MechanicsValue(b->rotation_angle, &b->amplitude, origin, m->t, angle));
-  if (m->free_motion) *angle += m->free_motion[body][3];
+  for (PetscInt c = 0; c < 3; ++c) rotation[c] = m->free_motion ? m->free_motion[body][3 + c] * 180 / PETSC_PI : 0;
+  if (b->rotation_angle && m->t != 0) PetscCall(MechanicsValue(b->rotation_angle, &b->amplitude, origin, m->t, &rotation[b->rotation_axis]));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -71,7 +71,8 @@ static PetscErrorCode BodyColumns_Private(Columns *c, const MechanicsSpec *m, Pe
     if (!m->bodies[b].material->law->rigid) continue;
     for (PetscInt a = 0; a < dim; ++a)
       PetscCall(Column_Private(c, balance ? balance->motion[b][a] : 0, "body", m->bodies[b].name, "displacement", axis_name[a]));
-    if (m->model != MODEL_AXISYMMETRIC) PetscCall(Column_Private(c, balance ? balance->motion[b][3] : 0, "body", m->bodies[b].name, "angle", NULL));
+    for (PetscInt a = dim == 2 ? 2 : 0; a < 3 && m->model != MODEL_AXISYMMETRIC; ++a)
+      PetscCall(Column_Private(c, balance ? balance->motion[b][3 + a] : 0, "body", m->bodies[b].name, "rotation", dim == 2 ? NULL : axis_name[a]));
     for (PetscInt a = 0; a < dim; ++a) PetscCall(Column_Private(c, on->force[a], "body", m->bodies[b].name, "force", axis_name[a]));
     if (m->model != MODEL_AXISYMMETRIC) PetscCall(MomentColumns_Private(c, dim, "body", m->bodies[b].name, on->moment));
   }

@@ -122,7 +122,7 @@ static void AddMoments_Private(cJSON *root, const SceneData *scene, const Balanc
     if (!bodies) bodies = cJSON_AddObjectToObject(root, "body");
     cJSON *body = cJSON_AddObjectToObject(bodies, spec->name);
     AddArray_Private(body, "displacement", dim, b->motion[i]);
-    if (!ring) AddNumber_Private(body, "angle", b->motion[i][3]);
+    if (!ring) AddMoment_Private(body, "rotation", dim, b->motion[i] + 3);
     AddArray_Private(body, "force", dim, b->body[i].force);
     if (!ring) AddMoment_Private(body, "moment", dim, b->body[i].moment);
   }

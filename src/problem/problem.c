@@ -188,7 +188,7 @@ PetscErrorCode ProblemIsSymmetric(Problem p, PetscBool *possible)
   const MechanicsSpec *m = &p->scene->mechanics;
 
   PetscFunctionBegin;
-  *possible = (PetscBool)(p->scene->load.control == LOAD_TIME && InterfaceIsSymmetric(p->interface));
+  *possible = (PetscBool)(p->scene->load.control == LOAD_TIME && InterfaceIsSymmetric(p->interface) && RigidIsSymmetric_Private(p));
   for (PetscInt b = 0; b < m->num_boundaries; ++b) {
     if (BoundaryHasPressure(&m->boundaries[b]) && m->kinematics == KINEMATICS_FINITE) *possible = PETSC_FALSE;
   }

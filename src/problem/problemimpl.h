@@ -49,15 +49,15 @@ struct _p_Problem {
   /* scalar.c, path.c: unknowns that belong to no node */
   PetscInt     num_scalars, num_controls; /* the last of the vector and of the matrix: pressures found, then pseudo-time where a path is followed */
   PetscInt     num_rigid, num_links;      /* rigid.c: unknowns of rigid bodies, between controls and pseudo-time; such bodies */
-  RigidUnknown rigid[4 * INTERFACE_LINKS];
+  RigidUnknown rigid[INTERFACE_MOTIONS];
   RigidLink    links[INTERFACE_LINKS];
-  PetscReal    rigid_curvature[INTERFACE_LINKS], rigid_shift; /* r . d2x/dq2 at the last residual; see SHIFT */
-  int8_t      *node_link;                                     /* owned [num_nodes] body that a local node is of, -1: none */
-  PetscReal   *scalar;                                        /* [num_scalars] of the vector last seen */
-  PetscReal   *factor, *norm, *measure;                       /* [num_controls] of the rows; of the target; what is followed, at the last residual */
-  PetscReal    extent, path_start, path_advance;              /* of all bodies; place of the last state along `path`, and how far from there */
-  PetscBool    following;                                     /* along the path; else time is as set */
-  Vec          path;                                          /* (u1 - u0) / (|u1 - u0| sqrt(N)), 0 but for displacements */
+  PetscReal    rigid_arms[INTERFACE_LINKS][9], rigid_shift; /* sum of (x - c) r^T over the nodes of a body, at the last residual; see SHIFT */
+  int8_t      *node_link;                                   /* owned [num_nodes] body that a local node is of, -1: none */
+  PetscReal   *scalar;                                      /* [num_scalars] of the vector last seen */
+  PetscReal   *factor, *norm, *measure;                     /* [num_controls] of the rows; of the target; what is followed, at the last residual */
+  PetscReal    extent, path_start, path_advance;            /* of all bodies; place of the last state along `path`, and how far from there */
+  PetscBool    following;                                   /* along the path; else time is as set */
+  Vec          path;                                        /* (u1 - u0) / (|u1 - u0| sqrt(N)), 0 but for displacements */
 
   Mat              matrix;
   ptrdiff_t       *scatter_first; /* [num_owned_cells] where a cell's places start in scatter, -1: it goes by MatSetValues */
@@ -93,6 +93,7 @@ PetscErrorCode RigidIncrement_Private(Problem, const PetscReal dq[], PetscReal l
 PetscErrorCode RigidMeasure_Private(Problem, const PetscReal r[]);
 PetscErrorCode RigidResidual_Private(Problem, PetscReal r[]);
 PetscErrorCode RigidTangent_Private(Problem);
+PetscBool      RigidIsSymmetric_Private(Problem); /* is their part of the tangent? */
 /* scalar.c: place of the first of these unknowns in this rank's part of the vector; -1: another rank's. */
 PetscInt RigidLocal_Private(Problem);
 /* path.c: the equation of pseudo-time and its row and column. Collective. */

@@ -229,8 +229,11 @@ PetscErrorCode ScalarsPattern_Private(Problem p, PetscInt diagonal[], PetscInt o
 
   PetscFunctionBegin;
   for (PetscInt k = 0; k < p->num_scalars; ++k) {
-    if (k >= p->num_controls && k < p->num_controls + p->num_rigid) { /* all but the diagonal is contact's */
-      if (!diagonal && p->rank == p->size - 1) PetscCall(MatSetValue(p->matrix, Row_Private(p, k), Row_Private(p, k), 0, ADD_VALUES));
+    if (k >= p->num_controls && k < p->num_controls + p->num_rigid) { /* with each other; all else is contact's */
+      for (PetscInt j = p->num_controls; j < p->num_controls + p->num_rigid && p->rank == p->size - 1; ++j) {
+        if (diagonal) ++diagonal[Row_Private(p, k) - p->first_row];
+        if (!diagonal) PetscCall(MatSetValue(p->matrix, Row_Private(p, k), Row_Private(p, j), 0, ADD_VALUES));
+      }
       continue;
     }
     if (k < p->num_controls)

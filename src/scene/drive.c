@@ -57,7 +57,7 @@ PetscErrorCode SceneCheckControl(Scene s, const SceneNode *boundary, const char 
 /* A direction is either prescribed or free. */
 static PetscErrorCode CheckDirections_Private(const SceneNode *load, const BodySpec *b)
 {
-  const PetscInt turn = BodyTurnAxis(b);
+  const PetscInt turns = BodyNumTurns(b);
 
   PetscFunctionBegin;
   for (PetscInt c = 0; c < 3; ++c) {
@@ -68,18 +68,15 @@ static PetscErrorCode CheckDirections_Private(const SceneNode *load, const BodyS
     PetscCheckInput(!b->load_moment[c] || !ExpressionUsesPlace(b->load_moment[c]),
                     "%s.moment_%c is \"%s\": one moment for the whole body, so an expression in t alone", NodeWhere(load), 'x' + (int)c,
                     ExpressionText(b->load_moment[c]));
-    PetscCheckInput(!b->load_moment[c] || c == turn, "%s has moments about %c and %c; a body may be free to turn about one axis; allowed: one of them",
-                    NodeWhere(load), 'x' + (int)turn, 'x' + (int)c);
   }
-  PetscCheckInput(turn < 0 || !b->rotation_angle, "%s.moment_%c: the rotation of the body is prescribed; allowed: motion.rotation or a moment", NodeWhere(load),
-                  'x' + (int)turn);
+  PetscCheckInput(!turns || !b->rotation_angle, "%s: the rotation of the body is prescribed; allowed: motion.rotation or a moment", NodeWhere(load));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode SceneCheckLoad(Scene s, const SceneNode *body, const BodySpec *b)
 {
-  const SceneNode *load = NodeFind(body, "load");
-  const PetscInt   turn = BodyTurnAxis(b);
+  const SceneNode *load  = NodeFind(body, "load");
+  const PetscInt   turns = BodyNumTurns(b);
 
   PetscFunctionBegin;
   if (!load) PetscFunctionReturn(PETSC_SUCCESS);
@@ -88,11 +85,12 @@ PetscErrorCode SceneCheckLoad(Scene s, const SceneNode *body, const BodySpec *b)
   PetscCheckInput(s->data.load.control == LOAD_TIME,
                   "%s and load.control: arc_length do not go together: that finds the factor of loads on bodies that deform; allowed here: time",
                   NodeWhere(load));
-  PetscCheckInput(turn < 0 || s->data.mesh.dim == 3 || turn == 2, "%s.moment_%c: a two-dimensional model turns about z only", NodeWhere(load), 'x' + (int)turn);
-  PetscCheckInput(s->data.mechanics.model != MODEL_AXISYMMETRIC || (turn < 0 && !b->load[0]),
+  PetscCheckInput(s->data.mesh.dim == 3 || (!b->load_moment[0] && !b->load_moment[1]), "%s.moment_%c: a two-dimensional model turns about z only",
+                  NodeWhere(load), b->load_moment[0] ? 'x' : 'y');
+  PetscCheckInput(s->data.mechanics.model != MODEL_AXISYMMETRIC || (!turns && !b->load[0]),
                   "%s: a body of revolution moves along its axis only; allowed here: y", NodeWhere(load));
-  PetscCheckInput(turn < 0 || s->data.mechanics.kinematics == KINEMATICS_FINITE,
-                  "%s.moment_%c needs kinematics: finite; with small ones contact does not know of a turn", NodeWhere(load), 'x' + (int)turn);
+  PetscCheckInput(!turns || s->data.mechanics.kinematics == KINEMATICS_FINITE,
+                  "%s: a moment needs kinematics: finite; with small ones contact does not know of a turn", NodeWhere(load));
   PetscCall(CheckDirections_Private(load, b));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

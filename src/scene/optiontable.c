@@ -50,7 +50,7 @@ const Option Options[] = {
     {"body.<name>.load.<axis>", KEY_EXPRESSION, "force", "", ANY,
      "force on a rigid body, which is free to go in this direction; 0: nothing holds it there but contact", BODY(spec.load)},
     {"body.<name>.load.moment_x", KEY_EXPRESSION, "force times length", "", ANY,
-     "moment on a rigid body about its point (moment_about), and it is free to turn about this axis; about one axis only", BODY(spec.load_moment[0])},
+     "moment on a rigid body about its point (moment_about), and it is free to turn about this axis", BODY(spec.load_moment[0])},
     {"body.<name>.load.moment_y", KEY_EXPRESSION, "force times length", "", ANY, "the same about y", BODY(spec.load_moment[1])},
     {"body.<name>.load.moment_z", KEY_EXPRESSION, "force times length", "", ANY, "the same about z; in the plane", BODY(spec.load_moment[2])},
     {"body.<name>.force.<axis>", KEY_EXPRESSION, "force/volume", "", ANY, "dead force per reference volume", BODY(spec.force)},
