@@ -242,6 +242,7 @@ PetscErrorCode ProblemSetTime(Problem p, PetscReal t)
   PetscCall(MechanicsSetTime(p->mechanics, t));
   PetscCall(MechanicsPrescribe(p->mechanics, p->target));
   PetscCall(InterfaceSetTime(p->interface, t));
+  PetscCall(RigidSetTime_Private(p));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

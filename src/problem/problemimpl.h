@@ -2,10 +2,10 @@
 #pragma once
 #include "problem.h"
 
-/* An unknown of a rigid body that forces move: body (place among the links), place in RigidLink.row, value, force that holds it. */
+/* An unknown of a rigid body that forces move: body (place among the links), place in RigidLink.row, value, force that holds it, load at the time set. */
 typedef struct {
   PetscInt  link, motion;
-  PetscReal q, force;
+  PetscReal q, force, load;
 } RigidUnknown;
 
 struct _p_Problem {
@@ -87,6 +87,7 @@ PetscErrorCode ScalarsColumn_Private(Problem, PetscInt k, const PetscReal local[
    added. Measure: forces that hold the bodies, r a local array of this rank's forces. Residual: rows r[num_rigid]. Tangent: diagonal. Collective. */
 PetscErrorCode RigidCreate_Private(Problem);
 PetscErrorCode RigidSetRows_Private(Problem, PetscInt first);
+PetscErrorCode RigidSetTime_Private(Problem); /* loads */
 PetscErrorCode RigidRead_Private(Problem, const PetscReal q[]);
 PetscErrorCode RigidMove_Private(Problem, PetscReal local[]);
 PetscErrorCode RigidIncrement_Private(Problem, const PetscReal dq[], PetscReal local[]);

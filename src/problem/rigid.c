@@ -31,7 +31,7 @@ PetscErrorCode RigidCreate_Private(Problem p)
     for (PetscInt k = 0; k < 6; ++k) {
       const PetscBool there = (PetscBool)(k < 3 ? body->load[k] != NULL : body->load_moment[k - 3] != NULL);
       l->row[k]             = -1;
-      if (there) p->rigid[p->num_rigid++] = (RigidUnknown){p->num_links - 1, k, 0, 0};
+      if (there) p->rigid[p->num_rigid++] = (RigidUnknown){p->num_links - 1, k, 0, 0, 0};
     }
   }
   if (!p->num_links) PetscFunctionReturn(PETSC_SUCCESS);
@@ -154,7 +154,7 @@ PetscErrorCode RigidMeasure_Private(Problem p, const PetscReal r[])
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode RigidResidual_Private(Problem p, PetscReal r[])
+PetscErrorCode RigidSetTime_Private(Problem p)
 {
   const PetscReal origin[3] = {0, 0, 0};
 
@@ -163,10 +163,16 @@ PetscErrorCode RigidResidual_Private(Problem p, PetscReal r[])
     const RigidLink *l    = &p->links[p->rigid[k].link];
     const BodySpec  *body = &p->scene->mechanics.bodies[l->body];
     const PetscInt   m    = p->rigid[k].motion;
-    PetscReal        load;
-    PetscCall(MechanicsValue(m < 3 ? body->load[m] : body->load_moment[m - 3], &body->amplitude, origin, p->t, &load));
-    r[k] = p->rigid[k].force - (m < 3 ? load : load / l->length);
+    PetscCall(MechanicsValue(m < 3 ? body->load[m] : body->load_moment[m - 3], &body->amplitude, origin, p->t, &p->rigid[k].load));
+    if (m >= 3) p->rigid[k].load /= l->length;
   }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode RigidResidual_Private(Problem p, PetscReal r[])
+{
+  PetscFunctionBegin;
+  for (PetscInt k = 0; k < p->num_rigid; ++k) r[k] = p->rigid[k].force - p->rigid[k].load;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

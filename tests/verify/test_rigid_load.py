@@ -174,6 +174,7 @@ def test_tangent_is_exact(run, tmp_path, dim, load):
     (lambda s: s["body"]["tool"].update(load={"moment_z": 1}, motion={"rotation": {"angle": 1}}), ["body.tool.load", "motion.rotation or a moment"]),
     (lambda s: s["body"]["tool"].update(load={"moment_x": 1}), ["body.tool.load.moment_x", "about z only"]),
     (lambda s: s["body"]["tool"].update(load={"y": "X"}), ["body.tool.load.y", "in t alone"]),
+    (lambda s: s["body"]["tool"].update(load={"y": "log(t-2)"}), ["body.tool.load.y", "log", "not finite"]),
     (lambda s: s["body"]["tool"].update(load={"q": 1}), ["body.tool.load.q is not a key"]),
     (lambda s: s["body"]["strip"].update(load={"y": 1}), ["body.strip.load", "only a rigid body", "neo_hookean"]),
     (lambda s: s["body"]["tool"].update(force={"y": 1}), ["body.tool.force", "load"]),
