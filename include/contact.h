@@ -55,7 +55,9 @@ typedef struct {
   PetscBool  see_through;       /* comparison only: searches take far sides of bodies behind for overlaps */
   PetscBool  standard;          /* standard multipliers */
   PetscBool  adjust;            /* the gaps of the mesh at the reference positions count as closed */
-  PetscReal  interference;      /* overlap at the reference positions, besides that of the geometry */
+  PetscBool  ramp;              /* overlaps of the mesh there count by the share t, from t = 1 on whole */
+  Expression interference;      /* of t: overlap at the reference positions, besides that of the geometry; NULL: none */
+  PetscReal  about[3];          /* point that moments of its forces are counted about */
   PetscBool  subdivide_auto;    /* cells behind linear facets are subdivided as the estimate asks (estimate/layer.c) */
 } ContactSpec;
 

@@ -9,7 +9,7 @@
  * one, the last (about z). */
 typedef struct {
   PetscReal force[2][3];      /* total contact force on each side; axisymmetric: over the full revolution */
-  PetscReal moment[2][3];     /* its moment about the origin, in the current configuration (small kinematics: the reference) */
+  PetscReal moment[2][3];     /* its moment about ContactSpec.about, in the current configuration (small kinematics: the reference) */
   PetscReal total;            /* sum of |nodal forces| of the nonmortar side */
   PetscReal force_imbalance;  /* |sum over both sides| / total; 0 without contact */
   PetscReal moment_imbalance; /* |sum over both sides| / (total * diameter of the nonmortar side) */
@@ -24,7 +24,11 @@ typedef struct {
 
 typedef struct {
   PetscInt num_boundaries, num_contacts, num_bodies;
-  PetscReal (*reaction)[3];         /* owned [num_boundaries] force of each support on the body */
+  PetscReal (*reaction)[3]; /* owned [num_boundaries] force of each support on the body */
+  PetscReal (
+      *support_moment)[3]; /* owned [num_boundaries] its moment about BoundarySpec.about, current positions (small kinematics: reference); space, plane */
+  PetscReal (*motion)[6];  /* owned [num_bodies] displacement of BodySpec.about of rigid bodies, and rotation vector, degrees; else 0 */
+  Resultant    *body;      /* owned [num_bodies] force and moment on rigid bodies (MechanicsMoments), else 0 */
   PetscReal    *pressure, *control; /* owned [num_boundaries] where a pressure is found: it, and what it follows (change of volume, mean advance); else 0 */
   PairFigures  *pair;               /* owned [num_contacts] */
   PetscReal     load[3];            /* resultant of dead loads, body forces and follower pressures; axisymmetric: the axial component, others 0 */

@@ -131,6 +131,8 @@ PetscErrorCode ForestGetLeafDM(Forest, DM *, PetscInt *num_owned_cells, PetscInt
 
 /* Exact position (polynomial geometry of the coarse cell) of the point xi in [0,1]^dim of a leaf. Not collective. */
 PetscErrorCode ForestMapPoint(Forest, PetscInt leaf, const PetscReal xi[], PetscReal X[3]);
+/* Position (and Jacobian [3][dim] unless NULL) at xi in [0,1]^dim of a coarse cell. Not collective. */
+void ForestCoarseMapPoint(const CoarseMesh *, PetscInt cell, const PetscReal xi[], PetscReal X[3], PetscReal jacobian[]);
 
 /* Map coordinates xi (owner's tangential axes, d of them) to the sub-entity's frame by its orientation code, in place order as documented above. */
 static inline void ForestOrient(PetscInt d, int8_t code, const PetscReal xi[], PetscReal eta[])

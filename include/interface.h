@@ -97,6 +97,8 @@ typedef struct {
   PetscReal          area, min_gap;  /* totals over ranks */
   PetscInt           unusable;       /* overlaps at the last evaluation that could not be used: facets folded over in the other's view */
   PetscReal          adjusted;       /* largest mean initial gap, over or under, that was closed at a node (initial_gap: adjust) */
+  PetscReal          interference;   /* at the time last set */
+  PetscReal          open;           /* share of initial overlaps that does not count then (initial_gap: ramp) */
 } ContactView;
 
 /* fixed[num_nodes]: as in Supports. All that is handed over must outlive the interface. Collective. */
@@ -104,6 +106,24 @@ PetscErrorCode InterfaceCreate(HPSpace, Mechanics, const MechanicsSpec *, const 
 PetscErrorCode InterfaceDestroy(Interface *);
 /* Of linearisations, from now on; borrowed. Not collective. */
 PetscErrorCode InterfaceSetForm(Interface, const Form *);
+
+/* Interferences and ramped initial overlaps are those of time t from now on; before, of t = 0. Not collective. */
+PetscErrorCode InterfaceSetTime(Interface, PetscReal t);
+
+/* rigid.c. Rigid bodies that forces move: x = C + d + R (X - C), C = point; unknowns d (0 to 2) and length times the components of the rotation vector (3 to 5)
+   with rows of the matrix row[6], -1: not an unknown. spin[k]: of R by unknown 3 + k. Borrowed, and may change between evaluations; bodies must not. Before the
+   pattern is asked for. */
+#define INTERFACE_LINKS 8                       /* most such bodies */
+#define INTERFACE_MOTIONS (6 * INTERFACE_LINKS) /* and unknowns of theirs */
+typedef struct {
+  PetscInt  body, row[6];
+  PetscReal point[3], R[9], spin[3][3], length;
+} RigidLink;
+PetscErrorCode InterfaceSetRigid(Interface, PetscInt num, const RigidLink[]);
+/* Derivative of the position of the material point X[dim] by an unknown (motion: its place in row), and what its row in the residual takes of the force there:
+   the same, but for the spin a unit vector over length, so that rows are balances of moments about axes in space. Not collective. */
+void RigidDerivative(const RigidLink *, PetscInt motion, const PetscReal X[], PetscInt dim, PetscReal dx[3]);
+void RigidLever(const RigidLink *, PetscInt motion, const PetscReal X[], PetscInt dim, PetscReal lever[3]);
 
 /* counts[rank] of unknowns grow by the multipliers of each rank, which have the places from there on in its part of a vector. Not collective. */
 PetscErrorCode InterfaceNumber(Interface, PetscInt counts[]);

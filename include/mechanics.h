@@ -24,6 +24,7 @@ typedef struct {
   Expression volume;      /* or a follower pressure that is found: it changes the volume that the boundary encloses by so much (control.c) … */
   Expression advance;     /* … or moves the boundary by so much against its outward normal, mean over the reference area */
   Expression traction[3]; /* dead, per reference area */
+  PetscReal  about[3];    /* point that moments of the support are counted about */
   Amplitude  amplitude;   /* multiplies displacement, rotation, pressure, volume, advance, traction that are constants in t */
 } BoundarySpec;
 
@@ -37,15 +38,40 @@ static inline PetscBool BoundaryHasPressure(const BoundarySpec *b)
   return (PetscBool)(b->pressure || BoundaryIsControlled(b));
 }
 
+/* Does the boundary hold something (fix, displacement, rotation)? Then it has a reaction. */
+static inline PetscBool BoundarySupports(const BoundarySpec *b)
+{
+  PetscBool any = (PetscBool)(b->fix_normal || b->rotation);
+
+  for (PetscInt c = 0; c < 3; ++c) any = (PetscBool)(any || b->fix[c] || b->displacement[c]);
+  return any;
+}
+
 typedef struct {
   char                name[MORTISE_NAME]; /* physical group of top dimension */
   const MaterialSpec *material;           /* borrowed */
   PetscInt            order;              /* displacement order of its cells, the highest of all directions */
   PetscInt            order_along[3];     /* along cell axes that run mostly in direction x, y, z; 0: order */
   Expression          motion[3];          /* rigid bodies: prescribed translation; NULL: 0 */
-  Expression          force[3];           /* dead force per reference volume */
-  Amplitude           amplitude;          /* of motion and force */
+  Expression          rotation_angle;     /* rigid bodies: prescribed rotation before it, degrees, about an axis through a point; NULL: none */
+  PetscInt            rotation_axis;
+  PetscReal           rotation_point[3];
+  Expression          load[3];        /* rigid bodies: forces in directions in which they are free to go; NULL: prescribed */
+  Expression          load_moment[3]; /* moments about axes through `about`, about which they are free to turn */
+  Expression          force[3];       /* dead force per reference volume */
+  PetscReal           about[3];       /* point that moments are counted about, moving with the body; reference position */
+  Amplitude           amplitude;      /* of motion, rotation, load and force */
 } BodySpec;
+
+/* How many axes a rigid body is free to turn about; does it move by forces at all? */
+static inline PetscInt BodyNumTurns(const BodySpec *b)
+{
+  return (b->load_moment[0] != NULL) + (b->load_moment[1] != NULL) + (b->load_moment[2] != NULL);
+}
+static inline PetscBool BodyIsLoaded(const BodySpec *b)
+{
+  return (PetscBool)(b->load[0] || b->load[1] || b->load[2] || BodyNumTurns(b) > 0);
+}
 
 typedef struct {
   Model               model;
@@ -225,6 +251,22 @@ PetscErrorCode MechanicsPlasticStrain(Mechanics, PetscInt cell, PetscInt np, con
 /* Sum of residual entries r (local array, as returned by MechanicsResidual plus contact) over what each boundary prescribes: force of the support on the body,
    Cartesian; reaction[num_boundaries][3], this rank's part. */
 PetscErrorCode MechanicsReactions(Mechanics, const PetscReal r[], PetscReal reaction[][3]);
+/* moment.c. Moments of the same forces, where the displacements u (local array) carry them (small kinematics: at the reference positions):
+   support[num_boundaries][3] of each support, about BoundarySpec.about; body[num_bodies]: force and moment, about BodySpec.about as it moves, that everything
+   else exerts on a rigid body; 0 for others. This rank's part. Not collective. */
+typedef struct {
+  PetscReal force[3], moment[3];
+} Resultant;
+PetscErrorCode MechanicsMoments(Mechanics, const PetscReal r[], const PetscReal u[], PetscReal support[][3], Resultant body[]);
+/* What forces add to the motion of a rigid body that they move: a translation, and a rotation vector (radians) about BodySpec.about. Not collective. */
+PetscErrorCode MechanicsSetFreeMotion(Mechanics, PetscInt body, const PetscReal translation[3], const PetscReal rotation[3]);
+/* Rotation vector (degrees) by which a rigid body is turned now, prescribed or found. Not collective. */
+PetscErrorCode MechanicsBodyRotation(Mechanics, PetscInt body, PetscReal rotation[3]);
+/* rotation.c. Rotation by the vector phi (radians): matrix, row-major; spin J dphi of a change of phi. */
+void RotationMatrix(const PetscReal phi[3], PetscReal R[9]);
+void RotationSpin(const PetscReal phi[3], PetscReal J[9]);
+/* Displacement of the material point at X of a rigid body at the time last set. Not collective. */
+PetscErrorCode MechanicsBodyMotion(Mechanics, PetscInt body, const PetscReal X[3], PetscReal u[3]);
 
 /* What is wanted at points of a cell; NULL: skipped. */
 typedef struct {

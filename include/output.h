@@ -158,8 +158,6 @@ typedef struct {
 PetscErrorCode OutputSummary(MPI_Comm, const SceneData *, const RunSummary *);
 /* Make the directory and its parents; an input error when that is impossible. Collective. */
 PetscErrorCode OutputDirectoryCreate(MPI_Comm, const char *path);
-/* Does this boundary hold something (fix, displacement, rotation)? Then it has a reaction. */
-PetscBool BoundarySupports(const BoundarySpec *);
 
 /* ---- whose directory it is (output/lock.c, foreign.c) ---------------------------------------------------------------------- */
 

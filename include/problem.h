@@ -199,9 +199,11 @@ PetscErrorCode ProblemMeritTangent(Problem, PetscReal factor, Vec x, Vec lift, P
 PetscErrorCode ProblemMeritSide(Problem, Vec gradient, Vec lift, Vec rhs);
 PetscErrorCode ProblemMeritRecover(Problem, Vec y, Vec dx);
 
-/* Forces of the supports in a state, which is set: reaction[num_boundaries][3]; contact force and moment about the origin on the nonmortar side:
+/* Forces of the supports in a state, which is set: reaction[num_boundaries][3], their moments support[num_boundaries][3], forces and moments on rigid bodies
+   body[num_bodies] (MechanicsMoments; support NULL: neither); contact force and moment about the origin on the nonmortar side:
    force[num_contacts][3], moment[num_contacts][3]; all ranks. Evaluates the residual. */
-PetscErrorCode ProblemForces(Problem, const State *, PetscReal reaction[][3], PetscReal force[][3], PetscReal moment[][3], ProblemStatus *);
+PetscErrorCode ProblemForces(Problem, const State *, PetscReal reaction[][3], PetscReal support[][3], Resultant body[], PetscReal force[][3],
+                             PetscReal moment[][3], ProblemStatus *);
 /* Displacement dofs and multipliers of this rank, in that order in its part of the matrix; dimension. Not collective. */
 PetscErrorCode ProblemGetBlocks(Problem, PetscInt *num_u, PetscInt *num_z, PetscInt *dim);
 /* For multigrid methods, the space of order 1 on the same mesh in whole blocks: interpolation from the dofs of all vertices that have a free one (dim of each)

@@ -67,9 +67,8 @@ typedef struct _p_Scene *Scene;
 
 /* Read the scene named in the arguments (the first that ends in .yml or .yaml, else the first argument) and the overrides; validate everything that
    needs no mesh. Options whose first word is a top key of a scene (title, mesh, refine, model, kinematics, order, body, material, boundary, contact, load,
-   adapt, output, probe) are overrides, those of -options_file and PETSC_OPTIONS too, over which the command line wins: they are taken out of PETSc's global
-   database, as is -check; all others stay there.
-   Every wrong input is one sentence (ErrorInput). Nothing is written. Collective. */
+   adapt, output, probe, point) are overrides, those of -options_file and PETSC_OPTIONS too, over which the command line wins: they are taken out of PETSc's
+   global database, as is -check; all others stay there. Every wrong input is one sentence (ErrorInput). Nothing is written. Collective. */
 PetscErrorCode SceneCreate(MPI_Comm, int argc, char **argv, Scene *);
 /* Mesh a .geo with gmsh in a temporary directory (rank 0); read the coarse mesh into *forest and validate names, bodies, contact pairs and supports
    against it; complete the data. After an error *forest is NULL, and the scene is still to be destroyed. Collective. */

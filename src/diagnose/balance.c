@@ -28,9 +28,10 @@ static PetscErrorCode Diameter_Private(MPI_Comm comm, const SurfaceView *s, Pets
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Resultant and moment about the origin of nodal forces; sum of their magnitudes. In small kinematics forces act where the nodes were: moments balance there.
+/* Resultant and moment about a point of nodal forces; sum of their magnitudes. In small kinematics forces act where the nodes were: moments balance there.
  */
-static PetscErrorCode SideForces_Private(MPI_Comm comm, const SurfaceView *s, PetscBool small, PetscReal force[3], PetscReal moment[3], PetscReal *magnitude)
+static PetscErrorCode SideForces_Private(MPI_Comm comm, const SurfaceView *s, PetscBool small, const PetscReal about[3], PetscReal force[3],
+                                         PetscReal moment[3], PetscReal *magnitude)
 {
   PetscReal sum[7] = {0};
 
@@ -41,7 +42,7 @@ static PetscErrorCode SideForces_Private(MPI_Comm comm, const SurfaceView *s, Pe
     if (!s->owned[n]) continue;
     for (PetscInt c = 0; c < s->dim; ++c) {
       f[c] = s->force[s->dim * n + c];
-      x[c] = (small ? s->X : s->x)[s->dim * n + c];
+      x[c] = (small ? s->X : s->x)[s->dim * n + c] - about[c];
     }
     Cross3(x, f, m);
     for (PetscInt c = 0; c < 3; ++c) {
@@ -64,8 +65,8 @@ static PetscErrorCode Imbalance_Private(MPI_Comm comm, Model model, PetscBool sm
   const PetscBool ring = (PetscBool)(model == MODEL_AXISYMMETRIC);
 
   PetscFunctionBegin;
-  PetscCall(SideForces_Private(comm, &v->nonmortar, small, f->force[0], f->moment[0], &sum[0]));
-  PetscCall(SideForces_Private(comm, &v->mortar, small, f->force[1], f->moment[1], &sum[1]));
+  PetscCall(SideForces_Private(comm, &v->nonmortar, small, v->spec->about, f->force[0], f->moment[0], &sum[0]));
+  PetscCall(SideForces_Private(comm, &v->mortar, small, v->spec->about, f->force[1], f->moment[1], &sum[1]));
   PetscCall(Diameter_Private(comm, &v->nonmortar, &diameter));
   for (PetscInt c = 0; c < 3; ++c) {
     force[c]  = ring && c == 0 ? 0 : f->force[0][c] + f->force[1][c];
@@ -218,6 +219,21 @@ static PetscErrorCode Controls_Private(Problem problem, Vec x, Balance *b)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Where rigid bodies are. */
+static PetscErrorCode Motions_Private(Problem problem, const MechanicsSpec *spec, PetscReal (*motion)[6])
+{
+  Mechanics mechanics;
+
+  PetscFunctionBegin;
+  PetscCall(ProblemGetMechanics(problem, &mechanics));
+  for (PetscInt b = 0; b < spec->num_bodies; ++b) {
+    if (!spec->bodies[b].material->law->rigid) continue;
+    PetscCall(MechanicsBodyMotion(mechanics, b, spec->bodies[b].about, motion[b]));
+    PetscCall(MechanicsBodyRotation(mechanics, b, motion[b] + 3));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode BalanceCompute(Problem problem, const State *state, Balance *b)
 {
   const SceneData    *scene;
@@ -235,8 +251,10 @@ PetscErrorCode BalanceCompute(Problem problem, const State *state, Balance *b)
   b->num_bodies     = scene->mechanics.num_bodies;
   PetscCall(PetscCalloc5(b->num_boundaries, &b->reaction, b->num_contacts, &b->pair, b->num_boundaries, &b->pressure, b->num_boundaries, &b->control,
                          b->num_bodies, &b->mean_strain));
+  PetscCall(PetscCalloc3(b->num_boundaries, &b->support_moment, b->num_bodies, &b->body, b->num_bodies, &b->motion));
   PetscCall(PetscMalloc1(b->num_contacts, &view));
-  PetscCall(ProblemForces(problem, state, b->reaction, NULL, NULL, &b->status));
+  PetscCall(ProblemForces(problem, state, b->reaction, b->support_moment, b->body, NULL, NULL, &b->status));
+  PetscCall(Motions_Private(problem, &scene->mechanics, b->motion));
   for (PetscInt i = 0; i < b->num_contacts; ++i) {
     PetscCall(InterfaceGetContact(ProblemInterface(problem), i, &view[i]));
     PetscCall(BalanceZone(ForestComm(forest), view[i], &b->pair[i]));
@@ -259,6 +277,7 @@ PetscErrorCode BalanceDestroy(Balance *b)
 {
   PetscFunctionBegin;
   PetscCall(PetscFree5(b->reaction, b->pair, b->pressure, b->control, b->mean_strain));
+  PetscCall(PetscFree3(b->support_moment, b->body, b->motion));
   b->num_boundaries = b->num_contacts = b->num_bodies = 0;
   PetscFunctionReturn(PETSC_SUCCESS);
 }

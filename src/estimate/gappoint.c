@@ -99,6 +99,12 @@ static PetscReal LinearGap_Private(const SurfaceView *m, PetscInt facet, const P
   return gap + change / Dot3(nm, n);
 }
 
+/* Do gaps of the mesh count as closed, or overlaps in part? */
+static PetscBool IsAdjusted_Private(const ContactTerm *term)
+{
+  return (PetscBool)(term->view->spec->adjust || term->view->open > 0);
+}
+
 /* Gap and height of the mortar side at a point. */
 static void Gap_Private(const EstimateSum *sum, const ContactTerm *term, const ContactSegment *segment, const PetscReal N[], PetscReal eta[2], GapPoint *p)
 {
@@ -116,7 +122,7 @@ static void Gap_Private(const EstimateSum *sum, const ContactTerm *term, const C
   ContactShape_Private(s, segment->facet, center, M);
   ContactNormal_Private(term, finite, segment->facet, center, M, middle);
   p->gap = finite ? Dot3(n, y) - Dot3(n, x) : LinearGap_Private(m, segment->mortar_facet, eta, n, X, x);
-  p->gap -= term->view->spec->interference;
+  p->gap -= term->view->interference;
   p->height = Dot3(middle, y);
 }
 
@@ -152,7 +158,7 @@ static PetscErrorCode AddPoint_Private(const EstimateSum *sum, const ContactTerm
   Nodal_Private(term, segment->facet, N, &p);
   Gap_Private(sum, term, segment, N, eta, &p);
   p.weight = weight * ContactTermsMeasure_Private(sum->contact, s, segment->facet, xi, N);
-  if (p.pressure > 0 && !term->view->spec->adjust) {
+  if (p.pressure > 0 && !IsAdjusted_Private(term)) {
     PetscCall(Bulge_Private(sum, s, segment->facet, xi, &p.bulge[0]));
     PetscCall(Bulge_Private(sum, m, segment->mortar_facet, eta, &p.bulge[1]));
   }
@@ -201,7 +207,7 @@ static PetscErrorCode AddPart_Private(const EstimateSum *sum, const ContactTerm 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* initial_gap: adjust counts the gaps of the mesh as closed, which leaves what differs from their mean. */
+/* initial_gap: adjust counts the gaps of the mesh as closed, ramp a share of overlaps, which leaves what differs from their mean. */
 static void Adjust_Private(GapPoints *points)
 {
   PetscReal area = 0, mean = 0;
@@ -219,13 +225,13 @@ PetscErrorCode GapPointsFind_Private(const EstimateSum *sum, const ContactTerm *
   points->num = 0;
   for (PetscInt i = 0; i < num; ++i) {
     PetscReal mean[2] = {0, 0};
-    if (!term->view->spec->adjust) {
+    if (!IsAdjusted_Private(term)) {
       PetscCall(MeanBulge_Private(sum, &term->view->nonmortar, segments[i].facet, &mean[0]));
       PetscCall(MeanBulge_Private(sum, &term->view->mortar, segments[i].mortar_facet, &mean[1]));
     }
     if (segments[i].num == 2) PetscCall(AddPart_Private(sum, term, &segments[i], mean, points));
     for (PetscInt k = 1; k + 1 < segments[i].num; ++k) PetscCall(AddTriangle_Private(sum, term, &segments[i], k, mean, points));
   }
-  if (term->view->spec->adjust) Adjust_Private(points);
+  if (IsAdjusted_Private(term)) Adjust_Private(points);
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -112,11 +112,6 @@ static inline int8_t ForestCoarseKey(const Coarse *coarse, PetscInt cell, const 
   return d == 0 ? 0 : d == n ? code : d == 1 ? result : 0;
 }
 
-/* ---- geometry.c --------------------------------------------------------------------------------------------------- */
-
-/* Position (and Jacobian [3][dim] unless NULL) at xi in [0,1]^dim of a coarse cell. */
-void ForestCoarseMapPoint(const CoarseMesh *, PetscInt cell, const PetscReal xi[], PetscReal X[3], PetscReal jacobian[]);
-
 /* ---- jacobian.c --------------------------------------------------------------------------------------------------- */
 
 /* Sign of the Jacobian determinant all over the cell: 1, -1, or 0 when it changes sign or vanishes. (Determinants of a degree above 11: at sample points.) */

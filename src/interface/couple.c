@@ -66,7 +66,7 @@ static void View_Private(Contact *c)
 }
 
 /* Sums over facets to the nodes of this rank, which evaluates all facets that carry weight to them; area over ranks. */
-static PetscErrorCode NodeSums_Private(Interface p, Contact *c)
+PetscErrorCode ContactNodeSums_Private(Interface p, Contact *c)
 {
   const Surface *s      = &c->side[0];
   PetscReal      sum[2] = {0, 0};
@@ -112,44 +112,6 @@ static PetscErrorCode ShareGaps_Private(Interface p, Contact *c)
     c->spring[s->values.nodes[i]]  = c->pack[4 * s->values.nodes[i] + 2];
     c->coupled[s->values.nodes[i]] = c->pack[4 * s->values.nodes[i] + 3];
   }
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* Interference into the offsets of the nodes of this rank. Facets that have no reach of their own measure gaps along normals of length 1. */
-static void Interference_Private(Contact *c)
-{
-  for (PetscInt i = 0; i < c->num_facets; ++i) {
-    const ContactFacet *f = &c->facets[i];
-    for (PetscInt k = 0; k < f->num_rows; ++k) {
-      if (c->side[0].owned[f->nodes[k]]) c->offset[f->nodes[k]] += c->spec->interference * (f->reach ? f->reach[k] : f->weight[k]);
-    }
-  }
-}
-
-/* What counts as no gap: gt_j less a constant, so that forces and derivatives stay as they are. Initial gaps are those of this mesh at the reference
-   positions; an interference is the change of all gaps by as much along their directions there. */
-static PetscErrorCode Offset_Private(Interface p, Contact *c)
-{
-  const Surface      *s       = &c->side[0];
-  ContactSurface      side[2] = {SurfaceAt_Private(&c->side[0], c->side[0].X), SurfaceAt_Private(&c->side[1], c->side[1].X)};
-  const ContactFacet *facets;
-  PetscBool           failed;
-
-  PetscFunctionBegin;
-  PetscCall(PetscArrayzero(c->offset, s->num_nodes));
-  if (!c->spec->adjust && c->spec->interference == 0) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(ContactSearch_Private(p, c, PETSC_TRUE, 0));
-  PetscCall(ContactPairEvaluate(c->pair, &side[0], &side[1], NULL, NULL, PETSC_FALSE, PETSC_FALSE, &c->num_facets, &facets, &failed));
-  c->facets = facets;
-  PetscCall(NodeSums_Private(p, c));
-  Interference_Private(c);
-  for (PetscInt i = 0; c->spec->adjust && i < s->num_own; ++i) {
-    const PetscInt j = s->own[i];
-    c->offset[j] += c->gap[j];
-    if (ContactCovered_Private(c, j)) c->view.adjusted = PetscMax(c->view.adjusted, PetscAbsReal(c->gap[j] / c->weight[j]));
-  }
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &c->view.adjusted, 1, MPIU_REAL, MPI_MAX, p->comm));
-  c->num_facets = 0;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -214,6 +176,7 @@ PetscErrorCode ContactCreate_Private(Interface p, const ContactSpec *spec, Conta
   PetscCall(PetscMalloc1(c->side[0].num_facets, &c->result));
   PetscCall(PetscCalloc1(n, &c->misfit));
   PetscCall(PetscMalloc4(n, &c->zdof, n, &c->zlocal, n, &c->gap0, n, &c->offset));
+  PetscCall(PetscCalloc2(n, &c->reach, n, &c->initial));
   PetscCall(PetscCalloc4(c->side[0].num_facets, &c->live, n, &c->valued, n, &c->valued_node, 4 * n, &c->pack));
   PetscCall(ContactNodeScales_Private(p, c));
   PetscCall(ContactCarriers_Private(p, c));
@@ -226,7 +189,7 @@ PetscErrorCode ContactCreate_Private(Interface p, const ContactSpec *spec, Conta
   SearchDistance_Private(c);
   View_Private(c);
   PetscCall(ContactFreedom_Private(p, c));
-  PetscCall(Offset_Private(p, c));
+  PetscCall(ContactOffset_Private(p, c));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -245,6 +208,8 @@ PetscErrorCode ContactDestroy_Private(Contact *c)
   PetscCall(PetscFree(c->result));
   PetscCall(PetscFree(c->misfit));
   PetscCall(PetscFree4(c->zdof, c->zlocal, c->gap0, c->offset));
+  PetscCall(PetscFree2(c->reach, c->initial));
+  for (PetscInt k = 0; k < 2; ++k) PetscCall(PetscFree(c->link[k]));
   PetscCall(PetscFree4(c->live, c->valued, c->valued_node, c->pack));
   PetscCall(ContactGatherDestroy_Private(c));
   PetscCall(PetscFree2(c->listed, c->mine));
@@ -291,7 +256,7 @@ static PetscErrorCode Freeze_Private(Interface p, Contact *c, PetscBool *failed)
   PetscCall(ContactSearch_Private(p, c, PETSC_TRUE, 0));
   PetscCall(ContactPairFreezeNormals(c->pair, PETSC_TRUE));
   PetscCall(ContactPairEvaluate(c->pair, &side[0], &side[1], NULL, NULL, PETSC_TRUE, PETSC_FALSE, &c->num_facets, &c->facets, failed));
-  PetscCall(NodeSums_Private(p, c));
+  PetscCall(ContactNodeSums_Private(p, c));
   PetscCall(PetscArraycpy(c->gap0, c->gap, num));
   PetscCall(ShareGaps_Private(p, c));
   PetscCall(PetscCalloc1(num, &c->mean0));
@@ -431,12 +396,12 @@ PetscErrorCode ContactEvaluate_Private(Interface p, Contact *c, Vec x, const Pet
     const ContactSurface side[2] = {SurfaceAt_Private(&c->side[0], c->side[0].x), SurfaceAt_Private(&c->side[1], c->side[1].x)};
     if (hessian && p->dim == 3) { /* who is near is decided by the gaps here, not by those of the last evaluation */
       PetscCall(ContactPairEvaluate(c->pair, &side[0], &side[1], c->z, NULL, PETSC_FALSE, PETSC_FALSE, &c->num_facets, &c->facets, failed));
-      PetscCall(NodeSums_Private(p, c));
+      PetscCall(ContactNodeSums_Private(p, c));
       PetscCall(Subtract_Private(p, c));
     }
     PetscCall(Near_Private(p, c, pending));
     PetscCall(ContactPairEvaluate(c->pair, &side[0], &side[1], c->z, c->near, derivatives, hessian, &c->num_facets, &c->facets, failed));
-    PetscCall(NodeSums_Private(p, c));
+    PetscCall(ContactNodeSums_Private(p, c));
   }
   PetscCall(Subtract_Private(p, c));
   if (small) PetscCall(Near_Private(p, c, pending));

@@ -124,13 +124,18 @@ typedef struct {
   PetscReal            distance;   /* search distance */
   PetscInt             num_facets; /* results of the last evaluation */
   const ContactFacet  *facets;
-  ContactFacet        *frozen;                   /* small kinematics: those at the reference positions */
-  PetscReal           *gap0, *mean0;             /* [n] small kinematics: gaps there, over weights; mean0 NULL: not yet, or finite */
-  PetscReal           *offset;                   /* [n] constant part of gt_j that does not count: initial gaps closed, interference */
-  PetscReal           *misfit;                   /* [n] imbalance.c: what else does not count, times the share left */
-  PetscReal            overlap, allowance;       /* overlap.c: the deepest at the start, what of it counts as none … */
-  PetscInt             shrinks;                  /* … for which this side … */
-  PetscReal           *inward[2], *moved[2];     /* … lies further in: [n][dim] unit vectors, reference positions then; NULL: not yet made */
+  ContactFacet        *frozen;               /* small kinematics: those at the reference positions */
+  PetscReal           *gap0, *mean0;         /* [n] small kinematics: gaps there, over weights; mean0 NULL: not yet, or finite */
+  PetscReal           *offset;               /* [n] constant part of gt_j that does not count: initial gaps closed, interference */
+  PetscReal           *reach, *initial;      /* offset.c: [n] what an interference of 1 adds to the offset; initial gap closed or opened at first */
+  PetscReal            interference, open;   /* offset.c: as they are in the offset: interference; share of initial overlaps that does not count */
+  PetscReal           *misfit;               /* [n] imbalance.c: what else does not count, times the share left */
+  PetscReal            overlap, allowance;   /* overlap.c: the deepest at the start, what of it counts as none … */
+  PetscInt             shrinks;              /* … for which this side … */
+  PetscReal           *inward[2], *moved[2]; /* … lies further in: [n][dim] unit vectors, reference positions then; NULL: not yet made */
+  int8_t              *link[2];              /* rigid.c: [n] body of each side's nodes among the links; NULL: there are none */
+  PetscInt             num_q, q_row[INTERFACE_MOTIONS], q_motion[INTERFACE_MOTIONS]; /* unknowns of the bodies of this pair */
+  const RigidLink     *links, *q_link[INTERFACE_MOTIONS];
   PetscInt            *pattern_offset, *pattern; /* [num_facets+1]: nodes each facet has room for in the matrix */
 } Contact;
 
@@ -152,6 +157,8 @@ struct _p_Interface {
   PetscReal            share;     /* of the misfit that counts as no gap */
   MPI_Datatype         unit[MOST_REALS + 1]; /* as many reals */
   ContactTraffic       traffic;
+  PetscInt             num_links;
+  const RigidLink     *links; /* borrowed */
   RowBuffer            work;
   PetscReal           *hessian; /* work: of a facet */
   PetscInt             hessian_size;
@@ -232,6 +239,10 @@ static inline PetscBool ContactIsReleased_Private(Interface p, const Contact *c)
 /* insert.c: as MatSetValues, of contact: values in the diagonal block. */
 PetscErrorCode ContactInsert_Private(Mat, PetscInt num_rows, const PetscInt rows[], PetscInt num_columns, const PetscInt columns[], const PetscReal K[],
                                      InsertMode);
+/* rigid.c, where bodies move by forces. Forces: rows q[num_q] from the entries v[dim num] of a facet's nodes. Hessian: what a facet's adds to the rows and
+   columns of q. */
+void           ContactRigidForces_Private(const Contact *, const ContactFacet *, const PetscReal v[], PetscReal q[]);
+PetscErrorCode ContactRigidHessian_Private(const InterfaceSystem *, const Contact *, const ContactFacet *, const PetscInt dofs[], const PetscReal H[]);
 /* tangent.c: a facet's Hessian, added; the gradient of a row of node j in work_index and work_value; its rows, with their columns in the symmetric form. */
 PetscErrorCode ContactFacetHessian_Private(Interface, const InterfaceSystem *, const Contact *, const ContactFacet *);
 PetscErrorCode ContactNodeGradient_Private(Interface, const Contact *, PetscInt j, const ContactRow *, PetscInt *num);
@@ -276,6 +287,10 @@ static inline PetscReal ContactOverlap_Private(const Contact *c, PetscInt j)
 {
   return -(c->gap[j] + c->change[j]) / c->weight[j];
 }
+/* couple.c: gaps, weights and compliances of the facets at hand at the nodes. Collective. */
+PetscErrorCode ContactNodeSums_Private(Interface, Contact *);
+/* offset.c: what counts as no gap, from the reference positions, at t = 0. Collective. */
+PetscErrorCode ContactOffset_Private(Interface, Contact *);
 /* firsttouch.c: the overlap from which on nodes join the active set, of a pair that has borne nothing yet. Collective. */
 PetscErrorCode ContactLeastOverlap_Private(Interface, const Contact *, PetscReal *least);
 /* slidelimit.c: which translations the supports of both sides' bodies leave free. */

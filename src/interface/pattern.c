@@ -137,7 +137,8 @@ PetscErrorCode InterfaceGrow(Interface p, PetscBool *grown)
 PetscInt ContactPatternSize_Private(const Contact *c, PetscInt facet)
 {
   if (!c->pattern_offset) return 0; /* none of the facets evaluated on this rank has met anything yet */
-  return (c->side[0].dim + c->num) * (c->pattern_offset[facet + 1] - c->pattern_offset[facet]);
+  const PetscInt num = c->pattern_offset[facet + 1] - c->pattern_offset[facet];
+  return (c->side[0].dim + c->num) * num + (num ? c->num_q : 0);
 }
 
 /* Is the nonmortar node one of the facet's multipliers? In two dimensions its outer neighbours stand in the pattern too. */
@@ -160,6 +161,7 @@ PetscInt ContactPatternDofs_Private(const Contact *c, PetscInt facet, PetscInt d
     if (NODE_SIDE(c->pattern[k]) || c->zdof[node] < 0 || !CarriesRow_Private(&c->side[0], facet, node)) continue;
     for (PetscInt i = 0; i < c->num; ++i) dofs[num++] = c->zdof[node] + i;
   }
+  for (PetscInt m = 0; m < c->num_q && c->pattern_offset[facet + 1] > c->pattern_offset[facet]; ++m) dofs[num++] = c->q_row[m];
   return num;
 }
 

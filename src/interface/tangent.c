@@ -50,7 +50,7 @@ PetscErrorCode ContactFacetHessian_Private(Interface p, const InterfaceSystem *a
 {
   const PetscInt dim = p->dim, n = dim * e->num;
   PetscInt      *dofs, *turned, num_turned;
-  PetscReal     *H;
+  PetscReal     *H, q[INTERFACE_MOTIONS];
 
   PetscFunctionBegin;
   PetscCall(RowBufferGrow(&p->work, n + e->num));
@@ -75,18 +75,21 @@ PetscErrorCode ContactFacetHessian_Private(Interface p, const InterfaceSystem *a
     }
     for (PetscInt k = 0; k < num_turned; ++k) Turn_Private(dim, Frame_Private(c, e->nodes[turned[k]]), p->work.value + dim * turned[k], 1);
     PetscCall(VecSetValues(a->lift, n, dofs, p->work.value, ADD_VALUES));
+    ContactRigidForces_Private(c, e, p->work.value, q);
+    PetscCall(VecSetValues(a->lift, c->num_q, c->q_row, q, ADD_VALUES));
   }
   for (PetscInt k = 0; k < num_turned; ++k) {
-    const PetscInt   b = turned[k];
-    const PetscReal *q = Frame_Private(c, e->nodes[b]);
-    for (PetscInt i = 0; i < n; ++i) Turn_Private(dim, q, H + i * n + dim * b, 1);
+    const PetscInt   b    = turned[k];
+    const PetscReal *axes = Frame_Private(c, e->nodes[b]);
+    for (PetscInt i = 0; i < n; ++i) Turn_Private(dim, axes, H + i * n + dim * b, 1);
   }
   for (PetscInt k = 0; k < num_turned; ++k) {
-    const PetscInt   b = turned[k];
-    const PetscReal *q = Frame_Private(c, e->nodes[b]);
-    for (PetscInt j = 0; j < n; ++j) Turn_Private(dim, q, H + dim * b * n + j, n);
+    const PetscInt   b    = turned[k];
+    const PetscReal *axes = Frame_Private(c, e->nodes[b]);
+    for (PetscInt j = 0; j < n; ++j) Turn_Private(dim, axes, H + dim * b * n + j, n);
   }
   PetscCall(ContactInsert_Private(a->matrix, n, dofs, n, dofs, H, ADD_VALUES));
+  PetscCall(ContactRigidHessian_Private(a, c, e, dofs, H));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -94,6 +97,7 @@ PetscErrorCode ContactFacetHessian_Private(Interface p, const InterfaceSystem *a
 static PetscErrorCode Blocks_Private(Interface p, const InterfaceSystem *a, Contact *c)
 {
   const PetscInt dim = p->dim;
+  PetscReal      q[INTERFACE_MOTIONS];
 
   PetscFunctionBegin;
   if (ContactIsReleased_Private(p, c)) {
@@ -120,6 +124,9 @@ static PetscErrorCode Blocks_Private(Interface p, const InterfaceSystem *a, Cont
       for (PetscInt i = 0; i < n && yield != 0; ++i) p->work.value[i] -= yield * e->dshare[i];
       for (PetscInt b = 0; b < e->num; ++b) Turn_Private(dim, Frame_Private(c, e->nodes[b]), p->work.value + dim * b, 1);
       PetscCall(ContactInsert_Private(a->matrix, n, p->work.index, 1, &z, p->work.value, ADD_VALUES));
+      if (!c->num_q) continue;
+      ContactRigidForces_Private(c, e, p->work.value, q);
+      PetscCall(ContactInsert_Private(a->matrix, c->num_q, c->q_row, 1, &z, q, ADD_VALUES));
     }
   }
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -175,6 +182,14 @@ PetscErrorCode ContactNodeGradient_Private(Interface p, const Contact *c, PetscI
       for (PetscInt d = 0; d < dim; ++d)
         g[d] = gradient[dim * a + d] - form->mean * e->dweight[row * n + dim * a + d] + (yield != 0 ? yield * e->dshare[dim * a + d] : 0);
       Turn_Private(dim, Frame_Private(c, e->nodes[a]), g, 1);
+      for (PetscInt m = 0; m < c->num_q; ++m) {
+        PetscReal dx[3];
+        if (c->link[NODE_SIDE(e->nodes[a])][node] < 0 || c->links + c->link[NODE_SIDE(e->nodes[a])][node] != c->q_link[m]) continue;
+        RigidDerivative(c->q_link[m], c->q_motion[m], side->X + dim * node, dim, dx);
+        PetscCall(PetscFindInt(c->q_row[m], *num, dofs, &at));
+        PetscCheck(at >= 0, PETSC_COMM_SELF, PETSC_ERR_PLIB, "rigid body outside the pattern of its facet");
+        for (PetscInt d = 0; d < dim; ++d) values[at] += form->factor * g[d] * dx[d];
+      }
       for (PetscInt d = 0; d < dim; ++d) {
         if (side->dof[dim * node + d] < 0) continue;
         PetscCall(PetscFindInt(side->dof[dim * node + d], *num, dofs, &at));

@@ -138,6 +138,7 @@ PetscErrorCode MechanicsDestroy(Mechanics *mechanics)
   PetscCall(MechanicsCondenseDestroy_Private(m));
   PetscCall(MechanicsUnknownsDestroy_Private(m));
   PetscCall(CellNumbersDestroy_Private(&m->history));
+  PetscCall(PetscFree(m->free_motion));
   PetscCall(CellNumbersDestroy_Private(&m->stored));
   for (PetscInt g = 0; g < m->num_groups; ++g) {
     PetscCall(CellKernelDestroy(&m->groups[g].kernel));

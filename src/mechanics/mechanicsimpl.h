@@ -153,21 +153,22 @@ struct _p_Mechanics {
   CellGroup           *groups;                  /* owned */
   PetscInt            *cell_group, *cell_index; /* owned [num_cells] group (-1: rigid) and position in it (-1: ghost) */
   LoadFacet           *facets;                  /* owned */
-  PetscInt             num_controls, *control;  /* owned: boundaries whose pressure is found */
-  PetscReal           *control_pressure;        /* owned [num_controls] */
-  PetscReal            t;
-  PetscReal           *dead;                     /* owned local array: dead loads at t, negative as in the residual; NULL: none */
-  PetscReal           *linear, *dpressure;       /* owned: linearised pressure and derivative of the last tangent; dpressure holds [m][n*dim] cell by cell */
-  PetscReal           *free_share;               /* owned [num_owned_cells] diagonal of cells of unsupported bodies relative to their stiffness, else 0 */
-  PetscReal            free_part;                /* part of it that counts */
-  PetscReal            viscosity, *viscous_from; /* rate, 0: none; owned local array: displacements it counts from */
-  PetscReal           *viscous_room;             /* owned: room for a cell's displacements, twice */
-  PetscReal           *hold;                     /* owned [num_bodies][9], see MechanicsGetHold */
-  PetscBool           *held;                     /* owned [num_bodies], see MechanicsIsHeld */
-  PetscReal           *work;                     /* owned batch buffers */
-  PetscInt             work_size;
-  PetscReal           *condense_work; /* owned: condense.c */
-  PetscInt             num_negative;  /* eigenvalues of the blocks eliminated at the last tangent */
+  PetscReal (*free_motion)[6];                  /* owned [num_bodies] translation and rotation vector that forces bring about; NULL: none do */
+  PetscInt   num_controls, *control;            /* owned: boundaries whose pressure is found */
+  PetscReal *control_pressure;                  /* owned [num_controls] */
+  PetscReal  t;
+  PetscReal *dead;                     /* owned local array: dead loads at t, negative as in the residual; NULL: none */
+  PetscReal *linear, *dpressure;       /* owned: linearised pressure and derivative of the last tangent; dpressure holds [m][n*dim] cell by cell */
+  PetscReal *free_share;               /* owned [num_owned_cells] diagonal of cells of unsupported bodies relative to their stiffness, else 0 */
+  PetscReal  free_part;                /* part of it that counts */
+  PetscReal  viscosity, *viscous_from; /* rate, 0: none; owned local array: displacements it counts from */
+  PetscReal *viscous_room;             /* owned: room for a cell's displacements, twice */
+  PetscReal *hold;                     /* owned [num_bodies][9], see MechanicsGetHold */
+  PetscBool *held;                     /* owned [num_bodies], see MechanicsIsHeld */
+  PetscReal *work;                     /* owned batch buffers */
+  PetscInt   work_size;
+  PetscReal *condense_work; /* owned: condense.c */
+  PetscInt   num_negative;  /* eigenvalues of the blocks eliminated at the last tangent */
 
   /* incompressible.c: pressure unknowns of local cells, owned ones first */
   PetscInt  *unknown_first; /* owned [num_cells+1] */

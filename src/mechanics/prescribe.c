@@ -13,16 +13,16 @@ PetscErrorCode MechanicsValue(Expression expression, const Amplitude *amplitude,
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Displacement of point X under a rotation by angle (degrees) about an axis through a point. */
-static void RotationValue_Private(const BoundarySpec *b, PetscReal degrees, const PetscReal X[3], PetscReal u[3])
+/* Displacement of X under a rotation by an angle (degrees) about an axis through a point. */
+static void RotationValue_Private(PetscInt axis, const PetscReal point[3], PetscReal degrees, const PetscReal X[3], PetscReal u[3])
 {
   const PetscReal angle = degrees * PETSC_PI / 180, cosine = PetscCosReal(angle), sine = PetscSinReal(angle);
-  const PetscInt  i = (b->rotation_axis + 1) % 3, j = (b->rotation_axis + 2) % 3;
-  const PetscReal ri = X[i] - b->rotation_point[i], rj = X[j] - b->rotation_point[j];
+  const PetscInt  i = (axis + 1) % 3, j = (axis + 2) % 3;
+  const PetscReal ri = X[i] - point[i], rj = X[j] - point[j];
 
-  u[b->rotation_axis] = 0;
-  u[i]                = cosine * ri - sine * rj - ri;
-  u[j]                = sine * ri + cosine * rj - rj;
+  u[axis] = 0;
+  u[i]    = cosine * ri - sine * rj - ri;
+  u[j]    = sine * ri + cosine * rj - rj;
 }
 
 /* Cartesian displacement that a boundary prescribes at X; unprescribed components 0. A rotation comes first, translations are added. */
@@ -33,7 +33,7 @@ static PetscErrorCode BoundaryValue_Private(const BoundarySpec *b, PetscInt dim,
   if (b->rotation) {
     PetscReal degrees;
     PetscCall(MechanicsValue(b->rotation_angle, &b->amplitude, X, t, &degrees));
-    RotationValue_Private(b, degrees, X, u);
+    RotationValue_Private(b->rotation_axis, b->rotation_point, degrees, X, u);
   }
   for (PetscInt c = 0; c < dim; ++c) {
     PetscReal value;
@@ -44,15 +44,62 @@ static PetscErrorCode BoundaryValue_Private(const BoundarySpec *b, PetscInt dim,
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode BodyMotion_Private(const BodySpec *body, PetscInt dim, PetscReal t, PetscReal u[3])
+/* Displacement of the material point at X of a rigid body: a rotation first, then the translation. */
+static PetscErrorCode BodyMotion_Private(const BodySpec *body, PetscInt dim, const PetscReal X[3], PetscReal t, PetscReal u[3])
 {
   const PetscReal origin[3] = {0, 0, 0};
 
   PetscFunctionBegin;
-  for (PetscInt c = 0; c < dim; ++c) {
-    u[c] = 0;
-    if (body->motion[c]) PetscCall(MechanicsValue(body->motion[c], &body->amplitude, origin, t, &u[c]));
+  u[0] = u[1] = u[2] = 0;
+  if (body->rotation_angle) {
+    PetscReal degrees;
+    PetscCall(MechanicsValue(body->rotation_angle, &body->amplitude, origin, t, &degrees));
+    RotationValue_Private(body->rotation_axis, body->rotation_point, degrees, X, u);
   }
+  for (PetscInt c = 0; c < dim; ++c) {
+    PetscReal value;
+    if (!body->motion[c]) continue;
+    PetscCall(MechanicsValue(body->motion[c], &body->amplitude, origin, t, &value));
+    u[c] += value;
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode MechanicsBodyMotion(Mechanics m, PetscInt body, const PetscReal X[3], PetscReal u[3])
+{
+  PetscFunctionBegin;
+  u[0] = u[1] = u[2] = 0;
+  const BodySpec *b  = &m->spec->bodies[body];
+  if (m->t != 0) PetscCall(BodyMotion_Private(b, m->dim, X, m->t, u)); /* all is at rest at t = 0 */
+  if (m->free_motion) {
+    const PetscReal *free = m->free_motion[body];
+    PetscReal        R[9];
+    RotationMatrix(free + 3, R);
+    for (PetscInt c = 0; c < m->dim; ++c) {
+      u[c] += free[c] - (X[c] - b->about[c]);
+      for (PetscInt d = 0; d < m->dim; ++d) u[c] += R[3 * c + d] * (X[d] - b->about[d]);
+    }
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode MechanicsSetFreeMotion(Mechanics m, PetscInt body, const PetscReal translation[3], const PetscReal rotation[3])
+{
+  PetscFunctionBegin;
+  if (!m->free_motion) PetscCall(PetscCalloc1(m->spec->num_bodies, &m->free_motion));
+  PetscCall(PetscArraycpy(m->free_motion[body], translation, 3));
+  PetscCall(PetscArraycpy(m->free_motion[body] + 3, rotation, 3));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode MechanicsBodyRotation(Mechanics m, PetscInt body, PetscReal rotation[3])
+{
+  const PetscReal origin[3] = {0, 0, 0};
+  const BodySpec *b         = &m->spec->bodies[body];
+
+  PetscFunctionBegin;
+  for (PetscInt c = 0; c < 3; ++c) rotation[c] = m->free_motion ? m->free_motion[body][3 + c] * 180 / PETSC_PI : 0;
+  if (b->rotation_angle && m->t != 0) PetscCall(MechanicsValue(b->rotation_angle, &b->amplitude, origin, m->t, &rotation[b->rotation_axis]));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -143,7 +190,7 @@ PetscErrorCode MechanicsPrescribe(Mechanics m, PetscReal local[])
       PetscReal      u[3]  = {0, 0, 0};
       if (!((m->supports->fixed[n] >> c) & 1)) continue;
       if (cause <= -2)
-        PetscCall(BodyMotion_Private(&m->spec->bodies[-2 - cause], m->dim, m->t, u));
+        PetscCall(BodyMotion_Private(&m->spec->bodies[-2 - cause], m->dim, v->X + 3 * n, m->t, u));
       else
         PetscCall(BoundaryValue_Private(&m->spec->boundaries[cause], m->dim, v->X + 3 * n, m->t, u));
       if (frame) u[c] = Dot3(frame + 3 * c, u);
@@ -201,7 +248,7 @@ PetscErrorCode MechanicsFindConflict(Mechanics m, PetscReal time, size_t size, c
     NodeSupport    s     = {0};
     PetscReal      u[3];
     if (!m->supports->fixed[n]) continue;
-    if (cause <= -2) PetscCall(BodyMotion_Private(&m->spec->bodies[-2 - cause], m->dim, time, u));
+    if (cause <= -2) PetscCall(BodyMotion_Private(&m->spec->bodies[-2 - cause], m->dim, v->X + 3 * n, time, u));
     for (PetscInt c = 0; c < m->dim && cause <= -2; ++c) {
       PetscReal unit[3] = {0, 0, 0};
       unit[c]           = 1;

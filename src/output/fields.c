@@ -3,6 +3,7 @@
 
 #define FORCE "force"
 #define LENGTH "length"
+#define MOMENT "force times length"
 #define STRESS "stress"
 #define ENERGY "energy"
 #define SECONDS "s"
@@ -70,12 +71,20 @@ const OutputField OutputHistoryColumns[] = {
     {"plastic.work", ENERGY, WORK_HELP},
     {"body.<body>.mean_plastic_strain", "", "mean over the reference volume of a body that flows"},
     {"reaction.<boundary>.<axis>", FORCE, "force of a support on the body; axisymmetric: over the full revolution"},
+    {"reaction.<boundary>.moment", MOMENT, "plane: its moment about boundary.<name>.moment_about, by default the centre of the body, current positions"},
+    {"reaction.<boundary>.moment.<axis>", MOMENT, "space: the same"},
+    {"body.<body>.displacement.<axis>", LENGTH, "displacement of a rigid body's point (body.<name>.moment_about, by default its centre)"},
+    {"body.<body>.rotation", "degrees", "plane: angle by which it is turned, prescribed or found"},
+    {"body.<body>.rotation.<axis>", "degrees", "space: rotation vector, along the axis and as long as the angle"},
+    {"body.<body>.force.<axis>", FORCE, "force that all others exert on a rigid body"},
+    {"body.<body>.moment", MOMENT, "plane: its moment about body.<name>.moment_about, by default the body's centre, which moves with the body"},
+    {"body.<body>.moment.<axis>", MOMENT, "space: the same"},
     {"pressure.<boundary>", STRESS, "pressure that was found for volume or advance"},
     {"volume.<boundary>", "volume", "change of the enclosed volume that it follows"},
     {"advance.<boundary>", LENGTH, "mean displacement against the outward normal that it follows"},
     {"contact.<pair>.force.<axis>", FORCE, "contact force on the nonmortar side of the scene"},
-    {"contact.<pair>.moment", "force times length", "plane: its moment about the origin"},
-    {"contact.<pair>.moment.<axis>", "force times length", "space: its moment about the origin"},
+    {"contact.<pair>.moment", MOMENT, "plane: its moment about contact.<pair>.moment_about, by default the origin"},
+    {"contact.<pair>.moment.<axis>", MOMENT, "space: the same"},
     {"contact.<pair>.max_pressure", STRESS, "largest contact pressure at a node"},
     {"contact.<pair>.area", "area", "area in contact; plane strain: length; axisymmetric: over the full revolution"},
     {"contact.<pair>.radius", LENGTH, "plane: largest distance of a touching point from x = 0"},
@@ -134,14 +143,20 @@ const OutputField OutputSummaryFields[] = {
     {"plastic_work", ENERGY, WORK_HELP},
     {"body.<body>.mean_plastic_strain", "", "mean over the reference volume of a body that flows"},
     {"reaction.<boundary>", FORCE, "force of a support on the body, by axis; axisymmetric: over the full revolution"},
+    {"reaction_moment.<boundary>", MOMENT,
+     "its moment about boundary.<name>.moment_about, by default the centre of the body, current positions; not axisymmetric"},
+    {"body.<body>.displacement", LENGTH, "displacement of a rigid body's point (body.<name>.moment_about, by default its centre), by axis"},
+    {"body.<body>.rotation", "degrees", "angle by which it is turned, prescribed or found; space: rotation vector; not axisymmetric"},
+    {"body.<body>.force", FORCE, "force that all others exert on a rigid body, by axis"},
+    {"body.<body>.moment", MOMENT, "its moment about body.<name>.moment_about, by default the body's centre, which moves with the body; not axisymmetric"},
     {"pressure.<boundary>", STRESS, "pressure that was found for volume or advance"},
     {"volume.<boundary>", "volume", "change of the enclosed volume that it follows"},
     {"advance.<boundary>", LENGTH, "mean displacement against the outward normal that it follows"},
     {"contact.<pair>.roles_exchanged", "", "true: the mortar side of the scene is the softer one and carries the pressure"},
     {"contact.<pair>.force", FORCE, "contact force on the nonmortar side of the scene, by axis"},
-    {"contact.<pair>.moment", "force times length", "its moment about the origin, current positions"},
+    {"contact.<pair>.moment", MOMENT, "its moment about contact.<pair>.moment_about, by default the origin, current positions"},
     {"contact.<pair>.mortar_force", FORCE, "contact force on the mortar side"},
-    {"contact.<pair>.mortar_moment", "force times length", "its moment"},
+    {"contact.<pair>.mortar_moment", MOMENT, "its moment"},
     {"contact.<pair>.force_imbalance", "", "sum of both forces relative to their size"},
     {"contact.<pair>.moment_imbalance", "", "the same of the moments"},
     {"contact.<pair>.max_pressure", STRESS, "largest contact pressure at a node"},

@@ -38,13 +38,21 @@ static PetscErrorCode Column_Private(Columns *c, PetscReal value, const char *ki
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* One moment (about z) in two dimensions, three in space. */
+static PetscErrorCode MomentColumns_Private(Columns *c, PetscInt dim, const char *kind, const char *name, const PetscReal moment[3])
+{
+  PetscFunctionBegin;
+  for (PetscInt a = dim == 2 ? 2 : 0; a < 3; ++a) PetscCall(Column_Private(c, moment[a], kind, name, "moment", dim == 2 ? NULL : axis_name[a]));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 static PetscErrorCode PairColumns_Private(Columns *c, PetscInt dim, const char *name, const PairFigures *f)
 {
   const PetscReal zone[] = {f->max_pressure, f->area, f->radius, (PetscReal)f->active_nodes, f->min_gap};
 
   PetscFunctionBegin;
   for (PetscInt a = 0; a < dim; ++a) PetscCall(Column_Private(c, f->force[0][a], "contact", name, "force", axis_name[a]));
-  for (PetscInt a = dim == 2 ? 2 : 0; a < 3; ++a) PetscCall(Column_Private(c, f->moment[0][a], "contact", name, "moment", dim == 2 ? NULL : axis_name[a]));
+  PetscCall(MomentColumns_Private(c, dim, "contact", name, f->moment[0]));
   for (PetscInt k = 0; k < 5; ++k) {
     if (k == 2 && dim == 3) continue;
     PetscCall(Column_Private(c, zone[k], "contact", name, zone_name[k], NULL));
@@ -52,11 +60,31 @@ static PetscErrorCode PairColumns_Private(Columns *c, PetscInt dim, const char *
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Forces and moments on rigid bodies. */
+static PetscErrorCode BodyColumns_Private(Columns *c, const MechanicsSpec *m, PetscInt dim, const Balance *balance)
+{
+  const Resultant none = {0};
+
+  PetscFunctionBegin;
+  for (PetscInt b = 0; b < m->num_bodies; ++b) {
+    const Resultant *on = balance ? &balance->body[b] : &none;
+    if (!m->bodies[b].material->law->rigid) continue;
+    for (PetscInt a = 0; a < dim; ++a)
+      PetscCall(Column_Private(c, balance ? balance->motion[b][a] : 0, "body", m->bodies[b].name, "displacement", axis_name[a]));
+    for (PetscInt a = dim == 2 ? 2 : 0; a < 3 && m->model != MODEL_AXISYMMETRIC; ++a)
+      PetscCall(Column_Private(c, balance ? balance->motion[b][3 + a] : 0, "body", m->bodies[b].name, "rotation", dim == 2 ? NULL : axis_name[a]));
+    for (PetscInt a = 0; a < dim; ++a) PetscCall(Column_Private(c, on->force[a], "body", m->bodies[b].name, "force", axis_name[a]));
+    if (m->model != MODEL_AXISYMMETRIC) PetscCall(MomentColumns_Private(c, dim, "body", m->bodies[b].name, on->moment));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* All columns after the fixed ones. balance and probe may be NULL: names only. */
 static PetscErrorCode Columns_Private(const SceneData *scene, PetscInt num_probes, const Balance *balance, const ProbeValue probe[], Columns *c)
 {
-  const PetscInt    dim  = scene->mechanics.model == MODEL_3D ? 3 : 2;
-  const PairFigures none = {0};
+  const PetscInt    dim     = scene->mechanics.model == MODEL_3D ? 3 : 2;
+  const PairFigures none    = {0};
+  const PetscReal   zero[3] = {0};
 
   PetscFunctionBegin;
   if (MechanicsIsPlastic(&scene->mechanics)) {
@@ -71,7 +99,10 @@ static PetscErrorCode Columns_Private(const SceneData *scene, PetscInt num_probe
     const BoundarySpec *spec = &scene->mechanics.boundaries[b];
     if (!BoundarySupports(spec)) continue;
     for (PetscInt a = 0; a < dim; ++a) PetscCall(Column_Private(c, balance ? balance->reaction[b][a] : 0, "reaction", spec->name, NULL, axis_name[a]));
+    if (scene->mechanics.model == MODEL_AXISYMMETRIC) continue; /* forces on rings have no moment */
+    PetscCall(MomentColumns_Private(c, dim, "reaction", spec->name, balance ? balance->support_moment[b] : zero));
   }
+  PetscCall(BodyColumns_Private(c, &scene->mechanics, dim, balance));
   for (PetscInt b = 0; b < scene->mechanics.num_boundaries; ++b) {
     const BoundarySpec *spec = &scene->mechanics.boundaries[b];
     if (!BoundaryIsControlled(spec)) continue;

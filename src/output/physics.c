@@ -38,8 +38,11 @@ static PetscErrorCode Pair_Private(const ContactSpec *c, const CoarseMesh *mesh,
   PetscFunctionBegin;
   PetscCall(OutputTextPrint(text, "contact.%s: nonmortar %s, mortar %s, order %s, multiplier %s, initial_gap %s, friction %.15g, ", c->name,
                             mesh->boundary_name[c->nonmortar], mesh->boundary_name[c->mortar], c->full ? "full" : "1", c->standard ? "standard" : "dual",
-                            c->adjust ? "adjust" : "keep", (double)c->friction));
-  PetscCall(OutputTextPrint(text, "interference %.15g, penalty %.15g%s\n", (double)c->interference, (double)c->penalty,
+                            c->adjust ? "adjust"
+                            : c->ramp ? "ramp"
+                                      : "keep",
+                            (double)c->friction));
+  PetscCall(OutputTextPrint(text, "interference %s, penalty %.15g%s\n", c->interference ? ExpressionText(c->interference) : "0", (double)c->penalty,
                             c->node_to_segment ? ", node_to_segment" : ""));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -74,6 +77,10 @@ PetscErrorCode OutputPhysics(const SceneData *scene, const CoarseMesh *mesh, Out
     if (along[0] || along[1] || along[2])
       PetscCall(OutputTextPrint(text, "order %" PetscInt_FMT ", along x, y, z %" PetscInt_FMT " %" PetscInt_FMT " %" PetscInt_FMT ", ", m->bodies[b].order,
                                 along[0], along[1], along[2]));
+    for (PetscInt c = 0; c < 3; ++c) {
+      if (m->bodies[b].load[c]) PetscCall(OutputTextPrint(text, "load %c, ", 'x' + (int)c));
+      if (m->bodies[b].load_moment[c]) PetscCall(OutputTextPrint(text, "load moment_%c, ", 'x' + (int)c));
+    }
     PetscCall(Material_Private(m->bodies[b].material, mesh->num_cells, text));
   }
   for (PetscInt i = 0; i < scene->num_contacts; ++i) PetscCall(Pair_Private(&scene->contacts[i], mesh, text));

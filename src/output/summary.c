@@ -105,6 +105,29 @@ static void AddControls_Private(cJSON *root, const SceneData *scene, const Balan
   }
 }
 
+/* What supports exert beside their forces, and what is exerted on rigid bodies. */
+static void AddMoments_Private(cJSON *root, const SceneData *scene, const Balance *b)
+{
+  const PetscInt  dim    = Dim_Private(scene);
+  const PetscBool ring   = (PetscBool)(scene->mechanics.model == MODEL_AXISYMMETRIC);
+  cJSON          *bodies = cJSON_GetObjectItem(root, "body"), *moments = ring ? NULL : cJSON_AddObjectToObject(root, "reaction_moment");
+
+  for (PetscInt i = 0; i < b->num_boundaries && moments; ++i) {
+    const BoundarySpec *spec = &scene->mechanics.boundaries[i];
+    if (BoundarySupports(spec)) AddMoment_Private(moments, spec->name, dim, b->support_moment[i]);
+  }
+  for (PetscInt i = 0; i < b->num_bodies; ++i) {
+    const BodySpec *spec = &scene->mechanics.bodies[i];
+    if (!spec->material->law->rigid) continue;
+    if (!bodies) bodies = cJSON_AddObjectToObject(root, "body");
+    cJSON *body = cJSON_AddObjectToObject(bodies, spec->name);
+    AddArray_Private(body, "displacement", dim, b->motion[i]);
+    if (!ring) AddMoment_Private(body, "rotation", dim, b->motion[i] + 3);
+    AddArray_Private(body, "force", dim, b->body[i].force);
+    if (!ring) AddMoment_Private(body, "moment", dim, b->body[i].moment);
+  }
+}
+
 static void AddForces_Private(cJSON *root, const SceneData *scene, const Balance *b)
 {
   const PetscInt dim      = Dim_Private(scene);
@@ -113,6 +136,7 @@ static void AddForces_Private(cJSON *root, const SceneData *scene, const Balance
   for (PetscInt i = 0; b && i < b->num_boundaries; ++i) {
     if (BoundarySupports(&scene->mechanics.boundaries[i])) AddArray_Private(reaction, scene->mechanics.boundaries[i].name, dim, b->reaction[i]);
   }
+  if (b) AddMoments_Private(root, scene, b);
   if (b) AddControls_Private(root, scene, b);
   contact = cJSON_AddObjectToObject(root, "contact");
   for (PetscInt i = 0; b && i < b->num_contacts; ++i) AddPair_Private(contact, dim, &scene->contacts[i], &b->pair[i]);
@@ -287,14 +311,6 @@ PetscErrorCode OutputSummary(MPI_Comm comm, const SceneData *scene, const RunSum
   cJSON_Delete(document);
   PetscCall(PetscFree(g.probe));
   PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscBool BoundarySupports(const BoundarySpec *b)
-{
-  PetscBool any = (PetscBool)(b->fix_normal || b->rotation);
-
-  for (PetscInt c = 0; c < 3; ++c) any = (PetscBool)(any || b->fix[c] || b->displacement[c]);
-  return any;
 }
 
 /* mkdir -p; errno, 0 when the directory is there. */

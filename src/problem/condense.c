@@ -35,6 +35,7 @@ PetscErrorCode ProblemRows_Private(Problem p)
   PetscCall(PressureRowNumbers_Private(p, inner));
   for (PetscMPIInt r = 0; r < p->size; ++r) inner[r] = p->row_start[r] - inner[r];
   PetscCall(InterfaceSetRows(p->interface, counts, inner, p->row, p->num_inner));
+  PetscCall(RigidSetRows_Private(p, p->row_start[p->size] - p->num_scalars + p->num_controls));
   PetscCall(PetscFree2(inner, counts));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -92,7 +92,7 @@ PetscErrorCode ProblemGetTime(Problem p, Vec x, PetscReal *t)
 {
   PetscFunctionBegin;
   *t = p->t;
-  if (p->num_scalars == p->num_controls) PetscFunctionReturn(PETSC_SUCCESS);
+  if (p->num_scalars == p->num_controls + p->num_rigid) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(ProblemGetScalars(p, x, p->scalar));
   *t = p->scalar[p->num_controls];
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -188,7 +188,7 @@ PetscErrorCode ProblemIsSymmetric(Problem p, PetscBool *possible)
   const MechanicsSpec *m = &p->scene->mechanics;
 
   PetscFunctionBegin;
-  *possible = (PetscBool)(p->scene->load.control == LOAD_TIME && InterfaceIsSymmetric(p->interface));
+  *possible = (PetscBool)(p->scene->load.control == LOAD_TIME && InterfaceIsSymmetric(p->interface) && RigidIsSymmetric_Private(p));
   for (PetscInt b = 0; b < m->num_boundaries; ++b) {
     if (BoundaryHasPressure(&m->boundaries[b]) && m->kinematics == KINEMATICS_FINITE) *possible = PETSC_FALSE;
   }
@@ -230,7 +230,7 @@ PetscErrorCode ProblemNumNegative(Problem p, PetscInt *num)
 
   PetscFunctionBegin;
   PetscCall(MechanicsNumNegative(p->mechanics, &inner));
-  *num = p->num_rows - (p->num_u - p->num_inner) - inner;
+  *num = p->num_rows - (p->num_u - p->num_inner) - inner - (p->rank == p->size - 1 ? p->num_rigid : 0);
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, num, 1, MPIU_INT, MPI_SUM, p->comm));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -241,6 +241,8 @@ PetscErrorCode ProblemSetTime(Problem p, PetscReal t)
   p->t = t;
   PetscCall(MechanicsSetTime(p->mechanics, t));
   PetscCall(MechanicsPrescribe(p->mechanics, p->target));
+  PetscCall(InterfaceSetTime(p->interface, t));
+  PetscCall(RigidSetTime_Private(p));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -294,6 +296,7 @@ PetscErrorCode ProblemLocalDisplacement(Problem p, Vec x, PetscReal local[])
   PetscFunctionBegin;
   PetscCall(ScalarsRead_Private(p, x));
   PetscCall(FillLocal_Private(p, x, p->applied, local));
+  PetscCall(RigidMove_Private(p, local));
   PetscCall(PressureSpread_Private(p, x));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -308,6 +311,13 @@ PetscErrorCode ProblemIncrement_Private(Problem p, Vec dx, PetscReal share)
   PetscCall(PetscMalloc1(v->num_nodes * p->dim, &pending));
   for (PetscInt i = 0; i < v->num_nodes * p->dim; ++i) pending[i] = share * (p->target[i] - p->applied[i]);
   PetscCall(FillLocal_Private(p, dx, pending, p->increment));
+  if (p->num_rigid) {
+    PetscReal *change;
+    PetscCall(PetscMalloc1(p->num_scalars, &change));
+    PetscCall(ProblemGetScalars(p, dx, change));
+    PetscCall(RigidIncrement_Private(p, change + p->num_controls, p->increment));
+    PetscCall(PetscFree(change));
+  }
   PetscCall(PetscFree(pending));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -367,7 +377,9 @@ static PetscErrorCode Rest_Private(Problem p, Vec dx, Vec x)
   PetscCall(VecGetArrayRead(p->start_x, &start));
   PetscCall(VecGetArrayRead(dx, &change));
   PetscCall(VecGetArray(x, &values));
-  for (PetscInt i = p->num_u; i < num; ++i) values[i] = start[i] + change[i];
+  const PetscInt rigid = RigidLocal_Private(p); /* motions, like displacements */
+  for (PetscInt i = p->num_u; i < num; ++i)
+    if (rigid < 0 || i < rigid || i >= rigid + p->num_rigid) values[i] = start[i] + change[i];
   PetscCall(VecRestoreArray(x, &values));
   PetscCall(VecRestoreArrayRead(dx, &change));
   PetscCall(VecRestoreArrayRead(p->start_x, &start));

@@ -2,6 +2,12 @@
 #pragma once
 #include "problem.h"
 
+/* An unknown of a rigid body that forces move: body (place among the links), place in RigidLink.row, value, force that holds it, load at the time set. */
+typedef struct {
+  PetscInt  link, motion;
+  PetscReal q, force, load;
+} RigidUnknown;
+
 struct _p_Problem {
   const SceneData *scene;
   Forest           forest;
@@ -41,12 +47,17 @@ struct _p_Problem {
   VecScatter   pi_scatter;
 
   /* scalar.c, path.c: unknowns that belong to no node */
-  PetscInt   num_scalars, num_controls;        /* the last of the vector and of the matrix: pressures found, then pseudo-time where a path is followed */
-  PetscReal *scalar;                           /* [num_scalars] of the vector last seen */
-  PetscReal *factor, *norm, *measure;          /* [num_controls] of the rows; of the target; what is followed, at the last residual */
-  PetscReal  extent, path_start, path_advance; /* of all bodies; place of the last state along `path`, and how far from there */
-  PetscBool  following;                        /* along the path; else time is as set */
-  Vec        path;                             /* (u1 - u0) / (|u1 - u0| sqrt(N)), 0 but for displacements */
+  PetscInt     num_scalars, num_controls; /* the last of the vector and of the matrix: pressures found, then pseudo-time where a path is followed */
+  PetscInt     num_rigid, num_links;      /* rigid.c: unknowns of rigid bodies, between controls and pseudo-time; such bodies */
+  RigidUnknown rigid[INTERFACE_MOTIONS];
+  RigidLink    links[INTERFACE_LINKS];
+  PetscReal    rigid_arms[INTERFACE_LINKS][9], rigid_shift; /* sum of (x - c) r^T over the nodes of a body, at the last residual; see SHIFT */
+  int8_t      *node_link;                                   /* owned [num_nodes] body that a local node is of, -1: none */
+  PetscReal   *scalar;                                      /* [num_scalars] of the vector last seen */
+  PetscReal   *factor, *norm, *measure;                     /* [num_controls] of the rows; of the target; what is followed, at the last residual */
+  PetscReal    extent, path_start, path_advance;            /* of all bodies; place of the last state along `path`, and how far from there */
+  PetscBool    following;                                   /* along the path; else time is as set */
+  Vec          path;                                        /* (u1 - u0) / (|u1 - u0| sqrt(N)), 0 but for displacements */
 
   Mat              matrix;
   ptrdiff_t       *scatter_first; /* [num_owned_cells] where a cell's places start in scatter, -1: it goes by MatSetValues */
@@ -72,6 +83,20 @@ PetscErrorCode ScalarsResidual_Private(Problem, Vec x, PetscReal r[]);
 PetscErrorCode ScalarsPattern_Private(Problem, PetscInt diagonal[], PetscInt other[]);
 PetscErrorCode ScalarsTangent_Private(Problem, const PetscReal u[]);
 PetscErrorCode ScalarsColumn_Private(Problem, PetscInt k, const PetscReal local[]);
+/* rigid.c. SetRows: its unknowns have the rows from `first` on. Read: values. Move: what they add to the displacements of a local array. Increment: dx = G dq,
+   added. Measure: forces that hold the bodies, r a local array of this rank's forces. Residual: rows r[num_rigid]. Tangent: diagonal. Collective. */
+PetscErrorCode RigidCreate_Private(Problem);
+PetscErrorCode RigidSetRows_Private(Problem, PetscInt first);
+PetscErrorCode RigidSetTime_Private(Problem); /* loads */
+PetscErrorCode RigidRead_Private(Problem, const PetscReal q[]);
+PetscErrorCode RigidMove_Private(Problem, PetscReal local[]);
+PetscErrorCode RigidIncrement_Private(Problem, const PetscReal dq[], PetscReal local[]);
+PetscErrorCode RigidMeasure_Private(Problem, const PetscReal r[]);
+PetscErrorCode RigidResidual_Private(Problem, PetscReal r[]);
+PetscErrorCode RigidTangent_Private(Problem);
+PetscBool      RigidIsSymmetric_Private(Problem); /* is their part of the tangent? */
+/* scalar.c: place of the first of these unknowns in this rank's part of the vector; -1: another rank's. */
+PetscInt RigidLocal_Private(Problem);
 /* path.c: the equation of pseudo-time and its row and column. Collective. */
 PetscErrorCode PathResidual_Private(Problem, Vec x, PetscReal *r);
 PetscErrorCode PathTangent_Private(Problem, PetscInt row, const PetscReal u[]);

@@ -61,6 +61,7 @@ PetscErrorCode ProblemResidual(Problem p, Vec x, const PetscReal pressure[], Vec
   PetscCall(ProblemLocalDisplacement(p, x, u));
   PetscCall(LocalForces_Private(p, x, u, pressure, local, status));
   PetscCall(ScalarsMeasure_Private(p, u));
+  PetscCall(RigidMeasure_Private(p, local));
   PetscCall(VecRestoreArray(p->u_local, &u));
   PetscCall(VecRestoreArray(p->r_local, &local));
   PetscCall(VecGetArray(r, &array));
@@ -89,7 +90,8 @@ PetscErrorCode ProblemRefresh(Problem p, Vec x)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode ProblemForces(Problem p, const State *state, PetscReal reaction[][3], PetscReal force[][3], PetscReal moment[][3], ProblemStatus *status)
+PetscErrorCode ProblemForces(Problem p, const State *state, PetscReal reaction[][3], PetscReal support[][3], Resultant body[], PetscReal force[][3],
+                             PetscReal moment[][3], ProblemStatus *status)
 {
   PetscReal *u, *r;
 
@@ -102,6 +104,11 @@ PetscErrorCode ProblemForces(Problem p, const State *state, PetscReal reaction[]
   if (reaction) {
     PetscCall(MechanicsReactions(p->mechanics, r, reaction));
     PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, reaction, (PetscMPIInt)(3 * p->scene->mechanics.num_boundaries), MPIU_REAL, MPI_SUM, p->comm));
+  }
+  if (support) {
+    PetscCall(MechanicsMoments(p->mechanics, r, u, support, body));
+    PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, support, (PetscMPIInt)(3 * p->scene->mechanics.num_boundaries), MPIU_REAL, MPI_SUM, p->comm));
+    PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, body, (PetscMPIInt)(6 * p->scene->mechanics.num_bodies), MPIU_REAL, MPI_SUM, p->comm));
   }
   PetscCall(VecRestoreArray(p->u_local, &u));
   PetscCall(VecRestoreArray(p->r_local, &r));

@@ -1,5 +1,6 @@
-/* Unknowns that belong to no node, the last of the last rank's part of the vector: pressures that are found (mechanics/control.c), then, where a path is
-   followed (path.c), pseudo-time. Each has one row and one column in the matrix, so that nothing is lost where the rest of it is singular:
+/* Unknowns that belong to no node, the last of the last rank's part of the vector: pressures that are found (mechanics/control.c), motions of rigid
+   bodies that forces move (rigid.c), then, where a path is followed (path.c), pseudo-time. Each has one row and one column in the matrix, so that nothing is
+   lost where the rest of it is singular:
 
      R_k = E/L (V_k(u) - target_k(t)),   dR/dp_k = int N n da                                                             (unit of the rows: force)
 
@@ -32,8 +33,9 @@ PetscErrorCode ScalarsCreate_Private(Problem p)
 
   PetscFunctionBegin;
   PetscCall(MechanicsGetControls(p->mechanics, &p->num_controls, &boundary));
-  p->num_scalars = p->num_controls + (p->scene->load.control == LOAD_ARC_LENGTH);
   PetscCall(Extent_Private(p));
+  PetscCall(RigidCreate_Private(p));
+  p->num_scalars = p->num_controls + p->num_rigid + (p->scene->load.control == LOAD_ARC_LENGTH);
   PetscCall(PetscCalloc4(p->num_scalars, &p->scalar, p->num_controls, &p->factor, p->num_controls, &p->norm, p->num_controls, &p->measure));
   for (PetscInt k = 0; k < p->num_controls; ++k) {
     PetscReal sum[2];
@@ -50,6 +52,7 @@ PetscErrorCode ScalarsDestroy_Private(Problem p)
   PetscFunctionBegin;
   PetscCall(PetscFree4(p->scalar, p->factor, p->norm, p->measure));
   PetscCall(VecDestroy(&p->path));
+  PetscCall(PetscFree(p->node_link));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -57,6 +60,17 @@ PetscErrorCode ScalarsDestroy_Private(Problem p)
 static PetscInt Local_Private(Problem p, PetscInt k)
 {
   return p->rank == p->size - 1 ? p->num_dofs - p->num_scalars + k - p->start : -1;
+}
+
+PetscInt RigidLocal_Private(Problem p)
+{
+  return Local_Private(p, p->num_controls);
+}
+
+/* Is a path followed? */
+static PetscBool HasPath_Private(Problem p)
+{
+  return (PetscBool)(p->num_scalars > p->num_controls + p->num_rigid);
 }
 
 /* Its row in the matrix. */
@@ -101,7 +115,8 @@ PetscErrorCode ScalarsRead_Private(Problem p, Vec x)
   if (!p->num_scalars) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(ProblemGetScalars(p, x, p->scalar));
   PetscCall(MechanicsSetControls(p->mechanics, p->scalar));
-  if (p->num_scalars > p->num_controls) PetscCall(MechanicsSetTime(p->mechanics, p->scalar[p->num_controls]));
+  if (p->num_rigid) PetscCall(RigidRead_Private(p, p->scalar + p->num_controls));
+  if (HasPath_Private(p)) PetscCall(MechanicsSetTime(p->mechanics, p->scalar[p->num_scalars - 1]));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -129,7 +144,8 @@ PetscErrorCode ScalarsResidual_Private(Problem p, Vec x, PetscReal r[])
     PetscCall(MechanicsValue(b->volume ? b->volume : b->advance, &b->amplitude, origin, p->t, &target));
     r[Local_Private(p, k)] = p->factor[k] * (p->measure[k] - target * p->norm[k]);
   }
-  if (p->num_scalars > num) {
+  if (RigidLocal_Private(p) >= 0) PetscCall(RigidResidual_Private(p, r + RigidLocal_Private(p)));
+  if (HasPath_Private(p)) {
     PetscCall(PathResidual_Private(p, x, &target));
     if (Local_Private(p, num) >= 0) r[Local_Private(p, num)] = target;
   }
@@ -213,6 +229,13 @@ PetscErrorCode ScalarsPattern_Private(Problem p, PetscInt diagonal[], PetscInt o
 
   PetscFunctionBegin;
   for (PetscInt k = 0; k < p->num_scalars; ++k) {
+    if (k >= p->num_controls && k < p->num_controls + p->num_rigid) { /* with each other; all else is contact's */
+      for (PetscInt j = p->num_controls; j < p->num_controls + p->num_rigid && p->rank == p->size - 1; ++j) {
+        if (diagonal) ++diagonal[Row_Private(p, k) - p->first_row];
+        if (!diagonal) PetscCall(MatSetValue(p->matrix, Row_Private(p, k), Row_Private(p, j), 0, ADD_VALUES));
+      }
+      continue;
+    }
     if (k < p->num_controls)
       PetscCall(Support_Private(p, k, &num, &rows));
     else { /* the path: everything but the scalars */
@@ -276,6 +299,7 @@ PetscErrorCode ScalarsTangent_Private(Problem p, const PetscReal u[])
     PetscCall(ControlRow_Private(p, k, gradient));
   }
   PetscCall(PetscFree2(gradient, force));
-  if (p->num_scalars > p->num_controls) PetscCall(PathTangent_Private(p, Row_Private(p, p->num_controls), u));
+  PetscCall(RigidTangent_Private(p));
+  if (HasPath_Private(p)) PetscCall(PathTangent_Private(p, Row_Private(p, p->num_controls), u));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

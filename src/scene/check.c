@@ -331,6 +331,33 @@ static PetscErrorCode CheckHeld_Private(Scene s, const Facets *f)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* A rigid body that forces move: contact alone meets it. */
+static PetscErrorCode CheckLoaded_Private(Scene s, const Facets *f)
+{
+  const ForestTables *t  = f->forest;
+  const PetscInt      nb = f->mesh->num_boundaries;
+
+  PetscFunctionBegin;
+  for (PetscInt body = 0; body < f->mesh->num_bodies; ++body) {
+    const BodySpec *b   = &s->data.bodies[body];
+    PetscBool       any = PETSC_FALSE;
+    if (!BodyIsLoaded(b)) continue;
+    for (PetscInt i = 0; i < s->num_boundaries; ++i)
+      PetscCheckInput(!f->body_touches[body * nb + s->data.boundaries[i].group] || !BoundarySupports(&s->data.boundaries[i]),
+                      "%s holds body '%s', which body.%s.load moves; take one of them away", NodeWhere(s->boundary[i].node), b->name, b->name);
+    for (PetscInt i = 0; i < s->data.num_contacts; ++i)
+      any = (PetscBool)(any || f->body_touches[body * nb + s->data.contacts[i].nonmortar] || f->body_touches[body * nb + s->data.contacts[i].mortar]);
+    PetscCheckInput(any, "body.%s.load: the body is in no contact pair, so that nothing bears its load", b->name);
+    for (PetscInt e = 0; e < t->first[t->dim] - t->first[t->dim - 1]; ++e) {
+      const PetscInt *leaf = t->facet_leaf + 2 * e;
+      if (leaf[0] < 0 || leaf[1] < 0 || (t->leaf_body[leaf[0]] == body) == (t->leaf_body[leaf[1]] == body)) continue;
+      PetscCall(ErrorInput("body.%s.load: the body is joined to body '%s'; a rigid body with a load must touch others by contact alone", b->name,
+                           f->mesh->body_name[t->leaf_body[leaf[t->leaf_body[leaf[0]] == body ? 1 : 0]]]));
+    }
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 static PetscErrorCode Check_Private(Scene s, const Facets *f)
 {
   PetscFunctionBegin;
@@ -338,6 +365,8 @@ static PetscErrorCode Check_Private(Scene s, const Facets *f)
   PetscCall(MatchContacts_Private(s, f));
   PetscCall(MatchRefines_Private(s, f));
   PetscCall(CheckHeld_Private(s, f));
+  PetscCall(CheckLoaded_Private(s, f));
+  PetscCall(SceneSetPoints(s, f->mesh, f->body_touches));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -53,3 +53,44 @@ PetscErrorCode SceneCheckControl(Scene s, const SceneNode *boundary, const char 
                   (double)start);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
+
+/* A direction is either prescribed or free. */
+static PetscErrorCode CheckDirections_Private(const SceneNode *load, const BodySpec *b)
+{
+  const PetscInt turns = BodyNumTurns(b);
+
+  PetscFunctionBegin;
+  for (PetscInt c = 0; c < 3; ++c) {
+    PetscCheckInput(!b->load[c] || !b->motion[c], "%s.%c: the body's motion in %c is prescribed; allowed in one direction: motion or load", NodeWhere(load),
+                    'x' + (int)c, 'x' + (int)c);
+    PetscCheckInput(!b->load[c] || !ExpressionUsesPlace(b->load[c]), "%s.%c is \"%s\": one force for the whole body, so an expression in t alone",
+                    NodeWhere(load), 'x' + (int)c, ExpressionText(b->load[c]));
+    PetscCheckInput(!b->load_moment[c] || !ExpressionUsesPlace(b->load_moment[c]),
+                    "%s.moment_%c is \"%s\": one moment for the whole body, so an expression in t alone", NodeWhere(load), 'x' + (int)c,
+                    ExpressionText(b->load_moment[c]));
+  }
+  PetscCheckInput(!turns || !b->rotation_angle, "%s: the rotation of the body is prescribed; allowed: motion.rotation or a moment", NodeWhere(load));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SceneCheckLoad(Scene s, const SceneNode *body, const BodySpec *b)
+{
+  const SceneNode *load  = NodeFind(body, "load");
+  const PetscInt   turns = BodyNumTurns(b);
+
+  PetscFunctionBegin;
+  if (!load) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCheckInput(b->material->law->rigid, "%s: only a rigid body takes a load, and material %s is %s; load a boundary instead (traction, pressure)",
+                  NodeWhere(load), b->material->name, b->material->law->name);
+  PetscCheckInput(s->data.load.control == LOAD_TIME,
+                  "%s and load.control: arc_length do not go together: that finds the factor of loads on bodies that deform; allowed here: time",
+                  NodeWhere(load));
+  PetscCheckInput(s->data.mesh.dim == 3 || (!b->load_moment[0] && !b->load_moment[1]), "%s.moment_%c: a two-dimensional model turns about z only",
+                  NodeWhere(load), b->load_moment[0] ? 'x' : 'y');
+  PetscCheckInput(s->data.mechanics.model != MODEL_AXISYMMETRIC || (!turns && !b->load[0]),
+                  "%s: a body of revolution moves along its axis only; allowed here: y", NodeWhere(load));
+  PetscCheckInput(!turns || s->data.mechanics.kinematics == KINEMATICS_FINITE,
+                  "%s: a moment needs kinematics: finite; with small ones contact does not know of a turn", NodeWhere(load));
+  PetscCall(CheckDirections_Private(load, b));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

@@ -10,6 +10,7 @@
 #define BOUND(f) offsetof(BoundaryEntry, f), sizeof(((BoundaryEntry *)0)->f)
 #define PAIR(f) offsetof(ContactEntry, f), sizeof(((ContactEntry *)0)->f)
 #define REFINE(f) offsetof(RefineEntry, f), sizeof(((RefineEntry *)0)->f)
+#define POINT(f) offsetof(PointEntry, f), sizeof(((PointEntry *)0)->f)
 #define PROBE(f) offsetof(ProbeEntry, f), sizeof(((ProbeEntry *)0)->f)
 #define NOWHERE 0, 0
 #define ORDERS "[1," TEXT(MORTISE_MAX_ORDER) "]"
@@ -41,9 +42,23 @@ const Option Options[] = {
     {"body.<name>.order.<axis>", KEY_INT, "", "", ORDERS,
      "or one for each direction, {x: 3, y: 3, z: 1}: of the cell axes that run mostly along it; letters not given: order", BODY(spec.order_along)},
     {"body.<name>.motion.<axis>", KEY_EXPRESSION, "length", "", ANY, "translation of a rigid body", BODY(spec.motion)},
+    {"body.<name>.motion.rotation.axis", KEY_WORD, "", "z", "x|y|z", "axis of a rotation of a rigid body, exact at any angle; the translation follows it",
+     BODY(rotation_axis)},
+    {"body.<name>.motion.rotation.angle", KEY_EXPRESSION, "degrees", "", ANY, "angle of the rotation", BODY(spec.rotation_angle)},
+    {"body.<name>.motion.rotation.point.<axis>", KEY_REAL, "length", "0", ANY,
+     "a point of the axis at the reference positions; without point: the centre of the body", BODY(spec.rotation_point)},
+    {"body.<name>.load.<axis>", KEY_EXPRESSION, "force", "", ANY,
+     "force on a rigid body, which is free to go in this direction; 0: nothing holds it there but contact", BODY(spec.load)},
+    {"body.<name>.load.moment_x", KEY_EXPRESSION, "force times length", "", ANY,
+     "moment on a rigid body about its point (moment_about), and it is free to turn about this axis", BODY(spec.load_moment[0])},
+    {"body.<name>.load.moment_y", KEY_EXPRESSION, "force times length", "", ANY, "the same about y", BODY(spec.load_moment[1])},
+    {"body.<name>.load.moment_z", KEY_EXPRESSION, "force times length", "", ANY, "the same about z; in the plane", BODY(spec.load_moment[2])},
     {"body.<name>.force.<axis>", KEY_EXPRESSION, "force/volume", "", ANY, "dead force per reference volume", BODY(spec.force)},
     {"body.<name>.amplitude", KEY_AMPLITUDE, "", "[0,0, 1,1]", "t rising",
-     "t0,v0, t1,v1, ...: multiplies motion and force, piecewise linear in t; load steps end at its times", BODY(spec.amplitude)},
+     "t0,v0, t1,v1, ...: multiplies motion, load and force, piecewise linear in t; load steps end at its times", BODY(spec.amplitude)},
+    {"body.<name>.moment_about", KEY_TEXT, "", "", "",
+     "a name under point: of a rigid body, the point that moves with it and that moments on it are counted about; default: the body's centre",
+     BODY(moment_about)},
 
     {"material.<name>.law", KEY_TEXT, "", NULL, "", "name of a law; bin/mortise -list shows them", MAT(law)},
     {"material.<name>.volumetric", KEY_WORD, "", "quadratic", "quadratic|simo|log",
@@ -71,7 +86,8 @@ const Option Options[] = {
      BOUND(spec.displacement)},
     {"boundary.<name>.fix", KEY_AXES, "", "", "letters of xyz, or normal", "no displacement in these directions; normal: of a flat face of any direction",
      BOUND(spec.fix)},
-    {"boundary.<name>.rotation.axis", KEY_WORD, "", "z", "x|y|z", "axis of a prescribed finite rotation", BOUND(rotation_axis)},
+    {"boundary.<name>.rotation.axis", KEY_WORD, "", "z", "x|y|z", "axis of a prescribed finite rotation, which a displacement of the boundary follows",
+     BOUND(rotation_axis)},
     {"boundary.<name>.rotation.angle", KEY_EXPRESSION, "degrees", "", ANY, "angle of the rotation", BOUND(spec.rotation_angle)},
     {"boundary.<name>.rotation.point.<axis>", KEY_REAL, "length", "0", ANY, "a point of the axis", BOUND(spec.rotation_point)},
     {"boundary.<name>.pressure", KEY_EXPRESSION, "stress", "", ANY, "follower load against the outward normal", BOUND(spec.pressure)},
@@ -83,6 +99,10 @@ const Option Options[] = {
     {"boundary.<name>.traction.<axis>", KEY_EXPRESSION, "force/area", "", ANY, "dead load per reference area", BOUND(spec.traction)},
     {"boundary.<name>.amplitude", KEY_AMPLITUDE, "", "[0,0, 1,1]", "t rising",
      "t0,v0, t1,v1, ...: multiplies the values of this boundary, piecewise linear in t; load steps end at its times", BOUND(spec.amplitude)},
+    {"boundary.<name>.moment_about", KEY_TEXT, "", "", "",
+     "a name under point that the moment of the support is counted about; default: the centre of the body, or bodies, of the boundary at the reference "
+     "positions",
+     BOUND(moment_about)},
 
     {"contact.<pair>.nonmortar", KEY_TEXT, "", NULL, "",
      "physical group of one dimension less: the side that carries the contact pressure (the multiplier), unless it is the stiffer one", PAIR(nonmortar)},
@@ -102,12 +122,17 @@ const Option Options[] = {
      "at each load step, until the estimated error of these cells no longer exceeds that of the cells inside, at most order + 1 times",
      PAIR(subdivide)},
     {"contact.<pair>.search", KEY_REAL, "edges", "0", NOT_BELOW, "distance of the search, in multiples of the larger edge; 0: automatic", PAIR(spec.search)},
-    {"contact.<pair>.initial_gap", KEY_WORD, "", "keep", "keep|adjust",
-     "adjust: what faces each other at the reference positions counts as touching, so that facets on a curved surface make no gap", PAIR(initial_gap)},
-    {"contact.<pair>.interference", KEY_REAL, "length", "0", ANY, "overlap at the reference positions, taken off the gap (shrink fit)",
+    {"contact.<pair>.initial_gap", KEY_WORD, "", "keep", "keep|adjust|ramp",
+     "adjust: what faces each other at the reference positions counts as touching, so that facets on a curved surface make no gap; ramp: bodies that overlap "
+     "there are pressed apart step by step, overlaps count by the share t and from t = 1 on whole",
+     PAIR(initial_gap)},
+    {"contact.<pair>.interference", KEY_EXPRESSION, "length", "", ANY,
+     "overlap at the reference positions, taken off the gap (shrink fit); an expression in t is brought in step by step, a number is there from the start",
      PAIR(spec.interference)},
     {"contact.<pair>.multiplier", KEY_WORD, "", "dual", "dual|standard",
      "basis of the contact pressure: dual to the hats on the covered part of each facet, or the hats themselves", PAIR(multiplier)},
+    {"contact.<pair>.moment_about", KEY_TEXT, "", "", "", "a name under point that the moments of the contact forces are counted about; default: the origin",
+     PAIR(moment_about)},
     {"contact.<pair>.node_to_segment", KEY_BOOL, "", "false", "", "node-to-segment contact, for comparison only", PAIR(spec.node_to_segment)},
     {"contact.<pair>.see_through", KEY_BOOL, "", "false", "",
      "for comparison only: searches look through bodies and take the far side of one behind, within their distance, for an overlap", PAIR(spec.see_through)},
@@ -164,6 +189,9 @@ const Option Options[] = {
 
     {"probe.<name>.<axis>", KEY_REAL, "length", "0", ANY, "reference point whose fields go to history.csv and summary.json", PROBE(spec.X)},
     {"probe.<name>.body", KEY_TEXT, "", "", "", "the body it is a point of, where several touch; default: the first that has it", PROBE(spec.body)},
+
+    {"point.<name>.<axis>", KEY_REAL, "length", "0", ANY,
+     "reference position of a point that moments may be counted about (moment_about); it need not be in a body", POINT(X)},
     {NULL, KEY_TEXT, NULL, NULL, NULL, NULL, NOWHERE},
 };
 
@@ -251,7 +279,8 @@ PetscErrorCode ScenePrintList(MPI_Comm comm)
                               "  advance        mean displacement against the outward normal; the follower pressure is found\n"
                               "  traction       {x, y, z}: dead, per reference area\n"
                               "\nbody kinds (body.<name>)\n"
-                              "  material       deformable, or moved by motion {x, y, z} when its law is rigid\n"
+                              "  material       deformable, or moved by motion {x, y, z, rotation} when its law is rigid\n"
+                              "  load           {x, y, z, moment_x, moment_y, moment_z}: forces and a moment that move a rigid body\n"
                               "  force          {x, y, z}: dead, per reference volume\n"
                               "\ncontact (contact.<pair>)\n"
                               "  mortar         dual multipliers on the nonmortar side, frictionless\n"

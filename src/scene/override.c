@@ -121,11 +121,12 @@ typedef struct {
   KeyType  type;
 } Match;
 
-/* Only boundaries, probes, refinements and constants of the mesh may get a new name on the command line. */
+/* Only boundaries, probes, points, refinements and constants of the mesh may get a new name on the command line. */
 static PetscBool MayBeNew_Private(const Match *m, const char *word)
 {
   if (!strcmp(word, "<constant>")) return PETSC_TRUE;
-  return !strcmp(m->keys[0], "boundary") || !strcmp(m->keys[0], "probe") || !strcmp(m->keys[0], "refine") ? PETSC_TRUE : PETSC_FALSE;
+  return !strcmp(m->keys[0], "boundary") || !strcmp(m->keys[0], "probe") || !strcmp(m->keys[0], "refine") || !strcmp(m->keys[0], "point") ? PETSC_TRUE
+                                                                                                                                          : PETSC_FALSE;
 }
 
 /* Match words[depth..] with s; at: node of the tree reached so far, NULL if it is not there. Keeps the best in *best. */

@@ -212,6 +212,31 @@ static PetscErrorCode CheckFull_Private(Scene s)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* What a rotation needs and where it may be, of a boundary or a rigid body. */
+static PetscErrorCode CheckRotation_Private(Scene s, const SceneNode *rotation, Expression angle, PetscInt axis)
+{
+  PetscFunctionBegin;
+  PetscCheckInput(angle, "%s.angle must be given, in degrees", NodeWhere(rotation));
+  PetscCheckInput(s->data.mesh.dim == 3 || axis == 2, "%s: a two-dimensional model turns about z only", NodeWhere(rotation));
+  PetscCheckInput(s->data.mechanics.model != MODEL_AXISYMMETRIC, "%s: an axisymmetric model cannot turn", NodeWhere(rotation));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* A body turns as a whole, so that what turns it is no function of place. */
+static PetscErrorCode ReadRotation_Private(Scene s, const SceneNode *rotation, BodyEntry *b)
+{
+  const Expression angle = b->spec.rotation_angle;
+
+  PetscFunctionBegin;
+  if (!rotation) PetscFunctionReturn(PETSC_SUCCESS);
+  b->spec.rotation_axis = b->rotation_axis;
+  PetscCall(CheckRotation_Private(s, rotation, angle, b->rotation_axis));
+  PetscCheckInput(!ExpressionUsesPlace(angle), "%s is \"%s\": one number for the whole body, so an expression in t alone",
+                  NodeWhere(NodeFind(rotation, "angle")), ExpressionText(angle));
+  PetscCall(SceneCheckPath(s, rotation, angle));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 static PetscErrorCode ReadBody_Private(Scene s, SceneNode *node, BodyEntry *b)
 {
   const char *names[64];
@@ -235,20 +260,16 @@ static PetscErrorCode ReadBody_Private(Scene s, SceneNode *node, BodyEntry *b)
   rigid = b->spec.material->law->rigid;
   PetscCheckInput(rigid || !NodeFind(node, "motion"), "%s: only a rigid body moves as told, and material %s is %s; prescribe a boundary instead",
                   NodeWhere(NodeFind(node, "motion")), b->material, b->spec.material->law->name);
+  PetscCheckInput(rigid || !NodeFind(node, "moment_about"),
+                  "%s: moments on a body are told of rigid ones, and material %s is %s; set moment_about of a boundary or a pair",
+                  NodeWhere(NodeFind(node, "moment_about")), b->material, b->spec.material->law->name);
+  PetscCall(SceneFindPoint(s, node, b->moment_about, b->spec.about));
   for (int c = 0; c < 3; ++c) PetscCall(SceneCheckPath(s, NodeFind(node, "motion"), b->spec.motion[c]));
+  PetscCall(ReadRotation_Private(s, NodeFind(NodeFind(node, "motion"), "rotation"), b));
   b->spec.amplitude.endless = (PetscBool)(s->data.load.control == LOAD_ARC_LENGTH);
-  PetscCheckInput(!rigid || !NodeFind(node, "force"), "%s: a rigid body moves as told and takes no force", NodeWhere(NodeFind(node, "force")));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-static PetscErrorCode CheckRotation_Private(Scene s, const SceneNode *rotation, BoundaryEntry *b)
-{
-  PetscFunctionBegin;
-  b->spec.rotation      = PETSC_TRUE;
-  b->spec.rotation_axis = b->rotation_axis;
-  PetscCheckInput(b->spec.rotation_angle, "%s.angle must be given, in degrees", NodeWhere(rotation));
-  PetscCheckInput(s->data.mesh.dim == 3 || b->rotation_axis == 2, "%s: a two-dimensional model turns about z only", NodeWhere(rotation));
-  PetscCheckInput(s->data.mechanics.model != MODEL_AXISYMMETRIC, "%s: an axisymmetric model cannot turn", NodeWhere(rotation));
+  PetscCheckInput(!rigid || !NodeFind(node, "force"), "%s: the cells of a rigid body are not solved for and take no force per volume; give it a load",
+                  NodeWhere(NodeFind(node, "force")));
+  PetscCall(SceneCheckLoad(s, node, &b->spec));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -262,17 +283,24 @@ static PetscErrorCode ReadBoundary_Private(Scene s, SceneNode *node, BoundaryEnt
   b->spec.group = -1;
   PetscCall(PetscStrncpy(b->spec.name, node->key, MORTISE_NAME));
   PetscCall(OptionsRead("boundary", node, s->data.mesh.dim, b));
-  if (rotation) PetscCall(CheckRotation_Private(s, rotation, b));
+  if (rotation) PetscCall(CheckRotation_Private(s, rotation, b->spec.rotation_angle, b->rotation_axis));
+  b->spec.rotation      = rotation ? PETSC_TRUE : PETSC_FALSE;
+  b->spec.rotation_axis = b->rotation_axis;
   for (int c = 0; c < 3; ++c) {
     PetscCheckInput(!b->spec.displacement[c] || !b->spec.fix[c], "%s: %c is both fixed and displaced", NodeWhere(node), 'x' + c);
-    PetscCheckInput(!rotation || (!b->spec.fix[c] && !b->spec.displacement[c]), "%s prescribes all displacements; take fix and displacement away",
+    PetscCheckInput(!rotation || !b->spec.fix[c], "%s prescribes all displacements; take fix away (a displacement is added to the rotation)",
                     NodeWhere(rotation));
     PetscCheckInput(!b->spec.fix_normal || !b->spec.displacement[c], "%s: fix: normal and displacement cannot be combined", NodeWhere(node));
     if (b->spec.displacement[c] || b->spec.fix[c] || b->spec.traction[c]) any = PETSC_TRUE;
   }
-  PetscCheckInput(!rotation || !b->spec.fix_normal, "%s prescribes all displacements; take fix away", NodeWhere(rotation));
+  PetscCheckInput(!rotation || !b->spec.fix_normal, "%s prescribes all displacements; take fix away (a displacement is added to the rotation)",
+                  NodeWhere(rotation));
   PetscCheckInput(any || rotation || b->spec.fix_normal || BoundaryHasPressure(&b->spec),
                   "%s prescribes nothing; it needs one of displacement, fix, rotation, pressure, volume, advance, traction", NodeWhere(node));
+  PetscCheckInput(BoundarySupports(&b->spec) || !NodeFind(node, "moment_about"),
+                  "%s: this boundary holds nothing, so there is no moment; it needs one of displacement, fix, rotation",
+                  NodeWhere(NodeFind(node, "moment_about")));
+  PetscCall(SceneFindPoint(s, node, b->moment_about, b->spec.about));
   PetscCall(SceneCheckControl(s, node, "volume", b->spec.volume, &b->spec));
   PetscCall(SceneCheckControl(s, node, "advance", b->spec.advance, &b->spec));
   for (int c = 0; c < 3; ++c) PetscCall(SceneCheckPath(s, NodeFind(node, "displacement"), b->spec.displacement[c]));
@@ -292,6 +320,25 @@ static PetscBool FacesAreFull_Private(const struct _p_Scene *s, const ContactEnt
   return PETSC_TRUE;
 }
 
+/* Overlaps that change with t. */
+static PetscErrorCode CheckOverlap_Private(Scene s, const SceneNode *node, const ContactEntry *c)
+{
+  const SceneNode *interference = NodeFind(node, "interference");
+  const PetscBool  path         = (PetscBool)(s->data.load.control == LOAD_ARC_LENGTH);
+
+  PetscFunctionBegin;
+  PetscCheckInput(!interference || !ExpressionUsesPlace(c->spec.interference), "%s is \"%s\": one overlap for the whole pair, so an expression in t alone",
+                  NodeWhere(interference), ExpressionText(c->spec.interference));
+  PetscCheckInput(!interference || !path || !ExpressionUsesTime(c->spec.interference),
+                  "%s is \"%s\", but with load.control: arc_length the factor of the loads is found, and no overlap may change with it; allowed here: a number",
+                  NodeWhere(interference), ExpressionText(c->spec.interference));
+  PetscCheckInput(
+      !c->spec.ramp || !path,
+      "%s is ramp, but with load.control: arc_length the factor of the loads is found, and no overlap may change with it; allowed here: keep|adjust",
+      NodeWhere(NodeFind(node, "initial_gap")));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 static PetscErrorCode ReadContact_Private(Scene s, SceneNode *node, ContactEntry *c)
 {
   const SceneNode *stiffness = NodeFind(node, "penalty");
@@ -303,6 +350,7 @@ static PetscErrorCode ReadContact_Private(Scene s, SceneNode *node, ContactEntry
   c->spec.full           = FacesAreFull_Private(s, c);
   c->spec.subdivide_auto = c->subdivide == SUBDIVIDE_AUTO ? PETSC_TRUE : PETSC_FALSE;
   c->spec.adjust         = c->initial_gap == 1 ? PETSC_TRUE : PETSC_FALSE;
+  c->spec.ramp           = c->initial_gap == 2 ? PETSC_TRUE : PETSC_FALSE;
   c->spec.standard       = c->multiplier == 1 ? PETSC_TRUE : PETSC_FALSE;
   PetscCheckInput(c->spec.law != CONTACT_PENALTY || stiffness,
                   "%s.penalty must be given: with law: penalty it is the stiffness of the contact, pressure per overlap, a number above 0", NodeWhere(node));
@@ -311,6 +359,8 @@ static PetscErrorCode ReadContact_Private(Scene s, SceneNode *node, ContactEntry
                   "penalty away, or set law: penalty",
                   NodeWhere(stiffness));
   PetscCheckInput(c->spec.friction == 0, "%s is %g: friction is not built yet; allowed: 0", NodeWhere(NodeFind(node, "friction")), (double)c->spec.friction);
+  PetscCall(SceneFindPoint(s, node, c->moment_about, c->spec.about));
+  PetscCall(CheckOverlap_Private(s, node, c));
   PetscCheckInput(!strchr(node->key, '/'), "%s: the name of a pair has no '/' in it", NodeWhere(node));
   for (PetscInt i = 0; &s->contact[i] < c; ++i) {
     const ContactEntry *e    = &s->contact[i];
@@ -381,6 +431,7 @@ PetscErrorCode SceneRead(Scene s, int argc, char **argv)
   READ_SECTION(s, "material", d->num_materials, s->material, ReadMaterial_Private);
   PetscCall(PetscMalloc1(d->num_materials, &d->materials));
   for (PetscInt i = 0; i < d->num_materials; ++i) d->materials[i] = s->material[i].spec;
+  READ_SECTION(s, "point", s->num_points, s->point, SceneReadPoint);
   READ_SECTION(s, "body", s->num_bodies, s->body, ReadBody_Private);
   READ_SECTION(s, "boundary", s->num_boundaries, s->boundary, ReadBoundary_Private);
   READ_SECTION(s, "contact", d->num_contacts, s->contact, ReadContact_Private);

@@ -225,16 +225,21 @@ PetscErrorCode SceneDestroy(Scene *scene)
     for (int c = 0; c < 3; ++c) {
       PetscCall(ExpressionDestroy(&s->body[i].spec.motion[c]));
       PetscCall(ExpressionDestroy(&s->body[i].spec.force[c]));
+      PetscCall(ExpressionDestroy(&s->body[i].spec.load[c]));
+      PetscCall(ExpressionDestroy(&s->body[i].spec.load_moment[c]));
     }
+    PetscCall(ExpressionDestroy(&s->body[i].spec.rotation_angle));
     PetscCall(PetscFree(s->body[i].spec.amplitude.pairs));
   }
   for (PetscInt i = 0; s->boundary && i < s->num_boundaries; ++i) PetscCall(DestroyBoundary_Private(&s->boundary[i].spec));
   PetscCall(PetscFree(s->material));
   PetscCall(PetscFree(s->body));
   PetscCall(PetscFree(s->boundary));
+  for (PetscInt i = 0; s->contact && i < s->data.num_contacts; ++i) PetscCall(ExpressionDestroy(&s->contact[i].spec.interference));
   PetscCall(PetscFree(s->contact));
   PetscCall(PetscFree(s->probe));
   PetscCall(PetscFree(s->refine));
+  PetscCall(PetscFree(s->point));
   PetscCall(PetscFree(s->data.refines));
   PetscCall(PetscFree(s->data.materials));
   PetscCall(PetscFree(s->data.bodies));

@@ -61,12 +61,15 @@ typedef struct {
 typedef struct {
   BodySpec   spec;
   char       material[MORTISE_NAME];
+  char       moment_about[MORTISE_NAME];
+  int        rotation_axis;
   SceneNode *node;
 } BodyEntry;
 
 typedef struct {
   BoundarySpec spec;
   int          rotation_axis;
+  char         moment_about[MORTISE_NAME];
   SceneNode   *node;
 } BoundaryEntry;
 
@@ -75,7 +78,7 @@ typedef struct {
 
 typedef struct {
   ContactSpec spec;
-  char        nonmortar[MORTISE_NAME], mortar[MORTISE_NAME];
+  char        nonmortar[MORTISE_NAME], mortar[MORTISE_NAME], moment_about[MORTISE_NAME];
   int         order, initial_gap, multiplier, roles;
   int         subdivide; /* isotropic subdivisions of the cells that touch either side; SUBDIVIDE_AUTO */
   SceneNode  *node;
@@ -91,6 +94,11 @@ typedef struct {
   char       boundary[MORTISE_NAME];
   SceneNode *node;
 } RefineEntry;
+
+typedef struct {
+  PetscReal  X[3];
+  SceneNode *node;
+} PointEntry;
 
 struct _p_Scene {
   MPI_Comm  comm;
@@ -113,7 +121,8 @@ struct _p_Scene {
   ContactEntry  *contact;
   ProbeEntry    *probe;
   RefineEntry   *refine; /* [data.num_refines] */
-  PetscInt       num_bodies, num_boundaries;
+  PointEntry    *point;
+  PetscInt       num_bodies, num_boundaries, num_points;
 };
 
 /* Every key of the tree is in the table and has the right shape. Not collective. */
@@ -144,6 +153,13 @@ PetscErrorCode SceneRead(Scene, int argc, char **argv);
 PetscErrorCode SceneCheckPath(Scene, const SceneNode *motion, Expression);
 /* The expression (NULL: not given) under `key` of a boundary's node, which a pressure that is found is to follow, and what else the boundary has. */
 PetscErrorCode SceneCheckControl(Scene, const SceneNode *boundary, const char *key, Expression, const BoundarySpec *);
+/* point.c. A named point; X of the one that moment_about of a node names (not given: X stays); points by default, once bodies and boundaries are matched with
+   the mesh: touches[num_bodies][num_boundaries of the mesh] tells which bodies have facets of a group. Not collective. */
+PetscErrorCode SceneReadPoint(Scene, SceneNode *, PointEntry *);
+PetscErrorCode SceneFindPoint(Scene, const SceneNode *user, const char *name, PetscReal X[3]);
+PetscErrorCode SceneSetPoints(Scene, const CoarseMesh *, const PetscBool touches[]);
+/* What a rigid body's load asks of it and of the scene (drive.c). Not collective. */
+PetscErrorCode SceneCheckLoad(Scene, const SceneNode *body, const BodySpec *);
 /* Mesh the .geo, or take the .msh as it is: data.mesh.file is set (mesh.c). Collective. */
 PetscErrorCode SceneMakeMesh(Scene);
 PetscErrorCode SceneRemoveMesh(Scene);

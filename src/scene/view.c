@@ -104,6 +104,12 @@ static PetscErrorCode ViewBody_Private(const BodySpec *b, PetscViewer viewer)
     if (b->motion[c]) PetscCall(PetscViewerASCIIPrintf(viewer, " motion_%c = %s", 'x' + c, ExpressionText(b->motion[c])));
     if (b->force[c]) PetscCall(PetscViewerASCIIPrintf(viewer, " force_%c = %s", 'x' + c, ExpressionText(b->force[c])));
   }
+  for (int c = 0; c < 3; ++c) {
+    if (b->load[c]) PetscCall(PetscViewerASCIIPrintf(viewer, " load_%c = %s", 'x' + c, ExpressionText(b->load[c])));
+    if (b->load_moment[c]) PetscCall(PetscViewerASCIIPrintf(viewer, " load_moment_%c = %s", 'x' + c, ExpressionText(b->load_moment[c])));
+  }
+  if (b->rotation_angle)
+    PetscCall(PetscViewerASCIIPrintf(viewer, " rotation about %c by %s degrees", 'x' + (int)b->rotation_axis, ExpressionText(b->rotation_angle)));
   PetscCall(PetscViewerASCIIPrintf(viewer, "%s\n", b->amplitude.num ? " (amplitude)" : ""));
   PetscCall(PetscViewerASCIIUseTabs(viewer, PETSC_TRUE));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -105,10 +105,11 @@ static PetscErrorCode UseMultigrid_Private(Solver s, PetscBool *yes)
   if (s->linear == LINEAR_ITERATIVE) *yes = PETSC_TRUE;
   PetscCall(ProblemIsIncompressible(s->problem, &incompressible));
   PetscCheckInput(!*yes || !incompressible, "-solve_linear iterative: not with incompressible material (kappa: inf, nu: 0.5); take auto or direct");
-  if (!s->symmetric) *yes = PETSC_FALSE;
   PetscCall(ProblemNumScalars(s->problem, &scalars));
-  PetscCheckInput(s->linear != LINEAR_ITERATIVE || !scalars,
-                  "-solve_linear iterative: not with pressures that are found (volume, advance) or load.control: arc_length; take direct");
+  if (!s->symmetric || scalars) *yes = PETSC_FALSE;
+  PetscCheckInput(
+      s->linear != LINEAR_ITERATIVE || !scalars,
+      "-solve_linear iterative: not with pressures that are found (volume, advance), loads of rigid bodies or load.control: arc_length; take direct");
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -103,18 +103,19 @@ static void NothingSolved(void **state)
 
 static void Figures(void **state)
 {
-  PetscReal        reaction[2][3] = {{1, -2, 0}, {7, 7, 7}};
-  PairFigures      pair           = {.force        = {{0.25, 3}, {-0.25, -3}},
-                                     .moment       = {{0, 0, 5}, {0, 0, -5}},
-                                     .max_pressure = NAN,
-                                     .area         = 0.41,
-                                     .radius       = 0.206,
-                                     .min_gap      = -1e-9,
-                                     .active_nodes = 17};
-  const Balance    balance        = {.num_boundaries = 2, .num_contacts = 1, .reaction = reaction, .pair = &pair, .status = {.energy = 1. / 3, .min_det = 0.9}};
-  const Estimate   estimate       = {.total = 2, .norm = INFINITY, .relative = 0.5, .part = {4, 0, 0, 0, 0}};
-  const Path       path           = {.newton_iterations = 12};
-  const RunSummary summary        = {.status = "converged", .reason = "", .t = 1, .load_steps = 3, .path = &path, .balance = &balance, .estimate = &estimate};
+  PetscReal     reaction[2][3] = {{1, -2, 0}, {7, 7, 7}}, about[2][3] = {{0, 0, 6}, {8, 8, 8}};
+  PairFigures   pair    = {.force        = {{0.25, 3}, {-0.25, -3}},
+                           .moment       = {{0, 0, 5}, {0, 0, -5}},
+                           .max_pressure = NAN,
+                           .area         = 0.41,
+                           .radius       = 0.206,
+                           .min_gap      = -1e-9,
+                           .active_nodes = 17};
+  const Balance balance = {
+      .num_boundaries = 2, .num_contacts = 1, .reaction = reaction, .support_moment = about, .pair = &pair, .status = {.energy = 1. / 3, .min_det = 0.9}};
+  const Estimate   estimate = {.total = 2, .norm = INFINITY, .relative = 0.5, .part = {4, 0, 0, 0, 0}};
+  const Path       path     = {.newton_iterations = 12};
+  const RunSummary summary  = {.status = "converged", .reason = "", .t = 1, .load_steps = 3, .path = &path, .balance = &balance, .estimate = &estimate};
 
   assert_int_equal(OutputSummary(PETSC_COMM_WORLD, &scene, &summary), 0);
   if (rank) return;
@@ -124,6 +125,8 @@ static void Figures(void **state)
   assert_int_equal(cJSON_GetArraySize(reactions), 1); /* the other boundary only carries a pressure */
   assert_int_equal(cJSON_GetArraySize(top), 2);
   assert_near(cJSON_GetArrayItem(top, 1)->valuedouble, -2, 0);
+  assert_int_equal(cJSON_GetArraySize(cJSON_GetObjectItem(root, "reaction_moment")), 1);
+  assert_near(cJSON_GetArrayItem(cJSON_GetObjectItem(cJSON_GetObjectItem(root, "reaction_moment"), "top"), 0)->valuedouble, 6, 0);
   assert_int_equal(cJSON_GetArraySize(cJSON_GetObjectItem(zone, "force")), 2);
   assert_int_equal(cJSON_GetArraySize(cJSON_GetObjectItem(zone, "moment")), 1);
   assert_near(cJSON_GetArrayItem(cJSON_GetObjectItem(zone, "moment"), 0)->valuedouble, 5, 0);
@@ -150,18 +153,18 @@ static PetscInt Fields(const char *line)
 /* As many values as names, and each under its own. */
 static void Tables(void **state)
 {
-  PetscReal       reaction[2][3] = {{1, -2, 0}, {7, 7, 7}};
-  PairFigures     pair           = {.force = {{0.25, 3}}, .moment = {{0, 0, 5}}, .radius = 0.206, .active_nodes = 17};
-  const Balance   balance        = {.num_boundaries = 2, .num_contacts = 1, .reaction = reaction, .pair = &pair};
-  const ReportRow row            = {.step                = 4,
-                                    .t                   = 0.5,
-                                    .cells               = 99,
-                                    .estimated_error     = NAN,
-                                    .seconds             = 2.5,
-                                    .viscous_work        = 0.125,
-                                    .frozen_segmentation = PETSC_TRUE,
-                                    .modifiers           = 3,
-                                    .accepted            = PETSC_TRUE};
+  PetscReal       reaction[2][3] = {{1, -2, 0}, {7, 7, 7}}, about[2][3] = {{0, 0, 6}, {8, 8, 8}};
+  PairFigures     pair    = {.force = {{0.25, 3}}, .moment = {{0, 0, 5}}, .radius = 0.206, .active_nodes = 17};
+  const Balance   balance = {.num_boundaries = 2, .num_contacts = 1, .reaction = reaction, .support_moment = about, .pair = &pair};
+  const ReportRow row     = {.step                = 4,
+                             .t                   = 0.5,
+                             .cells               = 99,
+                             .estimated_error     = NAN,
+                             .seconds             = 2.5,
+                             .viscous_work        = 0.125,
+                             .frozen_segmentation = PETSC_TRUE,
+                             .modifiers           = 3,
+                             .accepted            = PETSC_TRUE};
   History         history;
 
   assert_int_equal(HistoryCreate(PETSC_COMM_WORLD, &scene, NULL, NULL, &history), 0);
@@ -171,10 +174,11 @@ static void Tables(void **state)
   if (rank) return;
   char *text = Read("history.csv"), *values = strchr(text, '\n') + 1;
   assert_int_equal(Fields(text), Fields(values));
-  assert_non_null(strstr(text, ",seconds,viscous_work,frozen_segmentation,modifiers,reaction.top.x,reaction.top.y,contact.pair.force.x,contact.pair.force.y,"
-                               "contact.pair.moment,contact.pair.max_pressure,"
-                               "contact.pair.area,contact.pair.radius,contact.pair.active_nodes,contact.pair.min_gap\n"));
-  assert_non_null(strstr(values, ",2.5,0.125,1,3,1,-2,0.25,3,5,0,0,0.206,17,0\n"));
+  assert_non_null(strstr(
+      text, ",seconds,viscous_work,frozen_segmentation,modifiers,reaction.top.x,reaction.top.y,reaction.top.moment,contact.pair.force.x,contact.pair.force.y,"
+            "contact.pair.moment,contact.pair.max_pressure,"
+            "contact.pair.area,contact.pair.radius,contact.pair.active_nodes,contact.pair.min_gap\n"));
+  assert_non_null(strstr(values, ",2.5,0.125,1,3,1,-2,6,0.25,3,5,0,0,0.206,17,0\n"));
   free(text);
   text   = Read("adapt.csv");
   values = strchr(text, '\n') + 1;
