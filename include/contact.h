@@ -92,8 +92,8 @@ typedef struct {
   const PetscReal *hessian;      /* [dim*num][dim*num] derivatives of the forces (rows); NULL unless asked, or where z vanishes */
   const PetscReal *compliance;   /* [num_rows] m_j of S (below); NULL: none. kappa and its derivative by the share */
   PetscReal        kappa[2];
-  const PetscReal *dshare;       /* [dim*num] derivative of the covered share; with dgap where the facet is covered in part, else NULL */
-  PetscReal        area;         /* covered length or area (axisymmetric: area) */
+  const PetscReal *dshare; /* [dim*num] derivative of the covered share; with dgap where the facet is covered in part, else NULL */
+  PetscReal        area;   /* covered length or area (axisymmetric: area) */
   PetscReal        min_gap;
 } ContactFacet;
 
@@ -185,8 +185,8 @@ PetscErrorCode ContactPairSetCandidates(ContactPair, const ContactSurface *nonmo
    extent, a nonmortar node whose edge normals cancel. Surfaces must have the topology of the last search. Not collective. */
 PetscErrorCode ContactPairEvaluate(ContactPair, const ContactSurface *nonmortar, const ContactSurface *mortar, const PetscReal z[], const PetscBool wanted[],
                                    PetscBool derivatives, PetscBool hessian, PetscInt *num, const ContactFacet **facets, PetscBool *failed);
-/* From now on normals are frozen (or follow the surface again): first derivatives are those at fixed directions of the nonmortar side and a fixed segmentation, gaps and weights do not
-   change, there are no Hessians. Where gaps are wide against facets that tells more than the derivative itself. Not collective. */
+/* From now on normals are frozen (or follow the surface again): first derivatives are those at fixed directions of the nonmortar side and a fixed segmentation,
+   gaps and weights do not change, there are no Hessians. Where gaps are wide against facets that tells more than the derivative itself. Not collective. */
 PetscErrorCode ContactPairFreezeNormals(ContactPair, PetscBool frozen);
 /* From now on forces of facets of higher order in space are those of a frozen segmentation (`push`), without the motion of lines of the mortar side, or (as
    created) exact. Gaps, weights and their derivatives do not change. Not collective. */

@@ -6,9 +6,9 @@
 
 #define COVERED 1e-9 /* share of a node's tributary measure below which it counts as uncovered: forces have faded before (blend.c in contact) */
 
-#define ROUND 1e-6  /* relative difference of two lengths that round-off may make */
+#define ROUND 1e-6   /* relative difference of two lengths that round-off may make */
 #define MOST_REALS 4 /* of a node in one message */
-#define SLACK 1e-10 /* pressure over Young's modulus that is none: what round-off leaves */
+#define SLACK 1e-10  /* pressure over Young's modulus that is none: what round-off leaves */
 
 #define MOST_MASTERS 8          /* of a hanging vertex of a contact surface of order 1 */
 #define MOST_LATTICE_MASTERS 64 /* of a hanging node of a lattice: two ends that hang on edges themselves, and so on */
@@ -151,10 +151,10 @@ struct _p_Interface {
   const Form          *form;
   PetscInt             num_contacts;
   Contact             *contacts;
-  ContactHull          hull;      /* hull.c; NULL without contact */
-  PetscInt            *part;      /* [num_cells of the coarse mesh] */
-  PetscInt             num_inner; /* unknowns of this rank that the matrix lacks, the first of its vector */
-  PetscReal            share;     /* of the misfit that counts as no gap */
+  ContactHull          hull;                 /* hull.c; NULL without contact */
+  PetscInt            *part;                 /* [num_cells of the coarse mesh] */
+  PetscInt             num_inner;            /* unknowns of this rank that the matrix lacks, the first of its vector */
+  PetscReal            share;                /* of the misfit that counts as no gap */
   MPI_Datatype         unit[MOST_REALS + 1]; /* as many reals */
   ContactTraffic       traffic;
   PetscInt             num_links;

@@ -12,7 +12,7 @@
 static PetscErrorCode HasMoved_Private(Interface p, const Contact *c, PetscBool *moved)
 {
   const Surface *s      = &c->side[0];
-  PetscReal      most = 0;
+  PetscReal      most   = 0;
   PetscInt       num[2] = {0, 0}; /* left, taken */
 
   PetscFunctionBegin;

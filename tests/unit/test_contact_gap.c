@@ -240,7 +240,7 @@ static void ParentAndChildren(void **state)
     }
     assert_true(gap[0] > 1e-3);
     for (int level = 1; level < 3; level++) {
-      worst_gap = PetscMax(worst_gap, PetscAbsReal(gap[level] / gap[0] - 1));
+      worst_gap    = PetscMax(worst_gap, PetscAbsReal(gap[level] / gap[0] - 1));
       worst_weight = PetscMax(worst_weight, PetscAbsReal(weight[level] - weight[0]));
     }
   }

@@ -24,9 +24,10 @@ static void Place(Scene *s, PetscReal t)
   Patch *p = &s->mortar;
 
   for (PetscInt n = 0; n < p->s.num_nodes; n++) {
-    const PetscReal *u = p->u + 2 * n, far[2] = {s->kind == CREASE ? (u[0] < 0.5 ? -1 + 2 * u[0] * (1 + t) : t + 2 * (u[0] - 0.5) * (2 - t)) : -1 + (1 + t) * u[0],
-                                                s->kind == CORNER ? -1 + (1 + 0.9 * t) * u[1] : 3 * u[1] - 1};
-    const PetscReal  bend = s->kind == CREASE ? PetscMax(0, far[0] - t) : 0, gap = s->closed ? 0 : 0.05 + 0.03 * far[0] + 0.2 * bend;
+    const PetscReal *u     = p->u + 2 * n,
+                    far[2] = {s->kind == CREASE ? (u[0] < 0.5 ? -1 + 2 * u[0] * (1 + t) : t + 2 * (u[0] - 0.5) * (2 - t)) : -1 + (1 + t) * u[0],
+                              s->kind == CORNER ? -1 + (1 + 0.9 * t) * u[1] : 3 * u[1] - 1};
+    const PetscReal bend = s->kind == CREASE ? PetscMax(0, far[0] - t) : 0, gap = s->closed ? 0 : 0.05 + 0.03 * far[0] + 0.2 * bend;
 
     p->x[p->dim * n] = far[0];
     if (p->dim == 3) p->x[3 * n + 1] = far[1] + 0.07 * far[0]; /* not parallel to the facets */
@@ -56,11 +57,11 @@ static void SceneCreate(Scene *s)
 /* Values at t and their derivatives along the sweep: gaps and weights, or forces. Returns their number. */
 static PetscInt Values(Scene *s, PetscReal t, PetscReal value[], PetscReal slope[])
 {
-  PetscReal       *move = calloc((size_t)(s->dim * s->mortar.s.num_nodes), sizeof(PetscReal));
-  const PetscReal  h    = 0.25; /* places are linear in t, but for the crease's on either side of it */
-  const PetscInt   own = s->dim * s->nonmortar.s.num_nodes, others = s->dim * s->mortar.s.num_nodes;
-  PetscInt         num = 0;
-  Sum              sum;
+  PetscReal      *move = calloc((size_t)(s->dim * s->mortar.s.num_nodes), sizeof(PetscReal));
+  const PetscReal h    = 0.25; /* places are linear in t, but for the crease's on either side of it */
+  const PetscInt  own = s->dim * s->nonmortar.s.num_nodes, others = s->dim * s->mortar.s.num_nodes;
+  PetscInt        num = 0;
+  Sum             sum;
 
   for (int k = 0; k < 2; k++) {
     Place(s, t + (k ? h : -h));
@@ -114,7 +115,7 @@ static void Sweep(PetscInt dim, PetscInt order, Kind kind, PetscBool closed)
 {
   static const char *name[] = {"end", "corner", "crease"};
   Scene              s      = {.dim = dim, .order = order, .kind = kind, .closed = closed};
-  PetscReal(*v)[2][MOST]    = calloc(41, sizeof(*v)), scale = 0, worst = 0;
+  PetscReal(*v)[2][MOST] = calloc(41, sizeof(*v)), scale = 0, worst = 0;
   PetscInt num = 0;
 
   SceneCreate(&s);

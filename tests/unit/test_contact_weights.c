@@ -79,7 +79,7 @@ static void Biorthogonal(void **state)
   Cover(1, whole, PETSC_FALSE, &s, &area, &gap);
   for (int j = 0; j < 2; j++) assert_near(s.gap[j] / s.weight[j], j ? 0.1 : 0.2, 1e-14);
   SumDestroy(&s);
-  Cover(1, most, PETSC_FALSE, &s, &area, &gap); /* the same functions on what is covered */
+  Cover(1, most, PETSC_FALSE, &s, &area, &gap);                   /* the same functions on what is covered */
   assert_near(s.weight[0], 1 + 0.1 - 1.5 * 0.1 * 0.1 / 2, 1e-14); /* int over x from 0.1 of 3 x / 2 - 1, node 0 at x = 2 */
   assert_near(s.weight[0] + s.weight[1], 1.9, 1e-14);
   SumDestroy(&s);

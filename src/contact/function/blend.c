@@ -8,11 +8,11 @@
    e = P(1 / p (p + 1))^(d - 1), the weight about a corner that its function has a share of: theta = 1 while less than 0.1 e is uncovered (no weight of a dual
    function gets near zero), 0 from e on, two derivatives continuous.
 
-   Compliance: gaps count as gt + S z, S = kappa(s) [diag m - m m^T / sum m]: pressure that is constant on a facet does not see it. m_j: softness times reference
-   measure of the Bernstein function. Where the mortar side ends a little beyond a node, all that is covered of the facet's other functions is a sliver. Their
-   constraints say nearly the same as the first one's, and pressures that grow like powers of 1 / w_j would bend the facet so that the sliver fits. With kappa,
-   which vanishes no faster with s than these w_j do, a sliver's pressure is that of the facet. kappa is 0 where theta = 1: nothing that is covered is ever
-   compliant. */
+   Compliance: gaps count as gt + S z, S = kappa(s) [diag m - m m^T / sum m]: pressure that is constant on a facet does not see it. m_j: softness times
+   reference measure of the Bernstein function. Where the mortar side ends a little beyond a node, all that is covered of the facet's other functions is a
+   sliver. Their constraints say nearly the same as the first one's, and pressures that grow like powers of 1 / w_j would bend the facet so that the sliver
+   fits. With kappa, which vanishes no faster with s than these w_j do, a sliver's pressure is that of the facet. kappa is 0 where theta = 1: nothing that is
+   covered is ever compliant. */
 #include "functionimpl.h"
 
 #define WHOLE 0.1     /* of a corner's weight: what may be uncovered of a facet that counts as covered */

@@ -220,7 +220,7 @@ static PetscErrorCode Rows_Private(ContactPair pair, PetscInt from, PetscReal to
    Q = z.(S / kappa) z. */
 static PetscErrorCode Hessian_Private(const EvaluateContext *ctx, PetscInt facet, const PetscReal y[], const PetscReal y1[], PetscReal Q, PetscReal H[])
 {
-  RayWork        w  = ctx->pair->ray;
+  RayWork        w = ctx->pair->ray;
   const PetscInt n = w->n, na = w->facet.s.num;
   PetscReal     *gradient, *left, slope = 0.5 * w->share.kappa[1] * Q, curve = 0.25 * w->share.kappa[2] * Q;
 

@@ -222,8 +222,8 @@ static PetscErrorCode Overlap_Private(RayWork w, const RayLattice *mortar, Petsc
   PetscFunctionBegin;
   ContactRaySplit(f, &w->overlap[k], &split);
   PetscCall(ContactRayRule(f, o, mortar->order, &points, &point, &weight));
-  PetscCall(ContactGrow(points * (b.nf + f->D * nq + b.na + b.no + f->m * (nq + 12) + f->nv + 7 * na) + 8 * (nq + 6), sizeof(PetscReal),
-                        &w->size_buffer, &w->buffer));
+  PetscCall(ContactGrow(points * (b.nf + f->D * nq + b.na + b.no + f->m * (nq + 12) + f->nv + 7 * na) + 8 * (nq + 6), sizeof(PetscReal), &w->size_buffer,
+                        &w->buffer));
   b.basis         = w->buffer;
   b.right         = b.basis + points * b.nf;
   b.own_left      = b.right + points * f->D * nq;

@@ -148,21 +148,21 @@ struct _p_RayWork {
   RayBall   *ball;              /* [mortar num_facets], at the positions of the last evaluation */
   PetscInt   size_ball;
   /* one facet */
-  RayFacet   facet;
-  PetscInt   num_images, num_overlaps, num_mortar;
-  RayImage  *image;
-  Overlap   *overlap;
-  PetscInt  *mortar; /* [num_overlaps] mortar facet */
-  PetscInt  *vertex; /* [num_mortar] mortar nodes */
-  PetscBool  frozen; /* forces without the motion of the mortar side's lines */
-  PetscInt   n, nn, num_moments;
-  PetscReal  q[RAY_MOMENTS], reach[RAY_LATTICE], covered, min_gap; /* reach: moments of a gap of 1 along unit directions */
+  RayFacet     facet;
+  PetscInt     num_images, num_overlaps, num_mortar;
+  RayImage    *image;
+  Overlap     *overlap;
+  PetscInt    *mortar; /* [num_overlaps] mortar facet */
+  PetscInt    *vertex; /* [num_mortar] mortar nodes */
+  PetscBool    frozen; /* forces without the motion of the mortar side's lines */
+  PetscInt     n, nn, num_moments;
+  PetscReal    q[RAY_MOMENTS], reach[RAY_LATTICE], covered, min_gap; /* reach: moments of a gap of 1 along unit directions */
   ContactShare share;
-  PetscReal *dq, *W, *J, *R, *WJ, *part, *buffer;                  /* dq [num_moments][n], W [n][n]; J, R: chainrule.c */
-  PetscReal *T, *rows;                                             /* [num_rows][lattice], values and derivative by the share; [n][num_rows] */
-  Result     result;                                               /* vertices: lattice, then mortar nodes */
-  PetscInt   size_image, size_overlap, size_mortar, size_vertex, size_dq, size_W, size_J, size_R, size_WJ, size_part, size_buffer;
-  PetscInt   size_T, size_rows;
+  PetscReal   *dq, *W, *J, *R, *WJ, *part, *buffer; /* dq [num_moments][n], W [n][n]; J, R: chainrule.c */
+  PetscReal   *T, *rows;                            /* [num_rows][lattice], values and derivative by the share; [n][num_rows] */
+  Result       result;                              /* vertices: lattice, then mortar nodes */
+  PetscInt     size_image, size_overlap, size_mortar, size_vertex, size_dq, size_W, size_J, size_R, size_WJ, size_part, size_buffer;
+  PetscInt     size_T, size_rows;
   /* where the rays of the integration points met, overlap after overlap: the Hessian is integrated there again */
   PetscInt        num_places, size_places, *first_place, size_first_place; /* first_place[num_listed]: -1: some overlap was dropped */
   RayPlace       *place;
@@ -316,7 +316,7 @@ PetscBool ContactRayPoint(const RayFacet *, const RayLattice *mortar, const Over
 void      ContactRayPlaces(const RayWork, const ContactSurface *mortar, PetscInt overlap, PetscInt nb, PetscInt place[]);
 
 /* moments.c, hessian.c: integrals over the overlaps of the facet at hand */
-void           ContactRayOverDet(const RayFacet *, const RayChartPoint *, PetscReal factor, const RayWeight *, RayWeight *);
+void ContactRayOverDet(const RayFacet *, const RayChartPoint *, PetscReal factor, const RayWeight *, RayWeight *);
 /* q: gap moments, area moments, covered share (blend.c). */
 PetscErrorCode ContactRayMoments(ContactPair, const ContactSurface *mortar, PetscBool derivatives);
 /* W of the work space: half Hessian of sum_a y_a G_a + share times the covered share at the facet's places; gradient[n] of it is set. Where lines are held the

@@ -70,10 +70,10 @@ static void Along_Private(const RayFacet *f, const RayChartPoint *chart, const F
 static PetscBool Batch_Private(RayWork w, const RayLattice *mortar, const Overlap *o, const RayGuess *guess, const RaySimplex *s, PetscInt points,
                                const PetscReal point[][3], const PetscReal weight[], PetscBool derivatives, RayPoint *r, Batch *b)
 {
-  const RayFacet *f     = &w->facet;
+  const RayFacet *f   = &w->facet;
   const PetscInt  num = b->num, all = 2 * num + 1;
   const PetscReal flat[2] = {0, 0};
-  RayPlace       *place = w->place + w->num_places;
+  RayPlace       *place   = w->place + w->num_places;
   Factors         factor;
 
   for (PetscInt q = 0; q < all; q++) b->mean[q] = 0;

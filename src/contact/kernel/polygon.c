@@ -32,7 +32,8 @@ void ContactRayProducts(PetscInt num, PetscReal factor, PetscInt nl, const Petsc
 /* ---- quadrature ---------------------------------------------------------------------------------------------------------------------- */
 
 /* Barycentric points and weights. What is integrated between flat parallelograms is a polynomial of degree 2 order_s + 2 order_m at most, 4 order_s where it is
-   a derivative by the facet's own nodes; two degrees more than the first, at least, are for others. Gauss points on intervals; on triangles symmetric rules (quadrature.c), beyond them conical products. Node to segment: the node. */
+   a derivative by the facet's own nodes; two degrees more than the first, at least, are for others. Gauss points on intervals; on triangles symmetric rules
+   (quadrature.c), beyond them conical products. Node to segment: the node. */
 PetscErrorCode ContactRayRule(const RayFacet *f, const Overlap *o, PetscInt mortar_order, PetscInt *num, const PetscReal (**point)[3], const PetscReal **weight)
 {
   static const PetscReal End[2][3] = {{1, 0, 0}, {0, 1, 0}}, Half = 0.5;

@@ -2,7 +2,8 @@
 
    With r = P + s V - M (ray.c) half of d2g at fixed xi is
      b rho (ds kappa.V - deta_i kappa.M,i - deta_i deta_j kappa.x_m,ij / 2) + s rho (V.dn + d.(T_1 x T_2)) + rho ds db + (b ds + s db) drho.
-   Products with few left factors: ds, deta_i, drho; V.dn and T_1 x T_2 couple nodes by one vector for each pair. Derivatives by xi follow with P -> P + t_i dxi_i and so on: mixed[i] are full rows, xixi full. */
+   Products with few left factors: ds, deta_i, drho; V.dn and T_1 x T_2 couple nodes by one vector for each pair. Derivatives by xi follow with P -> P + t_i
+   dxi_i and so on: mixed[i] are full rows, xixi full. */
 #include "kernelimpl.h"
 
 static inline void Axpy3_Private(PetscReal a, const PetscReal x[3], PetscReal y[3])
