@@ -130,7 +130,7 @@ const Option Options[] = {
      "overlap at the reference positions, taken off the gap (shrink fit); an expression in t is brought in step by step, a number is there from the start",
      PAIR(spec.interference)},
     {"contact.<pair>.multiplier", KEY_WORD, "", "dual", "dual|standard",
-     "basis of the contact pressure: dual to the hats on the covered part of each facet, or the hats themselves", PAIR(multiplier)},
+     "basis of the contact pressure: dual to the functions of the nodes, or these themselves", PAIR(multiplier)},
     {"contact.<pair>.moment_about", KEY_TEXT, "", "", "", "a name under point that the moments of the contact forces are counted about; default: the origin",
      PAIR(moment_about)},
     {"contact.<pair>.node_to_segment", KEY_BOOL, "", "false", "", "node-to-segment contact, for comparison only", PAIR(spec.node_to_segment)},

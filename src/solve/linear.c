@@ -62,7 +62,7 @@ PetscErrorCode SolverUnsymmetric_Private(Solver s)
   PC  pc;
 
   PetscFunctionBegin;
-  PetscCall(PetscInfo(s->snes, "forces hold the rim of a contact face, the tangent is not symmetric: factors are LU from here on\n"));
+  PetscCall(PetscInfo(s->snes, "forces hold lines of a contact face, the tangent is not symmetric: factors are LU from here on\n"));
   s->symmetric = s->factored = PETSC_FALSE;
   PetscCall(SNESGetKSP(s->snes, &ksp));
   PetscCall(KSPGetPC(ksp, &pc));

@@ -9,7 +9,7 @@
    only contact holds; where a constraint is compliant it is as stiff as both in a row, 1 / G_j = 1 / g_j + |C_jj|.
    Right preconditioner [ M  F ] [ 0  -S  ],   M: one cycle of algebraic multigrid with rigid-body modes on K + B^T G B, S = G^-1 (active), -C (inactive):
    with exact M the Schur complement times G has eigenvalues s/(1+s) < 1, s those of G B K^-1 B^T, which are bounded below on any mesh. GMRES.
-   Where forces hold the rim of a contact face (docs/theory.md, (5.8)) the tangent has its exact form: rows of inactive nodes C = w0, and columns are nearly
+   Where forces hold lines of a contact face (docs/theory.md, (5.8)) the tangent has its exact form: rows of inactive nodes C = w0, and columns are nearly
    multiples of rows, f_j ~ sigma_j b_j^T; then S = sigma G^-1 - C. What else is not symmetric M does not see. */
 #include "solveimpl.h"
 
