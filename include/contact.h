@@ -92,6 +92,7 @@ typedef struct {
   const PetscReal *spring;       /* [num_rows] compliances K_j (ContactPairSetSoftness); NULL: none */
   const PetscReal *stiffening;   /* [num_rows] dK_j / d area */
   const PetscReal *darea;        /* [dim*num] of area; with spring and dgap */
+  const PetscReal *shear;        /* [num_rows][dim*num] force by a tangential traction z_j (ContactPairSetTraction); with dgap. NULL: none */
   PetscReal        area;         /* covered length or area (axisymmetric: area) */
   PetscReal        min_gap;
 } ContactFacet;
@@ -172,6 +173,14 @@ PetscErrorCode ContactPairFreezeNormals(ContactPair, PetscBool frozen);
    too (`push` on all of them), or (as created) without that of its rim only, where it ends within the facet (theory (5.8)). Gaps, weights and their derivatives
    do not change. Not collective. */
 PetscErrorCode ContactPairFreezeSegmentation(ContactPair, PetscBool frozen);
+/* Friction, two dimensions. Tangential tractions traction[nonmortar num_nodes] of evaluations from now on, borrowed (NULL: none), positive along the nonmortar
+   facets on the mortar side: results have `shear`, and Hessians the derivatives of those forces too, not symmetric (theory (5.10)). Not collective. */
+PetscErrorCode ContactPairSetTraction(ContactPair, const PetscReal traction[]);
+/* Evaluate at these positions and keep the points of the integration with their partners. Then: slip since there (theory (5.9)) of every facet kept, as results
+   with the slip for gap and dgap, and the weights where the points were kept; positive where the mortar side moves along the nonmortar facets. Surfaces must
+   have the topology of the last search; positions of all nodes of facets kept and of their partners are needed. Valid until the next call. Not collective. */
+PetscErrorCode ContactPairKeepPoints(ContactPair, const ContactSurface *nonmortar, const ContactSurface *mortar, PetscBool *failed);
+PetscErrorCode ContactPairSlip(ContactPair, const ContactSurface *nonmortar, const ContactSurface *mortar, PetscInt *num, const ContactFacet **facets);
 PetscErrorCode ContactPairGetSegments(ContactPair, PetscInt *num, const ContactSegment **segments);
 /* Nodal normals of the last evaluation [num_nodes][dim]; NaN at nodes with neighbours that are not known here. */
 PetscErrorCode ContactPairGetNormals(ContactPair, const PetscReal **normals);

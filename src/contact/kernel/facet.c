@@ -405,6 +405,7 @@ static PetscErrorCode Facet_Private(const EvaluateContext *ctx, PetscInt slot, C
     for (PetscInt r = 0; r < w->result.num_rows && ctx->z; r++) y[a] += ctx->z[w->result.node[r]] * w->T[r * w->facet.s.num + a];
     if (y[a] != 0) loaded = PETSC_TRUE;
   }
+  loaded      = (PetscBool)(loaded || ContactSlipLoads(ctx));
   derivatives = ContactResultDerivatives(ctx, w->result.num_rows, w->result.node, loaded);
   o.dual      = (PetscBool)(!pair->standard && w->facet.s.order == 1 && !w->test[0].hats);
   if (ctx->again && !pair->held && out->dgap && !o.dual && !out->spring && w->first_place[slot] >= 0) { /* nothing else is missing */
@@ -422,6 +423,7 @@ static PetscErrorCode Facet_Private(const EvaluateContext *ctx, PetscInt slot, C
   if (o.dual && !Dual_Private(w, y, &o)) PetscFunctionReturn(PETSC_SUCCESS);
   if (!ctx->again) PetscCall(Segments_Private(ctx, facet));
   PetscCall(Result_Private(ctx, facet, &o, y, derivatives, (PetscBool)(ctx->hessian && loaded && !pair->held), out));
+  PetscCall(ContactSlipFacet(ctx, facet, o.dual, derivatives, out));
   *use = PETSC_TRUE;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
