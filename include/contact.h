@@ -41,7 +41,7 @@ typedef struct {
   const PetscBool *has;
 } ContactSurface;
 
-typedef enum { CONTACT_FRICTIONLESS, CONTACT_PENALTY } ContactLaw; /* in the order of the table of laws */
+typedef enum { CONTACT_FRICTIONLESS, CONTACT_PENALTY, CONTACT_COULOMB } ContactLaw; /* in the order of the table of laws */
 
 typedef struct {
   char       name[MORTISE_NAME];
@@ -49,7 +49,7 @@ typedef struct {
   PetscBool  exchanged;         /* the scene names them the other way round, figures are of the sides as the scene names them */
   ContactLaw law;               /* what its multipliers fulfil (interface/law/) */
   PetscReal  penalty;           /* law penalty: stiffness, pressure over overlap */
-  PetscReal  friction;          /* 0 here: anything else is an input error until friction is built */
+  PetscReal  friction;          /* law coulomb: its coefficient, above 0 */
   PetscBool  full;              /* facets have the order of their cells; else order 1 */
   PetscReal  search;            /* search distance, in multiples of the larger edge length; default 0: automatic */
   PetscBool  node_to_segment;   /* comparison only */

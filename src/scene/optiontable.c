@@ -89,10 +89,11 @@ const Option Options[] = {
     {"contact.<pair>.mortar", KEY_TEXT, "", NULL, "", "physical group of the other side", PAIR(mortar)},
     {"contact.<pair>.roles", KEY_WORD, "", "auto", "auto|given",
      "auto: a nonmortar side stiffer than the mortar side, or rigid, changes places with it; given: for comparison, only where it is rigid", PAIR(roles)},
-    {"contact.<pair>.law", KEY_WORD, "", "frictionless", "frictionless|penalty", "penalty: for comparison only, overlaps by pressure over penalty",
+    {"contact.<pair>.law", KEY_WORD, "", "frictionless", "frictionless|penalty|coulomb",
+     "what holds between gap, pressure and slip; coulomb: that of a pair with friction; penalty: for comparison only, overlaps by pressure over penalty",
      PAIR(spec.law)},
     {"contact.<pair>.penalty", KEY_REAL, "stress/length", "", POSITIVE, "stiffness of law: penalty, pressure per overlap", PAIR(spec.penalty)},
-    {"contact.<pair>.friction", KEY_REAL, "", "0", NOT_BELOW, "coefficient of friction; not built yet: 0 only", PAIR(spec.friction)},
+    {"contact.<pair>.friction", KEY_REAL, "", "0", NOT_BELOW, "coefficient of Coulomb friction; in the plane, with finite kinematics", PAIR(spec.friction)},
     {"contact.<pair>.order", KEY_WORD, "", "auto", "1|full|auto",
      "order of the contact faces; full: that of their cells, with their curved geometry; auto: full, but 1 with subdivide, node_to_segment or orders per "
      "direction",

@@ -292,6 +292,31 @@ static PetscBool FacesAreFull_Private(const struct _p_Scene *s, const ContactEnt
   return PETSC_TRUE;
 }
 
+/* Where there is friction, it is the pair's law. */
+static PetscErrorCode CheckFriction_Private(Scene s, const SceneNode *node, ContactEntry *c)
+{
+  const SceneData *d     = &s->data;
+  const SceneNode *given = NodeFind(node, "friction");
+
+  PetscFunctionBegin;
+  if (c->spec.friction == 0) {
+    PetscCheckInput(c->spec.law != CONTACT_COULOMB, "%s: law: coulomb needs a coefficient of friction, a number above 0; friction is 0", NodeWhere(node));
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
+  PetscCheckInput(c->spec.law != CONTACT_PENALTY, "%s is %g: law: penalty has no friction; allowed here: 0, or take the law away", NodeWhere(given),
+                  (double)c->spec.friction);
+  PetscCheckInput(c->spec.law == CONTACT_COULOMB || !NodeFind(node, "law"),
+                  "%s is %g, but the law of this pair is frictionless; allowed here: 0, or take the law away", NodeWhere(given), (double)c->spec.friction);
+  PetscCheckInput(!c->spec.node_to_segment, "%s is %g: node-to-segment contact has no friction; allowed here: 0", NodeWhere(given), (double)c->spec.friction);
+  PetscCheckInput(d->mesh.dim == 2 && d->mechanics.model == MODEL_PLANE_STRAIN, "%s is %g: friction is built for model: plane_strain; allowed here: 0",
+                  NodeWhere(given), (double)c->spec.friction);
+  PetscCheckInput(d->mechanics.kinematics == KINEMATICS_FINITE, "%s is %g: friction needs kinematics: finite; allowed here: 0", NodeWhere(given),
+                  (double)c->spec.friction);
+  PetscCheckInput(d->load.control == LOAD_TIME, "%s is %g: friction needs load.control: time; allowed here: 0", NodeWhere(given), (double)c->spec.friction);
+  c->spec.law = CONTACT_COULOMB;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 static PetscErrorCode ReadContact_Private(Scene s, SceneNode *node, ContactEntry *c)
 {
   const SceneNode *stiffness = NodeFind(node, "penalty");
@@ -310,7 +335,7 @@ static PetscErrorCode ReadContact_Private(Scene s, SceneNode *node, ContactEntry
                   "%s is the stiffness of law: penalty, but the law of this pair is frictionless, without overlaps and so without a stiffness; take "
                   "penalty away, or set law: penalty",
                   NodeWhere(stiffness));
-  PetscCheckInput(c->spec.friction == 0, "%s is %g: friction is not built yet; allowed: 0", NodeWhere(NodeFind(node, "friction")), (double)c->spec.friction);
+  PetscCall(CheckFriction_Private(s, node, c));
   PetscCheckInput(!strchr(node->key, '/'), "%s: the name of a pair has no '/' in it", NodeWhere(node));
   for (PetscInt i = 0; &s->contact[i] < c; ++i) {
     const ContactEntry *e    = &s->contact[i];

@@ -62,7 +62,8 @@ static void Slip(Sum *s, ContactPair pair, const Patch *a, const Patch *b)
     for (PetscInt j = 0; j < facets[i].num_rows; j++) {
       s->gap[facets[i].nodes[j]] += facets[i].gap[j];
       s->weight[facets[i].nodes[j]] += facets[i].weight[j];
-      for (PetscInt k = 0; k < 2 * facets[i].num; k++) s->dgap[facets[i].nodes[j] * s->size + SumRow(s, &facets[i], k)] += facets[i].dgap[j * 2 * facets[i].num + k];
+      for (PetscInt k = 0; k < 2 * facets[i].num; k++)
+        s->dgap[facets[i].nodes[j] * s->size + SumRow(s, &facets[i], k)] += facets[i].dgap[j * 2 * facets[i].num + k];
     }
 }
 
@@ -107,7 +108,7 @@ static void CheckBalance(const Kind *kind, const Sum *s, const Patch *a, const P
     for (int c = 0; c < 2; c++) force[c] += g[c];
     moment += x[0] * g[1] - x[1] * g[0];
   }
-  e->force  = PetscMax(e->force, PetscAbsReal(force[1]) / scale);
+  e->force = PetscMax(e->force, PetscAbsReal(force[1]) / scale);
   if (kind->ring) return;
   e->force  = PetscMax(e->force, PetscAbsReal(force[0]) / scale);
   e->moment = PetscMax(e->moment, PetscAbsReal(moment) / scale);
@@ -119,8 +120,8 @@ static void CheckDerivatives(ContactPair pair, Patch *a, Patch *b, const PetscRe
   static const PetscReal At[4] = {-2, -1, 1, 2};
   const PetscInt         na = 2 * a->s.num_nodes, nb = 2 * b->s.num_nodes;
   PetscReal             *from[2] = {malloc((size_t)na * sizeof(PetscReal)), malloc((size_t)nb * sizeof(PetscReal))};
-  PetscReal             *along   = malloc((size_t)(na + nb) * sizeof(PetscReal)), tangent = 0, slip = 0, scale[2] = {0, 0};
-  PetscBool              kink    = PETSC_FALSE;
+  PetscReal             *along = malloc((size_t)(na + nb) * sizeof(PetscReal)), tangent = 0, slip = 0, scale[2] = {0, 0};
+  PetscBool              kink = PETSC_FALSE;
   uint64_t               signature;
   Sum                    exact, kept, moved[4], slipped[4];
 
@@ -154,7 +155,7 @@ static void CheckDerivatives(ContactPair pair, Patch *a, Patch *b, const PetscRe
   }
   e->kinks += kink;
   if (!kink) e->tangent = PetscMax(e->tangent, tangent / scale[0]);
-  e->slip    = PetscMax(e->slip, slip / scale[1]);
+  e->slip = PetscMax(e->slip, slip / scale[1]);
   memcpy(a->x, from[0], (size_t)na * sizeof(PetscReal)), memcpy(b->x, from[1], (size_t)nb * sizeof(PetscReal));
   SumDestroy(&exact), SumDestroy(&kept);
   for (int m = 0; m < 4; m++) SumDestroy(&moved[m]), SumDestroy(&slipped[m]);
@@ -180,7 +181,7 @@ static void CheckMotion(ContactPair pair, Patch *a, Patch *b, uint64_t *seed, Er
 
 static void Check(const Kind *kind, uint64_t *seed, Errors *e)
 {
-  const ContactSpec spec     = {.standard = kind->standard};
+  const ContactSpec spec = {.standard = kind->standard};
   PetscReal         z[64], traction[64];
   Patch             a, b;
   ContactPair       pair;
@@ -210,8 +211,12 @@ static void test_derivatives(void **state)
 {
   (void)state;
   for (int kind = 0; kind < 40; kind++) {
-    const Kind k    = {.order = 1 + kind % 4, .mortar = 1 + kind / 4 % 4, .standard = kind % 5 == 4, .partly = kind / 16 % 2, .ring = kind % 7 == 3,
-                       .linear = kind % 4 == 0 && kind / 4 % 4 == 0};
+    const Kind k    = {.order    = 1 + kind % 4,
+                       .mortar   = 1 + kind / 4 % 4,
+                       .standard = kind % 5 == 4,
+                       .partly   = kind / 16 % 2,
+                       .ring     = kind % 7 == 3,
+                       .linear   = kind % 4 == 0 && kind / 4 % 4 == 0};
     Errors     e    = {0};
     uint64_t   seed = (uint64_t)kind + 1;
 

@@ -358,8 +358,8 @@ PetscErrorCode ContactRayWorkDestroy(RayWork *);
 
 /* slip.c: of the facet at hand. Does a tangential traction act on it? */
 PetscBool ContactSlipLoads(const EvaluateContext *);
-/* After its moments, for the result `out`: its points, where they are to be kept; forces by tangential tractions, and their part of the Hessian. dual: functions
-   are those of its covered part. */
+/* After its moments, for the result `out`: its points, where they are to be kept; forces by tangential tractions, and their part of the Hessian. dual:
+   functions are those of its covered part. */
 PetscErrorCode ContactSlipFacet(const EvaluateContext *, PetscInt facet, PetscBool dual, PetscBool derivatives, ContactFacet *out);
 
 /* region.c */

@@ -90,7 +90,7 @@ static void Functions_Private(const EvaluateContext *ctx, PetscBool dual, Functi
 {
   const RayWork    w  = ctx->pair->ray;
   const PetscInt   na = w->facet.s.num, nr = w->result.num_rows;
-  const PetscReal *z  = ctx->pair->traction;
+  const PetscReal *z = ctx->pair->traction;
   PetscReal        A[2][2];
 
   o->changes = dual;
@@ -132,7 +132,8 @@ static void Functions1_Private(const RayFacet *f, const RayTest *t, const RayPoi
 }
 
 /* Density of the forces h[2][na + nb], at a point, and its slope along the facet. */
-static void Density_Private(const RayFacet *f, const RayLattice *mortar, const RayPoint *r, PetscReal h[2][2 * RAY_LATTICE], PetscReal along[2][2 * RAY_LATTICE])
+static void Density_Private(const RayFacet *f, const RayLattice *mortar, const RayPoint *r, PetscReal h[2][2 * RAY_LATTICE],
+                            PetscReal along[2][2 * RAY_LATTICE])
 {
   PetscReal R[3], Ri[3], *t = (PetscReal *)r->t[0], etai = 0;
 
@@ -166,8 +167,7 @@ static void Change_Private(const RayFacet *f, const RayLattice *mortar, const Ra
   if (group == 0) dt[e] = r->S.d[0][node];
   weight *= r->rho;
   for (int c = 0; c < 2; c++) {
-    for (PetscInt a = 0; a < na; a++)
-      s->K[row[2 * a + c] * s->n + column] += weight * (r->S.d[0][a] * dR[c] - r->S.N[a] * dt[c]) + ring * h[c][a];
+    for (PetscInt a = 0; a < na; a++) s->K[row[2 * a + c] * s->n + column] += weight * (r->S.d[0][a] * dR[c] - r->S.N[a] * dt[c]) + ring * h[c][a];
     for (PetscInt b = 0; b < mortar->num; b++)
       s->K[row[2 * (na + b) + c] * s->n + column] += weight * (r->M.d[0][b] * deta * t[c] + r->M.N[b] * dt[c]) + ring * h[c][na + b];
   }
@@ -281,8 +281,8 @@ static PetscErrorCode Tangent_Private(RayWork w, const Sums *s, const Functions 
 
 static PetscErrorCode Forces_Private(const EvaluateContext *ctx, const Functions *o, ContactFacet *out)
 {
-  RayWork         w     = ctx->pair->ray;
-  const PetscInt  na    = w->facet.s.num, nr = w->result.num_rows;
+  RayWork         w  = ctx->pair->ray;
+  const PetscInt  na = w->facet.s.num, nr = w->result.num_rows;
   const RayPlace *place = w->places;
   Sums            s     = {.rows = w->facet.D * (na + w->num_mortar), .n = w->n};
   PetscReal      *shear, *row;
@@ -398,8 +398,8 @@ PetscErrorCode ContactPairKeepPoints(ContactPair pair, const ContactSurface *non
   if (!pair->slip) PetscCall(PetscNew(&pair->slip));
   s           = pair->slip;
   s->num_kept = s->num_rows = s->num_points = s->num_values = 0;
-  pair->keeps = PETSC_TRUE;
-  pair->state.stands = PETSC_FALSE;
+  pair->keeps                                               = PETSC_TRUE;
+  pair->state.stands                                        = PETSC_FALSE;
   PetscCall(ContactPairEvaluate(pair, nonmortar, mortar, NULL, NULL, PETSC_FALSE, PETSC_FALSE, &num, &facets, failed));
   pair->keeps = pair->state.stands = PETSC_FALSE;
   if (*failed) s->num_kept = s->num_rows = s->num_points = s->num_values = 0;
@@ -416,8 +416,7 @@ static void Add_Private(const Result *r, PetscInt vertex, PetscInt D, PetscReal 
 }
 
 /* Nodes of a kept facet's result: rows, its lattice, the lattices of the mortar facets it met: vertices, first[k] the first of point k's facet. */
-static PetscErrorCode Vertices_Private(struct ContactSlip *s, const Kept *kept, const ContactSurface *nonmortar, const ContactSurface *mortar,
-                                       PetscInt first[])
+static PetscErrorCode Vertices_Private(struct ContactSlip *s, const Kept *kept, const ContactSurface *nonmortar, const ContactSurface *mortar, PetscInt first[])
 {
   const PetscInt *node;
   PetscInt        order1[4], num = 0, vertex = 0, place;
