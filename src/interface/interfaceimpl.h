@@ -102,6 +102,7 @@ typedef struct {
   PetscReal          *slip, *weight; /* [n] s_j at the last evaluation, w_j where it counts from */
   PetscReal          *mean;          /* [n] s_j / w_j */
   PetscReal          *change, *lift; /* [n] as those of the gaps */
+  PetscBool          *held;          /* [n] a support holds it along the surface: no traction */
   PetscInt           *result;        /* [num_facets] position of a facet in `facets`, -1: it met nothing */
   PetscInt            num_facets;
   const ContactFacet *facets;
@@ -293,7 +294,9 @@ PetscErrorCode ContactFreedom_Private(Interface, Contact *);
 /* carrier.c: w0, extent and c of the nodes; which of them carry a multiplier. */
 PetscErrorCode ContactNodeScales_Private(Interface, Contact *);
 PetscErrorCode ContactCarriers_Private(Interface, Contact *);
-PetscReal      SurfaceFacetMeasure_Private(const Surface *, PetscInt facet, PetscBool axisymmetric);
+/* Two dimensions: does a support hold the node along the surface? Until the rows of the matrix are known. */
+PetscBool ContactHeldAlong_Private(const Surface *, PetscInt node);
+PetscReal SurfaceFacetMeasure_Private(const Surface *, PetscInt facet, PetscBool axisymmetric);
 /* slip.c: nothing where the law has no friction. Create: after the multipliers. Keep: before a search; points where slip counts from, if they are not kept yet.
    Evaluate: after positions are gathered. Change: of every owned node's slip under the increment du of both sides, which is there. All but Destroy collective.
  */

@@ -3,6 +3,22 @@
    links of their own bring it the positions of their partners, wherever those have gone. */
 #include "interfaceimpl.h"
 
+/* A node that a support holds along the surface, as in a plane of symmetry, begins every step without partners, and so without traction: nothing of its own
+   would answer it. Nodes of rigid bodies are not held: the other side moves. */
+static PetscErrorCode Held_Private(Interface p, Contact *c)
+{
+  const Surface      *s = &c->side[0];
+  const ForestTables *t;
+
+  PetscFunctionBegin;
+  PetscCall(ForestGetTables(p->forest, &t));
+  for (PetscInt n = 0; n < s->num_nodes; ++n) {
+    const PetscBool rigid = p->spec->bodies[t->leaf_body[s->facet_leaf[s->node_facet[s->node_first[n]]]]].material->law->rigid;
+    c->slip->held[n]      = (PetscBool)(!rigid && ContactHeldAlong_Private(s, n));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode SlipCreate_Private(Interface p, Contact *c)
 {
   const PetscInt  n = c->side[0].num_nodes, num_facets = c->side[0].num_facets;
@@ -19,6 +35,8 @@ PetscErrorCode SlipCreate_Private(Interface p, Contact *c)
   s->stale     = PETSC_TRUE;
   c->slip      = s;
   c->view.slip = s->mean;
+  PetscCall(PetscMalloc1(n, &s->held));
+  PetscCall(Held_Private(p, c));
   PetscCall(ContactPairSetTraction(c->pair, c->z + n));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -31,6 +49,7 @@ PetscErrorCode SlipDestroy_Private(Contact *c)
   if (!s) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(PetscFree7(s->slip, s->weight, s->mean, s->change, s->lift, s->result, s->from));
   for (PetscInt k = 0; k < 2; ++k) PetscCall(LinkDestroy_Private(&s->places[k]));
+  PetscCall(PetscFree(s->held));
   PetscCall(PetscFree(c->slip));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -108,7 +127,7 @@ PetscErrorCode SlipEvaluate_Private(Interface p, Contact *c)
   PetscCall(LinkSpread_Private(p, &own->values, 1, s->slip));
   PetscCall(LinkSpread_Private(p, &own->values, 1, s->weight));
   for (PetscInt j = 0; j < own->num_nodes; ++j)
-    if (!(s->weight[j] > (own->order ? COVERED_HIGHER : COVERED) * c->w0[j])) s->slip[j] = s->weight[j] = 0; /* no partner then */
+    if (s->held[j] || !(s->weight[j] > (own->order ? COVERED_HIGHER : COVERED) * c->w0[j])) s->slip[j] = s->weight[j] = 0; /* no partner then */
   for (PetscInt j = 0; j < own->num_nodes; ++j) s->mean[j] = s->weight[j] > 0 ? s->slip[j] / s->weight[j] : 0;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
