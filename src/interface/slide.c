@@ -38,7 +38,7 @@ static PetscErrorCode HasMoved_Private(Interface p, const Contact *c, PetscBool 
 
 /* With friction: does the first linear step slip as a whole, one way, and by a good part of the zone? Then bodies are brought to their new places first. Where
    friction holds they would have to be pulled back from there. */
-static PetscErrorCode Slips_Private(Interface p, const Contact *c, PetscBool *slips)
+static PetscErrorCode Slips_Private(Interface p, const Contact *c, PetscBool swap, PetscBool *slips)
 {
   const SlipHistory *s      = c->slip;
   PetscReal          sum[3] = {0, 0, 0}; /* zone, its part that slips, sum of the slip */
@@ -53,11 +53,11 @@ static PetscErrorCode Slips_Private(Interface p, const Contact *c, PetscBool *sl
     if (s->weight[j] > 0) sum[2] += c->extent[j] * (s->slip[j] + s->change[j]) / s->weight[j];
   }
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 3, MPIU_REAL, MPI_SUM, p->comm));
-  *slips = (PetscBool)(PetscAbsReal(sum[1]) > WHOLE * sum[0] && PetscAbsReal(sum[2]) > (1 - STAYS) * PetscSqr(sum[0]));
+  *slips = (PetscBool)(sum[0] > 0 && swap != (PetscAbsReal(sum[1]) > WHOLE * sum[0] && PetscAbsReal(sum[2]) > (1 - STAYS) * PetscSqr(sum[0])));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode InterfaceFindSliding(Interface p, PetscReal pending, uint64_t *pairs)
+PetscErrorCode InterfaceFindSliding(Interface p, PetscReal pending, PetscBool swap, uint64_t *pairs)
 {
   PetscBool moved;
 
@@ -66,7 +66,7 @@ PetscErrorCode InterfaceFindSliding(Interface p, PetscReal pending, uint64_t *pa
   if (p->spec->kinematics == KINEMATICS_SMALL) PetscFunctionReturn(PETSC_SUCCESS);
   for (PetscInt i = 0; pending > 0 && i < p->num_contacts; ++i) {
     if (p->contacts[i].slip)
-      PetscCall(Slips_Private(p, &p->contacts[i], &moved));
+      PetscCall(Slips_Private(p, &p->contacts[i], swap, &moved));
     else
       PetscCall(HasMoved_Private(p, &p->contacts[i], &moved));
     if (moved) *pairs |= (uint64_t)1 << i;
