@@ -114,6 +114,9 @@ PetscErrorCode RowBufferDestroy(RowBuffer *);
 PetscErrorCode SparseExchange(MPI_Comm, PetscMPIInt num_to, const PetscMPIInt to[], const PetscInt first[], size_t entry, const void *send,
                               PetscInt *num_received, void *received);
 
+/* Entries of `entry` bytes each of all ranks, by ascending rank, on every one of them; the caller frees *all. Collective. */
+PetscErrorCode GatherAll(MPI_Comm, PetscInt num, size_t entry, const void *mine, PetscInt *num_all, void *all);
+
 /* The first rank of which `mine` holds; -1: of none. Collective. */
 PetscErrorCode RankFirst(MPI_Comm, PetscBool mine, PetscMPIInt *first);
 

@@ -19,7 +19,8 @@
 #pragma once
 #include "base.h"
 
-#define CONTACT_SEGMENT 8 /* most corners of a segment */
+#define CONTACT_SEGMENT 8  /* most corners of a segment */
+#define CONTACT_OPPOSE 0.3 /* facets face each other where N_s . N_m < -0.3: the search keeps these */
 
 typedef struct {
   PetscInt         dim, num_nodes, num_facets;

@@ -66,6 +66,10 @@ PetscErrorCode PassageFind(Problem, const State *, Passage *);
    positions; -1: there is none. At the state that was evaluated last. Finite kinematics. Collective. */
 PetscErrorCode InsideFind(Problem, const State *, PetscInt *pair);
 
+/* through.c: the first contact pair that bears nothing of which a body went right through the other one on straight ways from displacements `from` (local
+   array) to the state; -1: there is none. At the state that was evaluated last. Finite kinematics. Collective. */
+PetscErrorCode ThroughFind(Problem, const PetscReal from[], const State *, PetscInt *pair);
+
 /* Figures of one pass or accepted step, also the rows of adapt.csv and history.csv. */
 typedef struct {
   PetscInt  step, pass, cells, dofs;

@@ -2,7 +2,8 @@
 #pragma once
 #include "solve.h"
 
-enum { PATH_UNFOLDED = 7, PATH_RECOVERIES }; /* rows of the table of recoveries */
+enum { PATH_UNFOLDED = 7, PATH_RECOVERIES };       /* rows of the table of recoveries */
+enum { PATH_INSIDE, PATH_THROUGH, PATH_REFUSALS }; /* why solutions are refused */
 
 /* The part of a run that lives on one mesh; replaced as a whole at each adaptation. */
 typedef struct {
@@ -26,6 +27,14 @@ typedef struct {
   PetscInt     tried, succeeded;
 } RecoveryCount;
 
+/* Is what was found, level->state, no solution after all? */
+typedef struct {
+  RecoveryMode mode; /* off: it is not asked */
+  PetscInt     num;  /* how often it was none */
+  /* from: displacements (local array) of the state that was set out from. *reason says why, else NULL. Collective. */
+  PetscErrorCode (*ask)(Problem, const PetscReal from[], const State *, const char **reason);
+} Refusal;
+
 /* What a run knows of its path, whatever mesh it is on: what solves took, what recoveries did. */
 typedef struct {
   Level           *level; /* borrowed */
@@ -43,10 +52,7 @@ typedef struct {
   PetscBool        stopped;                        /* the run was asked to stop */
   ProblemStatus    status;                         /* of the last solution */
   RecoveryCount    recovery[PATH_RECOVERIES];      /* by row of the table */
-  /* Is what was found, level->state, no solution after all? *reason says why, else NULL. Collective. */
-  PetscErrorCode (*refuse)(Problem, const State *, const char **reason);
-  RecoveryMode inside;  /* off: it is not asked */
-  PetscInt     refused; /* how often it was none */
+  Refusal          refusal[PATH_REFUSALS];
 } Path;
 
 /* ---- the loop (follow.c) ----------------------------------------------------------------------------------------------------- */
@@ -86,10 +92,12 @@ extern const PathMetric PathTime, PathArc, PathHomotopy, PathOverlap, PathViscou
 PetscErrorCode PathFollow(Path *, PathLoop *, SolverReport *);
 /* One piece, to s = `to`; counted. Collective. */
 PetscErrorCode PathAttempt(Path *, const PathLoop *, PetscReal to, SolverReport *);
-/* A solve has found level->state at s = `to`: what the metric notes; refused: report->converged false, report->reason. Collective. */
-PetscErrorCode PathFound(Path *, const PathLoop *, PetscReal to, SolverReport *);
-/* refuse of level->state, unless that is off; counted. Collective. */
-PetscErrorCode PathRefuse(Path *, const char **reason);
+/* Displacements (local array) of level->state, for the caller to free; those of the start of a piece are what is set out from. Collective. */
+PetscErrorCode PathFrom(const Path *, PetscReal **from);
+/* A solve that set out from there has found level->state at s = `to`: what the metric notes; refused: report->converged false, report->reason. Collective. */
+PetscErrorCode PathFound(Path *, const PathLoop *, const PetscReal from[], PetscReal to, SolverReport *);
+/* Ask all refusals of level->state that are not off; counted. Collective. */
+PetscErrorCode PathRefuse(Path *, const PetscReal from[], const char **reason);
 /* What a solve took; equilibrium: what was found is one, not a step on the way to it. */
 void PathCount(Path *, const SolverReport *, PetscBool equilibrium);
 /* level->state := from, with its time and prescribed motion. Collective. */

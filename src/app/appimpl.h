@@ -126,8 +126,9 @@ PetscErrorCode AppStop(App *);
    Collective. */
 PetscErrorCode AppResume(App *, Forest *coarse);
 
-/* watch.c. Path.refuse: states that no contact opposes though bodies lie inside each other are no solutions. Collective. */
-PetscErrorCode AppRefuse(Problem, const State *, const char **reason);
+/* watch.c. Path.refusal: states that no contact opposes though bodies lie inside each other, or went through each other, are no solutions. Collective. */
+PetscErrorCode AppRefuseInside(Problem, const PetscReal from[], const State *, const char **reason);
+PetscErrorCode AppRefuseThrough(Problem, const PetscReal from[], const State *, const char **reason);
 /* After each accepted load step: does its state ask for a warning? Collective. */
 PetscErrorCode AppWatch(App *);
 /* The warnings that sum up a run, before its summary is written. Collective. */

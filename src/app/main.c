@@ -102,9 +102,10 @@ static PetscErrorCode Solve_Private(int argc, char **argv, int *status)
   PetscCheckInput(argc > 1, "no scene was named; say mortise SCENE.yml, or mortise -help");
   PetscCall(SceneCreate(app.comm, argc, argv, &app.scene));
   PetscCall(SceneGetData(app.scene, &app.data));
-  app.path.refuse = AppRefuse;
-  app.path.level  = &app.level;
-  app.path.data   = app.data;
+  app.path.refusal[PATH_INSIDE].ask  = AppRefuseInside;
+  app.path.refusal[PATH_THROUGH].ask = AppRefuseThrough;
+  app.path.level                     = &app.level;
+  app.path.data                      = app.data;
   PetscCall(AppOptions(&app));
   PetscCall(SolverCheckOptions());
   PetscCall(PathOptions(&app.path));

@@ -31,13 +31,23 @@ static void WatchEstimate_Private(App *app)
   if (error > app->rough_error) app->rough_error = error, app->rough_t = app->level.accepted.t;
 }
 
-PetscErrorCode AppRefuse(Problem problem, const State *state, const char **reason)
+PetscErrorCode AppRefuseInside(Problem problem, const PetscReal from[], const State *state, const char **reason)
 {
   PetscInt pair;
 
   PetscFunctionBegin;
   PetscCall(InsideFind(problem, state, &pair));
   *reason = pair < 0 ? NULL : "bodies of a contact pair lie inside each other, too deep for contact to be seen";
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode AppRefuseThrough(Problem problem, const PetscReal from[], const State *state, const char **reason)
+{
+  PetscInt pair;
+
+  PetscFunctionBegin;
+  PetscCall(ThroughFind(problem, from, state, &pair));
+  *reason = pair < 0 ? NULL : "a body of a contact pair went right through the other one, without contact";
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -1,4 +1,4 @@
-/* Messages between few of many ranks: only the sender knows of them beforehand. */
+/* Messages between few of many ranks, of which only the sender knows beforehand; and what all ranks are to know of each other. */
 #include "base.h"
 
 /* Who sends here, and how many entries, in ascending order of rank. */
@@ -46,6 +46,25 @@ PetscErrorCode SparseExchange(MPI_Comm comm, PetscMPIInt num_to, const PetscMPII
   PetscCall(PetscFree(from));
   PetscCall(PetscFree(count));
   *(void **)received = buffer;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode GatherAll(MPI_Comm comm, PetscInt num, size_t entry, const void *mine, PetscInt *num_all, void *all)
+{
+  PetscMPIInt size, bytes = (PetscMPIInt)((size_t)num * entry), *count, *offset;
+  char       *buffer;
+
+  PetscFunctionBegin;
+  PetscCallMPI(MPI_Comm_size(comm, &size));
+  PetscCall(PetscMalloc2(size, &count, size + 1, &offset));
+  PetscCallMPI(MPI_Allgather(&bytes, 1, MPI_INT, count, 1, MPI_INT, comm));
+  offset[0] = 0;
+  for (PetscMPIInt r = 0; r < size; ++r) offset[r + 1] = offset[r] + count[r];
+  *num_all = (PetscInt)((size_t)offset[size] / entry);
+  PetscCall(PetscMalloc1(offset[size], &buffer));
+  PetscCallMPI(MPI_Allgatherv(mine, bytes, MPI_BYTE, buffer, count, offset, MPI_BYTE, comm));
+  PetscCall(PetscFree2(count, offset));
+  *(void **)all = buffer;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

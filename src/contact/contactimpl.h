@@ -2,7 +2,6 @@
 #pragma once
 #include "contact.h"
 
-#define CONTACT_OPPOSE 0.3                /* search keeps pairs with N_s . N_m < -0.3 */
 #define CONTACT_SHARP 0.76604444311897804 /* cosine of 40 degrees: a surface that turns by more has an edge */
 #define CONTACT_FACE 0.7       /* of two faces that meet in a sharp edge the one beyond this, -N_s . N_m, is not seen where the other is within (45 degrees) */
 #define CONTACT_GRAZE 1e-4     /* rays that meet a mortar facet at a flatter angle (cosine) tell nothing of what lies behind */

@@ -5,7 +5,7 @@
 /* terminal.c: a terminal that shows \r and "erase to the end of the line" to somebody, also behind a launcher of MPI. */
 PetscBool DiagnoseIsTerminal(FILE *stream);
 
-/* ---- outer facets as they are drawn, in straight pieces (passage.c) ------------------------------------------------------- */
+/* ---- outer facets as they are drawn, in straight pieces (pieces.c) -------------------------------------------------------- */
 
 typedef struct {
   PetscReal x[9], X[9]; /* corners, counterclockwise seen from outside (plane: the body to the left), now and at the reference positions */
@@ -21,5 +21,28 @@ typedef struct {
   const SceneData *scene;
 } Pieces;
 
-/* Those of this rank's cells at a state, of rigid bodies too if wanted; freed by the caller. Collective. */
+/* Those of this rank's cells where displacements are u (local array), or at a state; of rigid bodies too if wanted; freed by the caller. At one mesh always
+   the same pieces in the same order. Collective. */
+PetscErrorCode PiecesAt_Private(Problem, const PetscReal u[], PetscBool rigid, Pieces *);
 PetscErrorCode PiecesCollect_Private(Problem, const State *, PetscBool rigid, Pieces *);
+/* (*is)[part][2 pair + side]: the part has facets of this side of the pair; freed by the caller. Collective. */
+PetscErrorCode PiecesParts_Private(const Pieces *, MPI_Comm, int8_t **is);
+/* bare[pair]: no node of it was in contact at the last evaluation; any: of one pair. Collective. */
+PetscErrorCode PairsBare_Private(Problem, MPI_Comm, PetscInt num, PetscInt bare[], PetscBool *any);
+/* The boundary group of a side, as a bit of Piece.groups. */
+static inline uint64_t PairGroup_Private(const ContactSpec *c, PetscInt side)
+{
+  return UINT64_C(1) << (side ? c->mortar : c->nonmortar);
+}
+
+/* ---- points that go through pieces (crossing.c) ---------------------------------------------------------------------------- */
+
+typedef struct {
+  PetscReal s, N[3]; /* on the way; unit outward normal of the piece there */
+  PetscBool out;     /* along it, else against it */
+} Crossing;
+
+/* Where, -1 < s < 1, a point that goes from y[0] (s = 0) to y[1] (s = 1) meets a piece (Piece.x) whose corners go from x[0] to x[1]. Returns their number. */
+PetscInt CrossingsFind_Private(PetscInt dim, const PetscReal x[2][9], const PetscReal y[2][3], Crossing[3]);
+/* Unit outward normal of such a piece at s. */
+void MovingNormal_Private(PetscInt dim, const PetscReal x[2][9], PetscReal s, PetscReal N[3]);

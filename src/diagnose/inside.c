@@ -28,32 +28,8 @@ static PetscBool Crosses_Private(PetscInt dim, const Piece *p, const PetscReal x
   }
   Cross3(e, f, n);
   Cross3(r, d, q);
-  const PetscReal out = Dot3(n, d), u = -Dot3(q, f) / out, v = Dot3(q, e) / out;
+  const PetscReal out = Dot3(n, d), u = Dot3(q, f) / out, v = -Dot3(q, e) / out;
   return (PetscBool)(out != 0 && Dot3(n, r) / out > 0 && u >= 0 && v >= 0 && u + v < 1);
-}
-
-/* bare[pair]: no node of it is in contact. */
-static PetscErrorCode Bare_Private(Problem problem, MPI_Comm comm, PetscInt num, PetscInt bare[], PetscBool *any)
-{
-  const ContactView *v;
-
-  PetscFunctionBegin;
-  for (PetscInt i = 0; i < num; ++i) {
-    bare[i] = 1;
-    PetscCall(InterfaceGetContact(ProblemInterface(problem), i, &v));
-    for (PetscInt n = 0; n < v->nonmortar.num_nodes; ++n) {
-      if (v->nonmortar.owned[n] && v->active[n]) bare[i] = 0;
-    }
-  }
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, bare, (PetscMPIInt)num, MPIU_INT, MPI_MIN, comm));
-  *any = PETSC_FALSE;
-  for (PetscInt i = 0; i < num; ++i) *any = (PetscBool)(*any || bare[i]);
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-static uint64_t Group_Private(const ContactSpec *c, PetscInt side)
-{
-  return UINT64_C(1) << (side ? c->mortar : c->nonmortar);
 }
 
 /* Places of this rank, two to a piece: on it, and behind it in its own body. */
@@ -61,7 +37,7 @@ static void Places_Private(const Pieces *s, const PetscInt bare[], PetscInt *num
 {
   *num = 0;
   for (PetscInt k = 0; k < 2 * s->scene->num_contacts; ++k) {
-    const uint64_t group = Group_Private(&s->scene->contacts[k / 2], k % 2);
+    const uint64_t group = PairGroup_Private(&s->scene->contacts[k / 2], k % 2);
     PetscInt       count = 0, seen = 0;
     if (!bare[k / 2]) continue;
     for (PetscInt i = 0; i < s->num; ++i) count += (s->piece[i].groups & group) != 0;
@@ -81,22 +57,6 @@ static void Places_Private(const Pieces *s, const PetscInt bare[], PetscInt *num
   }
 }
 
-/* is[part][2 pair + side]: the part has facets of this side. Collective. */
-static PetscErrorCode Parts_Private(const Pieces *s, MPI_Comm comm, int8_t **is)
-{
-  const PetscInt num = 2 * s->scene->num_contacts;
-
-  PetscFunctionBegin;
-  PetscCall(PetscCalloc1(num * s->num_parts, is));
-  for (PetscInt i = 0; i < s->num; ++i) {
-    for (PetscInt k = 0; k < num; ++k) {
-      if (s->piece[i].groups & Group_Private(&s->scene->contacts[k / 2], k % 2)) (*is)[num * s->piece[i].part + k] = 1;
-    }
-  }
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, *is, (PetscMPIInt)(num * s->num_parts), MPI_SIGNED_CHAR, MPI_MAX, comm));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 /* odd[place]: it lies inside a part with the other side of its pair that is not of its own side too. Collective. */
 static PetscErrorCode Count_Private(const Pieces *s, MPI_Comm comm, PetscInt num, const Place place[], PetscInt crossed[])
 {
@@ -104,7 +64,7 @@ static PetscErrorCode Count_Private(const Pieces *s, MPI_Comm comm, PetscInt num
   int8_t        *is;
 
   PetscFunctionBegin;
-  PetscCall(Parts_Private(s, comm, &is));
+  PetscCall(PiecesParts_Private(s, comm, &is));
   PetscCall(PetscArrayzero(crossed, 2 * num));
   for (PetscInt i = 0; i < s->num; ++i) {
     const Piece  *p   = &s->piece[i];
@@ -120,46 +80,55 @@ static PetscErrorCode Count_Private(const Pieces *s, MPI_Comm comm, PetscInt num
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Places of all ranks. */
-static PetscErrorCode Gather_Private(MPI_Comm comm, PetscInt num_mine, const Place mine[], PetscInt *num, Place **all)
+/* within[pair]: one of its places lies inside the other body. */
+static PetscErrorCode Find_Private(const Pieces *s, MPI_Comm comm, const PetscInt bare[], PetscBool within[])
 {
-  PetscMPIInt size, bytes = (PetscMPIInt)((size_t)num_mine * sizeof(Place)), *count, *offset;
-
-  PetscFunctionBegin;
-  PetscCallMPI(MPI_Comm_size(comm, &size));
-  PetscCall(PetscMalloc2(size, &count, size + 1, &offset));
-  PetscCallMPI(MPI_Allgather(&bytes, 1, MPI_INT, count, 1, MPI_INT, comm));
-  offset[0] = 0;
-  for (PetscMPIInt r = 0; r < size; ++r) offset[r + 1] = offset[r] + count[r];
-  *num = offset[size] / (PetscMPIInt)sizeof(Place);
-  PetscCall(PetscMalloc1(*num, all));
-  PetscCallMPI(MPI_Allgatherv(mine, bytes, MPI_BYTE, *all, count, offset, MPI_BYTE, comm));
-  PetscCall(PetscFree2(count, offset));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* The pair of the first place that lies inside the other body, -1: none does. */
-static PetscErrorCode Find_Private(Problem problem, const State *state, MPI_Comm comm, const PetscInt bare[], PetscInt *pair)
-{
-  Pieces   s = {0};
   PetscInt num_mine, num, *crossed;
   Place   *mine, *all;
 
   PetscFunctionBegin;
-  *pair = -1;
-  PetscCall(PiecesCollect_Private(problem, state, PETSC_TRUE, &s));
-  PetscCall(PetscMalloc1(4 * SAMPLES * s.scene->num_contacts, &mine));
-  Places_Private(&s, bare, &num_mine, mine);
-  PetscCall(Gather_Private(comm, num_mine, mine, &num, &all));
+  for (PetscInt i = 0; i < s->scene->num_contacts; ++i) within[i] = PETSC_FALSE;
+  PetscCall(PetscMalloc1(4 * SAMPLES * s->scene->num_contacts, &mine));
+  Places_Private(s, bare, &num_mine, mine);
+  PetscCall(GatherAll(comm, num_mine, sizeof(Place), mine, &num, &all));
   PetscCall(PetscMalloc1(2 * num, &crossed));
-  PetscCall(Count_Private(&s, comm, num, all, crossed));
-  for (PetscInt k = 0; k + 1 < num && *pair < 0; k += 2) {
-    if (crossed[2 * k] % 2 && crossed[2 * k + 1] % 2 && crossed[2 * k + 2] % 2 && crossed[2 * k + 3] % 2) *pair = all[k].pair;
+  PetscCall(Count_Private(s, comm, num, all, crossed));
+  for (PetscInt k = 0; k + 1 < num; k += 2) {
+    if (crossed[2 * k] % 2 && crossed[2 * k + 1] % 2 && crossed[2 * k + 2] % 2 && crossed[2 * k + 3] % 2) within[all[k].pair] = PETSC_TRUE;
   }
   PetscCall(PetscFree(crossed));
   PetscCall(PetscFree(mine));
   PetscCall(PetscFree(all));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The first pair of those that is within, and not so as the mesh has it, with nothing displaced: supports and rigid bodies neither. */
+static PetscErrorCode First_Private(Problem problem, MPI_Comm comm, PetscInt num, PetscInt bare[], const PetscBool within[], PetscInt *pair)
+{
+  const HPTables *v;
+  HPSpace         space;
+  Pieces          s = {0};
+  PetscReal      *none;
+  PetscBool      *before, any = PETSC_FALSE;
+
+  PetscFunctionBegin;
+  for (PetscInt i = 0; i < num; ++i) {
+    bare[i] = within[i];
+    any     = (PetscBool)(any || within[i]);
+  }
+  if (!any) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(ProblemGetSpace(problem, &space));
+  PetscCall(HPSpaceGetTables(space, &v));
+  PetscCall(PetscCalloc1(v->num_nodes * v->dim, &none));
+  PetscCall(PetscMalloc1(num, &before));
+  PetscCall(PiecesAt_Private(problem, none, PETSC_TRUE, &s));
+  PetscCall(Find_Private(&s, comm, bare, before));
+  for (PetscInt i = num - 1; i >= 0; --i) {
+    if (within[i] && !before[i]) *pair = i;
+  }
   PetscCall(PetscFree(s.piece));
+  PetscCall(PetscFree(before));
+  PetscCall(PetscFree(none));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -167,26 +136,23 @@ PetscErrorCode InsideFind(Problem problem, const State *state, PetscInt *pair)
 {
   const SceneData *scene;
   Forest           forest;
-  PetscInt        *bare, before = -1;
-  PetscBool        any;
+  Pieces           s = {0};
+  PetscInt        *bare;
+  PetscBool        any, *within;
 
   PetscFunctionBegin;
   *pair = -1;
   PetscCall(ProblemGetScene(problem, &scene));
   PetscCall(ProblemGetForest(problem, &forest));
   if (scene->num_contacts == 0 || scene->mechanics.kinematics == KINEMATICS_SMALL) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(PetscMalloc1(scene->num_contacts, &bare));
-  PetscCall(Bare_Private(problem, ForestComm(forest), scene->num_contacts, bare, &any));
-  if (any) PetscCall(Find_Private(problem, state, ForestComm(forest), bare, pair));
-  if (*pair >= 0) { /* as the mesh has them? */
-    State reference;
-    for (PetscInt i = 0; i < scene->num_contacts; ++i) bare[i] = i == *pair;
-    PetscCall(StateCreate(problem, &reference));
-    PetscCall(VecZeroEntries(reference.x));
-    PetscCall(Find_Private(problem, &reference, ForestComm(forest), bare, &before));
-    PetscCall(StateDestroy(&reference));
+  PetscCall(PetscMalloc2(scene->num_contacts, &bare, scene->num_contacts, &within));
+  PetscCall(PairsBare_Private(problem, ForestComm(forest), scene->num_contacts, bare, &any));
+  if (any) {
+    PetscCall(PiecesCollect_Private(problem, state, PETSC_TRUE, &s));
+    PetscCall(Find_Private(&s, ForestComm(forest), bare, within));
+    PetscCall(First_Private(problem, ForestComm(forest), scene->num_contacts, bare, within, pair));
+    PetscCall(PetscFree(s.piece));
   }
-  if (before >= 0) *pair = -1;
-  PetscCall(PetscFree(bare));
+  PetscCall(PetscFree2(bare, within));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

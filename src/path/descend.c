@@ -11,14 +11,17 @@ PetscBool PathCanDescend(const Path *p, const State *guess)
 
 PetscErrorCode PathDescend(Path *p, const PathLoop *load, PetscReal to, const State *guess, SolverReport *report)
 {
-  Level *l = p->level;
+  Level     *l = p->level;
+  PetscReal *from;
 
   PetscFunctionBegin;
   PetscCall(PathRestore(p, &l->accepted));
+  PetscCall(PathFrom(p, &from));
   PetscCall(load->metric->set(p, load, to));
   PetscCall(SolverDescend(l->solver, &l->state, report));
   PathCount(p, report, PETSC_TRUE);
-  PetscCall(PathFound(p, load, to, report));
+  PetscCall(PathFound(p, load, from, to, report));
+  PetscCall(PetscFree(from));
   PetscCall(PetscInfo(NULL, "%" PetscInt_FMT " descents, %" PetscInt_FMT " factorisations: %s\n", report->descents, report->factorisations,
                       report->converged ? "found" : report->reason));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -41,15 +44,17 @@ PetscErrorCode PathStabilise(Path *p, PetscBool *changed)
   const char  *words = NULL;
   SolverReport report;
   State        unstable;
+  PetscReal   *from;
 
   PetscFunctionBegin;
   *changed = PETSC_FALSE;
   if (!p->unstable_now || !p->data->load.stable || !PathCanDescend(p, NULL)) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(StateCreate(l->problem, &unstable));
   PetscCall(StateCopy(&l->state, &unstable));
+  PetscCall(PathFrom(p, &from));
   PetscCall(SolverStabilise(l->solver, &l->state, &report));
   PetscCall(PetscInfo(NULL, "unstable equilibrium: %s\n", report.converged ? "another was found" : report.reason));
-  if (report.converged) PetscCall(PathRefuse(p, &words));
+  if (report.converged) PetscCall(PathRefuse(p, from, &words));
   *changed         = (PetscBool)(report.converged && report.unstable == 0 && !words);
   report.converged = *changed;
   PathCount(p, &report, PETSC_FALSE);
@@ -65,5 +70,6 @@ PetscErrorCode PathStabilise(Path *p, PetscBool *changed)
   } else
     PetscCall(Keep_Private(l, &unstable));
   PetscCall(StateDestroy(&unstable));
+  PetscCall(PetscFree(from));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

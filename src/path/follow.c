@@ -47,23 +47,39 @@ void PathCount(Path *p, const SolverReport *report, PetscBool equilibrium)
   if (equilibrium) p->unstable_now = (PetscBool)(report->unstable > 0);
 }
 
-PetscErrorCode PathRefuse(Path *p, const char **reason)
+PetscErrorCode PathFrom(const Path *p, PetscReal **from)
 {
+  const HPTables *v;
+  HPSpace         space;
+
   PetscFunctionBegin;
-  *reason = NULL;
-  if (!p->refuse || p->inside == RECOVERY_OFF) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(p->refuse(p->level->problem, &p->level->state, reason));
-  if (*reason) ++p->refused;
+  PetscCall(ProblemGetSpace(p->level->problem, &space));
+  PetscCall(HPSpaceGetTables(space, &v));
+  PetscCall(PetscMalloc1(v->num_nodes * v->dim, from));
+  PetscCall(ProblemLocalDisplacement(p->level->problem, p->level->state.x, *from));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode PathFound(Path *p, const PathLoop *loop, PetscReal to, SolverReport *report)
+PetscErrorCode PathRefuse(Path *p, const PetscReal from[], const char **reason)
+{
+  PetscFunctionBegin;
+  *reason = NULL;
+  for (PetscInt i = 0; i < PATH_REFUSALS && !*reason; ++i) {
+    Refusal *r = &p->refusal[i];
+    if (!r->ask || r->mode == RECOVERY_OFF) continue;
+    PetscCall(r->ask(p->level->problem, from, &p->level->state, reason));
+    if (*reason) ++r->num;
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode PathFound(Path *p, const PathLoop *loop, const PetscReal from[], PetscReal to, SolverReport *report)
 {
   const char *words;
 
   PetscFunctionBegin;
   if (!report->converged) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(PathRefuse(p, &words));
+  PetscCall(PathRefuse(p, from, &words));
   if (words) {
     report->converged = PETSC_FALSE;
     report->reason    = words;
@@ -76,9 +92,11 @@ PetscErrorCode PathAttempt(Path *p, const PathLoop *loop, PetscReal to, SolverRe
 {
   const MPI_Comm comm = ForestComm(p->level->forest);
   const char    *words;
+  PetscReal     *from;
 
   PetscFunctionBegin;
   PetscCall(PetscMemzero(report, sizeof(*report)));
+  PetscCall(PathFrom(p, &from));
   PetscCall(loop->metric->set(p, loop, to));
   PetscCall(ExpressionTrouble(comm, &words)); /* of prescribed motion and dead loads; the others are asked for on the way */
   if (!words) {
@@ -90,7 +108,8 @@ PetscErrorCode PathAttempt(Path *p, const PathLoop *loop, PetscReal to, SolverRe
     report->converged = PETSC_FALSE;
     report->reason    = words;
   }
-  PetscCall(PathFound(p, loop, to, report));
+  PetscCall(PathFound(p, loop, from, to, report));
+  PetscCall(PetscFree(from));
   PetscCall(PetscInfo(NULL, "%s %g, %" PetscInt_FMT " iterations: %s\n", loop->metric->name, (double)to, report->iterations,
                       report->converged ? "found" : report->reason));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -4,7 +4,6 @@
 
 #define MODES "auto|on|off"
 #define PREFIX "path_"
-#define INSIDE "inside"
 
 #define LEAST_WAY (1. / 8) /* of the way of the load on another mesh */
 #define LEAST (1. / 64)    /* of the first piece of other loops: a shorter one is given up */
@@ -200,6 +199,13 @@ PetscErrorCode PathRecover(Path *p, const PathLoop *load, PetscReal to, const St
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+static const struct {
+  const char *name, *help;
+} Refusals[PATH_REFUSALS] = {
+    [PATH_INSIDE]  = {"inside", "a solution in which bodies lie inside each other while their contact pair bears nothing is none"},
+    [PATH_THROUGH] = {"through", "nor is one for which a body went right through the other of a pair that bears nothing"},
+};
+
 /* ---- options ------------------------------------------------------------------------------------------------------------------------ */
 
 static PetscErrorCode Mode_Private(const char *row, RecoveryMode *mode)
@@ -220,8 +226,8 @@ static PetscErrorCode Mode_Private(const char *row, RecoveryMode *mode)
 
 PetscErrorCode PathOptions(Path *p)
 {
-  const char *known[PATH_RECOVERIES + 1] = {[PATH_RECOVERIES] = INSIDE};
-  char        unknown[64]                = "", **names, **values;
+  const char *known[PATH_RECOVERIES + PATH_REFUSALS];
+  char        unknown[64] = "", **names, **values;
   PetscInt    num;
 
   PetscFunctionBegin;
@@ -229,13 +235,17 @@ PetscErrorCode PathOptions(Path *p)
     known[row] = PathRecoveries[row].name;
     PetscCall(Mode_Private(known[row], &p->recovery[row].mode));
   }
-  PetscCall(Mode_Private(INSIDE, &p->inside));
+  for (PetscInt i = 0; i < PATH_REFUSALS; ++i) {
+    known[PATH_RECOVERIES + i] = Refusals[i].name;
+    PetscCall(Mode_Private(Refusals[i].name, &p->refusal[i].mode));
+  }
   PetscCall(PetscOptionsLeftGet(NULL, &num, &names, &values));
   for (PetscInt i = num - 1; i >= 0; --i) {
     if (!strncmp(names[i], PREFIX, strlen(PREFIX))) PetscCall(PetscStrncpy(unknown, names[i] + strlen(PREFIX), sizeof(unknown)));
   }
   PetscCall(PetscOptionsLeftRestore(NULL, &num, &names, &values));
-  PetscCheckInput(!unknown[0], "-" PREFIX "%s is no recovery; the nearest one is -" PREFIX "%s", unknown, NameNearest(unknown, PATH_RECOVERIES + 1, known));
+  PetscCheckInput(!unknown[0], "-" PREFIX "%s is no recovery; the nearest one is -" PREFIX "%s", unknown,
+                  NameNearest(unknown, PATH_RECOVERIES + PATH_REFUSALS, known));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -251,6 +261,9 @@ PetscErrorCode PathPrintHelp(MPI_Comm comm)
     PetscCall(PetscSNPrintf(name, sizeof(name), "-" PREFIX "%s", PathRecoveries[row].name));
     PetscCall(HelpRow(comm, name, MODES, PathRecoveries[row].help));
   }
-  PetscCall(HelpRow(comm, "-" PREFIX INSIDE, MODES, "a solution in which bodies lie inside each other while their contact pair bears nothing is none"));
+  for (PetscInt i = 0; i < PATH_REFUSALS; ++i) {
+    PetscCall(PetscSNPrintf(name, sizeof(name), "-" PREFIX "%s", Refusals[i].name));
+    PetscCall(HelpRow(comm, name, MODES, Refusals[i].help));
+  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

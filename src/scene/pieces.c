@@ -226,14 +226,13 @@ static PetscErrorCode TellCoincident_Private(Scene s, Forest forest, const Coars
   PetscCall(TellHanging_Private(s, forest, m, place, near));
   PetscCall(PetscFree(place));
   if (c.num[0])
-    PetscCall(PetscPrintf(s->comm, "note: %" PetscInt_FMT " nodes coincide with others of their own body and are not merged, one of %s at (%.4g, %.4g, %.4g)\n",
-                          c.num[0], m->body_name[c.body[0][0]], (double)c.X[0][0], (double)c.X[0][1], (double)c.X[0][2]));
+    PetscCall(WarningAdd(s->comm, "%" PetscInt_FMT " nodes coincide with others of their own body and are not merged, one of %s at (%.4g, %.4g, %.4g)",
+                         c.num[0], m->body_name[c.body[0][0]], (double)c.X[0][0], (double)c.X[0][1], (double)c.X[0][2]));
   if (c.num[1])
-    PetscCall(PetscPrintf(s->comm,
-                          "note: %" PetscInt_FMT
-                          " nodes coincide with those of another body, neither merged nor on the sides of a pair, one of %s and %s at (%.4g, "
-                          "%.4g, %.4g)\n",
-                          c.num[1], m->body_name[c.body[1][0]], m->body_name[c.body[1][1]], (double)c.X[1][0], (double)c.X[1][1], (double)c.X[1][2]));
+    PetscCall(WarningAdd(s->comm,
+                         "%" PetscInt_FMT " nodes coincide with those of another body, neither merged nor on the sides of a pair, one of %s and %s at (%.4g, "
+                         "%.4g, %.4g)",
+                         c.num[1], m->body_name[c.body[1][0]], m->body_name[c.body[1][1]], (double)c.X[1][0], (double)c.X[1][1], (double)c.X[1][2]));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -137,7 +137,7 @@ static void Recovers(void **state)
 }
 
 /* The first two that are found are none. */
-static PetscErrorCode RefuseTwo(Problem problem, const State *state, const char **reason)
+static PetscErrorCode RefuseTwo(Problem problem, const PetscReal from[], const State *state, const char **reason)
 {
   *reason = num_asked < 3 ? "looked at and refused" : NULL;
   return PETSC_SUCCESS;
@@ -151,12 +151,12 @@ static void Refuses(void **state)
     SolverReport report;
     Run          r;
     Create(&r);
-    longest       = PETSC_MAX_REAL;
-    r.path.refuse = RefuseTwo;
-    r.path.inside = off ? RECOVERY_OFF : RECOVERY_AUTO;
+    longest                           = PETSC_MAX_REAL;
+    r.path.refusal[PATH_THROUGH].ask  = RefuseTwo;
+    r.path.refusal[PATH_THROUGH].mode = off ? RECOVERY_OFF : RECOVERY_AUTO;
     OK(PathFollow(&r.path, &loop, &report));
     assert_true(report.converged);
-    assert_int_equal(r.path.refused, off ? 0 : 2);
+    assert_int_equal(r.path.refusal[PATH_THROUGH].num, off ? 0 : 2);
     assert_near(asked[2 - 2 * off], off ? 1 : 0.25, 1e-15);
     Unchanged(&r);
     Destroy(&r);

@@ -37,7 +37,7 @@ def test_inside(run):
     method ends with the disc inside the block and no contact at all. That is no solution; half the step is, and the force
     is that of ten steps."""
     scene = ("inputs/hertz2d.yml", "-adapt_tolerance", 0, "-order", 1, "-boundary_top_displacement_y", "-1.1*t", "-newton_line_search", "off")
-    plain, fine, without = (run(*scene, *QUIET, *words) for words in ((), ("-load_step", 0.1), ("-path_inside", "off")))
+    plain, fine, without = (run(*scene, *QUIET, *words) for words in ((), ("-load_step", 0.1), ("-path_inside", "off", "-path_through", "off")))
     for result in (plain, fine, without): assert result.returncode == 0, result
     assert plain.summary["refused_solutions"] == 1 and plain.summary["step_cuts"] == 1 and fine.summary["refused_solutions"] == without.summary["refused_solutions"] == 0
     force = [result.summary["contact"]["disc_on_block"]["force"][1] for result in (plain, fine, without)]
