@@ -40,7 +40,7 @@ typedef struct {
   const PetscBool *has;
 } ContactSurface;
 
-typedef enum { CONTACT_FRICTIONLESS, CONTACT_PENALTY } ContactLaw; /* in the order of the table of laws */
+typedef enum { CONTACT_FRICTIONLESS, CONTACT_PENALTY, CONTACT_COULOMB } ContactLaw; /* in the order of the table of laws */
 
 typedef struct {
   char       name[MORTISE_NAME];
@@ -48,7 +48,7 @@ typedef struct {
   PetscBool  exchanged;         /* the scene names them the other way round, figures are of the sides as the scene names them */
   ContactLaw law;               /* what its multipliers fulfil (interface/law/) */
   PetscReal  penalty;           /* law penalty: stiffness, pressure over overlap */
-  PetscReal  friction;          /* 0 here: anything else is an input error until friction is built */
+  PetscReal  friction;          /* law coulomb: its coefficient, above 0 */
   PetscBool  full;              /* facets have the order of their cells; else order 1 */
   PetscReal  search;            /* search distance, in multiples of the larger edge length; default 0: automatic */
   PetscBool  node_to_segment;   /* comparison only */
@@ -93,6 +93,7 @@ typedef struct {
   const PetscReal *compliance;   /* [num_rows] m_j of S (below); NULL: none. kappa and its derivative by the share */
   PetscReal        kappa[2];
   const PetscReal *dshare; /* [dim*num] derivative of the covered share; with dgap where the facet is covered in part, else NULL */
+  const PetscReal *shear;  /* [num_rows][dim*num] force by a tangential traction z_j (ContactPairSetTraction); with dgap. NULL: none */
   PetscReal        area;   /* covered length or area (axisymmetric: area) */
   PetscReal        min_gap;
 } ContactFacet;
@@ -191,6 +192,14 @@ PetscErrorCode ContactPairFreezeNormals(ContactPair, PetscBool frozen);
 /* From now on forces of facets of higher order in space are those of a frozen segmentation (`push`), without the motion of lines of the mortar side, or (as
    created) exact. Gaps, weights and their derivatives do not change. Not collective. */
 PetscErrorCode ContactPairFreezeSegmentation(ContactPair, PetscBool frozen);
+/* Friction, two dimensions. Tangential tractions traction[nonmortar num_nodes] of evaluations from now on, borrowed (NULL: none), positive along the nonmortar
+   facets on the mortar side: results have `shear`, and Hessians the derivatives of those forces too, not symmetric (theory (5.10)). Not collective. */
+PetscErrorCode ContactPairSetTraction(ContactPair, const PetscReal traction[]);
+/* Evaluate at these positions and keep the points of the integration with their partners. Then: slip since there (theory (5.9)) of every facet kept, as results
+   with the slip for gap and dgap, and the weights where the points were kept; positive where the mortar side moves along the nonmortar facets. Surfaces must
+   have the topology of the last search; positions of all nodes of facets kept and of their partners are needed. Valid until the next call. Not collective. */
+PetscErrorCode ContactPairKeepPoints(ContactPair, const ContactSurface *nonmortar, const ContactSurface *mortar, PetscBool *failed);
+PetscErrorCode ContactPairSlip(ContactPair, const ContactSurface *nonmortar, const ContactSurface *mortar, PetscInt *num, const ContactFacet **facets);
 PetscErrorCode ContactPairGetSegments(ContactPair, PetscInt *num, const ContactSegment **segments);
 /* Nodal normals of the last evaluation [num_nodes][dim]; NaN at nodes with neighbours that are not known here. */
 PetscErrorCode ContactPairGetNormals(ContactPair, const PetscReal **normals);

@@ -8,18 +8,19 @@
 /* One contact pair; sides: 0 nonmortar, 1 mortar, as the scene names them (ContactSpec.exchanged). In two dimensions forces have two components and moments
  * one, the last (about z). */
 typedef struct {
-  PetscReal force[2][3];      /* total contact force on each side; axisymmetric: over the full revolution */
-  PetscReal moment[2][3];     /* its moment about ContactSpec.about, in the current configuration (small kinematics: the reference) */
-  PetscReal total;            /* sum of |nodal forces| of the nonmortar side */
-  PetscReal force_imbalance;  /* |sum over both sides| / total; 0 without contact */
-  PetscReal moment_imbalance; /* |sum over both sides| / (total * diameter of the nonmortar side) */
-  PetscReal max_pressure;     /* largest multiplier */
-  PetscReal area;             /* in contact: sum of the tributary lengths (areas) of active nodes */
-  PetscReal radius;           /* two dimensions: largest |x| of a touching point, see BalanceZone; three: of a circle of this area; 0 without contact */
-  PetscReal min_gap, max_gap; /* over covered nodes, gt_j / w_j; negative: penetration. 0 when nothing is covered */
-  PetscInt  unusable;         /* overlaps that could not be used (ContactView) */
-  PetscReal adjusted;         /* largest initial gap that was closed at a node (initial_gap: adjust) */
-  PetscInt  active_nodes, covered_nodes;
+  PetscReal       force[2][3];      /* total contact force on each side; axisymmetric: over the full revolution */
+  PetscReal       moment[2][3];     /* its moment about ContactSpec.about, in the current configuration (small kinematics: the reference) */
+  PetscReal       total;            /* sum of |nodal forces| of the nonmortar side */
+  PetscReal       force_imbalance;  /* |sum over both sides| / total; 0 without contact */
+  PetscReal       moment_imbalance; /* |sum over both sides| / (total * diameter of the nonmortar side) */
+  PetscReal       max_pressure;     /* largest multiplier */
+  PetscReal       area;             /* in contact: sum of the tributary lengths (areas) of active nodes */
+  PetscReal       radius;           /* two dimensions: largest |x| of a touching point, see BalanceZone; three: of a circle of this area; 0 without contact */
+  PetscReal       min_gap, max_gap; /* over covered nodes, gt_j / w_j; negative: penetration. 0 when nothing is covered */
+  PetscInt        unusable;         /* overlaps that could not be used (ContactView) */
+  PetscReal       adjusted;         /* largest initial gap that was closed at a node (initial_gap: adjust) */
+  PetscInt        active_nodes, covered_nodes;
+  FrictionFigures friction; /* of the step */
 } PairFigures;
 
 typedef struct {

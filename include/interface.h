@@ -90,6 +90,7 @@ typedef struct {
   PetscInt           num_z;          /* multipliers of a node */
   const PetscReal   *z;              /* [num_z][nonmortar.num_nodes] at the last evaluation: the pressure first */
   const PetscReal   *gap, *weight;   /* [nonmortar.num_nodes] gt_j, w_j there */
+  const PetscReal   *slip;           /* [nonmortar.num_nodes] friction: s_j of the step over the weight where it began, of owned nodes; NULL: none */
   const int8_t      *active;         /* [nonmortar.num_nodes] as the residual decided: 0 open, else a state of the contact law */
   const PetscBool   *has_multiplier; /* [nonmortar.num_nodes]; hanging nodes: no, their z is interpolated */
   ContactPair        pair;           /* segments of this rank's nonmortar facets */
@@ -159,6 +160,17 @@ PetscErrorCode InterfaceSetPattern(Interface, PetscInt pair, const PetscInt firs
    side of a body behind; 0: none. The next solve searches anew. Collective. */
 PetscErrorCode InterfaceUntoldOverlap(Interface, PetscInt pair, PetscBool reference, PetscReal *depth);
 
+/* Friction. Does a pair slip? Local displacements u of the state that slip counts from, the last accepted one: from the next search on. Not collective. */
+PetscBool      InterfaceSlips(Interface);
+PetscErrorCode InterfaceSetSlipOrigin(Interface, const PetscReal u[]);
+/* What friction of a pair did from that state to that of the last evaluation; all 0 without friction. Collective. */
+typedef struct {
+  PetscReal dissipation; /* - sum_j q_j s_j */
+  PetscReal max_slip;    /* largest |s_j| / w_j of a node that touches */
+  PetscInt  sticking, slipping;
+} FrictionFigures;
+PetscErrorCode InterfaceFriction(Interface, PetscInt pair, FrictionFigures *);
+
 /* ---- residual ----------------------------------------------------------------------------------------------------------------- */
 
 /* The candidate search at the local displacements u. Collective. */
@@ -204,8 +216,9 @@ PetscErrorCode InterfaceSwitch(Interface, const InterfaceSystem *, Vec dx, Vec r
 /* ---- what a form may be chosen by, at the last evaluation. All collective ------------------------------------------------------- */
 
 /* Pairs (of those not released) whose active set of the last linear step moves along the surface, while prescribed motion is still to come and kinematics are
-   finite: gaps linearised at the old place say little of the new one. */
-PetscErrorCode InterfaceFindSliding(Interface, PetscReal pending, uint64_t *pairs);
+   finite: gaps linearised at the old place say little of the new one. With friction: those that slip as a whole, by a good part
+   of the zone; swap: those that do not. */
+PetscErrorCode InterfaceFindSliding(Interface, PetscReal pending, PetscBool swap, uint64_t *pairs);
 /* Pairs whose open gaps under pressure are too wide, against their facets, for the turning of directions to mean anything; and those without pressure. */
 PetscErrorCode InterfaceFindWide(Interface, uint64_t *pairs);
 /* Pairs that have borne nothing yet. */

@@ -18,7 +18,9 @@ typedef struct {
   PetscReal *pressure; /* owned [num_pressure] element pressures of this rank that are condensed */
   PetscInt   num_history;
   PetscReal *history; /* owned [num_history] what the laws of this rank's cells remember from the last accepted step (MechanicsHistoryRange) */
-  PetscReal  t;       /* pseudo-time of this state */
+  PetscInt   num_before;
+  PetscReal *before; /* owned [num_before] local displacements of the last accepted step, which slip counts from; none without friction */
+  PetscReal  t;      /* pseudo-time of this state */
   Form       form;
   PetscInt   num_leaves;
   int8_t    *leaf_order; /* owned [num_leaves], replicated */
@@ -30,6 +32,8 @@ PetscErrorCode StateDestroy(State *);
 /* The step that led to s->x is accepted: the history becomes what it left. Stress and forces at s->x stay the same. The problem's prescribed motion must be
    that of the state. Collective. */
 PetscErrorCode StateCommit(Problem, State *);
+/* Slip counts from this state from now on (Commit and Admit do so too). The problem's prescribed motion must be that of the state. Collective. */
+PetscErrorCode StateKeepOrigin(Problem, State *);
 /* The history of an accepted state becomes admissible at s->x (MechanicsAdmit): one carried over from another mesh may lie beyond the yield surface. The
    problem's prescribed motion must be that of the state. Collective. */
 PetscErrorCode StateAdmit(Problem, State *);

@@ -50,6 +50,8 @@ PetscErrorCode SolverPrintHelp(MPI_Comm);
    once, so that the load step is cut. A request to stop (StopAsked) is heard before each factorisation. Failure is a report, not an error: the state is then of
    no use (restore a copy). */
 PetscErrorCode SolverSolve(Solver, State *, SolverReport *);
+/* From now on slide_predictor carries the bodies of pairs with friction where else it would not, and does not where it would. Not collective. */
+PetscErrorCode SolverSwapPredictor(Solver, PetscBool swap);
 
 /* The same, where SolverSolve finds nothing, by descent: from the state at the start of the step, with the prescribed motion put in by the bodies alone, down
    to a minimum of the augmented Lagrangian (ProblemMerit), each iterate lower than the one before; multipliers follow; then SolverSolve from there, as a rule

@@ -69,7 +69,7 @@ static PetscErrorCode Create_Private(App *app, Forest forest, const int8_t old_o
 }
 
 /* Both states carried over to the next level, each under the prescribed motion of its own time: new nodes near a support are interpolated from prescribed ones.
-   Both take the history of the accepted one, made admissible there; of a step that went in pieces, too. */
+   Both take the history of the accepted one, made admissible there, and slip from it; of a step that went in pieces, too. */
 static PetscErrorCode Carry_Private(const Level *old, const ForestMap *map, Level *next)
 {
   PetscBool following;
@@ -83,6 +83,7 @@ static PetscErrorCode Carry_Private(const Level *old, const ForestMap *map, Leve
   PetscCall(TransferState(old->problem, &old->accepted, next->problem, map, &next->accepted));
   PetscCall(StateAdmit(next->problem, &next->accepted));
   PetscCall(PetscArraycpy(next->state.history, next->accepted.history, next->accepted.num_history));
+  PetscCall(PetscArraycpy(next->state.before, next->accepted.before, next->accepted.num_before));
   PetscCall(PathPrescribe(next->problem, next->state.t));
   PetscCall(ProblemIsFollowing(old->problem, &following));
   if (following) PetscCall(ProblemFollow(next->problem, next->accepted.x, next->state.x, &length));

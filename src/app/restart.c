@@ -241,6 +241,7 @@ static PetscErrorCode Level_Private(App *app, Checkpoint c, Forest coarse, Level
   PetscCall(LevelCreate(app->data, forest, orders, t, level));
   PetscCall(LevelCheck(app->data, level));
   PetscCall(CheckpointState(c, level->problem, &level->state));
+  PetscCall(StateKeepOrigin(level->problem, &level->state));
   PetscCall(StateCopy(&level->state, &level->accepted));
   PetscCall(ForestGetTables(forest, &tables));
   app->snapshot_revision = tables->revision;

@@ -58,6 +58,10 @@ struct _p_ContactPair {
   ContactFacet   *result;                               /* [num_listed] */
   PetscInt       *slot, size_slot;                      /* [num_results] places of their facets in the list */
   ContactState    state;
+  /* friction (kernel/slip.c) */
+  const PetscReal    *traction; /* [num_nodes] borrowed: tangential; NULL: none */
+  struct ContactSlip *slip;     /* owned: points kept; NULL: none */
+  PetscBool           keeps;    /* the evaluation at hand keeps its points */
 };
 
 static inline PetscReal Cross2(const PetscReal a[2], const PetscReal b[2])
@@ -125,6 +129,9 @@ PetscBool      ContactStateStands(ContactPair, const ContactSurface *nonmortar, 
 PetscBool      ContactStateLoads(ContactPair, const PetscReal z[]);
 PetscErrorCode ContactStateKeep(ContactPair, const ContactSurface *nonmortar, const ContactSurface *mortar, const PetscReal z[]);
 PetscErrorCode ContactStateDestroy(ContactPair);
+
+/* kernel/slip.c */
+PetscErrorCode ContactSlipDestroy(struct ContactSlip **);
 
 /* result.c. Storage of results: blocks that are kept and filled anew at each evaluation; pointers into them stay valid until then. */
 typedef struct {

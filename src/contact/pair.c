@@ -37,6 +37,7 @@ PetscErrorCode ContactPairDestroy(ContactPair *pair)
   PetscCall(PetscFree(p->result));
   PetscCall(PetscFree(p->slot));
   PetscCall(ContactStateDestroy(p));
+  PetscCall(ContactSlipDestroy(&p->slip));
   PetscCall(ContactRayWorkDestroy(&p->ray));
   PetscCall(ContactMultiplierDestroy(&p->multiplier));
   PetscCall(PetscFree(*pair));

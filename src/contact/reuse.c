@@ -19,7 +19,7 @@ PetscBool ContactStateStands(ContactPair pair, const ContactSurface *nonmortar, 
 {
   const ContactState *s = &pair->state;
 
-  return (PetscBool)(s->stands && Same_Private(pair->dim * nonmortar->num_nodes, s->x[0], nonmortar->x) &&
+  return (PetscBool)(s->stands && !pair->traction && !pair->keeps && Same_Private(pair->dim * nonmortar->num_nodes, s->x[0], nonmortar->x) &&
                      Same_Private(pair->dim * mortar->num_nodes, s->x[1], mortar->x));
 }
 

@@ -258,6 +258,7 @@ PetscErrorCode BalanceCompute(Problem problem, const State *state, Balance *b)
   for (PetscInt i = 0; i < b->num_contacts; ++i) {
     PetscCall(InterfaceGetContact(ProblemInterface(problem), i, &view[i]));
     PetscCall(BalanceZone(ForestComm(forest), view[i], &b->pair[i]));
+    PetscCall(InterfaceFriction(ProblemInterface(problem), i, &b->pair[i].friction));
     PetscCall(
         Imbalance_Private(ForestComm(forest), scene->mechanics.model, (PetscBool)(scene->mechanics.kinematics == KINEMATICS_SMALL), view[i], &b->pair[i]));
     b->force_imbalance  = PetscMax(b->force_imbalance, b->pair[i].force_imbalance);

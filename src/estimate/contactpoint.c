@@ -81,17 +81,21 @@ void ContactNormal_Private(const ContactTerm *term, PetscBool finite, PetscInt f
   for (PetscInt c = 0; c < 3 && length > 0; ++c) n[c] /= length;
 }
 
-/* T += factor * z n at a place of a nonmortar facet. */
+/* T += factor * (z n + q t) at a place of a nonmortar facet, q and t = e_z x n: friction in the plane. */
 static void Push_Private(const ContactTerm *term, PetscBool finite, PetscInt facet, const PetscReal xi[2], PetscReal factor, PetscReal T[3])
 {
   const SurfaceView *s = &term->view->nonmortar;
   const PetscInt    *node, num = SurfaceFacetNodes(s, facet, &node);
-  PetscReal          N[SURFACE_MOST_NODES], n[3], z = 0;
+  const PetscBool    slips = (PetscBool)(term->view->slip != NULL);
+  PetscReal          N[SURFACE_MOST_NODES], n[3], z = 0, q = 0;
 
   ContactShape_Private(s, facet, xi, N);
   ContactNormal_Private(term, finite, facet, xi, N, n);
   for (PetscInt a = 0; a < num; ++a) z += N[a] * term->z[node[a]];
   for (PetscInt c = 0; c < s->dim; ++c) T[c] += factor * z * n[c];
+  for (PetscInt a = 0; a < num && slips; ++a) q += N[a] * term->z[s->num_nodes + node[a]];
+  T[0] -= factor * q * n[1];
+  T[1] += factor * q * n[0];
 }
 
 /* Does the part of a mortar edge hold eta? Then xi on its nonmortar edge. */

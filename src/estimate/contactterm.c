@@ -99,7 +99,7 @@ static PetscErrorCode Fields_Private(Problem problem, PetscInt pair, const Fores
     const PetscInt *node, count = SurfaceFacetNodes(s, f, &node);
     for (PetscInt k = 0; k < count && facet[f]; ++k) wanted[node[k]] = PETSC_TRUE;
   }
-  PetscCall(PetscMalloc3(s->num_nodes, &term->z, s->dim * s->num_nodes, &term->normal, s->dim * s->num_nodes, &term->x));
+  PetscCall(PetscMalloc3(term->view->num_z * s->num_nodes, &term->z, s->dim * s->num_nodes, &term->normal, s->dim * s->num_nodes, &term->x));
   PetscCall(InterfaceFetchContact(ProblemInterface(problem), pair, wanted, term->z, term->normal, term->x));
   PetscCall(PetscFree2(wanted, facet));
   PetscFunctionReturn(PETSC_SUCCESS);

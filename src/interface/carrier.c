@@ -98,21 +98,29 @@ static void NodeNormal_Private(const Surface *s, PetscInt n, PetscReal normal[3]
   for (PetscInt c = 0; c < 3 && length > 0; ++c) normal[c] /= length;
 }
 
-/* Is the node held across the surface? */
-static PetscBool IsHeld_Private(const Surface *s, PetscInt n)
+/* Do supports leave the node no motion in this direction? */
+static PetscBool IsHeld_Private(const Surface *s, PetscInt n, const PetscReal direction[])
 {
   const PetscInt fixed = s->dof[s->dim * n];
-  PetscReal      normal[3], free2 = 0;
+  PetscReal      free2 = 0;
 
   if (fixed == 0) return PETSC_FALSE;
-  NodeNormal_Private(s, n, normal);
   for (PetscInt d = 0; d < s->dim; ++d) {
     const PetscReal *axis = s->frame + s->dim * (s->dim * n + d);
     PetscReal        sum  = 0;
-    for (PetscInt c = 0; c < s->dim; ++c) sum += axis[c] * normal[c];
+    for (PetscInt c = 0; c < s->dim; ++c) sum += axis[c] * direction[c];
     if (!((fixed >> d) & 1)) free2 += PetscSqr(sum);
   }
   return (PetscBool)(free2 < PetscSqr(HELD));
+}
+
+PetscBool ContactHeldAlong_Private(const Surface *s, PetscInt n)
+{
+  PetscReal normal[3];
+
+  NodeNormal_Private(s, n, normal);
+  const PetscReal along[2] = {-normal[1], normal[0]};
+  return IsHeld_Private(s, n, along);
 }
 
 #define ON_AXIS 1e-8 /* of its extent, from the axis */
@@ -140,7 +148,9 @@ PetscErrorCode ContactCarriers_Private(Interface p, Contact *c)
     const PetscInt facet = s->node_facet[s->node_first[n]];
     if (s->hang[n] < s->hang[n + 1] || IsWeightless_Private(p, c, n, facet)) continue;
     const PetscBool rigid = p->spec->bodies[t->leaf_body[s->facet_leaf[facet]]].material->law->rigid;
-    c->has_multiplier[n]  = (PetscBool)(rigid || !IsHeld_Private(s, n));
+    PetscReal       normal[3];
+    NodeNormal_Private(s, n, normal);
+    c->has_multiplier[n] = (PetscBool)(rigid || !IsHeld_Private(s, n, normal));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

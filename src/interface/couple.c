@@ -190,12 +190,14 @@ PetscErrorCode ContactCreate_Private(Interface p, const ContactSpec *spec, Conta
   View_Private(c);
   PetscCall(ContactFreedom_Private(p, c));
   PetscCall(ContactOffset_Private(p, c));
+  PetscCall(SlipCreate_Private(p, c));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode ContactDestroy_Private(Contact *c)
 {
   PetscFunctionBegin;
+  PetscCall(SlipDestroy_Private(c));
   PetscCall(PetscFree(c->frozen));
   PetscCall(PetscFree(c->mean0));
   PetscCall(ContactPairDestroy(&c->pair));
@@ -239,9 +241,11 @@ static PetscErrorCode GatherMultipliers_Private(Interface p, Contact *c, Vec x)
 static void Activity_Private(Contact *c)
 {
   for (PetscInt i = 0; i < c->num_valued; ++i) {
-    const PetscInt     j     = c->valued_node[i];
-    const ContactPoint point = ContactPoint_Private(c, j, 0);
-    c->active[j]             = c->has_multiplier[j] && ContactCovered_Private(c, j) ? c->law->state(&point) : 0;
+    const PetscInt j     = c->valued_node[i];
+    ContactPoint   point = ContactPoint_Private(c, j, PETSC_FALSE);
+
+    point.state  = 0; /* a function of the positions and multipliers alone */
+    c->active[j] = c->has_multiplier[j] && ContactCovered_Private(c, j) ? c->law->state(&point) : 0;
   }
 }
 
@@ -270,16 +274,15 @@ static PetscErrorCode Freeze_Private(Interface p, Contact *c, PetscBool *failed)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-void ContactRows_Private(const Contact *c, PetscInt j, PetscReal lift, PetscBool symmetric, ContactRow row[])
+void ContactRows_Private(const Contact *c, PetscInt j, PetscBool lifted, PetscBool symmetric, ContactRow row[])
 {
-  const ContactPoint point = ContactPoint_Private(c, j, lift);
+  const ContactPoint point = ContactPoint_Private(c, j, lifted);
 
   c->law->rows(&point, symmetric, row);
   for (PetscInt k = 0; k < c->num && c->mean0; ++k) row[k].mean = c->mean0[j];
 }
 
-/* Increment of the row of node k of an edge under nodal increments du of both sides. */
-static PetscReal FacetDot_Private(const Contact *c, const ContactFacet *e, const PetscReal *gradient)
+PetscReal ContactFacetDot_Private(const Contact *c, const ContactFacet *e, const PetscReal *gradient)
 {
   const PetscInt dim = c->side[0].dim;
   PetscReal      sum = 0;
@@ -303,13 +306,13 @@ PetscErrorCode ContactChange_Private(Interface p, Contact *c, const PetscReal in
       const PetscInt j = e->nodes[k];
       ContactRow     row[MOST_MULTIPLIERS];
       if (!s->owned[j]) continue;
-      change[j] += FacetDot_Private(c, e, e->dgap + p->dim * k * e->num);
+      change[j] += ContactFacetDot_Private(c, e, e->dgap + p->dim * k * e->num);
       if (!ContactCovered_Private(c, j)) continue;
-      ContactRows_Private(c, j, 0, PETSC_FALSE, row);
+      ContactRows_Private(c, j, PETSC_FALSE, PETSC_FALSE, row);
       const PetscReal mean = c->active[j] || c->mean0 ? row[0].mean : c->gap[j] / c->weight[j];
-      change[j] -= mean * FacetDot_Private(c, e, e->dweight + p->dim * k * e->num);
+      change[j] -= mean * ContactFacetDot_Private(c, e, e->dweight + p->dim * k * e->num);
       const PetscReal yield = ContactYield_Private(c, e, k, row[0].along);
-      if (yield != 0) change[j] += yield * FacetDot_Private(c, e, e->dshare);
+      if (yield != 0) change[j] += yield * ContactFacetDot_Private(c, e, e->dshare);
     }
   }
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -329,7 +332,7 @@ static void LinearGaps_Private(Interface p, Contact *c)
     const ContactFacet *e = &c->frozen[i];
     for (PetscInt k = 0; k < e->num_rows; ++k) {
       const PetscInt j = e->nodes[k], at = p->dim * k * e->num;
-      if (own->owned[j]) c->gap[j] += FacetDot_Private(c, e, e->dgap + at) - c->mean0[j] * FacetDot_Private(c, e, e->dweight + at);
+      if (own->owned[j]) c->gap[j] += ContactFacetDot_Private(c, e, e->dgap + at) - c->mean0[j] * ContactFacetDot_Private(c, e, e->dweight + at);
     }
   }
 }
@@ -404,6 +407,7 @@ PetscErrorCode ContactEvaluate_Private(Interface p, Contact *c, Vec x, const Pet
     PetscCall(ContactNodeSums_Private(p, c));
   }
   PetscCall(Subtract_Private(p, c));
+  PetscCall(SlipEvaluate_Private(p, c));
   if (small) PetscCall(Near_Private(p, c, pending));
   for (PetscInt e = 0; e < c->side[0].num_facets; ++e) c->result[e] = -1;
   for (PetscInt i = 0; i < c->num_facets; ++i) c->result[c->facets[i].facet] = i;

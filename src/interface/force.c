@@ -22,6 +22,7 @@ void ContactFacetForces_Private(Contact *c, const PetscReal z[], const PetscReal
         const PetscInt j = e->nodes[k], at = dim * (k * e->num + a);
         for (PetscInt d = 0; d < dim && c->has_multiplier[j] && z[j] != 0; ++d) f[d] += z[j] * push[at + d];
         for (PetscInt d = 0; d < dim && measure && c->has_multiplier[j] && measure[j] != 0; ++d) f[d] -= measure[j] * e->dweight[at + d];
+        for (PetscInt d = 0; d < dim && e->shear && c->has_multiplier[j]; ++d) f[d] += z[c->side[0].num_nodes + j] * e->shear[at + d];
       }
     }
   }
@@ -68,7 +69,7 @@ PetscErrorCode InterfaceRows(Interface p, PetscReal r[])
     for (PetscInt j = 0; j < c->side[0].num_nodes; ++j) {
       if (c->zlocal[j] < 0) continue;
       ContactRow row[MOST_MULTIPLIERS];
-      ContactRows_Private(c, j, 0, PETSC_FALSE, row);
+      ContactRows_Private(c, j, PETSC_FALSE, PETSC_FALSE, row);
       for (PetscInt k = 0; k < c->num; ++k) r[c->zlocal[j] + k] = -row[k].side;
     }
   }
@@ -128,7 +129,7 @@ PetscReal InterfaceNoise2(Interface p)
       const PetscInt j      = c->side[0].own[k];
       PetscReal      square = 0;
       for (PetscInt d = 0; d < p->dim; ++d) square += PetscSqr(c->side[0].x[p->dim * j + d]);
-      if (c->active[j]) sum += square * PetscSqr(PETSC_MACHINE_EPSILON * (c->w0[j] * (c->c[j] + PetscAbsReal(c->z[j]) / c->extent[j])));
+      if (c->active[j]) sum += (PetscReal)c->num * square * PetscSqr(PETSC_MACHINE_EPSILON * (c->w0[j] * (c->c[j] + PetscAbsReal(c->z[j]) / c->extent[j])));
     }
   }
   return sum;

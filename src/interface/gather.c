@@ -1,7 +1,7 @@
 /* Values of a contact pair beyond those a rank needs: all of them everywhere, for output; chosen ones from those who know them. */
 #include "interfaceimpl.h"
 
-#define SIDE_REALS(dim, num) (3 * (dim) + 2 + (num)) /* of a node: position, normal, force, gap, weight, multipliers */
+#define SIDE_REALS(dim, num) (3 * (dim) + 3 + (num)) /* of a node: position, normal, force, gap, weight, multipliers, slip */
 
 PetscErrorCode ContactGatherDestroy_Private(Contact *c)
 {
@@ -31,6 +31,7 @@ static PetscErrorCode Side_Private(Interface p, Contact *c, PetscInt k)
     value[j]     = c->gap[j];
     value[n + j] = c->weight[j];
     for (PetscInt i = 0; i < c->num; ++i) value[(2 + i) * n + j] = c->z[i * n + j];
+    if (c->slip) value[(2 + c->num) * n + j] = c->slip->mean[j];
   }
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, c->all_real[k], (PetscMPIInt)(SIDE_REALS(dim, c->num) * n), MPIU_REAL, MPI_SUM, p->comm));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -63,6 +64,7 @@ PetscErrorCode InterfaceGatherContactToAll(Interface p, PetscInt pair, const Con
   c->all.gap             = c->all_real[0] + 3 * dim * n;
   c->all.weight          = c->all.gap + n;
   c->all.z               = c->all.gap + 2 * n;
+  c->all.slip            = c->slip ? c->all.z + c->num * n : NULL;
   c->all.active          = c->all_active;
   c->all.mortar.x        = c->all_real[1];
   c->all.mortar.force    = c->all_real[1] + 2 * dim * m;

@@ -146,6 +146,7 @@ PetscErrorCode InterfaceSearch(Interface p, const PetscReal u[])
   for (PetscInt i = 0; i < p->num_contacts; ++i) {
     Contact *c = &p->contacts[i];
     if (p->spec->kinematics == KINEMATICS_SMALL) continue;
+    PetscCall(SlipKeep_Private(p, c));
     for (PetscInt k = 0; k < 2; ++k) {
       SurfaceForget_Private(&c->side[k]);
       SurfacePlace_Private(&c->side[k], u, ContactBase_Private(c, k), c->side[k].x);

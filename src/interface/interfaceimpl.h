@@ -31,24 +31,28 @@ typedef struct {
   int8_t             state;
   PetscReal          z[MOST_MULTIPLIERS], gap, weight, spring, w0, c; /* as in Contact; gap: with what the pressures of others add, S_jl z_l */
   PetscReal          lift;                                            /* change of the gap by the motion still to come */
+  PetscReal          slip, slip_weight, slip_lift;                    /* of the step, as the gap; the weight where it began, 0: nothing was met there */
 } ContactPoint;
 
 /* One of its rows, linearised:  factor [grad (gt + S z)_j - mean grad w - along grad S_jj] . du + factor sum_l S_jl dz_l + sum_k z_k dz_k = side,  l other
-   nodes. value: of a node that bears, the gap that has to vanish. push: the derivative of the forces by z_j (ContactFacet.push) stands for the gradient. */
+   nodes. value: of a node that bears, the gap that has to vanish. push: the derivative of the forces by z_j (ContactFacet.push) stands for the gradient;
+   slip: that of the slip does, alone. */
 typedef struct {
   PetscReal factor, mean, along, z[MOST_MULTIPLIERS], side, value;
-  PetscBool push;
+  PetscBool push, slip;
 } ContactRow;
 
 /* num_multipliers of a node in this dimension; the first is the pressure. symmetric: it has one, and its tangent is symmetric but for the factors of rows.
+   slips: the second is a tangential traction, and the slip of the step is known.
    state: that of a node with these multipliers, gap and weight, 0: open. rows: one for each multiplier, in this state; the residual is -side without lift.
    symmetric: factor and z of a row such that it is a column of the symmetric tangent as well, its unknown z over c. */
 typedef struct {
   const char *name;
-  PetscBool   symmetric;
+  PetscBool   symmetric, slips;
   PetscInt (*num_multipliers)(PetscInt dim);
   int8_t (*state)(const ContactPoint *);
   void (*rows)(const ContactPoint *, PetscBool symmetric, ContactRow row[]);
+  PetscInt (*slides)(int8_t state); /* 1, -1: it slips along, against the traction; 0: not */
 } ContactLawOps;
 
 extern const ContactLawOps *const ContactLaws[];
@@ -89,6 +93,21 @@ typedef struct {
   PetscBool   *has;             /* [num_nodes] current position known here */
   Link         places, values;  /* of nodes that are not here; of nodes that are not owned */
 } Surface;
+
+/* Slip of a step (slip.c). */
+typedef struct {
+  PetscInt            size;
+  PetscReal          *from;          /* [size] local displacements that it counts from */
+  PetscBool           stale;         /* points are not kept there yet */
+  Link                places[2];     /* of nodes that facets kept and their partners need */
+  PetscReal          *slip, *weight; /* [n] s_j at the last evaluation, w_j where it counts from */
+  PetscReal          *mean;          /* [n] s_j / w_j */
+  PetscReal          *change, *lift; /* [n] as those of the gaps */
+  PetscBool          *held;          /* [n] a support holds it along the surface: no traction */
+  PetscInt           *result;        /* [num_facets] position of a facet in `facets`, -1: it met nothing */
+  PetscInt            num_facets;
+  const ContactFacet *facets;
+} SlipHistory;
 
 typedef struct {
   const ContactSpec   *spec;
@@ -137,6 +156,7 @@ typedef struct {
   PetscInt             num_q, q_row[INTERFACE_MOTIONS], q_motion[INTERFACE_MOTIONS]; /* unknowns of the bodies of this pair */
   const RigidLink     *links, *q_link[INTERFACE_MOTIONS];
   PetscInt            *pattern_offset, *pattern; /* [num_facets+1]: nodes each facet has room for in the matrix */
+  SlipHistory         *slip;                     /* NULL: the law has no friction */
 } Contact;
 
 struct _p_Interface {
@@ -247,10 +267,14 @@ PetscErrorCode ContactRigidHessian_Private(const InterfaceSystem *, const Contac
 PetscErrorCode ContactFacetHessian_Private(Interface, const InterfaceSystem *, const Contact *, const ContactFacet *);
 PetscErrorCode ContactNodeGradient_Private(Interface, const Contact *, PetscInt j, const ContactRow *, PetscInt *num);
 PetscErrorCode ContactInsertRow_Private(Interface, const InterfaceSystem *, const Contact *, PetscInt j, const ContactRow row[]);
-/* Node j as its law sees it, and its rows. */
-static inline ContactPoint ContactPoint_Private(const Contact *c, PetscInt j, PetscReal lift)
+/* Node j as its law sees it, and its rows. lifted: with the motion still to come. */
+static inline ContactPoint ContactPoint_Private(const Contact *c, PetscInt j, PetscBool lifted)
 {
-  ContactPoint point = {c->spec, c->active[j], {0}, c->gap[j] + c->coupled[j], c->weight[j], c->spring[j], c->w0[j], c->c[j], lift};
+  ContactPoint point = {.spec = c->spec, .state = c->active[j], .gap = c->gap[j] + c->coupled[j], .weight = c->weight[j], .spring = c->spring[j], .w0 = c->w0[j], .c = c->c[j]};
+
+  if (lifted) point.lift = c->lift[j];
+  if (c->slip) point.slip = c->slip->slip[j], point.slip_weight = c->slip->weight[j];
+  if (c->slip && lifted) point.slip_lift = c->slip->lift[j];
 
   for (PetscInt k = 0; k < c->num; ++k) point.z[k] = c->z[c->side[0].num_nodes * k + j];
   return point;
@@ -281,7 +305,9 @@ static inline PetscBool ContactPressed_Private(const Contact *c, PetscInt j)
 }
 /* overlap.c: the positions that displacements of a side count from. */
 const PetscReal *ContactBase_Private(const Contact *, PetscInt side);
-void             ContactRows_Private(const Contact *, PetscInt j, PetscReal lift, PetscBool symmetric, ContactRow row[]);
+void             ContactRows_Private(const Contact *, PetscInt j, PetscBool lifted, PetscBool symmetric, ContactRow row[]);
+/* Increment of a row of a facet, by its gradient, under nodal increments du of both sides. */
+PetscReal ContactFacetDot_Private(const Contact *, const ContactFacet *, const PetscReal *gradient);
 /* How far node j and the other side are into each other, after the change as linearised. */
 static inline PetscReal ContactOverlap_Private(const Contact *c, PetscInt j)
 {
@@ -298,7 +324,17 @@ PetscErrorCode ContactFreedom_Private(Interface, Contact *);
 /* carrier.c: w0, extent and c of the nodes; which of them carry a multiplier. */
 PetscErrorCode ContactNodeScales_Private(Interface, Contact *);
 PetscErrorCode ContactCarriers_Private(Interface, Contact *);
-PetscReal      SurfaceFacetMeasure_Private(const Surface *, PetscInt facet, PetscBool axisymmetric);
+/* Two dimensions: does a support hold the node along the surface? Until the rows of the matrix are known. */
+PetscBool ContactHeldAlong_Private(const Surface *, PetscInt node);
+PetscReal SurfaceFacetMeasure_Private(const Surface *, PetscInt facet, PetscBool axisymmetric);
+/* slip.c: nothing where the law has no friction. Create: after the multipliers. Keep: before a search; points where slip counts from, if they are not kept yet.
+   Evaluate: after positions are gathered. Change: of every owned node's slip under the increment du of both sides, which is there. All but Destroy collective.
+ */
+PetscErrorCode SlipCreate_Private(Interface, Contact *);
+PetscErrorCode SlipDestroy_Private(Contact *);
+PetscErrorCode SlipKeep_Private(Interface, Contact *);
+PetscErrorCode SlipEvaluate_Private(Interface, Contact *);
+PetscErrorCode SlipChange_Private(Interface, Contact *, PetscReal change[]);
 /* pattern.c: room in the matrix for what facets may meet until the next search. */
 /* Rows of the matrix of everything in the pattern of one facet, dofs[ContactPatternSize_Private]; returns their number. */
 PetscInt ContactPatternDofs_Private(const Contact *, PetscInt facet, PetscInt dofs[]);

@@ -29,10 +29,16 @@ static PetscBool Enters_Private(const Contact *c, const ContactFacet *e)
   return PETSC_FALSE;
 }
 
+/* Facets with what they meet, then those of the last accepted state with what they met there. */
+static const ContactFacet *Facet_Private(const Contact *c, PetscInt i)
+{
+  return i < c->num_facets ? &c->facets[i] : &c->slip->facets[i - c->num_facets];
+}
+
 static PetscBool Holds_Private(const Contact *c)
 {
-  for (PetscInt i = 0; i < c->num_facets; ++i) {
-    const ContactFacet *e = &c->facets[i];
+  for (PetscInt i = 0; i < c->num_facets + (c->slip ? c->slip->num_facets : 0); ++i) {
+    const ContactFacet *e = Facet_Private(c, i);
     if (!Enters_Private(c, e)) continue;
     if (!c->pattern_offset) return PETSC_FALSE;
     const PetscInt *list = c->pattern + c->pattern_offset[e->facet], num = c->pattern_offset[e->facet + 1] - c->pattern_offset[e->facet];
@@ -94,6 +100,19 @@ static PetscErrorCode AppendAround_Private(const Surface *s, PetscInt node, Pets
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+static PetscErrorCode AppendMet_Private(const Contact *c, const ContactFacet *e, PetscInt **list, PetscInt *num, PetscInt *size, PetscInt from)
+{
+  PetscFunctionBegin;
+  if (!Enters_Private(c, e)) PetscFunctionReturn(PETSC_SUCCESS);
+  for (PetscInt a = 0; a < e->num; ++a) {
+    if (!NODE_SIDE(e->nodes[a]))
+      PetscCall(Append_Private(list, num, size, from, e->nodes[a]));
+    else
+      PetscCall(AppendAround_Private(&c->side[1], NODE_INDEX(e->nodes[a]), 2, list, num, size, from));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 static PetscErrorCode Grow_Private(Contact *c)
 {
   const PetscInt ne = c->side[0].num_facets;
@@ -107,15 +126,8 @@ static PetscErrorCode Grow_Private(Contact *c)
       for (PetscInt k = c->pattern_offset[edge]; k < c->pattern_offset[edge + 1]; ++k)
         PetscCall(Append_Private(&list, &num, &size, offset[edge], c->pattern[k]));
     }
-    if (c->result[edge] < 0) continue;
-    const ContactFacet *e = &c->facets[c->result[edge]];
-    if (!Enters_Private(c, e)) continue;
-    for (PetscInt a = 0; a < e->num; ++a) {
-      if (!NODE_SIDE(e->nodes[a]))
-        PetscCall(Append_Private(&list, &num, &size, offset[edge], e->nodes[a]));
-      else
-        PetscCall(AppendAround_Private(&c->side[1], NODE_INDEX(e->nodes[a]), 2, &list, &num, &size, offset[edge]));
-    }
+    if (c->result[edge] >= 0) PetscCall(AppendMet_Private(c, &c->facets[c->result[edge]], &list, &num, &size, offset[edge]));
+    if (c->slip && c->slip->result[edge] >= 0) PetscCall(AppendMet_Private(c, &c->slip->facets[c->slip->result[edge]], &list, &num, &size, offset[edge]));
   }
   offset[ne] = num;
   PetscCall(Replace_Private(c, offset, list));

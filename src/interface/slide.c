@@ -6,6 +6,8 @@
    shrinks does not move. The bodies are then brought to their new places first. */
 #include "interfaceimpl.h"
 
+#define WHOLE 0.75   /* share of the zone that slips one way, above which the pair slips as a whole … */
+#define FAR 0.15     /* … by more than this share of the zone */
 #define PRESSED 1e-8 /* of the largest pressure: less is round-off of an open node */
 
 /* Does contact, by the active set at hand, leave nodes that carry pressure for others? */
@@ -32,7 +34,28 @@ static PetscErrorCode HasMoved_Private(Interface p, const Contact *c, PetscBool 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode InterfaceFindSliding(Interface p, PetscReal pending, uint64_t *pairs)
+/* With friction: does the first linear step slip as a whole, one way, and by a good part of the zone? Then bodies are brought to their new places first. Where
+   friction holds they would have to be pulled back from there. */
+static PetscErrorCode Slips_Private(Interface p, const Contact *c, PetscBool swap, PetscBool *slips)
+{
+  const SlipHistory *s      = c->slip;
+  PetscReal          sum[3] = {0, 0, 0}; /* zone, its part that slips, sum of the slip */
+
+  PetscFunctionBegin;
+  for (PetscInt i = 0; i < c->side[0].num_own; ++i) {
+    const PetscInt j = c->side[0].own[i];
+
+    if (!c->active[j] || !ContactPressed_Private(c, j)) continue;
+    sum[0] += c->extent[j];
+    sum[1] += c->extent[j] * c->law->slides(c->active[j]);
+    if (s->weight[j] > 0) sum[2] += c->extent[j] * (s->slip[j] + s->change[j]) / s->weight[j];
+  }
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 3, MPIU_REAL, MPI_SUM, p->comm));
+  *slips = (PetscBool)(sum[0] > 0 && swap != (PetscAbsReal(sum[1]) > WHOLE * sum[0] && PetscAbsReal(sum[2]) > FAR * PetscSqr(sum[0])));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode InterfaceFindSliding(Interface p, PetscReal pending, PetscBool swap, uint64_t *pairs)
 {
   PetscBool moved;
 
@@ -40,7 +63,10 @@ PetscErrorCode InterfaceFindSliding(Interface p, PetscReal pending, uint64_t *pa
   *pairs = 0;
   if (p->spec->kinematics == KINEMATICS_SMALL) PetscFunctionReturn(PETSC_SUCCESS);
   for (PetscInt i = 0; pending > 0 && i < p->num_contacts; ++i) {
-    PetscCall(HasMoved_Private(p, &p->contacts[i], &moved));
+    if (p->contacts[i].slip)
+      PetscCall(Slips_Private(p, &p->contacts[i], swap, &moved));
+    else
+      PetscCall(HasMoved_Private(p, &p->contacts[i], &moved));
     if (moved) *pairs |= (uint64_t)1 << i;
   }
   PetscFunctionReturn(PETSC_SUCCESS);

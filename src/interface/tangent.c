@@ -93,6 +93,18 @@ PetscErrorCode ContactFacetHessian_Private(Interface p, const InterfaceSystem *a
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Column of the tangential traction of row k; dofs of the facet are in work_index. */
+static PetscErrorCode ShearColumn_Private(Interface p, const InterfaceSystem *a, const Contact *c, const ContactFacet *e, PetscInt k)
+{
+  const PetscInt dim = p->dim, n = dim * e->num, column = c->zdof[e->nodes[k]] + 1;
+
+  PetscFunctionBegin;
+  for (PetscInt i = 0; i < n; ++i) p->work.value[i] = -e->shear[k * n + i];
+  for (PetscInt b = 0; b < e->num; ++b) Turn_Private(dim, Frame_Private(c, e->nodes[b]), p->work.value + dim * b, 1);
+  PetscCall(ContactInsert_Private(a->matrix, n, p->work.index, 1, &column, p->work.value, ADD_VALUES));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* Blocks of the last evaluation: Hessian and columns, added; the rows are inserted afterwards. */
 static PetscErrorCode Blocks_Private(Interface p, const InterfaceSystem *a, Contact *c)
 {
@@ -108,6 +120,8 @@ static PetscErrorCode Blocks_Private(Interface p, const InterfaceSystem *a, Cont
     PetscCall(ContactChange_Private(p, c, a->increment, c->lift));
   else
     PetscCall(PetscArrayzero(c->lift, c->side[0].num_nodes));
+  if (a->lift && c->slip) PetscCall(SlipChange_Private(p, c, c->slip->lift));
+  if (!a->lift && c->slip) PetscCall(PetscArrayzero(c->slip->lift, c->side[0].num_nodes));
   for (PetscInt f = 0; f < c->num_facets; ++f) {
     const ContactFacet *e = &c->facets[f];
     const PetscInt      n = dim * e->num;
@@ -124,6 +138,7 @@ static PetscErrorCode Blocks_Private(Interface p, const InterfaceSystem *a, Cont
       for (PetscInt i = 0; i < n && yield != 0; ++i) p->work.value[i] -= yield * e->dshare[i];
       for (PetscInt b = 0; b < e->num; ++b) Turn_Private(dim, Frame_Private(c, e->nodes[b]), p->work.value + dim * b, 1);
       PetscCall(ContactInsert_Private(a->matrix, n, p->work.index, 1, &z, p->work.value, ADD_VALUES));
+      if (e->shear) PetscCall(ShearColumn_Private(p, a, c, e, k));
       if (!c->num_q) continue;
       ContactRigidForces_Private(c, e, p->work.value, q);
       PetscCall(ContactInsert_Private(a->matrix, c->num_q, c->q_row, 1, &z, q, ADD_VALUES));
@@ -151,10 +166,11 @@ static PetscInt RowSize_Private(const Contact *c, PetscInt j)
 /* Collects the gradient of a row of node j from its facets: over the whole pattern, sorted indices, so that a switch leaves nothing of another form behind. */
 PetscErrorCode ContactNodeGradient_Private(Interface p, const Contact *c, PetscInt j, const ContactRow *form, PetscInt *num)
 {
-  const Surface *s   = &c->side[0];
-  const PetscInt dim = p->dim;
-  PetscReal     *values;
-  PetscInt       at, *dofs;
+  const Surface      *s   = &c->side[0];
+  const PetscInt      dim = p->dim, *result = form->slip ? c->slip->result : c->result;
+  const ContactFacet *facets = form->slip ? c->slip->facets : c->facets;
+  PetscReal          *values;
+  PetscInt            at, *dofs;
 
   PetscFunctionBegin;
   PetscCall(RowBufferGrow(&p->work, RowSize_Private(c, j)));
@@ -167,20 +183,20 @@ PetscErrorCode ContactNodeGradient_Private(Interface p, const Contact *c, PetscI
   PetscCall(PetscArrayzero(values, *num));
   for (PetscInt k = s->node_first[j]; form->factor != 0 && k < s->node_first[j + 1]; ++k) {
     const PetscInt facet = s->node_facet[k];
-    if (c->result[facet] < 0) continue;
-    const ContactFacet *e   = &c->facets[c->result[facet]];
+    if (result[facet] < 0) continue;
+    const ContactFacet *e   = &facets[result[facet]];
     const PetscInt      n   = dim * e->num;
     PetscInt            row = 0;
     while (row < e->num_rows && e->nodes[row] != j) ++row;
     if (row == e->num_rows || !e->dgap) continue;
     const PetscReal *gradient = (form->push && e->push ? e->push : e->dgap) + row * n;
-    const PetscReal  yield    = form->push && e->push ? 0 : ContactYield_Private(c, e, row, form->along);
+    const PetscReal  yield    = form->slip || (form->push && e->push) ? 0 : ContactYield_Private(c, e, row, form->along);
     for (PetscInt a = 0; a < e->num; ++a) {
       const Surface *side = &c->side[NODE_SIDE(e->nodes[a])];
       const PetscInt node = NODE_INDEX(e->nodes[a]);
       PetscReal      g[3] = {0, 0, 0};
       for (PetscInt d = 0; d < dim; ++d)
-        g[d] = gradient[dim * a + d] - form->mean * e->dweight[row * n + dim * a + d] + (yield != 0 ? yield * e->dshare[dim * a + d] : 0);
+        g[d] = gradient[dim * a + d] - (e->dweight ? form->mean * e->dweight[row * n + dim * a + d] : 0) + (yield != 0 ? yield * e->dshare[dim * a + d] : 0);
       Turn_Private(dim, Frame_Private(c, e->nodes[a]), g, 1);
       for (PetscInt m = 0; m < c->num_q; ++m) {
         PetscReal dx[3];
@@ -237,7 +253,7 @@ PetscErrorCode ContactInsertRow_Private(Interface p, const InterfaceSystem *a, c
   for (PetscInt i = 0; i < c->num; ++i) {
     const PetscInt line = c->zdof[j] + i;
     PetscCall(ContactNodeGradient_Private(p, c, j, &row[i], &num));
-    PetscCall(Couplings_Private(a, c, j, row[i].factor, num, p->work.index, p->work.value));
+    PetscCall(Couplings_Private(a, c, j, i == 0 ? row[i].factor : 0, num, p->work.index, p->work.value));
     PetscCall(PetscFindInt(c->zdof[j], num, p->work.index, &at));
     for (PetscInt k = 0; k < c->num; ++k) p->work.value[at + k] = a->symmetric ? row[i].z[k] * c->c[j] : row[i].z[k];
     PetscCall(ContactInsert_Private(a->matrix, 1, &line, num, p->work.index, p->work.value, INSERT_VALUES));
@@ -251,7 +267,7 @@ static PetscErrorCode InsertRow_Private(Interface p, const InterfaceSystem *a, c
   ContactRow row[MOST_MULTIPLIERS];
 
   PetscFunctionBegin;
-  ContactRows_Private(c, j, 0, a->symmetric, row);
+  ContactRows_Private(c, j, PETSC_FALSE, a->symmetric, row);
   PetscCall(ContactInsertRow_Private(p, a, c, j, row));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -283,7 +299,7 @@ static PetscErrorCode RowSides_Private(Interface p, const InterfaceSystem *a, Ve
     for (PetscInt j = 0; j < c->side[0].num_nodes; ++j) {
       ContactRow row[MOST_MULTIPLIERS];
       if (c->zlocal[j] < 0) continue;
-      ContactRows_Private(c, j, c->lift[j], a->symmetric, row);
+      ContactRows_Private(c, j, PETSC_TRUE, a->symmetric, row);
       if (a->symmetric && c->active[j]) row[0].side -= c->c[j] * ContactIdle_Private(c, j);
       for (PetscInt k = 0; k < c->num; ++k) b[c->zlocal[j] + k - p->num_inner] = row[k].side;
     }
@@ -341,14 +357,16 @@ static PetscErrorCode States_Private(Interface p, const InterfaceSystem *a, Cont
   PetscCall(LinkSpread_Private(p, &s->values, 1, z));
   ContactCoupling_Private(c, z, coupled);
   PetscCall(ContactChange_Private(p, c, a->increment, c->change));
+  if (c->slip) PetscCall(SlipChange_Private(p, c, c->slip->change));
   if (FormHas(p->form->deepest_first, (PetscInt)(c - p->contacts))) PetscCall(ContactLeastOverlap_Private(p, c, &least));
   PetscCall(PetscArraycpy(old, c->active, s->num_nodes));
   for (PetscInt i = 0; i < s->num_own; ++i) {
     const PetscInt j = s->own[i];
     if (c->zlocal[j] < 0 || !c->near[j] || !ContactCovered_Private(c, j)) continue;
-    ContactPoint point = ContactPoint_Private(c, j, 0);
+    ContactPoint point = ContactPoint_Private(c, j, PETSC_FALSE);
     for (PetscInt k = 0; k < c->num; ++k) point.z[k] += dx[c->zlocal[j] + k];
     point.gap += c->change[j] + coupled[j] - c->coupled[j];
+    if (c->slip) point.slip += c->slip->change[j];
     const int8_t active = c->law->state(&point);
     if (!active || ContactOverlap_Private(c, j) >= least) c->active[j] = active;
   }

@@ -7,6 +7,7 @@ typedef struct {
   PetscInt   corners, num_points, num_facets;
   PetscReal *X, *displacement, *normal; /* owned [num_points][3] */
   PetscReal *gap, *pressure, *status;   /* owned [num_points] */
+  PetscReal *shear, *slip, *traction;   /* owned [num_points], [num_points][3]: friction */
   PetscReal *pair, *side, *cell;        /* owned [num_facets] */
   PetscInt  *conn;                      /* owned [num_facets][corners], lexicographic */
 } ContactGrid;
@@ -102,6 +103,19 @@ static void OwnNormals_Private(const ContactView *v, PetscReal normal[])
     for (PetscInt c = 0; c < 3; ++c) normal[3 * n + c] = c < dim ? v->normal[dim * n + c] : 0;
 }
 
+/* Tangential traction on either body from that along e_z x n of the nonmortar side: n of the other one is the opposite, and so is the force. */
+static void Tractions_Private(const SurfaceView *s, const ContactFields *f, PetscInt at, ContactGrid *g)
+{
+  for (PetscInt n = 0; n < s->num_nodes; ++n) {
+    const PetscReal *N = g->normal + 3 * (at + n);
+    PetscReal       *t = g->traction + 3 * (at + n);
+
+    t[0] = f->shear[n] * N[1];
+    t[1] = -f->shear[n] * N[0];
+    t[2] = 0;
+  }
+}
+
 /* Both sides of a pair. Collective: fields are gathered. */
 static PetscErrorCode AppendPair_Private(ContactGrid *g, Problem problem, PetscInt pair)
 {
@@ -115,7 +129,7 @@ static PetscErrorCode AppendPair_Private(ContactGrid *g, Problem problem, PetscI
   for (PetscInt side = 0; side < 2; ++side) {
     const SurfaceView *s  = side ? &v->mortar : &v->nonmortar;
     const PetscInt     at = AppendSurface_Private(g, s, pair, side);
-    fields[side]          = (ContactFields){g->gap + at, g->pressure + at, g->status + at};
+    fields[side]          = (ContactFields){g->gap + at, g->pressure + at, g->status + at, g->shear + at, g->slip + at};
     if (side == 0)
       OwnNormals_Private(v, g->normal + 3 * at);
     else
@@ -123,6 +137,7 @@ static PetscErrorCode AppendPair_Private(ContactGrid *g, Problem problem, PetscI
   }
   OutputContactFields(v, &fields[0]);
   PetscCall(OutputProjectFields(problem, pair, &fields[0], &fields[1]));
+  for (PetscInt side = 0; side < 2; ++side) Tractions_Private(side ? &v->mortar : &v->nonmortar, &fields[side], (PetscInt)(fields[side].gap - g->gap), g);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -141,6 +156,7 @@ static PetscErrorCode WriteSurfaces_Private(Writer writer, Problem problem, Pets
   }
   PetscCall(PetscMalloc3(3 * points, &g.X, 3 * points, &g.displacement, 3 * points, &g.normal));
   PetscCall(PetscMalloc3(points, &g.gap, points, &g.pressure, points, &g.status));
+  PetscCall(PetscMalloc3(points, &g.shear, points, &g.slip, 3 * points, &g.traction));
   PetscCall(PetscMalloc4(facets, &g.pair, facets, &g.side, facets, &g.cell, g.corners * facets, &g.conn));
   for (PetscInt i = 0; i < num_contacts; ++i) PetscCall(AppendPair_Private(&g, problem, i));
   if (rank) g.num_points = g.num_facets = 0;
@@ -149,12 +165,17 @@ static PetscErrorCode WriteSurfaces_Private(Writer writer, Problem problem, Pets
   PetscCall(WriterField(writer, "gap", PETSC_FALSE, 1, g.gap));
   PetscCall(WriterField(writer, "contact_pressure", PETSC_FALSE, 1, g.pressure));
   PetscCall(WriterField(writer, "status", PETSC_FALSE, 1, g.status));
+  if (InterfaceSlips(ProblemInterface(problem))) {
+    PetscCall(WriterField(writer, "tangential_traction", PETSC_FALSE, 3, g.traction));
+    PetscCall(WriterField(writer, "slip", PETSC_FALSE, 1, g.slip));
+  }
   PetscCall(WriterField(writer, "normal", PETSC_FALSE, 3, g.normal));
   PetscCall(WriterField(writer, "pair", PETSC_TRUE, 1, g.pair));
   PetscCall(WriterField(writer, "side", PETSC_TRUE, 1, g.side));
   PetscCall(WriterField(writer, "cell", PETSC_TRUE, 1, g.cell));
   PetscCall(PetscFree3(g.X, g.displacement, g.normal));
   PetscCall(PetscFree3(g.gap, g.pressure, g.status));
+  PetscCall(PetscFree3(g.shear, g.slip, g.traction));
   PetscCall(PetscFree4(g.pair, g.side, g.cell, g.conn));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -17,6 +17,7 @@ struct _p_History {
 static const char *const axis_name[]   = {"x", "y", "z"};
 static const char *const stress_name[] = {"xx", "xy", "xz", "yy", "yz", "zz"};
 static const char *const zone_name[]   = {"max_pressure", "area", "radius", "active_nodes", "min_gap"};
+static const char *const slip_name[]   = {"dissipation", "max_slip", "sticking_nodes", "slipping_nodes"};
 
 /* Columns of a table under construction. With names NULL they are counted only; a value is put beside its name, so that both cannot drift apart. */
 typedef struct {
@@ -46,8 +47,10 @@ static PetscErrorCode MomentColumns_Private(Columns *c, PetscInt dim, const char
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode PairColumns_Private(Columns *c, PetscInt dim, const char *name, const PairFigures *f)
+static PetscErrorCode PairColumns_Private(Columns *c, PetscInt dim, const ContactSpec *spec, const PairFigures *f)
 {
+  const char     *name   = spec->name;
+  const PetscReal slip[] = {f->friction.dissipation, f->friction.max_slip, (PetscReal)f->friction.sticking, (PetscReal)f->friction.slipping};
   const PetscReal zone[] = {f->max_pressure, f->area, f->radius, (PetscReal)f->active_nodes, f->min_gap};
 
   PetscFunctionBegin;
@@ -57,6 +60,7 @@ static PetscErrorCode PairColumns_Private(Columns *c, PetscInt dim, const char *
     if (k == 2 && dim == 3) continue;
     PetscCall(Column_Private(c, zone[k], "contact", name, zone_name[k], NULL));
   }
+  for (PetscInt k = 0; k < 4 && spec->law == CONTACT_COULOMB; ++k) PetscCall(Column_Private(c, slip[k], "contact", name, slip_name[k], NULL));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -109,7 +113,7 @@ static PetscErrorCode Columns_Private(const SceneData *scene, PetscInt num_probe
     PetscCall(Column_Private(c, balance ? balance->pressure[b] : 0, "pressure", spec->name, NULL, NULL));
     PetscCall(Column_Private(c, balance ? balance->control[b] : 0, spec->volume ? "volume" : "advance", spec->name, NULL, NULL));
   }
-  for (PetscInt i = 0; i < scene->num_contacts; ++i) PetscCall(PairColumns_Private(c, dim, scene->contacts[i].name, balance ? &balance->pair[i] : &none));
+  for (PetscInt i = 0; i < scene->num_contacts; ++i) PetscCall(PairColumns_Private(c, dim, &scene->contacts[i], balance ? &balance->pair[i] : &none));
   for (PetscInt i = 0; i < num_probes; ++i) {
     const char *name = scene->probes[i].name;
     for (PetscInt a = 0; a < dim; ++a) PetscCall(Column_Private(c, probe ? probe[i].displacement[a] : 0, "probe", name, "displacement", axis_name[a]));

@@ -87,6 +87,11 @@ static void AddPair_Private(cJSON *contact, PetscInt dim, const ContactSpec *spe
   AddNumber_Private(pair, "max_gap", f->max_gap);
   AddNumber_Private(pair, "adjusted_gap", f->adjusted);
   AddNumber_Private(pair, "unusable_overlaps", (PetscReal)f->unusable);
+  if (spec->law != CONTACT_COULOMB) return;
+  AddNumber_Private(pair, "dissipation", f->friction.dissipation);
+  AddNumber_Private(pair, "max_slip", f->friction.max_slip);
+  AddNumber_Private(pair, "sticking_nodes", (PetscReal)f->friction.sticking);
+  AddNumber_Private(pair, "slipping_nodes", (PetscReal)f->friction.slipping);
 }
 
 /* Pressures that are found, and what they follow: in the objects `pressure`, `volume` and `advance`, by boundary; none where there are none. */

@@ -97,6 +97,23 @@ static PetscErrorCode Cut_Private(Path *p, const PathLoop *load, PetscReal to, c
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* ---- friction, with the other predictor --------------------------------------------------------------------------------------------- */
+
+static PetscBool Slips_Private(const Path *p, const State *guess)
+{
+  return (PetscBool)(!guess && InterfaceSlips(ProblemInterface(p->level->problem)));
+}
+
+static PetscErrorCode Predictor_Private(Path *p, const PathLoop *load, PetscReal to, const State *guess, SolverReport *report)
+{
+  PetscFunctionBegin;
+  PetscCall(Begin_Private(p, NULL));
+  PetscCall(SolverSwapPredictor(p->level->solver, PETSC_TRUE));
+  PetscCall(PathAttempt(p, load, to, report));
+  PetscCall(SolverSwapPredictor(p->level->solver, PETSC_FALSE));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* ---- to an equilibrium farther off ------------------------------------------------------------------------------------------------- */
 
 static PetscBool Always_Private(const Path *p, const State *guess)
@@ -126,6 +143,7 @@ const Recovery PathRecoveries[PATH_RECOVERIES] = {
     {"homotopy", "residual homotopy: the imbalance of a state carried over to another mesh is taken away in pieces", 0, IsCarried_Private, Homotopy_Private},
     {"overlap", "overlap that bodies at rest begin with is taken away in pieces, the deepest place first", 0, IsAtRest_Private, Overlap_Private},
     {"cut", "on another mesh, the way of the load from the accepted state again, in pieces", 0, IsCarried_Private, Cut_Private},
+    {"predictor", "with friction, once more with the other predictor: bodies carried to their new places first, or not", 0, Slips_Private, Predictor_Private},
     {"descent", "down on the energy of contact and bodies, each iterate lower than the one before, to an equilibrium that is not near by", 1, PathCanDescend,
      PathDescend},
     {"viscous", "viscous regularisation: bodies creep to an equilibrium that is not near by, as when they snap", 2, Always_Private, Viscous_Private},

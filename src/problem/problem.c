@@ -203,6 +203,7 @@ PetscErrorCode ProblemSetState(Problem p, const State *s)
   PetscFunctionBegin;
   PetscCall(MechanicsSetHistory(p->mechanics, s->history));
   PetscCall(MechanicsStorePressure(p->mechanics, s->pressure));
+  if (s->num_before) PetscCall(InterfaceSetSlipOrigin(p->interface, s->before));
   PetscCall(ProblemSetForm(p, &s->form));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -461,6 +462,12 @@ PetscErrorCode StateCreate(Problem p, State *s)
   PetscCall(MechanicsNumHistory(p->mechanics, &s->num_history));
   PetscCall(PetscMalloc1(s->num_history, &s->history));
   PetscCall(MechanicsInitialHistory(p->mechanics, s->history));
+  if (InterfaceSlips(p->interface)) {
+    const HPTables *v;
+    PetscCall(HPSpaceGetTables(p->space, &v));
+    s->num_before = v->num_nodes * p->dim;
+    PetscCall(PetscCalloc1(s->num_before, &s->before));
+  }
   s->form       = FormPlain(PETSC_FALSE);
   s->num_leaves = t->num_leaves;
   PetscCall(PetscMalloc1(s->num_leaves, &s->leaf_order));
@@ -474,9 +481,23 @@ PetscErrorCode StateCopy(const State *from, State *to)
   PetscCall(VecCopy(from->x, to->x));
   PetscCall(PetscArraycpy(to->pressure, from->pressure, from->num_pressure));
   PetscCall(PetscArraycpy(to->history, from->history, from->num_history));
+  PetscCall(PetscArraycpy(to->before, from->before, from->num_before));
   PetscCall(PetscArraycpy(to->leaf_order, from->leaf_order, from->num_leaves));
   to->t    = from->t;
   to->form = from->form;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode StateKeepOrigin(Problem p, State *s)
+{
+  PetscReal *local;
+
+  PetscFunctionBegin;
+  if (!s->num_before) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(VecGetArray(p->u_local, &local));
+  PetscCall(ProblemLocalDisplacement(p, s->x, local));
+  PetscCall(PetscArraycpy(s->before, local, s->num_before));
+  PetscCall(VecRestoreArray(p->u_local, &local));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -492,6 +513,7 @@ PetscErrorCode StateCommit(Problem p, State *s)
   PetscCall(MechanicsCommit(p->mechanics, local, s->history, &bad));
   PetscCall(VecRestoreArray(p->u_local, &local));
   PetscCheck(!bad, PETSC_COMM_SELF, PETSC_ERR_ARG_WRONGSTATE, "a state outside the domain cannot be accepted");
+  PetscCall(StateKeepOrigin(p, s));
   PetscCall(ProblemSetState(p, s));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -506,6 +528,7 @@ PetscErrorCode StateAdmit(Problem p, State *s)
   PetscCall(ProblemLocalDisplacement(p, s->x, local));
   PetscCall(MechanicsAdmit(p->mechanics, local, s->history));
   PetscCall(VecRestoreArray(p->u_local, &local));
+  PetscCall(StateKeepOrigin(p, s));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -515,6 +538,7 @@ PetscErrorCode StateDestroy(State *s)
   PetscCall(VecDestroy(&s->x));
   PetscCall(PetscFree(s->pressure));
   PetscCall(PetscFree(s->history));
+  PetscCall(PetscFree(s->before));
   PetscCall(PetscFree(s->leaf_order));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -339,6 +339,33 @@ static PetscErrorCode CheckOverlap_Private(Scene s, const SceneNode *node, const
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Where there is friction, it is the pair's law. */
+static PetscErrorCode CheckFriction_Private(Scene s, const SceneNode *node, ContactEntry *c)
+{
+  const SceneData *d     = &s->data;
+  const SceneNode *given = NodeFind(node, "friction");
+
+  PetscFunctionBegin;
+  if (c->spec.friction == 0) {
+    PetscCheckInput(c->spec.law != CONTACT_COULOMB, "%s: law: coulomb needs a coefficient of friction, a number above 0; friction is 0", NodeWhere(node));
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
+  PetscCheckInput(c->spec.law != CONTACT_PENALTY, "%s is %g: law: penalty has no friction; allowed here: 0, or take the law away", NodeWhere(given),
+                  (double)c->spec.friction);
+  PetscCheckInput(c->spec.law == CONTACT_COULOMB || !NodeFind(node, "law"),
+                  "%s is %g, but the law of this pair is frictionless; allowed here: 0, or take the law away", NodeWhere(given), (double)c->spec.friction);
+  PetscCheckInput(!c->spec.node_to_segment, "%s is %g: node-to-segment contact has no friction; allowed here: 0", NodeWhere(given), (double)c->spec.friction);
+  PetscCheckInput(d->mesh.dim == 2, "%s is %g: friction is not built for three dimensions yet; allowed here: 0", NodeWhere(given), (double)c->spec.friction);
+  PetscCheckInput(d->mechanics.kinematics == KINEMATICS_FINITE, "%s is %g: friction needs kinematics: finite; allowed here: 0", NodeWhere(given),
+                  (double)c->spec.friction);
+  PetscCheckInput(d->load.control == LOAD_TIME, "%s is %g: friction needs load.control: time; allowed here: 0", NodeWhere(given), (double)c->spec.friction);
+  for (PetscInt b = 0; b < s->num_bodies; ++b)
+    PetscCheckInput(!BodyIsLoaded(&s->body[b].spec), "%s is %g: friction is not built yet for scenes with a rigid body that carries loads; allowed here: 0",
+                    NodeWhere(given), (double)c->spec.friction);
+  c->spec.law = CONTACT_COULOMB;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 static PetscErrorCode ReadContact_Private(Scene s, SceneNode *node, ContactEntry *c)
 {
   const SceneNode *stiffness = NodeFind(node, "penalty");
@@ -358,7 +385,7 @@ static PetscErrorCode ReadContact_Private(Scene s, SceneNode *node, ContactEntry
                   "%s is the stiffness of law: penalty, but the law of this pair is frictionless, without overlaps and so without a stiffness; take "
                   "penalty away, or set law: penalty",
                   NodeWhere(stiffness));
-  PetscCheckInput(c->spec.friction == 0, "%s is %g: friction is not built yet; allowed: 0", NodeWhere(NodeFind(node, "friction")), (double)c->spec.friction);
+  PetscCall(CheckFriction_Private(s, node, c));
   PetscCall(SceneFindPoint(s, node, c->moment_about, c->spec.about));
   PetscCall(CheckOverlap_Private(s, node, c));
   PetscCheckInput(!strchr(node->key, '/'), "%s: the name of a pair has no '/' in it", NodeWhere(node));

@@ -46,6 +46,7 @@ struct _p_Solver {
   PetscBool     single;          /* factors are in single precision */
   PetscBool     test;            /* -snes_test_jacobian was given */
   uint64_t     *pass_sets;       /* owned [passes+1] hashes of the active sets of the passes of one linearisation */
+  PetscBool     swap;            /* SolverSwapPredictor */
   PetscReal     first_norm;      /* residual after the first iteration */
   PetscReal     best_norm;       /* least residual of this solve … */
   PetscInt      best_iter;       /* … and its iteration */

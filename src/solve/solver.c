@@ -203,6 +203,13 @@ PetscErrorCode SolverCreate(Problem problem, Solver *solver)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscErrorCode SolverSwapPredictor(Solver s, PetscBool swap)
+{
+  PetscFunctionBegin;
+  s->swap = swap;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode SolverDestroy(Solver *solver)
 {
   Solver s = *solver;

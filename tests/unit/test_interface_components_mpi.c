@@ -24,7 +24,7 @@ static void Companions(const ContactPoint *p, PetscBool symmetric, ContactRow ro
   }
 }
 
-static const ContactLawOps Law           = {"companions", PETSC_FALSE, Three, Pressed, Companions};
+static const ContactLawOps Law           = {.name = "companions", .num_multipliers = Three, .state = Pressed, .rows = Companions};
 const ContactLawOps *const ContactLaws[] = {&Law, NULL};
 
 /* Packed and unpacked it is what it was. */

@@ -21,6 +21,7 @@ static void Names(void **state)
   assert_string_equal(o->range, words);
   assert_string_equal(ContactLaws[CONTACT_FRICTIONLESS]->name, "frictionless");
   assert_string_equal(ContactLaws[CONTACT_PENALTY]->name, "penalty");
+  assert_string_equal(ContactLaws[CONTACT_COULOMB]->name, "coulomb");
 }
 
 /* A node whose gap, weight and multiplier change with s. */
@@ -46,7 +47,7 @@ static void Derivatives(void **state)
 {
   const PetscReal h = 1e-4;
 
-  for (int law = 0; ContactLaws[law]; ++law) {
+  for (int law = 0; ContactLaws[law]->symmetric; ++law) {
     const ContactSpec spec = {.law = (ContactLaw)law, .penalty = 20};
     for (int open = 0; open < 2; ++open) {
       const PetscReal    gap = open ? 0.3 : -0.01, difference = (Residual(&spec, gap, h) - Residual(&spec, gap, -h)) / (2 * h);
@@ -63,8 +64,39 @@ static void Derivatives(void **state)
   }
 }
 
+/* Coulomb: states, rows as derivatives of the projection form, and no way from slip to slip the other way but by stick. */
+static void Friction(void **state)
+{
+  static const PetscReal Slip[3] = {0, -0.3, 0.3}, q[3] = {0.05, 0.2, -0.2};
+  const ContactSpec      spec = {.law = CONTACT_COULOMB, .friction = 0.4};
+  const ContactLawOps   *law  = ContactLaws[CONTACT_COULOMB];
+
+  (void)state;
+  for (int k = 0; k < 3; ++k) {
+    ContactPoint p = {.spec = &spec, .z = {0.5, q[k]}, .gap = 0, .weight = 0.4, .w0 = 0.5, .c = 3, .slip = Slip[k], .slip_weight = 0.3};
+    ContactRow   row[MOST_MULTIPLIERS];
+
+    p.state = law->state(&p);
+    assert_int_equal(p.state, k + 1);
+    assert_int_equal(law->slides(p.state), k == 1 ? 1 : k == 2 ? -1 : 0);
+    law->rows(&p, PETSC_FALSE, row);
+    assert_near(row[1].side, k == 0 ? 0 : -0.5 * (q[k] - (k == 1 ? 0.2 : -0.2)), 1e-14);
+    assert_near(row[1].slip ? row[1].factor : row[1].z[1], k == 0 ? 0.5 * 3 / 0.3 : 0.5, 1e-14);
+    assert_near(row[1].z[0], k == 0 ? 0 : k == 1 ? -0.2 : 0.2, 1e-14);
+    if (k == 0) continue;
+    p.slip = -p.slip, p.z[1] = -p.z[1]; /* now it would slip the other way */
+    assert_int_equal(law->state(&p), 1);
+    p.state = 0;
+    assert_int_equal(law->state(&p), 4 - k);
+    p.slip_weight = 0; /* it met nothing where the step began */
+    assert_int_equal(law->slides(law->state(&p)), 0);
+    p.gap = 1;
+    assert_int_equal(law->state(&p), 0);
+  }
+}
+
 int main(int argc, char **argv)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(Names), cmocka_unit_test(Derivatives)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(Names), cmocka_unit_test(Derivatives), cmocka_unit_test(Friction)};
   return cmocka_run_group_tests_name("interface: contact laws", tests, NULL, NULL);
 }

@@ -156,7 +156,7 @@ def test_good_on_two_ranks(check):
     (("friction: 0", "order: full, subdivide: auto"), ["contact.pair.subdivide is auto, but faces of full order need no finer layer"]),
     (("friction: 0", "subdivide: auto"), None),
     # not built yet
-    (("friction: 0", "friction: 0.3"), ["contact.pair.friction is 0.3", "not built yet"]),
+    (("friction: 0", "friction: 0.3, law: penalty, penalty: 1"), ["contact.pair.friction is 0.3", "law: penalty has no friction"]),
     (("friction: 0", "projection: facet"), ["contact.pair.projection is not a key"]),
     (("friction: 0", "law: penalty"), ["contact.pair.penalty must be given", "stiffness"]),
     (("friction: 0", "penalty: 5"), ["contact.pair.penalty is the stiffness of law: penalty", "frictionless"]),

@@ -385,6 +385,7 @@ static PetscErrorCode Facet_Private(const EvaluateContext *ctx, PetscInt slot, C
   if (*failed || w->num_overlaps == 0) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(Nodes_Private(ctx, facet));
   for (PetscInt r = 0; r < w->result.num_rows && ctx->z; r++) loaded = (PetscBool)(loaded || ctx->z[w->result.node[r]] != 0);
+  loaded      = (PetscBool)(loaded || ContactSlipLoads(ctx));
   derivatives = ContactResultDerivatives(ctx, w->result.num_rows, w->result.node, loaded);
   if (ctx->again && !pair->held && out->dgap && !out->dshare && w->first_place[slot] >= 0) { /* nothing else is missing */
     w->places = w->place + w->first_place[slot];
@@ -407,6 +408,7 @@ static PetscErrorCode Facet_Private(const EvaluateContext *ctx, PetscInt slot, C
   out->dgap = out->dweight = out->dshare = out->push = out->hessian = NULL;
   if (derivatives) PetscCall(Derivatives_Private(ctx, facet, out));
   if (derivatives && ctx->hessian && loaded && !pair->held) PetscCall(Curve_Private(ctx, facet, out));
+  PetscCall(ContactSlipFacet(ctx, facet, derivatives, out));
   *use = PETSC_TRUE;
   PetscFunctionReturn(PETSC_SUCCESS);
 }

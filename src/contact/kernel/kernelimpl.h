@@ -340,6 +340,11 @@ PetscErrorCode ContactRayMortarTopology(RayWork, const ContactSurface *mortar);
 PetscErrorCode ContactRayEvaluate(const EvaluateContext *, PetscBool *failed);
 PetscErrorCode ContactRayWorkDestroy(RayWork *);
 
+/* slip.c: of the facet at hand. Does a tangential traction act on it? */
+PetscBool ContactSlipLoads(const EvaluateContext *);
+/* After its moments, for the result `out`: its points, where they are to be kept; forces by tangential tractions, and their part of the Hessian. */
+PetscErrorCode ContactSlipFacet(const EvaluateContext *, PetscInt facet, PetscBool derivatives, ContactFacet *out);
+
 /* region.c */
 typedef struct {
   PetscReal box[6], axis[3][3], lo[3], hi[3], slack;

@@ -30,4 +30,5 @@ static void Rows_Private(const ContactPoint *p, PetscBool symmetric, ContactRow 
   ContactCompliantRow_Private(p, p->spring, 0, symmetric, row);
 }
 
-const ContactLawOps ContactFrictionless = {"frictionless", PETSC_TRUE, ContactOneMultiplier_Private, State_Private, Rows_Private};
+const ContactLawOps ContactFrictionless = {
+    .name = "frictionless", .symmetric = PETSC_TRUE, .num_multipliers = ContactOneMultiplier_Private, .state = State_Private, .rows = Rows_Private};

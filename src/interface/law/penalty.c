@@ -11,4 +11,5 @@ static void Rows_Private(const ContactPoint *p, PetscBool symmetric, ContactRow 
   ContactCompliantRow_Private(p, p->spring + p->weight / p->spec->penalty, 1 / p->spec->penalty, symmetric, row);
 }
 
-const ContactLawOps ContactPenalty = {"penalty", PETSC_TRUE, ContactOneMultiplier_Private, State_Private, Rows_Private};
+const ContactLawOps ContactPenalty = {
+    .name = "penalty", .symmetric = PETSC_TRUE, .num_multipliers = ContactOneMultiplier_Private, .state = State_Private, .rows = Rows_Private};

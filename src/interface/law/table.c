@@ -1,6 +1,6 @@
 /* The contact laws, in the order of the words of contact.<pair>.law. */
 #include "interfaceimpl.h"
 
-extern const ContactLawOps ContactFrictionless, ContactPenalty;
+extern const ContactLawOps ContactFrictionless, ContactPenalty, ContactCoulomb;
 
-const ContactLawOps *const ContactLaws[] = {&ContactFrictionless, &ContactPenalty, NULL};
+const ContactLawOps *const ContactLaws[] = {&ContactFrictionless, &ContactPenalty, &ContactCoulomb, NULL};

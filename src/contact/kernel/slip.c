@@ -1,0 +1,482 @@
+/* Friction (docs/theory.md, 5, plane and axisymmetric): forces of tangential tractions, and the slip since the pair's points were kept.
+
+   Forces. S_j(y; x) = int psi_j y,xi . (y_m(eta) - y(xi)) rho dxi, points, bounds, eta, psi and rho of x, positions y: f = sum_j z_j dS_j/dy at y = x. By the
+   facet's numbers, with R = x_m - x and t = x,xi, the density is  h_a = N_a,xi R - N_a t  of a node of its lattice,  h_b = M_b t  of a mortar node. Its change
+   is that of the numbers at fixed xi, where deta = zeta . (N_a dx_a + s V_v dd_v - M_b dy_b), of the point's place, which goes with the ends of the overlap,
+   and of psi with the covered share.
+
+   Slip. Points q of the pair at the positions x0 where they were kept, with A_jq = psi_j dgamma_q:
+     s_j(x) = sum_q A_jq [ t.r(x) - t.r(x0) ],   t = x,xi / |x,xi|,   r = x_m(eta_q) - x(xi_q). */
+#include "kernelimpl.h"
+
+typedef struct {
+  PetscInt  facet;
+  PetscReal xi, eta;
+} Point; /* facet: of the mortar side */
+
+typedef struct {
+  PetscInt facet, num_rows, num_points, row, point, value; /* where its rows, points and values A[points][rows] begin */
+} Kept;
+
+struct ContactSlip {
+  PetscInt      num_kept, num_rows, num_points, num_values, size_kept, size_row, size_weight, size_start, size_point, size_A;
+  Kept         *kept;
+  PetscInt     *row;            /* nodes */
+  PetscReal    *weight, *start; /* by rows: sum_q A_jq, sum_q A_jq t.r(x0) */
+  Point        *point;
+  PetscReal    *A;
+  Result        result;
+  ContactFacet *facet; /* [num_kept] */
+  PetscInt     *ids, num_ids, size_facet, size_ids;
+};
+
+PetscErrorCode ContactSlipDestroy(struct ContactSlip **slip)
+{
+  struct ContactSlip *s = *slip;
+
+  PetscFunctionBegin;
+  if (!s) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(ContactResultDestroy(&s->result));
+  PetscCall(PetscFree(s->kept));
+  PetscCall(PetscFree(s->row));
+  PetscCall(PetscFree(s->weight));
+  PetscCall(PetscFree(s->start));
+  PetscCall(PetscFree(s->point));
+  PetscCall(PetscFree(s->A));
+  PetscCall(PetscFree(s->facet));
+  PetscCall(PetscFree(s->ids));
+  PetscCall(PetscFree(*slip));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode ContactPairSetTraction(ContactPair pair, const PetscReal traction[])
+{
+  PetscFunctionBegin;
+  PetscCheck(pair->dim == 2, PETSC_COMM_SELF, PETSC_ERR_SUP, "tangential tractions in space");
+  pair->traction     = traction;
+  pair->state.stands = PETSC_FALSE;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- functions of the facet at hand ------------------------------------------------------------------------------------------------ */
+
+/* Weights y of the functions of the lattice in sum_r z_r psi_r, and how they change with the covered share. */
+typedef struct {
+  PetscReal y[RAY_LATTICE], dy[RAY_LATTICE];
+} Functions;
+
+static void Functions_Private(const EvaluateContext *ctx, Functions *o)
+{
+  const RayWork    w  = ctx->pair->ray;
+  const PetscInt   na = w->facet.s.num, nr = w->result.num_rows;
+  const PetscReal *z = ctx->pair->traction;
+
+  for (PetscInt a = 0; a < na; a++) {
+    o->y[a] = o->dy[a] = 0;
+    for (PetscInt r = 0; r < nr && z; r++) {
+      o->y[a] += z[w->result.node[r]] * w->T[r * na + a];
+      o->dy[a] += z[w->result.node[r]] * w->T[(nr + r) * na + a];
+    }
+  }
+}
+
+PetscBool ContactSlipLoads(const EvaluateContext *ctx)
+{
+  const RayWork w = ctx->pair->ray;
+
+  for (PetscInt r = 0; r < w->result.num_rows && ctx->pair->traction; r++)
+    if (ctx->pair->traction[w->result.node[r]] != 0) return PETSC_TRUE;
+  return PETSC_FALSE;
+}
+
+/* ---- forces ------------------------------------------------------------------------------------------------------------------------ */
+
+/* Sums over a facet. Rows: numbers of the nodes that forces act on, those of the lattice and of the mortar nodes; columns: all numbers. */
+typedef struct {
+  PetscInt   rows, n;
+  PetscReal *F; /* [lattice][rows] by the functions */
+  PetscReal *K; /* [rows][n] of their sum weighted with y; NULL: not wanted */
+} Sums;
+
+/* Density of the forces h[2][na + nb], at a point, and its slope along the facet. */
+static void Density_Private(const RayFacet *f, const RayLattice *mortar, const RayPoint *r, PetscReal h[2][2 * RAY_LATTICE],
+                            PetscReal along[2][2 * RAY_LATTICE])
+{
+  PetscReal R[3], Ri[3], *t = (PetscReal *)r->t[0], etai = 0;
+
+  for (int c = 0; c < 2; c++) etai += r->zeta[0][c] * (t[c] + r->s * r->di[0][c]);
+  for (int c = 0; c < 2; c++) {
+    R[c]  = r->X[c] - r->p[c];
+    Ri[c] = r->Xi[0][c] * etai - t[c];
+    for (PetscInt a = 0; a < f->s.num; a++) {
+      h[c][a]     = r->S.d[0][a] * R[c] - r->S.N[a] * t[c];
+      along[c][a] = r->S.dd[0][a] * R[c] + r->S.d[0][a] * (Ri[c] - t[c]) - r->S.N[a] * r->tt[0][c];
+    }
+    for (PetscInt b = 0; b < mortar->num; b++) {
+      h[c][f->s.num + b]     = r->M.N[b] * t[c];
+      along[c][f->s.num + b] = r->M.d[0][b] * etai * t[c] + r->M.N[b] * r->tt[0][c];
+    }
+  }
+}
+
+/* K += weight times the change of phi rho h by number (node, component e) of a group: of the lattice, the directions or the mortar nodes. */
+static void Change_Private(const RayFacet *f, const RayLattice *mortar, const RayPoint *r, int group, PetscInt node, int e, PetscReal weight,
+                           PetscReal h[2][2 * RAY_LATTICE], const PetscInt row[], PetscInt column, Sums *s)
+{
+  const PetscInt   na    = f->s.num;
+  const PetscReal *t     = r->t[0];
+  const PetscReal  value = group == 0 ? r->S.N[node] : group == 1 ? r->s * r->V.N[node] : -r->M.N[node], deta = r->zeta[0][e] * value;
+  const PetscReal  ring = group == 0 && e == 0 ? weight * r->turn * value : 0;
+  PetscReal        dR[2], dt[2] = {0, 0};
+
+  for (int c = 0; c < 2; c++) dR[c] = r->Xi[0][c] * deta;
+  if (group != 1) dR[e] -= value;
+  if (group == 0) dt[e] = r->S.d[0][node];
+  weight *= r->rho;
+  for (int c = 0; c < 2; c++) {
+    for (PetscInt a = 0; a < na; a++) s->K[row[2 * a + c] * s->n + column] += weight * (r->S.d[0][a] * dR[c] - r->S.N[a] * dt[c]) + ring * h[c][a];
+    for (PetscInt b = 0; b < mortar->num; b++)
+      s->K[row[2 * (na + b) + c] * s->n + column] += weight * (r->M.d[0][b] * deta * t[c] + r->M.N[b] * dt[c]) + ring * h[c][na + b];
+  }
+}
+
+/* row[2 (na + nb)], by node and component: among the rows of the sums; column[]: of the overlap's numbers among the facet's (ContactRayPlaces). */
+static void Rows_Private(const RayFacet *f, PetscInt nb, const PetscInt column[], PetscInt row[])
+{
+  const PetscInt na = f->s.num, D = f->D;
+
+  for (int c = 0; c < 2; c++) {
+    for (PetscInt a = 0; a < na; a++) row[2 * a + c] = column[c * na + a];
+    for (PetscInt b = 0; b < nb; b++) row[2 * (na + b) + c] = column[D * (na + f->nv) + c * nb + b] - D * f->nv;
+  }
+}
+
+static PetscErrorCode Overlap_Private(RayWork w, const ContactSurface *surface, PetscInt k, const PetscReal y[], const RayPlace **place, Sums *s)
+{
+  const RayFacet *f = &w->facet;
+  const Overlap  *o = &w->overlap[k];
+  const PetscInt  D = f->D, na = f->s.num;
+  PetscInt        column[3 * (2 * RAY_LATTICE + 4) + RAY_IMAGES], row[4 * RAY_LATTICE], points;
+  PetscReal       h[2][2 * RAY_LATTICE], along[2][2 * RAY_LATTICE];
+  RayLattice      mortar;
+  RayMove         move[FACET_VERTICES];
+  RaySimplex      interval;
+  const PetscReal(*point)[3], *weight;
+
+  PetscFunctionBegin;
+  ContactRayLatticeGather(surface, w->mortar[k], &mortar);
+  ContactRayPlaces(w, surface, k, mortar.num, column);
+  Rows_Private(f, mortar.num, column, row);
+  ContactRayMoves(f, o, move);
+  ContactRaySimplex(f, o, 0, &interval);
+  PetscCall(ContactRayRule(f, o, mortar.order, &points, &point, &weight));
+  for (PetscInt q = 0; q < points; q++, (*place)++) {
+    const PetscReal W   = interval.size * weight[q];
+    PetscReal       phi = 0, phi_xi = 0;
+    RayPoint        r;
+
+    PetscCheck(ContactRayAgain(f, &mortar, *place, 2, &r), PETSC_COMM_SELF, PETSC_ERR_PLIB, "a ray that met the mortar facet does not meet it again");
+    Density_Private(f, &mortar, &r, h, along);
+    for (PetscInt i = 0; i < na; i++) {
+      phi += y[i] * r.S.N[i];
+      phi_xi += y[i] * r.S.d[0][i];
+      for (PetscInt a = 0; a < na + mortar.num; a++)
+        for (int c = 0; c < 2; c++) s->F[i * s->rows + row[2 * a + c]] += W * r.S.N[i] * r.rho * h[c][a];
+    }
+    if (!s->K) continue;
+    for (int e = 0; e < 2; e++) {
+      for (PetscInt a = 0; a < na; a++) Change_Private(f, &mortar, &r, 0, a, e, W * phi, h, row, column[e * na + a], s);
+      for (PetscInt v = 0; v < f->nv; v++) Change_Private(f, &mortar, &r, 1, v, e, W * phi, h, row, column[D * na + e * f->nv + v], s);
+      for (PetscInt b = 0; b < mortar.num; b++) Change_Private(f, &mortar, &r, 2, b, e, W * phi, h, row, column[D * (na + f->nv) + e * mortar.num + b], s);
+    }
+    for (PetscInt l = 0; l < 2; l++) { /* images */
+      PetscReal dxi = 0, dsize = 0;
+
+      for (int v = 0; v < 2; v++) {
+        dxi += point[q][v] * move[interval.corner[v]].d[0][l];
+        dsize += interval.d[v] * move[interval.corner[v]].d[0][l];
+      }
+      const PetscReal on = weight[q] * dsize * phi * r.rho + W * dxi * (phi_xi * r.rho + phi * r.turn * r.t[0][0]), slope = W * dxi * phi * r.rho;
+
+      for (PetscInt a = 0; a < na + mortar.num; a++)
+        for (int c = 0; c < 2; c++) s->K[row[2 * a + c] * s->n + column[D * (na + f->nv + mortar.num) + l]] += on * h[c][a] + slope * along[c][a];
+    }
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* to[D masters] of a row of nodes: v < na of the lattice, then mortar nodes. */
+static void Masters_Private(const RayWork w, PetscInt stride, const PetscReal from[], PetscInt ld, PetscReal to[])
+{
+  const PetscInt D = w->facet.D;
+
+  for (PetscInt v = 0; v < w->facet.s.num + w->num_mortar; v++)
+    for (PetscInt k = w->result.row_first[v]; k < w->result.row_first[v + 1]; k++)
+      for (PetscInt c = 0; c < D; c++)
+        for (PetscInt j = 0; j < stride; j++) to[(D * w->result.row_node[k] + c) * ld + j] += w->result.row_weight[k] * from[(D * v + c) * stride + j];
+}
+
+/* H += the change of the forces, rows: forces. */
+static PetscErrorCode Tangent_Private(RayWork w, const Sums *s, const Functions *o, PetscReal H[])
+{
+  const PetscInt   n = s->n, rows = s->rows, nn = w->nn;
+  const PetscReal *dshare = w->dq + 2 * w->facet.s.num * n;
+  PetscReal       *X, *to;
+
+  PetscFunctionBegin;
+  for (PetscInt a = 0; a < w->facet.s.num && w->share.part; a++)
+    for (PetscInt i = 0; i < rows; i++)
+      for (PetscInt j = 0; j < n; j++) s->K[i * n + j] += s->F[a * rows + i] * o->dy[a] * dshare[j];
+  ContactImagesFold(w, rows, s->K, n);
+  PetscCall(PetscCalloc2(n * rows, &X, rows * nn, &to));
+  for (PetscInt i = 0; i < rows; i++)
+    for (PetscInt j = 0; j < n; j++) X[j * rows + i] = s->K[i * n + j];
+  ContactRayChainImages(w, rows, X);
+  ContactRayChainNodes(w, rows, X, to);
+  Masters_Private(w, nn, to, nn, H);
+  PetscCall(PetscFree2(X, to));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode Forces_Private(const EvaluateContext *ctx, const Functions *o, ContactFacet *out)
+{
+  RayWork         w  = ctx->pair->ray;
+  const PetscInt  na = w->facet.s.num, nr = w->result.num_rows;
+  const RayPlace *place = w->places;
+  Sums            s     = {.rows = w->facet.D * (na + w->num_mortar), .n = w->n};
+  PetscReal      *shear, *row;
+
+  PetscFunctionBegin;
+  PetscCall(PetscCalloc3(na * s.rows, &s.F, s.rows * (out->hessian ? s.n : 0), &s.K, s.rows, &row));
+  if (!out->hessian) s.K = NULL;
+  for (PetscInt k = 0; k < w->num_overlaps; k++) PetscCall(Overlap_Private(w, ctx->mortar, k, o->y, &place, &s));
+  PetscCall(ContactStoreReserve(&w->result.store, nr * w->nn, &shear));
+  for (PetscInt r = 0; r < nr; r++) {
+    PetscCall(PetscArrayzero(row, s.rows));
+    for (PetscInt a = 0; a < na; a++)
+      for (PetscInt i = 0; i < s.rows; i++) row[i] += w->T[r * na + a] * s.F[a * s.rows + i];
+    Masters_Private(w, 1, row, 1, shear + r * w->nn);
+  }
+  out->shear = shear;
+  if (s.K) PetscCall(Tangent_Private(w, &s, o, (PetscReal *)out->hessian));
+  PetscCall(PetscFree3(s.F, s.K, row));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- points kept ------------------------------------------------------------------------------------------------------------------- */
+
+static PetscErrorCode KeepPoints_Private(const EvaluateContext *ctx, struct ContactSlip *s, Kept *kept)
+{
+  RayWork         w     = ctx->pair->ray;
+  const RayFacet *f     = &w->facet;
+  const PetscInt  nr = kept->num_rows, na = f->s.num;
+  const RayPlace *place = w->places;
+
+  PetscFunctionBegin;
+  for (PetscInt k = 0; k < w->num_overlaps; k++) {
+    const Overlap *overlap = &w->overlap[k];
+    PetscInt       points;
+    RayLattice     mortar;
+    RaySimplex     interval;
+    const PetscReal(*point)[3], *weight;
+
+    ContactRayLatticeGather(ctx->mortar, w->mortar[k], &mortar);
+    ContactRaySimplex(f, overlap, 0, &interval);
+    PetscCall(ContactRayRule(f, overlap, mortar.order, &points, &point, &weight));
+    PetscCall(ContactGrow(s->num_points + points, sizeof(Point), &s->size_point, &s->point));
+    PetscCall(ContactGrow(s->num_values + points * nr, sizeof(PetscReal), &s->size_A, &s->A));
+    for (PetscInt q = 0; q < points; q++, place++) {
+      PetscReal dgamma, along = 0, *A = s->A + s->num_values;
+      RayPoint  r;
+
+      PetscCheck(ContactRayAgain(f, &mortar, place, 2, &r), PETSC_COMM_SELF, PETSC_ERR_PLIB, "a ray that met the mortar facet does not meet it again");
+      dgamma = interval.size * weight[q] * ContactRayArea(&r);
+      for (int c = 0; c < 2; c++) along += r.t[0][c] / r.a * (r.X[c] - r.p[c]);
+      for (PetscInt j = 0; j < nr; j++) {
+        A[j] = 0;
+        for (PetscInt i = 0; i < na; i++) A[j] += w->T[j * na + i] * r.S.N[i] * dgamma;
+        s->weight[kept->row + j] += A[j];
+        s->start[kept->row + j] += A[j] * along;
+      }
+      s->point[s->num_points++] = (Point){w->mortar[k], r.xi[0], r.eta[0]};
+      s->num_values += nr;
+    }
+  }
+  kept->num_points = s->num_points - kept->point;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode Keep_Private(const EvaluateContext *ctx, PetscInt facet)
+{
+  RayWork             w  = ctx->pair->ray;
+  struct ContactSlip *s  = ctx->pair->slip;
+  const PetscInt      nr = w->result.num_rows;
+  Kept               *kept;
+
+  PetscFunctionBegin;
+  PetscCall(ContactGrow(s->num_kept + 1, sizeof(Kept), &s->size_kept, &s->kept));
+  PetscCall(ContactGrow(s->num_rows + nr, sizeof(PetscInt), &s->size_row, &s->row));
+  PetscCall(ContactGrow(s->num_rows + nr, sizeof(PetscReal), &s->size_weight, &s->weight));
+  PetscCall(ContactGrow(s->num_rows + nr, sizeof(PetscReal), &s->size_start, &s->start));
+  kept  = &s->kept[s->num_kept++];
+  *kept = (Kept){.facet = facet, .num_rows = nr, .row = s->num_rows, .point = s->num_points, .value = s->num_values};
+  for (PetscInt j = 0; j < nr; j++) {
+    s->row[s->num_rows + j]    = w->result.node[j];
+    s->weight[s->num_rows + j] = s->start[s->num_rows + j] = 0;
+  }
+  s->num_rows += nr;
+  PetscCall(KeepPoints_Private(ctx, s, kept));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode ContactSlipFacet(const EvaluateContext *ctx, PetscInt facet, PetscBool derivatives, ContactFacet *out)
+{
+  ContactPair pair = ctx->pair;
+  Functions   o;
+
+  PetscFunctionBegin;
+  out->shear = NULL;
+  if (!pair->traction && !pair->keeps) PetscFunctionReturn(PETSC_SUCCESS);
+  if (pair->keeps) PetscCall(Keep_Private(ctx, facet));
+  if (!pair->traction || !derivatives) PetscFunctionReturn(PETSC_SUCCESS);
+  Functions_Private(ctx, &o);
+  PetscCall(Forces_Private(ctx, &o, out));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode ContactPairKeepPoints(ContactPair pair, const ContactSurface *nonmortar, const ContactSurface *mortar, PetscBool *failed)
+{
+  const ContactFacet *facets;
+  struct ContactSlip *s;
+  PetscInt            num;
+
+  PetscFunctionBegin;
+  if (!pair->slip) PetscCall(PetscNew(&pair->slip));
+  s           = pair->slip;
+  s->num_kept = s->num_rows = s->num_points = s->num_values = 0;
+  pair->keeps                                               = PETSC_TRUE;
+  pair->state.stands                                        = PETSC_FALSE;
+  PetscCall(ContactPairEvaluate(pair, nonmortar, mortar, NULL, NULL, PETSC_FALSE, PETSC_FALSE, &num, &facets, failed));
+  pair->keeps = pair->state.stands = PETSC_FALSE;
+  if (*failed) s->num_kept = s->num_rows = s->num_points = s->num_values = 0;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- slip -------------------------------------------------------------------------------------------------------------------------- */
+
+/* gradient[nn] += factor f, a function of the vertex' nodes, in direction v. */
+static void Add_Private(const Result *r, PetscInt vertex, PetscInt D, PetscReal f, const PetscReal v[], PetscReal gradient[])
+{
+  for (PetscInt k = r->row_first[vertex]; k < r->row_first[vertex + 1]; k++)
+    for (PetscInt c = 0; c < D; c++) gradient[D * r->row_node[k] + c] += r->row_weight[k] * f * v[c];
+}
+
+/* Nodes of a kept facet's result: rows, its lattice, the lattices of the mortar facets it met: vertices, first[k] the first of point k's facet. */
+static PetscErrorCode Vertices_Private(struct ContactSlip *s, const Kept *kept, const ContactSurface *nonmortar, const ContactSurface *mortar, PetscInt first[])
+{
+  const PetscInt *node;
+  PetscInt        order1[4], num = 0, vertex = 0, place;
+  Result         *r = &s->result;
+
+  PetscFunctionBegin;
+  r->num_nodes = 0;
+  for (PetscInt j = 0; j < kept->num_rows; j++) PetscCall(ContactResultNode(r, s->row[kept->row + j], &place));
+  for (PetscInt k = -1; k < kept->num_points; k++) {
+    const ContactSurface *side  = k < 0 ? nonmortar : mortar;
+    const PetscInt        facet = k < 0 ? kept->facet : s->point[kept->point + k].facet;
+    PetscInt              nodes;
+
+    if (k > 0 && facet == s->point[kept->point + k - 1].facet) {
+      first[k] = first[k - 1];
+      continue;
+    }
+    if (k >= 0) first[k] = vertex;
+    nodes = ContactFacetLattice(side, facet, &node, order1) + 1;
+    PetscCall(ContactGrow(vertex + nodes + 1, sizeof(PetscInt), &r->size_row_first, &r->row_first));
+    for (PetscInt a = 0; a < nodes; a++, vertex++) PetscCall(ContactResultRow(r, side, node[a], (PetscBool)(k >= 0), vertex, &num));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode Slip_Private(struct ContactSlip *s, const Kept *kept, const ContactSurface *nonmortar, const ContactSurface *mortar, ContactFacet *out)
+{
+  const PetscInt D = nonmortar->dim, nr = kept->num_rows;
+  PetscInt      *first, nn, vertices = 0;
+  PetscReal     *slip, *gradient, *row;
+  RayLattice     own, other;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(kept->num_points + 1, &first));
+  PetscCall(Vertices_Private(s, kept, nonmortar, mortar, first));
+  nn = D * s->result.num_nodes;
+  PetscCall(ContactStoreReserve(&s->result.store, nr + nr * nn, &slip));
+  gradient = slip + nr;
+  PetscCall(PetscMalloc1(nn, &row));
+  ContactRayLatticeGather(nonmortar, kept->facet, &own);
+  vertices = own.num;
+  for (PetscInt j = 0; j < nr; j++) slip[j] = -s->start[kept->row + j];
+  for (PetscInt q = 0; q < kept->num_points; q++) {
+    const Point     *p = &s->point[kept->point + q];
+    const PetscReal *A = s->A + kept->value + q * nr, xi[2] = {p->xi, 0}, eta[2] = {p->eta, 0};
+    PetscReal        x[3], X[3], t[3], along = 0, across[3], length;
+    RayFunctions     N, M;
+
+    ContactRayLatticeGather(mortar, p->facet, &other);
+    ContactRayFunctions(1, own.order, xi, 1, &N);
+    ContactRayFunctions(1, other.order, eta, 0, &M);
+    ContactRayLatticeSum(&own, N.N, x);
+    ContactRayLatticeSum(&own, N.d[0], t);
+    ContactRayLatticeSum(&other, M.N, X);
+    length = PetscSqrtReal(t[0] * t[0] + t[1] * t[1]);
+    for (int c = 0; c < 2; c++) t[c] /= length;
+    for (int c = 0; c < 2; c++) along += t[c] * (X[c] - x[c]);
+    for (int c = 0; c < 2; c++) across[c] = (X[c] - x[c] - along * t[c]) / length;
+    PetscCall(PetscArrayzero(row, nn));
+    for (PetscInt a = 0; a < vertices; a++) {
+      Add_Private(&s->result, a, D, -N.N[a], t, row);
+      Add_Private(&s->result, a, D, N.d[0][a], across, row);
+    }
+    for (PetscInt b = 0; b < other.num; b++) Add_Private(&s->result, first[q] + b, D, M.N[b], t, row);
+    for (PetscInt j = 0; j < nr; j++) {
+      slip[j] += A[j] * along;
+      for (PetscInt i = 0; i < nn; i++) gradient[j * nn + i] += A[j] * row[i];
+    }
+  }
+  PetscCall(PetscMemzero(out, sizeof(*out)));
+  out->facet    = kept->facet;
+  out->num_rows = nr;
+  out->num      = s->result.num_nodes;
+  out->gap      = slip;
+  out->weight   = s->weight + kept->row;
+  out->dgap     = gradient;
+  PetscCall(PetscFree(row));
+  PetscCall(PetscFree(first));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode ContactPairSlip(ContactPair pair, const ContactSurface *nonmortar, const ContactSurface *mortar, PetscInt *num, const ContactFacet **facets)
+{
+  struct ContactSlip *s = pair->slip;
+
+  PetscFunctionBegin;
+  *num    = 0;
+  *facets = NULL;
+  if (!s) PetscFunctionReturn(PETSC_SUCCESS);
+  s->result.store.at = s->result.store.used = 0;
+  s->num_ids                                = 0;
+  PetscCall(ContactGrow(s->num_kept, sizeof(ContactFacet), &s->size_facet, &s->facet));
+  for (PetscInt i = 0; i < s->num_kept; i++) {
+    PetscCall(Slip_Private(s, &s->kept[i], nonmortar, mortar, &s->facet[i]));
+    PetscCall(ContactGrow(s->num_ids + s->facet[i].num, sizeof(PetscInt), &s->size_ids, &s->ids));
+    PetscCall(PetscArraycpy(s->ids + s->num_ids, s->result.node, s->facet[i].num));
+    s->num_ids += s->facet[i].num;
+  }
+  s->num_ids = 0; /* the array is where it stays now */
+  for (PetscInt i = 0; i < s->num_kept; i++) {
+    s->facet[i].nodes = s->ids + s->num_ids;
+    s->num_ids += s->facet[i].num;
+  }
+  *num    = s->num_kept;
+  *facets = s->facet;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

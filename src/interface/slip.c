@@ -1,0 +1,173 @@
+/* Slip of a step, for laws with friction. Points of the pair are kept where the state was accepted last (ContactPairKeepPoints); how far they have moved along
+   the surface since then is a function of the positions alone (docs/theory.md, 5). Each rank keeps the points of the nonmortar facets that it evaluates, and
+   links of their own bring it the positions of their partners, wherever those have gone. */
+#include "interfaceimpl.h"
+
+/* A node that a support holds along the surface, as in a plane of symmetry, begins every step without partners, and so without traction: nothing of its own
+   would answer it. Nodes of rigid bodies are not held: the other side moves. */
+static PetscErrorCode Held_Private(Interface p, Contact *c)
+{
+  const Surface      *s = &c->side[0];
+  const ForestTables *t;
+
+  PetscFunctionBegin;
+  PetscCall(ForestGetTables(p->forest, &t));
+  for (PetscInt n = 0; n < s->num_nodes; ++n) {
+    const PetscBool rigid = p->spec->bodies[t->leaf_body[s->facet_leaf[s->node_facet[s->node_first[n]]]]].material->law->rigid;
+    c->slip->held[n]      = (PetscBool)(!rigid && ContactHeldAlong_Private(s, n));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SlipCreate_Private(Interface p, Contact *c)
+{
+  const PetscInt  n = c->side[0].num_nodes, num_facets = c->side[0].num_facets;
+  const HPTables *v;
+  SlipHistory    *s;
+
+  PetscFunctionBegin;
+  if (!c->law->slips) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(HPSpaceGetTables(p->space, &v));
+  PetscCall(PetscNew(&s));
+  s->size = p->dim * v->num_nodes;
+  PetscCall(PetscCalloc7(n, &s->slip, n, &s->weight, n, &s->mean, n, &s->change, n, &s->lift, num_facets, &s->result, s->size, &s->from));
+  for (PetscInt f = 0; f < num_facets; ++f) s->result[f] = -1;
+  s->stale     = PETSC_TRUE;
+  c->slip      = s;
+  c->view.slip = s->mean;
+  PetscCall(PetscMalloc1(n, &s->held));
+  PetscCall(Held_Private(p, c));
+  PetscCall(ContactPairSetTraction(c->pair, c->z + n));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SlipDestroy_Private(Contact *c)
+{
+  SlipHistory *s = c->slip;
+
+  PetscFunctionBegin;
+  if (!s) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(PetscFree7(s->slip, s->weight, s->mean, s->change, s->lift, s->result, s->from));
+  for (PetscInt k = 0; k < 2; ++k) PetscCall(LinkDestroy_Private(&s->places[k]));
+  PetscCall(PetscFree(s->held));
+  PetscCall(PetscFree(c->slip));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode InterfaceSetSlipOrigin(Interface p, const PetscReal u[])
+{
+  PetscFunctionBegin;
+  for (PetscInt i = 0; i < p->num_contacts; ++i) {
+    SlipHistory *s = p->contacts[i].slip;
+
+    if (!s) continue;
+    if (memcmp(s->from, u, (size_t)s->size * sizeof(PetscReal))) s->stale = PETSC_TRUE;
+    PetscCall(PetscArraycpy(s->from, u, s->size));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscBool InterfaceSlips(Interface p)
+{
+  for (PetscInt i = 0; i < p->num_contacts; ++i)
+    if (p->contacts[i].slip) return PETSC_TRUE;
+  return PETSC_FALSE;
+}
+
+PetscErrorCode SlipKeep_Private(Interface p, Contact *c)
+{
+  SlipHistory *s = c->slip;
+  PetscBool    failed;
+  int          stale = s && s->stale;
+
+  PetscFunctionBegin;
+  if (!c->law->slips) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &stale, 1, MPI_INT, MPI_MAX, p->comm));
+  if (!stale) PetscFunctionReturn(PETSC_SUCCESS);
+  for (PetscInt k = 0; k < 2; ++k) {
+    SurfaceForget_Private(&c->side[k]);
+    SurfacePlace_Private(&c->side[k], s->from, ContactBase_Private(c, k), c->side[k].x);
+  }
+  PetscCall(ContactSearch_Private(p, c, PETSC_FALSE, 0));
+  for (PetscInt k = 0; k < 2; ++k) {
+    PetscCall(SurfaceGather_Private(p, &c->side[k], s->from, ContactBase_Private(c, k), c->side[k].x));
+    PetscCall(LinkSet_Private(p, &c->side[k], c->side[k].places.num, c->side[k].places.nodes, &s->places[k]));
+  }
+  const ContactSurface side[2] = {SurfaceAt_Private(&c->side[0], c->side[0].x), SurfaceAt_Private(&c->side[1], c->side[1].x)};
+  PetscCall(ContactPairKeepPoints(c->pair, &side[0], &side[1], &failed));
+  s->num_facets = 0;
+  s->stale      = PETSC_FALSE;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SlipEvaluate_Private(Interface p, Contact *c)
+{
+  const Surface *own = &c->side[0];
+  SlipHistory   *s   = c->slip;
+  ContactSurface side[2];
+
+  PetscFunctionBegin;
+  if (!s) PetscFunctionReturn(PETSC_SUCCESS);
+  for (PetscInt k = 0; k < 2; ++k) {
+    PetscCall(LinkSpread_Private(p, &s->places[k], p->dim, c->side[k].x));
+    side[k] = SurfaceAt_Private(&c->side[k], c->side[k].x);
+  }
+  PetscCall(ContactPairSlip(c->pair, &side[0], &side[1], &s->num_facets, &s->facets));
+  for (PetscInt f = 0; f < own->num_facets; ++f) s->result[f] = -1;
+  for (PetscInt i = 0; i < own->num_nodes; ++i) s->slip[i] = s->weight[i] = 0;
+  for (PetscInt i = 0; i < s->num_facets; ++i) {
+    const ContactFacet *e = &s->facets[i];
+
+    s->result[e->facet] = i;
+    for (PetscInt k = 0; k < e->num_rows; ++k) {
+      s->slip[e->nodes[k]] += e->gap[k];
+      s->weight[e->nodes[k]] += e->weight[k];
+    }
+  }
+  PetscCall(LinkSpread_Private(p, &own->values, 1, s->slip));
+  PetscCall(LinkSpread_Private(p, &own->values, 1, s->weight));
+  for (PetscInt j = 0; j < own->num_nodes; ++j)
+    if (s->held[j] || !(s->weight[j] > COVERED * c->w0[j])) s->slip[j] = s->weight[j] = 0; /* no partner then */
+  for (PetscInt j = 0; j < own->num_nodes; ++j) s->mean[j] = s->weight[j] > 0 ? s->slip[j] / s->weight[j] : 0;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SlipChange_Private(Interface p, Contact *c, PetscReal change[])
+{
+  SlipHistory *s = c->slip;
+
+  PetscFunctionBegin;
+  if (!s) PetscFunctionReturn(PETSC_SUCCESS);
+  for (PetscInt k = 0; k < 2; ++k) PetscCall(LinkSpread_Private(p, &s->places[k], p->dim, c->side[k].du));
+  PetscCall(PetscArrayzero(change, c->side[0].num_nodes));
+  for (PetscInt i = 0; i < s->num_facets; ++i) {
+    const ContactFacet *e = &s->facets[i];
+
+    for (PetscInt k = 0; k < e->num_rows; ++k)
+      if (c->side[0].owned[e->nodes[k]]) change[e->nodes[k]] += ContactFacetDot_Private(c, e, e->dgap + p->dim * k * e->num);
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode InterfaceFriction(Interface p, PetscInt pair, FrictionFigures *f)
+{
+  const Contact *c      = &p->contacts[pair];
+  PetscReal      sum[3] = {0, 0, 0}, most = 0;
+
+  PetscFunctionBegin;
+  *f = (FrictionFigures){0};
+  if (!c->slip) PetscFunctionReturn(PETSC_SUCCESS);
+  for (PetscInt i = 0; i < c->side[0].num_own; ++i) {
+    const PetscInt j = c->side[0].own[i];
+
+    if (!c->has_multiplier[j] || !c->active[j]) continue;
+    sum[0] -= c->z[c->side[0].num_nodes + j] * c->slip->slip[j];
+    if (c->slip->weight[j] == 0) continue;
+    sum[c->law->slides(c->active[j]) ? 2 : 1] += 1;
+    most = PetscMax(most, PetscAbsReal(c->slip->mean[j]));
+  }
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 3, MPIU_REAL, MPI_SUM, p->comm));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &most, 1, MPIU_REAL, MPI_MAX, p->comm));
+  *f = (FrictionFigures){sum[0], most, (PetscInt)sum[1], (PetscInt)sum[2]};
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

@@ -1,0 +1,321 @@
+"""Coulomb friction in the plane: patch tests that stick and slip, a block on an incline, sliding in one step, objectivity, balances; ranks, restarts,
+adaptation; input."""
+import math
+import pathlib
+
+import numpy
+import pytest
+
+from contactkit import blocks, contact, spread, steps
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
+STEEL = {"law": "neo_hookean", "volumetric": "quadratic", "E": 1, "nu": 0.3}
+RIGID = {"law": "rigid"}
+SHEAR, HEIGHT = 0.12, 0.85  # of the deformation F = [1 SHEAR; 0 HEIGHT]
+
+
+def turned(angle, v):
+    c, s = math.cos(math.radians(angle)), math.sin(math.radians(angle))
+    return [c * v[0] - s * v[1], s * v[0] + c * v[1]]
+
+
+def piola(E=1, nu=0.3):
+    """First Piola-Kirchhoff stress of F in plane strain: mu/2 (J^(-2/3) tr F^T F - 3) + kappa/2 (J - 1)^2."""
+    F = numpy.array([[1, SHEAR, 0], [0, HEIGHT, 0], [0, 0, 1]])
+    mu, kappa, J = E / 2 / (1 + nu), E / 3 / (1 - 2 * nu), numpy.linalg.det(F)
+    G = numpy.linalg.inv(F).T
+    return (mu * J ** (-2 / 3) * (F - numpy.sum(F * F) / 3 * G) + kappa * (J - 1) * J * G)[:2, :2]
+
+
+TANGENTIAL, NORMAL = abs(piola()[0, 1]), abs(piola()[1, 1])  # the surfaces keep their lengths
+
+
+def sides(names, angle):
+    """Dead tractions of the state on upright sides."""
+    P = piola()
+    return {f"{side}_{name}": {"traction": dict(zip("xy", turned(angle, sign * P[:, 0])))} for name in names for side, sign in (("left", -1), ("right", 1))}
+
+
+def column(result, name):
+    return numpy.array([row[name] for row in result.history])
+
+
+def tractions(result):
+    state = contact(result)
+    return state["contact_pressure"], numpy.linalg.norm(state["tangential_traction"], axis=1)
+
+
+@pytest.mark.parametrize("order", [1, 2, 3])
+@pytest.mark.parametrize("angle, parameter", [(0, {"nl": 4, "nu": 6}), (20, {"nl": 7, "nu": 10}), (110, {"nl": 6, "nu": 4})])
+@pytest.mark.parametrize("nonmortar", ["upper", "lower"])
+def test_patch_that_sticks(run, nonmortar, angle, parameter, order):
+    move = turned(angle, [2 * SHEAR, 2 * (HEIGHT - 1)])
+    scene = blocks(nonmortar, {"lower": STEEL, "upper": STEEL}, {"bottom": {"fix": "xy"}, "top": {"displacement": dict(zip("xy", move))}, **sides(["lower", "upper"], angle)},
+                   {**parameter, "angle": angle}, pair={"friction": 2 * TANGENTIAL / NORMAL}, order=order)
+    result = run("patch.yml", "-solve_rtol", 1e-13, "-snes_monitor", text=scene)
+    assert result.returncode == 0, result
+    pressure, traction = tractions(result)
+    error = spread(pressure, NORMAL), spread(traction, TANGENTIAL)
+    print(error, steps(result))
+    assert max(error) < 1e-10
+    assert result.summary["contact"]["pair"]["slipping_nodes"] == 0
+
+
+@pytest.mark.parametrize("order", [1, 2, 3])
+@pytest.mark.parametrize("angle", [0, 20])
+def test_patch_that_slips(run, angle, order):
+    """The same state on a rigid floor, along which it is drawn over many facets in one step."""
+    press, slide = turned(angle, [SHEAR, HEIGHT - 1]), turned(angle, [0.617, 0])
+    move = {axis: f"{press[i]!r}*min(t,1)+{slide[i]!r}*max(0,t-1)" for i, axis in enumerate("xy")}
+    loads = {name: {"traction": {axis: f"{value!r}*min(t,1)" for axis, value in load["traction"].items()}} for name, load in sides(["upper"], angle).items()}
+    scene = blocks("upper", {"lower": RIGID, "upper": STEEL}, {"top": {"displacement": move}, **loads}, {"nl": 30, "nu": 5, "wl": 4, "xu": 1, "angle": angle},
+                   pair={"friction": TANGENTIAL / NORMAL}, order=order)
+    scene = scene.replace("load: {step: 1}", "load: {end: 2, step: 1}")
+    result = run("patch.yml", "-solve_rtol", 1e-13, "-newton_slide_predictor", "off", "-snes_monitor", text=scene)
+    assert result.returncode == 0, result
+    pressure, traction = tractions(result)
+    error = spread(pressure, NORMAL), spread(traction, TANGENTIAL)
+    pair = result.summary["contact"]["pair"]
+    print(error, pair, result.summary["newton_iterations"])
+    assert max(error) < 1e-10
+    assert abs(pair["max_slip"] - 0.617) < 1e-10
+    assert abs(column(result, "contact.pair.dissipation")[-1] - 0.617 * TANGENTIAL) < 1e-10
+    assert result.summary["step_cuts"] == 0 and result.summary["newton_iterations"] <= 16
+
+
+def incline(run, mu, share, order, n=4):
+    """A block of weight W on a rigid plane, its weight turned to `share` of the angle of friction."""
+    weight, angle = 0.02, math.atan(mu) * share
+    turn = f"{angle!r}*min(1,max(0,t-1))"
+    force = {"x": f"{weight}*min(t,1)*sin({turn})", "y": f"-{weight}*min(t,1)*cos({turn})"}
+    scene = blocks("upper", {"lower": RIGID, "upper": STEEL}, {}, {"nl": 13, "nu": n, "mu": 2, "wl": 4, "xu": 1, "hu": 0.25}, pair={"friction": mu, "initial_gap": "adjust"},
+                   order=order)
+    scene = scene.replace("boundary: {}\n", "").replace("upper: {material: upper}", f"upper: {{material: upper, force: {{x: \"{force['x']}\", y: \"{force['y']}\"}}}}")
+    scene = scene.replace("load: {step: 1}", "load: {end: 2, step: 1, step_min: 1}")
+    return run("incline.yml", text=scene)
+
+
+@pytest.mark.parametrize("mu, order", [(0.3, 1), (0.3, 2), (0.8, 1)])
+def test_block_on_an_incline(run, mu, order):
+    """It stays up to the angle of friction, to 1e-6, and not beyond."""
+    below, above = incline(run, mu, 1 - 1e-6, order), incline(run, mu, 1 + 1e-6, order)
+    assert below.returncode == 0, below
+    assert above.returncode == 2, above
+
+
+DISC = """
+mesh: {file: GEO, order: 2, parameter: {w: 2, n: 8}}
+model: plane_strain
+order: ORDER
+body: {disc: {material: rubber}, block: {material: rubber}}
+material: {rubber: {law: neo_hookean, volumetric: quadratic, E: 1, nu: 0.3}}
+boundary:
+  top: {displacement: {x: "0.5*max(t - 1, 0)", y: "-0.1*min(t, 1)"}}
+  bottom: {fix: xy}
+contact: {pair: {PAIR, roles: given, friction: MU}}
+load: {end: 2, step: 1}
+"""
+PAIRS = {"disc": "nonmortar: disc_surface, mortar: block_top", "block": "nonmortar: block_top, mortar: disc_surface"}
+
+
+def disc(pair, order, mu):
+    return DISC.replace("GEO", str(ROOT / "inputs" / "hertz2d.geo")).replace("ORDER", str(order)).replace("PAIR", PAIRS[pair]).replace("MU", str(mu))
+
+
+@pytest.mark.parametrize("mu", [0.1, 0.3, 0.6, 1.0])
+@pytest.mark.parametrize("order", [1, 2, 3])
+@pytest.mark.parametrize("pair", list(PAIRS))
+def test_pressed_and_slid(run, pair, order, mu):
+    """Pressed 0.1, then slid half a radius in one step. What slips obeys the law, forces and moments balance, friction takes energy."""
+    result = run("disc.yml", text=disc(pair, order, mu))
+    assert result.returncode == 0, result
+    summary = result.summary
+    print(pair, order, mu, column(result, "newton_iterations"), summary["contact"]["pair"]["force"], summary["balance"])
+    assert summary["step_cuts"] == 0
+    assert summary["balance"]["contact_force"] < 1e-9 and summary["balance"]["contact_moment"] < 1e-9 and summary["balance"]["supports"] < 1e-9
+    pressure, traction = tractions(result)
+    assert numpy.all(traction <= mu * pressure * (1 + 1e-9) + 1e-12)
+    assert column(result, "contact.pair.dissipation").min() >= -1e-15
+    assert column(result, "newton_iterations").max() <= 8
+
+
+def test_tangent(run):
+    result = run("disc.yml", "-snes_test_jacobian", text=disc("disc", 2, 0.3))
+    error = [float(line.split("=")[1].split(",")[0]) for line in result.stdout.splitlines() if "||J - Jfd||_F/||J||_F =" in line]
+    print(error, steps(result))
+    assert result.returncode == 0 and min(error[-3:]) < 1e-6
+
+
+def test_without_friction_nothing_changes(run):
+    text = disc("disc", 2, 0)
+    plain = run("plain.yml", "-snes_monitor", text=text.replace(", friction: 0", ""))
+    zero = run("zero.yml", "-snes_monitor", text=text)
+    assert steps(plain) == steps(zero) and plain.summary["energy"] == zero.summary["energy"]
+
+
+def test_objectivity(run):
+    """Pressed and sheared until it sticks, then both bodies turned by 360 degrees in 4 steps: nothing slips, forces turn along."""
+    turn = {"rotation": {"angle": "45*max(0,t-1)", "point": {"x": 0.5, "y": 1}}}
+    scene = blocks("upper", {"lower": STEEL, "upper": STEEL}, {"bottom": turn, "top": turn}, {"nl": 4, "nu": 6}, pair={"friction": 0.5, "interference": 0.05})
+    scene = scene.replace("load: {step: 1}", "load: {end: 9, step: 1}")
+    result = run("turn.yml", text=scene)
+    assert result.returncode == 0, result
+    force = numpy.hypot(column(result, "contact.pair.force.x"), column(result, "contact.pair.force.y"))
+    print(force, column(result, "contact.pair.max_slip"), column(result, "contact.pair.dissipation"))
+    assert spread(force, force[0]) < 1e-10 and force[0] > 1e-3
+    assert numpy.abs(column(result, "contact.pair.max_slip")[1:]).max() < 1e-10
+    assert abs(column(result, "contact.pair.force.y")[-1] - column(result, "contact.pair.force.y")[0]) < 1e-10
+
+
+def test_input(run):
+    text = disc("disc", 1, 0.3)
+    for value, words in (("-0.1", "friction"), (".nan", "friction"), ("0.3, law: penalty, penalty: 10", "no friction"), ("0.3, node_to_segment: true", "no friction"),
+                         ("0, law: coulomb", "coefficient of friction")):
+        result = run("input.yml", text=text.replace("friction: 0.3", f"friction: {value}"))
+        assert result.returncode == 1 and words in result.stderr, result
+    result = run("inputs/hertz3d.yml", "-contact_ball_on_block_friction", 0.1)
+    assert result.returncode == 1 and "friction" in result.stderr, result
+
+
+def test_ranks(run):
+    """The same on several processes."""
+    alone = run("disc.yml", "-solve_rtol", 1e-13, text=disc("disc", 2, 0.3))
+    for ranks in (2, 3):
+        result = run("disc.yml", "-solve_rtol", 1e-13, text=disc("disc", 2, 0.3), ranks=ranks)
+        assert result.returncode == 0, result
+        for name in ("contact.pair.force.x", "contact.pair.force.y", "contact.pair.dissipation", "contact.pair.max_slip"):
+            assert column(result, name) == pytest.approx(column(alone, name), rel=1e-8, abs=1e-11), name
+
+
+def test_adapted(run):
+    """Refined where a step ends: slip counts from the same state, so refinement is no slip. Forces within the estimate of those on a fine mesh."""
+    text = disc("disc", 2, 0.3)
+    fine = run("fine.yml", "-mesh_refine", 2, text=text)
+    result = run("adapted.yml", "-adapt_tolerance", 0.02, text=text)
+    assert result.returncode == 0 and fine.returncode == 0, result
+    passes = [row for row in result.adapt if row["pass"] > 0]
+    print([(row["step"], row["pass"], row["newton_iterations"]) for row in passes])
+    assert passes and max(row["newton_iterations"] for row in passes) <= 4
+    assert result.summary["step_cuts"] == 0
+    for name in ("contact.pair.force.x", "contact.pair.force.y", "contact.pair.dissipation", "contact.pair.max_slip"):
+        print(name, column(result, name), column(fine, name))
+        assert column(result, name)[-1] == pytest.approx(column(fine, name)[-1], rel=0.01), name
+
+
+def test_restart(run):
+    """Stopped after the press and gone on from there: the same, bit by bit."""
+    text = disc("disc", 2, 0.3)
+    whole = run("whole.yml", text=text)
+    first = run("whole.yml", "-load_max_steps", 1, "-output_checkpoint", 1, text=text)
+    rest = run("whole.yml", "-restart", first.directory / "checkpoint.h5", text=text)
+    assert rest.returncode == 0, rest
+    assert rest.summary["energy"] == whole.summary["energy"]
+    assert rest.summary["contact"]["pair"] == whole.summary["contact"]["pair"]
+
+
+def test_back_and_forth(run):
+    """Slid forth, back and forth again, one step each: the forces of the first way come again, and friction takes energy on each."""
+    text = disc("disc", 1, 0.3).replace("0.5*max(t - 1, 0)", "0.5*(max(t-1,0)-2*max(t-2,0)+2*max(t-3,0))").replace("end: 2", "end: 4")
+    result = run("loop.yml", text=text)
+    assert result.returncode == 0, result
+    print(column(result, "newton_iterations"), column(result, "contact.pair.force.x"), column(result, "contact.pair.dissipation"))
+    force = column(result, "contact.pair.force.x")
+    assert force[3] == pytest.approx(force[1], rel=1e-6)
+    assert numpy.all(column(result, "contact.pair.dissipation")[1:] > 0)
+
+
+BALL = """
+mesh: {file: GEO, order: 2, parameter: {half: HALF, w0: FROM, w1: 1.5, nb: CELLS}}
+model: MODEL
+order: 2
+body: {disc: {material: a}, block: {material: b}}
+material: {a: {law: neo_hookean, E: 3, nu: 0.2}, b: {law: neo_hookean, E: 1, nu: 0.45}}
+boundary: {top: {displacement: {x: 0, y: -0.2}}, HELD bottom: {fix: xy}}
+contact: {pair: {nonmortar: arc, mortar: face, friction: MU}}
+load: {step: STEP}
+"""
+
+
+def ball(model, mu, step, half=True):
+    text = BALL.replace("GEO", str(ROOT / "tests" / "gauntlet" / "disc.geo")).replace("MODEL", model).replace("MU", str(mu)).replace("STEP", str(step))
+    held = "cut: {fix: x}, block_left: {fix: x}," if half else ""
+    return text.replace("HALF", str(int(half))).replace("FROM", "0" if half else "-1.5").replace("CELLS", "8" if half else "16").replace("HELD", held)
+
+
+def test_plane_of_symmetry(run):
+    """Half of a scene is half of the whole: a node in the plane of symmetry bears no traction, and none is missing."""
+    half, whole = run("half.yml", text=ball("plane_strain", 0.5, 0.25)), run("whole.yml", text=ball("plane_strain", 0.5, 0.25, half=False))
+    assert half.returncode == 0 and whole.returncode == 0
+    assert 2 * half.summary["energy"] == pytest.approx(whole.summary["energy"], rel=1e-10)
+    assert 2 * half.summary["contact"]["pair"]["force"][1] == pytest.approx(whole.summary["contact"]["pair"]["force"][1], rel=1e-10)
+
+
+@pytest.mark.parametrize("model", ["plane_strain", "axisymmetric"])
+def test_energy(run, model):
+    """Work is stored or dissipated: what is missing falls with the step, below 1 % at 20 steps; each step dissipates."""
+    missing = []
+    for steps_ in (10, 20):
+        result = run("ball.yml", text=ball(model, 0.05, 1 / steps_))
+        assert result.returncode == 0, result
+        force, taken = column(result, "reaction.top.y"), column(result, "contact.pair.dissipation")
+        travel = numpy.diff(-0.2 * numpy.append(0, column(result, "t")))
+        work = numpy.sum(0.5 * (force + numpy.append(0, force[:-1])) * travel)
+        assert taken.min() > -1e-15
+        missing.append(abs(work - result.summary["energy"] - taken.sum()) / work)
+        print(model, steps_, missing[-1], taken.sum() / work)
+    assert taken.sum() / work > 1e-4 and missing[1] < 0.01 and missing[1] < 0.75 * missing[0]
+
+
+def test_tangent_axisymmetric(run):
+    result = run("ball.yml", "-snes_test_jacobian", text=ball("axisymmetric", 0.05, 0.5))
+    error = [float(line.split("=")[1].split(",")[0]) for line in result.stdout.splitlines() if "||J - Jfd||_F/||J||_F =" in line]
+    assert result.returncode == 0 and error[-1] < 1e-6, error
+
+
+def test_belt(run):
+    """T2 / T1 = e^(mu phi) within 1 %, as it is and adapted."""
+    for options in ([], ["-adapt_tolerance", 0.03]):
+        result = run("inputs/belt.yml", *options)
+        assert result.returncode == 0, result
+        ratio = -column(result, "reaction.drawn.y")[-1] / 8e-5
+        print(ratio, column(result, "newton_iterations"))
+        assert ratio == pytest.approx(math.exp(0.3 * math.pi / 2), rel=0.01)
+
+
+def test_predictor(run):
+    """The belt is drawn in one step since bodies are carried to their new places where the first attempt, without that, fails."""
+    result, without = run("inputs/belt.yml"), run("inputs/belt.yml", "-path_predictor", "off")
+    assert result.summary["recoveries"]["predictor"] == {"tried": 1, "succeeded": 1} and result.summary["step_cuts"] == 0
+    assert without.summary["recoveries"]["predictor"]["tried"] == 0 and without.summary["step_cuts"] > 0
+
+
+MINDLIN = """
+mesh: {file: GEO, order: 2, parameter: {w: 2, n: 4, h: 2}}
+model: plane_strain
+order: 2
+body: {disc: {material: m}, block: {material: m}}
+material: {m: {law: neo_hookean, E: 1, nu: 0.3}}
+boundary: {top: {displacement: {x: "0.0024*max(t-1,0)", y: "-0.01*min(t,1)"}}, bottom: {fix: xy}}
+contact: {pair: {nonmortar: disc_surface, mortar: block_top, friction: 0.3}}
+load: {end: 1.5, step: 0.05}
+adapt: {tolerance: 0.01, max_passes: 12}
+"""
+
+
+@pytest.mark.slow
+def test_cattaneo_mindlin(run):
+    """Tractions of partial slip, adapted on the way: root mean square over the zone of contact, against the peaks p0 and mu p0 of Hertz."""
+    result = run("mindlin.yml", text=MINDLIN.replace("GEO", str(ROOT / "inputs" / "hertz2d.geo")))
+    assert result.returncode == 0, result
+    pair, state, modulus = result.summary["contact"]["pair"], contact(result), 1 / 2 / (1 - 0.3**2)
+    Q, P = map(abs, pair["force"])
+    a = math.sqrt(4 * P / math.pi / modulus)
+    c, p0 = a * math.sqrt(1 - Q / 0.3 / P), 2 * P / math.pi / a
+    pressure, traction = tractions(result)
+    x = state["X"][:, 0] + state["displacement"][:, 0]
+    x = x - numpy.average(x, weights=pressure)
+    root = lambda b: numpy.sqrt(numpy.maximum(0, 1 - (x / b) ** 2))
+    zone = abs(x) < a
+    error = [math.sqrt(numpy.mean(e[zone] ** 2)) for e in (pressure / p0 - root(a), traction / 0.3 / p0 - root(a) + c / a * root(c))]
+    print("a, c/a", a, c / a, "nodes", zone.sum(), "error of pressure, traction", error)
+    assert zone.sum() > 60 and error[0] < 0.025 and error[1] < 0.035
