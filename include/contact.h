@@ -189,8 +189,8 @@ PetscErrorCode ContactPairEvaluate(ContactPair, const ContactSurface *nonmortar,
 /* From now on normals are frozen (or follow the surface again): first derivatives are those at fixed directions of the nonmortar side and a fixed segmentation,
    gaps and weights do not change, there are no Hessians. Where gaps are wide against facets that tells more than the derivative itself. Not collective. */
 PetscErrorCode ContactPairFreezeNormals(ContactPair, PetscBool frozen);
-/* From now on forces of facets of higher order in space are those of a frozen segmentation (`push`), without the motion of lines of the mortar side, or (as
-   created) exact. Gaps, weights and their derivatives do not change. Not collective. */
+/* Forces of facets in space that are covered in part are those of a frozen segmentation (`push`), without the motion of lines of the mortar side; from now on
+   those of all facets of higher order, or (as created) not. Gaps, weights and their derivatives do not change. Not collective. */
 PetscErrorCode ContactPairFreezeSegmentation(ContactPair, PetscBool frozen);
 /* Friction, two dimensions. Tangential tractions traction[nonmortar num_nodes] of evaluations from now on, borrowed (NULL: none), positive along the nonmortar
    facets on the mortar side: results have `shear`, and Hessians the derivatives of those forces too, not symmetric (theory (5.10)). Not collective. */

@@ -2,20 +2,22 @@
    along the other leaves a gap (X - s)^2 / 2R, of which the linearisation at s = 0 lacks s^2 / 2R: too deep against a
    depth of contact of a^2 / R, half width a, from about s = a on. The linear step then presses the body far into the
    other, and Newton's method does not find back. What it does tell
-   is that contact moves: its active set leaves nodes that carry pressure and takes others. A zone that only grows or only
-   shrinks does not move. The bodies are then brought to their new places first. */
+   is that contact moves: its active set leaves nodes that carry pressure and takes as many new ones (never
+   more than half of the old: the linear gap below the centre does not change). The bodies are then brought to their new
+   places first. */
 #include "interfaceimpl.h"
 
+#define STAYS 0.9   /* share of the smaller of the old and the new zone that both have in common, below which contact moves */
 #define WHOLE 0.75   /* share of the zone that slips one way, above which the pair slips as a whole … */
 #define FAR 0.15     /* … by more than this share of the zone */
 #define PRESSED 1e-8 /* of the largest pressure: less is round-off of an open node */
 
-/* Does contact, by the active set at hand, leave nodes that carry pressure for others? */
+/* Does contact, by the active set at hand, leave nodes that carry pressure for others? By reference length, so that
+   graded meshes count alike. A zone that only grows or only shrinks does not move. */
 static PetscErrorCode HasMoved_Private(Interface p, const Contact *c, PetscBool *moved)
 {
   const Surface *s      = &c->side[0];
-  PetscReal      most   = 0;
-  PetscInt       num[2] = {0, 0}; /* left, taken */
+  PetscReal      sum[3] = {0, 0, 0}, most = 0; /* pressed, active, both */
 
   PetscFunctionBegin;
   for (PetscInt i = 0; i < s->num_own; ++i) {
@@ -26,11 +28,12 @@ static PetscErrorCode HasMoved_Private(Interface p, const Contact *c, PetscBool 
     const PetscInt  j       = s->own[i];
     const PetscBool pressed = (PetscBool)(ContactPressed_Private(c, j) && c->z[j] > PRESSED * most);
     if (!c->has_multiplier[j]) continue;
-    num[0] += pressed && !c->active[j];
-    num[1] += !pressed && c->active[j];
+    if (pressed) sum[0] += c->w0[j];
+    if (c->active[j]) sum[1] += c->w0[j];
+    if (pressed && c->active[j]) sum[2] += c->w0[j];
   }
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, num, 2, MPIU_INT, MPI_SUM, p->comm));
-  *moved = (PetscBool)(num[0] > 0 && num[1] > 0);
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 3, MPIU_REAL, MPI_SUM, p->comm));
+  *moved = (PetscBool)(sum[2] < STAYS * PetscMin(sum[0], sum[1]));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

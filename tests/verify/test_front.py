@@ -180,7 +180,7 @@ def test_reference_has_every_key_and_field(tmp_path):
 
 def matched(name, fields):
     """The rows of a table that a name is one of."""
-    return [name] if name in fields else [f for f in fields if re.fullmatch(re.sub(r"<\w+>", "[^.]+", f.replace(".", r"\.")), name)]
+    return [name] if name in fields else [f for f in fields if re.fullmatch(re.sub(r"<\w+>", "[^.]+", f.replace(".", r"\.").replace("<axis>", "[xyz]")), name)]
 
 
 def paths(value, above=""):

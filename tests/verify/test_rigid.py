@@ -123,7 +123,7 @@ def test_all_turned_together(run, tmp_path, rigid):
         scene["body"]["tool"] |= {"motion": {"x": down[0], "y": down[1], **tool}, "moment_about": "axle"}
     else:
         scene["boundary"]["tool_y1"] = {"displacement": {"x": down[0], "y": down[1]}, "moment_about": "axle", **tool}
-    scene["load"]["step"] = 0.5
+    scene["load"]["step"] = 0.25
     rows = [row for row in solve(run, scene).history if row["t"] % 1 == 0]
     first = rows[0]
     size = abs(first["contact.c.force.y"])
@@ -169,7 +169,7 @@ def test_space(run, tmp_path, axis):
         {i: f"0.1*min(t,1)*sin({turn}*pi/180)", j: f"-0.1*min(t,1)*cos({turn}*pi/180)"} if axis == "z" else \
         {i: f"-0.1*min(t,1)*cos({turn}*pi/180)", j: f"-0.1*min(t,1)*sin({turn}*pi/180)"}
     scene["body"]["tool"] |= {"motion": {**down, "rotation": rotation}, "moment_about": "axle"}
-    before, after = solve(run, scene).history
+    before, after = (row for row in solve(run, scene).history if row["t"] in (1, 2))
     size = math.hypot(*(before[f"contact.c.force.{a}"] for a in "xyz"))
     for name in ("contact.c.force", "contact.c.moment", "reaction.strip_y0", "reaction.strip_y0.moment"):
         assert after[f"{name}.{i}"] == pytest.approx(-before[f"{name}.{j}"], abs=1e-9 * size), name

@@ -200,7 +200,7 @@ PetscErrorCode ContactCover(ContactPair pair, const ContactSurface *nonmortar, c
   ContactUnfold(&w->num_overlaps, w->overlap, w->mortar, f->area);
   if (pair->node_to_segment) ContactNodeHits(w);
   for (PetscInt k = 0; k < w->num_overlaps; k++) covered += w->overlap[k].area;
-  w->frozen = (PetscBool)(f->D == 3 && f->s.order > 1 && !pair->held && (pair->frozen_segmentation || covered < (1 - FACET_ON) * f->area));
+  w->frozen = (PetscBool)(f->D == 3 && !pair->held && ((pair->frozen_segmentation && f->s.order > 1) || covered < (1 - FACET_ON) * f->area));
   PetscCall(Nodes_Private(w, mortar));
   w->n = f->D * (f->s.num + f->nv + w->num_mortar) + f->m * w->num_images;
   PetscFunctionReturn(PETSC_SUCCESS);
