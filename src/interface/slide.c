@@ -7,7 +7,7 @@
    places first. */
 #include "interfaceimpl.h"
 
-#define STAYS 0.9   /* share of the smaller of the old and the new zone that both have in common, below which contact moves */
+#define STAYS 0.9    /* share of the smaller of the old and the new zone that both have in common, below which contact moves */
 #define PRESSED 1e-8 /* of the largest pressure: less is round-off of an open node */
 
 /* Does contact, by the active set at hand, leave nodes that carry pressure for others? By reference length, so that
