@@ -337,8 +337,8 @@ static void LinearGaps_Private(Interface p, Contact *c)
   }
 }
 
-/* Nodes that may take part in the next linear solve: pressed, or closer (compliances of facets counted in) than half a facet beside what prescribed motion may still close. Three dimensions:
-   the others get no row in the matrix, which they would only fill. Every rank that knows the node says the same. */
+/* Nodes that may take part in the next linear solve: pressed, or closer (compliances of facets counted in) than half a facet beside what prescribed motion may
+   still close. Three dimensions: the others get no row in the matrix, which they would only fill. Every rank that knows the node says the same. */
 static PetscErrorCode Near_Private(Interface p, Contact *c, PetscReal pending)
 {
   const Surface *s     = &c->side[0];
@@ -347,9 +347,10 @@ static PetscErrorCode Near_Private(Interface p, Contact *c, PetscReal pending)
   PetscFunctionBegin;
   for (PetscInt f = 0; f < s->num_facets && s->order; ++f) order = PetscMax(order, s->order[f]);
   for (PetscInt i = 0; i < c->num_valued; ++i) {
-    const PetscInt  j     = c->valued_node[i];
-    const PetscBool reach = (PetscBool)(ContactCovered_Private(c, j) && (c->gap[j] + c->coupled[j]) / c->weight[j] < pending + 0.5 * (PetscReal)order * c->extent[j]);
-    c->near[j]            = (PetscBool)(c->has_multiplier[j] && (c->z[j] != 0 || reach));
+    const PetscInt  j = c->valued_node[i];
+    const PetscBool reach =
+        (PetscBool)(ContactCovered_Private(c, j) && (c->gap[j] + c->coupled[j]) / c->weight[j] < pending + 0.5 * (PetscReal)order * c->extent[j]);
+    c->near[j] = (PetscBool)(c->has_multiplier[j] && (c->z[j] != 0 || reach));
     if (p->dim == 2) c->near[j] = PETSC_TRUE;
   }
   PetscFunctionReturn(PETSC_SUCCESS);

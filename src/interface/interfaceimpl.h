@@ -270,7 +270,8 @@ PetscErrorCode ContactInsertRow_Private(Interface, const InterfaceSystem *, cons
 /* Node j as its law sees it, and its rows. lifted: with the motion still to come. */
 static inline ContactPoint ContactPoint_Private(const Contact *c, PetscInt j, PetscBool lifted)
 {
-  ContactPoint point = {.spec = c->spec, .state = c->active[j], .gap = c->gap[j] + c->coupled[j], .weight = c->weight[j], .spring = c->spring[j], .w0 = c->w0[j], .c = c->c[j]};
+  ContactPoint point = {
+      .spec = c->spec, .state = c->active[j], .gap = c->gap[j] + c->coupled[j], .weight = c->weight[j], .spring = c->spring[j], .w0 = c->w0[j], .c = c->c[j]};
 
   if (lifted) point.lift = c->lift[j];
   if (c->slip) point.slip = c->slip->slip[j], point.slip_weight = c->slip->weight[j];

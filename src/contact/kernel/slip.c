@@ -267,8 +267,8 @@ static PetscErrorCode Forces_Private(const EvaluateContext *ctx, const Functions
 
 static PetscErrorCode KeepPoints_Private(const EvaluateContext *ctx, struct ContactSlip *s, Kept *kept)
 {
-  RayWork         w     = ctx->pair->ray;
-  const RayFacet *f     = &w->facet;
+  RayWork         w  = ctx->pair->ray;
+  const RayFacet *f  = &w->facet;
   const PetscInt  nr = kept->num_rows, na = f->s.num;
   const RayPlace *place = w->places;
 
