@@ -7,20 +7,14 @@
    places first. */
 #include "interfaceimpl.h"
 
-<<<<<<< HEAD
-#define STAYS 0.9  /* share of the smaller of the old and the new zone that both have in common, below which contact moves */
-#define WHOLE 0.75 /* share of the zone that slips one way, above which the pair slips as a whole … */
-#define FAR 0.15   /* … by more than this share of the zone */
-    == == ==
-    =
-#define STAYS 0.9 /* share of the smaller of the old and the new zone that both have in common, below which contact moves */
-        >>>>>>> cover
+#define STAYS 0.9    /* share of the smaller of the old and the new zone that both have in common, below which contact moves */
+#define WHOLE 0.75   /* share of the zone that slips one way, above which the pair slips as a whole … */
+#define FAR 0.15     /* … by more than this share of the zone */
 #define PRESSED 1e-8 /* of the largest pressure: less is round-off of an open node */
 
-        /* Does contact, by the active set at hand, leave nodes that carry pressure for others? By reference length, so that
-           graded meshes count alike. A zone that only grows or only shrinks does not move. */
-        static PetscErrorCode
-        HasMoved_Private(Interface p, const Contact *c, PetscBool *moved)
+/* Does contact, by the active set at hand, leave nodes that carry pressure for others? By reference length, so that
+   graded meshes count alike. A zone that only grows or only shrinks does not move. */
+static PetscErrorCode HasMoved_Private(Interface p, const Contact *c, PetscBool *moved)
 {
   const Surface *s      = &c->side[0];
   PetscReal      sum[3] = {0, 0, 0}, most = 0; /* pressed, active, both */
