@@ -310,8 +310,7 @@ def test_o46_graded(run, tmp_path, nonmortar, order):
 
 @pytest.mark.parametrize("seed, nonmortar, multiplier", [(1, "upper", "dual"), (2, "lower", "dual"), (3, "upper", "standard")])
 def test_o94_tangent(run, tmp_path, seed, nonmortar, multiplier):
-    """A smaller block, turned, tilted and off the middle, on distorted meshes: every iterate against differences of the residual. Where a node is covered by a
-    sliver at an iterate, gap over weight is curved so much that differences miss it by more."""
+    """A smaller block, turned, tilted and off the middle, on distorted meshes: every iterate against differences of the residual."""
     lower, upper = [linspace(0, 1, 2), linspace(0, 1, 2), [0, 1]], [linspace(-0.37, 0.43, 2), linspace(-0.4, 0.4, 3), [0, 0.7]]
     tilt = turn((3 + seed, 2 - seed, 20 + 10 * seed))
 
@@ -325,7 +324,7 @@ def test_o94_tangent(run, tmp_path, seed, nonmortar, multiplier):
     ratios = [float(r) for r in re.findall(r"\|\|J - Jfd\|\|_F/\|\|J\|\|_F = ([\d.e+-]+)", result.stdout)]
     pair = result.summary["contact"]["pair"]
     print(ratios, pair["area"], pair["active_nodes"])
-    assert len(ratios) >= 3 and sorted(ratios)[-2] < 1e-6 and max(ratios) < 1e-5
+    assert len(ratios) >= 3 and max(ratios) < 1e-6
     assert 0.05 < pair["area"] < 0.7
     assert pair["equivalent_radius"] == pytest.approx(numpy.sqrt(pair["area"] / numpy.pi), rel=1e-9)
 
