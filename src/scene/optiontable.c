@@ -109,8 +109,11 @@ const Option Options[] = {
     {"contact.<pair>.mortar", KEY_TEXT, "", NULL, "", "physical group of the other side", PAIR(mortar)},
     {"contact.<pair>.roles", KEY_WORD, "", "auto", "auto|given",
      "auto: a nonmortar side stiffer than the mortar side, or rigid, changes places with it; given: for comparison, only where it is rigid", PAIR(roles)},
-    {"contact.<pair>.law", KEY_WORD, "", "frictionless", "frictionless|penalty|coulomb",
-     "what holds between gap, pressure and slip; coulomb: that of a pair with friction; penalty: for comparison only, overlaps by pressure over penalty",
+    {"contact.<pair>.kind", KEY_WORD, "", "contact", "contact|tied",
+     "tied: what faces each other at the reference positions is glued, meshes need not match; each side may have facets that face nothing", PAIR(kind)},
+    {"contact.<pair>.law", KEY_WORD, "", "frictionless", "frictionless|penalty|coulomb|tied",
+     "what holds between gap, pressure and slip; coulomb: that of a pair with friction; tied: that of a tied pair; penalty: for comparison only, overlaps by "
+     "pressure over penalty",
      PAIR(spec.law)},
     {"contact.<pair>.penalty", KEY_REAL, "stress/length", "", POSITIVE, "stiffness of law: penalty, pressure per overlap", PAIR(spec.penalty)},
     {"contact.<pair>.friction", KEY_REAL, "", "0", NOT_BELOW,
@@ -123,10 +126,13 @@ const Option Options[] = {
      "before the first solve, how often to subdivide the cells that touch either side, so that linear faces are as accurate as the cells' order; auto: "
      "at each load step, until the estimated error of these cells no longer exceeds that of the cells inside, at most order + 1 times",
      PAIR(subdivide)},
-    {"contact.<pair>.search", KEY_REAL, "edges", "0", NOT_BELOW, "distance of the search, in multiples of the larger edge; 0: automatic", PAIR(spec.search)},
-    {"contact.<pair>.initial_gap", KEY_WORD, "", "keep", "keep|adjust|ramp",
+    {"contact.<pair>.search", KEY_REAL, "edges", "0", NOT_BELOW,
+     "distance of the search, in multiples of the larger edge; 0: automatic; of a tied pair: what is further apart is not tied, 0: a tenth of the smaller side",
+     PAIR(spec.search)},
+    {"contact.<pair>.initial_gap", KEY_WORD, "", "keep", "keep|adjust|ramp|close",
      "adjust: what faces each other at the reference positions counts as touching, so that facets on a curved surface make no gap; ramp: bodies that overlap "
-     "there are pressed apart step by step, overlaps count by the share t and from t = 1 on whole",
+     "there are pressed apart step by step, overlaps count by the share t and from t = 1 on whole; of a tied pair: keep: gaps stay and turn with the "
+     "surface, close: gaps are closed",
      PAIR(initial_gap)},
     {"contact.<pair>.interference", KEY_EXPRESSION, "length", "", ANY,
      "overlap at the reference positions, taken off the gap (shrink fit); an expression in t is brought in step by step, a number is there from the start",

@@ -80,6 +80,7 @@ typedef struct {
   ContactSpec spec;
   char        nonmortar[MORTISE_NAME], mortar[MORTISE_NAME], moment_about[MORTISE_NAME];
   int         order, initial_gap, multiplier, roles;
+  int         kind;      /* contact, tied */
   int         subdivide; /* isotropic subdivisions of the cells that touch either side; SUBDIVIDE_AUTO */
   SceneNode  *node;
 } ContactEntry;

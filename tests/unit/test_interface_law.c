@@ -22,6 +22,7 @@ static void Names(void **state)
   assert_string_equal(ContactLaws[CONTACT_FRICTIONLESS]->name, "frictionless");
   assert_string_equal(ContactLaws[CONTACT_PENALTY]->name, "penalty");
   assert_string_equal(ContactLaws[CONTACT_COULOMB]->name, "coulomb");
+  assert_string_equal(ContactLaws[CONTACT_TIED]->name, "tied");
 }
 
 /* A node whose gap, weight and multiplier change with s. */

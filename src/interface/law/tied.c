@@ -1,0 +1,32 @@
+/* Tied surfaces: what faced each other keeps together. The multipliers are the components of the traction, each with the row G_k + (S z)_k = 0 (tie.c); no node
+   is ever open. A component that the node carries no multiplier of keeps its value, which nothing feels. */
+#include "interfaceimpl.h"
+
+static PetscInt All_Private(PetscInt dim)
+{
+  return dim;
+}
+
+static int8_t State_Private(const ContactPoint *p)
+{
+  return 1;
+}
+
+static void Rows_Private(const ContactPoint *p, PetscBool symmetric, ContactRow row[])
+{
+  for (PetscInt k = 0; k < p->num; ++k) {
+    const TiePoint *t      = &p->tie[k];
+    const PetscReal factor = symmetric ? -p->c : t->weight > 0 ? p->w0 * p->c / (t->weight + p->c * t->spring) : 0;
+
+    row[k]      = (ContactRow){.component = k};
+    row[k].z[k] = symmetric ? -p->w0 : p->w0;
+    if (!(t->weight > 0)) continue;
+    row[k].value  = t->gap + t->spring * p->z[k];
+    row[k].factor = factor;
+    row[k].z[k]   = factor * t->spring;
+    row[k].side   = -factor * (row[k].value + t->lift);
+  }
+}
+
+const ContactLawOps ContactTied = {
+    .name = "tied", .symmetric = PETSC_TRUE, .ties = PETSC_TRUE, .num_multipliers = All_Private, .state = State_Private, .rows = Rows_Private};
