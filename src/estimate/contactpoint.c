@@ -81,6 +81,18 @@ void ContactNormal_Private(const ContactTerm *term, PetscBool finite, PetscInt f
   for (PetscInt c = 0; c < 3 && length > 0; ++c) n[c] /= length;
 }
 
+/* T += factor * z of a tied pair, whose tractions are per reference area. */
+static void Tie_Private(const ContactTerm *term, PetscInt facet, const PetscReal xi[2], PetscReal factor, PetscReal T[3])
+{
+  const SurfaceView *s = &term->view->nonmortar;
+  const PetscInt    *node, num = SurfaceFacetNodes(s, facet, &node);
+  PetscReal          N[SURFACE_MOST_NODES];
+
+  ContactShape_Private(s, facet, xi, N);
+  for (PetscInt a = 0; a < num; ++a)
+    for (PetscInt c = 0; c < s->dim; ++c) T[c] += factor * N[a] * term->z[c * s->num_nodes + node[a]];
+}
+
 /* T += factor * (z n + q t) at a place of a nonmortar facet, q and t = e_z x n: friction in the plane. */
 static void Push_Private(const ContactTerm *term, PetscBool finite, PetscInt facet, const PetscReal xi[2], PetscReal factor, PetscReal T[3])
 {
@@ -185,14 +197,19 @@ void ContactTermsTraction_Private(const ContactTerms *terms, PetscInt facet, con
   for (PetscInt i = 0; i < terms->num; ++i) {
     const ContactTerm *term      = &terms->terms[i];
     const PetscInt     nonmortar = term->facet_place[0][facet], mortar = term->facet_place[1][facet];
+    const PetscBool    ties = (PetscBool)(term->view->spec->law == CONTACT_TIED);
     PetscReal          xi[2], eta[2];
     if (nonmortar >= 0) {
       Locate_Private(&term->view->nonmortar, nonmortar, X, xi);
-      Push_Private(term, finite, nonmortar, xi, -Stretch_Private(terms, &term->view->nonmortar, nonmortar, xi), T);
+      if (ties)
+        Tie_Private(term, nonmortar, xi, -1, T);
+      else
+        Push_Private(term, finite, nonmortar, xi, -Stretch_Private(terms, &term->view->nonmortar, nonmortar, xi), T);
     }
     if (mortar < 0) continue;
     Locate_Private(&term->view->mortar, mortar, X, eta);
     const PetscInt seen = Seen_Private(term, mortar, eta, xi);
-    if (seen >= 0) Push_Private(term, finite, seen, xi, Stretch_Private(terms, &term->view->mortar, mortar, eta), T);
+    if (seen >= 0 && ties) Tie_Private(term, seen, xi, 1, T);
+    if (seen >= 0 && !ties) Push_Private(term, finite, seen, xi, Stretch_Private(terms, &term->view->mortar, mortar, eta), T);
   }
 }

@@ -130,6 +130,7 @@ typedef struct {
   TieFacet  *facets[3];
   PetscBool *carries;                                         /* [dim][n] there is a row */
   PetscReal *weight, *spring, *gap, *coupled, *change, *lift; /* [dim][n] as those of Contact */
+  PetscReal *z;                                               /* [dim][n] what is shown: where there is no row, from other nodes */
   PetscInt  *donor_first[3], *donor[3];                       /* ContactPairGetDonors of each component */
   PetscReal *donor_weight[3];
 } Tie;

@@ -304,7 +304,8 @@ PetscErrorCode TieCreate_Private(Interface p, Contact *c)
   c->tie = t;
   PetscCall(
       PetscCalloc6(p->dim * n, &t->carries, p->dim * n, &t->weight, p->dim * n, &t->spring, p->dim * n, &t->gap, p->dim * n, &t->change, p->dim * n, &t->lift));
-  PetscCall(PetscCalloc1(p->dim * n, &t->coupled));
+  PetscCall(PetscCalloc2(p->dim * n, &t->coupled, p->dim * n, &t->z));
+  c->view.z = t->z;
   for (PetscInt k = 0; k < p->dim; ++k) PetscCall(PetscMalloc1(c->side[0].num_facets, &t->result[k]));
   PetscCall(PetscCalloc1(p->dim * n, &carries));
   PetscCall(Carriers_Private(p, c, carries));
@@ -350,7 +351,7 @@ PetscErrorCode TieDestroy_Private(Contact *c)
     PetscCall(PetscFree3(t->donor_first[k], t->donor[k], t->donor_weight[k]));
   }
   PetscCall(PetscFree6(t->carries, t->weight, t->spring, t->gap, t->change, t->lift));
-  PetscCall(PetscFree(t->coupled));
+  PetscCall(PetscFree2(t->coupled, t->z));
   PetscCall(PetscFree(c->tie));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -378,9 +379,10 @@ static PetscErrorCode Shown_Private(Interface p, Contact *c, PetscInt k)
 {
   const Surface *s = &c->side[0];
   const Tie     *t = c->tie;
-  PetscReal     *z = c->z + s->num_nodes * k;
+  PetscReal     *z = t->z + s->num_nodes * k;
 
   PetscFunctionBegin;
+  PetscCall(PetscArraycpy(z, c->z + s->num_nodes * k, s->num_nodes));
   for (PetscInt i = 0; i < s->num_own && t->donor_first[k]; ++i) {
     const PetscInt j = s->own[i];
     if (t->carries[s->num_nodes * k + j]) continue;

@@ -124,6 +124,7 @@ struct _p_Scene {
   RefineEntry   *refine; /* [data.num_refines] */
   PointEntry    *point;
   PetscInt       num_bodies, num_boundaries, num_points;
+  PetscInt      *joined; /* MechanicsSpec.joined */
 };
 
 /* Every key of the tree is in the table and has the right shape. Not collective. */

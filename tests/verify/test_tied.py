@@ -39,3 +39,36 @@ def test_patch_in_the_plane(run, pairing, nonmortar, kinematics, order):
     error = [affine(state, H[:2, :2]), numpy.ptp(state["stress"], axis=0).max() / 100]
     print(error)
     assert max(error) < 1e-10, error
+
+
+def box_scene(tmp_path, parts, pairs, order=1, kinematics="finite", near=None, to=lambda x: x, matrix=H, sides=None, **keys):
+    """Boxes glued in pairs (nonmortar, mortar), every other face moved by the matrix."""
+    boxes(tmp_path / "boxes.msh", parts, to)
+    tied = {face for pair in pairs for face in pair}
+    faces = sides or [f"{name}_{axis}{end}" for name in parts for axis in "xyz" for end in (0, 1) if f"{name}_{axis}{end}" not in tied]
+    material = LINEAR if kinematics == "small" else RUBBER
+    scene = {"mesh": {"file": str(tmp_path / "boxes.msh")}, "model": "3d", "kinematics": kinematics, "order": order,
+             "body": {name: {"material": "bulk"} for name in parts}, "material": {"bulk": material},
+             "boundary": {face: {"displacement": motion(matrix)} for face in faces},
+             "contact": {f"glue{i}": {"nonmortar": one, "mortar": two, "roles": "given", "kind": "tied"} for i, (one, two) in enumerate(pairs)},
+             "load": {"step": 1}, **keys}
+    if near:
+        scene["refine"] = near
+    return "\n".join(f"{key}: {yaml(value)}" for key, value in scene.items()) + "\n"
+
+
+TWO = {"lower": Box((0, 0, 0), (1, 1, 1), (2, 3, 2)), "upper": Box((0, 0, 1), (1, 1, 1), (3, 2, 1))}
+
+
+@pytest.mark.parametrize("order", [1, 2, pytest.param(3, marks=pytest.mark.slow), pytest.param(4, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("hangs", [None, "upper_z0", "lower_z1"])
+@pytest.mark.parametrize("nonmortar", [0, 1])
+def test_patch_in_space(run, tmp_path, nonmortar, hangs, order):
+    near = {"spot": {"boundary": hangs, "x": 0.1, "y": 0.2, "z": 1, "levels": 1}} if hangs else None
+    pair = ("upper_z0", "lower_z1")[:: 1 - 2 * nonmortar]
+    result = run("space.yml", text=box_scene(tmp_path, TWO, [pair], order, near=near))
+    assert result.returncode == 0, result
+    state = bulk(result)
+    error = [affine(state, H), numpy.ptp(state["stress"], axis=0).max() / 100]
+    print(error)
+    assert max(error) < 1e-10, error

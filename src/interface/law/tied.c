@@ -1,5 +1,5 @@
 /* Tied surfaces: what faced each other keeps together. The multipliers are the components of the traction, each with the row G_k + (S z)_k = 0 (tie.c); no node
-   is ever open. A component that the node carries no multiplier of keeps its value, which nothing feels. */
+   is ever open. A component that the node carries no multiplier of is 0. */
 #include "interfaceimpl.h"
 
 static PetscInt All_Private(PetscInt dim)
@@ -20,6 +20,7 @@ static void Rows_Private(const ContactPoint *p, PetscBool symmetric, ContactRow 
 
     row[k]      = (ContactRow){.component = k};
     row[k].z[k] = symmetric ? -p->w0 : p->w0;
+    row[k].side = -row[k].z[k] * p->z[k];
     if (!(t->weight > 0)) continue;
     row[k].value  = t->gap + t->spring * p->z[k];
     row[k].factor = factor;
