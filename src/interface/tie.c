@@ -19,34 +19,41 @@ static PetscInt Name_Private(const Surface *s, PetscInt n)
   return s->node_entity[n] * (SURFACE_MOST_NODES + 1) + s->node_index[n] + 1;
 }
 
-/* Nodes of the pair's nonmortar side that other tied pairs have, too. */
+/* Nodes of the pair's nonmortar side at which facets of other tied pairs meet it, which are not its own. */
 static PetscErrorCode Crossings_Private(Interface p, const Contact *c, PetscBool crosses[])
 {
   const Surface *s = &c->side[0];
-  PetscInt      *taken, num = 0, size = 0, at;
+  PetscInt      *own, *taken, num = s->num_facets, size = 0, at;
 
   PetscFunctionBegin;
-  for (PetscInt i = 0; i < p->num_contacts; ++i) size += p->contacts[i].side[0].num_nodes + p->contacts[i].side[1].num_nodes;
-  PetscCall(PetscMalloc1(size, &taken));
+  for (PetscInt i = 0; i < 2 * p->num_contacts; ++i)
+    size += p->contacts[i / 2].side[i % 2].num_facets * SURFACE_MOST_NODES;
+  PetscCall(PetscMalloc2(num, &own, size, &taken));
+  PetscCall(PetscArraycpy(own, s->facet_entity, num));
+  PetscCall(PetscSortInt(num, own));
+  size = 0;
   for (PetscInt i = 0; i < 2 * p->num_contacts; ++i) {
     const Contact *other = &p->contacts[i / 2];
-    if (other == c || !other->law->ties) continue;
-    for (PetscInt n = 0; n < other->side[i % 2].num_nodes; ++n) taken[num++] = Name_Private(&other->side[i % 2], n);
+    const Surface *o     = &other->side[i % 2];
+    for (PetscInt f = 0; f < o->num_facets && other != c && other->law->ties; ++f) {
+      const PetscInt *node, nodes = SurfaceNodes_Private(o, f, &node);
+      PetscCall(PetscFindInt(o->facet_entity[f], num, own, &at));
+      for (PetscInt k = 0; k < nodes && at < 0; ++k) taken[size++] = Name_Private(o, node[k]);
+    }
   }
-  PetscCall(PetscSortRemoveDupsInt(&num, taken));
+  PetscCall(PetscSortRemoveDupsInt(&size, taken));
   for (PetscInt n = 0; n < s->num_nodes; ++n) {
-    PetscCall(PetscFindInt(Name_Private(s, n), num, taken, &at));
+    PetscCall(PetscFindInt(Name_Private(s, n), size, taken, &at));
     crosses[n] = (PetscBool)(at >= 0);
   }
-  PetscCall(PetscFree(taken));
+  PetscCall(PetscFree2(own, taken));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* carries[dim][n], before supports' frames are those of rows. has_multiplier: those that carry any. */
 static PetscErrorCode Carriers_Private(Interface p, Contact *c, PetscBool carries[])
 {
-  const Surface *s   = &c->side[0];
-  PetscInt       num = 0;
+  const Surface *s = &c->side[0];
   PetscBool     *crosses;
 
   PetscFunctionBegin;
@@ -59,13 +66,8 @@ static PetscErrorCode Carriers_Private(Interface p, Contact *c, PetscBool carrie
       *to           = (PetscBool)(s->hang[n] == s->hang[n + 1] && !crosses[n] && ContactIsFree_Private(p, c, n, k));
       if (*to) c->has_multiplier[n] = PETSC_TRUE;
     }
-    num += c->has_multiplier[n];
   }
   PetscCall(PetscFree(crosses));
-  PetscCheckInput(num,
-                  "contact.%s: supports or other tied pairs hold every node of the side that carries the multipliers; take this side as mortar, and give "
-                  "roles: given if the bodies differ in stiffness",
-                  c->spec->name);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -292,6 +294,36 @@ static PetscErrorCode Component_Private(Interface p, Contact *c, PetscInt k, con
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+static PetscBool Moves_Private(const Surface *s, PetscInt n)
+{
+  for (PetscInt d = 0; d < s->dim; ++d)
+    if (!((s->dof[s->dim * n] >> d) & 1)) return PETSC_TRUE;
+  return PETSC_FALSE;
+}
+
+/* A facet whose displacement is prescribed has no multipliers, and nothing would tie to it what can move. */
+static PetscErrorCode CheckSides_Private(Interface p, const Contact *c)
+{
+  const Surface *s     = &c->side[0];
+  PetscBool      loose = PETSC_FALSE;
+
+  PetscFunctionBegin;
+  for (PetscInt i = 0; i < c->tie->num_facets[0]; ++i) {
+    const ContactFacet *e     = &c->tie->facets[0][i].facet;
+    PetscBool           moves = PETSC_FALSE, other = PETSC_FALSE;
+    for (PetscInt k = s->true_first[e->facet]; k < s->true_first[e->facet + 1]; ++k) moves = (PetscBool)(moves || Moves_Private(s, s->true_node[k]));
+    for (PetscInt a = 0; a < e->num && !moves; ++a)
+      other = (PetscBool)(other || (NODE_SIDE(e->nodes[a]) && Moves_Private(&c->side[1], NODE_INDEX(e->nodes[a]))));
+    loose = (PetscBool)(loose || other);
+  }
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &loose, 1, COMPAT_MPI_BOOL, MPI_LOR, p->comm));
+  PetscCheckInput(!loose,
+                  "contact.%s: supports prescribe the displacement of facets on the side that carries the multipliers, which so cannot be tied; exchange "
+                  "nonmortar and mortar, with roles: given where the bodies differ in stiffness",
+                  c->spec->name);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode TieCreate_Private(Interface p, Contact *c)
 {
   const PetscInt n = c->side[0].num_nodes;
@@ -317,6 +349,7 @@ PetscErrorCode TieCreate_Private(Interface p, Contact *c)
                   "contact.%s: nothing of one side faces the other within %g, so that nothing can be tied; with search: a number the distance is that many of "
                   "the longest edges",
                   c->spec->name, (double)c->distance);
+  PetscCall(CheckSides_Private(p, c));
   for (PetscInt f = 0; f < c->side[0].num_facets; ++f) c->result[f] = -1;
   for (PetscInt j = 0; j < n; ++j) {
     c->near[j] = PETSC_TRUE;
