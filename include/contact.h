@@ -96,6 +96,7 @@ typedef struct {
   const PetscReal *dshare; /* [dim*num] derivative of the covered share; with dgap where the facet is covered in part, else NULL */
   const PetscReal *shear;  /* [num_rows][dim*num] force by a tangential traction z_j (ContactPairSetTraction); with dgap. NULL: none */
   const PetscReal *tie;    /* [num_rows][num] sum_a tie_ja x_a = int psi_j (x_m - x_s) dgamma, of ContactPairTie; else NULL */
+  const PetscReal *whole;  /* [num_rows] with tie: what the weight would be if the facet were covered whole */
   PetscReal        area;   /* covered length or area (axisymmetric: area) */
   PetscReal        min_gap;
 } ContactFacet;

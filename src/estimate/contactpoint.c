@@ -190,6 +190,31 @@ static PetscInt Seen_Private(const ContactTerm *term, PetscInt mortar_facet, con
   return found;
 }
 
+/* Does a place on a nonmortar facet of this rank face the mortar side? Segments come by ascending facets. */
+static PetscBool Faces_Private(const ContactTerm *term, PetscInt facet, const PetscReal xi[2])
+{
+  const ContactSegment *s;
+  PetscInt              num, low = 0, high;
+
+  PetscCallAbort(PETSC_COMM_SELF, ContactPairGetSegments(term->view->pair, &num, &s));
+  for (high = num; low < high;) {
+    const PetscInt middle = (low + high) / 2;
+    if (s[middle].facet < facet)
+      low = middle + 1;
+    else
+      high = middle;
+  }
+  for (; low < num && s[low].facet == facet; ++low) {
+    if (s[low].num == 2 && (s[low].xi[0][0] - xi[0]) * (s[low].xi[1][0] - xi[0]) <= 0) return PETSC_TRUE;
+    for (PetscInt k = 1; k + 1 < s[low].num; ++k) {
+      const PetscReal *const p[3] = {s[low].xi[0], s[low].xi[k], s[low].xi[k + 1]};
+      PetscReal              weight[3];
+      if (InTriangle_Private(p, xi, weight) > -SLIT) return PETSC_TRUE;
+    }
+  }
+  return PETSC_FALSE;
+}
+
 void ContactTermsTraction_Private(const ContactTerms *terms, PetscInt facet, const PetscReal X[3], PetscReal T[3])
 {
   const PetscBool finite = (PetscBool)(terms->kinematics == KINEMATICS_FINITE);
@@ -201,10 +226,8 @@ void ContactTermsTraction_Private(const ContactTerms *terms, PetscInt facet, con
     PetscReal          xi[2], eta[2];
     if (nonmortar >= 0) {
       Locate_Private(&term->view->nonmortar, nonmortar, X, xi);
-      if (ties)
-        Tie_Private(term, nonmortar, xi, -1, T);
-      else
-        Push_Private(term, finite, nonmortar, xi, -Stretch_Private(terms, &term->view->nonmortar, nonmortar, xi), T);
+      if (ties && Faces_Private(term, nonmortar, xi)) Tie_Private(term, nonmortar, xi, -1, T);
+      if (!ties) Push_Private(term, finite, nonmortar, xi, -Stretch_Private(terms, &term->view->nonmortar, nonmortar, xi), T);
     }
     if (mortar < 0) continue;
     Locate_Private(&term->view->mortar, mortar, X, eta);

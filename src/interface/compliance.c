@@ -1,22 +1,20 @@
 /* Compliances S of facets that are covered in part (contact.h), at the nodes: what the pressures of others add to a gap. */
 #include "interfaceimpl.h"
 
-void ContactFacetCoupling_Private(const Contact *c, const ContactFacet *e, const PetscReal z[], PetscReal coupled[])
-{
-  if (!e->compliance) return;
-  const PetscReal mean = ContactFacetMean(e, e->nodes, z);
-  for (PetscInt k = 0; k < e->num_rows; ++k) {
-    const PetscInt j = e->nodes[k];
-    if (c->side[0].owned[j]) coupled[j] += e->kappa[0] * e->compliance[k] * (z[j] - mean) - ContactCompliance_Private(e, k, k) * z[j];
-  }
-}
-
 void ContactCoupling_Private(const Contact *c, const PetscReal z[], PetscReal coupled[])
 {
   const Surface *s = &c->side[0];
 
   for (PetscInt i = 0; i < s->num_own; ++i) coupled[s->own[i]] = 0;
-  for (PetscInt i = 0; i < c->num_facets; ++i) ContactFacetCoupling_Private(c, &c->facets[i], z, coupled);
+  for (PetscInt i = 0; i < c->num_facets; ++i) {
+    const ContactFacet *e = &c->facets[i];
+    if (!e->compliance) continue;
+    const PetscReal mean = ContactFacetMean(e, e->nodes, z);
+    for (PetscInt k = 0; k < e->num_rows; ++k) {
+      const PetscInt j = e->nodes[k];
+      if (s->owned[j]) coupled[j] += e->kappa[0] * e->compliance[k] * (z[j] - mean) - ContactCompliance_Private(e, k, k) * z[j];
+    }
+  }
 }
 
 PetscReal ContactIdle_Private(const Contact *c, PetscInt j)

@@ -27,7 +27,7 @@ typedef struct {
 
 /* What keeps the sides together at a node, in one component. weight 0: nothing does. */
 typedef struct {
-  PetscReal gap, weight, spring, lift;
+  PetscReal gap, weight, lift;
 } TiePoint;
 
 /* A node of the nonmortar side: what its rows are made of. */
@@ -128,10 +128,10 @@ typedef struct {
 typedef struct {
   PetscInt   num_facets[3], *result[3]; /* as those of Contact */
   TieFacet  *facets[3];
-  PetscBool *carries;                                         /* [dim][n] there is a row */
-  PetscReal *weight, *spring, *gap, *coupled, *change, *lift; /* [dim][n] as those of Contact */
-  PetscReal *z;                                               /* [dim][n] what is shown: where there is no row, from other nodes */
-  PetscInt  *donor_first[3], *donor[3];                       /* ContactPairGetDonors of each component */
+  PetscBool *carries;                   /* [dim][n] there is a row */
+  PetscReal *weight, *gap, *lift;       /* [dim][n] as those of Contact */
+  PetscReal *z;                         /* [dim][n] what is shown: where there is no row, from other nodes */
+  PetscInt  *donor_first[3], *donor[3]; /* ContactPairGetDonors of each component */
   PetscReal *donor_weight[3];
 } Tie;
 
@@ -326,8 +326,6 @@ static inline ContactPoint ContactPoint_Private(const Contact *c, PetscInt j, Pe
   for (PetscInt k = 0; k < c->num; ++k) point.z[k] = c->z[c->side[0].num_nodes * k + j];
   return point;
 }
-/* A facet's part of that. */
-void ContactFacetCoupling_Private(const Contact *, const ContactFacet *, const PetscReal z[], PetscReal coupled[]);
 /* compliance.c: (S z)_j without S_jj z_j at this rank's nodes; idle: of open nodes only, at node j. */
 void      ContactCoupling_Private(const Contact *, const PetscReal z[], PetscReal coupled[]);
 PetscReal ContactIdle_Private(const Contact *, PetscInt j);

@@ -261,24 +261,23 @@ PetscErrorCode ContactNodeGradient_Private(Interface p, const Contact *c, PetscI
 }
 
 /* factor S_jl at the columns of the multipliers of others; in the symmetric form of those that bear, whose unknown is z_l over c_l. */
-static PetscErrorCode Couplings_Private(const InterfaceSystem *a, const Contact *c, PetscInt j, const ContactRow *form, PetscInt num, const PetscInt dofs[],
+static PetscErrorCode Couplings_Private(const InterfaceSystem *a, const Contact *c, PetscInt j, PetscReal factor, PetscInt num, const PetscInt dofs[],
                                         PetscReal values[])
 {
-  const Surface  *s      = &c->side[0];
-  const PetscReal factor = form->slip ? 0 : form->factor;
-  PetscInt        at;
+  const Surface *s = &c->side[0];
+  PetscInt       at;
 
   PetscFunctionBegin;
   for (PetscInt i = s->node_first[j]; factor != 0 && i < s->node_first[j + 1]; ++i) {
-    const PetscInt      place = (c->tie ? c->tie->result[form->component] : c->result)[s->node_facet[i]];
-    const ContactFacet *e     = place < 0 ? NULL : c->tie ? &c->tie->facets[form->component][place].facet : &c->facets[place];
-    if (!e || !e->compliance) continue;
-    PetscInt row = 0;
+    const PetscInt place = c->result[s->node_facet[i]];
+    if (place < 0 || !c->facets[place].compliance) continue;
+    const ContactFacet *e   = &c->facets[place];
+    PetscInt            row = 0;
     while (row < e->num_rows && e->nodes[row] != j) ++row;
     for (PetscInt k = 0; k < e->num_rows && row < e->num_rows; ++k) {
       const PetscInt l = e->nodes[k];
       if (k == row || c->zdof[l] < 0 || (a->symmetric && !c->active[l])) continue;
-      PetscCall(PetscFindInt(c->zdof[l] + form->component, num, dofs, &at));
+      PetscCall(PetscFindInt(c->zdof[l], num, dofs, &at));
       PetscCheck(at >= 0, PETSC_COMM_SELF, PETSC_ERR_PLIB, "multiplier outside the pattern of its facet");
       values[at] += factor * ContactCompliance_Private(e, row, k) * (a->symmetric ? c->c[l] : 1);
     }
@@ -297,7 +296,7 @@ PetscErrorCode ContactInsertRow_Private(Interface p, const InterfaceSystem *a, c
   for (PetscInt i = 0; i < c->num; ++i) {
     const PetscInt line = c->zdof[j] + i;
     PetscCall(ContactNodeGradient_Private(p, c, j, &row[i], &num));
-    PetscCall(Couplings_Private(a, c, j, &row[i], num, p->work.index, p->work.value));
+    PetscCall(Couplings_Private(a, c, j, i == 0 ? row[i].factor : 0, num, p->work.index, p->work.value));
     PetscCall(PetscFindInt(c->zdof[j], num, p->work.index, &at));
     for (PetscInt k = 0; k < c->num; ++k) p->work.value[at + k] = a->symmetric ? row[i].z[k] * c->c[j] : row[i].z[k];
     PetscCall(ContactInsert_Private(a->matrix, 1, &line, num, p->work.index, p->work.value, INSERT_VALUES));

@@ -10,6 +10,7 @@
 #include "interfaceimpl.h"
 
 #define FLAT 1e-12 /* of a facet: a gap that is round-off of positions */
+#define ENOUGH 0.1 /* of a function, that has to be covered on one facet at least */
 
 /* ---- which nodes carry which components --------------------------------------------------------------------------------------------- */
 
@@ -26,8 +27,7 @@ static PetscErrorCode Crossings_Private(Interface p, const Contact *c, PetscBool
   PetscInt      *own, *taken, num = s->num_facets, size = 0, at;
 
   PetscFunctionBegin;
-  for (PetscInt i = 0; i < 2 * p->num_contacts; ++i)
-    size += p->contacts[i / 2].side[i % 2].num_facets * SURFACE_MOST_NODES;
+  for (PetscInt i = 0; i < 2 * p->num_contacts; ++i) size += p->contacts[i / 2].side[i % 2].num_facets * SURFACE_MOST_NODES;
   PetscCall(PetscMalloc2(num, &own, size, &taken));
   PetscCall(PetscArraycpy(own, s->facet_entity, num));
   PetscCall(PetscSortInt(num, own));
@@ -50,24 +50,56 @@ static PetscErrorCode Crossings_Private(Interface p, const Contact *c, PetscBool
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Functions of a facet that is covered in part and of which too little is covered say what the others say, and their multipliers would be as large as that is
+   little: keep[n] those nodes of which one facet shows enough, and of a facet without any the one that is seen best. */
+static PetscErrorCode Seen_Private(Interface p, const Contact *c, PetscBool keep[])
+{
+  ContactSurface      side[2] = {SurfaceAt_Private(&c->side[0], c->side[0].X), SurfaceAt_Private(&c->side[1], c->side[1].X)};
+  const ContactFacet *facets;
+  PetscInt            num;
+  PetscBool           failed;
+
+  PetscFunctionBegin;
+  PetscCall(ContactPairSetCarriers(c->pair, &side[0], NULL));
+  PetscCall(ContactPairTie(c->pair, &side[0], &side[1], &num, &facets, &failed));
+  PetscCall(PetscArrayzero(keep, c->side[0].num_nodes));
+  for (PetscInt i = 0; i < num; ++i)
+    for (PetscInt r = 0; r < facets[i].num_rows && c->mine[facets[i].facet]; ++r)
+      if (facets[i].weight[r] > ENOUGH * facets[i].whole[r]) keep[facets[i].nodes[r]] = PETSC_TRUE;
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, keep, (PetscMPIInt)c->side[0].num_nodes, COMPAT_MPI_BOOL, MPI_LOR, p->comm));
+  for (PetscInt i = 0; i < num; ++i) {
+    const ContactFacet *f    = &facets[i];
+    PetscBool           any  = PETSC_FALSE;
+    PetscInt            best = 0;
+    for (PetscInt r = 0; r < f->num_rows; ++r) {
+      any = (PetscBool)(any || keep[f->nodes[r]]);
+      if (f->weight[r] * f->whole[best] > f->weight[best] * f->whole[r]) best = r;
+    }
+    if (!any && f->num_rows && c->mine[f->facet]) keep[f->nodes[best]] = PETSC_TRUE;
+  }
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, keep, (PetscMPIInt)c->side[0].num_nodes, COMPAT_MPI_BOOL, MPI_LOR, p->comm));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* carries[dim][n], before supports' frames are those of rows. has_multiplier: those that carry any. */
 static PetscErrorCode Carriers_Private(Interface p, Contact *c, PetscBool carries[])
 {
   const Surface *s = &c->side[0];
-  PetscBool     *crosses;
+  PetscBool     *crosses, *seen;
 
   PetscFunctionBegin;
-  PetscCall(PetscMalloc1(s->num_nodes, &crosses));
+  PetscCall(PetscMalloc2(s->num_nodes, &crosses, s->num_nodes, &seen));
   PetscCall(Crossings_Private(p, c, crosses));
+  PetscCall(Seen_Private(p, c, seen));
   for (PetscInt n = 0; n < s->num_nodes; ++n) {
     c->has_multiplier[n] = PETSC_FALSE;
     for (PetscInt k = 0; k < p->dim; ++k) {
       PetscBool *to = &carries[s->num_nodes * k + n];
-      *to           = (PetscBool)(s->hang[n] == s->hang[n + 1] && !crosses[n] && ContactIsFree_Private(p, c, n, k));
+      *to           = (PetscBool)(s->hang[n] == s->hang[n + 1] && !crosses[n] && seen[n] && ContactIsFree_Private(p, c, n, k));
       if (*to) c->has_multiplier[n] = PETSC_TRUE;
     }
   }
-  PetscCall(PetscFree(crosses));
+  PetscCall(PetscFree2(crosses, seen));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -231,7 +263,7 @@ static PetscErrorCode Keep_Private(Interface p, const Contact *c, PetscInt k, co
 {
   const PetscInt nr = from->num_rows, num = from->num;
   PetscInt      *nodes;
-  PetscReal     *weight, *tie, *compliance = NULL;
+  PetscReal     *weight, *tie;
 
   PetscFunctionBegin;
   *t = (TieFacet){.facet = *from};
@@ -241,14 +273,11 @@ static PetscErrorCode Keep_Private(Interface p, const Contact *c, PetscInt k, co
   PetscCall(PetscArraycpy(nodes, from->nodes, num));
   PetscCall(PetscArraycpy(weight, from->weight, nr));
   PetscCall(PetscArraycpy(tie, from->tie, nr * num));
-  if (from->compliance) PetscCall(PetscMalloc1(nr, &compliance));
-  if (from->compliance) PetscCall(PetscArraycpy(compliance, from->compliance, nr));
-  t->facet.nodes      = nodes;
-  t->facet.weight     = weight;
-  t->facet.tie        = tie;
-  t->facet.compliance = compliance;
-  t->facet.gap        = t->gap;
-  t->facet.dgap       = t->dgap;
+  t->facet.nodes  = nodes;
+  t->facet.weight = weight;
+  t->facet.tie    = tie;
+  t->facet.gap    = t->gap;
+  t->facet.dgap   = t->dgap;
   Arms_Private(c, k, t);
   if (t->bends && p->dim == 3 && p->spec->kinematics == KINEMATICS_FINITE) PetscCall(Masters_Private(&c->side[0], t));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -280,7 +309,6 @@ static PetscErrorCode Component_Private(Interface p, Contact *c, PetscInt k, con
       const PetscInt j = n * k + f->facet.nodes[r];
       if (!s->owned[f->facet.nodes[r]]) continue;
       t->weight[j] += f->facet.weight[r];
-      if (f->facet.compliance) t->spring[j] += ContactCompliance_Private(&f->facet, r, r);
     }
   }
   PetscCall(LinkSpread_Private(p, &s->values, 1, t->weight + n * k));
@@ -334,14 +362,13 @@ PetscErrorCode TieCreate_Private(Interface p, Contact *c)
   if (!c->law->ties) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(PetscNew(&t));
   c->tie = t;
-  PetscCall(
-      PetscCalloc6(p->dim * n, &t->carries, p->dim * n, &t->weight, p->dim * n, &t->spring, p->dim * n, &t->gap, p->dim * n, &t->change, p->dim * n, &t->lift));
-  PetscCall(PetscCalloc2(p->dim * n, &t->coupled, p->dim * n, &t->z));
+  PetscCall(PetscCalloc4(p->dim * n, &t->carries, p->dim * n, &t->weight, p->dim * n, &t->gap, p->dim * n, &t->lift));
+  PetscCall(PetscCalloc1(p->dim * n, &t->z));
   c->view.z = t->z;
   for (PetscInt k = 0; k < p->dim; ++k) PetscCall(PetscMalloc1(c->side[0].num_facets, &t->result[k]));
   PetscCall(PetscCalloc1(p->dim * n, &carries));
-  PetscCall(Carriers_Private(p, c, carries));
   PetscCall(ContactSearch_Private(p, c, PETSC_TRUE, 0));
+  PetscCall(Carriers_Private(p, c, carries));
   for (PetscInt k = 0; k < p->dim; ++k) PetscCall(Component_Private(p, c, k, carries + n * k));
   PetscCall(PetscFree(carries));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &c->view.area, 1, MPIU_REAL, MPI_SUM, p->comm));
@@ -374,7 +401,6 @@ PetscErrorCode TieDestroy_Private(Contact *c)
       TieFacet *f = &t->facets[k][i];
       PetscCall(PetscFree2(f->facet.nodes, f->facet.weight));
       PetscCall(PetscFree(f->facet.tie));
-      PetscCall(PetscFree(f->facet.compliance));
       PetscCall(PetscFree4(f->gap, f->start, f->arm, f->dgap));
       PetscCall(PetscFree(f->bend.nodes));
       PetscCall(PetscFree(f->hessian));
@@ -383,8 +409,8 @@ PetscErrorCode TieDestroy_Private(Contact *c)
     PetscCall(PetscFree(t->result[k]));
     PetscCall(PetscFree3(t->donor_first[k], t->donor[k], t->donor_weight[k]));
   }
-  PetscCall(PetscFree6(t->carries, t->weight, t->spring, t->gap, t->change, t->lift));
-  PetscCall(PetscFree2(t->coupled, t->z));
+  PetscCall(PetscFree4(t->carries, t->weight, t->gap, t->lift));
+  PetscCall(PetscFree(t->z));
   PetscCall(PetscFree(c->tie));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -397,15 +423,6 @@ PetscBool InterfaceTies(Interface p)
 }
 
 /* ---- evaluation ------------------------------------------------------------------------------------------------------------------------- */
-
-/* What the compliances of facets covered in part add to the rows of component k by the multipliers of others. */
-static void Couple_Private(const Contact *c, PetscInt k, const PetscReal z[], PetscReal coupled[])
-{
-  const Tie *t = c->tie;
-
-  for (PetscInt i = 0; i < c->side[0].num_own; ++i) coupled[c->side[0].own[i]] = 0;
-  for (PetscInt i = 0; i < t->num_facets[k]; ++i) ContactFacetCoupling_Private(c, &t->facets[k][i].facet, z, coupled);
-}
 
 /* The traction where a component has no multiplier: from the nodes that its functions went to. */
 static PetscErrorCode Shown_Private(Interface p, Contact *c, PetscInt k)
@@ -451,7 +468,6 @@ PetscErrorCode TieEvaluate_Private(Interface p, Contact *c)
         gap[e->nodes[r]] += small ? f->start[r] + ContactFacetDot_Private(c, e, e->dgap + p->dim * r * e->num) : e->gap[r];
       }
     }
-    Couple_Private(c, k, c->z + n * k, t->coupled + n * k);
   }
   for (PetscInt k = 0; k < p->dim; ++k) PetscCall(Shown_Private(p, c, k));
   c->view.min_gap = 0;
@@ -464,7 +480,7 @@ void TiePoint_Private(const Contact *c, PetscInt j, PetscBool lifted, ContactPoi
 
   for (PetscInt k = 0; k < c->num; ++k) {
     const PetscInt i = c->side[0].num_nodes * k + j;
-    point->tie[k]    = (TiePoint){t->gap[i] + t->coupled[i], t->carries[i] ? t->weight[i] : 0, t->spring[i], lifted ? t->lift[i] : 0};
+    point->tie[k]    = (TiePoint){t->gap[i], t->carries[i] ? t->weight[i] : 0, lifted ? t->lift[i] : 0};
   }
 }
 

@@ -247,3 +247,20 @@ def test_nothing_holds_them(run):
 def test_prescribed_side(run):
     result = run("held.yml", text=glued(boundary={"bottom": {"fix": "xy"}, "upper_bottom": {"displacement": {"x": 0.1, "y": -0.1}}}))
     assert result.returncode == 1 and "exchange nonmortar and mortar" in result.stderr, result
+
+
+@pytest.mark.parametrize("order", [1, 2, 4])
+def test_side_that_ends_in_a_facet(run, order):
+    """The end of the upper block goes over a node of the lower side: slivers of facets change neither the solution nor the tractions at a jump."""
+    def figures(beyond):
+        scene = blocks("lower", {"lower": LINEAR, "upper": LINEAR}, {"bottom": {"fix": "xy"}, "top": {"displacement": {"x": 0.01, "y": 0.01}}},
+                       {"nl": 4, "nu": 3, "xu": 0.25 - beyond, "wu": 0.5 + 2 * beyond}, None, {"kind": "tied"}, order=order, kinematics="small")
+        result = run("end.yml", text=scene)
+        assert result.returncode == 0, result
+        return result.summary["energy"], result.summary["contact"]["pair"]["max_traction"], result.summary["estimated_error"]
+
+    one = figures(0)
+    for beyond in (-1e-6, 1e-6, 1e-4, 1e-3):
+        energy, traction, error = figures(beyond)
+        print(beyond, energy / one[0] - 1, traction / one[1] - 1, error / one[2] - 1)
+        assert abs(energy / one[0] - 1) < 10 * abs(beyond) and abs(traction / one[1] - 1) < 100 * abs(beyond) and abs(error / one[2] - 1) < 0.05

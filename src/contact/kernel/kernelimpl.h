@@ -346,7 +346,7 @@ PetscBool ContactSlipLoads(const EvaluateContext *);
 PetscErrorCode ContactSlipFacet(const EvaluateContext *, PetscInt facet, PetscBool derivatives, ContactFacet *out);
 
 /* tie.c: after the moments of the facet at hand, for the result `out`: what ties it, where that is wanted. */
-PetscErrorCode ContactTieFacet(const EvaluateContext *, ContactFacet *out);
+PetscErrorCode ContactTieFacet(const EvaluateContext *, PetscInt facet, ContactFacet *out);
 
 /* region.c */
 typedef struct {

@@ -40,12 +40,12 @@ static PetscErrorCode Overlap_Private(RayWork w, const ContactSurface *surface, 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode ContactTieFacet(const EvaluateContext *ctx, ContactFacet *out)
+PetscErrorCode ContactTieFacet(const EvaluateContext *ctx, PetscInt facet, ContactFacet *out)
 {
   RayWork         w  = ctx->pair->ray;
   const PetscInt  na = w->facet.s.num, nr = w->result.num_rows, num = w->result.num_nodes;
   const RayPlace *place = w->places;
-  PetscReal      *m, *tie;
+  PetscReal      *m, *tie, *whole;
 
   PetscFunctionBegin;
   out->tie = NULL;
@@ -53,12 +53,15 @@ PetscErrorCode ContactTieFacet(const EvaluateContext *ctx, ContactFacet *out)
   PetscCall(PetscCalloc1((na + w->num_mortar) * na, &m));
   for (PetscInt k = 0; k < w->num_overlaps; k++) PetscCall(Overlap_Private(w, ctx->mortar, k, &place, m));
   PetscCall(ContactStoreReserve(&w->result.store, nr * num, &tie));
+  PetscCall(ContactStoreReserve(&w->result.store, nr, &whole));
+  for (PetscInt r = 0; r < nr; r++) whole[r] = w->share.part ? ctx->pair->multiplier->measure[ctx->pair->multiplier->row_first[facet] + r] : out->weight[r];
   for (PetscInt v = 0; v < na + w->num_mortar; v++)
     for (PetscInt k = w->result.row_first[v]; k < w->result.row_first[v + 1]; k++)
       for (PetscInt r = 0; r < nr; r++)
         for (PetscInt i = 0; i < na; i++) tie[r * num + w->result.row_node[k]] += w->result.row_weight[k] * w->T[r * na + i] * m[v * na + i];
   PetscCall(PetscFree(m));
-  out->tie = tie;
+  out->tie   = tie;
+  out->whole = whole;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -1,4 +1,4 @@
-/* Tied surfaces: what faced each other keeps together. The multipliers are the components of the traction, each with the row G_k + (S z)_k = 0 (tie.c); no node
+/* Tied surfaces: what faced each other keeps together. The multipliers are the components of the traction, each with the row G_k = 0 (tie.c); no node
    is ever open. A component that the node carries no multiplier of is 0. */
 #include "interfaceimpl.h"
 
@@ -16,16 +16,16 @@ static void Rows_Private(const ContactPoint *p, PetscBool symmetric, ContactRow 
 {
   for (PetscInt k = 0; k < p->num; ++k) {
     const TiePoint *t      = &p->tie[k];
-    const PetscReal factor = symmetric ? -p->c : t->weight > 0 ? p->w0 * p->c / (t->weight + p->c * t->spring) : 0;
+    const PetscReal factor = symmetric ? -p->c : t->weight > 0 ? p->w0 * p->c / t->weight : 0;
 
     row[k]      = (ContactRow){.component = k};
     row[k].z[k] = symmetric ? -p->w0 : p->w0;
     row[k].side = -row[k].z[k] * p->z[k];
     if (!(t->weight > 0)) continue;
-    row[k].value  = t->gap + t->spring * p->z[k];
+    row[k].value  = t->gap;
     row[k].factor = factor;
-    row[k].z[k]   = factor * t->spring;
-    row[k].side   = -factor * (row[k].value + t->lift);
+    row[k].z[k]   = 0;
+    row[k].side   = -factor * (t->gap + t->lift);
   }
 }
 
