@@ -58,7 +58,7 @@ typedef struct {
   PetscBool  close;             /* law tied: gaps at the reference positions are closed, else they stay */
   PetscBool  ramp;              /* overlaps of the mesh there count by the share t, from t = 1 on whole */
   Expression interference;      /* of t: overlap at the reference positions, besides that of the geometry; NULL: none */
-  PetscReal  about[3];          /* point that moments of its forces are counted about */
+  PetscReal  about[3];          /* point that moments of its forces are counted about, reference position */
   PetscBool  subdivide_auto;    /* cells behind linear facets are subdivided as the estimate asks (estimate/layer.c) */
 } ContactSpec;
 

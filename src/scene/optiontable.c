@@ -139,7 +139,9 @@ const Option Options[] = {
      PAIR(spec.interference)},
     {"contact.<pair>.multiplier", KEY_WORD, "", "dual", "dual|standard",
      "basis of the contact pressure: dual to the functions of the nodes, or these themselves", PAIR(multiplier)},
-    {"contact.<pair>.moment_about", KEY_TEXT, "", "", "", "a name under point that the moments of the contact forces are counted about; default: the origin",
+    {"contact.<pair>.moment_about", KEY_TEXT, "", "", "",
+     "a name under point that the moments of the contact forces are counted about; default: the centre of the body, or bodies, of the nonmortar side at the "
+     "reference positions",
      PAIR(moment_about)},
     {"contact.<pair>.node_to_segment", KEY_BOOL, "", "false", "", "node-to-segment contact, for comparison only", PAIR(spec.node_to_segment)},
     {"contact.<pair>.see_through", KEY_BOOL, "", "false", "",
