@@ -65,7 +65,7 @@ static PetscErrorCode Seen_Private(Interface p, const Contact *c, PetscBool keep
   PetscCall(PetscArrayzero(keep, c->side[0].num_nodes));
   for (PetscInt i = 0; i < num; ++i)
     for (PetscInt r = 0; r < facets[i].num_rows && c->mine[facets[i].facet]; ++r)
-      if (facets[i].weight[r] > ENOUGH * facets[i].whole[r]) keep[facets[i].nodes[r]] = PETSC_TRUE;
+      if (facets[i].weight[r] * facets[i].whole[r] >= ENOUGH * PetscSqr(facets[i].whole[r])) keep[facets[i].nodes[r]] = PETSC_TRUE;
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, keep, (PetscMPIInt)c->side[0].num_nodes, COMPAT_MPI_BOOL, MPI_LOR, p->comm));
   for (PetscInt i = 0; i < num; ++i) {
     const ContactFacet *f    = &facets[i];

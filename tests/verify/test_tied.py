@@ -264,3 +264,36 @@ def test_side_that_ends_in_a_facet(run, order):
         energy, traction, error = figures(beyond)
         print(beyond, energy / one[0] - 1, traction / one[1] - 1, error / one[2] - 1)
         assert abs(energy / one[0] - 1) < 10 * abs(beyond) and abs(traction / one[1] - 1) < 100 * abs(beyond) and abs(error / one[2] - 1) < 0.05
+
+
+@pytest.mark.parametrize("order, ranks", [(1, 1), pytest.param(2, 1, marks=pytest.mark.slow), (2, 2)])
+def test_lshape(run, order, ranks):
+    """Glued across the line that ends in the singular corner, on meshes that do not match: adapted, the energy of the mesh that conforms, no lower a
+    rate, and about its error at equal unknowns (both begin on meshes of their own)."""
+    def adapted(scene):
+        result = run(scene, "-order", order, "-adapt_tolerance", 0.02, ranks=ranks)
+        assert result.returncode == 0, result
+        rows = [row for row in result.adapt if row["dofs"] > 500]
+        return result.history[-1]["energy"], numpy.polyfit(numpy.log([row["dofs"] for row in rows]), numpy.log([row["estimate"] for row in rows]), 1)
+
+    energy, (slope, at) = adapted("inputs/tied_lshape.yml")
+    conforming, (other, level) = adapted("inputs/lshape.yml")
+    middle = math.log(5000 if order == 1 else 1200)
+    print(energy / 2.0545124437e-5, energy / conforming - 1, slope, other, math.exp(slope * middle + at - other * middle - level))
+    assert abs(energy / conforming - 1) < 1e-3 and slope < 0.99 * other and math.exp(slope * middle + at - other * middle - level) < 1.1
+
+
+def test_with_contact(run, tmp_path):
+    """A body that is glued to another touches a third one."""
+    boxed = {"low": Box((0, 0, 0), (1, 1, 1), (3, 1, 2)), "mid": Box((0.2, 0, 1), (0.6, 1, 0.5), (2, 1, 2)), "top": Box((0.2, 0, 1.5), (0.6, 1, 0.5), (3, 1, 1))}
+    boxes(tmp_path / "three.msh", boxed)
+    scene = {"mesh": {"file": str(tmp_path / "three.msh")}, "model": "3d", "body": {name: {"material": "bulk"} for name in boxed}, "material": {"bulk": RUBBER},
+             "boundary": {"low_z0": {"fix": "xyz"}, "top_z1": {"displacement": {"x": 0.05, "y": 0, "z": -0.05}}},
+             "contact": {"glue": {"nonmortar": "mid_z1", "mortar": "top_z0", "kind": "tied"}, "touch": {"nonmortar": "mid_z0", "mortar": "low_z1"}},
+             "load": {"step": 0.5}}
+    result = run("three.yml", text="\n".join(f"{key}: {yaml(value)}" for key, value in scene.items()) + "\n")
+    assert result.returncode == 0, result
+    pair = result.summary["contact"]
+    print(pair["glue"]["force"], pair["touch"]["force"], result.history[-1]["support_imbalance"])
+    assert numpy.abs(numpy.add(pair["glue"]["force"], pair["touch"]["force"])).max() < 1e-9 * numpy.abs(pair["touch"]["force"]).max()
+    assert "active_nodes" not in pair["glue"] and result.history[-1]["active_nodes"] == pair["touch"]["active_nodes"] > 0
