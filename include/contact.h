@@ -40,7 +40,7 @@ typedef struct {
   const PetscBool *has;
 } ContactSurface;
 
-typedef enum { CONTACT_FRICTIONLESS, CONTACT_PENALTY, CONTACT_COULOMB } ContactLaw; /* in the order of the table of laws */
+typedef enum { CONTACT_FRICTIONLESS, CONTACT_PENALTY, CONTACT_COULOMB, CONTACT_TIED } ContactLaw; /* in the order of the table of laws */
 
 typedef struct {
   char       name[MORTISE_NAME];
@@ -55,9 +55,10 @@ typedef struct {
   PetscBool  see_through;       /* comparison only: searches take far sides of bodies behind for overlaps */
   PetscBool  standard;          /* standard multipliers */
   PetscBool  adjust;            /* the gaps of the mesh at the reference positions count as closed */
+  PetscBool  close;             /* law tied: gaps at the reference positions are closed, else they stay */
   PetscBool  ramp;              /* overlaps of the mesh there count by the share t, from t = 1 on whole */
   Expression interference;      /* of t: overlap at the reference positions, besides that of the geometry; NULL: none */
-  PetscReal  about[3];          /* point that moments of its forces are counted about */
+  PetscReal  about[3];          /* point that moments of its forces are counted about, reference position */
   PetscBool  subdivide_auto;    /* cells behind linear facets are subdivided as the estimate asks (estimate/layer.c) */
 } ContactSpec;
 
@@ -94,6 +95,8 @@ typedef struct {
   PetscReal        kappa[2];
   const PetscReal *dshare; /* [dim*num] derivative of the covered share; with dgap where the facet is covered in part, else NULL */
   const PetscReal *shear;  /* [num_rows][dim*num] force by a tangential traction z_j (ContactPairSetTraction); with dgap. NULL: none */
+  const PetscReal *tie;    /* [num_rows][num] sum_a tie_ja x_a = int psi_j (x_m - x_s) dgamma, of ContactPairTie; else NULL */
+  const PetscReal *whole;  /* [num_rows] with tie: what the weight would be if the facet were covered whole */
   PetscReal        area;   /* covered length or area (axisymmetric: area) */
   PetscReal        min_gap;
 } ContactFacet;
@@ -200,6 +203,9 @@ PetscErrorCode ContactPairSetTraction(ContactPair, const PetscReal traction[]);
    have the topology of the last search; positions of all nodes of facets kept and of their partners are needed. Valid until the next call. Not collective. */
 PetscErrorCode ContactPairKeepPoints(ContactPair, const ContactSurface *nonmortar, const ContactSurface *mortar, PetscBool *failed);
 PetscErrorCode ContactPairSlip(ContactPair, const ContactSurface *nonmortar, const ContactSurface *mortar, PetscInt *num, const ContactFacet **facets);
+/* Evaluate at these positions, with `tie` in the results. Valid until the next evaluation. Not collective. */
+PetscErrorCode ContactPairTie(ContactPair, const ContactSurface *nonmortar, const ContactSurface *mortar, PetscInt *num, const ContactFacet **facets,
+                              PetscBool *failed);
 PetscErrorCode ContactPairGetSegments(ContactPair, PetscInt *num, const ContactSegment **segments);
 /* Nodal normals of the last evaluation [num_nodes][dim]; NaN at nodes with neighbours that are not known here. */
 PetscErrorCode ContactPairGetNormals(ContactPair, const PetscReal **normals);

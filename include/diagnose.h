@@ -20,6 +20,7 @@ typedef struct {
   PetscInt        unusable;         /* overlaps that could not be used (ContactView) */
   PetscReal       adjusted;         /* largest initial gap that was closed at a node (initial_gap: adjust) */
   PetscInt        active_nodes, covered_nodes;
+  PetscBool       tied;     /* max_pressure: of the traction; area: at the reference positions; what tells of a zone, and of gaps, is 0 */
   FrictionFigures friction; /* of the step */
 } PairFigures;
 

@@ -160,6 +160,9 @@ PetscErrorCode InterfaceSetPattern(Interface, PetscInt pair, const PetscInt firs
    side of a body behind; 0: none. The next solve searches anew. Collective. */
 PetscErrorCode InterfaceUntoldOverlap(Interface, PetscInt pair, PetscBool reference, PetscReal *depth);
 
+/* Is a pair tied? Not collective. */
+PetscBool InterfaceTies(Interface);
+
 /* Friction. Does a pair slip? Local displacements u of the state that slip counts from, the last accepted one: from the next search on. Not collective. */
 PetscBool      InterfaceSlips(Interface);
 PetscErrorCode InterfaceSetSlipOrigin(Interface, const PetscReal u[]);

@@ -80,6 +80,7 @@ typedef struct {
   const BodySpec     *bodies; /* [num_bodies], index = body of the coarse mesh */
   PetscInt            num_boundaries;
   const BoundarySpec *boundaries;
+  const PetscInt     *joined; /* [num_bodies] bodies that are tied to each other have one number; NULL: none are */
 } MechanicsSpec;
 
 /* ---- the bulk of one mesh (mechanics.c, support.c, prescribe.c, load.c, integrate.c) ------------------------------------------------ */

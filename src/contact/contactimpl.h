@@ -62,6 +62,7 @@ struct _p_ContactPair {
   const PetscReal    *traction; /* [num_nodes] borrowed: tangential; NULL: none */
   struct ContactSlip *slip;     /* owned: points kept; NULL: none */
   PetscBool           keeps;    /* the evaluation at hand keeps its points */
+  PetscBool           ties;     /* it wants what ties both sides (kernel/tie.c) */
 };
 
 static inline PetscReal Cross2(const PetscReal a[2], const PetscReal b[2])

@@ -297,20 +297,22 @@ PetscErrorCode ReportRowFill(Problem problem, const State *state, const Estimate
   row->frozen_segmentation = state->form.frozen_segmentation;
   row->active_nodes        = 0;
   row->contact_force       = 0;
-  row->min_gap             = b->num_contacts ? PETSC_MAX_REAL : 0;
-  row->energy              = b->status.energy;
-  row->min_det             = b->status.min_det;
-  row->estimated_error     = estimate ? estimate->relative : NAN;
-  row->estimate            = estimate ? estimate->total : NAN;
-  row->force_imbalance     = b->force_imbalance;
-  row->moment_imbalance    = b->moment_imbalance;
-  row->support_imbalance   = b->support_imbalance;
-  row->plastic_strain      = b->plastic_strain;
-  row->plastic_work        = b->plastic_work;
+  row->min_gap             = 0;
+  for (PetscInt i = 0; i < b->num_contacts; ++i)
+    if (!b->pair[i].tied) row->min_gap = PETSC_MAX_REAL;
+  row->energy            = b->status.energy;
+  row->min_det           = b->status.min_det;
+  row->estimated_error   = estimate ? estimate->relative : NAN;
+  row->estimate          = estimate ? estimate->total : NAN;
+  row->force_imbalance   = b->force_imbalance;
+  row->moment_imbalance  = b->moment_imbalance;
+  row->support_imbalance = b->support_imbalance;
+  row->plastic_strain    = b->plastic_strain;
+  row->plastic_work      = b->plastic_work;
   for (PetscInt i = 0; i < b->num_contacts; ++i) {
     row->active_nodes += b->pair[i].active_nodes;
     row->contact_force += Norm_Private(b->pair[i].force[0]);
-    row->min_gap = PetscMin(row->min_gap, b->pair[i].min_gap);
+    if (!b->pair[i].tied) row->min_gap = PetscMin(row->min_gap, b->pair[i].min_gap);
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -52,11 +52,34 @@ static PetscErrorCode Radius_Private(const ContactView *v, PetscReal *radius)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* A tied pair has no zone that comes and goes: its area is that at the reference positions, its largest "pressure" the size of the traction. */
+static PetscErrorCode Tied_Private(MPI_Comm comm, const ContactView *v, PairFigures *f)
+{
+  PetscReal most = 0;
+
+  PetscFunctionBegin;
+  for (PetscInt n = 0; n < v->nonmortar.num_nodes; ++n) {
+    PetscReal square = 0;
+    for (PetscInt k = 0; k < v->num_z && v->nonmortar.owned[n]; ++k) square += PetscSqr(v->z[k * v->nonmortar.num_nodes + n]);
+    most = PetscMax(most, PetscSqrtReal(square));
+  }
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &most, 1, MPIU_REAL, MPI_MAX, comm));
+  f->max_pressure = most;
+  f->area         = v->area;
+  f->tied         = PETSC_TRUE;
+  f->unusable     = v->unusable;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode BalanceZone(MPI_Comm comm, const ContactView *v, PairFigures *f)
 {
   PetscReal sum[3] = {0, 0, 0}, most[4] = {0, PETSC_MIN_REAL, PETSC_MIN_REAL, 0}; /* active, covered, area; pressure, - gap, gap, radius */
 
   PetscFunctionBegin;
+  if (v->spec->law == CONTACT_TIED) {
+    PetscCall(Tied_Private(comm, v, f));
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
   for (PetscInt n = 0; n < v->nonmortar.num_nodes; ++n) {
     if (!v->nonmortar.owned[n] || !Covered_Private(v, n)) continue;
     const PetscReal gap = v->gap[n] / v->weight[n];

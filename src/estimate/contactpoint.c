@@ -81,6 +81,18 @@ void ContactNormal_Private(const ContactTerm *term, PetscBool finite, PetscInt f
   for (PetscInt c = 0; c < 3 && length > 0; ++c) n[c] /= length;
 }
 
+/* T += factor * z of a tied pair, whose tractions are per reference area. */
+static void Tie_Private(const ContactTerm *term, PetscInt facet, const PetscReal xi[2], PetscReal factor, PetscReal T[3])
+{
+  const SurfaceView *s = &term->view->nonmortar;
+  const PetscInt    *node, num = SurfaceFacetNodes(s, facet, &node);
+  PetscReal          N[SURFACE_MOST_NODES];
+
+  ContactShape_Private(s, facet, xi, N);
+  for (PetscInt a = 0; a < num; ++a)
+    for (PetscInt c = 0; c < s->dim; ++c) T[c] += factor * N[a] * term->z[c * s->num_nodes + node[a]];
+}
+
 /* T += factor * (z n + q t) at a place of a nonmortar facet, q and t = e_z x n: friction in the plane. */
 static void Push_Private(const ContactTerm *term, PetscBool finite, PetscInt facet, const PetscReal xi[2], PetscReal factor, PetscReal T[3])
 {
@@ -178,6 +190,31 @@ static PetscInt Seen_Private(const ContactTerm *term, PetscInt mortar_facet, con
   return found;
 }
 
+/* Does a place on a nonmortar facet of this rank face the mortar side? Segments come by ascending facets. */
+static PetscBool Faces_Private(const ContactTerm *term, PetscInt facet, const PetscReal xi[2])
+{
+  const ContactSegment *s;
+  PetscInt              num, low = 0, high;
+
+  PetscCallAbort(PETSC_COMM_SELF, ContactPairGetSegments(term->view->pair, &num, &s));
+  for (high = num; low < high;) {
+    const PetscInt middle = (low + high) / 2;
+    if (s[middle].facet < facet)
+      low = middle + 1;
+    else
+      high = middle;
+  }
+  for (; low < num && s[low].facet == facet; ++low) {
+    if (s[low].num == 2 && (s[low].xi[0][0] - xi[0]) * (s[low].xi[1][0] - xi[0]) <= 0) return PETSC_TRUE;
+    for (PetscInt k = 1; k + 1 < s[low].num; ++k) {
+      const PetscReal *const p[3] = {s[low].xi[0], s[low].xi[k], s[low].xi[k + 1]};
+      PetscReal              weight[3];
+      if (InTriangle_Private(p, xi, weight) > -SLIT) return PETSC_TRUE;
+    }
+  }
+  return PETSC_FALSE;
+}
+
 void ContactTermsTraction_Private(const ContactTerms *terms, PetscInt facet, const PetscReal X[3], PetscReal T[3])
 {
   const PetscBool finite = (PetscBool)(terms->kinematics == KINEMATICS_FINITE);
@@ -185,14 +222,17 @@ void ContactTermsTraction_Private(const ContactTerms *terms, PetscInt facet, con
   for (PetscInt i = 0; i < terms->num; ++i) {
     const ContactTerm *term      = &terms->terms[i];
     const PetscInt     nonmortar = term->facet_place[0][facet], mortar = term->facet_place[1][facet];
+    const PetscBool    ties = (PetscBool)(term->view->spec->law == CONTACT_TIED);
     PetscReal          xi[2], eta[2];
     if (nonmortar >= 0) {
       Locate_Private(&term->view->nonmortar, nonmortar, X, xi);
-      Push_Private(term, finite, nonmortar, xi, -Stretch_Private(terms, &term->view->nonmortar, nonmortar, xi), T);
+      if (ties && Faces_Private(term, nonmortar, xi)) Tie_Private(term, nonmortar, xi, -1, T);
+      if (!ties) Push_Private(term, finite, nonmortar, xi, -Stretch_Private(terms, &term->view->nonmortar, nonmortar, xi), T);
     }
     if (mortar < 0) continue;
     Locate_Private(&term->view->mortar, mortar, X, eta);
     const PetscInt seen = Seen_Private(term, mortar, eta, xi);
-    if (seen >= 0) Push_Private(term, finite, seen, xi, Stretch_Private(terms, &term->view->mortar, mortar, eta), T);
+    if (seen >= 0 && ties) Tie_Private(term, seen, xi, 1, T);
+    if (seen >= 0 && !ties) Push_Private(term, finite, seen, xi, Stretch_Private(terms, &term->view->mortar, mortar, eta), T);
   }
 }

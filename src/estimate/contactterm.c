@@ -261,7 +261,7 @@ PetscErrorCode EstimateComplementarity_Private(EstimateSum *sum)
     for (PetscInt k = 0; k < sum->contact->num; ++k) {
       const ContactTerm *term = &sum->contact->terms[k];
       PetscReal          product;
-      if (term->facet_place[0][f->facet] < 0) continue;
+      if (term->facet_place[0][f->facet] < 0 || term->view->spec->law == CONTACT_TIED) continue;
       PetscCall(FacetProduct_Private(sum->contact, term, term->facet_place[0][f->facet], &product));
       sum->eta2[sum->v->cell_leaf[side->cell]] += product;
       sum->part[PART_CONTACT] += product;

@@ -54,6 +54,7 @@ typedef struct {
   const ContactSegment *segment;
   PetscReal             xi[2], weight;     /* place on the nonmortar facet; weight times measure there */
   PetscReal             gap, nodal;        /* between the two facets; as the nodes show it, by their functions */
+  PetscReal             jump[3];           /* of a tied pair: between the material points, of which gap is the size */
   PetscReal             pressure, trace;   /* by the functions of the nodes, not negative; by the multiplier's functions */
   PetscReal             height;            /* of the mortar side along the middle normal of the nonmortar facet */
   PetscReal             bulge[2], mean[2]; /* what the round surfaces stand out of the facets; its mean over the facet */

@@ -99,10 +99,15 @@ static PetscReal LinearGap_Private(const SurfaceView *m, PetscInt facet, const P
   return gap + change / Dot3(nm, n);
 }
 
+static PetscBool IsTied_Private(const ContactTerm *term)
+{
+  return (PetscBool)(term->view->spec->law == CONTACT_TIED);
+}
+
 /* Do gaps of the mesh count as closed, or overlaps in part? */
 static PetscBool IsAdjusted_Private(const ContactTerm *term)
 {
-  return (PetscBool)(term->view->spec->adjust || term->view->open > 0);
+  return (PetscBool)(IsTied_Private(term) || term->view->spec->adjust || term->view->open > 0);
 }
 
 /* Gap and height of the mortar side at a point. */
@@ -146,6 +151,49 @@ static void Nodal_Private(const ContactTerm *term, PetscInt facet, const PetscRe
   p->pressure = PetscMax(p->pressure, 0);
 }
 
+/* How far material points of a tied pair have come apart: a gap that was there turns and stretches with the nonmortar facet beside it. */
+static void Jump_Private(const EstimateSum *sum, const ContactTerm *term, const ContactSegment *segment, const PetscReal N[], PetscReal eta[2], GapPoint *p)
+{
+  const PetscReal   *now = sum->spec->kinematics == KINEMATICS_FINITE ? term->view->nonmortar.x : term->view->nonmortar.X;
+  const SurfaceView *s = &term->view->nonmortar, *m = &term->view->mortar;
+  PetscReal          M[SURFACE_MOST_NODES], X[3], Y[3], x[3], y[3], n[3], gap[3], frame[2][3][3];
+
+  ContactNormal_Private(term, PETSC_FALSE, segment->facet, p->xi, N, n);
+  ContactPosition_Private(s, segment->facet, s->X, N, X);
+  Ray_Private(m, m->X, segment->mortar_facet, X, n, eta);
+  ContactShape_Private(m, segment->mortar_facet, eta, M);
+  ContactPosition_Private(m, segment->mortar_facet, m->X, M, Y);
+  ContactPosition_Private(s, segment->facet, s->x, N, x);
+  ContactPosition_Private(m, segment->mortar_facet, m->x, M, y);
+  for (PetscInt k = 0; k < 2; ++k) {
+    SurfaceTangents(s, segment->facet, k ? now : s->X, p->xi, frame[k]);
+    Cross3(frame[k][0], frame[k][1], frame[k][2]);
+  }
+  for (PetscInt c = 0; c < 3; ++c) {
+    gap[c]     = Y[c] - X[c];
+    p->jump[c] = y[c] - x[c];
+  }
+  for (PetscInt i = 0; i < 3; ++i) {
+    PetscReal across[3];
+    Cross3(frame[0][(i + 1) % 3], frame[0][(i + 2) % 3], across);
+    const PetscReal arm = Dot3(across, gap) / Dot3(across, frame[0][i]);
+    for (PetscInt c = 0; c < 3; ++c) p->jump[c] -= arm * frame[1][i][c];
+  }
+}
+
+/* Gaps of the mesh that were closed: what differs from the mean. */
+static void Close_Private(GapPoints *points)
+{
+  PetscReal area = 0, mean[3] = {0, 0, 0};
+
+  for (PetscInt i = 0; i < points->num; ++i) {
+    area += points->points[i].weight;
+    for (PetscInt c = 0; c < 3; ++c) mean[c] += points->points[i].weight * points->points[i].jump[c];
+  }
+  for (PetscInt i = 0; i < points->num && area > 0; ++i)
+    for (PetscInt c = 0; c < 3; ++c) points->points[i].jump[c] -= mean[c] / area;
+}
+
 static PetscErrorCode AddPoint_Private(const EstimateSum *sum, const ContactTerm *term, const ContactSegment *segment, const PetscReal mean[2],
                                        const PetscReal xi[2], PetscReal eta[2], PetscReal weight, GapPoints *to)
 {
@@ -155,8 +203,12 @@ static PetscErrorCode AddPoint_Private(const EstimateSum *sum, const ContactTerm
 
   PetscFunctionBegin;
   ContactShape_Private(s, segment->facet, xi, N);
-  Nodal_Private(term, segment->facet, N, &p);
-  Gap_Private(sum, term, segment, N, eta, &p);
+  if (IsTied_Private(term))
+    Jump_Private(sum, term, segment, N, eta, &p);
+  else {
+    Nodal_Private(term, segment->facet, N, &p);
+    Gap_Private(sum, term, segment, N, eta, &p);
+  }
   p.weight = weight * ContactTermsMeasure_Private(sum->contact, s, segment->facet, xi, N);
   if (p.pressure > 0 && !IsAdjusted_Private(term)) {
     PetscCall(Bulge_Private(sum, s, segment->facet, xi, &p.bulge[0]));
@@ -232,6 +284,9 @@ PetscErrorCode GapPointsFind_Private(const EstimateSum *sum, const ContactTerm *
     if (segments[i].num == 2) PetscCall(AddPart_Private(sum, term, &segments[i], mean, points));
     for (PetscInt k = 1; k + 1 < segments[i].num; ++k) PetscCall(AddTriangle_Private(sum, term, &segments[i], k, mean, points));
   }
-  if (IsAdjusted_Private(term)) Adjust_Private(points);
+  if (IsAdjusted_Private(term) && !IsTied_Private(term)) Adjust_Private(points);
+  if (IsTied_Private(term) && term->view->spec->close) Close_Private(points);
+  for (PetscInt i = 0; i < points->num && IsTied_Private(term); ++i)
+    points->points[i].gap = PetscSqrtReal(Dot3(points->points[i].jump, points->points[i].jump));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

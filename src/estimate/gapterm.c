@@ -8,6 +8,8 @@
 
      r = min(g - gn, z/s)
 
+   A tied pair: r = g is the size of the distance of both surfaces' material points, all of it.
+
    gn: the gap that the nodes show, which EstimateComplementarity_Private has; no gap takes more than the pressure that closes it does.
 
    Exact geometry: g is less by what the round surfaces of both sides stand out of their facets, without its mean over the facet, which moves the bodies as a
@@ -76,8 +78,9 @@ static PetscReal MortarShare_Private(const ContactTerm *term, const GapPoint *p,
 }
 
 /* s r^2 at a point, per weight. */
-static PetscReal Square_Private(const GapPoint *p, PetscReal s)
+static PetscReal Square_Private(const GapPoint *p, PetscBool ties, PetscReal s)
 {
+  if (ties) return s * PetscSqr(p->gap);
   const PetscReal gap = p->pressure > 0 ? p->gap - (p->bulge[0] - p->mean[0]) - (p->bulge[1] - p->mean[1]) : p->gap;
 
   if (gap < 0) return s * PetscSqr(gap);
@@ -96,7 +99,7 @@ static void Facet_Private(EstimateSum *sum, const ContactTerm *term, PetscInt fa
     const PetscInt  other         = term->view->mortar.facet_leaf[p->segment->mortar_facet];
     const PetscReal compliance[2] = {Compliance_Private(sum, leaf), Compliance_Private(sum, other)}, both = compliance[0] + compliance[1];
     if (both == 0) continue; /* both rigid: no energy; what is not a number is to show */
-    const PetscReal square = p->weight * Square_Private(p, PETSC_PI / (size * both));
+    const PetscReal square = p->weight * Square_Private(p, (PetscBool)(term->view->spec->law == CONTACT_TIED), PETSC_PI / (size * both));
     const PetscReal share  = MortarShare_Private(term, p, compliance, gaps > bend ? bend / gaps : 1);
     sum->eta2[leaf] += (1 - share) * square;
     sum->eta2[other] += share * square;

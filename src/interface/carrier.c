@@ -134,6 +134,15 @@ static PetscBool IsWeightless_Private(const Interface p, const Contact *c, Petsc
   return (PetscBool)(PetscAbsReal(s->X[s->dim * n]) <= ON_AXIS * c->extent[n]);
 }
 
+PetscBool ContactIsFree_Private(const Interface p, const Contact *c, PetscInt n, PetscInt axis)
+{
+  const Surface *s = &c->side[0];
+
+  for (PetscInt d = 0; d < s->dim; ++d)
+    if ((s->dof[s->dim * n] >> d) & 1 && PetscAbsReal(s->frame[s->dim * (s->dim * n + d) + axis]) > HELD) return PETSC_FALSE;
+  return (PetscBool)!IsWeightless_Private(p, c, n, s->node_facet[s->node_first[n]]);
+}
+
 /* A node that a support holds across the surface carries no multiplier: its constraint would have nothing of its own to act on, and where the nonmortar side is
    finer a row of such nodes leaves no multiplier unique. (Nodes of rigid bodies keep theirs: the other side moves.) Hanging nodes have none: their masters act
    for them. */

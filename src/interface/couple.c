@@ -1,6 +1,8 @@
 /* One contact pair on one mesh: multipliers, nodal gaps, activity. */
 #include "interfaceimpl.h"
 
+#define TIED 0.1 /* of the smaller side's extent: what is further apart is not tied; facets of round surfaces are nearer, and refinement changes nothing */
+
 /* Facets evaluated here: those of owned leaves, and those that carry weight to an owned node, so that its owner knows the node's whole row. */
 static PetscErrorCode ListFacets_Private(Interface p, Contact *c)
 {
@@ -23,7 +25,7 @@ static PetscErrorCode ListFacets_Private(Interface p, Contact *c)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Automatic search distance: the smaller side's extent; the caller's factor counts in units of the longest edge. */
+/* Automatic search distance: half of the smaller side's extent; the caller's factor counts in units of the longest edge. */
 static void SearchDistance_Private(Contact *c)
 {
   PetscReal extent[2], longest = 0;
@@ -43,7 +45,7 @@ static void SearchDistance_Private(Contact *c)
     for (PetscInt a = 0; a < s->dim; ++a) square += PetscSqr(hi[a] - lo[a]);
     extent[side] = PetscSqrtReal(square);
   }
-  c->distance = c->spec->search > 0 ? c->spec->search * longest : 0.5 * PetscMin(extent[0], extent[1]);
+  c->distance = c->spec->search > 0 ? c->spec->search * longest : (c->law->ties ? TIED : 0.5) * PetscMin(extent[0], extent[1]);
 }
 
 static void View_Private(Contact *c)
@@ -168,7 +170,7 @@ PetscErrorCode ContactCreate_Private(Interface p, const ContactSpec *spec, Conta
   for (PetscInt k = 0; k < 2; ++k) PetscCall(HullParts_Private(p, &c->side[k], &c->part[k]));
   PetscReal deepest;
   PetscCall(HullDepth_Private(p, c, &deepest));
-  if (!spec->see_through) PetscCall(ContactPairSetHull(c->pair, p->hull, c->part[0], c->part[1], deepest));
+  if (!spec->see_through && !c->law->ties) PetscCall(ContactPairSetHull(c->pair, p->hull, c->part[0], c->part[1], deepest));
   const PetscInt n = c->side[0].num_nodes;
   PetscCall(PetscCalloc6(c->num * n, &c->z, n, &c->gap, n, &c->weight, n, &c->w0, n, &c->extent, n, &c->c));
   PetscCall(PetscCalloc3(n, &c->spring, n, &c->coupled, n, &c->softness));
@@ -179,16 +181,16 @@ PetscErrorCode ContactCreate_Private(Interface p, const ContactSpec *spec, Conta
   PetscCall(PetscCalloc2(n, &c->reach, n, &c->initial));
   PetscCall(PetscCalloc4(c->side[0].num_facets, &c->live, n, &c->valued, n, &c->valued_node, 4 * n, &c->pack));
   PetscCall(ContactNodeScales_Private(p, c));
-  PetscCall(ContactCarriers_Private(p, c));
+  if (!c->law->ties) PetscCall(ContactCarriers_Private(p, c));
   const ContactSurface nonmortar = SurfaceAt_Private(&c->side[0], c->side[0].X);
   PetscCall(ContactPairSetCarriers(c->pair, &nonmortar, c->has_multiplier));
   for (PetscInt j = 0; j < n; ++j) c->softness[j] = 1 / c->c[j];
   /* With small kinematics what facets cover does not change, and constraints of order 1 stay exact. */
-  if (higher || p->spec->kinematics != KINEMATICS_SMALL) PetscCall(ContactPairSetSoftness(c->pair, c->softness));
+  if (!c->law->ties && (higher || p->spec->kinematics != KINEMATICS_SMALL)) PetscCall(ContactPairSetSoftness(c->pair, c->softness));
   PetscCall(ListFacets_Private(p, c));
   SearchDistance_Private(c);
   View_Private(c);
-  PetscCall(ContactFreedom_Private(p, c));
+  if (!c->law->ties) PetscCall(ContactFreedom_Private(p, c));
   PetscCall(ContactOffset_Private(p, c));
   PetscCall(SlipCreate_Private(p, c));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -197,6 +199,7 @@ PetscErrorCode ContactCreate_Private(Interface p, const ContactSpec *spec, Conta
 PetscErrorCode ContactDestroy_Private(Contact *c)
 {
   PetscFunctionBegin;
+  PetscCall(TieDestroy_Private(c));
   PetscCall(SlipDestroy_Private(c));
   PetscCall(PetscFree(c->frozen));
   PetscCall(PetscFree(c->mean0));
@@ -391,9 +394,13 @@ PetscErrorCode ContactEvaluate_Private(Interface p, Contact *c, Vec x, const Pet
 
   PetscFunctionBegin;
   p->traffic.evaluations++;
-  if (small && !c->mean0) PetscCall(Freeze_Private(p, c, failed));
+  if (small && !c->mean0 && !c->tie) PetscCall(Freeze_Private(p, c, failed));
   PetscCall(GatherMultipliers_Private(p, c, x));
   for (PetscInt k = 0; k < 2; ++k) PetscCall(SurfaceGather_Private(p, &c->side[k], local, ContactBase_Private(c, k), c->side[k].x));
+  if (c->tie) {
+    PetscCall(TieEvaluate_Private(p, c));
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
   if (small)
     LinearGaps_Private(p, c);
   else {

@@ -36,6 +36,7 @@ PetscErrorCode InterfaceFindUntouched(Interface p, uint64_t *pairs)
   for (PetscInt i = 0; i < p->num_contacts; ++i) {
     const Contact *c    = &p->contacts[i];
     PetscReal      most = 0;
+    if (c->tie) continue;
     for (PetscInt k = 0; k < c->side[0].num_own; ++k) {
       const PetscInt j = c->side[0].own[k];
       if (c->zlocal[j] >= 0) most = PetscMax(most, PetscAbsReal(c->z[j])); /* round-off, too, tells of a pair that has borne: it is found as it was left */

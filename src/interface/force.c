@@ -56,6 +56,7 @@ PetscErrorCode InterfaceForces(Interface p, PetscReal local[])
     Contact *c = &p->contacts[i];
     for (PetscInt j = 0; j < c->side[0].num_nodes && c->mean0; ++j) c->change[j] = c->z[j] * c->mean0[j];
     ContactFacetForces_Private(c, c->z, c->mean0 ? c->change : NULL);
+    if (c->tie) TieForces_Private(c);
     PetscCall(ContactForcesSubtract_Private(p, c, local));
   }
   PetscFunctionReturn(PETSC_SUCCESS);

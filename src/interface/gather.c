@@ -30,7 +30,7 @@ static PetscErrorCode Side_Private(Interface p, Contact *c, PetscInt k)
     if (normal) PetscCall(PetscArraycpy(direction + dim * j, normal + dim * j, dim));
     value[j]     = c->gap[j];
     value[n + j] = c->weight[j];
-    for (PetscInt i = 0; i < c->num; ++i) value[(2 + i) * n + j] = c->z[i * n + j];
+    for (PetscInt i = 0; i < c->num; ++i) value[(2 + i) * n + j] = c->view.z[i * n + j];
     if (c->slip) value[(2 + c->num) * n + j] = c->slip->mean[j];
   }
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, c->all_real[k], (PetscMPIInt)(SIDE_REALS(dim, c->num) * n), MPIU_REAL, MPI_SUM, p->comm));
@@ -85,7 +85,7 @@ PetscErrorCode InterfaceFetchContact(Interface p, PetscInt pair, const PetscBool
   PetscCall(PetscMalloc1(s->num_nodes, &nodes));
   for (PetscInt n = 0; n < s->num_nodes; ++n) {
     const PetscBool mine = (PetscBool)(s->owner[n] == p->rank);
-    for (PetscInt k = 0; k < c->num; ++k) z[s->num_nodes * k + n] = mine ? c->z[s->num_nodes * k + n] : NAN;
+    for (PetscInt k = 0; k < c->num; ++k) z[s->num_nodes * k + n] = mine ? c->view.z[s->num_nodes * k + n] : NAN;
     for (PetscInt d = 0; d < s->dim && normal; ++d) normal[s->dim * n + d] = mine ? own[s->dim * n + d] : NAN;
     for (PetscInt d = 0; d < s->dim && x; ++d) x[s->dim * n + d] = mine ? s->x[s->dim * n + d] : NAN;
     if (wanted[n] && !mine) nodes[num++] = n;

@@ -78,6 +78,7 @@ PetscErrorCode InterfaceUntoldOverlap(Interface p, PetscInt pair, PetscBool refe
 
   PetscFunctionBegin;
   *depth = 0;
+  if (c->tie) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(HullDepth_Private(p, c, &deepest));
   if (!(deepest > 0) || c->spec->see_through) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(ContactPairSetHull(c->pair, p->hull, c->part[0], c->part[1], 2 * deepest));

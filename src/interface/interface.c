@@ -28,6 +28,7 @@ PetscErrorCode InterfaceCreate(HPSpace space, Mechanics mechanics, const Mechani
   PetscCall(PetscCalloc1(num, &p->contacts));
   if (num) PetscCall(HullCreate_Private(p));
   for (PetscInt i = 0; i < num; ++i) PetscCall(ContactCreate_Private(p, &contacts[i], &p->contacts[i]));
+  for (PetscInt i = 0; i < num; ++i) PetscCall(TieCreate_Private(p, &p->contacts[i]));
   *interface = p;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -145,7 +146,7 @@ PetscErrorCode InterfaceSearch(Interface p, const PetscReal u[])
   PetscFunctionBegin;
   for (PetscInt i = 0; i < p->num_contacts; ++i) {
     Contact *c = &p->contacts[i];
-    if (p->spec->kinematics == KINEMATICS_SMALL) continue;
+    if (p->spec->kinematics == KINEMATICS_SMALL || c->tie) continue;
     PetscCall(SlipKeep_Private(p, c));
     for (PetscInt k = 0; k < 2; ++k) {
       SurfaceForget_Private(&c->side[k]);

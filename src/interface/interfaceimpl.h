@@ -25,30 +25,39 @@ typedef struct {
 
 #define MOST_MULTIPLIERS 3 /* of a node */
 
+/* What keeps the sides together at a node, in one component. weight 0: nothing does. */
+typedef struct {
+  PetscReal gap, weight, lift;
+} TiePoint;
+
 /* A node of the nonmortar side: what its rows are made of. */
 typedef struct {
   const ContactSpec *spec;
   int8_t             state;
+  PetscInt           num;                                             /* multipliers */
   PetscReal          z[MOST_MULTIPLIERS], gap, weight, spring, w0, c; /* as in Contact; gap: with what the pressures of others add, S_jl z_l */
   PetscReal          lift;                                            /* change of the gap by the motion still to come */
   PetscReal          slip, slip_weight, slip_lift;                    /* of the step, as the gap; the weight where it began, 0: nothing was met there */
+  TiePoint           tie[MOST_MULTIPLIERS];                           /* law tied: of each component */
 } ContactPoint;
 
 /* One of its rows, linearised:  factor [grad (gt + S z)_j - mean grad w - along grad S_jj] . du + factor sum_l S_jl dz_l + sum_k z_k dz_k = side,  l other
    nodes. value: of a node that bears, the gap that has to vanish. push: the derivative of the forces by z_j (ContactFacet.push) stands for the gradient;
-   slip: that of the slip does, alone. */
+   slip: that of the slip does, alone; component: of a tied pair. */
 typedef struct {
   PetscReal factor, mean, along, z[MOST_MULTIPLIERS], side, value;
   PetscBool push, slip;
+  PetscInt  component;
 } ContactRow;
 
-/* num_multipliers of a node in this dimension; the first is the pressure. symmetric: it has one, and its tangent is symmetric but for the factors of rows.
+/* num_multipliers of a node in this dimension; the first is the pressure. symmetric: its tangent is symmetric but for the factors of rows.
+   ties: the multipliers are a traction that keeps together what faces each other at the reference positions.
    slips: the second is a tangential traction, and the slip of the step is known.
    state: that of a node with these multipliers, gap and weight, 0: open. rows: one for each multiplier, in this state; the residual is -side without lift.
    symmetric: factor and z of a row such that it is a column of the symmetric tangent as well, its unknown z over c. */
 typedef struct {
   const char *name;
-  PetscBool   symmetric, slips;
+  PetscBool   symmetric, slips, ties;
   PetscInt (*num_multipliers)(PetscInt dim);
   int8_t (*state)(const ContactPoint *);
   void (*rows)(const ContactPoint *, PetscBool symmetric, ContactRow row[]);
@@ -109,6 +118,23 @@ typedef struct {
   const ContactFacet *facets;
 } SlipHistory;
 
+/* Tied pairs (tie.c), by components k of the traction. Facets: rows as those of contact, with storage of their own. */
+typedef struct {
+  ContactFacet facet, bend; /* bend: second derivatives alone, by the masters of the facet's corners */
+  PetscBool    bends;
+  PetscReal   *gap, *start, *arm, *dgap, *hessian; /* start: [rows] at the reference positions; arm: [rows][3] */
+} TieFacet;
+
+typedef struct {
+  PetscInt   num_facets[3], *result[3]; /* as those of Contact */
+  TieFacet  *facets[3];
+  PetscBool *carries;                   /* [dim][n] there is a row */
+  PetscReal *weight, *gap, *lift;       /* [dim][n] as those of Contact */
+  PetscReal *z;                         /* [dim][n] what is shown: where there is no row, from other nodes */
+  PetscInt  *donor_first[3], *donor[3]; /* ContactPairGetDonors of each component */
+  PetscReal *donor_weight[3];
+} Tie;
+
 typedef struct {
   const ContactSpec   *spec;
   const ContactLawOps *law;
@@ -157,6 +183,7 @@ typedef struct {
   const RigidLink     *links, *q_link[INTERFACE_MOTIONS];
   PetscInt            *pattern_offset, *pattern; /* [num_facets+1]: nodes each facet has room for in the matrix */
   SlipHistory         *slip;                     /* NULL: the law has no friction */
+  Tie                 *tie;                      /* NULL: the pair is not tied */
 } Contact;
 
 struct _p_Interface {
@@ -267,15 +294,34 @@ PetscErrorCode ContactRigidHessian_Private(const InterfaceSystem *, const Contac
 PetscErrorCode ContactFacetHessian_Private(Interface, const InterfaceSystem *, const Contact *, const ContactFacet *);
 PetscErrorCode ContactNodeGradient_Private(Interface, const Contact *, PetscInt j, const ContactRow *, PetscInt *num);
 PetscErrorCode ContactInsertRow_Private(Interface, const InterfaceSystem *, const Contact *, PetscInt j, const ContactRow row[]);
+/* tie.c: nothing where the pair is not tied, but for the others. Create: after all surfaces and before rows of the matrix are known. Evaluate: after positions
+   and multipliers are gathered. Change: of every owned node's rows, [dim][n]. Forces: of this rank's facets, added. All but Point, Forces and Destroy
+   collective. */
+PetscErrorCode TieCreate_Private(Interface, Contact *);
+PetscErrorCode TieDestroy_Private(Contact *);
+PetscErrorCode TieEvaluate_Private(Interface, Contact *);
+PetscErrorCode TieChange_Private(Interface, Contact *, const PetscReal increment[], PetscReal change[]);
+void           TieForces_Private(Contact *);
+void           TiePoint_Private(const Contact *, PetscInt j, PetscBool lifted, ContactPoint *);
+/* Facets with what they meet: of a tied pair those of all components, one list after the other. */
+PetscInt            ContactNumMet_Private(const Contact *);
+const ContactFacet *ContactMet_Private(const Contact *, PetscInt i);
 /* Node j as its law sees it, and its rows. lifted: with the motion still to come. */
 static inline ContactPoint ContactPoint_Private(const Contact *c, PetscInt j, PetscBool lifted)
 {
-  ContactPoint point = {
-      .spec = c->spec, .state = c->active[j], .gap = c->gap[j] + c->coupled[j], .weight = c->weight[j], .spring = c->spring[j], .w0 = c->w0[j], .c = c->c[j]};
+  ContactPoint point = {.spec   = c->spec,
+                        .num    = c->num,
+                        .state  = c->active[j],
+                        .gap    = c->gap[j] + c->coupled[j],
+                        .weight = c->weight[j],
+                        .spring = c->spring[j],
+                        .w0     = c->w0[j],
+                        .c      = c->c[j]};
 
   if (lifted) point.lift = c->lift[j];
   if (c->slip) point.slip = c->slip->slip[j], point.slip_weight = c->slip->weight[j];
   if (c->slip && lifted) point.slip_lift = c->slip->lift[j];
+  if (c->tie) TiePoint_Private(c, j, lifted, &point);
 
   for (PetscInt k = 0; k < c->num; ++k) point.z[k] = c->z[c->side[0].num_nodes * k + j];
   return point;
@@ -325,6 +371,8 @@ PetscErrorCode ContactFreedom_Private(Interface, Contact *);
 /* carrier.c: w0, extent and c of the nodes; which of them carry a multiplier. */
 PetscErrorCode ContactNodeScales_Private(Interface, Contact *);
 PetscErrorCode ContactCarriers_Private(Interface, Contact *);
+/* Do supports leave a node of the nonmortar side free along an axis of the coordinates, and has it weight there? Until the rows of the matrix are known. */
+PetscBool ContactIsFree_Private(const Interface, const Contact *, PetscInt node, PetscInt axis);
 /* Two dimensions: does a support hold the node along the surface? Until the rows of the matrix are known. */
 PetscBool ContactHeldAlong_Private(const Surface *, PetscInt node);
 PetscReal SurfaceFacetMeasure_Private(const Surface *, PetscInt facet, PetscBool axisymmetric);

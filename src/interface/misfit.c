@@ -6,7 +6,7 @@ static PetscReal Misfit_Private(const Contact *c, PetscInt j)
 {
   ContactRow row[MOST_MULTIPLIERS];
 
-  if (!c->has_multiplier[j] || !ContactCovered_Private(c, j)) return 0;
+  if (c->tie || !c->has_multiplier[j] || !ContactCovered_Private(c, j)) return 0;
   ContactRows_Private(c, j, PETSC_FALSE, PETSC_FALSE, row);
   return ContactPressed_Private(c, j) ? row[0].value : PetscMin(c->gap[j], 0);
 }

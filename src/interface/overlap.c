@@ -69,7 +69,7 @@ PetscErrorCode InterfaceNoteOverlap(Interface p, PetscReal *deepest)
   for (PetscInt i = 0; i < p->num_contacts; ++i) {
     Contact *c = &p->contacts[i];
     c->overlap = 0;
-    for (PetscInt k = 0; k < c->side[0].num_own; ++k) {
+    for (PetscInt k = 0; k < c->side[0].num_own && !c->tie; ++k) {
       const PetscInt j = c->side[0].own[k];
       if (c->has_multiplier[j] && ContactCovered_Private(c, j)) c->overlap = PetscMax(c->overlap, -c->gap[j] / c->weight[j]);
     }

@@ -29,16 +29,10 @@ static PetscBool Enters_Private(const Contact *c, const ContactFacet *e)
   return PETSC_FALSE;
 }
 
-/* Facets with what they meet, then those of the last accepted state with what they met there. */
-static const ContactFacet *Facet_Private(const Contact *c, PetscInt i)
-{
-  return i < c->num_facets ? &c->facets[i] : &c->slip->facets[i - c->num_facets];
-}
-
 static PetscBool Holds_Private(const Contact *c)
 {
-  for (PetscInt i = 0; i < c->num_facets + (c->slip ? c->slip->num_facets : 0); ++i) {
-    const ContactFacet *e = Facet_Private(c, i);
+  for (PetscInt i = 0; i < ContactNumMet_Private(c); ++i) {
+    const ContactFacet *e = ContactMet_Private(c, i);
     if (!Enters_Private(c, e)) continue;
     if (!c->pattern_offset) return PETSC_FALSE;
     const PetscInt *list = c->pattern + c->pattern_offset[e->facet], num = c->pattern_offset[e->facet + 1] - c->pattern_offset[e->facet];
@@ -127,6 +121,8 @@ static PetscErrorCode Grow_Private(Contact *c)
         PetscCall(Append_Private(&list, &num, &size, offset[edge], c->pattern[k]));
     }
     if (c->result[edge] >= 0) PetscCall(AppendMet_Private(c, &c->facets[c->result[edge]], &list, &num, &size, offset[edge]));
+    for (PetscInt k = 0; c->tie && k < c->num; ++k)
+      if (c->tie->result[k][edge] >= 0) PetscCall(AppendMet_Private(c, &c->tie->facets[k][c->tie->result[k][edge]].facet, &list, &num, &size, offset[edge]));
     if (c->slip && c->slip->result[edge] >= 0) PetscCall(AppendMet_Private(c, &c->slip->facets[c->slip->result[edge]], &list, &num, &size, offset[edge]));
   }
   offset[ne] = num;

@@ -105,6 +105,45 @@ static PetscErrorCode ShearColumn_Private(Interface p, const InterfaceSystem *a,
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Column of component k of a tied pair's row r; in the symmetric form rows bring them. */
+static PetscErrorCode TieColumn_Private(Interface p, const InterfaceSystem *a, const Contact *c, const ContactFacet *e, PetscInt k, PetscInt r)
+{
+  const PetscInt dim = p->dim, n = dim * e->num, column = c->zdof[e->nodes[r]] + k;
+  PetscReal      q[INTERFACE_MOTIONS];
+
+  PetscFunctionBegin;
+  if (!c->tie->carries[c->side[0].num_nodes * k + e->nodes[r]]) PetscFunctionReturn(PETSC_SUCCESS);
+  for (PetscInt i = 0; i < n; ++i) p->work.value[i] = -e->dgap[r * n + i];
+  for (PetscInt b = 0; b < e->num; ++b) Turn_Private(dim, Frame_Private(c, e->nodes[b]), p->work.value + dim * b, 1);
+  PetscCall(ContactInsert_Private(a->matrix, n, p->work.index, 1, &column, p->work.value, ADD_VALUES));
+  if (!c->num_q) PetscFunctionReturn(PETSC_SUCCESS);
+  ContactRigidForces_Private(c, e, p->work.value, q);
+  PetscCall(ContactInsert_Private(a->matrix, c->num_q, c->q_row, 1, &column, q, ADD_VALUES));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Blocks_Private of a tied pair. */
+static PetscErrorCode TieBlocks_Private(Interface p, const InterfaceSystem *a, Contact *c)
+{
+  Tie *t = c->tie;
+
+  PetscFunctionBegin;
+  if (a->lift)
+    PetscCall(TieChange_Private(p, c, a->increment, t->lift));
+  else
+    PetscCall(PetscArrayzero(t->lift, p->dim * c->side[0].num_nodes));
+  for (PetscInt k = 0; k < p->dim; ++k)
+    for (PetscInt i = 0; i < t->num_facets[k]; ++i) {
+      const ContactFacet *e = &t->facets[k][i].facet;
+      if (!c->mine[e->facet]) continue;
+      if (t->facets[k][i].hessian) PetscCall(ContactFacetHessian_Private(p, a, c, &t->facets[k][i].bend));
+      PetscCall(RowBufferGrow(&p->work, p->dim * e->num));
+      FacetDofs_Private(c, e, p->work.index);
+      for (PetscInt r = 0; r < e->num_rows && !a->symmetric; ++r) PetscCall(TieColumn_Private(p, a, c, e, k, r));
+    }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* Blocks of the last evaluation: Hessian and columns, added; the rows are inserted afterwards. */
 static PetscErrorCode Blocks_Private(Interface p, const InterfaceSystem *a, Contact *c)
 {
@@ -112,6 +151,10 @@ static PetscErrorCode Blocks_Private(Interface p, const InterfaceSystem *a, Cont
   PetscReal      q[INTERFACE_MOTIONS];
 
   PetscFunctionBegin;
+  if (c->tie) {
+    PetscCall(TieBlocks_Private(p, a, c));
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
   if (ContactIsReleased_Private(p, c)) {
     PetscCall(PetscArrayzero(c->active, c->side[0].num_nodes));
     PetscFunctionReturn(PETSC_SUCCESS);
@@ -167,7 +210,7 @@ static PetscInt RowSize_Private(const Contact *c, PetscInt j)
 PetscErrorCode ContactNodeGradient_Private(Interface p, const Contact *c, PetscInt j, const ContactRow *form, PetscInt *num)
 {
   const Surface      *s   = &c->side[0];
-  const PetscInt      dim = p->dim, *result = form->slip ? c->slip->result : c->result;
+  const PetscInt      dim = p->dim, *result = form->slip ? c->slip->result : c->tie ? c->tie->result[form->component] : c->result;
   const ContactFacet *facets = form->slip ? c->slip->facets : c->facets;
   PetscReal          *values;
   PetscInt            at, *dofs;
@@ -184,7 +227,7 @@ PetscErrorCode ContactNodeGradient_Private(Interface p, const Contact *c, PetscI
   for (PetscInt k = s->node_first[j]; form->factor != 0 && k < s->node_first[j + 1]; ++k) {
     const PetscInt facet = s->node_facet[k];
     if (result[facet] < 0) continue;
-    const ContactFacet *e   = &facets[result[facet]];
+    const ContactFacet *e   = c->tie ? &c->tie->facets[form->component][result[facet]].facet : &facets[result[facet]];
     const PetscInt      n   = dim * e->num;
     PetscInt            row = 0;
     while (row < e->num_rows && e->nodes[row] != j) ++row;
@@ -257,8 +300,8 @@ PetscErrorCode ContactInsertRow_Private(Interface p, const InterfaceSystem *a, c
     PetscCall(PetscFindInt(c->zdof[j], num, p->work.index, &at));
     for (PetscInt k = 0; k < c->num; ++k) p->work.value[at + k] = a->symmetric ? row[i].z[k] * c->c[j] : row[i].z[k];
     PetscCall(ContactInsert_Private(a->matrix, 1, &line, num, p->work.index, p->work.value, INSERT_VALUES));
+    if (a->symmetric) PetscCall(ContactInsert_Private(a->matrix, num, p->work.index, 1, &line, p->work.value, INSERT_VALUES));
   }
-  if (a->symmetric) PetscCall(ContactInsert_Private(a->matrix, num, p->work.index, 1, &c->zdof[j], p->work.value, INSERT_VALUES));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -326,7 +369,7 @@ void InterfaceScaleIncrement(Interface p, PetscReal dx[])
   for (PetscInt i = 0; i < p->num_contacts; ++i) {
     const Contact *c = &p->contacts[i];
     for (PetscInt j = 0; j < c->side[0].num_nodes; ++j) {
-      if (c->zlocal[j] >= 0) dx[c->zlocal[j]] *= c->c[j];
+      for (PetscInt k = 0; k < c->num && c->zlocal[j] >= 0; ++k) dx[c->zlocal[j] + k] *= c->c[j];
     }
   }
 }
@@ -386,7 +429,7 @@ static PetscErrorCode Switch_Private(Interface p, const InterfaceSystem *a, Cont
   PetscBool     *again;
 
   PetscFunctionBegin;
-  if (ContactIsReleased_Private(p, c)) PetscFunctionReturn(PETSC_SUCCESS);
+  if (ContactIsReleased_Private(p, c) || c->tie) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(PetscMalloc1(s->num_nodes, &old));
   PetscCall(PetscCalloc1(s->num_nodes, &again));
   PetscCall(States_Private(p, a, c, dx, old));

@@ -41,6 +41,7 @@ PetscErrorCode InterfaceFindWide(Interface p, uint64_t *pairs)
   PetscFunctionBegin;
   *pairs = 0;
   for (PetscInt i = 0; i < p->num_contacts; ++i) {
+    if (p->contacts[i].tie) continue;
     PetscCall(IsWide_Private(p, &p->contacts[i], &wide));
     if (wide) *pairs |= (uint64_t)1 << i;
   }

@@ -33,8 +33,15 @@ static PetscInt Modes_Private(Model model, const PetscReal X[3], const PetscReal
   return 3 * dim - 3;
 }
 
-/* Bodies that share vertices of the mesh move together: root of each body's group. */
-static PetscErrorCode Joined_Private(const CoarseMesh *mesh, PetscInt root[])
+static void Join_Private(PetscInt root[], PetscInt a, PetscInt b)
+{
+  while (root[a] != a) a = root[a];
+  while (root[b] != b) b = root[b];
+  root[PetscMax(a, b)] = PetscMin(a, b);
+}
+
+/* Bodies that share vertices of the mesh, or are tied, move together: root of each body's group. */
+static PetscErrorCode Joined_Private(const CoarseMesh *mesh, const PetscInt joined[], PetscInt root[])
 {
   PetscInt *body;
 
@@ -43,13 +50,14 @@ static PetscErrorCode Joined_Private(const CoarseMesh *mesh, PetscInt root[])
   for (PetscInt v = 0; v < mesh->num_vertices; ++v) body[v] = -1;
   for (PetscInt b = 0; b < mesh->num_bodies; ++b) root[b] = b;
   for (PetscInt i = 0; i < mesh->num_cells << mesh->dim; ++i) {
-    PetscInt b = mesh->cell_body[i >> mesh->dim], *first = &body[mesh->cell_vertices[i]];
+    const PetscInt b     = mesh->cell_body[i >> mesh->dim];
+    PetscInt      *first = &body[mesh->cell_vertices[i]];
     if (*first < 0) *first = b;
-    PetscInt other = *first;
-    while (root[b] != b) b = root[b];
-    while (root[other] != other) other = root[other];
-    root[PetscMax(b, other)] = PetscMin(b, other);
+    Join_Private(root, b, *first);
   }
+  for (PetscInt a = 0; joined && a < mesh->num_bodies; ++a)
+    for (PetscInt b = 0; b < a; ++b)
+      if (joined[a] == joined[b]) Join_Private(root, a, b);
   for (PetscInt b = 0; b < mesh->num_bodies; ++b) {
     while (root[b] != root[root[b]]) root[b] = root[root[b]];
   }
@@ -184,7 +192,7 @@ PetscErrorCode MechanicsFreeBodies_Private(Mechanics m)
   PetscCall(PetscCalloc2(36 * nb, &gram, nb, &volume));
   PetscCall(PetscMalloc1(nb, &m->held));
   PetscCall(PetscCalloc1(v->num_owned_cells, &m->free_share));
-  PetscCall(Joined_Private(mesh, root));
+  PetscCall(Joined_Private(mesh, m->spec->joined, root));
   PetscCall(Gram_Private(m, root, centre, size, gram));
   for (PetscInt c = 0; c < v->num_owned_cells; ++c) {
     if (m->cell_group[c] < 0) continue;

@@ -5,8 +5,9 @@
    for the gap and the status over the nodes only that have one. Constants come over exactly, linear fields inside the zone up to half a facet. */
 #include "outputimpl.h"
 
-/* Numbers summed at a mortar node: int N_m, int N_m p, those of friction, and of nonmortar nodes that face something int N_m, int N_m g, int N_m [active]. */
-enum { SUM_ALL, SUM_PRESSURE, SUM_SHEAR, SUM_SLIP, SUM_KNOWN, SUM_GAP, SUM_ACTIVE, NUM_SUMS };
+/* Numbers summed at a mortar node: int N_m, int N_m p, those of friction, and of nonmortar nodes that face something int N_m, int N_m g, int N_m [active];
+   those of a tied traction. */
+enum { SUM_ALL, SUM_PRESSURE, SUM_SHEAR, SUM_SLIP, SUM_KNOWN, SUM_GAP, SUM_ACTIVE, SUM_TRACTION, NUM_SUMS = SUM_TRACTION + 3 };
 
 /* A point of a segment: place on both facets, share of the segment's length or area. */
 typedef struct {
@@ -81,12 +82,14 @@ static void Follow_Private(const SurfaceView *s, ContactFields *f)
     PetscReal known = 0;
     if (s->hang[n] == s->hang[n + 1]) continue;
     f->gap[n] = f->pressure[n] = f->shear[n] = f->slip[n] = 0;
-    f->status[n]                                          = CONTACT_ALONE;
+    for (PetscInt c = 0; c < 3; ++c) f->traction[3 * n + c] = 0;
+    f->status[n] = CONTACT_ALONE;
     for (PetscInt k = s->hang[n]; k < s->hang[n + 1]; ++k) {
       const PetscInt master = s->hang_master[k];
       f->pressure[n] += s->hang_weight[k] * f->pressure[master];
       f->shear[n] += s->hang_weight[k] * f->shear[master];
       f->slip[n] += s->hang_weight[k] * f->slip[master];
+      for (PetscInt c = 0; c < 3; ++c) f->traction[3 * n + c] += s->hang_weight[k] * f->traction[3 * master + c];
       f->status[n] = PetscMax(f->status[n], f->status[master]);
       if (f->status[master] == CONTACT_ALONE) continue;
       f->gap[n] += s->hang_weight[k] * f->gap[master];
@@ -105,6 +108,7 @@ void OutputContactFields(const ContactView *v, ContactFields *f)
     f->shear[n]             = v->slip ? v->z[v->nonmortar.num_nodes + n] : 0;
     f->slip[n]              = v->slip && covered && v->active[n] ? v->slip[n] : 0;
     f->status[n]            = !covered ? CONTACT_ALONE : v->active[n] ? CONTACT_TOUCHING : CONTACT_OPEN;
+    for (PetscInt c = 0; c < 3; ++c) f->traction[3 * n + c] = v->spec->law == CONTACT_TIED && c < v->num_z ? -v->z[c * v->nonmortar.num_nodes + n] : 0;
   }
   Follow_Private(&v->nonmortar, f);
 }
@@ -214,6 +218,7 @@ static void AddPoint_Private(const ContactView *v, const ContactSegment *s, cons
     value[SUM_PRESSURE] += N[k] * f->pressure[own[k]];
     value[SUM_SHEAR] += N[k] * f->shear[own[k]];
     value[SUM_SLIP] += N[k] * f->slip[own[k]];
+    for (PetscInt c = 0; c < 3; ++c) value[SUM_TRACTION + c] += N[k] * f->traction[3 * own[k] + c];
     if (f->status[own[k]] == CONTACT_ALONE) continue;
     value[SUM_KNOWN] += N[k];
     value[SUM_GAP] += N[k] * f->gap[own[k]];
@@ -266,8 +271,9 @@ PetscErrorCode OutputProjectFields(Problem problem, PetscInt pair, const Contact
     to->pressure[m]    = s[SUM_ALL] > 0 ? s[SUM_PRESSURE] / s[SUM_ALL] : 0;
     to->shear[m]       = s[SUM_ALL] > 0 ? s[SUM_SHEAR] / s[SUM_ALL] : 0;
     to->slip[m]        = s[SUM_ALL] > 0 ? s[SUM_SLIP] / s[SUM_ALL] : 0;
-    to->gap[m]         = s[SUM_KNOWN] > 0 ? s[SUM_GAP] / s[SUM_KNOWN] : 0;
-    to->status[m]      = !(s[SUM_KNOWN] > 0) ? CONTACT_ALONE : 2 * s[SUM_ACTIVE] >= s[SUM_KNOWN] ? CONTACT_TOUCHING : CONTACT_OPEN;
+    for (PetscInt c = 0; c < 3; ++c) to->traction[3 * m + c] = s[SUM_ALL] > 0 ? -s[SUM_TRACTION + c] / s[SUM_ALL] : 0;
+    to->gap[m]    = s[SUM_KNOWN] > 0 ? s[SUM_GAP] / s[SUM_KNOWN] : 0;
+    to->status[m] = !(s[SUM_KNOWN] > 0) ? CONTACT_ALONE : 2 * s[SUM_ACTIVE] >= s[SUM_KNOWN] ? CONTACT_TOUCHING : CONTACT_OPEN;
   }
   Follow_Private(&v->mortar, to);
   PetscCall(PetscFree(sums));

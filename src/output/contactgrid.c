@@ -116,6 +116,15 @@ static void Tractions_Private(const SurfaceView *s, const ContactFields *f, Pets
   }
 }
 
+/* Pressure and tangential traction of a tied pair, from the traction on the body. */
+static void Tied_Private(const SurfaceView *s, const ContactFields *f, const PetscReal normal[])
+{
+  for (PetscInt n = 0; n < s->num_nodes; ++n) {
+    f->pressure[n] = -Dot3(f->traction + 3 * n, normal + 3 * n);
+    for (PetscInt c = 0; c < 3; ++c) f->traction[3 * n + c] += f->pressure[n] * normal[3 * n + c];
+  }
+}
+
 /* Both sides of a pair. Collective: fields are gathered. */
 static PetscErrorCode AppendPair_Private(ContactGrid *g, Problem problem, PetscInt pair)
 {
@@ -129,15 +138,22 @@ static PetscErrorCode AppendPair_Private(ContactGrid *g, Problem problem, PetscI
   for (PetscInt side = 0; side < 2; ++side) {
     const SurfaceView *s  = side ? &v->mortar : &v->nonmortar;
     const PetscInt     at = AppendSurface_Private(g, s, pair, side);
-    fields[side]          = (ContactFields){g->gap + at, g->pressure + at, g->status + at, g->shear + at, g->slip + at};
-    if (side == 0)
+    fields[side]          = (ContactFields){g->gap + at, g->pressure + at, g->status + at, g->shear + at, g->slip + at, g->traction + 3 * at};
+    if (side == 0 && v->spec->law != CONTACT_TIED)
       OwnNormals_Private(v, g->normal + 3 * at);
     else
       PetscCall(MeanNormals_Private(s, scene->mechanics.kinematics == KINEMATICS_SMALL ? s->X : s->x, g->normal + 3 * at));
   }
   OutputContactFields(v, &fields[0]);
   PetscCall(OutputProjectFields(problem, pair, &fields[0], &fields[1]));
-  for (PetscInt side = 0; side < 2; ++side) Tractions_Private(side ? &v->mortar : &v->nonmortar, &fields[side], (PetscInt)(fields[side].gap - g->gap), g);
+  for (PetscInt side = 0; side < 2; ++side) {
+    const SurfaceView *s  = side ? &v->mortar : &v->nonmortar;
+    const PetscInt     at = (PetscInt)(fields[side].gap - g->gap);
+    if (v->spec->law == CONTACT_TIED)
+      Tied_Private(s, &fields[side], g->normal + 3 * at);
+    else
+      Tractions_Private(s, &fields[side], at, g);
+  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -165,10 +181,9 @@ static PetscErrorCode WriteSurfaces_Private(Writer writer, Problem problem, Pets
   PetscCall(WriterField(writer, "gap", PETSC_FALSE, 1, g.gap));
   PetscCall(WriterField(writer, "contact_pressure", PETSC_FALSE, 1, g.pressure));
   PetscCall(WriterField(writer, "status", PETSC_FALSE, 1, g.status));
-  if (InterfaceSlips(ProblemInterface(problem))) {
-    PetscCall(WriterField(writer, "tangential_traction", PETSC_FALSE, 3, g.traction));
-    PetscCall(WriterField(writer, "slip", PETSC_FALSE, 1, g.slip));
-  }
+  const PetscBool slips = InterfaceSlips(ProblemInterface(problem));
+  if (slips || InterfaceTies(ProblemInterface(problem))) PetscCall(WriterField(writer, "tangential_traction", PETSC_FALSE, 3, g.traction));
+  if (slips) PetscCall(WriterField(writer, "slip", PETSC_FALSE, 1, g.slip));
   PetscCall(WriterField(writer, "normal", PETSC_FALSE, 3, g.normal));
   PetscCall(WriterField(writer, "pair", PETSC_TRUE, 1, g.pair));
   PetscCall(WriterField(writer, "side", PETSC_TRUE, 1, g.side));

@@ -56,6 +56,11 @@ static PetscErrorCode PairColumns_Private(Columns *c, PetscInt dim, const Contac
   PetscFunctionBegin;
   for (PetscInt a = 0; a < dim; ++a) PetscCall(Column_Private(c, f->force[0][a], "contact", name, "force", axis_name[a]));
   PetscCall(MomentColumns_Private(c, dim, "contact", name, f->moment[0]));
+  if (spec->law == CONTACT_TIED) {
+    PetscCall(Column_Private(c, f->max_pressure, "contact", name, "max_traction", NULL));
+    PetscCall(Column_Private(c, f->area, "contact", name, "area", NULL));
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
   for (PetscInt k = 0; k < 5; ++k) {
     if (k == 2 && dim == 3) continue;
     PetscCall(Column_Private(c, zone[k], "contact", name, zone_name[k], NULL));

@@ -99,6 +99,7 @@ PetscInt CellShapeVertices(CellShape);
 typedef struct {
   PetscReal *gap, *pressure, *status;
   PetscReal *shear, *slip; /* tangential traction along e_z x n of the nonmortar side, slip of the step; 0 without friction */
+  PetscReal *traction;     /* [num_nodes][3] on the body, of a tied pair; else not looked at */
 } ContactFields;
 
 /* Fields of the nonmortar side as of the last evaluation. */

@@ -78,8 +78,9 @@ static void AddPair_Private(cJSON *contact, PetscInt dim, const ContactSpec *spe
   AddMoment_Private(pair, "mortar_moment", dim, f->moment[1]);
   AddNumber_Private(pair, "force_imbalance", f->force_imbalance);
   AddNumber_Private(pair, "moment_imbalance", f->moment_imbalance);
-  AddNumber_Private(pair, "max_pressure", f->max_pressure);
+  AddNumber_Private(pair, spec->law == CONTACT_TIED ? "max_traction" : "max_pressure", f->max_pressure);
   AddNumber_Private(pair, "area", f->area);
+  if (spec->law == CONTACT_TIED) return;
   AddNumber_Private(pair, dim == 2 ? "radius" : "equivalent_radius", f->radius);
   AddNumber_Private(pair, "active_nodes", (PetscReal)f->active_nodes);
   AddNumber_Private(pair, "covered_nodes", (PetscReal)f->covered_nodes);

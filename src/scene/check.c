@@ -253,6 +253,29 @@ static PetscErrorCode Roles_Private(Scene s, const Facets *f, ContactEntry *c)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Bodies on both sides of a tied pair hold each other. */
+static PetscErrorCode Joined_Private(Scene s, const Facets *f)
+{
+  const PetscInt num = f->mesh->num_bodies, groups = f->mesh->num_boundaries;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(num, &s->joined));
+  for (PetscInt b = 0; b < num; ++b) s->joined[b] = b;
+  for (PetscInt i = 0; i < s->data.num_contacts; ++i) {
+    const ContactSpec *c    = &s->data.contacts[i];
+    PetscInt           root = -1;
+    for (PetscInt b = 0; b < num && c->law == CONTACT_TIED; ++b) {
+      if (!f->body_touches[b * groups + c->nonmortar] && !f->body_touches[b * groups + c->mortar]) continue;
+      if (root < 0) root = s->joined[b];
+      const PetscInt from = s->joined[b];
+      for (PetscInt k = 0; k < num; ++k)
+        if (s->joined[k] == from) s->joined[k] = root;
+    }
+  }
+  s->data.mechanics.joined = s->joined;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 static PetscErrorCode MatchContacts_Private(Scene s, const Facets *f)
 {
   PetscFunctionBegin;
@@ -274,6 +297,7 @@ static PetscErrorCode MatchContacts_Private(Scene s, const Facets *f)
     s->data.contacts[i] = c->spec;
   }
   PetscCall(CheckPairs_Private(s, f));
+  PetscCall(Joined_Private(s, f));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -300,11 +324,11 @@ static PetscBool HoldsItself_Private(Scene s, const PetscBool *touches, PetscInt
       if (b->fix[c] || b->displacement[c]) return PETSC_TRUE;
   }
   for (PetscInt i = 0; i < s->data.num_contacts; ++i)
-    if (touches[s->data.contacts[i].nonmortar] || touches[s->data.contacts[i].mortar]) return PETSC_TRUE;
+    if (s->data.contacts[i].law != CONTACT_TIED && (touches[s->data.contacts[i].nonmortar] || touches[s->data.contacts[i].mortar])) return PETSC_TRUE;
   return s->data.bodies[body].material->law->rigid;
 }
 
-/* A body must be held by a condition of its own, or grow together with one that is. */
+/* A body must be held by a condition of its own, or grow together with one that is, or be tied to it. */
 static PetscErrorCode CheckHeld_Private(Scene s, const Facets *f)
 {
   const ForestTables *t   = f->forest;
@@ -322,6 +346,9 @@ static PetscErrorCode CheckHeld_Private(Scene s, const Facets *f)
       if (leaf[0] < 0 || leaf[1] < 0 || held[t->leaf_body[leaf[0]]] == held[t->leaf_body[leaf[1]]]) continue;
       held[t->leaf_body[leaf[0]]] = held[t->leaf_body[leaf[1]]] = changed = PETSC_TRUE;
     }
+    for (PetscInt a = 0; a < num; ++a)
+      for (PetscInt b = 0; b < a; ++b)
+        if (s->joined[a] == s->joined[b] && held[a] != held[b]) held[a] = held[b] = changed = PETSC_TRUE;
   }
   for (PetscInt body = num - 1; body >= 0; --body)
     if (!held[body]) loose = body;

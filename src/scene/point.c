@@ -83,6 +83,10 @@ PetscErrorCode SceneSetPoints(Scene s, const CoarseMesh *m, const PetscBool touc
     BoundarySpec *b = &s->data.boundaries[i];
     if (!NodeFind(s->boundary[i].node, "moment_about")) GroupCentre_Private(m, touches, b->group, body, b->about);
   }
+  for (PetscInt i = 0; i < s->data.num_contacts; ++i) {
+    ContactSpec *c = &s->data.contacts[i];
+    if (!NodeFind(s->contact[i].node, "moment_about")) GroupCentre_Private(m, touches, c->exchanged ? c->mortar : c->nonmortar, body, c->about);
+  }
   PetscCall(PetscFree(body));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

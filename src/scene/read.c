@@ -366,6 +366,29 @@ static PetscErrorCode CheckFriction_Private(Scene s, const SceneNode *node, Cont
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* A tied pair is one by its kind, and has nothing of what contact may have besides. */
+static PetscErrorCode CheckTied_Private(Scene s, const SceneNode *node, ContactEntry *c)
+{
+  static const char *const Foreign[] = {"law", "penalty", "friction", "interference", "node_to_segment", "see_through"};
+
+  PetscFunctionBegin;
+  if (c->kind == 0) {
+    PetscCheckInput(c->spec.law != CONTACT_TIED, "%s is tied, but the pair is not; set kind: tied instead", NodeWhere(NodeFind(node, "law")));
+    PetscCheckInput(c->initial_gap != 3, "%s is close, but that is for tied pairs (kind: tied); allowed here: keep|adjust|ramp",
+                    NodeWhere(NodeFind(node, "initial_gap")));
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
+  for (size_t k = 0; k < sizeof(Foreign) / sizeof(Foreign[0]); ++k) {
+    const SceneNode *given = NodeFind(node, Foreign[k]);
+    PetscCheckInput(!given, "%s does not go with kind: tied, whose sides neither part nor slide; take it away", NodeWhere(given));
+  }
+  PetscCheckInput(c->initial_gap == 0 || c->initial_gap == 3, "%s is %s, but the pair is tied; allowed here: keep|close",
+                  NodeWhere(NodeFind(node, "initial_gap")), c->initial_gap == 1 ? "adjust" : "ramp");
+  c->spec.law   = CONTACT_TIED;
+  c->spec.close = c->initial_gap == 3 ? PETSC_TRUE : PETSC_FALSE;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 static PetscErrorCode ReadContact_Private(Scene s, SceneNode *node, ContactEntry *c)
 {
   const SceneNode *stiffness = NodeFind(node, "penalty");
@@ -379,6 +402,7 @@ static PetscErrorCode ReadContact_Private(Scene s, SceneNode *node, ContactEntry
   c->spec.adjust         = c->initial_gap == 1 ? PETSC_TRUE : PETSC_FALSE;
   c->spec.ramp           = c->initial_gap == 2 ? PETSC_TRUE : PETSC_FALSE;
   c->spec.standard       = c->multiplier == 1 ? PETSC_TRUE : PETSC_FALSE;
+  PetscCall(CheckTied_Private(s, node, c));
   PetscCheckInput(c->spec.law != CONTACT_PENALTY || stiffness,
                   "%s.penalty must be given: with law: penalty it is the stiffness of the contact, pressure per overlap, a number above 0", NodeWhere(node));
   PetscCheckInput(c->spec.law == CONTACT_PENALTY || !stiffness,

@@ -245,6 +245,7 @@ PetscErrorCode SceneDestroy(Scene *scene)
   PetscCall(PetscFree(s->data.bodies));
   PetscCall(PetscFree(s->data.boundaries));
   PetscCall(PetscFree(s->data.contacts));
+  PetscCall(PetscFree(s->joined));
   PetscCall(PetscFree(s->data.probes));
   PetscCall(NodeDestroy(&s->root));
   PetscCall(PetscFree(s->text));

@@ -80,6 +80,7 @@ typedef struct {
   ContactSpec spec;
   char        nonmortar[MORTISE_NAME], mortar[MORTISE_NAME], moment_about[MORTISE_NAME];
   int         order, initial_gap, multiplier, roles;
+  int         kind;      /* contact, tied */
   int         subdivide; /* isotropic subdivisions of the cells that touch either side; SUBDIVIDE_AUTO */
   SceneNode  *node;
 } ContactEntry;
@@ -123,6 +124,7 @@ struct _p_Scene {
   RefineEntry   *refine; /* [data.num_refines] */
   PointEntry    *point;
   PetscInt       num_bodies, num_boundaries, num_points;
+  PetscInt      *joined; /* MechanicsSpec.joined */
 };
 
 /* Every key of the tree is in the table and has the right shape. Not collective. */

@@ -22,6 +22,7 @@ static void Names(void **state)
   assert_string_equal(ContactLaws[CONTACT_FRICTIONLESS]->name, "frictionless");
   assert_string_equal(ContactLaws[CONTACT_PENALTY]->name, "penalty");
   assert_string_equal(ContactLaws[CONTACT_COULOMB]->name, "coulomb");
+  assert_string_equal(ContactLaws[CONTACT_TIED]->name, "tied");
 }
 
 /* A node whose gap, weight and multiplier change with s. */
@@ -64,6 +65,28 @@ static void Derivatives(void **state)
   }
 }
 
+/* Tied: each component by itself, without states; one that has no multiplier is 0. */
+static void Tied(void **state)
+{
+  const ContactSpec    spec = {.law = CONTACT_TIED};
+  const ContactLawOps *law  = ContactLaws[CONTACT_TIED];
+  const ContactPoint   p    = {.spec = &spec, .num = 3, .z = {0.4, 0.5, 0.6}, .w0 = 0.5, .c = 3, .tie = {{0.1, 0.4, 0.02}, {0.2, 0, 0}, {-0.3, 0.5, 0}}};
+
+  (void)state;
+  assert_int_equal(law->num_multipliers(3), 3);
+  assert_true(law->state(&p) != 0);
+  for (int symmetric = 0; symmetric < 2; ++symmetric) {
+    ContactRow row[MOST_MULTIPLIERS];
+    law->rows(&p, (PetscBool)symmetric, row);
+    for (int k = 0; k < 3; ++k) assert_int_equal(row[k].component, k);
+    assert_near(row[0].side, -row[0].factor * 0.12, 1e-15);
+    assert_near(row[2].side, row[2].factor * 0.3, 1e-15);
+    assert_near(row[0].factor, symmetric ? -3 : 0.5 * 3 / 0.4, 1e-15);
+    assert_near(row[1].side / row[1].z[1], -0.5, 1e-15);
+    assert_true(row[1].factor == 0 && row[0].z[0] == 0);
+  }
+}
+
 /* Coulomb: states, rows as derivatives of the projection form, and no way from slip to slip the other way but by stick. */
 static void Friction(void **state)
 {
@@ -97,6 +120,6 @@ static void Friction(void **state)
 
 int main(int argc, char **argv)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(Names), cmocka_unit_test(Derivatives), cmocka_unit_test(Friction)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(Names), cmocka_unit_test(Derivatives), cmocka_unit_test(Friction), cmocka_unit_test(Tied)};
   return cmocka_run_group_tests_name("interface: contact laws", tests, NULL, NULL);
 }

@@ -6,6 +6,7 @@ import pytest
 
 from contactkit import PAIRINGS, SIDES, blocks, bulk, components, contact, graded, is_quadratic, spread, steps
 
+ORIGIN = {"origin": {"x": 0, "y": 0}}  # of moments
 PRESSURE = 48.2977961996  # of O-41a
 ROLLERS = {"left_lower": "x", "left_upper": "x", "right_lower": "x", "right_upper": "x", "bottom": "y"}
 
@@ -168,7 +169,7 @@ def test_o43_drop_off(run, nl, nu):
     """Edges of the lower block, which carries the multiplier, reach out from under the punch."""
     body = linear(1000, 0.3)
     scene = blocks("lower", {"lower": body, "upper": body}, {**TAYLOR, "lower_top": {"traction": {"y": "-(" + outside(nl) + ")"}}},
-                   {**FOUNDATION, "nl": nl, "nu": nu}, kinematics="small")
+                   {**FOUNDATION, "nl": nl, "nu": nu}, None, {"moment_about": "origin"}, point=ORIGIN, kinematics="small")
     result = run("o43.yml", text=scene)
     assert result.returncode == 0, result
     pair = result.summary["contact"]["pair"]
@@ -189,7 +190,8 @@ def linear_pressure(run, nonmortar, nl, nu, order, pair):
     body = linear(1000, 0)
     top = {"displacement": {"x": "0.25*Y^2/1000"}, "traction": {"y": "-(1 + 0.5*X)"}}  # forces given: the resultants are those of statics
     scene = blocks(nonmortar, {"lower": body, "upper": body}, {"bottom": {"fix": "xy"}, "top": top},
-                   {"wl": 2, "wu": 2, "nl": nl, "nu": nu, "ml": max(1, nl // 2), "mu": max(1, nu // 2)}, None, pair, kinematics="small", order=order)
+                   {"wl": 2, "wu": 2, "nl": nl, "nu": nu, "ml": max(1, nl // 2), "mu": max(1, nu // 2)}, None, {**(pair or {}), "moment_about": "origin"}, point=ORIGIN,
+                   kinematics="small", order=order)
     result = run("o44.yml", "-solve_rtol", 1e-12, text=scene)  # the upper block floats: its tangent is not exact, the last digits cost an iteration
     assert result.returncode == 0, result
     pair, sign = result.summary["contact"]["pair"], 1 if nonmortar == "upper" else -1

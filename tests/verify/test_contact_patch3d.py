@@ -39,6 +39,9 @@ def cubes(path, nl, nu, to=same, distortion=0.0, seed=1, m=1):
     return write(path, {"lower": (lower, distorted(lower, distortion, seed, to)), "upper": (upper, distorted(upper, distortion, seed + 1000, to))})
 
 
+ORIGIN = {"origin": {"x": 0, "y": 0, "z": 0}}  # of moments
+
+
 def text(mesh, nonmortar, material, boundary, near=None, pair=None, **keys):
     scene = {"mesh": {"file": str(mesh)}, "model": "3d", "body": {name: {"material": name} for name in SIDES}, "material": material, "boundary": boundary,
              "contact": {"pair": {"nonmortar": SIDES[nonmortar][0], "mortar": SIDES[nonmortar][1], "roles": "given", **(pair or {})}}, "load": {"step": 1}, **keys}
@@ -226,7 +229,8 @@ def test_o43_drop_off(run, tmp_path, nl, nu):
     lower, upper = [linspace(0, 3, nl), linspace(0, 3, nl), [0, 1]], [linspace(1, 2, nu), linspace(1, 2, nu), [1, 2]]
     load = f"-(1 - {inside('X', nl)}*{inside('Y', nl)})"
     mesh = write(tmp_path / "o43.msh", {"lower": (lower, same), "upper": (upper, same)})
-    result = done(run("o43.yml", text=text(mesh, "lower", BODY, {**TAYLOR, "z1_lower": {"traction": {"z": load}}}, kinematics="small")))
+    result = done(run("o43.yml", text=text(mesh, "lower", BODY, {**TAYLOR, "z1_lower": {"traction": {"z": load}}}, None, {"moment_about": "origin"}, point=ORIGIN,
+                                            kinematics="small")))
     pair = result.summary["contact"]["pair"]
     assert numpy.abs(numpy.array(pair["force"]) - [0, 0, -1]).max() < 1e-9 and numpy.abs(numpy.array(pair["moment"]) - [-1.5, 1.5, 0]).max() < 1e-9, pair
     state, surface, h = bulk(result), contact(result), 3 / nl
@@ -245,8 +249,8 @@ def linear_pressure(run, tmp_path, nonmortar, n, order, multiplier, hangs=None, 
     mesh = write(tmp_path / "o44.msh", {"lower": (lower, distorted(lower, distortion, 3)), "upper": (upper, distorted(upper, distortion, 4))})
     boundary = {"z0_lower": {"fix": "xyz"}, "z1_upper": {"displacement": {"x": "0.25*Z^2/1000", "y": 0}, "traction": {"z": "-(1 + 0.5*X)"}}}
     near = spot(hangs, (0.6, 0.3, 1))
-    result = done(run("o44.yml", "-solve_rtol", 1e-12, text=text(mesh, nonmortar, {"lower": body, "upper": body}, boundary, near, {"multiplier": multiplier, "order": faces},
-                                                               kinematics="small", order=order)))
+    result = done(run("o44.yml", "-solve_rtol", 1e-12, text=text(mesh, nonmortar, {"lower": body, "upper": body}, boundary, near, {"multiplier": multiplier, "order": faces, "moment_about": "origin"},
+                                                               point=ORIGIN, kinematics="small", order=order)))
     pair, sign = result.summary["contact"]["pair"], 1 if nonmortar == "upper" else -1
     force, moment = sign * numpy.array(pair["force"]), sign * numpy.array(pair["moment"])
     print(multiplier, n, force - [0, 0, 3], moment)

@@ -95,6 +95,24 @@ def roller(tmp_path, around=32):
             "contact": {"c": {"nonmortar": "strip_y1", "mortar": "disc_y1"}}, "load": {"end": 2, "step": 1}}
 
 
+def test_moments_of_contact_are_about_the_body(run, tmp_path):
+    """Without moment_about: about the centre of the body of the side that the scene calls nonmortar, on both sides, whoever carries the multiplier."""
+    scene = pressed(tmp_path, tool={"law": "rigid"})
+    scene["body"]["tool"]["motion"] = {"x": "0.02*t", "y": "-0.1*t", "rotation": {"angle": "5*t"}}
+    centre = {"strip": (0, 0.5), "tool": (0.1, 1 + GAP + 0.2)}
+    sides = scene["contact"]["c"]["nonmortar"], scene["contact"]["c"]["mortar"]
+    for first, other in (sides, sides[::-1]):
+        scene["contact"]["c"] |= {"nonmortar": first, "mortar": other}
+        scene["contact"]["c"].pop("moment_about", None)
+        default = contact(solve(run, scene))
+        scene["point"] = {"middle": dict(zip("xy", centre[first.split("_")[0]]))}
+        scene["contact"]["c"]["moment_about"] = "middle"
+        named = contact(solve(run, scene))
+        size = numpy.abs(named["force"]).max()
+        assert default["moment"] == pytest.approx(named["moment"], abs=1e-9 * size) and abs(default["moment"][0]) > 1e-3 * size
+        assert default["mortar_moment"] == pytest.approx(named["mortar_moment"], abs=1e-9 * size)
+
+
 @pytest.mark.parametrize("angle, tolerance", [(360 / 32, 1e-9), (90, 1e-9), (17, 1e-3)])
 def test_roller_turned_about_its_centre_changes_nothing(run, tmp_path, angle, tolerance):
     """Turned by whole facets the disc is what it was; in between it is so as far as curved facets are a circle."""

@@ -409,6 +409,7 @@ static PetscErrorCode Facet_Private(const EvaluateContext *ctx, PetscInt slot, C
   if (derivatives) PetscCall(Derivatives_Private(ctx, facet, out));
   if (derivatives && ctx->hessian && loaded && !pair->held) PetscCall(Curve_Private(ctx, facet, out));
   PetscCall(ContactSlipFacet(ctx, facet, derivatives, out));
+  PetscCall(ContactTieFacet(ctx, facet, out));
   *use = PETSC_TRUE;
   PetscFunctionReturn(PETSC_SUCCESS);
 }

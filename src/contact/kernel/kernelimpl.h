@@ -345,6 +345,9 @@ PetscBool ContactSlipLoads(const EvaluateContext *);
 /* After its moments, for the result `out`: its points, where they are to be kept; forces by tangential tractions, and their part of the Hessian. */
 PetscErrorCode ContactSlipFacet(const EvaluateContext *, PetscInt facet, PetscBool derivatives, ContactFacet *out);
 
+/* tie.c: after the moments of the facet at hand, for the result `out`: what ties it, where that is wanted. */
+PetscErrorCode ContactTieFacet(const EvaluateContext *, PetscInt facet, ContactFacet *out);
+
 /* region.c */
 typedef struct {
   PetscReal box[6], axis[3][3], lo[3], hi[3], slack;

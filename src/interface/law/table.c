@@ -1,6 +1,6 @@
 /* The contact laws, in the order of the words of contact.<pair>.law. */
 #include "interfaceimpl.h"
 
-extern const ContactLawOps ContactFrictionless, ContactPenalty, ContactCoulomb;
+extern const ContactLawOps ContactFrictionless, ContactPenalty, ContactCoulomb, ContactTied;
 
-const ContactLawOps *const ContactLaws[] = {&ContactFrictionless, &ContactPenalty, &ContactCoulomb, NULL};
+const ContactLawOps *const ContactLaws[] = {&ContactFrictionless, &ContactPenalty, &ContactCoulomb, &ContactTied, NULL};
