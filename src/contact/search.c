@@ -127,17 +127,6 @@ static void LeaveOutGrazing_Private(ContactPair pair, const ContactSurface *nonm
   }
 }
 
-/* Of a surface with itself: facets with a corner in common. The gap is 0 there whatever moves. */
-static PetscBool IsNeighbor_Private(const ContactSurface *s, PetscInt f, PetscInt g)
-{
-  const PetscInt nv = 2 * (s->dim - 1);
-
-  for (PetscInt a = 0; a < nv; a++)
-    for (PetscInt b = 0; b < nv; b++)
-      if (s->facets[nv * f + a] == s->facets[nv * g + b]) return PETSC_TRUE;
-  return PETSC_FALSE;
-}
-
 /* Query the tree for every listed facet. found: room for all mortar facets. */
 static PetscErrorCode Candidates_Private(ContactPair pair, const ContactSurface *nonmortar, const ContactSurface *mortar, const Tree *tree,
                                          const PetscInt known[], PetscInt found[])
@@ -158,8 +147,8 @@ static PetscErrorCode Candidates_Private(ContactPair pair, const ContactSurface 
     PetscCall(PetscSortInt(num, found)); /* results must not depend on the tree */
     PetscCall(ContactGrow(total + num, sizeof(PetscInt), &pair->size_candidate, &pair->candidate));
     LeaveOutGrazing_Private(pair, nonmortar, pair->listed[i], mortar, num, found);
-    for (PetscInt k = 0; k < num && pair->self; k++)
-      if (found[k] >= 0 && IsNeighbor_Private(mortar, pair->listed[i], found[k])) found[k] = ~found[k];
+    for (PetscInt k = 0; k < num && pair->self; k++) /* where a smooth surface has been folded the gap of neighbours is 0, whatever moves */
+      if (found[k] >= 0 && ContactFacetJoint(mortar, pair->listed[i], found[k]) == JOINT_SMOOTH) found[k] = ~found[k];
     for (PetscInt k = 0; k < num; k++)
       if (found[k] >= 0 && ContactRayRegionMeets(&region, mortar, found[k]) && !ContactBehind(pair, pair->listed[i], &corners, mortar, found[k]))
         pair->candidate[total++] = found[k];
