@@ -1,9 +1,9 @@
-/* Roles of the facets of a surface that may meet itself. Of two that face each other one is the nonmortar facet: that of the softer body, else that of the lower
-   colour, else the one of the lower number, so none passes another whatever the colours are. Colours make roles the same over whole zones of contact, and put
-   the seams between them where surfaces are farthest from meeting: facets that face each other should differ, and those side by side be alike. Both are ties
-   with the distance at which the facet meets something for a length, and they are satisfied by growing length, as those of a shortest spanning tree; one that
-   contradicts shorter ones is a seam, a crease between two walls for instance. Before all of them facets that bear stay nonmortar: multipliers that come from
-   another mesh or a checkpoint keep their side.
+/* Roles of the facets of a surface that may meet itself. Of two that face each other one is the nonmortar facet: that of the softer body, else that of the
+   lower colour, else the one of the lower number, so none passes another whatever the colours are. Colours make roles the same over whole zones of contact, and
+   put the seams between them where surfaces are farthest from meeting: facets that face each other should differ, and those side by side be alike. Both are
+   ties with the distance at which the facet meets something for a length, and they are satisfied by growing length, as those of a shortest spanning tree; one
+   that contradicts shorter ones is a seam, a crease between two walls for instance. Before all of them facets that bear stay nonmortar: multipliers that come
+   from another mesh or a checkpoint keep their side.
 
    A pair that bears nothing has no forces, whatever its roles: they are chosen at every search until it bears, and stay. */
 #include "interfaceimpl.h"
@@ -41,10 +41,10 @@ static PetscInt Root_Private(PetscInt parent[], PetscBool differs[], PetscInt i,
   for (PetscBool rest = *differ; parent[i] != root && i != root;) { /* shorten the path */
     const PetscInt  next = parent[i];
     const PetscBool own  = differs[i];
-    parent[i]  = root;
-    differs[i] = rest;
-    rest       = (PetscBool)(rest != own);
-    i          = next;
+    parent[i]            = root;
+    differs[i]           = rest;
+    rest                 = (PetscBool)(rest != own);
+    i                    = next;
   }
   return root;
 }
