@@ -45,6 +45,7 @@ typedef enum { CONTACT_FRICTIONLESS, CONTACT_PENALTY, CONTACT_COULOMB, CONTACT_T
 typedef struct {
   char       name[MORTISE_NAME];
   PetscInt   nonmortar, mortar; /* boundary groups */
+  PetscBool  self;              /* both are one group: a surface that may meet itself */
   PetscBool  exchanged;         /* the scene names them the other way round, figures are of the sides as the scene names them */
   ContactLaw law;               /* what its multipliers fulfil (interface/law/) */
   PetscReal  penalty;           /* law penalty: stiffness, pressure over overlap */
@@ -123,6 +124,11 @@ PetscErrorCode ContactHullThickness(ContactHull, const ContactSurface *, const P
 /* From now on the pair's searches pass over far sides. part, mortar_part: parts of the facets of its surfaces, which need reference positions; borrowed, as
    is the hull. deepest: overlaps are looked for down to here, whatever the search distance is; 0: down to the search distance. Not collective. */
 PetscErrorCode ContactPairSetHull(ContactPair, ContactHull, const PetscInt part[], const PetscInt mortar_part[], PetscReal deepest);
+
+/* A pair of one surface with itself (spec.self): both surfaces are given alike, facet by facet. Of two facets that face each other the one with the lower
+   number precedence[num_facets] is the nonmortar one; no two are alike. What a facet sees first and that does not follow it hides what is behind, and covers
+   nothing. NULL (as created): all facets see all that face them, both ways. Borrowed. Not collective. */
+PetscErrorCode ContactPairSetPrecedence(ContactPair, const PetscInt precedence[]);
 
 /* Facets of higher order: which nodes have multipliers (carries[nonmortar num_nodes], NULL: all), for the functions of covered facets, which are dual in the
    reference positions; before the search. Without it the first search takes all nodes. The pair keeps the functions. Not collective. */

@@ -64,11 +64,11 @@ typedef struct {
 } Passage;
 
 /* The deepest place at a state, which the problem stands at, the same on every rank. Rigid bodies and the sides of a contact pair, which contact keeps apart,
-   are left out. O(n log n) for n outer facets, on the rank that has them. Collective. */
-PetscErrorCode PassageFind(Problem, const State *, Passage *);
+   are left out; group not negative: only facets of this boundary group are looked at. O(n log n) for n outer facets, on the rank that has them. Collective. */
+PetscErrorCode PassageFind(Problem, const State *, PetscInt group, Passage *);
 
 /* inside.c: the first contact pair that bears nothing though its bodies lie inside each other, deeper than a facet is long and not so at the reference
-   positions; -1: there is none. At the state that was evaluated last. Finite kinematics. Collective. */
+   positions, or of one surface that passes through itself; -1: there is none. At the state that was evaluated last. Finite kinematics. Collective. */
 PetscErrorCode InsideFind(Problem, const State *, PetscInt *pair);
 
 /* through.c: the first contact pair that bears nothing of which a body went right through the other one on straight ways from displacements `from` (local

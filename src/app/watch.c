@@ -10,7 +10,7 @@ static PetscErrorCode WatchPassage_Private(App *app)
 
   PetscFunctionBegin;
   if (app->passage_told || app->data->mechanics.kinematics == KINEMATICS_SMALL) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(PassageFind(app->level.problem, &app->level.accepted, &p));
+  PetscCall(PassageFind(app->level.problem, &app->level.accepted, -1, &p));
   if (!(p.depth > 0)) PetscFunctionReturn(PETSC_SUCCESS);
   app->passage_told = PETSC_TRUE;
   PetscCall(ForestGetCoarse(app->level.forest, &mesh));

@@ -34,6 +34,8 @@ typedef struct _p_RayWork *RayWork;
 struct _p_ContactPair {
   PetscInt                  dim;
   PetscBool                 axisymmetric, node_to_segment, standard;
+  PetscBool                 self;                                                       /* both sides are one surface */
+  const PetscInt           *precedence;                                                 /* borrowed: of its facets; NULL: none */
   PetscBool                 held;                                                       /* directions do not vary */
   PetscBool                 frozen_segmentation;                                        /* forces without the motion of lines of the mortar side */
   PetscInt                  num_degenerate;                                             /* overlaps of the last evaluation that could not be used */

@@ -8,10 +8,15 @@
    on which they touch. There sides of both bodies that face each other run beside the ray: a to one side of its end, b to the other of its start. Across it the
    bodies overlap by a + b; where that is less than d they have met there.
 
+   A body that may meet itself (a pair of one surface) has facets that face each other through itself: there both thicknesses are the depth. Such facets see
+   each other at the reference positions along a straight line that does not leave the body. What met across a void does not: between bore and bore, or limb
+   and limb, it does.
+
    Thicknesses are those at the reference positions, along directions that turn with the facets. */
 #include "kernelimpl.h"
 
 #define CLOSE 0.1    /* of a facet's half width */
+#define NEARLY 1e-6  /* of a length, that round-off may leave */
 #define CLEARLY 0.75 /* of what both bodies measure: what lies deeper is surely no overlap, or one that is seen from its own side, too */
 
 enum { MOST_SIDES = 32, LEVELS = 6 }; /* of the search for the ray to the middle of the mortar facet: to 1/32 of the facet */
@@ -212,6 +217,23 @@ void ContactCorners(ContactPair pair, const ContactSurface *nonmortar, PetscInt 
   memcpy(s->d, pair->ray->d + 3 * s->nv * facet, sizeof(PetscReal) * 3 * (size_t)s->nv);
 }
 
+/* Are both places the two ends of their own body's thickness? */
+static PetscBool IsThickness_Private(ContactHull hull, PetscInt part, const FacetCorners *s, const PetscReal xi[2], const FacetCorners *m,
+                                     const PetscReal eta[2])
+{
+  PetscReal N[4], X[3], Y[3], d[3], length;
+
+  Hats_Private(s, xi, N);
+  Sum_Private(s->X, N, X);
+  Hats_Private(m, eta, N);
+  Sum_Private(m->X, N, Y);
+  for (int c = 0; c < 3; c++) d[c] = Y[c] - X[c];
+  length = PetscSqrtReal(Dot3(d, d));
+  for (int c = 0; c < 3; c++) d[c] /= length;
+  if (!(Dot3(d, s->axis0[s->dim - 1]) < -CONTACT_OPPOSE && Dot3(d, m->axis0[m->dim - 1]) > CONTACT_OPPOSE)) return PETSC_FALSE;
+  return (PetscBool)(ContactHullAcross(hull, part, X, d, length) > (1 - NEARLY) * length);
+}
+
 PetscBool ContactBehind(ContactPair pair, PetscInt facet, const FacetCorners *s, const ContactSurface *mortar, PetscInt other)
 {
   PetscReal        n[3], x[3], middle[3], r[3], xi[2], eta[2], depth, own;
@@ -230,6 +252,7 @@ PetscBool ContactBehind(ContactPair pair, PetscInt facet, const FacetCorners *s,
   if (!(Dot3(n, N) < -CONTACT_GRAZE) || !(depth > 0)) return PETSC_FALSE;
   for (int c = 0; c < 3; c++) x[c] -= depth * n[c], r[c] = -n[c];
   Locate_Private(&m, x, eta);
+  if (pair->self && pair->part[0][facet] == pair->part[1][other] && IsThickness_Private(pair->hull, pair->part[0][facet], s, xi, &m, eta)) return PETSC_TRUE;
   own = Across_Private(pair->hull, pair->part[0][facet], s, xi, r, 2 * depth);
   if (own < 2 * depth) own += Across_Private(pair->hull, pair->part[1][other], &m, eta, n, 2 * depth - own);
   behind = (PetscBool)(own < 2 * depth);

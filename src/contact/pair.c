@@ -17,6 +17,7 @@ PetscErrorCode ContactPairCreate(PetscInt dim, PetscBool axisymmetric, const Con
   (*pair)->dim             = dim;
   (*pair)->axisymmetric    = axisymmetric;
   (*pair)->node_to_segment = spec->node_to_segment;
+  (*pair)->self            = spec->self;
   (*pair)->standard        = (PetscBool)(spec->standard || spec->node_to_segment);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -96,6 +97,14 @@ PetscErrorCode ContactPairFreezeSegmentation(ContactPair pair, PetscBool frozen)
   PetscFunctionBegin;
   if (pair->frozen_segmentation != frozen) pair->state.stands = PETSC_FALSE; /* other forces */
   pair->frozen_segmentation = frozen;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode ContactPairSetPrecedence(ContactPair pair, const PetscInt precedence[])
+{
+  PetscFunctionBegin;
+  pair->precedence   = precedence;
+  pair->state.stands = PETSC_FALSE;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

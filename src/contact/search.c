@@ -147,6 +147,8 @@ static PetscErrorCode Candidates_Private(ContactPair pair, const ContactSurface 
     PetscCall(PetscSortInt(num, found)); /* results must not depend on the tree */
     PetscCall(ContactGrow(total + num, sizeof(PetscInt), &pair->size_candidate, &pair->candidate));
     LeaveOutGrazing_Private(pair, nonmortar, pair->listed[i], mortar, num, found);
+    for (PetscInt k = 0; k < num && pair->self; k++) /* where a smooth surface has been folded the gap of neighbours is 0, whatever moves */
+      if (found[k] >= 0 && ContactFacetJoint(mortar, pair->listed[i], found[k]) == JOINT_SMOOTH) found[k] = ~found[k];
     for (PetscInt k = 0; k < num; k++)
       if (found[k] >= 0 && ContactRayRegionMeets(&region, mortar, found[k]) && !ContactBehind(pair, pair->listed[i], &corners, mortar, found[k]))
         pair->candidate[total++] = found[k];

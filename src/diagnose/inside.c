@@ -9,7 +9,7 @@ static const PetscReal Along[2][3] = {{0.7548776662, 0.5698402910, 0.3247179572}
 
 typedef struct {
   PetscReal x[3];
-  PetscInt  pair, side; /* of the facet whose place it is */
+  PetscInt  pair, side, part; /* of the facet whose place it is */
 } Place;
 
 /* Does the line from x along d leave through the piece? */
@@ -47,7 +47,7 @@ static void Places_Private(const Pieces *s, const PetscInt bare[], PetscInt *num
       if (!(p->groups & group) || seen++ % every) continue;
       for (PetscInt behind = 0; behind < 2; ++behind) {
         Place *to = &place[(*num)++];
-        *to       = (Place){.pair = k / 2, .side = k % 2};
+        *to       = (Place){.pair = k / 2, .side = k % 2, .part = p->part};
         for (PetscInt c = 0; c < 3; ++c) {
           for (PetscInt a = 0; a < s->dim; ++a) to->x[c] += p->x[3 * a + c] / s->dim;
           to->x[c] -= (PetscReal)behind * p->size * p->N[c];
@@ -57,7 +57,8 @@ static void Places_Private(const Pieces *s, const PetscInt bare[], PetscInt *num
   }
 }
 
-/* odd[place]: it lies inside a part with the other side of its pair that is not of its own side too. Collective. */
+/* odd[place]: it lies inside a part with the other side of its pair that is not of its own side too; of one surface, inside another part than its own.
+   Collective. */
 static PetscErrorCode Count_Private(const Pieces *s, MPI_Comm comm, PetscInt num, const Place place[], PetscInt crossed[])
 {
   const PetscInt columns = 2 * s->scene->num_contacts;
@@ -71,7 +72,8 @@ static PetscErrorCode Count_Private(const Pieces *s, MPI_Comm comm, PetscInt num
     const int8_t *own = is + columns * p->part;
     for (PetscInt k = 0; k < num; ++k) {
       const PetscInt at = 2 * place[k].pair;
-      if (!own[at + 1 - place[k].side] || own[at + place[k].side]) continue;
+      if (!own[at + 1 - place[k].side]) continue;
+      if (s->scene->contacts[place[k].pair].self ? p->part == place[k].part : own[at + place[k].side]) continue;
       for (PetscInt d = 0; d < 2; ++d) crossed[2 * k + d] += Crosses_Private(s->dim, p, place[k].x, Along[d]);
     }
   }
@@ -132,12 +134,25 @@ static PetscErrorCode First_Private(Problem problem, MPI_Comm comm, PetscInt num
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* The first pair of one surface that bears nothing and of which a part passes through itself. */
+static PetscErrorCode Own_Private(Problem problem, const State *state, const SceneData *scene, const PetscInt bare[], PetscInt *pair)
+{
+  PetscFunctionBegin;
+  *pair = -1;
+  for (PetscInt i = 0; i < scene->num_contacts && *pair < 0; ++i) {
+    Passage passage = {.depth = 0};
+    if (bare[i] && scene->contacts[i].self) PetscCall(PassageFind(problem, state, scene->contacts[i].nonmortar, &passage));
+    if (passage.depth > 0) *pair = i;
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode InsideFind(Problem problem, const State *state, PetscInt *pair)
 {
   const SceneData *scene;
   Forest           forest;
   Pieces           s = {0};
-  PetscInt        *bare;
+  PetscInt        *bare, own;
   PetscBool        any, *within;
 
   PetscFunctionBegin;
@@ -150,8 +165,10 @@ PetscErrorCode InsideFind(Problem problem, const State *state, PetscInt *pair)
   if (any) {
     PetscCall(PiecesCollect_Private(problem, state, PETSC_TRUE, &s));
     PetscCall(Find_Private(&s, ForestComm(forest), bare, within));
+    PetscCall(Own_Private(problem, state, scene, bare, &own));
     PetscCall(First_Private(problem, ForestComm(forest), scene->num_contacts, bare, within, pair));
     PetscCall(PetscFree(s.piece));
+    if (*pair < 0) *pair = own;
   }
   PetscCall(PetscFree2(bare, within));
   PetscFunctionReturn(PETSC_SUCCESS);

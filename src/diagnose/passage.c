@@ -72,11 +72,12 @@ static PetscReal Depth_Private(PetscInt dim, const Piece *p, const Piece *q)
   return depth;
 }
 
-static void Test_Private(const Pieces *s, const Piece *p, const Piece *q, Passage *worst)
+static void Test_Private(const Pieces *s, PetscInt group, const Piece *p, const Piece *q, Passage *worst)
 {
   PetscReal depth;
 
-  if (p->part != q->part || Neighbours_Private(s->dim, p, q) || InPair_Private(s->scene, p->groups, q->groups)) return;
+  if (p->part != q->part || Neighbours_Private(s->dim, p, q)) return;
+  if (group >= 0 ? !((p->groups & q->groups) >> group & 1) : InPair_Private(s->scene, p->groups, q->groups)) return;
   depth = PetscMax(Depth_Private(s->dim, p, q), Depth_Private(s->dim, q, p));
   if (depth <= worst->depth) return;
   worst->depth   = depth;
@@ -96,12 +97,12 @@ static int Compare_Private(const void *a, const void *b)
   return x < y ? -1 : x > y;
 }
 
-static void Sweep_Private(Pieces *s, Passage *worst)
+static void Sweep_Private(Pieces *s, PetscInt group, Passage *worst)
 {
   qsort(s->piece, (size_t)s->num, sizeof(Piece), Compare_Private);
   for (PetscInt i = 0; i < s->num; ++i) {
     for (PetscInt j = i + 1; j < s->num && s->piece[j].box[0] <= s->piece[i].box[3]; ++j) {
-      if (BoxesMeet_Private(s->piece[i].box, s->piece[j].box)) Test_Private(s, &s->piece[i], &s->piece[j], worst);
+      if (BoxesMeet_Private(s->piece[i].box, s->piece[j].box)) Test_Private(s, group, &s->piece[i], &s->piece[j], worst);
     }
   }
 }
@@ -151,7 +152,7 @@ static PetscErrorCode Exchange_Private(MPI_Comm comm, Pieces *s)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode PassageFind(Problem problem, const State *state, Passage *worst)
+PetscErrorCode PassageFind(Problem problem, const State *state, PetscInt group, Passage *worst)
 {
   Forest      forest;
   Pieces      s = {0};
@@ -163,7 +164,7 @@ PetscErrorCode PassageFind(Problem problem, const State *state, Passage *worst)
   PetscCall(ProblemGetForest(problem, &forest));
   PetscCall(PiecesCollect_Private(problem, state, PETSC_FALSE, &s));
   PetscCall(Exchange_Private(ForestComm(forest), &s));
-  Sweep_Private(&s, worst);
+  Sweep_Private(&s, group, worst);
   PetscCall(PetscFree(s.piece));
   PetscCallMPI(MPI_Allreduce(&worst->depth, &depth, 1, MPIU_REAL, MPI_MAX, ForestComm(forest)));
   if (!(depth > 0)) PetscFunctionReturn(PETSC_SUCCESS);

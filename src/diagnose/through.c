@@ -138,7 +138,8 @@ static PetscErrorCode Meet_Private(const Pieces *s, const int8_t is[], const Mov
 
   PetscFunctionBegin;
   if (!is[2 * (p->part * s->scene->num_contacts + m->pair) + 1 - m->side] || !ContactBoxesMeet(m->box, p->box)) PetscFunctionReturn(PETSC_SUCCESS);
-  if (m->rank == p->rank && m->piece == p->piece) PetscFunctionReturn(PETSC_SUCCESS); /* its own */
+  if (m->rank == p->rank && m->piece == p->piece) PetscFunctionReturn(PETSC_SUCCESS);             /* its own */
+  if (s->scene->contacts[m->pair].self && m->part == p->part) PetscFunctionReturn(PETSC_SUCCESS); /* inside.c */
   for (PetscInt k = 0; k < 2; ++k) Middle_Private(s->dim, m->x[k], y[k]);
   const PetscInt num = CrossingsFind_Private(s->dim, p->x, y, crossing);
   for (PetscInt i = 0; i < num; ++i) {

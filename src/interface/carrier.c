@@ -143,6 +143,23 @@ PetscBool ContactIsFree_Private(const Interface p, const Contact *c, PetscInt n,
   return (PetscBool)!IsWeightless_Private(p, c, n, s->node_facet[s->node_first[n]]);
 }
 
+/* Of a surface that may meet itself: is the node where two facets meet like the flanks of a notch? The gap is 0 there whatever moves, and has no row. */
+static PetscBool IsCrease_Private(const Surface *s, PetscInt n)
+{
+  for (PetscInt k = s->node_first[n]; k < s->node_first[n + 1]; ++k) {
+    for (PetscInt l = s->node_first[n]; l < s->node_first[n + 1]; ++l) {
+      const PetscInt f = s->node_facet[k], g = s->node_facet[l];
+      PetscReal      N[3], M[3], rise = 0;
+      ContactFacetVector(s->dim, s->X, s->facets + s->corners * f, N);
+      ContactFacetVector(s->dim, s->X, s->facets + s->corners * g, M);
+      for (PetscInt a = 0; a < s->corners; ++a)
+        for (PetscInt c = 0; c < s->dim; ++c) rise += N[c] * (s->X[s->dim * s->facets[s->corners * g + a] + c] - s->X[s->dim * n + c]);
+      if (rise > 0 && Dot3(N, M) < CONTACT_OPPOSE * PetscSqrtReal(Dot3(N, N) * Dot3(M, M))) return PETSC_TRUE;
+    }
+  }
+  return PETSC_FALSE;
+}
+
 /* A node that a support holds across the surface carries no multiplier: its constraint would have nothing of its own to act on, and where the nonmortar side is
    finer a row of such nodes leaves no multiplier unique. (Nodes of rigid bodies keep theirs: the other side moves.) Hanging nodes have none: their masters act
    for them. */
@@ -156,6 +173,7 @@ PetscErrorCode ContactCarriers_Private(Interface p, Contact *c)
   for (PetscInt n = 0; n < s->num_nodes; ++n) {
     const PetscInt facet = s->node_facet[s->node_first[n]];
     if (s->hang[n] < s->hang[n + 1] || IsWeightless_Private(p, c, n, facet)) continue;
+    if (c->spec->self && IsCrease_Private(s, n)) continue;
     const PetscBool rigid = p->spec->bodies[t->leaf_body[s->facet_leaf[facet]]].material->law->rigid;
     PetscReal       normal[3];
     NodeNormal_Private(s, n, normal);

@@ -221,11 +221,11 @@ PetscErrorCode ContactDestroy_Private(Contact *c)
   for (PetscInt k = 0; k < 2; ++k) PetscCall(PetscFree2(c->inward[k], c->moved[k]));
   PetscCall(PetscFree(c->pattern_offset));
   PetscCall(PetscFree(c->pattern));
+  PetscCall(PetscFree(c->precedence));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Multipliers from the vector to the ranks that use them. */
-static PetscErrorCode GatherMultipliers_Private(Interface p, Contact *c, Vec x)
+PetscErrorCode ContactGatherMultipliers_Private(Interface p, Contact *c, Vec x)
 {
   Surface         *s = &c->side[0];
   const PetscReal *array;
@@ -395,7 +395,7 @@ PetscErrorCode ContactEvaluate_Private(Interface p, Contact *c, Vec x, const Pet
   PetscFunctionBegin;
   p->traffic.evaluations++;
   if (small && !c->mean0 && !c->tie) PetscCall(Freeze_Private(p, c, failed));
-  PetscCall(GatherMultipliers_Private(p, c, x));
+  PetscCall(ContactGatherMultipliers_Private(p, c, x));
   for (PetscInt k = 0; k < 2; ++k) PetscCall(SurfaceGather_Private(p, &c->side[k], local, ContactBase_Private(c, k), c->side[k].x));
   if (c->tie) {
     PetscCall(TieEvaluate_Private(p, c));

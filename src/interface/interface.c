@@ -141,7 +141,7 @@ PetscErrorCode InterfaceGetMultipliers(Interface p, PetscInt pair, Vec x, PetscR
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode InterfaceSearch(Interface p, const PetscReal u[])
+PetscErrorCode InterfaceSearch(Interface p, Vec x, const PetscReal u[])
 {
   PetscFunctionBegin;
   for (PetscInt i = 0; i < p->num_contacts; ++i) {
@@ -153,6 +153,7 @@ PetscErrorCode InterfaceSearch(Interface p, const PetscReal u[])
       SurfacePlace_Private(&c->side[k], u, ContactBase_Private(c, k), c->side[k].x);
     }
     PetscCall(ContactSearch_Private(p, c, PETSC_FALSE, 0.1 * c->distance));
+    if (c->spec->self) PetscCall(ContactRoles_Private(p, c, x, u));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

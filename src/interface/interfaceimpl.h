@@ -184,6 +184,7 @@ typedef struct {
   PetscInt            *pattern_offset, *pattern; /* [num_facets+1]: nodes each facet has room for in the matrix */
   SlipHistory         *slip;                     /* NULL: the law has no friction */
   Tie                 *tie;                      /* NULL: the pair is not tied */
+  PetscInt            *precedence;               /* roles.c: [num_facets] of a surface with itself; NULL: not chosen yet */
 } Contact;
 
 struct _p_Interface {
@@ -258,6 +259,13 @@ PetscErrorCode ContactLink_Private(Interface, Contact *);
 PetscBool      ContactSees_Private(const Contact *, PetscInt node);
 /* nearby.c: search at the positions at hand, X when reference is set, where facets meet over the boundaries of ranks. Collective. */
 PetscErrorCode ContactSearch_Private(Interface, Contact *, PetscBool reference, PetscReal margin);
+/* roles.c: of a surface with itself, after a search: which facet of two that face each other is the nonmortar one. Chosen where none are yet, and as long as
+   the pair bears nothing. x, u: as in InterfaceSearch. Collective. */
+/* Two colours of the facets: partner[num_facets] faces the facet (-1: none), at this distance; pressed: the multipliers it carries. Not collective. */
+PetscErrorCode SurfaceColours_Private(const Surface *, const PetscInt partner[], const PetscReal distance[], const PetscReal pressed[], PetscBool second[]);
+PetscErrorCode ContactRoles_Private(Interface, Contact *, Vec x, const PetscReal u[]);
+/* couple.c: multipliers from the vector to the ranks that use them. Collective. */
+PetscErrorCode ContactGatherMultipliers_Private(Interface, Contact *, Vec x);
 /* gather.c */
 PetscErrorCode ContactGatherDestroy_Private(Contact *);
 

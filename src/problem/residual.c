@@ -10,7 +10,7 @@ PetscErrorCode ProblemSearch(Problem p, Vec x)
   PetscCall(StageBegin(STAGE_CONTACT));
   PetscCall(VecGetArray(p->u_local, &local));
   PetscCall(ProblemLocalDisplacement(p, x, local));
-  PetscCall(InterfaceSearch(p->interface, local));
+  PetscCall(InterfaceSearch(p->interface, x, local));
   PetscCall(VecRestoreArray(p->u_local, &local));
   PetscCall(StageEnd(STAGE_CONTACT));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -208,8 +208,8 @@ static PetscErrorCode CheckSides_Private(const ContactEntry *c, const Facets *f,
     if ((f->cell_groups[cell] & both) != both) continue;
     Centre_Private(f->mesh, cell, X);
     PetscCall(ErrorInput(
-        "%s: '%s' and '%s' share cell %d at (%g, %g, %g)%s; the sides of a pair must have cells of their own (contact of a surface with itself is not "
-        "offered)",
+        "%s: '%s' and '%s' share cell %d at (%g, %g, %g)%s; the sides of a pair must have cells of their own (one surface that may meet itself is given by one "
+        "name, surface)",
         NodeWhere(c->node), c->nonmortar, c->mortar, (int)cell, (double)X[0], (double)X[1], (double)X[2], facets ? ", and have facets in common" : ""));
   }
   for (PetscInt v = 0; v < f->forest->first[1]; ++v) {
@@ -276,6 +276,18 @@ static PetscErrorCode Joined_Private(Scene s, const Facets *f)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* What may meet itself deforms: two facets of rigid bodies have no pressure that keeps them apart. */
+static PetscErrorCode CheckSelf_Private(Scene s, const Facets *f, const ContactEntry *c)
+{
+  PetscFunctionBegin;
+  for (PetscInt b = 0; b < f->mesh->num_bodies; ++b)
+    PetscCheckInput(
+        !f->body_touches[b * f->mesh->num_boundaries + c->spec.nonmortar] || !s->data.bodies[b].material->law->rigid,
+        "%s is '%s', with facets of the rigid body '%s'; a surface that may meet itself is of bodies that deform, a rigid one is the side of a pair",
+        NodeWhere(NodeFind(c->node, "surface")), c->surface, f->mesh->body_name[b]);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 static PetscErrorCode MatchContacts_Private(Scene s, const Facets *f)
 {
   PetscFunctionBegin;
@@ -283,17 +295,17 @@ static PetscErrorCode MatchContacts_Private(Scene s, const Facets *f)
   for (PetscInt i = 0; i < s->data.num_contacts; ++i) {
     ContactEntry *c        = &s->contact[i];
     PetscInt      group[2] = {-1, -1};
-    PetscCall(FindGroup_Private(f->mesh, NodeWhere(NodeFind(c->node, "nonmortar")), c->nonmortar, &group[0]));
-    PetscCall(FindGroup_Private(f->mesh, NodeWhere(NodeFind(c->node, "mortar")), c->mortar, &group[1]));
+    PetscCall(FindGroup_Private(f->mesh, NodeWhere(NodeFind(c->node, c->spec.self ? "surface" : "nonmortar")), c->nonmortar, &group[0]));
+    PetscCall(FindGroup_Private(f->mesh, NodeWhere(NodeFind(c->node, c->spec.self ? "surface" : "mortar")), c->mortar, &group[1]));
     for (int side = 0; side < 2; ++side) {
       const char *name = side ? c->mortar : c->nonmortar;
       PetscCheckInput(!f->inner[group[side]], "%s: '%s' lies between two cells; a contact surface must be a free one", NodeWhere(c->node), name);
       PetscCheckInput(f->num_facets[group[side]], "%s: no facet of a cell is in group '%s' of the mesh", NodeWhere(c->node), name);
     }
-    PetscCall(CheckSides_Private(c, f, group));
     c->spec.nonmortar = group[0];
     c->spec.mortar    = group[1];
-    PetscCall(Roles_Private(s, f, c));
+    PetscCall(c->spec.self ? CheckSelf_Private(s, f, c) : CheckSides_Private(c, f, group));
+    if (!c->spec.self) PetscCall(Roles_Private(s, f, c));
     s->data.contacts[i] = c->spec;
   }
   PetscCall(CheckPairs_Private(s, f));

@@ -104,9 +104,13 @@ const Option Options[] = {
      "positions",
      BOUND(moment_about)},
 
-    {"contact.<pair>.nonmortar", KEY_TEXT, "", NULL, "",
-     "physical group of one dimension less: the side that carries the contact pressure (the multiplier), unless it is the stiffer one", PAIR(nonmortar)},
-    {"contact.<pair>.mortar", KEY_TEXT, "", NULL, "", "physical group of the other side", PAIR(mortar)},
+    {"contact.<pair>.nonmortar", KEY_TEXT, "", "", "",
+     "physical group of one dimension less: the side that carries the contact pressure (the multiplier), unless it is the stiffer one; must be given, or "
+     "surface",
+     PAIR(nonmortar)},
+    {"contact.<pair>.mortar", KEY_TEXT, "", "", "", "physical group of the other side; must be given, or surface", PAIR(mortar)},
+    {"contact.<pair>.surface", KEY_TEXT, "", "", "",
+     "instead of two sides: one physical group that may meet itself, of one body or several; which facets carry the pressure is chosen", PAIR(surface)},
     {"contact.<pair>.roles", KEY_WORD, "", "auto", "auto|given",
      "auto: a nonmortar side stiffer than the mortar side, or rigid, changes places with it; given: for comparison, only where it is rigid", PAIR(roles)},
     {"contact.<pair>.kind", KEY_WORD, "", "contact", "contact|tied",

@@ -369,7 +369,7 @@ static PetscErrorCode CheckFriction_Private(Scene s, const SceneNode *node, Cont
 /* A tied pair is one by its kind, and has nothing of what contact may have besides. */
 static PetscErrorCode CheckTied_Private(Scene s, const SceneNode *node, ContactEntry *c)
 {
-  static const char *const Foreign[] = {"law", "penalty", "friction", "interference", "node_to_segment", "see_through"};
+  static const char *const Foreign[] = {"law", "penalty", "friction", "interference", "node_to_segment", "see_through", "surface"};
 
   PetscFunctionBegin;
   if (c->kind == 0) {
@@ -386,6 +386,34 @@ static PetscErrorCode CheckTied_Private(Scene s, const SceneNode *node, ContactE
                   NodeWhere(NodeFind(node, "initial_gap")), c->initial_gap == 1 ? "adjust" : "ramp");
   c->spec.law   = CONTACT_TIED;
   c->spec.close = c->initial_gap == 3 ? PETSC_TRUE : PETSC_FALSE;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Two sides, or one surface that stands for both. */
+static PetscErrorCode ReadSides_Private(Scene s, const SceneNode *node, ContactEntry *c)
+{
+  const SceneNode *surface = NodeFind(node, "surface");
+
+  PetscFunctionBegin;
+  if (!c->surface[0]) {
+    PetscCheckInput(c->nonmortar[0] && c->mortar[0], "%s.%s must be given: a pair has two sides, nonmortar and mortar, or one surface that may meet itself",
+                    NodeWhere(node), c->nonmortar[0] ? "mortar" : "nonmortar");
+    PetscCheckInput(strcmp(c->nonmortar, c->mortar), "%s: both sides are '%s'; a surface that may meet itself is given by one name, surface: %s",
+                    NodeWhere(node), c->mortar, c->mortar);
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
+  PetscCheckInput(!c->nonmortar[0] && !c->mortar[0], "%s is '%s', but %s is given, too; a pair has two sides, nonmortar and mortar, or one surface",
+                  NodeWhere(surface), c->surface, c->nonmortar[0] ? "nonmortar" : "mortar");
+  PetscCheckInput(!NodeFind(node, "roles"), "%s is '%s': which facets of one surface carry the pressure is chosen; take roles away", NodeWhere(surface),
+                  c->surface);
+  PetscCheckInput(s->data.mechanics.kinematics == KINEMATICS_FINITE, "%s is '%s': a surface that may meet itself needs kinematics: finite", NodeWhere(surface),
+                  c->surface);
+  PetscCheckInput(c->initial_gap == 0 && !c->spec.interference,
+                  "%s is '%s': of a surface that may meet itself gaps are those of the mesh; take initial_gap and interference away", NodeWhere(surface),
+                  c->surface);
+  c->spec.self = PETSC_TRUE;
+  PetscCall(PetscStrncpy(c->nonmortar, c->surface, MORTISE_NAME));
+  PetscCall(PetscStrncpy(c->mortar, c->surface, MORTISE_NAME));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -413,6 +441,7 @@ static PetscErrorCode ReadContact_Private(Scene s, SceneNode *node, ContactEntry
   PetscCall(SceneFindPoint(s, node, c->moment_about, c->spec.about));
   PetscCall(CheckOverlap_Private(s, node, c));
   PetscCheckInput(!strchr(node->key, '/'), "%s: the name of a pair has no '/' in it", NodeWhere(node));
+  PetscCall(ReadSides_Private(s, node, c));
   for (PetscInt i = 0; &s->contact[i] < c; ++i) {
     const ContactEntry *e    = &s->contact[i];
     const PetscBool     same = (PetscBool)(!strcmp(c->nonmortar, e->nonmortar) && !strcmp(c->mortar, e->mortar));
@@ -420,9 +449,6 @@ static PetscErrorCode ReadContact_Private(Scene s, SceneNode *node, ContactEntry
     PetscCheckInput(!same && !swap, "%s: '%s' and '%s' are the sides of pair '%s' already%s", NodeWhere(node), c->nonmortar, c->mortar, e->spec.name,
                     swap ? ", the other way round" : "");
   }
-  PetscCheckInput(strcmp(c->nonmortar, c->mortar),
-                  "%s: both sides are '%s'; contact of a surface with itself is not offered: a pair needs two surfaces, without a cell in common",
-                  NodeWhere(node), c->mortar);
   PetscCheckInput(s->data.mesh.dim == 2 || !c->spec.node_to_segment,
                   "%s: node-to-segment contact is for comparison in two dimensions only; allowed here: false", NodeWhere(NodeFind(node, "node_to_segment")));
   PetscCheckInput(!c->spec.full || !c->spec.subdivide_auto, "%s is auto, but faces of full order need no finer layer; allowed here: 0|1|2|3|4|5|6|7|8",

@@ -78,7 +78,7 @@ typedef struct {
 
 typedef struct {
   ContactSpec spec;
-  char        nonmortar[MORTISE_NAME], mortar[MORTISE_NAME], moment_about[MORTISE_NAME];
+  char        nonmortar[MORTISE_NAME], mortar[MORTISE_NAME], surface[MORTISE_NAME], moment_about[MORTISE_NAME];
   int         order, initial_gap, multiplier, roles;
   int         kind;      /* contact, tied */
   int         subdivide; /* isotropic subdivisions of the cells that touch either side; SUBDIVIDE_AUTO */

@@ -232,7 +232,7 @@ def test_good_on_two_ranks(check):
     (("boundary:\n", "boundary:\n  upper: {fix: x}\n"), ["'upper' is a body"]),
     (("material:\n", "material:\n  steel: {law: neo_hookean, E: 2, nu: 0.3}\n"), ["material.steel is used by no body"]),
     # pairs and supports
-    (("mortar: lower_top", "mortar: upper_bottom"), ["both sides are 'upper_bottom'", "contact of a surface with itself is not offered"]),
+    (("mortar: lower_top", "mortar: upper_bottom"), ["both sides are 'upper_bottom'", "surface: upper_bottom"]),
     (("nonmortar: upper_bottom", "nonmortar: lower_side"), [r"'lower_side' and 'lower_top' share cell \d at \(0.75, 0.75, 0\);"]),
     (("contact:\n  pair: {nonmortar: upper_bottom, mortar: lower_top, friction: 0}\n", ""), None),  # both held: good
     # mesh

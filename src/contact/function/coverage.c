@@ -166,6 +166,19 @@ static PetscErrorCode Nodes_Private(RayWork w, const ContactSurface *mortar)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Of a surface with itself: overlaps in which the other facet is the nonmortar one. Only now, since they hide what lies behind them. */
+static void LeaveOutReversed_Private(ContactPair pair, PetscInt facet)
+{
+  RayWork  w    = pair->ray;
+  PetscInt kept = 0;
+
+  for (PetscInt k = 0; k < w->num_overlaps; k++) {
+    if (pair->precedence[facet] > pair->precedence[w->mortar[k]]) continue;
+    w->overlap[kept] = w->overlap[k], w->mortar[kept++] = w->mortar[k];
+  }
+  w->num_overlaps = kept;
+}
+
 PetscErrorCode ContactCover(ContactPair pair, const ContactSurface *nonmortar, const ContactSurface *mortar, PetscInt slot, PetscBool *failed)
 {
   RayWork        w       = pair->ray;
@@ -198,6 +211,7 @@ PetscErrorCode ContactCover(ContactPair pair, const ContactSurface *nonmortar, c
   for (PetscInt k = pair->start[slot]; k < pair->start[slot + 1]; k++)
     if (ContactRayBundleMeets(&rays, &w->ball[pair->candidate[k]])) PetscCall(See_Private(pair, mortar, pair->candidate[k]));
   ContactUnfold(&w->num_overlaps, w->overlap, w->mortar, f->area);
+  if (pair->precedence) LeaveOutReversed_Private(pair, facet);
   if (pair->node_to_segment) ContactNodeHits(w);
   for (PetscInt k = 0; k < w->num_overlaps; k++) covered += w->overlap[k].area;
   w->frozen = (PetscBool)(f->D == 3 && !pair->held && ((pair->frozen_segmentation && f->s.order > 1) || covered < (1 - FACET_ON) * f->area));
