@@ -169,7 +169,7 @@ def test_dead_load_in_one_step(run, told, ranks):
 
 
 @pytest.mark.slow
-@way("Chords of round surfaces: a pin in its bore", "estimated error on the first mesh", "contact faces order: full", "contact faces order: 1")
+@way("Chords of round surfaces: a pin in its bore", "estimated error, tolerance 0.1", "contact faces order: full", "contact faces order: 1, four passes")
 def test_pin_in_its_bore(run, told):
     """A pin of radius 5 in a bore of 5.1, tons of load on a mesh of 12 faces around: chords of linear faces are off the arcs by half the clearance, contact is at corners, and the
     estimate is that of no answer at all; refined it comes down (without the compliance of what slivers of faces hold, finer meshes found no equilibrium). Curved faces: one solve."""
@@ -179,7 +179,7 @@ def test_pin_in_its_bore(run, told):
     for result in (linear, curved, finer):
         print({key: result.summary[key] for key in ("dofs", "newton_iterations", "estimated_error", "energy", "adapt_stop")})
     errors = [row["estimated_error"] for row in linear.adapt]
-    told(curved.adapt[0]["estimated_error"], errors[0])
+    told(curved.summary["estimated_error"], errors[-1])
     assert linear.solved and len(errors) == 5 and errors[0] > 0.6 and errors[-1] < 0.35, linear
     assert linear.summary["newton_iterations"] <= 30 and "adapt.tolerance 0.1 was not reached (max_passes)" in linear.summary["reason"], linear
     for result, tolerance in ((curved, 0.1), (finer, 0.05)):
@@ -250,7 +250,7 @@ def test_snap(run, told):
     assert max(row["support_imbalance"] for row in ours.history if row["contact_force"] > 1e-3) < 1e-8
 
 
-@way("A press fit that flows and moves on by half its width", "t reached in ten steps", "-path_viscous auto", "-path_viscous off")
+@way("A press fit that flows and moves on by half its width", "t reached in ten steps, -newton_line_search off", "-path_viscous auto", "-path_viscous off")
 @pytest.mark.slow
 def test_press_fit_on_a_fine_mesh(run, told):
     """The press fit of test_plastic.py adapted: contact is a tenth of a millimetre wide, flows, and moves on by half that in a step. From an elastic start at the new place Newton's method

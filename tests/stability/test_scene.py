@@ -193,3 +193,14 @@ def test_fold(run, told):
     told("yes; told" if said else "yes; not told", "-")
     assert result.returncode == 0 and said
     assert not said  # would have to be in contact
+
+
+@way("A corner of a soft block is drawn over a rigid plane, friction 0.5, eight cells along its foot: all of it slips", "tangential over normal force", "law: coulomb", "-")
+@pytest.mark.xfail(strict=True, reason="the pressure at the corner that digs in is normal to the block's faces there, not to the plane")
+def test_corner_that_digs_in(run, told):
+    result = run("tests/benchmarks/drawn.yml", "-mesh_parameter_n", 8, "-load_end", 0.4, *QUIET)
+    last = result.history[-1]
+    share = abs(last["contact.c.force.x"] / last["contact.c.force.y"])
+    told(share, "-")
+    assert result.returncode == 0 and last["contact.c.sticking_nodes"] == 0
+    assert share == pytest.approx(0.5, rel=1e-3)
