@@ -70,7 +70,7 @@ UNITS   := $(patsubst tests/unit/%.c,$(BUILD)/unit/%,$(wildcard tests/unit/test_
 BENCHES := $(patsubst tests/bench/%.c,$(BUILD)/bench/%,$(wildcard tests/bench/*.c))
 TRACKED  = $(wildcard $(shell git ls-files '*.c' '*.h'))
 
-.PHONY: all install docs units unit bootstrap demo run-demo test run-test verify run-verify gauntlet run-gauntlet chart bench run-bench format format-check lint floors sizes clean FORCE
+.PHONY: all install docs units unit bootstrap demo run-demo test run-test verify run-verify gauntlet run-gauntlet chart bench run-bench stability run-stability benchmarks run-benchmarks format format-check lint floors sizes clean FORCE
 all: $(PROGRAM)
 
 $(BUILD)/mortise: $(BUILD)/app/main.o $(LIBRARY)
@@ -131,13 +131,27 @@ test: bootstrap
 	@$(MAKE) --no-print-directory -j2 all units
 	@$(MAKE) --no-print-directory run-test
 run-test:
-	@$(PYTEST) -m "not slow" tests/unit tests/verify
+	@$(PYTEST) -m "not slow" tests/unit tests/verify tests/stability tests/benchmarks
 
 verify: bootstrap
 	@$(MAKE) --no-print-directory -j2 all units
 	@$(MAKE) --no-print-directory run-verify
 run-verify:
-	@$(PYTEST) tests/unit tests/verify tests/stability
+	@$(PYTEST) tests/unit tests/verify tests/stability tests/benchmarks
+
+# Where methods fail, run beside them: docs/stability.md. STABILITY="-k clip" runs a part and writes nothing.
+stability: bootstrap
+	@$(MAKE) --no-print-directory -j2 all
+	@$(MAKE) --no-print-directory run-stability
+run-stability:
+	@MORTISE=$(abspath $(PROGRAM)) MORTISE_BUILD=$(abspath $(BUILD)) $(PYTHON) -B tests/stability/run.py $(STABILITY)
+
+# Public problems with published numbers: docs/benchmarks.md.
+benchmarks: bootstrap
+	@$(MAKE) --no-print-directory -j2 all
+	@$(MAKE) --no-print-directory run-benchmarks
+run-benchmarks:
+	@MORTISE=$(abspath $(PROGRAM)) MORTISE_BUILD=$(abspath $(BUILD)) $(PYTHON) -B tests/benchmarks/run.py $(BENCHMARKS)
 
 # Contact scenes without any setting, in every variant (docs/gauntlet.md): a table on the screen and in out/gauntlet.csv. GAUNTLET="--only slide --jobs 2"
 gauntlet: bootstrap

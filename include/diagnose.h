@@ -45,6 +45,8 @@ typedef struct {
 
 /* Figures at a state of this problem, the same on every rank. Evaluates the residual. Collective. */
 PetscErrorCode BalanceCompute(Problem, const State *, Balance *);
+/* Has the body a law with plastic flow, and has none of it ever flowed? Plastic strain only grows, so the last state tells of all before. Not collective. */
+PetscBool      BalanceStaysElastic(const Balance *, const MechanicsSpec *, PetscInt body);
 PetscErrorCode BalanceDestroy(Balance *);
 /* What adaptation changed, from one state to another at the same load, relative to the first (0 where that is 0): root of the summed squared differences of
    reactions and of the pairs' totals (reactions of a closed boundary cancel, totals do not), plastic work, largest plastic strain. The finer mesh's gain and

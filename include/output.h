@@ -151,6 +151,8 @@ typedef struct {
   const Balance  *balance;  /* with problem; NULL: no figures */
   const Estimate *estimate; /* NULL: not estimated */
   Probes          probes;   /* NULL: none */
+  PetscBool       whole;    /* this run has solved all load steps from the first to the last: what they needed is known */
+  const PetscBool *touched; /* with whole: [num_contacts] was a node of the pair in contact at some time? */
 } RunSummary;
 
 /* Write summary.json into the scene's output directory. Unknown figures are null. peak_memory_mb is the sum over ranks,

@@ -62,6 +62,17 @@ static PetscErrorCode Untouched_Private(const App *app)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Laws that were in vain. */
+static PetscErrorCode Elastic_Private(const App *app)
+{
+  PetscFunctionBegin;
+  for (PetscInt b = 0; b < app->balance.num_bodies; ++b)
+    if (BalanceStaysElastic(&app->balance, &app->data->mechanics, b))
+      PetscCall(PetscPrintf(app->comm, "note: body %s has not flowed: law neo_hookean with the same moduli and volumetric gives the same, for less\n",
+                            app->data->mechanics.bodies[b].name));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode AppTellFree(const App *app)
 {
   static const char *const along[] = {"", "x", "y", "x and y", "z", "x and z", "y and z", "x, y and z"};
@@ -95,7 +106,10 @@ PetscErrorCode AppAdvise(const App *app)
   if (whole)
     PetscCall(
         PetscPrintf(app->comm, "note: the path on the mesh before came to its end; its results are in %s/" OUTPUT_ASIDE "\n", app->data->output.directory));
-  if (!app->failure && !app->path.stopped && !app->restart[0]) PetscCall(Untouched_Private(app));
+  if (!app->failure && !app->path.stopped && !app->restart[0]) {
+    PetscCall(Untouched_Private(app));
+    PetscCall(Elastic_Private(app));
+  }
   if (stuck || (app->failure && app->path.cuts_in_step > 0)) PetscCall(Worst_Private(app));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

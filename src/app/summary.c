@@ -35,7 +35,8 @@ PetscErrorCode AppSummary(App *app, const char *status, const char *reason)
 {
   PetscFunctionBegin;
   PetscCall(Figures_Private(app));
-  const PetscBool  estimated = (PetscBool)(app->estimated && !app->failure && !app->path.stopped && !PetscIsNanReal(app->last.estimated_error));
+  const PetscBool  given_up  = (PetscBool)(app->failure || app->path.stopped);
+  const PetscBool  estimated = (PetscBool)(app->estimated && !given_up && !PetscIsNanReal(app->last.estimated_error));
   const ReportRow  total     = AppTotal(app);
   const RunSummary summary   = {.status       = status,
                                 .reason       = reason,
@@ -49,7 +50,9 @@ PetscErrorCode AppSummary(App *app, const char *status, const char *reason)
                                 .state        = &app->level.accepted,
                                 .balance      = &app->balance,
                                 .estimate     = estimated ? &app->estimate : NULL,
-                                .probes       = app->probes};
+                                .probes       = app->probes,
+                                .whole        = (PetscBool)(!given_up && !app->restart[0]),
+                                .touched      = app->touched};
   PetscCall(OutputHold(app->comm));
   PetscCall(OutputSummary(app->comm, app->data, &summary));
   PetscFunctionReturn(PETSC_SUCCESS);

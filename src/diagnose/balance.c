@@ -274,6 +274,11 @@ PetscErrorCode BalanceCompute(Problem problem, const State *state, Balance *b)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscBool BalanceStaysElastic(const Balance *b, const MechanicsSpec *spec, PetscInt body)
+{
+  return (PetscBool)(spec->bodies[body].material->law->plastic && b->mean_strain && b->mean_strain[body] == 0);
+}
+
 PetscErrorCode BalanceDestroy(Balance *b)
 {
   PetscFunctionBegin;

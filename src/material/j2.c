@@ -2,15 +2,16 @@
    Inelasticity, chapter 9; docs/theory.md). Energy U(J) + mu/2 (tr be - 3) of the isochoric elastic strain be = Fbar G Fbar^T, where G = Cp^-1 (det G = 1) is
    remembered at each point together with the plastic strain alpha;
 
-     |s| <= sqrt(2/3) k(alpha),   s = mu dev be,   k = yield + hardening alpha + saturation (1 - exp(-saturation_rate alpha)).
+     |s| <= sqrt(2/3) k(alpha),   s = mu dev be,   k = yield (1 + alpha/swift_strain)^swift_exponent + hardening alpha + saturation (1 - exp(-saturation_rate
+   alpha)).
 
    One step, from the trial strain be_tr = Fbar G_n Fbar^T:  s = s_tr - 2 mu_b dg n,  n = s_tr / |s_tr|,  mu_b = mu tr(be_tr)/3,  alpha = alpha_n + sqrt(2/3)
    dg; dev be = s/mu and the trace of be follows from det be = 1. */
 #include "materialimpl.h"
 
-enum { YIELD = 5, HARDENING, SATURATION, SATURATION_RATE }; /* after the elastic parameters */
-#define ROOT23 0.81649658092772603273                       /* sqrt(2/3) */
-#define ON_SURFACE 1e-9                                     /* share of its radius within which a point is on the yield surface but for round-off */
+enum { YIELD = 5, HARDENING, SATURATION, SATURATION_RATE, SWIFT_STRAIN, SWIFT_EXPONENT }; /* after the elastic parameters */
+#define ROOT23 0.81649658092772603273                                                     /* sqrt(2/3) */
+#define ON_SURFACE 1e-9 /* share of its radius within which a point is on the yield surface but for round-off */
 
 const MaterialParameter MaterialJ2Parameters[] = {
     {"E", "stress", "Young's modulus", 0, PETSC_MAX_REAL},
@@ -22,10 +23,12 @@ const MaterialParameter MaterialJ2Parameters[] = {
     {"hardening", "stress", "its rise per unit of plastic strain; default 0", PETSC_MIN_REAL, PETSC_MAX_REAL},
     {"saturation", "stress", "a further rise that saturates, saturation (1 - exp(-saturation_rate alpha)); default 0", PETSC_MIN_REAL, PETSC_MAX_REAL},
     {"saturation_rate", "1", "how fast it does, per unit of plastic strain", 0, PETSC_MAX_REAL},
+    {"swift_strain", "1", "Swift's law: the yield stress times (1 + alpha/swift_strain)^swift_exponent takes the place of the yield stress", 0, PETSC_MAX_REAL},
+    {"swift_exponent", "1", "of Swift's law", 0, 1},
     {NULL, NULL, NULL, 0, 0},
 };
 
-/* Least slope of k: at one end or the other of the exponential. */
+/* Least slope of k: at one end or the other of the exponential; that of Swift's law falls to 0. */
 static PetscReal Least_Private(const MaterialSpec *spec)
 {
   return spec->parameter[HARDENING] + PetscMin(0, spec->parameter[SATURATION] * spec->parameter[SATURATION_RATE]);
@@ -46,6 +49,12 @@ PetscErrorCode MaterialJ2SetUp(MaterialSpec *spec)
   PetscCheckInput(PetscIsNanReal(v[SATURATION]) == PetscIsNanReal(v[SATURATION_RATE]), "material.%s.%s: missing; saturation and saturation_rate go together",
                   spec->name, PetscIsNanReal(v[SATURATION]) ? "saturation" : "saturation_rate");
   PetscCheckInput(spec->volumetric != VOLUMETRIC_LOG, "material.%s.volumetric: j2 knows quadratic and simo, not log", spec->name);
+  PetscCheckInput(PetscIsNanReal(v[SWIFT_STRAIN]) == PetscIsNanReal(v[SWIFT_EXPONENT]), "material.%s.%s: missing; swift_strain and swift_exponent go together",
+                  spec->name, PetscIsNanReal(v[SWIFT_STRAIN]) ? "swift_strain" : "swift_exponent");
+  if (PetscIsNanReal(v[SWIFT_STRAIN])) {
+    v[SWIFT_STRAIN]   = 1;
+    v[SWIFT_EXPONENT] = 0;
+  }
   if (PetscIsNanReal(v[HARDENING])) v[HARDENING] = 0;
   if (PetscIsNanReal(v[SATURATION])) v[SATURATION] = v[SATURATION_RATE] = 0;
   const PetscReal least = Least_Private(spec); /* mu_b >= mu makes the return mapping well posed above -3 mu */
@@ -67,10 +76,10 @@ void MaterialJ2Initial(const MaterialSpec *spec, PetscReal history[])
 /* Work: int k(alpha) dalpha, what plastic flow took; by the yield condition it is the integral of the stress power of the plastic part. */
 void MaterialJ2Plastic(const MaterialSpec *spec, const PetscReal history[], PetscReal *strain, PetscReal *work)
 {
-  const PetscReal *v = spec->parameter, alpha = history[6], x = v[SATURATION_RATE] * alpha;
+  const PetscReal *v = spec->parameter, alpha = history[6], x = v[SATURATION_RATE] * alpha, n = v[SWIFT_EXPONENT];
 
   *strain = alpha;
-  *work   = v[YIELD] * alpha + 0.5 * v[HARDENING] * alpha * alpha;
+  *work   = v[YIELD] * v[SWIFT_STRAIN] / (n + 1) * expm1((n + 1) * log1p(alpha / v[SWIFT_STRAIN])) + 0.5 * v[HARDENING] * alpha * alpha;
   if (x > 0) *work += v[SATURATION] * (alpha + expm1(-x) / v[SATURATION_RATE]);
 }
 
@@ -78,9 +87,10 @@ void MaterialJ2Plastic(const MaterialSpec *spec, const PetscReal history[], Pets
 INLINE PetscReal YieldStress_Private(const MaterialSpec *spec, PetscReal alpha, PetscReal *slope)
 {
   const PetscReal *v = spec->parameter, left = PetscExpReal(-v[SATURATION_RATE] * alpha);
+  const PetscReal  n = v[SWIFT_EXPONENT], part = 1 + alpha / v[SWIFT_STRAIN], swift = n > 0 ? v[YIELD] * PetscPowReal(part, n) : v[YIELD];
 
-  *slope = v[HARDENING] + v[SATURATION] * v[SATURATION_RATE] * left;
-  return v[YIELD] + v[HARDENING] * alpha + v[SATURATION] * (1 - left);
+  *slope = n * swift / (part * v[SWIFT_STRAIN]) + v[HARDENING] + v[SATURATION] * v[SATURATION_RATE] * left;
+  return swift + v[HARDENING] * alpha + v[SATURATION] * (1 - left);
 }
 
 /* Root dg of length - 2 mu_b dg - sqrt(2/3) k(alpha + sqrt(2/3) dg), which falls with dg: Newton's method inside a bracket. PETSC_FALSE: there is none, the

@@ -222,6 +222,8 @@ PetscErrorCode                 MaterialSetUpElastic(MaterialSpec *);
 
 PetscErrorCode MaterialNeoHookean(const MaterialSpec *, MaterialPart, MaterialPoints *);
 PetscErrorCode MaterialMooneyRivlin(const MaterialSpec *, MaterialPart, MaterialPoints *);
+PetscErrorCode MaterialOgden(const MaterialSpec *, MaterialPart, MaterialPoints *);
+PetscErrorCode MaterialPolynomial(const MaterialSpec *, MaterialPart, MaterialPoints *);
 PetscErrorCode MaterialHGO(const MaterialSpec *, MaterialPart, MaterialPoints *);
 PetscErrorCode MaterialSaintVenantKirchhoff(const MaterialSpec *, MaterialPart, MaterialPoints *);
 PetscErrorCode MaterialLinear(const MaterialSpec *, MaterialPart, MaterialPoints *);
@@ -229,6 +231,12 @@ PetscErrorCode MaterialJ2(const MaterialSpec *, MaterialPart, MaterialPoints *);
 
 extern const MaterialParameter MaterialMooneyRivlinParameters[];
 PetscErrorCode                 MaterialMooneyRivlinSetUp(MaterialSpec *);
+extern const MaterialParameter MaterialOgdenParameters[];
+PetscErrorCode                 MaterialOgdenSetUp(MaterialSpec *);
+extern const MaterialParameter MaterialYeohParameters[];
+PetscErrorCode                 MaterialYeohSetUp(MaterialSpec *);
+extern const MaterialParameter MaterialArrudaBoyceParameters[];
+PetscErrorCode                 MaterialArrudaBoyceSetUp(MaterialSpec *);
 extern const MaterialParameter MaterialHGOParameters[];
 PetscErrorCode                 MaterialHGOSetUp(MaterialSpec *);
 extern const MaterialParameter MaterialRigidParameters[];

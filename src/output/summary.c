@@ -182,6 +182,28 @@ static void AddPlastic_Private(cJSON *root, const SceneData *scene, const Balanc
   }
 }
 
+static void AddNeed_Private(cJSON *group, const char *name, const char *why)
+{
+  cJSON *need = cJSON_AddObjectToObject(group, name);
+
+  AddNumber_Private(need, "change", 0);
+  cJSON_AddStringToObject(need, "why", why);
+}
+
+/* What could have been left out: parts of the model that did nothing in any accepted state, without which the same states are equilibria. Nothing else is told:
+   of a run that was given up, or goes on from another one, it is not known. */
+static void AddNeeds_Private(cJSON *root, const SceneData *scene, const RunSummary *s)
+{
+  cJSON *needs = cJSON_AddObjectToObject(root, "needs"), *contact = cJSON_AddObjectToObject(needs, "contact"), *body = cJSON_AddObjectToObject(needs, "body");
+
+  if (!s->whole || !s->balance) return;
+  for (PetscInt i = 0; i < scene->num_contacts; ++i)
+    if (!s->touched[i]) AddNeed_Private(contact, scene->contacts[i].name, "its sides have not touched");
+  for (PetscInt i = 0; i < s->balance->num_bodies; ++i)
+    if (BalanceStaysElastic(s->balance, &scene->mechanics, i))
+      AddNeed_Private(body, scene->mechanics.bodies[i].name, "its material has not flowed: neo_hookean with the same moduli and volumetric gives the same");
+}
+
 static void AddTimes_Private(cJSON *root, PetscReal total, const Gathered *g)
 {
   cJSON *time = cJSON_AddObjectToObject(root, "time");
@@ -254,6 +276,7 @@ static cJSON *Document_Private(const SceneData *scene, const RunSummary *s, cons
   if (s->balance) AddPlastic_Private(root, scene, s->balance);
   AddForces_Private(root, scene, s->balance);
   AddProbes_Private(root, scene, g);
+  AddNeeds_Private(root, scene, s);
   AddTimes_Private(root, s->seconds, g);
   return root;
 }

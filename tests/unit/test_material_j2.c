@@ -20,15 +20,19 @@ typedef struct {
 /* Sets of O-30 and one with saturation. */
 static void PointMake(Point *p, char set)
 {
-  static const char *const names[3][6] = {
-      {"E", "nu", "yield", "hardening"}, {"mu", "kappa", "yield", "hardening"}, {"mu", "kappa", "yield", "hardening", "saturation", "saturation_rate"}};
-  static const PetscReal values[3][6] = {{206.9e3, .29, 450, 129.24}, {80e3, 170e3, 205, 1000}, {80.1938, 164.206, .45, .12924, .265, 16.93}};
+  static const char *const names[4][6]  = {{"E", "nu", "yield", "hardening"},
+                                           {"mu", "kappa", "yield", "hardening"},
+                                           {"mu", "kappa", "yield", "hardening", "saturation", "saturation_rate"},
+                                           {"mu", "kappa", "yield", "hardening", "swift_strain", "swift_exponent"}};
+  static const PetscReal   values[4][6] = {
+        {206.9e3, .29, 450, 129.24}, {80e3, 170e3, 205, 1000}, {80.1938, 164.206, .45, .12924, .265, 16.93}, {26.1, 56.6, .13, .01, .0045, .216}};
+  const int row = set == 'A' ? 0 : set == 'B' ? 1 : set == 'S' ? 2 : 3; /* W: Swift's law */
 
   PetscMemzero(p, sizeof(*p));
   PetscStrncpy(p->spec.name, "steel", sizeof(p->spec.name));
   p->spec.law        = MaterialLawFind("j2");
   p->spec.volumetric = VOLUMETRIC_SIMO;
-  OK(MaterialSetUp(&p->spec, set == 'S' ? 6 : 4, names[set == 'A' ? 0 : set == 'B' ? 1 : 2], values[set == 'A' ? 0 : set == 'B' ? 1 : 2]));
+  OK(MaterialSetUp(&p->spec, row > 1 ? 6 : 4, names[row], values[row]));
   p->spec.law->initial(&p->spec, p->history);
 }
 
@@ -165,7 +169,7 @@ static void TangentInAllBranches(void **state)
 {
   static const PetscReal grad[9] = {.8, .3, -.2, .1, -.5, .4, -.3, .25, -.1};
 
-  for (const char *set = "ABS"; *set; set++) {
+  for (const char *set = "ABSW"; *set; set++) {
     Point p;
 
     PointMake(&p, *set);
@@ -282,6 +286,21 @@ static void SofteningRunsOut(void **state)
   assert_true(point.bad);
 }
 
+/* Uniaxial stress follows Swift's law, yield (1 + alpha/swift_strain)^swift_exponent + hardening alpha. */
+static void SwiftsLaw(void **state)
+{
+  Point     p;
+  PetscReal lateral = 1;
+
+  PointMake(&p, 'W');
+  for (PetscInt s = 1; s <= 100; s++) {
+    Uniaxial(&p, .004 * s, &lateral);
+    const PetscReal alpha = p.history[6];
+    if (alpha > 0) assert_near(p.P[0] * p.F[0] / (.13 * PetscPowReal(1 + alpha / .0045, .216) + .01 * alpha), 1, 1e-10);
+  }
+  assert_true(p.history[6] > .38);
+}
+
 /* Work = int k dalpha, by the trapezoidal rule. */
 static void PlasticWork(void **state)
 {
@@ -295,13 +314,18 @@ static void PlasticWork(void **state)
   p.spec.law->plastic(&p.spec, history, &strain, &work);
   assert_near(work, sum, 1e-8);
   assert_true(strain == 1);
+  PointMake(&p, 'W');
+  sum = 0;
+  for (PetscInt i = 0; i <= n; i++) sum += (i % n ? 1 : 0.5) / n * (.13 * PetscPowReal(1 + i / (.0045 * n), .216) + .01 * i / n);
+  p.spec.law->plastic(&p.spec, history, &strain, &work);
+  assert_near(work, sum, 1e-6);
 }
 
 int main(int argc, char **argv)
 {
   const struct CMUnitTest tests[] = {cmocka_unit_test(UniaxialBars),        cmocka_unit_test(SimpleShear),      cmocka_unit_test(TangentInAllBranches),
                                      cmocka_unit_test(HistoryIsAdmissible), cmocka_unit_test(SofteningRunsOut), cmocka_unit_test(PlasticWork),
-                                     cmocka_unit_test(TangentAtTheEdge)};
+                                     cmocka_unit_test(TangentAtTheEdge),    cmocka_unit_test(SwiftsLaw)};
 
   if (PetscInitialize(&argc, &argv, NULL, NULL)) return 1;
   const int failed = cmocka_run_group_tests(tests, NULL, NULL);

@@ -15,14 +15,15 @@ typedef struct {
   const char *law;
   Volumetric  volumetric;
   PetscInt    num;
-  const char *names[5];
-  PetscReal   values[5];
+  const char *names[7];
+  PetscReal   values[7];
   PetscReal   W, P[4]; /* P11, P12, P21, P33 */
   PetscInt    num_fibers;
   PetscReal   fiber[2][3];
 } Row;
 
 #define CAROTID "c", "kappa", "k1", "k2" /* {3, 100, 2.3632, .8393} */
+#define OGDEN "mu1", "alpha1", "mu2", "alpha2", "mu3", "alpha3", "kappa"
 #define COS29 0.87461970713939580
 #define SIN29 0.48480962024633703
 
@@ -62,6 +63,10 @@ static const Row rows[] = {
     {"hgo", VOLUMETRIC_SIMO, 4, {CAROTID}, {3, 100, 2.3632, .8393}, 0.835055658301, {8.0806264828, 0.425178633, -0.3980327008, 8.8112858645}, 1, {{1, 2, 2}}},
     {"hgo", VOLUMETRIC_QUADRATIC, 5, {"c", "c2", "kappa", "k1", "k2"}, {1, .5, 50, 3, 2}, 0, {0}, 2, {{1, 0, 0}, {0, 1, 0}}}, /* the second is slack */
     {"mooney_rivlin", VOLUMETRIC_SIMO, 3, {"c1", "c2", "kappa"}, {.3, .2, 50}, 0, {0}, 0, {{0}}},
+    {"ogden", VOLUMETRIC_SIMO, 7, {OGDEN}, {.63, 1.3, .0012, 5, -.01, -2, 50}, 0, {0}, 0, {{0}}},
+    {"ogden", VOLUMETRIC_QUADRATIC, 3, {"mu1", "alpha1", "kappa"}, {-.4, -3, 50}, 0, {0}, 0, {{0}}},
+    {"yeoh", VOLUMETRIC_SIMO, 4, {"c1", "c2", "c3", "kappa"}, {.5, -.05, .02, 50}, 0, {0}, 0, {{0}}},
+    {"arruda_boyce", VOLUMETRIC_QUADRATIC, 3, {"mu", "locking_stretch", "kappa"}, {1, 1.7, 50}, 0, {0}, 0, {{0}}},
     {"linear", VOLUMETRIC_QUADRATIC, 2, {"mu", "kappa"}, {1, 50}, 0, {0}, 0, {{0}}},
 };
 #define NUM_ROWS PETSC_STATIC_ARRAY_LENGTH(rows)
@@ -323,6 +328,66 @@ static void SecondInvariantOfWalls(void **state)
   }
 }
 
+/* O-06: Ogden's solid is neo-Hookean with alpha = 2, and Mooney-Rivlin with 2 and -2; Yeoh's with c1 alone, and the eight-chain model with chains without end,
+   are neo-Hookean: W, P and A, at a general deformation, where two stretches are equal or nearly so, and at tiny strains. */
+static void RubbersAgree(void **state)
+{
+  static const struct {
+    Row row, same;
+  } pairs[]                      = {{{"ogden", VOLUMETRIC_SIMO, 3, {"mu1", "alpha1", "kappa"}, {1.2, 2, 50}, 0, {0}, 0, {{0}}},
+                                     {"neo_hookean", VOLUMETRIC_SIMO, 2, {"mu", "kappa"}, {1.2, 50}, 0, {0}, 0, {{0}}}},
+                                    {{"ogden", VOLUMETRIC_QUADRATIC, 5, {"mu1", "alpha1", "mu2", "alpha2", "kappa"}, {.6, 2, -.4, -2, 50}, 0, {0}, 0, {{0}}},
+                                     {"mooney_rivlin", VOLUMETRIC_QUADRATIC, 3, {"c1", "c2", "kappa"}, {.3, .2, 50}, 0, {0}, 0, {{0}}}},
+                                    {{"yeoh", VOLUMETRIC_SIMO, 2, {"c1", "kappa"}, {.6, 50}, 0, {0}, 0, {{0}}},
+                                     {"neo_hookean", VOLUMETRIC_SIMO, 2, {"mu", "kappa"}, {1.2, 50}, 0, {0}, 0, {{0}}}},
+                                    {{"arruda_boyce", VOLUMETRIC_SIMO, 3, {"mu", "locking_stretch", "kappa"}, {1.2, 1e8, 50}, 0, {0}, 0, {{0}}},
+                                     {"neo_hookean", VOLUMETRIC_SIMO, 2, {"mu", "kappa"}, {1.2, 50}, 0, {0}, 0, {{0}}}}};
+  static const PetscReal at[][9] = {{1.2, .15, -.1, .05, .9, .2, -.08, .12, 1.05}, {1.3, 0, 0, 0, 1.3, 0, 0, 0, .6},        {.8, 0, 0, 0, .8, 0, 0, 0, .8},
+                                    {1.3, 0, 0, 0, 1.3 + 1e-9, 0, 0, 0, .6},       {0, -1.1, 0, 1.1, 1e-13, 0, 0, 1e-7, 1}, {1, 1e-9, 0, 0, 1, 0, 0, 0, 1}};
+
+  for (size_t i = 0; i < PETSC_STATIC_ARRAY_LENGTH(pairs); i++) {
+    for (size_t j = 0; j < PETSC_STATIC_ARRAY_LENGTH(at); j++) {
+      MaterialSpec spec[2];
+      PetscReal    W[2], P[2][9], A[2][81];
+
+      for (int k = 0; k < 2; k++) {
+        SpecMake(k ? &pairs[i].same : &pairs[i].row, &spec[k]);
+        Evaluate(&spec[k], MATERIAL_FULL, at[j], &W[k], P[k], A[k]);
+      }
+      assert_near(spec[0].mu, spec[1].mu, 1e-14);
+      assert_near(W[0], W[1], 1e-13 * PetscMax(1e-8, PetscAbsReal(W[1])) * 100);
+      for (int k = 0; k < 9; k++) assert_near(P[0][k], P[1][k], 1e-13);
+      for (int k = 0; k < 81; k++) assert_near(A[0][k], A[1][k], 2e-12);
+    }
+  }
+}
+
+/* Volume kept: nominal stresses of an incompressible solid under a stretch l, P1 - P2 l^(-3/2) in uniaxial tension with F = diag(l, l^-1/2, l^-1/2): Ogden's
+   sum mu_p (l^(a-1) - l^(-a/2-1)) with Treloar's rubber (Ogden 1972), Yeoh's and the eight-chain series 2 (l - l^-2) dW/dI1. */
+static void UniaxialRubbers(void **state)
+{
+  static const Row       rows3[3]   = {{"ogden", VOLUMETRIC_SIMO, 7, {OGDEN}, {6.3, 1.3, .012, 5, -.1, -2, 1e3}, 0, {0}, 0, {{0}}},
+                                       {"yeoh", VOLUMETRIC_SIMO, 4, {"c1", "c2", "c3", "kappa"}, {.5, -.05, .02, 50}, 0, {0}, 0, {{0}}},
+                                       {"arruda_boyce", VOLUMETRIC_SIMO, 3, {"mu", "locking_stretch", "kappa"}, {1, 2.8, 50}, 0, {0}, 0, {{0}}}};
+  static const PetscReal term[3][2] = {{6.3, 1.3}, {.012, 5}, {-.1, -2}}, series[5] = {1. / 2, 1. / 20, 11. / 1050, 19. / 7000, 519. / 673750};
+
+  for (PetscReal l = .5; l < 5; l += .5) {
+    const PetscReal across = 1 / PetscSqrtReal(l), F[9] = {l, 0, 0, 0, across, 0, 0, 0, across}, I1 = l * l + 2 / l, Y = I1 - 3;
+    PetscReal       expected[3] = {0, 2 * (l - 1 / (l * l)) * (.5 - .1 * Y + .06 * Y * Y), 0};
+
+    for (int p = 0; p < 3; p++) expected[0] += term[p][0] * (PetscPowReal(l, term[p][1] - 1) - PetscPowReal(l, -term[p][1] / 2 - 1));
+    for (int i = 1; i <= 5; i++) expected[2] += 2 * (l - 1 / (l * l)) * series[i - 1] * i * PetscPowRealInt(I1 / (2.8 * 2.8), i - 1);
+    for (int k = 0; k < 3; k++) {
+      MaterialSpec spec;
+      PetscReal    P[9];
+
+      SpecMake(&rows3[k], &spec);
+      Evaluate(&spec, MATERIAL_FULL, F, NULL, P, NULL);
+      assert_near(P[0] - P[4] * across / l, expected[k], 1e-12 * (1 + PetscAbsReal(expected[k])));
+    }
+  }
+}
+
 /* Angles count from axis x (X - point) towards the axis, at every position; in axisymmetric models from the third direction towards y. */
 static void FibresTurnWithTheFrame(void **state)
 {
@@ -389,6 +454,8 @@ int main(int argc, char **argv)
                                      cmocka_unit_test(FibresEndSomewhere),
                                      cmocka_unit_test(FibresCarryTensionOnly),
                                      cmocka_unit_test(SecondInvariantOfWalls),
+                                     cmocka_unit_test(RubbersAgree),
+                                     cmocka_unit_test(UniaxialRubbers),
                                      cmocka_unit_test(FibresTurnWithTheFrame),
                                      cmocka_unit_test(VolumetricMeasure)};
 

@@ -145,6 +145,26 @@ def test_o04_saint_venant_kirchhoff(run, tmp_path, stretch):
         close(s["energy"], Y * strain**2 / 2, 1e-8)
 
 
+TRELOAR = {"law": "ogden", "mu1": 6.3, "alpha1": 1.3, "mu2": 0.012, "alpha2": 5, "mu3": -0.1, "alpha3": -2, "kappa": "inf", "volumetric": "simo"}
+
+
+def ogden(first, second):
+    """Nominal stress along the first stretch, the third direction free of stress, volume kept."""
+    terms = [(TRELOAR[f"mu{p}"], TRELOAR[f"alpha{p}"]) for p in (1, 2, 3)]
+    return sum(mu * (first ** a - (first * second) ** -a) for mu, a in terms) / first
+
+
+def test_o06_rubber_of_three_terms(run, tmp_path):
+    """Treloar's rubber: nominal stresses in simple tension, pure shear and equibiaxial tension at a stretch of 2."""
+    planes = {"x0": {"fix": "x"}, "y0": {"fix": "y"}, "z0": {"fix": "z"}, "x1": {"displacement": {"x": 1}}}
+    s = block(run, tmp_path, 3, TRELOAR, planes, order=2)
+    close(s["reaction"]["x1"][0], ogden(2, 2 ** -0.5), 1e-8)
+    s = block(run, tmp_path, 3, TRELOAR, {**planes, "y1": {"displacement": {"y": 1}}}, order=2)
+    close(s["reaction"]["y1"][1], ogden(2, 2), 1e-8)
+    s = block(run, tmp_path, 2, TRELOAR, {k: v for k, v in planes.items() if k != "z0"}, order=2)
+    close(s["reaction"]["x1"][0], ogden(2, 1), 1e-8)
+
+
 RUBBER = [{"law": "neo_hookean", "volumetric": "quadratic", "mu": 1, "kappa": 1e5}, {"law": "neo_hookean", "volumetric": "simo", "mu": 1, "kappa": 1e5},
           {"law": "mooney_rivlin", "c1": 0.5, "c2": 0, "kappa": 1e5, "formulation": "mixed"}]
 

@@ -89,6 +89,8 @@ def test_sphere_below_its_limit_point(run, tmp_path, dim, radial, around):
 
 
 @pytest.mark.parametrize("law", [{"law": "mooney_rivlin", "c1": 0.3, "c2": 0.2}, {"law": "neo_hookean", "mu": 1, "volumetric": "simo"},
+                                 {"law": "ogden", "mu1": 1.5, "alpha1": 1.3, "mu2": 0.003, "alpha2": 5, "mu3": -0.024, "alpha3": -2},
+                                 {"law": "yeoh", "c1": 0.5, "c2": -0.01, "c3": 0.002}, {"law": "arruda_boyce", "mu": 1, "locking_stretch": 2},
                                  {"law": "hgo", "c": 1, "k1": 0.5, "k2": 0.8, "fiber": {"a": {"angle": 30}, "b": {"angle": -30}}},
                                  pytest.param({"law": "j2", "mu": 1, "yield": 0.4, "hardening": 0.2}, id="j2")],
                          ids=lambda law: law["law"])
