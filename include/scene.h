@@ -29,9 +29,13 @@ typedef struct {
   AdaptRepeat   repeat;
 } AdaptSpec;
 
+/* Bits of OutputSpec.quantities: fields written on demand (output.h says what each is). */
+enum { QUANTITY_STRETCHES = 1, QUANTITY_STRAIN = 2, QUANTITY_ENERGY = 4, QUANTITY_PIOLA = 8 };
+
 typedef struct {
   char      directory[PETSC_MAX_PATH_LEN];
   PetscBool fields, segments; /* write fields.xdmf; write segments */
+  int       quantities;       /* QUANTITY_..., of fields.xdmf */
   int       divide;           /* pieces of a cell in each direction; 0: as many as its order */
   PetscInt  checkpoint;       /* every so many load steps; 0: only when the run is stopped */
   PetscBool overwrite;        /* also files that no run has written */

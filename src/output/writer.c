@@ -283,7 +283,8 @@ PetscErrorCode WriterField(Writer w, const char *name, PetscBool at_cells, Petsc
 {
   PetscFunctionBegin;
   PetscCheck(w->group >= 0, w->comm, PETSC_ERR_ORDER, "Field %s without a grid", name);
-  PetscCheck(ncomp == 1 || ncomp == 3 || ncomp == 6, w->comm, PETSC_ERR_ARG_OUTOFRANGE, "Field %s: %" PetscInt_FMT " components, not 1, 3 or 6", name, ncomp);
+  PetscCheck(ncomp == 1 || ncomp == 3 || ncomp == 6 || ncomp == 9, w->comm, PETSC_ERR_ARG_OUTOFRANGE,
+             "Field %s: %" PetscInt_FMT " components, not 1, 3, 6 or 9", name, ncomp);
   PetscCall(WriterName_Private(w, name));
   PetscCall(WriterData_Private(w, name, at_cells ? 1 : 0, ncomp, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, data));
   if (w->index && w->total[1]) PetscCall(IndexField(w->index, name, at_cells, ncomp));

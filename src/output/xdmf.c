@@ -96,7 +96,7 @@ PetscErrorCode IndexGrid(Index index, const IndexState *state, const char *grid,
 
 PetscErrorCode IndexField(Index index, const char *name, PetscBool at_cells, PetscInt ncomp)
 {
-  const char *type = ncomp == 1 ? "Scalar" : ncomp == 3 ? "Vector" : "Tensor6";
+  const char *type = ncomp == 1 ? "Scalar" : ncomp == 3 ? "Vector" : ncomp == 6 ? "Tensor6" : "Tensor";
 
   PetscFunctionBegin;
   PetscCall(OutputTextPrint(index->open, "        <Attribute Name=\"%s\" AttributeType=\"%s\" Center=\"%s\">\n", name, type, at_cells ? "Cell" : "Node"));

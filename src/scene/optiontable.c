@@ -182,6 +182,9 @@ const Option Options[] = {
     {"output.fields", KEY_BOOL, "", "true", "", "write fields.xdmf and its HDF5 files", SCENE(data.output.fields)},
     {"output.divide", KEY_WORD, "", "auto", "auto|1|2|3|4|5|6|7|8", "pieces of a cell in each direction in fields.xdmf; auto: as many as its order",
      SCENE(data.output.divide)},
+    {"output.quantities", KEY_WORDS, "", "", "principal_stretches|logarithmic_strain|energy_density|first_piola",
+     "further fields of the bodies in fields.xdmf, with commas between; stress (Cauchy), pressure, von_mises and J are always there",
+     SCENE(data.output.quantities)},
     {"output.segments", KEY_BOOL, "", "false", "", "write the pieces of facets that face each other (segments) as a grid of fields.xdmf too",
      SCENE(data.output.segments)},
     {"output.checkpoint", KEY_INT, "load steps", "1", NOT_BELOW,
@@ -199,7 +202,7 @@ const Option Options[] = {
 
 static PetscErrorCode PrintRow_Private(MPI_Comm comm, const Option *row)
 {
-  static const char *const kinds[] = {"text", "", "integer", "number", "true|false", "number or expression", "list of numbers", "", "number"};
+  static const char *const kinds[] = {"text", "", "integer", "number", "true|false", "number or expression", "list of numbers", "", "number", "any of"};
   char                     key[128], kind[512];
   const char              *axis = strstr(row->pattern, "<axis>"), *range = strcmp(row->range, ANY) ? row->range : "";
 
