@@ -18,6 +18,9 @@ PetscErrorCode WriterCreate(MPI_Comm, const char *directory, Writer *);
 PetscErrorCode WriterResume(MPI_Comm, const char *directory, PetscInt step, PetscInt num, Writer *);
 PetscErrorCode WriterNumStates(Writer, PetscInt *num); /* completed so far */
 PetscErrorCode WriterDestroy(Writer *);
+/* From now on the files tell units of fields (attribute unit of a data set; units of the file) and what the values of body, pair and side stand for
+ * (attribute names), after the scene, borrowed. */
+void WriterDescribe(Writer, const SceneData *);
 /* Begin state number k (0, 1, …) at XDMF time `time` (strictly increasing), with scalar attributes. One file directory/fields_KKKK.h5, collective parallel
  * HDF5, chunked + shuffle + deflate. */
 PetscErrorCode WriterBegin(Writer, PetscReal time, PetscInt step, PetscInt pass, PetscReal load_time);
@@ -136,7 +139,9 @@ PetscErrorCode ProbesEvaluate(Probes, Problem, Vec x, ProbeValue value[]);
 typedef struct {
   const char *name, *unit, *help; /* unit: kind of quantity, as in the option table */
 } OutputField;
-extern const OutputField OutputAdaptColumns[], OutputHistoryColumns[], OutputSummaryFields[];
+extern const OutputField OutputAdaptColumns[], OutputHistoryColumns[], OutputSummaryFields[], OutputFieldFields[];
+/* Name of a column with its unit in brackets, as it stands in a csv file; without one when the scene has no units, or the column none. Not collective. */
+PetscErrorCode OutputColumnName(const SceneData *, const OutputField fields[], const char *name, size_t, char column[]);
 
 typedef struct _p_History *History;
 /* Open both in the output directory, which must exist: afresh (after NULL), or to go on after a load step (TableResume; `earlier` is set here: adapt.csv has

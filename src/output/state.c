@@ -257,6 +257,7 @@ PetscErrorCode OutputWriteState(Writer writer, Problem problem, const State *sta
   PetscCall(ProblemSetState(problem, state));
   PetscCall(ProblemLocalDisplacement(problem, state->x, u));
   PetscCall(GridCreate_Private(scene, t, space, &grid));
+  WriterDescribe(writer, scene);
   PetscCall(WriterBegin(writer, series_time, step, pass, state->t));
   PetscCall(WriteMotion_Private(writer, space, &grid, u));
   PetscCall(WriteStress_Private(writer, problem, &grid, u));

@@ -20,6 +20,8 @@
 
 const Option Options[] = {
     {"title", KEY_TEXT, "", "", "", "what the scene shows; default: name of the file", SCENE(data.title)},
+    {"units", KEY_TEXT, "", "", "", "units of length, force and stress that the numbers are in, as in mm, N, MPa: checked to agree, written beside results",
+     SCENE(data.units.text)},
 
     {"mesh.file", KEY_TEXT, "", NULL, "", ".geo: meshed by gmsh; .msh (2.2, 4.1): read as it is; relative to the scene file", SCENE(mesh_file)},
     {"mesh.order", KEY_INT, "", "2", "[1,4]", "geometry order asked of gmsh for a .geo", SCENE(mesh_order)},

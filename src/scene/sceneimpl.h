@@ -131,6 +131,8 @@ PetscErrorCode OptionsCheckTree(const SceneNode *root);
 /* Read all rows of a section ("" for those without names; "material.<name>.fiber" for names in the section of a name) from its node (NULL: defaults) into
  * object. dim 2: a z component is an error. */
 PetscErrorCode OptionsRead(const char *section, const SceneNode *, PetscInt dim, void *object);
+/* Units from words, checked to agree: one sentence when not (units.c). */
+PetscErrorCode SceneReadUnits(const char *where, const char *text, SceneUnits *);
 /* A number as text, finite, whole text. */
 PetscBool OptionParseReal(const char *text, PetscReal *);
 /* Put the options that are scene keys into the tree and take them out of PETSc's global database: what is there besides (-options_file), then the command
