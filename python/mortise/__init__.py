@@ -1,5 +1,5 @@
 """Results of mortise runs: read them (reading), make them (running)."""
-from .reading import Run, State, Table, table
+from .reading import Run, State, Table, labelled, table
 from .running import WrongInput, compare, run, sweep
 
-__all__ = ["Run", "State", "Table", "WrongInput", "compare", "run", "sweep", "table"]
+__all__ = ["Run", "State", "Table", "WrongInput", "compare", "labelled", "run", "sweep", "table"]

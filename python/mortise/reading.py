@@ -3,6 +3,7 @@
     run = mortise.Run("out/hertz2d")
     run.history["t"], run.adapt, run.summary, run.names(), run.times("bulk"), run.state("bulk", time=0.5)
 """
+import copy
 import csv
 import json
 import pathlib
@@ -89,12 +90,22 @@ class State:
         if only and only[0] in self.cell:
             self.keep(self.cell[only[0]] == only[1])
 
-    def where(self, name, word):
-        """Which cells are of a body, pair or side by its name or number."""
+    def number(self, name, word):
+        """The number of a body, pair or side, by its name or by itself."""
         known = self.names.get(name, [])
         if str(word) not in known and not str(word).isdigit():
             raise KeyError(f"no {name} {word}; there are {', '.join(known)}")
-        return self.cell[name] == (known.index(str(word)) if str(word) in known else int(word))
+        return known.index(str(word)) if str(word) in known else int(word)
+
+    def where(self, name, word):
+        """Which cells are of a body, pair or side."""
+        return self.cell[name] == self.number(name, word)
+
+    def only(self, name, word):
+        """A copy with these cells alone."""
+        part = copy.copy(self)
+        part.keep(self.where(name, word))
+        return part
 
     def fields(self):
         """Names of all scalars that value() gives: fields, their components and principal values."""
