@@ -8,12 +8,28 @@ static const struct {
   int         kind;
   double      si; /* in m, N, Pa */
 } Known[] = {
-    {"m", UNIT_LENGTH, 1},      {"dm", UNIT_LENGTH, 0.1},     {"cm", UNIT_LENGTH, 1e-2},  {"mm", UNIT_LENGTH, 1e-3},
-    {"um", UNIT_LENGTH, 1e-6},  {"nm", UNIT_LENGTH, 1e-9},    {"in", UNIT_LENGTH, 0.0254}, {"ft", UNIT_LENGTH, 0.3048},
-    {"N", UNIT_FORCE, 1},       {"mN", UNIT_FORCE, 1e-3},     {"uN", UNIT_FORCE, 1e-6},   {"nN", UNIT_FORCE, 1e-9},
-    {"kN", UNIT_FORCE, 1e3},    {"MN", UNIT_FORCE, 1e6},      {"lbf", UNIT_FORCE, 4.4482216152605}, {"kgf", UNIT_FORCE, 9.80665},
-    {"Pa", UNIT_STRESS, 1},     {"kPa", UNIT_STRESS, 1e3},    {"MPa", UNIT_STRESS, 1e6},  {"GPa", UNIT_STRESS, 1e9},
-    {"psi", UNIT_STRESS, 4.4482216152605 / (0.0254 * 0.0254)}, {"ksi", UNIT_STRESS, 4448.2216152605 / (0.0254 * 0.0254)},
+    {"m", UNIT_LENGTH, 1},
+    {"dm", UNIT_LENGTH, 0.1},
+    {"cm", UNIT_LENGTH, 1e-2},
+    {"mm", UNIT_LENGTH, 1e-3},
+    {"um", UNIT_LENGTH, 1e-6},
+    {"nm", UNIT_LENGTH, 1e-9},
+    {"in", UNIT_LENGTH, 0.0254},
+    {"ft", UNIT_LENGTH, 0.3048},
+    {"N", UNIT_FORCE, 1},
+    {"mN", UNIT_FORCE, 1e-3},
+    {"uN", UNIT_FORCE, 1e-6},
+    {"nN", UNIT_FORCE, 1e-9},
+    {"kN", UNIT_FORCE, 1e3},
+    {"MN", UNIT_FORCE, 1e6},
+    {"lbf", UNIT_FORCE, 4.4482216152605},
+    {"kgf", UNIT_FORCE, 9.80665},
+    {"Pa", UNIT_STRESS, 1},
+    {"kPa", UNIT_STRESS, 1e3},
+    {"MPa", UNIT_STRESS, 1e6},
+    {"GPa", UNIT_STRESS, 1e9},
+    {"psi", UNIT_STRESS, 4.4482216152605 / (0.0254 * 0.0254)},
+    {"ksi", UNIT_STRESS, 4448.2216152605 / (0.0254 * 0.0254)},
 };
 
 static const char *const kind_name[NUM_UNITS] = {"length", "force", "stress"};
@@ -36,8 +52,10 @@ static PetscErrorCode Words_Private(const char *where, const char *text, int row
   for (int k = 0; k < NUM_UNITS; ++k) row[k] = -1;
   while ((word = strtok_r(rest, ", ", &rest))) {
     const int i = Find_Private(word);
-    PetscCheckInput(i >= 0, "%s is '%s', where %s is no unit known here; allowed: lengths m dm cm mm um nm in ft, forces N mN uN nN kN MN lbf kgf, stresses "
-                    "Pa kPa MPa GPa psi ksi", where, text, word);
+    PetscCheckInput(i >= 0,
+                    "%s is '%s', where %s is no unit known here; allowed: lengths m dm cm mm um nm in ft, forces N mN uN nN kN MN lbf kgf, stresses "
+                    "Pa kPa MPa GPa psi ksi",
+                    where, text, word);
     PetscCheckInput(row[Known[i].kind] < 0, "%s is '%s': %s and %s are both units of %s", where, text, Known[row[Known[i].kind]].name, word,
                     kind_name[Known[i].kind]);
     row[Known[i].kind] = i;
