@@ -18,14 +18,17 @@ PetscErrorCode WriterCreate(MPI_Comm, const char *directory, Writer *);
 PetscErrorCode WriterResume(MPI_Comm, const char *directory, PetscInt step, PetscInt num, Writer *);
 PetscErrorCode WriterNumStates(Writer, PetscInt *num); /* completed so far */
 PetscErrorCode WriterDestroy(Writer *);
+/* From now on the files tell units of fields (attribute unit of a data set; units of the file) and what the values of body, pair and side stand for
+ * (attribute names), after the scene, borrowed. */
+void WriterDescribe(Writer, const SceneData *);
 /* Begin state number k (0, 1, …) at XDMF time `time` (strictly increasing), with scalar attributes. One file directory/fields_KKKK.h5, collective parallel
  * HDF5, chunked + shuffle + deflate. */
 PetscErrorCode WriterBegin(Writer, PetscReal time, PetscInt step, PetscInt pass, PetscReal load_time);
 /* This rank's part of a grid: points X[np][3] and cells conn[nc][vertices], local point numbers, lexicographic (triangles: in order). Parts of ranks are
  * concatenated in rank order; ranks may have none. */
 PetscErrorCode WriterGrid(Writer, const char *grid, CellShape, PetscInt np, const PetscReal *X, PetscInt nc, const PetscInt *conn);
-/* A field of the last grid: at points ([np][ncomp]) or cells ([nc][ncomp]); ncomp 1 (Scalar), 3 (Vector), 6 (Tensor6: xx xy xz yy yz zz), integer-valued fields
- * as PetscReal. */
+/* A field of the last grid: at points ([np][ncomp]) or cells ([nc][ncomp]); ncomp 1 (Scalar), 3 (Vector), 6 (Tensor6: xx xy xz yy yz zz), 9 (Tensor, row by
+ * row), integer-valued fields as PetscReal. */
 PetscErrorCode WriterField(Writer, const char *name, PetscBool at_cells, PetscInt ncomp, const PetscReal *data);
 PetscErrorCode WriterEnd(Writer); /* flush, attribute "complete", close, rewrite the index */
 /* After an error between Begin and End (a full disk), before the run ends: the file of the open state goes, half of it is of no use. Not collective. */
@@ -75,6 +78,11 @@ PetscErrorCode SummaryWrite(MPI_Comm, const char *path, const struct cJSON *docu
    p^dim Gauss points, where derivatives of the solution are most accurate (and the pressure of mixed cells lives), and extended over the cell by polynomials of
    degree p-1 in each direction. In rigid bodies the stress is 0 and J is 1; in small kinematics sigma is the linear law's stress and J = 1 + tr(grad u).
 
+   - On demand (OutputSpec.quantities), at the same points in the same way: principal_stretches (square roots of the eigenvalues of F F^T, the largest first),
+     logarithmic_strain (ln V = ln(F F^T)/2, spatial: xx xy xz yy yz zz), energy_density (W, per reference volume; what is stored, not what flow took),
+     first_piola (P = dW/dF: xX xY xZ yX ... zZ). In rigid bodies stretches are 1, all others 0; in small kinematics the strain is the linear one, stretches
+     are 1 + its eigenvalues, P is the stress.
+
    Grid contact: the facets (edges, quadrilaterals) of both sides of all pairs; no point belongs to two of them.
    - Per point: displacement, gap, contact_pressure, status (0 open, 1 in contact, -1 faces nothing or carries no multiplier), normal (unit, out of the body).
      Nonmortar side: gap gt_j/w_j (0 where status is -1), pressure z_j, normals as the contact uses them. At hanging nodes: pressure and gap of their masters,
@@ -97,6 +105,11 @@ void OutputCauchy(Kinematics, const PetscReal F[9], const PetscReal P[9], PetscR
 /* Stress-like values of one cell: 7 numbers (sigma, J) at its p^dim Gauss points, samples[p^dim][7]; rigid bodies: zero stress, J = 1. u: local displacement
  * array. */
 PetscErrorCode OutputSampleCell(Problem, PetscInt cell, const PetscReal u[], PetscReal samples[]);
+/* Principal stretches, the largest first, and logarithmic strain (xx xy xz yy yz zz) of a deformation gradient with det F > 0. */
+PetscErrorCode OutputStrain(Kinematics, const PetscReal F[9], PetscReal stretch[3], PetscReal strain[6]);
+/* The fields on demand at the same points of one cell, samples[p^dim][OUTPUT_QUANTITIES]: stretches, strain, W, P. */
+#define OUTPUT_QUANTITIES 19
+PetscErrorCode OutputSampleQuantities(Problem, PetscInt cell, const PetscReal u[], PetscReal samples[]);
 /* Plastic strain at the same points of one cell, samples[p^dim]. */
 PetscErrorCode OutputSamplePlastic(Problem, PetscInt cell, const PetscReal u[], PetscReal samples[]);
 /* Extension of num components from the p^dim Gauss points of a cell of order p to its equispaced lattice of (pieces+1)^dim points, lexicographic, components
@@ -126,7 +139,9 @@ PetscErrorCode ProbesEvaluate(Probes, Problem, Vec x, ProbeValue value[]);
 typedef struct {
   const char *name, *unit, *help; /* unit: kind of quantity, as in the option table */
 } OutputField;
-extern const OutputField OutputAdaptColumns[], OutputHistoryColumns[], OutputSummaryFields[];
+extern const OutputField OutputAdaptColumns[], OutputHistoryColumns[], OutputSummaryFields[], OutputFieldFields[];
+/* Name of a column with its unit in brackets, as it stands in a csv file; without one when the scene has no units, or the column none. Not collective. */
+PetscErrorCode OutputColumnName(const SceneData *, const OutputField fields[], const char *name, size_t, char column[]);
 
 typedef struct _p_History *History;
 /* Open both in the output directory, which must exist: afresh (after NULL), or to go on after a load step (TableResume; `earlier` is set here: adapt.csv has

@@ -29,9 +29,13 @@ typedef struct {
   AdaptRepeat   repeat;
 } AdaptSpec;
 
+/* Bits of OutputSpec.quantities: fields written on demand (output.h says what each is). */
+enum { QUANTITY_STRETCHES = 1, QUANTITY_STRAIN = 2, QUANTITY_ENERGY = 4, QUANTITY_PIOLA = 8 };
+
 typedef struct {
   char      directory[PETSC_MAX_PATH_LEN];
   PetscBool fields, segments; /* write fields.xdmf; write segments */
+  int       quantities;       /* QUANTITY_..., of fields.xdmf */
   int       divide;           /* pieces of a cell in each direction; 0: as many as its order */
   PetscInt  checkpoint;       /* every so many load steps; 0: only when the run is stopped */
   PetscBool overwrite;        /* also files that no run has written */
@@ -43,9 +47,16 @@ typedef struct {
   char      body[MORTISE_NAME]; /* it is a point of this body; "": of any */
 } ProbeSpec;
 
+/* What results are labelled with; all empty: the scene does not say. */
+typedef struct {
+  char text[MORTISE_NAME]; /* as written */
+  char length[16], force[16], stress[32];
+} SceneUnits;
+
 typedef struct {
   char          file[PETSC_MAX_PATH_LEN]; /* the scene file as given */
   char          title[256];
+  SceneUnits    units;
   ForestSpec    mesh;
   PetscInt      num_refines;
   RefineSpec   *refines;
@@ -66,14 +77,17 @@ typedef struct {
 typedef struct _p_Scene *Scene;
 
 /* Read the scene named in the arguments (the first that ends in .yml or .yaml, else the first argument) and the overrides; validate everything that
-   needs no mesh. Options whose first word is a top key of a scene (title, mesh, refine, model, kinematics, order, body, material, boundary, contact, load,
-   adapt, output, probe, point) are overrides, those of -options_file and PETSC_OPTIONS too, over which the command line wins: they are taken out of PETSc's
-   global database, as is -check; all others stay there. Every wrong input is one sentence (ErrorInput). Nothing is written. Collective. */
+   needs no mesh. Options whose first word is a top key of a scene (title, units, mesh, refine, model, kinematics, order, body, material, boundary, contact,
+   load, adapt, output, probe, point) are overrides, those of -options_file and PETSC_OPTIONS too, over which the command line wins: they are taken out of
+   PETSc's global database, as is -check; all others stay there. Every wrong input is one sentence (ErrorInput). Nothing is written. Collective. */
 PetscErrorCode SceneCreate(MPI_Comm, int argc, char **argv, Scene *);
 /* Mesh a .geo with gmsh in a temporary directory (rank 0); read the coarse mesh into *forest and validate names, bodies, contact pairs and supports
    against it; complete the data. After an error *forest is NULL, and the scene is still to be destroyed. Collective. */
 PetscErrorCode SceneSetUp(Scene, Forest *forest);
 PetscErrorCode SceneGetData(Scene, const SceneData **);
+/* Unit of a kind of quantity (force, length, area, volume, stress, energy, force times length, root of energy), in plane strain per thickness where forces
+   are; "" for any other kind, or when the scene has no units. Not collective. */
+PetscErrorCode SceneUnit(const SceneData *, const char *kind, size_t, char unit[]);
 PetscErrorCode SceneDestroy(Scene *);
 PetscBool      SceneCheckOnly(Scene); /* -check given */
 /* The key of this scene, as an option without its dash, that is nearest to a name. Not collective. */

@@ -8,6 +8,7 @@ import os
 import pathlib
 import re
 import subprocess
+import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 BLOCK = re.compile(r"(?:^<!-- (\w+)(?:: (\S+))? -->\n)?^```(\w+)\n(.*?)^```$", re.M | re.S)
@@ -21,7 +22,8 @@ def environment(program, folder):
     (folder / "mortise").symlink_to(program)
     for name, file in INSTALLED.items():
         (folder / name).symlink_to(ROOT / file)
-    return {**os.environ, "MORTISE": str(program), "PATH": f"{folder}:{os.environ['PATH']}"}
+    (folder / "python3").symlink_to(sys.executable)  # that which runs this has what the package needs
+    return {**os.environ, "MORTISE": str(program), "PYTHONPATH": str(ROOT / "python"), "PATH": f"{folder}:{os.environ['PATH']}"}
 
 
 def pattern(line):

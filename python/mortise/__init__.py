@@ -1,4 +1,5 @@
-"""Results of mortise runs."""
-from .reading import Run, State, table
+"""Results of mortise runs: read them (reading), make them (running)."""
+from .reading import Run, State, Table, labelled, table
+from .running import WrongInput, compare, run, sweep
 
-__all__ = ["Run", "State", "table"]
+__all__ = ["Run", "State", "Table", "WrongInput", "compare", "labelled", "run", "sweep", "table"]

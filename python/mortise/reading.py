@@ -3,22 +3,62 @@
     run = mortise.Run("out/hertz2d")
     run.history["t"], run.adapt, run.summary, run.names(), run.times("bulk"), run.state("bulk", time=0.5)
 """
+import copy
 import csv
 import json
 import pathlib
+import re
 import xml.etree.ElementTree
 
 import h5py
 import numpy as np
 
 
+class Table(dict):
+    """{column: array}; units of the columns that have one in units (column "force [N]" is force, in N)."""
+
+    def __init__(self, columns=(), units=()):
+        super().__init__(columns)
+        self.units = dict(units)
+
+    def label(self, column):
+        """Name with the unit, for an axis."""
+        return labelled(column, self.units.get(column))
+
+
+def labelled(name, unit):
+    return f"{name} [{unit}]" if unit else name
+
+
 def table(path):
-    """{column: array} of a csv table; {} when it is not there or has no rows."""
+    """The columns of a csv table; empty when it is not there or has no rows."""
+    path = pathlib.Path(path)
     if not path.exists():
-        return {}
+        return Table()
     with open(path, newline="") as file:
         rows = list(csv.DictReader(file))
-    return {key: np.array([float(row[key] or "nan") for row in rows]) for key in rows[0]} if rows else {}
+    found = {key: re.fullmatch(r"(.*?)(?: \[(.*)\])?", key).groups() for key in rows[0]} if rows else {}
+    return Table({name: np.array([float(row[key] or "nan") for row in rows]) for key, (name, _) in found.items()}, {name: unit for name, unit in found.values() if unit})
+
+
+SIX = ("xx", "xy", "xz", "yy", "yz", "zz")
+NINE = tuple(a + b for a in "xyz" for b in "xyz")
+ROUND_OFF = 1e-9  # of the stress in the bodies: a pressure below is none
+
+
+def text(value):
+    return value.decode() if isinstance(value, bytes) else str(value)
+
+
+def parts(name, columns):
+    """What stands after the dot, by number of components; tensors of six come with principal values."""
+    if columns == 6:
+        return (*SIX, "1", "2", "3")
+    if columns == 9:
+        return NINE
+    if columns == 3:
+        return ("1", "2", "3") if name == "principal_stretches" else ("x", "y", "z", "norm")
+    return ()
 
 
 class State:
@@ -28,9 +68,15 @@ class State:
     """
 
     def __init__(self, element, directory, only=None):
-        def data(item):
+        self.units, self.names = {}, {}  # of fields; of the values 0, 1, ... of body, pair, side
+
+        def data(item, name=None):
             file, path = item.text.strip().split(":")
             with h5py.File(directory / file, "r") as h5:
+                if "unit" in h5[path].attrs:
+                    self.units[name] = text(h5[path].attrs["unit"])
+                if "names" in h5[path].attrs:
+                    self.names[name] = [text(word) for word in np.atleast_1d(h5[path].attrs["names"])]
                 return h5[path][...]
 
         self.time = float(element.find("Time").get("Value"))
@@ -40,19 +86,101 @@ class State:
         self.point, self.cell = {}, {}
         for attribute in element.findall("Attribute"):
             kind = self.cell if attribute.get("Center") == "Cell" else self.point
-            kind[attribute.get("Name")] = data(attribute.find("DataItem"))
+            kind[attribute.get("Name")] = data(attribute.find("DataItem"), attribute.get("Name"))
         if only and only[0] in self.cell:
-            keep = self.cell[only[0]] == only[1]
-            points, cells = np.unique(self.cells[keep], return_inverse=True)
-            self.cells, self.X = cells.reshape(-1, self.cells.shape[1]), self.X[points]
-            self.point = {name: values[points] for name, values in self.point.items()}
-            self.cell = {name: values[keep] for name, values in self.cell.items()}
+            self.keep(self.cell[only[0]] == only[1])
+
+    def number(self, name, word):
+        """The number of a body, pair or side, by its name or by itself."""
+        known = self.names.get(name, [])
+        if str(word) not in known and not str(word).isdigit():
+            raise KeyError(f"no {name} {word}; there are {', '.join(known)}")
+        return known.index(str(word)) if str(word) in known else int(word)
+
+    def where(self, name, word):
+        """Which cells are of a body, pair or side."""
+        return self.cell[name] == self.number(name, word)
+
+    def only(self, name, word):
+        """A copy with these cells alone."""
+        part = copy.copy(self)
+        part.keep(self.where(name, word))
+        return part
+
+    def fields(self):
+        """Names of all scalars that value() gives: fields, their components and principal values."""
+        out = []
+        for name, values in {**self.point, **self.cell}.items():
+            columns = 1 if values.ndim == 1 else values.shape[1]
+            out += [name] if columns == 1 else [f"{name}.{part}" for part in parts(name, columns)]
+        return out
+
+    def value(self, name):
+        """A scalar at points or cells: a field, or part of one: displacement.y, displacement.norm, stress.xy, stress.1 (largest principal value) to .3."""
+        field, _, part = name.partition(".")
+        kind = self.point if field in self.point else self.cell
+        if field not in kind:
+            raise KeyError(f"no field {name}; there are {', '.join(self.fields())}")
+        values = kind[field]
+        columns = 1 if values.ndim == 1 else values.shape[1]
+        if not part and columns == 1:
+            return values
+        if part not in parts(field, columns):
+            raise KeyError(f"{field} is no scalar; give {', '.join(f'{field}.{p}' for p in parts(field, columns))}" if columns > 1 else f"{field} has no part {part}")
+        if part == "norm":
+            return np.sqrt((values ** 2).sum(axis=1))
+        if columns == 6 and part in "123":
+            return np.linalg.eigvalsh(values[:, (0, 1, 2, 1, 3, 4, 2, 4, 5)].reshape(-1, 3, 3))[:, 3 - int(part)]
+        return values[:, parts(field, columns).index(part)]
+
+    def label(self, name):
+        return labelled(name.replace("_", " "), self.units.get(name.partition(".")[0]))
 
     def at_corners(self, name):
-        """Values of a scalar field at the corners of each cell."""
-        if name in self.point:
-            return self.point[name][self.cells]
-        return np.repeat(self.cell[name][:, None], self.cells.shape[1], axis=1)
+        """Values of a scalar (as of value) at the corners of each cell."""
+        values = self.value(name)
+        if name.partition(".")[0] in self.point:
+            return values[self.cells]
+        return np.repeat(values[:, None], self.cells.shape[1], axis=1)
+
+    def keep(self, cells):
+        """Leave these cells (mask) and their points alone."""
+        points, numbers = np.unique(self.cells[cells], return_inverse=True)
+        self.cells, self.X = numbers.reshape(-1, self.cells.shape[1]), self.X[points]
+        self.point = {name: values[points] for name, values in self.point.items()}
+        self.cell = {name: values[cells] for name, values in self.cell.items()}
+
+    def curves(self):
+        """Lines of points, in order, of a grid of line pieces: [point numbers], ends joined where they are at one place."""
+        place = np.unique(np.round(self.X / (np.ptp(self.X, axis=0).max() or 1), 9), axis=0, return_inverse=True)[1].reshape(-1)
+        after, starts = {}, []
+        for k, (a, _) in enumerate(self.cells):
+            after.setdefault(place[a], []).append(k)
+        ends = {place[b] for _, b in self.cells}
+        starts = [k for k, (a, _) in enumerate(self.cells) if place[a] not in ends] + list(range(len(self.cells)))
+        used, out = set(), []
+        for k in starts:
+            line = []
+            while k is not None and k not in used:
+                used.add(k)
+                line += list(self.cells[k]) if not line or place[line[-1]] != place[self.cells[k][0]] else [self.cells[k][1]]
+                k = next((n for n in after.get(place[self.cells[k][1]], []) if n not in used), None)
+            if line:
+                out.append(np.array(line))
+        return out
+
+    def arc(self, line, deformed=False):
+        """Length along a line of points at the reference positions, or the deformed ones."""
+        x = (self.X + self.point["displacement"] if deformed else self.X)[line]
+        return np.concatenate([[0], np.cumsum(np.linalg.norm(np.diff(x, axis=0), axis=1))])
+
+
+def clean(contact, bulk):
+    """Contact pressures of round-off size, measured by the stress in the bodies, become zero."""
+    if "contact_pressure" in contact.point and "von_mises" in {**bulk.point, **bulk.cell}:
+        stress = max(np.nanmax(np.abs(bulk.value("pressure"))), np.nanmax(bulk.value("von_mises")))
+        pressure = contact.point["contact_pressure"]
+        pressure[np.abs(pressure) <= ROUND_OFF * stress] = 0
 
 
 class Run:
@@ -71,6 +199,11 @@ class Run:
     @property
     def adapt(self):
         return table(self.directory / "adapt.csv")
+
+    @property
+    def units(self):
+        """Units of the scene as it says them; "": it does not."""
+        return self.summary.get("units", "")
 
     @property
     def summary(self):
@@ -98,4 +231,17 @@ class Run:
     def contacts(self, time):
         """Contact grids of the bulk state whose own time (State.time) is `time`: the sides that carry the pressure."""
         found = [(name, np.flatnonzero(self.times(name) == time)) for name in self._series if name != "bulk"]
-        return [State(self._series[name][at[-1]], self.directory, ("side", 0)) for name, at in found if len(at)]
+        states = [State(self._series[name][at[-1]], self.directory, ("side", 0)) for name, at in found if len(at)]
+        bulk = State(self._series["bulk"][np.flatnonzero(self.times() == time)[-1]], self.directory)
+        for state in states:
+            clean(state, bulk)
+        return states
+
+    def contact(self, pair=None, time=None, side="nonmortar"):
+        """One side of a contact pair, by name or number (None: all), at the load time next to `time`, pressures of round-off size set to zero.
+        In the plane a curve: points in order in .curves(), length along it in .arc()."""
+        state = self.state("contact", time=time, only=("side", ("nonmortar", "mortar").index(side)))
+        if pair is not None:
+            state.keep(state.where("pair", pair))
+        clean(state, self.state(time=time))
+        return state

@@ -52,6 +52,7 @@ PetscErrorCode AppDescribe(MPI_Comm comm)
   DescribeFields_Private(files, "history.csv", OutputHistoryColumns);
   DescribeFields_Private(files, "adapt.csv", OutputAdaptColumns);
   DescribeFields_Private(files, "summary.json", OutputSummaryFields);
+  DescribeFields_Private(files, "fields.xdmf", OutputFieldFields);
   DescribeExit_Private(root);
   text = cJSON_Print(root);
   cJSON_Delete(root);

@@ -107,6 +107,7 @@ const OutputField OutputSummaryFields[] = {
     {"mortise", "", "version of the program"},
     {"scene", "", "name of the scene file"},
     {"title", "", "title of the scene"},
+    {"units", "", "units of the scene, where it says them"},
     {"status", "", "converged, inaccurate (adapt.tolerance was not reached in all steps), failed, stopped"},
     {"reason", "", "why it is not converged, in words; else empty"},
     {"warnings", "", "warnings of the run, in words"},
@@ -198,3 +199,58 @@ const OutputField OutputSummaryFields[] = {
     {"peak_memory_rank_mb", "MB", "the largest of one process"},
     {NULL, NULL, NULL},
 };
+
+/* Of the grids bulk, contact and segments. Tensors: xx xy xz yy yz zz; first_piola row by row. */
+const OutputField OutputFieldFields[] = {
+    {"X", LENGTH, "reference position of a point"},
+    {"displacement", LENGTH, "what moves it"},
+    {"pressure", STRESS, "-tr(sigma)/3"},
+    {"stress", STRESS, "Cauchy stress, six components"},
+    {"von_mises", STRESS, "von Mises stress"},
+    {"J", "", "determinant of the deformation gradient"},
+    {"principal_stretches", "", "output.quantities: principal stretches, the largest first"},
+    {"logarithmic_strain", "", "output.quantities: ln V = ln(F F^T)/2, six components; kinematics: small: the linear strain"},
+    {"energy_density", STRESS, "output.quantities: strain energy per reference volume"},
+    {"first_piola", STRESS, "output.quantities: first Piola-Kirchhoff stress P, nine components"},
+    {"plastic_strain", "", "plastic strain, where a body flows"},
+    {"order", "", "displacement order of a cell"},
+    {"level", "", "how often it was halved in one direction"},
+    {"body", "", "number of its body; attribute names: their names"},
+    {"rank", "", "process that had it"},
+    {"error", "root of energy", "indicator of the estimated error"},
+    {"cell", "", "number of the cell that a piece is of"},
+    {"gap", LENGTH, "contact: weighted gap over the weight; negative: penetration"},
+    {"contact_pressure", STRESS, "contact: pressure"},
+    {"status", "", "contact: 1 touches, 0 open, -1 faces nothing"},
+    {"tangential_traction", STRESS, "friction: tangential traction on the body"},
+    {"slip", LENGTH, "friction: slip of the load step"},
+    {"normal", "", "contact: unit normal out of the body"},
+    {"pair", "", "contact: number of the pair; attribute names: their names"},
+    {"side", "", "contact: 0 nonmortar, 1 mortar; attribute names: these"},
+    {"facet", "", "segments: number of the nonmortar facet"},
+    {"mortar_facet", "", "segments: number of the mortar facet"},
+    {NULL, NULL, NULL},
+};
+
+/* Does a name fit a pattern, whose <axis> is x, y or z, <component> xx, xy, ..., any other <...> a name without dots. */
+static PetscBool Fits_Private(const char *pattern, const char *name)
+{
+  for (; *pattern && *pattern != '<'; ++pattern, ++name)
+    if (*pattern != *name) return PETSC_FALSE;
+  if (!*pattern) return (PetscBool) !*name;
+  const size_t n = strcspn(name, ".");
+  if (n == 0 || (!strncmp(pattern, "<axis>", 6) && (n != 1 || !strchr("xyz", name[0]))) || (!strncmp(pattern, "<component>", 11) && n != 2)) return PETSC_FALSE;
+  return Fits_Private(strchr(pattern, '>') + 1, name + n);
+}
+
+PetscErrorCode OutputColumnName(const SceneData *scene, const OutputField fields[], const char *name, size_t size, char column[])
+{
+  const OutputField *row = fields;
+  char               unit[64];
+
+  PetscFunctionBegin;
+  while (row->name && !Fits_Private(row->name, name)) ++row;
+  PetscCall(SceneUnit(scene, row->name ? row->unit : "", sizeof(unit), unit));
+  PetscCall(PetscSNPrintf(column, size, unit[0] ? "%s [%s]" : "%s", name, unit));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

@@ -3,7 +3,7 @@
 
 #define ADAPT_COLUMNS 20  /* of OutputAdaptColumns */
 #define PLASTIC_COLUMNS 5 /* the last of them */
-#define COLUMN_NAME (2 * MORTISE_NAME)
+#define COLUMN_NAME (2 * MORTISE_NAME + 64)
 
 struct _p_History {
   MPI_Comm         comm;
@@ -156,11 +156,13 @@ static PetscInt NumFixed_Private(const OutputField *field)
 static PetscErrorCode OpenAdapt_Private(History h, const TablePlace *after)
 {
   const char *names[ADAPT_COLUMNS];
+  char        columns[ADAPT_COLUMNS][COLUMN_NAME];
   PetscInt    num = 0;
 
   PetscFunctionBegin;
   while (num < ADAPT_COLUMNS && OutputAdaptColumns[num].name) {
-    names[num] = OutputAdaptColumns[num].name;
+    PetscCall(OutputColumnName(h->scene, OutputAdaptColumns, OutputAdaptColumns[num].name, COLUMN_NAME, columns[num]));
+    names[num] = columns[num];
     ++num;
   }
   if (!MechanicsIsPlastic(&h->scene->mechanics)) num -= PLASTIC_COLUMNS;
@@ -173,18 +175,22 @@ static PetscErrorCode OpenHistory_Private(History h, const TablePlace *after)
 {
   const PetscInt fixed = NumFixed_Private(OutputHistoryColumns), num_probes = h->probes ? h->scene->num_probes : 0;
   const char   **names;
-  Columns        c = {0};
+  char(*columns)[COLUMN_NAME];
+  Columns c = {0};
 
   PetscFunctionBegin;
   PetscCall(Columns_Private(h->scene, num_probes, NULL, NULL, &c));
   h->num = fixed + c.num;
   PetscCall(PetscMalloc1(h->num, &h->values));
-  PetscCall(PetscMalloc2(c.num, &c.names, h->num, &names));
+  PetscCall(PetscMalloc3(c.num, &c.names, h->num, &columns, h->num, &names));
   c.num = 0;
   PetscCall(Columns_Private(h->scene, num_probes, NULL, NULL, &c));
-  for (PetscInt i = 0; i < h->num; ++i) names[i] = i < fixed ? OutputHistoryColumns[i].name : c.names[i - fixed];
+  for (PetscInt i = 0; i < h->num; ++i) {
+    PetscCall(OutputColumnName(h->scene, OutputHistoryColumns, i < fixed ? OutputHistoryColumns[i].name : c.names[i - fixed], COLUMN_NAME, columns[i]));
+    names[i] = columns[i];
+  }
   PetscCall(Open_Private(h, "history.csv", h->num, names, after, &h->history));
-  PetscCall(PetscFree2(c.names, names));
+  PetscCall(PetscFree3(c.names, columns, names));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -21,6 +21,8 @@ const char *OutputErrno(void); /* errno in words */
 PetscErrorCode OutputAttribute(hid_t object, const char *name, hid_t stored, hid_t type, const void *value);
 PetscErrorCode OutputAttributeInt(hid_t object, const char *name, PetscInt value);
 PetscErrorCode OutputAttributeReal(hid_t object, const char *name, PetscReal value);
+/* An array of texts; one alone: a scalar. */
+PetscErrorCode OutputAttributeTexts(hid_t object, const char *name, PetscInt num, const char *const texts[]);
 /* The access list with which all ranks open a file together; one rank: HDF5's own driver, which writes the same bytes and spares loading MPI-IO.
    path: for messages, until the next one. */
 PetscErrorCode OutputAccess(MPI_Comm, const char *path, hid_t *access);
@@ -75,6 +77,8 @@ PetscErrorCode IndexCreate(Index *);
 PetscErrorCode IndexDestroy(Index *);
 /* Open the entry of one grid at one state: points and cells of all ranks, data in file under /grid/{X,cells}. */
 PetscErrorCode IndexGrid(Index, const IndexState *, const char *grid, CellShape, int64_t num_points, int64_t num_cells, const char *file);
+/* A fact about the open entry, in words. */
+PetscErrorCode IndexFact(Index, const char *name, const char *value);
 /* A field /grid/name of the grid opened last. */
 PetscErrorCode IndexField(Index, const char *name, PetscBool at_cells, PetscInt ncomp);
 /* Close the open entry. */

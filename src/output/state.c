@@ -163,6 +163,34 @@ static PetscErrorCode WriteStress_Private(Writer writer, Problem problem, const 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Those of output.quantities, taken out of what OutputSampleQuantities gives. */
+static PetscErrorCode WriteQuantities_Private(Writer writer, Problem problem, int wanted, const BulkGrid *g, const PetscReal u[])
+{
+  static const struct {
+    const char *name;
+    PetscInt    first, num;
+  } field[]           = {{"principal_stretches", 0, 3}, {"logarithmic_strain", 3, 6}, {"energy_density", 9, 1}, {"first_piola", 10, 9}};
+  const PetscInt num  = g->shared ? g->num_pieces : g->num_points;
+  const PetscInt room = OUTPUT_QUANTITIES * g->largest;
+  PetscReal     *all, *one, *sample, *work;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc4(OUTPUT_QUANTITIES * num, &all, 9 * num, &one, room, &sample, room, &work));
+  for (PetscInt c = 0; c < g->v->num_owned_cells; ++c) {
+    PetscReal *values = all + OUTPUT_QUANTITIES * (g->shared ? g->piece[c] : g->first[c]);
+    PetscCall(OutputSampleQuantities(problem, c, u, g->shared ? values : sample));
+    if (!g->shared) PetscCall(OutputExtend(g->v->dim, g->v->cell_order[c], Divide_Private(g, c), OUTPUT_QUANTITIES, sample, values, work));
+  }
+  for (PetscInt f = 0; f < (PetscInt)PETSC_STATIC_ARRAY_LENGTH(field); ++f) {
+    if (!(wanted & 1 << f)) continue;
+    for (PetscInt i = 0; i < num; ++i)
+      for (PetscInt k = 0; k < field[f].num; ++k) one[field[f].num * i + k] = all[OUTPUT_QUANTITIES * i + field[f].first + k];
+    PetscCall(WriterField(writer, field[f].name, g->shared, field[f].num, one));
+  }
+  PetscCall(PetscFree4(all, one, sample, work));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 static PetscErrorCode WritePlastic_Private(Writer writer, Problem problem, const BulkGrid *g, const PetscReal u[])
 {
   const PetscInt num = g->shared ? g->num_pieces : g->num_points;
@@ -229,9 +257,11 @@ PetscErrorCode OutputWriteState(Writer writer, Problem problem, const State *sta
   PetscCall(ProblemSetState(problem, state));
   PetscCall(ProblemLocalDisplacement(problem, state->x, u));
   PetscCall(GridCreate_Private(scene, t, space, &grid));
+  WriterDescribe(writer, scene);
   PetscCall(WriterBegin(writer, series_time, step, pass, state->t));
   PetscCall(WriteMotion_Private(writer, space, &grid, u));
   PetscCall(WriteStress_Private(writer, problem, &grid, u));
+  if (scene->output.quantities) PetscCall(WriteQuantities_Private(writer, problem, scene->output.quantities, &grid, u));
   if (MechanicsIsPlastic(&scene->mechanics)) PetscCall(WritePlastic_Private(writer, problem, &grid, u));
   PetscCall(WriteLeafFields_Private(writer, t, &grid, estimate));
   if (scene->num_contacts) {

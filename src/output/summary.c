@@ -248,6 +248,7 @@ static cJSON *Document_Private(const SceneData *scene, const RunSummary *s, cons
   cJSON_AddStringToObject(root, "mortise", MORTISE_VERSION);
   cJSON_AddStringToObject(root, "scene", slash ? slash + 1 : scene->file);
   cJSON_AddStringToObject(root, "title", scene->title);
+  if (scene->units.text[0]) cJSON_AddStringToObject(root, "units", scene->units.text);
   cJSON_AddStringToObject(root, "status", s->status);
   cJSON_AddStringToObject(root, "reason", s->reason ? s->reason : "");
   AddWarnings_Private(root);

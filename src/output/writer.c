@@ -11,18 +11,19 @@
 #define DEFLATE_LEVEL 1    /* with shuffle; levels 2 to 6 measured: up to 3 % smaller, up to 25 % slower */
 
 struct _p_Writer {
-  MPI_Comm    comm;
-  PetscMPIInt rank, size;
-  char        directory[PETSC_MAX_PATH_LEN];
-  Index       index;     /* owned; rank 0, else NULL */
-  PetscInt    num;       /* states completed */
-  PetscBool   resumed;   /* files of later states are still there */
-  IndexState  state;     /* the open state, or the last one */
-  hid_t       file;      /* owned; -1 between states */
-  hid_t       group;     /* owned: the open grid; -1 when none */
-  int64_t     total[2];  /* points and cells of the open grid, all ranks */
-  int64_t     offset[2]; /* first point and cell of this rank */
-  int64_t     local[2];  /* points and cells of this rank */
+  MPI_Comm         comm;
+  PetscMPIInt      rank, size;
+  char             directory[PETSC_MAX_PATH_LEN];
+  Index            index;     /* owned; rank 0, else NULL */
+  PetscInt         num;       /* states completed */
+  PetscBool        resumed;   /* files of later states are still there */
+  IndexState       state;     /* the open state, or the last one */
+  const SceneData *scene;     /* borrowed; NULL: fields have no units and no names */
+  hid_t            file;      /* owned; -1 between states */
+  hid_t            group;     /* owned: the open grid; -1 when none */
+  int64_t          total[2];  /* points and cells of the open grid, all ranks */
+  int64_t          offset[2]; /* first point and cell of this rank */
+  int64_t          local[2];  /* points and cells of this rank */
 };
 
 /* Remove the state files of an earlier series from number `from` on; names of exactly our form only. Rank 0. A directory that is not there is told by all ranks
@@ -144,6 +145,11 @@ PetscErrorCode WriterDestroy(Writer *writer)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+void WriterDescribe(Writer w, const SceneData *scene)
+{
+  w->scene = scene;
+}
+
 PetscErrorCode WriterBegin(Writer w, PetscReal time, PetscInt step, PetscInt pass, PetscReal load_time)
 {
   char  path[PETSC_MAX_PATH_LEN];
@@ -165,6 +171,7 @@ PetscErrorCode WriterBegin(Writer w, PetscReal time, PetscInt step, PetscInt pas
   PetscCall(OutputAttributeInt(w->file, "step", step));
   PetscCall(OutputAttributeInt(w->file, "pass", pass));
   PetscCall(OutputAttributeReal(w->file, "load_time", load_time));
+  if (w->scene && w->scene->units.text[0]) PetscCall(OutputAttributeTexts(w->file, "units", 1, (const char *[]){w->scene->units.text}));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -255,6 +262,43 @@ static PetscErrorCode WriterCells_Private(Writer w, CellShape shape, const Petsc
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* What the values 0, 1, ... of a field of cells stand for: *num names, which the caller frees; 0: nothing. */
+static PetscErrorCode ValueNames_Private(const SceneData *scene, const char *field, PetscInt *num, const char ***names)
+{
+  const PetscBool body = (PetscBool)!strcmp(field, "body"), pair = (PetscBool)!strcmp(field, "pair"), side = (PetscBool)!strcmp(field, "side");
+
+  PetscFunctionBegin;
+  *num = body ? scene->mechanics.num_bodies : pair ? scene->num_contacts : side ? 2 : 0;
+  PetscCall(PetscMalloc1(*num, names));
+  for (PetscInt i = 0; i < *num; ++i) (*names)[i] = body ? scene->mechanics.bodies[i].name : pair ? scene->contacts[i].name : i ? "mortar" : "nonmortar";
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Unit of a field, and names of its values, beside the data set and in the index. */
+static PetscErrorCode WriterWords_Private(Writer w, const char *field)
+{
+  const OutputField *row  = OutputFieldFields;
+  OutputText         list = {0};
+  const char       **names;
+  char               unit[64];
+  PetscInt           num;
+  hid_t              set;
+
+  PetscFunctionBegin;
+  while (row->name && strcmp(row->name, field)) ++row;
+  PetscCall(SceneUnit(w->scene, row->name ? row->unit : "", sizeof(unit), unit));
+  PetscCall(ValueNames_Private(w->scene, field, &num, &names));
+  PetscCallH5Id(set, H5Dopen2(w->group, field, H5P_DEFAULT));
+  if (unit[0]) PetscCall(OutputAttributeTexts(set, "unit", 1, (const char *[]){unit}));
+  if (num) PetscCall(OutputAttributeTexts(set, "names", num, names));
+  PetscCallH5(H5Dclose(set));
+  for (PetscInt i = 0; i < num; ++i) PetscCall(OutputTextPrint(&list, "%s%s", i ? ", " : "", names[i]));
+  if (w->index && w->total[1] && num) PetscCall(IndexFact(w->index, field, list.text));
+  PetscCall(OutputTextDestroy(&list));
+  PetscCall(PetscFree(names));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* A grid without any cell is in the file but not in the index: readers have nothing to draw. */
 PetscErrorCode WriterGrid(Writer w, const char *grid, CellShape shape, PetscInt np, const PetscReal *X, PetscInt nc, const PetscInt *conn)
 {
@@ -275,6 +319,7 @@ PetscErrorCode WriterGrid(Writer w, const char *grid, CellShape shape, PetscInt 
   if (w->index && w->total[1]) {
     PetscCall(PetscSNPrintf(file, sizeof(file), "fields_%04" PetscInt_FMT ".h5", w->num));
     PetscCall(IndexGrid(w->index, &w->state, grid, shape, w->total[0], w->total[1], file));
+    if (w->scene && w->scene->units.text[0]) PetscCall(IndexFact(w->index, "units", w->scene->units.text));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -283,10 +328,12 @@ PetscErrorCode WriterField(Writer w, const char *name, PetscBool at_cells, Petsc
 {
   PetscFunctionBegin;
   PetscCheck(w->group >= 0, w->comm, PETSC_ERR_ORDER, "Field %s without a grid", name);
-  PetscCheck(ncomp == 1 || ncomp == 3 || ncomp == 6, w->comm, PETSC_ERR_ARG_OUTOFRANGE, "Field %s: %" PetscInt_FMT " components, not 1, 3 or 6", name, ncomp);
+  PetscCheck(ncomp == 1 || ncomp == 3 || ncomp == 6 || ncomp == 9, w->comm, PETSC_ERR_ARG_OUTOFRANGE,
+             "Field %s: %" PetscInt_FMT " components, not 1, 3, 6 or 9", name, ncomp);
   PetscCall(WriterName_Private(w, name));
   PetscCall(WriterData_Private(w, name, at_cells ? 1 : 0, ncomp, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, data));
   if (w->index && w->total[1]) PetscCall(IndexField(w->index, name, at_cells, ncomp));
+  if (w->scene) PetscCall(WriterWords_Private(w, name));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

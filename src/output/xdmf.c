@@ -94,9 +94,24 @@ PetscErrorCode IndexGrid(Index index, const IndexState *state, const char *grid,
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscErrorCode IndexFact(Index index, const char *name, const char *value)
+{
+  PetscFunctionBegin;
+  PetscCall(OutputTextPrint(index->open, "        <Information Name=\"%s\" Value=\"", name));
+  for (; *value; ++value) {
+    const char *special = *value == '&' ? "&amp;" : *value == '<' ? "&lt;" : *value == '>' ? "&gt;" : *value == '"' ? "&quot;" : NULL;
+    if (special)
+      PetscCall(OutputTextPrint(index->open, "%s", special));
+    else
+      PetscCall(OutputTextPrint(index->open, "%c", *value));
+  }
+  PetscCall(OutputTextPrint(index->open, "\"/>\n"));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode IndexField(Index index, const char *name, PetscBool at_cells, PetscInt ncomp)
 {
-  const char *type = ncomp == 1 ? "Scalar" : ncomp == 3 ? "Vector" : "Tensor6";
+  const char *type = ncomp == 1 ? "Scalar" : ncomp == 3 ? "Vector" : ncomp == 6 ? "Tensor6" : "Tensor";
 
   PetscFunctionBegin;
   PetscCall(OutputTextPrint(index->open, "        <Attribute Name=\"%s\" AttributeType=\"%s\" Center=\"%s\">\n", name, type, at_cells ? "Cell" : "Node"));

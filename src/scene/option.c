@@ -83,8 +83,16 @@ static const char *Shape_Private(const SceneNode *node)
 
 static const char *Wanted_Private(KeyType type)
 {
-  static const char *const wanted[] = {
-      "a text", "a word", "an integer", "a number", "true or false", "a number or an expression", "a list [t0,v0, t1,v1, ...]", "a word like xy", "a number"};
+  static const char *const wanted[] = {"a text",
+                                       "a word",
+                                       "an integer",
+                                       "a number",
+                                       "true or false",
+                                       "a number or an expression",
+                                       "a list [t0,v0, t1,v1, ...]",
+                                       "a word like xy",
+                                       "a number",
+                                       "words with commas between"};
   return wanted[type];
 }
 
@@ -160,6 +168,28 @@ static PetscErrorCode Word_Private(const Option *row, const char *where, const c
     s += n + 1;
   }
   PetscCall(ErrorInput("%s is '%s'; allowed: %s", where, text, row->range));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Words with commas between, in any order, each once. */
+static PetscErrorCode Words_Private(const Option *row, const char *where, const char *text, int *mask)
+{
+  PetscFunctionBegin;
+  *mask = 0;
+  for (const char *s = text; *s; s += *s == ',') {
+    char   word[MORTISE_NAME];
+    int    which = 0;
+    size_t n;
+
+    while (*s == ' ') ++s;
+    n = strcspn(s, ",");
+    (void)snprintf(word, sizeof(word), "%.*s", (int)n, s);
+    for (size_t end = strlen(word); end > 0 && word[end - 1] == ' ';) word[--end] = 0;
+    PetscCall(Word_Private(row, where, word, &which));
+    PetscCheckInput(!(*mask & 1 << which), "%s is '%s': %s is there twice", where, text, word);
+    *mask |= 1 << which;
+    s += n;
+  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -263,6 +293,9 @@ static PetscErrorCode Store_Private(const Option *row, const SceneNode *node, co
     break;
   case KEY_WORD:
     PetscCall(Word_Private(row, where, text, (int *)(void *)place));
+    break;
+  case KEY_WORDS:
+    PetscCall(Words_Private(row, where, text, (int *)(void *)place));
     break;
   case KEY_INT:
     PetscCall(Integer_Private(row, where, text, (PetscInt *)(void *)place + c));

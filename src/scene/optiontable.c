@@ -20,6 +20,8 @@
 
 const Option Options[] = {
     {"title", KEY_TEXT, "", "", "", "what the scene shows; default: name of the file", SCENE(data.title)},
+    {"units", KEY_TEXT, "", "", "", "units of length, force and stress that the numbers are in, as in mm, N, MPa: checked to agree, written beside results",
+     SCENE(data.units.text)},
 
     {"mesh.file", KEY_TEXT, "", NULL, "", ".geo: meshed by gmsh; .msh (2.2, 4.1): read as it is; relative to the scene file", SCENE(mesh_file)},
     {"mesh.order", KEY_INT, "", "2", "[1,4]", "geometry order asked of gmsh for a .geo", SCENE(mesh_order)},
@@ -194,6 +196,9 @@ const Option Options[] = {
     {"output.fields", KEY_BOOL, "", "true", "", "write fields.xdmf and its HDF5 files", SCENE(data.output.fields)},
     {"output.divide", KEY_WORD, "", "auto", "auto|1|2|3|4|5|6|7|8", "pieces of a cell in each direction in fields.xdmf; auto: as many as its order",
      SCENE(data.output.divide)},
+    {"output.quantities", KEY_WORDS, "", "", "principal_stretches|logarithmic_strain|energy_density|first_piola",
+     "further fields of the bodies in fields.xdmf, with commas between; stress (Cauchy), pressure, von_mises and J are always there",
+     SCENE(data.output.quantities)},
     {"output.segments", KEY_BOOL, "", "false", "", "write the pieces of facets that face each other (segments) as a grid of fields.xdmf too",
      SCENE(data.output.segments)},
     {"output.checkpoint", KEY_INT, "load steps", "1", NOT_BELOW,
@@ -211,7 +216,7 @@ const Option Options[] = {
 
 static PetscErrorCode PrintRow_Private(MPI_Comm comm, const Option *row)
 {
-  static const char *const kinds[] = {"text", "", "integer", "number", "true|false", "number or expression", "list of numbers", "", "number"};
+  static const char *const kinds[] = {"text", "", "integer", "number", "true|false", "number or expression", "list of numbers", "", "number", "any of"};
   char                     key[128], kind[512];
   const char              *axis = strstr(row->pattern, "<axis>"), *range = strcmp(row->range, ANY) ? row->range : "";
 

@@ -37,6 +37,7 @@ static PetscErrorCode ReadGeneral_Private(Scene s)
   PetscFunctionBegin;
   PetscCall(OptionsRead("", s->root, 3, s));
   d->mesh.dim = d->mechanics.model == MODEL_3D ? 3 : 2;
+  if (d->units.text[0]) PetscCall(SceneReadUnits(NodeWhere(NodeFind(s->root, "units")), d->units.text, &d->units));
   if (!d->title[0]) PetscCall(PetscStrncpy(d->title, Stem_Private(d->file, stem), sizeof(d->title)));
   if (!d->output.directory[0]) PetscCall(PetscSNPrintf(d->output.directory, sizeof(d->output.directory), "out/%s", Stem_Private(d->file, stem)));
   if (d->load.step == 0) d->load.step = d->load.end / 10;

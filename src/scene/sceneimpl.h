@@ -32,12 +32,13 @@ const char    *NodeOptions(PetscInt line);                      /* where options
 
 /* ---- the option table (optiontable.c) ----------------------------------------------------------------------------------- */
 
-typedef enum { KEY_TEXT, KEY_WORD, KEY_INT, KEY_REAL, KEY_BOOL, KEY_EXPRESSION, KEY_AMPLITUDE, KEY_AXES, KEY_PARAMETER } KeyType;
+typedef enum { KEY_TEXT, KEY_WORD, KEY_INT, KEY_REAL, KEY_BOOL, KEY_EXPRESSION, KEY_AMPLITUDE, KEY_AXES, KEY_PARAMETER, KEY_WORDS } KeyType;
 
 #define OPTION_DEPTH 8 /* keys above each other */
 
 /* One row: what -help prints, what parsing and checks do. Pattern: keys joined by '.', <name> stands for any name, <axis> for x, y or z,
-   <parameter> for a parameter of a law. Range: an interval "[1,8]", "(0,inf)", or words "small|finite" (their order is that of the enum). */
+   <parameter> for a parameter of a law. Range: an interval "[1,8]", "(0,inf)", or words "small|finite" (their order is that of the enum; KEY_WORDS: any of
+   them, with commas between; the i-th sets bit i). */
 typedef struct {
   const char *pattern;
   KeyType     type;
@@ -132,6 +133,8 @@ PetscErrorCode OptionsCheckTree(const SceneNode *root);
 /* Read all rows of a section ("" for those without names; "material.<name>.fiber" for names in the section of a name) from its node (NULL: defaults) into
  * object. dim 2: a z component is an error. */
 PetscErrorCode OptionsRead(const char *section, const SceneNode *, PetscInt dim, void *object);
+/* Units from words, checked to agree: one sentence when not (units.c). */
+PetscErrorCode SceneReadUnits(const char *where, const char *text, SceneUnits *);
 /* A number as text, finite, whole text. */
 PetscBool OptionParseReal(const char *text, PetscReal *);
 /* Put the options that are scene keys into the tree and take them out of PETSc's global database: what is there besides (-options_file), then the command

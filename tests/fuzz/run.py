@@ -231,7 +231,7 @@ def fault(program, arguments, folder):
         said = err.read().decode(errors="replace")
     if late: return f"no end after {SECONDS} s"
     if process.returncode not in (0, 1, 2, 3): return f"exit status {process.returncode}"
-    for word in "PETSC ERROR", "AddressSanitizer", "runtime error:", "MPI_ABORT":
+    for word in "PETSC ERROR", "ERROR: AddressSanitizer", "runtime error:", "MPI_ABORT":
         if word in said: return word
     told = process.returncode in (0, 3) or "mortise: " in said or (process.returncode == 2 and any(folder.rglob("summary.json")))
     if not told: return f"exit status {process.returncode} without a word"

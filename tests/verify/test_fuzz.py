@@ -10,6 +10,7 @@ from conftest import PROGRAM, ROOT
 
 sys.path.insert(0, str(ROOT / "tests" / "fuzz"))
 import run as fuzz  # noqa: E402
+import starts  # noqa: E402
 
 CASES = int(os.environ.get("MORTISE_FUZZ", "60")) // len(fuzz.KINDS)
 
@@ -30,3 +31,8 @@ def test_damaged_input(whole, tmp_path_factory, kind):
 @pytest.mark.parametrize("kind,number", [("sealed", number) for number in (4, 16, 30, 50, 105)] + [("options", 6006), ("msh", 6030)])
 def test_found_before(whole, kind, number):
     assert not fuzz.case(kind, number, whole)
+
+
+def test_starts_at_the_same_time():
+    """tests/fuzz/starts.py by itself: 2000 starts in four loops."""
+    assert not starts.faults(PROGRAM, 24, 4)

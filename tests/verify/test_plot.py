@@ -2,6 +2,8 @@
 import importlib.machinery
 import importlib.util
 import pathlib
+import subprocess
+import sys
 
 import numpy as np
 
@@ -45,7 +47,7 @@ def test_contact_is_drawn_on_one_side(run):
     bulk, (contact,) = plot.states(result.directory, None)
     assert contact.cells.shape == (9, 4) and len(contact.X) == 16 and set(contact.cell["side"]) == {0} and contact.cells.max() == 15
     assert np.allclose(contact.point["normal"], (0, 0, -1)) and len(bulk.cells) == 26
-    plot.plot_mesh(result.directory, "von_mises", 1.0)
+    plot.plot_mesh(result.directory)
     assert (result.directory / "mesh.png").stat().st_size > 10000
 
 
@@ -60,3 +62,38 @@ def test_pressures_found(tmp_path):
     (tmp_path / "history.csv").write_text("t,pressure.bore,volume.bore\n1,3,0.1\n")
     plot.plot_history(tmp_path)
     assert (tmp_path / "history.png").stat().st_size > 5000
+
+
+def test_colours():
+    """Of all values, of those between percentiles, or as given; what is no number does not count."""
+    values = np.append(np.arange(101.0), np.nan)
+    assert plot.colour_range(values) == (0, 100) and plot.colour_range(values, ("limits", 3, 4)) == (3, 4)
+    assert plot.colour_range(values, ("percentile", 1, 99)) == (1, 99)
+
+
+def draw(*words):
+    return subprocess.run([sys.executable, "-B", str(SCRIPT), *map(str, words)], capture_output=True, text=True)
+
+
+def test_pictures_of_a_run(run, tmp_path):
+    """Components, zoom, percentiles, the contact line, an animation, a chart of two runs, units on axes; what is not there is told."""
+    options = ("-load_step", 0.5, "-units", "mm, N, MPa", "-adapt_tolerance", 0)
+    one, two = (run("inputs/hertz2d.yml", *options, "-material_rubber_E", E).directory for E in (1, 2))
+    for words, file in (((one, "--field", "stress.1", "--percentile", 1, 99, "--zoom", -0.3, 0.3, 0.7, 1.2, "--time", 0.5), one / "mesh.png"), ((one, "--line"), one / "line.png"),
+                        ((one, "--field", "displacement.norm", "--animate", tmp_path / "film.gif"), tmp_path / "film.gif"),
+                        ((one, two, "--column", "contact_force", "--over", "energy"), one / "chart.png")):
+        done = draw(*words)
+        assert done.returncode == 0 and file.stat().st_size > 5000, done
+    from PIL import Image
+    assert Image.open(tmp_path / "film.gif").n_frames == 2
+    for words, said in (((one, "--field", "stress"), "stress is no scalar; give stress.xx, stress.xy"), ((one, "--field", "none"), "no field none; there are displacement.x"),
+                        ((one, "--animate", "film.avi"), ".gif or .mp4"), ((one, "--column", "none"), "no column none")):
+        done = draw(*words)
+        assert done.returncode == 1 and said in done.stderr and "Traceback" not in done.stderr, done
+
+
+def test_contact_is_seen_from_outside(run):
+    """Of a surface that looks down the eye is below it."""
+    _, (contact,) = plot.states(run("inputs/blocks3d.yml").directory, None)
+    azimuth, elevation = plot.facing(contact)
+    assert plot.view(azimuth, elevation)[2] @ (0, 0, -1) > 0.8

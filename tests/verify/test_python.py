@@ -3,6 +3,9 @@ import pathlib
 import sys
 
 import numpy as np
+import pytest
+
+from conftest import PROGRAM, ROOT
 
 sys.path.insert(0, str(pathlib.Path(__file__).parents[2] / "python"))
 import mortise
@@ -34,3 +37,39 @@ def test_passes_share_a_load_time(tmp_path):
     run = mortise.Run(tmp_path)
     assert list(run.times()) == [0.5, 1, 1.000001]
     assert list(run.load_times()) == [0.5, 1, 1]
+
+
+def test_units_of_columns(tmp_path):
+    """The unit stands in the header and is no part of the name."""
+    (tmp_path / "history.csv").write_text("t,energy [N mm],gap.a-b [mm]\n1,2,3\n")
+    history = mortise.Run(tmp_path).history
+    assert list(history) == ["t", "energy", "gap.a-b"] and history.units == {"energy": "N mm", "gap.a-b": "mm"}
+    assert history.label("energy") == "energy [N mm]" and history.label("t") == "t"
+
+
+def test_runs_and_reads(tmp_path, monkeypatch):
+    """A sweep: the pressure of the patch test by its closed form, contact as a curve, components, principal values, units and names."""
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("MORTISE", str(PROGRAM))
+    keys = {"output.quantities": "logarithmic_strain,principal_stretches,first_piola", "units": "mm, N, MPa"}
+    runs = mortise.sweep(ROOT / "inputs" / "patch2d.yml", "boundary.top.displacement.y", [-0.1, 0], jobs=2, keys=keys)
+    run = runs[-0.1]
+    assert run.units == "mm, N, MPa" and (run.directory / "run.log").exists()
+    rows = mortise.compare(runs.values(), ["status", "contact.upper_on_lower.max_pressure", "contact.upper_on_lower.force.1"])
+    assert [row[1] for row in rows] == ["converged"] * 2 and abs(rows[0][2] - 0.068898) < 1e-6 and abs(rows[0][3] - 0.068898) < 1e-6
+    bulk = run.state()
+    assert np.allclose(bulk.value("logarithmic_strain.yy"), np.log(0.95)) and np.allclose(bulk.value("logarithmic_strain.3"), np.log(0.95))
+    assert np.allclose(bulk.value("principal_stretches.3"), 0.95) and np.allclose(bulk.value("stress.3"), -0.068898, atol=1e-6)
+    assert np.allclose(bulk.value("displacement.norm"), -bulk.value("displacement.y")) and bulk.value("first_piola.yx").shape == bulk.value("J").shape
+    assert bulk.label("stress.3") == "stress.3 [MPa]" and bulk.names["body"] == ["lower", "upper"] and bulk.where("body", "upper").sum() == 25
+    for wrong in ("stress", "stress.7", "none"):
+        with pytest.raises(KeyError):
+            bulk.value(wrong)
+    for side, nodes in (("nonmortar", 6), ("mortar", 4)):
+        contact = run.contact("upper_on_lower", side=side)
+        (line,) = contact.curves()
+        assert len(line) == nodes and abs(contact.arc(line)[-1] - 1) < 1e-12 and np.all(np.diff(contact.X[line, 0]) * np.sign(contact.X[line[-1], 0] - 0.5) > 0)
+        assert np.allclose(contact.point["contact_pressure"], 0.068898, atol=1e-6)
+    assert np.all(runs[0].contact().point["contact_pressure"] == 0)  # round-off is no pressure
+    with pytest.raises(mortise.WrongInput, match="material.rubber.nu: 0.7 is not between"):
+        mortise.run(ROOT / "inputs" / "patch2d.yml", {"material.rubber.nu": 0.7}, tmp_path / "out" / "wrong")
