@@ -6,7 +6,7 @@
 #include "outputimpl.h"
 
 /* Numbers summed at a mortar node: int N_m, int N_m p, those of friction, and of nonmortar nodes that face something int N_m, int N_m g, int N_m [active]. */
-enum { SUM_ALL, SUM_PRESSURE, SUM_SHEAR, SUM_SLIP, SUM_KNOWN, SUM_GAP, SUM_ACTIVE, NUM_SUMS };
+enum { SUM_ALL, SUM_PRESSURE, SUM_SHEAR, SUM_SLIP, SUM_KNOWN, SUM_GAP, SUM_ACTIVE, SUM_TRACTION, NUM_SUMS = SUM_TRACTION + 3 };
 
 /* A point of a segment: place on both facets, share of the segment's length or area. */
 typedef struct {
@@ -82,11 +82,13 @@ static void Follow_Private(const SurfaceView *s, ContactFields *f)
     if (s->hang[n] == s->hang[n + 1]) continue;
     f->gap[n] = f->pressure[n] = f->shear[n] = f->slip[n] = 0;
     f->status[n]                                          = CONTACT_ALONE;
+    for (PetscInt c = 0; c < 3; ++c) f->traction[3 * n + c] = 0;
     for (PetscInt k = s->hang[n]; k < s->hang[n + 1]; ++k) {
       const PetscInt master = s->hang_master[k];
       f->pressure[n] += s->hang_weight[k] * f->pressure[master];
       f->shear[n] += s->hang_weight[k] * f->shear[master];
       f->slip[n] += s->hang_weight[k] * f->slip[master];
+      for (PetscInt c = 0; c < 3; ++c) f->traction[3 * n + c] += s->hang_weight[k] * f->traction[3 * master + c];
       f->status[n] = PetscMax(f->status[n], f->status[master]);
       if (f->status[master] == CONTACT_ALONE) continue;
       f->gap[n] += s->hang_weight[k] * f->gap[master];
@@ -102,7 +104,8 @@ void OutputContactFields(const ContactView *v, ContactFields *f)
     const PetscBool covered = (PetscBool)(v->has_multiplier[n] && v->weight[n] > 0);
     f->gap[n]               = covered ? v->gap[n] / v->weight[n] : 0;
     f->pressure[n]          = v->z[n];
-    f->shear[n]             = v->slip ? v->z[v->nonmortar.num_nodes + n] : 0;
+    f->shear[n]             = v->slip && !v->traction ? v->z[v->nonmortar.num_nodes + n] : 0;
+    for (PetscInt c = 0; c < 3; ++c) f->traction[3 * n + c] = v->traction ? v->traction[3 * n + c] : 0;
     f->slip[n]              = v->slip && covered && v->active[n] ? v->slip[n] : 0;
     f->status[n]            = !covered ? CONTACT_ALONE : v->active[n] ? CONTACT_TOUCHING : CONTACT_OPEN;
   }
@@ -214,6 +217,7 @@ static void AddPoint_Private(const ContactView *v, const ContactSegment *s, cons
     value[SUM_PRESSURE] += N[k] * f->pressure[own[k]];
     value[SUM_SHEAR] += N[k] * f->shear[own[k]];
     value[SUM_SLIP] += N[k] * f->slip[own[k]];
+    for (PetscInt c = 0; c < 3; ++c) value[SUM_TRACTION + c] += N[k] * f->traction[3 * own[k] + c];
     if (f->status[own[k]] == CONTACT_ALONE) continue;
     value[SUM_KNOWN] += N[k];
     value[SUM_GAP] += N[k] * f->gap[own[k]];
@@ -266,6 +270,7 @@ PetscErrorCode OutputProjectFields(Problem problem, PetscInt pair, const Contact
     to->pressure[m]    = s[SUM_ALL] > 0 ? s[SUM_PRESSURE] / s[SUM_ALL] : 0;
     to->shear[m]       = s[SUM_ALL] > 0 ? s[SUM_SHEAR] / s[SUM_ALL] : 0;
     to->slip[m]        = s[SUM_ALL] > 0 ? s[SUM_SLIP] / s[SUM_ALL] : 0;
+    for (PetscInt c = 0; c < 3; ++c) to->traction[3 * m + c] = s[SUM_ALL] > 0 ? s[SUM_TRACTION + c] / s[SUM_ALL] : 0;
     to->gap[m]         = s[SUM_KNOWN] > 0 ? s[SUM_GAP] / s[SUM_KNOWN] : 0;
     to->status[m]      = !(s[SUM_KNOWN] > 0) ? CONTACT_ALONE : 2 * s[SUM_ACTIVE] >= s[SUM_KNOWN] ? CONTACT_TOUCHING : CONTACT_OPEN;
   }

@@ -103,9 +103,12 @@ static void OwnNormals_Private(const ContactView *v, PetscReal normal[])
     for (PetscInt c = 0; c < 3; ++c) normal[3 * n + c] = c < dim ? v->normal[dim * n + c] : 0;
 }
 
-/* Tangential traction on either body from that along e_z x n of the nonmortar side: n of the other one is the opposite, and so is the force. */
-static void Tractions_Private(const SurfaceView *s, const ContactFields *f, PetscInt at, ContactGrid *g)
+/* Tangential traction on either body, in the plane from that along e_z x n of the nonmortar side: n of the other one is the opposite, and so is the force. In
+   space it stands there as that on the mortar side. */
+static void Tractions_Private(const SurfaceView *s, const ContactFields *f, PetscInt at, PetscInt side, ContactGrid *g)
 {
+  for (PetscInt i = 0; i < 3 * s->num_nodes && s->dim == 3 && side == 0; ++i) f->traction[i] = -f->traction[i];
+  if (s->dim == 3) return;
   for (PetscInt n = 0; n < s->num_nodes; ++n) {
     const PetscReal *N = g->normal + 3 * (at + n);
     PetscReal       *t = g->traction + 3 * (at + n);
@@ -129,7 +132,7 @@ static PetscErrorCode AppendPair_Private(ContactGrid *g, Problem problem, PetscI
   for (PetscInt side = 0; side < 2; ++side) {
     const SurfaceView *s  = side ? &v->mortar : &v->nonmortar;
     const PetscInt     at = AppendSurface_Private(g, s, pair, side);
-    fields[side]          = (ContactFields){g->gap + at, g->pressure + at, g->status + at, g->shear + at, g->slip + at};
+    fields[side]          = (ContactFields){g->gap + at, g->pressure + at, g->status + at, g->shear + at, g->slip + at, g->traction + 3 * at};
     if (side == 0)
       OwnNormals_Private(v, g->normal + 3 * at);
     else
@@ -137,7 +140,7 @@ static PetscErrorCode AppendPair_Private(ContactGrid *g, Problem problem, PetscI
   }
   OutputContactFields(v, &fields[0]);
   PetscCall(OutputProjectFields(problem, pair, &fields[0], &fields[1]));
-  for (PetscInt side = 0; side < 2; ++side) Tractions_Private(side ? &v->mortar : &v->nonmortar, &fields[side], (PetscInt)(fields[side].gap - g->gap), g);
+  for (PetscInt side = 0; side < 2; ++side) Tractions_Private(side ? &v->mortar : &v->nonmortar, &fields[side], (PetscInt)(fields[side].gap - g->gap), side, g);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
