@@ -14,7 +14,7 @@ PetscErrorCode ContactGatherDestroy_Private(Contact *c)
 /* Space: the tangential traction on the mortar side at a node whose value is known here; of a node that hangs that between its masters. */
 static PetscErrorCode Traction_Private(const Contact *c, PetscInt j, PetscReal traction[3])
 {
-  const Surface *s    = &c->side[0];
+  const Surface *s     = &c->side[0];
   const PetscInt first = s->hang[j], num = s->hang[j + 1] - first;
 
   PetscFunctionBegin;

@@ -289,7 +289,9 @@ static inline ContactPoint ContactPoint_Private(const Contact *c, PetscInt j, Pe
       if (lifted) point.slip_lift[i] = c->slip->lift[c->side[0].num_nodes * i + j];
     }
     for (PetscInt i = 0; i < 3 && point.dim == 3; ++i) point.aim[i] = c->slip->aim[3 * j + i];
-    point.held = (PetscBool)(point.dim == 3 && c->slip->axis[3 * j] * c->slip->axis[3 * j] + c->slip->axis[3 * j + 1] * c->slip->axis[3 * j + 1] + c->slip->axis[3 * j + 2] * c->slip->axis[3 * j + 2] > 0);
+    point.held = (PetscBool)(point.dim == 3 && c->slip->axis[3 * j] * c->slip->axis[3 * j] + c->slip->axis[3 * j + 1] * c->slip->axis[3 * j + 1] +
+                                                       c->slip->axis[3 * j + 2] * c->slip->axis[3 * j + 2] >
+                                                   0);
   }
   for (PetscInt k = 0; k < c->num; ++k) point.z[k] = c->z[c->side[0].num_nodes * k + j];
   return point;
@@ -342,7 +344,7 @@ PetscErrorCode ContactCarriers_Private(Interface, Contact *);
 /* Two dimensions: does a support hold the node along the surface? Until the rows of the matrix are known. */
 PetscBool ContactHeldAlong_Private(const Surface *, PetscInt node);
 /* Space: the number of directions along the surface in which supports hold the node; of one, axis. */
-PetscInt ContactHeldAxes_Private(const Surface *, PetscInt node, PetscReal axis[3]);
+PetscInt  ContactHeldAxes_Private(const Surface *, PetscInt node, PetscReal axis[3]);
 PetscReal SurfaceFacetMeasure_Private(const Surface *, PetscInt facet, PetscBool axisymmetric);
 /* slip.c: nothing where the law has no friction. Create: after the multipliers. Keep: before a search; points where slip counts from, if they are not kept yet.
    Evaluate: after positions are gathered. Change: of every owned node's slip under the increment du of both sides, which is there. All but Destroy collective.

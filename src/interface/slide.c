@@ -40,9 +40,9 @@ static PetscErrorCode HasMoved_Private(Interface p, const Contact *c, PetscBool 
 /* Adds a node's share of the zone, where it slips the direction of its traction, and its slip, as vectors of the plane or in space. */
 static PetscErrorCode AddSlip_Private(const Contact *c, PetscInt j, PetscReal zone[], PetscReal way[3], PetscReal slip[3])
 {
-  const SlipHistory *s    = c->slip;
-  const PetscInt     dim  = c->side[0].dim, slides = c->law->slides(c->active[j]), num = c->side[0].num_nodes;
-  const PetscReal    size = dim == 3 ? c->w0[j] : c->extent[j];
+  const SlipHistory *s   = c->slip;
+  const PetscInt     dim = c->side[0].dim, slides = c->law->slides(c->active[j]), num = c->side[0].num_nodes;
+  const PetscReal    size    = dim == 3 ? c->w0[j] : c->extent[j];
   PetscReal          e[2][3] = {{1, 0, 0}, {0, 0, 0}};
 
   PetscFunctionBegin;
@@ -70,8 +70,7 @@ static PetscErrorCode Slips_Private(Interface p, const Contact *c, PetscBool swa
   }
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 7, MPIU_REAL, MPI_SUM, p->comm));
   const PetscReal length = p->dim == 3 ? PetscSqrtReal(sum[0]) : sum[0];
-  *slips = (PetscBool)(sum[0] > 0 &&
-                       swap != (PetscSqrtReal(Dot3(way, way)) > WHOLE * sum[0] && PetscSqrtReal(Dot3(slip, slip)) > FAR * sum[0] * length));
+  *slips = (PetscBool)(sum[0] > 0 && swap != (PetscSqrtReal(Dot3(way, way)) > WHOLE * sum[0] && PetscSqrtReal(Dot3(slip, slip)) > FAR * sum[0] * length));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -226,8 +226,8 @@ PetscErrorCode ContactNodeGradient_Private(Interface p, const Contact *c, PetscI
   for (PetscInt k = s->node_first[j]; form->factor != 0 && k < s->node_first[j + 1]; ++k) {
     const PetscInt facet = s->node_facet[k];
     if (c->result[facet] < 0) continue;
-    const ContactFacet *e   = &c->facets[c->result[facet]];
-    const PetscInt      n   = dim * e->num, row = RowOf_Private(e, j);
+    const ContactFacet *e = &c->facets[c->result[facet]];
+    const PetscInt      n = dim * e->num, row = RowOf_Private(e, j);
     if (row < 0) continue;
     const PetscBool  push     = (PetscBool)(form->push && e->push);
     const PetscReal *gradient = (push ? e->push : e->dgap) + row * n, yield = push ? 0 : ContactYield_Private(c, e, row, form->along);

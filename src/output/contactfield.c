@@ -106,8 +106,8 @@ void OutputContactFields(const ContactView *v, ContactFields *f)
     f->pressure[n]          = v->z[n];
     f->shear[n]             = v->slip && !v->traction ? v->z[v->nonmortar.num_nodes + n] : 0;
     for (PetscInt c = 0; c < 3; ++c) f->traction[3 * n + c] = v->traction ? v->traction[3 * n + c] : 0;
-    f->slip[n]              = v->slip && covered && v->active[n] ? v->slip[n] : 0;
-    f->status[n]            = !covered ? CONTACT_ALONE : v->active[n] ? CONTACT_TOUCHING : CONTACT_OPEN;
+    f->slip[n]   = v->slip && covered && v->active[n] ? v->slip[n] : 0;
+    f->status[n] = !covered ? CONTACT_ALONE : v->active[n] ? CONTACT_TOUCHING : CONTACT_OPEN;
   }
   Follow_Private(&v->nonmortar, f);
 }
@@ -271,8 +271,8 @@ PetscErrorCode OutputProjectFields(Problem problem, PetscInt pair, const Contact
     to->shear[m]       = s[SUM_ALL] > 0 ? s[SUM_SHEAR] / s[SUM_ALL] : 0;
     to->slip[m]        = s[SUM_ALL] > 0 ? s[SUM_SLIP] / s[SUM_ALL] : 0;
     for (PetscInt c = 0; c < 3; ++c) to->traction[3 * m + c] = s[SUM_ALL] > 0 ? s[SUM_TRACTION + c] / s[SUM_ALL] : 0;
-    to->gap[m]         = s[SUM_KNOWN] > 0 ? s[SUM_GAP] / s[SUM_KNOWN] : 0;
-    to->status[m]      = !(s[SUM_KNOWN] > 0) ? CONTACT_ALONE : 2 * s[SUM_ACTIVE] >= s[SUM_KNOWN] ? CONTACT_TOUCHING : CONTACT_OPEN;
+    to->gap[m]    = s[SUM_KNOWN] > 0 ? s[SUM_GAP] / s[SUM_KNOWN] : 0;
+    to->status[m] = !(s[SUM_KNOWN] > 0) ? CONTACT_ALONE : 2 * s[SUM_ACTIVE] >= s[SUM_KNOWN] ? CONTACT_TOUCHING : CONTACT_OPEN;
   }
   Follow_Private(&v->mortar, to);
   PetscCall(PetscFree(sums));

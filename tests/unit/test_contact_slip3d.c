@@ -114,9 +114,10 @@ static void CheckBalance(const Sum *s, const Patch *a, const Patch *b, Errors *e
 }
 
 /* Derivatives along one direction of all positions, by differences with step h. */
-static void Derivatives(ContactPair pair, Patch *a, Patch *b, const PetscReal z[], const PetscReal traction[], const PetscReal direction[], PetscReal h, Errors *e)
+static void Derivatives(ContactPair pair, Patch *a, Patch *b, const PetscReal z[], const PetscReal traction[], const PetscReal direction[], PetscReal h,
+                        Errors *e)
 {
-  static const PetscReal At[4] = {-2, -1, 1, 2};
+  static const PetscReal At[4]   = {-2, -1, 1, 2};
   Patch                 *side[2] = {a, b};
   PetscReal             *from[2], *slip[4], *gradient, *weight, tangent = 0, error = 0, scale[2] = {0, 0};
   PetscBool              kink = PETSC_FALSE;

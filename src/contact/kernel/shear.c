@@ -13,10 +13,10 @@
 /* Columns at a point: [2 nr] unit tractions; then, with derivatives, [3][na + nv + nb] numbers, [nr][6] changes of Q_j and m_j, the covered share. */
 typedef struct {
   PetscInt   na, nb, nv, nr, units, numbers, width;
-  PetscReal *psi;                    /* [nr] values, [nr] by the share, [nr] by xi_1, [nr] by xi_2 */
-  PetscReal *left[2], *right[2];     /* of lattice and mortar nodes: [points][3][na or nb], [points][3][3][width] */
-  PetscReal *sum[2];                 /* [na or nb][3][width] */
-  PetscReal *slope, *mean, *corner;  /* [2][rows] at a point, [rows], [3][2][rows]; rows: 3 (na + nb) */
+  PetscReal *psi;                   /* [nr] values, [nr] by the share, [nr] by xi_1, [nr] by xi_2 */
+  PetscReal *left[2], *right[2];    /* of lattice and mortar nodes: [points][3][na or nb], [points][3][3][width] */
+  PetscReal *sum[2];                /* [na or nb][3][width] */
+  PetscReal *slope, *mean, *corner; /* [2][rows] at a point, [rows], [3][2][rows]; rows: 3 (na + nb) */
 } Work;
 
 /* Sums over a facet. Rows: 3 numbers of each node of the lattice, then of the mortar nodes. */
@@ -27,7 +27,7 @@ typedef struct {
 
 /* What tractions make of a point. */
 typedef struct {
-  PetscReal n[3], a, R[3], b[2][3];       /* unit normal, size, x_m - x; sigma_i = tau . b_i */
+  PetscReal n[3], a, R[3], b[2][3];        /* unit normal, size, x_m - x; sigma_i = tau . b_i */
   PetscReal tau[3], sigma[2], along[2][3]; /* along: sum_j psi_j,k t_j */
   PetscReal C[2][3][3], S[2][2][3];        /* d(|n| tau) = C_k dx,k; dsigma_i = S_i,k . dx,k */
 } Traction;
@@ -87,9 +87,9 @@ static void Column_Private(const Work *o, const Traction *at, PetscReal factor, 
 /* Unit tractions, and by axes and share, of row j; adds to what the tractions q make. */
 static void Row_Private(const EvaluateContext *ctx, const Work *o, PetscInt j, Traction *at, PetscReal B[3][3], PetscReal share[3], PetscReal *right[2])
 {
-  const RayWork    w = ctx->pair->ray;
+  const RayWork    w    = ctx->pair->ray;
   const PetscInt   node = w->result.node[j], nr = o->nr;
-  const NodeFrame *f    = &w->frame[node];
+  const NodeFrame *f = &w->frame[node];
   const PetscReal *q = ctx->pair->traction, psi = o->psi[j];
   PetscReal        Q[3] = {0, 0, 0}, t[3], A[3][3], Bj[3][3], a;
 
@@ -155,8 +155,7 @@ static void Slope_Private(const Work *o, const RayPoint *r, const Traction *at, 
   PetscReal      h[2 * RAY_LATTICE][3];
 
   for (PetscInt a = 0; a < o->na; a++)
-    for (int c = 0; c < 3; c++)
-      h[a][c] = (r->S.d[0][a] * at->sigma[0] + r->S.d[1][a] * at->sigma[1]) * at->R[c] - r->S.N[a] * at->a * at->tau[c];
+    for (int c = 0; c < 3; c++) h[a][c] = (r->S.d[0][a] * at->sigma[0] + r->S.d[1][a] * at->sigma[1]) * at->R[c] - r->S.N[a] * at->a * at->tau[c];
   for (PetscInt b = 0; b < o->nb; b++)
     for (int c = 0; c < 3; c++) h[o->na + b][c] = r->M.N[b] * at->a * at->tau[c];
   for (PetscInt i = 0; i < rows; i++) mean[i] += weight * h[i / 3][i % 3];
@@ -177,8 +176,7 @@ static void Slope_Private(const Work *o, const RayPoint *r, const Traction *at, 
       PetscReal      x = -h[a][c] * r->chart.ddet[k] / r->chart.det;
 
       if (b < 0) {
-        for (int l = 0; l < 2; l++)
-          x += r->S.dd[l + k][a] * at->sigma[l] * at->R[c] + r->S.d[l][a] * (sk[l] * at->R[c] + at->sigma[l] * Rk[c]);
+        for (int l = 0; l < 2; l++) x += r->S.dd[l + k][a] * at->sigma[l] * at->R[c] + r->S.d[l][a] * (sk[l] * at->R[c] + at->sigma[l] * Rk[c]);
         x -= r->S.d[k][a] * at->a * at->tau[c] + r->S.N[a] * Tk[c];
       } else
         x += (r->M.d[0][b] * eta[0] + r->M.d[1][b] * eta[1]) * at->a * at->tau[c] + r->M.N[b] * Tk[c];
@@ -189,11 +187,11 @@ static void Slope_Private(const Work *o, const RayPoint *r, const Traction *at, 
 
 static void Point_Private(const EvaluateContext *ctx, const Work *o, const RayPoint *r, PetscReal weight, PetscInt q, const PetscReal beta[3])
 {
-  const RayWork    w        = ctx->pair->ray;
-  const PetscInt   na = o->na, nr = o->nr, rows = 3 * (na + o->nb);
-  PetscReal       *right[2] = {o->right[0] + 9 * o->width * q, o->right[1] + 9 * o->width * q}, *left[2] = {o->left[0] + 3 * na * q, o->left[1] + 3 * o->nb * q};
-  PetscReal        B[3][3] = {{0}}, share[3] = {0, 0, 0};
-  Traction         at = {0};
+  const RayWork  w  = ctx->pair->ray;
+  const PetscInt na = o->na, nr = o->nr, rows = 3 * (na + o->nb);
+  PetscReal     *right[2] = {o->right[0] + 9 * o->width * q, o->right[1] + 9 * o->width * q}, *left[2] = {o->left[0] + 3 * na * q, o->left[1] + 3 * o->nb * q};
+  PetscReal      B[3][3] = {{0}}, share[3] = {0, 0, 0};
+  Traction       at = {0};
 
   Traction_Private(r, &at);
   for (PetscInt j = 0; j < 4 * nr; j++) o->psi[j] = 0;
@@ -260,8 +258,8 @@ static void Gather_Private(const Work *o, const PetscInt row[], const PetscInt c
 
 static PetscErrorCode Overlap_Private(const EvaluateContext *ctx, PetscInt k, const RayPlace **place, Sums *s)
 {
-  RayWork         w = ctx->pair->ray;
-  const RayFacet *f = &w->facet;
+  RayWork         w  = ctx->pair->ray;
+  const RayFacet *f  = &w->facet;
   const PetscInt  na = f->s.num;
   PetscInt        column[3 * (2 * RAY_LATTICE + 4) + RAY_IMAGES], row[6 * RAY_LATTICE], points;
   Overlap         o;
@@ -360,8 +358,8 @@ static PetscErrorCode Tangent_Private(const EvaluateContext *ctx, const Sums *s,
 
 PetscErrorCode ContactShear(const EvaluateContext *ctx, ContactFacet *out)
 {
-  RayWork         w  = ctx->pair->ray;
-  const PetscInt  nr = w->result.num_rows;
+  RayWork         w     = ctx->pair->ray;
+  const PetscInt  nr    = w->result.num_rows;
   const RayPlace *place = w->places;
   Sums            s     = {.rows = 3 * (w->facet.s.num + w->num_mortar), .n = w->n, .nr = nr};
   const PetscInt  more  = out->hessian ? s.rows : 0;
