@@ -95,7 +95,7 @@ typedef struct {
   const PetscReal *compliance;   /* [num_rows] m_j of S (below); NULL: none. kappa and its derivative by the share */
   PetscReal        kappa[2];
   const PetscReal *dshare; /* [dim*num] derivative of the covered share; with dgap where the facet is covered in part, else NULL */
-  const PetscReal *shear;  /* [num_rows][dim*num] force by a tangential traction z_j (ContactPairSetTraction); with dgap. NULL: none */
+  const PetscReal *shear;  /* [dim - 1][num_rows][dim*num] force by a tangential traction z_j (ContactPairSetTraction); with dgap. NULL: none */
   const PetscReal *tie;    /* [num_rows][num] sum_a tie_ja x_a = int psi_j (x_m - x_s) dgamma, of ContactPairTie; else NULL */
   const PetscReal *whole;  /* [num_rows] with tie: what the weight would be if the facet were covered whole */
   PetscReal        area;   /* covered length or area (axisymmetric: area) */
@@ -201,12 +201,18 @@ PetscErrorCode ContactPairFreezeNormals(ContactPair, PetscBool frozen);
 /* Forces of facets in space that are covered in part are those of a frozen segmentation (`push`), without the motion of lines of the mortar side; from now on
    those of all facets of higher order, or (as created) not. Gaps, weights and their derivatives do not change. Not collective. */
 PetscErrorCode ContactPairFreezeSegmentation(ContactPair, PetscBool frozen);
-/* Friction, two dimensions. Tangential tractions traction[nonmortar num_nodes] of evaluations from now on, borrowed (NULL: none), positive along the nonmortar
-   facets on the mortar side: results have `shear`, and Hessians the derivatives of those forces too, not symmetric (theory (5.10)). Not collective. */
+/* Friction. Tangential tractions traction[dim - 1][nonmortar num_nodes] of evaluations from now on, borrowed (NULL: none), on the mortar side, in the plane
+   along the nonmortar facets, in space along the node's two axes, which turn with the body: results have `shear`, and Hessians the derivatives of those forces
+   too, not symmetric (theory (5.10)). Not collective. */
 PetscErrorCode ContactPairSetTraction(ContactPair, const PetscReal traction[]);
+/* Space: axis[nonmortar num_nodes][3] across the normal is the node's first axis, 0: the pair chooses one; NULL: all of them. Borrowed. Not collective. */
+PetscErrorCode ContactPairSetAxes(ContactPair, const PetscReal axis[]);
+/* Space: the axes of a node at the last evaluation; NaN without known neighbours. Not collective. */
+PetscErrorCode ContactPairGetTangents(ContactPair, PetscInt node, PetscReal e[2][3]);
 /* Evaluate at these positions and keep the points of the integration with their partners. Then: slip since there (theory (5.9)) of every facet kept, as results
-   with the slip for gap and dgap, and the weights where the points were kept; positive where the mortar side moves along the nonmortar facets. Surfaces must
-   have the topology of the last search; positions of all nodes of facets kept and of their partners are needed. Valid until the next call. Not collective. */
+   with the slip for gap[dim - 1][rows] and dgap, and the weights where the points were kept; positive where the mortar side moves along the nonmortar facets.
+   Surfaces must have the topology of the last search; positions of all nodes of facets kept and of their partners are needed. Valid until the next call. Not
+   collective. */
 PetscErrorCode ContactPairKeepPoints(ContactPair, const ContactSurface *nonmortar, const ContactSurface *mortar, PetscBool *failed);
 PetscErrorCode ContactPairSlip(ContactPair, const ContactSurface *nonmortar, const ContactSurface *mortar, PetscInt *num, const ContactFacet **facets);
 /* Evaluate at these positions, with `tie` in the results. Valid until the next evaluation. Not collective. */

@@ -87,19 +87,21 @@ void SurfaceTangents(const SurfaceView *, PetscInt facet, const PetscReal x[], c
 typedef struct {
   const ContactSpec *spec;
   SurfaceView        nonmortar, mortar;
-  PetscInt           num_z;          /* multipliers of a node */
-  const PetscReal   *z;              /* [num_z][nonmortar.num_nodes] at the last evaluation: the pressure first */
-  const PetscReal   *gap, *weight;   /* [nonmortar.num_nodes] gt_j, w_j there */
-  const PetscReal   *slip;           /* [nonmortar.num_nodes] friction: s_j of the step over the weight where it began, of owned nodes; NULL: none */
-  const int8_t      *active;         /* [nonmortar.num_nodes] as the residual decided: 0 open, else a state of the contact law */
-  const PetscBool   *has_multiplier; /* [nonmortar.num_nodes]; hanging nodes: no, their z is interpolated */
-  ContactPair        pair;           /* segments of this rank's nonmortar facets */
-  const PetscReal   *normal;         /* [nonmortar.num_nodes][dim] of views gathered to all; else NULL: ContactPairGetNormals */
-  PetscReal          area, min_gap;  /* totals over ranks */
-  PetscInt           unusable;       /* overlaps at the last evaluation that could not be used: facets folded over in the other's view */
-  PetscReal          adjusted;       /* largest mean initial gap, over or under, that was closed at a node (initial_gap: adjust) */
-  PetscReal          interference;   /* at the time last set */
-  PetscReal          open;           /* share of initial overlaps that does not count then (initial_gap: ramp) */
+  PetscInt           num_z;        /* multipliers of a node */
+  const PetscReal   *z;            /* [num_z][nonmortar.num_nodes] at the last evaluation: the pressure first */
+  const PetscReal   *gap, *weight; /* [nonmortar.num_nodes] gt_j, w_j there */
+  const PetscReal *slip; /* [nonmortar.num_nodes] friction: s_j of the step over the weight where it began, of owned nodes; in space the first of both, of views
+                            gathered to all the length; NULL: none */
+  const PetscReal *traction;       /* [nonmortar.num_nodes][3] friction in space, of views gathered to all: tangential traction on the mortar side; else NULL */
+  const int8_t    *active;         /* [nonmortar.num_nodes] as the residual decided: 0 open, else a state of the contact law */
+  const PetscBool *has_multiplier; /* [nonmortar.num_nodes]; hanging nodes: no, their z is interpolated */
+  ContactPair      pair;           /* segments of this rank's nonmortar facets */
+  const PetscReal *normal;         /* [nonmortar.num_nodes][dim] of views gathered to all; else NULL: ContactPairGetNormals */
+  PetscReal        area, min_gap;  /* totals over ranks */
+  PetscInt         unusable;       /* overlaps at the last evaluation that could not be used: facets folded over in the other's view */
+  PetscReal        adjusted;       /* largest mean initial gap, over or under, that was closed at a node (initial_gap: adjust) */
+  PetscReal        interference;   /* at the time last set */
+  PetscReal        open;           /* share of initial overlaps that does not count then (initial_gap: ramp) */
 } ContactView;
 
 /* fixed[num_nodes]: as in Supports. All that is handed over must outlive the interface. Collective. */
@@ -136,9 +138,11 @@ PetscErrorCode InterfaceGetContact(Interface, PetscInt pair, const ContactView *
 /* The same with the values of all nodes (forces too) and `normal` on every rank: one reduction over both surfaces, for output and the like. They stay valid
    until the next call for this pair. Collective. */
 PetscErrorCode InterfaceGatherContactToAll(Interface, PetscInt pair, const ContactView **view);
-/* Multipliers and (NULL: not wanted) nodal normals and positions of the last evaluation at wanted[nonmortar.num_nodes] nodes, from the ranks that know them:
-   z[num_z][nonmortar num_nodes], normal[..][dim], x[..][dim], NaN at others. Collective. */
-PetscErrorCode InterfaceFetchContact(Interface, PetscInt pair, const PetscBool wanted[], PetscReal z[], PetscReal normal[], PetscReal x[]);
+/* Multipliers and (NULL: not wanted) nodal normals, positions and, of friction in space, tangential tractions on the mortar side of the last evaluation at
+   wanted[nonmortar.num_nodes] nodes, from the ranks that know them: z[num_z][nonmortar num_nodes], normal[..][dim], x[..][dim], traction[..][3], NaN at others.
+   Collective. */
+PetscErrorCode InterfaceFetchContact(Interface, PetscInt pair, const PetscBool wanted[], PetscReal z[], PetscReal normal[], PetscReal x[],
+                                     PetscReal traction[]);
 /* What contact has sent from this rank since the problem was created. Values: between searches; search: positions and lists of facets, sent where boxes meet.
    Boxes of ranks and scalars, which all ranks reduce, are left out. */
 typedef struct {

@@ -61,7 +61,8 @@ struct _p_ContactPair {
   PetscInt       *slot, size_slot;                      /* [num_results] places of their facets in the list */
   ContactState    state;
   /* friction (kernel/slip.c) */
-  const PetscReal    *traction; /* [num_nodes] borrowed: tangential; NULL: none */
+  const PetscReal    *traction; /* [dim - 1][num_nodes] borrowed: tangential; NULL: none */
+  const PetscReal    *axis;     /* [num_nodes][3] borrowed, space: where the first axis is given, else 0; NULL: nowhere */
   struct ContactSlip *slip;     /* owned: points kept; NULL: none */
   PetscBool           keeps;    /* the evaluation at hand keeps its points */
   PetscBool           ties;     /* it wants what ties both sides (kernel/tie.c) */

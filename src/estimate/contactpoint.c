@@ -93,12 +93,12 @@ static void Tie_Private(const ContactTerm *term, PetscInt facet, const PetscReal
     for (PetscInt c = 0; c < s->dim; ++c) T[c] += factor * N[a] * term->z[c * s->num_nodes + node[a]];
 }
 
-/* T += factor * (z n + q t) at a place of a nonmortar facet, q and t = e_z x n: friction in the plane. */
+/* T += factor * (z n + q t) at a place of a nonmortar facet; friction in the plane: q and t = e_z x n, in space the traction across n. */
 static void Push_Private(const ContactTerm *term, PetscBool finite, PetscInt facet, const PetscReal xi[2], PetscReal factor, PetscReal T[3])
 {
   const SurfaceView *s = &term->view->nonmortar;
   const PetscInt    *node, num = SurfaceFacetNodes(s, facet, &node);
-  const PetscBool    slips = (PetscBool)(term->view->slip != NULL);
+  const PetscBool    slips = (PetscBool)(term->view->slip && s->dim == 2);
   PetscReal          N[SURFACE_MOST_NODES], n[3], z = 0, q = 0;
 
   ContactShape_Private(s, facet, xi, N);
@@ -108,6 +108,10 @@ static void Push_Private(const ContactTerm *term, PetscBool finite, PetscInt fac
   for (PetscInt a = 0; a < num && slips; ++a) q += N[a] * term->z[s->num_nodes + node[a]];
   T[0] -= factor * q * n[1];
   T[1] += factor * q * n[0];
+  for (PetscInt a = 0; a < num && term->traction; ++a) {
+    const PetscReal *t = term->traction + 3 * node[a], along = Dot3(t, n);
+    for (PetscInt c = 0; c < 3; ++c) T[c] += factor * N[a] * (t[c] - along * n[c]);
+  }
 }
 
 /* Does the part of a mortar edge hold eta? Then xi on its nonmortar edge. */

@@ -100,7 +100,8 @@ static PetscErrorCode Fields_Private(Problem problem, PetscInt pair, const Fores
     for (PetscInt k = 0; k < count && facet[f]; ++k) wanted[node[k]] = PETSC_TRUE;
   }
   PetscCall(PetscMalloc3(term->view->num_z * s->num_nodes, &term->z, s->dim * s->num_nodes, &term->normal, s->dim * s->num_nodes, &term->x));
-  PetscCall(InterfaceFetchContact(ProblemInterface(problem), pair, wanted, term->z, term->normal, term->x));
+  if (term->view->slip && s->dim == 3) PetscCall(PetscMalloc1(3 * s->num_nodes, &term->traction));
+  PetscCall(InterfaceFetchContact(ProblemInterface(problem), pair, wanted, term->z, term->normal, term->x, term->traction));
   PetscCall(PetscFree2(wanted, facet));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -179,6 +180,7 @@ PetscErrorCode ContactTermsDestroy_Private(ContactTerms *terms)
     PetscCall(PetscFree(terms->terms[i].segments));
     PetscCall(PetscFree(terms->terms[i].box));
     PetscCall(PetscFree3(terms->terms[i].z, terms->terms[i].normal, terms->terms[i].x));
+    PetscCall(PetscFree(terms->terms[i].traction));
   }
   PetscCall(PetscFree(terms->terms));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -36,6 +36,7 @@ typedef struct {
   const ContactView *view;
   const PetscReal   *theta;          /* [nonmortar num_facets] borrowed: share of the dual functions */
   PetscReal         *z, *normal, *x; /* owned [nonmortar num_nodes], [..][dim]: at the nodes of nonmortar facets of this rank, or that its mortar facets face */
+  PetscReal         *traction;       /* owned [nonmortar num_nodes][3] friction in space: on the mortar side; else NULL */
   PetscInt          *facet_place[2]; /* owned [num_facets] facet of the nonmortar, mortar side, or -1 */
   PetscInt          *segment_first;  /* owned [mortar num_facets + 1] */
   ContactSegment    *segments;       /* owned, on mortar facets of this rank, by mortar facet */

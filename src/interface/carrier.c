@@ -123,6 +123,27 @@ PetscBool ContactHeldAlong_Private(const Surface *s, PetscInt n)
   return IsHeld_Private(s, n, along);
 }
 
+PetscInt ContactHeldAxes_Private(const Surface *s, PetscInt n, PetscReal axis[3])
+{
+  PetscReal normal[3], across[3], *frame = s->frame + 9 * n;
+
+  NodeNormal_Private(s, n, normal);
+  for (PetscInt k = 0; k < 6; ++k) { /* the directions of supports, and what lies across those of the dofs */
+    const PetscReal *d = frame + 3 * (k % 3), along = Dot3(d, normal);
+    PetscReal        t[3], length;
+
+    Cross3(normal, d, t);
+    for (PetscInt c = 0; c < 3 && k < 3; ++c) t[c] = d[c] - along * normal[c];
+    length = PetscSqrtReal(Dot3(t, t));
+    if (!(length > HELD)) continue;
+    for (PetscInt c = 0; c < 3; ++c) axis[c] = t[c] / length;
+    if (!IsHeld_Private(s, n, axis)) continue;
+    Cross3(normal, axis, across);
+    return IsHeld_Private(s, n, across) ? 2 : 1;
+  }
+  return 0;
+}
+
 #define ON_AXIS 1e-8 /* of its extent, from the axis */
 
 /* On the axis int N_j R dR = 0 from order 2 on, but for what the facet is curved: such a node carries nothing (ContactMultiplierCreate). */

@@ -249,6 +249,7 @@ static void Activity_Private(Contact *c)
 
     point.state  = 0; /* a function of the positions and multipliers alone */
     c->active[j] = c->has_multiplier[j] && ContactCovered_Private(c, j) ? c->law->state(&point) : 0;
+    if (c->slip && c->side[0].dim == 3) c->law->aim(&point, c->slip->aim + 3 * j);
   }
 }
 

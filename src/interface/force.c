@@ -22,7 +22,8 @@ void ContactFacetForces_Private(Contact *c, const PetscReal z[], const PetscReal
         const PetscInt j = e->nodes[k], at = dim * (k * e->num + a);
         for (PetscInt d = 0; d < dim && c->has_multiplier[j] && z[j] != 0; ++d) f[d] += z[j] * push[at + d];
         for (PetscInt d = 0; d < dim && measure && c->has_multiplier[j] && measure[j] != 0; ++d) f[d] -= measure[j] * e->dweight[at + d];
-        for (PetscInt d = 0; d < dim && e->shear && c->has_multiplier[j]; ++d) f[d] += z[c->side[0].num_nodes + j] * e->shear[at + d];
+        for (PetscInt d = 0; d < dim * (dim - 1) && e->shear && c->has_multiplier[j]; ++d)
+          f[d % dim] += z[c->side[0].num_nodes * (1 + d / dim) + j] * e->shear[dim * e->num_rows * e->num * (d / dim) + at + d % dim];
       }
     }
   }

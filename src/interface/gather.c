@@ -1,13 +1,35 @@
 /* Values of a contact pair beyond those a rank needs: all of them everywhere, for output; chosen ones from those who know them. */
 #include "interfaceimpl.h"
 
-#define SIDE_REALS(dim, num) (3 * (dim) + 3 + (num)) /* of a node: position, normal, force, gap, weight, multipliers, slip */
+#define SIDE_REALS(dim, num) (3 * (dim) + 6 + (num)) /* of a node: position, normal, force, gap, weight, multipliers, slip, tangential traction */
 
 PetscErrorCode ContactGatherDestroy_Private(Contact *c)
 {
   PetscFunctionBegin;
   for (PetscInt k = 0; k < 2; ++k) PetscCall(PetscFree(c->all_real[k]));
   PetscCall(PetscFree(c->all_active));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Space: the tangential traction on the mortar side at a node whose value is known here; of a node that hangs that between its masters. */
+static PetscErrorCode Traction_Private(const Contact *c, PetscInt j, PetscReal traction[3])
+{
+  const Surface *s     = &c->side[0];
+  const PetscInt first = s->hang[j], num = s->hang[j + 1] - first;
+
+  PetscFunctionBegin;
+  PetscCall(PetscArrayzero(traction, 3));
+  for (PetscInt k = 0; k < PetscMax(1, num); ++k) {
+    const PetscInt  node   = num ? s->hang_master[first + k] : j;
+    const PetscReal weight = num ? s->hang_weight[first + k] : 1;
+    PetscReal       e[2][3];
+
+    PetscCall(ContactPairGetTangents(c->pair, node, e));
+    for (PetscInt i = 0; i < 2; ++i) {
+      const PetscReal q = weight * c->z[s->num_nodes * (1 + i) + node];
+      for (PetscInt d = 0; d < 3 && q != 0; ++d) traction[d] += q * e[i][d]; /* axes of nodes that see nothing may not be known */
+    }
+  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -31,7 +53,12 @@ static PetscErrorCode Side_Private(Interface p, Contact *c, PetscInt k)
     value[j]     = c->gap[j];
     value[n + j] = c->weight[j];
     for (PetscInt i = 0; i < c->num; ++i) value[(2 + i) * n + j] = c->view.z[i * n + j];
-    if (c->slip) value[(2 + c->num) * n + j] = c->slip->mean[j];
+    if (!c->slip) continue;
+    PetscReal *slip = value + (2 + c->num) * n;
+    slip[j]         = c->slip->mean[j];
+    if (dim == 2) continue;
+    slip[j] = PetscSqrtReal(PetscSqr(slip[j]) + PetscSqr(c->slip->mean[n + j]));
+    PetscCall(Traction_Private(c, j, slip + n + 3 * j));
   }
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, c->all_real[k], (PetscMPIInt)(SIDE_REALS(dim, c->num) * n), MPIU_REAL, MPI_SUM, p->comm));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -65,6 +92,7 @@ PetscErrorCode InterfaceGatherContactToAll(Interface p, PetscInt pair, const Con
   c->all.weight          = c->all.gap + n;
   c->all.z               = c->all.gap + 2 * n;
   c->all.slip            = c->slip ? c->all.z + c->num * n : NULL;
+  c->all.traction        = c->slip && dim == 3 ? c->all.slip + n : NULL;
   c->all.active          = c->all_active;
   c->all.mortar.x        = c->all_real[1];
   c->all.mortar.force    = c->all_real[1] + 2 * dim * m;
@@ -72,7 +100,8 @@ PetscErrorCode InterfaceGatherContactToAll(Interface p, PetscInt pair, const Con
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode InterfaceFetchContact(Interface p, PetscInt pair, const PetscBool wanted[], PetscReal z[], PetscReal normal[], PetscReal x[])
+PetscErrorCode InterfaceFetchContact(Interface p, PetscInt pair, const PetscBool wanted[], PetscReal z[], PetscReal normal[], PetscReal x[],
+                                     PetscReal traction[])
 {
   const Contact   *c    = &p->contacts[pair];
   const Surface   *s    = &c->side[0];
@@ -88,12 +117,15 @@ PetscErrorCode InterfaceFetchContact(Interface p, PetscInt pair, const PetscBool
     for (PetscInt k = 0; k < c->num; ++k) z[s->num_nodes * k + n] = mine ? c->view.z[s->num_nodes * k + n] : NAN;
     for (PetscInt d = 0; d < s->dim && normal; ++d) normal[s->dim * n + d] = mine ? own[s->dim * n + d] : NAN;
     for (PetscInt d = 0; d < s->dim && x; ++d) x[s->dim * n + d] = mine ? s->x[s->dim * n + d] : NAN;
+    for (PetscInt d = 0; d < 3 && traction; ++d) traction[3 * n + d] = mine ? 0 : NAN;
+    if (mine && traction && c->slip && s->dim == 3) PetscCall(Traction_Private(c, n, traction + 3 * n));
     if (wanted[n] && !mine) nodes[num++] = n;
   }
   PetscCall(LinkSet_Private(p, s, num, nodes, &link));
   for (PetscInt k = 0; k < c->num; ++k) PetscCall(LinkSpread_Private(p, &link, 1, z + s->num_nodes * k));
   if (normal) PetscCall(LinkSpread_Private(p, &link, s->dim, normal));
   if (x) PetscCall(LinkSpread_Private(p, &link, s->dim, x));
+  if (traction) PetscCall(LinkSpread_Private(p, &link, 3, traction));
   PetscCall(LinkDestroy_Private(&link));
   PetscCall(PetscFree(nodes));
   PetscFunctionReturn(PETSC_SUCCESS);

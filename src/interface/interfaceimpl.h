@@ -37,22 +37,26 @@ typedef struct {
   PetscInt           num;                                             /* multipliers */
   PetscReal          z[MOST_MULTIPLIERS], gap, weight, spring, w0, c; /* as in Contact; gap: with what the pressures of others add, S_jl z_l */
   PetscReal          lift;                                            /* change of the gap by the motion still to come */
-  PetscReal          slip, slip_weight, slip_lift;                    /* of the step, as the gap; the weight where it began, 0: nothing was met there */
-  TiePoint           tie[MOST_MULTIPLIERS];                           /* law tied: of each component */
+  PetscInt           dim;
+  PetscReal          slip[2], slip_weight, slip_lift[2]; /* of the step, as the gap; the weight where it began, 0: nothing was met there */
+  PetscReal          aim[3];                             /* space: unit vector against the slip and a factor, from ContactLawOps.aim */
+  PetscBool          held;                               /* space: supports hold it along its first axis */
+  TiePoint           tie[MOST_MULTIPLIERS];              /* law tied: of each component */
 } ContactPoint;
 
 /* One of its rows, linearised:  factor [grad (gt + S z)_j - mean grad w - along grad S_jj] . du + factor sum_l S_jl dz_l + sum_k z_k dz_k = side,  l other
    nodes. value: of a node that bears, the gap that has to vanish. push: the derivative of the forces by z_j (ContactFacet.push) stands for the gradient;
-   slip: that of the slip does, alone; component: of a tied pair. */
+   slip: factors of the gradients of the slip along the axes, which are added; component: of a tied pair. */
 typedef struct {
-  PetscReal factor, mean, along, z[MOST_MULTIPLIERS], side, value;
-  PetscBool push, slip;
+  PetscReal factor, mean, along, z[MOST_MULTIPLIERS], side, value, slip[2];
+  PetscBool push;
   PetscInt  component;
 } ContactRow;
 
 /* num_multipliers of a node in this dimension; the first is the pressure. symmetric: its tangent is symmetric but for the factors of rows.
    ties: the multipliers are a traction that keeps together what faces each other at the reference positions.
-   slips: the second is a tangential traction, and the slip of the step is known.
+   slips: the others are tangential tractions, and the slip of the step is known.
+   aim: space: where rows of a node that slips are linearised, [3]; it stays as long as the node slips and nothing is evaluated anew.
    state: that of a node with these multipliers, gap and weight, 0: open. rows: one for each multiplier, in this state; the residual is -side without lift.
    symmetric: factor and z of a row such that it is a column of the symmetric tangent as well, its unknown z over c. */
 typedef struct {
@@ -62,6 +66,7 @@ typedef struct {
   int8_t (*state)(const ContactPoint *);
   void (*rows)(const ContactPoint *, PetscBool symmetric, ContactRow row[]);
   PetscInt (*slides)(int8_t state); /* 1, -1: it slips along, against the traction; 0: not */
+  void (*aim)(const ContactPoint *, PetscReal aim[3]);
 } ContactLawOps;
 
 extern const ContactLawOps *const ContactLaws[];
@@ -109,10 +114,12 @@ typedef struct {
   PetscReal          *from;          /* [size] local displacements that it counts from */
   PetscBool           stale;         /* points are not kept there yet */
   Link                places[2];     /* of nodes that facets kept and their partners need */
-  PetscReal          *slip, *weight; /* [n] s_j at the last evaluation, w_j where it counts from */
-  PetscReal          *mean;          /* [n] s_j / w_j */
-  PetscReal          *change, *lift; /* [n] as those of the gaps */
-  PetscBool          *held;          /* [n] a support holds it along the surface: no traction */
+  PetscReal          *slip, *weight; /* [dim - 1][n] s_j at the last evaluation, [n] w_j where it counts from */
+  PetscReal          *mean;          /* [dim - 1][n] s_j / w_j */
+  PetscReal          *change, *lift; /* [dim - 1][n] as those of the gaps */
+  PetscReal          *aim;           /* space: [n][3] as in ContactPoint */
+  PetscReal          *axis;          /* space: [n][3] along which a support holds it, else 0 */
+  PetscBool          *held;          /* [n] supports hold it along the surface: no traction */
   PetscInt           *result;        /* [num_facets] position of a facet in `facets`, -1: it met nothing */
   PetscInt            num_facets;
   const ContactFacet *facets;
@@ -327,10 +334,19 @@ static inline ContactPoint ContactPoint_Private(const Contact *c, PetscInt j, Pe
                         .c      = c->c[j]};
 
   if (lifted) point.lift = c->lift[j];
-  if (c->slip) point.slip = c->slip->slip[j], point.slip_weight = c->slip->weight[j];
-  if (c->slip && lifted) point.slip_lift = c->slip->lift[j];
+  point.dim = c->side[0].dim;
+  if (c->slip) {
+    point.slip_weight = c->slip->weight[j];
+    for (PetscInt i = 0; i < point.dim - 1; ++i) {
+      point.slip[i] = c->slip->slip[c->side[0].num_nodes * i + j];
+      if (lifted) point.slip_lift[i] = c->slip->lift[c->side[0].num_nodes * i + j];
+    }
+    for (PetscInt i = 0; i < 3 && point.dim == 3; ++i) point.aim[i] = c->slip->aim[3 * j + i];
+    point.held = (PetscBool)(point.dim == 3 && c->slip->axis[3 * j] * c->slip->axis[3 * j] + c->slip->axis[3 * j + 1] * c->slip->axis[3 * j + 1] +
+                                                       c->slip->axis[3 * j + 2] * c->slip->axis[3 * j + 2] >
+                                                   0);
+  }
   if (c->tie) TiePoint_Private(c, j, lifted, &point);
-
   for (PetscInt k = 0; k < c->num; ++k) point.z[k] = c->z[c->side[0].num_nodes * k + j];
   return point;
 }
@@ -383,6 +399,8 @@ PetscErrorCode ContactCarriers_Private(Interface, Contact *);
 PetscBool ContactIsFree_Private(const Interface, const Contact *, PetscInt node, PetscInt axis);
 /* Two dimensions: does a support hold the node along the surface? Until the rows of the matrix are known. */
 PetscBool ContactHeldAlong_Private(const Surface *, PetscInt node);
+/* Space: the number of directions along the surface in which supports hold the node; of one, axis. */
+PetscInt  ContactHeldAxes_Private(const Surface *, PetscInt node, PetscReal axis[3]);
 PetscReal SurfaceFacetMeasure_Private(const Surface *, PetscInt facet, PetscBool axisymmetric);
 /* slip.c: nothing where the law has no friction. Create: after the multipliers. Keep: before a search; points where slip counts from, if they are not kept yet.
    Evaluate: after positions are gathered. Change: of every owned node's slip under the increment du of both sides, which is there. All but Destroy collective.

@@ -137,7 +137,7 @@ PetscErrorCode SurfaceColours_Private(const Surface *s, const PetscInt partner[]
   const PetscInt n = s->num_facets; /* tie n: to bear */
   PetscInt      *parent, num = 0, room = 0;
   PetscBool     *differs, bears;
-  Bond           *tie = NULL;
+  Bond          *tie = NULL;
 
   PetscFunctionBegin;
   for (PetscInt f = 0; f < n; ++f) {

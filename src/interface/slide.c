@@ -37,24 +37,40 @@ static PetscErrorCode HasMoved_Private(Interface p, const Contact *c, PetscBool 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Adds a node's share of the zone, where it slips the direction of its traction, and its slip, as vectors of the plane or in space. */
+static PetscErrorCode AddSlip_Private(const Contact *c, PetscInt j, PetscReal zone[], PetscReal way[3], PetscReal slip[3])
+{
+  const SlipHistory *s   = c->slip;
+  const PetscInt     dim = c->side[0].dim, slides = c->law->slides(c->active[j]), num = c->side[0].num_nodes;
+  const PetscReal    size    = dim == 3 ? c->w0[j] : c->extent[j];
+  PetscReal          e[2][3] = {{1, 0, 0}, {0, 0, 0}};
+
+  PetscFunctionBegin;
+  if (dim == 3) PetscCall(ContactPairGetTangents(c->pair, j, e));
+  *zone += size;
+  for (PetscInt i = 0; i < dim - 1; ++i)
+    for (PetscInt d = 0; d < 3; ++d) {
+      way[d] += size * (PetscReal)slides * (dim == 3 ? s->aim[3 * j + i] : 1) * e[i][d];
+      if (s->weight[j] > 0) slip[d] += size * e[i][d] * (s->slip[num * i + j] + s->change[num * i + j]) / s->weight[j];
+    }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* With friction: does the first linear step slip as a whole, one way, and by a good part of the zone? Then bodies are brought to their new places first. Where
    friction holds they would have to be pulled back from there. */
 static PetscErrorCode Slips_Private(Interface p, const Contact *c, PetscBool swap, PetscBool *slips)
 {
-  const SlipHistory *s      = c->slip;
-  PetscReal          sum[3] = {0, 0, 0}; /* zone, its part that slips, sum of the slip */
+  PetscReal sum[7] = {0}, *way = sum + 1, *slip = sum + 4; /* zone; its part that slips, sum of the slip */
 
   PetscFunctionBegin;
   for (PetscInt i = 0; i < c->side[0].num_own; ++i) {
     const PetscInt j = c->side[0].own[i];
 
-    if (!c->active[j] || !ContactPressed_Private(c, j)) continue;
-    sum[0] += c->extent[j];
-    sum[1] += c->extent[j] * c->law->slides(c->active[j]);
-    if (s->weight[j] > 0) sum[2] += c->extent[j] * (s->slip[j] + s->change[j]) / s->weight[j];
+    if (c->active[j] && ContactPressed_Private(c, j)) PetscCall(AddSlip_Private(c, j, sum, way, slip));
   }
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 3, MPIU_REAL, MPI_SUM, p->comm));
-  *slips = (PetscBool)(sum[0] > 0 && swap != (PetscAbsReal(sum[1]) > WHOLE * sum[0] && PetscAbsReal(sum[2]) > FAR * PetscSqr(sum[0])));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 7, MPIU_REAL, MPI_SUM, p->comm));
+  const PetscReal length = p->dim == 3 ? PetscSqrtReal(sum[0]) : sum[0];
+  *slips = (PetscBool)(sum[0] > 0 && swap != (PetscSqrtReal(Dot3(way, way)) > WHOLE * sum[0] && PetscSqrtReal(Dot3(slip, slip)) > FAR * sum[0] * length));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -14,14 +14,18 @@ static PetscErrorCode Held_Private(Interface p, Contact *c)
   PetscCall(ForestGetTables(p->forest, &t));
   for (PetscInt n = 0; n < s->num_nodes; ++n) {
     const PetscBool rigid = p->spec->bodies[t->leaf_body[s->facet_leaf[s->node_facet[s->node_first[n]]]]].material->law->rigid;
-    c->slip->held[n]      = (PetscBool)(!rigid && ContactHeldAlong_Private(s, n));
+    PetscReal       axis[3];
+    PetscInt        num = 0;
+    if (!rigid) num = p->dim == 3 ? ContactHeldAxes_Private(s, n, axis) : (PetscInt)ContactHeldAlong_Private(s, n);
+    c->slip->held[n] = (PetscBool)(num == p->dim - 1);
+    for (PetscInt i = 0; i < 3 && p->dim == 3 && num == 1; ++i) c->slip->axis[3 * n + i] = axis[i];
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode SlipCreate_Private(Interface p, Contact *c)
 {
-  const PetscInt  n = c->side[0].num_nodes, num_facets = c->side[0].num_facets;
+  const PetscInt  n = c->side[0].num_nodes, m = p->dim - 1, num_facets = c->side[0].num_facets;
   const HPTables *v;
   SlipHistory    *s;
 
@@ -30,7 +34,8 @@ PetscErrorCode SlipCreate_Private(Interface p, Contact *c)
   PetscCall(HPSpaceGetTables(p->space, &v));
   PetscCall(PetscNew(&s));
   s->size = p->dim * v->num_nodes;
-  PetscCall(PetscCalloc7(n, &s->slip, n, &s->weight, n, &s->mean, n, &s->change, n, &s->lift, num_facets, &s->result, s->size, &s->from));
+  PetscCall(PetscCalloc7(m * n, &s->slip, n, &s->weight, m * n, &s->mean, m * n, &s->change, m * n, &s->lift, num_facets, &s->result, s->size, &s->from));
+  PetscCall(PetscCalloc2(3 * n, &s->aim, 3 * n, &s->axis));
   for (PetscInt f = 0; f < num_facets; ++f) s->result[f] = -1;
   s->stale     = PETSC_TRUE;
   c->slip      = s;
@@ -38,6 +43,7 @@ PetscErrorCode SlipCreate_Private(Interface p, Contact *c)
   PetscCall(PetscMalloc1(n, &s->held));
   PetscCall(Held_Private(p, c));
   PetscCall(ContactPairSetTraction(c->pair, c->z + n));
+  PetscCall(ContactPairSetAxes(c->pair, s->axis));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -49,6 +55,7 @@ PetscErrorCode SlipDestroy_Private(Contact *c)
   if (!s) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(PetscFree7(s->slip, s->weight, s->mean, s->change, s->lift, s->result, s->from));
   for (PetscInt k = 0; k < 2; ++k) PetscCall(LinkDestroy_Private(&s->places[k]));
+  PetscCall(PetscFree2(s->aim, s->axis));
   PetscCall(PetscFree(s->held));
   PetscCall(PetscFree(c->slip));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -103,7 +110,8 @@ PetscErrorCode SlipKeep_Private(Interface p, Contact *c)
 PetscErrorCode SlipEvaluate_Private(Interface p, Contact *c)
 {
   const Surface *own = &c->side[0];
-  SlipHistory   *s   = c->slip;
+  const PetscInt n = own->num_nodes, m = p->dim - 1;
+  SlipHistory   *s = c->slip;
   ContactSurface side[2];
 
   PetscFunctionBegin;
@@ -114,21 +122,22 @@ PetscErrorCode SlipEvaluate_Private(Interface p, Contact *c)
   }
   PetscCall(ContactPairSlip(c->pair, &side[0], &side[1], &s->num_facets, &s->facets));
   for (PetscInt f = 0; f < own->num_facets; ++f) s->result[f] = -1;
-  for (PetscInt i = 0; i < own->num_nodes; ++i) s->slip[i] = s->weight[i] = 0;
+  PetscCall(PetscArrayzero(s->slip, m * n));
+  PetscCall(PetscArrayzero(s->weight, n));
   for (PetscInt i = 0; i < s->num_facets; ++i) {
     const ContactFacet *e = &s->facets[i];
 
     s->result[e->facet] = i;
     for (PetscInt k = 0; k < e->num_rows; ++k) {
-      s->slip[e->nodes[k]] += e->gap[k];
+      for (PetscInt d = 0; d < m; ++d) s->slip[n * d + e->nodes[k]] += e->gap[e->num_rows * d + k];
       s->weight[e->nodes[k]] += e->weight[k];
     }
   }
-  PetscCall(LinkSpread_Private(p, &own->values, 1, s->slip));
+  for (PetscInt d = 0; d < m; ++d) PetscCall(LinkSpread_Private(p, &own->values, 1, s->slip + n * d));
   PetscCall(LinkSpread_Private(p, &own->values, 1, s->weight));
   for (PetscInt j = 0; j < own->num_nodes; ++j)
-    if (s->held[j] || !(s->weight[j] > COVERED * c->w0[j])) s->slip[j] = s->weight[j] = 0; /* no partner then */
-  for (PetscInt j = 0; j < own->num_nodes; ++j) s->mean[j] = s->weight[j] > 0 ? s->slip[j] / s->weight[j] : 0;
+    if (s->held[j] || !(s->weight[j] > COVERED * c->w0[j])) s->slip[j] = s->slip[n * (m - 1) + j] = s->weight[j] = 0; /* no partner then */
+  for (PetscInt j = 0; j < m * n; ++j) s->mean[j] = s->weight[j % n] > 0 ? s->slip[j] / s->weight[j % n] : 0;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -139,12 +148,14 @@ PetscErrorCode SlipChange_Private(Interface p, Contact *c, PetscReal change[])
   PetscFunctionBegin;
   if (!s) PetscFunctionReturn(PETSC_SUCCESS);
   for (PetscInt k = 0; k < 2; ++k) PetscCall(LinkSpread_Private(p, &s->places[k], p->dim, c->side[k].du));
-  PetscCall(PetscArrayzero(change, c->side[0].num_nodes));
+  PetscCall(PetscArrayzero(change, (p->dim - 1) * c->side[0].num_nodes));
   for (PetscInt i = 0; i < s->num_facets; ++i) {
     const ContactFacet *e = &s->facets[i];
 
-    for (PetscInt k = 0; k < e->num_rows; ++k)
-      if (c->side[0].owned[e->nodes[k]]) change[e->nodes[k]] += ContactFacetDot_Private(c, e, e->dgap + p->dim * k * e->num);
+    for (PetscInt k = 0; k < (p->dim - 1) * e->num_rows; ++k) {
+      const PetscInt j = e->nodes[k % e->num_rows];
+      if (c->side[0].owned[j]) change[c->side[0].num_nodes * (k / e->num_rows) + j] += ContactFacetDot_Private(c, e, e->dgap + p->dim * k * e->num);
+    }
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -158,13 +169,17 @@ PetscErrorCode InterfaceFriction(Interface p, PetscInt pair, FrictionFigures *f)
   *f = (FrictionFigures){0};
   if (!c->slip) PetscFunctionReturn(PETSC_SUCCESS);
   for (PetscInt i = 0; i < c->side[0].num_own; ++i) {
-    const PetscInt j = c->side[0].own[i];
+    const PetscInt j = c->side[0].own[i], n = c->side[0].num_nodes;
+    PetscReal      square = 0;
 
     if (!c->has_multiplier[j] || !c->active[j]) continue;
-    sum[0] -= c->z[c->side[0].num_nodes + j] * c->slip->slip[j];
+    for (PetscInt d = 0; d < p->dim - 1; ++d) {
+      sum[0] -= c->z[n * (1 + d) + j] * c->slip->slip[n * d + j];
+      square += PetscSqr(c->slip->mean[n * d + j]);
+    }
     if (c->slip->weight[j] == 0) continue;
     sum[c->law->slides(c->active[j]) ? 2 : 1] += 1;
-    most = PetscMax(most, PetscAbsReal(c->slip->mean[j]));
+    most = PetscMax(most, PetscSqrtReal(square));
   }
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 3, MPIU_REAL, MPI_SUM, p->comm));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &most, 1, MPIU_REAL, MPI_MAX, p->comm));

@@ -93,15 +93,18 @@ PetscErrorCode ContactFacetHessian_Private(Interface p, const InterfaceSystem *a
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Column of the tangential traction of row k; dofs of the facet are in work_index. */
-static PetscErrorCode ShearColumn_Private(Interface p, const InterfaceSystem *a, const Contact *c, const ContactFacet *e, PetscInt k)
+/* Columns of the tangential tractions of row k; dofs of the facet are in work_index. */
+static PetscErrorCode ShearColumns_Private(Interface p, const InterfaceSystem *a, const Contact *c, const ContactFacet *e, PetscInt k)
 {
-  const PetscInt dim = p->dim, n = dim * e->num, column = c->zdof[e->nodes[k]] + 1;
+  const PetscInt dim = p->dim, n = dim * e->num;
 
   PetscFunctionBegin;
-  for (PetscInt i = 0; i < n; ++i) p->work.value[i] = -e->shear[k * n + i];
-  for (PetscInt b = 0; b < e->num; ++b) Turn_Private(dim, Frame_Private(c, e->nodes[b]), p->work.value + dim * b, 1);
-  PetscCall(ContactInsert_Private(a->matrix, n, p->work.index, 1, &column, p->work.value, ADD_VALUES));
+  for (PetscInt d = 0; d < dim - 1; ++d) {
+    const PetscInt column = c->zdof[e->nodes[k]] + 1 + d;
+    for (PetscInt i = 0; i < n; ++i) p->work.value[i] = -e->shear[(e->num_rows * d + k) * n + i];
+    for (PetscInt b = 0; b < e->num; ++b) Turn_Private(dim, Frame_Private(c, e->nodes[b]), p->work.value + dim * b, 1);
+    PetscCall(ContactInsert_Private(a->matrix, n, p->work.index, 1, &column, p->work.value, ADD_VALUES));
+  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -164,7 +167,7 @@ static PetscErrorCode Blocks_Private(Interface p, const InterfaceSystem *a, Cont
   else
     PetscCall(PetscArrayzero(c->lift, c->side[0].num_nodes));
   if (a->lift && c->slip) PetscCall(SlipChange_Private(p, c, c->slip->lift));
-  if (!a->lift && c->slip) PetscCall(PetscArrayzero(c->slip->lift, c->side[0].num_nodes));
+  if (!a->lift && c->slip) PetscCall(PetscArrayzero(c->slip->lift, (dim - 1) * c->side[0].num_nodes));
   for (PetscInt f = 0; f < c->num_facets; ++f) {
     const ContactFacet *e = &c->facets[f];
     const PetscInt      n = dim * e->num;
@@ -181,7 +184,7 @@ static PetscErrorCode Blocks_Private(Interface p, const InterfaceSystem *a, Cont
       for (PetscInt i = 0; i < n && yield != 0; ++i) p->work.value[i] -= yield * e->dshare[i];
       for (PetscInt b = 0; b < e->num; ++b) Turn_Private(dim, Frame_Private(c, e->nodes[b]), p->work.value + dim * b, 1);
       PetscCall(ContactInsert_Private(a->matrix, n, p->work.index, 1, &z, p->work.value, ADD_VALUES));
-      if (e->shear) PetscCall(ShearColumn_Private(p, a, c, e, k));
+      if (e->shear) PetscCall(ShearColumns_Private(p, a, c, e, k));
       if (!c->num_q) continue;
       ContactRigidForces_Private(c, e, p->work.value, q);
       PetscCall(ContactInsert_Private(a->matrix, c->num_q, c->q_row, 1, &z, q, ADD_VALUES));
@@ -206,14 +209,53 @@ static PetscInt RowSize_Private(const Contact *c, PetscInt j)
   return num;
 }
 
+/* values += factor times the gradient of a row of node j that a facet has, g[dim num], at the columns dofs[num]. */
+static PetscErrorCode AddGradient_Private(const Contact *c, const ContactFacet *e, const PetscReal g[], PetscReal factor, PetscInt num, const PetscInt dofs[],
+                                          PetscReal values[])
+{
+  const PetscInt dim = c->side[0].dim;
+  PetscInt       at;
+
+  PetscFunctionBegin;
+  for (PetscInt a = 0; a < e->num; ++a) {
+    const Surface *side = &c->side[NODE_SIDE(e->nodes[a])];
+    const PetscInt node = NODE_INDEX(e->nodes[a]);
+    PetscReal      v[3] = {0, 0, 0};
+    for (PetscInt d = 0; d < dim; ++d) v[d] = g[dim * a + d];
+    Turn_Private(dim, Frame_Private(c, e->nodes[a]), v, 1);
+    for (PetscInt m = 0; m < c->num_q; ++m) {
+      PetscReal dx[3];
+      if (c->link[NODE_SIDE(e->nodes[a])][node] < 0 || c->links + c->link[NODE_SIDE(e->nodes[a])][node] != c->q_link[m]) continue;
+      RigidDerivative(c->q_link[m], c->q_motion[m], side->X + dim * node, dim, dx);
+      PetscCall(PetscFindInt(c->q_row[m], num, dofs, &at));
+      PetscCheck(at >= 0, PETSC_COMM_SELF, PETSC_ERR_PLIB, "rigid body outside the pattern of its facet");
+      for (PetscInt d = 0; d < dim; ++d) values[at] += factor * v[d] * dx[d];
+    }
+    for (PetscInt d = 0; d < dim; ++d) {
+      if (side->dof[dim * node + d] < 0) continue;
+      PetscCall(PetscFindInt(side->dof[dim * node + d], num, dofs, &at));
+      PetscCheck(at >= 0, PETSC_COMM_SELF, PETSC_ERR_PLIB, "contact node outside the pattern of its facet");
+      values[at] += factor * v[d];
+    }
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The place of node j among the rows of a facet, -1: it has none, or no derivatives. */
+static PetscInt RowOf_Private(const ContactFacet *e, PetscInt j)
+{
+  for (PetscInt row = 0; row < e->num_rows && e->dgap; ++row)
+    if (e->nodes[row] == j) return row;
+  return -1;
+}
+
 /* Collects the gradient of a row of node j from its facets: over the whole pattern, sorted indices, so that a switch leaves nothing of another form behind. */
 PetscErrorCode ContactNodeGradient_Private(Interface p, const Contact *c, PetscInt j, const ContactRow *form, PetscInt *num)
 {
-  const Surface      *s   = &c->side[0];
-  const PetscInt      dim = p->dim, *result = form->slip ? c->slip->result : c->tie ? c->tie->result[form->component] : c->result;
-  const ContactFacet *facets = form->slip ? c->slip->facets : c->facets;
-  PetscReal          *values;
-  PetscInt            at, *dofs;
+  const Surface *s   = &c->side[0];
+  const PetscInt dim = p->dim, *result = c->tie ? c->tie->result[form->component] : c->result;
+  PetscReal     *values, *g;
+  PetscInt      *dofs;
 
   PetscFunctionBegin;
   PetscCall(RowBufferGrow(&p->work, RowSize_Private(c, j)));
@@ -227,35 +269,23 @@ PetscErrorCode ContactNodeGradient_Private(Interface p, const Contact *c, PetscI
   for (PetscInt k = s->node_first[j]; form->factor != 0 && k < s->node_first[j + 1]; ++k) {
     const PetscInt facet = s->node_facet[k];
     if (result[facet] < 0) continue;
-    const ContactFacet *e   = c->tie ? &c->tie->facets[form->component][result[facet]].facet : &facets[result[facet]];
-    const PetscInt      n   = dim * e->num;
-    PetscInt            row = 0;
-    while (row < e->num_rows && e->nodes[row] != j) ++row;
-    if (row == e->num_rows || !e->dgap) continue;
-    const PetscReal *gradient = (form->push && e->push ? e->push : e->dgap) + row * n;
-    const PetscReal  yield    = form->slip || (form->push && e->push) ? 0 : ContactYield_Private(c, e, row, form->along);
-    for (PetscInt a = 0; a < e->num; ++a) {
-      const Surface *side = &c->side[NODE_SIDE(e->nodes[a])];
-      const PetscInt node = NODE_INDEX(e->nodes[a]);
-      PetscReal      g[3] = {0, 0, 0};
-      for (PetscInt d = 0; d < dim; ++d)
-        g[d] = gradient[dim * a + d] - (e->dweight ? form->mean * e->dweight[row * n + dim * a + d] : 0) + (yield != 0 ? yield * e->dshare[dim * a + d] : 0);
-      Turn_Private(dim, Frame_Private(c, e->nodes[a]), g, 1);
-      for (PetscInt m = 0; m < c->num_q; ++m) {
-        PetscReal dx[3];
-        if (c->link[NODE_SIDE(e->nodes[a])][node] < 0 || c->links + c->link[NODE_SIDE(e->nodes[a])][node] != c->q_link[m]) continue;
-        RigidDerivative(c->q_link[m], c->q_motion[m], side->X + dim * node, dim, dx);
-        PetscCall(PetscFindInt(c->q_row[m], *num, dofs, &at));
-        PetscCheck(at >= 0, PETSC_COMM_SELF, PETSC_ERR_PLIB, "rigid body outside the pattern of its facet");
-        for (PetscInt d = 0; d < dim; ++d) values[at] += form->factor * g[d] * dx[d];
-      }
-      for (PetscInt d = 0; d < dim; ++d) {
-        if (side->dof[dim * node + d] < 0) continue;
-        PetscCall(PetscFindInt(side->dof[dim * node + d], *num, dofs, &at));
-        PetscCheck(at >= 0, PETSC_COMM_SELF, PETSC_ERR_PLIB, "contact node outside the pattern of its facet");
-        values[at] += form->factor * g[d];
-      }
-    }
+    const ContactFacet *e = c->tie ? &c->tie->facets[form->component][result[facet]].facet : &c->facets[result[facet]];
+    const PetscInt      n = dim * e->num, row = RowOf_Private(e, j);
+    if (row < 0) continue;
+    const PetscBool  push     = (PetscBool)(form->push && e->push);
+    const PetscReal *gradient = (push ? e->push : e->dgap) + row * n, yield = push ? 0 : ContactYield_Private(c, e, row, form->along);
+    PetscCall(PetscMalloc1(n, &g));
+    for (PetscInt i = 0; i < n; ++i) g[i] = gradient[i] - (e->dweight ? form->mean * e->dweight[row * n + i] : 0) + (yield != 0 ? yield * e->dshare[i] : 0);
+    PetscCall(AddGradient_Private(c, e, g, form->factor, *num, dofs, values));
+    PetscCall(PetscFree(g));
+  }
+  for (PetscInt k = s->node_first[j]; c->slip && (form->slip[0] != 0 || form->slip[1] != 0) && k < s->node_first[j + 1]; ++k) {
+    const PetscInt facet = s->node_facet[k];
+    if (c->slip->result[facet] < 0) continue;
+    const ContactFacet *e   = &c->slip->facets[c->slip->result[facet]];
+    const PetscInt      row = RowOf_Private(e, j);
+    for (PetscInt d = 0; d < dim - 1 && row >= 0; ++d)
+      if (form->slip[d] != 0) PetscCall(AddGradient_Private(c, e, e->dgap + (e->num_rows * d + row) * dim * e->num, form->slip[d], *num, dofs, values));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -409,9 +439,11 @@ static PetscErrorCode States_Private(Interface p, const InterfaceSystem *a, Cont
     ContactPoint point = ContactPoint_Private(c, j, PETSC_FALSE);
     for (PetscInt k = 0; k < c->num; ++k) point.z[k] += dx[c->zlocal[j] + k];
     point.gap += c->change[j] + coupled[j] - c->coupled[j];
-    if (c->slip) point.slip += c->slip->change[j];
+    for (PetscInt d = 0; d < p->dim - 1 && c->slip; ++d) point.slip[d] += c->slip->change[s->num_nodes * d + j];
     const int8_t active = c->law->state(&point);
-    if (!active || ContactOverlap_Private(c, j) >= least) c->active[j] = active;
+    if (active && ContactOverlap_Private(c, j) < least) continue;
+    if (p->dim == 3 && c->slip && active != c->active[j]) c->law->aim(&point, c->slip->aim + 3 * j);
+    c->active[j] = active;
   }
   PetscCall(PetscFree2(z, coupled));
   for (PetscInt i = 0; i < s->num_own; ++i) c->pack[s->own[i]] = c->active[s->own[i]];

@@ -6,7 +6,7 @@
 #include "outputimpl.h"
 
 /* Numbers summed at a mortar node: int N_m, int N_m p, those of friction, and of nonmortar nodes that face something int N_m, int N_m g, int N_m [active];
-   those of a tied traction. */
+   those of tractions as vectors. */
 enum { SUM_ALL, SUM_PRESSURE, SUM_SHEAR, SUM_SLIP, SUM_KNOWN, SUM_GAP, SUM_ACTIVE, SUM_TRACTION, NUM_SUMS = SUM_TRACTION + 3 };
 
 /* A point of a segment: place on both facets, share of the segment's length or area. */
@@ -105,10 +105,13 @@ void OutputContactFields(const ContactView *v, ContactFields *f)
     const PetscBool covered = (PetscBool)(v->has_multiplier[n] && v->weight[n] > 0);
     f->gap[n]               = covered ? v->gap[n] / v->weight[n] : 0;
     f->pressure[n]          = v->z[n];
-    f->shear[n]             = v->slip ? v->z[v->nonmortar.num_nodes + n] : 0;
+    f->shear[n]             = v->slip && !v->traction ? v->z[v->nonmortar.num_nodes + n] : 0;
     f->slip[n]              = v->slip && covered && v->active[n] ? v->slip[n] : 0;
     f->status[n]            = !covered ? CONTACT_ALONE : v->active[n] ? CONTACT_TOUCHING : CONTACT_OPEN;
-    for (PetscInt c = 0; c < 3; ++c) f->traction[3 * n + c] = v->spec->law == CONTACT_TIED && c < v->num_z ? -v->z[c * v->nonmortar.num_nodes + n] : 0;
+    for (PetscInt c = 0; c < 3; ++c) {
+      const PetscReal tied   = v->spec->law == CONTACT_TIED && c < v->num_z ? v->z[c * v->nonmortar.num_nodes + n] : 0;
+      f->traction[3 * n + c] = v->traction ? -v->traction[3 * n + c] : -tied;
+    }
   }
   Follow_Private(&v->nonmortar, f);
 }

@@ -103,10 +103,11 @@ static void OwnNormals_Private(const ContactView *v, PetscReal normal[])
     for (PetscInt c = 0; c < 3; ++c) normal[3 * n + c] = c < dim ? v->normal[dim * n + c] : 0;
 }
 
-/* Tangential traction on either body from that along e_z x n of the nonmortar side: n of the other one is the opposite, and so is the force. */
+/* Tangential traction on either body from that along e_z x n of the nonmortar side: n of the other one is the opposite, and so is the force. In space it stands
+   there. */
 static void Tractions_Private(const SurfaceView *s, const ContactFields *f, PetscInt at, ContactGrid *g)
 {
-  for (PetscInt n = 0; n < s->num_nodes; ++n) {
+  for (PetscInt n = 0; n < s->num_nodes && s->dim == 2; ++n) {
     const PetscReal *N = g->normal + 3 * (at + n);
     PetscReal       *t = g->traction + 3 * (at + n);
 

@@ -102,8 +102,8 @@ PetscInt CellShapeVertices(CellShape);
 /* Fields at the nodes of one side, [num_nodes] each; borrowed. Meaning: output.h. */
 typedef struct {
   PetscReal *gap, *pressure, *status;
-  PetscReal *shear, *slip; /* tangential traction along e_z x n of the nonmortar side, slip of the step; 0 without friction */
-  PetscReal *traction;     /* [num_nodes][3] on the body, of a tied pair; else not looked at */
+  PetscReal *shear, *slip; /* plane: tangential traction along e_z x n of the nonmortar side; slip of the step; 0 without friction */
+  PetscReal *traction;     /* [num_nodes][3] on the body: of a tied pair, tangential in space; 0 without either */
 } ContactFields;
 
 /* Fields of the nonmortar side as of the last evaluation. */

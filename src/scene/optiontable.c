@@ -123,7 +123,7 @@ const Option Options[] = {
      PAIR(spec.law)},
     {"contact.<pair>.penalty", KEY_REAL, "stress/length", "", POSITIVE, "stiffness of law: penalty, pressure per overlap", PAIR(spec.penalty)},
     {"contact.<pair>.friction", KEY_REAL, "", "0", NOT_BELOW,
-     "coefficient of Coulomb friction; plane strain or axisymmetric (no twist), kinematics: finite, load.control: time", PAIR(spec.friction)},
+     "coefficient of Coulomb friction; axisymmetric without twist; kinematics: finite, load.control: time", PAIR(spec.friction)},
     {"contact.<pair>.order", KEY_WORD, "", "auto", "1|full|auto",
      "order of the contact faces; full: that of their cells, with their curved geometry; auto: full, but 1 with subdivide, node_to_segment or orders per "
      "direction",

@@ -356,7 +356,6 @@ static PetscErrorCode CheckFriction_Private(Scene s, const SceneNode *node, Cont
   PetscCheckInput(c->spec.law == CONTACT_COULOMB || !NodeFind(node, "law"),
                   "%s is %g, but the law of this pair is frictionless; allowed here: 0, or take the law away", NodeWhere(given), (double)c->spec.friction);
   PetscCheckInput(!c->spec.node_to_segment, "%s is %g: node-to-segment contact has no friction; allowed here: 0", NodeWhere(given), (double)c->spec.friction);
-  PetscCheckInput(d->mesh.dim == 2, "%s is %g: friction is not built for three dimensions yet; allowed here: 0", NodeWhere(given), (double)c->spec.friction);
   PetscCheckInput(d->mechanics.kinematics == KINEMATICS_FINITE, "%s is %g: friction needs kinematics: finite; allowed here: 0", NodeWhere(given),
                   (double)c->spec.friction);
   PetscCheckInput(d->load.control == LOAD_TIME, "%s is %g: friction needs load.control: time; allowed here: 0", NodeWhere(given), (double)c->spec.friction);

@@ -12,8 +12,9 @@ static PetscErrorCode Multipliers_Private(const TransferContext *c, Problem old_
     PetscCall(InterfaceGetContact(ProblemInterface(new_problem), i, &to));
     PetscCall(PetscMalloc3(to->num_z * to->nonmortar.num_nodes, &z, from->num_z * from->nonmortar.num_nodes, &old_z, from->nonmortar.num_nodes, &wanted));
     PetscCall(TransferMultiplierNeeds_Private(c->old_t, &from->nonmortar, &to->nonmortar, c->map, wanted));
-    PetscCall(InterfaceFetchContact(ProblemInterface(old_problem), i, wanted, old_z, NULL, NULL));
-    for (PetscInt k = 0; k < from->num_z; ++k) {
+    PetscCall(InterfaceFetchContact(ProblemInterface(old_problem), i, wanted, old_z, NULL, NULL, NULL));
+    PetscCall(PetscArrayzero(z, to->num_z * to->nonmortar.num_nodes));
+    for (PetscInt k = 0; k < (from->nonmortar.dim == 2 ? from->num_z : 1); ++k) { /* axes of tractions in space belong to their mesh */
       const PetscReal *old = old_z + k * from->nonmortar.num_nodes;
       PetscCall(
           TransferMultiplier_Private(c->old_t, &from->nonmortar, old, from->has_multiplier, c->new_t, &to->nonmortar, c->map, z + k * to->nonmortar.num_nodes));

@@ -96,7 +96,7 @@ static void Friction(void **state)
 
   (void)state;
   for (int k = 0; k < 3; ++k) {
-    ContactPoint p = {.spec = &spec, .z = {0.5, q[k]}, .gap = 0, .weight = 0.4, .w0 = 0.5, .c = 3, .slip = Slip[k], .slip_weight = 0.3};
+    ContactPoint p = {.spec = &spec, .z = {0.5, q[k]}, .gap = 0, .weight = 0.4, .w0 = 0.5, .c = 3, .dim = 2, .slip = {Slip[k]}, .slip_weight = 0.3};
     ContactRow   row[MOST_MULTIPLIERS];
 
     p.state = law->state(&p);
@@ -104,10 +104,10 @@ static void Friction(void **state)
     assert_int_equal(law->slides(p.state), k == 1 ? 1 : k == 2 ? -1 : 0);
     law->rows(&p, PETSC_FALSE, row);
     assert_near(row[1].side, k == 0 ? 0 : -0.5 * (q[k] - (k == 1 ? 0.2 : -0.2)), 1e-14);
-    assert_near(row[1].slip ? row[1].factor : row[1].z[1], k == 0 ? 0.5 * 3 / 0.3 : 0.5, 1e-14);
+    assert_near(row[1].slip[0] != 0 ? row[1].slip[0] : row[1].z[1], k == 0 ? 0.5 * 3 / 0.3 : 0.5, 1e-14);
     assert_near(row[1].z[0], k == 0 ? 0 : k == 1 ? -0.2 : 0.2, 1e-14);
     if (k == 0) continue;
-    p.slip = -p.slip, p.z[1] = -p.z[1]; /* now it would slip the other way */
+    p.slip[0] = -p.slip[0], p.z[1] = -p.z[1]; /* now it would slip the other way */
     assert_int_equal(law->state(&p), 1);
     p.state = 0;
     assert_int_equal(law->state(&p), 4 - k);
@@ -118,8 +118,46 @@ static void Friction(void **state)
   }
 }
 
+/* Residual of row i at a node in space whose traction and slip change with s. */
+static ContactPoint InSpace(const ContactSpec *spec, PetscReal s)
+{
+  const ContactLawOps *law = ContactLaws[CONTACT_COULOMB];
+  ContactPoint         p = {.spec = spec, .z = {0.5 + 0.2 * s, 0.1 + 0.3 * s, -0.05 + 0.1 * s}, .weight = 0.4, .w0 = 0.5, .c = 3, .dim = 3, .slip_weight = 0.3};
+
+  p.slip[0] = -0.02 + 0.07 * s, p.slip[1] = 0.01 - 0.04 * s;
+  p.state = law->state(&p);
+  law->aim(&p, p.aim);
+  return p;
+}
+
+/* In space rows of slip are derivatives of q - b tau / |tau|. */
+static void FrictionInSpace(void **state)
+{
+  const ContactSpec    spec = {.law = CONTACT_COULOMB, .friction = 0.4};
+  const ContactLawOps *law  = ContactLaws[CONTACT_COULOMB];
+  const PetscReal      h = 1e-5, dz[3] = {0.2, 0.3, 0.1}, ds[2] = {0.07, -0.04};
+  ContactRow           row[MOST_MULTIPLIERS], up[MOST_MULTIPLIERS], down[MOST_MULTIPLIERS];
+  ContactPoint         p = InSpace(&spec, 0), q = InSpace(&spec, h), r = InSpace(&spec, -h);
+
+  (void)state;
+  assert_int_equal(law->slides(p.state), 1);
+  law->rows(&p, PETSC_FALSE, row), law->rows(&q, PETSC_FALSE, up), law->rows(&r, PETSC_FALSE, down);
+  for (int i = 1; i < 3; ++i) {
+    const PetscReal exact = row[i].z[0] * dz[0] + row[i].z[1] * dz[1] + row[i].z[2] * dz[2] + row[i].slip[0] * ds[0] + row[i].slip[1] * ds[1];
+
+    assert_near(exact, -(up[i].side - down[i].side) / (2 * h), 1e-9);
+  }
+  p.slip[0] = -p.slip[0], p.slip[1] = -p.slip[1], p.z[1] = p.z[2] = 0; /* now it would slip back */
+  assert_int_equal(law->slides(law->state(&p)), 0);
+  p.held = PETSC_TRUE, p.state = 1;
+  law->rows(&p, PETSC_FALSE, row);
+  assert_near(row[1].z[1], p.w0, 1e-14);
+  assert_near(row[1].slip[0], 0, 1e-14);
+}
+
 int main(int argc, char **argv)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(Names), cmocka_unit_test(Derivatives), cmocka_unit_test(Friction), cmocka_unit_test(Tied)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(Names), cmocka_unit_test(Derivatives), cmocka_unit_test(Friction), cmocka_unit_test(FrictionInSpace),
+                                     cmocka_unit_test(Tied)};
   return cmocka_run_group_tests_name("interface: contact laws", tests, NULL, NULL);
 }

@@ -176,8 +176,6 @@ def test_input(run):
                          ("0, law: coulomb", "coefficient of friction")):
         result = run("input.yml", text=text.replace("friction: 0.3", f"friction: {value}"))
         assert result.returncode == 1 and words in result.stderr, result
-    result = run("inputs/hertz3d.yml", "-contact_ball_on_block_friction", 0.1)
-    assert result.returncode == 1 and "friction" in result.stderr, result
 
 
 def test_ranks(run):

@@ -8,7 +8,7 @@
 /* ---- directions ---------------------------------------------------------------------------------------------------------------------- */
 
 /* dN = sum_k dx_k x h_k */
-static void FacetVectorRows_Private(const ContactSurface *s, const PetscInt node[], PetscReal h[4][3])
+void ContactFacetVectorRows(const ContactSurface *s, const PetscInt node[], PetscReal h[4][3])
 {
   memset(h, 0, 4 * sizeof(h[0]));
   if (s->dim == 2) {
@@ -39,7 +39,7 @@ static PetscErrorCode DirectionRows_Private(RayWork w, const ContactSurface *s, 
       const PetscInt *node = s->facets + nv * term[t].facet;
       PetscReal       h[4][3];
 
-      FacetVectorRows_Private(s, node, h);
+      ContactFacetVectorRows(s, node, h);
       for (PetscInt k = 0; k < nv; k++) {
         const PetscInt  *master;
         const PetscReal *weight, *g = h[k], X[3][3] = {{0, g[2], -g[1]}, {-g[2], 0, g[0]}, {g[1], -g[0], 0}};

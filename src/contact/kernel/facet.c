@@ -73,6 +73,7 @@ PetscErrorCode ContactRayWorkDestroy(RayWork *work)
   PetscFunctionBegin;
   if (!w) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(ContactResultDestroy(&w->result));
+  PetscCall(ContactFramesDestroy(w));
   PetscCall(PetscFree(w->along));
   PetscCall(PetscFree7(w->ring_first, w->ring, w->sheet, w->end, w->parent, w->d, w->kept));
   PetscCall(PetscFree2(w->mortar_parent, w->mortar_middle));
@@ -165,6 +166,8 @@ static PetscErrorCode Nodes_Private(const EvaluateContext *ctx, PetscInt facet)
         for (PetscInt i = 0; i < masters; i++) PetscCall(ContactResultNode(&w->result, master[i], &place));
       }
   }
+  for (PetscInt r = 0; r < w->result.num_rows && ctx->pair->traction && w->facet.m == 2; r++)
+    PetscCall(ContactFrameNodes(w, ctx->nonmortar, w->result.node[r], &w->result));
   for (PetscInt j = 0; j < w->num_mortar; j++) PetscCall(ContactResultRow(&w->result, ctx->mortar, w->vertex[j], PETSC_TRUE, na + j, &num));
   w->nn = w->facet.D * w->result.num_nodes;
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -422,6 +425,7 @@ PetscErrorCode ContactRayEvaluate(const EvaluateContext *ctx, PetscBool *failed)
   if (!ctx->again) {
     ContactDirections(w, ctx->nonmortar);
     Normals_Private(ctx->pair, ctx->nonmortar);
+    if (ctx->pair->dim == 3 && (ctx->pair->traction || ctx->pair->keeps)) PetscCall(ContactFrames(ctx->pair, ctx->nonmortar));
     if (ctx->pair->start[ctx->pair->num_listed]) PetscCall(ContactRayBalls(w, ctx->mortar));
     w->num_places = 0;
     PetscCall(ContactGrow(ctx->pair->num_listed, sizeof(PetscInt), &w->size_first_place, &w->first_place));

@@ -134,6 +134,12 @@ typedef struct {
   PetscReal x[3], radius;
 } RayBall;
 
+/* Tangential axes at a node (frame.c): what they are made of, its lengths, and they. */
+typedef struct {
+  PetscReal d[3], c[3], size, across, m[3], e[2][3];
+  PetscBool given; /* c is a direction in space */
+} NodeFrame;
+
 struct _p_RayWork {
   /* topology of the nonmortar surface */
   PetscInt  *ring_first, *ring; /* corners of facets at each node: corner k of facet f is nv f + k */
@@ -147,6 +153,10 @@ struct _p_RayWork {
   PetscInt  *mortar_middle;     /* [mortar num_facets][4] nodes that hang in the middle of curved sides, -1 */
   RayBall   *ball;              /* [mortar num_facets], at the positions of the last evaluation */
   PetscInt   size_ball;
+  /* friction in space */
+  PetscInt *home; /* [num_nodes] a facet that has the node, -1; where it lies there */
+  PetscReal (*home_xi)[2];
+  NodeFrame *frame; /* [num_nodes] at the positions of the last evaluation */
   /* one facet */
   RayFacet     facet;
   PetscInt     num_images, num_overlaps, num_mortar;
@@ -230,7 +240,9 @@ PetscErrorCode ContactCover(ContactPair, const ContactSurface *nonmortar, const 
 /* nodetosegment.c: of what covers the facet, the hits of its nodes' rays */
 void ContactNodeHits(RayWork);
 
-/* ray.c. False: the ray misses. */
+/* ray.c. Functions of a mortar facet, which rays may meet beyond its curved sides. */
+void ContactRayMortar(PetscInt m, PetscInt order, const PetscReal eta[2], int depth, RayFunctions *);
+/* False: the ray misses. */
 PetscBool ContactRaySolve(const RayFacet *, const RayLattice *mortar, const PetscReal xi[2], int depth, RayPoint *);
 /* Where they are known to meet. */
 PetscBool ContactRayAgain(const RayFacet *, const RayLattice *mortar, const RayPlace *, int depth, RayPoint *);
@@ -340,7 +352,25 @@ PetscErrorCode ContactRayMortarTopology(RayWork, const ContactSurface *mortar);
 PetscErrorCode ContactRayEvaluate(const EvaluateContext *, PetscBool *failed);
 PetscErrorCode ContactRayWorkDestroy(RayWork *);
 
-/* slip.c: of the facet at hand. Does a tangential traction act on it? */
+/* Derivatives of a facet's vector, dN = sum_k dx_k x h_k. */
+void ContactFacetVectorRows(const ContactSurface *, const PetscInt node[], PetscReal h[4][3]);
+
+/* frame.c: friction in space. Axes of all nodes, after their directions; those of nodes without known neighbours are NaN. */
+PetscErrorCode ContactFrames(ContactPair, const ContactSurface *);
+PetscErrorCode ContactFramesDestroy(RayWork);
+/* Adds the nodes that those of a node depend on. rows[9][dim * nodes]: derivatives of e_1, e_2 and m by the nodes of the result, which has them all. */
+PetscErrorCode ContactFrameNodes(RayWork, const ContactSurface *, PetscInt node, Result *);
+PetscErrorCode ContactFrameRows(RayWork, const ContactSurface *, PetscInt node, Result *, PetscReal rows[]);
+/* t: Q, across m, carried to n; returns a of dt = A (dQ - a dm) + B dn. */
+PetscReal ContactCarry(const PetscReal m[3], const PetscReal n[3], const PetscReal Q[3], PetscReal t[3]);
+void      ContactCarryRows(const PetscReal m[3], const PetscReal n[3], const PetscReal Q[3], PetscReal A[3][3], PetscReal B[3][3]);
+
+/* shear.c: in space, forces of the facet at hand by tangential tractions, and their part of the Hessian. */
+PetscErrorCode ContactShear(const EvaluateContext *, ContactFacet *out);
+
+/* slip.c: to[D masters][ld] += from[D (lattice, then mortar nodes)][stride] of the facet at hand. */
+void ContactSlipMasters(const RayWork, PetscInt stride, const PetscReal from[], PetscInt ld, PetscReal to[]);
+/* Of the facet at hand. Does a tangential traction act on it? */
 PetscBool ContactSlipLoads(const EvaluateContext *);
 /* After its moments, for the result `out`: its points, where they are to be kept; forces by tangential tractions, and their part of the Hessian. */
 PetscErrorCode ContactSlipFacet(const EvaluateContext *, PetscInt facet, PetscBool derivatives, ContactFacet *out);

@@ -56,10 +56,15 @@ PetscBool ContactRayInverse(RayPoint *r)
   return PETSC_TRUE;
 }
 
+void ContactRayMortar(PetscInt m, PetscInt order, const PetscReal eta[2], int depth, RayFunctions *M)
+{
+  ContactRayBeyond(&Mean, m, order, eta, depth, M);
+}
+
 /* Mortar facet at eta; K^-1. */
 static PetscBool Mortar_Private(const RayFacet *f, const RayLattice *mortar, int depth, RayPoint *r)
 {
-  ContactRayBeyond(&Mean, f->m, mortar->order, r->eta, PetscMin(depth, 2), &r->M);
+  ContactRayMortar(f->m, mortar->order, r->eta, PetscMin(depth, 2), &r->M);
   ContactRayLatticeSum(mortar, r->M.N, r->X);
   r->Xi[1][0] = r->Xi[1][1] = 0, r->Xi[1][2] = 1;
   for (PetscInt i = 0; i < f->m; i++) ContactRayLatticeSum(mortar, r->M.d[i], r->Xi[i]);

@@ -1,4 +1,4 @@
-/* Friction (docs/theory.md, 5, plane and axisymmetric): forces of tangential tractions, and the slip since the pair's points were kept.
+/* Friction (docs/theory.md, 5): forces of tangential tractions in the plane (in space: shear.c), and the slip since the pair's points were kept.
 
    Forces. S_j(y; x) = int psi_j y,xi . (y_m(eta) - y(xi)) rho dxi, points, bounds, eta, psi and rho of x, positions y: f = sum_j z_j dS_j/dy at y = x. By the
    facet's numbers, with R = x_m - x and t = x,xi, the density is  h_a = N_a,xi R - N_a t  of a node of its lattice,  h_b = M_b t  of a mortar node. Its change
@@ -6,12 +6,13 @@
    and of psi with the covered share.
 
    Slip. Points q of the pair at the positions x0 where they were kept, with A_jq = psi_j dgamma_q:
-     s_j(x) = sum_q A_jq [ t.r(x) - t.r(x0) ],   t = x,xi / |x,xi|,   r = x_m(eta_q) - x(xi_q). */
+     s_j(x) = sum_q A_jq [ t.r(x) - t.r(x0) ],   r = x_m(eta_q) - x(xi_q),
+   t = x,xi / |x,xi|; in space each of the node's axes as carried to the point (frame.c). */
 #include "kernelimpl.h"
 
 typedef struct {
-  PetscInt  facet;
-  PetscReal xi, eta;
+  PetscInt facet;
+  RayPlace at;
 } Point; /* facet: of the mortar side */
 
 typedef struct {
@@ -22,7 +23,7 @@ struct ContactSlip {
   PetscInt      num_kept, num_rows, num_points, num_values, size_kept, size_row, size_weight, size_start, size_point, size_A;
   Kept         *kept;
   PetscInt     *row;            /* nodes */
-  PetscReal    *weight, *start; /* by rows: sum_q A_jq, sum_q A_jq t.r(x0) */
+  PetscReal    *weight, *start; /* by rows: sum_q A_jq; [rows][2] sum_q A_jq t.r(x0) */
   Point        *point;
   PetscReal    *A;
   Result        result;
@@ -52,7 +53,6 @@ PetscErrorCode ContactSlipDestroy(struct ContactSlip **slip)
 PetscErrorCode ContactPairSetTraction(ContactPair pair, const PetscReal traction[])
 {
   PetscFunctionBegin;
-  PetscCheck(pair->dim == 2, PETSC_COMM_SELF, PETSC_ERR_SUP, "tangential tractions in space");
   pair->traction     = traction;
   pair->state.stands = PETSC_FALSE;
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -82,10 +82,12 @@ static void Functions_Private(const EvaluateContext *ctx, Functions *o)
 
 PetscBool ContactSlipLoads(const EvaluateContext *ctx)
 {
-  const RayWork w = ctx->pair->ray;
+  const RayWork    w = ctx->pair->ray;
+  const PetscReal *q = ctx->pair->traction;
 
-  for (PetscInt r = 0; r < w->result.num_rows && ctx->pair->traction; r++)
-    if (ctx->pair->traction[w->result.node[r]] != 0) return PETSC_TRUE;
+  for (PetscInt r = 0; r < w->result.num_rows && q; r++)
+    for (PetscInt i = 0; i < w->facet.m; i++)
+      if (q[ctx->nonmortar->num_nodes * i + w->result.node[r]] != 0) return PETSC_TRUE;
   return PETSC_FALSE;
 }
 
@@ -206,7 +208,7 @@ static PetscErrorCode Overlap_Private(RayWork w, const ContactSurface *surface, 
 }
 
 /* to[D masters] of a row of nodes: v < na of the lattice, then mortar nodes. */
-static void Masters_Private(const RayWork w, PetscInt stride, const PetscReal from[], PetscInt ld, PetscReal to[])
+void ContactSlipMasters(const RayWork w, PetscInt stride, const PetscReal from[], PetscInt ld, PetscReal to[])
 {
   const PetscInt D = w->facet.D;
 
@@ -233,7 +235,7 @@ static PetscErrorCode Tangent_Private(RayWork w, const Sums *s, const Functions 
     for (PetscInt j = 0; j < n; j++) X[j * rows + i] = s->K[i * n + j];
   ContactRayChainImages(w, rows, X);
   ContactRayChainNodes(w, rows, X, to);
-  Masters_Private(w, nn, to, nn, H);
+  ContactSlipMasters(w, nn, to, nn, H);
   PetscCall(PetscFree2(X, to));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -255,7 +257,7 @@ static PetscErrorCode Forces_Private(const EvaluateContext *ctx, const Functions
     PetscCall(PetscArrayzero(row, s.rows));
     for (PetscInt a = 0; a < na; a++)
       for (PetscInt i = 0; i < s.rows; i++) row[i] += w->T[r * na + a] * s.F[a * s.rows + i];
-    Masters_Private(w, 1, row, 1, shear + r * w->nn);
+    ContactSlipMasters(w, 1, row, 1, shear + r * w->nn);
   }
   out->shear = shear;
   if (s.K) PetscCall(Tangent_Private(w, &s, o, (PetscReal *)out->hessian));
@@ -264,6 +266,68 @@ static PetscErrorCode Forces_Private(const EvaluateContext *ctx, const Functions
 }
 
 /* ---- points kept ------------------------------------------------------------------------------------------------------------------- */
+
+/* A kept point where it is now. */
+typedef struct {
+  RayFunctions N, M;
+  PetscReal    t[2][3], n[3], length, r[3]; /* tangents (plane: the second e_z), unit normal, length or area, distance */
+} Now;
+
+static void Now_Private(PetscInt m, const RayLattice *own, const RayLattice *other, const RayPlace *at, Now *o)
+{
+  static const PetscReal ez[3] = {0, 0, 1};
+  PetscReal              x[3];
+
+  ContactRayFunctions(m, own->order, at->xi, 1, &o->N);
+  ContactRayMortar(m, other->order, at->eta, 1, &o->M);
+  ContactRayLatticeSum(own, o->N.N, x);
+  memcpy(o->t[1], ez, sizeof(ez));
+  for (PetscInt i = 0; i < m; i++) ContactRayLatticeSum(own, o->N.d[i], o->t[i]);
+  ContactRayLatticeSum(other, o->M.N, o->r);
+  for (int c = 0; c < 3; c++) o->r[c] -= x[c];
+  Cross3(o->t[0], o->t[1], o->n);
+  o->length = PetscSqrtReal(Dot3(o->n, o->n));
+  for (int c = 0; c < 3; c++) o->n[c] /= o->length;
+}
+
+/* The distance along an axis t, t.r, and how it changes: by r as t, by x,k as across[k]; in space by the axis and its normal as by[0] and by[1]. */
+typedef struct {
+  PetscReal along, t[3], across[2][3], by[2][3];
+} Step;
+
+static void InPlane_Private(const Now *o, Step *s)
+{
+  for (int c = 0; c < 3; c++) s->t[c] = o->t[0][c] / o->length;
+  s->along = Dot3(s->t, o->r);
+  for (int c = 0; c < 3; c++) s->across[0][c] = (o->r[c] - s->along * s->t[c]) / o->length;
+}
+
+static void InSpace_Private(const Now *o, const PetscReal m[3], const PetscReal e[3], Step *s)
+{
+  const PetscReal a = ContactCarry(m, o->n, e, s->t);
+  PetscReal       A[3][3], B[3][3], v[3], along;
+
+  ContactCarryRows(m, o->n, e, A, B);
+  s->along = Dot3(s->t, o->r);
+  for (int c = 0; c < 3; c++) {
+    s->by[0][c] = A[0][c] * o->r[0] + A[1][c] * o->r[1] + A[2][c] * o->r[2];
+    s->by[1][c] = -a * s->by[0][c];
+    v[c]        = (B[0][c] * o->r[0] + B[1][c] * o->r[1] + B[2][c] * o->r[2]) / o->length;
+  }
+  along = Dot3(v, o->n);
+  for (int c = 0; c < 3; c++) v[c] -= along * o->n[c];
+  Cross3(o->t[1], v, s->across[0]);
+  Cross3(v, o->t[0], s->across[1]);
+}
+
+/* Along the facet, or along axis i of a node. */
+static void Step_Private(const ContactPair pair, const Now *now, PetscInt node, PetscInt i, Step *s)
+{
+  if (pair->dim == 2)
+    InPlane_Private(now, s);
+  else
+    InSpace_Private(now, pair->ray->frame[node].m, pair->ray->frame[node].e[i], s);
+}
 
 static PetscErrorCode KeepPoints_Private(const EvaluateContext *ctx, struct ContactSlip *s, Kept *kept)
 {
@@ -274,31 +338,38 @@ static PetscErrorCode KeepPoints_Private(const EvaluateContext *ctx, struct Cont
 
   PetscFunctionBegin;
   for (PetscInt k = 0; k < w->num_overlaps; k++) {
-    const Overlap *overlap = &w->overlap[k];
-    PetscInt       points;
-    RayLattice     mortar;
-    RaySimplex     interval;
+    Overlap    overlap;
+    PetscInt   points;
+    RayLattice mortar;
     const PetscReal(*point)[3], *weight;
 
+    ContactRaySplit(f, &w->overlap[k], &overlap);
     ContactRayLatticeGather(ctx->mortar, w->mortar[k], &mortar);
-    ContactRaySimplex(f, overlap, 0, &interval);
-    PetscCall(ContactRayRule(f, overlap, mortar.order, &points, &point, &weight));
-    PetscCall(ContactGrow(s->num_points + points, sizeof(Point), &s->size_point, &s->point));
-    PetscCall(ContactGrow(s->num_values + points * nr, sizeof(PetscReal), &s->size_A, &s->A));
-    for (PetscInt q = 0; q < points; q++, place++) {
-      PetscReal dgamma, along = 0, *A = s->A + s->num_values;
-      RayPoint  r;
+    PetscCall(ContactRayRule(f, &overlap, mortar.order, &points, &point, &weight));
+    const PetscInt all = points * ContactRaySimplices(f, &overlap);
+    PetscCall(ContactGrow(s->num_points + all, sizeof(Point), &s->size_point, &s->point));
+    PetscCall(ContactGrow(s->num_values + all * nr, sizeof(PetscReal), &s->size_A, &s->A));
+    for (PetscInt q = 0; q < all; q++, place++) {
+      PetscReal  dgamma, *A = s->A + s->num_values;
+      RaySimplex simplex;
+      RayPoint   r;
+      Now        now;
+      Step       step;
 
+      ContactRaySimplex(f, &overlap, q / points, &simplex);
       PetscCheck(ContactRayAgain(f, &mortar, place, 2, &r), PETSC_COMM_SELF, PETSC_ERR_PLIB, "a ray that met the mortar facet does not meet it again");
-      dgamma = interval.size * weight[q] * ContactRayArea(&r);
-      for (int c = 0; c < 2; c++) along += r.t[0][c] / r.a * (r.X[c] - r.p[c]);
+      dgamma = simplex.size * weight[q % points] * ContactRayArea(&r) / r.chart.det;
+      Now_Private(f->m, &f->s, &mortar, place, &now);
       for (PetscInt j = 0; j < nr; j++) {
         A[j] = 0;
         for (PetscInt i = 0; i < na; i++) A[j] += w->T[j * na + i] * r.S.N[i] * dgamma;
         s->weight[kept->row + j] += A[j];
-        s->start[kept->row + j] += A[j] * along;
+        for (PetscInt i = 0; i < f->m; i++) {
+          Step_Private(ctx->pair, &now, s->row[kept->row + j], i, &step);
+          s->start[2 * (kept->row + j) + i] += A[j] * step.along;
+        }
       }
-      s->point[s->num_points++] = (Point){w->mortar[k], r.xi[0], r.eta[0]};
+      s->point[s->num_points++] = (Point){w->mortar[k], *place};
       s->num_values += nr;
     }
   }
@@ -317,12 +388,12 @@ static PetscErrorCode Keep_Private(const EvaluateContext *ctx, PetscInt facet)
   PetscCall(ContactGrow(s->num_kept + 1, sizeof(Kept), &s->size_kept, &s->kept));
   PetscCall(ContactGrow(s->num_rows + nr, sizeof(PetscInt), &s->size_row, &s->row));
   PetscCall(ContactGrow(s->num_rows + nr, sizeof(PetscReal), &s->size_weight, &s->weight));
-  PetscCall(ContactGrow(s->num_rows + nr, sizeof(PetscReal), &s->size_start, &s->start));
+  PetscCall(ContactGrow(2 * (s->num_rows + nr), sizeof(PetscReal), &s->size_start, &s->start));
   kept  = &s->kept[s->num_kept++];
   *kept = (Kept){.facet = facet, .num_rows = nr, .row = s->num_rows, .point = s->num_points, .value = s->num_values};
   for (PetscInt j = 0; j < nr; j++) {
     s->row[s->num_rows + j]    = w->result.node[j];
-    s->weight[s->num_rows + j] = s->start[s->num_rows + j] = 0;
+    s->weight[s->num_rows + j] = s->start[2 * (s->num_rows + j)] = s->start[2 * (s->num_rows + j) + 1] = 0;
   }
   s->num_rows += nr;
   PetscCall(KeepPoints_Private(ctx, s, kept));
@@ -339,6 +410,10 @@ PetscErrorCode ContactSlipFacet(const EvaluateContext *ctx, PetscInt facet, Pets
   if (!pair->traction && !pair->keeps) PetscFunctionReturn(PETSC_SUCCESS);
   if (pair->keeps) PetscCall(Keep_Private(ctx, facet));
   if (!pair->traction || !derivatives) PetscFunctionReturn(PETSC_SUCCESS);
+  if (pair->dim == 3) {
+    PetscCall(ContactShear(ctx, out));
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
   Functions_Private(ctx, &o);
   PetscCall(Forces_Private(ctx, &o, out));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -371,16 +446,19 @@ static void Add_Private(const Result *r, PetscInt vertex, PetscInt D, PetscReal 
     for (PetscInt c = 0; c < D; c++) gradient[D * r->row_node[k] + c] += r->row_weight[k] * f * v[c];
 }
 
-/* Nodes of a kept facet's result: rows, its lattice, the lattices of the mortar facets it met: vertices, first[k] the first of point k's facet. */
-static PetscErrorCode Vertices_Private(struct ContactSlip *s, const Kept *kept, const ContactSurface *nonmortar, const ContactSurface *mortar, PetscInt first[])
+/* Nodes of a kept facet's result: rows, its lattice, in space what the axes of the rows depend on, the lattices of the mortar facets it met: vertices, first[k]
+   the first of point k's facet. */
+static PetscErrorCode Vertices_Private(ContactPair pair, const Kept *kept, const ContactSurface *nonmortar, const ContactSurface *mortar, PetscInt first[])
 {
-  const PetscInt *node;
-  PetscInt        order1[4], num = 0, vertex = 0, place;
-  Result         *r = &s->result;
+  struct ContactSlip *s = pair->slip;
+  const PetscInt     *node;
+  PetscInt            order1[4], num = 0, vertex = 0, place;
+  Result             *r = &s->result;
 
   PetscFunctionBegin;
   r->num_nodes = 0;
   for (PetscInt j = 0; j < kept->num_rows; j++) PetscCall(ContactResultNode(r, s->row[kept->row + j], &place));
+  for (PetscInt j = 0; j < kept->num_rows && pair->dim == 3; j++) PetscCall(ContactFrameNodes(pair->ray, nonmortar, s->row[kept->row + j], r));
   for (PetscInt k = -1; k < kept->num_points; k++) {
     const ContactSurface *side  = k < 0 ? nonmortar : mortar;
     const PetscInt        facet = k < 0 ? kept->facet : s->point[kept->point + k].facet;
@@ -391,57 +469,87 @@ static PetscErrorCode Vertices_Private(struct ContactSlip *s, const Kept *kept, 
       continue;
     }
     if (k >= 0) first[k] = vertex;
-    nodes = ContactFacetLattice(side, facet, &node, order1) + 1;
+    nodes = ElementNumNodes(pair->dim - 1, ContactFacetLattice(side, facet, &node, order1));
     PetscCall(ContactGrow(vertex + nodes + 1, sizeof(PetscInt), &r->size_row_first, &r->row_first));
     for (PetscInt a = 0; a < nodes; a++, vertex++) PetscCall(ContactResultRow(r, side, node[a], (PetscBool)(k >= 0), vertex, &num));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode Slip_Private(struct ContactSlip *s, const Kept *kept, const ContactSurface *nonmortar, const ContactSurface *mortar, ContactFacet *out)
+/* gradient[nn] += A times the step's change by the nodes. */
+static void AddStep_Private(const Result *r, PetscInt D, const Now *o, PetscInt num_own, PetscInt first, PetscInt num_other, PetscReal A, const Step *s,
+                            PetscReal gradient[])
 {
-  const PetscInt D = nonmortar->dim, nr = kept->num_rows;
-  PetscInt      *first, nn, vertices = 0;
-  PetscReal     *slip, *gradient, *row;
-  RayLattice     own, other;
+  for (PetscInt a = 0; a < num_own; a++) {
+    Add_Private(r, a, D, -A * o->N.N[a], s->t, gradient);
+    for (PetscInt k = 0; k < D - 1; k++) Add_Private(r, a, D, A * o->N.d[k][a], s->across[k], gradient);
+  }
+  for (PetscInt b = 0; b < num_other; b++) Add_Private(r, first + b, D, A * o->M.N[b], s->t, gradient);
+}
+
+/* gradient[2 nr][nn] += by[2 nr][2][3], of the axes and their normals, times how these follow the nodes. */
+static PetscErrorCode Axes_Private(ContactPair pair, const Kept *kept, const ContactSurface *nonmortar, const PetscReal by[][2][3], PetscReal gradient[])
+{
+  Result        *r  = &pair->slip->result;
+  const PetscInt nn = 3 * r->num_nodes;
+  PetscReal     *axes;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(9 * nn, &axes));
+  for (PetscInt j = 0; j < kept->num_rows; j++) {
+    PetscCall(ContactFrameRows(pair->ray, nonmortar, pair->slip->row[kept->row + j], r, axes));
+    for (PetscInt i = 0; i < 2; i++) {
+      const PetscInt row = kept->num_rows * i + j;
+
+      for (int c = 0; c < 3; c++)
+        for (PetscInt k = 0; k < nn; k++) gradient[row * nn + k] += by[row][0][c] * axes[(3 * i + c) * nn + k] + by[row][1][c] * axes[(6 + c) * nn + k];
+    }
+  }
+  PetscCall(PetscFree(axes));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode Slip_Private(ContactPair pair, const Kept *kept, const ContactSurface *nonmortar, const ContactSurface *mortar, ContactFacet *out)
+{
+  struct ContactSlip *s = pair->slip;
+  const PetscInt      D = nonmortar->dim, m = D - 1, nr = kept->num_rows;
+  PetscInt           *first, nn;
+  PetscReal          *slip, *gradient, *row, (*by)[2][3];
+  RayLattice          own, other;
 
   PetscFunctionBegin;
   PetscCall(PetscMalloc1(kept->num_points + 1, &first));
-  PetscCall(Vertices_Private(s, kept, nonmortar, mortar, first));
+  PetscCall(Vertices_Private(pair, kept, nonmortar, mortar, first));
   nn = D * s->result.num_nodes;
-  PetscCall(ContactStoreReserve(&s->result.store, nr + nr * nn, &slip));
-  gradient = slip + nr;
-  PetscCall(PetscMalloc1(nn, &row));
+  PetscCall(ContactStoreReserve(&s->result.store, m * nr * (1 + nn), &slip));
+  gradient = slip + m * nr;
+  PetscCall(PetscCalloc2(nn, &row, m * nr, &by));
   ContactRayLatticeGather(nonmortar, kept->facet, &own);
-  vertices = own.num;
-  for (PetscInt j = 0; j < nr; j++) slip[j] = -s->start[kept->row + j];
+  for (PetscInt j = 0; j < m * nr; j++) slip[j] = -s->start[2 * (kept->row + j % nr) + j / nr];
   for (PetscInt q = 0; q < kept->num_points; q++) {
     const Point     *p = &s->point[kept->point + q];
-    const PetscReal *A = s->A + kept->value + q * nr, xi[2] = {p->xi, 0}, eta[2] = {p->eta, 0};
-    PetscReal        x[3], X[3], t[3], along = 0, across[3], length;
-    RayFunctions     N, M;
+    const PetscReal *A = s->A + kept->value + q * nr;
+    Now              now;
+    Step             step;
 
     ContactRayLatticeGather(mortar, p->facet, &other);
-    ContactRayFunctions(1, own.order, xi, 1, &N);
-    ContactRayFunctions(1, other.order, eta, 0, &M);
-    ContactRayLatticeSum(&own, N.N, x);
-    ContactRayLatticeSum(&own, N.d[0], t);
-    ContactRayLatticeSum(&other, M.N, X);
-    length = PetscSqrtReal(t[0] * t[0] + t[1] * t[1]);
-    for (int c = 0; c < 2; c++) t[c] /= length;
-    for (int c = 0; c < 2; c++) along += t[c] * (X[c] - x[c]);
-    for (int c = 0; c < 2; c++) across[c] = (X[c] - x[c] - along * t[c]) / length;
-    PetscCall(PetscArrayzero(row, nn));
-    for (PetscInt a = 0; a < vertices; a++) {
-      Add_Private(&s->result, a, D, -N.N[a], t, row);
-      Add_Private(&s->result, a, D, N.d[0][a], across, row);
+    Now_Private(m, &own, &other, &p->at, &now);
+    if (D == 2) {
+      Step_Private(pair, &now, 0, 0, &step);
+      PetscCall(PetscArrayzero(row, nn));
+      AddStep_Private(&s->result, D, &now, own.num, first[q], other.num, 1, &step, row);
     }
-    for (PetscInt b = 0; b < other.num; b++) Add_Private(&s->result, first[q] + b, D, M.N[b], t, row);
-    for (PetscInt j = 0; j < nr; j++) {
-      slip[j] += A[j] * along;
-      for (PetscInt i = 0; i < nn; i++) gradient[j * nn + i] += A[j] * row[i];
+    for (PetscInt j = 0; j < m * nr; j++) {
+      if (D == 3) {
+        Step_Private(pair, &now, s->row[kept->row + j % nr], j / nr, &step);
+        AddStep_Private(&s->result, D, &now, own.num, first[q], other.num, A[j % nr], &step, gradient + j * nn);
+      }
+      slip[j] += A[j % nr] * step.along;
+      for (PetscInt i = 0; i < nn && D == 2; i++) gradient[j * nn + i] += A[j] * row[i];
+      for (int c = 0; c < 6 && D == 3; c++) by[j][c / 3][c % 3] += A[j % nr] * step.by[c / 3][c % 3];
     }
   }
+  if (D == 3) PetscCall(Axes_Private(pair, kept, nonmortar, (const PetscReal(*)[2][3])by, gradient));
   PetscCall(PetscMemzero(out, sizeof(*out)));
   out->facet    = kept->facet;
   out->num_rows = nr;
@@ -449,7 +557,7 @@ static PetscErrorCode Slip_Private(struct ContactSlip *s, const Kept *kept, cons
   out->gap      = slip;
   out->weight   = s->weight + kept->row;
   out->dgap     = gradient;
-  PetscCall(PetscFree(row));
+  PetscCall(PetscFree2(row, by));
   PetscCall(PetscFree(first));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -462,11 +570,15 @@ PetscErrorCode ContactPairSlip(ContactPair pair, const ContactSurface *nonmortar
   *num    = 0;
   *facets = NULL;
   if (!s) PetscFunctionReturn(PETSC_SUCCESS);
+  if (pair->dim == 3 && s->num_kept) {
+    ContactDirections(pair->ray, nonmortar);
+    PetscCall(ContactFrames(pair, nonmortar));
+  }
   s->result.store.at = s->result.store.used = 0;
   s->num_ids                                = 0;
   PetscCall(ContactGrow(s->num_kept, sizeof(ContactFacet), &s->size_facet, &s->facet));
   for (PetscInt i = 0; i < s->num_kept; i++) {
-    PetscCall(Slip_Private(s, &s->kept[i], nonmortar, mortar, &s->facet[i]));
+    PetscCall(Slip_Private(pair, &s->kept[i], nonmortar, mortar, &s->facet[i]));
     PetscCall(ContactGrow(s->num_ids + s->facet[i].num, sizeof(PetscInt), &s->size_ids, &s->ids));
     PetscCall(PetscArraycpy(s->ids + s->num_ids, s->result.node, s->facet[i].num));
     s->num_ids += s->facet[i].num;

@@ -1,45 +1,103 @@
-/* Coulomb friction in the plane: the pressure z as without friction, and a tangential traction q with  |q| <= b = mu z, as
+/* Coulomb friction: the pressure z as without friction, and a tangential traction q, in space a vector, with  |q| <= b = mu z, as
 
-     R = w0 [ q - min(b, max(-b, tau)) ],   tau = q - c s / wn,   s the slip of the step weighted with psi_j, wn = int psi_j where it began:
+     R = w0 [ q - tau min(1, b / |tau|) ],   tau = q - c s / wn,   s the slip of the step weighted with psi_j, wn = int psi_j where it began:
 
-   it sticks, s = 0, where |tau| <= b; else it slips, q = +- mu z, against s. A node that touches what it had not before it in its step begins without
-   traction. */
+   it sticks, s = 0, where |tau| <= b; else it slips, |q| = mu z, against s. A node that touches what it had not before it in its step begins without traction.
+
+   In space rows of slip are those at a place tau*, b* (aim), e = tau* / |tau*|, k = b* / |tau*|: that of the last evaluation, or where states of a linear step
+   are found, that at which it began to slip:
+     q = mu z e + k (1 - e e^T) (q - c s / wn). */
 #include "interfaceimpl.h"
 
 #define ROUND_OFF                                                                                                                                              \
   1e-8 /* a traction that is short of its bound by this share slips: where a step begins s = 0, and nodes that slipped in the last one lie on it */
 
-enum { OPEN, STICK, SLIP, SLIP_BACK, NEW }; /* SLIP: tau > b */
+enum { OPEN, STICK, SLIP, SLIP_BACK, NEW }; /* SLIP: in the plane tau > b */
 
-static PetscInt Two_Private(PetscInt dim)
+static PetscInt Count_Private(PetscInt dim)
 {
-  return 2;
+  return dim;
+}
+
+static PetscReal Pressure_Private(const ContactPoint *p)
+{
+  return p->z[0] - p->c * p->gap / p->weight;
+}
+
+/* tau, with the slip of the motion still to come; returns its length. */
+static PetscReal Trial_Private(const ContactPoint *p, PetscReal tau[2])
+{
+  tau[1] = 0;
+  for (PetscInt i = 0; i < p->dim - 1; ++i) tau[i] = p->slip_weight > 0 ? p->z[1 + i] - p->c * (p->slip[i] + p->slip_lift[i]) / p->slip_weight : 0;
+  if (p->held) tau[0] = 0;
+  return PetscSqrtReal(tau[0] * tau[0] + tau[1] * tau[1]);
 }
 
 /* From slip to slip the other way by way of stick only: tau jumps over +-b where c is as large as the bodies' stiffness, and sets would go to and fro. */
 static int8_t State_Private(const ContactPoint *p)
 {
-  const PetscReal pressure = p->z[0] - p->c * p->gap / p->weight, bound = (1 - ROUND_OFF) * p->spec->friction * pressure;
-  PetscReal       tau;
+  const PetscReal pressure = Pressure_Private(p), bound = (1 - ROUND_OFF) * p->spec->friction * pressure;
+  PetscReal       tau[2];
 
   if (!(pressure > 0)) return OPEN;
   if (p->slip_weight == 0) return NEW;
-  tau = p->z[1] - p->c * p->slip / p->slip_weight;
-  if (tau > bound) return p->state == SLIP_BACK ? STICK : SLIP;
-  if (tau < -bound) return p->state == SLIP ? STICK : SLIP_BACK;
-  return STICK;
+  if (!(Trial_Private(p, tau) > bound)) return STICK;
+  if (p->dim == 3) return p->state == SLIP && p->aim[0] * tau[0] + p->aim[1] * tau[1] < 0 ? STICK : SLIP;
+  if (tau[0] > 0) return p->state == SLIP_BACK ? STICK : SLIP;
+  return p->state == SLIP ? STICK : SLIP_BACK;
+}
+
+static void Aim_Private(const ContactPoint *p, PetscReal aim[3])
+{
+  PetscReal       tau[2];
+  const PetscReal length = Trial_Private(p, tau), bound = p->spec->friction * Pressure_Private(p);
+
+  for (int i = 0; i < 2; ++i) aim[i] = length > 0 ? tau[i] / length : 0;
+  aim[2] = length > 0 && bound > 0 ? PetscMin(1, bound / length) : 0;
+}
+
+static void Stick_Private(const ContactPoint *p, PetscInt i, ContactRow *row)
+{
+  *row         = (ContactRow){0};
+  row->slip[i] = p->w0 * p->c / p->slip_weight;
+  row->side    = -row->slip[i] * (p->slip[i] + p->slip_lift[i]);
+}
+
+/* q = share z */
+static void Bound_Private(const ContactPoint *p, PetscInt i, PetscReal share, ContactRow *row)
+{
+  *row          = (ContactRow){.z = {-p->w0 * share}, .side = -p->w0 * (p->z[1 + i] - share * p->z[0])};
+  row->z[1 + i] = p->w0;
+}
+
+static void Slip_Private(const ContactPoint *p, PetscInt i, ContactRow *row)
+{
+  PetscReal tau[2];
+
+  (void)Trial_Private(p, tau);
+  Bound_Private(p, i, p->spec->friction * p->aim[i], row);
+  for (PetscInt k = 0; k < 2; ++k) {
+    const PetscReal across = p->w0 * p->aim[2] * ((PetscReal)(i == k) - p->aim[i] * p->aim[k]);
+
+    row->z[1 + k] -= across;
+    row->slip[k] = across * p->c / p->slip_weight;
+    row->side += across * tau[k];
+  }
 }
 
 static void Rows_Private(const ContactPoint *p, PetscBool symmetric, ContactRow row[])
 {
-  const PetscReal share = p->state == SLIP ? p->spec->friction : p->state == SLIP_BACK ? -p->spec->friction : 0;
-
   ContactCompliantRow_Private(p, p->spring, 0, symmetric, &row[0]);
-  if (p->state == STICK) {
-    row[1]      = (ContactRow){.slip = PETSC_TRUE, .factor = p->w0 * p->c / p->slip_weight};
-    row[1].side = -row[1].factor * (p->slip + p->slip_lift);
-  } else
-    row[1] = (ContactRow){.z = {-p->w0 * share, p->w0}, .side = -p->w0 * (p->z[1] - share * p->z[0])};
+  for (PetscInt i = 0; i < p->dim - 1; ++i) {
+    if (p->held && i == 0)
+      Bound_Private(p, i, 0, &row[1 + i]);
+    else if (p->state == STICK)
+      Stick_Private(p, i, &row[1 + i]);
+    else if (p->dim == 3 && p->state == SLIP)
+      Slip_Private(p, i, &row[1 + i]);
+    else
+      Bound_Private(p, i, p->state == SLIP ? p->spec->friction : p->state == SLIP_BACK ? -p->spec->friction : 0, &row[1 + i]);
+  }
 }
 
 static PetscInt Slides_Private(int8_t state)
@@ -47,5 +105,10 @@ static PetscInt Slides_Private(int8_t state)
   return state == SLIP ? 1 : state == SLIP_BACK ? -1 : 0;
 }
 
-const ContactLawOps ContactCoulomb = {
-    .name = "coulomb", .slips = PETSC_TRUE, .num_multipliers = Two_Private, .state = State_Private, .rows = Rows_Private, .slides = Slides_Private};
+const ContactLawOps ContactCoulomb = {.name            = "coulomb",
+                                      .slips           = PETSC_TRUE,
+                                      .num_multipliers = Count_Private,
+                                      .state           = State_Private,
+                                      .rows            = Rows_Private,
+                                      .slides          = Slides_Private,
+                                      .aim             = Aim_Private};
