@@ -38,11 +38,13 @@ static void LineMake(Line *l, PetscInt n, PetscReal lo, PetscReal hi, PetscReal 
     l->edges[2 * e + 1] = e + 1;
   }
   l->view.nonmortar = (SurfaceView){.dim = 2, .corners = 2, .num_nodes = n, .num_facets = n - 1, .facets = l->edges, .x = l->x, .X = l->x, .owned = l->has};
-  l->view.z         = l->z;
-  l->view.gap       = l->gap;
-  l->view.weight    = l->weight;
-  l->view.active    = l->active;
-  l->view.has_multiplier = l->has;
+  static const ContactSpec spec = {.law = CONTACT_FRICTIONLESS};
+  l->view.spec                  = &spec;
+  l->view.z                     = l->z;
+  l->view.gap                   = l->gap;
+  l->view.weight                = l->weight;
+  l->view.active                = l->active;
+  l->view.has_multiplier        = l->has;
 }
 
 static PetscReal Hertz(PetscReal x)
