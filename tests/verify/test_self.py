@@ -1,0 +1,99 @@
+"""Contact of a surface with itself and of several bodies in one group (contact.<pair>.surface)."""
+import shutil
+
+import pytest
+
+from conftest import ROOT
+
+NOTCH = """
+mesh: {file: notch.geo, order: 1}
+model: plane_strain
+order: 2
+body: {block: {material: rubber}}
+material: {rubber: {law: neo_hookean, E: 1, nu: 0.3}}
+boundary: {bottom: {fix: y}, left: {displacement: {x: 0.2}}, right: {displacement: {x: -0.2}}}
+contact: {flanks: {surface: flanks}}
+load: {step: 0.25}
+"""
+DISCS = """
+mesh: {file: discs.geo, order: 2}
+model: plane_strain
+order: 2
+body: {lower: {material: hard}, middle: {material: soft}, upper: {material: hard}}
+material: {soft: {law: neo_hookean, E: 1, nu: 0.3}, hard: {law: neo_hookean, E: 3, nu: 0.3}}
+boundary: {axis: {fix: x}, floor: {fix: y}, roof: {displacement: {y: -0.5*t}}}
+contact: %s
+load: {step: 0.25}
+"""
+
+
+def scene(tmp_path, geometry, text):
+    shutil.copy(ROOT / "tests" / "gauntlet" / geometry, tmp_path / geometry)
+    (tmp_path / "scene.yml").write_text(text)
+    return tmp_path / "scene.yml"
+
+
+@pytest.mark.parametrize("order, options", [(1, ()), (2, ()), (3, ()), (4, ()), (2, ("-load_step", 1)), (2, ("-load_step", 0.125))])
+def test_flanks_of_a_notch_meet(run, tmp_path, order, options):
+    """Energy of orders 3 and 4 on half the cells: 0.0371013; the flanks carry a pressure and do not pass each other."""
+    result = run(scene(tmp_path, "notch.geo", NOTCH), "-order", order, *options)
+    assert result.returncode == 0, result
+    assert result.summary["energy"] == pytest.approx(0.0371013, rel=5e-3 if order == 1 else 3e-4)
+    assert not [w for w in result.summary["warnings"] if "itself" in w]
+    pair = result.summary["contact"]["flanks"]
+    assert pair["active_nodes"] > 0 and pair["min_gap"] > -1e-9
+
+
+@pytest.mark.parametrize("friction", [0, 0.2])
+def test_bodies_of_one_group(run, tmp_path, friction):
+    """Three discs in a pile: one group where everything may touch everything is the two pairs that do touch."""
+    one = run(scene(tmp_path, "discs.geo", DISCS % f"{{all: {{surface: skins, friction: {friction}}}}}"))
+    pairs = f"{{below: {{nonmortar: middle_skin, mortar: lower_skin, friction: {friction}}}, above: {{nonmortar: middle_skin, mortar: upper_skin, friction: {friction}}}}}"
+    two = run(scene(tmp_path, "discs.geo", DISCS % pairs))
+    assert one.returncode == 0 and two.returncode == 0, (one, two)
+    assert one.summary["energy"] == pytest.approx(two.summary["energy"], rel=1e-9)
+    assert one.summary["reaction"]["roof"] == pytest.approx(two.summary["reaction"]["roof"], rel=1e-8, abs=1e-9)
+
+
+@pytest.mark.parametrize("ranks", [2, 3])
+def test_ranks(run, tmp_path, ranks):
+    results = [run(scene(tmp_path, "notch.geo", NOTCH), ranks=n) for n in (1, ranks)]
+    energy = [r.summary["energy"] for r in results]
+    assert energy[1] == pytest.approx(energy[0], rel=1e-8)
+
+
+@pytest.mark.parametrize("contact, words", [
+    ("{flanks: {surface: flanks, mortar: left}}", ["contact.flanks.surface", "mortar"]),
+    ("{flanks: {surface: flanks, roles: given}}", ["contact.flanks.surface", "roles"]),
+    ("{flanks: {surface: flanks, initial_gap: ramp}}", ["contact.flanks.surface", "initial_gap"]),
+    ("{flanks: {surface: flanks, kind: tied}}", ["contact.flanks.surface", "tied"]),
+    ("{flanks: {nonmortar: flanks}}", ["contact.flanks", "mortar", "surface"]),
+    ("{flanks: {nonmortar: flanks, mortar: flanks}}", ["contact.flanks", "surface: flanks"]),
+    ("{flanks: {surface: flank}}", ["contact.flanks.surface", "flank"]),
+])
+def test_wrong_pairs(run, tmp_path, contact, words):
+    result = run(scene(tmp_path, "notch.geo", NOTCH.replace("{flanks: {surface: flanks}}", contact)))
+    assert result.returncode == 1
+    for word in words:
+        assert word in result.stderr, result.stderr
+
+
+def test_small_kinematics_and_rigid_bodies_are_refused(run, tmp_path):
+    small = run(scene(tmp_path, "notch.geo", NOTCH.replace("neo_hookean", "linear") + "kinematics: small\n"))
+    assert small.returncode == 1 and "kinematics" in small.stderr
+    rigid = run(scene(tmp_path, "discs.geo", DISCS.replace("hard: {law: neo_hookean, E: 3, nu: 0.3}", "hard: {law: rigid}").replace("floor: {fix: y}, roof: {displacement: {y: -0.5*t}}", "left: {fix: x}")
+                      .replace(", left: {fix: x}", "") % "{all: {surface: skins}}"))
+    assert rigid.returncode == 1 and "contact.all.surface" in rigid.stderr and "rigid" in rigid.stderr
+
+
+@pytest.mark.slow
+def test_tube_collapses_on_itself(run):
+    """Case P-10: walls touch at 5.24689; the force of the line of contact at pressures 7, 8, 9, 10 D/R^3."""
+    result = run("inputs/tube_self.yml")
+    assert result.returncode == 0, result
+    for pressure, force in ((7, 2.73), (8, 4.30), (9, 5.86), (10, 7.43)):
+        row = min(result.history, key=lambda r: abs(10 * r["t"] - pressure))
+        assert 10 * row["t"] == pytest.approx(pressure, abs=0.02)
+        found = abs(row["contact.walls.force.y"])
+        print(pressure, row["t"], found)
+        assert found == pytest.approx(force, rel=0.01)
