@@ -148,7 +148,7 @@ def test_tube_collapse(run, figures):
     minor = numpy.array([0.999 + row["probe.minor.displacement.y"] for row in result.history])
     force = numpy.array([abs(row["contact_force"]) for row in result.history])
     touched = p[force > 1e-9].min()
-    figures("A long tube collapses until its walls meet", "Flaherty, Keller & Rubinow, SIAM J. Appl. Math. 23 (1972) 446", result,
+    figures("A long tube collapses until its walls meet", "the elastica, integrated; Flaherty, Keller & Rubinow, SIAM J. Appl. Math. 23 (1972) 446", result,
             [("half minor axis / R at p = 3.86212", numpy.interp(3.86212, p, minor), 0.33923, (0.01,)), ("at 4.51569", numpy.interp(4.51569, p, minor), 0.14669, (0.01,)),
              ("pressure at which walls meet", touched, 5.24689, 0.05)])
 
