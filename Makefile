@@ -128,7 +128,7 @@ run-demo:
 # One runner for unit programs (on 1, 2 and where it matters 3 ranks) and cases: its last line is the count.
 PYTEST = MORTISE=$(abspath $(PROGRAM)) MORTISE_BUILD=$(abspath $(BUILD)) $(PYTHON) -B -m pytest -c tests/pytest.ini --rootdir tests -q --durations=5
 # Two files of tests at a time, where pytest-xdist is there.
-PARALLEL = $(shell $(PYTHON) -c 'import xdist' 2>/dev/null && echo -n 2 --dist loadfile)
+PARALLEL = $(shell $(PYTHON) -c 'import xdist' 2>/dev/null && echo --numprocesses=2 --dist=loadfile)
 test: bootstrap
 	@$(MAKE) --no-print-directory -j2 all units
 	@$(MAKE) --no-print-directory run-test
