@@ -1,4 +1,5 @@
-/* Weights of functions of a facet covered in part are positive: a mortar side that leaves a corner of the facet bare, where a dual function has all its weight. */
+/* Weights of functions of a facet covered in part are positive: a mortar side that leaves a corner of the facet bare, where a dual function has all its weight.
+ */
 #include "contactfixture.h"
 
 #include "functionimpl.h"
@@ -54,8 +55,9 @@ static PetscReal Least(PetscInt m, PetscInt p)
     ContactShareOf(m, p, 1 - (m == 1 ? bare : bare * bare), &share);
     for (PetscInt j = 0; j <= p; j++)
       for (PetscInt k = 0; k <= (m == 1 ? 0 : p); k++) {
-        const PetscReal theta = share.theta[0], whole = theta * o.dual[1][j] * (m == 1 ? 1 : o.dual[1][k]) + (1 - theta) * o.bernstein[1][j] * (m == 1 ? 1 : o.bernstein[1][k]);
-        least = PetscMin(least, (theta * Left(m, o.dual, j, k) + (1 - theta) * Left(m, o.bernstein, j, k)) / whole);
+        const PetscReal theta = share.theta[0],
+                        whole = theta * o.dual[1][j] * (m == 1 ? 1 : o.dual[1][k]) + (1 - theta) * o.bernstein[1][j] * (m == 1 ? 1 : o.bernstein[1][k]);
+        least                 = PetscMin(least, (theta * Left(m, o.dual, j, k) + (1 - theta) * Left(m, o.bernstein, j, k)) / whole);
       }
     if (share.theta[0] == 0) break; /* Bernstein polynomials are positive */
   }
