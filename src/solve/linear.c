@@ -288,11 +288,14 @@ static PetscReal Forcing_Private(Solver s)
 PetscErrorCode SolverMatrixSolve_Private(Solver s, Vec rhs, PetscBool again)
 {
   PetscBool ok;
+  PetscInt  rows;
   Mat       A;
 
   PetscFunctionBegin;
   s->no_solution = PETSC_FALSE;
   PetscCall(ProblemGetMatrix(s->problem, &A));
+  PetscCall(MatGetSize(A, &rows, NULL));
+  if (rows == 0) PetscFunctionReturn(PETSC_SUCCESS); /* all is prescribed or condensed: MUMPS would refuse it */
   if (s->saddle) {
     PetscCall(StageBegin(STAGE_FACTOR));
     PetscCall(SaddleSetUp_Private(s->saddle, A, s->symmetric));
