@@ -96,6 +96,7 @@ typedef struct {
   PetscReal        kappa[2];
   const PetscReal *dshare; /* [dim*num] derivative of the covered share; with dgap where the facet is covered in part, else NULL */
   const PetscReal *shear;  /* [dim - 1][num_rows][dim*num] force by a tangential traction z_j (ContactPairSetTraction); with dgap. NULL: none */
+  const PetscReal *micro;  /* ContactPairSlip: [((dim - 1) num_rows)^2] compliance C, slips count as s + C dq; NULL: none */
   const PetscReal *tie;    /* [num_rows][num] sum_a tie_ja x_a = int psi_j (x_m - x_s) dgamma, of ContactPairTie; else NULL */
   const PetscReal *whole;  /* [num_rows] with tie: what the weight would be if the facet were covered whole */
   PetscReal        area;   /* covered length or area (axisymmetric: area) */

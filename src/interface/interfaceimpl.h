@@ -114,7 +114,8 @@ typedef struct {
   PetscReal          *from;          /* [size] local displacements that it counts from */
   PetscBool           stale;         /* points are not kept there yet */
   Link                places[2];     /* of nodes that facets kept and their partners need */
-  PetscReal          *slip, *weight; /* [dim - 1][n] s_j at the last evaluation, [n] w_j where it counts from */
+  PetscReal          *slip, *weight; /* [dim - 1][n] s_j + (C dq)_j at the last evaluation, [n] w_j where it counts from */
+  PetscReal          *q, *coupled;   /* [dim - 1][n] tractions where it counts from; (C dq)_j at the last evaluation */
   PetscReal          *mean;          /* [dim - 1][n] s_j / w_j */
   PetscReal          *change, *lift; /* [dim - 1][n] as those of the gaps */
   PetscReal          *aim;           /* space: [n][3] as in ContactPoint */
@@ -407,7 +408,8 @@ PetscReal SurfaceFacetMeasure_Private(const Surface *, PetscInt facet, PetscBool
  */
 PetscErrorCode SlipCreate_Private(Interface, Contact *);
 PetscErrorCode SlipDestroy_Private(Contact *);
-PetscErrorCode SlipKeep_Private(Interface, Contact *);
+PetscErrorCode SlipKeep_Private(Interface, Contact *, Vec x);
+void           SlipCoupling_Private(const Contact *, const PetscReal q[], PetscReal coupled[]);
 PetscErrorCode SlipEvaluate_Private(Interface, Contact *);
 PetscErrorCode SlipChange_Private(Interface, Contact *, PetscReal change[]);
 /* pattern.c: room in the matrix for what facets may meet until the next search. */

@@ -35,7 +35,7 @@ PetscErrorCode SlipCreate_Private(Interface p, Contact *c)
   PetscCall(PetscNew(&s));
   s->size = p->dim * v->num_nodes;
   PetscCall(PetscCalloc7(m * n, &s->slip, n, &s->weight, m * n, &s->mean, m * n, &s->change, m * n, &s->lift, num_facets, &s->result, s->size, &s->from));
-  PetscCall(PetscCalloc2(3 * n, &s->aim, 3 * n, &s->axis));
+  PetscCall(PetscCalloc4(3 * n, &s->aim, 3 * n, &s->axis, m * n, &s->q, m * n, &s->coupled));
   for (PetscInt f = 0; f < num_facets; ++f) s->result[f] = -1;
   s->stale     = PETSC_TRUE;
   c->slip      = s;
@@ -55,7 +55,7 @@ PetscErrorCode SlipDestroy_Private(Contact *c)
   if (!s) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(PetscFree7(s->slip, s->weight, s->mean, s->change, s->lift, s->result, s->from));
   for (PetscInt k = 0; k < 2; ++k) PetscCall(LinkDestroy_Private(&s->places[k]));
-  PetscCall(PetscFree2(s->aim, s->axis));
+  PetscCall(PetscFree4(s->aim, s->axis, s->q, s->coupled));
   PetscCall(PetscFree(s->held));
   PetscCall(PetscFree(c->slip));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -81,7 +81,37 @@ PetscBool InterfaceSlips(Interface p)
   return PETSC_FALSE;
 }
 
-PetscErrorCode SlipKeep_Private(Interface p, Contact *c)
+/* What tractions q[dim - 1][n] add to the slips of this rank's nodes by compliance. */
+void SlipCoupling_Private(const Contact *c, const PetscReal q[], PetscReal coupled[])
+{
+  const SlipHistory *s = c->slip;
+  const PetscInt     n = c->side[0].num_nodes, m = c->side[0].dim - 1;
+
+  for (PetscInt i = 0; i < m * n; ++i) coupled[i] = 0;
+  for (PetscInt f = 0; f < s->num_facets; ++f) {
+    const ContactFacet *e  = &s->facets[f];
+    const PetscInt      nr = e->num_rows, size = m * nr;
+
+    for (PetscInt i = 0; i < size * size && e->micro; ++i) {
+      const PetscInt row = i / size, column = i % size, j = e->nodes[row % nr], at = n * (column / nr) + e->nodes[column % nr];
+
+      if (c->side[0].owned[j]) coupled[n * (row / nr) + j] += e->micro[i] * (q[at] - s->q[at]);
+    }
+  }
+}
+
+/* Tractions at x count from now on. */
+static PetscErrorCode KeepTractions_Private(Interface p, Contact *c, Vec x)
+{
+  const PetscInt n = c->side[0].num_nodes;
+
+  PetscFunctionBegin;
+  PetscCall(ContactGatherMultipliers_Private(p, c, x));
+  PetscCall(PetscArraycpy(c->slip->q, c->z + n, (p->dim - 1) * n));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SlipKeep_Private(Interface p, Contact *c, Vec x)
 {
   SlipHistory *s = c->slip;
   PetscBool    failed;
@@ -91,6 +121,7 @@ PetscErrorCode SlipKeep_Private(Interface p, Contact *c)
   if (!c->law->slips) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &stale, 1, MPI_INT, MPI_MAX, p->comm));
   if (!stale) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(KeepTractions_Private(p, c, x));
   for (PetscInt k = 0; k < 2; ++k) {
     SurfaceForget_Private(&c->side[k]);
     SurfacePlace_Private(&c->side[k], s->from, ContactBase_Private(c, k), c->side[k].x);
@@ -133,6 +164,8 @@ PetscErrorCode SlipEvaluate_Private(Interface p, Contact *c)
       s->weight[e->nodes[k]] += e->weight[k];
     }
   }
+  SlipCoupling_Private(c, c->z + n, s->coupled);
+  for (PetscInt i = 0; i < m * n; ++i) s->slip[i] += s->coupled[i];
   for (PetscInt d = 0; d < m; ++d) PetscCall(LinkSpread_Private(p, &own->values, 1, s->slip + n * d));
   PetscCall(LinkSpread_Private(p, &own->values, 1, s->weight));
   for (PetscInt j = 0; j < own->num_nodes; ++j)

@@ -97,6 +97,7 @@ PetscErrorCode ContactFacetHessian_Private(Interface p, const InterfaceSystem *a
 static PetscErrorCode ShearColumns_Private(Interface p, const InterfaceSystem *a, const Contact *c, const ContactFacet *e, PetscInt k)
 {
   const PetscInt dim = p->dim, n = dim * e->num;
+  PetscReal      q[INTERFACE_MOTIONS];
 
   PetscFunctionBegin;
   for (PetscInt d = 0; d < dim - 1; ++d) {
@@ -104,6 +105,9 @@ static PetscErrorCode ShearColumns_Private(Interface p, const InterfaceSystem *a
     for (PetscInt i = 0; i < n; ++i) p->work.value[i] = -e->shear[(e->num_rows * d + k) * n + i];
     for (PetscInt b = 0; b < e->num; ++b) Turn_Private(dim, Frame_Private(c, e->nodes[b]), p->work.value + dim * b, 1);
     PetscCall(ContactInsert_Private(a->matrix, n, p->work.index, 1, &column, p->work.value, ADD_VALUES));
+    if (!c->num_q) continue;
+    ContactRigidForces_Private(c, e, p->work.value, q);
+    PetscCall(ContactInsert_Private(a->matrix, c->num_q, c->q_row, 1, &column, q, ADD_VALUES));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -184,10 +188,11 @@ static PetscErrorCode Blocks_Private(Interface p, const InterfaceSystem *a, Cont
       for (PetscInt i = 0; i < n && yield != 0; ++i) p->work.value[i] -= yield * e->dshare[i];
       for (PetscInt b = 0; b < e->num; ++b) Turn_Private(dim, Frame_Private(c, e->nodes[b]), p->work.value + dim * b, 1);
       PetscCall(ContactInsert_Private(a->matrix, n, p->work.index, 1, &z, p->work.value, ADD_VALUES));
+      if (c->num_q) {
+        ContactRigidForces_Private(c, e, p->work.value, q);
+        PetscCall(ContactInsert_Private(a->matrix, c->num_q, c->q_row, 1, &z, q, ADD_VALUES));
+      }
       if (e->shear) PetscCall(ShearColumns_Private(p, a, c, e, k));
-      if (!c->num_q) continue;
-      ContactRigidForces_Private(c, e, p->work.value, q);
-      PetscCall(ContactInsert_Private(a->matrix, c->num_q, c->q_row, 1, &z, q, ADD_VALUES));
     }
   }
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -315,6 +320,30 @@ static PetscErrorCode Couplings_Private(const InterfaceSystem *a, const Contact 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Of a row with friction: compliance at the columns of the tangential tractions, its own too. */
+static PetscErrorCode SlipCouplings_Private(const Contact *c, PetscInt j, const ContactRow *row, PetscInt num, const PetscInt dofs[], PetscReal values[])
+{
+  const Surface *s = &c->side[0];
+  const PetscInt m = s->dim - 1;
+  PetscInt       at;
+
+  PetscFunctionBegin;
+  for (PetscInt i = s->node_first[j]; c->slip && i < s->node_first[j + 1]; ++i) {
+    const PetscInt place = c->slip->result[s->node_facet[i]];
+    if (place < 0 || !c->slip->facets[place].micro) continue;
+    const ContactFacet *e  = &c->slip->facets[place];
+    const PetscInt      nr = e->num_rows, own = RowOf_Private(e, j);
+    for (PetscInt k = 0; k < m * m * nr && own >= 0; ++k) {
+      const PetscInt d = k / (m * nr), column = k % (m * nr), l = e->nodes[column % nr];
+      if (row->slip[d] == 0 || c->zdof[l] < 0) continue;
+      PetscCall(PetscFindInt(c->zdof[l] + 1 + column / nr, num, dofs, &at));
+      PetscCheck(at >= 0, PETSC_COMM_SELF, PETSC_ERR_PLIB, "traction outside the pattern of its facet");
+      values[at] += row->slip[d] * e->micro[(d * nr + own) * m * nr + column];
+    }
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* Rows of node j, in the symmetric form its column as well: that differs from -grad gt_j by gt_j times the change of z_j, small of second order. There z_j =
    c_j times the unknown, and the row is c_j times that: a force by a length, as those of the displacements are, so that one norm over all rows means the same
    in every unit. */
@@ -329,6 +358,7 @@ PetscErrorCode ContactInsertRow_Private(Interface p, const InterfaceSystem *a, c
     PetscCall(Couplings_Private(a, c, j, i == 0 ? row[i].factor : 0, num, p->work.index, p->work.value));
     PetscCall(PetscFindInt(c->zdof[j], num, p->work.index, &at));
     for (PetscInt k = 0; k < c->num; ++k) p->work.value[at + k] = a->symmetric ? row[i].z[k] * c->c[j] : row[i].z[k];
+    PetscCall(SlipCouplings_Private(c, j, &row[i], num, p->work.index, p->work.value));
     PetscCall(ContactInsert_Private(a->matrix, 1, &line, num, p->work.index, p->work.value, INSERT_VALUES));
     if (a->symmetric) PetscCall(ContactInsert_Private(a->matrix, num, p->work.index, 1, &line, p->work.value, INSERT_VALUES));
   }
@@ -421,14 +451,17 @@ static PetscErrorCode States_Private(Interface p, const InterfaceSystem *a, Cont
 {
   Surface   *s     = &c->side[0];
   PetscReal  least = 0;
-  PetscReal *z, *coupled;
+  PetscReal *z, *coupled, *slip;
 
   PetscFunctionBegin;
-  PetscCall(PetscMalloc2(s->num_nodes, &z, s->num_nodes, &coupled));
-  PetscCall(PetscArraycpy(z, c->z, s->num_nodes));
-  for (PetscInt i = 0; i < s->num_own; ++i) z[s->own[i]] += c->zlocal[s->own[i]] >= 0 ? dx[c->zlocal[s->own[i]]] : 0;
-  PetscCall(LinkSpread_Private(p, &s->values, 1, z));
+  PetscCall(PetscMalloc3(c->num * s->num_nodes, &z, s->num_nodes, &coupled, c->num * s->num_nodes, &slip));
+  PetscCall(PetscArraycpy(z, c->z, c->num * s->num_nodes));
+  for (PetscInt k = 0; k < c->num; ++k) {
+    for (PetscInt i = 0; i < s->num_own; ++i) z[s->num_nodes * k + s->own[i]] += c->zlocal[s->own[i]] >= 0 ? dx[c->zlocal[s->own[i]] + k] : 0;
+    PetscCall(LinkSpread_Private(p, &s->values, 1, z + s->num_nodes * k));
+  }
   ContactCoupling_Private(c, z, coupled);
+  if (c->slip) SlipCoupling_Private(c, z + s->num_nodes, slip);
   PetscCall(ContactChange_Private(p, c, a->increment, c->change));
   if (c->slip) PetscCall(SlipChange_Private(p, c, c->slip->change));
   if (FormHas(p->form->deepest_first, (PetscInt)(c - p->contacts))) PetscCall(ContactLeastOverlap_Private(p, c, &least));
@@ -439,13 +472,16 @@ static PetscErrorCode States_Private(Interface p, const InterfaceSystem *a, Cont
     ContactPoint point = ContactPoint_Private(c, j, PETSC_FALSE);
     for (PetscInt k = 0; k < c->num; ++k) point.z[k] += dx[c->zlocal[j] + k];
     point.gap += c->change[j] + coupled[j] - c->coupled[j];
-    for (PetscInt d = 0; d < p->dim - 1 && c->slip; ++d) point.slip[d] += c->slip->change[s->num_nodes * d + j];
+    for (PetscInt d = 0; d < p->dim - 1 && c->slip; ++d) {
+      const PetscInt at = s->num_nodes * d + j;
+      point.slip[d] += c->slip->change[at] + slip[at] - c->slip->coupled[at];
+    }
     const int8_t active = c->law->state(&point);
     if (active && ContactOverlap_Private(c, j) < least) continue;
     if (p->dim == 3 && c->slip && active != c->active[j]) c->law->aim(&point, c->slip->aim + 3 * j);
     c->active[j] = active;
   }
-  PetscCall(PetscFree2(z, coupled));
+  PetscCall(PetscFree3(z, coupled, slip));
   for (PetscInt i = 0; i < s->num_own; ++i) c->pack[s->own[i]] = c->active[s->own[i]];
   PetscCall(LinkSpread_Private(p, &s->values, 1, c->pack));
   for (PetscInt i = 0; i < s->values.num; ++i) c->active[s->values.nodes[i]] = (int8_t)c->pack[s->values.nodes[i]];

@@ -359,9 +359,6 @@ static PetscErrorCode CheckFriction_Private(Scene s, const SceneNode *node, Cont
   PetscCheckInput(d->mechanics.kinematics == KINEMATICS_FINITE, "%s is %g: friction needs kinematics: finite; allowed here: 0", NodeWhere(given),
                   (double)c->spec.friction);
   PetscCheckInput(d->load.control == LOAD_TIME, "%s is %g: friction needs load.control: time; allowed here: 0", NodeWhere(given), (double)c->spec.friction);
-  for (PetscInt b = 0; b < s->num_bodies; ++b)
-    PetscCheckInput(!BodyIsLoaded(&s->body[b].spec), "%s is %g: friction is not built yet for scenes with a rigid body that carries loads; allowed here: 0",
-                    NodeWhere(given), (double)c->spec.friction);
   c->spec.law = CONTACT_COULOMB;
   PetscFunctionReturn(PETSC_SUCCESS);
 }

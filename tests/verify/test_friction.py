@@ -91,7 +91,7 @@ def incline(run, mu, share, order, n=4):
     scene = blocks("upper", {"lower": RIGID, "upper": STEEL}, {}, {"nl": 13, "nu": n, "mu": 2, "wl": 4, "xu": 1, "hu": 0.25}, pair={"friction": mu, "initial_gap": "adjust"},
                    order=order)
     scene = scene.replace("boundary: {}\n", "").replace("upper: {material: upper}", f"upper: {{material: upper, force: {{x: \"{force['x']}\", y: \"{force['y']}\"}}}}")
-    scene = scene.replace("load: {step: 1}", "load: {end: 2, step: 1, step_min: 1}")
+    scene = scene.replace("load: {step: 1}", "load: {end: 2, step: 1}" if share < 1 else "load: {end: 2, step: 1, step_min: 1}")
     return run("incline.yml", text=scene)
 
 
@@ -122,9 +122,6 @@ def disc(pair, order, mu):
     return DISC.replace("GEO", str(ROOT / "inputs" / "hertz2d.geo")).replace("ORDER", str(order)).replace("PAIR", PAIRS[pair]).replace("MU", str(mu))
 
 
-SECOND = {("disc", 1, 0.3): 11, ("disc", 3, 0.6): 11, ("disc", 2, 0.1): 13}  # found by the second of the two predictors
-
-
 @pytest.mark.parametrize("mu", [0.1, 0.3, 0.6, 1.0])
 @pytest.mark.parametrize("order", [1, 2, 3])
 @pytest.mark.parametrize("pair", list(PAIRS))
@@ -139,7 +136,7 @@ def test_pressed_and_slid(run, pair, order, mu):
     pressure, traction = tractions(result)
     assert numpy.all(traction <= mu * pressure * (1 + 1e-9) + 1e-12)
     assert column(result, "contact.pair.dissipation").min() >= -1e-15
-    assert column(result, "newton_iterations").max() <= SECOND.get((pair, order, mu), 8)
+    assert column(result, "newton_iterations").max() <= 8
 
 
 def test_tangent(run):

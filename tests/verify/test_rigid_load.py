@@ -1,5 +1,6 @@
 """Rigid bodies that forces and moments move (body.<name>.load): the same equilibria as under the motion that asks for these forces, forces and moments in balance."""
 import json
+import math
 import re
 
 import pytest
@@ -168,6 +169,42 @@ def test_tangent_is_exact(run, tmp_path, dim, load):
     assert is_quadratic(norms), norms
     assert dim == 3 or result.summary["unstable_equilibria"] == 0  # in space inertia is not counted where a factor serves again
 
+
+# ---- with friction --------------------------------------------------------------------------------------------------------------------
+
+@pytest.mark.parametrize("dim, ranks", [(2, 1), (2, 3), (3, 1)])
+def test_friction(run, tmp_path, dim, ranks):
+    """Pressed, then moved along and turned while part of it slips: the forces and the moment that this takes bring the same about."""
+    scene = pressed(tmp_path, dim, 1, {"law": "rigid"})
+    scene["order"], scene["load"] = 4 - dim, {"end": 2, "step": 1}
+    scene["contact"]["c"]["friction"] = 0.1
+    told = solve(run, by_motion(scene, {"x": "0.06*max(t-1,0)", "y": "-0.1*min(t,1)", "rotation": {"angle": "-1*max(t-1,0)"}}))
+    tool = told.summary["body"]["tool"]
+    first = {k: told.history[0][f"body.tool.{k}"] for k in ("force.x", "force.y", "moment" if dim == 2 else "moment.z")}
+    final = dict(zip(first, (*tool["force"][:2], tool["moment"][-1])))
+    assert told.history[-1]["contact.c.dissipation"] > 0 and abs(final["force.x"]) > 0.05 * final["force.y"]
+    path = {key: f"{-first[key]!r}*min(t,1)+({first[key] - final[key]!r})*max(t-1,0)" for key in first}
+    found = solve(run, by_load(scene, dict(zip(("x", "y", "moment_z"), path.values()))), "-snes_test_jacobian", "-snes_monitor", ranks=ranks)
+    same(found, told)
+    assert contact(found)["dissipation"] == pytest.approx(contact(told)["dissipation"], rel=1e-7)
+    assert is_quadratic(steps(found)[-1])
+
+
+def test_a_roller_rolls(run, tmp_path):
+    """A rigid disc that a force presses, drawn along and free to turn, rolls without a force; by how far each turn carries it depends on how deep it lies."""
+    scene = roller(tmp_path)
+    scene["contact"]["c"]["friction"] = 0.5
+    scene["load"] = {"end": 2, "step": 0.25}
+    scene["body"]["disc"] |= {"motion": {"x": "0.2*max(t-1,0)"}, "load": {"y": "-0.02*min(t,1)", "moment_z": 0}}
+    result = solve(run, scene)
+    disc = result.summary["body"]["disc"]
+    assert disc["force"][1] == pytest.approx(0.02, abs=1e-9) and abs(disc["moment"][0]) < 1e-9
+    assert abs(disc["force"][0]) < 0.02 * disc["force"][1]
+    rolled = -math.radians(disc["rotation"][0]) / 0.2  # turns by this much for each unit of length
+    assert 0.8 < rolled * 0.5 < 1.2, rolled
+
+
+# ---- refused -----------------------------------------------------------------------------------------------------------------------
 
 @pytest.mark.parametrize("edit, words", [
     (lambda s: s["body"]["tool"].update(load={"y": -1}, motion={"y": -1}), ["body.tool.load.y", "motion in y is prescribed"]),

@@ -7,7 +7,10 @@
 
    Slip. Points q of the pair at the positions x0 where they were kept, with A_jq = psi_j dgamma_q:
      s_j(x) = sum_q A_jq [ t.r(x) - t.r(x0) ],   r = x_m(eta_q) - x(xi_q),
-   t = x,xi / |x,xi|; in space each of the node's axes as carried to the point (frame.c). */
+   t = x,xi / |x,xi|; in space each of the node's axes as carried to the point (frame.c).
+
+   Compliance. On a facet that was covered in part slips count as s + C dq, dq the change of the tractions since then, C = kappa [diag m - m m^T / sum m] as
+   for gaps (blend.c): constraints of functions of which slivers are covered say nearly the same. C is that of the positions x0, a constant of the step. */
 #include "kernelimpl.h"
 
 typedef struct {
@@ -16,16 +19,16 @@ typedef struct {
 } Point; /* facet: of the mortar side */
 
 typedef struct {
-  PetscInt facet, num_rows, num_points, row, point, value; /* where its rows, points and values A[points][rows] begin */
+  PetscInt facet, num_rows, num_points, row, point, value, micro; /* where its rows, points, values A[points][rows] and C begin; micro -1: no C */
 } Kept;
 
 struct ContactSlip {
-  PetscInt      num_kept, num_rows, num_points, num_values, size_kept, size_row, size_weight, size_start, size_point, size_A;
+  PetscInt      num_kept, num_rows, num_points, num_values, num_C, size_kept, size_row, size_weight, size_start, size_point, size_A, size_C;
   Kept         *kept;
   PetscInt     *row;            /* nodes */
   PetscReal    *weight, *start; /* by rows: sum_q A_jq; [rows][2] sum_q A_jq t.r(x0) */
   Point        *point;
-  PetscReal    *A;
+  PetscReal    *A, *C;
   Result        result;
   ContactFacet *facet; /* [num_kept] */
   PetscInt     *ids, num_ids, size_facet, size_ids;
@@ -44,6 +47,7 @@ PetscErrorCode ContactSlipDestroy(struct ContactSlip **slip)
   PetscCall(PetscFree(s->start));
   PetscCall(PetscFree(s->point));
   PetscCall(PetscFree(s->A));
+  PetscCall(PetscFree(s->C));
   PetscCall(PetscFree(s->facet));
   PetscCall(PetscFree(s->ids));
   PetscCall(PetscFree(*slip));
@@ -377,7 +381,29 @@ static PetscErrorCode KeepPoints_Private(const EvaluateContext *ctx, struct Cont
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode Keep_Private(const EvaluateContext *ctx, PetscInt facet)
+/* C of the facet at hand, by components and rows; axes of nodes that differ couple as vectors do. */
+static PetscErrorCode KeepCompliance_Private(const EvaluateContext *ctx, const ContactFacet *out, struct ContactSlip *s, Kept *kept)
+{
+  const NodeFrame *frame = ctx->pair->ray->frame;
+  const PetscInt   nr = kept->num_rows, m = ctx->pair->dim - 1, n = m * nr, *node = s->row + kept->row;
+  PetscReal        sum = 0;
+
+  PetscFunctionBegin;
+  if (!out->compliance) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(ContactGrow(s->num_C + n * n, sizeof(PetscReal), &s->size_C, &s->C));
+  kept->micro = s->num_C;
+  s->num_C += n * n;
+  for (PetscInt r = 0; r < nr; r++) sum += out->compliance[r];
+  for (PetscInt i = 0; i < n * n; i++) {
+    const PetscInt  j = i / n % nr, l = i % nr, a = i / n / nr, b = i % n / nr;
+    const PetscReal along = m == 1 ? 1 : Dot3(frame[node[j]].e[a], frame[node[l]].e[b]);
+
+    s->C[kept->micro + i] = along * out->kappa[0] * out->compliance[j] * ((PetscReal)(j == l) - out->compliance[l] / sum);
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode Keep_Private(const EvaluateContext *ctx, PetscInt facet, const ContactFacet *out)
 {
   RayWork             w  = ctx->pair->ray;
   struct ContactSlip *s  = ctx->pair->slip;
@@ -390,13 +416,14 @@ static PetscErrorCode Keep_Private(const EvaluateContext *ctx, PetscInt facet)
   PetscCall(ContactGrow(s->num_rows + nr, sizeof(PetscReal), &s->size_weight, &s->weight));
   PetscCall(ContactGrow(2 * (s->num_rows + nr), sizeof(PetscReal), &s->size_start, &s->start));
   kept  = &s->kept[s->num_kept++];
-  *kept = (Kept){.facet = facet, .num_rows = nr, .row = s->num_rows, .point = s->num_points, .value = s->num_values};
+  *kept = (Kept){.facet = facet, .num_rows = nr, .row = s->num_rows, .point = s->num_points, .value = s->num_values, .micro = -1};
   for (PetscInt j = 0; j < nr; j++) {
     s->row[s->num_rows + j]    = w->result.node[j];
     s->weight[s->num_rows + j] = s->start[2 * (s->num_rows + j)] = s->start[2 * (s->num_rows + j) + 1] = 0;
   }
   s->num_rows += nr;
   PetscCall(KeepPoints_Private(ctx, s, kept));
+  PetscCall(KeepCompliance_Private(ctx, out, s, kept));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -408,7 +435,7 @@ PetscErrorCode ContactSlipFacet(const EvaluateContext *ctx, PetscInt facet, Pets
   PetscFunctionBegin;
   out->shear = NULL;
   if (!pair->traction && !pair->keeps) PetscFunctionReturn(PETSC_SUCCESS);
-  if (pair->keeps) PetscCall(Keep_Private(ctx, facet));
+  if (pair->keeps) PetscCall(Keep_Private(ctx, facet, out));
   if (!pair->traction || !derivatives) PetscFunctionReturn(PETSC_SUCCESS);
   if (pair->dim == 3) {
     PetscCall(ContactShear(ctx, out));
@@ -428,9 +455,10 @@ PetscErrorCode ContactPairKeepPoints(ContactPair pair, const ContactSurface *non
   PetscFunctionBegin;
   if (!pair->slip) PetscCall(PetscNew(&pair->slip));
   s           = pair->slip;
-  s->num_kept = s->num_rows = s->num_points = s->num_values = 0;
-  pair->keeps                                               = PETSC_TRUE;
-  pair->state.stands                                        = PETSC_FALSE;
+  s->num_kept = s->num_rows = s->num_points = s->num_values = s->num_C = 0;
+
+  pair->keeps        = PETSC_TRUE;
+  pair->state.stands = PETSC_FALSE;
   PetscCall(ContactPairEvaluate(pair, nonmortar, mortar, NULL, NULL, PETSC_FALSE, PETSC_FALSE, &num, &facets, failed));
   pair->keeps = pair->state.stands = PETSC_FALSE;
   if (*failed) s->num_kept = s->num_rows = s->num_points = s->num_values = 0;
@@ -557,6 +585,7 @@ static PetscErrorCode Slip_Private(ContactPair pair, const Kept *kept, const Con
   out->gap      = slip;
   out->weight   = s->weight + kept->row;
   out->dgap     = gradient;
+  out->micro    = kept->micro < 0 ? NULL : s->C + kept->micro;
   PetscCall(PetscFree2(row, by));
   PetscCall(PetscFree(first));
   PetscFunctionReturn(PETSC_SUCCESS);

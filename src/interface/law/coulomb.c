@@ -9,8 +9,9 @@
      q = mu z e + k (1 - e e^T) (q - c s / wn). */
 #include "interfaceimpl.h"
 
-#define ROUND_OFF                                                                                                                                              \
-  1e-8 /* a traction that is short of its bound by this share slips: where a step begins s = 0, and nodes that slipped in the last one lie on it */
+/* A traction that is short of its bound by this share lies on it: where a step begins s = 0, and nodes that slipped in the
+   last one are there. Rows leave such a lack out, or no state would fulfil its own row. */
+#define ROUND_OFF 1e-8
 
 enum { OPEN, STICK, SLIP, SLIP_BACK, NEW }; /* SLIP: in the plane tau > b */
 
@@ -19,9 +20,10 @@ static PetscInt Count_Private(PetscInt dim)
   return dim;
 }
 
+/* z where the row of the pressure is fulfilled (frictionless.c). */
 static PetscReal Pressure_Private(const ContactPoint *p)
 {
-  return p->z[0] - p->c * p->gap / p->weight;
+  return p->z[0] - p->c * (p->gap + p->spring * p->z[0]) / (p->weight + p->c * p->spring);
 }
 
 /* tau, with the slip of the motion still to come; returns its length. */
@@ -66,16 +68,20 @@ static void Stick_Private(const ContactPoint *p, PetscInt i, ContactRow *row)
 /* q = share z */
 static void Bound_Private(const ContactPoint *p, PetscInt i, PetscReal share, ContactRow *row)
 {
-  *row          = (ContactRow){.z = {-p->w0 * share}, .side = -p->w0 * (p->z[1 + i] - share * p->z[0])};
+  const PetscReal bound = share * p->z[0], lack = bound - p->z[1 + i];
+
+  *row          = (ContactRow){.z = {-p->w0 * share}, .side = PetscAbsReal(lack) > ROUND_OFF * PetscAbsReal(bound) ? p->w0 * lack : 0};
   row->z[1 + i] = p->w0;
 }
 
 static void Slip_Private(const ContactPoint *p, PetscInt i, ContactRow *row)
 {
-  PetscReal tau[2];
+  PetscReal       tau[2];
+  const PetscReal bound = p->spec->friction * p->z[0], lack = bound - Trial_Private(p, tau), share = p->spec->friction * p->aim[i];
 
-  (void)Trial_Private(p, tau);
-  Bound_Private(p, i, p->spec->friction * p->aim[i], row);
+  *row          = (ContactRow){.z = {-p->w0 * share}, .side = -p->w0 * (p->z[1 + i] - share * p->z[0])};
+  row->z[1 + i] = p->w0;
+  if (lack > 0 && lack <= ROUND_OFF * bound) row->side -= p->w0 * p->aim[i] * lack;
   for (PetscInt k = 0; k < 2; ++k) {
     const PetscReal across = p->w0 * p->aim[2] * ((PetscReal)(i == k) - p->aim[i] * p->aim[k]);
 
