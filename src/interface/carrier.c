@@ -192,8 +192,9 @@ PetscErrorCode ContactCarriers_Private(Interface p, Contact *c)
   PetscFunctionBegin;
   PetscCall(ForestGetTables(p->forest, &t));
   for (PetscInt n = 0; n < s->num_nodes; ++n) {
+    if (s->hang[n] < s->hang[n + 1]) continue;
     const PetscInt facet = s->node_facet[s->node_first[n]];
-    if (s->hang[n] < s->hang[n + 1] || IsWeightless_Private(p, c, n, facet)) continue;
+    if (IsWeightless_Private(p, c, n, facet)) continue;
     if (c->spec->self && IsCrease_Private(s, n)) continue;
     const PetscBool rigid = p->spec->bodies[t->leaf_body[s->facet_leaf[facet]]].material->law->rigid;
     PetscReal       normal[3];
