@@ -150,8 +150,8 @@ typedef struct {
   PetscReal bytes, search_bytes, seconds; /* seconds: wall time in the exchange of values, waiting included */
 } ContactTraffic;
 PetscErrorCode InterfaceGetTraffic(Interface, ContactTraffic *);
-/* Components z[num_z][nonmortar.num_nodes], from the second on, of tangential tractions on the mortar side traction[..][3] along the axes of the last evaluation,
-   friction in space: of this rank's own nodes. Not collective. */
+/* Components z[num_z][nonmortar.num_nodes], from the second on, of tangential tractions on the mortar side traction[..][3] along the axes of the last
+   evaluation, friction in space: of this rank's own nodes. Not collective. */
 PetscErrorCode InterfaceResolveTractions(Interface, PetscInt pair, const PetscReal traction[], PetscReal z[]);
 /* Set the multipliers of a pair from values[num_z][nonmortar.num_nodes] in x: each rank those of its own nodes. */
 PetscErrorCode InterfaceSetMultipliers(Interface, PetscInt pair, const PetscReal z[], Vec x);

@@ -83,16 +83,24 @@ PetscErrorCode ContactNodeScales_Private(Interface p, Contact *c)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Mean unit normal of the facets at a node, those between the corners, reference positions. */
+/* Mean unit normal of the facets at a node, those between the corners, and of their mirror images in planes of symmetry; reference positions. */
 static void NodeNormal_Private(const Surface *s, PetscInt n, PetscReal normal[3])
 {
-  PetscReal N[3], length;
+  const PetscInt dim = s->dim;
+  PetscReal      N[3], length;
 
   for (PetscInt c = 0; c < 3; ++c) normal[c] = 0;
   for (PetscInt k = s->node_first[n]; k < s->node_first[n + 1]; ++k) {
     ContactFacetVector(s->dim, s->X, s->facets + s->corners * s->node_facet[k], N);
     length = PetscSqrtReal(Dot3(N, N));
     for (PetscInt c = 0; c < 3; ++c) normal[c] += N[c] / length;
+  }
+  for (PetscInt k = 0; k < dim - 1; ++k) {
+    const PetscReal *mirror = s->mirror + dim * ((dim - 1) * n + k);
+    PetscReal        across = 0;
+
+    for (PetscInt c = 0; c < dim; ++c) across += normal[c] * mirror[c];
+    for (PetscInt c = 0; c < dim; ++c) normal[c] -= across * mirror[c];
   }
   length = PetscSqrtReal(Dot3(normal, normal));
   for (PetscInt c = 0; c < 3 && length > 0; ++c) normal[c] /= length;

@@ -29,7 +29,7 @@ static PetscErrorCode Multipliers_Private(const TransferContext *c, Problem old_
     PetscBool         *wanted;
     PetscCall(InterfaceGetContact(ProblemInterface(old_problem), i, &from));
     PetscCall(InterfaceGetContact(ProblemInterface(new_problem), i, &to));
-    const PetscInt  num = from->nonmortar.num_nodes;
+    const PetscInt  num     = from->nonmortar.num_nodes;
     const PetscBool vectors = (PetscBool)(from->slip && from->nonmortar.dim == 3);
     PetscCall(PetscMalloc4(to->num_z * to->nonmortar.num_nodes, &z, from->num_z * num, &old_z, num, &wanted, 3 * num, &traction));
     PetscCall(TransferMultiplierNeeds_Private(c->old_t, &from->nonmortar, &to->nonmortar, c->map, wanted));
