@@ -110,7 +110,7 @@ PetscErrorCode InterfaceDestroy(Interface *);
 /* Of linearisations, from now on; borrowed. Not collective. */
 PetscErrorCode InterfaceSetForm(Interface, const Form *);
 
-/* Interferences and ramped initial overlaps are those of time t from now on; before, of t = 0. Not collective. */
+/* Coefficients of friction, interferences and ramped initial overlaps are those of time t from now on; before, of t = 0. Not collective. */
 PetscErrorCode InterfaceSetTime(Interface, PetscReal t);
 
 /* rigid.c. Rigid bodies that forces move: x = C + d + R (X - C), C = point; unknowns d (0 to 2) and length times the components of the rotation vector (3 to 5)

@@ -180,7 +180,7 @@ PetscErrorCode InterfaceFriction(Interface p, PetscInt pair, FrictionFigures *f)
       square += PetscSqr(c->slip->mean[n * d + j]);
     }
     if (c->slip->weight[j] == 0) continue;
-    sum[c->law->slides(c->active[j]) ? 2 : 1] += 1;
+    sum[c->friction == 0 || c->law->slides(c->active[j]) ? 2 : 1] += 1;
     most = PetscMax(most, PetscSqrtReal(square));
   }
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 3, MPIU_REAL, MPI_SUM, p->comm));

@@ -12,7 +12,7 @@
 #define ROUND_OFF                                                                                                                                              \
   1e-8 /* a traction that is short of its bound by this share slips: where a step begins s = 0, and nodes that slipped in the last one lie on it */
 
-enum { OPEN, STICK, SLIP, SLIP_BACK, NEW }; /* SLIP: in the plane tau > b */
+enum { OPEN, STICK, SLIP, SLIP_BACK, FREE }; /* SLIP: in the plane tau > b; FREE: without traction */
 
 static PetscInt Count_Private(PetscInt dim)
 {
@@ -36,11 +36,11 @@ static PetscReal Trial_Private(const ContactPoint *p, PetscReal tau[2])
 /* From slip to slip the other way by way of stick only: tau jumps over +-b where c is as large as the bodies' stiffness, and sets would go to and fro. */
 static int8_t State_Private(const ContactPoint *p)
 {
-  const PetscReal pressure = Pressure_Private(p), bound = (1 - ROUND_OFF) * p->spec->friction * pressure;
+  const PetscReal pressure = Pressure_Private(p), bound = (1 - ROUND_OFF) * p->friction * pressure;
   PetscReal       tau[2];
 
   if (!(pressure > 0)) return OPEN;
-  if (p->slip_weight == 0) return NEW;
+  if (p->slip_weight == 0 || p->friction == 0) return FREE;
   if (!(Trial_Private(p, tau) > bound)) return STICK;
   if (p->dim == 3) return p->state == SLIP && p->aim[0] * tau[0] + p->aim[1] * tau[1] < 0 ? STICK : SLIP;
   if (tau[0] > 0) return p->state == SLIP_BACK ? STICK : SLIP;
@@ -50,7 +50,7 @@ static int8_t State_Private(const ContactPoint *p)
 static void Aim_Private(const ContactPoint *p, PetscReal aim[3])
 {
   PetscReal       tau[2];
-  const PetscReal length = Trial_Private(p, tau), bound = p->spec->friction * Pressure_Private(p);
+  const PetscReal length = Trial_Private(p, tau), bound = p->friction * Pressure_Private(p);
 
   for (int i = 0; i < 2; ++i) aim[i] = length > 0 ? tau[i] / length : 0;
   aim[2] = length > 0 && bound > 0 ? PetscMin(1, bound / length) : 0;
@@ -75,7 +75,7 @@ static void Slip_Private(const ContactPoint *p, PetscInt i, ContactRow *row)
   PetscReal tau[2];
 
   (void)Trial_Private(p, tau);
-  Bound_Private(p, i, p->spec->friction * p->aim[i], row);
+  Bound_Private(p, i, p->friction * p->aim[i], row);
   for (PetscInt k = 0; k < 2; ++k) {
     const PetscReal across = p->w0 * p->aim[2] * ((PetscReal)(i == k) - p->aim[i] * p->aim[k]);
 
@@ -96,7 +96,7 @@ static void Rows_Private(const ContactPoint *p, PetscBool symmetric, ContactRow 
     else if (p->dim == 3 && p->state == SLIP)
       Slip_Private(p, i, &row[1 + i]);
     else
-      Bound_Private(p, i, p->state == SLIP ? p->spec->friction : p->state == SLIP_BACK ? -p->spec->friction : 0, &row[1 + i]);
+      Bound_Private(p, i, p->state == SLIP ? p->friction : p->state == SLIP_BACK ? -p->friction : 0, &row[1 + i]);
   }
 }
 
