@@ -348,7 +348,8 @@ static PetscErrorCode CheckCoefficient_Private(const SceneData *d, const SceneNo
   PetscReal       value;
 
   PetscFunctionBegin;
-  PetscCheckInput(!ExpressionUsesPlace(e), "%s is \"%s\": one coefficient for the whole pair, so an expression in t alone", NodeWhere(given), ExpressionText(e));
+  PetscCheckInput(!ExpressionUsesPlace(e), "%s is \"%s\": one coefficient for the whole pair, so an expression in t alone", NodeWhere(given),
+                  ExpressionText(e));
   for (PetscInt i = 0; i <= (ExpressionUsesTime(e) ? SAMPLES : 0); ++i) {
     const PetscReal t = d->load.end * (PetscReal)i / SAMPLES;
     PetscCall(ExpressionEvaluate(e, origin, t, &value));
