@@ -140,6 +140,53 @@ def test_drawn_block(run, figures):
     figures("Block drawn over a rigid plane, friction 0.5", "FEBio test suite, deck co46", result, [("t at which part of it slips", part, 0.23, (0.0101,)), ("all of it", whole, 0.25, (0.0101,))], "100 steps, 852 iterations")
 
 
+def hertz(row, R=200, E=1000, nu=0.3):
+    """(force, radius of contact by it, shear modulus) of a half of sphere.geo, whose other half is its mirror image."""
+    P = abs(row["contact.c.force.z"])
+    return P, (0.75 * P * R * (1 - nu ** 2) / E) ** (1 / 3), E / 2 / (1 + nu)
+
+
+def shifted(P, a, G, mu=0.3, nu=0.3):
+    """(shift of two spheres at which all slips, energy of a loop) by Mindlin; loop(q): between +- q mu P."""
+    full = 3 * mu * P * (2 - nu) / (8 * a * G)
+    return full, lambda q: 9 / 5 * (mu * P) ** 2 * (2 - nu) / (a * G) * (1 - (1 - q) ** (5 / 3) - 5 / 6 * q * (1 + (1 - q) ** (2 / 3)))
+
+
+SHIFT = 0.0036428571  # at which all slips by the nominal force
+
+
+@pytest.mark.slow
+def test_mindlin(run, figures):
+    """The shift is prescribed, and the depth: compared with the theory for the forces found."""
+    result = run(HERE + "mindlin.yml", "-adapt_tolerance", 0.15)
+    rows, figure = result.history, []
+    for row, q in zip(rows[1:4], (0.25, 0.5, 0.75)):
+        P, a, G = hertz({"contact.c.force.z": 2 * row["contact.c.force.z"]})
+        found, shift = 2 * abs(row["contact.c.force.x"]) / 0.3 / P, SHIFT * (1 - (1 - q) ** (2 / 3)) / shifted(P, a, G)[0]
+        figure.append((f"shift / (shift of full slip) at Q = {found:.3f} mu P", shift, 1 - (1 - found) ** (2 / 3), 0.01))
+    full, loop = shifted(P, a, G)
+    energy = 2 * sum(row["contact.c.dissipation"] for row in rows[4:6])
+    figure.append(("energy of a loop between these shifts", energy, loop(1 - (1 - SHIFT * (1 - 0.25 ** (2 / 3)) / full) ** 1.5), 0.01))
+    figures("Two spheres, a tangential force to and fro", "Mindlin, J. Appl. Mech. 16 (1949) 259; Mindlin & Deresiewicz 1953", result, figure)
+
+
+@pytest.mark.slow
+def test_mindlin_loop(run):
+    """Coarse cells: a restart in the loop changes nothing; after adaptation within it the loop is that of the finer mesh."""
+    start = run(HERE + "mindlin.yml", "-load_max_steps", 4, "-output_checkpoint", 1)
+    whole = run(HERE + "mindlin.yml", "-output_checkpoint", 1)
+    rest = run(HERE + "mindlin.yml", "-restart", start.directory / "checkpoint.h5")
+    loops = [[row["contact.c.dissipation"] for row in result.history[-2:]] for result in (whole, rest)]
+    assert loops[1] == pytest.approx(loops[0], rel=1e-3)
+    adapted = run(HERE + "mindlin.yml", "-restart", start.directory / "checkpoint.h5", "-adapt_tolerance", 0.2)
+    fine = run(HERE + "mindlin.yml", "-adapt_tolerance", 0.2)
+    for result in (adapted, fine): assert result.solved, result
+    assert [row["pass"] for row in adapted.adapt][-3:] == [0, 1, 0]
+    energy = [result.history[-1]["contact.c.dissipation"] for result in (adapted, fine)]
+    print(loops, energy)
+    assert energy[0] == pytest.approx(energy[1], rel=0.01)
+
+
 @pytest.mark.slow
 def test_tube_collapse(run, figures):
     """Pressure / (D/R^3): half minor axis of the midline (3.86212: 0.33923; 4.51569: 0.14669), walls meet at 5.24689 (of thickness 0: at half of it here a little before)."""
