@@ -146,6 +146,17 @@ def hertz(row, R=200, E=1000, nu=0.3):
     return P, (0.75 * P * R * (1 - nu ** 2) / E) ** (1 / 3), E / 2 / (1 + nu)
 
 
+@pytest.mark.slow
+def test_lubkin(run, figures):
+    """The twist is prescribed for the nominal force; half of the model, for the other sphere turns the other way."""
+    result = run(HERE + "lubkin.yml", "-adapt_tolerance", 0.1)
+    figure = []
+    for row, stick, target in zip(result.history[1:], (0.9, 0.7, 0.5, 0.3), (0.176345, 0.409739, 0.528576, 0.576869)):
+        P, a, _ = hertz(row)
+        figure.append((f"torque / (mu P a) with a stick zone of {stick} a", abs(row["contact.c.moment.z"]) / (0.3 * P * a), target, 0.01))
+    figures("Two spheres twisted against each other", "Lubkin, J. Appl. Mech. 18 (1951) 183", result, figure)
+
+
 def shifted(P, a, G, mu=0.3, nu=0.3):
     """(shift of two spheres at which all slips, energy of a loop) by Mindlin; loop(q): between +- q mu P."""
     full = 3 * mu * P * (2 - nu) / (8 * a * G)
