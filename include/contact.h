@@ -42,6 +42,8 @@ typedef struct {
 
 typedef enum { CONTACT_FRICTIONLESS, CONTACT_PENALTY, CONTACT_COULOMB, CONTACT_TIED } ContactLaw; /* in the order of the table of laws */
 
+#define CONTACT_FRICTION "0 or a positive number" /* allowed as a coefficient of friction */
+
 typedef struct {
   char       name[MORTISE_NAME];
   PetscInt   nonmortar, mortar; /* boundary groups */
@@ -49,7 +51,7 @@ typedef struct {
   PetscBool  exchanged;         /* the scene names them the other way round, figures are of the sides as the scene names them */
   ContactLaw law;               /* what its multipliers fulfil (interface/law/) */
   PetscReal  penalty;           /* law penalty: stiffness, pressure over overlap */
-  PetscReal  friction;          /* law coulomb: its coefficient, above 0 */
+  Expression friction;          /* law coulomb: its coefficient, of t */
   PetscBool  full;              /* facets have the order of their cells; else order 1 */
   PetscReal  search;            /* search distance, in multiples of the larger edge length; default 0: automatic */
   PetscBool  node_to_segment;   /* comparison only */

@@ -110,7 +110,7 @@ PetscErrorCode InterfaceDestroy(Interface *);
 /* Of linearisations, from now on; borrowed. Not collective. */
 PetscErrorCode InterfaceSetForm(Interface, const Form *);
 
-/* Interferences and ramped initial overlaps are those of time t from now on; before, of t = 0. Not collective. */
+/* Coefficients of friction, interferences and ramped initial overlaps are those of time t from now on; before, of t = 0. Not collective. */
 PetscErrorCode InterfaceSetTime(Interface, PetscReal t);
 
 /* rigid.c. Rigid bodies that forces move: x = C + d + R (X - C), C = point; unknowns d (0 to 2) and length times the components of the rotation vector (3 to 5)
@@ -150,6 +150,9 @@ typedef struct {
   PetscReal bytes, search_bytes, seconds; /* seconds: wall time in the exchange of values, waiting included */
 } ContactTraffic;
 PetscErrorCode InterfaceGetTraffic(Interface, ContactTraffic *);
+/* Components z[num_z][nonmortar.num_nodes], from the second on, of tangential tractions on the mortar side traction[..][3] along the axes of the last
+   evaluation, friction in space: of this rank's own nodes. Not collective. */
+PetscErrorCode InterfaceResolveTractions(Interface, PetscInt pair, const PetscReal traction[], PetscReal z[]);
 /* Set the multipliers of a pair from values[num_z][nonmortar.num_nodes] in x: each rank those of its own nodes. */
 PetscErrorCode InterfaceSetMultipliers(Interface, PetscInt pair, const PetscReal z[], Vec x);
 /* The opposite: values of this rank's own nodes from x, z[num_z][nonmortar.num_nodes]; others and nodes without multiplier stay as they are. Not collective.

@@ -14,7 +14,7 @@ struct _p_Expression {
   PetscBool        uses[4]; /* X, Y, Z, t occur in the text */
 };
 
-static char trouble[PETSC_MAX_PATH_LEN + 512]; /* the first value that was not finite, since that was last asked for */
+static char trouble[PETSC_MAX_PATH_LEN + 512]; /* the first value that was not finite or refused, since that was last asked for */
 
 static const char *const VariableNames[4] = {"X", "Y", "Z", "t"};
 
@@ -107,6 +107,14 @@ PetscErrorCode ExpressionEvaluate(Expression e, const PetscReal X[3], PetscReal 
                               (double)X[1], (double)X[2], (double)t));
     }
   }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode ExpressionRefuse(Expression e, PetscReal t, PetscReal value, const char *allowed)
+{
+  PetscFunctionBegin;
+  if (!trouble[0])
+    PetscCall(PetscSNPrintf(trouble, sizeof(trouble), "%s: \"%.200s\" is %g at t = %g; allowed: %s", e->key, e->text, (double)value, (double)t, allowed));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

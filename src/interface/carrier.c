@@ -83,16 +83,24 @@ PetscErrorCode ContactNodeScales_Private(Interface p, Contact *c)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Mean unit normal of the facets at a node, those between the corners, reference positions. */
+/* Mean unit normal of the facets at a node, those between the corners, and of their mirror images in planes of symmetry; reference positions. */
 static void NodeNormal_Private(const Surface *s, PetscInt n, PetscReal normal[3])
 {
-  PetscReal N[3], length;
+  const PetscInt dim = s->dim;
+  PetscReal      N[3], length;
 
   for (PetscInt c = 0; c < 3; ++c) normal[c] = 0;
   for (PetscInt k = s->node_first[n]; k < s->node_first[n + 1]; ++k) {
     ContactFacetVector(s->dim, s->X, s->facets + s->corners * s->node_facet[k], N);
     length = PetscSqrtReal(Dot3(N, N));
     for (PetscInt c = 0; c < 3; ++c) normal[c] += N[c] / length;
+  }
+  for (PetscInt k = 0; k < dim - 1; ++k) {
+    const PetscReal *mirror = s->mirror + dim * ((dim - 1) * n + k);
+    PetscReal        across = 0;
+
+    for (PetscInt c = 0; c < dim; ++c) across += normal[c] * mirror[c];
+    for (PetscInt c = 0; c < dim; ++c) normal[c] -= across * mirror[c];
   }
   length = PetscSqrtReal(Dot3(normal, normal));
   for (PetscInt c = 0; c < 3 && length > 0; ++c) normal[c] /= length;
@@ -192,8 +200,9 @@ PetscErrorCode ContactCarriers_Private(Interface p, Contact *c)
   PetscFunctionBegin;
   PetscCall(ForestGetTables(p->forest, &t));
   for (PetscInt n = 0; n < s->num_nodes; ++n) {
+    if (s->hang[n] < s->hang[n + 1]) continue;
     const PetscInt facet = s->node_facet[s->node_first[n]];
-    if (s->hang[n] < s->hang[n + 1] || IsWeightless_Private(p, c, n, facet)) continue;
+    if (IsWeightless_Private(p, c, n, facet)) continue;
     if (c->spec->self && IsCrease_Private(s, n)) continue;
     const PetscBool rigid = p->spec->bodies[t->leaf_body[s->facet_leaf[facet]]].material->law->rigid;
     PetscReal       normal[3];

@@ -33,6 +33,25 @@ static PetscErrorCode Traction_Private(const Contact *c, PetscInt j, PetscReal t
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscErrorCode InterfaceResolveTractions(Interface p, PetscInt pair, const PetscReal traction[], PetscReal z[])
+{
+  const Contact *c = &p->contacts[pair];
+  const Surface *s = &c->side[0];
+
+  PetscFunctionBegin;
+  for (PetscInt k = 0; k < s->num_own; ++k) {
+    const PetscInt   j = s->own[k];
+    const PetscReal *t = traction + 3 * j;
+    PetscReal        e[2][3];
+
+    z[s->num_nodes + j] = z[2 * s->num_nodes + j] = 0;
+    if (Dot3(t, t) == 0) continue; /* axes of nodes that see nothing may not be known */
+    PetscCall(ContactPairGetTangents(c->pair, j, e));
+    for (PetscInt i = 0; i < 2; ++i) z[s->num_nodes * (1 + i) + j] = Dot3(e[i], t);
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 static PetscErrorCode Side_Private(Interface p, Contact *c, PetscInt k)
 {
   const Surface   *s = &c->side[k];

@@ -29,6 +29,7 @@ PetscErrorCode InterfaceCreate(HPSpace space, Mechanics mechanics, const Mechani
   if (num) PetscCall(HullCreate_Private(p));
   for (PetscInt i = 0; i < num; ++i) PetscCall(ContactCreate_Private(p, &contacts[i], &p->contacts[i]));
   for (PetscInt i = 0; i < num; ++i) PetscCall(TieCreate_Private(p, &p->contacts[i]));
+  PetscCall(InterfaceSetTime(p, 0));
   *interface = p;
   PetscFunctionReturn(PETSC_SUCCESS);
 }

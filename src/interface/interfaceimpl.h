@@ -38,6 +38,7 @@ typedef struct {
   PetscReal          z[MOST_MULTIPLIERS], gap, weight, spring, w0, c; /* as in Contact; gap: with what the pressures of others add, S_jl z_l */
   PetscReal          lift;                                            /* change of the gap by the motion still to come */
   PetscInt           dim;
+  PetscReal          friction;                           /* coefficient */
   PetscReal          slip[2], slip_weight, slip_lift[2]; /* of the step, as the gap; the weight where it began, 0: nothing was met there */
   PetscReal          aim[3];                             /* space: unit vector against the slip and a factor, from ContactLawOps.aim */
   PetscBool          held;                               /* space: supports hold it along its first axis */
@@ -191,6 +192,7 @@ typedef struct {
   const RigidLink     *links, *q_link[INTERFACE_MOTIONS];
   PetscInt            *pattern_offset, *pattern; /* [num_facets+1]: nodes each facet has room for in the matrix */
   SlipHistory         *slip;                     /* NULL: the law has no friction */
+  PetscReal            friction;                 /* its coefficient at the time last set */
   Tie                 *tie;                      /* NULL: the pair is not tied */
   PetscInt            *precedence;               /* roles.c: [num_facets] of a surface with itself; NULL: not chosen yet */
 } Contact;
@@ -335,7 +337,8 @@ static inline ContactPoint ContactPoint_Private(const Contact *c, PetscInt j, Pe
                         .c      = c->c[j]};
 
   if (lifted) point.lift = c->lift[j];
-  point.dim = c->side[0].dim;
+  point.dim      = c->side[0].dim;
+  point.friction = c->friction;
   if (c->slip) {
     point.slip_weight = c->slip->weight[j];
     for (PetscInt i = 0; i < point.dim - 1; ++i) {

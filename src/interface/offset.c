@@ -1,5 +1,6 @@
-/* What counts as no gap: gt_j less a constant, so that forces and derivatives stay as they are. Initial gaps are those of this mesh at the reference positions;
-   an interference is the change of all gaps by as much along their directions there. Both may change with time: constants of another size at each load. */
+/* What changes with time. What counts as no gap: gt_j less a constant, so that forces and derivatives stay as they are. Initial gaps are those of this mesh at
+   the reference positions; an interference is the change of all gaps by as much along their directions there. Both may change with time: constants of another
+   size at each load. */
 #include "interfaceimpl.h"
 
 /* Initial overlaps that are ramped count by the share t, from t = 1 on whole. */
@@ -15,6 +16,19 @@ static PetscErrorCode Value_Private(const ContactSpec *spec, PetscReal t, PetscR
   PetscFunctionBegin;
   *interference = 0;
   if (spec->interference) PetscCall(ExpressionEvaluate(spec->interference, origin, t, interference));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode Friction_Private(Contact *c, PetscReal t)
+{
+  const PetscReal origin[3] = {0, 0, 0};
+
+  PetscFunctionBegin;
+  if (!c->law->slips) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(ExpressionEvaluate(c->spec->friction, origin, t, &c->friction));
+  if (!(c->friction < 0)) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(ExpressionRefuse(c->spec->friction, t, c->friction, CONTACT_FRICTION));
+  c->friction = 0;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -77,6 +91,9 @@ PetscErrorCode ContactOffset_Private(Interface p, Contact *c)
 PetscErrorCode InterfaceSetTime(Interface p, PetscReal t)
 {
   PetscFunctionBegin;
-  for (PetscInt i = 0; i < p->num_contacts; ++i) PetscCall(Time_Private(&p->contacts[i], t));
+  for (PetscInt i = 0; i < p->num_contacts; ++i) {
+    PetscCall(Time_Private(&p->contacts[i], t));
+    PetscCall(Friction_Private(&p->contacts[i], t));
+  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

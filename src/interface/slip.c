@@ -13,9 +13,11 @@ static PetscErrorCode Held_Private(Interface p, Contact *c)
   PetscFunctionBegin;
   PetscCall(ForestGetTables(p->forest, &t));
   for (PetscInt n = 0; n < s->num_nodes; ++n) {
+    PetscReal axis[3];
+    PetscInt  num = 0;
+
+    if (s->hang[n] < s->hang[n + 1]) continue; /* it has no facets, and its masters' tractions */
     const PetscBool rigid = p->spec->bodies[t->leaf_body[s->facet_leaf[s->node_facet[s->node_first[n]]]]].material->law->rigid;
-    PetscReal       axis[3];
-    PetscInt        num = 0;
     if (!rigid) num = p->dim == 3 ? ContactHeldAxes_Private(s, n, axis) : (PetscInt)ContactHeldAlong_Private(s, n);
     c->slip->held[n] = (PetscBool)(num == p->dim - 1);
     for (PetscInt i = 0; i < 3 && p->dim == 3 && num == 1; ++i) c->slip->axis[3 * n + i] = axis[i];
@@ -40,7 +42,7 @@ PetscErrorCode SlipCreate_Private(Interface p, Contact *c)
   s->stale     = PETSC_TRUE;
   c->slip      = s;
   c->view.slip = s->mean;
-  PetscCall(PetscMalloc1(n, &s->held));
+  PetscCall(PetscCalloc1(n, &s->held));
   PetscCall(Held_Private(p, c));
   PetscCall(ContactPairSetTraction(c->pair, c->z + n));
   PetscCall(ContactPairSetAxes(c->pair, s->axis));
@@ -211,7 +213,7 @@ PetscErrorCode InterfaceFriction(Interface p, PetscInt pair, FrictionFigures *f)
       square += PetscSqr(c->slip->mean[n * d + j]);
     }
     if (c->slip->weight[j] == 0) continue;
-    sum[c->law->slides(c->active[j]) ? 2 : 1] += 1;
+    sum[c->friction == 0 || c->law->slides(c->active[j]) ? 2 : 1] += 1;
     most = PetscMax(most, PetscSqrtReal(square));
   }
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 3, MPIU_REAL, MPI_SUM, p->comm));

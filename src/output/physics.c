@@ -36,13 +36,13 @@ static PetscErrorCode Material_Private(const MaterialSpec *m, PetscInt num_cells
 static PetscErrorCode Pair_Private(const ContactSpec *c, const CoarseMesh *mesh, OutputText *text)
 {
   PetscFunctionBegin;
-  PetscCall(OutputTextPrint(text, "contact.%s: nonmortar %s, mortar %s, order %s, multiplier %s, initial_gap %s, friction %.15g, ", c->name,
+  PetscCall(OutputTextPrint(text, "contact.%s: nonmortar %s, mortar %s, order %s, multiplier %s, initial_gap %s, friction %s, ", c->name,
                             mesh->boundary_name[c->nonmortar], mesh->boundary_name[c->mortar], c->full ? "full" : "1", c->standard ? "standard" : "dual",
                             c->adjust  ? "adjust"
                             : c->ramp  ? "ramp"
                             : c->close ? "close"
                                        : "keep",
-                            (double)c->friction));
+                            ExpressionText(c->friction)));
   PetscCall(OutputTextPrint(text, "interference %s, penalty %.15g%s\n", c->interference ? ExpressionText(c->interference) : "0", (double)c->penalty,
                             c->node_to_segment       ? ", node_to_segment"
                             : c->law == CONTACT_TIED ? ", tied"

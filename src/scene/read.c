@@ -340,25 +340,46 @@ static PetscErrorCode CheckOverlap_Private(Scene s, const SceneNode *node, const
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Never negative, as far as its values at SAMPLES times from start to end tell; later ones are refused where they are met. zero: it is the number 0. */
+#define SAMPLES 100
+static PetscErrorCode CheckCoefficient_Private(const SceneData *d, const SceneNode *given, Expression e, PetscBool *zero)
+{
+  const PetscReal origin[3] = {0, 0, 0};
+  PetscReal       value;
+
+  PetscFunctionBegin;
+  PetscCheckInput(!ExpressionUsesPlace(e), "%s is \"%s\": one coefficient for the whole pair, so an expression in t alone", NodeWhere(given),
+                  ExpressionText(e));
+  for (PetscInt i = 0; i <= (ExpressionUsesTime(e) ? SAMPLES : 0); ++i) {
+    const PetscReal t = d->load.end * (PetscReal)i / SAMPLES;
+    PetscCall(ExpressionEvaluate(e, origin, t, &value));
+    PetscCheckInput(value >= 0 || ExpressionUsesTime(e), "%s is %s; allowed: " CONTACT_FRICTION, NodeWhere(given), ExpressionText(e));
+    PetscCheckInput(value >= 0, "%s is %s, which is %g at t = %g; allowed: " CONTACT_FRICTION, NodeWhere(given), ExpressionText(e), (double)value, (double)t);
+  }
+  *zero = (PetscBool)(!ExpressionUsesTime(e) && value == 0);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* Where there is friction, it is the pair's law. */
 static PetscErrorCode CheckFriction_Private(Scene s, const SceneNode *node, ContactEntry *c)
 {
   const SceneData *d     = &s->data;
   const SceneNode *given = NodeFind(node, "friction");
+  const char      *value = ExpressionText(c->spec.friction);
+  PetscBool        zero;
 
   PetscFunctionBegin;
-  if (c->spec.friction == 0) {
+  PetscCall(CheckCoefficient_Private(d, given, c->spec.friction, &zero));
+  if (zero) {
     PetscCheckInput(c->spec.law != CONTACT_COULOMB, "%s: law: coulomb needs a coefficient of friction, a number above 0; friction is 0", NodeWhere(node));
     PetscFunctionReturn(PETSC_SUCCESS);
   }
-  PetscCheckInput(c->spec.law != CONTACT_PENALTY, "%s is %g: law: penalty has no friction; allowed here: 0, or take the law away", NodeWhere(given),
-                  (double)c->spec.friction);
+  PetscCheckInput(c->spec.law != CONTACT_PENALTY, "%s is %s: law: penalty has no friction; allowed here: 0, or take the law away", NodeWhere(given), value);
   PetscCheckInput(c->spec.law == CONTACT_COULOMB || !NodeFind(node, "law"),
-                  "%s is %g, but the law of this pair is frictionless; allowed here: 0, or take the law away", NodeWhere(given), (double)c->spec.friction);
-  PetscCheckInput(!c->spec.node_to_segment, "%s is %g: node-to-segment contact has no friction; allowed here: 0", NodeWhere(given), (double)c->spec.friction);
-  PetscCheckInput(d->mechanics.kinematics == KINEMATICS_FINITE, "%s is %g: friction needs kinematics: finite; allowed here: 0", NodeWhere(given),
-                  (double)c->spec.friction);
-  PetscCheckInput(d->load.control == LOAD_TIME, "%s is %g: friction needs load.control: time; allowed here: 0", NodeWhere(given), (double)c->spec.friction);
+                  "%s is %s, but the law of this pair is frictionless; allowed here: 0, or take the law away", NodeWhere(given), value);
+  PetscCheckInput(!c->spec.node_to_segment, "%s is %s: node-to-segment contact has no friction; allowed here: 0", NodeWhere(given), value);
+  PetscCheckInput(d->mechanics.kinematics == KINEMATICS_FINITE, "%s is %s: friction needs kinematics: finite; allowed here: 0", NodeWhere(given), value);
+  PetscCheckInput(d->load.control == LOAD_TIME, "%s is %s: friction needs load.control: time; allowed here: 0", NodeWhere(given), value);
   c->spec.law = CONTACT_COULOMB;
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -235,7 +235,10 @@ PetscErrorCode SceneDestroy(Scene *scene)
   PetscCall(PetscFree(s->material));
   PetscCall(PetscFree(s->body));
   PetscCall(PetscFree(s->boundary));
-  for (PetscInt i = 0; s->contact && i < s->data.num_contacts; ++i) PetscCall(ExpressionDestroy(&s->contact[i].spec.interference));
+  for (PetscInt i = 0; s->contact && i < s->data.num_contacts; ++i) {
+    PetscCall(ExpressionDestroy(&s->contact[i].spec.interference));
+    PetscCall(ExpressionDestroy(&s->contact[i].spec.friction));
+  }
   PetscCall(PetscFree(s->contact));
   PetscCall(PetscFree(s->probe));
   PetscCall(PetscFree(s->refine));

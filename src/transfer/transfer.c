@@ -1,27 +1,58 @@
 /* The whole state from one live problem to another. */
 #include "transferimpl.h"
 
+/* Tangential tractions in space are vectors; their components belong to the axes of a mesh, of the new one at the state that was carried over. */
+static PetscErrorCode Tractions_Private(const TransferContext *c, const ContactView *from, const PetscReal old[], Problem new_problem, PetscInt pair,
+                                        const ContactView *to, PetscReal z[])
+{
+  const PetscInt num_old = from->nonmortar.num_nodes, num = to->nonmortar.num_nodes;
+  PetscReal     *old_part, *part, *traction;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc3(num_old, &old_part, num, &part, 3 * num, &traction));
+  for (PetscInt d = 0; d < 3; ++d) {
+    for (PetscInt n = 0; n < num_old; ++n) old_part[n] = old[3 * n + d];
+    PetscCall(TransferMultiplier_Private(c->old_t, &from->nonmortar, old_part, from->has_multiplier, c->new_t, &to->nonmortar, c->map, part));
+    for (PetscInt n = 0; n < num; ++n) traction[3 * n + d] = part[n];
+  }
+  PetscCall(InterfaceResolveTractions(ProblemInterface(new_problem), pair, traction, z));
+  PetscCall(PetscFree3(old_part, part, traction));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 static PetscErrorCode Multipliers_Private(const TransferContext *c, Problem old_problem, Problem new_problem, PetscInt num_pairs, Vec x)
 {
   PetscFunctionBegin;
   for (PetscInt i = 0; i < num_pairs; ++i) {
     const ContactView *from, *to;
-    PetscReal         *old_z, *z;
+    PetscReal         *old_z, *z, *traction;
     PetscBool         *wanted;
     PetscCall(InterfaceGetContact(ProblemInterface(old_problem), i, &from));
     PetscCall(InterfaceGetContact(ProblemInterface(new_problem), i, &to));
-    PetscCall(PetscMalloc3(to->num_z * to->nonmortar.num_nodes, &z, from->num_z * from->nonmortar.num_nodes, &old_z, from->nonmortar.num_nodes, &wanted));
+    const PetscInt  num     = from->nonmortar.num_nodes;
+    const PetscBool vectors = (PetscBool)(from->slip && from->nonmortar.dim == 3);
+    PetscCall(PetscMalloc4(to->num_z * to->nonmortar.num_nodes, &z, from->num_z * num, &old_z, num, &wanted, 3 * num, &traction));
     PetscCall(TransferMultiplierNeeds_Private(c->old_t, &from->nonmortar, &to->nonmortar, c->map, wanted));
-    PetscCall(InterfaceFetchContact(ProblemInterface(old_problem), i, wanted, old_z, NULL, NULL, NULL));
-    PetscCall(PetscArrayzero(z, to->num_z * to->nonmortar.num_nodes));
-    for (PetscInt k = 0; k < (from->nonmortar.dim == 2 ? from->num_z : 1); ++k) { /* axes of tractions in space belong to their mesh */
-      const PetscReal *old = old_z + k * from->nonmortar.num_nodes;
-      PetscCall(
-          TransferMultiplier_Private(c->old_t, &from->nonmortar, old, from->has_multiplier, c->new_t, &to->nonmortar, c->map, z + k * to->nonmortar.num_nodes));
-    }
+    PetscCall(InterfaceFetchContact(ProblemInterface(old_problem), i, wanted, old_z, NULL, NULL, vectors ? traction : NULL));
+    for (PetscInt k = 0; k < (vectors ? 1 : from->num_z); ++k)
+      PetscCall(TransferMultiplier_Private(c->old_t, &from->nonmortar, old_z + k * num, from->has_multiplier, c->new_t, &to->nonmortar, c->map,
+                                           z + k * to->nonmortar.num_nodes));
+    if (vectors) PetscCall(Tractions_Private(c, from, traction, new_problem, i, to, z));
     PetscCall(InterfaceSetMultipliers(ProblemInterface(new_problem), i, z, x));
-    PetscCall(PetscFree3(z, old_z, wanted));
+    PetscCall(PetscFree4(z, old_z, wanted, traction));
   }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Axes of tangential tractions in space are those of an evaluation. */
+static PetscErrorCode Evaluate_Private(Problem problem, State *s)
+{
+  PetscFunctionBegin;
+  if (!InterfaceSlips(ProblemInterface(problem))) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(StateKeepOrigin(problem, s));
+  PetscCall(ProblemSetState(problem, s));
+  PetscCall(ProblemSearch(problem, s->x));
+  PetscCall(ProblemRefresh(problem, s->x));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -82,6 +113,7 @@ PetscErrorCode TransferState(Problem old_problem, const State *from, Problem new
 
   if (scene->num_contacts) PetscCall(ProblemSetState(old_problem, from));
   if (scene->num_contacts) PetscCall(ProblemRefresh(old_problem, from->x));
+  if (c.new_t->dim == 3) PetscCall(Evaluate_Private(new_problem, to));
   PetscCall(Multipliers_Private(&c, old_problem, new_problem, scene->num_contacts, to->x));
   PetscCall(Scalars_Private(old_problem, from->x, new_problem, to->x));
   to->form = from->form;

@@ -140,6 +140,82 @@ def test_drawn_block(run, figures):
     figures("Block drawn over a rigid plane, friction 0.5", "FEBio test suite, deck co46", result, [("t at which part of it slips", part, 0.23, (0.0101,)), ("all of it", whole, 0.25, (0.0101,))], "100 steps, 852 iterations")
 
 
+def hertz(row, R=200, E=1000, nu=0.3):
+    """(force, radius of contact by it, shear modulus) of a half of sphere.geo, whose other half is its mirror image."""
+    P = abs(row["contact.c.force.z"])
+    return P, (0.75 * P * R * (1 - nu ** 2) / E) ** (1 / 3), E / 2 / (1 + nu)
+
+
+def lubkin(twist):
+    """Torque / (mu P a) at twist G a^2 / (mu P): theta of the radius c of the stick zone by its integral, and dT = 16/3 c^3 dtheta."""
+    c, phi = 1 - numpy.linspace(0, 1, 1000, endpoint=False) ** 2, (numpy.arange(2000) + 0.5) * math.pi / 4000
+    theta = [3 / (4 * math.pi) * numpy.mean((1 - x * x) * numpy.cos(phi) ** 2 / numpy.sqrt(x * x + (1 - x * x) * numpy.sin(phi) ** 2)) * math.pi / 2 for x in c]
+    torque = numpy.concatenate([[0], numpy.cumsum(8 / 3 * (c[1:] ** 3 + c[:-1] ** 3) * numpy.diff(theta))])
+    return numpy.interp(twist, theta, torque)
+
+
+def test_formulas():
+    """The tables of the two problems."""
+    for twist, torque in ((0.038514, 0.176345), (0.123436, 0.409739), (0.225712, 0.528576), (0.365570, 0.576869)):
+        assert lubkin(twist) == pytest.approx(torque, rel=1e-4)
+    full, loop = shifted(18.315018, 0.5, 1000 / 2.6)
+    assert full == pytest.approx(1.821429e-2, rel=1e-5) and loop(0.75) == pytest.approx(1.333335e-2, rel=1e-5)
+
+
+@pytest.mark.slow
+@pytest.mark.xfail(strict=True, reason="1.6 % short at a stick zone of 0.7 a with 14 000 unknowns (0.5, 0.1, 0.6 % at the other three); finer cells not measured")
+def test_lubkin(run, figures):
+    """The twist is prescribed, and the depth: compared with the theory for the force found. Half of the model: the other sphere turns the other way."""
+    result = run(HERE + "lubkin.yml", "-adapt_tolerance", 0.15)
+    figure, nominal = [], 4 / 3 * 1000 / 0.91 / 200
+    for row, twist in zip(result.history[1:], (0.038514, 0.123436, 0.225712, 0.365570)):
+        P, a, _ = hertz(row)
+        twist *= nominal / P * a ** 2
+        figure.append((f"torque / (mu P a) at a twist of {twist:.4f} mu P / (G a^2)", abs(row["contact.c.moment.z"]) / (0.3 * P * a), lubkin(twist), 0.01))
+    figures("Two spheres twisted against each other", "Lubkin, J. Appl. Mech. 18 (1951) 183", result, figure)
+
+
+def shifted(P, a, G, mu=0.3, nu=0.3):
+    """(shift of two spheres at which all slips, energy of a loop) by Mindlin; loop(q): between +- q mu P."""
+    full = 3 * mu * P * (2 - nu) / (8 * a * G)
+    return full, lambda q: 9 / 5 * (mu * P) ** 2 * (2 - nu) / (a * G) * (1 - (1 - q) ** (5 / 3) - 5 / 6 * q * (1 + (1 - q) ** (2 / 3)))
+
+
+SHIFT = 0.0036428571  # at which all slips by the nominal force
+
+
+@pytest.mark.slow
+def test_mindlin(run, figures):
+    """The shift is prescribed, and the depth: compared with the theory for the forces found."""
+    result = run(HERE + "mindlin.yml", "-adapt_tolerance", 0.15)
+    rows, figure = result.history, []
+    for row, q in zip(rows[1:4], (0.25, 0.5, 0.75)):
+        P, a, G = hertz({"contact.c.force.z": 2 * row["contact.c.force.z"]})
+        found, shift = 2 * abs(row["contact.c.force.x"]) / 0.3 / P, SHIFT * (1 - (1 - q) ** (2 / 3)) / shifted(P, a, G)[0]
+        figure.append((f"shift / (shift of full slip) at Q = {found:.3f} mu P", shift, 1 - (1 - found) ** (2 / 3), 0.01))
+    full, loop = shifted(P, a, G)
+    energy = 2 * sum(row["contact.c.dissipation"] for row in rows[4:6])
+    figure.append(("energy of a loop between these shifts", energy, loop(1 - (1 - SHIFT * (1 - 0.25 ** (2 / 3)) / full) ** 1.5), 0.01))
+    figures("Two spheres, a tangential force to and fro", "Mindlin, J. Appl. Mech. 16 (1949) 259; Mindlin & Deresiewicz 1953", result, figure)
+
+
+@pytest.mark.slow
+def test_mindlin_loop(run):
+    """Coarse cells: a restart in the loop changes nothing; after adaptation within it the loop is that of the finer mesh."""
+    start = run(HERE + "mindlin.yml", "-load_max_steps", 4, "-output_checkpoint", 1)
+    whole = run(HERE + "mindlin.yml", "-output_checkpoint", 1)
+    rest = run(HERE + "mindlin.yml", "-restart", start.directory / "checkpoint.h5")
+    loops = [[row["contact.c.dissipation"] for row in result.history[-2:]] for result in (whole, rest)]
+    assert loops[1] == pytest.approx(loops[0], rel=1e-3)
+    adapted = run(HERE + "mindlin.yml", "-restart", start.directory / "checkpoint.h5", "-adapt_tolerance", 0.2)
+    fine = run(HERE + "mindlin.yml", "-adapt_tolerance", 0.2)
+    for result in (adapted, fine): assert result.solved, result
+    assert [row["pass"] for row in adapted.adapt][-3:] == [0, 1, 0]
+    energy = [result.history[-1]["contact.c.dissipation"] for result in (adapted, fine)]
+    print(loops, energy)
+    assert energy[0] == pytest.approx(energy[1], rel=0.01)
+
+
 @pytest.mark.slow
 def test_tube_collapse(run, figures):
     """Pressure / (D/R^3): half minor axis of the midline (3.86212: 0.33923; 4.51569: 0.14669), walls meet at 5.24689 (of thickness 0: at half of it here a little before)."""

@@ -91,13 +91,14 @@ static void Tied(void **state)
 static void Friction(void **state)
 {
   static const PetscReal Slip[3] = {0, -0.3, 0.3}, q[3] = {0.05, 0.2, -0.2};
-  const ContactSpec      spec = {.law = CONTACT_COULOMB, .friction = 0.4};
+  const ContactSpec      spec = {.law = CONTACT_COULOMB};
   const ContactLawOps   *law  = ContactLaws[CONTACT_COULOMB];
 
   (void)state;
   for (int k = 0; k < 3; ++k) {
-    ContactPoint p = {.spec = &spec, .z = {0.5, q[k]}, .gap = 0, .weight = 0.4, .w0 = 0.5, .c = 3, .dim = 2, .slip = {Slip[k]}, .slip_weight = 0.3};
-    ContactRow   row[MOST_MULTIPLIERS];
+    ContactPoint p = {
+        .spec = &spec, .friction = 0.4, .z = {0.5, q[k]}, .gap = 0, .weight = 0.4, .w0 = 0.5, .c = 3, .dim = 2, .slip = {Slip[k]}, .slip_weight = 0.3};
+    ContactRow row[MOST_MULTIPLIERS];
 
     p.state = law->state(&p);
     assert_int_equal(p.state, k + 1);
@@ -113,6 +114,11 @@ static void Friction(void **state)
     assert_int_equal(law->state(&p), 4 - k);
     p.slip_weight = 0; /* it met nothing where the step began */
     assert_int_equal(law->slides(law->state(&p)), 0);
+    p.slip_weight = 0.3, p.friction = 0, p.z[1] = 0; /* friction that comes later: no traction, whatever the slip */
+    p.state = law->state(&p);
+    law->rows(&p, PETSC_FALSE, row);
+    assert_near(row[1].z[1], 0.5, 1e-15);
+    assert_true(row[1].z[0] == 0 && row[1].slip[0] == 0 && row[1].side == 0);
     p.gap = 1;
     assert_int_equal(law->state(&p), 0);
   }
@@ -122,7 +128,8 @@ static void Friction(void **state)
 static ContactPoint InSpace(const ContactSpec *spec, PetscReal s)
 {
   const ContactLawOps *law = ContactLaws[CONTACT_COULOMB];
-  ContactPoint         p = {.spec = spec, .z = {0.5 + 0.2 * s, 0.1 + 0.3 * s, -0.05 + 0.1 * s}, .weight = 0.4, .w0 = 0.5, .c = 3, .dim = 3, .slip_weight = 0.3};
+  ContactPoint         p   = {
+                .spec = spec, .friction = 0.4, .z = {0.5 + 0.2 * s, 0.1 + 0.3 * s, -0.05 + 0.1 * s}, .weight = 0.4, .w0 = 0.5, .c = 3, .dim = 3, .slip_weight = 0.3};
 
   p.slip[0] = -0.02 + 0.07 * s, p.slip[1] = 0.01 - 0.04 * s;
   p.state = law->state(&p);
@@ -133,7 +140,7 @@ static ContactPoint InSpace(const ContactSpec *spec, PetscReal s)
 /* In space rows of slip are derivatives of q - b tau / |tau|. */
 static void FrictionInSpace(void **state)
 {
-  const ContactSpec    spec = {.law = CONTACT_COULOMB, .friction = 0.4};
+  const ContactSpec    spec = {.law = CONTACT_COULOMB};
   const ContactLawOps *law  = ContactLaws[CONTACT_COULOMB];
   const PetscReal      h = 1e-5, dz[3] = {0.2, 0.3, 0.1}, ds[2] = {0.07, -0.04};
   ContactRow           row[MOST_MULTIPLIERS], up[MOST_MULTIPLIERS], down[MOST_MULTIPLIERS];

@@ -153,6 +153,19 @@ def test_without_friction_nothing_changes(run):
     assert steps(plain) == steps(zero) and plain.summary["energy"] == zero.summary["energy"]
 
 
+def test_coefficient_of_time(run):
+    """Pressed without friction, which comes for the slide: the press is that of the pair without friction, the slide obeys the law with the coefficient of its time."""
+    text = disc("disc", 2, '"0.4*max(0, t - 1)"').replace("end: 2, step: 1", "end: 2, step: 0.5")
+    plain, result = run("plain.yml", text=disc("disc", 2, 0).replace("step: 1", "step: 0.5")), run("later.yml", text=text)
+    assert result.returncode == 0, result
+    force = column(result, "contact.pair.force.x"), column(result, "contact.pair.force.y")
+    print(force, column(result, "newton_iterations"), column(plain, "newton_iterations"))
+    assert force[1][:2] == pytest.approx(column(plain, "contact.pair.force.y")[:2], rel=1e-12)
+    assert column(result, "contact.pair.dissipation")[1] == 0 and numpy.all(column(result, "contact.pair.dissipation")[2:] > 0)
+    pressure, traction = tractions(result)
+    assert numpy.all(traction <= 0.4 * pressure * (1 + 1e-9) + 1e-12) and traction.max() == pytest.approx(0.4 * pressure.max(), rel=1e-6)
+
+
 def test_objectivity(run):
     """Pressed and sheared until it sticks, then both bodies turned by 360 degrees in 8 steps: nothing slips, forces turn along."""
     turn = {"rotation": {"angle": "45*max(0,t-1)", "point": {"x": 0.5, "y": 1}}}
@@ -169,7 +182,7 @@ def test_objectivity(run):
 
 def test_input(run):
     text = disc("disc", 1, 0.3)
-    for value, words in (("-0.1", "friction"), (".nan", "friction"), ("0.3, law: penalty, penalty: 10", "no friction"), ("0.3, node_to_segment: true", "no friction"),
+    for value, words in (("-0.1", "friction is -0.1; allowed"), (".nan", "friction"), ('"0.3 - t"', "-0.0"), ("X", "in t alone"), ('"0.3/0*t"', "friction"), ("0.3, law: penalty, penalty: 10", "no friction"), ("0.3, node_to_segment: true", "no friction"),
                          ("0, law: coulomb", "coefficient of friction")):
         result = run("input.yml", text=text.replace("friction: 0.3", f"friction: {value}"))
         assert result.returncode == 1 and words in result.stderr, result

@@ -14,6 +14,38 @@ PetscErrorCode ContactFramesDestroy(RayWork w)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* A node that only hanging ones depend on, on an edge of a coarse cell behind the surface, say: at the one of them that depends on it the most. */
+static PetscErrorCode LodgeMasters_Private(RayWork w, const ContactSurface *s)
+{
+  PetscReal *most;
+
+  PetscFunctionBegin;
+  PetscCall(PetscCalloc1(s->num_nodes, &most));
+  for (PetscInt n = 0; n < s->num_nodes; n++) most[n] = w->home[n] < 0 ? 0 : PETSC_INFINITY;
+  for (PetscInt f = 0; f < s->num_facets; f++) {
+    const PetscInt  *node;
+    const PetscReal *gauss = NULL;
+    PetscInt         order1[4], p = ContactFacetLattice(s, f, &node, order1);
+
+    PetscCall(ElementGetNodes(p, &gauss));
+    for (PetscInt a = 0; a < (p + 1) * (p + 1); a++) {
+      const PetscInt  *master;
+      const PetscReal *weight;
+      const PetscInt   masters = ContactNodeRow(s, &node[a], &master, &weight);
+
+      for (PetscInt i = 0; i < masters; i++) {
+        if (PetscAbsReal(weight[i]) <= most[master[i]]) continue;
+        most[master[i]]          = PetscAbsReal(weight[i]);
+        w->home[master[i]]       = f;
+        w->home_xi[master[i]][0] = 2 * gauss[a % (p + 1)] - 1;
+        w->home_xi[master[i]][1] = 2 * gauss[a / (p + 1)] - 1;
+      }
+    }
+  }
+  PetscCall(PetscFree(most));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* Homes: the first facet that has the node. */
 static PetscErrorCode Homes_Private(RayWork w, const ContactSurface *s)
 {
@@ -33,6 +65,7 @@ static PetscErrorCode Homes_Private(RayWork w, const ContactSurface *s)
       w->home_xi[node[a]][1] = 2 * gauss[a / (p + 1)] - 1;
     }
   }
+  PetscCall(LodgeMasters_Private(w, s));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

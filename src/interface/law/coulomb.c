@@ -13,7 +13,7 @@
    last one are there. Rows leave such a lack out, or no state would fulfil its own row. */
 #define ROUND_OFF 1e-8
 
-enum { OPEN, STICK, SLIP, SLIP_BACK, NEW }; /* SLIP: in the plane tau > b */
+enum { OPEN, STICK, SLIP, SLIP_BACK, FREE }; /* SLIP: in the plane tau > b; FREE: without traction */
 
 static PetscInt Count_Private(PetscInt dim)
 {
@@ -38,11 +38,11 @@ static PetscReal Trial_Private(const ContactPoint *p, PetscReal tau[2])
 /* From slip to slip the other way by way of stick only: tau jumps over +-b where c is as large as the bodies' stiffness, and sets would go to and fro. */
 static int8_t State_Private(const ContactPoint *p)
 {
-  const PetscReal pressure = Pressure_Private(p), bound = (1 - ROUND_OFF) * p->spec->friction * pressure;
+  const PetscReal pressure = Pressure_Private(p), bound = (1 - ROUND_OFF) * p->friction * pressure;
   PetscReal       tau[2];
 
   if (!(pressure > 0)) return OPEN;
-  if (p->slip_weight == 0) return NEW;
+  if (p->slip_weight == 0 || p->friction == 0) return FREE;
   if (!(Trial_Private(p, tau) > bound)) return STICK;
   if (p->dim == 3) return p->state == SLIP && p->aim[0] * tau[0] + p->aim[1] * tau[1] < 0 ? STICK : SLIP;
   if (tau[0] > 0) return p->state == SLIP_BACK ? STICK : SLIP;
@@ -52,7 +52,7 @@ static int8_t State_Private(const ContactPoint *p)
 static void Aim_Private(const ContactPoint *p, PetscReal aim[3])
 {
   PetscReal       tau[2];
-  const PetscReal length = Trial_Private(p, tau), bound = p->spec->friction * Pressure_Private(p);
+  const PetscReal length = Trial_Private(p, tau), bound = p->friction * Pressure_Private(p);
 
   for (int i = 0; i < 2; ++i) aim[i] = length > 0 ? tau[i] / length : 0;
   aim[2] = length > 0 && bound > 0 ? PetscMin(1, bound / length) : 0;
@@ -77,7 +77,7 @@ static void Bound_Private(const ContactPoint *p, PetscInt i, PetscReal share, Co
 static void Slip_Private(const ContactPoint *p, PetscInt i, ContactRow *row)
 {
   PetscReal       tau[2];
-  const PetscReal bound = p->spec->friction * p->z[0], lack = bound - Trial_Private(p, tau), share = p->spec->friction * p->aim[i];
+  const PetscReal bound = p->friction * p->z[0], lack = bound - Trial_Private(p, tau), share = p->friction * p->aim[i];
 
   *row          = (ContactRow){.z = {-p->w0 * share}, .side = -p->w0 * (p->z[1 + i] - share * p->z[0])};
   row->z[1 + i] = p->w0;
@@ -102,7 +102,7 @@ static void Rows_Private(const ContactPoint *p, PetscBool symmetric, ContactRow 
     else if (p->dim == 3 && p->state == SLIP)
       Slip_Private(p, i, &row[1 + i]);
     else
-      Bound_Private(p, i, p->state == SLIP ? p->spec->friction : p->state == SLIP_BACK ? -p->spec->friction : 0, &row[1 + i]);
+      Bound_Private(p, i, p->state == SLIP ? p->friction : p->state == SLIP_BACK ? -p->friction : 0, &row[1 + i]);
   }
 }
 
