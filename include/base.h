@@ -130,7 +130,8 @@ PetscErrorCode ExpressionCreate(const char *key, const char *text, Expression *)
 PetscErrorCode ExpressionEvaluate(Expression, const PetscReal X[3], PetscReal t, PetscReal *value);
 /* A value that its key does not allow, told as one that is not finite is (ExpressionTrouble). */
 PetscErrorCode ExpressionRefuse(Expression, PetscReal t, PetscReal value, const char *allowed);
-/* Was a value not finite, or refused, since this was last asked? Then a sentence that says which and where, which lives until it is asked again; else NULL. Collective. */
+/* Was a value not finite, or refused, since this was last asked? Then a sentence that says which and where, which lives until it is asked again; else NULL.
+ * Collective. */
 PetscErrorCode ExpressionTrouble(MPI_Comm, const char **words);
 PetscBool      ExpressionUsesTime(Expression);  /* t occurs in it */
 PetscBool      ExpressionUsesPlace(Expression); /* X, Y or Z */

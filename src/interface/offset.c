@@ -1,5 +1,6 @@
-/* What changes with time. What counts as no gap: gt_j less a constant, so that forces and derivatives stay as they are. Initial gaps are those of this mesh at the reference positions;
-   an interference is the change of all gaps by as much along their directions there. Both may change with time: constants of another size at each load. */
+/* What changes with time. What counts as no gap: gt_j less a constant, so that forces and derivatives stay as they are. Initial gaps are those of this mesh at
+   the reference positions; an interference is the change of all gaps by as much along their directions there. Both may change with time: constants of another
+   size at each load. */
 #include "interfaceimpl.h"
 
 /* Initial overlaps that are ramped count by the share t, from t = 1 on whole. */

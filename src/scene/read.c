@@ -348,7 +348,8 @@ static PetscErrorCode CheckCoefficient_Private(const SceneData *d, const SceneNo
   PetscReal       value;
 
   PetscFunctionBegin;
-  PetscCheckInput(!ExpressionUsesPlace(e), "%s is \"%s\": one coefficient for the whole pair, so an expression in t alone", NodeWhere(given), ExpressionText(e));
+  PetscCheckInput(!ExpressionUsesPlace(e), "%s is \"%s\": one coefficient for the whole pair, so an expression in t alone", NodeWhere(given),
+                  ExpressionText(e));
   for (PetscInt i = 0; i <= (ExpressionUsesTime(e) ? SAMPLES : 0); ++i) {
     const PetscReal t = d->load.end * (PetscReal)i / SAMPLES;
     PetscCall(ExpressionEvaluate(e, origin, t, &value));
@@ -377,7 +378,6 @@ static PetscErrorCode CheckFriction_Private(Scene s, const SceneNode *node, Cont
   PetscCheckInput(c->spec.law == CONTACT_COULOMB || !NodeFind(node, "law"),
                   "%s is %s, but the law of this pair is frictionless; allowed here: 0, or take the law away", NodeWhere(given), value);
   PetscCheckInput(!c->spec.node_to_segment, "%s is %s: node-to-segment contact has no friction; allowed here: 0", NodeWhere(given), value);
-  PetscCheckInput(d->mechanics.kinematics == KINEMATICS_FINITE, "%s is %s: friction needs kinematics: finite; allowed here: 0", NodeWhere(given), value);
   PetscCheckInput(d->load.control == LOAD_TIME, "%s is %s: friction needs load.control: time; allowed here: 0", NodeWhere(given), value);
   for (PetscInt b = 0; b < s->num_bodies; ++b)
     PetscCheckInput(!BodyIsLoaded(&s->body[b].spec), "%s is %s: friction is not built yet for scenes with a rigid body that carries loads; allowed here: 0",

@@ -96,8 +96,9 @@ static void Friction(void **state)
 
   (void)state;
   for (int k = 0; k < 3; ++k) {
-    ContactPoint p = {.spec = &spec, .friction = 0.4, .z = {0.5, q[k]}, .gap = 0, .weight = 0.4, .w0 = 0.5, .c = 3, .dim = 2, .slip = {Slip[k]}, .slip_weight = 0.3};
-    ContactRow   row[MOST_MULTIPLIERS];
+    ContactPoint p = {
+        .spec = &spec, .friction = 0.4, .z = {0.5, q[k]}, .gap = 0, .weight = 0.4, .w0 = 0.5, .c = 3, .dim = 2, .slip = {Slip[k]}, .slip_weight = 0.3};
+    ContactRow row[MOST_MULTIPLIERS];
 
     p.state = law->state(&p);
     assert_int_equal(p.state, k + 1);
@@ -127,7 +128,8 @@ static void Friction(void **state)
 static ContactPoint InSpace(const ContactSpec *spec, PetscReal s)
 {
   const ContactLawOps *law = ContactLaws[CONTACT_COULOMB];
-  ContactPoint         p = {.spec = spec, .friction = 0.4, .z = {0.5 + 0.2 * s, 0.1 + 0.3 * s, -0.05 + 0.1 * s}, .weight = 0.4, .w0 = 0.5, .c = 3, .dim = 3, .slip_weight = 0.3};
+  ContactPoint         p   = {
+                .spec = spec, .friction = 0.4, .z = {0.5 + 0.2 * s, 0.1 + 0.3 * s, -0.05 + 0.1 * s}, .weight = 0.4, .w0 = 0.5, .c = 3, .dim = 3, .slip_weight = 0.3};
 
   p.slip[0] = -0.02 + 0.07 * s, p.slip[1] = 0.01 - 0.04 * s;
   p.state = law->state(&p);

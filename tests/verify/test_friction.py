@@ -156,6 +156,23 @@ def test_without_friction_nothing_changes(run):
     assert steps(plain) == steps(zero) and plain.summary["energy"] == zero.summary["energy"]
 
 
+def test_small_kinematics(run):
+    """The plate of GRECO (docs/benchmarks.md) with small strains: published slips, in one step as in ten, since nothing slips back; in parallel; the exact tangent."""
+    options = "tests/benchmarks/greco.yml", "-kinematics", "small", "-material_steel_law", "linear"
+    one, ten, three = run(*options, "-load_step", 1), run(*options), run(*options, "-load_step", 1, ranks=3)
+    assert one.returncode == 0 and ten.returncode == 0 and three.returncode == 0, one
+    for k, target in enumerate((2.86, 2.72, 2.28, 1.98, 1.50)):
+        slip = [result.summary["probe"][f"p{k}"]["displacement"][0] for result in (one, ten, three)]
+        print(slip)
+        assert slip[0] == pytest.approx(1e-5 * target, rel=0.05) and slip[1:] == pytest.approx([slip[0]] * 2, rel=1e-7)
+    text = disc("disc", 2, 0.3).replace("model:", "kinematics: small\nmodel:").replace("neo_hookean, volumetric: quadratic", "linear").replace("0.5*max", "0.02*max")
+    result = run("small.yml", "-snes_test_jacobian", text=text)
+    error = [float(line.split("=")[1].split(",")[0]) for line in result.stdout.splitlines() if "||J - Jfd||_F/||J||_F =" in line]
+    pair = result.summary["contact"]["pair"]
+    print(error, pair["force"], pair["sticking_nodes"], pair["slipping_nodes"])
+    assert result.returncode == 0 and error[-1] < 1e-6 and result.summary["newton_iterations"] <= 4
+
+
 def test_coefficient_of_time(run):
     """Pressed without friction, which comes for the slide: the press is that of the pair without friction, the slide obeys the law with the coefficient of its time."""
     text = disc("disc", 2, '"0.4*max(0, t - 1)"').replace("end: 2, step: 1", "end: 2, step: 0.5")
