@@ -173,6 +173,31 @@ def test_small_kinematics(run):
     assert result.returncode == 0 and error[-1] < 1e-6 and result.summary["newton_iterations"] <= 4
 
 
+BALL_IN_SPACE = """
+mesh: {file: GEO, order: 2, parameter: {n: 2, k: 4}}
+model: 3d
+kinematics: small
+order: 1
+body: {ball: {material: r}, block: {material: r}}
+material: {r: {law: linear, E: 1, nu: 0.3}}
+boundary: {top: {displacement: {x: "0.02*max(t - 1, 0)", y: 0, z: "-0.1*min(t, 1)"}}, bottom: {fix: xyz}, ball_y: {fix: y}, block_y: {fix: y}}
+contact: {pair: {nonmortar: ball_surface, mortar: block_top, roles: given, friction: 0.3}}
+load: {end: 2, step: 1}
+"""
+
+
+def test_small_kinematics_in_space(run):
+    """Newton's order, the law, the same on two processes."""
+    text = BALL_IN_SPACE.replace("GEO", str(ROOT / "inputs" / "hertz3d.geo"))
+    one, two = run("ball.yml", text=text), run("ball.yml", text=text, ranks=2)
+    assert one.returncode == 0 and two.returncode == 0, one
+    pressure, traction = tractions(one)
+    print(column(one, "newton_iterations"), one.summary["contact"]["pair"]["force"])
+    assert column(one, "newton_iterations").max() <= 6 and column(one, "contact.pair.dissipation")[-1] > 0
+    assert numpy.all(traction <= 0.3 * pressure * (1 + 1e-9) + 1e-12) and one.summary["balance"]["contact_force"] < 1e-9
+    assert two.summary["contact"]["pair"]["force"] == pytest.approx(one.summary["contact"]["pair"]["force"], rel=1e-7)
+
+
 def test_coefficient_of_time(run):
     """Pressed without friction, which comes for the slide: the press is that of the pair without friction, the slide obeys the law with the coefficient of its time."""
     text = disc("disc", 2, '"0.4*max(0, t - 1)"').replace("end: 2, step: 1", "end: 2, step: 0.5")
