@@ -263,6 +263,7 @@ static PetscErrorCode Freeze_Private(Interface p, Contact *c, PetscBool *failed)
   PetscFunctionBegin;
   PetscCall(ContactSearch_Private(p, c, PETSC_TRUE, 0));
   PetscCall(ContactPairFreezeNormals(c->pair, PETSC_TRUE));
+  PetscCall(SlipFreeze_Private(p, c, failed));
   PetscCall(ContactPairEvaluate(c->pair, &side[0], &side[1], NULL, NULL, PETSC_TRUE, PETSC_FALSE, &c->num_facets, &c->facets, failed));
   PetscCall(ContactNodeSums_Private(p, c));
   PetscCall(PetscArraycpy(c->gap0, c->gap, num));

@@ -147,8 +147,8 @@ PetscErrorCode InterfaceSearch(Interface p, Vec x, const PetscReal u[])
   PetscFunctionBegin;
   for (PetscInt i = 0; i < p->num_contacts; ++i) {
     Contact *c = &p->contacts[i];
-    if (p->spec->kinematics == KINEMATICS_SMALL || c->tie) continue;
     PetscCall(SlipKeep_Private(p, c, x));
+    if (p->spec->kinematics == KINEMATICS_SMALL || c->tie) continue;
     for (PetscInt k = 0; k < 2; ++k) {
       SurfaceForget_Private(&c->side[k]);
       SurfacePlace_Private(&c->side[k], u, ContactBase_Private(c, k), c->side[k].x);

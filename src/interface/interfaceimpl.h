@@ -407,12 +407,14 @@ PetscBool ContactHeldAlong_Private(const Surface *, PetscInt node);
 PetscInt  ContactHeldAxes_Private(const Surface *, PetscInt node, PetscReal axis[3]);
 PetscReal SurfaceFacetMeasure_Private(const Surface *, PetscInt facet, PetscBool axisymmetric);
 /* slip.c: nothing where the law has no friction. Create: after the multipliers. Keep: before a search; points where slip counts from, if they are not kept yet.
+   Freeze: small kinematics, after the search at the reference positions and before the facets are evaluated: points are kept there, once for all.
    Evaluate: after positions are gathered. Change: of every owned node's slip under the increment du of both sides, which is there. All but Destroy collective.
  */
 PetscErrorCode SlipCreate_Private(Interface, Contact *);
 PetscErrorCode SlipDestroy_Private(Contact *);
 PetscErrorCode SlipKeep_Private(Interface, Contact *, Vec x);
 void           SlipCoupling_Private(const Contact *, const PetscReal q[], PetscReal coupled[]);
+PetscErrorCode SlipFreeze_Private(Interface, Contact *, PetscBool *failed);
 PetscErrorCode SlipEvaluate_Private(Interface, Contact *);
 PetscErrorCode SlipChange_Private(Interface, Contact *, PetscReal change[]);
 /* pattern.c: room in the matrix for what facets may meet until the next search. */

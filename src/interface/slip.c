@@ -124,6 +124,8 @@ PetscErrorCode SlipKeep_Private(Interface p, Contact *c, Vec x)
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &stale, 1, MPI_INT, MPI_MAX, p->comm));
   if (!stale) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(KeepTractions_Private(p, c, x));
+  s->stale = PETSC_FALSE;
+  if (p->spec->kinematics == KINEMATICS_SMALL) PetscFunctionReturn(PETSC_SUCCESS); /* points are kept once (SlipFreeze_Private) */
   for (PetscInt k = 0; k < 2; ++k) {
     SurfaceForget_Private(&c->side[k]);
     SurfacePlace_Private(&c->side[k], s->from, ContactBase_Private(c, k), c->side[k].x);
@@ -136,7 +138,32 @@ PetscErrorCode SlipKeep_Private(Interface p, Contact *c, Vec x)
   const ContactSurface side[2] = {SurfaceAt_Private(&c->side[0], c->side[0].x), SurfaceAt_Private(&c->side[1], c->side[1].x)};
   PetscCall(ContactPairKeepPoints(c->pair, &side[0], &side[1], &failed));
   s->num_facets = 0;
-  s->stale      = PETSC_FALSE;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SlipFreeze_Private(Interface p, Contact *c, PetscBool *failed)
+{
+  const ContactSurface side[2] = {SurfaceAt_Private(&c->side[0], c->side[0].X), SurfaceAt_Private(&c->side[1], c->side[1].X)};
+  SlipHistory         *s       = c->slip;
+
+  PetscFunctionBegin;
+  if (!s) PetscFunctionReturn(PETSC_SUCCESS);
+  for (PetscInt k = 0; k < 2; ++k) PetscCall(LinkSet_Private(p, &c->side[k], c->side[k].places.num, c->side[k].places.nodes, &s->places[k]));
+  PetscCall(ContactPairKeepPoints(c->pair, &side[0], &side[1], failed));
+  PetscCall(ContactPairSlip(c->pair, &side[0], &side[1], &s->num_facets, &s->facets));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Increments since the state that slip counts from, of both sides, by which slip is linear where facets are frozen. */
+static PetscErrorCode Since_Private(Interface p, Contact *c)
+{
+  PetscFunctionBegin;
+  for (PetscInt k = 0; k < 2; ++k) {
+    Surface *s = &c->side[k];
+    PetscCall(SurfaceGather_Private(p, s, c->slip->from, s->X, s->du));
+    PetscCall(LinkSpread_Private(p, &c->slip->places[k], p->dim, s->du));
+    for (PetscInt i = 0; i < p->dim * s->num_nodes; ++i) s->du[i] = s->x[i] - s->du[i];
+  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -153,7 +180,10 @@ PetscErrorCode SlipEvaluate_Private(Interface p, Contact *c)
     PetscCall(LinkSpread_Private(p, &s->places[k], p->dim, c->side[k].x));
     side[k] = SurfaceAt_Private(&c->side[k], c->side[k].x);
   }
-  PetscCall(ContactPairSlip(c->pair, &side[0], &side[1], &s->num_facets, &s->facets));
+  if (c->mean0) /* small kinematics */
+    PetscCall(Since_Private(p, c));
+  else
+    PetscCall(ContactPairSlip(c->pair, &side[0], &side[1], &s->num_facets, &s->facets));
   for (PetscInt f = 0; f < own->num_facets; ++f) s->result[f] = -1;
   PetscCall(PetscArrayzero(s->slip, m * n));
   PetscCall(PetscArrayzero(s->weight, n));
@@ -162,7 +192,10 @@ PetscErrorCode SlipEvaluate_Private(Interface p, Contact *c)
 
     s->result[e->facet] = i;
     for (PetscInt k = 0; k < e->num_rows; ++k) {
-      for (PetscInt d = 0; d < m; ++d) s->slip[n * d + e->nodes[k]] += e->gap[e->num_rows * d + k];
+      for (PetscInt d = 0; d < m; ++d) {
+        const PetscInt row = e->num_rows * d + k;
+        s->slip[n * d + e->nodes[k]] += c->mean0 ? ContactFacetDot_Private(c, e, e->dgap + p->dim * row * e->num) : e->gap[row];
+      }
       s->weight[e->nodes[k]] += e->weight[k];
     }
   }

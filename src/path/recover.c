@@ -101,7 +101,7 @@ static PetscErrorCode Cut_Private(Path *p, const PathLoop *load, PetscReal to, c
 
 static PetscBool Slips_Private(const Path *p, const State *guess)
 {
-  return (PetscBool)(!guess && InterfaceSlips(ProblemInterface(p->level->problem)));
+  return (PetscBool)(!guess && p->data->mechanics.kinematics != KINEMATICS_SMALL && InterfaceSlips(ProblemInterface(p->level->problem)));
 }
 
 static PetscErrorCode Predictor_Private(Path *p, const PathLoop *load, PetscReal to, const State *guess, SolverReport *report)

@@ -122,8 +122,8 @@ const Option Options[] = {
      "pressure over penalty",
      PAIR(spec.law)},
     {"contact.<pair>.penalty", KEY_REAL, "stress/length", "", POSITIVE, "stiffness of law: penalty, pressure per overlap", PAIR(spec.penalty)},
-    {"contact.<pair>.friction", KEY_EXPRESSION, "", "0", ANY,
-     "coefficient of Coulomb friction, 0 or a positive number, or an expression in t that is never negative; axisymmetric without twist; load.control: time",
+    {"contact.<pair>.friction", KEY_EXPRESSION, "", "0", NOT_BELOW,
+     "coefficient of Coulomb friction, also as an expression in t that is never negative; axisymmetric without twist; load.control: time",
      PAIR(spec.friction)},
     {"contact.<pair>.order", KEY_WORD, "", "auto", "1|full|auto",
      "order of the contact faces; full: that of their cells, with their curved geometry; auto: full, but 1 with subdivide, node_to_segment or orders per "

@@ -378,7 +378,6 @@ static PetscErrorCode CheckFriction_Private(Scene s, const SceneNode *node, Cont
   PetscCheckInput(c->spec.law == CONTACT_COULOMB || !NodeFind(node, "law"),
                   "%s is %s, but the law of this pair is frictionless; allowed here: 0, or take the law away", NodeWhere(given), value);
   PetscCheckInput(!c->spec.node_to_segment, "%s is %s: node-to-segment contact has no friction; allowed here: 0", NodeWhere(given), value);
-  PetscCheckInput(d->mechanics.kinematics == KINEMATICS_FINITE, "%s is %s: friction needs kinematics: finite; allowed here: 0", NodeWhere(given), value);
   PetscCheckInput(d->load.control == LOAD_TIME, "%s is %s: friction needs load.control: time; allowed here: 0", NodeWhere(given), value);
   c->spec.law = CONTACT_COULOMB;
   PetscFunctionReturn(PETSC_SUCCESS);

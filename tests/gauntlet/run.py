@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """Run the contact scenes of a folder in all their variants and judge each run by figures known beforehand.
 
-    run.py [--program bin/mortise] [--scenes FOLDER] [--only NAME] [--quick] [--jobs N] [--settings "-contact_{pair}_order full"] [--csv FILE]
+    run.py [--program bin/mortise] [--scenes FOLDER] [--only NAME] [--quick] [--jobs N] [--settings "-contact_{pair}_order full"] [--friction 0.2]
+           [--csv FILE]
 
 docs/gauntlet.md describes scenes and figures; rows() below says what a scene of scenes.json holds. Verdicts:
   ok          exit 0, the tolerance asked for reached and every figure within its own; or refused in one sentence (exit 1), where the scene allows it
@@ -34,7 +35,7 @@ def rows(folder, only="", quick=False, settings=""):
     """(scene, variant, options) of each run that scenes.json asks for.
 
     A scene: name, class, file, pairs {name: [nonmortar, mortar]}, variants {name: options, with the word "swap" for exchanged sides}, figures [[label, expression, value, relative
-    tolerance]], source (of the figures), seconds (of processor time), tolerance (of adaptation), told (refusal in one sentence is right), quick (variants that `make test` runs).
+    tolerance]], source (of the figures), friction (labels of the figures that hold with friction, too), selves (pairs of one surface with itself), seconds (of processor time), tolerance (of adaptation), told (refusal in one sentence is right), quick (variants that `make test` runs).
     """
     for scene in json.loads((folder / "scenes.json").read_text()):
         pairs = scene.get("pairs", {})
@@ -42,8 +43,9 @@ def rows(folder, only="", quick=False, settings=""):
             if only not in scene["name"] or (quick and variant not in scene.get("quick", [])):
                 continue
             options = [word for word in text.split() if word != "swap"]
-            for pair, (nonmortar, mortar) in pairs.items():
-                if "swap" in text.split():
+            for pair, sides in {**pairs, **dict.fromkeys(scene.get("selves", []))}.items():
+                if "swap" in text.split() and sides:
+                    nonmortar, mortar = sides
                     options += [f"-contact_{pair}_nonmortar", mortar, f"-contact_{pair}_mortar", nonmortar]
                 options += settings.format(pair=pair).split()
             yield scene, variant, options
@@ -99,7 +101,7 @@ def misses(figures, summary, history):
     return found
 
 
-def judge(scene, options, code, said, summary, history):
+def judge(scene, options, code, said, summary, history, friction=0):
     """Verdict and why."""
     asked = summary.get("adapt_tolerance") or scene.get("tolerance", 0)
     if "-adapt_tolerance" in options:
@@ -107,7 +109,8 @@ def judge(scene, options, code, said, summary, history):
     if code is None:
         return "slow", ""
     if code == 0:
-        wrong = misses(scene.get("figures", []), summary, history)
+        figures = [figure for figure in scene.get("figures", []) if not friction or figure[0] in scene.get("friction", [])]
+        wrong = misses(figures, summary, history)
         short = asked and (summary.get("estimated_error") or 0) > asked
         return ("WRONG" if wrong else "short" if short else "ok"), "; ".join(wrong)
     if code == 1 and scene.get("told") and said.strip().count("\n") == 0:
@@ -115,12 +118,12 @@ def judge(scene, options, code, said, summary, history):
     return ("inaccurate" if summary.get("status") == "inaccurate" else "failed"), summary.get("reason") or said.strip().split("\n")[0]
 
 
-def solve(program, folder, scene, variant, options):
+def solve(program, folder, scene, variant, options, friction=0):
     """One row of the table."""
     with tempfile.TemporaryDirectory() as directory:
         code, said, used = execute(program, folder / scene["file"], options, directory, scene.get("seconds", 15))
         s, h = read(directory)
-    verdict, why = judge(scene, options, code, said, s, h)
+    verdict, why = judge(scene, options, code, said, s, h, friction)
     return {"class": scene.get("class", ""), "scene": scene["name"], "variant": variant, "verdict": verdict, "exit": code, "t": s.get("t"), "steps": s.get("load_steps"),
             "newton": s.get("newton_iterations"), "cuts": s.get("step_cuts"), "cells": s.get("cells"), "error": s.get("estimated_error"), "seconds": round(used, 2), "why": why}
 
@@ -140,15 +143,17 @@ def main():
     parser.add_argument("--only", default="", help="scenes whose name contains this")
     parser.add_argument("--quick", action="store_true", help="only the variants that scenes.json lists as quick")
     parser.add_argument("--settings", default="", help="options for every pair; {pair} stands for its name")
+    parser.add_argument("--friction", type=float, default=0, help="coefficient of friction of every pair; scenes say which of their figures hold then")
     parser.add_argument("--jobs", type=int, default=1, help="runs at a time")
     parser.add_argument("--csv", type=pathlib.Path, help="file to write the table to")
     a = parser.parse_args()
     program, folder, table = os.path.abspath(a.program), a.scenes.resolve(), []
+    settings = a.settings + (f" -contact_{{pair}}_friction {a.friction}" if a.friction else "")
     if not os.access(program, os.X_OK):
         parser.error(f"no program {program}")
     print(" ".join(key.ljust(width) for key, width in SHOWN.items()))
     with concurrent.futures.ProcessPoolExecutor(a.jobs) as pool:  # processes, so that each knows the processor time of its own runs
-        runs = [pool.submit(solve, program, folder, *row) for row in rows(folder, a.only, a.quick, a.settings)]
+        runs = [pool.submit(solve, program, folder, *row, a.friction) for row in rows(folder, a.only, a.quick, settings)]
         for run in runs:
             table.append(run.result())
             print(line(table[-1]), flush=True)

@@ -38,6 +38,7 @@ def test_scenes():
     assert {scene["class"] for scene in scenes.values()} == {"edges", "corners", "overlap", "half models", "soft and stiff", "rigid nonmortar", "1:8", "snaps", "press fits", "billets",
                                                             "bonded edges", "buckling", "folding"}
     for scene, _, options in ALL:
+        assert {figure[0] for figure in scene["figures"]} >= set(scene.get("friction", [])), scene["name"]
         assert scene["figures"] and scene["source"] and set(scene.get("quick", [])) <= set(scene["variants"]), scene["name"]
         settings = [word for word in options if word.startswith("-contact_") and not word.endswith(("_nonmortar", "_mortar"))]
         assert not settings, (scene["name"], settings)
