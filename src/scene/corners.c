@@ -1,7 +1,7 @@
 /* Does a corner of one side of a contact pair press into the inside of the other? Where facets carry the multiplier into which a corner is pressed, the mortar
    side ends within one of them, at a place that moves over its nodes, and gaps beside the corner count among those below it: the constraint nearest to the
    corner holds a mean of both, forces jump where the corner passes a node, and Newton's method finds nothing there. The side with the corner has a node at it
-   and is covered whole. In the plane; at the reference positions. */
+   and is covered whole, if its facets are no coarser. In the plane; at the reference positions. */
 #include "sceneimpl.h"
 
 #define SHARP 0.76604444311897804 /* cosine of 40 degrees, beyond which contact has two directions at a corner */
@@ -24,7 +24,7 @@ static PetscErrorCode Edges_Private(Forest forest, const ForestTables *t, PetscI
   PetscCall(PetscMalloc1(t->first[2] - first, edges));
   for (PetscInt f = first; f < t->first[2]; ++f) {
     const PetscInt *closure = t->closure + t->closure_offset[f], *leaf = t->facet_leaf + 2 * (f - first);
-    Edge           *e       = *edges + *num;
+    Edge           *e = *edges + *num;
     PetscReal       middle[3];
     if (!(t->boundary[f] >> group & 1)) continue;
     ++*num;
@@ -76,14 +76,19 @@ static PetscBool IsOver_Private(PetscInt num, const Edge edge[], const Edge *e, 
   return (PetscBool)(other && Dot3(e->N, other->N) >= SHARP);
 }
 
-/* Of the corner between a and b. */
-static PetscBool Meets_Private(const Edge *a, PetscInt end, const Edge *b, PetscInt num, const Edge other[])
+static PetscReal Length_Private(const Edge *e)
 {
-  const PetscReal size = PetscSqrtReal(PetscSqr(a->X[1][0] - a->X[0][0]) + PetscSqr(a->X[1][1] - a->X[0][1]));
+  return PetscSqrtReal(PetscSqr(e->X[1][0] - e->X[0][0]) + PetscSqr(e->X[1][1] - e->X[0][1]));
+}
+
+/* Of the corner X: does its edge e face one that is no finer and lie over it? Coarser facets would have constraints between which the other side deforms. */
+static PetscBool Meets_Private(const Edge *e, const PetscReal X[3], PetscInt num, const Edge other[])
+{
+  const PetscReal size = Length_Private(e);
 
   for (PetscInt i = 0; i < num; ++i) {
-    const PetscBool faces = (PetscBool)(PetscMin(Dot3(a->N, other[i].N), Dot3(b->N, other[i].N)) < -FACES);
-    if (faces && IsOver_Private(num, other, &other[i], a->X[end], size)) return PETSC_TRUE;
+    if (Dot3(e->N, other[i].N) >= -FACES || size > (1 + BESIDE) * Length_Private(&other[i])) continue;
+    if (IsOver_Private(num, other, &other[i], X, size)) return PETSC_TRUE;
   }
   return PETSC_FALSE;
 }
@@ -102,7 +107,8 @@ PetscErrorCode SceneCornerMeets(Forest forest, PetscInt side, PetscInt other, Pe
   PetscCall(Edges_Private(forest, t, other, &num[1], &edge[1]));
   for (PetscInt i = 0; i < 2 * num[0] && !*yes; ++i) {
     const Edge *a = &edge[0][i / 2], *b = Next_Private(num[0], edge[0], a, i % 2);
-    *yes = (PetscBool)(b && IsCorner_Private(a, i % 2, b) && Meets_Private(a, i % 2, b, num[1], edge[1]));
+    if (!b || !IsCorner_Private(a, i % 2, b)) continue;
+    *yes = (PetscBool)(Meets_Private(a, a->X[i % 2], num[1], edge[1]) || Meets_Private(b, a->X[i % 2], num[1], edge[1]));
   }
   PetscCall(PetscFree(edge[0]));
   PetscCall(PetscFree(edge[1]));
