@@ -233,20 +233,36 @@ static PetscReal Stiffness_Private(Scene s, const Facets *f, PetscInt group)
   return least;
 }
 
-/* The softer side carries the multiplier, whatever the scene calls it. On a stiffer side the constraints are as coarse as its facets while the other side
-   deforms between its nodes; on a rigid one nothing of its own makes each of them felt. */
+/* Is the nonmortar side of the scene better the mortar one, and why? The side carries the multiplier of which a corner presses into the inside of the other
+   (corners.c); where both have one or neither has, the softer one: on a stiffer side the constraints are as coarse as its facets while the other side deforms
+   between its nodes; on a rigid one nothing of its own makes each of them felt. */
+static PetscErrorCode Exchange_Private(Scene s, const Facets *f, const ContactEntry *c, const PetscReal stiffness[2], const char **why)
+{
+  PetscBool corner[2] = {PETSC_FALSE, PETSC_FALSE};
+
+  PetscFunctionBegin;
+  *why = stiffness[0] > stiffness[1] ? "is the stiffer one" : NULL;
+  if (stiffness[0] >= PETSC_INFINITY) *why = "is rigid";
+  if (stiffness[0] >= PETSC_INFINITY || stiffness[1] >= PETSC_INFINITY || c->spec.law == CONTACT_TIED) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(SceneCornerMeets(f->whole, c->spec.nonmortar, c->spec.mortar, &corner[0]));
+  PetscCall(SceneCornerMeets(f->whole, c->spec.mortar, c->spec.nonmortar, &corner[1]));
+  if (corner[0] != corner[1]) *why = corner[0] ? NULL : "has a corner of the other side pressed into it";
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 static PetscErrorCode Roles_Private(Scene s, const Facets *f, ContactEntry *c)
 {
   const PetscInt  nonmortar    = c->spec.nonmortar;
   const PetscReal stiffness[2] = {Stiffness_Private(s, f, c->spec.nonmortar), Stiffness_Private(s, f, c->spec.mortar)};
   const PetscBool rigid[2]     = {(PetscBool)(stiffness[0] >= PETSC_INFINITY), (PetscBool)(stiffness[1] >= PETSC_INFINITY)};
+  const char     *why          = rigid[0] ? "is rigid" : NULL;
 
   PetscFunctionBegin;
   PetscCheckInput(!rigid[0] || !rigid[1], "%s: '%s' and '%s' are both sides of rigid bodies; one side of a pair must be of a body that deforms",
                   NodeWhere(c->node), c->nonmortar, c->mortar);
-  if (c->roles == ROLES_GIVEN ? !rigid[0] : stiffness[0] <= stiffness[1]) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(PetscPrintf(s->comm, "note: %s: '%s' is %s and becomes the mortar side, '%s' the nonmortar side\n", NodeWhere(c->node), c->nonmortar,
-                        rigid[0] ? "rigid" : "the stiffer one", c->mortar));
+  if (c->roles != ROLES_GIVEN) PetscCall(Exchange_Private(s, f, c, stiffness, &why));
+  if (!why) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(PetscPrintf(s->comm, "note: %s: '%s' %s and becomes the mortar side, '%s' the nonmortar side\n", NodeWhere(c->node), c->nonmortar, why, c->mortar));
   c->spec.exchanged = PETSC_TRUE;
   c->spec.nonmortar = c->spec.mortar;
   c->spec.mortar    = nonmortar;

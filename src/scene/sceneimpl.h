@@ -174,6 +174,8 @@ void GeoCheck(const char *file, size_t capacity, char message[]);
 PetscErrorCode SceneCheckMesh(Scene, Forest);
 /* Warnings and notes on a mesh that may not be what is meant (pieces.c); after SceneCheckMesh. Collective. */
 PetscErrorCode SceneTellMesh(Scene, Forest);
+/* Does a corner of one boundary group lie over the inside of the other (corners.c)? In the plane; in space never. Collective. */
+PetscErrorCode SceneCornerMeets(Forest, PetscInt side, PetscInt other, PetscBool *yes);
 /* The same on sides of contact pairs that are chords of what they stand for (chords.c). Collective. */
 PetscErrorCode SceneTellChords(Scene, Forest);
 /* Reference position of a vertex (check.c). Not collective. */

@@ -68,7 +68,7 @@ static PetscErrorCode ViewContact_Private(const ContactEntry *c, Forest forest, 
   PetscCall(ViewGroup_Private(c->spec.mortar, forest, viewer));
   PetscCall(PetscViewerASCIIUseTabs(viewer, PETSC_FALSE));
   PetscCall(PetscViewerASCIIPrintf(viewer, "%s%s%s%s\n", c->spec.full ? "" : ", linear faces", c->spec.node_to_segment ? ", node to segment" : "", layer,
-                                   c->spec.exchanged ? ", roles exchanged: the nonmortar side of the scene is the stiffer one" : ""));
+                                   c->spec.exchanged ? ", roles exchanged: the other side of the scene carries the pressure" : ""));
   PetscCall(PetscViewerASCIIUseTabs(viewer, PETSC_TRUE));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

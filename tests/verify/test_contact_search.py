@@ -16,6 +16,7 @@ contact: {pair: {nonmortar: cup, mortar: floor_top, order: full}}
 load: {step: 1}
 adapt: {tolerance: 0.002, max_passes: 20}
 """
+GAUNTLET = "tests/gauntlet/"
 FORCE = 0.03753295  # of the whole half disc, to 1e-8
 
 
@@ -135,6 +136,22 @@ def test_a_stiffer_nonmortar_side(run, tmp_path):
     assert "'y0_u' is the stiffer one and becomes the mortar side" in stiff.stdout
     assert "becomes the mortar" not in soft.stdout + given.stdout and given.summary["contact"]["pair"]["roles_exchanged"] is False
     assert stiff.summary["reaction"] == soft.summary["reaction"]
+
+
+@pytest.mark.parametrize("scene, sides", [("dent.yml", ("face", "skin")), ("overhang.yml", ("skin", "hull"))])
+def test_a_corner_pressed_into_the_other_side(run, scene, sides):
+    """The side with the corner carries the multiplier, stiffer or not, whatever the scene calls it; not where its facets are coarser."""
+    options = (*QUIET, "-order", 1)
+    swap = ("-contact_c_nonmortar", sides[1], "-contact_c_mortar", sides[0])
+    plain, swapped = run(GAUNTLET + scene, *options), run(GAUNTLET + scene, *options, *swap)
+    assert plain.returncode == swapped.returncode == 0, plain
+    assert f"'{sides[0]}' has a corner of the other side pressed into it and becomes the mortar side" in plain.stdout
+    assert "becomes the mortar" not in swapped.stdout and plain.summary["step_cuts"] == 0
+    assert plain.summary["reaction"] == swapped.summary["reaction"]
+    given = run(GAUNTLET + scene, *options, "-load_end", 0.25, "-contact_c_roles", "given")
+    assert "becomes the mortar" not in given.stdout
+    coarse = {"dent.yml": ("-mesh_parameter_nu", 2), "overhang.yml": ("-mesh_parameter_nl", 2)}[scene]
+    assert "has a corner" not in run(GAUNTLET + scene, *options, "-load_end", 0.25, *coarse).stdout
 
 
 def test_two_rigid_sides(run):
