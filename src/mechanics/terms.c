@@ -1,0 +1,132 @@
+/* Energies that single parts of the model add at a state, body by body: what a simpler model would leave out. To first order the potential energy of the
+   simpler model at its own solution differs from that of the whole one by its difference at the state found (docs/theory.md, no more model than needed). */
+#include "mechanicsimpl.h"
+
+/* What there is at one point. */
+typedef struct {
+  PetscReal volume, F[9], P[9], W; /* volume: weight times reference volume */
+} TermPoint;
+
+/* S = F^-1 P, the second Piola stress, by Cramer's rule; small kinematics: P. */
+static PetscBool SecondPiola_Private(PetscBool small, const PetscReal F[9], const PetscReal P[9], PetscReal S[9])
+{
+  for (int J = 0; J < 3; ++J) {
+    const PetscReal column[3] = {P[J], P[3 + J], P[6 + J]};
+    PetscReal       x[3]      = {column[0], column[1], column[2]};
+    if (!small && !Solve3(F, column, x)) return PETSC_FALSE;
+    for (int I = 0; I < 3; ++I) S[3 * I + J] = x[I];
+  }
+  return PETSC_TRUE;
+}
+
+/* What small kinematics adds, stresses being those found (Hellinger and Reissner): S : eps - S : C^-1 : S / 2 - W. The displacements' own linear energy would
+   count rotations as strain, and changes of volume with the bulk modulus. */
+static PetscReal Linear_Private(const MaterialSpec *m, const PetscReal S[9], const TermPoint *q)
+{
+  const PetscReal mean = (S[0] + S[4] + S[8]) / 3;
+  PetscReal       work = 0, complementary = mean * mean / (2 * m->kappa);
+
+  for (int I = 0; I < 3; ++I) {
+    for (int J = 0; J < 3; ++J) {
+      const PetscReal eps = 0.5 * (q->F[3 * I + J] + q->F[3 * J + I]) - (I == J), dev = S[3 * I + J] - (I == J ? mean : 0);
+      work += S[3 * I + J] * eps;
+      complementary += dev * dev / (4 * m->mu);
+    }
+  }
+  return work - complementary - q->W;
+}
+
+/* What the displacement form adds to a mixed one: U(J) less the energy of the pressure field, which is the trace of P F^T in laws whose shear part has none. */
+static PetscReal Projected_Private(const MaterialSpec *m, PetscBool small, const TermPoint *q)
+{
+  const PetscReal J = small ? 1 : Det3(q->F), K = MaterialVolumetricModulus(m);
+  PetscReal       trace = 0, g[3];
+
+  MaterialVolumetric(m, J, g);
+  for (int a = 0; a < 9; ++a) trace += q->P[a] * (small ? a % 4 == 0 : q->F[a]);
+  if (small) {
+    g[0] = q->F[0] + q->F[4] + q->F[8] - 3;
+    g[1] = 1;
+  }
+  const PetscReal pi = trace / (3 * J * g[1]);
+  return 0.5 * K * g[0] * g[0] - 0.5 * pi * pi / K;
+}
+
+/* Energy of the fibres: with them less without them. */
+static PetscErrorCode Fibers_Private(const MaterialSpec *m, PetscInt root, const PetscReal X[3], const TermPoint *q, PetscReal *energy)
+{
+  MaterialSpec   bare = *m;
+  PetscReal      fiber[MATERIAL_MAX_FIBERS][3], F[9], with, without;
+  MaterialPoints point = {.n = 1, .F = F, .fiber = fiber[0], .W = &with};
+
+  PetscFunctionBegin;
+  PetscCall(PetscArraycpy(F, q->F, 9));
+  MaterialFiberDirections(m, root, X, fiber);
+  PetscCall(MaterialEvaluate(m, MATERIAL_ISOCHORIC, &point));
+  bare.num_fibers = 0;
+  point.W         = &without;
+  PetscCall(MaterialEvaluate(&bare, MATERIAL_ISOCHORIC, &point));
+  *energy = point.bad ? 0 : with - without;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode Point_Private(const MaterialSpec *m, PetscBool small, PetscInt root, const PetscReal X[3], const TermPoint *q, BodyTerms *sum)
+{
+  PetscReal S[9] = {0}, fibers;
+
+  PetscFunctionBegin;
+  sum->volume += q->volume;
+  sum->energy += q->volume * q->W;
+  if (!small && !m->law->num_history && SecondPiola_Private(small, q->F, q->P, S)) sum->linear += q->volume * Linear_Private(m, S, q);
+  if (MaterialStoresPressure(m) && m->volumetric != VOLUMETRIC_LOG) sum->projected += q->volume * Projected_Private(m, small, q);
+  if (!small && m->num_fibers) {
+    PetscCall(Fibers_Private(m, root, X, q, &fibers));
+    sum->fibers += q->volume * fibers;
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* An owned cell of order p, at p points in each direction. */
+static PetscErrorCode Cell_Private(Mechanics m, PetscInt cell, PetscInt root, PetscInt order, const MaterialSpec *material, const PetscReal u[], BodyTerms *sum)
+{
+  const PetscBool small = (PetscBool)(m->spec->kinematics == KINEMATICS_SMALL), ring = (PetscBool)(m->spec->model == MODEL_AXISYMMETRIC);
+  const PetscInt  np = ElementNumNodes(m->dim, order - 1);
+  const Basis1D  *basis;
+  PetscReal      *xi, *X, *J, *F, *P, *W;
+
+  PetscFunctionBegin;
+  PetscCall(Basis1DGet(order, order, &basis));
+  PetscCall(PetscMalloc6(3 * np, &xi, 3 * np, &X, 9 * np, &J, 9 * np, &F, 9 * np, &P, np, &W));
+  for (PetscInt i = 0; i < np; ++i) Basis1DPoint(basis, m->dim, i, xi + m->dim * i);
+  PetscCall(MechanicsPoints(m, cell, np, xi, u, &(PointValues){.X = X, .J = J, .F = F, .P = P, .W = W}));
+  for (PetscInt i = 0; i < np; ++i) {
+    PetscReal unused[3];
+    TermPoint q = {.volume = Basis1DPoint(basis, m->dim, i, unused) * Det3(J + 9 * i) * (ring ? 2 * PETSC_PI * X[3 * i] : 1), .W = W[i]};
+    PetscCall(PetscArraycpy(q.F, F + 9 * i, 9));
+    PetscCall(PetscArraycpy(q.P, P + 9 * i, 9));
+    PetscCall(Point_Private(material, small, root, X + 3 * i, &q, sum));
+  }
+  PetscCall(PetscFree6(xi, X, J, F, P, W));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode MechanicsTerms(Mechanics m, const PetscReal u[], BodyTerms terms[])
+{
+  const HPTables     *v;
+  const ForestTables *t;
+  Forest              forest;
+
+  PetscFunctionBegin;
+  PetscCall(HPSpaceGetTables(m->space, &v));
+  PetscCall(HPSpaceGetForest(m->space, &forest));
+  PetscCall(ForestGetTables(forest, &t));
+  PetscCall(PetscArrayzero(terms, m->spec->num_bodies));
+  for (PetscInt i = 0; i < m->num_groups; ++i) {
+    const CellGroup *g = &m->groups[i];
+    for (PetscInt c = 0; c < g->num_cells; ++c) {
+      const PetscInt leaf = v->cell_leaf[g->cells[c]];
+      PetscCall(Cell_Private(m, g->cells[c], t->leaf_root[leaf], v->cell_order[g->cells[c]], g->material, u, &terms[t->leaf_body[leaf]]));
+    }
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
