@@ -53,6 +53,9 @@ typedef struct {
   PetscReal        rough_error, rough_t, rough_norm; /* largest estimate of an accepted step, its time; largest norm */
   PetscReal        unstable_t;                       /* when a solution was first found unstable … */
   PetscBool        unstable_known, passage_told;     /* … if one was; that a surface passes through itself */
+  PetscBool        mirror[3];                        /* planes of symmetry that are not used (AppFindMirrors) … */
+  PetscReal        mirror_at[3];                     /* … and where they are */
+  Needs            needs;                            /* what could have been left out */
   ReportRow        last;
   PetscReal        dt;                                                          /* length of the next load step */
   Checkpoint       snapshot;                                                    /* owned: copy of the state at the end of the last accepted load step */
@@ -133,6 +136,19 @@ PetscErrorCode AppRefuseThrough(Problem, const PetscReal from[], const State *, 
 PetscErrorCode AppWatch(App *);
 /* The warnings that sum up a run, before its summary is written. Collective. */
 PetscErrorCode AppWarn(App *);
+
+/* mirror.c. Middle planes of the mesh across each axis that mesh, supports and loads are symmetric about and no cell straddles; of the forest as it begins. Not
+   collective. */
+PetscErrorCode AppFindMirrors(const SceneData *, Forest, PetscBool mirror[3], PetscReal at[3]);
+/* needs.c. What the run could have left out, of its last state; and away with it. Collective. */
+PetscErrorCode AppFindNeeds(App *, Needs *);
+PetscErrorCode AppForgetNeeds(Needs *);
+/* simpler.c, at the last accepted state. How far the sides of a pair slid along each other, over twice the size of the zone. Collective. */
+PetscErrorCode AppContactTurn(const App *, PetscInt pair, PetscReal *turn);
+/* The motion that the supports of a body give it as a whole, by axis, for the caller to delete; held: they do, and nothing else loads it. Not collective. */
+PetscErrorCode AppRigidMotion(const App *, PetscInt body, struct cJSON **motion, PetscBool *held);
+/* Largest difference of displacements at corners of cells from those of their mirror images, over the largest displacement. Collective. */
+PetscErrorCode AppAsymmetry(const App *, PetscInt axis, PetscReal *off);
 
 /* summary.c. What the run took so far. Not collective. */
 ReportRow AppTotal(const App *);

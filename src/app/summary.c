@@ -37,7 +37,9 @@ PetscErrorCode AppSummary(App *app, const char *status, const char *reason)
   PetscCall(Figures_Private(app));
   const PetscBool  given_up  = (PetscBool)(app->failure || app->path.stopped);
   const PetscBool  estimated = (PetscBool)(app->estimated && !given_up && !PetscIsNanReal(app->last.estimated_error));
+  const PetscBool  whole     = (PetscBool)(!given_up && !app->restart[0] && app->load_steps > 0);
   const ReportRow  total     = AppTotal(app);
+  if (whole) PetscCall(AppFindNeeds(app, &app->needs));
   const RunSummary summary   = {.status       = status,
                                 .reason       = reason,
                                 .adapt_stop   = app->adapt_stop,
@@ -51,8 +53,7 @@ PetscErrorCode AppSummary(App *app, const char *status, const char *reason)
                                 .balance      = &app->balance,
                                 .estimate     = estimated ? &app->estimate : NULL,
                                 .probes       = app->probes,
-                                .whole        = (PetscBool)(!given_up && !app->restart[0]),
-                                .touched      = app->touched};
+                                .needs        = whole ? &app->needs : NULL};
   PetscCall(OutputHold(app->comm));
   PetscCall(OutputSummary(app->comm, app->data, &summary));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -7,14 +7,14 @@ typedef struct {
   PetscReal volume, F[9], P[9], W; /* volume: weight times reference volume */
 } TermPoint;
 
-/* S = F^-1 P, the second Piola stress, by Cramer's rule; small kinematics: P. */
-static PetscBool SecondPiola_Private(PetscBool small, const PetscReal F[9], const PetscReal P[9], PetscReal S[9])
+/* S = F^-1 P, the second Piola stress, by Cramer's rule. */
+static PetscBool SecondPiola_Private(const PetscReal F[9], const PetscReal P[9], PetscReal S[9])
 {
-  for (int J = 0; J < 3; ++J) {
-    const PetscReal column[3] = {P[J], P[3 + J], P[6 + J]};
-    PetscReal       x[3]      = {column[0], column[1], column[2]};
-    if (!small && !Solve3(F, column, x)) return PETSC_FALSE;
-    for (int I = 0; I < 3; ++I) S[3 * I + J] = x[I];
+  for (int b = 0; b < 3; ++b) {
+    const PetscReal column[3] = {P[b], P[3 + b], P[6 + b]};
+    PetscReal       x[3];
+    if (!Solve3(F, column, x)) return PETSC_FALSE;
+    for (int a = 0; a < 3; ++a) S[3 * a + b] = x[a];
   }
   return PETSC_TRUE;
 }
@@ -26,12 +26,10 @@ static PetscReal Linear_Private(const MaterialSpec *m, const PetscReal S[9], con
   const PetscReal mean = (S[0] + S[4] + S[8]) / 3;
   PetscReal       work = 0, complementary = mean * mean / (2 * m->kappa);
 
-  for (int I = 0; I < 3; ++I) {
-    for (int J = 0; J < 3; ++J) {
-      const PetscReal eps = 0.5 * (q->F[3 * I + J] + q->F[3 * J + I]) - (I == J), dev = S[3 * I + J] - (I == J ? mean : 0);
-      work += S[3 * I + J] * eps;
-      complementary += dev * dev / (4 * m->mu);
-    }
+  for (int k = 0; k < 9; ++k) {
+    const PetscReal one = k % 4 == 0, eps = 0.5 * (q->F[k] + q->F[3 * (k % 3) + k / 3]) - one, dev = S[k] - one * mean;
+    work += S[k] * eps;
+    complementary += dev * dev / (4 * m->mu);
   }
   return work - complementary - q->W;
 }
@@ -77,7 +75,7 @@ static PetscErrorCode Point_Private(const MaterialSpec *m, PetscBool small, Pets
   PetscFunctionBegin;
   sum->volume += q->volume;
   sum->energy += q->volume * q->W;
-  if (!small && !m->law->num_history && SecondPiola_Private(small, q->F, q->P, S)) sum->linear += q->volume * Linear_Private(m, S, q);
+  if (!small && !m->law->num_history && SecondPiola_Private(q->F, q->P, S)) sum->linear += q->volume * Linear_Private(m, S, q);
   if (MaterialStoresPressure(m) && m->volumetric != VOLUMETRIC_LOG) sum->projected += q->volume * Projected_Private(m, small, q);
   if (!small && m->num_fibers) {
     PetscCall(Fibers_Private(m, root, X, q, &fibers));

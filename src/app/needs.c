@@ -1,0 +1,384 @@
+/* What a run could have left out of its model, at the end of it: parts that did nothing, or of which the energy at the state found says that they change the
+   results by less than the tolerance. Formulas: docs/theory.md, no more model than needed. */
+#include "appimpl.h"
+#include <cjson/cJSON.h>
+
+#define FORCE_OF_ENERGY 1.5 /* relative change of forces where the energy's is 1: the first nonlinear term of it is cubic in the load */
+#define ONE_STEP 1.5        /* iterations of one load step that goes all the way, over the mean of the steps */
+#define MOST_CHANGE 0.5     /* first order tells nothing of larger changes */
+
+typedef struct {
+  App       *app;
+  Needs     *needs;
+  BodyTerms *terms;   /* owned [num_bodies], over all ranks */
+  PetscInt  *cells;   /* owned [num_bodies] */
+  PetscReal  energy;  /* of all bodies */
+  PetscReal  total;   /* seconds of the run */
+  PetscReal  solving; /* share of it in Newton's iterations */
+  PetscReal  mesh;    /* share of it that goes with the number of cells */
+} Context;
+
+/* ---- rows ----------------------------------------------------------------------------------------------------------------------------- */
+
+static PetscErrorCode Row_Private(Context *c, const char *part, const char *name, PetscReal change, PetscReal saves, Need **row)
+{
+  Needs *n = c->needs;
+
+  PetscFunctionBegin;
+  PetscCall(PetscRealloc((size_t)(n->num + 1) * sizeof(*n->rows), &n->rows));
+  *row = &n->rows[n->num++];
+  PetscCall(PetscMemzero(*row, sizeof(**row)));
+  (*row)->part   = part;
+  (*row)->change = PetscAbsReal(change);
+  (*row)->saves  = PetscMax(0, saves);
+  (*row)->keeps  = (PetscBool)((*row)->change <= PetscMin(n->tolerance, MOST_CHANGE));
+  (*row)->set    = cJSON_CreateObject();
+  PetscCall(PetscStrncpy((*row)->name, name, sizeof((*row)->name)));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode Why_Private(Need *row, const char *why)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscStrncpy(row->why, why, sizeof(row->why)));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The object of a key "<first>.<name><last>" in row->set. */
+static cJSON *Object_Private(Need *row, const char *first, const char *name)
+{
+  char key[2 * MORTISE_NAME];
+
+  (void)snprintf(key, sizeof(key), "%s.%s", first, name);
+  return cJSON_AddObjectToObject(row->set, key);
+}
+
+static void Drop_Private(Need *row, const char *first, const char *name)
+{
+  char key[2 * MORTISE_NAME];
+
+  (void)snprintf(key, sizeof(key), "%s.%s", first, name);
+  cJSON_AddNullToObject(row->set, key);
+}
+
+/* An isotropic material of this law with the moduli of m. */
+static void Elastic_Private(Need *row, const MaterialSpec *m, const char *law)
+{
+  cJSON          *object = Object_Private(row, "material", m->name);
+  const PetscBool linear = (PetscBool)!strcmp(law, "linear");
+
+  cJSON_AddStringToObject(object, "law", law);
+  cJSON_AddNumberToObject(object, "mu", (double)m->mu);
+  if (m->incompressible)
+    cJSON_AddStringToObject(object, "kappa", "inf");
+  else
+    cJSON_AddNumberToObject(object, "kappa", (double)m->kappa);
+  if (!linear) cJSON_AddStringToObject(object, "volumetric", VolumetricNames[m->volumetric]);
+  cJSON_AddStringToObject(object, "formulation", m->mixed ? "mixed" : "displacement");
+}
+
+/* ---- parts that did nothing ----------------------------------------------------------------------------------------------------------- */
+
+static PetscErrorCode Contact_Private(Context *c)
+{
+  const SceneData *data = c->app->data;
+  Need            *row;
+
+  PetscFunctionBegin;
+  for (PetscInt i = 0; i < data->num_contacts; ++i) {
+    if (c->app->touched[i] || c->app->balance.pair[i].tied) continue;
+    PetscCall(Row_Private(c, "contact", data->contacts[i].name, 0, StageSeconds(STAGE_CONTACT) / c->total / (PetscReal)data->num_contacts, &row));
+    PetscCall(Why_Private(row, "its sides have not touched"));
+    Drop_Private(row, "contact", data->contacts[i].name);
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Is it the material of these bodies only that `alike` holds of? First: of them. */
+static PetscBool All_Private(const Context *c, PetscInt material, PetscBool (*alike)(const Context *, PetscInt body))
+{
+  const SceneData *data = c->app->data;
+  PetscBool        any  = PETSC_FALSE;
+
+  for (PetscInt b = 0; b < data->mechanics.num_bodies; ++b) {
+    if (data->mechanics.bodies[b].material != &data->materials[material]) continue;
+    if (!alike(c, b)) return PETSC_FALSE;
+    any = PETSC_TRUE;
+  }
+  return any;
+}
+
+static PetscBool Elastic(const Context *c, PetscInt body)
+{
+  return BalanceStaysElastic(&c->app->balance, &c->app->data->mechanics, body);
+}
+
+static PetscErrorCode Flow_Private(Context *c)
+{
+  const SceneData *data = c->app->data;
+  Need            *row;
+
+  PetscFunctionBegin;
+  for (PetscInt i = 0; i < data->num_materials; ++i) {
+    const MaterialSpec *m = &data->materials[i];
+    if (!All_Private(c, i, Elastic)) continue;
+    PetscCall(Row_Private(c, "flow", m->name, 0, 0.3 * StageSeconds(STAGE_ASSEMBLE) / c->total, &row));
+    PetscCall(Why_Private(row, "its material has not flowed: neo_hookean with the same moduli and volumetric gives the same"));
+    Elastic_Private(row, m, "neo_hookean");
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- materials ------------------------------------------------------------------------------------------------------------------------ */
+
+/* Sum of an energy over the bodies of a material, relative to that of all bodies. */
+static PetscReal Share_Private(const Context *c, PetscInt material, size_t offset)
+{
+  const SceneData *data = c->app->data;
+  PetscReal        sum  = 0;
+
+  for (PetscInt b = 0; b < data->mechanics.num_bodies; ++b)
+    if (data->mechanics.bodies[b].material == &data->materials[material]) sum += *(const PetscReal *)((const char *)&c->terms[b] + offset);
+  return c->energy > 0 ? sum / c->energy : 0;
+}
+
+static PetscErrorCode Fibers_Private(Context *c)
+{
+  const SceneData *data = c->app->data;
+  Need            *row;
+
+  PetscFunctionBegin;
+  for (PetscInt i = 0; i < data->num_materials; ++i) {
+    const MaterialSpec *m = &data->materials[i];
+    if (!m->num_fibers || data->mechanics.kinematics == KINEMATICS_SMALL || m->mu <= 0) continue;
+    const PetscReal share = Share_Private(c, i, offsetof(BodyTerms, fibers));
+    PetscCall(Row_Private(c, "fibers", m->name, FORCE_OF_ENERGY * share, 0.3 * StageSeconds(STAGE_ASSEMBLE) / c->total, &row));
+    PetscCall(Why_Private(row, share == 0 ? "they were slack everywhere" : "the share of the energy in its fibres"));
+    Elastic_Private(row, m, "neo_hookean");
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode Mixed_Private(Context *c)
+{
+  const SceneData *data = c->app->data;
+  Need            *row;
+
+  PetscFunctionBegin;
+  for (PetscInt i = 0; i < data->num_materials; ++i) {
+    const MaterialSpec *m = &data->materials[i];
+    if (m->law->rigid || !MaterialStoresPressure(m) || m->volumetric == VOLUMETRIC_LOG) continue;
+    const PetscReal share = Share_Private(c, i, offsetof(BodyTerms, projected));
+    if (share == 0) continue;
+    PetscCall(Row_Private(c, "mixed", m->name, share, 0.1 * StageSeconds(STAGE_ASSEMBLE) / c->total, &row));
+    PetscCall(Why_Private(row, "the energy that the displacement form adds at the state found"));
+    char key[2 * MORTISE_NAME];
+    (void)snprintf(key, sizeof(key), "material.%s.formulation", m->name);
+    cJSON_AddStringToObject(row->set, key, "displacement");
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- kinematics ----------------------------------------------------------------------------------------------------------------------- */
+
+/* Have both kinematics the same keys? */
+static PetscBool MayBeSmall_Private(const SceneData *data)
+{
+  const MechanicsSpec *m = &data->mechanics;
+
+  if (m->kinematics == KINEMATICS_SMALL || data->load.control == LOAD_ARC_LENGTH) return PETSC_FALSE;
+  for (PetscInt b = 0; b < m->num_bodies; ++b)
+    if (m->bodies[b].material->law->num_history || m->bodies[b].rotation_angle || BodyIsLoaded(&m->bodies[b])) return PETSC_FALSE;
+  for (PetscInt i = 0; i < m->num_boundaries; ++i)
+    if (m->boundaries[i].rotation || BoundaryIsControlled(&m->boundaries[i])) return PETSC_FALSE;
+  for (PetscInt i = 0; i < data->num_contacts; ++i)
+    if (data->contacts[i].friction > 0 || data->contacts[i].self) return PETSC_FALSE;
+  return PETSC_TRUE;
+}
+
+static PetscErrorCode Kinematics_Private(Context *c)
+{
+  const SceneData *data  = c->app->data;
+  const PetscInt   solves = c->app->load_steps + c->app->adapt_passes;
+  PetscReal        linear = 0, slide = 0;
+  Need            *row;
+
+  PetscFunctionBegin;
+  if (!MayBeSmall_Private(data) || c->energy <= 0) PetscFunctionReturn(PETSC_SUCCESS);
+  for (PetscInt b = 0; b < data->mechanics.num_bodies; ++b) linear += c->terms[b].linear;
+  for (PetscInt i = 0; i < data->num_contacts; ++i) {
+    PetscReal turn;
+    PetscCall(AppContactTurn(c->app, i, &turn));
+    slide = PetscMax(slide, turn);
+  }
+  const PetscReal iterations = PetscMax(1, c->app->path.newton_iterations), fewer = PetscMin(1, (PetscReal)solves / iterations);
+  PetscCall(Row_Private(c, "kinematics", "scene", FORCE_OF_ENERGY * PetscAbsReal(linear) / c->energy + slide, c->solving * (1 - fewer), &row));
+  PetscCall(Why_Private(row, "the energy that the nonlinear terms add at the state found"));
+  cJSON_AddStringToObject(row->set, "kinematics", "small");
+  for (PetscInt i = 0; i < data->num_materials; ++i)
+    if (!data->materials[i].law->rigid) Elastic_Private(row, &data->materials[i], "linear");
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- load steps ----------------------------------------------------------------------------------------------------------------------- */
+
+/* Nothing remembers the path, and nothing on it was other than plain. */
+static PetscBool Forgets_Private(const App *app)
+{
+  const SceneData *data = app->data;
+  const Path      *p    = &app->path;
+
+  if (data->load.control == LOAD_ARC_LENGTH || data->load.stop_displacement > 0 || p->step_cuts || p->stabilised || (p->judged && p->unstable)) return PETSC_FALSE;
+  for (PetscInt i = 0; i < PATH_RECOVERIES; ++i)
+    if (p->recovery[i].tried) return PETSC_FALSE;
+  for (PetscInt i = 0; i < PATH_REFUSALS; ++i)
+    if (p->refusal[i].num) return PETSC_FALSE;
+  for (PetscInt b = 0; b < data->mechanics.num_bodies; ++b)
+    if (data->mechanics.bodies[b].material->law->num_history && !BalanceStaysElastic(&app->balance, &data->mechanics, b)) return PETSC_FALSE;
+  for (PetscInt i = 0; i < data->num_contacts; ++i)
+    if (data->contacts[i].friction > 0 || data->contacts[i].self) return PETSC_FALSE;
+  return PETSC_TRUE;
+}
+
+static PetscErrorCode LoadSteps_Private(Context *c)
+{
+  const SceneData *data = c->app->data;
+  PetscInt         least = 1;
+  Need            *row;
+
+  PetscFunctionBegin;
+  for (PetscReal t = PathStepEnd(data, 0, data->load.end); t < data->load.end; t = PathStepEnd(data, t, data->load.end)) ++least;
+  if (c->app->load_steps <= least || !Forgets_Private(c->app)) PetscFunctionReturn(PETSC_SUCCESS);
+  const PetscReal rest = PetscMin(1, ONE_STEP * (PetscReal)least / (PetscReal)c->app->load_steps);
+  PetscCall(Row_Private(c, "load_steps", "scene", 0, c->mesh * (1 - rest), &row));
+  PetscCall(Why_Private(row, "the end does not depend on the path"));
+  cJSON_AddNumberToObject(row->set, "load.step", (double)data->load.end);
+  cJSON_AddNullToObject(row->set, "load.step_max");
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- bodies, symmetry ----------------------------------------------------------------------------------------------------------------- */
+
+static PetscErrorCode Rigid_Private(Context *c)
+{
+  const SceneData *data = c->app->data;
+  Need            *row;
+
+  PetscFunctionBegin;
+  for (PetscInt b = 0; b < data->mechanics.num_bodies && c->energy > 0; ++b) {
+    const BodySpec *s     = &data->mechanics.bodies[b];
+    const PetscReal share = c->terms[b].energy / c->energy;
+    cJSON          *motion = NULL;
+    PetscBool       held;
+    if (s->material->law->rigid || share > MOST_CHANGE) continue;
+    PetscCall(AppRigidMotion(c->app, b, &motion, &held));
+    if (held) {
+      PetscInt all = 0;
+      for (PetscInt k = 0; k < data->mechanics.num_bodies; ++k) all += c->cells[k];
+      PetscCall(Row_Private(c, "rigid", s->name, share / (1 - share), c->mesh * (PetscReal)c->cells[b] / (PetscReal)all, &row));
+      PetscCall(Why_Private(row, "the share of the energy in it"));
+      cJSON *body = Object_Private(row, "body", s->name);
+      cJSON_AddStringToObject(body, "material", "left_out_rigid");
+      if (motion->child) cJSON_AddItemToObject(body, "motion", cJSON_Duplicate(motion, 1));
+      cJSON_AddStringToObject(Object_Private(row, "material", "left_out_rigid"), "law", "rigid");
+    }
+    cJSON_Delete(motion);
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode Symmetry_Private(Context *c)
+{
+  Need *row;
+
+  PetscFunctionBegin;
+  for (PetscInt a = 0; a < 3; ++a) {
+    const char name[] = {(char)('x' + a), 0};
+    PetscReal  off;
+    if (!c->app->mirror[a]) continue;
+    PetscCall(AppAsymmetry(c->app, a, &off));
+    PetscCall(Row_Private(c, "symmetry", name, off, 0.5 * c->mesh, &row));
+    PetscCall(Why_Private(row, "mesh, supports and loads are symmetric: half is enough"));
+    cJSON *plane = cJSON_AddObjectToObject(row->set, "plane");
+    cJSON_AddNumberToObject(plane, name, (double)c->app->mirror_at[a]);
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- cells ---------------------------------------------------------------------------------------------------------------------------- */
+
+/* The first mesh was fine enough at once, and a coarser one would have been: each halving of cells of order p leaves 2^-p of the error. */
+static PetscErrorCode Cells_Private(Context *c)
+{
+  const App       *app = c->app;
+  const SceneData *data = app->data;
+  PetscInt         order = MORTISE_MAX_ORDER;
+  Need            *row;
+
+  PetscFunctionBegin;
+  if (data->adapt.tolerance <= 0 || app->adapt_passes || !app->estimated || data->mesh.refine < 1) PetscFunctionReturn(PETSC_SUCCESS);
+  for (PetscInt b = 0; b < data->mechanics.num_bodies; ++b)
+    if (!data->mechanics.bodies[b].material->law->rigid) order = PetscMin(order, data->mechanics.bodies[b].order);
+  const PetscReal dim = data->mechanics.model == MODEL_3D ? 3 : 2, change = app->estimate.relative * PetscPowRealInt(2, order);
+  PetscCall(Row_Private(c, "cells", "scene", change, c->mesh * (1 - PetscPowReal(2, -dim)), &row));
+  PetscCall(Why_Private(row, "the error of a mesh twice as coarse, from the estimate"));
+  cJSON_AddNumberToObject(row->set, "mesh.refine", (double)(data->mesh.refine - 1));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- all ------------------------------------------------------------------------------------------------------------------------------ */
+
+static PetscErrorCode Terms_Private(Context *c)
+{
+  Level              *l   = &c->app->level;
+  const PetscInt      num = c->app->data->mechanics.num_bodies;
+  const HPTables     *v;
+  const ForestTables *t;
+  Mechanics           mechanics;
+  HPSpace             space;
+  PetscReal          *u;
+
+  PetscFunctionBegin;
+  PetscCall(ProblemGetMechanics(l->problem, &mechanics));
+  PetscCall(ProblemGetSpace(l->problem, &space));
+  PetscCall(HPSpaceGetTables(space, &v));
+  PetscCall(ForestGetTables(l->forest, &t));
+  PetscCall(PetscMalloc1(v->num_nodes * v->dim, &u));
+  PetscCall(PetscCalloc2(num, &c->terms, num, &c->cells));
+  PetscCall(ProblemSetState(l->problem, &l->accepted));
+  PetscCall(ProblemLocalDisplacement(l->problem, l->accepted.x, u));
+  PetscCall(MechanicsTerms(mechanics, u, c->terms));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, c->terms, (PetscMPIInt)((size_t)num * sizeof(*c->terms) / sizeof(PetscReal)), MPIU_REAL, MPI_SUM, c->app->comm));
+  for (PetscInt i = 0; i < num; ++i) c->energy += c->terms[i].energy;
+  for (PetscInt i = 0; i < t->num_leaves; ++i) ++c->cells[t->leaf_body[i]];
+  PetscCall(PetscFree(u));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode AppFindNeeds(App *app, Needs *needs)
+{
+  static PetscErrorCode (*const parts[])(Context *) = {Contact_Private,   Flow_Private,  Fibers_Private,   Mixed_Private, Kinematics_Private,
+                                                       LoadSteps_Private, Rigid_Private, Symmetry_Private, Cells_Private};
+  static const Stage iterating[]                    = {STAGE_ASSEMBLE, STAGE_CONTACT, STAGE_FACTOR, STAGE_SOLVE};
+  static const Stage meshed[]                       = {STAGE_SETUP, STAGE_ESTIMATE, STAGE_TRANSFER};
+  Context            c                              = {.app = app, .needs = needs, .total = AppTotal(app).seconds};
+
+  PetscFunctionBegin;
+  needs->tolerance = app->data->adapt.tolerance > 0 ? app->data->adapt.tolerance : app->estimated ? app->estimate.relative : 0;
+  for (size_t i = 0; i < sizeof(iterating) / sizeof(*iterating); ++i) c.solving += StageSeconds(iterating[i]) / c.total;
+  c.mesh = c.solving;
+  for (size_t i = 0; i < sizeof(meshed) / sizeof(*meshed); ++i) c.mesh += StageSeconds(meshed[i]) / c.total;
+  PetscCall(Terms_Private(&c));
+  for (size_t i = 0; i < sizeof(parts) / sizeof(*parts); ++i) PetscCall(parts[i](&c));
+  PetscCall(PetscFree2(c.terms, c.cells));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode AppForgetNeeds(Needs *needs)
+{
+  PetscFunctionBegin;
+  for (PetscInt i = 0; i < needs->num; ++i) cJSON_Delete(needs->rows[i].set);
+  PetscCall(PetscFree(needs->rows));
+  needs->num = 0;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
