@@ -11,11 +11,11 @@ typedef struct {
 } Place;
 
 typedef struct {
-  PetscInt    axis, num;
-  PetscReal   at, size; /* the plane; the mesh's size */
-  Place      *place;    /* owned [num], by key */
-  PetscInt   *image;    /* owned [num] */
-  uint64_t    partner[64];
+  PetscInt  axis, num;
+  PetscReal at, size; /* the plane; the mesh's size */
+  Place    *place;    /* owned [num], by key */
+  PetscInt *image;    /* owned [num] */
+  uint64_t  partner[64];
 } Mirror;
 
 static int CompareKey_Private(const void *a, const void *b)
@@ -162,7 +162,7 @@ static PetscErrorCode Bodies_Private(const Mirror *m, const SceneData *data, Pet
 
   PetscFunctionBegin;
   for (PetscInt b = 0; b < data->mechanics.num_bodies; ++b) {
-    const BodySpec *s = &data->mechanics.bodies[b];
+    const BodySpec *s        = &data->mechanics.bodies[b];
     PetscReal       value[2] = {0, 0};
     if (BodyIsLoaded(s) || s->rotation_angle || s->material->num_fibers) *same = PETSC_FALSE;
     for (PetscInt c = 0; c < 3; ++c)

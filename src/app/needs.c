@@ -13,8 +13,10 @@ typedef struct {
   BodyTerms *terms;   /* owned [num_bodies], over all ranks */
   PetscInt  *cells;   /* owned [num_bodies] */
   PetscReal  energy;  /* of all bodies */
+  PetscReal  turn;    /* work of follower pressures beyond that of dead loads */
   PetscReal  total;   /* seconds of the run */
   PetscReal  solving; /* share of it in Newton's iterations */
+  PetscReal  cell;    /* share of it in cells: without contact */
   PetscReal  mesh;    /* share of it that goes with the number of cells */
 } Context;
 
@@ -170,8 +172,8 @@ static PetscErrorCode Mixed_Private(Context *c)
     if (m->law->rigid || !MaterialStoresPressure(m) || m->volumetric == VOLUMETRIC_LOG) continue;
     const PetscReal share = Share_Private(c, i, offsetof(BodyTerms, projected));
     if (share == 0) continue;
-    PetscCall(Row_Private(c, "mixed", m->name, share, 0.1 * StageSeconds(STAGE_ASSEMBLE) / c->total, &row));
-    PetscCall(Why_Private(row, "the energy that the displacement form adds at the state found"));
+    PetscCall(Row_Private(c, "mixed", m->name, PetscSqrtReal(PetscMax(0, share)), 0.1 * StageSeconds(STAGE_ASSEMBLE) / c->total, &row));
+    PetscCall(Why_Private(row, "root of the energy that the displacement form adds at the state found"));
     char key[2 * MORTISE_NAME];
     (void)snprintf(key, sizeof(key), "material.%s.formulation", m->name);
     cJSON_AddStringToObject(row->set, key, "displacement");
@@ -198,9 +200,10 @@ static PetscBool MayBeSmall_Private(const SceneData *data)
 
 static PetscErrorCode Kinematics_Private(Context *c)
 {
-  const SceneData *data  = c->app->data;
-  const PetscInt   solves = c->app->load_steps + c->app->adapt_passes;
-  PetscReal        linear = 0, slide = 0;
+  const SceneData *data     = c->app->data;
+  const Path      *path     = &c->app->path;
+  const PetscInt   tangents = c->app->load_steps + c->app->adapt_passes + path->set_changes; /* one each; changes of the active set stay */
+  PetscReal        linear = c->turn, slide = 0;
   Need            *row;
 
   PetscFunctionBegin;
@@ -211,7 +214,7 @@ static PetscErrorCode Kinematics_Private(Context *c)
     PetscCall(AppContactTurn(c->app, i, &turn));
     slide = PetscMax(slide, turn);
   }
-  const PetscReal iterations = PetscMax(1, c->app->path.newton_iterations), fewer = PetscMin(1, (PetscReal)solves / iterations);
+  const PetscReal fewer = PetscMin(1, (PetscReal)tangents / (PetscReal)PetscMax(1, PetscMax(path->factorisations, path->newton_iterations)));
   PetscCall(Row_Private(c, "kinematics", "scene", FORCE_OF_ENERGY * PetscAbsReal(linear) / c->energy + slide, c->solving * (1 - fewer), &row));
   PetscCall(Why_Private(row, "the energy that the nonlinear terms add at the state found"));
   cJSON_AddStringToObject(row->set, "kinematics", "small");
@@ -228,7 +231,8 @@ static PetscBool Forgets_Private(const App *app)
   const SceneData *data = app->data;
   const Path      *p    = &app->path;
 
-  if (data->load.control == LOAD_ARC_LENGTH || data->load.stop_displacement > 0 || p->step_cuts || p->stabilised || (p->judged && p->unstable)) return PETSC_FALSE;
+  if (data->load.control == LOAD_ARC_LENGTH || data->load.stop_displacement > 0 || p->step_cuts || p->stabilised || (p->judged && p->unstable))
+    return PETSC_FALSE;
   for (PetscInt i = 0; i < PATH_RECOVERIES; ++i)
     if (p->recovery[i].tried) return PETSC_FALSE;
   for (PetscInt i = 0; i < PATH_REFUSALS; ++i)
@@ -242,7 +246,7 @@ static PetscBool Forgets_Private(const App *app)
 
 static PetscErrorCode LoadSteps_Private(Context *c)
 {
-  const SceneData *data = c->app->data;
+  const SceneData *data  = c->app->data;
   PetscInt         least = 1;
   Need            *row;
 
@@ -259,6 +263,20 @@ static PetscErrorCode LoadSteps_Private(Context *c)
 
 /* ---- bodies, symmetry ----------------------------------------------------------------------------------------------------------------- */
 
+/* Root mean square of the strain in a body over that in all others. A body that others stretch is soft, however little energy it takes: with stiffness of its
+   own it would hold them. */
+static PetscReal Strain_Private(const Context *c, PetscInt body)
+{
+  PetscReal volume = 0, strain2 = 0;
+
+  for (PetscInt k = 0; k < c->app->data->mechanics.num_bodies; ++k) {
+    if (k == body) continue;
+    volume += c->terms[k].volume;
+    strain2 += c->terms[k].strain2;
+  }
+  return strain2 > 0 ? PetscSqrtReal(c->terms[body].strain2 / c->terms[body].volume / (strain2 / volume)) : PETSC_MAX_REAL;
+}
+
 static PetscErrorCode Rigid_Private(Context *c)
 {
   const SceneData *data = c->app->data;
@@ -266,16 +284,17 @@ static PetscErrorCode Rigid_Private(Context *c)
 
   PetscFunctionBegin;
   for (PetscInt b = 0; b < data->mechanics.num_bodies && c->energy > 0; ++b) {
-    const BodySpec *s     = &data->mechanics.bodies[b];
-    const PetscReal share = c->terms[b].energy / c->energy;
+    const BodySpec *s      = &data->mechanics.bodies[b];
+    const PetscReal share  = c->terms[b].energy / c->energy;
     cJSON          *motion = NULL;
     PetscBool       held;
     if (s->material->law->rigid || share > MOST_CHANGE) continue;
+    if (s->material->law->plastic && !BalanceStaysElastic(&c->app->balance, &data->mechanics, b)) continue;
     PetscCall(AppRigidMotion(c->app, b, &motion, &held));
     if (held) {
       PetscInt all = 0;
       for (PetscInt k = 0; k < data->mechanics.num_bodies; ++k) all += c->cells[k];
-      PetscCall(Row_Private(c, "rigid", s->name, share / (1 - share), c->mesh * (PetscReal)c->cells[b] / (PetscReal)all, &row));
+      PetscCall(Row_Private(c, "rigid", s->name, PetscMax(share / (1 - share), Strain_Private(c, b)), c->cell * (PetscReal)c->cells[b] / (PetscReal)all, &row));
       PetscCall(Why_Private(row, "the share of the energy in it"));
       cJSON *body = Object_Private(row, "body", s->name);
       cJSON_AddStringToObject(body, "material", "left_out_rigid");
@@ -310,8 +329,8 @@ static PetscErrorCode Symmetry_Private(Context *c)
 /* The first mesh was fine enough at once, and a coarser one would have been: each halving of cells of order p leaves 2^-p of the error. */
 static PetscErrorCode Cells_Private(Context *c)
 {
-  const App       *app = c->app;
-  const SceneData *data = app->data;
+  const App       *app   = c->app;
+  const SceneData *data  = app->data;
   PetscInt         order = MORTISE_MAX_ORDER;
   Need            *row;
 
@@ -348,6 +367,8 @@ static PetscErrorCode Terms_Private(Context *c)
   PetscCall(ProblemSetState(l->problem, &l->accepted));
   PetscCall(ProblemLocalDisplacement(l->problem, l->accepted.x, u));
   PetscCall(MechanicsTerms(mechanics, u, c->terms));
+  PetscCall(MechanicsFollowerTurn(mechanics, u, &c->turn));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &c->turn, 1, MPIU_REAL, MPI_SUM, c->app->comm));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, c->terms, (PetscMPIInt)((size_t)num * sizeof(*c->terms) / sizeof(PetscReal)), MPIU_REAL, MPI_SUM, c->app->comm));
   for (PetscInt i = 0; i < num; ++i) c->energy += c->terms[i].energy;
   for (PetscInt i = 0; i < t->num_leaves; ++i) ++c->cells[t->leaf_body[i]];
@@ -367,6 +388,7 @@ PetscErrorCode AppFindNeeds(App *app, Needs *needs)
   needs->tolerance = app->data->adapt.tolerance > 0 ? app->data->adapt.tolerance : app->estimated ? app->estimate.relative : 0;
   for (size_t i = 0; i < sizeof(iterating) / sizeof(*iterating); ++i) c.solving += StageSeconds(iterating[i]) / c.total;
   c.mesh = c.solving;
+  c.cell = c.solving - StageSeconds(STAGE_CONTACT) / c.total;
   for (size_t i = 0; i < sizeof(meshed) / sizeof(*meshed); ++i) c.mesh += StageSeconds(meshed[i]) / c.total;
   PetscCall(Terms_Private(&c));
   for (size_t i = 0; i < sizeof(parts) / sizeof(*parts); ++i) PetscCall(parts[i](&c));

@@ -61,9 +61,9 @@ static PetscBool Touches_Private(const ForestTables *t, PetscInt body, PetscInt 
 
 PetscErrorCode AppRigidMotion(const App *app, PetscInt body, struct cJSON **motion, PetscBool *held)
 {
-  const MechanicsSpec *m    = &app->data->mechanics;
-  const PetscInt       dim  = m->model == MODEL_3D ? 3 : 2;
-  const BodySpec      *spec = &m->bodies[body];
+  const MechanicsSpec *m        = &app->data->mechanics;
+  const PetscInt       dim      = m->model == MODEL_3D ? 3 : 2;
+  const BodySpec      *spec     = &m->bodies[body];
   const char          *value[3] = {NULL, NULL, NULL};
   const ForestTables  *t;
 

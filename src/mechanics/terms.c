@@ -34,6 +34,19 @@ static PetscReal Linear_Private(const MaterialSpec *m, const PetscReal S[9], con
   return work - complementary - q->W;
 }
 
+/* Square of Green's strain; small kinematics: of the linear one. */
+static PetscReal Strain2_Private(PetscBool small, const PetscReal F[9])
+{
+  PetscReal sum = 0;
+
+  for (int k = 0; k < 9; ++k) {
+    const int       a = k / 3, b = k % 3;
+    const PetscReal C = small ? F[k] + F[3 * b + a] - (a == b) : F[a] * F[b] + F[3 + a] * F[3 + b] + F[6 + a] * F[6 + b];
+    sum += 0.25 * PetscSqr(C - (a == b));
+  }
+  return sum;
+}
+
 /* What the displacement form adds to a mixed one: U(J) less the energy of the pressure field, which is the trace of P F^T in laws whose shear part has none. */
 static PetscReal Projected_Private(const MaterialSpec *m, PetscBool small, const TermPoint *q)
 {
@@ -75,6 +88,7 @@ static PetscErrorCode Point_Private(const MaterialSpec *m, PetscBool small, Pets
   PetscFunctionBegin;
   sum->volume += q->volume;
   sum->energy += q->volume * q->W;
+  sum->strain2 += q->volume * Strain2_Private(small, q->F);
   if (!small && !m->law->num_history && SecondPiola_Private(q->F, q->P, S)) sum->linear += q->volume * Linear_Private(m, S, q);
   if (MaterialStoresPressure(m) && m->volumetric != VOLUMETRIC_LOG) sum->projected += q->volume * Projected_Private(m, small, q);
   if (!small && m->num_fibers) {
@@ -84,16 +98,16 @@ static PetscErrorCode Point_Private(const MaterialSpec *m, PetscBool small, Pets
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* An owned cell of order p, at p points in each direction. */
+/* An owned cell of order p, at p + 1 points in each direction: at p of them the pressure field is that of the displacements. */
 static PetscErrorCode Cell_Private(Mechanics m, PetscInt cell, PetscInt root, PetscInt order, const MaterialSpec *material, const PetscReal u[], BodyTerms *sum)
 {
   const PetscBool small = (PetscBool)(m->spec->kinematics == KINEMATICS_SMALL), ring = (PetscBool)(m->spec->model == MODEL_AXISYMMETRIC);
-  const PetscInt  np = ElementNumNodes(m->dim, order - 1);
+  const PetscInt  np = ElementNumNodes(m->dim, order);
   const Basis1D  *basis;
   PetscReal      *xi, *X, *J, *F, *P, *W;
 
   PetscFunctionBegin;
-  PetscCall(Basis1DGet(order, order, &basis));
+  PetscCall(Basis1DGet(order, order + 1, &basis));
   PetscCall(PetscMalloc6(3 * np, &xi, 3 * np, &X, 9 * np, &J, 9 * np, &F, 9 * np, &P, np, &W));
   for (PetscInt i = 0; i < np; ++i) Basis1DPoint(basis, m->dim, i, xi + m->dim * i);
   PetscCall(MechanicsPoints(m, cell, np, xi, u, &(PointValues){.X = X, .J = J, .F = F, .P = P, .W = W}));
@@ -126,5 +140,22 @@ PetscErrorCode MechanicsTerms(Mechanics m, const PetscReal u[], BodyTerms terms[
       PetscCall(Cell_Private(m, g->cells[c], t->leaf_root[leaf], v->cell_order[g->cells[c]], g->material, u, &terms[t->leaf_body[leaf]]));
     }
   }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode MechanicsFollowerTurn(Mechanics m, const PetscReal u[], PetscReal *work)
+{
+  const HPTables *v;
+  PetscReal      *rest, *there, *here;
+
+  PetscFunctionBegin;
+  PetscCall(HPSpaceGetTables(m->space, &v));
+  const PetscInt n = v->num_nodes * m->dim;
+  PetscCall(PetscCalloc3(n, &rest, n, &there, n, &here));
+  PetscCall(MechanicsFollowers_Private(m, rest, there, NULL, NULL));
+  PetscCall(MechanicsFollowers_Private(m, u, here, NULL, NULL));
+  *work = 0;
+  for (PetscInt i = 0; i < n; ++i) *work += 0.5 * (there[i] - here[i]) * u[i];
+  PetscCall(PetscFree3(rest, there, here));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
