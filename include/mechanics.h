@@ -251,6 +251,7 @@ typedef struct {
   PetscReal volume, energy; /* of the body; stored in it */
   PetscReal strain2;        /* squared strain */
   PetscReal linear;         /* small kinematics instead of finite ones, at the stresses found; 0 in laws with history */
+  PetscReal misfit;         /* 2 mu times the squared difference of the linear strain from that of these stresses in the linear law */
   PetscReal fibers;         /* of it in the fibres */
   PetscReal projected;      /* the displacement form instead of the mixed one; 0 with volumetric: log */
 } BodyTerms;

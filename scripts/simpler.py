@@ -121,17 +121,22 @@ def size(vector):
     return sum(v * v for v in vector) ** 0.5
 
 
+def off(x, y, part):
+    """How far forces differ. In a part of the whole a support is as large a part, or whole; what the cut bears besides is its own."""
+    if part == 1: return size([p - q for p, q in zip(x, y)])
+    return min(abs(max(map(abs, x)) - max(map(abs, y)) / f) for f in (part, 1))
+
+
 def change(whole, simple, part=1):
     """Largest relative change of the energy norm, of the supports' forces and of the pairs' forces. part: of the whole model the simple one is so much."""
     a, b = whole.summary, simple.summary
     changes = [abs((b["energy"] / part / a["energy"]) ** 0.5 - 1)] if a["energy"] > 0 else []
-    both = [(a["reaction"][k], b["reaction"][k]) for k in a["reaction"] if k in b["reaction"]] if part == 1 else []
-    both += [(a["contact"][k]["force"], [v / part for v in b["contact"][k]["force"]]) for k in a["contact"] if k in b["contact"] and part == 1]
-    both = [(x, y) for x, y in both if any(y) or not any(x)] # the support of a rigid body has no reaction of its own
-    if part != 1: # the component along the cut is borne by the cut
-        both = [([max(map(abs, a["reaction"][k]))], [max(map(abs, b["reaction"][k])) / part]) for k in a["reaction"] if k in b["reaction"]]
+    both = [(a["reaction"][k], b["reaction"][k]) for k in a["reaction"] if k in b["reaction"]]
+    both += [(a["contact"][k]["force"], b["contact"][k]["force"]) for k in a["contact"] if k in b["contact"]]
+    both = [(x, y) for x, y in both if any(x) and any(y)] # the support of a rigid body has no reaction of its own
     largest = max((size(x) for x, _ in both), default=0)
-    if largest > 0: changes.append(max(size([p - q for p, q in zip(x, y)]) for x, y in both) / largest)
+    if part != 1: both = [(x, y) for x, y in both if size(x) > 0.5 * largest]
+    if largest > 0: changes.append(max(off(x, y, part) for x, y in both) / largest)
     return max(changes, default=0)
 
 

@@ -55,6 +55,7 @@ typedef struct {
   PetscBool        unstable_known, passage_told;     /* … if one was; that a surface passes through itself */
   PetscBool        mirror[3];                        /* planes of symmetry that are not used (AppFindMirrors) … */
   PetscReal        mirror_at[3];                     /* … and where they are */
+  PetscBool        straight;                         /* AppGoesStraight */
   Needs            needs;                            /* what could have been left out */
   ReportRow        last;
   PetscReal        dt;                                                          /* length of the next load step */
@@ -143,12 +144,14 @@ PetscErrorCode AppFindMirrors(const SceneData *, Forest, PetscBool mirror[3], Pe
 /* needs.c. What the run could have left out, of its last state; and away with it. Collective. */
 PetscErrorCode AppFindNeeds(App *, Needs *);
 PetscErrorCode AppForgetNeeds(Needs *);
-/* simpler.c, at the last accepted state. How far the sides of a pair slid along each other, over twice the size of the zone. Collective. */
+/* simpler.c, at the last accepted state. Square of how far the sides of a pair slid along each other over the size of the zone. Collective. */
 PetscErrorCode AppContactTurn(const App *, PetscInt pair, PetscReal *turn);
 /* The motion that the supports of a body give it as a whole, by axis, for the caller to delete; held: they do, and nothing else loads it. Not collective. */
 PetscErrorCode AppRigidMotion(const App *, PetscInt body, struct cJSON **motion, PetscBool *held);
 /* Largest difference of displacements at corners of cells from those of their mirror images, over the largest displacement. Collective. */
 PetscErrorCode AppAsymmetry(const App *, PetscInt axis, PetscReal *off);
+/* At the solution of the first load step: is no cell turned inside out straight on from there to the end? Collective. */
+PetscErrorCode AppGoesStraight(const App *, PetscBool *straight);
 
 /* summary.c. What the run took so far. Not collective. */
 ReportRow AppTotal(const App *);

@@ -203,19 +203,23 @@ static PetscErrorCode Kinematics_Private(Context *c)
   const SceneData *data     = c->app->data;
   const Path      *path     = &c->app->path;
   const PetscInt   tangents = c->app->load_steps + c->app->adapt_passes + path->set_changes; /* one each; changes of the active set stay */
-  PetscReal        linear = c->turn, slide = 0;
+  PetscReal        linear = c->turn, misfit = 0, slide = 0;
   Need            *row;
 
   PetscFunctionBegin;
   if (!MayBeSmall_Private(data) || c->energy <= 0) PetscFunctionReturn(PETSC_SUCCESS);
-  for (PetscInt b = 0; b < data->mechanics.num_bodies; ++b) linear += c->terms[b].linear;
+  for (PetscInt b = 0; b < data->mechanics.num_bodies; ++b) {
+    linear += c->terms[b].linear;
+    misfit += c->terms[b].misfit;
+  }
   for (PetscInt i = 0; i < data->num_contacts; ++i) {
     PetscReal turn;
     PetscCall(AppContactTurn(c->app, i, &turn));
     slide = PetscMax(slide, turn);
   }
-  const PetscReal fewer = PetscMin(1, (PetscReal)tangents / (PetscReal)PetscMax(1, PetscMax(path->factorisations, path->newton_iterations)));
-  PetscCall(Row_Private(c, "kinematics", "scene", FORCE_OF_ENERGY * PetscAbsReal(linear) / c->energy + slide, c->solving * (1 - fewer), &row));
+  const PetscReal fewer     = PetscMin(1, (PetscReal)tangents / (PetscReal)PetscMax(1, PetscMax(path->factorisations, path->newton_iterations)));
+  const PetscReal of_energy = FORCE_OF_ENERGY * PetscAbsReal(linear) / c->energy, of_strain = PetscSqrtReal(misfit / (2 * c->energy));
+  PetscCall(Row_Private(c, "kinematics", "scene", PetscMax(of_energy, of_strain) + slide, c->solving * (1 - fewer), &row));
   PetscCall(Why_Private(row, "the energy that the nonlinear terms add at the state found"));
   cJSON_AddStringToObject(row->set, "kinematics", "small");
   for (PetscInt i = 0; i < data->num_materials; ++i)
@@ -231,7 +235,8 @@ static PetscBool Forgets_Private(const App *app)
   const SceneData *data = app->data;
   const Path      *p    = &app->path;
 
-  if (data->load.control == LOAD_ARC_LENGTH || data->load.stop_displacement > 0 || p->step_cuts || p->stabilised || (p->judged && p->unstable))
+  if (!app->straight || data->load.control == LOAD_ARC_LENGTH || data->load.stop_displacement > 0 || p->step_cuts || p->stabilised ||
+      (p->judged && p->unstable))
     return PETSC_FALSE;
   for (PetscInt i = 0; i < PATH_RECOVERIES; ++i)
     if (p->recovery[i].tried) return PETSC_FALSE;
@@ -277,6 +282,14 @@ static PetscReal Strain_Private(const Context *c, PetscInt body)
   return strain2 > 0 ? PetscSqrtReal(c->terms[body].strain2 / c->terms[body].volume / (strain2 / volume)) : PETSC_MAX_REAL;
 }
 
+static PetscInt Users_Private(const SceneData *data, const MaterialSpec *m)
+{
+  PetscInt users = 0;
+
+  for (PetscInt b = 0; b < data->mechanics.num_bodies; ++b) users += data->mechanics.bodies[b].material == m;
+  return users;
+}
+
 static PetscErrorCode Rigid_Private(Context *c)
 {
   const SceneData *data = c->app->data;
@@ -300,6 +313,7 @@ static PetscErrorCode Rigid_Private(Context *c)
       cJSON_AddStringToObject(body, "material", "left_out_rigid");
       if (motion->child) cJSON_AddItemToObject(body, "motion", cJSON_Duplicate(motion, 1));
       cJSON_AddStringToObject(Object_Private(row, "material", "left_out_rigid"), "law", "rigid");
+      if (Users_Private(data, s->material) == 1) Drop_Private(row, "material", s->material->name);
     }
     cJSON_Delete(motion);
   }

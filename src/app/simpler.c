@@ -23,7 +23,8 @@ static void Side_Private(const SurfaceView *s, PetscReal sum[11])
   }
 }
 
-/* How far the sides slid along each other, over the size of the zone: small kinematics leaves the pressure where it would be without. */
+/* Small kinematics leaves the pressure where it would be if the sides did not slide along each other. The gap of smooth surfaces is quadratic about the middle
+   of their zone, so what that changes goes with the square of the slide over the size of the zone. */
 PetscErrorCode AppContactTurn(const App *app, PetscInt pair, PetscReal *turn)
 {
   const ContactView *v;
@@ -45,7 +46,7 @@ PetscErrorCode AppContactTurn(const App *app, PetscInt pair, PetscReal *turn)
   if (force < 0.25 * PetscSqr(sum[0][0]) || !(size > 0)) PetscFunctionReturn(PETSC_SUCCESS); /* it goes round: there is no one direction to slide in */
   for (PetscInt c = 0; c < 3; ++c) normal += slide[c] * sum[0][8 + c] / PetscSqrtReal(force);
   for (PetscInt c = 0; c < 3; ++c) tangent += PetscSqr(slide[c] - normal * sum[0][8 + c] / PetscSqrtReal(force));
-  *turn = 0.5 * PetscSqrtReal(tangent / size);
+  *turn = tangent / size;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -175,5 +176,37 @@ PetscErrorCode AppAsymmetry(const App *app, PetscInt axis, PetscReal *off)
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, value, 2, MPIU_REAL, MPI_MAX, app->comm));
   *off = value[1] > 0 ? value[0] / value[1] : 0;
   PetscCall(PetscFree(corner));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- the way ---------------------------------------------------------------------------------------------------------------------------- */
+
+PetscErrorCode AppGoesStraight(const App *app, PetscBool *straight)
+{
+  const Level    *l     = &app->level;
+  const PetscReal ahead = app->data->load.end / l->state.t;
+  const HPTables *v;
+  Mechanics       mechanics;
+  HPSpace         space;
+  PetscReal      *u;
+  int8_t         *folded;
+  PetscInt        any = 0;
+
+  PetscFunctionBegin;
+  *straight = PETSC_TRUE;
+  if (app->data->mechanics.kinematics == KINEMATICS_SMALL || ahead <= 1) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(ProblemGetMechanics(l->problem, &mechanics));
+  PetscCall(ProblemGetSpace(l->problem, &space));
+  PetscCall(HPSpaceGetTables(space, &v));
+  PetscCall(PetscMalloc1(v->num_nodes * v->dim, &u));
+  PetscCall(PetscCalloc1(l->state.num_leaves, &folded));
+  PetscCall(ProblemLocalDisplacement(l->problem, l->state.x, u));
+  for (PetscInt i = 0; i < v->num_nodes * v->dim; ++i) u[i] *= ahead;
+  PetscCall(MechanicsFindFolded(mechanics, u, folded));
+  for (PetscInt i = 0; i < l->state.num_leaves; ++i) any |= folded[i];
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &any, 1, MPIU_INT, MPI_MAX, app->comm));
+  *straight = (PetscBool)!any;
+  PetscCall(PetscFree(folded));
+  PetscCall(PetscFree(u));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

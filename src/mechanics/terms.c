@@ -20,16 +20,18 @@ static PetscBool SecondPiola_Private(const PetscReal F[9], const PetscReal P[9],
 }
 
 /* What small kinematics adds, stresses being those found (Hellinger and Reissner): S : eps - S : C^-1 : S / 2 - W. The displacements' own linear energy would
-   count rotations as strain, and changes of volume with the bulk modulus. */
-static PetscReal Linear_Private(const MaterialSpec *m, const PetscReal S[9], const TermPoint *q)
+   count rotations as strain, and changes of volume with the bulk modulus. misfit: of the strains, 2 mu |eps - C^-1 : S|^2. */
+static PetscReal Linear_Private(const MaterialSpec *m, const PetscReal S[9], const TermPoint *q, PetscReal *misfit)
 {
   const PetscReal mean = (S[0] + S[4] + S[8]) / 3;
   PetscReal       work = 0, complementary = mean * mean / (2 * m->kappa);
 
+  *misfit = 0;
   for (int k = 0; k < 9; ++k) {
     const PetscReal one = k % 4 == 0, eps = 0.5 * (q->F[k] + q->F[3 * (k % 3) + k / 3]) - one, dev = S[k] - one * mean;
     work += S[k] * eps;
     complementary += dev * dev / (4 * m->mu);
+    *misfit += 2 * m->mu * PetscSqr(eps - dev / (2 * m->mu) - one * mean / (3 * m->kappa));
   }
   return work - complementary - q->W;
 }
@@ -83,13 +85,16 @@ static PetscErrorCode Fibers_Private(const MaterialSpec *m, PetscInt root, const
 
 static PetscErrorCode Point_Private(const MaterialSpec *m, PetscBool small, PetscInt root, const PetscReal X[3], const TermPoint *q, BodyTerms *sum)
 {
-  PetscReal S[9] = {0}, fibers;
+  PetscReal S[9] = {0}, fibers, misfit;
 
   PetscFunctionBegin;
   sum->volume += q->volume;
   sum->energy += q->volume * q->W;
   sum->strain2 += q->volume * Strain2_Private(small, q->F);
-  if (!small && !m->law->num_history && SecondPiola_Private(q->F, q->P, S)) sum->linear += q->volume * Linear_Private(m, S, q);
+  if (!small && !m->law->num_history && SecondPiola_Private(q->F, q->P, S)) {
+    sum->linear += q->volume * Linear_Private(m, S, q, &misfit);
+    sum->misfit += q->volume * misfit;
+  }
   if (MaterialStoresPressure(m) && m->volumetric != VOLUMETRIC_LOG) sum->projected += q->volume * Projected_Private(m, small, q);
   if (!small && m->num_fibers) {
     PetscCall(Fibers_Private(m, root, X, q, &fibers));
