@@ -95,6 +95,8 @@ PetscErrorCode AppRemember(App *);
 PetscErrorCode AppRepeat(App *, PetscBool *again);
 /* advise.c. At its beginning: bodies that only contact holds, on standard output. Collective. */
 PetscErrorCode AppTellFree(const App *);
+/* -check: symmetry that is not used. Collective. */
+PetscErrorCode AppTellMirrors(const App *);
 /* At the end of a run: what there is besides, what looks wrong, and what may help. Collective. */
 PetscErrorCode AppAdvise(const App *);
 PetscErrorCode AppEstimate(App *);
@@ -144,7 +146,8 @@ PetscErrorCode AppFindMirrors(const SceneData *, Forest, PetscBool mirror[3], Pe
 /* needs.c. What the run could have left out, of its last state; and away with it. Collective. */
 PetscErrorCode AppFindNeeds(App *, Needs *);
 PetscErrorCode AppForgetNeeds(Needs *);
-/* simpler.c, at the last accepted state. Square of how far the sides of a pair slid along each other over the size of the zone. Collective. */
+/* simpler.c, at the last accepted state. Of a pair the square of how far its sides slid along each other over the size of the zone, or the turn of their
+   normals (radians, root mean square) if that is larger. Collective. */
 PetscErrorCode AppContactTurn(const App *, PetscInt pair, PetscReal *turn);
 /* The motion that the supports of a body give it as a whole, by axis, for the caller to delete; held: they do, and nothing else loads it. Not collective. */
 PetscErrorCode AppRigidMotion(const App *, PetscInt body, struct cJSON **motion, PetscBool *held);

@@ -43,6 +43,7 @@ static PetscErrorCode View_Private(App *app)
   PetscCall(SceneView(app->scene, app->level.forest, PETSC_VIEWER_STDOUT_WORLD));
   PetscCall(ProblemNumDofs(app->level.problem, &dofs));
   PetscCall(AppTellFree(app));
+  PetscCall(AppTellMirrors(app));
   PetscCall(PetscPrintf(app->comm, "  %" PetscInt_FMT " unknowns at t = %.6g\n", dofs, (double)app->level.accepted.t));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -23,12 +23,29 @@ static void Side_Private(const SurfaceView *s, PetscReal sum[11])
   }
 }
 
+/* Of the facets of a side, weighted by the contact force at their corners: 0 weight, 1 squared turn of the normal. */
+static void Normals_Private(const SurfaceView *s, PetscReal sum[2])
+{
+  for (PetscInt f = 0; f < s->num_facets; ++f) {
+    const PetscInt *corner = s->facets + s->corners * f;
+    PetscReal       N[3], n[3], weight = 0, turn2 = 0;
+
+    for (PetscInt k = 0; k < s->corners * s->dim; ++k) weight += PetscAbsReal(s->force[s->dim * corner[k / s->dim] + k % s->dim]);
+    if (!(weight > 0)) continue;
+    ContactFacetVector(s->dim, s->X, corner, N);
+    ContactFacetVector(s->dim, s->x, corner, n);
+    for (PetscInt c = 0; c < 3; ++c) turn2 += PetscSqr(n[c] / PetscSqrtReal(Dot3(n, n)) - N[c] / PetscSqrtReal(Dot3(N, N)));
+    sum[0] += weight;
+    sum[1] += weight * turn2;
+  }
+}
+
 /* Small kinematics leaves the pressure where it would be if the sides did not slide along each other. The gap of smooth surfaces is quadratic about the middle
-   of their zone, so what that changes goes with the square of the slide over the size of the zone. */
+   of their zone, so what that changes goes with the square of the slide over the size of the zone. And it leaves the pressure's direction as it was. */
 PetscErrorCode AppContactTurn(const App *app, PetscInt pair, PetscReal *turn)
 {
   const ContactView *v;
-  PetscReal          sum[2][11] = {{0}}, slide[3], force = 0, normal = 0, size, tangent = 0;
+  PetscReal          sum[2][11] = {{0}}, normals[2] = {0, 0}, slide[3], force = 0, normal = 0, size, tangent = 0;
 
   PetscFunctionBegin;
   *turn = 0;
@@ -36,6 +53,10 @@ PetscErrorCode AppContactTurn(const App *app, PetscInt pair, PetscReal *turn)
   Side_Private(&v->nonmortar, sum[0]);
   Side_Private(&v->mortar, sum[1]);
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 22, MPIU_REAL, MPI_SUM, app->comm));
+  Normals_Private(&v->nonmortar, normals);
+  Normals_Private(&v->mortar, normals);
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, normals, 2, MPIU_REAL, MPI_SUM, app->comm));
+  if (normals[0] > 0) *turn = PetscSqrtReal(normals[1] / normals[0]);
   if (!(sum[0][0] > 0) || !(sum[1][0] > 0)) PetscFunctionReturn(PETSC_SUCCESS);
   size = sum[0][7] / sum[0][0];
   for (PetscInt c = 0; c < 3; ++c) {
@@ -46,7 +67,7 @@ PetscErrorCode AppContactTurn(const App *app, PetscInt pair, PetscReal *turn)
   if (force < 0.25 * PetscSqr(sum[0][0]) || !(size > 0)) PetscFunctionReturn(PETSC_SUCCESS); /* it goes round: there is no one direction to slide in */
   for (PetscInt c = 0; c < 3; ++c) normal += slide[c] * sum[0][8 + c] / PetscSqrtReal(force);
   for (PetscInt c = 0; c < 3; ++c) tangent += PetscSqr(slide[c] - normal * sum[0][8 + c] / PetscSqrtReal(force));
-  *turn = tangent / size;
+  *turn = PetscMax(*turn, tangent / size);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
