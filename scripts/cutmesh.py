@@ -23,6 +23,19 @@ def make(geometry, dim, order, parameters, path):
     if done.returncode: raise SystemExit(f"simplify: gmsh fails on {geometry}: {done.stderr.strip()}")
 
 
+# Facets of a hexahedron with their nodes between: gmsh's numbers, corners first (types 5, 12 and 17).
+EDGES = {frozenset(pair): 8 + i for i, pair in enumerate([(0, 1), (0, 3), (0, 4), (1, 2), (1, 5), (2, 3), (2, 6), (3, 7), (4, 5), (4, 7), (5, 6), (6, 7)])}
+MIDDLES = {frozenset(face): 20 + i for i, face in enumerate([(0, 3, 2, 1), (0, 1, 5, 4), (0, 4, 7, 3), (1, 2, 6, 5), (2, 3, 7, 6), (4, 5, 6, 7)])}
+
+
+def face(kind, nodes, corners):
+    """(kind, nodes) of a facet of a hexahedron by its corners."""
+    at = [nodes[i] for i in corners]
+    if kind == 5: return 3, at
+    at += [nodes[EDGES[frozenset((corners[i - 1], corners[i]))]] for i in (1, 2, 3, 0)]
+    return (16, at) if kind == 17 else (10, at + [nodes[MIDDLES[frozenset(corners)]]])
+
+
 def read(path):
     """Names of groups, nodes and elements of a .msh 2.2: [(dim, number, name)], {number: [x, y, z]}, [(kind, group, nodes)]."""
     lines = iter(pathlib.Path(path).read_text().splitlines())
@@ -72,3 +85,34 @@ def half(source, path, dim, axis, at, name):
     names = [row for row in names if row[:2] in left] + [(dim - 1, number, name)]
     write(path, names, nodes, kept)
     return {row[2] for row in names}
+
+
+def section(source, path, axis):
+    """The lowest side of a prismatic mesh of hexahedra as a mesh in the plane; (length along the axis, names of groups that are left)."""
+    names, nodes, elements = read(source)
+    low, high = min(x[axis] for x in nodes.values()), max(x[axis] for x in nodes.values())
+    others = [c for c in range(3) if c != axis]
+    place = {n: [x[c] for c in others] + [0] for n, x in nodes.items()}
+
+    def lowest(n): return abs(nodes[n][axis] - low) < 1e-7 * (high - low)
+
+    def area(at): return sum(place[a][0] * place[b][1] - place[b][0] * place[a][1] for a, b in zip(at, at[1:] + at[:1]))
+
+    kept, edges = [], {}
+    for kind, group, at in elements:
+        if kind not in (5, 12, 17): continue
+        for corners in FACETS[3, 8]:
+            if not all(lowest(at[i]) for i in corners): continue
+            if area([at[i] for i in corners]) < 0: corners = corners[::-1]
+            kept.append((*face(kind, at, corners), group))
+    of = {n for _, at, _ in kept for n in at[:4]}
+    for kind, group, at in elements:
+        corner = at[:4]
+        if dimension(kind) != 2 or CORNERS[kind] != 4: continue
+        for i in range(4):
+            pair = corner[i - 1], corner[i]
+            if of.issuperset(pair) and sum(map(lowest, corner)) == 2: edges[group, frozenset(pair)] = pair
+    groups = {g for _, _, g in kept}
+    named = [(2, n, name) for d, n, name in names if d == 3 and n in groups] + [(1, n, name) for d, n, name in names if d == 2 and any(g == n for g, _ in edges)]
+    write(path, named, place, [(1, g, pair) for (g, _), pair in edges.items()] + [(kind, g, at) for kind, at, g in kept])
+    return high - low, {row[2] for row in named}

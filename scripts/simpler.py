@@ -3,6 +3,7 @@ import copy
 import json
 import os
 import pathlib
+import re
 import resource
 import subprocess
 
@@ -92,12 +93,38 @@ def cut(scene, axis, at, folder, name):
         if float(probe.get(letter, 0)) < at: probe[letter] = repr(2 * at - float(probe.get(letter, 0)))
 
 
+def flat(value, letters):
+    """A part of a scene in the plane: letters of axes go over to x and y, the third one goes."""
+    if isinstance(value, dict):
+        return {letters.get(k, k): flat(v, letters) for k, v in value.items() if k not in ("x", "y", "z") or k in letters}
+    if isinstance(value, list): return [flat(v, letters) for v in value]
+    return re.sub(r"\b[XYZ]\b", lambda m: letters.get(m[0].lower(), "0").upper(), value)
+
+
+def section(scene, axis, folder, name):
+    """The scene of a section across an axis, in plane strain."""
+    letters = dict(zip([c for c in "xyz" if c != axis], "xy"))
+    mesh = scene["mesh"]
+    folder = pathlib.Path(folder)
+    cutmesh.make(mesh["file"], 3, mesh.get("order", 2), mesh.get("parameter", {}), folder / f"{name}_whole.msh")
+    length, groups = cutmesh.section(folder / f"{name}_whole.msh", folder / f"{name}.msh", "xyz".index(axis))
+    for key in ("body", "boundary", "probe", "point", "refine"):
+        if key in scene: scene[key] = {k: flat(v, letters) for k, v in scene[key].items()}
+    for boundary, value in list(scene.get("boundary", {}).items()):
+        if "fix" in value and value["fix"] != "normal": value["fix"] = "".join(letters[c] for c in value["fix"] if c in letters)
+        if boundary not in groups or value.get("fix") == "" and len(value) == 1: del scene["boundary"][boundary]
+    scene["mesh"] = {"file": str((folder / f"{name}.msh").resolve()), **{k: v for k, v in mesh.items() if k not in ("file", "order", "parameter", "trust")}}
+    scene["model"] = "plane_strain"
+    return length
+
+
 def apply(scene, row, folder, name):
     """The scene without what the row says."""
     scene = copy.deepcopy(scene)
     for key, value in row["set"].items():
         if key == "plane":
             for letter, at in value.items(): cut(scene, "xyz".index(letter), at, folder, name)
+        elif key == "section": section(scene, value, folder, name)
         else: put(scene, key, text(value))
     if not scene.get("contact", True): del scene["contact"]
     return scene
@@ -123,8 +150,17 @@ def size(vector):
 
 def off(x, y, part):
     """How far forces differ. In a part of the whole a support is as large a part, or whole; what the cut bears besides is its own."""
-    if part == 1: return size([p - q for p, q in zip(x, y)])
+    if part == 1 and len(x) == len(y): return size([p - q for p, q in zip(x, y)])
     return min(abs(max(map(abs, x)) - max(map(abs, y)) / f) for f in (part, 1))
+
+
+def share(part, row, folder, name):
+    """What part of the whole the simpler model is: half of it, or one unit of its length."""
+    if part == "symmetry": return 0.5
+    if part != "prism": return 1
+    nodes = cutmesh.read(pathlib.Path(folder) / f"{name}_whole.msh")[1].values()
+    along = [x["xyz".index(row["set"]["section"])] for x in nodes]
+    return 1 / (max(along) - min(along))
 
 
 def change(whole, simple, part=1):
@@ -145,4 +181,4 @@ def check(scene, base, part, row, folder, name, times=1):
     simple = run(apply(scene, row, folder, name), folder, name, times=times, limit=10 * base.seconds + 5)
     if not simple.solved: return None, None, simple
     if part == "cells": return simple.summary["estimated_error"], 1 - simple.seconds / base.seconds, simple
-    return change(base, simple, 0.5 if part == "symmetry" else 1), 1 - simple.seconds / base.seconds, simple
+    return change(base, simple, share(part, row, folder, name)), 1 - simple.seconds / base.seconds, simple

@@ -38,7 +38,7 @@ typedef struct {
   Path             path;
   PetscInt         repeats; /* adapt.repeat: path: how often it has begun again; else 0 */
   Estimate         largest; /* with it: of the steps of this path that were above the tolerance */
-  PetscInt         load_steps, adapt_passes, passes_in_step, told_cycles;
+  PetscInt         load_steps, adapt_passes, passes_in_step, most_passes /* of a load step */, told_cycles;
   PetscLogDouble   start;
   PetscReal        arc, arc_first;                            /* along a path: length of the next step, of the first one; 0: not yet */
   PetscReal        speed;                                     /* limit-point indicator: displacement per time in the last step, over that since the start */
@@ -55,7 +55,6 @@ typedef struct {
   PetscBool        unstable_known, passage_told;     /* … if one was; that a surface passes through itself */
   PetscBool        mirror[3];                        /* planes of symmetry that are not used (AppFindMirrors) … */
   PetscReal        mirror_at[3];                     /* … and where they are */
-  PetscBool        straight;                         /* AppGoesStraight */
   Needs            needs;                            /* what could have been left out */
   ReportRow        last;
   PetscReal        dt;                                                          /* length of the next load step */
@@ -153,8 +152,9 @@ PetscErrorCode AppContactTurn(const App *, PetscInt pair, PetscReal *turn);
 PetscErrorCode AppRigidMotion(const App *, PetscInt body, struct cJSON **motion, PetscBool *held);
 /* Largest difference of displacements at corners of cells from those of their mirror images, over the largest displacement. Collective. */
 PetscErrorCode AppAsymmetry(const App *, PetscInt axis, PetscReal *off);
-/* At the solution of the first load step: is no cell turned inside out straight on from there to the end? Collective. */
-PetscErrorCode AppGoesStraight(const App *, PetscBool *straight);
+/* prism.c: is the mesh one of right prisms along the axis that reach from end to end? layers: of its cells, 0: it is not. change: largest displacement along
+   the axis, or difference of those of corners over each other, over the largest displacement. Collective. */
+PetscErrorCode AppFindPrism(const App *, PetscInt axis, PetscInt *layers, PetscReal *change);
 
 /* summary.c. What the run took so far. Not collective. */
 ReportRow AppTotal(const App *);

@@ -78,7 +78,7 @@ static PetscErrorCode Accept_Private(App *app)
   PetscCall(ProblemDistance(l->problem, NULL, l->state.x, &way));
   app->speed = way > 0 && l->state.t > t0 ? step / (l->state.t - t0) / (way / l->state.t) : 0;
   PetscCall(Direction_Private(app));
-  if (app->load_steps == 0) PetscCall(AppGoesStraight(app, &app->straight));
+  app->most_passes = PetscMax(app->most_passes, app->passes_in_step);
   PetscCall(StateCommit(l->problem, &l->state));
   PetscCall(StateCopy(&l->state, &l->accepted));
   ++app->load_steps;

@@ -20,7 +20,6 @@ typedef struct {
   PetscReal  turn;    /* work of follower pressures beyond that of dead loads */
   PetscReal  total;   /* seconds of the run */
   PetscReal  solving; /* share of it in Newton's iterations */
-  PetscReal  cell;    /* share of it in cells: without contact */
   PetscReal  mesh;    /* share of it that goes with the number of cells */
 } Context;
 
@@ -124,6 +123,19 @@ static PetscBool Elastic(const Context *c, PetscInt body)
   return BalanceStaysElastic(&c->app->balance, &c->app->data->mechanics, body);
 }
 
+/* Half of the factorisations' time, where nothing but this material makes the matrix unsymmetric. */
+static PetscReal Symmetric_Private(const Context *c, PetscInt material)
+{
+  const SceneData *data = c->app->data;
+
+  if (!data->materials[material].law->unsymmetric) return 0;
+  for (PetscInt i = 0; i < data->num_materials; ++i)
+    if (i != material && data->materials[i].law->unsymmetric) return 0;
+  for (PetscInt i = 0; i < data->num_contacts; ++i)
+    if (data->contacts[i].friction > 0) return 0;
+  return 0.5 * StageSeconds(STAGE_FACTOR) / c->total;
+}
+
 static PetscErrorCode Flow_Private(Context *c)
 {
   const SceneData *data = c->app->data;
@@ -133,7 +145,7 @@ static PetscErrorCode Flow_Private(Context *c)
   for (PetscInt i = 0; i < data->num_materials; ++i) {
     const MaterialSpec *m = &data->materials[i];
     if (!All_Private(c, i, Elastic)) continue;
-    PetscCall(Row_Private(c, "flow", m->name, 0, Saves_Private(c, OfFlow), &row));
+    PetscCall(Row_Private(c, "flow", m->name, 0, Saves_Private(c, OfFlow) + Symmetric_Private(c, i), &row));
     PetscCall(Why_Private(row, "its material has not flowed: neo_hookean with the same moduli and volumetric gives the same"));
     Elastic_Private(row, m, "neo_hookean");
   }
@@ -245,8 +257,7 @@ static PetscBool Forgets_Private(const App *app)
   const SceneData *data = app->data;
   const Path      *p    = &app->path;
 
-  if (!app->straight || data->load.control == LOAD_ARC_LENGTH || data->load.stop_displacement > 0 || p->step_cuts || p->stabilised ||
-      (p->judged && p->unstable))
+  if (data->load.control == LOAD_ARC_LENGTH || data->load.stop_displacement > 0 || p->step_cuts || p->stabilised || (p->judged && p->unstable))
     return PETSC_FALSE;
   for (PetscInt i = 0; i < PATH_RECOVERIES; ++i)
     if (p->recovery[i].tried) return PETSC_FALSE;
@@ -268,8 +279,8 @@ static PetscErrorCode LoadSteps_Private(Context *c)
   PetscFunctionBegin;
   for (PetscReal t = PathStepEnd(data, 0, data->load.end); t < data->load.end; t = PathStepEnd(data, t, data->load.end)) ++least;
   if (c->app->load_steps <= least || !Forgets_Private(c->app)) PetscFunctionReturn(PETSC_SUCCESS);
-  const PetscInt  passes = c->app->adapt_passes; /* of the whole path: the mesh has to become as fine in one step */
-  const PetscReal rest   = PetscMin(1, ONE_STEP * (PetscReal)(least + passes) / (PetscReal)(c->app->load_steps + passes));
+  /* One solution a step and a pass; on the way to the end at once the mesh takes as many passes as any step has. */
+  const PetscReal rest = PetscMin(1, ONE_STEP * (PetscReal)(least + c->app->most_passes) / (PetscReal)(c->app->load_steps + c->app->adapt_passes));
   PetscCall(Row_Private(c, "load_steps", "scene", 0, c->mesh * (1 - rest), &row));
   PetscCall(Why_Private(row, "the end does not depend on the path"));
   cJSON_AddNumberToObject(row->set, "load.step", (double)data->load.end);
@@ -318,7 +329,7 @@ static PetscErrorCode Rigid_Private(Context *c)
     if (held) {
       PetscInt all = 0;
       for (PetscInt k = 0; k < data->mechanics.num_bodies; ++k) all += c->cells[k];
-      PetscCall(Row_Private(c, "rigid", s->name, PetscMax(share / (1 - share), Strain_Private(c, b)), c->cell * (PetscReal)c->cells[b] / (PetscReal)all, &row));
+      PetscCall(Row_Private(c, "rigid", s->name, PetscMax(share / (1 - share), Strain_Private(c, b)), c->mesh * (PetscReal)c->cells[b] / (PetscReal)all, &row));
       PetscCall(Why_Private(row, "the share of the energy in it"));
       cJSON *body = Object_Private(row, "body", s->name);
       cJSON_AddStringToObject(body, "material", "left_out_rigid");
@@ -345,6 +356,28 @@ static PetscErrorCode Symmetry_Private(Context *c)
     PetscCall(Why_Private(row, "mesh, supports and loads are symmetric: half is enough"));
     cJSON *plane = cJSON_AddObjectToObject(row->set, "plane");
     cJSON_AddNumberToObject(plane, name, (double)c->app->mirror_at[a]);
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode Prism_Private(Context *c)
+{
+  const SceneData *data = c->app->data;
+  Need            *row;
+
+  PetscFunctionBegin;
+  for (PetscInt b = 0; b < data->mechanics.num_bodies; ++b)
+    if (data->mechanics.bodies[b].material->num_fibers || BodyIsLoaded(&data->mechanics.bodies[b])) PetscFunctionReturn(PETSC_SUCCESS);
+  for (PetscInt a = 0; a < 3; ++a) {
+    const char name[] = {(char)('x' + a), 0};
+    PetscInt   layers, order = MORTISE_MAX_ORDER;
+    PetscReal  change;
+    PetscCall(AppFindPrism(c->app, a, &layers, &change));
+    if (!layers) continue;
+    for (PetscInt b = 0; b < data->mechanics.num_bodies; ++b) order = PetscMin(order, data->mechanics.bodies[b].order);
+    PetscCall(Row_Private(c, "prism", name, change, c->mesh * (1 - (2. / 3) / (PetscReal)(layers * order + 1)), &row));
+    PetscCall(Why_Private(row, "nothing moves or changes along this axis: model plane_strain is enough"));
+    cJSON_AddStringToObject(row->set, "section", name);
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -404,7 +437,7 @@ static PetscErrorCode Terms_Private(Context *c)
 PetscErrorCode AppFindNeeds(App *app, Needs *needs)
 {
   static PetscErrorCode (*const parts[])(Context *) = {Contact_Private,   Flow_Private,  Fibers_Private,   Mixed_Private, Kinematics_Private,
-                                                       LoadSteps_Private, Rigid_Private, Symmetry_Private, Cells_Private};
+                                                       LoadSteps_Private, Rigid_Private, Symmetry_Private, Prism_Private, Cells_Private};
   static const Stage iterating[]                    = {STAGE_ASSEMBLE, STAGE_CONTACT, STAGE_FACTOR, STAGE_SOLVE};
   static const Stage meshed[]                       = {STAGE_SETUP, STAGE_ESTIMATE, STAGE_TRANSFER};
   Context            c                              = {.app = app, .needs = needs, .total = AppTotal(app).seconds};
@@ -413,7 +446,6 @@ PetscErrorCode AppFindNeeds(App *app, Needs *needs)
   needs->tolerance = app->data->adapt.tolerance > 0 ? app->data->adapt.tolerance : app->estimated ? app->estimate.relative : 0;
   for (size_t i = 0; i < sizeof(iterating) / sizeof(*iterating); ++i) c.solving += StageSeconds(iterating[i]) / c.total;
   c.mesh = c.solving;
-  c.cell = c.solving - StageSeconds(STAGE_CONTACT) / c.total;
   for (size_t i = 0; i < sizeof(meshed) / sizeof(*meshed); ++i) c.mesh += StageSeconds(meshed[i]) / c.total;
   PetscCall(Terms_Private(&c));
   for (size_t i = 0; i < sizeof(parts) / sizeof(*parts); ++i) PetscCall(parts[i](&c));

@@ -199,35 +199,3 @@ PetscErrorCode AppAsymmetry(const App *app, PetscInt axis, PetscReal *off)
   PetscCall(PetscFree(corner));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
-
-/* ---- the way ---------------------------------------------------------------------------------------------------------------------------- */
-
-PetscErrorCode AppGoesStraight(const App *app, PetscBool *straight)
-{
-  const Level    *l     = &app->level;
-  const PetscReal ahead = app->data->load.end / l->state.t;
-  const HPTables *v;
-  Mechanics       mechanics;
-  HPSpace         space;
-  PetscReal      *u;
-  int8_t         *folded;
-  PetscInt        any = 0;
-
-  PetscFunctionBegin;
-  *straight = PETSC_TRUE;
-  if (app->data->mechanics.kinematics == KINEMATICS_SMALL || ahead <= 1) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(ProblemGetMechanics(l->problem, &mechanics));
-  PetscCall(ProblemGetSpace(l->problem, &space));
-  PetscCall(HPSpaceGetTables(space, &v));
-  PetscCall(PetscMalloc1(v->num_nodes * v->dim, &u));
-  PetscCall(PetscCalloc1(l->state.num_leaves, &folded));
-  PetscCall(ProblemLocalDisplacement(l->problem, l->state.x, u));
-  for (PetscInt i = 0; i < v->num_nodes * v->dim; ++i) u[i] *= ahead;
-  PetscCall(MechanicsFindFolded(mechanics, u, folded));
-  for (PetscInt i = 0; i < l->state.num_leaves; ++i) any |= folded[i];
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &any, 1, MPIU_INT, MPI_MAX, app->comm));
-  *straight = (PetscBool)!any;
-  PetscCall(PetscFree(folded));
-  PetscCall(PetscFree(u));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
