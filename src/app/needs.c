@@ -405,6 +405,13 @@ static PetscErrorCode Cells_Private(Context *c)
 
 /* ---- all ------------------------------------------------------------------------------------------------------------------------------ */
 
+/* Does any row ask for energies? Not of one body of linear material. */
+static PetscBool Asked_Private(const SceneData *data)
+{
+  if (data->mechanics.kinematics == KINEMATICS_FINITE || data->mechanics.num_bodies > 1) return PETSC_TRUE;
+  return MaterialStoresPressure(data->mechanics.bodies[0].material);
+}
+
 static PetscErrorCode Terms_Private(Context *c)
 {
   Level              *l   = &c->app->level;
@@ -420,8 +427,10 @@ static PetscErrorCode Terms_Private(Context *c)
   PetscCall(ProblemGetSpace(l->problem, &space));
   PetscCall(HPSpaceGetTables(space, &v));
   PetscCall(ForestGetTables(l->forest, &t));
-  PetscCall(PetscMalloc1(v->num_nodes * v->dim, &u));
   PetscCall(PetscCalloc2(num, &c->terms, num, &c->cells));
+  for (PetscInt i = 0; i < t->num_leaves; ++i) ++c->cells[t->leaf_body[i]];
+  if (!Asked_Private(c->app->data)) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(PetscMalloc1(v->num_nodes * v->dim, &u));
   PetscCall(ProblemSetState(l->problem, &l->accepted));
   PetscCall(ProblemLocalDisplacement(l->problem, l->accepted.x, u));
   PetscCall(MechanicsTerms(mechanics, u, c->terms));
@@ -429,7 +438,6 @@ static PetscErrorCode Terms_Private(Context *c)
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &c->turn, 1, MPIU_REAL, MPI_SUM, c->app->comm));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, c->terms, (PetscMPIInt)((size_t)num * sizeof(*c->terms) / sizeof(PetscReal)), MPIU_REAL, MPI_SUM, c->app->comm));
   for (PetscInt i = 0; i < num; ++i) c->energy += c->terms[i].energy;
-  for (PetscInt i = 0; i < t->num_leaves; ++i) ++c->cells[t->leaf_body[i]];
   PetscCall(PetscFree(u));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -5,8 +5,8 @@
 
 /* A column: coarse cells, or corners of cells, over one place of the section. */
 typedef struct {
-  PetscReal X[3], key;  /* X: along the axis 0 */
-  PetscReal u[3], sum;  /* displacement of a corner; height of a cell */
+  PetscReal X[3], key; /* X: along the axis 0 */
+  PetscReal u[3], sum; /* displacement of a corner; height of a cell */
   PetscInt  body, cells;
 } Column;
 
@@ -35,7 +35,7 @@ static PetscBool Over_Private(const Column *a, const Column *b, PetscReal least)
 static PetscBool Prism_Private(const CoarseMesh *m, PetscInt cell, PetscInt axis, PetscReal least, Column *column)
 {
   const PetscInt   line = m->geometry_order + 1, num = line * line * line;
-  const PetscReal *X      = m->cell_geometry + 3 * num * cell;
+  const PetscReal *X         = m->cell_geometry + 3 * num * cell;
   const PetscInt   corner[8] = {0, line - 1, line * (line - 1), line * line - 1, num - line * line, num - line * line + line - 1, num - line, num - 1};
   PetscReal        lo = PETSC_MAX_REAL, hi = -PETSC_MAX_REAL;
 
@@ -51,7 +51,7 @@ static PetscBool Prism_Private(const CoarseMesh *m, PetscInt cell, PetscInt axis
     if (p[axis] > lo + least && p[axis] < hi - least) return PETSC_FALSE;
     for (PetscInt j = 0; j < 8 && !over; ++j) {
       const PetscReal *q = X + 3 * corner[j];
-      over = (PetscBool)(j != k && PetscAbsReal(p[axis] - q[axis]) > hi - lo - least);
+      over               = (PetscBool)(j != k && PetscAbsReal(p[axis] - q[axis]) > hi - lo - least);
       for (PetscInt d = 0; d < 3; ++d)
         if (d != axis && PetscAbsReal(p[d] - q[d]) > least) over = PETSC_FALSE;
     }
@@ -93,10 +93,10 @@ static PetscErrorCode Stacks_Private(const CoarseMesh *m, PetscInt axis, PetscRe
 /* Largest displacement along the axis, largest difference of two over each other, and largest displacement, at corners of this rank's cells. */
 static PetscErrorCode Moves_Private(const App *app, PetscInt axis, PetscReal least, PetscReal most[2])
 {
-  const HPTables *v;
-  HPSpace         space;
-  PetscReal      *local, *X, *u;
-  PetscInt        num = 0, size = 1;
+  const HPTables     *v;
+  HPSpace             space;
+  PetscReal          *local, *X, *u;
+  PetscInt            num = 0, size = 1;
   Column             *column;
   const ForestTables *t;
 

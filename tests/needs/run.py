@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Check what section `needs` of summary.json promises: ten scenes of inputs/ and five made for it, each with and without every part that it says is not needed.
+"""Check what section `needs` of summary.json promises: scenes of inputs/ and five made for it, each with and without every part that it says is not needed.
 
     tests/needs/run.py [--times N] [--write] [SCENE...]
 
@@ -13,7 +13,7 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 sys.path.insert(0, str(ROOT / "scripts"))
 import simpler  # noqa: E402
 
-INPUTS = "hertz2d rubber2d cook tube cylinder oring sphere balloon slide2d angioplasty2d".split()
+INPUTS = "hertz2d rubber2d cook tube cylinder oring sphere balloon slide2d angioplasty2d roller shrinkfit3d".split()
 MADE = "bracket bush plate tissue stops".split()
 HEAD = """# No more model than needed
 
