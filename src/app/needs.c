@@ -4,7 +4,6 @@
 #include <cjson/cJSON.h>
 
 #define FORCE_OF_ENERGY 1.5 /* relative change of forces where the energy's is 1: the first nonlinear term of it is cubic in the load */
-#define ONE_STEP 1.2        /* iterations of one load step that goes all the way, over the mean of all solutions */
 #define MOST_CHANGE 0.5     /* first order tells nothing of larger changes */
 
 /* Shares of the time in assembly, estimate and transfer that go with a part of the material law: inputs/angioplasty2d.yml, tests/needs/plate.yml and tissue.yml
@@ -14,10 +13,12 @@ static const PetscReal OfFlow[] = {0.4, 0.4, 0.8}, OfFibers[] = {0.25, 0.2, 0}, 
 typedef struct {
   App       *app;
   Needs     *needs;
-  BodyTerms *terms;   /* owned [num_bodies], over all ranks */
-  PetscInt  *cells;   /* owned [num_bodies] */
-  PetscReal  energy;  /* of all bodies */
-  PetscReal  turn;    /* work of follower pressures beyond that of dead loads */
+  BodyTerms *terms;     /* owned [num_bodies], over all ranks */
+  PetscInt  *cells;     /* owned [num_bodies] */
+  PetscReal  energy;    /* of all bodies */
+  PetscReal  turn;      /* work of follower pressures beyond that of dead loads */
+  PetscInt   layers[3]; /* AppFindPrism, by axis */
+  PetscReal  along[3];
   PetscReal  total;   /* seconds of the run */
   PetscReal  solving; /* share of it in Newton's iterations */
   PetscReal  mesh;    /* share of it that goes with the number of cells */
@@ -82,9 +83,17 @@ static void Elastic_Private(Need *row, const MaterialSpec *m, const char *law)
   cJSON_AddStringToObject(object, "formulation", m->mixed ? "mixed" : "displacement");
 }
 
-static PetscReal Saves_Private(const Context *c, const PetscReal share[])
+/* Saved in the cells of a material. */
+static PetscReal Saves_Private(const Context *c, const MaterialSpec *m, const PetscReal share[])
 {
-  return (share[0] * StageSeconds(STAGE_ASSEMBLE) + share[1] * StageSeconds(STAGE_ESTIMATE) + share[2] * StageSeconds(STAGE_TRANSFER)) / c->total;
+  PetscInt cells = 0, all = 0;
+
+  for (PetscInt b = 0; b < c->app->data->mechanics.num_bodies; ++b) {
+    all += c->cells[b];
+    if (c->app->data->mechanics.bodies[b].material == m) cells += c->cells[b];
+  }
+  return (PetscReal)cells / (PetscReal)all *
+         (share[0] * StageSeconds(STAGE_ASSEMBLE) + share[1] * StageSeconds(STAGE_ESTIMATE) + share[2] * StageSeconds(STAGE_TRANSFER)) / c->total;
 }
 
 /* ---- parts that did nothing ----------------------------------------------------------------------------------------------------------- */
@@ -145,7 +154,7 @@ static PetscErrorCode Flow_Private(Context *c)
   for (PetscInt i = 0; i < data->num_materials; ++i) {
     const MaterialSpec *m = &data->materials[i];
     if (!All_Private(c, i, Elastic)) continue;
-    PetscCall(Row_Private(c, "flow", m->name, 0, Saves_Private(c, OfFlow) + Symmetric_Private(c, i), &row));
+    PetscCall(Row_Private(c, "flow", m->name, 0, Saves_Private(c, m, OfFlow) + Symmetric_Private(c, i), &row));
     PetscCall(Why_Private(row, "its material has not flowed: neo_hookean with the same moduli and volumetric gives the same"));
     Elastic_Private(row, m, "neo_hookean");
   }
@@ -175,11 +184,25 @@ static PetscErrorCode Fibers_Private(Context *c)
     const MaterialSpec *m = &data->materials[i];
     if (!m->num_fibers || data->mechanics.kinematics == KINEMATICS_SMALL || m->mu <= 0) continue;
     const PetscReal share = Share_Private(c, i, offsetof(BodyTerms, fibers));
-    PetscCall(Row_Private(c, "fibers", m->name, FORCE_OF_ENERGY * share, Saves_Private(c, OfFibers), &row));
+    PetscCall(Row_Private(c, "fibers", m->name, FORCE_OF_ENERGY * share, Saves_Private(c, m, OfFibers), &row));
     PetscCall(Why_Private(row, share == 0 ? "they were slack everywhere" : "the share of the energy in its fibres"));
     Elastic_Private(row, m, "neo_hookean");
   }
   PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Root mean square of the strain in the bodies of a material. Changes of volume of second order in it times kappa outweigh shear where it is above mu / kappa.
+ */
+static PetscReal Strain_Private(const Context *c, const MaterialSpec *m)
+{
+  PetscReal volume = 0, strain2 = 0;
+
+  for (PetscInt b = 0; b < c->app->data->mechanics.num_bodies; ++b) {
+    if (c->app->data->mechanics.bodies[b].material != m) continue;
+    volume += c->terms[b].volume;
+    strain2 += c->terms[b].strain2;
+  }
+  return volume > 0 ? PetscSqrtReal(strain2 / volume) : 0;
 }
 
 static PetscErrorCode Mixed_Private(Context *c)
@@ -193,8 +216,9 @@ static PetscErrorCode Mixed_Private(Context *c)
     if (m->law->rigid || !MaterialStoresPressure(m) || m->volumetric == VOLUMETRIC_LOG) continue;
     const PetscReal share = Share_Private(c, i, offsetof(BodyTerms, projected));
     if (share == 0) continue;
-    PetscCall(Row_Private(c, "mixed", m->name, PetscSqrtReal(PetscMax(0, share)), Saves_Private(c, OfPressure), &row));
+    PetscCall(Row_Private(c, "mixed", m->name, PetscSqrtReal(PetscMax(0, share)), Saves_Private(c, m, OfPressure), &row));
     PetscCall(Why_Private(row, "root of the energy that the displacement form adds at the state found"));
+    if (m->kappa / m->mu * Strain_Private(c, m) > 1) row->keeps = PETSC_FALSE; /* it costs Newton's method more than it saves */
     char key[2 * MORTISE_NAME];
     (void)snprintf(key, sizeof(key), "material.%s.formulation", m->name);
     cJSON_AddStringToObject(row->set, key, "displacement");
@@ -280,7 +304,7 @@ static PetscErrorCode LoadSteps_Private(Context *c)
   for (PetscReal t = PathStepEnd(data, 0, data->load.end); t < data->load.end; t = PathStepEnd(data, t, data->load.end)) ++least;
   if (c->app->load_steps <= least || !Forgets_Private(c->app)) PetscFunctionReturn(PETSC_SUCCESS);
   /* One solution a step and a pass; on the way to the end at once the mesh takes as many passes as any step has. */
-  const PetscReal rest = PetscMin(1, ONE_STEP * (PetscReal)(least + c->app->most_passes) / (PetscReal)(c->app->load_steps + c->app->adapt_passes));
+  const PetscReal rest = PetscMin(1, (PetscReal)(least + c->app->most_passes) / (PetscReal)(c->app->load_steps + c->app->adapt_passes));
   PetscCall(Row_Private(c, "load_steps", "scene", 0, c->mesh * (1 - rest), &row));
   PetscCall(Why_Private(row, "the end does not depend on the path"));
   cJSON_AddNumberToObject(row->set, "load.step", (double)data->load.end);
@@ -292,7 +316,7 @@ static PetscErrorCode LoadSteps_Private(Context *c)
 
 /* Root mean square of the strain in a body over that in all others. A body that others stretch is soft, however little energy it takes: with stiffness of its
    own it would hold them. */
-static PetscReal Strain_Private(const Context *c, PetscInt body)
+static PetscReal Stretched_Private(const Context *c, PetscInt body)
 {
   PetscReal volume = 0, strain2 = 0;
 
@@ -329,7 +353,8 @@ static PetscErrorCode Rigid_Private(Context *c)
     if (held) {
       PetscInt all = 0;
       for (PetscInt k = 0; k < data->mechanics.num_bodies; ++k) all += c->cells[k];
-      PetscCall(Row_Private(c, "rigid", s->name, PetscMax(share / (1 - share), Strain_Private(c, b)), c->mesh * (PetscReal)c->cells[b] / (PetscReal)all, &row));
+      PetscCall(
+          Row_Private(c, "rigid", s->name, PetscMax(share / (1 - share), Stretched_Private(c, b)), c->mesh * (PetscReal)c->cells[b] / (PetscReal)all, &row));
       PetscCall(Why_Private(row, "the share of the energy in it"));
       cJSON *body = Object_Private(row, "body", s->name);
       cJSON_AddStringToObject(body, "material", "left_out_rigid");
@@ -350,7 +375,7 @@ static PetscErrorCode Symmetry_Private(Context *c)
   for (PetscInt a = 0; a < 3; ++a) {
     const char name[] = {(char)('x' + a), 0};
     PetscReal  off;
-    if (!c->app->mirror[a]) continue;
+    if (!c->app->mirror[a] || (c->layers[a] && c->along[a] <= c->needs->tolerance)) continue; /* a section is less than half */
     PetscCall(AppAsymmetry(c->app, a, &off));
     PetscCall(Row_Private(c, "symmetry", name, off, 0.5 * c->mesh, &row));
     PetscCall(Why_Private(row, "mesh, supports and loads are symmetric: half is enough"));
@@ -370,12 +395,10 @@ static PetscErrorCode Prism_Private(Context *c)
     if (data->mechanics.bodies[b].material->num_fibers || BodyIsLoaded(&data->mechanics.bodies[b])) PetscFunctionReturn(PETSC_SUCCESS);
   for (PetscInt a = 0; a < 3; ++a) {
     const char name[] = {(char)('x' + a), 0};
-    PetscInt   layers, order = MORTISE_MAX_ORDER;
-    PetscReal  change;
-    PetscCall(AppFindPrism(c->app, a, &layers, &change));
-    if (!layers) continue;
+    PetscInt   order  = MORTISE_MAX_ORDER;
+    if (!c->layers[a]) continue;
     for (PetscInt b = 0; b < data->mechanics.num_bodies; ++b) order = PetscMin(order, data->mechanics.bodies[b].order);
-    PetscCall(Row_Private(c, "prism", name, change, c->mesh * (1 - (2. / 3) / (PetscReal)(layers * order + 1)), &row));
+    PetscCall(Row_Private(c, "prism", name, c->along[a], c->mesh * (1 - (2. / 3) / (PetscReal)(c->layers[a] * order + 1)), &row));
     PetscCall(Why_Private(row, "nothing moves or changes along this axis: model plane_strain is enough"));
     cJSON_AddStringToObject(row->set, "section", name);
   }
@@ -456,6 +479,7 @@ PetscErrorCode AppFindNeeds(App *app, Needs *needs)
   c.mesh = c.solving;
   for (size_t i = 0; i < sizeof(meshed) / sizeof(*meshed); ++i) c.mesh += StageSeconds(meshed[i]) / c.total;
   PetscCall(Terms_Private(&c));
+  for (PetscInt a = 0; a < 3; ++a) PetscCall(AppFindPrism(app, a, &c.layers[a], &c.along[a]));
   for (size_t i = 0; i < sizeof(parts) / sizeof(*parts); ++i) PetscCall(parts[i](&c));
   PetscCall(PetscFree2(c.terms, c.cells));
   PetscFunctionReturn(PETSC_SUCCESS);

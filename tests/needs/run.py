@@ -17,14 +17,15 @@ INPUTS = "hertz2d rubber2d cook tube cylinder oring sphere balloon slide2d angio
 MADE = "bracket bush plate tissue stops".split()
 HEAD = """# No more model than needed
 
-At its end a run says what it could have left out of its model within the tolerance, what that would change and what it
-would save ([how to](howto.md#model-no-more-than-needed), [theory](theory.md#no-more-model-than-needed)). Here each such promise is checked by
-running the simpler model: `tests/needs/run.py --write` does it and writes this page.
+At its end a run says what it could have left out of its model within the tolerance, what that would change and what
+it would save ([how to](howto.md#model-no-more-than-needed), [theory](theory.md#no-more-model-than-needed)). Here each
+such promise is checked by running the simpler model: `tests/needs/run.py --write` does it and writes this page.
 
 Change: the largest relative change of the energy norm and of the forces of supports and contact pairs (cells: the
-estimated error). It holds where it is within a factor of 3 of what was told or below a tenth of the tolerance, and within
-the tolerance. Saving: share of the processor time of the whole process, the mesh made beforehand; it holds within a factor
-of 2. In brackets: it does not, but differs by less than a tenth of the time, which is what runs on a busy machine scatter by.
+estimated error). It holds where it is within a factor of 3 of what was told or below a tenth of the tolerance, and
+within the tolerance. Saving: share of the processor time of the whole process, the mesh made beforehand; it holds
+within a factor of 2. In brackets: it does not, but differs by less than a tenth of the time, which is what runs on a
+busy machine scatter by.
 
 """
 
