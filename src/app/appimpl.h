@@ -55,6 +55,7 @@ typedef struct {
   PetscBool        unstable_known, passage_told;     /* … if one was; that a surface passes through itself */
   PetscBool        mirror[3];                        /* planes of symmetry that are not used (AppFindMirrors) … */
   PetscReal        mirror_at[3];                     /* … and where they are */
+  PetscReal        most_energy;                      /* stored at the end of an accepted load step */
   Needs            needs;                            /* what could have been left out */
   ReportRow        last;
   PetscReal        dt;                                                          /* length of the next load step */

@@ -5,6 +5,7 @@
 
 #define FORCE_OF_ENERGY 1.5 /* relative change of forces where the energy's is 1: the first nonlinear term of it is cubic in the load */
 #define MOST_CHANGE 0.5     /* first order tells nothing of larger changes */
+#define MOST_STORED 0.99    /* of the energy once stored that the last state must have, but for what adaptation and steps change */
 
 /* Shares of the time in assembly, estimate and transfer that go with a part of the material law: inputs/angioplasty2d.yml, tests/needs/plate.yml and tissue.yml
    with and without. */
@@ -40,6 +41,15 @@ static PetscErrorCode Row_Private(Context *c, const char *part, const char *name
   (*row)->keeps  = (PetscBool)((*row)->change <= PetscMin(n->tolerance, MOST_CHANGE));
   (*row)->set    = cJSON_CreateObject();
   PetscCall(PetscStrncpy((*row)->name, name, sizeof((*row)->name)));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* A row that goes by the energy of the last state, which tells nothing of a state before that stored more. */
+static PetscErrorCode EnergyRow_Private(Context *c, const char *part, const char *name, PetscReal change, PetscReal saves, Need **row)
+{
+  PetscFunctionBegin;
+  PetscCall(Row_Private(c, part, name, change, saves, row));
+  if (c->app->balance.status.energy < MOST_STORED * c->app->most_energy) (*row)->keeps = PETSC_FALSE;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -184,7 +194,7 @@ static PetscErrorCode Fibers_Private(Context *c)
     const MaterialSpec *m = &data->materials[i];
     if (!m->num_fibers || data->mechanics.kinematics == KINEMATICS_SMALL || m->mu <= 0) continue;
     const PetscReal share = Share_Private(c, i, offsetof(BodyTerms, fibers));
-    PetscCall(Row_Private(c, "fibers", m->name, FORCE_OF_ENERGY * share, Saves_Private(c, m, OfFibers), &row));
+    PetscCall(EnergyRow_Private(c, "fibers", m->name, FORCE_OF_ENERGY * share, Saves_Private(c, m, OfFibers), &row));
     PetscCall(Why_Private(row, share == 0 ? "they were slack everywhere" : "the share of the energy in its fibres"));
     Elastic_Private(row, m, "neo_hookean");
   }
@@ -216,7 +226,7 @@ static PetscErrorCode Mixed_Private(Context *c)
     if (m->law->rigid || !MaterialStoresPressure(m) || m->volumetric == VOLUMETRIC_LOG) continue;
     const PetscReal share = Share_Private(c, i, offsetof(BodyTerms, projected));
     if (share == 0) continue;
-    PetscCall(Row_Private(c, "mixed", m->name, PetscSqrtReal(PetscMax(0, share)), Saves_Private(c, m, OfPressure), &row));
+    PetscCall(EnergyRow_Private(c, "mixed", m->name, PetscSqrtReal(PetscMax(0, share)), Saves_Private(c, m, OfPressure), &row));
     PetscCall(Why_Private(row, "root of the energy that the displacement form adds at the state found"));
     if (m->kappa / m->mu * Strain_Private(c, m) > 1) row->keeps = PETSC_FALSE; /* it costs Newton's method more than it saves */
     char key[2 * MORTISE_NAME];
@@ -265,7 +275,7 @@ static PetscErrorCode Kinematics_Private(Context *c)
   }
   const PetscReal fewer     = PetscMin(1, (PetscReal)tangents / (PetscReal)PetscMax(1, PetscMax(path->factorisations, path->newton_iterations)));
   const PetscReal of_energy = FORCE_OF_ENERGY * PetscAbsReal(linear) / c->energy, of_strain = PetscSqrtReal(misfit / (2 * c->energy));
-  PetscCall(Row_Private(c, "kinematics", "scene", PetscMax(slide, PetscMax(of_energy, of_strain)), c->solving * (1 - fewer), &row));
+  PetscCall(EnergyRow_Private(c, "kinematics", "scene", PetscMax(slide, PetscMax(of_energy, of_strain)), c->solving * (1 - fewer), &row));
   PetscCall(Why_Private(row, "the energy that the nonlinear terms add at the state found"));
   cJSON_AddStringToObject(row->set, "kinematics", "small");
   for (PetscInt i = 0; i < data->num_materials; ++i)
@@ -353,8 +363,8 @@ static PetscErrorCode Rigid_Private(Context *c)
     if (held) {
       PetscInt all = 0;
       for (PetscInt k = 0; k < data->mechanics.num_bodies; ++k) all += c->cells[k];
-      PetscCall(
-          Row_Private(c, "rigid", s->name, PetscMax(share / (1 - share), Stretched_Private(c, b)), c->mesh * (PetscReal)c->cells[b] / (PetscReal)all, &row));
+      PetscCall(EnergyRow_Private(c, "rigid", s->name, PetscMax(share / (1 - share), Stretched_Private(c, b)),
+                                  c->mesh * (PetscReal)c->cells[b] / (PetscReal)all, &row));
       PetscCall(Why_Private(row, "the share of the energy in it"));
       cJSON *body = Object_Private(row, "body", s->name);
       cJSON_AddStringToObject(body, "material", "left_out_rigid");
