@@ -4,6 +4,7 @@
 #include <cjson/cJSON.h>
 
 #define FORCE_OF_ENERGY 1.5 /* relative change of forces where the energy's is 1: the first nonlinear term of it is cubic in the load */
+#define LONG_STEP 5         /* iterations of a solution from which on a load step is a long one for Newton's method: no longer one then */
 #define MOST_CHANGE 0.5     /* first order tells nothing of larger changes */
 #define MOST_STORED 0.99    /* of the energy once stored that the last state must have, but for what adaptation and steps change */
 
@@ -184,6 +185,14 @@ static PetscReal Share_Private(const Context *c, PetscInt material, size_t offse
   return c->energy > 0 ? sum / c->energy : 0;
 }
 
+/* Has its ground substance a second invariant? Then it is no neo_hookean without fibres. */
+static PetscBool SecondInvariant_Private(const MaterialSpec *m)
+{
+  for (PetscInt k = 0; m->law->parameters[k].name; ++k)
+    if (!strcmp(m->law->parameters[k].name, "c2") && m->parameter[k] > 0) return PETSC_TRUE;
+  return PETSC_FALSE;
+}
+
 static PetscErrorCode Fibers_Private(Context *c)
 {
   const SceneData *data = c->app->data;
@@ -192,7 +201,7 @@ static PetscErrorCode Fibers_Private(Context *c)
   PetscFunctionBegin;
   for (PetscInt i = 0; i < data->num_materials; ++i) {
     const MaterialSpec *m = &data->materials[i];
-    if (!m->num_fibers || data->mechanics.kinematics == KINEMATICS_SMALL || m->mu <= 0) continue;
+    if (!m->num_fibers || data->mechanics.kinematics == KINEMATICS_SMALL || SecondInvariant_Private(m)) continue;
     const PetscReal share = Share_Private(c, i, offsetof(BodyTerms, fibers));
     PetscCall(EnergyRow_Private(c, "fibers", m->name, FORCE_OF_ENERGY * share, Saves_Private(c, m, OfFibers), &row));
     PetscCall(Why_Private(row, share == 0 ? "they were slack everywhere" : "the share of the energy in its fibres"));
@@ -317,6 +326,7 @@ static PetscErrorCode LoadSteps_Private(Context *c)
   const PetscReal rest = PetscMin(1, (PetscReal)(least + c->app->most_passes) / (PetscReal)(c->app->load_steps + c->app->adapt_passes));
   PetscCall(Row_Private(c, "load_steps", "scene", 0, c->mesh * (1 - rest), &row));
   PetscCall(Why_Private(row, "the end does not depend on the path"));
+  if (c->app->path.newton_iterations >= LONG_STEP * (c->app->load_steps + c->app->adapt_passes)) row->keeps = PETSC_FALSE;
   cJSON_AddNumberToObject(row->set, "load.step", (double)data->load.end);
   cJSON_AddNullToObject(row->set, "load.step_max");
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -81,6 +81,22 @@ static PetscBool Touches_Private(const ForestTables *t, PetscInt body, PetscInt 
   return PETSC_FALSE;
 }
 
+/* Does it face a rigid body in a pair? One side of each has to deform. */
+static PetscBool FacesRigid_Private(const App *app, const ForestTables *t, PetscInt body)
+{
+  const SceneData *data = app->data;
+
+  for (PetscInt i = 0; i < data->num_contacts; ++i) {
+    const PetscInt group[2] = {data->contacts[i].nonmortar, data->contacts[i].mortar};
+    for (PetscInt k = 0; k < 2; ++k) {
+      if (!Touches_Private(t, body, group[k])) continue;
+      for (PetscInt b = 0; b < data->mechanics.num_bodies; ++b)
+        if (data->mechanics.bodies[b].material->law->rigid && Touches_Private(t, b, group[1 - k])) return PETSC_TRUE;
+    }
+  }
+  return PETSC_FALSE;
+}
+
 PetscErrorCode AppRigidMotion(const App *app, PetscInt body, struct cJSON **motion, PetscBool *held)
 {
   const MechanicsSpec *m        = &app->data->mechanics;
@@ -93,6 +109,7 @@ PetscErrorCode AppRigidMotion(const App *app, PetscInt body, struct cJSON **moti
   *motion = cJSON_CreateObject();
   *held   = (PetscBool)(!spec->force[0] && !spec->force[1] && !spec->force[2]);
   PetscCall(ForestGetTables(app->level.forest, &t));
+  if (FacesRigid_Private(app, t, body)) *held = PETSC_FALSE;
   if (m->model == MODEL_AXISYMMETRIC) value[0] = "0";
   for (PetscInt i = 0; i < m->num_boundaries && *held; ++i) {
     const BoundarySpec *b = &m->boundaries[i];

@@ -13,7 +13,7 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 sys.path.insert(0, str(ROOT / "scripts"))
 import simpler  # noqa: E402
 
-INPUTS = "hertz2d rubber2d cook tube cylinder oring sphere balloon slide2d artery roller shrinkfit3d".split()
+INPUTS = "hertz2d rubber2d cook tube cylinder oring sphere balloon slide2d roller shrinkfit3d".split()
 MADE = "bracket bush plate tissue stops".split()
 HEAD = """# No more model than needed
 
