@@ -154,8 +154,9 @@ PetscErrorCode AppRigidMotion(const App *, PetscInt body, struct cJSON **motion,
 /* Largest difference of displacements at corners of cells from those of their mirror images, over the largest displacement. Collective. */
 PetscErrorCode AppAsymmetry(const App *, PetscInt axis, PetscReal *off);
 /* prism.c: is the mesh one of right prisms along the axis that reach from end to end? layers: of its cells, 0: it is not. change: largest displacement along
-   the axis, or difference of those of corners over each other, over the largest displacement. Collective. */
-PetscErrorCode AppFindPrism(const App *, PetscInt axis, PetscInt *layers, PetscReal *change);
+   the axis, or difference of those of corners over each other, over the largest displacement; over the length and the strain elsewhere if that is more.
+   Collective. */
+PetscErrorCode AppFindPrism(const App *, PetscInt axis, PetscReal strain, PetscInt *layers, PetscReal *change);
 
 /* summary.c. What the run took so far. Not collective. */
 ReportRow AppTotal(const App *);

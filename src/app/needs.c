@@ -210,14 +210,15 @@ static PetscErrorCode Fibers_Private(Context *c)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Root mean square of the strain in the bodies of a material. Changes of volume of second order in it times kappa outweigh shear where it is above mu / kappa.
+/* Root mean square of the strain in the bodies of a material (NULL: in all). Changes of volume of second order in it times kappa outweigh shear where it is
+ * above mu / kappa.
  */
 static PetscReal Strain_Private(const Context *c, const MaterialSpec *m)
 {
   PetscReal volume = 0, strain2 = 0;
 
   for (PetscInt b = 0; b < c->app->data->mechanics.num_bodies; ++b) {
-    if (c->app->data->mechanics.bodies[b].material != m) continue;
+    if (m && c->app->data->mechanics.bodies[b].material != m) continue;
     volume += c->terms[b].volume;
     strain2 += c->terms[b].strain2;
   }
@@ -451,7 +452,7 @@ static PetscErrorCode Cells_Private(Context *c)
 /* Does any row ask for energies? Not of one body of linear material. */
 static PetscBool Asked_Private(const SceneData *data)
 {
-  if (data->mechanics.kinematics == KINEMATICS_FINITE || data->mechanics.num_bodies > 1) return PETSC_TRUE;
+  if (data->mechanics.model == MODEL_3D || data->mechanics.kinematics == KINEMATICS_FINITE || data->mechanics.num_bodies > 1) return PETSC_TRUE;
   return MaterialStoresPressure(data->mechanics.bodies[0].material);
 }
 
@@ -499,7 +500,7 @@ PetscErrorCode AppFindNeeds(App *app, Needs *needs)
   c.mesh = c.solving;
   for (size_t i = 0; i < sizeof(meshed) / sizeof(*meshed); ++i) c.mesh += StageSeconds(meshed[i]) / c.total;
   PetscCall(Terms_Private(&c));
-  for (PetscInt a = 0; a < 3; ++a) PetscCall(AppFindPrism(app, a, &c.layers[a], &c.along[a]));
+  for (PetscInt a = 0; a < 3; ++a) PetscCall(AppFindPrism(app, a, Strain_Private(&c, NULL), &c.layers[a], &c.along[a]));
   for (size_t i = 0; i < sizeof(parts) / sizeof(*parts); ++i) PetscCall(parts[i](&c));
   PetscCall(PetscFree2(c.terms, c.cells));
   PetscFunctionReturn(PETSC_SUCCESS);

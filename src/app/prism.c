@@ -129,7 +129,7 @@ static PetscErrorCode Moves_Private(const App *app, PetscInt axis, PetscReal lea
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode AppFindPrism(const App *app, PetscInt axis, PetscInt *layers, PetscReal *change)
+PetscErrorCode AppFindPrism(const App *app, PetscInt axis, PetscReal strain, PetscInt *layers, PetscReal *change)
 {
   const CoarseMesh *m;
   PetscReal         lo[3], hi[3], size = 0, most[2];
@@ -145,5 +145,6 @@ PetscErrorCode AppFindPrism(const App *app, PetscInt axis, PetscInt *layers, Pet
   PetscCall(Moves_Private(app, axis, SAME * size, most));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, most, 2, MPIU_REAL, MPI_MAX, app->comm));
   *change = most[1] > 0 ? most[0] / most[1] : 0;
+  if (strain > 0) *change = PetscMax(*change, most[0] / ((hi[axis] - lo[axis]) * strain));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
