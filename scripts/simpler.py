@@ -149,18 +149,10 @@ def size(vector):
 
 
 def off(x, y, part):
-    """How far forces differ. In a part of the whole a support is as large a part, or whole; what the cut bears besides is its own."""
+    """How far forces differ. In a part of the whole a support may be as large a part, or cut by some of its planes only; what a cut bears besides is its own."""
     if part == 1 and len(x) == len(y): return size([p - q for p, q in zip(x, y)])
-    return min(abs(max(map(abs, x)) - max(map(abs, y)) / f) for f in (part, 1))
-
-
-def share(part, row, folder, name):
-    """What part of the whole the simpler model is: half of it, or one unit of its length."""
-    if part == "symmetry": return 0.5
-    if part != "prism": return 1
-    nodes = cutmesh.read(pathlib.Path(folder) / f"{name}_whole.msh")[1].values()
-    along = [x["xyz".index(row["set"]["section"])] for x in nodes]
-    return 1 / (max(along) - min(along))
+    parts = [1] + [part * 2**k for k in range(4) if part * 2**k <= 1]
+    return min(abs(max(map(abs, x)) - max(map(abs, y)) / f) for f in parts)
 
 
 def change(whole, simple, part=1):
