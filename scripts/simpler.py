@@ -155,6 +155,15 @@ def off(x, y, part):
     return min(abs(max(map(abs, x)) - max(map(abs, y)) / f) for f in parts)
 
 
+def share(part, row, folder, name):
+    """What part of the whole the simpler model is: half of it, or one unit of its length."""
+    if part == "symmetry": return 0.5
+    if part != "prism": return 1
+    nodes = cutmesh.read(pathlib.Path(folder) / f"{name}_whole.msh")[1].values()
+    along = [x["xyz".index(row["set"]["section"])] for x in nodes]
+    return 1 / (max(along) - min(along))
+
+
 def change(whole, simple, part=1):
     """Largest relative change of the energy norm, of the supports' forces and of the pairs' forces. part: of the whole model the simple one is so much."""
     a, b = whole.summary, simple.summary
