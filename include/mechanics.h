@@ -246,6 +246,19 @@ PetscBool MechanicsIsPlastic(const MechanicsSpec *);
    for each body that flows integral[num_bodies][2] = int alpha dV and int dV over the reference volume, 0 for the others (axisymmetric: of the full
    revolution). Not collective. */
 PetscErrorCode MechanicsPlastic(Mechanics, const PetscReal u[], PetscReal *strain, PetscReal *work, PetscReal integral[][2]);
+/* terms.c. What parts of the model add to the energy of a body at displacements u; this rank's part, sums over integration points of the reference volume. */
+typedef struct {
+  PetscReal volume, energy; /* of the body; stored in it */
+  PetscReal strain2;        /* squared strain */
+  PetscReal linear;         /* small kinematics instead of finite ones, at the stresses found; 0 in laws with history */
+  PetscReal misfit;         /* 2 mu times the squared difference of the linear strain from that of these stresses in the linear law */
+  PetscReal fibers;         /* of it in the fibres */
+  PetscReal projected;      /* the displacement form instead of the mixed one; 0 with volumetric: log */
+} BodyTerms;
+/* terms[num_bodies], 0 for rigid ones. Pressures and history are those last set. Not collective. */
+PetscErrorCode MechanicsTerms(Mechanics, const PetscReal u[], BodyTerms terms[]);
+/* Work of follower pressures on u by straight ways beyond that of their forces at rest, (f(u) - f(0)) . u / 2: this rank's part. Not collective. */
+PetscErrorCode MechanicsFollowerTurn(Mechanics, const PetscReal u[], PetscReal *work);
 /* Plastic strain at np reference points of an owned cell, by polynomials through the integration points; 0 for laws without. Not collective. */
 PetscErrorCode MechanicsPlasticStrain(Mechanics, PetscInt cell, PetscInt np, const PetscReal xi[], const PetscReal u[], PetscReal strain[]);
 

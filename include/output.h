@@ -155,6 +155,23 @@ PetscErrorCode HistoryDestroy(History *);
 
 /* ---- summary.json (output/summary.c) ------------------------------------------------------------------------------------- */
 
+struct cJSON;
+/* What could have been left out of the model, and what that would do. */
+typedef struct {
+  const char   *part;               /* of the model: contact, flow, fibers, ... */
+  char          name[MORTISE_NAME]; /* of the pair, body, material, axis; of no one: scene */
+  PetscReal     change;             /* estimate, relative: the largest change of forces and of the energy norm */
+  PetscReal     saves;              /* estimate: share of the run's time */
+  PetscBool     keeps;              /* the change is within the tolerance */
+  struct cJSON *set;                /* owned, rank 0: keys of the scene with their new values, null: without */
+  char          why[256];
+} Need;
+typedef struct {
+  PetscReal tolerance; /* adapt.tolerance; without one, the estimated error */
+  PetscInt  num;
+  Need     *rows; /* owned */
+} Needs;
+
 typedef struct {
   const char     *status, *reason; /* "converged", "inaccurate" (the mesh could not be refined as asked), "failed", "stopped"; why, or what is lacking, or "" */
   const char     *adapt_stop;      /* why the last adaptation ended: "tolerance", "max_passes", "max_cells", …; NULL or "": there was none */
@@ -166,8 +183,7 @@ typedef struct {
   const Balance  *balance;  /* with problem; NULL: no figures */
   const Estimate *estimate; /* NULL: not estimated */
   Probes          probes;   /* NULL: none */
-  PetscBool       whole;    /* this run has solved all load steps from the first to the last: what they needed is known */
-  const PetscBool *touched; /* with whole: [num_contacts] was a node of the pair in contact at some time? */
+  const Needs    *needs;    /* NULL: not known */
 } RunSummary;
 
 /* Write summary.json into the scene's output directory. Unknown figures are null. peak_memory_mb is the sum over ranks,

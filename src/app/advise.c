@@ -1,5 +1,6 @@
 /* Words before and after a run: what looks wrong, what there is besides, and what may help. */
 #include "appimpl.h"
+#include <cjson/cJSON.h>
 
 #define MUCH 0.3 /* share of the squared estimate in one cell that says where a run is stuck */
 
@@ -62,14 +63,28 @@ static PetscErrorCode Untouched_Private(const App *app)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Laws that were in vain. */
-static PetscErrorCode Elastic_Private(const App *app)
+/* What could have been left out within the tolerance. Keys of its own lines would be long: they are in summary.json. */
+static PetscErrorCode Needless_Private(const App *app)
 {
   PetscFunctionBegin;
-  for (PetscInt b = 0; b < app->balance.num_bodies; ++b)
-    if (BalanceStaysElastic(&app->balance, &app->data->mechanics, b))
-      PetscCall(PetscPrintf(app->comm, "note: body %s has not flowed: law neo_hookean with the same moduli and volumetric gives the same, for less\n",
-                            app->data->mechanics.bodies[b].name));
+  for (PetscInt i = 0; i < app->needs.num; ++i) {
+    const Need *n    = &app->needs.rows[i];
+    char       *keys = cJSON_PrintUnformatted(n->set);
+    if (n->keeps)
+      PetscCall(PetscPrintf(app->comm, "note: not needed: %s of %s (%s); changes %.2g, saves about %.0f %% of the time: %s\n", n->part, n->name, n->why,
+                            (double)n->change, 100 * (double)n->saves, keys));
+    cJSON_free(keys);
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode AppTellMirrors(const App *app)
+{
+  PetscFunctionBegin;
+  for (PetscInt a = 0; a < 3; ++a)
+    if (app->mirror[a])
+      PetscCall(PetscPrintf(app->comm, "note: mesh, supports and loads are symmetric about %c = %.6g: half is enough (scripts/simplify cuts it)\n",
+                            'x' + (int)a, (double)app->mirror_at[a]));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -108,7 +123,7 @@ PetscErrorCode AppAdvise(const App *app)
         PetscPrintf(app->comm, "note: the path on the mesh before came to its end; its results are in %s/" OUTPUT_ASIDE "\n", app->data->output.directory));
   if (!app->failure && !app->path.stopped && !app->restart[0]) {
     PetscCall(Untouched_Private(app));
-    PetscCall(Elastic_Private(app));
+    PetscCall(Needless_Private(app));
   }
   if (stuck || (app->failure && app->path.cuts_in_step > 0)) PetscCall(Worst_Private(app));
   PetscFunctionReturn(PETSC_SUCCESS);

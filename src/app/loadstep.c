@@ -78,6 +78,8 @@ static PetscErrorCode Accept_Private(App *app)
   PetscCall(ProblemDistance(l->problem, NULL, l->state.x, &way));
   app->speed = way > 0 && l->state.t > t0 ? step / (l->state.t - t0) / (way / l->state.t) : 0;
   PetscCall(Direction_Private(app));
+  app->most_energy = PetscMax(app->most_energy, app->balance.status.energy);
+  app->most_passes = PetscMax(app->most_passes, app->passes_in_step);
   PetscCall(StateCommit(l->problem, &l->state));
   PetscCall(StateCopy(&l->state, &l->accepted));
   ++app->load_steps;

@@ -8,6 +8,7 @@ static PetscErrorCode Begin_Private(App *app, Forest *forest)
   int8_t *orders;
 
   PetscFunctionBegin;
+  PetscCall(AppFindMirrors(app->data, *forest, app->mirror, app->mirror_at));
   PetscCall(ProblemInitialOrders(app->data, *forest, &orders));
   PetscCall(LevelCreate(app->data, *forest, orders, 0, &app->level));
   *forest = NULL;
@@ -42,6 +43,7 @@ static PetscErrorCode View_Private(App *app)
   PetscCall(SceneView(app->scene, app->level.forest, PETSC_VIEWER_STDOUT_WORLD));
   PetscCall(ProblemNumDofs(app->level.problem, &dofs));
   PetscCall(AppTellFree(app));
+  PetscCall(AppTellMirrors(app));
   PetscCall(PetscPrintf(app->comm, "  %" PetscInt_FMT " unknowns at t = %.6g\n", dofs, (double)app->level.accepted.t));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -87,6 +89,7 @@ static PetscErrorCode Close_Private(App *app)
   PetscCall(LevelDestroy(&app->level));
   PetscCall(CheckpointDestroy(&app->snapshot));
   OutputUnlock();
+  PetscCall(AppForgetNeeds(&app->needs));
   PetscCall(PetscFree2(app->subdivided, app->touched));
   PetscCall(PetscFree(app->missed));
   PetscFunctionReturn(PETSC_SUCCESS);

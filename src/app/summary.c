@@ -35,24 +35,25 @@ PetscErrorCode AppSummary(App *app, const char *status, const char *reason)
 {
   PetscFunctionBegin;
   PetscCall(Figures_Private(app));
-  const PetscBool  given_up  = (PetscBool)(app->failure || app->path.stopped);
-  const PetscBool  estimated = (PetscBool)(app->estimated && !given_up && !PetscIsNanReal(app->last.estimated_error));
-  const ReportRow  total     = AppTotal(app);
-  const RunSummary summary   = {.status       = status,
-                                .reason       = reason,
-                                .adapt_stop   = app->adapt_stop,
-                                .t            = total.t,
-                                .seconds      = total.seconds,
-                                .load_steps   = app->load_steps,
-                                .adapt_passes = app->adapt_passes,
-                                .path         = &app->path,
-                                .problem      = app->level.problem,
-                                .state        = &app->level.accepted,
-                                .balance      = &app->balance,
-                                .estimate     = estimated ? &app->estimate : NULL,
-                                .probes       = app->probes,
-                                .whole        = (PetscBool)(!given_up && !app->restart[0]),
-                                .touched      = app->touched};
+  const PetscBool given_up  = (PetscBool)(app->failure || app->path.stopped);
+  const PetscBool estimated = (PetscBool)(app->estimated && !given_up && !PetscIsNanReal(app->last.estimated_error));
+  const PetscBool whole     = (PetscBool)(!given_up && !app->restart[0] && app->load_steps > 0);
+  const ReportRow total     = AppTotal(app);
+  if (whole) PetscCall(AppFindNeeds(app, &app->needs));
+  const RunSummary summary = {.status       = status,
+                              .reason       = reason,
+                              .adapt_stop   = app->adapt_stop,
+                              .t            = total.t,
+                              .seconds      = total.seconds,
+                              .load_steps   = app->load_steps,
+                              .adapt_passes = app->adapt_passes,
+                              .path         = &app->path,
+                              .problem      = app->level.problem,
+                              .state        = &app->level.accepted,
+                              .balance      = &app->balance,
+                              .estimate     = estimated ? &app->estimate : NULL,
+                              .probes       = app->probes,
+                              .needs        = whole ? &app->needs : NULL};
   PetscCall(OutputHold(app->comm));
   PetscCall(OutputSummary(app->comm, app->data, &summary));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -182,26 +182,24 @@ static void AddPlastic_Private(cJSON *root, const SceneData *scene, const Balanc
   }
 }
 
-static void AddNeed_Private(cJSON *group, const char *name, const char *why)
+/* What could have been left out: by part of the model and name. */
+static void AddNeeds_Private(cJSON *root, const Needs *n)
 {
-  cJSON *need = cJSON_AddObjectToObject(group, name);
+  cJSON *needs = cJSON_AddObjectToObject(root, "needs");
 
-  AddNumber_Private(need, "change", 0);
-  cJSON_AddStringToObject(need, "why", why);
-}
-
-/* What could have been left out: parts of the model that did nothing in any accepted state, without which the same states are equilibria. Nothing else is told:
-   of a run that was given up, or goes on from another one, it is not known. */
-static void AddNeeds_Private(cJSON *root, const SceneData *scene, const RunSummary *s)
-{
-  cJSON *needs = cJSON_AddObjectToObject(root, "needs"), *contact = cJSON_AddObjectToObject(needs, "contact"), *body = cJSON_AddObjectToObject(needs, "body");
-
-  if (!s->whole || !s->balance) return;
-  for (PetscInt i = 0; i < scene->num_contacts; ++i)
-    if (!s->touched[i]) AddNeed_Private(contact, scene->contacts[i].name, "its sides have not touched");
-  for (PetscInt i = 0; i < s->balance->num_bodies; ++i)
-    if (BalanceStaysElastic(s->balance, &scene->mechanics, i))
-      AddNeed_Private(body, scene->mechanics.bodies[i].name, "its material has not flowed: neo_hookean with the same moduli and volumetric gives the same");
+  if (!n) return;
+  AddNumber_Private(needs, "tolerance", n->tolerance);
+  for (PetscInt i = 0; i < n->num; ++i) {
+    const Need *row  = &n->rows[i];
+    cJSON      *part = cJSON_GetObjectItem(needs, row->part);
+    if (!part) part = cJSON_AddObjectToObject(needs, row->part);
+    cJSON *need = cJSON_AddObjectToObject(part, row->name);
+    AddNumber_Private(need, "change", row->change);
+    AddNumber_Private(need, "saves", row->saves);
+    cJSON_AddBoolToObject(need, "keeps", row->keeps);
+    cJSON_AddItemToObject(need, "set", cJSON_Duplicate(row->set, 1));
+    cJSON_AddStringToObject(need, "why", row->why);
+  }
 }
 
 static void AddTimes_Private(cJSON *root, PetscReal total, const Gathered *g)
@@ -277,7 +275,7 @@ static cJSON *Document_Private(const SceneData *scene, const RunSummary *s, cons
   if (s->balance) AddPlastic_Private(root, scene, s->balance);
   AddForces_Private(root, scene, s->balance);
   AddProbes_Private(root, scene, g);
-  AddNeeds_Private(root, scene, s);
+  AddNeeds_Private(root, s->needs);
   AddTimes_Private(root, s->seconds, g);
   return root;
 }

@@ -1,0 +1,201 @@
+"""Simpler models of a scene: what section `needs` of summary.json suggests, applied, run and compared. Used by scripts/simplify and tests/needs/run.py."""
+import copy
+import json
+import os
+import pathlib
+import re
+import resource
+import subprocess
+
+import yaml
+
+import cutmesh
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+PROGRAM = pathlib.Path(os.environ.get("MORTISE", ROOT / "bin" / "mortise"))
+
+
+class Run:
+    """One run: what it found and what it took."""
+
+    def __init__(self, summary, seconds, text):
+        self.summary, self.seconds, self.text = summary, seconds, text
+
+    @property
+    def solved(self):
+        return self.summary.get("status") in ("converged", "inaccurate")
+
+    def rows(self):
+        """(part, name, row) of what could have been left out."""
+        return [(part, name, row) for part, group in self.summary.get("needs", {}).items() if isinstance(group, dict) for name, row in group.items()]
+
+
+def read(path):
+    """A scene as text in a tree, its mesh by its whole path."""
+    scene = yaml.load(pathlib.Path(path).read_text(), yaml.BaseLoader)
+    scene["mesh"]["file"] = str((pathlib.Path(path).parent / scene["mesh"]["file"]).resolve())
+    return scene
+
+
+def write(scene, path):
+    pathlib.Path(path).write_text(yaml.safe_dump(scene, sort_keys=False, width=120))
+
+
+def run(scene, folder, name, options=(), times=1, limit=600):
+    """Run a tree, or a file; seconds: of all processes, the least of so many runs; one that takes longer than the limit is not solved."""
+    folder = pathlib.Path(folder)
+    folder.mkdir(parents=True, exist_ok=True)
+    path = folder / f"{name}.yml"
+    if isinstance(scene, dict): write(scene, path)
+    else: path = pathlib.Path(scene)
+    command = [str(PROGRAM), str(path), "-output_directory", str(folder / name), "-output_fields", "false", "-output_checkpoint", "0", *map(str, options)]
+    least, summary, text = float("inf"), {}, ""
+    for _ in range(times):
+        before = resource.getrusage(resource.RUSAGE_CHILDREN)
+        done = subprocess.run(command, capture_output=True, text=True, env={**os.environ, "OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"},
+                              preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_CPU, (int(limit) + 1, int(limit) + 1)))
+        after = resource.getrusage(resource.RUSAGE_CHILDREN)
+        least = min(least, after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime)
+        text = done.stdout + done.stderr
+        if done.returncode not in (0, 2) or not (folder / name / "summary.json").exists(): return Run({}, least, text)
+        summary = json.loads((folder / name / "summary.json").read_text())
+    return Run(summary, least, text)
+
+
+# ---- applying what was suggested ------------------------------------------------------------------------------------------------------
+
+
+def put(scene, key, value):
+    """Set a key, given with dots; None: without it. What it leads to may be missing."""
+    *path, last = key.split(".")
+    for word in path: scene = scene.setdefault(word, {})
+    if value is None: scene.pop(last, None)
+    elif isinstance(value, dict) and isinstance(scene.get(last), dict) and path == ["body"]: scene[last].update(copy.deepcopy(value))
+    else: scene[last] = copy.deepcopy(value) if isinstance(value, dict) else f"{value}"
+
+
+def text(value):
+    return {k: text(v) for k, v in value.items()} if isinstance(value, dict) else value if value is None else repr(value) if isinstance(value, float) else str(value)
+
+
+def cut(scene, axis, at, folder, name):
+    """Half of the scene: its mesh is cut, groups that are gone go, probes go over to the half that is left."""
+    dim, mesh, letter = 3 if scene["model"] == "3d" else 2, scene["mesh"], "xyz"[axis]
+    folder = pathlib.Path(folder)
+    folder.mkdir(parents=True, exist_ok=True)
+    cutmesh.make(mesh["file"], dim, mesh.get("order", 2), mesh.get("parameter", {}), folder / f"{name}_whole.msh")
+    groups = cutmesh.half(folder / f"{name}_whole.msh", folder / f"{name}.msh", dim, axis, at, f"cut_{letter}")
+    scene["mesh"] = {"file": str((folder / f"{name}.msh").resolve()), **{k: v for k, v in mesh.items() if k not in ("file", "order", "parameter", "trust")}}
+    for boundary in list(scene.get("boundary") or {}):
+        if boundary not in groups: del scene["boundary"][boundary]
+    scene.setdefault("boundary", {})[f"cut_{letter}"] = {"fix": letter}
+    for probe in (scene.get("probe") or {}).values():
+        if float(probe.get(letter, 0)) < at: probe[letter] = repr(2 * at - float(probe.get(letter, 0)))
+
+
+def flat(value, letters):
+    """A part of a scene in the plane: letters of axes go over to x and y, the third one goes."""
+    if isinstance(value, dict):
+        return {letters.get(k, k): flat(v, letters) for k, v in value.items() if k not in ("x", "y", "z") or k in letters}
+    if isinstance(value, list): return [flat(v, letters) for v in value]
+    return re.sub(r"\b[XYZ]\b", lambda m: letters.get(m[0].lower(), "0").upper(), value)
+
+
+def section(scene, axis, folder, name):
+    """The scene of a section across an axis, in plane strain."""
+    letters = dict(zip([c for c in "xyz" if c != axis], "xy"))
+    mesh = scene["mesh"]
+    folder = pathlib.Path(folder)
+    cutmesh.make(mesh["file"], 3, mesh.get("order", 2), mesh.get("parameter", {}), folder / f"{name}_whole.msh")
+    length, groups = cutmesh.section(folder / f"{name}_whole.msh", folder / f"{name}.msh", "xyz".index(axis))
+    for key in ("body", "boundary", "probe", "point", "refine"):
+        if key in scene: scene[key] = {k: flat(v, letters) for k, v in scene[key].items()}
+    for boundary, value in list(scene.get("boundary", {}).items()):
+        if "fix" in value and value["fix"] != "normal": value["fix"] = "".join(letters[c] for c in value["fix"] if c in letters)
+        if boundary not in groups or value.get("fix") == "" and len(value) == 1: del scene["boundary"][boundary]
+    scene["mesh"] = {"file": str((folder / f"{name}.msh").resolve()), **{k: v for k, v in mesh.items() if k not in ("file", "order", "parameter", "trust")}}
+    scene["model"] = "plane_strain"
+    return length
+
+
+def apply(scene, row, folder, name):
+    """The scene without what the row says."""
+    scene = copy.deepcopy(scene)
+    for key, value in row["set"].items():
+        if key == "plane":
+            for letter, at in value.items(): cut(scene, "xyz".index(letter), at, folder, name)
+        elif key == "section": section(scene, value, folder, name)
+        else: put(scene, key, text(value))
+    if not scene.get("contact", True): del scene["contact"]
+    return scene
+
+
+def meshed(scene, folder, name):
+    """The scene with its mesh made beforehand, so that runs are compared without gmsh."""
+    scene, mesh = copy.deepcopy(scene), scene["mesh"]
+    folder = pathlib.Path(folder)
+    folder.mkdir(parents=True, exist_ok=True)
+    if mesh["file"].endswith(".geo"):
+        cutmesh.make(mesh["file"], 3 if scene["model"] == "3d" else 2, mesh.get("order", 2), mesh.get("parameter", {}), folder / f"{name}.msh")
+        scene["mesh"] = {"file": str((folder / f"{name}.msh").resolve()), **{k: v for k, v in mesh.items() if k not in ("file", "order", "parameter", "trust")}}
+    return scene
+
+
+# ---- comparing ------------------------------------------------------------------------------------------------------------------------
+
+
+def size(vector):
+    return sum(v * v for v in vector) ** 0.5
+
+
+def off(x, y, part):
+    """How far forces differ. In a part of the whole a support may be as large a part, or cut by some of its planes only; what a cut bears besides is its own."""
+    if part == 1 and len(x) == len(y): return size([p - q for p, q in zip(x, y)])
+    parts = [1] + [part * 2**k for k in range(4) if part * 2**k <= 1]
+    return min(abs(max(map(abs, x)) - max(map(abs, y)) / f) for f in parts)
+
+
+def share(part, row, folder, name):
+    """What part of the whole the simpler model is: half of it, or one unit of its length."""
+    if part == "symmetry": return 0.5
+    if part != "prism": return 1
+    nodes = cutmesh.read(pathlib.Path(folder) / f"{name}_whole.msh")[1].values()
+    along = [x["xyz".index(row["set"]["section"])] for x in nodes]
+    return 1 / (max(along) - min(along))
+
+
+def change(whole, simple, part=1):
+    """Largest relative change of the energy norm, of the supports' forces and of the pairs' forces. part: of the whole model the simple one is so much."""
+    a, b = whole.summary, simple.summary
+    changes = [abs((b["energy"] / part / a["energy"]) ** 0.5 - 1)] if a["energy"] > 0 else []
+    both = [(a["reaction"][k], b["reaction"][k]) for k in a["reaction"] if k in b["reaction"]]
+    both += [(a["contact"][k]["force"], b["contact"][k]["force"]) for k in a["contact"] if k in b["contact"]]
+    both = [(x, y) for x, y in both if any(x) and any(y)] # the support of a rigid body has no reaction of its own
+    largest = max((size(x) for x, _ in both), default=0)
+    if part != 1: both = [(x, y) for x, y in both if size(x) > 0.5 * largest]
+    if largest > 0: changes.append(max(off(x, y, part) for x, y in both) / largest)
+    return max(changes, default=0)
+
+
+def start(times=5):
+    """Processor seconds of a process that does nothing: starting MPI."""
+    least = float("inf")
+    for _ in range(times):
+        before = resource.getrusage(resource.RUSAGE_CHILDREN)
+        subprocess.run([str(PROGRAM), "--version"], capture_output=True)
+        after = resource.getrusage(resource.RUSAGE_CHILDREN)
+        least = min(least, after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime)
+    return least
+
+
+def check(scene, base, part, row, folder, name, times=1, idle=0):
+    """(real change, real share of the time saved) of one promise; None, None: the simpler model was not solved. times: so many runs of both in turn, the least
+    processor time of each counts; idle: seconds of it that no model takes."""
+    simple, whole = run(apply(scene, row, folder, name), folder, name, limit=10 * base.seconds + 5), base.seconds
+    if not simple.solved: return None, None, simple
+    for _ in range(times - 1):
+        whole = min(whole, run(scene, folder, "again", limit=10 * base.seconds + 5).seconds)
+        simple.seconds = min(simple.seconds, run(pathlib.Path(folder) / f"{name}.yml", folder, name, limit=10 * base.seconds + 5).seconds)
+    saved = 1 - (simple.seconds - idle) / (whole - idle)
+    if part == "cells": return simple.summary["estimated_error"], saved, simple
+    return change(base, simple, share(part, row, folder, name)), saved, simple

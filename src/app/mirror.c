@@ -1,0 +1,203 @@
+/* Planes of symmetry that a scene does not use: mesh, bodies, supports and loads are their own mirror images, so half of it is enough. */
+#include "appimpl.h"
+
+#define SAME 1e-7 /* of the mesh's size: positions closer are one, as gmsh writes them with fewer digits than it has */
+
+/* A cell or facet, by its middle. */
+typedef struct {
+  PetscReal X[3], key; /* key: a sum of coordinates that is the same for a place and its mirror image */
+  PetscInt  body;      /* -1: a facet */
+  uint64_t  groups;
+} Place;
+
+typedef struct {
+  PetscInt  axis, num;
+  PetscReal at, size; /* the plane; the mesh's size */
+  Place    *place;    /* owned [num], by key */
+  PetscInt *image;    /* owned [num] */
+  uint64_t  partner[64];
+} Mirror;
+
+static int CompareKey_Private(const void *a, const void *b)
+{
+  const PetscReal x = ((const Place *)a)->key, y = ((const Place *)b)->key;
+  return (x > y) - (x < y);
+}
+
+/* Middle of entity e of a leaf, by its place in the leaf's closure. */
+static PetscErrorCode Middle_Private(Forest forest, const ForestTables *t, PetscInt leaf, PetscInt e, PetscReal X[3])
+{
+  const PetscInt *closure = t->closure + t->closure_offset[t->first[t->dim] + leaf];
+  PetscInt        i       = 0;
+
+  PetscFunctionBegin;
+  while (closure[i] != e) ++i;
+  const PetscReal xi[3] = {0.5 * (i % 3), 0.5 * (i / 3 % 3), 0.5 * (i / 9)};
+  X[2]                  = 0;
+  PetscCall(ForestMapPoint(forest, leaf, xi, X));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* All cells, and all facets of a boundary group. */
+static PetscErrorCode Places_Private(Forest forest, Mirror *m)
+{
+  const PetscReal     weight[3] = {0.618033988749895, 0.414213562373095, 0.732050807568877};
+  const ForestTables *t;
+
+  PetscFunctionBegin;
+  PetscCall(ForestGetTables(forest, &t));
+  const PetscInt facets = t->first[t->dim] - t->first[t->dim - 1];
+  PetscCall(PetscMalloc2(t->num_leaves + facets, &m->place, t->num_leaves + facets, &m->image));
+  m->num = 0;
+  for (PetscInt e = t->first[t->dim - 1]; e < t->first[t->dim] + t->num_leaves; ++e) {
+    const PetscBool cell = (PetscBool)(e >= t->first[t->dim]);
+    Place          *p    = &m->place[m->num];
+    if (!cell && !t->boundary[e]) continue;
+    PetscCall(Middle_Private(forest, t, cell ? e - t->first[t->dim] : t->entity_leaf[e], e, p->X));
+    p->body   = cell ? t->leaf_body[e - t->first[t->dim]] : -1;
+    p->groups = cell ? 0 : t->boundary[e];
+    p->key    = 0;
+    for (PetscInt c = 0; c < 3; ++c) p->key += weight[c] * (c == m->axis ? PetscAbsReal(p->X[c] - m->at) : p->X[c]);
+    ++m->num;
+  }
+  qsort(m->place, (size_t)m->num, sizeof(*m->place), CompareKey_Private);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscBool Image_Private(const Mirror *m, PetscInt i, PetscInt j)
+{
+  const Place *p = &m->place[i], *q = &m->place[j];
+
+  if (p->body != q->body || !p->groups != !q->groups) return PETSC_FALSE;
+  for (PetscInt c = 0; c < 3; ++c) {
+    const PetscReal there = c == m->axis ? 2 * m->at - p->X[c] : p->X[c];
+    if (PetscAbsReal(there - q->X[c]) > SAME * m->size) return PETSC_FALSE;
+  }
+  return PETSC_TRUE;
+}
+
+/* The image of each place; none straddles the plane: then the mesh cannot be cut there. */
+static PetscBool Images_Private(Mirror *m)
+{
+  for (PetscInt i = 0, first = 0; i < m->num; ++i) {
+    while (m->place[first].key < m->place[i].key - 4 * SAME * m->size) ++first;
+    PetscInt j = first;
+    while (j < m->num && m->place[j].key < m->place[i].key + 4 * SAME * m->size && !Image_Private(m, i, j)) ++j;
+    if (j == m->num || !Image_Private(m, i, j)) return PETSC_FALSE;
+    if (j == i && m->place[i].body >= 0) return PETSC_FALSE;
+    m->image[i] = j;
+  }
+  return PETSC_TRUE;
+}
+
+/* Which group is the image of which: each facet's groups must go over into those of its image. */
+static PetscBool Partners_Private(Mirror *m, PetscInt num_groups)
+{
+  for (PetscInt g = 0; g < num_groups; ++g) m->partner[g] = ~UINT64_C(0);
+  for (PetscInt i = 0; i < m->num; ++i)
+    for (PetscInt g = 0; g < num_groups; ++g)
+      if (m->place[i].groups >> g & 1) m->partner[g] &= m->place[m->image[i]].groups;
+  for (PetscInt g = 0; g < num_groups; ++g) {
+    PetscInt k = m->partner[g] >> g & 1 ? g : 0;
+    if (!m->partner[g]) return PETSC_FALSE;
+    while (!(m->partner[g] >> k & 1)) ++k;
+    m->partner[g] = (uint64_t)k;
+  }
+  for (PetscInt i = 0; i < m->num; ++i) {
+    uint64_t groups = 0;
+    for (PetscInt g = 0; g < num_groups; ++g)
+      if (m->place[i].groups >> g & 1) groups |= UINT64_C(1) << m->partner[g];
+    if (groups != m->place[m->image[i]].groups) return PETSC_FALSE;
+  }
+  return PETSC_TRUE;
+}
+
+/* sign f(X, t) = g(image of X, t), or both are missing? At the facets of a group, at two times. */
+static PetscErrorCode Same_Private(const Mirror *m, const BoundarySpec *a, const BoundarySpec *b, Expression f, Expression g, PetscReal sign, PetscReal end,
+                                   PetscBool *same)
+{
+  PetscFunctionBegin;
+  if (!f != !g) *same = PETSC_FALSE;
+  for (PetscInt i = 0; i < m->num && *same && f; ++i) {
+    if (m->place[i].body >= 0 || !(m->place[i].groups >> a->group & 1)) continue;
+    for (PetscInt k = 0; k < 2; ++k) {
+      const PetscReal t = k ? end : 0.37 * end;
+      PetscReal       value[2];
+      PetscCall(MechanicsValue(f, &a->amplitude, m->place[i].X, t, &value[0]));
+      PetscCall(MechanicsValue(g, &b->amplitude, m->place[m->image[i]].X, t, &value[1]));
+      if (!(PetscAbsReal(sign * value[0] - value[1]) <= SAME * (PetscAbsReal(value[0]) + PetscAbsReal(value[1])))) *same = PETSC_FALSE;
+    }
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode Boundaries_Private(const Mirror *m, const SceneData *data, PetscBool *same)
+{
+  const MechanicsSpec *s = &data->mechanics;
+
+  PetscFunctionBegin;
+  for (PetscInt i = 0; i < s->num_boundaries && *same; ++i) {
+    const BoundarySpec *a = &s->boundaries[i], *b = NULL;
+    for (PetscInt j = 0; j < s->num_boundaries; ++j)
+      if ((uint64_t)s->boundaries[j].group == m->partner[a->group]) b = &s->boundaries[j];
+    if (!b || a->rotation || b->rotation || BoundaryIsControlled(a) || a->fix_normal != b->fix_normal) {
+      *same = PETSC_FALSE;
+      break;
+    }
+    PetscCall(Same_Private(m, a, b, a->pressure, b->pressure, 1, data->load.end, same));
+    for (PetscInt c = 0; c < 3; ++c) {
+      const PetscReal sign = c == m->axis ? -1 : 1;
+      if (a->fix[c] != b->fix[c]) *same = PETSC_FALSE;
+      PetscCall(Same_Private(m, a, b, a->displacement[c], b->displacement[c], sign, data->load.end, same));
+      PetscCall(Same_Private(m, a, b, a->traction[c], b->traction[c], sign, data->load.end, same));
+    }
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* No force or motion of a body across the plane, none that depends on the place, no fibres; sides of pairs are their own images. */
+static PetscErrorCode Bodies_Private(const Mirror *m, const SceneData *data, PetscBool *same)
+{
+  const PetscReal origin[3] = {0, 0, 0};
+
+  PetscFunctionBegin;
+  for (PetscInt b = 0; b < data->mechanics.num_bodies; ++b) {
+    const BodySpec *s        = &data->mechanics.bodies[b];
+    PetscReal       value[2] = {0, 0};
+    if (BodyIsLoaded(s) || s->rotation_angle || s->material->num_fibers) *same = PETSC_FALSE;
+    for (PetscInt c = 0; c < 3; ++c)
+      if (s->force[c] && ExpressionUsesPlace(s->force[c])) *same = PETSC_FALSE;
+    if (s->motion[m->axis]) PetscCall(MechanicsValue(s->motion[m->axis], &s->amplitude, origin, data->load.end, &value[0]));
+    if (s->force[m->axis]) PetscCall(MechanicsValue(s->force[m->axis], &s->amplitude, origin, data->load.end, &value[1]));
+    if (value[0] != 0 || value[1] != 0) *same = PETSC_FALSE;
+  }
+  for (PetscInt i = 0; i < data->num_contacts; ++i)
+    if (m->partner[data->contacts[i].nonmortar] != (uint64_t)data->contacts[i].nonmortar ||
+        m->partner[data->contacts[i].mortar] != (uint64_t)data->contacts[i].mortar)
+      *same = PETSC_FALSE;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode AppFindMirrors(const SceneData *data, Forest forest, PetscBool mirror[3], PetscReal at[3])
+{
+  const CoarseMesh *mesh;
+  PetscReal         lo[3], hi[3];
+
+  PetscFunctionBegin;
+  PetscCall(ForestGetCoarse(forest, &mesh));
+  ForestCoarseBox(mesh, lo, hi);
+  for (PetscInt axis = 0; axis < 3; ++axis) {
+    Mirror m = {.axis = axis, .at = 0.5 * (lo[axis] + hi[axis])};
+
+    mirror[axis] = PETSC_FALSE;
+    at[axis]     = m.at;
+    if (axis >= mesh->dim || (data->mechanics.model == MODEL_AXISYMMETRIC && axis == 0)) continue;
+    for (PetscInt c = 0; c < mesh->dim; ++c) m.size = PetscMax(m.size, hi[c] - lo[c]);
+    PetscCall(Places_Private(forest, &m));
+    mirror[axis] = (PetscBool)(Images_Private(&m) && Partners_Private(&m, mesh->num_boundaries));
+    if (mirror[axis]) PetscCall(Boundaries_Private(&m, data, &mirror[axis]));
+    if (mirror[axis]) PetscCall(Bodies_Private(&m, data, &mirror[axis]));
+    PetscCall(PetscFree2(m.place, m.image));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

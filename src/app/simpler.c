@@ -1,0 +1,218 @@
+/* What a simpler model asks of the state found: how far contact slides, whether the supports of a body are a motion of it as a whole, how symmetric it is. */
+#include "appimpl.h"
+#include <cjson/cJSON.h>
+
+/* ---- contact ---------------------------------------------------------------------------------------------------------------------------- */
+
+/* Sums over the nodes of a side, weighted by the magnitude of the contact force: 0 weight, 1-3 displacement, 4-6 position, 7 its square, 8-10 force. */
+static void Side_Private(const SurfaceView *s, PetscReal sum[11])
+{
+  for (PetscInt n = 0; n < s->num_nodes; ++n) {
+    PetscReal weight = 0;
+    if (!s->owned[n]) continue;
+    for (PetscInt c = 0; c < s->dim; ++c) weight += PetscSqr(s->force[s->dim * n + c]);
+    weight = PetscSqrtReal(weight);
+    sum[0] += weight;
+    for (PetscInt c = 0; c < s->dim; ++c) {
+      const PetscReal x = s->x[s->dim * n + c];
+      sum[1 + c] += weight * (x - s->X[s->dim * n + c]);
+      sum[4 + c] += weight * x;
+      sum[7] += weight * x * x;
+      sum[8 + c] += s->force[s->dim * n + c];
+    }
+  }
+}
+
+/* Of the facets of a side, weighted by the contact force at their corners: 0 weight, 1 squared turn of the normal. */
+static void Normals_Private(const SurfaceView *s, PetscReal sum[2])
+{
+  for (PetscInt f = 0; f < s->num_facets; ++f) {
+    const PetscInt *corner = s->facets + s->corners * f;
+    PetscReal       N[3], n[3], weight = 0, turn2 = 0;
+
+    for (PetscInt k = 0; k < s->corners * s->dim; ++k) weight += PetscAbsReal(s->force[s->dim * corner[k / s->dim] + k % s->dim]);
+    if (!(weight > 0)) continue;
+    ContactFacetVector(s->dim, s->X, corner, N);
+    ContactFacetVector(s->dim, s->x, corner, n);
+    for (PetscInt c = 0; c < 3; ++c) turn2 += PetscSqr(n[c] / PetscSqrtReal(Dot3(n, n)) - N[c] / PetscSqrtReal(Dot3(N, N)));
+    sum[0] += weight;
+    sum[1] += weight * turn2;
+  }
+}
+
+/* Small kinematics leaves the pressure where it would be if the sides did not slide along each other. The gap of smooth surfaces is quadratic about the middle
+   of their zone, so what that changes goes with the square of the slide over the size of the zone. And it leaves the pressure's direction as it was. */
+PetscErrorCode AppContactTurn(const App *app, PetscInt pair, PetscReal *turn)
+{
+  const ContactView *v;
+  PetscReal          sum[2][11] = {{0}}, normals[2] = {0, 0}, slide[3], force = 0, normal = 0, size, tangent = 0;
+
+  PetscFunctionBegin;
+  *turn = 0;
+  PetscCall(InterfaceGetContact(ProblemInterface(app->level.problem), pair, &v));
+  Side_Private(&v->nonmortar, sum[0]);
+  Side_Private(&v->mortar, sum[1]);
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 22, MPIU_REAL, MPI_SUM, app->comm));
+  Normals_Private(&v->nonmortar, normals);
+  Normals_Private(&v->mortar, normals);
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, normals, 2, MPIU_REAL, MPI_SUM, app->comm));
+  if (normals[0] > 0) *turn = PetscSqrtReal(normals[1] / normals[0]);
+  if (!(sum[0][0] > 0) || !(sum[1][0] > 0)) PetscFunctionReturn(PETSC_SUCCESS);
+  size = sum[0][7] / sum[0][0];
+  for (PetscInt c = 0; c < 3; ++c) {
+    size -= PetscSqr(sum[0][4 + c] / sum[0][0]);
+    slide[c] = sum[0][1 + c] / sum[0][0] - sum[1][1 + c] / sum[1][0];
+    force += PetscSqr(sum[0][8 + c]);
+  }
+  if (force < 0.25 * PetscSqr(sum[0][0]) || !(size > 0)) PetscFunctionReturn(PETSC_SUCCESS); /* it goes round: there is no one direction to slide in */
+  for (PetscInt c = 0; c < 3; ++c) normal += slide[c] * sum[0][8 + c] / PetscSqrtReal(force);
+  for (PetscInt c = 0; c < 3; ++c) tangent += PetscSqr(slide[c] - normal * sum[0][8 + c] / PetscSqrtReal(force));
+  *turn = PetscMax(*turn, tangent / size);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- bodies ----------------------------------------------------------------------------------------------------------------------------- */
+
+/* Has the body a facet of the group? */
+static PetscBool Touches_Private(const ForestTables *t, PetscInt body, PetscInt group)
+{
+  for (PetscInt leaf = 0; leaf < t->num_leaves; ++leaf)
+    if (t->leaf_body[leaf] == body && ForestLeafTouches(t, leaf, UINT64_C(1) << group)) return PETSC_TRUE;
+  return PETSC_FALSE;
+}
+
+/* Does it face a rigid body in a pair? One side of each has to deform. */
+static PetscBool FacesRigid_Private(const App *app, const ForestTables *t, PetscInt body)
+{
+  const SceneData *data = app->data;
+
+  for (PetscInt i = 0; i < data->num_contacts; ++i) {
+    const PetscInt group[2] = {data->contacts[i].nonmortar, data->contacts[i].mortar};
+    for (PetscInt k = 0; k < 2; ++k) {
+      if (!Touches_Private(t, body, group[k])) continue;
+      for (PetscInt b = 0; b < data->mechanics.num_bodies; ++b)
+        if (data->mechanics.bodies[b].material->law->rigid && Touches_Private(t, b, group[1 - k])) return PETSC_TRUE;
+    }
+  }
+  return PETSC_FALSE;
+}
+
+PetscErrorCode AppRigidMotion(const App *app, PetscInt body, struct cJSON **motion, PetscBool *held)
+{
+  const MechanicsSpec *m        = &app->data->mechanics;
+  const PetscInt       dim      = m->model == MODEL_3D ? 3 : 2;
+  const BodySpec      *spec     = &m->bodies[body];
+  const char          *value[3] = {NULL, NULL, NULL};
+  const ForestTables  *t;
+
+  PetscFunctionBegin;
+  *motion = cJSON_CreateObject();
+  *held   = (PetscBool)(!spec->force[0] && !spec->force[1] && !spec->force[2]);
+  PetscCall(ForestGetTables(app->level.forest, &t));
+  if (FacesRigid_Private(app, t, body)) *held = PETSC_FALSE;
+  if (m->model == MODEL_AXISYMMETRIC) value[0] = "0";
+  for (PetscInt i = 0; i < m->num_boundaries && *held; ++i) {
+    const BoundarySpec *b = &m->boundaries[i];
+    if (!Touches_Private(t, body, b->group)) continue;
+    if (b->rotation || b->fix_normal || BoundaryHasPressure(b) || b->traction[0] || b->traction[1] || b->traction[2] || b->amplitude.num) *held = PETSC_FALSE;
+    for (PetscInt c = 0; c < dim; ++c) {
+      const char *here = b->fix[c] ? "0" : b->displacement[c] ? ExpressionText(b->displacement[c]) : NULL;
+      if (!here) continue;
+      if (b->displacement[c] && ExpressionUsesPlace(b->displacement[c])) *held = PETSC_FALSE;
+      if (value[c] && strcmp(value[c], here)) *held = PETSC_FALSE;
+      value[c] = here;
+    }
+  }
+  for (PetscInt c = 0; c < dim; ++c) {
+    const char axis[] = {(char)('x' + c), 0};
+    if (!value[c]) *held = PETSC_FALSE;
+    if (value[c] && strcmp(value[c], "0")) cJSON_AddStringToObject(*motion, axis, value[c]);
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- symmetry --------------------------------------------------------------------------------------------------------------------------- */
+
+typedef struct {
+  PetscReal X[3], u[3], key;
+} Corner;
+
+static int CompareKey_Private(const void *a, const void *b)
+{
+  const PetscReal x = ((const Corner *)a)->key, y = ((const Corner *)b)->key;
+  return (x > y) - (x < y);
+}
+
+/* Corners of this rank's cells with their displacements, by a key that mirror images share; *corner is the caller's. */
+static PetscErrorCode Corners_Private(const App *app, PetscInt axis, PetscInt *num, Corner **corner, PetscReal *largest)
+{
+  const PetscReal weight[3] = {0.618033988749895, 0.414213562373095, 0.732050807568877};
+  const HPTables *v;
+  HPSpace         space;
+  PetscReal      *local, *X, *u;
+  PetscInt        most = 1;
+
+  PetscFunctionBegin;
+  PetscCall(ProblemGetSpace(app->level.problem, &space));
+  PetscCall(HPSpaceGetTables(space, &v));
+  for (PetscInt c = 0; c < v->num_owned_cells; ++c) most = PetscMax(most, v->cell_order[c]);
+  most = ElementNumNodes(v->dim, most) * v->dim;
+  PetscCall(PetscMalloc3(v->num_nodes * v->dim, &local, most, &X, most, &u));
+  PetscCall(PetscMalloc1(v->num_owned_cells << v->dim, corner));
+  PetscCall(ProblemLocalDisplacement(app->level.problem, app->level.accepted.x, local));
+  *num = 0;
+  for (PetscInt c = 0; c < v->num_owned_cells; ++c) {
+    const PetscInt p = v->cell_order[c];
+    PetscCall(HPSpaceGatherPositions(space, c, X));
+    PetscCall(HPSpaceGather(space, c, local, u));
+    for (PetscInt k = 0; k < 1 << v->dim; ++k) {
+      const PetscInt node = p * ((k & 1) + (p + 1) * ((k >> 1 & 1) + (p + 1) * (k >> 2)));
+      Corner        *q    = &(*corner)[(*num)++];
+      *q                  = (Corner){.key = 0};
+      for (PetscInt d = 0; d < v->dim; ++d) {
+        q->X[d] = X[node * v->dim + d];
+        q->u[d] = u[node * v->dim + d];
+        q->key += weight[d] * (d == axis ? PetscAbsReal(q->X[d] - app->mirror_at[d]) : q->X[d]);
+        *largest = PetscMax(*largest, PetscAbsReal(q->u[d]));
+      }
+    }
+  }
+  PetscCall(PetscFree3(local, X, u));
+  qsort(*corner, (size_t)*num, sizeof(**corner), CompareKey_Private);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Do they mirror each other in place? Then *off: how far their displacements do not. */
+static PetscBool Mirrored_Private(const Corner *p, const Corner *q, PetscInt axis, PetscReal at, PetscReal least, PetscReal *off)
+{
+  for (PetscInt d = 0; d < 3; ++d)
+    if (PetscAbsReal((d == axis ? 2 * at - p->X[d] : p->X[d]) - q->X[d]) > least) return PETSC_FALSE;
+  *off = 0;
+  for (PetscInt d = 0; d < 3; ++d) *off = PetscMax(*off, PetscAbsReal((d == axis ? -1 : 1) * p->u[d] - q->u[d]));
+  return PETSC_TRUE;
+}
+
+PetscErrorCode AppAsymmetry(const App *app, PetscInt axis, PetscReal *off)
+{
+  const CoarseMesh *mesh;
+  PetscReal         lo[3], hi[3], size = 0, value[2] = {0, 0}; /* asymmetry, largest displacement */
+  PetscInt          num;
+  Corner           *corner;
+
+  PetscFunctionBegin;
+  PetscCall(ForestGetCoarse(app->level.forest, &mesh));
+  ForestCoarseBox(mesh, lo, hi);
+  for (PetscInt d = 0; d < mesh->dim; ++d) size = PetscMax(size, hi[d] - lo[d]);
+  PetscCall(Corners_Private(app, axis, &num, &corner, &value[1]));
+  for (PetscInt i = 0, first = 0; i < num; ++i) {
+    PetscReal best = PETSC_MAX_REAL, here; /* where bodies touch corners of several lie in one place */
+    while (corner[first].key < corner[i].key - 1e-7 * size) ++first;
+    for (PetscInt j = first; j < num && corner[j].key < corner[i].key + 1e-7 * size; ++j)
+      if (Mirrored_Private(&corner[i], &corner[j], axis, app->mirror_at[axis], 1e-7 * size, &here)) best = PetscMin(best, here);
+    if (best < PETSC_MAX_REAL) value[0] = PetscMax(value[0], best);
+  }
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, value, 2, MPIU_REAL, MPI_MAX, app->comm));
+  *off = value[1] > 0 ? value[0] / value[1] : 0;
+  PetscCall(PetscFree(corner));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

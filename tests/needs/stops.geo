@@ -1,0 +1,26 @@
+// A beam [0,60] x [0,4] between two stops, [50,60] x [-6,-1] below and [50,60] x [5,10] above it; what it does not reach is no part of it.
+DefineConstant[ n = 3 ];
+Point(1) = {0, 0, 0};   Point(2) = {60, 0, 0};  Point(3) = {60, 4, 0};  Point(4) = {0, 4, 0};
+Point(5) = {50, -6, 0}; Point(6) = {60, -6, 0}; Point(7) = {60, -1, 0}; Point(8) = {50, -1, 0};
+Point(9) = {50, 5, 0};  Point(10) = {60, 5, 0}; Point(11) = {60, 10, 0}; Point(12) = {50, 10, 0};
+Line(1) = {1, 2};  Line(2) = {2, 3};   Line(3) = {3, 4};    Line(4) = {4, 1};
+Line(5) = {5, 6};  Line(6) = {6, 7};   Line(7) = {7, 8};    Line(8) = {8, 5};
+Line(9) = {9, 10}; Line(10) = {10, 11}; Line(11) = {11, 12}; Line(12) = {12, 9};
+Curve Loop(1) = {1, 2, 3, 4};     Plane Surface(1) = {1};
+Curve Loop(2) = {5, 6, 7, 8};     Plane Surface(2) = {2};
+Curve Loop(3) = {9, 10, 11, 12};  Plane Surface(3) = {3};
+Transfinite Curve {1, 3} = 15 * n + 1;  Transfinite Curve {2, 4} = n + 1;
+Transfinite Curve {5:12} = 2 * n + 1;
+Transfinite Surface {1:3};
+Recombine Surface {1:3};
+Physical Surface("beam")  = {1};
+Physical Surface("below") = {2};
+Physical Surface("above") = {3};
+Physical Curve("root")      = {4};
+Physical Curve("end")       = {2};
+Physical Curve("underside") = {1};
+Physical Curve("upside")    = {3};
+Physical Curve("below_top") = {7};
+Physical Curve("above_bottom") = {9};
+Physical Curve("ground")    = {5};
+Physical Curve("roof")      = {11};
