@@ -103,6 +103,7 @@ typedef struct {
   const PetscReal *whole;  /* [num_rows] with tie: what the weight would be if the facet were covered whole */
   PetscReal        area;   /* covered length or area (axisymmetric: area) */
   PetscReal        min_gap;
+  PetscBool        ends; /* the mortar side ends within the facet */
 } ContactFacet;
 
 /* One segment, for output and estimation, by its corners in the parametric coordinates of both facets, [-1, 1] each. Two dimensions: num = 2, part [xi0, xi1]
@@ -202,7 +203,8 @@ PetscErrorCode ContactPairEvaluate(ContactPair, const ContactSurface *nonmortar,
    gaps and weights do not change, there are no Hessians. Where gaps are wide against facets that tells more than the derivative itself. Not collective. */
 PetscErrorCode ContactPairFreezeNormals(ContactPair, PetscBool frozen);
 /* Forces of facets in space that are covered in part are those of a frozen segmentation (`push`), without the motion of lines of the mortar side; from now on
-   those of all facets of higher order, or (as created) not. Gaps, weights and their derivatives do not change. Not collective. */
+   those of all facets of higher order, in the plane of those covered in part, or (as created) not. Gaps, weights and their derivatives do not change. Not
+   collective. */
 PetscErrorCode ContactPairFreezeSegmentation(ContactPair, PetscBool frozen);
 /* Friction. Tangential tractions traction[dim - 1][nonmortar num_nodes] of evaluations from now on, borrowed (NULL: none), on the mortar side, in the plane
    along the nonmortar facets, in space along the node's two axes, which turn with the body: results have `shear`, and Hessians the derivatives of those forces

@@ -91,7 +91,7 @@ PetscErrorCode InterfaceHoldsLines(Interface p, PetscBool *holds)
       for (PetscInt k = 0; k < e->num_rows && e->push; ++k) mine = (PetscBool)(mine || c->active[e->nodes[k]]);
     }
   }
-  if (p->dim == 3 && p->num_contacts) PetscCallMPI(MPI_Allreduce(&mine, holds, 1, COMPAT_MPI_BOOL, MPI_LOR, p->comm));
+  if (p->num_contacts) PetscCallMPI(MPI_Allreduce(&mine, holds, 1, COMPAT_MPI_BOOL, MPI_LOR, p->comm));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -100,7 +100,7 @@ static PetscBool Movable_Private(const Contact *c)
 {
   for (PetscInt f = 0; f < c->num_facets; ++f) {
     const ContactFacet *e = &c->facets[f];
-    if (e->push || c->side[0].order[e->facet] == 1) continue;
+    if (e->push || (c->side[0].dim == 2 ? !e->ends : c->side[0].order[e->facet] == 1)) continue;
     for (PetscInt k = 0; k < e->num_rows; ++k) {
       if (c->active[e->nodes[k]]) return PETSC_TRUE;
     }
@@ -114,8 +114,8 @@ PetscErrorCode InterfaceMayFreezeSegmentation(Interface p, PetscBool *yes)
 
   PetscFunctionBegin;
   *yes = PETSC_FALSE;
-  if (p->dim == 2 || p->spec->kinematics == KINEMATICS_SMALL) PetscFunctionReturn(PETSC_SUCCESS);
-  for (PetscInt i = 0; i < p->num_contacts && !mine; ++i) mine = (PetscBool)(p->contacts[i].side[0].order && Movable_Private(&p->contacts[i]));
+  if (p->spec->kinematics == KINEMATICS_SMALL) PetscFunctionReturn(PETSC_SUCCESS);
+  for (PetscInt i = 0; i < p->num_contacts && !mine; ++i) mine = (PetscBool)((p->dim == 2 || p->contacts[i].side[0].order) && Movable_Private(&p->contacts[i]));
   PetscCallMPI(MPI_Allreduce(&mine, yes, 1, COMPAT_MPI_BOOL, MPI_LOR, p->comm));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

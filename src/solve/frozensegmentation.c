@@ -1,5 +1,5 @@
-/* Modifier: where a crease of the mortar side comes to lie on a side of a nonmortar facet, derivatives of weighted gaps
-   jump (docs/theory.md, after (5.8)), and residuals come and go. From then on the segmentation is frozen in forces, which do
+/* Modifier: where a crease of the mortar side (in the plane: its end) comes to lie on a side of a nonmortar facet,
+   derivatives of weighted gaps jump (docs/theory.md, after (5.8)), and residuals come and go. From then on the segmentation is frozen in forces, which do
    not jump then; on: from the first iterate on. */
 #include "solveimpl.h"
 
@@ -11,12 +11,13 @@ static PetscErrorCode Begin_Private(Solver s)
   PetscFunctionBegin;
   s->last_norm = 0;
   s->last_set  = 0;
-  s->grew = s->fell = PETSC_FALSE;
+  s->grew = s->fell = s->shortened = PETSC_FALSE;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* Does the residual come and go with the same active set? Near the solution it should not grow at all, elsewhere not
-   after it has grown and fallen, if it is below that after the first iteration. */
+   after it has grown and fallen, if it is below that after the first iteration. A step that was too far would have made
+   it grow: it is shortened at the jump, again and again. */
 static PetscErrorCode ComesAndGoes_Private(Solver s, const Iterate *it, PetscBool *yes)
 {
   const PetscReal last = s->last_norm;
@@ -24,12 +25,14 @@ static PetscErrorCode ComesAndGoes_Private(Solver s, const Iterate *it, PetscBoo
 
   PetscFunctionBegin;
   PetscCall(ProblemPending(s->problem, &pending));
-  const PetscBool same = (PetscBool)(last > CLEAR * SolverTolerance_Private(s, &s->report->status) && it->set == s->last_set);
-  *yes                 = (PetscBool)(same && it->norm >= last && (last <= NEAR * s->report->status.scale || (s->fell && last < s->first_norm)));
-  s->grew              = (PetscBool)(s->grew || (same && it->norm >= last));
-  s->fell              = (PetscBool)(s->fell || (s->grew && it->norm < last));
-  s->last_norm         = pending == 0 ? it->norm : 0;
-  s->last_set          = it->set;
+  const PetscBool grows = (PetscBool)(it->norm >= last || s->shortened);
+  const PetscBool same  = (PetscBool)(last > CLEAR * SolverTolerance_Private(s, &s->report->status) && it->set == s->last_set);
+  *yes                  = (PetscBool)(same && grows && (last <= NEAR * s->report->status.scale || (s->fell && last < s->first_norm)));
+  s->grew               = (PetscBool)(s->grew || (same && grows));
+  s->fell               = (PetscBool)(s->fell || (s->grew && it->norm < last));
+  s->last_norm          = pending == 0 ? it->norm : 0;
+  s->last_set           = it->set;
+  s->shortened          = PETSC_FALSE;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -52,6 +52,7 @@ struct _p_Solver {
   PetscInt      best_iter;       /* … and its iteration */
   PetscReal     last_norm;       /* residual of the last iterate, 0: prescribed motion was left … */
   uint64_t      last_set;        /* … and its active set */
+  PetscBool     shortened;       /* was the last step too far (line search)? */
   PetscBool     grew, fell;      /* has the residual grown in this solve while the set stayed, and fallen since? */
   PetscInt      halvings;        /* steps shortened in this solve */
   PetscInt      negative;        /* pivots of the last factor of this solve beyond those of constraints, -1: not known */

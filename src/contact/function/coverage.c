@@ -179,6 +179,15 @@ static void LeaveOutReversed_Private(ContactPair pair, PetscInt facet)
   w->num_overlaps = kept;
 }
 
+/* Are lines of the mortar side held in the forces? In space where it ends within the facet, and creases where the
+   segmentation is frozen; in the plane, where creases are met exactly, ends where it is frozen. */
+static PetscBool Freezes_Private(const ContactPair pair, const RayWork w)
+{
+  if (pair->held) return PETSC_FALSE;
+  if (w->facet.D == 2) return (PetscBool)(w->ends && pair->frozen_segmentation);
+  return (PetscBool)(w->ends || (pair->frozen_segmentation && w->facet.s.order > 1));
+}
+
 PetscErrorCode ContactCover(ContactPair pair, const ContactSurface *nonmortar, const ContactSurface *mortar, PetscInt slot, PetscBool *failed)
 {
   RayWork        w       = pair->ray;
@@ -214,7 +223,8 @@ PetscErrorCode ContactCover(ContactPair pair, const ContactSurface *nonmortar, c
   if (pair->precedence) LeaveOutReversed_Private(pair, facet);
   if (pair->node_to_segment) ContactNodeHits(w);
   for (PetscInt k = 0; k < w->num_overlaps; k++) covered += w->overlap[k].area;
-  w->frozen = (PetscBool)(f->D == 3 && !pair->held && ((pair->frozen_segmentation && f->s.order > 1) || covered < (1 - FACET_ON) * f->area));
+  w->ends   = (PetscBool)(covered < (1 - FACET_ON) * f->area);
+  w->frozen = Freezes_Private(pair, w);
   PetscCall(Nodes_Private(w, mortar));
   w->n = f->D * (f->s.num + f->nv + w->num_mortar) + f->m * w->num_images;
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -307,6 +307,7 @@ static PetscErrorCode Values_Private(RayWork w, ContactFacet *out)
   out->reach   = w->facet.s.order == 1 ? reach : NULL; /* curved facets turn with their directions: a gap of 1 along the normal counts as its area */
   out->area    = w->covered;
   out->min_gap = w->min_gap;
+  out->ends    = w->ends;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -164,6 +164,7 @@ struct _p_RayWork {
   Overlap     *overlap;
   PetscInt    *mortar; /* [num_overlaps] mortar facet */
   PetscInt    *vertex; /* [num_mortar] mortar nodes */
+  PetscBool    ends;   /* the mortar side covers it in part */
   PetscBool    frozen; /* forces without the motion of the mortar side's lines */
   PetscInt     n, nn, num_moments;
   PetscReal    q[RAY_MOMENTS], reach[RAY_LATTICE], covered, min_gap; /* reach: moments of a gap of 1 along unit directions */
