@@ -14,7 +14,8 @@
 #include "solveimpl.h"
 
 struct _p_Saddle {
-  Problem   problem; /* borrowed */
+  Problem       problem; /* borrowed */
+  MultigridKind kind;
   KSP       ksp;
   Multigrid multigrid;
   IS        is_u, is_z;
@@ -120,7 +121,7 @@ static PetscErrorCode Create_Private(Saddle s, Mat A)
   PetscCall(PCShellSetContext(pc, s));
   PetscCall(PCShellSetApply(pc, Precondition_Private));
   PetscCall(KSPSetFromOptions(s->ksp));
-  PetscCall(MultigridCreate_Private(s->problem, &s->multigrid));
+  PetscCall(MultigridCreate_Private(s->problem, s->kind, &s->multigrid));
   PetscCall(VecDestroy(&x));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -249,11 +250,12 @@ static PetscErrorCode Augment_Private(Saddle s)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SaddleCreate_Private(Problem problem, Saddle *saddle)
+PetscErrorCode SaddleCreate_Private(Problem problem, MultigridKind kind, Saddle *saddle)
 {
   PetscFunctionBegin;
   PetscCall(PetscNew(saddle));
   (*saddle)->problem = problem;
+  (*saddle)->kind    = kind;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
