@@ -1,4 +1,5 @@
-/* The displacement for PETSc's own tools, at the end of a run: a vector on the leaf DM with a PetscFE of the highest order, through the viewers that PETSc has. */
+/* The displacement for PETSc's own tools, at the end of a run: a vector on the leaf DM with a PetscFE of the highest order, through the viewers that PETSc has.
+ */
 #include "appimpl.h"
 #include <petscdmplex.h>
 

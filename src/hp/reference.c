@@ -1,5 +1,5 @@
-/* The space for PETSc's own tools: the leaf DM with a PetscFE of the highest order, and a field of the space in it. A cell of lower order, and one that hangs, is
-   a polynomial of the highest order too: it is evaluated at the element's nodes, so that nothing is lost and hanging nodes are filled. */
+/* The space for PETSc's own tools: the leaf DM with a PetscFE of the highest order, and a field of the space in it. A cell of lower order, and one that hangs,
+   is a polynomial of the highest order too: it is evaluated at the element's nodes, so that nothing is lost and hanging nodes are filled. */
 #include "hpimpl.h"
 #include <petscds.h>
 #include <petscfe.h>

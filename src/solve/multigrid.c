@@ -1,6 +1,6 @@
 /* Multigrid for the displacement block. The space of order 1 on the same mesh, in whole blocks of a vertex, has the Galerkin matrix P^T A P with ones for
-   prescribed components; it is treated by smoothed aggregation with the rigid-body modes, by hypre's BoomerAMG, or factorised when it is small. Cells of higher order have one
-   level above it, with a symmetric sweep of Gauss-Seidel before and after; cells of order 1 need none, P only completes the blocks. */
+   prescribed components; it is treated by smoothed aggregation with the rigid-body modes, by hypre's BoomerAMG, or factorised when it is small. Cells of higher
+   order have one level above it, with a symmetric sweep of Gauss-Seidel before and after; cells of order 1 need none, P only completes the blocks. */
 #include "solveimpl.h"
 
 #define SMALL 20000 /* unknowns of order 1 below which a factorisation is cheaper than a hierarchy */
@@ -8,14 +8,14 @@
 struct _p_Multigrid {
   KSP          coarse, smoother; /* smoother NULL: order 1 */
   Mat          A, P, pinned, A1; /* A borrowed */
-  MatNullSpace modes; /* near null space of A1 */
-  Vec          x1, y1, r, y; /* y: a second sweep's correction */
+  MatNullSpace modes;            /* near null space of A1 */
+  Vec          x1, y1, r, y;     /* y: a second sweep's correction */
 };
 
 /* BoomerAMG for elasticity: vertices are coarsened in whole (nodal), rotations are interpolated beside the components themselves (GM-2 of Baker, Kolev & Yang,
    2010). That they are kept is what slender bodies need, and that interpolation is short (ext+i, four entries a row) what its coarse matrices need. */
-static const char *const BoomerAMG[][2] = {{"nodal_coarsen", "1"},  {"vec_interp_variant", "2"}, {"coarsen_type", "HMIS"},
-                                           {"interp_type", "ext+i"}, {"P_max", "4"}};
+static const char *const BoomerAMG[][2] = {
+    {"nodal_coarsen", "1"}, {"vec_interp_variant", "2"}, {"coarsen_type", "HMIS"}, {"interp_type", "ext+i"}, {"P_max", "4"}};
 
 #define PREFIX "-multigrid_pc_hypre_boomeramg_"
 
@@ -63,7 +63,10 @@ static PetscErrorCode CheckForeign_Private(MultigridKind kind)
     if (!strncmp(names[i], foreign, strlen(foreign))) PetscCall(PetscStrncpy(found, names[i], sizeof(found)));
   PetscCall(PetscOptionsLeftRestore(NULL, &num, &names, &values));
   PetscCheckInput(!found[0], "-%s cannot act with -solve_multigrid %s; allowed with %s", found,
-                  kind == MULTIGRID_BOOMERAMG ? "boomeramg" : kind == MULTIGRID_GAMG ? "gamg" : "auto", kind == MULTIGRID_BOOMERAMG ? "gamg" : "boomeramg");
+                  kind == MULTIGRID_BOOMERAMG ? "boomeramg"
+                  : kind == MULTIGRID_GAMG    ? "gamg"
+                                              : "auto",
+                  kind == MULTIGRID_BOOMERAMG ? "gamg" : "boomeramg");
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

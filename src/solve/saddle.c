@@ -16,13 +16,13 @@
 struct _p_Saddle {
   Problem       problem; /* borrowed */
   MultigridKind kind;
-  KSP       ksp;
-  Multigrid multigrid;
-  IS        is_u, is_z;
-  Mat       K, B, C, F; /* blocks of the last tangent; K with the augmentation B^T G B; F NULL: B^T */
-  Mat       operator;
-  Vec       G, S, scale, work_u, work_z, rhs; /* scale: of the rows of multipliers, to forces */
-  PetscInt  iterations, first;                /* of the last solve, of the first one with this hierarchy (0: none yet) */
+  KSP           ksp;
+  Multigrid     multigrid;
+  IS            is_u, is_z;
+  Mat           K, B, C, F; /* blocks of the last tangent; K with the augmentation B^T G B; F NULL: B^T */
+  Mat           operator;
+  Vec           G, S, scale, work_u, work_z, rhs; /* scale: of the rows of multipliers, to forces */
+  PetscInt      iterations, first;                /* of the last solve, of the first one with this hierarchy (0: none yet) */
 };
 
 static PetscErrorCode Blocks_Private(Saddle s, Vec x, Vec *u, Vec *z)

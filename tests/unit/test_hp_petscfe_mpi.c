@@ -1,5 +1,5 @@
-/* A field of the space in PETSc's own finite elements: what DMInterpolation makes of it is what the space's own functions say. Random distorted cells with random
-   axes, hanging nodes, one order 1..4 and orders mixed, in the plane and in space. */
+/* A field of the space in PETSc's own finite elements: what DMInterpolation makes of it is what the space's own functions say. Random distorted cells with
+   random axes, hanging nodes, one order 1..4 and orders mixed, in the plane and in space. */
 #include "bulkfixture.h"
 #include <petscds.h>
 #include <petscsnes.h>

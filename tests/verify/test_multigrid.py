@@ -4,7 +4,8 @@ import re
 import numpy as np
 import pytest
 
-BALL = ("inputs/hertz3d.yml", "-adapt_tolerance", 0.2, "-output_fields", "false")
+BALL = ("inputs/hertz3d.yml", "-output_fields", "false")
+TOLERANCE = {1: 0.3, 2: 0.15}  # by order: so that nodes hang
 
 
 @pytest.fixture
@@ -16,8 +17,9 @@ def hypre(run):
 @pytest.mark.parametrize("order, ranks", [(1, 1), (1, 3), (2, 2)])
 def test_boomeramg(run, hypre, order, ranks):
     """Hanging nodes and contact, on several processes: nodal coarsening and rotations act, and the result is the factors'."""
-    direct = run(*BALL, "-order", order, "-solve_linear", "direct", ranks=ranks)
-    multigrid = run(*BALL, "-order", order, "-solve_linear", "iterative", "-solve_multigrid", "boomeramg", "-multigrid_ksp_view", "-info", ":ksp,snes", ranks=ranks)
+    direct = run(*BALL, "-order", order, "-adapt_tolerance", TOLERANCE[order], "-solve_linear", "direct")
+    multigrid = run(*BALL, "-order", order, "-adapt_tolerance", TOLERANCE[order], "-solve_linear", "iterative", "-solve_multigrid", "boomeramg", "-multigrid_ksp_view",
+                    "-info", ":ksp,snes", ranks=ranks)
     assert direct.solved and multigrid.solved, (direct, multigrid)
     for words in ("HYPRE BoomerAMG preconditioning", "Using nodal coarsening", "HYPRE_BoomerAMGSetInterpVecVariant() 2", "HMIS", "ext+i"):
         assert words in multigrid.stdout
@@ -55,7 +57,7 @@ def test_solution_view(run, tmp_path):
     """Vertices and their displacements in PETSc's own file, hanging ones as well, on one process and on three: those of fields.xdmf."""
     for ranks in (1, 3):
         file = tmp_path / f"{ranks}.vtu"
-        result = run("inputs/hertz3d.yml", "-adapt_tolerance", 0.2, "-order", 1, "-solution_view", f"vtk:{file}", ranks=ranks)
+        result = run("inputs/hertz3d.yml", "-adapt_tolerance", 0.3, "-order", 1, "-solution_view", f"vtk:{file}", ranks=ranks)
         assert result.solved, result
         state = result.states()[-1][1]
         ours = np.concatenate([state["X"], state["displacement"]], axis=1)
