@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 BALL = ("inputs/hertz3d.yml", "-output_fields", "false")
-TOLERANCE = {1: 0.3, 2: 0.15}  # by order: so that nodes hang
+TOLERANCE = {1: 0.35, 2: 0.15}  # by order: so that nodes hang
 
 
 @pytest.fixture
@@ -14,21 +14,22 @@ def hypre(run):
         pytest.skip("this PETSc has no hypre")
 
 
-@pytest.mark.parametrize("order, ranks", [(1, 1), (1, 3), (2, 2)])
-def test_boomeramg(run, hypre, order, ranks):
+@pytest.mark.parametrize("order, processes", [(1, [2]), (2, [1, 3])])
+def test_boomeramg(run, hypre, order, processes):
     """Hanging nodes and contact, on several processes: nodal coarsening and rotations act, and the result is the factors'."""
-    direct = run(*BALL, "-order", order, "-adapt_tolerance", TOLERANCE[order], "-solve_linear", "direct")
-    multigrid = run(*BALL, "-order", order, "-adapt_tolerance", TOLERANCE[order], "-solve_linear", "iterative", "-solve_multigrid", "boomeramg", "-multigrid_ksp_view",
-                    "-info", ":ksp,snes", ranks=ranks)
-    assert direct.solved and multigrid.solved, (direct, multigrid)
-    for words in ("HYPRE BoomerAMG preconditioning", "Using nodal coarsening", "HYPRE_BoomerAMGSetInterpVecVariant() 2", "HMIS", "ext+i"):
-        assert words in multigrid.stdout
-    a, b = direct.summary, multigrid.summary
-    of_gmres = [int(number) for number in re.findall(r"(\d+) iterations of GMRES", multigrid.stdout)]
-    assert np.median(of_gmres) < 60 and "multigrid failed" not in multigrid.stdout
-    assert b["factorisations"] == 0 < a["factorisations"] and b["cells"] == a["cells"] and b["newton_iterations"] <= a["newton_iterations"] + 1
-    assert b["energy"] == pytest.approx(a["energy"], rel=1e-8)
-    assert b["contact"]["ball_on_block"]["force"] == pytest.approx(a["contact"]["ball_on_block"]["force"], rel=1e-7, abs=1e-10)
+    scene = (*BALL, "-order", order, "-adapt_tolerance", TOLERANCE[order], "-info", ":ksp,snes", "-multigrid_ksp_view")
+    direct = run(*scene, "-solve_linear", "direct")
+    for ranks in processes:
+        multigrid = run(*scene, "-solve_linear", "iterative", "-solve_multigrid", "boomeramg", ranks=ranks)
+        assert direct.solved and multigrid.solved, (direct, multigrid)
+        for words in ("HYPRE BoomerAMG preconditioning", "Using nodal coarsening", "HYPRE_BoomerAMGSetInterpVecVariant() 2", "HMIS", "ext+i"):
+            assert words in multigrid.stdout
+        a, b = direct.summary, multigrid.summary
+        of_gmres = [int(number) for number in re.findall(r"(\d+) iterations of GMRES", multigrid.stdout)]
+        assert np.median(of_gmres) < 60 and "multigrid failed" not in multigrid.stdout
+        assert b["factorisations"] == 0 < a["factorisations"] and b["cells"] == a["cells"] and b["newton_iterations"] <= a["newton_iterations"] + 1
+        assert b["energy"] == pytest.approx(a["energy"], rel=1e-8)
+        assert b["contact"]["ball_on_block"]["force"] == pytest.approx(a["contact"]["ball_on_block"]["force"], rel=1e-7, abs=1e-10)
 
 
 @pytest.mark.parametrize("options, words", [
@@ -38,9 +39,8 @@ def test_boomeramg(run, hypre, order, ranks):
     (("-solution_view", "draw"), "-solution_view is 'draw'; allowed: vtk:FILE.vtu|hdf5:FILE|binary:FILE"),
 ])
 def test_refused(run, options, words):
-    for check in ((), ("-check",)):
-        result = run("inputs/blocks3d.yml", *options, *check)
-        assert result.returncode == 1 and words in result.stderr and result.stderr.count("\n") == 1, result
+    result = run("inputs/blocks3d.yml", *options)
+    assert result.returncode == 1 and words in result.stderr and result.stderr.count("\n") == 1 and not result.stdout, result
 
 
 def appended(path, name):
@@ -57,7 +57,7 @@ def test_solution_view(run, tmp_path):
     """Vertices and their displacements in PETSc's own file, hanging ones as well, on one process and on three: those of fields.xdmf."""
     for ranks in (1, 3):
         file = tmp_path / f"{ranks}.vtu"
-        result = run("inputs/hertz3d.yml", "-adapt_tolerance", 0.3, "-order", 1, "-solution_view", f"vtk:{file}", ranks=ranks)
+        result = run("inputs/hertz3d.yml", "-adapt_tolerance", 0.35, "-order", 1, "-solution_view", f"vtk:{file}", ranks=ranks)
         assert result.solved, result
         state = result.states()[-1][1]
         ours = np.concatenate([state["X"], state["displacement"]], axis=1)
