@@ -12,6 +12,7 @@ struct _p_Multigrid {
   Vec          x1, y1, r, y;     /* y: a second sweep's correction */
 };
 
+#if defined(PETSC_HAVE_HYPRE)
 /* BoomerAMG for elasticity: vertices are coarsened in whole (nodal), rotations are interpolated beside the components themselves (GM-2 of Baker, Kolev & Yang,
    2010). That they are kept is what slender bodies need, and that interpolation is short (ext+i, four entries a row) what its coarse matrices need. */
 static const char *const BoomerAMG[][2] = {
@@ -22,7 +23,6 @@ static const char *const BoomerAMG[][2] = {
 /* Through the options: PETSc has no functions for them. Those that the user gave stay. */
 static PetscErrorCode BoomerAMG_Private(Multigrid m, PC pc)
 {
-#if defined(PETSC_HAVE_HYPRE)
   PetscBool  constant;
   const Vec *mode;
   PetscInt   num, dim;
@@ -45,10 +45,13 @@ static PetscErrorCode BoomerAMG_Private(Multigrid m, PC pc)
   PetscCall(MatNullSpaceDestroy(&m->modes));
   m->modes = rotations;
   PetscFunctionReturn(PETSC_SUCCESS);
-#else
-  return PETSC_SUCCESS; /* refused by MultigridCheck_Private */
-#endif
 }
+#else
+static PetscErrorCode BoomerAMG_Private(Multigrid m, PC pc)
+{
+  return PETSC_SUCCESS; /* refused by MultigridCheck_Private */
+}
+#endif
 
 /* Options of PETSc for a multigrid method that is not in use. */
 static PetscErrorCode CheckForeign_Private(MultigridKind kind)
