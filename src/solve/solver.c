@@ -2,7 +2,7 @@
 #include "solveimpl.h"
 
 /* Unknowns from which multigrid is faster than a factorisation, cells of order 1 and above. */
-#define MANY 50000
+#define MANY 100000
 #define MANY_HIGHER 150000
 
 /* Orders from which condensation pays (docs/results.md). */
