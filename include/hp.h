@@ -75,6 +75,11 @@ PetscErrorCode HPSpacePieces(HPSpace, PetscInt divide, PetscInt pieces[MORTISE_M
    equispaced lattice, [..][dim]. They are those of the polynomials, except on entities that are cut into fewer pieces or hang: what is drawn of neighbours
    meets everywhere (lattice.c). Not collective. */
 PetscErrorCode HPSpaceLattice(HPSpace, PetscInt cell, const PetscInt pieces[], const PetscReal local[], PetscReal X[], PetscReal values[]);
+/* The leaf DM with a PetscFE of the highest order of any cell as its one field, for PETSc's own tools; cells have straight sides there. The caller destroys it.
+   Collective. */
+PetscErrorCode HPSpaceCreateFE(HPSpace, const char *field, DM *);
+/* The same field in it: a local vector of that DM (its ghost cells included) from a local array of true dofs. Not collective. */
+PetscErrorCode HPSpaceToFE(HPSpace, const PetscReal local[], DM, Vec);
 /* Add P^T r to the local array (true dofs). */
 PetscErrorCode HPSpaceScatterAdd(HPSpace, PetscInt cell, const PetscReal r[], PetscReal local[]);
 /* K_m = P^T K P: true dofs of the cell, in order masters x components (frames applied); work at least (n*dim)^2. dofs: local dof indices [n_m*dim]. */

@@ -158,6 +158,11 @@ PetscErrorCode AppAsymmetry(const App *, PetscInt axis, PetscReal *off);
    Collective. */
 PetscErrorCode AppFindPrism(const App *, PetscInt axis, PetscReal strain, PetscInt *layers, PetscReal *change);
 
+/* handover.c. -solution_view: the last accepted displacement through a viewer of PETSc; an input error where the option names none of these. Collective. */
+#define APP_SOLUTION_VIEW "vtk:FILE.vtu|hdf5:FILE|binary:FILE"
+PetscErrorCode AppCheckHandOver(void);
+PetscErrorCode AppHandOver(App *);
+
 /* summary.c. What the run took so far. Not collective. */
 ReportRow AppTotal(const App *);
 /* Write summary.json, of the last accepted state. Collective. */

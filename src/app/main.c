@@ -72,6 +72,7 @@ static PetscErrorCode Summarise_Private(App *app)
   const ReportRow total = AppTotal(app);
   PetscCall(MonitorFooter(app->monitor, status, reason, app->adapt_stop, app->written, &total, app->load_steps ? &app->last : NULL));
   PetscCall(AppAdvise(app));
+  PetscCall(AppHandOver(app));
   PetscCall(AppKeepLast(app));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

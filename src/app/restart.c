@@ -47,6 +47,7 @@ static const struct {
      "go on from a checkpoint of this scene, on any number of processes; " AUTO ": from " CHECKPOINT_FILE
      " in output.directory, from t = 0 when there is none"},
     {"-max_seconds", "a number above 0", "stop after this much wall time: a checkpoint, a summary, exit status 3"},
+    {"-solution_view", APP_SOLUTION_VIEW, "at the end, the displacement through a viewer of PETSc, on the leaf mesh with a PetscFE of the highest order"},
 };
 
 PetscErrorCode AppPrintHelp(MPI_Comm comm)
@@ -87,6 +88,7 @@ PetscErrorCode AppOptions(App *app)
   if (set) seconds = (PetscReal)strtod(text, &end);
   PetscCheckInput(!set || (end != text && !*end && seconds > 0), "%s is '%s'; allowed: %s", Options[1].name, text, Options[1].allowed);
   PetscCall(StopWatch(seconds));
+  PetscCall(AppCheckHandOver());
   PetscCall(PetscOptionsGetString(NULL, NULL, Options[0].name, app->restart, sizeof(app->restart), &set));
   PetscCheckInput(!set || app->restart[0], "%s needs a file, or %s", Options[0].name, AUTO);
   PetscCall(PetscSNPrintf(app->checkpoint, sizeof(app->checkpoint), "%s/" CHECKPOINT_FILE, app->data->output.directory));

@@ -21,7 +21,7 @@ static PetscBool IsPetsc_Private(const char *name)
 /* Of keys of the scene, options of the solver and of the run. */
 static PetscErrorCode Nearest_Private(Scene scene, const char *name, size_t capacity, char nearest[])
 {
-  const char *candidate[] = {NULL, SolverNearestOption(name), "restart", "max_seconds", "check", "help", "list", "options_file"};
+  const char *candidate[] = {NULL, SolverNearestOption(name), "restart", "max_seconds", "solution_view", "check", "help", "list", "options_file"};
   char        key[256];
 
   PetscFunctionBegin;

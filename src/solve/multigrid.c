@@ -1,6 +1,6 @@
 /* Multigrid for the displacement block. The space of order 1 on the same mesh, in whole blocks of a vertex, has the Galerkin matrix P^T A P with ones for
-   prescribed components; it is treated by smoothed aggregation with the rigid-body modes, or factorised when it is small. Cells of higher order have one
-   level above it, with a symmetric sweep of Gauss-Seidel before and after; cells of order 1 need none, P only completes the blocks. */
+   prescribed components; it is treated by smoothed aggregation with the rigid-body modes, by hypre's BoomerAMG, or factorised when it is small. Cells of higher
+   order have one level above it, with a symmetric sweep of Gauss-Seidel before and after; cells of order 1 need none, P only completes the blocks. */
 #include "solveimpl.h"
 
 #define SMALL 20000 /* unknowns of order 1 below which a factorisation is cheaper than a hierarchy */
@@ -8,11 +8,88 @@
 struct _p_Multigrid {
   KSP          coarse, smoother; /* smoother NULL: order 1 */
   Mat          A, P, pinned, A1; /* A borrowed */
-  MatNullSpace modes;
-  Vec          x1, y1, r, y; /* y: a second sweep's correction */
+  MatNullSpace modes;            /* near null space of A1 */
+  Vec          x1, y1, r, y;     /* y: a second sweep's correction */
 };
 
-static PetscErrorCode Coarse_Private(Multigrid m)
+#if defined(PETSC_HAVE_HYPRE)
+/* BoomerAMG for elasticity: vertices are coarsened in whole (nodal), rotations are interpolated beside the components themselves (GM-2 of Baker, Kolev & Yang,
+   2010). That they are kept is what slender bodies need, and that interpolation is short (ext+i, four entries a row) what its coarse matrices need. */
+static const char *const BoomerAMG[][2] = {
+    {"nodal_coarsen", "1"}, {"vec_interp_variant", "2"}, {"coarsen_type", "HMIS"}, {"interp_type", "ext+i"}, {"P_max", "4"}};
+
+#define PREFIX "-multigrid_pc_hypre_boomeramg_"
+
+/* Through the options: PETSc has no functions for them. Those that the user gave stay. */
+static PetscErrorCode BoomerAMG_Private(Multigrid m, PC pc)
+{
+  PetscBool  constant;
+  const Vec *mode;
+  PetscInt   num, dim;
+
+  PetscFunctionBegin;
+  PetscCall(PCSetType(pc, PCHYPRE));
+  PetscCall(PCHYPRESetType(pc, "boomeramg"));
+  for (size_t i = 0; i < PETSC_STATIC_ARRAY_LENGTH(BoomerAMG); ++i) {
+    char      name[64];
+    PetscBool set;
+    PetscCall(PetscSNPrintf(name, sizeof(name), PREFIX "%s", BoomerAMG[i][0]));
+    PetscCall(PetscOptionsHasName(NULL, NULL, name, &set));
+    if (!set) PetscCall(PetscOptionsSetValue(NULL, name, BoomerAMG[i][1]));
+  }
+  /* translations are there already, and would spoil the interpolation if given again */
+  PetscCall(MatNullSpaceGetVecs(m->modes, &constant, &num, &mode));
+  PetscCall(MatGetBlockSizes(m->P, NULL, &dim));
+  MatNullSpace rotations;
+  PetscCall(MatNullSpaceCreate(PetscObjectComm((PetscObject)pc), PETSC_FALSE, num - dim, mode + dim, &rotations));
+  PetscCall(MatNullSpaceDestroy(&m->modes));
+  m->modes = rotations;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+#else
+static PetscErrorCode BoomerAMG_Private(Multigrid m, PC pc)
+{
+  return PETSC_SUCCESS; /* refused by MultigridCheck_Private */
+}
+#endif
+
+/* Options of PETSc for a multigrid method that is not in use. */
+static PetscErrorCode CheckForeign_Private(MultigridKind kind)
+{
+  const char *const foreign = kind == MULTIGRID_BOOMERAMG ? "multigrid_pc_gamg_" : "multigrid_pc_hypre_";
+  char            **names, **values, found[128] = "";
+  PetscInt          num;
+
+  PetscFunctionBegin;
+  PetscCall(PetscOptionsLeftGet(NULL, &num, &names, &values));
+  for (PetscInt i = 0; i < num; ++i)
+    if (!strncmp(names[i], foreign, strlen(foreign))) PetscCall(PetscStrncpy(found, names[i], sizeof(found)));
+  PetscCall(PetscOptionsLeftRestore(NULL, &num, &names, &values));
+  PetscCheckInput(!found[0], "-%s cannot act with -solve_multigrid %s; allowed with %s", found,
+                  kind == MULTIGRID_BOOMERAMG ? "boomeramg"
+                  : kind == MULTIGRID_GAMG    ? "gamg"
+                                              : "auto",
+                  kind == MULTIGRID_BOOMERAMG ? "gamg" : "boomeramg");
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode MultigridCheck_Private(MultigridKind kind, LinearKind linear)
+{
+  PetscBool type;
+
+  PetscFunctionBegin;
+  PetscCheckInput(kind == MULTIGRID_AUTO || linear != LINEAR_DIRECT, "-solve_multigrid %s cannot act with -solve_linear direct; take iterative or auto",
+                  kind == MULTIGRID_GAMG ? "gamg" : "boomeramg");
+#if !defined(PETSC_HAVE_HYPRE)
+  PetscCheckInput(kind != MULTIGRID_BOOMERAMG, "-solve_multigrid boomeramg: this PETSc was built without hypre; take gamg");
+#endif
+  PetscCall(PetscOptionsHasName(NULL, NULL, "-multigrid_pc_type", &type));
+  PetscCheckInput(kind == MULTIGRID_AUTO || !type, "-solve_multigrid and -multigrid_pc_type exclude each other; give one of them");
+  if (!type) PetscCall(CheckForeign_Private(kind));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode Coarse_Private(Multigrid m, MultigridKind kind)
 {
   PetscInt size;
   PC       pc;
@@ -23,7 +100,9 @@ static PetscErrorCode Coarse_Private(Multigrid m)
   PetscCall(KSPSetType(m->coarse, KSPPREONLY));
   PetscCall(KSPGetPC(m->coarse, &pc));
   PetscCall(MatGetSize(m->P, NULL, &size));
-  if (!m->smoother || size > SMALL)
+  if (kind == MULTIGRID_BOOMERAMG)
+    PetscCall(BoomerAMG_Private(m, pc));
+  else if (kind == MULTIGRID_GAMG || !m->smoother || size > SMALL)
     PetscCall(PCSetType(pc, PCGAMG));
   else {
     PetscCall(PCSetType(pc, PCCHOLESKY));
@@ -52,7 +131,7 @@ static PetscErrorCode Smoother_Private(Multigrid m)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode MultigridCreate_Private(Problem problem, Multigrid *multigrid)
+PetscErrorCode MultigridCreate_Private(Problem problem, MultigridKind kind, Multigrid *multigrid)
 {
   Multigrid m;
   PetscBool higher;
@@ -61,7 +140,7 @@ PetscErrorCode MultigridCreate_Private(Problem problem, Multigrid *multigrid)
   PetscCall(PetscNew(&m));
   PetscCall(ProblemProlongation(problem, &m->P, &m->pinned, &m->modes, &higher));
   if (higher) PetscCall(Smoother_Private(m));
-  PetscCall(Coarse_Private(m));
+  PetscCall(Coarse_Private(m, kind));
   PetscCall(MatCreateVecs(m->P, &m->x1, &m->r));
   PetscCall(VecDuplicate(m->x1, &m->y1));
   PetscCall(VecDuplicate(m->r, &m->y));

@@ -26,6 +26,8 @@ static const SolverOption Options[] = {
     {"-solve_symmetric", KIND_BOOL, "0|1|false|true|no|yes", AT(symmetric),
      "LDL^T of the tangent's symmetric form, or LU of the exact one; default: where possible"},
     {"-solve_linear", KIND_CHOICE, "auto|direct|iterative", AT(linear), "factorisation, or multigrid and GMRES; default auto: by size"},
+    {"-solve_multigrid", KIND_CHOICE, "auto|gamg|boomeramg", AT(multigrid),
+     "where multigrid is taken: PETSc's smoothed aggregation, or hypre's BoomerAMG; default auto: gamg, or a factor of order 1 where that is small"},
     {"-solve_linear_rtol", KIND_REAL, NUMBER, AT(linear_rtol), "least residual of GMRES against the right-hand side; default 1e-9"},
     {"-solve_factor", KIND_CHOICE, "auto|single|double", AT(factor), "precision of factors; GMRES in double refines single ones; default auto: by size"},
     {"-solve_condense", KIND_CHOICE, "auto|yes|no", AT(condense), "eliminate the unknowns inside each cell before the linear solver; default auto: by order"},
@@ -151,6 +153,7 @@ PetscErrorCode SolverCheckOptions(void)
 
   PetscFunctionBegin;
   PetscCall(SolverOptions_Private(&nobody));
+  PetscCall(MultigridCheck_Private(nobody.multigrid, nobody.linear));
   PetscCall(PetscOptionsLeftGet(NULL, &num, &names, &values)); /* those of the table are asked for by now */
   for (PetscInt i = num - 1; i >= 0; --i) {
     const PetscBool ours = (PetscBool)(!strncmp(names[i], "solve_", 6) || !strncmp(names[i], "newton_", 7)), snes = (PetscBool)!strncmp(names[i], "snes_", 5);

@@ -14,14 +14,15 @@
 #include "solveimpl.h"
 
 struct _p_Saddle {
-  Problem   problem; /* borrowed */
-  KSP       ksp;
-  Multigrid multigrid;
-  IS        is_u, is_z;
-  Mat       K, B, C, F; /* blocks of the last tangent; K with the augmentation B^T G B; F NULL: B^T */
-  Mat       operator;
-  Vec       G, S, scale, work_u, work_z, rhs; /* scale: of the rows of multipliers, to forces */
-  PetscInt  iterations, first;                /* of the last solve, of the first one with this hierarchy (0: none yet) */
+  Problem       problem; /* borrowed */
+  MultigridKind kind;
+  KSP           ksp;
+  Multigrid     multigrid;
+  IS            is_u, is_z;
+  Mat           K, B, C, F; /* blocks of the last tangent; K with the augmentation B^T G B; F NULL: B^T */
+  Mat           operator;
+  Vec           G, S, scale, work_u, work_z, rhs; /* scale: of the rows of multipliers, to forces */
+  PetscInt      iterations, first;                /* of the last solve, of the first one with this hierarchy (0: none yet) */
 };
 
 static PetscErrorCode Blocks_Private(Saddle s, Vec x, Vec *u, Vec *z)
@@ -120,7 +121,7 @@ static PetscErrorCode Create_Private(Saddle s, Mat A)
   PetscCall(PCShellSetContext(pc, s));
   PetscCall(PCShellSetApply(pc, Precondition_Private));
   PetscCall(KSPSetFromOptions(s->ksp));
-  PetscCall(MultigridCreate_Private(s->problem, &s->multigrid));
+  PetscCall(MultigridCreate_Private(s->problem, s->kind, &s->multigrid));
   PetscCall(VecDestroy(&x));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -249,11 +250,12 @@ static PetscErrorCode Augment_Private(Saddle s)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SaddleCreate_Private(Problem problem, Saddle *saddle)
+PetscErrorCode SaddleCreate_Private(Problem problem, MultigridKind kind, Saddle *saddle)
 {
   PetscFunctionBegin;
   PetscCall(PetscNew(saddle));
   (*saddle)->problem = problem;
+  (*saddle)->kind    = kind;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

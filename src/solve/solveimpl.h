@@ -9,6 +9,8 @@ typedef struct _p_Multigrid *Multigrid;
 
 typedef enum { CONDENSE_AUTO, CONDENSE_YES, CONDENSE_NO } CondenseKind;
 typedef enum { LINEAR_AUTO, LINEAR_DIRECT, LINEAR_ITERATIVE } LinearKind;
+/* AUTO: smoothed aggregation, or a factorisation where the space of order 1 below higher ones is small. */
+typedef enum { MULTIGRID_AUTO, MULTIGRID_GAMG, MULTIGRID_BOOMERAMG } MultigridKind;
 typedef enum { FACTOR_AUTO, FACTOR_SINGLE, FACTOR_DOUBLE } FactorKind;
 
 /* One iterate of Newton's method. */
@@ -36,6 +38,7 @@ struct _p_Solver {
   ModifierMode  mode[SOLVER_MOST_MODIFIERS]; /* switches, as asked */
   PetscBool     no_solution;                 /* the last linear system has none that was found */
   LinearKind    linear;                      /* as asked */
+  MultigridKind multigrid;                   /* as asked */
   FactorKind    factor;                      /* as asked */
   CondenseKind  condense;                    /* as asked */
   Saddle        saddle;                      /* iterative solution, NULL: direct */
@@ -155,12 +158,14 @@ typedef PetscErrorCode (*DescentStart)(Descent *, Vec x, PetscBool *ok);
 PetscErrorCode DescentRun_Private(Solver, DescentStart, const char *reason, State *, SolverReport *);
 
 /* saddle.c: iterative solution of the tangent, in its symmetric form or not. */
-PetscErrorCode SaddleCreate_Private(Problem, Saddle *);
+PetscErrorCode SaddleCreate_Private(Problem, MultigridKind, Saddle *);
 PetscErrorCode SaddleDestroy_Private(Saddle *);
 PetscErrorCode SaddleSetUp_Private(Saddle, Mat, PetscBool symmetric);
 PetscErrorCode SaddleSolve_Private(Saddle, Vec rhs, PetscReal rtol, PetscBool guess, Vec x, PetscBool *ok);
 /* multigrid.c: a cycle for the displacement block. */
-PetscErrorCode MultigridCreate_Private(Problem, Multigrid *);
+PetscErrorCode MultigridCreate_Private(Problem, MultigridKind, Multigrid *);
+/* Input errors: a kind that PETSc was built without, options of the kind that is not used. Not collective. */
+PetscErrorCode MultigridCheck_Private(MultigridKind, LinearKind);
 PetscErrorCode MultigridDestroy_Private(Multigrid *);
 PetscErrorCode MultigridSetUp_Private(Multigrid, Mat, PetscBool keep);
 PetscErrorCode MultigridApply_Private(Multigrid, Vec x, Vec y);

@@ -2,7 +2,7 @@
 #include "solveimpl.h"
 
 /* Unknowns from which multigrid is faster than a factorisation, cells of order 1 and above. */
-#define MANY 50000
+#define MANY 100000
 #define MANY_HIGHER 150000
 
 /* Orders from which condensation pays (docs/results.md). */
@@ -61,6 +61,7 @@ static PetscErrorCode Options_Private(Solver s)
   PetscCall(ProblemIsSymmetric(s->problem, &possible));
   s->symmetric = possible;
   PetscCall(SolverOptions_Private(s));
+  PetscCall(MultigridCheck_Private(s->multigrid, s->linear));
   s->symmetric = (PetscBool)(s->symmetric && possible);
   PetscCall(PetscOptionsHasName(NULL, NULL, "-snes_test_jacobian", &s->test));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -185,7 +186,7 @@ PetscErrorCode SolverCreate(Problem problem, Solver *solver)
   PetscCall(SolverLinear_Private(s));
   PetscCall(UseMultigrid_Private(s, &multigrid));
   PetscCall(Condense_Private(s));
-  if (multigrid) PetscCall(SaddleCreate_Private(problem, &s->saddle));
+  if (multigrid) PetscCall(SaddleCreate_Private(problem, s->multigrid, &s->saddle));
   PetscCall(SNESSetTolerances(s->snes, s->snes_atol, s->snes_rtol, s->snes_stol, s->max_it, s->max_funcs));
   PetscCall(SNESSetFromOptions(s->snes));
   PetscCall(SNESSetFunction(s->snes, r, Function_Private, s));

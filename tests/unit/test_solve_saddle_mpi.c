@@ -75,7 +75,7 @@ static PetscInt Soften(Patch *p, PetscBool symmetric, PetscReal compliance, Mat 
   return changed;
 }
 
-static void CompliantRows(PetscBool symmetric)
+static void CompliantRows(PetscBool symmetric, MultigridKind kind)
 {
   static const PetscReal compliance[] = {0, 1e-6, 1e-3, 1, 1e3};
   const PetscInt         n[2]         = {12, 16};
@@ -98,7 +98,7 @@ static void CompliantRows(PetscBool symmetric)
   OK(MatCreateVecs(A, &rhs, &x));
   OK(VecDuplicate(x, &exact));
   OK(VecSetRandom(rhs, NULL));
-  OK(SaddleCreate_Private(p.problem, &saddle));
+  OK(SaddleCreate_Private(p.problem, kind, &saddle));
   for (size_t i = 0; i < sizeof(compliance) / sizeof(compliance[0]); ++i) {
     OK(MatDuplicate(A, MAT_COPY_VALUES, &soft));
     if (compliance[i] > 0) assert_in_range(Soften(&p, symmetric, compliance[i], soft), 4, 100);
@@ -122,17 +122,27 @@ static void CompliantRows(PetscBool symmetric)
 
 static void SymmetricForm(void **state)
 {
-  CompliantRows(PETSC_TRUE);
+  CompliantRows(PETSC_TRUE, MULTIGRID_AUTO);
 }
 
 static void ExactForm(void **state)
 {
-  CompliantRows(PETSC_FALSE);
+  CompliantRows(PETSC_FALSE, MULTIGRID_AUTO);
+}
+
+static void Hypre(void **state)
+{
+#if defined(PETSC_HAVE_HYPRE)
+  CompliantRows(PETSC_TRUE, MULTIGRID_BOOMERAMG);
+  CompliantRows(PETSC_FALSE, MULTIGRID_BOOMERAMG);
+#else
+  skip();
+#endif
 }
 
 int main(int argc, char **argv)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(SymmetricForm), cmocka_unit_test(ExactForm)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(SymmetricForm), cmocka_unit_test(ExactForm), cmocka_unit_test(Hypre)};
   int                     failed;
 
   if (PetscInitialize(&argc, &argv, NULL, NULL)) return 2;
