@@ -7,7 +7,8 @@ SLIDE = ("inputs/slide2d.yml", *ROUND, "-adapt_max_passes", 20)
 MINDLIN = ("-mesh_parameter_h", 2, "-boundary_top_displacement_x", "0.0012*max(t-1,0)", "-boundary_top_displacement_y", "-0.01*min(t,1)")
 RUBBER = ("-material_rubber_nu", 0.499, "-boundary_top_displacement_y", -0.3)
 COOK = ("inputs/cook.yml", "-material_rubber_kappa", ".inf", "-load_step", 1, "-adapt_max_passes", 30)
-CYLINDER = ("tests/verify/scenes/pressed_cylinder.yml", "-adapt_max_passes", 20)
+WHOLE = ("inputs/rubber2d.yml", *ROUND, "-adapt_max_passes", 20)
+CYLINDER = ("tests/verify/scenes/pressed_cylinder.yml", *ROUND, "-adapt_max_passes", 20)
 
 
 def words(options):
@@ -28,7 +29,7 @@ def peer(code, common, vary, *meshes):
     series = {}
     for values in itertools.product(*vary.values()):
         chosen = dict(zip(vary, values))
-        name = ", ".join(f"{key} {value}" for key, value in {**chosen, **common}.items() if key not in ("solver", "mixed"))
+        name = ", ".join(f"{key} {value if isinstance(value, str) else format(value, 'g')}" for key, value in {**chosen, **common}.items() if key not in ("solver", "mixed"))
         series[code, name] = [words({**common, **chosen, **(mesh if isinstance(mesh, dict) else {"n": mesh})}) for mesh in meshes]
     return series
 
@@ -51,7 +52,8 @@ SCENES = {
         **peer("kratos", {}, {"steps": (1,), "grade": (0, 1)}, 4, 8, 16),
     },
     "rubber2d": {
-        **mortise((*HALF, *RUBBER), (0.1, 0.05, 0.02, 0.01), orders=(2, 3)),
+        **mortise((*HALF, *RUBBER), (0.1, 0.06, 0.04), orders=(2, 3), hp=False),
+        **{("mortise", f"{name[1]}, whole"): runs for name, runs in mortise(WHOLE, (0.1, 0.06, 0.04), orders=(2, 3), hp=False).items()},
         **peer("getfem", {"mixed": 1}, {"order": (1,), "steps": (1, 4)}, 4, 8, 16),
         **peer("getfem", {"mixed": 1}, {"order": (2,), "steps": (2, 8)}, 4, 8),
         **peer("getfem", {"mixed": 1, "multiplier": 2}, {"order": (3,), "steps": (4, 8)}, 4),
