@@ -61,13 +61,6 @@ def answered(rows):
     return [row for row in rows if row["error"] not in ("", None)]
 
 
-def front(rows):
-    """Rows that no row of the same code beats in error and time."""
-    found = answered(rows)
-    better = lambda a, b: a["code"] == b["code"] and float(a["error"]) <= float(b["error"]) and float(a["seconds"]) < float(b["seconds"])
-    return [row for row in found if not any(better(other, row) for other in found)]
-
-
 def series(rows, scene):
     """{(code, series): rows with an answer}, coarse to fine."""
     found = {}
@@ -78,17 +71,25 @@ def series(rows, scene):
 
 
 def reached(rows, wanted):
-    """Seconds of the first row of a series from which on the error stays below; a finest row alone does not count where coarser ones are no further off: it may pass by."""
-    for k, row in enumerate(rows):
-        if all(float(later["error"]) <= wanted for later in rows[k:]):
-            return float(row["seconds"])
-    return None
+    """The first row of a series from which on the error stays below: a mesh that meets the value in passing does not count."""
+    return next((row for k, row in enumerate(rows) if all(float(later["error"]) <= wanted for later in rows[k:])), None)
+
+
+def decisive(rows, scene):
+    """Rows that a code reaches an error of the tables with, its fastest and those within a quarter of it."""
+    found = []
+    for code in NAMES:
+        for wanted in ERRORS:
+            first = [row for (own, _), mine in series(rows, scene).items() if own == code and (row := reached(mine, wanted))]
+            limit = 1.25 * min((float(row["seconds"]) for row in first), default=0)
+            found += [row for row in first if float(row["seconds"]) <= limit and row not in found]
+    return found
 
 
 def best(rows, scene, wanted, own):
     """(seconds, code) of the fastest series, of this program or of the others."""
-    times = [(reached(mine, wanted), code) for (code, _), mine in series(rows, scene).items() if (code == "mortise") == own]
-    return min((t for t in times if t[0] is not None), default=None)
+    rows = [(row, code) for (code, _), mine in series(rows, scene).items() if (code == "mortise") == own and (row := reached(mine, wanted))]
+    return min(((float(row["seconds"]), code) for row, code in rows), default=None)
 
 
 def cell(rows, scene, wanted):
@@ -116,9 +117,9 @@ def front_table(rows):
 
 
 def smallest(rows, scene, code):
-    """The row of a code with the smallest error that counts."""
+    """The row of a code with the smallest error that counts, the fastest of equals."""
     mine = [row for row in answered(rows) if row["scene"] == scene and row["code"] == code]
-    return min(mine, key=lambda row: max(float(row["error"]), certain(scene)), default=None)
+    return min(mine, key=lambda row: (max(float(row["error"]), certain(scene)), float(row["seconds"])), default=None)
 
 
 def code_table(rows):

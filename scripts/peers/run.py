@@ -3,7 +3,7 @@
 
     scripts/peers/run.py [--only SCENE,...] [--quick] [--rounds 3] [--seconds 40] [--references]
 
-Every row of sweep.py is run once; those that no cheaper row of the same code beats are run again, all codes taking turns, and the median counts. Seconds are user + system
+Every row of sweep.py is run once; those by which a code reaches an error of the tables are run again, all codes taking turns, and the median counts. Seconds are user + system
 time of the whole process with all it starts (imports, mesh generator), memory its largest peak; each runs on one thread. Rows go to docs/charts/peers.csv (those of other scenes
 stay), failures too; figures.py makes charts and tables of them. --quick: the coarsest row of each series once, to out/peers.csv. --references: recomputes docs/references.json's
 values and prints them. PEERS: where scripts/peers/install has put the codes."""
@@ -130,7 +130,7 @@ def measure(scene, there, arguments):
         rows.append(row)
         print(f"{scene:10} {code:8} {name:32} {row.get('unknowns', ''):>7} {row['seconds']:7.2f} s  {row['error'] if row['error'] == '' else format(row['error'], '.2e')} {row['status']}", flush=True)
     for _ in range(0 if arguments.quick else arguments.rounds - 1):
-        for row in sorted(figures.front(rows), key=lambda row: row["seconds"]):
+        for row in sorted(figures.decisive(rows, scene), key=lambda row: row["seconds"]):
             if row["seconds"] < WORTH_AGAIN:
                 options = next(o for _, code, name, o in plan if (code, name, " ".join(map(str, o))) == (row["code"], row["series"], row["options"]))
                 row["runs"].append(once(scene, row["code"], options, arguments.seconds, need_value=False)["seconds"])
