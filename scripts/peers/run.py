@@ -169,8 +169,8 @@ def main():
     path = ROOT / "out" / "peers.csv" if arguments.quick else figures.CSV
     path.parent.mkdir(exist_ok=True)
     for scene in scenes:
-        kept = [row for row in figures.read(path) if row["scene"] != scene]
-        figures.write(path, kept + measure(scene, there, arguments))
+        rows = measure(scene, there, arguments)
+        figures.write(path, [row for row in figures.read(path) if row["scene"] != scene] + rows)
     print(f"{path}: {time.time() - began:.0f} s; {', '.join(f'{code} {version}' for code, version in there.items())}")
     if not arguments.quick:
         figures.main()

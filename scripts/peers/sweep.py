@@ -66,7 +66,7 @@ SCENES = {
         **{("mortise", f"{name[1]}, anisotropic"): [[*run, "-adapt_anisotropic", "true", "-adapt_fraction", 0.5] for run in runs]
            for name, runs in mortise(("inputs/hertz3d.yml", *ROUND, "-adapt_max_passes", 20), (0.1, 0.07, 0.04), orders=(2, 3), hp=False).items()},
         **peer("ngsolve", {}, {"order": (2,), "gamma": (1e3, 1e4)}, {"h": 0.4, "hmin": 0.1}, {"h": 0.25, "hmin": 0.06}),
-        **peer("ngsolve", {}, {"order": (3,), "gamma": (1e3, 1e4)}, {"h": 0.4, "hmin": 0.1}),
+        **peer("ngsolve", {}, {"order": (3,), "gamma": (1e3, 1e4)}, {"h": 0.4}, {"h": 0.25}),
         **peer("getfem", {}, {"order": (1,), "grade": (0, 1)}, 4, 8),
         **peer("getfem", {}, {"order": (2,), "grade": (0, 1)}, 2, 4),
         **peer("calculix", {}, {"cell": ("C3D8", "C3D8I"), "penalty": (1e4,)}, 4, 8),
@@ -74,8 +74,10 @@ SCENES = {
         **peer("kratos", {}, {"steps": (1,)}, 4, 8),
     },
     "lshape": {
-        **mortise(("inputs/lshape.yml", "-adapt_max_passes", 40), (0.1, 0.03, 0.01, 0.003, 0.001), orders=(2, 4)),
-        **peer("ngsolve", {}, {"order": (2, 4, 6)}, *({"passes": passes} for passes in (4, 8, 12, 16, 20, 24, 30))),
+        **mortise(("inputs/lshape.yml", "-adapt_max_passes", 40), (0.03, 0.01, 0.003, 0.001, 3e-4, 1e-4, 3e-5), orders=(4,)),
+        ("mortise", "order 2"): [["inputs/lshape.yml", "-adapt_max_passes", 40, "-order", 2, "-adapt_tolerance", tolerance] for tolerance in (0.03, 0.01, 0.003, 0.001)],
+        **peer("ngsolve", {}, {"order": (2,)}, *({"passes": passes} for passes in (4, 8, 12, 16, 20))),
+        **peer("ngsolve", {}, {"order": (4, 6)}, *({"passes": passes} for passes in (4, 8, 12, 16, 20, 24, 30))),
     },
     "cook": {
         **mortise(COOK, (0.2, 0.1, 0.03, 0.01), orders=(2, 3)),
@@ -90,7 +92,7 @@ SCENES = {
     },
     "slide2d": {
         **mortise(SLIDE, (0.1, 0.03, 0.01, 0.005)),
-        **peer("ngsolve", {}, {"order": (2, 3), "gamma": (1e3, 1e4), "steps": (4,)}, {"h": 0.2}, {"h": 0.1}),
+        **peer("ngsolve", {}, {"order": (2, 3), "gamma": (1e3, 1e4), "steps": (2,)}, {"h": 0.2}, {"h": 0.1}),
         **peer("getfem", {}, {"order": (1, 2), "steps": (1, 2)}, 4, 8),
         **peer("calculix", {}, {"cell": ("C3D8", "C3D8I"), "penalty": (1e4,)}, 4, 8, 16),
     },
