@@ -11,6 +11,9 @@ import sys
 
 sys.dont_write_bytecode = True
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
+sys.path.insert(0, str(ROOT / "scripts"))
+from measure import plain_seconds  # noqa: E402
+
 CHARTS = ROOT / "docs" / "charts"
 CSV = CHARTS / "peers.csv"
 REFERENCES = json.loads((ROOT / "docs" / "references.json").read_text())
@@ -172,8 +175,11 @@ def draw(rows, scene, x, label):
         axes.loglog([float(row[x]) for row in mine], [max(float(row["error"]), certain(scene)) for row in mine], color=COLOURS[code], marker=marker, markersize=4,
                     linewidth=1.6 if code == "mortise" else 0.7, zorder=3 if code == "mortise" else 2, label=f"{NAMES[code]}: {name}")
     entry = REFERENCES[scene]
-    axes.set(xlabel=label, ylabel=f"relative error: {entry['quantity']}", title=entry["title"], ylim=(max(certain(scene), 1e-6) / 1.3, 1))
+    largest = max(float(row["error"]) for mine in series(rows, scene).values() for row in mine)
+    axes.set(xlabel=label, ylabel=f"relative error: {entry['quantity']}", title=entry["title"], ylim=(max(certain(scene), 1e-6) / 1.3, 1.5 * min(largest, 1)))
     axes.grid(True, which="both", color="0.92")
+    if x == "seconds":
+        plain_seconds(axes)
     axes.legend(fontsize=5.5, handlelength=2.5, loc="upper left", bbox_to_anchor=(1.01, 1))
     figure.tight_layout()
     figure.savefig(CHARTS / f"peers_{scene}_{x}.png", metadata={"Software": None})

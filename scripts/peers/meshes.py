@@ -93,7 +93,9 @@ def generate(scene, n, order, grade):
     else:
         disc(mesh, "upper", n, grade, 1, (0, 1), mirrored=not scene.half)
         left, wide = (0, 1) if scene.half else (-scene.width, 2 * scene.width)
-        across = (lambda s: drawn(s, 1.15 * grade)) if scene.half else (lambda s: s)
+        across = lambda s: drawn(s, 1.15 * grade)
+        if not scene.half:
+            across = lambda s: (1 + np.sign(s - 0.5) * drawn(abs(2 * s - 1), 1.15 * grade)) / 2
         mesh.add("lower", lambda s, t: np.stack([left + wide * across(s), deep(t)], -1), int(np.ceil(n * wide)), n)
     return mesh.finish()
 

@@ -74,7 +74,7 @@ SCENES = {
         **peer("kratos", {}, {"steps": (1,)}, 4, 8),
     },
     "lshape": {
-        **mortise(("inputs/lshape.yml", "-adapt_max_passes", 40), (0.03, 0.01, 0.003, 0.001, 3e-4, 1e-4, 3e-5), orders=(4,)),
+        **mortise(("inputs/lshape.yml", "-adapt_max_passes", 40), (0.03, 0.01, 0.003, 0.001, 3e-4, 1e-4), orders=(4,)),
         ("mortise", "order 2"): [["inputs/lshape.yml", "-adapt_max_passes", 40, "-order", 2, "-adapt_tolerance", tolerance] for tolerance in (0.03, 0.01, 0.003, 0.001)],
         **peer("ngsolve", {}, {"order": (2,)}, *({"passes": passes} for passes in (4, 8, 12, 16, 20))),
         **peer("ngsolve", {}, {"order": (4, 6)}, *({"passes": passes} for passes in (4, 8, 12, 16, 20, 24, 30))),
@@ -88,7 +88,7 @@ SCENES = {
     },
     "cylinder": {
         **mortise((*CYLINDER, "-load_step", 0.5), (0.1, 0.03, 0.01, 0.003)),
-        **peer("ngsolve", UMFPACK, {"order": (2, 3), "gamma": (1e4, 1e5, 1e6), "steps": (2,)}, {"h": 0.05}, {"h": 0.05, "hmin": 0.02}, {"h": 0.04, "hmin": 0.01}),
+        **peer("ngsolve", UMFPACK, {"order": (2, 3, 4), "gamma": (1e5, 1e6), "steps": (2, 4)}, {"h": 0.05}, {"h": 0.05, "hmin": 0.02}, {"h": 0.04, "hmin": 0.008}),
     },
     "slide2d": {
         **mortise(SLIDE, (0.1, 0.03, 0.01, 0.005)),
@@ -102,8 +102,10 @@ SCENES = {
         **peer("calculix", {}, {"cell": ("C3D8", "C3D8I"), "penalty": (1e3, 1e4)}, 4, 8, 16),
     },
     "mindlin": {
-        **mortise((*SLIDE, *MINDLIN, "-contact_disc_on_block_friction", 0.3, "-load_step", 0.5), (0.1, 0.05, 0.02), orders=(2, 3), hp=False),
-        **peer("getfem", {}, {"order": (2,), "steps": (2,), "grade": (2, 3)}, 8, 16),
-        **peer("calculix", {}, {"cell": ("C3D8", "C3D8I"), "penalty": (1e3, 1e4), "grade": (2,)}, 8, 16),
+        **{("mortise", f"{name[1]}, step {step}"): runs for step in (1, 0.5, 0.25)
+           for name, runs in mortise((*SLIDE, *MINDLIN, "-contact_disc_on_block_friction", 0.3, "-load_step", step), (0.05, 0.02, 0.01), orders=(2, 3), hp=False).items()},
+        **peer("getfem", {"grade": 3}, {"order": (2,), "steps": (1, 2, 4)}, 6, 10),
+        **peer("getfem", {"grade": 3}, {"order": (1,), "steps": (2,)}, 8, 16),
+        **peer("calculix", {"grade": 3}, {"cell": ("C3D8", "C3D8I"), "penalty": (1e4,), "steps": (2, 4)}, 8, 12),
     },
 }
