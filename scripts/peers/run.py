@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
 """This program and other open codes on the same scenes, run in turn in one session:
 
-    scripts/peers/run.py [--only SCENE,...] [--quick] [--rounds 3] [--seconds 40] [--references]
+    scripts/peers/run.py [--only SCENE,...] [--codes CODE,...] [--quick] [--rounds 3] [--seconds 40] [--references]
 
 Every row of sweep.py is run once; those by which a code reaches an error of the tables are run again, all codes taking turns, and the median counts. Seconds are user + system
 time of the whole process with all it starts (imports, mesh generator), memory its largest peak; each runs on one thread. Rows go to docs/charts/peers.csv (those of other scenes
-stay), failures too; figures.py makes charts and tables of them. --quick: the coarsest row of each series once, to out/peers.csv. --references: recomputes docs/references.json's
+and codes stay), failures too; figures.py makes charts and tables of them. --quick: the coarsest row of each series once, to out/peers.csv. --references: recomputes docs/references.json's
 values and prints them. PEERS: where scripts/peers/install has put the codes."""
 import argparse
 import csv
@@ -115,7 +115,8 @@ def versions():
 
 def measure(scene, there, arguments):
     """Rows of a scene."""
-    series = {key: runs[:1] if arguments.quick else runs for key, runs in sweep.SCENES[scene].items() if key[0] in there}
+    codes = set(arguments.codes.split(",")) & set(there)
+    series = {key: runs[:1] if arguments.quick else runs for key, runs in sweep.SCENES[scene].items() if key[0] in codes}
     plan = [(k, code, name, runs[k]) for (code, name), runs in series.items() for k in range(len(runs))]
     plan.sort(key=lambda p: p[0])  # codes in turn, coarse before fine; stable
     rows, gone = [], set()
@@ -155,14 +156,16 @@ def references(scenes):
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--only", default=",".join(sweep.SCENES))
+    parser.add_argument("--codes", default=",".join(figures.NAMES))
     parser.add_argument("--quick", action="store_true")
     parser.add_argument("--rounds", type=int, default=3)
     parser.add_argument("--seconds", type=int, default=40)
     parser.add_argument("--references", action="store_true")
     arguments = parser.parse_args()
     scenes = arguments.only.split(",")
-    if set(scenes) - set(sweep.SCENES):
-        raise SystemExit(f"run.py: --only: one or several of {', '.join(sweep.SCENES)}")
+    for name, given, known in (("only", scenes, sweep.SCENES), ("codes", arguments.codes.split(","), figures.NAMES)):
+        if set(given) - set(known):
+            raise SystemExit(f"run.py: --{name}: one or several of {', '.join(known)}")
     if arguments.references:
         return references(scenes)
     there, began = versions(), time.time()
@@ -170,7 +173,7 @@ def main():
     path.parent.mkdir(exist_ok=True)
     for scene in scenes:
         rows = measure(scene, there, arguments)
-        figures.write(path, [row for row in figures.read(path) if row["scene"] != scene] + rows)
+        figures.write(path, [row for row in figures.read(path) if row["scene"] != scene or row["code"] not in arguments.codes.split(",")] + rows)
     print(f"{path}: {time.time() - began:.0f} s; {', '.join(f'{code} {version}' for code, version in there.items())}")
     if not arguments.quick:
         figures.main()

@@ -53,7 +53,7 @@ deck += ["*MATERIAL,NAME=m", "*HYPERELASTIC,NEO HOOKE", f"{scene.mu / 2:.15g},{2
          "*SURFACE INTERACTION,NAME=pair", "*SURFACE BEHAVIOR,PRESSURE-OVERCLOSURE=LINEAR", f"{args.penalty:g},{1e-6 * args.penalty:g}", *law,
          "*CONTACT PAIR,INTERACTION=pair,TYPE=SURFACE TO SURFACE", "Supper,Slower"]
 for slide, press in [(0, scene.press)] + ([(scene.slide, scene.press)] if scene.slide else []):
-    deck += ["*STEP,NLGEOM,INC=1000", "*STATIC", f"{1 / args.steps:g},1.,1e-4", "*BOUNDARY", "bottom,1,3", f"top,1,1,{slide:g}", f"top,{upright + 1},{upright + 1},{-press:g}"]
+    deck += ["*STEP,NLGEOM,INC=1000", "*STATIC", f"{1 / args.steps:g},1.,1e-4,{1 / args.steps:g}", "*BOUNDARY", "bottom,1,3", f"top,1,1,{slide:g}", f"top,{upright + 1},{upright + 1},{-press:g}"]
     deck += [f"axis{axis},{axis + 1},{axis + 1}" for axis in range(scene.dim - 1) if scene.half]
     deck += ["loose,3,3", "top,3,3"] if scene.dim == 2 else ["top,2,2"]
     deck += ["*NODE PRINT,NSET=top,TOTALS=ONLY,FREQUENCY=1", "RF", "*END STEP"]
