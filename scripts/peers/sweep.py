@@ -56,7 +56,7 @@ SCENES = {
         **{("mortise", f"{name[1]}, whole"): runs for name, runs in mortise(WHOLE, (0.1, 0.06, 0.04), orders=(2, 3), hp=False).items()},
         **peer("getfem", {"mixed": 1}, {"order": (1,), "steps": (1, 4)}, 4, 8, 16),
         **peer("getfem", {"mixed": 1}, {"order": (2,), "steps": (2, 8)}, 4, 8),
-        **peer("getfem", {"mixed": 1, "multiplier": 2}, {"order": (3,), "steps": (4, 8)}, 4),
+        **peer("getfem", {"mixed": 1, "multiplier": 2}, {"order": (3,), "steps": (8,)}, 4, 8, 12),
         **peer("calculix", {}, {"cell": ("C3D8R",), "penalty": (1e2, 1e3)}, 8, 16),
         **peer("ngsolve", UMFPACK, {"order": (2,), "gamma": (30.0, 100.0), "steps": (4,)}, {"h": 0.2}),
         **peer("kratos", {}, {"steps": (8,)}, 8),
