@@ -8,7 +8,6 @@ time of the whole process with all it starts (imports, mesh generator), memory i
 and codes stay), failures too; figures.py makes charts and tables of them. --quick: the coarsest row of each series once, to out/peers.csv. --references: recomputes docs/references.json's
 values and prints them. PEERS: where scripts/peers/install has put the codes."""
 import argparse
-import csv
 import datetime
 import json
 import os

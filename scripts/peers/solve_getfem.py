@@ -89,7 +89,6 @@ if args.scene == "cook":
     for k in range(1, args.steps + 1):
         model.set_variable("load", [0, COOK["traction"] * k / args.steps])
         iterations += solve(model)
-    tip = gf.compute_interpolate_on(field, model.variable("um"), np.array([[48.0], [60.0]])) if False else None
     nodes = field.basic_dof_nodes()
     at = np.flatnonzero((abs(nodes[0] - 48) < 1e-9) & (abs(nodes[1] - 60) < 1e-9))
     report(model.variable("um")[at[1]], model.nbdof(), iterations, args.steps)

@@ -3,7 +3,7 @@ import math
 
 import ngsolve as ng
 from netgen.occ import OCCGeometry, WorkPlane
-from ngsolve import Grad, Id, InnerProduct, Norm, Sym, Trace, dx, x, y
+from ngsolve import Grad, Id, InnerProduct, Sym, Trace, dx, x, y
 
 from scenes import options, report
 

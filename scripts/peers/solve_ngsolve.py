@@ -147,10 +147,10 @@ def newton():
     return False
 
 
-def move(dx_, dy):
+def move(across, down):
     """Prescribe an increment at the top; the tangent carries it into the bodies."""
     change = ng.GridFunction(space)
-    (change.components[0] if args.mixed else change).Set(ng.CF((dx_, dy) if dim == 2 else (0, 0, dy)), definedon=mesh.Boundaries("top"))
+    (change.components[0] if args.mixed else change).Set(ng.CF((across, down) if dim == 2 else (0, 0, down)), definedon=mesh.Boundaries("top"))
     inverse = linearise()
     force.data = A.mat * change.vec
     solution.vec.data += change.vec - inverse * force
