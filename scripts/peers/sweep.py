@@ -94,7 +94,7 @@ SCENES = {
         **mortise(SLIDE, (0.1, 0.03, 0.01, 0.005)),
         **peer("ngsolve", {}, {"order": (2, 3), "gamma": (1e3, 1e4), "steps": (2,)}, {"h": 0.2}, {"h": 0.1}),
         **peer("getfem", {}, {"order": (1, 2), "steps": (1, 2)}, 4, 8),
-        **peer("getfem", {"multiplier": 2}, {"order": (3,), "steps": (1,)}, 4, 8, 12),
+        **peer("getfem", {"multiplier": 2}, {"order": (3,), "steps": (2,)}, 4, 8, 12),
         **peer("calculix", {}, {"cell": ("C3D8", "C3D8I"), "penalty": (1e4,), "steps": (1, 20)}, 4, 8),
     },
     "friction2d": {
