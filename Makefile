@@ -70,7 +70,7 @@ UNITS   := $(patsubst tests/unit/%.c,$(BUILD)/unit/%,$(wildcard tests/unit/test_
 BENCHES := $(patsubst tests/bench/%.c,$(BUILD)/bench/%,$(wildcard tests/bench/*.c))
 TRACKED  = $(wildcard $(shell git ls-files '*.c' '*.h'))
 
-.PHONY: all install docs units unit bootstrap demo run-demo test run-test verify run-verify gauntlet run-gauntlet chart bench run-bench stability run-stability benchmarks run-benchmarks format format-check lint floors sizes clean FORCE
+.PHONY: all install docs units unit bootstrap demo run-demo test run-test verify run-verify gauntlet run-gauntlet chart bench run-bench stability run-stability benchmarks run-benchmarks peers format format-check lint floors sizes clean FORCE
 all: $(PROGRAM)
 
 $(BUILD)/mortise: $(BUILD)/app/main.o $(LIBRARY)
@@ -161,6 +161,12 @@ gauntlet: bootstrap
 	@$(MAKE) --no-print-directory run-gauntlet
 run-gauntlet:
 	@$(PYTHON) -B tests/gauntlet/run.py --program $(PROGRAM) --csv out/gauntlet.csv $(GAUNTLET)
+
+# Other open codes beside this one: docs/peers.md, the table of README.md, docs/charts/peers*. PEERS=folder to install them in; PEERS_RUN="--only hertz2d"
+peers: bootstrap
+	@$(MAKE) --no-print-directory -j2 all
+	@scripts/peers/install
+	@MORTISE=$(abspath $(PROGRAM)) $(PYTHON) -B scripts/peers/run.py $(PEERS_RUN)
 
 chart: bootstrap
 	@$(MAKE) --no-print-directory -j2 all $(BUILD)/bench/contact

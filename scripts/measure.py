@@ -1,4 +1,4 @@
-"""Runs of the program and what they cost: used by scripts/chart, scripts/bench and scripts/gallery."""
+"""Runs of the program and what they cost: used by scripts/chart, scripts/bench and scripts/gallery. References of scenes."""
 import csv
 import json
 import os
@@ -9,6 +9,12 @@ import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 PROGRAM = pathlib.Path(os.environ.get("MORTISE", ROOT / "bin" / "mortise"))
+
+
+def reference(scene, variant=None):
+    """Value of docs/references.json, or of a variant of the scene: another geometry or load."""
+    entry = json.loads((ROOT / "docs" / "references.json").read_text())[scene]
+    return entry["variants"][variant] if variant else entry["value"]
 
 
 def seconds_of_children():

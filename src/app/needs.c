@@ -152,7 +152,7 @@ static PetscReal Symmetric_Private(const Context *c, PetscInt material)
   for (PetscInt i = 0; i < data->num_materials; ++i)
     if (i != material && data->materials[i].law->unsymmetric) return 0;
   for (PetscInt i = 0; i < data->num_contacts; ++i)
-    if (data->contacts[i].friction > 0) return 0;
+    if (data->contacts[i].law == CONTACT_COULOMB) return 0;
   return 0.5 * StageSeconds(STAGE_FACTOR) / c->total;
 }
 
@@ -259,7 +259,7 @@ static PetscBool MayBeSmall_Private(const SceneData *data)
   for (PetscInt i = 0; i < m->num_boundaries; ++i)
     if (m->boundaries[i].rotation || BoundaryIsControlled(&m->boundaries[i])) return PETSC_FALSE;
   for (PetscInt i = 0; i < data->num_contacts; ++i)
-    if (data->contacts[i].friction > 0 || data->contacts[i].self) return PETSC_FALSE;
+    if (data->contacts[i].law == CONTACT_COULOMB || data->contacts[i].self) return PETSC_FALSE;
   return PETSC_TRUE;
 }
 
@@ -310,7 +310,7 @@ static PetscBool Forgets_Private(const App *app)
   for (PetscInt b = 0; b < data->mechanics.num_bodies; ++b)
     if (data->mechanics.bodies[b].material->law->num_history && !BalanceStaysElastic(&app->balance, &data->mechanics, b)) return PETSC_FALSE;
   for (PetscInt i = 0; i < data->num_contacts; ++i)
-    if (data->contacts[i].friction > 0 || data->contacts[i].self) return PETSC_FALSE;
+    if (data->contacts[i].law == CONTACT_COULOMB || data->contacts[i].self) return PETSC_FALSE;
   return PETSC_TRUE;
 }
 

@@ -125,8 +125,7 @@ const Option Options[] = {
      PAIR(spec.law)},
     {"contact.<pair>.penalty", KEY_REAL, "stress/length", "", POSITIVE, "stiffness of law: penalty, pressure per overlap", PAIR(spec.penalty)},
     {"contact.<pair>.friction", KEY_EXPRESSION, "", "0", NOT_BELOW,
-     "coefficient of Coulomb friction, also as an expression in t that is never negative; axisymmetric without twist; load.control: time",
-     PAIR(spec.friction)},
+     "coefficient of Coulomb friction, also as an expression in t that is never negative; axisymmetric without twist; load.control: time", PAIR(spec.friction)},
     {"contact.<pair>.order", KEY_WORD, "", "auto", "1|full|auto",
      "order of the contact faces; full: that of their cells, with their curved geometry; auto: full, but 1 with subdivide, node_to_segment or orders per "
      "direction",
