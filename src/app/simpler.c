@@ -44,7 +44,7 @@ static void Normals_Private(const SurfaceView *s, PetscReal sum[2])
    of their zone, so what that changes goes with the square of the slide over the size of the zone. And it leaves the pressure's direction as it was. */
 PetscErrorCode AppContactTurn(const App *app, PetscInt pair, PetscReal *turn)
 {
-  const ContactView *v;
+  const ContactView *v, *all;
   PetscReal          sum[2][11] = {{0}}, normals[2] = {0, 0}, slide[3], force = 0, normal = 0, size, tangent = 0;
 
   PetscFunctionBegin;
@@ -53,9 +53,9 @@ PetscErrorCode AppContactTurn(const App *app, PetscInt pair, PetscReal *turn)
   Side_Private(&v->nonmortar, sum[0]);
   Side_Private(&v->mortar, sum[1]);
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 22, MPIU_REAL, MPI_SUM, app->comm));
-  Normals_Private(&v->nonmortar, normals);
-  Normals_Private(&v->mortar, normals);
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, normals, 2, MPIU_REAL, MPI_SUM, app->comm));
+  PetscCall(InterfaceGatherContactToAll(ProblemInterface(app->level.problem), pair, &all)); /* facets have corners of several ranks */
+  Normals_Private(&all->nonmortar, normals);
+  Normals_Private(&all->mortar, normals);
   if (normals[0] > 0) *turn = PetscSqrtReal(normals[1] / normals[0]);
   if (!(sum[0][0] > 0) || !(sum[1][0] > 0)) PetscFunctionReturn(PETSC_SUCCESS);
   size = sum[0][7] / sum[0][0];

@@ -100,7 +100,7 @@ static PetscBool Movable_Private(const Contact *c)
 {
   for (PetscInt f = 0; f < c->num_facets; ++f) {
     const ContactFacet *e = &c->facets[f];
-    if (e->push || (c->side[0].dim == 2 ? !e->ends : c->side[0].order[e->facet] == 1)) continue;
+    if (e->push || (c->side[0].dim == 2 ? !(e->ends && c->spec->self) : c->side[0].order[e->facet] == 1)) continue;
     for (PetscInt k = 0; k < e->num_rows; ++k) {
       if (c->active[e->nodes[k]]) return PETSC_TRUE;
     }

@@ -42,7 +42,7 @@ static PetscErrorCode Pair_Private(const ContactSpec *c, const CoarseMesh *mesh,
                             : c->ramp  ? "ramp"
                             : c->close ? "close"
                                        : "keep",
-                            ExpressionText(c->friction)));
+                            c->friction ? ExpressionText(c->friction) : "0"));
   PetscCall(OutputTextPrint(text, "interference %s, penalty %.15g%s\n", c->interference ? ExpressionText(c->interference) : "0", (double)c->penalty,
                             c->node_to_segment       ? ", node_to_segment"
                             : c->law == CONTACT_TIED ? ", tied"

@@ -5,11 +5,13 @@
         assert result.returncode == 0 and result.summary["status"] == "converged"
 """
 import csv
+import importlib.util
 import json
 import os
 import pathlib
 import re
 import subprocess
+import sys
 import tempfile
 import xml.etree.ElementTree
 
@@ -66,6 +68,14 @@ class Result:
                     data[path.rsplit("/", 1)[1]] = h5[path][...]
             out.append((float(state.find("Time").get("Value")), data))
         return out
+
+
+def module(name, path):
+    """A script as a module of this name: several are called run.py."""
+    spec = importlib.util.spec_from_file_location(name, path)
+    loaded = sys.modules[name] = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(loaded)
+    return loaded
 
 
 def leaves(value, kept, name=""):

@@ -38,7 +38,7 @@ SCENES = {
 }
 WAYS = ("newton_iterations", "active_set_changes", "active_set_cycles")  # where bodies touch all around at once round-off decides the way, not where it leads
 TIME = ("seconds",)  # of tables: wall time
-RUN = ("time", "ranks", "peak_memory_mb", "peak_memory_rank_mb", "factorisations", "balance", "unstable_equilibria")  # of summary.json: the process; round-off; null on many
+RUN = ("time", "needs", "ranks", "peak_memory_mb", "peak_memory_rank_mb", "factorisations", "balance", "unstable_equilibria")  # of summary.json: the process; round-off; null on many
 
 
 def kept(key):

@@ -185,9 +185,9 @@ def matched(name, fields):
 
 def paths(value, above=""):
     for key, v in value.items():
-        if isinstance(v, dict) and v:
+        if isinstance(v, dict) and v and key != "set":  # keys of the scene
             yield from paths(v, f"{above}{key}.")
-        elif not isinstance(v, dict):
+        elif not isinstance(v, dict) or key == "set":
             yield above + key
 
 

@@ -1,24 +1,14 @@
 """The quick part of the gauntlet (tests/gauntlet, docs/gauntlet.md): variants that scenes.json lists as quick, each judged by its figures; and what judges them."""
-import importlib.util
 import os
 import pathlib
-import sys
 
 import pytest
 
+from conftest import module
+
 FOLDER = pathlib.Path(__file__).resolve().parent.parent / "gauntlet"
 PROGRAM = os.environ.get("MORTISE", str(FOLDER.parent.parent / "bin" / "mortise"))
-
-
-def module(name):
-    spec = importlib.util.spec_from_file_location(f"gauntlet_{name}", FOLDER / f"{name}.py")
-    loaded = importlib.util.module_from_spec(spec)
-    sys.modules[spec.name] = loaded
-    spec.loader.exec_module(loaded)
-    return loaded
-
-
-gauntlet, closed_forms = module("run"), module("closed_forms")
+gauntlet, closed_forms = module("gauntlet_run", FOLDER / "run.py"), module("gauntlet_closed_forms", FOLDER / "closed_forms.py")
 ALL = list(gauntlet.rows(FOLDER))
 QUICK = list(gauntlet.rows(FOLDER, quick=True))
 

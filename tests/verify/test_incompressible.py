@@ -19,7 +19,7 @@ def done(result):
     return result.summary
 
 
-def leaves(value, skip=("time", "ranks", "peak_memory_mb", "peak_memory_rank_mb")):
+def leaves(value, skip=("time", "needs", "ranks", "peak_memory_mb", "peak_memory_rank_mb")):
     if isinstance(value, dict):
         return [x for key, v in value.items() if key not in skip for x in leaves(v)]
     return [x for v in value for x in leaves(v)] if isinstance(value, list) else [value]

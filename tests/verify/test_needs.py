@@ -6,10 +6,10 @@ import sys
 
 import pytest
 
-from conftest import ROOT
+from conftest import ROOT, module
 
 sys.path[:0] = [str(ROOT / "scripts"), str(ROOT / "tests" / "needs")]
-import run as promised  # noqa: E402, tests/needs/run.py
+promised = module("promised", ROOT / "tests" / "needs" / "run.py")
 
 QUIET = ("-output_fields", "false")
 

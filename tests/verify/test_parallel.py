@@ -6,7 +6,7 @@ import pytest
 from conftest import leaves
 
 # Wall-clock figures and what a rank count may change.
-OTHER = ("time", "ranks", "peak_memory_mb", "peak_memory_rank_mb", "active_set_changes", "unstable_equilibria")
+OTHER = ("time", "saves", "ranks", "peak_memory_mb", "peak_memory_rank_mb", "active_set_changes", "unstable_equilibria")
 TILTED = ("-boundary_top_displacement_z", "-0.06 - 0.06*X*Y", "-adapt_tolerance", 0.001)  # the patch pressed more on one side: not uniform
 SCENES = {
     "hertz2d": ("hertz2d", ("-adapt_max_passes", 3)),

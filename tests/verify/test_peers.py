@@ -5,11 +5,14 @@ import sys
 
 import pytest
 
+from conftest import module
+
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 sys.path.insert(0, str(ROOT / "scripts" / "peers"))
 import figures  # noqa: E402
-import run as peers  # noqa: E402
 import sweep  # noqa: E402
+
+peers = module("peers", ROOT / "scripts" / "peers" / "run.py")
 
 
 def row(code, series, error, seconds, unknowns=100, scene="cook", status="ok"):
