@@ -90,7 +90,8 @@ static PetscErrorCode Stacks_Private(const CoarseMesh *m, PetscInt axis, PetscRe
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Largest displacement along the axis, largest difference of two over each other, and largest displacement, at corners of this rank's cells. */
+/* most[1]: largest displacement of this rank's corners of cells. most[0]: largest one along the axis, or largest difference of two corners
+   over each other, of all ranks. Collective. */
 static PetscErrorCode Moves_Private(const App *app, PetscInt axis, PetscReal least, PetscReal most[2])
 {
   const HPTables     *v;
@@ -105,7 +106,8 @@ static PetscErrorCode Moves_Private(const App *app, PetscInt axis, PetscReal lea
   PetscCall(ProblemGetSpace(app->level.problem, &space));
   PetscCall(HPSpaceGetTables(space, &v));
   for (PetscInt c = 0; c < v->num_owned_cells; ++c) size = PetscMax(size, ElementNumNodes(3, v->cell_order[c]));
-  PetscCall(PetscMalloc4(v->num_nodes * 3, &local, 3 * size, &X, 3 * size, &u, 8 * v->num_owned_cells, &column));
+  PetscCall(PetscMalloc3(v->num_nodes * 3, &local, 3 * size, &X, 3 * size, &u));
+  PetscCall(PetscMalloc1(8 * v->num_owned_cells, &column));
   PetscCall(ProblemLocalDisplacement(app->level.problem, app->level.accepted.x, local));
   most[0] = most[1] = 0;
   for (PetscInt c = 0; c < v->num_owned_cells; ++c) {
@@ -121,11 +123,16 @@ static PetscErrorCode Moves_Private(const App *app, PetscInt axis, PetscReal lea
       Key_Private(q, axis);
     }
   }
+  PetscCall(GatherToAll(app->comm, sizeof(*column), &num, (void **)&column)); /* what is over each other may be of several ranks */
   qsort(column, (size_t)num, sizeof(*column), CompareKey_Private);
-  for (PetscInt i = 1; i < num; ++i)
-    for (PetscInt d = 0; d < 3 && column[i].body == column[i - 1].body && Over_Private(&column[i], &column[i - 1], least); ++d)
-      most[0] = PetscMax(most[0], PetscAbsReal(column[i].u[d] - column[i - 1].u[d]));
-  PetscCall(PetscFree4(local, X, u, column));
+  for (PetscInt i = 0, first = 0; i < num; ++i) {
+    while (column[first].key < column[i].key - 4 * least) ++first;
+    for (PetscInt j = first; j < i; ++j)
+      for (PetscInt d = 0; d < 3 && Over_Private(&column[i], &column[j], least); ++d)
+        most[0] = PetscMax(most[0], PetscAbsReal(column[i].u[d] - column[j].u[d]));
+  }
+  PetscCall(PetscFree3(local, X, u));
+  PetscCall(PetscFree(column));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -178,6 +178,7 @@ static PetscErrorCode Corners_Private(const App *app, PetscInt axis, PetscInt *n
     }
   }
   PetscCall(PetscFree3(local, X, u));
+  PetscCall(GatherToAll(app->comm, sizeof(Corner), num, (void **)corner)); /* images may be of other ranks */
   qsort(*corner, (size_t)*num, sizeof(**corner), CompareKey_Private);
   PetscFunctionReturn(PETSC_SUCCESS);
 }

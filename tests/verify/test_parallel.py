@@ -41,7 +41,7 @@ def compare(run, scene, options, counts, exact=False):
     """exact: the solution is in the space, so that its estimated error is round-off and not compared."""
     one = run(f"inputs/{scene}.yml", *options)
     assert one.solved, one
-    left_out = ("estimated_error", "estimate") if exact else ()
+    left_out = ("estimated_error", "estimate", "needs") if exact else ()
     force = max([np.abs(r).max() for r in one.summary["reaction"].values()])
     for ranks in counts:
         many = run(f"inputs/{scene}.yml", *options, ranks=ranks)
