@@ -392,11 +392,10 @@ def test_ironing(run):
     assert sum(row["contact.crown_on_block.sticking_nodes"] for row in middle) < 0.1 * sum(row["contact.crown_on_block.slipping_nodes"] for row in middle)
 
 
-def test_predictor(run):
-    """The belt is drawn in one step since bodies are carried to their new places where the first attempt, without that, fails."""
-    result, without = run("inputs/belt.yml"), run("inputs/belt.yml", "-path_predictor", "off")
-    assert result.summary["recoveries"]["predictor"] == {"tried": 1, "succeeded": 1} and result.summary["step_cuts"] == 0
-    assert without.summary["recoveries"]["predictor"]["tried"] == 0 and without.summary["step_cuts"] > 0
+def test_belt_in_one_step(run):
+    """The belt is drawn in one step, without a cut or a second predictor."""
+    result = run("inputs/belt.yml")
+    assert result.returncode == 0 and result.summary["step_cuts"] == 0 and result.summary["recoveries"]["predictor"]["tried"] == 0, result
 
 
 MINDLIN = """

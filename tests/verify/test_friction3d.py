@@ -215,6 +215,14 @@ def test_adapted(run):
     check_law(result, 0.3)
 
 
+@pytest.mark.slow
+def test_predictor(run):
+    """The half ball is drawn along in one step since it is carried to its new place where the first attempt, which holds it, fails."""
+    result, without = (run("ball.yml", *words, text=ball("block", 2, 1.0)) for words in ((), ("-path_predictor", "off")))
+    assert result.summary["recoveries"]["predictor"] == {"tried": 1, "succeeded": 1} and result.summary["step_cuts"] == 0
+    assert without.summary["recoveries"]["predictor"]["tried"] == 0 and without.summary["step_cuts"] > 0
+
+
 def test_restart(run):
     """Stopped after the press and gone on from there: the same, to what the linear solver leaves. (A run that goes on begins its first linear solve with
     the factor of the last tangent, one from a checkpoint has none.)"""
