@@ -164,8 +164,8 @@ def section(run, *options):
 
 def test_o56_rounded_punch(run):
     """Quarter and section agree: displacement 1 %."""
-    result = solved(run, "inputs/punch3d.yml", *QUIET, "-adapt_max_cells", 600)
-    assert abs(pair(result, moment=1e-4)["force"][2] / (25 * math.pi * 50**2) - 1) < 2e-4  # 4.6e-5 or less than 1e-5, as round-off of the mesh decides
+    result = solved(run, "inputs/punch3d.yml", *QUIET, "-adapt_max_cells", 900, "-adapt_max_passes", 20)  # 651 cells, the tolerance is reached
+    assert abs(pair(result)["force"][2] / (25 * math.pi * 50**2) - 1) < 2e-4
     centre = result.summary["probe"]["centre"]
     assert abs(centre["displacement"][2] / section(run)[0] - 1) < 0.01, centre
 
