@@ -1,4 +1,4 @@
-/* Modifier: where a crease of the mortar side (in the plane: its end) comes to lie on a side of a nonmortar facet,
+/* Modifier: where a crease of the mortar side (in the plane: the end of a surface that meets itself) comes to lie on a side of a nonmortar facet,
    derivatives of weighted gaps jump (docs/theory.md, after (5.8)), and residuals come and go. From then on the segmentation is frozen in forces, which do
    not jump then; on: from the first iterate on. */
 #include "solveimpl.h"

@@ -144,12 +144,12 @@ SLOW = [("ball", 2), ("block", 2)]
 @pytest.mark.parametrize("pair, order", [(*case, ) if case not in SLOW else pytest.param(*case, marks=pytest.mark.slow) for case in [("ball", 1), ("block", 1), *SLOW]])
 def test_pressed_and_slid(run, pair, order, mu):
     """Pressed 0.1, then slid half a radius in one step. What slips obeys the law, forces balance, friction takes energy."""
-    if (pair, order) == ("block", 2) and mu > 0.1:
-        pytest.xfail("12 or 13 iterations, or a cut: facets at the edge of the zone, covered in part, stick and slip in turn; 8 or 9 without their compliance")
     result = run("ball.yml", text=ball(pair, order, mu))
     assert result.returncode == 0, result
     print(pair, order, mu, column(result, "newton_iterations"), result.summary["contact"]["pair"]["force"], result.summary["balance"])
     check_law(result, mu)
+    if (pair, order) == ("block", 2) and mu > 0.1:
+        pytest.xfail("12 or 13 iterations, or a cut: facets at the edge of the zone, covered in part, stick and slip in turn; 8 or 9 without their compliance")
     assert column(result, "newton_iterations").max() <= 8
 
 
