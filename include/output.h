@@ -4,7 +4,7 @@
 #include "path.h"
 #include "transfer.h"
 
-/* ---- field files (output/writer.c): fields.xdmf + one HDF5 file per state -------------------------------------------- */
+/* ---- field files (output/writer.c): one HDF5 file per state; fields.xdmf lists the last of each load step, passes.xdmf all where a step has several ---- */
 
 typedef struct _p_Writer *Writer;
 typedef enum { CELL_POLYLINE2, CELL_TRIANGLE3, CELL_QUAD4, CELL_HEX8 } CellShape; /* VTK/XDMF vertex order is applied by the writer; conn comes lexicographic */
@@ -21,8 +21,8 @@ PetscErrorCode WriterDestroy(Writer *);
 /* From now on the files tell units of fields (attribute unit of a data set; units of the file) and what the values of body, pair and side stand for
  * (attribute names), after the scene, borrowed. */
 void WriterDescribe(Writer, const SceneData *);
-/* Begin state number k (0, 1, …) at XDMF time `time` (strictly increasing), with scalar attributes. One file directory/fields_KKKK.h5, collective parallel
- * HDF5, chunked + shuffle + deflate. */
+/* Begin state number k (0, 1, …) at XDMF time `time` (the same within a load step, then increasing), with scalar attributes. One file directory/fields_KKKK.h5,
+ * collective parallel HDF5, chunked + shuffle + deflate. */
 PetscErrorCode WriterBegin(Writer, PetscReal time, PetscInt step, PetscInt pass, PetscReal load_time);
 /* This rank's part of a grid: points X[np][3] and cells conn[nc][vertices], local point numbers, lexicographic (triangles: in order). Parts of ranks are
  * concatenated in rank order; ranks may have none. */
@@ -207,7 +207,7 @@ PetscErrorCode OutputCheckForeign(MPI_Comm, const char *directory);
 /* ---- results put aside (output/earlierpath.c) ----------------------------------------------------------------------------------- */
 
 #define OUTPUT_ASIDE "earlier_path" /* in output.directory: results of the last path of loads that came to its end, until a finer one does */
-/* Move history.csv, fields.xdmf with its files and summary.json there, in place of what is there. Collective. */
+/* Move history.csv, fields.xdmf and passes.xdmf with their files and summary.json there, in place of what is there. Collective. */
 PetscErrorCode OutputSetAside(MPI_Comm, const char *directory);
 /* Go on with that where it was broken off: when history.csv is of a path before this one. Collective. */
 PetscErrorCode OutputFinishAside(MPI_Comm, const char *directory, PetscInt path);

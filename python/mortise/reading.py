@@ -2,6 +2,7 @@
 
     run = mortise.Run("out/hertz2d")
     run.history["t"], run.adapt, run.summary, run.names(), run.times("bulk"), run.state("bulk", time=0.5)
+    mortise.Run("out/hertz2d", passes=True)  # the same with all passes of adaptation, of which fields.xdmf has the last of each load step
 """
 import copy
 import csv
@@ -184,11 +185,16 @@ def clean(contact, bulk):
 
 
 class Run:
-    """A directory of results. Tables are read when they are asked for."""
+    """A directory of results. Tables are read when they are asked for.
 
-    def __init__(self, directory):
+    passes: all passes of adaptation; times() are then their numbers, load_times() the times that they share.
+    """
+
+    def __init__(self, directory, passes=False):
         self.directory = pathlib.Path(directory)
-        index = self.directory / "fields.xdmf"
+        index = self.directory / "passes.xdmf"  # there where a load step has several
+        if not passes or not index.exists():
+            index = self.directory / "fields.xdmf"
         found = xml.etree.ElementTree.parse(index).getroot().findall("Domain/Grid") if index.exists() else ()
         self._series = {grid.get("Name"): grid.findall("Grid") for grid in found}
 
@@ -217,7 +223,7 @@ class Run:
         return np.array([float(grid.find("Time").get("Value")) for grid in self._series[name]])
 
     def load_times(self, name="bulk"):
-        """Times of the load. Adaptation passes of one load step share it; times() tells them apart."""
+        """Times of the load; along a path, where it may fall, other ones than times()."""
         found = [grid.find("Information[@Name='load_time']") for grid in self._series[name]]
         own = self.times(name)
         return np.array([t if info is None else float(info.get("Value")) for info, t in zip(found, own)])

@@ -45,11 +45,9 @@ static PetscErrorCode ReportPass_Private(App *app, PetscInt iterations, PetscBoo
   PetscCall(MonitorRow(app->monitor, &app->last));
   if (!app->data->output.fields) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(StageBegin(STAGE_OUTPUT));
-  /* Passes at one load time follow each other a little apart: readers want times that grow. */
-  const PetscReal      apart  = 1e-6 * app->data->load.end;
   const PetscReal      time   = app->data->load.control == LOAD_TIME ? l->state.t : app->data->load.end * (app->load_steps + 1); /* on a path t may fall */
-  const PetscErrorCode status = OutputWriteState(app->writer, l->problem, &l->state, app->estimated ? &app->estimate : NULL, time + apart * app->passes_in_step,
-                                                 app->load_steps + 1, app->repeats + app->passes_in_step);
+  const PetscErrorCode status = OutputWriteState(app->writer, l->problem, &l->state, app->estimated ? &app->estimate : NULL, time, app->load_steps + 1,
+                                                 app->repeats + app->passes_in_step);
   if (status) WriterAbandon(app->writer);
   PetscCall(status);
   PetscCall(StageEnd(STAGE_OUTPUT));

@@ -8,7 +8,7 @@
 /* Is it a file of this path's: not tables of all paths, not the checkpoint. */
 static PetscBool IsOfPath_Private(const char *name)
 {
-  return (PetscBool)(!strcmp(name, "summary.json") || !strcmp(name, "fields.xdmf") || OutputStateNumber(name) >= 0);
+  return (PetscBool)(!strcmp(name, "summary.json") || !strcmp(name, INDEX_TIMES) || !strcmp(name, INDEX_PASSES) || OutputStateNumber(name) >= 0);
 }
 
 /* from/name to to/name; to NULL: it goes. What is not there is no error. errno. */

@@ -10,7 +10,8 @@ static const struct {
     {"summary.json", "{\n\t\"mortise\":"},
     {"history.csv", "step,t,dt,"},
     {"adapt.csv", "step,pass,t,"},
-    {"fields.xdmf", "<?xml version=\"1.0\"?>\n<Xdmf "},
+    {INDEX_TIMES, "<?xml version=\"1.0\"?>\n<Xdmf "},
+    {INDEX_PASSES, "<?xml version=\"1.0\"?>\n<Xdmf "},
     {CHECKPOINT_FILE, "mortise checkpoint, "},
     {CHECKPOINT_BEFORE, "mortise checkpoint, "},
 };
@@ -73,7 +74,7 @@ PetscErrorCode OutputCheckForeign(MPI_Comm comm, const char *directory)
   PetscFunctionBegin;
   PetscCallMPI(MPI_Comm_rank(comm, &rank));
   if (rank == 0) dir = opendir(directory);
-  (void)snprintf(path, sizeof(path), "%s/fields.xdmf", directory);
+  (void)snprintf(path, sizeof(path), "%s/" INDEX_TIMES, directory);
   const PetscBool series = (PetscBool)(dir && Begins_Private(path, Kinds[3].begins));
   while (dir && !foreign[0] && (entry = readdir(dir))) {
     (void)snprintf(path, sizeof(path), "%s/%s", directory, entry->d_name);

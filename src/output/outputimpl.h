@@ -67,10 +67,13 @@ PetscErrorCode CheckpointVerify(MPI_Comm, const char *path);
 
 /* ---- index of a series (output/xdmf.c): one temporal collection per grid name. Serial: rank 0 keeps it. ---------------- */
 
+#define INDEX_TIMES "fields.xdmf"  /* the last state of each load step */
+#define INDEX_PASSES "passes.xdmf" /* all of them, where adaptation made several in one */
+
 typedef struct _p_Index *Index;
 typedef struct {
   PetscReal time, load_time;
-  PetscInt  step, pass;
+  PetscInt  step, pass, number;
 } IndexState;
 
 PetscErrorCode IndexCreate(Index *);
@@ -83,10 +86,12 @@ PetscErrorCode IndexFact(Index, const char *name, const char *value);
 PetscErrorCode IndexField(Index, const char *name, PetscBool at_cells, PetscInt ncomp);
 /* Close the open entry. */
 PetscErrorCode IndexGridEnd(Index);
-/* The whole document; the caller destroys the text. */
-PetscErrorCode IndexText(Index, OutputText *);
+/* Has a load step more than one state? */
+PetscBool IndexHasPasses(Index);
+/* A whole document, at times or of all states by number; the caller destroys the text. */
+PetscErrorCode IndexText(Index, PetscBool passes, OutputText *);
 
-/* Fill an empty index from such a document, states of later load steps left out. *num: number of the last state + 1; *time: its time. *ours PETSC_FALSE: the
+/* Fill an empty index from either document, states of later load steps left out. *num: number of the last state + 1; *time: its time. *ours PETSC_FALSE: the
  * text is not of our making. */
 PetscErrorCode IndexRead(Index, const char *text, PetscInt step, PetscInt *num, PetscReal *time, PetscBool *ours);
 

@@ -1,4 +1,4 @@
-/* Field files: one HDF5 file per state, written collectively, and the XDMF index over all of them.
+/* Field files: one HDF5 file per state, written collectively, and the XDMF index over them: of times, and of passes of adaptation apart from it.
    A file holds a group per grid with X [n][3], cells [m][vertices] and the fields; its attribute "complete" is written last, so that a file cut off by a
    kill is recognised. Data sets are float64 and int64, chunked, shuffled, deflated. */
 #include "outputimpl.h"
@@ -45,17 +45,34 @@ static PetscErrorCode WriterClear_Private(const char *directory, PetscInt from)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Rewrite directory/fields.xdmf from the index. Collective. */
-static PetscErrorCode WriterIndex_Private(Writer w)
+/* Rewrite one document of the index. Collective. */
+static PetscErrorCode WriterDocument_Private(Writer w, const char *name, PetscBool passes)
 {
   char       path[PETSC_MAX_PATH_LEN];
   OutputText text = {0};
 
   PetscFunctionBegin;
-  if (w->index) PetscCall(IndexText(w->index, &text));
-  PetscCall(PetscSNPrintf(path, sizeof(path), "%s/fields.xdmf", w->directory));
+  if (w->index) PetscCall(IndexText(w->index, passes, &text));
+  PetscCall(PetscSNPrintf(path, sizeof(path), "%s/%s", w->directory, name));
   PetscCall(OutputReplaceFile(w->comm, path, text.text));
   PetscCall(OutputTextDestroy(&text));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Rewrite the index; that of passes first, as WriterResume reads it where it is there. Collective. */
+static PetscErrorCode WriterIndex_Private(Writer w)
+{
+  char      path[PETSC_MAX_PATH_LEN];
+  PetscBool passes = (PetscBool)(w->index && IndexHasPasses(w->index));
+
+  PetscFunctionBegin;
+  PetscCallMPI(MPI_Bcast(&passes, 1, COMPAT_MPI_BOOL, 0, w->comm));
+  PetscCall(PetscSNPrintf(path, sizeof(path), "%s/" INDEX_PASSES, w->directory));
+  if (passes)
+    PetscCall(WriterDocument_Private(w, INDEX_PASSES, PETSC_TRUE));
+  else if (w->rank == 0)
+    (void)unlink(path);
+  PetscCall(WriterDocument_Private(w, INDEX_TIMES, PETSC_FALSE));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -108,9 +125,11 @@ PetscErrorCode WriterResume(MPI_Comm comm, const char *directory, PetscInt step,
   PetscBool ours   = PETSC_TRUE;
 
   PetscFunctionBegin;
-  PetscCall(PetscSNPrintf(path, sizeof(path), "%s/fields.xdmf", directory));
   PetscCall(New_Private(comm, directory, writer));
-  if ((*writer)->rank == 0) PetscCall(Load_Private(path, &text));
+  for (int i = 0; i < 2 && !text; ++i) {
+    PetscCall(PetscSNPrintf(path, sizeof(path), "%s/%s", directory, i ? INDEX_TIMES : INDEX_PASSES));
+    if ((*writer)->rank == 0) PetscCall(Load_Private(path, &text));
+  }
   if (text) PetscCall(IndexRead((*writer)->index, text, step, &listed, &time, &ours));
   if (!ours) listed = -1;
   PetscCall(PetscFree(text));
@@ -122,6 +141,7 @@ PetscErrorCode WriterResume(MPI_Comm comm, const char *directory, PetscInt step,
                   path, num, step);
   (*writer)->num        = num;
   (*writer)->state.time = time;
+  (*writer)->state.step = step;
   (*writer)->resumed    = PETSC_TRUE;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -157,12 +177,12 @@ PetscErrorCode WriterBegin(Writer w, PetscReal time, PetscInt step, PetscInt pas
 
   PetscFunctionBegin;
   PetscCheck(w->file < 0, w->comm, PETSC_ERR_ORDER, "State %" PetscInt_FMT " was not ended", w->num);
-  PetscCheck(w->num == 0 || time > w->state.time, w->comm, PETSC_ERR_ARG_OUTOFRANGE, "Time of a state must increase: %g after %g", (double)time,
-             (double)w->state.time);
+  PetscCheck(w->num == 0 || time > w->state.time || (time == w->state.time && step == w->state.step), w->comm, PETSC_ERR_ARG_OUTOFRANGE,
+             "Time of a load step must increase: %g after %g", (double)time, (double)w->state.time);
   if (w->resumed) PetscCall(WriterIndex_Private(w)); /* never lists files that have gone */
   if (w->resumed && w->rank == 0) PetscCall(WriterClear_Private(w->directory, w->num));
   w->resumed = PETSC_FALSE;
-  w->state   = (IndexState){.time = time, .load_time = load_time, .step = step, .pass = pass};
+  w->state   = (IndexState){.time = time, .load_time = load_time, .step = step, .pass = pass, .number = w->num};
   PetscCall(PetscSNPrintf(path, sizeof(path), "%s/fields_%04" PetscInt_FMT ".h5", w->directory, w->num));
   PetscCall(OutputAccess(w->comm, path, &access));
   PetscCallH5Id(w->file, H5Fcreate(path, H5F_ACC_TRUNC, H5P_DEFAULT, access));

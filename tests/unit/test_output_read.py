@@ -33,7 +33,7 @@ def test_series_reads_back(ranks, tmp_path):
     assert all(grid.get("CollectionType") == "Temporal" for grid in domain)
     assert [float(state.find("Time").get("Value")) for state in series["bulk"]] == [0.0, 0.1 + 0.2]
     facts = {i.get("Name"): float(i.get("Value")) for i in series["bulk"][1].findall("Information")}
-    assert facts == {"step": 5, "pass": 1, "load_time": 0.25}
+    assert facts == {"time": 0.1 + 0.2, "step": 5, "pass": 1, "load_time": 0.25}
     for state in series["bulk"]:
         cells = item(tmp_path, state.find("Topology/DataItem"))
         X = item(tmp_path, state.find("Geometry/DataItem"))

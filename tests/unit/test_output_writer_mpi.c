@@ -244,6 +244,48 @@ static void SeriesGoesOn(void **unused)
   assert_int_equal(PetscPopErrorHandler(), 0);
 }
 
+/* Does a document of the index list this state? */
+static PetscBool Lists(const char *name, int state)
+{
+  char  path[PETSC_MAX_PATH_LEN], text[1 << 14] = "", file[32];
+  FILE *index;
+
+  snprintf(path, sizeof(path), "%s/%s", directory, name);
+  snprintf(file, sizeof(file), ">fields_%04d.h5:", state);
+  if (!(index = fopen(path, "r"))) return PETSC_FALSE;
+  text[fread(text, 1, sizeof(text) - 1, index)] = 0;
+  fclose(index);
+  return (PetscBool)(strstr(text, file) != NULL);
+}
+
+/* Three states of load step 1 at one time, one of step 2: the first two are in the index of passes alone, which goes with the last of its passes. */
+static void PassesStandApart(void **unused)
+{
+  static const PetscInt  step[]     = {1, 1, 1, 2};
+  static const PetscBool at_times[] = {PETSC_FALSE, PETSC_FALSE, PETSC_TRUE, PETSC_TRUE};
+  Writer                 w;
+
+  assert_int_equal(WriterCreate(PETSC_COMM_WORLD, directory, &w), 0);
+  for (PetscInt state = 0; state < 4; state++) {
+    assert_int_equal(WriterBegin(w, step[state], step[state], state, step[state]), 0);
+    Bulk(w);
+    assert_int_equal(WriterEnd(w), 0);
+    if (rank == 0) assert_true(Lists("fields.xdmf", state) && Lists("passes.xdmf", state) == (state > 0));
+  }
+  assert_int_equal(WriterDestroy(&w), 0);
+  for (PetscInt state = 0; state < 4 && rank == 0; state++) {
+    assert_true(Lists("passes.xdmf", state));
+    assert_true(Lists("fields.xdmf", state) == at_times[state]);
+  }
+  MPI_Barrier(PETSC_COMM_WORLD);
+  assert_int_equal(WriterResume(PETSC_COMM_WORLD, directory, 1, 3, &w), 0);
+  assert_int_equal(WriterBegin(w, 2, 2, 0, 2), 0);
+  if (rank == 0) assert_true(!Lists("passes.xdmf", 3) && Lists("passes.xdmf", 2));
+  assert_int_equal(WriterDestroy(&w), 0);
+  Write(NULL);
+  if (rank == 0) assert_true(!Lists("passes.xdmf", 0));
+}
+
 static void WrongUseIsAnError(void **unused)
 {
   Writer    w;
@@ -260,7 +302,8 @@ static void WrongUseIsAnError(void **unused)
   assert_int_equal(WriterField(w, "a<b", PETSC_FALSE, 1, &value), PETSC_ERR_ARG_WRONG);
   assert_int_equal(WriterBegin(w, 2.0, 0, 0, 0), PETSC_ERR_ORDER);
   assert_int_equal(WriterEnd(w), 0);
-  assert_int_equal(WriterBegin(w, 1.0, 0, 0, 0), PETSC_ERR_ARG_OUTOFRANGE);
+  assert_int_equal(WriterBegin(w, 0.5, 0, 1, 0), PETSC_ERR_ARG_OUTOFRANGE);
+  assert_int_equal(WriterBegin(w, 1.0, 1, 0, 0), PETSC_ERR_ARG_OUTOFRANGE);
   assert_int_equal(WriterDestroy(&w), 0);
   assert_int_equal(PetscPopErrorHandler(), 0);
   Write(NULL);
@@ -287,6 +330,7 @@ int main(int argc, char **argv)
       cmocka_unit_test(EmptyGridIsEmpty),
       cmocka_unit_test(UnfinishedStateShows),
       cmocka_unit_test(SeriesGoesOn),
+      cmocka_unit_test(PassesStandApart),
       cmocka_unit_test(WrongUseIsAnError),
   };
   int failed;

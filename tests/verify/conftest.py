@@ -54,12 +54,14 @@ class Result:
     def history(self):
         return self.table("history.csv")
 
-    def states(self, grid="bulk"):
-        """(time, {name: array}) for each written state of a grid, as fields.xdmf lists them; X are the points, conn the cells."""
+    def states(self, grid="bulk", passes=False):
+        """(time, {name: array}) for each state of a grid that fields.xdmf lists, the last of each load step; passes: every one, its number for its time. X are the
+        points, cells their numbers."""
         import h5py
 
         out = []
-        root = xml.etree.ElementTree.parse(self.directory / "fields.xdmf").getroot()
+        several = passes and (self.directory / "passes.xdmf").exists()
+        root = xml.etree.ElementTree.parse(self.directory / ("passes.xdmf" if several else "fields.xdmf")).getroot()
         for state in root.findall(f"Domain/Grid[@Name='{grid}']/Grid"):
             data = {}
             for item in state.iter("DataItem"):

@@ -67,7 +67,7 @@ def boundary_work_hp(state):
 
 def errors(result):
     """True energy error, estimate and unknowns of each pass."""
-    rows, states = result.adapt, result.states()
+    rows, states = result.adapt, result.states(passes=True)
     assert len(rows) == len(states)
     true = [np.sqrt(2 * ENERGY + 2 * row["energy"] - 2 * boundary_work_hp(state)) for row, (_, state) in zip(rows, states)]
     return np.array(true), np.array([row["estimate"] for row in rows]), np.array([row["dofs"] for row in rows])
@@ -139,7 +139,7 @@ def test_o80_p_raises_orders_only(run):
     """Cells stay, orders rise where the error is, none above the limit; the error falls, as slowly as at a corner it must."""
     result = adaptive(run, "-order", 1, "-adapt_strategy", "p", "-adapt_max_order", 4, "-adapt_max_passes", 60)
     true, estimate, n = errors(result)
-    orders = [np.rint(state["order"]) for _, state in result.states()]
+    orders = [np.rint(state["order"]) for _, state in result.states(passes=True)]
     assert len({row["cells"] for row in result.adapt}) == 1 and np.all(np.diff(n) > 0)
     assert all(o.max() <= 4 for o in orders) and orders[-1].min() == 4 and len(np.unique(orders[3])) > 1
     assert result.summary["adapt_stop"] == "nothing left to refine"
@@ -154,7 +154,7 @@ def corners(state, p):
 def test_o80_refinement_stays_at_the_corner(run):
     """At least 60 % of the cells refined in each of the first three cycles touch the corner."""
     result = adaptive(run, "-order", 1, "-adapt_max_passes", 3)
-    leaves = [corners(state, 1) for _, state in result.states()]
+    leaves = [corners(state, 1) for _, state in result.states(passes=True)]
     for old, new in zip(leaves, leaves[1:]):
         centres = {tuple(np.rint(1e6 * c).astype(int)) for c in new.mean(axis=1)}
         refined = np.array([tuple(np.rint(1e6 * c).astype(int)) not in centres for c in old.mean(axis=1)])
