@@ -5,6 +5,7 @@
 #include <fcntl.h>
 #include <signal.h>
 #include <sys/prctl.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <time.h>
@@ -47,6 +48,30 @@ static void FirstError_Private(const char *log, char *message, size_t capacity)
   if (f) (void)fclose(f);
 }
 
+/* Coordinates that are no numbers make gmsh ask for memory without end. It gets a quarter of the machine's: where the mesh takes more, the equations on it have no
+   room. Less where the user allows less (ulimit -d). */
+static struct rlimit Memory_Private(void)
+{
+  const rlim_t  quarter = (rlim_t)sysconf(_SC_PHYS_PAGES) * (rlim_t)sysconf(_SC_PAGESIZE) / 4;
+  struct rlimit limit;
+
+  if (getrlimit(RLIMIT_DATA, &limit)) limit = (struct rlimit){.rlim_cur = RLIM_INFINITY, .rlim_max = RLIM_INFINITY};
+  if (limit.rlim_cur == RLIM_INFINITY || limit.rlim_cur > quarter) limit.rlim_cur = quarter;
+  return limit;
+}
+
+/* Does a file have the words in one of its lines? */
+static PetscBool Says_Private(const char *file, const char *words)
+{
+  char      line[MESSAGE_LENGTH];
+  PetscBool found = PETSC_FALSE;
+  FILE     *f     = fopen(file, "r");
+
+  while (f && !found && fgets(line, sizeof(line), f)) found = (PetscBool)(strstr(line, words) != NULL);
+  if (f) (void)fclose(f);
+  return found;
+}
+
 /* Wait for the program, which may never end. Once the run is asked to stop it has a little time left: a mesh that is nearly there makes a checkpoint possible.
    Returns errno. */
 static int Wait_Private(pid_t pid, int *status, PetscBool *stopped)
@@ -69,13 +94,15 @@ static int Wait_Private(pid_t pid, int *status, PetscBool *stopped)
 /* The new process, which ends with this one. Between vfork and exec it runs in our memory: system calls only. Returns errno. */
 static int Start_Private(char *const argv[], int in, int out, pid_t *pid)
 {
-  const pid_t  parent = getpid();
-  volatile int failed = 0;
+  const pid_t         parent = getpid();
+  const struct rlimit memory = Memory_Private();
+  volatile int        failed = 0;
 
   *pid = vfork();
   if (*pid < 0) return errno;
   if (*pid) return failed;
   (void)prctl(PR_SET_PDEATHSIG, SIGKILL);
+  (void)setrlimit(RLIMIT_DATA, &memory);
   if (getppid() == parent && dup2(in, 0) >= 0 && dup2(out, 1) >= 0 && dup2(out, 2) >= 0) (void)execvp(argv[0], argv);
   failed = errno;
   _exit(127);
@@ -170,6 +197,11 @@ static void Gmsh_Private(Scene s, const char *geo, PetscBool subdivide, MeshResu
     (void)snprintf(r->message, sizeof(r->message), "mesh.file %s: gmsh could not be started: %s", geo, strerror(error));
   else if (stopped || (WIFSIGNALED(status) && StopWish()[0])) /* the terminal's SIGINT goes to both */
     (void)snprintf(r->message, sizeof(r->message), "mesh.file %s: gmsh had not come to an end when the run was asked to stop (%s)", geo, StopWish());
+  else if (WIFSIGNALED(status) && Says_Private(log, "bad_alloc"))
+    (void)snprintf(r->message, sizeof(r->message),
+                   "mesh.file %s: gmsh asks for more than %lld MB of memory (a quarter of this machine's, or ulimit -d); allowed: coordinates that are numbers, "
+                   "sizes in proportion to them",
+                   geo, (long long)(Memory_Private().rlim_cur >> 20));
   else if (WIFSIGNALED(status))
     (void)snprintf(r->message, sizeof(r->message), "mesh.file %s: gmsh crashed (%s); another Mesh.Algorithm or other sizes may help", geo,
                    strsignal(WTERMSIG(status)));

@@ -217,10 +217,16 @@ def environment():
     return {**os.environ, "OMPI_ALLOW_RUN_AS_ROOT": "1", "OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1", "ASAN_OPTIONS": "detect_leaks=0:allocator_may_return_null=1"}
 
 
+def limit_data():
+    """gmsh may have as much memory as the program; where a .geo is without end it takes a quarter of the machine's."""
+    resource.setrlimit(resource.RLIMIT_DATA, (MEGABYTES << 20, resource.getrlimit(resource.RLIMIT_DATA)[1]))
+
+
 def fault(program, arguments, folder):
     """What is wrong with how the program takes them; "" if nothing."""
     with open(folder / "stdout", "w+b") as out, open(folder / "stderr", "w+b") as err:
-        process = subprocess.Popen([program, *arguments], cwd=folder, stdin=subprocess.DEVNULL, stdout=out, stderr=err, env=environment(), start_new_session=True)
+        process = subprocess.Popen([program, *arguments], cwd=folder, stdin=subprocess.DEVNULL, stdout=out, stderr=err, env=environment(), start_new_session=True,
+                                   preexec_fn=limit_data if (folder / "g.geo").exists() else None)
         timer = threading.Timer(SECONDS, lambda: os.killpg(process.pid, 9))
         timer.start()
         _, status, usage = os.wait4(process.pid, 0)

@@ -28,7 +28,7 @@ def test_damaged_input(whole, tmp_path_factory, kind):
 
 
 # Found by it, and seals that hold.
-@pytest.mark.parametrize("kind,number", [("sealed", number) for number in (4, 16, 30, 50, 105)] + [("options", 6006), ("msh", 6030)])
+@pytest.mark.parametrize("kind,number", [("sealed", number) for number in (4, 16, 30, 50, 105)] + [("options", 6006), ("msh", 6030), ("geo", 101822)])
 def test_found_before(whole, kind, number):
     assert not fuzz.case(kind, number, whole)
 

@@ -6,6 +6,7 @@ import resource
 import pytest
 
 from boxmesh import linspace, write
+from conftest import ROOT
 from test_orderly import refused
 
 MATERIAL = {"law": "neo_hookean", "E": 1, "nu": 0.3}
@@ -306,6 +307,17 @@ def test_a_geo_without_end(run, tmp_path):
     result = run("s.yml", "-max_seconds", 0.5, text=block(tmp_path, mesh={"file": "s.geo"}), timeout=20, env={"TMPDIR": str(tmp_path / "tmp")})
     refused(result, "gmsh had not come to an end", "-max_seconds")
     assert not list((tmp_path / "tmp").glob("mortise-*"))
+
+
+@pytest.mark.parametrize("ranks", [1, 2])
+def test_a_geo_without_measure(run, tmp_path, ranks):
+    """A coordinate that is no number makes gmsh ask for memory without end: it gets a quarter of the machine's, or what ulimit -d allows."""
+    geo = (ROOT / "inputs/patch2d.geo").read_text()
+    (tmp_path / "s.geo").write_text(geo.replace("Point(6) = {1,", "Point(6) = {1e300*1e300,"))
+    assert (tmp_path / "s.geo").read_text() != geo
+    text = block(tmp_path, mesh={"file": "s.geo"}, body={"lower": {"material": "m"}, "upper": {"material": "m"}})
+    with limited(resource.RLIMIT_DATA, 300000):
+        refused(run("s.yml", text=text, ranks=ranks), "gmsh asks for more than 292 MB of memory", "ulimit -d")
 
 
 @pytest.mark.parametrize("name", ["a b ü ☃.yml"])
