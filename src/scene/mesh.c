@@ -48,8 +48,8 @@ static void FirstError_Private(const char *log, char *message, size_t capacity)
   if (f) (void)fclose(f);
 }
 
-/* Coordinates that are no numbers make gmsh ask for memory without end. It gets a quarter of the machine's: where the mesh takes more, the equations on it have no
-   room. Less where the user allows less (ulimit -d). */
+/* Coordinates that are no numbers make gmsh ask for memory without end. It gets a quarter of the machine's: where the mesh takes more, the equations on it have
+   no room. Less where the user allows less (ulimit -d). */
 static struct rlimit Memory_Private(void)
 {
   const rlim_t  quarter = (rlim_t)sysconf(_SC_PHYS_PAGES) * (rlim_t)sysconf(_SC_PAGESIZE) / 4;
@@ -198,10 +198,11 @@ static void Gmsh_Private(Scene s, const char *geo, PetscBool subdivide, MeshResu
   else if (stopped || (WIFSIGNALED(status) && StopWish()[0])) /* the terminal's SIGINT goes to both */
     (void)snprintf(r->message, sizeof(r->message), "mesh.file %s: gmsh had not come to an end when the run was asked to stop (%s)", geo, StopWish());
   else if (WIFSIGNALED(status) && Says_Private(log, "bad_alloc"))
-    (void)snprintf(r->message, sizeof(r->message),
-                   "mesh.file %s: gmsh asks for more than %lld MB of memory (a quarter of this machine's, or ulimit -d); allowed: coordinates that are numbers, "
-                   "sizes in proportion to them",
-                   geo, (long long)(Memory_Private().rlim_cur >> 20));
+    (void)snprintf(
+        r->message, sizeof(r->message),
+        "mesh.file %s: gmsh asks for more than %lld MB of memory (a quarter of this machine's, or ulimit -d); allowed: coordinates that are numbers, "
+        "sizes in proportion to them",
+        geo, (long long)(Memory_Private().rlim_cur >> 20));
   else if (WIFSIGNALED(status))
     (void)snprintf(r->message, sizeof(r->message), "mesh.file %s: gmsh crashed (%s); another Mesh.Algorithm or other sizes may help", geo,
                    strsignal(WTERMSIG(status)));
