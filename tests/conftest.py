@@ -1,5 +1,16 @@
-"""Environment shared by all tests: MPI as root in a container, more ranks than cores, one thread per rank."""
+"""Environment shared by all tests: MPI as root in a container, more ranks than cores, one thread per rank; meshes of gmsh made once."""
+import atexit
 import os
+import pathlib
+import shutil
+import tempfile
 
 os.environ.update(OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1", OMPI_MCA_rmaps_base_oversubscribe="1",
                   OMPI_MCA_hwloc_base_binding_policy="none", OPENBLAS_NUM_THREADS="1", OMP_NUM_THREADS="1", ASAN_OPTIONS="detect_leaks=0")
+
+# tests/tools/gmsh stands for gmsh; workers of pytest-xdist, which start with this environment, share its meshes.
+if "MORTISE_TEST_MESHES" not in os.environ and shutil.which("gmsh"):
+    meshes = tempfile.mkdtemp(prefix="meshes")
+    atexit.register(shutil.rmtree, meshes, True)
+    os.environ.update(MORTISE_TEST_GMSH=shutil.which("gmsh"), MORTISE_TEST_MESHES=meshes,
+                      PATH=f"{pathlib.Path(__file__).resolve().parent / 'tools'}:{os.environ['PATH']}")
