@@ -9,6 +9,7 @@ import pytest
 from conftest import PROGRAM, ROOT
 
 sys.path.insert(0, str(ROOT / "tests" / "fuzz"))
+import kills  # noqa: E402
 import run as fuzz  # noqa: E402
 import starts  # noqa: E402
 
@@ -36,3 +37,9 @@ def test_found_before(whole, kind, number):
 def test_starts_at_the_same_time():
     """tests/fuzz/starts.py by itself: 2000 starts in four loops."""
     assert not starts.faults(PROGRAM, 24, 4)
+
+
+@pytest.mark.slow
+def test_kills_on_several_processes():
+    """tests/fuzz/kills.py by itself: 40 kills."""
+    assert not kills.faults(PROGRAM, 6, 3)
