@@ -39,6 +39,8 @@ PetscErrorCode ErrorHandlerPush(void);
 void ErrorAsked(const char *format, ...) PETSC_ATTRIBUTE_FORMAT(1, 2);
 /* Errors of the machine (files that cannot be written, memory): told in one sentence, like input errors, though the run ends as after any other error. */
 PetscBool ErrorIsPlain(PetscErrorCode);
+/* Of options of PETSc that name a type or a solver that is not there: plain, and wrong input. */
+PetscBool ErrorIsOption(PetscErrorCode);
 /* Between the two an error of PETSc whose message has these words is no end but an answer: *met, without a word on the screen; any other returns from the
    second call as ever. code: what the call in question returned, without PetscCall around it; it must return the same on all ranks. No nesting. */
 PetscErrorCode ErrorForesee(const char *words);

@@ -68,6 +68,8 @@ typedef struct {
 
 /* start.c: PetscInitialize, cheaply for a single process. A file of -options_file that cannot be read is an input error. */
 PetscErrorCode AppInitialize(int argc, char **argv);
+/* optionfiles.c: does a file of options that PETSc will read name itself? told: its name. Before anything is started. */
+PetscBool AppOptionsLoop(int argc, char **argv, size_t capacity, char told[]);
 /* loadstep.c: all load steps; app->failure is set when the solver gives up. Collective. */
 PetscErrorCode AppRun(App *);
 /* adaptstep.c: after a solution at the current time, refine and solve again until the tolerance or a limit is met. */
@@ -115,7 +117,7 @@ typedef struct {
 } ExitStatus;
 extern const ExitStatus ExitStatuses[];
 /* new.c. `mortise new NAME`: a commented scene and its geometry to start from; an input error where one of both files is there. Collective. */
-PetscErrorCode AppNew(MPI_Comm, const char *name);
+PetscErrorCode AppNew(MPI_Comm, int num_names, char *const names[]);
 /* unknown.c. After all that ask for options of their own: is there one that nobody knows, PETSc included? An input error. Not collective. */
 PetscErrorCode AppCheckOptions(Scene);
 /* Copy the accepted state and all counters; write the copy, if its file is not yet that; remove the file of an earlier run, and what

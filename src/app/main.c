@@ -180,7 +180,7 @@ static PetscErrorCode Main_Private(int argc, char **argv, int *status)
   PetscFunctionBegin;
   PetscCall(StageRegister());
   if (argc > 1 && !strcmp(argv[1], "new"))
-    PetscCall(AppNew(PETSC_COMM_WORLD, argc > 2 ? argv[2] : ""));
+    PetscCall(AppNew(PETSC_COMM_WORLD, argc - 2, argv + 2));
   else if (argc == 3 && !strcmp(argv[1], "-help") && !strcmp(argv[2], "json"))
     PetscCall(AppDescribe(PETSC_COMM_WORLD));
   else if (Asked_Private(argc, argv, "-help") || Asked_Private(argc, argv, "--help") || Asked_Private(argc, argv, "-h"))
@@ -197,13 +197,13 @@ static PetscErrorCode Main_Private(int argc, char **argv, int *status)
 }
 
 /* One process ends without the words of MPI_Abort, and without those of libraries that would still close their files. */
-static void End_Private(void)
+static void End_Private(int status)
 {
   PetscMPIInt size;
 
   MPI_Comm_size(PETSC_COMM_WORLD, &size);
   fflush(stdout);
-  if (size == 1) _exit(2);
+  if (size == 1) _exit(status);
 }
 
 /* PETSc's own list of options that nothing used would repeat ours, or stand beside the sentence about wrong input: current releases print it unasked. */
@@ -230,8 +230,9 @@ int main(int argc, char **argv)
   if (ierr) {
     OutputUnlock();
     /* An error other than wrong input leaves ranks anywhere: no orderly end. */
-    if (ErrorIsPlain(ierr)) End_Private();
-    if (ierr != MORTISE_ERR_INPUT) MPI_Abort(PETSC_COMM_WORLD, 2);
+    status = ErrorIsOption(ierr) ? 1 : 2;
+    if (ErrorIsPlain(ierr)) End_Private(status);
+    if (ierr != MORTISE_ERR_INPUT) MPI_Abort(PETSC_COMM_WORLD, status);
     (void)Finalize_Private();
     return 1;
   }

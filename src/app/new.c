@@ -38,13 +38,15 @@ static PetscBool IsName_Private(const char *name)
                      strspn(name, "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-") == strlen(name));
 }
 
-PetscErrorCode AppNew(MPI_Comm comm, const char *name)
+PetscErrorCode AppNew(MPI_Comm comm, int num_names, char *const names[])
 {
+  const char *name = num_names ? names[0] : "";
   PetscMPIInt rank;
   char        path[NUM_FILES][MORTISE_NAME + 8];
   int         failed[2] = {0, 0}; /* errno; of which file */
 
   PetscFunctionBegin;
+  PetscCheckInput(num_names < 2, "new: '%.80s' after '%.80s'; one scene has one name", names[1], name);
   PetscCheckInput(IsName_Private(name), "new: '%s' is no name for a scene; it needs letters, digits, _ and -, at most %d", name, MORTISE_NAME - 1);
   for (int i = 0; i < NUM_FILES; ++i) PetscCall(PetscSNPrintf(path[i], sizeof(path[i]), "%s%s", name, Files[i].extension));
   PetscCallMPI(MPI_Comm_rank(comm, &rank));

@@ -1,5 +1,6 @@
 /* Starting MPI cheaply: a single process needs no network and no daemon. Half the processor time of the start and 0.3 s of waiting go. */
 #include "appimpl.h"
+#include <errno.h>
 #include <stdlib.h>
 #include <unistd.h>
 
@@ -113,6 +114,19 @@ static void TellFiles_Private(int argc, char **argv)
   }
 }
 
+/* What PETSc does not live through, said by one process of a job. */
+static PetscBool Refused_Private(int argc, char **argv)
+{
+  const char *const rank = getenv("OMPI_COMM_WORLD_RANK");
+  char              here[PETSC_MAX_PATH_LEN], told[256] = "";
+  const PetscBool   lost = (PetscBool)(!getcwd(here, sizeof(here))), loop = (PetscBool)(!lost && AppOptionsLoop(argc, argv, sizeof(told), told));
+
+  if (lost && (!rank || !strcmp(rank, "0")))
+    fprintf(stderr, "mortise: the working directory cannot be found: %s; start in one that is there\n", strerror(errno));
+  if (loop && (!rank || !strcmp(rank, "0"))) fprintf(stderr, "mortise: -options_file: %s names itself, so that reading it would not end\n", told);
+  return (PetscBool)(lost || loop);
+}
+
 /* PetscInitialize with those settings when no launcher started this process; what the user has set wins. */
 PetscErrorCode AppInitialize(int argc, char **argv)
 {
@@ -123,7 +137,8 @@ PetscErrorCode AppInitialize(int argc, char **argv)
 
   for (int i = 0; alone && i < NUM_ALONE; ++i) set[i] = !getenv(Alone[i][0]) && !setenv(Alone[i][0], Alone[i][1], 1);
   OneThread_Private();
-  arguments                                        = Arguments_Private(&argc, argv);
+  arguments = Arguments_Private(&argc, argv);
+  if (Refused_Private(argc, arguments)) return MORTISE_ERR_INPUT;
   PetscErrorCode (*const print)(const char[], ...) = PetscErrorPrintf;
   PetscErrorPrintf                                 = Keep_Private;
   ierr                                             = PetscInitialize(&argc, &arguments, NULL, NULL);

@@ -62,7 +62,12 @@ PetscErrorCode ErrorInput(const char *format, ...)
 
 PetscBool ErrorIsPlain(PetscErrorCode code)
 {
-  return (PetscBool)(code == PETSC_ERR_FILE_WRITE || code == PETSC_ERR_MEM);
+  return (PetscBool)(code == PETSC_ERR_FILE_WRITE || code == PETSC_ERR_FILE_OPEN || code == PETSC_ERR_MEM || ErrorIsOption(code));
+}
+
+PetscBool ErrorIsOption(PetscErrorCode code)
+{
+  return (PetscBool)(code == PETSC_ERR_ARG_UNKNOWN_TYPE || code == PETSC_ERR_MISSING_FACTOR);
 }
 
 static char asked[128]; /* what memory is being asked for */
@@ -92,7 +97,7 @@ static void Plain_Private(MPI_Comm comm, PetscErrorCode code, const char *messag
   if (code == PETSC_ERR_MEM)
     fprintf(stderr, "mortise: out of memory%s%s: take a smaller problem, or more processes on more machines\n", asked[0] ? " for " : "", asked);
   else
-    fprintf(stderr, "mortise: %s\n", message);
+    fprintf(stderr, "mortise: %s%.*s\n", ErrorIsOption(code) ? "an option of PETSc cannot act: " : "", (int)strcspn(message, "\n"), message);
   fflush(stderr);
 }
 

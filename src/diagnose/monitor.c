@@ -127,6 +127,8 @@ PetscErrorCode MonitorHeader(Monitor m, Problem problem)
 {
   const SceneData    *scene = m->scene;
   const ForestTables *t;
+  const HPTables     *v;
+  HPSpace             space;
   Forest              forest;
   PetscInt            dofs, low = MORTISE_MAX_ORDER, high = 1;
   PetscMPIInt         size;
@@ -137,11 +139,15 @@ PetscErrorCode MonitorHeader(Monitor m, Problem problem)
   PetscCall(ForestGetTables(forest, &t));
   PetscCall(ProblemNumDofs(problem, &dofs));
   PetscCallMPI(MPI_Comm_size(m->comm, &size));
-  for (PetscInt b = 0; b < scene->mechanics.num_bodies; ++b) {
-    if (scene->mechanics.bodies[b].material->law->rigid) continue;
-    low  = PetscMin(low, scene->mechanics.bodies[b].order);
-    high = PetscMax(high, scene->mechanics.bodies[b].order);
+  PetscCall(ProblemGetSpace(problem, &space));
+  PetscCall(HPSpaceGetTables(space, &v));
+  for (PetscInt c = 0; c < v->num_owned_cells; ++c) { /* after -restart not those of the scene */
+    if (scene->mechanics.bodies[t->leaf_body[v->cell_leaf[c]]].material->law->rigid) continue;
+    low  = PetscMin(low, v->cell_order[c]);
+    high = PetscMax(high, v->cell_order[c]);
   }
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &low, 1, MPIU_INT, MPI_MIN, m->comm));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &high, 1, MPIU_INT, MPI_MAX, m->comm));
   if (low >= high)
     snprintf(orders, sizeof(orders), "%d", (int)high);
   else

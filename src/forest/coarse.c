@@ -167,6 +167,22 @@ static void CellCentre_Private(const CoarseMesh *mesh, PetscInt cell, PetscReal 
   ForestCoarseMapPoint(mesh, cell, half, X, NULL);
 }
 
+/* A determinant that numbers do not hold is no fault of the cell's shape. */
+static PetscErrorCode CheckSize_Private(const CoarseMesh *mesh, PetscInt cell)
+{
+  const PetscInt   q = mesh->geometry_order + 1, n = q * q * (mesh->dim == 3 ? q : 1);
+  const PetscReal *X      = mesh->cell_geometry + 3 * n * cell;
+  PetscReal        extent = 0;
+
+  PetscFunctionBegin;
+  for (PetscInt i = 0; i < 3 * n; ++i) extent = PetscMax(extent, PetscAbsReal(X[i] - X[i % 3]));
+  const PetscReal volume = PetscPowReal(extent, (PetscReal)mesh->dim);
+  PetscCheckInput(!extent || PetscIsNormalReal(volume),
+                  "mesh cell %" PetscInt_FMT " of %" PetscInt_FMT " is %g long, and its volume is none that a number can be; give it in other units", cell + 1,
+                  mesh->num_cells, (double)extent);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 static PetscErrorCode CheckCells_Private(const CoarseMesh *mesh)
 {
   PetscReal X[3];
@@ -175,6 +191,7 @@ static PetscErrorCode CheckCells_Private(const CoarseMesh *mesh)
   for (PetscInt c = 0; c < mesh->num_cells; ++c) {
     if (ForestCoarseJacobianSign(mesh, c) > 0) continue;
     CellCentre_Private(mesh, c, X);
+    PetscCall(CheckSize_Private(mesh, c));
     return ErrorInput("mesh cell %" PetscInt_FMT " of %" PetscInt_FMT
                       ", centre (%g, %g, %g), is inverted or degenerate: its Jacobian determinant is not positive everywhere",
                       c + 1, mesh->num_cells, (double)X[0], (double)X[1], (double)X[2]);

@@ -191,6 +191,7 @@ static PetscErrorCode Load_Private(Reader *r, PetscBool curved)
   PetscCall(PetscPopErrorHandler());
   if (status) {
     r->dm = NULL;
+    if (strstr(text, "partially interpolated")) FAIL(r, "mesh file '%s' has no cells of dimension %" PetscInt_FMT, r->spec->file, r->spec->dim);
     FAIL(r, "mesh file '%s' cannot be read, it may be truncated or damaged (%s)", r->spec->file, text[0] ? text : "no reason known");
   }
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -20,6 +20,7 @@ struct _p_Writer {
   IndexState       state;     /* the open state, or the last one */
   const SceneData *scene;     /* borrowed; NULL: fields have no units and no names */
   hid_t            file;      /* owned; -1 between states */
+  PetscBool        open;      /* the file of a state may be there, unfinished */
   hid_t            group;     /* owned: the open grid; -1 when none */
   int64_t          total[2];  /* points and cells of the open grid, all ranks */
   int64_t          offset[2]; /* first point and cell of this rank */
@@ -185,6 +186,7 @@ PetscErrorCode WriterBegin(Writer w, PetscReal time, PetscInt step, PetscInt pas
   w->state   = (IndexState){.time = time, .load_time = load_time, .step = step, .pass = pass, .number = w->num};
   PetscCall(PetscSNPrintf(path, sizeof(path), "%s/fields_%04" PetscInt_FMT ".h5", w->directory, w->num));
   PetscCall(OutputAccess(w->comm, path, &access));
+  w->open = PETSC_TRUE;
   PetscCallH5Id(w->file, H5Fcreate(path, H5F_ACC_TRUNC, H5P_DEFAULT, access));
   PetscCallH5(H5Pclose(access));
   PetscCall(OutputAttributeReal(w->file, "time", time));
@@ -362,7 +364,7 @@ void WriterAbandon(Writer w)
   char path[PETSC_MAX_PATH_LEN];
 
   (void)snprintf(path, sizeof(path), "%s/fields_%04d.h5", w->directory, (int)w->num);
-  if (w->file >= 0) (void)unlink(path);
+  if (w->open) (void)unlink(path);
 }
 
 PetscErrorCode WriterEnd(Writer w)
@@ -374,6 +376,7 @@ PetscErrorCode WriterEnd(Writer w)
   PetscCall(OutputAttributeInt(w->file, "complete", 1));
   PetscCallH5(H5Fclose(w->file));
   w->file = -1;
+  w->open = PETSC_FALSE;
   w->num++;
   PetscCall(WriterIndex_Private(w));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -121,6 +121,21 @@ static int Run_Private(char *const argv[], const char *log, int *status, PetscBo
   return failed ? failed : Wait_Private(pid, status, stopped);
 }
 
+/* gmsh does not notice that there was no room for all of the mesh: then the last line is not the end of a section. */
+static void CheckWhole_Private(const char *geo, MeshResult *r)
+{
+  char  last[32] = "", *line = last;
+  FILE *f = fopen(r->file, "r");
+
+  if (f && !fseek(f, -(long)sizeof(last) + 1, SEEK_END)) last[fread(last, 1, sizeof(last) - 1, f)] = 0;
+  if (f) (void)fclose(f);
+  for (char *c = last; *c; ++c)
+    if (c[0] == '\n' && c[1]) line = c + 1;
+  if (strncmp(line, "$End", 4) || !strchr(line, '\n'))
+    (void)snprintf(r->message, sizeof(r->message), "mesh.file %s: gmsh could not write all of its mesh to %s; is there no room? TMPDIR names another directory",
+                   geo, r->temporary);
+}
+
 /* Cells in an ASCII .msh 4.1: highest dimension, and whether there are simplices of it. */
 static void Scan_Private(const char *file, PetscInt *dim, PetscBool *simplices)
 {
@@ -208,6 +223,8 @@ static void Gmsh_Private(Scene s, const char *geo, PetscBool subdivide, MeshResu
                    strsignal(WTERMSIG(status)));
   else if (status || reason[0])
     (void)snprintf(r->message, sizeof(r->message), "gmsh rejects mesh.file %s: %s", geo, reason[0] ? reason : "it failed without saying why");
+  else
+    CheckWhole_Private(geo, r);
 }
 
 static void Generate_Private(Scene s, const char *geo, MeshResult *r)
@@ -245,20 +262,24 @@ static void Generate_Private(Scene s, const char *geo, MeshResult *r)
 static void Find_Private(Scene s, MeshResult *r)
 {
   const SceneNode *mesh      = NodeFind(s->root, "mesh");
-  const SceneNode *parameter = NodeFind(mesh, "parameter");
-  const char      *where     = NodeWhere(NodeFind(mesh, "file"));
-  PetscBool        geo       = HasSuffix_Private(s->mesh_file, ".geo");
+  const SceneNode *parameter = NodeFind(mesh, "parameter"), *order = NodeFind(mesh, "order");
+  const char      *where = NodeWhere(NodeFind(mesh, "file"));
+  PetscBool        geo   = HasSuffix_Private(s->mesh_file, ".geo");
   struct stat      info;
 
   (void)snprintf(r->file, sizeof(r->file), "%s%s", s->mesh_file[0] == '/' ? "" : s->directory, s->mesh_file);
   if (!geo && !HasSuffix_Private(s->mesh_file, ".msh"))
-    (void)snprintf(r->message, sizeof(r->message), "%s is '%.80s'; its name must end in .geo or .msh", where, s->mesh_file);
+    (void)snprintf(r->message, sizeof(r->message), "%s is '%.80s'; its name must end in .geo or .msh, which mortise-import makes of others", where,
+                   s->mesh_file);
   else if (stat(r->file, &info))
     (void)snprintf(r->message, sizeof(r->message), "%s: there is no file %s", where, r->file);
   else if (!S_ISREG(info.st_mode) || access(r->file, R_OK))
     (void)snprintf(r->message, sizeof(r->message), "%s: %s cannot be read", where, r->file);
   else if (!geo && parameter)
     (void)snprintf(r->message, sizeof(r->message), "%s: only a .geo has parameters, mesh.file is %s", NodeWhere(parameter), s->mesh_file);
+  else if (!geo && order)
+    (void)snprintf(r->message, sizeof(r->message), "%s: only a .geo is meshed here, cells of mesh.file %s have the order that they have", NodeWhere(order),
+                   s->mesh_file);
   for (SceneNode *p = geo && parameter && !r->message[0] ? parameter->first : NULL; p && !r->message[0]; p = p->next)
     if (!Declares_Private(r->file, p->key)) (void)snprintf(r->message, sizeof(r->message), "%s: %s declares no such constant", NodeWhere(p), r->file);
 }

@@ -72,6 +72,8 @@ static PetscErrorCode Unknown_Private(const SceneNode *root, const SceneNode *no
   }
   PetscCall(OptionCheckFormer(NodeWhere(node), path, '.'));
   PetscCall(OptionNearest(root, path, '.', sizeof(nearest), nearest));
+  PetscCheckInput(strcmp(path, nearest), "%s is not a key of a scene; keys stand in each other, %.*s: {%s: ...}", NodeWhere(node), (int)strcspn(nearest, "."),
+                  nearest, nearest + strcspn(nearest, ".") + 1);
   PetscCall(ErrorInput("%s is not a key of a scene; the nearest one is %s", NodeWhere(node), nearest));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -265,7 +265,12 @@ static PetscErrorCode ReadBody_Private(Scene s, SceneNode *node, BodyEntry *b)
                   "%s: moments on a body are told of rigid ones, and material %s is %s; set moment_about of a boundary or a pair",
                   NodeWhere(NodeFind(node, "moment_about")), b->material, b->spec.material->law->name);
   PetscCall(SceneFindPoint(s, node, b->moment_about, b->spec.about));
-  for (int c = 0; c < 3; ++c) PetscCall(SceneCheckPath(s, NodeFind(node, "motion"), b->spec.motion[c]));
+  for (int c = 0; c < 3; ++c) {
+    PetscCheckInput(!b->spec.motion[c] || !ExpressionUsesPlace(b->spec.motion[c]),
+                    "%s.%c is \"%s\": one translation for the whole body, so an expression in t alone", NodeWhere(NodeFind(node, "motion")), 'x' + c,
+                    ExpressionText(b->spec.motion[c]));
+    PetscCall(SceneCheckPath(s, NodeFind(node, "motion"), b->spec.motion[c]));
+  }
   PetscCall(ReadRotation_Private(s, NodeFind(NodeFind(node, "motion"), "rotation"), b));
   b->spec.amplitude.endless = (PetscBool)(s->data.load.control == LOAD_ARC_LENGTH);
   PetscCheckInput(!rigid || !NodeFind(node, "force"), "%s: the cells of a rigid body are not solved for and take no force per volume; give it a load",

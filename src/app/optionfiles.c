@@ -1,0 +1,71 @@
+/* Files of options that PETSc reads while it starts. One that names itself, by others or at once, would be read without end: that is told beforehand. */
+#include "appimpl.h"
+#include <stdlib.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#define BLANK " \t\r\n"
+
+/* A file that is being read, and the one that named it. */
+typedef struct _Reading {
+  const struct _Reading *by;
+  dev_t                  device;
+  ino_t                  inode;
+} Reading;
+
+static PetscBool NamesItself_Private(const char *path, const Reading *by, char *told, size_t capacity);
+
+/* Does a text of options lead to a file that names itself? told: which one. */
+static PetscBool Leads_Private(char *text, const Reading *by, char *told, size_t capacity)
+{
+  char     *at   = NULL;
+  PetscBool file = PETSC_FALSE; /* the next word names one */
+
+  for (const char *word = strtok_r(text, BLANK, &at); word; word = strtok_r(NULL, BLANK, &at)) {
+    if (file && NamesItself_Private(word, by, told, capacity)) return PETSC_TRUE;
+    file = (PetscBool)(!strcmp(word, "-options_file") || !strcmp(word, "-options_file_yaml") || !strcmp(word, "options_file:"));
+  }
+  return PETSC_FALSE;
+}
+
+/* PETSc says what is wrong with one that cannot be read. */
+static PetscBool NamesItself_Private(const char *path, const Reading *by, char *told, size_t capacity)
+{
+  char       *line = NULL;
+  size_t      room = 0;
+  struct stat info;
+  FILE       *file  = NULL;
+  PetscBool   found = PETSC_FALSE;
+
+  if (stat(path, &info) || !S_ISREG(info.st_mode)) return PETSC_FALSE;
+  for (const Reading *r = by; r; r = r->by) {
+    if (r->device != info.st_dev || r->inode != info.st_ino) continue;
+    (void)snprintf(told, capacity, "%s", path);
+    return PETSC_TRUE;
+  }
+  const Reading reading = {.by = by, .device = info.st_dev, .inode = info.st_ino};
+  file                  = fopen(path, "r");
+  while (file && !found && getline(&line, &room, file) >= 0) {
+    line[strcspn(line, "#")] = 0;
+    found                    = Leads_Private(line, &reading, told, capacity);
+  }
+  if (file) (void)fclose(file);
+  free(line);
+  return found;
+}
+
+PetscBool AppOptionsLoop(int argc, char **argv, size_t capacity, char told[])
+{
+  static const char *const unasked[] = {".petscrc", "petscrc"};
+  const char *const        given     = getenv("PETSC_OPTIONS");
+  char                    *text      = given ? strdup(given) : NULL;
+  PetscBool                found     = PETSC_FALSE;
+
+  for (int i = 1; i + 1 < argc && !found; ++i) {
+    if (!strcmp(argv[i], "-options_file") || !strcmp(argv[i], "-options_file_yaml")) found = NamesItself_Private(argv[i + 1], NULL, told, capacity);
+  }
+  if (text && !found) found = Leads_Private(text, NULL, told, capacity);
+  for (int i = 0; i < 2 && !found; ++i) found = NamesItself_Private(unasked[i], NULL, told, capacity);
+  free(text);
+  return found;
+}

@@ -1,0 +1,217 @@
+"""What users do wrong beyond the cases of test_input.py: words, YAML, meshes, options, directories, restarts. One sentence, exit status 1, nothing half written."""
+import os
+import resource
+import subprocess
+
+import pytest
+from conftest import PROGRAM, ROOT
+from test_hostile import limited
+from test_input import GEO, RUBBER, SCENE, check, refused  # noqa: F401 (check is a fixture)
+from test_orderly import refused as refused_run
+
+PAIR = "  pair: {nonmortar: upper_bottom, mortar: lower_top, friction: 0}\n"
+TOP = "top: {displacement: {x: 0, y: -0.05}}"
+BODIES = "  lower: {material: rubber}\n  upper: {material: rubber}\n"
+STEEL = ("material:\n", "material:\n  steel: {law: rigid}\n")
+
+
+def moved(motion):
+    return [STEEL, ("upper: {material: rubber}", f"upper: {{material: steel, motion: {motion}}}"), (f"  {TOP}\n", "")]
+
+
+def more(keys):
+    return [("load: {", keys + "\nload: {")]
+
+
+@pytest.mark.parametrize("edits,words", [
+    # numbers
+    ([("E: 1,", "E: 1e400,")], ["material.rubber.E is '1e400'; it must be a number"]), ([("E: 1,", "E: 210 GPa,")], ["material.rubber.E is '210 GPa'"]),
+    ([("E: 1,", "E: '1,5',")], ["material.rubber.E is '1,5'"]), ([("E: 1,", "E: 1_000,")], ["material.rubber.E is '1_000'"]),
+    ([("E: 1,", "E: true,")], ["material.rubber.E is 'true'"]), ([("E: 1,", "E: null,")], ["material.rubber.E is 'null'"]),
+    ([("E: 1,", "E: 0,")], ["material.rubber.E: 0 is not a finite number above 0"]), ([("nu: 0.3", "nu: -1")], ["material.rubber.nu: -1 is not between -1 and 0.5"]),
+    ([("nu: 0.3", "nu: 0.5, volumetric: log")], ["material.rubber.volumetric: log has no incompressible limit"]),
+    ([(RUBBER, "{law: saint_venant_kirchhoff, E: 1, nu: 0.5}")], ["saint_venant_kirchhoff has no incompressible limit"]),
+    ([(RUBBER, "{law: neo_hookean, mu: 1, kappa: -1}")], ["material.rubber.kappa: -1 is not"]), ([(RUBBER, "{law: neo_hookean, mu: 1, kappa: 1e15}")], ["more than 1e12 times"]),
+    ([(RUBBER, "{law: mooney_rivlin, c1: -1, c2: 0.5, kappa: 10}")], ["= -1 must be positive"]), ([(RUBBER, "{law: rigid, E: 1}")], ["the law rigid takes no parameters"]),
+    ([("nu: 0.3", "nu: 0.3, formulation: u-p")], [r"formulation is 'u-p'; allowed: auto\|displacement\|mixed"]),
+    # pairs
+    ([("friction: 0", "friction: -0.1")], ["contact.pair.friction is -0.1; allowed: 0 or a positive"]), ([("friction: 0", "friction: nan")], ["no finite number"]),
+    ([("friction: 0", "friction: X")], ["contact.pair.friction is \"X\": one coefficient for the whole pair"]),
+    ([(PAIR, "  pair: {friction: 0}\n")], ["contact.pair.nonmortar must be given: a pair has two sides"]),
+    ([("friction: 0", "surface: upper_bottom")], ["contact.pair.surface is 'upper_bottom', but nonmortar is given"]),
+    ([("mortar: lower_top", "mortar: [lower_top, bottom]")], ["contact.pair.mortar must be a text, it is a list"]),
+    ([("mortar: lower_top", "mortar: lower")], ["contact.pair.mortar: 'lower' is a body of the mesh"]), ([(PAIR, "  pair: yes\n")], ["contact.pair must be a map of keys"]),
+    ([("friction: 0", "law: mortar")], [r"contact.pair.law is 'mortar'; allowed: frictionless\|"]), ([("friction: 0", "search: -1")], ["contact.pair.search is -1"]),
+    ([("friction: 0", "law: penalty, penalty: 0")], ["contact.pair.penalty is 0"]), ([("friction: 0", "initial_gap: 0.1")], [r"initial_gap is '0.1'; allowed: keep\|"]),
+    ([STEEL, (BODIES, BODIES.replace("rubber", "steel")), (f"  {TOP}\n", ""), ("  bottom: {fix: xy}\n", ""), (f"  rubber: {RUBBER}\n", "")], ["both sides of rigid bodies"]),
+    # what moves and holds
+    (moved("{w: 1}"), ["body.upper.motion.w is not a key"]), (moved("{y: '-0.1*X'}"), ["body.upper.motion.y is \"-0.1\\*X\": one translation for the whole body"]),
+    (moved("{y: 0/0}"), ["body.upper.motion.y: \"0/0\" is no finite number"]),
+    ([("upper: {material: rubber}", "upper: {material: rubber, motion: {y: -0.1}}")], ["only a rigid body moves as told"]),
+    ([("fix: xy", "fix: xx")], ["boundary.bottom.fix is 'xx': x is there twice"]), ([("fix: xy", "fix: true")], ["fix is 'true'; allowed: letters of xy, or normal"]),
+    ([("displacement: {x: 0, y: -0.05}", "displacement: -0.05")], ["displacement must be a map of keys"]), ([("y: -0.05", "y: '-0.05*t**2'")], ["Unexpected operator"]),
+    ([("y: -0.05", "y: 'X=3'")], ["assigns with '='; compare with '=='"]), ([("y: -0.05", f"y: '{'+'.join('t' * 3000)}'")], ["at most 4000 characters"]),
+    ([("y: -0.05}", "y: -0.05}, amplitude: []")], ["amplitude has 0 numbers"]), ([("y: -0.05}", "y: -0.05}, amplitude: [0, 0, 1, nan]")], ["amplitude: \"nan\" is no finite"]),
+    ([(TOP, "upper: {traction: {x: 1}}")], ["'upper' is a body of the mesh"]), ([(TOP, TOP + "\n  lower_side: {traction: {}}")], ["lower_side prescribes nothing"]),
+    ([(TOP, TOP + "\n  lower_side: {pressure: {x: 1}}")], ["pressure must be a number or an expression, it is a map"]),
+    ([("fix: xy", "fix: xy, moment_about: nope")], ["moment_about is 'nope', which is not under point"]), ([("displacement: {x: 0, y: -0.05}", "rotation: {}")], ["rotation.angle must be given"]),
+    # how it is solved
+    ([("end: 1", "end: nan")], ["load.end is 'nan'"]), ([("end: 1", "end: 0")], ["load.end is 0"]), ([("step: 0.5", "step: 0.5, max_steps: 1e3")], ["load.max_steps is '1e3'"]),
+    ([("step: 0.5", "step: 0.5, step_min: 0.9")], ["load.step is 0.5; it must lie between step_min 0.9"]), (more("adapt: {max_cells: 0}"), ["adapt.max_cells is 0"]),
+    (more("adapt: {max_passes: 1e99}"), ["adapt.max_passes is '1e99'"]), (more("refine: {a: {}}"), ["refine.a needs a boundary, a point"]),
+    (more("refine: {a: {boundary: nope}}"), ["no boundary group 'nope'"]), (more("output: {quantities: temperature}"), [r"output.quantities is 'temperature'; allowed: principal"]),
+    (more("output: {fields: Off}"), ["output.fields is 'Off'; allowed: true, false"]), (more("probe: {p: {x: 5, y: 5}}"), [r"\(5, 5, 0\) lies outside all bodies"]),
+    (more("probe: {p: {}}"), ["probe.p needs coordinates x, y"]), (more("units: 'mm, N, Pa'"), ["units is 'mm, N, Pa', but Pa is not N/mm"]), (more("units: furlong"), ["furlong is no unit"]),
+    # YAML
+    ([(BODIES, "  lower: &b {material: rubber}\n  upper: *b\n")], ["anchors of YAML are not used"]), ([("upper: {material: rubber}", "upper: *nope")], ["aliases of YAML"]),
+    ([("upper: {material: rubber}", "upper: {<<: {material: rubber}}")], ["body.upper.<< is not a key"]), ([("order: 1\nbody", "order: !!int 1\nbody")], ["tags of YAML"]),
+    ([("title: two squares", "load.end: 2")], [r"load.end is not a key of a scene; keys stand in each other, load: \{end: ...\}"]),
+    ([("title: two squares", "Model: 3d")], ["Model is not a key of a scene; the nearest one is model"]), ([("title: two squares", "? [a, b]\n: 3")], ["a key must be a plain word"]),
+    ([("title: two squares", "'': 4")], ["an empty key"]), ([("title: two squares", f"title: {'[' * 2000}{']' * 2000}")], ["nested deeper"]),
+    ([("body:\n", "body: {}\nx:\n")], ["x is not a key of a scene"]),
+    # the mesh
+    ([("squares.geo", "part.step")], ["must end in .geo or .msh, which mortise-import makes of others"]), ([("order: 1}", "order: 1, parameter: {n: inf}}")], ["mesh.parameter.n is 'inf'"]),
+    ([("squares.geo", "''")], ["mesh.file is ''"]), ([("squares.geo", "a" * 5000 + ".msh")], ["mesh.file is longer than 4095"]), ([("order: 1}", "order: 1, refine: 99}")], ["mesh.refine is 99"]),
+])
+def test_scene(check, edits, words):
+    refused(check(edits), *words)
+
+
+@pytest.mark.parametrize("encode,good", [(lambda text: b"\xef\xbb\xbf" + text.encode(), True), (lambda text: text.replace("\n", "\r\n").encode(), True),
+                                         (lambda text: text.encode("utf-16"), True), (lambda text: text.replace("two", "zwölf").encode("latin1"), False),
+                                         (lambda text: text.replace("two", "t\0wo").encode(), False), (lambda text: text.encode() + b"#" + b"x" * (1 << 22), False)])
+def test_bytes(check, run, tmp_path, encode, good):
+    """Marks of the byte order, line ends of other systems and UTF-16 are read; what is no text is told."""
+    check()
+    (tmp_path / "bytes.yml").write_bytes(encode(SCENE))
+    result = run(tmp_path / "bytes.yml", "-check")
+    if good:
+        assert result.returncode == 0 and not result.stderr, result
+    else:
+        refused(result, "not valid YAML|is larger than")
+
+
+@pytest.mark.parametrize("options,words", [
+    (["--", "-order", "2"], ["'--' is neither the scene nor an option"]), (["--order", "2"], ["--order is no key of a scene", "nearest one is -order"]),
+    (["-order=2"], ["-order=2 is no key of a scene", "nearest one is -order"]), (["-load.end", "2"], ["-load.end is no key of a scene", "-load_end"]),
+    (["-load_end", "-2"], ["command line: load.end is -2"]), (["-max_seconds", "5m"], ["-max_seconds is '5m'"]), (["-restart", "none.h5"], ["-restart none.h5: the file cannot be read"]),
+    (["-restart", "."], ["-restart .: .*directory"]), (["-restart", str(ROOT / "README.md")], ["this is no checkpoint of mortise"]),
+    (["-options_file", "."], ["-options_file: .* is a directory"]), (["-output_directory", "a" * 300], ["output.directory .*File name too long"]),
+])
+def test_options(check, options, words):
+    refused(check((), *options), *words)
+
+
+@pytest.mark.parametrize("files", [{"a": "-options_file a"}, {"a": "-order 2\n-options_file b # which\n", "b": "-load_end 1 -options_file a"}, {"a": "-options_file b\n", "b": "\n-options_file b"}])
+@pytest.mark.parametrize("ranks", [1, 2])
+def test_option_files_that_name_themselves(run, tmp_path, files, ranks):
+    for name, text in files.items():
+        (tmp_path / name).write_text(text.replace("_file ", f"_file {tmp_path}/"))
+    result = run("inputs/patch2d.yml", "-options_file", tmp_path / "a", ranks=ranks)
+    refused_run(result, "-options_file: ", "names itself")
+    (tmp_path / "once").write_text("-load_step 1\n")
+    (tmp_path / "a").write_text(f"-options_file {tmp_path}/once\n-options_file {tmp_path}/once\n")  # one that is read twice is no such
+    assert run("inputs/patch2d.yml", "-check", "-options_file", tmp_path / "a").returncode == 0
+
+
+@pytest.mark.parametrize("option,words", [(("-ksp_type", "nonsense"), "KSP type nonsense"), (("-pc_type", "nonsense"), "PC type nonsense"),
+                                          (("-pc_factor_mat_solver_type", "nonsense"), "solver type nonsense")])
+@pytest.mark.parametrize("ranks", [1, 2])
+def test_types_that_petsc_does_not_know(run, option, words, ranks):
+    result = run("inputs/patch2d.yml", *option, ranks=ranks)
+    said = [line for line in result.stderr.splitlines() if line.startswith("mortise: ")]
+    assert result.returncode == 1 and len(said) == 1 and "an option of PETSc cannot act: " in said[0] and words in said[0] and "PETSC ERROR" not in result.stderr, result
+
+
+def test_a_view_that_cannot_be_written(run):
+    """The run is there all the same."""
+    result = run("inputs/patch2d.yml", "-solution_view", "vtk:/nowhere/x.vtu")
+    assert result.returncode == 2 and result.stderr == "mortise: Unable to open file /nowhere/x.vtu\n" and result.summary["status"] == "converged", result
+
+
+def test_new(tmp_path):
+    done = subprocess.run([PROGRAM, "new", "a", "b"], cwd=tmp_path, capture_output=True, text=True)
+    assert done.returncode == 1 and done.stderr == "mortise: new: 'b' after 'a'; one scene has one name\n" and not os.listdir(tmp_path), done
+
+
+def test_a_working_directory_that_is_gone(tmp_path):
+    (tmp_path / "gone").mkdir()
+    done = subprocess.run(["sh", "-c", f"rmdir ../gone && {PROGRAM} {ROOT}/inputs/patch2d.yml"], cwd=tmp_path / "gone", capture_output=True, text=True)
+    assert done.returncode == 1 and done.stderr.startswith("mortise: the working directory cannot be found") and done.stderr.count("\n") == 1, done
+
+
+# ---- meshes ---------------------------------------------------------------------------------------------------------------------------------
+
+ALONE = """mesh: {file: m.msh}
+model: plane_strain
+body: {lower: {material: rubber}}
+material: {rubber: {law: neo_hookean, E: 1, nu: 0.3}}
+boundary: {bottom: {fix: xy}}
+load: {step: 1}
+"""
+SQUARE = ((0, 0), (1, 0), (1, 1), (0, 1))
+CELLS = ("1 2 3 1 1 2", "3 2 1 1 1 2 3 4")
+
+
+def msh(nodes=SQUARE, cells=CELLS, names=('1 3 "bottom"', '2 1 "lower"')):
+    def section(name, rows):
+        return "\n".join([f"${name}", *([] if name == "MeshFormat" else [str(len(rows))]), *rows, f"$End{name}"]) + "\n"
+
+    return (section("MeshFormat", ["2.2 0 8"]) + section("PhysicalNames", names) + section("Nodes", [f"{i} {x} {y} 0" for i, (x, y) in enumerate(nodes, 1)])
+            + section("Elements", [f"{i} {cell}" for i, cell in enumerate(cells, 1)]))
+
+
+@pytest.mark.parametrize("mesh,words", [
+    (msh([(0, 0), (1, 0), (1, 0), (0, 0)]), "inverted or degenerate"), (msh([(0, 0), (1, 0), (2, 0), (3, 0)]), "inverted or degenerate"),
+    (msh([(0, 0), (1, 0), (0.1, 0.1), (0, 1)]), "inverted or degenerate"), (msh([(1e200 * x, 1e200 * y) for x, y in SQUARE]), "is 1e+200 long, and its volume is none"),
+    (msh([(1e-200 * x, 1e-200 * y) for x, y in SQUARE]), "is 1e-200 long, and its volume is none"), (msh(cells=[]), "has no cells of dimension 2"),
+    (msh(cells=["15 2 3 1 1"]), "has no cells of dimension 2"), (msh(cells=CELLS[1:]), "no boundary group 'bottom'; it has: none"),
+    (msh(cells=["1 2 3 1 1 3", CELLS[1]]), "no facet of a cell is in group 'bottom'"), (msh(cells=[CELLS[0], "3 2 0 1 1 2 3 4"]), "is in no physical group of dimension 2"),
+    (msh(cells=[CELLS[0], "3 2 1 1 1 2 3 3"]), "an element names a node twice"), (msh(names=['1 3 "bottom"', '2 7 "lower"']), "no physical group 'lower' of dimension 2"),
+    ("", "does not begin with $MeshFormat"), ("$NOD\n1\n1 0 0 0\n$ENDNOD\n", "does not begin with $MeshFormat"), ("$MeshFormat\n4 0 8\n$EndMeshFormat\n", "has gmsh format version 4.0"),
+    (msh().replace("1 0 0\n", "1,0 0 0\n"), "truncated or damaged"), (None, "cannot be read"),
+])
+def test_mesh(run, tmp_path, mesh, words):
+    if mesh is None:
+        (tmp_path / "m.msh").mkdir()
+    else:
+        (tmp_path / "m.msh").write_text(mesh)
+    refused_run(run("s.yml", "-check", text=ALONE), words)
+
+
+@pytest.mark.parametrize("mesh", [msh(), msh().replace("\n", "\r\n"), msh(cells=[CELLS[0], "3 2 1 1 4 3 2 1"]), msh(names=['1 3 "bottom"', '2 1 "lower"', '2 2 "ghost"'])])
+def test_mesh_that_is_good(run, tmp_path, mesh):
+    """Lines end as elsewhere, a cell runs the other way round, a group is empty."""
+    (tmp_path / "m.msh").write_text(mesh)
+    assert run("s.yml", "-check", text=ALONE).returncode == 0
+
+
+def test_more_processes_than_cells(run, tmp_path):
+    (tmp_path / "m.msh").write_text(msh())
+    result = run("s.yml", text=ALONE, ranks=3)
+    assert result.returncode == 0 and result.summary["cells"] == 1 and result.summary["ranks"] == 3, result
+
+
+@pytest.mark.parametrize("keys,words", [("order: 2", "mesh.order: only a .geo is meshed here"), ("parameter: {n: 2}", "mesh.parameter: only a .geo has parameters")])
+def test_keys_of_a_geo_on_a_mesh(run, tmp_path, keys, words):
+    (tmp_path / "m.msh").write_text(msh())
+    refused_run(run("s.yml", "-check", text=ALONE.replace("m.msh", f"m.msh, {keys}")), words)
+
+
+def test_no_room_for_the_mesh_of_gmsh(run, tmp_path):
+    """gmsh says nothing, and leaves a part of it."""
+    (tmp_path / "squares.geo").write_text(GEO + "// a mesh that is not there yet\n")
+    with limited(resource.RLIMIT_FSIZE, 1):
+        refused_run(run("s.yml", text=SCENE), "gmsh could not write all of its mesh to ", "TMPDIR")
+
+
+# ---- going on -------------------------------------------------------------------------------------------------------------------------------
+
+
+def test_orders_after_a_restart_are_told_as_they_are(run, tmp_path):
+    """Of the checkpoint's cells, not of the scene that goes on."""
+    (tmp_path / "m.msh").write_text(msh())
+    first = run("s.yml", "-load_step", 0.5, "-load_max_steps", 1, text=ALONE)
+    assert first.returncode == 2 and "1 cells of order 1," in first.stdout, first
+    result = run("s.yml", "-order", 2, "-restart", first.directory / "checkpoint.h5", text=ALONE)
+    assert result.returncode == 0 and "1 cells of order 1," in result.stdout, result
