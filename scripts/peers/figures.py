@@ -8,6 +8,7 @@ import csv
 import json
 import pathlib
 import sys
+import textwrap
 
 sys.dont_write_bytecode = True
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
@@ -152,7 +153,9 @@ def versions(rows):
     for row in rows:
         found.setdefault(row["code"], set()).add(row["version"])
     dates = sorted({row["date"] for row in rows})
-    return "; ".join(f"{NAMES[code]} {', '.join(sorted(v))}" for code, v in found.items()) + f"; {' to '.join(sorted({dates[0], dates[-1]}))}.\n" if rows else "\n"
+    if not rows: return "\n"
+    words = "; ".join(f"{NAMES[code]} {', '.join(sorted(v))}" for code, v in found.items()) + f"; {' to '.join(sorted({dates[0], dates[-1]}))}."
+    return textwrap.fill(words, 120, break_long_words=False, break_on_hyphens=False) + "\n"
 
 
 def insert(text, mark, table):

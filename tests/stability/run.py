@@ -13,10 +13,10 @@ ROOT = HERE.parent.parent
 PAGE = ROOT / "docs" / "stability.md"
 HEAD = """# Where methods fail
 
-Each row is a way in which methods fail: what a run does as it is, and the failing method *run beside it*, by a switch of
-the same program on the same scene. `make stability` runs all of them and writes this page; each row is a test of
-`tests/stability` that asserts both sides, and a quick part of them is in `make test`. "-": the program has no switch for
-a method that fails there.
+Each row is a way in which methods fail: what a run does as it is, and the failing method *run beside it*, by a switch
+of the same program on the same scene. `make stability` runs all of them and writes this page; each row is a test of
+`tests/stability` that asserts both sides, and a quick part of them is in `make test`. "-": the program has no switch
+for a method that fails there.
 
 """
 
