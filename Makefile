@@ -13,11 +13,12 @@ CC      := mpicc
 Q       := $(if $(V),,@)# V=1 shows the commands
 TRIPLET := $(shell gcc -dumpmachine 2>/dev/null)
 
-# Runs as root in a container, more ranks than cores, several runs side by side: all fine for small tests.
+# Runs as root in a container, more ranks than cores, several runs side by side, of which those that wait give way: all fine for small tests.
 export OMPI_ALLOW_RUN_AS_ROOT := 1
 export OMPI_ALLOW_RUN_AS_ROOT_CONFIRM := 1
 export OMPI_MCA_rmaps_base_oversubscribe := 1
 export OMPI_MCA_hwloc_base_binding_policy := none
+export OMPI_MCA_mpi_yield_when_idle := 1
 export OMPI_MCA_pml := ob1
 export OMPI_MCA_btl := self,vader
 export OPENBLAS_NUM_THREADS := 1
