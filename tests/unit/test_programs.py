@@ -12,7 +12,7 @@ import pytest
 
 HERE = pathlib.Path(__file__).resolve().parent
 BUILD = pathlib.Path(os.environ.get("MORTISE_BUILD", HERE.parent.parent / "build"))
-POINTWISE = ("base", "element", "material")
+POINTWISE = ("base", "contact", "element", "material")
 SECONDS = 240  # a rank that fails an assertion may leave the others waiting: that is a failure, not a hang
 
 
