@@ -17,13 +17,16 @@ static void WriteFile(const char *name, const char *text)
   assert_int_equal(fclose(file), 0);
 }
 
+/* No environment but what tests/tools/gmsh keeps meshes by. */
+#define BARE "env -i PATH=\"$PATH\" MORTISE_TEST_GMSH=\"$MORTISE_TEST_GMSH\" MORTISE_TEST_MESHES=\"$MORTISE_TEST_MESHES\""
+
 /* Run gmsh on rank 0, in a bare environment: it may use MPI itself. */
 static void Gmsh(const char *geo, const char *arguments, const char *mesh)
 {
   WriteFile("test.geo", geo);
   if (rank == 0) {
     char command[1024];
-    snprintf(command, sizeof(command), "env -i PATH=\"$PATH\" HOME=\"$HOME\" gmsh test.geo %s -o %s > gmsh.log 2>&1", arguments, mesh);
+    snprintf(command, sizeof(command), BARE " HOME=\"$HOME\" gmsh test.geo %s -o %s > gmsh.log 2>&1", arguments, mesh);
     assert_int_equal(system(command), 0);
   }
   OK(MPI_Barrier(PETSC_COMM_WORLD));
@@ -209,7 +212,7 @@ static void test_simplices_2d(void **state)
 {
   for (int v = 0; v < 2; ++v)
     for (int q = 1; q <= 2; ++q) {
-      char arguments[128];
+      char arguments[320];
       snprintf(arguments, sizeof(arguments), "-2 -order %d -format msh41", q);
       Gmsh(v ? SQUARES("Recombine Surface{2};") : SQUARES(""), arguments, "squares.msh");
       Forest              forest  = Read("squares.msh", 2, 0);
@@ -280,7 +283,7 @@ static void test_ball(void **state)
   const PetscReal limit[4] = {0, 0, 1e-4, 1e-4};
 
   for (int q = 2; q <= 3; ++q) {
-    char arguments[128];
+    char arguments[320];
     snprintf(arguments, sizeof(arguments), "-3 -order %d -format msh41", q);
     Gmsh("SetFactory(\"OpenCASCADE\");Sphere(1)={0,0,0,1};Mesh.CharacteristicLengthMax=0.9;Mesh.SubdivisionAlgorithm=2;Physical "
          "Volume(\"ball\",1)={1};Physical Surface(\"skin\",1)={1};\n",
@@ -384,8 +387,8 @@ static void test_cut_files(void **state)
 
   if (rank) return;
   for (int f = 0; f < 3; ++f) {
-    char arguments[128];
-    snprintf(arguments, sizeof(arguments), "env -i PATH=\"$PATH\" gmsh test.geo -2 -order 2 -format %s -o whole.msh > gmsh.log 2>&1", format[f]);
+    char arguments[320];
+    snprintf(arguments, sizeof(arguments), BARE " gmsh test.geo -2 -order 2 -format %s -o whole.msh > gmsh.log 2>&1", format[f]);
     WriteFile("test.geo", RING("", NAMED));
     assert_int_equal(system(arguments), 0);
     FILE *in = fopen("whole.msh", "rb");
