@@ -56,16 +56,19 @@ static PetscBool NamesItself_Private(const char *path, const Reading *by, char *
 
 PetscBool AppOptionsLoop(int argc, char **argv, size_t capacity, char told[])
 {
-  static const char *const unasked[] = {".petscrc", "petscrc"};
-  const char *const        given     = getenv("PETSC_OPTIONS");
-  char                    *text      = given ? strdup(given) : NULL;
-  PetscBool                found     = PETSC_FALSE;
+  const char *const home = getenv("HOME"), *const given = getenv("PETSC_OPTIONS");
+  char             *text      = given ? strdup(given) : NULL, of_home[PETSC_MAX_PATH_LEN];
+  const char *const unasked[] = {of_home, ".petscrc", "petscrc"};
+  PetscBool         found = PETSC_FALSE, skip = PETSC_FALSE;
 
-  for (int i = 1; i + 1 < argc && !found; ++i) {
-    if (!strcmp(argv[i], "-options_file") || !strcmp(argv[i], "-options_file_yaml")) found = NamesItself_Private(argv[i + 1], NULL, told, capacity);
+  (void)snprintf(of_home, sizeof(of_home), "%s/.petscrc", home ? home : "");
+  for (int i = 1; i < argc && !found; ++i) {
+    skip = (PetscBool)(skip || !strcmp(argv[i], "-skip_petscrc"));
+    if (i + 1 < argc && (!strcmp(argv[i], "-options_file") || !strcmp(argv[i], "-options_file_yaml")))
+      found = NamesItself_Private(argv[i + 1], NULL, told, capacity);
   }
   if (text && !found) found = Leads_Private(text, NULL, told, capacity);
-  for (int i = 0; i < 2 && !found; ++i) found = NamesItself_Private(unasked[i], NULL, told, capacity);
+  for (int i = 0; i < 3 && !found && !skip; ++i) found = NamesItself_Private(unasked[i], NULL, told, capacity);
   free(text);
   return found;
 }
