@@ -318,7 +318,7 @@ def test_plane_model_of_a_mesh_of_solids(check, tmp_path):
     nodes = "".join(f"{i} {x} {y} {z}\n" for i, (x, y, z) in enumerate(corners, 1))
     (tmp_path / "cube.msh").write_text('$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n2\n2 2 "bottom"\n3 1 "lower"\n$EndPhysicalNames\n'
                                        f"$Nodes\n8\n{nodes}$EndNodes\n$Elements\n2\n1 3 2 2 1 1 2 3 4\n2 5 2 1 1 1 2 3 4 5 6 7 8\n$EndElements\n")
-    refused(check([("squares.geo", "cube.msh")]), "cube.msh|two-dimensional", "3|dimension")
+    refused(check([("squares.geo, order: 1", "cube.msh")]), "cube.msh|two-dimensional", "3|dimension")
 
 
 def test_negative_radius(check):
@@ -363,13 +363,13 @@ def test_gmsh_crashes(check, tmp_path):
 
 def test_mesh_is_garbage(check, tmp_path):
     (tmp_path / "noise.msh").write_bytes(bytes(range(256)))
-    refused(check([("file: squares.geo", "file: noise.msh")]), "noise.msh")
+    refused(check([("file: squares.geo, order: 1", "file: noise.msh")]), "noise.msh")
 
 
 def test_inverted_cell(check, tmp_path):
     (tmp_path / "bow.msh").write_text('$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n2\n1 3 "bottom"\n2 1 "lower"\n$EndPhysicalNames\n$Nodes\n4\n'
                                       '1 0 0 0\n2 1 0 0\n3 0 1 0\n4 1 1 0\n$EndNodes\n$Elements\n2\n1 1 2 3 1 1 2\n2 3 2 1 1 1 2 3 4\n$EndElements\n')
-    text = [("file: squares.geo", "file: bow.msh"), ("  upper: {material: rubber}\n", ""), ("  top: {displacement: {x: 0, y: -0.05}}\n", ""),
+    text = [("file: squares.geo, order: 1", "file: bow.msh"), ("  upper: {material: rubber}\n", ""), ("  top: {displacement: {x: 0, y: -0.05}}\n", ""),
             ("contact:\n  pair: {nonmortar: upper_bottom, mortar: lower_top, friction: 0}\n", "")]
     refused(check(text), "inverted|cell")
 
