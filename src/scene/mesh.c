@@ -262,9 +262,9 @@ static void Generate_Private(Scene s, const char *geo, MeshResult *r)
 static void Find_Private(Scene s, MeshResult *r)
 {
   const SceneNode *mesh      = NodeFind(s->root, "mesh");
-  const SceneNode *parameter = NodeFind(mesh, "parameter"), *order = NodeFind(mesh, "order");
-  const char      *where = NodeWhere(NodeFind(mesh, "file"));
-  PetscBool        geo   = HasSuffix_Private(s->mesh_file, ".geo");
+  const SceneNode *parameter = NodeFind(mesh, "parameter");
+  const char      *where     = NodeWhere(NodeFind(mesh, "file"));
+  PetscBool        geo       = HasSuffix_Private(s->mesh_file, ".geo");
   struct stat      info;
 
   (void)snprintf(r->file, sizeof(r->file), "%s%s", s->mesh_file[0] == '/' ? "" : s->directory, s->mesh_file);
@@ -277,16 +277,13 @@ static void Find_Private(Scene s, MeshResult *r)
     (void)snprintf(r->message, sizeof(r->message), "%s: %s cannot be read", where, r->file);
   else if (!geo && parameter)
     (void)snprintf(r->message, sizeof(r->message), "%s: only a .geo has parameters, mesh.file is %s", NodeWhere(parameter), s->mesh_file);
-  else if (!geo && order)
-    (void)snprintf(r->message, sizeof(r->message), "%s: only a .geo is meshed here, cells of mesh.file %s have the order that they have", NodeWhere(order),
-                   s->mesh_file);
   for (SceneNode *p = geo && parameter && !r->message[0] ? parameter->first : NULL; p && !r->message[0]; p = p->next)
     if (!Declares_Private(r->file, p->key)) (void)snprintf(r->message, sizeof(r->message), "%s: %s declares no such constant", NodeWhere(p), r->file);
 }
 
 PetscErrorCode SceneMakeMesh(Scene s)
 {
-  const SceneNode *parameter = NodeFind(NodeFind(s->root, "mesh"), "parameter");
+  const SceneNode *mesh = NodeFind(s->root, "mesh"), *parameter = NodeFind(mesh, "parameter"), *order = NodeFind(mesh, "order");
   MeshResult       r;
   PetscMPIInt      rank;
   PetscReal        value;
@@ -310,6 +307,9 @@ PetscErrorCode SceneMakeMesh(Scene s)
   PetscCall(PetscStrncpy(s->data.mesh.file, r.file, sizeof(s->data.mesh.file)));
   s->subdivided = (PetscBool)r.subdivided;
   PetscCheckInput(!r.message[0], "%s", r.message);
+  if (order && HasSuffix_Private(s->mesh_file, ".msh"))
+    PetscCall(
+        WarningAdd(s->comm, "%s acts on a .geo, which is meshed here; cells of mesh.file %.80s have the order that they have", NodeWhere(order), s->mesh_file));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

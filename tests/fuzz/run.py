@@ -13,7 +13,6 @@ import functools
 import os
 import pathlib
 import random
-import re
 import resource
 import shutil
 import subprocess
@@ -104,9 +103,8 @@ class Whole:
 
     def on_mesh(self, name, file):
         """The scene on a file of its mesh."""
-        text = self.scene(name).replace(f"file: {name}.geo", f"file: {file}")
-        text = re.sub(rf"(file: {re.escape(file)}), order: \d", r"\1", text)
-        return "".join(line for line in text.splitlines(True) if not line.startswith(("  parameter:", "  order:")))
+        text = self.scene(name).replace(f"file: {name}.geo", f"file: {file}").replace("  order: 1\n", "", 1)
+        return "".join(line for line in text.splitlines(True) if not line.startswith("  parameter:"))
 
     @functools.lru_cache(None)
     def checkpoint(self, name):
