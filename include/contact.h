@@ -38,6 +38,7 @@ typedef struct {
   const PetscReal *X; /* [num_nodes][dim] reference positions, those of hanging nodes included */
   /* [num_nodes] Is the node's position known on this rank? NULL: all are. Searches pass over mortar facets with other nodes; normals beside them are NaN. */
   const PetscBool *has;
+  const PetscInt  *twin; /* plane: [num_nodes] the node at the same place on the other side of a sharp edge, -1: none; NULL: no edge is parted */
 } ContactSurface;
 
 typedef enum { CONTACT_FRICTIONLESS, CONTACT_PENALTY, CONTACT_COULOMB, CONTACT_TIED } ContactLaw; /* in the order of the table of laws */
@@ -65,6 +66,9 @@ typedef struct {
   PetscBool  subdivide_auto;    /* cells behind linear facets are subdivided as the estimate asks (estimate/layer.c) */
 } ContactSpec;
 
+/* edge[num_nodes]: where a surface of two dimensions turns by more than 40 degrees, at the reference positions: 1 at a convex corner, -1 at a concave one, else
+   0. */
+PetscErrorCode ContactEdges(const ContactSurface *, int8_t edge[]);
 /* Vector of a facet with these nodes, x[..][dim], outward and as long as its length or area: edge x the axis out of the plane; in space half the product of the
    diagonals, the exact vector area of the bilinear face. */
 static inline void ContactFacetVector(PetscInt dim, const PetscReal x[], const PetscInt node[], PetscReal N[3])

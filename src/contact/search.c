@@ -85,9 +85,9 @@ static PetscBool NeighborFaces_Private(const RayWork w, const ContactSurface *s,
   const PetscInt nv = 2 * (s->dim - 1);
   PetscReal      other[3];
 
-  for (PetscInt a = 0; a < nv; a++) {
-    const PetscInt node = s->facets[nv * facet + a];
-    for (PetscInt k = w->ring_first[node]; k < w->ring_first[node + 1]; k++) {
+  for (PetscInt a = 0; a < 2 * nv; a++) {
+    const PetscInt own = s->facets[nv * facet + a / 2], node = a % 2 == 0 ? own : s->twin ? s->twin[own] : -1;
+    for (PetscInt k = node < 0 ? 0 : w->ring_first[node]; node >= 0 && k < w->ring_first[node + 1]; k++) {
       UnitNormal_Private(s, w->ring[k] / nv, other);
       if (Dot3(other, m) < -CONTACT_FACE && ContactFacetJoint(s, facet, w->ring[k] / nv) == JOINT_SHARP) return PETSC_TRUE;
     }

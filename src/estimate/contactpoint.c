@@ -230,8 +230,9 @@ void ContactTermsTraction_Private(const ContactTerms *terms, PetscInt facet, con
     PetscReal          xi[2], eta[2];
     if (nonmortar >= 0) {
       Locate_Private(&term->view->nonmortar, nonmortar, X, xi);
-      if (ties && Faces_Private(term, nonmortar, xi)) Tie_Private(term, nonmortar, xi, -1, T);
-      if (!ties) Push_Private(term, finite, nonmortar, xi, -Stretch_Private(terms, &term->view->nonmortar, nonmortar, xi), T);
+      const PetscBool faces = Faces_Private(term, nonmortar, xi); /* round a corner, or past an end of the mortar side, nothing presses */
+      if (ties && faces) Tie_Private(term, nonmortar, xi, -1, T);
+      if (!ties && faces) Push_Private(term, finite, nonmortar, xi, -Stretch_Private(terms, &term->view->nonmortar, nonmortar, xi), T);
     }
     if (mortar < 0) continue;
     Locate_Private(&term->view->mortar, mortar, X, eta);

@@ -166,6 +166,7 @@ PetscErrorCode ContactCreate_Private(Interface p, const ContactSpec *spec, Conta
   PetscCall(IsHigher_Private(p, spec, &higher));
   PetscCall(SurfaceCreate_Private(p, spec->nonmortar, higher, &c->side[0]));
   PetscCall(SurfaceCreate_Private(p, spec->mortar, higher, &c->side[1]));
+  if (c->num == 1 && !spec->self) PetscCall(SurfacePart_Private(p, spec->nonmortar, higher, &c->side[1], &c->side[0]));
   PetscCall(ContactPairCreate(p->dim, axisymmetric, spec, &c->pair));
   for (PetscInt k = 0; k < 2; ++k) PetscCall(HullParts_Private(p, &c->side[k], &c->part[k]));
   PetscReal deepest;

@@ -95,6 +95,10 @@ static PetscErrorCode FacetLattice_Private(Lattice *l, PetscInt facet)
   for (PetscInt k = s->first[facet]; k < s->first[facet + 1]; ++k) {
     const PetscInt i = (k - s->first[facet]) % (q + 1), j = (k - s->first[facet]) / (q + 1);
     PetscInt       g[2] = {0, 0};
+    if (axes == 1 && i % q == 0) { /* a corner may have more nodes than one */
+      s->lattice[k] = s->facets[2 * facet + i / q];
+      continue;
+    }
     for (PetscInt a = 0; a < axes; ++a) g[a] = q * at[0][a] + i * (at[1][a] - at[0][a]) + j * (at[2][a] - at[0][a]);
     PetscCall(LatticeNode_Private(l, facet, q, g, &s->lattice[k]));
   }

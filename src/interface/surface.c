@@ -1,5 +1,6 @@
 /* Surfaces of facets for contact: their topology, replicated. */
 #include "interfaceimpl.h"
+#include <petsc/private/hashmapi.h>
 
 /* Ends of a leaf's side in the order that keeps the body on the left. */
 static void EdgeVertices_Private(const PetscInt *cl, PetscInt index, PetscInt vertex[])
@@ -51,7 +52,8 @@ PetscErrorCode SurfaceCorners_Private(Forest forest, PetscInt facet, PetscInt le
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode SurfaceTopology_Private(const ForestTables *t, PetscInt group, Surface *s)
+/* parted: [entities] vertices at which each facet has a node of its own; NULL: none. */
+static PetscErrorCode SurfaceTopology_Private(const ForestTables *t, PetscInt group, const PetscBool parted[], Surface *s)
 {
   const PetscInt first = t->first[t->dim - 1], last = t->first[t->dim];
   PetscInt      *number;
@@ -71,7 +73,7 @@ static PetscErrorCode SurfaceTopology_Private(const ForestTables *t, PetscInt gr
     if (!((t->boundary[f] >> group) & 1) || leaf[0] < 0 || leaf[1] >= 0 || t->parent[f] >= 0) continue;
     FacetVertices_Private(t, f, leaf[0], vertex);
     for (PetscInt k = 0; k < s->corners; ++k) {
-      if (number[vertex[k]] < 0) {
+      if (number[vertex[k]] < 0 || (parted && parted[vertex[k]])) {
         number[vertex[k]]              = s->num_nodes;
         s->node_entity[s->num_nodes++] = vertex[k];
       }
@@ -228,14 +230,35 @@ static PetscErrorCode SurfaceNeighbours_Private(Surface *s)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SurfaceCreate_Private(Interface p, PetscInt group, PetscBool lattice, Surface *s)
+/* The nodes at each parted vertex know of each other. */
+static PetscErrorCode Twins_Private(const PetscBool parted[], Surface *s)
+{
+  PetscHMapI first;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(s->num_nodes, &s->twin));
+  PetscCall(PetscHMapICreate(&first));
+  for (PetscInt n = 0; n < s->num_nodes; ++n) s->twin[n] = -1;
+  for (PetscInt i = 0; i < s->corners * s->num_facets; ++i) {
+    const PetscInt n = s->facets[i];
+    PetscInt       other;
+    if (!parted[s->node_entity[n]]) continue;
+    PetscCall(PetscHMapIGet(first, s->node_entity[n], &other));
+    if (other >= 0) s->twin[n] = other, s->twin[other] = n;
+    PetscCall(PetscHMapISet(first, s->node_entity[n], n));
+  }
+  PetscCall(PetscHMapIDestroy(&first));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode Create_Private(Interface p, PetscInt group, PetscBool lattice, const PetscBool parted[], Surface *s)
 {
   const ForestTables *t;
 
   PetscFunctionBegin;
   PetscCall(PetscMemzero(s, sizeof(*s)));
   PetscCall(ForestGetTables(p->forest, &t));
-  PetscCall(SurfaceTopology_Private(t, group, s));
+  PetscCall(SurfaceTopology_Private(t, group, parted, s));
   if (lattice)
     PetscCall(SurfaceLattice_Private(p->space, t, s));
   else
@@ -243,6 +266,51 @@ PetscErrorCode SurfaceCreate_Private(Interface p, PetscInt group, PetscBool latt
   PetscCall(SurfaceTrue_Private(s));
   PetscCall(SurfaceNeighbours_Private(s));
   PetscCall(SurfaceFields_Private(p, s));
+  if (parted) PetscCall(Twins_Private(parted, s));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SurfaceCreate_Private(Interface p, PetscInt group, PetscBool lattice, Surface *s)
+{
+  PetscFunctionBegin;
+  PetscCall(Create_Private(p, group, lattice, NULL, s));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Which turns has the surface, bit 0: convex, bit 1: concave. */
+static PetscErrorCode Turns_Private(const Surface *s, int8_t edge[], PetscInt *turns)
+{
+  const ContactSurface reference = SurfaceAt_Private(s, s->X);
+
+  PetscFunctionBegin;
+  *turns = 0;
+  PetscCall(ContactEdges(&reference, edge));
+  for (PetscInt n = 0; n < s->num_nodes; ++n) *turns |= edge[n] > 0 ? 1 : edge[n] < 0 ? 2 : 0;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SurfacePart_Private(Interface p, PetscInt group, PetscBool lattice, const Surface *other, Surface *s)
+{
+  const ForestTables *t;
+  PetscBool          *parted, any = PETSC_FALSE;
+  int8_t             *edge;
+  PetscInt            own, turns;
+
+  PetscFunctionBegin;
+  if (s->dim == 3) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(ForestGetTables(p->forest, &t));
+  PetscCall(PetscMalloc1(PetscMax(s->num_nodes, other->num_nodes), &edge));
+  PetscCall(Turns_Private(other, edge, &turns));
+  PetscCall(Turns_Private(s, edge, &own));
+  PetscCall(PetscCalloc1(t->first[1], &parted));
+  for (PetscInt n = 0; n < s->num_nodes; ++n)
+    if ((edge[n] > 0 && turns & 2) || (edge[n] < 0 && turns & 1)) parted[s->node_entity[n]] = any = PETSC_TRUE;
+  PetscCall(PetscFree(edge));
+  if (any) {
+    PetscCall(SurfaceDestroy_Private(s));
+    PetscCall(Create_Private(p, group, lattice, parted, s));
+  }
+  PetscCall(PetscFree(parted));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -261,6 +329,7 @@ PetscErrorCode SurfaceDestroy_Private(Surface *s)
   PetscCall(PetscFree(s->true_node));
   PetscCall(PetscFree(s->node_first));
   PetscCall(PetscFree(s->node_facet));
+  PetscCall(PetscFree(s->twin));
   PetscCall(PetscFree3(s->local, s->owned, s->dof));
   PetscCall(PetscFree4(s->X, s->x, s->mirror, s->frame));
   PetscCall(PetscFree2(s->du, s->force));
@@ -282,5 +351,6 @@ PetscReal SurfaceMeasure_Private(const Surface *s, const PetscReal x[], PetscInt
 ContactSurface SurfaceAt_Private(const Surface *s, const PetscReal x[])
 {
   return (ContactSurface){s->dim,         s->num_nodes,   s->num_facets, s->facets, x,          s->mirror, s->hang,
-                          s->hang_master, s->hang_weight, s->order,      s->first,  s->lattice, s->X,      x == s->X ? NULL : s->has};
+                          s->hang_master, s->hang_weight, s->order,      s->first,  s->lattice, s->X,      x == s->X ? NULL : s->has,
+                          s->twin};
 }
