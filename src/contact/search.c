@@ -6,29 +6,27 @@
 
 void ContactFacetBox(const ContactSurface *s, PetscInt facet, PetscReal box[6])
 {
-  const PetscInt *node;
-  PetscInt        order1[4];
-  const PetscInt  num = ElementNumNodes(s->dim - 1, ContactFacetLattice(s, facet, &node, order1));
+  FacetLattice l;
 
+  ContactFacetLattice(s, facet, &l);
   box[2] = box[5] = 0;
   for (PetscInt i = 0; i < s->dim; i++) {
     box[i]     = PETSC_MAX_REAL;
     box[3 + i] = -PETSC_MAX_REAL;
-    for (PetscInt k = 0; k < num; k++) {
-      box[i]     = PetscMin(box[i], s->x[s->dim * node[k] + i]);
-      box[3 + i] = PetscMax(box[3 + i], s->x[s->dim * node[k] + i]);
+    for (PetscInt k = 0; k < l.num; k++) {
+      box[i]     = PetscMin(box[i], s->x[s->dim * l.node[k] + i]);
+      box[3 + i] = PetscMax(box[3 + i], s->x[s->dim * l.node[k] + i]);
     }
   }
 }
 
 static PetscBool HasFacet_Private(const ContactSurface *s, PetscInt facet)
 {
-  const PetscInt *node;
-  PetscInt        order1[4];
-  const PetscInt  num = ElementNumNodes(s->dim - 1, ContactFacetLattice(s, facet, &node, order1));
+  FacetLattice l;
 
-  for (PetscInt k = 0; k < num; k++)
-    if (!ContactHas(s, node[k])) return PETSC_FALSE;
+  ContactFacetLattice(s, facet, &l);
+  for (PetscInt k = 0; k < l.num; k++)
+    if (!ContactHas(s, l.node[k])) return PETSC_FALSE;
   return PETSC_TRUE;
 }
 

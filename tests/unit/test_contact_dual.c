@@ -191,8 +191,10 @@ static PetscReal Condition(const ContactSurface *s, const PetscReal T[])
 {
   PetscBLASInt n = (PetscBLASInt)s->num_nodes, length = 8 * LATTICE_NODES, error;
   PetscReal   *M = calloc((size_t)(n * n), 8), D[LATTICE_NODES], value[LATTICE_NODES], work[8 * LATTICE_NODES];
+  FacetLattice l;
 
-  CHECK_CALL(ContactLatticeMass(s, 0, PETSC_FALSE, M, D));
+  ContactFacetLattice(s, 0, &l);
+  CHECK_CALL(ContactLatticeMass(s, &l, PETSC_FALSE, M, D));
   for (PetscBLASInt i = 0; i < n; i++)
     for (PetscBLASInt k = 0; k < n; k++) M[n * i + k] = T[n * i + k] * sqrt(D[k] / D[i]);
   LAPACKsyev_("N", "L", &n, M, &n, value, work, &length, &error);

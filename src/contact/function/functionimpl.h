@@ -49,12 +49,12 @@ typedef struct ContactMultiplier {
 PetscErrorCode ContactMultiplierCreate(const ContactSurface *, PetscBool axisymmetric, PetscBool standard, const PetscBool carries[], ContactMultiplier **);
 PetscErrorCode ContactMultiplierDestroy(ContactMultiplier **);
 
-/* lattice.c: one facet's lattice, its masses, and small symmetric solves */
-PetscInt ContactLatticeOrder(const ContactSurface *, PetscInt facet);
-/* Nodes of the facet's lattice; returns their number. */
-PetscInt ContactLatticeNodes(const ContactSurface *, PetscInt facet, PetscInt node[]);
-/* M[num][num] = int N_a N_b, D[num] = int N_a in the reference measure. */
-PetscErrorCode ContactLatticeMass(const ContactSurface *, PetscInt facet, PetscBool axisymmetric, PetscReal M[], PetscReal D[]);
+/* lattice.c: number of nodes of a facet's lattice; M[num][num] = int N_a N_b (NULL: not wanted), D[num] = int N_a of a facet in the reference measure. */
+static inline PetscInt ContactLatticeSize(const ContactSurface *s, PetscInt facet)
+{
+  return ElementNumNodes(s->dim - 1, s->order ? s->order[facet] : 1);
+}
+PetscErrorCode ContactLatticeMass(const ContactSurface *, const FacetLattice *, PetscBool axisymmetric, PetscReal M[], PetscReal D[]);
 /* B[k] = M^-1 B[k] for num vectors of n numbers one after another, by Cholesky with unit diagonal; M is overwritten. False: singular to 1e-10, B undefined. */
 PetscErrorCode ContactSolveSymmetric(PetscInt n, PetscReal M[], PetscInt num, PetscReal B[], PetscBool *regular);
 

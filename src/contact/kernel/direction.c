@@ -330,9 +330,66 @@ static PetscInt Terms_Private(RayWork w, const ContactSurface *s, PetscInt corne
   return num;
 }
 
-PetscInt ContactDirectionTerms(RayWork w, const ContactSurface *s, PetscInt corner, PetscInt max, DirectionTerm term[])
+PetscInt ContactDirectionTerms(RayWork w, const ContactSurface *s, PetscInt corner, DirectionTerm term[RAY_TERMS])
 {
-  return Terms_Private(w, s, corner, 1, 0, max, term);
+  return Terms_Private(w, s, corner, 1, 0, RAY_TERMS, term);
+}
+
+PetscErrorCode ContactDirectionNodes(RayWork w, const ContactSurface *s, PetscInt corner, Result *r)
+{
+  const PetscInt nv = 2 * (s->dim - 1);
+  DirectionTerm  term[RAY_TERMS];
+  const PetscInt terms = ContactDirectionTerms(w, s, corner, term);
+
+  PetscFunctionBegin;
+  for (PetscInt t = 0; t < terms; t++)
+    for (PetscInt k = 0; k < nv; k++) PetscCall(ContactResultMasters(r, s, s->facets[nv * term[t].facet + k]));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* dN = sum_k dx_k x h_k */
+static void VectorRows_Private(const ContactSurface *s, const PetscInt node[], PetscReal h[4][3])
+{
+  memset(h, 0, 4 * sizeof(h[0]));
+  if (s->dim == 2) {
+    h[1][2] = 1, h[0][2] = -1;
+    return;
+  }
+  for (int c = 0; c < 3; c++) {
+    const PetscReal d = s->x[3 * node[2] + c] - s->x[3 * node[0] + c], e = 0.5 * (s->x[3 * node[3] + c] - s->x[3 * node[1] + c]);
+
+    h[2][c] = e, h[0][c] = -e;
+    h[1][c] = 0.5 * d, h[3][c] = -0.5 * d;
+  }
+}
+
+PetscErrorCode ContactDirectionRows(RayWork w, const ContactSurface *s, PetscInt corner, PetscReal factor, Result *r, PetscReal J[])
+{
+  const PetscInt D = s->dim, nv = 2 * (D - 1), nn = D * r->num_nodes;
+  DirectionTerm  term[RAY_TERMS];
+  const PetscInt terms = ContactDirectionTerms(w, s, corner, term);
+
+  PetscFunctionBegin;
+  for (PetscInt t = 0; t < terms; t++) {
+    const PetscInt *node = s->facets + nv * term[t].facet;
+    PetscReal       h[4][3];
+
+    VectorRows_Private(s, node, h);
+    for (PetscInt k = 0; k < nv; k++) {
+      const PetscReal *g = h[k], X[3][3] = {{0, g[2], -g[1]}, {-g[2], 0, g[0]}, {g[1], -g[0], 0}};
+      const PetscReal *weight;
+      const PetscInt  *master, masters = ContactNodeRow(s, &node[k], &master, &weight);
+      PetscInt         place;
+
+      for (PetscInt i = 0; i < masters; i++) {
+        PetscCall(ContactResultNode(r, master[i], &place));
+        for (PetscInt c = 0; c < D; c++)
+          for (PetscInt j = 0; j < D; j++)
+            for (int l = 0; l < 3; l++) J[c * nn + D * place + j] += factor * weight[i] * term[t].R[3 * c + l] * X[l][j];
+      }
+    }
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 void ContactDirections(RayWork w, const ContactSurface *s)
@@ -341,7 +398,7 @@ void ContactDirections(RayWork w, const ContactSurface *s)
   DirectionTerm  term[RAY_TERMS];
 
   for (PetscInt corner = 0; corner < nv * s->num_facets; corner++) {
-    const PetscInt num = ContactDirectionTerms(w, s, corner, RAY_TERMS, term);
+    const PetscInt num = ContactDirectionTerms(w, s, corner, term);
     PetscReal     *d   = w->d + 3 * corner;
 
     d[0] = d[1] = d[2] = 0;

@@ -56,10 +56,6 @@ PetscBool ContactQuadIsConvex(const PlaneQuad *);
 /* clip.c. size: root of the area of the whole facet, of which side[0] may be a part. False: no overlap, or (num > FACET_VERTICES) none that could be used. */
 PetscBool ContactClip(Overlap *, PetscReal size);
 
-/* quadrature.c: barycentric points and weights on a triangle. */
-/* The symmetric rule of the lowest degree, 10 at least, that is exact to `degree`. False: none is. */
-PetscBool ContactRuleGet(PetscInt degree, PetscInt *num, const PetscReal (**point)[3], const PetscReal **weight);
-
 /* occlusion.c: drop overlaps that lie behind others in the facet's view. */
 void ContactUnfold(PetscInt *num, Overlap overlap[], PetscInt order[], PetscReal area);
 
@@ -188,10 +184,8 @@ void ContactRayLatticeSum(const RayLattice *, const PetscReal f[], PetscReal v[3
 void ContactRayLatticeGather(const ContactSurface *, PetscInt facet, RayLattice *);
 void ContactRayLatticePolynomial(RayLattice *);
 
-/* continuation.c: the same, but beyond [-1, 1]^2 (m = 2) turning to the slope between the corners. */
+/* continuation.c: the same, but beyond [-1, 1]^2 (m = 2) turning to the slope between the corners; NULL, of directions: at h. */
 void ContactRayBeyond(const RayBeyond *, PetscInt m, PetscInt order, const PetscReal xi[2], int depth, RayFunctions *);
-/* Of directions (order 1): beyond [-1, 1]^2 at h. */
-void ContactRayTurn(PetscInt m, const PetscReal xi[2], int depth, RayFunctions *);
 /* kept[k]: the side from corner k on lies in a plane of symmetry. */
 void ContactRayBeyondSides(const PetscBool kept[4], RayBeyond *);
 
@@ -209,8 +203,17 @@ typedef struct {
   PetscInt  facet;
   PetscReal R[9]; /* weight times images in planes of symmetry */
 } DirectionTerm;
-/* d at a corner of a facet = sum_terms R (vector of facet). Returns their number, at most max. */
-PetscInt ContactDirectionTerms(RayWork, const ContactSurface *, PetscInt corner, PetscInt max, DirectionTerm[]);
+#define RAY_TERMS 64 /* most facets around a corner, over all it hangs on */
+/* d at a corner of a facet = sum_terms R (vector of facet). Returns their number. */
+PetscInt ContactDirectionTerms(RayWork, const ContactSurface *, PetscInt corner, DirectionTerm[RAY_TERMS]);
+/* The nodes that it depends on, to a result; J[D][nn] += its derivatives by the nodes of a result, which has them. */
+PetscErrorCode ContactDirectionNodes(RayWork, const ContactSurface *, PetscInt corner, Result *);
+PetscErrorCode ContactDirectionRows(RayWork, const ContactSurface *, PetscInt corner, PetscReal factor, Result *, PetscReal J[]);
+/* Corner of a facet at the place of a lattice of order 1. */
+static inline PetscInt ContactCorner(PetscInt nv, PetscInt facet, PetscInt place)
+{
+  return nv * facet + (place < 2 ? place : 5 - place);
+}
 
 /* chart.c */
 PetscBool ContactChartCreate(const ContactSurface *, PetscInt facet, RayFacet *);
@@ -347,14 +350,10 @@ PetscErrorCode ContactRayChainHessian(RayWork, PetscReal H[]);
 PetscErrorCode ContactRayDirectionCurvature(RayWork, const ContactSurface *, PetscInt facet, const PetscReal gradient[], PetscReal H[]);
 
 /* facet.c */
-#define RAY_TERMS 64 /* most facets around a corner, over all it hangs on */
 PetscErrorCode ContactRayTopology(ContactPair, const ContactSurface *);
 PetscErrorCode ContactRayMortarTopology(RayWork, const ContactSurface *mortar);
 PetscErrorCode ContactRayEvaluate(const EvaluateContext *, PetscBool *failed);
 PetscErrorCode ContactRayWorkDestroy(RayWork *);
-
-/* Derivatives of a facet's vector, dN = sum_k dx_k x h_k. */
-void ContactFacetVectorRows(const ContactSurface *, const PetscInt node[], PetscReal h[4][3]);
 
 /* frame.c: friction in space. Axes of all nodes, after their directions; those of nodes without known neighbours are NaN. */
 PetscErrorCode ContactFrames(ContactPair, const ContactSurface *);

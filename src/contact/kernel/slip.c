@@ -281,9 +281,8 @@ static void Add_Private(const Result *r, PetscInt vertex, PetscInt D, PetscReal 
    the first of point k's facet. */
 static PetscErrorCode Vertices_Private(ContactPair pair, const Kept *kept, const ContactSurface *nonmortar, const ContactSurface *mortar, PetscInt first[])
 {
-  struct ContactSlip *s = pair->slip;
-  const PetscInt     *node;
-  PetscInt            order1[4], num = 0, vertex = 0, place;
+  struct ContactSlip *s   = pair->slip;
+  PetscInt            num = 0, vertex = 0, place;
   Result             *r = &s->result;
 
   PetscFunctionBegin;
@@ -293,16 +292,16 @@ static PetscErrorCode Vertices_Private(ContactPair pair, const Kept *kept, const
   for (PetscInt k = -1; k < kept->num_points; k++) {
     const ContactSurface *side  = k < 0 ? nonmortar : mortar;
     const PetscInt        facet = k < 0 ? kept->facet : s->point[kept->point + k].facet;
-    PetscInt              nodes;
+    FacetLattice          l;
 
     if (k > 0 && facet == s->point[kept->point + k - 1].facet) {
       first[k] = first[k - 1];
       continue;
     }
     if (k >= 0) first[k] = vertex;
-    nodes = ElementNumNodes(pair->dim - 1, ContactFacetLattice(side, facet, &node, order1));
-    PetscCall(ContactGrow(vertex + nodes + 1, sizeof(PetscInt), &r->size_row_first, &r->row_first));
-    for (PetscInt a = 0; a < nodes; a++, vertex++) PetscCall(ContactResultRow(r, side, node[a], (PetscBool)(k >= 0), vertex, &num));
+    ContactFacetLattice(side, facet, &l);
+    PetscCall(ContactGrow(vertex + l.num + 1, sizeof(PetscInt), &r->size_row_first, &r->row_first));
+    for (PetscInt a = 0; a < l.num; a++, vertex++) PetscCall(ContactResultRow(r, side, l.node[a], (PetscBool)(k >= 0), vertex, &num));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
