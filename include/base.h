@@ -119,6 +119,24 @@ PetscErrorCode SparseExchange(MPI_Comm, PetscMPIInt num_to, const PetscMPIInt to
 /* Entries of `entry` bytes each of all ranks, by ascending rank, on every one of them; the caller frees *all. Collective. */
 PetscErrorCode GatherAll(MPI_Comm, PetscInt num, size_t entry, const void *mine, PetscInt *num_all, void *all);
 
+/* Of matrices and vectors, in one call; several vectors at once. Collective. */
+static inline PetscErrorCode MatAssemble(Mat A, MatAssemblyType type)
+{
+  PetscFunctionBegin;
+  PetscCall(MatAssemblyBegin(A, type));
+  PetscCall(MatAssemblyEnd(A, type));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+static inline PetscErrorCode VecAssemble(Vec x)
+{
+  PetscFunctionBegin;
+  PetscCall(VecAssemblyBegin(x));
+  PetscCall(VecAssemblyEnd(x));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+PetscErrorCode VecDuplicateAll(Vec, PetscInt num, Vec *const to[]);
+PetscErrorCode VecDestroyAll(PetscInt num, Vec *const x[]);
+
 /* The first rank of which `mine` holds; -1: of none. Collective. */
 PetscErrorCode RankFirst(MPI_Comm, PetscBool mine, PetscMPIInt *first);
 

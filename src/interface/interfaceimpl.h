@@ -237,6 +237,16 @@ static inline PetscInt SurfaceOrder_Private(const Surface *s, PetscInt facet)
 {
   return s->order ? s->order[facet] : 0;
 }
+/* The nodes that a node follows with their weights, itself where it does not hang; returns their number. */
+static inline PetscInt SurfaceRow_Private(const Surface *s, const PetscInt *n, const PetscInt **master, const PetscReal **weight)
+{
+  static const PetscReal one = 1;
+  const PetscInt         num = s->hang[*n + 1] - s->hang[*n];
+
+  *master = num ? s->hang_master + s->hang[*n] : n;
+  *weight = num ? s->hang_weight + s->hang[*n] : &one;
+  return PetscMax(1, num);
+}
 PetscErrorCode SurfaceDestroy_Private(Surface *);
 PetscErrorCode SurfaceIndices_Private(Interface, const PetscInt row[], Surface *);
 ContactSurface SurfaceAt_Private(const Surface *, const PetscReal x[]);

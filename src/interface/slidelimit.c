@@ -114,8 +114,7 @@ static PetscErrorCode Forces_Private(Interface p, const Contact *c, const PetscR
       PetscCall(VecSetValues(force, dim, s->dof + dim * j, value, ADD_VALUES));
     }
   }
-  PetscCall(VecAssemblyBegin(force));
-  PetscCall(VecAssemblyEnd(force));
+  PetscCall(VecAssemble(force));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -176,9 +176,9 @@ static PetscErrorCode AddNodes_Private(const Surface *s, PetscInt facet, PetscIn
     PetscCall(PetscRealloc((size_t)*size * sizeof(PetscInt), nodes));
   }
   for (PetscInt k = 0; k < total; ++k) {
-    const PetscInt n = own[k];
-    if (s->hang[n] == s->hang[n + 1]) (*nodes)[(*count)++] = n;
-    for (PetscInt i = s->hang[n]; i < s->hang[n + 1]; ++i) (*nodes)[(*count)++] = s->hang_master[i];
+    const PetscReal *weight;
+    const PetscInt  *master, num = SurfaceRow_Private(s, &own[k], &master, &weight);
+    for (PetscInt i = 0; i < num; ++i) (*nodes)[(*count)++] = master[i];
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

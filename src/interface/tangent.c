@@ -93,39 +93,36 @@ PetscErrorCode ContactFacetHessian_Private(Interface p, const InterfaceSystem *a
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Columns of the tangential tractions of row k; dofs of the facet are in work_index. */
-static PetscErrorCode ShearColumns_Private(Interface p, const InterfaceSystem *a, const Contact *c, const ContactFacet *e, PetscInt k)
+/* A column of the forces in work_value on the facet's nodes, whose dofs are in work_index. */
+static PetscErrorCode Column_Private(Interface p, const InterfaceSystem *a, const Contact *c, const ContactFacet *e, PetscInt column)
 {
-  const PetscInt dim = p->dim, n = dim * e->num;
+  const PetscInt n = p->dim * e->num;
   PetscReal      q[INTERFACE_MOTIONS];
 
   PetscFunctionBegin;
-  for (PetscInt d = 0; d < dim - 1; ++d) {
-    const PetscInt column = c->zdof[e->nodes[k]] + 1 + d;
-    for (PetscInt i = 0; i < n; ++i) p->work.value[i] = -e->shear[(e->num_rows * d + k) * n + i];
-    for (PetscInt b = 0; b < e->num; ++b) Turn_Private(dim, Frame_Private(c, e->nodes[b]), p->work.value + dim * b, 1);
-    PetscCall(ContactInsert_Private(a->matrix, n, p->work.index, 1, &column, p->work.value, ADD_VALUES));
-    if (!c->num_q) continue;
-    ContactRigidForces_Private(c, e, p->work.value, q);
-    PetscCall(ContactInsert_Private(a->matrix, c->num_q, c->q_row, 1, &column, q, ADD_VALUES));
-  }
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* Column of component k of a tied pair's row r; in the symmetric form rows bring them. */
-static PetscErrorCode TieColumn_Private(Interface p, const InterfaceSystem *a, const Contact *c, const ContactFacet *e, PetscInt k, PetscInt r)
-{
-  const PetscInt dim = p->dim, n = dim * e->num, column = c->zdof[e->nodes[r]] + k;
-  PetscReal      q[INTERFACE_MOTIONS];
-
-  PetscFunctionBegin;
-  if (!c->tie->carries[c->side[0].num_nodes * k + e->nodes[r]]) PetscFunctionReturn(PETSC_SUCCESS);
-  for (PetscInt i = 0; i < n; ++i) p->work.value[i] = -e->dgap[r * n + i];
-  for (PetscInt b = 0; b < e->num; ++b) Turn_Private(dim, Frame_Private(c, e->nodes[b]), p->work.value + dim * b, 1);
+  for (PetscInt b = 0; b < e->num; ++b) Turn_Private(p->dim, Frame_Private(c, e->nodes[b]), p->work.value + p->dim * b, 1);
   PetscCall(ContactInsert_Private(a->matrix, n, p->work.index, 1, &column, p->work.value, ADD_VALUES));
   if (!c->num_q) PetscFunctionReturn(PETSC_SUCCESS);
   ContactRigidForces_Private(c, e, p->work.value, q);
   PetscCall(ContactInsert_Private(a->matrix, c->num_q, c->q_row, 1, &column, q, ADD_VALUES));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Columns of the multipliers of row k of a facet in contact: the pressure, and with friction the tangential tractions. */
+static PetscErrorCode Columns_Private(Interface p, const InterfaceSystem *a, const Contact *c, const ContactFacet *e, PetscInt k)
+{
+  const PetscInt  n = p->dim * e->num, j = e->nodes[k], z = c->zdof[j];
+  const PetscReal mean = c->mean0 ? c->mean0[j] : 0, yield = e->push ? 0 : ContactYield_Private(c, e, k, 0);
+
+  PetscFunctionBegin;
+  if (z < 0 || !c->near[j]) PetscFunctionReturn(PETSC_SUCCESS);
+  for (PetscInt i = 0; i < n; ++i) p->work.value[i] = mean * e->dweight[k * n + i] - (e->push ? e->push : e->dgap)[k * n + i];
+  for (PetscInt i = 0; i < n && yield != 0; ++i) p->work.value[i] -= yield * e->dshare[i];
+  PetscCall(Column_Private(p, a, c, e, z));
+  for (PetscInt d = 0; d < p->dim - 1 && e->shear; ++d) {
+    for (PetscInt i = 0; i < n; ++i) p->work.value[i] = -e->shear[(e->num_rows * d + k) * n + i];
+    PetscCall(Column_Private(p, a, c, e, z + 1 + d));
+  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -146,7 +143,11 @@ static PetscErrorCode TieBlocks_Private(Interface p, const InterfaceSystem *a, C
       if (t->facets[k][i].hessian) PetscCall(ContactFacetHessian_Private(p, a, c, &t->facets[k][i].bend));
       PetscCall(RowBufferGrow(&p->work, p->dim * e->num));
       FacetDofs_Private(c, e, p->work.index);
-      for (PetscInt r = 0; r < e->num_rows && !a->symmetric; ++r) PetscCall(TieColumn_Private(p, a, c, e, k, r));
+      for (PetscInt r = 0; r < e->num_rows && !a->symmetric; ++r) { /* in the symmetric form rows bring them */
+        if (!t->carries[c->side[0].num_nodes * k + e->nodes[r]]) continue;
+        for (PetscInt l = 0; l < p->dim * e->num; ++l) p->work.value[l] = -e->dgap[r * p->dim * e->num + l];
+        PetscCall(Column_Private(p, a, c, e, c->zdof[e->nodes[r]] + k));
+      }
     }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -155,7 +156,6 @@ static PetscErrorCode TieBlocks_Private(Interface p, const InterfaceSystem *a, C
 static PetscErrorCode Blocks_Private(Interface p, const InterfaceSystem *a, Contact *c)
 {
   const PetscInt dim = p->dim;
-  PetscReal      q[INTERFACE_MOTIONS];
 
   PetscFunctionBegin;
   if (c->tie) {
@@ -179,21 +179,7 @@ static PetscErrorCode Blocks_Private(Interface p, const InterfaceSystem *a, Cont
     PetscCall(RowBufferGrow(&p->work, n));
     FacetDofs_Private(c, e, p->work.index);
     if (e->hessian) PetscCall(ContactFacetHessian_Private(p, a, c, e));
-    for (PetscInt k = 0; k < e->num_rows && !a->symmetric; ++k) {
-      const PetscInt  j = e->nodes[k], z = c->zdof[j];
-      const PetscReal mean = c->mean0 ? c->mean0[j] : 0;
-      if (z < 0 || !c->near[j]) continue;
-      const PetscReal yield = e->push ? 0 : ContactYield_Private(c, e, k, 0);
-      for (PetscInt i = 0; i < n; ++i) p->work.value[i] = mean * e->dweight[k * n + i] - (e->push ? e->push : e->dgap)[k * n + i];
-      for (PetscInt i = 0; i < n && yield != 0; ++i) p->work.value[i] -= yield * e->dshare[i];
-      for (PetscInt b = 0; b < e->num; ++b) Turn_Private(dim, Frame_Private(c, e->nodes[b]), p->work.value + dim * b, 1);
-      PetscCall(ContactInsert_Private(a->matrix, n, p->work.index, 1, &z, p->work.value, ADD_VALUES));
-      if (c->num_q) {
-        ContactRigidForces_Private(c, e, p->work.value, q);
-        PetscCall(ContactInsert_Private(a->matrix, c->num_q, c->q_row, 1, &z, q, ADD_VALUES));
-      }
-      if (e->shear) PetscCall(ShearColumns_Private(p, a, c, e, k));
-    }
+    for (PetscInt k = 0; k < e->num_rows && !a->symmetric; ++k) PetscCall(Columns_Private(p, a, c, e, k));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -533,8 +519,7 @@ PetscErrorCode InterfaceSwitch(Interface p, const InterfaceSystem *a, Vec dx, Ve
   PetscCall(VecRestoreArrayRead(dx, &d));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, changed, 1, MPIU_INT, MPI_SUM, p->comm));
   if (!*changed) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(VecAssemblyBegin(rhs));
-  PetscCall(VecAssemblyEnd(rhs));
+  PetscCall(VecAssemble(rhs));
   PetscCall(RowSides_Private(p, a, rhs));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

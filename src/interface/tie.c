@@ -140,15 +140,12 @@ static PetscInt Place_Private(const ContactFacet *f, PetscInt node)
 /* to[dim num] += factor v at corner number `corner` of the facet, or at its masters. */
 static void AtCorner_Private(const Surface *s, const ContactFacet *f, PetscInt corner, PetscReal factor, const PetscReal v[3], PetscReal to[])
 {
-  const PetscInt n = s->facets[s->corners * f->facet + corner];
+  const PetscReal *weight;
+  const PetscInt  *master, num = SurfaceRow_Private(s, &s->facets[s->corners * f->facet + corner], &master, &weight);
 
-  if (s->hang[n] == s->hang[n + 1]) {
-    const PetscInt at = s->dim * Place_Private(f, n);
-    for (PetscInt d = 0; d < s->dim; ++d) to[at + d] += factor * v[d];
-  }
-  for (PetscInt i = s->hang[n]; i < s->hang[n + 1]; ++i) {
-    const PetscInt at = s->dim * Place_Private(f, s->hang_master[i]);
-    for (PetscInt d = 0; d < s->dim; ++d) to[at + d] += factor * s->hang_weight[i] * v[d];
+  for (PetscInt i = 0; i < num; ++i) {
+    const PetscInt at = s->dim * Place_Private(f, master[i]);
+    for (PetscInt d = 0; d < s->dim; ++d) to[at + d] += factor * weight[i] * v[d];
   }
 }
 
@@ -203,17 +200,16 @@ static void Bend_Private(const Contact *c, TieFacet *t, PetscInt k, const PetscR
   for (int i = 0; i < 2; ++i)
     for (int b = 0; b < 2; ++b)
       for (int d = 0; d < 3; ++d) { /* component d of an end of e_i, with the other diagonal */
-        const PetscReal unit[3] = {k == 0, k == 1, k == 2}, axis[3] = {d == 0, d == 1, d == 2};
-        const PetscInt  node = s->facets[4 * t->facet.facet + Corner[i][b]], hangs = s->hang[node + 1] - s->hang[node];
-        PetscReal       v[3];
+        const PetscReal  unit[3] = {k == 0, k == 1, k == 2}, axis[3] = {d == 0, d == 1, d == 2};
+        const PetscReal *weight;
+        const PetscInt  *master, num = SurfaceRow_Private(s, &s->facets[4 * t->facet.facet + Corner[i][b]], &master, &weight);
+        PetscReal        v[3];
         Cross3(axis, unit, v);
         for (int q = 0; q < 3; ++q) v[q] *= i == b ? sum : -sum;
-        for (PetscInt m = 0; m < PetscMax(1, hangs); ++m) {
-          const PetscInt  master = hangs ? s->hang_master[s->hang[node] + m] : node;
-          const PetscReal weight = hangs ? s->hang_weight[s->hang[node] + m] : 1;
-          PetscReal      *row    = t->hessian + n * (3 * Place_Private(&t->bend, master) + d);
-          AtCorner_Private(s, &t->bend, Corner[1 - i][0], weight, v, row);
-          AtCorner_Private(s, &t->bend, Corner[1 - i][1], -weight, v, row);
+        for (PetscInt m = 0; m < num; ++m) {
+          PetscReal *row = t->hessian + n * (3 * Place_Private(&t->bend, master[m]) + d);
+          AtCorner_Private(s, &t->bend, Corner[1 - i][0], weight[m], v, row);
+          AtCorner_Private(s, &t->bend, Corner[1 - i][1], -weight[m], v, row);
         }
       }
 }
@@ -227,9 +223,9 @@ static PetscErrorCode Masters_Private(const Surface *s, TieFacet *t)
   PetscFunctionBegin;
   PetscCall(PetscMalloc1(4 * MOST_LATTICE_MASTERS, &node));
   for (PetscInt k = 0; k < s->corners; ++k) {
-    const PetscInt n = s->facets[s->corners * t->facet.facet + k];
-    if (s->hang[n] == s->hang[n + 1]) node[num++] = n;
-    for (PetscInt i = s->hang[n]; i < s->hang[n + 1]; ++i) node[num++] = s->hang_master[i];
+    const PetscReal *weight;
+    const PetscInt  *master, rows = SurfaceRow_Private(s, &s->facets[s->corners * t->facet.facet + k], &master, &weight);
+    for (PetscInt i = 0; i < rows; ++i) node[num++] = master[i];
   }
   PetscCall(PetscSortRemoveDupsInt(&num, node));
   PetscCall(PetscCalloc1(9 * num * num, &t->hessian));

@@ -125,7 +125,6 @@ PetscErrorCode PathResidual_Private(Problem p, Vec x, PetscReal *r)
 /* The row from what the rank owns, the column from the change of the loads with t. */
 PetscErrorCode PathTangent_Private(Problem p, PetscInt row, const PetscReal u[])
 {
-  const HPTables  *v;
   const PetscReal *n;
   PetscReal       *rate;
 
@@ -136,8 +135,7 @@ PetscErrorCode PathTangent_Private(Problem p, PetscInt row, const PetscReal u[])
     PetscCall(VecRestoreArrayRead(p->path, &n));
   } else if (p->rank == p->size - 1)
     PetscCall(MatSetValue(p->matrix, row, row, Unit_Private(p) / p->scene->load.end, ADD_VALUES));
-  PetscCall(HPSpaceGetTables(p->space, &v));
-  PetscCall(PetscCalloc1(v->num_nodes * p->dim, &rate));
+  PetscCall(PetscCalloc1(p->num_local, &rate));
   PetscCall(MechanicsLoadRate(p->mechanics, u, RATE_SHARE * p->scene->load.end, rate));
   PetscCall(ScalarsColumn_Private(p, p->num_controls, rate));
   PetscCall(PetscFree(rate));

@@ -14,8 +14,8 @@
 
 PetscErrorCode RigidCreate_Private(Problem p)
 {
-  const MechanicsSpec *m = &p->scene->mechanics;
-  const HPTables      *v;
+  const MechanicsSpec *m     = &p->scene->mechanics;
+  const HPTables      *v     = p->tables;
   PetscReal            young = PETSC_MAX_REAL;
 
   PetscFunctionBegin;
@@ -36,7 +36,6 @@ PetscErrorCode RigidCreate_Private(Problem p)
   }
   if (!p->num_links) PetscFunctionReturn(PETSC_SUCCESS);
   p->rigid_shift = SHIFT * young * (p->dim == 3 ? p->extent : 1);
-  PetscCall(HPSpaceGetTables(p->space, &v));
   PetscCall(PetscMalloc1(v->num_nodes, &p->node_link));
   for (PetscInt n = 0; n < v->num_nodes; ++n) {
     p->node_link[n] = -1;
@@ -87,10 +86,9 @@ PetscErrorCode RigidRead_Private(Problem p, const PetscReal q[])
 
 PetscErrorCode RigidMove_Private(Problem p, PetscReal local[])
 {
-  const HPTables *v;
+  const HPTables *v = p->tables;
 
   PetscFunctionBegin;
-  PetscCall(HPSpaceGetTables(p->space, &v));
   for (PetscInt n = 0; n < v->num_nodes && p->num_links; ++n) {
     if (p->node_link[n] < 0) continue;
     const RigidLink *l = &p->links[p->node_link[n]];
@@ -104,10 +102,9 @@ PetscErrorCode RigidMove_Private(Problem p, PetscReal local[])
 
 PetscErrorCode RigidIncrement_Private(Problem p, const PetscReal dq[], PetscReal local[])
 {
-  const HPTables *v;
+  const HPTables *v = p->tables;
 
   PetscFunctionBegin;
-  PetscCall(HPSpaceGetTables(p->space, &v));
   for (PetscInt n = 0; n < v->num_nodes; ++n) {
     for (PetscInt k = 0; k < p->num_rigid && p->node_link[n] >= 0; ++k) {
       PetscReal dx[3];
@@ -131,12 +128,11 @@ static void Arms_Private(const RigidLink *l, PetscInt dim, const PetscReal X[3],
 
 PetscErrorCode RigidMeasure_Private(Problem p, const PetscReal r[])
 {
-  const HPTables *v;
+  const HPTables *v                                            = p->tables;
   PetscReal       sum[INTERFACE_MOTIONS + 9 * INTERFACE_LINKS] = {0}; /* of each unknown, then the arms of each body */
 
   PetscFunctionBegin;
   if (!p->num_rigid) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(HPSpaceGetTables(p->space, &v));
   for (PetscInt n = 0; n < v->num_nodes; ++n) {
     if (p->node_link[n] < 0) continue;
     const RigidLink *l = &p->links[p->node_link[n]];

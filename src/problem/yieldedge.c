@@ -8,19 +8,17 @@
 
 PetscErrorCode ProblemUnloads(Problem p, Vec x, Vec dx, PetscBool *yes)
 {
-  const HPTables *v;
-  PetscReal      *u;
-  PetscInt        num[2];
+  PetscReal *u;
+  PetscInt   num[2];
 
   PetscFunctionBegin;
   *yes = PETSC_FALSE;
   if (!MechanicsIsPlastic(&p->scene->mechanics)) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(HPSpaceGetTables(p->space, &v));
-  PetscCall(PetscMalloc1(v->num_nodes * p->dim, &u));
+  PetscCall(PetscMalloc1(p->num_local, &u));
   PetscCall(ProblemIncrement_Private(p, dx, 1.0));
   for (PetscInt side = 0; side < 2; ++side) { /* points that would flow on, and points that would if the step went the other way */
     PetscCall(ProblemLocalDisplacement(p, x, u));
-    for (PetscInt i = 0; i < v->num_nodes * p->dim; ++i) u[i] += (side ? -SMALL : SMALL) * p->increment[i];
+    for (PetscInt i = 0; i < p->num_local; ++i) u[i] += (side ? -SMALL : SMALL) * p->increment[i];
     PetscCall(MechanicsNumFlowing(p->mechanics, u, &num[side]));
   }
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, num, 2, MPIU_INT, MPI_SUM, p->comm));

@@ -69,16 +69,9 @@ PetscErrorCode DescentCreate_Private(Solver s, SolverReport *report, Descent *d)
   d->problem = s->problem;
   d->report  = report;
   PetscCall(ProblemCreateVector(s->problem, &d->trial));
-  PetscCall(VecDuplicate(d->trial, &d->gradient));
-  PetscCall(VecDuplicate(d->trial, &d->dx));
-  PetscCall(VecDuplicate(d->trial, &d->lambda));
-  PetscCall(VecDuplicate(d->trial, &d->depth));
-  PetscCall(VecDuplicate(d->trial, &d->next));
+  PetscCall(VecDuplicateAll(d->trial, 5, (Vec *[]){&d->gradient, &d->dx, &d->lambda, &d->depth, &d->next}));
   PetscCall(ProblemCreateRightSide(s->problem, &d->lift));
-  PetscCall(VecDuplicate(d->lift, &d->rhs));
-  PetscCall(VecDuplicate(d->lift, &d->y));
-  PetscCall(VecDuplicate(d->lift, &d->diagonal));
-  PetscCall(VecDuplicate(d->lift, &d->work));
+  PetscCall(VecDuplicateAll(d->lift, 4, (Vec *[]){&d->rhs, &d->y, &d->diagonal, &d->work}));
   PetscCall(FactorOption_Private("-descent_mat_mumps_icntl_13", "1"));
   PetscCall(FactorOption_Private("-descent_mat_mumps_icntl_14", "80"));
   PetscCall(Factors_Private(d));
@@ -89,17 +82,7 @@ PetscErrorCode DescentDestroy_Private(Descent *d)
 {
   PetscFunctionBegin;
   PetscCall(KSPDestroy(&d->ksp));
-  PetscCall(VecDestroy(&d->trial));
-  PetscCall(VecDestroy(&d->gradient));
-  PetscCall(VecDestroy(&d->dx));
-  PetscCall(VecDestroy(&d->lambda));
-  PetscCall(VecDestroy(&d->depth));
-  PetscCall(VecDestroy(&d->next));
-  PetscCall(VecDestroy(&d->lift));
-  PetscCall(VecDestroy(&d->rhs));
-  PetscCall(VecDestroy(&d->y));
-  PetscCall(VecDestroy(&d->diagonal));
-  PetscCall(VecDestroy(&d->work));
+  PetscCall(VecDestroyAll(11, (Vec *[]){&d->trial, &d->gradient, &d->dx, &d->lambda, &d->depth, &d->next, &d->lift, &d->rhs, &d->y, &d->diagonal, &d->work}));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -10,9 +10,14 @@
 #define TRUE_RTOL 1e-8   /* what round-off may leave */
 #define EARLY 6          /* after which a residual that falls too slowly shows */
 
-static PetscErrorCode Double_Private(Solver s, PC pc)
+/* What factorises the tangent, in the precision that serves. */
+static PetscErrorCode Kind_Private(Solver s, PC pc)
 {
   PetscFunctionBegin;
+  if (s->single) {
+    PetscCall(SingleFactorSet_Private(pc, s->symmetric));
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
   PetscCall(PCSetType(pc, s->symmetric ? PCCHOLESKY : PCLU));
 #if defined(PETSC_HAVE_MUMPS)
   PetscCall(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS));
@@ -49,10 +54,7 @@ PetscErrorCode SolverLinear_Private(Solver s)
   PetscCall(KSPSetType(ksp, KSPPREONLY));
   PetscCall(UseSingle_Private(s));
   PetscCall(SolverInertiaSetUp_Private(s));
-  if (s->single)
-    PetscCall(SingleFactorSet_Private(pc, s->symmetric));
-  else
-    PetscCall(Double_Private(s, pc));
+  PetscCall(Kind_Private(s, pc));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -67,10 +69,7 @@ PetscErrorCode SolverUnsymmetric_Private(Solver s)
   PetscCall(SNESGetKSP(s->snes, &ksp));
   PetscCall(KSPGetPC(ksp, &pc));
   PetscCall(PCReset(pc));
-  if (s->single)
-    PetscCall(SingleFactorSet_Private(pc, PETSC_FALSE));
-  else
-    PetscCall(Double_Private(s, pc));
+  PetscCall(Kind_Private(s, pc));
   PetscCall(PCSetFromOptions(pc));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -127,19 +126,18 @@ static PetscErrorCode Factor_Private(Solver s, Mat A)
   PetscCall(SNESGetKSP(s->snes, &ksp));
   PetscCall(KSPSetOperators(ksp, A, A));
   PetscCall(KSPSetUp(ksp));
+  PetscCall(KSPGetPC(ksp, &pc));
+  PetscCall(PCGetFailedReason(pc, &failed));
 #if defined(PETSC_HAVE_MUMPS)
-  for (PetscBool again = PETSC_TRUE; again;) {
-    again = PETSC_FALSE;
-    PetscCall(KSPGetPC(ksp, &pc));
-    PetscCall(PCGetFailedReason(pc, &failed));
-    if (failed != PC_NOERROR) PetscCall(MoreWorkspace_Private(pc, &again));
+  for (PetscBool again = (PetscBool)(failed != PC_NOERROR); again;) {
+    PetscCall(MoreWorkspace_Private(pc, &again));
     if (!again) break;
     PetscCall(KSPSetOperators(ksp, A, A));
     PetscCall(KSPSetUp(ksp));
+    PetscCall(PCGetFailedReason(pc, &failed));
+    again = (PetscBool)(failed != PC_NOERROR);
   }
 #endif
-  PetscCall(KSPGetPC(ksp, &pc));
-  PetscCall(PCGetFailedReason(pc, &failed));
   s->no_memory = (PetscBool)(failed == PC_FACTOR_OUTMEMORY);
   PetscCall(SolverInertia_Private(s, pc));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -167,7 +165,7 @@ static PetscErrorCode Solve_Private(Solver s, Vec rhs, Vec x, PetscBool *ok)
     PetscCall(KSPDestroy(&s->refine));
     PetscCall(PCCreate(PetscObjectComm((PetscObject)ksp), &pc));
     PetscCall(KSPSetPC(ksp, pc));
-    PetscCall(Double_Private(s, pc));
+    PetscCall(Kind_Private(s, pc));
     PetscCall(PCSetFromOptions(pc));
     PetscCall(PCDestroy(&pc));
     PetscFunctionReturn(PETSC_SUCCESS);
@@ -200,7 +198,7 @@ PetscErrorCode SolverDirect_Private(Solver s, Mat A, Vec rhs, Vec x, PetscBool *
     ++s->report->single_failures;
     s->single = PETSC_FALSE;
     PetscCall(KSPGetPC(ksp, &pc));
-    PetscCall(Double_Private(s, pc));
+    PetscCall(Kind_Private(s, pc));
     PetscCall(PCSetFromOptions(pc));
   }
   PetscCall(StageBegin(STAGE_FACTOR));
