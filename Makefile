@@ -227,6 +227,7 @@ floors:
 lint: format-check floors
 	bash -n scripts/bootstrap .ci/run
 	scripts/sizes --check
+	scripts/thresholds --check
 sizes:
 	scripts/sizes
 	scripts/thresholds

@@ -6,6 +6,10 @@
 #define MORTISE_MAX_ORDER 8 /* highest polynomial order of a cell */
 #define MORTISE_NAME 64
 
+/* Thresholds that several places share; all of them: docs/thresholds.md. */
+#define ROUND_LENGTH 1e-6 /* of a length, an area, a cosine: what round-off of the coordinates in a mesh file leaves */
+#define STEEP 0.7         /* cosine of 45 degrees and a little: of two faces at right angles one at least is nearer; at 45 degrees round-off does not choose */
+
 /* ---- input errors (base/error.c) ------------------------------------------------------------------------------- */
 
 /* Error code of wrong user input: main turns it into exit status 1 without a traceback. */

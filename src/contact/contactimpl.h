@@ -3,9 +3,7 @@
 #include "contact.h"
 
 #define CONTACT_SHARP 0.76604444311897804 /* cosine of 40 degrees: a surface that turns by more has an edge */
-#define CONTACT_FACE 0.7    /* of two faces that meet in a sharp edge the one beyond this, -N_s . N_m, is not seen where the other is within (45 degrees) */
-#define CONTACT_GRAZE 1e-4  /* rays that meet a mortar facet at a flatter angle (cosine) tell nothing of what lies behind */
-#define CONTACT_FOLDED 1e-6 /* |sum of facet vectors| over the sum of their sizes, below which a corner has no direction */
+#define CONTACT_GRAZE 0.01 /* angle, or distance over a facet's size, below which where lines cross, or where a ray meets a facet, tells nothing */
 
 /* Bounding-volume tree over mortar facets: node i's children are child[i], child[i] + 1; leaves hold item[first .. first + count). In two dimensions the third
    extent is [0, 0]. */

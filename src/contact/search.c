@@ -87,7 +87,7 @@ static PetscBool NeighborFaces_Private(const RayWork w, const ContactSurface *s,
     const PetscInt node = s->facets[nv * facet + a];
     for (PetscInt k = w->ring_first[node]; k < w->ring_first[node + 1]; k++) {
       UnitNormal_Private(s, w->ring[k] / nv, other);
-      if (Dot3(other, m) < -CONTACT_FACE && ContactFacetJoint(s, facet, w->ring[k] / nv) == JOINT_SHARP) return PETSC_TRUE;
+      if (Dot3(other, m) < -STEEP && ContactFacetJoint(s, facet, w->ring[k] / nv) == JOINT_SHARP) return PETSC_TRUE;
     }
   }
   return PETSC_FALSE;
@@ -110,12 +110,12 @@ static void LeaveOutGrazing_Private(ContactPair pair, const ContactSurface *nonm
 
       if (around[k] < 0) continue;
       UnitNormal_Private(mortar, around[k], m);
-      if (!(Dot3(n, m) > -CONTACT_FACE && Dot3(n, m) < -CONTACT_OPPOSE)) continue;
+      if (!(Dot3(n, m) > -STEEP && Dot3(n, m) < -CONTACT_OPPOSE)) continue;
       for (PetscInt l = 0; l < num && !grazes; l++) {
         const PetscInt f = around[l] < 0 ? ~around[l] : around[l];
 
         UnitNormal_Private(mortar, f, other);
-        if (around[l] >= 0 && !(Dot3(other, n) < -CONTACT_FACE)) continue;
+        if (around[l] >= 0 && !(Dot3(other, n) < -STEEP)) continue;
         grazes = (PetscBool)(ContactFacetJoint(mortar, around[k], f) == (around[l] < 0 ? JOINT_SMOOTH : JOINT_SHARP));
       }
       if (!grazes && !NeighborFaces_Private(pair->ray, nonmortar, facet, m)) continue;

@@ -230,11 +230,10 @@ static PetscErrorCode SurfaceNeighbours_Private(Surface *s)
 
 PetscErrorCode SurfaceCreate_Private(Interface p, PetscInt group, PetscBool lattice, Surface *s)
 {
-  const ForestTables *t;
+  const ForestTables *t = p->tables;
 
   PetscFunctionBegin;
   PetscCall(PetscMemzero(s, sizeof(*s)));
-  PetscCall(ForestGetTables(p->forest, &t));
   PetscCall(SurfaceTopology_Private(t, group, s));
   if (lattice)
     PetscCall(SurfaceLattice_Private(p->space, t, s));

@@ -10,8 +10,6 @@
    the same; with more the tangent is unsymmetric, as moments that keep their directions make it anyway. */
 #include "problemimpl.h"
 
-#define SHIFT 1e-6 /* of Young's modulus times L^(dim - 2): a body that touches nothing yet is held in the first linear solve, like one that deforms */
-
 PetscErrorCode RigidCreate_Private(Problem p)
 {
   const MechanicsSpec *m     = &p->scene->mechanics;
@@ -35,7 +33,8 @@ PetscErrorCode RigidCreate_Private(Problem p)
     }
   }
   if (!p->num_links) PetscFunctionReturn(PETSC_SUCCESS);
-  p->rigid_shift = SHIFT * young * (p->dim == 3 ? p->extent : 1);
+  /* a body that touches nothing yet is held in the first linear solve, like one that deforms */
+  p->rigid_shift = MECHANICS_SHIFT * young * (p->dim == 3 ? p->extent : 1);
   PetscCall(PetscMalloc1(v->num_nodes, &p->node_link));
   for (PetscInt n = 0; n < v->num_nodes; ++n) {
     p->node_link[n] = -1;

@@ -76,7 +76,7 @@ static PetscErrorCode Whole_Private(const MultiplierWork *w, PetscReal whole[], 
       area += D[a];
     }
     for (PetscInt end = 0; w->axisymmetric && end < 2; end++) /* an end's share of an edge is 1 / (p (p + 1)) */
-      if (D[end * l.order] < MULTIPLIER_LEAST * area / (PetscReal)(l.num * l.order)) carries[l.node[end * l.order]] = PETSC_FALSE;
+      if (D[end * l.order] < CONTACT_SLIVER * area / (PetscReal)(l.num * l.order)) carries[l.node[end * l.order]] = PETSC_FALSE;
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -88,7 +88,7 @@ static PetscBool IsLight_Private(const MultiplierWork *w, PetscInt num_facets, c
     for (PetscInt i = 0; i < w->rows[facet[f]].num; i++) {
       const PetscInt n = w->rows[facet[f]].node[i];
 
-      if (whole[n] > 0 && w->weight[n] < MULTIPLIER_LEAST * whole[n]) return PETSC_TRUE;
+      if (whole[n] > 0 && w->weight[n] < CONTACT_SLIVER * whole[n]) return PETSC_TRUE;
     }
   return PETSC_FALSE;
 }

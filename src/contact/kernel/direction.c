@@ -8,9 +8,8 @@
    corners of facets: corner k of facet f is number nv f + k. */
 #include "kernelimpl.h"
 
-#define DEPTH 6                   /* of corners that hang on edges whose ends hang */
-#define ALONG 0.70710678118654752 /* cosine: a facet whose normal is closer than 45 degrees to that of a plane lies along it and has no image there */
-#define SAME 1e-9                 /* 1 - cosine between the normals of one plane, square of the sine between it and what lies in it */
+#define DEPTH 6   /* of corners that hang on edges whose ends hang */
+#define SAME 1e-9 /* 1 - cosine between the normals of one plane, square of the sine between it and what lies in it */
 
 typedef struct {
   PetscInt from, to, facet;
@@ -242,7 +241,7 @@ static PetscBool LiesAlong_Private(const ContactSurface *s, PetscInt corner, int
   PetscReal        N[3], n[3] = {mirror[0], mirror[1], s->dim == 3 ? mirror[2] : 0};
 
   ContactFacetVector(s->dim, s->x, s->facets + nv * (corner / nv), N);
-  return (PetscBool)(PetscAbsReal(Dot3(n, N)) > ALONG * PetscSqrtReal(Dot3(N, N)));
+  return (PetscBool)(PetscAbsReal(Dot3(n, N)) > STEEP * PetscSqrtReal(Dot3(N, N)));
 }
 
 PetscErrorCode ContactDirectionTopology(RayWork w, const ContactSurface *s)
@@ -284,7 +283,7 @@ static void Images_Private(RayWork w, const ContactSurface *s, PetscInt corner, 
   }
   if (num == 2) {
     Cross3(n[0], n[1], l);
-    if (!(Dot3(l, l) > 1e-12)) num = 1;
+    if (!(Dot3(l, l) > PetscSqr(ROUND_LENGTH))) num = 1;
   }
   for (int i = 0; i < 3; i++)
     for (int j = 0; j < 3; j++) {
@@ -424,5 +423,5 @@ PetscBool ContactDirectionUsable(RayWork w, const ContactSurface *s, PetscInt co
     ContactFacetVector(s->dim, s->x, s->facets + nv * (w->ring[k] / nv), N);
     sum += PetscSqrtReal(Dot3(N, N));
   }
-  return PetscSqrtReal(Dot3(w->d + 3 * corner, w->d + 3 * corner)) * Around_Private(w, s, corner) > CONTACT_FOLDED * sum ? PETSC_TRUE : PETSC_FALSE;
+  return PetscSqrtReal(Dot3(w->d + 3 * corner, w->d + 3 * corner)) * Around_Private(w, s, corner) > ROUND_LENGTH * sum ? PETSC_TRUE : PETSC_FALSE;
 }

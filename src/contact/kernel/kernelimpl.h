@@ -20,18 +20,17 @@
 #define RAY_LATTICE ((RAY_ORDER + 1) * (RAY_ORDER + 1))
 #define RAY_ROOM (RAY_LATTICE + 12) /* values of a lattice's functions: loops of fixed length write beyond the last */
 #define RAY_MOMENTS (2 * RAY_LATTICE + 1)
-#define RAY_GRAZE 1e-3 /* cosine between the ray and the normal of a facet below which they do not meet */
 #define RAY_SOLVED 1e-9
-#define RAY_FAR 1e7   /* parametric coordinate up to which images are looked for: a facet may be 10^7 times as small as what it sees */
-#define RAY_OUTSIDE 3 /* parametric coordinate up to which rays meet a mortar facet beyond its curved sides */
+#define RAY_FAR                                                                                                                                                \
+  (1 / PETSC_SQRT_MACHINE_EPSILON) /* parametric coordinate up to which images are looked for: a facet may be that much smaller than what it sees */
 
 /* Overlap. Where a mortar facet covers the nonmortar one, in the chart: a convex polygon whose sides lie on lines 0..3 (sides of the nonmortar facet, line i
    from node i to node i + 1) and 4..7 (sides of the mortar facet, nodes listed backwards so that both run counterclockwise). Vertices are intersections of
    neighbouring lines. */
-#define FACET_VERTICES 8  /* of an overlap */
-#define FACET_ON 1e-9     /* distance from a line, over the facet's size, within which a vertex is on it */
-#define FACET_STRAY 1e-3  /* distance, over the facet's size, from the side that is cut, beyond which a crossing is not taken */
-#define FACET_OUTSIDE 1.5 /* parametric coordinate up to which the projection on a facet may lie outside */
+#define FACET_VERTICES 8     /* of an overlap */
+#define FACET_ON 1e-9        /* distance from a line, over the facet's size, within which a vertex is on it */
+#define FACET_PARALLEL 1e-12 /* sine of the angle between lines below which they do not cross */
+#define FACET_OUTSIDE 2      /* parametric coordinate up to which what meets a facet may lie beyond its sides, which may be curved */
 
 /* A facet in the plane's axes. */
 typedef struct {

@@ -14,9 +14,7 @@
 #include <petscdt.h>
 
 #define MOST_POINTS 144
-#define SMALL 0.01    /* sine of an angle */
-#define COINCIDE 1e-5 /* the same, below which the place of the crossing tells nothing */
-#define JOINT 8       /* line between the two corners at one place */
+#define JOINT 8 /* line between the two corners at one place */
 
 /* W[nl][nr] += factor sum_k left[k][nl] right[k][nr] */
 void ContactRayProducts(PetscInt num, PetscReal factor, PetscInt nl, const PetscReal left[], PetscInt ldl, PetscInt nr, const PetscReal right[], PetscInt ldr,
@@ -82,10 +80,10 @@ static void Crossing_Private(const Overlap *o, PetscInt k, int side, int image, 
   const PetscReal  size = PetscSqrtReal(Dot2(nu, nu));
   PetscReal        t;
 
-  if (PetscAbsReal(det) <= 1e-12 * size * PetscSqrtReal(Dot2(e, e))) return;
+  if (PetscAbsReal(det) <= FACET_PARALLEL * size * PetscSqrtReal(Dot2(e, e))) return;
   t = Dot2(nu, r) / det;
   for (int i = 0; i < 2; i++)
-    if (PetscAbsReal(a[i] + t * e[i] - o->v[k][i]) > 0.1 * FACET_STRAY * size) return; /* it was not taken: clip.c */
+    if (PetscAbsReal(a[i] + t * e[i] - o->v[k][i]) > CONTACT_GRAZE * size) return; /* it was not taken: clip.c */
   move->a = image, move->b = (image + 1) % 4;
   for (int i = 0; i < 2; i++) {
     move->e[i]  = e[i];
@@ -114,7 +112,7 @@ static void Joint_Private(const Overlap *o, PetscInt k, int side, int image, Pet
     move->d[i][2 * image + i] = 1 - t;
     move->d[i][2 * next + i]  = t;
   }
-  if (Sine_Private(o, side, 4 + image) > COINCIDE) Crossing_Private(o, k, side, image, &crossing);
+  if (Sine_Private(o, side, 4 + image) > ROUND_LENGTH) Crossing_Private(o, k, side, image, &crossing);
   if (crossing.a < 0) return;
   move->slips = PETSC_TRUE;
   for (int j = 0; j < RAY_IMAGES; j++) {
@@ -131,7 +129,7 @@ void ContactRaySplit(const RayFacet *f, const Overlap *o, Overlap *to)
   to->num = 0;
   for (PetscInt k = 0; k < o->num; k++) {
     const int       a = o->line[(k + o->num - 1) % o->num], b = o->line[k];
-    const PetscBool split = (PetscBool)(a / 4 != b / 4 && to->num + o->num - k < FACET_VERTICES && Sine_Private(o, a, b) < SMALL);
+    const PetscBool split = (PetscBool)(a / 4 != b / 4 && to->num + o->num - k < FACET_VERTICES && Sine_Private(o, a, b) < CONTACT_GRAZE);
 
     for (int twice = split ? 1 : 0; twice >= 0; twice--) {
       for (int i = 0; i < 2; i++) to->v[to->num][i] = o->v[k][i];
