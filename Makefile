@@ -5,7 +5,7 @@
 #   DEBUG=1     address and undefined sanitizers          PORTABLE=1  no -march=native (for a cluster's head node)
 # Every combination has its own build directory and program, so changing a flag never mixes objects.
 
-MODULES ?= base element material forest hp mechanics contact interface scene problem solve path estimate transfer output diagnose app
+MODULES ?= base element material forest hp mechanics contact interface scene problem solve path estimate transfer output diagnose needs app
 VARIANT := $(if $(DEBUG),-debug)$(if $(PORTABLE),-portable)$(if $(PETSC_DIR),-$(notdir $(PETSC_DIR))$(if $(PETSC_ARCH),-$(PETSC_ARCH)))
 BUILD   ?= build$(VARIANT)
 PROGRAM ?= bin/mortise$(VARIANT)
@@ -228,6 +228,7 @@ floors:
 lint: format-check floors
 	bash -n scripts/bootstrap .ci/run
 	scripts/sizes --check
+	scripts/thresholds --check
 sizes:
 	scripts/sizes
 	scripts/thresholds

@@ -6,6 +6,10 @@
 #define MORTISE_MAX_ORDER 8 /* highest polynomial order of a cell */
 #define MORTISE_NAME 64
 
+/* Thresholds that several places share; all of them: docs/thresholds.md. */
+#define ROUND_LENGTH 1e-6 /* of a length, an area, a cosine: what round-off of the coordinates in a mesh file leaves */
+#define STEEP 0.7         /* cosine of 45 degrees and a little: of two faces at right angles one at least is nearer; at 45 degrees round-off does not choose */
+
 /* ---- input errors (base/error.c) ------------------------------------------------------------------------------- */
 
 /* Error code of wrong user input: main turns it into exit status 1 without a traceback. */
@@ -120,6 +124,24 @@ PetscErrorCode SparseExchange(MPI_Comm, PetscMPIInt num_to, const PetscMPIInt to
 
 /* Entries of `entry` bytes each of all ranks, by ascending rank, on every one of them; the caller frees *all. Collective. */
 PetscErrorCode GatherAll(MPI_Comm, PetscInt num, size_t entry, const void *mine, PetscInt *num_all, void *all);
+
+/* Of matrices and vectors, in one call; several vectors at once. Collective. */
+static inline PetscErrorCode MatAssemble(Mat A, MatAssemblyType type)
+{
+  PetscFunctionBegin;
+  PetscCall(MatAssemblyBegin(A, type));
+  PetscCall(MatAssemblyEnd(A, type));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+static inline PetscErrorCode VecAssemble(Vec x)
+{
+  PetscFunctionBegin;
+  PetscCall(VecAssemblyBegin(x));
+  PetscCall(VecAssemblyEnd(x));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+PetscErrorCode VecDuplicateAll(Vec, PetscInt num, Vec *const to[]);
+PetscErrorCode VecDestroyAll(PetscInt num, Vec *const x[]);
 
 /* The first rank of which `mine` holds; -1: of none. Collective. */
 PetscErrorCode RankFirst(MPI_Comm, PetscBool mine, PetscMPIInt *first);

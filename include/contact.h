@@ -18,6 +18,7 @@
 #include "base.h"
 
 #define CONTACT_SEGMENT 8  /* most corners of a segment */
+#define CONTACT_SLIVER 0.1 /* of a facet, or of one of its functions: what is less tells nothing of its own */
 #define CONTACT_OPPOSE 0.3 /* facets face each other where N_s . N_m < -0.3: the search keeps these */
 
 typedef struct {

@@ -115,7 +115,8 @@ PetscErrorCode MechanicsFindFolded(Mechanics, const PetscReal u[], int8_t folded
 
 /* Pseudo-time: evaluates dead loads and prescribed values. */
 PetscErrorCode MechanicsSetTime(Mechanics, PetscReal t);
-/* Part (0, 1] of the diagonal that bodies without support get in the tangent; 1 at first. */
+/* Part (0, 1] of the diagonal that bodies without support get in the tangent, MECHANICS_SHIFT of the cells' own stiffness against shear; 1 at first. */
+#define MECHANICS_SHIFT 1e-6
 PetscErrorCode MechanicsSetProximalShift(Mechanics, PetscReal part);
 /* From now on residual and tangent have viscous forces against what cells deform since the displacements from[] (local array; a copy is taken): rate 1 is about
    as stiff as the material; 0: none, from is not looked at. Not collective. */

@@ -2,7 +2,7 @@
 #pragma once
 #include "diagnose.h"
 #include "estimate.h"
-#include "output.h"
+#include "needs.h"
 #include "path.h"
 #include "transfer.h"
 
@@ -53,7 +53,7 @@ typedef struct {
   PetscReal        rough_error, rough_t, rough_norm; /* largest estimate of an accepted step, its time; largest norm */
   PetscReal        unstable_t;                       /* when a solution was first found unstable … */
   PetscBool        unstable_known, passage_told;     /* … if one was; that a surface passes through itself */
-  PetscBool        mirror[3];                        /* planes of symmetry that are not used (AppFindMirrors) … */
+  PetscBool        mirror[3];                        /* planes of symmetry that are not used (NeedsFindMirrors) … */
   PetscReal        mirror_at[3];                     /* … and where they are */
   PetscReal        most_energy;                      /* stored at the end of an accepted load step */
   Needs            needs;                            /* what could have been left out */
@@ -141,24 +141,6 @@ PetscErrorCode AppRefuseThrough(Problem, const PetscReal from[], const State *, 
 PetscErrorCode AppWatch(App *);
 /* The warnings that sum up a run, before its summary is written. Collective. */
 PetscErrorCode AppWarn(App *);
-
-/* mirror.c. Middle planes of the mesh across each axis that mesh, supports and loads are symmetric about and no cell straddles; of the forest as it begins. Not
-   collective. */
-PetscErrorCode AppFindMirrors(const SceneData *, Forest, PetscBool mirror[3], PetscReal at[3]);
-/* needs.c. What the run could have left out, of its last state; and away with it. Collective. */
-PetscErrorCode AppFindNeeds(App *, Needs *);
-PetscErrorCode AppForgetNeeds(Needs *);
-/* simpler.c, at the last accepted state. Of a pair the square of how far its sides slid along each other over the size of the zone, or the turn of their
-   normals (radians, root mean square) if that is larger. Collective. */
-PetscErrorCode AppContactTurn(const App *, PetscInt pair, PetscReal *turn);
-/* The motion that the supports of a body give it as a whole, by axis, for the caller to delete; held: they do, and nothing else loads it. Not collective. */
-PetscErrorCode AppRigidMotion(const App *, PetscInt body, struct cJSON **motion, PetscBool *held);
-/* Largest difference of displacements at corners of cells from those of their mirror images, over the largest displacement. Collective. */
-PetscErrorCode AppAsymmetry(const App *, PetscInt axis, PetscReal *off);
-/* prism.c: is the mesh one of right prisms along the axis that reach from end to end? layers: of its cells, 0: it is not. change: largest displacement along
-   the axis, or difference of those of corners over each other, over the largest displacement; over the length and the strain elsewhere if that is more.
-   Collective. */
-PetscErrorCode AppFindPrism(const App *, PetscInt axis, PetscReal strain, PetscInt *layers, PetscReal *change);
 
 /* handover.c. -solution_view: the last accepted displacement through a viewer of PETSc; an input error where the option names none of these. Collective. */
 #define APP_SOLUTION_VIEW "vtk:FILE.vtu|hdf5:FILE|binary:FILE"

@@ -8,7 +8,7 @@ static PetscErrorCode Begin_Private(App *app, Forest *forest)
   int8_t *orders;
 
   PetscFunctionBegin;
-  PetscCall(AppFindMirrors(app->data, *forest, app->mirror, app->mirror_at));
+  PetscCall(NeedsFindMirrors(app->data, *forest, app->mirror, app->mirror_at));
   PetscCall(ProblemInitialOrders(app->data, *forest, &orders));
   PetscCall(LevelCreate(app->data, *forest, orders, 0, &app->level));
   *forest = NULL;
@@ -90,7 +90,7 @@ static PetscErrorCode Close_Private(App *app)
   PetscCall(LevelDestroy(&app->level));
   PetscCall(CheckpointDestroy(&app->snapshot));
   OutputUnlock();
-  PetscCall(AppForgetNeeds(&app->needs));
+  PetscCall(NeedsDestroy(&app->needs));
   PetscCall(PetscFree2(app->subdivided, app->touched));
   PetscCall(PetscFree(app->missed));
   PetscFunctionReturn(PETSC_SUCCESS);

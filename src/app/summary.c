@@ -31,6 +31,28 @@ static PetscErrorCode Figures_Private(App *app)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+static PetscErrorCode Needs_Private(App *app, PetscReal seconds)
+{
+  const NeedsRun run = {.comm         = app->comm,
+                        .data         = app->data,
+                        .level        = &app->level,
+                        .path         = &app->path,
+                        .balance      = &app->balance,
+                        .estimate     = app->estimated ? &app->estimate : NULL,
+                        .touched      = app->touched,
+                        .mirror       = app->mirror,
+                        .mirror_at    = app->mirror_at,
+                        .most_energy  = app->most_energy,
+                        .seconds      = seconds,
+                        .load_steps   = app->load_steps,
+                        .adapt_passes = app->adapt_passes,
+                        .most_passes  = app->most_passes};
+
+  PetscFunctionBegin;
+  PetscCall(NeedsFind(&run, &app->needs));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode AppSummary(App *app, const char *status, const char *reason)
 {
   PetscFunctionBegin;
@@ -39,7 +61,7 @@ PetscErrorCode AppSummary(App *app, const char *status, const char *reason)
   const PetscBool estimated = (PetscBool)(app->estimated && !given_up && !PetscIsNanReal(app->last.estimated_error));
   const PetscBool whole     = (PetscBool)(!given_up && !app->restart[0] && app->load_steps > 0);
   const ReportRow total     = AppTotal(app);
-  if (whole) PetscCall(AppFindNeeds(app, &app->needs));
+  if (whole) PetscCall(Needs_Private(app, total.seconds));
   const RunSummary summary = {.status       = status,
                               .reason       = reason,
                               .adapt_stop   = app->adapt_stop,

@@ -68,6 +68,20 @@ PetscErrorCode GatherAll(MPI_Comm comm, PetscInt num, size_t entry, const void *
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscErrorCode VecDuplicateAll(Vec from, PetscInt num, Vec *const to[])
+{
+  PetscFunctionBegin;
+  for (PetscInt i = 0; i < num; i++) PetscCall(VecDuplicate(from, to[i]));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode VecDestroyAll(PetscInt num, Vec *const x[])
+{
+  PetscFunctionBegin;
+  for (PetscInt i = 0; i < num; i++) PetscCall(VecDestroy(x[i]));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode RankFirst(MPI_Comm comm, PetscBool mine, PetscMPIInt *first)
 {
   PetscMPIInt rank, size;

@@ -3,9 +3,7 @@
 #include "contact.h"
 
 #define CONTACT_SHARP 0.76604444311897804 /* cosine of 40 degrees: a surface that turns by more has an edge */
-#define CONTACT_FACE 0.7    /* of two faces that meet in a sharp edge the one beyond this, -N_s . N_m, is not seen where the other is within (45 degrees) */
-#define CONTACT_GRAZE 1e-4  /* rays that meet a mortar facet at a flatter angle (cosine) tell nothing of what lies behind */
-#define CONTACT_FOLDED 1e-6 /* |sum of facet vectors| over the sum of their sizes, below which a corner has no direction */
+#define CONTACT_GRAZE 0.01 /* angle, or distance over a facet's size, below which where lines cross, or where a ray meets a facet, tells nothing */
 
 /* Bounding-volume tree over mortar facets: node i's children are child[i], child[i] + 1; leaves hold item[first .. first + count). In two dimensions the third
    extent is [0, 0]. */
@@ -91,8 +89,12 @@ PetscErrorCode ContactTreeBuild(PetscInt num, PetscReal (*box)[6], Tree *);
 PetscErrorCode ContactTreeDestroy(Tree *);
 PetscInt       ContactTreeQuery(const Tree *, const PetscReal box[6], PetscInt max, PetscInt items[]);
 
-/* Nodes of a facet on its lattice, lexicographic; order1: room for those of a facet without one. Returns its order. */
-PetscInt  ContactFacetLattice(const ContactSurface *, PetscInt facet, const PetscInt **node, PetscInt order1[4]);
+/* Nodes of a facet on its lattice, lexicographic; corner: room for those of a facet without one. */
+typedef struct {
+  PetscInt        order, num, corner[4];
+  const PetscInt *node;
+} FacetLattice;
+void      ContactFacetLattice(const ContactSurface *, PetscInt facet, FacetLattice *);
 PetscBool ContactNodeHangs(const ContactSurface *, PetscInt n);
 /* Row of node n: the nodes it follows with their weights, itself when it does not hang; returns their number. */
 PetscInt ContactNodeRow(const ContactSurface *, const PetscInt *n, const PetscInt **master, const PetscReal **weight);
@@ -156,6 +158,8 @@ typedef struct {
 PetscErrorCode ContactResultDestroy(Result *);
 /* Place of a node; new ones are added. */
 PetscErrorCode ContactResultNode(Result *, PetscInt id, PetscInt *place);
+/* Those that a nonmortar node follows, itself where it does not hang. */
+PetscErrorCode ContactResultMasters(Result *, const ContactSurface *, PetscInt node);
 /* Row of vertex v by places among the nodes; row_first has room for v + 1, *num entries are there. */
 PetscErrorCode ContactResultRow(Result *, const ContactSurface *, PetscInt node, PetscBool mortar, PetscInt v, PetscInt *num);
 /* Do derivatives have a use? node[num_rows]: the facet's multipliers; loaded: one of them is not zero. */

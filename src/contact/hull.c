@@ -1,8 +1,7 @@
 /* How thick bodies are: a ray through one of them, from its outer facets at the reference positions. */
 #include "contactimpl.h"
 
-#define ACROSS 0.70710678118654752 /* cosine between a direction and the normal of a side beside it: at most that of 45 degrees */
-#define ROUND 1e-9                 /* of a facet, by which it is larger than it is: rays through corners leave the body, too, at once where they start at one */
+#define ROUND 1e-9 /* of a facet, by which it is larger than it is: rays through corners leave the body, too, at once where they start at one */
 
 struct _p_ContactHull {
   PetscInt   dim, *part;
@@ -208,7 +207,7 @@ PetscInt ContactHullBeside(ContactHull h, PetscInt part, const PetscReal x[], co
     for (PetscInt k = node->first; k < node->first + node->count && num < most; k++) {
       if (h->part[t->item[k]] != part || !ContactBoxesMeet(t->box[t->item[k]], box)) continue;
       Normal_Private(h, t->item[k], side[num].N);
-      if (PetscAbsReal(Dot3(side[num].N, d)) >= ACROSS) continue;
+      if (PetscAbsReal(Dot3(side[num].N, d)) >= STEEP) continue;
       side[num].distance = PetscSqrtReal(ToFacet_Private(h, t->item[k], y));
       if (side[num].distance < radius) num++;
     }

@@ -54,6 +54,17 @@ PetscErrorCode ContactResultNode(Result *r, PetscInt id, PetscInt *place)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscErrorCode ContactResultMasters(Result *r, const ContactSurface *s, PetscInt node)
+{
+  const PetscReal *weight;
+  const PetscInt  *master, masters = ContactNodeRow(s, &node, &master, &weight);
+  PetscInt         place;
+
+  PetscFunctionBegin;
+  for (PetscInt i = 0; i < masters; i++) PetscCall(ContactResultNode(r, master[i], &place));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode ContactResultRow(Result *r, const ContactSurface *s, PetscInt node, PetscBool mortar, PetscInt v, PetscInt *num)
 {
   const PetscInt  *master;

@@ -6,29 +6,27 @@
 
 void ContactFacetBox(const ContactSurface *s, PetscInt facet, PetscReal box[6])
 {
-  const PetscInt *node;
-  PetscInt        order1[4];
-  const PetscInt  num = ElementNumNodes(s->dim - 1, ContactFacetLattice(s, facet, &node, order1));
+  FacetLattice l;
 
+  ContactFacetLattice(s, facet, &l);
   box[2] = box[5] = 0;
   for (PetscInt i = 0; i < s->dim; i++) {
     box[i]     = PETSC_MAX_REAL;
     box[3 + i] = -PETSC_MAX_REAL;
-    for (PetscInt k = 0; k < num; k++) {
-      box[i]     = PetscMin(box[i], s->x[s->dim * node[k] + i]);
-      box[3 + i] = PetscMax(box[3 + i], s->x[s->dim * node[k] + i]);
+    for (PetscInt k = 0; k < l.num; k++) {
+      box[i]     = PetscMin(box[i], s->x[s->dim * l.node[k] + i]);
+      box[3 + i] = PetscMax(box[3 + i], s->x[s->dim * l.node[k] + i]);
     }
   }
 }
 
 static PetscBool HasFacet_Private(const ContactSurface *s, PetscInt facet)
 {
-  const PetscInt *node;
-  PetscInt        order1[4];
-  const PetscInt  num = ElementNumNodes(s->dim - 1, ContactFacetLattice(s, facet, &node, order1));
+  FacetLattice l;
 
-  for (PetscInt k = 0; k < num; k++)
-    if (!ContactHas(s, node[k])) return PETSC_FALSE;
+  ContactFacetLattice(s, facet, &l);
+  for (PetscInt k = 0; k < l.num; k++)
+    if (!ContactHas(s, l.node[k])) return PETSC_FALSE;
   return PETSC_TRUE;
 }
 
@@ -89,7 +87,7 @@ static PetscBool NeighborFaces_Private(const RayWork w, const ContactSurface *s,
     const PetscInt own = s->facets[nv * facet + a / 2], node = a % 2 == 0 ? own : s->twin ? s->twin[own] : -1;
     for (PetscInt k = node < 0 ? 0 : w->ring_first[node]; node >= 0 && k < w->ring_first[node + 1]; k++) {
       UnitNormal_Private(s, w->ring[k] / nv, other);
-      if (Dot3(other, m) < -CONTACT_FACE && ContactFacetJoint(s, facet, w->ring[k] / nv) == JOINT_SHARP) return PETSC_TRUE;
+      if (Dot3(other, m) < -STEEP && ContactFacetJoint(s, facet, w->ring[k] / nv) == JOINT_SHARP) return PETSC_TRUE;
     }
   }
   return PETSC_FALSE;
@@ -112,12 +110,12 @@ static void LeaveOutGrazing_Private(ContactPair pair, const ContactSurface *nonm
 
       if (around[k] < 0) continue;
       UnitNormal_Private(mortar, around[k], m);
-      if (!(Dot3(n, m) > -CONTACT_FACE && Dot3(n, m) < -CONTACT_OPPOSE)) continue;
+      if (!(Dot3(n, m) > -STEEP && Dot3(n, m) < -CONTACT_OPPOSE)) continue;
       for (PetscInt l = 0; l < num && !grazes; l++) {
         const PetscInt f = around[l] < 0 ? ~around[l] : around[l];
 
         UnitNormal_Private(mortar, f, other);
-        if (around[l] >= 0 && !(Dot3(other, n) < -CONTACT_FACE)) continue;
+        if (around[l] >= 0 && !(Dot3(other, n) < -STEEP)) continue;
         grazes = (PetscBool)(ContactFacetJoint(mortar, around[k], f) == (around[l] < 0 ? JOINT_SMOOTH : JOINT_SHARP));
       }
       if (!grazes && !NeighborFaces_Private(pair->ray, nonmortar, facet, m)) continue;

@@ -52,11 +52,10 @@ PetscErrorCode ContactNodeScales_Private(Interface p, Contact *c)
 {
   const Surface      *s            = &c->side[0];
   const PetscBool     axisymmetric = (PetscBool)(p->spec->model == MODEL_AXISYMMETRIC);
-  const ForestTables *t;
-  PetscReal           young = PETSC_MAX_REAL, share[SURFACE_MOST_NODES], room[SURFACE_MOST_NODES];
+  const ForestTables *t            = p->tables;
+  PetscReal           young        = PETSC_MAX_REAL, share[SURFACE_MOST_NODES], room[SURFACE_MOST_NODES];
 
   PetscFunctionBegin;
-  PetscCall(ForestGetTables(p->forest, &t));
   for (PetscInt side = 0; side < 2; ++side) {
     for (PetscInt e = 0; e < c->side[side].num_facets; ++e) {
       const MaterialSpec *m = p->spec->bodies[t->leaf_body[c->side[side].facet_leaf[e]]].material;
@@ -194,11 +193,10 @@ static PetscBool IsCrease_Private(const Surface *s, PetscInt n)
    for them. */
 PetscErrorCode ContactCarriers_Private(Interface p, Contact *c)
 {
-  const ForestTables *t;
+  const ForestTables *t = p->tables;
   const Surface      *s = &c->side[0];
 
   PetscFunctionBegin;
-  PetscCall(ForestGetTables(p->forest, &t));
   for (PetscInt n = 0; n < s->num_nodes; ++n) {
     if (s->hang[n] < s->hang[n + 1]) continue;
     const PetscInt facet = s->node_facet[s->node_first[n]];

@@ -7,11 +7,10 @@
 static PetscErrorCode ListFacets_Private(Interface p, Contact *c)
 {
   const Surface      *s = &c->side[0];
-  const ForestTables *t;
+  const ForestTables *t = p->tables;
   PetscBool          *near;
 
   PetscFunctionBegin;
-  PetscCall(ForestGetTables(p->forest, &t));
   PetscCall(PetscMalloc2(s->num_facets, &c->listed, s->num_facets, &c->mine));
   PetscCall(PetscMalloc1(s->num_facets, &near));
   for (PetscInt f = 0; f < s->num_facets; ++f) near[f] = c->mine[f] = (PetscBool)(t->leaf_rank[s->facet_leaf[f]] == p->rank);
@@ -139,11 +138,10 @@ static PetscErrorCode Subtract_Private(Interface p, Contact *c)
 static PetscErrorCode IsHigher_Private(Interface p, const ContactSpec *spec, PetscBool *higher)
 {
   const uint64_t      groups = ((uint64_t)1 << spec->nonmortar) | ((uint64_t)1 << spec->mortar);
-  const ForestTables *t;
+  const ForestTables *t      = p->tables;
 
   PetscFunctionBegin;
   *higher = PETSC_FALSE;
-  PetscCall(ForestGetTables(p->forest, &t));
   for (PetscInt f = t->first[t->dim - 1]; f < t->first[t->dim] && !*higher; ++f) {
     PetscInt order;
     if (!(t->boundary[f] & groups)) continue;

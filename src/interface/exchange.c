@@ -135,10 +135,10 @@ static void Mark_Private(const Surface *s, PetscInt facet, PetscBool mark[])
 static void MarkParents_Private(const Surface *s, const PetscInt parent[], PetscInt node, PetscBool mark[])
 {
   for (PetscInt e = 0; e < 2 && parent[2 * node] >= 0; ++e) {
-    const PetscInt end = parent[2 * node + e];
-    if (s->hang[end] == s->hang[end + 1]) mark[end] = PETSC_TRUE;
-    for (PetscInt k = s->hang[end]; k < s->hang[end + 1]; ++k) mark[s->hang_master[k]] = PETSC_TRUE;
-    MarkParents_Private(s, parent, end, mark);
+    const PetscReal *weight;
+    const PetscInt  *master, *end = &parent[2 * node + e], num = SurfaceRow_Private(s, end, &master, &weight);
+    for (PetscInt k = 0; k < num; ++k) mark[master[k]] = PETSC_TRUE;
+    MarkParents_Private(s, parent, *end, mark);
   }
 }
 

@@ -25,7 +25,7 @@ PetscErrorCode ContactLeastOverlap_Private(Interface p, const Contact *c, PetscR
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, range, 2, MPIU_REAL, MPI_MAX, p->comm));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &more, 1, MPIU_REAL, MPI_SUM, p->comm));
   /* where all overlap alike, round-off does not choose */
-  *least = more <= 0 ? 0 : DEEP * range[0] + (1 - DEEP) * -range[1] - ROUND * range[0];
+  *least = more <= 0 ? 0 : DEEP * range[0] + (1 - DEEP) * -range[1] - ROUND_LENGTH * range[0];
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -14,19 +14,18 @@ PetscErrorCode ContactGatherDestroy_Private(Contact *c)
 /* Space: the tangential traction on the mortar side at a node whose value is known here; of a node that hangs that between its masters. */
 static PetscErrorCode Traction_Private(const Contact *c, PetscInt j, PetscReal traction[3])
 {
-  const Surface *s     = &c->side[0];
-  const PetscInt first = s->hang[j], num = s->hang[j + 1] - first;
+  const Surface   *s = &c->side[0];
+  const PetscReal *weight, *z = c->z;
+  const PetscInt  *node, num  = SurfaceRow_Private(s, &j, &node, &weight);
 
   PetscFunctionBegin;
   PetscCall(PetscArrayzero(traction, 3));
-  for (PetscInt k = 0; k < PetscMax(1, num); ++k) {
-    const PetscInt  node   = num ? s->hang_master[first + k] : j;
-    const PetscReal weight = num ? s->hang_weight[first + k] : 1;
-    PetscReal       e[2][3];
+  for (PetscInt k = 0; k < num; ++k) {
+    PetscReal e[2][3];
 
-    PetscCall(ContactPairGetTangents(c->pair, node, e));
+    PetscCall(ContactPairGetTangents(c->pair, node[k], e));
     for (PetscInt i = 0; i < 2; ++i) {
-      const PetscReal q = weight * c->z[s->num_nodes * (1 + i) + node];
+      const PetscReal q = weight[k] * z[s->num_nodes * (1 + i) + node[k]];
       for (PetscInt d = 0; d < 3 && q != 0; ++d) traction[d] += q * e[i][d]; /* axes of nodes that see nothing may not be known */
     }
   }

@@ -4,7 +4,7 @@
 PetscErrorCode HullCreate_Private(Interface p)
 {
   const CoarseMesh   *mesh;
-  const ForestTables *t;
+  const ForestTables *t   = p->tables;
   const PetscInt      dim = p->dim, corners = dim == 2 ? 2 : 4;
   PetscInt            num = 0, num_parts, *part;
   PetscBool          *inner;
@@ -12,7 +12,6 @@ PetscErrorCode HullCreate_Private(Interface p)
 
   PetscFunctionBegin;
   PetscCall(ForestGetCoarse(p->forest, &mesh));
-  PetscCall(ForestGetTables(p->forest, &t));
   const PetscInt first = t->first[dim - 1], last = t->first[dim];
   PetscCall(PetscMalloc1(mesh->num_cells, &p->part));
   PetscCall(ForestCoarseParts(mesh, &num_parts, p->part));
@@ -47,10 +46,9 @@ PetscErrorCode HullDestroy_Private(Interface p)
 
 PetscErrorCode HullParts_Private(Interface p, const Surface *s, PetscInt **part)
 {
-  const ForestTables *t;
+  const ForestTables *t = p->tables;
 
   PetscFunctionBegin;
-  PetscCall(ForestGetTables(p->forest, &t));
   PetscCall(PetscMalloc1(s->num_facets, part));
   for (PetscInt f = 0; f < s->num_facets; ++f) (*part)[f] = p->part[t->leaf_root[s->facet_leaf[f]]];
   PetscFunctionReturn(PETSC_SUCCESS);

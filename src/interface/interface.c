@@ -1,11 +1,12 @@
 /* All contact pairs of one mesh: their life, places of their multipliers, search and evaluation. */
 #include "interfaceimpl.h"
 
+#define MARGIN 0.1 /* of the distance within which facets meet: what they may approach each other before the next search */
+
 PetscErrorCode InterfaceCreate(HPSpace space, Mechanics mechanics, const MechanicsSpec *spec, const int8_t fixed[], PetscInt num, const ContactSpec contacts[],
                                Interface *interface)
 {
-  const ForestTables *t;
-  Interface           p;
+  Interface p;
 
   PetscFunctionBegin;
   PetscCheckInput(num <= FORM_PAIRS, "%" PetscInt_FMT " contact pairs; at most %d are possible", num, FORM_PAIRS);
@@ -16,8 +17,8 @@ PetscErrorCode InterfaceCreate(HPSpace space, Mechanics mechanics, const Mechani
   p->fixed        = fixed;
   p->num_contacts = num;
   PetscCall(HPSpaceGetForest(space, &p->forest));
-  PetscCall(ForestGetTables(p->forest, &t));
-  p->dim  = t->dim;
+  PetscCall(ForestGetTables(p->forest, &p->tables));
+  p->dim  = p->tables->dim;
   p->comm = ForestComm(p->forest);
   PetscCallMPI(MPI_Comm_rank(p->comm, &p->rank));
   PetscCallMPI(MPI_Comm_size(p->comm, &p->size));
@@ -70,10 +71,9 @@ PetscBool InterfaceIsSymmetric(Interface p)
 /* Multipliers live with the owner of their node. */
 PetscErrorCode InterfaceNumber(Interface p, PetscInt counts[])
 {
-  const ForestTables *t;
+  const ForestTables *t = p->tables;
 
   PetscFunctionBegin;
-  PetscCall(ForestGetTables(p->forest, &t));
   for (PetscInt i = 0; i < p->num_contacts; ++i) {
     Contact *c = &p->contacts[i];
     for (PetscInt n = 0; n < c->side[0].num_nodes; ++n) {
@@ -90,11 +90,10 @@ PetscErrorCode InterfaceNumber(Interface p, PetscInt counts[])
 
 PetscErrorCode InterfaceSetRows(Interface p, PetscInt counts[], const PetscInt offset[], const PetscInt row[], PetscInt num_inner)
 {
-  const ForestTables *t;
+  const ForestTables *t = p->tables;
 
   PetscFunctionBegin;
   p->num_inner = num_inner;
-  PetscCall(ForestGetTables(p->forest, &t));
   PetscCall(InterfaceNumber(p, counts));
   for (PetscInt i = 0; i < p->num_contacts; ++i) {
     Contact *c = &p->contacts[i];
@@ -153,7 +152,7 @@ PetscErrorCode InterfaceSearch(Interface p, Vec x, const PetscReal u[])
       SurfaceForget_Private(&c->side[k]);
       SurfacePlace_Private(&c->side[k], u, ContactBase_Private(c, k), c->side[k].x);
     }
-    PetscCall(ContactSearch_Private(p, c, PETSC_FALSE, 0.1 * c->distance));
+    PetscCall(ContactSearch_Private(p, c, PETSC_FALSE, MARGIN * c->distance));
     if (c->spec->self) PetscCall(ContactRoles_Private(p, c, x, u));
   }
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -6,7 +6,6 @@
 
 #define COVERED 1e-9 /* share of a node's tributary measure below which it counts as uncovered: forces have faded before (blend.c in contact) */
 
-#define ROUND 1e-6   /* relative difference of two lengths that round-off may make */
 #define MOST_REALS 4 /* of a node in one message */
 #define SLACK 1e-10  /* pressure over Young's modulus that is none: what round-off leaves */
 
@@ -203,6 +202,7 @@ struct _p_Interface {
   PetscMPIInt          rank, size;
   PetscInt             dim;
   Forest               forest;
+  const ForestTables  *tables; /* of the forest */
   HPSpace              space;
   Mechanics            mechanics;
   const MechanicsSpec *spec;
@@ -241,6 +241,16 @@ static inline PetscInt SurfaceOrder_Private(const Surface *s, PetscInt facet)
 {
   return s->order ? s->order[facet] : 0;
 }
+/* The nodes that a node follows with their weights, itself where it does not hang; returns their number. */
+static inline PetscInt SurfaceRow_Private(const Surface *s, const PetscInt *n, const PetscInt **master, const PetscReal **weight)
+{
+  static const PetscReal one = 1;
+  const PetscInt         num = s->hang[*n + 1] - s->hang[*n];
+
+  *master = num ? s->hang_master + s->hang[*n] : n;
+  *weight = num ? s->hang_weight + s->hang[*n] : &one;
+  return PetscMax(1, num);
+}
 PetscErrorCode SurfaceDestroy_Private(Surface *);
 PetscErrorCode SurfaceIndices_Private(Interface, const PetscInt row[], Surface *);
 ContactSurface SurfaceAt_Private(const Surface *, const PetscReal x[]);
@@ -275,8 +285,6 @@ PetscBool      ContactSees_Private(const Contact *, PetscInt node);
 PetscErrorCode ContactSearch_Private(Interface, Contact *, PetscBool reference, PetscReal margin);
 /* roles.c: of a surface with itself, after a search: which facet of two that face each other is the nonmortar one. Chosen where none are yet, and as long as
    the pair bears nothing. x, u: as in InterfaceSearch. Collective. */
-/* Two colours of the facets: partner[num_facets] faces the facet (-1: none), at this distance; pressed: the multipliers it carries. Not collective. */
-PetscErrorCode SurfaceColours_Private(const Surface *, const PetscInt partner[], const PetscReal distance[], const PetscReal pressed[], PetscBool second[]);
 PetscErrorCode ContactRoles_Private(Interface, Contact *, Vec x, const PetscReal u[]);
 /* couple.c: multipliers from the vector to the ranks that use them. Collective. */
 PetscErrorCode ContactGatherMultipliers_Private(Interface, Contact *, Vec x);
@@ -312,14 +320,35 @@ PetscErrorCode ContactInsert_Private(Mat, PetscInt num_rows, const PetscInt rows
    columns of q. */
 void           ContactRigidForces_Private(const Contact *, const ContactFacet *, const PetscReal v[], PetscReal q[]);
 PetscErrorCode ContactRigidHessian_Private(const InterfaceSystem *, const Contact *, const ContactFacet *, const PetscInt dofs[], const PetscReal H[]);
-/* tangent.c: a facet's Hessian, added; the gradient of a row of node j in work_index and work_value; its rows, with their columns in the symmetric form. */
+/* tangent.c: a facet's Hessian, added. rows.c: rows of node j, with their columns in the symmetric form. */
 PetscErrorCode ContactFacetHessian_Private(Interface, const InterfaceSystem *, const Contact *, const ContactFacet *);
-PetscErrorCode ContactNodeGradient_Private(Interface, const Contact *, PetscInt j, const ContactRow *, PetscInt *num);
 PetscErrorCode ContactInsertRow_Private(Interface, const InterfaceSystem *, const Contact *, PetscInt j, const ContactRow row[]);
+/* Nodes of a facet's result: of which side, and which; their frame. */
+#define NODE_SIDE(id) ((id) < 0)
+#define NODE_INDEX(id) ((id) < 0 ? ~(id) : (id))
+
+static inline const PetscReal *NodeFrame_Private(const Contact *c, PetscInt id)
+{
+  const Surface *s = &c->side[NODE_SIDE(id)];
+  return s->frame + s->dim * s->dim * NODE_INDEX(id);
+}
+
+/* Components along the rows of the frame. */
+static inline void NodeTurn_Private(PetscInt dim, const PetscReal *q, PetscReal v[], PetscInt stride)
+{
+  PetscReal t[3];
+  for (PetscInt d = 0; d < dim; ++d) {
+    t[d] = 0;
+    for (PetscInt a = 0; a < dim; ++a) t[d] += q[dim * d + a] * v[a * stride];
+  }
+  for (PetscInt d = 0; d < dim; ++d) v[d * stride] = t[d];
+}
 /* tie.c: nothing where the pair is not tied, but for the others. Create: after all surfaces and before rows of the matrix are known. Evaluate: after positions
    and multipliers are gathered. Change: of every owned node's rows, [dim][n]. Forces: of this rank's facets, added. All but Point, Forces and Destroy
    collective. */
 PetscErrorCode TieCreate_Private(Interface, Contact *);
+/* tiecarrier.c: carries[dim][n], before supports' frames are those of rows. has_multiplier: those that carry any. Collective. */
+PetscErrorCode TieCarriers_Private(Interface, Contact *, PetscBool carries[]);
 PetscErrorCode TieDestroy_Private(Contact *);
 PetscErrorCode TieEvaluate_Private(Interface, Contact *);
 PetscErrorCode TieChange_Private(Interface, Contact *, const PetscReal increment[], PetscReal change[]);
@@ -425,6 +454,3 @@ PetscErrorCode SlipChange_Private(Interface, Contact *, PetscReal change[]);
 /* Rows of the matrix of everything in the pattern of one facet, dofs[ContactPatternSize_Private]; returns their number. */
 PetscInt ContactPatternDofs_Private(const Contact *, PetscInt facet, PetscInt dofs[]);
 PetscInt ContactPatternSize_Private(const Contact *, PetscInt facet);
-
-#define NODE_SIDE(id) ((id) < 0)
-#define NODE_INDEX(id) ((id) < 0 ? ~(id) : (id))

@@ -207,12 +207,11 @@ static PetscErrorCode Unpack_Private(PetscInt *num, PetscInt **got)
 static PetscErrorCode Tell_Private(Interface p, Contact *c, const PetscInt start[], const PetscInt candidate[], PetscInt *num, PetscInt **got)
 {
   const Surface      *s = &c->side[0];
-  const ForestTables *t;
+  const ForestTables *t = p->tables;
   Mail                m = {0};
   PetscInt           *told, *first, *send, at = 0, total = 0;
 
   PetscFunctionBegin;
-  PetscCall(ForestGetTables(p->forest, &t));
   PetscCall(PetscCalloc1(p->size, &told));
   for (PetscInt i = 0; i < s->num_mine; ++i) {
     if (start[i] < start[i + 1]) PetscCall(Concerned_Private(p, c, t, s->mine[i], i, told, &m));

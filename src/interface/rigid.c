@@ -5,10 +5,9 @@
 /* Body behind each node of a side, as a place among the links; -1: none of them. */
 static PetscErrorCode Bodies_Private(Interface p, const Surface *s, int8_t **link)
 {
-  const ForestTables *t;
+  const ForestTables *t = p->tables;
 
   PetscFunctionBegin;
-  PetscCall(ForestGetTables(p->forest, &t));
   PetscCall(PetscMalloc1(s->num_nodes, link));
   for (PetscInt n = 0; n < s->num_nodes; ++n) (*link)[n] = -1;
   for (PetscInt f = 0; f < s->num_facets; ++f) {

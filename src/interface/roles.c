@@ -132,7 +132,7 @@ static PetscErrorCode Add_Private(Bond **tie, PetscInt *num, PetscInt *room, Pet
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SurfaceColours_Private(const Surface *s, const PetscInt partner[], const PetscReal distance[], const PetscReal pressed[], PetscBool second[])
+static PetscErrorCode Colours_Private(const Surface *s, const PetscInt partner[], const PetscReal distance[], const PetscReal pressed[], PetscBool second[])
 {
   const PetscInt n = s->num_facets; /* tie n: to bear */
   PetscInt      *parent, num = 0, room = 0;
@@ -170,10 +170,9 @@ PetscErrorCode SurfaceColours_Private(const Surface *s, const PetscInt partner[]
 static PetscErrorCode Order_Private(Interface p, const Contact *c, const PetscBool second[])
 {
   const Surface      *s = &c->side[0];
-  const ForestTables *t;
+  const ForestTables *t = p->tables;
 
   PetscFunctionBegin;
-  PetscCall(ForestGetTables(p->forest, &t));
   for (PetscInt f = 0; f < s->num_facets; ++f) {
     const PetscReal young  = MaterialYoung(p->spec->bodies[t->leaf_body[s->facet_leaf[f]]].material);
     PetscInt        softer = 0;
@@ -200,7 +199,7 @@ PetscErrorCode ContactRoles_Private(Interface p, Contact *c, Vec x, const PetscR
     for (PetscInt k = 0; k < 2; ++k) PetscCall(SurfaceGather_Private(p, &c->side[k], u, ContactBase_Private(c, k), c->side[k].x));
     PetscCall(Look_Private(p, c, &facing, &failed));
     if (!c->precedence) PetscCall(PetscCalloc1(n, &c->precedence));
-    PetscCall(SurfaceColours_Private(&c->side[0], facing.partner, facing.distance, facing.pressed, second));
+    PetscCall(Colours_Private(&c->side[0], facing.partner, facing.distance, facing.pressed, second));
     PetscCall(Order_Private(p, c, second));
     PetscCall(ContactPairSetPrecedence(c->pair, c->precedence));
   }

@@ -8,17 +8,14 @@
  */
 #include "interfaceimpl.h"
 
-#define REACH 0.5 /* of the distance of two nodes */
-
 /* P = (1 + A / tiny)^-1 of the supports A of the bodies of one side: what they leave free of a translation. */
 static PetscErrorCode Free_Private(Interface p, const Surface *s, PetscReal P[9])
 {
-  const ForestTables *tables;
+  const ForestTables *tables = p->tables;
   const PetscReal    *hold;
   PetscReal           A[9] = {0};
 
   PetscFunctionBegin;
-  PetscCall(ForestGetTables(p->forest, &tables));
   PetscCall(MechanicsGetHold(p->mechanics, &hold));
   for (PetscInt f = 0; f < s->num_facets; ++f)
     for (int i = 0; i < 9; ++i) A[i] += hold[9 * tables->leaf_body[s->facet_leaf[f]] + i];
@@ -90,7 +87,7 @@ static PetscErrorCode Slide_Private(Interface p, Contact *c, const PetscReal inc
     for (int d = 0; d < 3; ++d) along[k][d] = Dot3(c->freedom[k] + 3 * d, t);
   const PetscReal *free = Dot3(along[0], along[0]) > Dot3(along[1], along[1]) ? along[0] : along[1];
   *length               = PetscSqrtReal(Dot3(free, free));
-  *limit                = REACH * distance;
+  *limit                = 0.5 * distance;
   for (int d = 0; d < 3 && *length > 0; ++d) e[d] = free[d] / *length;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -114,14 +111,13 @@ static PetscErrorCode Forces_Private(Interface p, const Contact *c, const PetscR
       PetscCall(VecSetValues(force, dim, s->dof + dim * j, value, ADD_VALUES));
     }
   }
-  PetscCall(VecAssemblyBegin(force));
-  PetscCall(VecAssemblyEnd(force));
+  PetscCall(VecAssemble(force));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode InterfaceFindSlide(Interface p, const PetscReal increment[], Vec force, PetscReal *excess)
 {
-  PetscReal worst = 1 + ROUND; /* a slide that is held back already is no more than that */
+  PetscReal worst = 1 + ROUND_LENGTH; /* a slide that is held back already is no more than that */
 
   PetscFunctionBegin;
   *excess = 0;

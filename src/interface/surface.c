@@ -178,9 +178,9 @@ static PetscErrorCode AddNodes_Private(const Surface *s, PetscInt facet, PetscIn
     PetscCall(PetscRealloc((size_t)*size * sizeof(PetscInt), nodes));
   }
   for (PetscInt k = 0; k < total; ++k) {
-    const PetscInt n = own[k];
-    if (s->hang[n] == s->hang[n + 1]) (*nodes)[(*count)++] = n;
-    for (PetscInt i = s->hang[n]; i < s->hang[n + 1]; ++i) (*nodes)[(*count)++] = s->hang_master[i];
+    const PetscReal *weight;
+    const PetscInt  *master, num = SurfaceRow_Private(s, &own[k], &master, &weight);
+    for (PetscInt i = 0; i < num; ++i) (*nodes)[(*count)++] = master[i];
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -253,11 +253,10 @@ static PetscErrorCode Twins_Private(const PetscBool parted[], Surface *s)
 
 static PetscErrorCode Create_Private(Interface p, PetscInt group, PetscBool lattice, const PetscBool parted[], Surface *s)
 {
-  const ForestTables *t;
+  const ForestTables *t = p->tables;
 
   PetscFunctionBegin;
   PetscCall(PetscMemzero(s, sizeof(*s)));
-  PetscCall(ForestGetTables(p->forest, &t));
   PetscCall(SurfaceTopology_Private(t, group, parted, s));
   if (lattice)
     PetscCall(SurfaceLattice_Private(p->space, t, s));

@@ -1,8 +1,6 @@
 /* Fields of the nodes of a contact surface: positions, supports, places in the problem's vector, and their exchange between ranks. */
 #include "interfaceimpl.h"
 
-#define FLAT 1e-6 /* distance from a plane, over that along it, of what lies in it */
-
 /* A node where the surface ends on a plane along which it may only slide: its normal is averaged with its mirror image. A support that holds the end across the
    surface is no such plane: the image would cancel the normal. */
 static void NodeMirror_Private(Surface *s, PetscInt n, PetscInt fixed)
@@ -34,16 +32,16 @@ static PetscBool IsMirror_Private(const Surface *s, PetscInt n, const PetscReal 
       const PetscReal along = Dot3(plane, e);
 
       lo = PetscMin(lo, along), hi = PetscMax(hi, along);
-      if (node[a] != n && PetscSqr(along) < PetscSqr(FLAT) * Dot3(e, e)) ++on;
+      if (node[a] != n && PetscSqr(along) < PetscSqr(ROUND_LENGTH) * Dot3(e, e)) ++on;
     }
   }
-  return (PetscBool)(on > 0 && PetscMin(-lo, hi) <= FLAT * PetscMax(-lo, hi) && PetscSqr(Dot3(plane, N)) <= 0.5 * Dot3(N, N));
+  return (PetscBool)(on > 0 && PetscMin(-lo, hi) <= ROUND_LENGTH * PetscMax(-lo, hi) && PetscSqr(Dot3(plane, N)) <= 0.5 * Dot3(N, N));
 }
 
 static void AddMirror_Private(Surface *s, PetscInt n, const PetscReal plane[3], PetscInt *num)
 {
   if (*num == 2 || !IsMirror_Private(s, n, plane)) return;
-  if (*num == 1 && PetscAbsReal(Dot3(plane, s->mirror + 6 * n)) > 1 - FLAT) return;
+  if (*num == 1 && PetscAbsReal(Dot3(plane, s->mirror + 6 * n)) > 1 - ROUND_LENGTH) return;
   for (PetscInt c = 0; c < 3; ++c) s->mirror[6 * n + 3 * (*num) + c] = plane[c];
   ++(*num);
 }
@@ -70,7 +68,7 @@ static void NodeMirrors_Private(Surface *s, PetscInt n, PetscInt fixed)
       Cross3(frame + 3 * held[0], frame + 3 * held[1], line);
       Cross3(line, e, plane);
       length = PetscSqrtReal(Dot3(plane, plane));
-      if (!(length > 0.1 * PetscSqrtReal(Dot3(e, e)))) continue; /* n itself, or an edge along the line */
+      if (!(length > ROUND_LENGTH * PetscSqrtReal(Dot3(e, e)))) continue; /* n itself, or an edge along the line */
       for (PetscInt c = 0; c < 3; ++c) plane[c] /= length;
       AddMirror_Private(s, n, plane, &num);
     }
@@ -112,13 +110,12 @@ PetscErrorCode SurfaceFields_Private(Interface p, Surface *s)
 {
   const PetscInt      dim = s->dim, room = dim + dim * dim + 1; /* of a node: position, frame, fixed bits */
   const HPTables     *v;
-  const ForestTables *t;
+  const ForestTables *t = p->tables;
   PetscInt           *number;
   PetscReal          *buffer;
 
   PetscFunctionBegin;
   PetscCall(HPSpaceGetTables(p->space, &v));
-  PetscCall(ForestGetTables(p->forest, &t));
   PetscCall(PetscMalloc3(s->num_nodes, &s->local, s->num_nodes, &s->owned, dim * s->num_nodes, &s->dof));
   PetscCall(PetscCalloc4(dim * s->num_nodes, &s->X, dim * s->num_nodes, &s->x, 2 * dim * s->num_nodes, &s->mirror, dim * dim * s->num_nodes, &s->frame));
   PetscCall(PetscCalloc2(dim * s->num_nodes, &s->du, dim * s->num_nodes, &s->force));

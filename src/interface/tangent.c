@@ -1,13 +1,6 @@
-/* Contact in the tangent: Hessians, columns and rows of the multipliers, and the first-order effect of prescribed motion still to come; their right-hand
-   sides. */
+/* Contact in the tangent, blocks of facets: Hessians, columns of the multipliers, and the first-order effect of prescribed motion still to come. Rows: rows.c.
+ */
 #include "interfaceimpl.h"
-
-/* The frame of a facet's node. */
-static inline const PetscReal *Frame_Private(const Contact *c, PetscInt id)
-{
-  const Surface *s = &c->side[NODE_SIDE(id)];
-  return s->frame + s->dim * s->dim * NODE_INDEX(id);
-}
 
 /* Indices of a facet's nodal dofs (dim*num, -1 where prescribed). */
 static void FacetDofs_Private(const Contact *c, const ContactFacet *e, PetscInt dofs[])
@@ -20,17 +13,6 @@ static void FacetDofs_Private(const Contact *c, const ContactFacet *e, PetscInt 
   }
 }
 
-/* Components along the rows of the frame. */
-static inline void Turn_Private(PetscInt dim, const PetscReal *q, PetscReal v[], PetscInt stride)
-{
-  PetscReal t[3];
-  for (PetscInt d = 0; d < dim; ++d) {
-    t[d] = 0;
-    for (PetscInt a = 0; a < dim; ++a) t[d] += q[dim * d + a] * v[a * stride];
-  }
-  for (PetscInt d = 0; d < dim; ++d) v[d * stride] = t[d];
-}
-
 /* Nodes of a facet whose frames are not the axes. Returns their number. */
 static PetscInt TurnedNodes_Private(const Contact *c, const ContactFacet *e, PetscInt turned[])
 {
@@ -38,7 +20,7 @@ static PetscInt TurnedNodes_Private(const Contact *c, const ContactFacet *e, Pet
   PetscInt       num = 0;
 
   for (PetscInt b = 0; b < e->num; ++b) {
-    const PetscReal *q     = Frame_Private(c, e->nodes[b]);
+    const PetscReal *q     = NodeFrame_Private(c, e->nodes[b]);
     PetscBool        turns = PETSC_FALSE;
     for (PetscInt i = 0; i < dim * dim; ++i) turns = (PetscBool)(turns || q[i] != (i % (dim + 1) == 0));
     if (turns) turned[num++] = b;
@@ -73,59 +55,56 @@ PetscErrorCode ContactFacetHessian_Private(Interface p, const InterfaceSystem *a
         for (PetscInt d = 0; d < dim; ++d) p->work.value[i] += H[i * n + dim * b + d] * du[d];
       }
     }
-    for (PetscInt k = 0; k < num_turned; ++k) Turn_Private(dim, Frame_Private(c, e->nodes[turned[k]]), p->work.value + dim * turned[k], 1);
+    for (PetscInt k = 0; k < num_turned; ++k) NodeTurn_Private(dim, NodeFrame_Private(c, e->nodes[turned[k]]), p->work.value + dim * turned[k], 1);
     PetscCall(VecSetValues(a->lift, n, dofs, p->work.value, ADD_VALUES));
     ContactRigidForces_Private(c, e, p->work.value, q);
     PetscCall(VecSetValues(a->lift, c->num_q, c->q_row, q, ADD_VALUES));
   }
   for (PetscInt k = 0; k < num_turned; ++k) {
     const PetscInt   b    = turned[k];
-    const PetscReal *axes = Frame_Private(c, e->nodes[b]);
-    for (PetscInt i = 0; i < n; ++i) Turn_Private(dim, axes, H + i * n + dim * b, 1);
+    const PetscReal *axes = NodeFrame_Private(c, e->nodes[b]);
+    for (PetscInt i = 0; i < n; ++i) NodeTurn_Private(dim, axes, H + i * n + dim * b, 1);
   }
   for (PetscInt k = 0; k < num_turned; ++k) {
     const PetscInt   b    = turned[k];
-    const PetscReal *axes = Frame_Private(c, e->nodes[b]);
-    for (PetscInt j = 0; j < n; ++j) Turn_Private(dim, axes, H + dim * b * n + j, n);
+    const PetscReal *axes = NodeFrame_Private(c, e->nodes[b]);
+    for (PetscInt j = 0; j < n; ++j) NodeTurn_Private(dim, axes, H + dim * b * n + j, n);
   }
   PetscCall(ContactInsert_Private(a->matrix, n, dofs, n, dofs, H, ADD_VALUES));
   PetscCall(ContactRigidHessian_Private(a, c, e, dofs, H));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Columns of the tangential tractions of row k; dofs of the facet are in work_index. */
-static PetscErrorCode ShearColumns_Private(Interface p, const InterfaceSystem *a, const Contact *c, const ContactFacet *e, PetscInt k)
+/* A column of the forces in work_value on the facet's nodes, whose dofs are in work_index. */
+static PetscErrorCode Column_Private(Interface p, const InterfaceSystem *a, const Contact *c, const ContactFacet *e, PetscInt column)
 {
-  const PetscInt dim = p->dim, n = dim * e->num;
+  const PetscInt n = p->dim * e->num;
   PetscReal      q[INTERFACE_MOTIONS];
 
   PetscFunctionBegin;
-  for (PetscInt d = 0; d < dim - 1; ++d) {
-    const PetscInt column = c->zdof[e->nodes[k]] + 1 + d;
-    for (PetscInt i = 0; i < n; ++i) p->work.value[i] = -e->shear[(e->num_rows * d + k) * n + i];
-    for (PetscInt b = 0; b < e->num; ++b) Turn_Private(dim, Frame_Private(c, e->nodes[b]), p->work.value + dim * b, 1);
-    PetscCall(ContactInsert_Private(a->matrix, n, p->work.index, 1, &column, p->work.value, ADD_VALUES));
-    if (!c->num_q) continue;
-    ContactRigidForces_Private(c, e, p->work.value, q);
-    PetscCall(ContactInsert_Private(a->matrix, c->num_q, c->q_row, 1, &column, q, ADD_VALUES));
-  }
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* Column of component k of a tied pair's row r; in the symmetric form rows bring them. */
-static PetscErrorCode TieColumn_Private(Interface p, const InterfaceSystem *a, const Contact *c, const ContactFacet *e, PetscInt k, PetscInt r)
-{
-  const PetscInt dim = p->dim, n = dim * e->num, column = c->zdof[e->nodes[r]] + k;
-  PetscReal      q[INTERFACE_MOTIONS];
-
-  PetscFunctionBegin;
-  if (!c->tie->carries[c->side[0].num_nodes * k + e->nodes[r]]) PetscFunctionReturn(PETSC_SUCCESS);
-  for (PetscInt i = 0; i < n; ++i) p->work.value[i] = -e->dgap[r * n + i];
-  for (PetscInt b = 0; b < e->num; ++b) Turn_Private(dim, Frame_Private(c, e->nodes[b]), p->work.value + dim * b, 1);
+  for (PetscInt b = 0; b < e->num; ++b) NodeTurn_Private(p->dim, NodeFrame_Private(c, e->nodes[b]), p->work.value + p->dim * b, 1);
   PetscCall(ContactInsert_Private(a->matrix, n, p->work.index, 1, &column, p->work.value, ADD_VALUES));
   if (!c->num_q) PetscFunctionReturn(PETSC_SUCCESS);
   ContactRigidForces_Private(c, e, p->work.value, q);
   PetscCall(ContactInsert_Private(a->matrix, c->num_q, c->q_row, 1, &column, q, ADD_VALUES));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Columns of the multipliers of row k of a facet in contact: the pressure, and with friction the tangential tractions. */
+static PetscErrorCode Columns_Private(Interface p, const InterfaceSystem *a, const Contact *c, const ContactFacet *e, PetscInt k)
+{
+  const PetscInt  n = p->dim * e->num, j = e->nodes[k], z = c->zdof[j];
+  const PetscReal mean = c->mean0 ? c->mean0[j] : 0, yield = e->push ? 0 : ContactYield_Private(c, e, k, 0);
+
+  PetscFunctionBegin;
+  if (z < 0 || !c->near[j]) PetscFunctionReturn(PETSC_SUCCESS);
+  for (PetscInt i = 0; i < n; ++i) p->work.value[i] = mean * e->dweight[k * n + i] - (e->push ? e->push : e->dgap)[k * n + i];
+  for (PetscInt i = 0; i < n && yield != 0; ++i) p->work.value[i] -= yield * e->dshare[i];
+  PetscCall(Column_Private(p, a, c, e, z));
+  for (PetscInt d = 0; d < p->dim - 1 && e->shear; ++d) {
+    for (PetscInt i = 0; i < n; ++i) p->work.value[i] = -e->shear[(e->num_rows * d + k) * n + i];
+    PetscCall(Column_Private(p, a, c, e, z + 1 + d));
+  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -146,7 +125,11 @@ static PetscErrorCode TieBlocks_Private(Interface p, const InterfaceSystem *a, C
       if (t->facets[k][i].hessian) PetscCall(ContactFacetHessian_Private(p, a, c, &t->facets[k][i].bend));
       PetscCall(RowBufferGrow(&p->work, p->dim * e->num));
       FacetDofs_Private(c, e, p->work.index);
-      for (PetscInt r = 0; r < e->num_rows && !a->symmetric; ++r) PetscCall(TieColumn_Private(p, a, c, e, k, r));
+      for (PetscInt r = 0; r < e->num_rows && !a->symmetric; ++r) { /* in the symmetric form rows bring them */
+        if (!t->carries[c->side[0].num_nodes * k + e->nodes[r]]) continue;
+        for (PetscInt l = 0; l < p->dim * e->num; ++l) p->work.value[l] = -e->dgap[r * p->dim * e->num + l];
+        PetscCall(Column_Private(p, a, c, e, c->zdof[e->nodes[r]] + k));
+      }
     }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -155,7 +138,6 @@ static PetscErrorCode TieBlocks_Private(Interface p, const InterfaceSystem *a, C
 static PetscErrorCode Blocks_Private(Interface p, const InterfaceSystem *a, Contact *c)
 {
   const PetscInt dim = p->dim;
-  PetscReal      q[INTERFACE_MOTIONS];
 
   PetscFunctionBegin;
   if (c->tie) {
@@ -179,21 +161,7 @@ static PetscErrorCode Blocks_Private(Interface p, const InterfaceSystem *a, Cont
     PetscCall(RowBufferGrow(&p->work, n));
     FacetDofs_Private(c, e, p->work.index);
     if (e->hessian) PetscCall(ContactFacetHessian_Private(p, a, c, e));
-    for (PetscInt k = 0; k < e->num_rows && !a->symmetric; ++k) {
-      const PetscInt  j = e->nodes[k], z = c->zdof[j];
-      const PetscReal mean = c->mean0 ? c->mean0[j] : 0;
-      if (z < 0 || !c->near[j]) continue;
-      const PetscReal yield = e->push ? 0 : ContactYield_Private(c, e, k, 0);
-      for (PetscInt i = 0; i < n; ++i) p->work.value[i] = mean * e->dweight[k * n + i] - (e->push ? e->push : e->dgap)[k * n + i];
-      for (PetscInt i = 0; i < n && yield != 0; ++i) p->work.value[i] -= yield * e->dshare[i];
-      for (PetscInt b = 0; b < e->num; ++b) Turn_Private(dim, Frame_Private(c, e->nodes[b]), p->work.value + dim * b, 1);
-      PetscCall(ContactInsert_Private(a->matrix, n, p->work.index, 1, &z, p->work.value, ADD_VALUES));
-      if (c->num_q) {
-        ContactRigidForces_Private(c, e, p->work.value, q);
-        PetscCall(ContactInsert_Private(a->matrix, c->num_q, c->q_row, 1, &z, q, ADD_VALUES));
-      }
-      if (e->shear) PetscCall(ShearColumns_Private(p, a, c, e, k));
-    }
+    for (PetscInt k = 0; k < e->num_rows && !a->symmetric; ++k) PetscCall(Columns_Private(p, a, c, e, k));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -202,364 +170,5 @@ PetscErrorCode InterfaceBlocks(Interface p, const InterfaceSystem *a)
 {
   PetscFunctionBegin;
   for (PetscInt i = 0; i < p->num_contacts; ++i) PetscCall(Blocks_Private(p, a, &p->contacts[i]));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* Room that the row of node j takes. */
-static PetscInt RowSize_Private(const Contact *c, PetscInt j)
-{
-  const Surface *s   = &c->side[0];
-  PetscInt       num = c->num;
-  for (PetscInt k = s->node_first[j]; k < s->node_first[j + 1]; ++k) num += ContactPatternSize_Private(c, s->node_facet[k]);
-  return num;
-}
-
-/* values += factor times the gradient of a row of node j that a facet has, g[dim num], at the columns dofs[num]. */
-static PetscErrorCode AddGradient_Private(const Contact *c, const ContactFacet *e, const PetscReal g[], PetscReal factor, PetscInt num, const PetscInt dofs[],
-                                          PetscReal values[])
-{
-  const PetscInt dim = c->side[0].dim;
-  PetscInt       at;
-
-  PetscFunctionBegin;
-  for (PetscInt a = 0; a < e->num; ++a) {
-    const Surface *side = &c->side[NODE_SIDE(e->nodes[a])];
-    const PetscInt node = NODE_INDEX(e->nodes[a]);
-    PetscReal      v[3] = {0, 0, 0};
-    for (PetscInt d = 0; d < dim; ++d) v[d] = g[dim * a + d];
-    Turn_Private(dim, Frame_Private(c, e->nodes[a]), v, 1);
-    for (PetscInt m = 0; m < c->num_q; ++m) {
-      PetscReal dx[3];
-      if (c->link[NODE_SIDE(e->nodes[a])][node] < 0 || c->links + c->link[NODE_SIDE(e->nodes[a])][node] != c->q_link[m]) continue;
-      RigidDerivative(c->q_link[m], c->q_motion[m], side->X + dim * node, dim, dx);
-      PetscCall(PetscFindInt(c->q_row[m], num, dofs, &at));
-      PetscCheck(at >= 0, PETSC_COMM_SELF, PETSC_ERR_PLIB, "rigid body outside the pattern of its facet");
-      for (PetscInt d = 0; d < dim; ++d) values[at] += factor * v[d] * dx[d];
-    }
-    for (PetscInt d = 0; d < dim; ++d) {
-      if (side->dof[dim * node + d] < 0) continue;
-      PetscCall(PetscFindInt(side->dof[dim * node + d], num, dofs, &at));
-      PetscCheck(at >= 0, PETSC_COMM_SELF, PETSC_ERR_PLIB, "contact node outside the pattern of its facet");
-      values[at] += factor * v[d];
-    }
-  }
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* The place of node j among the rows of a facet, -1: it has none, or no derivatives. */
-static PetscInt RowOf_Private(const ContactFacet *e, PetscInt j)
-{
-  for (PetscInt row = 0; row < e->num_rows && e->dgap; ++row)
-    if (e->nodes[row] == j) return row;
-  return -1;
-}
-
-/* Collects the gradient of a row of node j from its facets: over the whole pattern, sorted indices, so that a switch leaves nothing of another form behind. */
-PetscErrorCode ContactNodeGradient_Private(Interface p, const Contact *c, PetscInt j, const ContactRow *form, PetscInt *num)
-{
-  const Surface *s   = &c->side[0];
-  const PetscInt dim = p->dim, *result = c->tie ? c->tie->result[form->component] : c->result;
-  PetscReal     *values, *g;
-  PetscInt      *dofs;
-
-  PetscFunctionBegin;
-  PetscCall(RowBufferGrow(&p->work, RowSize_Private(c, j)));
-  dofs   = p->work.index;
-  values = p->work.value;
-  *num   = 0;
-  for (PetscInt k = s->node_first[j]; k < s->node_first[j + 1] && c->near[j]; ++k) *num += ContactPatternDofs_Private(c, s->node_facet[k], dofs + *num);
-  for (PetscInt k = 0; k < c->num; ++k) dofs[(*num)++] = c->zdof[j] + k;
-  PetscCall(PetscSortRemoveDupsInt(num, dofs));
-  PetscCall(PetscArrayzero(values, *num));
-  for (PetscInt k = s->node_first[j]; form->factor != 0 && k < s->node_first[j + 1]; ++k) {
-    const PetscInt facet = s->node_facet[k];
-    if (result[facet] < 0) continue;
-    const ContactFacet *e = c->tie ? &c->tie->facets[form->component][result[facet]].facet : &c->facets[result[facet]];
-    const PetscInt      n = dim * e->num, row = RowOf_Private(e, j);
-    if (row < 0) continue;
-    const PetscBool  push     = (PetscBool)(form->push && e->push);
-    const PetscReal *gradient = (push ? e->push : e->dgap) + row * n, yield = push ? 0 : ContactYield_Private(c, e, row, form->along);
-    PetscCall(PetscMalloc1(n, &g));
-    for (PetscInt i = 0; i < n; ++i) g[i] = gradient[i] - (e->dweight ? form->mean * e->dweight[row * n + i] : 0) + (yield != 0 ? yield * e->dshare[i] : 0);
-    PetscCall(AddGradient_Private(c, e, g, form->factor, *num, dofs, values));
-    PetscCall(PetscFree(g));
-  }
-  for (PetscInt k = s->node_first[j]; c->slip && (form->slip[0] != 0 || form->slip[1] != 0) && k < s->node_first[j + 1]; ++k) {
-    const PetscInt facet = s->node_facet[k];
-    if (c->slip->result[facet] < 0) continue;
-    const ContactFacet *e   = &c->slip->facets[c->slip->result[facet]];
-    const PetscInt      row = RowOf_Private(e, j);
-    for (PetscInt d = 0; d < dim - 1 && row >= 0; ++d)
-      if (form->slip[d] != 0) PetscCall(AddGradient_Private(c, e, e->dgap + (e->num_rows * d + row) * dim * e->num, form->slip[d], *num, dofs, values));
-  }
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* factor S_jl at the columns of the multipliers of others; in the symmetric form of those that bear, whose unknown is z_l over c_l. */
-static PetscErrorCode Couplings_Private(const InterfaceSystem *a, const Contact *c, PetscInt j, PetscReal factor, PetscInt num, const PetscInt dofs[],
-                                        PetscReal values[])
-{
-  const Surface *s = &c->side[0];
-  PetscInt       at;
-
-  PetscFunctionBegin;
-  for (PetscInt i = s->node_first[j]; factor != 0 && i < s->node_first[j + 1]; ++i) {
-    const PetscInt place = c->result[s->node_facet[i]];
-    if (place < 0 || !c->facets[place].compliance) continue;
-    const ContactFacet *e   = &c->facets[place];
-    PetscInt            row = 0;
-    while (row < e->num_rows && e->nodes[row] != j) ++row;
-    for (PetscInt k = 0; k < e->num_rows && row < e->num_rows; ++k) {
-      const PetscInt l = e->nodes[k];
-      if (k == row || c->zdof[l] < 0 || (a->symmetric && !c->active[l])) continue;
-      PetscCall(PetscFindInt(c->zdof[l], num, dofs, &at));
-      PetscCheck(at >= 0, PETSC_COMM_SELF, PETSC_ERR_PLIB, "multiplier outside the pattern of its facet");
-      values[at] += factor * ContactCompliance_Private(e, row, k) * (a->symmetric ? c->c[l] : 1);
-    }
-  }
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* Of a row with friction: compliance at the columns of the tangential tractions, its own too. */
-static PetscErrorCode SlipCouplings_Private(const Contact *c, PetscInt j, const ContactRow *row, PetscInt num, const PetscInt dofs[], PetscReal values[])
-{
-  const Surface *s = &c->side[0];
-  const PetscInt m = s->dim - 1;
-  PetscInt       at;
-
-  PetscFunctionBegin;
-  for (PetscInt i = s->node_first[j]; c->slip && i < s->node_first[j + 1]; ++i) {
-    const PetscInt place = c->slip->result[s->node_facet[i]];
-    if (place < 0 || !c->slip->facets[place].micro) continue;
-    const ContactFacet *e  = &c->slip->facets[place];
-    const PetscInt      nr = e->num_rows, own = RowOf_Private(e, j);
-    for (PetscInt k = 0; k < m * m * nr && own >= 0; ++k) {
-      const PetscInt d = k / (m * nr), column = k % (m * nr), l = e->nodes[column % nr];
-      if (row->slip[d] == 0 || c->zdof[l] < 0) continue;
-      PetscCall(PetscFindInt(c->zdof[l] + 1 + column / nr, num, dofs, &at));
-      PetscCheck(at >= 0, PETSC_COMM_SELF, PETSC_ERR_PLIB, "traction outside the pattern of its facet");
-      values[at] += row->slip[d] * e->micro[(d * nr + own) * m * nr + column];
-    }
-  }
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* Rows of node j, in the symmetric form its column as well: that differs from -grad gt_j by gt_j times the change of z_j, small of second order. There z_j =
-   c_j times the unknown, and the row is c_j times that: a force by a length, as those of the displacements are, so that one norm over all rows means the same
-   in every unit. */
-PetscErrorCode ContactInsertRow_Private(Interface p, const InterfaceSystem *a, const Contact *c, PetscInt j, const ContactRow row[])
-{
-  PetscInt num, at;
-
-  PetscFunctionBegin;
-  for (PetscInt i = 0; i < c->num; ++i) {
-    const PetscInt line = c->zdof[j] + i;
-    PetscCall(ContactNodeGradient_Private(p, c, j, &row[i], &num));
-    PetscCall(Couplings_Private(a, c, j, i == 0 ? row[i].factor : 0, num, p->work.index, p->work.value));
-    PetscCall(PetscFindInt(c->zdof[j], num, p->work.index, &at));
-    for (PetscInt k = 0; k < c->num; ++k) p->work.value[at + k] = a->symmetric ? row[i].z[k] * c->c[j] : row[i].z[k];
-    PetscCall(SlipCouplings_Private(c, j, &row[i], num, p->work.index, p->work.value));
-    PetscCall(ContactInsert_Private(a->matrix, 1, &line, num, p->work.index, p->work.value, INSERT_VALUES));
-    if (a->symmetric) PetscCall(ContactInsert_Private(a->matrix, num, p->work.index, 1, &line, p->work.value, INSERT_VALUES));
-  }
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-static PetscErrorCode InsertRow_Private(Interface p, const InterfaceSystem *a, const Contact *c, PetscInt j)
-{
-  ContactRow row[MOST_MULTIPLIERS];
-
-  PetscFunctionBegin;
-  ContactRows_Private(c, j, PETSC_FALSE, a->symmetric, row);
-  PetscCall(ContactInsertRow_Private(p, a, c, j, row));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* Symmetric form, inactive: the known change -z_j of the multiplier goes to the forces (share: 1 to put it there, -1 to take it back). */
-static PetscErrorCode InactiveShift_Private(Interface p, const InterfaceSystem *a, Contact *c, PetscInt j, PetscReal share, Vec rhs)
-{
-  const ContactRow forces = {.factor = -share * c->z[j], .mean = c->mean0 ? c->mean0[j] : 0, .push = PETSC_TRUE};
-  PetscInt         num, at;
-
-  PetscFunctionBegin;
-  if (!a->symmetric || ContactIsReleased_Private(p, c) || c->z[j] == 0 || !c->near[j]) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(ContactNodeGradient_Private(p, c, j, &forces, &num));
-  PetscCall(PetscFindInt(c->zdof[j], num, p->work.index, &at));
-  p->work.value[at] = 0;
-  PetscCall(VecSetValues(rhs, num, p->work.index, p->work.value, ADD_VALUES));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* rhs: of the matrix, which misses the first num_inner of the vector. */
-static PetscErrorCode RowSides_Private(Interface p, const InterfaceSystem *a, Vec rhs)
-{
-  PetscReal *b;
-
-  PetscFunctionBegin;
-  PetscCall(VecGetArray(rhs, &b));
-  for (PetscInt i = 0; i < p->num_contacts; ++i) {
-    const Contact *c = &p->contacts[i];
-    for (PetscInt j = 0; j < c->side[0].num_nodes; ++j) {
-      ContactRow row[MOST_MULTIPLIERS];
-      if (c->zlocal[j] < 0) continue;
-      ContactRows_Private(c, j, PETSC_TRUE, a->symmetric, row);
-      if (a->symmetric && c->active[j]) row[0].side -= c->c[j] * ContactIdle_Private(c, j);
-      for (PetscInt k = 0; k < c->num; ++k) b[c->zlocal[j] + k - p->num_inner] = row[k].side;
-    }
-  }
-  PetscCall(VecRestoreArray(rhs, &b));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode InterfaceRightSide(Interface p, const InterfaceSystem *a, Vec rhs)
-{
-  PetscFunctionBegin;
-  PetscCall(RowSides_Private(p, a, rhs));
-  for (PetscInt i = 0; i < p->num_contacts; ++i) {
-    Contact *c = &p->contacts[i];
-    for (PetscInt j = 0; j < c->side[0].num_nodes; ++j) {
-      if (c->zlocal[j] >= 0 && !c->active[j]) PetscCall(InactiveShift_Private(p, a, c, j, 1, rhs));
-    }
-  }
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-void InterfaceScaleIncrement(Interface p, PetscReal dx[])
-{
-  for (PetscInt i = 0; i < p->num_contacts; ++i) {
-    const Contact *c = &p->contacts[i];
-    for (PetscInt j = 0; j < c->side[0].num_nodes; ++j) {
-      for (PetscInt k = 0; k < c->num && c->zlocal[j] >= 0; ++k) dx[c->zlocal[j] + k] *= c->c[j];
-    }
-  }
-}
-
-PetscErrorCode InterfaceInsertRows(Interface p, const InterfaceSystem *a)
-{
-  PetscFunctionBegin;
-  for (PetscInt i = 0; i < p->num_contacts; ++i) {
-    Contact *c = &p->contacts[i];
-    for (PetscInt j = 0; j < c->side[0].num_nodes; ++j) {
-      if (c->zlocal[j] >= 0) PetscCall(InsertRow_Private(p, a, c, j));
-    }
-  }
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* The law's states of this rank's nodes for the increment dx of their multipliers, into c->active; those before into old, at all nodes known here. */
-static PetscErrorCode States_Private(Interface p, const InterfaceSystem *a, Contact *c, const PetscReal dx[], int8_t old[])
-{
-  Surface   *s     = &c->side[0];
-  PetscReal  least = 0;
-  PetscReal *z, *coupled, *slip;
-
-  PetscFunctionBegin;
-  PetscCall(PetscMalloc3(c->num * s->num_nodes, &z, s->num_nodes, &coupled, c->num * s->num_nodes, &slip));
-  PetscCall(PetscArraycpy(z, c->z, c->num * s->num_nodes));
-  for (PetscInt k = 0; k < c->num; ++k) {
-    for (PetscInt i = 0; i < s->num_own; ++i) z[s->num_nodes * k + s->own[i]] += c->zlocal[s->own[i]] >= 0 ? dx[c->zlocal[s->own[i]] + k] : 0;
-    PetscCall(LinkSpread_Private(p, &s->values, 1, z + s->num_nodes * k));
-  }
-  ContactCoupling_Private(c, z, coupled);
-  if (c->slip) SlipCoupling_Private(c, z + s->num_nodes, slip);
-  PetscCall(ContactChange_Private(p, c, a->increment, c->change));
-  if (c->slip) PetscCall(SlipChange_Private(p, c, c->slip->change));
-  if (FormHas(p->form->deepest_first, (PetscInt)(c - p->contacts))) PetscCall(ContactLeastOverlap_Private(p, c, &least));
-  PetscCall(PetscArraycpy(old, c->active, s->num_nodes));
-  for (PetscInt i = 0; i < s->num_own; ++i) {
-    const PetscInt j = s->own[i];
-    if (c->zlocal[j] < 0 || !c->near[j] || !ContactCovered_Private(c, j)) continue;
-    ContactPoint point = ContactPoint_Private(c, j, PETSC_FALSE);
-    for (PetscInt k = 0; k < c->num; ++k) point.z[k] += dx[c->zlocal[j] + k];
-    point.gap += c->change[j] + coupled[j] - c->coupled[j];
-    for (PetscInt d = 0; d < p->dim - 1 && c->slip; ++d) {
-      const PetscInt at = s->num_nodes * d + j;
-      point.slip[d] += c->slip->change[at] + slip[at] - c->slip->coupled[at];
-    }
-    const int8_t active = c->law->state(&point);
-    if (active && ContactOverlap_Private(c, j) < least) continue;
-    if (p->dim == 3 && c->slip && active != c->active[j]) c->law->aim(&point, c->slip->aim + 3 * j);
-    c->active[j] = active;
-  }
-  PetscCall(PetscFree3(z, coupled, slip));
-  for (PetscInt i = 0; i < s->num_own; ++i) c->pack[s->own[i]] = c->active[s->own[i]];
-  PetscCall(LinkSpread_Private(p, &s->values, 1, c->pack));
-  for (PetscInt i = 0; i < s->values.num; ++i) c->active[s->values.nodes[i]] = (int8_t)c->pack[s->values.nodes[i]];
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* New activity of the nodes of one pair for the increment dx: rows of this rank that switch, and those that compliances couple to them, are rewritten, force
-   shifts go to rhs. dx: this rank's part of the increment; num grows by the switches. */
-static PetscErrorCode Switch_Private(Interface p, const InterfaceSystem *a, Contact *c, const PetscReal dx[], Vec rhs, PetscInt *num)
-{
-  const Surface *s = &c->side[0];
-  int8_t        *old;
-  PetscBool     *again;
-
-  PetscFunctionBegin;
-  if (ContactIsReleased_Private(p, c) || c->tie) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(PetscMalloc1(s->num_nodes, &old));
-  PetscCall(PetscCalloc1(s->num_nodes, &again));
-  PetscCall(States_Private(p, a, c, dx, old));
-  for (PetscInt i = 0; i < s->num_own; ++i) again[s->own[i]] = (PetscBool)(c->active[s->own[i]] != old[s->own[i]]);
-  for (PetscInt i = 0; i < s->num_own; ++i) {
-    const PetscInt j = s->own[i];
-    if (!again[j]) continue;
-    ++*num;
-    PetscCall(InactiveShift_Private(p, a, c, j, c->active[j] ? -1 : 1, rhs));
-  }
-  for (PetscInt i = 0; i < c->num_facets; ++i) {
-    const ContactFacet *e        = &c->facets[i];
-    PetscBool           switches = PETSC_FALSE;
-    for (PetscInt k = 0; k < e->num_rows && e->compliance; ++k) switches = (PetscBool)(switches || c->active[e->nodes[k]] != old[e->nodes[k]]);
-    for (PetscInt k = 0; k < e->num_rows && switches; ++k) again[e->nodes[k]] = PETSC_TRUE;
-  }
-  for (PetscInt i = 0; i < s->num_own; ++i) {
-    if (again[s->own[i]] && c->zlocal[s->own[i]] >= 0) PetscCall(InsertRow_Private(p, a, c, s->own[i]));
-  }
-  PetscCall(PetscFree(old));
-  PetscCall(PetscFree(again));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode InterfaceSwitch(Interface p, const InterfaceSystem *a, Vec dx, Vec rhs, PetscInt *changed)
-{
-  const PetscReal *d;
-
-  PetscFunctionBegin;
-  *changed = 0;
-  PetscCall(VecGetArrayRead(dx, &d));
-  for (PetscInt i = 0; i < p->num_contacts; ++i) PetscCall(Switch_Private(p, a, &p->contacts[i], d, rhs, changed));
-  PetscCall(VecRestoreArrayRead(dx, &d));
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, changed, 1, MPIU_INT, MPI_SUM, p->comm));
-  if (!*changed) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(VecAssemblyBegin(rhs));
-  PetscCall(VecAssemblyEnd(rhs));
-  PetscCall(RowSides_Private(p, a, rhs));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* Finaliser of splitmix64: well mixed bits. */
-static uint64_t Mix_Private(uint64_t x)
-{
-  x += 0x9e3779b97f4a7c15ull;
-  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ull;
-  x = (x ^ (x >> 27)) * 0x94d049bb133111ebull;
-  return x ^ (x >> 31);
-}
-
-/* Sum over the active nodes, which each rank takes its part of. */
-PetscErrorCode InterfaceActiveSetHash(Interface p, uint64_t *hash)
-{
-  PetscFunctionBegin;
-  *hash = 0;
-  for (PetscInt i = 0; i < p->num_contacts; ++i) {
-    const Contact *c = &p->contacts[i];
-    for (PetscInt k = 0; k < c->side[0].num_own; ++k) {
-      const PetscInt j = c->side[0].own[k];
-      if (c->active[j]) *hash += Mix_Private(((uint64_t)c->active[j] << 48) + ((uint64_t)i << 40) + (uint64_t)j);
-    }
-  }
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, hash, 1, MPI_UINT64_T, MPI_SUM, p->comm));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -10,98 +10,6 @@
 #include "interfaceimpl.h"
 
 #define FLAT 1e-12 /* of a facet: a gap that is round-off of positions */
-#define ENOUGH 0.1 /* of a function, that has to be covered on one facet at least */
-
-/* ---- which nodes carry which components --------------------------------------------------------------------------------------------- */
-
-/* A number that tells the nodes of a mesh apart. */
-static PetscInt Name_Private(const Surface *s, PetscInt n)
-{
-  return s->node_entity[n] * (SURFACE_MOST_NODES + 1) + s->node_index[n] + 1;
-}
-
-/* Nodes of the pair's nonmortar side at which facets of other tied pairs meet it, which are not its own. */
-static PetscErrorCode Crossings_Private(Interface p, const Contact *c, PetscBool crosses[])
-{
-  const Surface *s = &c->side[0];
-  PetscInt      *own, *taken, num = s->num_facets, size = 0, at;
-
-  PetscFunctionBegin;
-  for (PetscInt i = 0; i < 2 * p->num_contacts; ++i) size += p->contacts[i / 2].side[i % 2].num_facets * SURFACE_MOST_NODES;
-  PetscCall(PetscMalloc2(num, &own, size, &taken));
-  PetscCall(PetscArraycpy(own, s->facet_entity, num));
-  PetscCall(PetscSortInt(num, own));
-  size = 0;
-  for (PetscInt i = 0; i < 2 * p->num_contacts; ++i) {
-    const Contact *other = &p->contacts[i / 2];
-    const Surface *o     = &other->side[i % 2];
-    for (PetscInt f = 0; f < o->num_facets && other != c && other->law->ties; ++f) {
-      const PetscInt *node, nodes = SurfaceNodes_Private(o, f, &node);
-      PetscCall(PetscFindInt(o->facet_entity[f], num, own, &at));
-      for (PetscInt k = 0; k < nodes && at < 0; ++k) taken[size++] = Name_Private(o, node[k]);
-    }
-  }
-  PetscCall(PetscSortRemoveDupsInt(&size, taken));
-  for (PetscInt n = 0; n < s->num_nodes; ++n) {
-    PetscCall(PetscFindInt(Name_Private(s, n), size, taken, &at));
-    crosses[n] = (PetscBool)(at >= 0);
-  }
-  PetscCall(PetscFree2(own, taken));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* Functions of a facet that is covered in part and of which too little is covered say what the others say, and their multipliers would be as large as that is
-   little: keep[n] those nodes of which one facet shows enough, and of a facet without any the one that is seen best. */
-static PetscErrorCode Seen_Private(Interface p, const Contact *c, PetscBool keep[])
-{
-  ContactSurface      side[2] = {SurfaceAt_Private(&c->side[0], c->side[0].X), SurfaceAt_Private(&c->side[1], c->side[1].X)};
-  const ContactFacet *facets;
-  PetscInt            num;
-  PetscBool           failed;
-
-  PetscFunctionBegin;
-  PetscCall(ContactPairSetCarriers(c->pair, &side[0], NULL));
-  PetscCall(ContactPairTie(c->pair, &side[0], &side[1], &num, &facets, &failed));
-  PetscCall(PetscArrayzero(keep, c->side[0].num_nodes));
-  for (PetscInt i = 0; i < num; ++i)
-    for (PetscInt r = 0; r < facets[i].num_rows && c->mine[facets[i].facet]; ++r)
-      if (facets[i].weight[r] * facets[i].whole[r] >= ENOUGH * PetscSqr(facets[i].whole[r])) keep[facets[i].nodes[r]] = PETSC_TRUE;
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, keep, (PetscMPIInt)c->side[0].num_nodes, COMPAT_MPI_BOOL, MPI_LOR, p->comm));
-  for (PetscInt i = 0; i < num; ++i) {
-    const ContactFacet *f    = &facets[i];
-    PetscBool           any  = PETSC_FALSE;
-    PetscInt            best = 0;
-    for (PetscInt r = 0; r < f->num_rows; ++r) {
-      any = (PetscBool)(any || keep[f->nodes[r]]);
-      if (f->weight[r] * f->whole[best] > f->weight[best] * f->whole[r]) best = r;
-    }
-    if (!any && f->num_rows && c->mine[f->facet]) keep[f->nodes[best]] = PETSC_TRUE;
-  }
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, keep, (PetscMPIInt)c->side[0].num_nodes, COMPAT_MPI_BOOL, MPI_LOR, p->comm));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* carries[dim][n], before supports' frames are those of rows. has_multiplier: those that carry any. */
-static PetscErrorCode Carriers_Private(Interface p, Contact *c, PetscBool carries[])
-{
-  const Surface *s = &c->side[0];
-  PetscBool     *crosses, *seen;
-
-  PetscFunctionBegin;
-  PetscCall(PetscMalloc2(s->num_nodes, &crosses, s->num_nodes, &seen));
-  PetscCall(Crossings_Private(p, c, crosses));
-  PetscCall(Seen_Private(p, c, seen));
-  for (PetscInt n = 0; n < s->num_nodes; ++n) {
-    c->has_multiplier[n] = PETSC_FALSE;
-    for (PetscInt k = 0; k < p->dim; ++k) {
-      PetscBool *to = &carries[s->num_nodes * k + n];
-      *to           = (PetscBool)(s->hang[n] == s->hang[n + 1] && !crosses[n] && seen[n] && ContactIsFree_Private(p, c, n, k));
-      if (*to) c->has_multiplier[n] = PETSC_TRUE;
-    }
-  }
-  PetscCall(PetscFree2(crosses, seen));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
 
 /* ---- rows ------------------------------------------------------------------------------------------------------------------------------- */
 
@@ -140,15 +48,12 @@ static PetscInt Place_Private(const ContactFacet *f, PetscInt node)
 /* to[dim num] += factor v at corner number `corner` of the facet, or at its masters. */
 static void AtCorner_Private(const Surface *s, const ContactFacet *f, PetscInt corner, PetscReal factor, const PetscReal v[3], PetscReal to[])
 {
-  const PetscInt n = s->facets[s->corners * f->facet + corner];
+  const PetscReal *weight;
+  const PetscInt  *master, num = SurfaceRow_Private(s, &s->facets[s->corners * f->facet + corner], &master, &weight);
 
-  if (s->hang[n] == s->hang[n + 1]) {
-    const PetscInt at = s->dim * Place_Private(f, n);
-    for (PetscInt d = 0; d < s->dim; ++d) to[at + d] += factor * v[d];
-  }
-  for (PetscInt i = s->hang[n]; i < s->hang[n + 1]; ++i) {
-    const PetscInt at = s->dim * Place_Private(f, s->hang_master[i]);
-    for (PetscInt d = 0; d < s->dim; ++d) to[at + d] += factor * s->hang_weight[i] * v[d];
+  for (PetscInt i = 0; i < num; ++i) {
+    const PetscInt at = s->dim * Place_Private(f, master[i]);
+    for (PetscInt d = 0; d < s->dim; ++d) to[at + d] += factor * weight[i] * v[d];
   }
 }
 
@@ -203,17 +108,16 @@ static void Bend_Private(const Contact *c, TieFacet *t, PetscInt k, const PetscR
   for (int i = 0; i < 2; ++i)
     for (int b = 0; b < 2; ++b)
       for (int d = 0; d < 3; ++d) { /* component d of an end of e_i, with the other diagonal */
-        const PetscReal unit[3] = {k == 0, k == 1, k == 2}, axis[3] = {d == 0, d == 1, d == 2};
-        const PetscInt  node = s->facets[4 * t->facet.facet + Corner[i][b]], hangs = s->hang[node + 1] - s->hang[node];
-        PetscReal       v[3];
+        const PetscReal  unit[3] = {k == 0, k == 1, k == 2}, axis[3] = {d == 0, d == 1, d == 2};
+        const PetscReal *weight;
+        const PetscInt  *master, num = SurfaceRow_Private(s, &s->facets[4 * t->facet.facet + Corner[i][b]], &master, &weight);
+        PetscReal        v[3];
         Cross3(axis, unit, v);
         for (int q = 0; q < 3; ++q) v[q] *= i == b ? sum : -sum;
-        for (PetscInt m = 0; m < PetscMax(1, hangs); ++m) {
-          const PetscInt  master = hangs ? s->hang_master[s->hang[node] + m] : node;
-          const PetscReal weight = hangs ? s->hang_weight[s->hang[node] + m] : 1;
-          PetscReal      *row    = t->hessian + n * (3 * Place_Private(&t->bend, master) + d);
-          AtCorner_Private(s, &t->bend, Corner[1 - i][0], weight, v, row);
-          AtCorner_Private(s, &t->bend, Corner[1 - i][1], -weight, v, row);
+        for (PetscInt m = 0; m < num; ++m) {
+          PetscReal *row = t->hessian + n * (3 * Place_Private(&t->bend, master[m]) + d);
+          AtCorner_Private(s, &t->bend, Corner[1 - i][0], weight[m], v, row);
+          AtCorner_Private(s, &t->bend, Corner[1 - i][1], -weight[m], v, row);
         }
       }
 }
@@ -227,9 +131,9 @@ static PetscErrorCode Masters_Private(const Surface *s, TieFacet *t)
   PetscFunctionBegin;
   PetscCall(PetscMalloc1(4 * MOST_LATTICE_MASTERS, &node));
   for (PetscInt k = 0; k < s->corners; ++k) {
-    const PetscInt n = s->facets[s->corners * t->facet.facet + k];
-    if (s->hang[n] == s->hang[n + 1]) node[num++] = n;
-    for (PetscInt i = s->hang[n]; i < s->hang[n + 1]; ++i) node[num++] = s->hang_master[i];
+    const PetscReal *weight;
+    const PetscInt  *master, rows = SurfaceRow_Private(s, &s->facets[s->corners * t->facet.facet + k], &master, &weight);
+    for (PetscInt i = 0; i < rows; ++i) node[num++] = master[i];
   }
   PetscCall(PetscSortRemoveDupsInt(&num, node));
   PetscCall(PetscCalloc1(9 * num * num, &t->hessian));
@@ -368,7 +272,7 @@ PetscErrorCode TieCreate_Private(Interface p, Contact *c)
   for (PetscInt k = 0; k < p->dim; ++k) PetscCall(PetscMalloc1(c->side[0].num_facets, &t->result[k]));
   PetscCall(PetscCalloc1(p->dim * n, &carries));
   PetscCall(ContactSearch_Private(p, c, PETSC_TRUE, 0));
-  PetscCall(Carriers_Private(p, c, carries));
+  PetscCall(TieCarriers_Private(p, c, carries));
   for (PetscInt k = 0; k < p->dim; ++k) PetscCall(Component_Private(p, c, k, carries + n * k));
   PetscCall(PetscFree(carries));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &c->view.area, 1, MPIU_REAL, MPI_SUM, p->comm));

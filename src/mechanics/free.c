@@ -1,6 +1,6 @@
 /* Bodies that no support holds (before contact closes, or in the directions contact leaves free).
 
-   Their tangent gets a small diagonal, FREE_BODY_STIFFNESS of the cells' own stiffness against shear weighted by the cell's share of the body's volume, so that
+   Their tangent gets a small diagonal, MECHANICS_SHIFT of the cells' own stiffness against shear weighted by the cell's share of the body's volume, so that
    the first linear solve has one solution; the residual is left alone, hence no force of it survives in the result. What holds a body that slides on another is
    hardly more, and of either sign: with -0.3 of the diagonal Newton's method would grow by 1.4 in each iteration. So only a part of it counts once the residual
    has fallen (MechanicsSetProximalShift), as in the method of Levenberg and Marquardt. (A share of the stiffness against compression, 1e4 times as much in
@@ -8,7 +8,6 @@
 #include "mechanicsimpl.h"
 #include <petscblaslapack.h>
 
-#define FREE_BODY_STIFFNESS 1e-6
 #define MOST_MODES 6
 
 /* What of a cell's stiffness answers shear. */
@@ -212,7 +211,7 @@ PetscErrorCode MechanicsFreeBodies_Private(Mechanics m)
   for (PetscInt c = 0; c < v->num_owned_cells; ++c) {
     const PetscInt  body  = t->leaf_body[v->cell_leaf[c]];
     const PetscReal whole = volume[root[body]];
-    m->free_share[c]      = whole > 0 ? FREE_BODY_STIFFNESS * Shear_Private(m->spec->bodies[body].material) * m->free_share[c] / whole : 0;
+    m->free_share[c]      = whole > 0 ? MECHANICS_SHIFT * Shear_Private(m->spec->bodies[body].material) * m->free_share[c] / whole : 0;
   }
   PetscCall(PetscFree(root));
   PetscCall(PetscFree2(gram, volume));

@@ -2,6 +2,7 @@
 #include "path.h"
 
 #define ROUND_OFF 1e-12 /* of load.end: times that differ by less are the same */
+#define GROWTH 1.5      /* of a step after an easy one */
 #define TURN 2          /* a step along the path this many times as long as asked for has left its tangent */
 
 /* ---- time ------------------------------------------------------------------------------------------------------------------------ */
@@ -39,7 +40,7 @@ static PetscErrorCode TimeFound_Private(Path *p, const PathLoop *loop, PetscReal
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-const PathMetric PathTime = {"t", 0.5, 1.5, PETSC_TRUE, TimeEnd_Private, TimeSet_Private, TimeFound_Private};
+const PathMetric PathTime = {"t", 0.5, GROWTH, PETSC_TRUE, TimeEnd_Private, TimeSet_Private, TimeFound_Private};
 
 /* ---- arc length: root mean square of the displacements along the last secant (7.3) ------------------------------------------------ */
 
@@ -84,7 +85,7 @@ static PetscErrorCode ArcFound_Private(Path *p, const PathLoop *loop, PetscReal 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-const PathMetric PathArc = {"arc length", 0.5, 1.5, PETSC_TRUE, End_Private, ArcSet_Private, ArcFound_Private};
+const PathMetric PathArc = {"arc length", 0.5, GROWTH, PETSC_TRUE, End_Private, ArcSet_Private, ArcFound_Private};
 
 /* ---- the part of an imbalance that is taken away (8.2): ProblemNoteImbalance comes first ------------------------------------------- */
 

@@ -5,11 +5,9 @@
 #define MODES "auto|on|off"
 #define PREFIX "path_"
 
-#define LEAST_WAY (1. / 8) /* of the way of the load on another mesh */
-#define LEAST (1. / 64)    /* of the first piece of other loops: a shorter one is given up */
-#define CREEP 10           /* first step of pseudo-time: cells answer to a change of shape with a tenth of their stiffness more */
-#define LONG 1e6           /* a step as good as infinite */
-#define CREEP_STEPS 20     /* attempts in all */
+#define LEAST (1. / 64) /* of the first piece: a shorter one is given up */
+#define CREEP 10        /* first step of pseudo-time: cells answer to a change of shape with a tenth of their stiffness more */
+#define CREEP_STEPS 20  /* attempts in all */
 
 static PetscErrorCode Begin_Private(Path *p, const State *guess)
 {
@@ -89,7 +87,7 @@ static PetscErrorCode Overlap_Private(Path *p, const PathLoop *load, PetscReal t
 static PetscErrorCode Cut_Private(Path *p, const PathLoop *load, PetscReal to, const State *guess, SolverReport *report)
 {
   const PetscReal way  = to - load->origin;
-  PathLoop        loop = {.metric = load->metric, .s = load->origin, .stop = to, .piece = way, .least = LEAST_WAY * way, .most = way, .origin = load->origin};
+  PathLoop        loop = {.metric = load->metric, .s = load->origin, .stop = to, .piece = way, .least = LEAST * way, .most = way, .origin = load->origin};
 
   PetscFunctionBegin;
   PetscCall(Begin_Private(p, NULL));
@@ -123,8 +121,14 @@ static PetscBool Always_Private(const Path *p, const State *guess)
 
 static PetscErrorCode Viscous_Private(Path *p, const PathLoop *load, PetscReal to, const State *guess, SolverReport *report)
 {
-  PathLoop loop = {
-      .metric = &PathViscous, .stop = PETSC_INFINITY, .piece = CREEP, .least = LEAST * CREEP, .most = LONG, .attempts = CREEP_STEPS, .load = load, .at = to};
+  PathLoop loop = {.metric   = &PathViscous,
+                   .stop     = PETSC_INFINITY,
+                   .piece    = CREEP,
+                   .least    = LEAST * CREEP,
+                   .most     = 1 / MECHANICS_SHIFT,
+                   .attempts = CREEP_STEPS,
+                   .load     = load,
+                   .at       = to};
 
   const PetscReal before = p->viscous_work;
 

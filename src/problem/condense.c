@@ -5,11 +5,10 @@
 /* Numbers of the unknowns in the matrix from those in the vector. */
 PetscErrorCode ProblemRows_Private(Problem p)
 {
-  const HPTables *v;
+  const HPTables *v = p->tables;
   PetscInt       *inner, *counts;
 
   PetscFunctionBegin;
-  PetscCall(HPSpaceGetTables(p->space, &v));
   p->num_inner = 0;
   for (PetscInt i = 0; i < v->point_node[v->num_owned_cells] * p->dim && p->condensed; ++i) {
     if (p->index[i] < 0) continue;
@@ -25,7 +24,7 @@ PetscErrorCode ProblemRows_Private(Problem p)
   }
   p->first_row = p->row_start[p->rank];
   p->num_rows  = p->row_start[p->rank + 1] - p->first_row;
-  for (PetscInt i = 0; i < v->num_nodes * p->dim; ++i) {
+  for (PetscInt i = 0; i < p->num_local; ++i) {
     PetscMPIInt r = 0;
     p->row[i]     = -1;
     if (p->index[i] < 0 || (p->condensed && i < v->point_node[v->num_cells] * p->dim)) continue;
@@ -63,7 +62,7 @@ PetscErrorCode ProblemCreateRightSide(Problem p, Vec *rhs)
 /* rhs = r of the matrix's unknowns, with the forces of inner nodes condensed. */
 PetscErrorCode ProblemReduce_Private(Problem p, Vec r, Vec rhs)
 {
-  const HPTables  *v;
+  const HPTables  *v = p->tables;
   const PetscReal *from;
   PetscReal       *local, *to, *change;
   DM               dm;
@@ -73,7 +72,6 @@ PetscErrorCode ProblemReduce_Private(Problem p, Vec r, Vec rhs)
   PetscCall(VecGetArray(rhs, &to));
   PetscCall(PetscArraycpy(to, from + p->num_inner, p->num_rows));
   if (p->condensed) {
-    PetscCall(HPSpaceGetTables(p->space, &v));
     PetscCall(HPSpaceGetDM(p->space, &dm));
     PetscCall(VecSet(p->r_local, 0));
     PetscCall(VecGetArray(p->r_local, &local));
@@ -83,8 +81,7 @@ PetscErrorCode ProblemReduce_Private(Problem p, Vec r, Vec rhs)
     PetscCall(MechanicsCondenseForces(p->mechanics, local));
     PetscCall(VecRestoreArray(p->r_local, &local));
     PetscCall(VecSet(p->u_global, 0));
-    PetscCall(DMLocalToGlobalBegin(dm, p->r_local, ADD_VALUES, p->u_global));
-    PetscCall(DMLocalToGlobalEnd(dm, p->r_local, ADD_VALUES, p->u_global));
+    PetscCall(DMLocalToGlobal(dm, p->r_local, ADD_VALUES, p->u_global));
     PetscCall(VecGetArray(p->u_global, &change));
     for (PetscInt i = p->num_inner; i < p->num_u; ++i) to[i - p->num_inner] += change[i];
     PetscCall(VecRestoreArray(p->u_global, &change));

@@ -1,8 +1,6 @@
 /* Orders per direction: which direction of space an axis of a cell runs along. */
 #include "problemimpl.h"
 
-#define TIE 1e-6 /* cosines closer than this are equal: the axis runs along both */
-
 /* The line through the cell's centre from one side to the opposite one. */
 static PetscErrorCode CellAxis_Private(Forest forest, PetscInt leaf, PetscInt axis, PetscReal line[3])
 {
@@ -26,7 +24,7 @@ static PetscInt OrderAlong_Private(const BodySpec *body, const PetscReal line[3]
 
   for (PetscInt c = 0; c < 3; ++c) most = PetscMax(most, PetscAbsReal(line[c]));
   for (PetscInt c = 0; c < 3; ++c) {
-    if (PetscAbsReal(line[c]) >= most - TIE * length) order = PetscMax(order, body->order_along[c] ? body->order_along[c] : body->order);
+    if (PetscAbsReal(line[c]) >= most - ROUND_LENGTH * length) order = PetscMax(order, body->order_along[c] ? body->order_along[c] : body->order);
   }
   return order;
 }

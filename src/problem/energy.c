@@ -27,34 +27,14 @@ PetscErrorCode ProblemHasEnergy(Problem p, PetscBool *yes)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The local array r, summed over ranks, as displacement part of a vector; 0 in its other parts. */
-static PetscErrorCode ToGlobal_Private(Problem p, Vec gradient)
-{
-  PetscReal *array;
-  DM         dm;
-
-  PetscFunctionBegin;
-  PetscCall(HPSpaceGetDM(p->space, &dm));
-  PetscCall(VecSet(gradient, 0));
-  PetscCall(VecGetArray(gradient, &array));
-  PetscCall(VecPlaceArray(p->u_global, array));
-  PetscCall(DMLocalToGlobalBegin(dm, p->r_local, ADD_VALUES, p->u_global));
-  PetscCall(DMLocalToGlobalEnd(dm, p->r_local, ADD_VALUES, p->u_global));
-  PetscCall(VecResetArray(p->u_global));
-  PetscCall(VecRestoreArray(gradient, &array));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 /* Energy and forces of cells and dead loads into the local array r; status but for noise and volume. */
 static PetscErrorCode Bulk_Private(Problem p, const PetscReal u[], PetscReal r[], PetscReal *energy, ProblemStatus *status)
 {
   MechanicsStatus bulk;
   PetscReal       work;
-  const HPTables *v;
 
   PetscFunctionBegin;
-  PetscCall(HPSpaceGetTables(p->space, &v));
-  PetscCall(PetscArrayzero(r, v->num_nodes * p->dim));
+  PetscCall(PetscArrayzero(r, p->num_local));
   PetscCall(MechanicsResidual(p->mechanics, u, NULL, r, &bulk));
   PetscCall(MechanicsDeadWork(p->mechanics, u, &work));
   PetscReal sum[4]   = {bulk.energy, bulk.scale2, bulk.bad, work};
@@ -87,7 +67,12 @@ PetscErrorCode ProblemMerit(Problem p, PetscReal factor, Vec lambda, Vec x, Vec 
   *merit += sum[0];
   if (sum[1] > 0 || PetscIsInfOrNanReal(*merit)) status->bad = PETSC_TRUE;
   if (status->bad) *merit = PETSC_MAX_REAL;
-  if (gradient) PetscCall(ToGlobal_Private(p, gradient));
+  if (gradient) {
+    PetscCall(VecSet(gradient, 0));
+    PetscCall(VecGetArray(gradient, &r));
+    PetscCall(ProblemToGlobal_Private(p, r));
+    PetscCall(VecRestoreArray(gradient, &r));
+  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -96,10 +81,8 @@ PetscErrorCode ProblemMeritTangent(Problem p, PetscReal factor, Vec x, Vec lift,
   const PetscBool alone = (PetscBool)(lift != NULL), symmetric = p->symmetric;
   PetscReal      *u, pending;
   PetscBool       failed = PETSC_FALSE;
-  const HPTables *v;
 
   PetscFunctionBegin;
-  PetscCall(HPSpaceGetTables(p->space, &v));
   PetscCall(VecGetArray(p->u_local, &u));
   PetscCall(ProblemLocalDisplacement(p, x, u));
   PetscCall(ProblemPending(p, &pending));
@@ -108,19 +91,16 @@ PetscErrorCode ProblemMeritTangent(Problem p, PetscReal factor, Vec x, Vec lift,
   p->lift      = lift;
   if (alone) PetscCall(VecZeroEntries(lift));
   if (alone) PetscCall(VecSetOption(lift, VEC_IGNORE_NEGATIVE_INDICES, PETSC_TRUE));
-  for (PetscInt i = 0; i < v->num_nodes * p->dim; ++i) p->increment[i] = p->target[i] - p->applied[i];
+  for (PetscInt i = 0; i < p->num_local; ++i) p->increment[i] = p->target[i] - p->applied[i];
   PetscCall(ProblemReadyMatrix_Private(p));
   PetscCall(MechanicsTangent(p->mechanics, u, NULL, ProblemCellSink_Private, p, bad));
   PetscCall(VecRestoreArray(p->u_local, &u));
   const InterfaceSystem system = ProblemSystem_Private(p);
   if (!alone) PetscCall(InterfaceMeritHessians(p->interface, &system));
-  PetscCall(MatAssemblyBegin(p->matrix, MAT_FLUSH_ASSEMBLY));
-  PetscCall(MatAssemblyEnd(p->matrix, MAT_FLUSH_ASSEMBLY));
+  PetscCall(MatAssemble(p->matrix, MAT_FLUSH_ASSEMBLY));
   PetscCall(InterfaceMeritRows(p->interface, &system, factor));
-  PetscCall(MatAssemblyBegin(p->matrix, MAT_FINAL_ASSEMBLY));
-  PetscCall(MatAssemblyEnd(p->matrix, MAT_FINAL_ASSEMBLY));
-  if (alone) PetscCall(VecAssemblyBegin(lift));
-  if (alone) PetscCall(VecAssemblyEnd(lift));
+  PetscCall(MatAssemble(p->matrix, MAT_FINAL_ASSEMBLY));
+  if (alone) PetscCall(VecAssemble(lift));
   p->symmetric = symmetric;
   p->lift      = NULL;
   int any      = *bad || failed;

@@ -10,13 +10,11 @@ static PetscInt RankOf_Private(Problem p, PetscInt u)
 
 PetscErrorCode ProblemLayout_Private(Problem p)
 {
-  const HPTables *v;
   const PetscInt *global;
   PetscInt       *counts;
   DM              dm;
 
   PetscFunctionBegin;
-  PetscCall(HPSpaceGetTables(p->space, &v));
   PetscCall(HPSpaceGetGlobalDofs(p->space, &global));
   PetscCall(HPSpaceGetDM(p->space, &dm));
   PetscCall(DMCreateGlobalVector(dm, &p->u_global));
@@ -35,8 +33,8 @@ PetscErrorCode ProblemLayout_Private(Problem p)
   p->start    = p->p_start[p->rank];
   p->num_dofs = p->p_start[p->size];
   PetscCall(PetscFree(counts));
-  PetscCall(PetscMalloc2(v->num_nodes * p->dim, &p->index, v->num_nodes * p->dim, &p->row));
-  for (PetscInt i = 0; i < v->num_nodes * p->dim; ++i) {
+  PetscCall(PetscMalloc2(p->num_local, &p->index, p->num_local, &p->row));
+  for (PetscInt i = 0; i < p->num_local; ++i) {
     p->index[i] = global[i];
     if (global[i] < 0) continue;
     const PetscInt r = RankOf_Private(p, global[i]);
@@ -99,16 +97,15 @@ static PetscErrorCode NodeColumns_Private(Problem p, const HPTables *v, const Pe
 /* The bulk's entries in the rows of this rank: exact counts or, without counters, explicit zeros, in order. */
 static PetscErrorCode BulkPattern_Private(Problem p, PetscInt diagonal[], PetscInt other[])
 {
-  const HPTables *v;
+  const HPTables *v = p->tables;
   PetscInt       *offset, *cells, *stamp, *work, *columns, num, owned, all;
   PetscReal      *zeros;
 
   PetscFunctionBegin;
-  PetscCall(HPSpaceGetTables(p->space, &v));
   PetscCall(NodeCells_Private(v, &offset, &cells));
   PetscCall(MechanicsNumUnknowns(p->mechanics, &owned, &all));
-  PetscCall(PetscMalloc3(v->num_nodes, &stamp, 2 * v->num_nodes, &work, v->num_nodes * p->dim + all, &columns));
-  PetscCall(PetscCalloc1(v->num_nodes * p->dim + all, &zeros));
+  PetscCall(PetscMalloc3(v->num_nodes, &stamp, 2 * v->num_nodes, &work, p->num_local + all, &columns));
+  PetscCall(PetscCalloc1(p->num_local + all, &zeros));
   for (PetscInt n = 0; n < v->num_nodes; ++n) stamp[n] = -1;
   for (PetscInt n = 0; n < v->num_nodes; ++n) {
     num = -1;
@@ -160,8 +157,7 @@ PetscErrorCode ProblemMatrix_Private(Problem p)
   PetscCall(PressurePattern_Private(p, NULL, NULL));
   PetscCall(InterfacePattern(p->interface, p->matrix, p->first_row, p->num_rows, NULL, NULL));
   PetscCall(ScalarsPattern_Private(p, NULL, NULL));
-  PetscCall(MatAssemblyBegin(p->matrix, MAT_FINAL_ASSEMBLY));
-  PetscCall(MatAssemblyEnd(p->matrix, MAT_FINAL_ASSEMBLY));
+  PetscCall(MatAssemble(p->matrix, MAT_FINAL_ASSEMBLY));
   PetscCall(PetscFree2(p->scatter_first, p->scatter));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

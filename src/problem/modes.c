@@ -49,12 +49,11 @@ static PetscErrorCode Centre_Private(Problem p, const HPTables *v, PetscReal cen
 static PetscErrorCode Modes_Private(Problem p, const PetscInt row[], PetscInt size, MatNullSpace *modes)
 {
   const PetscInt  num = p->dim == 2 ? 3 : 6;
-  const HPTables *v;
+  const HPTables *v   = p->tables;
   PetscReal       centre[3];
   Vec             mode[6];
 
   PetscFunctionBegin;
-  PetscCall(HPSpaceGetTables(p->space, &v));
   PetscCall(Centre_Private(p, v, centre));
   for (PetscInt k = 0; k < num; ++k) {
     PetscReal *array;
@@ -111,8 +110,7 @@ static PetscErrorCode CoarseNumbers_Private(Problem p, const HPTables *v, const 
     if (column[i] >= 0 && Row_Private(p, i) >= 0) array[p->num_inner + Row_Private(p, i)] = (PetscReal)(first + column[i]);
   }
   PetscCall(VecRestoreArray(p->u_global, &array));
-  PetscCall(DMGlobalToLocalBegin(dm, p->u_global, INSERT_VALUES, p->u_local));
-  PetscCall(DMGlobalToLocalEnd(dm, p->u_global, INSERT_VALUES, p->u_local));
+  PetscCall(DMGlobalToLocal(dm, p->u_global, INSERT_VALUES, p->u_local));
   PetscCall(VecGetArrayRead(p->u_local, &u));
   for (PetscInt i = 0; i < v->num_nodes * dim; ++i) global[i] = p->index[i] >= 0 && v->node_entity[i / dim] < t->first[1] ? (PetscInt)u[i] : -1;
   PetscCall(VecRestoreArrayRead(p->u_local, &u));
@@ -156,25 +154,23 @@ static PetscErrorCode Pinned_Private(Problem p, const HPTables *v, const PetscIn
   for (PetscInt i = 0; i < v->num_nodes * p->dim; ++i) {
     if (column[i] >= 0 && Row_Private(p, i) < 0) PetscCall(MatSetValue(*pinned, first + column[i], first + column[i], 1, INSERT_VALUES));
   }
-  PetscCall(MatAssemblyBegin(*pinned, MAT_FINAL_ASSEMBLY));
-  PetscCall(MatAssemblyEnd(*pinned, MAT_FINAL_ASSEMBLY));
+  PetscCall(MatAssemble(*pinned, MAT_FINAL_ASSEMBLY));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode ProblemProlongation(Problem p, Mat *P, Mat *pinned, MatNullSpace *modes, PetscBool *higher)
 {
-  const HPTables     *v;
+  const HPTables     *v = p->tables;
   const ForestTables *t;
   PetscInt           *column, *global, size, first;
   int                 any = 0;
 
   PetscFunctionBegin;
-  PetscCall(HPSpaceGetTables(p->space, &v));
   PetscCall(ForestGetTables(p->forest, &t));
   for (PetscInt n = 0; n < v->num_nodes; ++n) any = any || v->node_entity[n] >= t->first[1];
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &any, 1, MPI_INT, MPI_MAX, p->comm));
   *higher = (PetscBool)any;
-  PetscCall(PetscMalloc2(v->num_nodes * p->dim, &column, v->num_nodes * p->dim, &global));
+  PetscCall(PetscMalloc2(p->num_local, &column, p->num_local, &global));
   PetscCall(CoarseNumbers_Private(p, v, t, column, global, &size));
   PetscCall(MatCreate(p->comm, P));
   PetscCall(MatSetSizes(*P, p->num_u - p->num_inner, size, PETSC_DETERMINE, PETSC_DETERMINE));
@@ -189,8 +185,7 @@ PetscErrorCode ProblemProlongation(Problem p, Mat *P, Mat *pinned, MatNullSpace 
     for (PetscInt d = 0; d < p->dim; ++d) mine = (PetscBool)(mine || Row_Private(p, n * p->dim + d) >= 0);
     if (mine) PetscCall(NodeRows_Private(p, n, first, global, *P));
   }
-  PetscCall(MatAssemblyBegin(*P, MAT_FINAL_ASSEMBLY));
-  PetscCall(MatAssemblyEnd(*P, MAT_FINAL_ASSEMBLY));
+  PetscCall(MatAssemble(*P, MAT_FINAL_ASSEMBLY));
   PetscCall(Pinned_Private(p, v, column, size, pinned));
   PetscCall(Modes_Private(p, column, size, modes));
   PetscCall(PetscFree2(column, global));

@@ -3,15 +3,10 @@
 
 PetscErrorCode ProblemNoteOverlap(Problem p, Vec x, PetscReal *deepest)
 {
-  ProblemStatus status;
-  Vec           r;
-
   PetscFunctionBegin;
   PetscCall(ProblemLeaveOverlap(p, 0));
-  PetscCall(ProblemCreateVector(p, &r));
   PetscCall(ProblemSearch(p, x));
-  PetscCall(ProblemResidual(p, x, NULL, r, &status));
-  PetscCall(VecDestroy(&r));
+  PetscCall(ProblemRefresh(p, x));
   PetscCall(InterfaceNoteOverlap(p->interface, deepest));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -6,8 +6,6 @@
    The plane is linear, so the first Newton iterate is the tangent's; its sense is the secant's, so that limit points need no decision. */
 #include "problemimpl.h"
 
-#define RATE_SHARE 1e-5 /* of load.end: differences over it are exact for loads linear in t, to 1e-10 for smooth ones */
-
 /* d = to - from (NULL: rest) in the displacements, 0 in all else. */
 static PetscErrorCode Difference_Private(Problem p, Vec from, Vec to, Vec d)
 {
@@ -125,7 +123,6 @@ PetscErrorCode PathResidual_Private(Problem p, Vec x, PetscReal *r)
 /* The row from what the rank owns, the column from the change of the loads with t. */
 PetscErrorCode PathTangent_Private(Problem p, PetscInt row, const PetscReal u[])
 {
-  const HPTables  *v;
   const PetscReal *n;
   PetscReal       *rate;
 
@@ -136,9 +133,8 @@ PetscErrorCode PathTangent_Private(Problem p, PetscInt row, const PetscReal u[])
     PetscCall(VecRestoreArrayRead(p->path, &n));
   } else if (p->rank == p->size - 1)
     PetscCall(MatSetValue(p->matrix, row, row, Unit_Private(p) / p->scene->load.end, ADD_VALUES));
-  PetscCall(HPSpaceGetTables(p->space, &v));
-  PetscCall(PetscCalloc1(v->num_nodes * p->dim, &rate));
-  PetscCall(MechanicsLoadRate(p->mechanics, u, RATE_SHARE * p->scene->load.end, rate));
+  PetscCall(PetscCalloc1(p->num_local, &rate));
+  PetscCall(MechanicsLoadRate(p->mechanics, u, PetscPowReal(PETSC_MACHINE_EPSILON, 1. / 3) * p->scene->load.end, rate));
   PetscCall(ScalarsColumn_Private(p, p->num_controls, rate));
   PetscCall(PetscFree(rate));
   PetscFunctionReturn(PETSC_SUCCESS);

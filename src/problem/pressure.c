@@ -32,12 +32,11 @@ static PetscErrorCode LeafUnknowns_Private(Problem p, const ForestTables *t, Pet
 PetscErrorCode PressureNumber_Private(Problem p, PetscInt counts[])
 {
   const ForestTables *t;
-  const HPTables     *v;
+  const HPTables     *v = p->tables;
   PetscInt           *place, first, num, owned, all;
 
   PetscFunctionBegin;
   PetscCall(ForestGetTables(p->forest, &t));
-  PetscCall(HPSpaceGetTables(p->space, &v));
   PetscCall(MechanicsNumUnknowns(p->mechanics, &owned, &all));
   PetscCall(PetscMalloc3(all, &p->pi_index, all, &p->pi_row, all, &p->pi_rank));
   PetscCall(PetscMalloc1(owned, &p->pi_scale));
@@ -146,13 +145,12 @@ PetscErrorCode PressureColumns_Private(Problem p, PetscInt cell, PetscInt column
 /* Each row has its diagonal and the free dofs of its cell, which other ranks may own. */
 PetscErrorCode PressurePattern_Private(Problem p, PetscInt diagonal[], PetscInt other[])
 {
-  const HPTables *v;
+  const HPTables *v    = p->tables;
   PetscInt        most = 0, first, rows, *columns;
   PetscReal      *zeros;
 
   PetscFunctionBegin;
   if (!p->pi_local) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(HPSpaceGetTables(p->space, &v));
   for (PetscInt c = 0; c < v->num_owned_cells; ++c) most = PetscMax(most, p->dim * (v->cell_row[c + 1] - v->cell_row[c]) + 1);
   PetscCall(PetscMalloc1(most, &columns));
   PetscCall(PetscCalloc1(most, &zeros));

@@ -41,14 +41,11 @@ static uint64_t MirrorGroups_Private(const SceneData *scene)
 
 static PetscErrorCode Vectors_Private(Problem p)
 {
-  const HPTables *v;
 
   PetscFunctionBegin;
-  PetscCall(HPSpaceGetTables(p->space, &v));
-  PetscCall(VecCreateSeq(PETSC_COMM_SELF, v->num_nodes * p->dim, &p->u_local));
+  PetscCall(VecCreateSeq(PETSC_COMM_SELF, p->num_local, &p->u_local));
   PetscCall(VecDuplicate(p->u_local, &p->r_local));
-  PetscCall(PetscCalloc4(v->num_nodes * p->dim, &p->target, v->num_nodes * p->dim, &p->applied, v->num_nodes * p->dim, &p->increment, v->num_nodes * p->dim,
-                         &p->start_applied));
+  PetscCall(PetscCalloc4(p->num_local, &p->target, p->num_local, &p->applied, p->num_local, &p->increment, p->num_local, &p->start_applied));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -77,6 +74,8 @@ PetscErrorCode ProblemCreate(const SceneData *scene, Forest forest, const int8_t
   PetscCall(PetscFree(cap));
   PetscCall(MechanicsSupportsCreate(p->space, &scene->mechanics, &p->supports));
   PetscCall(HPSpaceSetUp(p->space, p->supports.fixed, p->supports.num_frames, p->supports.frame_node, (const PetscReal(*)[9])p->supports.frame));
+  PetscCall(HPSpaceGetTables(p->space, &p->tables));
+  p->num_local = p->tables->num_nodes * p->dim;
   PetscCall(MechanicsCreate(p->space, &scene->mechanics, &p->supports, &p->mechanics));
   PetscCall(InterfaceCreate(p->space, p->mechanics, &scene->mechanics, p->supports.fixed, scene->num_contacts, scene->contacts, &p->interface));
   PetscCall(ProblemSetForm(p, &plain));
@@ -104,12 +103,7 @@ PetscErrorCode ProblemDestroy(Problem *problem)
   PetscCall(PetscFree4(p->target, p->applied, p->increment, p->start_applied));
   PetscCall(RowBufferDestroy(&p->work));
   PetscCall(PressureDestroy_Private(p));
-  PetscCall(VecDestroy(&p->u_global));
-  PetscCall(VecDestroy(&p->u_local));
-  PetscCall(VecDestroy(&p->r_local));
-  PetscCall(VecDestroy(&p->prototype));
-  PetscCall(VecDestroy(&p->start_x));
-  PetscCall(VecDestroy(&p->imbalance));
+  PetscCall(VecDestroyAll(6, (Vec *[]){&p->u_global, &p->u_local, &p->r_local, &p->prototype, &p->start_x, &p->imbalance}));
   PetscCall(ScalarsDestroy_Private(p));
   PetscCall(MatDestroy(&p->matrix));
   PetscCall(MechanicsDestroy(&p->mechanics));
@@ -249,22 +243,18 @@ PetscErrorCode ProblemSetTime(Problem p, PetscReal t)
 
 PetscErrorCode ProblemJump(Problem p)
 {
-  const HPTables *v;
 
   PetscFunctionBegin;
-  PetscCall(HPSpaceGetTables(p->space, &v));
-  PetscCall(PetscArraycpy(p->applied, p->target, v->num_nodes * p->dim));
+  PetscCall(PetscArraycpy(p->applied, p->target, p->num_local));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode ProblemPending(Problem p, PetscReal *remaining)
 {
-  const HPTables *v;
 
   PetscFunctionBegin;
   *remaining = 0;
-  PetscCall(HPSpaceGetTables(p->space, &v));
-  for (PetscInt i = 0; i < v->num_nodes * p->dim; ++i) *remaining = PetscMax(*remaining, PetscAbsReal(p->target[i] - p->applied[i]));
+  for (PetscInt i = 0; i < p->num_local; ++i) *remaining = PetscMax(*remaining, PetscAbsReal(p->target[i] - p->applied[i]));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, remaining, 1, MPIU_REAL, MPI_MAX, p->comm));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -272,20 +262,17 @@ PetscErrorCode ProblemPending(Problem p, PetscReal *remaining)
 /* The displacement part of a vector, seen as a vector of the space, filled into a local array with given prescribed values. */
 static PetscErrorCode FillLocal_Private(Problem p, Vec x, const PetscReal prescribed[], PetscReal local[])
 {
-  const HPTables  *v;
   const PetscReal *array;
   Vec              ul;
   DM               dm;
 
   PetscFunctionBegin;
-  PetscCall(HPSpaceGetTables(p->space, &v));
   PetscCall(HPSpaceGetDM(p->space, &dm));
-  PetscCall(PetscArraycpy(local, prescribed, v->num_nodes * p->dim));
-  PetscCall(VecCreateSeqWithArray(PETSC_COMM_SELF, 1, v->num_nodes * p->dim, local, &ul));
+  PetscCall(PetscArraycpy(local, prescribed, p->num_local));
+  PetscCall(VecCreateSeqWithArray(PETSC_COMM_SELF, 1, p->num_local, local, &ul));
   PetscCall(VecGetArrayRead(x, &array));
   PetscCall(VecPlaceArray(p->u_global, array));
-  PetscCall(DMGlobalToLocalBegin(dm, p->u_global, INSERT_VALUES, ul));
-  PetscCall(DMGlobalToLocalEnd(dm, p->u_global, INSERT_VALUES, ul));
+  PetscCall(DMGlobalToLocal(dm, p->u_global, INSERT_VALUES, ul));
   PetscCall(VecResetArray(p->u_global));
   PetscCall(VecRestoreArrayRead(x, &array));
   PetscCall(VecDestroy(&ul));
@@ -304,13 +291,11 @@ PetscErrorCode ProblemLocalDisplacement(Problem p, Vec x, PetscReal local[])
 
 PetscErrorCode ProblemIncrement_Private(Problem p, Vec dx, PetscReal share)
 {
-  const HPTables *v;
-  PetscReal      *pending;
+  PetscReal *pending;
 
   PetscFunctionBegin;
-  PetscCall(HPSpaceGetTables(p->space, &v));
-  PetscCall(PetscMalloc1(v->num_nodes * p->dim, &pending));
-  for (PetscInt i = 0; i < v->num_nodes * p->dim; ++i) pending[i] = share * (p->target[i] - p->applied[i]);
+  PetscCall(PetscMalloc1(p->num_local, &pending));
+  for (PetscInt i = 0; i < p->num_local; ++i) pending[i] = share * (p->target[i] - p->applied[i]);
   PetscCall(FillLocal_Private(p, dx, pending, p->increment));
   if (p->num_rigid) {
     PetscReal *change;
@@ -325,13 +310,11 @@ PetscErrorCode ProblemIncrement_Private(Problem p, Vec dx, PetscReal share)
 
 PetscErrorCode ProblemSetDisplacement(Problem p, const PetscReal local[], Vec x)
 {
-  const HPTables *v;
-  PetscReal      *array;
+  PetscReal *array;
 
   PetscFunctionBegin;
-  PetscCall(HPSpaceGetTables(p->space, &v));
   PetscCall(VecGetArray(x, &array));
-  for (PetscInt i = 0; i < v->num_nodes * p->dim; ++i) {
+  for (PetscInt i = 0; i < p->num_local; ++i) {
     const PetscInt row = p->index[i] - p->start;
     if (p->index[i] >= 0 && row >= 0 && row < p->num_u) array[row] = local[i];
   }
@@ -356,13 +339,11 @@ PetscErrorCode ProblemWork(Problem p, Vec r, Vec dx, PetscReal *work)
 
 PetscErrorCode ProblemStepBegin(Problem p, Vec x, Vec dx)
 {
-  const HPTables *v;
 
   PetscFunctionBegin;
-  PetscCall(HPSpaceGetTables(p->space, &v));
   PetscCall(ProblemIncrement_Private(p, dx, 1.0));
   PetscCall(VecCopy(x, p->start_x));
-  PetscCall(PetscArraycpy(p->start_applied, p->applied, v->num_nodes * p->dim));
+  PetscCall(PetscArraycpy(p->start_applied, p->applied, p->num_local));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -389,14 +370,11 @@ static PetscErrorCode Rest_Private(Problem p, Vec dx, Vec x)
 
 PetscErrorCode ProblemStepMove(Problem p, Vec dx, PetscReal step, PetscBool whole, Vec x)
 {
-  const HPTables *v;
 
   PetscFunctionBegin;
-  PetscCall(HPSpaceGetTables(p->space, &v));
   PetscCall(VecWAXPY(x, step, dx, p->start_x));
   if (whole) PetscCall(Rest_Private(p, dx, x));
-  for (PetscInt i = 0; i < v->num_nodes * p->dim; ++i)
-    p->applied[i] = step == 1 ? p->target[i] : p->start_applied[i] + step * (p->target[i] - p->start_applied[i]);
+  for (PetscInt i = 0; i < p->num_local; ++i) p->applied[i] = step == 1 ? p->target[i] : p->start_applied[i] + step * (p->target[i] - p->start_applied[i]);
   PetscCall(ProblemSearch(p, x));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -446,99 +424,5 @@ PetscErrorCode ProblemFindConflict(Problem p, PetscReal t, size_t size, char wor
   PetscCall(MechanicsFindConflict(p->mechanics, t, size, words));
   PetscCall(RankFirst(p->comm, (PetscBool)(words[0] != 0), &first));
   if (first >= 0) PetscCallMPI(MPI_Bcast(words, (PetscMPIInt)size, MPI_CHAR, first, p->comm));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode StateCreate(Problem p, State *s)
-{
-  const ForestTables *t;
-
-  PetscFunctionBegin;
-  PetscCall(PetscMemzero(s, sizeof(*s)));
-  PetscCall(ForestGetTables(p->forest, &t));
-  PetscCall(ProblemCreateVector(p, &s->x));
-  PetscCall(MechanicsNumPressure(p->mechanics, &s->num_pressure));
-  PetscCall(PetscCalloc1(s->num_pressure, &s->pressure));
-  PetscCall(MechanicsNumHistory(p->mechanics, &s->num_history));
-  PetscCall(PetscMalloc1(s->num_history, &s->history));
-  PetscCall(MechanicsInitialHistory(p->mechanics, s->history));
-  if (InterfaceSlips(p->interface)) {
-    const HPTables *v;
-    PetscCall(HPSpaceGetTables(p->space, &v));
-    s->num_before = v->num_nodes * p->dim;
-    PetscCall(PetscCalloc1(s->num_before, &s->before));
-  }
-  s->form       = FormPlain(PETSC_FALSE);
-  s->num_leaves = t->num_leaves;
-  PetscCall(PetscMalloc1(s->num_leaves, &s->leaf_order));
-  PetscCall(PetscArraycpy(s->leaf_order, p->leaf_order, s->num_leaves));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode StateCopy(const State *from, State *to)
-{
-  PetscFunctionBegin;
-  PetscCall(VecCopy(from->x, to->x));
-  PetscCall(PetscArraycpy(to->pressure, from->pressure, from->num_pressure));
-  PetscCall(PetscArraycpy(to->history, from->history, from->num_history));
-  PetscCall(PetscArraycpy(to->before, from->before, from->num_before));
-  PetscCall(PetscArraycpy(to->leaf_order, from->leaf_order, from->num_leaves));
-  to->t    = from->t;
-  to->form = from->form;
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode StateKeepOrigin(Problem p, State *s)
-{
-  PetscReal *local;
-
-  PetscFunctionBegin;
-  if (!s->num_before) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(VecGetArray(p->u_local, &local));
-  PetscCall(ProblemLocalDisplacement(p, s->x, local));
-  PetscCall(PetscArraycpy(s->before, local, s->num_before));
-  PetscCall(VecRestoreArray(p->u_local, &local));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode StateCommit(Problem p, State *s)
-{
-  PetscReal *local;
-  PetscBool  bad;
-
-  PetscFunctionBegin;
-  PetscCall(ProblemSetState(p, s));
-  PetscCall(VecGetArray(p->u_local, &local));
-  PetscCall(ProblemLocalDisplacement(p, s->x, local));
-  PetscCall(MechanicsCommit(p->mechanics, local, s->history, &bad));
-  PetscCall(VecRestoreArray(p->u_local, &local));
-  PetscCheck(!bad, PETSC_COMM_SELF, PETSC_ERR_ARG_WRONGSTATE, "a state outside the domain cannot be accepted");
-  PetscCall(StateKeepOrigin(p, s));
-  PetscCall(ProblemSetState(p, s));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode StateAdmit(Problem p, State *s)
-{
-  PetscReal *local;
-
-  PetscFunctionBegin;
-  PetscCall(ProblemSetState(p, s));
-  PetscCall(VecGetArray(p->u_local, &local));
-  PetscCall(ProblemLocalDisplacement(p, s->x, local));
-  PetscCall(MechanicsAdmit(p->mechanics, local, s->history));
-  PetscCall(VecRestoreArray(p->u_local, &local));
-  PetscCall(StateKeepOrigin(p, s));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode StateDestroy(State *s)
-{
-  PetscFunctionBegin;
-  PetscCall(VecDestroy(&s->x));
-  PetscCall(PetscFree(s->pressure));
-  PetscCall(PetscFree(s->history));
-  PetscCall(PetscFree(s->before));
-  PetscCall(PetscFree(s->leaf_order));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -15,6 +15,8 @@ struct _p_Problem {
   PetscMPIInt      rank, size;
   PetscInt         dim;
   HPSpace          space;
+  const HPTables  *tables;    /* of the space */
+  PetscInt         num_local; /* length of a local array, num_nodes * dim */
   Supports         supports;
   Mechanics        mechanics;
   Interface        interface;
@@ -120,6 +122,8 @@ PetscErrorCode PressureBlocks_Private(Problem);
 PetscErrorCode PressureSides_Private(Problem, Vec rhs);
 /* condense.c: rows of the matrix from the layout. Collective. */
 PetscErrorCode ProblemRows_Private(Problem);
+/* The local array r_local, summed over ranks, as displacement part of a rank's part of a vector. */
+PetscErrorCode ProblemToGlobal_Private(Problem, PetscReal array[]);
 PetscErrorCode ProblemReduce_Private(Problem, Vec r, Vec rhs);
 PetscErrorCode ProblemMatrix_Private(Problem);
 /* increment (local array) = free dofs of dx + share of the prescribed motion still to come. */

@@ -22,12 +22,10 @@ static PetscErrorCode LocalForces_Private(Problem p, Vec x, const PetscReal u[],
   MechanicsStatus bulk;
   PetscReal       pending;
   PetscBool       failed = PETSC_FALSE;
-  const HPTables *v;
 
   PetscFunctionBegin;
-  PetscCall(HPSpaceGetTables(p->space, &v));
   PetscCall(ProblemPending(p, &pending));
-  PetscCall(PetscArrayzero(r, v->num_nodes * p->dim));
+  PetscCall(PetscArrayzero(r, p->num_local));
   PetscCall(StageBegin(STAGE_ASSEMBLE));
   PetscCall(MechanicsResidual(p->mechanics, u, pressure, r, &bulk));
   PetscCall(StageEnd(STAGE_ASSEMBLE));
@@ -49,13 +47,24 @@ static PetscErrorCode LocalForces_Private(Problem p, Vec x, const PetscReal u[],
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode ProblemResidual(Problem p, Vec x, const PetscReal pressure[], Vec r, ProblemStatus *status)
+PetscErrorCode ProblemToGlobal_Private(Problem p, PetscReal array[])
 {
-  PetscReal *u, *local, *array;
-  DM         dm;
+  DM dm;
 
   PetscFunctionBegin;
   PetscCall(HPSpaceGetDM(p->space, &dm));
+  PetscCall(VecPlaceArray(p->u_global, array));
+  PetscCall(VecSet(p->u_global, 0));
+  PetscCall(DMLocalToGlobal(dm, p->r_local, ADD_VALUES, p->u_global));
+  PetscCall(VecResetArray(p->u_global));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode ProblemResidual(Problem p, Vec x, const PetscReal pressure[], Vec r, ProblemStatus *status)
+{
+  PetscReal *u, *local, *array;
+
+  PetscFunctionBegin;
   PetscCall(VecGetArray(p->u_local, &u));
   PetscCall(VecGetArray(p->r_local, &local));
   PetscCall(ProblemLocalDisplacement(p, x, u));
@@ -65,11 +74,7 @@ PetscErrorCode ProblemResidual(Problem p, Vec x, const PetscReal pressure[], Vec
   PetscCall(VecRestoreArray(p->u_local, &u));
   PetscCall(VecRestoreArray(p->r_local, &local));
   PetscCall(VecGetArray(r, &array));
-  PetscCall(VecPlaceArray(p->u_global, array));
-  PetscCall(VecSet(p->u_global, 0));
-  PetscCall(DMLocalToGlobalBegin(dm, p->r_local, ADD_VALUES, p->u_global));
-  PetscCall(DMLocalToGlobalEnd(dm, p->r_local, ADD_VALUES, p->u_global));
-  PetscCall(VecResetArray(p->u_global));
+  PetscCall(ProblemToGlobal_Private(p, array));
   PetscCall(InterfaceRows(p->interface, array));
   PetscCall(PressureRows_Private(p, array));
   PetscCall(ScalarsResidual_Private(p, x, array));

@@ -10,12 +10,10 @@
    the same; with more the tangent is unsymmetric, as moments that keep their directions make it anyway. */
 #include "problemimpl.h"
 
-#define SHIFT 1e-6 /* of Young's modulus times L^(dim - 2): a body that touches nothing yet is held in the first linear solve, like one that deforms */
-
 PetscErrorCode RigidCreate_Private(Problem p)
 {
-  const MechanicsSpec *m = &p->scene->mechanics;
-  const HPTables      *v;
+  const MechanicsSpec *m     = &p->scene->mechanics;
+  const HPTables      *v     = p->tables;
   PetscReal            young = PETSC_MAX_REAL;
 
   PetscFunctionBegin;
@@ -35,8 +33,8 @@ PetscErrorCode RigidCreate_Private(Problem p)
     }
   }
   if (!p->num_links) PetscFunctionReturn(PETSC_SUCCESS);
-  p->rigid_shift = SHIFT * young * (p->dim == 3 ? p->extent : 1);
-  PetscCall(HPSpaceGetTables(p->space, &v));
+  /* a body that touches nothing yet is held in the first linear solve, like one that deforms */
+  p->rigid_shift = MECHANICS_SHIFT * young * (p->dim == 3 ? p->extent : 1);
   PetscCall(PetscMalloc1(v->num_nodes, &p->node_link));
   for (PetscInt n = 0; n < v->num_nodes; ++n) {
     p->node_link[n] = -1;
@@ -87,10 +85,9 @@ PetscErrorCode RigidRead_Private(Problem p, const PetscReal q[])
 
 PetscErrorCode RigidMove_Private(Problem p, PetscReal local[])
 {
-  const HPTables *v;
+  const HPTables *v = p->tables;
 
   PetscFunctionBegin;
-  PetscCall(HPSpaceGetTables(p->space, &v));
   for (PetscInt n = 0; n < v->num_nodes && p->num_links; ++n) {
     if (p->node_link[n] < 0) continue;
     const RigidLink *l = &p->links[p->node_link[n]];
@@ -104,10 +101,9 @@ PetscErrorCode RigidMove_Private(Problem p, PetscReal local[])
 
 PetscErrorCode RigidIncrement_Private(Problem p, const PetscReal dq[], PetscReal local[])
 {
-  const HPTables *v;
+  const HPTables *v = p->tables;
 
   PetscFunctionBegin;
-  PetscCall(HPSpaceGetTables(p->space, &v));
   for (PetscInt n = 0; n < v->num_nodes; ++n) {
     for (PetscInt k = 0; k < p->num_rigid && p->node_link[n] >= 0; ++k) {
       PetscReal dx[3];
@@ -131,12 +127,11 @@ static void Arms_Private(const RigidLink *l, PetscInt dim, const PetscReal X[3],
 
 PetscErrorCode RigidMeasure_Private(Problem p, const PetscReal r[])
 {
-  const HPTables *v;
+  const HPTables *v                                            = p->tables;
   PetscReal       sum[INTERFACE_MOTIONS + 9 * INTERFACE_LINKS] = {0}; /* of each unknown, then the arms of each body */
 
   PetscFunctionBegin;
   if (!p->num_rigid) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(HPSpaceGetTables(p->space, &v));
   for (PetscInt n = 0; n < v->num_nodes; ++n) {
     if (p->node_link[n] < 0) continue;
     const RigidLink *l = &p->links[p->node_link[n]];

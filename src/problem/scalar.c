@@ -10,11 +10,10 @@
 /* Diagonal of the box around all bodies. */
 static PetscErrorCode Extent_Private(Problem p)
 {
-  const HPTables *v;
+  const HPTables *v = p->tables;
   PetscReal       most[6], square = 0; /* - lowest, highest */
 
   PetscFunctionBegin;
-  PetscCall(HPSpaceGetTables(p->space, &v));
   for (PetscInt c = 0; c < 6; ++c) most[c] = PETSC_MIN_REAL;
   for (PetscInt i = 0; i < 3 * v->num_nodes; ++i) {
     most[i % 3]     = PetscMax(most[i % 3], -v->X[i]);
@@ -154,12 +153,10 @@ PetscErrorCode ScalarsResidual_Private(Problem p, Vec x, PetscReal r[])
 
 PetscErrorCode ProblemGetControls(Problem p, Vec x, PetscReal pressure[], PetscReal value[])
 {
-  const HPTables *v;
-  PetscReal      *u;
+  PetscReal *u;
 
   PetscFunctionBegin;
-  PetscCall(HPSpaceGetTables(p->space, &v));
-  PetscCall(PetscMalloc1(v->num_nodes * p->dim, &u));
+  PetscCall(PetscMalloc1(p->num_local, &u));
   PetscCall(ProblemLocalDisplacement(p, x, u));
   PetscCall(ScalarsMeasure_Private(p, u));
   PetscCall(PetscFree(u));
@@ -175,18 +172,17 @@ PetscErrorCode ProblemGetControls(Problem p, Vec x, PetscReal pressure[], PetscR
 /* Rows of the matrix that scalar k meets, ascending, the same on every rank, freed by the caller. */
 static PetscErrorCode Support_Private(Problem p, PetscInt k, PetscInt *num, PetscInt **rows)
 {
-  const HPTables *v;
+  const HPTables *v = p->tables;
   PetscBool      *mark;
   PetscMPIInt    *counts, *offsets, mine = 0;
   PetscInt       *own;
 
   PetscFunctionBegin;
-  PetscCall(HPSpaceGetTables(p->space, &v));
   PetscCall(PetscCalloc1(v->num_nodes, &mark));
-  PetscCall(PetscMalloc1(v->num_nodes * p->dim, &own));
+  PetscCall(PetscMalloc1(p->num_local, &own));
   PetscCall(PetscMalloc2(p->size, &counts, p->size + 1, &offsets));
   PetscCall(MechanicsControlNodes(p->mechanics, k, mark));
-  for (PetscInt i = 0; i < v->num_nodes * p->dim; ++i) {
+  for (PetscInt i = 0; i < p->num_local; ++i) {
     if (mark[i / p->dim] && p->row[i] >= 0) own[mine++] = p->row[i];
   }
   PetscCallMPI(MPI_Allgather(&mine, 1, MPI_INT, counts, 1, MPI_INT, p->comm));
@@ -251,12 +247,10 @@ PetscErrorCode ScalarsPattern_Private(Problem p, PetscInt diagonal[], PetscInt o
 
 PetscErrorCode ScalarsColumn_Private(Problem p, PetscInt k, const PetscReal local[])
 {
-  const HPTables *v;
-  const PetscInt  column = Row_Private(p, k);
+  const PetscInt column = Row_Private(p, k);
 
   PetscFunctionBegin;
-  PetscCall(HPSpaceGetTables(p->space, &v));
-  for (PetscInt i = 0; i < v->num_nodes * p->dim; ++i) {
+  for (PetscInt i = 0; i < p->num_local; ++i) {
     if (local[i] != 0 && p->row[i] >= 0) PetscCall(MatSetValue(p->matrix, p->row[i], column, local[i], ADD_VALUES));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -265,13 +259,11 @@ PetscErrorCode ScalarsColumn_Private(Problem p, PetscInt k, const PetscReal loca
 /* Derivative of what control k follows: free dofs to the matrix, prescribed ones times their motion to the lift. */
 static PetscErrorCode ControlRow_Private(Problem p, PetscInt k, const PetscReal gradient[])
 {
-  const HPTables *v;
-  const PetscInt  row    = Row_Private(p, k);
-  PetscReal       motion = 0;
+  const PetscInt row    = Row_Private(p, k);
+  PetscReal      motion = 0;
 
   PetscFunctionBegin;
-  PetscCall(HPSpaceGetTables(p->space, &v));
-  for (PetscInt i = 0; i < v->num_nodes * p->dim; ++i) {
+  for (PetscInt i = 0; i < p->num_local; ++i) {
     if (gradient[i] == 0) continue;
     if (p->row[i] >= 0)
       PetscCall(MatSetValue(p->matrix, row, p->row[i], p->factor[k] * gradient[i], ADD_VALUES));
@@ -284,16 +276,14 @@ static PetscErrorCode ControlRow_Private(Problem p, PetscInt k, const PetscReal 
 
 PetscErrorCode ScalarsTangent_Private(Problem p, const PetscReal u[])
 {
-  const HPTables *v;
-  PetscReal      *gradient, *force, value;
+  PetscReal *gradient, *force, value;
 
   PetscFunctionBegin;
   if (!p->num_scalars) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(HPSpaceGetTables(p->space, &v));
-  PetscCall(PetscMalloc2(v->num_nodes * p->dim, &gradient, v->num_nodes * p->dim, &force));
+  PetscCall(PetscMalloc2(p->num_local, &gradient, p->num_local, &force));
   for (PetscInt k = 0; k < p->num_controls; ++k) {
-    PetscCall(PetscArrayzero(gradient, v->num_nodes * p->dim));
-    PetscCall(PetscArrayzero(force, v->num_nodes * p->dim));
+    PetscCall(PetscArrayzero(gradient, p->num_local));
+    PetscCall(PetscArrayzero(force, p->num_local));
     PetscCall(MechanicsControl(p->mechanics, k, u, &value, gradient, force));
     PetscCall(ScalarsColumn_Private(p, k, force));
     PetscCall(ControlRow_Private(p, k, gradient));

@@ -55,7 +55,7 @@ static PetscErrorCode CellPlaces_Private(Problem p, PetscInt num, const PetscInt
 
 PetscErrorCode ProblemScatter_Private(Problem p)
 {
-  const HPTables  *v;
+  const HPTables  *v = p->tables;
   const PetscInt  *ai, *aj;
   PetscObjectState state;
   PetscInt         rows, most = 0, *nodes, *first;
@@ -68,7 +68,6 @@ PetscErrorCode ProblemScatter_Private(Problem p)
   PetscCall(MatGetNonzeroState(A, &state));
   if (p->scatter_first && p->scatter_state == state) PetscFunctionReturn(PETSC_SUCCESS);
   p->scatter_state = state;
-  PetscCall(HPSpaceGetTables(p->space, &v));
   PetscCall(PetscFree2(p->scatter_first, p->scatter));
   for (PetscInt c = 0; c < v->num_owned_cells; ++c) {
     const PetscInt n = v->cell_row[c + 1] - v->cell_row[c];

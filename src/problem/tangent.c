@@ -39,8 +39,7 @@ PetscErrorCode ProblemRightSide(Problem p, Vec r, Vec lift, Vec rhs)
   PetscCall(VecScale(rhs, -1.0));
   PetscCall(PressureSides_Private(p, rhs));
   PetscCall(InterfaceRightSide(p->interface, &system, rhs));
-  PetscCall(VecAssemblyBegin(rhs));
-  PetscCall(VecAssemblyEnd(rhs));
+  PetscCall(VecAssemble(rhs));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -64,13 +63,10 @@ PetscErrorCode ProblemReadyMatrix_Private(Problem p)
 
 PetscErrorCode ProblemTangent(Problem p, Vec x, const PetscReal pressure[], Vec lift, PetscBool *bad)
 {
-  PetscReal      *local, pending;
-  PetscBool       failed = PETSC_FALSE, holds = PETSC_FALSE;
-  HPSpace         space = p->space;
-  const HPTables *v;
+  PetscReal *local, pending;
+  PetscBool  failed = PETSC_FALSE, holds = PETSC_FALSE;
 
   PetscFunctionBegin;
-  PetscCall(HPSpaceGetTables(space, &v));
   PetscCall(VecGetArray(p->u_local, &local));
   PetscCall(ProblemLocalDisplacement(p, x, local));
   PetscCall(ProblemPending(p, &pending));
@@ -81,7 +77,7 @@ PetscErrorCode ProblemTangent(Problem p, Vec x, const PetscReal pressure[], Vec 
   PetscCall(StageEnd(STAGE_CONTACT));
   p->lift = lift;
   if (lift) PetscCall(VecSetOption(lift, VEC_IGNORE_NEGATIVE_INDICES, PETSC_TRUE));
-  for (PetscInt i = 0; i < v->num_nodes * p->dim; ++i) p->increment[i] = p->target[i] - p->applied[i];
+  for (PetscInt i = 0; i < p->num_local; ++i) p->increment[i] = p->target[i] - p->applied[i];
   PetscCall(StageBegin(STAGE_ASSEMBLE));
   PetscCall(ProblemReadyMatrix_Private(p));
   PetscCall(MechanicsTangent(p->mechanics, local, pressure, ProblemCellSink_Private, p, bad));
@@ -93,16 +89,13 @@ PetscErrorCode ProblemTangent(Problem p, Vec x, const PetscReal pressure[], Vec 
   const InterfaceSystem system = ProblemSystem_Private(p);
   PetscCall(InterfaceBlocks(p->interface, &system));
   if (p->scene->num_contacts) {
-    PetscCall(MatAssemblyBegin(p->matrix, MAT_FLUSH_ASSEMBLY));
-    PetscCall(MatAssemblyEnd(p->matrix, MAT_FLUSH_ASSEMBLY));
+    PetscCall(MatAssemble(p->matrix, MAT_FLUSH_ASSEMBLY));
     PetscCall(InterfaceInsertRows(p->interface, &system));
   }
   PetscCall(StageEnd(STAGE_CONTACT));
-  PetscCall(MatAssemblyBegin(p->matrix, MAT_FINAL_ASSEMBLY));
-  PetscCall(MatAssemblyEnd(p->matrix, MAT_FINAL_ASSEMBLY));
+  PetscCall(MatAssemble(p->matrix, MAT_FINAL_ASSEMBLY));
   if (lift) {
-    PetscCall(VecAssemblyBegin(lift));
-    PetscCall(VecAssemblyEnd(lift));
+    PetscCall(VecAssemble(lift));
   }
   p->lift = NULL;
   int any = *bad || failed;
@@ -120,7 +113,6 @@ PetscErrorCode ProblemSwitchActiveSet(Problem p, Vec dx, Vec rhs, PetscInt *chan
   if (!p->scene->num_contacts) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(ProblemIncrement_Private(p, dx, 1.0));
   PetscCall(InterfaceSwitch(p->interface, &system, dx, rhs, changed));
-  if (*changed) PetscCall(MatAssemblyBegin(p->matrix, MAT_FINAL_ASSEMBLY));
-  if (*changed) PetscCall(MatAssemblyEnd(p->matrix, MAT_FINAL_ASSEMBLY));
+  if (*changed) PetscCall(MatAssemble(p->matrix, MAT_FINAL_ASSEMBLY));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

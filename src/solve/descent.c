@@ -9,13 +9,11 @@
 #define OUTER 3            /* descents, each with the multipliers of the one before: what helps does so after one or two */
 #define ITERATIONS 60      /* of one descent */
 #define MOVES 20           /* pieces of the prescribed motion */
-#define RTOL 1e-6          /* forces out of balance over the nodal forces at a minimum */
 #define FIRST_SHIFT 1e-9   /* over the rows' largest entries */
 #define MORE_SHIFT 16      /* times the last, where the matrix is not positive yet; where it was, as many times smaller in the next iteration */
 #define SHORTER_SHIFT 1e-3 /* at least, and MORE_SHIFT times the last, where that calls for a step shorter than 1 / MORE_SHIFT */
-#define LARGEST_SHIFT 1e3  /* next to which the matrix is nothing */
 #define ARMIJO 1e-4        /* least share of the decrease that the slope promises */
-#define SHORTEST 1e-3      /* step of a line search that gives up */
+#define HALVINGS 10        /* of a step, in a line search that gives up */
 #define LONGEST 64
 #define DEEPER 1        /* the same, by how much a piece of the prescribed motion may drive a node in */
 #define DEEP 0.25       /* overlap over the extent of a node along the surface: bodies must not pass through each other */
@@ -69,16 +67,9 @@ PetscErrorCode DescentCreate_Private(Solver s, SolverReport *report, Descent *d)
   d->problem = s->problem;
   d->report  = report;
   PetscCall(ProblemCreateVector(s->problem, &d->trial));
-  PetscCall(VecDuplicate(d->trial, &d->gradient));
-  PetscCall(VecDuplicate(d->trial, &d->dx));
-  PetscCall(VecDuplicate(d->trial, &d->lambda));
-  PetscCall(VecDuplicate(d->trial, &d->depth));
-  PetscCall(VecDuplicate(d->trial, &d->next));
+  PetscCall(VecDuplicateAll(d->trial, 5, (Vec *[]){&d->gradient, &d->dx, &d->lambda, &d->depth, &d->next}));
   PetscCall(ProblemCreateRightSide(s->problem, &d->lift));
-  PetscCall(VecDuplicate(d->lift, &d->rhs));
-  PetscCall(VecDuplicate(d->lift, &d->y));
-  PetscCall(VecDuplicate(d->lift, &d->diagonal));
-  PetscCall(VecDuplicate(d->lift, &d->work));
+  PetscCall(VecDuplicateAll(d->lift, 4, (Vec *[]){&d->rhs, &d->y, &d->diagonal, &d->work}));
   PetscCall(FactorOption_Private("-descent_mat_mumps_icntl_13", "1"));
   PetscCall(FactorOption_Private("-descent_mat_mumps_icntl_14", "80"));
   PetscCall(Factors_Private(d));
@@ -89,17 +80,7 @@ PetscErrorCode DescentDestroy_Private(Descent *d)
 {
   PetscFunctionBegin;
   PetscCall(KSPDestroy(&d->ksp));
-  PetscCall(VecDestroy(&d->trial));
-  PetscCall(VecDestroy(&d->gradient));
-  PetscCall(VecDestroy(&d->dx));
-  PetscCall(VecDestroy(&d->lambda));
-  PetscCall(VecDestroy(&d->depth));
-  PetscCall(VecDestroy(&d->next));
-  PetscCall(VecDestroy(&d->lift));
-  PetscCall(VecDestroy(&d->rhs));
-  PetscCall(VecDestroy(&d->y));
-  PetscCall(VecDestroy(&d->diagonal));
-  PetscCall(VecDestroy(&d->work));
+  PetscCall(VecDestroyAll(11, (Vec *[]){&d->trial, &d->gradient, &d->dx, &d->lambda, &d->depth, &d->next, &d->lift, &d->rhs, &d->y, &d->diagonal, &d->work}));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -187,7 +168,7 @@ PetscErrorCode DescentDirection_Private(Descent *d, PetscReal *slope, PetscBool 
   PetscCall(ProblemGetMatrix(d->problem, &A));
   PetscCall(Measure_Private(d, A));
   PetscCall(ProblemMeritSide(d->problem, d->gradient, NULL, d->rhs));
-  for (*ok = PETSC_FALSE; !*ok && shift < LARGEST_SHIFT && !d->report->stopped; shift = PetscMax(FIRST_SHIFT, MORE_SHIFT * shift)) {
+  for (*ok = PETSC_FALSE; !*ok && shift * SHORTER_SHIFT < 1 && !d->report->stopped; shift = PetscMax(FIRST_SHIFT, MORE_SHIFT * shift)) {
     PetscCall(VecCopy(d->diagonal, d->work));
     PetscCall(VecScale(d->work, shift - d->added));
     if (shift != d->added) PetscCall(MatDiagonalSet(A, d->work, ADD_VALUES));
@@ -251,7 +232,8 @@ PetscErrorCode DescentSearch_Private(Descent *d, Vec x, PetscReal slope, PetscBo
   PetscReal merit, further, step = 1;
 
   PetscFunctionBegin;
-  for (*ok = PETSC_FALSE; step > SHORTEST; step *= 0.5) {
+  *ok = PETSC_FALSE;
+  for (PetscInt i = 0; i < HALVINGS; ++i, step *= 0.5) {
     PetscCall(DescentTry_Private(d, x, step, &merit));
     *ok = (PetscBool)(merit <= d->merit + ARMIJO * step * slope);
     if (*ok) break;
@@ -281,7 +263,7 @@ PetscErrorCode DescentLinearise_Private(Descent *d, Vec x, PetscBool *done, Pets
   PetscCall(InterfaceMeritDepth(ProblemInterface(d->problem), d->depth));
   PetscCall(VecNorm(d->gradient, NORM_2, &norm));
   PetscCall(PetscInfo(d->ksp, "Phi %.15g, forces out of balance %g of %g\n", (double)d->merit, (double)norm, (double)d->status.scale));
-  *done = (PetscBool)(norm <= RTOL * d->status.scale);
+  *done = (PetscBool)(norm <= PetscSqrtReal(d->solver->rtol) * d->status.scale);
   ++d->report->descent_iterations;
   PetscCall(ProblemMeritTangent(d->problem, PENALTY, x, NULL, &bad));
   *ok      = (PetscBool)!bad;
@@ -335,8 +317,9 @@ static PetscErrorCode Piece_Private(Descent *d, Vec x, PetscBool *ok)
   PetscCall(DescentApply_Private(d, ok));
   if (!*ok) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(ProblemStepBegin(d->problem, x, d->dx));
-  *ok = PETSC_FALSE;
-  for (PetscReal step = 1; step > SHORTEST && !*ok; step *= 0.5) {
+  PetscReal step = 1;
+  *ok            = PETSC_FALSE;
+  for (PetscInt i = 0; i < HALVINGS && !*ok; ++i, step *= 0.5) {
     PetscCall(ProblemStepMove(d->problem, d->dx, step, PETSC_FALSE, x));
     PetscCall(ProblemMerit(d->problem, PENALTY, d->lambda, x, NULL, &d->merit, &d->status));
     PetscCall(Through_Private(d, PETSC_TRUE, &through, &deeper));

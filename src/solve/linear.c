@@ -7,12 +7,18 @@
 #define REFINEMENTS 20   /* triangular solves worth less than a factorisation in three dimensions */
 #define LARGE 20000      /* unknowns from which single precision pays */
 #define FRESH_RTOL 1e-12 /* with the factor of the very matrix: nearly what one in double gives, for an iteration more */
+#define FORCING 0.01     /* of the relative residual of Newton's method: to what GMRES goes */
 #define TRUE_RTOL 1e-8   /* what round-off may leave */
 #define EARLY 6          /* after which a residual that falls too slowly shows */
 
-static PetscErrorCode Double_Private(Solver s, PC pc)
+/* What factorises the tangent, in the precision that serves. */
+static PetscErrorCode Kind_Private(Solver s, PC pc)
 {
   PetscFunctionBegin;
+  if (s->single) {
+    PetscCall(SingleFactorSet_Private(pc, s->symmetric));
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
   PetscCall(PCSetType(pc, s->symmetric ? PCCHOLESKY : PCLU));
 #if defined(PETSC_HAVE_MUMPS)
   PetscCall(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS));
@@ -49,10 +55,7 @@ PetscErrorCode SolverLinear_Private(Solver s)
   PetscCall(KSPSetType(ksp, KSPPREONLY));
   PetscCall(UseSingle_Private(s));
   PetscCall(SolverInertiaSetUp_Private(s));
-  if (s->single)
-    PetscCall(SingleFactorSet_Private(pc, s->symmetric));
-  else
-    PetscCall(Double_Private(s, pc));
+  PetscCall(Kind_Private(s, pc));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -67,10 +70,7 @@ PetscErrorCode SolverUnsymmetric_Private(Solver s)
   PetscCall(SNESGetKSP(s->snes, &ksp));
   PetscCall(KSPGetPC(ksp, &pc));
   PetscCall(PCReset(pc));
-  if (s->single)
-    PetscCall(SingleFactorSet_Private(pc, PETSC_FALSE));
-  else
-    PetscCall(Double_Private(s, pc));
+  PetscCall(Kind_Private(s, pc));
   PetscCall(PCSetFromOptions(pc));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -127,19 +127,18 @@ static PetscErrorCode Factor_Private(Solver s, Mat A)
   PetscCall(SNESGetKSP(s->snes, &ksp));
   PetscCall(KSPSetOperators(ksp, A, A));
   PetscCall(KSPSetUp(ksp));
+  PetscCall(KSPGetPC(ksp, &pc));
+  PetscCall(PCGetFailedReason(pc, &failed));
 #if defined(PETSC_HAVE_MUMPS)
-  for (PetscBool again = PETSC_TRUE; again;) {
-    again = PETSC_FALSE;
-    PetscCall(KSPGetPC(ksp, &pc));
-    PetscCall(PCGetFailedReason(pc, &failed));
-    if (failed != PC_NOERROR) PetscCall(MoreWorkspace_Private(pc, &again));
+  for (PetscBool again = (PetscBool)(failed != PC_NOERROR); again;) {
+    PetscCall(MoreWorkspace_Private(pc, &again));
     if (!again) break;
     PetscCall(KSPSetOperators(ksp, A, A));
     PetscCall(KSPSetUp(ksp));
+    PetscCall(PCGetFailedReason(pc, &failed));
+    again = (PetscBool)(failed != PC_NOERROR);
   }
 #endif
-  PetscCall(KSPGetPC(ksp, &pc));
-  PetscCall(PCGetFailedReason(pc, &failed));
   s->no_memory = (PetscBool)(failed == PC_FACTOR_OUTMEMORY);
   PetscCall(SolverInertia_Private(s, pc));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -167,7 +166,7 @@ static PetscErrorCode Solve_Private(Solver s, Vec rhs, Vec x, PetscBool *ok)
     PetscCall(KSPDestroy(&s->refine));
     PetscCall(PCCreate(PetscObjectComm((PetscObject)ksp), &pc));
     PetscCall(KSPSetPC(ksp, pc));
-    PetscCall(Double_Private(s, pc));
+    PetscCall(Kind_Private(s, pc));
     PetscCall(PCSetFromOptions(pc));
     PetscCall(PCDestroy(&pc));
     PetscFunctionReturn(PETSC_SUCCESS);
@@ -175,40 +174,6 @@ static PetscErrorCode Solve_Private(Solver s, Vec rhs, Vec x, PetscBool *ok)
   PetscCall(KSPGetConvergedReason(ksp, &reason));
   PetscCall(VecNorm(x, NORM_2, &norm));
   *ok = (PetscBool)(reason >= 0 && !PetscIsInfOrNanReal(norm));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* Factorise A and solve. Where a factor in single precision does not serve, those in double take over for good. */
-PetscErrorCode SolverDirect_Private(Solver s, Mat A, Vec rhs, Vec x, PetscBool *ok)
-{
-  KSP ksp;
-  PC  pc;
-
-  PetscFunctionBegin;
-  PetscCall(IsFinite_Private(A, ok));
-  if (!*ok) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(SNESGetKSP(s->snes, &ksp));
-  if (s->single) {
-    PetscCall(StageBegin(STAGE_FACTOR));
-    PetscCall(Factor_Private(s, A));
-    PetscCall(StageEnd(STAGE_FACTOR));
-    PetscCall(StageBegin(STAGE_SOLVE));
-    PetscCall(SolverRefine_Private(s, A, rhs, FRESH_RTOL, x, ok));
-    PetscCall(StageEnd(STAGE_SOLVE));
-    if (*ok) PetscFunctionReturn(PETSC_SUCCESS);
-    PetscCall(PetscInfo(s->snes, "a factor in single precision does not serve: double from here on\n"));
-    ++s->report->single_failures;
-    s->single = PETSC_FALSE;
-    PetscCall(KSPGetPC(ksp, &pc));
-    PetscCall(Double_Private(s, pc));
-    PetscCall(PCSetFromOptions(pc));
-  }
-  PetscCall(StageBegin(STAGE_FACTOR));
-  PetscCall(Factor_Private(s, A));
-  PetscCall(StageEnd(STAGE_FACTOR));
-  PetscCall(StageBegin(STAGE_SOLVE));
-  PetscCall(Solve_Private(s, rhs, x, ok));
-  PetscCall(StageEnd(STAGE_SOLVE));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -251,7 +216,7 @@ static PetscErrorCode IsSolution_Private(Mat A, Vec b, Vec x, PetscReal rtol, Pe
 /* Solve with the factor there is as preconditioner, in single precision or of an earlier tangent. Tangents of one problem differ little: a few rows switched by
    the active set, a Newton step taken; some triangular solves cost less than a new factor. *ok false: they do not get there, factorise. Flexible GMRES: it
    keeps what the preconditioner returned, whose round-off would otherwise be all of the solution's, and needs one triangular solve less. */
-PetscErrorCode SolverRefine_Private(Solver s, Mat A, Vec rhs, PetscReal rtol, Vec x, PetscBool *ok)
+static PetscErrorCode Refine_Private(Solver s, Mat A, Vec rhs, PetscReal rtol, Vec x, PetscBool *ok)
 {
   KSPConvergedReason reason;
   KSP                ksp;
@@ -279,10 +244,44 @@ PetscErrorCode SolverRefine_Private(Solver s, Mat A, Vec rhs, PetscReal rtol, Ve
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Factorise A and solve. Where a factor in single precision does not serve, those in double take over for good. */
+static PetscErrorCode Direct_Private(Solver s, Mat A, Vec rhs, Vec x, PetscBool *ok)
+{
+  KSP ksp;
+  PC  pc;
+
+  PetscFunctionBegin;
+  PetscCall(IsFinite_Private(A, ok));
+  if (!*ok) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(SNESGetKSP(s->snes, &ksp));
+  if (s->single) {
+    PetscCall(StageBegin(STAGE_FACTOR));
+    PetscCall(Factor_Private(s, A));
+    PetscCall(StageEnd(STAGE_FACTOR));
+    PetscCall(StageBegin(STAGE_SOLVE));
+    PetscCall(Refine_Private(s, A, rhs, FRESH_RTOL, x, ok));
+    PetscCall(StageEnd(STAGE_SOLVE));
+    if (*ok) PetscFunctionReturn(PETSC_SUCCESS);
+    PetscCall(PetscInfo(s->snes, "a factor in single precision does not serve: double from here on\n"));
+    ++s->report->single_failures;
+    s->single = PETSC_FALSE;
+    PetscCall(KSPGetPC(ksp, &pc));
+    PetscCall(Kind_Private(s, pc));
+    PetscCall(PCSetFromOptions(pc));
+  }
+  PetscCall(StageBegin(STAGE_FACTOR));
+  PetscCall(Factor_Private(s, A));
+  PetscCall(StageEnd(STAGE_FACTOR));
+  PetscCall(StageBegin(STAGE_SOLVE));
+  PetscCall(Solve_Private(s, rhs, x, ok));
+  PetscCall(StageEnd(STAGE_SOLVE));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* How far GMRES need go: so far that no Newton iteration is lost, which costs more than the few more of GMRES. */
 static PetscReal Forcing_Private(Solver s)
 {
-  return PetscMin(1e-8, PetscMax(s->linear_rtol, 0.01 * s->report->residual / PetscMax(s->report->scale, PETSC_MIN_REAL)));
+  return PetscMin(TRUE_RTOL, PetscMax(s->linear_rtol, FORCING * s->report->residual / PetscMax(s->report->scale, PETSC_MIN_REAL)));
 }
 
 PetscErrorCode SolverMatrixSolve_Private(Solver s, Vec rhs, PetscBool again)
@@ -308,11 +307,11 @@ PetscErrorCode SolverMatrixSolve_Private(Solver s, Vec rhs, PetscBool again)
   }
   if (s->factored) {
     PetscCall(StageBegin(STAGE_SOLVE));
-    PetscCall(SolverRefine_Private(s, A, rhs, PetscMin(REFINE_RTOL, Forcing_Private(s)), s->y, &ok));
+    PetscCall(Refine_Private(s, A, rhs, PetscMin(REFINE_RTOL, Forcing_Private(s)), s->y, &ok));
     PetscCall(StageEnd(STAGE_SOLVE));
     if (ok) PetscFunctionReturn(PETSC_SUCCESS);
   }
-  PetscCall(SolverDirect_Private(s, A, rhs, s->y, &ok));
+  PetscCall(Direct_Private(s, A, rhs, s->y, &ok));
   s->no_solution = (PetscBool)!ok;
   s->factored    = (PetscBool)(ok && s->reuse);
   PetscFunctionReturn(PETSC_SUCCESS);

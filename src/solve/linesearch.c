@@ -8,13 +8,14 @@
 #include "solveimpl.h"
 
 #define LITTLE 0.5 /* share of the work, or of the residual, that may be left */
+#define AWAY 0.1   /* of the interval: the next trial is no nearer to either of its ends */
 #define TRIALS 6
 
 PetscReal SolverInside_Private(const PetscReal s[2], const PetscReal g[2])
 {
   const PetscReal share = g[0] / (g[0] - g[1]);
 
-  return s[0] + PetscMax(0.1, PetscMin(0.9, share)) * (s[1] - s[0]);
+  return s[0] + PetscMax(AWAY, PetscMin(1 - AWAY, share)) * (s[1] - s[0]);
 }
 
 /* Residual at a share of the displacements of the step; whole: multipliers are those at its end. Then its work along the step. */

@@ -160,10 +160,7 @@ PetscErrorCode MultigridDestroy_Private(Multigrid *multigrid)
   PetscCall(MatDestroy(&m->pinned));
   PetscCall(MatDestroy(&m->A1));
   PetscCall(MatNullSpaceDestroy(&m->modes));
-  PetscCall(VecDestroy(&m->x1));
-  PetscCall(VecDestroy(&m->y1));
-  PetscCall(VecDestroy(&m->r));
-  PetscCall(VecDestroy(&m->y));
+  PetscCall(VecDestroyAll(4, (Vec *[]){&m->x1, &m->y1, &m->r, &m->y}));
   PetscCall(PetscFree(*multigrid));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -193,10 +193,7 @@ static PetscErrorCode Weights_Private(Saddle s)
   PetscCall(MatGetDiagonal(s->K, D));
   PetscCall(MatDuplicate(s->B, MAT_COPY_VALUES, &B2));
   PetscCall(Square_Private(B2));
-  PetscCall(VecDuplicate(s->G, &square));
-  PetscCall(VecDuplicate(s->G, &weighted));
-  PetscCall(VecDuplicate(s->G, &C));
-  PetscCall(VecDuplicate(s->G, &sigma));
+  PetscCall(VecDuplicateAll(s->G, 4, (Vec *[]){&square, &weighted, &C, &sigma}));
   PetscCall(Ratios_Private(s, sigma));
   PetscCall(MatMult(B2, D, weighted));
   PetscCall(VecSet(D, 1));
@@ -225,11 +222,7 @@ static PetscErrorCode Weights_Private(Saddle s)
   PetscCall(VecRestoreArrayRead(weighted, &w));
   PetscCall(VecRestoreArrayRead(C, &c));
   PetscCall(VecRestoreArrayRead(sigma, &ratio));
-  PetscCall(VecDestroy(&D));
-  PetscCall(VecDestroy(&square));
-  PetscCall(VecDestroy(&weighted));
-  PetscCall(VecDestroy(&C));
-  PetscCall(VecDestroy(&sigma));
+  PetscCall(VecDestroyAll(5, (Vec *[]){&D, &square, &weighted, &C, &sigma}));
   PetscCall(MatDestroy(&B2));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -259,6 +252,17 @@ PetscErrorCode SaddleCreate_Private(Problem problem, MultigridKind kind, Saddle 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* The blocks of a tangent. */
+static PetscErrorCode Forget_Private(Saddle s)
+{
+  PetscFunctionBegin;
+  PetscCall(MatDestroy(&s->K));
+  PetscCall(MatDestroy(&s->B));
+  PetscCall(MatDestroy(&s->C));
+  PetscCall(MatDestroy(&s->F));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode SaddleDestroy_Private(Saddle *saddle)
 {
   Saddle s = *saddle;
@@ -269,17 +273,9 @@ PetscErrorCode SaddleDestroy_Private(Saddle *saddle)
   PetscCall(MultigridDestroy_Private(&s->multigrid));
   PetscCall(ISDestroy(&s->is_u));
   PetscCall(ISDestroy(&s->is_z));
-  PetscCall(MatDestroy(&s->K));
-  PetscCall(MatDestroy(&s->B));
-  PetscCall(MatDestroy(&s->C));
-  PetscCall(MatDestroy(&s->F));
+  PetscCall(Forget_Private(s));
   PetscCall(MatDestroy(&s->operator));
-  PetscCall(VecDestroy(&s->G));
-  PetscCall(VecDestroy(&s->S));
-  PetscCall(VecDestroy(&s->scale));
-  PetscCall(VecDestroy(&s->work_u));
-  PetscCall(VecDestroy(&s->work_z));
-  PetscCall(VecDestroy(&s->rhs));
+  PetscCall(VecDestroyAll(6, (Vec *[]){&s->G, &s->S, &s->scale, &s->work_u, &s->work_z, &s->rhs}));
   PetscCall(PetscFree(*saddle));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -292,19 +288,14 @@ PetscErrorCode SaddleSetUp_Private(Saddle s, Mat A, PetscBool symmetric)
   PetscFunctionBegin;
   if (!keep) s->first = 0;
   if (!s->ksp) PetscCall(Create_Private(s, A));
-  PetscCall(MatDestroy(&s->K));
-  PetscCall(MatDestroy(&s->B));
-  PetscCall(MatDestroy(&s->C));
-  PetscCall(MatDestroy(&s->F));
+  PetscCall(Forget_Private(s));
   PetscCall(MatCreateSubMatrix(A, s->is_u, s->is_u, MAT_INITIAL_MATRIX, &s->K));
   PetscCall(MatCreateSubMatrix(A, s->is_z, s->is_u, MAT_INITIAL_MATRIX, &s->B));
   PetscCall(MatCreateSubMatrix(A, s->is_z, s->is_z, MAT_INITIAL_MATRIX, &s->C));
   if (!symmetric) PetscCall(MatCreateSubMatrix(A, s->is_u, s->is_z, MAT_INITIAL_MATRIX, &s->F));
   if (!s->G) {
     PetscCall(MatCreateVecs(s->B, &s->work_u, &s->G));
-    PetscCall(VecDuplicate(s->G, &s->S));
-    PetscCall(VecDuplicate(s->G, &s->scale));
-    PetscCall(VecDuplicate(s->G, &s->work_z));
+    PetscCall(VecDuplicateAll(s->G, 3, (Vec *[]){&s->S, &s->scale, &s->work_z}));
   }
   PetscCall(Weights_Private(s));
   PetscCall(Augment_Private(s));

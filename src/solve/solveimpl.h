@@ -114,8 +114,6 @@ PetscErrorCode SolverMatrixSolve_Private(Solver, Vec rhs, PetscBool again);
 PetscErrorCode SolverLinear_Private(Solver);
 /* From the next factorisation on, the exact tangent by LU. */
 PetscErrorCode SolverUnsymmetric_Private(Solver);
-PetscErrorCode SolverDirect_Private(Solver, Mat, Vec rhs, Vec x, PetscBool *ok);
-PetscErrorCode SolverRefine_Private(Solver, Mat, Vec rhs, PetscReal rtol, Vec x, PetscBool *ok);
 /* singlefactor.c: make a PC the factor in single precision of its matrix, LDL^T where that is symmetric; exists where MUMPS has it. */
 PetscErrorCode SingleFactorSet_Private(PC, PetscBool symmetric);
 PetscBool      SingleFactorExists_Private(void);

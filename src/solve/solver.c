@@ -194,9 +194,7 @@ PetscErrorCode SolverCreate(Problem problem, Solver *solver)
   PetscCall(ProblemGetMatrix(problem, &A));
   PetscCall(SNESSetJacobian(s->snes, A, A, Jacobian_Private, s));
   PetscCall(ProblemCreateRightSide(problem, &s->lift));
-  PetscCall(VecDuplicate(s->lift, &s->rhs));
-  PetscCall(VecDuplicate(s->lift, &s->y));
-  PetscCall(VecDuplicate(s->lift, &s->hold));
+  PetscCall(VecDuplicateAll(s->lift, 3, (Vec *[]){&s->rhs, &s->y, &s->hold}));
   PetscCall(StoresPressure_Private(problem, &stores));
   if (stores) PetscCall(ProblemCreateVector(problem, &s->balance));
   PetscCall(PetscMalloc1(s->passes + 1, &s->pass_sets));
@@ -220,11 +218,7 @@ PetscErrorCode SolverDestroy(Solver *solver)
   PetscCall(SNESDestroy(&s->snes));
   PetscCall(SaddleDestroy_Private(&s->saddle));
   PetscCall(KSPDestroy(&s->refine));
-  PetscCall(VecDestroy(&s->lift));
-  PetscCall(VecDestroy(&s->rhs));
-  PetscCall(VecDestroy(&s->y));
-  PetscCall(VecDestroy(&s->hold));
-  PetscCall(VecDestroy(&s->balance));
+  PetscCall(VecDestroyAll(5, (Vec *[]){&s->lift, &s->rhs, &s->y, &s->hold, &s->balance}));
   PetscCall(PetscFree(s->pass_sets));
   PetscCall(PetscFree(*solver));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -5,9 +5,6 @@
 #include "solveimpl.h"
 
 #define ITERATIONS 30 /* inverse ones, with one factor */
-#define SETTLED 1e-3  /* change of the eigenvalue, of the distance to the shift */
-#define DROP 1e-6     /* share of the strain energy that the first step is to set free */
-#define LOWER 1e-6    /* one side is lower than the other by more than this share of what it sets free */
 #define DOUBLINGS 40
 
 /* Forces without symmetry, from the reference positions. */
@@ -36,7 +33,7 @@ static PetscErrorCode Start_Private(Descent *d)
    matrix knows. The factor is there. */
 static PetscErrorCode Lowest_Private(Descent *d, PetscReal *curvature, PetscBool *ok)
 {
-  PetscReal theta = 0, last, norm2, product;
+  PetscReal theta = 0, norm2, product;
 
   PetscFunctionBegin;
   PetscCall(Start_Private(d));
@@ -51,9 +48,7 @@ static PetscErrorCode Lowest_Private(Descent *d, PetscReal *curvature, PetscBool
     PetscCall(VecPointwiseMult(d->work, d->diagonal, d->y));
     PetscCall(VecDot(d->work, d->y, &norm2));
     PetscCall(VecDot(d->rhs, d->y, &product));
-    last  = theta;
     theta = product / norm2;
-    if (PetscAbsReal(theta - last) <= SETTLED * theta) break;
   }
   *curvature = (theta - d->shift) * norm2;
   PetscCall(PetscInfo(d->ksp, "lowest eigenvalue %g, shift %g\n", (double)(theta - d->shift), (double)d->shift));
@@ -92,9 +87,9 @@ static PetscErrorCode Leave_Private(Descent *d, Vec x, PetscBool *ok)
   PetscCall(Lowest_Private(d, &curvature, ok));
   *ok = (PetscBool)(*ok && curvature < 0);
   if (!*ok) PetscFunctionReturn(PETSC_SUCCESS);
-  first = PetscSqrtReal(-2 * DROP * d->status.energy / curvature);
+  first = PetscSqrtReal(-2 * PETSC_SQRT_MACHINE_EPSILON * d->status.energy / curvature);
   for (PetscInt k = 0; k < 2; ++k) PetscCall(Side_Private(d, x, k ? -first : first, &step[k], &merit[k]));
-  const PetscInt k = merit[1] < merit[0] - LOWER * PetscAbsReal(d->merit - merit[0]) ? 1 : 0;
+  const PetscInt k = merit[1] < merit[0] - ROUND_LENGTH * PetscAbsReal(d->merit - merit[0]) ? 1 : 0;
   PetscCall(PetscInfo(d->ksp, "energy falls by %g at %g, by %g at %g\n", (double)(d->merit - merit[0]), (double)step[0], (double)(d->merit - merit[1]),
                       (double)step[1]));
   *ok = (PetscBool)(step[k] != 0);

@@ -165,7 +165,7 @@ static void CheckDual(const ContactSurface *s, PetscBool axisymmetric, const Pet
   assert_near(f.sum, 0, tolerance);
   assert_near(f.off, 0, tolerance);
   assert_near(f.diagonal, 0, tolerance);
-  assert_true(f.least > (carries ? 0.99 * MULTIPLIER_LEAST : 0.999));
+  assert_true(f.least > (carries ? 0.99 * CONTACT_SLIVER : 0.999));
   for (PetscInt d = 0; d <= degree; d++) assert_near(f.exact[d], 0, tolerance);
 }
 
@@ -191,8 +191,10 @@ static PetscReal Condition(const ContactSurface *s, const PetscReal T[])
 {
   PetscBLASInt n = (PetscBLASInt)s->num_nodes, length = 8 * LATTICE_NODES, error;
   PetscReal   *M = calloc((size_t)(n * n), 8), D[LATTICE_NODES], value[LATTICE_NODES], work[8 * LATTICE_NODES];
+  FacetLattice l;
 
-  CHECK_CALL(ContactLatticeMass(s, 0, PETSC_FALSE, M, D));
+  ContactFacetLattice(s, 0, &l);
+  CHECK_CALL(ContactLatticeMass(s, &l, PETSC_FALSE, M, D));
   for (PetscBLASInt i = 0; i < n; i++)
     for (PetscBLASInt k = 0; k < n; k++) M[n * i + k] = T[n * i + k] * sqrt(D[k] / D[i]);
   LAPACKsyev_("N", "L", &n, M, &n, value, work, &length, &error);
@@ -306,7 +308,7 @@ static void Axis(void **state)
       const Findings f = Find(&l.s, PETSC_TRUE, (PetscBool)standard, NULL, NULL, POINTS);
       assert_int_equal(f.num, p == 1 ? 3 : 2 * p);
       assert_near(f.sum, 0, 1e-11);
-      assert_true(f.least > 0.99 * MULTIPLIER_LEAST);
+      assert_true(f.least > 0.99 * CONTACT_SLIVER);
       if (!standard) assert_near(f.off, 0, 1e-11);
       LatticeDestroy(&l);
     }
@@ -351,7 +353,7 @@ static void HeldEnd(void **state)
       if (f.num == 0) continue;
       assert_near(f.sum, 0, 1e-12);
       assert_near(f.off, 0, 1e-12);
-      assert_true(f.least > 0.99 * MULTIPLIER_LEAST);
+      assert_true(f.least > 0.99 * CONTACT_SLIVER);
     }
     LatticeDestroy(&l);
   }

@@ -154,7 +154,7 @@ def test_ranks(run, tmp_path, pairing, nonmortar, ranks):
     assert result.summary["newton_iterations"] == finite_strain(run, tmp_path, pairing, nonmortar, 1, angles=ANGLES)[0].summary["newton_iterations"]
 
 
-DISTORTION = [(0.1, 1e-11), (0.2, 1e-8), (0.3, 1e-6)]  # share of a cell by which columns move, error of the rule of src/contact/kernel/quadrature.c
+DISTORTION = [(0.1, 1e-11), (0.2, 1e-8), (0.3, 1e-6)]  # share of a cell by which columns move, error of the rule on triangles
 
 
 @pytest.mark.parametrize("multiplier", ["dual", "standard"])

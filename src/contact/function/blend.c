@@ -5,9 +5,9 @@
 
    Functions: psi(s) = theta(s) dual + (1 - theta(s)) Bernstein, of the facet's order. The dual ones have the best rates, but int psi_j over a part of the facet
    may be negative; Bernstein polynomials are positive, so that weights are, whatever is covered, and they sum to 1 and reproduce what is linear as well. With
-   e = P(1 / (p (p + 1) + 1))^(d - 1): theta = 1 while less than 0.1 e is uncovered, 0 from e on, two derivatives continuous. Where the dual function of a
-   corner has lost all its weight on one side (at a third of the facet, order 1; 0.155, 0.089, 0.057, orders 2 to 4), it is theta = 0 that holds; so no weight
-   is negative, whatever part of a parallelogram is covered.
+   e = P(1 / (p (p + 1) + 1))^(d - 1): theta = 1 while less than a sliver, 0.1 e, is uncovered, 0 from e on, two derivatives continuous. Where the dual function
+   of a corner has lost all its weight on one side (at a third of the facet, order 1; 0.155, 0.089, 0.057, orders 2 to 4), it is theta = 0 that holds; so no
+   weight is negative, whatever part of a parallelogram is covered.
 
    Compliance: gaps count as gt + S z, S = kappa(s) [diag m - m m^T / sum m]: pressure that is constant on a facet does not see it. m_j: softness times
    reference measure of the Bernstein function. Where the mortar side ends a little beyond a node, all that is covered of the facet's other functions is a
@@ -16,7 +16,6 @@
    covered is ever compliant. */
 #include "functionimpl.h"
 
-#define WHOLE 0.1     /* of a corner's weight: what may be uncovered of a facet that counts as covered */
 #define EPSILON 0.002 /* order 1: a facet a third of which is covered has this share of the cells' compliance */
 
 void ContactShareWeight(PetscInt m, const PetscReal xi[2], PetscReal *v, PetscReal d[2], PetscReal dd[3])
@@ -30,8 +29,9 @@ void ContactShareWeight(PetscInt m, const PetscReal xi[2], PetscReal *v, PetscRe
 
 void ContactShareOf(PetscInt m, PetscInt order, PetscReal share, ContactShare *o)
 {
-  const PetscReal e = 1 / (PetscReal)(order * (order + 1) + 1), side = e * e * (3 - 2 * e), corner = m == 1 ? side : side * side, whole = 1 - WHOLE * corner;
-  const PetscReal u = (whole - share) / ((1 - WHOLE) * corner), du = -1 / ((1 - WHOLE) * corner), t = share / whole;
+  const PetscReal e = 1 / (PetscReal)(order * (order + 1) + 1), side = e * e * (3 - 2 * e), corner = m == 1 ? side : side * side,
+                  whole = 1 - CONTACT_SLIVER * corner;
+  const PetscReal u = (whole - share) / ((1 - CONTACT_SLIVER) * corner), du = -1 / ((1 - CONTACT_SLIVER) * corner), t = share / whole;
   const PetscReal factor = 6.75 * EPSILON / (PetscReal)order; /* 1 at a third */
 
   *o = (ContactShare){.part = (PetscBool)(share < whole), .theta = {1, 0, 0}, .kappa = {0, 0, 0}};

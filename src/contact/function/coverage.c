@@ -154,12 +154,11 @@ static PetscErrorCode Nodes_Private(RayWork w, const ContactSurface *mortar)
   memmove(w->image, w->image + first, (size_t)w->num_images * sizeof(RayImage));
   w->num_mortar = 0;
   for (PetscInt k = 0; k < w->num_overlaps; k++) {
-    PetscInt        order1[4], num;
-    const PetscInt *node;
+    FacetLattice l;
 
     if (k && w->mortar[k] == w->mortar[k - 1]) continue;
-    num = ElementNumNodes(w->facet.m, ContactFacetLattice(mortar, w->mortar[k], &node, order1));
-    for (PetscInt a = 0; a < num; a++) PetscCall(AddVertex_Private(w, node[a]));
+    ContactFacetLattice(mortar, w->mortar[k], &l);
+    for (PetscInt a = 0; a < l.num; a++) PetscCall(AddVertex_Private(w, l.node[a]));
   }
   for (PetscInt i = 0; i < w->num_images; i++)
     if (w->image[i].parent[0] < 0) PetscCall(AddVertex_Private(w, w->image[i].node));
@@ -208,7 +207,7 @@ PetscErrorCode ContactCover(ContactPair pair, const ContactSurface *nonmortar, c
   f->d.order = 1, f->d.num = f->nv;
   ContactRayLatticeGather(nonmortar, facet, &f->s);
   for (PetscInt a = 0; a < f->nv; a++) {
-    const PetscInt corner = f->nv * facet + (a < 2 ? a : 5 - a);
+    const PetscInt corner = ContactCorner(f->nv, facet, a);
 
     for (int c = 0; c < 3; c++) f->d.x[a][c] = w->d[3 * corner + c];
     if (!ContactDirectionUsable(w, nonmortar, corner)) *failed = PETSC_TRUE;

@@ -11,7 +11,8 @@ typedef struct {
 /* True nodes of the group's facets, in the order of their lattices. */
 static PetscErrorCode GroupOpen_Private(MultiplierWork *w, PetscInt num_facets, const PetscInt facet[], Group *g)
 {
-  PetscInt         lattice[MULTIPLIER_LATTICE], room = 0;
+  PetscInt         room = 0;
+  FacetLattice     l;
   const PetscInt  *master;
   const PetscReal *weight;
 
@@ -20,10 +21,9 @@ static PetscErrorCode GroupOpen_Private(MultiplierWork *w, PetscInt num_facets, 
   for (int pass = 0; pass < 2; pass++) {
     if (pass) PetscCall(PetscMalloc1(room, &g->node));
     for (PetscInt f = 0; f < num_facets; f++) {
-      const PetscInt num = ContactLatticeNodes(w->s, facet[f], lattice);
-
-      for (PetscInt a = 0; a < num; a++) {
-        const PetscInt masters = ContactNodeRow(w->s, lattice + a, &master, &weight);
+      ContactFacetLattice(w->s, facet[f], &l);
+      for (PetscInt a = 0; a < l.num; a++) {
+        const PetscInt masters = ContactNodeRow(w->s, l.node + a, &master, &weight);
 
         room += masters;
         for (PetscInt i = 0; pass && i < masters; i++) {
@@ -33,7 +33,7 @@ static PetscErrorCode GroupOpen_Private(MultiplierWork *w, PetscInt num_facets, 
           g->node[g->num++]   = master[i];
           if (!w->carries[master[i]]) g->held = PETSC_TRUE;
         }
-        if (ContactNodeHangs(w->s, lattice[a])) g->hangs = PETSC_TRUE;
+        if (ContactNodeHangs(w->s, l.node[a])) g->hangs = PETSC_TRUE;
       }
     }
   }
@@ -51,34 +51,35 @@ static PetscErrorCode GroupClose_Private(MultiplierWork *w, Group *g)
 /* T = P^T C of a facet, C[lattice][lattice] (NULL: one). */
 static void Restrict_Private(const MultiplierWork *w, PetscInt facet, const PetscReal C[], PetscReal T[])
 {
-  PetscInt         lattice[MULTIPLIER_LATTICE];
-  const PetscInt   num = ContactLatticeNodes(w->s, facet, lattice), *master;
+  FacetLattice     l;
+  const PetscInt  *master;
   const PetscReal *weight;
 
-  for (PetscInt a = 0; a < num; a++) {
-    const PetscInt masters = ContactNodeRow(w->s, lattice + a, &master, &weight);
+  ContactFacetLattice(w->s, facet, &l);
+  for (PetscInt a = 0; a < l.num; a++) {
+    const PetscInt masters = ContactNodeRow(w->s, l.node + a, &master, &weight);
 
     for (PetscInt i = 0; i < masters; i++)
-      for (PetscInt b = 0; b < num; b++) T[num * w->place[master[i]] + b] += weight[i] * (C ? C[num * a + b] : (PetscReal)(a == b));
+      for (PetscInt b = 0; b < l.num; b++) T[l.num * w->place[master[i]] + b] += weight[i] * (C ? C[l.num * a + b] : (PetscReal)(a == b));
   }
 }
 
 /* M_E += P^T M P of a facet, D_E += P^T D. */
-static void AddMass_Private(const MultiplierWork *w, PetscInt facet, const PetscReal M[], const PetscReal D[], PetscInt size, PetscReal ME[], PetscReal DE[])
+static void AddMass_Private(const MultiplierWork *w, const FacetLattice *l, const PetscReal M[], const PetscReal D[], PetscInt size, PetscReal ME[],
+                            PetscReal DE[])
 {
-  PetscInt         lattice[MULTIPLIER_LATTICE];
-  const PetscInt   num = ContactLatticeNodes(w->s, facet, lattice), *row, *column;
+  const PetscInt  *row, *column;
   const PetscReal *p, *q;
 
-  for (PetscInt a = 0; a < num; a++) {
-    const PetscInt rows = ContactNodeRow(w->s, lattice + a, &row, &p);
+  for (PetscInt a = 0; a < l->num; a++) {
+    const PetscInt rows = ContactNodeRow(w->s, l->node + a, &row, &p);
 
     for (PetscInt i = 0; i < rows; i++) DE[w->place[row[i]]] += p[i] * D[a];
-    for (PetscInt b = 0; b < num; b++) {
-      const PetscInt columns = ContactNodeRow(w->s, lattice + b, &column, &q);
+    for (PetscInt b = 0; b < l->num; b++) {
+      const PetscInt columns = ContactNodeRow(w->s, l->node + b, &column, &q);
 
       for (PetscInt i = 0; i < rows; i++)
-        for (PetscInt k = 0; k < columns; k++) ME[size * w->place[row[i]] + w->place[column[k]]] += p[i] * q[k] * M[num * a + b];
+        for (PetscInt k = 0; k < columns; k++) ME[size * w->place[row[i]] + w->place[column[k]]] += p[i] * q[k] * M[l->num * a + b];
     }
   }
 }
@@ -86,16 +87,17 @@ static void AddMass_Private(const MultiplierWork *w, PetscInt facet, const Petsc
 /* Rows of the Bernstein polynomials of a facet. */
 static PetscErrorCode Bernstein_Private(MultiplierWork *w, PetscInt facet)
 {
-  PetscInt         lattice[MULTIPLIER_LATTICE];
-  const PetscInt   num = ContactLatticeNodes(w->s, facet, lattice), *master;
+  const PetscInt   num = ContactLatticeSize(w->s, facet), *master;
   const PetscReal *weight;
   PetscReal       *C, *B = w->rows[facet].B;
+  FacetLattice     l;
 
   PetscFunctionBegin;
+  ContactFacetLattice(w->s, facet, &l);
   PetscCall(PetscMalloc1(num * num, &C));
-  PetscCall(ContactBernstein(w->s->dim - 1, ContactLatticeOrder(w->s, facet), C));
+  PetscCall(ContactBernstein(w->s->dim - 1, l.order, C));
   for (PetscInt a = 0; a < num; a++) {
-    const PetscInt masters = ContactNodeRow(w->s, lattice + a, &master, &weight);
+    const PetscInt masters = ContactNodeRow(w->s, l.node + a, &master, &weight);
     PetscReal      sum     = 0;
 
     for (PetscInt i = 0; i < masters; i++) sum += PetscMax(0, weight[i]);
@@ -109,13 +111,10 @@ static PetscErrorCode Bernstein_Private(MultiplierWork *w, PetscInt facet)
 /* Room for a row of every node of the group on each of its facets. */
 static PetscErrorCode RowsOpen_Private(MultiplierWork *w, const Group *g)
 {
-  PetscInt lattice[MULTIPLIER_LATTICE];
-
   PetscFunctionBegin;
   for (PetscInt f = 0; f < g->num_facets; f++) {
-    MultiplierRows *r = w->rows + g->facet[f];
-
-    const PetscInt size = g->num * ContactLatticeNodes(w->s, g->facet[f], lattice);
+    MultiplierRows *r    = w->rows + g->facet[f];
+    const PetscInt  size = g->num * ContactLatticeSize(w->s, g->facet[f]);
 
     PetscCall(PetscFree3(r->node, r->T, r->B));
     PetscCall(PetscCalloc3(g->num, &r->node, size, &r->T, size, &r->B));
@@ -128,29 +127,30 @@ static PetscErrorCode RowsOpen_Private(MultiplierWork *w, const Group *g)
 /* diag(int_E chi) M_E^-1 P^T on each facet of the group. */
 static PetscErrorCode GroupDual_Private(MultiplierWork *w, const Group *g, PetscBool *regular)
 {
-  PetscInt   lattice[MULTIPLIER_LATTICE], columns = 0;
-  PetscReal *M, *ME, *DE, *B, D[MULTIPLIER_LATTICE];
+  PetscInt     columns = 0;
+  PetscReal   *M, *ME, *DE, *B, D[MULTIPLIER_LATTICE];
+  FacetLattice l;
 
   PetscFunctionBegin;
-  for (PetscInt f = 0; f < g->num_facets; f++) columns += ContactLatticeNodes(w->s, g->facet[f], lattice);
+  for (PetscInt f = 0; f < g->num_facets; f++) columns += ContactLatticeSize(w->s, g->facet[f]);
   PetscCall(PetscMalloc1(MULTIPLIER_LATTICE * MULTIPLIER_LATTICE, &M));
   PetscCall(PetscCalloc3(g->num * g->num, &ME, g->num, &DE, g->num * columns, &B));
   columns = 0;
   for (PetscInt f = 0; f < g->num_facets; f++) {
-    const PetscInt num = ContactLatticeNodes(w->s, g->facet[f], lattice);
-    PetscReal     *T   = w->rows[g->facet[f]].T;
+    PetscReal *T = w->rows[g->facet[f]].T;
 
-    PetscCall(ContactLatticeMass(w->s, g->facet[f], w->axisymmetric, M, D));
-    AddMass_Private(w, g->facet[f], M, D, g->num, ME, DE);
+    ContactFacetLattice(w->s, g->facet[f], &l);
+    PetscCall(ContactLatticeMass(w->s, &l, w->axisymmetric, M, D));
+    AddMass_Private(w, &l, M, D, g->num, ME, DE);
     Restrict_Private(w, g->facet[f], NULL, T);
     for (PetscInt i = 0; i < g->num; i++)
-      for (PetscInt b = 0; b < num; b++) B[g->num * (columns + b) + i] = T[num * i + b];
-    columns += num;
+      for (PetscInt b = 0; b < l.num; b++) B[g->num * (columns + b) + i] = T[l.num * i + b];
+    columns += l.num;
   }
   PetscCall(ContactSolveSymmetric(g->num, ME, columns, B, regular));
   columns = 0;
   for (PetscInt f = 0; f < g->num_facets; f++) {
-    const PetscInt num = ContactLatticeNodes(w->s, g->facet[f], lattice);
+    const PetscInt num = ContactLatticeSize(w->s, g->facet[f]);
 
     for (PetscInt i = 0; i < g->num; i++)
       for (PetscInt b = 0; b < num; b++) w->rows[g->facet[f]].T[num * i + b] = DE[i] * B[g->num * (columns + b) + i];
@@ -164,14 +164,15 @@ static PetscErrorCode GroupDual_Private(MultiplierWork *w, const Group *g, Petsc
 /* P^T diag(int N) M^-1 N on one facet; a facet without measure has P^T N. */
 static PetscErrorCode LatticeDual_Private(MultiplierWork *w, PetscInt facet)
 {
-  PetscInt   lattice[MULTIPLIER_LATTICE];
-  PetscInt   num = ContactLatticeNodes(w->s, facet, lattice);
-  PetscReal *M, *C, D[MULTIPLIER_LATTICE];
-  PetscBool  regular;
+  const PetscInt num = ContactLatticeSize(w->s, facet);
+  PetscReal     *M, *C, D[MULTIPLIER_LATTICE];
+  PetscBool      regular;
+  FacetLattice   l;
 
   PetscFunctionBegin;
+  ContactFacetLattice(w->s, facet, &l);
   PetscCall(PetscMalloc2(num * num, &M, num * num, &C));
-  PetscCall(ContactLatticeMass(w->s, facet, w->axisymmetric, M, D));
+  PetscCall(ContactLatticeMass(w->s, &l, w->axisymmetric, M, D));
   for (PetscInt a = 0; a < num; a++)
     for (PetscInt b = 0; b < num; b++) C[num * a + b] = (PetscReal)(a == b);
   PetscCall(ContactSolveSymmetric(num, M, num, C, &regular));
@@ -193,7 +194,7 @@ static PetscReal Positive_Private(PetscInt num, const PetscReal weight[])
 /* Functions of nodes that carry nothing go to the others; their rows go. */
 static PetscErrorCode GroupRemove_Private(MultiplierWork *w, const Group *g, PetscInt degree)
 {
-  PetscInt   lattice[MULTIPLIER_LATTICE], kept = 0;
+  PetscInt   kept = 0;
   PetscBool *carries;
   PetscReal *W;
 
@@ -201,11 +202,11 @@ static PetscErrorCode GroupRemove_Private(MultiplierWork *w, const Group *g, Pet
   PetscCall(PetscMalloc1(g->num, &carries));
   for (PetscInt i = 0; i < g->num; i++) kept += carries[i] = w->carries[g->node[i]];
   PetscCall(PetscCalloc1(kept ? g->num * g->num : 0, &W));
-  if (kept && !g->hangs) PetscCall(ContactExtrapolateLattice(w->s->dim, ContactLatticeOrder(w->s, g->facet[0]), degree, carries, W));
+  if (kept && !g->hangs) PetscCall(ContactExtrapolateLattice(w->s->dim, w->s->order ? w->s->order[g->facet[0]] : 1, degree, carries, W));
   if (kept && g->hangs) PetscCall(ContactExtrapolateNodes(w->s, g->num_facets, g->facet, degree, g->num, g->node, carries, W));
   if (kept) PetscCall(ContactDonorsKeep(w->donors + g->facet[0], g->num, g->node, carries, W));
   for (PetscInt f = 0; f < g->num_facets; f++) {
-    const PetscInt  num = ContactLatticeNodes(w->s, g->facet[f], lattice);
+    const PetscInt  num = ContactLatticeSize(w->s, g->facet[f]);
     MultiplierRows *r   = w->rows + g->facet[f];
 
     r->num = 0;

@@ -17,7 +17,7 @@
    with the weights of a polynomial extrapolation of degree p - 1 to the node (extrapolate.c; p the least order), for standard functions too: dropped functions
    would lose sum psi = 1 and all rates. At p = 1 that is constants: an edge with a held end has psi = 1 at the other, of a quadrilateral with a held side each
    held node's function goes to the node across, that of a lone corner by halves to its neighbours. The degree is lowered where otherwise int psi_j over the
-   whole surface fell below a hundredth of int chi_j (even orders: the far end of a held facet gets 0 from it). int psi_j chi_k stays diagonal among nodes that
+   whole surface fell below a tenth of int chi_j (even orders: the far end of a held facet gets 0 from it). int psi_j chi_k stays diagonal among nodes that
    carry. A facet (or E) without nodes that carry has no functions. A node without any row has no multiplier.
 
    Bernstein functions, for facets that are covered in part (blend.c): those of the facet's order, at nodes of its lattice; of a node that hangs in the ratio of
@@ -27,7 +27,6 @@
 #include "element.h"
 
 #define MULTIPLIER_LATTICE ((MORTISE_MAX_ORDER + 1) * (MORTISE_MAX_ORDER + 1)) /* most nodes of a facet */
-#define MULTIPLIER_LEAST 0.01                                                  /* of int chi_j that int psi_j must keep beside held nodes */
 
 /* psi_row = sum_a T[offset[f] + (row - row_first[f]) * num_lattice + a] N_a on facet f, rows row_first[f] .. row_first[f+1], lattice lexicographic (order 1
    without lattice: corners 0, 1, 3, 2). */
@@ -49,12 +48,12 @@ typedef struct ContactMultiplier {
 PetscErrorCode ContactMultiplierCreate(const ContactSurface *, PetscBool axisymmetric, PetscBool standard, const PetscBool carries[], ContactMultiplier **);
 PetscErrorCode ContactMultiplierDestroy(ContactMultiplier **);
 
-/* lattice.c: one facet's lattice, its masses, and small symmetric solves */
-PetscInt ContactLatticeOrder(const ContactSurface *, PetscInt facet);
-/* Nodes of the facet's lattice; returns their number. */
-PetscInt ContactLatticeNodes(const ContactSurface *, PetscInt facet, PetscInt node[]);
-/* M[num][num] = int N_a N_b, D[num] = int N_a in the reference measure. */
-PetscErrorCode ContactLatticeMass(const ContactSurface *, PetscInt facet, PetscBool axisymmetric, PetscReal M[], PetscReal D[]);
+/* lattice.c: number of nodes of a facet's lattice; M[num][num] = int N_a N_b (NULL: not wanted), D[num] = int N_a of a facet in the reference measure. */
+static inline PetscInt ContactLatticeSize(const ContactSurface *s, PetscInt facet)
+{
+  return ElementNumNodes(s->dim - 1, s->order ? s->order[facet] : 1);
+}
+PetscErrorCode ContactLatticeMass(const ContactSurface *, const FacetLattice *, PetscBool axisymmetric, PetscReal M[], PetscReal D[]);
 /* B[k] = M^-1 B[k] for num vectors of n numbers one after another, by Cholesky with unit diagonal; M is overwritten. False: singular to 1e-10, B undefined. */
 PetscErrorCode ContactSolveSymmetric(PetscInt n, PetscReal M[], PetscInt num, PetscReal B[], PetscBool *regular);
 

@@ -2,18 +2,16 @@
 #include "functionimpl.h"
 #include <petscblaslapack.h>
 
-PetscInt ContactLatticeOrder(const ContactSurface *s, PetscInt facet)
-{
-  return s->order ? s->order[facet] : 1;
-}
+#define SINGULAR 1e-10 /* pivot, over the diagonal, of a matrix without inverse */
 
-PetscInt ContactLatticeNodes(const ContactSurface *s, PetscInt facet, PetscInt node[])
+void ContactFacetLattice(const ContactSurface *s, PetscInt facet, FacetLattice *l)
 {
-  static const int corner[4] = {0, 1, 3, 2};
-  const PetscInt   num       = s->first ? s->first[facet + 1] - s->first[facet] : 2 * (s->dim - 1);
+  const PetscInt nv = 2 * (s->dim - 1);
 
-  for (PetscInt a = 0; a < num; a++) node[a] = s->first ? s->lattice[s->first[facet] + a] : s->facets[num * facet + corner[a]];
-  return num;
+  l->order = s->order ? s->order[facet] : 1;
+  l->num   = ElementNumNodes(s->dim - 1, l->order);
+  for (PetscInt a = 0; a < nv; a++) l->corner[a] = s->facets[nv * facet + (a < 2 ? a : 5 - a)];
+  l->node = s->order ? s->lattice + s->first[facet] : l->corner;
 }
 
 PetscBool ContactNodeHangs(const ContactSurface *s, PetscInt n)
@@ -34,14 +32,12 @@ PetscInt ContactNodeRow(const ContactSurface *s, const PetscInt *n, const PetscI
 }
 
 /* Length or area of the reference facet per unit of its parameters, times the radius where axisymmetric (2 pi cancels in the functions). */
-static PetscReal Measure_Private(const ContactSurface *s, PetscBool axisymmetric, PetscInt num, const PetscInt node[], const PetscReal N[],
-                                 const PetscReal dN[])
+static PetscReal Measure_Private(const ContactSurface *s, PetscBool axisymmetric, const FacetLattice *l, const PetscReal N[], const PetscReal dN[])
 {
-  PetscReal d[2][3] = {{0}, {0, 0, 1}}, n[3], radius = 0;
+  PetscReal d[2][3] = {{0}, {0, 0, s->dim == 2}}, n[3], radius = 0;
 
-  if (s->dim == 3) d[1][2] = 0;
-  for (PetscInt a = 0; a < num; a++) {
-    const PetscReal *X = s->X + s->dim * node[a];
+  for (PetscInt a = 0; a < l->num; a++) {
+    const PetscReal *X = s->X + s->dim * l->node[a];
 
     radius += N[a] * X[0];
     for (PetscInt r = 0; r < s->dim - 1; r++)
@@ -51,33 +47,27 @@ static PetscReal Measure_Private(const ContactSurface *s, PetscBool axisymmetric
   return PetscSqrtReal(Dot3(n, n)) * (axisymmetric ? radius : 1);
 }
 
-PetscErrorCode ContactLatticeMass(const ContactSurface *s, PetscInt facet, PetscBool axisymmetric, PetscReal M[], PetscReal D[])
+PetscErrorCode ContactLatticeMass(const ContactSurface *s, const FacetLattice *l, PetscBool axisymmetric, PetscReal M[], PetscReal D[])
 {
-  const PetscInt order = ContactLatticeOrder(s, facet);
+  const PetscInt num = l->num;
   const Basis1D *b;
-  PetscInt       node[MULTIPLIER_LATTICE], num;
   PetscReal      N[MULTIPLIER_LATTICE], dN[2 * MULTIPLIER_LATTICE];
 
   PetscFunctionBegin;
-  PetscCheck(order >= 1 && order <= MORTISE_MAX_ORDER, PETSC_COMM_SELF, PETSC_ERR_PLIB, "facet %" PetscInt_FMT " of order %" PetscInt_FMT, facet, order);
-  num = ContactLatticeNodes(s, facet, node);
-  PetscCheck(num == ElementNumNodes(s->dim - 1, order), PETSC_COMM_SELF, PETSC_ERR_PLIB, "%" PetscInt_FMT " lattice nodes on a facet of order %" PetscInt_FMT,
-             num, order);
-  PetscCall(Basis1DGet(order, order + 4, &b));
-  PetscCall(PetscArrayzero(M, num * num));
+  PetscCheck(l->order >= 1 && l->order <= MORTISE_MAX_ORDER, PETSC_COMM_SELF, PETSC_ERR_PLIB, "facet of order %" PetscInt_FMT, l->order);
+  PetscCall(Basis1DGet(l->order, l->order + 4, &b));
+  if (M) PetscCall(PetscArrayzero(M, num * num));
   PetscCall(PetscArrayzero(D, num));
-  for (PetscInt q = 0; q < (s->dim == 2 ? 1 : b->num_points); q++)
-    for (PetscInt r = 0; r < b->num_points; r++) {
-      const PetscReal xi[2] = {b->points[r], b->points[q]};
-      PetscReal       weight;
+  for (PetscInt q = 0; q < PetscPowInt(b->num_points, s->dim - 1); q++) {
+    PetscReal xi[2], weight = Basis1DPoint(b, s->dim - 1, q, xi);
 
-      PetscCall(ElementEvaluate(s->dim - 1, order, xi, N, dN));
-      weight = b->weights[r] * (s->dim == 2 ? 1 : b->weights[q]) * Measure_Private(s, axisymmetric, num, node, N, dN);
-      for (PetscInt i = 0; i < num; i++) {
-        D[i] += weight * N[i];
-        for (PetscInt k = 0; k < num; k++) M[num * i + k] += weight * N[i] * N[k];
-      }
+    PetscCall(ElementEvaluate(s->dim - 1, l->order, xi, N, dN));
+    weight *= Measure_Private(s, axisymmetric, l, N, dN);
+    for (PetscInt i = 0; i < num; i++) {
+      D[i] += weight * N[i];
+      for (PetscInt k = 0; k < num && M; k++) M[num * i + k] += weight * N[i] * N[k];
     }
+  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -100,7 +90,7 @@ PetscErrorCode ContactSolveSymmetric(PetscInt n, PetscReal M[], PetscInt num, Pe
     for (PetscInt i = 0; i < n; i++) B[n * k + i] *= scale[i];
   PetscCallBLAS("LAPACKpotrf", LAPACKpotrf_("L", &size, M, &size, &info));
   *regular = (PetscBool)(info == 0);
-  for (PetscInt i = 0; i < n; i++) *regular = (PetscBool)(*regular && PetscSqr(M[(n + 1) * i]) > 1e-10);
+  for (PetscInt i = 0; i < n; i++) *regular = (PetscBool)(*regular && PetscSqr(M[(n + 1) * i]) > SINGULAR);
   if (*regular) PetscCallBLAS("LAPACKpotrs", LAPACKpotrs_("L", &size, &columns, M, &size, B, &size, &info));
   for (PetscInt k = 0; k < num; k++)
     for (PetscInt i = 0; i < n; i++) B[n * k + i] *= scale[i];

@@ -27,7 +27,7 @@ static PetscErrorCode GroupsBuild_Private(MultiplierWork *w)
   for (PetscInt f = 0; f < s->num_facets; f++) {
     const PetscInt root = GroupRoot(w->parent, f);
 
-    if (ContactLatticeOrder(s, f) != ContactLatticeOrder(s, root)) w->exact[root] = PETSC_TRUE;
+    if (ContactLatticeSize(s, f) != ContactLatticeSize(s, root)) w->exact[root] = PETSC_TRUE;
     for (PetscInt k = 0; k < corners; k++) {
       const PetscInt n = s->facets[corners * f + k];
 
@@ -43,15 +43,14 @@ static PetscErrorCode GroupsBuild_Private(MultiplierWork *w)
 static PetscErrorCode AddWeights_Private(MultiplierWork *w, PetscInt facet, PetscReal sign)
 {
   const MultiplierRows *r = w->rows + facet;
-  PetscInt              lattice[MULTIPLIER_LATTICE], num = ContactLatticeNodes(w->s, facet, lattice);
-  PetscReal            *M, D[MULTIPLIER_LATTICE];
+  PetscReal             D[MULTIPLIER_LATTICE];
+  FacetLattice          l;
 
   PetscFunctionBegin;
-  PetscCall(PetscMalloc1(num * num, &M));
-  PetscCall(ContactLatticeMass(w->s, facet, w->axisymmetric, M, D));
+  ContactFacetLattice(w->s, facet, &l);
+  PetscCall(ContactLatticeMass(w->s, &l, w->axisymmetric, NULL, D));
   for (PetscInt i = 0; i < r->num; i++)
-    for (PetscInt a = 0; a < num; a++) w->weight[r->node[i]] += sign * r->T[num * i + a] * D[a];
-  PetscCall(PetscFree(M));
+    for (PetscInt a = 0; a < l.num; a++) w->weight[r->node[i]] += sign * r->T[l.num * i + a] * D[a];
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -59,28 +58,26 @@ static PetscErrorCode AddWeights_Private(MultiplierWork *w, PetscInt facet, Pets
  */
 static PetscErrorCode Whole_Private(const MultiplierWork *w, PetscReal whole[], PetscBool carries[])
 {
-  PetscInt         lattice[MULTIPLIER_LATTICE];
   const PetscInt  *master;
   const PetscReal *weight;
-  PetscReal       *M, D[MULTIPLIER_LATTICE];
+  PetscReal        D[MULTIPLIER_LATTICE];
+  FacetLattice     l;
 
   PetscFunctionBegin;
-  PetscCall(PetscMalloc1(MULTIPLIER_LATTICE * MULTIPLIER_LATTICE, &M));
   for (PetscInt f = 0; f < w->s->num_facets; f++) {
-    const PetscInt num  = ContactLatticeNodes(w->s, f, lattice);
-    PetscReal      area = 0;
+    PetscReal area = 0;
 
-    PetscCall(ContactLatticeMass(w->s, f, w->axisymmetric, M, D));
-    for (PetscInt a = 0; a < num; a++) {
-      const PetscInt masters = ContactNodeRow(w->s, lattice + a, &master, &weight);
+    ContactFacetLattice(w->s, f, &l);
+    PetscCall(ContactLatticeMass(w->s, &l, w->axisymmetric, NULL, D));
+    for (PetscInt a = 0; a < l.num; a++) {
+      const PetscInt masters = ContactNodeRow(w->s, l.node + a, &master, &weight);
 
       for (PetscInt i = 0; i < masters; i++) whole[master[i]] += weight[i] * D[a];
       area += D[a];
     }
     for (PetscInt end = 0; w->axisymmetric && end < 2; end++) /* an end's share of an edge is 1 / (p (p + 1)) */
-      if (D[end * (num - 1)] < MULTIPLIER_LEAST * area / (PetscReal)(num * (num - 1))) carries[lattice[end * (num - 1)]] = PETSC_FALSE;
+      if (D[end * l.order] < CONTACT_SLIVER * area / (PetscReal)(l.num * l.order)) carries[l.node[end * l.order]] = PETSC_FALSE;
   }
-  PetscCall(PetscFree(M));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -91,7 +88,7 @@ static PetscBool IsLight_Private(const MultiplierWork *w, PetscInt num_facets, c
     for (PetscInt i = 0; i < w->rows[facet[f]].num; i++) {
       const PetscInt n = w->rows[facet[f]].node[i];
 
-      if (whole[n] > 0 && w->weight[n] < MULTIPLIER_LEAST * whole[n]) return PETSC_TRUE;
+      if (whole[n] > 0 && w->weight[n] < CONTACT_SLIVER * whole[n]) return PETSC_TRUE;
     }
   return PETSC_FALSE;
 }
@@ -106,7 +103,7 @@ static PetscErrorCode GroupsMake_Private(MultiplierWork *w, PetscInt num, const 
   PetscCall(PetscMalloc1(num, &degree));
   for (PetscInt g = 0; g < num; g++) {
     degree[g] = MORTISE_MAX_ORDER;
-    for (PetscInt i = start[g]; i < start[g + 1]; i++) degree[g] = PetscMin(degree[g], ContactLatticeOrder(w->s, facets[i]) - 1);
+    for (PetscInt i = start[g]; i < start[g + 1]; i++) degree[g] = PetscMin(degree[g], (w->s->order ? w->s->order[facets[i]] : 1) - 1);
     PetscCall(ContactMultiplierGroup(w, start[g + 1] - start[g], facets + start[g], degree[g], &held));
     for (PetscInt i = start[g]; i < start[g + 1]; i++) PetscCall(AddWeights_Private(w, facets[i], 1));
     if (!held) degree[g] = 0;
@@ -169,23 +166,22 @@ static void Drop_Private(PetscInt num, MultiplierRows *r)
 static PetscErrorCode Measures_Private(const MultiplierWork *w, PetscInt facet, PetscReal measure[])
 {
   const MultiplierRows *r = w->rows + facet;
-  PetscInt              lattice[MULTIPLIER_LATTICE], num = ContactLatticeNodes(w->s, facet, lattice);
-  PetscReal            *M, D[MULTIPLIER_LATTICE];
+  PetscReal             D[MULTIPLIER_LATTICE];
+  FacetLattice          l;
 
   PetscFunctionBegin;
-  PetscCall(PetscMalloc1(num * num, &M));
-  PetscCall(ContactLatticeMass(w->s, facet, w->axisymmetric, M, D));
+  ContactFacetLattice(w->s, facet, &l);
+  PetscCall(ContactLatticeMass(w->s, &l, w->axisymmetric, NULL, D));
   for (PetscInt i = 0; i < r->num; i++) {
     measure[i] = 0;
-    for (PetscInt a = 0; a < num; a++) measure[i] += (w->axisymmetric ? 2 * PETSC_PI : 1) * r->B[num * i + a] * D[a];
+    for (PetscInt a = 0; a < l.num; a++) measure[i] += (w->axisymmetric ? 2 * PETSC_PI : 1) * r->B[l.num * i + a] * D[a];
   }
-  PetscCall(PetscFree(M));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 static PetscErrorCode Pack_Private(const MultiplierWork *w, ContactMultiplier **out)
 {
-  PetscInt           lattice[MULTIPLIER_LATTICE], rows = 0, size = 0;
+  PetscInt           rows = 0, size = 0;
   ContactMultiplier *m;
 
   PetscFunctionBegin;
@@ -193,19 +189,21 @@ static PetscErrorCode Pack_Private(const MultiplierWork *w, ContactMultiplier **
   m->num_facets = w->s->num_facets;
   PetscCall(PetscMalloc2(m->num_facets + 1, &m->row_first, m->num_facets, &m->offset));
   for (PetscInt f = 0; f < m->num_facets; f++) {
-    Drop_Private(ContactLatticeNodes(w->s, f, lattice), w->rows + f);
+    Drop_Private(ContactLatticeSize(w->s, f), w->rows + f);
     m->row_first[f] = rows;
     m->offset[f]    = size;
     rows += w->rows[f].num;
-    size += w->rows[f].num * ContactLatticeNodes(w->s, f, lattice);
+    size += w->rows[f].num * ContactLatticeSize(w->s, f);
   }
   m->row_first[m->num_facets] = rows;
   PetscCall(PetscMalloc4(rows, &m->row_node, rows, &m->measure, size, &m->T, size, &m->B));
   for (PetscInt f = 0; f < m->num_facets; f++) {
+    const MultiplierRows *r = w->rows + f;
+
     PetscCall(Measures_Private(w, f, m->measure + m->row_first[f]));
-    PetscCall(PetscArraycpy(m->B + m->offset[f], w->rows[f].B, w->rows[f].num * ContactLatticeNodes(w->s, f, lattice)));
-    PetscCall(PetscArraycpy(m->row_node + m->row_first[f], w->rows[f].node, w->rows[f].num));
-    PetscCall(PetscArraycpy(m->T + m->offset[f], w->rows[f].T, w->rows[f].num * ContactLatticeNodes(w->s, f, lattice)));
+    PetscCall(PetscArraycpy(m->row_node + m->row_first[f], r->node, r->num));
+    PetscCall(PetscArraycpy(m->T + m->offset[f], r->T, r->num * ContactLatticeSize(w->s, f)));
+    PetscCall(PetscArraycpy(m->B + m->offset[f], r->B, r->num * ContactLatticeSize(w->s, f)));
   }
   PetscCall(ContactDonorsPack(w, m));
   *out = m;

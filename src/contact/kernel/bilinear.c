@@ -33,13 +33,13 @@ PetscBool ContactBilinearLocate(const PetscReal c[4][2], const PetscReal Y[2], P
   return PETSC_FALSE;
 }
 
-/* Strictly convex and counterclockwise, with corners that are no flatter than 1e-6. */
+/* Strictly convex and counterclockwise, with corners that are not flat. */
 PetscBool ContactQuadIsConvex(const PlaneQuad *s)
 {
   for (int a = 0; a < 4; a++) {
     const PetscReal *x = s->Y[a], *y = s->Y[(a + 1) % 4], *z = s->Y[(a + 2) % 4], d[2] = {y[0] - x[0], y[1] - x[1]}, e[2] = {z[0] - y[0], z[1] - y[1]};
 
-    if (!(Cross2(d, e) > 1e-6 * PetscSqrtReal(Dot2(d, d) * Dot2(e, e)))) return PETSC_FALSE;
+    if (!(Cross2(d, e) > ROUND_LENGTH * PetscSqrtReal(Dot2(d, d) * Dot2(e, e)))) return PETSC_FALSE;
   }
   return PETSC_TRUE;
 }

@@ -3,58 +3,17 @@
    rim have derivatives by the images but none of their own. */
 #include "kernelimpl.h"
 
-#define TERMS RAY_TERMS
-
 /* ---- directions ---------------------------------------------------------------------------------------------------------------------- */
-
-/* dN = sum_k dx_k x h_k */
-void ContactFacetVectorRows(const ContactSurface *s, const PetscInt node[], PetscReal h[4][3])
-{
-  memset(h, 0, 4 * sizeof(h[0]));
-  if (s->dim == 2) {
-    h[1][2] = 1, h[0][2] = -1;
-    return;
-  }
-  for (int c = 0; c < 3; c++) {
-    const PetscReal d = s->x[3 * node[2] + c] - s->x[3 * node[0] + c], e = 0.5 * (s->x[3 * node[3] + c] - s->x[3 * node[1] + c]);
-
-    h[2][c] = e, h[0][c] = -e;
-    h[1][c] = 0.5 * d, h[3][c] = -0.5 * d;
-  }
-}
 
 /* w->J[D nv][nn]: directions by the nodes of the result. */
 static PetscErrorCode DirectionRows_Private(RayWork w, const ContactSurface *s, PetscInt facet, PetscBool held)
 {
   const PetscInt nv = w->facet.nv, D = w->facet.D;
-  DirectionTerm  term[TERMS];
 
   PetscFunctionBegin;
   PetscCall(ContactGrow(D * nv * w->nn, sizeof(PetscReal), &w->size_J, &w->J));
   PetscCall(PetscArrayzero(w->J, D * nv * w->nn));
-  for (PetscInt v = 0; v < nv && !held; v++) {
-    const PetscInt terms = ContactDirectionTerms(w, s, nv * facet + (v < 2 ? v : 5 - v), TERMS, term);
-
-    for (PetscInt t = 0; t < terms; t++) {
-      const PetscInt *node = s->facets + nv * term[t].facet;
-      PetscReal       h[4][3];
-
-      ContactFacetVectorRows(s, node, h);
-      for (PetscInt k = 0; k < nv; k++) {
-        const PetscInt  *master;
-        const PetscReal *weight, *g = h[k], X[3][3] = {{0, g[2], -g[1]}, {-g[2], 0, g[0]}, {g[1], -g[0], 0}};
-        const PetscInt   masters = ContactNodeRow(s, &node[k], &master, &weight);
-        PetscInt         place;
-
-        for (PetscInt i = 0; i < masters; i++) {
-          PetscCall(ContactResultNode(&w->result, master[i], &place));
-          for (PetscInt c = 0; c < D; c++)
-            for (PetscInt j = 0; j < D; j++)
-              for (int l = 0; l < 3; l++) w->J[(D * v + c) * w->nn + D * place + j] += weight[i] * term[t].R[3 * c + l] * X[l][j];
-        }
-      }
-    }
-  }
+  for (PetscInt v = 0; v < nv && !held; v++) PetscCall(ContactDirectionRows(w, s, ContactCorner(nv, facet, v), 1, &w->result, w->J + D * v * w->nn));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -62,13 +21,13 @@ static PetscErrorCode DirectionRows_Private(RayWork w, const ContactSurface *s, 
 PetscErrorCode ContactRayDirectionCurvature(RayWork w, const ContactSurface *s, PetscInt facet, const PetscReal gradient[], PetscReal H[])
 {
   const PetscInt na = w->facet.s.num, nn = w->nn;
-  DirectionTerm  term[TERMS];
+  DirectionTerm  term[RAY_TERMS];
 
   PetscFunctionBegin;
   if (s->dim == 2) PetscFunctionReturn(PETSC_SUCCESS);
   for (PetscInt v = 0; v < 4; v++) {
     const PetscReal *along = gradient + 3 * (na + v);
-    const PetscInt   terms = ContactDirectionTerms(w, s, 4 * facet + (v < 2 ? v : 5 - v), TERMS, term);
+    const PetscInt   terms = ContactDirectionTerms(w, s, ContactCorner(4, facet, v), term);
 
     for (PetscInt t = 0; t < terms; t++)
       for (int pair = 0; pair < 4; pair++) {

@@ -42,12 +42,12 @@ static void Meet_Private(const Overlap *o, int a, int b, const PetscReal near[2]
   Ends_Private(o, PetscMax(a, b), &q, &Q);
   const PetscReal d[2] = {P[0] - p[0], P[1] - p[1]}, e[2] = {Q[0] - q[0], Q[1] - q[1]}, r[2] = {q[0] - p[0], q[1] - p[1]}, det = Cross2(d, e);
 
-  if (PetscAbsReal(det) <= 1e-12 * PetscSqrtReal(Dot2(d, d) * Dot2(e, e))) {
+  if (PetscAbsReal(det) <= FACET_PARALLEL * PetscSqrtReal(Dot2(d, d) * Dot2(e, e))) {
     v[0] = near[0], v[1] = near[1];
     return;
   }
   for (int i = 0; i < 2; i++) v[i] = p[i] + Cross2(r, e) / det * d[i];
-  if (PetscMax(PetscAbsReal(v[0] - near[0]), PetscAbsReal(v[1] - near[1])) > FACET_STRAY * size) v[0] = near[0], v[1] = near[1];
+  if (PetscMax(PetscAbsReal(v[0] - near[0]), PetscAbsReal(v[1] - near[1])) > CONTACT_GRAZE * size) v[0] = near[0], v[1] = near[1];
 }
 
 static PetscReal Area_Private(const Overlap *o)

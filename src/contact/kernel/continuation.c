@@ -40,8 +40,6 @@ static void Slope_Private(const RayBeyond *b, PetscInt m, PetscInt order, const 
   for (PetscInt i = 0; i < m; i++) {
     const PetscReal high = m == 1 ? 0 : b->share[i] + b->turn[i] * h[1 - i];
 
-    memset(slope[i], 0, (size_t)num * sizeof(PetscReal));
-    memset(turn[i], 0, (size_t)num * sizeof(PetscReal));
     for (int k = 0; k < 2 * m; k++) {
       const PetscBool to = (PetscBool)(i ? k / 2 : k % 2), on = (PetscBool)(i ? k % 2 : k / 2); /* end and side of direction i */
 
@@ -51,17 +49,12 @@ static void Slope_Private(const RayBeyond *b, PetscInt m, PetscInt order, const 
   }
 }
 
-static PetscBool Within_Private(PetscInt m, const PetscReal xi[2])
-{
-  return (PetscBool)(PetscMax(PetscAbsReal(xi[0]), m == 1 ? 0 : PetscAbsReal(xi[1])) <= 1);
-}
-
-/* f(h) + sum_i (xi_i - h_i) slope_i */
+/* f(h) + sum_i (xi_i - h_i) slope_i; b NULL: slopes 0 */
 void ContactRayBeyond(const RayBeyond *b, PetscInt m, PetscInt order, const PetscReal xi[2], int depth, RayFunctions *to)
 {
   PetscReal h[2][3], slope[2][RAY_LATTICE], turn[2][RAY_LATTICE], at[2] = {0, 0}, past[2] = {0, 0};
 
-  if (Within_Private(m, xi)) {
+  if (PetscMax(PetscAbsReal(xi[0]), m == 1 ? 0 : PetscAbsReal(xi[1])) <= 1) {
     ContactRayFunctions(m, order, xi, depth, to);
     return;
   }
@@ -70,7 +63,9 @@ void ContactRayBeyond(const RayBeyond *b, PetscInt m, PetscInt order, const Pets
     at[i]   = h[i][0];
     past[i] = xi[i] - at[i];
   }
-  Slope_Private(b, m, order, at, slope, turn);
+  memset(slope, 0, sizeof(slope));
+  memset(turn, 0, sizeof(turn));
+  if (b) Slope_Private(b, m, order, at, slope, turn);
   ContactRayFunctions(m, order, at, depth, to);
   for (PetscInt a = 0; a < ElementNumNodes(m, order); a++) {
     if (depth > 1 && m == 2) to->dd[1][a] = to->dd[1][a] * h[0][1] * h[1][1] + turn[0][a] * (1 - h[0][1]) * h[1][1] + turn[1][a] * (1 - h[1][1]) * h[0][1];
@@ -80,28 +75,6 @@ void ContactRayBeyond(const RayBeyond *b, PetscInt m, PetscInt order, const Pets
       to->N[a] += past[i] * slope[i][a];
       if (depth > 1) to->dd[2 * i][a] = to->dd[2 * i][a] * PetscSqr(h[i][1]) + more * h[i][2];
       to->d[i][a] = slope[i][a] + more * h[i][1];
-    }
-  }
-}
-
-void ContactRayTurn(PetscInt m, const PetscReal xi[2], int depth, RayFunctions *to)
-{
-  PetscReal h[2][3], at[2] = {0, 0};
-
-  if (Within_Private(m, xi)) {
-    ContactRayFunctions(m, 1, xi, depth, to);
-    return;
-  }
-  for (PetscInt i = 0; i < m; i++) {
-    Bound_Private(xi[i], h[i]);
-    at[i] = h[i][0];
-  }
-  ContactRayFunctions(m, 1, at, depth, to);
-  for (PetscInt a = 0; a < 2 * m; a++) {
-    if (depth > 1 && m == 2) to->dd[1][a] *= h[0][1] * h[1][1];
-    for (PetscInt i = 0; i < m; i++) {
-      if (depth > 1) to->dd[2 * i][a] = to->d[i][a] * h[i][2]; /* multilinear: no second derivative of its own */
-      to->d[i][a] *= h[i][1];
     }
   }
 }

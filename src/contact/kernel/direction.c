@@ -8,9 +8,8 @@
    corners of facets: corner k of facet f is number nv f + k. */
 #include "kernelimpl.h"
 
-#define DEPTH 6                   /* of corners that hang on edges whose ends hang */
-#define ALONG 0.70710678118654752 /* cosine: a facet whose normal is closer than 45 degrees to that of a plane lies along it and has no image there */
-#define SAME 1e-9                 /* 1 - cosine between the normals of one plane, square of the sine between it and what lies in it */
+#define DEPTH 6   /* of corners that hang on edges whose ends hang */
+#define SAME 1e-9 /* 1 - cosine between the normals of one plane, square of the sine between it and what lies in it */
 
 typedef struct {
   PetscInt from, to, facet;
@@ -273,7 +272,7 @@ static PetscBool LiesAlong_Private(const ContactSurface *s, PetscInt corner, int
   PetscReal        N[3], n[3] = {mirror[0], mirror[1], s->dim == 3 ? mirror[2] : 0};
 
   ContactFacetVector(s->dim, s->x, s->facets + nv * (corner / nv), N);
-  return (PetscBool)(PetscAbsReal(Dot3(n, N)) > ALONG * PetscSqrtReal(Dot3(N, N)));
+  return (PetscBool)(PetscAbsReal(Dot3(n, N)) > STEEP * PetscSqrtReal(Dot3(N, N)));
 }
 
 PetscErrorCode ContactDirectionTopology(RayWork w, const ContactSurface *s)
@@ -315,7 +314,7 @@ static void Images_Private(RayWork w, const ContactSurface *s, PetscInt corner, 
   }
   if (num == 2) {
     Cross3(n[0], n[1], l);
-    if (!(Dot3(l, l) > 1e-12)) num = 1;
+    if (!(Dot3(l, l) > PetscSqr(ROUND_LENGTH))) num = 1;
   }
   for (int i = 0; i < 3; i++)
     for (int j = 0; j < 3; j++) {
@@ -361,9 +360,66 @@ static PetscInt Terms_Private(RayWork w, const ContactSurface *s, PetscInt corne
   return num;
 }
 
-PetscInt ContactDirectionTerms(RayWork w, const ContactSurface *s, PetscInt corner, PetscInt max, DirectionTerm term[])
+PetscInt ContactDirectionTerms(RayWork w, const ContactSurface *s, PetscInt corner, DirectionTerm term[RAY_TERMS])
 {
-  return Terms_Private(w, s, corner, 1, 0, max, term);
+  return Terms_Private(w, s, corner, 1, 0, RAY_TERMS, term);
+}
+
+PetscErrorCode ContactDirectionNodes(RayWork w, const ContactSurface *s, PetscInt corner, Result *r)
+{
+  const PetscInt nv = 2 * (s->dim - 1);
+  DirectionTerm  term[RAY_TERMS];
+  const PetscInt terms = ContactDirectionTerms(w, s, corner, term);
+
+  PetscFunctionBegin;
+  for (PetscInt t = 0; t < terms; t++)
+    for (PetscInt k = 0; k < nv; k++) PetscCall(ContactResultMasters(r, s, s->facets[nv * term[t].facet + k]));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* dN = sum_k dx_k x h_k */
+static void VectorRows_Private(const ContactSurface *s, const PetscInt node[], PetscReal h[4][3])
+{
+  memset(h, 0, 4 * sizeof(h[0]));
+  if (s->dim == 2) {
+    h[1][2] = 1, h[0][2] = -1;
+    return;
+  }
+  for (int c = 0; c < 3; c++) {
+    const PetscReal d = s->x[3 * node[2] + c] - s->x[3 * node[0] + c], e = 0.5 * (s->x[3 * node[3] + c] - s->x[3 * node[1] + c]);
+
+    h[2][c] = e, h[0][c] = -e;
+    h[1][c] = 0.5 * d, h[3][c] = -0.5 * d;
+  }
+}
+
+PetscErrorCode ContactDirectionRows(RayWork w, const ContactSurface *s, PetscInt corner, PetscReal factor, Result *r, PetscReal J[])
+{
+  const PetscInt D = s->dim, nv = 2 * (D - 1), nn = D * r->num_nodes;
+  DirectionTerm  term[RAY_TERMS];
+  const PetscInt terms = ContactDirectionTerms(w, s, corner, term);
+
+  PetscFunctionBegin;
+  for (PetscInt t = 0; t < terms; t++) {
+    const PetscInt *node = s->facets + nv * term[t].facet;
+    PetscReal       h[4][3];
+
+    VectorRows_Private(s, node, h);
+    for (PetscInt k = 0; k < nv; k++) {
+      const PetscReal *g = h[k], X[3][3] = {{0, g[2], -g[1]}, {-g[2], 0, g[0]}, {g[1], -g[0], 0}};
+      const PetscReal *weight;
+      const PetscInt  *master, masters = ContactNodeRow(s, &node[k], &master, &weight);
+      PetscInt         place;
+
+      for (PetscInt i = 0; i < masters; i++) {
+        PetscCall(ContactResultNode(r, master[i], &place));
+        for (PetscInt c = 0; c < D; c++)
+          for (PetscInt j = 0; j < D; j++)
+            for (int l = 0; l < 3; l++) J[c * nn + D * place + j] += factor * weight[i] * term[t].R[3 * c + l] * X[l][j];
+      }
+    }
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 void ContactDirections(RayWork w, const ContactSurface *s)
@@ -372,7 +428,7 @@ void ContactDirections(RayWork w, const ContactSurface *s)
   DirectionTerm  term[RAY_TERMS];
 
   for (PetscInt corner = 0; corner < nv * s->num_facets; corner++) {
-    const PetscInt num = ContactDirectionTerms(w, s, corner, RAY_TERMS, term);
+    const PetscInt num = ContactDirectionTerms(w, s, corner, term);
     PetscReal     *d   = w->d + 3 * corner;
 
     d[0] = d[1] = d[2] = 0;
@@ -398,5 +454,5 @@ PetscBool ContactDirectionUsable(RayWork w, const ContactSurface *s, PetscInt co
     ContactFacetVector(s->dim, s->x, s->facets + nv * (w->ring[k] / nv), N);
     sum += PetscSqrtReal(Dot3(N, N));
   }
-  return PetscSqrtReal(Dot3(w->d + 3 * corner, w->d + 3 * corner)) * Around_Private(w, s, corner) > CONTACT_FOLDED * sum ? PETSC_TRUE : PETSC_FALSE;
+  return PetscSqrtReal(Dot3(w->d + 3 * corner, w->d + 3 * corner)) * Around_Private(w, s, corner) > ROUND_LENGTH * sum ? PETSC_TRUE : PETSC_FALSE;
 }

@@ -2,8 +2,6 @@
    hang. */
 #include "kernelimpl.h"
 
-#define TERMS RAY_TERMS
-
 PetscErrorCode ContactRayTopology(ContactPair pair, const ContactSurface *s)
 {
   PetscFunctionBegin;
@@ -115,22 +113,21 @@ static void Normals_Private(ContactPair pair, const ContactSurface *s)
 
   for (PetscInt i = 0; i < D * s->num_nodes && s->has; i++) pair->normal[i] = NAN;
   for (PetscInt f = 0; f < s->num_facets; f++) {
-    const PetscInt  *node;
     const PetscReal *gauss = NULL;
-    PetscInt         order1[4], p;
+    FacetLattice     l;
 
     if (!HasDirections_Private(pair, s, f)) continue;
-    p = ContactFacetLattice(s, f, &node, order1);
-    if (ElementGetNodes(p, &gauss)) continue;
-    for (PetscInt a = 0; a < ElementNumNodes(m, p); a++) {
-      const PetscReal xi[2] = {2 * gauss[a % (p + 1)] - 1, 2 * gauss[a / (p + 1)] - 1};
+    ContactFacetLattice(s, f, &l);
+    if (ElementGetNodes(l.order, &gauss)) continue;
+    for (PetscInt a = 0; a < l.num; a++) {
+      const PetscReal xi[2] = {2 * gauss[a % (l.order + 1)] - 1, 2 * gauss[a / (l.order + 1)] - 1};
       PetscReal       d[3]  = {0, 0, 0}, length;
 
       ContactRayFunctions(m, 1, xi, 1, &V);
       for (PetscInt v = 0; v < nv; v++)
-        for (int c = 0; c < 3; c++) d[c] += V.N[v] * pair->ray->d[3 * (nv * f + (v < 2 ? v : 5 - v)) + c];
+        for (int c = 0; c < 3; c++) d[c] += V.N[v] * pair->ray->d[3 * ContactCorner(nv, f, v) + c];
       length = PetscSqrtReal(Dot3(d, d));
-      for (PetscInt c = 0; c < D; c++) pair->normal[D * node[a] + c] = length > 0 ? d[c] / length : 0;
+      for (PetscInt c = 0; c < D; c++) pair->normal[D * l.node[a] + c] = length > 0 ? d[c] / length : 0;
     }
   }
 }
@@ -143,29 +140,17 @@ static PetscErrorCode Nodes_Private(const EvaluateContext *ctx, PetscInt facet)
   const ContactMultiplier *multiplier = ctx->pair->multiplier;
   RayWork                  w          = ctx->pair->ray;
   const PetscInt           na = w->facet.s.num, nv = w->facet.nv, first = multiplier->row_first[facet];
-  const PetscInt          *lattice;
-  PetscInt                 order1[4], num = 0, place;
-  DirectionTerm            term[TERMS];
+  FacetLattice             lattice;
+  PetscInt                 num = 0, place;
 
   PetscFunctionBegin;
   w->result.num_nodes = 0;
   w->result.num_rows  = multiplier->row_first[facet + 1] - first;
   for (PetscInt r = 0; r < w->result.num_rows; r++) PetscCall(ContactResultNode(&w->result, multiplier->row_node[first + r], &place));
-  ContactFacetLattice(ctx->nonmortar, facet, &lattice, order1);
+  ContactFacetLattice(ctx->nonmortar, facet, &lattice);
   PetscCall(ContactGrow(na + w->num_mortar + 1, sizeof(PetscInt), &w->result.size_row_first, &w->result.row_first));
-  for (PetscInt a = 0; a < na; a++) PetscCall(ContactResultRow(&w->result, ctx->nonmortar, lattice[a], PETSC_FALSE, a, &num));
-  for (PetscInt v = 0; v < nv; v++) {
-    const PetscInt terms = ContactDirectionTerms(w, ctx->nonmortar, nv * facet + v, TERMS, term);
-
-    for (PetscInt t = 0; t < terms; t++)
-      for (PetscInt k = 0; k < nv; k++) {
-        const PetscInt  *master;
-        const PetscReal *weight;
-        const PetscInt   masters = ContactNodeRow(ctx->nonmortar, &ctx->nonmortar->facets[nv * term[t].facet + k], &master, &weight);
-
-        for (PetscInt i = 0; i < masters; i++) PetscCall(ContactResultNode(&w->result, master[i], &place));
-      }
-  }
+  for (PetscInt a = 0; a < na; a++) PetscCall(ContactResultRow(&w->result, ctx->nonmortar, lattice.node[a], PETSC_FALSE, a, &num));
+  for (PetscInt v = 0; v < nv; v++) PetscCall(ContactDirectionNodes(w, ctx->nonmortar, nv * facet + v, &w->result));
   for (PetscInt r = 0; r < w->result.num_rows && ctx->pair->traction && w->facet.m == 2; r++)
     PetscCall(ContactFrameNodes(w, ctx->nonmortar, w->result.node[r], &w->result));
   for (PetscInt j = 0; j < w->num_mortar; j++) PetscCall(ContactResultRow(&w->result, ctx->mortar, w->vertex[j], PETSC_TRUE, na + j, &num));

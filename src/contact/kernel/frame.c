@@ -23,22 +23,22 @@ static PetscErrorCode LodgeMasters_Private(RayWork w, const ContactSurface *s)
   PetscCall(PetscCalloc1(s->num_nodes, &most));
   for (PetscInt n = 0; n < s->num_nodes; n++) most[n] = w->home[n] < 0 ? 0 : PETSC_INFINITY;
   for (PetscInt f = 0; f < s->num_facets; f++) {
-    const PetscInt  *node;
-    const PetscReal *gauss = NULL;
-    PetscInt         order1[4], p = ContactFacetLattice(s, f, &node, order1);
+    const PetscReal *gauss;
+    FacetLattice     l;
 
-    PetscCall(ElementGetNodes(p, &gauss));
-    for (PetscInt a = 0; a < (p + 1) * (p + 1); a++) {
+    ContactFacetLattice(s, f, &l);
+    PetscCall(ElementGetNodes(l.order, &gauss));
+    for (PetscInt a = 0; a < l.num; a++) {
       const PetscInt  *master;
       const PetscReal *weight;
-      const PetscInt   masters = ContactNodeRow(s, &node[a], &master, &weight);
+      const PetscInt   masters = ContactNodeRow(s, &l.node[a], &master, &weight);
 
       for (PetscInt i = 0; i < masters; i++) {
         if (PetscAbsReal(weight[i]) <= most[master[i]]) continue;
         most[master[i]]          = PetscAbsReal(weight[i]);
         w->home[master[i]]       = f;
-        w->home_xi[master[i]][0] = 2 * gauss[a % (p + 1)] - 1;
-        w->home_xi[master[i]][1] = 2 * gauss[a / (p + 1)] - 1;
+        w->home_xi[master[i]][0] = 2 * gauss[a % (l.order + 1)] - 1;
+        w->home_xi[master[i]][1] = 2 * gauss[a / (l.order + 1)] - 1;
       }
     }
   }
@@ -53,16 +53,16 @@ static PetscErrorCode Homes_Private(RayWork w, const ContactSurface *s)
   PetscCall(PetscMalloc3(s->num_nodes, &w->home, s->num_nodes, &w->home_xi, s->num_nodes, &w->frame));
   for (PetscInt n = 0; n < s->num_nodes; n++) w->home[n] = -1;
   for (PetscInt f = 0; f < s->num_facets; f++) {
-    const PetscInt  *node;
-    const PetscReal *gauss = NULL;
-    PetscInt         order1[4], p = ContactFacetLattice(s, f, &node, order1);
+    const PetscReal *gauss;
+    FacetLattice     l;
 
-    PetscCall(ElementGetNodes(p, &gauss));
-    for (PetscInt a = 0; a < (p + 1) * (p + 1); a++) {
-      if (w->home[node[a]] >= 0) continue;
-      w->home[node[a]]       = f;
-      w->home_xi[node[a]][0] = 2 * gauss[a % (p + 1)] - 1;
-      w->home_xi[node[a]][1] = 2 * gauss[a / (p + 1)] - 1;
+    ContactFacetLattice(s, f, &l);
+    PetscCall(ElementGetNodes(l.order, &gauss));
+    for (PetscInt a = 0; a < l.num; a++) {
+      if (w->home[l.node[a]] >= 0) continue;
+      w->home[l.node[a]]       = f;
+      w->home_xi[l.node[a]][0] = 2 * gauss[a % (l.order + 1)] - 1;
+      w->home_xi[l.node[a]][1] = 2 * gauss[a / (l.order + 1)] - 1;
     }
   }
   PetscCall(LodgeMasters_Private(w, s));
@@ -102,7 +102,7 @@ PetscErrorCode ContactFrames(ContactPair pair, const ContactSurface *s)
     if (h < 0) continue;
     ContactRayFunctions(2, 1, w->home_xi[n], 0, &V);
     for (PetscInt v = 0; v < 4; v++)
-      for (int c = 0; c < 3 && V.N[v] != 0; c++) f->d[c] += V.N[v] * w->d[3 * (4 * h + (v < 2 ? v : 5 - v)) + c];
+      for (int c = 0; c < 3 && V.N[v] != 0; c++) f->d[c] += V.N[v] * w->d[3 * ContactCorner(4, h, v) + c];
     f->given = (PetscBool)(axis && Dot3(axis, axis) > 0);
     for (int c = 0; c < 3; c++) f->c[c] = f->given ? axis[c] : s->x[3 * s->facets[4 * h + 1] + c] - s->x[3 * s->facets[4 * h] + c];
     Axes_Private(f);
@@ -113,41 +113,13 @@ PetscErrorCode ContactFrames(ContactPair pair, const ContactSurface *s)
 PetscErrorCode ContactFrameNodes(RayWork w, const ContactSurface *s, PetscInt node, Result *r)
 {
   const PetscInt h = w->home[node];
-  DirectionTerm  term[RAY_TERMS];
   RayFunctions   V;
-  PetscInt       place;
 
   PetscFunctionBegin;
   ContactRayFunctions(2, 1, w->home_xi[node], 0, &V);
-  for (PetscInt v = 0; v < 4; v++) {
-    const PetscInt terms = V.N[v] != 0 ? ContactDirectionTerms(w, s, 4 * h + (v < 2 ? v : 5 - v), RAY_TERMS, term) : 0;
-
-    for (PetscInt t = 0; t <= terms; t++) /* the last: the home itself, for its side */
-      for (PetscInt k = 0; k < (t < terms ? 4 : 2); k++) {
-        const PetscInt  *master;
-        const PetscReal *weight;
-        const PetscInt   masters = ContactNodeRow(s, &s->facets[4 * (t < terms ? term[t].facet : h) + k], &master, &weight);
-
-        for (PetscInt i = 0; i < masters; i++) PetscCall(ContactResultNode(r, master[i], &place));
-      }
-  }
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* to[3][nn] += M (position of a node), places by the result. */
-static PetscErrorCode AddNode_Private(const ContactSurface *s, const PetscInt *node, const PetscReal M[9], Result *r, PetscInt nn, PetscReal to[])
-{
-  const PetscInt  *master;
-  const PetscReal *weight;
-  const PetscInt   masters = ContactNodeRow(s, node, &master, &weight);
-  PetscInt         place;
-
-  PetscFunctionBegin;
-  for (PetscInt i = 0; i < masters; i++) {
-    PetscCall(ContactResultNode(r, master[i], &place));
-    for (int c = 0; c < 3; c++)
-      for (int j = 0; j < 3; j++) to[c * nn + 3 * place + j] += weight[i] * M[3 * c + j];
-  }
+  for (PetscInt v = 0; v < 4; v++)
+    if (V.N[v] != 0) PetscCall(ContactDirectionNodes(w, s, ContactCorner(4, h, v), r));
+  for (PetscInt k = 0; k < 2; k++) PetscCall(ContactResultMasters(r, s, s->facets[4 * h + k])); /* the home's side */
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -155,33 +127,21 @@ static PetscErrorCode AddNode_Private(const ContactSurface *s, const PetscInt *n
 static PetscErrorCode Numbers_Private(RayWork w, const ContactSurface *s, PetscInt node, Result *r, PetscInt nn, PetscReal J[])
 {
   const PetscInt h = w->home[node];
-  DirectionTerm  term[RAY_TERMS];
   RayFunctions   V;
 
   PetscFunctionBegin;
   ContactRayFunctions(2, 1, w->home_xi[node], 0, &V);
-  for (PetscInt v = 0; v < 4; v++) {
-    const PetscInt terms = V.N[v] != 0 ? ContactDirectionTerms(w, s, 4 * h + (v < 2 ? v : 5 - v), RAY_TERMS, term) : 0;
+  for (PetscInt v = 0; v < 4; v++)
+    if (V.N[v] != 0) PetscCall(ContactDirectionRows(w, s, ContactCorner(4, h, v), V.N[v], r, J));
+  for (PetscInt k = 0; k < 2 && !w->frame[node].given; k++) {
+    const PetscReal *weight;
+    const PetscInt  *master, masters = ContactNodeRow(s, &s->facets[4 * h + k], &master, &weight);
+    PetscInt         place;
 
-    for (PetscInt t = 0; t < terms; t++) {
-      PetscReal g[4][3];
-
-      ContactFacetVectorRows(s, s->facets + 4 * term[t].facet, g);
-      for (PetscInt k = 0; k < 4; k++) {
-        const PetscReal X[3][3] = {{0, g[k][2], -g[k][1]}, {-g[k][2], 0, g[k][0]}, {g[k][1], -g[k][0], 0}};
-        PetscReal       M[9]    = {0};
-
-        for (int c = 0; c < 3; c++)
-          for (int j = 0; j < 3; j++)
-            for (int l = 0; l < 3; l++) M[3 * c + j] += V.N[v] * term[t].R[3 * c + l] * X[l][j];
-        PetscCall(AddNode_Private(s, &s->facets[4 * term[t].facet + k], M, r, nn, J));
-      }
+    for (PetscInt i = 0; i < masters; i++) {
+      PetscCall(ContactResultNode(r, master[i], &place));
+      for (int c = 0; c < 3; c++) J[(3 + c) * nn + 3 * place + c] += k ? weight[i] : -weight[i];
     }
-  }
-  for (int k = 0; k < 2 && !w->frame[node].given; k++) {
-    const PetscReal f = k ? 1 : -1, M[9] = {f, 0, 0, 0, f, 0, 0, 0, f};
-
-    PetscCall(AddNode_Private(s, &s->facets[4 * h + k], M, r, nn, J + 3 * nn));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -38,7 +38,7 @@ static void At_Private(const RayFacet *f, const PetscReal xi[2], int depth, RayF
   static const PetscReal none[3] = {0, 0, 0}, ez[3] = {0, 0, 1};
 
   ContactRayBeyond(&f->beyond, f->m, f->s.order, xi, depth, S);
-  ContactRayTurn(f->m, xi, depth, V);
+  ContactRayBeyond(NULL, f->m, 1, xi, depth, V);
   ContactRayLatticeSum(&f->s, S->N, at->p);
   ContactRayLatticeSum(&f->d, V->N, at->d);
   memcpy(at->t[1], ez, sizeof(ez));

@@ -20,18 +20,17 @@
 #define RAY_LATTICE ((RAY_ORDER + 1) * (RAY_ORDER + 1))
 #define RAY_ROOM (RAY_LATTICE + 12) /* values of a lattice's functions: loops of fixed length write beyond the last */
 #define RAY_MOMENTS (2 * RAY_LATTICE + 1)
-#define RAY_GRAZE 1e-3 /* cosine between the ray and the normal of a facet below which they do not meet */
 #define RAY_SOLVED 1e-9
-#define RAY_FAR 1e7   /* parametric coordinate up to which images are looked for: a facet may be 10^7 times as small as what it sees */
-#define RAY_OUTSIDE 3 /* parametric coordinate up to which rays meet a mortar facet beyond its curved sides */
+#define RAY_FAR                                                                                                                                                \
+  (1 / PETSC_SQRT_MACHINE_EPSILON) /* parametric coordinate up to which images are looked for: a facet may be that much smaller than what it sees */
 
 /* Overlap. Where a mortar facet covers the nonmortar one, in the chart: a convex polygon whose sides lie on lines 0..3 (sides of the nonmortar facet, line i
    from node i to node i + 1) and 4..7 (sides of the mortar facet, nodes listed backwards so that both run counterclockwise). Vertices are intersections of
    neighbouring lines. */
-#define FACET_VERTICES 8  /* of an overlap */
-#define FACET_ON 1e-9     /* distance from a line, over the facet's size, within which a vertex is on it */
-#define FACET_STRAY 1e-3  /* distance, over the facet's size, from the side that is cut, beyond which a crossing is not taken */
-#define FACET_OUTSIDE 1.5 /* parametric coordinate up to which the projection on a facet may lie outside */
+#define FACET_VERTICES 8     /* of an overlap */
+#define FACET_ON 1e-9        /* distance from a line, over the facet's size, within which a vertex is on it */
+#define FACET_PARALLEL 1e-12 /* sine of the angle between lines below which they do not cross */
+#define FACET_OUTSIDE 2      /* parametric coordinate up to which what meets a facet may lie beyond its sides, which may be curved */
 
 /* A facet in the plane's axes. */
 typedef struct {
@@ -55,10 +54,6 @@ PetscBool ContactQuadIsConvex(const PlaneQuad *);
 
 /* clip.c. size: root of the area of the whole facet, of which side[0] may be a part. False: no overlap, or (num > FACET_VERTICES) none that could be used. */
 PetscBool ContactClip(Overlap *, PetscReal size);
-
-/* quadrature.c: barycentric points and weights on a triangle. */
-/* The symmetric rule of the lowest degree, 10 at least, that is exact to `degree`. False: none is. */
-PetscBool ContactRuleGet(PetscInt degree, PetscInt *num, const PetscReal (**point)[3], const PetscReal **weight);
 
 /* occlusion.c: drop overlaps that lie behind others in the facet's view. */
 void ContactUnfold(PetscInt *num, Overlap overlap[], PetscInt order[], PetscReal area);
@@ -188,10 +183,8 @@ void ContactRayLatticeSum(const RayLattice *, const PetscReal f[], PetscReal v[3
 void ContactRayLatticeGather(const ContactSurface *, PetscInt facet, RayLattice *);
 void ContactRayLatticePolynomial(RayLattice *);
 
-/* continuation.c: the same, but beyond [-1, 1]^2 (m = 2) turning to the slope between the corners. */
+/* continuation.c: the same, but beyond [-1, 1]^2 (m = 2) turning to the slope between the corners; NULL, of directions: at h. */
 void ContactRayBeyond(const RayBeyond *, PetscInt m, PetscInt order, const PetscReal xi[2], int depth, RayFunctions *);
-/* Of directions (order 1): beyond [-1, 1]^2 at h. */
-void ContactRayTurn(PetscInt m, const PetscReal xi[2], int depth, RayFunctions *);
 /* kept[k]: the side from corner k on lies in a plane of symmetry. */
 void ContactRayBeyondSides(const PetscBool kept[4], RayBeyond *);
 
@@ -209,8 +202,17 @@ typedef struct {
   PetscInt  facet;
   PetscReal R[9]; /* weight times images in planes of symmetry */
 } DirectionTerm;
-/* d at a corner of a facet = sum_terms R (vector of facet). Returns their number, at most max. */
-PetscInt ContactDirectionTerms(RayWork, const ContactSurface *, PetscInt corner, PetscInt max, DirectionTerm[]);
+#define RAY_TERMS 64 /* most facets around a corner, over all it hangs on */
+/* d at a corner of a facet = sum_terms R (vector of facet). Returns their number. */
+PetscInt ContactDirectionTerms(RayWork, const ContactSurface *, PetscInt corner, DirectionTerm[RAY_TERMS]);
+/* The nodes that it depends on, to a result; J[D][nn] += its derivatives by the nodes of a result, which has them. */
+PetscErrorCode ContactDirectionNodes(RayWork, const ContactSurface *, PetscInt corner, Result *);
+PetscErrorCode ContactDirectionRows(RayWork, const ContactSurface *, PetscInt corner, PetscReal factor, Result *, PetscReal J[]);
+/* Corner of a facet at the place of a lattice of order 1. */
+static inline PetscInt ContactCorner(PetscInt nv, PetscInt facet, PetscInt place)
+{
+  return nv * facet + (place < 2 ? place : 5 - place);
+}
 
 /* chart.c */
 PetscBool ContactChartCreate(const ContactSurface *, PetscInt facet, RayFacet *);
@@ -347,14 +349,10 @@ PetscErrorCode ContactRayChainHessian(RayWork, PetscReal H[]);
 PetscErrorCode ContactRayDirectionCurvature(RayWork, const ContactSurface *, PetscInt facet, const PetscReal gradient[], PetscReal H[]);
 
 /* facet.c */
-#define RAY_TERMS 64 /* most facets around a corner, over all it hangs on */
 PetscErrorCode ContactRayTopology(ContactPair, const ContactSurface *);
 PetscErrorCode ContactRayMortarTopology(RayWork, const ContactSurface *mortar);
 PetscErrorCode ContactRayEvaluate(const EvaluateContext *, PetscBool *failed);
 PetscErrorCode ContactRayWorkDestroy(RayWork *);
-
-/* Derivatives of a facet's vector, dN = sum_k dx_k x h_k. */
-void ContactFacetVectorRows(const ContactSurface *, const PetscInt node[], PetscReal h[4][3]);
 
 /* frame.c: friction in space. Axes of all nodes, after their directions; those of nodes without known neighbours are NaN. */
 PetscErrorCode ContactFrames(ContactPair, const ContactSurface *);
@@ -366,7 +364,7 @@ PetscErrorCode ContactFrameRows(RayWork, const ContactSurface *, PetscInt node, 
 PetscReal ContactCarry(const PetscReal m[3], const PetscReal n[3], const PetscReal Q[3], PetscReal t[3]);
 void      ContactCarryRows(const PetscReal m[3], const PetscReal n[3], const PetscReal Q[3], PetscReal A[3][3], PetscReal B[3][3]);
 
-/* shear.c: in space, forces of the facet at hand by tangential tractions, and their part of the Hessian. */
+/* shear.c: forces of the facet at hand by tangential tractions, and their part of the Hessian. */
 PetscErrorCode ContactShear(const EvaluateContext *, ContactFacet *out);
 
 /* slip.c: to[D masters][ld] += from[D (lattice, then mortar nodes)][stride] of the facet at hand. */

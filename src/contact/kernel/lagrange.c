@@ -94,28 +94,14 @@ void ContactRayLatticeSum(const RayLattice *l, const PetscReal f[], PetscReal v[
   for (int c = 0; c < 3; c++) v[c] = sum[c];
 }
 
-PetscInt ContactFacetLattice(const ContactSurface *s, PetscInt facet, const PetscInt **nodes, PetscInt order1[4])
-{
-  const PetscInt nv = s->dim == 2 ? 2 : 4;
-
-  if (s->order) {
-    *nodes = s->lattice + s->first[facet];
-    return s->order[facet];
-  }
-  for (PetscInt k = 0; k < nv; k++) order1[k] = s->facets[nv * facet + (k < 2 ? k : 5 - k)];
-  *nodes = order1;
-  return 1;
-}
-
 void ContactRayLatticeGather(const ContactSurface *s, PetscInt facet, RayLattice *l)
 {
-  const PetscInt *node;
-  PetscInt        order1[4];
+  FacetLattice at;
 
-  l->order = ContactFacetLattice(s, facet, &node, order1);
-  l->num   = ElementNumNodes(s->dim - 1, l->order);
+  ContactFacetLattice(s, facet, &at);
+  l->order = at.order, l->num = at.num;
   for (PetscInt a = 0; a < l->num; a++)
-    for (PetscInt c = 0; c < 4; c++) l->x[a][c] = c < s->dim ? s->x[s->dim * node[a] + c] : 0;
+    for (PetscInt c = 0; c < 4; c++) l->x[a][c] = c < s->dim ? s->x[s->dim * at.node[a] + c] : 0;
   if (l->num == 4 && l->order == 1) ContactRayLatticePolynomial(l);
 }
 

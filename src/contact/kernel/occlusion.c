@@ -4,8 +4,6 @@
 #include "kernelimpl.h"
 
 enum { MOST = 2 * FACET_VERTICES };
-#define SHARED 1e-6
-#define SLIVER 0.1
 
 /* Of the mortar facet at the middle of the overlap. */
 static PetscReal Distance_Private(const Overlap *o)
@@ -58,7 +56,7 @@ void ContactUnfold(PetscInt *num, Overlap overlap[], PetscInt order[], PetscReal
   PetscInt  kept    = 0;
 
   for (PetscInt i = 0; i < *num; i++) covered += overlap[i].area;
-  if (covered <= (1 + SHARED) * area) return;
+  if (covered <= (1 + ROUND_LENGTH) * area) return;
   for (PetscInt i = 0; i < *num; i++) { /* insertion sort by distance: few */
     const Overlap   o = overlap[i];
     const PetscInt  n = order[i];
@@ -72,7 +70,7 @@ void ContactUnfold(PetscInt *num, Overlap overlap[], PetscInt order[], PetscReal
     PetscReal hidden = 0;
 
     for (PetscInt k = 0; k < kept; k++) hidden += Shared_Private(&overlap[k], &overlap[i]);
-    if (hidden > PetscMax(SHARED * area, SLIVER * overlap[i].area)) continue;
+    if (hidden > PetscMax(ROUND_LENGTH * area, CONTACT_SLIVER * overlap[i].area)) continue;
     overlap[kept] = overlap[i], order[kept++] = order[i];
   }
   *num = kept;

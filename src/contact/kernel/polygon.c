@@ -11,11 +11,10 @@
    (dY_b - dY_a), symmetric but for quadrature. Where lines coincide but for rounding there is no such place, and it is left out. */
 #include "kernelimpl.h"
 #include <petscblaslapack.h>
+#include <petscdt.h>
 
 #define MOST_POINTS 144
-#define SMALL 0.01    /* sine of an angle */
-#define COINCIDE 1e-5 /* the same, below which the place of the crossing tells nothing */
-#define JOINT 8       /* line between the two corners at one place */
+#define JOINT 8 /* line between the two corners at one place */
 
 /* W[nl][nr] += factor sum_k left[k][nl] right[k][nr] */
 void ContactRayProducts(PetscInt num, PetscReal factor, PetscInt nl, const PetscReal left[], PetscInt ldl, PetscInt nr, const PetscReal right[], PetscInt ldr,
@@ -31,36 +30,35 @@ void ContactRayProducts(PetscInt num, PetscReal factor, PetscInt nl, const Petsc
 
 /* ---- quadrature ---------------------------------------------------------------------------------------------------------------------- */
 
-/* Barycentric points and weights. What is integrated between flat parallelograms is a polynomial of degree 2 order_s + 2 order_m at most, 4 order_s where it is
-   a derivative by the facet's own nodes; two degrees more than the first, at least, are for others. Gauss points on intervals; on triangles symmetric rules
-   (quadrature.c), beyond them conical products. Node to segment: the node. */
+/* Barycentric points and weights, Gauss' on intervals, symmetric on triangles, up to degree 20 of least number. What is integrated between flat parallelograms
+   is a polynomial of degree 2 order_s + 2 order_m at most, 4 order_s where it is a derivative by the facet's own nodes; two degrees more than the first, at
+   least, are for others, and on triangles no rule is of less than degree 10. Node to segment: the node. */
 PetscErrorCode ContactRayRule(const RayFacet *f, const Overlap *o, PetscInt mortar_order, PetscInt *num, const PetscReal (**point)[3], const PetscReal **weight)
 {
   static const PetscReal End[2][3] = {{1, 0, 0}, {0, 1, 0}}, Half = 0.5;
   static PetscReal       P[2][RAY_ORDER + 5][MOST_POINTS][3], Q[2][RAY_ORDER + 5][MOST_POINTS];
-  const PetscInt         m = f->m, sum = f->s.order + mortar_order, half = PetscMax(sum + 1, 2 * f->s.order);
-  const PetscInt         n = PetscMin(m == 1 ? half + 2 : half + 1, RAY_ORDER + 4);
-  const Basis1D         *gauss;
+  static PetscInt        N[2][RAY_ORDER + 5];
+  const PetscInt         m = f->m, half = PetscMax(f->s.order + mortar_order + 1, 2 * f->s.order);
+  const PetscInt         n = PetscMin(m == 1 ? half + 2 : PetscMax(half, 5) + 1, RAY_ORDER + 4);
+  PetscReal(*const p)[3]   = P[m - 1][n];
+  const PetscReal *x, *w;
+  PetscQuadrature  rule;
 
   PetscFunctionBegin;
-  if (o->node >= 0) {
-    *num = 1, *point = End + o->node, *weight = &Half;
-    PetscFunctionReturn(PETSC_SUCCESS);
-  }
-  if (m == 2 && ContactRuleGet(2 * half, num, point, weight)) PetscFunctionReturn(PETSC_SUCCESS);
-  *num    = m == 1 ? n : n * n;
-  *point  = (const PetscReal(*)[3])P[m - 1][n];
-  *weight = Q[m - 1][n];
-  if (Q[m - 1][n][0] != 0) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(Basis1DGet(1, n, &gauss));
+  *num = N[m - 1][n], *point = (const PetscReal(*)[3])p, *weight = Q[m - 1][n];
+  if (o->node >= 0) *num = 1, *point = End + o->node, *weight = &Half;
+  if (*num) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(PetscDTSimplexQuadrature(m, 2 * n - 2, PETSCDTSIMPLEXQUAD_DEFAULT, &rule));
+  PetscCall(PetscQuadratureGetData(rule, NULL, NULL, num, &x, &w));
+  PetscCheck(*num <= MOST_POINTS, PETSC_COMM_SELF, PETSC_ERR_PLIB, "quadrature rule of %" PetscInt_FMT " points", *num);
+  N[m - 1][n] = *num;
   for (PetscInt k = 0; k < *num; k++) {
-    const PetscReal u = gauss->points[k % n], v = m == 2 ? gauss->points[k / n] : 0;
-
-    P[m - 1][n][k][0] = (1 - u) * (1 - v);
-    P[m - 1][n][k][1] = u;
-    P[m - 1][n][k][2] = v * (1 - u);
-    Q[m - 1][n][k]    = gauss->weights[k % n] * (m == 2 ? 2 * (1 - u) * gauss->weights[k / n] : 1);
+    p[k][1]        = 0.5 * (1 + x[m * k]);
+    p[k][2]        = m == 2 ? 0.5 * (1 + x[2 * k + 1]) : 0;
+    p[k][0]        = 1 - p[k][1] - p[k][2];
+    Q[m - 1][n][k] = 0.5 * w[k];
   }
+  PetscCall(PetscQuadratureDestroy(&rule));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -82,10 +80,10 @@ static void Crossing_Private(const Overlap *o, PetscInt k, int side, int image, 
   const PetscReal  size = PetscSqrtReal(Dot2(nu, nu));
   PetscReal        t;
 
-  if (PetscAbsReal(det) <= 1e-12 * size * PetscSqrtReal(Dot2(e, e))) return;
+  if (PetscAbsReal(det) <= FACET_PARALLEL * size * PetscSqrtReal(Dot2(e, e))) return;
   t = Dot2(nu, r) / det;
   for (int i = 0; i < 2; i++)
-    if (PetscAbsReal(a[i] + t * e[i] - o->v[k][i]) > 0.1 * FACET_STRAY * size) return; /* it was not taken: clip.c */
+    if (PetscAbsReal(a[i] + t * e[i] - o->v[k][i]) > CONTACT_GRAZE * size) return; /* it was not taken: clip.c */
   move->a = image, move->b = (image + 1) % 4;
   for (int i = 0; i < 2; i++) {
     move->e[i]  = e[i];
@@ -114,7 +112,7 @@ static void Joint_Private(const Overlap *o, PetscInt k, int side, int image, Pet
     move->d[i][2 * image + i] = 1 - t;
     move->d[i][2 * next + i]  = t;
   }
-  if (Sine_Private(o, side, 4 + image) > COINCIDE) Crossing_Private(o, k, side, image, &crossing);
+  if (Sine_Private(o, side, 4 + image) > ROUND_LENGTH) Crossing_Private(o, k, side, image, &crossing);
   if (crossing.a < 0) return;
   move->slips = PETSC_TRUE;
   for (int j = 0; j < RAY_IMAGES; j++) {
@@ -131,7 +129,7 @@ void ContactRaySplit(const RayFacet *f, const Overlap *o, Overlap *to)
   to->num = 0;
   for (PetscInt k = 0; k < o->num; k++) {
     const int       a = o->line[(k + o->num - 1) % o->num], b = o->line[k];
-    const PetscBool split = (PetscBool)(a / 4 != b / 4 && to->num + o->num - k < FACET_VERTICES && Sine_Private(o, a, b) < SMALL);
+    const PetscBool split = (PetscBool)(a / 4 != b / 4 && to->num + o->num - k < FACET_VERTICES && Sine_Private(o, a, b) < CONTACT_GRAZE);
 
     for (int twice = split ? 1 : 0; twice >= 0; twice--) {
       for (int i = 0; i < 2; i++) to->v[to->num][i] = o->v[k][i];
@@ -242,16 +240,16 @@ void ContactRayPlaces(const RayWork w, const ContactSurface *mortar, PetscInt ov
 {
   const RayFacet *f = &w->facet;
   const PetscInt  D = f->D, own = f->s.num + f->nv, images = D * (own + w->num_mortar);
-  PetscInt        order1[4], at;
-  const PetscInt *node;
+  PetscInt        at;
+  FacetLattice    l;
 
   for (PetscInt c = 0; c < D; c++) {
     for (PetscInt a = 0; a < f->s.num; a++) place[c * f->s.num + a] = D * a + c;
     for (PetscInt v = 0; v < f->nv; v++) place[D * f->s.num + c * f->nv + v] = D * (f->s.num + v) + c;
   }
-  ContactFacetLattice(mortar, w->mortar[overlap], &node, order1);
+  ContactFacetLattice(mortar, w->mortar[overlap], &l);
   for (PetscInt b = 0; b < nb; b++) {
-    for (at = 0; at < w->num_mortar && w->vertex[at] != node[b]; at++) continue;
+    for (at = 0; at < w->num_mortar && w->vertex[at] != l.node[b]; at++) continue;
     for (PetscInt c = 0; c < D; c++) place[D * own + c * nb + b] = D * (own + at) + c;
   }
   for (PetscInt k = 0; k < f->nv; k++) {

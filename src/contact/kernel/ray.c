@@ -44,7 +44,7 @@ PetscBool ContactRayInverse(RayPoint *r)
 
   Cross3(r->Xi[0], r->Xi[1], normal);
   det = -Dot3(r->d, normal);
-  if (!(det > RAY_GRAZE * PetscSqrtReal(Dot3(normal, normal) * Dot3(r->d, r->d)))) return PETSC_FALSE;
+  if (!(det > CONTACT_GRAZE * PetscSqrtReal(Dot3(normal, normal) * Dot3(r->d, r->d)))) return PETSC_FALSE;
   Cross3(r->d, r->Xi[1], r->zeta[0]);
   Cross3(r->Xi[0], r->d, r->zeta[1]);
   over = 1 / det;
@@ -83,7 +83,7 @@ static void Along_Private(RayPoint *r, PetscReal e[3])
 static PetscBool Inside_Private(const RayFacet *f, const RayPoint *r)
 {
   for (PetscInt i = 0; i < f->m; i++)
-    if (!(PetscAbsReal(r->eta[i]) < (f->m == 2 ? RAY_OUTSIDE : FACET_OUTSIDE))) return PETSC_FALSE;
+    if (!(PetscAbsReal(r->eta[i]) < FACET_OUTSIDE)) return PETSC_FALSE;
   return PETSC_TRUE;
 }
 

@@ -1,14 +1,5 @@
 /* Planes of symmetry that a scene does not use: mesh, bodies, supports and loads are their own mirror images, so half of it is enough. */
-#include "appimpl.h"
-
-#define SAME 1e-7 /* of the mesh's size: positions closer are one, as gmsh writes them with fewer digits than it has */
-
-/* A cell or facet, by its middle. */
-typedef struct {
-  PetscReal X[3], key; /* key: a sum of coordinates that is the same for a place and its mirror image */
-  PetscInt  body;      /* -1: a facet */
-  uint64_t  groups;
-} Place;
+#include "needsimpl.h"
 
 typedef struct {
   PetscInt  axis, num;
@@ -17,12 +8,6 @@ typedef struct {
   PetscInt *image;    /* owned [num] */
   uint64_t  partner[64];
 } Mirror;
-
-static int CompareKey_Private(const void *a, const void *b)
-{
-  const PetscReal x = ((const Place *)a)->key, y = ((const Place *)b)->key;
-  return (x > y) - (x < y);
-}
 
 /* Middle of entity e of a leaf, by its place in the leaf's closure. */
 static PetscErrorCode Middle_Private(Forest forest, const ForestTables *t, PetscInt leaf, PetscInt e, PetscReal X[3])
@@ -41,7 +26,6 @@ static PetscErrorCode Middle_Private(Forest forest, const ForestTables *t, Petsc
 /* All cells, and all facets of a boundary group. */
 static PetscErrorCode Places_Private(Forest forest, Mirror *m)
 {
-  const PetscReal     weight[3] = {0.618033988749895, 0.414213562373095, 0.732050807568877};
   const ForestTables *t;
 
   PetscFunctionBegin;
@@ -56,11 +40,10 @@ static PetscErrorCode Places_Private(Forest forest, Mirror *m)
     PetscCall(Middle_Private(forest, t, cell ? e - t->first[t->dim] : t->entity_leaf[e], e, p->X));
     p->body   = cell ? t->leaf_body[e - t->first[t->dim]] : -1;
     p->groups = cell ? 0 : t->boundary[e];
-    p->key    = 0;
-    for (PetscInt c = 0; c < 3; ++c) p->key += weight[c] * (c == m->axis ? PetscAbsReal(p->X[c] - m->at) : p->X[c]);
+    PlaceKey(p, m->axis, &m->at);
     ++m->num;
   }
-  qsort(m->place, (size_t)m->num, sizeof(*m->place), CompareKey_Private);
+  PlacesSort(m->num, m->place);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -68,23 +51,17 @@ static PetscBool Image_Private(const Mirror *m, PetscInt i, PetscInt j)
 {
   const Place *p = &m->place[i], *q = &m->place[j];
 
-  if (p->body != q->body || !p->groups != !q->groups) return PETSC_FALSE;
-  for (PetscInt c = 0; c < 3; ++c) {
-    const PetscReal there = c == m->axis ? 2 * m->at - p->X[c] : p->X[c];
-    if (PetscAbsReal(there - q->X[c]) > SAME * m->size) return PETSC_FALSE;
-  }
-  return PETSC_TRUE;
+  return (PetscBool)(p->body == q->body && !p->groups == !q->groups && PlaceIs(p, q, m->axis, m->at, -1, m->size));
 }
 
 /* The image of each place; none straddles the plane: then the mesh cannot be cut there. */
 static PetscBool Images_Private(Mirror *m)
 {
   for (PetscInt i = 0, first = 0; i < m->num; ++i) {
-    while (m->place[first].key < m->place[i].key - 4 * SAME * m->size) ++first;
-    PetscInt j = first;
-    while (j < m->num && m->place[j].key < m->place[i].key + 4 * SAME * m->size && !Image_Private(m, i, j)) ++j;
-    if (j == m->num || !Image_Private(m, i, j)) return PETSC_FALSE;
-    if (j == i && m->place[i].body >= 0) return PETSC_FALSE;
+    const PetscInt last = PlacesLike(m->num, m->place, i, m->size, &first);
+    PetscInt       j    = first;
+    while (j < last && !Image_Private(m, i, j)) ++j;
+    if (j == last || (j == i && m->place[i].body >= 0)) return PETSC_FALSE;
     m->image[i] = j;
   }
   return PETSC_TRUE;
@@ -125,7 +102,7 @@ static PetscErrorCode Same_Private(const Mirror *m, const BoundarySpec *a, const
       PetscReal       value[2];
       PetscCall(MechanicsValue(f, &a->amplitude, m->place[i].X, t, &value[0]));
       PetscCall(MechanicsValue(g, &b->amplitude, m->place[m->image[i]].X, t, &value[1]));
-      if (!(PetscAbsReal(sign * value[0] - value[1]) <= SAME * (PetscAbsReal(value[0]) + PetscAbsReal(value[1])))) *same = PETSC_FALSE;
+      if (!(PetscAbsReal(sign * value[0] - value[1]) <= NEEDS_SAME * (PetscAbsReal(value[0]) + PetscAbsReal(value[1])))) *same = PETSC_FALSE;
     }
   }
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -178,21 +155,20 @@ static PetscErrorCode Bodies_Private(const Mirror *m, const SceneData *data, Pet
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode AppFindMirrors(const SceneData *data, Forest forest, PetscBool mirror[3], PetscReal at[3])
+PetscErrorCode NeedsFindMirrors(const SceneData *data, Forest forest, PetscBool mirror[3], PetscReal at[3])
 {
   const CoarseMesh *mesh;
   PetscReal         lo[3], hi[3];
 
   PetscFunctionBegin;
   PetscCall(ForestGetCoarse(forest, &mesh));
-  ForestCoarseBox(mesh, lo, hi);
+  const PetscReal size = NeedsSize(mesh, lo, hi);
   for (PetscInt axis = 0; axis < 3; ++axis) {
-    Mirror m = {.axis = axis, .at = 0.5 * (lo[axis] + hi[axis])};
+    Mirror m = {.axis = axis, .at = 0.5 * (lo[axis] + hi[axis]), .size = size};
 
     mirror[axis] = PETSC_FALSE;
     at[axis]     = m.at;
     if (axis >= mesh->dim || (data->mechanics.model == MODEL_AXISYMMETRIC && axis == 0)) continue;
-    for (PetscInt c = 0; c < mesh->dim; ++c) m.size = PetscMax(m.size, hi[c] - lo[c]);
     PetscCall(Places_Private(forest, &m));
     mirror[axis] = (PetscBool)(Images_Private(&m) && Partners_Private(&m, mesh->num_boundaries));
     if (mirror[axis]) PetscCall(Boundaries_Private(&m, data, &mirror[axis]));

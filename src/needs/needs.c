@@ -1,7 +1,6 @@
 /* What a run could have left out of its model, at the end of it: parts that did nothing, or of which the energy at the state found says that they change the
    results by less than the tolerance. Formulas: docs/theory.md, no more model than needed. */
-#include "appimpl.h"
-#include <cjson/cJSON.h>
+#include "needsimpl.h"
 
 #define FORCE_OF_ENERGY 1.5 /* relative change of forces where the energy's is 1: the first nonlinear term of it is cubic in the load */
 #define LONG_STEP 5         /* iterations of a solution from which on a load step is a long one for Newton's method: no longer one then */
@@ -14,22 +13,22 @@
 static const PetscReal OfFlow[] = {0.4, 0.4, 0.8}, OfFibers[] = {0.25, 0.2, 0}, OfPressure[] = {0.3, 0.6, 0};
 
 typedef struct {
-  App       *app;
-  Needs     *needs;
-  BodyTerms *terms;     /* owned [num_bodies], over all ranks */
-  PetscInt  *cells;     /* owned [num_bodies] */
-  PetscReal  energy;    /* of all bodies */
-  PetscReal  turn;      /* work of follower pressures beyond that of dead loads */
-  PetscInt   layers[3]; /* AppFindPrism, by axis */
-  PetscReal  along[3];
-  PetscReal  total;   /* seconds of the run */
-  PetscReal  solving; /* share of it in Newton's iterations */
-  PetscReal  mesh;    /* share of it that goes with the number of cells */
+  const NeedsRun *run;
+  Needs          *needs;
+  BodyTerms      *terms;     /* owned [num_bodies], over all ranks */
+  PetscInt       *cells;     /* owned [num_bodies] */
+  PetscReal       energy;    /* of all bodies */
+  PetscReal       turn;      /* work of follower pressures beyond that of dead loads */
+  PetscInt        layers[3]; /* NeedsFindPrism, by axis */
+  PetscReal       along[3];
+  PetscReal       total;   /* seconds of the run */
+  PetscReal       solving; /* share of it in Newton's iterations */
+  PetscReal       mesh;    /* share of it that goes with the number of cells */
 } Context;
 
 /* ---- rows ----------------------------------------------------------------------------------------------------------------------------- */
 
-static PetscErrorCode Row_Private(Context *c, const char *part, const char *name, PetscReal change, PetscReal saves, Need **row)
+static PetscErrorCode Row_Private(Context *c, const char *part, const char *name, PetscReal change, PetscReal saves, const char *why, Need **row)
 {
   Needs *n = c->needs;
 
@@ -43,22 +42,16 @@ static PetscErrorCode Row_Private(Context *c, const char *part, const char *name
   (*row)->keeps  = (PetscBool)((*row)->change <= PetscMin(n->tolerance, MOST_CHANGE));
   (*row)->set    = cJSON_CreateObject();
   PetscCall(PetscStrncpy((*row)->name, name, sizeof((*row)->name)));
+  PetscCall(PetscStrncpy((*row)->why, why, sizeof((*row)->why)));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* A row that goes by the energy of the last state, which tells nothing of a state before that stored more. */
-static PetscErrorCode EnergyRow_Private(Context *c, const char *part, const char *name, PetscReal change, PetscReal saves, Need **row)
+static PetscErrorCode EnergyRow_Private(Context *c, const char *part, const char *name, PetscReal change, PetscReal saves, const char *why, Need **row)
 {
   PetscFunctionBegin;
-  PetscCall(Row_Private(c, part, name, change, saves, row));
-  if (c->app->balance.status.energy < MOST_STORED * c->app->most_energy) (*row)->keeps = PETSC_FALSE;
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-static PetscErrorCode Why_Private(Need *row, const char *why)
-{
-  PetscFunctionBegin;
-  PetscCall(PetscStrncpy(row->why, why, sizeof(row->why)));
+  PetscCall(Row_Private(c, part, name, change, saves, why, row));
+  if (c->run->balance->status.energy < MOST_STORED * c->run->most_energy) (*row)->keeps = PETSC_FALSE;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -100,9 +93,9 @@ static PetscReal Saves_Private(const Context *c, const MaterialSpec *m, const Pe
 {
   PetscInt cells = 0, all = 0;
 
-  for (PetscInt b = 0; b < c->app->data->mechanics.num_bodies; ++b) {
+  for (PetscInt b = 0; b < c->run->data->mechanics.num_bodies; ++b) {
     all += c->cells[b];
-    if (c->app->data->mechanics.bodies[b].material == m) cells += c->cells[b];
+    if (c->run->data->mechanics.bodies[b].material == m) cells += c->cells[b];
   }
   return (PetscReal)cells / (PetscReal)all *
          (share[0] * StageSeconds(STAGE_ASSEMBLE) + share[1] * StageSeconds(STAGE_ESTIMATE) + share[2] * StageSeconds(STAGE_TRANSFER)) / c->total;
@@ -112,14 +105,14 @@ static PetscReal Saves_Private(const Context *c, const MaterialSpec *m, const Pe
 
 static PetscErrorCode Contact_Private(Context *c)
 {
-  const SceneData *data = c->app->data;
+  const SceneData *data = c->run->data;
   Need            *row;
 
   PetscFunctionBegin;
   for (PetscInt i = 0; i < data->num_contacts; ++i) {
-    if (c->app->touched[i] || c->app->balance.pair[i].tied) continue;
-    PetscCall(Row_Private(c, "contact", data->contacts[i].name, 0, StageSeconds(STAGE_CONTACT) / c->total / (PetscReal)data->num_contacts, &row));
-    PetscCall(Why_Private(row, "its sides have not touched"));
+    if (c->run->touched[i] || c->run->balance->pair[i].tied) continue;
+    PetscCall(Row_Private(c, "contact", data->contacts[i].name, 0, StageSeconds(STAGE_CONTACT) / c->total / (PetscReal)data->num_contacts,
+                          "its sides have not touched", &row));
     Drop_Private(row, "contact", data->contacts[i].name);
   }
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -128,7 +121,7 @@ static PetscErrorCode Contact_Private(Context *c)
 /* Is it the material of these bodies only that `alike` holds of? First: of them. */
 static PetscBool All_Private(const Context *c, PetscInt material, PetscBool (*alike)(const Context *, PetscInt body))
 {
-  const SceneData *data = c->app->data;
+  const SceneData *data = c->run->data;
   PetscBool        any  = PETSC_FALSE;
 
   for (PetscInt b = 0; b < data->mechanics.num_bodies; ++b) {
@@ -141,13 +134,13 @@ static PetscBool All_Private(const Context *c, PetscInt material, PetscBool (*al
 
 static PetscBool Elastic(const Context *c, PetscInt body)
 {
-  return BalanceStaysElastic(&c->app->balance, &c->app->data->mechanics, body);
+  return BalanceStaysElastic(c->run->balance, &c->run->data->mechanics, body);
 }
 
 /* Half of the factorisations' time, where nothing but this material makes the matrix unsymmetric. */
 static PetscReal Symmetric_Private(const Context *c, PetscInt material)
 {
-  const SceneData *data = c->app->data;
+  const SceneData *data = c->run->data;
 
   if (!data->materials[material].law->unsymmetric) return 0;
   for (PetscInt i = 0; i < data->num_materials; ++i)
@@ -159,15 +152,15 @@ static PetscReal Symmetric_Private(const Context *c, PetscInt material)
 
 static PetscErrorCode Flow_Private(Context *c)
 {
-  const SceneData *data = c->app->data;
+  const SceneData *data = c->run->data;
   Need            *row;
 
   PetscFunctionBegin;
   for (PetscInt i = 0; i < data->num_materials; ++i) {
     const MaterialSpec *m = &data->materials[i];
     if (!All_Private(c, i, Elastic)) continue;
-    PetscCall(Row_Private(c, "flow", m->name, 0, Saves_Private(c, m, OfFlow) + Symmetric_Private(c, i), &row));
-    PetscCall(Why_Private(row, "its material has not flowed: neo_hookean with the same moduli and volumetric gives the same"));
+    PetscCall(Row_Private(c, "flow", m->name, 0, Saves_Private(c, m, OfFlow) + Symmetric_Private(c, i),
+                          "its material has not flowed: neo_hookean with the same moduli and volumetric gives the same", &row));
     Elastic_Private(row, m, "neo_hookean");
   }
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -178,7 +171,7 @@ static PetscErrorCode Flow_Private(Context *c)
 /* Sum of an energy over the bodies of a material, relative to that of all bodies. */
 static PetscReal Share_Private(const Context *c, PetscInt material, size_t offset)
 {
-  const SceneData *data = c->app->data;
+  const SceneData *data = c->run->data;
   PetscReal        sum  = 0;
 
   for (PetscInt b = 0; b < data->mechanics.num_bodies; ++b)
@@ -196,7 +189,7 @@ static PetscBool SecondInvariant_Private(const MaterialSpec *m)
 
 static PetscErrorCode Fibers_Private(Context *c)
 {
-  const SceneData *data = c->app->data;
+  const SceneData *data = c->run->data;
   Need            *row;
 
   PetscFunctionBegin;
@@ -204,8 +197,8 @@ static PetscErrorCode Fibers_Private(Context *c)
     const MaterialSpec *m = &data->materials[i];
     if (!m->num_fibers || data->mechanics.kinematics == KINEMATICS_SMALL || SecondInvariant_Private(m)) continue;
     const PetscReal share = Share_Private(c, i, offsetof(BodyTerms, fibers));
-    PetscCall(EnergyRow_Private(c, "fibers", m->name, FORCE_OF_ENERGY * share, Saves_Private(c, m, OfFibers), &row));
-    PetscCall(Why_Private(row, share == 0 ? "they were slack everywhere" : "the share of the energy in its fibres"));
+    PetscCall(EnergyRow_Private(c, "fibers", m->name, FORCE_OF_ENERGY * share, Saves_Private(c, m, OfFibers),
+                                share == 0 ? "they were slack everywhere" : "the share of the energy in its fibres", &row));
     Elastic_Private(row, m, "neo_hookean");
   }
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -218,8 +211,8 @@ static PetscReal Strain_Private(const Context *c, const MaterialSpec *m)
 {
   PetscReal volume = 0, strain2 = 0;
 
-  for (PetscInt b = 0; b < c->app->data->mechanics.num_bodies; ++b) {
-    if (m && c->app->data->mechanics.bodies[b].material != m) continue;
+  for (PetscInt b = 0; b < c->run->data->mechanics.num_bodies; ++b) {
+    if (m && c->run->data->mechanics.bodies[b].material != m) continue;
     volume += c->terms[b].volume;
     strain2 += c->terms[b].strain2;
   }
@@ -228,7 +221,7 @@ static PetscReal Strain_Private(const Context *c, const MaterialSpec *m)
 
 static PetscErrorCode Mixed_Private(Context *c)
 {
-  const SceneData *data = c->app->data;
+  const SceneData *data = c->run->data;
   Need            *row;
 
   PetscFunctionBegin;
@@ -237,8 +230,8 @@ static PetscErrorCode Mixed_Private(Context *c)
     if (m->law->rigid || !MaterialStoresPressure(m) || m->volumetric == VOLUMETRIC_LOG) continue;
     const PetscReal share = Share_Private(c, i, offsetof(BodyTerms, projected));
     if (share == 0) continue;
-    PetscCall(EnergyRow_Private(c, "mixed", m->name, PetscSqrtReal(PetscMax(0, share)), Saves_Private(c, m, OfPressure), &row));
-    PetscCall(Why_Private(row, "root of the energy that the displacement form adds at the state found"));
+    PetscCall(EnergyRow_Private(c, "mixed", m->name, PetscSqrtReal(PetscMax(0, share)), Saves_Private(c, m, OfPressure),
+                                "root of the energy that the displacement form adds at the state found", &row));
     if (m->kappa / m->mu * Strain_Private(c, m) > 1) row->keeps = PETSC_FALSE; /* it costs Newton's method more than it saves */
     char key[2 * MORTISE_NAME];
     (void)snprintf(key, sizeof(key), "material.%s.formulation", m->name);
@@ -266,10 +259,10 @@ static PetscBool MayBeSmall_Private(const SceneData *data)
 
 static PetscErrorCode Kinematics_Private(Context *c)
 {
-  const SceneData *data     = c->app->data;
-  const Path      *path     = &c->app->path;
+  const SceneData *data     = c->run->data;
+  const Path      *path     = c->run->path;
   const PetscInt   again    = PetscMax(0, path->factorisations - path->newton_iterations); /* for changes of the active set, which stay */
-  const PetscInt   tangents = c->app->load_steps + c->app->adapt_passes + again;
+  const PetscInt   tangents = c->run->load_steps + c->run->adapt_passes + again;
   PetscReal        linear = c->turn, misfit = 0, slide = 0;
   Need            *row;
 
@@ -281,13 +274,13 @@ static PetscErrorCode Kinematics_Private(Context *c)
   }
   for (PetscInt i = 0; i < data->num_contacts; ++i) {
     PetscReal turn;
-    PetscCall(AppContactTurn(c->app, i, &turn));
+    PetscCall(NeedsContactTurn(c->run, i, &turn));
     slide = PetscMax(slide, turn);
   }
   const PetscReal fewer     = PetscMin(1, (PetscReal)tangents / (PetscReal)PetscMax(1, PetscMax(path->factorisations, path->newton_iterations)));
   const PetscReal of_energy = FORCE_OF_ENERGY * PetscAbsReal(linear) / c->energy, of_strain = PetscSqrtReal(misfit / (2 * c->energy));
-  PetscCall(EnergyRow_Private(c, "kinematics", "scene", PetscMax(slide, PetscMax(of_energy, of_strain)), c->solving * (1 - fewer), &row));
-  PetscCall(Why_Private(row, "the energy that the nonlinear terms add at the state found"));
+  PetscCall(EnergyRow_Private(c, "kinematics", "scene", PetscMax(slide, PetscMax(of_energy, of_strain)), c->solving * (1 - fewer),
+                              "the energy that the nonlinear terms add at the state found", &row));
   cJSON_AddStringToObject(row->set, "kinematics", "small");
   for (PetscInt i = 0; i < data->num_materials; ++i)
     if (!data->materials[i].law->rigid) Elastic_Private(row, &data->materials[i], "linear");
@@ -297,10 +290,10 @@ static PetscErrorCode Kinematics_Private(Context *c)
 /* ---- load steps ----------------------------------------------------------------------------------------------------------------------- */
 
 /* Nothing remembers the path, and nothing on it was other than plain. */
-static PetscBool Forgets_Private(const App *app)
+static PetscBool Forgets_Private(const NeedsRun *run)
 {
-  const SceneData *data = app->data;
-  const Path      *p    = &app->path;
+  const SceneData *data = run->data;
+  const Path      *p    = run->path;
 
   if (data->load.control == LOAD_ARC_LENGTH || data->load.stop_displacement > 0 || p->step_cuts || p->stabilised || (p->judged && p->unstable))
     return PETSC_FALSE;
@@ -309,7 +302,7 @@ static PetscBool Forgets_Private(const App *app)
   for (PetscInt i = 0; i < PATH_REFUSALS; ++i)
     if (p->refusal[i].num) return PETSC_FALSE;
   for (PetscInt b = 0; b < data->mechanics.num_bodies; ++b)
-    if (data->mechanics.bodies[b].material->law->num_history && !BalanceStaysElastic(&app->balance, &data->mechanics, b)) return PETSC_FALSE;
+    if (data->mechanics.bodies[b].material->law->num_history && !BalanceStaysElastic(run->balance, &data->mechanics, b)) return PETSC_FALSE;
   for (PetscInt i = 0; i < data->num_contacts; ++i)
     if (data->contacts[i].law == CONTACT_COULOMB || data->contacts[i].self) return PETSC_FALSE;
   return PETSC_TRUE;
@@ -317,18 +310,17 @@ static PetscBool Forgets_Private(const App *app)
 
 static PetscErrorCode LoadSteps_Private(Context *c)
 {
-  const SceneData *data  = c->app->data;
+  const SceneData *data  = c->run->data;
   PetscInt         least = 1;
   Need            *row;
 
   PetscFunctionBegin;
   for (PetscReal t = PathStepEnd(data, 0, data->load.end); t < data->load.end; t = PathStepEnd(data, t, data->load.end)) ++least;
-  if (c->app->load_steps <= least || !Forgets_Private(c->app)) PetscFunctionReturn(PETSC_SUCCESS);
+  if (c->run->load_steps <= least || !Forgets_Private(c->run)) PetscFunctionReturn(PETSC_SUCCESS);
   /* One solution a step and a pass; on the way to the end at once the mesh takes as many passes as any step has. */
-  const PetscReal rest = PetscMin(1, (PetscReal)(least + c->app->most_passes) / (PetscReal)(c->app->load_steps + c->app->adapt_passes));
-  PetscCall(Row_Private(c, "load_steps", "scene", 0, c->mesh * (1 - rest), &row));
-  PetscCall(Why_Private(row, "the end does not depend on the path"));
-  if (c->app->path.newton_iterations >= LONG_STEP * (c->app->load_steps + c->app->adapt_passes)) row->keeps = PETSC_FALSE;
+  const PetscReal rest = PetscMin(1, (PetscReal)(least + c->run->most_passes) / (PetscReal)(c->run->load_steps + c->run->adapt_passes));
+  PetscCall(Row_Private(c, "load_steps", "scene", 0, c->mesh * (1 - rest), "the end does not depend on the path", &row));
+  if (c->run->path->newton_iterations >= LONG_STEP * (c->run->load_steps + c->run->adapt_passes)) row->keeps = PETSC_FALSE;
   cJSON_AddNumberToObject(row->set, "load.step", (double)data->load.end);
   cJSON_AddNullToObject(row->set, "load.step_max");
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -342,7 +334,7 @@ static PetscReal Stretched_Private(const Context *c, PetscInt body)
 {
   PetscReal volume = 0, strain2 = 0;
 
-  for (PetscInt k = 0; k < c->app->data->mechanics.num_bodies; ++k) {
+  for (PetscInt k = 0; k < c->run->data->mechanics.num_bodies; ++k) {
     if (k == body) continue;
     volume += c->terms[k].volume;
     strain2 += c->terms[k].strain2;
@@ -360,7 +352,7 @@ static PetscInt Users_Private(const SceneData *data, const MaterialSpec *m)
 
 static PetscErrorCode Rigid_Private(Context *c)
 {
-  const SceneData *data = c->app->data;
+  const SceneData *data = c->run->data;
   Need            *row;
 
   PetscFunctionBegin;
@@ -370,14 +362,13 @@ static PetscErrorCode Rigid_Private(Context *c)
     cJSON          *motion = NULL;
     PetscBool       held;
     if (s->material->law->rigid || share > (1 - ROUND) * MOST_CHANGE) continue; /* like bodies have half each */
-    if (s->material->law->plastic && !BalanceStaysElastic(&c->app->balance, &data->mechanics, b)) continue;
-    PetscCall(AppRigidMotion(c->app, b, &motion, &held));
+    if (s->material->law->plastic && !BalanceStaysElastic(c->run->balance, &data->mechanics, b)) continue;
+    PetscCall(NeedsRigidMotion(c->run, b, &motion, &held));
     if (held) {
       PetscInt all = 0;
       for (PetscInt k = 0; k < data->mechanics.num_bodies; ++k) all += c->cells[k];
       PetscCall(EnergyRow_Private(c, "rigid", s->name, PetscMax(share / (1 - share), Stretched_Private(c, b)),
-                                  c->mesh * (PetscReal)c->cells[b] / (PetscReal)all, &row));
-      PetscCall(Why_Private(row, "the share of the energy in it"));
+                                  c->mesh * (PetscReal)c->cells[b] / (PetscReal)all, "the share of the energy in it", &row));
       cJSON *body = Object_Private(row, "body", s->name);
       cJSON_AddStringToObject(body, "material", "left_out_rigid");
       if (motion->child) cJSON_AddItemToObject(body, "motion", cJSON_Duplicate(motion, 1));
@@ -397,19 +388,18 @@ static PetscErrorCode Symmetry_Private(Context *c)
   for (PetscInt a = 0; a < 3; ++a) {
     const char name[] = {(char)('x' + a), 0};
     PetscReal  off;
-    if (!c->app->mirror[a] || (c->layers[a] && c->along[a] <= c->needs->tolerance)) continue; /* a section is less than half */
-    PetscCall(AppAsymmetry(c->app, a, &off));
-    PetscCall(Row_Private(c, "symmetry", name, off, 0.5 * c->mesh, &row));
-    PetscCall(Why_Private(row, "mesh, supports and loads are symmetric: half is enough"));
+    if (!c->run->mirror[a] || (c->layers[a] && c->along[a] <= c->needs->tolerance)) continue; /* a section is less than half */
+    PetscCall(NeedsAsymmetry(c->run, a, &off));
+    PetscCall(Row_Private(c, "symmetry", name, off, 0.5 * c->mesh, "mesh, supports and loads are symmetric: half is enough", &row));
     cJSON *plane = cJSON_AddObjectToObject(row->set, "plane");
-    cJSON_AddNumberToObject(plane, name, (double)c->app->mirror_at[a]);
+    cJSON_AddNumberToObject(plane, name, (double)c->run->mirror_at[a]);
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 static PetscErrorCode Prism_Private(Context *c)
 {
-  const SceneData *data = c->app->data;
+  const SceneData *data = c->run->data;
   Need            *row;
 
   PetscFunctionBegin;
@@ -420,8 +410,8 @@ static PetscErrorCode Prism_Private(Context *c)
     PetscInt   order  = MORTISE_MAX_ORDER;
     if (!c->layers[a]) continue;
     for (PetscInt b = 0; b < data->mechanics.num_bodies; ++b) order = PetscMin(order, data->mechanics.bodies[b].order);
-    PetscCall(Row_Private(c, "prism", name, c->along[a], c->mesh * (1 - (2. / 3) / (PetscReal)(c->layers[a] * order + 1)), &row));
-    PetscCall(Why_Private(row, "nothing moves or changes along this axis: model plane_strain is enough"));
+    PetscCall(Row_Private(c, "prism", name, c->along[a], c->mesh * (1 - (2. / 3) / (PetscReal)(c->layers[a] * order + 1)),
+                          "nothing moves or changes along this axis: model plane_strain is enough", &row));
     cJSON_AddStringToObject(row->set, "section", name);
   }
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -432,18 +422,16 @@ static PetscErrorCode Prism_Private(Context *c)
 /* The first mesh was fine enough at once, and a coarser one would have been: each halving of cells of order p leaves 2^-p of the error. */
 static PetscErrorCode Cells_Private(Context *c)
 {
-  const App       *app   = c->app;
-  const SceneData *data  = app->data;
+  const SceneData *data  = c->run->data;
   PetscInt         order = MORTISE_MAX_ORDER;
   Need            *row;
 
   PetscFunctionBegin;
-  if (data->adapt.tolerance <= 0 || app->adapt_passes || !app->estimated || data->mesh.refine < 1) PetscFunctionReturn(PETSC_SUCCESS);
+  if (data->adapt.tolerance <= 0 || c->run->adapt_passes || !c->run->estimate || data->mesh.refine < 1) PetscFunctionReturn(PETSC_SUCCESS);
   for (PetscInt b = 0; b < data->mechanics.num_bodies; ++b)
     if (!data->mechanics.bodies[b].material->law->rigid) order = PetscMin(order, data->mechanics.bodies[b].order);
-  const PetscReal dim = data->mechanics.model == MODEL_3D ? 3 : 2, change = app->estimate.relative * PetscPowRealInt(2, order);
-  PetscCall(Row_Private(c, "cells", "scene", change, c->mesh * (1 - PetscPowReal(2, -dim)), &row));
-  PetscCall(Why_Private(row, "the error of a mesh twice as coarse, from the estimate"));
+  const PetscReal dim = data->mechanics.model == MODEL_3D ? 3 : 2, change = c->run->estimate->relative * PetscPowRealInt(2, order);
+  PetscCall(Row_Private(c, "cells", "scene", change, c->mesh * (1 - PetscPowReal(2, -dim)), "the error of a mesh twice as coarse, from the estimate", &row));
   cJSON_AddNumberToObject(row->set, "mesh.refine", (double)(data->mesh.refine - 1));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -459,8 +447,8 @@ static PetscBool Asked_Private(const SceneData *data)
 
 static PetscErrorCode Terms_Private(Context *c)
 {
-  Level              *l   = &c->app->level;
-  const PetscInt      num = c->app->data->mechanics.num_bodies;
+  Level              *l   = c->run->level;
+  const PetscInt      num = c->run->data->mechanics.num_bodies;
   const HPTables     *v;
   const ForestTables *t;
   Mechanics           mechanics;
@@ -474,40 +462,40 @@ static PetscErrorCode Terms_Private(Context *c)
   PetscCall(ForestGetTables(l->forest, &t));
   PetscCall(PetscCalloc2(num, &c->terms, num, &c->cells));
   for (PetscInt i = 0; i < t->num_leaves; ++i) ++c->cells[t->leaf_body[i]];
-  if (!Asked_Private(c->app->data)) PetscFunctionReturn(PETSC_SUCCESS);
+  if (!Asked_Private(c->run->data)) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(PetscMalloc1(v->num_nodes * v->dim, &u));
   PetscCall(ProblemSetState(l->problem, &l->accepted));
   PetscCall(ProblemLocalDisplacement(l->problem, l->accepted.x, u));
   PetscCall(MechanicsTerms(mechanics, u, c->terms));
   PetscCall(MechanicsFollowerTurn(mechanics, u, &c->turn));
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &c->turn, 1, MPIU_REAL, MPI_SUM, c->app->comm));
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, c->terms, (PetscMPIInt)((size_t)num * sizeof(*c->terms) / sizeof(PetscReal)), MPIU_REAL, MPI_SUM, c->app->comm));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &c->turn, 1, MPIU_REAL, MPI_SUM, c->run->comm));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, c->terms, (PetscMPIInt)((size_t)num * sizeof(*c->terms) / sizeof(PetscReal)), MPIU_REAL, MPI_SUM, c->run->comm));
   for (PetscInt i = 0; i < num; ++i) c->energy += c->terms[i].energy;
   PetscCall(PetscFree(u));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode AppFindNeeds(App *app, Needs *needs)
+PetscErrorCode NeedsFind(const NeedsRun *run, Needs *needs)
 {
   static PetscErrorCode (*const parts[])(Context *) = {Contact_Private,   Flow_Private,  Fibers_Private,   Mixed_Private, Kinematics_Private,
                                                        LoadSteps_Private, Rigid_Private, Symmetry_Private, Prism_Private, Cells_Private};
   static const Stage iterating[]                    = {STAGE_ASSEMBLE, STAGE_CONTACT, STAGE_FACTOR, STAGE_SOLVE};
   static const Stage meshed[]                       = {STAGE_SETUP, STAGE_ESTIMATE, STAGE_TRANSFER};
-  Context            c                              = {.app = app, .needs = needs, .total = AppTotal(app).seconds};
+  Context            c                              = {.run = run, .needs = needs, .total = run->seconds};
 
   PetscFunctionBegin;
-  needs->tolerance = app->data->adapt.tolerance > 0 ? app->data->adapt.tolerance : app->estimated ? app->estimate.relative : 0;
+  needs->tolerance = run->data->adapt.tolerance > 0 ? run->data->adapt.tolerance : run->estimate ? run->estimate->relative : 0;
   for (size_t i = 0; i < sizeof(iterating) / sizeof(*iterating); ++i) c.solving += StageSeconds(iterating[i]) / c.total;
   c.mesh = c.solving;
   for (size_t i = 0; i < sizeof(meshed) / sizeof(*meshed); ++i) c.mesh += StageSeconds(meshed[i]) / c.total;
   PetscCall(Terms_Private(&c));
-  for (PetscInt a = 0; a < 3; ++a) PetscCall(AppFindPrism(app, a, Strain_Private(&c, NULL), &c.layers[a], &c.along[a]));
+  for (PetscInt a = 0; a < 3; ++a) PetscCall(NeedsFindPrism(run, a, Strain_Private(&c, NULL), &c.layers[a], &c.along[a]));
   for (size_t i = 0; i < sizeof(parts) / sizeof(*parts); ++i) PetscCall(parts[i](&c));
   PetscCall(PetscFree2(c.terms, c.cells));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode AppForgetNeeds(Needs *needs)
+PetscErrorCode NeedsDestroy(Needs *needs)
 {
   PetscFunctionBegin;
   for (PetscInt i = 0; i < needs->num; ++i) cJSON_Delete(needs->rows[i].set);

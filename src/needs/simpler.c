@@ -1,6 +1,5 @@
 /* What a simpler model asks of the state found: how far contact slides, whether the supports of a body are a motion of it as a whole, how symmetric it is. */
-#include "appimpl.h"
-#include <cjson/cJSON.h>
+#include "needsimpl.h"
 
 /* ---- contact ---------------------------------------------------------------------------------------------------------------------------- */
 
@@ -42,18 +41,18 @@ static void Normals_Private(const SurfaceView *s, PetscReal sum[2])
 
 /* Small kinematics leaves the pressure where it would be if the sides did not slide along each other. The gap of smooth surfaces is quadratic about the middle
    of their zone, so what that changes goes with the square of the slide over the size of the zone. And it leaves the pressure's direction as it was. */
-PetscErrorCode AppContactTurn(const App *app, PetscInt pair, PetscReal *turn)
+PetscErrorCode NeedsContactTurn(const NeedsRun *run, PetscInt pair, PetscReal *turn)
 {
   const ContactView *v, *all;
   PetscReal          sum[2][11] = {{0}}, normals[2] = {0, 0}, slide[3], force = 0, normal = 0, size, tangent = 0;
 
   PetscFunctionBegin;
   *turn = 0;
-  PetscCall(InterfaceGetContact(ProblemInterface(app->level.problem), pair, &v));
+  PetscCall(InterfaceGetContact(ProblemInterface(run->level->problem), pair, &v));
   Side_Private(&v->nonmortar, sum[0]);
   Side_Private(&v->mortar, sum[1]);
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 22, MPIU_REAL, MPI_SUM, app->comm));
-  PetscCall(InterfaceGatherContactToAll(ProblemInterface(app->level.problem), pair, &all)); /* facets have corners of several ranks */
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 22, MPIU_REAL, MPI_SUM, run->comm));
+  PetscCall(InterfaceGatherContactToAll(ProblemInterface(run->level->problem), pair, &all)); /* facets have corners of several ranks */
   Normals_Private(&all->nonmortar, normals);
   Normals_Private(&all->mortar, normals);
   if (normals[0] > 0) *turn = PetscSqrtReal(normals[1] / normals[0]);
@@ -82,9 +81,9 @@ static PetscBool Touches_Private(const ForestTables *t, PetscInt body, PetscInt 
 }
 
 /* Does it face a rigid body in a pair? One side of each has to deform. */
-static PetscBool FacesRigid_Private(const App *app, const ForestTables *t, PetscInt body)
+static PetscBool FacesRigid_Private(const NeedsRun *run, const ForestTables *t, PetscInt body)
 {
-  const SceneData *data = app->data;
+  const SceneData *data = run->data;
 
   for (PetscInt i = 0; i < data->num_contacts; ++i) {
     const PetscInt group[2] = {data->contacts[i].nonmortar, data->contacts[i].mortar};
@@ -97,9 +96,9 @@ static PetscBool FacesRigid_Private(const App *app, const ForestTables *t, Petsc
   return PETSC_FALSE;
 }
 
-PetscErrorCode AppRigidMotion(const App *app, PetscInt body, struct cJSON **motion, PetscBool *held)
+PetscErrorCode NeedsRigidMotion(const NeedsRun *run, PetscInt body, cJSON **motion, PetscBool *held)
 {
-  const MechanicsSpec *m        = &app->data->mechanics;
+  const MechanicsSpec *m        = &run->data->mechanics;
   const PetscInt       dim      = m->model == MODEL_3D ? 3 : 2;
   const BodySpec      *spec     = &m->bodies[body];
   const char          *value[3] = {NULL, NULL, NULL};
@@ -108,8 +107,8 @@ PetscErrorCode AppRigidMotion(const App *app, PetscInt body, struct cJSON **moti
   PetscFunctionBegin;
   *motion = cJSON_CreateObject();
   *held   = (PetscBool)(!spec->force[0] && !spec->force[1] && !spec->force[2]);
-  PetscCall(ForestGetTables(app->level.forest, &t));
-  if (FacesRigid_Private(app, t, body)) *held = PETSC_FALSE;
+  PetscCall(ForestGetTables(run->level->forest, &t));
+  if (FacesRigid_Private(run, t, body)) *held = PETSC_FALSE;
   if (m->model == MODEL_AXISYMMETRIC) value[0] = "0";
   for (PetscInt i = 0; i < m->num_boundaries && *held; ++i) {
     const BoundarySpec *b = &m->boundaries[i];
@@ -133,87 +132,30 @@ PetscErrorCode AppRigidMotion(const App *app, PetscInt body, struct cJSON **moti
 
 /* ---- symmetry --------------------------------------------------------------------------------------------------------------------------- */
 
-typedef struct {
-  PetscReal X[3], u[3], key;
-} Corner;
-
-static int CompareKey_Private(const void *a, const void *b)
+PetscErrorCode NeedsAsymmetry(const NeedsRun *run, PetscInt axis, PetscReal *off)
 {
-  const PetscReal x = ((const Corner *)a)->key, y = ((const Corner *)b)->key;
-  return (x > y) - (x < y);
-}
-
-/* Corners of this rank's cells with their displacements, by a key that mirror images share; *corner is the caller's. */
-static PetscErrorCode Corners_Private(const App *app, PetscInt axis, PetscInt *num, Corner **corner, PetscReal *largest)
-{
-  const PetscReal weight[3] = {0.618033988749895, 0.414213562373095, 0.732050807568877};
-  const HPTables *v;
-  HPSpace         space;
-  PetscReal      *local, *X, *u;
-  PetscInt        most = 1;
-
-  PetscFunctionBegin;
-  PetscCall(ProblemGetSpace(app->level.problem, &space));
-  PetscCall(HPSpaceGetTables(space, &v));
-  for (PetscInt c = 0; c < v->num_owned_cells; ++c) most = PetscMax(most, v->cell_order[c]);
-  most = ElementNumNodes(v->dim, most) * v->dim;
-  PetscCall(PetscMalloc3(v->num_nodes * v->dim, &local, most, &X, most, &u));
-  PetscCall(PetscMalloc1(v->num_owned_cells << v->dim, corner));
-  PetscCall(ProblemLocalDisplacement(app->level.problem, app->level.accepted.x, local));
-  *num = 0;
-  for (PetscInt c = 0; c < v->num_owned_cells; ++c) {
-    const PetscInt p = v->cell_order[c];
-    PetscCall(HPSpaceGatherPositions(space, c, X));
-    PetscCall(HPSpaceGather(space, c, local, u));
-    for (PetscInt k = 0; k < 1 << v->dim; ++k) {
-      const PetscInt node = p * ((k & 1) + (p + 1) * ((k >> 1 & 1) + (p + 1) * (k >> 2)));
-      Corner        *q    = &(*corner)[(*num)++];
-      *q                  = (Corner){.key = 0};
-      for (PetscInt d = 0; d < v->dim; ++d) {
-        q->X[d] = X[node * v->dim + d];
-        q->u[d] = u[node * v->dim + d];
-        q->key += weight[d] * (d == axis ? PetscAbsReal(q->X[d] - app->mirror_at[d]) : q->X[d]);
-        *largest = PetscMax(*largest, PetscAbsReal(q->u[d]));
-      }
-    }
-  }
-  PetscCall(PetscFree3(local, X, u));
-  PetscCall(GatherToAll(app->comm, sizeof(Corner), num, (void **)corner)); /* images may be of other ranks */
-  qsort(*corner, (size_t)*num, sizeof(**corner), CompareKey_Private);
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* Do they mirror each other in place? Then *off: how far their displacements do not. */
-static PetscBool Mirrored_Private(const Corner *p, const Corner *q, PetscInt axis, PetscReal at, PetscReal least, PetscReal *off)
-{
-  for (PetscInt d = 0; d < 3; ++d)
-    if (PetscAbsReal((d == axis ? 2 * at - p->X[d] : p->X[d]) - q->X[d]) > least) return PETSC_FALSE;
-  *off = 0;
-  for (PetscInt d = 0; d < 3; ++d) *off = PetscMax(*off, PetscAbsReal((d == axis ? -1 : 1) * p->u[d] - q->u[d]));
-  return PETSC_TRUE;
-}
-
-PetscErrorCode AppAsymmetry(const App *app, PetscInt axis, PetscReal *off)
-{
+  const PetscReal   at = run->mirror_at[axis];
   const CoarseMesh *mesh;
-  PetscReal         lo[3], hi[3], size = 0, value[2] = {0, 0}; /* asymmetry, largest displacement */
+  PetscReal         lo[3], hi[3], most = 0, largest;
   PetscInt          num;
-  Corner           *corner;
+  Place            *corner;
 
   PetscFunctionBegin;
-  PetscCall(ForestGetCoarse(app->level.forest, &mesh));
-  ForestCoarseBox(mesh, lo, hi);
-  for (PetscInt d = 0; d < mesh->dim; ++d) size = PetscMax(size, hi[d] - lo[d]);
-  PetscCall(Corners_Private(app, axis, &num, &corner, &value[1]));
+  PetscCall(ForestGetCoarse(run->level->forest, &mesh));
+  const PetscReal size = NeedsSize(mesh, lo, hi);
+  PetscCall(NeedsCorners(run, axis, &at, &num, &corner, &largest));
   for (PetscInt i = 0, first = 0; i < num; ++i) {
-    PetscReal best = PETSC_MAX_REAL, here; /* where bodies touch corners of several lie in one place */
-    while (corner[first].key < corner[i].key - 1e-7 * size) ++first;
-    for (PetscInt j = first; j < num && corner[j].key < corner[i].key + 1e-7 * size; ++j)
-      if (Mirrored_Private(&corner[i], &corner[j], axis, app->mirror_at[axis], 1e-7 * size, &here)) best = PetscMin(best, here);
-    if (best < PETSC_MAX_REAL) value[0] = PetscMax(value[0], best);
+    const PetscInt last = PlacesLike(num, corner, i, size, &first);
+    PetscReal      best = PETSC_MAX_REAL; /* where bodies touch corners of several lie in one place */
+    for (PetscInt j = first; j < last; ++j) {
+      PetscReal here = 0;
+      if (!PlaceIs(&corner[i], &corner[j], axis, at, -1, size)) continue;
+      for (PetscInt d = 0; d < 3; ++d) here = PetscMax(here, PetscAbsReal((d == axis ? -1 : 1) * corner[i].u[d] - corner[j].u[d]));
+      best = PetscMin(best, here);
+    }
+    if (best < PETSC_MAX_REAL) most = PetscMax(most, best);
   }
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, value, 2, MPIU_REAL, MPI_MAX, app->comm));
-  *off = value[1] > 0 ? value[0] / value[1] : 0;
+  *off = largest > 0 ? most / largest : 0;
   PetscCall(PetscFree(corner));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -1,0 +1,90 @@
+/* Which nodes of a tied pair carry which components of the traction: see tie.c. */
+#include "interfaceimpl.h"
+
+/* A number that tells the nodes of a mesh apart. */
+static PetscInt Name_Private(const Surface *s, PetscInt n)
+{
+  return s->node_entity[n] * (SURFACE_MOST_NODES + 1) + s->node_index[n] + 1;
+}
+
+/* Nodes of the pair's nonmortar side at which facets of other tied pairs meet it, which are not its own. */
+static PetscErrorCode Crossings_Private(Interface p, const Contact *c, PetscBool crosses[])
+{
+  const Surface *s = &c->side[0];
+  PetscInt      *own, *taken, num = s->num_facets, size = 0, at;
+
+  PetscFunctionBegin;
+  for (PetscInt i = 0; i < 2 * p->num_contacts; ++i) size += p->contacts[i / 2].side[i % 2].num_facets * SURFACE_MOST_NODES;
+  PetscCall(PetscMalloc2(num, &own, size, &taken));
+  PetscCall(PetscArraycpy(own, s->facet_entity, num));
+  PetscCall(PetscSortInt(num, own));
+  size = 0;
+  for (PetscInt i = 0; i < 2 * p->num_contacts; ++i) {
+    const Contact *other = &p->contacts[i / 2];
+    const Surface *o     = &other->side[i % 2];
+    for (PetscInt f = 0; f < o->num_facets && other != c && other->law->ties; ++f) {
+      const PetscInt *node, nodes = SurfaceNodes_Private(o, f, &node);
+      PetscCall(PetscFindInt(o->facet_entity[f], num, own, &at));
+      for (PetscInt k = 0; k < nodes && at < 0; ++k) taken[size++] = Name_Private(o, node[k]);
+    }
+  }
+  PetscCall(PetscSortRemoveDupsInt(&size, taken));
+  for (PetscInt n = 0; n < s->num_nodes; ++n) {
+    PetscCall(PetscFindInt(Name_Private(s, n), size, taken, &at));
+    crosses[n] = (PetscBool)(at >= 0);
+  }
+  PetscCall(PetscFree2(own, taken));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Functions of a facet that is covered in part and of which too little is covered say what the others say, and their multipliers would be as large as that is
+   little: keep[n] those nodes of which one facet shows enough, and of a facet without any the one that is seen best. */
+static PetscErrorCode Seen_Private(Interface p, const Contact *c, PetscBool keep[])
+{
+  ContactSurface      side[2] = {SurfaceAt_Private(&c->side[0], c->side[0].X), SurfaceAt_Private(&c->side[1], c->side[1].X)};
+  const ContactFacet *facets;
+  PetscInt            num;
+  PetscBool           failed;
+
+  PetscFunctionBegin;
+  PetscCall(ContactPairSetCarriers(c->pair, &side[0], NULL));
+  PetscCall(ContactPairTie(c->pair, &side[0], &side[1], &num, &facets, &failed));
+  PetscCall(PetscArrayzero(keep, c->side[0].num_nodes));
+  for (PetscInt i = 0; i < num; ++i)
+    for (PetscInt r = 0; r < facets[i].num_rows && c->mine[facets[i].facet]; ++r)
+      if (facets[i].weight[r] * facets[i].whole[r] >= CONTACT_SLIVER * PetscSqr(facets[i].whole[r])) keep[facets[i].nodes[r]] = PETSC_TRUE;
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, keep, (PetscMPIInt)c->side[0].num_nodes, COMPAT_MPI_BOOL, MPI_LOR, p->comm));
+  for (PetscInt i = 0; i < num; ++i) {
+    const ContactFacet *f    = &facets[i];
+    PetscBool           any  = PETSC_FALSE;
+    PetscInt            best = 0;
+    for (PetscInt r = 0; r < f->num_rows; ++r) {
+      any = (PetscBool)(any || keep[f->nodes[r]]);
+      if (f->weight[r] * f->whole[best] > f->weight[best] * f->whole[r]) best = r;
+    }
+    if (!any && f->num_rows && c->mine[f->facet]) keep[f->nodes[best]] = PETSC_TRUE;
+  }
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, keep, (PetscMPIInt)c->side[0].num_nodes, COMPAT_MPI_BOOL, MPI_LOR, p->comm));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode TieCarriers_Private(Interface p, Contact *c, PetscBool carries[])
+{
+  const Surface *s = &c->side[0];
+  PetscBool     *crosses, *seen;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc2(s->num_nodes, &crosses, s->num_nodes, &seen));
+  PetscCall(Crossings_Private(p, c, crosses));
+  PetscCall(Seen_Private(p, c, seen));
+  for (PetscInt n = 0; n < s->num_nodes; ++n) {
+    c->has_multiplier[n] = PETSC_FALSE;
+    for (PetscInt k = 0; k < p->dim; ++k) {
+      PetscBool *to = &carries[s->num_nodes * k + n];
+      *to           = (PetscBool)(s->hang[n] == s->hang[n + 1] && !crosses[n] && seen[n] && ContactIsFree_Private(p, c, n, k));
+      if (*to) c->has_multiplier[n] = PETSC_TRUE;
+    }
+  }
+  PetscCall(PetscFree2(crosses, seen));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

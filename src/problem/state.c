@@ -1,0 +1,94 @@
+/* What a solution is made of: a vector, element pressures, histories of the material, the place it started from. */
+#include "problemimpl.h"
+
+PetscErrorCode StateCreate(Problem p, State *s)
+{
+  const ForestTables *t;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMemzero(s, sizeof(*s)));
+  PetscCall(ForestGetTables(p->forest, &t));
+  PetscCall(ProblemCreateVector(p, &s->x));
+  PetscCall(MechanicsNumPressure(p->mechanics, &s->num_pressure));
+  PetscCall(PetscCalloc1(s->num_pressure, &s->pressure));
+  PetscCall(MechanicsNumHistory(p->mechanics, &s->num_history));
+  PetscCall(PetscMalloc1(s->num_history, &s->history));
+  PetscCall(MechanicsInitialHistory(p->mechanics, s->history));
+  if (InterfaceSlips(p->interface)) {
+    s->num_before = p->num_local;
+    PetscCall(PetscCalloc1(s->num_before, &s->before));
+  }
+  s->form       = FormPlain(PETSC_FALSE);
+  s->num_leaves = t->num_leaves;
+  PetscCall(PetscMalloc1(s->num_leaves, &s->leaf_order));
+  PetscCall(PetscArraycpy(s->leaf_order, p->leaf_order, s->num_leaves));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode StateCopy(const State *from, State *to)
+{
+  PetscFunctionBegin;
+  PetscCall(VecCopy(from->x, to->x));
+  PetscCall(PetscArraycpy(to->pressure, from->pressure, from->num_pressure));
+  PetscCall(PetscArraycpy(to->history, from->history, from->num_history));
+  PetscCall(PetscArraycpy(to->before, from->before, from->num_before));
+  PetscCall(PetscArraycpy(to->leaf_order, from->leaf_order, from->num_leaves));
+  to->t    = from->t;
+  to->form = from->form;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode StateKeepOrigin(Problem p, State *s)
+{
+  PetscReal *local;
+
+  PetscFunctionBegin;
+  if (!s->num_before) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(VecGetArray(p->u_local, &local));
+  PetscCall(ProblemLocalDisplacement(p, s->x, local));
+  PetscCall(PetscArraycpy(s->before, local, s->num_before));
+  PetscCall(VecRestoreArray(p->u_local, &local));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode StateCommit(Problem p, State *s)
+{
+  PetscReal *local;
+  PetscBool  bad;
+
+  PetscFunctionBegin;
+  PetscCall(ProblemSetState(p, s));
+  PetscCall(VecGetArray(p->u_local, &local));
+  PetscCall(ProblemLocalDisplacement(p, s->x, local));
+  PetscCall(MechanicsCommit(p->mechanics, local, s->history, &bad));
+  PetscCall(VecRestoreArray(p->u_local, &local));
+  PetscCheck(!bad, PETSC_COMM_SELF, PETSC_ERR_ARG_WRONGSTATE, "a state outside the domain cannot be accepted");
+  PetscCall(StateKeepOrigin(p, s));
+  PetscCall(ProblemSetState(p, s));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode StateAdmit(Problem p, State *s)
+{
+  PetscReal *local;
+
+  PetscFunctionBegin;
+  PetscCall(ProblemSetState(p, s));
+  PetscCall(VecGetArray(p->u_local, &local));
+  PetscCall(ProblemLocalDisplacement(p, s->x, local));
+  PetscCall(MechanicsAdmit(p->mechanics, local, s->history));
+  PetscCall(VecRestoreArray(p->u_local, &local));
+  PetscCall(StateKeepOrigin(p, s));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode StateDestroy(State *s)
+{
+  PetscFunctionBegin;
+  PetscCall(VecDestroy(&s->x));
+  PetscCall(PetscFree(s->pressure));
+  PetscCall(PetscFree(s->history));
+  PetscCall(PetscFree(s->before));
+  PetscCall(PetscFree(s->leaf_order));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
