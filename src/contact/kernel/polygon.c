@@ -32,7 +32,7 @@ void ContactRayProducts(PetscInt num, PetscReal factor, PetscInt nl, const Petsc
 
 /* Barycentric points and weights, Gauss' on intervals, symmetric on triangles, up to degree 20 of least number. What is integrated between flat parallelograms
    is a polynomial of degree 2 order_s + 2 order_m at most, 4 order_s where it is a derivative by the facet's own nodes; two degrees more than the first, at
-   least, are for others, and on triangles no rule is of less than degree 10. Node to segment: the node. */
+   least, are for others, and on triangles no rule is of less than degree 11. Node to segment: the node. */
 PetscErrorCode ContactRayRule(const RayFacet *f, const Overlap *o, PetscInt mortar_order, PetscInt *num, const PetscReal (**point)[3], const PetscReal **weight)
 {
   static const PetscReal End[2][3] = {{1, 0, 0}, {0, 1, 0}}, Half = 0.5;
@@ -48,7 +48,7 @@ PetscErrorCode ContactRayRule(const RayFacet *f, const Overlap *o, PetscInt mort
   *num = N[m - 1][n], *point = (const PetscReal(*)[3])p, *weight = Q[m - 1][n];
   if (o->node >= 0) *num = 1, *point = End + o->node, *weight = &Half;
   if (*num) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(PetscDTSimplexQuadrature(m, 2 * n - 2, PETSCDTSIMPLEXQUAD_DEFAULT, &rule));
+  PetscCall(PetscDTSimplexQuadrature(m, 2 * n - 1, PETSCDTSIMPLEXQUAD_DEFAULT, &rule));
   PetscCall(PetscQuadratureGetData(rule, NULL, NULL, num, &x, &w));
   PetscCheck(*num <= MOST_POINTS, PETSC_COMM_SELF, PETSC_ERR_PLIB, "quadrature rule of %" PetscInt_FMT " points", *num);
   N[m - 1][n] = *num;

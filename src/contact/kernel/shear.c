@@ -1,29 +1,28 @@
-/* Friction (docs/theory.md, 5): forces of tangential tractions and their derivatives.
+/* Friction in space (docs/theory.md, 5): forces of tangential tractions and their derivatives.
 
-   Traction. At a point with unit normal n: tau = sum_j psi_j sum_a q_ja t_ja, t_ja the axes of node j carried there (frame.c), in the plane the tangent. In
-   components along the facet, |n| tau = sigma_1 x,1 + sigma_2 x,2, sigma_1 = tau . (x,2 x n), sigma_2 = tau . (n x x,1) (plane: the first alone), and those are
-   held while positions y vary, as is rho (1, axisymmetric 2 pi r):
-     f = d/dy int sigma_i y,i . (y_m(eta) - y(xi)) rho dxi:   h_a = N_a,i sigma_i R - N_a |n| tau,   h_b = M_b |n| tau,   R = x_m - x.
+   Traction. At a point with unit normal n: tau = sum_j psi_j sum_a q_ja t_ja, t_ja the axes of node j carried there (frame.c). In components along the facet,
+   |n| tau = sigma_1 x,1 + sigma_2 x,2, sigma_1 = tau . (x,2 x n), sigma_2 = tau . (n x x,1), and those are held while positions y vary:
+     f = d/dy int sigma_i y,i . (y_m(eta) - y(xi)) dxi:   h_a = N_a,i sigma_i R - N_a |n| tau,   h_b = M_b |n| tau,   R = x_m - x.
    Nothing of it changes under rigid motion of y.
 
-   Every row of h is a sum of D factors, of the row's node, times D vectors of the point: (- N, N,1, N,2) or (M, M,1, M,2) times (|n| tau, sigma_1 R,
+   Every row of h is a sum of three factors, of the row's node, times three vectors of the point: (- N, N,1, N,2) or (M, M,1, M,2) times (|n| tau, sigma_1 R,
    sigma_2 R) or, of the changes of M, (.., deta_1 |n| tau, deta_2 |n| tau). Columns of these vectors: those of unit tractions, and for the tangent derivatives
-   by positions and directions at fixed xi, by axes (space), by the covered share. What moves with the ends of overlaps comes after. */
+   by positions and directions at fixed xi, by axes, by the covered share. What moves with the ends of overlaps comes after. */
 #include "kernelimpl.h"
 
-/* Columns at a point: [m nr] unit tractions; then, with derivatives, [D][na + nv + nb] numbers, in space [nr][6] changes of Q_j and m_j, the covered share. */
+/* Columns at a point: [2 nr] unit tractions; then, with derivatives, [3][na + nv + nb] numbers, [nr][6] changes of Q_j and m_j, the covered share. */
 typedef struct {
-  PetscInt   D, m, na, nb, nv, nr, rows, units, numbers, axes, width; /* rows: D (na + nb) */
-  PetscReal *psi;                                                     /* [nr] values, [nr] by the share, [nr] by xi_1, [nr] by xi_2 */
-  PetscReal *left[2], *right[2];                                      /* of lattice and mortar nodes: [points][D][na or nb], [points][D][D][width] */
-  PetscReal *sum[2];                                                  /* [na or nb][D][width] */
-  PetscReal *slope, *mean, *corner;                                   /* [m][rows] at a point, [rows], [m + 1][m][rows] */
+  PetscInt   na, nb, nv, nr, units, numbers, width;
+  PetscReal *psi;                   /* [nr] values, [nr] by the share, [nr] by xi_1, [nr] by xi_2 */
+  PetscReal *left[2], *right[2];    /* of lattice and mortar nodes: [points][3][na or nb], [points][3][3][width] */
+  PetscReal *sum[2];                /* [na or nb][3][width] */
+  PetscReal *slope, *mean, *corner; /* [2][rows] at a point, [rows], [3][2][rows]; rows: 3 (na + nb) */
 } Work;
 
-/* Sums over a facet. Rows: D numbers of each node of the lattice, then of the mortar nodes. */
+/* Sums over a facet. Rows: 3 numbers of each node of the lattice, then of the mortar nodes. */
 typedef struct {
-  PetscInt   rows, n, nr, axes;
-  PetscReal *F, *K, *Q, *share; /* [m nr][rows]; [rows][n], [rows][axes], [rows] or NULL */
+  PetscInt   rows, n, nr;
+  PetscReal *F, *K, *Q, *share; /* [2 nr][rows]; [rows][n], [rows][6 nr], [rows] or NULL */
 } Sums;
 
 /* What tractions make of a point. */
@@ -74,133 +73,124 @@ static void Variation_Private(const RayPoint *r, const PetscReal B[3][3], Tracti
   for (int c = 0; c < 3; c++) t->S[0][1][c] += x[c], t->S[1][0][c] -= x[c];
 }
 
-/* Columns of the vectors of a traction t at the point. */
+/* Columns of the three vectors of a traction t at the point. */
 static void Column_Private(const Work *o, const Traction *at, PetscReal factor, const PetscReal t[3], PetscReal *right[2], PetscInt column)
 {
-  for (PetscInt c = 0; c < o->D; c++) {
+  for (int c = 0; c < 3; c++) {
     const PetscReal value = factor * at->a * t[c];
 
     right[0][c * o->width + column] = right[1][c * o->width + column] = value;
-    for (PetscInt i = 0; i < o->m; i++) right[0][(o->D * (i + 1) + c) * o->width + column] = factor * Dot3(t, at->b[i]) * at->R[c];
+    for (int i = 0; i < 2; i++) right[0][(3 * (i + 1) + c) * o->width + column] = factor * Dot3(t, at->b[i]) * at->R[c];
   }
 }
 
 /* Unit tractions, and by axes and share, of row j; adds to what the tractions q make. */
-static void Row_Private(const EvaluateContext *ctx, const Work *o, const RayPoint *r, PetscInt j, Traction *at, PetscReal B[3][3], PetscReal share[3],
-                        PetscReal *right[2])
+static void Row_Private(const EvaluateContext *ctx, const Work *o, PetscInt j, Traction *at, PetscReal B[3][3], PetscReal share[3], PetscReal *right[2])
 {
   const RayWork    w    = ctx->pair->ray;
   const PetscInt   node = w->result.node[j], nr = o->nr;
-  const PetscReal *q = ctx->pair->traction, psi = o->psi[j], *m = o->m == 2 ? w->frame[node].m : at->n;
+  const NodeFrame *f = &w->frame[node];
+  const PetscReal *q = ctx->pair->traction, psi = o->psi[j];
   PetscReal        Q[3] = {0, 0, 0}, t[3], A[3][3], Bj[3][3], a;
 
-  for (PetscInt i = 0; i < o->m; i++) {
-    const PetscReal *e = o->m == 2 ? w->frame[node].e[i] : at->b[0];
-
-    ContactCarry(m, at->n, e, t);
-    Column_Private(o, at, psi * r->rho, t, right, o->m * j + i);
-    for (int c = 0; c < 3; c++) Q[c] += q[ctx->nonmortar->num_nodes * i + node] * e[c];
+  for (int i = 0; i < 2; i++) {
+    ContactCarry(f->m, at->n, f->e[i], t);
+    Column_Private(o, at, psi, t, right, 2 * j + i);
+    for (int c = 0; c < 3; c++) Q[c] += q[ctx->nonmortar->num_nodes * i + node] * f->e[i][c];
   }
   if (!o->numbers) return;
-  a = ContactCarry(m, at->n, Q, t);
-  ContactCarryRows(m, at->n, Q, A, Bj);
+  a = ContactCarry(f->m, at->n, Q, t);
+  ContactCarryRows(f->m, at->n, Q, A, Bj);
   for (int c = 0; c < 3; c++) {
     const PetscReal column[3] = {A[0][c], A[1][c], A[2][c]};
     const PetscInt  place     = o->units + o->numbers + 6 * j + c;
 
     at->tau[c] += psi * t[c];
     share[c] += o->psi[nr + j] * t[c];
-    for (PetscInt k = 0; k < o->m; k++) at->along[k][c] += o->psi[(2 + k) * nr + j] * t[c];
+    for (int k = 0; k < 2; k++) at->along[k][c] += o->psi[(2 + k) * nr + j] * t[c];
     for (int e = 0; e < 3; e++) B[c][e] += psi * Bj[c][e];
-    if (!o->axes) continue;
     Column_Private(o, at, psi, column, right, place);
     Column_Private(o, at, -a * psi, column, right, place + 3);
   }
 }
 
-/* By one number: component e of a node, of which x,k changes by d[k], r by value, deta = value zeta, rho by drho. */
-static void Number_Private(const Work *o, const RayPoint *r, const Traction *at, PetscInt e, PetscReal value, PetscReal place, const PetscReal d[2],
-                           PetscReal drho, PetscReal *right[2], PetscInt column)
+/* By one number: component e of a node, of which x,k changes by d[k] and r by value: deta = value zeta. */
+static void Number_Private(const Work *o, const RayPoint *r, const Traction *at, int e, PetscReal value, PetscReal place, const PetscReal d[2],
+                           PetscReal *right[2], PetscInt column)
 {
   PetscReal dR[3], dsigma[2] = {0, 0};
 
-  for (int c = 0; c < 3; c++) dR[c] = value * (r->Xi[0][c] * r->zeta[0][e] + (o->m == 2 ? r->Xi[1][c] * r->zeta[1][e] : 0));
+  for (int c = 0; c < 3; c++) dR[c] = value * (r->Xi[0][c] * r->zeta[0][e] + r->Xi[1][c] * r->zeta[1][e]);
   dR[e] -= place;
-  for (PetscInt i = 0; i < o->m; i++)
-    for (PetscInt k = 0; k < o->m; k++) dsigma[i] += at->S[i][k][e] * d[k];
-  for (PetscInt c = 0; c < o->D; c++) {
-    const PetscReal force = at->a * at->tau[c];
-
-    right[0][c * o->width + column] = right[1][c * o->width + column] = r->rho * (at->C[0][c][e] * d[0] + at->C[1][c][e] * d[1]) + drho * force;
-    for (PetscInt i = 0; i < o->m; i++) {
-      right[0][(o->D * (i + 1) + c) * o->width + column] = r->rho * (dsigma[i] * at->R[c] + at->sigma[i] * dR[c]) + drho * at->sigma[i] * at->R[c];
-      right[1][(o->D * (i + 1) + c) * o->width + column] = r->rho * value * r->zeta[i][e] * force;
+  for (int i = 0; i < 2; i++)
+    for (int k = 0; k < 2; k++) dsigma[i] += at->S[i][k][e] * d[k];
+  for (int c = 0; c < 3; c++) {
+    right[0][c * o->width + column] = right[1][c * o->width + column] = at->C[0][c][e] * d[0] + at->C[1][c][e] * d[1];
+    for (int i = 0; i < 2; i++) {
+      right[0][(3 * (i + 1) + c) * o->width + column] = dsigma[i] * at->R[c] + at->sigma[i] * dR[c];
+      right[1][(3 * (i + 1) + c) * o->width + column] = value * r->zeta[i][e] * at->a * at->tau[c];
     }
   }
 }
 
 static void Numbers_Private(const Work *o, const RayPoint *r, const Traction *at, PetscReal *right[2])
 {
-  const PetscInt  D = o->D, na = o->na, nv = o->nv, nb = o->nb;
   const PetscReal none[2] = {0, 0};
 
-  for (PetscInt e = 0; e < D; e++) {
-    for (PetscInt a = 0; a < na; a++) {
-      const PetscReal d[2] = {r->S.d[0][a], o->m == 2 ? r->S.d[1][a] : 0};
+  for (int e = 0; e < 3; e++) {
+    for (PetscInt a = 0; a < o->na; a++) {
+      const PetscReal d[2] = {r->S.d[0][a], r->S.d[1][a]};
 
-      Number_Private(o, r, at, e, r->S.N[a], r->S.N[a], d, e == 0 ? r->turn * r->S.N[a] : 0, right, o->units + e * na + a);
+      Number_Private(o, r, at, e, r->S.N[a], r->S.N[a], d, right, o->units + e * o->na + a);
     }
-    for (PetscInt v = 0; v < nv; v++) Number_Private(o, r, at, e, r->s * r->V.N[v], 0, none, 0, right, o->units + D * na + e * nv + v);
-    for (PetscInt b = 0; b < nb; b++) Number_Private(o, r, at, e, -r->M.N[b], -r->M.N[b], none, 0, right, o->units + D * (na + nv) + e * nb + b);
+    for (PetscInt v = 0; v < o->nv; v++) Number_Private(o, r, at, e, r->s * r->V.N[v], 0, none, right, o->units + 3 * o->na + e * o->nv + v);
+    for (PetscInt b = 0; b < o->nb; b++) Number_Private(o, r, at, e, -r->M.N[b], -r->M.N[b], none, right, o->units + 3 * (o->na + o->nv) + e * o->nb + b);
   }
 }
 
-/* slope[m][rows]: how the density changes along the facet; mean[rows] of the density over det: += weight. */
+/* slope[2][rows]: how the density changes along the facet; mean[rows] of the density over det: += weight. */
 static void Slope_Private(const Work *o, const RayPoint *r, const Traction *at, PetscReal weight, PetscReal mean[], PetscReal slope[])
 {
-  const PetscInt D = o->D;
+  const PetscInt rows = 3 * (o->na + o->nb);
   PetscReal      h[2 * RAY_LATTICE][3];
 
   for (PetscInt a = 0; a < o->na; a++)
-    for (PetscInt c = 0; c < D; c++) {
-      h[a][c] = -r->S.N[a] * at->a * at->tau[c];
-      for (PetscInt i = 0; i < o->m; i++) h[a][c] += r->S.d[i][a] * at->sigma[i] * at->R[c];
-    }
+    for (int c = 0; c < 3; c++) h[a][c] = (r->S.d[0][a] * at->sigma[0] + r->S.d[1][a] * at->sigma[1]) * at->R[c] - r->S.N[a] * at->a * at->tau[c];
   for (PetscInt b = 0; b < o->nb; b++)
-    for (PetscInt c = 0; c < D; c++) h[o->na + b][c] = r->M.N[b] * at->a * at->tau[c];
-  for (PetscInt i = 0; i < o->rows; i++) mean[i] += weight * r->rho * h[i / D][i % D];
-  for (PetscInt k = 0; k < o->m; k++) {
+    for (int c = 0; c < 3; c++) h[o->na + b][c] = r->M.N[b] * at->a * at->tau[c];
+  for (PetscInt i = 0; i < rows; i++) mean[i] += weight * h[i / 3][i % 3];
+  for (int k = 0; k < 2; k++) {
     PetscReal along[3], eta[2], Rk[3], Tk[3], sk[2];
 
-    for (int c = 0; c < 3; c++) {
-      along[c] = r->t[k][c] + r->s * r->di[k][c];
-      Rk[c]    = -r->t[k][c];
-      Tk[c]    = at->a * at->along[k][c];
-    }
-    for (PetscInt i = 0; i < o->m; i++) {
+    for (int c = 0; c < 3; c++) along[c] = r->t[k][c] + r->s * r->di[k][c];
+    for (int i = 0; i < 2; i++) {
       eta[i] = Dot3(r->zeta[i], along);
-      sk[i]  = Dot3(at->b[i], at->along[k]);
-      for (PetscInt l = 0; l < o->m; l++) sk[i] += Dot3(at->S[i][l], r->tt[k + l]);
-      for (int c = 0; c < 3; c++) Rk[c] += r->Xi[i][c] * eta[i], Tk[c] += Dot3(at->C[i][c], r->tt[k + i]);
+      sk[i]  = Dot3(at->S[i][0], r->tt[k]) + Dot3(at->S[i][1], r->tt[k + 1]) + Dot3(at->b[i], at->along[k]);
     }
-    for (PetscInt i = 0; i < o->rows; i++) {
-      const PetscInt c = i % D, a = i / D, b = a - o->na;
-      PetscReal      x = b < 0 ? -r->S.d[k][a] * at->a * at->tau[c] - r->S.N[a] * Tk[c] : r->M.N[b] * Tk[c];
+    for (int c = 0; c < 3; c++) {
+      Rk[c] = r->Xi[0][c] * eta[0] + r->Xi[1][c] * eta[1] - r->t[k][c];
+      Tk[c] = Dot3(at->C[0][c], r->tt[k]) + Dot3(at->C[1][c], r->tt[k + 1]) + at->a * at->along[k][c];
+    }
+    for (PetscInt i = 0; i < rows; i++) {
+      const PetscInt c = i % 3, a = i / 3, b = a - o->na;
+      PetscReal      x = -h[a][c] * r->chart.ddet[k] / r->chart.det;
 
-      for (PetscInt l = 0; l < o->m; l++)
-        x += b < 0 ? r->S.dd[l + k][a] * at->sigma[l] * at->R[c] + r->S.d[l][a] * (sk[l] * at->R[c] + at->sigma[l] * Rk[c])
-                   : r->M.d[l][b] * eta[l] * at->a * at->tau[c];
-      slope[k * o->rows + i] = weight * (r->rho * (x - h[a][c] * r->chart.ddet[k] / r->chart.det) + r->turn * r->t[k][0] * h[a][c]);
+      if (b < 0) {
+        for (int l = 0; l < 2; l++) x += r->S.dd[l + k][a] * at->sigma[l] * at->R[c] + r->S.d[l][a] * (sk[l] * at->R[c] + at->sigma[l] * Rk[c]);
+        x -= r->S.d[k][a] * at->a * at->tau[c] + r->S.N[a] * Tk[c];
+      } else
+        x += (r->M.d[0][b] * eta[0] + r->M.d[1][b] * eta[1]) * at->a * at->tau[c] + r->M.N[b] * Tk[c];
+      slope[k * rows + i] = weight * x;
     }
   }
 }
 
 static void Point_Private(const EvaluateContext *ctx, const Work *o, const RayPoint *r, PetscReal weight, PetscInt q, const PetscReal beta[3])
 {
-  const RayWork  w = ctx->pair->ray;
-  const PetscInt D = o->D, m = o->m, na = o->na, nr = o->nr;
-  PetscReal     *right[2] = {o->right[0] + D * D * o->width * q, o->right[1] + D * D * o->width * q};
-  PetscReal     *left[2] = {o->left[0] + D * na * q, o->left[1] + D * o->nb * q}, B[3][3] = {{0}}, share[3] = {0, 0, 0};
+  const RayWork  w  = ctx->pair->ray;
+  const PetscInt na = o->na, nr = o->nr, rows = 3 * (na + o->nb);
+  PetscReal     *right[2] = {o->right[0] + 9 * o->width * q, o->right[1] + 9 * o->width * q}, *left[2] = {o->left[0] + 3 * na * q, o->left[1] + 3 * o->nb * q};
+  PetscReal      B[3][3] = {{0}}, share[3] = {0, 0, 0};
   Traction       at = {0};
 
   Traction_Private(r, &at);
@@ -209,36 +199,36 @@ static void Point_Private(const EvaluateContext *ctx, const Work *o, const RayPo
     for (PetscInt a = 0; a < na; a++) {
       o->psi[j] += w->T[j * na + a] * r->S.N[a];
       o->psi[nr + j] += w->T[(nr + j) * na + a] * r->S.N[a];
-      for (PetscInt k = 0; k < m; k++) o->psi[(2 + k) * nr + j] += w->T[j * na + a] * r->S.d[k][a];
+      for (int k = 0; k < 2; k++) o->psi[(2 + k) * nr + j] += w->T[j * na + a] * r->S.d[k][a];
     }
-  for (PetscInt j = 0; j < nr; j++) Row_Private(ctx, o, r, j, &at, B, share, right);
-  for (PetscInt k = 0; k < D; k++) {
-    for (PetscInt a = 0; a < na; a++) left[0][k * na + a] = weight * (k ? r->S.d[k - 1][a] : -r->S.N[a]);
-    for (PetscInt b = 0; b < o->nb; b++) left[1][k * o->nb + b] = weight * (k ? r->M.d[k - 1][b] : r->M.N[b]);
+  for (PetscInt j = 0; j < nr; j++) Row_Private(ctx, o, j, &at, B, share, right);
+  for (PetscInt a = 0; a < na; a++) left[0][a] = -weight * r->S.N[a], left[0][na + a] = weight * r->S.d[0][a], left[0][2 * na + a] = weight * r->S.d[1][a];
+  for (PetscInt b = 0; b < o->nb; b++) {
+    left[1][b] = weight * r->M.N[b];
+    for (int k = 0; k < 2; k++) left[1][(k + 1) * o->nb + b] = weight * r->M.d[k][b];
   }
   if (!o->numbers) return;
-  for (PetscInt i = 0; i < m; i++) at.sigma[i] = Dot3(at.tau, at.b[i]);
+  for (int i = 0; i < 2; i++) at.sigma[i] = Dot3(at.tau, at.b[i]);
   Variation_Private(r, B, &at);
   Numbers_Private(o, r, &at, right);
-  Column_Private(o, &at, r->rho, share, right, o->width - 1);
+  Column_Private(o, &at, 1, share, right, o->width - 1);
   Slope_Private(o, r, &at, weight, o->mean, o->slope);
-  for (PetscInt v = 0; v < m * (m + 1); v++)
-    for (PetscInt k = 0; k < m; k++)
-      for (PetscInt i = 0; i < o->rows; i++) o->corner[v * o->rows + i] += beta[v / m] * r->chart.inverse[k][v % m] * o->slope[k * o->rows + i];
+  for (int v = 0; v < 3; v++)
+    for (int c = 0; c < 2; c++)
+      for (PetscInt i = 0; i < rows; i++)
+        o->corner[(2 * v + c) * rows + i] += beta[v] * (r->chart.inverse[0][c] * o->slope[i] + r->chart.inverse[1][c] * o->slope[rows + i]);
 }
 
 static PetscErrorCode WorkCreate_Private(const RayWork w, PetscInt nb, PetscInt points, PetscBool derivatives, Work *o)
 {
-  const PetscInt D = w->facet.D, m = w->facet.m, na = w->facet.s.num, nv = w->facet.nv, nr = w->result.num_rows;
+  const PetscInt na = w->facet.s.num, nv = w->facet.nv, nr = w->result.num_rows, rows = 3 * (na + nb);
 
   PetscFunctionBegin;
-  *o         = (Work){.D = D, .m = m, .na = na, .nb = nb, .nv = nv, .nr = nr, .rows = D * (na + nb), .units = m * nr};
-  o->axes    = derivatives && m == 2 ? 6 * nr : 0;
-  o->numbers = derivatives ? D * (na + nv + nb) : 0;
-  o->width   = o->units + (derivatives ? o->numbers + o->axes + 1 : 0);
-  PetscCall(PetscCalloc6(4 * nr, &o->psi, D * na * points, &o->left[0], D * nb * points, &o->left[1], D * D * o->width * points, &o->right[0],
-                         D * D * o->width * points, &o->right[1], D * na * o->width, &o->sum[0]));
-  PetscCall(PetscCalloc4(D * nb * o->width, &o->sum[1], m * o->rows, &o->slope, o->rows, &o->mean, m * (m + 1) * o->rows, &o->corner));
+  *o       = (Work){.na = na, .nb = nb, .nv = nv, .nr = nr, .units = 2 * nr, .numbers = derivatives ? 3 * (na + nv + nb) : 0};
+  o->width = o->units + (derivatives ? o->numbers + 6 * nr + 1 : 0);
+  PetscCall(PetscCalloc6(4 * nr, &o->psi, 3 * na * points, &o->left[0], 3 * nb * points, &o->left[1], 9 * o->width * points, &o->right[0],
+                         9 * o->width * points, &o->right[1], 3 * na * o->width, &o->sum[0]));
+  PetscCall(PetscCalloc4(3 * nb * o->width, &o->sum[1], 2 * rows, &o->slope, rows, &o->mean, 6 * rows, &o->corner));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -253,24 +243,24 @@ static PetscErrorCode WorkDestroy_Private(Work *o)
 /* Sums of an overlap to those of the facet. row[]: of a node's component; column[]: of the overlap's numbers among the facet's. */
 static void Gather_Private(const Work *o, const PetscInt row[], const PetscInt column[], Sums *s)
 {
-  for (PetscInt i = 0; i < o->rows; i++) {
-    const PetscReal *from = i < o->D * o->na ? o->sum[0] + i * o->width : o->sum[1] + (i - o->D * o->na) * o->width;
+  for (PetscInt i = 0; i < 3 * (o->na + o->nb); i++) {
+    const PetscReal *from = i < 3 * o->na ? o->sum[0] + i * o->width : o->sum[1] + (i - 3 * o->na) * o->width;
 
     for (PetscInt l = 0; l < o->units; l++) s->F[l * s->rows + row[i]] += from[l];
     if (!o->numbers) continue;
     from += o->units;
     for (PetscInt l = 0; l < o->numbers; l++) s->K[row[i] * s->n + column[l]] += from[l];
     from += o->numbers;
-    for (PetscInt l = 0; l < o->axes; l++) s->Q[row[i] * o->axes + l] += from[l];
-    s->share[row[i]] += from[o->axes];
+    for (PetscInt l = 0; l < 6 * o->nr; l++) s->Q[row[i] * 6 * o->nr + l] += from[l];
+    s->share[row[i]] += from[6 * o->nr];
   }
 }
 
 static PetscErrorCode Overlap_Private(const EvaluateContext *ctx, PetscInt k, const RayPlace **place, Sums *s)
 {
-  RayWork         w = ctx->pair->ray;
-  const RayFacet *f = &w->facet;
-  const PetscInt  D = f->D, m = f->m, na = f->s.num;
+  RayWork         w  = ctx->pair->ray;
+  const RayFacet *f  = &w->facet;
+  const PetscInt  na = f->s.num;
   PetscInt        column[3 * (2 * RAY_LATTICE + 4) + RAY_IMAGES], row[6 * RAY_LATTICE], points;
   Overlap         o;
   RayLattice      mortar;
@@ -282,34 +272,35 @@ static PetscErrorCode Overlap_Private(const EvaluateContext *ctx, PetscInt k, co
   ContactRaySplit(f, &w->overlap[k], &o);
   ContactRayLatticeGather(ctx->mortar, w->mortar[k], &mortar);
   ContactRayPlaces(w, ctx->mortar, k, mortar.num, column);
-  for (PetscInt i = 0; i < D * (na + mortar.num); i++) {
-    const PetscInt b = i / D - na;
+  for (PetscInt i = 0; i < 3 * (na + mortar.num); i++) {
+    const PetscInt b = i / 3 - na;
 
-    row[i] = b < 0 ? i : column[D * (na + f->nv) + i % D * mortar.num + b] - D * f->nv;
+    row[i] = b < 0 ? i : column[3 * (na + f->nv) + i % 3 * mortar.num + b] - 3 * f->nv;
   }
   ContactRayMoves(f, &o, move);
   PetscCall(ContactRayRule(f, &o, mortar.order, &points, &point, &weight));
   PetscCall(WorkCreate_Private(w, mortar.num, points, (PetscBool)(s->K != NULL), &work));
   for (PetscInt j = 0; j < ContactRaySimplices(f, &o); j++) {
-    const PetscInt width = D * work.width;
+    const PetscInt rows = 3 * (na + mortar.num), images = work.numbers;
     RaySimplex     simplex;
 
     ContactRaySimplex(f, &o, j, &simplex);
-    PetscCall(PetscArrayzero(work.mean, work.rows));
-    PetscCall(PetscArrayzero(work.corner, m * (m + 1) * work.rows));
+    PetscCall(PetscArrayzero(work.mean, rows));
+    PetscCall(PetscArrayzero(work.corner, 6 * rows));
     for (PetscInt q = 0; q < points; q++, (*place)++) {
       RayPoint r;
 
       PetscCheck(ContactRayAgain(f, &mortar, *place, 2, &r), PETSC_COMM_SELF, PETSC_ERR_PLIB, "a ray that met the mortar facet does not meet it again");
       Point_Private(ctx, &work, &r, weight[q] / r.chart.det, q, point[q]);
     }
-    ContactRayProducts(D * points, simplex.size, na, work.left[0], na, width, work.right[0], width, work.sum[0], width);
-    ContactRayProducts(D * points, simplex.size, mortar.num, work.left[1], mortar.num, width, work.right[1], width, work.sum[1], width);
-    for (PetscInt v = 0; v < m * (m + 1) && s->K; v++)
-      for (PetscInt i = 0; i < work.rows; i++) {
-        const PetscReal slope = simplex.size * work.corner[v * work.rows + i] + simplex.d[v] * work.mean[i], *along = move[simplex.corner[v / m]].d[v % m];
+    ContactRayProducts(3 * points, simplex.size, na, work.left[0], na, 3 * work.width, work.right[0], 3 * work.width, work.sum[0], 3 * work.width);
+    ContactRayProducts(3 * points, simplex.size, mortar.num, work.left[1], mortar.num, 3 * work.width, work.right[1], 3 * work.width, work.sum[1],
+                       3 * work.width);
+    for (PetscInt v = 0; v < 6 && s->K; v++)
+      for (PetscInt i = 0; i < rows; i++) {
+        const PetscReal slope = simplex.size * work.corner[v * rows + i] + simplex.d[v] * work.mean[i], *along = move[simplex.corner[v / 2]].d[v % 2];
 
-        for (PetscInt l = 0; l < m * f->nv; l++) s->K[row[i] * s->n + column[work.numbers + l]] += slope * along[l];
+        for (int l = 0; l < RAY_IMAGES; l++) s->K[row[i] * s->n + column[images + l]] += slope * along[l];
       }
   }
   Gather_Private(&work, row, column, s);
@@ -326,7 +317,6 @@ static PetscErrorCode Axes_Private(const EvaluateContext *ctx, const Sums *s, Pe
   PetscReal       *axes;
 
   PetscFunctionBegin;
-  if (!s->axes) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(PetscMalloc1(9 * nn, &axes));
   for (PetscInt j = 0; j < s->nr; j++) {
     const PetscInt node = w->result.node[j];
@@ -368,20 +358,20 @@ static PetscErrorCode Tangent_Private(const EvaluateContext *ctx, const Sums *s,
 
 PetscErrorCode ContactShear(const EvaluateContext *ctx, ContactFacet *out)
 {
-  RayWork         w = ctx->pair->ray;
-  const PetscInt  D = w->facet.D, m = w->facet.m, nr = w->result.num_rows;
+  RayWork         w     = ctx->pair->ray;
+  const PetscInt  nr    = w->result.num_rows;
   const RayPlace *place = w->places;
-  Sums            s     = {.rows = D * (w->facet.s.num + w->num_mortar), .n = w->n, .nr = nr, .axes = m == 2 ? 6 * nr : 0};
+  Sums            s     = {.rows = 3 * (w->facet.s.num + w->num_mortar), .n = w->n, .nr = nr};
   const PetscInt  more  = out->hessian ? s.rows : 0;
   PetscReal      *shear;
 
   PetscFunctionBegin;
-  PetscCall(PetscCalloc4(m * nr * s.rows, &s.F, more * s.n, &s.K, more * s.axes, &s.Q, more, &s.share));
+  PetscCall(PetscCalloc4(2 * nr * s.rows, &s.F, more * s.n, &s.K, more * 6 * nr, &s.Q, more, &s.share));
   if (!more) s.K = NULL;
   for (PetscInt k = 0; k < w->num_overlaps; k++) PetscCall(Overlap_Private(ctx, k, &place, &s));
-  PetscCall(ContactStoreReserve(&w->result.store, m * nr * w->nn, &shear));
+  PetscCall(ContactStoreReserve(&w->result.store, 2 * nr * w->nn, &shear));
   for (PetscInt r = 0; r < nr; r++)
-    for (PetscInt i = 0; i < m; i++) ContactSlipMasters(w, 1, s.F + (m * r + i) * s.rows, 1, shear + (nr * i + r) * w->nn);
+    for (PetscInt i = 0; i < 2; i++) ContactSlipMasters(w, 1, s.F + (2 * r + i) * s.rows, 1, shear + (nr * i + r) * w->nn);
   out->shear = shear;
   if (s.K) PetscCall(Tangent_Private(ctx, &s, (PetscReal *)out->hessian));
   PetscCall(PetscFree4(s.F, s.K, s.Q, s.share));
