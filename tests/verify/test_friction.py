@@ -444,3 +444,12 @@ def test_far_beyond_the_zone(run, order, n, sides):
         force.append(numpy.abs(figures["force"]))
         assert figures["dissipation"] == pytest.approx(3 * force[-1][0], rel=0.05)
     assert force[0] == pytest.approx(force[1], rel=sides)
+
+
+@pytest.mark.parametrize("pair, mu", [("disc", 0.1), ("disc", 0.6), ("block", 0.1)])
+def test_predictor(run, pair, mu):
+    """Rubber, squeezed by 0.3, then drawn along in one step: the first attempt fails, the one with the other predictor does not."""
+    text = disc(pair, 2, mu).replace("nu: 0.3", "nu: 0.499").replace("-0.1*min", "-0.3*min")
+    result, without = (run("rubber.yml", *words, text=text) for words in ((), ("-path_predictor", "off")))
+    assert result.returncode == 0 and result.summary["recoveries"]["predictor"] == {"tried": 1, "succeeded": 1} and result.summary["step_cuts"] == 0, result
+    assert without.summary["recoveries"]["predictor"]["tried"] == 0 and without.summary["step_cuts"] > 0, without
