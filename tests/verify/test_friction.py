@@ -443,6 +443,8 @@ def test_far_beyond_the_zone(run, order, n, sides):
         assert result.summary["step_cuts"] == 0 and figures["slipping_nodes"] > 0 and figures["sticking_nodes"] == 0
         force.append(numpy.abs(figures["force"]))
         assert figures["dissipation"] == pytest.approx(3 * force[-1][0], rel=0.05)
+        there = run("far.yml", text=text, ranks=3).summary["contact"]["pair"]
+        assert [*there["force"], there["dissipation"]] == pytest.approx([*figures["force"], figures["dissipation"]], rel=1e-7)
     assert force[0] == pytest.approx(force[1], rel=sides)
 
 
