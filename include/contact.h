@@ -221,10 +221,13 @@ PetscErrorCode ContactPairSetAxes(ContactPair, const PetscReal axis[]);
 PetscErrorCode ContactPairGetTangents(ContactPair, PetscInt node, PetscReal e[2][3]);
 /* Evaluate at these positions and keep the points of the integration with their partners. Then: slip since there (theory (5.9)) of every facet kept, as results
    with the slip for gap[dim - 1][rows] and dgap, and the weights where the points were kept; positive where the mortar side moves along the nonmortar facets.
+   from[2] (NULL: nothing): both sides where the points were kept. Facets that met nothing there and do at the last evaluation, which was at these positions,
+   then have slip, too: how far the points that face each other now have come, dgap with these points held.
    Surfaces must have the topology of the last search; positions of all nodes of facets kept and of their partners are needed. Valid until the next call. Not
    collective. */
 PetscErrorCode ContactPairKeepPoints(ContactPair, const ContactSurface *nonmortar, const ContactSurface *mortar, PetscBool *failed);
-PetscErrorCode ContactPairSlip(ContactPair, const ContactSurface *nonmortar, const ContactSurface *mortar, PetscInt *num, const ContactFacet **facets);
+PetscErrorCode ContactPairSlip(ContactPair, const ContactSurface *nonmortar, const ContactSurface *mortar, const ContactSurface from[2], PetscInt *num,
+                               const ContactFacet **facets);
 /* Evaluate at these positions, with `tie` in the results. Valid until the next evaluation. Not collective. */
 PetscErrorCode ContactPairTie(ContactPair, const ContactSurface *nonmortar, const ContactSurface *mortar, PetscInt *num, const ContactFacet **facets,
                               PetscBool *failed);

@@ -138,6 +138,8 @@ PetscErrorCode ContactStateDestroy(ContactPair);
 
 /* kernel/slip.c */
 PetscErrorCode ContactSlipDestroy(struct ContactSlip **);
+/* Before an evaluation: of the points kept those of the last one. */
+void ContactSlipForget(ContactPair);
 
 /* result.c. Storage of results: blocks that are kept and filled anew at each evaluation; pointers into them stay valid until then. */
 typedef struct {

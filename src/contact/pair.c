@@ -123,6 +123,7 @@ PetscErrorCode ContactPairEvaluate(ContactPair pair, const ContactSurface *nonmo
   *failed   = IsFinite_Private(nonmortar) && IsFinite_Private(mortar) ? PETSC_FALSE : PETSC_TRUE;
   ctx.again = (PetscBool)(!*failed && ContactStateStands(pair, nonmortar, mortar));
   if (!ctx.again) pair->num_results = pair->num_segments = 0;
+  if (!ctx.again) ContactSlipForget(pair);
   if (!*failed) PetscCall(ContactRayEvaluate(&ctx, failed));
   pair->state.stands = PETSC_FALSE;
   if (!*failed) PetscCall(ContactStateKeep(pair, nonmortar, mortar, z));

@@ -57,24 +57,27 @@ static PetscErrorCode AddSlip_Private(const Contact *c, PetscInt j, PetscReal zo
 }
 
 /* With friction: does the first linear step slip as a whole, one way, and by a good part of the zone? Then bodies are brought to their new places first. Where
-   friction holds they would have to be pulled back from there. */
-static PetscErrorCode Slips_Private(Interface p, const Contact *c, PetscBool swap, PetscBool *slips)
+   friction holds they would have to be pulled back from there. Where states go on changing, that step says nothing but that it goes too far; a body that
+   nothing but the pair may move has no other place to be brought to. */
+static PetscErrorCode Slips_Private(Interface p, const Contact *c, PetscBool settled, PetscBool swap, PetscBool *slips)
 {
-  PetscReal sum[7] = {0}, *way = sum + 1, *slip = sum + 4; /* zone; its part that slips, sum of the slip */
+  PetscReal sum[8] = {0}, *way = sum + 1, *slip = sum + 4, *pressed = sum + 7; /* zone; its part that slips, sum of the slip; nodes with pressure */
 
   PetscFunctionBegin;
   for (PetscInt i = 0; i < c->side[0].num_own; ++i) {
     const PetscInt j = c->side[0].own[i];
 
+    if (ContactPressed_Private(c, j)) *pressed += 1;
     if (c->active[j] && ContactPressed_Private(c, j)) PetscCall(AddSlip_Private(c, j, sum, way, slip));
   }
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 7, MPIU_REAL, MPI_SUM, p->comm));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 8, MPIU_REAL, MPI_SUM, p->comm));
   const PetscReal length = p->dim == 3 ? PetscSqrtReal(sum[0]) : sum[0];
-  *slips = (PetscBool)(sum[0] > 0 && swap != (PetscSqrtReal(Dot3(way, way)) > WHOLE * sum[0] && PetscSqrtReal(Dot3(slip, slip)) > FAR * sum[0] * length));
+  const PetscBool whole  = (PetscBool)(PetscSqrtReal(Dot3(way, way)) > WHOLE * sum[0] && PetscSqrtReal(Dot3(slip, slip)) > FAR * sum[0] * length);
+  *slips                 = (PetscBool)(*pressed > 0 && swap != (whole || (!settled && !c->drifts && !c->num_q)));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode InterfaceFindSliding(Interface p, PetscReal pending, PetscBool swap, uint64_t *pairs)
+PetscErrorCode InterfaceFindSliding(Interface p, PetscReal pending, PetscBool settled, PetscBool swap, uint64_t *pairs)
 {
   PetscBool moved;
 
@@ -84,7 +87,7 @@ PetscErrorCode InterfaceFindSliding(Interface p, PetscReal pending, PetscBool sw
   for (PetscInt i = 0; pending > 0 && i < p->num_contacts; ++i) {
     if (p->contacts[i].tie) continue;
     if (p->contacts[i].friction > 0)
-      PetscCall(Slips_Private(p, &p->contacts[i], swap, &moved));
+      PetscCall(Slips_Private(p, &p->contacts[i], settled, swap, &moved));
     else
       PetscCall(HasMoved_Private(p, &p->contacts[i], &moved));
     if (moved) *pairs |= (uint64_t)1 << i;

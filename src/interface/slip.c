@@ -150,7 +150,7 @@ PetscErrorCode SlipFreeze_Private(Interface p, Contact *c, PetscBool *failed)
   if (!s) PetscFunctionReturn(PETSC_SUCCESS);
   for (PetscInt k = 0; k < 2; ++k) PetscCall(LinkSet_Private(p, &c->side[k], c->side[k].places.num, c->side[k].places.nodes, &s->places[k]));
   PetscCall(ContactPairKeepPoints(c->pair, &side[0], &side[1], failed));
-  PetscCall(ContactPairSlip(c->pair, &side[0], &side[1], &s->num_facets, &s->facets));
+  PetscCall(ContactPairSlip(c->pair, &side[0], &side[1], NULL, &s->num_facets, &s->facets));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -172,7 +172,7 @@ PetscErrorCode SlipEvaluate_Private(Interface p, Contact *c)
   const Surface *own = &c->side[0];
   const PetscInt n = own->num_nodes, m = p->dim - 1;
   SlipHistory   *s = c->slip;
-  ContactSurface side[2];
+  ContactSurface side[2], from[2];
 
   PetscFunctionBegin;
   if (!s) PetscFunctionReturn(PETSC_SUCCESS);
@@ -180,10 +180,15 @@ PetscErrorCode SlipEvaluate_Private(Interface p, Contact *c)
     PetscCall(LinkSpread_Private(p, &s->places[k], p->dim, c->side[k].x));
     side[k] = SurfaceAt_Private(&c->side[k], c->side[k].x);
   }
-  if (c->mean0) /* small kinematics */
+  if (c->mean0) { /* small kinematics */
     PetscCall(Since_Private(p, c));
-  else
-    PetscCall(ContactPairSlip(c->pair, &side[0], &side[1], &s->num_facets, &s->facets));
+  } else {
+    for (PetscInt k = 0; k < 2; ++k) {
+      PetscCall(SurfaceGather_Private(p, &c->side[k], s->from, ContactBase_Private(c, k), c->side[k].du));
+      from[k] = SurfaceAt_Private(&c->side[k], c->side[k].du);
+    }
+    PetscCall(ContactPairSlip(c->pair, &side[0], &side[1], from, &s->num_facets, &s->facets));
+  }
   for (PetscInt f = 0; f < own->num_facets; ++f) s->result[f] = -1;
   PetscCall(PetscArrayzero(s->slip, m * n));
   PetscCall(PetscArrayzero(s->weight, n));

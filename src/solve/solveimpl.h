@@ -58,6 +58,7 @@ struct _p_Solver {
   PetscBool     shortened;       /* was the last step too far (line search)? */
   PetscBool     grew, fell;      /* has the residual grown in this solve while the set stayed, and fallen since? */
   PetscInt      halvings;        /* steps shortened in this solve */
+  PetscBool     settled;         /* the active set of the last linear step, before its passes were used up */
   PetscInt      negative;        /* pivots of the last factor of this solve beyond those of constraints, -1: not known */
   PetscBool     no_memory;       /* for the last factor */
   SolverReport *report;

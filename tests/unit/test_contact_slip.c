@@ -50,14 +50,14 @@ static void Forces(Sum *s, ContactPair pair, const Patch *a, const Patch *b, con
         s->gradient[SumRow(s, &facets[i], k)] += traction[facets[i].nodes[j]] * facets[i].shear[j * 2 * facets[i].num + k];
 }
 
-static void Slip(Sum *s, ContactPair pair, const Patch *a, const Patch *b)
+static void SlipFrom(Sum *s, ContactPair pair, const Patch *a, const Patch *b, const ContactSurface from[])
 {
   const ContactFacet *facets;
 
   memset(s->gap, 0, (size_t)s->nn * sizeof(PetscReal));
   memset(s->weight, 0, (size_t)s->nn * sizeof(PetscReal));
   memset(s->dgap, 0, (size_t)(s->nn * s->size) * sizeof(PetscReal));
-  CHECK_CALL(ContactPairSlip(pair, &a->s, &b->s, &s->num, &facets));
+  CHECK_CALL(ContactPairSlip(pair, &a->s, &b->s, from, &s->num, &facets));
   for (PetscInt i = 0; i < s->num; i++)
     for (PetscInt j = 0; j < facets[i].num_rows; j++) {
       s->gap[facets[i].nodes[j]] += facets[i].gap[j];
@@ -65,6 +65,11 @@ static void Slip(Sum *s, ContactPair pair, const Patch *a, const Patch *b)
       for (PetscInt k = 0; k < 2 * facets[i].num; k++)
         s->dgap[facets[i].nodes[j] * s->size + SumRow(s, &facets[i], k)] += facets[i].dgap[j * 2 * facets[i].num + k];
     }
+}
+
+static void Slip(Sum *s, ContactPair pair, const Patch *a, const Patch *b)
+{
+  SlipFrom(s, pair, a, b, NULL);
 }
 
 static void Turn(Patch *p, const PetscReal from[], PetscReal angle, const PetscReal shift[2])
@@ -268,9 +273,59 @@ static void test_slide(void **state)
   }
 }
 
+/* The mortar side comes from where it faced two of four facets or none, while both are turned: all that face it now have slipped by as much. */
+static void test_arrival(void **state)
+{
+  (void)state;
+  for (PetscInt order = 1; order <= 3; order++)
+    for (int apart = 0; apart < 2; apart++) {
+      const ContactSpec   spec = {0};
+      const PetscReal     lo = apart ? 1.4 : 0.45, slip = lo + 0.2, shift[2][2] = {{0, 0}, {-slip * cos(1.1), -slip * sin(1.1)}};
+      PetscReal           traction[64] = {0}, *at[2];
+      Patch               p[2];
+      ContactPair         pair;
+      ContactSurface      from[2];
+      const ContactFacet *facets;
+      PetscBool           failed;
+      PetscInt            num;
+      Sum                 s;
+
+      PatchCreate(&p[0], 2, order, 4, 0, 1, PETSC_FALSE, PETSC_FALSE);
+      PatchCreate(&p[1], 2, 4 - order, 7, lo, lo + 1.6, PETSC_TRUE, PETSC_FALSE);
+      for (int k = 0; k < 2; k++) {
+        const size_t size = 2 * (size_t)p[k].s.num_nodes * sizeof(PetscReal);
+
+        for (PetscInt n = 0; n < p[k].s.num_nodes; n++) p[k].x[2 * n] = p[k].X[2 * n] = p[k].u[2 * n];
+        at[k]     = memcpy(malloc(size), p[k].x, size);
+        from[k]   = p[k].s;
+        from[k].x = at[k];
+      }
+      CHECK_CALL(ContactPairCreate(2, PETSC_FALSE, &spec, &pair));
+      CHECK_CALL(ContactPairSetTraction(pair, traction));
+      SearchAll(pair, &p[0], &p[1], 0.5, 0.1);
+      CHECK_CALL(ContactPairKeepPoints(pair, &p[0].s, &p[1].s, &failed));
+      for (int k = 0; k < 2; k++) Turn(&p[k], at[k], 1.1, shift[k]);
+      SearchAll(pair, &p[0], &p[1], 0.5, 0.1);
+      CHECK_CALL(ContactPairEvaluate(pair, &p[0].s, &p[1].s, NULL, NULL, PETSC_TRUE, PETSC_FALSE, &num, &facets, &failed));
+      SumCreate(&s, &p[0], &p[1]);
+      SlipFrom(&s, pair, &p[0], &p[1], from);
+      assert_int_equal(s.num, 4);
+      for (PetscInt j = 0; j < s.nn; j++) assert_near(s.gap[j] / s.weight[j], slip, 1e-13); /* facets run from right to left */
+      for (PetscInt j = 0; j < s.nn; j++) {
+        PetscReal change = 0; /* by a motion of the mortar side along t */
+
+        for (PetscInt n = s.nn; n < s.nn + s.nm; n++) change -= s.dgap[j * s.size + 2 * n] * cos(1.1) + s.dgap[j * s.size + 2 * n + 1] * sin(1.1);
+        assert_near(change / s.weight[j], 1, 1e-13);
+      }
+      SumDestroy(&s);
+      CHECK_CALL(ContactPairDestroy(&pair));
+      for (int k = 0; k < 2; k++) PatchDestroy(&p[k]), free(at[k]);
+    }
+}
+
 int main(int argc, char **argv)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(test_derivatives), cmocka_unit_test(test_slide)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(test_derivatives), cmocka_unit_test(test_slide), cmocka_unit_test(test_arrival)};
   int                     failed;
 
   if (PetscInitialize(&argc, &argv, NULL, NULL)) return 1;

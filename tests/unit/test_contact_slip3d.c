@@ -62,7 +62,7 @@ static void Slip(const Sum *s, ContactPair pair, const Patch *a, const Patch *b,
 
   memset(slip, 0, 2 * (size_t)s->nn * sizeof(PetscReal));
   memset(weight, 0, (size_t)s->nn * sizeof(PetscReal));
-  CHECK_CALL(ContactPairSlip(pair, &a->s, &b->s, &num, &facets));
+  CHECK_CALL(ContactPairSlip(pair, &a->s, &b->s, NULL, &num, &facets));
   for (PetscInt i = 0; i < num; i++)
     for (PetscInt j = 0; j < 2 * facets[i].num_rows; j++) {
       const PetscInt row = s->nn * (j / facets[i].num_rows) + facets[i].nodes[j % facets[i].num_rows];

@@ -428,3 +428,30 @@ def test_cattaneo_mindlin(run):
     error = [math.sqrt(numpy.mean(e[zone] ** 2)) for e in (pressure / p0 - root(a), traction / 0.3 / p0 - root(a) + c / a * root(c))]
     print("a, c/a", a, c / a, "nodes", zone.sum(), "error of pressure, traction", error)
     assert zone.sum() > 60 and error[0] < 0.025 and error[1] < 0.035
+
+
+@pytest.mark.parametrize("order, n, sides", [(1, 8, 0.06), (2, 4, 0.02)])
+def test_far_beyond_the_zone(run, order, n, sides):
+    """Drawn by three radii in one step, to where none of the block's nodes faced the disc before: the same forces with either side nonmortar, and the zone slips."""
+    force = []
+    for pair in PAIRS:
+        text = disc(pair, order, 0.3).replace("0.5*max", "3*max").replace("w: 2, n: 8", f"w: 4, n: {n}")
+        result = run("far.yml", text=text)
+        assert result.returncode == 0, result
+        figures = result.summary["contact"]["pair"]
+        print(pair, order, column(result, "newton_iterations"), figures["force"], figures["dissipation"], figures["slipping_nodes"], figures["sticking_nodes"])
+        assert result.summary["step_cuts"] == 0 and figures["slipping_nodes"] > 0 and figures["sticking_nodes"] == 0
+        force.append(numpy.abs(figures["force"]))
+        assert figures["dissipation"] == pytest.approx(3 * force[-1][0], rel=0.05)
+        there = run("far.yml", text=text, ranks=3).summary["contact"]["pair"]
+        assert [*there["force"], there["dissipation"]] == pytest.approx([*figures["force"], figures["dissipation"]], rel=1e-7)
+    assert force[0] == pytest.approx(force[1], rel=sides)
+
+
+@pytest.mark.parametrize("pair, mu", [("disc", 0.1), ("disc", 0.6), ("block", 0.1)])
+def test_predictor(run, pair, mu):
+    """Rubber, squeezed by 0.3, then drawn along in one step: the first attempt fails, the one with the other predictor does not."""
+    text = disc(pair, 2, mu).replace("nu: 0.3", "nu: 0.499").replace("-0.1*min", "-0.3*min")
+    result, without = (run("rubber.yml", *words, text=text) for words in ((), ("-path_predictor", "off")))
+    assert result.returncode == 0 and result.summary["recoveries"]["predictor"] == {"tried": 1, "succeeded": 1} and result.summary["step_cuts"] == 0, result
+    assert without.summary["recoveries"]["predictor"]["tried"] == 0 and without.summary["step_cuts"] > 0, without

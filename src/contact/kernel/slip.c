@@ -9,6 +9,9 @@
      s_j(x) = sum_q A_jq [ t.r(x) - t.r(x0) ],   r = x_m(eta_q) - x(xi_q),
    t = x,xi / |x,xi|; in space each of the node's axes as carried to the point (frame.c).
 
+   Facets that met nothing at x0 have points, too, once they meet the other side: those of the last evaluation, with t.r(x0) of where these were at x0. Such a
+   pair is another one at each iterate; for the derivative it is held. What that leaves out, (t.x_m,eta at x less that at x0) deta, vanishes for rigid motion.
+
    Compliance. On a facet that was covered in part slips count as s + C dq, dq the change of the tractions since then, C = kappa [diag m - m m^T / sum m] as
    for gaps (blend.c): constraints of functions of which slivers are covered say nearly the same. C is that of the positions x0, a constant of the step. */
 #include "kernelimpl.h"
@@ -24,6 +27,8 @@ typedef struct {
 
 struct ContactSlip {
   PetscInt      num_kept, num_rows, num_points, num_values, num_C, size_kept, size_row, size_weight, size_start, size_point, size_A, size_C;
+  PetscInt      num_first, size_met; /* facets kept at x0: the first ones */
+  PetscBool    *met;                 /* [num_facets] is it one of them? NULL: others have no points */
   Kept         *kept;
   PetscInt     *row;            /* nodes */
   PetscReal    *weight, *start; /* by rows: sum_q A_jq; [rows][2] sum_q A_jq t.r(x0) */
@@ -42,6 +47,7 @@ PetscErrorCode ContactSlipDestroy(struct ContactSlip **slip)
   if (!s) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(ContactResultDestroy(&s->result));
   PetscCall(PetscFree(s->kept));
+  PetscCall(PetscFree(s->met));
   PetscCall(PetscFree(s->row));
   PetscCall(PetscFree(s->weight));
   PetscCall(PetscFree(s->start));
@@ -333,6 +339,33 @@ static void Step_Private(const ContactPair pair, const Now *now, PetscInt node, 
     InSpace_Private(now, pair->ray->frame[node].m, pair->ray->frame[node].e[i], s);
 }
 
+/* start of a facet's rows, of its points at these positions; in space the nodes' axes are those there. */
+static PetscErrorCode Start_Private(ContactPair pair, const Kept *kept, const ContactSurface *nonmortar, const ContactSurface *mortar)
+{
+  struct ContactSlip *s  = pair->slip;
+  const PetscInt      nr = kept->num_rows, m = nonmortar->dim - 1;
+  PetscReal          *start = s->start + 2 * kept->row;
+  RayLattice          own, other;
+
+  PetscFunctionBegin;
+  ContactRayLatticeGather(nonmortar, kept->facet, &own);
+  PetscCall(PetscArrayzero(start, 2 * nr));
+  for (PetscInt q = 0; q < kept->num_points; q++) {
+    const Point     *p = &s->point[kept->point + q];
+    const PetscReal *A = s->A + kept->value + q * nr;
+    Now              now;
+    Step             step;
+
+    ContactRayLatticeGather(mortar, p->facet, &other);
+    Now_Private(m, &own, &other, &p->at, &now);
+    for (PetscInt j = 0; j < m * nr; j++) {
+      Step_Private(pair, &now, s->row[kept->row + j % nr], j / nr, &step);
+      start[2 * (j % nr) + j / nr] += A[j % nr] * step.along;
+    }
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 static PetscErrorCode KeepPoints_Private(const EvaluateContext *ctx, struct ContactSlip *s, Kept *kept)
 {
   RayWork         w  = ctx->pair->ray;
@@ -357,21 +390,14 @@ static PetscErrorCode KeepPoints_Private(const EvaluateContext *ctx, struct Cont
       PetscReal  dgamma, *A = s->A + s->num_values;
       RaySimplex simplex;
       RayPoint   r;
-      Now        now;
-      Step       step;
 
       ContactRaySimplex(f, &overlap, q / points, &simplex);
       PetscCheck(ContactRayAgain(f, &mortar, place, 2, &r), PETSC_COMM_SELF, PETSC_ERR_PLIB, "a ray that met the mortar facet does not meet it again");
       dgamma = simplex.size * weight[q % points] * ContactRayArea(&r) / r.chart.det;
-      Now_Private(f->m, &f->s, &mortar, place, &now);
       for (PetscInt j = 0; j < nr; j++) {
         A[j] = 0;
         for (PetscInt i = 0; i < na; i++) A[j] += w->T[j * na + i] * r.S.N[i] * dgamma;
         s->weight[kept->row + j] += A[j];
-        for (PetscInt i = 0; i < f->m; i++) {
-          Step_Private(ctx->pair, &now, s->row[kept->row + j], i, &step);
-          s->start[2 * (kept->row + j) + i] += A[j] * step.along;
-        }
       }
       s->point[s->num_points++] = (Point){w->mortar[k], *place};
       s->num_values += nr;
@@ -419,12 +445,24 @@ static PetscErrorCode Keep_Private(const EvaluateContext *ctx, PetscInt facet, c
   *kept = (Kept){.facet = facet, .num_rows = nr, .row = s->num_rows, .point = s->num_points, .value = s->num_values, .micro = -1};
   for (PetscInt j = 0; j < nr; j++) {
     s->row[s->num_rows + j]    = w->result.node[j];
-    s->weight[s->num_rows + j] = s->start[2 * (s->num_rows + j)] = s->start[2 * (s->num_rows + j) + 1] = 0;
+    s->weight[s->num_rows + j] = 0;
   }
   s->num_rows += nr;
   PetscCall(KeepPoints_Private(ctx, s, kept));
-  PetscCall(KeepCompliance_Private(ctx, out, s, kept));
+  if (ctx->pair->keeps) PetscCall(KeepCompliance_Private(ctx, out, s, kept));
   PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+void ContactSlipForget(ContactPair pair)
+{
+  struct ContactSlip *s = pair->slip;
+
+  if (!s || s->num_kept == s->num_first) return;
+  const Kept *kept = &s->kept[s->num_first];
+  s->num_rows      = kept->row;
+  s->num_points    = kept->point;
+  s->num_values    = kept->value;
+  s->num_kept      = s->num_first;
 }
 
 PetscErrorCode ContactSlipFacet(const EvaluateContext *ctx, PetscInt facet, PetscBool derivatives, ContactFacet *out)
@@ -435,7 +473,7 @@ PetscErrorCode ContactSlipFacet(const EvaluateContext *ctx, PetscInt facet, Pets
   PetscFunctionBegin;
   out->shear = NULL;
   if (!pair->traction && !pair->keeps) PetscFunctionReturn(PETSC_SUCCESS);
-  if (pair->keeps) PetscCall(Keep_Private(ctx, facet, out));
+  if (pair->keeps || (pair->slip && pair->slip->met && !pair->slip->met[facet])) PetscCall(Keep_Private(ctx, facet, out));
   if (!pair->traction || !derivatives) PetscFunctionReturn(PETSC_SUCCESS);
   if (pair->dim == 3) {
     PetscCall(ContactShear(ctx, out));
@@ -455,13 +493,20 @@ PetscErrorCode ContactPairKeepPoints(ContactPair pair, const ContactSurface *non
   PetscFunctionBegin;
   if (!pair->slip) PetscCall(PetscNew(&pair->slip));
   s           = pair->slip;
-  s->num_kept = s->num_rows = s->num_points = s->num_values = s->num_C = 0;
+  s->num_kept = s->num_first = s->num_rows = s->num_points = s->num_values = s->num_C = 0;
 
   pair->keeps        = PETSC_TRUE;
   pair->state.stands = PETSC_FALSE;
   PetscCall(ContactPairEvaluate(pair, nonmortar, mortar, NULL, NULL, PETSC_FALSE, PETSC_FALSE, &num, &facets, failed));
   pair->keeps = pair->state.stands = PETSC_FALSE;
   if (*failed) s->num_kept = s->num_rows = s->num_points = s->num_values = 0;
+  s->num_first = s->num_kept;
+  PetscCall(ContactGrow(nonmortar->num_facets, sizeof(PetscBool), &s->size_met, &s->met));
+  PetscCall(PetscArrayzero(s->met, nonmortar->num_facets));
+  for (PetscInt i = 0; i < s->num_kept; i++) {
+    s->met[s->kept[i].facet] = PETSC_TRUE;
+    PetscCall(Start_Private(pair, &s->kept[i], nonmortar, mortar));
+  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -590,7 +635,18 @@ static PetscErrorCode Slip_Private(ContactPair pair, const Kept *kept, const Con
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode ContactPairSlip(ContactPair pair, const ContactSurface *nonmortar, const ContactSurface *mortar, PetscInt *num, const ContactFacet **facets)
+/* Space: axes of the nodes at these positions. */
+static PetscErrorCode Turn_Private(ContactPair pair, const ContactSurface *nonmortar)
+{
+  PetscFunctionBegin;
+  if (pair->dim == 2) PetscFunctionReturn(PETSC_SUCCESS);
+  ContactDirections(pair->ray, nonmortar);
+  PetscCall(ContactFrames(pair, nonmortar));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode ContactPairSlip(ContactPair pair, const ContactSurface *nonmortar, const ContactSurface *mortar, const ContactSurface from[2], PetscInt *num,
+                               const ContactFacet **facets)
 {
   struct ContactSlip *s = pair->slip;
 
@@ -598,10 +654,10 @@ PetscErrorCode ContactPairSlip(ContactPair pair, const ContactSurface *nonmortar
   *num    = 0;
   *facets = NULL;
   if (!s) PetscFunctionReturn(PETSC_SUCCESS);
-  if (pair->dim == 3 && s->num_kept) {
-    ContactDirections(pair->ray, nonmortar);
-    PetscCall(ContactFrames(pair, nonmortar));
-  }
+  if (!from) ContactSlipForget(pair);
+  if (s->num_kept > s->num_first) PetscCall(Turn_Private(pair, &from[0]));
+  for (PetscInt i = s->num_first; i < s->num_kept; i++) PetscCall(Start_Private(pair, &s->kept[i], &from[0], &from[1]));
+  if (s->num_kept) PetscCall(Turn_Private(pair, nonmortar));
   s->result.store.at = s->result.store.used = 0;
   s->num_ids                                = 0;
   PetscCall(ContactGrow(s->num_kept, sizeof(ContactFacet), &s->size_facet, &s->facet));

@@ -2,7 +2,7 @@
 
      R = w0 [ q - tau min(1, b / |tau|) ],   tau = q - c s / wn,   s the slip of the step weighted with psi_j, wn = int psi_j where it began:
 
-   it sticks, s = 0, where |tau| <= b; else it slips, |q| = mu z, against s. A node that touches what it had not before it in its step begins without traction.
+   it sticks, s = 0, where |tau| <= b; else it slips, |q| = mu z, against s. A node that meets nothing at all, as yet, has no traction.
 
    In space rows of slip are those at a place tau*, b* (aim), e = tau* / |tau*|, k = b* / |tau*|: that of the last evaluation, or where states of a linear step
    are found, that at which it began to slip:
