@@ -7,8 +7,8 @@
 #define MORTISE_NAME 64
 
 /* Thresholds that several places share; all of them: docs/thresholds.md. */
-#define ROUND_LENGTH 1e-6 /* of a length, an area, a cosine: what round-off of the coordinates in a mesh file leaves */
-#define STEEP 0.7         /* cosine of 45 degrees and a little: of two faces at right angles one at least is nearer; at 45 degrees round-off does not choose */
+#define ROUND_LENGTH 1e-6         /* of a length, an area, a cosine: what round-off of the coordinates in a mesh file leaves */
+#define STEEP 0.70710678118654752 /* cosine of 45 degrees: of two directions at right angles one at least is nearer */
 
 /* ---- input errors (base/error.c) ------------------------------------------------------------------------------- */
 

@@ -5,9 +5,10 @@
 #define MODES "auto|on|off"
 #define PREFIX "path_"
 
-#define LEAST (1. / 64) /* of the first piece: a shorter one is given up */
-#define CREEP 10        /* first step of pseudo-time: cells answer to a change of shape with a tenth of their stiffness more */
-#define CREEP_STEPS 20  /* attempts in all */
+#define LEAST_WAY (1. / 8) /* of the way of the load on another mesh: a shorter piece is given up */
+#define LEAST (1. / 64)    /* the same of the first piece of other loops */
+#define CREEP 10           /* first step of pseudo-time: cells answer to a change of shape with a tenth of their stiffness more */
+#define CREEP_STEPS 20     /* attempts in all */
 
 static PetscErrorCode Begin_Private(Path *p, const State *guess)
 {
@@ -87,7 +88,7 @@ static PetscErrorCode Overlap_Private(Path *p, const PathLoop *load, PetscReal t
 static PetscErrorCode Cut_Private(Path *p, const PathLoop *load, PetscReal to, const State *guess, SolverReport *report)
 {
   const PetscReal way  = to - load->origin;
-  PathLoop        loop = {.metric = load->metric, .s = load->origin, .stop = to, .piece = way, .least = LEAST * way, .most = way, .origin = load->origin};
+  PathLoop        loop = {.metric = load->metric, .s = load->origin, .stop = to, .piece = way, .least = LEAST_WAY * way, .most = way, .origin = load->origin};
 
   PetscFunctionBegin;
   PetscCall(Begin_Private(p, NULL));

@@ -165,7 +165,7 @@ static void CheckDual(const ContactSurface *s, PetscBool axisymmetric, const Pet
   assert_near(f.sum, 0, tolerance);
   assert_near(f.off, 0, tolerance);
   assert_near(f.diagonal, 0, tolerance);
-  assert_true(f.least > (carries ? 0.99 * MULTIPLIER_LEAST : 0.999));
+  assert_true(f.least > (carries ? 0.99 * CONTACT_SLIVER : 0.999));
   for (PetscInt d = 0; d <= degree; d++) assert_near(f.exact[d], 0, tolerance);
 }
 
@@ -308,7 +308,7 @@ static void Axis(void **state)
       const Findings f = Find(&l.s, PETSC_TRUE, (PetscBool)standard, NULL, NULL, POINTS);
       assert_int_equal(f.num, p == 1 ? 3 : 2 * p);
       assert_near(f.sum, 0, 1e-11);
-      assert_true(f.least > 0.99 * MULTIPLIER_LEAST);
+      assert_true(f.least > 0.99 * CONTACT_SLIVER);
       if (!standard) assert_near(f.off, 0, 1e-11);
       LatticeDestroy(&l);
     }
@@ -353,7 +353,7 @@ static void HeldEnd(void **state)
       if (f.num == 0) continue;
       assert_near(f.sum, 0, 1e-12);
       assert_near(f.off, 0, 1e-12);
-      assert_true(f.least > 0.99 * MULTIPLIER_LEAST);
+      assert_true(f.least > 0.99 * CONTACT_SLIVER);
     }
     LatticeDestroy(&l);
   }
