@@ -364,8 +364,9 @@ PetscErrorCode ContactFrameRows(RayWork, const ContactSurface *, PetscInt node, 
 PetscReal ContactCarry(const PetscReal m[3], const PetscReal n[3], const PetscReal Q[3], PetscReal t[3]);
 void      ContactCarryRows(const PetscReal m[3], const PetscReal n[3], const PetscReal Q[3], PetscReal A[3][3], PetscReal B[3][3]);
 
-/* shear.c: in space, forces of the facet at hand by tangential tractions, and their part of the Hessian. */
+/* shear.c in space, shearplane.c in the plane: forces of the facet at hand by tangential tractions, and their part of the Hessian. */
 PetscErrorCode ContactShear(const EvaluateContext *, ContactFacet *out);
+PetscErrorCode ContactShearPlane(const EvaluateContext *, ContactFacet *out);
 
 /* slip.c: to[D masters][ld] += from[D (lattice, then mortar nodes)][stride] of the facet at hand. */
 void ContactSlipMasters(const RayWork, PetscInt stride, const PetscReal from[], PetscInt ld, PetscReal to[]);
