@@ -14,7 +14,8 @@
 #include <petscdt.h>
 
 #define MOST_POINTS 144
-#define JOINT 8 /* line between the two corners at one place */
+#define SMALL 0.01 /* sine of an angle: lines that meet at less lie nearly on each other */
+#define JOINT 8    /* line between the two corners at one place */
 
 /* W[nl][nr] += factor sum_k left[k][nl] right[k][nr] */
 void ContactRayProducts(PetscInt num, PetscReal factor, PetscInt nl, const PetscReal left[], PetscInt ldl, PetscInt nr, const PetscReal right[], PetscInt ldr,
@@ -129,7 +130,7 @@ void ContactRaySplit(const RayFacet *f, const Overlap *o, Overlap *to)
   to->num = 0;
   for (PetscInt k = 0; k < o->num; k++) {
     const int       a = o->line[(k + o->num - 1) % o->num], b = o->line[k];
-    const PetscBool split = (PetscBool)(a / 4 != b / 4 && to->num + o->num - k < FACET_VERTICES && Sine_Private(o, a, b) < CONTACT_GRAZE);
+    const PetscBool split = (PetscBool)(a / 4 != b / 4 && to->num + o->num - k < FACET_VERTICES && Sine_Private(o, a, b) < SMALL);
 
     for (int twice = split ? 1 : 0; twice >= 0; twice--) {
       for (int i = 0; i < 2; i++) to->v[to->num][i] = o->v[k][i];
