@@ -23,12 +23,9 @@ PetscReal ContactIdle_Private(const Contact *c, PetscInt j)
   PetscReal      sum = 0;
 
   for (PetscInt i = s->node_first[j]; i < s->node_first[j + 1]; ++i) {
-    const PetscInt at = c->result[s->node_facet[i]];
-    if (at < 0 || !c->facets[at].compliance) continue;
-    const ContactFacet *e   = &c->facets[at];
-    PetscInt            row = 0;
-    while (row < e->num_rows && e->nodes[row] != j) ++row;
-    for (PetscInt l = 0; l < e->num_rows && row < e->num_rows; ++l) {
+    PetscInt            row;
+    const ContactFacet *e = ContactCompliant_Private(c, j, i, &row);
+    for (PetscInt l = 0; e && l < e->num_rows; ++l) {
       if (l != row && !c->active[e->nodes[l]]) sum += ContactCompliance_Private(e, row, l) * c->z[e->nodes[l]];
     }
   }

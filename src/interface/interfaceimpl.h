@@ -398,6 +398,17 @@ static inline PetscReal ContactCompliance_Private(const ContactFacet *e, PetscIn
   for (PetscInt r = 0; r < e->num_rows; ++r) sum += e->compliance[r];
   return e->kappa[0] * e->compliance[k] * ((PetscReal)(k == l) - e->compliance[l] / sum);
 }
+/* Of the facets around node j, place i of node_facet: the facet where it has a compliance, and the row of j there; else NULL. */
+static inline const ContactFacet *ContactCompliant_Private(const Contact *c, PetscInt j, PetscInt i, PetscInt *row)
+{
+  const PetscInt      at = c->result[c->side[0].node_facet[i]];
+  const ContactFacet *e  = at < 0 ? NULL : &c->facets[at];
+
+  if (!e || !e->compliance) return NULL;
+  for (*row = 0; *row < e->num_rows; ++*row)
+    if (e->nodes[*row] == j) return e;
+  return NULL;
+}
 /* Derivative of (S z)_j - along S_jj by the facet's covered share, row k. */
 PetscReal ContactYield_Private(const Contact *, const ContactFacet *, PetscInt k, PetscReal along);
 /* Change of every owned node's weighted gap, at fixed measure, under a local array of increments. Collective. */

@@ -100,12 +100,9 @@ static PetscErrorCode Couplings_Private(const InterfaceSystem *a, const Contact 
 
   PetscFunctionBegin;
   for (PetscInt i = s->node_first[j]; factor != 0 && i < s->node_first[j + 1]; ++i) {
-    const PetscInt place = c->result[s->node_facet[i]];
-    if (place < 0 || !c->facets[place].compliance) continue;
-    const ContactFacet *e   = &c->facets[place];
-    PetscInt            row = 0;
-    while (row < e->num_rows && e->nodes[row] != j) ++row;
-    for (PetscInt k = 0; k < e->num_rows && row < e->num_rows; ++k) {
+    PetscInt            row;
+    const ContactFacet *e = ContactCompliant_Private(c, j, i, &row);
+    for (PetscInt k = 0; e && k < e->num_rows; ++k) {
       const PetscInt l = e->nodes[k];
       if (k == row || c->zdof[l] < 0 || (a->symmetric && !c->active[l])) continue;
       PetscCall(PetscFindInt(c->zdof[l], num, dofs, &at));

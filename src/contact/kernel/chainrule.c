@@ -134,6 +134,22 @@ void ContactRayChainNodes(RayWork w, PetscInt num, const PetscReal X[], PetscRea
         for (PetscInt r = 0; r < num; r++) to[r * nn + D * w->result.row_node[k] + c] += w->result.row_weight[k] * X[(Row_Private(f, v) + c) * num + r];
 }
 
+PetscErrorCode ContactRayChainForces(RayWork w, PetscInt rows, PetscReal K[], PetscReal to[])
+{
+  const PetscInt n = w->n;
+  PetscReal     *X;
+
+  PetscFunctionBegin;
+  ContactImagesFold(w, rows, K, n);
+  PetscCall(PetscMalloc1(n * rows, &X));
+  for (PetscInt i = 0; i < rows; i++)
+    for (PetscInt j = 0; j < n; j++) X[j * rows + i] = K[i * n + j];
+  ContactRayChainImages(w, rows, X);
+  ContactRayChainNodes(w, rows, X, to);
+  PetscCall(PetscFree(X));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* to[D * masters] += row[D * nodes but directions] */
 static void Scatter_Private(const RayWork w, PetscReal factor, const PetscReal row[], PetscReal to[])
 {

@@ -344,6 +344,8 @@ PetscErrorCode ContactRayChain(RayWork, const ContactSurface *nonmortar, PetscIn
 void ContactRayChainImages(RayWork, PetscInt num, PetscReal X[]);
 /* to[num][nn] += X^T by the nodes, without the part by the images. */
 void ContactRayChainNodes(RayWork, PetscInt num, const PetscReal X[], PetscReal to[]);
+/* to[rows][nn] += K[rows][n], how forces change by the facet's numbers; K is overwritten. */
+PetscErrorCode ContactRayChainForces(RayWork, PetscInt rows, PetscReal K[], PetscReal to[]);
 /* H += both halves of the work space's W; forces at held lines: not symmetric, H[i][j] derivative of force i by position j. */
 PetscErrorCode ContactRayChainHessian(RayWork, PetscReal H[]);
 PetscErrorCode ContactRayDirectionCurvature(RayWork, const ContactSurface *, PetscInt facet, const PetscReal gradient[], PetscReal H[]);

@@ -337,22 +337,18 @@ static PetscErrorCode Axes_Private(const EvaluateContext *ctx, const Sums *s, Pe
 static PetscErrorCode Tangent_Private(const EvaluateContext *ctx, const Sums *s, PetscReal H[])
 {
   RayWork          w = ctx->pair->ray;
-  const PetscInt   n = s->n, rows = s->rows, nn = w->nn;
+  const PetscInt   n = s->n, rows = s->rows;
   const PetscReal *dshare = w->dq + 2 * w->facet.s.num * n;
-  PetscReal       *X, *to;
+  PetscReal       *to;
 
   PetscFunctionBegin;
   for (PetscInt i = 0; i < rows && w->share.part; i++)
     for (PetscInt j = 0; j < n; j++) s->K[i * n + j] += s->share[i] * dshare[j];
-  ContactImagesFold(w, rows, s->K, n);
-  PetscCall(PetscCalloc2(n * rows, &X, rows * nn, &to));
-  for (PetscInt i = 0; i < rows; i++)
-    for (PetscInt j = 0; j < n; j++) X[j * rows + i] = s->K[i * n + j];
-  ContactRayChainImages(w, rows, X);
-  ContactRayChainNodes(w, rows, X, to);
+  PetscCall(PetscCalloc1(rows * w->nn, &to));
+  PetscCall(ContactRayChainForces(w, rows, s->K, to));
   PetscCall(Axes_Private(ctx, s, to));
-  ContactSlipMasters(w, nn, to, nn, H);
-  PetscCall(PetscFree2(X, to));
+  ContactSlipMasters(w, w->nn, to, w->nn, H);
+  PetscCall(PetscFree(to));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

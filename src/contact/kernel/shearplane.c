@@ -143,22 +143,18 @@ static PetscErrorCode Overlap_Private(RayWork w, const ContactSurface *surface, 
 /* H += the change of the forces, rows: forces. */
 static PetscErrorCode Tangent_Private(RayWork w, const Sums *s, const Functions *o, PetscReal H[])
 {
-  const PetscInt   n = s->n, rows = s->rows, nn = w->nn;
+  const PetscInt   n = s->n, rows = s->rows;
   const PetscReal *dshare = w->dq + 2 * w->facet.s.num * n;
-  PetscReal       *X, *to;
+  PetscReal       *to;
 
   PetscFunctionBegin;
   for (PetscInt a = 0; a < w->facet.s.num && w->share.part; a++)
     for (PetscInt i = 0; i < rows; i++)
       for (PetscInt j = 0; j < n; j++) s->K[i * n + j] += s->F[a * rows + i] * o->dy[a] * dshare[j];
-  ContactImagesFold(w, rows, s->K, n);
-  PetscCall(PetscCalloc2(n * rows, &X, rows * nn, &to));
-  for (PetscInt i = 0; i < rows; i++)
-    for (PetscInt j = 0; j < n; j++) X[j * rows + i] = s->K[i * n + j];
-  ContactRayChainImages(w, rows, X);
-  ContactRayChainNodes(w, rows, X, to);
-  ContactSlipMasters(w, nn, to, nn, H);
-  PetscCall(PetscFree2(X, to));
+  PetscCall(PetscCalloc1(rows * w->nn, &to));
+  PetscCall(ContactRayChainForces(w, rows, s->K, to));
+  ContactSlipMasters(w, w->nn, to, w->nn, H);
+  PetscCall(PetscFree(to));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
