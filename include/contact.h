@@ -19,6 +19,7 @@
 
 #define CONTACT_SEGMENT 8  /* most corners of a segment */
 #define CONTACT_SLIVER 0.1 /* of a facet, or of one of its functions: what is less tells nothing of its own */
+#define CONTACT_SHARP 0.76604444311897804 /* cosine of 40 degrees: a surface that turns by more has an edge */
 #define CONTACT_OPPOSE 0.3 /* facets face each other where N_s . N_m < -0.3: the search keeps these */
 
 typedef struct {
@@ -39,7 +40,7 @@ typedef struct {
   const PetscReal *X; /* [num_nodes][dim] reference positions, those of hanging nodes included */
   /* [num_nodes] Is the node's position known on this rank? NULL: all are. Searches pass over mortar facets with other nodes; normals beside them are NaN. */
   const PetscBool *has;
-  const PetscInt  *twin; /* plane: [num_nodes] the node at the same place on the other side of a sharp edge, -1: none; NULL: no edge is parted */
+  const PetscBool *rim;  /* [num_nodes] corners on an edge beyond which the side goes on with another face (ContactSpec.face); NULL: none */
 } ContactSurface;
 
 typedef enum { CONTACT_FRICTIONLESS, CONTACT_PENALTY, CONTACT_COULOMB, CONTACT_TIED } ContactLaw; /* in the order of the table of laws */
@@ -64,12 +65,11 @@ typedef struct {
   PetscBool  ramp;              /* overlaps of the mesh there count by the share t, from t = 1 on whole */
   Expression interference;      /* of t: overlap at the reference positions, besides that of the geometry; NULL: none */
   PetscReal  about[3];          /* point that moments of its forces are counted about, reference position */
+  const int8_t *face;           /* faces of the mortar side (scene/faces.c): colour by side of the coarse mesh; NULL: it has one */
+  PetscInt   part;              /* the colour that this pair meets; pairs of one name follow one another, the first has 0 */
   PetscBool  subdivide_auto;    /* cells behind linear facets are subdivided as the estimate asks (estimate/layer.c) */
 } ContactSpec;
 
-/* edge[num_nodes]: where a surface of two dimensions turns by more than 40 degrees, at the reference positions: 1 at a convex corner, -1 at a concave one, else
-   0. */
-PetscErrorCode ContactEdges(const ContactSurface *, int8_t edge[]);
 /* Vector of a facet with these nodes, x[..][dim], outward and as long as its length or area: edge x the axis out of the plane; in space half the product of the
    diagonals, the exact vector area of the bilinear face. */
 static inline void ContactFacetVector(PetscInt dim, const PetscReal x[], const PetscInt node[], PetscReal N[3])

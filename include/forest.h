@@ -113,6 +113,9 @@ PetscErrorCode ForestRefine(Forest *forest, const RefineSpec *spec);
 /* Does a facet of the leaf belong to one of these boundary groups (bits)? Not collective. */
 PetscBool ForestLeafTouches(const ForestTables *, PetscInt leaf, uint64_t groups);
 
+/* Side of the coarse mesh in which an outer facet of a leaf lies: 2 dim cell + 2 direction, + 1 the upper one. Not collective. */
+PetscInt ForestCoarseSide(const ForestTables *, PetscInt leaf, PetscInt facet);
+
 /* The tree as a list, for ForestRestore: of every node, depth-first, coarse cell by coarse cell, the directions in which it is split (bits; 0: a leaf).
    split[*num] is freed by the caller. Not collective. */
 PetscErrorCode ForestGetSplits(Forest, PetscInt *num, int8_t **split);

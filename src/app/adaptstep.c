@@ -22,7 +22,7 @@ static PetscErrorCode ReportPass_Private(App *app, PetscInt iterations, PetscBoo
 
   PetscFunctionBegin;
   PetscCall(BalanceCompute(l->problem, &l->state, &app->balance));
-  for (PetscInt i = 0; i < app->data->num_contacts; ++i) app->touched[i] = (PetscBool)(app->touched[i] || app->balance.pair[i].active_nodes > 0);
+  for (PetscInt i = 0; i < app->balance.num_contacts; ++i) app->touched[i] = (PetscBool)(app->touched[i] || app->balance.pair[i].active_nodes > 0);
   if (before.reaction && app->passes_in_step > 0) BalanceChange(&before, &app->balance, change);
   if (before.reaction) PetscCall(BalanceDestroy(&before));
   PetscCall(PetscMemzero(&app->last, sizeof(app->last)));

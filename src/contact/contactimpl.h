@@ -2,7 +2,6 @@
 #pragma once
 #include "contact.h"
 
-#define CONTACT_SHARP 0.76604444311897804 /* cosine of 40 degrees: a surface that turns by more has an edge */
 #define CONTACT_GRAZE 1e-3 /* angle, or distance over a facet's size, below which where lines cross, or where a ray meets a facet, tells nothing */
 
 /* Bounding-volume tree over mortar facets: node i's children are child[i], child[i] + 1; leaves hold item[first .. first + count). In two dimensions the third

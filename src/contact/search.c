@@ -77,52 +77,38 @@ static void UnitNormal_Private(const ContactSurface *s, PetscInt facet, PetscRea
   for (int c = 0; c < 3; c++) n[c] /= size;
 }
 
-/* Does a facet round a sharp edge of the nonmortar side face what this one grazes, of normal m? */
-static PetscBool NeighborFaces_Private(const RayWork w, const ContactSurface *s, PetscInt facet, const PetscReal m[3])
+/* Round a sharp edge of the nonmortar side one facet faces what the other one grazes. What the latter would see beside the edge is no gap of this contact: it
+   came and went by CONTACT_OPPOSE as facets tilt, and with it the mean gap of the nodes on the edge. (Faces round an edge of the mortar side are pairs of their
+   own.) Is the mortar facet one that this facet, of normal n, grazes and a neighbour faces? */
+static PetscBool IsGrazed_Private(const RayWork w, const ContactSurface *nonmortar, PetscInt facet, const PetscReal n[3], const ContactSurface *mortar,
+                                  PetscInt met)
 {
-  const PetscInt nv = 2 * (s->dim - 1);
-  PetscReal      other[3];
+  const PetscInt nv = 2 * (nonmortar->dim - 1);
+  PetscReal      m[3], other[3];
 
-  for (PetscInt a = 0; a < 2 * nv; a++) {
-    const PetscInt own = s->facets[nv * facet + a / 2], node = a % 2 == 0 ? own : s->twin ? s->twin[own] : -1;
-    for (PetscInt k = node < 0 ? 0 : w->ring_first[node]; node >= 0 && k < w->ring_first[node + 1]; k++) {
-      UnitNormal_Private(s, w->ring[k] / nv, other);
-      if (Dot3(other, m) < -STEEP && ContactFacetJoint(s, facet, w->ring[k] / nv) == JOINT_SHARP) return PETSC_TRUE;
+  UnitNormal_Private(mortar, met, m);
+  if (!(Dot3(n, m) > -STEEP && Dot3(n, m) < -CONTACT_OPPOSE)) return PETSC_FALSE;
+  for (PetscInt a = 0; a < nv; a++) {
+    const PetscInt node = nonmortar->facets[nv * facet + a];
+
+    for (PetscInt k = w->ring_first[node]; k < w->ring_first[node + 1]; k++) {
+      UnitNormal_Private(nonmortar, w->ring[k] / nv, other);
+      if (Dot3(other, m) < -STEEP && ContactFacetJoint(nonmortar, facet, w->ring[k] / nv) == JOINT_SHARP) return PETSC_TRUE;
     }
   }
   return PETSC_FALSE;
 }
 
-/* Round a sharp edge, of either side, one face lies in front and the other is met at a grazing angle. What the latter would see beside the edge is no gap of
-   this contact: it came and went by CONTACT_OPPOSE as facets tilt, and with it the mean gap of the nodes on the edge. around[num]: mortar facets in the region,
-   of which those that graze, round an edge or smoothly joined to such, get ~facet. */
-static void LeaveOutGrazing_Private(ContactPair pair, const ContactSurface *nonmortar, PetscInt facet, const ContactSurface *mortar, PetscInt num,
-                                    PetscInt around[])
+static PetscBool Meets_Private(ContactPair pair, const ContactSurface *nonmortar, PetscInt facet, const RayRegion *region, const FacetCorners *corners,
+                               const ContactSurface *mortar, PetscInt met)
 {
-  PetscReal n[3], m[3], other[3];
-  PetscBool more = PETSC_TRUE;
+  PetscReal n[3];
 
+  /* where a smooth surface has been folded the gap of neighbours is 0, whatever moves */
+  if (pair->self && ContactFacetJoint(mortar, facet, met) == JOINT_SMOOTH) return PETSC_FALSE;
+  if (!ContactRayRegionMeets(region, mortar, met)) return PETSC_FALSE;
   UnitNormal_Private(nonmortar, facet, n);
-  while (more) {
-    more = PETSC_FALSE;
-    for (PetscInt k = 0; k < num; k++) {
-      PetscBool grazes = PETSC_FALSE;
-
-      if (around[k] < 0) continue;
-      UnitNormal_Private(mortar, around[k], m);
-      if (!(Dot3(n, m) > -STEEP && Dot3(n, m) < -CONTACT_OPPOSE)) continue;
-      for (PetscInt l = 0; l < num && !grazes; l++) {
-        const PetscInt f = around[l] < 0 ? ~around[l] : around[l];
-
-        UnitNormal_Private(mortar, f, other);
-        if (around[l] >= 0 && !(Dot3(other, n) < -STEEP)) continue;
-        grazes = (PetscBool)(ContactFacetJoint(mortar, around[k], f) == (around[l] < 0 ? JOINT_SMOOTH : JOINT_SHARP));
-      }
-      if (!grazes && !NeighborFaces_Private(pair->ray, nonmortar, facet, m)) continue;
-      around[k] = ~around[k];
-      more      = PETSC_TRUE;
-    }
-  }
+  return (PetscBool)(!IsGrazed_Private(pair->ray, nonmortar, facet, n, mortar, met) && !ContactBehind(pair, facet, corners, mortar, met));
 }
 
 /* Query the tree for every listed facet. found: room for all mortar facets. */
@@ -144,12 +130,8 @@ static PetscErrorCode Candidates_Private(ContactPair pair, const ContactSurface 
     ContactCorners(pair, nonmortar, pair->listed[i], &corners);
     PetscCall(PetscSortInt(num, found)); /* results must not depend on the tree */
     PetscCall(ContactGrow(total + num, sizeof(PetscInt), &pair->size_candidate, &pair->candidate));
-    LeaveOutGrazing_Private(pair, nonmortar, pair->listed[i], mortar, num, found);
-    for (PetscInt k = 0; k < num && pair->self; k++) /* where a smooth surface has been folded the gap of neighbours is 0, whatever moves */
-      if (found[k] >= 0 && ContactFacetJoint(mortar, pair->listed[i], found[k]) == JOINT_SMOOTH) found[k] = ~found[k];
     for (PetscInt k = 0; k < num; k++)
-      if (found[k] >= 0 && ContactRayRegionMeets(&region, mortar, found[k]) && !ContactBehind(pair, pair->listed[i], &corners, mortar, found[k]))
-        pair->candidate[total++] = found[k];
+      if (Meets_Private(pair, nonmortar, pair->listed[i], &region, &corners, mortar, found[k])) pair->candidate[total++] = found[k];
   }
   pair->start[pair->num_listed] = total;
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -234,11 +234,56 @@ static PetscErrorCode Motions_Private(Problem problem, const MechanicsSpec *spec
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Figures of a pair's further parts to those of its first. */
+static void AddPart_Private(const PairFigures *part, PairFigures *to)
+{
+  const PetscReal total = to->total + part->total;
+
+  for (PetscInt k = 0; k < 2; ++k)
+    for (PetscInt c = 0; c < 3; ++c) {
+      to->force[k][c] += part->force[k][c];
+      to->moment[k][c] += part->moment[k][c];
+    }
+  if (total > 0) {
+    to->force_imbalance  = (to->force_imbalance * to->total + part->force_imbalance * part->total) / total;
+    to->moment_imbalance = (to->moment_imbalance * to->total + part->moment_imbalance * part->total) / total;
+  }
+  to->total = total;
+  if (part->covered_nodes) {
+    to->min_gap = to->covered_nodes ? PetscMin(to->min_gap, part->min_gap) : part->min_gap;
+    to->max_gap = to->covered_nodes ? PetscMax(to->max_gap, part->max_gap) : part->max_gap;
+  }
+  to->max_pressure = PetscMax(to->max_pressure, part->max_pressure);
+  to->area += part->area;
+  to->radius   = PetscMax(to->radius, part->radius);
+  to->adjusted = PetscMax(to->adjusted, part->adjusted);
+  to->unusable += part->unusable;
+  to->active_nodes += part->active_nodes;
+  to->covered_nodes += part->covered_nodes;
+  to->friction.dissipation += part->friction.dissipation;
+  to->friction.max_slip = PetscMax(to->friction.max_slip, part->friction.max_slip);
+  to->friction.sticking += part->friction.sticking;
+  to->friction.slipping += part->friction.slipping;
+}
+
+/* Of one part of a pair. */
+static PetscErrorCode Pair_Private(Problem problem, const SceneData *scene, PetscInt i, const ContactView *view, PairFigures *f)
+{
+  Forest forest;
+
+  PetscFunctionBegin;
+  PetscCall(ProblemGetForest(problem, &forest));
+  PetscCall(BalanceZone(ForestComm(forest), view, f));
+  PetscCall(InterfaceFriction(ProblemInterface(problem), i, &f->friction));
+  PetscCall(Imbalance_Private(ForestComm(forest), scene->mechanics.model, (PetscBool)(scene->mechanics.kinematics == KINEMATICS_SMALL), view, f));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode BalanceCompute(Problem problem, const State *state, Balance *b)
 {
   const SceneData    *scene;
   const ForestTables *t;
-  const ContactView **view;
+  const ContactView **view, *v;
   Forest              forest;
 
   PetscFunctionBegin;
@@ -255,12 +300,19 @@ PetscErrorCode BalanceCompute(Problem problem, const State *state, Balance *b)
   PetscCall(PetscMalloc1(b->num_contacts, &view));
   PetscCall(ProblemForces(problem, state, b->reaction, b->support_moment, b->body, NULL, NULL, &b->status));
   PetscCall(Motions_Private(problem, &scene->mechanics, b->motion));
+  b->num_contacts = 0;
+  for (PetscInt i = 0; i < scene->num_contacts; ++i) {
+    PairFigures part;
+    PetscCall(PetscMemzero(&part, sizeof(part)));
+    PetscCall(InterfaceGetContact(ProblemInterface(problem), i, &v));
+    PetscCall(Pair_Private(problem, scene, i, v, &part));
+    if (v->spec->part == 0) {
+      view[b->num_contacts]      = v;
+      b->pair[b->num_contacts++] = part;
+    } else
+      AddPart_Private(&part, &b->pair[b->num_contacts - 1]);
+  }
   for (PetscInt i = 0; i < b->num_contacts; ++i) {
-    PetscCall(InterfaceGetContact(ProblemInterface(problem), i, &view[i]));
-    PetscCall(BalanceZone(ForestComm(forest), view[i], &b->pair[i]));
-    PetscCall(InterfaceFriction(ProblemInterface(problem), i, &b->pair[i].friction));
-    PetscCall(
-        Imbalance_Private(ForestComm(forest), scene->mechanics.model, (PetscBool)(scene->mechanics.kinematics == KINEMATICS_SMALL), view[i], &b->pair[i]));
     b->force_imbalance  = PetscMax(b->force_imbalance, b->pair[i].force_imbalance);
     b->moment_imbalance = PetscMax(b->moment_imbalance, b->pair[i].moment_imbalance);
   }

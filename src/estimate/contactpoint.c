@@ -67,6 +67,26 @@ static PetscReal Stretch_Private(const ContactTerms *terms, const SurfaceView *s
   return ratio * x[0] / X[0];
 }
 
+/* Of the nodes' normals; round an edge a node has that of another facet, and the facet's own counts. */
+static void Interpolate_Private(const ContactTerm *term, PetscBool finite, PetscInt facet, const PetscReal N[], PetscReal n[3])
+{
+  const SurfaceView *s         = &term->view->nonmortar;
+  const PetscReal    middle[2] = {0, 0};
+  const PetscInt    *node, num = SurfaceFacetNodes(s, facet, &node);
+  PetscReal          t[2][3], own[3], length;
+
+  SurfaceTangents(s, facet, finite ? term->x : s->X, middle, t);
+  Cross3(t[0], t[1], own);
+  length = PetscSqrtReal(Dot3(own, own));
+  n[0] = n[1] = n[2] = 0;
+  for (PetscInt a = 0; a < num; ++a) {
+    PetscReal m[3] = {0, 0, 0};
+    for (PetscInt c = 0; c < s->dim; ++c) m[c] = term->normal[s->dim * node[a] + c];
+    const PetscBool beyond = (PetscBool)(Dot3(m, own) < CONTACT_SHARP * length);
+    for (PetscInt c = 0; c < 3; ++c) n[c] += N[a] * (beyond ? own[c] / length : m[c]);
+  }
+}
+
 void ContactNormal_Private(const ContactTerm *term, PetscBool finite, PetscInt facet, const PetscReal xi[2], const PetscReal N[], PetscReal n[3])
 {
   const SurfaceView *s = &term->view->nonmortar;
@@ -76,7 +96,7 @@ void ContactNormal_Private(const ContactTerm *term, PetscBool finite, PetscInt f
     SurfaceTangents(s, facet, finite ? term->x : s->X, xi, t);
     Cross3(t[0], t[1], n);
   } else
-    ContactPosition_Private(s, facet, term->normal, N, n);
+    Interpolate_Private(term, finite, facet, N, n);
   const PetscReal length = PetscSqrtReal(Dot3(n, n));
   for (PetscInt c = 0; c < 3 && length > 0; ++c) n[c] /= length;
 }

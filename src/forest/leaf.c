@@ -300,3 +300,13 @@ PetscErrorCode ForestGetLeafDM(Forest forest, DM *dm, PetscInt *num_owned_cells,
   if (point_entity) *point_entity = forest->point_entity;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
+
+PetscInt ForestCoarseSide(const ForestTables *t, PetscInt leaf, PetscInt facet)
+{
+  const PetscInt *cl    = t->closure + t->closure_offset[t->first[t->dim] + leaf];
+  PetscInt        index = 0;
+
+  while (cl[index] != facet) ++index;
+  const PetscInt place[3] = {index % 3, t->dim > 1 ? index / 3 % 3 : 1, t->dim > 2 ? index / 9 : 1}, d = place[0] != 1 ? 0 : place[1] != 1 ? 1 : 2;
+  return 2 * (t->dim * t->leaf_root[leaf] + d) + place[d] / 2;
+}

@@ -154,6 +154,7 @@ static PetscErrorCode IsHigher_Private(Interface p, const ContactSpec *spec, Pet
 PetscErrorCode ContactCreate_Private(Interface p, const ContactSpec *spec, Contact *c)
 {
   const PetscBool axisymmetric = (PetscBool)(p->spec->model == MODEL_AXISYMMETRIC);
+  const SurfaceFacets own = {.group = spec->nonmortar}, other = {.group = spec->mortar, .colour = spec->part, .face = spec->face};
   PetscBool       higher;
 
   PetscFunctionBegin;
@@ -162,9 +163,8 @@ PetscErrorCode ContactCreate_Private(Interface p, const ContactSpec *spec, Conta
   c->law  = ContactLaws[spec->law];
   c->num  = c->law->num_multipliers(p->dim);
   PetscCall(IsHigher_Private(p, spec, &higher));
-  PetscCall(SurfaceCreate_Private(p, spec->nonmortar, higher, &c->side[0]));
-  PetscCall(SurfaceCreate_Private(p, spec->mortar, higher, &c->side[1]));
-  if (c->num == 1 && !spec->self) PetscCall(SurfacePart_Private(p, spec->nonmortar, higher, &c->side[1], &c->side[0]));
+  PetscCall(SurfaceCreate_Private(p, &own, higher, &c->side[0]));
+  PetscCall(SurfaceCreate_Private(p, &other, higher, &c->side[1]));
   PetscCall(ContactPairCreate(p->dim, axisymmetric, spec, &c->pair));
   for (PetscInt k = 0; k < 2; ++k) PetscCall(HullParts_Private(p, &c->side[k], &c->part[k]));
   PetscReal deepest;

@@ -92,7 +92,7 @@ typedef struct {
   PetscInt  *true_first, *true_node;  /* [num_facets+1] offsets, ascending: nodes of the facet, masters for those that hang, and of lattices that share a
  hanging corner with it: their multiplier functions are made together */
   PetscInt  *node_first, *node_facet; /* [num_nodes+1] offsets: facets that carry weight to the node, those with it as a true node */
-  PetscInt  *twin;                    /* [num_nodes] as in ContactSurface; NULL: no edge is parted */
+  PetscBool *rim;                     /* [num_nodes] as in ContactSurface; NULL: none */
   PetscReal *X, *x, *du;              /* [num_nodes][dim] reference and current position; increment under discussion */
   PetscReal *mirror;                  /* normals of symmetry planes as in ContactSurface, else 0 */
   PetscReal *frame;                   /* [num_nodes][dim][dim] rows: directions of the dofs */
@@ -225,10 +225,12 @@ struct _p_Interface {
 
 PetscErrorCode SurfaceFields_Private(Interface, Surface *); /* after the topology */
 /* lattice: nodes of facets of higher order, else their corners only, which must be of order 1. */
-PetscErrorCode SurfaceCreate_Private(Interface, PetscInt group, PetscBool lattice, Surface *);
-/* Two dimensions: made anew with two nodes, one for each side, at each corner that may lie in a corner of the other surface, where there are any: a convex one
-   where that has concave ones, and the other way round. There two faces are met at once, which one constraint cannot say. */
-PetscErrorCode SurfacePart_Private(Interface, PetscInt group, PetscBool lattice, const Surface *other, Surface *);
+/* Facets of a boundary group, with face (ContactSpec): of one colour. */
+typedef struct {
+  PetscInt      group, colour;
+  const int8_t *face;
+} SurfaceFacets;
+PetscErrorCode SurfaceCreate_Private(Interface, const SurfaceFacets *, PetscBool lattice, Surface *);
 /* lattice.c: after the corners: nodes on the lattices of the facets, rows of those that hang. */
 PetscErrorCode SurfaceLattice_Private(HPSpace, const ForestTables *, Surface *);
 /* Nodes of a facet: its corners, or its lattice; returns their number. */

@@ -52,8 +52,14 @@ PetscErrorCode SurfaceCorners_Private(Forest forest, PetscInt facet, PetscInt le
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* parted: [entities] vertices at which each facet has a node of its own; NULL: none. */
-static PetscErrorCode SurfaceTopology_Private(const ForestTables *t, PetscInt group, const PetscBool parted[], Surface *s)
+/* A leaf's facet of the group that no other leaf has, none that hangs. */
+static PetscBool IsOuter_Private(const ForestTables *t, PetscInt group, PetscInt f)
+{
+  const PetscInt *leaf = t->facet_leaf + 2 * (f - t->first[t->dim - 1]);
+  return (PetscBool)((t->boundary[f] >> group & 1) && leaf[0] >= 0 && leaf[1] < 0 && t->parent[f] < 0);
+}
+
+static PetscErrorCode SurfaceTopology_Private(const ForestTables *t, const SurfaceFacets *of, Surface *s)
 {
   const PetscInt first = t->first[t->dim - 1], last = t->first[t->dim];
   PetscInt      *number;
@@ -63,17 +69,18 @@ static PetscErrorCode SurfaceTopology_Private(const ForestTables *t, PetscInt gr
   s->corners = t->dim == 2 ? 2 : 4;
   PetscCall(PetscMalloc1(t->first[1], &number));
   for (PetscInt v = 0; v < t->first[1]; ++v) number[v] = -1;
-  for (PetscInt f = first; f < last; ++f) s->num_facets += (t->boundary[f] >> group) & 1;
+  for (PetscInt f = first; f < last; ++f) s->num_facets += (t->boundary[f] >> of->group) & 1;
   PetscCall(PetscMalloc3(s->corners * s->num_facets, &s->facets, s->num_facets, &s->facet_leaf, s->num_facets, &s->facet_entity));
   PetscCall(PetscMalloc1(s->corners * s->num_facets, &s->node_entity));
   s->num_facets = 0;
   for (PetscInt f = first; f < last; ++f) {
     const PetscInt *leaf = t->facet_leaf + 2 * (f - first);
     PetscInt        vertex[4];
-    if (!((t->boundary[f] >> group) & 1) || leaf[0] < 0 || leaf[1] >= 0 || t->parent[f] >= 0) continue;
+    if (!IsOuter_Private(t, of->group, f)) continue;
+    if (of->face && of->face[ForestCoarseSide(t, leaf[0], f)] != of->colour) continue;
     FacetVertices_Private(t, f, leaf[0], vertex);
     for (PetscInt k = 0; k < s->corners; ++k) {
-      if (number[vertex[k]] < 0 || (parted && parted[vertex[k]])) {
+      if (number[vertex[k]] < 0) {
         number[vertex[k]]              = s->num_nodes;
         s->node_entity[s->num_nodes++] = vertex[k];
       }
@@ -230,34 +237,33 @@ static PetscErrorCode SurfaceNeighbours_Private(Surface *s)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The nodes at each parted vertex know of each other. */
-static PetscErrorCode Twins_Private(const PetscBool parted[], Surface *s)
+/* Corners that facets of another face have as well. */
+static PetscErrorCode Rim_Private(const ForestTables *t, const SurfaceFacets *of, Surface *s)
 {
-  PetscHMapI first;
+  PetscBool *other;
 
   PetscFunctionBegin;
-  PetscCall(PetscMalloc1(s->num_nodes, &s->twin));
-  PetscCall(PetscHMapICreate(&first));
-  for (PetscInt n = 0; n < s->num_nodes; ++n) s->twin[n] = -1;
-  for (PetscInt i = 0; i < s->corners * s->num_facets; ++i) {
-    const PetscInt n = s->facets[i];
-    PetscInt       other;
-    if (!parted[s->node_entity[n]]) continue;
-    PetscCall(PetscHMapIGet(first, s->node_entity[n], &other));
-    if (other >= 0) s->twin[n] = other, s->twin[other] = n;
-    PetscCall(PetscHMapISet(first, s->node_entity[n], n));
+  PetscCall(PetscCalloc1(t->first[1], &other));
+  PetscCall(PetscCalloc1(s->num_nodes, &s->rim));
+  for (PetscInt f = t->first[t->dim - 1]; f < t->first[t->dim]; ++f) {
+    const PetscInt *leaf = t->facet_leaf + 2 * (f - t->first[t->dim - 1]);
+    PetscInt        vertex[4];
+    if (!IsOuter_Private(t, of->group, f) || of->face[ForestCoarseSide(t, leaf[0], f)] == of->colour) continue;
+    FacetVertices_Private(t, f, leaf[0], vertex);
+    for (PetscInt k = 0; k < s->corners; ++k) other[vertex[k]] = PETSC_TRUE;
   }
-  PetscCall(PetscHMapIDestroy(&first));
+  for (PetscInt n = 0; n < s->num_nodes; ++n) s->rim[n] = (PetscBool)(s->node_entity[n] < t->first[1] && other[s->node_entity[n]]);
+  PetscCall(PetscFree(other));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode Create_Private(Interface p, PetscInt group, PetscBool lattice, const PetscBool parted[], Surface *s)
+PetscErrorCode SurfaceCreate_Private(Interface p, const SurfaceFacets *of, PetscBool lattice, Surface *s)
 {
   const ForestTables *t = p->tables;
 
   PetscFunctionBegin;
   PetscCall(PetscMemzero(s, sizeof(*s)));
-  PetscCall(SurfaceTopology_Private(t, group, parted, s));
+  PetscCall(SurfaceTopology_Private(t, of, s));
   if (lattice)
     PetscCall(SurfaceLattice_Private(p->space, t, s));
   else
@@ -265,51 +271,7 @@ static PetscErrorCode Create_Private(Interface p, PetscInt group, PetscBool latt
   PetscCall(SurfaceTrue_Private(s));
   PetscCall(SurfaceNeighbours_Private(s));
   PetscCall(SurfaceFields_Private(p, s));
-  if (parted) PetscCall(Twins_Private(parted, s));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode SurfaceCreate_Private(Interface p, PetscInt group, PetscBool lattice, Surface *s)
-{
-  PetscFunctionBegin;
-  PetscCall(Create_Private(p, group, lattice, NULL, s));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* Which turns has the surface, bit 0: convex, bit 1: concave. */
-static PetscErrorCode Turns_Private(const Surface *s, int8_t edge[], PetscInt *turns)
-{
-  const ContactSurface reference = SurfaceAt_Private(s, s->X);
-
-  PetscFunctionBegin;
-  *turns = 0;
-  PetscCall(ContactEdges(&reference, edge));
-  for (PetscInt n = 0; n < s->num_nodes; ++n) *turns |= edge[n] > 0 ? 1 : edge[n] < 0 ? 2 : 0;
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode SurfacePart_Private(Interface p, PetscInt group, PetscBool lattice, const Surface *other, Surface *s)
-{
-  const ForestTables *t;
-  PetscBool          *parted, any = PETSC_FALSE;
-  int8_t             *edge;
-  PetscInt            own, turns;
-
-  PetscFunctionBegin;
-  if (s->dim == 3) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(ForestGetTables(p->forest, &t));
-  PetscCall(PetscMalloc1(PetscMax(s->num_nodes, other->num_nodes), &edge));
-  PetscCall(Turns_Private(other, edge, &turns));
-  PetscCall(Turns_Private(s, edge, &own));
-  PetscCall(PetscCalloc1(t->first[1], &parted));
-  for (PetscInt n = 0; n < s->num_nodes; ++n)
-    if ((edge[n] > 0 && turns & 2) || (edge[n] < 0 && turns & 1)) parted[s->node_entity[n]] = any = PETSC_TRUE;
-  PetscCall(PetscFree(edge));
-  if (any) {
-    PetscCall(SurfaceDestroy_Private(s));
-    PetscCall(Create_Private(p, group, lattice, parted, s));
-  }
-  PetscCall(PetscFree(parted));
+  if (of->face) PetscCall(Rim_Private(t, of, s));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -328,7 +290,7 @@ PetscErrorCode SurfaceDestroy_Private(Surface *s)
   PetscCall(PetscFree(s->true_node));
   PetscCall(PetscFree(s->node_first));
   PetscCall(PetscFree(s->node_facet));
-  PetscCall(PetscFree(s->twin));
+  PetscCall(PetscFree(s->rim));
   PetscCall(PetscFree3(s->local, s->owned, s->dof));
   PetscCall(PetscFree4(s->X, s->x, s->mirror, s->frame));
   PetscCall(PetscFree2(s->du, s->force));
@@ -351,5 +313,5 @@ ContactSurface SurfaceAt_Private(const Surface *s, const PetscReal x[])
 {
   return (ContactSurface){s->dim,         s->num_nodes,   s->num_facets, s->facets, x,          s->mirror, s->hang,
                           s->hang_master, s->hang_weight, s->order,      s->first,  s->lattice, s->X,      x == s->X ? NULL : s->has,
-                          s->twin};
+                          s->rim};
 }

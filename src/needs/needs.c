@@ -109,8 +109,9 @@ static PetscErrorCode Contact_Private(Context *c)
   Need            *row;
 
   PetscFunctionBegin;
-  for (PetscInt i = 0; i < data->num_contacts; ++i) {
-    if (c->run->touched[i] || c->run->balance->pair[i].tied) continue;
+  for (PetscInt i = 0, pair = -1; i < data->num_contacts; ++i) {
+    pair += data->contacts[i].part == 0;
+    if (data->contacts[i].part || c->run->touched[pair] || c->run->balance->pair[pair].tied) continue;
     PetscCall(Row_Private(c, "contact", data->contacts[i].name, 0, StageSeconds(STAGE_CONTACT) / c->total / (PetscReal)data->num_contacts,
                           "its sides have not touched", &row));
     Drop_Private(row, "contact", data->contacts[i].name);

@@ -413,6 +413,37 @@ static PetscErrorCode CheckLoaded_Private(Scene s, const Facets *f)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* A pair for each colour of the mortar side's faces. */
+static PetscErrorCode PartContacts_Private(Scene s, const Facets *f)
+{
+  PetscInt    *num, total = 0;
+  ContactSpec *parts;
+
+  PetscFunctionBegin;
+  s->num_contacts = s->data.num_contacts;
+  PetscCall(PetscCalloc1(s->num_contacts, &s->face));
+  PetscCall(PetscMalloc1(s->num_contacts, &num));
+  for (PetscInt i = 0; i < s->num_contacts; ++i) {
+    const ContactSpec *c = &s->data.contacts[i];
+    num[i]               = 1;
+    if (!c->self && c->law != CONTACT_TIED && !c->node_to_segment) PetscCall(SceneColourFaces(f->whole, c->mortar, &num[i], &s->face[i]));
+    total += num[i];
+  }
+  PetscCall(PetscMalloc1(total, &parts));
+  s->data.num_contacts = 0;
+  for (PetscInt i = 0; i < s->num_contacts; ++i)
+    for (PetscInt k = 0; k < num[i]; ++k) {
+      ContactSpec *c = &parts[s->data.num_contacts++];
+      *c             = s->data.contacts[i];
+      c->part        = k;
+      c->face        = num[i] > 1 ? s->face[i] : NULL;
+    }
+  PetscCall(PetscFree(s->data.contacts));
+  PetscCall(PetscFree(num));
+  s->data.contacts = parts;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 static PetscErrorCode Check_Private(Scene s, const Facets *f)
 {
   PetscFunctionBegin;
@@ -422,6 +453,7 @@ static PetscErrorCode Check_Private(Scene s, const Facets *f)
   PetscCall(CheckHeld_Private(s, f));
   PetscCall(CheckLoaded_Private(s, f));
   PetscCall(SceneSetPoints(s, f->mesh, f->body_touches));
+  PetscCall(PartContacts_Private(s, f));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -69,7 +69,7 @@ PetscErrorCode SceneTellChords(Scene s, Forest forest)
     const ContactSpec *c     = &s->data.contacts[i / 2];
     const PetscInt     group = i % 2 ? c->mortar : c->nonmortar;
     PetscCall(Turns_Private(forest, t, group, last, &num, &cosine));
-    if (num < SEVERAL) continue;
+    if (num < SEVERAL || c->part) continue;
     PetscCall(PetscPrintf(s->comm,
                           "note: the mesh is of order 1, and side %s of pair %s turns by up to %.2g degrees from facet to facet: if it is round in truth, a "
                           "mesh of order 2 or more (mesh.order) follows it, and the error estimate knows of it then\n",

@@ -4,7 +4,6 @@
    and is covered whole, if its facets are no coarser. In the plane; at the reference positions. */
 #include "sceneimpl.h"
 
-#define SHARP 0.76604444311897804 /* cosine of 40 degrees, beyond which contact has two directions at a corner */
 #define FACES 0.70710678118654752 /* cosine of 45 degrees: of two faces of a right corner one at most looks at the other side */
 #define BESIDE 1e-6               /* of a facet: corners that lie on each other are beside each other */
 
@@ -54,7 +53,7 @@ static PetscBool IsCorner_Private(const Edge *a, PetscInt end, const Edge *b)
 {
   PetscReal d = 0;
 
-  if (Dot3(a->N, b->N) >= SHARP) return PETSC_FALSE;
+  if (Dot3(a->N, b->N) >= CONTACT_SHARP) return PETSC_FALSE;
   for (PetscInt c = 0; c < 2; ++c) d += (0.5 * (b->X[0][c] + b->X[1][c]) - a->X[end][c]) * a->N[c];
   return (PetscBool)(d < 0);
 }
@@ -73,7 +72,7 @@ static PetscBool IsOver_Private(PetscInt num, const Edge edge[], const Edge *e, 
   if (at > BESIDE && at < 1 - BESIDE) return PETSC_TRUE;
   const PetscInt end   = at > 0.5;
   const Edge    *other = Next_Private(num, edge, e, end);
-  return (PetscBool)(other && Dot3(e->N, other->N) >= SHARP);
+  return (PetscBool)(other && Dot3(e->N, other->N) >= CONTACT_SHARP);
 }
 
 static PetscReal Length_Private(const Edge *e)

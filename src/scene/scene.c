@@ -147,8 +147,8 @@ static PetscErrorCode Subdivide_Private(Scene s, Forest *forest)
   PetscInt levels[8 * sizeof(uint64_t)] = {0}; /* a boundary group is a bit */
 
   PetscFunctionBegin;
-  for (PetscInt i = 0; i < s->data.num_contacts; ++i) {
-    const PetscInt side[2] = {s->data.contacts[i].nonmortar, s->data.contacts[i].mortar};
+  for (PetscInt i = 0; i < s->num_contacts; ++i) {
+    const PetscInt side[2] = {s->contact[i].spec.nonmortar, s->contact[i].spec.mortar};
     for (int k = 0; k < 2; ++k) {
       if (s->contact[i].subdivide != SUBDIVIDE_AUTO) levels[side[k]] = PetscMax(levels[side[k]], s->contact[i].subdivide);
     }
@@ -235,11 +235,13 @@ PetscErrorCode SceneDestroy(Scene *scene)
   PetscCall(PetscFree(s->material));
   PetscCall(PetscFree(s->body));
   PetscCall(PetscFree(s->boundary));
-  for (PetscInt i = 0; s->contact && i < s->data.num_contacts; ++i) {
+  for (PetscInt i = 0; s->contact && i < (s->face ? s->num_contacts : s->data.num_contacts); ++i) {
+    if (s->face) PetscCall(PetscFree(s->face[i]));
     PetscCall(ExpressionDestroy(&s->contact[i].spec.interference));
     PetscCall(ExpressionDestroy(&s->contact[i].spec.friction));
   }
   PetscCall(PetscFree(s->contact));
+  PetscCall(PetscFree(s->face));
   PetscCall(PetscFree(s->probe));
   PetscCall(PetscFree(s->refine));
   PetscCall(PetscFree(s->point));

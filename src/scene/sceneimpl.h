@@ -124,7 +124,8 @@ struct _p_Scene {
   ProbeEntry    *probe;
   RefineEntry   *refine; /* [data.num_refines] */
   PointEntry    *point;
-  PetscInt       num_bodies, num_boundaries, num_points;
+  PetscInt       num_bodies, num_boundaries, num_points, num_contacts; /* num_contacts: as the file names them; data has one for each colour of faces */
+  int8_t       **face;   /* [num_contacts] ContactSpec.face */
   PetscInt      *joined; /* MechanicsSpec.joined */
 };
 
@@ -175,6 +176,8 @@ PetscErrorCode SceneCheckMesh(Scene, Forest);
 /* Warnings and notes on a mesh that may not be what is meant (pieces.c); after SceneCheckMesh. Collective. */
 PetscErrorCode SceneTellMesh(Scene, Forest);
 /* Does a corner of one boundary group lie over the inside of the other (corners.c)? In the plane; in space never. Collective. */
+/* faces.c. Colours of the smooth faces of a group by side of the coarse mesh, -1: not in the group; *colour is the caller's. Not collective. */
+PetscErrorCode SceneColourFaces(Forest, PetscInt group, PetscInt *num_colours, int8_t **colour);
 PetscErrorCode SceneCornerMeets(Forest, PetscInt side, PetscInt other, PetscBool *yes);
 /* The same on sides of contact pairs that are chords of what they stand for (chords.c). Collective. */
 PetscErrorCode SceneTellChords(Scene, Forest);

@@ -147,7 +147,7 @@ PetscErrorCode SceneView(Scene s, Forest forest, PetscViewer viewer)
   PetscCall(ViewMesh_Private(s->mesh_file, forest, viewer));
   for (PetscInt i = 0; i < s->num_bodies; ++i) PetscCall(ViewBody_Private(&d->bodies[i], viewer));
   for (PetscInt i = 0; i < s->num_boundaries; ++i) PetscCall(ViewBoundary_Private(&d->boundaries[i], forest, viewer));
-  for (PetscInt i = 0; i < d->num_contacts; ++i) PetscCall(ViewContact_Private(&s->contact[i], forest, viewer));
+  for (PetscInt i = 0; i < s->num_contacts; ++i) PetscCall(ViewContact_Private(&s->contact[i], forest, viewer));
   PetscCall(PetscViewerASCIIPrintf(viewer, "  load t = 0 .. %.6g, first step %.6g, steps %.6g .. %.6g%s\n", (double)d->load.end, (double)d->load.step,
                                    (double)d->load.step_min, (double)d->load.step_max, d->load.control == LOAD_ARC_LENGTH ? ", by arc length" : ""));
   if (d->adapt.tolerance > 0)

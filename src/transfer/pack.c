@@ -262,10 +262,22 @@ static PetscErrorCode Append_Private(Pack *pack, Vec values, const char *format,
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Names of a pair's fields; its further parts are numbered. */
+static PetscErrorCode Name_Private(const ContactSpec *c, char name[2 * MORTISE_NAME])
+{
+  PetscFunctionBegin;
+  if (c->part)
+    PetscCall(PetscSNPrintf(name, 2 * MORTISE_NAME, "%s.%" PetscInt_FMT, c->name, c->part));
+  else
+    PetscCall(PetscStrncpy(name, c->name, 2 * MORTISE_NAME));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode TransferPack(Problem problem, const State *state, Pack *pack)
 {
   const SceneData *scene;
   Vec              field, path;
+  char             name[2 * MORTISE_NAME];
 
   PetscFunctionBegin;
   PetscCall(ProblemGetScene(problem, &scene));
@@ -288,9 +300,10 @@ PetscErrorCode TransferPack(Problem problem, const State *state, Pack *pack)
   PetscCall(Append_Private(pack, field, "%s", "scalars"));
   for (PetscInt i = 0; i < scene->num_contacts; ++i) {
     PetscCall(Multipliers_Private(problem, i, state->x, PETSC_FALSE, &field));
-    PetscCall(Append_Private(pack, field, "multiplier.%s", scene->contacts[i].name));
+    PetscCall(Name_Private(&scene->contacts[i], name));
+    PetscCall(Append_Private(pack, field, "multiplier.%s", name));
     PetscCall(PatternPack_Private(problem, i, &field));
-    PetscCall(Append_Private(pack, field, "pattern.%s", scene->contacts[i].name));
+    PetscCall(Append_Private(pack, field, "pattern.%s", name));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -305,7 +318,7 @@ static Vec Look_Private(const Pack *pack, const char *name)
 /* The field of that name. */
 static PetscErrorCode Find_Private(const Pack *pack, const char *format, const char *name, Vec *field)
 {
-  char full[2 * MORTISE_NAME];
+  char full[3 * MORTISE_NAME];
 
   PetscFunctionBegin;
   PetscCall(PetscSNPrintf(full, sizeof(full), format, name));
@@ -318,6 +331,7 @@ PetscErrorCode TransferUnpack(Problem problem, const Pack *pack, State *state, P
 {
   const SceneData *scene;
   Vec              field;
+  char             name[2 * MORTISE_NAME];
 
   PetscFunctionBegin;
   PetscCall(ProblemGetScene(problem, &scene));
@@ -333,9 +347,10 @@ PetscErrorCode TransferUnpack(Problem problem, const Pack *pack, State *state, P
   PetscCall(Find_Private(pack, "%s", "history", &field));
   PetscCall(Blocks_Private(problem, MechanicsHistoryRange, state->num_history, state->history, PETSC_TRUE, &field));
   for (PetscInt i = 0; i < scene->num_contacts; ++i) {
-    PetscCall(Find_Private(pack, "multiplier.%s", scene->contacts[i].name, &field));
+    PetscCall(Name_Private(&scene->contacts[i], name));
+    PetscCall(Find_Private(pack, "multiplier.%s", name, &field));
     PetscCall(Multipliers_Private(problem, i, state->x, PETSC_TRUE, &field));
-    PetscCall(Find_Private(pack, "pattern.%s", scene->contacts[i].name, &field));
+    PetscCall(Find_Private(pack, "pattern.%s", name, &field));
     PetscCall(PatternUnpack_Private(problem, i, field));
   }
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -52,7 +52,7 @@ static PetscReal Least(PetscInt m, PetscInt p)
     ContactShare    share;
 
     Integrate(p, a, &o);
-    ContactShareOf(m, p, 1 - (m == 1 ? bare : bare * bare), &share);
+    ContactShareOf(m, p, 1 - (m == 1 ? bare : bare * bare), PETSC_FALSE, &share);
     for (PetscInt j = 0; j <= p; j++)
       for (PetscInt k = 0; k <= (m == 1 ? 0 : p); k++) {
         const PetscReal theta = share.theta[0],

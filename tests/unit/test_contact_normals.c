@@ -104,22 +104,5 @@ static void MirrorMatchesFullModel(void **state)
   Cleanup(&full, &mfull, &pf, &sf);
 }
 
-/* An L with a corner cut off at 39 degrees: convex and concave corners, none where it turns by less than 40 degrees or goes straight on. */
-static void Edges(void **state)
-{
-  const PetscReal place[8][2] = {{0, 0}, {1, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {1 - tan(39 * PETSC_PI / 180), 3}, {-2, 3}};
-  const int8_t    turn[8]     = {1, 0, 1, 1, -1, 0, 1, 1};
-  Chain           c;
-  int8_t          edge[8];
-
-  (void)state;
-  ChainCreate(&c, 8, PETSC_TRUE);
-  for (int i = 0; i < 8; i++) c.x[2 * i] = place[i][0], c.x[2 * i + 1] = place[i][1];
-  ChainReference(&c);
-  CHECK_CALL(ContactEdges(&c.s, edge));
-  for (int i = 0; i < 8; i++) assert_int_equal(edge[i], turn[i]);
-  ChainDestroy(&c);
-}
-
-CONTACT_TEST_MAIN("contact: nodal normals", cmocka_unit_test(Circle), cmocka_unit_test(Edges), cmocka_unit_test(Corner),
+CONTACT_TEST_MAIN("contact: nodal normals", cmocka_unit_test(Circle), cmocka_unit_test(Corner),
                   cmocka_unit_test(MirrorMatchesFullModel))

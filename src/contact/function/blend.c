@@ -17,6 +17,7 @@
 #include "functionimpl.h"
 
 #define EPSILON 0.002 /* order 1: a facet a third of which is covered has this share of the cells' compliance */
+#define ACROSS 0.2    /* the same where the mortar side goes on with another face */
 
 void ContactShareWeight(PetscInt m, const PetscReal xi[2], PetscReal *v, PetscReal d[2], PetscReal dd[3])
 {
@@ -27,12 +28,12 @@ void ContactShareWeight(PetscInt m, const PetscReal xi[2], PetscReal *v, PetscRe
   dd[0] = -1.5 * a[1], dd[1] = b[0] * b[1], dd[2] = m == 2 ? -1.5 * a[0] : 0;
 }
 
-void ContactShareOf(PetscInt m, PetscInt order, PetscReal share, ContactShare *o)
+void ContactShareOf(PetscInt m, PetscInt order, PetscReal share, PetscBool across, ContactShare *o)
 {
   const PetscReal e = 1 / (PetscReal)(order * (order + 1) + 1), side = e * e * (3 - 2 * e), corner = m == 1 ? side : side * side,
                   whole = 1 - CONTACT_SLIVER * corner;
   const PetscReal u = (whole - share) / ((1 - CONTACT_SLIVER) * corner), du = -1 / ((1 - CONTACT_SLIVER) * corner), t = share / whole;
-  const PetscReal factor = 6.75 * EPSILON / (PetscReal)order; /* 1 at a third */
+  const PetscReal factor = 6.75 * (across ? ACROSS : EPSILON) / (PetscReal)order; /* 1 at a third */
 
   *o = (ContactShare){.part = (PetscBool)(share < whole), .theta = {1, 0, 0}, .kappa = {0, 0, 0}};
   if (!o->part) return;

@@ -189,6 +189,22 @@ static PetscBool Freezes_Private(const ContactPair pair, const RayWork w)
   return (PetscBool)(w->ends || (pair->frozen_segmentation && w->facet.s.order > 1));
 }
 
+/* Does what covers the facet end at an edge beyond which the mortar side goes on with another face? */
+static PetscBool IsAcross_Private(const RayWork w, const ContactSurface *mortar)
+{
+  for (PetscInt k = 0; k < w->num_overlaps && mortar->rim; k++) {
+    const Overlap *o = &w->overlap[k];
+
+    for (PetscInt a = 0; a < w->facet.nv; a++) {
+      const PetscInt i = o->corner[a], j = o->corner[(a + 1) % w->facet.nv];
+
+      if (w->facet.m == 1 && o->line[a] < 0) continue;
+      if (i < mortar->num_nodes && mortar->rim[i] && (w->facet.m == 1 || (j < mortar->num_nodes && mortar->rim[j]))) return PETSC_TRUE;
+    }
+  }
+  return PETSC_FALSE;
+}
+
 PetscErrorCode ContactCover(ContactPair pair, const ContactSurface *nonmortar, const ContactSurface *mortar, PetscInt slot, PetscBool *failed)
 {
   RayWork        w       = pair->ray;
@@ -225,6 +241,7 @@ PetscErrorCode ContactCover(ContactPair pair, const ContactSurface *nonmortar, c
   if (pair->node_to_segment) ContactNodeHits(w);
   for (PetscInt k = 0; k < w->num_overlaps; k++) covered += w->overlap[k].area;
   w->ends   = (PetscBool)(covered < (1 - FACET_ON) * f->area);
+  w->across = (PetscBool)(w->ends && IsAcross_Private(w, mortar));
   w->frozen = Freezes_Private(pair, w);
   PetscCall(Nodes_Private(w, mortar));
   w->n = f->D * (f->s.num + f->nv + w->num_mortar) + f->m * w->num_images;

@@ -101,6 +101,6 @@ typedef struct {
 } ContactShare;
 /* Weight of a place of [-1, 1]^m in the share, integral 1, and derivatives 1 2, 11 12 22. */
 void ContactShareWeight(PetscInt m, const PetscReal xi[2], PetscReal *v, PetscReal d[2], PetscReal dd[3]);
-void ContactShareOf(PetscInt m, PetscInt order, PetscReal share, ContactShare *);
+void ContactShareOf(PetscInt m, PetscInt order, PetscReal share, PetscBool across, ContactShare *);
 /* C[num][num]: Bernstein polynomial j of a facet in m dimensions by the functions of its lattice. */
 PetscErrorCode ContactBernstein(PetscInt m, PetscInt order, PetscReal C[]);

@@ -124,46 +124,12 @@ FacetJoint ContactFacetJoint(const ContactSurface *s, PetscInt a, PetscInt b)
 
   for (PetscInt k = 0; k < nv; k++)
     for (PetscInt l = 0; l < nv; l++) {
-      const PetscInt i = s->facets[nv * a + k], j = s->facets[nv * b + l];
-
-      if (i != j && (!s->twin || s->twin[i] != j)) continue;
+      if (s->facets[nv * a + k] != s->facets[nv * b + l]) continue;
       NormalAt_Private(s, a, s->dim == 2 ? End[k] : Corner[k], n[0]);
       NormalAt_Private(s, b, s->dim == 2 ? End[l] : Corner[l], n[1]);
       return Dot3(n[0], n[1]) > CONTACT_OPPOSE ? JOINT_SMOOTH : JOINT_SHARP;
     }
   return JOINT_NONE;
-}
-
-/* Two dimensions: does the surface turn sharply between two ends of facets (end k of facet f: 2 f + k) that meet? 1: outward, as at a convex corner, -1:
-   inward, 0: no. */
-static int8_t Edge_Private(const ContactSurface *s, PetscInt a, PetscInt b)
-{
-  PetscReal n[2][3];
-
-  SideNormal_Private(s, a / 2, a % 2, n[a % 2 == 0]); /* the facet that ends there comes first */
-  SideNormal_Private(s, b / 2, b % 2, n[b % 2 == 0]);
-  if (Dot3(n[0], n[1]) > CONTACT_SHARP) return 0;
-  return n[0][0] * n[1][1] - n[0][1] * n[1][0] > 0 ? 1 : -1;
-}
-
-PetscErrorCode ContactEdges(const ContactSurface *s, int8_t edge[])
-{
-  PetscInt *first;
-
-  PetscFunctionBegin;
-  PetscCall(PetscArrayzero(edge, s->num_nodes));
-  if (s->dim == 3) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(ContactRayLatticePrepare());
-  PetscCall(PetscMalloc1(s->num_nodes, &first));
-  for (PetscInt n = 0; n < s->num_nodes; n++) first[n] = -1;
-  for (PetscInt i = 0; i < 2 * s->num_facets; i++) {
-    const PetscInt n = s->facets[i];
-
-    if (first[n] >= 0) edge[n] = Edge_Private(s, first[n], i);
-    first[n] = i;
-  }
-  PetscCall(PetscFree(first));
-  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 static void Join_Private(PetscInt sheet[], PetscInt a, PetscInt b)
@@ -226,8 +192,11 @@ static void SheetsInPlane_Private(RayWork w, const ContactSurface *s)
   for (PetscInt node = 0; node < s->num_nodes; node++)
     for (PetscInt k = w->ring_first[node]; k + 1 < w->ring_first[node + 1]; k++) {
       const PetscInt a = w->ring[k], b = w->ring[k + 1];
+      PetscReal      n[2][3];
 
-      if (!Edge_Private(s, a, b)) Join_Private(w->sheet, a, b);
+      SideNormal_Private(s, a / 2, a % 2, n[0]);
+      SideNormal_Private(s, b / 2, b % 2, n[1]);
+      if (Dot3(n[0], n[1]) > CONTACT_SHARP) Join_Private(w->sheet, a, b);
     }
 }
 

@@ -168,7 +168,7 @@ static PetscErrorCode Functions_Private(RayWork w, const ContactMultiplier *mult
 
   PetscFunctionBegin;
   PetscCall(ContactGrow(2 * num, sizeof(PetscReal), &w->size_T, &w->T));
-  ContactShareOf(w->facet.m, w->facet.s.order, share, &w->share);
+  ContactShareOf(w->facet.m, w->facet.s.order, share, w->across, &w->share);
   for (PetscInt i = 0; i < num; i++) {
     w->T[i]       = w->share.part ? w->share.theta[0] * dual[i] + (1 - w->share.theta[0]) * bernstein[i] : dual[i];
     w->T[num + i] = w->share.part ? w->share.theta[1] * (dual[i] - bernstein[i]) : 0;

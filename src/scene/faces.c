@@ -1,0 +1,163 @@
+/* Faces of a contact side. Where the mortar side has an edge, a facet of the other side that lies across it sees two faces, and one multiplier for both
+   would hold a mean of their gaps: of one that is closed under a punch and of one that is open beside it. So what lies across an edge is met by multipliers
+   of its own: the pair is made once for each colour, and faces that share an edge or a corner have different ones.
+
+   A convex edge parts what no facet faces squarely on both sides (CONTACT_OPPOSE): over a blunter one both gaps are those of the facet, and constraints for
+   each would be more than it has nodes. In a concave one a corner of the other side is held by both.
+
+   Faces are those of the coarse mesh and its curved sides: refinement changes none. */
+#include "sceneimpl.h"
+
+#define MOST 64                   /* colours that are told apart */
+
+typedef struct {
+  PetscInt  entity, side; /* vertex (plane) or edge (space) of the leaf facet, and side of the coarse mesh that this lies in: 2 dim cell + place */
+  PetscReal N[3], T[3];   /* its unit normal there, and a tangent from there into it */
+} Rim;
+
+static PetscInt Root_Private(PetscInt parent[], PetscInt i)
+{
+  while (parent[i] != i) i = parent[i] = parent[parent[i]];
+  return i;
+}
+
+/* Normal and tangent of the side of a leaf at an entity of its closure. */
+static void Axes_Private(const CoarseMesh *mesh, const ForestTables *t, PetscInt leaf, PetscInt place, PetscInt entity, PetscReal N[3], PetscReal T[3])
+{
+  const PetscInt  dim = t->dim, d = place / 2, a = (d + 1) % dim, b = dim == 3 ? (d + 2) % 3 : 2;
+  const PetscInt *cl    = t->closure + t->closure_offset[t->first[dim] + leaf];
+  PetscInt        index = 0;
+  PetscReal       xi[3] = {0, 0, 0}, X[3], J[9], e[2][3] = {{0, 0, 0}, {0, 0, 1}}, outward = 0;
+
+  while (cl[index] != entity) ++index;
+  const PetscInt at[3] = {index % 3, index / 3 % 3, index / 9};
+  for (PetscInt i = 0; i < dim; ++i)
+    xi[i] = ((PetscReal)t->leaf_lo[3 * leaf + i] + 0.5 * (PetscReal)at[i] * (PetscReal)(1 << (FOREST_MAX_LEVEL - t->leaf_level[3 * leaf + i]))) /
+            (PetscReal)(1 << FOREST_MAX_LEVEL);
+  ForestCoarseMapPoint(mesh, t->leaf_root[leaf], xi, X, J);
+  for (PetscInt c = 0; c < 3; ++c) {
+    e[0][c] = J[c * dim + a];
+    if (dim == 3) e[1][c] = J[c * dim + b];
+  }
+  Cross3(e[0], e[1], N);
+  for (PetscInt c = 0; c < 3; ++c) outward += N[c] * J[c * dim + d] * (place % 2 ? 1 : -1);
+  const PetscReal length = PetscSqrtReal(Dot3(N, N)) * (outward < 0 ? -1 : 1);
+  for (PetscInt c = 0; c < 3; ++c) {
+    N[c] /= length;
+    T[c] = (PetscReal)(1 - at[a]) * e[0][c] + (dim == 3 ? (PetscReal)(1 - at[b]) * e[1][c] : 0);
+  }
+}
+
+/* Do the two sides that meet in a vertex (plane) or an edge (space) belong to one face? */
+static PetscBool IsJoined_Private(const Rim *a, const Rim *b)
+{
+  return (PetscBool)(Dot3(a->N, b->N) >= (Dot3(a->N, b->T) < 0 ? CONTACT_OPPOSE : CONTACT_SHARP));
+}
+
+static int Compare_Private(const void *a, const void *b)
+{
+  const Rim *x = a, *y = b;
+
+  if (x->entity != y->entity) return x->entity < y->entity ? -1 : 1;
+  return x->side < y->side ? -1 : x->side > y->side;
+}
+
+/* What meets at the vertices and, in space, edges of the group's outer facets, by entity. */
+static PetscErrorCode Rims_Private(Forest forest, PetscInt group, PetscInt *num, Rim **rim)
+{
+  const CoarseMesh   *mesh;
+  const ForestTables *t;
+  PetscInt            room = 0;
+
+  PetscFunctionBegin;
+  PetscCall(ForestGetCoarse(forest, &mesh));
+  PetscCall(ForestGetTables(forest, &t));
+  for (PetscInt f = t->first[t->dim - 1]; f < t->first[t->dim]; ++f) room += t->boundary[f] >> group & 1 ? 2 * 4 : 0;
+  PetscCall(PetscMalloc1(room, rim));
+  *num = 0;
+  for (PetscInt f = t->first[t->dim - 1]; f < t->first[t->dim]; ++f) {
+    const PetscInt *leaf = t->facet_leaf + 2 * (f - t->first[t->dim - 1]), *cl = t->closure + t->closure_offset[f];
+    if (!(t->boundary[f] >> group & 1) || (leaf[0] >= 0 && leaf[1] >= 0)) continue;
+    const PetscInt cell = leaf[0] >= 0 ? leaf[0] : leaf[1], side = ForestCoarseSide(t, cell, f);
+    for (PetscInt k = 0; k < (t->dim == 2 ? 3 : 9); ++k) {
+      if (cl[k] == f) continue;
+      Rim *r    = *rim + (*num)++;
+      r->entity = cl[k];
+      r->side   = side;
+      Axes_Private(mesh, t, cell, side % (2 * t->dim), cl[k], r->N, r->T);
+    }
+  }
+  qsort(*rim, (size_t)*num, sizeof(Rim), Compare_Private);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The end of the run of one entity. */
+static PetscInt End_Private(PetscInt num, const Rim rim[], PetscInt from)
+{
+  PetscInt end = from;
+  while (end < num && rim[end].entity == rim[from].entity) ++end;
+  return end;
+}
+
+/* Colours of faces, each the least that no face beside it has; a face keeps the colour of its first side. */
+static PetscErrorCode Colours_Private(PetscInt num, const Rim rim[], PetscInt parent[], PetscInt num_sides, int8_t colour[],
+                                      PetscInt *num_colours)
+{
+  uint64_t *beside;
+
+  PetscFunctionBegin;
+  PetscCall(PetscCalloc1(num_sides, &beside)); /* of the face whose root it is: colours of those beside it */
+  for (PetscInt i = 0; i < num_sides; ++i) colour[i] = -1;
+  *num_colours = 1;
+  for (PetscInt i = 0; i < num; ++i) {
+    const PetscInt root = Root_Private(parent, rim[i].side);
+    if (colour[root] >= 0) continue;
+    for (PetscInt k = 0, end; k < num; k = end) {
+      uint64_t  taken = 0;
+      PetscBool here  = PETSC_FALSE;
+      end             = End_Private(num, rim, k);
+      for (PetscInt l = k; l < end; ++l) {
+        const PetscInt other = Root_Private(parent, rim[l].side);
+        if (other == root)
+          here = PETSC_TRUE;
+        else if (colour[other] >= 0)
+          taken |= UINT64_C(1) << colour[other];
+      }
+      if (here) beside[root] |= taken;
+    }
+    for (colour[root] = 0; colour[root] < MOST - 1 && beside[root] >> colour[root] & 1;) ++colour[root];
+    *num_colours = PetscMax(*num_colours, colour[root] + 1);
+  }
+  for (PetscInt i = 0; i < num; ++i) colour[rim[i].side] = colour[Root_Private(parent, rim[i].side)];
+  PetscCall(PetscFree(beside));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SceneColourFaces(Forest forest, PetscInt group, PetscInt *num_colours, int8_t **colour)
+{
+  const ForestTables *t;
+  const CoarseMesh   *mesh;
+  PetscInt            num, num_sides, *parent;
+  Rim                *rim;
+
+  PetscFunctionBegin;
+  PetscCall(ForestGetTables(forest, &t));
+  PetscCall(ForestGetCoarse(forest, &mesh));
+  num_sides = 2 * t->dim * mesh->num_cells;
+  PetscCall(Rims_Private(forest, group, &num, &rim));
+  PetscCall(PetscMalloc1(num_sides, colour));
+  PetscCall(PetscMalloc1(num_sides, &parent));
+  for (PetscInt i = 0; i < num_sides; ++i) parent[i] = i;
+  for (PetscInt k = 0, end; k < num; k = end) {
+    end = End_Private(num, rim, k);
+    for (PetscInt i = k; i < end; ++i)
+      for (PetscInt j = k; j < i; ++j)
+        if ((t->dim == 2 || rim[k].entity >= t->first[1]) && IsJoined_Private(&rim[i], &rim[j]))
+          parent[PetscMax(Root_Private(parent, rim[i].side), Root_Private(parent, rim[j].side))] =
+              PetscMin(Root_Private(parent, rim[i].side), Root_Private(parent, rim[j].side));
+  }
+  PetscCall(Colours_Private(num, rim, parent, num_sides, *colour, num_colours));
+  PetscCall(PetscFree(parent));
+  PetscCall(PetscFree(rim));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
