@@ -17,10 +17,11 @@
 #pragma once
 #include "base.h"
 
-#define CONTACT_SEGMENT 8  /* most corners of a segment */
-#define CONTACT_SLIVER 0.1 /* of a facet, or of one of its functions: what is less tells nothing of its own */
+#define CONTACT_SEGMENT 8                 /* most corners of a segment */
+#define CONTACT_SLIVER 0.1                /* of a facet, or of one of its functions: what is less tells nothing of its own */
+#define FORM_PAIRS 64                     /* most contact pairs of a scene, each face of a mortar side counted */
 #define CONTACT_SHARP 0.76604444311897804 /* cosine of 40 degrees: a surface that turns by more has an edge */
-#define CONTACT_OPPOSE 0.3 /* facets face each other where N_s . N_m < -0.3: the search keeps these */
+#define CONTACT_OPPOSE 0.3                /* facets face each other where N_s . N_m < -0.3: the search keeps these */
 
 typedef struct {
   PetscInt         dim, num_nodes, num_facets;
@@ -40,7 +41,7 @@ typedef struct {
   const PetscReal *X; /* [num_nodes][dim] reference positions, those of hanging nodes included */
   /* [num_nodes] Is the node's position known on this rank? NULL: all are. Searches pass over mortar facets with other nodes; normals beside them are NaN. */
   const PetscBool *has;
-  const PetscBool *rim;  /* [num_nodes] corners on an edge beyond which the side goes on with another face (ContactSpec.face); NULL: none */
+  const PetscBool *rim; /* [num_nodes] corners on an edge beyond which the side goes on with another face (ContactSpec.face); NULL: none */
 } ContactSurface;
 
 typedef enum { CONTACT_FRICTIONLESS, CONTACT_PENALTY, CONTACT_COULOMB, CONTACT_TIED } ContactLaw; /* in the order of the table of laws */
@@ -48,26 +49,26 @@ typedef enum { CONTACT_FRICTIONLESS, CONTACT_PENALTY, CONTACT_COULOMB, CONTACT_T
 #define CONTACT_FRICTION "0 or a positive number" /* allowed as a coefficient of friction */
 
 typedef struct {
-  char       name[MORTISE_NAME];
-  PetscInt   nonmortar, mortar; /* boundary groups */
-  PetscBool  self;              /* both are one group: a surface that may meet itself */
-  PetscBool  exchanged;         /* the scene names them the other way round, figures are of the sides as the scene names them */
-  ContactLaw law;               /* what its multipliers fulfil (interface/law/) */
-  PetscReal  penalty;           /* law penalty: stiffness, pressure over overlap */
-  Expression friction;          /* law coulomb: its coefficient, of t */
-  PetscBool  full;              /* facets have the order of their cells; else order 1 */
-  PetscReal  search;            /* search distance, in multiples of the larger edge length; default 0: automatic */
-  PetscBool  node_to_segment;   /* comparison only */
-  PetscBool  see_through;       /* comparison only: searches take far sides of bodies behind for overlaps */
-  PetscBool  standard;          /* standard multipliers */
-  PetscBool  adjust;            /* the gaps of the mesh at the reference positions count as closed */
-  PetscBool  close;             /* law tied: gaps at the reference positions are closed, else they stay */
-  PetscBool  ramp;              /* overlaps of the mesh there count by the share t, from t = 1 on whole */
-  Expression interference;      /* of t: overlap at the reference positions, besides that of the geometry; NULL: none */
-  PetscReal  about[3];          /* point that moments of its forces are counted about, reference position */
-  const int8_t *face;           /* faces of the mortar side (scene/faces.c): colour by side of the coarse mesh; NULL: it has one */
-  PetscInt   part;              /* the colour that this pair meets; pairs of one name follow one another, the first has 0 */
-  PetscBool  subdivide_auto;    /* cells behind linear facets are subdivided as the estimate asks (estimate/layer.c) */
+  char          name[MORTISE_NAME];
+  PetscInt      nonmortar, mortar; /* boundary groups */
+  PetscBool     self;              /* both are one group: a surface that may meet itself */
+  PetscBool     exchanged;         /* the scene names them the other way round, figures are of the sides as the scene names them */
+  ContactLaw    law;               /* what its multipliers fulfil (interface/law/) */
+  PetscReal     penalty;           /* law penalty: stiffness, pressure over overlap */
+  Expression    friction;          /* law coulomb: its coefficient, of t */
+  PetscBool     full;              /* facets have the order of their cells; else order 1 */
+  PetscReal     search;            /* search distance, in multiples of the larger edge length; default 0: automatic */
+  PetscBool     node_to_segment;   /* comparison only */
+  PetscBool     see_through;       /* comparison only: searches take far sides of bodies behind for overlaps */
+  PetscBool     standard;          /* standard multipliers */
+  PetscBool     adjust;            /* the gaps of the mesh at the reference positions count as closed */
+  PetscBool     close;             /* law tied: gaps at the reference positions are closed, else they stay */
+  PetscBool     ramp;              /* overlaps of the mesh there count by the share t, from t = 1 on whole */
+  Expression    interference;      /* of t: overlap at the reference positions, besides that of the geometry; NULL: none */
+  PetscReal     about[3];          /* point that moments of its forces are counted about, reference position */
+  const int8_t *face;              /* faces of the mortar side (scene/faces.c): colour by side of the coarse mesh; NULL: it has one */
+  PetscInt      part;              /* the colour that this pair meets; pairs of one name follow one another, the first has 0 */
+  PetscBool     subdivide_auto;    /* cells behind linear facets are subdivided as the estimate asks (estimate/layer.c) */
 } ContactSpec;
 
 /* Vector of a facet with these nodes, x[..][dim], outward and as long as its length or area: edge x the axis out of the plane; in space half the product of the

@@ -22,8 +22,6 @@ typedef struct {
   PetscReal    proximal;       /* share of the small stiffness of bodies that no support holds (MechanicsSetProximalShift) */
 } Form;
 
-#define FORM_PAIRS 64 /* most contact pairs of a scene */
-
 static inline PetscBool FormHas(uint64_t pairs, PetscInt pair)
 {
   return (PetscBool)((pairs >> pair) & 1);

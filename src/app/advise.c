@@ -33,11 +33,15 @@ static PetscErrorCode Worst_Private(const App *app)
 /* Overlaps that the search cannot tell from the far sides of bodies behind. */
 static PetscErrorCode TellOverlap_Private(const App *app, PetscInt pair, PetscBool reference)
 {
-  const ContactSpec *c = &app->data->contacts[pair];
-  PetscReal          depth;
+  const ContactSpec *c     = &app->data->contacts[pair];
+  PetscReal          depth = 0, part;
 
   PetscFunctionBegin;
-  PetscCall(InterfaceUntoldOverlap(ProblemInterface(app->level.problem), pair, reference, &depth));
+  if (c->part) PetscFunctionReturn(PETSC_SUCCESS);
+  for (PetscInt i = pair; i == pair || (i < app->data->num_contacts && app->data->contacts[i].part); ++i) {
+    PetscCall(InterfaceUntoldOverlap(ProblemInterface(app->level.problem), i, reference, &part));
+    depth = PetscMax(depth, part);
+  }
   if (depth > 0)
     PetscCall(PetscPrintf(app->comm,
                           "note: the sides of pair %s overlap by %.4g%s, more than half of what both bodies measure there: that is taken for the far side of a "

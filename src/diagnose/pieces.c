@@ -161,6 +161,14 @@ PetscErrorCode PairsBare_Private(Problem problem, MPI_Comm comm, PetscInt num, P
   }
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, bare, (PetscMPIInt)num, MPIU_INT, MPI_MIN, comm));
   *any = PETSC_FALSE;
+  for (PetscInt i = 0, first = 0; i < num; ++i) { /* the pair as a whole, under its first part */
+    PetscCall(InterfaceGetContact(ProblemInterface(problem), i, &v));
+    if (v->spec->part) {
+      bare[first] = PetscMin(bare[first], bare[i]);
+      bare[i]     = 0;
+    } else
+      first = i;
+  }
   for (PetscInt i = 0; i < num; ++i) *any = (PetscBool)(*any || bare[i]);
   PetscFunctionReturn(PETSC_SUCCESS);
 }

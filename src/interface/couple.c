@@ -153,9 +153,9 @@ static PetscErrorCode IsHigher_Private(Interface p, const ContactSpec *spec, Pet
 
 PetscErrorCode ContactCreate_Private(Interface p, const ContactSpec *spec, Contact *c)
 {
-  const PetscBool axisymmetric = (PetscBool)(p->spec->model == MODEL_AXISYMMETRIC);
+  const PetscBool     axisymmetric = (PetscBool)(p->spec->model == MODEL_AXISYMMETRIC);
   const SurfaceFacets own = {.group = spec->nonmortar}, other = {.group = spec->mortar, .colour = spec->part, .face = spec->face};
-  PetscBool       higher;
+  PetscBool           higher;
 
   PetscFunctionBegin;
   PetscCall(PetscMemzero(c, sizeof(*c)));

@@ -126,27 +126,43 @@ static void Tied_Private(const SurfaceView *s, const ContactFields *f, const Pet
   }
 }
 
-/* Both sides of a pair. Collective: fields are gathered. */
-static PetscErrorCode AppendPair_Private(ContactGrid *g, Problem problem, PetscInt pair)
+/* What another part of the pair adds at the nodes of the nonmortar side: tractions add up, the gap is that of what is nearest. */
+static void AddPart_Private(const ContactGrid *g, PetscInt first, PetscInt part, PetscInt num)
+{
+  for (PetscInt to = first, n = part; to < first + num; ++to, ++n) {
+    if (g->status[n] != CONTACT_ALONE && (g->status[to] == CONTACT_ALONE || g->gap[n] < g->gap[to])) g->gap[to] = g->gap[n];
+    g->status[to] = PetscMax(g->status[to], g->status[n]);
+    g->pressure[to] += g->pressure[n];
+    g->shear[to] += g->shear[n];
+    for (PetscInt c = 0; c < 3; ++c) g->traction[3 * to + c] += g->traction[3 * n + c];
+    if (PetscAbsReal(g->slip[n]) > PetscAbsReal(g->slip[to])) g->slip[to] = g->slip[n];
+  }
+}
+
+/* Both sides of a pair, named by its number; of its further parts the face that they meet. first: points of the nonmortar side. Collective: fields are
+   gathered. */
+static PetscErrorCode AppendPair_Private(ContactGrid *g, Problem problem, PetscInt i, PetscInt pair, PetscInt *first)
 {
   const SceneData   *scene;
   const ContactView *v;
   ContactFields      fields[2];
+  const PetscInt     points = g->num_points, facets = g->num_facets;
 
   PetscFunctionBegin;
   PetscCall(ProblemGetScene(problem, &scene));
-  PetscCall(InterfaceGatherContactToAll(ProblemInterface(problem), pair, &v));
-  for (PetscInt side = 0; side < 2; ++side) {
-    const SurfaceView *s  = side ? &v->mortar : &v->nonmortar;
-    const PetscInt     at = AppendSurface_Private(g, s, pair, side);
-    fields[side]          = (ContactFields){g->gap + at, g->pressure + at, g->status + at, g->shear + at, g->slip + at, g->traction + 3 * at};
+  PetscCall(InterfaceGatherContactToAll(ProblemInterface(problem), i, &v));
+  for (PetscInt k = 0; k < 2; ++k) {
+    const PetscInt     side = v->spec->part ? 1 - k : k; /* what is not kept comes last */
+    const SurfaceView *s    = side ? &v->mortar : &v->nonmortar;
+    const PetscInt     at   = AppendSurface_Private(g, s, pair, side);
+    fields[side]            = (ContactFields){g->gap + at, g->pressure + at, g->status + at, g->shear + at, g->slip + at, g->traction + 3 * at};
     if (side == 0 && v->spec->law != CONTACT_TIED)
       OwnNormals_Private(v, g->normal + 3 * at);
     else
       PetscCall(MeanNormals_Private(s, scene->mechanics.kinematics == KINEMATICS_SMALL ? s->X : s->x, g->normal + 3 * at));
   }
   OutputContactFields(v, &fields[0]);
-  PetscCall(OutputProjectFields(problem, pair, &fields[0], &fields[1]));
+  PetscCall(OutputProjectFields(problem, i, &fields[0], &fields[1]));
   for (PetscInt side = 0; side < 2; ++side) {
     const SurfaceView *s  = side ? &v->mortar : &v->nonmortar;
     const PetscInt     at = (PetscInt)(fields[side].gap - g->gap);
@@ -155,14 +171,21 @@ static PetscErrorCode AppendPair_Private(ContactGrid *g, Problem problem, PetscI
     else
       Tractions_Private(s, &fields[side], at, g);
   }
+  if (v->spec->part) {
+    AddPart_Private(g, *first, (PetscInt)(fields[0].gap - g->gap), v->nonmortar.num_nodes);
+    g->num_points = points + v->mortar.num_nodes;
+    g->num_facets = facets + AllPieces_Private(&v->mortar);
+  } else
+    *first = points;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode WriteSurfaces_Private(Writer writer, Problem problem, PetscInt num_contacts, PetscMPIInt rank)
+static PetscErrorCode WriteSurfaces_Private(Writer writer, Problem problem, const SceneData *scene, PetscMPIInt rank)
 {
-  ContactGrid        g = {.corners = 2};
+  const PetscInt     num_contacts = scene->num_contacts;
+  ContactGrid        g            = {.corners = 2};
   const ContactView *v;
-  PetscInt           points = 0, facets = 0;
+  PetscInt           points = 0, facets = 0, pair = -1, first = 0;
 
   PetscFunctionBegin;
   for (PetscInt i = 0; i < num_contacts; ++i) {
@@ -175,7 +198,10 @@ static PetscErrorCode WriteSurfaces_Private(Writer writer, Problem problem, Pets
   PetscCall(PetscMalloc3(points, &g.gap, points, &g.pressure, points, &g.status));
   PetscCall(PetscMalloc3(points, &g.shear, points, &g.slip, 3 * points, &g.traction));
   PetscCall(PetscMalloc4(facets, &g.pair, facets, &g.side, facets, &g.cell, g.corners * facets, &g.conn));
-  for (PetscInt i = 0; i < num_contacts; ++i) PetscCall(AppendPair_Private(&g, problem, i));
+  for (PetscInt i = 0; i < num_contacts; ++i) {
+    pair += scene->contacts[i].part == 0;
+    PetscCall(AppendPair_Private(&g, problem, i, pair, &first));
+  }
   if (rank) g.num_points = g.num_facets = 0;
   PetscCall(WriterGrid(writer, "contact", g.corners == 2 ? CELL_POLYLINE2 : CELL_QUAD4, g.num_points, g.X, g.num_facets, g.conn));
   PetscCall(WriterField(writer, "displacement", PETSC_FALSE, 3, g.displacement));
@@ -206,7 +232,7 @@ PetscErrorCode OutputWriteContact(Writer writer, Problem problem)
   PetscCall(ProblemGetScene(problem, &scene));
   PetscCall(ProblemGetForest(problem, &forest));
   PetscCallMPI(MPI_Comm_rank(ForestComm(forest), &rank));
-  PetscCall(WriteSurfaces_Private(writer, problem, scene->num_contacts, rank));
+  PetscCall(WriteSurfaces_Private(writer, problem, scene, rank));
   if (scene->output.segments) PetscCall(OutputWriteSegments(writer, problem));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -86,7 +86,8 @@ PetscErrorCode OutputPhysics(const SceneData *scene, const CoarseMesh *mesh, Out
     }
     PetscCall(Material_Private(m->bodies[b].material, mesh->num_cells, text));
   }
-  for (PetscInt i = 0; i < scene->num_contacts; ++i) PetscCall(Pair_Private(&scene->contacts[i], mesh, text));
+  for (PetscInt i = 0; i < scene->num_contacts; ++i)
+    if (scene->contacts[i].part == 0) PetscCall(Pair_Private(&scene->contacts[i], mesh, text));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -85,7 +85,8 @@ static PetscErrorCode Collect_Private(Problem problem, PetscInt dim, SegmentGrid
   PetscCallMPI(MPI_Comm_rank(ForestComm(forest), &rank));
   const PetscBool small = (PetscBool)(scene->mechanics.kinematics == KINEMATICS_SMALL);
   g->num_points = g->num_cells = 0;
-  for (PetscInt i = 0; i < scene->num_contacts; ++i) {
+  for (PetscInt i = 0, pair = -1; i < scene->num_contacts; ++i) {
+    pair += scene->contacts[i].part == 0;
     PetscCall(InterfaceGetContact(ProblemInterface(problem), i, &v));
     PetscCall(ContactPairGetSegments(v->pair, &num, &segment));
     for (PetscInt s = 0; s < num; ++s) {
@@ -94,9 +95,9 @@ static PetscErrorCode Collect_Private(Problem problem, PetscInt dim, SegmentGrid
         g->num_points += Points_Private(dim, &segment[s]);
         g->num_cells += Cells_Private(dim, &segment[s]);
       } else if (dim == 2)
-        AddQuad_Private(g, v, i, &segment[s]);
+        AddQuad_Private(g, v, pair, &segment[s]);
       else
-        AddFan_Private(g, v, i, small, &segment[s]);
+        AddFan_Private(g, v, pair, small, &segment[s]);
     }
   }
   PetscFunctionReturn(PETSC_SUCCESS);

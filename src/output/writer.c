@@ -293,6 +293,9 @@ static PetscErrorCode ValueNames_Private(const SceneData *scene, const char *fie
   *num = body ? scene->mechanics.num_bodies : pair ? scene->num_contacts : side ? 2 : 0;
   PetscCall(PetscMalloc1(*num, names));
   for (PetscInt i = 0; i < *num; ++i) (*names)[i] = body ? scene->mechanics.bodies[i].name : pair ? scene->contacts[i].name : i ? "mortar" : "nonmortar";
+  if (pair) *num = 0;
+  for (PetscInt i = 0; pair && i < scene->num_contacts; ++i)
+    if (scene->contacts[i].part == 0) (*names)[(*num)++] = scene->contacts[i].name;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -427,6 +427,7 @@ static PetscErrorCode PartContacts_Private(Scene s, const Facets *f)
     const ContactSpec *c = &s->data.contacts[i];
     num[i]               = 1;
     if (!c->self && c->law != CONTACT_TIED && !c->node_to_segment) PetscCall(SceneColourFaces(f->whole, c->mortar, &num[i], &s->face[i]));
+    if (total + num[i] + s->num_contacts - i - 1 > FORM_PAIRS) num[i] = 1;
     total += num[i];
   }
   PetscCall(PetscMalloc1(total, &parts));

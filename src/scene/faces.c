@@ -8,7 +8,7 @@
    Faces are those of the coarse mesh and its curved sides: refinement changes none. */
 #include "sceneimpl.h"
 
-#define MOST 64                   /* colours that are told apart */
+#define MOST 64 /* colours that are told apart */
 
 typedef struct {
   PetscInt  entity, side; /* vertex (plane) or edge (space) of the leaf facet, and side of the coarse mesh that this lies in: 2 dim cell + place */
@@ -100,8 +100,7 @@ static PetscInt End_Private(PetscInt num, const Rim rim[], PetscInt from)
 }
 
 /* Colours of faces, each the least that no face beside it has; a face keeps the colour of its first side. */
-static PetscErrorCode Colours_Private(PetscInt num, const Rim rim[], PetscInt parent[], PetscInt num_sides, int8_t colour[],
-                                      PetscInt *num_colours)
+static PetscErrorCode Colours_Private(PetscInt num, const Rim rim[], PetscInt parent[], PetscInt num_sides, int8_t colour[], PetscInt *num_colours)
 {
   uint64_t *beside;
 

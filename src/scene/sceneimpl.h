@@ -125,8 +125,8 @@ struct _p_Scene {
   RefineEntry   *refine; /* [data.num_refines] */
   PointEntry    *point;
   PetscInt       num_bodies, num_boundaries, num_points, num_contacts; /* num_contacts: as the file names them; data has one for each colour of faces */
-  int8_t       **face;   /* [num_contacts] ContactSpec.face */
-  PetscInt      *joined; /* MechanicsSpec.joined */
+  int8_t       **face;                                                 /* [num_contacts] ContactSpec.face */
+  PetscInt      *joined;                                               /* MechanicsSpec.joined */
 };
 
 /* Every key of the tree is in the table and has the right shape. Not collective. */

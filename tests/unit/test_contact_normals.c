@@ -104,5 +104,4 @@ static void MirrorMatchesFullModel(void **state)
   Cleanup(&full, &mfull, &pf, &sf);
 }
 
-CONTACT_TEST_MAIN("contact: nodal normals", cmocka_unit_test(Circle), cmocka_unit_test(Corner),
-                  cmocka_unit_test(MirrorMatchesFullModel))
+CONTACT_TEST_MAIN("contact: nodal normals", cmocka_unit_test(Circle), cmocka_unit_test(Corner), cmocka_unit_test(MirrorMatchesFullModel))

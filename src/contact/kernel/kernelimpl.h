@@ -164,7 +164,7 @@ struct _p_RayWork {
   PetscInt     n, nn, num_moments;
   PetscReal    q[RAY_MOMENTS], reach[RAY_LATTICE], covered, min_gap; /* reach: moments of a gap of 1 along unit directions */
   ContactShare share;
-  PetscBool    across; /* an edge beyond which the mortar side goes on with another face lies in the facet */
+  PetscBool    across;                              /* an edge beyond which the mortar side goes on with another face lies in the facet */
   PetscReal   *dq, *W, *J, *R, *WJ, *part, *buffer; /* dq [num_moments][n], W [n][n]; J, R: chainrule.c */
   PetscReal   *T, *rows;                            /* [num_rows][lattice], values and derivative by the share; [n][num_rows] */
   Result       result;                              /* vertices: lattice, then mortar nodes */
