@@ -1,7 +1,11 @@
 /* Candidate search: which mortar facets a nonmortar facet may meet while no node moves more than `margin`.
 
    Which mortar facets reach into the region of a nonmortar facet's rays: region.c; of what is left the far sides of bodies are culled (culling.c).
-   Distances and normals are judged here and nowhere else: between two searches the result changes continuously with the positions. */
+   Distances and normals are judged here and nowhere else: between two searches the result changes continuously with the positions.
+
+   From one search to the next it does not: a facet that tilts, or a corner that comes to lie on the other side, loses what it faces. Gaps jump by that, and an
+   iteration that searches anew at each iterate goes to and fro between two states neither of which is a solution. So searches of one solve go on from each
+   other: what was found stays as long as it opposes at all and has not gone in deeper than nodes may move before the next search. */
 #include "kernelimpl.h"
 
 void ContactFacetBox(const ContactSurface *s, PetscInt facet, PetscReal box[6])
@@ -93,14 +97,24 @@ static PetscBool NeighborFaces_Private(const RayWork w, const ContactSurface *s,
   return PETSC_FALSE;
 }
 
+/* Does the mortar facet stay that this place of the list had by the search that this one goes on from? */
+static PetscBool Stays_Private(const ContactPair pair, PetscInt slot, const RayRegion *region, const ContactSurface *mortar, PetscInt facet)
+{
+  if (!pair->goes_on) return PETSC_FALSE;
+  for (PetscInt k = pair->found_start[slot]; k < pair->found_start[slot + 1]; k++)
+    if (pair->found[k] == facet) return ContactRayRegionMeets(region, mortar, facet, PETSC_TRUE);
+  return PETSC_FALSE;
+}
+
 /* Round a sharp edge, of either side, one face lies in front and the other is met at a grazing angle. What the latter would see beside the edge is no gap of
    this contact: it came and went by CONTACT_OPPOSE as facets tilt, and with it the mean gap of the nodes on the edge. around[num]: mortar facets in the region,
    of which those that graze, round an edge or smoothly joined to such, get ~facet. */
-static void LeaveOutGrazing_Private(ContactPair pair, const ContactSurface *nonmortar, PetscInt facet, const ContactSurface *mortar, PetscInt num,
-                                    PetscInt around[])
+static void LeaveOutGrazing_Private(ContactPair pair, const ContactSurface *nonmortar, PetscInt slot, const RayRegion *region, const ContactSurface *mortar,
+                                    PetscInt num, PetscInt around[])
 {
-  PetscReal n[3], m[3], other[3];
-  PetscBool more = PETSC_TRUE;
+  const PetscInt facet = pair->listed[slot];
+  PetscReal      n[3], m[3], other[3];
+  PetscBool      more = PETSC_TRUE;
 
   UnitNormal_Private(nonmortar, facet, n);
   while (more) {
@@ -108,7 +122,7 @@ static void LeaveOutGrazing_Private(ContactPair pair, const ContactSurface *nonm
     for (PetscInt k = 0; k < num; k++) {
       PetscBool grazes = PETSC_FALSE;
 
-      if (around[k] < 0) continue;
+      if (around[k] < 0 || Stays_Private(pair, slot, region, mortar, around[k])) continue;
       UnitNormal_Private(mortar, around[k], m);
       if (!(Dot3(n, m) > -STEEP && Dot3(n, m) < -CONTACT_OPPOSE)) continue;
       for (PetscInt l = 0; l < num && !grazes; l++) {
@@ -144,14 +158,38 @@ static PetscErrorCode Candidates_Private(ContactPair pair, const ContactSurface 
     ContactCorners(pair, nonmortar, pair->listed[i], &corners);
     PetscCall(PetscSortInt(num, found)); /* results must not depend on the tree */
     PetscCall(ContactGrow(total + num, sizeof(PetscInt), &pair->size_candidate, &pair->candidate));
-    LeaveOutGrazing_Private(pair, nonmortar, pair->listed[i], mortar, num, found);
+    LeaveOutGrazing_Private(pair, nonmortar, i, &region, mortar, num, found);
     for (PetscInt k = 0; k < num && pair->self; k++) /* where a smooth surface has been folded the gap of neighbours is 0, whatever moves */
       if (found[k] >= 0 && ContactFacetJoint(mortar, pair->listed[i], found[k]) == JOINT_SMOOTH) found[k] = ~found[k];
-    for (PetscInt k = 0; k < num; k++)
-      if (found[k] >= 0 && ContactRayRegionMeets(&region, mortar, found[k]) && !ContactBehind(pair, pair->listed[i], &corners, mortar, found[k]))
-        pair->candidate[total++] = found[k];
+    for (PetscInt k = 0; k < num; k++) {
+      const PetscBool stays = (PetscBool)(found[k] >= 0 && Stays_Private(pair, i, &region, mortar, found[k]));
+
+      if (found[k] < 0 || (!stays && !ContactRayRegionMeets(&region, mortar, found[k], PETSC_FALSE))) continue;
+      if (!ContactBehind(pair, pair->listed[i], &corners, mortar, found[k], stays ? pair->margin : 0)) pair->candidate[total++] = found[k];
+    }
   }
   pair->start[pair->num_listed] = total;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* For the next search to go on from. */
+static PetscErrorCode Remember_Private(ContactPair pair)
+{
+  const PetscInt num = pair->num_listed, total = pair->start[num];
+
+  PetscFunctionBegin;
+  PetscCall(ContactGrow(num + 1, sizeof(PetscInt), &pair->size_found_start, &pair->found_start));
+  PetscCall(ContactGrow(total, sizeof(PetscInt), &pair->size_found, &pair->found));
+  PetscCall(PetscArraycpy(pair->found_start, pair->start, num + 1));
+  PetscCall(PetscArraycpy(pair->found, pair->candidate, total));
+  pair->num_searched = num;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode ContactPairGoOn(ContactPair pair, PetscBool yes)
+{
+  PetscFunctionBegin;
+  pair->goes_on = yes;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -178,6 +216,7 @@ PetscErrorCode ContactPairSearch(ContactPair pair, const ContactSurface *nonmort
   Tree      tree;
 
   PetscFunctionBegin;
+  PetscCheck(!pair->goes_on || num == pair->num_searched, PETSC_COMM_SELF, PETSC_ERR_ARG_WRONGSTATE, "a search of other facets than the one it goes on from");
   PetscCall(Prepare_Private(pair, nonmortar, num, facets, distance, margin));
   pair->num_mortar_nodes  = mortar->num_nodes;
   pair->num_mortar_facets = mortar->num_facets;
@@ -185,6 +224,7 @@ PetscErrorCode ContactPairSearch(ContactPair pair, const ContactSurface *nonmort
   PetscCall(PetscMalloc2(mortar->num_facets, &found, mortar->num_facets, &known));
   PetscCall(MortarTree_Private(mortar, known, &tree));
   PetscCall(Candidates_Private(pair, nonmortar, mortar, &tree, known, found));
+  PetscCall(Remember_Private(pair));
   PetscCall(PetscFree2(found, known));
   PetscCall(ContactTreeDestroy(&tree));
   PetscFunctionReturn(PETSC_SUCCESS);
