@@ -118,6 +118,8 @@ Interface ProblemInterface(Problem);
 PetscErrorCode ProblemSetPattern(Problem, PetscInt pair, const PetscInt first[], const PetscInt node[]);
 /* The candidate search at x; between Newton iterations only. */
 PetscErrorCode ProblemSearch(Problem, Vec x);
+/* The same, going on from the last one (ContactPairGoOn): at the iterates of one solve. */
+PetscErrorCode ProblemSearchOn(Problem, Vec x);
 
 /* ---- residual and tangent --------------------------------------------------------------------------------------------------- */
 

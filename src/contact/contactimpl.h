@@ -41,7 +41,10 @@ struct _p_ContactPair {
   RayWork                   ray;                                                        /* work space; NULL before the first search */
   PetscInt                  num_nodes, num_facets, num_mortar_nodes, num_mortar_facets; /* of the last search */
   /* candidates: mortar facets of listed facet i are candidate[start[i] .. start[i+1]), ascending */
-  PetscInt        num_listed, *listed, *start, *candidate, size_candidate; /* owned */
+  PetscInt num_listed, *listed, *start, *candidate, size_candidate; /* owned */
+  /* what the last search found, in the same form: candidates may have been set since */
+  PetscInt        num_searched, *found_start, *found, size_found_start, size_found; /* owned */
+  PetscBool       goes_on;                                                          /* the next search, from there */
   PetscReal       distance, margin;
   PetscReal       depth;   /* of overlaps that are looked for */
   ContactHull     hull;    /* borrowed; NULL: thicknesses are not known */
@@ -116,8 +119,8 @@ typedef struct {
 
 /* Once for a nonmortar facet, nothing where the pair knows no hull. */
 void ContactCorners(ContactPair, const ContactSurface *nonmortar, PetscInt facet, FacetCorners *);
-/* Does the mortar facet lie behind the nonmortar one and both bodies, or did the bodies come to overlap another way? */
-PetscBool ContactBehind(ContactPair, PetscInt facet, const FacetCorners *nonmortar, const ContactSurface *mortar, PetscInt other);
+/* Does the mortar facet lie behind the nonmortar one and both bodies, or did the bodies come to overlap another way? Asked beyond this depth. */
+PetscBool ContactBehind(ContactPair, PetscInt facet, const FacetCorners *nonmortar, const ContactSurface *mortar, PetscInt other, PetscReal shallow);
 
 /* What an evaluation is asked for. */
 typedef struct {

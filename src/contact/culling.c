@@ -234,7 +234,7 @@ static PetscBool IsThickness_Private(ContactHull hull, PetscInt part, const Face
   return (PetscBool)(ContactHullAcross(hull, part, X, d, length) > (1 - NEARLY) * length);
 }
 
-PetscBool ContactBehind(ContactPair pair, PetscInt facet, const FacetCorners *s, const ContactSurface *mortar, PetscInt other)
+PetscBool ContactBehind(ContactPair pair, PetscInt facet, const FacetCorners *s, const ContactSurface *mortar, PetscInt other, PetscReal shallow)
 {
   PetscReal        n[3], x[3], middle[3], r[3], xi[2], eta[2], depth, own;
   PetscInt         num_own, num_other;
@@ -249,7 +249,7 @@ PetscBool ContactBehind(ContactPair pair, PetscInt facet, const FacetCorners *s,
   Aim_Private(s, middle, xi, x, n);
   for (int c = 0; c < 3; c++) r[c] = middle[c] - x[c];
   depth = -Dot3(r, N) / Dot3(n, N);
-  if (!(Dot3(n, N) < -CONTACT_GRAZE) || !(depth > 0)) return PETSC_FALSE;
+  if (!(Dot3(n, N) < -CONTACT_GRAZE) || !(depth > shallow)) return PETSC_FALSE;
   for (int c = 0; c < 3; c++) x[c] -= depth * n[c], r[c] = -n[c];
   Locate_Private(&m, x, eta);
   if (pair->self && pair->part[0][facet] == pair->part[1][other] && IsThickness_Private(pair->hull, pair->part[0][facet], s, xi, &m, eta)) return PETSC_TRUE;

@@ -31,6 +31,8 @@ PetscErrorCode ContactPairDestroy(ContactPair *pair)
   PetscCall(PetscFree(p->listed));
   PetscCall(PetscFree(p->start));
   PetscCall(PetscFree(p->candidate));
+  PetscCall(PetscFree(p->found_start));
+  PetscCall(PetscFree(p->found));
   PetscCall(PetscFree(p->normal));
   PetscCall(PetscFree(p->theta));
   PetscCall(PetscFree(p->output));

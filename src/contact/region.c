@@ -76,18 +76,20 @@ void ContactRayRegion(ContactPair pair, const ContactSurface *s, PetscInt facet,
       Enclose_Private(r, end, r->slack + bulge);
     }
   }
-  r->lo[2] = PetscMax(r->lo[2], lowest - pair->depth);
+  r->lo[2]   = PetscMax(r->lo[2], lowest - pair->depth);
+  r->shallow = lowest - pair->margin;
   if (s->dim == 2) r->box[2] = r->box[5] = 0;
 }
 
-PetscBool ContactRayRegionMeets(const RayRegion *r, const ContactSurface *mortar, PetscInt facet)
+PetscBool ContactRayRegionMeets(const RayRegion *r, const ContactSurface *mortar, PetscInt facet, PetscBool again)
 {
-  PetscReal  lo[3], hi[3], N[3];
-  RayLattice l;
+  const PetscReal oppose = again ? 0 : CONTACT_OPPOSE;
+  PetscReal       lo[3], hi[3], N[3];
+  RayLattice      l;
 
   if (r->slack < 0) return PETSC_FALSE;
   ContactFacetVector(mortar->dim, mortar->x, mortar->facets + 2 * (mortar->dim - 1) * facet, N);
-  if (!(Dot3(N, r->axis[2]) < -CONTACT_OPPOSE * PetscSqrtReal(Dot3(N, N)))) return PETSC_FALSE;
+  if (!(Dot3(N, r->axis[2]) < -oppose * PetscSqrtReal(Dot3(N, N)))) return PETSC_FALSE;
   ContactRayLatticeGather(mortar, facet, &l);
   for (int i = 0; i < 3; i++) {
     lo[i] = PETSC_MAX_REAL, hi[i] = -PETSC_MAX_REAL;
@@ -98,5 +100,5 @@ PetscBool ContactRayRegionMeets(const RayRegion *r, const ContactSurface *mortar
     }
     if (lo[i] > r->hi[i] || hi[i] < r->lo[i]) return PETSC_FALSE;
   }
-  return PETSC_TRUE;
+  return (PetscBool)(!again || hi[2] >= r->shallow);
 }

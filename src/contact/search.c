@@ -1,7 +1,11 @@
 /* Candidate search: which mortar facets a nonmortar facet may meet while no node moves more than `margin`.
 
    Which mortar facets reach into the region of a nonmortar facet's rays: region.c; of what is left the far sides of bodies are culled (culling.c).
-   Distances and normals are judged here and nowhere else: between two searches the result changes continuously with the positions. */
+   Distances and normals are judged here and nowhere else: between two searches the result changes continuously with the positions.
+
+   From one search to the next it does not: a facet that tilts, or a corner that comes to lie on the other side, loses what it faces. Gaps jump by that, and an
+   iteration that searches anew at each iterate goes to and fro between two states neither of which is a solution. So searches of one solve go on from each
+   other: what was found stays as long as it opposes at all and has not gone in deeper than nodes may move before the next search. */
 #include "kernelimpl.h"
 
 void ContactFacetBox(const ContactSurface *s, PetscInt facet, PetscReal box[6])
@@ -99,16 +103,28 @@ static PetscBool IsGrazed_Private(const RayWork w, const ContactSurface *nonmort
   return PETSC_FALSE;
 }
 
-static PetscBool Meets_Private(ContactPair pair, const ContactSurface *nonmortar, PetscInt facet, const RayRegion *region, const FacetCorners *corners,
+/* Does the mortar facet stay that this place of the list had by the search that this one goes on from? */
+static PetscBool Stays_Private(const ContactPair pair, PetscInt slot, const RayRegion *region, const ContactSurface *mortar, PetscInt facet)
+{
+  if (!pair->goes_on) return PETSC_FALSE;
+  for (PetscInt k = pair->found_start[slot]; k < pair->found_start[slot + 1]; k++)
+    if (pair->found[k] == facet) return ContactRayRegionMeets(region, mortar, facet, PETSC_TRUE);
+  return PETSC_FALSE;
+}
+
+static PetscBool Meets_Private(ContactPair pair, const ContactSurface *nonmortar, PetscInt slot, const RayRegion *region, const FacetCorners *corners,
                                const ContactSurface *mortar, PetscInt met)
 {
-  PetscReal n[3];
+  const PetscInt  facet = pair->listed[slot];
+  const PetscBool stays = Stays_Private(pair, slot, region, mortar, met);
+  PetscReal       n[3];
 
   /* where a smooth surface has been folded the gap of neighbours is 0, whatever moves */
   if (pair->self && ContactFacetJoint(mortar, facet, met) == JOINT_SMOOTH) return PETSC_FALSE;
-  if (!ContactRayRegionMeets(region, mortar, met)) return PETSC_FALSE;
+  if (!stays && !ContactRayRegionMeets(region, mortar, met, PETSC_FALSE)) return PETSC_FALSE;
   UnitNormal_Private(nonmortar, facet, n);
-  return (PetscBool)(!IsGrazed_Private(pair->ray, nonmortar, facet, n, mortar, met) && !ContactBehind(pair, facet, corners, mortar, met));
+  if (!stays && IsGrazed_Private(pair->ray, nonmortar, facet, n, mortar, met)) return PETSC_FALSE;
+  return (PetscBool)!ContactBehind(pair, facet, corners, mortar, met, stays ? pair->margin : 0);
 }
 
 /* Query the tree for every listed facet. found: room for all mortar facets. */
@@ -131,9 +147,30 @@ static PetscErrorCode Candidates_Private(ContactPair pair, const ContactSurface 
     PetscCall(PetscSortInt(num, found)); /* results must not depend on the tree */
     PetscCall(ContactGrow(total + num, sizeof(PetscInt), &pair->size_candidate, &pair->candidate));
     for (PetscInt k = 0; k < num; k++)
-      if (Meets_Private(pair, nonmortar, pair->listed[i], &region, &corners, mortar, found[k])) pair->candidate[total++] = found[k];
+      if (Meets_Private(pair, nonmortar, i, &region, &corners, mortar, found[k])) pair->candidate[total++] = found[k];
   }
   pair->start[pair->num_listed] = total;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* For the next search to go on from. */
+static PetscErrorCode Remember_Private(ContactPair pair)
+{
+  const PetscInt num = pair->num_listed, total = pair->start[num];
+
+  PetscFunctionBegin;
+  PetscCall(ContactGrow(num + 1, sizeof(PetscInt), &pair->size_found_start, &pair->found_start));
+  PetscCall(ContactGrow(total, sizeof(PetscInt), &pair->size_found, &pair->found));
+  PetscCall(PetscArraycpy(pair->found_start, pair->start, num + 1));
+  PetscCall(PetscArraycpy(pair->found, pair->candidate, total));
+  pair->num_searched = num;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode ContactPairGoOn(ContactPair pair, PetscBool yes)
+{
+  PetscFunctionBegin;
+  pair->goes_on = yes;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -160,6 +197,7 @@ PetscErrorCode ContactPairSearch(ContactPair pair, const ContactSurface *nonmort
   Tree      tree;
 
   PetscFunctionBegin;
+  PetscCheck(!pair->goes_on || num == pair->num_searched, PETSC_COMM_SELF, PETSC_ERR_ARG_WRONGSTATE, "a search of other facets than the one it goes on from");
   PetscCall(Prepare_Private(pair, nonmortar, num, facets, distance, margin));
   pair->num_mortar_nodes  = mortar->num_nodes;
   pair->num_mortar_facets = mortar->num_facets;
@@ -167,6 +205,7 @@ PetscErrorCode ContactPairSearch(ContactPair pair, const ContactSurface *nonmort
   PetscCall(PetscMalloc2(mortar->num_facets, &found, mortar->num_facets, &known));
   PetscCall(MortarTree_Private(mortar, known, &tree));
   PetscCall(Candidates_Private(pair, nonmortar, mortar, &tree, known, found));
+  PetscCall(Remember_Private(pair));
   PetscCall(PetscFree2(found, known));
   PetscCall(ContactTreeDestroy(&tree));
   PetscFunctionReturn(PETSC_SUCCESS);

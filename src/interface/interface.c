@@ -141,7 +141,7 @@ PetscErrorCode InterfaceGetMultipliers(Interface p, PetscInt pair, Vec x, PetscR
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode InterfaceSearch(Interface p, Vec x, const PetscReal u[])
+PetscErrorCode InterfaceSearch(Interface p, Vec x, const PetscReal u[], PetscBool goes_on)
 {
   PetscFunctionBegin;
   for (PetscInt i = 0; i < p->num_contacts; ++i) {
@@ -152,7 +152,9 @@ PetscErrorCode InterfaceSearch(Interface p, Vec x, const PetscReal u[])
       SurfaceForget_Private(&c->side[k]);
       SurfacePlace_Private(&c->side[k], u, ContactBase_Private(c, k), c->side[k].x);
     }
+    PetscCall(ContactPairGoOn(c->pair, goes_on));
     PetscCall(ContactSearch_Private(p, c, PETSC_FALSE, MARGIN * c->distance));
+    PetscCall(ContactPairGoOn(c->pair, PETSC_FALSE));
     if (c->spec->self) PetscCall(ContactRoles_Private(p, c, x, u));
   }
   PetscFunctionReturn(PETSC_SUCCESS);

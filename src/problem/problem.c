@@ -375,7 +375,7 @@ PetscErrorCode ProblemStepMove(Problem p, Vec dx, PetscReal step, PetscBool whol
   PetscCall(VecWAXPY(x, step, dx, p->start_x));
   if (whole) PetscCall(Rest_Private(p, dx, x));
   for (PetscInt i = 0; i < p->num_local; ++i) p->applied[i] = step == 1 ? p->target[i] : p->start_applied[i] + step * (p->target[i] - p->start_applied[i]);
-  PetscCall(ProblemSearch(p, x));
+  PetscCall(ProblemSearchOn(p, x));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

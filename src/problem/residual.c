@@ -1,7 +1,7 @@
 /* The residual: bulk forces, contact forces, complementarity, volumes of incompressible cells; supports and contact resultants from the same sums. */
 #include "problemimpl.h"
 
-PetscErrorCode ProblemSearch(Problem p, Vec x)
+static PetscErrorCode Search_Private(Problem p, Vec x, PetscBool goes_on)
 {
   PetscReal *local;
 
@@ -10,9 +10,23 @@ PetscErrorCode ProblemSearch(Problem p, Vec x)
   PetscCall(StageBegin(STAGE_CONTACT));
   PetscCall(VecGetArray(p->u_local, &local));
   PetscCall(ProblemLocalDisplacement(p, x, local));
-  PetscCall(InterfaceSearch(p->interface, x, local));
+  PetscCall(InterfaceSearch(p->interface, x, local, goes_on));
   PetscCall(VecRestoreArray(p->u_local, &local));
   PetscCall(StageEnd(STAGE_CONTACT));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode ProblemSearch(Problem p, Vec x)
+{
+  PetscFunctionBegin;
+  PetscCall(Search_Private(p, x, PETSC_FALSE));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode ProblemSearchOn(Problem p, Vec x)
+{
+  PetscFunctionBegin;
+  PetscCall(Search_Private(p, x, PETSC_TRUE));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

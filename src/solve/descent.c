@@ -220,7 +220,7 @@ PetscErrorCode DescentTry_Private(Descent *d, Vec x, PetscReal step, PetscReal *
 
   PetscFunctionBegin;
   PetscCall(VecWAXPY(d->trial, step, d->dx, x));
-  PetscCall(ProblemSearch(d->problem, d->trial));
+  PetscCall(ProblemSearchOn(d->problem, d->trial));
   PetscCall(ProblemMerit(d->problem, PENALTY, d->lambda, d->trial, NULL, merit, &status));
   PetscCall(Through_Private(d, PETSC_FALSE, &through, &deeper));
   if (through) *merit = PETSC_MAX_REAL;
@@ -256,7 +256,7 @@ PetscErrorCode DescentLinearise_Private(Descent *d, Vec x, PetscBool *done, Pets
   PetscBool bad;
 
   PetscFunctionBegin;
-  PetscCall(ProblemSearch(d->problem, x));
+  PetscCall(ProblemSearchOn(d->problem, x));
   PetscCall(ProblemMerit(d->problem, PENALTY, d->lambda, x, d->gradient, &d->merit, &d->status));
   *ok = (PetscBool)!d->status.bad;
   if (!*ok) PetscFunctionReturn(PETSC_SUCCESS);

@@ -383,10 +383,11 @@ PetscErrorCode ContactTieFacet(const EvaluateContext *, PetscInt facet, ContactF
 
 /* region.c */
 typedef struct {
-  PetscReal box[6], axis[3][3], lo[3], hi[3], slack;
+  PetscReal box[6], axis[3][3], lo[3], hi[3], slack, shallow; /* shallow: along axis[2], the margin below the facet */
 } RayRegion;
-void      ContactRayRegion(ContactPair, const ContactSurface *, PetscInt facet, RayRegion *);
-PetscBool ContactRayRegionMeets(const RayRegion *, const ContactSurface *mortar, PetscInt facet);
+void ContactRayRegion(ContactPair, const ContactSurface *, PetscInt facet, RayRegion *);
+/* again: for a facet that was found before, as long as it opposes at all, and in the body no deeper than the margin. */
+PetscBool ContactRayRegionMeets(const RayRegion *, const ContactSurface *mortar, PetscInt facet, PetscBool again);
 
 /* bundle.c */
 /* Of all mortar facets, once for positions. */
