@@ -210,11 +210,12 @@ def test_coefficient_of_time(run):
     assert numpy.all(traction <= 0.4 * pressure * (1 + 1e-9) + 1e-12) and traction.max() == pytest.approx(0.4 * pressure.max(), rel=1e-6)
 
 
-def test_objectivity(run):
-    """Pressed and sheared until it sticks, then both bodies turned by 360 degrees in 8 steps: nothing slips, forces turn along."""
-    turn = {"rotation": {"angle": "45*max(0,t-1)", "point": {"x": 0.5, "y": 1}}}
+@pytest.mark.parametrize("turns", [8, 4])
+def test_objectivity(run, turns):
+    """Pressed and sheared until it sticks, then both bodies turned by 360 degrees in 8 and in 4 steps, which are cut: nothing slips, forces turn along."""
+    turn = {"rotation": {"angle": f"{360 / turns}*max(0,t-1)", "point": {"x": 0.5, "y": 1}}}
     scene = blocks("upper", {"lower": STEEL, "upper": STEEL}, {"bottom": turn, "top": turn}, {"nl": 4, "nu": 6}, pair={"friction": 0.5, "interference": 0.05})
-    scene = scene.replace("load: {step: 1}", "load: {end: 9, step: 1}")
+    scene = scene.replace("load: {step: 1}", f"load: {{end: {turns + 1}, step: 1}}")
     result = run("turn.yml", text=scene)
     assert result.returncode == 0, result
     force = numpy.hypot(column(result, "contact.pair.force.x"), column(result, "contact.pair.force.y"))
