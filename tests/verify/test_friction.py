@@ -156,7 +156,7 @@ def test_without_friction_nothing_changes(run):
 
 
 def test_small_kinematics(run):
-    """The plate of GRECO (docs/benchmarks.md) with small strains: published slips, in one step as in ten, since nothing slips back; in parallel; the exact tangent."""
+    """O-57, the plate of GRECO (docs/benchmarks.md) with small strains: published slips, in one step as in ten, since nothing slips back; in parallel; the exact tangent."""
     options = "tests/benchmarks/greco.yml", "-kinematics", "small", "-material_steel_law", "linear"
     one, ten, three = run(*options, "-load_step", 1), run(*options), run(*options, "-load_step", 1, ranks=3)
     assert one.returncode == 0 and ten.returncode == 0 and three.returncode == 0, one
