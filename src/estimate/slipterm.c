@@ -1,9 +1,9 @@
 /* What the rows of friction do not see. They know means of the slip s over the multiplier's functions, and the cone |q| <= mu z at nodes.
 
    Between nodes the traction q on the mortar side misses the law by rho = q - P(q - k s), P the projection on the disc of radius mu z, k the stiffness of a
-   wave of slip that the functions are too coarse for: that of a gap (gapterm.c), for a half plane answers both alike. So rho = k s where surfaces stick, no more
-   than what q has left until they slip, and at least |q| - mu z outside the cone; 0 where they slip against q with |q| = mu z. eta^2 = int |rho|^2 / k, of the
-   slip of the last step. */
+   wave of slip that the functions are too coarse for: that of a gap (gapterm.c), for a half plane answers both alike. So rho = k s where surfaces stick, no
+   more than what q has left until they slip, and at least |q| - mu z outside the cone; 0 where they slip against q with |q| = mu z. eta^2 = int |rho|^2 / k, of
+   the slip of the last step. */
 #include "estimateimpl.h"
 
 /* |rho|^2 */

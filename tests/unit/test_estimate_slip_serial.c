@@ -1,7 +1,7 @@
-/* The slip that the rows of friction do not see: a stiff block with few facets carries the multipliers on a fine, soft one that sticks to it, while its bottom is
-   moved along in waves. All that is wrong is that too few means of gap and slip vanish: the solution minimises the energy over more than it may, and
-   (everything is linear, closed and sticks) the squared energy norm of its error is exactly twice the energy that is missing, against the same soft mesh under 96
-   facets. */
+/* The slip that the rows of friction do not see: a stiff block with few facets carries the multipliers on a fine, soft one that sticks to it, while its bottom
+   is moved along in waves. All that is wrong is that too few means of gap and slip vanish: the solution minimises the energy over more than it may, and
+   (everything is linear, closed and sticks) the squared energy norm of its error is exactly twice the energy that is missing, against the same soft mesh under
+   96 facets. */
 #include "../../src/estimate/estimateimpl.h"
 #include "patchfixture.h"
 
