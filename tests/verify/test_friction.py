@@ -414,9 +414,9 @@ adapt: {tolerance: 0.01, max_passes: 12}
 """
 
 
-def cattaneo(result):
+def cattaneo(result, name="pair"):
     """(a, c, errors of pressure / p0 and traction / mu p0 in the zone of contact (root mean square), ends of the stick zone)"""
-    pair, state, modulus = result.summary["contact"]["pair"], contact(result), 1 / 2 / (1 - 0.3**2)
+    pair, state, modulus = result.summary["contact"][name], contact(result), 1 / 2 / (1 - 0.3**2)
     Q, P = map(abs, pair["force"])
     a = math.sqrt(4 * P / math.pi / modulus)
     c, p0 = a * math.sqrt(1 - Q / 0.3 / P), 2 * P / math.pi / a
@@ -447,6 +447,27 @@ def test_cattaneo_mindlin_exactly(run):
     assert result.returncode == 0, result
     _, c, error, stick, _ = cattaneo(result)
     assert max(error) < 0.02 and abs(stick[0] / c + 1) < 0.02 and abs(stick[1] / c - 1) < 0.02
+
+
+def test_border_of_stick_and_slip(run):
+    """With the strategy hp cells at either end of the stick zone are split as at the rim, where those between keep their size and rise in order."""
+    near = "".join(f"{name}: {{boundary: {face}, x: 0, y: 0, levels: 3, radius: 0.1}}, " for name, face in (("a", "disc_surface"), ("b", "block_top")))
+    text = MINDLIN.replace("GEO", str(ROOT / "inputs" / "hertz2d.geo")).replace("friction: 0.3", 'friction: "0.3*(t>1)"').replace("order: 2, param", "order: 4, param").replace("n: 4", "n: 16")
+    text = text.replace("0.0024", "0.0144").replace("end: 1.5, step: 0.05", "end: 1.25, step: 1").replace("tolerance: 0.01, max_passes: 12", "tolerance: 0.001, max_passes: 2, strategy: hp")
+    result = run("border.yml", text=text + f"refine: {{{near}}}\n")
+    assert result.solved, result
+    a, c, _, _, _ = cattaneo(result)
+    state = result.states()[-1][1]
+    number, at = numpy.unique(state["cell"], return_inverse=True)
+    corner = state["X"][state["cells"]]
+    low, high = (numpy.array([f(corner[at == k][..., 0]) for k in range(len(number))]) for f in (numpy.min, numpy.max))
+    height = numpy.array([numpy.abs(corner[at == k][..., 1]).min() for k in range(len(number))])
+    order = numpy.array([numpy.rint(state["order"]).ravel()[at == k][0] for k in range(len(number))])
+    face = height < 0.04 * a  # cells at the faces: the arc is no higher than this over the zone
+    border = face & ((numpy.abs(low + high) / 2 - c) ** 2 < (0.05 * a) ** 2)
+    between = face & (numpy.abs(low + high) / 2 > 0.75 * a) & (numpy.abs(low + high) / 2 < 0.95 * a)
+    print(c / a, order[border], (high - low)[border] / a, order[between], (high - low)[between] / a)
+    assert order[border].max() == 2 and order[between].min() >= 3 and (high - low)[border].max() < 0.6 * (high - low)[between].max()
 
 
 @pytest.mark.parametrize("order, n, sides", [(1, 8, 0.06), (2, 4, 0.02)])
