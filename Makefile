@@ -177,6 +177,7 @@ chart: bootstrap
 	@MORTISE=$(abspath $(PROGRAM)) scripts/chart_layers
 	@MORTISE=$(abspath $(PROGRAM)) scripts/chart_angioplasty
 	@MORTISE=$(abspath $(PROGRAM)) scripts/chart_bulk
+	@MORTISE=$(abspath $(PROGRAM)) scripts/chart_friction
 	@scripts/chart_search $(BUILD)/bench/contact
 
 bench: bootstrap

@@ -232,6 +232,14 @@ PetscErrorCode ContactPairGetTangents(ContactPair, PetscInt node, PetscReal e[2]
 PetscErrorCode ContactPairKeepPoints(ContactPair, const ContactSurface *nonmortar, const ContactSurface *mortar, PetscBool *failed);
 PetscErrorCode ContactPairSlip(ContactPair, const ContactSurface *nonmortar, const ContactSurface *mortar, const ContactSurface from[2], PetscInt *num,
                                const ContactFacet **facets);
+/* The points kept, those of the last ContactPairSlip included, at positions of both sides as there: how far the mortar side has gone along the nonmortar facet
+   at each, a vector. increment (NULL: none): slip is linear in these increments, the positions being those where the points were kept. The caller frees the
+   array. Not collective. */
+typedef struct {
+  PetscInt  facet, mortar_facet;
+  PetscReal xi[2], weight, slip[3]; /* place on the nonmortar facet; its part of the surface where the point was kept */
+} ContactSlipPoint;
+PetscErrorCode ContactPairSlipPoints(ContactPair, const ContactSurface side[2], const ContactSurface increment[2], PetscInt *num, ContactSlipPoint **points);
 /* Evaluate at these positions, with `tie` in the results. Valid until the next evaluation. Not collective. */
 PetscErrorCode ContactPairTie(ContactPair, const ContactSurface *nonmortar, const ContactSurface *mortar, PetscInt *num, const ContactFacet **facets,
                               PetscBool *failed);

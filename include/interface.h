@@ -99,6 +99,7 @@ typedef struct {
   PetscInt         unusable;       /* overlaps at the last evaluation that could not be used: facets folded over in the other's view */
   PetscReal        adjusted;       /* largest mean initial gap, over or under, that was closed at a node (initial_gap: adjust) */
   PetscReal        interference;   /* at the time last set */
+  PetscReal        friction;       /* the coefficient then */
   PetscReal        open;           /* share of initial overlaps that does not count then (initial_gap: ramp) */
 } ContactView;
 
@@ -178,6 +179,8 @@ typedef struct {
   PetscInt  sticking, slipping;
 } FrictionFigures;
 PetscErrorCode InterfaceFriction(Interface, PetscInt pair, FrictionFigures *);
+/* Slip from point to point of the nonmortar facets that this rank evaluates, at the last evaluation; none without friction. The caller frees it. Collective. */
+PetscErrorCode InterfaceGetSlipPoints(Interface, PetscInt pair, PetscInt *num, ContactSlipPoint **points);
 
 /* ---- residual ----------------------------------------------------------------------------------------------------------------- */
 

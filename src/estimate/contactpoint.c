@@ -113,25 +113,35 @@ static void Tie_Private(const ContactTerm *term, PetscInt facet, const PetscReal
     for (PetscInt c = 0; c < s->dim; ++c) T[c] += factor * N[a] * term->z[c * s->num_nodes + node[a]];
 }
 
-/* T += factor * (z n + q t) at a place of a nonmortar facet; friction in the plane: q and t = e_z x n, in space the traction across n. */
-static void Push_Private(const ContactTerm *term, PetscBool finite, PetscInt facet, const PetscReal xi[2], PetscReal factor, PetscReal T[3])
+PetscReal ContactPressing_Private(const ContactTerm *term, PetscBool finite, PetscInt facet, const PetscReal xi[2], PetscReal n[3], PetscReal q[3])
 {
   const SurfaceView *s = &term->view->nonmortar;
   const PetscInt    *node, num = SurfaceFacetNodes(s, facet, &node);
   const PetscBool    slips = (PetscBool)(term->view->slip && s->dim == 2);
-  PetscReal          N[SURFACE_MOST_NODES], n[3], z = 0, q = 0;
+  PetscReal          N[SURFACE_MOST_NODES], z = 0, along = 0;
 
   ContactShape_Private(s, facet, xi, N);
   ContactNormal_Private(term, finite, facet, xi, N, n);
   for (PetscInt a = 0; a < num; ++a) z += N[a] * term->z[node[a]];
-  for (PetscInt c = 0; c < s->dim; ++c) T[c] += factor * z * n[c];
-  for (PetscInt a = 0; a < num && slips; ++a) q += N[a] * term->z[s->num_nodes + node[a]];
-  T[0] -= factor * q * n[1];
-  T[1] += factor * q * n[0];
+  for (PetscInt a = 0; a < num && slips; ++a) along += N[a] * term->z[s->num_nodes + node[a]];
+  q[0] = -along * n[1];
+  q[1] = along * n[0];
+  q[2] = 0;
   for (PetscInt a = 0; a < num && term->traction; ++a) {
-    const PetscReal *t = term->traction + 3 * node[a], along = Dot3(t, n);
-    for (PetscInt c = 0; c < 3; ++c) T[c] += factor * N[a] * (t[c] - along * n[c]);
+    const PetscReal *t = term->traction + 3 * node[a], across = Dot3(t, n);
+    for (PetscInt c = 0; c < 3; ++c) q[c] += N[a] * (t[c] - across * n[c]);
   }
+  return z;
+}
+
+/* T += factor * (z n + q) at a place of a nonmortar facet. */
+static void Push_Private(const ContactTerm *term, PetscBool finite, PetscInt facet, const PetscReal xi[2], PetscReal factor, PetscReal T[3])
+{
+  PetscReal       n[3], q[3];
+  const PetscReal z = ContactPressing_Private(term, finite, facet, xi, n, q);
+
+  for (PetscInt c = 0; c < term->view->nonmortar.dim; ++c) T[c] += factor * z * n[c];
+  for (PetscInt c = 0; c < 3 && term->view->slip; ++c) T[c] += factor * q[c];
 }
 
 /* Does the part of a mortar edge hold eta? Then xi on its nonmortar edge. */

@@ -151,6 +151,7 @@ PetscErrorCode ContactTermsCreate_Private(Problem problem, ContactTerms *terms)
   PetscCall(ProblemGetScene(problem, &scene));
   PetscCall(ProblemGetForest(problem, &forest));
   PetscCall(ForestGetTables(forest, &t));
+  terms->interface  = ProblemInterface(problem);
   terms->kinematics = scene->mechanics.kinematics;
   terms->model      = scene->mechanics.model;
   terms->num        = scene->num_contacts;

@@ -44,6 +44,7 @@ typedef struct {
 } ContactTerm;
 
 typedef struct {
+  Interface    interface;
   Kinematics   kinematics;
   Model        model;
   PetscInt     num;
@@ -151,6 +152,11 @@ PetscBool ContactNodalGap_Private(const ContactView *, PetscInt node, PetscReal 
 /* gappoint.c: points of a facet from its segments; gapterm.c: overlap, and opening under pressure, from point to point, with the exact geometry. Collective. */
 PetscErrorCode GapPointsFind_Private(const EstimateSum *, const ContactTerm *, PetscInt num, const ContactSegment segments[], GapPoints *);
 PetscErrorCode EstimateGap_Private(EstimateSum *);
+/* (1 - nu^2)/E of a leaf's body, 0: rigid. Size of a facet over the order of its functions. */
+PetscReal EstimateCompliance_Private(const EstimateSum *, PetscInt leaf);
+PetscReal ContactFacetSize_Private(const SurfaceView *, PetscInt facet);
+/* slipterm.c: friction. Collective. */
+PetscErrorCode EstimateSlip_Private(EstimateSum *);
 /* contactpoint.c: at xi in [-1, 1]^(dim-1) of a facet: functions of its nodes, N[SURFACE_MOST_NODES], length or area per unit of xi from its tangents
    (SurfaceTangents), and nodal positions (or normals) x[num_nodes][dim] interpolated (two dimensions: third component 0) */
 void      ContactShape_Private(const SurfaceView *, PetscInt facet, const PetscReal xi[2], PetscReal N[]);
@@ -158,6 +164,8 @@ PetscReal ContactMeasure_Private(const PetscReal tangent[2][3]);
 void      ContactPosition_Private(const SurfaceView *, PetscInt facet, const PetscReal x[], const PetscReal N[], PetscReal position[3]);
 /* Direction of a nonmortar facet there, of length 1. */
 void ContactNormal_Private(const ContactTerm *, PetscBool finite, PetscInt facet, const PetscReal xi[2], const PetscReal N[], PetscReal n[3]);
+/* Pressure there, that direction, and the tangential traction on the mortar side. */
+PetscReal ContactPressing_Private(const ContactTerm *, PetscBool finite, PetscInt facet, const PetscReal xi[2], PetscReal n[3], PetscReal q[3]);
 /* The box of a segment. */
 void ContactSegmentBox_Private(const ContactSegment *, PetscReal box[4]);
 /* Add the contact traction (per reference area) on a facet at reference position X. */

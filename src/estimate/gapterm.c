@@ -23,7 +23,7 @@ typedef struct {
 } BulgeWork;
 
 /* (1 - nu^2)/E, from mu/kappa: 1/(4 mu) where kappa is infinite. */
-static PetscReal Compliance_Private(const EstimateSum *sum, PetscInt leaf)
+PetscReal EstimateCompliance_Private(const EstimateSum *sum, PetscInt leaf)
 {
   const MaterialSpec *m = sum->spec->bodies[sum->t->leaf_body[leaf]].material;
 
@@ -31,7 +31,7 @@ static PetscReal Compliance_Private(const EstimateSum *sum, PetscInt leaf)
 }
 
 /* Size of a facet over the order of its functions. */
-static PetscReal Size_Private(const SurfaceView *s, PetscInt facet)
+PetscReal ContactFacetSize_Private(const SurfaceView *s, PetscInt facet)
 {
   const PetscReal middle[2] = {0, 0};
   PetscReal       t[2][3];
@@ -69,7 +69,8 @@ static PetscReal Bend_Private(const GapPoints *points)
    plane here and stiffer does neither: bend is how far it is from that, 0 to 1. A bulge is the facet's whose it is. */
 static PetscReal MortarShare_Private(const ContactTerm *term, const GapPoint *p, const PetscReal compliance[2], PetscReal bend)
 {
-  const PetscReal size[2] = {Size_Private(&term->view->nonmortar, p->segment->facet), Size_Private(&term->view->mortar, p->segment->mortar_facet)};
+  const PetscReal size[2] = {ContactFacetSize_Private(&term->view->nonmortar, p->segment->facet),
+                             ContactFacetSize_Private(&term->view->mortar, p->segment->mortar_facet)};
   const PetscReal coarser = PetscSqr(size[1]) / (PetscSqr(size[0]) + PetscSqr(size[1])), softer = compliance[1] / (compliance[0] + compliance[1]);
   const PetscReal bulge[2] = {PetscSqr(p->bulge[0] - p->mean[0]), PetscSqr(p->bulge[1] - p->mean[1])}, gap = PetscSqr(p->gap);
   const PetscReal whole = gap + bulge[0] + bulge[1];
@@ -90,14 +91,14 @@ static PetscReal Square_Private(const GapPoint *p, PetscBool ties, PetscReal s)
 static void Facet_Private(EstimateSum *sum, const ContactTerm *term, PetscInt facet, const GapPoints *points, BulgeWork *work)
 {
   const PetscInt  leaf = term->view->nonmortar.facet_leaf[facet];
-  const PetscReal size = Size_Private(&term->view->nonmortar, facet), bend = Bend_Private(points);
+  const PetscReal size = ContactFacetSize_Private(&term->view->nonmortar, facet), bend = Bend_Private(points);
   PetscReal       gaps = 0;
 
   for (PetscInt i = 0; i < points->num; ++i) gaps += points->points[i].weight * PetscSqr(points->points[i].gap);
   for (PetscInt i = 0; i < points->num; ++i) {
     const GapPoint *p             = &points->points[i];
     const PetscInt  other         = term->view->mortar.facet_leaf[p->segment->mortar_facet];
-    const PetscReal compliance[2] = {Compliance_Private(sum, leaf), Compliance_Private(sum, other)}, both = compliance[0] + compliance[1];
+    const PetscReal compliance[2] = {EstimateCompliance_Private(sum, leaf), EstimateCompliance_Private(sum, other)}, both = compliance[0] + compliance[1];
     if (both == 0) continue; /* both rigid: no energy; what is not a number is to show */
     const PetscReal square = p->weight * Square_Private(p, (PetscBool)(term->view->spec->law == CONTACT_TIED), PETSC_PI / (size * both));
     const PetscReal share  = MortarShare_Private(term, p, compliance, gaps > bend ? bend / gaps : 1);

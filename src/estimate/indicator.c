@@ -323,6 +323,7 @@ PetscErrorCode EstimateBulk_Private(EstimateSum *sum)
   if (sum->contact) {
     PetscCall(EstimateComplementarity_Private(sum));
     PetscCall(EstimateGap_Private(sum));
+    PetscCall(EstimateSlip_Private(sum));
   }
   if (sum->along) PetscCall(EstimateDoubts_Private(sum));
   PetscCall(PetscFree(height));

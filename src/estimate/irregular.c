@@ -1,6 +1,7 @@
 /* Cells that a higher order gains little: those with a contact face of order 1 (its error stays), those at the rim of a contact zone, where the pressure
-   starts like a root: all that share a vertex with a contact facet of which some nodes are pressed and others are not, and those that touch a place where the
-   kind of condition on the boundary changes, which is taken for singular until the coefficients of their solution show (choose.c). */
+   starts like a root: all that share a vertex with a contact facet of which some nodes are pressed and others are not; likewise at the border between stick and
+   slip, where the tangential traction does; and those that touch a place where the kind of condition on the boundary changes, which is taken for singular until
+   the coefficients of their solution show (choose.c). */
 #include "estimateimpl.h"
 
 #define PRESSED 1e-8 /* of the largest nodal force: less is round-off of an open node */
@@ -23,6 +24,11 @@ static PetscErrorCode Pressed_Private(MPI_Comm comm, const SurfaceView *s, int8_
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+static void Touch_Private(const SurfaceView *s, PetscInt facet, int8_t touched[])
+{
+  for (PetscInt k = 0; k < s->corners; ++k) touched[s->node_entity[s->facets[s->corners * facet + k]]] |= ESTIMATE_IRREGULAR_RIM;
+}
+
 /* touched[entity]: a node of a facet on the rim. Collective. */
 static PetscErrorCode Rim_Private(MPI_Comm comm, const SurfaceView *s, int8_t touched[])
 {
@@ -37,9 +43,43 @@ static PetscErrorCode Rim_Private(MPI_Comm comm, const SurfaceView *s, int8_t to
     for (PetscInt k = 0; k < num; ++k) {
       if (s->hang[node[k]] == s->hang[node[k] + 1]) ++count[pressed[node[k]]]; /* a hanging one's masters carry its force */
     }
-    for (PetscInt k = 0; k < s->corners && count[0] && count[1]; ++k) touched[s->node_entity[s->facets[s->corners * e + k]]] |= ESTIMATE_IRREGULAR_RIM;
+    if (count[0] && count[1]) Touch_Private(s, e, touched);
   }
   PetscCall(PetscFree(pressed));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* touched[entity] of nonmortar facets with nodes in different states of friction, and of mortar facets that face them. Collective. */
+static PetscErrorCode Border_Private(MPI_Comm comm, const ContactTerm *term, int8_t touched[])
+{
+  const SurfaceView *s = &term->view->nonmortar, *m = &term->view->mortar;
+  int8_t            *state, *border, *facing;
+
+  PetscFunctionBegin;
+  if (!term->view->slip) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(PetscCalloc3(s->num_nodes, &state, s->num_facets, &border, m->num_facets, &facing));
+  for (PetscInt i = 0; i < s->num_nodes; ++i) {
+    if (s->owned[i]) state[i] = term->view->active[i];
+  }
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, state, (PetscMPIInt)s->num_nodes, MPI_SIGNED_CHAR, MPI_MAX, comm));
+  for (PetscInt e = 0; e < s->num_facets; ++e) {
+    const PetscInt *node, num = SurfaceFacetNodes(s, e, &node);
+    int8_t          first = 0;
+    for (PetscInt k = 0; k < num; ++k) {
+      if (!state[node[k]]) continue; /* open, or it hangs: its masters have a state */
+      if (first && state[node[k]] != first) border[e] = 1;
+      first = state[node[k]];
+    }
+    if (border[e]) Touch_Private(s, e, touched);
+  }
+  for (PetscInt f = 0; f < m->num_facets; ++f) {
+    for (PetscInt i = term->segment_first[f]; i < term->segment_first[f + 1]; ++i) facing[f] |= border[term->segments[i].facet];
+  }
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, facing, (PetscMPIInt)m->num_facets, MPI_SIGNED_CHAR, MPI_MAX, comm));
+  for (PetscInt f = 0; f < m->num_facets; ++f) {
+    if (facing[f]) Touch_Private(m, f, touched);
+  }
+  PetscCall(PetscFree3(state, border, facing));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -114,6 +154,7 @@ PetscErrorCode EstimateIrregular_Private(const EstimateSum *sum, int8_t irregula
     const ContactView *view = sum->contact->terms[i].view;
     PetscCall(Rim_Private(ForestComm(forest), &view->nonmortar, touched));
     PetscCall(Rim_Private(ForestComm(forest), &view->mortar, touched));
+    PetscCall(Border_Private(ForestComm(forest), &sum->contact->terms[i], touched));
     PetscCall(Linear_Private(sum, &view->nonmortar, leaf_cell, irregular));
     PetscCall(Linear_Private(sum, &view->mortar, leaf_cell, irregular));
   }

@@ -192,7 +192,6 @@ typedef struct {
   const RigidLink     *links, *q_link[INTERFACE_MOTIONS];
   PetscInt            *pattern_offset, *pattern; /* [num_facets+1]: nodes each facet has room for in the matrix */
   SlipHistory         *slip;                     /* NULL: the law has no friction */
-  PetscReal            friction;                 /* its coefficient at the time last set */
   Tie                 *tie;                      /* NULL: the pair is not tied */
   PetscInt            *precedence;               /* roles.c: [num_facets] of a surface with itself; NULL: not chosen yet */
 } Contact;
@@ -373,7 +372,7 @@ static inline ContactPoint ContactPoint_Private(const Contact *c, PetscInt j, Pe
 
   if (lifted) point.lift = c->lift[j];
   point.dim      = c->side[0].dim;
-  point.friction = c->friction;
+  point.friction = c->view.friction;
   if (c->slip) {
     point.slip_weight = c->slip->weight[j];
     for (PetscInt i = 0; i < point.dim - 1; ++i) {

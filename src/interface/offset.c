@@ -25,10 +25,10 @@ static PetscErrorCode Friction_Private(Contact *c, PetscReal t)
 
   PetscFunctionBegin;
   if (!c->law->slips) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(ExpressionEvaluate(c->spec->friction, origin, t, &c->friction));
-  if (!(c->friction < 0)) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(ExpressionRefuse(c->spec->friction, t, c->friction, CONTACT_FRICTION));
-  c->friction = 0;
+  PetscCall(ExpressionEvaluate(c->spec->friction, origin, t, &c->view.friction));
+  if (!(c->view.friction < 0)) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(ExpressionRefuse(c->spec->friction, t, c->view.friction, CONTACT_FRICTION));
+  c->view.friction = 0;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -208,11 +208,15 @@ PetscErrorCode InterfacePattern(Interface p, Mat matrix, PetscInt first_row, Pet
     }
   }
   PetscCall(PetscFree(dofs));
-  for (PetscInt i = 0; i < p->num_contacts && !diagonal; ++i) {
+  for (PetscInt i = 0; i < p->num_contacts; ++i) {
     const Contact *c = &p->contacts[i];
     for (PetscInt j = 0; j < c->side[0].num_nodes; ++j) {
-      for (PetscInt k = 0; k < c->num * c->num && c->zlocal[j] >= 0; ++k)
-        PetscCall(MatSetValue(matrix, c->zdof[j] + k / c->num, c->zdof[j] + k % c->num, 0.0, ADD_VALUES));
+      for (PetscInt k = 0; k < c->num * c->num && c->zlocal[j] >= 0; ++k) {
+        if (diagonal)
+          ++diagonal[c->zdof[j] + k / c->num - first_row];
+        else
+          PetscCall(MatSetValue(matrix, c->zdof[j] + k / c->num, c->zdof[j] + k % c->num, 0.0, ADD_VALUES));
+      }
     }
   }
   PetscFunctionReturn(PETSC_SUCCESS);

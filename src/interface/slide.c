@@ -86,7 +86,7 @@ PetscErrorCode InterfaceFindSliding(Interface p, PetscReal pending, PetscBool se
   if (p->spec->kinematics == KINEMATICS_SMALL) PetscFunctionReturn(PETSC_SUCCESS);
   for (PetscInt i = 0; pending > 0 && i < p->num_contacts; ++i) {
     if (p->contacts[i].tie) continue;
-    if (p->contacts[i].friction > 0)
+    if (p->contacts[i].view.friction > 0)
       PetscCall(Slips_Private(p, &p->contacts[i], settled, swap, &moved));
     else
       PetscCall(HasMoved_Private(p, &p->contacts[i], &moved));

@@ -233,6 +233,24 @@ PetscErrorCode SlipChange_Private(Interface p, Contact *c, PetscReal change[])
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscErrorCode InterfaceGetSlipPoints(Interface p, PetscInt pair, PetscInt *num, ContactSlipPoint **points)
+{
+  Contact       *c = &p->contacts[pair];
+  ContactSurface side[2], increment[2];
+
+  PetscFunctionBegin;
+  *num    = 0;
+  *points = NULL;
+  if (!c->slip) PetscFunctionReturn(PETSC_SUCCESS);
+  if (c->mean0) PetscCall(Since_Private(p, c));
+  for (PetscInt k = 0; k < 2; ++k) {
+    side[k]      = SurfaceAt_Private(&c->side[k], c->mean0 ? c->side[k].X : c->side[k].x);
+    increment[k] = SurfaceAt_Private(&c->side[k], c->side[k].du);
+  }
+  PetscCall(ContactPairSlipPoints(c->pair, side, c->mean0 ? increment : NULL, num, points));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode InterfaceFriction(Interface p, PetscInt pair, FrictionFigures *f)
 {
   const Contact *c      = &p->contacts[pair];
@@ -251,7 +269,7 @@ PetscErrorCode InterfaceFriction(Interface p, PetscInt pair, FrictionFigures *f)
       square += PetscSqr(c->slip->mean[n * d + j]);
     }
     if (c->slip->weight[j] == 0) continue;
-    sum[c->friction == 0 || c->law->slides(c->active[j]) ? 2 : 1] += 1;
+    sum[c->view.friction == 0 || c->law->slides(c->active[j]) ? 2 : 1] += 1;
     most = PetscMax(most, PetscSqrtReal(square));
   }
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 3, MPIU_REAL, MPI_SUM, p->comm));

@@ -1,5 +1,5 @@
 // A unit square on a long rigid plane.
-DefineConstant[n = 4];
+DefineConstant[n = 1];
 Point(1) = {-2.5, 0, 0}; Point(2) = {-1.5, 0, 0}; Point(3) = {-1.5, 1, 0}; Point(4) = {-2.5, 1, 0};
 Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 4}; Line(4) = {4, 1};
 Curve Loop(1) = {1:4}; Plane Surface(1) = {1};

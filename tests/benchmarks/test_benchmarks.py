@@ -131,13 +131,30 @@ def test_polyurethane_ring(run, figures):
              for t, target, tolerance in ((0.25, 8.0083, 0.10), (0.5, 16.0166, 0.06), (0.75, 24.0250, 0.04), (1, 32.0333, 0.04))])
 
 
-@pytest.mark.xfail(strict=True, reason="the corner at the front digs in: all of it slips at 0.24 with one cell, 0.27 with four, 0.29 with eight along the foot")
+def slips(result, after):
+    """Times from which a part and all of the foot slips."""
+    rows = [row for row in result.history if row["t"] > after + 1e-6]
+    return [min(round(row["t"], 6) for row in rows if condition(row)) for condition in (lambda row: row["contact.c.slipping_nodes"] > 0, lambda row: row["contact.c.sticking_nodes"] == 0)]
+
+
 def test_drawn_block(run, figures):
+    """On the deck's own mesh of one cell; with more the corner at the front digs in, and sticks longer."""
     result = run(HERE + "drawn.yml", *QUIET)
-    rows = {round(row["t"], 6): row for row in result.history}
-    part = min(t for t, row in rows.items() if t > 0.2 and row["contact.c.slipping_nodes"] > 0)
-    whole = min(t for t, row in rows.items() if t > 0.2 and row["contact.c.sticking_nodes"] == 0)
-    figures("Block drawn over a rigid plane, friction 0.5", "FEBio test suite, deck co46", result, [("t at which part of it slips", part, 0.23, (0.0101,)), ("all of it", whole, 0.25, (0.0101,))], "100 steps, 852 iterations")
+    part, whole = slips(result, 0.2)
+    figures("Block drawn over a rigid plane, friction 0.5, one cell", "FEBio test suite, deck co46", result, [("t at which part of it slips", part, 0.23, (0.0101,)), ("all of it", whole, 0.25, (0.0101,))], "100 steps, 852 iterations")
+    assert result.summary["newton_iterations"] <= 400 and result.summary["load_steps"] == 100
+    held = [slips(run(HERE + "drawn.yml", *QUIET, "-mesh_parameter_n", n), 0.2)[1] for n in (2, 4, 8)]
+    print(held)
+    assert held == sorted(held) and whole < held[0]
+
+
+def test_block_drawn_over_a_block(run):
+    """FEBio's deck co44 (50 steps, 382 iterations there): its mesh of one cell each and finer ones."""
+    for n in (1, 4):
+        for order in (1, 2):
+            result = run(HERE + "pair.yml", *QUIET, "-mesh_parameter_n", n, "-order", order)
+            print(n, order, result.summary["newton_iterations"])
+            assert result.solved and result.summary["load_steps"] == 50 and result.summary["step_cuts"] == 0 and result.summary["newton_iterations"] <= 200, result
 
 
 def hertz(row, R=200, E=1000, nu=0.3):
@@ -163,10 +180,9 @@ def test_formulas():
 
 
 @pytest.mark.slow
-@pytest.mark.xfail(strict=True, reason="1.6 % short at a stick zone of 0.7 a with 14 000 unknowns (0.5, 0.1, 0.6 % at the other three); finer cells not measured")
 def test_lubkin(run, figures):
     """The twist is prescribed, and the depth: compared with the theory for the force found. Half of the model: the other sphere turns the other way."""
-    result = run(HERE + "lubkin.yml", "-adapt_tolerance", 0.15)
+    result = run(HERE + "lubkin.yml", "-adapt_tolerance", 0.1, "-adapt_max_passes", 4)
     figure, nominal = [], 4 / 3 * 1000 / 0.91 / 200
     for row, twist in zip(result.history[1:], (0.038514, 0.123436, 0.225712, 0.365570)):
         P, a, _ = hertz(row)
@@ -184,19 +200,22 @@ def shifted(P, a, G, mu=0.3, nu=0.3):
 SHIFT = 0.0036428571  # at which all slips by the nominal force
 
 
-@pytest.mark.slow
-def test_mindlin(run, figures):
-    """The shift is prescribed, and the depth: compared with the theory for the forces found."""
-    result = run(HERE + "mindlin.yml", "-adapt_tolerance", 0.15)
-    rows, figure = result.history, []
+def partial_slip(rows):
+    """Figures of mindlin.yml (name, found, by the theory for the forces found, tolerance). The shift is prescribed, and the depth. 0.3 % of the shift is missing, what
+    is beyond the 205 radii of the bodies; the energy goes with its cube, so the loop is compared by its force."""
+    figure = []
     for row, q in zip(rows[1:4], (0.25, 0.5, 0.75)):
         P, a, G = hertz({"contact.c.force.z": 2 * row["contact.c.force.z"]})
         found, shift = 2 * abs(row["contact.c.force.x"]) / 0.3 / P, SHIFT * (1 - (1 - q) ** (2 / 3)) / shifted(P, a, G)[0]
         figure.append((f"shift / (shift of full slip) at Q = {found:.3f} mu P", shift, 1 - (1 - found) ** (2 / 3), 0.01))
-    full, loop = shifted(P, a, G)
     energy = 2 * sum(row["contact.c.dissipation"] for row in rows[4:6])
-    figure.append(("energy of a loop between these shifts", energy, loop(1 - (1 - SHIFT * (1 - 0.25 ** (2 / 3)) / full) ** 1.5), 0.01))
-    figures("Two spheres, a tangential force to and fro", "Mindlin, J. Appl. Mech. 16 (1949) 259; Mindlin & Deresiewicz 1953", result, figure)
+    return [*figure, ("energy of a loop between these forces", energy, shifted(P, a, G)[1](found), 0.01)]
+
+
+@pytest.mark.slow
+def test_mindlin(run, figures):
+    result = run(HERE + "mindlin.yml", "-adapt_tolerance", 0.1, "-adapt_max_passes", 4)
+    figures("Two spheres, a tangential force to and fro", "Mindlin, J. Appl. Mech. 16 (1949) 259; Mindlin & Deresiewicz 1953", result, partial_slip(result.history))
 
 
 @pytest.mark.slow

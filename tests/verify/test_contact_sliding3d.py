@@ -106,6 +106,23 @@ def test_o60_plane_against_slice(run):
     assert numpy.abs(b / a - 1).max() < 1e-3 and (c < 0.95 * a).all()
 
 
+# O-60 with friction of 0.3, both forces: read from the plot of Kratos' run against Poulios & Renard, in units of 1e8 (the vertical ones are those without friction).
+FRICTION = {0.5: (0.85, 0.16), 1.0: (2.68, 0.56), 1.2: (3.33, 1.00), 1.5: (3.38, 1.03), 1.8: (3.33, 0.99), 2.0: (2.90, 0.64)}
+
+
+@pytest.mark.slow
+def test_o60_friction(run):
+    """Both forces; on the way the vertical one is as much above the published one as without friction."""
+    result = solve(run, "inputs/ironing.yml", *QUIET, "-contact_crown_on_block_friction", 0.3)
+    balanced(result)
+    down, along = (at(result, list(FRICTION), name) / 1e8 for name in ("reaction.bottom.y", "reaction.top.x"))
+    published = numpy.array(list(FRICTION.values())).T
+    print(down - published[0], along - published[1], result.summary["newton_iterations"], result.summary["step_cuts"])
+    assert result.summary["step_cuts"] == 0 and column(result, "contact.crown_on_block.dissipation").min() > -1e-12 * result.history[-1]["energy"]
+    assert numpy.abs(along - published[1]).max() < FOUR_PERCENT and abs(down[0] - published[0][0]) < FOUR_PERCENT
+    assert numpy.abs(down - published[0]).max() < 0.075 * 3.4
+
+
 # O-61, double-layer arch: imposed displacement of the ends and published displacement of the middle, mm.
 ARCH = {20: -5.8, 30: -5.2, 40: -3.5, 50: 0.6, 55: 8.5, 57.5: 27, 60: 40, 65: 50.5, 70: 56.7}
 ARCH_ROLES = ("-contact_ring_on_block_nonmortar", "block_top", "-contact_ring_on_block_mortar", "ring_skin", "-contact_ring_on_block_roles", "given")
@@ -155,6 +172,32 @@ def test_o61_published(run):
     assert error[:4].max() < 1.5 and error[-2:].max() < 4
 
 
+# O-61 with friction of 0.5, read from the plot of Kratos' run against Poulios & Renard.
+ARCH_FRICTION = {20: -5.8, 30: -5.5, 40: -4.2, 50: -1.6, 60: 1.8, 65: 5.4, 70: 11.3}
+
+
+def test_o61_friction(run):
+    """Friction keeps the feet of the ring together: the middle stays lower and does not snap, at either modulus of the block and with either side nonmortar."""
+    times = tuple(ARCH_FRICTION)
+    for modulus in (300, 100):
+        plain, result = (solve(run, "inputs/arch.yml", *QUIET, "-material_soft_E", modulus, *words) for words in ((), ("-contact_ring_on_block_friction", 0.5)))
+        balanced(result)
+        print(modulus, middle(result, times) - list(ARCH_FRICTION.values()), result.summary["newton_iterations"])
+        taken = column(result, "contact.ring_on_block.dissipation")
+        assert result.summary["step_cuts"] == 0 and taken.min() > -1e-12 * taken.sum()
+        assert (middle(result, times) < middle(plain, times)).all() and middle(result, times)[-1] < 25 < middle(plain, times)[-1]
+    assert (numpy.abs(middle(result, times) - list(ARCH_FRICTION.values()))[:4] < 1.5).all()
+    swapped = solve(run, "inputs/arch.yml", *QUIET, "-material_soft_E", 100, "-contact_ring_on_block_friction", 0.5, *ARCH_ROLES)
+    assert numpy.abs(middle(swapped, times) - middle(result, times)).max() < 0.5
+
+
+@pytest.mark.slow
+@pytest.mark.xfail(strict=True, reason="with the moduli named the middle lies 3.5 to 7.7 mm above the published curve; with a block of 100 MPa within 1.3 mm to 50 mm, then up to 9 mm above")
+def test_o61_friction_published(run):
+    error = numpy.abs(middle(solve(run, "inputs/arch.yml", *QUIET, "-contact_ring_on_block_friction", 0.5), tuple(ARCH_FRICTION)) - list(ARCH_FRICTION.values()))
+    assert error[:4].max() < 1.5 and error[-2:].max() < 4
+
+
 # O-62, ring between plates: published force on half of a plate, N, and its tolerance, at a quarter, half, three quarters and all of 4.45 cm.
 RING, RING_TOLERANCE = numpy.array([8.0083, 16.0166, 24.0250, 32.0333]), numpy.array([0.10, 0.06, 0.04, 0.04])
 RING_TIMES = (0.25, 0.5, 0.75, 1)
@@ -181,6 +224,19 @@ def test_o62_ring(run):
     swapped = solve(run, "inputs/ring.yml", *QUIET, *PLANE_STRAIN, "-mesh_parameter_k", 16, "-contact_ring_on_plate_nonmortar", "plate_top", "-contact_ring_on_plate_mortar", "outside",
                     "-contact_ring_on_plate_roles", "given")
     assert numpy.abs(ring_force(swapped) / ring_force(result) - 1).max() < 0.01
+
+
+def test_o62_friction(run):
+    """The published forces, which know no friction, hold with a little of it; more friction, more force; plates take what the ring slides."""
+    force = []
+    for friction in (0, 0.1, 0.3):
+        result = solve(run, "inputs/ring.yml", *QUIET, *PLANE_STRAIN, "-contact_ring_on_plate_friction", friction)
+        balanced(result)
+        force.append(ring_force(result))
+        print(friction, force[-1] / RING - 1, result.summary["newton_iterations"])
+        assert result.summary["step_cuts"] == 0 and column(result, "newton_iterations").max() <= 8
+    assert (numpy.abs(force[1] / RING - 1) < RING_TOLERANCE).all() and (force[0] < force[1]).all() and (force[1] < force[2]).all()
+    assert column(result, "contact.ring_on_plate.dissipation").min() >= 0 < column(result, "contact.ring_on_plate.dissipation").sum()
 
 
 @pytest.mark.slow
@@ -216,3 +272,17 @@ def test_o63_at_once(run):
     slowly = solve(run, "inputs/tubes.yml", *QUIET, "-load_step", 0.25, *TUBES_ROLES)
     assert once.summary["load_steps"] == 1 and once.summary["newton_iterations"] <= 10
     assert abs(once.history[-1]["contact_force"] / slowly.history[-1]["contact_force"] - 1) < 1e-8
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("roles", [(), TUBES_ROLES], ids=["upper", "lower"])
+def test_o63_friction(run, roles):
+    """Friction of 0.3: the same properties, and the work of the ends is stored or dissipated."""
+    result = solve(run, "inputs/tubes.yml", *QUIET, "-contact_tubes_friction", 0.3, *roles)
+    balanced(result)
+    assert result.summary["step_cuts"] == 0 and column(result, "newton_iterations").max() <= 8 and column(result, "min_gap").min() > -1e-3 * WALL
+    t, force, taken = numpy.append(0, column(result, "t")), numpy.append(0, -column(result, "reaction.upper_end.y")), column(result, "contact.tubes.dissipation")
+    work = numpy.sum((force[1:] + force[:-1]) / 2 * numpy.diff(t))
+    print(work, result.history[-1]["energy"], taken.sum())
+    assert (numpy.diff(force) > 0).all() and taken.min() >= 0 < taken.sum()
+    assert abs(work - result.history[-1]["energy"] - taken.sum()) < 1e-3 * work

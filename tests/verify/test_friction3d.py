@@ -179,12 +179,13 @@ def test_without_friction_nothing_changes(run):
     assert steps(plain) == steps(zero) and plain.summary["energy"] == zero.summary["energy"]
 
 
-def test_objectivity(run, tmp_path):
-    """Pressed and sheared, then both bodies turned by 360 degrees about an axis along the surface in 8 steps: nothing slips, forces turn along."""
+@pytest.mark.parametrize("turns", [8, 4])
+def test_objectivity(run, tmp_path, turns):
+    """Pressed and sheared, then both bodies turned by 360 degrees about an axis along the surface in 8 and in 4 steps, which are cut: nothing slips, forces turn along."""
     mesh = cubes(tmp_path / "turn.msh", 2, 3)
-    rotation = {"rotation": {"angle": "45*max(0,t-1)", "axis": "y", "point": {"x": 0.5, "y": 0.5, "z": 1}}}
+    rotation = {"rotation": {"angle": f"{360 / turns}*max(0,t-1)", "axis": "y", "point": {"x": 0.5, "y": 0.5, "z": 1}}}
     scene = text(mesh, "upper", {"lower": STEEL, "upper": STEEL}, {"z0_lower": rotation, "z1_upper": rotation}, None, {"friction": 0.5, "interference": 0.05})
-    result = run("turn.yml", text=scene.replace("load: {step: 1}", "load: {end: 9, step: 1}"))
+    result = run("turn.yml", text=scene.replace("load: {step: 1}", f"load: {{end: {turns + 1}, step: 1}}"))
     assert result.returncode == 0, result
     force = numpy.linalg.norm([column(result, f"contact.pair.force.{axis}") for axis in "xyz"], axis=0)
     print(force, column(result, "contact.pair.max_slip"), column(result, "newton_iterations"))

@@ -283,6 +283,23 @@ def test_lshape(run, order, ranks):
     assert abs(energy / conforming - 1) < 1e-3 and slope < 0.99 * other and math.exp(slope * middle + at - other * middle - level) < 1.1
 
 
+@pytest.mark.slow
+@pytest.mark.parametrize("order, tolerance, least", [(1, 0.005, 3000), (2, 0.0006, 10000)])
+def test_lshape_rates(run, order, tolerance, least):
+    """On many meshes, of more unknowns than where rates still rise: the error in energy falls at the rate of the mesh that conforms, which is the best one."""
+    def rate(scene):
+        result = run(scene, "-order", order, "-adapt_tolerance", tolerance, "-adapt_max_passes", 30, "-output_fields", "false")
+        assert result.solved, result  # order 1 ends at the largest number of cells
+        rows = [row for row in result.adapt if row["dofs"] > least]
+        error = [math.sqrt(2 * abs(row["energy"] - 2.0545124437e-4)) for row in rows]
+        return result.history[-1]["energy"], numpy.polyfit(numpy.log([row["dofs"] for row in rows]), numpy.log(error), 1)[0], len(rows)
+
+    tied, conforming = rate("inputs/tied_lshape.yml"), rate("inputs/lshape.yml")
+    print(tied, conforming)
+    assert min(tied[2], conforming[2]) >= 5 and abs(tied[0] / conforming[0] - 1) < 1e-4
+    assert abs(tied[1] / conforming[1] - 1) < 0.01 and abs(tied[1] / (-order / 2) - 1) < 0.01
+
+
 def test_with_contact(run, tmp_path):
     """A body that is glued to another touches a third one."""
     boxed = {"low": Box((0, 0, 0), (1, 1, 1), (3, 1, 2)), "mid": Box((0.2, 0, 1), (0.6, 1, 0.5), (2, 1, 2)), "top": Box((0.2, 0, 1.5), (0.6, 1, 0.5), (3, 1, 1))}

@@ -12,9 +12,10 @@
 #include "kernelimpl.h"
 
 typedef struct {
-  PetscInt facet;
-  RayPlace at;
-} Point; /* facet: of the mortar side */
+  PetscInt  facet;
+  RayPlace  at;
+  PetscReal start[2]; /* t.r(x0), in space along the axes of the first row's node */
+} Point;              /* facet: of the mortar side */
 
 typedef struct {
   PetscInt facet, num_rows, num_points, row, point, value, micro; /* where its rows, points, values A[points][rows] and C begin; micro -1: no C */
@@ -161,7 +162,7 @@ static PetscErrorCode Start_Private(ContactPair pair, const Kept *kept, const Co
   ContactRayLatticeGather(nonmortar, kept->facet, &own);
   PetscCall(PetscArrayzero(start, 2 * nr));
   for (PetscInt q = 0; q < kept->num_points; q++) {
-    const Point     *p = &s->point[kept->point + q];
+    Point           *p = &s->point[kept->point + q];
     const PetscReal *A = s->A + kept->value + q * nr;
     Now              now;
     Step             step;
@@ -171,6 +172,7 @@ static PetscErrorCode Start_Private(ContactPair pair, const Kept *kept, const Co
     for (PetscInt j = 0; j < m * nr; j++) {
       Step_Private(pair, &now, s->row[kept->row + j % nr], j / nr, &step);
       start[2 * (j % nr) + j / nr] += A[j % nr] * step.along;
+      if (j % nr == 0) p->start[j / nr] = step.along;
     }
   }
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -209,7 +211,7 @@ static PetscErrorCode KeepPoints_Private(const EvaluateContext *ctx, struct Cont
         for (PetscInt i = 0; i < na; i++) A[j] += w->T[j * na + i] * r.S.N[i] * dgamma;
         s->weight[kept->row + j] += A[j];
       }
-      s->point[s->num_points++] = (Point){w->mortar[k], *place};
+      s->point[s->num_points++] = (Point){.facet = w->mortar[k], .at = *place};
       s->num_values += nr;
     }
   }
@@ -482,5 +484,66 @@ PetscErrorCode ContactPairSlip(ContactPair pair, const ContactSurface *nonmortar
   }
   *num    = s->num_kept;
   *facets = s->facet;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* t.r of a point changes by r as t and by the tangents x,k as across[k]; axes that turn in the facet's plane add no more than what r has in it. */
+static PetscReal Linear_Private(PetscInt m, const Now *now, const Step *step, const RayLattice *own, const RayLattice *other)
+{
+  PetscReal du[3], along;
+
+  ContactRayLatticeSum(other, now->M.N, du);
+  along = Dot3(step->t, du);
+  ContactRayLatticeSum(own, now->N.N, du);
+  along -= Dot3(step->t, du);
+  for (PetscInt k = 0; k < m; k++) {
+    ContactRayLatticeSum(own, now->N.d[k], du);
+    along += Dot3(step->across[k], du);
+  }
+  return along;
+}
+
+/* Slip of point q of a kept facet, and its weight. */
+static void SlipPoint_Private(ContactPair pair, const Kept *kept, PetscInt q, const ContactSurface side[2], const ContactSurface *increment,
+                              const RayLattice own[2], ContactSlipPoint *to)
+{
+  const struct ContactSlip *s = pair->slip;
+  const Point              *p = &s->point[kept->point + q];
+  const PetscInt            m = side[0].dim - 1;
+  RayLattice                other[2];
+  Now                       now;
+
+  *to = (ContactSlipPoint){.facet = kept->facet, .mortar_facet = p->facet};
+  for (PetscInt d = 0; d < m; d++) to->xi[d] = p->at.xi[d];
+  for (PetscInt j = 0; j < kept->num_rows; j++) to->weight += s->A[kept->value + q * kept->num_rows + j];
+  ContactRayLatticeGather(&side[1], p->facet, &other[0]);
+  if (increment) ContactRayLatticeGather(&increment[1], p->facet, &other[1]);
+  Now_Private(m, &own[0], &other[0], &p->at, &now);
+  for (PetscInt i = 0; i < m; i++) {
+    Step step;
+
+    Step_Private(pair, &now, s->row[kept->row], i, &step);
+    const PetscReal along = increment ? Linear_Private(m, &now, &step, &own[1], &other[1]) : step.along - p->start[i];
+    for (int c = 0; c < 3; c++) to->slip[c] += along * step.t[c];
+  }
+}
+
+PetscErrorCode ContactPairSlipPoints(ContactPair pair, const ContactSurface side[2], const ContactSurface increment[2], PetscInt *num,
+                                     ContactSlipPoint **points)
+{
+  struct ContactSlip *s = pair->slip;
+
+  PetscFunctionBegin;
+  *num = 0;
+  PetscCall(PetscMalloc1(s ? s->num_points : 0, points));
+  if (!s || !s->num_kept) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(Turn_Private(pair, &side[0]));
+  for (PetscInt i = 0; i < s->num_kept; i++) {
+    RayLattice own[2];
+
+    ContactRayLatticeGather(&side[0], s->kept[i].facet, &own[0]);
+    if (increment) ContactRayLatticeGather(&increment[0], s->kept[i].facet, &own[1]);
+    for (PetscInt q = 0; q < s->kept[i].num_points; q++) SlipPoint_Private(pair, &s->kept[i], q, side, increment, own, &(*points)[(*num)++]);
+  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
