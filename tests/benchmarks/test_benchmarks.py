@@ -8,7 +8,7 @@ import numpy
 import pytest
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "stability"))
-from kit import run  # noqa: E402, F401
+from kit import plain, run  # noqa: E402, F401
 from boxmesh import write  # noqa: E402
 from contactkit import contact  # noqa: E402
 import test_contact_classical3d as classical3d  # noqa: E402
