@@ -89,9 +89,9 @@ def iterations(axes, runs):
 
 def bars(axes, drawn):
     """A figure of both, where neither state nor way tells them apart."""
-    for at, (value, side, colour) in enumerate(zip(drawn["values"], SIDES, ("C0", "C3"))):
-        axes.barh(-at, value, color=colour, height=0.6, label=side)
-    axes.set(yticks=[])
+    for at, (value, colour) in enumerate(zip(drawn["values"], ("C0", "C3"))):
+        axes.barh(-at, value, color=colour, height=0.6)
+    axes.set_yticks((0, -1), SIDES)
     axes.set_xlabel(drawn["x"], fontsize=8)
 
 
@@ -114,7 +114,7 @@ def draw(path, runs, what):
     else:
         if kind == "iterations": iterations(axes[0, 0], runs)
         else: {"bars": bars, "curves": curves}[kind](axes[0, 0], what)
-        axes[0, 0].legend(fontsize=7, frameon=False)
+        if kind != "bars": axes[0, 0].legend(fontsize=7, frameon=False)
         axes[0, 0].tick_params(labelsize=7)
         axes[0, 0].grid(linewidth=0.3)
     for dpi, colours in ((110, 64), (110, 24), (80, 16), (60, 12)):

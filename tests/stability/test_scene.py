@@ -223,6 +223,6 @@ def test_corner_that_digs_in(run, told):
     naive = run("tests/benchmarks/drawn.yml", "-mesh_parameter_n", 8, "-load_end", 0.4, "-contact_c_multiplier", "standard", *QUIET)
     lines = {name: ([row["t"] for row in rows], [abs(row["contact.c.force.x"] / row["contact.c.force.y"]) for row in rows])
              for name, rows in (("as it is", result.history[1:]), ("the other way", naive.history[1:]))}
-    told(share, lines["the other way"][1][-1], picture={"kind": "curves", "x": "t", "y": "tangential over normal force", "lines": lines})
+    told(share, lines["the other way"][1][-1], picture={"kind": "curves", "x": "t", "y": "share of friction", "lines": lines})
     assert result.returncode == 0 and last["contact.c.sticking_nodes"] == 0
     assert share == pytest.approx(0.5, rel=1e-3)
