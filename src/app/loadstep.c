@@ -79,7 +79,6 @@ static PetscErrorCode Accept_Private(App *app)
   app->speed = way > 0 && l->state.t > t0 ? step / (l->state.t - t0) / (way / l->state.t) : 0;
   PetscCall(Direction_Private(app));
   app->most_energy = PetscMax(app->most_energy, app->balance.status.energy);
-  app->most_passes = PetscMax(app->most_passes, app->passes_in_step);
   PetscCall(StateCommit(l->problem, &l->state));
   PetscCall(StateCopy(&l->state, &l->accepted));
   ++app->load_steps;
@@ -94,6 +93,7 @@ static PetscErrorCode Accept_Private(App *app)
   PetscCall(AppWatch(app));
   PetscCall(AppSnapshot(app));
   if (every > 0 && app->load_steps % every == 0) PetscCall(AppCheckpoint(app));
+  PetscCall(PetscTime(&app->accepted_at));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -15,12 +15,12 @@ static const PetscReal OfFlow[] = {0.4, 0.4, 0.8}, OfFibers[] = {0.25, 0.2, 0}, 
 typedef struct {
   const NeedsRun *run;
   Needs          *needs;
-  BodyTerms      *terms;     /* owned [num_bodies], over all ranks */
-  PetscInt       *cells;     /* owned [num_bodies] */
-  PetscReal       energy;    /* of all bodies */
-  PetscReal       turn;      /* work of follower pressures beyond that of dead loads */
-  PetscInt        layers[3]; /* NeedsFindPrism, by axis */
-  PetscReal       along[3];
+  BodyTerms      *terms;                /* owned [num_bodies], over all ranks */
+  PetscInt       *cells;                /* owned [num_bodies] */
+  PetscReal       energy;               /* of all bodies */
+  PetscReal       turn;                 /* work of follower pressures beyond that of dead loads */
+  PetscInt        layers[3], rounds[3]; /* NeedsFindPrism, by axis: along it, around it */
+  PetscReal       along[3], around[3];
   PetscReal       total;   /* seconds of the run */
   PetscReal       solving; /* share of it in Newton's iterations */
   PetscReal       mesh;    /* share of it that goes with the number of cells */
@@ -317,10 +317,12 @@ static PetscErrorCode LoadSteps_Private(Context *c)
   PetscFunctionBegin;
   for (PetscReal t = PathStepEnd(data, 0, data->load.end); t < data->load.end; t = PathStepEnd(data, t, data->load.end)) ++least;
   if (c->run->load_steps <= least || !Forgets_Private(c->run)) PetscFunctionReturn(PETSC_SUCCESS);
-  /* One solution a step and a pass; on the way to the end at once the mesh takes as many passes as any step has. */
-  const PetscReal rest = PetscMin(1, (PetscReal)(least + c->run->most_passes) / (PetscReal)(c->run->load_steps + c->run->adapt_passes));
-  PetscCall(Row_Private(c, "load_steps", "scene", 0, c->mesh * (1 - rest), "the end does not depend on the path", &row));
+  /* On the way to the end at once there is a solution on each mesh as well: what goes are the ones that later steps begin with. */
+  const PetscReal fewer = (PetscReal)(c->run->load_steps - least) / (PetscReal)(c->run->load_steps - 1);
+  PetscCall(Row_Private(c, "load_steps", "scene", 0, fewer * c->run->later / c->total, "the end does not depend on the path", &row));
   if (c->run->path->newton_iterations >= LONG_STEP * (c->run->load_steps + c->run->adapt_passes)) row->keeps = PETSC_FALSE;
+  for (PetscInt i = 0; i < data->num_contacts; ++i)
+    if (c->run->touched[i] > 1) row->keeps = PETSC_FALSE; /* a first touch from far away costs Newton's method more than the steps */
   cJSON_AddNumberToObject(row->set, "load.step", (double)data->load.end);
   cJSON_AddNullToObject(row->set, "load.step_max");
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -417,6 +419,43 @@ static PetscErrorCode Prism_Private(Context *c)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Do the supports and loads of a boundary hold of a ring as well? */
+static PetscBool GoesRound_Private(const BoundarySpec *b, PetscInt axis)
+{
+  if (b->rotation || BoundaryIsControlled(b) || (b->pressure && ExpressionUsesPlace(b->pressure))) return PETSC_FALSE;
+  for (PetscInt c = 0; c < 3; ++c) {
+    const Expression given[] = {b->displacement[c], b->traction[c]};
+    for (PetscInt k = 0; k < 2; ++k)
+      if (given[k] && (c != axis || ExpressionUsesPlace(given[k]))) return PETSC_FALSE;
+  }
+  return PETSC_TRUE;
+}
+
+/* A model of the section of a body of revolution. */
+static PetscErrorCode Revolution_Private(Context *c)
+{
+  const MechanicsSpec *m = &c->run->data->mechanics;
+  Need                *row;
+
+  PetscFunctionBegin;
+  for (PetscInt b = 0; b < m->num_bodies; ++b) {
+    const BodySpec *s = &m->bodies[b];
+    if (s->material->num_fibers || s->material->law->rigid || s->force[0] || s->force[1] || s->force[2]) PetscFunctionReturn(PETSC_SUCCESS);
+  }
+  for (PetscInt a = 0; a < 3; ++a) {
+    const char name[] = {(char)('x' + a), 0};
+    PetscInt   order  = MORTISE_MAX_ORDER;
+    PetscBool  round  = (PetscBool)(c->rounds[a] > 0);
+    for (PetscInt i = 0; i < m->num_boundaries; ++i) round = (PetscBool)(round && GoesRound_Private(&m->boundaries[i], a));
+    if (!round) continue;
+    for (PetscInt b = 0; b < m->num_bodies; ++b) order = PetscMin(order, m->bodies[b].order);
+    PetscCall(Row_Private(c, "revolution", name, c->around[a], c->mesh * (1 - (2. / 3) / (PetscReal)(c->rounds[a] * order + 1)),
+                          "nothing moves or changes around this axis: model axisymmetric is enough", &row));
+    cJSON_AddStringToObject(row->set, "revolve", name);
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* ---- cells ---------------------------------------------------------------------------------------------------------------------------- */
 
 /* The first mesh was fine enough at once, and a coarser one would have been: each halving of cells of order p leaves 2^-p of the error. */
@@ -477,8 +516,9 @@ static PetscErrorCode Terms_Private(Context *c)
 
 PetscErrorCode NeedsFind(const NeedsRun *run, Needs *needs)
 {
-  static PetscErrorCode (*const parts[])(Context *) = {Contact_Private,   Flow_Private,  Fibers_Private,   Mixed_Private, Kinematics_Private,
-                                                       LoadSteps_Private, Rigid_Private, Symmetry_Private, Prism_Private, Cells_Private};
+  static PetscErrorCode (*const parts[])(Context *) = {Contact_Private,    Flow_Private,       Fibers_Private, Mixed_Private,
+                                                       Kinematics_Private, LoadSteps_Private,  Rigid_Private,  Symmetry_Private,
+                                                       Prism_Private,      Revolution_Private, Cells_Private};
   static const Stage iterating[]                    = {STAGE_ASSEMBLE, STAGE_CONTACT, STAGE_FACTOR, STAGE_SOLVE};
   static const Stage meshed[]                       = {STAGE_SETUP, STAGE_ESTIMATE, STAGE_TRANSFER};
   Context            c                              = {.run = run, .needs = needs, .total = run->seconds};
@@ -489,7 +529,10 @@ PetscErrorCode NeedsFind(const NeedsRun *run, Needs *needs)
   c.mesh = c.solving;
   for (size_t i = 0; i < sizeof(meshed) / sizeof(*meshed); ++i) c.mesh += StageSeconds(meshed[i]) / c.total;
   PetscCall(Terms_Private(&c));
-  for (PetscInt a = 0; a < 3; ++a) PetscCall(NeedsFindPrism(run, a, Strain_Private(&c, NULL), &c.layers[a], &c.along[a]));
+  for (PetscInt a = 0; a < 3; ++a) {
+    PetscCall(NeedsFindPrism(run, a, PETSC_FALSE, Strain_Private(&c, NULL), &c.layers[a], &c.along[a]));
+    PetscCall(NeedsFindPrism(run, a, PETSC_TRUE, Strain_Private(&c, NULL), &c.rounds[a], &c.around[a]));
+  }
   for (size_t i = 0; i < sizeof(parts) / sizeof(*parts); ++i) PetscCall(parts[i](&c));
   PetscCall(PetscFree2(c.terms, c.cells));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -173,15 +173,14 @@ def test_formulas():
 
 
 @pytest.mark.slow
-@pytest.mark.xfail(strict=True, reason="1.6 % short at a stick zone of 0.7 a with 14 000 unknowns (0.5, 0.1, 0.6 % at the other three); finer cells not measured")
 def test_lubkin(run, figures):
     """The twist is prescribed, and the depth: compared with the theory for the force found. Half of the model: the other sphere turns the other way."""
-    result = run(HERE + "lubkin.yml", "-adapt_tolerance", 0.15)
+    result = run(HERE + "lubkin.yml", "-adapt_tolerance", 0.1)
     figure, nominal = [], 4 / 3 * 1000 / 0.91 / 200
     for row, twist in zip(result.history[1:], (0.038514, 0.123436, 0.225712, 0.365570)):
         P, a, _ = hertz(row)
         twist *= nominal / P * a ** 2
-        figure.append((f"torque / (mu P a) at a twist of {twist:.4f} mu P / (G a^2)", abs(row["contact.c.moment.z"]) / (0.3 * P * a), lubkin(twist), 0.01))
+        figure.append((f"torque / (mu P a) at a twist of {twist:.4f} mu P / (G a^2)", abs(row["contact.c.moment.z"]) / (0.3 * P * a), lubkin(twist), 0.005))
     figures("Two spheres twisted against each other", "Lubkin, J. Appl. Mech. 18 (1951) 183", result, figure)
 
 
