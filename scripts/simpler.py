@@ -6,6 +6,7 @@ import os
 import pathlib
 import re
 import resource
+import shutil
 import subprocess
 
 import yaml
@@ -13,7 +14,8 @@ import yaml
 import cutmesh
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-PROGRAM = pathlib.Path(os.environ.get("MORTISE", ROOT / "bin" / "mortise"))
+TREE = ROOT / "bin" / "mortise"
+PROGRAM = pathlib.Path(os.environ.get("MORTISE") or (TREE if TREE.exists() else shutil.which("mortise") or TREE))
 
 
 class Run:
@@ -233,5 +235,5 @@ def check(scene, base, part, row, folder, name, times=1, idle=0):
         whole = min(whole, run(scene, folder, "again", limit=10 * base.seconds + 5).seconds)
         simple.seconds = min(simple.seconds, run(pathlib.Path(folder) / f"{name}.yml", folder, name, limit=10 * base.seconds + 5).seconds)
     saved = 1 - (simple.seconds - idle) / (whole - idle)
-    if part == "cells": return simple.summary["estimated_error"], saved, simple
+    if part in ("cells", "order"): return simple.summary["estimated_error"], saved, simple
     return change(base, simple, share(part, row, folder, name), row["set"].get("revolve")), saved, simple

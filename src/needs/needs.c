@@ -103,16 +103,36 @@ static PetscReal Saves_Private(const Context *c, const MaterialSpec *m, const Pe
 
 /* ---- parts that did nothing ----------------------------------------------------------------------------------------------------------- */
 
+/* Share of the nodes that lie on the sides of a pair, twice: the matrix has room for what faces them in their rows, and for them in the rows of that. */
+static PetscErrorCode OnSides_Private(const Context *c, PetscInt pair, PetscReal *share)
+{
+  const ContactView *v;
+  const HPTables    *tables;
+  HPSpace            space;
+
+  PetscFunctionBegin;
+  PetscCall(InterfaceGetContact(ProblemInterface(c->run->level->problem), pair, &v));
+  PetscCall(ProblemGetSpace(c->run->level->problem, &space));
+  PetscCall(HPSpaceGetTables(space, &tables));
+  PetscReal nodes[] = {(PetscReal)(v->nonmortar.num_nodes + v->mortar.num_nodes), (PetscReal)tables->num_nodes};
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, nodes, 2, MPIU_REAL, MPI_SUM, c->run->comm));
+  *share = 2 * nodes[0] / nodes[1];
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 static PetscErrorCode Contact_Private(Context *c)
 {
   const SceneData *data = c->run->data;
+  PetscReal        sides;
   Need            *row;
 
   PetscFunctionBegin;
   for (PetscInt i = 0; i < data->num_contacts; ++i) {
     if (c->run->touched[i] || c->run->balance->pair[i].tied) continue;
-    PetscCall(Row_Private(c, "contact", data->contacts[i].name, 0, StageSeconds(STAGE_CONTACT) / c->total / (PetscReal)data->num_contacts,
-                          "its sides have not touched", &row));
+    PetscCall(OnSides_Private(c, i, &sides));
+    const PetscReal system = StageSeconds(STAGE_SETUP) + StageSeconds(STAGE_FACTOR) + StageSeconds(STAGE_SOLVE);
+    const PetscReal saves  = (StageSeconds(STAGE_CONTACT) / (PetscReal)data->num_contacts + sides * system) / c->total;
+    PetscCall(Row_Private(c, "contact", data->contacts[i].name, 0, saves, "its sides have not touched", &row));
     Drop_Private(row, "contact", data->contacts[i].name);
   }
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -475,11 +495,106 @@ static PetscErrorCode Cells_Private(Context *c)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* ---- orders --------------------------------------------------------------------------------------------------------------------------- */
+
+/* Is the body in a contact pair? There orders per direction cost contact faces their curves. */
+static PetscErrorCode InPair_Private(const Context *c, PetscInt body, PetscBool *yes)
+{
+  const ForestTables *t;
+
+  PetscFunctionBegin;
+  *yes = PETSC_FALSE;
+  PetscCall(ForestGetTables(c->run->level->forest, &t));
+  for (PetscInt i = 0; i < c->run->data->num_contacts; ++i) {
+    const uint64_t sides = UINT64_C(1) << c->run->data->contacts[i].nonmortar | UINT64_C(1) << c->run->data->contacts[i].mortar;
+    for (PetscInt leaf = 0; leaf < t->num_leaves; ++leaf)
+      if (t->leaf_body[leaf] == body && ForestLeafTouches(t, leaf, sides)) *yes = PETSC_TRUE;
+  }
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, yes, 1, MPIU_BOOL, MPI_LOR, c->run->comm));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The least order along a direction (-1: along all) with which the error keeps the tolerance; the body's own: none. */
+static PetscErrorCode Least_Private(Context *c, PetscInt body, PetscInt direction, PetscInt *least, PetscReal *change)
+{
+  PetscFunctionBegin;
+  *least = c->run->data->mechanics.bodies[body].order;
+  for (PetscInt q = *least - 1; q > 0; --q) {
+    PetscReal lost;
+    PetscCall(NeedsLostByOrder(c->run, body, direction, q, &lost));
+    const PetscReal off = PetscSqrtReal(PetscSqr(c->run->estimate->relative) + lost / c->energy);
+    if (off > c->needs->tolerance) break;
+    *least  = q;
+    *change = off;
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode Order_Private(Context *c, PetscInt body, PetscInt direction, PetscInt dim, PetscInt *least)
+{
+  const BodySpec *s    = &c->run->data->mechanics.bodies[body];
+  const char      axis = (char)('x' + direction);
+  char            name[MORTISE_NAME + 2];
+  PetscReal       change = 0;
+  PetscInt        all    = 0;
+  Need           *row;
+
+  PetscFunctionBegin;
+  PetscCall(Least_Private(c, body, direction, least, &change));
+  if (*least == s->order) PetscFunctionReturn(PETSC_SUCCESS);
+  for (PetscInt k = 0; k < c->run->data->mechanics.num_bodies; ++k) all += c->cells[k];
+  const PetscReal part = (PetscReal)*least / (PetscReal)s->order, nodes = direction < 0 ? PetscPowRealInt(part, dim) : part;
+  if (direction < 0) {
+    PetscCall(PetscStrncpy(name, s->name, sizeof(name)));
+  } else {
+    (void)snprintf(name, sizeof(name), "%s.%c", s->name, axis);
+  }
+  PetscCall(Row_Private(c, "order", name, change, c->mesh * (1 - nodes) * (PetscReal)c->cells[body] / (PetscReal)all,
+                        "the strain that the displacements lose with it, and the estimate", &row));
+  if (direction < 0) {
+    char key[2 * MORTISE_NAME];
+    (void)snprintf(key, sizeof(key), "body.%s.order", s->name);
+    cJSON_AddNumberToObject(row->set, key, (double)*least);
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
+  (void)snprintf(name, sizeof(name), "%s.order", s->name);
+  cJSON *orders = Object_Private(row, "body", name);
+  for (PetscInt a = 0; a < dim; ++a) cJSON_AddNumberToObject(orders, (const char[]){(char)('x' + a), 0}, (double)(a == direction ? *least : s->order));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* As with cells: the first mesh was fine enough at once. A direction of its own where it can do with less than all together. */
+static PetscErrorCode Orders_Private(Context *c)
+{
+  const MechanicsSpec *m   = &c->run->data->mechanics;
+  const PetscInt       dim = m->model == MODEL_3D ? 3 : 2;
+
+  PetscFunctionBegin;
+  if (c->run->data->adapt.tolerance <= 0 || c->run->adapt_passes || !c->run->estimate || !(c->energy > 0)) PetscFunctionReturn(PETSC_SUCCESS);
+  for (PetscInt b = 0; b < m->num_bodies; ++b) {
+    const BodySpec *s = &m->bodies[b];
+    PetscBool       paired;
+    PetscInt        together, least;
+    if (s->material->law->rigid || s->order_along[0] || s->order_along[1] || s->order_along[2]) continue;
+    PetscCall(Order_Private(c, b, -1, dim, &together));
+    PetscCall(InPair_Private(c, b, &paired));
+    for (PetscInt a = 0; a < dim && !paired; ++a) {
+      PetscReal change;
+      PetscCall(Least_Private(c, b, a, &least, &change));
+      if (least < together) PetscCall(Order_Private(c, b, a, dim, &least));
+    }
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* ---- all ------------------------------------------------------------------------------------------------------------------------------ */
 
 /* Does any row ask for energies? Not of one body of linear material. */
-static PetscBool Asked_Private(const SceneData *data)
+static PetscBool Asked_Private(const NeedsRun *run)
 {
+  const SceneData *data = run->data;
+
+  if (data->adapt.tolerance > 0 && !run->adapt_passes) return PETSC_TRUE;
   if (data->mechanics.model == MODEL_3D || data->mechanics.kinematics == KINEMATICS_FINITE || data->mechanics.num_bodies > 1) return PETSC_TRUE;
   return MaterialStoresPressure(data->mechanics.bodies[0].material);
 }
@@ -501,7 +616,7 @@ static PetscErrorCode Terms_Private(Context *c)
   PetscCall(ForestGetTables(l->forest, &t));
   PetscCall(PetscCalloc2(num, &c->terms, num, &c->cells));
   for (PetscInt i = 0; i < t->num_leaves; ++i) ++c->cells[t->leaf_body[i]];
-  if (!Asked_Private(c->run->data)) PetscFunctionReturn(PETSC_SUCCESS);
+  if (!Asked_Private(c->run)) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(PetscMalloc1(v->num_nodes * v->dim, &u));
   PetscCall(ProblemSetState(l->problem, &l->accepted));
   PetscCall(ProblemLocalDisplacement(l->problem, l->accepted.x, u));
@@ -518,7 +633,7 @@ PetscErrorCode NeedsFind(const NeedsRun *run, Needs *needs)
 {
   static PetscErrorCode (*const parts[])(Context *) = {Contact_Private,    Flow_Private,       Fibers_Private, Mixed_Private,
                                                        Kinematics_Private, LoadSteps_Private,  Rigid_Private,  Symmetry_Private,
-                                                       Prism_Private,      Revolution_Private, Cells_Private};
+                                                       Prism_Private,      Revolution_Private, Cells_Private,  Orders_Private};
   static const Stage iterating[]                    = {STAGE_ASSEMBLE, STAGE_CONTACT, STAGE_FACTOR, STAGE_SOLVE};
   static const Stage meshed[]                       = {STAGE_SETUP, STAGE_ESTIMATE, STAGE_TRANSFER};
   Context            c                              = {.run = run, .needs = needs, .total = run->seconds};

@@ -37,3 +37,6 @@ PetscErrorCode NeedsAsymmetry(const NeedsRun *, PetscInt axis, PetscReal *off);
    change: largest displacement along the axis (around it), or difference of those of corners over each other, over the largest displacement; over the length
    and the strain elsewhere if that is more. Collective. */
 PetscErrorCode NeedsFindPrism(const NeedsRun *, PetscInt axis, PetscBool around, PetscReal strain, PetscInt *layers, PetscReal *change);
+/* orders.c: energy mu |strain|^2 of what the displacements of a body lose with orders above `lower` along the axes of its cells that run mostly in this
+   direction; -1: along all. Collective. */
+PetscErrorCode NeedsLostByOrder(const NeedsRun *, PetscInt body, PetscInt direction, PetscInt lower, PetscReal *energy);

@@ -31,7 +31,7 @@ static PetscBool Prism_Private(const CoarseMesh *m, PetscInt cell, PetscInt axis
 
   *column = (Place){.body = m->cell_body[cell]};
   for (PetscInt k = 0; k < 8; ++k) {
-    PetscCallAbort(PETSC_COMM_SELF, PetscArraycpy(Y[k], X + 3 * corner[k], 3));
+    for (PetscInt d = 0; d < 3; ++d) Y[k][d] = X[3 * corner[k] + d];
     if (around) Around_Private(axis, size, X, X + 3 * corner[k], Y[k]);
     if (around && Y[k][0] < least) return PETSC_FALSE;
     lo = PetscMin(lo, Y[k][along]);
