@@ -10,7 +10,7 @@
 
 /* Shares of the time in assembly, estimate and transfer that go with a part of the material law: inputs/angioplasty2d.yml, tests/needs/plate.yml and tissue.yml
    with and without. */
-static const PetscReal OfFlow[] = {0.4, 0.4, 0.8}, OfFibers[] = {0.25, 0.2, 0}, OfPressure[] = {0.3, 0.6, 0};
+static const PetscReal OfFlow[] = {0.4, 0.4, 0.8}, OfFibers[] = {0.15, 0.1, 0}, OfPressure[] = {0.3, 0.6, 0};
 
 typedef struct {
   const NeedsRun *run;
