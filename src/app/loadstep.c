@@ -71,7 +71,7 @@ static PetscErrorCode Accept_Private(App *app)
   const PetscInt  every = app->data->output.checkpoint;
   Level          *l     = &app->level;
   const PetscReal t0    = l->accepted.t;
-  PetscReal       step, way;
+  PetscReal       step, way, flow;
 
   PetscFunctionBegin;
   PetscCall(ProblemDistance(l->problem, l->accepted.x, l->state.x, &step));
@@ -79,6 +79,8 @@ static PetscErrorCode Accept_Private(App *app)
   app->speed = way > 0 && l->state.t > t0 ? step / (l->state.t - t0) / (way / l->state.t) : 0;
   PetscCall(Direction_Private(app));
   app->most_energy = PetscMax(app->most_energy, app->balance.status.energy);
+  PetscCall(StateFlowError(l->problem, &l->accepted, &l->state, &flow));
+  app->path.flow_error += PetscSqrtReal(2 * flow);
   PetscCall(StateCommit(l->problem, &l->state));
   PetscCall(StateCopy(&l->state, &l->accepted));
   ++app->load_steps;
