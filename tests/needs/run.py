@@ -21,8 +21,8 @@ At its end a run says what it could have left out of its model within the tolera
 it would save ([how to](howto.md#model-no-more-than-needed), [theory](theory.md#no-more-model-than-needed)). Here each
 such promise is checked by running the simpler model: `tests/needs/run.py --write` does it and writes this page.
 
-Change: the largest relative change of the energy norm and of the forces of supports and contact pairs (cells, order: the
-estimated error). It holds where it is within a factor of 3 of what was told or below a tenth of the tolerance, and
+Change: the largest relative change of the energy norm and of the forces of supports and contact pairs (cells, order:
+the estimated error). It holds where it is within a factor of 3 of what was told or below a tenth of the tolerance, and
 within the tolerance. Saving: share of the processor time, without the start of the process, the mesh made beforehand;
 the least of several runs of both in turn. It holds within a factor of 2. In brackets: it does not, but differs by less
 than a tenth of the time, which is what runs on a busy machine scatter by.
