@@ -1,6 +1,25 @@
 /* What a step leaves where its material has a history: flow rules are integrated by one backward step. Twice the difference from two steps of half the length,
-   by way of the mean of both deformation gradients, is the local error to first order (Richardson). */
+   by way of the mean of both deformation gradients, is the local error to first order (Richardson). The rotation of the step is left out of the mean: history
+   does not feel it. */
 #include "mechanicsimpl.h"
+
+/* R^T F1, R the rotation of f = F1 F0^-1, by Newton's method for the polar decomposition: R <- (R + R^-T) / 2. */
+static PetscBool Unturned_Private(const PetscReal F0[9], const PetscReal F1[9], PetscReal F[9])
+{
+  const PetscReal T[9] = {F0[0], F0[3], F0[6], F0[1], F0[4], F0[7], F0[2], F0[5], F0[8]}, one[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+  PetscReal       R[9], inverse[9];
+
+  for (int i = 0; i < 3; ++i)
+    if (!Solve3(T, F1 + 3 * i, R + 3 * i)) return PETSC_FALSE;
+  for (int it = 0; it < 10; ++it) {
+    for (int k = 0; k < 3; ++k)
+      if (!Solve3(R, one + 3 * k, inverse + 3 * k)) return PETSC_FALSE;
+    for (int k = 0; k < 9; ++k) R[k] = 0.5 * (R[k] + inverse[k]);
+  }
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) F[3 * i + j] = R[i] * F1[j] + R[3 + i] * F1[3 + j] + R[6 + i] * F1[6 + j];
+  return PETSC_TRUE;
+}
 
 /* Energy of the stress that one step from F0 to F1 is off by. */
 static PetscErrorCode Point_Private(const MaterialSpec *m, const PetscReal history[], const PetscReal F0[9], const PetscReal F1[9], PetscReal *energy)
@@ -11,7 +30,8 @@ static PetscErrorCode Point_Private(const MaterialSpec *m, const PetscReal histo
 
   PetscFunctionBegin;
   *energy = 0;
-  for (int k = 0; k < 9; ++k) F[k] = 0.5 * (F0[k] + F1[k]);
+  if (!Unturned_Private(F0, F1, F)) PetscFunctionReturn(PETSC_SUCCESS);
+  for (int k = 0; k < 9; ++k) F[k] = 0.5 * (F0[k] + F[k]);
   PetscCall(MaterialEvaluate(m, MATERIAL_ISOCHORIC, &once));
   PetscCall(MaterialEvaluate(m, MATERIAL_ISOCHORIC, &half));
   PetscCall(MaterialEvaluate(m, MATERIAL_ISOCHORIC, &rest));

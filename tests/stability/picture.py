@@ -78,11 +78,11 @@ def states(axes, runs, field):
 
 
 def iterations(axes, runs):
-    """Newton iterations so far over the load; a run that gives up goes straight up where it stops."""
+    """Newton iterations so far over the load; a run that ends before goes straight up there."""
     for run, name, mark in zip(runs, SIDES, ("C0.-", "C3.-")):
         rows, summary = run.history, run.summary
         t, n = [0] + [row["t"] for row in rows], np.cumsum([0] + [row["newton_iterations"] for row in rows])
-        axes.plot(t + [summary["t"]], list(n) + [max(n[-1], summary["newton_iterations"])], mark, label=name + ("" if run.solved else ": gives up"), linewidth=1, markersize=3)
+        axes.plot(t + [summary["t"]], list(n) + [max(n[-1], summary["newton_iterations"])], mark, label=name + ("" if run.solved else ": ends there"), linewidth=1, markersize=3)
     axes.set_xlabel("t", fontsize=8)
     axes.set_ylabel("Newton iterations", fontsize=8)
 
