@@ -201,6 +201,8 @@ install: all
 	install scripts/plot $(BINDIR)/mortise-plot
 	install -d $(SHAREDIR)/mortise/python/mortise
 	install -m 644 python/mortise/*.py $(SHAREDIR)/mortise/python/mortise
+	install scripts/simplify $(BINDIR)/mortise-simplify
+	install -m 644 scripts/simpler.py scripts/cutmesh.py $(SHAREDIR)/mortise/python
 	install scripts/import $(BINDIR)/mortise-import
 	install scripts/hpc/batch $(BINDIR)/mortise-batch
 	install -m 644 scripts/hpc/slurm.sh $(SHAREDIR)/mortise/slurm.sh

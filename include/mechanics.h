@@ -260,6 +260,9 @@ typedef struct {
 PetscErrorCode MechanicsTerms(Mechanics, const PetscReal u[], BodyTerms terms[]);
 /* Work of follower pressures on u by straight ways beyond that of their forces at rest, (f(u) - f(0)) . u / 2: this rank's part. Not collective. */
 PetscErrorCode MechanicsFollowerTurn(Mechanics, const PetscReal u[], PetscReal *work);
+/* Energy of the error in plastic strain that a step from displacements u0 (at which the history last set was accepted) to u1 leaves: this rank's part. Not
+   collective. */
+PetscErrorCode MechanicsFlowError(Mechanics, const PetscReal u0[], const PetscReal u1[], PetscReal *energy);
 /* Plastic strain at np reference points of an owned cell, by polynomials through the integration points; 0 for laws without. Not collective. */
 PetscErrorCode MechanicsPlasticStrain(Mechanics, PetscInt cell, PetscInt np, const PetscReal xi[], const PetscReal u[], PetscReal strain[]);
 

@@ -9,13 +9,13 @@ typedef struct {
   Level           *level;
   const Path      *path;
   const Balance   *balance;
-  const Estimate  *estimate;    /* NULL: there was none */
-  const PetscBool *touched;     /* [num_contacts] a node was in contact at some time */
-  const PetscBool *mirror;      /* [3] planes of symmetry that are not used (NeedsFindMirrors) … */
-  const PetscReal *mirror_at;   /* [3] … and where they are */
-  PetscReal        most_energy; /* stored at the end of an accepted load step */
-  PetscReal        seconds;
-  PetscInt         load_steps, adapt_passes, most_passes; /* the last: of a load step */
+  const Estimate  *estimate;       /* NULL: there was none */
+  const PetscInt  *touched;        /* [num_contacts] load step in which a node was in contact first; 0: none */
+  const PetscBool *mirror;         /* [3] planes of symmetry that are not used (NeedsFindMirrors) … */
+  const PetscReal *mirror_at;      /* [3] … and where they are */
+  PetscReal        most_energy;    /* stored at the end of an accepted load step */
+  PetscReal        seconds, later; /* the last: in the first solutions of load steps but the first */
+  PetscInt         load_steps, adapt_passes;
 } NeedsRun;
 
 /* Rows of `needs`, which is empty; and away with them. Collective. */

@@ -48,6 +48,7 @@ typedef struct {
   PetscInt         modifiers_in_step, iterations_in_step, cuts_in_step;
   PetscInt         failures;                       /* attempts of this load step in vain; a step shorter than asked for begins with one */
   PetscReal        viscous_work, all_viscous_work; /* energy that viscous regularisation dissipated in the step at hand, in all steps accepted */
+  PetscReal        flow_error;                     /* of all steps accepted, in the energy norm (StateFlowError) */
   PetscBool        limit_point;                    /* loads are near a limit point: no equilibrium farther off is looked for */
   PetscBool        stopped;                        /* the run was asked to stop */
   ProblemStatus    status;                         /* of the last solution */

@@ -32,6 +32,8 @@ PetscErrorCode StateDestroy(State *);
 /* The step that led to s->x is accepted: the history becomes what it left. Stress and forces at s->x stay the same. The problem's prescribed motion must be
    that of the state. Collective. */
 PetscErrorCode StateCommit(Problem, State *);
+/* Energy of the error that plastic flow leaves on the way from an accepted state to another that is not yet. Collective. */
+PetscErrorCode StateFlowError(Problem, State *from, State *to, PetscReal *energy);
 /* Slip counts from this state from now on (Commit and Admit do so too). The problem's prescribed motion must be that of the state. Collective. */
 PetscErrorCode StateKeepOrigin(Problem, State *);
 /* The history of an accepted state becomes admissible at s->x (MechanicsAdmit): one carried over from another mesh may lie beyond the yield surface. The

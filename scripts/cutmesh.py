@@ -1,4 +1,5 @@
 """Half of a mesh that is symmetric about a plane: used by scripts/simplify."""
+import math
 import pathlib
 import subprocess
 
@@ -87,14 +88,18 @@ def half(source, path, dim, axis, at, name):
     return {row[2] for row in names}
 
 
-def section(source, path, axis):
-    """The lowest side of a prismatic mesh of hexahedra as a mesh in the plane; (length along the axis, names of groups that are left)."""
+def section(source, path, axis, around=False):
+    """The lowest side of a prismatic mesh of hexahedra as a mesh in the plane; (length along the axis, names of groups that are left). around: of one of revolution, the side at
+    the least angle, its radius along x and its height along y; the length is an angle."""
     names, nodes, elements = read(source)
-    low, high = min(x[axis] for x in nodes.values()), max(x[axis] for x in nodes.values())
     others = [c for c in range(3) if c != axis]
-    place = {n: [x[c] for c in others] + [0] for n, x in nodes.items()}
+    a, b = (axis + 1) % 3, (axis + 2) % 3
+    along = {n: math.atan2(x[b], x[a]) if around else x[axis] for n, x in nodes.items()}
+    place = {n: [math.hypot(x[a], x[b]), x[axis], 0] if around else [x[c] for c in others] + [0] for n, x in nodes.items()}
+    used = {n for kind, _, at in elements if dimension(kind) == 3 for n in at[:8]}
+    low, high = min(along[n] for n in used), max(along[n] for n in used)
 
-    def lowest(n): return abs(nodes[n][axis] - low) < 1e-7 * (high - low)
+    def lowest(n): return abs(along[n] - low) < 1e-7 * (high - low)
 
     def area(at): return sum(place[a][0] * place[b][1] - place[b][0] * place[a][1] for a, b in zip(at, at[1:] + at[:1]))
 
@@ -104,7 +109,7 @@ def section(source, path, axis):
         for corners in FACETS[3, 8]:
             if not all(lowest(at[i]) for i in corners): continue
             if area([at[i] for i in corners]) < 0: corners = corners[::-1]
-            kept.append((*face(kind, at, corners), group))
+            if all(set(at[i] for i in corners) != set(other[:4]) for _, other, _ in kept): kept.append((*face(kind, at, corners), group))
     of = {n for _, at, _ in kept for n in at[:4]}
     for kind, group, at in elements:
         corner = at[:4]
@@ -115,4 +120,5 @@ def section(source, path, axis):
     groups = {g for _, _, g in kept}
     named = [(2, n, name) for d, n, name in names if d == 3 and n in groups] + [(1, n, name) for d, n, name in names if d == 2 and any(g == n for g, _ in edges)]
     write(path, named, place, [(1, g, pair) for (g, _), pair in edges.items()] + [(kind, g, at) for kind, at, g in kept])
-    return high - low, {row[2] for row in named}
+    whole = around and any(max(along[n] for n in at[:8]) - min(along[n] for n in at[:8]) > math.pi for kind, _, at in elements if dimension(kind) == 3)
+    return 2 * math.pi if whole else high - low, {row[2] for row in named}

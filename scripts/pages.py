@@ -13,7 +13,7 @@ import sys
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 BLOCK = re.compile(r"(?:^<!-- (\w+)(?:: (\S+))? -->\n)?^```(\w+)\n(.*?)^```$", re.M | re.S)
 PICTURE = re.compile(r"^<!-- picture: (\S+) -->\n!\[[^\]]*\]\((\S+)\)", re.M)
-INSTALLED = {"mortise-plot": "scripts/plot", "mortise-batch": "scripts/hpc/batch", "mortise-import": "scripts/import"}
+INSTALLED = {"mortise-plot": "scripts/plot", "mortise-batch": "scripts/hpc/batch", "mortise-import": "scripts/import", "mortise-simplify": "scripts/simplify"}
 
 
 def environment(program, folder):

@@ -1,10 +1,12 @@
 """Simpler models of a scene: what section `needs` of summary.json suggests, applied, run and compared. Used by scripts/simplify and tests/needs/run.py."""
 import copy
 import json
+import math
 import os
 import pathlib
 import re
 import resource
+import shutil
 import subprocess
 
 import yaml
@@ -12,7 +14,8 @@ import yaml
 import cutmesh
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-PROGRAM = pathlib.Path(os.environ.get("MORTISE", ROOT / "bin" / "mortise"))
+TREE = ROOT / "bin" / "mortise"
+PROGRAM = pathlib.Path(os.environ.get("MORTISE") or (TREE if TREE.exists() else shutil.which("mortise") or TREE))
 
 
 class Run:
@@ -93,6 +96,33 @@ def cut(scene, axis, at, folder, name):
         if float(probe.get(letter, 0)) < at: probe[letter] = repr(2 * at - float(probe.get(letter, 0)))
 
 
+def turned(value, axis):
+    """A place in a part of a scene, in a plane through the axis of a body of revolution: x is the radius, y along the axis."""
+    if not isinstance(value, dict): return value
+    if not any(letter in value for letter in "xyz"): return {k: turned(v, axis) for k, v in value.items()}
+    rest = {k: v for k, v in value.items() if k not in "xyz"}
+    return {**rest, "x": repr(sum(float(value.get(letter, 0)) ** 2 for letter in "xyz" if letter != axis) ** 0.5), "y": value.get(axis, "0")}
+
+
+def revolved(scene, axis, folder, name):
+    """The axisymmetric scene of a body of revolution."""
+    mesh = scene["mesh"]
+    folder = pathlib.Path(folder)
+    cutmesh.make(mesh["file"], 3, mesh.get("order", 2), mesh.get("parameter", {}), folder / f"{name}_whole.msh")
+    _, groups = cutmesh.section(folder / f"{name}_whole.msh", folder / f"{name}.msh", "xyz".index(axis), around=True)
+    for key in ("probe", "point", "refine"):
+        if key in scene: scene[key] = {k: turned(v, axis) for k, v in scene[key].items()}
+    for boundary, value in list(scene.get("boundary", {}).items()):
+        if boundary not in groups:
+            del scene["boundary"][boundary]
+            continue
+        for key in ("displacement", "traction"):
+            if key in value: value[key] = {"y": value[key][axis]}
+        if "fix" in value and value["fix"] != "normal": value["fix"] = ("x" if set(value["fix"]) - {axis} else "") + ("y" if axis in value["fix"] else "")
+    scene["mesh"] = {"file": str((folder / f"{name}.msh").resolve()), **{k: v for k, v in mesh.items() if k not in ("file", "order", "parameter", "trust")}}
+    scene["model"] = "axisymmetric"
+
+
 def flat(value, letters):
     """A part of a scene in the plane: letters of axes go over to x and y, the third one goes."""
     if isinstance(value, dict):
@@ -125,6 +155,7 @@ def apply(scene, row, folder, name):
         if key == "plane":
             for letter, at in value.items(): cut(scene, "xyz".index(letter), at, folder, name)
         elif key == "section": section(scene, value, folder, name)
+        elif key == "revolve": revolved(scene, value, folder, name)
         else: put(scene, key, text(value))
     if not scene.get("contact", True): del scene["contact"]
     return scene
@@ -156,22 +187,29 @@ def off(x, y, part):
 
 
 def share(part, row, folder, name):
-    """What part of the whole the simpler model is: half of it, or one unit of its length."""
+    """What part of the whole the simpler model is: half of it, one unit of its length, or (more than 1) the full turn."""
     if part == "symmetry": return 0.5
+    if part == "revolution":
+        angle, _ = cutmesh.section(pathlib.Path(folder) / f"{name}_whole.msh", pathlib.Path(folder) / f"{name}_section.msh", "xyz".index(row["set"]["revolve"]), around=True)
+        return 2 * math.pi / angle
     if part != "prism": return 1
     nodes = cutmesh.read(pathlib.Path(folder) / f"{name}_whole.msh")[1].values()
     along = [x["xyz".index(row["set"]["section"])] for x in nodes]
     return 1 / (max(along) - min(along))
 
 
-def change(whole, simple, part=1):
-    """Largest relative change of the energy norm, of the supports' forces and of the pairs' forces. part: of the whole model the simple one is so much."""
+def change(whole, simple, part=1, axis=None):
+    """Largest relative change of the energy norm, of the supports' forces and of the pairs' forces. part: of the whole model the simple one is so much. axis: about which the
+    simple one is a full turn, so that only forces along it are the same, and the largest pressures."""
     a, b = whole.summary, simple.summary
     changes = [abs((b["energy"] / part / a["energy"]) ** 0.5 - 1)] if a["energy"] > 0 else []
     both = [(a["reaction"][k], b["reaction"][k]) for k in a["reaction"] if k in b["reaction"]]
     both += [(a["contact"][k]["force"], b["contact"][k]["force"]) for k in a["contact"] if k in b["contact"]]
     both = [(x, y) for x, y in both if any(x) and any(y)] # the support of a rigid body has no reaction of its own
     largest = max((size(x) for x, _ in both), default=0)
+    if axis:
+        changes += [abs(b["contact"][k]["max_pressure"] / a["contact"][k]["max_pressure"] - 1) for k in a["contact"] if k in b["contact"] and a["contact"][k]["max_pressure"] > 0]
+        both, part = [([x["xyz".index(axis)]], [y[1] / part]) for x, y in both], 1
     if part != 1: both = [(x, y) for x, y in both if size(x) > 0.5 * largest]
     if largest > 0: changes.append(max(off(x, y, part) for x, y in both) / largest)
     return max(changes, default=0)
@@ -197,5 +235,5 @@ def check(scene, base, part, row, folder, name, times=1, idle=0):
         whole = min(whole, run(scene, folder, "again", limit=10 * base.seconds + 5).seconds)
         simple.seconds = min(simple.seconds, run(pathlib.Path(folder) / f"{name}.yml", folder, name, limit=10 * base.seconds + 5).seconds)
     saved = 1 - (simple.seconds - idle) / (whole - idle)
-    if part == "cells": return simple.summary["estimated_error"], saved, simple
-    return change(base, simple, share(part, row, folder, name)), saved, simple
+    if part in ("cells", "order"): return simple.summary["estimated_error"], saved, simple
+    return change(base, simple, share(part, row, folder, name), row["set"].get("revolve")), saved, simple

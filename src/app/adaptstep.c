@@ -22,12 +22,14 @@ static PetscErrorCode ReportPass_Private(App *app, PetscInt iterations, PetscBoo
 
   PetscFunctionBegin;
   PetscCall(BalanceCompute(l->problem, &l->state, &app->balance));
-  for (PetscInt i = 0; i < app->balance.num_contacts; ++i) app->touched[i] = (PetscBool)(app->touched[i] || app->balance.pair[i].active_nodes > 0);
+  for (PetscInt i = 0; i < app->balance.num_contacts; ++i)
+    if (!app->touched[i] && app->balance.pair[i].active_nodes > 0) app->touched[i] = app->load_steps + 1;
   if (before.reaction && app->passes_in_step > 0) BalanceChange(&before, &app->balance, change);
   if (before.reaction) PetscCall(BalanceDestroy(&before));
   PetscCall(PetscMemzero(&app->last, sizeof(app->last)));
   PetscCall(ReportRowFill(l->problem, &l->state, AppIsStressed(app) ? &app->estimate : NULL, &app->balance, &app->last));
   PetscCall(PetscTime(&now));
+  if (app->load_steps > 0 && app->passes_in_step == 0) app->later_solutions += now - app->accepted_at;
   app->last.step              = app->load_steps + 1;
   app->last.pass              = app->repeats + app->passes_in_step;
   app->last.newton_iterations = iterations;

@@ -38,8 +38,9 @@ typedef struct {
   Path             path;
   PetscInt         repeats; /* adapt.repeat: path: how often it has begun again; else 0 */
   Estimate         largest; /* with it: of the steps of this path that were above the tolerance */
-  PetscInt         load_steps, adapt_passes, passes_in_step, most_passes /* of a load step */, told_cycles;
-  PetscLogDouble   start;
+  PetscInt         load_steps, adapt_passes, passes_in_step, told_cycles;
+  PetscLogDouble   start, accepted_at;                        /* of the run; when the last load step was accepted */
+  PetscReal        later_solutions;                           /* seconds in the first solution of each load step but the first */
   PetscReal        arc, arc_first;                            /* along a path: length of the next step, of the first one; 0: not yet */
   PetscReal        speed;                                     /* limit-point indicator: displacement per time in the last step, over that since the start */
   const char      *failure;                                   /* why the run gave up, NULL while it goes on */
@@ -49,7 +50,7 @@ typedef struct {
   Missed          *missed;                           /* owned [num_missed] */
   PetscBool        inversion_told;                   /* that refinement would invert a cell, once */
   PetscInt        *subdivided;                       /* owned [num_contacts] by contact.<pair>.subdivide: auto, so often, or tried */
-  PetscBool       *touched;                          /* owned [num_contacts] a node was in contact at some time of this run */
+  PetscInt        *touched;                          /* owned [num_contacts] load step of this run in which a node was in contact first; 0: none */
   PetscReal        rough_error, rough_t, rough_norm; /* largest estimate of an accepted step, its time; largest norm */
   PetscReal        unstable_t;                       /* when a solution was first found unstable … */
   PetscBool        unstable_known, passage_told;     /* … if one was; that a surface passes through itself */

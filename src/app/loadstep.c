@@ -71,7 +71,7 @@ static PetscErrorCode Accept_Private(App *app)
   const PetscInt  every = app->data->output.checkpoint;
   Level          *l     = &app->level;
   const PetscReal t0    = l->accepted.t;
-  PetscReal       step, way;
+  PetscReal       step, way, flow;
 
   PetscFunctionBegin;
   PetscCall(ProblemDistance(l->problem, l->accepted.x, l->state.x, &step));
@@ -79,7 +79,8 @@ static PetscErrorCode Accept_Private(App *app)
   app->speed = way > 0 && l->state.t > t0 ? step / (l->state.t - t0) / (way / l->state.t) : 0;
   PetscCall(Direction_Private(app));
   app->most_energy = PetscMax(app->most_energy, app->balance.status.energy);
-  app->most_passes = PetscMax(app->most_passes, app->passes_in_step);
+  PetscCall(StateFlowError(l->problem, &l->accepted, &l->state, &flow));
+  app->path.flow_error += PetscSqrtReal(2 * flow);
   PetscCall(StateCommit(l->problem, &l->state));
   PetscCall(StateCopy(&l->state, &l->accepted));
   ++app->load_steps;
@@ -94,6 +95,7 @@ static PetscErrorCode Accept_Private(App *app)
   PetscCall(AppWatch(app));
   PetscCall(AppSnapshot(app));
   if (every > 0 && app->load_steps % every == 0) PetscCall(AppCheckpoint(app));
+  PetscCall(PetscTime(&app->accepted_at));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -34,6 +34,7 @@ static void Begin_Private(App *app)
   app->load_steps = 0;
   app->dt         = app->data->load.step;
   app->arc = app->arc_first = app->speed = 0;
+  app->path.flow_error                   = 0;
   app->path.status                       = (ProblemStatus){0};
 }
 

@@ -35,6 +35,7 @@ static const struct {
     {"first_arc", offsetof(App, arc_first)},
     {"speed", offsetof(App, speed)},
     {"viscous_work", offsetof(App, path.all_viscous_work)},
+    {"flow_error", offsetof(App, path.flow_error)},
     {"largest_displacement", offsetof(App, path.status.largest)},
     {"largest_error", offsetof(App, largest.relative)},
 };

@@ -46,7 +46,7 @@ static PetscErrorCode Needs_Private(App *app, PetscReal seconds)
                         .seconds      = seconds,
                         .load_steps   = app->load_steps,
                         .adapt_passes = app->adapt_passes,
-                        .most_passes  = app->most_passes};
+                        .later        = app->later_solutions};
 
   PetscFunctionBegin;
   PetscCall(NeedsFind(&run, &app->needs));

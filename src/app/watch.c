@@ -61,9 +61,23 @@ PetscErrorCode AppWatch(App *app)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Load steps too long for plastic flow: they leave more than was asked for, or than the mesh does. */
+static PetscErrorCode WarnFlow_Private(App *app)
+{
+  const PetscReal norm = PetscSqrtReal(2 * app->path.status.energy), most = PetscMax(app->data->adapt.tolerance, app->last.estimated_error);
+
+  PetscFunctionBegin;
+  if (norm > 0 && app->path.flow_error > most * norm)
+    PetscCall(WarningAdd(app->comm,
+                         "the load steps leave an error of about %.2g %% where material flows, in the energy norm: take shorter ones (load.step_max)",
+                         100 * (double)(app->path.flow_error / norm)));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode AppWarn(App *app)
 {
   PetscFunctionBegin;
+  PetscCall(WarnFlow_Private(app));
   if (app->rough_error > ROUGH * app->rough_norm)
     PetscCall(WarningAdd(app->comm, "the estimated error is up to %.3g %% of the largest solution, at t = %.6g: figures of this run say little",
                          100 * (double)(app->rough_error / app->rough_norm), (double)app->rough_t));

@@ -10,17 +10,17 @@
 
 /* Shares of the time in assembly, estimate and transfer that go with a part of the material law: inputs/angioplasty2d.yml, tests/needs/plate.yml and tissue.yml
    with and without. */
-static const PetscReal OfFlow[] = {0.4, 0.4, 0.8}, OfFibers[] = {0.25, 0.2, 0}, OfPressure[] = {0.3, 0.6, 0};
+static const PetscReal OfFlow[] = {0.4, 0.4, 0.8}, OfFibers[] = {0.15, 0.1, 0}, OfPressure[] = {0.3, 0.6, 0};
 
 typedef struct {
   const NeedsRun *run;
   Needs          *needs;
-  BodyTerms      *terms;     /* owned [num_bodies], over all ranks */
-  PetscInt       *cells;     /* owned [num_bodies] */
-  PetscReal       energy;    /* of all bodies */
-  PetscReal       turn;      /* work of follower pressures beyond that of dead loads */
-  PetscInt        layers[3]; /* NeedsFindPrism, by axis */
-  PetscReal       along[3];
+  BodyTerms      *terms;                /* owned [num_bodies], over all ranks */
+  PetscInt       *cells;                /* owned [num_bodies] */
+  PetscReal       energy;               /* of all bodies */
+  PetscReal       turn;                 /* work of follower pressures beyond that of dead loads */
+  PetscInt        layers[3], rounds[3]; /* NeedsFindPrism, by axis: along it, around it */
+  PetscReal       along[3], around[3];
   PetscReal       total;   /* seconds of the run */
   PetscReal       solving; /* share of it in Newton's iterations */
   PetscReal       mesh;    /* share of it that goes with the number of cells */
@@ -103,17 +103,37 @@ static PetscReal Saves_Private(const Context *c, const MaterialSpec *m, const Pe
 
 /* ---- parts that did nothing ----------------------------------------------------------------------------------------------------------- */
 
+/* Share of the nodes that lie on the sides of a pair, twice: the matrix has room for what faces them in their rows, and for them in the rows of that. */
+static PetscErrorCode OnSides_Private(const Context *c, PetscInt pair, PetscReal *share)
+{
+  const ContactView *v;
+  const HPTables    *tables;
+  HPSpace            space;
+
+  PetscFunctionBegin;
+  PetscCall(InterfaceGetContact(ProblemInterface(c->run->level->problem), pair, &v));
+  PetscCall(ProblemGetSpace(c->run->level->problem, &space));
+  PetscCall(HPSpaceGetTables(space, &tables));
+  PetscReal nodes[] = {(PetscReal)(v->nonmortar.num_nodes + v->mortar.num_nodes), (PetscReal)tables->num_nodes};
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, nodes, 2, MPIU_REAL, MPI_SUM, c->run->comm));
+  *share = 2 * nodes[0] / nodes[1];
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 static PetscErrorCode Contact_Private(Context *c)
 {
   const SceneData *data = c->run->data;
+  PetscReal        sides;
   Need            *row;
 
   PetscFunctionBegin;
   for (PetscInt i = 0, pair = -1; i < data->num_contacts; ++i) {
     pair += data->contacts[i].part == 0;
     if (data->contacts[i].part || c->run->touched[pair] || c->run->balance->pair[pair].tied) continue;
-    PetscCall(Row_Private(c, "contact", data->contacts[i].name, 0, StageSeconds(STAGE_CONTACT) / c->total / (PetscReal)data->num_contacts,
-                          "its sides have not touched", &row));
+    PetscCall(OnSides_Private(c, i, &sides));
+    const PetscReal system = StageSeconds(STAGE_SETUP) + StageSeconds(STAGE_FACTOR) + StageSeconds(STAGE_SOLVE);
+    const PetscReal saves  = (StageSeconds(STAGE_CONTACT) / (PetscReal)data->num_contacts + sides * system) / c->total;
+    PetscCall(Row_Private(c, "contact", data->contacts[i].name, 0, saves, "its sides have not touched", &row));
     Drop_Private(row, "contact", data->contacts[i].name);
   }
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -318,10 +338,12 @@ static PetscErrorCode LoadSteps_Private(Context *c)
   PetscFunctionBegin;
   for (PetscReal t = PathStepEnd(data, 0, data->load.end); t < data->load.end; t = PathStepEnd(data, t, data->load.end)) ++least;
   if (c->run->load_steps <= least || !Forgets_Private(c->run)) PetscFunctionReturn(PETSC_SUCCESS);
-  /* One solution a step and a pass; on the way to the end at once the mesh takes as many passes as any step has. */
-  const PetscReal rest = PetscMin(1, (PetscReal)(least + c->run->most_passes) / (PetscReal)(c->run->load_steps + c->run->adapt_passes));
-  PetscCall(Row_Private(c, "load_steps", "scene", 0, c->mesh * (1 - rest), "the end does not depend on the path", &row));
+  /* On the way to the end at once there is a solution on each mesh as well: what goes are the ones that later steps begin with. */
+  const PetscReal fewer = (PetscReal)(c->run->load_steps - least) / (PetscReal)(c->run->load_steps - 1);
+  PetscCall(Row_Private(c, "load_steps", "scene", 0, fewer * c->run->later / c->total, "the end does not depend on the path", &row));
   if (c->run->path->newton_iterations >= LONG_STEP * (c->run->load_steps + c->run->adapt_passes)) row->keeps = PETSC_FALSE;
+  for (PetscInt i = 0; i < data->num_contacts; ++i)
+    if (c->run->touched[i] > 1) row->keeps = PETSC_FALSE; /* a first touch from far away costs Newton's method more than the steps */
   cJSON_AddNumberToObject(row->set, "load.step", (double)data->load.end);
   cJSON_AddNullToObject(row->set, "load.step_max");
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -418,6 +440,43 @@ static PetscErrorCode Prism_Private(Context *c)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Do the supports and loads of a boundary hold of a ring as well? */
+static PetscBool GoesRound_Private(const BoundarySpec *b, PetscInt axis)
+{
+  if (b->rotation || BoundaryIsControlled(b) || (b->pressure && ExpressionUsesPlace(b->pressure))) return PETSC_FALSE;
+  for (PetscInt c = 0; c < 3; ++c) {
+    const Expression given[] = {b->displacement[c], b->traction[c]};
+    for (PetscInt k = 0; k < 2; ++k)
+      if (given[k] && (c != axis || ExpressionUsesPlace(given[k]))) return PETSC_FALSE;
+  }
+  return PETSC_TRUE;
+}
+
+/* A model of the section of a body of revolution. */
+static PetscErrorCode Revolution_Private(Context *c)
+{
+  const MechanicsSpec *m = &c->run->data->mechanics;
+  Need                *row;
+
+  PetscFunctionBegin;
+  for (PetscInt b = 0; b < m->num_bodies; ++b) {
+    const BodySpec *s = &m->bodies[b];
+    if (s->material->num_fibers || s->material->law->rigid || s->force[0] || s->force[1] || s->force[2]) PetscFunctionReturn(PETSC_SUCCESS);
+  }
+  for (PetscInt a = 0; a < 3; ++a) {
+    const char name[] = {(char)('x' + a), 0};
+    PetscInt   order  = MORTISE_MAX_ORDER;
+    PetscBool  round  = (PetscBool)(c->rounds[a] > 0);
+    for (PetscInt i = 0; i < m->num_boundaries; ++i) round = (PetscBool)(round && GoesRound_Private(&m->boundaries[i], a));
+    if (!round) continue;
+    for (PetscInt b = 0; b < m->num_bodies; ++b) order = PetscMin(order, m->bodies[b].order);
+    PetscCall(Row_Private(c, "revolution", name, c->around[a], c->mesh * (1 - (2. / 3) / (PetscReal)(c->rounds[a] * order + 1)),
+                          "nothing moves or changes around this axis: model axisymmetric is enough", &row));
+    cJSON_AddStringToObject(row->set, "revolve", name);
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* ---- cells ---------------------------------------------------------------------------------------------------------------------------- */
 
 /* The first mesh was fine enough at once, and a coarser one would have been: each halving of cells of order p leaves 2^-p of the error. */
@@ -437,11 +496,106 @@ static PetscErrorCode Cells_Private(Context *c)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* ---- orders --------------------------------------------------------------------------------------------------------------------------- */
+
+/* Is the body in a contact pair? There orders per direction cost contact faces their curves. */
+static PetscErrorCode InPair_Private(const Context *c, PetscInt body, PetscBool *yes)
+{
+  const ForestTables *t;
+
+  PetscFunctionBegin;
+  *yes = PETSC_FALSE;
+  PetscCall(ForestGetTables(c->run->level->forest, &t));
+  for (PetscInt i = 0; i < c->run->data->num_contacts; ++i) {
+    const uint64_t sides = UINT64_C(1) << c->run->data->contacts[i].nonmortar | UINT64_C(1) << c->run->data->contacts[i].mortar;
+    for (PetscInt leaf = 0; leaf < t->num_leaves; ++leaf)
+      if (t->leaf_body[leaf] == body && ForestLeafTouches(t, leaf, sides)) *yes = PETSC_TRUE;
+  }
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, yes, 1, MPIU_BOOL, MPI_LOR, c->run->comm));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The least order along a direction (-1: along all) with which the error keeps the tolerance; the body's own: none. */
+static PetscErrorCode Least_Private(Context *c, PetscInt body, PetscInt direction, PetscInt *least, PetscReal *change)
+{
+  PetscFunctionBegin;
+  *least = c->run->data->mechanics.bodies[body].order;
+  for (PetscInt q = *least - 1; q > 0; --q) {
+    PetscReal lost;
+    PetscCall(NeedsLostByOrder(c->run, body, direction, q, &lost));
+    const PetscReal off = PetscSqrtReal(PetscSqr(c->run->estimate->relative) + lost / c->energy);
+    if (off > c->needs->tolerance) break;
+    *least  = q;
+    *change = off;
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode Order_Private(Context *c, PetscInt body, PetscInt direction, PetscInt dim, PetscInt *least)
+{
+  const BodySpec *s    = &c->run->data->mechanics.bodies[body];
+  const char      axis = (char)('x' + direction);
+  char            name[MORTISE_NAME + 2];
+  PetscReal       change = 0;
+  PetscInt        all    = 0;
+  Need           *row;
+
+  PetscFunctionBegin;
+  PetscCall(Least_Private(c, body, direction, least, &change));
+  if (*least == s->order) PetscFunctionReturn(PETSC_SUCCESS);
+  for (PetscInt k = 0; k < c->run->data->mechanics.num_bodies; ++k) all += c->cells[k];
+  const PetscReal part = (PetscReal)*least / (PetscReal)s->order, nodes = direction < 0 ? PetscPowRealInt(part, dim) : part;
+  if (direction < 0) {
+    PetscCall(PetscStrncpy(name, s->name, sizeof(name)));
+  } else {
+    (void)snprintf(name, sizeof(name), "%s.%c", s->name, axis);
+  }
+  PetscCall(Row_Private(c, "order", name, change, c->mesh * (1 - nodes) * (PetscReal)c->cells[body] / (PetscReal)all,
+                        "the strain that the displacements lose with it, and the estimate", &row));
+  if (direction < 0) {
+    char key[2 * MORTISE_NAME];
+    (void)snprintf(key, sizeof(key), "body.%s.order", s->name);
+    cJSON_AddNumberToObject(row->set, key, (double)*least);
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
+  (void)snprintf(name, sizeof(name), "%s.order", s->name);
+  cJSON *orders = Object_Private(row, "body", name);
+  for (PetscInt a = 0; a < dim; ++a) cJSON_AddNumberToObject(orders, (const char[]){(char)('x' + a), 0}, (double)(a == direction ? *least : s->order));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* As with cells: the first mesh was fine enough at once. A direction of its own where it can do with less than all together. */
+static PetscErrorCode Orders_Private(Context *c)
+{
+  const MechanicsSpec *m   = &c->run->data->mechanics;
+  const PetscInt       dim = m->model == MODEL_3D ? 3 : 2;
+
+  PetscFunctionBegin;
+  if (c->run->data->adapt.tolerance <= 0 || c->run->adapt_passes || !c->run->estimate || !(c->energy > 0)) PetscFunctionReturn(PETSC_SUCCESS);
+  for (PetscInt b = 0; b < m->num_bodies; ++b) {
+    const BodySpec *s = &m->bodies[b];
+    PetscBool       paired;
+    PetscInt        together, least;
+    if (s->material->law->rigid || s->order_along[0] || s->order_along[1] || s->order_along[2]) continue;
+    PetscCall(Order_Private(c, b, -1, dim, &together));
+    PetscCall(InPair_Private(c, b, &paired));
+    for (PetscInt a = 0; a < dim && !paired; ++a) {
+      PetscReal change;
+      PetscCall(Least_Private(c, b, a, &least, &change));
+      if (least < together) PetscCall(Order_Private(c, b, a, dim, &least));
+    }
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* ---- all ------------------------------------------------------------------------------------------------------------------------------ */
 
 /* Does any row ask for energies? Not of one body of linear material. */
-static PetscBool Asked_Private(const SceneData *data)
+static PetscBool Asked_Private(const NeedsRun *run)
 {
+  const SceneData *data = run->data;
+
+  if (data->adapt.tolerance > 0 && !run->adapt_passes) return PETSC_TRUE;
   if (data->mechanics.model == MODEL_3D || data->mechanics.kinematics == KINEMATICS_FINITE || data->mechanics.num_bodies > 1) return PETSC_TRUE;
   return MaterialStoresPressure(data->mechanics.bodies[0].material);
 }
@@ -463,7 +617,7 @@ static PetscErrorCode Terms_Private(Context *c)
   PetscCall(ForestGetTables(l->forest, &t));
   PetscCall(PetscCalloc2(num, &c->terms, num, &c->cells));
   for (PetscInt i = 0; i < t->num_leaves; ++i) ++c->cells[t->leaf_body[i]];
-  if (!Asked_Private(c->run->data)) PetscFunctionReturn(PETSC_SUCCESS);
+  if (!Asked_Private(c->run)) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(PetscMalloc1(v->num_nodes * v->dim, &u));
   PetscCall(ProblemSetState(l->problem, &l->accepted));
   PetscCall(ProblemLocalDisplacement(l->problem, l->accepted.x, u));
@@ -478,8 +632,9 @@ static PetscErrorCode Terms_Private(Context *c)
 
 PetscErrorCode NeedsFind(const NeedsRun *run, Needs *needs)
 {
-  static PetscErrorCode (*const parts[])(Context *) = {Contact_Private,   Flow_Private,  Fibers_Private,   Mixed_Private, Kinematics_Private,
-                                                       LoadSteps_Private, Rigid_Private, Symmetry_Private, Prism_Private, Cells_Private};
+  static PetscErrorCode (*const parts[])(Context *) = {Contact_Private,    Flow_Private,       Fibers_Private, Mixed_Private,
+                                                       Kinematics_Private, LoadSteps_Private,  Rigid_Private,  Symmetry_Private,
+                                                       Prism_Private,      Revolution_Private, Cells_Private,  Orders_Private};
   static const Stage iterating[]                    = {STAGE_ASSEMBLE, STAGE_CONTACT, STAGE_FACTOR, STAGE_SOLVE};
   static const Stage meshed[]                       = {STAGE_SETUP, STAGE_ESTIMATE, STAGE_TRANSFER};
   Context            c                              = {.run = run, .needs = needs, .total = run->seconds};
@@ -490,7 +645,10 @@ PetscErrorCode NeedsFind(const NeedsRun *run, Needs *needs)
   c.mesh = c.solving;
   for (size_t i = 0; i < sizeof(meshed) / sizeof(*meshed); ++i) c.mesh += StageSeconds(meshed[i]) / c.total;
   PetscCall(Terms_Private(&c));
-  for (PetscInt a = 0; a < 3; ++a) PetscCall(NeedsFindPrism(run, a, Strain_Private(&c, NULL), &c.layers[a], &c.along[a]));
+  for (PetscInt a = 0; a < 3; ++a) {
+    PetscCall(NeedsFindPrism(run, a, PETSC_FALSE, Strain_Private(&c, NULL), &c.layers[a], &c.along[a]));
+    PetscCall(NeedsFindPrism(run, a, PETSC_TRUE, Strain_Private(&c, NULL), &c.rounds[a], &c.around[a]));
+  }
   for (size_t i = 0; i < sizeof(parts) / sizeof(*parts); ++i) PetscCall(parts[i](&c));
   PetscCall(PetscFree2(c.terms, c.cells));
   PetscFunctionReturn(PETSC_SUCCESS);

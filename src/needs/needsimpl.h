@@ -33,7 +33,10 @@ PetscErrorCode NeedsContactTurn(const NeedsRun *, PetscInt pair, PetscReal *turn
 PetscErrorCode NeedsRigidMotion(const NeedsRun *, PetscInt body, cJSON **motion, PetscBool *held);
 /* Largest difference of displacements at corners of cells from those of their mirror images, over the largest displacement. Collective. */
 PetscErrorCode NeedsAsymmetry(const NeedsRun *, PetscInt axis, PetscReal *off);
-/* prism.c: is the mesh one of right prisms along the axis that reach from end to end? layers: of its cells, 0: it is not. change: largest displacement along
-   the axis, or difference of those of corners over each other, over the largest displacement; over the length and the strain elsewhere if that is more.
-   Collective. */
-PetscErrorCode NeedsFindPrism(const NeedsRun *, PetscInt axis, PetscReal strain, PetscInt *layers, PetscReal *change);
+/* prism.c: is the mesh one of right prisms along the axis that reach from end to end? around: of such ones bent about it. layers: of its cells, 0: it is not.
+   change: largest displacement along the axis (around it), or difference of those of corners over each other, over the largest displacement; over the length
+   and the strain elsewhere if that is more. Collective. */
+PetscErrorCode NeedsFindPrism(const NeedsRun *, PetscInt axis, PetscBool around, PetscReal strain, PetscInt *layers, PetscReal *change);
+/* orders.c: energy mu |strain|^2 of what the displacements of a body lose with orders above `lower` along the axes of its cells that run mostly in this
+   direction; -1: along all. Collective. */
+PetscErrorCode NeedsLostByOrder(const NeedsRun *, PetscInt body, PetscInt direction, PetscInt lower, PetscReal *energy);

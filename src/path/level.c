@@ -8,6 +8,7 @@ PetscErrorCode LevelCreate(const SceneData *data, Forest forest, const int8_t le
 
   PetscFunctionBegin;
   PetscCall(ExpressionTrouble(ForestComm(forest), &earlier));
+  PetscCall(StageBegin(STAGE_SETUP));
   level->forest = forest;
   PetscCall(ProblemCreate(data, forest, leaf_order, &level->problem));
   PetscCall(ProblemSetTime(level->problem, t));
@@ -16,6 +17,7 @@ PetscErrorCode LevelCreate(const SceneData *data, Forest forest, const int8_t le
   PetscCall(StateCreate(level->problem, &level->state));
   PetscCall(StateCreate(level->problem, &level->accepted));
   level->state.t = level->accepted.t = t;
+  PetscCall(StageEnd(STAGE_SETUP));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -136,6 +136,7 @@ PetscErrorCode ProblemMatrix_Private(Problem p)
   PetscInt      *diagonal, *other;
 
   PetscFunctionBegin;
+  PetscCall(StageBegin(STAGE_SETUP));
   PetscCall(MatDestroy(&p->matrix));
   PetscCall(PetscCalloc2(rows, &diagonal, rows, &other));
   PetscCall(BulkPattern_Private(p, diagonal, other));
@@ -159,5 +160,6 @@ PetscErrorCode ProblemMatrix_Private(Problem p)
   PetscCall(ScalarsPattern_Private(p, NULL, NULL));
   PetscCall(MatAssemble(p->matrix, MAT_FINAL_ASSEMBLY));
   PetscCall(PetscFree2(p->scatter_first, p->scatter));
+  PetscCall(StageEnd(STAGE_SETUP));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -51,6 +51,29 @@ PetscErrorCode StateKeepOrigin(Problem p, State *s)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscErrorCode StateFlowError(Problem p, State *from, State *to, PetscReal *energy)
+{
+  const size_t num = (size_t)p->num_local;
+  PetscReal   *u0, *u1;
+
+  PetscFunctionBegin;
+  *energy = 0;
+  if (!MechanicsIsPlastic(&p->scene->mechanics)) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(PetscMalloc2(num, &u0, num, &u1));
+  PetscCall(ProblemSetState(p, from));
+  PetscCall(ProblemSetTime(p, from->t));
+  PetscCall(ProblemJump(p));
+  PetscCall(ProblemLocalDisplacement(p, from->x, u0));
+  PetscCall(ProblemSetState(p, to));
+  PetscCall(ProblemSetTime(p, to->t));
+  PetscCall(ProblemJump(p));
+  PetscCall(ProblemLocalDisplacement(p, to->x, u1));
+  PetscCall(MechanicsFlowError(p->mechanics, u0, u1, energy));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, energy, 1, MPIU_REAL, MPI_SUM, p->comm));
+  PetscCall(PetscFree2(u0, u1));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode StateCommit(Problem p, State *s)
 {
   PetscReal *local;

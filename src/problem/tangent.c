@@ -78,8 +78,8 @@ PetscErrorCode ProblemTangent(Problem p, Vec x, const PetscReal pressure[], Vec 
   p->lift = lift;
   if (lift) PetscCall(VecSetOption(lift, VEC_IGNORE_NEGATIVE_INDICES, PETSC_TRUE));
   for (PetscInt i = 0; i < p->num_local; ++i) p->increment[i] = p->target[i] - p->applied[i];
-  PetscCall(StageBegin(STAGE_ASSEMBLE));
   PetscCall(ProblemReadyMatrix_Private(p));
+  PetscCall(StageBegin(STAGE_ASSEMBLE));
   PetscCall(MechanicsTangent(p->mechanics, local, pressure, ProblemCellSink_Private, p, bad));
   if (!*bad) PetscCall(PressureBlocks_Private(p));
   PetscCall(ScalarsTangent_Private(p, local));
@@ -93,7 +93,9 @@ PetscErrorCode ProblemTangent(Problem p, Vec x, const PetscReal pressure[], Vec 
     PetscCall(InterfaceInsertRows(p->interface, &system));
   }
   PetscCall(StageEnd(STAGE_CONTACT));
+  PetscCall(StageBegin(STAGE_ASSEMBLE));
   PetscCall(MatAssemble(p->matrix, MAT_FINAL_ASSEMBLY));
+  PetscCall(StageEnd(STAGE_ASSEMBLE));
   if (lift) {
     PetscCall(VecAssemble(lift));
   }

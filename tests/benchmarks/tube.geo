@@ -1,5 +1,5 @@
 // A quarter of a thin tube, midline of radius 1, thickness h, oval by a thousandth, and the rigid plane of symmetry that its wall meets. n: cells around.
-DefineConstant[n = 24, h = 0.02, e = 0.001];
+DefineConstant[n = 32, h = 0.01, e = 0.001];
 Point(1) = {0, 0, 0};
 a = 1 + e; b = 1 - e;
 Point(2) = {a - h/2, 0, 0}; Point(3) = {a + h/2, 0, 0}; Point(4) = {0, b + h/2, 0}; Point(5) = {0, b - h/2, 0};

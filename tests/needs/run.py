@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Check what section `needs` of summary.json promises: scenes of inputs/ and five made for it, each with and without every part that it says is not needed.
+"""Check what section `needs` of summary.json promises: scenes of inputs/ and six made for it, each with and without every part that it says is not needed.
 
     tests/needs/run.py [--times N] [--write] [SCENE...]
 
@@ -14,15 +14,15 @@ sys.path.insert(0, str(ROOT / "scripts"))
 import simpler  # noqa: E402
 
 INPUTS = "hertz2d rubber2d cook tube cylinder oring sphere balloon slide2d roller shrinkfit3d".split()
-MADE = "bracket bush plate tissue stops".split()
+MADE = "bracket bush plate tissue stops layer".split()
 HEAD = """# No more model than needed
 
 At its end a run says what it could have left out of its model within the tolerance, what that would change and what
 it would save ([how to](howto.md#model-no-more-than-needed), [theory](theory.md#no-more-model-than-needed)). Here each
 such promise is checked by running the simpler model: `tests/needs/run.py --write` does it and writes this page.
 
-Change: the largest relative change of the energy norm and of the forces of supports and contact pairs (cells: the
-estimated error). It holds where it is within a factor of 3 of what was told or below a tenth of the tolerance, and
+Change: the largest relative change of the energy norm and of the forces of supports and contact pairs (cells, order:
+the estimated error). It holds where it is within a factor of 3 of what was told or below a tenth of the tolerance, and
 within the tolerance. Saving: share of the processor time, without the start of the process, the mesh made beforehand;
 the least of several runs of both in turn. It holds within a factor of 2. In brackets: it does not, but differs by less
 than a tenth of the time, which is what runs on a busy machine scatter by.

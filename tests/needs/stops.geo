@@ -1,5 +1,5 @@
 // A beam [0,60] x [0,4] between two stops, [50,60] x [-6,-1] below and [50,60] x [5,10] above it; what it does not reach is no part of it.
-DefineConstant[ n = 3 ];
+DefineConstant[ n = 8 ];
 Point(1) = {0, 0, 0};   Point(2) = {60, 0, 0};  Point(3) = {60, 4, 0};  Point(4) = {0, 4, 0};
 Point(5) = {50, -6, 0}; Point(6) = {60, -6, 0}; Point(7) = {60, -1, 0}; Point(8) = {50, -1, 0};
 Point(9) = {50, 5, 0};  Point(10) = {60, 5, 0}; Point(11) = {60, 10, 0}; Point(12) = {50, 10, 0};

@@ -1,7 +1,7 @@
 """Rows of docs/stability.md that are one scene with and without one switch: a figure of each, and what must hold of both."""
 import pytest
 
-from kit import end, run, told, way  # noqa: F401
+from kit import end, plain, run, told, way  # noqa: F401
 
 NTS = "node_to_segment true"
 
@@ -72,7 +72,7 @@ ROWS = {
     "stall": ("A solve without hope goes on", "factorisations", "-newton_stall auto", "-newton_stall off",
               f"tests/gauntlet/upset_strip.yml -adapt_tolerance 0 -load_step 0.1 -newton_line_search off {ALONE}", factorisations, 500, 700),
     "snap": ("A clip snaps: behind the limit point no equilibrium is near", "1 - t reached", "-path_viscous auto, -path_descent auto",
-             f"{ALONE} -path_predictor off", "tests/gauntlet/clip.yml -load_step 0.2", lambda s: 1 - s["t"], 1e-12, STOPS),
+             f"{ALONE} -path_predictor off", "tests/gauntlet/clip.yml -mesh_refine 1", lambda s: 1 - s["t"], 1e-12, STOPS),
     "membrane": ("Locking as nu goes to 1/2 (Cook's membrane, 8 x 8 cells)", "1 - displacement of the tip / 6.93", "mixed form, order 2",
                  "-order 1 -material_rubber_formulation displacement", "inputs/cook.yml", lambda s: 1 - s["probe"]["tip"]["displacement"][1] / 6.93, 0.006, 0.5),
     "singular": ("A singular corner spoils uniform refinement", "error of the energy, fewer unknowns for ours", "adapted", "-adapt_tolerance 0 -mesh_refine 3",
@@ -86,11 +86,12 @@ def test_switch(run, told, name):
     title, figure, ours, naive, scene, value, below, above = ROWS[name]
     scene, *options = scene.split()
     options += ["-output_fields", "false"]
-    words = {"title": title, "figure": figure, "ours": ours, "naive": naive, "scene": scene}
+    words = {"title": title, "figure": figure, "ours": ours, "naive": naive, "scene": scene, "picture": {"kind": {newton: "iterations", factorisations: "bars"}.get(value, "states")}}
     told("-", "-", **words)
     results = [run(scene, *options), run(scene, *options, *naive.split())]
     values = [value(result.summary) for result in results]
     shown = [v if result.returncode == 0 else end(result) for v, result in zip(values, results)]
+    words["picture"].update(values=values, x=figure)
     told(*shown, **words)
     assert results[0].returncode == 0 and values[0] <= below, results[0]
     if above is STOPS:

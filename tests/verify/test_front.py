@@ -57,6 +57,8 @@ def test_install_and_new(prefix, tmp_path):
     summary = json.loads((tmp_path / "out/first/summary.json").read_text())
     assert summary["status"] == "converged" and summary["contact"]["punch_on_block"]["force"][1] == pytest.approx(-1.0987, rel=0.01)
     assert start("mortise-plot", "out/first").returncode == 0 and (tmp_path / "out/first/mesh.png").exists()
+    simplify = start("mortise-simplify", "first.yml", "-o", "simple")
+    assert simplify.returncode == 0 and (tmp_path / "simple/simpler.yml").exists(), simplify
     batch = start("mortise-batch", prefix / "share/mortise/examples/patch2d.yml")
     assert batch.returncode == 0 and "converged" in batch.stdout, batch
 

@@ -73,6 +73,27 @@ def test_symmetry_is_told_before(run):
     assert "symmetric about" not in run("inputs/cylinder.yml", "-check").stdout
 
 
+def test_no_revolution_where_the_load_goes_one_way(run):
+    """The same quarter of tubes with one of them moved across: neither along nor around the axis does it stay as it is, and a load that is not along the axis is refused unseen."""
+    told = run("inputs/shrinkfit3d.yml", *QUIET).summary["needs"]
+    assert told["revolution"]["z"]["keeps"] and told["revolution"]["z"]["set"] == {"revolve": "z"}
+    assert "revolution" not in run("inputs/shrinkfit3d.yml", *QUIET, "-boundary_ends_traction_x", 0).summary["needs"]
+
+
+def test_no_promise_of_one_step_where_contact_begins_later(run):
+    """The beam meets its stop in the second load step; bent to the end at once it would first be found far beyond."""
+    told = run("tests/needs/stops.yml", *QUIET, "-mesh_parameter_n", 3).summary["needs"]
+    assert not told["load_steps"]["scene"]["keeps"]
+
+
+def test_orders_of_a_linear_field(run, tmp_path):
+    """A strip that is only stretched loses nothing with any order above 1."""
+    text = (ROOT / "tests" / "needs" / "layer.yml").read_text().replace("layer.geo", str(ROOT / "tests" / "needs" / "layer.geo"))
+    text = text.replace(', force: {x: "0.05*sin(2*X)"}', "").replace("right: {fix: x}", "right: {displacement: {x: 0.1}}")
+    need = run("layer.yml", *QUIET, text=text).summary["needs"]["order"]["strip"]
+    assert need["keeps"] and need["set"] == {"body.strip.order": 1} and need["change"] < 1e-6, need
+
+
 def test_soft_body_is_not_rigid(run):
     """A sleeve that its neighbour stretches takes little energy since it is soft: it is no part that could be rigid."""
     soft = run("tests/needs/bush.yml", *QUIET, "-material_alloy_E", 1e-3, "-load_step", 1, "-adapt_tolerance", 0.2)
@@ -87,7 +108,7 @@ def check(name, tmp_path, only=None):
         assert promised.holds(row, change, tolerance), (name, part, of, row, change)
 
 
-@pytest.mark.parametrize("name,only", [("bracket", ["kinematics"]), ("stops", ["contact", "rigid"]), ("hertz2d", ["symmetry"])])
+@pytest.mark.parametrize("name,only", [("bracket", ["kinematics"]), ("stops", ["contact", "rigid"]), ("hertz2d", ["symmetry"]), ("shrinkfit3d", ["prism", "revolution"]), ("layer", ["cells", "order"])])
 def test_promises_quick(name, only, tmp_path):
     check(name, tmp_path, only)
 

@@ -273,3 +273,20 @@ def test_softening_is_announced(run):
     options = ("-load_end", 0.01, "-mesh_parameter_n", 2, "-output_fields", "false", "-material_steel_hardening")
     assert "warning: the yield stress of material steel falls" in run("inputs/necking.yml", *options, -0.1).stdout
     assert "warning" not in run("inputs/necking.yml", *options, 0.1).stdout
+
+
+def test_flow_error_does_not_feel_rotations(run, tmp_path):
+    """A sheared block all of which flows, one step; then the same turned by 60 degrees in that step: what the step leaves is the same, and it is not nothing."""
+    write(tmp_path / "box.msh", [[0, 0.5, 1]] * 2)
+    told = []
+    for angle in (0, 60):
+        c, s = math.cos(math.radians(angle)), math.sin(math.radians(angle))
+        (a, b), (d, e) = (c, 0.1 * c - s), (s, 0.1 * s + c)  # the turn times [[1, 0.1], [0, 1]]
+        move = {"x": f"t*({a - 1!r}*X + {b!r}*Y)", "y": f"t*({d!r}*X + {e - 1!r}*Y)"}
+        scene = {"mesh": {"file": "box.msh"}, "model": "plane_strain", "order": 1, "body": {"body": {"material": "m"}},
+                 "material": {"m": {"law": "j2", "volumetric": "simo", "E": 200, "nu": 0.3, "yield": 1, "hardening": 10}},
+                 "boundary": {side: {"displacement": move} for side in ("x0", "x1", "y0", "y1")}, "load": {"step": 1, "step_min": 1}, "output": {"fields": False}}
+        result = run("box.yml", text=json.dumps(scene))
+        assert result.returncode == 0 and result.summary["load_steps"] == 1, result
+        told.append(result.summary["flow_error"])
+    assert told[0] > 1e-4 and told[1] == pytest.approx(told[0], rel=1e-6), told
