@@ -126,16 +126,17 @@ static void Tied_Private(const SurfaceView *s, const ContactFields *f, const Pet
   }
 }
 
-/* What another part of the pair adds at the nodes of the nonmortar side: tractions add up, the gap is that of what is nearest. */
+/* What another part of the pair tells at the nodes of the nonmortar side: tractions are of the face that presses most, the gap is that of the nearest. */
 static void AddPart_Private(const ContactGrid *g, PetscInt first, PetscInt part, PetscInt num)
 {
   for (PetscInt to = first, n = part; to < first + num; ++to, ++n) {
     if (g->status[n] != CONTACT_ALONE && (g->status[to] == CONTACT_ALONE || g->gap[n] < g->gap[to])) g->gap[to] = g->gap[n];
     g->status[to] = PetscMax(g->status[to], g->status[n]);
-    g->pressure[to] += g->pressure[n];
-    g->shear[to] += g->shear[n];
-    for (PetscInt c = 0; c < 3; ++c) g->traction[3 * to + c] += g->traction[3 * n + c];
-    if (PetscAbsReal(g->slip[n]) > PetscAbsReal(g->slip[to])) g->slip[to] = g->slip[n];
+    if (!(g->pressure[n] > g->pressure[to])) continue;
+    g->pressure[to] = g->pressure[n];
+    g->shear[to]    = g->shear[n];
+    g->slip[to]     = g->slip[n];
+    for (PetscInt c = 0; c < 3; ++c) g->traction[3 * to + c] = g->traction[3 * n + c];
   }
 }
 

@@ -1,0 +1,49 @@
+"""A mortar side with edges: each of its smooth faces has multipliers of its own, and the pair is one in what a run tells and writes."""
+import h5py
+import numpy as np
+import pytest
+
+SCENE = "tests/gauntlet/sharp.yml"
+
+
+def force(result):
+    assert result.returncode == 0, result
+    return result.summary["contact"]["c"]["force"]
+
+
+@pytest.mark.parametrize("step", [1, 0.1])
+@pytest.mark.parametrize("order", [1, 2])
+def test_any_step(run, order, step):
+    """Material flows round the corner of a rigid punch. More than one state may balance where a node is at the corner: they differ by little."""
+    options = ("-order", order, "-mesh_parameter_n", 8, "-output_fields", "false")
+    other = force(run(SCENE, *options, "-load_step", step))
+    usual = force(run(SCENE, *options))
+    assert abs(other[1] / usual[1] - 1) < 2e-3, (other, usual)
+
+
+def test_balance_and_ranks(run):
+    one, three = run(SCENE, "-output_fields", "false"), run(SCENE, "-output_fields", "false", ranks=3)
+    np.testing.assert_allclose(force(one), force(three), rtol=1e-8, atol=1e-10)
+    pair = one.summary["contact"]["c"]
+    assert pair["force_imbalance"] < 1e-12 and pair["moment_imbalance"] < 1e-10
+    np.testing.assert_allclose(pair["force"], [-f for f in pair["mortar_force"]], atol=1e-12)
+
+
+def test_files_have_one_pair(run):
+    result = run(SCENE)
+    assert list(result.summary["contact"]) == ["c"]
+    assert list(result.history[0]).count("contact.c.force.y") == 1
+    with h5py.File(sorted(result.directory.glob("fields_*.h5"))[-1]) as file:
+        grid = file["contact"]
+        side = np.ravel(grid["side"][:])
+        assert set(np.ravel(grid["pair"][:])) == {0} and np.size(grid["pair"].attrs["names"]) == 1
+        assert np.sum(side == 0) == 20 and np.sum(side == 1) == 2  # top of the block, two sides of the punch
+        assert np.max(grid["contact_pressure"][:]) == pytest.approx(result.summary["contact"]["c"]["max_pressure"])
+
+
+def test_goes_on(run, tmp_path):
+    """A run that ends half way and goes on comes to the same end."""
+    whole = force(run(SCENE, "-output_fields", "false"))
+    half = run(SCENE, "-output_fields", "false", "-load_end", 0.5)
+    rest = run(SCENE, "-output_fields", "false", "-restart", half.directory / "checkpoint.h5")
+    np.testing.assert_allclose(force(rest), whole, rtol=1e-8, atol=1e-10)
