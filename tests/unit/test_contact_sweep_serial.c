@@ -7,7 +7,8 @@
 #define WIDTH 1e-9
 #define MOST (3 * 200)
 
-typedef enum { END, CORNER, CREASE } Kind; /* of the mortar side: its end; in space one of its corners; a bend between two of its facets */
+/* Of the mortar side: its end; an edge beyond which it goes on with another face; in space one of its corners; a bend between two of its facets. */
+typedef enum { END, FACE, CORNER, CREASE } Kind;
 
 typedef struct {
   PetscInt    dim, order;
@@ -16,6 +17,7 @@ typedef struct {
   Patch       nonmortar, mortar;
   ContactPair pair;
   PetscReal   z[200], softness[200];
+  PetscBool   rim[200];
 } Scene;
 
 /* Mortar nodes at place t of the sweep. The nonmortar surface is [0, 1]^m of height 0. */
@@ -47,6 +49,8 @@ static void SceneCreate(Scene *s)
     s->z[n]        = 1 + 0.5 * Random(&seed);
     s->softness[n] = 1;
   }
+  for (PetscInt n = 0; n < s->mortar.s.num_nodes; n++) s->rim[n] = PETSC_TRUE;
+  if (s->kind == FACE) s->mortar.s.rim = s->rim;
   Place(s, 0.5);
   memcpy(s->mortar.X, s->mortar.x, sizeof(PetscReal) * (size_t)(s->dim * s->mortar.s.num_nodes));
   CHECK_CALL(ContactPairCreate(s->dim, PETSC_FALSE, &spec, &s->pair));
@@ -113,7 +117,7 @@ static PetscReal Between(Scene *s, PetscReal t, PetscReal h, const PetscReal a[]
 
 static void Sweep(PetscInt dim, PetscInt order, Kind kind, PetscBool closed)
 {
-  static const char *name[] = {"end", "corner", "crease"};
+  static const char *name[] = {"end", "face", "corner", "crease"};
   Scene              s      = {.dim = dim, .order = order, .kind = kind, .closed = closed};
   PetscReal(*v)[2][MOST] = calloc(41, sizeof(*v)), scale = 0, worst = 0;
   PetscInt num = 0;
@@ -141,6 +145,7 @@ static void Plane(void **state)
   for (PetscInt order = 1; order <= 4; order++)
     for (int closed = 0; closed < 2; closed++) {
       Sweep(2, order, END, closed);
+      Sweep(2, order, FACE, closed);
       Sweep(2, order, CREASE, closed);
     }
 }
