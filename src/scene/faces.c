@@ -91,6 +91,14 @@ static PetscErrorCode Rims_Private(Forest forest, PetscInt group, PetscInt *num,
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+static int ComparePairs_Private(const void *a, const void *b)
+{
+  const PetscInt *x = a, *y = b;
+
+  if (x[0] != y[0]) return x[0] < y[0] ? -1 : 1;
+  return x[1] < y[1] ? -1 : x[1] > y[1];
+}
+
 /* The end of the run of one entity. */
 static PetscInt End_Private(PetscInt num, const Rim rim[], PetscInt from)
 {
@@ -99,36 +107,53 @@ static PetscInt End_Private(PetscInt num, const Rim rim[], PetscInt from)
   return end;
 }
 
-/* Colours of faces, each the least that no face beside it has; a face keeps the colour of its first side. */
-static PetscErrorCode Colours_Private(PetscInt num, const Rim rim[], PetscInt parent[], PetscInt num_sides, int8_t colour[], PetscInt *num_colours)
+/* Pairs of faces, by their roots, that meet in an edge or a corner, both ways. */
+static PetscErrorCode Beside_Private(PetscInt num, const Rim rim[], PetscInt parent[], PetscInt *num_pairs, PetscInt (**pair)[2])
 {
-  uint64_t *beside;
+  PetscInt room = 0;
 
   PetscFunctionBegin;
-  PetscCall(PetscCalloc1(num_sides, &beside)); /* of the face whose root it is: colours of those beside it */
-  for (PetscInt i = 0; i < num_sides; ++i) colour[i] = -1;
-  *num_colours = 1;
-  for (PetscInt i = 0; i < num; ++i) {
-    const PetscInt root = Root_Private(parent, rim[i].side);
-    if (colour[root] >= 0) continue;
-    for (PetscInt k = 0, end; k < num; k = end) {
-      uint64_t  taken = 0;
-      PetscBool here  = PETSC_FALSE;
-      end             = End_Private(num, rim, k);
-      for (PetscInt l = k; l < end; ++l) {
-        const PetscInt other = Root_Private(parent, rim[l].side);
-        if (other == root)
-          here = PETSC_TRUE;
-        else if (colour[other] >= 0)
-          taken |= UINT64_C(1) << colour[other];
+  *num_pairs = 0;
+  for (PetscInt k = 0, end; k < num; k = end) {
+    end = End_Private(num, rim, k);
+    room += (end - k) * (end - k - 1);
+  }
+  PetscCall(PetscMalloc1(room, pair));
+  for (PetscInt k = 0, end; k < num; k = end) {
+    end = End_Private(num, rim, k);
+    for (PetscInt i = k; i < end; ++i)
+      for (PetscInt j = k; j < end; ++j) {
+        const PetscInt a = Root_Private(parent, rim[i].side), b = Root_Private(parent, rim[j].side);
+        if (a == b) continue;
+        (*pair)[*num_pairs][0]     = a;
+        (*pair)[(*num_pairs)++][1] = b;
       }
-      if (here) beside[root] |= taken;
-    }
-    for (colour[root] = 0; colour[root] < MOST - 1 && beside[root] >> colour[root] & 1;) ++colour[root];
-    *num_colours = PetscMax(*num_colours, colour[root] + 1);
+  }
+  qsort(*pair, (size_t)*num_pairs, sizeof(**pair), ComparePairs_Private);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Colours of faces in the order of their roots, each the least that no face beside it has yet. */
+static PetscErrorCode Colours_Private(PetscInt num, const Rim rim[], PetscInt parent[], PetscInt num_sides, int8_t colour[], PetscInt *num_colours)
+{
+  PetscInt num_pairs, (*pair)[2];
+
+  PetscFunctionBegin;
+  PetscCall(Beside_Private(num, rim, parent, &num_pairs, &pair));
+  for (PetscInt i = 0; i < num_sides; ++i) colour[i] = -1;
+  for (PetscInt i = 0; i < num; ++i) colour[Root_Private(parent, rim[i].side)] = 0;
+  *num_colours = 1;
+  for (PetscInt k = 0, end; k < num_pairs; k = end) {
+    uint64_t taken = 0;
+    PetscInt own   = 0;
+    for (end = k; end < num_pairs && pair[end][0] == pair[k][0]; ++end)
+      if (pair[end][1] < pair[k][0]) taken |= UINT64_C(1) << colour[pair[end][1]];
+    while (own < MOST - 1 && taken >> own & 1) ++own;
+    colour[pair[k][0]] = (int8_t)own;
+    *num_colours       = PetscMax(*num_colours, own + 1);
   }
   for (PetscInt i = 0; i < num; ++i) colour[rim[i].side] = colour[Root_Private(parent, rim[i].side)];
-  PetscCall(PetscFree(beside));
+  PetscCall(PetscFree(pair));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
