@@ -27,9 +27,12 @@ static PetscReal TimeEnd_Private(const Path *p, const PathLoop *loop)
 
 static PetscErrorCode TimeSet_Private(Path *p, const PathLoop *loop, PetscReal to)
 {
+  PetscBool turned;
+
   PetscFunctionBegin;
   PetscCall(ProblemHold(p->level->problem));
   PetscCall(ProblemSetTime(p->level->problem, to));
+  PetscCall(ProblemTurn(p->level->problem, p->level->state.t, p->level->state.x, &turned));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
