@@ -1,6 +1,5 @@
 /* Surfaces of facets for contact: their topology, replicated. */
 #include "interfaceimpl.h"
-#include <petsc/private/hashmapi.h>
 
 /* Ends of a leaf's side in the order that keeps the body on the left. */
 static void EdgeVertices_Private(const PetscInt *cl, PetscInt index, PetscInt vertex[])
