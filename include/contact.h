@@ -67,7 +67,7 @@ typedef struct {
   Expression    interference;      /* of t: overlap at the reference positions, besides that of the geometry; NULL: none */
   PetscReal     about[3];          /* point that moments of its forces are counted about, reference position */
   const int8_t *face;              /* faces of the mortar side (scene/faces.c): colour by side of the coarse mesh; NULL: it has one */
-  PetscInt      part;              /* the colour that this pair meets; pairs of one name follow one another, the first has 0 */
+  PetscInt      pair, part;        /* number of the pair as the scene names it; the colour that is met: parts of a pair follow one another, from 0 on */
   PetscBool     subdivide_auto;    /* cells behind linear facets are subdivided as the estimate asks (estimate/layer.c) */
 } ContactSpec;
 

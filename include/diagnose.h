@@ -32,7 +32,7 @@ typedef struct {
   PetscReal (*motion)[6];  /* owned [num_bodies] displacement of BodySpec.about of rigid bodies, and rotation vector, degrees; else 0 */
   Resultant    *body;      /* owned [num_bodies] force and moment on rigid bodies (MechanicsMoments), else 0 */
   PetscReal    *pressure, *control; /* owned [num_boundaries] where a pressure is found: it, and what it follows (change of volume, mean advance); else 0 */
-  PairFigures  *pair;               /* owned [num_contacts] */
+  PairFigures  *pair;               /* owned [num_contacts] as the scene names them, parts (ContactSpec) together */
   PetscReal     load[3];            /* resultant of dead loads, body forces and follower pressures; axisymmetric: the axial component, others 0 */
   PetscReal     force_imbalance;    /* largest of the pairs (O-90) */
   PetscReal     moment_imbalance;   /* largest of the pairs (O-90) */

@@ -65,7 +65,7 @@ typedef struct {
   MaterialSpec *materials;
   BodySpec     *bodies; /* in the order of the mesh's bodies */
   BoundarySpec *boundaries;
-  PetscInt      num_contacts;
+  PetscInt      num_contacts; /* parts of pairs, one for each colour of faces of the mortar side */
   ContactSpec  *contacts;
   LoadSpec      load;
   AdaptSpec     adapt;
@@ -73,6 +73,12 @@ typedef struct {
   PetscInt      num_probes;
   ProbeSpec    *probes;
 } SceneData;
+
+/* Contact pairs as the scene names them. */
+static inline PetscInt SceneNumPairs(const SceneData *d)
+{
+  return d->num_contacts ? d->contacts[d->num_contacts - 1].pair + 1 : 0;
+}
 
 typedef struct _p_Scene *Scene;
 

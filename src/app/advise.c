@@ -54,10 +54,10 @@ static PetscErrorCode TellOverlap_Private(const App *app, PetscInt pair, PetscBo
 static PetscErrorCode Untouched_Private(const App *app)
 {
   PetscFunctionBegin;
-  for (PetscInt i = 0, pair = -1; i < app->data->num_contacts; ++i) {
-    if (app->data->contacts[i].part) continue;
-    const PairFigures *f = &app->balance.pair[++pair];
-    if (app->touched[pair] || f->tied) continue;
+  for (PetscInt i = 0; i < app->data->num_contacts; ++i) {
+    const PetscInt     pair = app->data->contacts[i].pair;
+    const PairFigures *f    = &app->balance.pair[pair];
+    if (app->data->contacts[i].part || app->touched[pair] || f->tied) continue;
     PetscCall(TellOverlap_Private(app, i, PETSC_FALSE));
     if (f->covered_nodes)
       PetscCall(PetscPrintf(app->comm, "note: the sides of pair %s have not touched; at the end they are %.3g apart\n", app->data->contacts[i].name,

@@ -50,7 +50,7 @@ typedef struct {
   Missed          *missed;                           /* owned [num_missed] */
   PetscBool        inversion_told;                   /* that refinement would invert a cell, once */
   PetscInt        *subdivided;                       /* owned [num_contacts] by contact.<pair>.subdivide: auto, so often, or tried */
-  PetscInt        *touched;                          /* owned [num_contacts] load step of this run in which a node was in contact first; 0: none */
+  PetscInt        *touched;                          /* owned, by ContactSpec.pair: load step of this run in which a node was in contact first; 0: none */
   PetscReal        rough_error, rough_t, rough_norm; /* largest estimate of an accepted step, its time; largest norm */
   PetscReal        unstable_t;                       /* when a solution was first found unstable … */
   PetscBool        unstable_known, passage_told;     /* … if one was; that a surface passes through itself */

@@ -307,10 +307,11 @@ PetscErrorCode BalanceCompute(Problem problem, const State *state, Balance *b)
     PetscCall(InterfaceGetContact(ProblemInterface(problem), i, &v));
     PetscCall(Pair_Private(problem, scene, i, v, &part));
     if (v->spec->part == 0) {
-      view[b->num_contacts]      = v;
-      b->pair[b->num_contacts++] = part;
+      b->num_contacts        = v->spec->pair + 1;
+      view[v->spec->pair]    = v;
+      b->pair[v->spec->pair] = part;
     } else
-      AddPart_Private(&part, &b->pair[b->num_contacts - 1]);
+      AddPart_Private(&part, &b->pair[v->spec->pair]);
   }
   for (PetscInt i = 0; i < b->num_contacts; ++i) {
     b->force_imbalance  = PetscMax(b->force_imbalance, b->pair[i].force_imbalance);

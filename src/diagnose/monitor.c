@@ -158,7 +158,7 @@ PetscErrorCode MonitorHeader(Monitor m, Problem problem)
   Say_Private(m, "%s, %s kinematics, units of the scene; %" PetscInt_FMT " cells of order %s, %" PetscInt_FMT " dofs, %d %s\n", model,
               KinematicsNames[scene->mechanics.kinematics], t->num_leaves, orders, dofs, size, size == 1 ? "process" : "processes");
   Say_Private(m, "%5s %4s %11s %8s %9s %6s %6s %10s %12s %8s\n", "step", "pass", "t", "cells", "dofs", "newton", "active", "error",
-              scene->num_contacts > 1 ? "sum |force|" : "|force|", "seconds");
+              SceneNumPairs(scene) > 1 ? "sum |force|" : "|force|", "seconds");
   PetscCall(MonitorShow_Private(m));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -127,8 +127,8 @@ static PetscErrorCode Contact_Private(Context *c)
   Need            *row;
 
   PetscFunctionBegin;
-  for (PetscInt i = 0, pair = -1; i < data->num_contacts; ++i) {
-    pair += data->contacts[i].part == 0;
+  for (PetscInt i = 0; i < data->num_contacts; ++i) {
+    const PetscInt pair = data->contacts[i].pair;
     if (data->contacts[i].part || c->run->touched[pair] || c->run->balance->pair[pair].tied) continue;
     PetscCall(OnSides_Private(c, i, &sides));
     const PetscReal system = StageSeconds(STAGE_SETUP) + StageSeconds(STAGE_FACTOR) + StageSeconds(STAGE_SOLVE);

@@ -142,7 +142,7 @@ static void AddPart_Private(const ContactGrid *g, PetscInt first, PetscInt part,
 
 /* Both sides of a pair, named by its number; of its further parts the face that they meet. first: points of the nonmortar side. Collective: fields are
    gathered. */
-static PetscErrorCode AppendPair_Private(ContactGrid *g, Problem problem, PetscInt i, PetscInt pair, PetscInt *first)
+static PetscErrorCode AppendPair_Private(ContactGrid *g, Problem problem, PetscInt i, PetscInt *first)
 {
   const SceneData   *scene;
   const ContactView *v;
@@ -155,7 +155,7 @@ static PetscErrorCode AppendPair_Private(ContactGrid *g, Problem problem, PetscI
   for (PetscInt k = 0; k < 2; ++k) {
     const PetscInt     side = v->spec->part ? 1 - k : k; /* what is not kept comes last */
     const SurfaceView *s    = side ? &v->mortar : &v->nonmortar;
-    const PetscInt     at   = AppendSurface_Private(g, s, pair, side);
+    const PetscInt     at   = AppendSurface_Private(g, s, v->spec->pair, side);
     fields[side]            = (ContactFields){g->gap + at, g->pressure + at, g->status + at, g->shear + at, g->slip + at, g->traction + 3 * at};
     if (side == 0 && v->spec->law != CONTACT_TIED)
       OwnNormals_Private(v, g->normal + 3 * at);
@@ -186,7 +186,7 @@ static PetscErrorCode WriteSurfaces_Private(Writer writer, Problem problem, cons
   const PetscInt     num_contacts = scene->num_contacts;
   ContactGrid        g            = {.corners = 2};
   const ContactView *v;
-  PetscInt           points = 0, facets = 0, pair = -1, first = 0;
+  PetscInt           points = 0, facets = 0, first = 0;
 
   PetscFunctionBegin;
   for (PetscInt i = 0; i < num_contacts; ++i) {
@@ -199,10 +199,7 @@ static PetscErrorCode WriteSurfaces_Private(Writer writer, Problem problem, cons
   PetscCall(PetscMalloc3(points, &g.gap, points, &g.pressure, points, &g.status));
   PetscCall(PetscMalloc3(points, &g.shear, points, &g.slip, 3 * points, &g.traction));
   PetscCall(PetscMalloc4(facets, &g.pair, facets, &g.side, facets, &g.cell, g.corners * facets, &g.conn));
-  for (PetscInt i = 0; i < num_contacts; ++i) {
-    pair += scene->contacts[i].part == 0;
-    PetscCall(AppendPair_Private(&g, problem, i, pair, &first));
-  }
+  for (PetscInt i = 0; i < num_contacts; ++i) PetscCall(AppendPair_Private(&g, problem, i, &first));
   if (rank) g.num_points = g.num_facets = 0;
   PetscCall(WriterGrid(writer, "contact", g.corners == 2 ? CELL_POLYLINE2 : CELL_QUAD4, g.num_points, g.X, g.num_facets, g.conn));
   PetscCall(WriterField(writer, "displacement", PETSC_FALSE, 3, g.displacement));

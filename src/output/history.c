@@ -118,8 +118,10 @@ static PetscErrorCode Columns_Private(const SceneData *scene, PetscInt num_probe
     PetscCall(Column_Private(c, balance ? balance->pressure[b] : 0, "pressure", spec->name, NULL, NULL));
     PetscCall(Column_Private(c, balance ? balance->control[b] : 0, spec->volume ? "volume" : "advance", spec->name, NULL, NULL));
   }
-  for (PetscInt i = 0, pair = 0; i < scene->num_contacts; ++i)
-    if (scene->contacts[i].part == 0) PetscCall(PairColumns_Private(c, dim, &scene->contacts[i], balance ? &balance->pair[pair++] : &none));
+  for (PetscInt i = 0; i < scene->num_contacts; ++i) {
+    const ContactSpec *pair = &scene->contacts[i];
+    if (pair->part == 0) PetscCall(PairColumns_Private(c, dim, pair, balance ? &balance->pair[pair->pair] : &none));
+  }
   for (PetscInt i = 0; i < num_probes; ++i) {
     const char *name = scene->probes[i].name;
     for (PetscInt a = 0; a < dim; ++a) PetscCall(Column_Private(c, probe ? probe[i].displacement[a] : 0, "probe", name, "displacement", axis_name[a]));

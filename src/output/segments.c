@@ -85,8 +85,8 @@ static PetscErrorCode Collect_Private(Problem problem, PetscInt dim, SegmentGrid
   PetscCallMPI(MPI_Comm_rank(ForestComm(forest), &rank));
   const PetscBool small = (PetscBool)(scene->mechanics.kinematics == KINEMATICS_SMALL);
   g->num_points = g->num_cells = 0;
-  for (PetscInt i = 0, pair = -1; i < scene->num_contacts; ++i) {
-    pair += scene->contacts[i].part == 0;
+  for (PetscInt i = 0; i < scene->num_contacts; ++i) {
+    const PetscInt pair = scene->contacts[i].pair;
     PetscCall(InterfaceGetContact(ProblemInterface(problem), i, &v));
     PetscCall(ContactPairGetSegments(v->pair, &num, &segment));
     for (PetscInt s = 0; s < num; ++s) {

@@ -145,8 +145,8 @@ static void AddForces_Private(cJSON *root, const SceneData *scene, const Balance
   if (b) AddMoments_Private(root, scene, b);
   if (b) AddControls_Private(root, scene, b);
   contact = cJSON_AddObjectToObject(root, "contact");
-  for (PetscInt i = 0, pair = 0; b && i < scene->num_contacts; ++i)
-    if (scene->contacts[i].part == 0) AddPair_Private(contact, dim, &scene->contacts[i], &b->pair[pair++]);
+  for (PetscInt i = 0; b && i < scene->num_contacts; ++i)
+    if (scene->contacts[i].part == 0) AddPair_Private(contact, dim, &scene->contacts[i], &b->pair[scene->contacts[i].pair]);
   if (!b) return;
   cJSON *balance = cJSON_AddObjectToObject(root, "balance");
   AddArray_Private(balance, "load", dim, b->load);

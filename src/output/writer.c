@@ -290,12 +290,10 @@ static PetscErrorCode ValueNames_Private(const SceneData *scene, const char *fie
   const PetscBool body = (PetscBool)!strcmp(field, "body"), pair = (PetscBool)!strcmp(field, "pair"), side = (PetscBool)!strcmp(field, "side");
 
   PetscFunctionBegin;
-  *num = body ? scene->mechanics.num_bodies : pair ? scene->num_contacts : side ? 2 : 0;
+  *num = body ? scene->mechanics.num_bodies : pair ? SceneNumPairs(scene) : side ? 2 : 0;
   PetscCall(PetscMalloc1(*num, names));
-  for (PetscInt i = 0; i < *num; ++i) (*names)[i] = body ? scene->mechanics.bodies[i].name : pair ? scene->contacts[i].name : i ? "mortar" : "nonmortar";
-  if (pair) *num = 0;
-  for (PetscInt i = 0; pair && i < scene->num_contacts; ++i)
-    if (scene->contacts[i].part == 0) (*names)[(*num)++] = scene->contacts[i].name;
+  for (PetscInt i = 0; i < *num; ++i) (*names)[i] = body ? scene->mechanics.bodies[i].name : i ? "mortar" : "nonmortar";
+  for (PetscInt i = 0; pair && i < scene->num_contacts; ++i) (*names)[scene->contacts[i].pair] = scene->contacts[i].name;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

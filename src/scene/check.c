@@ -420,7 +420,6 @@ static PetscErrorCode PartContacts_Private(Scene s, const Facets *f)
   ContactSpec *parts;
 
   PetscFunctionBegin;
-  s->num_contacts = s->data.num_contacts;
   PetscCall(PetscCalloc1(s->num_contacts, &s->face));
   PetscCall(PetscMalloc1(s->num_contacts, &num));
   for (PetscInt i = 0; i < s->num_contacts; ++i) {
@@ -436,6 +435,7 @@ static PetscErrorCode PartContacts_Private(Scene s, const Facets *f)
     for (PetscInt k = 0; k < num[i]; ++k) {
       ContactSpec *c = &parts[s->data.num_contacts++];
       *c             = s->data.contacts[i];
+      c->pair        = i;
       c->part        = k;
       c->face        = num[i] > 1 ? s->face[i] : NULL;
     }

@@ -203,7 +203,7 @@ static PetscErrorCode ReadOrders_Private(Scene s, const SceneNode *orders, BodyE
 static PetscErrorCode CheckFull_Private(Scene s)
 {
   PetscFunctionBegin;
-  for (PetscInt i = 0; i < s->data.num_contacts; ++i) {
+  for (PetscInt i = 0; i < s->num_contacts; ++i) {
     for (PetscInt b = 0; b < s->num_bodies; ++b) {
       PetscCheckInput(!s->contact[i].spec.full || !s->body[b].spec.order_along[0],
                       "%s: contact faces of full order and orders per direction (body '%s') do not go together; allowed here: 1",
@@ -533,7 +533,8 @@ PetscErrorCode SceneRead(Scene s, int argc, char **argv)
   READ_SECTION(s, "point", s->num_points, s->point, SceneReadPoint);
   READ_SECTION(s, "body", s->num_bodies, s->body, ReadBody_Private);
   READ_SECTION(s, "boundary", s->num_boundaries, s->boundary, ReadBoundary_Private);
-  READ_SECTION(s, "contact", d->num_contacts, s->contact, ReadContact_Private);
+  READ_SECTION(s, "contact", s->num_contacts, s->contact, ReadContact_Private);
+  d->num_contacts = s->num_contacts;
   PetscCall(CheckFull_Private(s));
   READ_SECTION(s, "probe", d->num_probes, s->probe, ReadProbe_Private);
   PetscCall(PetscMalloc1(d->num_probes, &d->probes));

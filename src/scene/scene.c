@@ -235,7 +235,7 @@ PetscErrorCode SceneDestroy(Scene *scene)
   PetscCall(PetscFree(s->material));
   PetscCall(PetscFree(s->body));
   PetscCall(PetscFree(s->boundary));
-  for (PetscInt i = 0; s->contact && i < (s->face ? s->num_contacts : s->data.num_contacts); ++i) {
+  for (PetscInt i = 0; s->contact && i < s->num_contacts; ++i) {
     if (s->face) PetscCall(PetscFree(s->face[i]));
     PetscCall(ExpressionDestroy(&s->contact[i].spec.interference));
     PetscCall(ExpressionDestroy(&s->contact[i].spec.friction));

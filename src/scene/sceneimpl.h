@@ -124,7 +124,7 @@ struct _p_Scene {
   ProbeEntry    *probe;
   RefineEntry   *refine; /* [data.num_refines] */
   PointEntry    *point;
-  PetscInt       num_bodies, num_boundaries, num_points, num_contacts; /* num_contacts: as the file names them; data has one for each colour of faces */
+  PetscInt       num_bodies, num_boundaries, num_points, num_contacts; /* num_contacts: pairs as the file names them; data.num_contacts: parts */
   int8_t       **face;                                                 /* [num_contacts] ContactSpec.face */
   PetscInt      *joined;                                               /* MechanicsSpec.joined */
 };
