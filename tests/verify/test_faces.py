@@ -1,7 +1,11 @@
 """A mortar side with edges: each of its smooth faces has multipliers of its own, and the pair is one in what a run tells and writes."""
+import re
+
 import h5py
 import numpy as np
 import pytest
+
+from contactkit import is_quadratic, steps
 
 SCENE = "tests/gauntlet/sharp.yml"
 
@@ -47,3 +51,12 @@ def test_goes_on(run, tmp_path):
     half = run(SCENE, "-output_fields", "false", "-load_end", 0.5)
     rest = run(SCENE, "-output_fields", "false", "-restart", half.directory / "checkpoint.h5")
     np.testing.assert_allclose(force(rest), whole, rtol=1e-8, atol=1e-10)
+
+
+@pytest.mark.parametrize("order", [1, 2])
+def test_tangent(run, order):
+    """A wedge off the nodes: facets lie across its edge. Derivatives by differences (the first iterate touches without pressure, a kink), and Newton's order."""
+    result = run("tests/gauntlet/wedge_in.yml", "-output_fields", "false", "-order", order, "-load_step", 1, "-snes_monitor", "-snes_test_jacobian")
+    ratios = [float(value) for value in re.findall(r"\|\|J - Jfd\|\|_F/\|\|J\|\|_F = (\S+?),", result.stdout)]
+    assert result.returncode == 0 and len(ratios) >= 3 and max(ratios[1:]) < 1e-6, (ratios, result)
+    assert is_quadratic(steps(result)[-1]), steps(result)
