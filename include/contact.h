@@ -100,8 +100,8 @@ typedef struct {
   const PetscReal *dweight;      /* [num_rows][dim*num] */
   const PetscReal *push;         /* [num_rows][dim*num] force by z_j where that is not dgap: lines are held (theory (5.8)); with dgap. NULL: dgap */
   const PetscReal *hessian;      /* [dim*num][dim*num] derivatives of the forces (rows); NULL unless asked, or where z vanishes */
-  const PetscReal *compliance;   /* [num_rows] m_j of S (below); NULL: none. kappa and its derivative by the share */
-  PetscReal        kappa[2];
+  const PetscReal *compliance;   /* [num_rows] m_j of S (below); NULL: none. kappa and its derivative by the share, sum of m_j */
+  PetscReal        kappa[2], compliance_sum;
   const PetscReal *dshare; /* [dim*num] derivative of the covered share; with dgap where the facet is covered in part, else NULL */
   const PetscReal *shear;  /* [dim - 1][num_rows][dim*num] force by a tangential traction z_j (ContactPairSetTraction); with dgap. NULL: none */
   const PetscReal *micro;  /* ContactPairSlip: [((dim - 1) num_rows)^2] compliance C, slips count as s + C dq; NULL: none */
@@ -151,13 +151,10 @@ PetscErrorCode ContactPairSetSoftness(ContactPair, const PetscReal softness[]);
 /* Mean of z by m on a facet with compliance; (S z)_j = kappa m_j (z_j - mean). */
 static inline PetscReal ContactFacetMean(const ContactFacet *f, const PetscInt node[], const PetscReal z[])
 {
-  PetscReal sum = 0, mz = 0;
+  PetscReal mz = 0;
 
-  for (PetscInt r = 0; r < f->num_rows; r++) {
-    sum += f->compliance[r];
-    mz += f->compliance[r] * z[node[r]];
-  }
-  return mz / sum;
+  for (PetscInt r = 0; r < f->num_rows; r++) mz += f->compliance[r] * z[node[r]];
+  return mz / f->compliance_sum;
 }
 /* z.S z / kappa */
 static inline PetscReal ContactFacetYield(const ContactFacet *f, const PetscInt node[], const PetscReal z[])

@@ -34,9 +34,6 @@ PetscReal ContactIdle_Private(const Contact *c, PetscInt j)
 
 PetscReal ContactYield_Private(const Contact *c, const ContactFacet *e, PetscInt k, PetscReal along)
 {
-  PetscReal sum = 0;
-
   if (!e->compliance || !e->dshare) return 0;
-  for (PetscInt r = 0; r < e->num_rows; ++r) sum += e->compliance[r];
-  return e->kappa[1] * e->compliance[k] * (c->z[e->nodes[k]] - ContactFacetMean(e, e->nodes, c->z) - along * (1 - e->compliance[k] / sum));
+  return e->kappa[1] * e->compliance[k] * (c->z[e->nodes[k]] - ContactFacetMean(e, e->nodes, c->z) - along * (1 - e->compliance[k] / e->compliance_sum));
 }

@@ -394,10 +394,7 @@ PetscReal ContactIdle_Private(const Contact *, PetscInt j);
 /* S_jl of facet e between rows k and l. */
 static inline PetscReal ContactCompliance_Private(const ContactFacet *e, PetscInt k, PetscInt l)
 {
-  PetscReal sum = 0;
-
-  for (PetscInt r = 0; r < e->num_rows; ++r) sum += e->compliance[r];
-  return e->kappa[0] * e->compliance[k] * ((PetscReal)(k == l) - e->compliance[l] / sum);
+  return e->kappa[0] * e->compliance[k] * ((PetscReal)(k == l) - e->compliance[l] / e->compliance_sum);
 }
 /* Of the facets around node j, place i of node_facet: the facet where it has a compliance, and the row of j there; else NULL. */
 static inline const ContactFacet *ContactCompliant_Private(const Contact *c, PetscInt j, PetscInt i, PetscInt *row)

@@ -160,7 +160,7 @@ const OutputField OutputSummaryFields[] = {
     {"pressure.<boundary>", STRESS, "pressure that was found for volume or advance"},
     {"volume.<boundary>", "volume", "change of the enclosed volume that it follows"},
     {"advance.<boundary>", LENGTH, "mean displacement against the outward normal that it follows"},
-    {"contact.<pair>.roles_exchanged", "", "true: the mortar side of the scene carries the pressure: it is softer, or has a corner pressed into the other"},
+    {"contact.<pair>.roles_exchanged", "", "true: the mortar side of the scene carries the pressure: it is softer, or it alone has corners"},
     {"contact.<pair>.force", FORCE, "contact force on the nonmortar side of the scene, by axis"},
     {"contact.<pair>.moment", MOMENT, "its moment about contact.<pair>.moment_about, by default the centre of the nonmortar side's body, current positions"},
     {"contact.<pair>.mortar_force", FORCE, "contact force on the mortar side"},

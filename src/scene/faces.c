@@ -13,6 +13,7 @@
 typedef struct {
   PetscInt  entity, side; /* vertex (plane) or edge (space) of the leaf facet, and side of the coarse mesh that this lies in: 2 dim cell + place */
   PetscReal N[3], T[3];   /* its unit normal there, and a tangent from there into it */
+  PetscReal length;       /* of the leaf facet */
 } Rim;
 
 static PetscInt Root_Private(PetscInt parent[], PetscInt i)
@@ -21,13 +22,13 @@ static PetscInt Root_Private(PetscInt parent[], PetscInt i)
   return i;
 }
 
-/* Normal and tangent of the side of a leaf at an entity of its closure. */
-static void Axes_Private(const CoarseMesh *mesh, const ForestTables *t, PetscInt leaf, PetscInt place, PetscInt entity, PetscReal N[3], PetscReal T[3])
+/* Normal, tangent and length of the side of a leaf at an entity of its closure. */
+static void Axes_Private(const CoarseMesh *mesh, const ForestTables *t, PetscInt leaf, PetscInt place, PetscInt entity, Rim *r)
 {
   const PetscInt  dim = t->dim, d = place / 2, a = (d + 1) % dim, b = dim == 3 ? (d + 2) % 3 : 2;
   const PetscInt *cl    = t->closure + t->closure_offset[t->first[dim] + leaf];
   PetscInt        index = 0;
-  PetscReal       xi[3] = {0, 0, 0}, X[3], J[9], e[2][3] = {{0, 0, 0}, {0, 0, 1}}, outward = 0;
+  PetscReal       xi[3] = {0, 0, 0}, X[3], J[9], N[3], e[2][3] = {{0, 0, 0}, {0, 0, 1}}, outward = 0;
 
   while (cl[index] != entity) ++index;
   const PetscInt at[3] = {index % 3, index / 3 % 3, index / 9};
@@ -41,11 +42,13 @@ static void Axes_Private(const CoarseMesh *mesh, const ForestTables *t, PetscInt
   }
   Cross3(e[0], e[1], N);
   for (PetscInt c = 0; c < 3; ++c) outward += N[c] * J[c * dim + d] * (place % 2 ? 1 : -1);
-  const PetscReal length = PetscSqrtReal(Dot3(N, N)) * (outward < 0 ? -1 : 1);
+  const PetscReal measure = PetscSqrtReal(Dot3(N, N)) * (outward < 0 ? -1 : 1);
   for (PetscInt c = 0; c < 3; ++c) {
-    N[c] /= length;
-    T[c] = (PetscReal)(1 - at[a]) * e[0][c] + (dim == 3 ? (PetscReal)(1 - at[b]) * e[1][c] : 0);
+    r->N[c] = N[c] / measure;
+    r->T[c] = (PetscReal)(1 - at[a]) * e[0][c] + (dim == 3 ? (PetscReal)(1 - at[b]) * e[1][c] : 0);
   }
+  r->length = PetscSqrtReal(Dot3(e[0], e[0])) / (PetscReal)(1 << t->leaf_level[3 * leaf + a]);
+  if (dim == 3) r->length = PetscMax(r->length, PetscSqrtReal(Dot3(e[1], e[1])) / (PetscReal)(1 << t->leaf_level[3 * leaf + b]));
 }
 
 /* Do the two sides that meet in a vertex (plane) or an edge (space) belong to one face? */
@@ -84,7 +87,7 @@ static PetscErrorCode Rims_Private(Forest forest, PetscInt group, PetscInt *num,
       Rim *r    = *rim + (*num)++;
       r->entity = cl[k];
       r->side   = side;
-      Axes_Private(mesh, t, cell, side % (2 * t->dim), cl[k], r->N, r->T);
+      Axes_Private(mesh, t, cell, side % (2 * t->dim), cl[k], r);
     }
   }
   qsort(*rim, (size_t)*num, sizeof(Rim), Compare_Private);
@@ -105,6 +108,29 @@ static PetscInt End_Private(PetscInt num, const Rim rim[], PetscInt from)
   PetscInt end = from;
   while (end < num && rim[end].entity == rim[from].entity) ++end;
   return end;
+}
+
+PetscErrorCode SceneHasCorner(Forest forest, PetscInt group, PetscReal longest, PetscReal *length, PetscBool *yes)
+{
+  const ForestTables *t;
+  PetscInt            num;
+  Rim                *rim;
+
+  PetscFunctionBegin;
+  *yes    = PETSC_FALSE;
+  *length = 0;
+  PetscCall(ForestGetTables(forest, &t));
+  PetscCall(Rims_Private(forest, group, &num, &rim));
+  for (PetscInt k = 0, end; k < num; k = end) {
+    end = End_Private(num, rim, k);
+    for (PetscInt i = k; i < end; ++i) {
+      *length = PetscMax(*length, rim[i].length);
+      for (PetscInt j = k; j < end && (t->dim == 2 || rim[k].entity >= t->first[1]); ++j)
+        if (PetscMax(rim[i].length, rim[j].length) <= longest && Dot3(rim[i].N, rim[j].T) < 0 && Dot3(rim[i].N, rim[j].N) < CONTACT_SHARP) *yes = PETSC_TRUE;
+    }
+  }
+  PetscCall(PetscFree(rim));
+  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* Pairs of faces, by their roots, that meet in an edge or a corner, both ways. */

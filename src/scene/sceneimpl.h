@@ -175,10 +175,11 @@ void GeoCheck(const char *file, size_t capacity, char message[]);
 PetscErrorCode SceneCheckMesh(Scene, Forest);
 /* Warnings and notes on a mesh that may not be what is meant (pieces.c); after SceneCheckMesh. Collective. */
 PetscErrorCode SceneTellMesh(Scene, Forest);
-/* Does a corner of one boundary group lie over the inside of the other (corners.c)? In the plane; in space never. Collective. */
 /* faces.c. Colours of the smooth faces of a group by side of the coarse mesh, -1: not in the group; *colour is the caller's. Not collective. */
 PetscErrorCode SceneColourFaces(Forest, PetscInt group, PetscInt *num_colours, int8_t **colour);
-PetscErrorCode SceneCornerMeets(Forest, PetscInt side, PetscInt other, PetscBool *yes);
+/* Has the group a convex corner (plane) or edge (space) of more than 40 degrees, between facets no longer than that? length: of its longest facet. Not
+ * collective. */
+PetscErrorCode SceneHasCorner(Forest, PetscInt group, PetscReal longest, PetscReal *length, PetscBool *yes);
 /* The same on sides of contact pairs that are chords of what they stand for (chords.c). Collective. */
 PetscErrorCode SceneTellChords(Scene, Forest);
 /* Reference position of a vertex (check.c). Not collective. */

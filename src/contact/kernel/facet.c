@@ -243,7 +243,8 @@ static PetscErrorCode Compliance_Private(ContactPair pair, PetscInt facet, Conta
   PetscReal                sum = 0, softness = 0, *m;
 
   PetscFunctionBegin;
-  out->compliance = NULL;
+  out->compliance     = NULL;
+  out->compliance_sum = 0;
   if (!w->share.part || !pair->softness || nr == 0) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(ContactStoreReserve(&w->result.store, nr, &m));
   for (PetscInt r = 0; r < nr; r++) {
@@ -255,6 +256,7 @@ static PetscErrorCode Compliance_Private(ContactPair pair, PetscInt facet, Conta
   out->compliance = m;
   out->kappa[0]   = w->share.kappa[0];
   out->kappa[1]   = w->share.kappa[1];
+  for (PetscInt r = 0; r < nr; r++) out->compliance_sum += m[r];
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

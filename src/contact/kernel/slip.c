@@ -224,19 +224,17 @@ static PetscErrorCode KeepCompliance_Private(const EvaluateContext *ctx, const C
 {
   const NodeFrame *frame = ctx->pair->ray->frame;
   const PetscInt   nr = kept->num_rows, m = ctx->pair->dim - 1, n = m * nr, *node = s->row + kept->row;
-  PetscReal        sum = 0;
 
   PetscFunctionBegin;
   if (!out->compliance) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(ContactGrow(s->num_C + n * n, sizeof(PetscReal), &s->size_C, &s->C));
   kept->micro = s->num_C;
   s->num_C += n * n;
-  for (PetscInt r = 0; r < nr; r++) sum += out->compliance[r];
   for (PetscInt i = 0; i < n * n; i++) {
     const PetscInt  j = i / n % nr, l = i % nr, a = i / n / nr, b = i % n / nr;
     const PetscReal along = m == 1 ? 1 : Dot3(frame[node[j]].e[a], frame[node[l]].e[b]);
 
-    s->C[kept->micro + i] = along * out->kappa[0] * out->compliance[j] * ((PetscReal)(j == l) - out->compliance[l] / sum);
+    s->C[kept->micro + i] = along * out->kappa[0] * out->compliance[j] * ((PetscReal)(j == l) - out->compliance[l] / out->compliance_sum);
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
