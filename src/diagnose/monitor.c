@@ -221,7 +221,7 @@ PetscErrorCode MonitorRow(Monitor m, const ReportRow *row)
 PetscErrorCode MonitorFooter(Monitor m, const char *status, const char *reason, const char *adapt_stop, PetscBool checkpoint, const ReportRow *total,
                              const ReportRow *last)
 {
-  char spent[32];
+  char spent[32], passes[PETSC_MAX_PATH_LEN];
 
   PetscFunctionBegin;
   PetscCall(Hide_Private(m));
@@ -240,7 +240,8 @@ PetscErrorCode MonitorFooter(Monitor m, const char *status, const char *reason, 
       Say_Private(m, "strain energy %.8g, estimated error %.3g %% in the energy norm\n", (double)last->energy, 100 * (double)last->estimated_error);
   }
   if (adapt_stop && adapt_stop[0]) Say_Private(m, "adaptation ended: %s\n", adapt_stop);
-  Say_Private(m, "results in %s: summary.json, history.csv, adapt.csv%s%s\n", m->scene->output.directory, m->scene->output.fields ? ", fields.xdmf" : "",
-              checkpoint ? ", checkpoint.h5" : "");
+  PetscCall(PetscSNPrintf(passes, sizeof(passes), "%s/passes.xdmf", m->scene->output.directory));
+  Say_Private(m, "results in %s: summary.json, history.csv, adapt.csv%s%s%s\n", m->scene->output.directory, m->scene->output.fields ? ", fields.xdmf" : "",
+              access(passes, F_OK) ? "" : ", passes.xdmf", checkpoint ? ", checkpoint.h5" : "");
   PetscFunctionReturn(PETSC_SUCCESS);
 }

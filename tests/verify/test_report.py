@@ -137,7 +137,7 @@ def test_probe_outside_is_wrong_input(run):
 def test_pipe_has_no_bar(run):
     result = run("inputs/cook.yml")
     assert result.returncode == 0 and "\r" not in result.stdout and "\033" not in result.stdout
-    assert math.isfinite(result.summary["time"]["total"]) and "results in" in result.stdout
+    assert math.isfinite(result.summary["time"]["total"]) and "results in" in result.stdout and ("passes.xdmf" in result.stdout) == (result.directory / "passes.xdmf").exists()
 
 
 # ---- warnings: on the screen and in summary.json ----------------------------------------------------------------------------------------
