@@ -52,7 +52,7 @@ static void Locate_Private(const SurfaceView *s, PetscInt facet, const PetscReal
 }
 
 /* Current over reference measure at a place; in the axisymmetric model circumferences included. */
-static PetscReal Stretch_Private(const ContactTerms *terms, const SurfaceView *s, PetscInt facet, const PetscReal xi[2])
+PetscReal ContactStretch_Private(const ContactTerms *terms, const SurfaceView *s, PetscInt facet, const PetscReal xi[2])
 {
   PetscReal now[2][3], before[2][3], N[SURFACE_MOST_NODES], x[3], X[3];
 
@@ -262,12 +262,12 @@ void ContactTermsTraction_Private(const ContactTerms *terms, PetscInt facet, con
       Locate_Private(&term->view->nonmortar, nonmortar, X, xi);
       const PetscBool faces = Faces_Private(term, nonmortar, xi); /* round a corner, or past an end of the mortar side, nothing presses */
       if (ties && faces) Tie_Private(term, nonmortar, xi, -1, T);
-      if (!ties && faces) Push_Private(term, finite, nonmortar, xi, -Stretch_Private(terms, &term->view->nonmortar, nonmortar, xi), T);
+      if (!ties && faces) Push_Private(term, finite, nonmortar, xi, -ContactStretch_Private(terms, &term->view->nonmortar, nonmortar, xi), T);
     }
     if (mortar < 0) continue;
     Locate_Private(&term->view->mortar, mortar, X, eta);
     const PetscInt seen = Seen_Private(term, mortar, eta, xi);
     if (seen >= 0 && ties) Tie_Private(term, seen, xi, 1, T);
-    if (seen >= 0 && !ties) Push_Private(term, finite, seen, xi, Stretch_Private(terms, &term->view->mortar, mortar, eta), T);
+    if (seen >= 0 && !ties) Push_Private(term, finite, seen, xi, ContactStretch_Private(terms, &term->view->mortar, mortar, eta), T);
   }
 }

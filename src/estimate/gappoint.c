@@ -62,9 +62,13 @@ static PetscErrorCode MeanBulge_Private(const EstimateSum *sum, const SurfaceVie
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Where the ray from x along n meets a mortar facet at these positions, from a place eta near it: t0 d0 + t1 d1 - g n = x - y by Newton's method. */
+/* Where the ray from x along n meets a mortar facet at these positions, from a place eta near it: t0 d0 + t1 d1 - g n = x - y by Newton's method. Segments are
+   seen along the directions of the corners, not along n, so across a wide gap the ray may pass the facet by: then the nearest place of it. Met on the facet
+   continued it would tell of an overlap that is none. */
 static void Ray_Private(const SurfaceView *s, const PetscReal positions[], PetscInt facet, const PetscReal x[3], const PetscReal n[3], PetscReal eta[2])
 {
+  const PetscReal most[2] = {PetscMax(1, PetscAbsReal(eta[0])), PetscMax(1, PetscAbsReal(eta[1]))};
+
   for (PetscInt iteration = 0; iteration < 3; ++iteration) {
     PetscReal N[SURFACE_MOST_NODES], y[3], t[2][3], a[3], b[3];
     ContactShape_Private(s, facet, eta, N);
@@ -77,6 +81,7 @@ static void Ray_Private(const SurfaceView *s, const PetscReal positions[], Petsc
     if (det == 0) return;
     eta[0] += Dot3(y, a) / det;
     if (s->dim == 3) eta[1] += Dot3(y, b) / det;
+    for (PetscInt d = 0; d < 2; ++d) eta[d] = PetscClipInterval(eta[d], -most[d], most[d]);
   }
 }
 
@@ -110,7 +115,7 @@ static PetscBool IsAdjusted_Private(const ContactTerm *term)
   return (PetscBool)(IsTied_Private(term) || term->view->spec->adjust || term->view->open > 0);
 }
 
-/* Gap and height of the mortar side at a point. */
+/* Gap and height of the mortar side at a point. An interference is weighted with the reference measure (interface/offset.c), the gap with the current one. */
 static void Gap_Private(const EstimateSum *sum, const ContactTerm *term, const ContactSegment *segment, const PetscReal N[], PetscReal eta[2], GapPoint *p)
 {
   const PetscBool    finite = (PetscBool)(sum->spec->kinematics == KINEMATICS_FINITE);
@@ -127,7 +132,7 @@ static void Gap_Private(const EstimateSum *sum, const ContactTerm *term, const C
   ContactShape_Private(s, segment->facet, center, M);
   ContactNormal_Private(term, finite, segment->facet, center, M, middle);
   p->gap = finite ? Dot3(n, y) - Dot3(n, x) : LinearGap_Private(m, segment->mortar_facet, eta, n, X, x);
-  p->gap -= term->view->interference;
+  if (term->view->interference != 0) p->gap -= term->view->interference / ContactStretch_Private(sum->contact, s, segment->facet, p->xi);
   p->height = Dot3(middle, y);
 }
 

@@ -40,7 +40,8 @@ typedef struct {
   PetscReal          friction;                           /* coefficient */
   PetscReal          slip[2], slip_weight, slip_lift[2]; /* of the step, as the gap; the weight where it began, 0: nothing was met there */
   PetscReal          aim[3];                             /* space: unit vector against the slip and a factor, from ContactLawOps.aim */
-  PetscBool          held;                               /* space: supports hold it along its first axis */
+  PetscReal          q[2];                               /* tangential traction where the step began */
+  PetscInt           held, plane;                        /* axes along which supports hold it, and of these, planes of symmetry; the first ones */
   TiePoint           tie[MOST_MULTIPLIERS];              /* law tied: of each component */
 } ContactPoint;
 
@@ -121,7 +122,7 @@ typedef struct {
   PetscReal          *change, *lift; /* [dim - 1][n] as those of the gaps */
   PetscReal          *aim;           /* space: [n][3] as in ContactPoint */
   PetscReal          *axis;          /* space: [n][3] along which a support holds it, else 0 */
-  PetscBool          *held;          /* [n] supports hold it along the surface: no traction */
+  PetscInt           *held, *plane;  /* [n] as in ContactPoint */
   PetscInt           *result;        /* [num_facets] position of a facet in `facets`, -1: it met nothing */
   PetscInt            num_facets;
   const ContactFacet *facets;
@@ -377,12 +378,12 @@ static inline ContactPoint ContactPoint_Private(const Contact *c, PetscInt j, Pe
     point.slip_weight = c->slip->weight[j];
     for (PetscInt i = 0; i < point.dim - 1; ++i) {
       point.slip[i] = c->slip->slip[c->side[0].num_nodes * i + j];
+      point.q[i]    = c->slip->q[c->side[0].num_nodes * i + j];
       if (lifted) point.slip_lift[i] = c->slip->lift[c->side[0].num_nodes * i + j];
     }
     for (PetscInt i = 0; i < 3 && point.dim == 3; ++i) point.aim[i] = c->slip->aim[3 * j + i];
-    point.held = (PetscBool)(point.dim == 3 && c->slip->axis[3 * j] * c->slip->axis[3 * j] + c->slip->axis[3 * j + 1] * c->slip->axis[3 * j + 1] +
-                                                       c->slip->axis[3 * j + 2] * c->slip->axis[3 * j + 2] >
-                                                   0);
+    point.held  = c->slip->held[j];
+    point.plane = c->slip->plane[j];
   }
   if (c->tie) TiePoint_Private(c, j, lifted, &point);
   for (PetscInt k = 0; k < c->num; ++k) point.z[k] = c->z[c->side[0].num_nodes * k + j];

@@ -3,8 +3,35 @@
    links of their own bring it the positions of their partners, wherever those have gone. */
 #include "interfaceimpl.h"
 
-/* A node that a support holds along the surface, as in a plane of symmetry, begins every step without partners, and so without traction: nothing of its own
-   would answer it. Nodes of rigid bodies are not held: the other side moves. */
+/* Planes of symmetry of a node in which the other side ends, too; the first one's normal. Where it does not, as under a body in a guide, it is one of this body
+   alone, and what faces the node moves across it. */
+static PetscInt SharedPlanes_Private(const Contact *c, PetscInt n, PetscReal normal[3])
+{
+  const Surface *s = &c->side[0], *m = &c->side[1];
+  const PetscInt dim = s->dim, planes = dim - 1;
+  PetscInt       num = 0;
+
+  for (PetscInt k = 0; k < planes; ++k) {
+    const PetscReal *d      = s->mirror + dim * (planes * n + k);
+    PetscBool        shared = PETSC_FALSE;
+    for (PetscInt j = 0; j < planes * m->num_nodes && !shared; ++j) {
+      PetscReal cosine = 0, off = 0, distance2 = 0;
+      for (PetscInt i = 0; i < dim; ++i) {
+        const PetscReal way = m->X[dim * (j / planes) + i] - s->X[dim * n + i];
+        cosine += d[i] * m->mirror[dim * j + i];
+        off += d[i] * way;
+        distance2 += PetscSqr(way);
+      }
+      shared = (PetscBool)(PetscAbsReal(cosine) > 1 - ROUND_LENGTH && PetscSqr(off) <= PetscSqr(ROUND_LENGTH) * distance2);
+    }
+    for (PetscInt i = 0; i < dim && shared && num == 0; ++i) normal[i] = d[i];
+    num += shared;
+  }
+  return num;
+}
+
+/* Axes along the surface in which supports hold a node, those across a plane of symmetry first (law/coulomb.c). Nodes of rigid bodies are not held: the other
+   side moves. */
 static PetscErrorCode Held_Private(Interface p, Contact *c)
 {
   const Surface      *s = &c->side[0];
@@ -13,14 +40,16 @@ static PetscErrorCode Held_Private(Interface p, Contact *c)
   PetscFunctionBegin;
   PetscCall(ForestGetTables(p->forest, &t));
   for (PetscInt n = 0; n < s->num_nodes; ++n) {
-    PetscReal axis[3];
-    PetscInt  num = 0;
+    PetscReal axis[3] = {0, 0, 0}, normal[3];
+    PetscInt  num     = 0;
 
     if (s->hang[n] < s->hang[n + 1]) continue; /* it has no facets, and its masters' tractions */
     const PetscBool rigid = p->spec->bodies[t->leaf_body[s->facet_leaf[s->node_facet[s->node_first[n]]]]].material->law->rigid;
     if (!rigid) num = p->dim == 3 ? ContactHeldAxes_Private(s, n, axis) : (PetscInt)ContactHeldAlong_Private(s, n);
-    c->slip->held[n] = (PetscBool)(num == p->dim - 1);
-    for (PetscInt i = 0; i < 3 && p->dim == 3 && num == 1; ++i) c->slip->axis[3 * n + i] = axis[i];
+    const PetscInt planes = num ? PetscMin(num, SharedPlanes_Private(c, n, normal)) : 0;
+    c->slip->held[n]      = num;
+    c->slip->plane[n]     = planes;
+    for (PetscInt i = 0; i < 3 && p->dim == 3 && (num == 1 || planes == 1); ++i) c->slip->axis[3 * n + i] = num == 1 ? axis[i] : normal[i];
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -42,7 +71,7 @@ PetscErrorCode SlipCreate_Private(Interface p, Contact *c)
   s->stale     = PETSC_TRUE;
   c->slip      = s;
   c->view.slip = s->mean;
-  PetscCall(PetscCalloc1(n, &s->held));
+  PetscCall(PetscCalloc2(n, &s->held, n, &s->plane));
   PetscCall(Held_Private(p, c));
   PetscCall(ContactPairSetTraction(c->pair, c->z + n));
   PetscCall(ContactPairSetAxes(c->pair, s->axis));
@@ -58,7 +87,7 @@ PetscErrorCode SlipDestroy_Private(Contact *c)
   PetscCall(PetscFree7(s->slip, s->weight, s->mean, s->change, s->lift, s->result, s->from));
   for (PetscInt k = 0; k < 2; ++k) PetscCall(LinkDestroy_Private(&s->places[k]));
   PetscCall(PetscFree4(s->aim, s->axis, s->q, s->coupled));
-  PetscCall(PetscFree(s->held));
+  PetscCall(PetscFree2(s->held, s->plane));
   PetscCall(PetscFree(c->slip));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -209,7 +238,7 @@ PetscErrorCode SlipEvaluate_Private(Interface p, Contact *c)
   for (PetscInt d = 0; d < m; ++d) PetscCall(LinkSpread_Private(p, &own->values, 1, s->slip + n * d));
   PetscCall(LinkSpread_Private(p, &own->values, 1, s->weight));
   for (PetscInt j = 0; j < own->num_nodes; ++j)
-    if (s->held[j] || !(s->weight[j] > COVERED * c->w0[j])) s->slip[j] = s->slip[n * (m - 1) + j] = s->weight[j] = 0; /* no partner then */
+    if (!(s->weight[j] > COVERED * c->w0[j])) s->slip[j] = s->slip[n * (m - 1) + j] = s->weight[j] = 0; /* no partner then */
   for (PetscInt j = 0; j < m * n; ++j) s->mean[j] = s->weight[j % n] > 0 ? s->slip[j] / s->weight[j % n] : 0;
   PetscFunctionReturn(PETSC_SUCCESS);
 }

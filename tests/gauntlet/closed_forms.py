@@ -37,12 +37,11 @@ def free(a, E, nu, sides):
 
 
 def stacked(heights, laws, shortening):
-    """Nominal stress of two confined blocks, one on the other, that together are shortened."""
-    def balance(first):
-        return confined(1 - first / heights[0], *laws[0]) - confined(1 - (shortening - first) / heights[1], *laws[1])
+    """Nominal stress of confined blocks, one on the other, that together are shortened."""
+    def shorter(P):
+        return sum(h * (1 - root(lambda a: confined(a, *law) - P, 0.02, 1)) for h, law in zip(heights, laws)) - shortening
 
-    first = root(balance, max(0, shortening - 0.95 * heights[1]), min(shortening, 0.95 * heights[0]))
-    return confined(1 - first / heights[0], *laws[0])
+    return root(shorter, confined(0.03, *min(laws)), 0)
 
 
 def shrink(r, E, nu):
@@ -78,6 +77,10 @@ FIGURES = {
     "quarter_patch": -0.7 * 0.9 * free(0.8, 3, 0.3, 2),
     "layers": -stacked((0.5, 0.8), ((1e5, 0.3), (1, 0.3)), 0.3),
     "layers_soft_below": -stacked((0.5, 0.8), ((1, 0.3), (1e5, 0.3)), 0.3),
+    "stack": -stacked((0.4, 0.5, 0.6), ((1, 0), (100, 0), (1e5, 0)), 0.12),
+    "wedge_under": 0.75 * math.tan(math.radians(10)),
+    "wedge_rub": 0.75 * (math.tan(math.radians(10) + math.atan(0.2)) + 0.2),
+    "belt": 0.5 * math.exp(0.2 * math.pi / 2),
     "rigid3d": -0.6 * 0.5 * free(0.7, 4, 0.25, 2),
     "ratio": -free(1 - 0.25 / 1.1, 2, 0.35, 1),
     "ratio3d": -free(0.8, 2, 0.35, 2),

@@ -124,12 +124,20 @@ static void Friction(void **state)
   }
 }
 
-/* Residual of row i at a node in space whose traction and slip change with s. */
-static ContactPoint InSpace(const ContactSpec *spec, PetscReal s)
+/* Residual of row i at a node in space whose traction and slip change with s; supports hold it along so many axes. */
+static ContactPoint InSpace(const ContactSpec *spec, PetscInt held, PetscReal s)
 {
   const ContactLawOps *law = ContactLaws[CONTACT_COULOMB];
-  ContactPoint         p   = {
-                .spec = spec, .friction = 0.4, .z = {0.5 + 0.2 * s, 0.1 + 0.3 * s, -0.05 + 0.1 * s}, .weight = 0.4, .w0 = 0.5, .c = 3, .dim = 3, .slip_weight = 0.3};
+  ContactPoint         p   = {.spec        = spec,
+                              .friction    = 0.4,
+                              .z           = {0.5 + 0.2 * s, 0.1 + 0.3 * s, -0.05 + 0.1 * s},
+                              .weight      = 0.4,
+                              .w0          = 0.5,
+                              .c           = 3,
+                              .dim         = 3,
+                              .slip_weight = 0.3,
+                              .held        = held,
+                              .q           = {0.12, 0.02}};
 
   p.slip[0] = -0.02 + 0.07 * s, p.slip[1] = 0.01 - 0.04 * s;
   p.state = law->state(&p);
@@ -138,15 +146,14 @@ static ContactPoint InSpace(const ContactSpec *spec, PetscReal s)
 }
 
 /* In space rows of slip are derivatives of q - b tau / |tau|. */
-static void FrictionInSpace(void **state)
+static void RowsInSpace(PetscInt held)
 {
   const ContactSpec    spec = {.law = CONTACT_COULOMB};
   const ContactLawOps *law  = ContactLaws[CONTACT_COULOMB];
   const PetscReal      h = 1e-5, dz[3] = {0.2, 0.3, 0.1}, ds[2] = {0.07, -0.04};
   ContactRow           row[MOST_MULTIPLIERS], up[MOST_MULTIPLIERS], down[MOST_MULTIPLIERS];
-  ContactPoint         p = InSpace(&spec, 0), q = InSpace(&spec, h), r = InSpace(&spec, -h);
+  ContactPoint         p = InSpace(&spec, held, 0), q = InSpace(&spec, held, h), r = InSpace(&spec, held, -h);
 
-  (void)state;
   assert_int_equal(law->slides(p.state), 1);
   law->rows(&p, PETSC_FALSE, row), law->rows(&q, PETSC_FALSE, up), law->rows(&r, PETSC_FALSE, down);
   for (int i = 1; i < 3; ++i) {
@@ -154,17 +161,52 @@ static void FrictionInSpace(void **state)
 
     assert_near(exact, -(up[i].side - down[i].side) / (2 * h), 1e-9);
   }
-  p.slip[0] = -p.slip[0], p.slip[1] = -p.slip[1], p.z[1] = p.z[2] = 0; /* now it would slip back */
+  p.slip[0] = -p.slip[0], p.slip[1] = -p.slip[1], p.z[1] = p.z[2] = p.q[0] = p.q[1] = 0; /* now it would slip back */
   assert_int_equal(law->slides(law->state(&p)), 0);
-  p.held = PETSC_TRUE, p.state = 1;
-  law->rows(&p, PETSC_FALSE, row);
-  assert_near(row[1].z[1], p.w0, 1e-14);
-  assert_near(row[1].slip[0], 0, 1e-14);
+}
+
+static void FrictionInSpace(void **state)
+{
+  (void)state;
+  for (PetscInt held = 0; held < 3; ++held) RowsInSpace(held);
+}
+
+/* A node that a support holds along the surface: a spring from the traction that was, up to the bound; in a plane of symmetry none. */
+static void Held(void **state)
+{
+  const ContactSpec    spec = {.law = CONTACT_COULOMB};
+  const ContactLawOps *law  = ContactLaws[CONTACT_COULOMB];
+
+  (void)state;
+  for (PetscInt plane = 0; plane < 2; ++plane) {
+    ContactPoint p = {.spec        = &spec,
+                      .friction    = 0.4,
+                      .z           = {0.5, 0.3},
+                      .weight      = 0.4,
+                      .w0          = 0.5,
+                      .c           = 3,
+                      .dim         = 2,
+                      .slip        = {0.002},
+                      .slip_weight = 0.3,
+                      .held        = 1,
+                      .plane       = plane,
+                      .q           = {plane ? 0 : 0.1}};
+    ContactRow   row[MOST_MULTIPLIERS];
+
+    p.state = law->state(&p);
+    assert_int_equal(p.state, 1);
+    law->rows(&p, PETSC_FALSE, row);
+    assert_near(row[1].side, -0.5 * (plane ? 0.3 : 0.3 - (0.1 - 3 * 0.002 / 0.3)), 1e-14);
+    assert_near(row[1].z[1], 0.5, 1e-14);
+    assert_near(row[1].slip[0], plane ? 0 : 0.5 * 3 / 0.3, 1e-14);
+    p.slip[0] = -1;
+    assert_int_equal(law->slides(law->state(&p)), !plane);
+  }
 }
 
 int main(int argc, char **argv)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(Names), cmocka_unit_test(Derivatives), cmocka_unit_test(Friction), cmocka_unit_test(FrictionInSpace),
-                                     cmocka_unit_test(Tied)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(Names),           cmocka_unit_test(Derivatives), cmocka_unit_test(Friction),
+                                     cmocka_unit_test(FrictionInSpace), cmocka_unit_test(Held),        cmocka_unit_test(Tied)};
   return cmocka_run_group_tests_name("interface: contact laws", tests, NULL, NULL);
 }

@@ -495,3 +495,15 @@ def test_predictor(run, pair, mu):
     result, without = (run("rubber.yml", *words, text=text) for words in ((), ("-path_predictor", "off")))
     assert result.returncode == 0 and result.summary["recoveries"]["predictor"] == {"tried": 1, "succeeded": 1} and result.summary["step_cuts"] == 0, result
     assert without.summary["recoveries"]["predictor"]["tried"] == 0 and without.summary["step_cuts"] > 0, without
+
+
+@pytest.mark.parametrize("mu, order", [(0, 2), (0.2, 1), (0.2, 2), (0.5, 2)])
+def test_wedge_under_a_load(run, mu, order):
+    """Pushed under a block in a guide it takes W (tan(a + phi) + tan(phi)): nodes that a guide or the push holds along the surface bear friction as others do. Without their traction 5 % were missing."""
+    words = [word for pair in "cd" for word in (f"-contact_{pair}_friction", mu)]
+    for sides in ((), ("-contact_c_nonmortar", "top", "-contact_c_mortar", "low", "-contact_d_nonmortar", "slope", "-contact_d_mortar", "under")):
+        result = run("tests/gauntlet/wedge_under.yml", "-order", order, "-load_step", 0.5, *words, *sides)
+        assert result.returncode == 0, result
+        angle, phi = numpy.radians(10), numpy.arctan(mu)
+        print(mu, order, result.summary["reaction"]["push"], result.summary["newton_iterations"])
+        assert -result.summary["reaction"]["push"][0] == pytest.approx(0.75 * (numpy.tan(angle + phi) + numpy.tan(phi)), rel=5e-4)

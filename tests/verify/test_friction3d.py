@@ -255,3 +255,33 @@ def test_refined_from_a_coarse_ball(run):
     state = contact(result)
     middle = numpy.abs(state["X"][:, 1]) < 1e-12
     assert middle[:len(state["tangential_traction"])].any() and numpy.abs(state["tangential_traction"][middle, 1]).max() < 1e-12
+
+
+GUIDE = """
+mesh: {file: GEO, order: 1, parameter: {l0: -1, l1: 2, k0: 0, k1: 1, nl: 7, kl: 3, ml: 2, u0: 0, u1: 0.7, v0: 0.2, v1: 0.8, nu: 3, ku: 3, mu: 2}}
+model: 3d
+order: ORDER
+body: {lower: {material: m}, upper: {material: m}}
+material: {m: {law: neo_hookean, E: 100, nu: 0.3}}
+boundary:
+  bottom: {displacement: {x: "0.3*max(t-1,0)", y: "0.1*max(t-1,0)", z: 0}}
+  upper_x: {fix: x}
+  upper_y: {fix: y}
+  top: {traction: {z: -1}, amplitude: [0,0, 1,1, 2,1]}
+contact: {c: {SIDES, friction: 0.3}}
+load: {end: 2, step: 0.5}
+"""
+
+
+@pytest.mark.parametrize("pair", ["nonmortar: under, mortar: face", "nonmortar: face, mortar: under"])
+@pytest.mark.parametrize("order", [1, 2])
+def test_guided_block(run, tmp_path, order, pair):
+    """A plate drawn away under a loaded block in a guide: friction is that of the load, along the way. Nodes that the guide holds, half of them here, had no traction along the axis that is held."""
+    geo = (ROOT / "tests" / "gauntlet" / "blocks3d.geo").read_text()
+    (tmp_path / "guide.geo").write_text(geo + '\nPhysical Surface("upper_x") = {c[3], c[5]}; Physical Surface("upper_y") = {c[2], c[4]};\n')
+    result = run("guide.yml", text=GUIDE.replace("GEO", str(tmp_path / "guide.geo")).replace("ORDER", str(order)).replace("SIDES", pair))
+    assert result.returncode == 0, result
+    force = numpy.abs(result.summary["contact"]["c"]["force"])
+    print(order, pair, force, result.summary["newton_iterations"], result.summary["step_cuts"])
+    friction = 0.3 * 0.42 / math.hypot(0.3, 0.1)
+    assert force == pytest.approx([0.3 * friction, 0.1 * friction, 0.42], rel=0.02)

@@ -6,7 +6,10 @@
 
    In space rows of slip are those at a place tau*, b* (aim), e = tau* / |tau*|, k = b* / |tau*|: that of the last evaluation, or where states of a linear step
    are found, that at which it began to slip:
-     q = mu z e + k (1 - e e^T) (q - c s / wn). */
+     q = mu z e + k (1 - e e^T) (q - c s / wn).
+
+   Along axes in which a support holds the node, nothing of its own answers q, and where the other side does not move either, nothing at all does. There tau =
+   qn - c s / wn with the traction qn where the step began: a spring as stiff as the cell. Across a plane of symmetry the mirror image cancels s. */
 #include "interfaceimpl.h"
 
 /* A traction that is short of its bound by this share lies on it: where a step begins s = 0, and nodes that slipped in the
@@ -26,12 +29,18 @@ static PetscReal Pressure_Private(const ContactPoint *p)
   return p->z[0] - p->c * (p->gap + p->spring * p->z[0]) / (p->weight + p->c * p->spring);
 }
 
+/* Of the slip along an axis, where the other side is held as well none. */
+static PetscReal Stiffness_Private(const ContactPoint *p, PetscInt i)
+{
+  return i < p->plane ? 0 : p->c;
+}
+
 /* tau, with the slip of the motion still to come; returns its length. */
 static PetscReal Trial_Private(const ContactPoint *p, PetscReal tau[2])
 {
   tau[1] = 0;
-  for (PetscInt i = 0; i < p->dim - 1; ++i) tau[i] = p->slip_weight > 0 ? p->z[1 + i] - p->c * (p->slip[i] + p->slip_lift[i]) / p->slip_weight : 0;
-  if (p->held) tau[0] = 0;
+  for (PetscInt i = 0; i < p->dim - 1; ++i)
+    tau[i] = p->slip_weight > 0 ? (i < p->held ? p->q[i] : p->z[1 + i]) - Stiffness_Private(p, i) * (p->slip[i] + p->slip_lift[i]) / p->slip_weight : 0;
   return PetscSqrtReal(tau[0] * tau[0] + tau[1] * tau[1]);
 }
 
@@ -61,8 +70,11 @@ static void Aim_Private(const ContactPoint *p, PetscReal aim[3])
 static void Stick_Private(const ContactPoint *p, PetscInt i, ContactRow *row)
 {
   *row         = (ContactRow){0};
-  row->slip[i] = p->w0 * p->c / p->slip_weight;
+  row->slip[i] = p->w0 * Stiffness_Private(p, i) / p->slip_weight;
   row->side    = -row->slip[i] * (p->slip[i] + p->slip_lift[i]);
+  if (i >= p->held) return;
+  row->z[1 + i] = p->w0;
+  row->side -= p->w0 * (p->z[1 + i] - p->q[i]);
 }
 
 /* q = share z */
@@ -85,8 +97,8 @@ static void Slip_Private(const ContactPoint *p, PetscInt i, ContactRow *row)
   for (PetscInt k = 0; k < 2; ++k) {
     const PetscReal across = p->w0 * p->aim[2] * ((PetscReal)(i == k) - p->aim[i] * p->aim[k]);
 
-    row->z[1 + k] -= across;
-    row->slip[k] = across * p->c / p->slip_weight;
+    if (k >= p->held) row->z[1 + k] -= across;
+    row->slip[k] = across * Stiffness_Private(p, k) / p->slip_weight;
     row->side += across * tau[k];
   }
 }
@@ -95,9 +107,7 @@ static void Rows_Private(const ContactPoint *p, PetscBool symmetric, ContactRow 
 {
   ContactCompliantRow_Private(p, p->spring, 0, symmetric, &row[0]);
   for (PetscInt i = 0; i < p->dim - 1; ++i) {
-    if (p->held && i == 0)
-      Bound_Private(p, i, 0, &row[1 + i]);
-    else if (p->state == STICK)
+    if (p->state == STICK)
       Stick_Private(p, i, &row[1 + i]);
     else if (p->dim == 3 && p->state == SLIP)
       Slip_Private(p, i, &row[1 + i]);
