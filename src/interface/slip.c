@@ -14,6 +14,7 @@ static PetscInt SharedPlanes_Private(const Contact *c, PetscInt n, PetscReal nor
   for (PetscInt k = 0; k < planes; ++k) {
     const PetscReal *d      = s->mirror + dim * (planes * n + k);
     PetscBool        shared = PETSC_FALSE;
+    if (d[0] == 0 && d[1] == 0 && d[dim - 1] == 0) continue; /* no plane */
     for (PetscInt j = 0; j < planes * m->num_nodes && !shared; ++j) {
       PetscReal cosine = 0, off = 0, distance2 = 0;
       for (PetscInt i = 0; i < dim; ++i) {
