@@ -74,7 +74,7 @@ SCENES = {
         **peer("kratos", {}, {"steps": (1,)}, 4, 8),
     },
     "lshape": {
-        **mortise(("inputs/lshape.yml", "-adapt_max_passes", 40), (0.03, 0.01, 0.003, 0.001, 3e-4, 1e-4), orders=(4,)),
+        **mortise(("inputs/lshape.yml", "-adapt_max_passes", 40), (0.03, 0.01, 0.003, 0.001, 3e-4, 1e-4, 3e-5, 1e-5), orders=(4,)),
         ("mortise", "order 2"): [["inputs/lshape.yml", "-adapt_max_passes", 40, "-order", 2, "-adapt_tolerance", tolerance] for tolerance in (0.03, 0.01, 0.003, 0.001)],
         **peer("ngsolve", {}, {"order": (2,)}, *({"passes": passes} for passes in (4, 8, 12, 16, 20))),
         **peer("ngsolve", {}, {"order": (4, 6)}, *({"passes": passes} for passes in (4, 8, 12, 16, 20, 24, 30))),
