@@ -80,7 +80,7 @@ SCENES = {
         **peer("ngsolve", {}, {"order": (4, 6)}, *({"passes": passes} for passes in (4, 8, 12, 16, 20, 24, 30))),
     },
     "cook": {
-        **mortise(COOK, (0.1, 0.05, 0.03, 0.02, 0.01), orders=(2, 3)),
+        **mortise(COOK, (0.1, 0.05, 0.03, 0.02, 0.015, 0.01), orders=(2, 3)),
         ("mortise", "order 2, uniform"): [[*COOK, "-adapt_tolerance", 0, "-mesh_parameter_n", n] for n in (4, 8, 16, 32)],
         ("mortise", "order 4, uniform"): [[*COOK, "-adapt_tolerance", 0, "-order", 4, "-mesh_parameter_n", n] for n in (4, 8, 16)],
         **peer("ngsolve", UMFPACK, {"order": (2, 3, 5), "hcorner": (0.5, 0.1), "steps": (1,)}, {"h": 20}, {"h": 10}, {"h": 5}),
