@@ -35,8 +35,9 @@ PetscErrorCode EstimateLoad(PetscInt num_leaves, PetscInt num, const PetscReal v
 /* What to do next. Bulk (Dörfler) marking by spec->fraction; splits in all directions or, spec->anisotropic, in those that matter (src/estimate/split.c), or
    higher orders (src/estimate/choose.c), written to order[num_leaves], the orders the leaves are to have (NULL with strategy h); coarsening or lower orders of
    leaves whose eta2 is below spec->coarsen^2 times the mean; leaves of rigid bodies, whose estimate comes from no axis, never. Never more than spec->max_cells
-   leaves expected (before the closure's extra splits); leaves whose eta2 agree to 1e-6 are changed together or not at all. The list is freed by
-   MarkListDestroy. *num_marked: leaves to split or to raise. Not collective (input is replicated). */
+   leaves expected (before the closure's extra splits); leaves whose eta2 agree to 1e-6 are changed together or not at all. No leaf where those that nothing
+   more can be done to hold more than spec->tolerance by themselves (strategies h and hp). The list is freed by MarkListDestroy. *num_marked: leaves to split or
+   to raise. Not collective (input is replicated). */
 PetscErrorCode EstimateMark(const Estimate *, const AdaptSpec *, Forest, MarkList *, int8_t order[], PetscInt *num_marked);
 PetscErrorCode MarkListDestroy(MarkList *);
 /* contact.<pair>.subdivide: auto. Marks (isotropic) of all leaves that touch either side of a pair whose layer, the leaves of order above 1 with a facet on

@@ -13,7 +13,7 @@
 
 typedef struct _p_Forest *Forest;
 
-#define FOREST_MAX_LEVEL 20                            /* splits per direction */
+#define FOREST_MAX_LEVEL 30                            /* splits per direction: 2^30 is the largest power of 2 a PetscInt of 32 bits holds */
 #define FOREST_PARTS 64                                /* of an entity, nodes or entries of its closure: entity * FOREST_PARTS + part is a PetscInt */
 #define FOREST_ENTITIES (PETSC_MAX_INT / FOREST_PARTS) /* most of a forest, which ForestCreate and ForestAdapt see to */
 

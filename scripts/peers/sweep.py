@@ -74,13 +74,13 @@ SCENES = {
         **peer("kratos", {}, {"steps": (1,)}, 4, 8),
     },
     "lshape": {
-        **mortise(("inputs/lshape.yml", "-adapt_max_passes", 40), (0.03, 0.01, 0.003, 0.001, 3e-4, 1e-4), orders=(4,)),
+        **mortise(("inputs/lshape.yml", "-adapt_max_passes", 40), (0.03, 0.01, 0.003, 0.001, 3e-4, 1e-4, 3e-5, 1e-5), orders=(4,)),
         ("mortise", "order 2"): [["inputs/lshape.yml", "-adapt_max_passes", 40, "-order", 2, "-adapt_tolerance", tolerance] for tolerance in (0.03, 0.01, 0.003, 0.001)],
         **peer("ngsolve", {}, {"order": (2,)}, *({"passes": passes} for passes in (4, 8, 12, 16, 20))),
         **peer("ngsolve", {}, {"order": (4, 6)}, *({"passes": passes} for passes in (4, 8, 12, 16, 20, 24, 30))),
     },
     "cook": {
-        **mortise(COOK, (0.1, 0.05, 0.03, 0.02, 0.01), orders=(2, 3)),
+        **mortise(COOK, (0.1, 0.05, 0.03, 0.02, 0.015, 0.01), orders=(2, 3)),
         ("mortise", "order 2, uniform"): [[*COOK, "-adapt_tolerance", 0, "-mesh_parameter_n", n] for n in (4, 8, 16, 32)],
         ("mortise", "order 4, uniform"): [[*COOK, "-adapt_tolerance", 0, "-order", 4, "-mesh_parameter_n", n] for n in (4, 8, 16)],
         **peer("ngsolve", UMFPACK, {"order": (2, 3, 5), "hcorner": (0.5, 0.1), "steps": (1,)}, {"h": 20}, {"h": 10}, {"h": 5}),

@@ -47,18 +47,30 @@ static PetscInt Bulk_Private(PetscInt num, const Rank rank[], PetscReal wanted, 
   return WidestGap_Private(num, rank, begin, fit, TIE);
 }
 
-/* Leaves that nothing may be done to (strategy p: at the highest order) rank as if they had no error, and their share is nobody's. */
-static PetscReal Rank_Private(const Estimate *e, const int8_t split[], const int8_t raise[], Rank rank[])
+/* Leaves that nothing may be done to (as small as they can be, or strategy p, and at the highest order) rank as if they had no error, and their share is
+   nobody's: it stays, *left. */
+static PetscReal Rank_Private(const Estimate *e, const int8_t split[], const int8_t raise[], Rank rank[], PetscReal *left)
 {
   PetscReal total = 0;
 
+  *left = 0;
   for (PetscInt l = 0; l < e->num_leaves; ++l) {
     const PetscReal eta2 = split[l] || raise[l] ? e->eta2[l] : 0;
     rank[l]              = (Rank){eta2, l, (1 << __builtin_popcount((unsigned)split[l])) - 1};
     total += eta2;
+    *left += e->eta2[l] - eta2;
   }
   qsort(rank, (size_t)e->num_leaves, sizeof(*rank), Compare_Private);
   return total;
+}
+
+/* Is the error that stays above the tolerance by itself? Then nothing that is done to other leaves meets it: at a singular corner they would be refined without
+   end. Strategy p, whose cells are never split, goes on to the highest orders. With a path the parts of eta2 are of different times (norm is 0), and may not be
+   added up. */
+static PetscBool IsInVain_Private(const Estimate *e, const AdaptSpec *spec, PetscReal left)
+{
+  if (spec->strategy == ADAPT_P || !(e->norm > 0)) return PETSC_FALSE;
+  return (PetscBool)(left > PetscSqr(spec->tolerance) * (PetscSqr(e->norm) + left));
 }
 
 /* Rigid bodies: their surface is geometry, not solution, and nothing of their estimate comes from an axis. */
@@ -88,6 +100,7 @@ PetscErrorCode EstimateMark(const Estimate *e, const AdaptSpec *spec, Forest for
   const ForestTables *t;
   Rank               *rank;
   int8_t             *split, *raise;
+  PetscReal           left;
 
   PetscFunctionBegin;
   PetscCall(ForestGetTables(forest, &t));
@@ -101,9 +114,9 @@ PetscErrorCode EstimateMark(const Estimate *e, const AdaptSpec *spec, Forest for
   PetscCall(PetscCalloc1(e->num_leaves, &marks->split));
   PetscCall(PetscCalloc1(e->num_leaves, &marks->coarsen));
   if (order) PetscCall(PetscArraycpy(order, e->order, e->num_leaves));
-  const PetscReal total = Rank_Private(e, split, raise, rank);
-  *num_marked =
-      Bulk_Private(e->num_leaves, rank, spec->fraction * total * (1 - 1e-12), PetscMax(TIE, spec->alike), PetscMax(0, spec->max_cells - e->num_leaves));
+  const PetscReal total = Rank_Private(e, split, raise, rank, &left);
+  const PetscInt  room  = PetscMax(0, spec->max_cells - e->num_leaves);
+  *num_marked = IsInVain_Private(e, spec, left) ? 0 : Bulk_Private(e->num_leaves, rank, spec->fraction * total * (1 - 1e-12), PetscMax(TIE, spec->alike), room);
   for (PetscInt i = 0; i < *num_marked; ++i) {
     marks->split[rank[i].leaf] = split[rank[i].leaf];
     if (order) order[rank[i].leaf] += raise[rank[i].leaf];

@@ -39,7 +39,7 @@ static int8_t VertexKey_Private(PetscInt d, const PetscInt v[], EntityKey *key)
   PetscInt m = 0, frame[4];
 
   if (d == 1) {
-    *key = (EntityKey){(uint64_t)PetscMin(v[0], v[1]) << 32 | (uint64_t)PetscMax(v[0], v[1]), UINT64_MAX};
+    *key = (EntityKey){(uint64_t)PetscMin(v[0], v[1]) << 32 | (uint64_t)PetscMax(v[0], v[1]), 0, UINT64_MAX};
     return v[0] > v[1];
   }
   for (PetscInt i = 1; i < 4; ++i)
@@ -49,7 +49,7 @@ static int8_t VertexKey_Private(PetscInt d, const PetscInt v[], EntityKey *key)
   frame[1]               = v[swapped ? m ^ 2 : m ^ 1];
   frame[2]               = v[swapped ? m ^ 1 : m ^ 2];
   frame[3]               = v[m ^ 3];
-  *key                   = (EntityKey){(uint64_t)frame[0] << 32 | (uint64_t)frame[1], (uint64_t)frame[2] << 32 | (uint64_t)frame[3]};
+  *key                   = (EntityKey){(uint64_t)frame[0] << 32 | (uint64_t)frame[1], 0, (uint64_t)frame[2] << 32 | (uint64_t)frame[3]};
   return (int8_t)(swapped ? 4 | (m >> 1) | (m & 1) << 1 : m);
 }
 

@@ -24,17 +24,22 @@ PetscErrorCode ForestHashDestroy(EntityHash *hash)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+static inline PetscBool IsKey_Private(EntityKey a, EntityKey b)
+{
+  return (PetscBool)(a.lo == b.lo && a.hi == b.hi && a.what == b.what);
+}
+
 /* Slot of the key, or the empty slot where it belongs. Multiplicative mixing: low ends differ only in few high bits. */
 static inline size_t HashSlot_Private(const EntityHash *hash, EntityKey key)
 {
-  uint64_t h = (key.lo ^ (key.what * 0x9e3779b97f4a7c15ULL)) * 0xd6e8feb86659fd93ULL;
+  uint64_t h = (key.lo ^ (key.what * 0x9e3779b97f4a7c15ULL) ^ (key.hi * 0xbf58476d1ce4e5b9ULL)) * 0xd6e8feb86659fd93ULL;
   size_t   slot;
 
   h ^= h >> 32;
   h *= 0xd6e8feb86659fd93ULL;
   h ^= h >> 32;
   slot = (size_t)h & hash->mask;
-  while (hash->value[slot] >= 0 && (hash->key[slot].lo != key.lo || hash->key[slot].what != key.what)) slot = (slot + 1) & hash->mask;
+  while (hash->value[slot] >= 0 && !IsKey_Private(hash->key[slot], key)) slot = (slot + 1) & hash->mask;
   return slot;
 }
 

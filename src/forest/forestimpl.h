@@ -28,10 +28,12 @@ static inline PetscInt ForestFrameReversed(int8_t code, PetscInt frame_axis)
 
 /* ---- entity.c: keys and their hash ---------------------------------------------------------------------------- */
 
-/* 110 bits: three low ends of 21 bits; three levels of 5 bits and the coarse entity. Axes beyond the frame: 0, FOREST_POINT. */
+/* Three low ends of 31 bits, from 0 to FOREST_ONE: two in `lo`, one in `hi`; `what`: three levels of 5 bits and the coarse entity. Axes beyond the frame: 0,
+   FOREST_POINT. */
 typedef struct {
-  uint64_t lo, what;
+  uint64_t lo, hi, what;
 } EntityKey;
+_Static_assert(FOREST_MAX_LEVEL < 31, "low ends and levels of an EntityKey have no room for so many splits");
 
 typedef struct {
   EntityKey *key;   /* owned [mask + 1] */
@@ -48,15 +50,15 @@ PetscInt       ForestHashFind(const EntityHash *, EntityKey); /* -1: absent */
 
 static inline EntityKey ForestKeyPack(PetscInt coarse, const PetscInt lo[3], const int8_t level[3])
 {
-  return (EntityKey){(uint64_t)lo[0] | (uint64_t)lo[1] << 21 | (uint64_t)lo[2] << 42,
+  return (EntityKey){(uint64_t)lo[0] | (uint64_t)lo[1] << 32, (uint64_t)lo[2],
                      (uint64_t)level[0] | (uint64_t)level[1] << 5 | (uint64_t)level[2] << 10 | (uint64_t)coarse << 15};
 }
 static inline PetscInt ForestKeyUnpack(EntityKey key, PetscInt lo[3], int8_t level[3])
 {
-  for (PetscInt i = 0; i < 3; ++i) {
-    lo[i]    = (PetscInt)((key.lo >> (21 * i)) & 0x1fffff);
-    level[i] = (int8_t)((key.what >> (5 * i)) & 31);
-  }
+  lo[0] = (PetscInt)(key.lo & 0xffffffff);
+  lo[1] = (PetscInt)(key.lo >> 32);
+  lo[2] = (PetscInt)key.hi;
+  for (PetscInt i = 0; i < 3; ++i) level[i] = (int8_t)((key.what >> (5 * i)) & 31);
   return (PetscInt)(key.what >> 15);
 }
 

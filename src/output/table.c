@@ -171,7 +171,7 @@ PetscErrorCode TableRow(Table t, const PetscReal values[])
   if (t->file && !(failed = Cut_Private(t))) {
     for (PetscInt i = 0; i < t->n; i++) {
       if (i) fputc(',', t->file);
-      if (!PetscIsNanReal(values[i])) fprintf(t->file, "%.12g", (double)values[i]);
+      if (!PetscIsNanReal(values[i])) fprintf(t->file, "%.15g", (double)values[i]);
     }
     fputc('\n', t->file);
     if (fflush(t->file)) failed = errno ? errno : EIO;

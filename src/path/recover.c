@@ -145,9 +145,9 @@ static PetscErrorCode Viscous_Private(Path *p, const PathLoop *load, PetscReal t
 
 const Recovery PathRecoveries[PATH_RECOVERIES] = {
     {"unfreeze", "once more from the start of the step, with the segmentation of contact no longer frozen", 0, IsFrozen_Private, Unfreeze_Private},
+    {"cut", "on another mesh, the way of the load from the accepted state again, in pieces", 0, IsCarried_Private, Cut_Private},
     {"homotopy", "residual homotopy: the imbalance of a state carried over to another mesh is taken away in pieces", 0, IsCarried_Private, Homotopy_Private},
     {"overlap", "overlap that bodies at rest begin with is taken away in pieces, the deepest place first", 0, IsAtRest_Private, Overlap_Private},
-    {"cut", "on another mesh, the way of the load from the accepted state again, in pieces", 0, IsCarried_Private, Cut_Private},
     {"predictor", "with friction, once more with the other predictor: bodies carried to their new places first, or not", 0, Slips_Private, Predictor_Private},
     {"descent", "down on the energy of contact and bodies, each iterate lower than the one before, to an equilibrium that is not near by", 1, PathCanDescend,
      PathDescend},

@@ -171,7 +171,7 @@ static void Aspect(void **state)
 
   for (PetscInt pass = 0; pass < 5; ++pass) {
     const ForestTables *t;
-    Estimate            e;
+    Estimate            e = {0};
     MarkList            marks;
     Forest              adapted;
     ForestMap           map;
@@ -196,6 +196,57 @@ static void Aspect(void **state)
     assert_int_equal(level[1], pass + 1);
     assert_int_equal(level[0], PetscMax(0, pass - 1));
     assert_int_equal(level[2], PetscMax(0, pass - 1));
+  }
+  OK(ForestDestroy(&forest));
+}
+
+/* Nearly all of the error is the corner's, whatever its size. */
+static PetscErrorCode MarkCorner(Forest forest, PetscReal norm, PetscReal tolerance, MarkList *marks, PetscInt *num)
+{
+  const AdaptSpec     spec = {.fraction = 0.5, .tolerance = tolerance, .max_cells = 1000};
+  Estimate            e    = {.norm = norm};
+  const ForestTables *t;
+
+  OK(ForestGetTables(forest, &t));
+  e.num_leaves = t->num_leaves;
+  OK(PetscMalloc1(t->num_leaves, &e.eta2));
+  for (PetscInt l = 0; l < t->num_leaves; ++l) e.eta2[l] = t->leaf_lo[3 * l] || t->leaf_lo[3 * l + 1] ? 1e-6 : 1;
+  OK(EstimateMark(&e, &spec, forest, marks, NULL, num));
+  OK(EstimateDestroy(&e));
+  return 0;
+}
+
+/* The corner is split until it is as small as a leaf can be. Then others are only where the tolerance can be met so. */
+static void Smallest(void **state)
+{
+  const struct {
+    PetscReal norm, tolerance;
+    PetscBool marks;
+  } cases[] = {
+      {1, 0.7, PETSC_FALSE}, /* the corner alone: (1 / (1 + 1))^½ = 0.707 */
+      {1, 0.71, PETSC_TRUE},
+      {0, 0.7, PETSC_TRUE}, /* parts of several times */
+  };
+  Box      box;
+  Forest   forest = BoxForest(PETSC_COMM_WORLD, 2, (const PetscInt[3]){1, 1, 1}, 1, 0, 1, &box);
+  MarkList marks;
+  PetscInt num;
+
+  for (PetscInt pass = 0; pass < FOREST_MAX_LEVEL; ++pass) {
+    Forest    adapted;
+    ForestMap map;
+    OK(MarkCorner(forest, 1, 0.1, &marks, &num));
+    assert_int_equal(num, 1);
+    OK(ForestAdapt(forest, &marks, NULL, 0, NULL, &adapted, &map));
+    OK(MarkListDestroy(&marks));
+    OK(ForestMapDestroy(&map));
+    OK(ForestDestroy(&forest));
+    forest = adapted;
+  }
+  for (size_t i = 0; i < sizeof(cases) / sizeof(cases[0]); ++i) {
+    OK(MarkCorner(forest, cases[i].norm, cases[i].tolerance, &marks, &num));
+    assert_int_equal(num > 0, cases[i].marks);
+    OK(MarkListDestroy(&marks));
   }
   OK(ForestDestroy(&forest));
 }
@@ -245,8 +296,9 @@ static void Layers(void **state)
 
 int main(int argc, char **argv)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(Shares),     cmocka_unit_test(TiesAndOrder), cmocka_unit_test(Limits), cmocka_unit_test(Alike),
-                                     cmocka_unit_test(Coarsening), cmocka_unit_test(Directions),   cmocka_unit_test(Aspect), cmocka_unit_test(Layers)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(Shares), cmocka_unit_test(TiesAndOrder), cmocka_unit_test(Limits),
+                                     cmocka_unit_test(Alike),  cmocka_unit_test(Coarsening),   cmocka_unit_test(Directions),
+                                     cmocka_unit_test(Aspect), cmocka_unit_test(Smallest),     cmocka_unit_test(Layers)};
   if (PetscInitialize(&argc, &argv, NULL, NULL)) return 1;
   const int failed = cmocka_run_group_tests(tests, NULL, NULL);
   return PetscFinalize() || failed;

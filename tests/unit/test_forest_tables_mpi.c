@@ -427,6 +427,33 @@ static void test_coarsen_families(void **state)
   OK(ForestDestroy(&next));
 }
 
+/* The high corner of a box split as often as can be: low ends and levels take all the bits they have, and every entity is one of its own. */
+static void test_deepest(void **state)
+{
+  for (PetscInt dim = 2; dim <= 3; ++dim) {
+    Box    box;
+    Forest forest = BoxForest(PETSC_COMM_SELF, dim, (const PetscInt[3]){1, 1, 1}, 1, 0, 1, &box);
+    for (PetscInt pass = 0; pass < FOREST_MAX_LEVEL; ++pass) {
+      const PetscInt num = forest->tables.num_leaves;
+      Forest         next;
+      ForestMap      map;
+      MarkList       marks;
+      BoxRandomMarks(dim, num, 1000000, PETSC_FALSE, &marks);
+      for (PetscInt l = 0; l < num; ++l) marks.coarsen[l] = marks.split[l] = 0;
+      marks.split[num - 1] = (int8_t)((1 << dim) - 1);
+      OK(ForestAdapt(forest, &marks, NULL, 0, NULL, &next, &map));
+      MarksDestroy(&marks);
+      OK(ForestMapDestroy(&map));
+      OK(ForestDestroy(&forest));
+      forest = next;
+    }
+    assert_int_equal(forest->tables.num_leaves, 1 + FOREST_MAX_LEVEL * ((1 << dim) - 1));
+    assert_int_equal(forest->tables.leaf_level[3 * (forest->tables.num_leaves - 1)], FOREST_MAX_LEVEL);
+    CheckAll(forest, &box);
+    OK(ForestDestroy(&forest));
+  }
+}
+
 /* Two quads with the vertices of an edge in common but different curves between them: told, not glued. */
 static void test_torn(void **state)
 {
@@ -461,7 +488,7 @@ int main(int argc, char **argv)
 {
   const struct CMUnitTest tests[] = {cmocka_unit_test(test_random_2d),    cmocka_unit_test(test_random_3d),        cmocka_unit_test(test_crosswise),
                                      cmocka_unit_test(test_coarsen_back), cmocka_unit_test(test_coarsen_families), cmocka_unit_test(test_torn),
-                                     cmocka_unit_test(test_size)};
+                                     cmocka_unit_test(test_size),         cmocka_unit_test(test_deepest)};
   PetscCall(PetscInitialize(&argc, &argv, NULL, NULL));
   PetscCall(ErrorHandlerPush());
   const int failed = cmocka_run_group_tests(tests, NULL, NULL);

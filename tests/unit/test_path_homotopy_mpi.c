@@ -3,6 +3,8 @@
 #include "patchfixture.h"
 #include "path.h"
 
+enum { CUT = 1, HOMOTOPY };
+
 static void Create(Patch *p)
 {
   const PetscInt n[2] = {3, 4};
@@ -79,13 +81,14 @@ static void Follow(PetscReal size)
   OK(StateCreate(p.problem, &off));
   OK(StateCopy(&p.state, &off));
   Disturb(&p, size, off.x);
-  for (PetscInt row = 0; row < PATH_RECOVERIES; ++row) path.recovery[row].mode = row == 1 ? RECOVERY_ON : RECOVERY_OFF;
-  assert_string_equal(PathRecoveries[1].name, "homotopy");
+  for (PetscInt row = 0; row < PATH_RECOVERIES; ++row) path.recovery[row].mode = row == HOMOTOPY ? RECOVERY_ON : RECOVERY_OFF;
+  assert_string_equal(PathRecoveries[HOMOTOPY].name, "homotopy");
+  assert_string_equal(PathRecoveries[CUT].name, "cut"); /* the load again is the cheaper way */
   report.converged = PETSC_FALSE;
   OK(PathRecover(&path, &load, 1, &off, &report));
   if (!report.converged) fail_msg("no solution: %s", report.reason);
-  assert_int_equal(path.recovery[1].tried, 1);
-  assert_int_equal(path.recovery[1].succeeded, 1);
+  assert_int_equal(path.recovery[HOMOTOPY].tried, 1);
+  assert_int_equal(path.recovery[HOMOTOPY].succeeded, 1);
   OK(VecNorm(p.state.x, NORM_2, &norm));
   OK(VecAXPY(level.state.x, -1, p.state.x));
   OK(VecNorm(level.state.x, NORM_2, &error));

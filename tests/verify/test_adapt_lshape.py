@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 SCENE = "inputs/lshape.yml"
-EXPONENT, ENERGY = 0.544483736782464, 2.0545124437e-4
+EXPONENT, ENERGY = 0.544483736782464, 2.05451244369501353e-4
 E, NU = 1e5, 0.3
 MU, LAMBDA = E / (2 * (1 + NU)), E * NU / ((1 + NU) * (1 - 2 * NU))
 OUTER = (((1, 1), -2), ((1, -1), 2), ((1, 1), 2), ((-1, 1), 2))  # n . x = c
@@ -124,6 +124,22 @@ def test_o80_hp_is_exponential(run):
         if error < 0.01:
             assert np.interp(-np.log(error), -np.log(hp), n) < unknowns, (error, unknowns, hp, n)
     assert n[-1] < np.interp(-np.log(1.5e-3), -np.log(h), m), (n, m, hp, h)
+
+
+def test_o80_hp_goes_on_to_1e_6(run):
+    """Exponential down to 1e-6, by two thirds of the first slope where orders have come to their limit. The tolerance is below what the smallest cells at
+    the corner leave: that is said, and no other cell is refined in vain."""
+    result = run(SCENE, "-adapt_tolerance", 1e-6, "-order", 1, "-adapt_strategy", "hp", "-adapt_max_passes", 60, timeout=120)
+    true, estimate, n = errors(result)
+    hp = true / np.sqrt(2 * ENERGY)
+    assert result.summary["status"] == "inaccurate" and result.summary["adapt_stop"] == "nothing left to refine"
+    assert hp.min() < 1e-6 and n[-1] < 50000, (n, hp)
+    effectivity = estimate / true
+    assert 1.2 < effectivity.min() and effectivity.max() < 2.6, effectivity
+    low = hp < 0.02
+    x, y = np.cbrt(n[low]), np.log(hp[low])
+    first, last = (np.polyfit(x[half], y[half], 1)[0] for half in (y > np.log(1.5e-4), y < np.log(1.5e-4)))
+    assert first < -0.4 and last < -0.3, (first, last)
 
 
 def test_o80_hp_is_the_same_on_two_ranks(run):

@@ -58,6 +58,15 @@ def test_finer_meshes(run):
         assert without.summary["status"] == "inaccurate" and without.summary["estimated_error"] > 0.0125
 
 
+def test_load_again_before_homotopy(run):
+    """Cook's membrane of incompressible rubber is not found from what was carried over to smaller cells at its held corner, but when the load is put on again
+    from rest: nothing else is tried."""
+    scene = ("inputs/cook.yml", "-material_rubber_kappa", ".inf", "-load_step", 1, "-order", 4, "-mesh_parameter_n", 4, "-adapt_max_passes", 30, *QUIET)
+    result = run(*scene, "-adapt_tolerance", 0.02)
+    assert result.returncode == 0 and result.summary["recoveries"]["cut"]["succeeded"] > 0 == result.summary["recoveries"]["homotopy"]["tried"], result
+    assert result.summary["probe"]["tip"]["displacement"][1] == pytest.approx(6.934, rel=1e-3)
+
+
 def test_switches_and_counters(run):
     """Each has a row in -help and a counter in summary.json, steps of history.csv add up to them, and none acts when it is off."""
     names = re.findall(r"^  -newton_(\w+) +auto\|on\|off$", run("inputs/patch2d.yml", "-help").stdout, re.M)
