@@ -125,7 +125,7 @@ PetscErrorCode SceneHasCorner(Forest forest, PetscInt group, PetscReal longest, 
     end = End_Private(num, rim, k);
     for (PetscInt i = k; i < end; ++i) {
       *length = PetscMax(*length, rim[i].length);
-      for (PetscInt j = k; j < end && (t->dim == 2 || rim[k].entity >= t->first[1]); ++j)
+      for (PetscInt j = k; j < end && t->dim == 2; ++j)
         if (PetscMax(rim[i].length, rim[j].length) <= longest && Dot3(rim[i].N, rim[j].T) < 0 && Dot3(rim[i].N, rim[j].N) < CONTACT_SHARP) *yes = PETSC_TRUE;
     }
   }

@@ -177,7 +177,7 @@ PetscErrorCode SceneCheckMesh(Scene, Forest);
 PetscErrorCode SceneTellMesh(Scene, Forest);
 /* faces.c. Colours of the smooth faces of a group by side of the coarse mesh, -1: not in the group; *colour is the caller's. Not collective. */
 PetscErrorCode SceneColourFaces(Forest, PetscInt group, PetscInt *num_colours, int8_t **colour);
-/* Has the group a convex corner (plane) or edge (space) of more than 40 degrees, between facets no longer than that? length: of its longest facet. Not
+/* In the plane, has the group a convex corner of more than 40 degrees, between facets no longer than that? In space: no. length: of its longest facet. Not
  * collective. */
 PetscErrorCode SceneHasCorner(Forest, PetscInt group, PetscReal longest, PetscReal *length, PetscBool *yes);
 /* The same on sides of contact pairs that are chords of what they stand for (chords.c). Collective. */
