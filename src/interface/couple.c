@@ -1,8 +1,6 @@
 /* One contact pair on one mesh: multipliers, nodal gaps, activity. */
 #include "interfaceimpl.h"
 
-#define TIED 0.1 /* of the smaller side's extent: what is further apart is not tied; facets of round surfaces are nearer, and refinement changes nothing */
-
 /* Facets evaluated here: those of owned leaves, and those that carry weight to an owned node, so that its owner knows the node's whole row. */
 static PetscErrorCode ListFacets_Private(Interface p, Contact *c)
 {
@@ -24,7 +22,8 @@ static PetscErrorCode ListFacets_Private(Interface p, Contact *c)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Automatic search distance: half of the smaller side's extent; the caller's factor counts in units of the longest edge. */
+/* Automatic search distance: half of the smaller side's extent, of tied sides a tenth: what is further apart is not tied; facets of round surfaces are nearer,
+   and refinement changes nothing. The caller's factor counts in units of the longest edge. */
 static void SearchDistance_Private(Contact *c)
 {
   PetscReal extent[2], longest = 0;
@@ -44,7 +43,7 @@ static void SearchDistance_Private(Contact *c)
     for (PetscInt a = 0; a < s->dim; ++a) square += PetscSqr(hi[a] - lo[a]);
     extent[side] = PetscSqrtReal(square);
   }
-  c->distance = c->spec->search > 0 ? c->spec->search * longest : (c->law->ties ? TIED : 0.5) * PetscMin(extent[0], extent[1]);
+  c->distance = c->spec->search > 0 ? c->spec->search * longest : (c->law->ties ? NEAR : 0.5) * PetscMin(extent[0], extent[1]);
 }
 
 static void View_Private(Contact *c)

@@ -6,6 +6,7 @@
 
 #define COVERED 1e-9 /* share of a node's tributary measure below which it counts as uncovered: forces have faded before (blend.c in contact) */
 
+#define NEAR 0.1     /* of an extent, of a distance: what may meet, or come to meet before the next search */
 #define MOST_REALS 4 /* of a node in one message */
 #define SLACK 1e-10  /* pressure over Young's modulus that is none: what round-off leaves */
 
@@ -355,9 +356,6 @@ PetscErrorCode TieEvaluate_Private(Interface, Contact *);
 PetscErrorCode TieChange_Private(Interface, Contact *, const PetscReal increment[], PetscReal change[]);
 void           TieForces_Private(Contact *);
 void           TiePoint_Private(const Contact *, PetscInt j, PetscBool lifted, ContactPoint *);
-/* Facets with what they meet: of a tied pair those of all components, one list after the other. */
-PetscInt            ContactNumMet_Private(const Contact *);
-const ContactFacet *ContactMet_Private(const Contact *, PetscInt i);
 /* Node j as its law sees it, and its rows. lifted: with the motion still to come. */
 static inline ContactPoint ContactPoint_Private(const Contact *c, PetscInt j, PetscBool lifted)
 {
@@ -446,9 +444,7 @@ PetscErrorCode ContactNodeScales_Private(Interface, Contact *);
 PetscErrorCode ContactCarriers_Private(Interface, Contact *);
 /* Do supports leave a node of the nonmortar side free along an axis of the coordinates, and has it weight there? Until the rows of the matrix are known. */
 PetscBool ContactIsFree_Private(const Interface, const Contact *, PetscInt node, PetscInt axis);
-/* Two dimensions: does a support hold the node along the surface? Until the rows of the matrix are known. */
-PetscBool ContactHeldAlong_Private(const Surface *, PetscInt node);
-/* Space: the number of directions along the surface in which supports hold the node; of one, axis. */
+/* The number of directions along the surface in which supports hold the node; of one, axis. Until the rows of the matrix are known. */
 PetscInt  ContactHeldAxes_Private(const Surface *, PetscInt node, PetscReal axis[3]);
 PetscReal SurfaceFacetMeasure_Private(const Surface *, PetscInt facet, PetscBool axisymmetric);
 /* slip.c: nothing where the law has no friction. Create: after the multipliers. Keep: before a search; points where slip counts from, if they are not kept yet.
