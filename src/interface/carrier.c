@@ -15,13 +15,13 @@ PetscReal SurfaceFacetMeasure_Private(const Surface *s, PetscInt f, PetscBool ax
    at a corner of a Gauss-Lobatto lattice have much less weight than room. */
 static PetscErrorCode FacetShares_Private(const Surface *s, PetscInt f, PetscBool axisymmetric, PetscReal share[], PetscReal room[])
 {
-  const PetscInt  q = SurfaceOrder_Private(s, f), *node, num = SurfaceNodes_Private(s, f, &node);
+  const PetscInt  q = s->order[f], *node, num = SurfaceNodes_Private(s, f, &node);
   const PetscReal plain = SurfaceFacetMeasure_Private(s, f, PETSC_FALSE);
   const Basis1D  *gauss;
   PetscReal       N[SURFACE_MOST_NODES];
 
   PetscFunctionBegin;
-  if (q == 0) {
+  if (!s->higher) {
     const PetscReal whole = SurfaceFacetMeasure_Private(s, f, axisymmetric);
     for (PetscInt k = 0; k < num; ++k) {
       share[k] = whole / (PetscReal)s->corners;
@@ -149,7 +149,7 @@ static PetscBool IsWeightless_Private(const Interface p, const Contact *c, Petsc
 {
   const Surface *s = &c->side[0];
 
-  if (p->spec->model != MODEL_AXISYMMETRIC || !s->order || s->order[facet] < 2) return PETSC_FALSE;
+  if (p->spec->model != MODEL_AXISYMMETRIC || s->order[facet] < 2) return PETSC_FALSE;
   return (PetscBool)(PetscAbsReal(s->X[s->dim * n]) <= ROUND_LENGTH * c->extent[n]);
 }
 

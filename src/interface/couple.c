@@ -52,8 +52,9 @@ static void View_Private(Contact *c)
   SurfaceView *sv[2] = {&v->nonmortar, &v->mortar};
   for (PetscInt k = 0; k < 2; ++k) {
     const Surface *s = &c->side[k];
-    *sv[k] = (SurfaceView){s->dim,         s->corners,     s->num_nodes, s->num_facets, s->node_entity, s->facets, s->facet_leaf, s->facet_entity, s->hang,
-                           s->hang_master, s->hang_weight, s->X,         s->x,          s->force,       s->owned,  s->order,      s->first,        s->lattice};
+    *sv[k]           = (SurfaceView){s->dim,          s->corners, s->num_nodes,   s->num_facets,  s->node_entity, s->facets, s->facet_leaf,
+                                     s->facet_entity, s->hang,    s->hang_master, s->hang_weight, s->X,           s->x,      s->force,
+                                     s->owned,        s->order,   s->first,       s->lattice,     s->higher};
   }
   v->spec           = c->spec;
   v->num_z          = c->num;
@@ -133,37 +134,20 @@ static PetscErrorCode Subtract_Private(Interface p, Contact *c)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Does either side of a pair have facets of higher order? Then both are given by lattices. */
-static PetscErrorCode IsHigher_Private(Interface p, const ContactSpec *spec, PetscBool *higher)
-{
-  const uint64_t      groups = ((uint64_t)1 << spec->nonmortar) | ((uint64_t)1 << spec->mortar);
-  const ForestTables *t      = p->tables;
-
-  PetscFunctionBegin;
-  *higher = PETSC_FALSE;
-  for (PetscInt f = t->first[t->dim - 1]; f < t->first[t->dim] && !*higher; ++f) {
-    PetscInt order;
-    if (!(t->boundary[f] & groups)) continue;
-    PetscCall(HPSpaceGetOrder(p->space, f, &order));
-    *higher = (PetscBool)(order > 1);
-  }
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 PetscErrorCode ContactCreate_Private(Interface p, const ContactSpec *spec, Contact *c)
 {
   const PetscBool     axisymmetric = (PetscBool)(p->spec->model == MODEL_AXISYMMETRIC);
   const SurfaceFacets own = {.group = spec->nonmortar}, other = {.group = spec->mortar, .colour = spec->part, .face = spec->face};
-  PetscBool           higher;
 
   PetscFunctionBegin;
   PetscCall(PetscMemzero(c, sizeof(*c)));
   c->spec = spec;
   c->law  = ContactLaws[spec->law];
   c->num  = c->law->num_multipliers(p->dim);
-  PetscCall(IsHigher_Private(p, spec, &higher));
-  PetscCall(SurfaceCreate_Private(p, &own, higher, &c->side[0]));
-  PetscCall(SurfaceCreate_Private(p, &other, higher, &c->side[1]));
+  PetscCall(SurfaceCreate_Private(p, &own, &c->side[0]));
+  PetscCall(SurfaceCreate_Private(p, &other, &c->side[1]));
+  const PetscBool higher = (PetscBool)(c->side[0].higher || c->side[1].higher);
+  c->side[0].higher = c->side[1].higher = higher;
   PetscCall(ContactPairCreate(p->dim, axisymmetric, spec, &c->pair));
   for (PetscInt k = 0; k < 2; ++k) PetscCall(HullParts_Private(p, &c->side[k], &c->part[k]));
   PetscReal deepest;
@@ -348,7 +332,7 @@ static PetscErrorCode Near_Private(Interface p, Contact *c, PetscReal pending)
   PetscInt       order = 1; /* extents are those of facets over it */
 
   PetscFunctionBegin;
-  for (PetscInt f = 0; f < s->num_facets && s->order; ++f) order = PetscMax(order, s->order[f]);
+  for (PetscInt f = 0; f < s->num_facets; ++f) order = PetscMax(order, s->order[f]);
   for (PetscInt i = 0; i < c->num_valued; ++i) {
     const PetscInt  j = c->valued_node[i];
     const PetscBool reach =

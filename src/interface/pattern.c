@@ -65,41 +65,15 @@ static PetscErrorCode Append_Private(PetscInt **list, PetscInt *num, PetscInt *s
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The node next to n along a curve, through its edge on the given side (0: before, 1: after); -1 at an end. */
-static PetscInt Neighbour_Private(const Surface *s, PetscInt n, PetscInt which)
-{
-  for (PetscInt k = s->node_first[n]; k < s->node_first[n + 1]; ++k) {
-    const PetscInt *edge = s->facets + 2 * s->node_facet[k];
-    if (edge[1 - which] == n) return edge[which];
-  }
-  return -1;
-}
-
-/* Facets of higher order, two dimensions: all nodes of the facets at the node. */
-static PetscErrorCode AppendFacets_Private(const Surface *s, PetscInt node, PetscInt **list, PetscInt *num, PetscInt *size, PetscInt from)
-{
-  PetscFunctionBegin;
-  for (PetscInt k = s->node_first[node]; k < s->node_first[node + 1]; ++k) {
-    const PetscInt facet = s->node_facet[k];
-    for (PetscInt i = s->first[facet]; i < s->first[facet + 1]; ++i) PetscCall(Append_Private(list, num, size, from, ~s->lattice[i]));
-  }
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* Two dimensions: also its neighbours along the curve. In three dimensions the ring of neighbours would cost more in the factors than a new pattern now and
- * then. */
+/* In the plane also all nodes of the facets at the node, and (depth 2) of those at these. In three dimensions the ring of neighbours would cost more in the
+   factors than a new pattern now and then. */
 static PetscErrorCode AppendAround_Private(const Surface *s, PetscInt node, PetscInt depth, PetscInt **list, PetscInt *num, PetscInt *size, PetscInt from)
 {
   PetscFunctionBegin;
   PetscCall(Append_Private(list, num, size, from, ~node));
-  if (s->dim == 3) PetscFunctionReturn(PETSC_SUCCESS);
-  if (s->order) {
-    PetscCall(AppendFacets_Private(s, node, list, num, size, from));
-    PetscFunctionReturn(PETSC_SUCCESS);
-  }
-  for (PetscInt which = 0; which < 2; ++which) {
-    for (PetscInt k = 0, n = Neighbour_Private(s, node, which); k < depth && n >= 0; ++k, n = Neighbour_Private(s, n, which))
-      PetscCall(Append_Private(list, num, size, from, ~n));
+  for (PetscInt k = s->node_first[node]; k < s->node_first[node + 1] && s->dim == 2 && depth; ++k) {
+    const PetscInt facet = s->node_facet[k];
+    for (PetscInt i = s->first[facet]; i < s->first[facet + 1]; ++i) PetscCall(AppendAround_Private(s, s->lattice[i], depth - 1, list, num, size, from));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -111,7 +85,7 @@ static PetscErrorCode AppendMet_Private(const Contact *c, const ContactFacet *e,
     if (!NODE_SIDE(e->nodes[a]))
       PetscCall(Append_Private(list, num, size, from, e->nodes[a]));
     else
-      PetscCall(AppendAround_Private(&c->side[1], NODE_INDEX(e->nodes[a]), 2, list, num, size, from));
+      PetscCall(AppendAround_Private(&c->side[1], NODE_INDEX(e->nodes[a]), c->side[1].higher ? 1 : 2, list, num, size, from));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
