@@ -83,6 +83,16 @@ static inline void ContactFacetVector(PetscInt dim, const PetscReal x[], const P
   }
   Cross3(d, e, N);
 }
+/* The same of length 1; returns what it was. */
+static inline PetscReal ContactFacetNormal(PetscInt dim, const PetscReal x[], const PetscInt node[], PetscReal n[3])
+{
+  PetscReal size;
+
+  ContactFacetVector(dim, x, node, n);
+  size = PetscSqrtReal(Dot3(n, n));
+  for (int c = 0; c < 3; c++) n[c] /= size;
+  return size;
+}
 
 typedef struct _p_ContactPair *ContactPair;
 
@@ -140,6 +150,8 @@ PetscErrorCode ContactPairSetHull(ContactPair, ContactHull, const PetscInt part[
    nothing. NULL (as created): all facets see all that face them, both ways. Borrowed. Not collective. */
 PetscErrorCode ContactPairSetPrecedence(ContactPair, const PetscInt precedence[]);
 
+/* Facets whose multiplier functions are made together, those that share a corner that hangs: root[num_facets], the first of them. Not collective. */
+PetscErrorCode ContactFacetGroups(const ContactSurface *, PetscInt root[]);
 /* Facets of higher order: which nodes have multipliers (carries[nonmortar num_nodes], NULL: all), for the functions of covered facets, which are dual in the
    reference positions; before the search. Without it the first search takes all nodes. The pair keeps the functions. Not collective. */
 PetscErrorCode ContactPairSetCarriers(ContactPair, const ContactSurface *nonmortar, const PetscBool carries[]);

@@ -59,25 +59,20 @@ typedef struct {
   const PetscReal *x;     /* [num_nodes][dim] at the last evaluation */
   const PetscReal *force; /* [num_nodes][dim] contact force at the last residual, of owned nodes; none at hanging nodes */
   const PetscBool *owned; /* [num_nodes] this rank answers for the node: sums over nodes run over these; hanging nodes belong to nobody */
-  const int8_t    *order; /* facets of higher order as in contact.h: their order and lattices of nodes; NULL: all are of order 1, their nodes the corners */
+  const int8_t    *order; /* of the facets and their lattices of nodes as in contact.h */
   const PetscInt  *first, *lattice;
+  PetscBool        higher; /* facets of this side or the other one are of an order above 1 */
 } SurfaceView;
 
 #define SURFACE_MOST_NODES ((MORTISE_MAX_ORDER + 1) * (MORTISE_MAX_ORDER + 1)) /* of a facet */
 
-/* Nodes that shape a facet, and their number: its corners, or its lattice. */
+/* Nodes that shape a facet, those of its lattice, and their number. */
 static inline PetscInt SurfaceFacetNodes(const SurfaceView *s, PetscInt facet, const PetscInt **nodes)
 {
-  *nodes = s->order ? s->lattice + s->first[facet] : s->facets + s->corners * facet;
-  return s->order ? s->first[facet + 1] - s->first[facet] : s->corners;
+  *nodes = s->lattice + s->first[facet];
+  return s->first[facet + 1] - s->first[facet];
 }
-/* Its order; 0: the nodes are the corners. */
-static inline PetscInt SurfaceFacetOrder(const SurfaceView *s, PetscInt facet)
-{
-  return s->order ? s->order[facet] : 0;
-}
-/* Functions of these nodes at xi[dim-1] in [-1, 1], N[...], and their derivatives by xi (NULL: not wanted). order 0: hats of the corners, counterclockwise;
-   else of the lattice, lexicographic. */
+/* Functions of a lattice's nodes, lexicographic, at xi[dim-1] in [-1, 1], N[...], and their derivatives by xi (NULL: not wanted). */
 void SurfaceShape(PetscInt dim, PetscInt order, const PetscReal xi[], PetscReal N[], PetscReal dN[][2]);
 /* Tangents by xi of a facet at nodal positions x[num_nodes][dim]; two dimensions: the second is the unit vector across. */
 void SurfaceTangents(const SurfaceView *, PetscInt facet, const PetscReal x[], const PetscReal xi[], PetscReal tangent[2][3]);

@@ -15,21 +15,16 @@
    Thicknesses are those at the reference positions, along directions that turn with the facets. */
 #include "kernelimpl.h"
 
-#define CLOSE 0.1    /* of a facet's half width */
-#define NEARLY 1e-6  /* of a length, that round-off may leave */
-#define CLEARLY 0.75 /* of what both bodies measure: what lies deeper is surely no overlap, or one that is seen from its own side, too */
-
 enum { MOST_SIDES = 32, LEVELS = 6 }; /* of the search for the ray to the middle of the mortar facet: to 1/32 of the facet */
 
 static void Axes_Private(PetscInt dim, const PetscReal x[4][3], PetscReal axis[3][3])
 {
   static const PetscInt node[4] = {0, 1, 2, 3};
-  PetscReal            *n       = axis[dim - 1], e[3], N[3], flat[4][2], along, length;
+  PetscReal            *n       = axis[dim - 1], e[3], flat[4][2], along, length;
 
   for (int a = 0; a < 4; a++) flat[a][0] = x[a][0], flat[a][1] = x[a][1];
-  ContactFacetVector(dim, dim == 2 ? flat[0] : x[0], node, N);
-  length = PetscSqrtReal(Dot3(N, N));
-  for (int c = 0; c < 3; c++) n[c] = N[c] / length, e[c] = x[1][c] - x[0][c];
+  (void)ContactFacetNormal(dim, dim == 2 ? flat[0] : x[0], node, n);
+  for (int c = 0; c < 3; c++) e[c] = x[1][c] - x[0][c];
   along = Dot3(e, n);
   for (int c = 0; c < 3; c++) e[c] -= along * n[c];
   length = PetscSqrtReal(Dot3(e, e));
@@ -207,7 +202,7 @@ static PetscBool IsOver_Private(const FacetCorners *m, const PetscReal x[3], con
     size = PetscMax(size, Dot3(r, r));
   }
   for (int c = 0; c < 3; c++) r[c] = x[c] - middle[c];
-  return (PetscBool)(Dot3(r, r) <= CLOSE * CLOSE * size);
+  return (PetscBool)(Dot3(r, r) <= PetscSqr(CONTACT_SLIVER) * size);
 }
 
 void ContactCorners(ContactPair pair, const ContactSurface *nonmortar, PetscInt facet, FacetCorners *s)
@@ -231,7 +226,7 @@ static PetscBool IsThickness_Private(ContactHull hull, PetscInt part, const Face
   length = PetscSqrtReal(Dot3(d, d));
   for (int c = 0; c < 3; c++) d[c] /= length;
   if (!(Dot3(d, s->axis0[s->dim - 1]) < -CONTACT_OPPOSE && Dot3(d, m->axis0[m->dim - 1]) > CONTACT_OPPOSE)) return PETSC_FALSE;
-  return (PetscBool)(ContactHullAcross(hull, part, X, d, length) > (1 - NEARLY) * length);
+  return (PetscBool)(ContactHullAcross(hull, part, X, d, length) > (1 - ROUND_LENGTH) * length);
 }
 
 PetscBool ContactBehind(ContactPair pair, PetscInt facet, const FacetCorners *s, const ContactSurface *mortar, PetscInt other, PetscReal shallow)
@@ -256,7 +251,8 @@ PetscBool ContactBehind(ContactPair pair, PetscInt facet, const FacetCorners *s,
   own = Across_Private(pair->hull, pair->part[0][facet], s, xi, r, 2 * depth);
   if (own < 2 * depth) own += Across_Private(pair->hull, pair->part[1][other], &m, eta, n, 2 * depth - own);
   behind = (PetscBool)(own < 2 * depth);
-  if (behind && depth < CLEARLY * own && IsOver_Private(&m, x, middle)) pair->untold = PetscMax(pair->untold, depth);
+  /* nearer to the deepest overlap that can be told, own / 2, than to the far side, own */
+  if (behind && depth - 0.5 * own < own - depth && IsOver_Private(&m, x, middle)) pair->untold = PetscMax(pair->untold, depth);
   if (behind) return PETSC_TRUE;
   num_own   = Beside_Private(pair->hull, pair->part[0][facet], s, xi, r, depth, depth, side[0]);
   num_other = num_own ? Beside_Private(pair->hull, pair->part[1][other], &m, eta, n, depth, depth, side[1]) : 0;

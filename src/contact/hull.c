@@ -1,7 +1,6 @@
-/* How thick bodies are: a ray through one of them, from its outer facets at the reference positions. */
+/* How thick bodies are: a ray through one of them, from its outer facets at the reference positions. These are taken for larger than they are by
+   CONTACT_ROUND: rays through corners leave the body, too, at once where they start at one. */
 #include "contactimpl.h"
-
-#define ROUND 1e-9 /* of a facet, by which it is larger than it is: rays through corners leave the body, too, at once where they start at one */
 
 struct _p_ContactHull {
   PetscInt   dim, *part;
@@ -28,7 +27,7 @@ static void Box_Private(PetscInt dim, const PetscReal X[], PetscReal box[6])
     }
     size += box[3 + i] - box[i];
   }
-  for (int i = 0; i < 3; i++) box[i] -= 2 * ROUND * size, box[3 + i] += 2 * ROUND * size;
+  for (int i = 0; i < 3; i++) box[i] -= 2 * CONTACT_ROUND * size, box[3 + i] += 2 * CONTACT_ROUND * size;
 }
 
 PetscErrorCode ContactHullCreate(PetscInt dim, PetscInt num, PetscInt part[], PetscReal X[], ContactHull *hull)
@@ -66,7 +65,7 @@ static PetscReal Edge_Private(const PetscReal a[2], const PetscReal b[2], const 
   if (!(out > 0)) return most; /* d . N = d x e with N = (e_y, -e_x) */
   s  = Cross2(r, e) / out;
   at = Cross2(r, d) / out;
-  return Cross2(r, e) >= -ROUND * Dot2(e, e) && s < most && at >= -ROUND && at <= 1 + ROUND ? PetscMax(0, s) : most;
+  return Cross2(r, e) >= -CONTACT_ROUND * Dot2(e, e) && s < most && at >= -CONTACT_ROUND && at <= 1 + CONTACT_ROUND ? PetscMax(0, s) : most;
 }
 
 /* The same through a triangle, counterclockwise seen from outside. */
@@ -82,7 +81,9 @@ static PetscReal Triangle_Private(const PetscReal a[3], const PetscReal b[3], co
   s = Dot3(r, N) / out;
   u = Dot3(q, f) / out;
   v = -Dot3(q, e) / out;
-  return Dot3(r, N) >= -ROUND * PetscPowReal(Dot3(N, N), 0.75) && s < most && u >= -ROUND && v >= -ROUND && u + v <= 1 + ROUND ? PetscMax(0, s) : most;
+  return Dot3(r, N) >= -CONTACT_ROUND * PetscPowReal(Dot3(N, N), 0.75) && s < most && u >= -CONTACT_ROUND && v >= -CONTACT_ROUND && u + v <= 1 + CONTACT_ROUND
+             ? PetscMax(0, s)
+             : most;
 }
 
 static PetscReal Facet_Private(const ContactHull h, PetscInt facet, const PetscReal x[3], const PetscReal d[3], PetscReal most)
@@ -180,11 +181,8 @@ static PetscReal ToFacet_Private(const ContactHull h, PetscInt facet, const Pets
 static void Normal_Private(const ContactHull h, PetscInt facet, PetscReal N[3])
 {
   static const PetscInt node[4] = {0, 1, 2, 3};
-  PetscReal             length;
 
-  ContactFacetVector(h->dim, h->X + h->dim * Corners_Private(h->dim) * facet, node, N);
-  length = PetscSqrtReal(Dot3(N, N));
-  for (int i = 0; i < 3; i++) N[i] /= length;
+  (void)ContactFacetNormal(h->dim, h->X + h->dim * Corners_Private(h->dim) * facet, node, N);
 }
 
 PetscInt ContactHullBeside(ContactHull h, PetscInt part, const PetscReal x[], const PetscReal d[], PetscReal radius, PetscInt most, HullSide side[])

@@ -9,18 +9,13 @@
 static PetscReal Axes_Private(const ContactSurface *s, PetscInt facet, PetscReal axis[3][3])
 {
   const PetscInt *node   = s->facets + 2 * (s->dim - 1) * facet;
-  PetscReal       length = 0, size;
+  PetscReal       length = 0, size = ContactFacetNormal(s->dim, s->x, node, axis[2]);
 
-  ContactFacetVector(s->dim, s->x, node, axis[2]);
   for (PetscInt c = 0; c < 3; c++) {
     axis[0][c] = c < s->dim ? s->x[s->dim * node[s->dim - 1] + c] - s->x[s->dim * node[0] + c] : 0;
     length += PetscSqr(axis[0][c]);
   }
-  size = PetscSqrtReal(Dot3(axis[2], axis[2]));
-  for (int c = 0; c < 3; c++) {
-    axis[0][c] /= PetscSqrtReal(length);
-    axis[2][c] /= size;
-  }
+  for (int c = 0; c < 3; c++) axis[0][c] /= PetscSqrtReal(length);
   Cross3(axis[2], axis[0], axis[1]);
   return size;
 }

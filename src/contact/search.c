@@ -72,31 +72,22 @@ static PetscErrorCode ListFacets_Private(ContactPair pair, const ContactSurface 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static void UnitNormal_Private(const ContactSurface *s, PetscInt facet, PetscReal n[3])
-{
-  PetscReal size;
-
-  ContactFacetVector(s->dim, s->x, s->facets + 2 * (s->dim - 1) * facet, n);
-  size = PetscSqrtReal(Dot3(n, n));
-  for (int c = 0; c < 3; c++) n[c] /= size;
-}
-
 /* Round a sharp edge of the nonmortar side one facet faces what the other one grazes. What the latter would see beside the edge is no gap of this contact: it
    came and went by CONTACT_OPPOSE as facets tilt, and with it the mean gap of the nodes on the edge. (Faces round an edge of the mortar side are pairs of their
-   own.) Is the mortar facet one that this facet, of normal n, grazes and a neighbour faces? */
-static PetscBool IsGrazed_Private(const RayWork w, const ContactSurface *nonmortar, PetscInt facet, const PetscReal n[3], const ContactSurface *mortar,
-                                  PetscInt met)
+   own.) Is the mortar facet one that this facet grazes and a neighbour faces? */
+static PetscBool IsGrazed_Private(const RayWork w, const ContactSurface *nonmortar, PetscInt facet, const ContactSurface *mortar, PetscInt met)
 {
   const PetscInt nv = 2 * (nonmortar->dim - 1);
-  PetscReal      m[3], other[3];
+  PetscReal      n[3], m[3], other[3];
 
-  UnitNormal_Private(mortar, met, m);
+  (void)ContactFacetNormal(nonmortar->dim, nonmortar->x, nonmortar->facets + nv * facet, n);
+  (void)ContactFacetNormal(mortar->dim, mortar->x, mortar->facets + nv * met, m);
   if (!(Dot3(n, m) > -STEEP && Dot3(n, m) < -CONTACT_OPPOSE)) return PETSC_FALSE;
   for (PetscInt a = 0; a < nv; a++) {
     const PetscInt node = nonmortar->facets[nv * facet + a];
 
     for (PetscInt k = w->ring_first[node]; k < w->ring_first[node + 1]; k++) {
-      UnitNormal_Private(nonmortar, w->ring[k] / nv, other);
+      (void)ContactFacetNormal(nonmortar->dim, nonmortar->x, nonmortar->facets + nv * (w->ring[k] / nv), other);
       if (Dot3(other, m) < -STEEP && ContactFacetJoint(nonmortar, facet, w->ring[k] / nv) == JOINT_SHARP) return PETSC_TRUE;
     }
   }
@@ -117,13 +108,11 @@ static PetscBool Meets_Private(ContactPair pair, const ContactSurface *nonmortar
 {
   const PetscInt  facet = pair->listed[slot];
   const PetscBool stays = Stays_Private(pair, slot, region, mortar, met);
-  PetscReal       n[3];
 
   /* where a smooth surface has been folded the gap of neighbours is 0, whatever moves */
   if (pair->self && ContactFacetJoint(mortar, facet, met) == JOINT_SMOOTH) return PETSC_FALSE;
   if (!stays && !ContactRayRegionMeets(region, mortar, met, PETSC_FALSE)) return PETSC_FALSE;
-  UnitNormal_Private(nonmortar, facet, n);
-  if (!stays && IsGrazed_Private(pair->ray, nonmortar, facet, n, mortar, met)) return PETSC_FALSE;
+  if (!stays && IsGrazed_Private(pair->ray, nonmortar, facet, mortar, met)) return PETSC_FALSE;
   return (PetscBool)!ContactBehind(pair, facet, corners, mortar, met, stays ? pair->margin : 0);
 }
 

@@ -12,7 +12,7 @@
 
 void ContactShape_Private(const SurfaceView *s, PetscInt facet, const PetscReal xi[2], PetscReal N[])
 {
-  SurfaceShape(s->dim, SurfaceFacetOrder(s, facet), xi, N, NULL);
+  SurfaceShape(s->dim, s->order[facet], xi, N, NULL);
 }
 
 PetscReal ContactMeasure_Private(const PetscReal tangent[2][3])
@@ -92,7 +92,7 @@ void ContactNormal_Private(const ContactTerm *term, PetscBool finite, PetscInt f
   const SurfaceView *s = &term->view->nonmortar;
   PetscReal          t[2][3];
 
-  if (s->order) {
+  if (s->higher) {
     SurfaceTangents(s, facet, finite ? term->x : s->X, xi, t);
     Cross3(t[0], t[1], n);
   } else

@@ -226,7 +226,7 @@ PetscReal ContactTermsMeasure_Private(const ContactTerms *terms, const SurfaceVi
 static PetscErrorCode FacetProduct_Private(const ContactTerms *terms, const ContactTerm *term, PetscInt facet, PetscReal *product)
 {
   const SurfaceView *s = &term->view->nonmortar;
-  const PetscInt    *node, num = SurfaceFacetNodes(s, facet, &node), points = PetscMax(1, SurfaceFacetOrder(s, facet)) + 2;
+  const PetscInt    *node, num = SurfaceFacetNodes(s, facet, &node), points = s->order[facet] + 2;
   const PetscReal    middle[2] = {0, 0};
   const Basis1D     *gauss;
   PetscReal          N[SURFACE_MOST_NODES], g[SURFACE_MOST_NODES];

@@ -8,13 +8,13 @@ static void LeafPoint_Private(const ForestTables *t, const SurfaceView *s, Petsc
   const PetscInt offset = t->closure_offset[t->first[t->dim] + s->facet_leaf[facet]];
   PetscReal      N[4];
 
-  SurfaceShape(s->dim, 0, xi, N, NULL);
+  SurfaceShape(s->dim, 1, xi, N, NULL); /* lexicographic */
   for (PetscInt d = 0; d < 3; ++d) place[d] = 0;
   for (PetscInt k = 0; k < s->corners; ++k) {
     for (PetscInt v = 0; v < 1 << t->dim; ++v) {
       const PetscInt index = 2 * ((v & 1) + 3 * ((v >> 1) & 1) + 9 * (v >> 2)); /* in the 3^dim closure table */
       if (t->closure[offset + index] != s->node_entity[s->facets[s->corners * facet + k]]) continue;
-      for (PetscInt d = 0; d < t->dim; ++d) place[d] += N[k] * ((v >> d) & 1);
+      for (PetscInt d = 0; d < t->dim; ++d) place[d] += N[k < 2 ? k : 5 - k] * ((v >> d) & 1);
     }
   }
 }
@@ -41,7 +41,7 @@ static PetscErrorCode Bulge_Private(const EstimateSum *sum, const SurfaceView *s
 /* Gauss points in each direction of a facet. */
 static PetscInt NumPoints_Private(const SurfaceView *s, PetscInt facet)
 {
-  return PetscMax(1, SurfaceFacetOrder(s, facet)) + 2;
+  return s->order[facet] + 2;
 }
 
 /* Its mean over the facet. */
@@ -144,7 +144,7 @@ static void Nodal_Private(const ContactTerm *term, PetscInt facet, const PetscRe
   const SurfaceView *s = &term->view->nonmortar;
   const PetscInt    *node, num = SurfaceFacetNodes(s, facet, &node);
   const PetscReal    steep[2] = {3 * p->xi[0], 3 * p->xi[1]};
-  const PetscReal    theta    = s->order || term->view->spec->standard ? 0 : term->theta[facet];
+  const PetscReal    theta    = s->higher || term->view->spec->standard ? 0 : term->theta[facet];
   PetscReal          dual[SURFACE_MOST_NODES], gap;
 
   ContactShape_Private(s, facet, steep, dual);

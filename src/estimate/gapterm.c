@@ -38,7 +38,7 @@ PetscReal ContactFacetSize_Private(const SurfaceView *s, PetscInt facet)
 
   SurfaceTangents(s, facet, s->x, middle, t);
   const PetscReal measure = ContactMeasure_Private(t);
-  return (s->dim == 3 ? PetscSqrtReal(4 * measure) : 2 * measure) / (PetscReal)PetscMax(1, SurfaceFacetOrder(s, facet));
+  return (s->dim == 3 ? PetscSqrtReal(4 * measure) : 2 * measure) / (PetscReal)s->order[facet];
 }
 
 /* How far the mortar side is from plane over a facet: int (y - c0 - c1 xi_1 - c2 xi_2)^2, y its height, by orthogonalising these functions one by one. */

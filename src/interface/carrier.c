@@ -1,8 +1,6 @@
 /* Nodes of the nonmortar side of a contact pair: their measure, extent and scale, and which of them carry a multiplier. */
 #include "interfaceimpl.h"
 
-#define HELD 0.05 /* a node whose normal has no larger free part than that is held across the surface */
-
 /* Length or area of a facet at the reference positions (axisymmetric: area). */
 PetscReal SurfaceFacetMeasure_Private(const Surface *s, PetscInt f, PetscBool axisymmetric)
 {
@@ -17,13 +15,13 @@ PetscReal SurfaceFacetMeasure_Private(const Surface *s, PetscInt f, PetscBool ax
    at a corner of a Gauss-Lobatto lattice have much less weight than room. */
 static PetscErrorCode FacetShares_Private(const Surface *s, PetscInt f, PetscBool axisymmetric, PetscReal share[], PetscReal room[])
 {
-  const PetscInt  q = SurfaceOrder_Private(s, f), *node, num = SurfaceNodes_Private(s, f, &node);
+  const PetscInt  q = s->order[f], *node, num = SurfaceNodes_Private(s, f, &node);
   const PetscReal plain = SurfaceFacetMeasure_Private(s, f, PETSC_FALSE);
   const Basis1D  *gauss;
   PetscReal       N[SURFACE_MOST_NODES];
 
   PetscFunctionBegin;
-  if (q == 0) {
+  if (!s->higher) {
     const PetscReal whole = SurfaceFacetMeasure_Private(s, f, axisymmetric);
     for (PetscInt k = 0; k < num; ++k) {
       share[k] = whole / (PetscReal)s->corners;
@@ -105,7 +103,7 @@ static void NodeNormal_Private(const Surface *s, PetscInt n, PetscReal normal[3]
   for (PetscInt c = 0; c < 3 && length > 0; ++c) normal[c] /= length;
 }
 
-/* Do supports leave the node no motion in this direction? */
+/* Do supports leave the node no motion in this direction, or a sliver of it? */
 static PetscBool IsHeld_Private(const Surface *s, PetscInt n, const PetscReal direction[])
 {
   const PetscInt fixed = s->dof[s->dim * n];
@@ -118,16 +116,7 @@ static PetscBool IsHeld_Private(const Surface *s, PetscInt n, const PetscReal di
     for (PetscInt c = 0; c < s->dim; ++c) sum += axis[c] * direction[c];
     if (!((fixed >> d) & 1)) free2 += PetscSqr(sum);
   }
-  return (PetscBool)(free2 < PetscSqr(HELD));
-}
-
-PetscBool ContactHeldAlong_Private(const Surface *s, PetscInt n)
-{
-  PetscReal normal[3];
-
-  NodeNormal_Private(s, n, normal);
-  const PetscReal along[2] = {-normal[1], normal[0]};
-  return IsHeld_Private(s, n, along);
+  return (PetscBool)(free2 < PetscSqr(CONTACT_SLIVER));
 }
 
 PetscInt ContactHeldAxes_Private(const Surface *s, PetscInt n, PetscReal axis[3])
@@ -135,6 +124,10 @@ PetscInt ContactHeldAxes_Private(const Surface *s, PetscInt n, PetscReal axis[3]
   PetscReal normal[3], across[3], *frame = s->frame + 9 * n;
 
   NodeNormal_Private(s, n, normal);
+  if (s->dim == 2) {
+    axis[0] = -normal[1], axis[1] = normal[0], axis[2] = 0;
+    return IsHeld_Private(s, n, axis);
+  }
   for (PetscInt k = 0; k < 6; ++k) { /* the directions of supports, and what lies across those of the dofs */
     const PetscReal *d = frame + 3 * (k % 3), along = Dot3(d, normal);
     PetscReal        t[3], length;
@@ -142,7 +135,7 @@ PetscInt ContactHeldAxes_Private(const Surface *s, PetscInt n, PetscReal axis[3]
     Cross3(normal, d, t);
     for (PetscInt c = 0; c < 3 && k < 3; ++c) t[c] = d[c] - along * normal[c];
     length = PetscSqrtReal(Dot3(t, t));
-    if (!(length > HELD)) continue;
+    if (!(length > CONTACT_SLIVER)) continue;
     for (PetscInt c = 0; c < 3; ++c) axis[c] = t[c] / length;
     if (!IsHeld_Private(s, n, axis)) continue;
     Cross3(normal, axis, across);
@@ -151,15 +144,13 @@ PetscInt ContactHeldAxes_Private(const Surface *s, PetscInt n, PetscReal axis[3]
   return 0;
 }
 
-#define ON_AXIS 1e-8 /* of its extent, from the axis */
-
 /* On the axis int N_j R dR = 0 from order 2 on, but for what the facet is curved: such a node carries nothing (ContactMultiplierCreate). */
 static PetscBool IsWeightless_Private(const Interface p, const Contact *c, PetscInt n, PetscInt facet)
 {
   const Surface *s = &c->side[0];
 
-  if (p->spec->model != MODEL_AXISYMMETRIC || !s->order || s->order[facet] < 2) return PETSC_FALSE;
-  return (PetscBool)(PetscAbsReal(s->X[s->dim * n]) <= ON_AXIS * c->extent[n]);
+  if (p->spec->model != MODEL_AXISYMMETRIC || s->order[facet] < 2) return PETSC_FALSE;
+  return (PetscBool)(PetscAbsReal(s->X[s->dim * n]) <= ROUND_LENGTH * c->extent[n]);
 }
 
 PetscBool ContactIsFree_Private(const Interface p, const Contact *c, PetscInt n, PetscInt axis)
@@ -167,7 +158,7 @@ PetscBool ContactIsFree_Private(const Interface p, const Contact *c, PetscInt n,
   const Surface *s = &c->side[0];
 
   for (PetscInt d = 0; d < s->dim; ++d)
-    if ((s->dof[s->dim * n] >> d) & 1 && PetscAbsReal(s->frame[s->dim * (s->dim * n + d) + axis]) > HELD) return PETSC_FALSE;
+    if ((s->dof[s->dim * n] >> d) & 1 && PetscAbsReal(s->frame[s->dim * (s->dim * n + d) + axis]) > CONTACT_SLIVER) return PETSC_FALSE;
   return (PetscBool)!IsWeightless_Private(p, c, n, s->node_facet[s->node_first[n]]);
 }
 

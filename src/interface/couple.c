@@ -1,8 +1,6 @@
 /* One contact pair on one mesh: multipliers, nodal gaps, activity. */
 #include "interfaceimpl.h"
 
-#define TIED 0.1 /* of the smaller side's extent: what is further apart is not tied; facets of round surfaces are nearer, and refinement changes nothing */
-
 /* Facets evaluated here: those of owned leaves, and those that carry weight to an owned node, so that its owner knows the node's whole row. */
 static PetscErrorCode ListFacets_Private(Interface p, Contact *c)
 {
@@ -24,7 +22,8 @@ static PetscErrorCode ListFacets_Private(Interface p, Contact *c)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Automatic search distance: half of the smaller side's extent; the caller's factor counts in units of the longest edge. */
+/* Automatic search distance: half of the smaller side's extent, of tied sides a tenth: what is further apart is not tied; facets of round surfaces are nearer,
+   and refinement changes nothing. The caller's factor counts in units of the longest edge. */
 static void SearchDistance_Private(Contact *c)
 {
   PetscReal extent[2], longest = 0;
@@ -44,7 +43,7 @@ static void SearchDistance_Private(Contact *c)
     for (PetscInt a = 0; a < s->dim; ++a) square += PetscSqr(hi[a] - lo[a]);
     extent[side] = PetscSqrtReal(square);
   }
-  c->distance = c->spec->search > 0 ? c->spec->search * longest : (c->law->ties ? TIED : 0.5) * PetscMin(extent[0], extent[1]);
+  c->distance = c->spec->search > 0 ? c->spec->search * longest : (c->law->ties ? NEAR : 0.5) * PetscMin(extent[0], extent[1]);
 }
 
 static void View_Private(Contact *c)
@@ -53,8 +52,9 @@ static void View_Private(Contact *c)
   SurfaceView *sv[2] = {&v->nonmortar, &v->mortar};
   for (PetscInt k = 0; k < 2; ++k) {
     const Surface *s = &c->side[k];
-    *sv[k] = (SurfaceView){s->dim,         s->corners,     s->num_nodes, s->num_facets, s->node_entity, s->facets, s->facet_leaf, s->facet_entity, s->hang,
-                           s->hang_master, s->hang_weight, s->X,         s->x,          s->force,       s->owned,  s->order,      s->first,        s->lattice};
+    *sv[k]           = (SurfaceView){s->dim,          s->corners, s->num_nodes,   s->num_facets,  s->node_entity, s->facets, s->facet_leaf,
+                                     s->facet_entity, s->hang,    s->hang_master, s->hang_weight, s->X,           s->x,      s->force,
+                                     s->owned,        s->order,   s->first,       s->lattice,     s->higher};
   }
   v->spec           = c->spec;
   v->num_z          = c->num;
@@ -134,37 +134,20 @@ static PetscErrorCode Subtract_Private(Interface p, Contact *c)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Does either side of a pair have facets of higher order? Then both are given by lattices. */
-static PetscErrorCode IsHigher_Private(Interface p, const ContactSpec *spec, PetscBool *higher)
-{
-  const uint64_t      groups = ((uint64_t)1 << spec->nonmortar) | ((uint64_t)1 << spec->mortar);
-  const ForestTables *t      = p->tables;
-
-  PetscFunctionBegin;
-  *higher = PETSC_FALSE;
-  for (PetscInt f = t->first[t->dim - 1]; f < t->first[t->dim] && !*higher; ++f) {
-    PetscInt order;
-    if (!(t->boundary[f] & groups)) continue;
-    PetscCall(HPSpaceGetOrder(p->space, f, &order));
-    *higher = (PetscBool)(order > 1);
-  }
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 PetscErrorCode ContactCreate_Private(Interface p, const ContactSpec *spec, Contact *c)
 {
   const PetscBool     axisymmetric = (PetscBool)(p->spec->model == MODEL_AXISYMMETRIC);
   const SurfaceFacets own = {.group = spec->nonmortar}, other = {.group = spec->mortar, .colour = spec->part, .face = spec->face};
-  PetscBool           higher;
 
   PetscFunctionBegin;
   PetscCall(PetscMemzero(c, sizeof(*c)));
   c->spec = spec;
   c->law  = ContactLaws[spec->law];
   c->num  = c->law->num_multipliers(p->dim);
-  PetscCall(IsHigher_Private(p, spec, &higher));
-  PetscCall(SurfaceCreate_Private(p, &own, higher, &c->side[0]));
-  PetscCall(SurfaceCreate_Private(p, &other, higher, &c->side[1]));
+  PetscCall(SurfaceCreate_Private(p, &own, &c->side[0]));
+  PetscCall(SurfaceCreate_Private(p, &other, &c->side[1]));
+  const PetscBool higher = (PetscBool)(c->side[0].higher || c->side[1].higher);
+  c->side[0].higher = c->side[1].higher = higher;
   PetscCall(ContactPairCreate(p->dim, axisymmetric, spec, &c->pair));
   for (PetscInt k = 0; k < 2; ++k) PetscCall(HullParts_Private(p, &c->side[k], &c->part[k]));
   PetscReal deepest;
@@ -349,7 +332,7 @@ static PetscErrorCode Near_Private(Interface p, Contact *c, PetscReal pending)
   PetscInt       order = 1; /* extents are those of facets over it */
 
   PetscFunctionBegin;
-  for (PetscInt f = 0; f < s->num_facets && s->order; ++f) order = PetscMax(order, s->order[f]);
+  for (PetscInt f = 0; f < s->num_facets; ++f) order = PetscMax(order, s->order[f]);
   for (PetscInt i = 0; i < c->num_valued; ++i) {
     const PetscInt  j = c->valued_node[i];
     const PetscBool reach =

@@ -115,7 +115,7 @@ PetscErrorCode InterfaceMayFreezeSegmentation(Interface p, PetscBool *yes)
   PetscFunctionBegin;
   *yes = PETSC_FALSE;
   if (p->spec->kinematics == KINEMATICS_SMALL) PetscFunctionReturn(PETSC_SUCCESS);
-  for (PetscInt i = 0; i < p->num_contacts && !mine; ++i) mine = (PetscBool)((p->dim == 2 || p->contacts[i].side[0].order) && Movable_Private(&p->contacts[i]));
+  for (PetscInt i = 0; i < p->num_contacts && !mine; ++i) mine = Movable_Private(&p->contacts[i]);
   PetscCallMPI(MPI_Allreduce(&mine, yes, 1, COMPAT_MPI_BOOL, MPI_LOR, p->comm));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -1,8 +1,6 @@
 /* All contact pairs of one mesh: their life, places of their multipliers, search and evaluation. */
 #include "interfaceimpl.h"
 
-#define MARGIN 0.1 /* of the distance within which facets meet: what they may approach each other before the next search */
-
 PetscErrorCode InterfaceCreate(HPSpace space, Mechanics mechanics, const MechanicsSpec *spec, const int8_t fixed[], PetscInt num, const ContactSpec contacts[],
                                Interface *interface)
 {
@@ -153,7 +151,7 @@ PetscErrorCode InterfaceSearch(Interface p, Vec x, const PetscReal u[], PetscBoo
       SurfacePlace_Private(&c->side[k], u, ContactBase_Private(c, k), c->side[k].x);
     }
     PetscCall(ContactPairGoOn(c->pair, goes_on));
-    PetscCall(ContactSearch_Private(p, c, PETSC_FALSE, MARGIN * c->distance));
+    PetscCall(ContactSearch_Private(p, c, PETSC_FALSE, NEAR * c->distance));
     PetscCall(ContactPairGoOn(c->pair, PETSC_FALSE));
     if (c->spec->self) PetscCall(ContactRoles_Private(p, c, x, u));
   }

@@ -6,10 +6,10 @@
 
 #define COVERED 1e-9 /* share of a node's tributary measure below which it counts as uncovered: forces have faded before (blend.c in contact) */
 
+#define NEAR 0.1     /* of an extent, of a distance: what may meet, or come to meet before the next search */
 #define MOST_REALS 4 /* of a node in one message */
 #define SLACK 1e-10  /* pressure over Young's modulus that is none: what round-off leaves */
 
-#define MOST_MASTERS 8          /* of a hanging vertex of a contact surface of order 1 */
 #define MOST_LATTICE_MASTERS 64 /* of a hanging node of a lattice: two ends that hang on edges themselves, and so on */
 
 /* Values of some nodes of a surface on their way between the ranks that own them and those that use them. */
@@ -88,8 +88,9 @@ typedef struct {
   PetscInt  *facet_entity;       /* [num_facets] */
   PetscInt  *hang, *hang_master; /* [num_nodes+1] offsets, nodes of this surface; empty: does not hang */
   PetscReal *hang_weight;
-  int8_t    *order; /* facets of higher order as in contact.h; NULL: all are of order 1, their nodes the corners */
+  int8_t    *order; /* as in contact.h */
   PetscInt  *first, *lattice;
+  PetscBool  higher;                  /* facets of this side or the other one are of an order above 1 */
   PetscInt  *true_first, *true_node;  /* [num_facets+1] offsets, ascending: nodes of the facet, masters for those that hang, and of lattices that share a
  hanging corner with it: their multiplier functions are made together */
   PetscInt  *node_first, *node_facet; /* [num_nodes+1] offsets: facets that carry weight to the node, those with it as a true node */
@@ -224,24 +225,19 @@ struct _p_Interface {
 };
 
 PetscErrorCode SurfaceFields_Private(Interface, Surface *); /* after the topology */
-/* lattice: nodes of facets of higher order, else their corners only, which must be of order 1. */
 /* Facets of a boundary group, with face (ContactSpec): of one colour. */
 typedef struct {
   PetscInt      group, colour;
   const int8_t *face;
 } SurfaceFacets;
-PetscErrorCode SurfaceCreate_Private(Interface, const SurfaceFacets *, PetscBool lattice, Surface *);
+PetscErrorCode SurfaceCreate_Private(Interface, const SurfaceFacets *, Surface *);
 /* lattice.c: after the corners: nodes on the lattices of the facets, rows of those that hang. */
 PetscErrorCode SurfaceLattice_Private(HPSpace, const ForestTables *, Surface *);
-/* Nodes of a facet: its corners, or its lattice; returns their number. */
+/* Nodes of a facet's lattice; returns their number. */
 static inline PetscInt SurfaceNodes_Private(const Surface *s, PetscInt facet, const PetscInt **nodes)
 {
-  *nodes = s->order ? s->lattice + s->first[facet] : s->facets + s->corners * facet;
-  return s->order ? s->first[facet + 1] - s->first[facet] : s->corners;
-}
-static inline PetscInt SurfaceOrder_Private(const Surface *s, PetscInt facet)
-{
-  return s->order ? s->order[facet] : 0;
+  *nodes = s->lattice + s->first[facet];
+  return s->first[facet + 1] - s->first[facet];
 }
 /* The nodes that a node follows with their weights, itself where it does not hang; returns their number. */
 static inline PetscInt SurfaceRow_Private(const Surface *s, const PetscInt *n, const PetscInt **master, const PetscReal **weight)
@@ -356,9 +352,6 @@ PetscErrorCode TieEvaluate_Private(Interface, Contact *);
 PetscErrorCode TieChange_Private(Interface, Contact *, const PetscReal increment[], PetscReal change[]);
 void           TieForces_Private(Contact *);
 void           TiePoint_Private(const Contact *, PetscInt j, PetscBool lifted, ContactPoint *);
-/* Facets with what they meet: of a tied pair those of all components, one list after the other. */
-PetscInt            ContactNumMet_Private(const Contact *);
-const ContactFacet *ContactMet_Private(const Contact *, PetscInt i);
 /* Node j as its law sees it, and its rows. lifted: with the motion still to come. */
 static inline ContactPoint ContactPoint_Private(const Contact *c, PetscInt j, PetscBool lifted)
 {
@@ -444,9 +437,7 @@ PetscErrorCode ContactNodeScales_Private(Interface, Contact *);
 PetscErrorCode ContactCarriers_Private(Interface, Contact *);
 /* Do supports leave a node of the nonmortar side free along an axis of the coordinates, and has it weight there? Until the rows of the matrix are known. */
 PetscBool ContactIsFree_Private(const Interface, const Contact *, PetscInt node, PetscInt axis);
-/* Two dimensions: does a support hold the node along the surface? Until the rows of the matrix are known. */
-PetscBool ContactHeldAlong_Private(const Surface *, PetscInt node);
-/* Space: the number of directions along the surface in which supports hold the node; of one, axis. */
+/* The number of directions along the surface in which supports hold the node; of one, axis. Until the rows of the matrix are known. */
 PetscInt  ContactHeldAxes_Private(const Surface *, PetscInt node, PetscReal axis[3]);
 PetscReal SurfaceFacetMeasure_Private(const Surface *, PetscInt facet, PetscBool axisymmetric);
 /* slip.c: nothing where the law has no friction. Create: after the multipliers. Keep: before a search; points where slip counts from, if they are not kept yet.

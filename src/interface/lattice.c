@@ -1,4 +1,4 @@
-/* Contact surfaces with facets of higher order: nodes on the Gauss-Lobatto lattices of their facets.
+/* Contact surfaces: nodes on the Gauss-Lobatto lattices of their facets.
 
    A facet's nodes are those of the space on it and on its sides; where a side has a lower order, or hangs, the lattice's nodes in it hang on the side's own.
    All of it follows from the replicated tables of the forest and the orders, so every rank makes the same surface. */
@@ -165,6 +165,7 @@ PetscErrorCode SurfaceLattice_Private(HPSpace space, const ForestTables *t, Surf
     PetscInt q;
     PetscCall(HPSpaceGetOrder(space, s->facet_entity[f], &q));
     s->order[f]     = (int8_t)q;
+    s->higher       = (PetscBool)(s->higher || q > 1);
     s->first[f + 1] = s->first[f] + ElementNumNodes(s->dim - 1, q);
   }
   PetscCall(PetscMalloc1(s->first[s->num_facets], &s->lattice));
@@ -182,7 +183,7 @@ PetscReal SurfacePoint_Private(const Surface *s, PetscInt facet, const PetscReal
   const PetscInt *node, num = SurfaceNodes_Private(s, facet, &node);
   PetscReal       tangent[2][3], normal[3], radius = 0;
 
-  SurfaceTangents_Private(s->dim, SurfaceOrder_Private(s, facet), num, node, x, xi, N, tangent);
+  SurfaceTangents_Private(s->dim, s->order[facet], num, node, x, xi, N, tangent);
   for (PetscInt k = 0; k < num; ++k) radius += N[k] * x[s->dim * node[k]];
   Cross3(tangent[0], tangent[1], normal);
   return PetscSqrtReal(Dot3(normal, normal)) * (axisymmetric ? 2 * PETSC_PI * radius : 1);

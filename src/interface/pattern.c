@@ -20,20 +20,30 @@ static PetscErrorCode Replace_Private(Contact *c, PetscInt offset[], PetscInt li
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Does the facet have a node that takes part in the next linear solve? */
-static PetscBool Enters_Private(const Contact *c, const ContactFacet *e)
+enum { LISTS = 2 + MOST_MULTIPLIERS }; /* of facets: contact, slip, each component of a tied pair */
+
+/* What a facet of this list meets, NULL: nothing, or nothing that takes part in the next linear solve. */
+static const ContactFacet *Met_Private(const Contact *c, PetscInt list, PetscInt facet)
 {
-  for (PetscInt k = 0; k < e->num_rows; ++k) {
-    if (c->near[e->nodes[k]]) return PETSC_TRUE;
+  const PetscInt      k = list - 2, *result = list == 0              ? c->result
+                                              : list == 1            ? (c->slip ? c->slip->result : NULL)
+                                              : c->tie && k < c->num ? c->tie->result[k]
+                                                                     : NULL;
+  const ContactFacet *e;
+
+  if (!result || result[facet] < 0) return NULL;
+  e = list == 0 ? &c->facets[result[facet]] : list == 1 ? &c->slip->facets[result[facet]] : &c->tie->facets[k][result[facet]].facet;
+  for (PetscInt i = 0; i < e->num_rows; ++i) {
+    if (c->near[e->nodes[i]]) return e;
   }
-  return PETSC_FALSE;
+  return NULL;
 }
 
 static PetscBool Holds_Private(const Contact *c)
 {
-  for (PetscInt i = 0; i < ContactNumMet_Private(c); ++i) {
-    const ContactFacet *e = ContactMet_Private(c, i);
-    if (!Enters_Private(c, e)) continue;
+  for (PetscInt i = 0; i < LISTS * c->side[0].num_facets; ++i) {
+    const ContactFacet *e = Met_Private(c, i % LISTS, i / LISTS);
+    if (!e) continue;
     if (!c->pattern_offset) return PETSC_FALSE;
     const PetscInt *list = c->pattern + c->pattern_offset[e->facet], num = c->pattern_offset[e->facet + 1] - c->pattern_offset[e->facet];
     for (PetscInt a = 0; a < e->num; ++a) {
@@ -55,41 +65,15 @@ static PetscErrorCode Append_Private(PetscInt **list, PetscInt *num, PetscInt *s
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The node next to n along a curve, through its edge on the given side (0: before, 1: after); -1 at an end. */
-static PetscInt Neighbour_Private(const Surface *s, PetscInt n, PetscInt which)
-{
-  for (PetscInt k = s->node_first[n]; k < s->node_first[n + 1]; ++k) {
-    const PetscInt *edge = s->facets + 2 * s->node_facet[k];
-    if (edge[1 - which] == n) return edge[which];
-  }
-  return -1;
-}
-
-/* Facets of higher order, two dimensions: all nodes of the facets at the node. */
-static PetscErrorCode AppendFacets_Private(const Surface *s, PetscInt node, PetscInt **list, PetscInt *num, PetscInt *size, PetscInt from)
-{
-  PetscFunctionBegin;
-  for (PetscInt k = s->node_first[node]; k < s->node_first[node + 1]; ++k) {
-    const PetscInt facet = s->node_facet[k];
-    for (PetscInt i = s->first[facet]; i < s->first[facet + 1]; ++i) PetscCall(Append_Private(list, num, size, from, ~s->lattice[i]));
-  }
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* Two dimensions: also its neighbours along the curve. In three dimensions the ring of neighbours would cost more in the factors than a new pattern now and
- * then. */
+/* In the plane also all nodes of the facets at the node, and (depth 2) of those at these. In three dimensions the ring of neighbours would cost more in the
+   factors than a new pattern now and then. */
 static PetscErrorCode AppendAround_Private(const Surface *s, PetscInt node, PetscInt depth, PetscInt **list, PetscInt *num, PetscInt *size, PetscInt from)
 {
   PetscFunctionBegin;
   PetscCall(Append_Private(list, num, size, from, ~node));
-  if (s->dim == 3) PetscFunctionReturn(PETSC_SUCCESS);
-  if (s->order) {
-    PetscCall(AppendFacets_Private(s, node, list, num, size, from));
-    PetscFunctionReturn(PETSC_SUCCESS);
-  }
-  for (PetscInt which = 0; which < 2; ++which) {
-    for (PetscInt k = 0, n = Neighbour_Private(s, node, which); k < depth && n >= 0; ++k, n = Neighbour_Private(s, n, which))
-      PetscCall(Append_Private(list, num, size, from, ~n));
+  for (PetscInt k = s->node_first[node]; k < s->node_first[node + 1] && s->dim == 2 && depth; ++k) {
+    const PetscInt facet = s->node_facet[k];
+    for (PetscInt i = s->first[facet]; i < s->first[facet + 1]; ++i) PetscCall(AppendAround_Private(s, s->lattice[i], depth - 1, list, num, size, from));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -97,12 +81,11 @@ static PetscErrorCode AppendAround_Private(const Surface *s, PetscInt node, Pets
 static PetscErrorCode AppendMet_Private(const Contact *c, const ContactFacet *e, PetscInt **list, PetscInt *num, PetscInt *size, PetscInt from)
 {
   PetscFunctionBegin;
-  if (!Enters_Private(c, e)) PetscFunctionReturn(PETSC_SUCCESS);
   for (PetscInt a = 0; a < e->num; ++a) {
     if (!NODE_SIDE(e->nodes[a]))
       PetscCall(Append_Private(list, num, size, from, e->nodes[a]));
     else
-      PetscCall(AppendAround_Private(&c->side[1], NODE_INDEX(e->nodes[a]), 2, list, num, size, from));
+      PetscCall(AppendAround_Private(&c->side[1], NODE_INDEX(e->nodes[a]), c->side[1].higher ? 1 : 2, list, num, size, from));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -120,10 +103,10 @@ static PetscErrorCode Grow_Private(Contact *c)
       for (PetscInt k = c->pattern_offset[edge]; k < c->pattern_offset[edge + 1]; ++k)
         PetscCall(Append_Private(&list, &num, &size, offset[edge], c->pattern[k]));
     }
-    if (c->result[edge] >= 0) PetscCall(AppendMet_Private(c, &c->facets[c->result[edge]], &list, &num, &size, offset[edge]));
-    for (PetscInt k = 0; c->tie && k < c->num; ++k)
-      if (c->tie->result[k][edge] >= 0) PetscCall(AppendMet_Private(c, &c->tie->facets[k][c->tie->result[k][edge]].facet, &list, &num, &size, offset[edge]));
-    if (c->slip && c->slip->result[edge] >= 0) PetscCall(AppendMet_Private(c, &c->slip->facets[c->slip->result[edge]], &list, &num, &size, offset[edge]));
+    for (PetscInt l = 0; l < LISTS; ++l) {
+      const ContactFacet *e = Met_Private(c, l, edge);
+      if (e) PetscCall(AppendMet_Private(c, e, &list, &num, &size, offset[edge]));
+    }
   }
   offset[ne] = num;
   PetscCall(Replace_Private(c, offset, list));

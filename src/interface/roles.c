@@ -82,7 +82,7 @@ static PetscReal Gap_Private(const Contact *c, const ContactSegment *e)
     PetscReal       xi[2] = {0, 0};
     for (PetscInt i = 0; i < e->num; ++i)
       for (PetscInt d = 0; d < dim - 1; ++d) xi[d] += (k ? e->eta : e->xi)[i][d] / (PetscReal)e->num;
-    SurfaceShape(dim, SurfaceOrder_Private(s, facet[k]), xi, N, NULL);
+    SurfaceShape(dim, s->order[facet[k]], xi, N, NULL);
     for (PetscInt i = 0; i < num; ++i)
       for (PetscInt d = 0; d < dim; ++d) x[k][d] += N[i] * s->x[dim * node[i] + d];
   }

@@ -1,27 +1,10 @@
 /* Functions of a contact facet's nodes. */
 #include "interface.h"
 
-static const PetscReal Corner[4][2] = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
-
-static void Hats_Private(PetscInt dim, const PetscReal xi[], PetscReal N[], PetscReal dN[][2])
-{
-  for (PetscInt k = 0; k < (dim == 2 ? 2 : 4); ++k) {
-    const PetscReal a = 0.5 * (1 + Corner[k][0] * xi[0]), b = dim == 2 ? 1 : 0.5 * (1 + Corner[k][1] * xi[1]);
-    N[k] = a * b;
-    if (!dN) continue;
-    dN[k][0] = 0.5 * Corner[k][0] * b;
-    dN[k][1] = dim == 2 ? 0 : 0.5 * Corner[k][1] * a;
-  }
-}
-
 void SurfaceShape(PetscInt dim, PetscInt order, const PetscReal xi[], PetscReal N[], PetscReal dN[][2])
 {
   PetscReal L[2][MORTISE_MAX_ORDER + 1] = {{0}, {1}}, D[2][MORTISE_MAX_ORDER + 1] = {{0}, {0}};
 
-  if (order == 0) {
-    Hats_Private(dim, xi, N, dN);
-    return;
-  }
   for (PetscInt a = 0; a < dim - 1; ++a) PetscCallAbort(PETSC_COMM_SELF, ElementEvaluate1D(order, 0.5 * (1 + xi[a]), L[a], dN ? D[a] : NULL));
   for (PetscInt k = 0; k < ElementNumNodes(dim - 1, order); ++k) {
     const PetscInt i = k % (order + 1), j = k / (order + 1);
@@ -51,5 +34,5 @@ void SurfaceTangents(const SurfaceView *s, PetscInt facet, const PetscReal x[], 
   const PetscInt *node, num = SurfaceFacetNodes(s, facet, &node);
   PetscReal       N[SURFACE_MOST_NODES];
 
-  SurfaceTangents_Private(s->dim, SurfaceFacetOrder(s, facet), num, node, x, xi, N, tangent);
+  SurfaceTangents_Private(s->dim, s->order[facet], num, node, x, xi, N, tangent);
 }

@@ -46,7 +46,7 @@ static PetscErrorCode Held_Private(Interface p, Contact *c)
 
     if (s->hang[n] < s->hang[n + 1]) continue; /* it has no facets, and its masters' tractions */
     const PetscBool rigid = p->spec->bodies[t->leaf_body[s->facet_leaf[s->node_facet[s->node_first[n]]]]].material->law->rigid;
-    if (!rigid) num = p->dim == 3 ? ContactHeldAxes_Private(s, n, axis) : (PetscInt)ContactHeldAlong_Private(s, n);
+    if (!rigid) num = ContactHeldAxes_Private(s, n, axis);
     const PetscInt planes = num ? PetscMin(num, SharedPlanes_Private(c, n, normal)) : 0;
     c->slip->held[n]      = num;
     c->slip->plane[n]     = planes;

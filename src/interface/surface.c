@@ -93,84 +93,6 @@ static PetscErrorCode SurfaceTopology_Private(const ForestTables *t, const Surfa
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Masters of a vertex that hangs on an edge: its ends with half of each, resolved until none hangs. Order 1. */
-static PetscErrorCode AddMasters_Private(const ForestTables *t, PetscInt vertex, PetscReal weight, PetscInt *num, PetscInt master[], PetscReal share[])
-{
-  const PetscInt parent = t->parent[vertex];
-
-  PetscFunctionBegin;
-  if (parent >= 0) {
-    const PetscInt *cl = t->closure + t->closure_offset[parent];
-    PetscCheck(parent < t->first[2], PETSC_COMM_SELF, PETSC_ERR_PLIB, "vertex of a contact surface hangs inside a face");
-    PetscCall(AddMasters_Private(t, cl[0], 0.5 * weight, num, master, share));
-    PetscCall(AddMasters_Private(t, cl[2], 0.5 * weight, num, master, share));
-    PetscFunctionReturn(PETSC_SUCCESS);
-  }
-  for (PetscInt k = 0; k < *num; ++k) {
-    if (master[k] != vertex) continue;
-    share[k] += weight;
-    PetscFunctionReturn(PETSC_SUCCESS);
-  }
-  PetscCheck(*num < MOST_MASTERS, PETSC_COMM_SELF, PETSC_ERR_PLIB, "hanging vertex with more than %d masters", MOST_MASTERS);
-  master[*num]    = vertex;
-  share[(*num)++] = weight;
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-static PetscErrorCode SurfaceHanging_Private(const ForestTables *t, Surface *s)
-{
-  PetscInt *number, num = 0, room = MOST_MASTERS * s->num_nodes;
-
-  PetscFunctionBegin;
-  PetscCall(PetscCalloc1(s->num_nodes + 1, &s->hang));
-  if (s->dim == 2) PetscFunctionReturn(PETSC_SUCCESS); /* a vertex of a curve hangs on nothing */
-  PetscCall(PetscMalloc2(room, &s->hang_master, room, &s->hang_weight));
-  PetscCall(PetscMalloc1(t->first[1], &number));
-  for (PetscInt v = 0; v < t->first[1]; ++v) number[v] = -1;
-  for (PetscInt n = 0; n < s->num_nodes; ++n) number[s->node_entity[n]] = n;
-  for (PetscInt n = 0; n < s->num_nodes; ++n) {
-    PetscInt count = 0;
-    if (t->parent[s->node_entity[n]] >= 0) PetscCall(AddMasters_Private(t, s->node_entity[n], 1, &count, s->hang_master + num, s->hang_weight + num));
-    for (PetscInt k = num; k < num + count; ++k) {
-      s->hang_master[k] = number[s->hang_master[k]];
-      PetscCheck(s->hang_master[k] >= 0, PETSC_COMM_SELF, PETSC_ERR_PLIB, "a vertex of a contact surface hangs on one outside of it");
-    }
-    num += count;
-    s->hang[n + 1] = num;
-  }
-  PetscCall(PetscFree(number));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* Facets whose multiplier functions are made together: those that share a hanging corner (macro dual functions), else each is alone. next[f]: the facet
-   after f in its group, round. */
-static PetscErrorCode Groups_Private(const Surface *s, PetscInt next[])
-{
-  PetscInt *group, *at;
-
-  PetscFunctionBegin;
-  for (PetscInt f = 0; f < s->num_facets; ++f) next[f] = f;
-  if (s->dim == 2) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(PetscMalloc2(s->num_facets, &group, s->num_nodes, &at));
-  for (PetscInt f = 0; f < s->num_facets; ++f) group[f] = f;
-  for (PetscInt n = 0; n < s->num_nodes; ++n) at[n] = -1;
-  for (PetscInt i = 0; i < s->corners * s->num_facets; ++i) {
-    const PetscInt n = s->facets[i], facet = i / s->corners;
-    if (s->hang[n] == s->hang[n + 1]) continue;
-    if (at[n] < 0) at[n] = facet;
-    const PetscInt a = GroupRoot(group, at[n]), b = GroupRoot(group, facet);
-    group[PetscMax(a, b)] = PetscMin(a, b);
-  }
-  for (PetscInt f = 0; f < s->num_facets; ++f) { /* into the ring of its root */
-    const PetscInt root = GroupRoot(group, f);
-    if (root == f) continue;
-    next[f]    = next[root];
-    next[root] = f;
-  }
-  PetscCall(PetscFree2(group, at));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 /* Append the nodes of a facet, hanging ones replaced by their masters. */
 static PetscErrorCode AddNodes_Private(const Surface *s, PetscInt facet, PetscInt *count, PetscInt *size, PetscInt **nodes)
 {
@@ -194,11 +116,16 @@ static PetscErrorCode AddNodes_Private(const Surface *s, PetscInt facet, PetscIn
 /* Nodes that carry each facet's shape or its multiplier functions, ascending. */
 static PetscErrorCode SurfaceTrue_Private(Surface *s)
 {
-  PetscInt *nodes = NULL, *next, num = 0, room = 0, size = 0;
+  const ContactSurface own   = SurfaceAt_Private(s, s->X);
+  PetscInt            *nodes = NULL, *root, *next, num = 0, room = 0, size = 0; /* next: the facet after one in its group, round */
 
   PetscFunctionBegin;
-  PetscCall(PetscMalloc1(s->num_facets, &next));
-  PetscCall(Groups_Private(s, next));
+  PetscCall(PetscMalloc2(s->num_facets, &root, s->num_facets, &next));
+  PetscCall(ContactFacetGroups(&own, root));
+  for (PetscInt f = 0; f < s->num_facets; ++f) {
+    next[f] = root[f] == f ? f : next[root[f]];
+    if (root[f] != f) next[root[f]] = f;
+  }
   PetscCall(PetscCalloc1(s->num_facets + 1, &s->true_first));
   for (PetscInt f = 0; f < s->num_facets; ++f) {
     PetscInt count = 0;
@@ -213,7 +140,7 @@ static PetscErrorCode SurfaceTrue_Private(Surface *s)
     s->true_first[f + 1] = num += count;
   }
   PetscCall(PetscFree(nodes));
-  PetscCall(PetscFree(next));
+  PetscCall(PetscFree2(root, next));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -256,17 +183,14 @@ static PetscErrorCode Rim_Private(const ForestTables *t, const SurfaceFacets *of
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SurfaceCreate_Private(Interface p, const SurfaceFacets *of, PetscBool lattice, Surface *s)
+PetscErrorCode SurfaceCreate_Private(Interface p, const SurfaceFacets *of, Surface *s)
 {
   const ForestTables *t = p->tables;
 
   PetscFunctionBegin;
   PetscCall(PetscMemzero(s, sizeof(*s)));
   PetscCall(SurfaceTopology_Private(t, of, s));
-  if (lattice)
-    PetscCall(SurfaceLattice_Private(p->space, t, s));
-  else
-    PetscCall(SurfaceHanging_Private(t, s));
+  PetscCall(SurfaceLattice_Private(p->space, t, s));
   PetscCall(SurfaceTrue_Private(s));
   PetscCall(SurfaceNeighbours_Private(s));
   PetscCall(SurfaceFields_Private(p, s));

@@ -144,7 +144,7 @@ PetscErrorCode SurfaceFields_Private(Interface p, Surface *s)
     PetscCall(PetscArraycpy(s->frame + dim * dim * n, buffer + room * n + dim, dim * dim));
     for (PetscInt c = 0; c < dim; ++c) s->dof[dim * n + c] = (PetscInt)buffer[room * n + room - 1]; /* the fixed bits, until the indices are known */
   }
-  if (s->order) SurfaceFollow_Private(s, dim, s->X); /* not all of them are nodes of the space */
+  if (s->higher) SurfaceFollow_Private(s, dim, s->X); /* not all of them are nodes of the space */
   for (PetscInt n = 0; n < s->num_nodes; ++n) {
     if (dim == 2) NodeMirror_Private(s, n, s->dof[2 * n]);
     if (dim == 3) NodeMirrors_Private(s, n, s->dof[3 * n]);

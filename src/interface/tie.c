@@ -422,22 +422,3 @@ void TieForces_Private(Contact *c)
       }
     }
 }
-
-PetscInt ContactNumMet_Private(const Contact *c)
-{
-  PetscInt num = c->num_facets;
-
-  for (PetscInt k = 0; c->tie && k < c->num; ++k) num += c->tie->num_facets[k];
-  return num + (c->slip ? c->slip->num_facets : 0);
-}
-
-const ContactFacet *ContactMet_Private(const Contact *c, PetscInt i)
-{
-  if (i < c->num_facets) return &c->facets[i];
-  i -= c->num_facets;
-  for (PetscInt k = 0; c->tie && k < c->num; ++k) {
-    if (i < c->tie->num_facets[k]) return &c->tie->facets[k][i].facet;
-    i -= c->tie->num_facets[k];
-  }
-  return &c->slip->facets[i];
-}

@@ -32,15 +32,10 @@ static PetscInt Interval_Private(PetscInt order, PetscReal s, PetscReal *place)
    and their nodes. */
 static void FacetHats_Private(const SurfaceView *s, PetscInt facet, const PetscReal xi[], PetscReal N[4], PetscInt node[4])
 {
-  const PetscInt q      = SurfaceFacetOrder(s, facet);
+  const PetscInt q      = s->order[facet];
   PetscInt       low[2] = {0, 0};
   PetscReal      at[2]  = {0, 0};
 
-  if (q == 0) {
-    SurfaceShape(s->dim, 0, xi, N, NULL);
-    for (PetscInt k = 0; k < s->corners; ++k) node[k] = s->facets[s->corners * facet + k];
-    return;
-  }
   for (PetscInt a = 0; a < s->dim - 1; ++a) low[a] = Interval_Private(q, 0.5 * (1 + xi[a]), &at[a]);
   for (PetscInt k = 0; k < s->corners; ++k) {
     N[k]    = ((k & 1) ? at[0] : 1 - at[0]) * ((k & 2) ? at[1] : 1 - at[1]);
@@ -53,7 +48,7 @@ void OutputFacetPoint(const SurfaceView *s, const PetscReal x[], PetscInt facet,
   const PetscInt *node, num = SurfaceFacetNodes(s, facet, &node);
   PetscReal       N[SURFACE_MOST_NODES];
 
-  SurfaceShape(s->dim, SurfaceFacetOrder(s, facet), xi, N, NULL);
+  SurfaceShape(s->dim, s->order[facet], xi, N, NULL);
   for (PetscInt c = 0; c < 3; ++c) {
     point[c] = 0;
     for (PetscInt k = 0; k < num && c < s->dim; ++k) point[c] += N[k] * x[s->dim * node[k] + c];
@@ -64,7 +59,7 @@ void OutputFacetNormal(const SurfaceView *s, const PetscReal x[], PetscInt facet
 {
   PetscReal tangent[2][3], length;
 
-  if (s->order) {
+  if (s->higher) {
     SurfaceTangents(s, facet, x, xi, tangent);
     Cross3(tangent[0], tangent[1], normal);
   } else
@@ -121,7 +116,7 @@ void OutputContactFields(const ContactView *v, ContactFields *f)
 /* Pieces along a segment, of which each has points of its own: facets of higher order are seen as pieces between nodes. */
 static PetscInt Pieces_Private(const ContactView *v, const ContactSegment *s)
 {
-  return PetscMax(1, PetscMax(SurfaceFacetOrder(&v->nonmortar, s->facet), SurfaceFacetOrder(&v->mortar, s->mortar_facet)));
+  return PetscMax(v->nonmortar.order[s->facet], v->mortar.order[s->mortar_facet]);
 }
 
 /* Two dimensions: the two Gauss points of each piece of a segment. A hit of node-to-segment contact is a point and counts as 1. */

@@ -15,7 +15,7 @@ typedef struct {
 /* Facets of higher order are cut at their nodes. */
 static PetscInt Pieces_Private(const SurfaceView *s, PetscInt facet)
 {
-  const PetscInt q = s->order ? s->order[facet] : 1;
+  const PetscInt q = s->order[facet];
   return s->dim == 2 ? q : q * q;
 }
 
@@ -30,10 +30,8 @@ static PetscInt AllPieces_Private(const SurfaceView *s)
 /* Corner k, lexicographic, of a piece of a facet. */
 static PetscInt PieceCorner_Private(const SurfaceView *s, PetscInt facet, PetscInt piece, PetscInt k)
 {
-  static const PetscInt around[4] = {0, 1, 3, 2};
-
-  if (!s->order) return s->facets[s->corners * facet + around[k]];
   const PetscInt q = s->order[facet];
+
   return s->lattice[s->first[facet] + piece % q + k % 2 + (q + 1) * (piece / q + k / 2)];
 }
 
@@ -62,7 +60,7 @@ static PetscInt AppendSurface_Private(ContactGrid *g, const SurfaceView *s, Pets
 /* Place of node k of a facet, in [-1, 1]. */
 static PetscErrorCode NodePlace_Private(const SurfaceView *s, PetscInt facet, PetscInt k, PetscReal xi[2])
 {
-  const PetscInt   q = s->order ? s->order[facet] : 1;
+  const PetscInt   q = s->order[facet];
   const PetscReal *nodes;
 
   PetscFunctionBegin;

@@ -5,11 +5,9 @@
 /* A factor as preconditioner: with less than this, nodes at the edge of contact switch wrongly, and a slide that needs no cut is cut. */
 #define REFINE_RTOL 1e-10
 #define REFINEMENTS 20   /* triangular solves worth less than a factorisation in three dimensions */
-#define LARGE 20000      /* unknowns from which single precision pays */
 #define FRESH_RTOL 1e-12 /* with the factor of the very matrix: nearly what one in double gives, for an iteration more */
 #define FORCING 0.01     /* of the relative residual of Newton's method: to what GMRES goes */
 #define TRUE_RTOL 1e-8   /* what round-off may leave */
-#define EARLY 6          /* after which a residual that falls too slowly shows */
 
 /* What factorises the tangent, in the precision that serves. */
 static PetscErrorCode Kind_Private(Solver s, PC pc)
@@ -39,7 +37,7 @@ static PetscErrorCode UseSingle_Private(Solver s)
   PetscCheckInput(s->factor != FACTOR_SINGLE || !(type || package), "-solve_factor single and -pc_type or -pc_factor_mat_solver_type exclude each other");
   PetscCall(ProblemGetBlocks(s->problem, &num_u, &num_z, &dim));
   PetscCall(ProblemNumDofs(s->problem, &dofs));
-  s->single = (PetscBool)(s->factor == FACTOR_AUTO && dim == 3 && dofs >= LARGE && SingleFactorExists_Private() && !type && !package);
+  s->single = (PetscBool)(s->factor == FACTOR_AUTO && dim == 3 && dofs >= SOLVER_LARGE && SingleFactorExists_Private() && !type && !package);
   if (s->factor == FACTOR_SINGLE) s->single = PETSC_TRUE;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -123,6 +121,7 @@ static PetscErrorCode Factor_Private(Solver s, Mat A)
   PC             pc;
 
   PetscFunctionBegin;
+  PetscCall(StageBegin(STAGE_FACTOR));
   ++s->report->factorisations;
   PetscCall(SNESGetKSP(s->snes, &ksp));
   PetscCall(KSPSetOperators(ksp, A, A));
@@ -141,6 +140,7 @@ static PetscErrorCode Factor_Private(Solver s, Mat A)
 #endif
   s->no_memory = (PetscBool)(failed == PC_FACTOR_OUTMEMORY);
   PetscCall(SolverInertia_Private(s, pc));
+  PetscCall(StageEnd(STAGE_FACTOR));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -157,9 +157,11 @@ static PetscErrorCode Solve_Private(Solver s, Vec rhs, Vec x, PetscBool *ok)
 
   PetscFunctionBegin;
   PetscCall(SNESGetKSP(s->snes, &ksp));
+  PetscCall(StageBegin(STAGE_SOLVE));
   PetscCall(ErrorForesee("MUMPS in solve"));
   code = KSPSolve(ksp, rhs, x);
   PetscCall(ErrorForeseen(code, &failed));
+  PetscCall(StageEnd(STAGE_SOLVE));
   *ok = PETSC_FALSE;
   if (failed) {
     PetscCall(PetscInfo(s->snes, "MUMPS failed in the solve\n"));
@@ -177,7 +179,7 @@ static PetscErrorCode Solve_Private(Solver s, Vec rhs, Vec x, PetscBool *ok)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The residual has to fall by rtol; one that is not a quarter of the way there, in decades, after the first few iterations will not get there. */
+/* The residual has to fall by rtol; one that is not a quarter of the way there, in decades, after a quarter of the iterations will not get there. */
 static PetscErrorCode Converged_Private(KSP ksp, PetscInt it, PetscReal norm, KSPConvergedReason *reason, void *context)
 {
   Solver    s = (Solver)context;
@@ -191,7 +193,7 @@ static PetscErrorCode Converged_Private(KSP ksp, PetscInt it, PetscReal norm, KS
     *reason = KSP_DIVERGED_NANORINF;
   else if (norm <= rtol * s->refine_first)
     *reason = KSP_CONVERGED_RTOL;
-  else if (it == EARLY && norm > PetscPowReal(rtol, 0.25) * s->refine_first)
+  else if (it == REFINEMENTS / 4 && norm > PetscPowReal(rtol, 0.25) * s->refine_first)
     *reason = KSP_DIVERGED_ITS;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -223,6 +225,7 @@ static PetscErrorCode Refine_Private(Solver s, Mat A, Vec rhs, PetscReal rtol, V
   PC                 pc;
 
   PetscFunctionBegin;
+  PetscCall(StageBegin(STAGE_SOLVE));
   PetscCall(SNESGetKSP(s->snes, &ksp));
   PetscCall(KSPGetPC(ksp, &pc));
   if (!s->refine) {
@@ -241,6 +244,7 @@ static PetscErrorCode Refine_Private(Solver s, Mat A, Vec rhs, PetscReal rtol, V
   PetscCall(PCSetReusePreconditioner(pc, PETSC_FALSE));
   *ok = (PetscBool)(reason > 0);
   if (*ok) PetscCall(IsSolution_Private(A, rhs, x, TRUE_RTOL, ok));
+  PetscCall(StageEnd(STAGE_SOLVE));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -255,12 +259,8 @@ static PetscErrorCode Direct_Private(Solver s, Mat A, Vec rhs, Vec x, PetscBool 
   if (!*ok) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SNESGetKSP(s->snes, &ksp));
   if (s->single) {
-    PetscCall(StageBegin(STAGE_FACTOR));
     PetscCall(Factor_Private(s, A));
-    PetscCall(StageEnd(STAGE_FACTOR));
-    PetscCall(StageBegin(STAGE_SOLVE));
     PetscCall(Refine_Private(s, A, rhs, FRESH_RTOL, x, ok));
-    PetscCall(StageEnd(STAGE_SOLVE));
     if (*ok) PetscFunctionReturn(PETSC_SUCCESS);
     PetscCall(PetscInfo(s->snes, "a factor in single precision does not serve: double from here on\n"));
     ++s->report->single_failures;
@@ -269,12 +269,8 @@ static PetscErrorCode Direct_Private(Solver s, Mat A, Vec rhs, Vec x, PetscBool 
     PetscCall(Kind_Private(s, pc));
     PetscCall(PCSetFromOptions(pc));
   }
-  PetscCall(StageBegin(STAGE_FACTOR));
   PetscCall(Factor_Private(s, A));
-  PetscCall(StageEnd(STAGE_FACTOR));
-  PetscCall(StageBegin(STAGE_SOLVE));
   PetscCall(Solve_Private(s, rhs, x, ok));
-  PetscCall(StageEnd(STAGE_SOLVE));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -306,9 +302,7 @@ PetscErrorCode SolverMatrixSolve_Private(Solver s, Vec rhs, PetscBool again)
     PetscCall(PetscInfo(s->snes, "multigrid failed: factorising\n"));
   }
   if (s->factored) {
-    PetscCall(StageBegin(STAGE_SOLVE));
     PetscCall(Refine_Private(s, A, rhs, PetscMin(REFINE_RTOL, Forcing_Private(s)), s->y, &ok));
-    PetscCall(StageEnd(STAGE_SOLVE));
     if (ok) PetscFunctionReturn(PETSC_SUCCESS);
   }
   PetscCall(Direct_Private(s, A, rhs, s->y, &ok));

@@ -3,8 +3,6 @@
    order have one level above it, with a symmetric sweep of Gauss-Seidel before and after; cells of order 1 need none, P only completes the blocks. */
 #include "solveimpl.h"
 
-#define SMALL 20000 /* unknowns of order 1 below which a factorisation is cheaper than a hierarchy */
-
 struct _p_Multigrid {
   KSP          coarse, smoother; /* smoother NULL: order 1 */
   Mat          A, P, pinned, A1; /* A borrowed */
@@ -102,7 +100,7 @@ static PetscErrorCode Coarse_Private(Multigrid m, MultigridKind kind)
   PetscCall(MatGetSize(m->P, NULL, &size));
   if (kind == MULTIGRID_BOOMERAMG)
     PetscCall(BoomerAMG_Private(m, pc));
-  else if (kind == MULTIGRID_GAMG || !m->smoother || size > SMALL)
+  else if (kind == MULTIGRID_GAMG || !m->smoother || size > SOLVER_LARGE)
     PetscCall(PCSetType(pc, PCGAMG));
   else {
     PetscCall(PCSetType(pc, PCCHOLESKY));

@@ -2,6 +2,8 @@
 #pragma once
 #include "solve.h"
 
+#define SOLVER_LARGE 20000 /* unknowns in space from which a factor in double is not the cheapest: one in single, or of order 1 a hierarchy */
+
 typedef enum { MODIFIER_AUTO, MODIFIER_ON, MODIFIER_OFF } ModifierMode;
 
 typedef struct _p_Saddle    *Saddle;

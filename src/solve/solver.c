@@ -5,10 +5,6 @@
 #define MANY 100000
 #define MANY_HIGHER 150000
 
-/* Orders from which condensation pays (docs/results.md). */
-#define CONDENSE_2D 3
-#define CONDENSE_3D 4
-
 static PetscErrorCode Function_Private(SNES snes, Vec x, Vec r, void *context)
 {
   Solver s = (Solver)context;
@@ -149,8 +145,8 @@ static PetscErrorCode Condense_Private(Solver s)
   PetscCheckInput(!s->test || s->condense != CONDENSE_YES, "-solve_condense yes: not with -snes_test_jacobian, which needs the whole matrix");
   PetscCall(ProblemGetBlocks(s->problem, &num_u, &num_z, &dim));
   PetscCall(Highest_Private(s->problem, &order));
-  yes = (PetscBool)(s->condense == CONDENSE_YES ||
-                    (s->condense == CONDENSE_AUTO && !directional && !incompressible && !unsymmetric && order >= (dim == 3 ? CONDENSE_3D : CONDENSE_2D)));
+  yes = (PetscBool)(s->condense == CONDENSE_YES || (s->condense == CONDENSE_AUTO && !directional && !incompressible && !unsymmetric &&
+                                                    order > dim)); /* from there on it pays (docs/results.md) */
   if (yes && !whole) PetscCall(ProblemSetCondense(s->problem));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

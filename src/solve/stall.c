@@ -2,8 +2,7 @@
    for the iteration limit. */
 #include "solveimpl.h"
 
-#define STALLED 7  /* iterations without a new least residual */
-#define HALVINGS 8 /* of steps that left the domain, in one solve */
+#define STALLED 7 /* iterations without a new least residual; more halvings of steps that left the domain */
 
 static PetscErrorCode Begin_Private(Solver s)
 {
@@ -21,7 +20,7 @@ static PetscErrorCode Verdict_Private(Solver s, Iterate *it, PetscBool always, P
     s->best_norm = it->norm;
     s->best_iter = it->number;
   }
-  *acts = (PetscBool)(it->number - s->best_iter >= STALLED || s->halvings >= HALVINGS);
+  *acts = (PetscBool)(it->number - s->best_iter >= STALLED || s->halvings > STALLED);
   if (!*acts) PetscFunctionReturn(PETSC_SUCCESS);
   it->trouble = "Newton stalls";
   it->reason  = SNES_DIVERGED_LINE_SEARCH;

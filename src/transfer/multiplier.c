@@ -82,9 +82,8 @@ static PetscBool NodeValue_Private(const SurfaceView *s, const PetscReal z[], co
 /* Steps along the sides of a facet, or the pieces of its lattice, between two of its nodes. */
 static PetscInt Steps_Private(const SurfaceView *s, PetscInt facet, PetscInt a, PetscInt b)
 {
-  const PetscInt n = s->corners, q = SurfaceFacetOrder(s, facet);
+  const PetscInt q = s->order[facet];
 
-  if (q == 0) return (b - a + n) % n == n / 2 && n == 4 ? 2 : a != b;
   return PetscAbsInt(a % (q + 1) - b % (q + 1)) + PetscAbsInt(a / (q + 1) - b / (q + 1));
 }
 
@@ -122,7 +121,7 @@ static PetscErrorCode FacetValue_Private(const ForestTables *t, const SurfaceVie
   PetscCall(Frame_Private(t, s, facet, frame));
   *found = Locate_Private(t->dim, frame, at, xi);
   if (!*found) PetscFunctionReturn(PETSC_SUCCESS);
-  SurfaceShape(s->dim, SurfaceFacetOrder(s, facet), xi, N, NULL);
+  SurfaceShape(s->dim, s->order[facet], xi, N, NULL);
   FacetValues_Private(s, z, has_multiplier, facet, own);
   *value = 0;
   for (PetscInt k = 0; k < num; ++k) *value += N[k] * own[k];
@@ -132,15 +131,11 @@ static PetscErrorCode FacetValue_Private(const ForestTables *t, const SurfaceVie
 /* Root coordinates of node k of a facet. */
 static PetscErrorCode NodePlace_Private(const ForestTables *t, const SurfaceView *s, PetscInt facet, PetscInt k, PetscReal at[3])
 {
-  const PetscInt   q = SurfaceFacetOrder(s, facet);
+  const PetscInt   q = s->order[facet];
   const PetscReal *nodes;
   PetscReal        frame[3][3];
 
   PetscFunctionBegin;
-  if (q == 0) {
-    PetscCall(Corner_Private(t, s->facet_leaf[facet], s->node_entity[s->facets[s->corners * facet + k]], at));
-    PetscFunctionReturn(PETSC_SUCCESS);
-  }
   PetscCall(Frame_Private(t, s, facet, frame));
   PetscCall(ElementGetNodes(q, &nodes));
   for (PetscInt d = 0; d < t->dim; ++d) {

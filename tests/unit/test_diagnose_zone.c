@@ -13,7 +13,7 @@
 
 /* A straight surface of n nodes from x = lo to x = hi at height y, body above; pressure(x) > 0 is active. */
 typedef struct {
-  PetscInt    edges[2 * MAX];
+  PetscInt    edges[2 * MAX], first[MAX];
   PetscReal   x[2 * MAX], z[MAX], gap[MAX], weight[MAX];
   int8_t      active[MAX];
   PetscBool   has[MAX];
@@ -36,8 +36,18 @@ static void LineMake(Line *l, PetscInt n, PetscReal lo, PetscReal hi, PetscReal 
   for (PetscInt e = 0; e < n - 1; ++e) {
     l->edges[2 * e]     = e;
     l->edges[2 * e + 1] = e + 1;
+    l->first[e + 1]     = 2 * e + 2;
   }
-  l->view.nonmortar = (SurfaceView){.dim = 2, .corners = 2, .num_nodes = n, .num_facets = n - 1, .facets = l->edges, .x = l->x, .X = l->x, .owned = l->has};
+  l->view.nonmortar             = (SurfaceView){.dim        = 2,
+                                                .corners    = 2,
+                                                .num_nodes  = n,
+                                                .num_facets = n - 1,
+                                                .facets     = l->edges,
+                                                .first      = l->first,
+                                                .lattice    = l->edges,
+                                                .x          = l->x,
+                                                .X          = l->x,
+                                                .owned      = l->has};
   static const ContactSpec spec = {.law = CONTACT_FRICTIONLESS};
   l->view.spec                  = &spec;
   l->view.z                     = l->z;

@@ -1,8 +1,7 @@
 /* Contact surfaces with facets of higher order, as lattices of nodes. On random meshes with hanging nodes, random orders 1..4, random axes and curved sides:
    - nodes with unknowns are the nodes of the space on the surface, each once, with the same dofs;
    - a facet's polynomial is the trace of the cell behind it: positions, and any field, hanging nodes filled by their rows;
-   - the shares of the nodes make up the surface's measure and are positive;
-   - faces of order 1 have no lattice. */
+   - the shares of the nodes make up the surface's measure and are positive; all of it also where faces are linear. */
 #include "interfaceimpl.h"
 #include "problemfixture.h"
 #include "problemimpl.h"
@@ -184,13 +183,18 @@ static void test_lattice(void **state)
   assert_true(hanging > 100);
 }
 
-/* No lattice where all facets are linear: by the key, or by the cells. */
+/* All facets linear, by the key or by the cells. */
 static void test_linear(void **state)
 {
   for (PetscInt k = 0; k < 4; ++k) {
     Case c;
     CaseCreate(&c, 2 + k % 2, 1, k < 2 ? 3 : 1, k < 2 ? PETSC_FALSE : PETSC_TRUE, PETSC_FALSE, (uint64_t)k);
-    for (PetscInt side = 0; side < 2; ++side) assert_null(c.s.problem->interface->contacts[0].side[side].order);
+    for (PetscInt side = 0; side < 2; ++side) {
+      const Surface *s = &c.s.problem->interface->contacts[0].side[side];
+      assert_int_equal(s->first[s->num_facets], s->corners * s->num_facets);
+      CheckNodes(&c, s, side ? BOTTOM(s->dim) : TOP(s->dim));
+      CheckTraces(&c, s);
+    }
     SolvedDestroy(&c.s);
   }
 }

@@ -36,7 +36,7 @@ static PetscErrorCode Image_Private(RayWork w, const ContactSurface *mortar, Pet
 /* The part of an interval that the image covers, as a strip; its ends' images, or -1, in line[0] and line[1]. */
 static PetscBool ClipInterval_Private(Overlap *o)
 {
-  const PetscReal lo = o->side[0].Y[0][0], hi = o->side[0].Y[1][0], on = FACET_ON * (hi - lo);
+  const PetscReal lo = o->side[0].Y[0][0], hi = o->side[0].Y[1][0], on = CONTACT_ROUND * (hi - lo);
   PetscReal       a = o->side[1].Y[0][0], b = o->side[1].Y[1][0];
 
   o->line[0] = a > lo + on ? 0 : -1;
@@ -240,7 +240,7 @@ PetscErrorCode ContactCover(ContactPair pair, const ContactSurface *nonmortar, c
   if (pair->precedence) LeaveOutReversed_Private(pair, facet);
   if (pair->node_to_segment) ContactNodeHits(w);
   for (PetscInt k = 0; k < w->num_overlaps; k++) covered += w->overlap[k].area;
-  w->ends   = (PetscBool)(covered < (1 - FACET_ON) * f->area);
+  w->ends   = (PetscBool)(covered < (1 - CONTACT_ROUND) * f->area);
   w->across = (PetscBool)(w->ends && IsAcross_Private(w, mortar));
   w->frozen = Freezes_Private(pair, w);
   PetscCall(Nodes_Private(w, mortar));

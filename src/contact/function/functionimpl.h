@@ -79,7 +79,7 @@ typedef struct {
   const ContactSurface *s;
   PetscBool             axisymmetric, standard;
   const PetscBool      *carries; /* [num_nodes] */
-  PetscInt             *parent;  /* [num_facets] union-find of facets joined by hanging nodes */
+  PetscInt             *root;    /* [num_facets] ContactFacetGroups */
   PetscBool            *exact;   /* [num_facets] P^T psi_L */
   PetscInt             *place;   /* [num_nodes] -1; row of a true node in the group at hand */
   PetscReal            *weight;  /* [num_nodes] int psi_j */

@@ -1,41 +1,47 @@
 /* Multiplier functions of a surface: which facets are made together, how far functions of held nodes are extrapolated, the result in one piece. */
 #include "functionimpl.h"
 
-/* Joins facets that share a corner that hangs. A group with facets of different order, or with such a corner that belongs to one facet only, is left to
-   P^T psi_L. */
+PetscErrorCode ContactFacetGroups(const ContactSurface *s, PetscInt root[])
+{
+  const PetscInt corners = 2 * (s->dim - 1);
+  PetscInt      *first; /* facet first seen at a corner */
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(s->num_nodes, &first));
+  for (PetscInt n = 0; n < s->num_nodes; n++) first[n] = -1;
+  for (PetscInt f = 0; f < s->num_facets; f++) root[f] = f;
+  for (PetscInt i = 0; i < corners * s->num_facets; i++) {
+    const PetscInt n = s->facets[i];
+
+    if (!ContactNodeHangs(s, n)) continue;
+    if (first[n] < 0) first[n] = i / corners;
+    const PetscInt a = GroupRoot(root, i / corners), b = GroupRoot(root, first[n]);
+    root[PetscMax(a, b)] = PetscMin(a, b);
+  }
+  for (PetscInt f = 0; f < s->num_facets; f++) root[f] = GroupRoot(root, f);
+  PetscCall(PetscFree(first));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Groups with facets of different order, or with a corner that hangs and belongs to one facet only, are left to P^T psi_L. */
 static PetscErrorCode GroupsBuild_Private(MultiplierWork *w)
 {
   const ContactSurface *s       = w->s;
   const PetscInt        corners = 2 * (s->dim - 1);
-  PetscInt             *first; /* facet first seen at a corner, ~facet when joined to others */
+  PetscInt             *num; /* of facets at a corner */
 
   PetscFunctionBegin;
-  PetscCall(PetscMalloc1(s->num_nodes, &first));
-  for (PetscInt n = 0; n < s->num_nodes; n++) first[n] = PETSC_MAX_INT;
-  for (PetscInt f = 0; f < s->num_facets; f++) w->parent[f] = f;
+  PetscCall(ContactFacetGroups(s, w->root));
+  PetscCall(PetscCalloc1(s->num_nodes, &num));
+  for (PetscInt i = 0; i < corners * s->num_facets; i++) num[s->facets[i]]++;
   for (PetscInt i = 0; i < corners * s->num_facets; i++) {
-    const PetscInt n = s->facets[i], f = i / corners;
+    const PetscInt  f = i / corners, n = s->facets[i];
+    const PetscBool differs = (PetscBool)(ContactLatticeSize(s, f) != ContactLatticeSize(s, w->root[f]));
 
-    if (!ContactNodeHangs(s, n)) continue;
-    if (first[n] != PETSC_MAX_INT) {
-      const PetscInt a = GroupRoot(w->parent, f), b = GroupRoot(w->parent, first[n] < 0 ? ~first[n] : first[n]);
-
-      w->parent[PetscMax(a, b)] = PetscMin(a, b);
-    }
-    first[n] = first[n] == PETSC_MAX_INT ? f : first[n] < 0 ? first[n] : ~first[n];
+    if (differs || (ContactNodeHangs(s, n) && num[n] == 1)) w->exact[w->root[f]] = PETSC_TRUE;
   }
-  for (PetscInt f = 0; f < s->num_facets; f++) {
-    const PetscInt root = GroupRoot(w->parent, f);
-
-    if (ContactLatticeSize(s, f) != ContactLatticeSize(s, root)) w->exact[root] = PETSC_TRUE;
-    for (PetscInt k = 0; k < corners; k++) {
-      const PetscInt n = s->facets[corners * f + k];
-
-      if (ContactNodeHangs(s, n) && first[n] >= 0) w->exact[root] = PETSC_TRUE;
-    }
-  }
-  for (PetscInt f = 0; f < s->num_facets; f++) w->exact[f] = w->exact[GroupRoot(w->parent, f)];
-  PetscCall(PetscFree(first));
+  for (PetscInt f = 0; f < s->num_facets; f++) w->exact[f] = w->exact[w->root[f]];
+  PetscCall(PetscFree(num));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -131,7 +137,7 @@ static PetscErrorCode Groups_Private(MultiplierWork *w, const PetscReal whole[])
   PetscFunctionBegin;
   PetscCall(PetscMalloc3(num_facets, &root, num_facets, &facets, num_facets + 1, &start));
   for (PetscInt f = 0; f < num_facets; f++) {
-    root[f]   = GroupRoot(w->parent, f);
+    root[f]   = w->root[f];
     facets[f] = f;
   }
   PetscCall(PetscSortIntWithArray(num_facets, root, facets));
@@ -220,7 +226,7 @@ PetscErrorCode ContactMultiplierCreate(const ContactSurface *s, PetscBool axisym
   PetscCheck(s->X, PETSC_COMM_SELF, PETSC_ERR_PLIB, "multiplier functions need the surface's reference positions");
   PetscCheck(s->dim == 3 || !s->hang || s->hang[s->num_nodes] == 0, PETSC_COMM_SELF, PETSC_ERR_PLIB, "a node of a curve hangs");
   PetscCheck(s->dim == 2 || !axisymmetric, PETSC_COMM_SELF, PETSC_ERR_PLIB, "axisymmetric surface in three dimensions");
-  PetscCall(PetscMalloc3(s->num_facets, &w.parent, s->num_nodes, &w.place, s->num_nodes, &own));
+  PetscCall(PetscMalloc3(s->num_facets, &w.root, s->num_nodes, &w.place, s->num_nodes, &own));
   PetscCall(PetscCalloc5(s->num_facets, &w.exact, s->num_nodes, &w.weight, s->num_facets, &w.rows, s->num_facets, &w.donors, s->num_nodes, &whole));
   for (PetscInt n = 0; n < s->num_nodes; n++) {
     w.place[n] = -1;
@@ -235,7 +241,7 @@ PetscErrorCode ContactMultiplierCreate(const ContactSurface *s, PetscBool axisym
     PetscCall(PetscFree3(w.rows[f].node, w.rows[f].T, w.rows[f].B));
     PetscCall(PetscFree3(w.donors[f].to, w.donors[f].from, w.donors[f].weight));
   }
-  PetscCall(PetscFree3(w.parent, w.place, own));
+  PetscCall(PetscFree3(w.root, w.place, own));
   PetscCall(PetscFree5(w.exact, w.weight, w.rows, w.donors, whole));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

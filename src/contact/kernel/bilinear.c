@@ -27,7 +27,7 @@ PetscBool ContactBilinearLocate(const PetscReal c[4][2], const PetscReal Y[2], P
     if (!(PetscAbsReal(det) > 0)) return PETSC_FALSE;
     d[0] = Cross2(r, J2) / det, d[1] = Cross2(J1, r) / det;
     xi[0] += d[0], xi[1] += d[1];
-    if (PetscMax(PetscAbsReal(d[0]), PetscAbsReal(d[1])) < RAY_SOLVED)
+    if (PetscMax(PetscAbsReal(d[0]), PetscAbsReal(d[1])) < CONTACT_ROUND)
       return PetscMax(PetscAbsReal(xi[0]), PetscAbsReal(xi[1])) < FACET_OUTSIDE ? PETSC_TRUE : PETSC_FALSE;
   }
   return PETSC_FALSE;

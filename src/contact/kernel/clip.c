@@ -1,9 +1,9 @@
 /* The overlap of two convex quadrilaterals in a plane: the mortar facet is cut by the four lines of the nonmortar facet, one after the other [Sutherland &
    Hodgman 1974]. Sides remember the line they lie on, and vertices are intersections of two lines: that says how they move.
 
-   A vertex within FACET_ON of a line counts as outside of it. So where sides coincide, or a corner lies on a side, the vertices of the overlap are those of the
-   nonmortar facet or slide along its sides, and the cover of the facet stays what it is when the mortar side moves a little: what one mortar facet would lose
-   its neighbour gains, and neither would show if the sliver between were dropped on one side only. */
+   A vertex within CONTACT_ROUND of a line counts as outside of it. So where sides coincide, or a corner lies on a side, the vertices of the overlap are those
+   of the nonmortar facet or slide along its sides, and the cover of the facet stays what it is when the mortar side moves a little: what one mortar facet would
+   lose its neighbour gains, and neither would show if the sliver between were dropped on one side only. */
 #include "kernelimpl.h"
 
 static inline const PetscReal *LineStart_Private(const Overlap *o, int line)
@@ -27,7 +27,7 @@ static void Ends_Private(const Overlap *o, int line, const PetscReal **from, con
 }
 
 /* Where two lines meet: neighbouring sides of one facet at its corner. near: the place on the side that is cut, which holds when the lines are so close to each
-   other that they meet elsewhere: one end of the side is off the line by a little more than FACET_ON, the other by a little less. */
+   other that they meet elsewhere: one end of the side is off the line by a little more than CONTACT_ROUND, the other by a little less. */
 static void Meet_Private(const Overlap *o, int a, int b, const PetscReal near[2], PetscReal size, PetscReal v[2])
 {
   if (a / 4 == b / 4 && (a - b) % 2) {
@@ -42,7 +42,7 @@ static void Meet_Private(const Overlap *o, int a, int b, const PetscReal near[2]
   Ends_Private(o, PetscMax(a, b), &q, &Q);
   const PetscReal d[2] = {P[0] - p[0], P[1] - p[1]}, e[2] = {Q[0] - q[0], Q[1] - q[1]}, r[2] = {q[0] - p[0], q[1] - p[1]}, det = Cross2(d, e);
 
-  if (PetscAbsReal(det) <= FACET_PARALLEL * PetscSqrtReal(Dot2(d, d) * Dot2(e, e))) {
+  if (PetscAbsReal(det) <= CONTACT_ROUND * PetscSqrtReal(Dot2(d, d) * Dot2(e, e))) {
     v[0] = near[0], v[1] = near[1];
     return;
   }
@@ -77,7 +77,7 @@ static PetscBool Cut_Private(Overlap *o, int i, PetscReal size)
   }
   for (PetscInt k = 0; k < o->num; k++) {
     const PetscInt  l  = (k + 1) % o->num;
-    const PetscBool in = (PetscBool)(d[k] > FACET_ON * size), next = (PetscBool)(d[l] > FACET_ON * size);
+    const PetscBool in = (PetscBool)(d[k] > CONTACT_ROUND * size), next = (PetscBool)(d[l] > CONTACT_ROUND * size);
 
     if (in) {
       v[num][0] = o->v[k][0], v[num][1] = o->v[k][1];
@@ -111,5 +111,5 @@ PetscBool ContactClip(Overlap *o, PetscReal size)
     if (!Cut_Private(o, i, size)) return PETSC_FALSE;
   if (o->num < 3) return PETSC_FALSE;
   o->area = Area_Private(o);
-  return o->area > PetscSqr(FACET_ON * size) ? PETSC_TRUE : PETSC_FALSE;
+  return o->area > PetscSqr(CONTACT_ROUND * size) ? PETSC_TRUE : PETSC_FALSE;
 }

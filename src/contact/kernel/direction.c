@@ -8,8 +8,7 @@
    corners of facets: corner k of facet f is number nv f + k. */
 #include "kernelimpl.h"
 
-#define DEPTH 6   /* of corners that hang on edges whose ends hang */
-#define SAME 1e-9 /* 1 - cosine between the normals of one plane, square of the sine between it and what lies in it */
+#define DEPTH 6 /* of corners that hang on edges whose ends hang */
 
 typedef struct {
   PetscInt from, to, facet;
@@ -21,6 +20,18 @@ static int CompareSides_Private(const void *a, const void *b)
 
   if (s->from != t->from) return s->from < t->from ? -1 : 1;
   return (s->to > t->to) - (s->to < t->to);
+}
+
+/* All sides of a surface in space, sorted; freed by the caller. */
+static PetscErrorCode Sides_Private(const ContactSurface *s, Side **side)
+{
+  const PetscInt num = 4 * s->num_facets;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(num, side));
+  for (PetscInt k = 0; k < num; k++) (*side)[k] = (Side){s->facets[k], s->facets[4 * (k / 4) + (k + 1) % 4], k / 4};
+  qsort(*side, (size_t)num, sizeof(Side), CompareSides_Private);
+  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* First side from a node on. */
@@ -53,9 +64,7 @@ PetscErrorCode ContactParents(const ContactSurface *s, PetscInt parent[], PetscI
   for (PetscInt i = 0; i < 2 * s->num_nodes; i++) parent[i] = -1;
   for (PetscInt i = 0; i < num && middle; i++) middle[i] = -1;
   if (s->dim == 2) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(PetscMalloc1(num, &side));
-  for (PetscInt k = 0; k < num; k++) side[k] = (Side){s->facets[k], s->facets[4 * (k / 4) + (k + 1) % 4], k / 4};
-  qsort(side, (size_t)num, sizeof(Side), CompareSides_Private);
+  PetscCall(Sides_Private(s, &side));
   for (PetscInt k = 0; k < num; k++) {
     const PetscInt u = side[k].from, v = side[k].to;
 
@@ -83,7 +92,7 @@ static PetscBool IsKept_Private(const ContactSurface *s, PetscInt a, PetscInt b)
     for (int j = 0; j < 2; j++) {
       const PetscReal *p = s->mirror + 6 * a + 3 * i, *q = s->mirror + 6 * b + 3 * j;
 
-      if (PetscAbsReal(Dot3(p, q)) > 1 - SAME && PetscSqr(Dot3(p, e)) < SAME * Dot3(e, e)) return PETSC_TRUE;
+      if (PetscAbsReal(Dot3(p, q)) > 1 - CONTACT_ROUND && PetscSqr(Dot3(p, e)) < CONTACT_ROUND * Dot3(e, e)) return PETSC_TRUE;
     }
   return PETSC_FALSE;
 }
@@ -170,9 +179,7 @@ static PetscErrorCode SheetsInSpace_Private(RayWork w, const ContactSurface *s)
   Side          *side;
 
   PetscFunctionBegin;
-  PetscCall(PetscMalloc1(num, &side));
-  for (PetscInt k = 0; k < num; k++) side[k] = (Side){s->facets[k], s->facets[4 * (k / 4) + (k + 1) % 4], k / 4};
-  qsort(side, (size_t)num, sizeof(Side), CompareSides_Private);
+  PetscCall(Sides_Private(s, &side));
   for (PetscInt k = 0; k < num; k++) {
     for (PetscInt l = FirstSide_Private(num, side, side[k].to); l < num && side[l].from == side[k].to; l++) {
       const PetscInt h = side[l].to;
@@ -293,16 +300,16 @@ static void Images_Private(RayWork w, const ContactSurface *s, PetscInt corner, 
     }
 }
 
-/* Reference measure of the facets of a sheet around a corner, by which directions are divided: of length 1 or so everywhere, they change little along graded
-   facets, beyond which they are continued to the images of mortar nodes. */
-static PetscReal Around_Private(RayWork w, const ContactSurface *s, PetscInt corner)
+/* Measure of the facets of a sheet around a corner at positions x. Directions are divided by that of the reference positions: of length 1 or so everywhere,
+   they change little along graded facets, beyond which they are continued to the images of mortar nodes. */
+static PetscReal Around_Private(RayWork w, const ContactSurface *s, PetscInt corner, const PetscReal x[])
 {
   const PetscInt nv = s->dim == 2 ? 2 : 4, node = s->facets[corner];
   PetscReal      sum = 0, N[3];
 
   for (PetscInt k = w->ring_first[node]; k < w->ring_first[node + 1]; k++) {
     if (w->sheet[w->ring[k]] != w->sheet[corner]) continue;
-    ContactFacetVector(s->dim, s->X, s->facets + nv * (w->ring[k] / nv), N);
+    ContactFacetVector(s->dim, x, s->facets + nv * (w->ring[k] / nv), N);
     sum += PetscSqrtReal(Dot3(N, N));
   }
   return sum;
@@ -318,7 +325,7 @@ static PetscInt Terms_Private(RayWork w, const ContactSurface *s, PetscInt corne
     num = Terms_Private(w, s, w->end[2 * corner], 0.5 * weight, depth + 1, max, term);
     return num + Terms_Private(w, s, w->end[2 * corner + 1], 0.5 * weight, depth + 1, max - num, term + num);
   }
-  weight /= Around_Private(w, s, corner);
+  weight /= Around_Private(w, s, corner, s->X);
   for (PetscInt k = w->ring_first[node]; k < w->ring_first[node + 1] && num < max; k++) {
     if (w->sheet[w->ring[k]] != w->sheet[corner]) continue;
     Images_Private(w, s, w->ring[k], R);
@@ -413,15 +420,7 @@ void ContactDirections(RayWork w, const ContactSurface *s)
 /* False where the vectors around a corner cancel. */
 PetscBool ContactDirectionUsable(RayWork w, const ContactSurface *s, PetscInt corner)
 {
-  const PetscInt nv = s->dim == 2 ? 2 : 4, node = s->facets[corner];
-  PetscReal      sum = 0;
+  const PetscReal *d = w->d + 3 * corner;
 
-  for (PetscInt k = w->ring_first[node]; k < w->ring_first[node + 1]; k++) {
-    PetscReal N[3];
-
-    if (w->sheet[w->ring[k]] != w->sheet[corner]) continue;
-    ContactFacetVector(s->dim, s->x, s->facets + nv * (w->ring[k] / nv), N);
-    sum += PetscSqrtReal(Dot3(N, N));
-  }
-  return PetscSqrtReal(Dot3(w->d + 3 * corner, w->d + 3 * corner)) * Around_Private(w, s, corner) > ROUND_LENGTH * sum ? PETSC_TRUE : PETSC_FALSE;
+  return (PetscBool)(PetscSqrtReal(Dot3(d, d)) * Around_Private(w, s, corner, s->X) > ROUND_LENGTH * Around_Private(w, s, corner, s->x));
 }

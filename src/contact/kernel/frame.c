@@ -14,58 +14,41 @@ PetscErrorCode ContactFramesDestroy(RayWork w)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* A node that only hanging ones depend on, on an edge of a coarse cell behind the surface, say: at the one of them that depends on it the most. */
-static PetscErrorCode LodgeMasters_Private(RayWork w, const ContactSurface *s)
+/* Homes: the first facet that has the node. Of a node that only hanging ones depend on, on an edge of a coarse cell behind the surface, say, that of the one of
+   them that depends on it the most. */
+static PetscErrorCode Homes_Private(RayWork w, const ContactSurface *s)
 {
-  PetscReal *most;
+  PetscReal *most; /* weight of the node at home */
 
   PetscFunctionBegin;
+  PetscCall(PetscMalloc3(s->num_nodes, &w->home, s->num_nodes, &w->home_xi, s->num_nodes, &w->frame));
   PetscCall(PetscCalloc1(s->num_nodes, &most));
-  for (PetscInt n = 0; n < s->num_nodes; n++) most[n] = w->home[n] < 0 ? 0 : PETSC_INFINITY;
-  for (PetscInt f = 0; f < s->num_facets; f++) {
+  for (PetscInt n = 0; n < s->num_nodes; n++) w->home[n] = -1;
+  for (PetscInt i = 0; i < 2 * s->num_facets; i++) { /* first the nodes of facets, then all that they depend on */
+    const PetscBool  own = (PetscBool)(i < s->num_facets);
+    const PetscInt   f   = i % s->num_facets;
     const PetscReal *gauss;
     FacetLattice     l;
 
     ContactFacetLattice(s, f, &l);
     PetscCall(ElementGetNodes(l.order, &gauss));
     for (PetscInt a = 0; a < l.num; a++) {
-      const PetscInt  *master;
+      const PetscInt  *node = &l.node[a];
       const PetscReal *weight;
-      const PetscInt   masters = ContactNodeRow(s, &l.node[a], &master, &weight);
+      const PetscInt   num = own ? 1 : ContactNodeRow(s, &l.node[a], &node, &weight);
 
-      for (PetscInt i = 0; i < masters; i++) {
-        if (PetscAbsReal(weight[i]) <= most[master[i]]) continue;
-        most[master[i]]          = PetscAbsReal(weight[i]);
-        w->home[master[i]]       = f;
-        w->home_xi[master[i]][0] = 2 * gauss[a % (l.order + 1)] - 1;
-        w->home_xi[master[i]][1] = 2 * gauss[a / (l.order + 1)] - 1;
+      for (PetscInt k = 0; k < num; k++) {
+        const PetscReal share = own ? PETSC_INFINITY : PetscAbsReal(weight[k]);
+
+        if (share <= most[node[k]]) continue;
+        most[node[k]]          = share;
+        w->home[node[k]]       = f;
+        w->home_xi[node[k]][0] = 2 * gauss[a % (l.order + 1)] - 1;
+        w->home_xi[node[k]][1] = 2 * gauss[a / (l.order + 1)] - 1;
       }
     }
   }
   PetscCall(PetscFree(most));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* Homes: the first facet that has the node. */
-static PetscErrorCode Homes_Private(RayWork w, const ContactSurface *s)
-{
-  PetscFunctionBegin;
-  PetscCall(PetscMalloc3(s->num_nodes, &w->home, s->num_nodes, &w->home_xi, s->num_nodes, &w->frame));
-  for (PetscInt n = 0; n < s->num_nodes; n++) w->home[n] = -1;
-  for (PetscInt f = 0; f < s->num_facets; f++) {
-    const PetscReal *gauss;
-    FacetLattice     l;
-
-    ContactFacetLattice(s, f, &l);
-    PetscCall(ElementGetNodes(l.order, &gauss));
-    for (PetscInt a = 0; a < l.num; a++) {
-      if (w->home[l.node[a]] >= 0) continue;
-      w->home[l.node[a]]       = f;
-      w->home_xi[l.node[a]][0] = 2 * gauss[a % (l.order + 1)] - 1;
-      w->home_xi[l.node[a]][1] = 2 * gauss[a / (l.order + 1)] - 1;
-    }
-  }
-  PetscCall(LodgeMasters_Private(w, s));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -105,7 +105,7 @@ static PetscBool Find_Private(const RayFacet *f, PetscBool ahead, RayImage *imag
     }
     image->s += Dot3(inverse[2], r);
     if (!(size < RAY_FAR)) return PETSC_FALSE;
-    if (step < RAY_SOLVED * size) return PETSC_TRUE;
+    if (step < CONTACT_ROUND * size) return PETSC_TRUE;
     At_Private(f, image->xi, 1, &S, &V, &at);
   }
   return PETSC_FALSE;

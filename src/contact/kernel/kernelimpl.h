@@ -20,17 +20,14 @@
 #define RAY_LATTICE ((RAY_ORDER + 1) * (RAY_ORDER + 1))
 #define RAY_ROOM (RAY_LATTICE + 12) /* values of a lattice's functions: loops of fixed length write beyond the last */
 #define RAY_MOMENTS (2 * RAY_LATTICE + 1)
-#define RAY_SOLVED 1e-9
 #define RAY_FAR                                                                                                                                                \
   (1 / PETSC_SQRT_MACHINE_EPSILON) /* parametric coordinate up to which images are looked for: a facet may be that much smaller than what it sees */
 
 /* Overlap. Where a mortar facet covers the nonmortar one, in the chart: a convex polygon whose sides lie on lines 0..3 (sides of the nonmortar facet, line i
    from node i to node i + 1) and 4..7 (sides of the mortar facet, nodes listed backwards so that both run counterclockwise). Vertices are intersections of
    neighbouring lines. */
-#define FACET_VERTICES 8     /* of an overlap */
-#define FACET_ON 1e-9        /* distance from a line, over the facet's size, within which a vertex is on it */
-#define FACET_PARALLEL 1e-12 /* sine of the angle between lines below which they do not cross */
-#define FACET_OUTSIDE 2      /* parametric coordinate up to which what meets a facet may lie beyond its sides, which may be curved */
+#define FACET_VERTICES 8 /* of an overlap */
+#define FACET_OUTSIDE 2  /* parametric coordinate up to which what meets a facet may lie beyond its sides, which may be curved */
 
 /* A facet in the plane's axes. */
 typedef struct {
@@ -330,6 +327,12 @@ void      ContactRayGuess(const RayFacet *, const RayLattice *mortar, const Over
 PetscBool ContactRayPoint(const RayFacet *, const RayLattice *mortar, const Overlap *, const RayGuess *, const RaySimplex *, const PetscReal beta[3], int depth,
                           RayPoint *);
 void      ContactRayPlaces(const RayWork, const ContactSurface *mortar, PetscInt overlap, PetscInt nb, PetscInt place[]);
+
+/* For each integration point of the facet at hand where its rays met when the moments were found: on overlap k, whose numbers have these places
+   (ContactRayPlaces), with its part of the surface. */
+typedef PetscErrorCode (*RayPointFunction)(void *context, RayWork, PetscInt k, const PetscInt place[], PetscInt num_mortar, const RayPlace *, const RayPoint *,
+                                           PetscReal area);
+PetscErrorCode ContactRayWalk(RayWork, const ContactSurface *mortar, RayPointFunction, void *context);
 
 /* moments.c, hessian.c: integrals over the overlaps of the facet at hand */
 void ContactRayOverDet(const RayFacet *, const RayChartPoint *, PetscReal factor, const RayWeight *, RayWeight *);

@@ -15,7 +15,8 @@
 
 #define MOST_POINTS 144
 #define SMALL 0.01 /* sine of an angle: lines that meet at less lie nearly on each other */
-#define JOINT 8    /* line between the two corners at one place */
+
+enum { JOINT = 8 }; /* name of the line between the two corners at one place */
 
 /* W[nl][nr] += factor sum_k left[k][nl] right[k][nr] */
 void ContactRayProducts(PetscInt num, PetscReal factor, PetscInt nl, const PetscReal left[], PetscInt ldl, PetscInt nr, const PetscReal right[], PetscInt ldr,
@@ -81,7 +82,7 @@ static void Crossing_Private(const Overlap *o, PetscInt k, int side, int image, 
   const PetscReal  size = PetscSqrtReal(Dot2(nu, nu));
   PetscReal        t;
 
-  if (PetscAbsReal(det) <= FACET_PARALLEL * size * PetscSqrtReal(Dot2(e, e))) return;
+  if (PetscAbsReal(det) <= CONTACT_ROUND * size * PetscSqrtReal(Dot2(e, e))) return;
   t = Dot2(nu, r) / det;
   for (int i = 0; i < 2; i++)
     if (PetscAbsReal(a[i] + t * e[i] - o->v[k][i]) > CONTACT_GRAZE * size) return; /* it was not taken: clip.c */
@@ -257,4 +258,32 @@ void ContactRayPlaces(const RayWork w, const ContactSurface *mortar, PetscInt ov
     for (at = 0; at < w->num_images && w->image[at].node != w->overlap[overlap].corner[k]; at++) continue;
     for (PetscInt i = 0; i < f->m; i++) place[D * (own + nb) + f->m * k + i] = images + f->m * at + i;
   }
+}
+
+PetscErrorCode ContactRayWalk(RayWork w, const ContactSurface *surface, RayPointFunction function, void *context)
+{
+  const RayFacet *f     = &w->facet;
+  const RayPlace *place = w->places;
+
+  PetscFunctionBegin;
+  for (PetscInt k = 0; k < w->num_overlaps; k++) {
+    Overlap    o;
+    RayLattice mortar;
+    PetscInt   column[3 * (2 * RAY_LATTICE + 4) + RAY_IMAGES], points;
+    const PetscReal(*point)[3], *weight;
+
+    ContactRaySplit(f, &w->overlap[k], &o);
+    ContactRayLatticeGather(surface, w->mortar[k], &mortar);
+    ContactRayPlaces(w, surface, k, mortar.num, column);
+    PetscCall(ContactRayRule(f, &o, mortar.order, &points, &point, &weight));
+    for (PetscInt q = 0; q < points * ContactRaySimplices(f, &o); q++, place++) {
+      RaySimplex s;
+      RayPoint   r;
+
+      ContactRaySimplex(f, &o, q / points, &s);
+      PetscCheck(ContactRayAgain(f, &mortar, place, 1, &r), PETSC_COMM_SELF, PETSC_ERR_PLIB, "a ray that met the mortar facet does not meet it again");
+      PetscCall(function(context, w, k, column, mortar.num, place, &r, s.size * weight[q % points] * ContactRayArea(&r) / r.chart.det));
+    }
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -96,7 +96,7 @@ PetscBool ContactRaySolve(const RayFacet *f, const RayLattice *mortar, const Pet
   r->xi[0] = xi[0], r->xi[1] = xi[1];
   Facet_Private(f, depth, r);
   for (int k = 0; k < 20; k++) {
-    const PetscBool last = (PetscBool)(step < RAY_SOLVED); /* the last step left a square of that */
+    const PetscBool last = (PetscBool)(step < CONTACT_ROUND); /* the last step left a square of that */
     PetscReal       e[3];
 
     if (!Mortar_Private(f, mortar, last ? depth : 1, r)) return PETSC_FALSE;

@@ -65,7 +65,7 @@ static PetscBool Meet_Private(const RayLattice *mortar, RayPoint *r)
     r->eta[0] -= step[0], r->eta[1] -= step[1];
     size = PetscMax(PetscAbsReal(step[0]), PetscAbsReal(step[1]));
     if (!(size < 10)) return PETSC_FALSE;
-    if (size < RAY_SOLVED) return PetscMax(PetscAbsReal(r->eta[0]), PetscAbsReal(r->eta[1])) < FACET_OUTSIDE ? PETSC_TRUE : PETSC_FALSE;
+    if (size < CONTACT_ROUND) return PetscMax(PetscAbsReal(r->eta[0]), PetscAbsReal(r->eta[1])) < FACET_OUTSIDE ? PETSC_TRUE : PETSC_FALSE;
   }
   return PETSC_FALSE;
 }

@@ -178,44 +178,27 @@ static PetscErrorCode Start_Private(ContactPair pair, const Kept *kept, const Co
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode KeepPoints_Private(const EvaluateContext *ctx, struct ContactSlip *s, Kept *kept)
+/* context: the pair's points, the last facet of which is being kept. */
+static PetscErrorCode KeepPoint_Private(void *context, RayWork w, PetscInt k, const PetscInt column[], PetscInt num_mortar, const RayPlace *place,
+                                        const RayPoint *r, PetscReal area)
 {
-  RayWork         w  = ctx->pair->ray;
-  const RayFacet *f  = &w->facet;
-  const PetscInt  nr = kept->num_rows, na = f->s.num;
-  const RayPlace *place = w->places;
+  struct ContactSlip *s    = context;
+  Kept               *kept = &s->kept[s->num_kept - 1];
+  const PetscInt      nr = kept->num_rows, na = w->facet.s.num;
+  PetscReal          *A;
 
   PetscFunctionBegin;
-  for (PetscInt k = 0; k < w->num_overlaps; k++) {
-    Overlap    overlap;
-    PetscInt   points;
-    RayLattice mortar;
-    const PetscReal(*point)[3], *weight;
-
-    ContactRaySplit(f, &w->overlap[k], &overlap);
-    ContactRayLatticeGather(ctx->mortar, w->mortar[k], &mortar);
-    PetscCall(ContactRayRule(f, &overlap, mortar.order, &points, &point, &weight));
-    const PetscInt all = points * ContactRaySimplices(f, &overlap);
-    PetscCall(ContactGrow(s->num_points + all, sizeof(Point), &s->size_point, &s->point));
-    PetscCall(ContactGrow(s->num_values + all * nr, sizeof(PetscReal), &s->size_A, &s->A));
-    for (PetscInt q = 0; q < all; q++, place++) {
-      PetscReal  dgamma, *A = s->A + s->num_values;
-      RaySimplex simplex;
-      RayPoint   r;
-
-      ContactRaySimplex(f, &overlap, q / points, &simplex);
-      PetscCheck(ContactRayAgain(f, &mortar, place, 2, &r), PETSC_COMM_SELF, PETSC_ERR_PLIB, "a ray that met the mortar facet does not meet it again");
-      dgamma = simplex.size * weight[q % points] * ContactRayArea(&r) / r.chart.det;
-      for (PetscInt j = 0; j < nr; j++) {
-        A[j] = 0;
-        for (PetscInt i = 0; i < na; i++) A[j] += w->T[j * na + i] * r.S.N[i] * dgamma;
-        s->weight[kept->row + j] += A[j];
-      }
-      s->point[s->num_points++] = (Point){.facet = w->mortar[k], .at = *place};
-      s->num_values += nr;
-    }
+  PetscCall(ContactGrow(s->num_points + 1, sizeof(Point), &s->size_point, &s->point));
+  PetscCall(ContactGrow(s->num_values + nr, sizeof(PetscReal), &s->size_A, &s->A));
+  A = s->A + s->num_values;
+  for (PetscInt j = 0; j < nr; j++) {
+    A[j] = 0;
+    for (PetscInt i = 0; i < na; i++) A[j] += w->T[j * na + i] * r->S.N[i] * area;
+    s->weight[kept->row + j] += A[j];
   }
-  kept->num_points = s->num_points - kept->point;
+  s->point[s->num_points++] = (Point){.facet = w->mortar[k], .at = *place};
+  s->num_values += nr;
+  kept->num_points++;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -258,7 +241,7 @@ static PetscErrorCode Keep_Private(const EvaluateContext *ctx, PetscInt facet, c
     s->weight[s->num_rows + j] = 0;
   }
   s->num_rows += nr;
-  PetscCall(KeepPoints_Private(ctx, s, kept));
+  PetscCall(ContactRayWalk(w, ctx->mortar, KeepPoint_Private, s));
   if (ctx->pair->keeps) PetscCall(KeepCompliance_Private(ctx, out, s, kept));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -284,11 +267,7 @@ PetscErrorCode ContactSlipFacet(const EvaluateContext *ctx, PetscInt facet, Pets
   if (!pair->traction && !pair->keeps) PetscFunctionReturn(PETSC_SUCCESS);
   if (pair->keeps || (pair->slip && pair->slip->met && !pair->slip->met[facet])) PetscCall(Keep_Private(ctx, facet, out));
   if (!pair->traction || !derivatives) PetscFunctionReturn(PETSC_SUCCESS);
-  if (pair->dim == 3) {
-    PetscCall(ContactShear(ctx, out));
-    PetscFunctionReturn(PETSC_SUCCESS);
-  }
-  PetscCall(ContactShearPlane(ctx, out));
+  PetscCall((pair->dim == 3 ? ContactShear : ContactShearPlane)(ctx, out));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -4,54 +4,34 @@
      int psi_j (x_m(eta) - x(xi)) dgamma = sum_a t_ja x_a. */
 #include "kernelimpl.h"
 
-/* m[(na + num_mortar)][na]: by vertices of the facet's result (its lattice, then mortar nodes) and functions N_i of the lattice. */
-static PetscErrorCode Overlap_Private(RayWork w, const ContactSurface *surface, PetscInt k, const RayPlace **place, PetscReal m[])
+/* context: m[(na + num_mortar)][na], by vertices of the facet's result (its lattice, then mortar nodes) and functions N_i of the lattice. */
+static PetscErrorCode Point_Private(void *context, RayWork w, PetscInt k, const PetscInt column[], PetscInt num_mortar, const RayPlace *place,
+                                    const RayPoint *r, PetscReal area)
 {
-  const RayFacet *f = &w->facet;
-  const PetscInt  D = f->D, na = f->s.num;
-  PetscInt        column[3 * (2 * RAY_LATTICE + 4) + RAY_IMAGES], points, simplices;
-  Overlap         split;
-  RayLattice      mortar;
-  const PetscReal(*point)[3], *weight;
+  PetscReal     *m = context;
+  const PetscInt D = w->facet.D, na = w->facet.s.num, nv = w->facet.nv;
 
   PetscFunctionBegin;
-  ContactRayLatticeGather(surface, w->mortar[k], &mortar);
-  ContactRayPlaces(w, surface, k, mortar.num, column);
-  ContactRaySplit(f, &w->overlap[k], &split);
-  simplices = ContactRaySimplices(f, &split);
-  PetscCall(ContactRayRule(f, &split, mortar.order, &points, &point, &weight));
-  for (PetscInt j = 0; j < simplices; j++) {
-    RaySimplex s;
+  for (PetscInt i = 0; i < na; i++) {
+    const PetscReal phi = area * r->S.N[i];
 
-    ContactRaySimplex(f, &split, j, &s);
-    for (PetscInt q = 0; q < points; q++, (*place)++) {
-      RayPoint r;
-
-      PetscCheck(ContactRayAgain(f, &mortar, *place, 1, &r), PETSC_COMM_SELF, PETSC_ERR_PLIB, "a ray that met the mortar facet does not meet it again");
-      const PetscReal area = s.size * weight[q] * ContactRayArea(&r) / r.chart.det;
-      for (PetscInt i = 0; i < na; i++) {
-        const PetscReal phi = area * r.S.N[i];
-
-        for (PetscInt a = 0; a < na; a++) m[a * na + i] -= phi * r.S.N[a];
-        for (PetscInt b = 0; b < mortar.num; b++) m[(column[D * (na + f->nv) + b] / D - f->nv) * na + i] += phi * r.M.N[b];
-      }
-    }
+    for (PetscInt a = 0; a < na; a++) m[a * na + i] -= phi * r->S.N[a];
+    for (PetscInt b = 0; b < num_mortar; b++) m[(column[D * (na + nv) + b] / D - nv) * na + i] += phi * r->M.N[b];
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode ContactTieFacet(const EvaluateContext *ctx, PetscInt facet, ContactFacet *out)
 {
-  RayWork         w  = ctx->pair->ray;
-  const PetscInt  na = w->facet.s.num, nr = w->result.num_rows, num = w->result.num_nodes;
-  const RayPlace *place = w->places;
-  PetscReal      *m, *tie, *whole;
+  RayWork        w  = ctx->pair->ray;
+  const PetscInt na = w->facet.s.num, nr = w->result.num_rows, num = w->result.num_nodes;
+  PetscReal     *m, *tie, *whole;
 
   PetscFunctionBegin;
   out->tie = NULL;
   if (!ctx->pair->ties) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(PetscCalloc1((na + w->num_mortar) * na, &m));
-  for (PetscInt k = 0; k < w->num_overlaps; k++) PetscCall(Overlap_Private(w, ctx->mortar, k, &place, m));
+  PetscCall(ContactRayWalk(w, ctx->mortar, Point_Private, m));
   PetscCall(ContactStoreReserve(&w->result.store, nr * num, &tie));
   PetscCall(ContactStoreReserve(&w->result.store, nr, &whole));
   for (PetscInt r = 0; r < nr; r++) whole[r] = w->share.part ? ctx->pair->multiplier->measure[ctx->pair->multiplier->row_first[facet] + r] : out->weight[r];
