@@ -192,9 +192,6 @@ PetscErrorCode InterfaceRows(Interface, PetscReal r[]);
 PetscReal      InterfaceNoise2(Interface);
 /* Force and moment about the origin on the nonmortar side of a pair, on all ranks. Collective. */
 PetscErrorCode InterfaceResultant(Interface, PetscInt pair, PetscReal force[3], PetscReal moment[3]);
-/* Note: of each node the constant by which its gap contradicts its pressure. Leave: this share of it counts as no gap; at first, and after Note: 0. */
-PetscErrorCode InterfaceNoteMisfit(Interface);
-PetscErrorCode InterfaceLeaveMisfit(Interface, PetscReal share);
 /* Note: how deep the sides of each pair are in each other at most, a mean gap over a multiplier's function; the deepest of all pairs. Leave: one side
    of each pair is taken to lie further in by this share of it; at first: 0. With finite kinematics. */
 PetscErrorCode InterfaceNoteOverlap(Interface, PetscReal *deepest);

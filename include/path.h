@@ -2,7 +2,7 @@
 #pragma once
 #include "solve.h"
 
-enum { PATH_UNFOLDED = 7, PATH_RECOVERIES };       /* rows of the table of recoveries */
+enum { PATH_UNFOLDED = 6, PATH_RECOVERIES };       /* rows of the table of recoveries */
 enum { PATH_INSIDE, PATH_THROUGH, PATH_REFUSALS }; /* why solutions are refused */
 
 /* The part of a run that lives on one mesh; replaced as a whole at each adaptation. */
@@ -85,7 +85,7 @@ struct _p_PathLoop {
   PetscReal         at;          /* … and where it stands */
 };
 
-extern const PathMetric PathTime, PathArc, PathHomotopy, PathOverlap, PathViscous;
+extern const PathMetric PathTime, PathArc, PathOverlap, PathViscous;
 
 /* Follow loop->s from level->state: attempt a piece; accept it and go on from there, or go back to its start and try a shorter one. report: of the last
    attempt; converged: level->state is the solution where the loop ended. Else level->state and prescribed motion are those of the start of the piece that

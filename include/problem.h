@@ -186,11 +186,6 @@ PetscErrorCode ProblemStepAccept(Problem, PetscReal step, PetscReal pressure[]);
 /* Largest part of the prescribed motion not yet applied, in the user's unit of length; 0 when the target is reached. */
 PetscErrorCode ProblemPending(Problem, PetscReal *remaining);
 
-/* imbalance.c. What keeps x, with the history last set, from being a solution: forces out of balance; of each contact node the part of gt_j that contradicts
-   its pressure. Leave: from now on this share of the imbalance noted counts as none, so that with 1 x is a solution; as created, and after Note: 0. *usable: x
-   is in the domain. Collective. */
-PetscErrorCode ProblemNoteImbalance(Problem, Vec x, PetscBool *usable);
-PetscErrorCode ProblemLeaveImbalance(Problem, PetscReal share);
 /* overlap.c. How deep the sides of pairs are in each other at x, at most (unit: length). Leave: from now on one side of each pair lies further in by this share
    of its own; as created, and after Note: 0. Collective. */
 PetscErrorCode ProblemNoteOverlap(Problem, Vec x, PetscReal *deepest);

@@ -158,7 +158,6 @@ PetscErrorCode ContactCreate_Private(Interface p, const ContactSpec *spec, Conta
   PetscCall(PetscCalloc3(n, &c->spring, n, &c->coupled, n, &c->softness));
   PetscCall(PetscCalloc5(n, &c->active, n, &c->has_multiplier, n, &c->lift, n, &c->change, n, &c->near));
   PetscCall(PetscMalloc1(c->side[0].num_facets, &c->result));
-  PetscCall(PetscCalloc1(n, &c->misfit));
   PetscCall(PetscMalloc4(n, &c->zdof, n, &c->zlocal, n, &c->gap0, n, &c->offset));
   PetscCall(PetscCalloc2(n, &c->reach, n, &c->initial));
   PetscCall(PetscCalloc4(c->side[0].num_facets, &c->live, n, &c->valued, n, &c->valued_node, 4 * n, &c->pack));
@@ -193,7 +192,6 @@ PetscErrorCode ContactDestroy_Private(Contact *c)
   PetscCall(PetscFree3(c->spring, c->coupled, c->softness));
   PetscCall(PetscFree5(c->active, c->has_multiplier, c->lift, c->change, c->near));
   PetscCall(PetscFree(c->result));
-  PetscCall(PetscFree(c->misfit));
   PetscCall(PetscFree4(c->zdof, c->zlocal, c->gap0, c->offset));
   PetscCall(PetscFree2(c->reach, c->initial));
   for (PetscInt k = 0; k < 2; ++k) PetscCall(PetscFree(c->link[k]));

@@ -185,7 +185,6 @@ typedef struct {
   PetscReal           *offset;               /* [n] constant part of gt_j that does not count: initial gaps closed, interference */
   PetscReal           *reach, *initial;      /* offset.c: [n] what an interference of 1 adds to the offset; initial gap closed or opened at first */
   PetscReal            interference, open;   /* offset.c: as they are in the offset: interference; share of initial overlaps that does not count */
-  PetscReal           *misfit;               /* [n] imbalance.c: what else does not count, times the share left */
   PetscReal            overlap, allowance;   /* overlap.c: the deepest at the start, what of it counts as none … */
   PetscInt             shrinks;              /* … for which this side … */
   PetscReal           *inward[2], *moved[2]; /* … lies further in: [n][dim] unit vectors, reference positions then; NULL: not yet made */
@@ -214,7 +213,6 @@ struct _p_Interface {
   ContactHull          hull;                 /* hull.c; NULL without contact */
   PetscInt            *part;                 /* [num_cells of the coarse mesh] */
   PetscInt             num_inner;            /* unknowns of this rank that the matrix lacks, the first of its vector */
-  PetscReal            share;                /* of the misfit that counts as no gap */
   MPI_Datatype         unit[MOST_REALS + 1]; /* as many reals */
   ContactTraffic       traffic;
   PetscInt             num_links;

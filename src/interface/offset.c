@@ -32,7 +32,7 @@ static PetscErrorCode Friction_Private(Contact *c, PetscReal t)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* To the offsets at time t, whatever else is in them (misfit.c). */
+/* To the offsets at time t. */
 static PetscErrorCode Time_Private(Contact *c, PetscReal t)
 {
   const PetscReal open = Open_Private(c->spec, t);

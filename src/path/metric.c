@@ -90,24 +90,6 @@ static PetscErrorCode ArcFound_Private(Path *p, const PathLoop *loop, PetscReal 
 
 const PathMetric PathArc = {"arc length", 0.5, GROWTH, PETSC_TRUE, End_Private, ArcSet_Private, ArcFound_Private};
 
-/* ---- the part of an imbalance that is taken away (8.2): ProblemNoteImbalance comes first ------------------------------------------- */
-
-static PetscErrorCode HomotopySet_Private(Path *p, const PathLoop *loop, PetscReal to)
-{
-  PetscFunctionBegin;
-  PetscCall(ProblemLeaveImbalance(p->level->problem, 1 - to));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-static PetscErrorCode HomotopyFound_Private(Path *p, const PathLoop *loop, PetscReal to, SolverReport *report)
-{
-  PetscFunctionBegin;
-  if (to >= loop->stop) PetscCall(loop->load->metric->found(p, loop->load, loop->at, report));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-const PathMetric PathHomotopy = {"homotopy", 0.5, 2, PETSC_FALSE, End_Private, HomotopySet_Private, HomotopyFound_Private};
-
 /* ---- the part of the overlap at the start that is taken away (7.5): ProblemNoteOverlap comes first ----------------------------------- */
 
 static PetscErrorCode OverlapSet_Private(Path *p, const PathLoop *loop, PetscReal to)

@@ -40,21 +40,6 @@ static PetscBool IsCarried_Private(const Path *p, const State *guess)
   return (PetscBool)(guess != NULL);
 }
 
-static PetscErrorCode Homotopy_Private(Path *p, const PathLoop *load, PetscReal to, const State *guess, SolverReport *report)
-{
-  PathLoop  loop    = {.metric = &PathHomotopy, .stop = 1, .piece = PathHomotopy.cut, .least = LEAST, .most = 1, .load = load, .at = to};
-  Problem   problem = p->level->problem;
-  PetscBool usable;
-
-  PetscFunctionBegin;
-  PetscCall(Begin_Private(p, guess));
-  PetscCall(ProblemSetState(problem, &p->level->state));
-  PetscCall(ProblemNoteImbalance(problem, p->level->state.x, &usable));
-  if (usable) PetscCall(PathFollow(p, &loop, report));
-  PetscCall(ProblemLeaveImbalance(problem, 0));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 /* ---- from bodies at rest that overlap ----------------------------------------------------------------------------------------------- */
 
 static PetscBool IsAtRest_Private(const Path *p, const State *guess)
@@ -146,7 +131,6 @@ static PetscErrorCode Viscous_Private(Path *p, const PathLoop *load, PetscReal t
 const Recovery PathRecoveries[PATH_RECOVERIES] = {
     {"unfreeze", "once more from the start of the step, with the segmentation of contact no longer frozen", 0, IsFrozen_Private, Unfreeze_Private},
     {"cut", "on another mesh, the way of the load from the accepted state again, in pieces", 0, IsCarried_Private, Cut_Private},
-    {"homotopy", "residual homotopy: the imbalance of a state carried over to another mesh is taken away in pieces", 0, IsCarried_Private, Homotopy_Private},
     {"overlap", "overlap that bodies at rest begin with is taken away in pieces, the deepest place first", 0, IsAtRest_Private, Overlap_Private},
     {"predictor", "with friction, once more with the other predictor: bodies carried to their new places first, or not", 0, Slips_Private, Predictor_Private},
     {"descent", "down on the energy of contact and bodies, each iterate lower than the one before, to an equilibrium that is not near by", 1, PathCanDescend,

@@ -22,7 +22,7 @@ PetscErrorCode ProblemHasEnergy(Problem p, PetscBool *yes)
   PetscFunctionBegin;
   PetscCall(ProblemIsSymmetric(p, yes));
   PetscCall(ProblemIsIncompressible(p, &incompressible));
-  if (incompressible || p->num_scalars > 0 || p->viscous || p->share > 0 || InterfaceTies(p->interface)) *yes = PETSC_FALSE;
+  if (incompressible || p->num_scalars > 0 || p->viscous || InterfaceTies(p->interface)) *yes = PETSC_FALSE;
   if (p->scene->mechanics.kinematics == KINEMATICS_SMALL || MechanicsIsPlastic(&p->scene->mechanics)) *yes = PETSC_FALSE;
   PetscFunctionReturn(PETSC_SUCCESS);
 }

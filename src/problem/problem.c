@@ -103,7 +103,7 @@ PetscErrorCode ProblemDestroy(Problem *problem)
   PetscCall(PetscFree4(p->target, p->applied, p->increment, p->start_applied));
   PetscCall(RowBufferDestroy(&p->work));
   PetscCall(PressureDestroy_Private(p));
-  PetscCall(VecDestroyAll(6, (Vec *[]){&p->u_global, &p->u_local, &p->r_local, &p->prototype, &p->start_x, &p->imbalance}));
+  PetscCall(VecDestroyAll(5, (Vec *[]){&p->u_global, &p->u_local, &p->r_local, &p->prototype, &p->start_x}));
   PetscCall(ScalarsDestroy_Private(p));
   PetscCall(MatDestroy(&p->matrix));
   PetscCall(MechanicsDestroy(&p->mechanics));

@@ -36,8 +36,6 @@ struct _p_Problem {
   PetscReal *increment;        /* [num_nodes*dim] of the Newton step under discussion */
   PetscReal *start_applied;    /* [num_nodes*dim] applied where the Newton step starts */
   Vec        start_x;
-  Vec        imbalance; /* imbalance.c: forces noted, NULL: none */
-  PetscReal  share;     /* of it that counts as being in balance */
   PetscInt   num_dofs;
 
   /* pressure.c: unknown pressures, behind the multipliers; of local cells, as MechanicsSetPressure takes them */

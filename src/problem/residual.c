@@ -93,7 +93,6 @@ PetscErrorCode ProblemResidual(Problem p, Vec x, const PetscReal pressure[], Vec
   PetscCall(PressureRows_Private(p, array));
   PetscCall(ScalarsResidual_Private(p, x, array));
   PetscCall(VecRestoreArray(r, &array));
-  if (p->share > 0) PetscCall(VecAXPY(r, -p->share, p->imbalance));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -163,7 +163,7 @@ def test_recoveries_are_switched(run):
     """Each row of the table of recoveries: off, auto, on; anything else is refused. summary.json counts them."""
     done = run("inputs/patch2d.yml", "-path_viscous", "off", "-path_cut", "on", "-output_fields", "false")
     recoveries = done.summary["recoveries"]
-    assert done.returncode == 0 and {"homotopy", "cut", "viscous"} <= set(recoveries) and all(row == {"tried": 0, "succeeded": 0} for row in recoveries.values()), done
+    assert done.returncode == 0 and {"overlap", "cut", "viscous"} <= set(recoveries) and all(row == {"tried": 0, "succeeded": 0} for row in recoveries.values()), done
     refused(run("inputs/patch2d.yml", "-path_viscous", "maybe"), "-path_viscous is 'maybe'", "auto|on|off")
     refused(run("inputs/patch2d.yml", "-path_viscos", "on"), "-path_viscos", "-path_viscous")
     refused(run("inputs/patch2d.yml", "-load_relax", "false"), "-path_viscous")
