@@ -5,15 +5,19 @@
    follow, lambda <- z, and once the constraints that press are known the exact problem is solved from there by SolverSolve. */
 #include "solveimpl.h"
 
-#define PENALTY 10                             /* kappa over E / h: stiff against the cells, soft enough for the line search */
-#define OUTER 3                                /* descents, each with the multipliers of the one before: what helps does so after one or two */
-#define ITERATIONS 60                          /* of one descent, pieces of the prescribed motion */
-#define FIRST_SHIFT PETSC_SQRT_MACHINE_EPSILON /* over the rows' largest entries */
-#define MORE_SHIFT 16 /* times the last, where the matrix is not positive yet; where it was, as many times smaller in the next iteration */
-#define SHORTER_SHIFT (1. / (MORE_SHIFT * MORE_SHIFT)) /* at least, and MORE_SHIFT times the last, where that calls for a step shorter than 1 / MORE_SHIFT */
-#define HALVINGS 10                                    /* of a step, in a line search that gives up; doublings */
-#define DEEP 0.25                                      /* overlap over the extent of a node along the surface: bodies must not pass through each other */
-#define ROUND_OFF 1e-13                                /* of Phi: a smaller decrease is none */
+#define PENALTY 10         /* kappa over E / h: stiff against the cells, soft enough for the line search */
+#define OUTER 3            /* descents, each with the multipliers of the one before: what helps does so after one or two */
+#define ITERATIONS 60      /* of one descent */
+#define MOVES 20           /* pieces of the prescribed motion */
+#define FIRST_SHIFT 1e-9   /* over the rows' largest entries */
+#define MORE_SHIFT 16      /* times the last, where the matrix is not positive yet; where it was, as many times smaller in the next iteration */
+#define SHORTER_SHIFT 1e-3 /* at least, and MORE_SHIFT times the last, where that calls for a step shorter than 1 / MORE_SHIFT */
+#define ARMIJO 1e-4        /* least share of the decrease that the slope promises */
+#define HALVINGS 10        /* of a step, in a line search that gives up */
+#define LONGEST 64
+#define DEEPER 1        /* the same, by how much a piece of the prescribed motion may drive a node in */
+#define DEEP 0.25       /* overlap over the extent of a node along the surface: bodies must not pass through each other */
+#define ROUND_OFF 1e-13 /* of Phi: a smaller decrease is none */
 
 PetscErrorCode SolverHasDescent(Solver s, PetscBool *yes)
 {
@@ -231,10 +235,10 @@ PetscErrorCode DescentSearch_Private(Descent *d, Vec x, PetscReal slope, PetscBo
   *ok = PETSC_FALSE;
   for (PetscInt i = 0; i < HALVINGS; ++i, step *= 0.5) {
     PetscCall(DescentTry_Private(d, x, step, &merit));
-    *ok = (PetscBool)(merit < d->merit);
+    *ok = (PetscBool)(merit <= d->merit + ARMIJO * step * slope);
     if (*ok) break;
   }
-  while (*ok && d->shift > 0 && step >= 1 && step < 1 << HALVINGS) {
+  while (*ok && d->shift > 0 && step >= 1 && step < LONGEST) {
     PetscCall(DescentTry_Private(d, x, 2 * step, &further));
     if (further >= merit) break;
     merit = further;
@@ -319,7 +323,7 @@ static PetscErrorCode Piece_Private(Descent *d, Vec x, PetscBool *ok)
     PetscCall(ProblemStepMove(d->problem, d->dx, step, PETSC_FALSE, x));
     PetscCall(ProblemMerit(d->problem, PENALTY, d->lambda, x, NULL, &d->merit, &d->status));
     PetscCall(Through_Private(d, PETSC_TRUE, &through, &deeper));
-    *ok = (PetscBool)(!d->status.bad && !through && deeper <= 1); /* no further in than its extent */
+    *ok = (PetscBool)(!d->status.bad && !through && deeper <= DEEPER);
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -331,7 +335,7 @@ static PetscErrorCode Move_Private(Descent *d, Vec x, PetscBool *ok)
   PetscFunctionBegin;
   *ok = PETSC_TRUE;
   PetscCall(ProblemPending(d->problem, &pending));
-  for (PetscInt piece = 0; piece < ITERATIONS && pending > 0 && *ok && !d->report->stopped; ++piece) {
+  for (PetscInt piece = 0; piece < MOVES && pending > 0 && *ok && !d->report->stopped; ++piece) {
     PetscCall(Piece_Private(d, x, ok));
     PetscCall(ProblemPending(d->problem, &pending));
   }

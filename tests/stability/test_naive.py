@@ -261,7 +261,7 @@ def test_press_fit_on_a_fine_mesh(run, told):
     ours, naive = (run("tests/verify/scenes/pressfit.yml", *options, "-path_viscous", mode).summary for mode in ("auto", "off"))
     for s in (ours, naive):
         print({key: s[key] for key in ("t", "load_steps", "step_cuts", "newton_iterations", "recoveries", "viscous_work")})
-    assert ours["t"] > 0.155 and ours["step_cuts"] <= 2 and naive["t"] < 0.142
+    assert ours["t"] >= 0.17 - 1e-12 and ours["recoveries"]["viscous"]["succeeded"] > 0 and naive["t"] < 0.16
     told(ours["t"], naive["t"])
 
 

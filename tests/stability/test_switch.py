@@ -63,7 +63,7 @@ ROWS = {
     "normals": ("Directions of gaps turn faster than facets", "Newton iterations", "-newton_frozen_normals auto", "-newton_frozen_normals off",
                 f"tests/verify/scenes/pressed_cylinder.yml -load_step 1 -body_plate_motion_y 0.13 {ALONE}", newton, 12, 20),
     "overshoot": ("Flow at a rounded edge: Newton's method overshoots", "Newton iterations", "-newton_line_search auto", "-newton_line_search off",
-                  f"tests/gauntlet/upset.yml -load_end 0.05 {ALONE}", newton, 50, 80),
+                  f"tests/gauntlet/upset.yml -load_end 0.05 {ALONE}", newton, 50, STOPS),
     "flow": ("Material that flowed is taken for elastic at the start of a step", "Newton iterations", "-newton_yield_edge auto", "-newton_yield_edge off",
              "inputs/necking.yml -load_end 0.1", newton, 55, 65),
     "slide": ("Contact slides over half a disc in one step", "Newton iterations", "-newton_slide_predictor auto", "-newton_slide_predictor off", SLIDE, newton, 15, 25),
@@ -94,6 +94,6 @@ def test_switch(run, told, name):
     told(*shown, **words)
     assert results[0].returncode == 0 and values[0] <= below, results[0]
     if above is STOPS:
-        assert results[1].returncode == 2 and results[1].summary["status"] == "failed", results[1]
+        assert results[1].returncode == 2 and results[1].summary["status"] in ("failed", "inaccurate"), results[1]
     else:
         assert results[1].returncode == 0 and values[1] >= above, results[1]
