@@ -233,24 +233,23 @@ static PetscReal Stiffness_Private(Scene s, const Facets *f, PetscInt group)
   return least;
 }
 
-/* Is the nonmortar side of the scene better the mortar one, and why? The side that has corners carries the multiplier: a corner has a node, which is held on a
-   smooth face wherever it slides; within a facet of the other side its constraint would be a mean of gaps that grow to both sides, which depends on the place,
-   so that the corner rides over bumps. Not where its facets are longer than all of the other side: what lies between its nodes is held by nothing. Where both
-   sides have corners or neither has, the softer one: on a stiffer side the constraints are as coarse as its facets while the other side deforms between its
-   nodes; on a rigid one nothing of its own makes each of them felt. */
+/* Is the nonmortar side of the scene better the mortar one, and why? In the plane the side that has corners carries the multiplier: a corner has a node, which
+   is held on a smooth face wherever it slides; within a facet of the other side its constraint would be a mean of gaps that grow to both sides, which depends
+   on the place, so that the corner rides over bumps. Not where its facets are longer than all of the other side: what lies between its nodes is held by
+   nothing. Where both sides have corners or neither has, the softer one: on a stiffer side the constraints are as coarse as its facets while the other side
+   deforms between its nodes; on a rigid one nothing of its own makes each of them felt. */
 static PetscErrorCode Exchange_Private(Scene s, const Facets *f, const ContactEntry *c, const PetscReal stiffness[2], const char **why)
 {
-  const PetscInt side[2] = {c->spec.nonmortar, c->spec.mortar};
-  PetscReal      longest[2];
-  PetscBool      corner[2];
+  PetscReal corner[2], longest[2];
 
   PetscFunctionBegin;
   *why = stiffness[0] > stiffness[1] ? "is the stiffer one" : NULL;
   if (stiffness[0] >= PETSC_INFINITY) *why = "is rigid";
   if (stiffness[0] >= PETSC_INFINITY || stiffness[1] >= PETSC_INFINITY || c->spec.law == CONTACT_TIED) PetscFunctionReturn(PETSC_SUCCESS);
-  for (PetscInt i = 0; i < 2; ++i) PetscCall(SceneHasCorner(f->whole, side[i], PETSC_INFINITY, &longest[i], &corner[i]));
-  for (PetscInt i = 0; i < 2; ++i) PetscCall(SceneHasCorner(f->whole, side[i], longest[1 - i], &longest[i], &corner[i]));
-  if (corner[0] != corner[1]) *why = corner[0] ? NULL : "has no corner, the other side has,";
+  PetscCall(SceneCorner(f->whole, c->spec.nonmortar, &corner[0], &longest[0]));
+  PetscCall(SceneCorner(f->whole, c->spec.mortar, &corner[1], &longest[1]));
+  const PetscBool own = (PetscBool)(corner[0] <= longest[1]), other = (PetscBool)(corner[1] <= longest[0]);
+  if (own != other) *why = own ? NULL : "has no corner, the other side has,";
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -110,24 +110,23 @@ static PetscInt End_Private(PetscInt num, const Rim rim[], PetscInt from)
   return end;
 }
 
-PetscErrorCode SceneHasCorner(Forest forest, PetscInt group, PetscReal longest, PetscReal *length, PetscBool *yes)
+PetscErrorCode SceneCorner(Forest forest, PetscInt group, PetscReal *corner, PetscReal *longest)
 {
   const ForestTables *t;
   PetscInt            num;
   Rim                *rim;
 
   PetscFunctionBegin;
-  *yes    = PETSC_FALSE;
-  *length = 0;
+  *corner  = PETSC_INFINITY;
+  *longest = 0;
   PetscCall(ForestGetTables(forest, &t));
+  if (t->dim != 2) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(Rims_Private(forest, group, &num, &rim));
-  for (PetscInt k = 0, end; k < num; k = end) {
-    end = End_Private(num, rim, k);
-    for (PetscInt i = k; i < end; ++i) {
-      *length = PetscMax(*length, rim[i].length);
-      for (PetscInt j = k; j < end && t->dim == 2; ++j)
-        if (PetscMax(rim[i].length, rim[j].length) <= longest && Dot3(rim[i].N, rim[j].T) < 0 && Dot3(rim[i].N, rim[j].N) < CONTACT_SHARP) *yes = PETSC_TRUE;
-    }
+  for (PetscInt k = 0; k < num; ++k) {
+    const PetscBool meets = (PetscBool)(k + 1 < num && rim[k + 1].entity == rim[k].entity); /* two facets at most meet in a vertex of an outline */
+    *longest              = PetscMax(*longest, rim[k].length);
+    if (meets && Dot3(rim[k].N, rim[k + 1].T) < 0 && Dot3(rim[k].N, rim[k + 1].N) < CONTACT_SHARP)
+      *corner = PetscMin(*corner, PetscMax(rim[k].length, rim[k + 1].length));
   }
   PetscCall(PetscFree(rim));
   PetscFunctionReturn(PETSC_SUCCESS);

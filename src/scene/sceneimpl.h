@@ -177,9 +177,9 @@ PetscErrorCode SceneCheckMesh(Scene, Forest);
 PetscErrorCode SceneTellMesh(Scene, Forest);
 /* faces.c. Colours of the smooth faces of a group by side of the coarse mesh, -1: not in the group; *colour is the caller's. Not collective. */
 PetscErrorCode SceneColourFaces(Forest, PetscInt group, PetscInt *num_colours, int8_t **colour);
-/* In the plane, has the group a convex corner of more than 40 degrees, between facets no longer than that? In space: no. length: of its longest facet. Not
- * collective. */
-PetscErrorCode SceneHasCorner(Forest, PetscInt group, PetscReal longest, PetscReal *length, PetscBool *yes);
+/* In the plane: length of the longest facet of the group, and of the longer one at the shortest of its convex corners of more than 40 degrees (infinity: it
+   has none); in space 0 and infinity. Not collective. */
+PetscErrorCode SceneCorner(Forest, PetscInt group, PetscReal *corner, PetscReal *longest);
 /* The same on sides of contact pairs that are chords of what they stand for (chords.c). Collective. */
 PetscErrorCode SceneTellChords(Scene, Forest);
 /* Reference position of a vertex (check.c). Not collective. */
