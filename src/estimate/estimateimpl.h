@@ -147,6 +147,7 @@ PetscBool      ContactTermsHave_Private(const ContactTerms *, PetscInt facet);
 PetscErrorCode EstimateComplementarity_Private(EstimateSum *);
 /* Measure at a place of a nonmortar facet per unit of xi: length or area, axisymmetric: of the revolution. */
 PetscReal ContactTermsMeasure_Private(const ContactTerms *, const SurfaceView *, PetscInt facet, const PetscReal xi[2], const PetscReal N[]);
+/* Current over reference measure there. */
 PetscReal ContactStretch_Private(const ContactTerms *, const SurfaceView *, PetscInt facet, const PetscReal xi[2]);
 /* Gap at a node from the weighted gap; PETSC_FALSE where the node, or one that it hangs on, sees next to nothing of this measure. */
 PetscBool ContactNodalGap_Private(const ContactView *, PetscInt node, PetscReal measure, PetscReal *gap);

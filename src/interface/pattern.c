@@ -22,17 +22,22 @@ static PetscErrorCode Replace_Private(Contact *c, PetscInt offset[], PetscInt li
 
 enum { LISTS = 2 + MOST_MULTIPLIERS }; /* of facets: contact, slip, each component of a tied pair */
 
+/* A list's results by facet (-1: none), NULL: the pair has no such list. */
+static const PetscInt *Results_Private(const Contact *c, PetscInt list)
+{
+  if (list == 0) return c->result;
+  if (list == 1) return c->slip ? c->slip->result : NULL;
+  return c->tie && list - 2 < c->num ? c->tie->result[list - 2] : NULL;
+}
+
 /* What a facet of this list meets, NULL: nothing, or nothing that takes part in the next linear solve. */
 static const ContactFacet *Met_Private(const Contact *c, PetscInt list, PetscInt facet)
 {
-  const PetscInt      k = list - 2, *result = list == 0              ? c->result
-                                              : list == 1            ? (c->slip ? c->slip->result : NULL)
-                                              : c->tie && k < c->num ? c->tie->result[k]
-                                                                     : NULL;
+  const PetscInt     *result = Results_Private(c, list), at = result ? result[facet] : -1;
   const ContactFacet *e;
 
-  if (!result || result[facet] < 0) return NULL;
-  e = list == 0 ? &c->facets[result[facet]] : list == 1 ? &c->slip->facets[result[facet]] : &c->tie->facets[k][result[facet]].facet;
+  if (at < 0) return NULL;
+  e = list == 0 ? &c->facets[at] : list == 1 ? &c->slip->facets[at] : &c->tie->facets[list - 2][at].facet;
   for (PetscInt i = 0; i < e->num_rows; ++i) {
     if (c->near[e->nodes[i]]) return e;
   }

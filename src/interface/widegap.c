@@ -19,8 +19,9 @@ static PetscErrorCode IsWide_Private(Interface p, const Contact *c, PetscBool *w
   PetscFunctionBegin;
   for (PetscInt i = 0; i < s->num_mine; ++i) {
     const PetscInt  e       = s->mine[i];
-    const PetscReal measure = SurfaceMeasure_Private(s, s->x, e), length = (s->dim == 2 ? measure : PetscSqrtReal(measure)) / (PetscReal)s->order[e];
-    const PetscInt *node, num                                            = SurfaceNodes_Private(s, e, &node);
+    const PetscReal measure = SurfaceMeasure_Private(s, s->x, e);
+    const PetscReal length  = (s->dim == 2 ? measure : PetscSqrtReal(measure)) / (PetscReal)s->order[e];
+    const PetscInt *node, num = SurfaceNodes_Private(s, e, &node);
     for (PetscInt k = 0; k < num; ++k) {
       const PetscInt j = node[k];
       sum[0] += c->z[j] * c->gap[j];
