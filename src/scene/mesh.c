@@ -76,9 +76,9 @@ static PetscBool Says_Private(const char *file, const char *words)
    Returns errno. */
 static int Wait_Private(pid_t pid, int *status, PetscBool *stopped)
 {
-  struct timespec pause = {.tv_nsec = 1000000};
-  PetscReal       spent = 0;
-  pid_t           ended;
+  const struct timespec pause = {.tv_nsec = 2000000}; /* gmsh takes some 50 of them at least */
+  PetscReal             spent = 0;
+  pid_t                 ended;
 
   *stopped = PETSC_FALSE;
   while ((ended = waitpid(pid, status, *stopped ? 0 : WNOHANG)) == 0 || (ended < 0 && errno == EINTR)) {
@@ -86,7 +86,6 @@ static int Wait_Private(pid_t pid, int *status, PetscBool *stopped)
     *stopped = (PetscBool)(spent >= (strcmp(StopWish(), "SIGTERM") ? GRACE : GRACE_KILLED));
     if (*stopped) (void)kill(pid, SIGKILL);
     (void)nanosleep(&pause, NULL);
-    pause.tv_nsec = PetscMin(2 * pause.tv_nsec, 50000000);
   }
   return ended < 0 ? errno : 0;
 }
