@@ -164,6 +164,11 @@ def insert(text, mark, table):
     return f"{head}<!-- {mark} -->\n{table}<!-- /{mark} -->{rest.split(f'<!-- /{mark} -->')[1]}"
 
 
+def charted(rows, scene):
+    """{(code, series): errors}: none below what the reference is good for."""
+    return {key: [max(float(row["error"]), certain(scene)) for row in mine] for key, mine in series(rows, scene).items()}
+
+
 def draw(rows, scene, x, label):
     import matplotlib
 
@@ -171,11 +176,11 @@ def draw(rows, scene, x, label):
     import matplotlib.pyplot as plt
 
     figure, axes = plt.subplots(figsize=(9.2, 5), dpi=100)
-    count = {}
+    count, errors = {}, charted(rows, scene)
     for (code, name), mine in series(rows, scene).items():
         marker = MARKERS[count.setdefault(code, 0) % len(MARKERS)]
         count[code] += 1
-        axes.loglog([float(row[x]) for row in mine], [max(float(row["error"]), certain(scene)) for row in mine], color=COLOURS[code], marker=marker, markersize=4,
+        axes.loglog([float(row[x]) for row in mine], errors[code, name], color=COLOURS[code], marker=marker, markersize=4,
                     linewidth=1.6 if code == "mortise" else 0.7, zorder=3 if code == "mortise" else 2, label=f"{NAMES[code]}: {name}")
     entry = REFERENCES[scene]
     largest = max(float(row["error"]) for mine in series(rows, scene).values() for row in mine)

@@ -41,10 +41,10 @@ def graded(*sizes, h=0.13):
 UMFPACK = {"mixed": 1, "solver": "umfpack"}
 SCENES = {
     "hertz2d": {
-        **mortise(HALF, (0.1, 0.03, 0.01, 0.003, 0.001)),
+        **mortise(HALF, (0.3, 0.1, 0.03, 0.01, 0.003, 0.001)),
         **peer("ngsolve", {}, {"order": (2, 3, 4), "gamma": (1e3, 1e4)}, *graded(0.08, 0.04, 0.02, 0.01)),
         **peer("ngsolve", {"hcorner": 0.02}, {"order": (3, 4), "gamma": (1e5,)}, *graded(0.04, 0.02, 0.01)),
-        **peer("getfem", {}, {"order": (1,), "grade": (0, 1.5)}, 8, 16, 32),
+        **peer("getfem", {}, {"order": (1,), "grade": (0, 1.5)}, 6, 8, 16, 32),
         **peer("getfem", {}, {"order": (2,), "grade": (0, 1.5)}, 4, 8, 12),
         **peer("getfem", {"multiplier": 2}, {"order": (3,), "grade": (0, 1.5)}, 3, 4, 8),
         **peer("calculix", {}, {"cell": ("C3D8",), "penalty": (1e3, 1e4)}, 8, 16, 32),

@@ -1,4 +1,5 @@
 /* A .geo becomes a .msh by the program gmsh, run on rank 0 in a temporary directory; a .msh is taken as it is. */
+#define _GNU_SOURCE /* execvpe, environ */
 #include "sceneimpl.h"
 #include <ctype.h>
 #include <errno.h>
@@ -76,9 +77,9 @@ static PetscBool Says_Private(const char *file, const char *words)
    Returns errno. */
 static int Wait_Private(pid_t pid, int *status, PetscBool *stopped)
 {
-  struct timespec pause = {.tv_nsec = 1000000};
-  PetscReal       spent = 0;
-  pid_t           ended;
+  const struct timespec pause = {.tv_nsec = 2000000}; /* gmsh takes some 50 of them at least */
+  PetscReal             spent = 0;
+  pid_t                 ended;
 
   *stopped = PETSC_FALSE;
   while ((ended = waitpid(pid, status, *stopped ? 0 : WNOHANG)) == 0 || (ended < 0 && errno == EINTR)) {
@@ -86,7 +87,6 @@ static int Wait_Private(pid_t pid, int *status, PetscBool *stopped)
     *stopped = (PetscBool)(spent >= (strcmp(StopWish(), "SIGTERM") ? GRACE : GRACE_KILLED));
     if (*stopped) (void)kill(pid, SIGKILL);
     (void)nanosleep(&pause, NULL);
-    pause.tv_nsec = PetscMin(2 * pause.tv_nsec, 50000000);
   }
   return ended < 0 ? errno : 0;
 }
@@ -94,16 +94,20 @@ static int Wait_Private(pid_t pid, int *status, PetscBool *stopped)
 /* The new process, which ends with this one. Between vfork and exec it runs in our memory: system calls only. Returns errno. */
 static int Start_Private(char *const argv[], int in, int out, pid_t *pid)
 {
-  const pid_t         parent = getpid();
-  const struct rlimit memory = Memory_Private();
-  volatile int        failed = 0;
+  const pid_t         parent      = getpid();
+  const struct rlimit memory      = Memory_Private();
+  char **const        environment = PreloadEnvironment(argv[0]);
+  volatile int        failed      = 0;
 
   *pid = vfork();
-  if (*pid < 0) return errno;
-  if (*pid) return failed;
+  if (*pid) {
+    const int error = *pid < 0 ? errno : failed;
+    if (environment != environ) free(environment);
+    return error;
+  }
   (void)prctl(PR_SET_PDEATHSIG, SIGKILL);
   (void)setrlimit(RLIMIT_DATA, &memory);
-  if (getppid() == parent && dup2(in, 0) >= 0 && dup2(out, 1) >= 0 && dup2(out, 2) >= 0) (void)execvp(argv[0], argv);
+  if (getppid() == parent && dup2(in, 0) >= 0 && dup2(out, 1) >= 0 && dup2(out, 2) >= 0) (void)execvpe(argv[0], argv, environment);
   failed = errno;
   _exit(127);
 }

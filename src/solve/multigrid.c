@@ -87,10 +87,24 @@ PetscErrorCode MultigridCheck_Private(MultigridKind kind, LinearKind linear)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* What is best where nothing was said: in the space of order 1 inside one of higher order a factor, which soon costs too much, or BoomerAMG, with which GMRES
+   takes as many iterations, GAMG half as many again; for order 1 GAMG, whose iterations are cheaper (docs/results.md). */
+static MultigridKind Best_Private(Multigrid m, PetscInt size)
+{
+  if (!m->smoother) return MULTIGRID_GAMG;
+  if (size <= SOLVER_LARGE) return MULTIGRID_AUTO;
+#if defined(PETSC_HAVE_HYPRE)
+  return MULTIGRID_BOOMERAMG;
+#else
+  return MULTIGRID_GAMG;
+#endif
+}
+
 static PetscErrorCode Coarse_Private(Multigrid m, MultigridKind kind)
 {
-  PetscInt size;
-  PC       pc;
+  PetscBool type;
+  PetscInt  size;
+  PC        pc;
 
   PetscFunctionBegin;
   PetscCall(KSPCreate(PetscObjectComm((PetscObject)m->P), &m->coarse));
@@ -98,9 +112,11 @@ static PetscErrorCode Coarse_Private(Multigrid m, MultigridKind kind)
   PetscCall(KSPSetType(m->coarse, KSPPREONLY));
   PetscCall(KSPGetPC(m->coarse, &pc));
   PetscCall(MatGetSize(m->P, NULL, &size));
+  PetscCall(PetscOptionsHasName(NULL, NULL, "-multigrid_pc_type", &type)); /* the user's */
+  if (kind == MULTIGRID_AUTO && !type) kind = Best_Private(m, size);
   if (kind == MULTIGRID_BOOMERAMG)
     PetscCall(BoomerAMG_Private(m, pc));
-  else if (kind == MULTIGRID_GAMG || !m->smoother || size > SOLVER_LARGE)
+  else if (kind == MULTIGRID_GAMG)
     PetscCall(PCSetType(pc, PCGAMG));
   else {
     PetscCall(PCSetType(pc, PCCHOLESKY));

@@ -27,7 +27,7 @@ static const SolverOption Options[] = {
      "LDL^T of the tangent's symmetric form, or LU of the exact one; default: where possible"},
     {"-solve_linear", KIND_CHOICE, "auto|direct|iterative", AT(linear), "factorisation, or multigrid and GMRES; default auto: by size"},
     {"-solve_multigrid", KIND_CHOICE, "auto|gamg|boomeramg", AT(multigrid),
-     "where multigrid is taken: PETSc's smoothed aggregation, or hypre's BoomerAMG; default auto: gamg, or a factor of order 1 where that is small"},
+     "where multigrid is taken: PETSc's smoothed aggregation, or hypre's BoomerAMG; default auto: by order and size"},
     {"-solve_linear_rtol", KIND_REAL, NUMBER, AT(linear_rtol), "least residual of GMRES against the right-hand side; default 1e-9"},
     {"-solve_factor", KIND_CHOICE, "auto|single|double", AT(factor), "precision of factors; GMRES in double refines single ones; default auto: by size"},
     {"-solve_condense", KIND_CHOICE, "auto|yes|no", AT(condense), "eliminate the unknowns inside each cell before the linear solver; default auto: by order"},

@@ -1,9 +1,7 @@
 /* Life cycle of the solver; the functions SNES calls. */
 #include "solveimpl.h"
 
-/* Unknowns from which multigrid is faster than a factorisation, cells of order 1 and above. */
-#define MANY 100000
-#define MANY_HIGHER 150000
+#define MANY 150000 /* unknowns in space from which multigrid is faster than a factorisation */
 
 static PetscErrorCode Function_Private(SNES snes, Vec x, Vec r, void *context)
 {
@@ -85,15 +83,14 @@ static PetscErrorCode Highest_Private(Problem p, PetscInt *order)
 static PetscErrorCode UseMultigrid_Private(Solver s, PetscBool *yes)
 {
   const SceneData *scene;
-  PetscInt         dofs, num_u, num_z, dim, order, scalars;
+  PetscInt         dofs, num_u, num_z, dim, scalars;
   PetscBool        incompressible;
 
   PetscFunctionBegin;
   PetscCall(ProblemGetScene(s->problem, &scene));
   PetscCall(ProblemNumDofs(s->problem, &dofs));
   PetscCall(ProblemGetBlocks(s->problem, &num_u, &num_z, &dim));
-  PetscCall(Highest_Private(s->problem, &order));
-  *yes = (PetscBool)(dim == 3 && dofs >= (order > 1 ? MANY_HIGHER : MANY));
+  *yes = (PetscBool)(dim == 3 && dofs >= MANY);
   for (PetscInt b = 0; b < scene->mechanics.num_bodies; ++b) {
     if (scene->mechanics.bodies[b].material->mixed) *yes = PETSC_FALSE;
   }

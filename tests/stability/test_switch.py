@@ -68,6 +68,8 @@ ROWS = {
              "inputs/necking.yml -load_end 0.1", newton, 55, 65),
     "slide": ("Contact slides over half a disc in one step", "Newton iterations", "-newton_slide_predictor auto", "-newton_slide_predictor off", SLIDE, newton, 15, 25),
     "touch": ("First touch: all overlapping nodes taken for active", "factorisations", "-newton_first_touch auto", "-newton_first_touch off", DRIVEN, factorisations, 6, 8),
+    "overlap": ("Bodies that overlap deeply at the start, which no part of the load scales", "1 - t reached", "-path_overlap auto", "-path_overlap off -load_step_min 0.4",
+                "tests/gauntlet/wiper.yml -mesh_parameter_r 0.05 -mesh_parameter_o 0.6", lambda s: 1 - s["t"], 1e-12, STOPS),
     "stall": ("A solve without hope goes on", "factorisations", "-newton_stall auto", "-newton_stall off",
               f"tests/gauntlet/upset_strip.yml -adapt_tolerance 0 -load_step 0.1 -newton_line_search off {ALONE}", factorisations, 500, 700),
     "snap": ("A clip snaps: behind the limit point no equilibrium is near", "1 - t reached", "-path_viscous auto, -path_descent auto",
