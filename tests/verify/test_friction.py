@@ -148,6 +148,15 @@ def test_tangent(run):
     assert result.returncode == 0 and min(error[-3:]) < 1e-6
 
 
+def test_tangent_at_kinks(run):
+    """The first linearisation of every step: surfaces that rest on each other with gaps of round-off, then nodes at the bound since the last step."""
+    friction = "-contact_c_friction", 0.2, "-contact_d_friction", 0.2
+    result = run("tests/gauntlet/wedge_under.yml", "-snes_test_jacobian", *friction, "-load_end", 0.2, "-output_fields", "false")
+    error = [float(line.split("=")[1].split(",")[0]) for line in result.stdout.splitlines() if "||J - Jfd||_F/||J||_F =" in line]
+    print(error)
+    assert result.returncode == 0 and len(error) == 4 and max(error) < 1e-6
+
+
 def test_without_friction_nothing_changes(run):
     text = disc("disc", 2, 0)
     plain = run("plain.yml", "-snes_monitor", text=text.replace(", friction: 0", ""))
