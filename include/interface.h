@@ -13,6 +13,7 @@ typedef struct _p_Interface *Interface;
    and set by one call (ProblemSetForm). Sets of contact pairs: bit i for pair i. Of the residual, and kept with its state: */
 typedef struct {
   PetscBool frozen_segmentation; /* contact forces with the lines of the mortar side frozen (ContactPairFreezeSegmentation) */
+  PetscBool frozen_states;       /* nodes keep the states of the last evaluation, and so the branches of their rows: differences are those of one branch */
   /* of a linearisation only: */
   PetscBool    symmetric;      /* the tangent in its symmetric form, where there is one */
   uint64_t     released;       /* pairs that take no part in the tangent, their multipliers go to 0 */

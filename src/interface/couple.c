@@ -221,14 +221,14 @@ PetscErrorCode ContactGatherMultipliers_Private(Interface p, Contact *c, Vec x)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static void Activity_Private(Contact *c)
+static void Activity_Private(Interface p, Contact *c)
 {
   for (PetscInt i = 0; i < c->num_valued; ++i) {
     const PetscInt j     = c->valued_node[i];
     ContactPoint   point = ContactPoint_Private(c, j, PETSC_FALSE);
 
-    point.state  = 0; /* a function of the positions and multipliers alone */
-    c->active[j] = c->has_multiplier[j] && ContactCovered_Private(c, j) ? c->law->state(&point) : 0;
+    point.state = 0; /* a function of the positions and multipliers alone */
+    if (!p->form->frozen_states) c->active[j] = c->has_multiplier[j] && ContactCovered_Private(c, j) ? c->law->state(&point) : 0;
     if (c->slip && c->side[0].dim == 3) c->law->aim(&point, c->slip->aim + 3 * j);
   }
 }
@@ -401,7 +401,7 @@ PetscErrorCode ContactEvaluate_Private(Interface p, Contact *c, Vec x, const Pet
   if (small) PetscCall(Near_Private(p, c, pending));
   for (PetscInt e = 0; e < c->side[0].num_facets; ++e) c->result[e] = -1;
   for (PetscInt i = 0; i < c->num_facets; ++i) c->result[c->facets[i].facet] = i;
-  Activity_Private(c);
+  Activity_Private(p, c);
   PetscCall(ShownMultipliers_Private(p, c));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -2,17 +2,24 @@
 #include "interfaceimpl.h"
 
 /* A node where the surface ends on a plane along which it may only slide: its normal is averaged with its mirror image. A support that holds the end across the
-   surface is no such plane: the image would cancel the normal. */
+   surface is no such plane: the image would cancel the normal. Facets that lie in the plane, as the side of half a body, meet nothing and are no part of it. */
 static void NodeMirror_Private(Surface *s, PetscInt n, PetscInt fixed)
 {
-  if (s->node_first[n + 1] - s->node_first[n] > 1) return;
+  const PetscReal *plane = s->frame + 4 * n + (fixed == 1 ? 0 : 2);
+  PetscInt         steep = 0;
+
   if (fixed != 1 && fixed != 2) return;
-  const PetscInt k = fixed == 1 ? 0 : 1, edge = s->node_facet[s->node_first[n]];
-  if (s->facets[2 * edge] != n && s->facets[2 * edge + 1] != n) return; /* inside an edge */
-  const PetscReal *plane = s->frame + 4 * n + 2 * k, *a = s->X + 2 * s->facets[2 * edge], *b = s->X + 2 * s->facets[2 * edge + 1];
-  const PetscReal  along = plane[0] * (b[0] - a[0]) + plane[1] * (b[1] - a[1]), across = plane[0] * (b[1] - a[1]) - plane[1] * (b[0] - a[0]);
-  if (PetscAbsReal(along) < PetscAbsReal(across)) return;
-  for (PetscInt c = 0; c < 2; ++c) s->mirror[2 * n + c] = s->frame[4 * n + 2 * k + c];
+  for (PetscInt f = s->node_first[n]; f < s->node_first[n + 1]; ++f) {
+    const PetscInt  *node = s->facets + 2 * s->node_facet[f];
+    const PetscReal *a = s->X + 2 * node[0], *b = s->X + 2 * node[1];
+    const PetscReal  along = plane[0] * (b[0] - a[0]) + plane[1] * (b[1] - a[1]), across = plane[0] * (b[1] - a[1]) - plane[1] * (b[0] - a[0]);
+
+    if (node[0] != n && node[1] != n) return; /* inside an edge */
+    if (PetscAbsReal(along) <= ROUND_LENGTH * PetscAbsReal(across)) continue;
+    if (PetscAbsReal(along) < PetscAbsReal(across)) return;
+    ++steep;
+  }
+  for (PetscInt c = 0; c < 2 && steep == 1; ++c) s->mirror[2 * n + c] = plane[c];
 }
 
 /* The same in space: is the plane through a node with this unit normal one in which its facets end, all to one side of it, with an edge in it, and steeply? */
@@ -26,6 +33,7 @@ static PetscBool IsMirror_Private(const Surface *s, PetscInt n, const PetscReal 
     PetscReal       vector[3], e[3];
 
     ContactFacetVector(3, s->X, node, vector);
+    if (PetscAbsReal(Dot3(plane, vector)) > (1 - ROUND_LENGTH) * PetscSqrtReal(Dot3(vector, vector))) continue; /* it lies in the plane */
     for (PetscInt c = 0; c < 3; ++c) N[c] += vector[c];
     for (PetscInt a = 0; a < 4; ++a) {
       for (PetscInt c = 0; c < 3; ++c) e[c] = s->X[3 * node[a] + c] - s->X[3 * n + c];

@@ -148,6 +148,15 @@ def test_tangent(run):
     assert result.returncode == 0 and min(error[-3:]) < 1e-6
 
 
+def test_tangent_at_kinks(run):
+    """The first linearisation of every step: surfaces that rest on each other with gaps of round-off, then nodes at the bound since the last step."""
+    friction = "-contact_c_friction", 0.2, "-contact_d_friction", 0.2
+    result = run("tests/gauntlet/wedge_under.yml", "-snes_test_jacobian", *friction, "-load_end", 0.2, "-output_fields", "false")
+    error = [float(line.split("=")[1].split(",")[0]) for line in result.stdout.splitlines() if "||J - Jfd||_F/||J||_F =" in line]
+    print(error)
+    assert result.returncode == 0 and len(error) == 4 and max(error) < 1e-6
+
+
 def test_without_friction_nothing_changes(run):
     text = disc("disc", 2, 0)
     plain = run("plain.yml", "-snes_monitor", text=text.replace(", friction: 0", ""))
@@ -334,6 +343,21 @@ def test_plane_of_symmetry(run):
     assert half.returncode == 0 and whole.returncode == 0
     assert 2 * half.summary["energy"] == pytest.approx(whole.summary["energy"], rel=1e-10)
     assert 2 * half.summary["contact"]["pair"]["force"][1] == pytest.approx(whole.summary["contact"]["pair"]["force"][1], rel=1e-10)
+
+
+def test_side_in_the_plane_of_symmetry(run):
+    """Facets of half a body that lie in the plane of symmetry belong to the pair or not: the corner bears no traction there."""
+    results = [run("tests/gauntlet/half_patch.yml", "-contact_c_friction", 0.2, "-contact_c_nonmortar", side, "-output_fields", "false") for side in ("under", "skin")]
+    pairs = [result.summary["contact"]["c"] for result in results]
+    print([(pair["force"], pair["sticking_nodes"], pair["slipping_nodes"]) for pair in pairs])
+    assert pairs[1]["force"] == pytest.approx(pairs[0]["force"], rel=1e-10) and pairs[0]["slipping_nodes"] == pairs[1]["slipping_nodes"] == 1
+
+
+def test_rest_is_no_slip(run):
+    """A sleeve shrunk onto a shaft slips in the first step, and then rests: nodes at the bound that slip by round-off are told as sticking."""
+    result = run("tests/gauntlet/sleeve.yml", "-contact_c_friction", 0.2, "-load_end", 0.5, "-output_fields", "false")
+    print(column(result, "contact.c.slipping_nodes"), column(result, "contact.c.max_slip"))
+    assert column(result, "contact.c.slipping_nodes")[0] > 0 and not any(column(result, "contact.c.slipping_nodes")[1:])
 
 
 @pytest.mark.parametrize("model", ["plane_strain", "axisymmetric"])
