@@ -2,6 +2,7 @@
 #include "appimpl.h"
 #include <errno.h>
 #include <stdlib.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 static const char *const Alone[][2] = {
@@ -114,17 +115,52 @@ static void TellFiles_Private(int argc, char **argv)
   }
 }
 
-/* What PETSc does not live through, said by one process of a job. */
+#define STACK_ROOM ((rlim_t)1 << 20) /* bytes; a run takes a fifth of it */
+
+/* Make room for the stack where less is given but more allowed; kB that are allowed, where that is too little, else 0. */
+static long Stack_Private(void)
+{
+  struct rlimit limit;
+
+  if (getrlimit(RLIMIT_STACK, &limit) || limit.rlim_cur >= STACK_ROOM) return 0; /* RLIM_INFINITY is the largest of all */
+  if (limit.rlim_max < STACK_ROOM) return (long)(limit.rlim_max >> 10);
+  limit.rlim_cur = STACK_ROOM;
+  return setrlimit(RLIMIT_STACK, &limit) ? (long)(limit.rlim_max >> 10) : 0;
+}
+
+/* What PETSc, or this program, does not live through, said by one process of a job. */
 static PetscBool Refused_Private(int argc, char **argv)
 {
-  const char *const rank = getenv("OMPI_COMM_WORLD_RANK");
+  const char *const rank   = getenv("OMPI_COMM_WORLD_RANK");
+  const PetscBool   speaks = (PetscBool)(!rank || !strcmp(rank, "0"));
+  const long        stack  = Stack_Private();
   char              here[PETSC_MAX_PATH_LEN], told[256] = "";
   const PetscBool   lost = (PetscBool)(!getcwd(here, sizeof(here))), loop = (PetscBool)(!lost && AppOptionsLoop(argc, argv, sizeof(told), told));
 
-  if (lost && (!rank || !strcmp(rank, "0")))
-    fprintf(stderr, "mortise: the working directory cannot be found: %s; start in one that is there\n", strerror(errno));
-  if (loop && (!rank || !strcmp(rank, "0"))) fprintf(stderr, "mortise: -options_file: %s names itself, so that reading it would not end\n", told);
-  return (PetscBool)(lost || loop);
+  if (speaks && stack) fprintf(stderr, "mortise: the stack may not grow beyond %ld kB (ulimit -s); %ld are needed\n", stack, (long)(STACK_ROOM >> 10));
+  if (speaks && lost && !stack) fprintf(stderr, "mortise: the working directory cannot be found: %s; start in one that is there\n", strerror(errno));
+  if (speaks && loop && !stack) fprintf(stderr, "mortise: -options_file: %s names itself, so that reading it would not end\n", told);
+  return (PetscBool)(stack || lost || loop);
+}
+
+/* PETSc passes over the words of PETSC_OPTIONS that are neither an option nor its value, so that one without its dash would not act. */
+static PetscErrorCode Words_Private(void)
+{
+  const char *const given = getenv("PETSC_OPTIONS");
+  char             *text, *at = NULL, told[80] = "";
+  PetscBool         option, value = PETSC_FALSE; /* may the word be the value of the one before? */
+
+  PetscFunctionBegin;
+  if (!given) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(PetscStrallocpy(given, &text));
+  for (const char *word = strtok_r(text, " \t\r\n", &at); word && !told[0]; word = strtok_r(NULL, " \t\r\n", &at)) {
+    PetscCall(PetscOptionsValidKey(word, &option));
+    if (!option && !value) PetscCall(PetscStrncpy(told, word, sizeof(told)));
+    value = option;
+  }
+  PetscCall(PetscFree(text));
+  PetscCheckInput(!told[0], "PETSC_OPTIONS: '%s' is neither an option, which begins with '-', nor the value of one", told);
+  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* PetscInitialize with those settings when no launcher started this process; what the user has set wins. */
@@ -149,5 +185,7 @@ PetscErrorCode AppInitialize(int argc, char **argv)
   }
   CheckRoom_Private();
   TellFiles_Private(argc, argv);
+  ierr = Words_Private();
+  if (ierr) (void)PetscFinalize();
   return ierr;
 }

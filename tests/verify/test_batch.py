@@ -286,6 +286,33 @@ def test_options_of_the_working_directory(tmp_path):
         assert ("note: options of .petscrc in the working directory act" in output) == told and not errors, (output, errors)
 
 
+@pytest.mark.parametrize("ranks", [1, 2])
+@pytest.mark.parametrize("options,word", [("order 2", "order"), ("-order 2 3", "3"), ("-order -2", ""), (" -order 2  ", None)])
+def test_words_of_petsc_options(tmp_path, options, word, ranks):
+    """One without its dash would not act."""
+    process = start(tmp_path, "-check", text=block(tmp_path), ranks=ranks, env={"PETSC_OPTIONS": options})
+    output, errors = process.communicate(timeout=60)
+    result = Result([], process.returncode, output, errors, tmp_path / "out")
+    if word is None:
+        assert result.returncode == 0 and "order 2" in output and not errors, result
+    else:
+        refused(result, f"PETSC_OPTIONS: '{word}' is neither an option" if word else "PETSC_OPTIONS: order is -2")
+
+
+@pytest.mark.parametrize("ranks", [1, 2])
+def test_a_small_stack(tmp_path, ranks):
+    """Where more is allowed it is taken, else one sentence."""
+    (tmp_path / "s.yml").write_text(block(tmp_path))
+    for kind, good in ("-S", True), ("", False):
+        launch = "mpiexec -n 2 " if ranks == 2 else ""
+        process = subprocess.run(["sh", "-c", f"{launch}sh -c 'ulimit {kind} -s 128 && exec {PROGRAM} s.yml -output_directory out'"], cwd=tmp_path, capture_output=True, text=True)
+        if good:
+            assert process.returncode == 0 and not process.stderr, process
+            shutil.rmtree(tmp_path / "out")
+        else:
+            refused(Result([], process.returncode, process.stdout, process.stderr, tmp_path / "out"), "the stack may not grow beyond 128 kB (ulimit -s)")
+
+
 @pytest.mark.parametrize("option", ["-order", "-model", "-load_step", "-boundary_y1_displacement_y", "-boundary_y0_fix", "-material_m_law", "-material_m_E", "-mesh_file",
                                     "-solve_rtol", "-max_seconds", "-body_body_material", "-adapt_coarsen"])
 def test_long_values(run, tmp_path, option):
