@@ -33,11 +33,28 @@ static PetscErrorCode Material_Private(const MaterialSpec *m, PetscInt num_cells
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+static PetscErrorCode Side_Private(const CoarseMesh *mesh, const char *side, PetscInt group, OutputText *text)
+{
+  const uint64_t groups = CoarseMembers(mesh, group);
+  const char    *before = side;
+
+  PetscFunctionBegin;
+  for (PetscInt g = 0; g < mesh->num_boundaries; ++g) {
+    if (!(groups >> g & 1)) continue;
+    PetscCall(OutputTextPrint(text, "%s %s", before, mesh->boundary_name[g]));
+    before = " +";
+  }
+  PetscCall(OutputTextPrint(text, ", "));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 static PetscErrorCode Pair_Private(const ContactSpec *c, const CoarseMesh *mesh, OutputText *text)
 {
   PetscFunctionBegin;
-  PetscCall(OutputTextPrint(text, "contact.%s: nonmortar %s, mortar %s, order %s, multiplier %s, initial_gap %s, friction %s, ", c->name,
-                            mesh->boundary_name[c->nonmortar], mesh->boundary_name[c->mortar], c->full ? "full" : "1", c->standard ? "standard" : "dual",
+  PetscCall(OutputTextPrint(text, "contact.%s: ", c->name));
+  PetscCall(Side_Private(mesh, "nonmortar", c->nonmortar, text));
+  PetscCall(Side_Private(mesh, "mortar", c->mortar, text));
+  PetscCall(OutputTextPrint(text, "order %s, multiplier %s, initial_gap %s, friction %s, ", c->full ? "full" : "1", c->standard ? "standard" : "dual",
                             c->adjust  ? "adjust"
                             : c->ramp  ? "ramp"
                             : c->close ? "close"
@@ -90,7 +107,7 @@ PetscErrorCode OutputPhysics(const SceneData *scene, const CoarseMesh *mesh, Out
   PetscCall(OutputTextPrint(text, "model: %s\nkinematics: %s\n", ModelNames[m->model], KinematicsNames[m->kinematics]));
   PetscCall(OutputTextPrint(text, "load.control: %s\n", scene->load.control == LOAD_TIME ? "time" : "arc_length"));
   PetscCall(Repeat_Private(&scene->adapt, text));
-  for (PetscInt g = 0; g < mesh->num_boundaries; ++g) PetscCall(Group_Private(m, g, mesh->boundary_name[g], text));
+  for (PetscInt g = 0; g < mesh->num_boundaries - mesh->num_unions; ++g) PetscCall(Group_Private(m, g, mesh->boundary_name[g], text));
   for (PetscInt b = 0; b < m->num_bodies; ++b) {
     const PetscInt *along = m->bodies[b].order_along;
     PetscCall(OutputTextPrint(text, "body.%s: ", mesh->body_name[b]));
