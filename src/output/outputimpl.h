@@ -27,6 +27,11 @@ PetscErrorCode OutputAttributeTexts(hid_t object, const char *name, PetscInt num
    path: for messages, until the next one. */
 PetscErrorCode OutputAccess(MPI_Comm, const char *path, hid_t *access);
 
+/* foreign.c. The input error of a file in it that is no run's. */
+PetscErrorCode OutputTellForeign(const char *directory, const char *name);
+#define LOCK_FILE "lock"
+#define LOCK_BEGINS "process "
+
 /* Growable text; {0} is empty and valid. */
 typedef struct {
   char  *text; /* owned, zero-terminated once something was printed */

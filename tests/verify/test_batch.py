@@ -136,7 +136,7 @@ def test_nothing_is_written_without_the_lock(tmp_path):
 # ---- files of others ----------------------------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("name", ["summary.json", "history.csv", "adapt.csv", "fields.xdmf", "passes.xdmf", "fields_0000.h5", "checkpoint.h5"])
+@pytest.mark.parametrize("name", ["summary.json", "history.csv", "adapt.csv", "fields.xdmf", "passes.xdmf", "fields_0000.h5", "checkpoint.h5", "lock"])
 def test_files_of_others_stay(run, tmp_path, name):
     text, file = block(tmp_path), tmp_path / "out1" / name
     file.parent.mkdir()
@@ -149,15 +149,27 @@ def test_files_of_others_stay(run, tmp_path, name):
         if options != ("-restart", "auto") or name != "checkpoint.h5":
             assert f"{name} in it is no file of a run" in result.stderr and "output.overwrite" in result.stderr, result
     result = run("s.yml", "-output_directory", file.parent, "-output_overwrite", "true", text=text)
-    assert result.returncode == 0 and file.exists() == (name != "passes.xdmf") and (not file.exists() or file.read_bytes() != b"mine\n"), result
+    assert result.returncode == 0 and file.exists() == (name not in ("passes.xdmf", "lock")) and (not file.exists() or file.read_bytes() != b"mine\n"), result
     assert (file.parent / "fields_1.h5").read_text() == "mine\n"
     assert run("s.yml", "-output_directory", file.parent, text=text).returncode == 0  # ours now
+
+
+@pytest.mark.parametrize("there", [True, False])
+def test_a_link_in_place_of_the_lock(run, tmp_path, there):
+    """What it leads to is not written."""
+    (tmp_path / "out1").mkdir()
+    (tmp_path / "out1" / "lock").symlink_to(tmp_path / "mine")
+    if there: (tmp_path / "mine").write_text("mine\n")
+    result = run("s.yml", "-output_directory", tmp_path / "out1", text=block(tmp_path))
+    assert result.returncode == 1 and "lock in it is no file of a run" in result.stderr and (tmp_path / "mine").exists() == there, result
+    result = run("s.yml", "-output_directory", tmp_path / "out1", "-output_overwrite", "true", text=block(tmp_path))
+    assert result.returncode == 0 and (tmp_path / "mine").exists() == there and (not there or (tmp_path / "mine").read_text() == "mine\n"), result
 
 
 # ---- stops --------------------------------------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGHUP, signal.SIGXCPU, signal.SIGQUIT])
+@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGHUP, signal.SIGXCPU, signal.SIGQUIT, signal.SIGUSR2])
 def test_signals_stop_in_order(tmp_path, number):
     process = start(tmp_path, text=block(tmp_path, **MANY))
     wait_for(lambda: rows(tmp_path / "out") > 1, process)
