@@ -58,7 +58,7 @@ static void CheckRoom_Private(void)
   free(room);
 }
 
-/* What PETSc says while it starts. The one thing wrong then that is a user's is a file of -options_file. */
+/* What PETSc says while it starts. Two things wrong then are a user's: a file of -options_file, and more options than it has room for. */
 static char words[1 << 14];
 
 static PetscErrorCode Keep_Private(const char format[], ...)
@@ -72,22 +72,24 @@ static PetscErrorCode Keep_Private(const char format[], ...)
   return PETSC_SUCCESS;
 }
 
-/* One sentence of it, if it is of such a file, else all. */
+/* One sentence of it, if it is of such a thing, else all. */
 static PetscErrorCode Tell_Private(PetscErrorCode ierr)
 {
-  char       *file = strstr(words, "options file"), *line = file ? file : strstr(words, "-options_file filename");
+  char       *file = strstr(words, "options file"), *line = file ? file : strstr(words, "-options_file filename"), *many = strstr(words, "Number of options ");
   int         running = 0;
   PetscMPIInt rank    = 0;
 
   MPI_Initialized(&running);
   if (running) MPI_Comm_rank(MPI_COMM_WORLD, &rank);
-  if (!line) {
+  if (!line && !many) {
     fputs(words, stderr);
     return ierr;
   }
-  while (line > words && line[-1] != '\n') --line;
-  line[strcspn(line, "\n")] = 0;
-  if (rank == 0) fprintf(stderr, "mortise: -options_file: %s\n", line);
+  while (line && line > words && line[-1] != '\n') --line;
+  if (line) line[strcspn(line, "\n")] = 0;
+  if (rank == 0 && line) fprintf(stderr, "mortise: -options_file: %s\n", line);
+  if (rank == 0 && !line)
+    fprintf(stderr, "mortise: there are more than %d options, which PETSc has no room for; keys of the scene stand in its file\n", atoi(many + 18));
   if (running) MPI_Finalize();
   return MORTISE_ERR_INPUT;
 }

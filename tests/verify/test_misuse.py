@@ -129,6 +129,12 @@ def test_a_view_that_cannot_be_written(run):
     assert result.returncode == 2 and result.stderr == "mortise: Unable to open file /nowhere/x.vtu\n" and result.summary["status"] == "converged", result
 
 
+@pytest.mark.parametrize("ranks", [1, 2])
+def test_more_options_than_petsc_takes(run, ranks):
+    options = [word for k in range(600) for word in (f"-mesh_parameter_p{k}", 1)]
+    refused_run(run("inputs/patch2d.yml", *options, ranks=ranks), "there are more than 512 options")
+
+
 def test_new(tmp_path):
     done = subprocess.run([PROGRAM, "new", "a", "b"], cwd=tmp_path, capture_output=True, text=True)
     assert done.returncode == 1 and done.stderr == "mortise: new: 'b' after 'a'; one scene has one name\n" and not os.listdir(tmp_path), done
