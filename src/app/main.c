@@ -43,6 +43,7 @@ static PetscErrorCode View_Private(App *app)
   PetscCall(SceneView(app->scene, app->level.forest, PETSC_VIEWER_STDOUT_WORLD));
   PetscCall(ProblemNumDofs(app->level.problem, &dofs));
   PetscCall(AppTellFree(app));
+  PetscCall(AppTellOverlap(app));
   PetscCall(AppTellMirrors(app));
   PetscCall(PetscPrintf(app->comm, "  %" PetscInt_FMT " unknowns at t = %.6g\n", dofs, (double)app->level.accepted.t));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -56,6 +57,7 @@ static PetscErrorCode Open_Private(App *app)
   PetscCall(AppOpenFiles(app));
   PetscCall(MonitorCreate(app->comm, app->data, &app->monitor));
   PetscCall(AppTellFree(app));
+  PetscCall(AppTellOverlap(app));
   PetscCall(MonitorHeader(app->monitor, app->level.problem));
   if (app->restart[0]) PetscCall(MonitorResume(app->monitor, app->restart, &total));
   PetscFunctionReturn(PETSC_SUCCESS);
