@@ -236,8 +236,10 @@ int main(int argc, char **argv)
     if (ErrorIsPlain(ierr)) End_Private(status);
     if (ierr != MORTISE_ERR_INPUT) MPI_Abort(PETSC_COMM_WORLD, status);
     (void)Finalize_Private();
-    return 1;
+    (void)fflush(NULL);
+    _exit(1);
   }
   ierr = Finalize_Private();
-  return ierr ? 2 : status;
+  (void)fflush(NULL);
+  _exit(ierr ? 2 : status); /* OpenBLAS would wait for its threads, which have never begun where there is no room for their buffers (ulimit -v) */
 }

@@ -43,15 +43,16 @@ static void OneThread_Private(void)
   if (openblas_set_num_threads && !getenv("OPENBLAS_NUM_THREADS") && !getenv("OMP_NUM_THREADS")) openblas_set_num_threads(1);
 }
 
-#define BLAS_ROOM (((size_t)1 << 27) + ((size_t)1 << 24)) /* bytes of its buffer, and of what comes before */
+#define BLAS_ROOM ((size_t)144 << 20)  /* bytes of its buffer, and of what comes before */
+#define START_ROOM ((size_t)240 << 20) /* with what MPI and PETSc take */
 
-/* OpenBLAS asks for its buffer at its first call, and where there is no room (ulimit -v) for ever: told now. */
-static void CheckRoom_Private(void)
+/* OpenBLAS asks for its buffer at its first call, and where there is no room (ulimit -v) for ever; MPI says more than a sentence. Told before either. */
+static void CheckRoom_Private(size_t bytes)
 {
-  void *volatile room = openblas_set_num_threads ? malloc(BLAS_ROOM) : NULL;
+  void *volatile room = openblas_set_num_threads ? malloc(bytes) : NULL;
 
   if (openblas_set_num_threads && !room) {
-    fprintf(stderr, "mortise: out of memory: fewer than %d MB are left to begin with (ulimit -v)\n", (int)(BLAS_ROOM >> 20));
+    fprintf(stderr, "mortise: out of memory: fewer than %d MB are left to begin with (ulimit -v)\n", (int)(bytes >> 20));
     fflush(stderr);
     _exit(2); /* mpiexec ends the other processes */
   }
@@ -175,6 +176,7 @@ PetscErrorCode AppInitialize(int argc, char **argv)
 
   for (int i = 0; alone && i < NUM_ALONE; ++i) set[i] = !getenv(Alone[i][0]) && !setenv(Alone[i][0], Alone[i][1], 1);
   OneThread_Private();
+  CheckRoom_Private(START_ROOM);
   arguments = Arguments_Private(&argc, argv);
   if (Refused_Private(argc, arguments)) return MORTISE_ERR_INPUT;
   PetscErrorCode (*const print)(const char[], ...) = PetscErrorPrintf;
@@ -185,7 +187,7 @@ PetscErrorCode AppInitialize(int argc, char **argv)
   for (int i = 0; i < NUM_ALONE; ++i) {
     if (set[i]) unsetenv(Alone[i][0]); /* programs we start (gmsh) do not inherit them */
   }
-  CheckRoom_Private();
+  CheckRoom_Private(BLAS_ROOM);
   TellFiles_Private(argc, argv);
   ierr = Words_Private();
   if (ierr) (void)PetscFinalize();
