@@ -98,6 +98,20 @@ static PetscErrorCode Close_Private(App *app)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* One job, one scene: what each process would read by itself is one thing. */
+static PetscErrorCode CheckArguments_Private(MPI_Comm comm, int argc, char **argv)
+{
+  uint64_t hash = 0, range[2];
+
+  PetscFunctionBegin;
+  for (int i = 1; i < argc; ++i) hash = HashBytes(hash, argv[i], strlen(argv[i]) + 1);
+  range[0] = hash;
+  range[1] = ~hash;
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, range, 2, MPI_UINT64_T, MPI_MIN, comm));
+  PetscCheckInput(range[0] == ~range[1], "the processes of this job were started with different arguments; a job has one scene and one set of options");
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 static PetscErrorCode Solve_Private(int argc, char **argv, int *status)
 {
   App    app = {.comm = PETSC_COMM_WORLD};
@@ -106,6 +120,7 @@ static PetscErrorCode Solve_Private(int argc, char **argv, int *status)
   PetscFunctionBegin;
   PetscCall(PetscTime(&app.start));
   PetscCheckInput(argc > 1, "no scene was named; say mortise SCENE.yml, or mortise -help");
+  PetscCall(CheckArguments_Private(app.comm, argc, argv));
   PetscCall(SceneCreate(app.comm, argc, argv, &app.scene));
   PetscCall(SceneGetData(app.scene, &app.data));
   app.path.refusal[PATH_INSIDE].ask  = AppRefuseInside;

@@ -148,9 +148,12 @@ PetscErrorCode OutputLock(MPI_Comm comm, const char *directory, PetscBool overwr
   PetscCheckInput(snprintf(path, sizeof(path), "%s/" LOCK_FILE, directory) < (int)sizeof(path), "output.directory: its name is too long");
   if (rank == 0) found.verdict = First_Private(overwrite, &found.other, &found.number);
   PetscCallMPI(MPI_Bcast(&found, (PetscMPIInt)sizeof(found), MPI_CHAR, 0, comm));
+  const int first = found.verdict;
   if (rank && found.verdict == LOCK_TAKEN) found.verdict = Join_Private(&found.number);
   PetscCallMPI(MPI_Allreduce(&found.verdict, &verdict, 1, MPI_INT, MPI_MAX, comm));
   if (verdict != LOCK_TAKEN) OutputUnlock();
+  PetscCheckInput(verdict != LOCK_FAILED || first != LOCK_TAKEN,
+                  "output.directory %s: not all processes see it; it has to be on a file system that they share, under the same name", directory);
   PetscCheckInput(verdict != LOCK_FAILED, "output.directory: %s cannot be made: %s", path, strerror(found.number));
   if (verdict == LOCK_FOREIGN) PetscCall(OutputTellForeign(directory, LOCK_FILE));
   PetscCheckInput(verdict != LOCK_OTHERS, "output.directory %s: %s process %d on %s, writes there; give another directory, or wait for its end", directory,
