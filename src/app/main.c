@@ -159,17 +159,15 @@ static PetscBool Asked_Private(int argc, char **argv, const char *option)
 /* Options with a first word of PETSc's that nothing asked for are most likely mistyped: say so. PetscFinalize asks for two more. */
 static PetscErrorCode UnusedOptions_Private(void)
 {
-  PetscMPIInt rank;
-  PetscInt    num;
-  PetscBool   set;
-  char      **names, **values;
+  PetscInt  num;
+  PetscBool set;
+  char    **names, **values;
 
   PetscFunctionBegin;
-  PetscCallMPI(MPI_Comm_rank(PETSC_COMM_WORLD, &rank));
   PetscCall(PetscOptionsHasName(NULL, NULL, "-options_left", &set));
   PetscCall(PetscOptionsHasName(NULL, NULL, "-options_view", &set));
   PetscCall(PetscOptionsLeftGet(NULL, &num, &names, &values));
-  for (PetscInt i = 0; i < num && rank == 0; ++i) fprintf(stderr, "mortise: nothing used the option -%s; is it spelt right?\n", names[i]);
+  for (PetscInt i = 0; i < num; ++i) (void)ErrorInput("nothing used the option -%.80s; is it spelt right?", names[i]); /* told as one, no error */
   PetscCall(PetscOptionsLeftRestore(NULL, &num, &names, &values));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

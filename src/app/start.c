@@ -88,7 +88,7 @@ static PetscErrorCode Tell_Private(PetscErrorCode ierr)
   }
   while (line && line > words && line[-1] != '\n') --line;
   if (line) line[strcspn(line, "\n")] = 0;
-  if (rank == 0 && line) fprintf(stderr, "mortise: -options_file: %s\n", line);
+  if (line) (void)ErrorInput("-options_file: %s", line);
   if (rank == 0 && !line)
     fprintf(stderr, "mortise: there are more than %d options, which PETSc has no room for; keys of the scene stand in its file\n", atoi(many + 18));
   if (running) MPI_Finalize();
@@ -142,7 +142,7 @@ static PetscBool Refused_Private(int argc, char **argv)
 
   if (speaks && stack) fprintf(stderr, "mortise: the stack may not grow beyond %ld kB (ulimit -s); %ld are needed\n", stack, (long)(STACK_ROOM >> 10));
   if (speaks && lost && !stack) fprintf(stderr, "mortise: the working directory cannot be found: %s; start in one that is there\n", strerror(errno));
-  if (speaks && loop && !stack) fprintf(stderr, "mortise: -options_file: %s names itself, so that reading it would not end\n", told);
+  if (speaks && loop && !stack) (void)ErrorInput("-options_file: %s names itself, so that reading it would not end", told);
   return (PetscBool)(stack || lost || loop);
 }
 

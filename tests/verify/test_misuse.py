@@ -39,7 +39,7 @@ def more(keys):
     ([("friction: 0", "friction: X")], ["contact.pair.friction is \"X\": one coefficient for the whole pair"]),
     ([(PAIR, "  pair: {friction: 0}\n")], ["contact.pair.nonmortar must be given: a pair has two sides"]),
     ([("friction: 0", "surface: upper_bottom")], ["contact.pair.surface is 'upper_bottom', but nonmortar is given"]),
-    ([("mortar: lower_top", "mortar: [lower_top, bottom]")], ["contact.pair.mortar must be a text, it is a list"]),
+    ([("mortar: lower_top", "mortar: [lower_top, lower]")], ["contact.pair.mortar: 'lower' is a body of the mesh"]),
     ([("mortar: lower_top", "mortar: lower")], ["contact.pair.mortar: 'lower' is a body of the mesh"]), ([(PAIR, "  pair: yes\n")], ["contact.pair must be a map of keys"]),
     ([("friction: 0", "law: mortar")], [r"contact.pair.law is 'mortar'; allowed: frictionless\|"]), ([("friction: 0", "search: -1")], ["contact.pair.search is -1"]),
     ([("friction: 0", "law: penalty, penalty: 0")], ["contact.pair.penalty is 0"]), ([("friction: 0", "initial_gap: 0.1")], [r"initial_gap is '0.1'; allowed: keep\|"]),
