@@ -86,8 +86,8 @@ PetscErrorCode           StageAdd(Stage, PetscReal seconds); /* time of an earli
 
 /* First of all in a program: signals that are ignored now, as under nohup, stay so. */
 void StopBegin(void);
-/* From now on SIGTERM, SIGUSR1, SIGINT, SIGQUIT, SIGHUP, SIGXCPU, SIGPIPE and (seconds > 0) this much wall time are requests to stop; a second one of the first
-   four does what it always did. */
+/* From now on SIGTERM, SIGUSR1, SIGUSR2, SIGINT, SIGQUIT, SIGHUP, SIGXCPU, SIGPIPE and (seconds > 0) this much wall time are requests to stop; a second one of
+   the first five does what it always did. */
 PetscErrorCode StopWatch(PetscReal seconds);
 /* Is there such a request on any rank of comm? It stays. Never without StopWatch. Collective. */
 PetscErrorCode StopAsked(MPI_Comm comm, PetscBool *stop);

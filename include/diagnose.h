@@ -68,6 +68,8 @@ typedef struct {
 /* The deepest place at a state, which the problem stands at, the same on every rank. Rigid bodies and the sides of a contact pair, which contact keeps apart,
    are left out; group not negative: only facets of this boundary group are looked at. O(n log n) for n outer facets, on the rank that has them. Collective. */
 PetscErrorCode PassageFind(Problem, const State *, PetscInt group, Passage *);
+/* The same where bodies that hang together nowhere pass through each other and no contact pair is between them; not both rigid. */
+PetscErrorCode PassageFindApart(Problem, const State *, Passage *);
 
 /* inside.c: the first contact pair that bears nothing though its bodies lie inside each other, deeper than a facet is long and not so at the reference
    positions, or of one surface that passes through itself; -1: there is none. At the state that was evaluated last. Finite kinematics. Collective. */

@@ -39,6 +39,8 @@ typedef struct {
   PetscInt num_boundaries;             /* physical groups of dimension dim-1 */
   char (*body_name)[MORTISE_NAME];     /* [num_bodies] */
   char (*boundary_name)[MORTISE_NAME]; /* [num_boundaries], at most 64 */
+  PetscInt   num_unions;               /* the last of the boundaries, which are no group of the file (ForestUnite) … */
+  uint64_t   united[64];               /* [num_unions] … but made of these */
   PetscInt  *cell_vertices;            /* [num_cells][2^dim] lexicographic */
   PetscReal *cell_geometry;            /* [num_cells][(q+1)^dim][3] positions at equispaced nodes, lexicographic, q = geometry_order */
   PetscInt  *cell_body;                /* [num_cells] index of the body, -1: in none (input error reported by the scene with the cell's place) */
@@ -84,10 +86,20 @@ typedef struct {
   PetscInt *old_count; /* [num] how many: 1 same or refined, >1 merged */
 } ForestMap;
 
+/* Boundary groups that a group stands for: itself, or those it is made of. */
+static inline uint64_t CoarseMembers(const CoarseMesh *m, PetscInt group)
+{
+  const PetscInt num = m->num_boundaries - m->num_unions;
+  return group < num ? UINT64_C(1) << group : m->united[group - num];
+}
+
 /* Read the mesh of spec on rank 0, replicate it, refine uniformly, partition. Input errors: file missing or not gmsh 2.2/4.1, mixed dimensions,
    no cells of dimension dim, inverted cell (number and centre), cell shapes other than quad/hex after conversion (triangles/tetrahedra are converted).
    Collective. */
 PetscErrorCode ForestCreate(MPI_Comm, const ForestSpec *, Forest *);
+/* The group that is made of these, bit by bit: one of the file, one there is, or a new one, here and on all forests that will come of this one. Input error:
+   there are 64 already. The same on all ranks; not collective. */
+PetscErrorCode ForestUnite(Forest, uint64_t groups, PetscInt *group);
 /* Same from a coarse mesh in memory (tests, boxes); takes ownership of the arrays of mesh; facets: num_facets boundary facets by their
    2^(dim-1) vertices and bit mask of boundary groups. Collective. */
 PetscErrorCode ForestCreateFromCoarse(MPI_Comm, CoarseMesh *mesh, PetscInt num_facets, const PetscInt facet_vertices[], const uint64_t facet_groups[],

@@ -194,9 +194,9 @@ PetscErrorCode OutputDirectoryCreate(MPI_Comm, const char *path);
 
 /* ---- whose directory it is (output/lock.c, foreign.c) ---------------------------------------------------------------------- */
 
-/* Take the directory for this run, until OutputUnlock or the end of all its processes; an input error that names the other run when there is one. Collective.
- */
-PetscErrorCode OutputLock(MPI_Comm, const char *directory);
+/* Take the directory for this run, until OutputUnlock or the end of all its processes; an input error that names the other run when there is one. overwrite:
+   a file of the lock's name that is none goes. Collective. */
+PetscErrorCode OutputLock(MPI_Comm, const char *directory, PetscBool overwrite);
 /* Before anything is written: an error when the lock's file was taken away, and perhaps another run is there. Collective. */
 PetscErrorCode OutputHold(MPI_Comm);
 /* At any end; harmless without a lock. Not collective. */

@@ -140,6 +140,8 @@ PetscErrorCode AppRefuseInside(Problem, const PetscReal from[], const State *, c
 PetscErrorCode AppRefuseThrough(Problem, const PetscReal from[], const State *, const char **reason);
 /* After each accepted load step: does its state ask for a warning? Collective. */
 PetscErrorCode AppWatch(App *);
+/* Before the first load step: a warning of bodies that overlap where no pair is between them. Collective. */
+PetscErrorCode AppTellOverlap(App *);
 /* The warnings that sum up a run, before its summary is written. Collective. */
 PetscErrorCode AppWarn(App *);
 

@@ -35,7 +35,7 @@ PetscErrorCode AppOpenFiles(App *app)
 {
   PetscFunctionBegin;
   PetscCall(OutputDirectoryCreate(app->comm, app->data->output.directory));
-  PetscCall(OutputLock(app->comm, app->data->output.directory));
+  PetscCall(OutputLock(app->comm, app->data->output.directory, app->data->output.overwrite));
   PetscCall(Foreign_Private(app));
   if (!app->restart[0]) PetscCall(AppForget(app)); /* what was there before goes first: no file of it is taken for this run's */
   if (app->restart[0] && app->repeats > 0 && app->load_steps == 0) PetscCall(OutputFinishAside(app->comm, app->data->output.directory, app->repeats));

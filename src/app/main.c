@@ -43,6 +43,7 @@ static PetscErrorCode View_Private(App *app)
   PetscCall(SceneView(app->scene, app->level.forest, PETSC_VIEWER_STDOUT_WORLD));
   PetscCall(ProblemNumDofs(app->level.problem, &dofs));
   PetscCall(AppTellFree(app));
+  PetscCall(AppTellOverlap(app));
   PetscCall(AppTellMirrors(app));
   PetscCall(PetscPrintf(app->comm, "  %" PetscInt_FMT " unknowns at t = %.6g\n", dofs, (double)app->level.accepted.t));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -56,6 +57,7 @@ static PetscErrorCode Open_Private(App *app)
   PetscCall(AppOpenFiles(app));
   PetscCall(MonitorCreate(app->comm, app->data, &app->monitor));
   PetscCall(AppTellFree(app));
+  PetscCall(AppTellOverlap(app));
   PetscCall(MonitorHeader(app->monitor, app->level.problem));
   if (app->restart[0]) PetscCall(MonitorResume(app->monitor, app->restart, &total));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -96,6 +98,20 @@ static PetscErrorCode Close_Private(App *app)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* One job, one scene: what each process would read by itself is one thing. */
+static PetscErrorCode CheckArguments_Private(MPI_Comm comm, int argc, char **argv)
+{
+  uint64_t hash = 0, range[2];
+
+  PetscFunctionBegin;
+  for (int i = 1; i < argc; ++i) hash = HashBytes(hash, argv[i], strlen(argv[i]) + 1);
+  range[0] = hash;
+  range[1] = ~hash;
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, range, 2, MPI_UINT64_T, MPI_MIN, comm));
+  PetscCheckInput(range[0] == ~range[1], "the processes of this job were started with different arguments; a job has one scene and one set of options");
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 static PetscErrorCode Solve_Private(int argc, char **argv, int *status)
 {
   App    app = {.comm = PETSC_COMM_WORLD};
@@ -104,6 +120,7 @@ static PetscErrorCode Solve_Private(int argc, char **argv, int *status)
   PetscFunctionBegin;
   PetscCall(PetscTime(&app.start));
   PetscCheckInput(argc > 1, "no scene was named; say mortise SCENE.yml, or mortise -help");
+  PetscCall(CheckArguments_Private(app.comm, argc, argv));
   PetscCall(SceneCreate(app.comm, argc, argv, &app.scene));
   PetscCall(SceneGetData(app.scene, &app.data));
   app.path.refusal[PATH_INSIDE].ask  = AppRefuseInside;
@@ -142,17 +159,15 @@ static PetscBool Asked_Private(int argc, char **argv, const char *option)
 /* Options with a first word of PETSc's that nothing asked for are most likely mistyped: say so. PetscFinalize asks for two more. */
 static PetscErrorCode UnusedOptions_Private(void)
 {
-  PetscMPIInt rank;
-  PetscInt    num;
-  PetscBool   set;
-  char      **names, **values;
+  PetscInt  num;
+  PetscBool set;
+  char    **names, **values;
 
   PetscFunctionBegin;
-  PetscCallMPI(MPI_Comm_rank(PETSC_COMM_WORLD, &rank));
   PetscCall(PetscOptionsHasName(NULL, NULL, "-options_left", &set));
   PetscCall(PetscOptionsHasName(NULL, NULL, "-options_view", &set));
   PetscCall(PetscOptionsLeftGet(NULL, &num, &names, &values));
-  for (PetscInt i = 0; i < num && rank == 0; ++i) fprintf(stderr, "mortise: nothing used the option -%s; is it spelt right?\n", names[i]);
+  for (PetscInt i = 0; i < num; ++i) (void)ErrorInput("nothing used the option -%.80s; is it spelt right?", names[i]); /* told as one, no error */
   PetscCall(PetscOptionsLeftRestore(NULL, &num, &names, &values));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -234,8 +249,10 @@ int main(int argc, char **argv)
     if (ErrorIsPlain(ierr)) End_Private(status);
     if (ierr != MORTISE_ERR_INPUT) MPI_Abort(PETSC_COMM_WORLD, status);
     (void)Finalize_Private();
-    return 1;
+    (void)fflush(NULL);
+    _exit(1);
   }
   ierr = Finalize_Private();
-  return ierr ? 2 : status;
+  (void)fflush(NULL);
+  _exit(ierr ? 2 : status); /* OpenBLAS would wait for its threads, which have never begun where there is no room for their buffers (ulimit -v) */
 }

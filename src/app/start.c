@@ -2,6 +2,7 @@
 #include "appimpl.h"
 #include <errno.h>
 #include <stdlib.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 static const char *const Alone[][2] = {
@@ -42,22 +43,23 @@ static void OneThread_Private(void)
   if (openblas_set_num_threads && !getenv("OPENBLAS_NUM_THREADS") && !getenv("OMP_NUM_THREADS")) openblas_set_num_threads(1);
 }
 
-#define BLAS_ROOM (((size_t)1 << 27) + ((size_t)1 << 24)) /* bytes of its buffer, and of what comes before */
+#define BLAS_ROOM ((size_t)144 << 20)  /* bytes of its buffer, and of what comes before */
+#define START_ROOM ((size_t)240 << 20) /* with what MPI and PETSc take */
 
-/* OpenBLAS asks for its buffer at its first call, and where there is no room (ulimit -v) for ever: told now. */
-static void CheckRoom_Private(void)
+/* OpenBLAS asks for its buffer at its first call, and where there is no room (ulimit -v) for ever; MPI says more than a sentence. Told before either. */
+static void CheckRoom_Private(size_t bytes)
 {
-  void *volatile room = openblas_set_num_threads ? malloc(BLAS_ROOM) : NULL;
+  void *volatile room = openblas_set_num_threads ? malloc(bytes) : NULL;
 
   if (openblas_set_num_threads && !room) {
-    fprintf(stderr, "mortise: out of memory: fewer than %d MB are left to begin with (ulimit -v)\n", (int)(BLAS_ROOM >> 20));
+    fprintf(stderr, "mortise: out of memory: fewer than %d MB are left to begin with (ulimit -v)\n", (int)(bytes >> 20));
     fflush(stderr);
     _exit(2); /* mpiexec ends the other processes */
   }
   free(room);
 }
 
-/* What PETSc says while it starts. The one thing wrong then that is a user's is a file of -options_file. */
+/* What PETSc says while it starts. Two things wrong then are a user's: a file of -options_file, and more options than it has room for. */
 static char words[1 << 14];
 
 static PetscErrorCode Keep_Private(const char format[], ...)
@@ -71,22 +73,24 @@ static PetscErrorCode Keep_Private(const char format[], ...)
   return PETSC_SUCCESS;
 }
 
-/* One sentence of it, if it is of such a file, else all. */
+/* One sentence of it, if it is of such a thing, else all. */
 static PetscErrorCode Tell_Private(PetscErrorCode ierr)
 {
-  char       *file = strstr(words, "options file"), *line = file ? file : strstr(words, "-options_file filename");
+  char       *file = strstr(words, "options file"), *line = file ? file : strstr(words, "-options_file filename"), *many = strstr(words, "Number of options ");
   int         running = 0;
   PetscMPIInt rank    = 0;
 
   MPI_Initialized(&running);
   if (running) MPI_Comm_rank(MPI_COMM_WORLD, &rank);
-  if (!line) {
+  if (!line && !many) {
     fputs(words, stderr);
     return ierr;
   }
-  while (line > words && line[-1] != '\n') --line;
-  line[strcspn(line, "\n")] = 0;
-  if (rank == 0) fprintf(stderr, "mortise: -options_file: %s\n", line);
+  while (line && line > words && line[-1] != '\n') --line;
+  if (line) line[strcspn(line, "\n")] = 0;
+  if (line) (void)ErrorInput("-options_file: %s", line);
+  if (rank == 0 && !line)
+    fprintf(stderr, "mortise: there are more than %d options, which PETSc has no room for; keys of the scene stand in its file\n", atoi(many + 18));
   if (running) MPI_Finalize();
   return MORTISE_ERR_INPUT;
 }
@@ -114,17 +118,52 @@ static void TellFiles_Private(int argc, char **argv)
   }
 }
 
-/* What PETSc does not live through, said by one process of a job. */
+#define STACK_ROOM ((rlim_t)1 << 20) /* bytes; a run takes a fifth of it */
+
+/* Make room for the stack where less is given but more allowed; kB that are allowed, where that is too little, else 0. */
+static long Stack_Private(void)
+{
+  struct rlimit limit;
+
+  if (getrlimit(RLIMIT_STACK, &limit) || limit.rlim_cur >= STACK_ROOM) return 0; /* RLIM_INFINITY is the largest of all */
+  if (limit.rlim_max < STACK_ROOM) return (long)(limit.rlim_max >> 10);
+  limit.rlim_cur = STACK_ROOM;
+  return setrlimit(RLIMIT_STACK, &limit) ? (long)(limit.rlim_max >> 10) : 0;
+}
+
+/* What PETSc, or this program, does not live through, said by one process of a job. */
 static PetscBool Refused_Private(int argc, char **argv)
 {
-  const char *const rank = getenv("OMPI_COMM_WORLD_RANK");
+  const char *const rank   = getenv("OMPI_COMM_WORLD_RANK");
+  const PetscBool   speaks = (PetscBool)(!rank || !strcmp(rank, "0"));
+  const long        stack  = Stack_Private();
   char              here[PETSC_MAX_PATH_LEN], told[256] = "";
   const PetscBool   lost = (PetscBool)(!getcwd(here, sizeof(here))), loop = (PetscBool)(!lost && AppOptionsLoop(argc, argv, sizeof(told), told));
 
-  if (lost && (!rank || !strcmp(rank, "0")))
-    fprintf(stderr, "mortise: the working directory cannot be found: %s; start in one that is there\n", strerror(errno));
-  if (loop && (!rank || !strcmp(rank, "0"))) fprintf(stderr, "mortise: -options_file: %s names itself, so that reading it would not end\n", told);
-  return (PetscBool)(lost || loop);
+  if (speaks && stack) fprintf(stderr, "mortise: the stack may not grow beyond %ld kB (ulimit -s); %ld are needed\n", stack, (long)(STACK_ROOM >> 10));
+  if (speaks && lost && !stack) fprintf(stderr, "mortise: the working directory cannot be found: %s; start in one that is there\n", strerror(errno));
+  if (speaks && loop && !stack) (void)ErrorInput("-options_file: %s names itself, so that reading it would not end", told);
+  return (PetscBool)(stack || lost || loop);
+}
+
+/* PETSc passes over the words of PETSC_OPTIONS that are neither an option nor its value, so that one without its dash would not act. */
+static PetscErrorCode Words_Private(void)
+{
+  const char *const given = getenv("PETSC_OPTIONS");
+  char             *text, *at = NULL, told[80] = "";
+  PetscBool         option, value = PETSC_FALSE; /* may the word be the value of the one before? */
+
+  PetscFunctionBegin;
+  if (!given) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(PetscStrallocpy(given, &text));
+  for (const char *word = strtok_r(text, " \t\r\n", &at); word && !told[0]; word = strtok_r(NULL, " \t\r\n", &at)) {
+    PetscCall(PetscOptionsValidKey(word, &option));
+    if (!option && !value) PetscCall(PetscStrncpy(told, word, sizeof(told)));
+    value = option;
+  }
+  PetscCall(PetscFree(text));
+  PetscCheckInput(!told[0], "PETSC_OPTIONS: '%s' is neither an option, which begins with '-', nor the value of one", told);
+  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* PetscInitialize with those settings when no launcher started this process; what the user has set wins. */
@@ -137,6 +176,7 @@ PetscErrorCode AppInitialize(int argc, char **argv)
 
   for (int i = 0; alone && i < NUM_ALONE; ++i) set[i] = !getenv(Alone[i][0]) && !setenv(Alone[i][0], Alone[i][1], 1);
   OneThread_Private();
+  CheckRoom_Private(START_ROOM);
   arguments = Arguments_Private(&argc, argv);
   if (Refused_Private(argc, arguments)) return MORTISE_ERR_INPUT;
   PetscErrorCode (*const print)(const char[], ...) = PetscErrorPrintf;
@@ -147,7 +187,9 @@ PetscErrorCode AppInitialize(int argc, char **argv)
   for (int i = 0; i < NUM_ALONE; ++i) {
     if (set[i]) unsetenv(Alone[i][0]); /* programs we start (gmsh) do not inherit them */
   }
-  CheckRoom_Private();
+  CheckRoom_Private(BLAS_ROOM);
   TellFiles_Private(argc, argv);
+  ierr = Words_Private();
+  if (ierr) (void)PetscFinalize();
   return ierr;
 }

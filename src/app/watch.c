@@ -20,6 +20,22 @@ static PetscErrorCode WatchPassage_Private(App *app)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscErrorCode AppTellOverlap(App *app)
+{
+  const CoarseMesh *mesh;
+  Passage           p;
+
+  PetscFunctionBegin;
+  if (app->restart[0]) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(PassageFindApart(app->level.problem, &app->level.accepted, &p));
+  if (!(p.depth > 0)) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(ForestGetCoarse(app->level.forest, &mesh));
+  PetscCall(WarningAdd(app->comm,
+                       "bodies %s and %s overlap in the mesh, at (%.4g, %.4g, %.4g), and no contact pair is between them: each passes through the other",
+                       mesh->body_name[p.body[0]], mesh->body_name[p.body[1]], (double)p.x[0], (double)p.x[1], (double)p.x[2]));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* The largest error of all steps, and the largest norm: a step with next to no load has an error that says little, be it as large as its solution. */
 static void WatchEstimate_Private(App *app)
 {

@@ -18,6 +18,7 @@ static const struct {
 } Signals[] = {
     {SIGTERM, "SIGTERM", SA_RESETHAND},
     {SIGUSR1, "SIGUSR1", SA_RESETHAND},
+    {SIGUSR2, "SIGUSR2", SA_RESETHAND}, /* before the kill, of some queues */
     {SIGINT, "SIGINT", SA_RESETHAND},
     {SIGQUIT, "SIGQUIT", SA_RESETHAND},
     {SIGHUP, "SIGHUP", 0},   /* of terminal and shell, one after the other */

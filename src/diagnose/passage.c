@@ -1,5 +1,6 @@
 /* Does the surface of a part pass through itself? Outer facets as they are drawn, in straight pieces (segments, triangles), at a state: two pieces of one part
-   that are no neighbours and of which one cuts the other. Sides of a contact pair are left out: contact keeps those apart.
+   that are no neighbours and of which one cuts the other. Sides of a contact pair are left out: contact keeps those apart. Or do parts pass through each other
+   that no pair is between?
    Pieces that may meet are found by sort and sweep; each rank tests its own, and those of others in the box of its own. */
 #include "diagnoseimpl.h"
 
@@ -72,12 +73,36 @@ static PetscReal Depth_Private(PetscInt dim, const Piece *p, const Piece *q)
   return depth;
 }
 
-static void Test_Private(const Pieces *s, PetscInt group, const Piece *p, const Piece *q, Passage *worst)
+/* Which pieces are not to meet: of one part, all or those of a group; or of two, by the pairs' sides that each part has. */
+typedef struct {
+  PetscInt  group; /* -1: all */
+  PetscBool apart; /* of two parts */
+  int8_t   *sides; /* with it: of PiecesParts_Private */
+} Which;
+
+/* Is a pair, or one surface, between two parts; or are both rigid? */
+static PetscBool MayMeet_Private(const SceneData *scene, const int8_t *sides, const Piece *p, const Piece *q)
+{
+  const PetscInt num = 2 * scene->num_contacts;
+  const int8_t  *a = sides + num * p->part, *b = sides + num * q->part;
+
+  for (PetscInt k = 0; k < num; ++k)
+    if (a[k] && b[k ^ 1]) return PETSC_TRUE;
+  return (PetscBool)(scene->mechanics.bodies[p->body].material->law->rigid && scene->mechanics.bodies[q->body].material->law->rigid);
+}
+
+static PetscBool Counts_Private(const Pieces *s, const Which *which, const Piece *p, const Piece *q)
+{
+  if (which->apart) return (PetscBool)(p->part != q->part && !MayMeet_Private(s->scene, which->sides, p, q));
+  if (p->part != q->part || Neighbours_Private(s->dim, p, q)) return PETSC_FALSE;
+  return (PetscBool)(which->group >= 0 ? (p->groups & q->groups) >> which->group & 1 : !InPair_Private(s->scene, p->groups, q->groups));
+}
+
+static void Test_Private(const Pieces *s, const Which *which, const Piece *p, const Piece *q, Passage *worst)
 {
   PetscReal depth;
 
-  if (p->part != q->part || Neighbours_Private(s->dim, p, q)) return;
-  if (group >= 0 ? !((p->groups & q->groups) >> group & 1) : InPair_Private(s->scene, p->groups, q->groups)) return;
+  if (!Counts_Private(s, which, p, q)) return;
   depth = PetscMax(Depth_Private(s->dim, p, q), Depth_Private(s->dim, q, p));
   if (depth <= worst->depth) return;
   worst->depth   = depth;
@@ -97,12 +122,12 @@ static int Compare_Private(const void *a, const void *b)
   return x < y ? -1 : x > y;
 }
 
-static void Sweep_Private(Pieces *s, PetscInt group, Passage *worst)
+static void Sweep_Private(Pieces *s, const Which *which, Passage *worst)
 {
   qsort(s->piece, (size_t)s->num, sizeof(Piece), Compare_Private);
   for (PetscInt i = 0; i < s->num; ++i) {
     for (PetscInt j = i + 1; j < s->num && s->piece[j].box[0] <= s->piece[i].box[3]; ++j) {
-      if (BoxesMeet_Private(s->piece[i].box, s->piece[j].box)) Test_Private(s, group, &s->piece[i], &s->piece[j], worst);
+      if (BoxesMeet_Private(s->piece[i].box, s->piece[j].box)) Test_Private(s, which, &s->piece[i], &s->piece[j], worst);
     }
   }
 }
@@ -152,23 +177,48 @@ static PetscErrorCode Exchange_Private(MPI_Comm comm, Pieces *s)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode PassageFind(Problem problem, const State *state, PetscInt group, Passage *worst)
+/* The worst of those collected, of all ranks. */
+static PetscErrorCode Find_Private(MPI_Comm comm, Pieces *s, const Which *which, Passage *worst)
 {
-  Forest      forest;
-  Pieces      s = {0};
   PetscReal   depth;
   PetscMPIInt owner;
 
   PetscFunctionBegin;
   *worst = (Passage){.depth = 0};
+  PetscCall(Exchange_Private(comm, s));
+  Sweep_Private(s, which, worst);
+  PetscCall(PetscFree(s->piece));
+  PetscCallMPI(MPI_Allreduce(&worst->depth, &depth, 1, MPIU_REAL, MPI_MAX, comm));
+  if (!(depth > 0)) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(RankFirst(comm, (PetscBool)(worst->depth == depth), &owner));
+  PetscCallMPI(MPI_Bcast(worst, (PetscMPIInt)sizeof(*worst), MPI_BYTE, owner, comm));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode PassageFind(Problem problem, const State *state, PetscInt group, Passage *worst)
+{
+  const Which which = {.group = group};
+  Forest      forest;
+  Pieces      s = {0};
+
+  PetscFunctionBegin;
   PetscCall(ProblemGetForest(problem, &forest));
   PetscCall(PiecesCollect_Private(problem, state, PETSC_FALSE, &s));
-  PetscCall(Exchange_Private(ForestComm(forest), &s));
-  Sweep_Private(&s, group, worst);
-  PetscCall(PetscFree(s.piece));
-  PetscCallMPI(MPI_Allreduce(&worst->depth, &depth, 1, MPIU_REAL, MPI_MAX, ForestComm(forest)));
-  if (!(depth > 0)) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(RankFirst(ForestComm(forest), (PetscBool)(worst->depth == depth), &owner));
-  PetscCallMPI(MPI_Bcast(worst, (PetscMPIInt)sizeof(*worst), MPI_BYTE, owner, ForestComm(forest)));
+  PetscCall(Find_Private(ForestComm(forest), &s, &which, worst));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode PassageFindApart(Problem problem, const State *state, Passage *worst)
+{
+  Which  which = {.group = -1, .apart = PETSC_TRUE};
+  Forest forest;
+  Pieces s = {0};
+
+  PetscFunctionBegin;
+  PetscCall(ProblemGetForest(problem, &forest));
+  PetscCall(PiecesCollect_Private(problem, state, PETSC_TRUE, &s));
+  PetscCall(PiecesParts_Private(&s, ForestComm(forest), &which.sides));
+  PetscCall(Find_Private(ForestComm(forest), &s, &which, worst));
+  PetscCall(PetscFree(which.sides));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

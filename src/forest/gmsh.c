@@ -45,6 +45,8 @@ static PetscErrorCode ReadNames_Private(Reader *r, FILE *file)
     char       *close = open ? strrchr(line, '"') : NULL;
     if (!close || close == open || sscanf(line, "%d %d %n", &dim, &tag, &start) != 2)
       FAIL(r, "mesh file '%s' is damaged: its section $PhysicalNames ends too early", r->spec->file);
+    if (open != line + start || !strchr(" \t", line[start - 1])) /* PETSc takes what stands there for the number's */
+      FAIL(r, "mesh file '%s' is damaged: a line of $PhysicalNames is not  dimension number \"name\"", r->spec->file);
     *close = 0;
     if (!TextIsPlain(open + 1, "")) FAIL(r, "mesh file '%s': the name \"%s\" of a physical group has a control character in it", r->spec->file, open + 1);
     if (strlen(open + 1) >= MORTISE_NAME)

@@ -144,7 +144,7 @@ static PetscErrorCode SetLabels_Private(const Chart *chart, const CoarseMesh *me
   PetscCall(DMCreateLabel(dm, "body"));
   PetscCall(DMGetLabel(dm, "body", &body));
   for (PetscInt p = 0; p < chart->end[t->dim]; ++p) PetscCall(DMLabelSetValue(body, p, t->leaf_body[chart->point_entity[p] - t->first[t->dim]]));
-  for (PetscInt b = 0; b < mesh->num_boundaries; ++b) {
+  for (PetscInt b = 0; b < mesh->num_boundaries - mesh->num_unions; ++b) {
     DMLabel label;
     PetscCall(DMCreateLabel(dm, mesh->boundary_name[b]));
     PetscCall(DMGetLabel(dm, mesh->boundary_name[b], &label));

@@ -69,7 +69,7 @@ PetscErrorCode ForestCoarseHash(Forest forest, uint64_t *hash)
 {
   const Coarse     *c          = forest->coarse;
   const CoarseMesh *m          = &c->mesh;
-  const PetscInt    numbers[]  = {m->dim, m->num_cells, m->num_vertices, m->geometry_order, m->num_bodies, m->num_boundaries};
+  const PetscInt    numbers[]  = {m->dim, m->num_cells, m->num_vertices, m->geometry_order, m->num_bodies, m->num_boundaries - m->num_unions};
   const size_t      num_facets = (size_t)(c->first[m->dim] - c->first[m->dim - 1]), cells = (size_t)m->num_cells;
   size_t            corners = (size_t)1 << m->dim, nodes = 1;
 
@@ -79,8 +79,11 @@ PetscErrorCode ForestCoarseHash(Forest forest, uint64_t *hash)
   *hash = HashBytes(*hash, m->cell_vertices, cells * corners * sizeof(PetscInt));
   *hash = HashBytes(*hash, m->cell_geometry, cells * nodes * 3 * sizeof(PetscReal));
   *hash = HashBytes(*hash, m->cell_body, cells * sizeof(PetscInt));
-  *hash = HashBytes(*hash, c->facet_groups, num_facets * sizeof(uint64_t));
+  for (size_t f = 0; f < num_facets; ++f) { /* of the file: unions are the scene's */
+    const uint64_t groups = m->num_unions ? c->facet_groups[f] & ((UINT64_C(1) << numbers[5]) - 1) : c->facet_groups[f];
+    *hash                 = HashBytes(*hash, &groups, sizeof(groups));
+  }
   for (PetscInt b = 0; b < m->num_bodies; ++b) *hash = HashBytes(*hash, m->body_name[b], strlen(m->body_name[b]) + 1);
-  for (PetscInt b = 0; b < m->num_boundaries; ++b) *hash = HashBytes(*hash, m->boundary_name[b], strlen(m->boundary_name[b]) + 1);
+  for (PetscInt b = 0; b < numbers[5]; ++b) *hash = HashBytes(*hash, m->boundary_name[b], strlen(m->boundary_name[b]) + 1);
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -74,17 +74,37 @@ static PetscErrorCode WriteFields_Private(Checkpoint c, hid_t file)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Bytes of the file, at most. */
+static PetscErrorCode Bytes_Private(Checkpoint c, int64_t *bytes)
+{
+  PetscFunctionBegin;
+  *bytes = CHECKPOINT_SEAL + (int64_t)strlen(c->physics) + (int64_t)sizeof(c->note) + c->num_splits + (1 + (int64_t)sizeof(int)) * c->num_leaves +
+           OUTPUT_SET * (8 + (int64_t)c->pack.num) + (int64_t)sizeof(CheckpointNumber) * c->num_numbers;
+  for (PetscInt i = 0; i < c->pack.num; ++i) {
+    PetscInt size;
+    PetscCall(VecGetSize(c->pack.field[i].values, &size));
+    *bytes += 8 * (int64_t)size;
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 static PetscErrorCode WriteFile_Private(Checkpoint c, const char *path)
 {
-  hid_t access, create, file, group;
+  hid_t       access, create, file, group;
+  int64_t     bytes = 0;
+  PetscMPIInt rank, size;
 
   PetscFunctionBegin;
+  PetscCallMPI(MPI_Comm_rank(c->comm, &rank));
+  PetscCallMPI(MPI_Comm_size(c->comm, &size));
+  if (size > 1) PetscCall(Bytes_Private(c, &bytes));
   PetscCall(OutputAccess(c->comm, path, &access));
   PetscCallH5Id(create, H5Pcreate(H5P_FILE_CREATE));
   PetscCallH5(H5Pset_userblock(create, CHECKPOINT_SEAL));
   PetscCallH5Id(file, H5Fcreate(path, H5F_ACC_TRUNC, create, access));
   PetscCallH5(H5Pclose(create));
   PetscCallH5(H5Pclose(access));
+  if (size > 1) PetscCall(OutputReserve(c->comm, path, bytes));
   PetscCall(WriteText_Private(c, file, "physics", c->physics));
   PetscCall(WriteText_Private(c, file, "note", c->note));
   PetscCall(OutputAttribute(file, "mesh", H5T_STD_U64LE, H5T_NATIVE_UINT64, &c->mesh));
@@ -97,6 +117,7 @@ static PetscErrorCode WriteFile_Private(Checkpoint c, const char *path)
   PetscCallH5(H5Gclose(group));
   PetscCallH5(H5Fflush(file, H5F_SCOPE_GLOBAL)); /* on every rank's node */
   PetscCallH5(H5Fclose(file));
+  if (rank == 0 && size > 1) OutputGiveBack(path, bytes);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -14,6 +14,7 @@ static const struct {
     {INDEX_PASSES, "<?xml version=\"1.0\"?>\n<Xdmf "},
     {CHECKPOINT_FILE, "mortise checkpoint, "},
     {CHECKPOINT_BEFORE, "mortise checkpoint, "},
+    {LOCK_FILE, LOCK_BEGINS},
 };
 
 PetscInt OutputStateNumber(const char *name)
@@ -64,6 +65,12 @@ static PetscBool IsForeign_Private(const char *path, const char *name, PetscBool
   return (PetscBool)(OutputStateNumber(name) >= 0 && (!S_ISREG(info.st_mode) || (info.st_size && !IsState_Private(path, series))));
 }
 
+PetscErrorCode OutputTellForeign(const char *directory, const char *name)
+{
+  return ErrorInput("output.directory %s: %s in it is no file of a run of mortise; give another directory, or output.overwrite: true to lose it", directory,
+                    name);
+}
+
 PetscErrorCode OutputCheckForeign(MPI_Comm comm, const char *directory)
 {
   char           path[2 * PETSC_MAX_PATH_LEN], foreign[256] = "";
@@ -82,7 +89,6 @@ PetscErrorCode OutputCheckForeign(MPI_Comm comm, const char *directory)
   }
   if (dir) (void)closedir(dir);
   PetscCallMPI(MPI_Bcast(foreign, (PetscMPIInt)sizeof(foreign), MPI_CHAR, 0, comm));
-  PetscCheckInput(!foreign[0], "output.directory %s: %s in it is no file of a run of mortise; give another directory, or output.overwrite: true to lose it",
-                  directory, foreign);
+  if (foreign[0]) PetscCall(OutputTellForeign(directory, foreign));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -18,7 +18,7 @@ static char  path[PETSC_MAX_PATH_LEN]; /* of the lock that is held, "": none */
 static int   held = -1;                /* the open file */
 static pid_t owner;                    /* who takes it away again: the first process; else 0 */
 
-enum { LOCK_TAKEN, LOCK_OTHERS, LOCK_FAILED };
+enum { LOCK_TAKEN, LOCK_OTHERS, LOCK_FAILED, LOCK_FOREIGN };
 
 /* Who is in the file; pid 0: nobody. */
 static Holder Read_Private(int file)
@@ -28,7 +28,7 @@ static Holder Read_Private(int file)
   const ssize_t num = pread(file, text, sizeof(text) - 1, 0);
 
   text[num > 0 ? num : 0] = 0;
-  if (sscanf(text, "process %d on %255s", &h.pid, h.host) != 2) h.pid = 0;
+  if (sscanf(text, LOCK_BEGINS "%d on %255s", &h.pid, h.host) != 2) h.pid = 0;
   return h;
 }
 
@@ -80,15 +80,38 @@ static PetscBool Stands_Private(int file)
   return (PetscBool)(!fstat(file, &mine) && !stat(path, &there) && mine.st_ino == there.st_ino && mine.st_dev == there.st_dev);
 }
 
+/* Has somebody else put a file of that name there? One of ours that was cut off by a full disk begins as far as it goes. */
+static PetscBool IsForeign_Private(int file)
+{
+  char          text[sizeof(LOCK_BEGINS)];
+  const ssize_t num = pread(file, text, sizeof(LOCK_BEGINS) - 1, 0);
+
+  return (PetscBool)(num > 0 && strncmp(text, LOCK_BEGINS, (size_t)num));
+}
+
+/* The file, made where there is none; not by way of a link. -1: errno tells why. */
+static int Open_Private(PetscBool overwrite)
+{
+  int file = open(path, O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
+
+  if (file >= 0 && IsForeign_Private(file)) {
+    (void)close(file);
+    file  = -1;
+    errno = ELOOP;
+  }
+  if (file < 0 && errno == ELOOP && overwrite && !unlink(path)) file = open(path, O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+  return file;
+}
+
 /* The first process: alone for a moment, in which it writes who it is. *other: who had it before, or has it; number: errno of a failure. */
-static int First_Private(Holder *other, int *number)
+static int First_Private(PetscBool overwrite, Holder *other, int *number)
 {
   const Holder me     = Me_Private();
   int          failed = 0;
 
   for (int attempt = 0; attempt < 10; ++attempt) {
-    held = open(path, O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-    if (held < 0) return *number = errno, LOCK_FAILED;
+    held = Open_Private(overwrite);
+    if (held < 0) return *number = errno, errno == ELOOP ? LOCK_FOREIGN : LOCK_FAILED;
     failed = Flock_Private(held, LOCK_EX);
     *other = Read_Private(held);
     if (failed) return LOCK_OTHERS;
@@ -97,7 +120,7 @@ static int First_Private(Holder *other, int *number)
     held = -1;
   }
   if (held < 0) return *number = EAGAIN, LOCK_FAILED;
-  if (ftruncate(held, 0) || dprintf(held, "process %d on %s\n", me.pid, me.host) < 0) return *number = errno, LOCK_FAILED;
+  if (ftruncate(held, 0) || dprintf(held, LOCK_BEGINS "%d on %s\n", me.pid, me.host) < 0) return *number = errno, LOCK_FAILED;
   (void)flock(held, LOCK_SH | LOCK_NB); /* from now on with the others */
   owner = getpid();
   return LOCK_TAKEN;
@@ -111,7 +134,7 @@ static int Join_Private(int *number)
   return flock(held, LOCK_SH | LOCK_NB) && errno == EWOULDBLOCK ? LOCK_OTHERS : LOCK_TAKEN;
 }
 
-PetscErrorCode OutputLock(MPI_Comm comm, const char *directory)
+PetscErrorCode OutputLock(MPI_Comm comm, const char *directory, PetscBool overwrite)
 {
   struct {
     int    verdict, number;
@@ -122,13 +145,17 @@ PetscErrorCode OutputLock(MPI_Comm comm, const char *directory)
 
   PetscFunctionBegin;
   PetscCallMPI(MPI_Comm_rank(comm, &rank));
-  PetscCheckInput(snprintf(path, sizeof(path), "%s/lock", directory) < (int)sizeof(path), "output.directory: its name is too long");
-  if (rank == 0) found.verdict = First_Private(&found.other, &found.number);
+  PetscCheckInput(snprintf(path, sizeof(path), "%s/" LOCK_FILE, directory) < (int)sizeof(path), "output.directory: its name is too long");
+  if (rank == 0) found.verdict = First_Private(overwrite, &found.other, &found.number);
   PetscCallMPI(MPI_Bcast(&found, (PetscMPIInt)sizeof(found), MPI_CHAR, 0, comm));
+  const int first = found.verdict;
   if (rank && found.verdict == LOCK_TAKEN) found.verdict = Join_Private(&found.number);
   PetscCallMPI(MPI_Allreduce(&found.verdict, &verdict, 1, MPI_INT, MPI_MAX, comm));
   if (verdict != LOCK_TAKEN) OutputUnlock();
+  PetscCheckInput(verdict != LOCK_FAILED || first != LOCK_TAKEN,
+                  "output.directory %s: not all processes see it; it has to be on a file system that they share, under the same name", directory);
   PetscCheckInput(verdict != LOCK_FAILED, "output.directory: %s cannot be made: %s", path, strerror(found.number));
+  if (verdict == LOCK_FOREIGN) PetscCall(OutputTellForeign(directory, LOCK_FILE));
   PetscCheckInput(verdict != LOCK_OTHERS, "output.directory %s: %s process %d on %s, writes there; give another directory, or wait for its end", directory,
                   Lives_Private(&found.other) ? "another run," : "what is left of a run,", found.other.pid, found.other.host);
   if (found.other.pid)

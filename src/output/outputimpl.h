@@ -27,6 +27,15 @@ PetscErrorCode OutputAttributeTexts(hid_t object, const char *name, PetscInt num
    path: for messages, until the next one. */
 PetscErrorCode OutputAccess(MPI_Comm, const char *path, hid_t *access);
 
+#define OUTPUT_SET 8192 /* bytes of a data set of HDF5, and its attributes, beside its numbers, at most */
+/* reserve.c. Room for a file that is being written from its start to so many bytes; an error where there is none (collective). What was not used of it. */
+PetscErrorCode OutputReserve(MPI_Comm, const char *path, int64_t bytes);
+void           OutputGiveBack(const char *path, int64_t bytes);
+/* foreign.c. The input error of a file in it that is no run's. */
+PetscErrorCode OutputTellForeign(const char *directory, const char *name);
+#define LOCK_FILE "lock"
+#define LOCK_BEGINS "process "
+
 /* Growable text; {0} is empty and valid. */
 typedef struct {
   char  *text; /* owned, zero-terminated once something was printed */

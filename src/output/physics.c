@@ -33,11 +33,28 @@ static PetscErrorCode Material_Private(const MaterialSpec *m, PetscInt num_cells
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+static PetscErrorCode Side_Private(const CoarseMesh *mesh, const char *side, PetscInt group, OutputText *text)
+{
+  const uint64_t groups = CoarseMembers(mesh, group);
+  const char    *before = side;
+
+  PetscFunctionBegin;
+  for (PetscInt g = 0; g < mesh->num_boundaries; ++g) {
+    if (!(groups >> g & 1)) continue;
+    PetscCall(OutputTextPrint(text, "%s %s", before, mesh->boundary_name[g]));
+    before = " +";
+  }
+  PetscCall(OutputTextPrint(text, ", "));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 static PetscErrorCode Pair_Private(const ContactSpec *c, const CoarseMesh *mesh, OutputText *text)
 {
   PetscFunctionBegin;
-  PetscCall(OutputTextPrint(text, "contact.%s: nonmortar %s, mortar %s, order %s, multiplier %s, initial_gap %s, friction %s, ", c->name,
-                            mesh->boundary_name[c->nonmortar], mesh->boundary_name[c->mortar], c->full ? "full" : "1", c->standard ? "standard" : "dual",
+  PetscCall(OutputTextPrint(text, "contact.%s: ", c->name));
+  PetscCall(Side_Private(mesh, "nonmortar", c->nonmortar, text));
+  PetscCall(Side_Private(mesh, "mortar", c->mortar, text));
+  PetscCall(OutputTextPrint(text, "order %s, multiplier %s, initial_gap %s, friction %s, ", c->full ? "full" : "1", c->standard ? "standard" : "dual",
                             c->adjust  ? "adjust"
                             : c->ramp  ? "ramp"
                             : c->close ? "close"
@@ -62,6 +79,26 @@ static PetscErrorCode Repeat_Private(const AdaptSpec *a, OutputText *text)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* What holds the group, and whether its pressure is found. What a support prescribes may go on otherwise; a state without it is out of balance. */
+static PetscErrorCode Group_Private(const MechanicsSpec *m, PetscInt group, const char *name, OutputText *text)
+{
+  const BoundarySpec none = {.group = group}, *spec = &none;
+
+  PetscFunctionBegin;
+  for (PetscInt b = 0; b < m->num_boundaries; ++b)
+    if (m->boundaries[b].group == group) spec = &m->boundaries[b];
+  PetscCall(OutputTextPrint(text, "boundary.%s: ", name));
+  for (PetscInt c = 0; c < 3; ++c)
+    if (spec->fix[c] || spec->displacement[c]) PetscCall(OutputTextPrint(text, "%c", 'x' + (int)c));
+  PetscCall(OutputTextPrint(text, "%s%s%s\n",
+                            spec->fix_normal         ? "normal"
+                            : spec->rotation         ? "rotation"
+                            : BoundarySupports(spec) ? ""
+                                                     : "free",
+                            spec->volume ? ", volume" : "", spec->advance ? ", advance" : ""));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode OutputPhysics(const SceneData *scene, const CoarseMesh *mesh, OutputText *text)
 {
   const MechanicsSpec *m = &scene->mechanics;
@@ -70,10 +107,7 @@ PetscErrorCode OutputPhysics(const SceneData *scene, const CoarseMesh *mesh, Out
   PetscCall(OutputTextPrint(text, "model: %s\nkinematics: %s\n", ModelNames[m->model], KinematicsNames[m->kinematics]));
   PetscCall(OutputTextPrint(text, "load.control: %s\n", scene->load.control == LOAD_TIME ? "time" : "arc_length"));
   PetscCall(Repeat_Private(&scene->adapt, text));
-  for (PetscInt b = 0; b < m->num_boundaries; ++b) {
-    const BoundarySpec *spec = &m->boundaries[b];
-    if (spec->volume || spec->advance) PetscCall(OutputTextPrint(text, "boundary.%s: %s\n", spec->name, spec->volume ? "volume" : "advance"));
-  }
+  for (PetscInt g = 0; g < mesh->num_boundaries - mesh->num_unions; ++g) PetscCall(Group_Private(m, g, mesh->boundary_name[g], text));
   for (PetscInt b = 0; b < m->num_bodies; ++b) {
     const PetscInt *along = m->bodies[b].order_along;
     PetscCall(OutputTextPrint(text, "body.%s: ", mesh->body_name[b]));

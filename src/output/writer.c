@@ -16,6 +16,7 @@ struct _p_Writer {
   char             directory[PETSC_MAX_PATH_LEN];
   Index            index;     /* owned; rank 0, else NULL */
   PetscInt         num;       /* states completed */
+  int64_t          reserved;  /* bytes of the open file that there is room for; one rank: 0 */
   PetscBool        resumed;   /* files of later states are still there */
   IndexState       state;     /* the open state, or the last one */
   const SceneData *scene;     /* borrowed; NULL: fields have no units and no names */
@@ -186,7 +187,8 @@ PetscErrorCode WriterBegin(Writer w, PetscReal time, PetscInt step, PetscInt pas
   w->state   = (IndexState){.time = time, .load_time = load_time, .step = step, .pass = pass, .number = w->num};
   PetscCall(PetscSNPrintf(path, sizeof(path), "%s/fields_%04" PetscInt_FMT ".h5", w->directory, w->num));
   PetscCall(OutputAccess(w->comm, path, &access));
-  w->open = PETSC_TRUE;
+  w->open     = PETSC_TRUE;
+  w->reserved = 0;
   PetscCallH5Id(w->file, H5Fcreate(path, H5F_ACC_TRUNC, H5P_DEFAULT, access));
   PetscCallH5(H5Pclose(access));
   PetscCall(OutputAttributeReal(w->file, "time", time));
@@ -222,6 +224,10 @@ static PetscErrorCode WriterData_Private(Writer w, const char *name, int kind, P
   hid_t   create, space, memory, set, transfer;
 
   PetscFunctionBegin;
+  if (w->size > 1) {
+    w->reserved += OUTPUT_SET + 8 * w->total[kind] * columns;
+    PetscCall(OutputReserve(w->comm, OutputAccessed(), w->reserved));
+  }
   PetscCall(WriterFilters_Private(w->total[kind], columns, &create));
   PetscCallH5Id(space, H5Screate_simple(dims, whole, NULL));
   PetscCallH5Id(memory, H5Screate_simple(dims, part, NULL));
@@ -376,6 +382,7 @@ PetscErrorCode WriterEnd(Writer w)
   PetscCallH5(H5Fflush(w->file, H5F_SCOPE_GLOBAL)); /* "complete" must not reach the disk before the data */
   PetscCall(OutputAttributeInt(w->file, "complete", 1));
   PetscCallH5(H5Fclose(w->file));
+  if (w->rank == 0 && w->reserved) OutputGiveBack(OutputAccessed(), w->reserved);
   w->file = -1;
   w->open = PETSC_FALSE;
   w->num++;

@@ -66,9 +66,9 @@ static PetscErrorCode FindGroup_Private(const CoarseMesh *m, const char *where, 
   char list[2048];
 
   PetscFunctionBegin;
-  *group = Index_Private(name, m->num_boundaries, m->boundary_name);
+  *group = Index_Private(name, m->num_boundaries - m->num_unions, m->boundary_name);
   if (*group >= 0) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(SceneListNames(m->num_boundaries, m->boundary_name, sizeof(list), list));
+  PetscCall(SceneListNames(m->num_boundaries - m->num_unions, m->boundary_name, sizeof(list), list));
   PetscCheckInput(Index_Private(name, m->num_bodies, m->body_name) < 0, "%s: '%s' is a body of the mesh, not one of its boundary groups: %s", where, name,
                   list);
   PetscCall(ErrorInput("%s: the mesh has no boundary group '%s'; it has: %s", where, name, list));
@@ -307,22 +307,55 @@ static PetscErrorCode CheckSelf_Private(Scene s, const Facets *f, const ContactE
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* The group that a side of a pair names, or is made of. */
+static PetscErrorCode FindSide_Private(Forest forest, const CoarseMesh *m, const SceneNode *node, PetscInt *group)
+{
+  uint64_t groups = 0;
+
+  PetscFunctionBegin;
+  if (node->kind == NODE_SCALAR) PetscCall(FindGroup_Private(m, NodeWhere(node), node->text, group));
+  for (const SceneNode *item = node->first; item; item = item->next) {
+    PetscCall(FindGroup_Private(m, NodeWhere(node), item->text, group));
+    groups |= UINT64_C(1) << *group;
+  }
+  if (groups) PetscCall(ForestUnite(forest, groups, group));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Sides of pairs: before anything is counted by groups. */
+static PetscErrorCode FindSides_Private(Scene s, Forest forest, const CoarseMesh *m)
+{
+  PetscFunctionBegin;
+  for (PetscInt i = 0; i < s->num_contacts; ++i) {
+    ContactEntry *c = &s->contact[i];
+    PetscCall(FindSide_Private(forest, m, NodeFind(c->node, c->spec.self ? "surface" : "nonmortar"), &c->spec.nonmortar));
+    PetscCall(FindSide_Private(forest, m, NodeFind(c->node, c->spec.self ? "surface" : "mortar"), &c->spec.mortar));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Each group of the side is of free facets. */
+static PetscErrorCode CheckFree_Private(const ContactEntry *c, const Facets *f, PetscInt side)
+{
+  const uint64_t groups = CoarseMembers(f->mesh, side);
+
+  PetscFunctionBegin;
+  for (PetscInt g = 0; g < f->mesh->num_boundaries; ++g) {
+    if (!(groups >> g & 1)) continue;
+    PetscCheckInput(!f->inner[g], "%s: '%s' lies between two cells; a contact surface must be a free one", NodeWhere(c->node), f->mesh->boundary_name[g]);
+    PetscCheckInput(f->num_facets[g], "%s: no facet of a cell is in group '%s' of the mesh", NodeWhere(c->node), f->mesh->boundary_name[g]);
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 static PetscErrorCode MatchContacts_Private(Scene s, const Facets *f)
 {
   PetscFunctionBegin;
   PetscCall(PetscCalloc1(s->data.num_contacts, &s->data.contacts));
   for (PetscInt i = 0; i < s->data.num_contacts; ++i) {
-    ContactEntry *c        = &s->contact[i];
-    PetscInt      group[2] = {-1, -1};
-    PetscCall(FindGroup_Private(f->mesh, NodeWhere(NodeFind(c->node, c->spec.self ? "surface" : "nonmortar")), c->nonmortar, &group[0]));
-    PetscCall(FindGroup_Private(f->mesh, NodeWhere(NodeFind(c->node, c->spec.self ? "surface" : "mortar")), c->mortar, &group[1]));
-    for (int side = 0; side < 2; ++side) {
-      const char *name = side ? c->mortar : c->nonmortar;
-      PetscCheckInput(!f->inner[group[side]], "%s: '%s' lies between two cells; a contact surface must be a free one", NodeWhere(c->node), name);
-      PetscCheckInput(f->num_facets[group[side]], "%s: no facet of a cell is in group '%s' of the mesh", NodeWhere(c->node), name);
-    }
-    c->spec.nonmortar = group[0];
-    c->spec.mortar    = group[1];
+    ContactEntry  *c        = &s->contact[i];
+    const PetscInt group[2] = {c->spec.nonmortar, c->spec.mortar};
+    for (int side = 0; side < 2; ++side) PetscCall(CheckFree_Private(c, f, group[side]));
     PetscCall(c->spec.self ? CheckSelf_Private(s, f, c) : CheckSides_Private(c, f, group));
     if (!c->spec.self) PetscCall(Roles_Private(s, f, c));
     s->data.contacts[i] = c->spec;
@@ -472,6 +505,7 @@ PetscErrorCode SceneCheckMesh(Scene s, Forest forest)
   PetscCall(CheckCells_Private(s, mesh)); /* before any table is indexed by bodies */
   PetscCall(MatchBodies_Private(s, mesh));
   PetscCall(SceneCheckFields(s, mesh));
+  PetscCall(FindSides_Private(s, forest, mesh));
   PetscCall(FacetsCreate_Private(forest, &f));
   status = Check_Private(s, &f);
   PetscCall(PetscFree5(f.num_facets, f.inner, f.body_touches, f.together, f.cell_groups));

@@ -4,7 +4,7 @@
 
 static void DescribeKey_Private(cJSON *keys, const Option *row)
 {
-  static const char *const kinds[] = {"text", "word", "integer", "number", "boolean", "expression", "amplitude", "axes", "parameter", "words"};
+  static const char *const kinds[] = {"text", "word", "integer", "number", "boolean", "expression", "amplitude", "axes", "parameter", "words", "groups"};
   cJSON                   *key     = cJSON_CreateObject();
 
   cJSON_AddStringToObject(key, "key", row->pattern);

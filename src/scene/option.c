@@ -94,8 +94,22 @@ static const char *Wanted_Private(KeyType type)
                                        "a list [t0,v0, t1,v1, ...]",
                                        "a word like xy",
                                        "a number",
-                                       "words with commas between"};
+                                       "words with commas between",
+                                       "a name or a list of names [a, b]"};
   return wanted[type];
+}
+
+/* A list of names, each once. */
+static PetscErrorCode CheckNames_Private(const SceneNode *list)
+{
+  PetscFunctionBegin;
+  PetscCheckInput(list->first, "%s is a list without a name", NodeWhere(list));
+  for (const SceneNode *item = list->first; item; item = item->next) {
+    PetscCheckInput(item->kind == NODE_SCALAR && item->text[0], "%s: names stand in the list, one of them is %s", NodeWhere(list), Shape_Private(item));
+    for (const SceneNode *twin = list->first; twin != item; twin = twin->next)
+      PetscCheckInput(strcmp(twin->text, item->text), "%s: '%s' is there twice", NodeWhere(list), item->text);
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 static PetscErrorCode CheckNode_Private(const SceneNode *root, const SceneNode *node, PetscInt num, const char *keys[])
@@ -110,8 +124,9 @@ static PetscErrorCode CheckNode_Private(const SceneNode *root, const SceneNode *
     row       = Find_Private(num + 1, keys, &prefix);
     if (!row && !prefix) PetscCall(Unknown_Private(root, child, num + 1, keys));
     if (row && !(prefix && child->kind == NODE_MAP)) { /* body.<name>.order is a number or a map of directions */
-      NodeKind kind = row->type == KEY_AMPLITUDE ? NODE_LIST : NODE_SCALAR;
+      NodeKind kind = row->type == KEY_AMPLITUDE || (row->type == KEY_GROUPS && child->kind == NODE_LIST) ? NODE_LIST : NODE_SCALAR;
       PetscCheckInput(child->kind == kind && !NodeIsEmpty(child), "%s must be %s, it is %s", NodeWhere(child), Wanted_Private(row->type), Shape_Private(child));
+      if (row->type == KEY_GROUPS && kind == NODE_LIST) PetscCall(CheckNames_Private(child));
     } else {
       PetscCheckInput(child->kind == NODE_MAP || NodeIsEmpty(child), "%s must be a map of keys {key: value, ...}, it is %s", NodeWhere(child),
                       Shape_Private(child));
@@ -277,6 +292,22 @@ static PetscErrorCode Text_Private(const Option *row, const char *where, const c
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* "a + b" of a list. */
+static PetscErrorCode Groups_Private(const Option *row, const char *where, const SceneNode *node, char *place)
+{
+  char text[SIDE_TEXT + 4] = "";
+
+  PetscFunctionBegin;
+  if (!node->first) PetscCall(Text_Private(row, where, node->text, place));
+  if (!node->first) PetscFunctionReturn(PETSC_SUCCESS);
+  for (const SceneNode *item = node->first; item; item = item->next) {
+    if (text[0]) TextAppend(sizeof(text), text, " + ");
+    TextAppend(sizeof(text), text, item->text);
+  }
+  PetscCall(Text_Private(row, where, text, place));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* Store the value of node (NULL: the default) at its place in object, component c of an <axis>. */
 static PetscErrorCode Store_Private(const Option *row, const SceneNode *node, const char *where, PetscInt dim, PetscInt c, void *object)
 {
@@ -292,6 +323,9 @@ static PetscErrorCode Store_Private(const Option *row, const SceneNode *node, co
   switch (row->type) {
   case KEY_TEXT:
     PetscCall(Text_Private(row, where, text, place));
+    break;
+  case KEY_GROUPS:
+    PetscCall(Groups_Private(row, where, node, place));
     break;
   case KEY_WORD:
     PetscCall(Word_Private(row, where, text, (int *)(void *)place));

@@ -106,13 +106,14 @@ const Option Options[] = {
      "positions",
      BOUND(moment_about)},
 
-    {"contact.<pair>.nonmortar", KEY_TEXT, "", "", "",
-     "physical group of one dimension less: the side that carries the contact pressure (the multiplier), unless it is the stiffer one; must be given, or "
-     "surface",
+    {"contact.<pair>.nonmortar", KEY_GROUPS, "", "", "",
+     "physical group of one dimension less, or a list [a, b] of groups that are one side together: the side that carries the contact pressure (the "
+     "multiplier), unless it is the stiffer one; must be given, or surface",
      PAIR(nonmortar)},
-    {"contact.<pair>.mortar", KEY_TEXT, "", "", "", "physical group of the other side; must be given, or surface", PAIR(mortar)},
-    {"contact.<pair>.surface", KEY_TEXT, "", "", "",
-     "instead of two sides: one physical group that may meet itself, of one body or several; which facets carry the pressure is chosen", PAIR(surface)},
+    {"contact.<pair>.mortar", KEY_GROUPS, "", "", "", "physical group, or list of groups, of the other side; must be given, or surface", PAIR(mortar)},
+    {"contact.<pair>.surface", KEY_GROUPS, "", "", "",
+     "instead of two sides: one physical group, or list of groups, that may meet itself, of one body or several; which facets carry the pressure is chosen",
+     PAIR(surface)},
     {"contact.<pair>.roles", KEY_WORD, "", "auto", "auto|given",
      "auto: a nonmortar side that is stiffer, rigid, or has no corner where the other side has (plane), changes places with the other; given: for comparison, "
      "only where it is rigid",
@@ -218,9 +219,10 @@ const Option Options[] = {
 
 static PetscErrorCode PrintRow_Private(MPI_Comm comm, const Option *row)
 {
-  static const char *const kinds[] = {"text", "", "integer", "number", "true|false", "number or expression", "list of numbers", "", "number", "any of"};
-  char                     key[128], kind[512];
-  const char              *axis = strstr(row->pattern, "<axis>"), *range = strcmp(row->range, ANY) ? row->range : "";
+  static const char *const kinds[] = {
+      "text", "", "integer", "number", "true|false", "number or expression", "list of numbers", "", "number", "any of", "name or list of names"};
+  char        key[128], kind[512];
+  const char *axis = strstr(row->pattern, "<axis>"), *range = strcmp(row->range, ANY) ? row->range : "";
 
   PetscFunctionBegin;
   if (axis)

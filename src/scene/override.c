@@ -165,15 +165,18 @@ static void Match_Private(PetscInt num, char words[OPTION_DEPTH][MORTISE_NAME], 
   }
 }
 
-/* Value of a list: "[0,0, 1,1]" or "0,0,1,1". */
-static PetscErrorCode SetList_Private(SceneNode *list, const char *value)
+/* Value of a list: "[0,0, 1,1]" or "0,0,1,1"; of names, with blanks in them: "[a, b c]". */
+static PetscErrorCode SetList_Private(SceneNode *list, const char *value, PetscBool names)
 {
-  char      *copy, *item, *rest;
-  SceneNode *node;
+  const char *between = names ? "[]," : "[], ";
+  char       *copy, *item, *rest;
+  SceneNode  *node;
 
   PetscFunctionBegin;
   PetscCall(PetscStrallocpy(value, &copy));
-  for (item = strtok_r(copy, "[], ", &rest); item; item = strtok_r(NULL, "[], ", &rest)) {
+  for (item = strtok_r(copy, between, &rest); item; item = strtok_r(NULL, between, &rest)) {
+    item += strspn(item, " ");
+    for (size_t end = strlen(item); end > 0 && item[end - 1] == ' ';) item[--end] = 0;
     PetscCall(NodeCreate(list, "", NODE_SCALAR, list->origin, 0, &node));
     PetscCall(NodeSetText(node, item));
   }
@@ -183,11 +186,12 @@ static PetscErrorCode SetList_Private(SceneNode *list, const char *value)
 
 static PetscErrorCode Set_Private(SceneNode *root, const Match *m, const char *value, PetscInt line)
 {
-  SceneNode *at = root;
+  const NodeKind last = m->type == KEY_AMPLITUDE || (m->type == KEY_GROUPS && value[0] == '[') ? NODE_LIST : NODE_SCALAR;
+  SceneNode     *at   = root;
 
   PetscFunctionBegin;
   for (PetscInt i = 0; i < m->num; ++i) {
-    NodeKind   kind  = i + 1 < m->num ? NODE_MAP : m->type == KEY_AMPLITUDE ? NODE_LIST : NODE_SCALAR;
+    NodeKind   kind  = i + 1 < m->num ? NODE_MAP : last;
     SceneNode *child = NodeFind(at, m->keys[i]);
     if (!child) PetscCall(NodeCreate(at, m->keys[i], kind, root->origin, 0, &child));
     PetscCheckInput(kind != NODE_MAP || child->kind == NODE_MAP || NodeIsEmpty(child), "%s: a key below %s, which is %s; give it as a map {key: value}",
@@ -195,7 +199,7 @@ static PetscErrorCode Set_Private(SceneNode *root, const Match *m, const char *v
     if (kind == NODE_MAP) child->kind = NODE_MAP; /* an empty section becomes a map */
     at = child;
   }
-  at->kind = m->type == KEY_AMPLITUDE ? NODE_LIST : NODE_SCALAR;
+  at->kind = last;
   at->line = line;
   for (SceneNode *child = at->first, *next; child; child = next) {
     next = child->next;
@@ -204,7 +208,7 @@ static PetscErrorCode Set_Private(SceneNode *root, const Match *m, const char *v
   at->first = at->last = NULL;
   at->quoted           = PETSC_TRUE;
   if (at->kind == NODE_LIST)
-    PetscCall(SetList_Private(at, value));
+    PetscCall(SetList_Private(at, value, (PetscBool)(m->type == KEY_GROUPS)));
   else
     PetscCall(NodeSetText(at, value));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -434,8 +434,8 @@ static PetscErrorCode ReadSides_Private(Scene s, const SceneNode *node, ContactE
                   "%s is '%s': of a surface that may meet itself gaps are those of the mesh; take initial_gap and interference away", NodeWhere(surface),
                   c->surface);
   c->spec.self = PETSC_TRUE;
-  PetscCall(PetscStrncpy(c->nonmortar, c->surface, MORTISE_NAME));
-  PetscCall(PetscStrncpy(c->mortar, c->surface, MORTISE_NAME));
+  PetscCall(PetscStrncpy(c->nonmortar, c->surface, sizeof(c->nonmortar)));
+  PetscCall(PetscStrncpy(c->mortar, c->surface, sizeof(c->mortar)));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -32,13 +32,13 @@ const char    *NodeOptions(PetscInt line);                      /* where options
 
 /* ---- the option table (optiontable.c) ----------------------------------------------------------------------------------- */
 
-typedef enum { KEY_TEXT, KEY_WORD, KEY_INT, KEY_REAL, KEY_BOOL, KEY_EXPRESSION, KEY_AMPLITUDE, KEY_AXES, KEY_PARAMETER, KEY_WORDS } KeyType;
+typedef enum { KEY_TEXT, KEY_WORD, KEY_INT, KEY_REAL, KEY_BOOL, KEY_EXPRESSION, KEY_AMPLITUDE, KEY_AXES, KEY_PARAMETER, KEY_WORDS, KEY_GROUPS } KeyType;
 
 #define OPTION_DEPTH 8 /* keys above each other */
 
 /* One row: what -help prints, what parsing and checks do. Pattern: keys joined by '.', <name> stands for any name, <axis> for x, y or z,
    <parameter> for a parameter of a law. Range: an interval "[1,8]", "(0,inf)", or words "small|finite" (their order is that of the enum; KEY_WORDS: any of
-   them, with commas between; the i-th sets bit i). */
+   them, with commas between; the i-th sets bit i). KEY_GROUPS: a name or a list of names; what is stored is a text to show, the names are the node's. */
 typedef struct {
   const char *pattern;
   KeyType     type;
@@ -74,12 +74,13 @@ typedef struct {
   SceneNode   *node;
 } BoundaryEntry;
 
+#define SIDE_TEXT 1024   /* room for the names of a side as a text */
 #define ROLES_GIVEN 1    /* place of the word given among those of contact.<pair>.roles */
 #define SUBDIVIDE_AUTO 9 /* place of the word auto among those of contact.<pair>.subdivide: after 0 to 8 */
 
 typedef struct {
   ContactSpec spec;
-  char        nonmortar[MORTISE_NAME], mortar[MORTISE_NAME], surface[MORTISE_NAME], moment_about[MORTISE_NAME];
+  char        nonmortar[SIDE_TEXT], mortar[SIDE_TEXT], surface[SIDE_TEXT], moment_about[MORTISE_NAME];
   int         order, initial_gap, multiplier, roles;
   int         kind;      /* contact, tied */
   int         subdivide; /* isotropic subdivisions of the cells that touch either side; SUBDIVIDE_AUTO */

@@ -72,20 +72,26 @@ def kill(process, directory, ranks, chance):
     return what
 
 
-def fault(whole, directory, ranks, program, moment, chance, same):
-    """What is wrong with a run that is killed after so many seconds and goes on; "" if nothing. And a line on what happened."""
+def wait(process, directory, steps, seconds):
+    """Until it has so many load steps, and so long; False: it has ended by then."""
+    while rows(directory) < steps and process.poll() is None:
+        time.sleep(0.005)
+    end = time.time() + seconds
+    while time.time() < end and process.poll() is None:
+        time.sleep(0.005)
+    return process.poll() is None
+
+
+def fault(whole, directory, ranks, program, steps, moment, chance, same):
+    """What is wrong with a run that is killed so many seconds after a load step and goes on; "" if nothing. And a line on what happened."""
     environ = environment(directory.parent)
     process = subprocess.Popen(command(program, directory, ranks), stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, cwd=ROOT, env=environ, start_new_session=True)
+    what = kill(process, directory, ranks, chance) if wait(process, directory, steps, moment) else "nothing"
     try:
-        process.communicate(timeout=moment)
-        what = "nothing"
+        process.communicate(timeout=SECONDS)
     except subprocess.TimeoutExpired:
-        what = kill(process, directory, ranks, chance)
-        try:
-            process.communicate(timeout=SECONDS)
-        except subprocess.TimeoutExpired:
-            os.killpg(process.pid, signal.SIGKILL)
-            return f"no end {SECONDS} s after a kill of {what}", ""
+        os.killpg(process.pid, signal.SIGKILL)
+        return f"no end {SECONDS} s after a kill of {what}", ""
     end = time.time() + SECONDS
     while processes(directory) and time.time() < end:
         time.sleep(0.02)
@@ -93,7 +99,7 @@ def fault(whole, directory, ranks, program, moment, chance, same):
         return f"processes that are left {SECONDS} s after a kill of {what}: {processes(directory)}", ""
     before, done = look(directory), rows(directory)
     second = subprocess.run(command(program, directory, ranks, "-restart", "auto"), capture_output=True, text=True, cwd=ROOT, env=environ, timeout=600)
-    said = f"{what} after {moment:.2f} s, {done} load steps"
+    said = f"{what} {moment:.2f} s after {steps} load steps, {done} there"
     if second.returncode:
         return f"{said}: exit status {second.returncode}: {second.stderr[-300:]!r}; {sorted(before)}", said
     resumed = next((int(line.split()[5].rstrip(",")) for line in second.stdout.splitlines() if line.startswith("goes on after")), 0)
@@ -127,7 +133,8 @@ def faults(program, kills, ranks, seed=0, tell=lambda line: None):
         seconds = time.time() - begin
         for k in range(kills):
             chance = random.Random(f"{seed}.{ranks}.{k}")
-            wrong, said = fault(whole, folder / f"k{k}", ranks, program, seconds * (k + chance.random()) / kills, chance, same_run)
+            steps = k * rows(whole) // kills
+            wrong, said = fault(whole, folder / f"k{k}", ranks, program, steps, chance.random() * seconds / (rows(whole) + 1), chance, same_run)
             tell(f"kill {k}: {wrong or said}")
             found += [f"kill {k}: {wrong}"] if wrong else []
     return found

@@ -2,9 +2,11 @@
 """Damaged input of every kind: the program ends with exit status 0 to 3, in one sentence where that is not 0, within seconds and little memory; never by a signal or
 with a trace.
 
-    run.py [--program bin/mortise] [--cases 2000] [--seed 0] [--kinds scene,options,msh,geo,checkpoint,sealed] [--jobs 1] [--keep FOLDER]
+    run.py [--program bin/mortise] [--cases 2000] [--seed 0] [--seconds S] [--kinds scene,options,msh,geo,checkpoint,sealed] [--jobs 1] [--keep FOLDER] [--plain]
 
 Each case is made of its kind and number alone, so `--kinds msh --seed 17 --cases 1` makes it again. --keep: where the folders of cases that fail go (default: out/fuzz).
+--seconds: no case begins later. Two thirds of the processor time of a case would be the start of the program and of gmsh, so the program is started once and copied before its
+main for each case (server.c), and a mesh that many cases ask for is made once (tests/tools/gmsh); --plain starts both anew.
 Part of the tests: tests/verify/test_fuzz.py.
 """
 import argparse
@@ -13,12 +15,15 @@ import functools
 import os
 import pathlib
 import random
+import re
 import resource
 import shutil
+import struct
 import subprocess
 import sys
 import tempfile
 import threading
+import time
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 SECONDS, MEGABYTES = 20, 1024
@@ -82,8 +87,24 @@ def seal(data):
 class Whole:
     """Scenes, meshes and checkpoints that are whole, in a folder."""
 
-    def __init__(self, program, folder):
+    def __init__(self, program, folder, plain=True):
         self.program, self.folder, self.lock = pathlib.Path(program).resolve(), pathlib.Path(folder), threading.Lock()
+        self.library, self.own, self.servers = None, threading.local(), []
+        self.sanitized = b"__asan_init" in self.program.read_bytes()  # which maps terabytes
+        if plain: return
+        self.library = self.folder / "server.so"
+        subprocess.run(["cc", "-O1", "-shared", "-fPIC", "-o", self.library, ROOT / "tests" / "fuzz" / "server.c", "-ldl"], check=True)
+
+    def start(self):
+        """What starts the program: of this thread alone."""
+        if not hasattr(self.own, "start"):
+            self.own.start = Server(self.program, self.library) if self.library else Plain(self.program)
+            if self.library: self.servers.append(self.own.start)
+        return self.own.start
+
+    def close(self):
+        for server in self.servers:
+            server.close()
 
     @functools.lru_cache(None)
     def help(self):
@@ -170,9 +191,10 @@ def make(kind, number, whole, folder):
     """The files of a case; the arguments of the program."""
     chance = random.Random(f"{kind}.{number}")
     if kind == "scene":
-        for file in (ROOT / "inputs").glob("*.geo"):
-            (folder / file.name).write_text(file.read_text())
-        (folder / "s.yml").write_text(damage(whole.scene(chance.choice(SCENES)), chance))
+        text = whole.scene(chance.choice(SCENES))
+        for name in re.findall(r"file: (\w+\.geo)", text):
+            shutil.copy(ROOT / "inputs" / name, folder)
+        (folder / "s.yml").write_text(damage(text, chance))
         return ["s.yml", "-check"]
     if kind == "options":
         name = chance.choice(sorted(MESHED))
@@ -214,35 +236,89 @@ def make(kind, number, whole, folder):
 
 
 def environment():
-    return {**os.environ, "OMPI_ALLOW_RUN_AS_ROOT": "1", "OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1", "ASAN_OPTIONS": "detect_leaks=0:allocator_may_return_null=1"}
+    return {**os.environ, "OMPI_ALLOW_RUN_AS_ROOT": "1", "OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1",
+            "ASAN_OPTIONS": "detect_leaks=0:allocator_may_return_null=1:verify_asan_link_order=0"}
 
 
-def limit_data():
-    """gmsh may have as much memory as the program; where a .geo is without end it takes a quarter of the machine's."""
-    resource.setrlimit(resource.RLIMIT_DATA, (MEGABYTES << 20, resource.getrlimit(resource.RLIMIT_DATA)[1]))
+class Server:
+    """The program, loaded once and copied for each start: server.c."""
+
+    def __init__(self, program, library):
+        pipes = [os.pipe(), os.pipe()]
+        ours, theirs = (pipes[0][1], pipes[1][0]), (pipes[0][0], pipes[1][1])
+
+        def place():
+            for k in 0, 1:
+                os.dup2(theirs[k], 198 + k)
+
+        self.process = subprocess.Popen([program], env=environment() | {"LD_PRELOAD": str(library)}, close_fds=False, preexec_fn=place)
+        self.requests, self.answers = ours
+        for k in theirs:
+            os.close(k)
+
+    def read(self, num):
+        data = b""
+        while len(data) < 8 * num:
+            part = os.read(self.answers, 8 * num - len(data))
+            if not part: raise OSError("tests/fuzz/server.c has ended")
+            data += part
+        return struct.unpack(f"{num}l", data)
+
+    def start(self, arguments, folder, memory):
+        words = b"".join(os.fsencode(str(word)) + b"\0" for word in (folder, folder / "stdout", folder / "stderr", *arguments))
+        data = struct.pack("3l", len(words), memory, 3 + len(arguments)) + words
+        while data:
+            data = data[os.write(self.requests, data):]
+        return self.read(1)[0]
+
+    def wait(self, pid):
+        return self.read(2)
+
+    def close(self):
+        os.close(self.requests)
+        os.close(self.answers)
+        self.process.wait()
 
 
-def fault(program, arguments, folder):
+class Plain:
+    """The program, started anew."""
+
+    def __init__(self, program):
+        self.program = program
+
+    def start(self, arguments, folder, memory):
+        def limit():
+            if memory: resource.setrlimit(resource.RLIMIT_DATA, (memory, resource.getrlimit(resource.RLIMIT_DATA)[1]))
+
+        with open(folder / "stdout", "wb") as out, open(folder / "stderr", "wb") as err:
+            self.process = subprocess.Popen([self.program, *arguments], cwd=folder, stdin=subprocess.DEVNULL, stdout=out, stderr=err, env=environment(), start_new_session=True,
+                                            preexec_fn=limit)
+        return self.process.pid
+
+    def wait(self, pid):
+        _, status, usage = os.wait4(pid, 0)
+        self.process.returncode = os.waitstatus_to_exitcode(status)
+        return status, usage.ru_maxrss
+
+
+def fault(start, arguments, folder, limit=True):
     """What is wrong with how the program takes them; "" if nothing."""
-    with open(folder / "stdout", "w+b") as out, open(folder / "stderr", "w+b") as err:
-        process = subprocess.Popen([program, *arguments], cwd=folder, stdin=subprocess.DEVNULL, stdout=out, stderr=err, env=environment(), start_new_session=True,
-                                   preexec_fn=limit_data if (folder / "g.geo").exists() else None)
-        timer = threading.Timer(SECONDS, lambda: os.killpg(process.pid, 9))
-        timer.start()
-        _, status, usage = os.wait4(process.pid, 0)
-        late = not timer.is_alive()
-        timer.cancel()
-        process.returncode = os.waitstatus_to_exitcode(status)
-        err.seek(0)
-        said = err.read().decode(errors="replace")
-    if late: return f"no end after {SECONDS} s"
-    if process.returncode not in (0, 1, 2, 3): return f"exit status {process.returncode}"
+    # gmsh may have as much memory as the program; where a .geo is without end it takes a quarter of the machine's
+    pid = start.start(arguments, folder, MEGABYTES << 20 if limit and (folder / "g.geo").exists() else 0)
+    late = threading.Event()
+    timer = threading.Timer(SECONDS, lambda: (late.set(), os.killpg(pid, 9)))
+    timer.start()
+    status, kilobytes = start.wait(pid)
+    timer.cancel()
+    code, said = os.waitstatus_to_exitcode(status), (folder / "stderr").read_text(errors="replace")
+    if late.is_set(): return f"no end after {SECONDS} s"
+    if code not in (0, 1, 2, 3): return f"exit status {code}"
     for word in "PETSC ERROR", "ERROR: AddressSanitizer", "runtime error:", "MPI_ABORT":
         if word in said: return word
-    told = process.returncode in (0, 3) or "mortise: " in said or (process.returncode == 2 and any(folder.rglob("summary.json")))
-    if not told: return f"exit status {process.returncode} without a word"
+    told = code in (0, 3) or "mortise: " in said or (code == 2 and any(folder.rglob("summary.json")))
+    if not told: return f"exit status {code} without a word"
     if any(ord(c) < 32 and c not in "\n\t" for c in said): return "a control character"
-    if usage.ru_maxrss > 1024 * MEGABYTES: return f"{usage.ru_maxrss // 1024} MB"
+    if kilobytes > 1024 * MEGABYTES: return f"{kilobytes // 1024} MB"
     if "-check" in arguments and any((folder / name).exists() for name in ("out", "summary.json")): return "-check writes"
     return ""
 
@@ -252,7 +328,7 @@ def case(kind, number, whole, keep=None):
     with tempfile.TemporaryDirectory(prefix="fuzz") as folder:
         folder = pathlib.Path(folder)
         arguments = make(kind, number, whole, folder)
-        found = fault(whole.program, arguments, folder)
+        found = fault(whole.start(), arguments, folder, not whole.sanitized)
         if found and keep:
             shutil.copytree(folder, pathlib.Path(keep) / f"{kind}.{number}", dirs_exist_ok=True)
         return f"{kind} {number}: {found}: {' '.join(arguments)[:300]!r}" if found else ""
@@ -262,15 +338,21 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     for name, default in (("program", str(ROOT / "bin" / "mortise")), ("cases", 2000), ("seed", 0), ("kinds", ",".join(KINDS)), ("jobs", 1), ("keep", str(ROOT / "out" / "fuzz"))):
         parser.add_argument(f"--{name}", type=type(default), default=default)
+    parser.add_argument("--seconds", type=float, default=float("inf"))
+    parser.add_argument("--plain", action="store_true")
     a = parser.parse_args()
     resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
-    kinds, faults = a.kinds.split(","), 0
+    kinds, faults, tried, end = a.kinds.split(","), 0, 0, time.time() + a.seconds
     with tempfile.TemporaryDirectory(prefix="whole") as folder, concurrent.futures.ThreadPoolExecutor(a.jobs) as pool:
-        whole = Whole(a.program, folder)
-        for line in pool.map(lambda i: case(kinds[i % len(kinds)], a.seed + i // len(kinds), whole, a.keep), range(a.cases)):
+        whole = Whole(a.program, folder, a.plain)
+        if not a.plain and shutil.which("gmsh"):
+            os.environ.update(MORTISE_TEST_GMSH=shutil.which("gmsh"), MORTISE_TEST_MESHES=folder, PATH=f"{ROOT / 'tests' / 'tools'}:{os.environ['PATH']}")
+        for line in pool.map(lambda i: case(kinds[i % len(kinds)], a.seed + i // len(kinds), whole, a.keep) if time.time() < end else None, range(a.cases)):
+            tried += line is not None
             faults += bool(line)
             if line: print(line, flush=True)
-    print(f"{a.cases} cases, {faults} faults")
+        whole.close()
+    print(f"{tried} cases, {faults} faults")
     return faults > 0
 
 

@@ -136,7 +136,7 @@ def test_nothing_is_written_without_the_lock(tmp_path):
 # ---- files of others ----------------------------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("name", ["summary.json", "history.csv", "adapt.csv", "fields.xdmf", "passes.xdmf", "fields_0000.h5", "checkpoint.h5"])
+@pytest.mark.parametrize("name", ["summary.json", "history.csv", "adapt.csv", "fields.xdmf", "passes.xdmf", "fields_0000.h5", "checkpoint.h5", "lock"])
 def test_files_of_others_stay(run, tmp_path, name):
     text, file = block(tmp_path), tmp_path / "out1" / name
     file.parent.mkdir()
@@ -149,15 +149,27 @@ def test_files_of_others_stay(run, tmp_path, name):
         if options != ("-restart", "auto") or name != "checkpoint.h5":
             assert f"{name} in it is no file of a run" in result.stderr and "output.overwrite" in result.stderr, result
     result = run("s.yml", "-output_directory", file.parent, "-output_overwrite", "true", text=text)
-    assert result.returncode == 0 and file.exists() == (name != "passes.xdmf") and (not file.exists() or file.read_bytes() != b"mine\n"), result
+    assert result.returncode == 0 and file.exists() == (name not in ("passes.xdmf", "lock")) and (not file.exists() or file.read_bytes() != b"mine\n"), result
     assert (file.parent / "fields_1.h5").read_text() == "mine\n"
     assert run("s.yml", "-output_directory", file.parent, text=text).returncode == 0  # ours now
+
+
+@pytest.mark.parametrize("there", [True, False])
+def test_a_link_in_place_of_the_lock(run, tmp_path, there):
+    """What it leads to is not written."""
+    (tmp_path / "out1").mkdir()
+    (tmp_path / "out1" / "lock").symlink_to(tmp_path / "mine")
+    if there: (tmp_path / "mine").write_text("mine\n")
+    result = run("s.yml", "-output_directory", tmp_path / "out1", text=block(tmp_path))
+    assert result.returncode == 1 and "lock in it is no file of a run" in result.stderr and (tmp_path / "mine").exists() == there, result
+    result = run("s.yml", "-output_directory", tmp_path / "out1", "-output_overwrite", "true", text=block(tmp_path))
+    assert result.returncode == 0 and (tmp_path / "mine").exists() == there and (not there or (tmp_path / "mine").read_text() == "mine\n"), result
 
 
 # ---- stops --------------------------------------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGHUP, signal.SIGXCPU, signal.SIGQUIT])
+@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGHUP, signal.SIGXCPU, signal.SIGQUIT, signal.SIGUSR2])
 def test_signals_stop_in_order(tmp_path, number):
     process = start(tmp_path, text=block(tmp_path, **MANY))
     wait_for(lambda: rows(tmp_path / "out") > 1, process)
@@ -284,6 +296,33 @@ def test_options_of_the_working_directory(tmp_path):
     for options, told in ((), True), (("-skip_petscrc",), False):
         output, errors = start(tmp_path, "-check", *options, text=text).communicate(timeout=60)
         assert ("note: options of .petscrc in the working directory act" in output) == told and not errors, (output, errors)
+
+
+@pytest.mark.parametrize("ranks", [1, 2])
+@pytest.mark.parametrize("options,word", [("order 2", "order"), ("-order 2 3", "3"), ("-order -2", ""), (" -order 2  ", None)])
+def test_words_of_petsc_options(tmp_path, options, word, ranks):
+    """One without its dash would not act."""
+    process = start(tmp_path, "-check", text=block(tmp_path), ranks=ranks, env={"PETSC_OPTIONS": options})
+    output, errors = process.communicate(timeout=60)
+    result = Result([], process.returncode, output, errors, tmp_path / "out")
+    if word is None:
+        assert result.returncode == 0 and "order 2" in output and not errors, result
+    else:
+        refused(result, f"PETSC_OPTIONS: '{word}' is neither an option" if word else "PETSC_OPTIONS: order is -2")
+
+
+@pytest.mark.parametrize("ranks", [1, 2])
+def test_a_small_stack(tmp_path, ranks):
+    """Where more is allowed it is taken, else one sentence."""
+    (tmp_path / "s.yml").write_text(block(tmp_path))
+    for kind, good in ("-S", True), ("", False):
+        launch = "mpiexec -n 2 " if ranks == 2 else ""
+        process = subprocess.run(["sh", "-c", f"{launch}sh -c 'ulimit {kind} -s 128 && exec {PROGRAM} s.yml -output_directory out'"], cwd=tmp_path, capture_output=True, text=True)
+        if good:
+            assert process.returncode == 0 and not process.stderr, process
+            shutil.rmtree(tmp_path / "out")
+        else:
+            refused(Result([], process.returncode, process.stdout, process.stderr, tmp_path / "out"), "the stack may not grow beyond 128 kB (ulimit -s)")
 
 
 @pytest.mark.parametrize("option", ["-order", "-model", "-load_step", "-boundary_y1_displacement_y", "-boundary_y0_fix", "-material_m_law", "-material_m_E", "-mesh_file",

@@ -17,6 +17,7 @@ import pytest
 
 from boxmesh import linspace, write
 from conftest import PROGRAM, ROOT, Result, leaves
+from test_hostile import block
 
 STEPS = ("-load_step", 0.25)
 TILTED = ("-load_step", 0.5, "-boundary_top_displacement_z", "-0.06*t - 0.06*t*X*Y", "-adapt_tolerance", 0.001, "-order", 2, "-adapt_max_passes", 1)
@@ -341,12 +342,32 @@ def assert_refused(run, directory, restart, *options, words):
     (("-material_rubber_volumetric", "log"), "volumetric quadratic"),
     (("-mesh_order", 2), "another mesh"),
     (("-boundary_top_displacement_y", "-0.06"), "other displacements"),
+    (("-boundary_bottom_fix", "x"), "'boundary.bottom: xy', the scene has 'boundary.bottom: x'"),
     (("-load_end", 0.4, "-load_step", 0.1), "beyond load.end"),
     (("-probe_p_y", 0.5), "other columns"),
 ])
 def test_other_scene_is_refused(run, broken_off, options, words):
     assert_refused(run, broken_off, "auto", *options, words=words)
     assert_refused(run, broken_off, "auto", *options, "-check", words=words)
+
+
+@pytest.mark.parametrize("boundary,words", [
+    ({"y0": {"fix": "xy"}, "x0": {"fix": "x"}, "y1": {"displacement": {"y": -0.05}}}, None),  # in another order, and put otherwise
+    ({"x0": {"displacement": {"x": 0}}, "y0": {"displacement": {"x": 0, "y": 0}}, "y1": {"displacement": {"y": -0.05}}}, None),
+    ({"x0": {"fix": "x"}, "y0": {"fix": "xy"}}, "'boundary.y1: y', the scene has 'boundary.y1: free'"),
+    ({"y0": {"fix": "xy"}, "y1": {"displacement": {"y": -0.05}}}, "'boundary.x0: x', the scene has 'boundary.x0: free'"),
+    ({"x0": {"fix": "x"}, "x1": {"fix": "x"}, "y0": {"fix": "xy"}, "y1": {"displacement": {"y": -0.05}}}, "'boundary.x1: free', the scene has 'boundary.x1: x'"),
+    ({"x0": {"fix": "normal"}, "y0": {"fix": "xy"}, "y1": {"displacement": {"y": -0.05}}}, "'boundary.x0: x', the scene has 'boundary.x0: normal'"),
+])
+def test_supports_of_another_scene(run, tmp_path, boundary, words):
+    """Told even where the state has none of the files that go on with it."""
+    first = run("s.yml", "-load_max_steps", 1, text=block(tmp_path, boundary={"x0": {"fix": "x"}, "y0": {"fix": "xy"}, "y1": {"displacement": {"y": -0.05}}}))
+    assert first.returncode == 2, first
+    result = run("s.yml", "-restart", first.directory / "checkpoint.h5", text=block(tmp_path, boundary=boundary))
+    if words:
+        assert result.returncode == 1 and words in result.stderr and len(result.stderr.splitlines()) == 1 and not result.directory.exists(), result
+    else:
+        assert result.returncode == 0, result
 
 
 def test_file_is_refused(run, broken_off, tmp_path):

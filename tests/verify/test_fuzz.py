@@ -28,8 +28,22 @@ def test_damaged_input(whole, tmp_path_factory, kind):
     assert not faults, f"{faults}; kept in {keep}"
 
 
+def test_copied_starts_say_the_same(whole, tmp_path):
+    """The program copied before its main (server.c) ends and speaks as one that is started anew."""
+    copied, said = fuzz.Whole(PROGRAM, tmp_path, plain=False), []
+    for k in range(12):
+        for each in whole, copied:
+            folder = tmp_path / f"{k}{each is copied}"
+            folder.mkdir()
+            arguments = fuzz.make(fuzz.KINDS[k % 4], k, whole, folder)
+            status, kilobytes = each.start().wait(each.start().start(arguments, folder, fuzz.MEGABYTES << 20))
+            said.append([status, kilobytes > 0, (folder / "stdout").read_text(), (folder / "stderr").read_text()])
+    copied.close()
+    assert said[::2] == said[1::2], said
+
+
 # Found by it, and seals that hold.
-@pytest.mark.parametrize("kind,number", [("sealed", number) for number in (4, 16, 30, 50, 105)] + [("options", 6006), ("msh", 6030), ("geo", 101822)])
+@pytest.mark.parametrize("kind,number", [("sealed", number) for number in (4, 16, 30, 50, 105)] + [("options", 6006), ("options", 6050445), ("msh", 6030), ("msh", 7000092), ("msh", 7000117), ("geo", 101822)])
 def test_found_before(whole, kind, number):
     assert not fuzz.case(kind, number, whole)
 

@@ -1,12 +1,14 @@
 """Scenes as somebody who means no good would write them: one sentence, the exit status of the contract, and no half of a file under a name that promises a whole one."""
 import contextlib
 import json
+import os
 import resource
+import subprocess
 
 import pytest
 
 from boxmesh import linspace, write
-from conftest import ROOT
+from conftest import PROGRAM, ROOT
 from test_orderly import refused
 
 MATERIAL = {"law": "neo_hookean", "E": 1, "nu": 0.3}
@@ -224,13 +226,60 @@ def limited(what, kilobytes):
         resource.setrlimit(what, before)
 
 
-@pytest.mark.parametrize("megabytes,words", [(600, "for 1048576 cells (mesh.refine: 9)"), (200, "(ulimit -v)")])
+@pytest.mark.parametrize("megabytes,words", [(600, "for 1048576 cells (mesh.refine: 9)"), (450, "out of memory"), (350, "(ulimit -v)"), (200, "(ulimit -v)")])
 def test_out_of_memory(run, tmp_path, megabytes, words):
     """One sentence that says for what."""
     text = block(tmp_path)
     with limited(resource.RLIMIT_AS, 1024 * megabytes):
         result = run("s.yml", "-mesh_refine", 9, text=text)
     assert result.returncode == 2 and len(result.stderr.splitlines()) == 1 and result.stderr.startswith("mortise: out of memory") and words in result.stderr, result
+
+
+@pytest.mark.parametrize("threads", [1, 2])
+@pytest.mark.parametrize("megabytes", range(260, 500, 20))
+def test_hardly_any_memory(tmp_path, megabytes, threads):
+    """A run or one sentence. With more threads, which take their buffers when they come to it, MPI may speak; one that waits for its own keeps no run from its end."""
+    (tmp_path / "s.yml").write_text(block(tmp_path))
+    environ = {**{key: value for key, value in os.environ.items() if key != "OMP_NUM_THREADS"}, "OPENBLAS_NUM_THREADS": str(threads)}
+    with limited(resource.RLIMIT_AS, 1024 * megabytes):
+        done = subprocess.run([PROGRAM, "s.yml"], cwd=tmp_path, env=environ, capture_output=True, text=True, timeout=60)
+    assert threads > 1 or (done.returncode == 0 and not done.stderr) or (done.returncode == 2 and done.stderr.startswith("mortise: out of memory") and done.stderr.count("\n") == 1), done
+
+
+@contextlib.contextmanager
+def small_disk(path, kilobytes):
+    path.mkdir()
+    if subprocess.run(["mount", "-t", "tmpfs", "-o", f"size={kilobytes}k", "none", path], capture_output=True).returncode: pytest.skip("no file system can be mounted here")
+    try:
+        yield path
+    finally:
+        subprocess.run(["umount", path])
+
+
+@pytest.mark.parametrize("ranks", [1, 2])
+@pytest.mark.parametrize("fields,kilobytes", [(True, 64), (True, 200), (False, 8), (False, 20)])
+def test_full_file_system(run, tmp_path, fields, kilobytes, ranks):
+    """One sentence; no process waits for one that found no room."""
+    with small_disk(tmp_path / "small", kilobytes) as small:
+        result = run("s.yml", "-mesh_refine", 4, "-output_fields", str(fields).lower(), "-output_directory", small / "out1", text=block(tmp_path), ranks=ranks)
+        said = [line for line in result.stderr.splitlines() if line.startswith("mortise: ")]
+        assert result.returncode in (1, 2) and len(said) == 1 and "No space left on device" in said[0] and "PETSC ERROR" not in result.stderr, result
+
+
+def test_processes_that_do_not_share_a_directory(tmp_path):
+    (tmp_path / "s.yml").write_text(block(tmp_path))
+    parts = [["-n", "1", "--wdir", tmp_path / name, PROGRAM, tmp_path / "s.yml", "-output_directory", "out"] for name in "ab"]
+    for name in "ab": (tmp_path / name).mkdir()
+    done = subprocess.run(["mpiexec", *parts[0], ":", *parts[1]], capture_output=True, text=True, timeout=60)
+    assert done.returncode == 1 and "mortise: output.directory out: not all processes see it" in done.stderr, done
+
+
+@pytest.mark.parametrize("order", [1, 2])
+def test_processes_with_different_arguments(tmp_path, order):
+    (tmp_path / "s.yml").write_text(block(tmp_path))
+    done = subprocess.run(["mpiexec", "-n", "1", PROGRAM, "s.yml", "-order", "1", ":", "-n", "1", PROGRAM, "s.yml", "-order", str(order)], cwd=tmp_path, capture_output=True, text=True,
+                          timeout=60)
+    assert done.returncode == (order != 1) and ("mortise: the processes of this job were started with different arguments" in done.stderr) == (order != 1), done
 
 
 @pytest.mark.parametrize("kilobytes", [1, 4, 40])

@@ -39,7 +39,7 @@ def more(keys):
     ([("friction: 0", "friction: X")], ["contact.pair.friction is \"X\": one coefficient for the whole pair"]),
     ([(PAIR, "  pair: {friction: 0}\n")], ["contact.pair.nonmortar must be given: a pair has two sides"]),
     ([("friction: 0", "surface: upper_bottom")], ["contact.pair.surface is 'upper_bottom', but nonmortar is given"]),
-    ([("mortar: lower_top", "mortar: [lower_top, bottom]")], ["contact.pair.mortar must be a text, it is a list"]),
+    ([("mortar: lower_top", "mortar: [lower_top, lower]")], ["contact.pair.mortar: 'lower' is a body of the mesh"]),
     ([("mortar: lower_top", "mortar: lower")], ["contact.pair.mortar: 'lower' is a body of the mesh"]), ([(PAIR, "  pair: yes\n")], ["contact.pair must be a map of keys"]),
     ([("friction: 0", "law: mortar")], [r"contact.pair.law is 'mortar'; allowed: frictionless\|"]), ([("friction: 0", "search: -1")], ["contact.pair.search is -1"]),
     ([("friction: 0", "law: penalty, penalty: 0")], ["contact.pair.penalty is 0"]), ([("friction: 0", "initial_gap: 0.1")], [r"initial_gap is '0.1'; allowed: keep\|"]),
@@ -129,6 +129,12 @@ def test_a_view_that_cannot_be_written(run):
     assert result.returncode == 2 and result.stderr == "mortise: Unable to open file /nowhere/x.vtu\n" and result.summary["status"] == "converged", result
 
 
+@pytest.mark.parametrize("ranks", [1, 2])
+def test_more_options_than_petsc_takes(run, ranks):
+    options = [word for k in range(600) for word in (f"-mesh_parameter_p{k}", 1)]
+    refused_run(run("inputs/patch2d.yml", *options, ranks=ranks), "there are more than 512 options")
+
+
 def test_new(tmp_path):
     done = subprocess.run([PROGRAM, "new", "a", "b"], cwd=tmp_path, capture_output=True, text=True)
     assert done.returncode == 1 and done.stderr == "mortise: new: 'b' after 'a'; one scene has one name\n" and not os.listdir(tmp_path), done
@@ -170,6 +176,8 @@ def msh(nodes=SQUARE, cells=CELLS, names=('1 3 "bottom"', '2 1 "lower"')):
     (msh(cells=[CELLS[0], "3 2 1 1 1 2 3 3"]), "an element names a node twice"), (msh(names=['1 3 "bottom"', '2 7 "lower"']), "no physical group 'lower' of dimension 2"),
     ("", "does not begin with $MeshFormat"), ("$NOD\n1\n1 0 0 0\n$ENDNOD\n", "does not begin with $MeshFormat"), ("$MeshFormat\n4 0 8\n$EndMeshFormat\n", "has gmsh format version 4.0"),
     (msh().replace("1 0 0\n", "1,0 0 0\n"), "truncated or damaged"), (None, "cannot be read"),
+    (msh(names=('1 3 "bottom"', '2 1"lower"')), "a line of $PhysicalNames"), (msh(names=('1 3\x1b "bottom"', '2 1 "lower"')), "a line of $PhysicalNames"),
+    (msh(names=('1 3 4680"bottom"', '2 1 "lower"')), "a line of $PhysicalNames"),
 ])
 def test_mesh(run, tmp_path, mesh, words):
     if mesh is None:

@@ -2,10 +2,12 @@
 import importlib.machinery
 import importlib.util
 import pathlib
+import shutil
 import subprocess
 import sys
 
 import numpy as np
+import pytest
 
 SCRIPT = pathlib.Path(__file__).resolve().parent.parent.parent / "scripts" / "plot"
 loader = importlib.machinery.SourceFileLoader("plot", str(SCRIPT))
@@ -90,6 +92,15 @@ def test_pictures_of_a_run(run, tmp_path):
                         ((one, "--animate", "film.avi"), ".gif or .mp4"), ((one, "--column", "none"), "no column none")):
         done = draw(*words)
         assert done.returncode == 1 and said in done.stderr and "Traceback" not in done.stderr, done
+
+
+@pytest.mark.skipif(not shutil.which("ffmpeg"), reason="no ffmpeg")
+def test_film_as_mp4(run, tmp_path):
+    directory = run("inputs/patch2d.yml", "-load_step", 0.25).directory
+    done = draw(directory, "--zoom", 0.1, 0.4, 0.1, 0.53, "--animate", tmp_path / "film.mp4")
+    assert done.returncode == 0 and (tmp_path / "film.mp4").read_bytes()[4:8] == b"ftyp", done
+    told = subprocess.run(["ffmpeg", "-i", tmp_path / "film.mp4", "-f", "null", "-"], capture_output=True, text=True).stderr
+    assert "frame=    4" in told and "h264" in told, told
 
 
 def test_contact_is_seen_from_outside(run):
