@@ -73,16 +73,6 @@ static PetscBool IsInVain_Private(const Estimate *e, const AdaptSpec *spec, Pets
   return (PetscBool)(left > PetscSqr(spec->tolerance) * (PetscSqr(e->norm) + left));
 }
 
-/* The squared estimate that the cells to be changed should hold: the share asked for, or down to half of it where that is enough to meet the tolerance.
-   Otherwise the last pass, which has the most cells, overshoots. A split cell is counted on to lose three quarters of its own, as with h^2 at order 1 (more at
-   higher orders, less at singular places, for which half of the share is there). With a path the parts of eta2 are of different times (norm is 0). */
-static PetscReal Wanted_Private(const Estimate *e, const AdaptSpec *spec, PetscReal total, PetscReal left)
-{
-  const PetscReal tol2 = PetscSqr(spec->tolerance), most = tol2 / (1 - tol2) * PetscSqr(e->norm), share = spec->fraction * total;
-
-  return e->norm > 0 ? PetscMin(share, PetscMax(share / 2, (total + left - most) / 0.75)) : share;
-}
-
 /* Rigid bodies: their surface is geometry, not solution, and nothing of their estimate comes from an axis. */
 static PetscBool IsRigid_Private(const Estimate *e, PetscInt leaf)
 {
@@ -124,10 +114,9 @@ PetscErrorCode EstimateMark(const Estimate *e, const AdaptSpec *spec, Forest for
   PetscCall(PetscCalloc1(e->num_leaves, &marks->split));
   PetscCall(PetscCalloc1(e->num_leaves, &marks->coarsen));
   if (order) PetscCall(PetscArraycpy(order, e->order, e->num_leaves));
-  const PetscReal total  = Rank_Private(e, split, raise, rank, &left);
-  const PetscInt  room   = PetscMax(0, spec->max_cells - e->num_leaves);
-  const PetscReal wanted = Wanted_Private(e, spec, total, left) * (1 - 1e-12);
-  *num_marked            = IsInVain_Private(e, spec, left) ? 0 : Bulk_Private(e->num_leaves, rank, wanted, PetscMax(TIE, spec->alike), room);
+  const PetscReal total = Rank_Private(e, split, raise, rank, &left);
+  const PetscInt  room  = PetscMax(0, spec->max_cells - e->num_leaves);
+  *num_marked = IsInVain_Private(e, spec, left) ? 0 : Bulk_Private(e->num_leaves, rank, spec->fraction * total * (1 - 1e-12), PetscMax(TIE, spec->alike), room);
   for (PetscInt i = 0; i < *num_marked; ++i) {
     marks->split[rank[i].leaf] = split[rank[i].leaf];
     if (order) order[rank[i].leaf] += raise[rank[i].leaf];

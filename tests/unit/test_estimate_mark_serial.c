@@ -39,29 +39,6 @@ static void Shares(void **state)
   OK(ForestDestroy(&forest));
 }
 
-/* Near the tolerance no more cells than it takes to meet it, but those with half of the share. */
-static void Aim(void **state)
-{
-  static const struct {
-    PetscReal allowed; /* squared error */
-    PetscInt  num;
-  } cases[] = {{1e-6, 8}, {45, 6}, {52, 5}, {80, 4}}; /* wanted: 72, 60, 50.7, 36 for 13.3 */
-  Box       box;
-  Forest    forest  = BoxForest(PETSC_COMM_WORLD, 2, (const PetscInt[3]){3, 3, 1}, 1, 0, 1, &box);
-  PetscReal eta2[9] = {10.3, 10.1, 10.2, 10.4, 10, 9.9, 9.8, 9.7, 9.6}; /* sum 90 */
-
-  for (size_t i = 0; i < sizeof(cases) / sizeof(cases[0]); ++i) {
-    const AdaptSpec spec = {.fraction = 0.8, .max_cells = 1000, .tolerance = 0.5};
-    const Estimate  e    = {.eta2 = eta2, .num_leaves = 9, .norm = PetscSqrtReal(3 * cases[i].allowed)};
-    MarkList        marks;
-    PetscInt        num;
-    OK(EstimateMark(&e, &spec, forest, &marks, NULL, &num));
-    assert_int_equal(num, cases[i].num);
-    OK(MarkListDestroy(&marks));
-  }
-  OK(ForestDestroy(&forest));
-}
-
 static void TiesAndOrder(void **state)
 {
   Box       box;
@@ -319,9 +296,9 @@ static void Layers(void **state)
 
 int main(int argc, char **argv)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(Shares),   cmocka_unit_test(Aim),        cmocka_unit_test(TiesAndOrder), cmocka_unit_test(Limits),
-                                     cmocka_unit_test(Alike),    cmocka_unit_test(Coarsening), cmocka_unit_test(Directions),   cmocka_unit_test(Aspect),
-                                     cmocka_unit_test(Smallest), cmocka_unit_test(Layers)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(Shares), cmocka_unit_test(TiesAndOrder), cmocka_unit_test(Limits),
+                                     cmocka_unit_test(Alike),  cmocka_unit_test(Coarsening),   cmocka_unit_test(Directions),
+                                     cmocka_unit_test(Aspect), cmocka_unit_test(Smallest),     cmocka_unit_test(Layers)};
   if (PetscInitialize(&argc, &argv, NULL, NULL)) return 1;
   const int failed = cmocka_run_group_tests(tests, NULL, NULL);
   return PetscFinalize() || failed;
