@@ -50,8 +50,6 @@ PetscErrorCode SolverPrintHelp(MPI_Comm);
    once, so that the load step is cut. A request to stop (StopAsked) is heard before each factorisation. Failure is a report, not an error: the state is then of
    no use (restore a copy). */
 PetscErrorCode SolverSolve(Solver, State *, SolverReport *);
-/* From now on solutions are only on the way to one: the residual need not fall below rtol^(1/3). Not collective. */
-PetscErrorCode SolverLoosen(Solver, PetscBool loose);
 /* From now on slide_predictor carries the bodies of pairs with friction where else it would not, and does not where it would. Not collective. */
 PetscErrorCode SolverSwapPredictor(Solver, PetscBool swap);
 

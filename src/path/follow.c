@@ -90,10 +90,9 @@ PetscErrorCode PathFound(Path *p, const PathLoop *loop, const PetscReal from[], 
 
 PetscErrorCode PathAttempt(Path *p, const PathLoop *loop, PetscReal to, SolverReport *report)
 {
-  const MPI_Comm  comm        = ForestComm(p->level->forest);
-  const PetscBool equilibrium = (PetscBool)(loop->metric->load || to >= loop->stop); /* not one on the way to it */
-  const char     *words;
-  PetscReal      *from;
+  const MPI_Comm comm = ForestComm(p->level->forest);
+  const char    *words;
+  PetscReal     *from;
 
   PetscFunctionBegin;
   PetscCall(PetscMemzero(report, sizeof(*report)));
@@ -101,10 +100,8 @@ PetscErrorCode PathAttempt(Path *p, const PathLoop *loop, PetscReal to, SolverRe
   PetscCall(loop->metric->set(p, loop, to));
   PetscCall(ExpressionTrouble(comm, &words)); /* of prescribed motion and dead loads; the others are asked for on the way */
   if (!words) {
-    PetscCall(SolverLoosen(p->level->solver, (PetscBool)!equilibrium));
     PetscCall(SolverSolve(p->level->solver, &p->level->state, report));
-    PetscCall(SolverLoosen(p->level->solver, PETSC_FALSE));
-    PathCount(p, report, equilibrium);
+    PathCount(p, report, (PetscBool)(loop->metric->load || to >= loop->stop));
     PetscCall(ExpressionTrouble(comm, &words));
   }
   if (words) {

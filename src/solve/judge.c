@@ -8,7 +8,7 @@
 
 PetscReal SolverTolerance_Private(const Solver s, const ProblemStatus *status)
 {
-  return PetscMax((s->loose ? cbrt(s->rtol) : s->rtol) * status->scale, status->noise);
+  return PetscMax(s->rtol * status->scale, status->noise);
 }
 
 /* The residual is small against the nodal forces, or down at the round-off of an unloaded body; or as small as

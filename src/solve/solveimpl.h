@@ -52,7 +52,6 @@ struct _p_Solver {
   PetscBool     test;            /* -snes_test_jacobian was given */
   uint64_t     *pass_sets;       /* owned [passes+1] hashes of the active sets of the passes of one linearisation */
   PetscBool     swap;            /* SolverSwapPredictor */
-  PetscBool     loose;           /* SolverLoosen */
   PetscReal     first_norm;      /* residual after the first iteration */
   PetscReal     best_norm;       /* least residual of this solve … */
   PetscInt      best_iter;       /* … and its iteration */

@@ -199,13 +199,6 @@ PetscErrorCode SolverCreate(Problem problem, Solver *solver)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SolverLoosen(Solver s, PetscBool loose)
-{
-  PetscFunctionBegin;
-  s->loose = loose;
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 PetscErrorCode SolverSwapPredictor(Solver s, PetscBool swap)
 {
   PetscFunctionBegin;
