@@ -2,7 +2,8 @@
 
    A mortar facet is kept when the vectors of the facets oppose, N_s . N_m < -0.3, and the boxes around its lattice nodes and around the rays, `distance`
    long outwards and `depth` inwards, meet in the facet's own axes. With a margin the box of the rays grows by 2 margin (1 + distance / h), h the facet's
-   shortest side, but not into the body: what lies deeper is no overlap but another body behind this one, which would be pulled through it. The box of the rays
+   shortest side, but not into the body: what lies deeper is no overlap but another body behind this one, which would be pulled through it. Sideways a facet
+   that rays meet after a length L < distance has no more than 2 margin (1 + L / h): between plates side by side all others would be kept. The box of the rays
    also has an eighth of the facet's size to all sides but the rays' for the bulge of curved facets between their nodes. */
 #include "kernelimpl.h"
 
@@ -35,7 +36,7 @@ static void Enclose_Private(RayRegion *r, const PetscReal x[3], PetscReal slack)
 void ContactRayRegion(ContactPair pair, const ContactSurface *s, PetscInt facet, RayRegion *r)
 {
   const PetscInt nv       = 2 * (s->dim - 1);
-  PetscReal      shortest = PETSC_MAX_REAL, lowest = PETSC_MAX_REAL, size, reach, bulge;
+  PetscReal      shortest = PETSC_MAX_REAL, steepest = 1, size, reach, bulge;
   RayLattice     l;
 
   for (int i = 0; i < 3; i++) {
@@ -43,6 +44,8 @@ void ContactRayRegion(ContactPair pair, const ContactSurface *s, PetscInt facet,
     r->box[3 + i] = r->hi[i] = -PETSC_MAX_REAL;
   }
   r->slack = -1;
+  r->low   = PETSC_MAX_REAL;
+  r->high  = -PETSC_MAX_REAL;
   size     = Axes_Private(s, facet, r->axis);
   for (PetscInt a = 0; a < nv; a++) {
     const PetscInt p = s->facets[nv * facet + a], q = s->facets[nv * facet + (a + 1) % nv];
@@ -58,12 +61,14 @@ void ContactRayRegion(ContactPair pair, const ContactSurface *s, PetscInt facet,
   bulge = l.order > 1 ? 0.125 * (s->dim == 2 ? size : PetscSqrtReal(size)) : 0;
   for (PetscInt a = 0; a < l.num; a++) {
     Enclose_Private(r, l.x[a], r->slack + bulge);
-    lowest = PetscMin(lowest, Dot3(r->axis[2], l.x[a]));
+    r->low  = PetscMin(r->low, Dot3(r->axis[2], l.x[a]));
+    r->high = PetscMax(r->high, Dot3(r->axis[2], l.x[a]));
   }
   for (PetscInt a = 0; a < nv; a++) {
     const PetscInt   node = s->facets[nv * facet + a];
     const PetscReal *d = pair->ray->d + 3 * (nv * facet + a), length = PetscSqrtReal(Dot3(d, d));
 
+    if (length > 0) steepest = PetscMin(steepest, Dot3(r->axis[2], d) / length);
     for (int side = -1; side <= 1 && length > 0; side += 2) {
       PetscReal end[3];
 
@@ -71,29 +76,32 @@ void ContactRayRegion(ContactPair pair, const ContactSurface *s, PetscInt facet,
       Enclose_Private(r, end, r->slack + bulge);
     }
   }
-  r->lo[2]   = PetscMax(r->lo[2], lowest - pair->depth);
-  r->shallow = lowest - pair->margin;
+  r->lo[2]   = PetscMax(r->lo[2], r->low - pair->depth);
+  r->shallow = r->low - pair->margin;
+  r->turn    = steepest > 0 ? 2 * pair->margin / (shortest * steepest) : PETSC_MAX_REAL;
+  r->base    = 2 * pair->margin;
   if (s->dim == 2) r->box[2] = r->box[5] = 0;
 }
 
 PetscBool ContactRayRegionMeets(const RayRegion *r, const ContactSurface *mortar, PetscInt facet, PetscBool again)
 {
   const PetscReal oppose = again ? 0 : CONTACT_OPPOSE;
-  PetscReal       lo[3], hi[3], N[3];
+  PetscReal       lo[3], hi[3], N[3], less = 0; /* less: than the slack, for what is near */
   RayLattice      l;
 
   if (r->slack < 0) return PETSC_FALSE;
   ContactFacetVector(mortar->dim, mortar->x, mortar->facets + 2 * (mortar->dim - 1) * facet, N);
   if (!(Dot3(N, r->axis[2]) < -oppose * PetscSqrtReal(Dot3(N, N)))) return PETSC_FALSE;
   ContactRayLatticeGather(mortar, facet, &l);
-  for (int i = 0; i < 3; i++) {
+  for (int i = 2; i >= 0; i--) {
     lo[i] = PETSC_MAX_REAL, hi[i] = -PETSC_MAX_REAL;
     for (PetscInt a = 0; a < l.num; a++) {
       const PetscReal y = Dot3(r->axis[i], l.x[a]);
 
       lo[i] = PetscMin(lo[i], y), hi[i] = PetscMax(hi[i], y);
     }
-    if (lo[i] > r->hi[i] || hi[i] < r->lo[i]) return PETSC_FALSE;
+    if (i == 2) less = PetscMax(0, r->slack - r->base - r->turn * PetscMax(0, PetscMax(hi[2] - r->low, r->high - lo[2])));
+    if (lo[i] > r->hi[i] - (i < 2 ? less : 0) || hi[i] < r->lo[i] + (i < 2 ? less : 0)) return PETSC_FALSE;
   }
   return (PetscBool)(!again || hi[2] >= r->shallow);
 }

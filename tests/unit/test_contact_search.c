@@ -114,6 +114,34 @@ static void Margin(void **state)
   }
 }
 
+/* How many candidates a facet in the middle of 100 has below 100 others, `gap` away, nodes free to move by 5 facets. */
+static PetscInt Sideways(PetscReal gap)
+{
+  const PetscInt *start, *candidate;
+  PetscInt        num;
+  Chain           nonmortar, mortar;
+  ContactPair     pair;
+
+  ChainLine(&nonmortar, 101, 1, 0, 0, 0);
+  ChainLine(&mortar, 101, 0, gap, 1, gap);
+  PairCreate(PETSC_FALSE, PETSC_FALSE, &pair);
+  SearchAll(pair, &nonmortar, &mortar, 0.5, 0.05);
+  CHECK_CALL(ContactPairGetCandidates(pair, &start, &candidate));
+  num = start[51] - start[50];
+  CHECK_CALL(ContactPairDestroy(&pair));
+  ChainDestroy(&nonmortar);
+  ChainDestroy(&mortar);
+  return num;
+}
+
+/* Turning rays sway the more the longer they are: what is near is looked for nearby, whatever the search distance. */
+static void Near(void **state)
+{
+  assert_in_range(Sideways(0), 21, 24); /* 2 margin = 10 facets to either side, the own one, ends */
+  assert_in_range(Sideways(0.01), 41, 44);
+  assert_int_equal(Sideways(0.1), 100);
+}
+
 /* Mortar: two thin closed bars above each other, all their sides listed. The near bar's near side is met, open or penetrated, never its far side
    nor the bar behind (which has the lower numbers). */
 static void Layers(void **state)
@@ -434,6 +462,6 @@ static void Strip(void **state)
   ChainDestroy(&lower);
 }
 
-CONTACT_TEST_MAIN("contact: search", cmocka_unit_test(BruteForce), cmocka_unit_test(Margin), cmocka_unit_test(Layers), cmocka_unit_test(Behind),
-                  cmocka_unit_test(Grazing), cmocka_unit_test(FarSides), cmocka_unit_test(Strip), cmocka_unit_test(LargeSliding), cmocka_unit_test(Empty),
-                  cmocka_unit_test(Time))
+CONTACT_TEST_MAIN("contact: search", cmocka_unit_test(BruteForce), cmocka_unit_test(Margin), cmocka_unit_test(Near), cmocka_unit_test(Layers),
+                  cmocka_unit_test(Behind), cmocka_unit_test(Grazing), cmocka_unit_test(FarSides), cmocka_unit_test(Strip), cmocka_unit_test(LargeSliding),
+                  cmocka_unit_test(Empty), cmocka_unit_test(Time))

@@ -387,6 +387,7 @@ PetscErrorCode ContactTieFacet(const EvaluateContext *, PetscInt facet, ContactF
 /* region.c */
 typedef struct {
   PetscReal box[6], axis[3][3], lo[3], hi[3], slack, shallow; /* shallow: along axis[2], the margin below the facet */
+  PetscReal low, high, base, turn;                            /* of the facet along axis[2]; slack there, and what it grows by per height above or below */
 } RayRegion;
 void ContactRayRegion(ContactPair, const ContactSurface *, PetscInt facet, RayRegion *);
 /* again: for a facet that was found before, as long as it opposes at all, and in the body no deeper than the margin. */
