@@ -90,7 +90,6 @@ PetscErrorCode ContactGrow(PetscInt num, size_t entry, PetscInt *size, void *arr
 /* search.c */
 PetscErrorCode ContactTreeBuild(PetscInt num, PetscReal (*box)[6], Tree *);
 PetscErrorCode ContactTreeDestroy(Tree *);
-PetscInt       ContactTreeQuery(const Tree *, const PetscReal box[6], PetscInt max, PetscInt items[]);
 
 /* Nodes of a facet on its lattice, lexicographic; corner: room for those of a facet without one. */
 typedef struct {

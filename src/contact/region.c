@@ -78,30 +78,55 @@ void ContactRayRegion(ContactPair pair, const ContactSurface *s, PetscInt facet,
   }
   r->lo[2]   = PetscMax(r->lo[2], r->low - pair->depth);
   r->shallow = r->low - pair->margin;
-  r->turn    = steepest > 0 ? 2 * pair->margin / (shortest * steepest) : PETSC_MAX_REAL;
-  r->base    = 2 * pair->margin;
+  r->base    = steepest > 0 ? 2 * pair->margin : r->slack;
+  r->turn    = steepest > 0 ? 2 * pair->margin / (shortest * steepest) : 0;
   if (s->dim == 2) r->box[2] = r->box[5] = 0;
+}
+
+/* Do the boxes meet, in the facet's own axes? The room for motion is that of rays which are long enough to reach this one. */
+static PetscBool Overlap_Private(const RayRegion *r, const PetscReal lo[3], const PetscReal hi[3])
+{
+  const PetscReal height = PetscMax(0, PetscMax(hi[2] - r->low, r->high - lo[2])), less = PetscMax(0, r->slack - r->base - r->turn * height);
+
+  for (int i = 0; i < 2; i++)
+    if (lo[i] > r->hi[i] - less || hi[i] < r->lo[i] + less) return PETSC_FALSE;
+  return (PetscBool)(lo[2] <= r->hi[2] && hi[2] >= r->lo[2]);
+}
+
+PetscBool ContactRayRegionMeetsBox(const RayRegion *r, const PetscReal box[6])
+{
+  PetscReal lo[3], hi[3];
+
+  for (int i = 0; i < 3; i++) {
+    PetscReal middle = 0, half = 0;
+
+    if (box[i] > r->box[3 + i] || box[3 + i] < r->box[i]) return PETSC_FALSE;
+    for (int c = 0; c < 3; c++) {
+      middle += 0.5 * r->axis[i][c] * (box[c] + box[3 + c]);
+      half += 0.5 * PetscAbsReal(r->axis[i][c]) * (box[3 + c] - box[c]);
+    }
+    lo[i] = middle - half, hi[i] = middle + half;
+  }
+  return Overlap_Private(r, lo, hi);
 }
 
 PetscBool ContactRayRegionMeets(const RayRegion *r, const ContactSurface *mortar, PetscInt facet, PetscBool again)
 {
   const PetscReal oppose = again ? 0 : CONTACT_OPPOSE;
-  PetscReal       lo[3], hi[3], N[3], less = 0; /* less: than the slack, for what is near */
+  PetscReal       lo[3], hi[3], N[3];
   RayLattice      l;
 
   if (r->slack < 0) return PETSC_FALSE;
   ContactFacetVector(mortar->dim, mortar->x, mortar->facets + 2 * (mortar->dim - 1) * facet, N);
   if (!(Dot3(N, r->axis[2]) < -oppose * PetscSqrtReal(Dot3(N, N)))) return PETSC_FALSE;
   ContactRayLatticeGather(mortar, facet, &l);
-  for (int i = 2; i >= 0; i--) {
+  for (int i = 0; i < 3; i++) {
     lo[i] = PETSC_MAX_REAL, hi[i] = -PETSC_MAX_REAL;
     for (PetscInt a = 0; a < l.num; a++) {
       const PetscReal y = Dot3(r->axis[i], l.x[a]);
 
       lo[i] = PetscMin(lo[i], y), hi[i] = PetscMax(hi[i], y);
     }
-    if (i == 2) less = PetscMax(0, r->slack - r->base - r->turn * PetscMax(0, PetscMax(hi[2] - r->low, r->high - lo[2])));
-    if (lo[i] > r->hi[i] - (i < 2 ? less : 0) || hi[i] < r->lo[i] + (i < 2 ? less : 0)) return PETSC_FALSE;
   }
-  return (PetscBool)(!again || hi[2] >= r->shallow);
+  return (PetscBool)(Overlap_Private(r, lo, hi) && (!again || hi[2] >= r->shallow));
 }

@@ -116,6 +116,27 @@ static PetscBool Meets_Private(ContactPair pair, const ContactSurface *nonmortar
   return (PetscBool)!ContactBehind(pair, facet, corners, mortar, met, stays ? pair->margin : 0);
 }
 
+/* Items whose boxes the region may meet, at most max (room in items[]); returns their number. Median splits bound the depth by log2(num) + 1. */
+static PetscInt Query_Private(const Tree *t, const RayRegion *region, PetscInt max, PetscInt items[])
+{
+  PetscInt stack[TREE_DEPTH], top = 0, found = 0;
+
+  stack[top++] = 0;
+  while (top) {
+    const TreeNode *node = &t->node[stack[--top]];
+
+    if (!ContactRayRegionMeetsBox(region, node->box)) continue;
+    if (node->child >= 0) {
+      stack[top++] = node->child;
+      stack[top++] = node->child + 1;
+      continue;
+    }
+    for (PetscInt k = node->first; k < node->first + node->count; k++)
+      if (ContactRayRegionMeetsBox(region, t->box[t->item[k]]) && found < max) items[found++] = t->item[k];
+  }
+  return found;
+}
+
 /* Query the tree for every listed facet. found: room for all mortar facets. */
 static PetscErrorCode Candidates_Private(ContactPair pair, const ContactSurface *nonmortar, const ContactSurface *mortar, const Tree *tree,
                                          const PetscInt known[], PetscInt found[])
@@ -130,7 +151,7 @@ static PetscErrorCode Candidates_Private(ContactPair pair, const ContactSurface 
 
     pair->start[i] = total;
     ContactRayRegion(pair, nonmortar, pair->listed[i], &region);
-    num = ContactTreeQuery(tree, region.box, mortar->num_facets, found);
+    num = Query_Private(tree, &region, mortar->num_facets, found);
     for (PetscInt k = 0; k < num; k++) found[k] = known[found[k]];
     ContactCorners(pair, nonmortar, pair->listed[i], &corners);
     PetscCall(PetscSortInt(num, found)); /* results must not depend on the tree */

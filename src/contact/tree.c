@@ -95,24 +95,3 @@ PetscBool ContactBoxesMeet(const PetscReal a[6], const PetscReal b[6])
 {
   return a[0] <= b[3] && b[0] <= a[3] && a[1] <= b[4] && b[1] <= a[4] && a[2] <= b[5] && b[2] <= a[5] ? PETSC_TRUE : PETSC_FALSE;
 }
-
-/* Items whose boxes meet `box`, at most max (room in items[]); returns their number. Median splits bound the depth by log2(num) + 1. */
-PetscInt ContactTreeQuery(const Tree *t, const PetscReal box[6], PetscInt max, PetscInt items[])
-{
-  PetscInt stack[TREE_DEPTH], top = 0, found = 0;
-
-  stack[top++] = 0;
-  while (top) {
-    const TreeNode *node = &t->node[stack[--top]];
-
-    if (!ContactBoxesMeet(node->box, box)) continue;
-    if (node->child >= 0) {
-      stack[top++] = node->child;
-      stack[top++] = node->child + 1;
-      continue;
-    }
-    for (PetscInt k = node->first; k < node->first + node->count; k++)
-      if (ContactBoxesMeet(t->box[t->item[k]], box) && found < max) items[found++] = t->item[k];
-  }
-  return found;
-}

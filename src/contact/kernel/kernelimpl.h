@@ -390,6 +390,8 @@ typedef struct {
   PetscReal low, high, base, turn;                            /* of the facet along axis[2]; slack there, and what it grows by per height above or below */
 } RayRegion;
 void ContactRayRegion(ContactPair, const ContactSurface *, PetscInt facet, RayRegion *);
+/* May it meet anything in this box? */
+PetscBool ContactRayRegionMeetsBox(const RayRegion *, const PetscReal box[6]);
 /* again: for a facet that was found before, as long as it opposes at all, and in the body no deeper than the margin. */
 PetscBool ContactRayRegionMeets(const RayRegion *, const ContactSurface *mortar, PetscInt facet, PetscBool again);
 
