@@ -92,11 +92,6 @@ $(BUILD)/%.o: src/%.c Makefile
 	@echo "  CC   $<"
 	$(Q)$(CC) $(CFLAGS) $(CPPFLAGS) -c -o $@ $<
 
-# gmsh and its libraries, the largest first.
-GMSH           = $(realpath $(shell command -v gmsh))
-GMSH_LIBRARIES = $(GMSH):$(shell ldd $(GMSH) 2>/dev/null | awk '/=> \//{print $$3}' | xargs -r ls -LS | paste -sd:)
-$(BUILD)/scene/preload.o: CPPFLAGS += -DGMSH_LIBRARIES='"$(if $(GMSH),$(GMSH_LIBRARIES))"'
-
 # Files that the program carries with it (mortise new), as strings.
 $(BUILD)/app/new.o: $(BUILD)/app/new.yml.inc $(BUILD)/app/new.geo.inc
 $(BUILD)/app/new.%.inc: src/app/new.%

@@ -1,5 +1,4 @@
 /* A .geo becomes a .msh by the program gmsh, run on rank 0 in a temporary directory; a .msh is taken as it is. */
-#define _GNU_SOURCE /* execvpe, environ */
 #include "sceneimpl.h"
 #include <ctype.h>
 #include <errno.h>
@@ -94,20 +93,16 @@ static int Wait_Private(pid_t pid, int *status, PetscBool *stopped)
 /* The new process, which ends with this one. Between vfork and exec it runs in our memory: system calls only. Returns errno. */
 static int Start_Private(char *const argv[], int in, int out, pid_t *pid)
 {
-  const pid_t         parent      = getpid();
-  const struct rlimit memory      = Memory_Private();
-  char **const        environment = PreloadEnvironment(argv[0]);
-  volatile int        failed      = 0;
+  const pid_t         parent = getpid();
+  const struct rlimit memory = Memory_Private();
+  volatile int        failed = 0;
 
   *pid = vfork();
-  if (*pid) {
-    const int error = *pid < 0 ? errno : failed;
-    if (environment != environ) free(environment);
-    return error;
-  }
+  if (*pid < 0) return errno;
+  if (*pid) return failed;
   (void)prctl(PR_SET_PDEATHSIG, SIGKILL);
   (void)setrlimit(RLIMIT_DATA, &memory);
-  if (getppid() == parent && dup2(in, 0) >= 0 && dup2(out, 1) >= 0 && dup2(out, 2) >= 0) (void)execvpe(argv[0], argv, environment);
+  if (getppid() == parent && dup2(in, 0) >= 0 && dup2(out, 1) >= 0 && dup2(out, 2) >= 0) (void)execvp(argv[0], argv);
   failed = errno;
   _exit(127);
 }

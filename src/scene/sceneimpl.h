@@ -172,8 +172,6 @@ PetscErrorCode SceneMakeMesh(Scene);
 PetscErrorCode SceneRemoveMesh(Scene);
 /* A sentence when the .geo, or what it includes, can call a program or write a file, else "" (geo.c). */
 void GeoCheck(const char *file, size_t capacity, char message[]);
-/* preload.c: the environment to start gmsh in; `environ`, or the caller's to free. */
-char **PreloadEnvironment(const char *program);
 /* Match names with the groups of the mesh, fill data.bodies, boundaries, contacts, and check them (check.c). Collective. */
 PetscErrorCode SceneCheckMesh(Scene, Forest);
 /* Warnings and notes on a mesh that may not be what is meant (pieces.c); after SceneCheckMesh. Collective. */

@@ -1,8 +1,6 @@
 """Wrong input: exit status 1, one sentence that names key, value and what is allowed, nothing solved and no output directory made."""
-import os
 import pathlib
 import re
-import shutil
 
 import pytest
 
@@ -361,27 +359,6 @@ def test_gmsh_crashes(check, tmp_path):
     (tmp_path / "gmsh").write_text("#!/bin/sh\nkill -SEGV $$\n")
     (tmp_path / "gmsh").chmod(0o755)
     refused(check(env={"PATH": str(tmp_path)}), "gmsh crashed", "Segmentation fault")
-
-
-def test_gmsh_libraries_are_put_in_order(check, tmp_path):
-    """For the gmsh that they are of, and for no other; what the user preloads stays first."""
-    tell = GEO + f'SystemCall "echo $LD_PRELOAD > {tmp_path}/preloaded";\n'
-    real, other = os.environ["MORTISE_TEST_GMSH"], tmp_path / "bin" / "gmsh"
-    other.parent.mkdir()
-    other.write_text(f'#!/bin/sh\necho "$LD_PRELOAD" > {tmp_path}/preloaded\nexec {real} "$@"\n')
-    other.chmod(0o755)
-
-    def preloaded(program=real, **env):
-        path = f"{pathlib.Path(program).parent}:{os.environ['PATH']}"
-        assert check((), "-mesh_trust", "true", geo=tell, env={"PATH": path, **env}).returncode == 0
-        shutil.rmtree(tmp_path / "tmp")
-        (tmp_path / "tmp").mkdir()
-        return (tmp_path / "preloaded").read_text().strip()
-
-    ours = preloaded()
-    assert re.match(r"(/\S*\.so[.0-9]*:?)+$", ours) and "libgmsh" in ours
-    assert preloaded(LD_PRELOAD="libm.so.6") == f"libm.so.6:{ours}"
-    assert preloaded(other) == ""
 
 
 def test_mesh_is_garbage(check, tmp_path):
