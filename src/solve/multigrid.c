@@ -51,23 +51,40 @@ static PetscErrorCode BoomerAMG_Private(Multigrid m, PC pc)
 }
 #endif
 
-/* Options of PETSc for a multigrid method that is not in use. */
-static PetscErrorCode CheckForeign_Private(MultigridKind kind)
+static PetscBool Begins_Private(const char *name, const char *with)
 {
-  const char *const foreign = kind == MULTIGRID_BOOMERAMG ? "multigrid_pc_gamg_" : "multigrid_pc_hypre_";
-  char            **names, **values, found[128] = "";
-  PetscInt          num;
+  return (PetscBool)!strncmp(name, with, strlen(with));
+}
+
+/* Options of PETSc for a solver that is not in use: of multigrid beside factors, of a method that was not named. type: the user chose by PETSc's own option. */
+static PetscErrorCode CheckForeign_Private(MultigridKind kind, LinearKind linear, PetscBool type)
+{
+  static const struct {
+    const char   *begin, *method;
+    MultigridKind kind;
+  } of[] = {{"multigrid_pc_gamg_", "gamg", MULTIGRID_GAMG}, {"multigrid_pc_hypre_", "boomeramg", MULTIGRID_BOOMERAMG}};
+  char      **names, **values, found[128] = "";
+  const char *method = NULL;
+  PetscInt    num;
 
   PetscFunctionBegin;
   PetscCall(PetscOptionsLeftGet(NULL, &num, &names, &values));
-  for (PetscInt i = 0; i < num; ++i)
-    if (!strncmp(names[i], foreign, strlen(foreign))) PetscCall(PetscStrncpy(found, names[i], sizeof(found)));
+  for (PetscInt i = 0; i < num; ++i) {
+    const PetscBool beside = (PetscBool)(linear == LINEAR_DIRECT && (Begins_Private(names[i], "multigrid_") || Begins_Private(names[i], "saddle_")));
+    const char     *needs  = NULL;
+    for (size_t k = 0; k < PETSC_STATIC_ARRAY_LENGTH(of); ++k)
+      if (!type && kind != of[k].kind && Begins_Private(names[i], of[k].begin)) needs = of[k].method;
+    if (!beside && !needs) continue;
+    PetscCall(PetscStrncpy(found, names[i], sizeof(found)));
+    method = beside ? NULL : needs;
+  }
   PetscCall(PetscOptionsLeftRestore(NULL, &num, &names, &values));
-  PetscCheckInput(!found[0], "-%s cannot act with -solve_multigrid %s; allowed with %s", found,
+  PetscCheckInput(!found[0] || method, "-%.80s cannot act with -solve_linear direct; take iterative or auto", found);
+  PetscCheckInput(!found[0], "-%.80s cannot act with -solve_multigrid %s; take %s", found,
                   kind == MULTIGRID_BOOMERAMG ? "boomeramg"
                   : kind == MULTIGRID_GAMG    ? "gamg"
-                                              : "auto",
-                  kind == MULTIGRID_BOOMERAMG ? "gamg" : "boomeramg");
+                                              : "auto, which may choose another method",
+                  method);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -83,7 +100,7 @@ PetscErrorCode MultigridCheck_Private(MultigridKind kind, LinearKind linear)
 #endif
   PetscCall(PetscOptionsHasName(NULL, NULL, "-multigrid_pc_type", &type));
   PetscCheckInput(kind == MULTIGRID_AUTO || !type, "-solve_multigrid and -multigrid_pc_type exclude each other; give one of them");
-  if (!type) PetscCall(CheckForeign_Private(kind));
+  PetscCall(CheckForeign_Private(kind, linear, type));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -17,10 +17,10 @@ def hypre(run):
 @pytest.mark.parametrize("order, processes", [(1, [2]), (2, [1, 3])])
 def test_boomeramg(run, hypre, order, processes):
     """Hanging nodes and contact, on several processes: nodal coarsening and rotations act, and the result is the factors'."""
-    scene = (*BALL, "-order", order, "-adapt_tolerance", TOLERANCE[order], "-info", ":ksp,snes", "-multigrid_ksp_view")
+    scene = (*BALL, "-order", order, "-adapt_tolerance", TOLERANCE[order], "-info", ":ksp,snes")
     direct = run(*scene, "-solve_linear", "direct")
     for ranks in processes:
-        multigrid = run(*scene, "-solve_linear", "iterative", "-solve_multigrid", "boomeramg", ranks=ranks)
+        multigrid = run(*scene, "-solve_linear", "iterative", "-solve_multigrid", "boomeramg", "-multigrid_ksp_view", ranks=ranks)
         assert direct.solved and multigrid.solved, (direct, multigrid)
         for words in ("HYPRE BoomerAMG preconditioning", "Using nodal coarsening", "HYPRE_BoomerAMGSetInterpVecVariant() 2", "HMIS", "ext+i"):
             assert words in multigrid.stdout
@@ -35,12 +35,27 @@ def test_boomeramg(run, hypre, order, processes):
 @pytest.mark.parametrize("options, words", [
     (("-solve_multigrid", "gamg", "-solve_linear", "direct"), "-solve_multigrid gamg cannot act with -solve_linear direct; take iterative or auto"),
     (("-solve_multigrid", "gamg", "-multigrid_pc_hypre_boomeramg_P_max", 2), "-multigrid_pc_hypre_boomeramg_P_max cannot act with -solve_multigrid gamg"),
+    (("-multigrid_pc_hypre_boomeramg_P_max", 2), "-multigrid_pc_hypre_boomeramg_P_max cannot act with -solve_multigrid auto, which may choose another method; take boomeramg"),
+    (("-solve_multigrid", "boomeramg", "-multigrid_pc_gamg_threshold", 0.1), "-multigrid_pc_gamg_threshold cannot act with -solve_multigrid boomeramg; take gamg"),
+    (("-solve_linear", "iterative", "-multigrid_pc_gamg_threshold", 0.1), "-multigrid_pc_gamg_threshold cannot act with -solve_multigrid auto, which may choose another method; take gamg"),
+    (("-solve_linear", "direct", "-multigrid_pc_gamg_threshold", 0.1), "-multigrid_pc_gamg_threshold cannot act with -solve_linear direct; take iterative or auto"),
+    (("-solve_linear", "direct", "-saddle_ksp_max_it", 5), "-saddle_ksp_max_it cannot act with -solve_linear direct; take iterative or auto"),
     (("-solve_multigrid", "gamg", "-multigrid_pc_type", "lu"), "-solve_multigrid and -multigrid_pc_type exclude each other; give one of them"),
     (("-solution_view", "draw"), "-solution_view is 'draw'; allowed: vtk:FILE.vtu|hdf5:FILE|binary:FILE"),
 ])
 def test_refused(run, options, words):
     result = run("inputs/blocks3d.yml", *options)
     assert result.returncode == 1 and words in result.stderr and result.stderr.count("\n") == 1 and not result.stdout, result
+
+
+def test_options_of_the_method_named_act(run):
+    """GAMG's own option changes its cycle where GAMG is named, with a higher order too, and is none that nothing used."""
+    scene, gmres = ("inputs/hertz3d.yml", "-output_fields", "false", "-order", 2, "-adapt_tolerance", 0, "-solve_linear", "iterative", "-solve_multigrid", "gamg", "-info", ":ksp"), []
+    for options in ((), ("-multigrid_pc_gamg_threshold", 0.5)):
+        result = run(*scene, *options)
+        assert result.solved and "nothing used" not in result.stderr, result
+        gmres.append([int(number) for number in re.findall(r"(\d+) iterations of GMRES", result.stdout)])
+    assert gmres[0] != gmres[1], gmres
 
 
 def appended(path, name):
