@@ -15,6 +15,8 @@ typedef struct {
 
 typedef enum { ADAPT_H, ADAPT_P, ADAPT_HP } AdaptStrategy;
 typedef enum { REPEAT_STEP, REPEAT_PATH } AdaptRepeat; /* what is computed again on a finer mesh: the load step at hand, or all from t = 0 */
+/* What new cells know of the load steps before; others than the first for comparison only. */
+typedef enum { HISTORY_CARRIED, HISTORY_NEAREST, HISTORY_NONE } AdaptHistory;
 typedef struct {
   PetscReal     tolerance; /* relative; 0: no adaptation */
   PetscInt      max_passes, max_cells;
@@ -27,6 +29,7 @@ typedef struct {
   AdaptStrategy strategy;
   PetscInt      max_order; /* p, hp: no order above */
   AdaptRepeat   repeat;
+  AdaptHistory  history;
 } AdaptSpec;
 
 /* Bits of OutputSpec.quantities: fields written on demand (output.h says what each is). */

@@ -70,7 +70,7 @@ static PetscErrorCode Create_Private(App *app, Forest forest, const int8_t old_o
 
 /* Both states carried over to the next level, each under the prescribed motion of its own time: new nodes near a support are interpolated from prescribed ones.
    Both take the history of the accepted one, made admissible there, and slip from it; of a step that went in pieces, too. */
-static PetscErrorCode Carry_Private(const Level *old, const ForestMap *map, Level *next)
+static PetscErrorCode Carry_Private(const Level *old, const ForestMap *map, AdaptHistory kept, Level *next)
 {
   PetscBool following;
   PetscReal length;
@@ -82,6 +82,11 @@ static PetscErrorCode Carry_Private(const Level *old, const ForestMap *map, Leve
   PetscCall(PathPrescribe(next->problem, next->accepted.t));
   PetscCall(TransferState(old->problem, &old->accepted, next->problem, map, &next->accepted));
   PetscCall(StateAdmit(next->problem, &next->accepted));
+  if (kept == HISTORY_NONE) { /* the naive way */
+    PetscCall(PathPrescribe(next->problem, next->state.t));
+    PetscCall(StateKeepOrigin(next->problem, &next->state));
+    PetscCall(PetscArraycpy(next->accepted.before, next->state.before, next->accepted.num_before));
+  }
   PetscCall(PetscArraycpy(next->state.history, next->accepted.history, next->accepted.num_history));
   PetscCall(PetscArraycpy(next->state.before, next->accepted.before, next->accepted.num_before));
   PetscCall(PathPrescribe(next->problem, next->state.t));
@@ -137,7 +142,7 @@ static PetscErrorCode MoveTo_Private(App *app, MarkList *list, int8_t order[], c
                            more));
   if (!*refused) {
     PetscCall(StageBegin(STAGE_TRANSFER));
-    if (mode != REFINE_AFRESH) PetscCall(Carry_Private(&app->level, &map, &next));
+    if (mode != REFINE_AFRESH) PetscCall(Carry_Private(&app->level, &map, app->data->adapt.history, &next));
     if (mode == REFINE_UNFOLDED) PetscCall(KeepFolded_Private(&app->level, &map, &next, list, order, more));
     PetscCall(StageEnd(STAGE_TRANSFER));
     if (*more)

@@ -191,6 +191,10 @@ const Option Options[] = {
     {"adapt.repeat", KEY_WORD, "", "step", "step|path",
      "what is computed again on a refined mesh: the load step, with the state carried over; or the whole path of loads from t = 0, with nothing carried over",
      SCENE(data.adapt.repeat)},
+    {"adapt.history", KEY_WORD, "", "carried", "carried|nearest|none",
+     "what new cells know of the load steps before. carried: plastic flow by way of the elastic strain, and where slip counts from; for comparison only: "
+     "nearest, the flow of the nearest old point; none, no flow, and slip counts from the solution found on the coarser mesh",
+     SCENE(data.adapt.history)},
     {"adapt.max_order", KEY_INT, "", "8", "[1,8]", "strategies p and hp: no cell above this order", SCENE(data.adapt.max_order)},
 
     {"output.directory", KEY_TEXT, "", "", "", "relative to the working directory; default: out/<name of the scene>", SCENE(data.output.directory)},

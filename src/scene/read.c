@@ -47,6 +47,9 @@ static PetscErrorCode ReadGeneral_Private(Scene s)
   PetscCheckInput(d->adapt.repeat == REPEAT_STEP || d->adapt.coarsen == 0,
                   "%s is %g, but with adapt.repeat: path one mesh is for all load steps and cells are refined only; allowed with it: 0",
                   NodeWhere(NodeFind(NodeFind(s->root, "adapt"), "coarsen")), (double)d->adapt.coarsen);
+  PetscCheckInput(d->adapt.repeat == REPEAT_STEP || d->adapt.history == HISTORY_CARRIED,
+                  "%s cannot act with adapt.repeat: path, which carries nothing over; allowed with it: carried",
+                  NodeWhere(NodeFind(NodeFind(s->root, "adapt"), "history")));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -169,10 +169,31 @@ static PetscErrorCode Point_Private(const TransferContext *c, const OldCells *ol
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* The naive ways (adapt.history): what the nearest point of the old leaf remembers. */
+static PetscErrorCode Nearest_Private(const TransferContext *c, const OldCells *old, const OldPoints *p, const PetscReal xi[], PetscReal history[])
+{
+  PetscReal least = PETSC_MAX_REAL;
+  PetscInt  order, nearest = 0;
+
+  PetscFunctionBegin;
+  for (PetscInt q = 0; q < p->num; ++q) {
+    PetscReal at[3], distance = 0;
+    Basis1DPoint(p->basis, c->old_t->dim, q, at);
+    for (PetscInt k = 0; k < c->old_t->dim; ++k) distance += PetscSqr(at[k] - xi[k]);
+    if (distance >= least) continue;
+    least   = distance;
+    nearest = q;
+  }
+  PetscCall(HPSpaceGetOrder(c->old_space, c->old_t->first[c->old_t->dim] + p->leaf, &order));
+  PetscCall(PetscArraycpy(history, OldHistory_Private(c, old, p->leaf, order) + nearest * H, H));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 static PetscErrorCode Cell_Private(const TransferContext *c, const OldCells *old, PetscInt cell, OldPoints *p, PetscReal history[])
 {
-  const PetscInt dim = c->new_t->dim, leaf = c->new_v->cell_leaf[cell], first = c->map->old_first[leaf], end = first + c->map->old_count[leaf];
-  const Basis1D *basis;
+  const PetscInt      dim = c->new_t->dim, leaf = c->new_v->cell_leaf[cell], first = c->map->old_first[leaf], end = first + c->map->old_count[leaf];
+  const Basis1D      *basis;
+  const MaterialSpec *material = c->spec->bodies[c->new_t->leaf_body[leaf]].material;
 
   PetscFunctionBegin;
   PetscCall(MechanicsPointRule(c->new_v->cell_order[cell], &basis));
@@ -183,7 +204,12 @@ static PetscErrorCode Cell_Private(const TransferContext *c, const OldCells *old
     while (k < end && !TransferPlace_Private(c, leaf, place, k, xi)) ++k;
     PetscCheck(k < end, PETSC_COMM_SELF, PETSC_ERR_PLIB, "the old leaves of leaf %" PetscInt_FMT " do not cover it", leaf);
     PetscCall(Load_Private(c, old, k, p));
-    PetscCall(Point_Private(c, old, p, xi, history + q * H));
+    if (c->kept == HISTORY_CARRIED)
+      PetscCall(Point_Private(c, old, p, xi, history + q * H));
+    else if (c->kept == HISTORY_NEAREST)
+      PetscCall(Nearest_Private(c, old, p, xi, history + q * H));
+    else
+      material->law->initial(material, history + q * H);
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

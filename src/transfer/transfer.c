@@ -86,6 +86,7 @@ PetscErrorCode TransferState(Problem old_problem, const State *from, Problem new
   PetscCall(ProblemGetMechanics(old_problem, &c.old_mechanics));
   PetscCall(ProblemGetMechanics(new_problem, &c.new_mechanics));
   c.spec = &scene->mechanics;
+  c.kept = scene->adapt.history;
   PetscCall(TransferContextSetUp_Private(&c));
   PetscCall(MechanicsNumPressure(c.new_mechanics, &num_pressure));
   PetscCheck(to->num_pressure == num_pressure, PETSC_COMM_SELF, PETSC_ERR_ARG_INCOMP, "state holds %" PetscInt_FMT " pressures, its problem %" PetscInt_FMT,

@@ -9,6 +9,7 @@ typedef struct {
   Mechanics            old_mechanics, new_mechanics; /* NULL: displacements only */
   const MechanicsSpec *spec;                         /* NULL without mechanics */
   const ForestMap     *map;
+  AdaptHistory         kept; /* of plastic flow */
   const HPTables      *old_v, *new_v;
   const ForestTables  *old_t, *new_t;
   PetscMPIInt          rank, size;

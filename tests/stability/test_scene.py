@@ -11,6 +11,7 @@ from contactkit import bulk, components, contact
 import test_contact_patch as patch
 import test_contact_shrinkfit as shrinkfit
 import test_friction as friction
+import test_plastic as plastic
 import textbook
 
 QUIET = ("-output_fields", "false")
@@ -201,6 +202,59 @@ def test_step_error_of_flow(run, told):
                   "lines": {"error of the force": (steps[1:], error), "told": (steps[1:], found), "the other way: residual": (steps[1:], [1e-10] * 2)}})
     for result, true, estimate in zip(coarse, error, found):
         assert result.returncode == 0 and true / 3 < estimate < 3 * true
+
+
+@way("Inf-sup of contact, cells of order 2: the fine face of a body 1e5 times as stiff carries multipliers of full order", "largest alternation / mean of the pressures; error of the force",
+     "roles: auto", "roles: given", kind="curves")
+def test_multipliers_finer_than_what_gives(run, told):
+    """A stiff face does not give, and what gives is the coarse face of the soft body: more constraints than it has freedom, whose pressures alternate and do not fall with the mesh."""
+    shown, lines = [], {}
+    for n, roles in ((3, "auto"), (9, "auto"), (3, "given"), (9, "given")):
+        result = run("tests/gauntlet/press.yml", "-adapt_tolerance", 0, "-mesh_parameter_n", n, "-contact_c_roles", roles)
+        assert result.returncode == 0, result
+        state = contact(result)
+        place, first = numpy.unique((state["X"][:, 0] + state["displacement"][:, 0]).round(9), return_index=True)
+        pressure = state["contact_pressure"][first]
+        place, pressure = place[pressure > 0], pressure[pressure > 0]
+        shown.append((float(numpy.abs(pressure[1:-1] - (pressure[:-2] + pressure[2:]) / 2).max() / pressure.mean()), abs(result.summary["reaction"]["top"][1] / -0.29497 - 1)))
+        if n == 9: lines["as it is" if roles == "auto" else "the other way"] = place, pressure
+    print(shown)
+    told(*(f"{shown[k][0]:.2g}; {shown[k][1]:.2g}" for k in (1, 3)), picture={"x": "x", "y": "pressure", "lines": lines})
+    assert max(shown[0][0], shown[1][0]) < 0.15
+    assert shown[3][0] > 1 and shown[3][0] > 5 * shown[2][0]
+
+
+@pytest.mark.slow
+@way("A mesh adapts while material flows (bar necks): what new points know of the flow", "largest change of the force as a mesh adapts; force / 59.324 - 1", "adapt.history: carried",
+     "adapt.history: nearest; none")
+def test_history_across_adaptation(run, told):
+    """The flow of the nearest old point leaves new cells out of balance, and no flow at all makes them hard again: either is a force that adaptation makes, and stays."""
+    change, error, lines = [], [], {}
+    for history in ("carried", "nearest", "none"):
+        result = run("inputs/necking.yml", *plastic.ADAPTIVE, "-load_end", 5 / 7, "-adapt_history", history, *QUIET)
+        assert result.summary["t"] == pytest.approx(5 / 7), result
+        change.append(max(row["force_change"] for row in result.adapt if row["pass"] > 0))
+        error.append(plastic.at(result, 5)[0] / plastic.SATURATION[5][0] - 1)
+        lines[history] = [7 * row["t"] for row in result.history], [row["reaction.end.y"] for row in result.history]
+    print(change, error)
+    told(f"{change[0]:.2g}; {error[0]:.2g}", f"{change[1]:.2g}; {error[1]:.2g}; none: {change[2]:.2g}; {error[2]:.2g}",
+         picture={"kind": "curves", "x": "elongation", "y": "force", "lines": lines})
+    assert change[0] < 5e-4 and abs(error[0]) < 1e-3
+    assert min(change[1:]) > 0.03 and min(map(abs, error[1:])) > 0.01
+
+
+@pytest.mark.slow
+@way("A mesh adapts in mid-slide: half a disc pressed and drawn in one step each, friction 0.3", "slip at the end; work of friction / that of a fine mesh - 1", "adapt.history: carried",
+     "adapt.history: none, slip counts from the solution on the coarser mesh")
+def test_refinement_is_no_slip(run, told):
+    text = friction.disc("disc", 2, 0.3)
+    fine, *adapted = (run("disc.yml", *options, *QUIET, text=text) for options in (("-mesh_refine", 2), *(("-adapt_tolerance", 0.02, "-adapt_history", way) for way in ("carried", "none"))))
+    pairs = [result.summary["contact"]["pair"] for result in (fine, *adapted)]
+    slip, work = ([pair[name] for pair in pairs] for name in ("max_slip", "dissipation"))
+    told(*(f"{slip[k]:.4g}; {work[k] / work[0] - 1:.2g}" for k in (1, 2)), picture={"kind": "bars", "x": "work of friction / that of a fine mesh", "values": [w / work[0] for w in work[1:]]})
+    assert all(result.returncode == 0 for result in adapted) and all(any(row["pass"] > 0 for row in result.adapt if row["step"] == 2) for result in adapted)
+    assert slip[1] == pytest.approx(slip[0], rel=5e-3) and abs(work[1] / work[0] - 1) < 1e-3
+    assert slip[2] < 0.01 * slip[0] and work[2] < 0.01 * work[0]
 
 
 @way("A body folds onto itself", "legs of the horseshoe pass through each other", "pair of one surface: {surface: inside}, steps of 0.02", "no such pair: what is in none is not in contact",

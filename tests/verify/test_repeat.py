@@ -171,6 +171,8 @@ def test_killed(block):
 def test_what_is_refused(block, run):
     result = block(*PATH, "-adapt_coarsen", 0.1, status=1)
     assert "adapt.coarsen is 0.1, but with adapt.repeat: path" in result.stderr and "allowed with it: 0" in result.stderr, result
+    result = run("inputs/hertz2d.yml", *PATH, "-adapt_history", "none")
+    assert result.returncode == 1 and "adapt.history cannot act with adapt.repeat: path, which carries nothing over; allowed with it: carried" in result.stderr, result
     first = block(*PATH, "-load_max_steps", 2, status=2)
     for options, was, has in ((("-adapt_repeat", "step"), "path", "step"), (("-adapt_tolerance", 0.05), "tolerance 0.25", "tolerance 0.05")):
         result = block(*PATH, *options, "-restart", first.directory / "checkpoint.h5", status=1)
