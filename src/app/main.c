@@ -254,5 +254,7 @@ int main(int argc, char **argv)
   }
   ierr = Finalize_Private();
   (void)fflush(NULL);
-  _exit(ierr ? 2 : status); /* OpenBLAS would wait for its threads, which have never begun where there is no room for their buffers (ulimit -v) */
+  _exit(!ierr                 ? status
+        : ErrorIsOption(ierr) ? 1
+                              : 2); /* OpenBLAS would wait for its threads, which have never begun where there is no room for their buffers (ulimit -v) */
 }

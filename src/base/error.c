@@ -81,24 +81,36 @@ void ErrorAsked(const char *format, ...)
   va_end(arguments);
 }
 
-/* PETSc tells of memory in its own code of errors only where malloc does: realloc gives a line number (3.18), posix_memalign an error of a library (3.26). */
+/* PETSc tells of memory in its own code of errors only where malloc does: realloc gives a line number (3.18), posix_memalign an error of a library (3.26).
+   Values that it cannot read of an option, viewers among them, have the codes of faults of a program; who reads them tells them apart. */
 static PetscErrorCode Code_Private(const char *function, PetscErrorCode code)
 {
-  return function && (!strcmp(function, "PetscReallocAlign") || !strcmp(function, "PetscMallocAlign")) ? PETSC_ERR_MEM : code;
+  if (!function) return code;
+  if (!strcmp(function, "PetscReallocAlign") || !strcmp(function, "PetscMallocAlign")) return PETSC_ERR_MEM;
+  return !strncmp(function, "PetscOptions", 12) || !strcmp(function, "PetscLogView") ? PETSC_ERR_ARG_UNKNOWN_TYPE : code;
 }
 
-/* No fault of the program: a sentence will do, of the first process or of the one whose own matter it is. */
+static void Say_Private(const char *format, ...)
+{
+  va_list arguments;
+
+  va_start(arguments, format);
+  Print_Private(format, arguments);
+  va_end(arguments);
+}
+
+/* No fault of the program: a sentence will do, of the first process or of the one whose own matter it is. Options are those of all. */
 static void Plain_Private(MPI_Comm comm, PetscErrorCode code, const char *message)
 {
   PetscMPIInt rank = 0;
 
+  if (ErrorIsOption(code)) comm = PETSC_COMM_WORLD;
   if (comm != PETSC_COMM_SELF) MPI_Comm_rank(comm, &rank);
   if (rank) return;
   if (code == PETSC_ERR_MEM)
-    fprintf(stderr, "mortise: out of memory%s%s: take a smaller problem, or more processes on more machines\n", asked[0] ? " for " : "", asked);
+    Say_Private("out of memory%s%s: take a smaller problem, or more processes on more machines", asked[0] ? " for " : "", asked);
   else
-    fprintf(stderr, "mortise: %s%.*s\n", ErrorIsOption(code) ? "an option of PETSc cannot act: " : "", (int)strcspn(message, "\n"), message);
-  fflush(stderr);
+    Say_Private("%s%.*s", ErrorIsOption(code) ? "an option of PETSc cannot act: " : "", (int)strcspn(message, "\n"), message);
 }
 
 static const char *foreseen;

@@ -115,7 +115,8 @@ def test_option_files_that_name_themselves(run, tmp_path, files, ranks):
 
 
 @pytest.mark.parametrize("option,words", [(("-ksp_type", "nonsense"), "KSP type nonsense"), (("-pc_type", "nonsense"), "PC type nonsense"),
-                                          (("-pc_factor_mat_solver_type", "nonsense"), "solver type nonsense")])
+                                          (("-pc_factor_mat_solver_type", "nonsense"), "solver type nonsense"), (("-snes_view", "a.b.c"), "viewer a.b.c"),
+                                          (("-log_view", "a\033b"), "viewer a?b"), (("-mat_mumps_icntl_14", "many"), "many"), (("-options_view", "a.b"), "a.b")])
 @pytest.mark.parametrize("ranks", [1, 2])
 def test_types_that_petsc_does_not_know(run, option, words, ranks):
     result = run("inputs/patch2d.yml", *option, ranks=ranks)
