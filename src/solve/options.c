@@ -2,7 +2,7 @@
    of keys are, and of PETSc's own those of SNES that cannot act in this iteration are refused by name. */
 #include "solveimpl.h"
 
-typedef enum { KIND_REAL, KIND_SMALL, KIND_TOLERANCE, KIND_COUNT, KIND_BOOL, KIND_CHOICE } ValueKind;
+typedef enum { KIND_REAL, KIND_SMALL, KIND_TOLERANCE, KIND_SHARE, KIND_COUNT, KIND_BOOL, KIND_CHOICE } ValueKind;
 
 typedef struct {
   const char *name;
@@ -16,6 +16,7 @@ typedef struct {
 #define LOOSEST 1e-3 /* of an equilibrium that deserves the name */
 #define SMALL "a number above 0, 1e-3 at most"
 #define TOLERANCE "a number, 0 or more"
+#define SHARE "a number, 0 or more, below 1"
 #define COUNT "an integer, 0 or more"
 #define AT(member) offsetof(struct _p_Solver, member)
 
@@ -33,7 +34,7 @@ static const SolverOption Options[] = {
     {"-solve_condense", KIND_CHOICE, "auto|yes|no", AT(condense), "eliminate the unknowns inside each cell before the linear solver; default auto: by order"},
     {"-snes_max_it", KIND_COUNT, COUNT, AT(max_it), "Newton iterations before a step is given up; default 25"},
     {"-snes_max_funcs", KIND_COUNT, COUNT, AT(max_funcs), "residuals before a step is given up; default: any number"},
-    {"-snes_rtol", KIND_TOLERANCE, TOLERANCE, AT(snes_rtol), "a residual this small against that of the first iterate is enough, too; default 0"},
+    {"-snes_rtol", KIND_SHARE, SHARE, AT(snes_rtol), "a residual this small against that of the first iterate is enough, too; default 0"},
     {"-snes_atol", KIND_TOLERANCE, TOLERANCE, AT(snes_atol), "a residual this small is enough, too; default 0"},
     {"-snes_stol", KIND_TOLERANCE, TOLERANCE, AT(snes_stol), "a Newton step this small against the unknowns is enough, too; default 0"},
 };
@@ -75,7 +76,8 @@ static PetscBool Parse_Private(const SolverOption *o, const char *text, void *to
   }
   *(PetscReal *)to = (PetscReal)strtod(text, &end);
   if (o->kind == KIND_SMALL && !(*(PetscReal *)to <= LOOSEST)) return PETSC_FALSE;
-  return (PetscBool)(end != text && !*end && (*(PetscReal *)to > 0 || (o->kind == KIND_TOLERANCE && *(PetscReal *)to == 0)));
+  if (o->kind == KIND_SHARE && !(*(PetscReal *)to < 1)) return PETSC_FALSE;
+  return (PetscBool)(end != text && !*end && (*(PetscReal *)to > 0 || ((o->kind == KIND_TOLERANCE || o->kind == KIND_SHARE) && *(PetscReal *)to == 0)));
 }
 
 /* Switches of the modifiers. */

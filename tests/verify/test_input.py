@@ -397,7 +397,7 @@ def test_command_line(check, options, words):
 @pytest.mark.parametrize("option,value,allowed", [
     ("-solve_factor", "half", "auto|single|double"), ("-solve_condense", "maybe", "auto|yes|no"), ("-solve_linear", "cg", "auto|direct|iterative"),
     ("-solve_symmetric", "2", "0|1|false|true|no|yes"), ("-snes_max_it", "few", "an integer, 0 or more"), ("-solve_cuts", "-1", "an integer, 0 or more"),
-    ("-solve_rtol", "1e-8x", "a number above 0, 1e-3 at most"), ("-solve_linear_rtol", "0", "a number above 0"), ("-snes_rtol", "-1", "a number, 0 or more"),
+    ("-solve_rtol", "1e-8x", "a number above 0, 1e-3 at most"), ("-solve_linear_rtol", "0", "a number above 0"), ("-snes_rtol", "-1", "a number, 0 or more, below 1"), ("-snes_rtol", "1", "a number, 0 or more, below 1"),
     ("-newton_stall", "no", "auto|on|off"), ("-solve_multigrid", "ml", "auto|gamg|boomeramg"),
 ])
 def test_solver_options(run, option, value, allowed):
