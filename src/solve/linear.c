@@ -4,10 +4,11 @@
 
 /* A factor as preconditioner: with less than this, nodes at the edge of contact switch wrongly, and a slide that needs no cut is cut. */
 #define REFINE_RTOL 1e-10
-#define REFINEMENTS 20   /* triangular solves worth less than a factorisation in three dimensions */
-#define FRESH_RTOL 1e-12 /* with the factor of the very matrix: nearly what one in double gives, for an iteration more */
-#define FORCING 0.01     /* of the relative residual of Newton's method: to what GMRES goes */
-#define TRUE_RTOL 1e-8   /* what round-off may leave */
+#define REFINEMENTS 20       /* triangular solves worth less than a factorisation in three dimensions */
+#define FRESH_RTOL 1e-12     /* with the factor of the very matrix: nearly what one in double gives, for an iteration more */
+#define FORCING 0.01         /* of the relative residual of Newton's method: to what GMRES goes */
+#define TRUE_RTOL 1e-8       /* what round-off may leave */
+#define MOST_OPERATIONS 36e3 /* of a factorisation for each entry of the matrix: from there on multigrid is faster, with order 1 */
 
 /* What factorises the tangent, in the precision that serves. */
 static PetscErrorCode Kind_Private(Solver s, PC pc)
@@ -280,9 +281,69 @@ static PetscReal Forcing_Private(Solver s)
   return PetscMin(TRUE_RTOL, PetscMax(s->linear_rtol, FORCING * s->report->residual / PetscMax(s->report->scale, PETSC_MIN_REAL)));
 }
 
+/* Operations that a factorisation will take: of the factor in single precision, whose analysis is needed anyway, or of MUMPS's; 0: the user's choice of a
+   factor stands; largest number: there is no MUMPS. */
+static PetscErrorCode Operations_Private(Solver s, Mat A, PetscReal *operations)
+{
+  PetscBool type, package;
+  KSP       ksp;
+  PC        pc;
+
+  PetscFunctionBegin;
+  PetscCall(SNESGetKSP(s->snes, &ksp));
+  PetscCall(KSPGetPC(ksp, &pc));
+  if (s->single) {
+    PetscCall(SingleFactorOperations_Private(pc, A, operations));
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
+  PetscCall(PetscOptionsHasName(NULL, NULL, "-pc_type", &type));
+  PetscCall(PetscOptionsHasName(NULL, NULL, "-pc_factor_mat_solver_type", &package));
+  *operations = type || package ? 0 : PETSC_MAX_REAL;
+#if defined(PETSC_HAVE_MUMPS)
+  if (!type && !package) {
+    MatFactorInfo info;
+    Mat           F;
+    PetscCall(MatFactorInfoInitialize(&info));
+    PetscCall(MatGetFactor(A, MATSOLVERMUMPS, MAT_FACTOR_CHOLESKY, &F));
+    PetscCall(MatCholeskyFactorSymbolic(F, A, NULL, &info));
+    PetscCall(MatMumpsGetRinfog(F, 1, operations));
+    PetscCall(MatDestroy(&F));
+  }
+#endif
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Is a factorisation worth its operations? A cycle of multigrid costs what the matrix has entries and takes about as many iterations on any mesh, half as many
+   with higher orders (docs/results.md). Of two bodies with as many unknowns the factor of the thinner one costs far less. */
+static PetscErrorCode Choose_Private(Solver s, Mat A, PetscBool *ok)
+{
+  PetscReal operations;
+  MatInfo   info;
+  KSP       ksp;
+  PC        pc;
+
+  PetscFunctionBegin;
+  PetscCall(IsFinite_Private(A, ok));
+  if (!*ok) PetscFunctionReturn(PETSC_SUCCESS);
+  s->choose = PETSC_FALSE;
+  PetscCall(StageBegin(STAGE_FACTOR));
+  PetscCall(Operations_Private(s, A, &operations));
+  PetscCall(MatGetInfo(A, MAT_GLOBAL_SUM, &info));
+  PetscCall(PetscInfo(s->snes, "a factor takes %g operations for each of %g entries\n", (double)(operations / info.nz_used), (double)info.nz_used));
+  if (operations <= MOST_OPERATIONS * info.nz_used / (s->order > 1 ? 2 : 1))
+    PetscCall(SaddleDestroy_Private(&s->saddle));
+  else if (s->single) {
+    PetscCall(SNESGetKSP(s->snes, &ksp));
+    PetscCall(KSPGetPC(ksp, &pc));
+    PetscCall(SingleFactorForget_Private(pc));
+  }
+  PetscCall(StageEnd(STAGE_FACTOR));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode SolverMatrixSolve_Private(Solver s, Vec rhs, PetscBool again)
 {
-  PetscBool ok;
+  PetscBool ok = PETSC_TRUE;
   PetscInt  rows;
   Mat       A;
 
@@ -291,6 +352,9 @@ PetscErrorCode SolverMatrixSolve_Private(Solver s, Vec rhs, PetscBool again)
   PetscCall(ProblemGetMatrix(s->problem, &A));
   PetscCall(MatGetSize(A, &rows, NULL));
   if (rows == 0) PetscFunctionReturn(PETSC_SUCCESS); /* all is prescribed or condensed: MUMPS would refuse it */
+  if (s->choose) PetscCall(Choose_Private(s, A, &ok));
+  s->no_solution = (PetscBool)!ok;
+  if (!ok) PetscFunctionReturn(PETSC_SUCCESS);
   if (s->saddle) {
     PetscCall(StageBegin(STAGE_FACTOR));
     PetscCall(SaddleSetUp_Private(s->saddle, A, s->symmetric));

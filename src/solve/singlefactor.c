@@ -167,26 +167,36 @@ static PetscErrorCode Begin_Private(PC pc, SingleFactor *f, Mat A)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode SetUp_Private(PC pc)
+/* The entries of A, and where its pattern is not the one at hand, the analysis. */
+static PetscErrorCode Analyse_Private(PC pc, SingleFactor *f, Mat A, PetscBool *ok)
 {
-  SingleFactor    *f;
-  Mat              A;
   PetscObjectId    id;
   PetscObjectState pattern;
-  PetscBool        analyse;
+
+  PetscFunctionBegin;
+  PetscCall(PetscObjectGetId((PetscObject)A, &id));
+  PetscCall(MatGetNonzeroState(A, &pattern));
+  const PetscBool analyse = (PetscBool)(!f->scale || id != f->id || pattern != f->pattern);
+  if (analyse) PetscCall(Begin_Private(pc, f, A));
+  PetscCall(Values_Private(f, A));
+  if (analyse) Call_Private(f, ANALYSE);
+  *ok        = (PetscBool)(f->mumps.infog[0] >= 0 || !analyse);
+  f->id      = *ok ? id : 0; /* a failed analysis is no analysis */
+  f->pattern = pattern;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode SetUp_Private(PC pc)
+{
+  SingleFactor *f;
+  Mat           A;
+  PetscBool     ok;
 
   PetscFunctionBegin;
   PetscCall(PCShellGetContext(pc, &f));
   PetscCall(PCGetOperators(pc, NULL, &A));
-  PetscCall(PetscObjectGetId((PetscObject)A, &id));
-  PetscCall(MatGetNonzeroState(A, &pattern));
-  analyse = (PetscBool)(!f->scale || id != f->id || pattern != f->pattern);
-  if (analyse) PetscCall(Begin_Private(pc, f, A));
-  PetscCall(Values_Private(f, A));
-  if (analyse) Call_Private(f, ANALYSE);
-  f->id      = f->mumps.infog[0] >= 0 || !analyse ? id : 0; /* a failed analysis is no analysis */
-  f->pattern = pattern;
-  if (f->mumps.infog[0] >= 0 || !analyse) Call_Private(f, FACTORISE);
+  PetscCall(Analyse_Private(pc, f, A, &ok));
+  if (ok) Call_Private(f, FACTORISE);
   while ((f->mumps.infog[0] == -8 || f->mumps.infog[0] == -9) && f->mumps.icntl[13] < MOST_RESERVE) { /* out of workspace */
     f->mumps.icntl[13] = 4 * PetscMax(f->mumps.icntl[13], 20);
     Call_Private(f, FACTORISE);
@@ -263,6 +273,28 @@ PetscErrorCode SingleFactorNegative_Private(PC pc, PetscInt *negative)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscErrorCode SingleFactorOperations_Private(PC pc, Mat A, PetscReal *operations)
+{
+  SingleFactor *f;
+  PetscBool     ok;
+
+  PetscFunctionBegin;
+  PetscCall(PCShellGetContext(pc, &f));
+  PetscCall(Analyse_Private(pc, f, A, &ok));
+  *operations = ok ? (PetscReal)f->mumps.rinfog[0] : 0;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SingleFactorForget_Private(PC pc)
+{
+  SingleFactor *f;
+
+  PetscFunctionBegin;
+  PetscCall(PCShellGetContext(pc, &f));
+  PetscCall(Clear_Private(f));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscBool SingleFactorExists_Private(void)
 {
   return PETSC_TRUE;
@@ -277,6 +309,18 @@ PetscErrorCode SingleFactorSet_Private(PC pc, PetscBool symmetric)
 }
 
 PetscErrorCode SingleFactorNegative_Private(PC pc, PetscInt *negative)
+{
+  PetscFunctionBegin;
+  SETERRQ(PetscObjectComm((PetscObject)pc), PETSC_ERR_SUP, "built without MUMPS in single precision");
+}
+
+PetscErrorCode SingleFactorOperations_Private(PC pc, Mat A, PetscReal *operations)
+{
+  PetscFunctionBegin;
+  SETERRQ(PetscObjectComm((PetscObject)pc), PETSC_ERR_SUP, "built without MUMPS in single precision");
+}
+
+PetscErrorCode SingleFactorForget_Private(PC pc)
 {
   PetscFunctionBegin;
   SETERRQ(PetscObjectComm((PetscObject)pc), PETSC_ERR_SUP, "built without MUMPS in single precision");

@@ -44,6 +44,8 @@ struct _p_Solver {
   FactorKind    factor;                      /* as asked */
   CondenseKind  condense;                    /* as asked */
   Saddle        saddle;                      /* iterative solution, NULL: direct */
+  PetscInt      order;                       /* highest of a cell */
+  PetscBool     choose;                      /* between the two, by the first matrix */
   PetscReal     linear_rtol;
   KSP           refine;          /* GMRES on a factor in single precision or of an earlier tangent; made when first needed */
   PetscReal     refine_first;    /* residual it started from */
@@ -121,6 +123,9 @@ PetscErrorCode SolverUnsymmetric_Private(Solver);
 PetscErrorCode SingleFactorSet_Private(PC, PetscBool symmetric);
 PetscBool      SingleFactorExists_Private(void);
 PetscErrorCode SingleFactorNegative_Private(PC, PetscInt *negative); /* pivots */
+/* Analyse the pattern of a matrix, if that was not done: operations that its factorisation will take, 0: not known. And the storage of that given back. */
+PetscErrorCode SingleFactorOperations_Private(PC, Mat, PetscReal *operations);
+PetscErrorCode SingleFactorForget_Private(PC);
 
 /* inertia.c: on several processes MUMPS counts negative pivots only when told to; once before the first factor. The count, after each: s->negative. */
 PetscErrorCode SolverInertiaSetUp_Private(Solver);

@@ -1,8 +1,6 @@
 /* Life cycle of the solver; the functions SNES calls. */
 #include "solveimpl.h"
 
-#define MANY 150000 /* unknowns in space from which multigrid is faster than a factorisation */
-
 static PetscErrorCode Function_Private(SNES snes, Vec x, Vec r, void *context)
 {
   Solver s = (Solver)context;
@@ -82,8 +80,8 @@ static PetscErrorCode Highest_Private(Problem p, PetscInt *order)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Multigrid or a factorisation? From so many unknowns on in three dimensions multigrid is faster (docs/results.md); it is poor on nearly incompressible
-   material, knows no pressure unknowns, needs symmetry, and in the plane factors stay cheap. */
+/* Multigrid or a factorisation? In the plane factors stay cheap; in space the matrix has to be looked at where it is large (linear.c). Multigrid is poor on
+   nearly incompressible material, knows no pressure unknowns and needs symmetry. */
 static PetscErrorCode UseMultigrid_Private(Solver s, PetscBool *yes)
 {
   const SceneData *scene;
@@ -94,7 +92,7 @@ static PetscErrorCode UseMultigrid_Private(Solver s, PetscBool *yes)
   PetscCall(ProblemGetScene(s->problem, &scene));
   PetscCall(ProblemNumDofs(s->problem, &dofs));
   PetscCall(ProblemGetBlocks(s->problem, &num_u, &num_z, &dim));
-  *yes = (PetscBool)(dim == 3 && dofs >= MANY);
+  *yes = (PetscBool)(dim == 3 && dofs >= SOLVER_LARGE);
   for (PetscInt b = 0; b < scene->mechanics.num_bodies; ++b) {
     if (scene->mechanics.bodies[b].material->mixed) *yes = PETSC_FALSE;
   }
@@ -108,6 +106,7 @@ static PetscErrorCode UseMultigrid_Private(Solver s, PetscBool *yes)
   PetscCheckInput(
       s->linear != LINEAR_ITERATIVE || !scalars,
       "-solve_linear iterative: not with pressures that are found (volume, advance), loads of rigid bodies or load.control: arc_length; take direct");
+  s->choose = (PetscBool)(*yes && s->linear == LINEAR_AUTO);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -124,7 +123,7 @@ static const MaterialSpec *Unsymmetric_Private(const SceneData *scene)
    lower order in some direction are not of its own alone, those of incompressible cells meet its pressures, and cells are condensed by LDL^T. */
 static PetscErrorCode Condense_Private(Solver s)
 {
-  PetscInt            num_u, num_z, dim, order;
+  PetscInt            num_u, num_z, dim;
   PetscBool           yes, directional, incompressible, whole;
   HPSpace             space;
   const SceneData    *scene;
@@ -145,9 +144,8 @@ static PetscErrorCode Condense_Private(Solver s)
                   "-solve_condense yes: not with load.control: arc_length, whose equation has all displacements in it; take no");
   PetscCheckInput(!s->test || s->condense != CONDENSE_YES, "-solve_condense yes: not with -snes_test_jacobian, which needs the whole matrix");
   PetscCall(ProblemGetBlocks(s->problem, &num_u, &num_z, &dim));
-  PetscCall(Highest_Private(s->problem, &order));
   yes = (PetscBool)(s->condense == CONDENSE_YES || (s->condense == CONDENSE_AUTO && !directional && !incompressible && !unsymmetric &&
-                                                    order > dim)); /* from there on it pays (docs/results.md) */
+                                                    s->order > dim)); /* from there on it pays (docs/results.md) */
   if (yes && !whole) PetscCall(ProblemSetCondense(s->problem));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -178,6 +176,7 @@ PetscErrorCode SolverCreate(Problem problem, Solver *solver)
   PetscCall(ProblemCreateVector(problem, &r));
   PetscCall(SNESCreate(PetscObjectComm((PetscObject)r), &s->snes));
   PetscCall(Options_Private(s));
+  PetscCall(Highest_Private(problem, &s->order));
   PetscCall(SNESSetType(s->snes, "contactnewton"));
   PetscCall(SNESSetApplicationContext(s->snes, s));
   PetscCall(SolverLinear_Private(s));

@@ -58,6 +58,14 @@ def test_options_of_the_method_named_act(run):
     assert gmres[0] != gmres[1], gmres
 
 
+@pytest.mark.parametrize("n, k, multigrid", [(9, 15, False), pytest.param(17, 31, True, marks=pytest.mark.slow)])
+def test_auto_by_operations(run, n, k, multigrid):
+    """-solve_linear auto: factors where they take few operations for the entries of the matrix, else multigrid."""
+    result = run(*BALL, "-order", 1, "-adapt_tolerance", 0, "-mesh_parameter_n", n, "-mesh_parameter_k", k, "-info", ":snes")
+    operations = float(re.search(r"a factor takes (\S+) operations for each", result.stdout)[1])
+    assert result.solved and (operations > 36e3) == multigrid and (result.summary["factorisations"] == 0) == multigrid, (operations, result)
+
+
 def appended(path, name):
     """An array of a .vtu file with raw appended data, all pieces one after the other."""
     data = path.read_bytes()
