@@ -63,12 +63,13 @@ typedef struct {
   PetscReal depth;   /* of what lies behind the surface; 0: nothing does */
   PetscReal x[3];    /* about there */
   PetscInt  body[2]; /* bodies of one part: one body, or two that are joined */
+  PetscBool whole;   /* the first lies wholly inside the second; no surface crosses, and there is no depth */
 } Passage;
 
 /* The deepest place at a state, which the problem stands at, the same on every rank. Rigid bodies and the sides of a contact pair, which contact keeps apart,
    are left out; group not negative: only facets of this boundary group are looked at. O(n log n) for n outer facets, on the rank that has them. Collective. */
 PetscErrorCode PassageFind(Problem, const State *, PetscInt group, Passage *);
-/* The same where bodies that hang together nowhere pass through each other and no contact pair is between them; not both rigid. */
+/* The same where bodies that hang together nowhere pass through each other, or lie inside each other, and no contact pair is between them; not both rigid. */
 PetscErrorCode PassageFindApart(Problem, const State *, Passage *);
 
 /* inside.c: the first contact pair that bears nothing though its bodies lie inside each other, deeper than a facet is long and not so at the reference

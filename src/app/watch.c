@@ -28,8 +28,14 @@ PetscErrorCode AppTellOverlap(App *app)
   PetscFunctionBegin;
   if (app->restart[0]) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(PassageFindApart(app->level.problem, &app->level.accepted, &p));
-  if (!(p.depth > 0)) PetscFunctionReturn(PETSC_SUCCESS);
+  if (!(p.depth > 0) && !p.whole) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(ForestGetCoarse(app->level.forest, &mesh));
+  if (p.whole) {
+    PetscCall(WarningAdd(
+        app->comm, "body %s lies wholly inside body %s in the mesh, at (%.4g, %.4g, %.4g), and no contact pair is between them: each is blind to the other",
+        mesh->body_name[p.body[0]], mesh->body_name[p.body[1]], (double)p.x[0], (double)p.x[1], (double)p.x[2]));
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
   PetscCall(WarningAdd(app->comm,
                        "bodies %s and %s overlap in the mesh, at (%.4g, %.4g, %.4g), and no contact pair is between them: each passes through the other",
                        mesh->body_name[p.body[0]], mesh->body_name[p.body[1]], (double)p.x[0], (double)p.x[1], (double)p.x[2]));

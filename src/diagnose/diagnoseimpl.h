@@ -35,6 +35,10 @@ static inline uint64_t PairGroup_Private(const ContactSpec *c, PetscInt side)
   return UINT64_C(1) << (side ? c->mortar : c->nonmortar);
 }
 
+/* Does the line from x along d leave or enter through the piece? From a place inside a body an odd number does, along either of these (inside.c). */
+PetscBool              LineCrosses_Private(PetscInt dim, const Piece *, const PetscReal x[3], const PetscReal d[3]);
+extern const PetscReal LinesAlong_Private[2][3];
+
 /* ---- points that go through pieces (crossing.c) ---------------------------------------------------------------------------- */
 
 typedef struct {

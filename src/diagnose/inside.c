@@ -5,15 +5,14 @@
 
 #define SAMPLES 32 /* places of one side of a pair on a rank */
 
-static const PetscReal Along[2][3] = {{0.7548776662, 0.5698402910, 0.3247179572}, {-0.4142135624, 0.7320508076, -0.6180339887}};
+const PetscReal LinesAlong_Private[2][3] = {{0.7548776662, 0.5698402910, 0.3247179572}, {-0.4142135624, 0.7320508076, -0.6180339887}};
 
 typedef struct {
   PetscReal x[3];
   PetscInt  pair, side, part; /* of the facet whose place it is */
 } Place;
 
-/* Does the line from x along d leave through the piece? */
-static PetscBool Crosses_Private(PetscInt dim, const Piece *p, const PetscReal x[3], const PetscReal d[3])
+PetscBool LineCrosses_Private(PetscInt dim, const Piece *p, const PetscReal x[3], const PetscReal d[3])
 {
   PetscReal r[3], e[3], f[3], n[3], q[3];
 
@@ -74,7 +73,7 @@ static PetscErrorCode Count_Private(const Pieces *s, MPI_Comm comm, PetscInt num
       const PetscInt at = 2 * place[k].pair;
       if (!own[at + 1 - place[k].side]) continue;
       if (s->scene->contacts[place[k].pair].self ? p->part == place[k].part : own[at + place[k].side]) continue;
-      for (PetscInt d = 0; d < 2; ++d) crossed[2 * k + d] += Crosses_Private(s->dim, p, place[k].x, Along[d]);
+      for (PetscInt d = 0; d < 2; ++d) crossed[2 * k + d] += LineCrosses_Private(s->dim, p, place[k].x, LinesAlong_Private[d]);
     }
   }
   PetscCall(PetscFree(is));

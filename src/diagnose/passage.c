@@ -195,6 +195,120 @@ static PetscErrorCode Find_Private(MPI_Comm comm, Pieces *s, const Which *which,
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* ---- parts wholly inside others --------------------------------------------------------------------------------------------------------- */
+
+/* The boxes of all parts. */
+static PetscErrorCode PartBoxes_Private(MPI_Comm comm, const Pieces *s, PetscReal box[][6])
+{
+  PetscFunctionBegin;
+  for (PetscInt i = 0; i < 6 * s->num_parts; ++i) box[0][i] = PETSC_MAX_REAL;
+  for (PetscInt i = 0; i < s->num; ++i) {
+    PetscReal *of = box[s->piece[i].part];
+    for (PetscInt c = 0; c < 3; ++c) {
+      of[c]     = PetscMin(of[c], s->piece[i].box[c]);
+      of[3 + c] = PetscMin(of[3 + c], -s->piece[i].box[3 + c]);
+    }
+  }
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, box, (PetscMPIInt)(6 * s->num_parts), MPIU_REAL, MPI_MIN, comm));
+  for (PetscInt i = 0; i < s->num_parts; ++i)
+    for (PetscInt c = 3; c < 6; ++c) box[i][c] = -box[i][c];
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Is the first box inside the second? */
+static PetscBool BoxWithin_Private(PetscInt dim, const PetscReal a[6], const PetscReal b[6])
+{
+  for (PetscInt c = 0; c < dim; ++c)
+    if (!(a[c] > b[c] && a[3 + c] < b[3 + c])) return PETSC_FALSE;
+  return PETSC_TRUE;
+}
+
+/* The first and the last piece of each part on each rank: all of one that is wholly inside another are in it. */
+static PetscErrorCode Samples_Private(MPI_Comm comm, const Pieces *s, PetscInt *num, Piece **all)
+{
+  PetscInt *at, mine = 0;
+  Piece    *piece;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc2(2 * s->num_parts, &at, 2 * s->num_parts, &piece));
+  for (PetscInt i = 0; i < 2 * s->num_parts; ++i) at[i] = -1;
+  for (PetscInt i = 0; i < s->num; ++i) {
+    PetscInt *of = at + 2 * s->piece[i].part;
+    if (of[0] < 0) of[0] = i;
+    of[1] = i;
+  }
+  for (PetscInt i = 0; i < 2 * s->num_parts; ++i)
+    if (at[i] >= 0) piece[mine++] = s->piece[at[i]];
+  PetscCall(GatherAll(comm, mine, sizeof(Piece), piece, num, all));
+  PetscCall(PetscFree2(at, piece));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Does a part, of which these are samples, lie in another? Places are on each sample and half its length behind, where surfaces that touch say nothing. */
+static PetscErrorCode Enclosed_Private(MPI_Comm comm, const Pieces *s, PetscInt inner, PetscInt outer, PetscInt num, const Piece sample[], Passage *found)
+{
+  PetscInt *crossed, body[2] = {-1, -1};
+  PetscBool within = PETSC_TRUE;
+
+  PetscFunctionBegin;
+  PetscCall(PetscCalloc1(4 * num, &crossed));
+  for (PetscInt k = 0; k < 2 * num; ++k) {
+    const Piece *p    = &sample[k / 2];
+    PetscReal    x[3] = {0, 0, 0};
+    if (p->part != inner) continue;
+    body[0] = p->body;
+    for (PetscInt c = 0; c < 3; ++c) {
+      for (PetscInt a = 0; a < s->dim; ++a) x[c] += p->x[3 * a + c] / s->dim;
+      found->x[c] = x[c];
+      x[c] -= k % 2 * p->size * p->N[c] / 2;
+    }
+    for (PetscInt i = 0; i < s->num; ++i) {
+      if (s->piece[i].part != outer) continue;
+      body[1] = s->piece[i].body;
+      for (PetscInt d = 0; d < 2; ++d) crossed[2 * k + d] += LineCrosses_Private(s->dim, &s->piece[i], x, LinesAlong_Private[d]);
+    }
+  }
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, crossed, (PetscMPIInt)(4 * num), MPIU_INT, MPI_SUM, comm));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, body, 2, MPIU_INT, MPI_MAX, comm));
+  for (PetscInt k = 0; k < 4 * num; ++k) within = (PetscBool)(within && (sample[k / 4].part != inner || crossed[k] % 2));
+  PetscCall(PetscFree(crossed));
+  found->whole   = within;
+  found->body[0] = body[0];
+  found->body[1] = body[1];
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The first part wholly inside another that it may not meet. Only where its box is in that one's is anything counted. */
+static PetscErrorCode FindEnclosed_Private(MPI_Comm comm, const Pieces *s, const Which *which, Passage *found)
+{
+  PetscReal(*box)[6];
+  Piece   *sample;
+  PetscInt num;
+
+  PetscFunctionBegin;
+  *found = (Passage){.depth = 0};
+  PetscCall(PetscMalloc1(s->num_parts, &box));
+  PetscCall(PartBoxes_Private(comm, s, box));
+  PetscCall(Samples_Private(comm, s, &num, &sample));
+  for (PetscInt a = 0; a < num && !found->whole; ++a) {
+    const Piece *p = &sample[a];
+    for (PetscInt b = 0; b < num && !found->whole; ++b) {
+      const Piece *q     = &sample[b];
+      PetscBool    first = PETSC_TRUE; /* of both parts, once */
+      if (p->part == q->part || !BoxWithin_Private(s->dim, box[p->part], box[q->part]) || MayMeet_Private(s->scene, which->sides, p, q)) continue;
+      for (PetscInt k = 0; k < a; ++k) first = (PetscBool)(first && sample[k].part != p->part);
+      for (PetscInt k = 0; k < b; ++k) first = (PetscBool)(first && sample[k].part != q->part);
+      if (!first) continue;
+      PetscCall(Enclosed_Private(comm, s, p->part, q->part, num, sample, found));
+    }
+  }
+  PetscCall(PetscFree(sample));
+  PetscCall(PetscFree(box));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- what is asked ---------------------------------------------------------------------------------------------------------------------- */
+
 PetscErrorCode PassageFind(Problem problem, const State *state, PetscInt group, Passage *worst)
 {
   const Which which = {.group = group};
@@ -210,15 +324,18 @@ PetscErrorCode PassageFind(Problem problem, const State *state, PetscInt group, 
 
 PetscErrorCode PassageFindApart(Problem problem, const State *state, Passage *worst)
 {
-  Which  which = {.group = -1, .apart = PETSC_TRUE};
-  Forest forest;
-  Pieces s = {0};
+  Which   which = {.group = -1, .apart = PETSC_TRUE};
+  Forest  forest;
+  Pieces  s = {0};
+  Passage whole;
 
   PetscFunctionBegin;
   PetscCall(ProblemGetForest(problem, &forest));
   PetscCall(PiecesCollect_Private(problem, state, PETSC_TRUE, &s));
   PetscCall(PiecesParts_Private(&s, ForestComm(forest), &which.sides));
+  PetscCall(FindEnclosed_Private(ForestComm(forest), &s, &which, &whole));
   PetscCall(Find_Private(ForestComm(forest), &s, &which, worst));
+  if (!(worst->depth > 0)) *worst = whole;
   PetscCall(PetscFree(which.sides));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

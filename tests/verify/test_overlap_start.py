@@ -31,9 +31,9 @@ def test_only_where_one_step_does_not_do(run):
 TOLD = "bodies l and u overlap in the mesh, at "
 
 
-def two(path, dim, up, cells=2, contact=None, rigid=()):
+def two(path, dim, up, cells=2, contact=None, rigid=(), scale=1):
     """A block l and a block u that `up` moves, both held."""
-    write(path / "two.msh", [linspace(0, 1, cells)] * dim, [lambda *x: x, lambda *x: tuple(a + b for a, b in zip(x, up))], side=lambda name, centre, b: f"{name}_{'lu'[b]}",
+    write(path / "two.msh", [linspace(0, 1, cells)] * dim, [lambda *x: x, lambda *x: tuple(scale * a + b for a, b in zip(x, up))], side=lambda name, centre, b: f"{name}_{'lu'[b]}",
           body=lambda centre, b: "lu"[b])
     scene = {"mesh": {"file": "two.msh"}, "model": "3d" if dim == 3 else "plane_strain", "material": {"m": MATERIAL, "r": {"law": "rigid"}}, "load": {"step": 1},
              "body": {name: {"material": "r" if name in rigid else "m"} for name in "lu"}, "boundary": {f"y0_{name}": {"fix": "xyz"[:dim]} for name in "lu" if name not in rigid}}
@@ -64,3 +64,14 @@ def test_no_pair_between_them(run, tmp_path, dim, ranks):
 def test_where_it_is_meant(run, tmp_path, dim, up, more, told):
     result = run("s.yml", "-check", text=two(tmp_path, dim, up, **more))
     assert (TOLD in result.stdout) == told and result.returncode in (0, 1), result
+
+
+@pytest.mark.parametrize("ranks", [1, 3])
+@pytest.mark.parametrize("dim", [2, 3])
+@pytest.mark.parametrize("up,more,told", [((0.4, 0.3, 0.4), {}, True), ((0.4, 0.3, 0.4), {"rigid": "u"}, True), ((1.4, 0.3, 0.4), {}, False), ((0.4, 0, 0.4), {}, False),
+                                          ((0.4, 0.3, 0.4), {"contact": {"initial_gap": "ramp"}}, False)])
+def test_one_wholly_inside_the_other(run, tmp_path, dim, up, more, told, ranks):
+    """No surface crosses: told all the same; not beside it, nor where a pair is between them."""
+    if ranks == 3 and not told: pytest.skip("one process will do")
+    result = run("s.yml", "-check", text=two(tmp_path, dim, up, scale=0.25, cells=3, **more), ranks=ranks)
+    assert ("body u lies wholly inside body l in the mesh, at (" in result.stdout) == told and TOLD not in result.stdout and result.returncode in (0, 1), result
