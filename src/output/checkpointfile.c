@@ -158,6 +158,19 @@ static PetscErrorCode ReadText_Private(hid_t file, const char *name, char **text
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Numbers of the types that are written: of one with its sign beyond its bits HDF5's conversion writes past the end of its buffer. Takes the type. */
+static PetscErrorCode CheckType_Private(hid_t type, const char *name)
+{
+  PetscBool known = PETSC_FALSE;
+
+  PetscFunctionBegin;
+  const hid_t written[] = {H5T_IEEE_F64LE, H5T_STD_I8LE, H5T_STD_I32LE, H5T_STD_I64LE, H5T_STD_U64LE};
+  for (size_t i = 0; i < PETSC_STATIC_ARRAY_LENGTH(written); ++i) known = (PetscBool)(known || H5Tequal(type, written[i]) > 0);
+  PetscCheck(known, PETSC_COMM_SELF, PETSC_ERR_FILE_READ, "%s has numbers of another type", name);
+  PetscCallH5(H5Tclose(type));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* A list of numbers, all of which are in the file: memory is asked for what is there. */
 static PetscErrorCode ReadSize_Private(hid_t file, const char *name, PetscInt *size)
 {
@@ -183,11 +196,13 @@ static PetscErrorCode ReadSize_Private(hid_t file, const char *name, PetscInt *s
 static PetscErrorCode ReadArray_Private(hid_t file, const char *name, hid_t type, PetscInt lo, PetscInt num, void *data)
 {
   const hsize_t start = (hsize_t)lo, part = (hsize_t)num;
-  hid_t         set, space, memory;
+  hid_t         set, space, memory, stored;
 
   PetscFunctionBegin;
   if (num == 0) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCallH5Id(set, H5Dopen2(file, name, H5P_DEFAULT));
+  PetscCallH5Id(stored, H5Dget_type(set));
+  PetscCall(CheckType_Private(stored, name));
   PetscCallH5Id(space, H5Dget_space(set));
   PetscCallH5Id(memory, H5Screate_simple(1, &part, NULL));
   PetscCallH5(H5Sselect_hyperslab(space, H5S_SELECT_SET, &start, NULL, &part, NULL));
@@ -200,10 +215,12 @@ static PetscErrorCode ReadArray_Private(hid_t file, const char *name, hid_t type
 
 static PetscErrorCode ReadAttribute_Private(hid_t object, const char *name, hid_t type, void *value)
 {
-  hid_t attribute, space;
+  hid_t attribute, space, stored;
 
   PetscFunctionBegin;
   PetscCallH5Id(attribute, H5Aopen(object, name, H5P_DEFAULT));
+  PetscCallH5Id(stored, H5Aget_type(attribute));
+  PetscCall(CheckType_Private(stored, name));
   PetscCallH5Id(space, H5Aget_space(attribute));
   PetscCheck(H5Sget_simple_extent_npoints(space) == 1, PETSC_COMM_SELF, PETSC_ERR_FILE_READ, "%s is not one number", name);
   PetscCallH5(H5Sclose(space));
