@@ -31,7 +31,7 @@ typedef struct _p_RayWork *RayWork;
 
 struct _p_ContactPair {
   PetscInt                  dim;
-  PetscBool                 axisymmetric, node_to_segment, standard, one_sided;
+  PetscBool                 axisymmetric, node_to_segment, standard;
   PetscBool                 self;                                                       /* both sides are one surface */
   const PetscInt           *precedence;                                                 /* borrowed: of its facets; NULL: none */
   PetscBool                 held;                                                       /* directions do not vary */

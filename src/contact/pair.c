@@ -19,7 +19,6 @@ PetscErrorCode ContactPairCreate(PetscInt dim, PetscBool axisymmetric, const Con
   (*pair)->node_to_segment = spec->node_to_segment;
   (*pair)->self            = spec->self;
   (*pair)->standard        = (PetscBool)(spec->standard || spec->node_to_segment);
-  (*pair)->one_sided       = (PetscBool)(spec->law != CONTACT_TIED);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -18,9 +18,7 @@
    would lose sum psi = 1 and all rates. At p = 1 that is constants: an edge with a held end has psi = 1 at the other, of a quadrilateral with a held side each
    held node's function goes to the node across, that of a lone corner by halves to its neighbours. The degree is lowered where otherwise int psi_j over the
    whole surface fell below a tenth of int chi_j (even orders: the far end of a held facet gets 0 from it). int psi_j chi_k stays diagonal among nodes that
-   carry. One-sided (multipliers have a sign): constants at any p. With a higher degree some weights are negative, and so is the constraint of a node whose
-   neighbours' gaps only grow towards the held one: pressure across an open gap. A facet (or E) without nodes that carry has no functions. A node without any
-   row has no multiplier.
+   carry. A facet (or E) without nodes that carry has no functions. A node without any row has no multiplier.
 
    Bernstein functions, for facets that are covered in part (blend.c): those of the facet's order, at nodes of its lattice; of a node that hangs in the ratio of
    the positive weights of its row, of one that carries nothing in that of the positive weights of the extrapolation. They are positive and sum to 1. */
@@ -47,8 +45,7 @@ typedef struct ContactMultiplier {
 
 /* Multiplier functions of a surface from its reference positions X (x is not looked at). carries[num_nodes] (NULL: all): the true node has a multiplier.
    Not collective. */
-PetscErrorCode ContactMultiplierCreate(const ContactSurface *, PetscBool axisymmetric, PetscBool standard, PetscBool one_sided, const PetscBool carries[],
-                                       ContactMultiplier **);
+PetscErrorCode ContactMultiplierCreate(const ContactSurface *, PetscBool axisymmetric, PetscBool standard, const PetscBool carries[], ContactMultiplier **);
 PetscErrorCode ContactMultiplierDestroy(ContactMultiplier **);
 
 /* lattice.c: number of nodes of a facet's lattice; M[num][num] = int N_a N_b (NULL: not wanted), D[num] = int N_a of a facet in the reference measure. */
@@ -80,7 +77,7 @@ typedef struct {
 
 typedef struct {
   const ContactSurface *s;
-  PetscBool             axisymmetric, standard, one_sided;
+  PetscBool             axisymmetric, standard;
   const PetscBool      *carries; /* [num_nodes] */
   PetscInt             *root;    /* [num_facets] ContactFacetGroups */
   PetscBool            *exact;   /* [num_facets] P^T psi_L */

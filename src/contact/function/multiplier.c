@@ -99,8 +99,7 @@ static PetscBool IsLight_Private(const MultiplierWork *w, PetscInt num_facets, c
   return PETSC_FALSE;
 }
 
-/* All groups: facets[start[g] .. start[g+1]). Multipliers with a sign take constants alone to held nodes: with a higher degree weights are negative, and a gap
-   that only grows towards the held node would be closed. Where int psi_j beside held nodes comes out too small, again with a lower degree. */
+/* All groups: facets[start[g] .. start[g+1]). Where int psi_j beside held nodes comes out too small, again with a lower degree. */
 static PetscErrorCode GroupsMake_Private(MultiplierWork *w, PetscInt num, const PetscInt start[], const PetscInt facets[], const PetscReal whole[])
 {
   PetscInt *degree;
@@ -109,7 +108,7 @@ static PetscErrorCode GroupsMake_Private(MultiplierWork *w, PetscInt num, const 
   PetscFunctionBegin;
   PetscCall(PetscMalloc1(num, &degree));
   for (PetscInt g = 0; g < num; g++) {
-    degree[g] = w->one_sided ? 0 : MORTISE_MAX_ORDER;
+    degree[g] = MORTISE_MAX_ORDER;
     for (PetscInt i = start[g]; i < start[g + 1]; i++) degree[g] = PetscMin(degree[g], (w->s->order ? w->s->order[facets[i]] : 1) - 1);
     PetscCall(ContactMultiplierGroup(w, start[g + 1] - start[g], facets + start[g], degree[g], &held));
     for (PetscInt i = start[g]; i < start[g + 1]; i++) PetscCall(AddWeights_Private(w, facets[i], 1));
@@ -217,10 +216,9 @@ static PetscErrorCode Pack_Private(const MultiplierWork *w, ContactMultiplier **
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode ContactMultiplierCreate(const ContactSurface *s, PetscBool axisymmetric, PetscBool standard, PetscBool one_sided, const PetscBool carries[],
-                                       ContactMultiplier **out)
+PetscErrorCode ContactMultiplierCreate(const ContactSurface *s, PetscBool axisymmetric, PetscBool standard, const PetscBool carries[], ContactMultiplier **out)
 {
-  MultiplierWork w = {.s = s, .axisymmetric = axisymmetric, .standard = standard, .one_sided = one_sided};
+  MultiplierWork w = {.s = s, .axisymmetric = axisymmetric, .standard = standard};
   PetscBool     *own;
   PetscReal     *whole;
 

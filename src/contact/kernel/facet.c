@@ -17,7 +17,7 @@ PetscErrorCode ContactRayTopology(ContactPair pair, const ContactSurface *s)
   PetscCall(PetscCalloc1(s->dim * s->num_nodes, &pair->normal));
   PetscCall(ContactDirectionTopology(pair->ray, s));
   ContactDirections(pair->ray, s);
-  if (!pair->multiplier) PetscCall(ContactMultiplierCreate(s, pair->axisymmetric, pair->standard, pair->one_sided, NULL, &pair->multiplier));
+  if (!pair->multiplier) PetscCall(ContactMultiplierCreate(s, pair->axisymmetric, pair->standard, NULL, &pair->multiplier));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -52,7 +52,7 @@ PetscErrorCode ContactPairSetCarriers(ContactPair pair, const ContactSurface *no
   PetscFunctionBegin;
   pair->state.stands = PETSC_FALSE;
   PetscCall(ContactMultiplierDestroy(&pair->multiplier));
-  PetscCall(ContactMultiplierCreate(nonmortar, pair->axisymmetric, pair->standard, pair->one_sided, carries, &pair->multiplier));
+  PetscCall(ContactMultiplierCreate(nonmortar, pair->axisymmetric, pair->standard, carries, &pair->multiplier));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
