@@ -104,7 +104,7 @@ static PetscBool Stays_Private(const ContactPair pair, PetscInt slot, const RayR
 }
 
 static PetscBool Meets_Private(ContactPair pair, const ContactSurface *nonmortar, PetscInt slot, const RayRegion *region, const FacetCorners *corners,
-                               const ContactSurface *mortar, PetscInt met)
+                               const ContactSurface *mortar, PetscInt met, PetscBool *grazed)
 {
   const PetscInt  facet = pair->listed[slot];
   const PetscBool stays = Stays_Private(pair, slot, region, mortar, met);
@@ -112,8 +112,26 @@ static PetscBool Meets_Private(ContactPair pair, const ContactSurface *nonmortar
   /* where a smooth surface has been folded the gap of neighbours is 0, whatever moves */
   if (pair->self && ContactFacetJoint(mortar, facet, met) == JOINT_SMOOTH) return PETSC_FALSE;
   if (!stays && !ContactRayRegionMeets(region, mortar, met, PETSC_FALSE)) return PETSC_FALSE;
-  if (!stays && IsGrazed_Private(pair->ray, nonmortar, facet, mortar, met)) return PETSC_FALSE;
+  *grazed = (PetscBool)(!stays && IsGrazed_Private(pair->ray, nonmortar, facet, mortar, met));
   return (PetscBool)!ContactBehind(pair, facet, corners, mortar, met, stays ? pair->margin : 0);
+}
+
+/* Of the num facets met those that are only grazed go, but where a smooth surface goes on in them: it does not end there. Returns how many are left, in their
+   order. */
+static PetscInt Ungrazed_Private(const ContactSurface *mortar, PetscInt num, PetscInt met[], PetscBool grazed[])
+{
+  PetscBool more = PETSC_TRUE;
+  PetscInt  left = 0;
+
+  while (more) {
+    more = PETSC_FALSE;
+    for (PetscInt i = 0; i < num; i++)
+      for (PetscInt k = 0; k < num && grazed[i]; k++)
+        if (!grazed[k] && ContactFacetJoint(mortar, met[i], met[k]) == JOINT_SMOOTH) grazed[i] = PETSC_FALSE, more = PETSC_TRUE;
+  }
+  for (PetscInt i = 0; i < num; i++)
+    if (!grazed[i]) met[left++] = met[i];
+  return left;
 }
 
 /* Items whose boxes the region may meet, at most max (room in items[]); returns their number. Median splits bound the depth by log2(num) + 1. */
@@ -139,7 +157,7 @@ static PetscInt Query_Private(const Tree *t, const RayRegion *region, PetscInt m
 
 /* Query the tree for every listed facet. found: room for all mortar facets. */
 static PetscErrorCode Candidates_Private(ContactPair pair, const ContactSurface *nonmortar, const ContactSurface *mortar, const Tree *tree,
-                                         const PetscInt known[], PetscInt found[])
+                                         const PetscInt known[], PetscInt found[], PetscBool grazed[])
 {
   PetscInt     total = 0;
   RayRegion    region;
@@ -147,7 +165,7 @@ static PetscErrorCode Candidates_Private(ContactPair pair, const ContactSurface 
 
   PetscFunctionBegin;
   for (PetscInt i = 0; i < pair->num_listed; i++) {
-    PetscInt num;
+    PetscInt num, met = 0;
 
     pair->start[i] = total;
     ContactRayRegion(pair, nonmortar, pair->listed[i], &region);
@@ -155,9 +173,12 @@ static PetscErrorCode Candidates_Private(ContactPair pair, const ContactSurface 
     for (PetscInt k = 0; k < num; k++) found[k] = known[found[k]];
     ContactCorners(pair, nonmortar, pair->listed[i], &corners);
     PetscCall(PetscSortInt(num, found)); /* results must not depend on the tree */
-    PetscCall(ContactGrow(total + num, sizeof(PetscInt), &pair->size_candidate, &pair->candidate));
     for (PetscInt k = 0; k < num; k++)
-      if (Meets_Private(pair, nonmortar, i, &region, &corners, mortar, found[k])) pair->candidate[total++] = found[k];
+      if (Meets_Private(pair, nonmortar, i, &region, &corners, mortar, found[k], &grazed[met])) found[met++] = found[k];
+    met = Ungrazed_Private(mortar, met, found, grazed);
+    PetscCall(ContactGrow(total + met, sizeof(PetscInt), &pair->size_candidate, &pair->candidate));
+    PetscCall(PetscArraycpy(pair->candidate + total, found, met));
+    total += met;
   }
   pair->start[pair->num_listed] = total;
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -203,8 +224,9 @@ static PetscErrorCode Prepare_Private(ContactPair pair, const ContactSurface *no
 PetscErrorCode ContactPairSearch(ContactPair pair, const ContactSurface *nonmortar, const ContactSurface *mortar, PetscInt num, const PetscInt facets[],
                                  PetscReal distance, PetscReal margin)
 {
-  PetscInt *found, *known;
-  Tree      tree;
+  PetscInt  *found, *known;
+  PetscBool *grazed;
+  Tree       tree;
 
   PetscFunctionBegin;
   PetscCheck(!pair->goes_on || num == pair->num_searched, PETSC_COMM_SELF, PETSC_ERR_ARG_WRONGSTATE, "a search of other facets than the one it goes on from");
@@ -212,11 +234,11 @@ PetscErrorCode ContactPairSearch(ContactPair pair, const ContactSurface *nonmort
   pair->num_mortar_nodes  = mortar->num_nodes;
   pair->num_mortar_facets = mortar->num_facets;
   PetscCall(ContactRayMortarTopology(pair->ray, mortar));
-  PetscCall(PetscMalloc2(mortar->num_facets, &found, mortar->num_facets, &known));
+  PetscCall(PetscMalloc3(mortar->num_facets, &found, mortar->num_facets, &known, mortar->num_facets, &grazed));
   PetscCall(MortarTree_Private(mortar, known, &tree));
-  PetscCall(Candidates_Private(pair, nonmortar, mortar, &tree, known, found));
+  PetscCall(Candidates_Private(pair, nonmortar, mortar, &tree, known, found, grazed));
   PetscCall(Remember_Private(pair));
-  PetscCall(PetscFree2(found, known));
+  PetscCall(PetscFree3(found, known, grazed));
   PetscCall(ContactTreeDestroy(&tree));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
