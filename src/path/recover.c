@@ -172,8 +172,10 @@ static PetscErrorCode Try_Private(Path *p, PetscInt row, const PathLoop *load, P
   ++p->recovery[row].succeeded;
   *report = own;
   if (PathRecoveries[row].far)
-    PetscCall(PetscPrintf(ForestComm(p->level->forest), "note: no equilibrium near by at t = %g; one farther off was found (-path_%s)\n",
-                          (double)p->level->state.t, PathRecoveries[row].name));
+    PetscCall(PetscPrintf(
+        ForestComm(p->level->forest), "note: no equilibrium near by at t = %g; one farther off was found (-path_%s)%s\n", (double)p->level->state.t,
+        PathRecoveries[row].name,
+        InterfaceSlips(ProblemInterface(p->level->problem)) ? "; friction remembers the way there: shorter load steps tell whether they end elsewhere" : ""));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
