@@ -4,6 +4,9 @@
 #include <stdlib.h>
 #include <sys/resource.h>
 #include <unistd.h>
+#if defined(__GLIBC__)
+#include <malloc.h>
+#endif
 
 static const char *const Alone[][2] = {
     {"OMPI_MCA_pml", "ob1"},
@@ -41,6 +44,15 @@ extern void openblas_set_num_threads(int) __attribute__((weak));
 static void OneThread_Private(void)
 {
   if (openblas_set_num_threads && !getenv("OPENBLAS_NUM_THREADS") && !getenv("OMP_NUM_THREADS")) openblas_set_num_threads(1);
+}
+
+/* Each thread of MPI that asks for memory would reserve 64 MB of addresses for itself, at its own time: with few left (ulimit -v) MPI then finds no room for
+   its modules in some runs, and says more than a sentence. */
+static void OneArena_Private(void)
+{
+#if defined(M_ARENA_MAX)
+  (void)mallopt(M_ARENA_MAX, 1);
+#endif
 }
 
 #define BLAS_ROOM ((size_t)144 << 20)  /* bytes of its buffer, and of what comes before */
@@ -176,6 +188,7 @@ PetscErrorCode AppInitialize(int argc, char **argv)
 
   for (int i = 0; alone && i < NUM_ALONE; ++i) set[i] = !getenv(Alone[i][0]) && !setenv(Alone[i][0], Alone[i][1], 1);
   OneThread_Private();
+  OneArena_Private();
   CheckRoom_Private(START_ROOM);
   arguments = Arguments_Private(&argc, argv);
   if (Refused_Private(argc, arguments)) return MORTISE_ERR_INPUT;
