@@ -230,6 +230,11 @@ static PetscErrorCode Finalize_Private(void)
   return PetscFinalize();
 }
 
+static int Status_Private(PetscErrorCode ierr)
+{
+  return ErrorIsOption(ierr) ? 1 : 2;
+}
+
 int main(int argc, char **argv)
 {
   int            status = 0;
@@ -245,7 +250,7 @@ int main(int argc, char **argv)
   if (ierr) {
     OutputUnlock();
     /* An error other than wrong input leaves ranks anywhere: no orderly end. */
-    status = ErrorIsOption(ierr) ? 1 : 2;
+    status = Status_Private(ierr);
     if (ErrorIsPlain(ierr)) End_Private(status);
     if (ierr != MORTISE_ERR_INPUT) MPI_Abort(PETSC_COMM_WORLD, status);
     (void)Finalize_Private();
@@ -254,7 +259,6 @@ int main(int argc, char **argv)
   }
   ierr = Finalize_Private();
   (void)fflush(NULL);
-  _exit(!ierr                 ? status
-        : ErrorIsOption(ierr) ? 1
-                              : 2); /* OpenBLAS would wait for its threads, which have never begun where there is no room for their buffers (ulimit -v) */
+  _exit(ierr ? Status_Private(ierr)
+             : status); /* OpenBLAS would wait for its threads, which have never begun where there is no room for their buffers (ulimit -v) */
 }

@@ -127,7 +127,10 @@ static PetscInt Ungrazed_Private(const ContactSurface *mortar, PetscInt num, Pet
     more = PETSC_FALSE;
     for (PetscInt i = 0; i < num; i++)
       for (PetscInt k = 0; k < num && grazed[i]; k++)
-        if (!grazed[k] && ContactFacetJoint(mortar, met[i], met[k]) == JOINT_SMOOTH) grazed[i] = PETSC_FALSE, more = PETSC_TRUE;
+        if (!grazed[k] && ContactFacetJoint(mortar, met[i], met[k]) == JOINT_SMOOTH) {
+          grazed[i] = PETSC_FALSE;
+          more      = PETSC_TRUE;
+        }
   }
   for (PetscInt i = 0; i < num; i++)
     if (!grazed[i]) met[left++] = met[i];

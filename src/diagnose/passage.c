@@ -244,37 +244,34 @@ static PetscErrorCode Samples_Private(MPI_Comm comm, const Pieces *s, PetscInt *
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Does a part, of which these are samples, lie in another? Places are on each sample and half its length behind, where surfaces that touch say nothing. */
-static PetscErrorCode Enclosed_Private(MPI_Comm comm, const Pieces *s, PetscInt inner, PetscInt outer, PetscInt num, const Piece sample[], Passage *found)
+/* Does the part of one sample lie in that of the other? Places are on each sample of it and half its length behind, where surfaces that touch say nothing. */
+static PetscErrorCode Enclosed_Private(MPI_Comm comm, const Pieces *s, const Piece *inner, const Piece *outer, PetscInt num, const Piece sample[],
+                                       Passage *found)
 {
-  PetscInt *crossed, body[2] = {-1, -1};
-  PetscBool within = PETSC_TRUE;
+  PetscInt *crossed;
 
   PetscFunctionBegin;
   PetscCall(PetscCalloc1(4 * num, &crossed));
   for (PetscInt k = 0; k < 2 * num; ++k) {
     const Piece *p    = &sample[k / 2];
     PetscReal    x[3] = {0, 0, 0};
-    if (p->part != inner) continue;
-    body[0] = p->body;
+    if (p->part != inner->part) continue;
     for (PetscInt c = 0; c < 3; ++c) {
       for (PetscInt a = 0; a < s->dim; ++a) x[c] += p->x[3 * a + c] / s->dim;
       found->x[c] = x[c];
       x[c] -= k % 2 * p->size * p->N[c] / 2;
     }
     for (PetscInt i = 0; i < s->num; ++i) {
-      if (s->piece[i].part != outer) continue;
-      body[1] = s->piece[i].body;
+      if (s->piece[i].part != outer->part) continue;
       for (PetscInt d = 0; d < 2; ++d) crossed[2 * k + d] += LineCrosses_Private(s->dim, &s->piece[i], x, LinesAlong_Private[d]);
     }
   }
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, crossed, (PetscMPIInt)(4 * num), MPIU_INT, MPI_SUM, comm));
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, body, 2, MPIU_INT, MPI_MAX, comm));
-  for (PetscInt k = 0; k < 4 * num; ++k) within = (PetscBool)(within && (sample[k / 4].part != inner || crossed[k] % 2));
+  found->whole   = PETSC_TRUE;
+  found->body[0] = inner->body;
+  found->body[1] = outer->body;
+  for (PetscInt k = 0; k < 4 * num; ++k) found->whole = (PetscBool)(found->whole && (sample[k / 4].part != inner->part || crossed[k] % 2));
   PetscCall(PetscFree(crossed));
-  found->whole   = within;
-  found->body[0] = body[0];
-  found->body[1] = body[1];
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -282,27 +279,25 @@ static PetscErrorCode Enclosed_Private(MPI_Comm comm, const Pieces *s, PetscInt 
 static PetscErrorCode FindEnclosed_Private(MPI_Comm comm, const Pieces *s, const Which *which, Passage *found)
 {
   PetscReal(*box)[6];
-  Piece   *sample;
-  PetscInt num;
+  Piece        *sample;
+  const Piece **of; /* a sample of each part, NULL: it has no surface */
+  PetscInt      num;
 
   PetscFunctionBegin;
   *found = (Passage){.depth = 0};
   PetscCall(PetscMalloc1(s->num_parts, &box));
+  PetscCall(PetscCalloc1(s->num_parts, &of));
   PetscCall(PartBoxes_Private(comm, s, box));
   PetscCall(Samples_Private(comm, s, &num, &sample));
-  for (PetscInt a = 0; a < num && !found->whole; ++a) {
-    const Piece *p = &sample[a];
-    for (PetscInt b = 0; b < num && !found->whole; ++b) {
-      const Piece *q     = &sample[b];
-      PetscBool    first = PETSC_TRUE; /* of both parts, once */
-      if (p->part == q->part || !BoxWithin_Private(s->dim, box[p->part], box[q->part]) || MayMeet_Private(s->scene, which->sides, p, q)) continue;
-      for (PetscInt k = 0; k < a; ++k) first = (PetscBool)(first && sample[k].part != p->part);
-      for (PetscInt k = 0; k < b; ++k) first = (PetscBool)(first && sample[k].part != q->part);
-      if (!first) continue;
-      PetscCall(Enclosed_Private(comm, s, p->part, q->part, num, sample, found));
+  for (PetscInt k = 0; k < num; ++k) of[sample[k].part] = &sample[k];
+  for (PetscInt a = 0; a < s->num_parts && !found->whole; ++a) {
+    for (PetscInt b = 0; b < s->num_parts && !found->whole; ++b) {
+      if (a == b || !of[a] || !of[b] || !BoxWithin_Private(s->dim, box[a], box[b]) || MayMeet_Private(s->scene, which->sides, of[a], of[b])) continue;
+      PetscCall(Enclosed_Private(comm, s, of[a], of[b], num, sample, found));
     }
   }
   PetscCall(PetscFree(sample));
+  PetscCall(PetscFree(of));
   PetscCall(PetscFree(box));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

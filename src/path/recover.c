@@ -171,11 +171,10 @@ static PetscErrorCode Try_Private(Path *p, PetscInt row, const PathLoop *load, P
   if (!own.converged) PetscFunctionReturn(PETSC_SUCCESS);
   ++p->recovery[row].succeeded;
   *report = own;
-  if (PathRecoveries[row].far)
-    PetscCall(PetscPrintf(
-        ForestComm(p->level->forest), "note: no equilibrium near by at t = %g; one farther off was found (-path_%s)%s\n", (double)p->level->state.t,
-        PathRecoveries[row].name,
-        InterfaceSlips(ProblemInterface(p->level->problem)) ? "; friction remembers the way there: shorter load steps tell whether they end elsewhere" : ""));
+  if (!PathRecoveries[row].far) PetscFunctionReturn(PETSC_SUCCESS);
+  const char *warns = InterfaceSlips(ProblemInterface(p->level->problem)) ? "; with friction it depends on the way there: compare with shorter load steps" : "";
+  PetscCall(PetscPrintf(ForestComm(p->level->forest), "note: no equilibrium near by at t = %g; one farther off was found (-path_%s)%s\n",
+                        (double)p->level->state.t, PathRecoveries[row].name, warns));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -25,7 +25,7 @@ PetscErrorCode SolverHasDescent(Solver s, PetscBool *yes)
   *yes = PETSC_FALSE;
 #if defined(PETSC_HAVE_MUMPS)
   PetscCall(ProblemHasEnergy(s->problem, yes));
-  if (s->saddle && !s->choose) *yes = PETSC_FALSE;
+  if (s->saddle) *yes = PETSC_FALSE;
 #endif
   PetscFunctionReturn(PETSC_SUCCESS);
 }

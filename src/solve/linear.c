@@ -300,15 +300,14 @@ static PetscErrorCode Operations_Private(Solver s, Mat A, PetscReal *operations)
   PetscCall(PetscOptionsHasName(NULL, NULL, "-pc_factor_mat_solver_type", &package));
   *operations = type || package ? 0 : PETSC_MAX_REAL;
 #if defined(PETSC_HAVE_MUMPS)
-  if (!type && !package) {
-    MatFactorInfo info;
-    Mat           F;
-    PetscCall(MatFactorInfoInitialize(&info));
-    PetscCall(MatGetFactor(A, MATSOLVERMUMPS, MAT_FACTOR_CHOLESKY, &F));
-    PetscCall(MatCholeskyFactorSymbolic(F, A, NULL, &info));
-    PetscCall(MatMumpsGetRinfog(F, 1, operations));
-    PetscCall(MatDestroy(&F));
-  }
+  MatFactorInfo info;
+  Mat           F;
+  if (type || package) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(MatFactorInfoInitialize(&info));
+  PetscCall(MatGetFactor(A, MATSOLVERMUMPS, MAT_FACTOR_CHOLESKY, &F));
+  PetscCall(MatCholeskyFactorSymbolic(F, A, NULL, &info));
+  PetscCall(MatMumpsGetRinfog(F, 1, operations));
+  PetscCall(MatDestroy(&F));
 #endif
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -330,9 +329,9 @@ static PetscErrorCode Choose_Private(Solver s, Mat A, PetscBool *ok)
   PetscCall(Operations_Private(s, A, &operations));
   PetscCall(MatGetInfo(A, MAT_GLOBAL_SUM, &info));
   PetscCall(PetscInfo(s->snes, "a factor takes %g operations for each of %g entries\n", (double)(operations / info.nz_used), (double)info.nz_used));
-  if (operations <= MOST_OPERATIONS * info.nz_used / (s->order > 1 ? 2 : 1))
-    PetscCall(SaddleDestroy_Private(&s->saddle));
-  else if (s->single) {
+  const PetscBool multigrid = (PetscBool)(operations > MOST_OPERATIONS * info.nz_used / (s->order > 1 ? 2 : 1));
+  if (multigrid) PetscCall(SaddleCreate_Private(s->problem, s->multigrid, &s->saddle));
+  if (multigrid && s->single) {
     PetscCall(SNESGetKSP(s->snes, &ksp));
     PetscCall(KSPGetPC(ksp, &pc));
     PetscCall(SingleFactorForget_Private(pc));

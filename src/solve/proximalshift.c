@@ -7,7 +7,7 @@
 
 static PetscErrorCode Linearise_Private(Solver s, const Iterate *it, const Form *last, PetscBool always, PetscBool *acts)
 {
-  const PetscBool digits = (PetscBool)(!s->single && (!s->saddle || s->choose));
+  const PetscBool digits = (PetscBool)(!s->single && !s->saddle);
 
   PetscFunctionBegin;
   s->form.proximal = 1;

@@ -45,7 +45,7 @@ struct _p_Solver {
   CondenseKind  condense;                    /* as asked */
   Saddle        saddle;                      /* iterative solution, NULL: direct */
   PetscInt      order;                       /* highest of a cell */
-  PetscBool     choose;                      /* between the two, by the first matrix */
+  PetscBool     choose;                      /* the first matrix says which of the two */
   PetscReal     linear_rtol;
   KSP           refine;          /* GMRES on a factor in single precision or of an earlier tangent; made when first needed */
   PetscReal     refine_first;    /* residual it started from */

@@ -182,7 +182,7 @@ PetscErrorCode SolverCreate(Problem problem, Solver *solver)
   PetscCall(SolverLinear_Private(s));
   PetscCall(UseMultigrid_Private(s, &multigrid));
   PetscCall(Condense_Private(s));
-  if (multigrid) PetscCall(SaddleCreate_Private(problem, s->multigrid, &s->saddle));
+  if (multigrid && !s->choose) PetscCall(SaddleCreate_Private(problem, s->multigrid, &s->saddle));
   PetscCall(SNESSetTolerances(s->snes, s->snes_atol, s->snes_rtol, s->snes_stol, s->max_it, s->max_funcs));
   PetscCall(SNESSetFromOptions(s->snes));
   PetscCall(SNESSetFunction(s->snes, r, Function_Private, s));

@@ -196,6 +196,49 @@ static void Grazing(void **state)
   }
 }
 
+/* A groove with flanks at 45 degrees; in it facets of `turn` degrees each, joined to a nose or apart, the first with its normal 50 degrees left of downwards.
+   How many of them the right flank has for candidates. */
+static PetscInt InGroove(PetscInt num_facets, PetscReal turn, PetscBool joined)
+{
+  const PetscInt *start, *candidate;
+  const PetscInt  apart = joined ? 1 : 2;
+  PetscInt        num;
+  Chain           nonmortar, mortar;
+  ContactPair     pair;
+
+  ChainLine(&nonmortar, 3, 1, 1, -1, 1);
+  nonmortar.x[3] = 0;
+  ChainReference(&nonmortar);
+  ChainCreate(&mortar, joined ? num_facets + 1 : 2 * num_facets, PETSC_FALSE);
+  mortar.s.num_facets = num_facets;
+  for (PetscInt e = 0; e < num_facets; e++) {
+    for (int k = 0; k < 2; k++) {
+      const PetscReal angle = (-140 - 0.5 * turn + turn * (e + k)) * PETSC_PI / 180;
+      const PetscInt  node  = apart * e + k;
+
+      mortar.edges[2 * e + k] = node;
+      mortar.x[2 * node]      = 0.6 * cos(angle);
+      mortar.x[2 * node + 1]  = 1.2 + 0.6 * sin(angle);
+    }
+  }
+  ChainReference(&mortar);
+  PairCreate(PETSC_FALSE, PETSC_FALSE, &pair);
+  SearchAll(pair, &nonmortar, &mortar, 2, 0.1);
+  CHECK_CALL(ContactPairGetCandidates(pair, &start, &candidate));
+  num = start[1];
+  CHECK_CALL(ContactPairDestroy(&pair));
+  ChainDestroy(&nonmortar);
+  ChainDestroy(&mortar);
+  return num;
+}
+
+/* What the other flank faces squarely this one drops, but not where a smooth surface goes on in it: normals are 95, 75, 55, 35, 15 and 5 degrees away. */
+static void Groove(void **state)
+{
+  assert_int_equal(InGroove(6, 20, PETSC_TRUE), 4);
+  assert_int_equal(InGroove(6, 20, PETSC_FALSE), 3);
+}
+
 /* A face of another body below one of this body: pressed into it by up to `distance` it is an overlap, farther down it is behind the body. The room that a
    margin gives for motion, here more than four times the distance, is none for overlaps. */
 static void Behind(void **state)
@@ -462,6 +505,6 @@ static void Strip(void **state)
   ChainDestroy(&lower);
 }
 
-CONTACT_TEST_MAIN("contact: search", cmocka_unit_test(BruteForce), cmocka_unit_test(Margin), cmocka_unit_test(Near), cmocka_unit_test(Layers),
-                  cmocka_unit_test(Behind), cmocka_unit_test(Grazing), cmocka_unit_test(FarSides), cmocka_unit_test(Strip), cmocka_unit_test(LargeSliding),
-                  cmocka_unit_test(Empty), cmocka_unit_test(Time))
+CONTACT_TEST_MAIN("contact: search", cmocka_unit_test(BruteForce), cmocka_unit_test(Margin), cmocka_unit_test(Near), cmocka_unit_test(Groove),
+                  cmocka_unit_test(Layers), cmocka_unit_test(Behind), cmocka_unit_test(Grazing), cmocka_unit_test(FarSides), cmocka_unit_test(Strip),
+                  cmocka_unit_test(LargeSliding), cmocka_unit_test(Empty), cmocka_unit_test(Time))

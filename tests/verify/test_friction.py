@@ -521,6 +521,14 @@ def test_predictor(run, pair, mu):
     assert without.summary["recoveries"]["predictor"]["tried"] == 0 and without.summary["step_cuts"] > 0, without
 
 
+def test_an_equilibrium_farther_off_depends_on_the_way(run):
+    """A sheet between a roller and a plate, in one step for each stage: what viscous regularisation finds is told, and that with friction it is one of many."""
+    told = "one farther off was found (-path_viscous); with friction it depends on the way there"
+    result, without = (run("tests/gauntlet/nip.yml", "-order", 1, "-load_step", 1, *words) for words in ((), ("-path_viscous", "off")))
+    assert result.returncode == 0 and result.stdout.count(told) == result.summary["recoveries"]["viscous"]["succeeded"] > 0, result
+    assert told not in without.stdout, without
+
+
 @pytest.mark.parametrize("mu, order", [(0, 2), (0.2, 1), (0.2, 2), (0.5, 2)])
 def test_wedge_under_a_load(run, mu, order):
     """Pushed under a block in a guide it takes W (tan(a + phi) + tan(phi)): nodes that a guide or the push holds along the surface bear friction as others do. Without their traction 5 % were missing."""
