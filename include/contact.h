@@ -128,6 +128,7 @@ typedef struct {
 typedef struct {
   PetscInt  facet, mortar_facet, num;
   PetscReal xi[CONTACT_SEGMENT][2], eta[CONTACT_SEGMENT][2];
+  PetscReal dual; /* share of the dual functions in those of the nonmortar facet, the rest being Bernstein polynomials (blend.c) */
 } ContactSegment;
 
 PetscErrorCode ContactPairCreate(PetscInt dim, PetscBool axisymmetric, const ContactSpec *, ContactPair *);
@@ -255,8 +256,8 @@ PetscErrorCode ContactPairTie(ContactPair, const ContactSurface *nonmortar, cons
 PetscErrorCode ContactPairGetSegments(ContactPair, PetscInt *num, const ContactSegment **segments);
 /* Nodal normals of the last evaluation [num_nodes][dim]; NaN at nodes with neighbours that are not known here. */
 PetscErrorCode ContactPairGetNormals(ContactPair, const PetscReal **normals);
-/* [num_facets] share of the dual functions in those of each facet at its last evaluation, the rest being Bernstein polynomials (blend.c). */
-PetscErrorCode ContactPairGetDualShares(ContactPair, const PetscReal **theta);
+/* Bernstein polynomials of a facet of this order in m dimensions at xi of [-1, 1]^m, in the order of its lattice. */
+void ContactBernstein(PetscInt m, PetscInt order, const PetscReal xi[], PetscReal B[]);
 /* Overlaps of the last evaluation that could not be used: mortar facets whose corners have no picture, lie folded over or are not convex in the facet's view,
    or that rays miss. */
 PetscErrorCode ContactPairGetDegenerate(ContactPair, PetscInt *num);

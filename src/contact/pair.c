@@ -50,6 +50,7 @@ PetscErrorCode ContactPairDestroy(ContactPair *pair)
 PetscErrorCode ContactPairGetSegments(ContactPair pair, PetscInt *num, const ContactSegment **segments)
 {
   PetscFunctionBegin;
+  for (PetscInt i = 0; i < pair->num_segments; i++) pair->output[i].dual = pair->theta[pair->output[i].facet];
   *num      = pair->num_segments;
   *segments = pair->output;
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -66,13 +67,6 @@ PetscErrorCode ContactPairGetNormals(ContactPair pair, const PetscReal **normals
 {
   PetscFunctionBegin;
   *normals = pair->normal;
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode ContactPairGetDualShares(ContactPair pair, const PetscReal **theta)
-{
-  PetscFunctionBegin;
-  *theta = pair->theta;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

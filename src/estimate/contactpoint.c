@@ -15,6 +15,19 @@ void ContactShape_Private(const SurfaceView *s, PetscInt facet, const PetscReal 
   SurfaceShape(s->dim, s->order[facet], xi, N, NULL);
 }
 
+/* Multipliers of a facet that is covered in part are the coefficients of Bernstein polynomials, no values at the nodes. */
+void ContactPressureShape_Private(const ContactTerm *term, PetscInt facet, const PetscReal xi[2], const PetscReal N[], PetscReal V[])
+{
+  const PetscInt  m = term->view->nonmortar.dim - 1, order = term->view->nonmortar.order[facet], num = ElementNumNodes(m, order);
+  const PetscReal theta = term->theta[facet];
+  PetscReal       B[SURFACE_MOST_NODES];
+
+  for (PetscInt a = 0; a < num; ++a) V[a] = N[a];
+  if (theta == 1) return;
+  ContactBernstein(m, order, xi, B);
+  for (PetscInt a = 0; a < num; ++a) V[a] = theta * N[a] + (1 - theta) * B[a];
+}
+
 PetscReal ContactMeasure_Private(const PetscReal tangent[2][3])
 {
   PetscReal square = 0;
@@ -106,11 +119,12 @@ static void Tie_Private(const ContactTerm *term, PetscInt facet, const PetscReal
 {
   const SurfaceView *s = &term->view->nonmortar;
   const PetscInt    *node, num = SurfaceFacetNodes(s, facet, &node);
-  PetscReal          N[SURFACE_MOST_NODES];
+  PetscReal          N[SURFACE_MOST_NODES], V[SURFACE_MOST_NODES];
 
   ContactShape_Private(s, facet, xi, N);
+  ContactPressureShape_Private(term, facet, xi, N, V);
   for (PetscInt a = 0; a < num; ++a)
-    for (PetscInt c = 0; c < s->dim; ++c) T[c] += factor * N[a] * term->z[c * s->num_nodes + node[a]];
+    for (PetscInt c = 0; c < s->dim; ++c) T[c] += factor * V[a] * term->z[c * s->num_nodes + node[a]];
 }
 
 PetscReal ContactPressing_Private(const ContactTerm *term, PetscBool finite, PetscInt facet, const PetscReal xi[2], PetscReal n[3], PetscReal q[3])
@@ -118,18 +132,19 @@ PetscReal ContactPressing_Private(const ContactTerm *term, PetscBool finite, Pet
   const SurfaceView *s = &term->view->nonmortar;
   const PetscInt    *node, num = SurfaceFacetNodes(s, facet, &node);
   const PetscBool    slips = (PetscBool)(term->view->slip && s->dim == 2);
-  PetscReal          N[SURFACE_MOST_NODES], z = 0, along = 0;
+  PetscReal          N[SURFACE_MOST_NODES], V[SURFACE_MOST_NODES], z = 0, along = 0;
 
   ContactShape_Private(s, facet, xi, N);
+  ContactPressureShape_Private(term, facet, xi, N, V);
   ContactNormal_Private(term, finite, facet, xi, N, n);
-  for (PetscInt a = 0; a < num; ++a) z += N[a] * term->z[node[a]];
-  for (PetscInt a = 0; a < num && slips; ++a) along += N[a] * term->z[s->num_nodes + node[a]];
+  for (PetscInt a = 0; a < num; ++a) z += V[a] * term->z[node[a]];
+  for (PetscInt a = 0; a < num && slips; ++a) along += V[a] * term->z[s->num_nodes + node[a]];
   q[0] = -along * n[1];
   q[1] = along * n[0];
   q[2] = 0;
   for (PetscInt a = 0; a < num && term->traction; ++a) {
     const PetscReal *t = term->traction + 3 * node[a], across = Dot3(t, n);
-    for (PetscInt c = 0; c < 3; ++c) q[c] += N[a] * (t[c] - across * n[c]);
+    for (PetscInt c = 0; c < 3; ++c) q[c] += V[a] * (t[c] - across * n[c]);
   }
   return z;
 }

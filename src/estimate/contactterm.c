@@ -1,7 +1,8 @@
 /* Contact in the estimate. The pressure is z = sum z_j N_j (continuous, as reported), not the dual trace sum z_j psi_j that balances the discrete forces: it is
-   the better approximation of the contact pressure. Traction per reference area: -z n on the nonmortar facet (n: interpolated nodal normal), +z n at the
-   projected point of the mortar facet, times current over reference measure (contactpoint.c); points outside all segments carry no traction. Nodal gaps are the
-   weighted ones, gt_j / w_j; at a hanging node the mean of its masters' ones. */
+   the better approximation of the contact pressure. On facets covered in part it is as much Bernstein polynomials as the multipliers' functions are. Traction
+   per reference area: -z n on the nonmortar facet (n: interpolated nodal normal), +z n at the projected point of the mortar facet, times current over reference
+   measure (contactpoint.c); points outside all segments carry no traction. Nodal gaps are the weighted ones, gt_j / w_j; at a hanging node the mean of its
+   masters' ones. */
 #include "estimateimpl.h"
 
 #define UNCOVERED 1e-8 /* w_j below this times the facet's measure: the node sees nothing, its gap is unknown */
@@ -106,6 +107,22 @@ static PetscErrorCode Fields_Private(Problem problem, PetscInt pair, const Fores
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* The share of the dual functions in those of the same facets. */
+static PetscErrorCode Shares_Private(PetscInt num, const ContactSegment segments[], ContactTerm *term)
+{
+  const PetscInt        num_facets = term->view->nonmortar.num_facets;
+  const ContactSegment *own;
+  PetscInt              num_own;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(num_facets, &term->theta));
+  for (PetscInt f = 0; f < num_facets; ++f) term->theta[f] = 1;
+  for (PetscInt i = 0; i < num; ++i) term->theta[segments[i].facet] = segments[i].dual;
+  PetscCall(ContactPairGetSegments(term->view->pair, &num_own, &own));
+  for (PetscInt i = 0; i < num_own; ++i) term->theta[own[i].facet] = own[i].dual;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* Counting sort by nonmortar (key 0) or mortar facet (key 1); entries of one facet keep their order. first[num_facets + 1]. */
 static PetscErrorCode SortSegments_Private(PetscInt key, PetscInt num_facets, PetscInt num, const ContactSegment from[], ContactSegment to[], PetscInt first[])
 {
@@ -161,11 +178,11 @@ PetscErrorCode ContactTermsCreate_Private(Problem problem, ContactTerms *terms)
     ContactSegment *all;
     PetscInt        num;
     PetscCall(InterfaceGetContact(ProblemInterface(problem), i, &term->view));
-    PetscCall(ContactPairGetDualShares(term->view->pair, &term->theta));
     PetscCall(FacetPlaces_Private(t, &term->view->nonmortar, &term->facet_place[0]));
     PetscCall(FacetPlaces_Private(t, &term->view->mortar, &term->facet_place[1]));
     PetscCall(GatherSegments_Private(ForestComm(forest), t, term->view, &num, &all));
     PetscCall(Fields_Private(problem, i, t, num, all, term));
+    PetscCall(Shares_Private(num, all, term));
     PetscCall(KeepSegments_Private(num, all, term));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -175,6 +192,7 @@ PetscErrorCode ContactTermsDestroy_Private(ContactTerms *terms)
 {
   PetscFunctionBegin;
   for (PetscInt i = 0; i < terms->num; ++i) {
+    PetscCall(PetscFree(terms->terms[i].theta));
     PetscCall(PetscFree(terms->terms[i].facet_place[0]));
     PetscCall(PetscFree(terms->terms[i].facet_place[1]));
     PetscCall(PetscFree(terms->terms[i].segment_first));
@@ -229,7 +247,7 @@ static PetscErrorCode FacetProduct_Private(const ContactTerms *terms, const Cont
   const PetscInt    *node, num = SurfaceFacetNodes(s, facet, &node), points = s->order[facet] + 2;
   const PetscReal    middle[2] = {0, 0};
   const Basis1D     *gauss;
-  PetscReal          N[SURFACE_MOST_NODES], g[SURFACE_MOST_NODES];
+  PetscReal          N[SURFACE_MOST_NODES], V[SURFACE_MOST_NODES], g[SURFACE_MOST_NODES];
 
   PetscFunctionBegin;
   *product = 0;
@@ -244,9 +262,10 @@ static PetscErrorCode FacetProduct_Private(const ContactTerms *terms, const Cont
     const PetscReal xi[2] = {2 * gauss->points[i] - 1, 2 * gauss->points[j] - 1};
     PetscReal       z = 0, gap = 0, weight = 2 * gauss->weights[i] * (s->dim == 3 ? 2 * gauss->weights[j] : 1);
     ContactShape_Private(s, facet, xi, N);
+    ContactPressureShape_Private(term, facet, xi, N, V);
     weight *= ContactTermsMeasure_Private(terms, s, facet, xi, N);
     for (PetscInt a = 0; a < num; ++a) {
-      z += N[a] * term->z[node[a]];
+      z += V[a] * term->z[node[a]];
       gap += N[a] * g[a];
     }
     *product += weight * PetscMax(z, 0) * PetscMax(gap, 0);

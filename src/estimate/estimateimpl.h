@@ -34,7 +34,7 @@ typedef struct {
 /* Which contact facet a facet of the mesh is, and what presses on this rank's facets; built from the views of the problem. */
 typedef struct {
   const ContactView *view;
-  const PetscReal   *theta;          /* [nonmortar num_facets] borrowed: share of the dual functions */
+  PetscReal         *theta;          /* owned [nonmortar num_facets] share of the dual functions, of the facets as below */
   PetscReal         *z, *normal, *x; /* owned [nonmortar num_nodes], [..][dim]: at the nodes of nonmortar facets of this rank, or that its mortar facets face */
   PetscReal         *traction;       /* owned [nonmortar num_nodes][3] friction in space: on the mortar side; else NULL */
   PetscInt          *facet_place[2]; /* owned [num_facets] facet of the nonmortar, mortar side, or -1 */
@@ -161,7 +161,9 @@ PetscReal ContactFacetSize_Private(const SurfaceView *, PetscInt facet);
 PetscErrorCode EstimateSlip_Private(EstimateSum *);
 /* contactpoint.c: at xi in [-1, 1]^(dim-1) of a facet: functions of its nodes, N[SURFACE_MOST_NODES], length or area per unit of xi from its tangents
    (SurfaceTangents), and nodal positions (or normals) x[num_nodes][dim] interpolated (two dimensions: third component 0) */
-void      ContactShape_Private(const SurfaceView *, PetscInt facet, const PetscReal xi[2], PetscReal N[]);
+void ContactShape_Private(const SurfaceView *, PetscInt facet, const PetscReal xi[2], PetscReal N[]);
+/* What the multipliers of a facet's nodes count with in the pressure at a place where its functions are N[]. */
+void      ContactPressureShape_Private(const ContactTerm *, PetscInt facet, const PetscReal xi[2], const PetscReal N[], PetscReal V[]);
 PetscReal ContactMeasure_Private(const PetscReal tangent[2][3]);
 void      ContactPosition_Private(const SurfaceView *, PetscInt facet, const PetscReal x[], const PetscReal N[], PetscReal position[3]);
 /* Direction of a nonmortar facet there, of length 1. */

@@ -145,12 +145,13 @@ static void Nodal_Private(const ContactTerm *term, PetscInt facet, const PetscRe
   const PetscInt    *node, num = SurfaceFacetNodes(s, facet, &node);
   const PetscReal    steep[2] = {3 * p->xi[0], 3 * p->xi[1]};
   const PetscReal    theta    = s->higher || term->view->spec->standard ? 0 : term->theta[facet];
-  PetscReal          dual[SURFACE_MOST_NODES], gap;
+  PetscReal          dual[SURFACE_MOST_NODES], V[SURFACE_MOST_NODES], gap;
 
   ContactShape_Private(s, facet, steep, dual);
+  ContactPressureShape_Private(term, facet, p->xi, N, V);
   for (PetscInt a = 0; a < num; ++a) {
-    p->pressure += N[a] * term->z[node[a]];
-    p->trace += (theta * dual[a] + (1 - theta) * N[a]) * term->z[node[a]];
+    p->pressure += V[a] * term->z[node[a]];
+    p->trace += (theta * dual[a] + (1 - theta) * V[a]) * term->z[node[a]];
     if (ContactNodalGap_Private(term->view, node[a], 0, &gap)) p->nodal += N[a] * gap;
   }
   p->pressure = PetscMax(p->pressure, 0);

@@ -48,21 +48,33 @@ void ContactShareOf(PetscInt m, PetscInt order, PetscReal share, PetscBool acros
   o->kappa[2] = factor * (6 * t - 4) / (whole * whole);
 }
 
-PetscErrorCode ContactBernstein(PetscInt m, PetscInt order, PetscReal C[])
+void ContactBernstein(PetscInt m, PetscInt order, const PetscReal xi[], PetscReal B[])
+{
+  const PetscInt n                           = order + 1;
+  PetscReal      b[2][MORTISE_MAX_ORDER + 1] = {{0}, {1}};
+
+  for (PetscInt d = 0; d < m; d++)
+    for (PetscInt j = 0; j < n; j++) {
+      const PetscReal x = 0.5 * (1 + xi[d]);
+
+      b[d][j] = 1;
+      for (PetscInt k = 0; k < j; k++) b[d][j] *= x * (PetscReal)(order - k) / (PetscReal)(k + 1);
+      for (PetscInt k = j; k < order; k++) b[d][j] *= 1 - x;
+    }
+  for (PetscInt j = 0; j < ElementNumNodes(m, order); j++) B[j] = b[0][j % n] * b[1][j / n];
+}
+
+PetscErrorCode ContactBernsteinRows(PetscInt m, PetscInt order, PetscReal C[])
 {
   const PetscInt   n = order + 1, num = ElementNumNodes(m, order);
   const PetscReal *x;
-  PetscReal        b[MORTISE_MAX_ORDER + 1][MORTISE_MAX_ORDER + 1]; /* [function][node] */
+  PetscReal        B[MULTIPLIER_LATTICE];
 
   PetscFunctionBegin;
   PetscCall(ElementGetNodes(order, &x));
-  for (PetscInt a = 0; a < n; a++)
-    for (PetscInt j = 0; j < n; j++) {
-      b[j][a] = 1;
-      for (PetscInt k = 0; k < j; k++) b[j][a] *= x[a] * (PetscReal)(order - k) / (PetscReal)(k + 1);
-      for (PetscInt k = j; k < order; k++) b[j][a] *= 1 - x[a];
-    }
-  for (PetscInt j = 0; j < num; j++)
-    for (PetscInt a = 0; a < num; a++) C[num * j + a] = b[j % n][a % n] * (m == 2 ? b[j / n][a / n] : 1);
+  for (PetscInt a = 0; a < num; a++) {
+    ContactBernstein(m, order, (const PetscReal[2]){2 * x[a % n] - 1, 2 * x[a / n] - 1}, B);
+    for (PetscInt j = 0; j < num; j++) C[num * j + a] = B[j];
+  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

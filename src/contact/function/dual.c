@@ -95,7 +95,7 @@ static PetscErrorCode Bernstein_Private(MultiplierWork *w, PetscInt facet)
   PetscFunctionBegin;
   ContactFacetLattice(w->s, facet, &l);
   PetscCall(PetscMalloc1(num * num, &C));
-  PetscCall(ContactBernstein(w->s->dim - 1, l.order, C));
+  PetscCall(ContactBernsteinRows(w->s->dim - 1, l.order, C));
   for (PetscInt a = 0; a < num; a++) {
     const PetscInt masters = ContactNodeRow(w->s, l.node + a, &master, &weight);
     PetscReal      sum     = 0;

@@ -103,4 +103,4 @@ typedef struct {
 void ContactShareWeight(PetscInt m, const PetscReal xi[2], PetscReal *v, PetscReal d[2], PetscReal dd[3]);
 void ContactShareOf(PetscInt m, PetscInt order, PetscReal share, PetscBool across, ContactShare *);
 /* C[num][num]: Bernstein polynomial j of a facet in m dimensions by the functions of its lattice. */
-PetscErrorCode ContactBernstein(PetscInt m, PetscInt order, PetscReal C[]);
+PetscErrorCode ContactBernsteinRows(PetscInt m, PetscInt order, PetscReal C[]);
