@@ -24,7 +24,7 @@ PetscReal ContactIdle_Private(const Contact *c, PetscInt j)
 
   for (PetscInt i = s->node_first[j]; i < s->node_first[j + 1]; ++i) {
     PetscInt            row;
-    const ContactFacet *e = ContactCompliant_Private(c, j, i, &row);
+    const ContactFacet *e = ContactCompliant_Private(c, 0, j, i, &row);
     for (PetscInt l = 0; e && l < e->num_rows; ++l) {
       if (l != row && !c->active[e->nodes[l]]) sum += ContactCompliance_Private(e, row, l) * c->z[e->nodes[l]];
     }

@@ -167,7 +167,7 @@ PetscErrorCode ContactCreate_Private(Interface p, const ContactSpec *spec, Conta
   PetscCall(ContactPairSetCarriers(c->pair, &nonmortar, c->has_multiplier));
   for (PetscInt j = 0; j < n; ++j) c->softness[j] = 1 / c->c[j];
   /* With small kinematics what facets cover does not change, and constraints of order 1 stay exact. */
-  if (!c->law->ties && (higher || p->spec->kinematics != KINEMATICS_SMALL)) PetscCall(ContactPairSetSoftness(c->pair, c->softness));
+  if (c->law->ties || higher || p->spec->kinematics != KINEMATICS_SMALL) PetscCall(ContactPairSetSoftness(c->pair, c->softness));
   PetscCall(ListFacets_Private(p, c));
   SearchDistance_Private(c);
   View_Private(c);

@@ -26,7 +26,7 @@ typedef struct {
 
 /* What keeps the sides together at a node, in one component. weight 0: nothing does. */
 typedef struct {
-  PetscReal gap, weight, lift;
+  PetscReal gap, weight, lift, spring;
 } TiePoint;
 
 /* A node of the nonmortar side: what its rows are made of. */
@@ -133,14 +133,15 @@ typedef struct {
 typedef struct {
   ContactFacet facet, bend; /* bend: second derivatives alone, by the masters of the facet's corners */
   PetscBool    bends;
-  PetscReal   *gap, *start, *arm, *dgap, *hessian; /* start: [rows] at the reference positions; arm: [rows][3] */
+  PetscReal   *gap, *start, *arm, *dgap, *hessian, *compliance; /* start: [rows] at the reference positions; arm: [rows][3] */
 } TieFacet;
 
 typedef struct {
   PetscInt   num_facets[3], *result[3]; /* as those of Contact */
   TieFacet  *facets[3];
   PetscBool *carries;                   /* [dim][n] there is a row */
-  PetscReal *weight, *gap, *lift;       /* [dim][n] as those of Contact */
+  PetscReal *weight, *gap, *lift;       /* [dim][n] as those of Contact; gap: with what compliances add, S z */
+  PetscReal *spring;                    /* [dim][n] S_jj */
   PetscReal *z;                         /* [dim][n] what is shown: where there is no row, from other nodes */
   PetscInt  *donor_first[3], *donor[3]; /* ContactPairGetDonors of each component */
   PetscReal *donor_weight[3];
@@ -388,11 +389,18 @@ static inline PetscReal ContactCompliance_Private(const ContactFacet *e, PetscIn
 {
   return e->kappa[0] * e->compliance[k] * ((PetscReal)(k == l) - e->compliance[l] / e->compliance_sum);
 }
-/* Of the facets around node j, place i of node_facet: the facet where it has a compliance, and the row of j there; else NULL. */
-static inline const ContactFacet *ContactCompliant_Private(const Contact *c, PetscInt j, PetscInt i, PetscInt *row)
+/* A facet's last result; of a tied pair that of a component. NULL: it meets nothing. */
+static inline const ContactFacet *ContactResult_Private(const Contact *c, PetscInt component, PetscInt facet)
 {
-  const PetscInt      at = c->result[c->side[0].node_facet[i]];
-  const ContactFacet *e  = at < 0 ? NULL : &c->facets[at];
+  const PetscInt at = c->tie ? c->tie->result[component][facet] : c->result[facet];
+
+  if (at < 0) return NULL;
+  return c->tie ? &c->tie->facets[component][at].facet : &c->facets[at];
+}
+/* Of the facets around node j, place i of node_facet: the facet where it has a compliance, and the row of j there; else NULL. */
+static inline const ContactFacet *ContactCompliant_Private(const Contact *c, PetscInt component, PetscInt j, PetscInt i, PetscInt *row)
+{
+  const ContactFacet *e = ContactResult_Private(c, component, c->side[0].node_facet[i]);
 
   if (!e || !e->compliance) return NULL;
   for (*row = 0; *row < e->num_rows; ++*row)

@@ -54,7 +54,7 @@ static PetscInt RowOf_Private(const ContactFacet *e, PetscInt j)
 static PetscErrorCode Gradient_Private(Interface p, const Contact *c, PetscInt j, const ContactRow *form, PetscInt *num)
 {
   const Surface *s   = &c->side[0];
-  const PetscInt dim = p->dim, *result = c->tie ? c->tie->result[form->component] : c->result;
+  const PetscInt dim = p->dim;
   PetscReal     *values, *g;
   PetscInt      *dofs;
 
@@ -68,10 +68,8 @@ static PetscErrorCode Gradient_Private(Interface p, const Contact *c, PetscInt j
   PetscCall(PetscSortRemoveDupsInt(num, dofs));
   PetscCall(PetscArrayzero(values, *num));
   for (PetscInt k = s->node_first[j]; form->factor != 0 && k < s->node_first[j + 1]; ++k) {
-    const PetscInt facet = s->node_facet[k];
-    if (result[facet] < 0) continue;
-    const ContactFacet *e = c->tie ? &c->tie->facets[form->component][result[facet]].facet : &c->facets[result[facet]];
-    const PetscInt      n = dim * e->num, row = RowOf_Private(e, j);
+    const ContactFacet *e = ContactResult_Private(c, form->component, s->node_facet[k]);
+    const PetscInt      n = e ? dim * e->num : 0, row = e ? RowOf_Private(e, j) : -1;
     if (row < 0) continue;
     const PetscBool  push     = (PetscBool)(form->push && e->push);
     const PetscReal *gradient = (push ? e->push : e->dgap) + row * n, yield = push ? 0 : ContactYield_Private(c, e, row, form->along);
@@ -92,22 +90,22 @@ static PetscErrorCode Gradient_Private(Interface p, const Contact *c, PetscInt j
 }
 
 /* factor S_jl at the columns of the multipliers of others; in the symmetric form of those that bear, whose unknown is z_l over c_l. */
-static PetscErrorCode Couplings_Private(const InterfaceSystem *a, const Contact *c, PetscInt j, PetscReal factor, PetscInt num, const PetscInt dofs[],
+static PetscErrorCode Couplings_Private(const InterfaceSystem *a, const Contact *c, PetscInt j, const ContactRow *form, PetscInt num, const PetscInt dofs[],
                                         PetscReal values[])
 {
   const Surface *s = &c->side[0];
   PetscInt       at;
 
   PetscFunctionBegin;
-  for (PetscInt i = s->node_first[j]; factor != 0 && i < s->node_first[j + 1]; ++i) {
+  for (PetscInt i = s->node_first[j]; form->factor != 0 && i < s->node_first[j + 1]; ++i) {
     PetscInt            row;
-    const ContactFacet *e = ContactCompliant_Private(c, j, i, &row);
+    const ContactFacet *e = ContactCompliant_Private(c, form->component, j, i, &row);
     for (PetscInt k = 0; e && k < e->num_rows; ++k) {
       const PetscInt l = e->nodes[k];
       if (k == row || c->zdof[l] < 0 || (a->symmetric && !c->active[l])) continue;
-      PetscCall(PetscFindInt(c->zdof[l], num, dofs, &at));
+      PetscCall(PetscFindInt(c->zdof[l] + form->component, num, dofs, &at));
       PetscCheck(at >= 0, PETSC_COMM_SELF, PETSC_ERR_PLIB, "multiplier outside the pattern of its facet");
-      values[at] += factor * ContactCompliance_Private(e, row, k) * (a->symmetric ? c->c[l] : 1);
+      values[at] += form->factor * ContactCompliance_Private(e, row, k) * (a->symmetric ? c->c[l] : 1);
     }
   }
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -148,7 +146,7 @@ PetscErrorCode ContactInsertRow_Private(Interface p, const InterfaceSystem *a, c
   for (PetscInt i = 0; i < c->num; ++i) {
     const PetscInt line = c->zdof[j] + i;
     PetscCall(Gradient_Private(p, c, j, &row[i], &num));
-    PetscCall(Couplings_Private(a, c, j, i == 0 ? row[i].factor : 0, num, p->work.index, p->work.value));
+    if (i == 0 || c->tie) PetscCall(Couplings_Private(a, c, j, &row[i], num, p->work.index, p->work.value));
     PetscCall(PetscFindInt(c->zdof[j], num, p->work.index, &at));
     for (PetscInt k = 0; k < c->num; ++k) p->work.value[at + k] = a->symmetric ? row[i].z[k] * c->c[j] : row[i].z[k];
     PetscCall(SlipCouplings_Private(c, j, &row[i], num, p->work.index, p->work.value));

@@ -3,6 +3,7 @@
 
      G_jk = [ sum_a t_ja x_a - sum over facets of (a e_1 + b e_2 + c N) ]_k = 0,   sum_a t_ja x_a = int psi_j (x_m - x_s) dA,
 
+   and, on facets covered in part, what their compliance adds, (S z)_jk, as in contact (compliance.c);
    e_i and N the diagonals and the vector of the nonmortar facet (plane: the edge and its vector), a, b and c constants such that the rows vanish at the
    reference positions: a gap between both surfaces turns with the facet beside it. In the plane the rows are linear, in space N is of second degree. With
    initial_gap: close these constants are 0. Functions psi_j depend on the component: a node that a support does not leave free along an axis of the coordinates
@@ -167,21 +168,24 @@ static PetscErrorCode Keep_Private(Interface p, const Contact *c, PetscInt k, co
 {
   const PetscInt nr = from->num_rows, num = from->num;
   PetscInt      *nodes;
-  PetscReal     *weight, *tie;
+  PetscReal     *weight, *tie, *compliance;
 
   PetscFunctionBegin;
   *t = (TieFacet){.facet = *from};
-  PetscCall(PetscMalloc2(num, &nodes, nr, &weight));
+  PetscCall(PetscMalloc3(num, &nodes, nr, &weight, from->compliance ? nr : 0, &compliance));
   PetscCall(PetscMalloc1(nr * num, &tie));
   PetscCall(PetscCalloc4(nr, &t->gap, nr, &t->start, 3 * nr, &t->arm, p->dim * nr * num, &t->dgap));
   PetscCall(PetscArraycpy(nodes, from->nodes, num));
   PetscCall(PetscArraycpy(weight, from->weight, nr));
   PetscCall(PetscArraycpy(tie, from->tie, nr * num));
-  t->facet.nodes  = nodes;
-  t->facet.weight = weight;
-  t->facet.tie    = tie;
-  t->facet.gap    = t->gap;
-  t->facet.dgap   = t->dgap;
+  if (from->compliance) PetscCall(PetscArraycpy(compliance, from->compliance, nr));
+  t->facet.compliance = from->compliance ? compliance : NULL;
+  t->compliance       = compliance;
+  t->facet.nodes      = nodes;
+  t->facet.weight     = weight;
+  t->facet.tie        = tie;
+  t->facet.gap        = t->gap;
+  t->facet.dgap       = t->dgap;
   Arms_Private(c, k, t);
   if (t->bends && p->dim == 3 && p->spec->kinematics == KINEMATICS_FINITE) PetscCall(Masters_Private(&c->side[0], t));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -213,6 +217,7 @@ static PetscErrorCode Component_Private(Interface p, Contact *c, PetscInt k, con
       const PetscInt j = n * k + f->facet.nodes[r];
       if (!s->owned[f->facet.nodes[r]]) continue;
       t->weight[j] += f->facet.weight[r];
+      if (f->facet.compliance) t->spring[j] += ContactCompliance_Private(&f->facet, r, r);
     }
   }
   PetscCall(LinkSpread_Private(p, &s->values, 1, t->weight + n * k));
@@ -266,7 +271,7 @@ PetscErrorCode TieCreate_Private(Interface p, Contact *c)
   if (!c->law->ties) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(PetscNew(&t));
   c->tie = t;
-  PetscCall(PetscCalloc4(p->dim * n, &t->carries, p->dim * n, &t->weight, p->dim * n, &t->gap, p->dim * n, &t->lift));
+  PetscCall(PetscCalloc5(p->dim * n, &t->carries, p->dim * n, &t->weight, p->dim * n, &t->gap, p->dim * n, &t->lift, p->dim * n, &t->spring));
   PetscCall(PetscCalloc1(p->dim * n, &t->z));
   c->view.z = t->z;
   for (PetscInt k = 0; k < p->dim; ++k) PetscCall(PetscMalloc1(c->side[0].num_facets, &t->result[k]));
@@ -303,7 +308,7 @@ PetscErrorCode TieDestroy_Private(Contact *c)
   for (PetscInt k = 0; k < c->num; ++k) {
     for (PetscInt i = 0; i < t->num_facets[k]; ++i) {
       TieFacet *f = &t->facets[k][i];
-      PetscCall(PetscFree2(f->facet.nodes, f->facet.weight));
+      PetscCall(PetscFree3(f->facet.nodes, f->facet.weight, f->compliance));
       PetscCall(PetscFree(f->facet.tie));
       PetscCall(PetscFree4(f->gap, f->start, f->arm, f->dgap));
       PetscCall(PetscFree(f->bend.nodes));
@@ -313,7 +318,7 @@ PetscErrorCode TieDestroy_Private(Contact *c)
     PetscCall(PetscFree(t->result[k]));
     PetscCall(PetscFree3(t->donor_first[k], t->donor[k], t->donor_weight[k]));
   }
-  PetscCall(PetscFree4(t->carries, t->weight, t->gap, t->lift));
+  PetscCall(PetscFree5(t->carries, t->weight, t->gap, t->lift, t->spring));
   PetscCall(PetscFree(t->z));
   PetscCall(PetscFree(c->tie));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -367,8 +372,10 @@ PetscErrorCode TieEvaluate_Private(Interface p, Contact *c)
       const ContactFacet *e = &f->facet;
       if (!small) Rows_Private(c, f, k, PETSC_TRUE);
       if (!small) Bend_Private(c, f, k, c->z + n * k);
+      const PetscReal mean = e->compliance ? ContactFacetMean(e, e->nodes, c->z + n * k) : 0;
       for (PetscInt r = 0; r < e->num_rows; ++r) {
         if (!c->side[0].owned[e->nodes[r]]) continue;
+        if (e->compliance) gap[e->nodes[r]] += e->kappa[0] * e->compliance[r] * (c->z[n * k + e->nodes[r]] - mean);
         gap[e->nodes[r]] += small ? f->start[r] + ContactFacetDot_Private(c, e, e->dgap + p->dim * r * e->num) : e->gap[r];
       }
     }
@@ -384,7 +391,7 @@ void TiePoint_Private(const Contact *c, PetscInt j, PetscBool lifted, ContactPoi
 
   for (PetscInt k = 0; k < c->num; ++k) {
     const PetscInt i = c->side[0].num_nodes * k + j;
-    point->tie[k]    = (TiePoint){t->gap[i], t->carries[i] ? t->weight[i] : 0, lifted ? t->lift[i] : 0};
+    point->tie[k]    = (TiePoint){t->gap[i], t->carries[i] ? t->weight[i] : 0, lifted ? t->lift[i] : 0, t->spring[i]};
   }
 }
 

@@ -52,17 +52,17 @@ static PetscErrorCode Seen_Private(Interface p, const Contact *c, PetscBool keep
   PetscCall(PetscArrayzero(keep, c->side[0].num_nodes));
   for (PetscInt i = 0; i < num; ++i)
     for (PetscInt r = 0; r < facets[i].num_rows && c->mine[facets[i].facet]; ++r)
-      if (facets[i].weight[r] * facets[i].whole[r] >= CONTACT_SLIVER * PetscSqr(facets[i].whole[r])) keep[facets[i].nodes[r]] = PETSC_TRUE;
+      if (facets[i].weight[r] * facets[i].whole[r] > CONTACT_SLIVER * PetscSqr(facets[i].whole[r])) keep[facets[i].nodes[r]] = PETSC_TRUE;
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, keep, (PetscMPIInt)c->side[0].num_nodes, COMPAT_MPI_BOOL, MPI_LOR, p->comm));
   for (PetscInt i = 0; i < num; ++i) {
     const ContactFacet *f    = &facets[i];
     PetscBool           any  = PETSC_FALSE;
-    PetscInt            best = 0;
+    PetscInt            best = -1;
     for (PetscInt r = 0; r < f->num_rows; ++r) {
       any = (PetscBool)(any || keep[f->nodes[r]]);
-      if (f->weight[r] * f->whole[best] > f->weight[best] * f->whole[r]) best = r;
+      if (f->whole[r] != 0 && (best < 0 || f->weight[r] * f->whole[best] > f->weight[best] * f->whole[r])) best = r;
     }
-    if (!any && f->num_rows && c->mine[f->facet]) keep[f->nodes[best]] = PETSC_TRUE;
+    if (!any && best >= 0 && c->mine[f->facet]) keep[f->nodes[best]] = PETSC_TRUE;
   }
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, keep, (PetscMPIInt)c->side[0].num_nodes, COMPAT_MPI_BOOL, MPI_LOR, p->comm));
   PetscFunctionReturn(PETSC_SUCCESS);

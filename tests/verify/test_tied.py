@@ -266,6 +266,35 @@ def test_side_that_ends_in_a_facet(run, order):
         assert abs(energy / one[0] - 1) < 10 * abs(beyond) and abs(traction / one[1] - 1) < 100 * abs(beyond) and abs(error / one[2] - 1) < 0.05
 
 
+def falls(result, least):
+    """Adaptation reaches its tolerance, and from the mesh number `least` on no mesh has more than twice the estimate of the one before."""
+    errors = [row["estimated_error"] for row in result.adapt]
+    print(errors)
+    assert result.returncode == 0, result
+    assert all(b < 2 * a for a, b in zip(errors[least:], errors[least + 1:])), errors
+
+
+@pytest.mark.parametrize("order", [pytest.param(1, marks=pytest.mark.slow), 2, 3, 4])
+def test_adapted_where_a_side_ends(run, order):
+    """A stiff block ends within facets of the one it is glued to, at a singular corner: tractions do not oscillate, and the estimate is that of the mesh."""
+    def energy(tolerance, nu):
+        scene = blocks("lower", {"lower": LINEAR, "upper": {**LINEAR, "E": 1000}}, {"bottom": {"fix": "xy"}, "top": {"displacement": {"x": 0.01, "y": 0.01}}},
+                       {"nl": 4, "nu": nu, "xu": 0.3, "wu": 0.5}, None, {"kind": "tied"}, order=order, kinematics="small", adapt={"tolerance": tolerance, "max_passes": 15})
+        result = run("end.yml", text=scene)
+        falls(result, 2)
+        return result.summary["energy"]
+
+    coarse = energy(0.03, 3)
+    assert abs(coarse / energy(0.015, 4) - 1) < 0.03**2
+
+
+@pytest.mark.parametrize("order", [2, pytest.param(3, marks=pytest.mark.slow)])
+def test_adapted_where_a_side_ends_in_space(run, tmp_path, order):
+    parts = {"left": Box((0, 0, 0), (1, 1, 1), (2, 2, 2)), "right": Box((1, 0.3, 0), (1, 1, 1), (3, 3, 2))}
+    text = box_scene(tmp_path, parts, [("right_x0", "left_x1")], order, kinematics="small", sides=["left_x0", "right_x1"], matrix=0.1 * numpy.eye(3), adapt={"tolerance": 0.1})
+    falls(run("end.yml", text=text), 2)
+
+
 @pytest.mark.parametrize("order, ranks", [(1, 1), pytest.param(2, 1, marks=pytest.mark.slow), (2, 2)])
 def test_lshape(run, order, ranks):
     """Glued across the line that ends in the singular corner, on meshes that do not match: adapted, the energy of the mesh that conforms, no lower a

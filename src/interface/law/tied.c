@@ -24,7 +24,7 @@ static void Rows_Private(const ContactPoint *p, PetscBool symmetric, ContactRow 
     if (!(t->weight > 0)) continue;
     row[k].value  = t->gap;
     row[k].factor = factor;
-    row[k].z[k]   = 0;
+    row[k].z[k]   = factor * t->spring;
     row[k].side   = -factor * (t->gap + t->lift);
   }
 }
