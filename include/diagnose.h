@@ -64,6 +64,7 @@ typedef struct {
   PetscReal x[3];    /* about there */
   PetscInt  body[2]; /* bodies of one part: one body, or two that are joined */
   PetscBool whole;   /* the first lies wholly inside the second; no surface crosses, and there is no depth */
+  PetscReal box[6];  /* around all facets that cut others */
 } Passage;
 
 /* The deepest place at a state, which the problem stands at, the same on every rank. Rigid bodies and the sides of a contact pair, which contact keeps apart,
@@ -73,7 +74,8 @@ PetscErrorCode PassageFind(Problem, const State *, PetscInt group, Passage *);
 PetscErrorCode PassageFindApart(Problem, const State *, Passage *);
 
 /* inside.c: the first contact pair that bears nothing though its bodies lie inside each other, deeper than a facet is long and not so at the reference
-   positions, or of one surface that passes through itself; -1: there is none. At the state that was evaluated last. Finite kinematics. Collective. */
+   positions, or of one surface that passes through itself so that a facet of it lies wholly inside; -1: there is none. At the state that was evaluated last.
+   Finite kinematics. Collective. */
 PetscErrorCode InsideFind(Problem, const State *, PetscInt *pair);
 
 /* through.c: the first contact pair that bears nothing of which a body went right through the other one on straight ways from displacements `from` (local

@@ -133,15 +133,71 @@ static PetscErrorCode First_Private(Problem problem, MPI_Comm comm, PetscInt num
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* ---- one surface ------------------------------------------------------------------------------------------------------------------------ */
+
+/* How often place k of a piece (halfway from its middle to a corner, or its middle) lies in the body of its own part, the body right behind it not counted: so
+   often more does a line that begins outwards leave than enter the body, through other pieces. */
+static PetscInt Within_Private(const Pieces *s, const Piece *of, PetscInt k, const PetscReal along[3])
+{
+  const PetscReal sign = along[0] * of->N[0] + along[1] * of->N[1] + along[2] * of->N[2] < 0 ? -1 : 1,
+                  d[3] = {sign * along[0], sign * along[1], sign * along[2]};
+  PetscReal x[3]       = {0, 0, 0};
+  PetscInt  within     = 0;
+
+  for (PetscInt c = 0; c < 3; ++c) {
+    for (PetscInt a = 0; a < s->dim; ++a) x[c] += of->x[3 * a + c] / s->dim;
+    if (k < s->dim) x[c] = (x[c] + of->x[3 * k + c]) / 2;
+  }
+  for (PetscInt i = 0; i < s->num; ++i) {
+    const Piece *p = &s->piece[i];
+    if (p->part == of->part && memcmp(p->X, of->X, sizeof(p->X)) && LineCrosses_Private(s->dim, p, x, d)) within += Dot3(p->N, d) > 0 ? 1 : -1;
+  }
+  return within;
+}
+
+/* Does a facet of this group that pieces which cut each other are near to lie wholly inside its own body, as another part of the surface? Less than that, a
+   corner within the facet that it meets, is what weighted gaps leave open. Collective. */
+static PetscErrorCode Deep_Private(const Pieces *s, MPI_Comm comm, PetscInt group, const PetscReal box[6], PetscBool *deep)
+{
+  const PetscInt each = 2 * (s->dim + 1); /* places of a piece, lines */
+  PetscInt       num  = 0, *within;
+  Piece         *near, *all;
+
+  PetscFunctionBegin;
+  *deep = PETSC_FALSE;
+  PetscCall(PetscMalloc1(s->num, &near));
+  for (PetscInt i = 0; i < s->num; ++i) {
+    PetscBool meets = (PetscBool)(s->piece[i].groups >> group & 1);
+    for (PetscInt c = 0; c < 3; ++c) meets = (PetscBool)(meets && s->piece[i].box[c] <= box[3 + c] && box[c] <= s->piece[i].box[3 + c]);
+    if (meets) near[num++] = s->piece[i];
+  }
+  PetscCall(GatherAll(comm, num, sizeof(Piece), near, &num, &all));
+  PetscCall(PetscMalloc1(each * num, &within));
+  for (PetscInt i = 0; i < each * num; ++i) within[i] = Within_Private(s, &all[i / each], i % each / 2, LinesAlong_Private[i % 2]);
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, within, (PetscMPIInt)(each * num), MPIU_INT, MPI_SUM, comm));
+  for (PetscInt i = 0; i < num; ++i) {
+    PetscBool is = PETSC_TRUE;
+    for (PetscInt k = 0; k < each; ++k) is = (PetscBool)(is && within[each * i + k] > 0);
+    *deep = (PetscBool)(*deep || is);
+  }
+  PetscCall(PetscFree(near));
+  PetscCall(PetscFree(all));
+  PetscCall(PetscFree(within));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* The first pair of one surface that bears nothing and of which a part passes through itself. */
-static PetscErrorCode Own_Private(Problem problem, const State *state, const SceneData *scene, const PetscInt bare[], PetscInt *pair)
+static PetscErrorCode Own_Private(Problem problem, const State *state, const Pieces *s, MPI_Comm comm, const PetscInt bare[], PetscInt *pair)
 {
   PetscFunctionBegin;
   *pair = -1;
-  for (PetscInt i = 0; i < scene->num_contacts && *pair < 0; ++i) {
-    Passage passage = {.depth = 0};
-    if (bare[i] && scene->contacts[i].self) PetscCall(PassageFind(problem, state, scene->contacts[i].nonmortar, &passage));
-    if (passage.depth > 0) *pair = i;
+  for (PetscInt i = 0; i < s->scene->num_contacts && *pair < 0; ++i) {
+    const PetscInt group   = s->scene->contacts[i].nonmortar;
+    Passage        passage = {.depth = 0};
+    PetscBool      deep    = PETSC_FALSE;
+    if (bare[i] && s->scene->contacts[i].self) PetscCall(PassageFind(problem, state, group, &passage));
+    if (passage.depth > 0) PetscCall(Deep_Private(s, comm, group, passage.box, &deep));
+    if (deep) *pair = i;
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -164,7 +220,7 @@ PetscErrorCode InsideFind(Problem problem, const State *state, PetscInt *pair)
   if (any) {
     PetscCall(PiecesCollect_Private(problem, state, PETSC_TRUE, &s));
     PetscCall(Find_Private(&s, ForestComm(forest), bare, within));
-    PetscCall(Own_Private(problem, state, scene, bare, &own));
+    PetscCall(Own_Private(problem, state, &s, ForestComm(forest), bare, &own));
     PetscCall(First_Private(problem, ForestComm(forest), scene->num_contacts, bare, within, pair));
     PetscCall(PetscFree(s.piece));
     if (*pair < 0) *pair = own;

@@ -104,6 +104,10 @@ static void Test_Private(const Pieces *s, const Which *which, const Piece *p, co
 
   if (!Counts_Private(s, which, p, q)) return;
   depth = PetscMax(Depth_Private(s->dim, p, q), Depth_Private(s->dim, q, p));
+  for (PetscInt c = 0; c < 3 && depth > 0; ++c) {
+    worst->box[c]     = PetscMin(worst->box[c], PetscMin(p->box[c], q->box[c]));
+    worst->box[3 + c] = PetscMax(worst->box[3 + c], PetscMax(p->box[3 + c], q->box[3 + c]));
+  }
   if (depth <= worst->depth) return;
   worst->depth   = depth;
   worst->body[0] = PetscMin(p->body, q->body);
@@ -180,18 +184,22 @@ static PetscErrorCode Exchange_Private(MPI_Comm comm, Pieces *s)
 /* The worst of those collected, of all ranks. */
 static PetscErrorCode Find_Private(MPI_Comm comm, Pieces *s, const Which *which, Passage *worst)
 {
-  PetscReal   depth;
-  PetscMPIInt owner;
+  const PetscReal most = PETSC_MAX_REAL;
+  PetscReal       depth, box[6];
+  PetscMPIInt     owner;
 
   PetscFunctionBegin;
-  *worst = (Passage){.depth = 0};
+  *worst = (Passage){.box = {most, most, most, -most, -most, -most}};
   PetscCall(Exchange_Private(comm, s));
   Sweep_Private(s, which, worst);
   PetscCall(PetscFree(s->piece));
   PetscCallMPI(MPI_Allreduce(&worst->depth, &depth, 1, MPIU_REAL, MPI_MAX, comm));
   if (!(depth > 0)) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(RankFirst(comm, (PetscBool)(worst->depth == depth), &owner));
+  for (PetscInt c = 0; c < 6; ++c) box[c] = c < 3 ? -worst->box[c] : worst->box[c];
   PetscCallMPI(MPI_Bcast(worst, (PetscMPIInt)sizeof(*worst), MPI_BYTE, owner, comm));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, box, 6, MPIU_REAL, MPI_MAX, comm));
+  for (PetscInt c = 0; c < 6; ++c) worst->box[c] = c < 3 ? -box[c] : box[c];
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

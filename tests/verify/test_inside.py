@@ -47,3 +47,32 @@ def test_as_the_mesh_has_them(run, tmp_path, dim):
     assert still.returncode == 0 and still.summary["refused_solutions"] == 0, still
     other = run("s.yml", *GIVE_UP, text=scene(tmp_path, dim, [0.3, 1.001], [0, 0.7]))
     assert other.returncode == 2 and other.summary["refused_solutions"] == 1, other
+
+
+ARM = """
+Point(1) = {0, 0, 0}; Point(2) = {2, 0, 0}; Point(3) = {2, 0.2, 0}; Point(4) = {1.7, 0.2, 0}; Point(5) = {1.7, 1.2, 0}; Point(6) = {1.5, 1.2, 0};
+Point(7) = {1.5, 0.2, 0}; Point(8) = {0.2, 0.2, 0}; Point(9) = {0.2, 0.62, 0}; Point(10) = {1.3, 0.62, 0}; Point(11) = {1.3, 0.83, 0}; Point(12) = {0, 0.83, 0};
+For i In {1:12}
+  Line(i) = {i, i % 12 + 1};
+EndFor
+Curve Loop(1) = {1:12}; Plane Surface(1) = {1}; MeshSize {:} = 0.1;
+Physical Surface("all") = {1}; Physical Curve("bottom") = {1}; Physical Curve("arm") = {9, 11}; Physical Curve("hull") = {4:6, 9:11};
+"""
+
+
+@pytest.mark.parametrize("ranks", [1, 2])
+def test_arm_in_its_own_post(run, tmp_path, ranks):
+    """The arm of a body is drawn through a post of the same body in one step; a search that is too short sees nothing."""
+    (tmp_path / "arm.geo").write_text(ARM)
+    text = json.dumps({"mesh": {"file": "arm.geo", "order": 1}, "model": "plane_strain", "body": {"all": {"material": "rubber"}}, "material": {"rubber": RUBBER},
+                       "boundary": {"bottom": {"fix": "xy"}, "arm": {"displacement": {"x": "0.6*max(0, X - 0.2)/1.1", "y": 0}}}, "load": {"step": 1},
+                       "contact": {"own": {"surface": "hull", "search": 0.01}}})
+    told, without = (run("s.yml", *GIVE_UP, *words, text=text, ranks=ranks) for words in ((), ("-path_inside", "off")))
+    assert told.returncode == 2 and told.summary["refused_solutions"] > 0, told
+    assert without.returncode == 0 and not any(without.summary["contact"]["own"]["force"]), without
+
+
+def test_corner_of_a_coil(run):
+    """The end of a coil touches the next turn with a corner, within a facet: that far weighted gaps let it, and it is no contact that is lost."""
+    result = run("tests/gauntlet/coil.yml", "-output_fields", "false")
+    assert result.returncode == 0 and result.summary["refused_solutions"] == 0 and result.summary["newton_iterations"] < 200, result
