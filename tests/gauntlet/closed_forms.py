@@ -64,6 +64,22 @@ def upset(area, rounded_off, height, plane_strain):
     return factor * (4 + 3 * factor * math.log(1 / height)) * (area - rounded_off) / height
 
 
+def ring(radii, pressures, E, nu):
+    """u = A r + B / r of a ring in plane strain, small strains, under pressures inside and outside: A, B."""
+    (a, b), (p, q), (mu, lam) = radii, pressures, lame(E, nu)
+    return (p * a**2 - q * b**2) / (b**2 - a**2) / (2 * (lam + mu)), (p - q) * a**2 * b**2 / (b**2 - a**2) / (2 * mu)
+
+
+def glued_rings(a, b, c, laws):
+    """Displacement of the bore under pressure 1, of two rings glued to each other at the radius b."""
+    def apart(q):
+        (A, B), (C, D) = ring((a, b), (1, q), *laws[0]), ring((b, c), (q, 0), *laws[1])
+        return (A - C) * b + (B - D) / b
+
+    A, B = ring((a, b), (1, root(apart, 0, 1)), *laws[0])
+    return A * a + B / a
+
+
 EDGE = (1 - math.pi / 4) * 0.15**2  # what is missing at the rounded edge
 FIGURES = {
     "sunk": -1.2 * stacked((1, 0.7), ((6, 0.3), (2, 0.2)), 0.2),
@@ -87,6 +103,7 @@ FIGURES = {
     "shrink": shrink((0.5, 1, 0.98, 2), (210, 70), (0.3, 0.33)),
     "upset": upset(math.pi, 2 * math.pi * (1 - 0.2234 * 0.15) * EDGE, 0.8, False),  # its centroid is 0.2234 radii from the edge
     "upset_strip": upset(1, EDGE, 0.85, True),
+    "glue_rings": glued_rings(1, 1.5, 2, ((10, 0.3), (1, 0.3))),
     "shrink_reversed": shrink((0.5, 1, 0.98, 2), (70, 210), (0.33, 0.3)),
 }
 
