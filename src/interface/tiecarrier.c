@@ -37,6 +37,20 @@ static PetscErrorCode Crossings_Private(Interface p, const Contact *c, PetscBool
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Does the facet have this node, or one that follows it? Facets that hanging nodes join have rows of each other's nodes. */
+static PetscBool Has_Private(const Surface *s, PetscInt facet, PetscInt node)
+{
+  const PetscInt *own, num = SurfaceNodes_Private(s, facet, &own);
+
+  for (PetscInt k = 0; k < num; ++k) {
+    const PetscReal *weight;
+    const PetscInt  *master, rows = SurfaceRow_Private(s, &own[k], &master, &weight);
+    for (PetscInt i = 0; i < rows; ++i)
+      if (master[i] == node) return PETSC_TRUE;
+  }
+  return PETSC_FALSE;
+}
+
 /* Functions of a facet that is covered in part and of which too little is covered say what the others say, and their multipliers would be as large as that is
    little: keep[n] those nodes of which one facet shows enough, and of a facet without any the one that is seen best. */
 static PetscErrorCode Seen_Private(Interface p, const Contact *c, PetscBool keep[])
@@ -50,9 +64,12 @@ static PetscErrorCode Seen_Private(Interface p, const Contact *c, PetscBool keep
   PetscCall(ContactPairSetCarriers(c->pair, &side[0], NULL));
   PetscCall(ContactPairTie(c->pair, &side[0], &side[1], &num, &facets, &failed));
   PetscCall(PetscArrayzero(keep, c->side[0].num_nodes));
-  for (PetscInt i = 0; i < num; ++i)
-    for (PetscInt r = 0; r < facets[i].num_rows && c->mine[facets[i].facet]; ++r)
-      if (facets[i].weight[r] * facets[i].whole[r] > CONTACT_SLIVER * PetscSqr(facets[i].whole[r])) keep[facets[i].nodes[r]] = PETSC_TRUE;
+  for (PetscInt i = 0; i < num; ++i) {
+    const ContactFacet *f = &facets[i];
+    for (PetscInt r = 0; r < f->num_rows && c->mine[f->facet]; ++r)
+      if (f->weight[r] * f->whole[r] > CONTACT_SLIVER * PetscSqr(f->whole[r]) && Has_Private(&c->side[0], f->facet, f->nodes[r]))
+        keep[f->nodes[r]] = PETSC_TRUE;
+  }
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, keep, (PetscMPIInt)c->side[0].num_nodes, COMPAT_MPI_BOOL, MPI_LOR, p->comm));
   for (PetscInt i = 0; i < num; ++i) {
     const ContactFacet *f    = &facets[i];
@@ -60,7 +77,8 @@ static PetscErrorCode Seen_Private(Interface p, const Contact *c, PetscBool keep
     PetscInt            best = -1;
     for (PetscInt r = 0; r < f->num_rows; ++r) {
       any = (PetscBool)(any || keep[f->nodes[r]]);
-      if (f->whole[r] != 0 && (best < 0 || f->weight[r] * f->whole[best] > f->weight[best] * f->whole[r])) best = r;
+      if (!Has_Private(&c->side[0], f->facet, f->nodes[r])) continue;
+      if (best < 0 || f->weight[r] * f->whole[best] > f->weight[best] * f->whole[r]) best = r;
     }
     if (!any && best >= 0 && c->mine[f->facet]) keep[f->nodes[best]] = PETSC_TRUE;
   }

@@ -34,10 +34,7 @@ PetscErrorCode ContactTieFacet(const EvaluateContext *ctx, PetscInt facet, Conta
   PetscCall(ContactRayWalk(w, ctx->mortar, Point_Private, m));
   PetscCall(ContactStoreReserve(&w->result.store, nr * num, &tie));
   PetscCall(ContactStoreReserve(&w->result.store, nr, &whole));
-  for (PetscInt r = 0; r < nr; r++) {
-    whole[r] = ctx->pair->multiplier->measure[ctx->pair->multiplier->row_first[facet] + r];
-    if (whole[r] != 0 && !w->share.part) whole[r] = out->weight[r];
-  }
+  for (PetscInt r = 0; r < nr; r++) whole[r] = w->share.part ? ctx->pair->multiplier->measure[ctx->pair->multiplier->row_first[facet] + r] : out->weight[r];
   for (PetscInt v = 0; v < na + w->num_mortar; v++)
     for (PetscInt k = w->result.row_first[v]; k < w->result.row_first[v + 1]; k++)
       for (PetscInt r = 0; r < nr; r++)
