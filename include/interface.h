@@ -20,6 +20,7 @@ typedef struct {
   uint64_t     frozen_normals; /* pairs with tangents at fixed directions */
   uint64_t     deepest_first;  /* pairs of which those nodes join the active set first that overlap the most */
   MaterialEdge edge;           /* what tangents expect of points on their yield surface */
+  PetscReal    secant;         /* share of the secant stiffness of plastic flow in the tangent, the rest is its derivative */
   PetscReal    proximal;       /* share of the small stiffness of bodies that no support holds (MechanicsSetProximalShift) */
 } Form;
 

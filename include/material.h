@@ -80,7 +80,8 @@ typedef struct {
      functions of F and history alone. */
   const PetscReal *history;
   PetscReal       *trial;
-  MaterialEdge     edge; /* for A */
+  MaterialEdge     edge;   /* for A, and */
+  PetscReal        secant; /* share of the secant stiffness of plastic flow in A; 0: A is the derivative of P */
   PetscBool held; /* trial alone: points beyond the yield surface go back to it without any flow, the elastic strain radially, plastic strain unchanged */
   PetscBool bad;  /* out: set at points with det F <= 0, or where the law has no answer (the energy exceeds all numbers, the yield stress is used up) (numerical
                      status, no error); never reset */

@@ -235,8 +235,8 @@ PetscErrorCode MechanicsCommit(Mechanics, const PetscReal u[], PetscReal history
 PetscErrorCode MechanicsAdmit(Mechanics, const PetscReal u[], PetscReal history[]);
 /* At how many integration points of this rank material flows on the way from the history last set to u. Not collective. */
 PetscErrorCode MechanicsNumFlowing(Mechanics, const PetscReal u[], PetscInt *num);
-/* What the tangent expects of points on their yield surface. Not collective. */
-PetscErrorCode MechanicsSetEdge(Mechanics, MaterialEdge);
+/* What the tangent expects of points on their yield surface, and the share of the secant stiffness of plastic flow in it (MaterialPoints). Not collective. */
+PetscErrorCode MechanicsSetFlow(Mechanics, MaterialEdge, PetscReal secant);
 /* The integration points of a cell of this order: tensor products of this table's, the first direction fastest. Not collective. */
 PetscErrorCode MechanicsPointRule(PetscInt order, const Basis1D **);
 /* Where an owned cell's numbers lie in the array; num 0: no history, rigid, or a ghost. */

@@ -211,8 +211,9 @@ INLINE void Remember_Private(const Deformation *d, const Step *t, Lanes trial[7]
   trial[6] = t->alpha;
 }
 
-/* a_imkl = ds_im/dl_kl - delta_mk s_il for dF = l F: the exact derivative of the step. Not symmetric by n (x) dev n^2. */
-INLINE void SpatialTangent_Private(const MaterialSpec *spec, const Step *t, Lanes a[81])
+/* a_imkl = ds_im/dl_kl - delta_mk s_il for dF = l F: the exact derivative of the step. Not symmetric by n (x) dev n^2. Of the part n (x) c, by which beta
+   changes, s = beta s_tr, a share is left out: without it this is the secant stiffness. */
+INLINE void SpatialTangent_Private(const MaterialSpec *spec, const Step *t, PetscReal secant, Lanes a[81])
 {
   const PetscReal mu   = spec->mu;
   const Lanes     mu_b = mu * t->mean, bottom = 2 * mu_b + 2. / 3 * t->slope;
@@ -225,7 +226,7 @@ INLINE void SpatialTangent_Private(const MaterialSpec *spec, const Step *t, Lane
   for (int k = 0; k < 9; k++) {
     const Lanes dlength = 2 * mu_b * t->n[k] + 2 * t->length * (n2[k] - (k % 4 == 0 ? 1. / 3 : 0)); /* d|s_tr|/dl, dev n^2 where n is a unit tensor */
 
-    c[k] = LanesSelect(t->flows, share * (dlength - 4. / 3 * t->dg * t->length * t->n[k]) - beta * dlength, (Lanes){0});
+    c[k] = LanesSelect(t->flows, (1 - secant) * (share * (dlength - 4. / 3 * t->dg * t->length * t->n[k]) - beta * dlength), (Lanes){0});
   }
   for (int i = 0; i < 3; i++) {
     for (int m = 0; m < 3; m++) {
@@ -276,7 +277,7 @@ INLINE void J2Point_Private(const MaterialSpec *spec, MaterialPart part, const D
   for (int k = 0; r->want_P && k < 9; k++)
     r->P[k] = inverse * (t.s[k - k % 3] * c[k % 3] + t.s[k - k % 3 + 1] * c[3 + k % 3] + t.s[k - k % 3 + 2] * c[6 + k % 3]) + U[1] * c[k];
   if (!r->want_A) return;
-  SpatialTangent_Private(spec, &t, a);
+  SpatialTangent_Private(spec, &t, d->secant, a);
   PullBack_Private(d, a, r->A);
   AddSquare(r->A, U[2], c);
   AddCofactorDerivative(r->A, U[1], d->F);

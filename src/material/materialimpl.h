@@ -12,7 +12,8 @@ typedef struct {
   Lanes        fiber[MATERIAL_MAX_FIBERS][3];
   Lanes        jm1, J, lnJ;
   Lanes        history[MATERIAL_MAX_HISTORY]; /* of laws that have one */
-  MaterialEdge edge;                          /* as in MaterialPoints */
+  MaterialEdge edge;                          /* as in MaterialPoints, and so */
+  PetscReal    secant;
   PetscBool    held;
 } Deformation;
 
@@ -199,8 +200,9 @@ INLINE void PointLoop(PointLaw law, const PetscInt num_history, const MaterialSp
     LoadPoints(3 * spec->num_fibers, n, i, count, points->fiber, d.fiber[0]);
     if (num_history) LoadPoints(num_history, n, i, count, points->history, d.history);
     DeformationSet(&d, &any);
-    d.edge = points->edge;
-    d.held = points->held;
+    d.edge   = points->edge;
+    d.secant = points->secant;
+    d.held   = points->held;
     law(spec, part, &d, &r);
     StorePoints(1, n, i, count, &r.W, points->W);
     StorePoints(9, n, i, count, r.P, points->P);

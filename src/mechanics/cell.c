@@ -256,6 +256,7 @@ static PetscErrorCode Law_Private(CellKernel k, PetscBool tangent, const CellBat
                              .history = (PetscReal *)&k->history[s * h * slab],
                              .trial   = (PetscReal *)&k->trial[s * h * slab],
                              .edge    = b->edge,
+                             .secant  = b->secant,
                              .held    = b->held};
 
     PetscCall(MaterialEvaluate(&k->material, part, &points));

@@ -188,10 +188,11 @@ PetscErrorCode MechanicsNumFlowing(Mechanics m, const PetscReal u[], PetscInt *n
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode MechanicsSetEdge(Mechanics m, MaterialEdge edge)
+PetscErrorCode MechanicsSetFlow(Mechanics m, MaterialEdge edge, PetscReal secant)
 {
   PetscFunctionBegin;
-  m->edge = edge;
+  m->edge   = edge;
+  m->secant = secant;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -212,6 +212,7 @@ PetscErrorCode MechanicsTangent(Mechanics m, const PetscReal u[], const PetscRea
                          .num_inner = g->num_inner,
                          .inner     = g->factor + first * g->num_inner * m->dim * nd,
                          .edge      = m->edge,
+                         .secant    = m->secant,
                          .history   = MechanicsBatchHistory_Private(m, g, first)};
       PetscCall(GatherBatch_Private(m, g, first, batch.nc, u, b.u));
       if (g->m) {

@@ -23,7 +23,8 @@ typedef struct {
   PetscReal       *residual; /* [nc][n*d] dE/du, row node*d + component; a function of u alone unless the stored pressure acts */
   const PetscReal *history;  /* [nc][points][num_history] of laws with history, as the last accepted step left it */
   PetscReal       *trial;    /* [nc][points][num_history] as a step that ended at u would leave it */
-  MaterialEdge     edge;     /* for the tangent */
+  MaterialEdge     edge;     /* for the tangent, and */
+  PetscReal        secant;   /* as in MaterialPoints */
   PetscBool        held;     /* trial alone: as in MaterialPoints */
   PetscReal       *tangent;  /* [nc][n*d][n*d] full, symmetric unless the law is not; exact derivative of residual when pressure is NULL or consistent */
   const PetscInt  *place;    /* [n] NULL, or where the nodes stand, inner ones first: then of the symmetric matrix only K[row <= column] are written,
@@ -180,7 +181,8 @@ struct _p_Mechanics {
   CellNumbers  stored;     /* element pressures that are condensed, as MechanicsStorePressure took them; no ghosts: there are none */
   PetscBool    has_stored; /* it did */
   CellNumbers  history;    /* as the last accepted step left it; no ghosts: no law has any */
-  MaterialEdge edge;       /* for the tangent */
+  MaterialEdge edge;       /* for the tangent, and */
+  PetscReal    secant;     /* as in MaterialPoints */
 };
 
 /* History of the cells of a group from position `first` on; NULL: its law has none. */

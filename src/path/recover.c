@@ -81,11 +81,13 @@ static PetscErrorCode Cut_Private(Path *p, const PathLoop *load, PetscReal to, c
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* ---- friction, with the other predictor --------------------------------------------------------------------------------------------- */
+/* ---- with the other predictor ------------------------------------------------------------------------------------------------------ */
 
-static PetscBool Slips_Private(const Path *p, const State *guess)
+static PetscBool HasTwo_Private(const Path *p, const State *guess)
 {
-  return (PetscBool)(!guess && p->data->mechanics.kinematics != KINEMATICS_SMALL && InterfaceSlips(ProblemInterface(p->level->problem)));
+  const PetscBool slides = (PetscBool)(p->data->mechanics.kinematics != KINEMATICS_SMALL && InterfaceSlips(ProblemInterface(p->level->problem)));
+
+  return (PetscBool)(!guess && (slides || MechanicsIsPlastic(&p->data->mechanics)));
 }
 
 static PetscErrorCode Predictor_Private(Path *p, const PathLoop *load, PetscReal to, const State *guess, SolverReport *report)
@@ -132,7 +134,7 @@ const Recovery PathRecoveries[PATH_RECOVERIES] = {
     {"unfreeze", "once more from the start of the step, with the segmentation of contact no longer frozen", 0, IsFrozen_Private, Unfreeze_Private},
     {"cut", "on another mesh, the way of the load from the accepted state again, in pieces", 0, IsCarried_Private, Cut_Private},
     {"overlap", "overlap that bodies at rest begin with is taken away in pieces, the deepest place first", 0, IsAtRest_Private, Overlap_Private},
-    {"predictor", "with friction, once more with the other predictor: bodies carried to their new places first, or not", 0, Slips_Private, Predictor_Private},
+    {"predictor", "once more with the other predictor: with friction, bodies carried to their new places first, or not; plastic material first elastic", 0, HasTwo_Private, Predictor_Private},
     {"descent", "down on the energy of contact and bodies, each iterate lower than the one before, to an equilibrium that is not near by", 1, PathCanDescend,
      PathDescend},
     {"viscous", "viscous regularisation: bodies creep to an equilibrium that is not near by, as when they snap", 2, Always_Private, Viscous_Private},

@@ -206,7 +206,7 @@ PetscErrorCode ProblemSetForm(Problem p, const Form *form)
 {
   PetscFunctionBegin;
   p->form = *form;
-  PetscCall(MechanicsSetEdge(p->mechanics, form->edge));
+  PetscCall(MechanicsSetFlow(p->mechanics, form->edge, form->secant));
   PetscCall(MechanicsSetProximalShift(p->mechanics, form->proximal));
   PetscCall(InterfaceSetForm(p->interface, &p->form));
   PetscFunctionReturn(PETSC_SUCCESS);

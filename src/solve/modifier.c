@@ -3,9 +3,9 @@
    order: who corrects a linear step sees what the rows above have made of it. */
 #include "solveimpl.h"
 
-static const Modifier *const Modifiers[] = {&ModifierFrozenSegmentation, &ModifierStall,          &ModifierFrozenNormals,
-                                            &ModifierFirstTouch,         &ModifierProximalShift,  &ModifierSlideLimiter,
-                                            &ModifierYieldEdge,          &ModifierSlidePredictor, &ModifierLineSearch};
+static const Modifier *const Modifiers[] = {&ModifierFrozenSegmentation, &ModifierStall,        &ModifierFrozenNormals, &ModifierFirstTouch,
+                                            &ModifierProximalShift,      &ModifierSlideLimiter, &ModifierYieldEdge,     &ModifierSecantFlow,
+                                            &ModifierSlidePredictor,     &ModifierLineSearch};
 #define NUM ((PetscInt)PETSC_STATIC_ARRAY_LENGTH(Modifiers))
 _Static_assert(PETSC_STATIC_ARRAY_LENGTH(Modifiers) <= SOLVER_MOST_MODIFIERS, "SolverReport has no room for all modifiers");
 

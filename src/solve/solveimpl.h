@@ -61,6 +61,9 @@ struct _p_Solver {
   uint64_t      last_set;        /* … and its active set */
   PetscBool     shortened;       /* was the last step too far (line search)? */
   PetscBool     grew, fell;      /* has the residual grown in this solve while the set stayed, and fallen since? */
+  PetscReal     step;            /* share of the last linear step that was gone */
+  PetscReal     flow_norm;       /* residual of the last iterate of plastic material … */
+  PetscReal     flow_start;      /* … and that from which the share of the secant stiffness counts */
   PetscInt      halvings;        /* steps shortened in this solve */
   PetscBool     settled;         /* the active set of the last linear step, before its passes were used up */
   PetscInt      negative;        /* pivots of the last factor of this solve beyond those of constraints, -1: not known */
@@ -102,7 +105,7 @@ typedef struct {
 } Modifier;
 
 extern const Modifier ModifierFrozenSegmentation, ModifierStall, ModifierFrozenNormals, ModifierFirstTouch, ModifierProximalShift, ModifierSlideLimiter,
-    ModifierYieldEdge, ModifierSlidePredictor, ModifierLineSearch;
+    ModifierYieldEdge, ModifierSecantFlow, ModifierSlidePredictor, ModifierLineSearch;
 /* modifier.c: all that are not off, in the order of the table. */
 const Modifier *SolverModifier_Private(PetscInt);
 PetscErrorCode  ModifiersBegin_Private(Solver);

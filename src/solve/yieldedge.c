@@ -11,7 +11,7 @@ static PetscErrorCode Linearise_Private(Solver s, const Iterate *it, const Form 
   PetscFunctionBegin;
   PetscCall(ProblemGetScene(s->problem, &scene));
   if (!MechanicsIsPlastic(&scene->mechanics)) PetscFunctionReturn(PETSC_SUCCESS);
-  s->form.edge = it->number == 0 ? EDGE_FLOWS : last->released ? EDGE_RESTS : EDGE_AS_IT_IS;
+  s->form.edge = it->number == 0 ? (s->swap ? EDGE_RESTS : EDGE_FLOWS) : last->released ? EDGE_RESTS : EDGE_AS_IT_IS;
   *acts        = (PetscBool)(s->form.edge != EDGE_AS_IT_IS);
   PetscFunctionReturn(PETSC_SUCCESS);
 }

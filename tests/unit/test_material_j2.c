@@ -223,6 +223,31 @@ static void TangentAtTheEdge(void **state)
   assert_true(flow > p.spec.mu);
 }
 
+/* Sheared by twenty times what it yields at: the secant stiffness is stress over strain, many times the derivative, and symmetric; between the two A is linear.
+ */
+static void SecantStiffness(void **state)
+{
+  static const PetscReal share[3] = {0, 0.25, 1};
+  PetscReal              A[3][81];
+  Point                  p;
+
+  PointMake(&p, 'A');
+  const PetscReal shear = 20 / sqrt(3) * p.spec.parameter[5] / p.spec.mu;
+  Diagonal(&p, 1, 1);
+  p.F[1] = shear;
+  Evaluate(&p);
+  for (int s = 0; s < 3; s++) {
+    MaterialPoints point = {.n = 1, .F = p.F, .A = A[s], .history = p.history, .trial = p.trial, .secant = share[s]};
+    OK(MaterialEvaluate(&p.spec, MATERIAL_FULL, &point));
+  }
+  assert_near(A[2][10] * shear / p.P[1], 1, 0.05);
+  assert_true(A[0][10] < 0.2 * A[2][10]);
+  for (int k = 0; k < 81; k++) {
+    assert_near(A[1][k], 0.75 * A[0][k] + 0.25 * A[2][k], 1e-12 * p.spec.kappa);
+    assert_near(A[2][k], A[2][9 * (k % 9) + k / 9], 1e-12 * p.spec.kappa);
+  }
+}
+
 /* |dev tau| - sqrt(2/3) k(alpha), k of set S, tau = P F^T. */
 static PetscReal YieldExcess(const Point *p)
 {
@@ -325,7 +350,7 @@ int main(int argc, char **argv)
 {
   const struct CMUnitTest tests[] = {cmocka_unit_test(UniaxialBars),        cmocka_unit_test(SimpleShear),      cmocka_unit_test(TangentInAllBranches),
                                      cmocka_unit_test(HistoryIsAdmissible), cmocka_unit_test(SofteningRunsOut), cmocka_unit_test(PlasticWork),
-                                     cmocka_unit_test(TangentAtTheEdge),    cmocka_unit_test(SwiftsLaw)};
+                                     cmocka_unit_test(TangentAtTheEdge),    cmocka_unit_test(SecantStiffness),  cmocka_unit_test(SwiftsLaw)};
 
   if (PetscInitialize(&argc, &argv, NULL, NULL)) return 1;
   const int failed = cmocka_run_group_tests(tests, NULL, NULL);
