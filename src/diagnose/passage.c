@@ -307,25 +307,22 @@ static PetscErrorCode FindEnclosed_Private(MPI_Comm comm, const Pieces *s, const
 PetscErrorCode PassageFind(Problem problem, const State *state, PetscInt group, Passage *worst)
 {
   const Which which = {.group = group};
-  Forest      forest;
-  Pieces      s = {0};
+  Pieces      s     = {0};
 
   PetscFunctionBegin;
-  PetscCall(ProblemGetForest(problem, &forest));
   PetscCall(PiecesCollect_Private(problem, state, PETSC_FALSE, &s));
-  PetscCall(Find_Private(ForestComm(forest), &s, &which, worst));
+  PetscCall(Find_Private(ForestComm(ProblemForest(problem)), &s, &which, worst));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode PassageFindApart(Problem problem, const State *state, Passage *worst)
 {
-  Which   which = {.group = -1, .apart = PETSC_TRUE};
-  Forest  forest;
-  Pieces  s = {0};
+  Which   which  = {.group = -1, .apart = PETSC_TRUE};
+  Forest  forest = ProblemForest(problem);
+  Pieces  s      = {0};
   Passage whole;
 
   PetscFunctionBegin;
-  PetscCall(ProblemGetForest(problem, &forest));
   PetscCall(PiecesCollect_Private(problem, state, PETSC_TRUE, &s));
   PetscCall(PiecesParts_Private(&s, ForestComm(forest), &which.sides));
   PetscCall(FindEnclosed_Private(ForestComm(forest), &s, &which, &whole));

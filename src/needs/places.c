@@ -41,13 +41,12 @@ PetscErrorCode NeedsCorners(const NeedsRun *run, PetscInt axis, const PetscReal 
 {
   const HPTables     *v;
   const ForestTables *t;
-  HPSpace             space;
+  HPSpace             space = ProblemSpace(run->level->problem);
   PetscReal          *local, *X, *u;
   PetscInt            most = 1;
 
   PetscFunctionBegin;
   PetscCall(ForestGetTables(run->level->forest, &t));
-  PetscCall(ProblemGetSpace(run->level->problem, &space));
   PetscCall(HPSpaceGetTables(space, &v));
   for (PetscInt c = 0; c < v->num_owned_cells; ++c) most = PetscMax(most, v->cell_order[c]);
   most = ElementNumNodes(v->dim, most) * v->dim;

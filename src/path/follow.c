@@ -50,11 +50,9 @@ void PathCount(Path *p, const SolverReport *report, PetscBool equilibrium)
 PetscErrorCode PathFrom(const Path *p, PetscReal **from)
 {
   const HPTables *v;
-  HPSpace         space;
 
   PetscFunctionBegin;
-  PetscCall(ProblemGetSpace(p->level->problem, &space));
-  PetscCall(HPSpaceGetTables(space, &v));
+  PetscCall(HPSpaceGetTables(ProblemSpace(p->level->problem), &v));
   PetscCall(PetscMalloc1(v->num_nodes * v->dim, from));
   PetscCall(ProblemLocalDisplacement(p->level->problem, p->level->state.x, *from));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -12,11 +12,9 @@ static PetscErrorCode Start_Private(Descent *d)
 {
   const HPTables *v;
   PetscReal      *local;
-  HPSpace         space;
 
   PetscFunctionBegin;
-  PetscCall(ProblemGetSpace(d->problem, &space));
-  PetscCall(HPSpaceGetTables(space, &v));
+  PetscCall(HPSpaceGetTables(ProblemSpace(d->problem), &v));
   PetscCall(PetscMalloc1(v->num_nodes * v->dim, &local));
   for (PetscInt i = 0; i < v->num_nodes * v->dim; ++i) {
     const PetscReal *X = v->X + 3 * (i / v->dim), a = 1 + (PetscReal)(i % v->dim);
