@@ -47,10 +47,8 @@ static void Places_Private(const Pieces *s, const PetscInt bare[], PetscInt *num
       for (PetscInt behind = 0; behind < 2; ++behind) {
         Place *to = &place[(*num)++];
         *to       = (Place){.pair = k / 2, .side = k % 2, .part = p->part};
-        for (PetscInt c = 0; c < 3; ++c) {
-          for (PetscInt a = 0; a < s->dim; ++a) to->x[c] += p->x[3 * a + c] / s->dim;
-          to->x[c] -= (PetscReal)behind * p->size * p->N[c];
-        }
+        PieceMiddle_Private(s->dim, p->x, to->x);
+        for (PetscInt c = 0; c < 3; ++c) to->x[c] -= (PetscReal)behind * p->size * p->N[c];
       }
     }
   }
