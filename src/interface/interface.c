@@ -39,7 +39,6 @@ PetscErrorCode InterfaceDestroy(Interface *interface)
 
   PetscFunctionBegin;
   if (!p) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(TrafficReport_Private(p));
   for (PetscMPIInt k = 1; k <= MOST_REALS; ++k) PetscCallMPI(MPI_Type_free(&p->unit[k]));
   for (PetscInt i = 0; i < p->num_contacts; ++i) PetscCall(ContactDestroy_Private(&p->contacts[i]));
   PetscCall(PetscFree(p->contacts));

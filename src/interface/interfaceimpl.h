@@ -269,9 +269,6 @@ PetscErrorCode LinkSet_Private(Interface, const Surface *, PetscInt num, const P
 PetscErrorCode LinkDestroy_Private(Link *);
 PetscErrorCode LinkSpread_Private(Interface, const Link *, PetscInt size, PetscReal values[]);
 PetscErrorCode LinkCollect_Private(Interface, const Link *, PetscInt size, PetscReal values[]);
-PetscErrorCode TrafficReport_Private(Interface); /* with -info */
-PetscErrorCode ExchangeBegin_Private(Interface);
-PetscErrorCode ExchangeEnd_Private(Interface);
 /* Positions known without exchange; `has` says so and everything else is forgotten. */
 void SurfaceForget_Private(Surface *);
 /* After a search: what this rank needs until the next one. */
@@ -309,9 +306,6 @@ static inline PetscBool ContactIsReleased_Private(Interface p, const Contact *c)
 {
   return FormHas(p->form->released, (PetscInt)(c - p->contacts));
 }
-/* insert.c: as MatSetValues, of contact: values in the diagonal block. */
-PetscErrorCode ContactInsert_Private(Mat, PetscInt num_rows, const PetscInt rows[], PetscInt num_columns, const PetscInt columns[], const PetscReal K[],
-                                     InsertMode);
 /* rigid.c, where bodies move by forces. Forces: rows q[num_q] from the entries v[dim num] of a facet's nodes. Hessian: what a facet's adds to the rows and
    columns of q. */
 void           ContactRigidForces_Private(const Contact *, const ContactFacet *, const PetscReal v[], PetscReal q[]);
