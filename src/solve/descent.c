@@ -22,11 +22,8 @@
 PetscErrorCode SolverHasDescent(Solver s, PetscBool *yes)
 {
   PetscFunctionBegin;
-  *yes = PETSC_FALSE;
-#if defined(PETSC_HAVE_MUMPS)
   PetscCall(ProblemHasEnergy(s->problem, yes));
   if (s->saddle) *yes = PETSC_FALSE;
-#endif
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -52,9 +49,7 @@ static PetscErrorCode Factors_Private(Descent *d)
   PetscCall(KSPSetType(d->ksp, KSPPREONLY));
   PetscCall(KSPGetPC(d->ksp, &pc));
   PetscCall(PCSetType(pc, PCCHOLESKY));
-#if defined(PETSC_HAVE_MUMPS)
   PetscCall(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS));
-#endif
   PetscCall(PCSetFromOptions(pc));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -110,6 +105,7 @@ static PetscErrorCode Factor_Private(Descent *d, Mat A, PetscInt *negative)
   PCFailedReason failed;
   PetscInt       constraints;
   PC             pc;
+  Mat            F;
 
   PetscFunctionBegin;
   *negative = NO_FACTOR;
@@ -122,11 +118,8 @@ static PetscErrorCode Factor_Private(Descent *d, Mat A, PetscInt *negative)
   PetscCall(PCGetFailedReason(pc, &failed));
   if (failed == PC_FACTOR_OUTMEMORY) *negative = NO_MEMORY;
   if (failed != PC_NOERROR) PetscFunctionReturn(PETSC_SUCCESS);
-#if defined(PETSC_HAVE_MUMPS)
-  Mat F;
   PetscCall(PCFactorGetMatrix(pc, &F));
   PetscCall(MatMumpsGetInfog(F, 12, negative));
-#endif
   PetscCall(ProblemNumNegative(d->problem, &constraints));
   *negative = PetscMax(0, *negative - constraints);
   PetscFunctionReturn(PETSC_SUCCESS);

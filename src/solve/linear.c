@@ -1,4 +1,4 @@
-/* The linear solver: one direct factorisation by default, LDL^T where the tangent is symmetric, LU otherwise; MUMPS where PETSc has it, in single precision
+/* The linear solver: one direct factorisation by default, LDL^T where the tangent is symmetric, LU otherwise; MUMPS, in single precision
  * with GMRES in double where that pays; every option of KSP and PC works as usual. */
 #include "solveimpl.h"
 
@@ -19,9 +19,7 @@ static PetscErrorCode Kind_Private(Solver s, PC pc)
     PetscFunctionReturn(PETSC_SUCCESS);
   }
   PetscCall(PCSetType(pc, s->symmetric ? PCCHOLESKY : PCLU));
-#if defined(PETSC_HAVE_MUMPS)
   PetscCall(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS));
-#endif
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -74,7 +72,6 @@ PetscErrorCode SolverUnsymmetric_Private(Solver s)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-#if defined(PETSC_HAVE_MUMPS)
 /* Did MUMPS run out of its own workspace estimate? Then forget the factor and let the next one have four times the reserve (percent, ICNTL(14)). It has to
    come through the options: MUMPS ignores a new value between analysis and factorisation. */
 static PetscErrorCode MoreWorkspace_Private(PC pc, PetscBool *again)
@@ -101,7 +98,6 @@ static PetscErrorCode MoreWorkspace_Private(PC pc, PetscBool *again)
   *again = PETSC_TRUE;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
-#endif
 
 /* Are all entries finite? With others MUMPS ends in a signal. */
 static PetscErrorCode IsFinite_Private(Mat A, PetscBool *yes)
@@ -129,7 +125,6 @@ static PetscErrorCode Factor_Private(Solver s, Mat A)
   PetscCall(KSPSetUp(ksp));
   PetscCall(KSPGetPC(ksp, &pc));
   PetscCall(PCGetFailedReason(pc, &failed));
-#if defined(PETSC_HAVE_MUMPS)
   for (PetscBool again = (PetscBool)(failed != PC_NOERROR); again;) {
     PetscCall(MoreWorkspace_Private(pc, &again));
     if (!again) break;
@@ -138,7 +133,6 @@ static PetscErrorCode Factor_Private(Solver s, Mat A)
     PetscCall(PCGetFailedReason(pc, &failed));
     again = (PetscBool)(failed != PC_NOERROR);
   }
-#endif
   s->no_memory = (PetscBool)(failed == PC_FACTOR_OUTMEMORY);
   PetscCall(SolverInertia_Private(s, pc));
   PetscCall(StageEnd(STAGE_FACTOR));
@@ -282,12 +276,14 @@ static PetscReal Forcing_Private(Solver s)
 }
 
 /* Operations that a factorisation will take: of the factor in single precision, whose analysis is needed anyway, or of MUMPS's; 0: the user's choice of a
-   factor stands; largest number: there is no MUMPS. */
+   factor stands. */
 static PetscErrorCode Operations_Private(Solver s, Mat A, PetscReal *operations)
 {
-  PetscBool type, package;
-  KSP       ksp;
-  PC        pc;
+  PetscBool     type, package;
+  MatFactorInfo info;
+  Mat           F;
+  KSP           ksp;
+  PC            pc;
 
   PetscFunctionBegin;
   PetscCall(SNESGetKSP(s->snes, &ksp));
@@ -298,17 +294,13 @@ static PetscErrorCode Operations_Private(Solver s, Mat A, PetscReal *operations)
   }
   PetscCall(PetscOptionsHasName(NULL, NULL, "-pc_type", &type));
   PetscCall(PetscOptionsHasName(NULL, NULL, "-pc_factor_mat_solver_type", &package));
-  *operations = type || package ? 0 : PETSC_MAX_REAL;
-#if defined(PETSC_HAVE_MUMPS)
-  MatFactorInfo info;
-  Mat           F;
+  *operations = 0;
   if (type || package) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(MatFactorInfoInitialize(&info));
   PetscCall(MatGetFactor(A, MATSOLVERMUMPS, MAT_FACTOR_CHOLESKY, &F));
   PetscCall(MatCholeskyFactorSymbolic(F, A, NULL, &info));
   PetscCall(MatMumpsGetRinfog(F, 1, operations));
   PetscCall(MatDestroy(&F));
-#endif
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
