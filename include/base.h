@@ -103,8 +103,6 @@ uint64_t HashBytes(uint64_t seed, const void *bytes, size_t num);
 
 /* The first place of a sorted array whose entry is not less than the key, num: all are less. compare as for qsort, the entry first. */
 PetscInt SortedFrom(const void *key, const void *array, PetscInt num, size_t entry, int (*compare)(const void *, const void *));
-/* *array, allocated by PetscMalloc1 with *num entries of this size, becomes that of all ranks one after the other. Collective. */
-PetscErrorCode GatherToAll(MPI_Comm, size_t entry, PetscInt *num, void **array);
 
 /* A row on its way to a matrix: indices and values, room for the longest one so far. Zero: none yet. */
 typedef struct {

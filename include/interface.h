@@ -143,7 +143,7 @@ PetscErrorCode InterfaceFetchContact(Interface, PetscInt pair, const PetscBool w
    Boxes of ranks and scalars, which all ranks reduce, are left out. */
 typedef struct {
   PetscInt  evaluations, searches, messages, search_messages;
-  PetscReal bytes, search_bytes, seconds; /* seconds: wall time in the exchange of values, waiting included */
+  PetscReal bytes, search_bytes;
 } ContactTraffic;
 PetscErrorCode InterfaceGetTraffic(Interface, ContactTraffic *);
 /* Components z[num_z][nonmortar.num_nodes], from the second on, of tangential tractions on the mortar side traction[..][3] along the axes of the last

@@ -57,9 +57,9 @@ PetscErrorCode ProblemFindFolded(Problem, Vec x, int8_t folded[]);
 PetscErrorCode ProblemFindConflict(Problem, PetscReal t, size_t size, char words[]);
 
 PetscErrorCode ProblemGetScene(Problem, const SceneData **);
-PetscErrorCode ProblemGetForest(Problem, Forest *);
-PetscErrorCode ProblemGetSpace(Problem, HPSpace *);
-PetscErrorCode ProblemGetMechanics(Problem, Mechanics *);
+Forest         ProblemForest(Problem);
+HPSpace        ProblemSpace(Problem);
+Mechanics      ProblemMechanics(Problem);
 PetscErrorCode ProblemCreateVector(Problem, Vec *);
 PetscErrorCode ProblemGetMatrix(Problem, Mat *);
 

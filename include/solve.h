@@ -5,6 +5,7 @@
 typedef struct _p_Solver *Solver;
 
 #define SOLVER_MOST_MODIFIERS 12
+#define SOLVER_MANY 7 /* Newton iterations: so many without a new least residual are a stall, a load step that took fewer lets the next one grow */
 
 typedef struct {
   PetscBool     converged;
@@ -34,8 +35,8 @@ const char *SolverModifierName(PetscInt);
    -solve_condense auto|yes|no (auto: from order 3 in the plane and 4 in space the unknowns of nodes inside cells are eliminated there, before the linear
    solver), -solve_linear auto|direct|iterative (auto: multigrid and GMRES for large three-dimensional problems of compressible material with a symmetric
    tangent; a factorisation where that fails and everywhere else), -solve_factor auto|single|double (precision of factors; auto: single in three dimensions from
-   20 000 unknowns on, where MUMPS has it and no -pc_type was given; double where that fails), -solve_linear_rtol; saddle_ksp_* (GMRES), multigrid_pc_*,
-   multigrid_smoother_*, again_ksp_* (GMRES on a factor in single precision or of an earlier tangent). Collective. */
+   20 000 unknowns on, where MUMPS has it and no -pc_type was given; double where that fails), -solve_linear_rtol (root of the round-off); saddle_ksp_* (GMRES),
+   multigrid_pc_*, multigrid_smoother_*, again_ksp_* (GMRES on a factor in single precision or of an earlier tangent). Collective. */
 PetscErrorCode SolverCreate(Problem, Solver *);
 PetscErrorCode SolverDestroy(Solver *);
 /* Are all -solve_*, -newton_* and -snes_* options known, can they act, and are their values allowed? An input error when one is not. Collective. */

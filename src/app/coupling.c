@@ -52,7 +52,7 @@ static PetscErrorCode Mine_Private(Problem problem, PetscInt num_contacts, Petsc
 
 PetscErrorCode AppContactPairs(App *app, PetscInt *num, PetscInt (**pairs)[2])
 {
-  PetscMPIInt size, numbers, *counts, *offsets;
+  PetscMPIInt size;
   PetscInt    num_mine, (*mine)[2];
 
   PetscFunctionBegin;
@@ -61,15 +61,7 @@ PetscErrorCode AppContactPairs(App *app, PetscInt *num, PetscInt (**pairs)[2])
   PetscCallMPI(MPI_Comm_size(app->comm, &size));
   if (size == 1) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(Mine_Private(app->level.problem, app->data->num_contacts, &num_mine, &mine));
-  PetscCall(PetscMalloc2(size, &counts, size + 1, &offsets));
-  numbers = (PetscMPIInt)(2 * num_mine);
-  PetscCallMPI(MPI_Allgather(&numbers, 1, MPI_INT, counts, 1, MPI_INT, app->comm));
-  offsets[0] = 0;
-  for (PetscMPIInt r = 0; r < size; ++r) offsets[r + 1] = offsets[r] + counts[r];
-  *num = offsets[size] / 2;
-  PetscCall(PetscMalloc1(*num, pairs));
-  PetscCallMPI(MPI_Allgatherv(mine, numbers, MPIU_INT, *pairs, counts, offsets, MPIU_INT, app->comm));
-  PetscCall(PetscFree2(counts, offsets));
+  PetscCall(GatherAll(app->comm, num_mine, sizeof(mine[0]), mine, num, pairs));
   PetscCall(PetscFree(mine));
   Unique_Private(num, *pairs);
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -51,18 +51,23 @@ PetscErrorCode SparseExchange(MPI_Comm comm, PetscMPIInt num_to, const PetscMPII
 
 PetscErrorCode GatherAll(MPI_Comm comm, PetscInt num, size_t entry, const void *mine, PetscInt *num_all, void *all)
 {
-  PetscMPIInt size, bytes = (PetscMPIInt)((size_t)num * entry), *count, *offset;
-  char       *buffer;
+  PetscMPIInt  size, own, *count, *offset;
+  MPI_Datatype type;
+  char        *buffer;
 
   PetscFunctionBegin;
   PetscCallMPI(MPI_Comm_size(comm, &size));
+  PetscCall(PetscMPIIntCast(num, &own));
   PetscCall(PetscMalloc2(size, &count, size + 1, &offset));
-  PetscCallMPI(MPI_Allgather(&bytes, 1, MPI_INT, count, 1, MPI_INT, comm));
+  PetscCallMPI(MPI_Allgather(&own, 1, MPI_INT, count, 1, MPI_INT, comm));
   offset[0] = 0;
   for (PetscMPIInt r = 0; r < size; ++r) offset[r + 1] = offset[r] + count[r];
-  *num_all = (PetscInt)((size_t)offset[size] / entry);
-  PetscCall(PetscMalloc1(offset[size], &buffer));
-  PetscCallMPI(MPI_Allgatherv(mine, bytes, MPI_BYTE, buffer, count, offset, MPI_BYTE, comm));
+  *num_all = offset[size];
+  PetscCall(PetscMalloc1((size_t)offset[size] * entry, &buffer));
+  PetscCallMPI(MPI_Type_contiguous((PetscMPIInt)entry, MPI_BYTE, &type));
+  PetscCallMPI(MPI_Type_commit(&type));
+  PetscCallMPI(MPI_Allgatherv(mine, own, type, buffer, count, offset, type, comm));
+  PetscCallMPI(MPI_Type_free(&type));
   PetscCall(PetscFree2(count, offset));
   *(void **)all = buffer;
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -2,7 +2,6 @@
 #pragma once
 #include "contact.h"
 
-#define CONTACT_ROUND 1e-9 /* of a facet, of a coordinate on it, of a cosine: what round-off may leave */
 #define CONTACT_GRAZE 1e-3 /* angle, or distance over a facet's size, below which where lines cross, or where a ray meets a facet, tells nothing */
 
 /* Bounding-volume tree over mortar facets: node i's children are child[i], child[i] + 1; leaves hold item[first .. first + count). In two dimensions the third

@@ -71,17 +71,18 @@ static PetscReal Edge_Private(const PetscReal a[2], const PetscReal b[2], const 
 /* The same through a triangle, counterclockwise seen from outside. */
 static PetscReal Triangle_Private(const PetscReal a[3], const PetscReal b[3], const PetscReal c[3], const PetscReal x[3], const PetscReal d[3], PetscReal most)
 {
-  PetscReal e[3], f[3], r[3], N[3], q[3], out, s, u, v;
+  PetscReal e[3], f[3], r[3], N[3], q[3], out, s, u, v, length;
 
   for (int i = 0; i < 3; i++) e[i] = b[i] - a[i], f[i] = c[i] - a[i], r[i] = a[i] - x[i];
   Cross3(e, f, N);
-  out = Dot3(d, N);
+  length = PetscSqrtReal(PetscSqrtReal(Dot3(N, N)));
+  out    = Dot3(d, N);
   if (!(out > 0)) return most;
   Cross3(r, d, q);
   s = Dot3(r, N) / out;
   u = Dot3(q, f) / out;
   v = -Dot3(q, e) / out;
-  return Dot3(r, N) >= -CONTACT_ROUND * PetscPowReal(Dot3(N, N), 0.75) && s < most && u >= -CONTACT_ROUND && v >= -CONTACT_ROUND && u + v <= 1 + CONTACT_ROUND
+  return Dot3(r, N) >= -CONTACT_ROUND * length * length * length && s < most && u >= -CONTACT_ROUND && v >= -CONTACT_ROUND && u + v <= 1 + CONTACT_ROUND
              ? PetscMax(0, s)
              : most;
 }

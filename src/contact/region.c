@@ -58,7 +58,7 @@ void ContactRayRegion(ContactPair pair, const ContactSurface *s, PetscInt facet,
   r->slack = 2 * pair->margin * (1 + pair->distance / shortest);
   reach    = pair->distance + r->slack;
   ContactRayLatticeGather(s, facet, &l);
-  bulge = l.order > 1 ? 0.125 * (s->dim == 2 ? size : PetscSqrtReal(size)) : 0;
+  bulge = l.order > 1 ? (s->dim == 2 ? size : PetscSqrtReal(size)) / 8 : 0;
   for (PetscInt a = 0; a < l.num; a++) {
     Enclose_Private(r, l.x[a], r->slack + bulge);
     r->low  = PetscMin(r->low, Dot3(r->axis[2], l.x[a]));

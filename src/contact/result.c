@@ -2,8 +2,6 @@
    nodes, and the storage in which results are handed out. */
 #include "contactimpl.h"
 
-#define BLOCK 131072
-
 static PetscErrorCode StoreDestroy_Private(Store *s)
 {
   PetscFunctionBegin;
@@ -22,7 +20,7 @@ PetscErrorCode ContactStoreReserve(Store *s, PetscInt num, PetscReal **array)
 
     PetscCall(ContactGrow(s->num + 1, sizeof(PetscReal *), &size, &s->block));
     PetscCall(ContactGrow(s->num + 1, sizeof(PetscInt), &s->size, &s->room));
-    s->room[s->num] = PetscMax(num, BLOCK);
+    s->room[s->num] = PetscMax(num, s->num ? 2 * s->room[s->num - 1] : 0);
     PetscCall(PetscMalloc1(s->room[s->num], &s->block[s->num]));
     s->num++;
     s->used = 0;

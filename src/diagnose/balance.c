@@ -81,21 +81,16 @@ static PetscErrorCode Imbalance_Private(MPI_Comm comm, Model model, PetscBool sm
 /* Resultant of all loads: minus the sum of the bulk residual over all dofs, because internal forces alone sum to zero. */
 static PetscErrorCode Loads_Private(Problem problem, Vec x, Model model, PetscReal load[3])
 {
-  Mechanics       mechanics;
   MechanicsStatus status;
-  HPSpace         space;
-  Forest          forest;
+  HPSpace         space = ProblemSpace(problem);
   const HPTables *v;
   PetscReal      *u, *r;
 
   PetscFunctionBegin;
-  PetscCall(ProblemGetMechanics(problem, &mechanics));
-  PetscCall(ProblemGetSpace(problem, &space));
-  PetscCall(ProblemGetForest(problem, &forest));
   PetscCall(HPSpaceGetTables(space, &v));
   PetscCall(PetscCalloc2(v->num_nodes * v->dim, &u, v->num_nodes * v->dim, &r));
   PetscCall(ProblemLocalDisplacement(problem, x, u));
-  PetscCall(MechanicsResidual(mechanics, u, NULL, r, &status));
+  PetscCall(MechanicsResidual(ProblemMechanics(problem), u, NULL, r, &status));
   load[0] = load[1] = load[2] = 0;
   for (PetscInt n = 0; n < v->num_nodes; ++n) {
     const PetscReal *q, *f = r + n * v->dim;
@@ -105,7 +100,7 @@ static PetscErrorCode Loads_Private(Problem problem, Vec x, Model model, PetscRe
     }
   }
   PetscCall(PetscFree2(u, r));
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, load, 3, MPIU_REAL, MPI_SUM, ForestComm(forest)));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, load, 3, MPIU_REAL, MPI_SUM, ForestComm(ProblemForest(problem))));
   if (model == MODEL_AXISYMMETRIC) load[0] = 0;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -153,20 +148,15 @@ static void ExchangeSides_Private(PairFigures *f)
 
 static PetscErrorCode Plastic_Private(Problem problem, Vec x, Balance *b)
 {
-  Mechanics       mechanics;
-  HPSpace         space;
-  Forest          forest;
+  Forest          forest = ProblemForest(problem);
   const HPTables *v;
   PetscReal      *u, (*integral)[2];
 
   PetscFunctionBegin;
-  PetscCall(ProblemGetMechanics(problem, &mechanics));
-  PetscCall(ProblemGetSpace(problem, &space));
-  PetscCall(ProblemGetForest(problem, &forest));
-  PetscCall(HPSpaceGetTables(space, &v));
+  PetscCall(HPSpaceGetTables(ProblemSpace(problem), &v));
   PetscCall(PetscMalloc2(v->num_nodes * v->dim, &u, b->num_bodies, &integral));
   PetscCall(ProblemLocalDisplacement(problem, x, u));
-  PetscCall(MechanicsPlastic(mechanics, u, &b->plastic_strain, &b->plastic_work, integral));
+  PetscCall(MechanicsPlastic(ProblemMechanics(problem), u, &b->plastic_strain, &b->plastic_work, integral));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &b->plastic_strain, 1, MPIU_REAL, MPI_MAX, ForestComm(forest)));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &b->plastic_work, 1, MPIU_REAL, MPI_SUM, ForestComm(forest)));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, integral, (PetscMPIInt)(2 * b->num_bodies), MPIU_REAL, MPI_SUM, ForestComm(forest)));
@@ -201,14 +191,12 @@ void BalanceChange(const Balance *from, const Balance *to, PetscReal change[3])
 
 static PetscErrorCode Controls_Private(Problem problem, Vec x, Balance *b)
 {
-  Mechanics       mechanics;
   PetscInt        num;
   const PetscInt *boundary;
   PetscReal      *pressure, *value;
 
   PetscFunctionBegin;
-  PetscCall(ProblemGetMechanics(problem, &mechanics));
-  PetscCall(MechanicsGetControls(mechanics, &num, &boundary));
+  PetscCall(MechanicsGetControls(ProblemMechanics(problem), &num, &boundary));
   PetscCall(PetscMalloc2(num, &pressure, num, &value));
   PetscCall(ProblemGetControls(problem, x, pressure, value));
   for (PetscInt k = 0; k < num; ++k) {
@@ -222,10 +210,9 @@ static PetscErrorCode Controls_Private(Problem problem, Vec x, Balance *b)
 /* Where rigid bodies are. */
 static PetscErrorCode Motions_Private(Problem problem, const MechanicsSpec *spec, PetscReal (*motion)[6])
 {
-  Mechanics mechanics;
+  Mechanics mechanics = ProblemMechanics(problem);
 
   PetscFunctionBegin;
-  PetscCall(ProblemGetMechanics(problem, &mechanics));
   for (PetscInt b = 0; b < spec->num_bodies; ++b) {
     if (!spec->bodies[b].material->law->rigid) continue;
     PetscCall(MechanicsBodyMotion(mechanics, b, spec->bodies[b].about, motion[b]));
@@ -269,10 +256,9 @@ static void AddPart_Private(const PairFigures *part, PairFigures *to)
 /* Of one part of a pair. */
 static PetscErrorCode Pair_Private(Problem problem, const SceneData *scene, PetscInt i, const ContactView *view, PairFigures *f)
 {
-  Forest forest;
+  Forest forest = ProblemForest(problem);
 
   PetscFunctionBegin;
-  PetscCall(ProblemGetForest(problem, &forest));
   PetscCall(BalanceZone(ForestComm(forest), view, f));
   PetscCall(InterfaceFriction(ProblemInterface(problem), i, &f->friction));
   PetscCall(Imbalance_Private(ForestComm(forest), scene->mechanics.model, (PetscBool)(scene->mechanics.kinematics == KINEMATICS_SMALL), view, f));
@@ -284,13 +270,11 @@ PetscErrorCode BalanceCompute(Problem problem, const State *state, Balance *b)
   const SceneData    *scene;
   const ForestTables *t;
   const ContactView **view, *v;
-  Forest              forest;
 
   PetscFunctionBegin;
   PetscCall(PetscMemzero(b, sizeof(*b)));
   PetscCall(ProblemGetScene(problem, &scene));
-  PetscCall(ProblemGetForest(problem, &forest));
-  PetscCall(ForestGetTables(forest, &t));
+  PetscCall(ForestGetTables(ProblemForest(problem), &t));
   b->num_boundaries = scene->mechanics.num_boundaries;
   b->num_contacts   = scene->num_contacts;
   b->num_bodies     = scene->mechanics.num_bodies;
@@ -344,11 +328,9 @@ PetscErrorCode BalanceDestroy(Balance *b)
 PetscErrorCode ReportRowFill(Problem problem, const State *state, const Estimate *estimate, const Balance *b, ReportRow *row)
 {
   const ForestTables *t;
-  Forest              forest;
 
   PetscFunctionBegin;
-  PetscCall(ProblemGetForest(problem, &forest));
-  PetscCall(ForestGetTables(forest, &t));
+  PetscCall(ForestGetTables(ProblemForest(problem), &t));
   PetscCall(ProblemNumDofs(problem, &row->dofs));
   row->t                   = state->t;
   row->cells               = t->num_leaves;

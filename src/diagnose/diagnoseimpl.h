@@ -29,6 +29,14 @@ PetscErrorCode PiecesCollect_Private(Problem, const State *, PetscBool rigid, Pi
 PetscErrorCode PiecesParts_Private(const Pieces *, MPI_Comm, int8_t **is);
 /* bare[pair]: no node of it was in contact at the last evaluation; any: of one pair. Collective. */
 PetscErrorCode PairsBare_Private(Problem, MPI_Comm, PetscInt num, PetscInt bare[], PetscBool *any);
+/* The middle of a piece with these corners. */
+static inline void PieceMiddle_Private(PetscInt dim, const PetscReal x[9], PetscReal middle[3])
+{
+  for (PetscInt c = 0; c < 3; ++c) {
+    middle[c] = 0;
+    for (PetscInt a = 0; a < dim; ++a) middle[c] += x[3 * a + c] / dim;
+  }
+}
 /* The boundary group of a side, as a bit of Piece.groups. */
 static inline uint64_t PairGroup_Private(const ContactSpec *c, PetscInt side)
 {

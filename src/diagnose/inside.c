@@ -47,10 +47,8 @@ static void Places_Private(const Pieces *s, const PetscInt bare[], PetscInt *num
       for (PetscInt behind = 0; behind < 2; ++behind) {
         Place *to = &place[(*num)++];
         *to       = (Place){.pair = k / 2, .side = k % 2, .part = p->part};
-        for (PetscInt c = 0; c < 3; ++c) {
-          for (PetscInt a = 0; a < s->dim; ++a) to->x[c] += p->x[3 * a + c] / s->dim;
-          to->x[c] -= (PetscReal)behind * p->size * p->N[c];
-        }
+        PieceMiddle_Private(s->dim, p->x, to->x);
+        for (PetscInt c = 0; c < 3; ++c) to->x[c] -= (PetscReal)behind * p->size * p->N[c];
       }
     }
   }
@@ -107,7 +105,6 @@ static PetscErrorCode Find_Private(const Pieces *s, MPI_Comm comm, const PetscIn
 static PetscErrorCode First_Private(Problem problem, MPI_Comm comm, PetscInt num, PetscInt bare[], const PetscBool within[], PetscInt *pair)
 {
   const HPTables *v;
-  HPSpace         space;
   Pieces          s = {0};
   PetscReal      *none;
   PetscBool      *before, any = PETSC_FALSE;
@@ -118,8 +115,7 @@ static PetscErrorCode First_Private(Problem problem, MPI_Comm comm, PetscInt num
     any     = (PetscBool)(any || within[i]);
   }
   if (!any) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(ProblemGetSpace(problem, &space));
-  PetscCall(HPSpaceGetTables(space, &v));
+  PetscCall(HPSpaceGetTables(ProblemSpace(problem), &v));
   PetscCall(PetscCalloc1(v->num_nodes * v->dim, &none));
   PetscCall(PetscMalloc1(num, &before));
   PetscCall(PiecesAt_Private(problem, none, PETSC_TRUE, &s));
@@ -205,15 +201,14 @@ static PetscErrorCode Own_Private(Problem problem, const State *state, const Pie
 PetscErrorCode InsideFind(Problem problem, const State *state, PetscInt *pair)
 {
   const SceneData *scene;
-  Forest           forest;
-  Pieces           s = {0};
+  Forest           forest = ProblemForest(problem);
+  Pieces           s      = {0};
   PetscInt        *bare, own;
   PetscBool        any, *within;
 
   PetscFunctionBegin;
   *pair = -1;
   PetscCall(ProblemGetScene(problem, &scene));
-  PetscCall(ProblemGetForest(problem, &forest));
   if (scene->num_contacts == 0 || scene->mechanics.kinematics == KINEMATICS_SMALL) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(PetscMalloc2(scene->num_contacts, &bare, scene->num_contacts, &within));
   PetscCall(PairsBare_Private(problem, ForestComm(forest), scene->num_contacts, bare, &any));

@@ -128,19 +128,15 @@ PetscErrorCode MonitorHeader(Monitor m, Problem problem)
   const SceneData    *scene = m->scene;
   const ForestTables *t;
   const HPTables     *v;
-  HPSpace             space;
-  Forest              forest;
   PetscInt            dofs, low = MORTISE_MAX_ORDER, high = 1;
   PetscMPIInt         size;
   char                orders[32], model[MORTISE_NAME];
 
   PetscFunctionBegin;
-  PetscCall(ProblemGetForest(problem, &forest));
-  PetscCall(ForestGetTables(forest, &t));
+  PetscCall(ForestGetTables(ProblemForest(problem), &t));
   PetscCall(ProblemNumDofs(problem, &dofs));
   PetscCallMPI(MPI_Comm_size(m->comm, &size));
-  PetscCall(ProblemGetSpace(problem, &space));
-  PetscCall(HPSpaceGetTables(space, &v));
+  PetscCall(HPSpaceGetTables(ProblemSpace(problem), &v));
   for (PetscInt c = 0; c < v->num_owned_cells; ++c) { /* after -restart not those of the scene */
     if (scene->mechanics.bodies[t->leaf_body[v->cell_leaf[c]]].material->law->rigid) continue;
     low  = PetscMin(low, v->cell_order[c]);

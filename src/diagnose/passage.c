@@ -9,11 +9,6 @@
 
 /* ---- two pieces ------------------------------------------------------------------------------------------------------------------------- */
 
-static PetscBool BoxesMeet_Private(const PetscReal a[6], const PetscReal b[6])
-{
-  return (PetscBool)(a[0] <= b[3] && b[0] <= a[3] && a[1] <= b[4] && b[1] <= a[4] && a[2] <= b[5] && b[2] <= a[5]);
-}
-
 static PetscBool Neighbours_Private(PetscInt dim, const Piece *p, const Piece *q)
 {
   const PetscReal near = CLOSE * (p->size + q->size);
@@ -100,7 +95,7 @@ static PetscBool Counts_Private(const Pieces *s, const Which *which, const Piece
 
 static void Test_Private(const Pieces *s, const Which *which, const Piece *p, const Piece *q, Passage *worst)
 {
-  PetscReal depth;
+  PetscReal depth, middle[2][3];
 
   if (!Counts_Private(s, which, p, q)) return;
   depth = PetscMax(Depth_Private(s->dim, p, q), Depth_Private(s->dim, q, p));
@@ -112,10 +107,9 @@ static void Test_Private(const Pieces *s, const Which *which, const Piece *p, co
   worst->depth   = depth;
   worst->body[0] = PetscMin(p->body, q->body);
   worst->body[1] = PetscMax(p->body, q->body);
-  for (PetscInt c = 0; c < 3; ++c) {
-    worst->x[c] = 0;
-    for (PetscInt a = 0; a < s->dim; ++a) worst->x[c] += (p->x[3 * a + c] + q->x[3 * a + c]) / (2 * s->dim);
-  }
+  PieceMiddle_Private(s->dim, p->x, middle[0]);
+  PieceMiddle_Private(s->dim, q->x, middle[1]);
+  for (PetscInt c = 0; c < 3; ++c) worst->x[c] = (middle[0][c] + middle[1][c]) / 2;
 }
 
 /* ---- all of them ------------------------------------------------------------------------------------------------------------------------ */
@@ -131,7 +125,7 @@ static void Sweep_Private(Pieces *s, const Which *which, Passage *worst)
   qsort(s->piece, (size_t)s->num, sizeof(Piece), Compare_Private);
   for (PetscInt i = 0; i < s->num; ++i) {
     for (PetscInt j = i + 1; j < s->num && s->piece[j].box[0] <= s->piece[i].box[3]; ++j) {
-      if (BoxesMeet_Private(s->piece[i].box, s->piece[j].box)) Test_Private(s, which, &s->piece[i], &s->piece[j], worst);
+      if (ContactBoxesMeet(s->piece[i].box, s->piece[j].box)) Test_Private(s, which, &s->piece[i], &s->piece[j], worst);
     }
   }
 }
@@ -160,7 +154,7 @@ static PetscErrorCode Exchange_Private(MPI_Comm comm, Pieces *s)
   first[0] = 0;
   for (PetscMPIInt r = 0; r < size; ++r) {
     for (PetscInt i = 0; r != rank && i < s->num; ++i) {
-      if (!BoxesMeet_Private(s->piece[i].box, box[r])) continue;
+      if (!ContactBoxesMeet(s->piece[i].box, box[r])) continue;
       if (send.num == send.room) {
         send.room = PetscMax(64, 2 * send.room);
         PetscCall(PetscRealloc((size_t)send.room * sizeof(Piece), &send.piece));
@@ -261,14 +255,11 @@ static PetscErrorCode Enclosed_Private(MPI_Comm comm, const Pieces *s, const Pie
   PetscFunctionBegin;
   PetscCall(PetscCalloc1(4 * num, &crossed));
   for (PetscInt k = 0; k < 2 * num; ++k) {
-    const Piece *p    = &sample[k / 2];
-    PetscReal    x[3] = {0, 0, 0};
+    const Piece *p = &sample[k / 2];
+    PetscReal    x[3];
     if (p->part != inner->part) continue;
-    for (PetscInt c = 0; c < 3; ++c) {
-      for (PetscInt a = 0; a < s->dim; ++a) x[c] += p->x[3 * a + c] / s->dim;
-      found->x[c] = x[c];
-      x[c] -= k % 2 * p->size * p->N[c] / 2;
-    }
+    PieceMiddle_Private(s->dim, p->x, found->x);
+    for (PetscInt c = 0; c < 3; ++c) x[c] = found->x[c] - k % 2 * p->size * p->N[c] / 2;
     for (PetscInt i = 0; i < s->num; ++i) {
       if (s->piece[i].part != outer->part) continue;
       for (PetscInt d = 0; d < 2; ++d) crossed[2 * k + d] += LineCrosses_Private(s->dim, &s->piece[i], x, LinesAlong_Private[d]);
@@ -315,25 +306,22 @@ static PetscErrorCode FindEnclosed_Private(MPI_Comm comm, const Pieces *s, const
 PetscErrorCode PassageFind(Problem problem, const State *state, PetscInt group, Passage *worst)
 {
   const Which which = {.group = group};
-  Forest      forest;
-  Pieces      s = {0};
+  Pieces      s     = {0};
 
   PetscFunctionBegin;
-  PetscCall(ProblemGetForest(problem, &forest));
   PetscCall(PiecesCollect_Private(problem, state, PETSC_FALSE, &s));
-  PetscCall(Find_Private(ForestComm(forest), &s, &which, worst));
+  PetscCall(Find_Private(ForestComm(ProblemForest(problem)), &s, &which, worst));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode PassageFindApart(Problem problem, const State *state, Passage *worst)
 {
-  Which   which = {.group = -1, .apart = PETSC_TRUE};
-  Forest  forest;
-  Pieces  s = {0};
+  Which   which  = {.group = -1, .apart = PETSC_TRUE};
+  Forest  forest = ProblemForest(problem);
+  Pieces  s      = {0};
   Passage whole;
 
   PetscFunctionBegin;
-  PetscCall(ProblemGetForest(problem, &forest));
   PetscCall(PiecesCollect_Private(problem, state, PETSC_TRUE, &s));
   PetscCall(PiecesParts_Private(&s, ForestComm(forest), &which.sides));
   PetscCall(FindEnclosed_Private(ForestComm(forest), &s, &which, &whole));

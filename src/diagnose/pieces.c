@@ -88,18 +88,16 @@ PetscErrorCode PiecesAt_Private(Problem problem, const PetscReal u[], PetscBool 
   const ForestTables *t;
   const CoarseMesh   *mesh;
   const HPTables     *v;
-  HPSpace             space;
-  Forest              forest;
+  HPSpace             space  = ProblemSpace(problem);
+  Forest              forest = ProblemForest(problem);
   PetscInt            pieces[MORTISE_MAX_ORDER + 1], num_parts, *part, most = 0;
   PetscBool          *outer;
   PetscReal          *X;
 
   PetscFunctionBegin;
-  PetscCall(ProblemGetForest(problem, &forest));
   PetscCall(ProblemGetScene(problem, &s->scene));
   PetscCall(ForestGetTables(forest, &t));
   PetscCall(ForestGetCoarse(forest, &mesh));
-  PetscCall(ProblemGetSpace(problem, &space));
   PetscCall(HPSpaceGetTables(space, &v));
   PetscCall(HPSpacePieces(space, 0, pieces));
   for (PetscInt p = 0; p <= MORTISE_MAX_ORDER; ++p) most = PetscMax(most, ElementNumNodes(v->dim, pieces[p]));
@@ -132,12 +130,10 @@ PetscErrorCode PiecesAt_Private(Problem problem, const PetscReal u[], PetscBool 
 PetscErrorCode PiecesCollect_Private(Problem problem, const State *state, PetscBool rigid, Pieces *s)
 {
   const HPTables *v;
-  HPSpace         space;
   PetscReal      *u;
 
   PetscFunctionBegin;
-  PetscCall(ProblemGetSpace(problem, &space));
-  PetscCall(HPSpaceGetTables(space, &v));
+  PetscCall(HPSpaceGetTables(ProblemSpace(problem), &v));
   PetscCall(PetscMalloc1(v->num_nodes * v->dim, &u));
   PetscCall(ProblemLocalDisplacement(problem, state->x, u));
   PetscCall(PiecesAt_Private(problem, u, rigid, s));

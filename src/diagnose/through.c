@@ -28,14 +28,6 @@ typedef struct {
 
 /* ---- what moves ------------------------------------------------------------------------------------------------------------------------ */
 
-static void Middle_Private(PetscInt dim, const PetscReal x[9], PetscReal y[3])
-{
-  for (PetscInt c = 0; c < 3; ++c) {
-    y[c] = 0;
-    for (PetscInt a = 0; a < dim; ++a) y[c] += x[3 * a + c] / dim;
-  }
-}
-
 /* Where a point gets from s = -1 to 1. */
 static void Extend_Private(PetscReal box[6], const PetscReal from[3], const PetscReal to[3])
 {
@@ -115,8 +107,8 @@ static PetscErrorCode Middles_Private(const Pieces *s, MPI_Comm comm, const Pets
       if (!(mover[i].groups & group)) continue;
       own[mine]      = mover[i];
       own[mine].pair = k / 2, own[mine].side = k % 2;
-      Middle_Private(s->dim, mover[i].x[0], from);
-      Middle_Private(s->dim, mover[i].x[1], to);
+      PieceMiddle_Private(s->dim, mover[i].x[0], from);
+      PieceMiddle_Private(s->dim, mover[i].x[1], to);
       Empty_Private(own[mine].box);
       Extend_Private(own[mine].box, from, to);
       mine += Nears_Private(s, is, way, &own[mine]);
@@ -140,7 +132,7 @@ static PetscErrorCode Meet_Private(const Pieces *s, const int8_t is[], const Mov
   if (!is[2 * (p->part * s->scene->num_contacts + m->pair) + 1 - m->side] || !ContactBoxesMeet(m->box, p->box)) PetscFunctionReturn(PETSC_SUCCESS);
   if (m->rank == p->rank && m->piece == p->piece) PetscFunctionReturn(PETSC_SUCCESS);             /* its own */
   if (s->scene->contacts[m->pair].self && m->part == p->part) PetscFunctionReturn(PETSC_SUCCESS); /* inside.c */
-  for (PetscInt k = 0; k < 2; ++k) Middle_Private(s->dim, m->x[k], y[k]);
+  for (PetscInt k = 0; k < 2; ++k) PieceMiddle_Private(s->dim, m->x[k], y[k]);
   const PetscInt num = CrossingsFind_Private(s->dim, p->x, y, crossing);
   for (PetscInt i = 0; i < num; ++i) {
     if (events->num == events->room) {
@@ -257,15 +249,14 @@ static PetscErrorCode Find_Private(const Pieces s[2], MPI_Comm comm, const Petsc
 PetscErrorCode ThroughFind(Problem problem, const PetscReal from[], const State *state, PetscInt *pair)
 {
   const SceneData *scene;
-  Forest           forest;
-  Pieces           s[2] = {{0}, {0}};
+  Forest           forest = ProblemForest(problem);
+  Pieces           s[2]   = {{0}, {0}};
   PetscInt        *bare;
   PetscBool        any;
 
   PetscFunctionBegin;
   *pair = -1;
   PetscCall(ProblemGetScene(problem, &scene));
-  PetscCall(ProblemGetForest(problem, &forest));
   if (scene->num_contacts == 0 || scene->mechanics.kinematics == KINEMATICS_SMALL) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(PetscMalloc1(scene->num_contacts, &bare));
   PetscCall(PairsBare_Private(problem, ForestComm(forest), scene->num_contacts, bare, &any));

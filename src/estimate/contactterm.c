@@ -87,12 +87,10 @@ static PetscErrorCode Fields_Private(Problem problem, PetscInt pair, const Fores
 {
   const SurfaceView *s = &term->view->nonmortar;
   PetscBool         *wanted, *facet;
-  Forest             forest;
   PetscMPIInt        rank;
 
   PetscFunctionBegin;
-  PetscCall(ProblemGetForest(problem, &forest));
-  PetscCallMPI(MPI_Comm_rank(ForestComm(forest), &rank));
+  PetscCallMPI(MPI_Comm_rank(ForestComm(ProblemForest(problem)), &rank));
   PetscCall(PetscCalloc2(s->num_nodes, &wanted, s->num_facets, &facet));
   for (PetscInt f = 0; f < s->num_facets; ++f) facet[f] = (PetscBool)(t->leaf_rank[s->facet_leaf[f]] == rank);
   for (PetscInt i = 0; i < num; ++i) facet[segments[i].facet] = PETSC_TRUE;
@@ -162,11 +160,10 @@ PetscErrorCode ContactTermsCreate_Private(Problem problem, ContactTerms *terms)
 {
   const SceneData    *scene;
   const ForestTables *t;
-  Forest              forest;
+  Forest              forest = ProblemForest(problem);
 
   PetscFunctionBegin;
   PetscCall(ProblemGetScene(problem, &scene));
-  PetscCall(ProblemGetForest(problem, &forest));
   PetscCall(ForestGetTables(forest, &t));
   terms->interface  = ProblemInterface(problem);
   terms->kinematics = scene->mechanics.kinematics;

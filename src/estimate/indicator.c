@@ -393,7 +393,6 @@ PetscErrorCode EstimateCompute(Problem problem, const State *state, Estimate *e)
 {
   const SceneData *scene;
   const HPTables  *v;
-  Forest           forest;
   ContactTerms     contact;
   EstimateSum      sum = {.time = state->t};
   PetscReal       *u;
@@ -401,9 +400,8 @@ PetscErrorCode EstimateCompute(Problem problem, const State *state, Estimate *e)
   PetscFunctionBegin;
   PetscCall(StageBegin(STAGE_ESTIMATE));
   PetscCall(ProblemGetScene(problem, &scene));
-  PetscCall(ProblemGetForest(problem, &forest));
-  PetscCall(ProblemGetSpace(problem, &sum.space));
-  PetscCall(ProblemGetMechanics(problem, &sum.mechanics));
+  sum.space     = ProblemSpace(problem);
+  sum.mechanics = ProblemMechanics(problem);
   PetscCall(HPSpaceGetTables(sum.space, &v));
   sum.spec = &scene->mechanics;
   PetscCall(ProblemSetState(problem, state));
@@ -421,7 +419,7 @@ PetscErrorCode EstimateCompute(Problem problem, const State *state, Estimate *e)
   PetscCall(ProblemLocalDisplacement(problem, state->x, u));
   sum.u = u;
   PetscCall(EstimateBulk_Private(&sum));
-  PetscCall(Reduce_Private(ForestComm(forest), &sum, e));
+  PetscCall(Reduce_Private(ForestComm(ProblemForest(problem)), &sum, e));
   PetscCall(Choice_Private(scene, &sum, state, e));
   PetscCall(PetscFree(u));
   PetscCall(PetscFree(sum.eta2));

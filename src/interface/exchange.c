@@ -8,35 +8,6 @@
    Entries that a rank has not got are NaN, so that a value nobody sent cannot be used unseen. */
 #include "interfaceimpl.h"
 
-static PetscLogEvent exchange_event;
-
-PetscErrorCode ExchangeBegin_Private(Interface p)
-{
-  PetscLogDouble now;
-  PetscClassId   id;
-
-  PetscFunctionBegin;
-  if (!exchange_event) {
-    PetscCall(PetscClassIdRegister("mortise contact", &id));
-    PetscCall(PetscLogEventRegister("ContactExchange", id, &exchange_event));
-  }
-  PetscCall(PetscLogEventBegin(exchange_event, NULL, NULL, NULL, NULL));
-  PetscCall(PetscTime(&now));
-  p->traffic.seconds -= (PetscReal)now;
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode ExchangeEnd_Private(Interface p)
-{
-  PetscLogDouble now;
-
-  PetscFunctionBegin;
-  PetscCall(PetscLogEventEnd(exchange_event, NULL, NULL, NULL, NULL));
-  PetscCall(PetscTime(&now));
-  p->traffic.seconds += (PetscReal)now;
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 PetscErrorCode LinkDestroy_Private(Link *l)
 {
   PetscFunctionBegin;
@@ -78,10 +49,8 @@ PetscErrorCode LinkSpread_Private(Interface p, const Link *l, PetscInt size, Pet
 {
   PetscFunctionBegin;
   if (!l->sf) PetscFunctionReturn(PETSC_SUCCESS); /* one rank, or no search yet */
-  PetscCall(ExchangeBegin_Private(p));
   PetscCall(PetscSFBcastBegin(l->sf, p->unit[size], values, values, MPI_REPLACE));
   PetscCall(PetscSFBcastEnd(l->sf, p->unit[size], values, values, MPI_REPLACE));
-  PetscCall(ExchangeEnd_Private(p));
   p->traffic.messages += l->num_to;
   p->traffic.bytes += (PetscReal)l->num_told * (PetscReal)size * sizeof(PetscReal);
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -91,10 +60,8 @@ PetscErrorCode LinkCollect_Private(Interface p, const Link *l, PetscInt size, Pe
 {
   PetscFunctionBegin;
   if (!l->sf) PetscFunctionReturn(PETSC_SUCCESS); /* one rank, or no search yet */
-  PetscCall(ExchangeBegin_Private(p));
   PetscCall(PetscSFReduceBegin(l->sf, p->unit[size], values, values, MPI_SUM));
   PetscCall(PetscSFReduceEnd(l->sf, p->unit[size], values, values, MPI_SUM));
-  PetscCall(ExchangeEnd_Private(p));
   p->traffic.messages += l->num_from;
   p->traffic.bytes += (PetscReal)l->num * (PetscReal)size * sizeof(PetscReal);
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -257,22 +224,5 @@ PetscErrorCode InterfaceGetTraffic(Interface p, ContactTraffic *traffic)
 {
   PetscFunctionBegin;
   *traffic = p->traffic;
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode TrafficReport_Private(Interface p)
-{
-  const ContactTraffic *t      = &p->traffic;
-  PetscInt              num[2] = {0, 0};
-
-  PetscFunctionBegin;
-  for (PetscInt i = 0; i < p->num_contacts; ++i)
-    for (PetscInt k = 0; k < 2; ++k) num[k] += p->contacts[i].side[k].num_nodes;
-  if (!p->num_contacts) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(PetscInfo(NULL,
-                      "contact exchange: %" PetscInt_FMT " + %" PetscInt_FMT " nodes; %" PetscInt_FMT " evaluations, %" PetscInt_FMT
-                      " messages, %.0f bytes; %" PetscInt_FMT " searches, %" PetscInt_FMT " messages, %.0f bytes; %g s\n",
-                      num[0], num[1], t->evaluations, t->messages, (double)t->bytes, t->searches, t->search_messages, (double)t->search_bytes,
-                      (double)t->seconds));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -39,7 +39,6 @@ PetscErrorCode InterfaceDestroy(Interface *interface)
 
   PetscFunctionBegin;
   if (!p) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(TrafficReport_Private(p));
   for (PetscMPIInt k = 1; k <= MOST_REALS; ++k) PetscCallMPI(MPI_Type_free(&p->unit[k]));
   for (PetscInt i = 0; i < p->num_contacts; ++i) PetscCall(ContactDestroy_Private(&p->contacts[i]));
   PetscCall(PetscFree(p->contacts));
@@ -151,7 +150,7 @@ PetscErrorCode InterfaceSearch(Interface p, Vec x, const PetscReal u[], PetscBoo
       SurfacePlace_Private(&c->side[k], u, ContactBase_Private(c, k), c->side[k].x);
     }
     PetscCall(ContactPairGoOn(c->pair, goes_on));
-    PetscCall(ContactSearch_Private(p, c, PETSC_FALSE, NEAR * c->distance));
+    PetscCall(ContactSearch_Private(p, c, PETSC_FALSE, CONTACT_SLIVER * c->distance));
     PetscCall(ContactPairGoOn(c->pair, PETSC_FALSE));
     if (c->spec->self) PetscCall(ContactRoles_Private(p, c, x, u));
   }

@@ -4,9 +4,6 @@
 
 #include <petscsf.h>
 
-#define COVERED 1e-9 /* share of a node's tributary measure below which it counts as uncovered: forces have faded before (blend.c in contact) */
-
-#define NEAR 0.1     /* of an extent, of a distance: what may meet, or come to meet before the next search */
 #define MOST_REALS 4 /* of a node in one message */
 #define SLACK 1e-10  /* pressure over Young's modulus that is none: what round-off leaves */
 
@@ -270,9 +267,6 @@ PetscErrorCode LinkSet_Private(Interface, const Surface *, PetscInt num, const P
 PetscErrorCode LinkDestroy_Private(Link *);
 PetscErrorCode LinkSpread_Private(Interface, const Link *, PetscInt size, PetscReal values[]);
 PetscErrorCode LinkCollect_Private(Interface, const Link *, PetscInt size, PetscReal values[]);
-PetscErrorCode TrafficReport_Private(Interface); /* with -info */
-PetscErrorCode ExchangeBegin_Private(Interface);
-PetscErrorCode ExchangeEnd_Private(Interface);
 /* Positions known without exchange; `has` says so and everything else is forgotten. */
 void SurfaceForget_Private(Surface *);
 /* After a search: what this rank needs until the next one. */
@@ -310,9 +304,6 @@ static inline PetscBool ContactIsReleased_Private(Interface p, const Contact *c)
 {
   return FormHas(p->form->released, (PetscInt)(c - p->contacts));
 }
-/* insert.c: as MatSetValues, of contact: values in the diagonal block. */
-PetscErrorCode ContactInsert_Private(Mat, PetscInt num_rows, const PetscInt rows[], PetscInt num_columns, const PetscInt columns[], const PetscReal K[],
-                                     InsertMode);
 /* rigid.c, where bodies move by forces. Forces: rows q[num_q] from the entries v[dim num] of a facet's nodes. Hessian: what a facet's adds to the rows and
    columns of q. */
 void           ContactRigidForces_Private(const Contact *, const ContactFacet *, const PetscReal v[], PetscReal q[]);
@@ -410,10 +401,11 @@ static inline const ContactFacet *ContactCompliant_Private(const Contact *c, Pet
 /* Derivative of (S z)_j - along S_jj by the facet's covered share, row k. */
 PetscReal ContactYield_Private(const Contact *, const ContactFacet *, PetscInt k, PetscReal along);
 /* Change of every owned node's weighted gap, at fixed measure, under a local array of increments. Collective. */
-PetscErrorCode          ContactChange_Private(Interface, Contact *, const PetscReal increment[], PetscReal change[]);
+PetscErrorCode ContactChange_Private(Interface, Contact *, const PetscReal increment[], PetscReal change[]);
+/* More than round-off of its tributary measure: forces have faded before (blend.c in contact). */
 static inline PetscBool ContactCovered_Private(const Contact *c, PetscInt j)
 {
-  return (PetscBool)(c->weight[j] > COVERED * c->w0[j]);
+  return (PetscBool)(c->weight[j] > CONTACT_ROUND * c->w0[j]);
 }
 /* Does node j bear? Less than SLACK is all there is where the whole pair is open. */
 static inline PetscBool ContactPressed_Private(const Contact *c, PetscInt j)

@@ -62,9 +62,7 @@ static PetscErrorCode MailDestroy_Private(Mail *m)
 static PetscErrorCode Send_Private(Interface p, const Mail *m, const PetscInt first[], size_t entry, const void *send, PetscInt *num, void *received)
 {
   PetscFunctionBegin;
-  PetscCall(ExchangeBegin_Private(p));
   PetscCall(SparseExchange(p->comm, m->num_to, m->to, first, entry, send, num, received));
-  PetscCall(ExchangeEnd_Private(p));
   p->traffic.search_messages += m->num_to;
   p->traffic.search_bytes += (PetscReal)first[m->num_to] * (PetscReal)entry;
   PetscFunctionReturn(PETSC_SUCCESS);

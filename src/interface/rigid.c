@@ -118,9 +118,9 @@ PetscErrorCode ContactRigidHessian_Private(const InterfaceSystem *a, const Conta
     for (PetscInt m = 0; m < nq; ++m) GH[m * n + i] = q[m];
   }
   for (PetscInt m = 0; m < nq; ++m) Gather_Private(c, e, PETSC_FALSE, GH + m * n, 1, GHG + m * nq);
-  PetscCall(ContactInsert_Private(a->matrix, n, dofs, nq, c->q_row, HG, ADD_VALUES));
-  PetscCall(ContactInsert_Private(a->matrix, nq, c->q_row, n, dofs, GH, ADD_VALUES));
-  PetscCall(ContactInsert_Private(a->matrix, nq, c->q_row, nq, c->q_row, GHG, ADD_VALUES));
+  PetscCall(MatSetValues(a->matrix, n, dofs, nq, c->q_row, HG, ADD_VALUES));
+  PetscCall(MatSetValues(a->matrix, nq, c->q_row, n, dofs, GH, ADD_VALUES));
+  PetscCall(MatSetValues(a->matrix, nq, c->q_row, nq, c->q_row, GHG, ADD_VALUES));
   PetscCall(PetscFree3(HG, GH, GHG));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -150,8 +150,8 @@ PetscErrorCode ContactInsertRow_Private(Interface p, const InterfaceSystem *a, c
     PetscCall(PetscFindInt(c->zdof[j], num, p->work.index, &at));
     for (PetscInt k = 0; k < c->num; ++k) p->work.value[at + k] = a->symmetric ? row[i].z[k] * c->c[j] : row[i].z[k];
     PetscCall(SlipCouplings_Private(c, j, &row[i], num, p->work.index, p->work.value));
-    PetscCall(ContactInsert_Private(a->matrix, 1, &line, num, p->work.index, p->work.value, INSERT_VALUES));
-    if (a->symmetric) PetscCall(ContactInsert_Private(a->matrix, num, p->work.index, 1, &line, p->work.value, INSERT_VALUES));
+    PetscCall(MatSetValues(a->matrix, 1, &line, num, p->work.index, p->work.value, INSERT_VALUES));
+    if (a->symmetric) PetscCall(MatSetValues(a->matrix, num, p->work.index, 1, &line, p->work.value, INSERT_VALUES));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

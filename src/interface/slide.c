@@ -7,13 +7,12 @@
    places first. */
 #include "interfaceimpl.h"
 
-#define STAYS 0.9    /* share of the smaller of the old and the new zone that both have in common, below which contact moves */
-#define WHOLE 0.75   /* share of the zone that slips one way, above which the pair slips as a whole … */
-#define FAR 0.15     /* … by more than this share of the zone */
-#define PRESSED 1e-8 /* of the largest pressure: less is round-off of an open node */
+#define WHOLE 0.75 /* share of the zone that slips one way, above which the pair slips as a whole */
+#define FAR 0.15   /* of the zone: a pair that slips as a whole by less stays in place */
 
 /* Does contact, by the active set at hand, leave nodes that carry pressure for others? By reference length, so that
-   graded meshes count alike. A zone that only grows or only shrinks does not move. */
+   graded meshes count alike. A zone that only grows or only shrinks does not move; of the smaller of both zones the other
+   one lacks more than a sliver. */
 static PetscErrorCode HasMoved_Private(Interface p, const Contact *c, PetscBool *moved)
 {
   const Surface *s      = &c->side[0];
@@ -26,14 +25,14 @@ static PetscErrorCode HasMoved_Private(Interface p, const Contact *c, PetscBool 
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &most, 1, MPIU_REAL, MPI_MAX, p->comm));
   for (PetscInt i = 0; i < s->num_own; ++i) {
     const PetscInt  j       = s->own[i];
-    const PetscBool pressed = (PetscBool)(ContactPressed_Private(c, j) && c->z[j] > PRESSED * most);
+    const PetscBool pressed = (PetscBool)(ContactPressed_Private(c, j) && c->z[j] > PETSC_SQRT_MACHINE_EPSILON * most); /* less is round-off of an open node */
     if (!c->has_multiplier[j]) continue;
     if (pressed) sum[0] += c->w0[j];
     if (c->active[j]) sum[1] += c->w0[j];
     if (pressed && c->active[j]) sum[2] += c->w0[j];
   }
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 3, MPIU_REAL, MPI_SUM, p->comm));
-  *moved = (PetscBool)(sum[2] < STAYS * PetscMin(sum[0], sum[1]));
+  *moved = (PetscBool)(sum[2] < (1 - CONTACT_SLIVER) * PetscMin(sum[0], sum[1]));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -239,7 +239,7 @@ PetscErrorCode SlipEvaluate_Private(Interface p, Contact *c)
   for (PetscInt d = 0; d < m; ++d) PetscCall(LinkSpread_Private(p, &own->values, 1, s->slip + n * d));
   PetscCall(LinkSpread_Private(p, &own->values, 1, s->weight));
   for (PetscInt j = 0; j < own->num_nodes; ++j)
-    if (!(s->weight[j] > COVERED * c->w0[j])) s->slip[j] = s->slip[n * (m - 1) + j] = s->weight[j] = 0; /* no partner then */
+    if (!(s->weight[j] > CONTACT_ROUND * c->w0[j])) s->slip[j] = s->slip[n * (m - 1) + j] = s->weight[j] = 0; /* no partner then */
   for (PetscInt j = 0; j < m * n; ++j) s->mean[j] = s->weight[j % n] > 0 ? s->slip[j] / s->weight[j % n] : 0;
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -70,7 +70,7 @@ PetscErrorCode ContactFacetHessian_Private(Interface p, const InterfaceSystem *a
     const PetscReal *axes = NodeFrame_Private(c, e->nodes[b]);
     for (PetscInt j = 0; j < n; ++j) NodeTurn_Private(dim, axes, H + dim * b * n + j, n);
   }
-  PetscCall(ContactInsert_Private(a->matrix, n, dofs, n, dofs, H, ADD_VALUES));
+  PetscCall(MatSetValues(a->matrix, n, dofs, n, dofs, H, ADD_VALUES));
   PetscCall(ContactRigidHessian_Private(a, c, e, dofs, H));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -83,10 +83,10 @@ static PetscErrorCode Column_Private(Interface p, const InterfaceSystem *a, cons
 
   PetscFunctionBegin;
   for (PetscInt b = 0; b < e->num; ++b) NodeTurn_Private(p->dim, NodeFrame_Private(c, e->nodes[b]), p->work.value + p->dim * b, 1);
-  PetscCall(ContactInsert_Private(a->matrix, n, p->work.index, 1, &column, p->work.value, ADD_VALUES));
+  PetscCall(MatSetValues(a->matrix, n, p->work.index, 1, &column, p->work.value, ADD_VALUES));
   if (!c->num_q) PetscFunctionReturn(PETSC_SUCCESS);
   ContactRigidForces_Private(c, e, p->work.value, q);
-  PetscCall(ContactInsert_Private(a->matrix, c->num_q, c->q_row, 1, &column, q, ADD_VALUES));
+  PetscCall(MatSetValues(a->matrix, c->num_q, c->q_row, 1, &column, q, ADD_VALUES));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -10,8 +10,6 @@
    carries no multiplier of that component, and one at which tied pairs meet none at all. */
 #include "interfaceimpl.h"
 
-#define FLAT 1e-12 /* of a facet: a gap that is round-off of positions */
-
 /* ---- rows ------------------------------------------------------------------------------------------------------------------------------- */
 
 /* Diagonals e[0], e[1] of a facet with these corners and its vector e[2]; plane: e[1] = e_z. */
@@ -156,7 +154,7 @@ static void Arms_Private(const Contact *c, PetscInt k, TieFacet *t)
       for (PetscInt d = 0; d < s->dim; ++d) g[d] += t->facet.tie[r * t->facet.num + a] * c->side[NODE_SIDE(id)].X[s->dim * NODE_INDEX(id) + d];
     }
     t->start[r] = g[k];
-    if (c->spec->close || Dot3(g, g) <= PetscSqr(FLAT * t->facet.weight[r]) * Dot3(e[0], e[0])) continue;
+    if (c->spec->close || Dot3(g, g) <= PetscSqr(CONTACT_ROUND * t->facet.weight[r]) * Dot3(e[0], e[0])) continue;
     t->start[r] = 0;
     Coefficients_Private(e, g, t->arm + 3 * r);
     if (t->arm[3 * r + 2] != 0) t->bends = PETSC_TRUE;
@@ -221,7 +219,7 @@ static PetscErrorCode Component_Private(Interface p, Contact *c, PetscInt k, con
     }
   }
   PetscCall(LinkSpread_Private(p, &s->values, 1, t->weight + n * k));
-  for (PetscInt j = 0; j < n; ++j) t->carries[n * k + j] = (PetscBool)(carries[j] && t->weight[n * k + j] > COVERED * c->w0[j]);
+  for (PetscInt j = 0; j < n; ++j) t->carries[n * k + j] = (PetscBool)(carries[j] && t->weight[n * k + j] > CONTACT_ROUND * c->w0[j]);
   PetscCall(ContactPairGetDonors(c->pair, &first, &donor, &donor_weight));
   if (!first) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(PetscMalloc3(n + 1, &t->donor_first[k], first[n], &t->donor[k], first[n], &t->donor_weight[k]));

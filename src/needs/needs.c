@@ -108,12 +108,10 @@ static PetscErrorCode OnSides_Private(const Context *c, PetscInt pair, PetscReal
 {
   const ContactView *v;
   const HPTables    *tables;
-  HPSpace            space;
 
   PetscFunctionBegin;
   PetscCall(InterfaceGetContact(ProblemInterface(c->run->level->problem), pair, &v));
-  PetscCall(ProblemGetSpace(c->run->level->problem, &space));
-  PetscCall(HPSpaceGetTables(space, &tables));
+  PetscCall(HPSpaceGetTables(ProblemSpace(c->run->level->problem), &tables));
   PetscReal nodes[] = {(PetscReal)(v->nonmortar.num_nodes + v->mortar.num_nodes), (PetscReal)tables->num_nodes};
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, nodes, 2, MPIU_REAL, MPI_SUM, c->run->comm));
   *share = 2 * nodes[0] / nodes[1];
@@ -606,14 +604,11 @@ static PetscErrorCode Terms_Private(Context *c)
   const PetscInt      num = c->run->data->mechanics.num_bodies;
   const HPTables     *v;
   const ForestTables *t;
-  Mechanics           mechanics;
-  HPSpace             space;
+  Mechanics           mechanics = ProblemMechanics(l->problem);
   PetscReal          *u;
 
   PetscFunctionBegin;
-  PetscCall(ProblemGetMechanics(l->problem, &mechanics));
-  PetscCall(ProblemGetSpace(l->problem, &space));
-  PetscCall(HPSpaceGetTables(space, &v));
+  PetscCall(HPSpaceGetTables(ProblemSpace(l->problem), &v));
   PetscCall(ForestGetTables(l->forest, &t));
   PetscCall(PetscCalloc2(num, &c->terms, num, &c->cells));
   for (PetscInt i = 0; i < t->num_leaves; ++i) ++c->cells[t->leaf_body[i]];

@@ -111,13 +111,12 @@ PetscErrorCode NeedsLostByOrder(const NeedsRun *run, PetscInt body, PetscInt dir
   const PetscInt       dim = m->model == MODEL_3D ? 3 : 2, most = ElementNumNodes(dim, MORTISE_MAX_ORDER) * dim;
   const HPTables      *v;
   const ForestTables  *t;
-  HPSpace              space;
+  HPSpace              space = ProblemSpace(run->level->problem);
   PetscReal           *local, *X, *u, *kept, R[MOST_1D * MOST_1D];
 
   PetscFunctionBegin;
   *energy = 0;
   PetscCall(ForestGetTables(run->level->forest, &t));
-  PetscCall(ProblemGetSpace(run->level->problem, &space));
   PetscCall(HPSpaceGetTables(space, &v));
   PetscCall(PetscMalloc4(v->num_nodes * v->dim, &local, most, &X, most, &u, most, &kept));
   PetscCall(ProblemLocalDisplacement(run->level->problem, run->level->accepted.x, local));

@@ -41,20 +41,19 @@ PetscErrorCode NeedsCorners(const NeedsRun *run, PetscInt axis, const PetscReal 
 {
   const HPTables     *v;
   const ForestTables *t;
-  HPSpace             space;
+  HPSpace             space = ProblemSpace(run->level->problem);
   PetscReal          *local, *X, *u;
-  PetscInt            most = 1;
+  PetscInt            most = 1, num_mine = 0;
+  Place              *mine;
 
   PetscFunctionBegin;
   PetscCall(ForestGetTables(run->level->forest, &t));
-  PetscCall(ProblemGetSpace(run->level->problem, &space));
   PetscCall(HPSpaceGetTables(space, &v));
   for (PetscInt c = 0; c < v->num_owned_cells; ++c) most = PetscMax(most, v->cell_order[c]);
   most = ElementNumNodes(v->dim, most) * v->dim;
   PetscCall(PetscMalloc3(v->num_nodes * v->dim, &local, most, &X, most, &u));
-  PetscCall(PetscCalloc1(v->num_owned_cells << v->dim, corner));
+  PetscCall(PetscCalloc1(v->num_owned_cells << v->dim, &mine));
   PetscCall(ProblemLocalDisplacement(run->level->problem, run->level->accepted.x, local));
-  *num     = 0;
   *largest = 0;
   for (PetscInt c = 0; c < v->num_owned_cells; ++c) {
     const PetscInt p = v->cell_order[c];
@@ -62,7 +61,7 @@ PetscErrorCode NeedsCorners(const NeedsRun *run, PetscInt axis, const PetscReal 
     PetscCall(HPSpaceGather(space, c, local, u));
     for (PetscInt k = 0; k < 1 << v->dim; ++k) {
       const PetscInt node = p * ((k & 1) + (p + 1) * ((k >> 1 & 1) + (p + 1) * (k >> 2)));
-      Place         *q    = &(*corner)[(*num)++];
+      Place         *q    = &mine[num_mine++];
       q->body             = t->leaf_body[v->cell_leaf[c]];
       for (PetscInt d = 0; d < v->dim; ++d) {
         q->X[d]  = X[node * v->dim + d];
@@ -74,7 +73,8 @@ PetscErrorCode NeedsCorners(const NeedsRun *run, PetscInt axis, const PetscReal 
   }
   PetscCall(PetscFree3(local, X, u));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, largest, 1, MPIU_REAL, MPI_MAX, run->comm));
-  PetscCall(GatherToAll(run->comm, sizeof(Place), num, (void **)corner)); /* what belongs together may be of several ranks */
+  PetscCall(GatherAll(run->comm, num_mine, sizeof(Place), mine, num, corner)); /* what belongs together may be of several ranks */
+  PetscCall(PetscFree(mine));
   PlacesSort(*num, *corner);
   PetscFunctionReturn(PETSC_SUCCESS);
 }

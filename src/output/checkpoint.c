@@ -34,14 +34,13 @@ PetscErrorCode CheckpointCreate(Problem problem, const State *state, PetscInt nu
 {
   const SceneData  *scene;
   const CoarseMesh *mesh;
-  Forest            forest;
+  Forest            forest = ProblemForest(problem);
   Checkpoint        c;
   OutputText        text = {0};
 
   PetscFunctionBegin;
   PetscCall(PetscNew(&c));
   PetscCall(ProblemGetScene(problem, &scene));
-  PetscCall(ProblemGetForest(problem, &forest));
   PetscCall(ForestGetCoarse(forest, &mesh));
   PetscCall(PetscCommDuplicate(ForestComm(forest), &c->comm, NULL));
   PetscCall(OutputPhysics(scene, mesh, &text));

@@ -231,14 +231,13 @@ static PetscErrorCode Sums_Private(Problem problem, const ContactView *v, const 
   const SceneData      *scene;
   const ForestTables   *t;
   const ContactSegment *segment;
-  Forest                forest;
+  Forest                forest = ProblemForest(problem);
   PetscInt              num;
   PetscMPIInt           rank;
   SegmentPoint          point[3 * CONTACT_SEGMENT * MORTISE_MAX_ORDER * MORTISE_MAX_ORDER];
 
   PetscFunctionBegin;
   PetscCall(ProblemGetScene(problem, &scene));
-  PetscCall(ProblemGetForest(problem, &forest));
   PetscCall(ForestGetTables(forest, &t));
   PetscCallMPI(MPI_Comm_rank(ForestComm(forest), &rank));
   const PetscReal *x = scene->mechanics.kinematics == KINEMATICS_SMALL ? v->nonmortar.X : v->nonmortar.x;
@@ -254,16 +253,14 @@ static PetscErrorCode Sums_Private(Problem problem, const ContactView *v, const 
 PetscErrorCode OutputProjectFields(Problem problem, PetscInt pair, const ContactFields *from, ContactFields *to)
 {
   const ContactView *v;
-  Forest             forest;
   PetscReal         *sums;
 
   PetscFunctionBegin;
-  PetscCall(ProblemGetForest(problem, &forest));
   PetscCall(InterfaceGetContact(ProblemInterface(problem), pair, &v));
   const PetscInt n = v->mortar.num_nodes;
   PetscCall(PetscCalloc1(NUM_SUMS * n, &sums));
   PetscCall(Sums_Private(problem, v, from, sums));
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sums, (PetscMPIInt)(NUM_SUMS * n), MPIU_REAL, MPI_SUM, ForestComm(forest)));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sums, (PetscMPIInt)(NUM_SUMS * n), MPIU_REAL, MPI_SUM, ForestComm(ProblemForest(problem))));
   for (PetscInt m = 0; m < n; ++m) {
     const PetscReal *s = sums + NUM_SUMS * m;
     to->pressure[m]    = s[SUM_ALL] > 0 ? s[SUM_PRESSURE] / s[SUM_ALL] : 0;

@@ -221,13 +221,11 @@ static PetscErrorCode WriteSurfaces_Private(Writer writer, Problem problem, cons
 PetscErrorCode OutputWriteContact(Writer writer, Problem problem)
 {
   const SceneData *scene;
-  Forest           forest;
   PetscMPIInt      rank;
 
   PetscFunctionBegin;
   PetscCall(ProblemGetScene(problem, &scene));
-  PetscCall(ProblemGetForest(problem, &forest));
-  PetscCallMPI(MPI_Comm_rank(ForestComm(forest), &rank));
+  PetscCallMPI(MPI_Comm_rank(ForestComm(ProblemForest(problem)), &rank));
   PetscCall(WriteSurfaces_Private(writer, problem, scene, rank));
   if (scene->output.segments) PetscCall(OutputWriteSegments(writer, problem));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -212,16 +212,13 @@ static PetscErrorCode Values_Private(Problem problem, PetscInt cell, const Petsc
   const SceneData    *scene;
   const ForestTables *t;
   const HPTables     *v;
-  HPSpace             space;
-  Forest              forest;
-  Mechanics           mechanics;
+  HPSpace             space     = ProblemSpace(problem);
+  Mechanics           mechanics = ProblemMechanics(problem);
   PetscReal          *nodal, *N, F[9], P[9];
 
   PetscFunctionBegin;
   PetscCall(ProblemGetScene(problem, &scene));
-  PetscCall(ProblemGetForest(problem, &forest));
-  PetscCall(ForestGetTables(forest, &t));
-  PetscCall(ProblemGetSpace(problem, &space));
+  PetscCall(ForestGetTables(ProblemForest(problem), &t));
   PetscCall(HPSpaceGetTables(space, &v));
   const PetscInt n = ElementNumNodes(v->dim, v->cell_order[cell]);
   PetscCall(PetscMalloc2(n * v->dim, &nodal, n, &N));
@@ -232,7 +229,6 @@ static PetscErrorCode Values_Private(Problem problem, PetscInt cell, const Petsc
   }
   PetscCall(PetscFree2(nodal, N));
   if (scene->mechanics.bodies[t->leaf_body[v->cell_leaf[cell]]].material->law->rigid) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(ProblemGetMechanics(problem, &mechanics));
   PetscCall(MechanicsPoints(mechanics, cell, 1, xi, u, &(PointValues){.F = F, .P = P}));
   OutputCauchy(scene->mechanics.kinematics, F, P, value->stress, NULL);
   PetscCall(MechanicsPlasticStrain(mechanics, cell, 1, xi, u, &value->plastic_strain));
@@ -243,16 +239,13 @@ PetscErrorCode ProbesEvaluate(Probes p, Problem problem, Vec x, ProbeValue value
 {
   const ForestTables *t;
   const HPTables     *v;
-  HPSpace             space;
-  Forest              forest;
+  Forest              forest = ProblemForest(problem);
   PetscReal          *u;
 
   PetscFunctionBegin;
   if (!p->num) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(ProblemGetForest(problem, &forest));
   PetscCall(ForestGetTables(forest, &t));
-  PetscCall(ProblemGetSpace(problem, &space));
-  PetscCall(HPSpaceGetTables(space, &v));
+  PetscCall(HPSpaceGetTables(ProblemSpace(problem), &v));
   PetscCall(PetscMalloc1(v->num_nodes * v->dim, &u));
   PetscCall(PetscArrayzero(value, p->num));
   PetscCall(ProblemLocalDisplacement(problem, x, u));

@@ -74,13 +74,12 @@ static PetscErrorCode Collect_Private(Problem problem, PetscInt dim, SegmentGrid
   const ForestTables   *t;
   const ContactView    *v;
   const ContactSegment *segment;
-  Forest                forest;
+  Forest                forest = ProblemForest(problem);
   PetscInt              num;
   PetscMPIInt           rank;
 
   PetscFunctionBegin;
   PetscCall(ProblemGetScene(problem, &scene));
-  PetscCall(ProblemGetForest(problem, &forest));
   PetscCall(ForestGetTables(forest, &t));
   PetscCallMPI(MPI_Comm_rank(ForestComm(forest), &rank));
   const PetscBool small = (PetscBool)(scene->mechanics.kinematics == KINEMATICS_SMALL);
@@ -107,12 +106,10 @@ PetscErrorCode OutputWriteSegments(Writer writer, Problem problem)
 {
   static const char *const name[] = {"pair", "facet", "mortar_facet"};
   const ForestTables      *t;
-  Forest                   forest;
   SegmentGrid              g = {0};
 
   PetscFunctionBegin;
-  PetscCall(ProblemGetForest(problem, &forest));
-  PetscCall(ForestGetTables(forest, &t));
+  PetscCall(ForestGetTables(ProblemForest(problem), &t));
   g.corners = t->dim == 2 ? 4 : 3;
   PetscCall(Collect_Private(problem, t->dim, &g));
   const PetscInt points = g.num_points, cells = g.num_cells;

@@ -241,17 +241,14 @@ PetscErrorCode OutputWriteState(Writer writer, Problem problem, const State *sta
   const SceneData    *scene;
   const ForestTables *t;
   const HPTables     *v;
-  HPSpace             space;
-  Forest              forest;
+  HPSpace             space = ProblemSpace(problem);
   BulkGrid            grid;
   PetscReal          *u;
 
   PetscFunctionBegin;
   PetscCall(StageBegin(STAGE_OUTPUT));
   PetscCall(ProblemGetScene(problem, &scene));
-  PetscCall(ProblemGetForest(problem, &forest));
-  PetscCall(ForestGetTables(forest, &t));
-  PetscCall(ProblemGetSpace(problem, &space));
+  PetscCall(ForestGetTables(ProblemForest(problem), &t));
   PetscCall(HPSpaceGetTables(space, &v));
   PetscCall(PetscMalloc1(v->num_nodes * v->dim, &u));
   PetscCall(ProblemSetState(problem, state));

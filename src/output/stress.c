@@ -63,27 +63,21 @@ PetscErrorCode OutputSampleCell(Problem problem, PetscInt cell, const PetscReal 
   const ForestTables *t;
   const HPTables     *v;
   const Basis1D      *basis;
-  HPSpace             space;
-  Forest              forest;
-  Mechanics           mechanics;
   PetscReal          *xi, *F, *P;
 
   PetscFunctionBegin;
   PetscCall(ProblemGetScene(problem, &scene));
-  PetscCall(ProblemGetForest(problem, &forest));
-  PetscCall(ForestGetTables(forest, &t));
-  PetscCall(ProblemGetSpace(problem, &space));
-  PetscCall(HPSpaceGetTables(space, &v));
+  PetscCall(ForestGetTables(ProblemForest(problem), &t));
+  PetscCall(HPSpaceGetTables(ProblemSpace(problem), &v));
   const PetscInt p = v->cell_order[cell], np = ElementNumNodes(v->dim, p - 1); /* p points in each direction */
   if (scene->mechanics.bodies[t->leaf_body[v->cell_leaf[cell]]].material->law->rigid) {
     for (PetscInt i = 0; i < 7 * np; ++i) samples[i] = i % 7 == 6;
     PetscFunctionReturn(PETSC_SUCCESS);
   }
-  PetscCall(ProblemGetMechanics(problem, &mechanics));
   PetscCall(Basis1DGet(p, p, &basis));
   PetscCall(PetscMalloc3(np * v->dim, &xi, np * 9, &F, np * 9, &P));
   Points_Private(v->dim, basis, np, xi);
-  PetscCall(MechanicsPoints(mechanics, cell, np, xi, u, &(PointValues){.F = F, .P = P}));
+  PetscCall(MechanicsPoints(ProblemMechanics(problem), cell, np, xi, u, &(PointValues){.F = F, .P = P}));
   for (PetscInt i = 0; i < np; ++i) OutputCauchy(scene->mechanics.kinematics, F + 9 * i, P + 9 * i, samples + 7 * i, samples + 7 * i + 6);
   PetscCall(PetscFree3(xi, F, P));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -95,27 +89,21 @@ PetscErrorCode OutputSampleQuantities(Problem problem, PetscInt cell, const Pets
   const ForestTables *t;
   const HPTables     *v;
   const Basis1D      *basis;
-  HPSpace             space;
-  Forest              forest;
-  Mechanics           mechanics;
   PetscReal          *xi, *F, *P, *W;
 
   PetscFunctionBegin;
   PetscCall(ProblemGetScene(problem, &scene));
-  PetscCall(ProblemGetForest(problem, &forest));
-  PetscCall(ForestGetTables(forest, &t));
-  PetscCall(ProblemGetSpace(problem, &space));
-  PetscCall(HPSpaceGetTables(space, &v));
+  PetscCall(ForestGetTables(ProblemForest(problem), &t));
+  PetscCall(HPSpaceGetTables(ProblemSpace(problem), &v));
   const PetscInt p = v->cell_order[cell], np = ElementNumNodes(v->dim, p - 1);
   if (scene->mechanics.bodies[t->leaf_body[v->cell_leaf[cell]]].material->law->rigid) {
     for (PetscInt i = 0; i < OUTPUT_QUANTITIES * np; ++i) samples[i] = i % OUTPUT_QUANTITIES < 3;
     PetscFunctionReturn(PETSC_SUCCESS);
   }
-  PetscCall(ProblemGetMechanics(problem, &mechanics));
   PetscCall(Basis1DGet(p, p, &basis));
   PetscCall(PetscMalloc4(np * v->dim, &xi, np * 9, &F, np * 9, &P, np, &W));
   Points_Private(v->dim, basis, np, xi);
-  PetscCall(MechanicsPoints(mechanics, cell, np, xi, u, &(PointValues){.F = F, .P = P, .W = W}));
+  PetscCall(MechanicsPoints(ProblemMechanics(problem), cell, np, xi, u, &(PointValues){.F = F, .P = P, .W = W}));
   for (PetscInt i = 0; i < np; ++i) {
     PetscReal *s = samples + OUTPUT_QUANTITIES * i;
     PetscCall(OutputStrain(scene->mechanics.kinematics, F + 9 * i, s, s + 3));
@@ -130,19 +118,15 @@ PetscErrorCode OutputSamplePlastic(Problem problem, PetscInt cell, const PetscRe
 {
   const HPTables *v;
   const Basis1D  *basis;
-  HPSpace         space;
-  Mechanics       mechanics;
   PetscReal      *xi;
 
   PetscFunctionBegin;
-  PetscCall(ProblemGetMechanics(problem, &mechanics));
-  PetscCall(ProblemGetSpace(problem, &space));
-  PetscCall(HPSpaceGetTables(space, &v));
+  PetscCall(HPSpaceGetTables(ProblemSpace(problem), &v));
   const PetscInt p = v->cell_order[cell], np = ElementNumNodes(v->dim, p - 1);
   PetscCall(Basis1DGet(p, p, &basis));
   PetscCall(PetscMalloc1(np * v->dim, &xi));
   Points_Private(v->dim, basis, np, xi);
-  PetscCall(MechanicsPlasticStrain(mechanics, cell, np, xi, u, samples));
+  PetscCall(MechanicsPlasticStrain(ProblemMechanics(problem), cell, np, xi, u, samples));
   PetscCall(PetscFree(xi));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

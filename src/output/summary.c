@@ -303,11 +303,9 @@ static PetscErrorCode GatherRun_Private(MPI_Comm comm, Gathered *g)
 static PetscErrorCode GatherState_Private(const SceneData *scene, const RunSummary *s, Gathered *g)
 {
   const ForestTables *t;
-  Forest              forest;
 
   PetscFunctionBegin;
-  PetscCall(ProblemGetForest(s->problem, &forest));
-  PetscCall(ForestGetTables(forest, &t));
+  PetscCall(ForestGetTables(ProblemForest(s->problem), &t));
   PetscCall(ProblemNumDofs(s->problem, &g->dofs));
   g->cells     = t->num_leaves;
   g->order_min = MORTISE_MAX_ORDER;

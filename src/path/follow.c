@@ -1,8 +1,6 @@
 /* The one loop along which equilibria are found: attempt, accept, grow; or go back, recover, cut. What it follows is a PathMetric. */
 #include "path.h"
 
-#define EASY_ITERATIONS 6 /* a load step that took no more Newton iterations lets the next one grow */
-
 PetscErrorCode PathPrescribe(Problem problem, PetscReal t)
 {
   PetscFunctionBegin;
@@ -50,11 +48,9 @@ void PathCount(Path *p, const SolverReport *report, PetscBool equilibrium)
 PetscErrorCode PathFrom(const Path *p, PetscReal **from)
 {
   const HPTables *v;
-  HPSpace         space;
 
   PetscFunctionBegin;
-  PetscCall(ProblemGetSpace(p->level->problem, &space));
-  PetscCall(HPSpaceGetTables(space, &v));
+  PetscCall(HPSpaceGetTables(ProblemSpace(p->level->problem), &v));
   PetscCall(PetscMalloc1(v->num_nodes * v->dim, from));
   PetscCall(ProblemLocalDisplacement(p->level->problem, p->level->state.x, *from));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -118,7 +114,7 @@ PetscErrorCode PathAttempt(Path *p, const PathLoop *loop, PetscReal to, SolverRe
 /* The next piece after one to s = next that was found; at once: not after one that failed. */
 static void Grow_Private(PathLoop *loop, PetscReal next, PetscBool at_once, const SolverReport *report)
 {
-  const PetscBool easy = (PetscBool)(!loop->metric->load || report->iterations <= EASY_ITERATIONS);
+  const PetscBool easy = (PetscBool)(!loop->metric->load || report->iterations < SOLVER_MANY);
 
   loop->s = next;
   if (at_once && easy) loop->piece = PetscMin(loop->metric->growth * loop->piece, loop->most);

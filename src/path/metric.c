@@ -1,16 +1,15 @@
 /* What equilibria are followed in: time, the arc length of a path of equilibria, what is left of an imbalance, and pseudo-time under viscous regularisation. */
 #include "path.h"
 
-#define ROUND_OFF 1e-12 /* of load.end: times that differ by less are the same */
-#define GROWTH 1.5      /* of a step after an easy one */
-#define TURN 2          /* a step along the path this many times as long as asked for has left its tangent */
+#define GROWTH 1.5 /* of a step after an easy one */
+#define TURN 2     /* a step along the path this many times as long as asked for has left its tangent */
 
 /* ---- time ------------------------------------------------------------------------------------------------------------------------ */
 
 PetscReal PathStepEnd(const SceneData *data, PetscReal t, PetscReal dt)
 {
   const MechanicsSpec *m    = &data->mechanics;
-  const PetscReal      tiny = ROUND_OFF * data->load.end;
+  const PetscReal      tiny = PETSC_SQRT_MACHINE_EPSILON * data->load.end; /* times that differ by less are the same */
   PetscReal            last = data->load.end;
 
   for (PetscInt i = 0; i < m->num_boundaries; ++i) last = PetscMin(last, AmplitudeNext(&m->boundaries[i].amplitude, t + tiny));
@@ -22,7 +21,7 @@ static PetscReal TimeEnd_Private(const Path *p, const PathLoop *loop)
 {
   const PetscReal end = PathStepEnd(p->data, loop->s, loop->piece);
 
-  return end > loop->stop - ROUND_OFF * p->data->load.end ? loop->stop : end;
+  return end > loop->stop - PETSC_SQRT_MACHINE_EPSILON * p->data->load.end ? loop->stop : end;
 }
 
 static PetscErrorCode TimeSet_Private(Path *p, const PathLoop *loop, PetscReal to)

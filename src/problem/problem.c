@@ -120,25 +120,19 @@ PetscErrorCode ProblemGetScene(Problem p, const SceneData **scene)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode ProblemGetForest(Problem p, Forest *forest)
+Forest ProblemForest(Problem p)
 {
-  PetscFunctionBegin;
-  *forest = p->forest;
-  PetscFunctionReturn(PETSC_SUCCESS);
+  return p->forest;
 }
 
-PetscErrorCode ProblemGetSpace(Problem p, HPSpace *space)
+HPSpace ProblemSpace(Problem p)
 {
-  PetscFunctionBegin;
-  *space = p->space;
-  PetscFunctionReturn(PETSC_SUCCESS);
+  return p->space;
 }
 
-PetscErrorCode ProblemGetMechanics(Problem p, Mechanics *mechanics)
+Mechanics ProblemMechanics(Problem p)
 {
-  PetscFunctionBegin;
-  *mechanics = p->mechanics;
-  PetscFunctionReturn(PETSC_SUCCESS);
+  return p->mechanics;
 }
 
 Interface ProblemInterface(Problem p)

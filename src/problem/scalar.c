@@ -10,17 +10,13 @@
 /* Diagonal of the box around all bodies. */
 static PetscErrorCode Extent_Private(Problem p)
 {
-  const HPTables *v = p->tables;
-  PetscReal       most[6], square = 0; /* - lowest, highest */
+  const CoarseMesh *mesh;
+  PetscReal         lo[3], hi[3], square = 0;
 
   PetscFunctionBegin;
-  for (PetscInt c = 0; c < 6; ++c) most[c] = PETSC_MIN_REAL;
-  for (PetscInt i = 0; i < 3 * v->num_nodes; ++i) {
-    most[i % 3]     = PetscMax(most[i % 3], -v->X[i]);
-    most[3 + i % 3] = PetscMax(most[3 + i % 3], v->X[i]);
-  }
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, most, 6, MPIU_REAL, MPI_MAX, p->comm));
-  for (PetscInt c = 0; c < 3; ++c) square += PetscSqr(most[c] + most[3 + c]);
+  PetscCall(ForestGetCoarse(p->forest, &mesh));
+  ForestCoarseBox(mesh, lo, hi);
+  for (PetscInt c = 0; c < 3; ++c) square += PetscSqr(hi[c] - lo[c]);
   p->extent = PetscSqrtReal(square);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -172,27 +168,18 @@ PetscErrorCode ProblemGetControls(Problem p, Vec x, PetscReal pressure[], PetscR
 /* Rows of the matrix that scalar k meets, ascending, the same on every rank, freed by the caller. */
 static PetscErrorCode Support_Private(Problem p, PetscInt k, PetscInt *num, PetscInt **rows)
 {
-  const HPTables *v = p->tables;
-  PetscBool      *mark;
-  PetscMPIInt    *counts, *offsets, mine = 0;
-  PetscInt       *own;
+  PetscBool *mark;
+  PetscInt  *own, mine = 0;
 
   PetscFunctionBegin;
-  PetscCall(PetscCalloc1(v->num_nodes, &mark));
+  PetscCall(PetscCalloc1(p->tables->num_nodes, &mark));
   PetscCall(PetscMalloc1(p->num_local, &own));
-  PetscCall(PetscMalloc2(p->size, &counts, p->size + 1, &offsets));
   PetscCall(MechanicsControlNodes(p->mechanics, k, mark));
   for (PetscInt i = 0; i < p->num_local; ++i) {
     if (mark[i / p->dim] && p->row[i] >= 0) own[mine++] = p->row[i];
   }
-  PetscCallMPI(MPI_Allgather(&mine, 1, MPI_INT, counts, 1, MPI_INT, p->comm));
-  offsets[0] = 0;
-  for (PetscMPIInt r = 0; r < p->size; ++r) offsets[r + 1] = offsets[r] + counts[r];
-  *num = offsets[p->size];
-  PetscCall(PetscMalloc1(*num, rows));
-  PetscCallMPI(MPI_Allgatherv(own, mine, MPIU_INT, *rows, counts, offsets, MPIU_INT, p->comm));
+  PetscCall(GatherAll(p->comm, mine, sizeof(PetscInt), own, num, rows));
   PetscCall(PetscSortRemoveDupsInt(num, *rows));
-  PetscCall(PetscFree2(counts, offsets));
   PetscCall(PetscFree(own));
   PetscCall(PetscFree(mark));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -7,26 +7,16 @@
 
 #define PENALTY 10         /* kappa over E / h: stiff against the cells, soft enough for the line search */
 #define OUTER 3            /* descents, each with the multipliers of the one before: what helps does so after one or two */
-#define ITERATIONS 60      /* of one descent */
-#define MOVES 20           /* pieces of the prescribed motion */
-#define FIRST_SHIFT 1e-9   /* over the rows' largest entries */
 #define MORE_SHIFT 16      /* times the last, where the matrix is not positive yet; where it was, as many times smaller in the next iteration */
-#define SHORTER_SHIFT 1e-3 /* at least, and MORE_SHIFT times the last, where that calls for a step shorter than 1 / MORE_SHIFT */
-#define ARMIJO 1e-4        /* least share of the decrease that the slope promises */
 #define HALVINGS 10        /* of a step, in a line search that gives up */
-#define LONGEST 64
-#define DEEPER 1        /* the same, by how much a piece of the prescribed motion may drive a node in */
-#define DEEP 0.25       /* overlap over the extent of a node along the surface: bodies must not pass through each other */
-#define ROUND_OFF 1e-13 /* of Phi: a smaller decrease is none */
+#define FIRST_SHIFT 1e-9   /* over the rows' largest entries */
+#define SHORTER_SHIFT 1e-3 /* at least, and MORE_SHIFT times the last, where that calls for a step shorter than 1 / MORE_SHIFT */
 
 PetscErrorCode SolverHasDescent(Solver s, PetscBool *yes)
 {
   PetscFunctionBegin;
-  *yes = PETSC_FALSE;
-#if defined(PETSC_HAVE_MUMPS)
   PetscCall(ProblemHasEnergy(s->problem, yes));
   if (s->saddle) *yes = PETSC_FALSE;
-#endif
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -52,20 +42,22 @@ static PetscErrorCode Factors_Private(Descent *d)
   PetscCall(KSPSetType(d->ksp, KSPPREONLY));
   PetscCall(KSPGetPC(d->ksp, &pc));
   PetscCall(PCSetType(pc, PCCHOLESKY));
-#if defined(PETSC_HAVE_MUMPS)
   PetscCall(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS));
-#endif
   PetscCall(PCSetFromOptions(pc));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode DescentCreate_Private(Solver s, SolverReport *report, Descent *d)
 {
+  PetscInt dofs;
+
   PetscFunctionBegin;
   PetscCall(PetscMemzero(d, sizeof(*d)));
-  d->solver  = s;
-  d->problem = s->problem;
-  d->report  = report;
+  PetscCall(ProblemNumDofs(s->problem, &dofs));
+  d->round_off = PETSC_MACHINE_EPSILON * PetscSqrtReal((PetscReal)dofs);
+  d->solver    = s;
+  d->problem   = s->problem;
+  d->report    = report;
   PetscCall(ProblemCreateVector(s->problem, &d->trial));
   PetscCall(VecDuplicateAll(d->trial, 5, (Vec *[]){&d->gradient, &d->dx, &d->lambda, &d->depth, &d->next}));
   PetscCall(ProblemCreateRightSide(s->problem, &d->lift));
@@ -110,6 +102,7 @@ static PetscErrorCode Factor_Private(Descent *d, Mat A, PetscInt *negative)
   PCFailedReason failed;
   PetscInt       constraints;
   PC             pc;
+  Mat            F;
 
   PetscFunctionBegin;
   *negative = NO_FACTOR;
@@ -122,11 +115,8 @@ static PetscErrorCode Factor_Private(Descent *d, Mat A, PetscInt *negative)
   PetscCall(PCGetFailedReason(pc, &failed));
   if (failed == PC_FACTOR_OUTMEMORY) *negative = NO_MEMORY;
   if (failed != PC_NOERROR) PetscFunctionReturn(PETSC_SUCCESS);
-#if defined(PETSC_HAVE_MUMPS)
-  Mat F;
   PetscCall(PCFactorGetMatrix(pc, &F));
   PetscCall(MatMumpsGetInfog(F, 12, negative));
-#endif
   PetscCall(ProblemNumNegative(d->problem, &constraints));
   *negative = PetscMax(0, *negative - constraints);
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -185,8 +175,8 @@ PetscErrorCode DescentDirection_Private(Descent *d, PetscReal *slope, PetscBool 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Is there a node that is deep in the other side at the iterate, or (pressed) presses on it, and has lost it at the trial? The energy falls when bodies pass
-   through each other. *deeper: by how much one is deeper at the trial. */
+/* Is there a node that is deeper in the other side at the iterate than its extent along the surface, or (pressed) presses on it, and has lost it at the trial?
+   The energy falls when bodies pass through each other. *deeper: by how much one is deeper at the trial. */
 static PetscErrorCode Through_Private(Descent *d, PetscBool pressed, PetscBool *yes, PetscReal *deeper)
 {
   const PetscReal *depth, *next, *lambda;
@@ -200,7 +190,7 @@ static PetscErrorCode Through_Private(Descent *d, PetscBool pressed, PetscBool *
   PetscCall(VecGetArrayRead(d->next, &next));
   PetscCall(VecGetArrayRead(d->lambda, &lambda));
   for (PetscInt i = 0; i < num; ++i) {
-    if ((depth[i] > DEEP || (pressed && depth[i] >= 0 && lambda[i] > 0)) && next[i] < 0) largest[0] = 1;
+    if ((depth[i] > 1 || (pressed && depth[i] >= 0 && lambda[i] > 0)) && next[i] < 0) largest[0] = 1;
     largest[1] = PetscMax(largest[1], next[i] - PetscMax(depth[i], 0));
   }
   PetscCall(VecRestoreArrayRead(d->lambda, &lambda));
@@ -235,10 +225,10 @@ PetscErrorCode DescentSearch_Private(Descent *d, Vec x, PetscReal slope, PetscBo
   *ok = PETSC_FALSE;
   for (PetscInt i = 0; i < HALVINGS; ++i, step *= 0.5) {
     PetscCall(DescentTry_Private(d, x, step, &merit));
-    *ok = (PetscBool)(merit <= d->merit + ARMIJO * step * slope);
+    *ok = (PetscBool)(merit <= d->merit + PETSC_SQRT_MACHINE_EPSILON * step * slope); /* any share of what the slope promises will do */
     if (*ok) break;
   }
-  while (*ok && d->shift > 0 && step >= 1 && step < LONGEST) {
+  while (*ok && d->shift > 0 && step >= 1) { /* out of the domain, and where it is no number, Phi is the largest */
     PetscCall(DescentTry_Private(d, x, 2 * step, &further));
     if (further >= merit) break;
     merit = further;
@@ -280,12 +270,12 @@ static PetscErrorCode Minimise_Private(Descent *d, Vec x, PetscBool *ok)
   PetscFunctionBegin;
   *ok      = PETSC_FALSE;
   d->least = 0;
-  for (PetscInt i = 0; i < ITERATIONS && !d->report->stopped; ++i) {
+  for (PetscInt i = 0; i < DESCENT_ITERATIONS && !d->report->stopped; ++i) {
     if (moved) PetscCall(DescentLinearise_Private(d, x, &done, &found));
     if (!found) break;
     PetscCall(DescentDirection_Private(d, &slope, &found));
-    *ok = (PetscBool)(found && done && (d->shift == 0 || -slope <= ROUND_OFF * PetscAbsReal(d->merit)));
-    if (!found || *ok || -slope <= ROUND_OFF * PetscAbsReal(d->merit)) break;
+    *ok = (PetscBool)(found && done && (d->shift == 0 || -slope <= d->round_off * PetscAbsReal(d->merit)));
+    if (!found || *ok || -slope <= d->round_off * PetscAbsReal(d->merit)) break;
     PetscCall(DescentSearch_Private(d, x, slope, &moved));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -323,7 +313,7 @@ static PetscErrorCode Piece_Private(Descent *d, Vec x, PetscBool *ok)
     PetscCall(ProblemStepMove(d->problem, d->dx, step, PETSC_FALSE, x));
     PetscCall(ProblemMerit(d->problem, PENALTY, d->lambda, x, NULL, &d->merit, &d->status));
     PetscCall(Through_Private(d, PETSC_TRUE, &through, &deeper));
-    *ok = (PetscBool)(!d->status.bad && !through && deeper <= DEEPER);
+    *ok = (PetscBool)(!d->status.bad && !through && deeper <= 1);
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -335,7 +325,7 @@ static PetscErrorCode Move_Private(Descent *d, Vec x, PetscBool *ok)
   PetscFunctionBegin;
   *ok = PETSC_TRUE;
   PetscCall(ProblemPending(d->problem, &pending));
-  for (PetscInt piece = 0; piece < MOVES && pending > 0 && *ok && !d->report->stopped; ++piece) {
+  for (PetscInt piece = 0; piece < DESCENT_ITERATIONS && pending > 0 && *ok && !d->report->stopped; ++piece) {
     PetscCall(Piece_Private(d, x, ok));
     PetscCall(ProblemPending(d->problem, &pending));
   }

@@ -3,8 +3,6 @@
    not jump then; on: from the first iterate on. */
 #include "solveimpl.h"
 
-#define CLEAR 10 /* tolerances: what is less is round-off's */
-
 static PetscErrorCode Begin_Private(Solver s)
 {
   PetscFunctionBegin;
@@ -25,7 +23,7 @@ static PetscErrorCode ComesAndGoes_Private(Solver s, const Iterate *it, PetscBoo
   PetscFunctionBegin;
   PetscCall(ProblemPending(s->problem, &pending));
   const PetscBool grows = (PetscBool)(it->norm >= last || s->shortened);
-  const PetscBool same  = (PetscBool)(last > CLEAR * SolverTolerance_Private(s, &s->report->status) && it->set == s->last_set);
+  const PetscBool same  = (PetscBool)(last > SolverTolerance_Private(s, &s->report->status) && it->set == s->last_set);
   *yes                  = (PetscBool)(same && grows && (last <= PetscSqrtReal(s->rtol) * s->report->status.scale || (s->fell && last < s->first_norm)));
   s->grew               = (PetscBool)(s->grew || (same && grows));
   s->fell               = (PetscBool)(s->fell || (s->grew && it->norm < last));

@@ -28,7 +28,9 @@ static PetscErrorCode Negative_Private(Solver s, PC pc, PetscInt *negative)
   PCFailedReason failed;
   PetscMPIInt    size;
   PetscInt       whole = 0;
-  PetscBool      set;
+  PetscBool      set, mumps;
+  MatSolverType  type;
+  Mat            F;
 
   PetscFunctionBegin;
   *negative = -1;
@@ -36,19 +38,15 @@ static PetscErrorCode Negative_Private(Solver s, PC pc, PetscInt *negative)
   PetscCall(PetscOptionsGetInt(NULL, NULL, "-mat_mumps_icntl_13", &whole, &set));
   PetscCall(PCGetFailedReason(pc, &failed));
   if (!s->symmetric || failed != PC_NOERROR || (size > 1 && whole != 1)) PetscFunctionReturn(PETSC_SUCCESS);
-  if (s->single) PetscCall(SingleFactorNegative_Private(pc, negative));
-#if defined(PETSC_HAVE_MUMPS)
-  if (!s->single) {
-    MatSolverType type;
-    PetscBool     mumps;
-    Mat           F;
-    PetscCall(PCFactorGetMatSolverType(pc, &type));
-    PetscCall(PetscStrcmp(type, MATSOLVERMUMPS, &mumps));
-    if (!mumps) PetscFunctionReturn(PETSC_SUCCESS);
-    PetscCall(PCFactorGetMatrix(pc, &F));
-    PetscCall(MatMumpsGetInfog(F, 12, negative));
+  if (s->single) {
+    PetscCall(SingleFactorNegative_Private(pc, negative));
+    PetscFunctionReturn(PETSC_SUCCESS);
   }
-#endif
+  PetscCall(PCFactorGetMatSolverType(pc, &type));
+  PetscCall(PetscStrcmp(type, MATSOLVERMUMPS, &mumps));
+  if (!mumps) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(PCFactorGetMatrix(pc, &F));
+  PetscCall(MatMumpsGetInfog(F, 12, negative));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -1,13 +1,8 @@
-/* The linear solver: one direct factorisation by default, LDL^T where the tangent is symmetric, LU otherwise; MUMPS where PETSc has it, in single precision
+/* The linear solver: one direct factorisation by default, LDL^T where the tangent is symmetric, LU otherwise; MUMPS, in single precision
  * with GMRES in double where that pays; every option of KSP and PC works as usual. */
 #include "solveimpl.h"
 
-/* A factor as preconditioner: with less than this, nodes at the edge of contact switch wrongly, and a slide that needs no cut is cut. */
-#define REFINE_RTOL 1e-10
 #define REFINEMENTS 20       /* triangular solves worth less than a factorisation in three dimensions */
-#define FRESH_RTOL 1e-12     /* with the factor of the very matrix: nearly what one in double gives, for an iteration more */
-#define FORCING 0.01         /* of the relative residual of Newton's method: to what GMRES goes */
-#define TRUE_RTOL 1e-8       /* what round-off may leave */
 #define MOST_OPERATIONS 36e3 /* of a factorisation for each entry of the matrix: from there on multigrid is faster, with order 1 */
 
 /* What factorises the tangent, in the precision that serves. */
@@ -19,9 +14,7 @@ static PetscErrorCode Kind_Private(Solver s, PC pc)
     PetscFunctionReturn(PETSC_SUCCESS);
   }
   PetscCall(PCSetType(pc, s->symmetric ? PCCHOLESKY : PCLU));
-#if defined(PETSC_HAVE_MUMPS)
   PetscCall(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS));
-#endif
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -74,7 +67,6 @@ PetscErrorCode SolverUnsymmetric_Private(Solver s)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-#if defined(PETSC_HAVE_MUMPS)
 /* Did MUMPS run out of its own workspace estimate? Then forget the factor and let the next one have four times the reserve (percent, ICNTL(14)). It has to
    come through the options: MUMPS ignores a new value between analysis and factorisation. */
 static PetscErrorCode MoreWorkspace_Private(PC pc, PetscBool *again)
@@ -93,7 +85,7 @@ static PetscErrorCode MoreWorkspace_Private(PC pc, PetscBool *again)
   PetscCall(PCFactorGetMatrix(pc, &F));
   PetscCall(MatMumpsGetInfog(F, 1, &info));
   PetscCall(MatMumpsGetIcntl(F, 14, &reserve));
-  if ((info != -8 && info != -9) || reserve > 1000) PetscFunctionReturn(PETSC_SUCCESS);
+  if ((info != -8 && info != -9) || reserve > SOLVER_MOST_RESERVE) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(PetscSNPrintf(text, sizeof(text), "%" PetscInt_FMT, 4 * PetscMax(reserve, 20)));
   PetscCall(PetscOptionsSetValue(NULL, "-mat_mumps_icntl_14", text));
   PetscCall(PetscInfo(pc, "MUMPS ran out of workspace: reserve raised to %s percent\n", text));
@@ -101,7 +93,6 @@ static PetscErrorCode MoreWorkspace_Private(PC pc, PetscBool *again)
   *again = PETSC_TRUE;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
-#endif
 
 /* Are all entries finite? With others MUMPS ends in a signal. */
 static PetscErrorCode IsFinite_Private(Mat A, PetscBool *yes)
@@ -129,7 +120,6 @@ static PetscErrorCode Factor_Private(Solver s, Mat A)
   PetscCall(KSPSetUp(ksp));
   PetscCall(KSPGetPC(ksp, &pc));
   PetscCall(PCGetFailedReason(pc, &failed));
-#if defined(PETSC_HAVE_MUMPS)
   for (PetscBool again = (PetscBool)(failed != PC_NOERROR); again;) {
     PetscCall(MoreWorkspace_Private(pc, &again));
     if (!again) break;
@@ -138,7 +128,6 @@ static PetscErrorCode Factor_Private(Solver s, Mat A)
     PetscCall(PCGetFailedReason(pc, &failed));
     again = (PetscBool)(failed != PC_NOERROR);
   }
-#endif
   s->no_memory = (PetscBool)(failed == PC_FACTOR_OUTMEMORY);
   PetscCall(SolverInertia_Private(s, pc));
   PetscCall(StageEnd(STAGE_FACTOR));
@@ -218,9 +207,11 @@ static PetscErrorCode IsSolution_Private(Mat A, Vec b, Vec x, PetscReal rtol, Pe
 
 /* Solve with the factor there is as preconditioner, in single precision or of an earlier tangent. Tangents of one problem differ little: a few rows switched by
    the active set, a Newton step taken; some triangular solves cost less than a new factor. *ok false: they do not get there, factorise. Flexible GMRES: it
-   keeps what the preconditioner returned, whose round-off would otherwise be all of the solution's, and needs one triangular solve less. */
-static PetscErrorCode Refine_Private(Solver s, Mat A, Vec rhs, PetscReal rtol, Vec x, PetscBool *ok)
+   keeps what the preconditioner returned, whose round-off would otherwise be all of the solution's, and needs one triangular solve less. It goes as far as
+   Newton's method: with fewer digits nodes at the edge of contact switch wrongly. */
+static PetscErrorCode Refine_Private(Solver s, Mat A, Vec rhs, Vec x, PetscBool *ok)
 {
+  const PetscReal    rtol = PetscMin(s->rtol, s->linear_rtol);
   KSPConvergedReason reason;
   KSP                ksp;
   PC                 pc;
@@ -244,7 +235,7 @@ static PetscErrorCode Refine_Private(Solver s, Mat A, Vec rhs, PetscReal rtol, V
   PetscCall(KSPGetConvergedReason(s->refine, &reason));
   PetscCall(PCSetReusePreconditioner(pc, PETSC_FALSE));
   *ok = (PetscBool)(reason > 0);
-  if (*ok) PetscCall(IsSolution_Private(A, rhs, x, TRUE_RTOL, ok));
+  if (*ok) PetscCall(IsSolution_Private(A, rhs, x, PETSC_SQRT_MACHINE_EPSILON, ok));
   PetscCall(StageEnd(STAGE_SOLVE));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -261,7 +252,7 @@ static PetscErrorCode Direct_Private(Solver s, Mat A, Vec rhs, Vec x, PetscBool 
   PetscCall(SNESGetKSP(s->snes, &ksp));
   if (s->single) {
     PetscCall(Factor_Private(s, A));
-    PetscCall(Refine_Private(s, A, rhs, FRESH_RTOL, x, ok));
+    PetscCall(Refine_Private(s, A, rhs, x, ok));
     if (*ok) PetscFunctionReturn(PETSC_SUCCESS);
     PetscCall(PetscInfo(s->snes, "a factor in single precision does not serve: double from here on\n"));
     ++s->report->single_failures;
@@ -275,19 +266,15 @@ static PetscErrorCode Direct_Private(Solver s, Mat A, Vec rhs, Vec x, PetscBool 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* How far GMRES need go: so far that no Newton iteration is lost, which costs more than the few more of GMRES. */
-static PetscReal Forcing_Private(Solver s)
-{
-  return PetscMin(TRUE_RTOL, PetscMax(s->linear_rtol, FORCING * s->report->residual / PetscMax(s->report->scale, PETSC_MIN_REAL)));
-}
-
 /* Operations that a factorisation will take: of the factor in single precision, whose analysis is needed anyway, or of MUMPS's; 0: the user's choice of a
-   factor stands; largest number: there is no MUMPS. */
+   factor stands. */
 static PetscErrorCode Operations_Private(Solver s, Mat A, PetscReal *operations)
 {
-  PetscBool type, package;
-  KSP       ksp;
-  PC        pc;
+  PetscBool     type, package;
+  MatFactorInfo info;
+  Mat           F;
+  KSP           ksp;
+  PC            pc;
 
   PetscFunctionBegin;
   PetscCall(SNESGetKSP(s->snes, &ksp));
@@ -298,17 +285,13 @@ static PetscErrorCode Operations_Private(Solver s, Mat A, PetscReal *operations)
   }
   PetscCall(PetscOptionsHasName(NULL, NULL, "-pc_type", &type));
   PetscCall(PetscOptionsHasName(NULL, NULL, "-pc_factor_mat_solver_type", &package));
-  *operations = type || package ? 0 : PETSC_MAX_REAL;
-#if defined(PETSC_HAVE_MUMPS)
-  MatFactorInfo info;
-  Mat           F;
+  *operations = 0;
   if (type || package) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(MatFactorInfoInitialize(&info));
   PetscCall(MatGetFactor(A, MATSOLVERMUMPS, MAT_FACTOR_CHOLESKY, &F));
   PetscCall(MatCholeskyFactorSymbolic(F, A, NULL, &info));
   PetscCall(MatMumpsGetRinfog(F, 1, operations));
   PetscCall(MatDestroy(&F));
-#endif
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -359,13 +342,13 @@ PetscErrorCode SolverMatrixSolve_Private(Solver s, Vec rhs, PetscBool again)
     PetscCall(SaddleSetUp_Private(s->saddle, A, s->symmetric));
     PetscCall(StageEnd(STAGE_FACTOR));
     PetscCall(StageBegin(STAGE_SOLVE));
-    PetscCall(SaddleSolve_Private(s->saddle, rhs, Forcing_Private(s), again, s->y, &ok));
+    PetscCall(SaddleSolve_Private(s->saddle, rhs, s->linear_rtol, again, s->y, &ok));
     PetscCall(StageEnd(STAGE_SOLVE));
     if (ok) PetscFunctionReturn(PETSC_SUCCESS);
     PetscCall(PetscInfo(s->snes, "multigrid failed: factorising\n"));
   }
   if (s->factored) {
-    PetscCall(Refine_Private(s, A, rhs, PetscMin(REFINE_RTOL, Forcing_Private(s)), s->y, &ok));
+    PetscCall(Refine_Private(s, A, rhs, s->y, &ok));
     if (ok) PetscFunctionReturn(PETSC_SUCCESS);
   }
   PetscCall(Direct_Private(s, A, rhs, s->y, &ok));

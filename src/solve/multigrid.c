@@ -137,9 +137,7 @@ static PetscErrorCode Coarse_Private(Multigrid m, MultigridKind kind)
     PetscCall(PCSetType(pc, PCGAMG));
   else {
     PetscCall(PCSetType(pc, PCCHOLESKY));
-#if defined(PETSC_HAVE_MUMPS)
     PetscCall(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS));
-#endif
   }
   PetscCall(KSPSetFromOptions(m->coarse));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -8,7 +8,6 @@
 #include <smumps_c.h>
 
 enum { BEGIN = -1, END = -2, ANALYSE = 1, FACTORISE = 2, SOLVE = 3 }; /* jobs of MUMPS */
-#define MOST_RESERVE 1000                                             /* percent of workspace above MUMPS's estimate at which we give up */
 
 typedef struct {
   SMUMPS_STRUC_C   mumps;
@@ -197,7 +196,7 @@ static PetscErrorCode SetUp_Private(PC pc)
   PetscCall(PCGetOperators(pc, NULL, &A));
   PetscCall(Analyse_Private(pc, f, A, &ok));
   if (ok) Call_Private(f, FACTORISE);
-  while ((f->mumps.infog[0] == -8 || f->mumps.infog[0] == -9) && f->mumps.icntl[13] < MOST_RESERVE) { /* out of workspace */
+  while ((f->mumps.infog[0] == -8 || f->mumps.infog[0] == -9) && f->mumps.icntl[13] < SOLVER_MOST_RESERVE) { /* out of workspace */
     f->mumps.icntl[13] = 4 * PetscMax(f->mumps.icntl[13], 20);
     Call_Private(f, FACTORISE);
   }

@@ -2,7 +2,8 @@
 #pragma once
 #include "solve.h"
 
-#define SOLVER_LARGE 20000 /* unknowns in space from which a factor in double is not the cheapest: one in single, or of order 1 a hierarchy */
+#define SOLVER_LARGE 20000       /* unknowns in space from which a factor in double is not the cheapest: one in single, or of order 1 a hierarchy */
+#define SOLVER_MOST_RESERVE 1000 /* percent of workspace above MUMPS's estimate at which we give up */
 
 typedef enum { MODIFIER_AUTO, MODIFIER_ON, MODIFIER_OFF } ModifierMode;
 
@@ -135,6 +136,7 @@ PetscErrorCode SolverInertiaSetUp_Private(Solver);
 PetscErrorCode SolverInertia_Private(Solver, PC);
 
 /* descent.c: minimisation of the augmented Lagrangian Phi. */
+#define DESCENT_ITERATIONS 60 /* of one descent; pieces of the prescribed motion; inverse iterations with one factor */
 typedef struct {
   Solver        solver;
   Problem       problem;
@@ -146,6 +148,7 @@ typedef struct {
   PetscReal     least;                                    /* that the next one begins with */
   PetscReal     added;                                    /* to the matrix */
   PetscReal     merit;                                    /* at the iterate */
+  PetscReal     round_off;                                /* of Phi: a smaller decrease is none; terms as many as unknowns */
   ProblemStatus status;
   SolverReport *report;
 } Descent;

@@ -53,7 +53,7 @@ static PetscErrorCode Options_Private(Solver s)
 
   s->linear      = LINEAR_AUTO;
   s->factor      = FACTOR_AUTO;
-  s->linear_rtol = 1e-9;
+  s->linear_rtol = PETSC_SQRT_MACHINE_EPSILON;
   PetscCall(ProblemIsSymmetric(s->problem, &possible));
   s->symmetric = possible;
   PetscCall(SolverOptions_Private(s));
@@ -67,16 +67,12 @@ static PetscErrorCode Options_Private(Solver s)
 static PetscErrorCode Highest_Private(Problem p, PetscInt *order)
 {
   const HPTables *v;
-  HPSpace         space;
-  Forest          forest;
 
   PetscFunctionBegin;
-  PetscCall(ProblemGetSpace(p, &space));
-  PetscCall(ProblemGetForest(p, &forest));
-  PetscCall(HPSpaceGetTables(space, &v));
+  PetscCall(HPSpaceGetTables(ProblemSpace(p), &v));
   *order = 1;
   for (PetscInt c = 0; c < v->num_owned_cells; ++c) *order = PetscMax(*order, v->cell_order[c]);
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, order, 1, MPIU_INT, MPI_MAX, ForestComm(forest)));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, order, 1, MPIU_INT, MPI_MAX, ForestComm(ProblemForest(p))));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -125,7 +121,6 @@ static PetscErrorCode Condense_Private(Solver s)
 {
   PetscInt            num_u, num_z, dim;
   PetscBool           yes, directional, incompressible, whole;
-  HPSpace             space;
   const SceneData    *scene;
   const MaterialSpec *unsymmetric;
 
@@ -134,8 +129,7 @@ static PetscErrorCode Condense_Private(Solver s)
   unsymmetric = Unsymmetric_Private(scene);
   PetscCheckInput(!unsymmetric || s->condense != CONDENSE_YES, "-solve_condense yes: not with material %s, whose tangent (law %s) is not symmetric; take no",
                   unsymmetric->name, unsymmetric->law->name);
-  PetscCall(ProblemGetSpace(s->problem, &space));
-  PetscCall(HPSpaceIsDirectional(space, &directional));
+  PetscCall(HPSpaceIsDirectional(ProblemSpace(s->problem), &directional));
   PetscCheckInput(!directional || s->condense != CONDENSE_YES, "-solve_condense yes: not with orders per direction (body.<name>.order: {x: ...}); take no");
   PetscCall(ProblemIsIncompressible(s->problem, &incompressible));
   PetscCheckInput(!incompressible || s->condense != CONDENSE_YES, "-solve_condense yes: not with incompressible material (kappa: inf, nu: 0.5); take no");

@@ -4,23 +4,18 @@
    same on any number of ranks where both are equal, as for a body that may buckle either way. */
 #include "solveimpl.h"
 
-#define ITERATIONS 30 /* inverse ones, with one factor */
-#define DOUBLINGS 40
-
 /* Forces without symmetry, from the reference positions. */
 static PetscErrorCode Start_Private(Descent *d)
 {
   const HPTables *v;
   PetscReal      *local;
-  HPSpace         space;
 
   PetscFunctionBegin;
-  PetscCall(ProblemGetSpace(d->problem, &space));
-  PetscCall(HPSpaceGetTables(space, &v));
+  PetscCall(HPSpaceGetTables(ProblemSpace(d->problem), &v));
   PetscCall(PetscMalloc1(v->num_nodes * v->dim, &local));
   for (PetscInt i = 0; i < v->num_nodes * v->dim; ++i) {
     const PetscReal *X = v->X + 3 * (i / v->dim), a = 1 + (PetscReal)(i % v->dim);
-    local[i] = 1 / a + PetscSinReal(X[0] + 1.7 * X[1] + 2.3 * X[2] + a);
+    local[i] = 1 / a + PetscSinReal(X[0] + PetscSqrtReal(3) * X[1] + PetscSqrtReal(5) * X[2] + a);
   }
   PetscCall(VecSet(d->gradient, 0));
   PetscCall(ProblemSetDisplacement(d->problem, local, d->gradient));
@@ -40,7 +35,7 @@ static PetscErrorCode Lowest_Private(Descent *d, PetscReal *curvature, PetscBool
   PetscCall(DescentApply_Private(d, ok));
   PetscCall(VecSet(d->gradient, 0)); /* nothing acts inside cells */
   PetscCall(ProblemMeritSide(d->problem, d->gradient, NULL, d->rhs));
-  for (PetscInt i = 0; i < ITERATIONS && *ok; ++i) {
+  for (PetscInt i = 0; i < DESCENT_ITERATIONS && *ok; ++i) {
     PetscCall(VecPointwiseMult(d->rhs, d->diagonal, d->y));
     PetscCall(VecDot(d->rhs, d->y, &norm2));
     PetscCall(VecScale(d->rhs, 1 / PetscSqrtReal(norm2)));
@@ -55,7 +50,7 @@ static PetscErrorCode Lowest_Private(Descent *d, PetscReal *curvature, PetscBool
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The lowest of Phi at +- first, 2 first, 4 first, … along dx as long as it falls; step 0: it does not. */
+/* The lowest of Phi at +- first, 2 first, 4 first, … along dx as long as it falls; step 0: it does not. It ends where Phi is no number at the latest. */
 static PetscErrorCode Side_Private(Descent *d, Vec x, PetscReal first, PetscReal *step, PetscReal *merit)
 {
   PetscReal next;
@@ -63,7 +58,7 @@ static PetscErrorCode Side_Private(Descent *d, Vec x, PetscReal first, PetscReal
   PetscFunctionBegin;
   *merit = d->merit;
   *step  = 0;
-  for (PetscInt i = 0; i < DOUBLINGS; ++i, first *= 2) {
+  for (;; first *= 2) {
     PetscCall(DescentTry_Private(d, x, first, &next));
     if (next >= *merit) break;
     *merit = next;

@@ -25,15 +25,13 @@ static PetscErrorCode NodePlaces_Private(Problem problem, Places *p, PetscInt **
 {
   const ForestTables *t;
   const HPTables     *v;
-  Forest              forest;
-  HPSpace             space;
+  Forest              forest = ProblemForest(problem);
+  HPSpace             space  = ProblemSpace(problem);
   PetscMPIInt         rank;
   PetscInt           *offset, num = 0, start = 0;
 
   PetscFunctionBegin;
-  PetscCall(ProblemGetForest(problem, &forest));
   PetscCall(ForestGetTables(forest, &t));
-  PetscCall(ProblemGetSpace(problem, &space));
   PetscCall(HPSpaceGetTables(space, &v));
   PetscCallMPI(MPI_Comm_rank(ForestComm(forest), &rank));
   PetscCall(EntityOffsets_Private(space, t, &offset));
@@ -55,12 +53,11 @@ static PetscErrorCode PackDisplacement_Private(Problem problem, Vec x, Vec *fiel
 {
   const HPTables *v;
   Places          p;
-  HPSpace         space;
+  HPSpace         space = ProblemSpace(problem);
   PetscInt       *node;
   PetscReal      *u;
 
   PetscFunctionBegin;
-  PetscCall(ProblemGetSpace(problem, &space));
   PetscCall(HPSpaceGetTables(space, &v));
   PetscCall(NodePlaces_Private(problem, &p, &node));
   PetscCall(PetscMalloc1(v->num_nodes * v->dim, &u));
@@ -79,12 +76,11 @@ static PetscErrorCode UnpackDisplacement_Private(Problem problem, Vec field, Vec
   const HPTables *v;
   const PetscInt *global;
   Places          p;
-  HPSpace         space;
+  HPSpace         space = ProblemSpace(problem);
   PetscInt       *node;
   PetscReal      *u, largest;
 
   PetscFunctionBegin;
-  PetscCall(ProblemGetSpace(problem, &space));
   PetscCall(HPSpaceGetTables(space, &v));
   PetscCall(HPSpaceGetGlobalDofs(space, &global));
   PetscCall(NodePlaces_Private(problem, &p, &node));
@@ -119,17 +115,13 @@ static PetscErrorCode BlockPlaces_Private(Problem problem, BlockRange range, Pet
 {
   const ForestTables *t;
   const HPTables     *v;
-  Forest              forest;
-  HPSpace             space;
-  Mechanics           mechanics;
+  Forest              forest    = ProblemForest(problem);
+  Mechanics           mechanics = ProblemMechanics(problem);
   PetscInt           *offset, first, size;
 
   PetscFunctionBegin;
-  PetscCall(ProblemGetForest(problem, &forest));
   PetscCall(ForestGetTables(forest, &t));
-  PetscCall(ProblemGetSpace(problem, &space));
-  PetscCall(HPSpaceGetTables(space, &v));
-  PetscCall(ProblemGetMechanics(problem, &mechanics));
+  PetscCall(HPSpaceGetTables(ProblemSpace(problem), &v));
   PetscCall(PetscCalloc1(t->num_leaves + 1, &offset));
   for (PetscInt c = 0; c < v->num_owned_cells; ++c) PetscCall(range(mechanics, c, &first, &offset[v->cell_leaf[c] + 1]));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, offset, (PetscMPIInt)(t->num_leaves + 1), MPIU_INT, MPI_SUM, ForestComm(forest)));
@@ -147,17 +139,15 @@ static PetscErrorCode BlockPlaces_Private(Problem problem, BlockRange range, Pet
 static PetscErrorCode Blocks_Private(Problem problem, BlockRange range, PetscInt num, PetscReal values[], PetscBool back, Vec *field)
 {
   Places p;
-  Forest forest;
 
   PetscFunctionBegin;
-  PetscCall(ProblemGetForest(problem, &forest));
   PetscCall(BlockPlaces_Private(problem, range, num, &p));
   if (back) {
     PetscCall(PlacesFetch_Private(*field, &p));
     PetscCall(PetscArraycpy(values, p.value, num));
   } else {
     PetscCall(PetscArraycpy(p.value, values, num));
-    PetscCall(PlacesSend_Private(ForestComm(forest), &p, field));
+    PetscCall(PlacesSend_Private(ForestComm(ProblemForest(problem)), &p, field));
   }
   PetscCall(PlacesDestroy_Private(&p));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -166,12 +156,11 @@ static PetscErrorCode Blocks_Private(Problem problem, BlockRange range, PetscInt
 /* Pressures that are unknowns, of incompressible cells: to the field those that act (the state's displacement was asked for last), or back into x. */
 static PetscErrorCode Unknowns_Private(Problem problem, Vec x, PetscBool back, Vec *field)
 {
-  Mechanics  mechanics;
+  Mechanics  mechanics = ProblemMechanics(problem);
   PetscInt   num, all;
   PetscReal *values;
 
   PetscFunctionBegin;
-  PetscCall(ProblemGetMechanics(problem, &mechanics));
   PetscCall(MechanicsNumUnknowns(mechanics, &num, &all));
   PetscCall(PetscMalloc1(num, &values));
   if (!back) PetscCall(MechanicsGetPressure(mechanics, 0, num, values));

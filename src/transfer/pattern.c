@@ -39,12 +39,11 @@ PetscErrorCode PatternPack_Private(Problem problem, PetscInt pair, Vec *field)
   const ContactView  *view;
   const ForestTables *t;
   const PetscInt     *first, *node;
-  Forest              forest;
+  Forest              forest = ProblemForest(problem);
   Places              p;
 
   PetscFunctionBegin;
   PetscCall(InterfaceGetContact(ProblemInterface(problem), pair, &view));
-  PetscCall(ProblemGetForest(problem, &forest));
   PetscCall(ForestGetTables(forest, &t));
   PetscCall(InterfaceGetPattern(ProblemInterface(problem), pair, &first, &node));
   PetscCall(Fill_Private(ForestComm(forest), &view->nonmortar, t, first, node, &p));

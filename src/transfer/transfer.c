@@ -81,12 +81,12 @@ PetscErrorCode TransferState(Problem old_problem, const State *from, Problem new
   PetscFunctionBegin;
   PetscCall(StageBegin(STAGE_TRANSFER));
   PetscCall(ProblemGetScene(old_problem, &scene));
-  PetscCall(ProblemGetSpace(old_problem, &c.old_space));
-  PetscCall(ProblemGetSpace(new_problem, &c.new_space));
-  PetscCall(ProblemGetMechanics(old_problem, &c.old_mechanics));
-  PetscCall(ProblemGetMechanics(new_problem, &c.new_mechanics));
-  c.spec = &scene->mechanics;
-  c.kept = scene->adapt.history;
+  c.old_space     = ProblemSpace(old_problem);
+  c.new_space     = ProblemSpace(new_problem);
+  c.old_mechanics = ProblemMechanics(old_problem);
+  c.new_mechanics = ProblemMechanics(new_problem);
+  c.spec          = &scene->mechanics;
+  c.kept          = scene->adapt.history;
   PetscCall(TransferContextSetUp_Private(&c));
   PetscCall(MechanicsNumPressure(c.new_mechanics, &num_pressure));
   PetscCheck(to->num_pressure == num_pressure, PETSC_COMM_SELF, PETSC_ERR_ARG_INCOMP, "state holds %" PetscInt_FMT " pressures, its problem %" PetscInt_FMT,

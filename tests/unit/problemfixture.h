@@ -29,8 +29,8 @@ static inline void SolvedCreate(Solved *s, PetscInt low, PetscInt high)
   s->scene.boundaries = s->bulk.boundaries;
   s->scene.load       = (LoadSpec){.end = 1, .step = 1, .control = s->scene.load.control};
   OK(ProblemCreate(&s->scene, s->bulk.forest, s->bulk.orders, &s->problem));
-  OK(ProblemGetSpace(s->problem, &s->space));
-  OK(ProblemGetMechanics(s->problem, &s->mechanics));
+  s->space     = ProblemSpace(s->problem);
+  s->mechanics = ProblemMechanics(s->problem);
   OK(HPSpaceGetTables(s->space, &s->tables));
   OK(ProblemSetTime(s->problem, 0));
   OK(ProblemJump(s->problem));

@@ -102,14 +102,12 @@ static PetscReal ContactShare(Patch *p, PetscReal d, PetscReal z)
   const ContactView  *view;
   const HPTables     *v;
   const ForestTables *t;
-  HPSpace             space;
   ProblemStatus       status;
   Estimate            e;
   Vec                 r;
   PetscReal          *local, *all;
 
-  OK(ProblemGetSpace(p->problem, &space));
-  OK(HPSpaceGetTables(space, &v));
+  OK(HPSpaceGetTables(ProblemSpace(p->problem), &v));
   OK(ForestGetTables(p->forest, &t));
   OK(InterfaceGetContact(ProblemInterface(p->problem), 0, &view));
   OK(PetscCalloc1(3 * v->num_nodes, &local));

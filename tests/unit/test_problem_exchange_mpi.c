@@ -78,11 +78,9 @@ static void Lift(Patch *p, PetscInt corner)
 {
   const HPTables     *v;
   const ForestTables *t;
-  HPSpace             space;
   PetscReal          *local;
 
-  OK(ProblemGetSpace(p->problem, &space));
-  OK(HPSpaceGetTables(space, &v));
+  OK(HPSpaceGetTables(ProblemSpace(p->problem), &v));
   OK(ForestGetTables(p->forest, &t));
   OK(PetscCalloc1(3 * v->num_nodes, &local));
   for (PetscInt n = 0; n < v->num_nodes; ++n) {

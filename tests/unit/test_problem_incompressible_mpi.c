@@ -198,8 +198,8 @@ static void Transferred(void **state)
   OK(TransferOrders(&map, s.state.leaf_order, &orders));
   OK(ProblemCreate(&s.scene, fine.bulk.forest, orders, &fine.problem));
   OK(PetscFree(orders));
-  OK(ProblemGetSpace(fine.problem, &fine.space));
-  OK(ProblemGetMechanics(fine.problem, &fine.mechanics));
+  fine.space     = ProblemSpace(fine.problem);
+  fine.mechanics = ProblemMechanics(fine.problem);
   OK(HPSpaceGetTables(fine.space, &fine.tables));
   OK(ProblemSetTime(fine.problem, 1));
   OK(ProblemJump(fine.problem));

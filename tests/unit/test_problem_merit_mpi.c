@@ -17,10 +17,8 @@ static void Direction(Problem problem, PetscReal phase, Vec v)
 {
   const HPTables *t;
   PetscReal      *local;
-  HPSpace         space;
 
-  OK(ProblemGetSpace(problem, &space));
-  OK(HPSpaceGetTables(space, &t));
+  OK(HPSpaceGetTables(ProblemSpace(problem), &t));
   OK(PetscMalloc1(t->num_nodes * t->dim, &local));
   for (PetscInt i = 0; i < t->num_nodes * t->dim; ++i) {
     const PetscReal *X = t->X + 3 * (i / t->dim);

@@ -8,14 +8,12 @@ static void Create(Patch *p, Vec *x)
 {
   const PetscInt  n[2] = {3, 4};
   const HPTables *v;
-  HPSpace         space;
   PetscReal      *u;
 
   PatchScene(p, 2, MODEL_PLANE_STRAIN, KINEMATICS_FINITE, FORMULATION_AUTO);
   p->forest = PatchForest(n);
   PatchStart(p);
-  OK(ProblemGetSpace(p->problem, &space));
-  OK(HPSpaceGetTables(space, &v));
+  OK(HPSpaceGetTables(ProblemSpace(p->problem), &v));
   OK(ProblemCreateVector(p->problem, x));
   OK(VecSet(*x, 0));
   OK(PetscCalloc1(2 * v->num_nodes, &u));

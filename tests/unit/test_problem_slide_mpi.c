@@ -8,11 +8,9 @@
 static void Turn(const Patch *p, const ContactView *view)
 {
   const HPTables *v;
-  HPSpace         space;
   PetscReal      *u;
 
-  OK(ProblemGetSpace(p->problem, &space));
-  OK(HPSpaceGetTables(space, &v));
+  OK(HPSpaceGetTables(ProblemSpace(p->problem), &v));
   OK(PetscCalloc1(2 * v->num_nodes, &u));
   for (PetscInt j = 0; j < view->nonmortar.num_nodes; ++j) {
     for (PetscInt n = 0; n < v->num_nodes; ++n)

@@ -11,7 +11,6 @@ static void Create(Patch *p, PetscReal size, State *off)
   const PetscInt  n[2] = {3, 4};
   const HPTables *t;
   PetscReal      *local;
-  HPSpace         space;
 
   PatchScene(p, 2, MODEL_PLANE_STRAIN, KINEMATICS_FINITE, FORMULATION_DISPLACEMENT);
   p->forest = PatchForest(n);
@@ -19,8 +18,7 @@ static void Create(Patch *p, PetscReal size, State *off)
   PatchSolve(p->problem, &p->state);
   OK(StateCreate(p->problem, off));
   OK(StateCopy(&p->state, off));
-  OK(ProblemGetSpace(p->problem, &space));
-  OK(HPSpaceGetTables(space, &t));
+  OK(HPSpaceGetTables(ProblemSpace(p->problem), &t));
   OK(PetscMalloc1(t->num_nodes * t->dim, &local));
   OK(ProblemLocalDisplacement(p->problem, off->x, local));
   for (PetscInt i = 0; i < t->num_nodes * t->dim; ++i) {

@@ -106,7 +106,6 @@ static void Folded(void **state)
   const ForestTables *t;
   const HPTables     *v;
   Patch               p;
-  HPSpace             space;
   PetscReal          *u;
   int8_t             *orders, *folded;
 
@@ -116,8 +115,7 @@ static void Folded(void **state)
   PatchProblem(&p.data, p.forest, orders, &p.problem, &p.state);
   OK(PetscFree(orders));
   OK(ForestGetTables(p.forest, &t));
-  OK(ProblemGetSpace(p.problem, &space));
-  OK(HPSpaceGetTables(space, &v));
+  OK(HPSpaceGetTables(ProblemSpace(p.problem), &v));
   OK(PetscMalloc1(t->num_leaves, &folded));
   OK(PetscMalloc1(v->num_nodes * 2, &u));
   OK(ProblemFindFolded(p.problem, p.state.x, folded));

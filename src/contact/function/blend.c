@@ -21,11 +21,11 @@
 
 void ContactShareWeight(PetscInt m, const PetscReal xi[2], PetscReal *v, PetscReal d[2], PetscReal dd[3])
 {
-  const PetscReal a[2] = {0.75 * (1 - xi[0] * xi[0]), m == 2 ? 0.75 * (1 - xi[1] * xi[1]) : 1}, b[2] = {-1.5 * xi[0], m == 2 ? -1.5 * xi[1] : 0};
+  const PetscReal a[2] = {3 * (1 - xi[0] * xi[0]) / 4, m == 2 ? 3 * (1 - xi[1] * xi[1]) / 4 : 1}, b[2] = {-3 * xi[0] / 2, m == 2 ? -3 * xi[1] / 2 : 0};
 
   *v   = a[0] * a[1];
   d[0] = b[0] * a[1], d[1] = a[0] * b[1];
-  dd[0] = -1.5 * a[1], dd[1] = b[0] * b[1], dd[2] = m == 2 ? -1.5 * a[0] : 0;
+  dd[0] = -3 * a[1] / 2, dd[1] = b[0] * b[1], dd[2] = m == 2 ? -3 * a[0] / 2 : 0;
 }
 
 void ContactShareOf(PetscInt m, PetscInt order, PetscReal share, PetscBool across, ContactShare *o)
@@ -33,7 +33,7 @@ void ContactShareOf(PetscInt m, PetscInt order, PetscReal share, PetscBool acros
   const PetscReal e = 1 / (PetscReal)(order * (order + 1) + 1), side = e * e * (3 - 2 * e), corner = m == 1 ? side : side * side,
                   whole = 1 - CONTACT_SLIVER * corner;
   const PetscReal u = (whole - share) / ((1 - CONTACT_SLIVER) * corner), du = -1 / ((1 - CONTACT_SLIVER) * corner), t = share / whole;
-  const PetscReal factor = 6.75 * (across ? ACROSS : EPSILON) / (PetscReal)order; /* 1 at a third */
+  const PetscReal factor = 27 * (across ? ACROSS : EPSILON) / (4 * (PetscReal)order); /* 1 / max t (1 - t)^2, at a third */
 
   *o = (ContactShare){.part = (PetscBool)(share < whole), .theta = {1, 0, 0}, .kappa = {0, 0, 0}};
   if (!o->part) return;

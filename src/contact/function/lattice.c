@@ -2,8 +2,6 @@
 #include "functionimpl.h"
 #include <petscblaslapack.h>
 
-#define SINGULAR 1e-10 /* pivot, over the diagonal, of a matrix without inverse */
-
 void ContactFacetLattice(const ContactSurface *s, PetscInt facet, FacetLattice *l)
 {
   const PetscInt nv = 2 * (s->dim - 1);
@@ -90,7 +88,7 @@ PetscErrorCode ContactSolveSymmetric(PetscInt n, PetscReal M[], PetscInt num, Pe
     for (PetscInt i = 0; i < n; i++) B[n * k + i] *= scale[i];
   PetscCallBLAS("LAPACKpotrf", LAPACKpotrf_("L", &size, M, &size, &info));
   *regular = (PetscBool)(info == 0);
-  for (PetscInt i = 0; i < n; i++) *regular = (PetscBool)(*regular && PetscSqr(M[(n + 1) * i]) > SINGULAR);
+  for (PetscInt i = 0; i < n; i++) *regular = (PetscBool)(*regular && PetscSqr(M[(n + 1) * i]) > CONTACT_ROUND);
   if (*regular) PetscCallBLAS("LAPACKpotrs", LAPACKpotrs_("L", &size, &columns, M, &size, B, &size, &info));
   for (PetscInt k = 0; k < num; k++)
     for (PetscInt i = 0; i < n; i++) B[n * k + i] *= scale[i];

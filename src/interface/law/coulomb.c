@@ -14,7 +14,7 @@
 
 /* A traction that is short of its bound by this share lies on it: where a step begins s = 0, and nodes that slipped in the
    last one are there. Rows leave such a lack out, or no state would fulfil its own row. */
-#define ROUND_OFF 1e-8
+#define ROUND_OFF PETSC_SQRT_MACHINE_EPSILON
 
 enum { OPEN, STICK, SLIP, SLIP_BACK, FREE }; /* SLIP: in the plane tau > b; FREE: without traction */
 
