@@ -22,8 +22,8 @@ static PetscErrorCode ListFacets_Private(Interface p, Contact *c)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Automatic search distance: half of the smaller side's extent, of tied sides a sliver of it: what is further apart is not tied; facets of round surfaces are
-   nearer, and refinement changes nothing. The caller's factor counts in units of the longest edge. */
+/* Automatic search distance: half of the smaller side's extent, of tied sides a tenth: what is further apart is not tied; facets of round surfaces are nearer,
+   and refinement changes nothing. The caller's factor counts in units of the longest edge. */
 static void SearchDistance_Private(Contact *c)
 {
   PetscReal extent[2], longest = 0;
@@ -43,7 +43,7 @@ static void SearchDistance_Private(Contact *c)
     for (PetscInt a = 0; a < s->dim; ++a) square += PetscSqr(hi[a] - lo[a]);
     extent[side] = PetscSqrtReal(square);
   }
-  c->distance = c->spec->search > 0 ? c->spec->search * longest : (c->law->ties ? CONTACT_SLIVER : 0.5) * PetscMin(extent[0], extent[1]);
+  c->distance = c->spec->search > 0 ? c->spec->search * longest : (c->law->ties ? NEAR : 0.5) * PetscMin(extent[0], extent[1]);
 }
 
 static void View_Private(Contact *c)

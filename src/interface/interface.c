@@ -150,7 +150,7 @@ PetscErrorCode InterfaceSearch(Interface p, Vec x, const PetscReal u[], PetscBoo
       SurfacePlace_Private(&c->side[k], u, ContactBase_Private(c, k), c->side[k].x);
     }
     PetscCall(ContactPairGoOn(c->pair, goes_on));
-    PetscCall(ContactSearch_Private(p, c, PETSC_FALSE, CONTACT_SLIVER * c->distance));
+    PetscCall(ContactSearch_Private(p, c, PETSC_FALSE, NEAR * c->distance));
     PetscCall(ContactPairGoOn(c->pair, PETSC_FALSE));
     if (c->spec->self) PetscCall(ContactRoles_Private(p, c, x, u));
   }

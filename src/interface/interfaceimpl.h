@@ -4,6 +4,7 @@
 
 #include <petscsf.h>
 
+#define NEAR 0.1     /* of an extent, of a distance: what may meet, or come to meet before the next search */
 #define MOST_REALS 4 /* of a node in one message */
 #define SLACK 1e-10  /* pressure over Young's modulus that is none: what round-off leaves */
 
@@ -130,7 +131,7 @@ typedef struct {
 typedef struct {
   ContactFacet facet, bend; /* bend: second derivatives alone, by the masters of the facet's corners */
   PetscBool    bends;
-  PetscReal   *gap, *start, *arm, *dgap, *hessian, *compliance; /* start: [rows] at the reference positions; arm: [rows][3] */
+  PetscReal   *gap, *start, *arm, *dgap, *hessian; /* start: [rows] at the reference positions; arm: [rows][3] */
 } TieFacet;
 
 typedef struct {

@@ -10,6 +10,8 @@
    carries no multiplier of that component, and one at which tied pairs meet none at all. */
 #include "interfaceimpl.h"
 
+#define FLAT 1e-12 /* of a facet: a gap that is round-off of positions */
+
 /* ---- rows ------------------------------------------------------------------------------------------------------------------------------- */
 
 /* Diagonals e[0], e[1] of a facet with these corners and its vector e[2]; plane: e[1] = e_z. */
@@ -154,7 +156,7 @@ static void Arms_Private(const Contact *c, PetscInt k, TieFacet *t)
       for (PetscInt d = 0; d < s->dim; ++d) g[d] += t->facet.tie[r * t->facet.num + a] * c->side[NODE_SIDE(id)].X[s->dim * NODE_INDEX(id) + d];
     }
     t->start[r] = g[k];
-    if (c->spec->close || Dot3(g, g) <= PetscSqr(CONTACT_ROUND * t->facet.weight[r]) * Dot3(e[0], e[0])) continue;
+    if (c->spec->close || Dot3(g, g) <= PetscSqr(FLAT * t->facet.weight[r]) * Dot3(e[0], e[0])) continue;
     t->start[r] = 0;
     Coefficients_Private(e, g, t->arm + 3 * r);
     if (t->arm[3 * r + 2] != 0) t->bends = PETSC_TRUE;
@@ -166,7 +168,7 @@ static PetscErrorCode Keep_Private(Interface p, const Contact *c, PetscInt k, co
 {
   const PetscInt nr = from->num_rows, num = from->num;
   PetscInt      *nodes;
-  PetscReal     *weight, *tie, *compliance;
+  PetscReal     *weight, *tie, *compliance; /* of no size: NULL */
 
   PetscFunctionBegin;
   *t = (TieFacet){.facet = *from};
@@ -177,8 +179,7 @@ static PetscErrorCode Keep_Private(Interface p, const Contact *c, PetscInt k, co
   PetscCall(PetscArraycpy(weight, from->weight, nr));
   PetscCall(PetscArraycpy(tie, from->tie, nr * num));
   if (from->compliance) PetscCall(PetscArraycpy(compliance, from->compliance, nr));
-  t->facet.compliance = from->compliance ? compliance : NULL;
-  t->compliance       = compliance;
+  t->facet.compliance = compliance;
   t->facet.nodes      = nodes;
   t->facet.weight     = weight;
   t->facet.tie        = tie;
@@ -306,7 +307,7 @@ PetscErrorCode TieDestroy_Private(Contact *c)
   for (PetscInt k = 0; k < c->num; ++k) {
     for (PetscInt i = 0; i < t->num_facets[k]; ++i) {
       TieFacet *f = &t->facets[k][i];
-      PetscCall(PetscFree3(f->facet.nodes, f->facet.weight, f->compliance));
+      PetscCall(PetscFree3(f->facet.nodes, f->facet.weight, f->facet.compliance));
       PetscCall(PetscFree(f->facet.tie));
       PetscCall(PetscFree4(f->gap, f->start, f->arm, f->dgap));
       PetscCall(PetscFree(f->bend.nodes));

@@ -21,15 +21,18 @@ PetscErrorCode LevelCreate(const SceneData *data, Forest forest, const int8_t le
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Supports that meet must agree, at the end of each step planned. What is not finite then is told when its time comes. */
+#define MOST_TIMES 100 /* at which supports are compared, beside the corners of amplitudes */
+
+/* Supports that meet must agree, at the end of each step planned at least where these are few. What is not finite then is told when its time comes. */
 static PetscErrorCode CheckSupports_Private(const SceneData *data, const Level *level)
 {
-  char        conflict[512] = "";
-  const char *words;
+  const PetscReal dt            = PetscMax(data->load.step, data->load.end / MOST_TIMES);
+  char            conflict[512] = "";
+  const char     *words;
 
   PetscFunctionBegin;
   for (PetscReal t = level->state.t; t < data->load.end && !conflict[0];) {
-    t = PathStepEnd(data, t, data->load.step);
+    t = PathStepEnd(data, t, dt);
     PetscCall(ProblemFindConflict(level->problem, t, sizeof(conflict), conflict));
   }
   PetscCall(ExpressionTrouble(ForestComm(level->forest), &words));

@@ -7,10 +7,16 @@
 
 #define PENALTY 10         /* kappa over E / h: stiff against the cells, soft enough for the line search */
 #define OUTER 3            /* descents, each with the multipliers of the one before: what helps does so after one or two */
-#define MORE_SHIFT 16      /* times the last, where the matrix is not positive yet; where it was, as many times smaller in the next iteration */
-#define HALVINGS 10        /* of a step, in a line search that gives up */
+#define ITERATIONS 60      /* of one descent */
+#define MOVES 20           /* pieces of the prescribed motion */
 #define FIRST_SHIFT 1e-9   /* over the rows' largest entries */
+#define MORE_SHIFT 16      /* times the last, where the matrix is not positive yet; where it was, as many times smaller in the next iteration */
 #define SHORTER_SHIFT 1e-3 /* at least, and MORE_SHIFT times the last, where that calls for a step shorter than 1 / MORE_SHIFT */
+#define ARMIJO 1e-4        /* least share of the decrease that the slope promises */
+#define HALVINGS 10        /* of a step, in a line search that gives up */
+#define LONGEST 64
+#define DEEPER 1  /* the same, by how much a piece of the prescribed motion may drive a node in */
+#define DEEP 0.25 /* overlap over the extent of a node along the surface: bodies must not pass through each other */
 
 PetscErrorCode SolverHasDescent(Solver s, PetscBool *yes)
 {
@@ -175,8 +181,8 @@ PetscErrorCode DescentDirection_Private(Descent *d, PetscReal *slope, PetscBool 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Is there a node that is deeper in the other side at the iterate than its extent along the surface, or (pressed) presses on it, and has lost it at the trial?
-   The energy falls when bodies pass through each other. *deeper: by how much one is deeper at the trial. */
+/* Is there a node that is deep in the other side at the iterate, or (pressed) presses on it, and has lost it at the trial? The energy falls when bodies pass
+   through each other. *deeper: by how much one is deeper at the trial. */
 static PetscErrorCode Through_Private(Descent *d, PetscBool pressed, PetscBool *yes, PetscReal *deeper)
 {
   const PetscReal *depth, *next, *lambda;
@@ -190,7 +196,7 @@ static PetscErrorCode Through_Private(Descent *d, PetscBool pressed, PetscBool *
   PetscCall(VecGetArrayRead(d->next, &next));
   PetscCall(VecGetArrayRead(d->lambda, &lambda));
   for (PetscInt i = 0; i < num; ++i) {
-    if ((depth[i] > 1 || (pressed && depth[i] >= 0 && lambda[i] > 0)) && next[i] < 0) largest[0] = 1;
+    if ((depth[i] > DEEP || (pressed && depth[i] >= 0 && lambda[i] > 0)) && next[i] < 0) largest[0] = 1;
     largest[1] = PetscMax(largest[1], next[i] - PetscMax(depth[i], 0));
   }
   PetscCall(VecRestoreArrayRead(d->lambda, &lambda));
@@ -225,10 +231,10 @@ PetscErrorCode DescentSearch_Private(Descent *d, Vec x, PetscReal slope, PetscBo
   *ok = PETSC_FALSE;
   for (PetscInt i = 0; i < HALVINGS; ++i, step *= 0.5) {
     PetscCall(DescentTry_Private(d, x, step, &merit));
-    *ok = (PetscBool)(merit <= d->merit + PETSC_SQRT_MACHINE_EPSILON * step * slope); /* any share of what the slope promises will do */
+    *ok = (PetscBool)(merit <= d->merit + ARMIJO * step * slope);
     if (*ok) break;
   }
-  while (*ok && d->shift > 0 && step >= 1) { /* out of the domain, and where it is no number, Phi is the largest */
+  while (*ok && d->shift > 0 && step >= 1 && step < LONGEST) {
     PetscCall(DescentTry_Private(d, x, 2 * step, &further));
     if (further >= merit) break;
     merit = further;
@@ -270,7 +276,7 @@ static PetscErrorCode Minimise_Private(Descent *d, Vec x, PetscBool *ok)
   PetscFunctionBegin;
   *ok      = PETSC_FALSE;
   d->least = 0;
-  for (PetscInt i = 0; i < DESCENT_ITERATIONS && !d->report->stopped; ++i) {
+  for (PetscInt i = 0; i < ITERATIONS && !d->report->stopped; ++i) {
     if (moved) PetscCall(DescentLinearise_Private(d, x, &done, &found));
     if (!found) break;
     PetscCall(DescentDirection_Private(d, &slope, &found));
@@ -313,7 +319,7 @@ static PetscErrorCode Piece_Private(Descent *d, Vec x, PetscBool *ok)
     PetscCall(ProblemStepMove(d->problem, d->dx, step, PETSC_FALSE, x));
     PetscCall(ProblemMerit(d->problem, PENALTY, d->lambda, x, NULL, &d->merit, &d->status));
     PetscCall(Through_Private(d, PETSC_TRUE, &through, &deeper));
-    *ok = (PetscBool)(!d->status.bad && !through && deeper <= 1);
+    *ok = (PetscBool)(!d->status.bad && !through && deeper <= DEEPER);
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -325,7 +331,7 @@ static PetscErrorCode Move_Private(Descent *d, Vec x, PetscBool *ok)
   PetscFunctionBegin;
   *ok = PETSC_TRUE;
   PetscCall(ProblemPending(d->problem, &pending));
-  for (PetscInt piece = 0; piece < DESCENT_ITERATIONS && pending > 0 && *ok && !d->report->stopped; ++piece) {
+  for (PetscInt piece = 0; piece < MOVES && pending > 0 && *ok && !d->report->stopped; ++piece) {
     PetscCall(Piece_Private(d, x, ok));
     PetscCall(ProblemPending(d->problem, &pending));
   }

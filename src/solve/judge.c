@@ -2,6 +2,10 @@
 #include "solveimpl.h"
 #include <petsc/private/snesimpl.h>
 
+/* What a cell of incompressible material may gain or lose of its volume, whatever the forces: where prescribed motion
+   leaves it no choice, pressures grow without bounds, and next to them every residual is small. */
+#define VOLUME 1e-8
+
 PetscReal SolverTolerance_Private(const Solver s, const ProblemStatus *status)
 {
   return PetscMax(s->rtol * status->scale, status->noise);
@@ -14,11 +18,9 @@ static PetscBool Small_Private(const Solver s, const ProblemStatus *status, Pets
   return (PetscBool)(norm <= PetscMax(SolverTolerance_Private(s, status), PetscMax(s->snes->abstol, s->snes->rtol * s->first_norm)));
 }
 
-/* Do cells of incompressible material keep their volume, whatever the forces? Where prescribed motion leaves it no choice,
-   pressures grow without bounds, and next to them every residual is small. */
 static PetscBool KeepsVolume_Private(const Solver s)
 {
-  return (PetscBool)(s->report->status.volume <= PetscMax(PETSC_SQRT_MACHINE_EPSILON, s->rtol));
+  return (PetscBool)(s->report->status.volume <= PetscMax(VOLUME, s->rtol));
 }
 
 const char *SolverWords_Private(const Solver s, PetscReal norm, const char *usual)

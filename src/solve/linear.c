@@ -2,7 +2,12 @@
  * with GMRES in double where that pays; every option of KSP and PC works as usual. */
 #include "solveimpl.h"
 
+/* A factor as preconditioner: with less than this, nodes at the edge of contact switch wrongly, and a slide that needs no cut is cut. */
+#define REFINE_RTOL 1e-10
 #define REFINEMENTS 20       /* triangular solves worth less than a factorisation in three dimensions */
+#define FRESH_RTOL 1e-12     /* with the factor of the very matrix: nearly what one in double gives, for an iteration more */
+#define FORCING 0.01         /* of the relative residual of Newton's method: to what GMRES goes */
+#define TRUE_RTOL 1e-8       /* what round-off may leave */
 #define MOST_OPERATIONS 36e3 /* of a factorisation for each entry of the matrix: from there on multigrid is faster, with order 1 */
 
 /* What factorises the tangent, in the precision that serves. */
@@ -207,11 +212,9 @@ static PetscErrorCode IsSolution_Private(Mat A, Vec b, Vec x, PetscReal rtol, Pe
 
 /* Solve with the factor there is as preconditioner, in single precision or of an earlier tangent. Tangents of one problem differ little: a few rows switched by
    the active set, a Newton step taken; some triangular solves cost less than a new factor. *ok false: they do not get there, factorise. Flexible GMRES: it
-   keeps what the preconditioner returned, whose round-off would otherwise be all of the solution's, and needs one triangular solve less. It goes as far as
-   Newton's method: with fewer digits nodes at the edge of contact switch wrongly. */
-static PetscErrorCode Refine_Private(Solver s, Mat A, Vec rhs, Vec x, PetscBool *ok)
+   keeps what the preconditioner returned, whose round-off would otherwise be all of the solution's, and needs one triangular solve less. */
+static PetscErrorCode Refine_Private(Solver s, Mat A, Vec rhs, PetscReal rtol, Vec x, PetscBool *ok)
 {
-  const PetscReal    rtol = PetscMin(s->rtol, s->linear_rtol);
   KSPConvergedReason reason;
   KSP                ksp;
   PC                 pc;
@@ -235,7 +238,7 @@ static PetscErrorCode Refine_Private(Solver s, Mat A, Vec rhs, Vec x, PetscBool 
   PetscCall(KSPGetConvergedReason(s->refine, &reason));
   PetscCall(PCSetReusePreconditioner(pc, PETSC_FALSE));
   *ok = (PetscBool)(reason > 0);
-  if (*ok) PetscCall(IsSolution_Private(A, rhs, x, PETSC_SQRT_MACHINE_EPSILON, ok));
+  if (*ok) PetscCall(IsSolution_Private(A, rhs, x, TRUE_RTOL, ok));
   PetscCall(StageEnd(STAGE_SOLVE));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -252,7 +255,7 @@ static PetscErrorCode Direct_Private(Solver s, Mat A, Vec rhs, Vec x, PetscBool 
   PetscCall(SNESGetKSP(s->snes, &ksp));
   if (s->single) {
     PetscCall(Factor_Private(s, A));
-    PetscCall(Refine_Private(s, A, rhs, x, ok));
+    PetscCall(Refine_Private(s, A, rhs, FRESH_RTOL, x, ok));
     if (*ok) PetscFunctionReturn(PETSC_SUCCESS);
     PetscCall(PetscInfo(s->snes, "a factor in single precision does not serve: double from here on\n"));
     ++s->report->single_failures;
@@ -264,6 +267,12 @@ static PetscErrorCode Direct_Private(Solver s, Mat A, Vec rhs, Vec x, PetscBool 
   PetscCall(Factor_Private(s, A));
   PetscCall(Solve_Private(s, rhs, x, ok));
   PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* How far GMRES need go: so far that no Newton iteration is lost, which costs more than the few more of GMRES. */
+static PetscReal Forcing_Private(Solver s)
+{
+  return PetscMin(TRUE_RTOL, PetscMax(s->linear_rtol, FORCING * s->report->residual / PetscMax(s->report->scale, PETSC_MIN_REAL)));
 }
 
 /* Operations that a factorisation will take: of the factor in single precision, whose analysis is needed anyway, or of MUMPS's; 0: the user's choice of a
@@ -342,13 +351,13 @@ PetscErrorCode SolverMatrixSolve_Private(Solver s, Vec rhs, PetscBool again)
     PetscCall(SaddleSetUp_Private(s->saddle, A, s->symmetric));
     PetscCall(StageEnd(STAGE_FACTOR));
     PetscCall(StageBegin(STAGE_SOLVE));
-    PetscCall(SaddleSolve_Private(s->saddle, rhs, s->linear_rtol, again, s->y, &ok));
+    PetscCall(SaddleSolve_Private(s->saddle, rhs, Forcing_Private(s), again, s->y, &ok));
     PetscCall(StageEnd(STAGE_SOLVE));
     if (ok) PetscFunctionReturn(PETSC_SUCCESS);
     PetscCall(PetscInfo(s->snes, "multigrid failed: factorising\n"));
   }
   if (s->factored) {
-    PetscCall(Refine_Private(s, A, rhs, s->y, &ok));
+    PetscCall(Refine_Private(s, A, rhs, PetscMin(REFINE_RTOL, Forcing_Private(s)), s->y, &ok));
     if (ok) PetscFunctionReturn(PETSC_SUCCESS);
   }
   PetscCall(Direct_Private(s, A, rhs, s->y, &ok));

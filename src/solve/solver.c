@@ -53,7 +53,7 @@ static PetscErrorCode Options_Private(Solver s)
 
   s->linear      = LINEAR_AUTO;
   s->factor      = FACTOR_AUTO;
-  s->linear_rtol = PETSC_SQRT_MACHINE_EPSILON;
+  s->linear_rtol = 1e-9;
   PetscCall(ProblemIsSymmetric(s->problem, &possible));
   s->symmetric = possible;
   PetscCall(SolverOptions_Private(s));

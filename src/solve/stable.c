@@ -4,6 +4,9 @@
    same on any number of ranks where both are equal, as for a body that may buckle either way. */
 #include "solveimpl.h"
 
+#define ITERATIONS 30 /* inverse ones, with one factor */
+#define DOUBLINGS 40
+
 /* Forces without symmetry, from the reference positions. */
 static PetscErrorCode Start_Private(Descent *d)
 {
@@ -35,7 +38,7 @@ static PetscErrorCode Lowest_Private(Descent *d, PetscReal *curvature, PetscBool
   PetscCall(DescentApply_Private(d, ok));
   PetscCall(VecSet(d->gradient, 0)); /* nothing acts inside cells */
   PetscCall(ProblemMeritSide(d->problem, d->gradient, NULL, d->rhs));
-  for (PetscInt i = 0; i < DESCENT_ITERATIONS && *ok; ++i) {
+  for (PetscInt i = 0; i < ITERATIONS && *ok; ++i) {
     PetscCall(VecPointwiseMult(d->rhs, d->diagonal, d->y));
     PetscCall(VecDot(d->rhs, d->y, &norm2));
     PetscCall(VecScale(d->rhs, 1 / PetscSqrtReal(norm2)));
@@ -50,7 +53,7 @@ static PetscErrorCode Lowest_Private(Descent *d, PetscReal *curvature, PetscBool
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The lowest of Phi at +- first, 2 first, 4 first, … along dx as long as it falls; step 0: it does not. It ends where Phi is no number at the latest. */
+/* The lowest of Phi at +- first, 2 first, 4 first, … along dx as long as it falls; step 0: it does not. */
 static PetscErrorCode Side_Private(Descent *d, Vec x, PetscReal first, PetscReal *step, PetscReal *merit)
 {
   PetscReal next;
@@ -58,7 +61,7 @@ static PetscErrorCode Side_Private(Descent *d, Vec x, PetscReal first, PetscReal
   PetscFunctionBegin;
   *merit = d->merit;
   *step  = 0;
-  for (;; first *= 2) {
+  for (PetscInt i = 0; i < DOUBLINGS; ++i, first *= 2) {
     PetscCall(DescentTry_Private(d, x, first, &next));
     if (next >= *merit) break;
     *merit = next;
