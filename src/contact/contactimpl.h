@@ -53,7 +53,6 @@ struct _p_ContactPair {
   const PetscInt *part[2]; /* borrowed: of the facets of both sides */
   /* results of the last evaluation, all owned; sizes only grow */
   PetscReal      *normal; /* [num_nodes][dim] */
-  PetscReal      *theta;  /* [num_facets] share of the dual functions, 1: not evaluated */
   PetscInt        num_segments, size_segments;
   ContactSegment *output;
   PetscInt        num_results, num_ids, size_ids, *ids; /* ids: storage behind ContactFacet.nodes */

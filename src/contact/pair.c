@@ -34,7 +34,6 @@ PetscErrorCode ContactPairDestroy(ContactPair *pair)
   PetscCall(PetscFree(p->found_start));
   PetscCall(PetscFree(p->found));
   PetscCall(PetscFree(p->normal));
-  PetscCall(PetscFree(p->theta));
   PetscCall(PetscFree(p->output));
   PetscCall(PetscFree(p->ids));
   PetscCall(PetscFree(p->result));
@@ -50,7 +49,6 @@ PetscErrorCode ContactPairDestroy(ContactPair *pair)
 PetscErrorCode ContactPairGetSegments(ContactPair pair, PetscInt *num, const ContactSegment **segments)
 {
   PetscFunctionBegin;
-  for (PetscInt i = 0; i < pair->num_segments; i++) pair->output[i].dual = pair->theta[pair->output[i].facet];
   *num      = pair->num_segments;
   *segments = pair->output;
   PetscFunctionReturn(PETSC_SUCCESS);

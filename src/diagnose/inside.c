@@ -137,13 +137,11 @@ static PetscInt Within_Private(const Pieces *s, const Piece *of, PetscInt k, con
 {
   const PetscReal sign = along[0] * of->N[0] + along[1] * of->N[1] + along[2] * of->N[2] < 0 ? -1 : 1,
                   d[3] = {sign * along[0], sign * along[1], sign * along[2]};
-  PetscReal x[3]       = {0, 0, 0};
-  PetscInt  within     = 0;
+  PetscReal x[3];
+  PetscInt  within = 0;
 
-  for (PetscInt c = 0; c < 3; ++c) {
-    for (PetscInt a = 0; a < s->dim; ++a) x[c] += of->x[3 * a + c] / s->dim;
-    if (k < s->dim) x[c] = (x[c] + of->x[3 * k + c]) / 2;
-  }
+  PieceMiddle_Private(s->dim, of->x, x);
+  for (PetscInt c = 0; c < 3 && k < s->dim; ++c) x[c] = (x[c] + of->x[3 * k + c]) / 2;
   for (PetscInt i = 0; i < s->num; ++i) {
     const Piece *p = &s->piece[i];
     if (p->part == of->part && memcmp(p->X, of->X, sizeof(p->X)) && LineCrosses_Private(s->dim, p, x, d)) within += Dot3(p->N, d) > 0 ? 1 : -1;
@@ -163,9 +161,7 @@ static PetscErrorCode Deep_Private(const Pieces *s, MPI_Comm comm, PetscInt grou
   *deep = PETSC_FALSE;
   PetscCall(PetscMalloc1(s->num, &near));
   for (PetscInt i = 0; i < s->num; ++i) {
-    PetscBool meets = (PetscBool)(s->piece[i].groups >> group & 1);
-    for (PetscInt c = 0; c < 3; ++c) meets = (PetscBool)(meets && s->piece[i].box[c] <= box[3 + c] && box[c] <= s->piece[i].box[3 + c]);
-    if (meets) near[num++] = s->piece[i];
+    if ((s->piece[i].groups >> group & 1) && ContactBoxesMeet(s->piece[i].box, box)) near[num++] = s->piece[i];
   }
   PetscCall(GatherAll(comm, num, sizeof(Piece), near, &num, &all));
   PetscCall(PetscMalloc1(each * num, &within));

@@ -9,9 +9,6 @@ PetscErrorCode ContactRayTopology(ContactPair pair, const ContactSurface *s)
   PetscCall(ContactRayLatticePrepare());
   PetscCheck(s->X, PETSC_COMM_SELF, PETSC_ERR_ARG_NULL, "contact along a continuous direction needs the reference positions of the nonmortar surface");
   PetscCall(PetscFree(pair->normal));
-  PetscCall(PetscFree(pair->theta));
-  PetscCall(PetscMalloc1(s->num_facets, &pair->theta));
-  for (PetscInt f = 0; f < s->num_facets; f++) pair->theta[f] = 1;
   pair->num_nodes  = s->num_nodes;
   pair->num_facets = s->num_facets;
   PetscCall(PetscCalloc1(s->dim * s->num_nodes, &pair->normal));
@@ -354,6 +351,7 @@ static PetscErrorCode Segments_Private(const EvaluateContext *ctx, PetscInt face
     PetscCall(ContactResultSegment(ctx->pair, facet, w->mortar[k], w->facet.m == 1 ? 2 : o->num, &s));
     ContactRayLatticeGather(ctx->mortar, w->mortar[k], &mortar);
     ContactRayGuess(&w->facet, &mortar, o, &at);
+    s->dual = w->share.theta[0];
     memcpy(s->xi, at.xi, sizeof(s->xi));
     memcpy(s->eta, at.eta, sizeof(s->eta));
     if (o->node < 0) continue;
@@ -391,9 +389,8 @@ static PetscErrorCode Facet_Private(const EvaluateContext *ctx, PetscInt slot, C
   w->first_place[slot] = w->num_overlaps == overlaps ? first : -1;
   w->places            = w->place + first;
   if (w->num_overlaps == 0) PetscFunctionReturn(PETSC_SUCCESS);
-  if (!ctx->again) PetscCall(Segments_Private(ctx, facet));
   PetscCall(Functions_Private(w, pair->multiplier, facet, w->q[2 * w->facet.s.num]));
-  pair->theta[facet] = w->share.theta[0];
+  if (!ctx->again) PetscCall(Segments_Private(ctx, facet));
   PetscCall(Values_Private(w, out));
   PetscCall(Compliance_Private(pair, facet, out));
   out->dgap = out->dweight = out->dshare = out->push = out->hessian = NULL;
