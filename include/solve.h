@@ -35,8 +35,8 @@ const char *SolverModifierName(PetscInt);
    -solve_condense auto|yes|no (auto: from order 3 in the plane and 4 in space the unknowns of nodes inside cells are eliminated there, before the linear
    solver), -solve_linear auto|direct|iterative (auto: multigrid and GMRES for large three-dimensional problems of compressible material with a symmetric
    tangent; a factorisation where that fails and everywhere else), -solve_factor auto|single|double (precision of factors; auto: single in three dimensions from
-   20 000 unknowns on, where MUMPS has it and no -pc_type was given; double where that fails), -solve_linear_rtol (root of the round-off); saddle_ksp_* (GMRES),
-   multigrid_pc_*, multigrid_smoother_*, again_ksp_* (GMRES on a factor in single precision or of an earlier tangent). Collective. */
+   20 000 unknowns on, where MUMPS has it and no -pc_type was given; double where that fails), -solve_linear_rtol; saddle_ksp_* (GMRES), multigrid_pc_*,
+   multigrid_smoother_*, again_ksp_* (GMRES on a factor in single precision or of an earlier tangent). Collective. */
 PetscErrorCode SolverCreate(Problem, Solver *);
 PetscErrorCode SolverDestroy(Solver *);
 /* Are all -solve_*, -newton_* and -snes_* options known, can they act, and are their values allowed? An input error when one is not. Collective. */
@@ -51,7 +51,8 @@ PetscErrorCode SolverPrintHelp(MPI_Comm);
    once, so that the load step is cut. A request to stop (StopAsked) is heard before each factorisation. Failure is a report, not an error: the state is then of
    no use (restore a copy). */
 PetscErrorCode SolverSolve(Solver, State *, SolverReport *);
-/* From now on slide_predictor carries the bodies of pairs with friction where else it would not, and does not where it would. Not collective. */
+/* From now on slide_predictor carries the bodies of pairs with friction where else it would not, and does not where it would; plastic material begins elastic
+   and goes on with its secant stiffness. Not collective. */
 PetscErrorCode SolverSwapPredictor(Solver, PetscBool swap);
 
 /* The same, where SolverSolve finds nothing, by descent: from the state at the start of the step, with the prescribed motion put in by the bodies alone, down

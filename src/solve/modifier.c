@@ -4,8 +4,8 @@
 #include "solveimpl.h"
 
 static const Modifier *const Modifiers[] = {&ModifierFrozenSegmentation, &ModifierStall,        &ModifierFrozenNormals, &ModifierFirstTouch,
-                                            &ModifierProximalShift,      &ModifierSlideLimiter, &ModifierYieldEdge,     &ModifierSecantFlow,
-                                            &ModifierSlidePredictor,     &ModifierLineSearch};
+                                            &ModifierProximalShift,      &ModifierSlideLimiter, &ModifierYieldEdge,     &ModifierSlidePredictor,
+                                            &ModifierLineSearch,         &ModifierSecantFlow};
 #define NUM ((PetscInt)PETSC_STATIC_ARRAY_LENGTH(Modifiers))
 _Static_assert(PETSC_STATIC_ARRAY_LENGTH(Modifiers) <= SOLVER_MOST_MODIFIERS, "SolverReport has no room for all modifiers");
 

@@ -63,8 +63,7 @@ struct _p_Solver {
   PetscBool     shortened;       /* was the last step too far (line search)? */
   PetscBool     grew, fell;      /* has the residual grown in this solve while the set stayed, and fallen since? */
   PetscReal     step;            /* share of the last linear step that was gone */
-  PetscReal     flow_norm;       /* residual of the last iterate of plastic material … */
-  PetscReal     flow_start;      /* … and that from which the share of the secant stiffness counts */
+  PetscReal     flow_start;      /* residual that the share of the secant stiffness of flow counts from, 0: none is taken */
   PetscInt      halvings;        /* steps shortened in this solve */
   PetscBool     settled;         /* the active set of the last linear step, before its passes were used up */
   PetscInt      negative;        /* pivots of the last factor of this solve beyond those of constraints, -1: not known */
@@ -136,7 +135,6 @@ PetscErrorCode SolverInertiaSetUp_Private(Solver);
 PetscErrorCode SolverInertia_Private(Solver, PC);
 
 /* descent.c: minimisation of the augmented Lagrangian Phi. */
-#define DESCENT_ITERATIONS 60 /* of one descent; pieces of the prescribed motion; inverse iterations with one factor */
 typedef struct {
   Solver        solver;
   Problem       problem;

@@ -11,11 +11,12 @@ DEEP = ("inputs/slide2d.yml", "-adapt_tolerance", 0, "-mesh_parameter_n", 8, "-o
 DRIVEN = ("inputs/cylinder.yml", "-boundary_flat_traction_y", 0, "-boundary_flat_displacement_y", -1.6, "-load_step", 1, "-mesh_parameter_n", 4,
           "-mesh_parameter_m", 4, "-refine_arc_levels", 3, "-refine_top_levels", 3, "-adapt_tolerance", 0, "-order", 2, "-contact_cylinder_on_block_order", "full")
 SOFT_ON_STIFF = ("tests/gauntlet/press.yml", "-material_a_E", 1, "-material_a_nu", 0.45, "-material_b_E", 1e5, "-material_b_nu", 0.3)
-NEEDED = [  # modifier, figure of summary.json, how many times as large it is without, scene
+NEEDED = [  # modifier, figure of summary.json, how many times as large it is without (None: no equilibrium is found), scene
     ("slide_predictor", "newton_iterations", 2, DEEP),
     ("first_touch", "factorisations", 1.5, DRIVEN),
     ("yield_edge", "newton_iterations", 1.3, ("inputs/necking.yml", "-load_end", 0.1)),
     ("stall", "factorisations", 2, ("tests/gauntlet/upset_strip.yml", "-adapt_tolerance", 0, "-load_step", 0.1, "-newton_line_search", "off")),
+    ("secant_flow", None, None, ("tests/gauntlet/upset.yml", "-load_end", 0.2, "-load_step", 0.1, "-load_step_min", 0.1, "-path_predictor", "off")),
     ("line_search", "newton_iterations", 2, ("tests/gauntlet/upset.yml", "-load_end", 0.05)),
     ("frozen_normals", "newton_iterations", 2, ("tests/verify/scenes/pressed_cylinder.yml", "-load_step", 1, "-body_plate_motion_y", 0.13)),
 ]
@@ -28,6 +29,9 @@ def test_needed(run, name, figure, times, scene):
     assert plain.returncode == 0 and plain.summary["modifiers"][name] > 0 == without.summary["modifiers"][name], plain
     if name == "line_search":
         assert without.returncode == 2 and "no equilibrium found on a finer mesh" in without.summary["reason"], without
+        return
+    if figure is None:
+        assert without.returncode == 2 and without.summary["status"] == "failed", without
         return
     assert without.returncode == 0, without
     print(figure, plain.summary[figure], without.summary[figure])
