@@ -5,7 +5,6 @@
 typedef struct _p_Solver *Solver;
 
 #define SOLVER_MOST_MODIFIERS 12
-#define SOLVER_MANY 7 /* Newton iterations: so many without a new least residual are a stall, a load step that took fewer lets the next one grow */
 
 typedef struct {
   PetscBool     converged;

@@ -7,12 +7,12 @@
    places first. */
 #include "interfaceimpl.h"
 
+#define STAYS 0.9  /* share of the smaller of the old and the new zone that both have in common, below which contact moves */
 #define WHOLE 0.75 /* share of the zone that slips one way, above which the pair slips as a whole */
 #define FAR 0.15   /* of the zone: a pair that slips as a whole by less stays in place */
 
 /* Does contact, by the active set at hand, leave nodes that carry pressure for others? By reference length, so that
-   graded meshes count alike. A zone that only grows or only shrinks does not move; of the smaller of both zones the other
-   one lacks more than a sliver. */
+   graded meshes count alike. A zone that only grows or only shrinks does not move. */
 static PetscErrorCode HasMoved_Private(Interface p, const Contact *c, PetscBool *moved)
 {
   const Surface *s      = &c->side[0];
@@ -32,7 +32,7 @@ static PetscErrorCode HasMoved_Private(Interface p, const Contact *c, PetscBool 
     if (pressed && c->active[j]) sum[2] += c->w0[j];
   }
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 3, MPIU_REAL, MPI_SUM, p->comm));
-  *moved = (PetscBool)(sum[2] < (1 - CONTACT_SLIVER) * PetscMin(sum[0], sum[1]));
+  *moved = (PetscBool)(sum[2] < STAYS * PetscMin(sum[0], sum[1]));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -9,6 +9,8 @@
    narrow, frozen directions change little. */
 #include "interfaceimpl.h"
 
+#define WIDE 0.1 /* mean open gap in lengths of facets */
+
 static PetscErrorCode IsWide_Private(Interface p, const Contact *c, PetscBool *wide)
 {
   const Surface *s      = &c->side[0];
@@ -28,7 +30,7 @@ static PetscErrorCode IsWide_Private(Interface p, const Contact *c, PetscBool *w
     }
   }
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 3, MPIU_REAL, MPI_SUM, p->comm));
-  *wide = (PetscBool)(sum[1] <= SLACK * sum[2] || sum[0] > CONTACT_SLIVER * sum[1]);
+  *wide = (PetscBool)(sum[1] <= SLACK * sum[2] || sum[0] > WIDE * sum[1]);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -1,6 +1,8 @@
 /* The one loop along which equilibria are found: attempt, accept, grow; or go back, recover, cut. What it follows is a PathMetric. */
 #include "path.h"
 
+#define EASY_ITERATIONS 6 /* a load step that took no more Newton iterations lets the next one grow */
+
 PetscErrorCode PathPrescribe(Problem problem, PetscReal t)
 {
   PetscFunctionBegin;
@@ -114,7 +116,7 @@ PetscErrorCode PathAttempt(Path *p, const PathLoop *loop, PetscReal to, SolverRe
 /* The next piece after one to s = next that was found; at once: not after one that failed. */
 static void Grow_Private(PathLoop *loop, PetscReal next, PetscBool at_once, const SolverReport *report)
 {
-  const PetscBool easy = (PetscBool)(!loop->metric->load || report->iterations < SOLVER_MANY);
+  const PetscBool easy = (PetscBool)(!loop->metric->load || report->iterations <= EASY_ITERATIONS);
 
   loop->s = next;
   if (at_once && easy) loop->piece = PetscMin(loop->metric->growth * loop->piece, loop->most);

@@ -2,6 +2,8 @@
    for the iteration limit. */
 #include "solveimpl.h"
 
+#define STALLED 7 /* iterations without a new least residual; more halvings of steps that left the domain */
+
 static PetscErrorCode Begin_Private(Solver s)
 {
   PetscFunctionBegin;
@@ -18,7 +20,7 @@ static PetscErrorCode Verdict_Private(Solver s, Iterate *it, PetscBool always, P
     s->best_norm = it->norm;
     s->best_iter = it->number;
   }
-  *acts = (PetscBool)(it->number - s->best_iter >= SOLVER_MANY || s->halvings > SOLVER_MANY);
+  *acts = (PetscBool)(it->number - s->best_iter >= STALLED || s->halvings > STALLED);
   if (!*acts) PetscFunctionReturn(PETSC_SUCCESS);
   it->trouble = "Newton stalls";
   it->reason  = SNES_DIVERGED_LINE_SEARCH;
