@@ -92,10 +92,9 @@ def section(source, path, axis, around=False):
     """The lowest side of a prismatic mesh of hexahedra as a mesh in the plane; (length along the axis, names of groups that are left). around: of one of revolution, the side at
     the least angle, its radius along x and its height along y; the length is an angle."""
     names, nodes, elements = read(source)
-    others = [c for c in range(3) if c != axis]
     a, b = (axis + 1) % 3, (axis + 2) % 3
     along = {n: math.atan2(x[b], x[a]) if around else x[axis] for n, x in nodes.items()}
-    place = {n: [math.hypot(x[a], x[b]), x[axis], 0] if around else [x[c] for c in others] + [0] for n, x in nodes.items()}
+    place = {n: [math.hypot(x[a], x[b]), x[axis], 0] if around else [x[a], x[b], 0] for n, x in nodes.items()}
     used = {n for kind, _, at in elements if dimension(kind) == 3 for n in at[:8]}
     low, high = min(along[n] for n in used), max(along[n] for n in used)
 

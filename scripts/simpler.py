@@ -124,21 +124,23 @@ def revolved(scene, axis, folder, name):
 
 
 def flat(value, letters):
-    """A part of a scene in the plane: letters of axes go over to x and y, the third one goes."""
+    """A part of a scene in the plane: letters of axes go over to x and y, the third one goes, and with it rotations about others than that."""
     if isinstance(value, dict):
-        return {letters.get(k, k): flat(v, letters) for k, v in value.items() if k not in ("x", "y", "z") or k in letters}
+        about = value.get("rotation", {}).get("axis", "z")
+        value = {k: v for k, v in value.items() if (k not in ("x", "y", "z") or k in letters) and (k != "rotation" or about not in letters) and k != "axis"}
+        return {letters.get(k, k): flat(v, letters) for k, v in value.items()}
     if isinstance(value, list): return [flat(v, letters) for v in value]
     return re.sub(r"\b[XYZ]\b", lambda m: letters.get(m[0].lower(), "0").upper(), value)
 
 
 def section(scene, axis, folder, name):
     """The scene of a section across an axis, in plane strain."""
-    letters = dict(zip([c for c in "xyz" if c != axis], "xy"))
+    letters = {"xyz"[("xyz".index(axis) + 1 + i) % 3]: "xy"[i] for i in range(2)}  # turns keep their sense
     mesh = scene["mesh"]
     folder = pathlib.Path(folder)
     cutmesh.make(mesh["file"], 3, mesh.get("order", 2), mesh.get("parameter", {}), folder / f"{name}_whole.msh")
     length, groups = cutmesh.section(folder / f"{name}_whole.msh", folder / f"{name}.msh", "xyz".index(axis))
-    for key in ("body", "boundary", "probe", "point", "refine"):
+    for key in ("body", "boundary", "contact", "probe", "point", "refine"):
         if key in scene: scene[key] = {k: flat(v, letters) for k, v in scene[key].items()}
     for boundary, value in list(scene.get("boundary", {}).items()):
         if "fix" in value and value["fix"] != "normal": value["fix"] = "".join(letters[c] for c in value["fix"] if c in letters)
@@ -179,39 +181,44 @@ def size(vector):
     return sum(v * v for v in vector) ** 0.5
 
 
-def off(x, y, part):
-    """How far forces differ. In a part of the whole a support may be as large a part, or cut by some of its planes only; what a cut bears besides is its own."""
-    if part == 1 and len(x) == len(y): return size([p - q for p, q in zip(x, y)])
-    parts = [1] + [part * 2**k for k in range(4) if part * 2**k <= 1]
-    return min(abs(max(map(abs, x)) - max(map(abs, y)) / f) for f in parts)
+class Share:
+    """What of the whole model a simpler one is. part: so much of it, half, one unit of its length, or (more than 1) the full turn; letters: axes of the whole along which its own x, y, z
+    run, None: no single one; cut: those that planes of symmetry cut, along which the cut bears forces of its own."""
+
+    def __init__(self, part=1, letters=("x", "y", "z"), cut=""):
+        self.part, self.letters, self.cut = part, letters, cut
+
+    def of(self, row, folder, name):
+        """The share of what the row makes of this model."""
+        if "plane" in row["set"]:
+            return Share(self.part / 2 ** len(row["set"]["plane"]), self.letters, self.cut + "".join(self.letters["xyz".index(c)] for c in row["set"]["plane"]))
+        key = next((k for k in ("section", "revolve") if k in row["set"]), None)
+        if not key: return self
+        axis, whole = "xyz".index(row["set"][key]), pathlib.Path(folder) / f"{name}_whole.msh"
+        if key == "revolve":
+            angle, _ = cutmesh.section(whole, pathlib.Path(folder) / f"{name}_section.msh", axis, around=True)
+            return Share(self.part * 2 * math.pi / angle, [None, self.letters[axis]], self.cut)
+        along = [x[axis] for x in cutmesh.read(whole)[1].values()]
+        return Share(self.part / (max(along) - min(along)), [self.letters[(axis + i) % 3] for i in (1, 2)], self.cut)
+
+    def off(self, x, y):
+        """How far a force of the simpler model is from the whole one's. A support may be as large a part as the model, or lie on one side of some of its planes."""
+        def by(part): return size([x["xyz".index(c)] - v / part for c, v in zip(self.letters, y) if c and not (c in self.cut and part < 1)])
+
+        return min(by(self.part * 2**k) for k in range(len(self.cut) + 1))
 
 
-def share(part, row, folder, name):
-    """What part of the whole the simpler model is: half of it, one unit of its length, or (more than 1) the full turn."""
-    if part == "symmetry": return 0.5
-    if part == "revolution":
-        angle, _ = cutmesh.section(pathlib.Path(folder) / f"{name}_whole.msh", pathlib.Path(folder) / f"{name}_section.msh", "xyz".index(row["set"]["revolve"]), around=True)
-        return 2 * math.pi / angle
-    if part != "prism": return 1
-    nodes = cutmesh.read(pathlib.Path(folder) / f"{name}_whole.msh")[1].values()
-    along = [x["xyz".index(row["set"]["section"])] for x in nodes]
-    return 1 / (max(along) - min(along))
-
-
-def change(whole, simple, part=1, axis=None):
-    """Largest relative change of the energy norm, of the supports' forces and of the pairs' forces. part: of the whole model the simple one is so much. axis: about which the
-    simple one is a full turn, so that only forces along it are the same, and the largest pressures."""
+def change(whole, simple, share=Share()):
+    """Largest relative change of the energy norm, of the supports' forces and of the pairs' forces; about an axis of revolution of the largest pressures, too."""
     a, b = whole.summary, simple.summary
-    changes = [abs((b["energy"] / part / a["energy"]) ** 0.5 - 1)] if a["energy"] > 0 else []
+    changes = [abs((b["energy"] / share.part / a["energy"]) ** 0.5 - 1)] if a["energy"] > 0 else []
     both = [(a["reaction"][k], b["reaction"][k]) for k in a["reaction"] if k in b["reaction"]]
     both += [(a["contact"][k]["force"], b["contact"][k]["force"]) for k in a["contact"] if k in b["contact"]]
     both = [(x, y) for x, y in both if any(x) and any(y)] # the support of a rigid body has no reaction of its own
     largest = max((size(x) for x, _ in both), default=0)
-    if axis:
+    if None in share.letters:
         changes += [abs(b["contact"][k]["max_pressure"] / a["contact"][k]["max_pressure"] - 1) for k in a["contact"] if k in b["contact"] and a["contact"][k]["max_pressure"] > 0]
-        both, part = [([x["xyz".index(axis)]], [y[1] / part]) for x, y in both], 1
-    if part != 1: both = [(x, y) for x, y in both if size(x) > 0.5 * largest]
-    if largest > 0: changes.append(max(off(x, y, part) for x, y in both) / largest)
+    if largest > 0: changes.append(max(share.off(x, y) for x, y in both) / largest)
     return max(changes, default=0)
 
 
@@ -243,4 +250,4 @@ def check(scene, base, part, row, folder, name, times=1, idle=0):
     simple.seconds = min(seconds)
     saved = 1 - (simple.seconds - idle) / (min(whole) - idle)
     if part in ("cells", "order"): return simple.summary["estimated_error"], saved, simple
-    return change(base, simple, share(part, row, folder, name), row["set"].get("revolve")), saved, simple
+    return change(base, simple, Share().of(row, folder, name)), saved, simple
