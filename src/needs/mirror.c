@@ -9,20 +9,6 @@ typedef struct {
   uint64_t  partner[64];
 } Mirror;
 
-/* Middle of entity e of a leaf, by its place in the leaf's closure. */
-static PetscErrorCode Middle_Private(Forest forest, const ForestTables *t, PetscInt leaf, PetscInt e, PetscReal X[3])
-{
-  const PetscInt *closure = t->closure + t->closure_offset[t->first[t->dim] + leaf];
-  PetscInt        i       = 0;
-
-  PetscFunctionBegin;
-  while (closure[i] != e) ++i;
-  const PetscReal xi[3] = {0.5 * (i % 3), 0.5 * (i / 3 % 3), 0.5 * (i / 9)};
-  X[2]                  = 0;
-  PetscCall(ForestMapPoint(forest, leaf, xi, X));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 /* All cells, and all facets of a boundary group. */
 static PetscErrorCode Places_Private(Forest forest, Mirror *m)
 {
@@ -37,7 +23,7 @@ static PetscErrorCode Places_Private(Forest forest, Mirror *m)
     const PetscBool cell = (PetscBool)(e >= t->first[t->dim]);
     Place          *p    = &m->place[m->num];
     if (!cell && !t->boundary[e]) continue;
-    PetscCall(Middle_Private(forest, t, cell ? e - t->first[t->dim] : t->entity_leaf[e], e, p->X));
+    PetscCall(NeedsMiddle(forest, t, cell ? e - t->first[t->dim] : t->entity_leaf[e], e, p->X));
     p->body   = cell ? t->leaf_body[e - t->first[t->dim]] : -1;
     p->groups = cell ? 0 : t->boundary[e];
     PlaceKey(p, m->axis, &m->at);

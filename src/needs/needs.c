@@ -46,7 +46,8 @@ static PetscErrorCode Row_Private(Context *c, const char *part, const char *name
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* A row that goes by the energy of the last state, which tells nothing of a state before that stored more. */
+/* A row that goes by the energy of the last state, which tells nothing of a state before that stored more; or by there being no other way, where that was a
+   barrier. */
 static PetscErrorCode EnergyRow_Private(Context *c, const char *part, const char *name, PetscReal change, PetscReal saves, const char *why, Need **row)
 {
   PetscFunctionBegin;
@@ -276,13 +277,36 @@ static PetscBool MayBeSmall_Private(const SceneData *data)
   return PETSC_TRUE;
 }
 
+/* What the strains that small kinematics leaves out, or adds, do to forces where a body is held in two places: stretched between them it would resist with its
+   stiffness over their distance, and a beam that bends between fixed ends pulls at them though that takes it little energy. Of the largest force. */
+static PetscErrorCode Between_Private(Context *c, PetscReal *change)
+{
+  const MechanicsSpec *m       = &c->run->data->mechanics;
+  const Balance       *balance = c->run->balance;
+  PetscReal            largest = 0;
+
+  PetscFunctionBegin;
+  *change = 0;
+  for (PetscInt i = 0; i < balance->num_boundaries; ++i) largest = PetscMax(largest, Dot3(balance->reaction[i], balance->reaction[i]));
+  for (PetscInt i = 0; i < balance->num_contacts; ++i) largest = PetscMax(largest, Dot3(balance->pair[i].force[0], balance->pair[i].force[0]));
+  for (PetscInt b = 0; b < m->num_bodies && largest > 0; ++b) {
+    const MaterialSpec *s = m->bodies[b].material;
+    PetscReal           distance;
+    if (s->law->rigid) continue;
+    PetscCall(NeedsHeldApart(c->run, b, &distance));
+    const PetscReal modulus = 4 * s->mu * (s->incompressible ? 1 : (3 * s->kappa + s->mu) / (3 * s->kappa + 4 * s->mu)); /* across a plane */
+    *change                 = PetscMax(*change, PetscSqrtReal(c->terms[b].misfit * modulus * c->terms[b].volume / largest) / distance);
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 static PetscErrorCode Kinematics_Private(Context *c)
 {
   const SceneData *data     = c->run->data;
   const Path      *path     = c->run->path;
   const PetscInt   again    = PetscMax(0, path->factorisations - path->newton_iterations); /* for changes of the active set, which stay */
   const PetscInt   tangents = c->run->load_steps + c->run->adapt_passes + again;
-  PetscReal        linear = c->turn, misfit = 0, slide = 0;
+  PetscReal        linear = c->turn, misfit = 0, slide = 0, between;
   Need            *row;
 
   PetscFunctionBegin;
@@ -296,9 +320,10 @@ static PetscErrorCode Kinematics_Private(Context *c)
     PetscCall(NeedsContactTurn(c->run, i, &turn));
     slide = PetscMax(slide, turn);
   }
+  PetscCall(Between_Private(c, &between));
   const PetscReal fewer     = PetscMin(1, (PetscReal)tangents / (PetscReal)PetscMax(1, PetscMax(path->factorisations, path->newton_iterations)));
   const PetscReal of_energy = FORCE_OF_ENERGY * PetscAbsReal(linear) / c->energy, of_strain = PetscSqrtReal(misfit / (2 * c->energy));
-  PetscCall(EnergyRow_Private(c, "kinematics", "scene", PetscMax(slide, PetscMax(of_energy, of_strain)), c->solving * (1 - fewer),
+  PetscCall(EnergyRow_Private(c, "kinematics", "scene", PetscMax(PetscMax(slide, between), PetscMax(of_energy, of_strain)), c->solving * (1 - fewer),
                               "the energy that the nonlinear terms add at the state found", &row));
   cJSON_AddStringToObject(row->set, "kinematics", "small");
   for (PetscInt i = 0; i < data->num_materials; ++i)
@@ -338,7 +363,7 @@ static PetscErrorCode LoadSteps_Private(Context *c)
   if (c->run->load_steps <= least || !Forgets_Private(c->run)) PetscFunctionReturn(PETSC_SUCCESS);
   /* On the way to the end at once there is a solution on each mesh as well: what goes are the ones that later steps begin with. */
   const PetscReal fewer = (PetscReal)(c->run->load_steps - least) / (PetscReal)(c->run->load_steps - 1);
-  PetscCall(Row_Private(c, "load_steps", "scene", 0, fewer * c->run->later / c->total, "the end does not depend on the path", &row));
+  PetscCall(EnergyRow_Private(c, "load_steps", "scene", 0, fewer * c->run->later / c->total, "the end does not depend on the path", &row));
   if (c->run->path->newton_iterations >= LONG_STEP * (c->run->load_steps + c->run->adapt_passes)) row->keeps = PETSC_FALSE;
   for (PetscInt i = 0; i < data->num_contacts; ++i)
     if (c->run->touched[i] > 1) row->keeps = PETSC_FALSE; /* a first touch from far away costs Newton's method more than the steps */

@@ -25,12 +25,17 @@ PetscBool PlaceIs(const Place *p, const Place *q, PetscInt axis, PetscReal at, i
 PetscErrorCode NeedsCorners(const NeedsRun *, PetscInt axis, const PetscReal *at, PetscInt *num, Place **, PetscReal *largest);
 /* The box's longest side; lo, hi of the box. */
 PetscReal NeedsSize(const CoarseMesh *, PetscReal lo[3], PetscReal hi[3]);
+/* Middle of entity e of a leaf, by its place in the leaf's closure. Not collective. */
+PetscErrorCode NeedsMiddle(Forest, const ForestTables *, PetscInt leaf, PetscInt e, PetscReal X[3]);
 
 /* simpler.c, at the last accepted state. Of a pair the square of how far its sides slid along each other over the size of the zone, or the turn of their
    normals (radians, root mean square) if that is larger. Collective. */
 PetscErrorCode NeedsContactTurn(const NeedsRun *, PetscInt pair, PetscReal *turn);
 /* The motion that the supports of a body give it as a whole, by axis, for the caller to delete; held: they do, and nothing else loads it. Not collective. */
 PetscErrorCode NeedsRigidMotion(const NeedsRun *, PetscInt body, cJSON **motion, PetscBool *held);
+/* Least distance between two places that hold a body in the same direction, middles of supports and of contact zones; PETSC_MAX_REAL: there are no two.
+   Collective. */
+PetscErrorCode NeedsHeldApart(const NeedsRun *, PetscInt body, PetscReal *distance);
 /* Largest difference of displacements at corners of cells from those of their mirror images, over the largest displacement. Collective. */
 PetscErrorCode NeedsAsymmetry(const NeedsRun *, PetscInt axis, PetscReal *off);
 /* prism.c: is the mesh one of right prisms along the axis that reach from end to end? around: of such ones bent about it. layers: of its cells, 0: it is not.

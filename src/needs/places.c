@@ -87,3 +87,16 @@ PetscReal NeedsSize(const CoarseMesh *mesh, PetscReal lo[3], PetscReal hi[3])
   for (PetscInt c = 0; c < mesh->dim; ++c) size = PetscMax(size, hi[c] - lo[c]);
   return size;
 }
+
+PetscErrorCode NeedsMiddle(Forest forest, const ForestTables *t, PetscInt leaf, PetscInt e, PetscReal X[3])
+{
+  const PetscInt *closure = t->closure + t->closure_offset[t->first[t->dim] + leaf];
+  PetscInt        i       = 0;
+
+  PetscFunctionBegin;
+  while (closure[i] != e) ++i;
+  const PetscReal xi[3] = {0.5 * (i % 3), 0.5 * (i / 3 % 3), 0.5 * (i / 9)};
+  X[2]                  = 0;
+  PetscCall(ForestMapPoint(forest, leaf, xi, X));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

@@ -130,6 +130,83 @@ PetscErrorCode NeedsRigidMotion(const NeedsRun *run, PetscInt body, cJSON **moti
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Middle of the box around a body's facets of a group; any: it has some. Every rank knows all facets. */
+static PetscErrorCode Facets_Private(const NeedsRun *run, PetscInt body, PetscInt group, PetscReal at[3], PetscBool *any)
+{
+  const ForestTables *t;
+  PetscReal           box[6]; /* largest of X, of -X */
+
+  PetscFunctionBegin;
+  for (PetscInt k = 0; k < 6; ++k) box[k] = -PETSC_MAX_REAL;
+  PetscCall(ForestGetTables(run->level->forest, &t));
+  for (PetscInt e = t->first[t->dim - 1]; e < t->first[t->dim]; ++e) {
+    PetscReal X[3];
+    if (!(t->boundary[e] >> group & 1) || t->leaf_body[t->entity_leaf[e]] != body) continue;
+    PetscCall(NeedsMiddle(run->level->forest, t, t->entity_leaf[e], e, X));
+    for (PetscInt k = 0; k < 6; ++k) box[k] = PetscMax(box[k], k < 3 ? X[k] : -X[k - 3]);
+  }
+  *any = (PetscBool)(box[0] > -PETSC_MAX_REAL);
+  for (PetscInt c = 0; c < 3; ++c) at[c] = 0.5 * (box[c] - box[c + 3]);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+typedef struct {
+  PetscReal at[3];
+  PetscBool holds[3];
+} Hold;
+
+/* Supports of a body, then zones of contact pairs on it. */
+static PetscErrorCode Holds_Private(const NeedsRun *run, PetscInt body, PetscInt *num, Hold place[])
+{
+  const SceneData *data = run->data;
+
+  PetscFunctionBegin;
+  *num = 0;
+  for (PetscInt i = 0; i < data->mechanics.num_boundaries; ++i) {
+    const BoundarySpec *b = &data->mechanics.boundaries[i];
+    Hold               *p = &place[*num];
+    PetscBool           any;
+    for (PetscInt c = 0; c < 3; ++c) p->holds[c] = (PetscBool)(b->fix[c] || b->fix_normal || b->displacement[c]);
+    PetscCall(Facets_Private(run, body, b->group, p->at, &any));
+    *num += any;
+  }
+  for (PetscInt i = 0; i < 2 * data->num_contacts; ++i) {
+    const ContactView *v;
+    PetscReal          sum[11] = {0};
+    Hold              *p       = &place[*num];
+    PetscBool          any;
+    PetscCall(InterfaceGetContact(ProblemInterface(run->level->problem), i / 2, &v));
+    Side_Private(i % 2 ? &v->mortar : &v->nonmortar, sum);
+    PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 11, MPIU_REAL, MPI_SUM, run->comm));
+    PetscCall(Facets_Private(run, body, i % 2 ? data->contacts[i / 2].mortar : data->contacts[i / 2].nonmortar, p->at, &any));
+    for (PetscInt c = 0; c < 3; ++c) {
+      p->holds[c] = PETSC_TRUE;
+      p->at[c]    = sum[4 + c] / sum[0];
+    }
+    *num += any && sum[0] > 0;
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode NeedsHeldApart(const NeedsRun *run, PetscInt body, PetscReal *distance)
+{
+  Hold    *place;
+  PetscInt num;
+
+  PetscFunctionBegin;
+  *distance = PETSC_MAX_REAL;
+  PetscCall(PetscMalloc1(run->data->mechanics.num_boundaries + 2 * run->data->num_contacts, &place));
+  PetscCall(Holds_Private(run, body, &num, place));
+  for (PetscInt i = 0; i < num; ++i)
+    for (PetscInt j = 0; j < i; ++j) {
+      const PetscReal d[3] = {place[i].at[0] - place[j].at[0], place[i].at[1] - place[j].at[1], place[i].at[2] - place[j].at[2]};
+      for (PetscInt c = 0; c < 3; ++c)
+        if (place[i].holds[c] && place[j].holds[c]) *distance = PetscMin(*distance, PetscSqrtReal(Dot3(d, d)));
+    }
+  PetscCall(PetscFree(place));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* ---- symmetry --------------------------------------------------------------------------------------------------------------------------- */
 
 PetscErrorCode NeedsAsymmetry(const NeedsRun *run, PetscInt axis, PetscReal *off)

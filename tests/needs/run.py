@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Check what section `needs` of summary.json promises: scenes of inputs/ and six made for it, each with and without every part that it says is not needed.
+"""Check what section `needs` of summary.json promises: scenes of inputs/ and eight made for it, each with and without every part that it says is not needed.
 
     tests/needs/run.py [--times N] [--write] [SCENE...]
 
@@ -14,7 +14,7 @@ sys.path.insert(0, str(ROOT / "scripts"))
 import simpler  # noqa: E402
 
 INPUTS = "hertz2d rubber2d cook tube cylinder oring sphere balloon slide2d roller shrinkfit3d".split()
-MADE = "bracket bush plate tissue stops layer".split()
+MADE = "bracket bush plate tissue stops layer beam wheel".split()
 HEAD = """# No more model than needed
 
 At its end a run says what it could have left out of its model within the tolerance, what that would change and what
