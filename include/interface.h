@@ -131,6 +131,8 @@ PetscErrorCode InterfaceNumber(Interface, PetscInt counts[]);
 PetscErrorCode InterfaceSetRows(Interface, PetscInt counts[], const PetscInt offset[], const PetscInt row[], PetscInt num_inner);
 
 PetscErrorCode InterfaceGetContact(Interface, PetscInt pair, const ContactView **);
+/* Time on this rank in searches and evaluations of a pair, and of all; room: has the pair ever had room in the matrix for what faces it? Not collective. */
+PetscErrorCode InterfaceCost(Interface, PetscInt pair, PetscReal *seconds, PetscReal *all, PetscBool *room);
 /* The same with the values of all nodes (forces too) and `normal` on every rank: one reduction over both surfaces, for output and the like. They stay valid
    until the next call for this pair. Collective. */
 PetscErrorCode InterfaceGatherContactToAll(Interface, PetscInt pair, const ContactView **view);

@@ -109,6 +109,27 @@ PetscErrorCode InterfaceGetContact(Interface p, PetscInt pair, const ContactView
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscErrorCode InterfaceCost(Interface p, PetscInt pair, PetscReal *seconds, PetscReal *all, PetscBool *room)
+{
+  PetscFunctionBegin;
+  *all = 0;
+  for (PetscInt i = 0; i < p->num_contacts; ++i) *all += p->contacts[i].seconds;
+  *seconds = p->contacts[pair].seconds;
+  *room    = (PetscBool)(p->contacts[pair].pattern_offset != NULL);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Add the time since `begin` to that of a pair. */
+static PetscErrorCode Took_Private(Contact *c, PetscLogDouble begin)
+{
+  PetscLogDouble end;
+
+  PetscFunctionBegin;
+  PetscCall(PetscTime(&end));
+  c->seconds += (PetscReal)(end - begin);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode InterfaceSetMultipliers(Interface p, PetscInt pair, const PetscReal z[], Vec x)
 {
   const Contact *c = &p->contacts[pair];
@@ -142,7 +163,9 @@ PetscErrorCode InterfaceSearch(Interface p, Vec x, const PetscReal u[], PetscBoo
 {
   PetscFunctionBegin;
   for (PetscInt i = 0; i < p->num_contacts; ++i) {
-    Contact *c = &p->contacts[i];
+    Contact       *c = &p->contacts[i];
+    PetscLogDouble begin;
+    PetscCall(PetscTime(&begin));
     PetscCall(SlipKeep_Private(p, c, x));
     if (p->spec->kinematics == KINEMATICS_SMALL || c->tie) continue;
     for (PetscInt k = 0; k < 2; ++k) {
@@ -153,6 +176,7 @@ PetscErrorCode InterfaceSearch(Interface p, Vec x, const PetscReal u[], PetscBoo
     PetscCall(ContactSearch_Private(p, c, PETSC_FALSE, NEAR * c->distance));
     PetscCall(ContactPairGoOn(c->pair, PETSC_FALSE));
     if (c->spec->self) PetscCall(ContactRoles_Private(p, c, x, u));
+    PetscCall(Took_Private(c, begin));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -161,10 +185,13 @@ PetscErrorCode InterfaceEvaluate(Interface p, Vec x, const PetscReal u[], PetscR
 {
   PetscFunctionBegin;
   for (PetscInt i = 0; i < p->num_contacts; ++i) {
-    Contact *c = &p->contacts[i];
+    Contact       *c = &p->contacts[i];
+    PetscLogDouble begin;
+    PetscCall(PetscTime(&begin));
     PetscCall(ContactPairFreezeNormals(c->pair, (PetscBool)(hessian && FormHas(p->form->frozen_normals, i))));
     PetscCall(ContactEvaluate_Private(p, c, x, u, pending, PETSC_TRUE, hessian, failed));
     PetscCall(ContactPairFreezeNormals(c->pair, PETSC_FALSE));
+    PetscCall(Took_Private(c, begin));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

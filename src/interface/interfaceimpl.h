@@ -190,6 +190,7 @@ typedef struct {
   int8_t              *link[2];              /* rigid.c: [n] body of each side's nodes among the links; NULL: there are none */
   PetscInt             num_q, q_row[INTERFACE_MOTIONS], q_motion[INTERFACE_MOTIONS]; /* unknowns of the bodies of this pair */
   const RigidLink     *links, *q_link[INTERFACE_MOTIONS];
+  PetscReal            seconds;                  /* in searches and evaluations */
   PetscInt            *pattern_offset, *pattern; /* [num_facets+1]: nodes each facet has room for in the matrix */
   SlipHistory         *slip;                     /* NULL: the law has no friction */
   Tie                 *tie;                      /* NULL: the pair is not tied */

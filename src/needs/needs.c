@@ -104,34 +104,40 @@ static PetscReal Saves_Private(const Context *c, const MaterialSpec *m, const Pe
 
 /* ---- parts that did nothing ----------------------------------------------------------------------------------------------------------- */
 
-/* Share of the nodes that lie on the sides of a pair, twice: the matrix has room for what faces them in their rows, and for them in the rows of that. */
-static PetscErrorCode OnSides_Private(const Context *c, PetscInt pair, PetscReal *share)
+/* Of the time in contact the part of a pair; of the matrix, where it has room for what faces the pair's sides, in their rows and for them in the rows of that,
+   twice the share of the nodes on them. */
+static PetscErrorCode OfPair_Private(const Context *c, PetscInt pair, PetscReal *contact, PetscReal *matrix)
 {
   const ContactView *v;
   const HPTables    *tables;
+  Interface          interface = ProblemInterface(c->run->level->problem);
+  PetscReal          seconds, all;
+  PetscBool          room;
 
   PetscFunctionBegin;
-  PetscCall(InterfaceGetContact(ProblemInterface(c->run->level->problem), pair, &v));
+  PetscCall(InterfaceGetContact(interface, pair, &v));
+  PetscCall(InterfaceCost(interface, pair, &seconds, &all, &room));
   PetscCall(HPSpaceGetTables(ProblemSpace(c->run->level->problem), &tables));
-  PetscReal nodes[] = {(PetscReal)(v->nonmortar.num_nodes + v->mortar.num_nodes), (PetscReal)tables->num_nodes};
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, nodes, 2, MPIU_REAL, MPI_SUM, c->run->comm));
-  *share = 2 * nodes[0] / nodes[1];
+  PetscReal sum[] = {(PetscReal)(v->nonmortar.num_nodes + v->mortar.num_nodes), (PetscReal)tables->num_nodes, seconds, all, room};
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 5, MPIU_REAL, MPI_SUM, c->run->comm));
+  *matrix  = sum[4] > 0 ? 2 * sum[0] / sum[1] : 0;
+  *contact = sum[3] > 0 ? sum[2] / sum[3] : 0;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 static PetscErrorCode Contact_Private(Context *c)
 {
   const SceneData *data = c->run->data;
-  PetscReal        sides;
+  PetscReal        contact, matrix;
   Need            *row;
 
   PetscFunctionBegin;
   for (PetscInt i = 0; i < data->num_contacts; ++i) {
     const PetscInt pair = data->contacts[i].pair;
     if (data->contacts[i].part || c->run->touched[pair] || c->run->balance->pair[pair].tied) continue;
-    PetscCall(OnSides_Private(c, i, &sides));
+    PetscCall(OfPair_Private(c, i, &contact, &matrix));
     const PetscReal system = StageSeconds(STAGE_SETUP) + StageSeconds(STAGE_FACTOR) + StageSeconds(STAGE_SOLVE);
-    const PetscReal saves  = (StageSeconds(STAGE_CONTACT) / (PetscReal)data->num_contacts + sides * system) / c->total;
+    const PetscReal saves  = (contact * StageSeconds(STAGE_CONTACT) + matrix * system) / c->total;
     PetscCall(Row_Private(c, "contact", data->contacts[i].name, 0, saves, "its sides have not touched", &row));
     Drop_Private(row, "contact", data->contacts[i].name);
   }
