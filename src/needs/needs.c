@@ -173,6 +173,11 @@ static PetscReal Symmetric_Private(const Context *c, PetscInt material)
     if (i != material && data->materials[i].law->unsymmetric) return 0;
   for (PetscInt i = 0; i < data->num_contacts; ++i)
     if (data->contacts[i].law == CONTACT_COULOMB) return 0;
+  for (PetscInt i = 0; i < data->mechanics.num_boundaries; ++i) /* as ProblemIsSymmetric has it */
+    if (BoundaryHasPressure(&data->mechanics.boundaries[i])) return 0;
+  for (PetscInt b = 0; b < data->mechanics.num_bodies; ++b)
+    if (BodyIsLoaded(&data->mechanics.bodies[b])) return 0;
+  if (data->load.control == LOAD_ARC_LENGTH) return 0;
   return 0.5 * StageSeconds(STAGE_FACTOR) / c->total;
 }
 

@@ -57,6 +57,13 @@ def test_material_that_never_flows(run, adapt):
     same(plastic, simple)
 
 
+def test_matrix_that_pressure_makes_unsymmetric(run):
+    """Without flow its cells are cheaper, the factors are not."""
+    result = run("tests/needs/plate.yml", *QUIET, "-boundary_hole_pressure", 0.01)
+    time, told = result.summary["time"], result.summary["needs"]["flow"]["steel"]["saves"]
+    assert told <= 1.2 * (0.4 * (time["assemble"] + time["estimate"]) + 0.8 * time["transfer"]) / time["total"], (told, time)
+
+
 def test_nothing_is_promised(run):
     """Of a pair that bears, a bar that flows, a run that was given up."""
     assert not rows(run("inputs/patch2d.yml", *QUIET), "contact", "flow")
