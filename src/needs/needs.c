@@ -288,8 +288,8 @@ static PetscBool MayBeSmall_Private(const SceneData *data)
   return PETSC_TRUE;
 }
 
-/* What the strains that small kinematics leaves out, or adds, do to forces where a body is held in two places: stretched between them it would resist with its
-   stiffness over their distance, and a beam that bends between fixed ends pulls at them though that takes it little energy. Of the largest force. */
+/* What the strains that small kinematics leaves out, or adds, do to forces where a body is held in two places: stretched along the way
+   between them it would resist, and a beam that bends between fixed ends pulls at them though that takes it little energy. Of the largest force. */
 static PetscErrorCode Between_Private(Context *c, PetscReal *change)
 {
   const MechanicsSpec *m       = &c->run->data->mechanics;
@@ -302,11 +302,11 @@ static PetscErrorCode Between_Private(Context *c, PetscReal *change)
   for (PetscInt i = 0; i < balance->num_contacts; ++i) largest = PetscMax(largest, Dot3(balance->pair[i].force[0], balance->pair[i].force[0]));
   for (PetscInt b = 0; b < m->num_bodies && largest > 0; ++b) {
     const MaterialSpec *s = m->bodies[b].material;
-    PetscReal           distance;
+    PetscReal           strain;
     if (s->law->rigid) continue;
-    PetscCall(NeedsHeldApart(c->run, b, &distance));
+    PetscCall(NeedsStretch(c->run, b, &strain));
     const PetscReal modulus = 4 * s->mu * (s->incompressible ? 1 : (3 * s->kappa + s->mu) / (3 * s->kappa + 4 * s->mu)); /* across a plane */
-    *change                 = PetscMax(*change, PetscSqrtReal(c->terms[b].misfit * modulus * c->terms[b].volume / largest) / distance);
+    *change                 = PetscMax(*change, strain * PetscSqrtReal(c->terms[b].misfit * modulus * c->terms[b].volume / largest));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

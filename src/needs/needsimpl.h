@@ -33,9 +33,9 @@ PetscErrorCode NeedsMiddle(Forest, const ForestTables *, PetscInt leaf, PetscInt
 PetscErrorCode NeedsContactTurn(const NeedsRun *, PetscInt pair, PetscReal *turn);
 /* The motion that the supports of a body give it as a whole, by axis, for the caller to delete; held: they do, and nothing else loads it. Not collective. */
 PetscErrorCode NeedsRigidMotion(const NeedsRun *, PetscInt body, cJSON **motion, PetscBool *held);
-/* Least distance between two places that hold a body in the same direction, middles of supports and of contact zones; PETSC_MAX_REAL: there are no two.
-   Collective. */
-PetscErrorCode NeedsHeldApart(const NeedsRun *, PetscInt body, PetscReal *distance);
+/* Strain along the way between two places that hold a body in the same direction, middles of supports and of contact zones, if one of them moved by 1 in it;
+   the largest, 0: there are no two. Collective. */
+PetscErrorCode NeedsStretch(const NeedsRun *, PetscInt body, PetscReal *strain);
 /* Largest difference of displacements at corners of cells from those of their mirror images, over the largest displacement. Collective. */
 PetscErrorCode NeedsAsymmetry(const NeedsRun *, PetscInt axis, PetscReal *off);
 /* prism.c: is the mesh one of right prisms along the axis that reach from end to end? around: of such ones bent about it. layers: of its cells, 0: it is not.

@@ -188,20 +188,20 @@ static PetscErrorCode Holds_Private(const NeedsRun *run, PetscInt body, PetscInt
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode NeedsHeldApart(const NeedsRun *run, PetscInt body, PetscReal *distance)
+PetscErrorCode NeedsStretch(const NeedsRun *run, PetscInt body, PetscReal *strain)
 {
   Hold    *place;
   PetscInt num;
 
   PetscFunctionBegin;
-  *distance = PETSC_MAX_REAL;
+  *strain = 0;
   PetscCall(PetscMalloc1(run->data->mechanics.num_boundaries + 2 * run->data->num_contacts, &place));
   PetscCall(Holds_Private(run, body, &num, place));
   for (PetscInt i = 0; i < num; ++i)
     for (PetscInt j = 0; j < i; ++j) {
-      const PetscReal d[3] = {place[i].at[0] - place[j].at[0], place[i].at[1] - place[j].at[1], place[i].at[2] - place[j].at[2]};
-      for (PetscInt c = 0; c < 3; ++c)
-        if (place[i].holds[c] && place[j].holds[c]) *distance = PetscMin(*distance, PetscSqrtReal(Dot3(d, d)));
+      const PetscReal d[3] = {place[i].at[0] - place[j].at[0], place[i].at[1] - place[j].at[1], place[i].at[2] - place[j].at[2]}, d2 = Dot3(d, d);
+      for (PetscInt c = 0; c < 3 && d2 > 0; ++c)
+        if (place[i].holds[c] && place[j].holds[c]) *strain = PetscMax(*strain, PetscAbsReal(d[c]) / d2);
     }
   PetscCall(PetscFree(place));
   PetscFunctionReturn(PETSC_SUCCESS);

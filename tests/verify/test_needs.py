@@ -110,6 +110,16 @@ def test_forces_of_a_part():
     assert section.off([-1, 0, 6], [2, -1 / 3]) == pytest.approx(0) and section.off([-1, 0, 6], [2, 1 / 3]) == pytest.approx(2)
 
 
+def test_thrust_of_a_guided_beam(run):
+    """One end moves across by a twentieth of the thickness, and may not come nearer: the beam pulls at its ends as much as it resists, which small kinematics does not see.
+    Free to come nearer it does not pull."""
+    text = (ROOT / "tests" / "needs" / "beam.yml").read_text().replace("beam.geo", str(ROOT / "tests" / "needs" / "beam.geo")).replace("  top:   {pressure: 4e-5}\n", "")
+    guided, free = (run(f"{name}.yml", *QUIET, text=text.replace("right: {fix: xy}", f"right: {{displacement: {{{held}y: -0.05}}}}")) for name, held in (("guided", "x: 0, "), ("free", "")))
+    force = guided.summary["reaction"]["right"]
+    told = [result.summary["needs"]["kinematics"]["scene"]["change"] for result in (guided, free)]
+    assert abs(force[0] / force[1]) > 1 and 0.5 < told[0] < 2.5 and told[1] < 0.1, (force, told)
+
+
 def test_orders_of_a_linear_field(run, tmp_path):
     """A strip that is only stretched loses nothing with any order above 1."""
     text = (ROOT / "tests" / "needs" / "layer.yml").read_text().replace("layer.geo", str(ROOT / "tests" / "needs" / "layer.geo"))
