@@ -176,8 +176,10 @@ static PetscErrorCode Try_Private(Path *p, PetscInt row, const PathLoop *load, P
   *report = own;
   if (!PathRecoveries[row].far) PetscFunctionReturn(PETSC_SUCCESS);
   const char *warns = InterfaceSlips(ProblemInterface(p->level->problem)) ? "; with friction it depends on the way there: compare with shorter load steps" : "";
-  PetscCall(PetscPrintf(ForestComm(p->level->forest), "note: no equilibrium near by at t = %g; one farther off was found (-path_%s)%s\n",
-                        (double)p->level->state.t, PathRecoveries[row].name, warns));
+  PetscCall(
+      PetscPrintf(ForestComm(p->level->forest),
+                  "note: Newton's method found no equilibrium at t = %g from the state before; recovery %s did, it may be another one than that near by%s\n",
+                  (double)p->level->state.t, PathRecoveries[row].name, warns));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

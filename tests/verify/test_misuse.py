@@ -177,6 +177,7 @@ def msh(nodes=SQUARE, cells=CELLS, names=('1 3 "bottom"', '2 1 "lower"')):
     (msh(cells=[CELLS[0], "3 2 1 1 1 2 3 3"]), "an element names a node twice"), (msh(names=['1 3 "bottom"', '2 7 "lower"']), "no physical group 'lower' of dimension 2"),
     ("", "does not begin with $MeshFormat"), ("$NOD\n1\n1 0 0 0\n$ENDNOD\n", "does not begin with $MeshFormat"), ("$MeshFormat\n4 0 8\n$EndMeshFormat\n", "has gmsh format version 4.0"),
     (msh().replace("1 0 0\n", "1,0 0 0\n"), "truncated or damaged"), (None, "cannot be read"),
+    (msh([*SQUARE, (0, 0), (1, 0)], ["1 2 3 1 5 6", CELLS[1]]), "element 1 of a boundary group is no facet of a cell"),
     (msh(names=('1 3 "bottom"', '2 1"lower"')), "a line of $PhysicalNames"), (msh(names=('1 3\x1b "bottom"', '2 1 "lower"')), "a line of $PhysicalNames"),
     (msh(names=('1 3 4680"bottom"', '2 1 "lower"')), "a line of $PhysicalNames"),
 ])
