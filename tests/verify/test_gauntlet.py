@@ -25,7 +25,7 @@ def test_scenes():
     scenes = {scene["name"]: scene for scene, _, _ in ALL}
     runs = [(scene["name"], variant) for scene, variant, _ in ALL]
     assert len(scenes) >= 40 and len(set(runs)) == len(runs)
-    assert {scene["class"] for scene in scenes.values()} == {"edges", "corners", "overlap", "half models", "soft and stiff", "rigid nonmortar", "1:8", "snaps", "press fits", "billets",
+    assert {scene["class"] for scene in scenes.values()} == {"edges", "corners", "overlap", "half models", "soft and stiff", "rigid nonmortar", "1:8", "snaps", "press fits", "billets", "forming",
                                                             "bonded edges", "buckling", "folding", "conforming", "friction", "seals", "tied", "rigid under loads"}
     for scene, _, options in ALL:
         assert {figure[0] for figure in scene["figures"]} >= set(scene.get("friction", [])), scene["name"]
