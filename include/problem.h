@@ -177,7 +177,7 @@ PetscErrorCode ProblemFindSlide(Problem, Vec dx, Vec force, PetscReal *excess);
 /* As InterfaceFindCarried, for the solution dx of a linear step. */
 PetscErrorCode ProblemFindCarried(Problem, Vec dx, uint64_t *pairs);
 
-/* Work of the forces r on the displacements of dx, those of prescribed motion not counted. Collective. */
+/* Work of the forces r on the displacements of dx and on motions of rigid bodies that are found, those of prescribed motion not counted. Collective. */
 PetscErrorCode ProblemWork(Problem, Vec r, Vec dx, PetscReal *work);
 
 /* A Newton step: Begin remembers where it starts; Move sets x = start + step dx and the prescribed motion likewise (may be called again with a shorter step),

@@ -105,6 +105,7 @@ PetscErrorCode AppTellFree(const App *app)
     PetscInt  axes;
     PetscBool turns;
 
+    if (app->data->mechanics.bodies[b].material->law->rigid) continue; /* its load says that it is free */
     PetscCall(ProblemFreeAxes(app->level.problem, b, &axes, &turns));
     if (axes)
       PetscCall(PetscPrintf(app->comm,

@@ -98,8 +98,25 @@ static PetscErrorCode CellVolume_Private(PetscInt dim, PetscInt order, PetscInt 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Gram matrices of the rigid motions that supports see, [bodies][36]; extents first. */
-static PetscErrorCode Gram_Private(Mechanics m, const PetscInt root[], const PetscReal centre[3], PetscReal size, PetscReal *gram)
+/* A body of whose motion some is found: what is prescribed of it holds its point, not its nodes. */
+static void Prescribed_Private(Mechanics m, const BodySpec *body, const PetscReal centre[3], PetscReal size, PetscReal gram[])
+{
+  const PetscInt dim = m->dim, first = m->spec->model == MODEL_AXISYMMETRIC ? 1 : 0, turns = m->spec->model == MODEL_AXISYMMETRIC ? 0 : 2 * dim - 3;
+
+  for (PetscInt k = first; k < dim + turns; ++k) {
+    const PetscInt  axis = k < dim ? k : dim == 3 ? k - dim : 2;
+    const PetscReal n[3] = {axis == 0, axis == 1, axis == 2};
+    PetscReal       a[MOST_MODES];
+    if (k < dim ? body->load[axis] != NULL : body->load_moment[axis] != NULL) continue;
+    const PetscInt num = Modes_Private(m->spec->model, body->about, centre, size, n, a);
+    for (PetscInt i = 0; i < num && k >= dim; ++i) a[i] = i == k;
+    for (PetscInt i = 0; i < num; ++i)
+      for (PetscInt j = 0; j < num; ++j) gram[i * num + j] += a[i] * a[j];
+  }
+}
+
+/* Gram matrices of the rigid motions that supports see, [bodies][36]; extents first. first: this is the first rank. */
+static PetscErrorCode Gram_Private(Mechanics m, const PetscInt root[], const PetscReal centre[3], PetscReal size, PetscBool first, PetscReal *gram)
 {
   const HPTables     *v;
   const ForestTables *t;
@@ -117,7 +134,8 @@ static PetscErrorCode Gram_Private(Mechanics m, const PetscInt root[], const Pet
   }
   for (PetscInt n = 0; n < v->num_nodes; ++n) {
     const PetscReal *frame;
-    if (body[n] < 0 || !m->supports->fixed[n]) continue;
+    const PetscInt   cause = m->supports->cause[3 * n];
+    if (body[n] < 0 || !m->supports->fixed[n] || (cause < -1 && BodyIsLoaded(&m->spec->bodies[-2 - cause]))) continue;
     PetscCall(HPSpaceGetFrame(m->space, n, &frame));
     for (PetscInt k = 0; k < m->dim; ++k) {
       PetscReal a[MOST_MODES], direction[3] = {0, 0, 0};
@@ -129,6 +147,8 @@ static PetscErrorCode Gram_Private(Mechanics m, const PetscInt root[], const Pet
     }
   }
   PetscCall(PetscFree(body));
+  for (PetscInt b = 0; b < m->spec->num_bodies && first; ++b)
+    if (BodyIsLoaded(&m->spec->bodies[b])) Prescribed_Private(m, &m->spec->bodies[b], centre, size, gram + 36 * root[b]);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -173,6 +193,7 @@ PetscErrorCode MechanicsFreeBodies_Private(Mechanics m)
   const CoarseMesh   *mesh;
   Forest              forest;
   MPI_Comm            comm;
+  PetscMPIInt         rank;
   PetscReal          *gram, *volume, lo[3], hi[3], centre[3], size = 0;
   PetscInt           *root, nb = m->spec->num_bodies, modes;
 
@@ -182,6 +203,7 @@ PetscErrorCode MechanicsFreeBodies_Private(Mechanics m)
   PetscCall(ForestGetTables(forest, &t));
   PetscCall(ForestGetCoarse(forest, &mesh));
   comm = ForestComm(forest);
+  PetscCallMPI(MPI_Comm_rank(comm, &rank));
   ForestCoarseBox(mesh, lo, hi);
   for (PetscInt c = 0; c < 3; ++c) {
     centre[c] = 0.5 * (lo[c] + hi[c]);
@@ -192,7 +214,7 @@ PetscErrorCode MechanicsFreeBodies_Private(Mechanics m)
   PetscCall(PetscMalloc1(nb, &m->held));
   PetscCall(PetscCalloc1(v->num_owned_cells, &m->free_share));
   PetscCall(Joined_Private(mesh, m->spec->joined, root));
-  PetscCall(Gram_Private(m, root, centre, size, gram));
+  PetscCall(Gram_Private(m, root, centre, size, (PetscBool)(rank == 0), gram));
   for (PetscInt c = 0; c < v->num_owned_cells; ++c) {
     if (m->cell_group[c] < 0) continue;
     const CellGroup *g = &m->groups[m->cell_group[c]];

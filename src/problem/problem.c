@@ -325,6 +325,7 @@ PetscErrorCode ProblemWork(Problem p, Vec r, Vec dx, PetscReal *work)
   PetscCall(VecGetArrayRead(r, &force));
   PetscCall(VecGetArrayRead(dx, &way));
   for (PetscInt i = 0; i < p->num_u; ++i) *work += force[i] * way[i];
+  if (RigidLocal_Private(p) >= 0) *work += RigidWork_Private(p, force + RigidLocal_Private(p), way + RigidLocal_Private(p));
   PetscCall(VecRestoreArrayRead(dx, &way));
   PetscCall(VecRestoreArrayRead(r, &force));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, work, 1, MPIU_REAL, MPI_SUM, p->comm));

@@ -94,7 +94,8 @@ PetscErrorCode RigidIncrement_Private(Problem, const PetscReal dq[], PetscReal l
 PetscErrorCode RigidMeasure_Private(Problem, const PetscReal r[]);
 PetscErrorCode RigidResidual_Private(Problem, PetscReal r[]);
 PetscErrorCode RigidTangent_Private(Problem);
-PetscBool      RigidIsSymmetric_Private(Problem); /* is their part of the tangent? */
+PetscReal      RigidWork_Private(Problem, const PetscReal r[], const PetscReal dq[]); /* of their rows on changes of these unknowns */
+PetscBool      RigidIsSymmetric_Private(Problem);                                     /* is their part of the tangent? */
 /* scalar.c: place of the first of these unknowns in this rank's part of the vector; -1: another rank's. */
 PetscInt RigidLocal_Private(Problem);
 /* path.c: the equation of pseudo-time and its row and column. Collective. */

@@ -33,7 +33,7 @@ PetscErrorCode RigidCreate_Private(Problem p)
     }
   }
   if (!p->num_links) PetscFunctionReturn(PETSC_SUCCESS);
-  /* a body that touches nothing yet is held in the first linear solve, like one that deforms */
+  /* a body that nothing holds is held in the first linear solve, like one that deforms; what is glued to it and to a support holds it */
   p->rigid_shift = MECHANICS_SHIFT * young * (p->dim == 3 ? p->extent : 1);
   PetscCall(PetscMalloc1(v->num_nodes, &p->node_link));
   for (PetscInt n = 0; n < v->num_nodes; ++n) {
@@ -171,6 +171,21 @@ PetscErrorCode RigidResidual_Private(Problem p, PetscReal r[])
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscReal RigidWork_Private(Problem p, const PetscReal r[], const PetscReal dq[])
+{
+  PetscReal work = 0;
+
+  for (PetscInt k = 0; k < p->num_rigid; ++k) {
+    const RigidUnknown *u   = &p->rigid[k];
+    PetscReal           way = u->motion < 3 ? dq[k] : 0;
+    for (PetscInt j = 0; j < p->num_rigid && u->motion >= 3; ++j) /* along the row's axis in space */
+      if (p->rigid[j].link == u->link && p->rigid[j].motion >= 3)
+        way += p->links[u->link].length * p->links[u->link].spin[p->rigid[j].motion - 3][u->motion - 3] * dq[j];
+    work += r[k] * way;
+  }
+  return work;
+}
+
 /* Rotations i by j of one body: sum of (spin_j x arm) x r along axis i. */
 static PetscReal Curvature_Private(Problem p, PetscInt link, PetscInt i, PetscInt j)
 {
@@ -186,7 +201,7 @@ PetscErrorCode RigidTangent_Private(Problem p)
   for (PetscInt k = 0; k < p->num_rigid && p->rank == p->size - 1; ++k) {
     const RigidLink *l   = &p->links[p->rigid[k].link];
     const PetscInt   row = l->row[p->rigid[k].motion];
-    PetscCall(MatSetValue(p->matrix, row, row, p->form.proximal * p->rigid_shift, ADD_VALUES));
+    PetscCall(MatSetValue(p->matrix, row, row, MechanicsIsHeld(p->mechanics, l->body) ? 0 : p->form.proximal * p->rigid_shift, ADD_VALUES));
     for (PetscInt j = 0; j < 3 && p->rigid[k].motion >= 3; ++j) {
       if (l->row[3 + j] < 0) continue;
       PetscCall(MatSetValue(p->matrix, row, l->row[3 + j], Curvature_Private(p, p->rigid[k].link, p->rigid[k].motion - 3, j), ADD_VALUES));

@@ -43,15 +43,18 @@ static PetscErrorCode TooFar_Private(Solver s, const Iterate *it, Vec dx, PetscR
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Not for bodies with an energy that nothing touches: a load that carries them away, or past a limit point, is told by steps that fail. */
+/* Not for bodies with an energy that nothing touches, glued or not: a load that carries them away, or past a limit point, is told by steps that fail. */
 static PetscErrorCode Applies_Private(Solver s, PetscBool *yes)
 {
   const SceneData *scene;
+  PetscBool        energy, touched = PETSC_FALSE;
 
   PetscFunctionBegin;
   PetscCall(ProblemGetScene(s->problem, &scene));
-  PetscCall(ProblemHasEnergy(s->problem, yes));
-  *yes = (PetscBool)(!s->balance && (scene->num_contacts > 0 || !*yes));
+  for (PetscInt i = 0; i < scene->num_contacts; ++i) touched = (PetscBool)(touched || scene->contacts[i].law != CONTACT_TIED);
+  PetscCall(ProblemIsSymmetric(s->problem, &energy));
+  energy = (PetscBool)(energy && !MechanicsIsPlastic(&scene->mechanics));
+  *yes   = (PetscBool)(!s->balance && (touched || !energy));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

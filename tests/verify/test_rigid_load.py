@@ -219,6 +219,24 @@ def test_a_roller_rolls(run, tmp_path):
     assert 0.8 < rolled * 0.5 < 1.2, rolled
 
 
+def test_glued_to_what_bends(run):
+    """A slender strip holds a body through a tied pair: no stiffness is added to the body's motion (the strip's own is 40 times smaller than that would be), no
+    step is shortened; half a circle in eight steps takes 74 iterations (1073 with them)."""
+    result = run("tests/gauntlet/cap.yml", "-load_step", 0.125, "-output_fields", "false")
+    assert result.returncode == 0, result
+    assert result.summary["body"]["cap"]["rotation"][0] == pytest.approx(180, rel=1e-3)
+    modifiers = result.summary["modifiers"]
+    assert modifiers["proximal_shift"] == modifiers["line_search"] == 0, modifiers
+    assert result.summary["newton_iterations"] <= 100 and "note: " not in result.stdout.split("step pass")[0], result
+
+
+def test_work_of_a_motion_that_is_found(run):
+    """How far a step goes too far is judged by the work along it, that of the rigid body's own motion with it: without, the beam slid down to another state."""
+    result = run("tests/gauntlet/seesaw.yml", "-order", 3, "-output_fields", "false")
+    assert result.returncode == 0, result
+    assert result.summary["body"]["beam"]["rotation"][0] == pytest.approx(23.45, rel=0.015)
+
+
 # ---- refused -----------------------------------------------------------------------------------------------------------------------
 
 @pytest.mark.parametrize("edit, words", [
