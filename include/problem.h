@@ -208,7 +208,7 @@ PetscErrorCode ProblemMeritSide(Problem, Vec gradient, Vec lift, Vec rhs);
 PetscErrorCode ProblemMeritRecover(Problem, Vec y, Vec dx);
 
 /* Forces of the supports in a state, which is set: reaction[num_boundaries][3], their moments support[num_boundaries][3], forces and moments on rigid bodies
-   body[num_bodies] (MechanicsMoments; support NULL: neither); contact force and moment about the origin on the nonmortar side:
+   body[num_bodies] (MechanicsMoments); body NULL: none of these; contact force and moment about the origin on the nonmortar side:
    force[num_contacts][3], moment[num_contacts][3]; all ranks. Evaluates the residual. */
 PetscErrorCode ProblemForces(Problem, const State *, PetscReal reaction[][3], PetscReal support[][3], Resultant body[], PetscReal force[][3],
                              PetscReal moment[][3], ProblemStatus *);

@@ -24,8 +24,8 @@ static PetscErrorCode ReportPass_Private(App *app, PetscInt iterations, PetscBoo
   PetscCall(BalanceCompute(l->problem, &l->state, &app->balance));
   for (PetscInt i = 0; i < app->balance.num_contacts; ++i)
     if (!app->touched[i] && app->balance.pair[i].active_nodes > 0) app->touched[i] = app->load_steps + 1;
-  if (before.reaction && app->passes_in_step > 0) BalanceChange(&before, &app->balance, change);
-  if (before.reaction) PetscCall(BalanceDestroy(&before));
+  if (before.body && app->passes_in_step > 0) BalanceChange(&before, &app->balance, change);
+  if (before.body) PetscCall(BalanceDestroy(&before));
   PetscCall(PetscMemzero(&app->last, sizeof(app->last)));
   PetscCall(ReportRowFill(l->problem, &l->state, AppIsStressed(app) ? &app->estimate : NULL, &app->balance, &app->last));
   PetscCall(PetscTime(&now));

@@ -88,7 +88,7 @@ static PetscErrorCode Close_Private(App *app)
   PetscCall(ProbesDestroy(&app->probes));
   if (app->estimated) PetscCall(EstimateDestroy(&app->estimate));
   PetscCall(EstimateDestroy(&app->largest));
-  if (app->balance.reaction) PetscCall(BalanceDestroy(&app->balance));
+  if (app->balance.body) PetscCall(BalanceDestroy(&app->balance));
   PetscCall(LevelDestroy(&app->level));
   PetscCall(CheckpointDestroy(&app->snapshot));
   OutputUnlock();

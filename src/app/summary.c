@@ -16,7 +16,7 @@ ReportRow AppTotal(const App *app)
 /* Figures of the last accepted state, which is what a run that failed or was stopped leaves behind, and of one that had nothing left to do. */
 static PetscErrorCode Figures_Private(App *app)
 {
-  const PetscBool given_up = (PetscBool)(app->failure || app->path.stopped), told = (PetscBool)(app->balance.reaction != NULL);
+  const PetscBool given_up = (PetscBool)(app->failure || app->path.stopped), told = (PetscBool)(app->balance.body != NULL);
   Level          *l = &app->level;
 
   PetscFunctionBegin;

@@ -60,7 +60,7 @@ PetscErrorCode MechanicsMoments(Mechanics m, const PetscReal r[], const PetscRea
   PetscCall(HPSpaceGetTables(m->space, &v));
   PetscCall(PetscMalloc1(m->spec->num_bodies, &point));
   PetscCall(Points_Private(m, point));
-  PetscCall(PetscArrayzero(&support[0][0], 3 * m->spec->num_boundaries));
+  for (PetscInt b = 0; b < m->spec->num_boundaries; ++b) support[b][0] = support[b][1] = support[b][2] = 0;
   PetscCall(PetscArrayzero(body, m->spec->num_bodies));
   for (PetscInt n = 0; n < v->num_nodes; ++n) {
     PetscReal x[3], f[3];

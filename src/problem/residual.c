@@ -119,11 +119,9 @@ PetscErrorCode ProblemForces(Problem p, const State *state, PetscReal reaction[]
   PetscCall(ProblemSetState(p, state));
   PetscCall(ProblemLocalDisplacement(p, state->x, u));
   PetscCall(LocalForces_Private(p, state->x, u, state->pressure, r, status));
-  if (reaction) {
+  if (body) { /* arrays of boundaries may be of no size */
     PetscCall(MechanicsReactions(p->mechanics, r, reaction));
     PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, reaction, (PetscMPIInt)(3 * p->scene->mechanics.num_boundaries), MPIU_REAL, MPI_SUM, p->comm));
-  }
-  if (support) {
     PetscCall(MechanicsMoments(p->mechanics, r, u, support, body));
     PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, support, (PetscMPIInt)(3 * p->scene->mechanics.num_boundaries), MPIU_REAL, MPI_SUM, p->comm));
     PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, body, (PetscMPIInt)(6 * p->scene->mechanics.num_bodies), MPIU_REAL, MPI_SUM, p->comm));

@@ -237,6 +237,17 @@ def test_work_of_a_motion_that_is_found(run):
     assert result.summary["body"]["beam"]["rotation"][0] == pytest.approx(23.45, rel=0.015)
 
 
+def test_forces_without_a_support(run):
+    """No boundary of the scene is named: forces on rigid bodies are told all the same, and friction of the last step."""
+    result = run("tests/gauntlet/lever.yml", "-output_fields", "false")
+    assert result.returncode == 0, result
+    body, pair, last = result.summary["body"], result.summary["contact"]["c"], result.history[-1]
+    assert body["drum"]["force"] == pytest.approx(pair["mortar_force"], rel=1e-9) and pair["force"][1] > 0.09
+    assert body["lever"]["moment"][0] == pytest.approx(0.2, rel=1e-9)
+    assert pair["slipping_nodes"] == last["contact.c.slipping_nodes"] > 0
+    assert pair["dissipation"] > 0 and pair["dissipation"] == pytest.approx(last["contact.c.dissipation"], rel=1e-9)
+
+
 # ---- refused -----------------------------------------------------------------------------------------------------------------------
 
 @pytest.mark.parametrize("edit, words", [
