@@ -16,7 +16,7 @@ typedef struct {
 /* A middle goes through a piece of another part. */
 typedef struct {
   Crossing  at;
-  PetscReal along; /* cosine of the piece's normal and the middle's own */
+  PetscReal along, way; /* cosines of the piece's normal with the middle's own, and with its motion past the piece */
   PetscInt  number, pair, part;
   PetscBool side; /* the piece is on the pair's other side */
 } Event;
@@ -123,16 +123,28 @@ static PetscErrorCode Middles_Private(const Pieces *s, MPI_Comm comm, const Pets
 
 /* ---- what it goes through -------------------------------------------------------------------------------------------------------------- */
 
+/* Unit vector along the motion of a middle past the middle of a piece. */
+static void Past_Private(PetscInt dim, const Mover *p, const PetscReal y[2][3], PetscReal way[3])
+{
+  PetscReal x[2][3], size;
+
+  for (PetscInt k = 0; k < 2; ++k) PieceMiddle_Private(dim, p->x[k], x[k]);
+  for (PetscInt c = 0; c < 3; ++c) way[c] = y[1][c] - y[0][c] - (x[1][c] - x[0][c]);
+  size = PetscSqrtReal(Dot3(way, way));
+  for (PetscInt c = 0; c < 3 && size > 0; ++c) way[c] /= size;
+}
+
 static PetscErrorCode Meet_Private(const Pieces *s, const int8_t is[], const Mover *m, const Mover *p, Events *events)
 {
   Crossing  crossing[3];
-  PetscReal y[2][3], own[3];
+  PetscReal y[2][3], own[3], way[3];
 
   PetscFunctionBegin;
   if (!is[2 * (p->part * s->scene->num_contacts + m->pair) + 1 - m->side] || !ContactBoxesMeet(m->box, p->box)) PetscFunctionReturn(PETSC_SUCCESS);
   if (m->rank == p->rank && m->piece == p->piece) PetscFunctionReturn(PETSC_SUCCESS);             /* its own */
   if (s->scene->contacts[m->pair].self && m->part == p->part) PetscFunctionReturn(PETSC_SUCCESS); /* inside.c */
   for (PetscInt k = 0; k < 2; ++k) PieceMiddle_Private(s->dim, m->x[k], y[k]);
+  Past_Private(s->dim, p, y, way);
   const PetscInt num = CrossingsFind_Private(s->dim, p->x, y, crossing);
   for (PetscInt i = 0; i < num; ++i) {
     if (events->num == events->room) {
@@ -142,6 +154,7 @@ static PetscErrorCode Meet_Private(const Pieces *s, const int8_t is[], const Mov
     MovingNormal_Private(s->dim, m->x, crossing[i].s, own);
     events->event[events->num++] = (Event){.at     = crossing[i],
                                            .along  = Dot3(crossing[i].N, own),
+                                           .way    = Dot3(crossing[i].N, way),
                                            .number = m->number,
                                            .pair   = m->pair,
                                            .part   = p->part,
@@ -185,25 +198,23 @@ static int Order_Private(const void *a, const void *b)
   return (int)x->at.out - (int)y->at.out;
 }
 
-/* Is a middle, after these events of it with one part, out at the far side of where it went in? Who comes back in there is where it was before. */
+/* Is a middle, after these events of it with one part, out at a far side, one that looks along its motion and its own normal, when it went in at one that
+   looks against its motion? Who slides along a side and off its edge did not go in so. Who comes back in there is where it was before. */
 static PetscBool IsThrough_Private(PetscInt num, const Event event[])
 {
   PetscBool in = PETSC_FALSE, through = PETSC_FALSE;
-  PetscReal came[3] = {0, 0, 0};
 
   for (PetscInt i = 0; i < num; ++i) {
     const Crossing *at  = &event[i].at;
-    const PetscBool far = (PetscBool)(Dot3(at->N, came) < -CONTACT_OPPOSE && event[i].along > CONTACT_OPPOSE);
+    const PetscBool far = (PetscBool)(event[i].along > CONTACT_OPPOSE);
     if (at->out) {
-      through = (PetscBool)(through || (in && far && at->s > 0));
+      through = (PetscBool)(through || (in && far && event[i].way > CONTACT_OPPOSE && at->s > 0));
       in      = PETSC_FALSE;
     } else if (through && far) {
       through = PETSC_FALSE;
       in      = PETSC_TRUE;
-    } else if (event[i].side) {
-      in = PETSC_TRUE;
-      for (PetscInt c = 0; c < 3; ++c) came[c] = at->N[c];
-    }
+    } else if (event[i].side)
+      in = (PetscBool)(event[i].way < -CONTACT_OPPOSE);
   }
   return through;
 }

@@ -9,6 +9,7 @@ PASSED = {
     "cylinder": ("tests/verify/scenes/pressed_cylinder.yml", "-load_step", 1, "-body_plate_motion_y", 0.16),
     "hertz2d": ("inputs/hertz2d.yml", "-adapt_tolerance", 0, "-boundary_top_displacement_y", -1.4),
     "patch2d": ("inputs/patch2d.yml", "-boundary_top_displacement_y", -2.5),
+    "corners": ("tests/verify/scenes/diamond.yml",),
 }
 SWAPPED = {
     "cylinder": ("-contact_c_nonmortar", "plate_top", "-contact_c_mortar", "arc"),
@@ -28,8 +29,9 @@ def is_told(run, *words, **keys):
 
 
 @pytest.mark.parametrize("order", [1, 2, 3])
-@pytest.mark.parametrize("name,swap", [("cylinder", ()), ("cylinder", SWAPPED["cylinder"]), ("hertz2d", ()), ("patch2d", ()), ("patch2d", SWAPPED["patch2d"])],
-                         ids=["cylinder", "cylinder, swapped", "hertz2d", "patch2d", "patch2d, swapped"])
+@pytest.mark.parametrize("name,swap", [("cylinder", ()), ("cylinder", SWAPPED["cylinder"]), ("hertz2d", ()), ("patch2d", ()), ("patch2d", SWAPPED["patch2d"]),
+                                       ("corners", ())],
+                         ids=["cylinder", "cylinder, swapped", "hertz2d", "patch2d", "patch2d, swapped", "corners"])
 def test_right_through(run, name, swap, order):
     is_told(run, *PASSED[name], *swap, "-order", order)
 
