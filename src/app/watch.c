@@ -7,6 +7,7 @@ static PetscErrorCode WatchPassage_Private(App *app)
 {
   const CoarseMesh *mesh;
   Passage           p;
+  char              contact[256];
 
   PetscFunctionBegin;
   if (app->passage_told || app->data->mechanics.kinematics == KINEMATICS_SMALL) PetscFunctionReturn(PETSC_SUCCESS);
@@ -14,9 +15,14 @@ static PetscErrorCode WatchPassage_Private(App *app)
   if (!(p.depth > 0)) PetscFunctionReturn(PETSC_SUCCESS);
   app->passage_told = PETSC_TRUE;
   PetscCall(ForestGetCoarse(app->level.forest, &mesh));
-  PetscCall(WarningAdd(app->comm, "the surface of body %s passes through %s%s at t = %.6g, at (%.4g, %.4g, %.4g); no contact is there to stop it",
-                       mesh->body_name[p.body[0]], p.body[0] == p.body[1] ? "itself" : "body ", p.body[0] == p.body[1] ? "" : mesh->body_name[p.body[1]],
-                       (double)app->level.accepted.t, (double)p.x[0], (double)p.x[1], (double)p.x[2]));
+  if (p.pair < 0)
+    PetscCall(PetscStrncpy(contact, "no contact is there to stop it", sizeof(contact)));
+  else
+    PetscCall(PetscSNPrintf(contact, sizeof(contact), "contact pair %s has one of the faces there and does not keep the other off: name both in one pair",
+                            app->data->contacts[p.pair].name));
+  PetscCall(WarningAdd(app->comm, "the surface of body %s passes through %s%s at t = %.6g, at (%.4g, %.4g, %.4g); %s", mesh->body_name[p.body[0]],
+                       p.body[0] == p.body[1] ? "itself" : "body ", p.body[0] == p.body[1] ? "" : mesh->body_name[p.body[1]], (double)app->level.accepted.t,
+                       (double)p.x[0], (double)p.x[1], (double)p.x[2], contact));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -32,6 +32,14 @@ static PetscBool InPair_Private(const SceneData *scene, uint64_t a, uint64_t b)
   return PETSC_FALSE;
 }
 
+/* The first contact that a facet of these groups is in, -1: none. */
+static PetscInt PairOf_Private(const SceneData *scene, uint64_t groups)
+{
+  for (PetscInt i = 0; i < scene->num_contacts; ++i)
+    if (groups & (PairGroup_Private(&scene->contacts[i], 0) | PairGroup_Private(&scene->contacts[i], 1))) return i;
+  return -1;
+}
+
 static PetscReal Height_Private(const Piece *p, const PetscReal x[3])
 {
   return p->N[0] * (x[0] - p->x[0]) + p->N[1] * (x[1] - p->x[1]) + p->N[2] * (x[2] - p->x[2]);
@@ -107,6 +115,7 @@ static void Test_Private(const Pieces *s, const Which *which, const Piece *p, co
   worst->depth   = depth;
   worst->body[0] = PetscMin(p->body, q->body);
   worst->body[1] = PetscMax(p->body, q->body);
+  worst->pair    = PairOf_Private(s->scene, p->groups | q->groups);
   PieceMiddle_Private(s->dim, p->x, middle[0]);
   PieceMiddle_Private(s->dim, q->x, middle[1]);
   for (PetscInt c = 0; c < 3; ++c) worst->x[c] = (middle[0][c] + middle[1][c]) / 2;

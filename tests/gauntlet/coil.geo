@@ -9,4 +9,4 @@ EndFor
 Spline(1) = {100:100+M}; Spline(2) = {200:200+M}; Line(3) = {100,200}; Line(4) = {100+M,200+M};
 Curve Loop(1) = {1,4,-2,-3}; Plane Surface(1) = {1};
 Transfinite Curve{1,2} = s*N+1; Transfinite Curve{3,4}=2; Transfinite Surface{1} = {100,100+M,200+M,200}; Recombine Surface{1};
-Physical Surface("strip")={1}; Physical Curve("hull")={1,2,3,4}; Physical Curve("inner")={3}; Physical Curve("outer")={4};
+Physical Surface("strip")={1}; Physical Curve("hull")={1,2,3,4}; Physical Curve("flanks")={1,2}; Physical Curve("inner")={3}; Physical Curve("outer")={4};

@@ -172,6 +172,14 @@ def test_a_body_that_passes_through_itself(run, tmp_path, dim, ranks):
     assert not [text for text in run("s.yml", text=open_ring(tmp_path, 0.12, dim), ranks=ranks).summary["warnings"] if "passes" in text], result
 
 
+def test_passage_of_a_face_that_a_pair_does_not_name(run):
+    """A coil whose end touches the next turn: the pair is there, the end is not in it, and the warning says so; with the end in it there is none."""
+    end, without = (run("tests/gauntlet/coil.yml", "-order", 1, "-contact_c_surface", surface, "-output_fields", "false") for surface in ("hull", "flanks"))
+    assert "contact pair c has one of the faces there and does not keep the other off" in warned(without, "surface of body strip passes through itself")
+    assert not any("passes through" in warning for warning in end.summary["warnings"]), end
+
+
+
 def test_hanging_facets_pass_through_nothing(run):
     """A round surface with linear faces of different sizes: corners that hang lie on what they hang on."""
     result = run("inputs/hertz3d.yml", "-adapt_max_passes", 4, "-output_fields", "false")
