@@ -30,6 +30,22 @@ static PetscErrorCode Worst_Private(const App *app)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Where friction holds no more. */
+static PetscErrorCode Slips_Private(const App *app)
+{
+  PetscFunctionBegin;
+  for (PetscInt i = 0; i < app->data->num_contacts; ++i) {
+    const ContactSpec     *c = &app->data->contacts[i];
+    const FrictionFigures *f = &app->friction[c->pair];
+    if (c->part || f->slipping <= f->sticking) continue;
+    PetscCall(PetscPrintf(app->comm,
+                          "note: %" PetscInt_FMT " of %" PetscInt_FMT " touching nodes of pair %s slipped in the last step: a body that friction alone holds "
+                          "slides away where it holds no more, and there is no equilibrium then\n",
+                          f->slipping, f->slipping + f->sticking, c->name));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* Overlaps that the search cannot tell from the far sides of bodies behind. */
 static PetscErrorCode TellOverlap_Private(const App *app, PetscInt pair, PetscBool reference)
 {
@@ -131,6 +147,7 @@ PetscErrorCode AppAdvise(const App *app)
     PetscCall(Untouched_Private(app));
     PetscCall(Needless_Private(app));
   }
+  if (app->failure && app->path.cuts_in_step > 0) PetscCall(Slips_Private(app));
   if (stuck || (app->failure && app->path.cuts_in_step > 0)) PetscCall(Worst_Private(app));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

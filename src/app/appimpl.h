@@ -50,6 +50,7 @@ typedef struct {
   Missed          *missed;                           /* owned [num_missed] */
   PetscBool        inversion_told;                   /* that refinement would invert a cell, once */
   PetscInt        *subdivided;                       /* owned [num_contacts] by contact.<pair>.subdivide: auto, so often, or tried */
+  FrictionFigures *friction;                         /* owned, by ContactSpec.pair: of the last accepted load step of this run */
   PetscInt        *touched;                          /* owned, by ContactSpec.pair: load step of this run in which a node was in contact first; 0: none */
   PetscReal        rough_error, rough_t, rough_norm; /* largest estimate of an accepted step, its time; largest norm */
   PetscReal        unstable_t;                       /* when a solution was first found unstable … */

@@ -91,6 +91,7 @@ static PetscErrorCode Accept_Private(App *app)
   app->last.step_cuts         = app->path.cuts_in_step;
   app->last.modifiers         = app->path.modifiers_in_step;
   app->last.viscous_work      = app->path.viscous_work;
+  for (PetscInt i = 0; i < app->balance.num_contacts; ++i) app->friction[i] = app->balance.pair[i].friction;
   PetscCall(HistoryStep(app->history, &app->last, &app->balance, l->problem, &l->state));
   PetscCall(AppWatch(app));
   PetscCall(AppSnapshot(app));

@@ -25,7 +25,7 @@ static PetscErrorCode Prepare_Private(App *app, Forest *forest)
 {
   PetscFunctionBegin;
   PetscCall(ProbesCreate(app->data, *forest, &app->probes));
-  PetscCall(PetscCalloc2(app->data->num_contacts, &app->subdivided, app->data->num_contacts, &app->touched));
+  PetscCall(PetscCalloc3(app->data->num_contacts, &app->subdivided, app->data->num_contacts, &app->touched, app->data->num_contacts, &app->friction));
   if (app->restart[0])
     PetscCall(AppResume(app, forest));
   else
@@ -93,7 +93,7 @@ static PetscErrorCode Close_Private(App *app)
   PetscCall(CheckpointDestroy(&app->snapshot));
   OutputUnlock();
   PetscCall(NeedsDestroy(&app->needs));
-  PetscCall(PetscFree2(app->subdivided, app->touched));
+  PetscCall(PetscFree3(app->subdivided, app->touched, app->friction));
   PetscCall(PetscFree(app->missed));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

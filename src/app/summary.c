@@ -22,10 +22,13 @@ static PetscErrorCode Figures_Private(App *app)
   PetscFunctionBegin;
   if (!given_up && told) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(PathPrescribe(l->problem, l->accepted.t));
+  PetscCall(ProblemSetState(l->problem, &l->accepted));
   PetscCall(ProblemSearch(l->problem, l->accepted.x)); /* this mesh may not have seen any solution yet */
   if (told) PetscCall(BalanceDestroy(&app->balance));
   if (!given_up) PetscCall(AppEstimate(app));
   PetscCall(BalanceCompute(l->problem, &l->accepted, &app->balance));
+  for (PetscInt i = 0; i < app->balance.num_contacts && given_up; ++i) /* of the step that led there, if this run made one */
+    if (app->friction[i].slipping + app->friction[i].sticking > 0) app->balance.pair[i].friction = app->friction[i];
   if (app->failure) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(ReportRowFill(l->problem, &l->accepted, given_up ? NULL : &app->estimate, &app->balance, &app->last));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -539,3 +539,13 @@ def test_wedge_under_a_load(run, mu, order):
         angle, phi = numpy.radians(10), numpy.arctan(mu)
         print(mu, order, result.summary["reaction"]["push"], result.summary["newton_iterations"])
         assert -result.summary["reaction"]["push"][0] == pytest.approx(0.75 * (numpy.tan(angle + phi) + numpy.tan(phi)), rel=5e-4)
+
+
+def test_a_block_slides_away(run):
+    """A floor that tilts by t - 1/4: the block on it stays up to tan = mu. Then no equilibrium is left: told, with figures of the last step that was."""
+    result = run("tests/verify/scenes/tilt.yml", "-output_fields", "false")
+    pair, last = result.summary["contact"]["c"], result.history[-1]
+    assert result.returncode == 2 and math.tan(last["t"] - 0.25) == pytest.approx(0.4, rel=1e-3), result
+    assert "touching nodes of pair c slipped in the last step" in result.stdout
+    assert pair["dissipation"] == pytest.approx(last["contact.c.dissipation"], rel=1e-9) and pair["dissipation"] >= 0
+    assert pair["slipping_nodes"] == last["contact.c.slipping_nodes"] > 0
