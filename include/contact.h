@@ -17,10 +17,10 @@
 #pragma once
 #include "base.h"
 
-#define CONTACT_SEGMENT 8  /* most corners of a segment */
-#define CONTACT_ROUND 1e-9 /* of a facet, of a coordinate on it, of a cosine: what round-off may leave */
-#define CONTACT_SLIVER 0.1 /* of a facet, of its functions, of its normal: what is less tells nothing of its own */
-#define FORM_PAIRS 64      /* most contact pairs of a scene, each face of a mortar side counted */
+#define CONTACT_SEGMENT 8                 /* most corners of a segment */
+#define CONTACT_ROUND 1e-9                /* of a facet, of a coordinate on it, of a cosine: what round-off may leave */
+#define CONTACT_SLIVER 0.1                /* of a facet, of its functions, of its normal: what is less tells nothing of its own */
+#define FORM_PAIRS 64                     /* most contact pairs of a scene, each face of a mortar side counted */
 #define CONTACT_SHARP 0.76604444311897804 /* cosine of 40 degrees: a surface that turns by more has an edge */
 #define CONTACT_OPPOSE 0.3                /* facets face each other where N_s . N_m < -0.3: the search keeps these */
 
