@@ -227,8 +227,6 @@ PetscErrorCode InterfaceSwitch(Interface, const InterfaceSystem *, Vec dx, Vec r
    finite: gaps linearised at the old place say little of the new one. With friction: those that slip as a whole, by a good part
    of the zone, and all where that set had not settled (settled: it had); swap: those that do not. */
 PetscErrorCode InterfaceFindSliding(Interface, PetscReal pending, PetscBool settled, PetscBool swap, uint64_t *pairs);
-/* Of these pairs those whose sides an increment moves past each other along the surface more than into each other; those with friction are all kept. */
-PetscErrorCode InterfaceFindCarried(Interface, const PetscReal increment[], uint64_t *pairs);
 /* Pairs whose open gaps under pressure are too wide, against their facets, for the turning of directions to mean anything; and those without pressure. */
 PetscErrorCode InterfaceFindWide(Interface, uint64_t *pairs);
 /* Pairs that have borne nothing yet. */

@@ -174,8 +174,6 @@ PetscErrorCode ProblemUnloads(Problem, Vec x, Vec dx, PetscBool *yes);
    ratio to what is allowed; 0: none does. force, of the matrix: forces along that slide, of sum 1 on one side and -1 on the other, whose product with a
    solution of the matrix is its slide. Not while prescribed motion is still to come. */
 PetscErrorCode ProblemFindSlide(Problem, Vec dx, Vec force, PetscReal *excess);
-/* As InterfaceFindCarried, for the solution dx of a linear step. */
-PetscErrorCode ProblemFindCarried(Problem, Vec dx, uint64_t *pairs);
 
 /* Work of the forces r on the displacements of dx and on motions of rigid bodies that are found, those of prescribed motion not counted. Collective. */
 PetscErrorCode ProblemWork(Problem, Vec r, Vec dx, PetscReal *work);

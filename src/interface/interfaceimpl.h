@@ -432,10 +432,6 @@ PetscErrorCode ContactOffset_Private(Interface, Contact *);
 PetscErrorCode ContactLeastOverlap_Private(Interface, const Contact *, PetscReal *least);
 /* slidelimit.c: which translations the supports of both sides' bodies leave free. */
 PetscErrorCode ContactFreedom_Private(Interface, Contact *);
-/* slidelimit.c: means over the nodes of both sides, weighted with their forces: relative motion by an increment and distance of nodes; direction n of the
-   forces; their sums. Collective. */
-PetscErrorCode ContactMeans_Private(Interface, Contact *, const PetscReal increment[], PetscReal motion[3], PetscReal n[3], PetscReal *distance,
-                                    PetscReal sum[2]);
 /* carrier.c: w0, extent and c of the nodes; which of them carry a multiplier. */
 PetscErrorCode ContactNodeScales_Private(Interface, Contact *);
 PetscErrorCode ContactCarriers_Private(Interface, Contact *);

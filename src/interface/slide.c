@@ -76,19 +76,6 @@ static PetscErrorCode Slips_Private(Interface p, const Contact *c, PetscBool set
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode InterfaceFindCarried(Interface p, const PetscReal increment[], uint64_t *pairs)
-{
-  PetscFunctionBegin;
-  for (PetscInt i = 0; i < p->num_contacts; ++i) {
-    PetscReal motion[3], n[3], distance, sum[2];
-    if (!FormHas(*pairs, i) || p->contacts[i].view.friction > 0) continue;
-    PetscCall(ContactMeans_Private(p, &p->contacts[i], increment, motion, n, &distance, sum));
-    const PetscReal into = Dot3(motion, n);
-    if (2 * into * into >= Dot3(motion, motion) * Dot3(n, n)) *pairs &= ~((uint64_t)1 << i);
-  }
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 PetscErrorCode InterfaceFindSliding(Interface p, PetscReal pending, PetscBool settled, PetscBool swap, uint64_t *pairs)
 {
   PetscBool moved;

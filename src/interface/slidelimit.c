@@ -39,7 +39,8 @@ PetscErrorCode ContactFreedom_Private(Interface p, Contact *c)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode ContactMeans_Private(Interface p, Contact *c, const PetscReal increment[], PetscReal motion[3], PetscReal n[3], PetscReal *distance,
+/* Means over the nodes of both sides, weighted with their forces: relative motion and distance of nodes; mean direction n of the forces; their sums. */
+static PetscErrorCode Means_Private(Interface p, Contact *c, const PetscReal increment[], PetscReal motion[3], PetscReal n[3], PetscReal *distance,
                                     PetscReal sum[2])
 {
   const PetscInt dim     = p->dim;
@@ -77,7 +78,7 @@ static PetscErrorCode Slide_Private(Interface p, Contact *c, const PetscReal inc
 
   PetscFunctionBegin;
   *length = *limit = 0;
-  PetscCall(ContactMeans_Private(p, c, increment, t, n, &distance, sum));
+  PetscCall(Means_Private(p, c, increment, t, n, &distance, sum));
   size = PetscSqrtReal(Dot3(n, n));
   if (sum[0] == 0 || sum[1] == 0 || size == 0) PetscFunctionReturn(PETSC_SUCCESS);
   const PetscReal normal = Dot3(t, n) / (size * size);

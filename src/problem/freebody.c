@@ -35,11 +35,3 @@ PetscErrorCode ProblemFindSlide(Problem p, Vec dx, Vec force, PetscReal *excess)
   PetscCall(InterfaceFindSlide(p->interface, p->increment, force, excess));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
-
-PetscErrorCode ProblemFindCarried(Problem p, Vec dx, uint64_t *pairs)
-{
-  PetscFunctionBegin;
-  PetscCall(ProblemIncrement_Private(p, dx, 1.0));
-  PetscCall(InterfaceFindCarried(p->interface, p->increment, pairs));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}

@@ -1,6 +1,5 @@
 /* Does contact move along, so that bodies are to be carried first? The left half of a pair comes into contact, its right half is open but has pressures: where
-   they are real, contact moves; where they are the round-off of open nodes, wherever in the zone that comes, it does not. A body that would be carried into
-   the other more than along it stays. E = 1. */
+   they are real, contact moves; where they are the round-off of open nodes, wherever in the zone that comes, it does not. E = 1. */
 #include "patchfixture.h"
 
 #define DEEP 0.01
@@ -65,55 +64,9 @@ static void RoundOffDecidesNothing(void **unused)
   assert_false(Moves(1e-21));
 }
 
-/* Is the upper block, pressed on the lower one, carried by (x, y)? */
-static PetscBool Carries(PetscReal x, PetscReal y)
-{
-  Patch              p;
-  const ContactView *view;
-  const HPTables    *v;
-  ProblemStatus      status;
-  PetscReal         *z, *u;
-  uint64_t           pairs = 1;
-  Vec                r;
-
-  PatchScene(&p, 1, MODEL_PLANE_STRAIN, KINEMATICS_FINITE, FORMULATION_DISPLACEMENT);
-  p.forest = PatchForest((const PetscInt[2]){7, 5});
-  PatchStart(&p);
-  OK(InterfaceGetContact(ProblemInterface(p.problem), 0, &view));
-  OK(PetscCalloc1(view->nonmortar.num_nodes, &z));
-  for (PetscInt j = 0; j < view->nonmortar.num_nodes; ++j) z[j] = 0.01;
-  OK(InterfaceSetMultipliers(ProblemInterface(p.problem), 0, z, p.state.x));
-  OK(ProblemCreateVector(p.problem, &r));
-  PatchEvaluate(p.problem, p.state.x, r, &status);
-  OK(HPSpaceGetTables(ProblemSpace(p.problem), &v));
-  OK(PetscCalloc1(2 * v->num_nodes, &u));
-  for (PetscInt j = 0; j < view->nonmortar.num_nodes; ++j) {
-    for (PetscInt n = 0; n < v->num_nodes; ++n)
-      if (v->node_entity[n] == view->nonmortar.node_entity[j]) {
-        u[2 * n]     = x;
-        u[2 * n + 1] = y;
-      }
-  }
-  OK(InterfaceFindCarried(ProblemInterface(p.problem), u, &pairs));
-  OK(VecDestroy(&r));
-  OK(PetscFree(u));
-  OK(PetscFree(z));
-  PatchDestroy(&p);
-  return (PetscBool)(pairs != 0);
-}
-
-static void CarriedAlongNotInto(void **unused)
-{
-  assert_true(Carries(0.1, 0));
-  assert_true(Carries(-0.1, -0.09));
-  assert_false(Carries(0.1, -0.11));
-  assert_false(Carries(0, -0.1));
-  assert_false(Carries(0, 0));
-}
-
 int main(int argc, char **argv)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(RoundOffDecidesNothing), cmocka_unit_test(CarriedAlongNotInto)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(RoundOffDecidesNothing)};
   if (PetscInitialize(&argc, &argv, NULL, NULL) || ErrorHandlerPush()) return 1;
   const int failed = cmocka_run_group_tests(tests, NULL, NULL);
   return PetscFinalize() || failed;
