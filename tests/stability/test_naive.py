@@ -245,7 +245,7 @@ def test_snap(run, told):
     assert naive.returncode == 2 and naive.summary["t"] < 0.5 and naive.summary["recoveries"]["viscous"]["tried"] == 0
     d = down.summary
     assert down.returncode == 0 and d["energy"] < 1e-12 and d["recoveries"]["descent"]["succeeded"] >= 1, down
-    assert down.stdout.count("(-path_descent)") == d["recoveries"]["descent"]["succeeded"]
+    assert down.stdout.count("recovery descent did") == d["recoveries"]["descent"]["succeeded"]
     assert max(row["support_imbalance"] for row in down.history if row["contact_force"] > 1e-3) < 1e-8
     assert ours.returncode == 0 and s["energy"] < 1e-12
     assert 1 <= s["recoveries"]["viscous"]["succeeded"] == len(freed) and sum(work for _, work in freed) == pytest.approx(s["viscous_work"]) and ours.stdout.count("(-path_viscous)") == len(freed)
