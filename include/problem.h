@@ -159,6 +159,8 @@ PetscErrorCode ProblemTangent(Problem, Vec x, const PetscReal pressure[], Vec li
    holds the rim of a mortar side (ContactFacet.push). Get: was the last tangent in it? */
 PetscErrorCode ProblemGetSymmetric(Problem, PetscBool *symmetric);
 PetscErrorCode ProblemIsSymmetric(Problem, PetscBool *possible);
+/* Would it be, if this material had a symmetric tangent? */
+PetscErrorCode ProblemIsSymmetricBut(Problem, const MaterialSpec *, PetscBool *possible);
 /* rhs = -(r + lift), condensed like the last tangent, multiplier rows in its form; r of the problem, lift and rhs of the matrix. */
 PetscErrorCode ProblemRightSide(Problem, Vec r, Vec lift, Vec rhs);
 /* Active-set passes against the last tangent: given the solution dx of tangent . dx = -rhs, decide anew which constraints are active, rewrite their rows in the

@@ -194,12 +194,13 @@ static PetscErrorCode Load_Private(Reader *r, PetscBool curved)
   if (status) {
     r->dm = NULL;
     if (strstr(text, "partially interpolated")) FAIL(r, "mesh file '%s' has no cells of dimension %" PetscInt_FMT, r->spec->file, r->spec->dim);
-    const char *element = strstr(text, "Plex facet for Gmsh element ");
+    static const char unknown[] = "Plex facet for Gmsh element ";
+    const char       *element   = strstr(text, unknown);
     if (element)
       FAIL(r,
            "mesh file '%s': element %d of a boundary group is no facet of a cell: the two have vertices of their own there, as where surfaces of a .geo lie on "
            "one another and do not share points and lines",
-           r->spec->file, atoi(element + 28));
+           r->spec->file, atoi(element + sizeof(unknown) - 1));
     FAIL(r, "mesh file '%s' cannot be read, it may be truncated or damaged (%s)", r->spec->file, text[0] ? text : "no reason known");
   }
   PetscFunctionReturn(PETSC_SUCCESS);

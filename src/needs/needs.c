@@ -164,21 +164,14 @@ static PetscBool Elastic(const Context *c, PetscInt body)
 }
 
 /* Half of the factorisations' time, where nothing but this material makes the matrix unsymmetric. */
-static PetscReal Symmetric_Private(const Context *c, PetscInt material)
+static PetscErrorCode Symmetric_Private(const Context *c, const MaterialSpec *material, PetscReal *saves)
 {
-  const SceneData *data = c->run->data;
+  PetscBool possible;
 
-  if (!data->materials[material].law->unsymmetric) return 0;
-  for (PetscInt i = 0; i < data->num_materials; ++i)
-    if (i != material && data->materials[i].law->unsymmetric) return 0;
-  for (PetscInt i = 0; i < data->num_contacts; ++i)
-    if (data->contacts[i].law == CONTACT_COULOMB) return 0;
-  for (PetscInt i = 0; i < data->mechanics.num_boundaries; ++i) /* as ProblemIsSymmetric has it */
-    if (BoundaryHasPressure(&data->mechanics.boundaries[i])) return 0;
-  for (PetscInt b = 0; b < data->mechanics.num_bodies; ++b)
-    if (BodyIsLoaded(&data->mechanics.bodies[b])) return 0;
-  if (data->load.control == LOAD_ARC_LENGTH) return 0;
-  return 0.5 * StageSeconds(STAGE_FACTOR) / c->total;
+  PetscFunctionBegin;
+  PetscCall(ProblemIsSymmetricBut(c->run->level->problem, material, &possible));
+  *saves = possible && material->law->unsymmetric ? 0.5 * StageSeconds(STAGE_FACTOR) / c->total : 0;
+  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 static PetscErrorCode Flow_Private(Context *c)
@@ -189,8 +182,10 @@ static PetscErrorCode Flow_Private(Context *c)
   PetscFunctionBegin;
   for (PetscInt i = 0; i < data->num_materials; ++i) {
     const MaterialSpec *m = &data->materials[i];
+    PetscReal           symmetric;
     if (!All_Private(c, i, Elastic)) continue;
-    PetscCall(Row_Private(c, "flow", m->name, 0, Saves_Private(c, m, OfFlow) + Symmetric_Private(c, i),
+    PetscCall(Symmetric_Private(c, m, &symmetric));
+    PetscCall(Row_Private(c, "flow", m->name, 0, Saves_Private(c, m, OfFlow) + symmetric,
                           "its material has not flowed: neo_hookean with the same moduli and volumetric gives the same", &row));
     Elastic_Private(row, m, "neo_hookean");
   }

@@ -173,6 +173,13 @@ PetscErrorCode ProblemGetSymmetric(Problem p, PetscBool *symmetric)
 
 PetscErrorCode ProblemIsSymmetric(Problem p, PetscBool *possible)
 {
+  PetscFunctionBegin;
+  PetscCall(ProblemIsSymmetricBut(p, NULL, possible));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode ProblemIsSymmetricBut(Problem p, const MaterialSpec *but, PetscBool *possible)
+{
   const MechanicsSpec *m = &p->scene->mechanics;
 
   PetscFunctionBegin;
@@ -181,7 +188,7 @@ PetscErrorCode ProblemIsSymmetric(Problem p, PetscBool *possible)
     if (BoundaryHasPressure(&m->boundaries[b]) && m->kinematics == KINEMATICS_FINITE) *possible = PETSC_FALSE;
   }
   for (PetscInt b = 0; b < m->num_bodies; ++b) {
-    if (m->bodies[b].material->law->unsymmetric) *possible = PETSC_FALSE;
+    if (m->bodies[b].material != but && m->bodies[b].material->law->unsymmetric) *possible = PETSC_FALSE;
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -179,7 +179,6 @@ def test_passage_of_a_face_that_a_pair_does_not_name(run):
     assert not any("passes through" in warning for warning in end.summary["warnings"]), end
 
 
-
 def test_hanging_facets_pass_through_nothing(run):
     """A round surface with linear faces of different sizes: corners that hang lie on what they hang on."""
     result = run("inputs/hertz3d.yml", "-adapt_max_passes", 4, "-output_fields", "false")
