@@ -268,7 +268,7 @@ static PetscErrorCode States_Private(Interface p, const InterfaceSystem *a, Cont
       point.slip[d] += c->slip->change[at] + slip[at] - c->slip->coupled[at];
     }
     const int8_t active = c->law->state(&point);
-    if (active && ContactOverlap_Private(c, j) < least) continue;
+    if (active && !c->active[j] && ContactOverlap_Private(c, j) < least) continue;
     if (p->dim == 3 && c->slip && active != c->active[j]) c->law->aim(&point, c->slip->aim + 3 * j);
     c->active[j] = active;
   }
