@@ -512,19 +512,19 @@ def test_far_beyond_the_zone(run, order, n, sides):
     assert force[0] == pytest.approx(force[1], rel=sides)
 
 
-@pytest.mark.parametrize("pair, mu", [("disc", 0.1), ("disc", 0.6), ("block", 0.1)])
-def test_predictor(run, pair, mu):
-    """Rubber, squeezed by 0.3, then drawn along in one step: the first attempt fails, the one with the other predictor does not."""
-    text = disc(pair, 2, mu).replace("nu: 0.3", "nu: 0.499").replace("-0.1*min", "-0.3*min")
-    result, without = (run("rubber.yml", *words, text=text) for words in ((), ("-path_predictor", "off")))
-    assert result.returncode == 0 and result.summary["recoveries"]["predictor"] == {"tried": 1, "succeeded": 1} and result.summary["step_cuts"] == 0, result
+@pytest.mark.parametrize("scene", [("cork",), ("strip", "-load_step", 0.25)])
+def test_predictor(run, scene):
+    """A cork driven into a neck, a strip drawn from between blocks: the first attempt of a step fails, the one with the other predictor does not."""
+    result, without = (run(f"tests/gauntlet/{scene[0]}.yml", *scene[1:], "-output_fields", "false", *words) for words in ((), ("-path_predictor", "off")))
+    tried = result.summary["recoveries"]["predictor"]
+    assert result.returncode == 0 and tried["tried"] == tried["succeeded"] > 0 and result.summary["step_cuts"] == 0, result
     assert without.summary["recoveries"]["predictor"]["tried"] == 0 and without.summary["step_cuts"] > 0, without
 
 
 def test_an_equilibrium_farther_off_depends_on_the_way(run):
-    """A sheet between a roller and a plate, in one step for each stage: what viscous regularisation finds is told, and that with friction it is one of many."""
+    """An O-ring that rolls, in one step for each stage: what viscous regularisation finds is told, and that with friction it is one of many."""
     told = "recovery viscous did, it may be another one than that near by; with friction it depends on the way there"
-    result, without = (run("tests/gauntlet/nip.yml", "-order", 1, "-load_step", 1, *words) for words in ((), ("-path_viscous", "off")))
+    result, without = (run("tests/gauntlet/oring_roll.yml", "-order", 1, "-load_step", 1, *words) for words in ((), ("-path_viscous", "off")))
     assert result.returncode == 0 and result.stdout.count(told) == result.summary["recoveries"]["viscous"]["succeeded"] > 0, result
     assert told not in without.stdout, without
 
