@@ -7,9 +7,8 @@
    places first. */
 #include "interfaceimpl.h"
 
-#define STAYS 0.9  /* share of the smaller of the old and the new zone that both have in common, below which contact moves */
-#define WHOLE 0.75 /* share of the zone that slips one way, above which the pair slips as a whole */
-#define FAR 0.15   /* of the zone: a pair that slips as a whole by less stays in place */
+#define STAYS 0.9 /* share of the smaller of the old and the new zone that both have in common, below which contact moves */
+#define FAR 0.15  /* of the zone: a pair that slips by less in the mean stays in place */
 
 /* Does contact, by the active set at hand, leave nodes that carry pressure for others? By reference length, so that
    graded meshes count alike. A zone that only grows or only shrinks does not move. */
@@ -36,47 +35,42 @@ static PetscErrorCode HasMoved_Private(Interface p, const Contact *c, PetscBool 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Adds a node's share of the zone, where it slips the direction of its traction, and its slip, as vectors of the plane or in space. */
-static PetscErrorCode AddSlip_Private(const Contact *c, PetscInt j, PetscReal zone[], PetscReal way[3], PetscReal slip[3])
+/* Adds a node's share of the zone and its slip, as a vector of the plane or in space. */
+static PetscErrorCode AddSlip_Private(const Contact *c, PetscInt j, PetscReal *zone, PetscReal slip[3])
 {
   const SlipHistory *s   = c->slip;
-  const PetscInt     dim = c->side[0].dim, slides = c->law->slides(c->active[j]), num = c->side[0].num_nodes;
+  const PetscInt     dim = c->side[0].dim, num = c->side[0].num_nodes;
   const PetscReal    size    = dim == 3 ? c->w0[j] : c->extent[j];
   PetscReal          e[2][3] = {{1, 0, 0}, {0, 0, 0}};
 
   PetscFunctionBegin;
   if (dim == 3) PetscCall(ContactPairGetTangents(c->pair, j, e));
   *zone += size;
-  for (PetscInt i = 0; i < dim - 1; ++i)
-    for (PetscInt d = 0; d < 3; ++d) {
-      way[d] += size * (PetscReal)slides * (dim == 3 ? s->aim[3 * j + i] : 1) * e[i][d];
-      if (s->weight[j] > 0) slip[d] += size * e[i][d] * (s->slip[num * i + j] + s->change[num * i + j]) / s->weight[j];
-    }
+  for (PetscInt i = 0; i < dim - 1 && s->weight[j] > 0; ++i)
+    for (PetscInt d = 0; d < 3; ++d) slip[d] += size * e[i][d] * (s->slip[num * i + j] + s->change[num * i + j]) / s->weight[j];
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* With friction: does the first linear step slip as a whole, one way, and by a good part of the zone? Then bodies are brought to their new places first. Where
-   friction holds they would have to be pulled back from there. Where states go on changing, that step says nothing but that it goes too far; a body that
-   nothing but the pair may move has no other place to be brought to. */
-static PetscErrorCode Slips_Private(Interface p, const Contact *c, PetscBool settled, PetscBool swap, PetscBool *slips)
+/* With friction: does the zone slip by a good part of it in the mean, in the first linear step? Then bodies are brought to their new places first. Where
+   friction holds, or drives, they would have to be pulled back from there. */
+static PetscErrorCode Slips_Private(Interface p, const Contact *c, PetscBool swap, PetscBool *slips)
 {
-  PetscReal sum[8] = {0}, *way = sum + 1, *slip = sum + 4, *pressed = sum + 7; /* zone; its part that slips, sum of the slip; nodes with pressure */
+  PetscReal sum[5] = {0}, *slip = sum + 1, *pressed = sum + 4; /* zone; integral of the slip; nodes with pressure */
 
   PetscFunctionBegin;
   for (PetscInt i = 0; i < c->side[0].num_own; ++i) {
     const PetscInt j = c->side[0].own[i];
 
     if (ContactPressed_Private(c, j)) *pressed += 1;
-    if (c->active[j] && ContactPressed_Private(c, j)) PetscCall(AddSlip_Private(c, j, sum, way, slip));
+    if (c->active[j] && ContactPressed_Private(c, j)) PetscCall(AddSlip_Private(c, j, sum, slip));
   }
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 8, MPIU_REAL, MPI_SUM, p->comm));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 5, MPIU_REAL, MPI_SUM, p->comm));
   const PetscReal length = p->dim == 3 ? PetscSqrtReal(sum[0]) : sum[0];
-  const PetscBool whole  = (PetscBool)(PetscSqrtReal(Dot3(way, way)) > WHOLE * sum[0] && PetscSqrtReal(Dot3(slip, slip)) > FAR * sum[0] * length);
-  *slips                 = (PetscBool)(*pressed > 0 && swap != (whole || (!settled && !c->drifts && !c->num_q)));
+  *slips                 = (PetscBool)(*pressed > 0 && swap != (PetscSqrtReal(Dot3(slip, slip)) > FAR * sum[0] * length));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode InterfaceFindSliding(Interface p, PetscReal pending, PetscBool settled, PetscBool swap, uint64_t *pairs)
+PetscErrorCode InterfaceFindSliding(Interface p, PetscReal pending, PetscBool swap, uint64_t *pairs)
 {
   PetscBool moved;
 
@@ -86,7 +80,7 @@ PetscErrorCode InterfaceFindSliding(Interface p, PetscReal pending, PetscBool se
   for (PetscInt i = 0; pending > 0 && i < p->num_contacts; ++i) {
     if (p->contacts[i].tie) continue;
     if (p->contacts[i].view.friction > 0)
-      PetscCall(Slips_Private(p, &p->contacts[i], settled, swap, &moved));
+      PetscCall(Slips_Private(p, &p->contacts[i], swap, &moved));
     else
       PetscCall(HasMoved_Private(p, &p->contacts[i], &moved));
     if (moved) *pairs |= (uint64_t)1 << i;

@@ -25,9 +25,7 @@ static PetscBool Repeats_Private(Solver s, PetscInt num, uint64_t hash)
 PetscErrorCode SolverActiveSetSolve_Private(Solver s, Vec dx)
 {
   PetscFunctionBegin;
-  s->settled = PETSC_TRUE;
   for (PetscInt pass = 0, changed = 1; changed; ++pass) {
-    s->settled = (PetscBool)(pass < s->passes || s->passes == 0);
     PetscCall(InterfaceActiveSetHash(ProblemInterface(s->problem), &s->pass_sets[pass]));
     if (Repeats_Private(s, pass, s->pass_sets[pass])) {
       ++s->report->set_cycles;

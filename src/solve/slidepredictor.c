@@ -11,7 +11,7 @@ static PetscErrorCode Correct_Private(Solver s, const Iterate *it, Vec dx, Petsc
   PetscFunctionBegin;
   if (it->number > 0 || s->form.released) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(ProblemPending(s->problem, &pending));
-  PetscCall(InterfaceFindSliding(ProblemInterface(s->problem), pending, s->settled, s->swap, &s->form.released));
+  PetscCall(InterfaceFindSliding(ProblemInterface(s->problem), pending, s->swap, &s->form.released));
   *acts = *again = (PetscBool)(s->form.released != 0);
   if (*acts) PetscCall(VecZeroEntries(it->r));
   PetscFunctionReturn(PETSC_SUCCESS);

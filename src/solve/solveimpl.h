@@ -65,7 +65,6 @@ struct _p_Solver {
   PetscReal     step;            /* share of the last linear step that was gone */
   PetscReal     flow_start;      /* residual that the share of the secant stiffness of flow counts from, 0: none is taken */
   PetscInt      halvings;        /* steps shortened in this solve */
-  PetscBool     settled;         /* the active set of the last linear step, before its passes were used up */
   PetscInt      negative;        /* pivots of the last factor of this solve beyond those of constraints, -1: not known */
   PetscBool     no_memory;       /* for the last factor */
   SolverReport *report;

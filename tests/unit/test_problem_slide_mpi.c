@@ -50,7 +50,7 @@ static PetscBool Moves(PetscReal pressure)
   assert_true(sum[0] > 0 && sum[1] > 0);
   PetscReal pending;
   OK(ProblemPending(p.problem, &pending));
-  OK(InterfaceFindSliding(ProblemInterface(p.problem), pending, PETSC_TRUE, PETSC_FALSE, &pairs));
+  OK(InterfaceFindSliding(ProblemInterface(p.problem), pending, PETSC_FALSE, &pairs));
   OK(VecDestroy(&r));
   OK(PetscFree(z));
   PatchDestroy(&p);
