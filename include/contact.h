@@ -162,6 +162,9 @@ PetscErrorCode ContactPairSetCarriers(ContactPair, const ContactSurface *nonmort
    positions belongs to the forces. softness[nonmortar num_nodes]: facet size / Young's modulus, averaged on a facet; borrowed. Without it there are no
    compliances. Not collective. */
 PetscErrorCode ContactPairSetSoftness(ContactPair, const PetscReal softness[]);
+/* Nodes of the nonmortar side that other pairs constrain as well (NULL: none): what ContactPairTie and ContactPairKeepPoints find of their facets has a
+   compliance from then on, the largest one of a facet that is covered in part. Borrowed. Not collective. */
+PetscErrorCode ContactPairSetShared(ContactPair, const PetscBool shared[]);
 /* Mean of z by m on a facet with compliance; (S z)_j = kappa m_j (z_j - mean). */
 static inline PetscReal ContactFacetMean(const ContactFacet *f, const PetscInt node[], const PetscReal z[])
 {

@@ -183,6 +183,7 @@ PetscErrorCode ContactDestroy_Private(Contact *c)
   PetscCall(TieDestroy_Private(c));
   PetscCall(SlipDestroy_Private(c));
   PetscCall(PetscFree(c->frozen));
+  PetscCall(PetscFree(c->shared));
   PetscCall(PetscFree(c->mean0));
   PetscCall(ContactPairDestroy(&c->pair));
   for (PetscInt k = 0; k < 2; ++k) PetscCall(PetscFree(c->part[k]));

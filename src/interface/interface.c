@@ -27,6 +27,7 @@ PetscErrorCode InterfaceCreate(HPSpace space, Mechanics mechanics, const Mechani
   PetscCall(PetscCalloc1(num, &p->contacts));
   if (num) PetscCall(HullCreate_Private(p));
   for (PetscInt i = 0; i < num; ++i) PetscCall(ContactCreate_Private(p, &contacts[i], &p->contacts[i]));
+  for (PetscInt i = 0; i < num; ++i) PetscCall(ContactShared_Private(p, &p->contacts[i]));
   for (PetscInt i = 0; i < num; ++i) PetscCall(TieCreate_Private(p, &p->contacts[i]));
   PetscCall(InterfaceSetTime(p, 0));
   *interface = p;

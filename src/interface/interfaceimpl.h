@@ -167,6 +167,7 @@ typedef struct {
   PetscInt            *result;                   /* [num_facets] position of a facet in `facets`, -1: not evaluated here */
   int8_t              *active;                   /* [n] state of the law; 0: open */
   PetscBool           *has_multiplier, *near;    /* [n] near: takes part in the next linear solve */
+  PetscBool           *shared;                   /* [n] other pairs constrain it, too (shared.c); NULL: does not matter */
   PetscInt             num_listed, *listed;      /* nonmortar facets this rank evaluates */
   PetscBool           *mine;                     /* [num_facets] a side of this rank's leaves */
   PetscBool           *live;                     /* [num_facets] may meet the mortar side, as far as this rank is told (its own facets, those around) */
@@ -432,6 +433,10 @@ PetscErrorCode ContactOffset_Private(Interface, Contact *);
 PetscErrorCode ContactLeastOverlap_Private(Interface, const Contact *, PetscReal *least);
 /* slidelimit.c: which translations the supports of both sides' bodies leave free. */
 PetscErrorCode ContactFreedom_Private(Interface, Contact *);
+/* shared.c: nodes of the pair's nonmortar side at which facets of other pairs meet it that are not its own: of tied pairs those of both sides, or of contact
+   pairs those of the nonmortar side; whose facets have a compliance. After all surfaces are created. */
+PetscErrorCode ContactCrossings_Private(Interface, const Contact *, PetscBool ties, PetscBool crosses[]);
+PetscErrorCode ContactShared_Private(Interface, Contact *);
 /* carrier.c: w0, extent and c of the nodes; which of them carry a multiplier. */
 PetscErrorCode ContactNodeScales_Private(Interface, Contact *);
 PetscErrorCode ContactCarriers_Private(Interface, Contact *);

@@ -1,42 +1,6 @@
 /* Which nodes of a tied pair carry which components of the traction: see tie.c. */
 #include "interfaceimpl.h"
 
-/* A number that tells the nodes of a mesh apart. */
-static PetscInt Name_Private(const Surface *s, PetscInt n)
-{
-  return s->node_entity[n] * (SURFACE_MOST_NODES + 1) + s->node_index[n] + 1;
-}
-
-/* Nodes of the pair's nonmortar side at which facets of other tied pairs meet it, which are not its own. */
-static PetscErrorCode Crossings_Private(Interface p, const Contact *c, PetscBool crosses[])
-{
-  const Surface *s = &c->side[0];
-  PetscInt      *own, *taken, num = s->num_facets, size = 0, at;
-
-  PetscFunctionBegin;
-  for (PetscInt i = 0; i < 2 * p->num_contacts; ++i) size += p->contacts[i / 2].side[i % 2].num_facets * SURFACE_MOST_NODES;
-  PetscCall(PetscMalloc2(num, &own, size, &taken));
-  PetscCall(PetscArraycpy(own, s->facet_entity, num));
-  PetscCall(PetscSortInt(num, own));
-  size = 0;
-  for (PetscInt i = 0; i < 2 * p->num_contacts; ++i) {
-    const Contact *other = &p->contacts[i / 2];
-    const Surface *o     = &other->side[i % 2];
-    for (PetscInt f = 0; f < o->num_facets && other != c && other->law->ties; ++f) {
-      const PetscInt *node, nodes = SurfaceNodes_Private(o, f, &node);
-      PetscCall(PetscFindInt(o->facet_entity[f], num, own, &at));
-      for (PetscInt k = 0; k < nodes && at < 0; ++k) taken[size++] = Name_Private(o, node[k]);
-    }
-  }
-  PetscCall(PetscSortRemoveDupsInt(&size, taken));
-  for (PetscInt n = 0; n < s->num_nodes; ++n) {
-    PetscCall(PetscFindInt(Name_Private(s, n), size, taken, &at));
-    crosses[n] = (PetscBool)(at >= 0);
-  }
-  PetscCall(PetscFree2(own, taken));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 /* Does the facet have this node, or one that follows it? Facets that hanging nodes join have rows of each other's nodes. */
 static PetscBool Has_Private(const Surface *s, PetscInt facet, PetscInt node)
 {
@@ -93,7 +57,7 @@ PetscErrorCode TieCarriers_Private(Interface p, Contact *c, PetscBool carries[])
 
   PetscFunctionBegin;
   PetscCall(PetscMalloc2(s->num_nodes, &crosses, s->num_nodes, &seen));
-  PetscCall(Crossings_Private(p, c, crosses));
+  PetscCall(ContactCrossings_Private(p, c, PETSC_TRUE, crosses));
   PetscCall(Seen_Private(p, c, seen));
   for (PetscInt n = 0; n < s->num_nodes; ++n) {
     c->has_multiplier[n] = PETSC_FALSE;

@@ -62,9 +62,63 @@ static void test_polynomials(void **state)
       }
 }
 
+/* Facets with a node that other pairs constrain, too, are compliant, and only where the pair is tied: a traction that is constant is not seen. */
+static void test_shared(void **state)
+{
+  const ContactSpec spec = {.law = CONTACT_TIED};
+
+  (void)state;
+  for (PetscInt dim = 2; dim <= 3; dim++)
+    for (PetscInt order = 1; order <= 3; order++) {
+      const ContactFacet *facets;
+      ContactPair         pair;
+      Patch               a, b;
+      PetscInt            num, compliant = 0;
+      PetscReal          *softness;
+      PetscBool           failed, *shared;
+
+      PatchCreate(&a, dim, order, 3, 0, 1, dim == 3, PETSC_FALSE);
+      PatchCreate(&b, dim, order, 2, -0.2, 1.2, dim == 2, PETSC_FALSE);
+      for (int side = 0; side < 2; side++) {
+        Patch *p = side ? &b : &a;
+        for (PetscInt n = 0; n < p->s.num_nodes; n++)
+          for (PetscInt c = 0; c < dim; c++) p->x[dim * n + c] = p->X[dim * n + c] = c < dim - 1 ? p->u[2 * n + c] : 0;
+      }
+      CHECK_CALL(PetscMalloc1(a.s.num_nodes, &softness));
+      CHECK_CALL(PetscCalloc1(a.s.num_nodes, &shared));
+      for (PetscInt n = 0; n < a.s.num_nodes; n++) softness[n] = 0.5;
+      CHECK_CALL(ContactPairCreate(dim, PETSC_FALSE, &spec, &pair));
+      CHECK_CALL(ContactPairSetSoftness(pair, softness));
+      SearchAll(pair, &a, &b, 0.5, 0);
+      CHECK_CALL(ContactPairTie(pair, &a.s, &b.s, &num, &facets, &failed));
+      for (PetscInt f = 0; f < num; f++) assert_null(facets[f].compliance);
+      shared[facets[0].nodes[0]] = PETSC_TRUE;
+      CHECK_CALL(ContactPairSetShared(pair, shared));
+      CHECK_CALL(ContactPairTie(pair, &a.s, &b.s, &num, &facets, &failed));
+      for (PetscInt f = 0; f < num; f++) {
+        PetscReal sum = 0;
+        PetscBool has = PETSC_FALSE;
+        for (PetscInt r = 0; r < facets[f].num_rows; r++) has = (PetscBool)(has || shared[facets[f].nodes[r]]);
+        assert_true(has == (facets[f].compliance != NULL));
+        if (!has) continue;
+        for (PetscInt r = 0; r < facets[f].num_rows; r++) sum += facets[f].compliance[r];
+        assert_near(facets[f].kappa[0], 0.002 / (double)order, 1e-15);
+        assert_near(sum, 0.5 * facets[f].area, 1e-13);
+        compliant++;
+      }
+      assert_true(compliant > 0 && compliant < num);
+      CHECK_CALL(ContactPairEvaluate(pair, &a.s, &b.s, NULL, NULL, PETSC_FALSE, PETSC_FALSE, &num, &facets, &failed));
+      for (PetscInt f = 0; f < num; f++) assert_null(facets[f].compliance);
+      CHECK_CALL(ContactPairDestroy(&pair));
+      CHECK_CALL(PetscFree(softness));
+      CHECK_CALL(PetscFree(shared));
+      PatchDestroy(&a), PatchDestroy(&b);
+    }
+}
+
 int main(int argc, char **argv)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(test_polynomials)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(test_polynomials), cmocka_unit_test(test_shared)};
   int                     failed;
 
   if (PetscInitialize(&argc, &argv, NULL, NULL)) return 1;

@@ -562,3 +562,23 @@ def test_a_block_slides_away(run):
     assert "touching nodes of pair c slipped in the last step" in result.stdout
     assert pair["dissipation"] == pytest.approx(last["contact.c.dissipation"], rel=1e-9) and pair["dissipation"] >= 0
     assert pair["slipping_nodes"] == last["contact.c.slipping_nodes"] > 0
+
+
+@pytest.mark.parametrize("order", ["1", "2"])
+def test_rough_blocks_at_walls(run, order):
+    """Blocks that stick to each other between walls: tractions at the corners of the joint are unique, those of uniaxial strain."""
+    result = run("tests/gauntlet/bricks.yml", "-order", order)
+    assert result.returncode == 0, result
+    pressures = [result.summary["contact"][name]["max_pressure"] for name in "ab"]
+    print(pressures, result.summary["estimated_error"], result.summary["active_set_cycles"])
+    assert pressures == pytest.approx([0.22138176452, 0.20242786812], rel=1e-6) and result.summary["estimated_error"] < 1e-6
+
+
+@pytest.mark.parametrize("order", ["1", "2"])
+def test_in_a_corner(run, order):
+    """A block that sticks to a floor and a wall: its corner's gap to the one is its motion along the other. The state does not depend on the steps, nor on how many pairs there are."""
+    results = [run("tests/gauntlet/corner_stick.yml", "-order", order, "-load_step", step) for step in ("0.25", "1")]
+    forces = [result.summary["body"]["floor"]["force"] for result in results]
+    print(forces, [result.summary["newton_iterations"] for result in results])
+    assert all(result.returncode == 0 and result.summary["step_cuts"] == 0 for result in results)
+    assert forces[0] == pytest.approx(forces[1], rel=5e-4)

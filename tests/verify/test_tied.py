@@ -343,3 +343,15 @@ def test_with_contact(run, tmp_path):
     print(pair["glue"]["force"], pair["touch"]["force"], result.history[-1]["support_imbalance"])
     assert numpy.abs(numpy.add(pair["glue"]["force"], pair["touch"]["force"])).max() < 1e-9 * numpy.abs(pair["touch"]["force"]).max()
     assert "active_nodes" not in pair["glue"] and result.history[-1]["active_nodes"] == pair["touch"]["active_nodes"] > 0
+
+
+@pytest.mark.parametrize("scene, pressures, options", [("tied_wall", (0.22138176452, 0.20242786812), ("-order", "1")), ("tied_wall", (0.22138176452, 0.20242786812), ("-order", "2")),
+                                                      ("tied_wall3d", (0.26834998908, 0.24278813789), ("-order", "1")), ("tied_wall3d", (0.26834998908, 0.24278813789), ("-order", "2"))])
+def test_at_a_wall(run, scene, pressures, options):
+    """Two glued blocks between walls: at the corners of the joint the gaps of both and the glue are more constraints than motions. Pressures of the closed form at all nodes."""
+    result = run(f"tests/gauntlet/{scene}.yml", *options)
+    assert result.returncode == 0, result
+    print(result.summary["estimated_error"], [result.summary["contact"][name]["max_pressure"] for name in "ab"], result.summary["active_set_cycles"])
+    for name, value in zip("ab", pressures):
+        assert abs(result.summary["contact"][name]["max_pressure"] / value - 1) < 1e-6
+    assert result.summary["estimated_error"] < 1e-6 and result.summary["active_set_cycles"] == 0 and result.summary["step_cuts"] == 0

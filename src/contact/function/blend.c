@@ -48,6 +48,11 @@ void ContactShareOf(PetscInt m, PetscInt order, PetscReal share, PetscBool acros
   o->kappa[2] = factor * (6 * t - 4) / (whole * whole);
 }
 
+PetscReal ContactShareMost(PetscInt order)
+{
+  return EPSILON / (PetscReal)order;
+}
+
 void ContactBernstein(PetscInt m, PetscInt order, const PetscReal xi[], PetscReal B[])
 {
   const PetscInt n                           = order + 1;

@@ -102,5 +102,7 @@ typedef struct {
 /* Weight of a place of [-1, 1]^m in the share, integral 1, and derivatives 1 2, 11 12 22. */
 void ContactShareWeight(PetscInt m, const PetscReal xi[2], PetscReal *v, PetscReal d[2], PetscReal dd[3]);
 void ContactShareOf(PetscInt m, PetscInt order, PetscReal share, PetscBool across, ContactShare *);
+/* The largest kappa, over all shares, of a facet that is not covered across an edge. */
+PetscReal ContactShareMost(PetscInt order);
 /* C[num][num]: Bernstein polynomial j of a facet in m dimensions by the functions of its lattice. */
 PetscErrorCode ContactBernsteinRows(PetscInt m, PetscInt order, PetscReal C[]);

@@ -231,18 +231,36 @@ static PetscErrorCode Hessian_Private(const EvaluateContext *ctx, PetscInt facet
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Compliance of a facet that is covered in part. */
+PetscErrorCode ContactPairSetShared(ContactPair pair, const PetscBool shared[])
+{
+  PetscFunctionBegin;
+  pair->shared = shared;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Has the facet whose rows are at hand nodes that other pairs constrain, too, and does its compliance for that matter to the evaluation? */
+static PetscBool IsShared_Private(ContactPair pair)
+{
+  RayWork w = pair->ray;
+
+  for (PetscInt r = 0; r < w->result.num_rows && pair->shared && (pair->ties || pair->keeps); r++)
+    if (pair->shared[w->result.node[r]]) return PETSC_TRUE;
+  return PETSC_FALSE;
+}
+
+/* Compliance of a facet that is covered in part, or tied and shared with other pairs. */
 static PetscErrorCode Compliance_Private(ContactPair pair, PetscInt facet, ContactFacet *out)
 {
   RayWork                  w          = pair->ray;
   const ContactMultiplier *multiplier = pair->multiplier;
   const PetscInt           first = multiplier->row_first[facet], nr = w->result.num_rows;
+  const PetscBool          shared = IsShared_Private(pair);
   PetscReal                sum = 0, softness = 0, *m;
 
   PetscFunctionBegin;
   out->compliance     = NULL;
   out->compliance_sum = 0;
-  if (!w->share.part || !pair->softness || nr == 0) PetscFunctionReturn(PETSC_SUCCESS);
+  if (!(w->share.part || shared) || !pair->softness || nr == 0) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(ContactStoreReserve(&w->result.store, nr, &m));
   for (PetscInt r = 0; r < nr; r++) {
     sum += multiplier->measure[first + r];
@@ -251,8 +269,8 @@ static PetscErrorCode Compliance_Private(ContactPair pair, PetscInt facet, Conta
   for (PetscInt r = 0; r < nr; r++) m[r] = multiplier->measure[first + r] * softness / sum;
   out->num_rows   = nr;
   out->compliance = m;
-  out->kappa[0]   = w->share.kappa[0];
-  out->kappa[1]   = w->share.kappa[1];
+  out->kappa[0]   = shared ? ContactShareMost(w->facet.s.order) : w->share.kappa[0];
+  out->kappa[1]   = shared ? 0 : w->share.kappa[1];
   for (PetscInt r = 0; r < nr; r++) out->compliance_sum += m[r];
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -1,0 +1,52 @@
+/* Nodes of a pair's nonmortar side that other pairs constrain, too.
+
+   Where two blocks that are glued to each other, or held by friction, meet a wall, the gap of both corners to the wall and the motion of one corner along the
+   other are three constraints of two motions. They do not contradict each other, but tractions are not unique: what is found is any of them, and nodes that
+   press are told to be open. So there tractions have a compliance that does not see those which are constant on a facet (include/contact.h). */
+#include "interfaceimpl.h"
+
+/* A number that tells the nodes of a mesh apart. */
+static PetscInt Name_Private(const Surface *s, PetscInt n)
+{
+  return s->node_entity[n] * (SURFACE_MOST_NODES + 1) + s->node_index[n] + 1;
+}
+
+PetscErrorCode ContactCrossings_Private(Interface p, const Contact *c, PetscBool ties, PetscBool crosses[])
+{
+  const Surface *s = &c->side[0];
+  PetscInt      *own, *taken, num = s->num_facets, size = 0, at;
+
+  PetscFunctionBegin;
+  for (PetscInt i = 0; i < 2 * p->num_contacts; ++i) size += p->contacts[i / 2].side[i % 2].num_facets * SURFACE_MOST_NODES;
+  PetscCall(PetscMalloc2(num, &own, size, &taken));
+  PetscCall(PetscArraycpy(own, s->facet_entity, num));
+  PetscCall(PetscSortInt(num, own));
+  size = 0;
+  for (PetscInt i = 0; i < 2 * p->num_contacts; ++i) {
+    const Contact  *other  = &p->contacts[i / 2];
+    const Surface  *o      = &other->side[i % 2];
+    const PetscBool counts = (PetscBool)(ties ? other->law->ties && other != c : !other->law->ties && i % 2 == 0);
+    for (PetscInt f = 0; f < o->num_facets && counts; ++f) {
+      const PetscInt *node, nodes = SurfaceNodes_Private(o, f, &node);
+      PetscCall(PetscFindInt(o->facet_entity[f], num, own, &at));
+      for (PetscInt k = 0; k < nodes && at < 0; ++k) taken[size++] = Name_Private(o, node[k]);
+    }
+  }
+  PetscCall(PetscSortRemoveDupsInt(&size, taken));
+  for (PetscInt n = 0; n < s->num_nodes; ++n) {
+    PetscCall(PetscFindInt(Name_Private(s, n), size, taken, &at));
+    crosses[n] = (PetscBool)(at >= 0);
+  }
+  PetscCall(PetscFree2(own, taken));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode ContactShared_Private(Interface p, Contact *c)
+{
+  PetscFunctionBegin;
+  if (!c->law->ties && !c->law->slips) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(PetscMalloc1(c->side[0].num_nodes, &c->shared));
+  PetscCall(ContactCrossings_Private(p, c, PETSC_FALSE, c->shared));
+  PetscCall(ContactPairSetShared(c->pair, c->shared));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
