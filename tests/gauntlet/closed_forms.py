@@ -104,6 +104,9 @@ FIGURES = {
     "upset": upset(math.pi, 2 * math.pi * (1 - 0.2234 * 0.15) * EDGE, 0.8, False),  # its centroid is 0.2234 radii from the edge
     "upset_strip": upset(1, EDGE, 0.85, True),
     "glue_rings": glued_rings(1, 1.5, 2, ((10, 0.3), (1, 0.3))),
+    "tied_wall": -stacked((0.6, 0.5), ((1, 0.3), (3, 0.3)), 0.2),
+    "tied_wall3d": -0.6 * stacked((0.5, 0.5), ((1, 0.3), (3, 0.3)), 0.2),
+    "glue_axi": -math.pi * free(0.8, 1, 0.3, 2),
     "shrink_reversed": shrink((0.5, 1, 0.98, 2), (70, 210), (0.33, 0.3)),
 }
 
