@@ -224,8 +224,8 @@ PetscErrorCode InterfaceSwitch(Interface, const InterfaceSystem *, Vec dx, Vec r
 /* ---- what a form may be chosen by, at the last evaluation. All collective ------------------------------------------------------- */
 
 /* Pairs (of those not released) whose active set of the last linear step moves along the surface, while prescribed motion is still to come and kinematics are
-   finite: gaps linearised at the old place say little of the new one. With friction: those that slip by a good part of the zone in the mean; swap: those that do
-   not. */
+   finite: gaps linearised at the old place say little of the new one. With friction: those that slip by a good part of the zone in the mean; swap: those that
+   do not. */
 PetscErrorCode InterfaceFindSliding(Interface, PetscReal pending, PetscBool swap, uint64_t *pairs);
 /* Pairs whose open gaps under pressure are too wide, against their facets, for the turning of directions to mean anything; and those without pressure. */
 PetscErrorCode InterfaceFindWide(Interface, uint64_t *pairs);
