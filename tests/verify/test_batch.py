@@ -15,6 +15,7 @@ from test_hostile import block
 from test_orderly import refused
 
 MANY = {"load": {"step": 0.00005}, "output": {"fields": False}}  # some seconds in steps of milliseconds
+ENDLESS = {"load": {"step": 0.000005, "max_steps": 200000}, "output": {"fields": False}}  # minutes, however long the machine stands still
 
 
 def start(path, *options, ranks=1, text=None, env=None, **keywords):
@@ -171,7 +172,7 @@ def test_a_link_in_place_of_the_lock(run, tmp_path, there):
 
 @pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGHUP, signal.SIGXCPU, signal.SIGQUIT, signal.SIGUSR2])
 def test_signals_stop_in_order(tmp_path, number):
-    process = start(tmp_path, text=block(tmp_path, **MANY))
+    process = start(tmp_path, text=block(tmp_path, **ENDLESS))
     wait_for(lambda: rows(tmp_path / "out") > 1, process)
     process.send_signal(number)
     output, errors = process.communicate(timeout=60)
@@ -183,7 +184,7 @@ def test_signals_stop_in_order(tmp_path, number):
 
 def test_nobody_reads(tmp_path):
     """Standard output into a pipe whose reader goes, as `head` does."""
-    process = start(tmp_path, text=block(tmp_path, **MANY))
+    process = start(tmp_path, text=block(tmp_path, **ENDLESS))
     process.stdout.readline()
     process.stdout.close()
     process.stdout = None
