@@ -44,16 +44,18 @@ static int Write_Private(const char *path)
   return failed;
 }
 
-/* A second name for the file that is there; a file system without such names goes without. */
+/* A second name for the file that is there, by way of a third: at no time is there no file before. A file system without such names goes without. */
 static void Keep_Private(const char *path)
 {
   const char *slash = strrchr(path, '/');
-  char        before[PETSC_MAX_PATH_LEN];
+  char        before[PETSC_MAX_PATH_LEN], temporary[PETSC_MAX_PATH_LEN];
 
   if (snprintf(before, sizeof(before), "%.*s" CHECKPOINT_BEFORE, slash ? (int)(slash + 1 - path) : 0, path) >= (int)sizeof(before)) return;
-  if (access(path, F_OK)) return;
-  (void)unlink(before);
-  (void)!link(path, before);
+  if (snprintf(temporary, sizeof(temporary), "%s.tmp", before) >= (int)sizeof(temporary)) return;
+  (void)unlink(temporary);
+  if (link(path, temporary)) return;
+  (void)rename(temporary, before);
+  (void)unlink(temporary); /* still there where both were the same file */
 }
 
 /* The file is on the disk before it gets its name; whether the name is matters less: until then the earlier file has it. */

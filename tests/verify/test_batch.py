@@ -246,7 +246,9 @@ def test_the_checkpoint_before(tmp_path):
     process.kill()
     process.communicate()
     assert before.exists()
-    checkpoint.write_bytes(checkpoint.read_bytes()[:1000])
+    part = checkpoint.read_bytes()[:1000]
+    checkpoint.unlink()  # for a moment both names are of one file
+    checkpoint.write_bytes(part)
     done = rows(tmp_path / "out")
     result = resumed(tmp_path, "-max_seconds", 0.3)
     assert result.returncode == 3 and "checkpoint.h5 is not whole, the one before it is taken" in result.stdout, result
