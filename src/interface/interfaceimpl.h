@@ -64,7 +64,7 @@ typedef struct {
   PetscInt (*num_multipliers)(PetscInt dim);
   int8_t (*state)(const ContactPoint *);
   void (*rows)(const ContactPoint *, PetscBool symmetric, ContactRow row[]);
-  PetscInt (*slides)(int8_t state); /* 1, -1: it slips along, against the traction; 0: not */
+  PetscBool (*slides)(int8_t state); /* does it slip? */
   void (*aim)(const ContactPoint *, PetscReal aim[3]);
 } ContactLawOps;
 

@@ -43,10 +43,14 @@ PetscErrorCode ContactCrossings_Private(Interface p, const Contact *c, PetscBool
 
 PetscErrorCode ContactShared_Private(Interface p, Contact *c)
 {
+  PetscBool any = PETSC_FALSE;
+
   PetscFunctionBegin;
   if (!c->law->ties && !c->law->slips) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(PetscMalloc1(c->side[0].num_nodes, &c->shared));
   PetscCall(ContactCrossings_Private(p, c, PETSC_FALSE, c->shared));
+  for (PetscInt n = 0; n < c->side[0].num_nodes; ++n) any = (PetscBool)(any || c->shared[n]);
+  if (!any) PetscCall(PetscFree(c->shared)); /* no facet has to look */
   PetscCall(ContactPairSetShared(c->pair, c->shared));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

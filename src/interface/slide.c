@@ -1,10 +1,9 @@
 /* Slides along a good part of the zone of contact. Seen from the side that stays, a body of radius R that moves by s
    along the other leaves a gap (X - s)^2 / 2R, of which the linearisation at s = 0 lacks s^2 / 2R: too deep against a
    depth of contact of a^2 / R, half width a, from about s = a on. The linear step then presses the body far into the
-   other, and Newton's method does not find back. What it does tell
-   is that contact moves: its active set leaves nodes that carry pressure and takes as many new ones (never
-   more than half of the old: the linear gap below the centre does not change). The bodies are then brought to their new
-   places first. */
+   other, and Newton's method does not find back. What it does tell is that contact moves: its active set leaves nodes
+   that carry pressure and takes as many new ones (never more than half of the old: the linear gap below the centre does
+   not change). The bodies are then brought to their new places first. */
 #include "interfaceimpl.h"
 
 #define STAYS 0.9 /* share of the smaller of the old and the new zone that both have in common, below which contact moves */

@@ -116,9 +116,9 @@ static void Rows_Private(const ContactPoint *p, PetscBool symmetric, ContactRow 
   }
 }
 
-static PetscInt Slides_Private(int8_t state)
+static PetscBool Slides_Private(int8_t state)
 {
-  return state == SLIP ? 1 : state == SLIP_BACK ? -1 : 0;
+  return (PetscBool)(state == SLIP || state == SLIP_BACK);
 }
 
 const ContactLawOps ContactCoulomb = {.name            = "coulomb",
