@@ -102,7 +102,7 @@ static void Friction(void **state)
 
     p.state = law->state(&p);
     assert_int_equal(p.state, k + 1);
-    assert_int_equal(law->slides(p.state), k == 1 ? 1 : k == 2 ? -1 : 0);
+    assert_int_equal(law->slides(p.state), k != 0);
     law->rows(&p, PETSC_FALSE, row);
     assert_near(row[1].side, k == 0 ? 0 : -0.5 * (q[k] - (k == 1 ? 0.2 : -0.2)), 1e-14);
     assert_near(row[1].slip[0] != 0 ? row[1].slip[0] : row[1].z[1], k == 0 ? 0.5 * 3 / 0.3 : 0.5, 1e-14);
