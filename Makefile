@@ -71,7 +71,7 @@ UNITS   := $(patsubst tests/unit/%.c,$(BUILD)/unit/%,$(wildcard tests/unit/test_
 BENCHES := $(patsubst tests/bench/%.c,$(BUILD)/bench/%,$(wildcard tests/bench/*.c))
 TRACKED  = $(wildcard $(shell git ls-files '*.c' '*.h'))
 
-.PHONY: all install docs units unit bootstrap demo run-demo test run-test verify run-verify gauntlet run-gauntlet chart bench run-bench stability run-stability benchmarks run-benchmarks peers format format-check lint floors sizes clean FORCE
+.PHONY: all install docs units unit bootstrap demo run-demo test run-test verify run-verify gauntlet run-gauntlet chart bench run-bench stability run-stability benchmarks run-benchmarks needs run-needs peers format format-check lint floors sizes clean FORCE
 all: $(PROGRAM)
 
 $(BUILD)/mortise: $(BUILD)/app/main.o $(LIBRARY)
@@ -162,6 +162,13 @@ gauntlet: bootstrap
 	@$(MAKE) --no-print-directory run-gauntlet
 run-gauntlet:
 	@$(PYTHON) -B tests/gauntlet/run.py --program $(PROGRAM) --csv out/gauntlet.csv $(GAUNTLET)
+
+# What summary.json says a scene does not need, each with and without it: docs/needs.md. NEEDS="plate wheel" runs some and writes nothing.
+needs: bootstrap
+	@$(MAKE) --no-print-directory -j2 all
+	@$(MAKE) --no-print-directory run-needs
+run-needs:
+	@MORTISE=$(abspath $(PROGRAM)) $(PYTHON) -B tests/needs/run.py $(if $(NEEDS),$(NEEDS),--write)
 
 # Other open codes beside this one: docs/peers.md, the table of README.md, docs/charts/peers*. PEERS=folder to install them in; PEERS_RUN="--only hertz2d"
 peers: bootstrap

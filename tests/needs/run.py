@@ -19,7 +19,7 @@ HEAD = """# No more model than needed
 
 At its end a run says what it could have left out of its model within the tolerance, what that would change and what
 it would save ([how to](howto.md#model-no-more-than-needed), [theory](theory.md#no-more-model-than-needed)). Here each
-such promise is checked by running the simpler model: `tests/needs/run.py --write` does it and writes this page.
+such promise is checked by running the simpler model: `make needs` does it and writes this page.
 
 Change: the largest relative change of the energy norm and of the forces of supports and contact pairs (cells, order:
 the estimated error). It holds where it is within a factor of 3 of what was told or below a tenth of the tolerance, and
