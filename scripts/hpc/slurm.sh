@@ -17,7 +17,7 @@ set -eu
 : "${1:?usage: sbatch scripts/hpc/slurm.sh SCENE.yml [options]}"
 cd "${SLURM_SUBMIT_DIR:-.}"
 mortise=${MORTISE:-bin/mortise}
-[ -x "$mortise" ] || mortise=mortise # installed
+[ -n "${MORTISE:-}" ] || [ -x "$mortise" ] || mortise=mortise # installed
 before=${SLURM_RESTART_COUNT:-0}
 [ "$before" -gt 0 ] && set -- "$@" -restart auto
 
