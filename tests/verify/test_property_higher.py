@@ -106,8 +106,9 @@ def test_o98_contact_face_on_symmetry_planes(higher, planes, nonmortar, mortar):
 
 
 @faces("2-full")
-def test_o98_support_across_the_face(higher):
-    robust.test_o98_support_across_the_face(higher)
+def test_o98_support_across_the_face(higher, kind):
+    """Of linear faces four see the contact of the coarse mesh, and the force is 12 % off; refined twice it is 0.3 %."""
+    robust.test_o98_support_across_the_face(higher, 0 if kind.endswith("full") else 2)
 
 
 @faces("2-full")

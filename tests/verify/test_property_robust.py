@@ -123,11 +123,11 @@ def test_o98_contact_face_on_symmetry_planes(run, planes, nonmortar, mortar, ord
     assert np.allclose(contact(result)["contact_pressure"], -expected, rtol=1e-8)
 
 
-def test_o98_support_across_the_face(run):
+def test_o98_support_across_the_face(run, refine=0):
     """Ends of the contact face held across it, free along it: no symmetry plane, whose mirror image would cancel the normal there. The top is held along it too:
     a body free to slide has a second equilibrium, beside the other. Held ends carry no multiplier: theirs would act on nothing but the tilt of the normal."""
     result = run(PATCH, "-boundary_left_fix", "y", "-boundary_right_fix", "y", "-boundary_bottom_fix", "xy", "-boundary_top_displacement_x", 0,
-                 "-boundary_top_displacement_y", "-0.12*X*(1-X)", "-order", 2)
+                 "-boundary_top_displacement_y", "-0.12*X*(1-X)", "-order", 2, "-mesh_refine", refine)
     assert_converged(result)
     s = result.summary
     assert s["newton_iterations"] <= 6 and s["step_cuts"] == 0
