@@ -166,8 +166,10 @@ def test_o33_adaptive_h(run):
 
 @pytest.mark.parametrize("ranks", [(2,), pytest.param((2, 3), marks=pytest.mark.slow)])
 def test_adaptation_keeps_history_on_any_ranks(run, ranks):
-    """Splits, merges and raised orders; one, two and three processes agree, and what an adaptation changes is small."""
-    options = (*ADAPTIVE[:-2], "-adapt_max_passes", 2, "-adapt_coarsen", 0.05, "-load_step", 0.05, "-load_step_max", 0.05)
+    """Splits, merges and raised orders; one, two and three processes agree, and what an adaptation changes is small where steps are no longer than the mesh follows
+    (beyond the largest force the estimate goes from 4 to 13 % in a step of 0.05)."""
+    step = 0.05 if ranks == (2,) else 0.025
+    options = (*ADAPTIVE[:-2], "-adapt_max_passes", 2, "-adapt_coarsen", 0.05, "-load_step", step, "-load_step_max", step)
     runs = [necking(run, 3 if ranks == (2,) else 3.5, *options, ranks=n) for n in (1, *ranks)]
     assert len(check_loss(runs[0])) >= 2
     for other in runs[1:]:
