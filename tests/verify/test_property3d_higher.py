@@ -38,11 +38,10 @@ def test_o90_momentum_adapted(solve):
     space.test_o90_momentum(solve, ADAPTED, "direct")
 
 
-@faces(kinds=SECOND)
-def test_o90_momentum_on_a_ball(higher, kind):
-    """A quarter of a ball: directions on the planes of symmetry are those of the whole. They are held there by the other half, which alone balances the moments; what
-    is missing is 1.6e-3 here. (Boxes, which have no such planes, are balanced to 1e-10 above; on one such plane see below.)"""
-    space.test_o90_momentum_on_a_ball(higher, 2, 3e-3 if kind == "2-full" else 1e-10)
+@faces(kinds=("2-1",))
+def test_o90_momentum_on_a_ball(higher):
+    """A quarter of a ball with linear faces. (Boxes, which have no planes of symmetry, are balanced to 1e-10 above; on one such plane see below.)"""
+    space.test_o90_momentum_on_a_ball(higher, 2)
 
 
 def ball(x):
@@ -61,13 +60,14 @@ def test_o90_momentum_on_a_whole_ball(solve, carries):
 
 
 @faces("2-full", kinds=BOTH)
-def test_o90_momentum_of_a_half(solve):
-    """Half a model: forces and moments about the normal of the plane of symmetry balance; those about the axes in it are the other half's to balance."""
+def test_o90_momentum_of_a_half(solve, kind):
+    """Half a model: forces and moments about the normal of the plane of symmetry balance; those about the axes in it are the other half's to balance. With linear
+    faces they may differ by as much as a quarter's in test_property3d.py."""
     boundary = {**hold(("0", "0.02", "-0.1 - 0.05*{x} + 0.03*{y}")), "lower_x0": {"fix": "x"}, "upper_x0": {"fix": "x"}}
     p = space.only(solve(*space.QUIET, upper=UPPER._replace(origin=(0, 0.15, 1)), boundary=boundary))
     force, moment = np.abs(np.add(p["force"], p["mortar_force"])), np.abs(np.add(p["moment"], p["mortar_moment"]))
     print("force", force, "moment", moment)
-    assert force.max() < 1e-10 * np.abs(p["force"]).max() and moment[0] < 1e-10 * np.abs(p["moment"]).max() and moment.max() < 1e-6 * np.abs(p["moment"]).max()
+    assert force.max() < 1e-10 * np.abs(p["force"]).max() and moment[0] < 1e-10 * np.abs(p["moment"]).max() and moment.max() < (1e-6 if kind.endswith("full") else 1e-4) * np.abs(p["moment"]).max()
 
 
 @faces(kinds=("2-1", "4-1"))
