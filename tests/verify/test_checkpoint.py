@@ -151,7 +151,7 @@ def test_o102_same_fields(run, name):
     whole = run(f"inputs/{SCENES[name][0]}.yml", *SCENES[name][1])
     parts = break_off_and_go_on(run, name, 1, 1)
     assert_same_run(whole, parts, exact)
-    for index in ("fields.xdmf", "passes.xdmf"):
+    for index in ("fields.xdmf",) if name == "segments" else ("fields.xdmf", "passes.xdmf"):  # segments: no mesh adapts
         assert (whole.directory / index).read_text() == (parts.directory / index).read_text()
     for grid in ("bulk", "contact"):
         for (_, a), (_, b) in zip(whole.states(grid, passes=True), parts.states(grid, passes=True)):
