@@ -212,7 +212,8 @@ static PetscErrorCode Find_Private(MPI_Comm comm, Pieces *s, const Which *which,
 static PetscErrorCode PartBoxes_Private(MPI_Comm comm, const Pieces *s, PetscReal box[][6])
 {
   PetscFunctionBegin;
-  for (PetscInt i = 0; i < 6 * s->num_parts; ++i) box[0][i] = PETSC_MAX_REAL;
+  for (PetscInt i = 0; i < s->num_parts; ++i)
+    for (PetscInt c = 0; c < 6; ++c) box[i][c] = PETSC_MAX_REAL;
   for (PetscInt i = 0; i < s->num; ++i) {
     PetscReal *of = box[s->piece[i].part];
     for (PetscInt c = 0; c < 3; ++c) {
