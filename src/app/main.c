@@ -167,7 +167,8 @@ static PetscErrorCode UnusedOptions_Private(void)
   PetscCall(PetscOptionsHasName(NULL, NULL, "-options_left", &set));
   PetscCall(PetscOptionsHasName(NULL, NULL, "-options_view", &set));
   PetscCall(PetscOptionsLeftGet(NULL, &num, &names, &values));
-  for (PetscInt i = 0; i < num; ++i) (void)ErrorInput("nothing used the option -%.80s; is it spelt right?", names[i]); /* told as one, no error */
+  for (PetscInt i = 0; i < num; ++i)
+    (void)ErrorInput("nothing used the option -%.80s: it is spelt wrong, or of something that this run did without", names[i]); /* told as one, no error */
   PetscCall(PetscOptionsLeftRestore(NULL, &num, &names, &values));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

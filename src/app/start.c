@@ -1,6 +1,8 @@
 /* Starting MPI cheaply: a single process needs no network and no daemon. Half the processor time of the start and 0.3 s of waiting go. */
 #include "appimpl.h"
 #include <errno.h>
+#include <fcntl.h>
+#include <petscblaslapack.h>
 #include <stdlib.h>
 #include <sys/resource.h>
 #include <unistd.h>
@@ -64,11 +66,22 @@ static void CheckRoom_Private(size_t bytes)
   void *volatile room = openblas_set_num_threads ? malloc(bytes) : NULL;
 
   if (openblas_set_num_threads && !room) {
-    fprintf(stderr, "mortise: out of memory: fewer than %d MB are left to begin with (ulimit -v)\n", (int)(bytes >> 20));
+    fprintf(stderr, "mortise: out of memory: fewer than %d MB are left to begin with (ulimit -v, ulimit -d)\n", (int)(bytes >> 20));
     fflush(stderr);
     _exit(2); /* mpiexec ends the other processes */
   }
   free(room);
+}
+
+/* Its buffer is taken while there is room: where the mesh has left none by its first call it would ask for ever. */
+static void TakeRoom_Private(void)
+{
+  const PetscBLASInt one = 1;
+  const PetscScalar  a = 1, b = 0;
+  PetscScalar        c = 0;
+
+  CheckRoom_Private(BLAS_ROOM);
+  BLASsymm_("L", "U", &one, &one, &a, &a, &one, &a, &one, &b, &c, &one);
 }
 
 /* What PETSc says while it starts. Two things wrong then are a user's: a file of -options_file, and more options than it has room for. */
@@ -89,19 +102,25 @@ static PetscErrorCode Keep_Private(const char format[], ...)
 static PetscErrorCode Tell_Private(PetscErrorCode ierr)
 {
   char       *file = strstr(words, "options file"), *line = file ? file : strstr(words, "-options_file filename"), *many = strstr(words, "Number of options ");
+  char       *value   = strstr(words, "Unknown logical value"); /* of -fp_trap and the like; -info names a file that cannot be opened */
   int         running = 0;
   PetscMPIInt rank    = 0;
 
   MPI_Initialized(&running);
   if (running) MPI_Comm_rank(MPI_COMM_WORLD, &rank);
-  if (!line && !many) {
+  if (!value) value = strstr(words, "Unable to open file ");
+  if (value && !line && !many) {
+    value[strcspn(value, "\n")] = 0;
+    (void)ErrorInput("an option of PETSc cannot act: %s", value);
+  }
+  if (!line && !many && !value) {
     fputs(words, stderr);
     return ierr;
   }
   while (line && line > words && line[-1] != '\n') --line;
   if (line) line[strcspn(line, "\n")] = 0;
   if (line) (void)ErrorInput("-options_file: %s", line);
-  if (rank == 0 && !line)
+  if (rank == 0 && !line && many)
     fprintf(stderr, "mortise: there are more than %d options, which PETSc has no room for; keys of the scene stand in its file\n", atoi(many + 18));
   if (running) MPI_Finalize();
   return MORTISE_ERR_INPUT;
@@ -131,16 +150,26 @@ static void TellFiles_Private(int argc, char **argv)
 }
 
 #define STACK_ROOM ((rlim_t)1 << 20) /* bytes; a run takes a fifth of it */
+#define FILES_ROOM ((rlim_t)64)      /* open at a time; a run by itself takes 15, MPI some more for each process */
 
-/* Make room for the stack where less is given but more allowed; kB that are allowed, where that is too little, else 0. */
-static long Stack_Private(void)
+/* Make room where less is given but more allowed; true where that is too little: what is allowed. */
+static PetscBool Lacks_Private(int resource, rlim_t room, rlim_t *allowed)
 {
   struct rlimit limit;
 
-  if (getrlimit(RLIMIT_STACK, &limit) || limit.rlim_cur >= STACK_ROOM) return 0; /* RLIM_INFINITY is the largest of all */
-  if (limit.rlim_max < STACK_ROOM) return (long)(limit.rlim_max >> 10);
-  limit.rlim_cur = STACK_ROOM;
-  return setrlimit(RLIMIT_STACK, &limit) ? (long)(limit.rlim_max >> 10) : 0;
+  if (getrlimit(resource, &limit) || limit.rlim_cur >= room) return PETSC_FALSE; /* RLIM_INFINITY is the largest of all */
+  *allowed       = limit.rlim_max;
+  limit.rlim_cur = room;
+  return (PetscBool)(*allowed < room || setrlimit(resource, &limit));
+}
+
+/* Files that the run opens are not taken for its screen where that is closed. */
+static void OpenStandard_Private(void)
+{
+  int file = open("/dev/null", O_RDWR);
+
+  while (file >= 0 && file <= STDERR_FILENO) file = dup(file);
+  if (file >= 0) (void)close(file);
 }
 
 /* What PETSc, or this program, does not live through, said by one process of a job. */
@@ -148,14 +177,24 @@ static PetscBool Refused_Private(int argc, char **argv)
 {
   const char *const rank   = getenv("OMPI_COMM_WORLD_RANK");
   const PetscBool   speaks = (PetscBool)(!rank || !strcmp(rank, "0"));
-  const long        stack  = Stack_Private();
+  rlim_t            allowed;
   char              here[PETSC_MAX_PATH_LEN], told[256] = "";
-  const PetscBool   lost = (PetscBool)(!getcwd(here, sizeof(here))), loop = (PetscBool)(!lost && AppOptionsLoop(argc, argv, sizeof(told), told));
 
-  if (speaks && stack) fprintf(stderr, "mortise: the stack may not grow beyond %ld kB (ulimit -s); %ld are needed\n", stack, (long)(STACK_ROOM >> 10));
-  if (speaks && lost && !stack) fprintf(stderr, "mortise: the working directory cannot be found: %s; start in one that is there\n", strerror(errno));
-  if (speaks && loop && !stack) (void)ErrorInput("-options_file: %s names itself, so that reading it would not end", told);
-  return (PetscBool)(stack || lost || loop);
+  if (Lacks_Private(RLIMIT_STACK, STACK_ROOM, &allowed)) {
+    if (speaks) fprintf(stderr, "mortise: the stack may not grow beyond %ld kB (ulimit -s); %ld are needed\n", (long)(allowed >> 10), (long)(STACK_ROOM >> 10));
+    return PETSC_TRUE;
+  }
+  if (Lacks_Private(RLIMIT_NOFILE, FILES_ROOM, &allowed)) {
+    if (speaks) fprintf(stderr, "mortise: no more than %ld files may be open at a time (ulimit -n); %ld are needed\n", (long)allowed, (long)FILES_ROOM);
+    return PETSC_TRUE;
+  }
+  if (!getcwd(here, sizeof(here))) {
+    if (speaks) fprintf(stderr, "mortise: the working directory cannot be found: %s; start in one that is there\n", strerror(errno));
+    return PETSC_TRUE;
+  }
+  if (!AppOptionsLoop(argc, argv, sizeof(told), told)) return PETSC_FALSE;
+  if (speaks) (void)ErrorInput("-options_file: %s names itself, so that reading it would not end", told);
+  return PETSC_TRUE;
 }
 
 /* PETSc passes over the words of PETSC_OPTIONS that are neither an option nor its value, so that one without its dash would not act. */
@@ -187,6 +226,7 @@ PetscErrorCode AppInitialize(int argc, char **argv)
   PetscErrorCode ierr;
 
   for (int i = 0; alone && i < NUM_ALONE; ++i) set[i] = !getenv(Alone[i][0]) && !setenv(Alone[i][0], Alone[i][1], 1);
+  OpenStandard_Private();
   OneThread_Private();
   OneArena_Private();
   CheckRoom_Private(START_ROOM);
@@ -200,7 +240,7 @@ PetscErrorCode AppInitialize(int argc, char **argv)
   for (int i = 0; i < NUM_ALONE; ++i) {
     if (set[i]) unsetenv(Alone[i][0]); /* programs we start (gmsh) do not inherit them */
   }
-  CheckRoom_Private(BLAS_ROOM);
+  TakeRoom_Private();
   TellFiles_Private(argc, argv);
   ierr = Words_Private();
   if (ierr) (void)PetscFinalize();

@@ -36,6 +36,7 @@ void StopBegin(void)
 {
   struct sigaction action;
 
+  (void)signal(SIGCHLD, SIG_DFL); /* ignored, it would take from us how gmsh has ended */
   for (size_t i = 0; i < PETSC_STATIC_ARRAY_LENGTH(Signals); ++i)
     stop_ignored[i] = (PetscBool)(!sigaction(Signals[i].number, NULL, &action) && action.sa_handler == SIG_IGN);
 }
@@ -43,17 +44,21 @@ void StopBegin(void)
 PetscErrorCode StopWatch(PetscReal seconds)
 {
   struct sigaction action = {.sa_handler = Note_Private};
+  sigset_t         ours;
 
   PetscFunctionBegin;
   PetscCall(PetscTime(&stop_start));
   stop_seconds = seconds;
   stop_watched = PETSC_TRUE;
   sigemptyset(&action.sa_mask);
+  sigemptyset(&ours);
   for (size_t i = 0; i < PETSC_STATIC_ARRAY_LENGTH(Signals); ++i) {
     action.sa_handler = stop_ignored[i] ? SIG_IGN : Note_Private;
     action.sa_flags   = SA_RESTART | Signals[i].flags;
     PetscCheck(!sigaction(Signals[i].number, &action, NULL), PETSC_COMM_SELF, PETSC_ERR_SYS, "sigaction failed for %s", Signals[i].name);
+    sigaddset(&ours, Signals[i].number);
   }
+  (void)sigprocmask(SIG_UNBLOCK, &ours, NULL); /* a starter that holds them back for itself does not mean us */
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -246,6 +246,17 @@ def test_hardly_any_memory(tmp_path, megabytes, threads):
     assert threads > 1 or (done.returncode == 0 and not done.stderr) or (done.returncode == 2 and done.stderr.startswith("mortise: out of memory") and done.stderr.count("\n") == 1), done
 
 
+def test_hardly_any_data(run, tmp_path):
+    """ulimit -d, which leaves OpenBLAS no room by its first call: it would ask for ever."""
+    text = block(tmp_path)
+    with limited(resource.RLIMIT_DATA, 400000):
+        result = run("s.yml", "-mesh_refine", 8, text=text, timeout=60)
+    assert result.returncode == 2 and len(result.stderr.splitlines()) == 1 and result.stderr.startswith("mortise: out of memory for 262144 cells"), result
+    with limited(resource.RLIMIT_DATA, 100000):
+        result = run("s.yml", text=text, timeout=60)
+    assert result.returncode == 2 and result.stderr == "mortise: out of memory: fewer than 240 MB are left to begin with (ulimit -v, ulimit -d)\n", result
+
+
 @contextlib.contextmanager
 def small_disk(path, kilobytes):
     path.mkdir()

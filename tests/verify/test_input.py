@@ -439,7 +439,7 @@ def test_options_of_snes_that_act(run):
 
 def test_option_of_petsc(run):
     """One that nothing uses is named once, by us, not by PETSc; one that PETSc reads last of all is no such option."""
-    for option, said in (("-ksp_monitorr", "mortise: nothing used the option -ksp_monitorr; is it spelt right?\n"), ("-options_view", "")):
+    for option, said in (("-ksp_monitorr", "mortise: nothing used the option -ksp_monitorr: it is spelt wrong, or of something that this run did without\n"), ("-options_view", "")):
         result = run("inputs/patch2d.yml", option)
         assert result.returncode == 0 and result.stderr == said and "unused" not in result.stdout, result
 
