@@ -3,6 +3,7 @@
    statements whose first word is, are refused too. */
 #include "sceneimpl.h"
 #include <ctype.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #define GEO_DEPTH 8 /* files that include each other */
@@ -117,9 +118,10 @@ static PetscBool IsData_Private(const char *name)
 
 static char *Text_Private(const char *file, size_t *length)
 {
-  FILE *f    = fopen(file, "rb");
-  long  size = 0;
-  char *text = NULL;
+  struct stat info;
+  FILE       *f    = stat(file, &info) || !S_ISREG(info.st_mode) ? NULL : fopen(file, "rb"); /* a pipe would be waited for */
+  long        size = 0;
+  char       *text = NULL;
 
   *length = 0;
   if (f && !fseek(f, 0, SEEK_END)) size = ftell(f);
@@ -172,6 +174,7 @@ static void File_Private(const char *file, int depth, Found *found)
   char  *text = depth < GEO_DEPTH ? Text_Private(file, &length) : NULL;
 
   if (depth == GEO_DEPTH) Tell_Private(&g, found, "this", "is included too deep");
+  if (!text && !access(file, F_OK)) Tell_Private(&g, found, "this", "is no file that could be read here");
   g.at = text ? text : "";
   if (text && strlen(text) < length) Tell_Private(&g, found, "this", "is no text: it has a zero byte in it");
   while (!found->text[0]) {

@@ -13,6 +13,8 @@
 
 #define MESH_MAX_PARAMETERS 64
 #define MESSAGE_LENGTH 512
+#define LOG_FILE "log" /* in the temporary directory, as the mesh, whose name ends in .msh */
+#define FORMAT_FILE "format.geo"
 #define GRACE 3          /* seconds for gmsh to come to an end when the run is asked to stop … */
 #define GRACE_KILLED 0.5 /* … by SIGTERM, after which mpiexec kills what is there a second later */
 
@@ -130,7 +132,9 @@ static void CheckWhole_Private(const char *geo, MeshResult *r)
   if (f) (void)fclose(f);
   for (char *c = last; *c; ++c)
     if (c[0] == '\n' && c[1]) line = c + 1;
-  if (strncmp(line, "$End", 4) || !strchr(line, '\n'))
+  if (access(r->file, F_OK))
+    (void)snprintf(r->message, sizeof(r->message), "mesh.file %s: gmsh ended without a mesh; a statement of it, as Exit, has it end before", geo);
+  else if (strncmp(line, "$End", 4) || !strchr(line, '\n'))
     (void)snprintf(r->message, sizeof(r->message), "mesh.file %s: gmsh could not write all of its mesh to %s; is there no room? TMPDIR names another directory",
                    geo, r->temporary);
 }
@@ -177,10 +181,22 @@ static PetscBool Declares_Private(const char *file, const char *constant)
   return found;
 }
 
+/* What gmsh reads behind the .geo, whose own statements about the format of the mesh would leave one that is not read here. */
+static const char Format[] = "Mesh.Format = 1; Mesh.MshFileVersion = 4.1; Mesh.Binary = 0; Mesh.SaveParametric = 0;\n";
+
+static int WriteFormat_Private(const char *path)
+{
+  FILE *f = fopen(path, "w");
+
+  if (!f) return errno;
+  (void)fputs(Format, f);
+  return fclose(f) ? errno : 0;
+}
+
 /* gmsh on the .geo; subdivide: ask for quads or hexes from triangles or tetrahedra. A sentence in r->message when it fails. */
 static void Gmsh_Private(Scene s, const char *geo, PetscBool subdivide, MeshResult *r)
 {
-  char        order[16], log[PETSC_MAX_PATH_LEN + 16], reason[MESSAGE_LENGTH];
+  char        order[16], log[PETSC_MAX_PATH_LEN + 16], format[PETSC_MAX_PATH_LEN + 16], reason[MESSAGE_LENGTH];
   const char *argv[32 + 3 * MESH_MAX_PARAMETERS];
   int         n = 0, status = 0, error;
   PetscBool   stopped   = PETSC_FALSE;
@@ -188,7 +204,8 @@ static void Gmsh_Private(Scene s, const char *geo, PetscBool subdivide, MeshResu
   SceneNode  *parameter = NodeFind(NodeFind(s->root, "mesh"), "parameter");
 
   (void)snprintf(order, sizeof(order), "%d", (int)s->mesh_order);
-  (void)snprintf(log, sizeof(log), "%s/log", r->temporary);
+  (void)snprintf(log, sizeof(log), "%s/" LOG_FILE, r->temporary);
+  (void)snprintf(format, sizeof(format), "%s/" FORMAT_FILE, r->temporary);
   const char *fixed[] = {"gmsh", dim == 2 ? "-2" : "-3", "-order", order, "-format", "msh41", "-v", "2", "-nt", "1", "-o", r->file};
   for (size_t i = 0; i < sizeof(fixed) / sizeof(fixed[0]); ++i) argv[n++] = fixed[i];
   for (SceneNode *p = parameter ? parameter->first : NULL; p; p = p->next) {
@@ -201,8 +218,13 @@ static void Gmsh_Private(Scene s, const char *geo, PetscBool subdivide, MeshResu
     for (int i = 0; i < 6; ++i) argv[n++] = more[i];
   }
   argv[n++] = geo;
+  argv[n++] = format;
   argv[n]   = NULL;
-  error     = Run_Private((char *const *)(const void *)argv, log, &status, &stopped);
+  error     = WriteFormat_Private(format);
+  if (error)
+    (void)snprintf(r->message, sizeof(r->message), "mesh.file %s: %s cannot be written: %s; TMPDIR names another directory", geo, format, strerror(error));
+  if (error) return;
+  error = Run_Private((char *const *)(const void *)argv, log, &status, &stopped);
   FirstError_Private(log, reason, sizeof(reason));
   if (error == ENOENT)
     (void)snprintf(r->message, sizeof(r->message), "mesh.file %s needs the program gmsh, which is not installed (or not in PATH); install it or give a .msh",
@@ -320,9 +342,12 @@ PetscErrorCode SceneRemoveMesh(Scene s)
   if (!s->temporary[0]) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCallMPI(MPI_Comm_rank(s->comm, &rank));
   if (rank == 0) {
-    char log[PETSC_MAX_PATH_LEN + 16];
-    (void)snprintf(log, sizeof(log), "%s/log", s->temporary);
-    (void)unlink(log);
+    static const char *const beside[] = {LOG_FILE, FORMAT_FILE};
+    for (size_t i = 0; i < PETSC_STATIC_ARRAY_LENGTH(beside); ++i) {
+      char path[PETSC_MAX_PATH_LEN + 16];
+      (void)snprintf(path, sizeof(path), "%s/%s", s->temporary, beside[i]);
+      (void)unlink(path);
+    }
     (void)unlink(s->data.mesh.file);
     (void)rmdir(s->temporary);
   }
