@@ -201,8 +201,9 @@ PetscErrorCode OutputLock(MPI_Comm, const char *directory, PetscBool overwrite);
 PetscErrorCode OutputHold(MPI_Comm);
 /* At any end; harmless without a lock. Not collective. */
 void OutputUnlock(void);
-/* An input error when the directory has files that a run would replace or remove and none has written. Collective. */
-PetscErrorCode OutputCheckForeign(MPI_Comm, const char *directory);
+/* An input error when the directory has files that a run would replace or remove and none has written, which may be with overwrite, or that may not be
+   written. Collective. */
+PetscErrorCode OutputCheckForeign(MPI_Comm, const char *directory, PetscBool overwrite);
 
 /* ---- results put aside (output/earlierpath.c) ----------------------------------------------------------------------------------- */
 

@@ -24,19 +24,12 @@ static PetscErrorCode Tables_Private(App *app)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode Foreign_Private(App *app)
-{
-  PetscFunctionBegin;
-  if (!app->data->output.overwrite) PetscCall(OutputCheckForeign(app->comm, app->data->output.directory));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 PetscErrorCode AppOpenFiles(App *app)
 {
   PetscFunctionBegin;
   PetscCall(OutputDirectoryCreate(app->comm, app->data->output.directory));
   PetscCall(OutputLock(app->comm, app->data->output.directory, app->data->output.overwrite));
-  PetscCall(Foreign_Private(app));
+  PetscCall(OutputCheckForeign(app->comm, app->data->output.directory, app->data->output.overwrite));
   if (!app->restart[0]) PetscCall(AppForget(app)); /* what was there before goes first: no file of it is taken for this run's */
   if (app->restart[0] && app->repeats > 0 && app->load_steps == 0) PetscCall(OutputFinishAside(app->comm, app->data->output.directory, app->repeats));
   if (app->restart[0]) PetscCall(ResumeFields_Private(app));
@@ -52,7 +45,7 @@ PetscErrorCode AppCheckFiles(App *app)
   PetscMPIInt rank;
 
   PetscFunctionBegin;
-  PetscCall(Foreign_Private(app));
+  PetscCall(OutputCheckForeign(app->comm, app->data->output.directory, app->data->output.overwrite));
   if (!app->restart[0]) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(ResumeFields_Private(app));
   PetscCallMPI(MPI_Comm_rank(app->comm, &rank));

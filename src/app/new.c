@@ -28,7 +28,10 @@ static int Write_Private(const char *path, const char *text, const char *name)
   if (!file) return errno;
   for (; (mark = strstr(text, MARK)); text = mark + strlen(MARK)) (void)fprintf(file, "%.*s%s", (int)(mark - text), text, name);
   (void)fputs(text, file);
-  return fclose(file) ? errno : 0;
+  if (!fclose(file)) return 0;
+  const int failed = errno;
+  (void)unlink(path);
+  return failed;
 }
 
 /* A name that scenes, gmsh and shells take as it is. */
@@ -56,6 +59,7 @@ PetscErrorCode AppNew(MPI_Comm comm, int num_names, char *const names[])
   for (int i = 0; i < NUM_FILES && rank == 0 && !failed[0]; ++i) {
     failed[0] = Write_Private(path[i], Files[i].text, name);
     failed[1] = i;
+    for (int k = 0; k < i && failed[0]; ++k) (void)unlink(path[k]); /* one of them serves nobody */
   }
   PetscCallMPI(MPI_Bcast(failed, 2, MPI_INT, 0, comm));
   PetscCheckInput(!failed[0], "new: cannot write %s: %s", path[failed[1]], strerror(failed[0]));

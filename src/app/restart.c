@@ -269,13 +269,19 @@ PetscErrorCode AppStop(App *app)
 
 PetscErrorCode AppForget(App *app)
 {
-  PetscMPIInt rank;
+  static const char *const tables[] = {"history.csv", "adapt.csv"}; /* a link, or a pipe, would be written */
+  PetscMPIInt              rank;
 
   PetscFunctionBegin;
   PetscCallMPI(MPI_Comm_rank(app->comm, &rank));
   PetscCall(AppForgetSummary(app));
   if (rank == 0) (void)unlink(app->before);
   if (rank == 0) (void)unlink(app->checkpoint);
+  for (size_t i = 0; i < PETSC_STATIC_ARRAY_LENGTH(tables) && rank == 0; ++i) {
+    char path[PETSC_MAX_PATH_LEN];
+    PetscCall(PetscSNPrintf(path, sizeof(path), "%s/%s", app->data->output.directory, tables[i]));
+    (void)unlink(path);
+  }
   PetscCall(OutputDropAside(app->comm, app->data->output.directory));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -1,5 +1,6 @@
 /* Checkpoints as files: HDF5, written by all ranks to a temporary beside the file, sealed, renamed. */
 #include "outputimpl.h"
+#include <unistd.h>
 
 /* ---- writing --------------------------------------------------------------------------------------------------------------- */
 
@@ -130,6 +131,8 @@ PetscErrorCode CheckpointWrite(Checkpoint c, const char *path)
   PetscFunctionBegin;
   PetscCallMPI(MPI_Comm_rank(c->comm, &rank));
   PetscCall(PetscSNPrintf(temporary, sizeof(temporary), "%s.tmp", path));
+  if (rank == 0) (void)unlink(temporary); /* a link there would have another file written */
+  PetscCallMPI(MPI_Barrier(c->comm));
   PetscCall(WriteFile_Private(c, temporary));
   if (rank == 0) failed = CheckpointSeal(temporary, path);
   PetscCallMPI(MPI_Bcast(&failed, 1, MPI_INT, 0, c->comm));

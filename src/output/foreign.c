@@ -3,6 +3,7 @@
 #include "outputimpl.h"
 #include <dirent.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 static const struct {
   const char *name, *begins;
@@ -65,15 +66,24 @@ static PetscBool IsForeign_Private(const char *path, const char *name, PetscBool
   return (PetscBool)(OutputStateNumber(name) >= 0 && (!S_ISREG(info.st_mode) || (info.st_size && !IsState_Private(path, series))));
 }
 
+/* Is it a name that a run writes or removes? */
+static PetscBool IsOurs_Private(const char *name)
+{
+  for (size_t i = 0; i < PETSC_STATIC_ARRAY_LENGTH(Kinds); ++i) {
+    if (!strcmp(name, Kinds[i].name)) return PETSC_TRUE;
+  }
+  return (PetscBool)(OutputStateNumber(name) >= 0);
+}
+
 PetscErrorCode OutputTellForeign(const char *directory, const char *name)
 {
   return ErrorInput("output.directory %s: %s in it is no file of a run of mortise; give another directory, or output.overwrite: true to lose it", directory,
                     name);
 }
 
-PetscErrorCode OutputCheckForeign(MPI_Comm comm, const char *directory)
+PetscErrorCode OutputCheckForeign(MPI_Comm comm, const char *directory, PetscBool overwrite)
 {
-  char           path[2 * PETSC_MAX_PATH_LEN], foreign[256] = "";
+  char           path[2 * PETSC_MAX_PATH_LEN], found[2][256] = {"", ""}; /* no file of ours, one that may not be written */
   struct dirent *entry;
   PetscMPIInt    rank;
   DIR           *dir = NULL;
@@ -83,12 +93,14 @@ PetscErrorCode OutputCheckForeign(MPI_Comm comm, const char *directory)
   if (rank == 0) dir = opendir(directory);
   (void)snprintf(path, sizeof(path), "%s/" INDEX_TIMES, directory);
   const PetscBool series = (PetscBool)(dir && Begins_Private(path, Kinds[3].begins));
-  while (dir && !foreign[0] && (entry = readdir(dir))) {
+  while (dir && !found[0][0] && (entry = readdir(dir))) {
     (void)snprintf(path, sizeof(path), "%s/%s", directory, entry->d_name);
-    if (IsForeign_Private(path, entry->d_name, series)) (void)snprintf(foreign, sizeof(foreign), "%s", entry->d_name);
+    if (!overwrite && IsForeign_Private(path, entry->d_name, series)) (void)snprintf(found[0], sizeof(found[0]), "%s", entry->d_name);
+    if (IsOurs_Private(entry->d_name) && access(path, W_OK) && errno == EACCES) (void)snprintf(found[1], sizeof(found[1]), "%s", entry->d_name);
   }
   if (dir) (void)closedir(dir);
-  PetscCallMPI(MPI_Bcast(foreign, (PetscMPIInt)sizeof(foreign), MPI_CHAR, 0, comm));
-  if (foreign[0]) PetscCall(OutputTellForeign(directory, foreign));
+  PetscCallMPI(MPI_Bcast(found, (PetscMPIInt)sizeof(found), MPI_CHAR, 0, comm));
+  if (found[0][0]) PetscCall(OutputTellForeign(directory, found[0]));
+  PetscCheckInput(!found[1][0], "output.directory %s: %s in it may not be written; give another directory", directory, found[1]);
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -120,9 +120,9 @@ static int First_Private(PetscBool overwrite, Holder *other, int *number)
     held = -1;
   }
   if (held < 0) return *number = EAGAIN, LOCK_FAILED;
+  owner = getpid();
   if (ftruncate(held, 0) || dprintf(held, LOCK_BEGINS "%d on %s\n", me.pid, me.host) < 0) return *number = errno, LOCK_FAILED;
   (void)flock(held, LOCK_SH | LOCK_NB); /* from now on with the others */
-  owner = getpid();
   return LOCK_TAKEN;
 }
 

@@ -45,6 +45,7 @@ static int Replace_Private(const char *path, const char *text)
   int    failed;
 
   if (snprintf(temporary, sizeof(temporary), "%s.tmp", path) >= (int)sizeof(temporary)) return ENAMETOOLONG;
+  (void)unlink(temporary); /* a link there would have another file written */
   errno = 0;
   if (!(file = fopen(temporary, "w"))) return errno ? errno : EIO;
   failed = fwrite(text, 1, length, file) != length;
@@ -69,6 +70,20 @@ PetscErrorCode OutputReplaceFile(MPI_Comm comm, const char *path, const char *te
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Bytes of names and values from elsewhere that are no UTF-8, which JSON has to be, become question marks. */
+static void Clean_Private(char *text)
+{
+  for (unsigned char *c = (unsigned char *)text; *c;) {
+    const int more = *c < 0x80 ? 0 : *c >= 0xc2 && *c < 0xe0 ? 1 : *c >= 0xe0 && *c < 0xf0 ? 2 : *c >= 0xf0 && *c < 0xf5 ? 3 : -1;
+    int       k    = 1;
+    while (k <= more && (c[k] & 0xc0) == 0x80) ++k;
+    if (k <= more || more < 0)
+      *c++ = '?';
+    else
+      c += more + 1;
+  }
+}
+
 PetscErrorCode SummaryWrite(MPI_Comm comm, const char *path, const cJSON *document)
 {
   PetscMPIInt rank;
@@ -79,6 +94,7 @@ PetscErrorCode SummaryWrite(MPI_Comm comm, const char *path, const cJSON *docume
   if (rank == 0) {
     text = cJSON_Print(document);
     PetscCheck(text, PETSC_COMM_SELF, PETSC_ERR_MEM, "Cannot print the document for %s", path);
+    Clean_Private(text);
   }
   PetscCall(OutputReplaceFile(comm, path, text));
   cJSON_free(text);

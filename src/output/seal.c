@@ -87,15 +87,26 @@ static int Judge_Private(FILE *file, long long number[2])
   if (sscanf(seal + sizeof(MAGIC) - 1, "%d\n%lld bytes", &format, &number[1]) != 2) return SEAL_BROKEN;
   if (format != CHECKPOINT_FORMAT) return number[0] = format, SEAL_FORMAT;
   if (number[0] < number[1]) return SEAL_SHORT;
+  if (number[0] > number[1]) return SEAL_BROKEN; /* it may be any size */
   failed = Hash_Private(file, &hash);
   if (failed) return number[0] = failed, SEAL_UNREADABLE;
   Text_Private(format, (int64_t)info.st_size, hash, right);
   return memcmp(seal, right, sizeof(seal)) ? SEAL_BROKEN : SEAL_HOLDS;
 }
 
+/* NULL: errno tells why, 0 for a pipe or a device, of which the one would be waited for and the other has no end. */
+static FILE *Open_Private(const char *path)
+{
+  struct stat info;
+
+  if (stat(path, &info) || S_ISREG(info.st_mode) || S_ISDIR(info.st_mode)) return fopen(path, "r");
+  errno = 0;
+  return NULL;
+}
+
 PetscBool CheckpointIsWhole(const char *path)
 {
-  FILE     *file = fopen(path, "r");
+  FILE     *file = Open_Private(path);
   long long unused[2];
 
   if (!file) return PETSC_FALSE;
@@ -112,12 +123,14 @@ PetscErrorCode CheckpointVerify(MPI_Comm comm, const char *path)
   PetscFunctionBegin;
   PetscCallMPI(MPI_Comm_rank(comm, &rank));
   if (rank == 0) {
-    FILE *file = fopen(path, "r");
+    FILE *file = Open_Private(path);
     if (file) {
       found[0] = Judge_Private(file, found + 1);
       fclose(file);
-    } else
+    } else if (errno)
       found[1] = errno;
+    else
+      found[0] = SEAL_FOREIGN;
   }
   PetscCallMPI(MPI_Bcast(found, 3, MPI_LONG_LONG, 0, comm));
   PetscCheckInput(found[0] != SEAL_UNREADABLE, "-restart %s: the file cannot be read: %s", path, strerror((int)found[1]));

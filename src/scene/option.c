@@ -288,6 +288,7 @@ static PetscErrorCode Text_Private(const Option *row, const char *where, const c
 {
   PetscFunctionBegin;
   PetscCheckInput(strlen(text) < row->size, "%s is longer than %d characters", where, (int)row->size - 1);
+  PetscCheckInput(!strcmp(row->pattern, "title") || TextIsPlain(text, ""), "%s is '%s', with a control character or the end of a line in it", where, text);
   PetscCall(PetscStrncpy(place, text, row->size));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

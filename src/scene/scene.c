@@ -67,6 +67,8 @@ static PetscErrorCode Load_Private(MPI_Comm comm, const char *file, char **text,
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+#define LONGEST_FILE 32 /* characters of a name in output.directory, with what stands before and behind it */
+
 /* The directory exists and is writable, or the nearest one above it that exists is. Nothing is created. */
 static PetscErrorCode CheckOutput_Private(Scene s)
 {
@@ -78,6 +80,7 @@ static PetscErrorCode CheckOutput_Private(Scene s)
 
   PetscFunctionBegin;
   PetscCallMPI(MPI_Comm_rank(s->comm, &rank));
+  PetscCheckInput(strlen(directory) + LONGEST_FILE < sizeof(path), "output.directory is longer than %d characters", (int)sizeof(path) - 1 - LONGEST_FILE);
   PetscCall(PetscStrncpy(path, directory, sizeof(path)));
   while (rank == 0) {
     char *slash;

@@ -6,6 +6,7 @@ import shutil
 import signal
 import socket
 import subprocess
+import tempfile
 import time
 
 import pytest
@@ -155,6 +156,36 @@ def test_files_of_others_stay(run, tmp_path, name):
     assert run("s.yml", "-output_directory", file.parent, text=text).returncode == 0  # ours now
 
 
+@pytest.mark.parametrize("name", ["history.csv", "adapt.csv", "summary.json.tmp", "checkpoint.h5.tmp"])
+def test_links_and_pipes_are_not_written(run, tmp_path, name):
+    """What they lead to stays, and nobody is waited for."""
+    (tmp_path / "out1").mkdir()
+    (tmp_path / "mine").write_text("mine\n")
+    for place in (lambda path: path.symlink_to(tmp_path / "mine")), os.mkfifo:
+        (tmp_path / "out1" / name).unlink(missing_ok=True)
+        place(tmp_path / "out1" / name)
+        result = run("s.yml", "-output_directory", tmp_path / "out1", "-output_overwrite", "true", text=block(tmp_path), timeout=20)
+        assert result.returncode == 0 and (tmp_path / "mine").read_text() == "mine\n", result
+
+
+@pytest.mark.skipif(os.geteuid() != 0 or not shutil.which("setpriv"), reason="may not become somebody else")
+@pytest.mark.parametrize("options", [(), ("-restart", "auto"), ("-check",)])
+def test_results_that_may_not_be_written(options):
+    """Those of before stay as they are."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = pathlib.Path(folder)
+        text = block(path)
+        (path / "s.yml").write_text(text)
+        command = ["setpriv", "--reuid=65534", "--regid=65534", "--clear-groups", PROGRAM, "s.yml", "-output_directory", "out"]
+        os.chmod(path, 0o777)
+        assert subprocess.run([*command, "-load_max_steps", "1"], cwd=path, capture_output=True).returncode == 2
+        for file in (path / "out").iterdir(): file.chmod(0o444)
+        before = {file.name: file.read_bytes() for file in (path / "out").iterdir()}
+        done = subprocess.run([*command, *options], cwd=path, capture_output=True, text=True)
+        assert done.returncode == 1 and "in it may not be written" in done.stderr and done.stderr.count("\n") == 1, done
+        assert {file.name: file.read_bytes() for file in (path / "out").iterdir()} == before
+
+
 @pytest.mark.parametrize("there", [True, False])
 def test_a_link_in_place_of_the_lock(run, tmp_path, there):
     """What it leads to is not written."""
@@ -170,9 +201,11 @@ def test_a_link_in_place_of_the_lock(run, tmp_path, there):
 # ---- stops --------------------------------------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGHUP, signal.SIGXCPU, signal.SIGQUIT, signal.SIGUSR2])
-def test_signals_stop_in_order(tmp_path, number):
-    process = start(tmp_path, text=block(tmp_path, **ENDLESS))
+@pytest.mark.parametrize("number,held", [(signal.SIGTERM, False), (signal.SIGHUP, False), (signal.SIGXCPU, False), (signal.SIGQUIT, False), (signal.SIGUSR2, False),
+                                         (signal.SIGTERM, True)])
+def test_signals_stop_in_order(tmp_path, number, held):
+    """Those too that who starts the program has held back for itself."""
+    process = start(tmp_path, text=block(tmp_path, **ENDLESS), preexec_fn=lambda: signal.pthread_sigmask(signal.SIG_BLOCK if held else signal.SIG_UNBLOCK, {number}))
     wait_for(lambda: rows(tmp_path / "out") > 1, process)
     process.send_signal(number)
     output, errors = process.communicate(timeout=60)
@@ -191,6 +224,14 @@ def test_nobody_reads(tmp_path):
     _, errors = process.communicate(timeout=60)
     result = Result([], process.returncode, "", errors, tmp_path / "out")
     assert result.returncode == 3 and result.summary["reason"].startswith("SIGPIPE"), result
+
+
+def test_children_that_nobody_waits_for(tmp_path):
+    """SIGCHLD ignored by who starts the program: how gmsh has ended is told all the same."""
+    (tmp_path / "s.geo").write_text((ROOT / "inputs/cube.geo").read_text())
+    process = start(tmp_path, "-check", text=(ROOT / "inputs/cube.yml").read_text().replace("cube.geo", "s.geo"), preexec_fn=lambda: signal.signal(signal.SIGCHLD, signal.SIG_IGN))
+    output, errors = process.communicate(timeout=60)
+    assert process.returncode == 0 and not errors, (output, errors)
 
 
 def test_nohup(tmp_path):
@@ -266,11 +307,13 @@ def test_the_checkpoint_before(tmp_path):
     ('Error("x") > "here";', "Error writes a file"), ('Save "here.msh";', "Save writes a file"), ('Print "here.png";', "Print writes a file"),
     ('CreateDir "here";', "CreateDir makes"), ('Include StrCat("mo", "re");', "at run time"), ('Merge "more";', "more:1: SystemCall"),
     ('Field[1] = ExternalProcess; Field[1].CommandLine = "touch here";', "ExternalProcess calls"), ("\0\nSystemCall 'touch here';", "zero byte"),
+    ('Include "pipe";', "pipe:1: this is no file that could be read here"), ('Include ".";', "this is no file that could be read here"),
     ('Print.Format = 1; Mesh.SaveAll = 0; Merge "none.msh";', None), ('Printf("Save x > %g", 1);', None),
 ])
 def test_a_geo_is_looked_through(run, tmp_path, line, words):
     (tmp_path / "s.geo").write_text(f"Point(1) = {{0, 0, 0}};\n{line}\n")
     (tmp_path / "more").write_text('SystemCall "touch here";')
+    os.mkfifo(tmp_path / "pipe")  # nobody writes to it
     result = run("s.yml", "-check", text=block(tmp_path, mesh={"file": "s.geo"}))
     if words:
         refused(result, words, "mesh.trust")
@@ -314,18 +357,28 @@ def test_words_of_petsc_options(tmp_path, options, word, ranks):
         refused(result, f"PETSC_OPTIONS: '{word}' is neither an option" if word else "PETSC_OPTIONS: order is -2")
 
 
-@pytest.mark.parametrize("ranks", [1, 2])
-def test_a_small_stack(tmp_path, ranks):
+@pytest.mark.parametrize("limit,words,ranks", [("-s 128", "the stack may not grow beyond 128 kB (ulimit -s)", 1), ("-s 128", "the stack may not grow beyond 128 kB (ulimit -s)", 2),
+                                               ("-n 10", "no more than 10 files may be open at a time (ulimit -n)", 1), ("-n 20", "no more than 20 files", 2)])
+def test_small_limits(tmp_path, limit, words, ranks):
     """Where more is allowed it is taken, else one sentence."""
     (tmp_path / "s.yml").write_text(block(tmp_path))
     for kind, good in ("-S", True), ("", False):
         launch = "mpiexec -n 2 " if ranks == 2 else ""
-        process = subprocess.run(["sh", "-c", f"{launch}sh -c 'ulimit {kind} -s 128 && exec {PROGRAM} s.yml -output_directory out'"], cwd=tmp_path, capture_output=True, text=True)
+        process = subprocess.run(["sh", "-c", f"{launch}sh -c 'ulimit {kind} {limit} && exec {PROGRAM} s.yml -output_directory out'"], cwd=tmp_path, capture_output=True, text=True)
         if good:
             assert process.returncode == 0 and not process.stderr, process
             shutil.rmtree(tmp_path / "out")
         else:
-            refused(Result([], process.returncode, process.stdout, process.stderr, tmp_path / "out"), "the stack may not grow beyond 128 kB (ulimit -s)")
+            refused(Result([], process.returncode, process.stdout, process.stderr, tmp_path / "out"), words)
+
+
+def test_a_closed_screen(tmp_path):
+    """What is said goes nowhere, not into the files and pipes that are opened next."""
+    process = start(tmp_path, text=block(tmp_path, **ENDLESS), stdout=None, stderr=None, preexec_fn=lambda: os.closerange(0, 3))
+    wait_for(lambda: rows(tmp_path / "out") > 1, process)
+    files = [os.readlink(f"/proc/{process.pid}/fd/{k}") for k in range(3)]
+    process.terminate()
+    assert process.wait(timeout=60) == 3 and files == ["/dev/null"] * 3, files
 
 
 @pytest.mark.parametrize("option", ["-order", "-model", "-load_step", "-boundary_y1_displacement_y", "-boundary_y0_fix", "-material_m_law", "-material_m_E", "-mesh_file",

@@ -383,7 +383,12 @@ def test_file_is_refused(run, broken_off, tmp_path):
     assert_refused(run, broken_off, hurt, words="no checkpoint")
     hurt.write_bytes(whole.replace(b"format 1\n", b"format 9\n", 1))
     assert_refused(run, broken_off, hurt, words="format 9")
-    for foreign in (broken_off / "fields_0000.h5", ROOT / SMALL[0]):
+    with open(hurt, "wb") as file:
+        file.write(whole)
+        file.truncate(1 << 40)  # of no blocks
+    assert_refused(run, broken_off, hurt, words="damaged")
+    os.mkfifo(tmp_path / "pipe")
+    for foreign in (broken_off / "fields_0000.h5", ROOT / SMALL[0], tmp_path / "pipe"):
         assert_refused(run, broken_off, foreign, words="no checkpoint")
     assert_refused(run, broken_off, tmp_path / "none.h5", words="No such file")
 

@@ -1,4 +1,5 @@
 """What users do wrong beyond the cases of test_input.py: words, YAML, meshes, options, directories, restarts. One sentence, exit status 1, nothing half written."""
+import json
 import os
 import resource
 import subprocess
@@ -95,8 +96,10 @@ def test_bytes(check, run, tmp_path, encode, good):
     (["--", "-order", "2"], ["'--' is neither the scene nor an option"]), (["--order", "2"], ["--order is no key of a scene", "nearest one is -order"]),
     (["-order=2"], ["-order=2 is no key of a scene", "nearest one is -order"]), (["-load.end", "2"], ["-load.end is no key of a scene", "-load_end"]),
     (["-load_end", "-2"], ["command line: load.end is -2"]), (["-max_seconds", "5m"], ["-max_seconds is '5m'"]), (["-restart", "none.h5"], ["-restart none.h5: the file cannot be read"]),
-    (["-restart", "."], ["-restart .: .*directory"]), (["-restart", str(ROOT / "README.md")], ["this is no checkpoint of mortise"]),
+    (["-restart", "."], ["-restart .: .*directory"]), (["-restart", "/dev/zero"], ["this is no checkpoint of mortise"]),
+    (["-info", "/nowhere/x"], ["an option of PETSc cannot act: Unable to open file /nowhere/x"]), (["-fp_trap", "maybe"], ["an option of PETSc cannot act: Unknown logical value"]), (["-restart", str(ROOT / "README.md")], ["this is no checkpoint of mortise"]),
     (["-options_file", "."], ["-options_file: .* is a directory"]), (["-output_directory", "a" * 300], ["output.directory .*File name too long"]),
+    (["-output_directory", "a/" * 2040], ["output.directory is longer than 4063"]), (["-output_directory", "a\nb"], ["output.directory is 'a.b', with a control character or the end of a line"]),
 ])
 def test_options(check, options, words):
     refused(check((), *options), *words)
@@ -207,6 +210,24 @@ def test_keys_of_a_geo_on_a_mesh(run, tmp_path):
     refused_run(run("s.yml", "-check", text=ALONE.replace("m.msh", "m.msh, parameter: {n: 2}")), "mesh.parameter: only a .geo has parameters")
     told = "mesh.order acts on a .geo, which is meshed here; cells of mesh.file m.msh have the order that they have"
     assert told in run("s.yml", "-check", text=ALONE.replace("m.msh", "m.msh, order: 2")).stdout and told not in run("s.yml", "-check", text=ALONE).stdout
+
+
+@pytest.mark.parametrize("line", ["Mesh.Binary = 1;", "Mesh.Format = 2;", "Mesh.MshFileVersion = 1;", "Mesh.SaveParametric = 1;", "Exit;"])
+def test_formats_that_a_geo_asks_for(check, line):
+    """They are for another reader."""
+    result = check(geo=GEO + line + "\n")
+    if line == "Exit;":
+        refused(result, "gmsh ended without a mesh")
+    else:
+        assert result.returncode == 0 and "8 cells" in result.stdout, result
+
+
+def test_texts_that_are_no_utf8(tmp_path):
+    """summary.json is JSON all the same."""
+    (tmp_path / "m.msh").write_text(msh())
+    (tmp_path / "s.yml").write_text(ALONE)
+    done = subprocess.run([PROGRAM, "s.yml", "-title", b"gr\xf6\xdfe \xe2\x98\x83 \xe2\x98", "-output_directory", "out"], cwd=tmp_path, capture_output=True)
+    assert done.returncode == 0 and json.loads((tmp_path / "out/summary.json").read_text())["title"] == "gr??e \u2603 ??", done
 
 
 def test_no_room_for_the_mesh_of_gmsh(run, tmp_path):
