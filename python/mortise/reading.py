@@ -36,10 +36,14 @@ def table(path):
     path = pathlib.Path(path)
     if not path.exists():
         return Table()
-    with open(path, newline="") as file:
-        rows = list(csv.DictReader(file))
+    with open(path, newline="", encoding="utf-8") as file:
+        rows = list(csv.DictReader(line for line in file if line.endswith("\n")))  # of a run that goes on the last row may be a part
     found = {key: re.fullmatch(r"(.*?)(?: \[(.*)\])?", key).groups() for key in rows[0]} if rows else {}
-    return Table({name: np.array([float(row[key] or "nan") for row in rows]) for key, (name, _) in found.items()}, {name: unit for name, unit in found.values() if unit})
+    try:
+        columns = {name: np.array([float(row[key] or "nan") for row in rows]) for key, (name, _) in found.items()}
+    except ValueError as error:
+        raise ValueError(f"{path}: {error}") from None
+    return Table(columns, {name: unit for name, unit in found.values() if unit})
 
 
 SIX = ("xx", "xy", "xz", "yy", "yz", "zz")
@@ -195,7 +199,10 @@ class Run:
         index = self.directory / "passes.xdmf"  # there where a load step has several
         if not passes or not index.exists():
             index = self.directory / "fields.xdmf"
-        found = xml.etree.ElementTree.parse(index).getroot().findall("Domain/Grid") if index.exists() else ()
+        try:
+            found = xml.etree.ElementTree.parse(index).getroot().findall("Domain/Grid") if index.exists() else ()
+        except xml.etree.ElementTree.ParseError as error:
+            raise ValueError(f"{index} is damaged: {error}") from None
         self._series = {grid.get("Name"): grid.findall("Grid") for grid in found}
 
     @property
@@ -230,6 +237,8 @@ class Run:
 
     def state(self, name="bulk", time=None, only=None):
         """The grid `name` at the load time next to `time`, after its last pass; without one, the last of all."""
+        if not self._series.get(name):
+            raise KeyError(f"no grid {name} in {self.directory}/fields.xdmf; there are {', '.join(self._series) or 'none'}")
         away = np.zeros(len(self._series[name])) if time is None else np.abs(self.load_times(name) - time)
         at = np.flatnonzero(away == away.min())[-1]
         return State(self._series[name][at], self.directory, only)

@@ -9,6 +9,8 @@ import sys
 import numpy as np
 import pytest
 
+from conftest import PROGRAM, ROOT
+
 SCRIPT = pathlib.Path(__file__).resolve().parent.parent.parent / "scripts" / "plot"
 loader = importlib.machinery.SourceFileLoader("plot", str(SCRIPT))
 plot = importlib.util.module_from_spec(importlib.util.spec_from_loader("plot", loader))
@@ -89,9 +91,34 @@ def test_pictures_of_a_run(run, tmp_path):
     from PIL import Image
     assert Image.open(tmp_path / "film.gif").n_frames == 2
     for words, said in (((one, "--field", "stress"), "stress is no scalar; give stress.xx, stress.xy"), ((one, "--field", "none"), "no field none; there are displacement.x"),
-                        ((one, "--animate", "film.avi"), ".gif or .mp4"), ((one, "--column", "none"), "no column none")):
+                        ((one, "--animate", "film.avi"), ".gif or .mp4"), ((one, "--column", "none"), "no column none"), ((one, "--percentile", 5, 200), "range [0, 100]"),
+                        ((one, "--animate", tmp_path / "none/a.gif"), "No such file or directory"), ((tmp_path,), "no fields.xdmf")):
         done = draw(*words)
-        assert done.returncode == 1 and said in done.stderr and "Traceback" not in done.stderr, done
+        assert done.returncode == 1 and said in done.stderr and done.stderr.count("\n") == 1, done
+    for words in ("--time", "nan"), ("--fps", 0), ("--zoom", "nan", 1, 0, 1):
+        done = draw(one, *words)
+        assert done.returncode == 2 and f"error: argument {words[0]}: invalid" in done.stderr, done
+
+
+@pytest.mark.parametrize("name,hurt,said", [("fields.xdmf", lambda data: data[:300], "fields.xdmf is damaged"), ("fields_0001.h5", lambda data: data[:3000], "truncated file"),
+                                            ("history.csv", lambda data: data + b"x,y\n", "history.csv: could not convert string to float: 'x'"),
+                                            ("history.csv", lambda data: data + b"3,0.", None), ("fields.xdmf", None, "no fields.xdmf")])
+def test_damaged_results(spoilt, name, hurt, said):
+    """One sentence; a row that a kill cut off is none; without fields there is still the history."""
+    whole = (spoilt / name).read_bytes()
+    (spoilt / name).write_bytes(hurt(whole)) if hurt else (spoilt / name).unlink()
+    done = draw(spoilt)
+    (spoilt / name).write_bytes(whole)
+    assert done.returncode == (said is not None) and (said or "") in done.stderr and done.stderr.count("\n") == (said is not None), done
+    assert (spoilt / "history.png").exists() or name == "history.csv"
+
+
+@pytest.fixture(scope="module")
+def spoilt(tmp_path_factory):
+    """Results of a run of two steps."""
+    directory = tmp_path_factory.mktemp("spoilt") / "out"
+    subprocess.run([PROGRAM, ROOT / "inputs/patch2d.yml", "-load_step", "0.5", "-output_directory", directory], capture_output=True, check=True)
+    return directory
 
 
 @pytest.mark.skipif(not shutil.which("ffmpeg"), reason="no ffmpeg")
