@@ -3,12 +3,14 @@ import copy
 import json
 import os
 import re
+import resource
 import shutil
 import subprocess
 
 import pytest
 import yaml
 from conftest import PROGRAM, ROOT, execute
+from test_hostile import limited
 
 DESCRIBE = ROOT / "scripts" / "describe"
 
@@ -59,6 +61,8 @@ def test_install_and_new(prefix, tmp_path):
     assert start("mortise-plot", "out/first").returncode == 0 and (tmp_path / "out/first/mesh.png").exists()
     simplify = start("mortise-simplify", "first.yml", "-o", "simple")
     assert simplify.returncode == 0 and (tmp_path / "simple/simpler.yml").exists(), simplify
+    wrong = start("mortise-simplify", "first.yml", "load.step")
+    assert wrong.returncode == 1 and wrong.stderr == "simplify: 'load.step' is not KEY=VALUE\n", wrong
     batch = start("mortise-batch", prefix / "share/mortise/examples/patch2d.yml")
     assert batch.returncode == 0 and "converged" in batch.stdout, batch
 
@@ -68,6 +72,13 @@ def test_new_leaves_the_scene_where_only_the_geometry_is_in_the_way(tmp_path):
     refused = subprocess.run([PROGRAM, "new", "a"], cwd=tmp_path, capture_output=True, text=True)
     assert refused.returncode == 1 and "a.geo" in refused.stderr
     assert sorted(os.listdir(tmp_path)) == ["a.geo"] and (tmp_path / "a.geo").read_text() == "mine"
+
+
+@pytest.mark.parametrize("kilobytes", [0, 1])
+def test_new_leaves_nothing_where_there_is_no_room(tmp_path, kilobytes):
+    with limited(resource.RLIMIT_FSIZE, kilobytes):
+        full = subprocess.run([PROGRAM, "new", "a"], cwd=tmp_path, capture_output=True, text=True)
+    assert full.returncode == 1 and full.stderr.startswith("mortise: new: cannot write a.") and not os.listdir(tmp_path), full
 
 
 @pytest.mark.parametrize("name", ["", "a/b", "-a", "a b", "a" * 64])

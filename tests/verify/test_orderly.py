@@ -2,7 +2,9 @@
 import json
 import math
 import os
+import shutil
 import subprocess
+import time
 
 import pytest
 
@@ -157,6 +159,29 @@ def test_batch(tmp_path):
     assert "converged" in (tmp_path / "cube.log").read_text() and "mesh.file" in (tmp_path / "bad.log").read_text()
     done = subprocess.run([*command, str(ROOT / "inputs/cube.yml")], cwd=tmp_path, env=env, capture_output=True, text=True)
     assert done.returncode == 1 and "two scenes are called cube" in done.stderr and not done.stdout, done
+
+
+@pytest.mark.parametrize("words,said", [(["-n"], "-n is ''; allowed: an integer, 1 or more"), (["-n", "two", "cube.yml"], "-n is 'two'"), (["-h"], "'-h' is no scene"),
+                                        (["log.yml"], "log.log cannot be written"), (["cube.yml"], "no temporary directory can be made"), (["-n", "2", "cube.yml"], "needs mpiexec")])
+def test_batch_refuses(tmp_path, words, said):
+    (tmp_path / "log.log").mkdir()
+    place = "TMPDIR" if "temporary" in said else "PATH" if "mpiexec" in said else "NOTHING"
+    if place == "PATH":
+        for name in "bash", "dirname": (tmp_path / name).symlink_to(shutil.which(name))
+    env = {**os.environ, "MORTISE": str(PROGRAM), place: str(tmp_path / "none" if place == "TMPDIR" else tmp_path)}
+    done = subprocess.run(["/bin/bash", ROOT / "scripts/hpc/batch", *words], cwd=tmp_path, env=env, capture_output=True, text=True)
+    assert done.returncode == 1 and said in done.stderr and done.stderr.count("\n") == 1 and not done.stdout, done
+
+
+def test_batch_stops(tmp_path):
+    """The run with it, with a checkpoint, and no other is begun."""
+    scene = json.dumps(json.loads(strip(tmp_path, "-0.1*t", load={"step": 0.000005, "max_steps": 200000}, output={"fields": False}, adapt={})))
+    for name in "ab": (tmp_path / f"{name}.yml").write_text(scene)
+    process = subprocess.Popen([ROOT / "scripts/hpc/batch", "a.yml", "b.yml"], cwd=tmp_path, env={**os.environ, "MORTISE": str(PROGRAM)}, stdout=subprocess.PIPE, text=True)
+    while not (tmp_path / "out/a/checkpoint.h5").exists() and process.poll() is None: time.sleep(0.01)
+    process.terminate()
+    said = process.communicate(timeout=60)[0]
+    assert process.returncode == 3 and said.split("(")[0].split() == ["a", "stopped"] and not (tmp_path / "out/b").exists() and not (tmp_path / "out/a/lock").exists(), said
 
 
 def test_recoveries_are_switched(run):
