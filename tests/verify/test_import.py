@@ -3,6 +3,9 @@
 The reference is two bent blocks written by boxmesh; its cells are written here in each format, order 2 without the nodes in the middle of faces and cells, which
 the map of the blocks, a polynomial of degree 2, gives back exactly.
 """
+import contextlib
+import functools
+import io
 import os
 import re
 import resource
@@ -251,8 +254,26 @@ def energy(run, directory, file, dim, names=None):
     return result.summary["energy"]
 
 
+@functools.lru_cache(None)
+def script():
+    """scripts/import without its last line, which starts it."""
+    names = {"__name__": "import"}
+    exec(compile((ROOT / "scripts/import").read_text().rsplit("main()", 1)[0], ROOT / "scripts/import", "exec"), names)
+    return names["main"]
+
+
 def convert(*arguments):
-    return subprocess.run([ROOT / "scripts/import", *map(str, arguments)], capture_output=True, text=True)
+    """scripts/import in this process: to start Python and its libraries takes a second, once for all."""
+    words, streams, status = ["import", *map(str, arguments)], [io.TextIOWrapper(io.BytesIO()) for _ in range(2)], 0
+    with contextlib.redirect_stdout(streams[0]), contextlib.redirect_stderr(streams[1]), pytest.MonkeyPatch.context() as patch:
+        patch.setattr("sys.argv", words)
+        try:
+            script()()
+        except SystemExit as end:
+            status = end.code if isinstance(end.code, int) else 1
+            if status and not isinstance(end.code, int): print(end.code, file=streams[1])
+    for stream in streams: stream.flush()
+    return subprocess.CompletedProcess(words, status, *(stream.buffer.getvalue().decode() for stream in streams))
 
 
 CASES = [(".inp", write_inp, 2, 1), (".inp", write_inp, 2, 2), (".inp", write_inp_assembly, 3, 1), (".inp", write_inp, 3, 2),
