@@ -226,7 +226,7 @@ def limited(what, kilobytes):
         resource.setrlimit(what, before)
 
 
-@pytest.mark.parametrize("megabytes,words", [(600, "for 1048576 cells (mesh.refine: 9)"), (450, "out of memory"), (350, "(ulimit -v)"), (200, "(ulimit -v)")])
+@pytest.mark.parametrize("megabytes,words", [(600, "for 1048576 cells (mesh.refine: 9)"), (450, "out of memory"), (350, "(ulimit -v, ulimit -d)"), (200, "(ulimit -v, ulimit -d)")])
 def test_out_of_memory(run, tmp_path, megabytes, words):
     """One sentence that says for what."""
     text = block(tmp_path)
