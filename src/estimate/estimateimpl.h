@@ -83,6 +83,8 @@ typedef struct {
   PetscReal *dA;          /* [facets.num_points] weight times reference area */
   PetscReal *modulus;     /* [facets.num_points] mean of the sides': the weight is the same seen from either side, and a soft neighbour of a hard body is not
                              overestimated */
+  PetscReal (*flux)[3];   /* [facets.num_points] cof F N of side 0: what a unit of pressure adds to its traction */
+  PetscReal *compliance;  /* [num_owned_cells] of cells whose pressure is one number: what a unit of it adds to eta2 inside; else -1 */
   PetscReal *eta2;        /* [num_leaves] sums of this rank */
   PetscReal (*along)[3];  /* [num_leaves] sums of this rank: eta2 that can be told to come from each axis; NULL: not wanted */
   PetscReal part[NUM_PARTS], energy;
@@ -139,6 +141,11 @@ PetscErrorCode EstimateTracePoints_Private(const EstimateSum *, PetscInt cell, P
 PetscErrorCode EstimateTraces_Private(EstimateSum *, PetscInt cell, const PetscReal position[], const PetscReal J[], const PetscReal F[], const PetscReal P[],
                                       PetscReal modulus);
 PetscErrorCode EstimateFacets_Private(EstimateSum *, const PetscReal height[][3]);
+/* The share of an owned side in the sum over a facet's points of Free(defect)/mu: what eta2 of its leaf has; and Free(defect), as far as it counts. */
+PetscReal EstimateFacetWeight_Private(const EstimateSum *, const FacetPlace *, PetscInt side, const PetscReal height[][3]);
+PetscReal EstimateFree_Private(const EstimateSum *, const FacetPlace *, PetscInt point, const PetscReal defect[3]);
+/* level.c: levels of the pressures of cells of order 1, for which the estimate is least; into defect, eta2 and part. Collective. */
+PetscErrorCode EstimateLevels_Private(EstimateSum *, MPI_Comm, const PetscReal height[][3]);
 /* contactterm.c */
 PetscErrorCode ContactTermsCreate_Private(Problem, ContactTerms *);
 PetscErrorCode ContactTermsDestroy_Private(ContactTerms *);

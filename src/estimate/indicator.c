@@ -1,7 +1,7 @@
 /* The residual estimate: sums over cells (equilibrium inside, incompressibility), then over facets, then over ranks.
 
      eta_K^2 = scale { h^2/(p^2 m) |Div P + B|^2 + 1/2 sum h/(p m) |[P N]|^2 + sum h/(p m) |P N - T|^2 } + complementarity of contact
-     mixed cells: P with the recovered pressure (recover.c), + 1/kappa |q|^2 + w |g - Proj g|^2
+     mixed cells: P with the recovered pressure (recover.c; its level in cells of order 1: level.c), + 1/kappa |q|^2 + w |g - Proj g|^2
      m, scale: EstimateModulus_Private, EstimateScale_Private
 
    (docs/theory.md, error estimation). Div P is exact for the polynomial through the values of P at the Gauss points. */
@@ -161,13 +161,17 @@ static PetscReal VolumetricModulus_Private(const EstimateSum *sum, const Materia
 /* Incompressibility: 1/kappa |q|^2, the error of the pressure as recovered (modulus for kappa where that is more, for q balances the error of the stress), and
    w |g - Proj g|^2, w = 2 mu / (1 + 2 mu / kappa): a volume error that the pressure space does not see is answered by shear, however stiff the material is
    against its mean. */
-static PetscErrorCode Volume_Private(const EstimateSum *sum, const MaterialSpec *material, const VolumeTable *table, PetscReal modulus, CellWork *w,
-                                     PetscReal *square)
+static PetscErrorCode Volume_Private(const EstimateSum *sum, PetscInt cell, const MaterialSpec *material, const VolumeTable *table, PetscReal modulus,
+                                     CellWork *w, PetscReal *square)
 {
   const PetscReal kappa = VolumetricModulus_Private(sum, material);
 
   PetscFunctionBegin;
   *square = WeightedSquare_Private(table->num, 1, w->weight, w->recovered) / PetscMax(kappa, modulus);
+  if (table->order == 1) {
+    sum->compliance[cell] = 0;
+    for (PetscInt q = 0; q < table->num; ++q) sum->compliance[cell] += w->weight[q] / PetscMax(kappa, modulus);
+  }
   PetscCall(UnseenVolume_Private(sum, material, table, w));
   *square += 2 * material->mu / (1 + 2 * material->mu / kappa) * WeightedSquare_Private(table->num, 1, w->weight, w->g);
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -196,7 +200,7 @@ static PetscErrorCode OwnedCell_Private(EstimateSum *sum, PetscInt cell, const V
   sum->part[PART_INTERIOR] += square;
   EstimateInterior_Private(sum, leaf, table->num, w->weight, w->S, square);
   if (!material->mixed) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(Volume_Private(sum, material, table, modulus, w, &square));
+  PetscCall(Volume_Private(sum, cell, material, table, modulus, w, &square));
   sum->eta2[leaf] += square;
   sum->part[PART_VOLUME] += square;
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -315,10 +319,12 @@ PetscErrorCode EstimateBulk_Private(EstimateSum *sum)
   sum->energy = 0;
   PetscCall(PetscArrayzero(sum->part, NUM_PARTS));
   PetscCall(FacetListCreate_Private(sum, &sum->facets));
-  PetscCall(PetscCalloc4(sum->facets.num_points, &sum->defect, sum->facets.num_points, &sum->normal, sum->facets.num_points, &sum->dA, sum->facets.num_points,
-                         &sum->modulus));
-  PetscCall(PetscCalloc1(sum->v->num_owned_cells, &height));
+  PetscCall(PetscCalloc5(sum->facets.num_points, &sum->defect, sum->facets.num_points, &sum->normal, sum->facets.num_points, &sum->flux, sum->facets.num_points,
+                         &sum->dA, sum->facets.num_points, &sum->modulus));
+  PetscCall(PetscCalloc2(sum->v->num_owned_cells, &height, sum->v->num_owned_cells, &sum->compliance));
+  for (PetscInt c = 0; c < sum->v->num_owned_cells; ++c) sum->compliance[c] = -1;
   PetscCall(Cells_Private(sum, height));
+  PetscCall(EstimateLevels_Private(sum, ForestComm(forest), height));
   PetscCall(EstimateFacets_Private(sum, height));
   if (sum->contact) {
     PetscCall(EstimateComplementarity_Private(sum));
@@ -326,8 +332,8 @@ PetscErrorCode EstimateBulk_Private(EstimateSum *sum)
     PetscCall(EstimateSlip_Private(sum));
   }
   if (sum->along) PetscCall(EstimateDoubts_Private(sum));
-  PetscCall(PetscFree(height));
-  PetscCall(PetscFree4(sum->defect, sum->normal, sum->dA, sum->modulus));
+  PetscCall(PetscFree2(height, sum->compliance));
+  PetscCall(PetscFree5(sum->defect, sum->normal, sum->flux, sum->dA, sum->modulus));
   PetscCall(FacetListDestroy_Private(&sum->facets));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

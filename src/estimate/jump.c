@@ -113,7 +113,10 @@ PetscErrorCode EstimateTraces_Private(EstimateSum *sum, PetscInt cell, const Pet
       if (dim == 3) weight *= gauss->weights[q / f->num_1d];
       if (sum->spec->model == MODEL_AXISYMMETRIC) weight *= 2 * PETSC_PI * position[0];
       sum->dA[point] = weight * OutwardArea_Private(side->side, J, normal);
-      if (side == &f->side[0]) PetscCall(PetscArraycpy(sum->normal[point], normal, 3));
+      if (side == &f->side[0]) {
+        PetscCall(PetscArraycpy(sum->normal[point], normal, 3));
+        Follower_Private(-1, sum->spec->kinematics, F, normal, sum->flux[point]);
+      }
       sum->modulus[point] +=
           PetscMax(modulus, EstimateTangent_Private(material, sum->spec->kinematics, F, P)) * (f->side[0].cell >= 0 && f->side[1].cell >= 0 ? 0.5 : 1);
       PetscCall(Defect_Private(sum, f, touches, position, normal, F, P, sum->defect[point]));
@@ -143,6 +146,24 @@ static PetscReal Free_Private(PetscInt dim, PetscInt fixed, PetscBool outer, con
   return (slides && outer ? 2 : 1) * Dot3(d, d);
 }
 
+PetscReal EstimateFree_Private(const EstimateSum *sum, const FacetPlace *f, PetscInt point, const PetscReal defect[3])
+{
+  const PetscBool inside = (PetscBool)(f->side[0].cell >= 0 && f->side[1].cell >= 0);
+
+  return Free_Private(sum->v->dim, f->fixed, (PetscBool)(!inside && !f->loaded), sum->normal[point], defect);
+}
+
+PetscReal EstimateFacetWeight_Private(const EstimateSum *sum, const FacetPlace *f, PetscInt side, const PetscReal height[][3])
+{
+  const FacetSide *s       = &f->side[side];
+  const PetscBool  inside  = (PetscBool)(f->side[0].cell >= 0 && f->side[1].cell >= 0);
+  PetscReal        modulus = 0;
+
+  if (s->cell < 0 || s->cell >= sum->v->num_owned_cells) return 0;
+  for (PetscInt q = f->first_point; q < f->first_point + NumPoints_Private(sum->v->dim, f); ++q) modulus = PetscMax(modulus, sum->modulus[q]);
+  return EstimateScale_Private(f->order) * (inside ? 0.5 : 1) / f->order * height[s->cell][s->side / 2] / modulus;
+}
+
 /* eta2 of owned leaves += scale * share * h/(p mu) |defect|^2; h: the leaf's height over the facet, p: the order of the trace. */
 PetscErrorCode EstimateFacets_Private(EstimateSum *sum, const PetscReal height[][3])
 {
@@ -152,16 +173,14 @@ PetscErrorCode EstimateFacets_Private(EstimateSum *sum, const PetscReal height[]
   for (PetscInt i = 0; i < sum->facets.num; ++i) {
     const FacetPlace *f      = &sum->facets.facets[i];
     const PetscBool   inside = (PetscBool)(f->side[0].cell >= 0 && f->side[1].cell >= 0);
-    const PetscReal   weight = EstimateScale_Private(f->order) * (inside ? 0.5 : 1) / f->order;
     const PetscInt    part   = inside ? PART_JUMP : ContactTermsHave_Private(sum->contact, f->facet) ? PART_CONTACT : PART_BOUNDARY;
-    PetscReal         square = 0, modulus = 0;
-    for (PetscInt q = f->first_point; q < f->first_point + NumPoints_Private(dim, f); ++q) modulus = PetscMax(modulus, sum->modulus[q]);
+    PetscReal         square = 0;
     for (PetscInt q = f->first_point; q < f->first_point + NumPoints_Private(dim, f); ++q)
-      square += sum->dA[q] / modulus * Free_Private(dim, f->fixed, (PetscBool)(!inside && !f->loaded), sum->normal[q], sum->defect[q]);
+      square += sum->dA[q] * EstimateFree_Private(sum, f, q, sum->defect[q]);
     for (PetscInt s = 0; s < 2; ++s) {
       const FacetSide *side = &f->side[s];
       if (side->cell < 0 || side->cell >= sum->v->num_owned_cells) continue;
-      const PetscReal value = weight * height[side->cell][side->side / 2] * square;
+      const PetscReal value = EstimateFacetWeight_Private(sum, f, s, height) * square;
       sum->eta2[sum->v->cell_leaf[side->cell]] += value;
       sum->part[part] += value;
       if (inside && sum->along) sum->along[sum->v->cell_leaf[side->cell]][side->side / 2] += value;

@@ -106,6 +106,16 @@ def test_hp_of_rubber(run, ranks):
     assert result.summary["dofs"] < 2211  # what order 2 takes, split only
 
 
+def test_incompressible_cells_of_order_1(run):
+    """Their pressures alternate from cell to cell on adapted meshes, with no error in forces: the estimate does not tell them as one, and the tolerance is met."""
+    result = run("inputs/rubber2d.yml", "-order", 1, "-material_rubber_nu", 0.5, "-boundary_top_displacement_y", -0.1, "-adapt_tolerance", 0.12,
+                 "-output_fields", "false")
+    assert result.returncode == 0, result
+    estimates = [row["estimated_error"] for row in result.adapt]
+    assert all(after < before for before, after in zip(estimates, estimates[1:])), estimates
+    assert abs(-result.summary["reaction"]["top"][1] / 0.07195 - 1) < 0.012  # about the square of the estimate
+
+
 def test_p_leaves_cells_at_linear_faces_alone(run):
     """Orders rise to 8 where they may, and what is left to do is said."""
     result = run(SCENE, *LINEAR, "-adapt_strategy", "p", "-adapt_tolerance", 0.001, "-adapt_max_passes", 30)
