@@ -2,31 +2,52 @@
 #include "appimpl.h"
 #include <cjson/cJSON.h>
 
-#define MUCH 0.3 /* share of the squared estimate in one cell that says where a run is stuck */
+/* Largest first. */
+static int Larger_Private(const void *a, const void *b)
+{
+  const PetscReal x = *(const PetscReal *)a, y = *(const PetscReal *)b;
+  return (x < y) - (x > y);
+}
 
-/* Where most of the error is, when it is in one place. */
+/* The fewest cells that hold half of the squared estimate. */
+static PetscErrorCode Half_Private(const Estimate *e, PetscInt *num)
+{
+  PetscReal *eta2, sum = 0;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(e->num_leaves, &eta2));
+  PetscCall(PetscArraycpy(eta2, e->eta2, e->num_leaves));
+  qsort(eta2, (size_t)e->num_leaves, sizeof(*eta2), Larger_Private);
+  for (*num = 0; *num < e->num_leaves && sum < 0.5 * PetscSqr(e->total);) sum += eta2[(*num)++];
+  PetscCall(PetscFree(eta2));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Where half of the error is, when it is in few cells: round a few singular points, say; of what is spread over a surface or a body it is a share of all
+   cells. */
 static PetscErrorCode Worst_Private(const App *app)
 {
   const Estimate     *e     = &app->estimate;
   const PetscReal     mid[] = {0.5, 0.5, 0.5};
   const ForestTables *t;
   const CoarseMesh   *mesh;
-  PetscInt            worst = 0;
+  PetscInt            worst = 0, half;
   PetscReal           X[3];
 
   PetscFunctionBegin;
   PetscCall(ForestGetTables(app->level.forest, &t));
-  if (!app->estimated || e->num_leaves != t->num_leaves) PetscFunctionReturn(PETSC_SUCCESS);
+  if (!app->estimated || e->num_leaves != t->num_leaves || !(e->total > 0)) PetscFunctionReturn(PETSC_SUCCESS);
   for (PetscInt l = 1; l < e->num_leaves; ++l)
     if (e->eta2[l] > e->eta2[worst]) worst = l;
-  const PetscReal share = e->total > 0 ? e->eta2[worst] / (e->total * e->total) : 0;
-  if (share < MUCH) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(Half_Private(e, &half));
+  if (half * half > e->num_leaves) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(ForestGetCoarse(app->level.forest, &mesh));
   PetscCall(ForestMapPoint(app->level.forest, worst, mid, X));
   PetscCall(PetscPrintf(app->comm,
-                        "note: %.0f %% of the squared error estimate are in one cell, at (%.4g, %.4g, %.4g) of body %s: a sharp corner or the end of a support "
-                        "there may be in the way\n",
-                        100 * (double)share, (double)X[0], (double)X[1], (double)X[2], mesh->body_name[t->leaf_body[worst]]));
+                        "note: half of the squared error estimate is in %" PetscInt_FMT " of %" PetscInt_FMT
+                        " cells, the worst at (%.4g, %.4g, %.4g) of body %s: a sharp "
+                        "corner or the end of a support there may be in the way; rounded off it would not be\n",
+                        half, e->num_leaves, (double)X[0], (double)X[1], (double)X[2], mesh->body_name[t->leaf_body[worst]]));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
