@@ -183,6 +183,22 @@ static PetscErrorCode CheckSize_Private(const CoarseMesh *mesh, PetscInt cell)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Would a cell be sound with straight sides between its corners? */
+static PetscBool IsSoundStraight_Private(const CoarseMesh *mesh, PetscInt cell)
+{
+  const PetscInt p = mesh->geometry_order, q = p + 1, n = q * q * (mesh->dim == 3 ? q : 1);
+  PetscReal      corner[8][3];
+  CoarseMesh     one = *mesh;
+
+  for (PetscInt k = 0; k < 1 << mesh->dim; ++k) {
+    const PetscInt node = p * ((k & 1) + q * ((k >> 1) & 1) + q * q * (k >> 2));
+    for (PetscInt c = 0; c < 3; ++c) corner[k][c] = mesh->cell_geometry[3 * (n * cell + node) + c];
+  }
+  one.geometry_order = 1;
+  one.cell_geometry  = corner[0];
+  return (PetscBool)(ForestCoarseJacobianSign(&one, 0) > 0);
+}
+
 static PetscErrorCode CheckCells_Private(const CoarseMesh *mesh)
 {
   PetscReal X[3];
@@ -192,9 +208,11 @@ static PetscErrorCode CheckCells_Private(const CoarseMesh *mesh)
     if (ForestCoarseJacobianSign(mesh, c) > 0) continue;
     CellCentre_Private(mesh, c, X);
     PetscCall(CheckSize_Private(mesh, c));
-    return ErrorInput("mesh cell %" PetscInt_FMT " of %" PetscInt_FMT
-                      ", centre (%g, %g, %g), is inverted or degenerate: its Jacobian determinant is not positive everywhere",
-                      c + 1, mesh->num_cells, (double)X[0], (double)X[1], (double)X[2]);
+    return ErrorInput(
+        "mesh cell %" PetscInt_FMT " of %" PetscInt_FMT
+        ", centre (%g, %g, %g), is inverted or degenerate: its Jacobian determinant is not positive everywhere%s",
+        c + 1, mesh->num_cells, (double)X[0], (double)X[1], (double)X[2],
+        mesh->geometry_order > 1 && IsSoundStraight_Private(mesh, c) ? "; with straight sides it would be: smaller cells there, or a lower mesh.order" : "");
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

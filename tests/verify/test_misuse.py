@@ -183,6 +183,7 @@ def msh(nodes=SQUARE, cells=CELLS, names=('1 3 "bottom"', '2 1 "lower"')):
     (msh([*SQUARE, (0, 0), (1, 0)], ["1 2 3 1 5 6", CELLS[1]]), "element 1 of a boundary group is no facet of a cell"),
     (msh(names=('1 3 "bottom"', '2 1"lower"')), "a line of $PhysicalNames"), (msh(names=('1 3\x1b "bottom"', '2 1 "lower"')), "a line of $PhysicalNames"),
     (msh(names=('1 3 4680"bottom"', '2 1 "lower"')), "a line of $PhysicalNames"),
+    (msh([*SQUARE, (0.5, 0.9), (1, 0.5), (0.5, 1), (0, 0.5), (0.5, 0.5)], ["8 2 3 1 1 2 5", "10 2 1 1 1 2 3 4 5 6 7 8 9"]), "positive everywhere; with straight sides it would be"),
 ])
 def test_mesh(run, tmp_path, mesh, words):
     if mesh is None:
