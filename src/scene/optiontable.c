@@ -173,7 +173,9 @@ const Option Options[] = {
      SCENE(data.load.stop_displacement)},
 
     {"adapt.tolerance", KEY_REAL, "", "0", "[0,1)", "relative estimated error to reach, in the energy norm; 0: no adaptation", SCENE(data.adapt.tolerance)},
-    {"adapt.max_passes", KEY_INT, "", "10", "[0,100]", "adaptive passes at each load step; repeat: path: of the whole path", SCENE(data.adapt.max_passes)},
+    {"adapt.max_passes", KEY_INT, "", TEXT(FOREST_MAX_LEVEL), "[0,100]",
+     "adaptive passes at each load step; repeat: path: of the whole path; by default as many as a cell can be split, so that max_cells is the limit",
+     SCENE(data.adapt.max_passes)},
     {"adapt.max_cells", KEY_INT, "", "200000", "[1,100000000]",
      "no refinement beyond this number of cells, counted as in summary.json: with those of rigid bodies", SCENE(data.adapt.max_cells)},
     {"adapt.fraction", KEY_REAL, "", "0.8", "(0,1]", "share of the squared estimate that the cells to be refined carry", SCENE(data.adapt.fraction)},

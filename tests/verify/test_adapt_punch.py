@@ -44,6 +44,12 @@ def test_depth_either_side(run, nonmortar, order):
     assert abs(error) < 1e-3, error
 
 
+def test_as_many_passes_as_it_takes(run):
+    """At a singular edge a pass takes off as much as one split of the cells there does: no limit but that of the tolerance ends adaptation."""
+    result = run("punch.yml", "-order", 3, "-adapt_tolerance", 0.004, text=SCENE.replace("NONMORTAR", "face").replace("MORTAR", "surface"))
+    assert result.returncode == 0 and result.summary["adapt_passes"] > 10, result
+
+
 @pytest.mark.parametrize("order", [2, 3, 4])
 @pytest.mark.parametrize("passes", [0, 3])
 def test_few_facets_are_told(run, order, passes):
