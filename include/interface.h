@@ -229,6 +229,10 @@ PetscErrorCode InterfaceSwitch(Interface, const InterfaceSystem *, Vec dx, Vec r
 PetscErrorCode InterfaceFindSliding(Interface, PetscReal pending, PetscBool swap, uint64_t *pairs);
 /* Pairs whose open gaps under pressure are too wide, against their facets, for the turning of directions to mean anything; and those without pressure. */
 PetscErrorCode InterfaceFindWide(Interface, uint64_t *pairs);
+/* carryforce.c: weights at the state that was evaluated last are kept; then, after a step dx along which weights have grown where facets were covered in part,
+   the change of the multipliers there is taken as one of forces. changed: there was one. Collective. */
+PetscErrorCode InterfaceKeepWeights(Interface);
+PetscErrorCode InterfaceCarryForces(Interface, Vec dx, PetscBool *changed);
 /* Pairs that have borne nothing yet. */
 PetscErrorCode InterfaceFindUntouched(Interface, uint64_t *pairs);
 /* Are there facets under pressure whose forces frozen segmentation would change? */

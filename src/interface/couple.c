@@ -155,7 +155,7 @@ PetscErrorCode ContactCreate_Private(Interface p, const ContactSpec *spec, Conta
   if (!spec->see_through && !c->law->ties) PetscCall(ContactPairSetHull(c->pair, p->hull, c->part[0], c->part[1], deepest));
   const PetscInt n = c->side[0].num_nodes;
   PetscCall(PetscCalloc6(c->num * n, &c->z, n, &c->gap, n, &c->weight, n, &c->w0, n, &c->extent, n, &c->c));
-  PetscCall(PetscCalloc3(n, &c->spring, n, &c->coupled, n, &c->softness));
+  PetscCall(PetscCalloc4(n, &c->spring, n, &c->coupled, n, &c->softness, n, &c->before));
   PetscCall(PetscCalloc5(n, &c->active, n, &c->has_multiplier, n, &c->lift, n, &c->change, n, &c->near));
   PetscCall(PetscMalloc1(c->side[0].num_facets, &c->result));
   PetscCall(PetscMalloc4(n, &c->zdof, n, &c->zlocal, n, &c->gap0, n, &c->offset));
@@ -190,7 +190,7 @@ PetscErrorCode ContactDestroy_Private(Contact *c)
   PetscCall(SurfaceDestroy_Private(&c->side[0]));
   PetscCall(SurfaceDestroy_Private(&c->side[1]));
   PetscCall(PetscFree6(c->z, c->gap, c->weight, c->w0, c->extent, c->c));
-  PetscCall(PetscFree3(c->spring, c->coupled, c->softness));
+  PetscCall(PetscFree4(c->spring, c->coupled, c->softness, c->before));
   PetscCall(PetscFree5(c->active, c->has_multiplier, c->lift, c->change, c->near));
   PetscCall(PetscFree(c->result));
   PetscCall(PetscFree4(c->zdof, c->zlocal, c->gap0, c->offset));

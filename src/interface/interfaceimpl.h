@@ -159,6 +159,7 @@ typedef struct {
   PetscInt            *zlocal;                   /* [n] its position in this rank's part of the vector, -1: not here */
   PetscReal           *z;                        /* [num][n] */
   PetscReal           *gap, *weight, *spring;    /* [n] spring: S_jj of contact.h */
+  PetscReal           *before;                   /* [n] weight at the last linearisation of nodes of facets covered in part; else infinite */
   PetscReal           *coupled;                  /* [n] sum of S_jl z_l over other nodes */
   PetscReal           *softness;                 /* [n] extent / E */
   PetscReal           *w0, *extent, *c;          /* [n] reference measure, its extent along the surface, E / extent */

@@ -5,7 +5,7 @@
 
 static const Modifier *const Modifiers[] = {&ModifierFrozenSegmentation, &ModifierStall,        &ModifierFrozenNormals, &ModifierFirstTouch,
                                             &ModifierProximalShift,      &ModifierSlideLimiter, &ModifierYieldEdge,     &ModifierSlidePredictor,
-                                            &ModifierLineSearch,         &ModifierSecantFlow};
+                                            &ModifierCarriedForce,       &ModifierLineSearch,   &ModifierSecantFlow};
 #define NUM ((PetscInt)PETSC_STATIC_ARRAY_LENGTH(Modifiers))
 _Static_assert(PETSC_STATIC_ARRAY_LENGTH(Modifiers) <= SOLVER_MOST_MODIFIERS, "SolverReport has no room for all modifiers");
 
@@ -57,6 +57,21 @@ PetscErrorCode ModifiersCorrect_Private(Solver s, const Iterate *it, Vec dx, Pet
     if (s->mode[i] == MODIFIER_OFF || !Modifiers[i]->correct) continue;
     PetscCall(Modifiers[i]->correct(s, it, dx, &acts, again));
     if (acts) ++s->report->modifiers[i];
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode ModifiersMoved_Private(Solver s, const Iterate *it, Vec dx, PetscReal step)
+{
+  PetscFunctionBegin;
+  for (PetscInt i = 0; i < NUM && !s->report->status.bad; ++i) {
+    PetscBool acts = PETSC_FALSE;
+    if (s->mode[i] == MODIFIER_OFF || !Modifiers[i]->moved) continue;
+    PetscCall(Modifiers[i]->moved(s, dx, &acts));
+    if (!acts) continue;
+    ++s->report->modifiers[i];
+    PetscCall(ProblemStepMove(s->problem, dx, step, PETSC_FALSE, it->x));
+    PetscCall(SNESComputeFunction(s->snes, it->x, it->r));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

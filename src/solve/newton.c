@@ -94,6 +94,7 @@ static PetscErrorCode Move_Private(Solver s, const Iterate *it, Vec dx)
     ++s->halvings;
     PetscCall(PetscInfo(s->snes, "step %g leaves the domain\n", (double)step));
   }
+  if (!s->report->status.bad) PetscCall(ModifiersMoved_Private(s, it, dx, step));
   if (!s->report->status.bad && pending == 0) PetscCall(ModifiersShorten_Private(s, it, dx, &step));
   s->step = step;
   if (!s->report->status.bad) PetscCall(ProblemStepAccept(s->problem, step, s->pressure));

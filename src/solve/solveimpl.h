@@ -96,6 +96,8 @@ typedef struct {
   PetscErrorCode (*linearise)(Solver, const Iterate *, const Form *last, PetscBool always, PetscBool *acts);
   /* Looks at the linear step dx and changes it, or changes s->form and asks for it again. */
   PetscErrorCode (*correct)(Solver, const Iterate *, Vec dx, PetscBool *acts, PetscBool *again);
+  /* Looks at a step that has been moved along; acts: it has changed the multipliers of dx, which are put in anew. */
+  PetscErrorCode (*moved)(Solver, Vec dx, PetscBool *acts);
   /* Looks at the residual after a step, it->r, and takes back part of the step; it->norm: at its start. Not where motion was prescribed
      on the way, whose work is not known. */
   PetscErrorCode (*shorten)(Solver, const Iterate *, Vec dx, PetscReal *step, PetscBool *acts);
@@ -104,12 +106,13 @@ typedef struct {
 } Modifier;
 
 extern const Modifier ModifierFrozenSegmentation, ModifierStall, ModifierFrozenNormals, ModifierFirstTouch, ModifierProximalShift, ModifierSlideLimiter,
-    ModifierYieldEdge, ModifierSecantFlow, ModifierSlidePredictor, ModifierLineSearch;
+    ModifierYieldEdge, ModifierSecantFlow, ModifierSlidePredictor, ModifierLineSearch, ModifierCarriedForce;
 /* modifier.c: all that are not off, in the order of the table. */
 const Modifier *SolverModifier_Private(PetscInt);
 PetscErrorCode  ModifiersBegin_Private(Solver);
 PetscErrorCode  ModifiersLinearise_Private(Solver, const Iterate *);
 PetscErrorCode  ModifiersCorrect_Private(Solver, const Iterate *, Vec dx, PetscBool *again);
+PetscErrorCode  ModifiersMoved_Private(Solver, const Iterate *, Vec dx, PetscReal step);
 PetscErrorCode  ModifiersShorten_Private(Solver, const Iterate *, Vec dx, PetscReal *step);
 PetscErrorCode  ModifiersVerdict_Private(Solver, Iterate *);
 /* linesearch.c: between s[0] and s[1], where g changes its sign: where it does if it is linear, a tenth of the way off either end. */

@@ -18,6 +18,7 @@ NEEDED = [  # modifier, figure of summary.json, how many times as large it is wi
     ("stall", "factorisations", 2, ("tests/gauntlet/upset_strip.yml", "-adapt_tolerance", 0, "-load_step", 0.1, "-newton_line_search", "off")),
     ("secant_flow", None, None, ("tests/gauntlet/upset.yml", "-load_end", 0.2, "-load_step", 0.1, "-load_step_min", 0.1, "-path_predictor", "off")),
     ("line_search", "newton_iterations", 2, ("tests/gauntlet/upset.yml", "-load_end", 0.05)),
+    ("carried_force", "newton_iterations", 2, ("tests/gauntlet/plate_drawn.yml",)),
     ("frozen_normals", "newton_iterations", 2, ("tests/verify/scenes/pressed_cylinder.yml", "-load_step", 1, "-body_plate_motion_y", 0.13)),
 ]
 
