@@ -1,0 +1,28 @@
+// Half a ball in a conical seat of half angle 30 degrees; r-z plane
+DefineConstant[ s = 0.1 ];
+Point(1) = {0, -1, 0, s*1};
+Point(2) = {1, 0, 0, s*1};
+Point(3) = {0, 0, 0, s*2};
+Point(4) = {0, 0, 0}; Circle(1) = {1, 4, 2};
+Line(2) = {2, 3};
+Line(3) = {3, 1};
+Curve Loop(1001) = {1:3}; Plane Surface(1001) = {1001};
+Recombine Surface {1001};
+Point(5) = {0.466, -1.193, 0, s*1};
+Point(6) = {1.8, -1.193, 0, s*2};
+Point(7) = {1.8, 0.0196, 0, s*2};
+Point(8) = {1.166, 0.0196, 0, s*1};
+Line(4) = {5, 6};
+Line(5) = {6, 7};
+Line(6) = {7, 8};
+Line(7) = {8, 5};
+Curve Loop(1004) = {4:7}; Plane Surface(1004) = {1004};
+Recombine Surface {1004};
+Physical Surface("ball") = {1001};
+Physical Curve("skin") = {1};
+Physical Curve("top") = {2};
+Physical Curve("axis") = {3};
+Physical Surface("seat") = {1004};
+Physical Curve("cone") = {7};
+Physical Curve("foot") = {4};
+Physical Curve("rim") = {5};
