@@ -15,13 +15,14 @@ typedef struct {
   PetscBool frozen_segmentation; /* contact forces with the lines of the mortar side frozen (ContactPairFreezeSegmentation) */
   PetscBool frozen_states;       /* nodes keep the states of the last evaluation, and so the branches of their rows: differences are those of one branch */
   /* of a linearisation only: */
-  PetscBool    symmetric;      /* the tangent in its symmetric form, where there is one */
-  uint64_t     released;       /* pairs that take no part in the tangent, their multipliers go to 0 */
-  uint64_t     frozen_normals; /* pairs with tangents at fixed directions */
-  uint64_t     deepest_first;  /* pairs of which those nodes join the active set first that overlap the most */
-  MaterialEdge edge;           /* what tangents expect of points on their yield surface */
-  PetscReal    secant;         /* share of the secant stiffness of plastic flow in the tangent, the rest is its derivative */
-  PetscReal    proximal;       /* share of the small stiffness of bodies that no support holds (MechanicsSetProximalShift) */
+  PetscBool    symmetric;       /* the tangent in its symmetric form, where there is one */
+  uint64_t     released;        /* pairs that take no part in the tangent, their multipliers go to 0 */
+  uint64_t     frozen_normals;  /* pairs with tangents at fixed directions */
+  uint64_t     untouched;       /* pairs that have borne nothing yet: those nodes join the active set first that overlap the most */
+  PetscBool    pressures_first; /* there nobody sticks or slips as yet */
+  MaterialEdge edge;            /* what tangents expect of points on their yield surface */
+  PetscReal    secant;          /* share of the secant stiffness of plastic flow in the tangent, the rest is its derivative */
+  PetscReal    proximal;        /* share of the small stiffness of bodies that no support holds (MechanicsSetProximalShift) */
 } Form;
 
 static inline PetscBool FormHas(uint64_t pairs, PetscInt pair)

@@ -240,9 +240,10 @@ PetscErrorCode InterfaceInsertRows(Interface p, const InterfaceSystem *a)
 /* The law's states of this rank's nodes for the increment dx of their multipliers, into c->active; those before into old, at all nodes known here. */
 static PetscErrorCode States_Private(Interface p, const InterfaceSystem *a, Contact *c, const PetscReal dx[], int8_t old[])
 {
-  Surface   *s     = &c->side[0];
-  PetscReal  least = 0;
-  PetscReal *z, *coupled, *slip;
+  Surface        *s         = &c->side[0];
+  const PetscBool untouched = FormHas(p->form->untouched, (PetscInt)(c - p->contacts));
+  PetscReal       least     = 0;
+  PetscReal      *z, *coupled, *slip;
 
   PetscFunctionBegin;
   PetscCall(PetscMalloc3(c->num * s->num_nodes, &z, s->num_nodes, &coupled, c->num * s->num_nodes, &slip));
@@ -255,7 +256,7 @@ static PetscErrorCode States_Private(Interface p, const InterfaceSystem *a, Cont
   if (c->slip) SlipCoupling_Private(c, z + s->num_nodes, slip);
   PetscCall(ContactChange_Private(p, c, a->increment, c->change));
   if (c->slip) PetscCall(SlipChange_Private(p, c, c->slip->change));
-  if (FormHas(p->form->deepest_first, (PetscInt)(c - p->contacts))) PetscCall(ContactLeastOverlap_Private(p, c, &least));
+  if (untouched) PetscCall(ContactLeastOverlap_Private(p, c, &least));
   PetscCall(PetscArraycpy(old, c->active, s->num_nodes));
   for (PetscInt i = 0; i < s->num_own; ++i) {
     const PetscInt j = s->own[i];
@@ -267,6 +268,7 @@ static PetscErrorCode States_Private(Interface p, const InterfaceSystem *a, Cont
       const PetscInt at = s->num_nodes * d + j;
       point.slip[d] += c->slip->change[at] + slip[at] - c->slip->coupled[at];
     }
+    if (untouched && p->form->pressures_first) point.friction = 0;
     const int8_t active = c->law->state(&point);
     if (active && !c->active[j] && ContactOverlap_Private(c, j) < least) continue;
     if (p->dim == 3 && c->slip && active != c->active[j]) c->law->aim(&point, c->slip->aim + 3 * j);

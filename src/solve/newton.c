@@ -22,18 +22,20 @@ static PetscBool Repeats_Private(Solver s, PetscInt num, uint64_t hash)
   return PETSC_FALSE;
 }
 
-PetscErrorCode SolverActiveSetSolve_Private(Solver s, Vec dx)
+/* again: the matrix has been factorised with other rows of this linearisation; settled: the last pass changed no state. */
+static PetscErrorCode Passes_Private(Solver s, PetscBool again, Vec dx, PetscBool *settled)
 {
+  PetscInt changed = 1;
+
   PetscFunctionBegin;
-  for (PetscInt pass = 0, changed = 1; changed; ++pass) {
+  for (PetscInt pass = 0; changed; ++pass) {
     PetscCall(InterfaceActiveSetHash(ProblemInterface(s->problem), &s->pass_sets[pass]));
     if (Repeats_Private(s, pass, s->pass_sets[pass])) {
       ++s->report->set_cycles;
       PetscCall(PetscInfo(s->snes, "active sets repeat after %" PetscInt_FMT " passes\n", pass));
       break;
     }
-    PetscCall(LinearSolve_Private(s, (PetscBool)(pass > 0), dx));
-    changed = 0;
+    PetscCall(LinearSolve_Private(s, (PetscBool)(again || pass > 0), dx));
     if (s->no_solution || pass == s->passes) break;
     PetscCall(ProblemSwitchActiveSet(s->problem, dx, s->rhs, &changed));
     if (changed) PetscCall(StopAsked(PetscObjectComm((PetscObject)s->snes), &s->report->stopped));
@@ -41,13 +43,42 @@ PetscErrorCode SolverActiveSetSolve_Private(Solver s, Vec dx)
     s->report->set_changes += changed;
     if (changed) PetscCall(PetscInfo(s->snes, "active-set pass %" PetscInt_FMT ": %" PetscInt_FMT " nodes switched\n", pass, changed));
   }
+  *settled = (PetscBool)(changed == 0);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SolverActiveSetSolve_Private(Solver s, Vec dx)
+{
+  PetscBool settled;
+
+  PetscFunctionBegin;
+  PetscCall(Passes_Private(s, PETSC_FALSE, dx, &settled));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* What friction bears is a share of pressures. At first touch there are none: where states go by those of the nodes that happen to be first, they never settle
+   on slender bodies. So the nodes that press are found as without friction, and then who sticks and who slips. What nothing but friction holds may not settle
+   so: then both at once. */
+static PetscErrorCode PressuresFirst_Private(Solver s, Vec dx, PetscBool *settled)
+{
+  PetscInt changed;
+
+  PetscFunctionBegin;
+  PetscCall(Passes_Private(s, PETSC_FALSE, dx, settled));
+  s->form.pressures_first = PETSC_FALSE;
+  if (!*settled || s->no_solution) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(ProblemSetForm(s->problem, &s->form));
+  PetscCall(ProblemSwitchActiveSet(s->problem, dx, s->rhs, &changed));
+  s->report->set_changes += changed;
+  if (changed) PetscCall(Passes_Private(s, PETSC_TRUE, dx, settled));
+  *settled = PETSC_TRUE;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* The tangent at an iterate in the form chosen, and the linear step. */
 static PetscErrorCode Linearise_Private(Solver s, const Iterate *it, Vec dx)
 {
-  PetscBool bad, symmetric;
+  PetscBool bad, symmetric, settled;
 
   PetscFunctionBegin;
   ++s->report->iterations;
@@ -59,7 +90,12 @@ static PetscErrorCode Linearise_Private(Solver s, const Iterate *it, Vec dx)
   s->no_solution = bad;
   if (bad) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(ProblemRightSide(s->problem, it->r, s->lift, s->rhs));
-  PetscCall(SolverActiveSetSolve_Private(s, dx));
+  if (!s->form.pressures_first) {
+    PetscCall(SolverActiveSetSolve_Private(s, dx));
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
+  PetscCall(PressuresFirst_Private(s, dx, &settled));
+  if (!settled && !s->report->stopped) PetscCall(Linearise_Private(s, it, dx));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -534,6 +534,15 @@ def test_round_off_decides_nothing(run):
         assert result.summary["contact"]["pair"]["force"] == pytest.approx(results[0].summary["contact"]["pair"]["force"], rel=1e-9)
 
 
+@pytest.mark.parametrize("cells", [9, 10, 12])
+def test_pressures_first(run, cells):
+    """A belt round pulleys whose nodes match its own is tightened: all gaps are round-off at first touch. As many iterations as without friction; none found where states of friction go by pressures of the nodes that happen to be first."""
+    words = ("-load_end", 0.25, "-mesh_parameter_n", cells, "-mesh_parameter_k", cells, "-path_viscous", "off", "-path_descent", "off", "-load_step_min", 0.1, "-output_fields", "false")
+    smooth, rough, off = (run("tests/gauntlet/pulleys.yml", *words, *more) for more in (("-contact_a_friction", 0, "-contact_b_friction", 0), (), ("-newton_first_touch", "off")))
+    assert smooth.returncode == rough.returncode == 0 != off.returncode, (smooth, rough, off)
+    assert rough.summary["newton_iterations"] <= smooth.summary["newton_iterations"] + 2 and rough.summary["step_cuts"] == 0, rough
+
+
 def test_an_equilibrium_farther_off_depends_on_the_way(run):
     """An O-ring that rolls, in one step for each stage: what viscous regularisation finds is told, and that with friction it is one of many."""
     told = "recovery viscous did, it may be another one than that near by; with friction it depends on the way there"
