@@ -233,7 +233,7 @@ def test_teeth_behind_each_other(run, told, scene, pair):
 @way("A snap hook: a limit point in the motion itself", "end", "-path_viscous auto", "-path_viscous off -path_descent off", show=(2, 0))
 def test_snap(run, told):
     """The snap hook with the nose as the side that carries the pressure: as it comes over either edge of the catch the path of equilibria has a limit point in the motion itself, behind
-    which there is none near by, however short the step. Cutting steps ends there (at a hundredth; cut to a thousandth it gets over both with 868 iterations). The energy has a minimum there all the same, and descent finds it; or by viscous regularisation
+    which there is none near by, however short the step. Cutting steps ends at one of them (at a hundredth; cut to a thousandth it gets over both with 868 iterations). The energy has a minimum there all the same, and descent finds it; or by viscous regularisation
     the hook creeps to the equilibrium it snaps to, and what the snaps set free is told. What is left behind the catch is a hook without stress."""
     sides = ("-contact_snap_nonmortar", "nose", "-contact_snap_mortar", "edge", "-mesh_parameter_r", 0.3)
     naive = run("tests/verify/scenes/snaphook.yml", *sides, "-path_viscous", "off", "-path_descent", "off", "-load_step_min", 0.01)
@@ -242,7 +242,7 @@ def test_snap(run, told):
     s, freed = ours.summary, [(row["t"], row["viscous_work"]) for row in ours.history if row["viscous_work"] > 0]
     print("naive", naive.returncode, naive.summary["t"], naive.summary["newton_iterations"], "ours", s["load_steps"], s["step_cuts"], s["newton_iterations"], freed)
     told(end(ours), end(naive))
-    assert naive.returncode == 2 and naive.summary["t"] < 0.5 and naive.summary["recoveries"]["viscous"]["tried"] == 0
+    assert naive.returncode == 2 and naive.summary["t"] < s["t"] and naive.summary["recoveries"]["viscous"]["tried"] == 0
     d = down.summary
     assert down.returncode == 0 and d["energy"] < 1e-12 and d["recoveries"]["descent"]["succeeded"] >= 1, down
     assert down.stdout.count("recovery descent did") == d["recoveries"]["descent"]["succeeded"]
