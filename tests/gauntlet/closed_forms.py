@@ -107,6 +107,7 @@ FIGURES = {
     "tied_wall": -stacked((0.6, 0.5), ((1, 0.3), (3, 0.3)), 0.2),
     "tied_wall3d": -0.6 * stacked((0.5, 0.5), ((1, 0.3), (3, 0.3)), 0.2),
     "glue_axi": -math.pi * free(0.8, 1, 0.3, 2),
+    "four3d": -free(0.8, 1, 0.3, 2),
     "shrink_reversed": shrink((0.5, 1, 0.98, 2), (70, 210), (0.33, 0.3)),
 }
 
