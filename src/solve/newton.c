@@ -95,7 +95,7 @@ static PetscErrorCode Linearise_Private(Solver s, const Iterate *it, Vec dx)
     PetscFunctionReturn(PETSC_SUCCESS);
   }
   PetscCall(PressuresFirst_Private(s, dx, &settled));
-  if (!settled && !s->report->stopped) PetscCall(Linearise_Private(s, it, dx));
+  if (!settled && !s->report->stopped) PetscCall(Linearise_Private(s, it, dx)); /* anew: the tangent begins with the states that the residual tells */
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

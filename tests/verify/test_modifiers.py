@@ -2,6 +2,7 @@
 import re
 
 import pytest
+from contactkit import is_quadratic, steps
 
 QUIET = ("-output_fields", "false")
 ALONE = ("-path_descent", "off", "-path_viscous", "off")  # what finds the solution elsewise hides what the modifier saves
@@ -64,6 +65,17 @@ def test_finer_meshes(run):
         print(name, plain.summary["estimated_error"], without.summary["estimated_error"])
         assert plain.summary["recoveries"][name]["succeeded"] > 0 == without.summary["recoveries"][name]["tried"]
         assert without.summary["status"] == "inaccurate" and without.summary["estimated_error"] > 0.0125
+
+
+def test_carried_force_keeps_the_order(run):
+    """Residuals fall quadratically to the end where multipliers of nodes on slivers are taken over as forces, and ranks agree."""
+    one, *others = (run("tests/gauntlet/plate_drawn.yml", *QUIET, "-snes_monitor", ranks=ranks) for ranks in (1, 2, 3))
+    assert one.returncode == 0 and one.summary["modifiers"]["carried_force"] > 3, one
+    assert is_quadratic(steps(one)[-1]), steps(one)[-1]
+    for other in others:
+        assert other.summary["newton_iterations"] == one.summary["newton_iterations"]
+        assert other.summary["energy"] == pytest.approx(one.summary["energy"], rel=1e-12)
+        assert other.summary["contact"]["c"]["force"] == pytest.approx(one.summary["contact"]["c"]["force"], rel=1e-10)
 
 
 def test_load_again_on_a_finer_mesh(run):
