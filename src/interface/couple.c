@@ -195,6 +195,7 @@ PetscErrorCode ContactDestroy_Private(Contact *c)
   PetscCall(PetscFree(c->result));
   PetscCall(PetscFree4(c->zdof, c->zlocal, c->gap0, c->offset));
   PetscCall(PetscFree2(c->reach, c->initial));
+  PetscCall(PetscFree2(c->closed, c->mean_gap));
   for (PetscInt k = 0; k < 2; ++k) PetscCall(PetscFree(c->link[k]));
   PetscCall(PetscFree4(c->live, c->valued, c->valued_node, c->pack));
   PetscCall(ContactGatherDestroy_Private(c));

@@ -185,7 +185,7 @@ typedef struct {
   PetscReal           *gap0, *mean0;         /* [n] small kinematics: gaps there, over weights; mean0 NULL: not yet, or finite */
   PetscReal           *offset;               /* [n] constant part of gt_j that does not count: initial gaps closed, interference */
   PetscReal           *reach, *initial;      /* offset.c: [n] what an interference of 1 adds to the offset; initial gap closed or opened at first */
-  PetscReal            interference, open;   /* offset.c: as they are in the offset: interference; share of initial overlaps that does not count */
+  PetscReal           *closed, *mean_gap;    /* offset.c: [num_facets] length that counts as no gap; initial gap, in the mean; NULL: offsets do all */
   PetscReal            overlap, allowance;   /* overlap.c: the deepest at the start, what of it counts as none … */
   PetscInt             shrinks;              /* … for which this side … */
   PetscReal           *inward[2], *moved[2]; /* … lies further in: [n][dim] unit vectors, reference positions then; NULL: not yet made */

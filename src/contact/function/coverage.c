@@ -220,6 +220,7 @@ PetscErrorCode ContactCover(ContactPair pair, const ContactSurface *nonmortar, c
   f->m       = f->D - 1;
   f->nv      = 2 * f->m;
   f->ring    = pair->axisymmetric ? 2 * PETSC_PI : 0;
+  f->closed  = pair->closed ? pair->closed[facet] : 0;
   f->d.order = 1, f->d.num = f->nv;
   ContactRayLatticeGather(nonmortar, facet, &f->s);
   for (PetscInt a = 0; a < f->nv; a++) {

@@ -231,6 +231,14 @@ static PetscErrorCode Hessian_Private(const EvaluateContext *ctx, PetscInt facet
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscErrorCode ContactPairSetClosed(ContactPair pair, const PetscReal closed[])
+{
+  PetscFunctionBegin;
+  pair->closed       = closed;
+  pair->state.stands = PETSC_FALSE;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode ContactPairSetShared(ContactPair pair, const PetscBool shared[])
 {
   PetscFunctionBegin;

@@ -2,7 +2,8 @@
 
    Facet. Position x(xi) = sum N_a x_a on the Gauss-Lobatto lattice, tangents t_k = x,k, n = t_1 x t_2 (plane: t_2 = e_z). Directions d_v at corners are means
    of facet vectors (direction.c), d(xi) their multilinear interpolation. Ray: x(xi) + s d(xi) = x_m(eta). Gap density g = s d.n per dxi: (x_m - x).n, so that
-   where both surfaces coincide the forces are z n whatever d is. Axisymmetric: times 2 pi r.
+   where both surfaces coincide the forces are z n whatever d is; where a part of s counts as closed, a number of the facet, g = (s - closed) d.n.
+   Axisymmetric: times 2 pi r.
 
    Chart. Integration is over a constant plane picture of the facet, Y(xi) multilinear: corners of the reference facet (plane: the square, Y = xi). Mortar
    facets are seen in it by the images of their corners, joined by straight lines: neighbours share images, so they tile the chart. Points of the plane problem
@@ -88,6 +89,7 @@ typedef struct {
   PetscReal  c[4][2];  /* Y = c_0 + c_1 xi_1 + c_2 xi_2 + c_3 xi_1 xi_2 */
   PetscReal  area;     /* of the chart */
   PetscReal  ring;     /* 2 pi or 0 */
+  PetscReal  closed;   /* length along the rays that counts as no gap */
   RayBeyond  beyond;
   RayFrame   middle;
 } RayFacet;
@@ -106,7 +108,7 @@ typedef struct {
   RayChartPoint chart;
   PetscReal     p[3], t[2][3], tt[3][3], ttt[4][3], d[3], di[2][3], dij[3];
   PetscReal     X[3], Xi[2][3], Xij[3][3];
-  PetscReal     xi[2], eta[2], s;
+  PetscReal     xi[2], eta[2], s, left; /* left: of s, what counts as a gap */
   PetscReal     n[3], unit[3], a, beta, rho, turn; /* turn: drho / dr */
   PetscReal     kappa[3], zeta[2][3];              /* ds = kappa . r, deta = zeta . r, r = variation of x + s d - x_m */
 } RayPoint;

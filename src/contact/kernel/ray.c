@@ -73,10 +73,11 @@ static PetscBool Mortar_Private(const RayFacet *f, const RayLattice *mortar, int
 }
 
 /* e = x - x_m, and the length along the ray. Steps zeta . (e + s d) to where they meet do not depend on s: zeta . d = 0, kappa . d = -1. */
-static void Along_Private(RayPoint *r, PetscReal e[3])
+static void Along_Private(const RayFacet *f, RayPoint *r, PetscReal e[3])
 {
   for (int c = 0; c < 3; c++) e[c] = r->p[c] - r->X[c];
-  r->s = Dot3(r->kappa, e);
+  r->s    = Dot3(r->kappa, e);
+  r->left = r->s - f->closed;
 }
 
 /* Does the mortar facet reach as far as where the ray met it? */
@@ -100,7 +101,7 @@ PetscBool ContactRaySolve(const RayFacet *f, const RayLattice *mortar, const Pet
     PetscReal       e[3];
 
     if (!Mortar_Private(f, mortar, last ? depth : 1, r)) return PETSC_FALSE;
-    Along_Private(r, e);
+    Along_Private(f, r, e);
     if (last) return Inside_Private(f, r);
     step = 0;
     for (PetscInt i = 0; i < f->m; i++) {
@@ -123,13 +124,13 @@ PetscBool ContactRayAgain(const RayFacet *f, const RayLattice *mortar, const Ray
   for (int i = 0; i < 2; i++) r->xi[i] = place->xi[i];
   Facet_Private(f, depth, r);
   if (!Mortar_Private(f, mortar, depth, r)) return PETSC_FALSE;
-  Along_Private(r, e);
+  Along_Private(f, r, e);
   return PETSC_TRUE;
 }
 
 PetscReal ContactRayGap(const RayPoint *r)
 {
-  return r->s * r->beta * r->rho;
+  return r->left * r->beta * r->rho;
 }
 
 PetscReal ContactRayArea(const RayPoint *r)
@@ -141,7 +142,7 @@ INLINE void First_Private(PetscInt D, PetscInt na, PetscInt nv, PetscInt nb, con
                           PetscReal area_xi[2])
 {
   const PetscInt  m  = D - 1;
-  const PetscReal br = r->beta * r->rho, sr = r->s * r->rho;
+  const PetscReal br = r->beta * r->rho, sr = r->left * r->rho;
   PetscReal       A[3], B[2][3], C[3], E[3], Aa[3] = {r->a * r->turn, 0, 0}, Ba[2][3];
 
   Cross3(r->t[1], r->d, B[0]);
@@ -149,7 +150,7 @@ INLINE void First_Private(PetscInt D, PetscInt na, PetscInt nv, PetscInt nb, con
   Cross3(r->t[1], r->unit, Ba[0]);
   Cross3(r->unit, r->t[0], Ba[1]);
   for (int c = 0; c < 3; c++) {
-    A[c] = br * r->kappa[c] + (c == 0 ? r->s * r->beta * r->turn : 0);
+    A[c] = br * r->kappa[c] + (c == 0 ? r->left * r->beta * r->turn : 0);
     C[c] = br * r->s * r->kappa[c] + sr * r->n[c];
     E[c] = -br * r->kappa[c];
     for (int k = 0; k < 2; k++) B[k][c] *= sr, Ba[k][c] *= r->rho;

@@ -1,7 +1,7 @@
-/* Second derivatives of phi g at a point, g = s b rho, b = d.n, rho = 1 or 2 pi r, phi a function of xi.
+/* Second derivatives of phi g at a point, g = l b rho, l = s - closed, b = d.n, rho = 1 or 2 pi r, phi a function of xi.
 
    With r = P + s V - M (ray.c) half of d2g at fixed xi is
-     b rho (ds kappa.V - deta_i kappa.M,i - deta_i deta_j kappa.x_m,ij / 2) + s rho (V.dn + d.(T_1 x T_2)) + rho ds db + (b ds + s db) drho.
+     b rho (ds kappa.V - deta_i kappa.M,i - deta_i deta_j kappa.x_m,ij / 2) + l rho (V.dn + d.(T_1 x T_2)) + rho ds db + (b ds + l db) drho.
    Products with few left factors: ds, deta_i, drho; V.dn and T_1 x T_2 couple nodes by one vector for each pair. Derivatives by xi follow with P -> P + t_i
    dxi_i and so on: mixed[i] are full rows, xixi full. */
 #include "kernelimpl.h"
@@ -78,17 +78,17 @@ INLINE void Own_Private(const Layout *l, const RayPoint *r, PetscReal phi, Petsc
   o->num_own = 1;
   v[0] = weight * r->turn, v[1] = v[2] = 0;
   ContactRaySet(D, l->na, r->S.N, v, o->own_left);
-  Scale_Private(phi * r->s, r->d, v);
+  Scale_Private(phi * r->left, r->d, v);
   Normal_Private(r, v, w);
   ContactRaySlopes(D, l->m, l->na, r->S.N, none, r->S.d, w, o->own_right);
-  Scale_Private(phi * r->s, r->n, v);
+  Scale_Private(phi * r->left, r->n, v);
   ContactRaySet(D, l->nv, r->V.N, v, o->own_right + D * l->na);
 }
 
 /* Pairs of nodes. */
 INLINE void Pairs_Private(const Layout *l, const RayPoint *r, PetscReal phi, PetscReal weight, RaySecond *o)
 {
-  const PetscReal factor = weight * phi * r->s * r->rho;
+  const PetscReal factor = weight * phi * r->left * r->rho;
   PetscReal       k[3], u[2][3];
 
   for (int c = 0; c < 3; c++) {
@@ -107,7 +107,7 @@ INLINE void Pairs_Private(const Layout *l, const RayPoint *r, PetscReal phi, Pet
 INLINE void Second_Private(const Layout *l, const RayPoint *r, const RayWeight *phi, PetscReal weight, RaySecond *o)
 {
   const PetscInt  m = l->m, D = l->D, na = l->na, nv = l->nv, nb = l->nb;
-  const PetscReal br = r->beta * r->rho, sr = r->s * r->rho, gap = ContactRayGap(r);
+  const PetscReal br = r->beta * r->rho, sr = r->left * r->rho, gap = ContactRayGap(r);
   PetscReal       Ag[3], Cg[3], k[3], A[3], B[2][3], C[3], E[3];
   PetscReal       sigma[2], etai[2][2], betai[2], rhoi[2], ni[2][3], gi[2];
 
@@ -115,7 +115,7 @@ INLINE void Second_Private(const Layout *l, const RayPoint *r, const RayWeight *
   Own_Private(l, r, phi->v, weight, o);
   Pairs_Private(l, r, phi->v, weight, o);
   for (int c = 0; c < 3; c++) {
-    Ag[c] = br * r->kappa[c] + (c == 0 ? r->s * r->beta * r->turn : 0);
+    Ag[c] = br * r->kappa[c] + (c == 0 ? r->left * r->beta * r->turn : 0);
     Cg[c] = br * r->s * r->kappa[c] + sr * r->n[c];
     k[c]  = phi->v * sr * r->d[c];
     A[c]  = phi->v * Ag[c];
@@ -137,10 +137,10 @@ INLINE void Second_Private(const Layout *l, const RayPoint *r, const RayWeight *
     if (m == 2) AddCross_Private(r->t[0], r->tt[i + 1], ni[i]);
     betai[i] = Dot3(r->n, r->di[i]) + Dot3(r->d, ni[i]);
     rhoi[i]  = r->turn * r->t[i][0];
-    gi[i]    = br * sigma[i] + sr * betai[i] + r->s * r->beta * rhoi[i];
+    gi[i]    = br * sigma[i] + sr * betai[i] + r->left * r->beta * rhoi[i];
   }
   for (PetscInt i = 0; i < m; i++) {
-    const PetscReal b   = phi->v * (r->rho * sigma[i] + r->s * rhoi[i]);
+    const PetscReal b   = phi->v * (r->rho * sigma[i] + r->left * rhoi[i]);
     PetscReal      *row = o->mixed[i], u[3] = {0, 0, 0}, h[3], v[3], w[2][3] = {{0}}, n[2][3];
 
     /* r: from ds, deta */
@@ -149,7 +149,7 @@ INLINE void Second_Private(const Layout *l, const RayPoint *r, const RayWeight *
       for (PetscInt q = 0; q < m; q++) Axpy3_Private(-phi->v * br * Dot3(r->kappa, r->Xij[j + q]) * etai[j][i], r->zeta[q], u);
     /* P */
     for (int c = 0; c < 3; c++) v[c] = u[c] + phi->d[i] * Ag[c];
-    v[0] += phi->v * (r->beta * sigma[i] + r->s * betai[i]) * r->turn;
+    v[0] += phi->v * (r->beta * sigma[i] + r->left * betai[i]) * r->turn;
     /* T_k */
     for (int c = 0; c < 3; c++) h[c] = phi->v * sr * r->di[i][c] + b * r->d[c] + phi->d[i] * sr * r->d[c];
     Normal_Private(r, h, n);
@@ -183,7 +183,7 @@ INLINE void Second_Private(const Layout *l, const RayPoint *r, const RayWeight *
         AddCross_Private(r->tt[i], r->tt[j + 1], x);
         AddCross_Private(r->tt[j], r->tt[i + 1], x);
       }
-      sum += Dot3(k, x) + phi->v * ((r->beta * sigma[i] + r->s * betai[i]) * rhoi[j] + (r->beta * sigma[j] + r->s * betai[j]) * rhoi[i]);
+      sum += Dot3(k, x) + phi->v * ((r->beta * sigma[i] + r->left * betai[i]) * rhoi[j] + (r->beta * sigma[j] + r->left * betai[j]) * rhoi[i]);
       o->xixi[i + j] = sum;
     }
 }
