@@ -115,7 +115,7 @@ static PetscBool IsAdjusted_Private(const ContactTerm *term)
   return (PetscBool)(IsTied_Private(term) || term->view->spec->adjust || term->view->open > 0);
 }
 
-/* Gap and height of the mortar side at a point. With finite kinematics an interference is a length along directions that grow as the surface does. */
+/* Gap and height of the mortar side at a point. */
 static void Gap_Private(const EstimateSum *sum, const ContactTerm *term, const ContactSegment *segment, const PetscReal N[], PetscReal eta[2], GapPoint *p)
 {
   const PetscBool    finite = (PetscBool)(sum->spec->kinematics == KINEMATICS_FINITE);
@@ -132,7 +132,7 @@ static void Gap_Private(const EstimateSum *sum, const ContactTerm *term, const C
   ContactShape_Private(s, segment->facet, center, M);
   ContactNormal_Private(term, finite, segment->facet, center, M, middle);
   p->gap = finite ? Dot3(n, y) - Dot3(n, x) : LinearGap_Private(m, segment->mortar_facet, eta, n, X, x);
-  if (term->view->interference != 0) p->gap -= term->view->interference * (finite ? ContactStretch_Private(sum->contact, s, segment->facet, p->xi) : 1);
+  p->gap -= term->view->interference;
   p->height = Dot3(middle, y);
 }
 

@@ -1,5 +1,6 @@
 /* Contact along a continuous direction: gradients and Hessians against differences with Richardson's extrapolation on random non-matching, tilted, curved,
-   partly covered pairs of any order, compliant where they are; balance of forces and moments; rigid motion. */
+   partly covered pairs of any order, compliant where they are, with and
+   without lengths that are closed; balance of forces and moments; rigid motion. */
 #include "rayfixture.h"
 
 #define STEP 5e-5
@@ -187,15 +188,19 @@ static void CheckSeed(const Kind *kind, uint64_t seed, PetscInt first, PetscInt 
   Patch             nonmortar, mortar;
   ContactPair       pair;
   Sum               exact, moved[4];
-  PetscReal        *z, *softness, scale[3];
+  PetscReal        *z, *softness, *closed, scale[3];
   uint64_t          signature;
   PetscInt          columns;
+  const PetscBool   closes  = (PetscBool)(seed % 2 == 0);
+  uint64_t          lengths = seed;
 
   MakePair(kind, &seed, &nonmortar, &mortar);
-  CHECK_CALL(PetscMalloc2(nonmortar.s.num_nodes, &z, nonmortar.s.num_nodes, &softness));
+  CHECK_CALL(PetscMalloc3(nonmortar.s.num_nodes, &z, nonmortar.s.num_nodes, &softness, nonmortar.s.num_facets, &closed));
   for (int j = 0; j < nonmortar.s.num_nodes; j++) z[j] = Random(&seed);
   for (int j = 0; j < nonmortar.s.num_nodes; j++) softness[j] = 20 + 10 * Random(&seed); /* so that facets covered in part give as much as their gaps */
   CHECK_CALL(ContactPairCreate(kind->dim, kind->ring, &spec, &pair));
+  for (int f = 0; f < nonmortar.s.num_facets; f++) closed[f] = 0.1 * Random(&lengths);
+  if (closes) CHECK_CALL(ContactPairSetClosed(pair, closed));
   if (!kind->hanging) CHECK_CALL(ContactPairSetSoftness(pair, softness));
   SearchAll(pair, &nonmortar, &mortar, 0.5, 1e-3);
   SumCreate(&exact, &nonmortar, &mortar);
@@ -248,7 +253,7 @@ static void CheckSeed(const Kind *kind, uint64_t seed, PetscInt first, PetscInt 
   SumDestroy(&exact);
   PatchDestroy(&nonmortar);
   PatchDestroy(&mortar);
-  CHECK_CALL(PetscFree2(z, softness));
+  CHECK_CALL(PetscFree3(z, softness, closed));
   CHECK_CALL(ContactPairDestroy(&pair));
 }
 

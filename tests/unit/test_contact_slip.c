@@ -192,6 +192,8 @@ static void Check(const Kind *kind, uint64_t *seed, Errors *e)
   ContactPair       pair;
   PetscBool         failed;
   Sum               s;
+  PetscReal         closed[64];
+  uint64_t          lengths = *seed;
 
   MakePair(kind, seed, &a, &b);
   for (PetscInt n = 0; n < a.s.num_nodes; n++) z[n] = 1 + 0.5 * Random(seed), traction[n] = Random(seed);
@@ -207,6 +209,9 @@ static void Check(const Kind *kind, uint64_t *seed, Errors *e)
   Forces(&s, pair, &a, &b, z, traction, PETSC_FALSE);
   CheckBalance(kind, &s, &a, &b, e);
   CheckDerivatives(pair, &a, &b, z, traction, seed, e);
+  for (PetscInt f = 0; f < a.s.num_facets; f++) closed[f] = 0.03 * Random(&lengths);
+  CHECK_CALL(ContactPairSetClosed(pair, closed));
+  CheckDerivatives(pair, &a, &b, z, traction, &lengths, e);
   SumDestroy(&s);
   CHECK_CALL(ContactPairDestroy(&pair));
   PatchDestroy(&a), PatchDestroy(&b);

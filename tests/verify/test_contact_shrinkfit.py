@@ -158,3 +158,32 @@ def test_estimate_of_an_interference(run, tmp_path):
         print(told, result.summary["estimated_error"], result.summary["contact"]["c"]["force"])
         assert abs(result.summary["contact"]["c"]["force"][1]) == pytest.approx(2 * 0.002 / (ring + disc_), rel=6e-3)
     assert max(told) < 1e-3
+
+
+@pytest.mark.parametrize("mu", [0, 0.2])
+def test_closed_gaps_leave_no_trace(run, mu):
+    """Two squares that end flush: the same as without a gap, whatever gap of the mesh counts as closed. As constants taken off the integrals gaps left forces that jump where the ends pass each other: no equilibrium."""
+    results = [run("tests/gauntlet/flush.yml", "-mesh_parameter_g", gap, "-contact_c_friction", mu, *QUIET) for gap in (0, 0.002, 0.05)]
+    assert all(result.returncode == 0 and result.summary["step_cuts"] == 0 for result in results), results
+    force = [result.summary["reaction"]["top"][1] for result in results]
+    print(force)
+    assert force[1:] == pytest.approx(force[:1] * 2, rel=1e-9)
+
+
+@pytest.mark.parametrize("order", [1, 2, 3])
+def test_interference_is_a_length(run, order):
+    """A hub stretched by a tenth on a rigid shaft: forces on both as on a shaft that is meshed as much thicker. The integrals less a constant gave 23.17 and 21.38 for 25.21."""
+    thick = ("-mesh_parameter_R", 22, "-contact_c_interference", 0, "-contact_c_initial_gap", "ramp")
+    bush, meshed = (run("tests/gauntlet/tight.yml", "-order", order, *words, *QUIET) for words in ((), thick))
+    assert bush.returncode == meshed.returncode == 0, (bush, meshed)
+    pair = bush.summary["contact"]["c"]
+    print(pair["force"], meshed.summary["contact"]["c"]["force"])
+    assert [pair["force"][0], -pair["mortar_force"][0]] == pytest.approx([meshed.summary["contact"]["c"]["force"][0]] * 2, rel=1e-10)
+
+
+def test_friction_across_an_interference(run):
+    """A shaft drawn out of a hub that it was shrunk into: the pull is that of a shaft meshed thicker, but for the sides' being 0.01 apart; 3 % less where gaps were constants of the integrals."""
+    thick = ("-mesh_parameter_d", 0.01, "-contact_c_interference", 0, "-contact_c_initial_gap", "ramp")
+    pull = [run("tests/gauntlet/pull_out.yml", "-order", 3, *words, *QUIET).summary["reaction"]["head"][1] for words in ((), thick)]
+    print(pull)
+    assert pull[0] == pytest.approx(pull[1], rel=3e-4)

@@ -30,10 +30,10 @@ static void Weight_Private(const RayFacet *f, const RayFunctions *S, const Petsc
 
 /* Sums over the points of a triangle; rows of left and right follow one another. */
 typedef struct {
-  PetscInt   nq, nf, na, no, num_points, num_own, num_xi;
+  PetscInt   nq, nf, no, num_points, num_own, num_xi;
   PetscReal *basis, *right;                                     /* [points][nf], [D][points][nq] */
   PetscReal *turn_left, *turn_right, *twist_left, *twist_right; /* [points] [nv], [3][nodes], [nodes], [3][nodes] */
-  PetscReal *own_left, *own_right;                              /* [num_own][na], [num_own][no] */
+  PetscReal *own_left, *own_right;                              /* [num_own][no] */
   PetscReal *left_xi, *right_xi;                                /* [num_xi][6], [num_xi][nq + 6] */
   PetscReal *gradient, mean;                                    /* [nq + 6] */
 } Batch;
@@ -96,7 +96,7 @@ static PetscErrorCode Batch_Private(const RayWork w, const RayLattice *mortar, c
     second->twist_left  = b->twist_left + k * na;
     second->twist_right = b->twist_right + k * 3 * na;
     for (PetscInt c = 0; c < f->D; c++) second->right[c] = b->right + (c * points + k) * b->nq;
-    second->own_left  = b->own_left + b->num_own * b->na;
+    second->own_left  = b->own_left + b->num_own * b->no;
     second->own_right = b->own_right + b->num_own * b->no;
     for (PetscInt i = 0; i < f->m; i++) second->mixed[i] = b->right_xi + (b->num_xi + i) * (b->nq + 6);
     ContactRaySecond(f, mortar, r, &phi, s->size, second);
@@ -124,7 +124,7 @@ static void Simplex_Private(const RayFacet *f, const RaySimplex *s, const Batch 
     }
   ContactRayProducts(points, 1, f->nv, b->turn_left, f->nv, 3 * f->s.num, b->turn_right, 3 * f->s.num, pairs->turn, 3 * f->s.num);
   if (m == 2) ContactRayProducts(points, 1, f->s.num, b->twist_left, f->s.num, 3 * f->s.num, b->twist_right, 3 * f->s.num, pairs->twist, 3 * f->s.num);
-  ContactRayProducts(b->num_own, 1, b->na, b->own_left, b->na, b->no, b->own_right, b->no, all, N);
+  ContactRayProducts(b->num_own, 1, b->no, b->own_left, b->no, b->no, b->own_right, b->no, all, N);
   for (PetscInt i = 0; i < 6 * (nq + 6); i++) part[i] = 0;
   ContactRayProducts(b->num_xi, s->size, nc, b->left_xi, 6, nq + nc, b->right_xi, nq + 6, part, nq + 6);
   for (PetscInt i = 0; i < nc; i++)
@@ -216,19 +216,20 @@ static PetscErrorCode Overlap_Private(RayWork w, const RayLattice *mortar, Petsc
   RaySecond       second;
   RayPoint        r;
   PetscInt        points;
-  Batch           b = {.nq = nq, .nf = nq / f->D, .na = f->D * na, .no = f->D * (na + f->nv)};
+  const PetscInt  own = f->D + 2; /* most products of numbers of the facet at a point: of its radius, of the length that is closed */
+  Batch           b   = {.nq = nq, .nf = nq / f->D, .no = f->D * (na + f->nv)};
   const PetscReal(*point)[3], *weight;
 
   PetscFunctionBegin;
   ContactRaySplit(f, &w->overlap[k], &split);
   PetscCall(ContactRayRule(f, o, mortar->order, &points, &point, &weight));
-  PetscCall(ContactGrow(points * (b.nf + f->D * nq + b.na + b.no + f->m * (nq + 12) + f->nv + 7 * na) + 8 * (nq + 6), sizeof(PetscReal), &w->size_buffer,
+  PetscCall(ContactGrow(points * (b.nf + f->D * nq + 2 * own * b.no + f->m * (nq + 12) + f->nv + 7 * na) + 8 * (nq + 6), sizeof(PetscReal), &w->size_buffer,
                         &w->buffer));
   b.basis         = w->buffer;
   b.right         = b.basis + points * b.nf;
   b.own_left      = b.right + points * f->D * nq;
-  b.own_right     = b.own_left + points * b.na;
-  b.left_xi       = b.own_right + points * b.no;
+  b.own_right     = b.own_left + points * own * b.no;
+  b.left_xi       = b.own_right + points * own * b.no;
   b.right_xi      = b.left_xi + points * f->m * 6;
   b.turn_left     = b.right_xi + points * f->m * (nq + 6);
   b.turn_right    = b.turn_left + points * f->nv;

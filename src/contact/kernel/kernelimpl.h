@@ -2,7 +2,7 @@
 
    Facet. Position x(xi) = sum N_a x_a on the Gauss-Lobatto lattice, tangents t_k = x,k, n = t_1 x t_2 (plane: t_2 = e_z). Directions d_v at corners are means
    of facet vectors (direction.c), d(xi) their multilinear interpolation. Ray: x(xi) + s d(xi) = x_m(eta). Gap density g = s d.n per dxi: (x_m - x).n, so that
-   where both surfaces coincide the forces are z n whatever d is; where a part of s counts as closed, a number of the facet, g = (s - closed) d.n.
+   where both surfaces coincide the forces are z n whatever d is; where a length counts as closed, a number of the facet, g = (s - closed / |d|) d.n.
    Axisymmetric: times 2 pi r.
 
    Chart. Integration is over a constant plane picture of the facet, Y(xi) multilinear: corners of the reference facet (plane: the square, Y = xi). Mortar
@@ -89,7 +89,7 @@ typedef struct {
   PetscReal  c[4][2];  /* Y = c_0 + c_1 xi_1 + c_2 xi_2 + c_3 xi_1 xi_2 */
   PetscReal  area;     /* of the chart */
   PetscReal  ring;     /* 2 pi or 0 */
-  PetscReal  closed;   /* length along the rays that counts as no gap */
+  PetscReal  closed;   /* length along the rays that counts as no gap, user's units */
   RayBeyond  beyond;
   RayFrame   middle;
 } RayFacet;
@@ -108,7 +108,8 @@ typedef struct {
   RayChartPoint chart;
   PetscReal     p[3], t[2][3], tt[3][3], ttt[4][3], d[3], di[2][3], dij[3];
   PetscReal     X[3], Xi[2][3], Xij[3][3];
-  PetscReal     xi[2], eta[2], s, left; /* left: of s, what counts as a gap */
+  PetscReal     xi[2], eta[2], s;
+  PetscReal     left, shut[3], bend, u[3]; /* of s, what counts as a gap: s - closed / |d|; shut: its derivative by d, bend: closed / |d|^3, u: d / |d| */
   PetscReal     n[3], unit[3], a, beta, rho, turn; /* turn: drho / dr */
   PetscReal     kappa[3], zeta[2][3];              /* ds = kappa . r, deta = zeta . r, r = variation of x + s d - x_m */
 } RayPoint;
@@ -253,6 +254,11 @@ PetscBool ContactRayAgain(const RayFacet *, const RayLattice *mortar, const RayP
 void ContactRayDensities(const RayFacet *, RayPoint *);
 /* K^-1 from the ray and the tangents of the mortar facet. */
 PetscBool ContactRayInverse(RayPoint *);
+/* What is left of s. */
+void ContactRayLeft(const RayFacet *, RayPoint *);
+/* R = x_m - x less the length that is closed, and what a change of d changes of it: dR -= closed (I - u u^T) dd / |d|. */
+void      ContactRayAcross(const RayPoint *, PetscReal R[3]);
+void      ContactRayAcrossTurns(const RayPoint *, const PetscReal dd[3], PetscReal dR[3]);
 PetscReal ContactRayGap(const RayPoint *);
 PetscReal ContactRayArea(const RayPoint *);
 void      ContactRayFirst(const RayFacet *, const RayLattice *mortar, const RayPoint *, PetscReal gap[], PetscReal area[], PetscReal gap_xi[2],
@@ -286,7 +292,7 @@ PetscBool ContactRayBilinear(const RayFacet *, const RayLattice *mortar, const P
 /* raysecond.c: weighted gap phi g. */
 typedef struct {
   PetscReal *basis, *right[3]; /* products (basis_f at component c) x right[c] by the numbers of facet, directions and mortar facet */
-  PetscInt   num_own;          /* 0 or 1: product own_left x own_right by the numbers of the lattice, of lattice and directions */
+  PetscInt   num_own;          /* products own_left x own_right by the numbers of lattice and directions */
   PetscReal *own_left, *own_right;
   PetscReal *mixed[2]; /* rows by xi */
   PetscReal  xi[2], xixi[3];

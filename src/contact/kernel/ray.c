@@ -72,12 +72,43 @@ static PetscBool Mortar_Private(const RayFacet *f, const RayLattice *mortar, int
   return ContactRayInverse(r);
 }
 
+void ContactRayLeft(const RayFacet *f, RayPoint *r)
+{
+  PetscReal over;
+
+  r->left = r->s;
+  r->bend = 0;
+  for (int c = 0; c < 3; c++) r->shut[c] = r->u[c] = 0;
+  if (f->closed == 0) return;
+  over = 1 / PetscSqrtReal(Dot3(r->d, r->d));
+  r->left -= f->closed * over;
+  r->bend = f->closed * over * over * over;
+  for (int c = 0; c < 3; c++) {
+    r->u[c]    = r->d[c] * over;
+    r->shut[c] = f->closed * r->u[c] * over * over;
+  }
+}
+
+void ContactRayAcross(const RayPoint *r, PetscReal R[3])
+{
+  const PetscReal square = Dot3(r->d, r->d);
+
+  for (int c = 0; c < 3; c++) R[c] = r->X[c] - r->p[c] - r->bend * square * r->d[c];
+}
+
+void ContactRayAcrossTurns(const RayPoint *r, const PetscReal dd[3], PetscReal dR[3])
+{
+  const PetscReal along = Dot3(r->u, dd), factor = r->bend * Dot3(r->d, r->d);
+
+  for (int c = 0; c < 3; c++) dR[c] -= factor * (dd[c] - along * r->u[c]);
+}
+
 /* e = x - x_m, and the length along the ray. Steps zeta . (e + s d) to where they meet do not depend on s: zeta . d = 0, kappa . d = -1. */
 static void Along_Private(const RayFacet *f, RayPoint *r, PetscReal e[3])
 {
   for (int c = 0; c < 3; c++) e[c] = r->p[c] - r->X[c];
-  r->s    = Dot3(r->kappa, e);
-  r->left = r->s - f->closed;
+  r->s = Dot3(r->kappa, e);
+  ContactRayLeft(f, r);
 }
 
 /* Does the mortar facet reach as far as where the ray met it? */
@@ -151,7 +182,7 @@ INLINE void First_Private(PetscInt D, PetscInt na, PetscInt nv, PetscInt nb, con
   Cross3(r->unit, r->t[0], Ba[1]);
   for (int c = 0; c < 3; c++) {
     A[c] = br * r->kappa[c] + (c == 0 ? r->left * r->beta * r->turn : 0);
-    C[c] = br * r->s * r->kappa[c] + sr * r->n[c];
+    C[c] = br * (r->s * r->kappa[c] + r->shut[c]) + sr * r->n[c];
     E[c] = -br * r->kappa[c];
     for (int k = 0; k < 2; k++) B[k][c] *= sr, Ba[k][c] *= r->rho;
   }

@@ -88,7 +88,7 @@ PetscBool ContactRayBilinear(const RayFacet *f, const RayLattice *mortar, const 
     square += r->d[c] * r->d[c];
     along += r->d[c] * (r->X[c] - r->p[c]);
   }
-  r->s    = along / square;
-  r->left = r->s - f->closed;
+  r->s = along / square;
+  ContactRayLeft(f, r);
   return ContactRayInverse(r);
 }

@@ -2,7 +2,7 @@
 
    Traction. At a point with unit normal n: tau = sum_j psi_j sum_a q_ja t_ja, t_ja the axes of node j carried there (frame.c). In components along the facet,
    |n| tau = sigma_1 x,1 + sigma_2 x,2, sigma_1 = tau . (x,2 x n), sigma_2 = tau . (n x x,1), and those are held while positions y vary:
-     f = d/dy int sigma_i y,i . (y_m(eta) - y(xi)) dxi:   h_a = N_a,i sigma_i R - N_a |n| tau,   h_b = M_b |n| tau,   R = x_m - x.
+     f = d/dy int sigma_i y,i . (y_m(eta) - y(xi)) dxi:   h_a = N_a,i sigma_i R - N_a |n| tau,   h_b = M_b |n| tau,   R = x_m - x less what is closed of it.
    Nothing of it changes under rigid motion of y.
 
    Every row of h is a sum of three factors, of the row's node, times three vectors of the point: (- N, N,1, N,2) or (M, M,1, M,2) times (|n| tau, sigma_1 R,
@@ -35,7 +35,8 @@ typedef struct {
 static void Traction_Private(const RayPoint *r, Traction *t)
 {
   t->a = r->a;
-  for (int c = 0; c < 3; c++) t->n[c] = r->unit[c], t->R[c] = r->X[c] - r->p[c];
+  for (int c = 0; c < 3; c++) t->n[c] = r->unit[c];
+  ContactRayAcross(r, t->R);
   Cross3(r->t[1], t->n, t->b[0]);
   Cross3(t->n, r->t[0], t->b[1]);
 }
@@ -114,14 +115,16 @@ static void Row_Private(const EvaluateContext *ctx, const Work *o, PetscInt j, T
   }
 }
 
-/* By one number: component e of a node, of which x,k changes by d[k] and r by value: deta = value zeta. */
-static void Number_Private(const Work *o, const RayPoint *r, const Traction *at, int e, PetscReal value, PetscReal place, const PetscReal d[2],
+/* By one number: component e of a node, of which x,k changes by d[k], r by value, so that deta = value zeta, and d by turns. */
+static void Number_Private(const Work *o, const RayPoint *r, const Traction *at, int e, PetscReal value, PetscReal place, PetscReal turns, const PetscReal d[2],
                            PetscReal *right[2], PetscInt column)
 {
-  PetscReal dR[3], dsigma[2] = {0, 0};
+  PetscReal dR[3], dd[3] = {0, 0, 0}, dsigma[2] = {0, 0};
 
   for (int c = 0; c < 3; c++) dR[c] = value * (r->Xi[0][c] * r->zeta[0][e] + r->Xi[1][c] * r->zeta[1][e]);
   dR[e] -= place;
+  dd[e] = turns;
+  ContactRayAcrossTurns(r, dd, dR);
   for (int i = 0; i < 2; i++)
     for (int k = 0; k < 2; k++) dsigma[i] += at->S[i][k][e] * d[k];
   for (int c = 0; c < 3; c++) {
@@ -141,10 +144,10 @@ static void Numbers_Private(const Work *o, const RayPoint *r, const Traction *at
     for (PetscInt a = 0; a < o->na; a++) {
       const PetscReal d[2] = {r->S.d[0][a], r->S.d[1][a]};
 
-      Number_Private(o, r, at, e, r->S.N[a], r->S.N[a], d, right, o->units + e * o->na + a);
+      Number_Private(o, r, at, e, r->S.N[a], r->S.N[a], 0, d, right, o->units + e * o->na + a);
     }
-    for (PetscInt v = 0; v < o->nv; v++) Number_Private(o, r, at, e, r->s * r->V.N[v], 0, none, right, o->units + 3 * o->na + e * o->nv + v);
-    for (PetscInt b = 0; b < o->nb; b++) Number_Private(o, r, at, e, -r->M.N[b], -r->M.N[b], none, right, o->units + 3 * (o->na + o->nv) + e * o->nb + b);
+    for (PetscInt v = 0; v < o->nv; v++) Number_Private(o, r, at, e, r->s * r->V.N[v], 0, r->V.N[v], none, right, o->units + 3 * o->na + e * o->nv + v);
+    for (PetscInt b = 0; b < o->nb; b++) Number_Private(o, r, at, e, -r->M.N[b], -r->M.N[b], 0, none, right, o->units + 3 * (o->na + o->nv) + e * o->nb + b);
   }
 }
 
@@ -171,6 +174,7 @@ static void Slope_Private(const Work *o, const RayPoint *r, const Traction *at, 
       Rk[c] = r->Xi[0][c] * eta[0] + r->Xi[1][c] * eta[1] - r->t[k][c];
       Tk[c] = Dot3(at->C[0][c], r->tt[k]) + Dot3(at->C[1][c], r->tt[k + 1]) + at->a * at->along[k][c];
     }
+    ContactRayAcrossTurns(r, r->di[k], Rk);
     for (PetscInt i = 0; i < rows; i++) {
       const PetscInt c = i % 3, a = i / 3, b = a - o->na;
       PetscReal      x = -h[a][c] * r->chart.ddet[k] / r->chart.det;

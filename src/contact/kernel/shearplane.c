@@ -1,9 +1,9 @@
 /* Friction in the plane (docs/theory.md, 5): forces of tangential tractions and their derivatives; in space: shear.c.
 
    Forces. S_j(y; x) = int psi_j y,xi . (y_m(eta) - y(xi)) rho dxi, points, bounds, eta, psi and rho of x, positions y: f = sum_j z_j dS_j/dy at y = x. By the
-   facet's numbers, with R = x_m - x and t = x,xi, the density is  h_a = N_a,xi R - N_a t  of a node of its lattice,  h_b = M_b t  of a mortar node. Its change
-   is that of the numbers at fixed xi, where deta = zeta . (N_a dx_a + s V_v dd_v - M_b dy_b), of the point's place, which goes with the ends of the overlap,
-   and of psi with the covered share. */
+   facet's numbers, with R = x_m - x less what is closed of it, and t = x,xi, the density is  h_a = N_a,xi R - N_a t  of a node of its lattice,  h_b = M_b t  of
+   a mortar node. Its change is that of the numbers at fixed xi, where deta = zeta . (N_a dx_a + s V_v dd_v - M_b dy_b), of the point's place, which goes with
+   the ends of the overlap, and of psi with the covered share. */
 #include "kernelimpl.h"
 
 /* Weights y of the functions of the lattice in sum_r z_r psi_r, and how they change with the covered share. */
@@ -40,9 +40,10 @@ static void Density_Private(const RayFacet *f, const RayLattice *mortar, const R
   PetscReal R[3], Ri[3], *t = (PetscReal *)r->t[0], etai = 0;
 
   for (int c = 0; c < 2; c++) etai += r->zeta[0][c] * (t[c] + r->s * r->di[0][c]);
+  ContactRayAcross(r, R);
+  for (int c = 0; c < 3; c++) Ri[c] = c < 2 ? r->Xi[0][c] * etai - t[c] : 0;
+  ContactRayAcrossTurns(r, r->di[0], Ri);
   for (int c = 0; c < 2; c++) {
-    R[c]  = r->X[c] - r->p[c];
-    Ri[c] = r->Xi[0][c] * etai - t[c];
     for (PetscInt a = 0; a < f->s.num; a++) {
       h[c][a]     = r->S.d[0][a] * R[c] - r->S.N[a] * t[c];
       along[c][a] = r->S.dd[0][a] * R[c] + r->S.d[0][a] * (Ri[c] - t[c]) - r->S.N[a] * r->tt[0][c];
@@ -61,10 +62,12 @@ static void Change_Private(const RayFacet *f, const RayLattice *mortar, const Ra
   const PetscInt   na    = f->s.num;
   const PetscReal *t     = r->t[0];
   const PetscReal  value = group == 0 ? r->S.N[node] : group == 1 ? r->s * r->V.N[node] : -r->M.N[node], deta = r->zeta[0][e] * value;
-  const PetscReal  ring = group == 0 && e == 0 ? weight * r->turn * value : 0;
-  PetscReal        dR[2], dt[2] = {0, 0};
+  const PetscReal  ring  = group == 0 && e == 0 ? weight * r->turn * value : 0;
+  PetscReal        dR[3] = {0, 0, 0}, dd[3] = {0, 0, 0}, dt[2] = {0, 0};
 
   for (int c = 0; c < 2; c++) dR[c] = r->Xi[0][c] * deta;
+  if (group == 1) dd[e] = r->V.N[node];
+  ContactRayAcrossTurns(r, dd, dR);
   if (group != 1) dR[e] -= value;
   if (group == 0) dt[e] = r->S.d[0][node];
   weight *= r->rho;
