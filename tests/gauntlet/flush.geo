@@ -1,5 +1,5 @@
 // Two squares one above the other, sides 1, a gap of g between them; n and m cells a side, below and above.
-DefineConstant[ g = 0.002, n = 4, m = 4 ];
+DefineConstant[ g = 0, n = 4, m = 4 ];
 Macro Square
   Point(b+1) = {0, y, 0}; Point(b+2) = {1, y, 0}; Point(b+3) = {1, y + 1, 0}; Point(b+4) = {0, y + 1, 0};
   For i In {1:4}
