@@ -182,7 +182,8 @@ INLINE void First_Private(PetscInt D, PetscInt na, PetscInt nv, PetscInt nb, con
   Cross3(r->unit, r->t[0], Ba[1]);
   for (int c = 0; c < 3; c++) {
     A[c] = br * r->kappa[c] + (c == 0 ? r->left * r->beta * r->turn : 0);
-    C[c] = br * (r->s * r->kappa[c] + r->shut[c]) + sr * r->n[c];
+    C[c] = br * r->s * r->kappa[c] + sr * r->n[c];
+    if (r->bend != 0) C[c] += br * r->shut[c];
     E[c] = -br * r->kappa[c];
     for (int k = 0; k < 2; k++) B[k][c] *= sr, Ba[k][c] *= r->rho;
   }

@@ -154,11 +154,12 @@ INLINE void Second_Private(const Layout *l, const RayPoint *r, const RayWeight *
   Pairs_Private(l, r, phi->v, weight, o);
   for (int c = 0; c < 3; c++) {
     Ag[c] = br * r->kappa[c] + (c == 0 ? r->left * r->beta * r->turn : 0);
-    Cg[c] = br * (r->s * r->kappa[c] + r->shut[c]) + sr * r->n[c];
-    k[c]  = phi->v * sr * r->d[c];
-    A[c]  = phi->v * Ag[c];
-    C[c]  = phi->v * Cg[c];
-    E[c]  = -phi->v * br * r->kappa[c];
+    Cg[c] = br * r->s * r->kappa[c] + sr * r->n[c];
+    if (r->bend != 0) Cg[c] += br * r->shut[c];
+    k[c] = phi->v * sr * r->d[c];
+    A[c] = phi->v * Ag[c];
+    C[c] = phi->v * Cg[c];
+    E[c] = -phi->v * br * r->kappa[c];
   }
   Cross3(r->t[1], k, B[0]);
   Cross3(k, r->t[0], B[1]);
