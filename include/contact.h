@@ -106,7 +106,8 @@ typedef struct {
   PetscInt         num;          /* nodes it depends on */
   const PetscInt  *nodes;        /* [num] nonmortar node id, or ~id (bitwise not) of a mortar node */
   const PetscReal *gap, *weight; /* [num_rows] contributions to gt_j, w_j (raw: sums over facets give the nodal values) */
-  const PetscReal *reach;        /* [num_rows] change of gt_j when the gap grows by 1 along its direction everywhere */
+  const PetscReal *length;       /* [num_rows] change of gt_j when gaps grow by 1 along the directions */
+  const PetscReal *reach;        /* [num_rows] what an interference of 1 is: length, on curved facets, which turn with their directions, weight */
   const PetscReal *dgap;         /* [num_rows][dim*num]; NULL unless asked, or where z vanishes and no Hessian is asked */
   const PetscReal *dweight;      /* [num_rows][dim*num] */
   const PetscReal *push;         /* [num_rows][dim*num] force by z_j where that is not dgap: lines are held (theory (5.8)); with dgap. NULL: dgap */

@@ -54,75 +54,53 @@ static PetscErrorCode Time_Private(Contact *c, PetscReal t)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* What an interference of 1 is at the nodes of this rank. Facets that have no reach of their own measure gaps along normals of length 1. */
+/* What an interference of 1 is at the nodes of this rank. */
 static void Reach_Private(Contact *c)
 {
   for (PetscInt i = 0; i < c->num_facets; ++i) {
     const ContactFacet *f = &c->facets[i];
     for (PetscInt k = 0; k < f->num_rows; ++k) {
-      if (c->side[0].owned[f->nodes[k]]) c->reach[f->nodes[k]] += f->reach ? f->reach[k] : f->weight[k];
+      if (c->side[0].owned[f->nodes[k]]) c->reach[f->nodes[k]] += f->reach[k];
     }
   }
 }
 
-/* Weighted gaps at the reference positions, of nodes into c->gap, with lengths that are closed. */
-static PetscErrorCode Gaps_Private(Interface p, Contact *c, const PetscReal closed[])
+/* Means of the facets' gaps, as lengths along their directions, and what such lengths do not take off of what is to be taken off at the nodes. */
+static PetscErrorCode Means_Private(Contact *c)
 {
-  ContactSurface      side[2] = {SurfaceAt_Private(&c->side[0], c->side[0].X), SurfaceAt_Private(&c->side[1], c->side[1].X)};
-  const ContactFacet *facets;
-  PetscBool           failed;
-
   PetscFunctionBegin;
-  PetscCall(ContactPairSetClosed(c->pair, closed));
-  PetscCall(ContactPairEvaluate(c->pair, &side[0], &side[1], NULL, NULL, PETSC_FALSE, PETSC_FALSE, &c->num_facets, &facets, &failed));
-  c->facets = facets;
-  PetscCall(ContactNodeSums_Private(p, c));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
+  PetscCall(PetscCalloc2(c->side[0].num_facets, &c->closed, c->side[0].num_facets, &c->mean_gap));
+  for (PetscInt i = 0; i < c->num_facets; ++i) {
+    const ContactFacet *f   = &c->facets[i];
+    PetscReal           gap = 0, length = 0, mean;
 
-/* Weighted gaps of facets, summed up, into to[]; those that meet nothing have none. */
-static void OfFacets_Private(const Contact *c, PetscReal to[])
-{
-  for (PetscInt i = 0; i < c->num_facets; ++i)
-    for (PetscInt k = 0; k < c->facets[i].num_rows; ++k) to[c->facets[i].facet] += c->facets[i].gap[k];
-}
-
-/* Means of the facets' lengths along their rays, and of what was to be taken off at the nodes that part which lengths on facets do not: c->gap is the gaps of
-   the mesh. */
-static PetscErrorCode Means_Private(Interface p, Contact *c)
-{
-  const Surface *s   = &c->side[0];
-  const PetscInt num = s->num_facets;
-  PetscReal     *whole, *less;
-
-  PetscFunctionBegin;
-  PetscCall(PetscCalloc2(num, &c->closed, num, &c->mean_gap));
-  PetscCall(PetscCalloc2(num, &whole, num, &less));
-  PetscCall(PetscArraycpy(c->gap0, c->gap, s->num_nodes));
-  OfFacets_Private(c, whole);
-  for (PetscInt f = 0; f < num; ++f) c->closed[f] = 1;
-  PetscCall(Gaps_Private(p, c, c->closed));
-  OfFacets_Private(c, less);
-  for (PetscInt i = 0; i < s->num_own; ++i) c->reach[s->own[i]] -= c->gap0[s->own[i]] - c->gap[s->own[i]];
-  for (PetscInt f = 0; f < num; ++f) {
-    c->mean_gap[f] = whole[f] != less[f] ? whole[f] / (whole[f] - less[f]) : 0;
-    if (!c->spec->adjust) c->mean_gap[f] = PetscMin(c->mean_gap[f], 0);
+    for (PetscInt k = 0; k < f->num_rows; ++k) gap += f->gap[k], length += f->length[k];
+    mean                  = length != 0 ? gap / length : 0;
+    mean                  = c->spec->adjust ? mean : PetscMin(mean, 0);
+    c->mean_gap[f->facet] = mean;
+    for (PetscInt k = 0; k < f->num_rows; ++k) {
+      if (!c->side[0].owned[f->nodes[k]]) continue;
+      c->reach[f->nodes[k]] -= f->length[k];
+      c->initial[f->nodes[k]] -= mean * f->length[k];
+    }
   }
-  PetscCall(Gaps_Private(p, c, c->mean_gap));
-  for (PetscInt i = 0; i < s->num_own; ++i) c->initial[s->own[i]] -= c->gap0[s->own[i]] - c->gap[s->own[i]];
-  PetscCall(PetscFree2(whole, less));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode ContactOffset_Private(Interface p, Contact *c)
 {
-  const Surface *s = &c->side[0];
+  const Surface      *s       = &c->side[0];
+  ContactSurface      side[2] = {SurfaceAt_Private(&c->side[0], c->side[0].X), SurfaceAt_Private(&c->side[1], c->side[1].X)};
+  const ContactFacet *facets;
+  PetscBool           failed;
 
   PetscFunctionBegin;
   PetscCall(PetscArrayzero(c->offset, s->num_nodes));
   if (!c->spec->adjust && !c->spec->ramp && !c->spec->interference) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(ContactSearch_Private(p, c, PETSC_TRUE, 0));
-  PetscCall(Gaps_Private(p, c, NULL));
+  PetscCall(ContactPairEvaluate(c->pair, &side[0], &side[1], NULL, NULL, PETSC_FALSE, PETSC_FALSE, &c->num_facets, &facets, &failed));
+  c->facets = facets;
+  PetscCall(ContactNodeSums_Private(p, c));
   Reach_Private(c);
   for (PetscInt i = 0; i < s->num_own; ++i) {
     const PetscInt j = s->own[i];
@@ -130,7 +108,7 @@ PetscErrorCode ContactOffset_Private(Interface p, Contact *c)
     if (c->spec->adjust && ContactCovered_Private(c, j)) c->view.adjusted = PetscMax(c->view.adjusted, PetscAbsReal(c->gap[j] / c->weight[j]));
   }
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &c->view.adjusted, 1, MPIU_REAL, MPI_MAX, p->comm));
-  if (p->spec->kinematics == KINEMATICS_FINITE) PetscCall(Means_Private(p, c));
+  if (p->spec->kinematics == KINEMATICS_FINITE) PetscCall(Means_Private(c));
   c->num_facets = 0;
   PetscCall(Time_Private(c, 0));
   PetscFunctionReturn(PETSC_SUCCESS);

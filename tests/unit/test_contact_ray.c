@@ -1,6 +1,5 @@
 /* Contact along a continuous direction: gradients and Hessians against differences with Richardson's extrapolation on random non-matching, tilted, curved,
-   partly covered pairs of any order, compliant where they are, with and
-   without lengths that are closed; balance of forces and moments; rigid motion. */
+   partly covered pairs of any order, compliant where they are, with and without lengths that are closed; balance of forces and moments; rigid motion. */
 #include "rayfixture.h"
 
 #define STEP 5e-5

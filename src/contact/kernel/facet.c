@@ -301,20 +301,21 @@ static PetscErrorCode Share_Private(ContactPair pair, PetscReal to[])
 static PetscErrorCode Values_Private(RayWork w, ContactFacet *out)
 {
   const PetscInt na = w->facet.s.num, nr = w->result.num_rows;
-  PetscReal     *gap, *weight, *reach;
+  PetscReal     *gap, *weight, *length;
 
   PetscFunctionBegin;
   PetscCall(ContactStoreReserve(&w->result.store, 3 * nr, &gap));
-  weight = gap + nr, reach = weight + nr;
+  weight = gap + nr, length = weight + nr;
   for (PetscInt r = 0; r < nr; r++)
     for (PetscInt a = 0; a < na; a++) {
       gap[r] += w->T[r * na + a] * w->q[a];
       weight[r] += w->T[r * na + a] * w->q[na + a];
-      reach[r] += w->T[r * na + a] * w->reach[a];
+      length[r] += w->T[r * na + a] * w->length[a];
     }
   out->gap     = gap;
   out->weight  = weight;
-  out->reach   = w->facet.s.order == 1 ? reach : NULL; /* curved facets turn with their directions: a gap of 1 along the normal counts as its area */
+  out->length  = length;
+  out->reach   = w->facet.s.order == 1 ? length : weight;
   out->area    = w->covered;
   out->min_gap = w->min_gap;
   out->ends    = w->ends;

@@ -109,7 +109,7 @@ typedef struct {
   PetscReal     p[3], t[2][3], tt[3][3], ttt[4][3], d[3], di[2][3], dij[3];
   PetscReal     X[3], Xi[2][3], Xij[3][3];
   PetscReal     xi[2], eta[2], s;
-  PetscReal     left, shut[3], bend, u[3]; /* of s, what counts as a gap: s - closed / |d|; shut: its derivative by d, bend: closed / |d|^3, u: d / |d| */
+  PetscReal     open, dopen;                       /* of s what counts as a gap, s - closed / |d|; closed / |d|^3, so that d open = ds + dopen d . dd */
   PetscReal     n[3], unit[3], a, beta, rho, turn; /* turn: drho / dr */
   PetscReal     kappa[3], zeta[2][3];              /* ds = kappa . r, deta = zeta . r, r = variation of x + s d - x_m */
 } RayPoint;
@@ -162,7 +162,7 @@ struct _p_RayWork {
   PetscBool    ends;   /* the mortar side covers it in part */
   PetscBool    frozen; /* forces without the motion of the mortar side's lines */
   PetscInt     n, nn, num_moments;
-  PetscReal    q[RAY_MOMENTS], reach[RAY_LATTICE], covered, min_gap; /* reach: moments of a gap of 1 along unit directions */
+  PetscReal    q[RAY_MOMENTS], length[RAY_LATTICE], covered, min_gap; /* length: moments of a gap of 1 along unit directions */
   ContactShare share;
   PetscBool    across;                              /* an edge beyond which the mortar side goes on with another face lies in the facet */
   PetscReal   *dq, *W, *J, *R, *WJ, *part, *buffer; /* dq [num_moments][n], W [n][n]; J, R: chainrule.c */
@@ -254,11 +254,11 @@ PetscBool ContactRayAgain(const RayFacet *, const RayLattice *mortar, const RayP
 void ContactRayDensities(const RayFacet *, RayPoint *);
 /* K^-1 from the ray and the tangents of the mortar facet. */
 PetscBool ContactRayInverse(RayPoint *);
-/* What is left of s. */
-void ContactRayLeft(const RayFacet *, RayPoint *);
-/* R = x_m - x less the length that is closed, and what a change of d changes of it: dR -= closed (I - u u^T) dd / |d|. */
-void      ContactRayAcross(const RayPoint *, PetscReal R[3]);
-void      ContactRayAcrossTurns(const RayPoint *, const PetscReal dd[3], PetscReal dR[3]);
+/* open and dopen, from s. */
+void ContactRayOpen(const RayFacet *, RayPoint *);
+/* R = x_m - x less the length that is closed, and what a change of d changes of it: dR -= closed (I - d d^T / d.d) dd / |d|. */
+void      ContactRayOpening(const RayPoint *, PetscReal R[3]);
+void      ContactRayOpeningTurns(const RayPoint *, const PetscReal dd[3], PetscReal dR[3]);
 PetscReal ContactRayGap(const RayPoint *);
 PetscReal ContactRayArea(const RayPoint *);
 void      ContactRayFirst(const RayFacet *, const RayLattice *mortar, const RayPoint *, PetscReal gap[], PetscReal area[], PetscReal gap_xi[2],

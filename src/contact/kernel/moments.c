@@ -51,7 +51,7 @@ typedef struct {
   PetscInt   num, nq, na;                 /* functions, numbers, numbers of the lattice */
   PetscReal *weight, *gap, *area, *along; /* [points][num], [points][nq], [points][na], [points][m][2 num + 1] */
   PetscReal *corner;                      /* [m + 1][m][2 num + 1] derivatives by the simplex's corners */
-  PetscReal  mean[RAY_MOMENTS], reach[RAY_LATTICE];
+  PetscReal  mean[RAY_MOMENTS], length[RAY_LATTICE];
 } Batch;
 
 /* along[m][ld]: derivatives by Y of functions from .. from + num over det times the density g. */
@@ -90,7 +90,7 @@ static PetscBool Batch_Private(RayWork w, const RayLattice *mortar, const Overla
     for (PetscInt q = 0; q < num; q++) {
       b->mean[q] += factor.v[q] * over * gap;
       b->mean[num + q] += factor.v[q] * over * area;
-      b->reach[q] += factor.v[q] * unit;
+      b->length[q] += factor.v[q] * unit;
     }
     b->mean[2 * num] += factor.v[num] * over;
     if (!derivatives) continue;
@@ -129,7 +129,7 @@ static PetscErrorCode Overlap_Private(RayWork w, const RayLattice *mortar, Petsc
   b.weight = w->buffer, b.gap = b.weight + points * na, b.area = b.gap + points * nq, b.along = b.area + points * b.na;
   b.corner = b.along + points * m * all;
   for (PetscInt i = 0; i < all; i++) q[i] = 0;
-  for (PetscInt i = 0; i < na; i++) b.reach[i] = 0;
+  for (PetscInt i = 0; i < na; i++) b.length[i] = 0;
   if (derivatives) {
     PetscCall(PetscArrayzero(dq, all * width));
     ContactRayMoves(f, o, move);
@@ -155,7 +155,7 @@ static PetscErrorCode Overlap_Private(RayWork w, const RayLattice *mortar, Petsc
           for (int l = 0; l < RAY_IMAGES; l++) dq[i * width + nq + l] += (corner[i] + b.mean[i] * d) * along[l];
       }
   }
-  for (PetscInt i = 0; i < na; i++) w->reach[i] += b.reach[i];
+  for (PetscInt i = 0; i < na; i++) w->length[i] += b.length[i];
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -171,7 +171,7 @@ PetscErrorCode ContactRayMoments(ContactPair pair, const ContactSurface *mortar,
   PetscFunctionBegin;
   w->num_moments = 2 * na + 1;
   w->covered = 0, w->min_gap = PETSC_MAX_REAL;
-  PetscCall(PetscArrayzero(w->reach, na));
+  PetscCall(PetscArrayzero(w->length, na));
   PetscCall(PetscArrayzero(w->q, w->num_moments));
   if (derivatives) {
     PetscCall(ContactGrow(w->num_moments * w->n, sizeof(PetscReal), &w->size_dq, &w->dq));

@@ -72,35 +72,28 @@ static PetscBool Mortar_Private(const RayFacet *f, const RayLattice *mortar, int
   return ContactRayInverse(r);
 }
 
-void ContactRayLeft(const RayFacet *f, RayPoint *r)
+void ContactRayOpen(const RayFacet *f, RayPoint *r)
 {
-  PetscReal over;
-
-  r->left = r->s;
-  r->bend = 0;
-  for (int c = 0; c < 3; c++) r->shut[c] = r->u[c] = 0;
+  r->open  = r->s;
+  r->dopen = 0;
   if (f->closed == 0) return;
-  over = 1 / PetscSqrtReal(Dot3(r->d, r->d));
-  r->left -= f->closed * over;
-  r->bend = f->closed * over * over * over;
-  for (int c = 0; c < 3; c++) {
-    r->u[c]    = r->d[c] * over;
-    r->shut[c] = f->closed * r->u[c] * over * over;
-  }
+  const PetscReal square = Dot3(r->d, r->d), over = 1 / PetscSqrtReal(square);
+  r->open -= f->closed * over;
+  r->dopen = f->closed * over / square;
 }
 
-void ContactRayAcross(const RayPoint *r, PetscReal R[3])
+void ContactRayOpening(const RayPoint *r, PetscReal R[3])
 {
-  const PetscReal square = Dot3(r->d, r->d);
+  const PetscReal closed = r->s - r->open;
 
-  for (int c = 0; c < 3; c++) R[c] = r->X[c] - r->p[c] - r->bend * square * r->d[c];
+  for (int c = 0; c < 3; c++) R[c] = r->X[c] - r->p[c] - closed * r->d[c];
 }
 
-void ContactRayAcrossTurns(const RayPoint *r, const PetscReal dd[3], PetscReal dR[3])
+void ContactRayOpeningTurns(const RayPoint *r, const PetscReal dd[3], PetscReal dR[3])
 {
-  const PetscReal along = Dot3(r->u, dd), factor = r->bend * Dot3(r->d, r->d);
+  const PetscReal closed = r->s - r->open, along = r->dopen * Dot3(r->d, dd);
 
-  for (int c = 0; c < 3; c++) dR[c] -= factor * (dd[c] - along * r->u[c]);
+  for (int c = 0; c < 3; c++) dR[c] -= closed * dd[c] - along * r->d[c];
 }
 
 /* e = x - x_m, and the length along the ray. Steps zeta . (e + s d) to where they meet do not depend on s: zeta . d = 0, kappa . d = -1. */
@@ -108,7 +101,7 @@ static void Along_Private(const RayFacet *f, RayPoint *r, PetscReal e[3])
 {
   for (int c = 0; c < 3; c++) e[c] = r->p[c] - r->X[c];
   r->s = Dot3(r->kappa, e);
-  ContactRayLeft(f, r);
+  ContactRayOpen(f, r);
 }
 
 /* Does the mortar facet reach as far as where the ray met it? */
@@ -161,7 +154,7 @@ PetscBool ContactRayAgain(const RayFacet *f, const RayLattice *mortar, const Ray
 
 PetscReal ContactRayGap(const RayPoint *r)
 {
-  return r->left * r->beta * r->rho;
+  return r->open * r->beta * r->rho;
 }
 
 PetscReal ContactRayArea(const RayPoint *r)
@@ -173,7 +166,7 @@ INLINE void First_Private(PetscInt D, PetscInt na, PetscInt nv, PetscInt nb, con
                           PetscReal area_xi[2])
 {
   const PetscInt  m  = D - 1;
-  const PetscReal br = r->beta * r->rho, sr = r->left * r->rho;
+  const PetscReal br = r->beta * r->rho, sr = r->open * r->rho;
   PetscReal       A[3], B[2][3], C[3], E[3], Aa[3] = {r->a * r->turn, 0, 0}, Ba[2][3];
 
   Cross3(r->t[1], r->d, B[0]);
@@ -181,9 +174,9 @@ INLINE void First_Private(PetscInt D, PetscInt na, PetscInt nv, PetscInt nb, con
   Cross3(r->t[1], r->unit, Ba[0]);
   Cross3(r->unit, r->t[0], Ba[1]);
   for (int c = 0; c < 3; c++) {
-    A[c] = br * r->kappa[c] + (c == 0 ? r->left * r->beta * r->turn : 0);
+    A[c] = br * r->kappa[c] + (c == 0 ? r->open * r->beta * r->turn : 0);
     C[c] = br * r->s * r->kappa[c] + sr * r->n[c];
-    if (r->bend != 0) C[c] += br * r->shut[c];
+    if (r->dopen != 0) C[c] += br * r->dopen * r->d[c];
     E[c] = -br * r->kappa[c];
     for (int k = 0; k < 2; k++) B[k][c] *= sr, Ba[k][c] *= r->rho;
   }

@@ -89,6 +89,6 @@ PetscBool ContactRayBilinear(const RayFacet *f, const RayLattice *mortar, const 
     along += r->d[c] * (r->X[c] - r->p[c]);
   }
   r->s = along / square;
-  ContactRayLeft(f, r);
+  ContactRayOpen(f, r);
   return ContactRayInverse(r);
 }

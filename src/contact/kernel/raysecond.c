@@ -1,9 +1,9 @@
-/* Second derivatives of phi g at a point, g = l b rho, l = s - e, e = closed / |d|, b = d.n, rho = 1 or 2 pi r, phi a function of xi.
+/* Second derivatives of phi g at a point, g = o b rho, o = s - closed / |d|, b = d.n, rho = 1 or 2 pi r, phi a function of xi.
 
    With r = P + s V - M (ray.c) half of d2g at fixed xi is
-     b rho (ds kappa.V - deta_i kappa.M,i - deta_i deta_j kappa.x_m,ij / 2) + l rho (V.dn + d.(T_1 x T_2)) + rho ds db + (b ds + l db) drho.
-   and where a length is closed, with u = d / |d|,
-     - b rho d2e / 2 - de (rho db + b drho),  de = - closed u.V / |d|^2,  d2e = closed (3 (u.V)^2 - V.V) / |d|^3.
+     b rho (ds kappa.V - deta_i kappa.M,i - deta_i deta_j kappa.x_m,ij / 2) + o rho (V.dn + d.(T_1 x T_2)) + rho ds db + (b ds + o db) drho.
+   and where a length is closed, o changes with d, too: d o = ds + k d.V, k = closed / |d|^3, whose second derivative adds
+     k (b rho (V.V - 3 (d.V)^2 / d.d) / 2 + d.V (rho db + b drho)).
    Products with few left factors: ds, deta_i, drho; V.dn and T_1 x T_2 couple nodes by one vector for each pair. Derivatives by xi follow with P -> P + t_i
    dxi_i and so on: mixed[i] are full rows, xixi full. */
 #include "kernelimpl.h"
@@ -79,23 +79,23 @@ INLINE PetscReal *Row_Private(const Layout *l, RaySecond *o, PetscReal **right)
   return left;
 }
 
-/* de (rho db + b drho - 3 b rho u.V / (2 |d|)) and V.V */
+/* What is closed: d.V k (rho db + b drho - 3 b rho d.V / (2 d.d)) and k b rho V.V / 2. */
 INLINE void Closed_Private(const Layout *l, const RayPoint *r, PetscReal phi, PetscReal weight, RaySecond *o)
 {
   const PetscInt  D = l->D, own = D * l->na;
-  const PetscReal br = r->beta * r->rho, over = 1 / PetscSqrtReal(Dot3(r->d, r->d));
-  PetscReal       v[3], h[3] = {phi * r->beta * r->turn, 0, 0}, w[2][3], *right, *left = Row_Private(l, o, &right);
+  const PetscReal k = phi * r->dopen, br = r->beta * r->rho, along = 3 * br / (2 * Dot3(r->d, r->d));
+  PetscReal       v[3], h[3] = {k * r->beta * r->turn, 0, 0}, w[2][3], *right, *left = Row_Private(l, o, &right);
 
-  Scale_Private(weight, r->shut, v);
+  Scale_Private(weight, r->d, v);
   ContactRaySet(D, l->nv, r->V.N, v, left + own);
-  Scale_Private(phi * r->rho, r->d, v);
+  Scale_Private(k * r->rho, r->d, v);
   Normal_Private(r, v, w);
   ContactRaySlopes(D, l->m, l->na, r->S.N, h, r->S.d, w, right);
-  for (int c = 0; c < 3; c++) v[c] = phi * (r->rho * r->n[c] - 3 * br * over * r->u[c] / 2);
+  for (int c = 0; c < 3; c++) v[c] = k * (r->rho * r->n[c] - along * r->d[c]);
   ContactRaySet(D, l->nv, r->V.N, v, right + own);
   for (PetscInt c = 0; c < D; c++) {
     left = Row_Private(l, o, &right);
-    for (int e = 0; e < 3; e++) v[e] = e == c ? weight : 0, h[e] = e == c ? 0.5 * phi * br * r->bend : 0;
+    for (int e = 0; e < 3; e++) v[e] = e == c ? weight : 0, h[e] = e == c ? 0.5 * k * br : 0;
     ContactRaySet(D, l->nv, r->V.N, v, left + own);
     ContactRaySet(D, l->nv, r->V.N, h, right + own);
   }
@@ -114,19 +114,19 @@ INLINE void Own_Private(const Layout *l, const RayPoint *r, PetscReal phi, Petsc
 
     v[0] = weight * r->turn, v[1] = v[2] = 0;
     ContactRaySet(D, l->na, r->S.N, v, left);
-    Scale_Private(phi * r->left, r->d, v);
+    Scale_Private(phi * r->open, r->d, v);
     Normal_Private(r, v, w);
     ContactRaySlopes(D, l->m, l->na, r->S.N, none, r->S.d, w, right);
-    Scale_Private(phi * r->left, r->n, v);
+    Scale_Private(phi * r->open, r->n, v);
     ContactRaySet(D, l->nv, r->V.N, v, right + D * l->na);
   }
-  if (r->bend != 0) Closed_Private(l, r, phi, weight, o);
+  if (r->dopen != 0) Closed_Private(l, r, phi, weight, o);
 }
 
 /* Pairs of nodes. */
 INLINE void Pairs_Private(const Layout *l, const RayPoint *r, PetscReal phi, PetscReal weight, RaySecond *o)
 {
-  const PetscReal factor = weight * phi * r->left * r->rho;
+  const PetscReal factor = weight * phi * r->open * r->rho;
   PetscReal       k[3], u[2][3];
 
   for (int c = 0; c < 3; c++) {
@@ -145,17 +145,17 @@ INLINE void Pairs_Private(const Layout *l, const RayPoint *r, PetscReal phi, Pet
 INLINE void Second_Private(const Layout *l, const RayPoint *r, const RayWeight *phi, PetscReal weight, RaySecond *o)
 {
   const PetscInt  m = l->m, D = l->D, na = l->na, nv = l->nv, nb = l->nb;
-  const PetscReal br = r->beta * r->rho, sr = r->left * r->rho, gap = ContactRayGap(r);
+  const PetscReal br = r->beta * r->rho, sr = r->open * r->rho, gap = ContactRayGap(r);
   PetscReal       Ag[3], Cg[3], k[3], A[3], B[2][3], C[3], E[3];
-  PetscReal       sigma[2], lefti[2], etai[2][2], betai[2], rhoi[2], ni[2][3], gi[2];
+  PetscReal       sigma[2], openi[2], etai[2][2], betai[2], rhoi[2], ni[2][3], gi[2];
 
   Products_Private(l, r, phi->v, weight, o);
   Own_Private(l, r, phi->v, weight, o);
   Pairs_Private(l, r, phi->v, weight, o);
   for (int c = 0; c < 3; c++) {
-    Ag[c] = br * r->kappa[c] + (c == 0 ? r->left * r->beta * r->turn : 0);
+    Ag[c] = br * r->kappa[c] + (c == 0 ? r->open * r->beta * r->turn : 0);
     Cg[c] = br * r->s * r->kappa[c] + sr * r->n[c];
-    if (r->bend != 0) Cg[c] += br * r->shut[c];
+    if (r->dopen != 0) Cg[c] += br * r->dopen * r->d[c];
     k[c] = phi->v * sr * r->d[c];
     A[c] = phi->v * Ag[c];
     C[c] = phi->v * Cg[c];
@@ -171,16 +171,16 @@ INLINE void Second_Private(const Layout *l, const RayPoint *r, const RayWeight *
 
     for (int c = 0; c < 3; c++) along[c] = r->t[i][c] + r->s * r->di[i][c];
     sigma[i] = Dot3(r->kappa, along);
-    lefti[i] = sigma[i] + Dot3(r->shut, r->di[i]);
+    openi[i] = sigma[i] + r->dopen * Dot3(r->d, r->di[i]);
     for (PetscInt j = 0; j < m; j++) etai[j][i] = Dot3(r->zeta[j], along);
     Cross3(r->tt[i], r->t[1], ni[i]);
     if (m == 2) AddCross_Private(r->t[0], r->tt[i + 1], ni[i]);
     betai[i] = Dot3(r->n, r->di[i]) + Dot3(r->d, ni[i]);
     rhoi[i]  = r->turn * r->t[i][0];
-    gi[i]    = br * lefti[i] + sr * betai[i] + r->left * r->beta * rhoi[i];
+    gi[i]    = br * openi[i] + sr * betai[i] + r->open * r->beta * rhoi[i];
   }
   for (PetscInt i = 0; i < m; i++) {
-    const PetscReal b   = phi->v * (r->rho * lefti[i] + r->left * rhoi[i]);
+    const PetscReal b   = phi->v * (r->rho * openi[i] + r->open * rhoi[i]);
     PetscReal      *row = o->mixed[i], u[3] = {0, 0, 0}, h[3], v[3], w[2][3] = {{0}}, n[2][3];
 
     /* r: from ds, deta */
@@ -189,7 +189,7 @@ INLINE void Second_Private(const Layout *l, const RayPoint *r, const RayWeight *
       for (PetscInt q = 0; q < m; q++) Axpy3_Private(-phi->v * br * Dot3(r->kappa, r->Xij[j + q]) * etai[j][i], r->zeta[q], u);
     /* P */
     for (int c = 0; c < 3; c++) v[c] = u[c] + phi->d[i] * Ag[c];
-    v[0] += phi->v * (r->beta * lefti[i] + r->left * betai[i]) * r->turn;
+    v[0] += phi->v * (r->beta * openi[i] + r->open * betai[i]) * r->turn;
     /* T_k */
     for (int c = 0; c < 3; c++) h[c] = phi->v * sr * r->di[i][c] + b * r->d[c] + phi->d[i] * sr * r->d[c];
     Normal_Private(r, h, n);
@@ -201,10 +201,10 @@ INLINE void Second_Private(const Layout *l, const RayPoint *r, const RayWeight *
     for (PetscInt j = 0; j < m; j++) ContactRayAdd(D, na, r->S.dd[i + j], B[j], row);
     /* V */
     for (int c = 0; c < 3; c++) v[c] = r->s * u[c] + phi->d[i] * Cg[c] + phi->v * (br * sigma[i] * r->kappa[c] + sr * ni[i][c]) + b * r->n[c];
-    if (r->bend != 0) {
-      const PetscReal turn = Dot3(r->u, r->di[i]);
+    if (r->dopen != 0) {
+      const PetscReal along = r->rho * betai[i] + r->beta * rhoi[i] - 3 * br * Dot3(r->d, r->di[i]) / Dot3(r->d, r->d);
 
-      for (int c = 0; c < 3; c++) v[c] += phi->v * (br * r->bend * (r->di[i][c] - 3 * turn * r->u[c]) + r->shut[c] * (r->rho * betai[i] + r->beta * rhoi[i]));
+      for (int c = 0; c < 3; c++) v[c] += phi->v * r->dopen * (br * r->di[i][c] + along * r->d[c]);
     }
     ContactRaySet(D, nv, r->V.N, v, row + D * na);
     ContactRayAdd(D, nv, r->V.d[i], C, row + D * na);
@@ -223,13 +223,13 @@ INLINE void Second_Private(const Layout *l, const RayPoint *r, const RayWeight *
       if (i != j) sum += Dot3(C, r->dij);
       for (PetscInt p = 0; p < m; p++)
         for (PetscInt q = 0; q < m; q++) sum -= phi->v * br * Dot3(r->kappa, r->Xij[p + q]) * etai[p][i] * etai[q][j];
-      sum += phi->v * sr * (Dot3(r->di[i], ni[j]) + Dot3(r->di[j], ni[i])) + phi->v * r->rho * (lefti[i] * betai[j] + lefti[j] * betai[i]);
+      sum += phi->v * sr * (Dot3(r->di[i], ni[j]) + Dot3(r->di[j], ni[i])) + phi->v * r->rho * (openi[i] * betai[j] + openi[j] * betai[i]);
       if (m == 2) {
         AddCross_Private(r->tt[i], r->tt[j + 1], x);
         AddCross_Private(r->tt[j], r->tt[i + 1], x);
       }
-      sum += Dot3(k, x) + phi->v * ((r->beta * lefti[i] + r->left * betai[i]) * rhoi[j] + (r->beta * lefti[j] + r->left * betai[j]) * rhoi[i]);
-      if (r->bend != 0) sum += phi->v * br * r->bend * (Dot3(r->di[i], r->di[j]) - 3 * Dot3(r->u, r->di[i]) * Dot3(r->u, r->di[j]));
+      sum += Dot3(k, x) + phi->v * ((r->beta * openi[i] + r->open * betai[i]) * rhoi[j] + (r->beta * openi[j] + r->open * betai[j]) * rhoi[i]);
+      if (r->dopen != 0) sum += phi->v * br * r->dopen * (Dot3(r->di[i], r->di[j]) - 3 * Dot3(r->d, r->di[i]) * Dot3(r->d, r->di[j]) / Dot3(r->d, r->d));
       o->xixi[i + j] = sum;
     }
 }

@@ -36,7 +36,7 @@ static void Traction_Private(const RayPoint *r, Traction *t)
 {
   t->a = r->a;
   for (int c = 0; c < 3; c++) t->n[c] = r->unit[c];
-  ContactRayAcross(r, t->R);
+  ContactRayOpening(r, t->R);
   Cross3(r->t[1], t->n, t->b[0]);
   Cross3(t->n, r->t[0], t->b[1]);
 }
@@ -124,7 +124,7 @@ static void Number_Private(const Work *o, const RayPoint *r, const Traction *at,
   for (int c = 0; c < 3; c++) dR[c] = value * (r->Xi[0][c] * r->zeta[0][e] + r->Xi[1][c] * r->zeta[1][e]);
   dR[e] -= place;
   dd[e] = turns;
-  ContactRayAcrossTurns(r, dd, dR);
+  if (turns != 0) ContactRayOpeningTurns(r, dd, dR);
   for (int i = 0; i < 2; i++)
     for (int k = 0; k < 2; k++) dsigma[i] += at->S[i][k][e] * d[k];
   for (int c = 0; c < 3; c++) {
@@ -174,7 +174,7 @@ static void Slope_Private(const Work *o, const RayPoint *r, const Traction *at, 
       Rk[c] = r->Xi[0][c] * eta[0] + r->Xi[1][c] * eta[1] - r->t[k][c];
       Tk[c] = Dot3(at->C[0][c], r->tt[k]) + Dot3(at->C[1][c], r->tt[k + 1]) + at->a * at->along[k][c];
     }
-    ContactRayAcrossTurns(r, r->di[k], Rk);
+    ContactRayOpeningTurns(r, r->di[k], Rk);
     for (PetscInt i = 0; i < rows; i++) {
       const PetscInt c = i % 3, a = i / 3, b = a - o->na;
       PetscReal      x = -h[a][c] * r->chart.ddet[k] / r->chart.det;

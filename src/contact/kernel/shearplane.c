@@ -40,9 +40,9 @@ static void Density_Private(const RayFacet *f, const RayLattice *mortar, const R
   PetscReal R[3], Ri[3], *t = (PetscReal *)r->t[0], etai = 0;
 
   for (int c = 0; c < 2; c++) etai += r->zeta[0][c] * (t[c] + r->s * r->di[0][c]);
-  ContactRayAcross(r, R);
-  for (int c = 0; c < 3; c++) Ri[c] = c < 2 ? r->Xi[0][c] * etai - t[c] : 0;
-  ContactRayAcrossTurns(r, r->di[0], Ri);
+  ContactRayOpening(r, R);
+  for (int c = 0; c < 3; c++) Ri[c] = r->Xi[0][c] * etai - t[c];
+  ContactRayOpeningTurns(r, r->di[0], Ri);
   for (int c = 0; c < 2; c++) {
     for (PetscInt a = 0; a < f->s.num; a++) {
       h[c][a]     = r->S.d[0][a] * R[c] - r->S.N[a] * t[c];
@@ -66,8 +66,10 @@ static void Change_Private(const RayFacet *f, const RayLattice *mortar, const Ra
   PetscReal        dR[3] = {0, 0, 0}, dd[3] = {0, 0, 0}, dt[2] = {0, 0};
 
   for (int c = 0; c < 2; c++) dR[c] = r->Xi[0][c] * deta;
-  if (group == 1) dd[e] = r->V.N[node];
-  ContactRayAcrossTurns(r, dd, dR);
+  if (group == 1) {
+    dd[e] = r->V.N[node];
+    ContactRayOpeningTurns(r, dd, dR);
+  }
   if (group != 1) dR[e] -= value;
   if (group == 0) dt[e] = r->S.d[0][node];
   weight *= r->rho;
