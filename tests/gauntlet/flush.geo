@@ -11,4 +11,4 @@ Return
 b = 10; y = 0; k = n; Call Square;
 b = 20; y = 1 + g; k = m; Call Square;
 Physical Surface("lower") = {10}; Physical Surface("upper") = {20};
-Physical Curve("bottom") = {11}; Physical Curve("top") = {23}; Physical Curve("face") = {13}; Physical Curve("under") = {21};
+Physical Curve("bottom") = {11}; Physical Curve("top") = {23}; Physical Curve("face") = {13}; Physical Curve("under") = {21}; Physical Curve("left") = {14, 24};

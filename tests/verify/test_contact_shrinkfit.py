@@ -5,7 +5,7 @@ import pathlib
 import numpy
 import pytest
 
-from contactkit import contact
+from contactkit import contact, is_quadratic, steps
 
 PRESSURE, RADIUS = 65.93406593, 10  # plane strain
 QUIET = ("-output_fields", "false")
@@ -173,6 +173,33 @@ def test_closed_gaps_leave_no_trace(run, mu):
     force = [result.summary["reaction"]["top"][1] for result in results]
     print(force)
     assert force[1:] == pytest.approx(force[:1] * 3, rel=1e-9)
+
+
+@pytest.mark.parametrize("scene", [("flush",), ("tight",), ("oring_roll", "-load_end", 1)])
+def test_order_of_convergence_and_ranks(run, scene):
+    """An interference in the plane, round an axis, with friction: residuals fall quadratically at the end of every step, and ranks agree."""
+    one, *others = (run(f"tests/gauntlet/{scene[0]}.yml", *scene[1:], *QUIET, "-snes_monitor", ranks=ranks) for ranks in (1, 2, 3))
+    assert one.returncode == 0 and all(is_quadratic(step) for step in steps(one)), steps(one)
+    pair = next(iter(one.summary["contact"]))
+    for other in others:
+        assert other.summary["newton_iterations"] == one.summary["newton_iterations"]
+        assert other.summary["energy"] == pytest.approx(one.summary["energy"], rel=1e-11)
+        assert other.summary["contact"][pair]["force"] == pytest.approx(one.summary["contact"][pair]["force"], rel=1e-9, abs=1e-9)
+
+
+@pytest.mark.parametrize("order", [1, 2, 3])
+def test_patch_across_a_closed_gap(run, order):
+    """Uniform stress between faces of 4 and 7 cells, 0.05 apart in the mesh: the pressure is the force over the area everywhere, and the force that of a mesh without a gap."""
+    folder = pathlib.Path(__file__).resolve().parents[1] / "gauntlet"
+    text = (folder / "flush.yml").read_text().replace("flush.geo", str(folder / "flush.geo")).replace('interference: "0.1*t"', "initial_gap: adjust")
+    text = text.replace("bottom: {fix: xy}, top: {fix: xy}", 'bottom: {fix: y}, top: {displacement: {y: "-0.1*t"}}, left: {fix: x}')
+    gap, none = (run("patch.yml", "-order", order, *words, *QUIET, text=text)
+                 for words in (("-mesh_parameter_g", 0.05, "-mesh_parameter_m", 7), ("-mesh_parameter_g", 0)))
+    pair = gap.summary["contact"]["c"]
+    print(gap.summary["reaction"]["top"], pair["max_pressure"], pair["area"], gap.summary["estimated_error"])
+    assert gap.returncode == 0 and gap.summary["estimated_error"] < 1e-7, gap  # the root of round-off
+    assert pair["max_pressure"] * pair["area"] == pytest.approx(abs(pair["force"][1]), rel=1e-10)
+    assert gap.summary["reaction"]["top"][1] == pytest.approx(none.summary["reaction"]["top"][1], rel=1e-10)
 
 
 @pytest.mark.parametrize("order", [1, 2, 3])
