@@ -83,6 +83,10 @@ PetscErrorCode InsideFind(Problem, const State *, PetscInt *pair);
    array) to the state; -1: there is none. At the state that was evaluated last. Finite kinematics. Collective. */
 PetscErrorCode ThroughFind(Problem, const PetscReal from[], const State *, PetscInt *pair);
 
+/* adrift.c: axes[body], as bits: those along which no support holds a body, nor the bodies that contact presses it on, nor those that hold them. At the state
+   evaluated last; scale: the largest ProblemStatus.scale of the path, against which forces are round-off. Collective. */
+PetscErrorCode AdriftFind(Problem, PetscReal scale, PetscInt axes[]);
+
 /* Figures of one pass or accepted step, also the rows of adapt.csv and history.csv. */
 typedef struct {
   PetscInt  step, pass, cells, dofs;

@@ -127,6 +127,15 @@ PetscErrorCode MechanicsViscousWork(Mechanics, const PetscReal u[], PetscReal *w
    hold[num_bodies][9]. A direction of which a sum over bodies has no more than MECHANICS_FREE of its trace is free. */
 #define MECHANICS_FREE 1e-9
 PetscErrorCode MechanicsGetHold(Mechanics, const PetscReal **hold);
+/* The axes that are free by such a sum, as bits. */
+static inline PetscInt MechanicsFreeAxes(PetscInt dim, const PetscReal hold[9])
+{
+  PetscInt axes = 0;
+
+  for (PetscInt c = 0; c < dim; ++c)
+    if (hold[4 * c] <= MECHANICS_FREE * (hold[0] + hold[4] + hold[8])) axes |= 1 << c;
+  return axes;
+}
 /* Do supports hold it against every rigid motion, rotations too? Not collective. */
 PetscBool MechanicsIsHeld(Mechanics, PetscInt body);
 /* Write the prescribed dofs of time t into a local array of dofs; other entries stay. At t = 0 all are 0: bodies are at rest where the mesh puts them, and

@@ -130,10 +130,16 @@ PetscErrorCode AppTellMirrors(const App *app)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+const char *AppAxesName(PetscInt axes)
+{
+  static const char *const name[] = {"", "x", "y", "x and y", "z", "x and z", "y and z", "x, y and z"};
+
+  return name[axes];
+}
+
 PetscErrorCode AppTellFree(const App *app)
 {
-  static const char *const along[] = {"", "x", "y", "x and y", "z", "x and z", "y and z", "x, y and z"};
-  const CoarseMesh        *mesh;
+  const CoarseMesh *mesh;
 
   PetscFunctionBegin;
   for (PetscInt i = 0; i < app->data->num_contacts; ++i) PetscCall(TellOverlap_Private(app, i, PETSC_TRUE));
@@ -148,7 +154,7 @@ PetscErrorCode AppTellFree(const App *app)
       PetscCall(PetscPrintf(app->comm,
                             "note: no support holds body %s along %s: it takes contact for an equilibrium; where contact does not hold it either, as along a "
                             "flat face, its displacement along %s means nothing\n",
-                            mesh->body_name[b], along[axes], along[axes]));
+                            mesh->body_name[b], AppAxesName(axes), AppAxesName(axes)));
     if (turns) PetscCall(PetscPrintf(app->comm, "note: the supports of body %s let it turn: it takes contact for an equilibrium\n", mesh->body_name[b]));
   }
   PetscFunctionReturn(PETSC_SUCCESS);

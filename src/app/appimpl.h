@@ -55,6 +55,11 @@ typedef struct {
   PetscReal        rough_error, rough_t, rough_norm; /* largest estimate of an accepted step, its time; largest norm */
   PetscReal        unstable_t;                       /* when a solution was first found unstable … */
   PetscBool        unstable_known, passage_told;     /* … if one was; that a surface passes through itself */
+  PetscBool        adrift_known;                     /* which bodies contact holds */
+  PetscReal        most_scale;                       /* largest ProblemStatus.scale of an accepted step */
+  PetscInt        *free_axes;                        /* owned [num_bodies]: the fewest that AdriftFind has found of an accepted step of this path … */
+  PetscInt        *lost_axes;                        /* … and those that came back since, the first time … */
+  PetscReal       *lost_t;                           /* … which was then */
   PetscBool        mirror[3];                        /* planes of symmetry that are not used (NeedsFindMirrors) … */
   PetscReal        mirror_at[3];                     /* … and where they are */
   PetscReal        most_energy;                      /* stored at the end of an accepted load step */
@@ -99,6 +104,8 @@ PetscErrorCode AppRemember(App *);
 PetscErrorCode AppRepeat(App *, PetscBool *again);
 /* advise.c. At its beginning: bodies that only contact holds, on standard output. Collective. */
 PetscErrorCode AppTellFree(const App *);
+/* Axes in words, by their bits. */
+const char *AppAxesName(PetscInt axes);
 /* -check: symmetry that is not used. Collective. */
 PetscErrorCode AppTellMirrors(const App *);
 /* At the end of a run: what there is besides, what looks wrong, and what may help. Collective. */

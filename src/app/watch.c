@@ -59,6 +59,29 @@ static void WatchEstimate_Private(App *app)
   if (error > app->rough_error) app->rough_error = error, app->rough_t = app->level.accepted.t;
 }
 
+/* Contact has let go of a body that nothing else holds: an equilibrium without load is anywhere, and is found. */
+static PetscErrorCode WatchAdrift_Private(App *app)
+{
+  const PetscInt num = app->data->mechanics.num_bodies;
+  PetscInt      *axes;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(num, &axes));
+  app->most_scale = PetscMax(app->most_scale, app->balance.status.scale);
+  PetscCall(AdriftFind(app->level.problem, app->most_scale, axes));
+  for (PetscInt b = 0; b < num; ++b) {
+    if (app->load_steps == 1 || !app->adrift_known) app->free_axes[b] = axes[b], app->lost_axes[b] = 0;
+    if (!app->lost_axes[b]) {
+      app->lost_axes[b] = axes[b] & ~app->free_axes[b];
+      app->lost_t[b]    = app->level.accepted.t;
+    }
+    app->free_axes[b] &= axes[b];
+  }
+  app->adrift_known = PETSC_TRUE;
+  PetscCall(PetscFree(axes));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode AppRefuseInside(Problem problem, const PetscReal from[], const State *state, const char **reason)
 {
   PetscInt pair;
@@ -86,6 +109,7 @@ PetscErrorCode AppWatch(App *app)
   if (app->path.unstable > 0 && !app->unstable_known) app->unstable_t = app->level.accepted.t;
   app->unstable_known = (PetscBool)(app->path.unstable > 0);
   PetscCall(WatchPassage_Private(app));
+  PetscCall(WatchAdrift_Private(app));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -102,9 +126,25 @@ static PetscErrorCode WarnFlow_Private(App *app)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+static PetscErrorCode WarnAdrift_Private(App *app)
+{
+  const CoarseMesh *mesh;
+
+  PetscFunctionBegin;
+  PetscCall(ForestGetCoarse(app->level.forest, &mesh));
+  for (PetscInt b = 0; b < mesh->num_bodies; ++b) {
+    if (!app->lost_axes[b]) continue;
+    PetscCall(WarningAdd(app->comm,
+                         "at t = %.6g contact, which held body %s before, has lost it, and no support holds it along %s: where it is then means nothing",
+                         (double)app->lost_t[b], mesh->body_name[b], AppAxesName(app->lost_axes[b])));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode AppWarn(App *app)
 {
   PetscFunctionBegin;
+  PetscCall(WarnAdrift_Private(app));
   PetscCall(WarnFlow_Private(app));
   if (app->rough_error > ROUGH * app->rough_norm)
     PetscCall(WarningAdd(app->comm, "the estimated error is up to %.3g %% of the largest solution, at t = %.6g: figures of this run say little",

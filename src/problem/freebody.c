@@ -7,10 +7,7 @@ PetscErrorCode ProblemFreeAxes(Problem p, PetscInt body, PetscInt *axes, PetscBo
 
   PetscFunctionBegin;
   PetscCall(MechanicsGetHold(p->mechanics, &hold));
-  hold += 9 * body;
-  *axes = 0;
-  for (PetscInt c = 0; c < p->dim; ++c)
-    if (hold[4 * c] <= MECHANICS_FREE * (hold[0] + hold[4] + hold[8])) *axes |= 1 << c;
+  *axes  = MechanicsFreeAxes(p->dim, hold + 9 * body);
   *turns = (PetscBool)(!*axes && !MechanicsIsHeld(p->mechanics, body));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
