@@ -261,6 +261,7 @@ int main(int argc, char **argv)
     (void)fflush(NULL);
     _exit(1);
   }
+  (void)fflush(NULL); /* now: mpiexec ends the other processes as soon as it sees one that has ended with a status */
   ierr = Finalize_Private();
   (void)fflush(NULL);
   _exit(ierr ? Status_Private(ierr)

@@ -173,12 +173,10 @@ static void OpenStandard_Private(void)
 }
 
 /* What PETSc, or this program, does not live through, said by one process of a job. */
-static PetscBool Refused_Private(int argc, char **argv)
+static PetscBool Refused_Private(int argc, char **argv, PetscBool speaks)
 {
-  const char *const rank   = getenv("OMPI_COMM_WORLD_RANK");
-  const PetscBool   speaks = (PetscBool)(!rank || !strcmp(rank, "0"));
-  rlim_t            allowed;
-  char              here[PETSC_MAX_PATH_LEN], told[256] = "";
+  rlim_t allowed;
+  char   here[PETSC_MAX_PATH_LEN], told[256] = "";
 
   if (Lacks_Private(RLIMIT_STACK, STACK_ROOM, &allowed)) {
     if (speaks) fprintf(stderr, "mortise: the stack may not grow beyond %ld kB (ulimit -s); %ld are needed\n", (long)(allowed >> 10), (long)(STACK_ROOM >> 10));
@@ -220,10 +218,12 @@ static PetscErrorCode Words_Private(void)
 /* PetscInitialize with those settings when no launcher started this process; what the user has set wins. */
 PetscErrorCode AppInitialize(int argc, char **argv)
 {
-  static char  **arguments;
-  int            set[NUM_ALONE] = {0};
-  const int      alone          = !getenv("OMPI_COMM_WORLD_SIZE") && !getenv("PMIX_RANK") && !getenv("PMI_RANK");
-  PetscErrorCode ierr;
+  static char   **arguments;
+  int             set[NUM_ALONE] = {0};
+  const int       alone          = !getenv("OMPI_COMM_WORLD_SIZE") && !getenv("PMIX_RANK") && !getenv("PMI_RANK");
+  const char     *rank           = getenv("OMPI_COMM_WORLD_RANK");
+  const PetscBool speaks         = (PetscBool)(!rank || !strcmp(rank, "0"));
+  PetscErrorCode  ierr;
 
   for (int i = 0; alone && i < NUM_ALONE; ++i) set[i] = !getenv(Alone[i][0]) && !setenv(Alone[i][0], Alone[i][1], 1);
   OpenStandard_Private();
@@ -231,7 +231,10 @@ PetscErrorCode AppInitialize(int argc, char **argv)
   OneArena_Private();
   CheckRoom_Private(START_ROOM);
   arguments = Arguments_Private(&argc, argv);
-  if (Refused_Private(argc, arguments)) return MORTISE_ERR_INPUT;
+  if (Refused_Private(argc, arguments, speaks)) {
+    if (!speaks) (void)sleep(1); /* until the one that speaks has: mpiexec ends all as soon as one has ended, also one that is still being loaded */
+    return MORTISE_ERR_INPUT;
+  }
   PetscErrorCode (*const print)(const char[], ...) = PetscErrorPrintf;
   PetscErrorPrintf                                 = Keep_Private;
   ierr                                             = PetscInitialize(&argc, &arguments, NULL, NULL);
