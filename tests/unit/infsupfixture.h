@@ -79,21 +79,22 @@ static inline PetscInt NumFree(const Bulk *b, const PetscInt **global)
 /* int grad Na : grad Nb of a cell, [n*dim][n*dim]. */
 static inline void CellNorm(const Bulk *b, PetscInt dim, PetscInt order, PetscInt cell, PetscReal K[])
 {
-  static PetscReal gradient[MOST_NODES][3 * MOST_NODES];
-  PetscReal        X[3 * MOST_NODES], xi[3 * MOST_NODES], weight[MOST_NODES];
-  const PetscInt   n = ElementNumNodes(dim, order);
+  static PetscReal   gradient[MOST_NODES][3 * MOST_NODES], slope[3 * MOST_NODES * MOST_NODES], sum[MOST_NODES * MOST_NODES];
+  PetscReal          X[3 * MOST_NODES], xi[3 * MOST_NODES], weight[MOST_NODES], one = 1, zero = 0;
+  const PetscInt     n    = ElementNumNodes(dim, order);
+  const PetscBLASInt size = (PetscBLASInt)n;
 
   OK(HPSpaceGatherPositions(b->space, cell, X));
-  const PetscInt np = Points(dim, order, X, xi, weight, gradient);
+  const PetscInt     np    = Points(dim, order, X, xi, weight, gradient);
+  const PetscBLASInt inner = (PetscBLASInt)(dim * np);
+  for (PetscInt p = 0; p < np; ++p)
+    for (PetscInt i = 0; i < n; ++i)
+      for (PetscInt c = 0; c < dim; ++c) slope[(dim * p + c) * n + i] = PetscSqrtReal(weight[p]) * gradient[p][dim * i + c];
+  BLASgemm_("N", "T", &size, &size, &inner, &one, slope, &size, slope, &size, &zero, sum, &size);
   OK(PetscArrayzero(K, PetscSqr(dim * n)));
-  for (PetscInt i = 0; i < n; ++i) {
-    for (PetscInt j = 0; j < n; ++j) {
-      PetscReal sum = 0;
-      for (PetscInt p = 0; p < np; ++p)
-        for (PetscInt c = 0; c < dim; ++c) sum += weight[p] * gradient[p][dim * i + c] * gradient[p][dim * j + c];
-      for (PetscInt c = 0; c < dim; ++c) K[(dim * i + c) * dim * n + dim * j + c] = sum;
-    }
-  }
+  for (PetscInt i = 0; i < n; ++i)
+    for (PetscInt j = 0; j < n; ++j)
+      for (PetscInt c = 0; c < dim; ++c) K[(dim * i + c) * dim * n + dim * j + c] = sum[i * n + j];
 }
 
 static inline Mat Norm(const Bulk *b, PetscInt n)

@@ -62,9 +62,10 @@ static void PolynomialError(const ContactSurface *s, PetscInt rows, const PetscI
 {
   for (PetscInt degree = 0; degree <= MORTISE_MAX_ORDER; degree++)
     for (PetscInt i = 0; i <= (s->dim == 3 ? degree : 0); i++) {
-      PetscReal error = -pow(X[0], degree - i) * pow(X[1], i);
+      PetscReal error = -PetscPowRealInt(X[0], degree - i) * PetscPowRealInt(X[1], i);
 
-      for (PetscInt r = 0; r < rows; r++) error += psi[r] * pow(s->X[s->dim * node[r]], degree - i) * pow(s->X[s->dim * node[r] + 1], i);
+      for (PetscInt r = 0; r < rows; r++)
+        error += psi[r] * PetscPowRealInt(s->X[s->dim * node[r]], degree - i) * PetscPowRealInt(s->X[s->dim * node[r] + 1], i);
       out->exact[degree] = PetscMax(out->exact[degree], fabs(error));
     }
 }

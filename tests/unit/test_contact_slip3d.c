@@ -113,59 +113,73 @@ static void CheckBalance(const Sum *s, const Patch *a, const Patch *b, Errors *e
   e->moment = PetscMax(e->moment, Largest(moment, 3) / scale);
 }
 
+/* Forces, slip and their derivatives at these positions. */
+typedef struct {
+  Sum        sum;
+  PetscReal *slip, *gradient, *weight;
+  uint64_t   signature;
+} Here;
+
+static void HereCreate(ContactPair pair, const Patch *a, const Patch *b, const PetscReal z[], const PetscReal traction[], Here *at)
+{
+  SumCreate(&at->sum, a, b);
+  at->slip     = calloc(2 * (size_t)at->sum.nn, sizeof(PetscReal));
+  at->weight   = calloc((size_t)at->sum.nn, sizeof(PetscReal));
+  at->gradient = calloc((size_t)(2 * at->sum.nn * at->sum.size), sizeof(PetscReal));
+  Forces(&at->sum, pair, a, b, z, traction, PETSC_TRUE);
+  at->signature = Signature(pair);
+  Slip(&at->sum, pair, a, b, at->slip, at->gradient, at->weight);
+}
+
+static void HereDestroy(Here *at)
+{
+  SumDestroy(&at->sum);
+  free(at->slip), free(at->gradient), free(at->weight);
+}
+
 /* Derivatives along one direction of all positions, by differences with step h. */
 static void Derivatives(ContactPair pair, Patch *a, Patch *b, const PetscReal z[], const PetscReal traction[], const PetscReal direction[], PetscReal h,
-                        Errors *e)
+                        const Here *exact, Errors *e)
 {
   static const PetscReal At[4]   = {-2, -1, 1, 2};
   Patch                 *side[2] = {a, b};
-  PetscReal             *from[2], *slip[4], *gradient, *weight, tangent = 0, error = 0, scale[2] = {0, 0};
+  const PetscInt         nn = exact->sum.nn, size = exact->sum.size;
+  PetscReal             *from[2], *slip[4], tangent = 0, error = 0, scale[2] = {0, 0};
   PetscBool              kink = PETSC_FALSE;
-  uint64_t               signature;
-  Sum                    exact, moved[4];
+  Sum                    moved[4];
 
-  SumCreate(&exact, a, b);
-  weight   = calloc((size_t)exact.nn, sizeof(PetscReal));
-  gradient = calloc((size_t)(2 * exact.nn * exact.size), sizeof(PetscReal));
   for (int k = 0; k < 2; k++) {
     from[k] = malloc(3 * (size_t)side[k]->s.num_nodes * sizeof(PetscReal));
     memcpy(from[k], side[k]->x, 3 * (size_t)side[k]->s.num_nodes * sizeof(PetscReal));
   }
-  Forces(&exact, pair, a, b, z, traction, PETSC_TRUE);
-  signature = Signature(pair);
-  slip[0]   = calloc(2 * (size_t)exact.nn, sizeof(PetscReal));
-  Slip(&exact, pair, a, b, slip[0], gradient, weight);
-  free(slip[0]);
   for (int m = 0; m < 4; m++) {
     for (int k = 0; k < 2; k++) {
-      for (PetscInt i = 0; i < 3 * side[k]->s.num_nodes; i++) side[k]->x[i] = from[k][i] + At[m] * h * direction[(k ? 3 * exact.nn : 0) + i];
+      for (PetscInt i = 0; i < 3 * side[k]->s.num_nodes; i++) side[k]->x[i] = from[k][i] + At[m] * h * direction[(k ? 3 * nn : 0) + i];
       PatchFollow(side[k]);
     }
     SumCreate(&moved[m], a, b);
     Forces(&moved[m], pair, a, b, z, traction, PETSC_FALSE);
-    kink    = (PetscBool)(kink || Signature(pair) != signature);
-    slip[m] = calloc(2 * (size_t)exact.nn, sizeof(PetscReal));
-    Slip(&exact, pair, a, b, slip[m], NULL, weight);
+    kink    = (PetscBool)(kink || Signature(pair) != exact->signature);
+    slip[m] = calloc(2 * (size_t)nn, sizeof(PetscReal));
+    Slip(&exact->sum, pair, a, b, slip[m], NULL, exact->weight);
   }
-  for (PetscInt i = 0; i < exact.size; i++) {
+  for (PetscInt i = 0; i < size; i++) {
     const PetscReal f[4] = {moved[0].gradient[i], moved[1].gradient[i], moved[2].gradient[i], moved[3].gradient[i]}, d = Difference(f, h);
     PetscReal       sum = 0;
 
-    for (PetscInt k = 0; k < exact.size; k++) sum += exact.hessian[i * exact.size + k] * direction[k];
+    for (PetscInt k = 0; k < size; k++) sum += exact->sum.hessian[i * size + k] * direction[k];
     tangent = PetscMax(tangent, PetscAbsReal(sum - d)), scale[0] = PetscMax(scale[0], PetscAbsReal(d));
   }
-  for (PetscInt j = 0; j < 2 * exact.nn; j++) {
+  for (PetscInt j = 0; j < 2 * nn; j++) {
     const PetscReal f[4] = {slip[0][j], slip[1][j], slip[2][j], slip[3][j]}, d = Difference(f, h);
     PetscReal       sum = 0;
 
-    for (PetscInt k = 0; k < exact.size; k++) sum += gradient[j * exact.size + k] * direction[k];
+    for (PetscInt k = 0; k < size; k++) sum += exact->gradient[j * size + k] * direction[k];
     error = PetscMax(error, PetscAbsReal(sum - d)), scale[1] = PetscMax(scale[1], PetscAbsReal(d));
   }
   *e = (Errors){.tangent = tangent / scale[0], .slip = error / scale[1], .kinks = kink};
   for (int m = 0; m < 4; m++) SumDestroy(&moved[m]), free(slip[m]);
   for (int k = 0; k < 2; k++) memcpy(side[k]->x, from[k], 3 * (size_t)side[k]->s.num_nodes * sizeof(PetscReal)), free(from[k]);
-  SumDestroy(&exact);
-  free(weight), free(gradient);
 }
 
 static void CheckDerivatives(ContactPair pair, Patch *a, Patch *b, const PetscReal z[], const PetscReal traction[], uint64_t *seed, Errors *e)
@@ -173,16 +187,19 @@ static void CheckDerivatives(ContactPair pair, Patch *a, Patch *b, const PetscRe
   const PetscInt size      = 3 * (a->s.num_nodes + b->s.num_nodes);
   PetscReal     *direction = malloc((size_t)size * sizeof(PetscReal));
   Errors         least     = {.tangent = PETSC_MAX_REAL, .slip = PETSC_MAX_REAL}, at;
+  Here           exact;
 
+  HereCreate(pair, a, b, z, traction, &exact);
   for (PetscInt i = 0; i < size; i++) direction[i] = Random(seed);
   for (PetscReal h = STEP; h > STEP / 300 && least.tangent > 2e-9; h /= 5) {
-    Derivatives(pair, a, b, z, traction, direction, h, &at);
+    Derivatives(pair, a, b, z, traction, direction, h, &exact, &at);
     if (at.kinks) {
       least.kinks = 1;
       continue;
     }
     least.tangent = PetscMin(least.tangent, at.tangent), least.slip = PetscMin(least.slip, at.slip), least.kinks = 0;
   }
+  HereDestroy(&exact);
   e->kinks += least.kinks;
   if (!least.kinks) e->tangent = PetscMax(e->tangent, least.tangent), e->slip = PetscMax(e->slip, least.slip);
   free(direction);
