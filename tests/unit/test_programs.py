@@ -13,6 +13,8 @@ import pytest
 HERE = pathlib.Path(__file__).resolve().parent
 BUILD = pathlib.Path(os.environ.get("MORTISE_BUILD", HERE.parent.parent / "build"))
 POINTWISE = ("base", "contact", "element", "material")
+# As src/app/start.c: one process needs no daemon.
+ALONE = {"OMPI_MCA_ess_singleton_isolated": "1", "OMPI_MCA_btl": "self", "OMPI_MCA_coll": "self,basic,libnbc", "OMPI_MCA_orte_create_session_dirs": "0"}
 SECONDS = 240  # a rank that fails an assertion may leave the others waiting: that is a failure, not a hang
 
 
@@ -29,11 +31,11 @@ def runs():
 
 @pytest.mark.parametrize("name,ranks,options", runs())
 def test_unit(name, ranks, options, tmp_path):
-    command = [str(BUILD / "unit" / name), *options]
+    command, more = [str(BUILD / "unit" / name), *options], ALONE
     if ranks > 1:
-        command = ["mpiexec", "-n", str(ranks)] + command
+        command, more = ["mpiexec", "-n", str(ranks)] + command, {}
     with tempfile.TemporaryDirectory(prefix="m") as own:  # for what MPI keeps: starts at the same time take it away from each other
-        passed(name, ranks, command, tmp_path, {**os.environ, "TMPDIR": own})
+        passed(name, ranks, command, tmp_path, {**os.environ, **more, "TMPDIR": own})
 
 
 def passed(name, ranks, command, directory, env):
