@@ -45,6 +45,8 @@ void ErrorAsked(const char *format, ...) PETSC_ATTRIBUTE_FORMAT(1, 2);
 PetscBool ErrorIsPlain(PetscErrorCode);
 /* Of options of PETSc that name a type or a solver that is not there: plain, and wrong input. */
 PetscBool ErrorIsOption(PetscErrorCode);
+/* By the processes of a job that leave the words to another one, before they end: a second, or less if that one has ended the job. */
+void ErrorLetSpeak(void);
 /* Between the two an error of PETSc whose message has these words is no end but an answer: *met, without a word on the screen; any other returns from the
    second call as ever. code: what the call in question returned, without PetscCall around it; it must return the same on all ranks. No nesting. */
 PetscErrorCode ErrorForesee(const char *words);

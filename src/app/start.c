@@ -232,7 +232,7 @@ PetscErrorCode AppInitialize(int argc, char **argv)
   CheckRoom_Private(START_ROOM);
   arguments = Arguments_Private(&argc, argv);
   if (Refused_Private(argc, arguments, speaks)) {
-    if (!speaks) (void)sleep(1); /* until the one that speaks has: mpiexec ends all as soon as one has ended, also one that is still being loaded */
+    if (!speaks) ErrorLetSpeak();
     return MORTISE_ERR_INPUT;
   }
   PetscErrorCode (*const print)(const char[], ...) = PetscErrorPrintf;

@@ -2,6 +2,7 @@
 #include "base.h"
 #include <stdarg.h>
 #include <stdio.h>
+#include <unistd.h>
 
 /* What comes from files does not speak to the terminal. */
 static void Print_Private(const char *format, va_list arguments)
@@ -99,6 +100,12 @@ static void Say_Private(const char *format, ...)
   va_end(arguments);
 }
 
+/* mpiexec ends all processes as soon as one has ended, one that is still about to speak among them. Its signal ends the wait. */
+void ErrorLetSpeak(void)
+{
+  (void)sleep(1);
+}
+
 /* No fault of the program: a sentence will do, of the first process or of the one whose own matter it is. Options are those of all. */
 static void Plain_Private(MPI_Comm comm, PetscErrorCode code, const char *message)
 {
@@ -106,7 +113,10 @@ static void Plain_Private(MPI_Comm comm, PetscErrorCode code, const char *messag
 
   if (ErrorIsOption(code)) comm = PETSC_COMM_WORLD;
   if (comm != PETSC_COMM_SELF) MPI_Comm_rank(comm, &rank);
-  if (rank) return;
+  if (rank) {
+    ErrorLetSpeak();
+    return;
+  }
   if (code == PETSC_ERR_MEM)
     Say_Private("out of memory%s%s: take a smaller problem, or more processes on more machines", asked[0] ? " for " : "", asked);
   else
