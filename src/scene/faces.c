@@ -12,6 +12,7 @@
 
 typedef struct {
   PetscInt  entity, side; /* vertex (plane) or edge (space) of the leaf facet, and side of the coarse mesh that this lies in: 2 dim cell + place */
+  PetscInt  facet;        /* number of the leaf facet */
   PetscReal N[3], T[3];   /* its unit normal there, and a tangent from there into it */
   PetscReal length;       /* of the leaf facet */
 } Rim;
@@ -87,6 +88,7 @@ static PetscErrorCode Rims_Private(Forest forest, PetscInt group, PetscInt *num,
       Rim *r    = *rim + (*num)++;
       r->entity = cl[k];
       r->side   = side;
+      r->facet  = f;
       Axes_Private(mesh, t, cell, side % (2 * t->dim), cl[k], r);
     }
   }
@@ -110,10 +112,51 @@ static PetscInt End_Private(PetscInt num, const Rim rim[], PetscInt from)
   return end;
 }
 
+/* The rim of the facet that meets this one in its vertex; -1: there is none. In the plane, where two facets at most meet in a vertex of an outline. */
+static PetscInt Neighbour_Private(PetscInt num, const Rim rim[], PetscInt k)
+{
+  if (k + 1 < num && rim[k + 1].entity == rim[k].entity) return k + 1;
+  return k > 0 && rim[k - 1].entity == rim[k].entity ? k - 1 : -1;
+}
+
+/* Angle between two rims, negative where the outline is concave: at a vertex tangents of convex facets point to the inner side of each other, within a facet
+   those of its ends to the outer one. */
+static PetscReal Turn_Private(const Rim *a, const Rim *b, PetscBool within)
+{
+  const PetscReal angle = acos(PetscMax(-1, PetscMin(1, Dot3(a->N, b->N)))), out = Dot3(a->N, b->T);
+
+  return angle <= ROUND_LENGTH ? 0 : (within ? out < 0 : out > 0) ? -angle : angle;
+}
+
+/* From the end k of a facet on along the outline: the way within which it turns by the angle of a corner, convex throughout. Infinity: it does not, is straight
+   at first, or there is a shorter one. other[k]: the rim at the other end of the facet. */
+static PetscReal Round_Private(PetscInt num, const Rim rim[], const PetscInt other[], PetscInt k, PetscReal most)
+{
+  const PetscReal sharp = acos(CONTACT_SHARP);
+  const PetscInt  from  = Neighbour_Private(num, rim, k);
+  PetscReal       way = 0, turned = from < 0 ? 0 : PetscMax(0, Turn_Private(&rim[from], &rim[k], PETSC_FALSE));
+
+  for (PetscInt i = 0; i < num && k >= 0 && way < most; ++i) {
+    const PetscInt  end    = other[k];
+    const PetscReal within = Turn_Private(&rim[k], &rim[end], PETSC_TRUE), length = 0.5 * (rim[k].length + rim[end].length);
+    if (within < 0 || (i == 0 && within + turned == 0)) break;
+    if (within > 0 && turned + within >= sharp) return way + length * PetscMax(0, sharp - turned) / within;
+    turned += within;
+    way += length;
+    k = Neighbour_Private(num, rim, end);
+    if (k < 0) break;
+    const PetscReal at = Turn_Private(&rim[end], &rim[k], PETSC_FALSE);
+    if (at < 0) break;
+    turned += at;
+    if (turned >= sharp) return way;
+  }
+  return PETSC_INFINITY;
+}
+
 PetscErrorCode SceneCorner(Forest forest, PetscInt group, PetscReal *corner, PetscReal *longest)
 {
   const ForestTables *t;
-  PetscInt            num;
+  PetscInt            num, *other, *first;
   Rim                *rim;
 
   PetscFunctionBegin;
@@ -122,12 +165,22 @@ PetscErrorCode SceneCorner(Forest forest, PetscInt group, PetscReal *corner, Pet
   PetscCall(ForestGetTables(forest, &t));
   if (t->dim != 2) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(Rims_Private(forest, group, &num, &rim));
+  PetscCall(PetscMalloc2(num, &other, t->first[2] - t->first[1], &first));
+  for (PetscInt f = t->first[1]; f < t->first[2]; ++f) first[f - t->first[1]] = -1;
   for (PetscInt k = 0; k < num; ++k) {
-    const PetscBool meets = (PetscBool)(k + 1 < num && rim[k + 1].entity == rim[k].entity); /* two facets at most meet in a vertex of an outline */
-    *longest              = PetscMax(*longest, rim[k].length);
-    if (meets && Dot3(rim[k].N, rim[k + 1].T) < 0 && Dot3(rim[k].N, rim[k + 1].N) < CONTACT_SHARP)
-      *corner = PetscMin(*corner, PetscMax(rim[k].length, rim[k + 1].length));
+    PetscInt *end = &first[rim[k].facet - t->first[1]];
+    if (*end >= 0) other[other[k] = *end] = k;
+    *end     = k;
+    *longest = PetscMax(*longest, rim[k].length);
   }
+  for (PetscInt k = 0; k < num; ++k) {
+    const PetscInt next = Neighbour_Private(num, rim, k);
+    if (next >= 0 && Turn_Private(&rim[k], &rim[next], PETSC_FALSE) >= acos(CONTACT_SHARP))
+      *corner = PetscMin(*corner, PetscMax(rim[k].length, rim[next].length));
+    else
+      *corner = PetscMin(*corner, Round_Private(num, rim, other, k, *corner));
+  }
+  PetscCall(PetscFree2(other, first));
   PetscCall(PetscFree(rim));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

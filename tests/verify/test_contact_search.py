@@ -155,6 +155,21 @@ def test_a_side_with_corners(run, scene, sides):
     assert "has no corner" not in run(GAUNTLET + scene, *options, "-load_end", 0.25, *coarse).stdout
 
 
+@pytest.mark.parametrize("facets", [1, 2, 3])
+@pytest.mark.parametrize("radius", [0.03, 0.08])
+def test_a_side_with_rounded_corners(run, radius, facets):
+    """An edge that turns by 40 degrees within a facet of the other side is a corner, however many facets it has itself: the softer block's facets would wrap round it."""
+    result = run(GAUNTLET + "round_press.yml", *QUIET, "-mesh_parameter_r", radius, "-mesh_parameter_k", facets)
+    assert result.returncode == 0 and not result.summary["contact"]["c"]["roles_exchanged"] and result.summary["newton_iterations"] < 60, result
+    assert abs(result.summary["contact"]["c"]["force"][1]) == pytest.approx({0.03: 0.679, 0.08: 0.7057}[radius], rel=0.01)
+
+
+def test_a_side_rounded_widely(run):
+    """It turns by less within a facet of the other side: the softer side carries the multiplier."""
+    result = run(GAUNTLET + "round_press.yml", *QUIET, "-mesh_parameter_r", 0.2)
+    assert result.returncode == 0 and result.summary["contact"]["c"]["roles_exchanged"], result
+
+
 @pytest.mark.parametrize("swapped", [False, True])
 def test_a_corner_slides_along_a_smooth_face(run, swapped):
     """The sharp nose of a snap hook on the flat top of its catch, without friction: forces are normal to it, from place to place the same. With the top as the nonmortar side (roles: given) the
