@@ -235,9 +235,10 @@ static PetscReal Stiffness_Private(Scene s, const Facets *f, PetscInt group)
 
 /* Is the nonmortar side of the scene better the mortar one, and why? In the plane the side that has corners carries the multiplier: a corner has a node, which
    is held on a smooth face wherever it slides; within a facet of the other side its constraint would be a mean of gaps that grow to both sides, which depends
-   on the place, so that the corner rides over bumps. One that is rounded within a facet of the other side is alike: that facet would wrap round it. Not where the corner's
-   facets are longer than all of the other side: what lies between its nodes is held by nothing. Where both sides have corners or neither has, the softer one: on a stiffer side the constraints are as coarse as its facets while the other side
-   deforms between its nodes; on a rigid one nothing of its own makes each of them felt. */
+   on the place, so that the corner rides over bumps. One that is rounded within a facet of the other side is alike: that facet would wrap round it. Not where
+   the corner's facets are longer than all of the other side: what lies between its nodes is held by nothing. Where both sides have corners or neither has, the
+   softer one: on a stiffer side the constraints are as coarse as its facets while the other side deforms between its nodes; on a rigid one nothing of its own
+   makes each of them felt. */
 static PetscErrorCode Exchange_Private(Scene s, const Facets *f, const ContactEntry *c, const PetscReal stiffness[2], const char **why)
 {
   PetscReal corner[2], longest[2];
