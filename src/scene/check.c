@@ -241,15 +241,19 @@ static PetscReal Stiffness_Private(Scene s, const Facets *f, PetscInt group)
    makes each of them felt. */
 static PetscErrorCode Exchange_Private(Scene s, const Facets *f, const ContactEntry *c, const PetscReal stiffness[2], const char **why)
 {
-  PetscReal corner[2], longest[2];
+  PetscReal corner[2], rounded[2], longest[2];
 
   PetscFunctionBegin;
   *why = stiffness[0] > stiffness[1] ? "is the stiffer one" : NULL;
   if (stiffness[0] >= PETSC_INFINITY) *why = "is rigid";
   if (stiffness[0] >= PETSC_INFINITY || stiffness[1] >= PETSC_INFINITY || c->spec.law == CONTACT_TIED) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(SceneCorner(f->whole, c->spec.nonmortar, &corner[0], &longest[0]));
-  PetscCall(SceneCorner(f->whole, c->spec.mortar, &corner[1], &longest[1]));
-  const PetscBool own = (PetscBool)(corner[0] <= longest[1]), other = (PetscBool)(corner[1] <= longest[0]);
+  PetscCall(SceneCorner(f->whole, c->spec.nonmortar, &corner[0], &rounded[0], &longest[0]));
+  PetscCall(SceneCorner(f->whole, c->spec.mortar, &corner[1], &rounded[1], &longest[1]));
+  PetscBool own = (PetscBool)(corner[0] <= longest[1]), other = (PetscBool)(corner[1] <= longest[0]);
+  if (!own && !other) { /* a sharp one comes before a rounded one */
+    own   = (PetscBool)(rounded[0] <= longest[1]);
+    other = (PetscBool)(rounded[1] <= longest[0]);
+  }
   if (own != other) *why = own ? NULL : "has no corner, the other side has,";
   PetscFunctionReturn(PETSC_SUCCESS);
 }

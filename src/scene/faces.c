@@ -153,15 +153,15 @@ static PetscReal Round_Private(PetscInt num, const Rim rim[], const PetscInt oth
   return PETSC_INFINITY;
 }
 
-PetscErrorCode SceneCorner(Forest forest, PetscInt group, PetscReal *corner, PetscReal *longest)
+PetscErrorCode SceneCorner(Forest forest, PetscInt group, PetscReal *corner, PetscReal *rounded, PetscReal *longest)
 {
   const ForestTables *t;
   PetscInt            num, *other, *first;
   Rim                *rim;
 
   PetscFunctionBegin;
-  *corner  = PETSC_INFINITY;
-  *longest = 0;
+  *corner = *rounded = PETSC_INFINITY;
+  *longest           = 0;
   PetscCall(ForestGetTables(forest, &t));
   if (t->dim != 2) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(Rims_Private(forest, group, &num, &rim));
@@ -178,7 +178,7 @@ PetscErrorCode SceneCorner(Forest forest, PetscInt group, PetscReal *corner, Pet
     if (next >= 0 && Turn_Private(&rim[k], &rim[next], PETSC_FALSE) >= acos(CONTACT_SHARP))
       *corner = PetscMin(*corner, PetscMax(rim[k].length, rim[next].length));
     else
-      *corner = PetscMin(*corner, Round_Private(num, rim, other, k, *corner));
+      *rounded = PetscMin(*rounded, Round_Private(num, rim, other, k, *rounded));
   }
   PetscCall(PetscFree2(other, first));
   PetscCall(PetscFree(rim));

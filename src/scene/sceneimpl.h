@@ -178,10 +178,9 @@ PetscErrorCode SceneCheckMesh(Scene, Forest);
 PetscErrorCode SceneTellMesh(Scene, Forest);
 /* faces.c. Colours of the smooth faces of a group by side of the coarse mesh, -1: not in the group; *colour is the caller's. Not collective. */
 PetscErrorCode SceneColourFaces(Forest, PetscInt group, PetscInt *num_colours, int8_t **colour);
-/* In the plane: length of the longest facet of the group, and the least of its convex corners (infinity: it has none). Of a sharp one, of more than 40 degrees,
-   the length of the longer of its two facets; of a rounded one the way along the outline in which it turns by 40 degrees. In space 0 and infinity. Not
-   collective. */
-PetscErrorCode SceneCorner(Forest, PetscInt group, PetscReal *corner, PetscReal *longest);
+/* In the plane: length of the longest facet of the group; of its convex corners of more than 40 degrees the least length of the longer of both facets; of its
+   rounded ones the least way along the outline in which it turns by as much. Infinity: it has none; in space 0 and infinity. Not collective. */
+PetscErrorCode SceneCorner(Forest, PetscInt group, PetscReal *corner, PetscReal *rounded, PetscReal *longest);
 /* The same on sides of contact pairs that are chords of what they stand for (chords.c). Collective. */
 PetscErrorCode SceneTellChords(Scene, Forest);
 /* Reference position of a vertex (check.c). Not collective. */
