@@ -124,9 +124,10 @@ PetscErrorCode MechanicsSetViscosity(Mechanics, PetscReal rate, const PetscReal 
 /* Its forces at u times the motion since then: this rank's part of the energy that it takes. Not collective. */
 PetscErrorCode MechanicsViscousWork(Mechanics, const PetscReal u[], PetscReal *work);
 /* Sum of q q^T over the supported directions q of the nodes of each body and those joined to it (axisymmetric: the radial direction is supported):
-   hold[num_bodies][9]. A direction of which a sum over bodies has no more than MECHANICS_FREE of its trace is free. */
+   hold[num_bodies][9]. A direction of which a sum over bodies has no more than MECHANICS_FREE of its trace is free. group[num_bodies] (or NULL): the first of
+   the bodies that are joined: they share vertices, or are tied. */
 #define MECHANICS_FREE 1e-9
-PetscErrorCode MechanicsGetHold(Mechanics, const PetscReal **hold);
+PetscErrorCode MechanicsGetHold(Mechanics, const PetscReal **hold, const PetscInt **group);
 /* The axes that are free by such a sum, as bits. */
 static inline PetscInt MechanicsFreeAxes(PetscInt dim, const PetscReal hold[9])
 {

@@ -18,6 +18,13 @@
 typedef enum { REFINE_ALL, REFINE_AFRESH, REFINE_UNFOLDED } RefineMode;
 
 /* A load step whose estimated error stayed above the tolerance: at t, and why; norm: largest energy norm from it to the step at hand. */
+/* What nothing holds of a body (AdriftFind), axes as bits: those that were free at every accepted step of this path, those of others that became so, first at
+   time t. */
+typedef struct {
+  PetscInt  always, lost;
+  PetscReal t;
+} Adrift;
+
 typedef struct {
   PetscReal t, error, norm;
   PetscInt  cause; /* verdict.c */
@@ -55,11 +62,8 @@ typedef struct {
   PetscReal        rough_error, rough_t, rough_norm; /* largest estimate of an accepted step, its time; largest norm */
   PetscReal        unstable_t;                       /* when a solution was first found unstable … */
   PetscBool        unstable_known, passage_told;     /* … if one was; that a surface passes through itself */
-  PetscBool        adrift_known;                     /* which bodies contact holds */
   PetscReal        most_scale;                       /* largest ProblemStatus.scale of an accepted step */
-  PetscInt        *free_axes;                        /* owned [num_bodies]: the fewest that AdriftFind has found of an accepted step of this path … */
-  PetscInt        *lost_axes;                        /* … and those that came back since, the first time … */
-  PetscReal       *lost_t;                           /* … which was then */
+  Adrift          *adrift;                           /* owned [num_bodies] */
   PetscBool        mirror[3];                        /* planes of symmetry that are not used (NeedsFindMirrors) … */
   PetscReal        mirror_at[3];                     /* … and where they are */
   PetscReal        most_energy;                      /* stored at the end of an accepted load step */
@@ -104,6 +108,8 @@ PetscErrorCode AppRemember(App *);
 PetscErrorCode AppRepeat(App *, PetscBool *again);
 /* advise.c. At its beginning: bodies that only contact holds, on standard output. Collective. */
 PetscErrorCode AppTellFree(const App *);
+/* watch.c. Before the first load step of a path: no body has been held yet. Not collective. */
+void AppForgetAdrift(App *);
 /* Axes in words, by their bits. */
 const char *AppAxesName(PetscInt axes);
 /* -check: symmetry that is not used. Collective. */

@@ -26,8 +26,8 @@ static PetscErrorCode Prepare_Private(App *app, Forest *forest)
   PetscFunctionBegin;
   PetscCall(ProbesCreate(app->data, *forest, &app->probes));
   PetscCall(PetscCalloc3(app->data->num_contacts, &app->subdivided, app->data->num_contacts, &app->touched, app->data->num_contacts, &app->friction));
-  PetscCall(PetscCalloc3(app->data->mechanics.num_bodies, &app->free_axes, app->data->mechanics.num_bodies, &app->lost_axes, app->data->mechanics.num_bodies,
-                         &app->lost_t));
+  PetscCall(PetscMalloc1(app->data->mechanics.num_bodies, &app->adrift));
+  AppForgetAdrift(app);
   if (app->restart[0])
     PetscCall(AppResume(app, forest));
   else
@@ -96,7 +96,7 @@ static PetscErrorCode Close_Private(App *app)
   OutputUnlock();
   PetscCall(NeedsDestroy(&app->needs));
   PetscCall(PetscFree3(app->subdivided, app->touched, app->friction));
-  PetscCall(PetscFree3(app->free_axes, app->lost_axes, app->lost_t));
+  PetscCall(PetscFree(app->adrift));
   PetscCall(PetscFree(app->missed));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

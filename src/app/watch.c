@@ -59,6 +59,11 @@ static void WatchEstimate_Private(App *app)
   if (error > app->rough_error) app->rough_error = error, app->rough_t = app->level.accepted.t;
 }
 
+void AppForgetAdrift(App *app)
+{
+  for (PetscInt b = 0; b < app->data->mechanics.num_bodies; ++b) app->adrift[b] = (Adrift){.always = ~0};
+}
+
 /* Contact has let go of a body that nothing else holds: an equilibrium without load is anywhere, and is found. */
 static PetscErrorCode WatchAdrift_Private(App *app)
 {
@@ -69,15 +74,12 @@ static PetscErrorCode WatchAdrift_Private(App *app)
   PetscCall(PetscMalloc1(num, &axes));
   app->most_scale = PetscMax(app->most_scale, app->balance.status.scale);
   PetscCall(AdriftFind(app->level.problem, app->most_scale, axes));
+  if (app->load_steps == 1) AppForgetAdrift(app); /* adapt.repeat: path begins anew */
   for (PetscInt b = 0; b < num; ++b) {
-    if (app->load_steps == 1 || !app->adrift_known) app->free_axes[b] = axes[b], app->lost_axes[b] = 0;
-    if (!app->lost_axes[b]) {
-      app->lost_axes[b] = axes[b] & ~app->free_axes[b];
-      app->lost_t[b]    = app->level.accepted.t;
-    }
-    app->free_axes[b] &= axes[b];
+    Adrift *a = &app->adrift[b];
+    if (!a->lost) a->lost = axes[b] & ~a->always, a->t = app->level.accepted.t;
+    a->always &= axes[b];
   }
-  app->adrift_known = PETSC_TRUE;
   PetscCall(PetscFree(axes));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -133,10 +135,11 @@ static PetscErrorCode WarnAdrift_Private(App *app)
   PetscFunctionBegin;
   PetscCall(ForestGetCoarse(app->level.forest, &mesh));
   for (PetscInt b = 0; b < mesh->num_bodies; ++b) {
-    if (!app->lost_axes[b]) continue;
+    const Adrift *a = &app->adrift[b];
+    if (!a->lost) continue;
     PetscCall(WarningAdd(app->comm,
-                         "at t = %.6g contact, which held body %s before, has lost it, and no support holds it along %s: where it is then means nothing",
-                         (double)app->lost_t[b], mesh->body_name[b], AppAxesName(app->lost_axes[b])));
+                         "at t = %.6g nothing holds body %s along %s any more, as contact did before: its displacement there means nothing from then on",
+                         (double)a->t, mesh->body_name[b], AppAxesName(a->lost)));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

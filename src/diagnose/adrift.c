@@ -18,24 +18,6 @@ static void Join_Private(PetscInt root[], PetscInt a, PetscInt b)
   root[Root_Private(root, b)] = to;
 }
 
-/* Bodies that share vertices of the mesh. */
-static PetscErrorCode JoinParts_Private(const CoarseMesh *mesh, PetscInt root[])
-{
-  PetscInt *part, *first, num;
-
-  PetscFunctionBegin;
-  PetscCall(PetscMalloc2(mesh->num_cells, &part, mesh->num_cells, &first));
-  PetscCall(ForestCoarseParts(mesh, &num, part));
-  for (PetscInt i = 0; i < num; ++i) first[i] = -1;
-  for (PetscInt c = 0; c < mesh->num_cells; ++c) {
-    PetscInt *body = &first[part[c]];
-    if (*body < 0) *body = mesh->cell_body[c];
-    Join_Private(root, *body, mesh->cell_body[c]);
-  }
-  PetscCall(PetscFree2(part, first));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 /* force[body]: sum of the magnitudes of this rank's nodal forces on a side. */
 static void SideForces_Private(const ForestTables *t, const SurfaceView *s, PetscReal force[])
 {
@@ -52,20 +34,21 @@ static PetscErrorCode JoinPairs_Private(Problem problem, PetscInt num, PetscInt 
 {
   const ForestTables *t;
   const ContactView  *v;
-  PetscReal          *force;
+  PetscReal          *force; /* [num][num_bodies] */
 
   PetscFunctionBegin;
   PetscCall(ForestGetTables(ProblemForest(problem), &t));
-  PetscCall(PetscMalloc1(num_bodies, &force));
+  PetscCall(PetscCalloc1(num * num_bodies, &force));
+  for (PetscInt i = 0; i < num; ++i) {
+    PetscCall(InterfaceGetContact(ProblemInterface(problem), i, &v));
+    SideForces_Private(t, &v->nonmortar, force + i * num_bodies);
+    SideForces_Private(t, &v->mortar, force + i * num_bodies);
+  }
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, force, (PetscMPIInt)(num * num_bodies), MPIU_REAL, MPI_SUM, ForestComm(ProblemForest(problem))));
   for (PetscInt i = 0; i < num; ++i) {
     PetscInt first = -1;
-    PetscCall(PetscArrayzero(force, num_bodies));
-    PetscCall(InterfaceGetContact(ProblemInterface(problem), i, &v));
-    SideForces_Private(t, &v->nonmortar, force);
-    SideForces_Private(t, &v->mortar, force);
-    PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, force, (PetscMPIInt)num_bodies, MPIU_REAL, MPI_SUM, ForestComm(ProblemForest(problem))));
     for (PetscInt b = 0; b < num_bodies; ++b) {
-      if (!(force[b] > ROUND_OFF * scale)) continue;
+      if (!(force[i * num_bodies + b] > ROUND_OFF * scale)) continue;
       if (first < 0) first = b;
       Join_Private(root, first, b);
     }
@@ -79,22 +62,22 @@ PetscErrorCode AdriftFind(Problem problem, PetscReal scale, PetscInt axes[])
   const SceneData  *scene;
   const CoarseMesh *mesh;
   const PetscReal  *hold;
+  const PetscInt   *group;
   PetscReal        *sum;
   PetscInt         *root, num, free = 0;
 
   PetscFunctionBegin;
   PetscCall(ProblemGetScene(problem, &scene));
   PetscCall(ForestGetCoarse(ProblemForest(problem), &mesh));
-  PetscCall(MechanicsGetHold(ProblemMechanics(problem), &hold));
+  PetscCall(MechanicsGetHold(ProblemMechanics(problem), &hold, &group));
   num = scene->mechanics.num_bodies;
   for (PetscInt b = 0; b < num; ++b) free |= axes[b] = MechanicsFreeAxes(mesh->dim, hold + 9 * b);
   if (!free) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(PetscCalloc2(9 * num, &sum, num, &root));
-  for (PetscInt b = 0; b < num; ++b) root[b] = b;
-  PetscCall(JoinParts_Private(mesh, root));
+  PetscCall(PetscArraycpy(root, group, num));
   PetscCall(JoinPairs_Private(problem, scene->num_contacts, num, scale, root));
   for (PetscInt b = 0; b < num; ++b)
-    for (PetscInt c = 0; c < 9; ++c) sum[9 * Root_Private(root, b) + c] += hold[9 * b + c];
+    for (PetscInt c = 0; c < 9 && group[b] == b; ++c) sum[9 * Root_Private(root, b) + c] += hold[9 * b + c];
   for (PetscInt b = 0; b < num; ++b) axes[b] = MechanicsFreeAxes(mesh->dim, sum + 9 * Root_Private(root, b));
   PetscCall(PetscFree2(sum, root));
   PetscFunctionReturn(PETSC_SUCCESS);

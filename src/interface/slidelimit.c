@@ -16,7 +16,7 @@ static PetscErrorCode Free_Private(Interface p, const Surface *s, PetscReal P[9]
   PetscReal           A[9] = {0};
 
   PetscFunctionBegin;
-  PetscCall(MechanicsGetHold(p->mechanics, &hold));
+  PetscCall(MechanicsGetHold(p->mechanics, &hold, NULL));
   for (PetscInt f = 0; f < s->num_facets; ++f)
     for (int i = 0; i < 9; ++i) A[i] += hold[9 * tables->leaf_body[s->facet_leaf[f]] + i];
   const PetscReal trace = A[0] + A[4] + A[8];

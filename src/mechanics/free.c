@@ -175,10 +175,11 @@ static PetscErrorCode Hold_Private(Mechanics m, PetscInt modes, const PetscInt r
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode MechanicsGetHold(Mechanics m, const PetscReal **hold)
+PetscErrorCode MechanicsGetHold(Mechanics m, const PetscReal **hold, const PetscInt **group)
 {
   PetscFunctionBegin;
   *hold = m->hold;
+  if (group) *group = m->body_group;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -210,7 +211,8 @@ PetscErrorCode MechanicsFreeBodies_Private(Mechanics m)
     centre[c] = 0.5 * (lo[c] + hi[c]);
     size      = PetscMax(size, hi[c] - lo[c]);
   }
-  PetscCall(PetscMalloc1(nb, &root));
+  PetscCall(PetscMalloc1(nb, &m->body_group));
+  root = m->body_group;
   PetscCall(PetscCalloc2(36 * nb, &gram, nb, &volume));
   PetscCall(PetscMalloc1(nb, &m->held));
   PetscCall(PetscCalloc1(v->num_owned_cells, &m->free_share));
@@ -236,7 +238,6 @@ PetscErrorCode MechanicsFreeBodies_Private(Mechanics m)
     const PetscReal whole = volume[root[body]];
     m->free_share[c]      = whole > 0 ? MECHANICS_SHIFT * Shear_Private(m->spec->bodies[body].material) * m->free_share[c] / whole : 0;
   }
-  PetscCall(PetscFree(root));
   PetscCall(PetscFree2(gram, volume));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

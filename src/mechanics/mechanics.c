@@ -152,6 +152,7 @@ PetscErrorCode MechanicsDestroy(Mechanics *mechanics)
   PetscCall(PetscFree(m->dead));
   PetscCall(PetscFree(m->free_share));
   PetscCall(PetscFree(m->held));
+  PetscCall(PetscFree(m->body_group));
   PetscCall(PetscFree(m->hold));
   PetscCall(PetscFree2(m->viscous_from, m->viscous_room));
   PetscCall(PetscFree2(m->linear, m->dpressure));

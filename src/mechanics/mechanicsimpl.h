@@ -165,6 +165,7 @@ struct _p_Mechanics {
   PetscReal  viscosity, *viscous_from; /* rate, 0: none; owned local array: displacements it counts from */
   PetscReal *viscous_room;             /* owned: room for a cell's displacements, twice */
   PetscReal *hold;                     /* owned [num_bodies][9], see MechanicsGetHold */
+  PetscInt  *body_group;               /* owned [num_bodies], see MechanicsGetHold */
   PetscBool *held;                     /* owned [num_bodies], see MechanicsIsHeld */
   PetscReal *work;                     /* owned batch buffers */
   PetscInt   work_size;

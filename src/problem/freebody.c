@@ -6,7 +6,7 @@ PetscErrorCode ProblemFreeAxes(Problem p, PetscInt body, PetscInt *axes, PetscBo
   const PetscReal *hold;
 
   PetscFunctionBegin;
-  PetscCall(MechanicsGetHold(p->mechanics, &hold));
+  PetscCall(MechanicsGetHold(p->mechanics, &hold, NULL));
   *axes  = MechanicsFreeAxes(p->dim, hold + 9 * body);
   *turns = (PetscBool)(!*axes && !MechanicsIsHeld(p->mechanics, body));
   PetscFunctionReturn(PETSC_SUCCESS);
