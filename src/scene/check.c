@@ -249,12 +249,12 @@ static PetscErrorCode Exchange_Private(Scene s, const Facets *f, const ContactEn
   if (stiffness[0] >= PETSC_INFINITY || stiffness[1] >= PETSC_INFINITY || c->spec.law == CONTACT_TIED) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SceneCorner(f->whole, c->spec.nonmortar, &corner[0], &rounded[0], &longest[0]));
   PetscCall(SceneCorner(f->whole, c->spec.mortar, &corner[1], &rounded[1], &longest[1]));
-  PetscBool own = (PetscBool)(corner[0] <= longest[1]), other = (PetscBool)(corner[1] <= longest[0]);
-  if (!own && !other) { /* a sharp one comes before a rounded one */
-    own   = (PetscBool)(rounded[0] <= longest[1]);
-    other = (PetscBool)(rounded[1] <= longest[0]);
-  }
-  if (own != other) *why = own ? NULL : "has no corner, the other side has,";
+  const PetscBool own = (PetscBool)(corner[0] <= longest[1]), other = (PetscBool)(corner[1] <= longest[0]);
+  const PetscBool own_round = (PetscBool)(rounded[0] <= longest[1]), other_round = (PetscBool)(rounded[1] <= longest[0]);
+  if (own != other)
+    *why = own ? NULL : "has no corner, the other side has,";
+  else if (!own && own_round != other_round) /* a sharp one comes first */
+    *why = own_round ? NULL : "has no edge rounded within a facet of the other side, which has,";
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
