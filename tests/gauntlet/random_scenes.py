@@ -13,7 +13,6 @@ Exit status: 0 where every run is ok.
 import argparse
 import collections
 import concurrent.futures
-import csv
 import math
 import os
 import pathlib
@@ -197,12 +196,7 @@ def main():
             table += rows
             for row in rows:
                 print(gauntlet.line(row), flush=True)
-    if a.csv and table:
-        a.csv.parent.mkdir(parents=True, exist_ok=True)
-        with open(a.csv, "w", newline="") as file:
-            writer = csv.DictWriter(file, table[0])
-            writer.writeheader()
-            writer.writerows(table)
+    gauntlet.save(a.csv, table)
     count = collections.Counter(row["verdict"] for row in table)
     print(", ".join(f"{n} {verdict}" for verdict, n in count.most_common()) + f" of {len(table)} runs")
     return 0 if count["ok"] == len(table) else 1

@@ -136,6 +136,16 @@ def line(row):
     return " ".join(cell(row[key]).ljust(width) for key, width in SHOWN.items()) + " " + row["why"]
 
 
+def save(path, table):
+    """The table as CSV, where there is a path and a row."""
+    if path and table:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        with open(path, "w", newline="") as file:
+            writer = csv.DictWriter(file, table[0])
+            writer.writeheader()
+            writer.writerows(table)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("--program", default=os.environ.get("MORTISE", "bin/mortise"))
@@ -157,12 +167,7 @@ def main():
         for run in runs:
             table.append(run.result())
             print(line(table[-1]), flush=True)
-    if a.csv and table:
-        a.csv.parent.mkdir(parents=True, exist_ok=True)
-        with open(a.csv, "w", newline="") as file:
-            writer = csv.DictWriter(file, table[0])
-            writer.writeheader()
-            writer.writerows(table)
+    save(a.csv, table)
     count = collections.Counter(row["verdict"] for row in table)
     others = ", ".join(f"{n} {verdict}" for verdict, n in count.most_common() if verdict != "ok")
     print(f"{count['ok']} ok of {len(table)} in {sum(row['seconds'] for row in table):.0f} s of processor time" + (f": {others}" if others else ""))
