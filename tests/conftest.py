@@ -1,15 +1,20 @@
 """Environment shared by all tests: MPI as root in a container, more ranks than cores, ranks that wait give way to the others (several tests run side by side: otherwise
 most of the processor time of a test on two ranks goes into waiting), one thread per rank; no search for devices other than processors, a fifth of the start on two ranks;
-meshes of gmsh made once."""
+signals as a terminal leaves them, where nohup or a script's & had them ignored, which the program would go on with; meshes of gmsh made once."""
 import atexit
 import os
 import pathlib
 import shutil
+import signal
 import tempfile
 
 os.environ.update(OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1", OMPI_MCA_rmaps_base_oversubscribe="1",
                   OMPI_MCA_hwloc_base_binding_policy="none", OMPI_MCA_mpi_yield_when_idle="1", HWLOC_COMPONENTS="-linuxio,-pci,-opencl,-cuda,-nvml,-gl,-x86",
                   OPENBLAS_NUM_THREADS="1", OMP_NUM_THREADS="1", ASAN_OPTIONS="detect_leaks=0")
+
+for number in (signal.SIGHUP, signal.SIGQUIT):
+    signal.signal(number, signal.SIG_DFL)
+signal.signal(signal.SIGINT, signal.default_int_handler)
 
 # tests/tools/gmsh stands for gmsh; workers of pytest-xdist, which start with this environment, share its meshes.
 if "MORTISE_TEST_MESHES" not in os.environ and shutil.which("gmsh"):
