@@ -264,7 +264,7 @@ def small_disk(path, kilobytes):
     try:
         yield path
     finally:
-        subprocess.run(["umount", path])
+        subprocess.run(["umount", "--lazy", path])  # a process of mpiexec may still be ending
 
 
 @pytest.mark.parametrize("ranks", [1, 2])
