@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Contact scenes drawn at random: one body is pressed on another, then slid, in the plane or round the axis, with no contact setting.
+"""Contact scenes drawn at random: one body is pressed on another, then slid, in the plane, round the axis or in space, with no contact setting.
 
-    random_scenes.py [--program bin/mortise] [--first SEED] [--number N] [--jobs N] [--seconds S] [--csv FILE] [--keep FOLDER]
+    random_scenes.py [--space] [--adapt TOLERANCE] [--program bin/mortise] [--first SEED] [--number N] [--jobs N] [--seconds S] [--csv FILE] [--keep FOLDER]
 
 Nobody can tune a program to them: another seed is another scene. Shapes, places, sizes of cells, orders, materials (rubber, metal, rigid), friction, depth, slide and steps are drawn; each is run as it is, with
 its sides swapped and in half steps. What is judged holds for all of them:
@@ -96,18 +96,26 @@ def above(profile, x):
     return max(heights, default=-9)
 
 
-def geometry(first, surface, points, arcs, size):
-    """A surface of gmsh; its edge i is curve first + i."""
+def geometry(first, surface, points, arcs, size, place=lambda x, y: (x, y, 0)):
+    """A surface of gmsh, placed in space; its edge i is curve first + i."""
     lines, n = [], len(points)
-    for i, (x, y) in enumerate(points):
-        lines.append(f"Point({first + i}) = {{{x:.12g}, {y:.12g}, 0, {size}}};")
+    for i, point in enumerate(points):
+        lines.append(f"Point({first + i}) = {{{', '.join(f'{c:.12g}' for c in place(*point))}, {size}}};")
     for i in range(n):
         ends = first + i, first + (i + 1) % n
         if i in arcs:
-            lines.append(f"Point({first + n + i}) = {{{arcs[i][0]:.12g}, {arcs[i][1]:.12g}, 0}}; Circle({first + i}) = {{{ends[0]}, {first + n + i}, {ends[1]}}};")
+            lines.append(f"Point({first + n + i}) = {{{', '.join(f'{c:.12g}' for c in place(*arcs[i]))}}}; Circle({first + i}) = {{{ends[0]}, {first + n + i}, {ends[1]}}};")
         else:
             lines.append(f"Line({first + i}) = {{{ends[0]}, {ends[1]}}};")
     return lines + [f"Curve Loop({surface}) = {{{first}:{first + n - 1}}}; Plane Surface({surface}) = {{{surface}}}; Recombine Surface {{{surface}}};"]
+
+
+def prism(first, surface, points, arcs, size, turn, length):
+    """A volume of gmsh: an outline in x and z drawn out along y by `length`, its middle at y = 0, then turned about z. Faces are side<surface>[2 + edge]."""
+    c, s, layers = math.cos(turn), math.sin(turn), max(1, round(length / size))
+    lines = geometry(first, surface, points, arcs, size, lambda x, z: (x * c + length / 2 * s, x * s - length / 2 * c, z))
+    along = f"{-length * s:.12g}, {length * c:.12g}, 0"
+    return ["Mesh.RecombinationAlgorithm = 2; // quads only"] + lines + [f"side{surface}[] = Extrude{{{along}}} {{ Surface{{{surface}}}; Layers{{{layers}}}; Recombine; }};"]
 
 
 def material(draw):
@@ -120,9 +128,8 @@ def material(draw):
     return f"law: j2, E: {E}, nu: 0.3, yield: {E * draw.choice([0.005, 0.01, 0.05]):g}, hardening: {E * draw.choice([0.01, 0.05]):g}"
 
 
-def scene(seed):
-    """Geometry and scene, texts; and what they are: a phrase, the step, whether the state depends on the way."""
-    draw = random.Random(seed)
+def flat(draw):
+    """Two bodies in the plane or round the axis: texts of gmsh, groups, the gap, what they are, the model."""
     axis = draw.random() < 0.3
     below, points, arcs, foot, top, side = lower(draw, axis)
     over, upoints, uarcs, head, skin, uside = upper(draw, axis)
@@ -133,26 +140,51 @@ def scene(seed):
     geo = geometry(1, 1, points, arcs, draw.choice([0.08, 0.12, 0.2])) + geometry(101, 2, upoints, uarcs, draw.choice([0.08, 0.12, 0.2]))
     groups = {"foot": [1 + foot], "top": [1 + i for i in top], "head": [101 + head], "skin": [101 + i for i in skin], **({"axis": [1 + side, 101 + uside]} if axis else {})}
     geo += ['Physical Surface("low") = {1}; Physical Surface("up") = {2};'] + [f'Physical Curve("{name}") = {{{", ".join(map(str, curves))}}};' for name, curves in groups.items()]
+    return geo, gap, f"{over} on {below}{', axisymmetric' if axis else ''}", "axisymmetric" if axis else "plane_strain"
 
-    order, rigid, friction = draw.choice([1, 2, 2, 2, 3]), draw.choice([None, None, None, "up", "low"]), draw.choice([0, 0, 0, 0.1, 0.3, 0.6])
+
+def space(draw):
+    """The same in space: outlines drawn out, the upper body turned about z and perhaps over the edge of the lower one."""
+    below, points, arcs, foot, top, _ = lower(draw, False)
+    over, upoints, uarcs, head, skin, _ = upper(draw, False)
+    gap, shift, turn = draw.choice([0, 0, 0.01, 0.03]), draw.uniform(-0.4, 0.4), draw.choice([0, 0, math.pi / 2, draw.uniform(-1, 1)])
+    width, length = draw.uniform(0.4, 1.6), draw.uniform(0.4, 1.2)
+    profile = sorted(outline(points, arcs, top))
+    ends = [(x * math.cos(turn) + sign * length / 2 * math.sin(turn) + shift, y) for x, y in outline(upoints, uarcs, skin) for sign in (-1, 0, 1)]
+    lift = gap - min(y - above(profile, x) for x, y in ends)
+    upoints, uarcs = [(x, y + lift) for x, y in upoints], {edge: (x, y + lift) for edge, (x, y) in uarcs.items()}
+    geo = prism(1, 1, points, arcs, draw.choice([0.4, 0.6]), 0, width) + prism(101, 2, upoints, uarcs, draw.choice([0.4, 0.6]), turn, length)
+    geo += [f"Translate{{{shift:.12g}, 0, 0}} {{ Volume{{side2[1]}}; }}", 'Physical Volume("low") = {side1[1]}; Physical Volume("up") = {side2[1]};']
+    groups = {"foot": (1, [foot]), "top": (1, top), "head": (2, [head]), "skin": (2, skin)}
+    geo += [f'Physical Surface("{name}") = {{{", ".join(f"side{body}[{2 + edge}]" for edge in edges)}}};' for name, (body, edges) in groups.items()]
+    return geo, gap, f"{over} on {below}, turned by {turn:.2g}", "3d"
+
+
+def scene(seed, dim):
+    """Geometry and scene, texts; and what they are: a phrase, the step, whether the state depends on the way."""
+    draw = random.Random(seed)
+    geo, gap, what, model = (space if dim == 3 else flat)(draw)
+    axis, up = model == "axisymmetric", "xyz"[dim - 1]
+    order, rigid, friction = draw.choice([1, 2, 2, 2, 3] if dim == 2 else [1, 1, 2, 2]), draw.choice([None, None, None, "up", "low"]), draw.choice([0, 0, 0, 0.1, 0.3, 0.6])
     depth, slide, step = draw.uniform(0.02, 0.15), 0 if axis or draw.random() < 0.4 else draw.uniform(0.1, 1.2), draw.choice([0.1, 0.25, 0.5])
     laws = {"low": material(draw), "up": material(draw)}
     laws = {body: "law: rigid" if body == rigid else law for body, law in laws.items()}
-    motion = f'{{x: "{slide:.4g}*max(0, t - 1)", y: "{-depth - gap:.4g}*min(t, 1)"}}'
+    ways = {"x": f'"{slide:.4g}*max(0, t - 1)"', **({"y": f'"{slide * draw.uniform(-0.5, 0.5):.4g}*max(0, t - 1)"'} if dim == 3 else {}), up: f'"{-depth - gap:.4g}*min(t, 1)"'}
+    motion = "{" + ", ".join(f"{axis}: {way}" for axis, way in ways.items()) + "}"
     held = {"axis": "{fix: x}"} if axis else {}
-    held |= {} if rigid == "low" else {"foot": "{fix: xy}"}
+    held |= {} if rigid == "low" else {"foot": f"{{fix: {'xyz'[:dim]}}}"}
     held |= {} if rigid == "up" else {"head": f"{{displacement: {motion}}}"}
-    what = f"{over} on {below}{', axisymmetric' if axis else ''}, order {order}, {f'rigid {rigid}, ' if rigid else ''}friction {friction}, depth {depth:.2g}, slide {slide:.2g}, steps {step}"
-    text = [f"title: {seed}, {what}", "mesh: {file: scene.geo, order: 2}", f"model: {'axisymmetric' if axis else 'plane_strain'}", f"order: {order}",
+    what += f", order {order}, {f'rigid {rigid}, ' if rigid else ''}friction {friction}, depth {depth:.2g}, slide {slide:.2g}, steps {step}"
+    text = [f"title: {seed}, {what}", "mesh: {file: scene.geo, order: 2}", f"model: {model}", f"order: {order}",
             f"body: {{low: {{material: low}}, up: {{material: up{f', motion: {motion}' if rigid == 'up' else ''}}}}}", "material:", *(f"  {body}: {{{law}}}" for body, law in laws.items()),
             "boundary:", *(f"  {name}: {value}" for name, value in held.items()), f"contact: {{c: {{nonmortar: skin, mortar: top{f', friction: {friction}' if friction else ''}}}}}",
             f"load: {{end: {2 if slide else 1}, step: {step}}}"]
     return "\n".join(geo) + "\n", "\n".join(text) + "\n", what, step, bool(friction or "j2" in "".join(laws.values()))
 
 
-def solve(program, seed, seconds, keep):
+def solve(program, seed, dim, adapt, seconds, keep):
     """The rows of one scene; none where gmsh finds no mesh."""
-    geo, text, what, step, history = scene(seed)
+    geo, text, what, step, history = scene(seed, dim)
     table, states = [], {}
     with tempfile.TemporaryDirectory() as folder:
         folder = pathlib.Path(keep, str(seed)) if keep else pathlib.Path(folder)
@@ -161,6 +193,7 @@ def solve(program, seed, seconds, keep):
         (folder / "scene.yml").write_text(text)
         for variant, word in VARIANTS.items():
             options = {"swap": ["-contact_c_nonmortar", "top", "-contact_c_mortar", "skin"], "half": ["-load_step", str(step / 2)], "": []}[word]
+            options += ["-adapt_tolerance", str(adapt)] if adapt else []
             directory = folder / (word or "given")
             directory.mkdir(exist_ok=True)
             code, said, used = gauntlet.execute(program, folder / "scene.yml", options, str(directory), seconds)
@@ -174,7 +207,7 @@ def solve(program, seed, seconds, keep):
                           "cuts": s.get("step_cuts"), "cells": s.get("cells"), "error": s.get("estimated_error"), "seconds": round(used, 2), "why": why or what})
     if not history and "" in states and "half" in states:
         (force, largest, told), (again, _, told_again) = states[""], states["half"]
-        if math.dist(force, again) > SAME * largest and not told and not told_again:
+        if math.dist(force, again) > max(SAME, adapt) * largest and not told and not told_again:
             table[-1].update(verdict="WRONG", why=f"forces {force} and {again}; {what}")
     return table
 
@@ -182,6 +215,8 @@ def solve(program, seed, seconds, keep):
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("--program", default=os.environ.get("MORTISE", "bin/mortise"))
+    parser.add_argument("--space", action="store_true", help="scenes in space")
+    parser.add_argument("--adapt", type=float, default=0, help="tolerance of the error; default: no adaptation")
     parser.add_argument("--first", type=int, default=1, help="seed of the first scene")
     parser.add_argument("--number", type=int, default=40, help="of scenes")
     parser.add_argument("--jobs", type=int, default=1, help="scenes at a time")
@@ -192,7 +227,7 @@ def main():
     program, table = os.path.abspath(a.program), []
     print(" ".join(key.ljust(width) for key, width in gauntlet.SHOWN.items()))
     with concurrent.futures.ProcessPoolExecutor(a.jobs) as pool:
-        for rows in pool.map(solve, *zip(*((program, seed, a.seconds, a.keep) for seed in range(a.first, a.first + a.number)))):
+        for rows in pool.map(solve, *zip(*((program, seed, 3 if a.space else 2, a.adapt, a.seconds, a.keep) for seed in range(a.first, a.first + a.number)))):
             table += rows
             for row in rows:
                 print(gauntlet.line(row), flush=True)
