@@ -234,6 +234,14 @@ static PetscErrorCode Finalize_Private(void)
   return PetscFinalize();
 }
 
+/* Is what should be on the screen there? Who sends it to a file on a full disk has results, but no log of them. */
+static void CheckScreen_Private(int *status)
+{
+  if (!fflush(stdout) && !ferror(stdout)) return;
+  fputs("mortise: standard output could not be written to its end, as on a full disk\n", stderr);
+  if (*status == 0) *status = 2;
+}
+
 static int Status_Private(PetscErrorCode ierr)
 {
   return ErrorIsOption(ierr) ? 1 : 2;
@@ -261,6 +269,7 @@ int main(int argc, char **argv)
     (void)fflush(NULL);
     _exit(1);
   }
+  CheckScreen_Private(&status);
   (void)fflush(NULL); /* now: mpiexec ends the other processes as soon as it sees one that has ended with a status */
   ierr = Finalize_Private();
   (void)fflush(NULL);

@@ -382,6 +382,16 @@ def test_a_closed_screen(tmp_path):
     assert process.wait(timeout=60) == 3 and files == ["/dev/null"] * 3, files
 
 
+@pytest.mark.parametrize("words", [["s.yml"], ["s.yml", "-check"], ["-list"]])
+def test_a_full_screen(tmp_path, words):
+    """Told, with an exit status; results are whole."""
+    (tmp_path / "s.yml").write_text(block(tmp_path))
+    with open("/dev/full", "w") as full:
+        done = subprocess.run([PROGRAM, *words], cwd=tmp_path, stdout=full, stderr=subprocess.PIPE, text=True, timeout=60)
+    assert done.returncode == 2 and done.stderr == "mortise: standard output could not be written to its end, as on a full disk\n", done
+    assert words != ["s.yml"] or json.loads((tmp_path / "out/s/summary.json").read_text())["status"] == "converged"
+
+
 @pytest.mark.parametrize("option", ["-order", "-model", "-load_step", "-boundary_y1_displacement_y", "-boundary_y0_fix", "-material_m_law", "-material_m_E", "-mesh_file",
                                     "-solve_rtol", "-max_seconds", "-body_body_material", "-adapt_coarsen"])
 def test_long_values(run, tmp_path, option):
