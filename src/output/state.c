@@ -17,15 +17,15 @@ static PetscInt Divide_Private(const BulkGrid *g, PetscInt cell)
   return g->pieces[g->v->cell_order[cell]];
 }
 
-/* Will all cells of this run have order 1 and be drawn as they are? */
-static PetscBool Linear_Private(const SceneData *scene)
+/* Have all cells order 1, in this run throughout, and are they drawn as they are? Cells of a restarted run have the orders of the checkpoint, not of the scene.
+ */
+static PetscErrorCode IsLinear_Private(const SceneData *scene, MPI_Comm comm, const HPTables *v, PetscBool *yes)
 {
-  if (scene->output.divide > 1) return PETSC_FALSE;
-  if (scene->adapt.tolerance > 0 && scene->adapt.strategy != ADAPT_H) return PETSC_FALSE;
-  for (PetscInt b = 0; b < scene->mechanics.num_bodies; ++b) {
-    if (scene->mechanics.bodies[b].order != 1) return PETSC_FALSE;
-  }
-  return PETSC_TRUE;
+  PetscFunctionBegin;
+  *yes = (PetscBool)(scene->output.divide <= 1 && (scene->adapt.tolerance == 0 || scene->adapt.strategy == ADAPT_H));
+  for (PetscInt c = 0; c < v->num_owned_cells; ++c) *yes = (PetscBool)(*yes && v->cell_order[c] == 1);
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, yes, 1, MPIU_BOOL, MPI_LAND, comm));
+  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* Number points: a vertex of several cells once (shared), or every node of every cell. */
@@ -66,16 +66,17 @@ static void Connect_Private(BulkGrid *g, PetscInt cell)
   }
 }
 
-static PetscErrorCode GridCreate_Private(const SceneData *scene, const ForestTables *t, HPSpace space, BulkGrid *g)
-
+static PetscErrorCode GridCreate_Private(const SceneData *scene, Forest forest, HPSpace space, BulkGrid *g)
 {
-  const HPTables *v;
+  const ForestTables *t;
+  const HPTables     *v;
 
   PetscFunctionBegin;
+  PetscCall(ForestGetTables(forest, &t));
   PetscCall(HPSpaceGetTables(space, &v));
   PetscCall(PetscMemzero(g, sizeof(*g)));
-  g->v      = v;
-  g->shared = Linear_Private(scene);
+  g->v = v;
+  PetscCall(IsLinear_Private(scene, ForestComm(forest), v, &g->shared));
   PetscCall(HPSpacePieces(space, scene->output.divide, g->pieces));
   PetscCall(PetscMalloc2(v->num_owned_cells + 1, &g->first, v->num_owned_cells + 1, &g->piece));
   g->first[0] = g->piece[0] = 0;
@@ -253,7 +254,7 @@ PetscErrorCode OutputWriteState(Writer writer, Problem problem, const State *sta
   PetscCall(PetscMalloc1(v->num_nodes * v->dim, &u));
   PetscCall(ProblemSetState(problem, state));
   PetscCall(ProblemLocalDisplacement(problem, state->x, u));
-  PetscCall(GridCreate_Private(scene, t, space, &grid));
+  PetscCall(GridCreate_Private(scene, ProblemForest(problem), space, &grid));
   WriterDescribe(writer, scene);
   PetscCall(WriterBegin(writer, series_time, step, pass, state->t));
   PetscCall(WriteMotion_Private(writer, space, &grid, u));

@@ -210,6 +210,14 @@ def test_o102_nothing_left_to_do(run):
     assert [time for time, _ in moved.states()] == pytest.approx([1.25], abs=1e-4)
 
 
+@pytest.mark.parametrize("options", [("-order", 1), ("-order", 1, "-adapt_tolerance", 0), ("-order", 3)])
+def test_another_order(run, options):
+    """Cells keep the orders of the checkpoint, in fields as well: one that is lower in the scene ended the run with a signal."""
+    first = run("inputs/hertz2d.yml", "-load_step", 0.5, "-load_end", 0.5, "-order", 2, "-adapt_tolerance", 0.1)
+    second = run("inputs/hertz2d.yml", "-load_step", 0.5, *options, "-restart", first.directory / "checkpoint.h5")
+    assert second.returncode == 0 and len(second.states()) >= 1 and not second.stderr, second
+
+
 # ---- kills ----------------------------------------------------------------------------------------------------------------------------
 
 LONG = ("inputs/hertz2d.yml", ("-load_step", 0.1, "-order", 1, "-adapt_tolerance", 0.2))
