@@ -124,14 +124,12 @@ static PetscErrorCode CheckCells_Private(Scene s, const CoarseMesh *m)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Where cells are split, sides of a body that deforms come to lie on the curves of the mesh. Those of a rigid one follow them at once, at no cost: vertices
-   between chords would press into fine cells of the other side as corners that nobody drew. On a fixed mesh chords face chords, whose errors cancel where
-   surfaces fit into each other. */
+/* Where the mesh adapts, sides of a body that deforms come to lie on its curves. Those of a rigid one follow them at once, at no cost: vertices between chords
+   would press into fine cells of the other side as corners that nobody drew. On a fixed mesh chords face chords, whose errors cancel where surfaces fit into
+   each other. */
 static void CurveRigid_Private(Scene s, const BodyEntry *b, const CoarseMesh *m, BodySpec *body)
 {
-  const PetscBool splits = (PetscBool)(s->data.adapt.tolerance > 0 && s->data.adapt.strategy != ADAPT_P);
-
-  if (splits && body->material->law->rigid && !NodeFind(b->node, "order")) body->order = PetscMax(body->order, m->geometry_order);
+  if (s->data.adapt.tolerance > 0 && body->material->law->rigid && !NodeFind(b->node, "order")) body->order = PetscMax(body->order, m->geometry_order);
 }
 
 static PetscErrorCode MatchBodies_Private(Scene s, const CoarseMesh *m)
@@ -147,7 +145,7 @@ static PetscErrorCode MatchBodies_Private(Scene s, const CoarseMesh *m)
     PetscCheckInput(index >= 0, "%s: the mesh has no physical group '%s' of dimension %d; it has: %s", NodeWhere(b->node), b->spec.name, (int)m->dim, list);
     s->data.bodies[index] = b->spec;
     CurveRigid_Private(s, b, m, &s->data.bodies[index]);
-    PetscCheckInput(s->data.adapt.strategy == ADAPT_H || s->data.bodies[index].material->law->rigid || b->spec.order <= s->data.adapt.max_order,
+    PetscCheckInput(s->data.adapt.strategy == ADAPT_H || b->spec.order <= s->data.adapt.max_order,
                     "%s is %d, but body '%s' has order %d from the start; allowed: %d to %d", NodeWhere(NodeFind(NodeFind(s->root, "adapt"), "max_order")),
                     (int)s->data.adapt.max_order, b->spec.name, (int)b->spec.order, (int)b->spec.order, MORTISE_MAX_ORDER);
   }

@@ -41,7 +41,7 @@ const Option Options[] = {
 
     {"body.<name>.material", KEY_TEXT, "", NULL, "", "a name under material; <name>: physical group of top dimension", BODY(material)},
     {"body.<name>.order", KEY_INT, "", "", ORDERS,
-     "displacement order of this body's cells; default: order, of a rigid body where cells are split at least the mesh's", BODY(spec.order)},
+     "displacement order of this body's cells; default: order, of a rigid body with adapt.tolerance at least mesh.order", BODY(spec.order)},
     {"body.<name>.order.<axis>", KEY_INT, "", "", ORDERS,
      "or one for each direction, {x: 3, y: 3, z: 1}: of the cell axes that run mostly along it; letters not given: order", BODY(spec.order_along)},
     {"body.<name>.motion.<axis>", KEY_EXPRESSION, "length", "", ANY, "translation of a rigid body", BODY(spec.motion)},
