@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Contact scenes drawn at random: one body is pressed on another, then slid, in the plane, round the axis or in space, with no contact setting.
 
-    random_scenes.py [--space] [--adapt TOLERANCE] [--program bin/mortise] [--first SEED] [--number N] [--jobs N] [--seconds S] [--csv FILE] [--keep FOLDER]
+    random_scenes.py [--space] [--adapt TOLERANCE] [--as-drawn] [--program bin/mortise] [--first SEED] [--number N] [--jobs N] [--seconds S] [--csv FILE] [--keep FOLDER]
 
 Nobody can tune a program to them: another seed is another scene. Shapes, places, sizes of cells, orders, materials (rubber, metal, rigid), friction, depth, slide and steps are drawn; each is run as it is, with
 its sides swapped and in half steps. What is judged holds for all of them:
@@ -170,7 +170,7 @@ def scene(seed, dim):
     laws = {"low": material(draw), "up": material(draw)}
     laws = {body: "law: rigid" if body == rigid else law for body, law in laws.items()}
     ways = {"x": f'"{slide:.4g}*max(0, t - 1)"', **({"y": f'"{slide * draw.uniform(-0.5, 0.5):.4g}*max(0, t - 1)"'} if dim == 3 else {}), up: f'"{-depth - gap:.4g}*min(t, 1)"'}
-    motion = "{" + ", ".join(f"{axis}: {way}" for axis, way in ways.items()) + "}"
+    motion = "{" + ", ".join(f"{c}: {way}" for c, way in ways.items()) + "}"
     held = {"axis": "{fix: x}"} if axis else {}
     held |= {} if rigid == "low" else {"foot": f"{{fix: {'xyz'[:dim]}}}"}
     held |= {} if rigid == "up" else {"head": f"{{displacement: {motion}}}"}
@@ -182,7 +182,7 @@ def scene(seed, dim):
     return "\n".join(geo) + "\n", "\n".join(text) + "\n", what, step, bool(friction or "j2" in "".join(laws.values()))
 
 
-def solve(program, seed, dim, adapt, seconds, keep):
+def solve(program, seed, dim, adapt, variants, seconds, keep):
     """The rows of one scene; none where gmsh finds no mesh."""
     geo, text, what, step, history = scene(seed, dim)
     table, states = [], {}
@@ -191,7 +191,7 @@ def solve(program, seed, dim, adapt, seconds, keep):
         folder.mkdir(parents=True, exist_ok=True)
         (folder / "scene.geo").write_text(geo)
         (folder / "scene.yml").write_text(text)
-        for variant, word in VARIANTS.items():
+        for variant, word in variants.items():
             options = {"swap": ["-contact_c_nonmortar", "top", "-contact_c_mortar", "skin"], "half": ["-load_step", str(step / 2)], "": []}[word]
             options += ["-adapt_tolerance", str(adapt)] if adapt else []
             directory = folder / (word or "given")
@@ -217,6 +217,7 @@ def main():
     parser.add_argument("--program", default=os.environ.get("MORTISE", "bin/mortise"))
     parser.add_argument("--space", action="store_true", help="scenes in space")
     parser.add_argument("--adapt", type=float, default=0, help="tolerance of the error; default: no adaptation")
+    parser.add_argument("--as-drawn", action="store_true", help="neither swapped nor in half steps")
     parser.add_argument("--first", type=int, default=1, help="seed of the first scene")
     parser.add_argument("--number", type=int, default=40, help="of scenes")
     parser.add_argument("--jobs", type=int, default=1, help="scenes at a time")
@@ -227,7 +228,7 @@ def main():
     program, table = os.path.abspath(a.program), []
     print(" ".join(key.ljust(width) for key, width in gauntlet.SHOWN.items()))
     with concurrent.futures.ProcessPoolExecutor(a.jobs) as pool:
-        for rows in pool.map(solve, *zip(*((program, seed, 3 if a.space else 2, a.adapt, a.seconds, a.keep) for seed in range(a.first, a.first + a.number)))):
+        for rows in pool.map(solve, *zip(*((program, seed, 3 if a.space else 2, a.adapt, {"": ""} if a.as_drawn else VARIANTS, a.seconds, a.keep) for seed in range(a.first, a.first + a.number)))):
             table += rows
             for row in rows:
                 print(gauntlet.line(row), flush=True)
