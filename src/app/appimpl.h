@@ -56,6 +56,7 @@ typedef struct {
   PetscInt         num_missed;
   Missed          *missed;                           /* owned [num_missed] */
   PetscBool        inversion_told;                   /* that refinement would invert a cell, once */
+  int8_t          *first_level;                      /* owned [coarse cells]: fewest splits of a leaf, all directions, before adaptation */
   PetscInt        *subdivided;                       /* owned [num_contacts] by contact.<pair>.subdivide: auto, so often, or tried */
   FrictionFigures *friction;                         /* owned, by ContactSpec.pair: of the last accepted load step of this run */
   PetscInt        *touched;                          /* owned, by ContactSpec.pair: load step of this run in which a node was in contact first; 0: none */
@@ -92,6 +93,13 @@ PetscErrorCode AppLayers(App *, const Estimate *, MarkList *layers);
    old one is the caller's; *adapted false when nothing may or need be refined, or (refused) the mesh could not be made, and app->adapt_stop says why.
    Collective. */
 PetscErrorCode AppRefine(App *, const Estimate *, MarkList *layers, RefineMode, PetscBool *adapted, PetscBool *refused);
+/* refine.c: to the mesh that the list asks for, states carried over; the level at hand is the caller's then. *refused: why not, else NULL. Collective. */
+PetscErrorCode AppMoveTo(App *, MarkList *, const char **refused);
+/* coarsen.c: splits of the mesh that the scene asks for. Not collective. */
+PetscErrorCode AppNoteFirstMesh(App *, Forest);
+/* The accepted state on a mesh whose cells that adaptation made have merged with their siblings, one generation, where they are of bodies that deform. The level
+   at hand is the caller's then; *merged false: there are none, it stays. Collective. */
+PetscErrorCode AppCoarsen(App *, PetscBool *merged);
 /* verdict.c: adaptation of the state has ended at app->adapt_stop with this estimated error (absolute) and energy norm; refused: the mesh could not be refined
    as asked. */
 PetscErrorCode AppJudge(App *, PetscReal error, PetscReal norm, PetscBool refused);

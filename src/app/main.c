@@ -28,6 +28,7 @@ static PetscErrorCode Prepare_Private(App *app, Forest *forest)
   PetscCall(PetscCalloc3(app->data->num_contacts, &app->subdivided, app->data->num_contacts, &app->touched, app->data->num_contacts, &app->friction));
   PetscCall(PetscMalloc1(app->data->mechanics.num_bodies, &app->adrift));
   AppForgetAdrift(app);
+  PetscCall(AppNoteFirstMesh(app, *forest));
   if (app->restart[0])
     PetscCall(AppResume(app, forest));
   else
@@ -96,6 +97,7 @@ static PetscErrorCode Close_Private(App *app)
   OutputUnlock();
   PetscCall(NeedsDestroy(&app->needs));
   PetscCall(PetscFree3(app->subdivided, app->touched, app->friction));
+  PetscCall(PetscFree(app->first_level));
   PetscCall(PetscFree(app->adrift));
   PetscCall(PetscFree(app->missed));
   PetscFunctionReturn(PETSC_SUCCESS);

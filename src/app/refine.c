@@ -154,6 +154,16 @@ static PetscErrorCode MoveTo_Private(App *app, MarkList *list, int8_t order[], c
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscErrorCode AppMoveTo(App *app, MarkList *list, const char **refused)
+{
+  PetscBool more;
+
+  PetscFunctionBegin;
+  *refused = NULL;
+  PetscCall(MoveTo_Private(app, list, NULL, NULL, REFINE_ALL, refused, &more));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode AppLayers(App *app, const Estimate *e, MarkList *layers)
 {
   PetscInt  num;
