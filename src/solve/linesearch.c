@@ -2,9 +2,9 @@
    g(s) = du . R(u + s du, z + dz), which is -du . K du at its start and would be 0 at its end. Where bodies answer more
    stiffly on the way than their tangent said (flow that turns, cells that are squeezed), g is positive there: balance
    along the step was left behind, and the next one comes back as far. Such a step is shortened to where little is left
-   of g [Matthies & Strang 1979], with the multipliers of its end: those of its start would hide that gaps close. Not
-   with element pressures (s->balance): the residual is that of the pressures x implies, bulk modulus times an error of
-   volume of second order, which the next step takes away whatever it is. */
+   of g [Matthies & Strang 1979], with the multipliers of its end: those of its start would hide that gaps close. So with
+   element pressures, which are multipliers of the volume: those that x implies would add the bulk modulus times an error
+   of volume of second order, which the next step takes away whatever it is. */
 #include "solveimpl.h"
 
 #define LITTLE 0.5 /* share of the work, or of the residual, that may be left */
@@ -18,28 +18,52 @@ PetscReal SolverInside_Private(const PetscReal s[2], const PetscReal g[2])
   return s[0] + PetscMax(AWAY, PetscMin(1 - AWAY, share)) * (s[1] - s[0]);
 }
 
-/* Residual at a share of the displacements of the step; whole: multipliers are those at its end. Then its work along the step. */
-static PetscErrorCode Try_Private(Solver s, const Iterate *it, Vec dx, PetscReal step, PetscBool whole, PetscReal *work)
+/* At x, with the element pressures of the end of the step: work along it, and norm of the residual. */
+static PetscErrorCode Measure_Private(Solver s, const Iterate *it, Vec dx, PetscReal *work, PetscReal *norm)
+{
+  Vec           r = s->balance ? s->balance : it->r;
+  ProblemStatus status;
+
+  PetscFunctionBegin;
+  if (s->balance) PetscCall(ProblemResidual(s->problem, it->x, s->end, r, &status));
+  PetscCall(ProblemWork(s->problem, r, dx, work));
+  PetscCall(VecNorm(r, NORM_2, norm));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Residual at a share of the displacements of the step; whole: multipliers are those at its end. Then its work along the step, and its norm. */
+static PetscErrorCode Try_Private(Solver s, const Iterate *it, Vec dx, PetscReal step, PetscBool whole, PetscReal *work, PetscReal *norm)
 {
   PetscFunctionBegin;
   PetscCall(ProblemStepMove(s->problem, dx, step, whole, it->x));
+  if (s->balance) PetscCall(Measure_Private(s, it, dx, work, norm));
   PetscCall(SNESComputeFunction(s->snes, it->x, it->r));
-  PetscCall(ProblemWork(s->problem, it->r, dx, work));
+  if (!s->balance) PetscCall(Measure_Private(s, it, dx, work, norm));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* Work with the multipliers of the end at the start of the step and at the length at hand: too far? */
 static PetscErrorCode TooFar_Private(Solver s, const Iterate *it, Vec dx, PetscReal step, PetscReal g[2], PetscBool *yes)
 {
-  PetscReal none;
+  PetscReal norm, none;
 
   PetscFunctionBegin;
   *yes = PETSC_FALSE;
-  PetscCall(ProblemWork(s->problem, it->r, dx, &g[1]));
-  if (g[1] <= 0) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(Try_Private(s, it, dx, 0, PETSC_TRUE, &g[0]));
+  PetscCall(Measure_Private(s, it, dx, &g[1], &norm));
+  if (g[1] <= 0 || norm <= LITTLE * it->norm) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(Try_Private(s, it, dx, 0, PETSC_TRUE, &g[0], &none));
   *yes = (PetscBool)(g[0] < 0 && g[1] > -LITTLE * g[0]);
-  if (!*yes) PetscCall(Try_Private(s, it, dx, step, PETSC_FALSE, &none));
+  if (!*yes) PetscCall(Try_Private(s, it, dx, step, PETSC_FALSE, &none, &none));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Element pressures at the end of the whole linear step. */
+static PetscErrorCode End_Private(Solver s)
+{
+  PetscFunctionBegin;
+  if (!s->balance) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(PetscArraycpy(s->end, s->pressure, s->num_pressure));
+  PetscCall(ProblemStepAccept(s->problem, 1, s->end));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -54,7 +78,7 @@ static PetscErrorCode Applies_Private(Solver s, PetscBool *yes)
   for (PetscInt i = 0; i < scene->num_contacts; ++i) touched = (PetscBool)(touched || scene->contacts[i].law != CONTACT_TIED);
   PetscCall(ProblemIsSymmetric(s->problem, &energy));
   energy = (PetscBool)(energy && !MechanicsIsPlastic(&scene->mechanics));
-  *yes   = (PetscBool)(!s->balance && (touched || !energy));
+  *yes   = (PetscBool)(touched || !energy);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -67,14 +91,14 @@ static PetscErrorCode Shorten_Private(Solver s, const Iterate *it, Vec dx, Petsc
   if (norm <= LITTLE * it->norm) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(Applies_Private(s, acts));
   if (!*acts) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(End_Private(s));
   PetscCall(TooFar_Private(s, it, dx, *step, g, acts));
   const PetscReal first = g[0];
   s->shortened          = *acts;
   for (PetscInt trial = 0; trial < TRIALS && *acts; ++trial) {
     *step = SolverInside_Private(at, g);
     PetscCall(PetscInfo(s->snes, "step %g goes too far, work %g after %g: %g\n", (double)at[1], (double)g[1], (double)first, (double)*step));
-    PetscCall(Try_Private(s, it, dx, *step, PETSC_TRUE, &now));
-    PetscCall(VecNorm(it->r, NORM_2, &norm));
+    PetscCall(Try_Private(s, it, dx, *step, PETSC_TRUE, &now, &norm));
     if (s->report->status.bad || norm <= LITTLE * it->norm || PetscAbsReal(now) <= -LITTLE * first) break;
     at[now > 0] = *step;
     g[now > 0]  = now;

@@ -32,6 +32,8 @@ struct _p_Solver {
   Vec           lift, rhs, y, hold; /* of the matrix: effect of the motion to come, right-hand side, solution, forces that hold bodies back */
   Vec           balance;            /* residual with the element pressures found; NULL: none are condensed */
   PetscReal    *pressure;           /* of the state being solved, borrowed during SolverSolve */
+  PetscReal    *end;                /* owned: the same at the end of a linear step (line search) */
+  PetscInt      num_pressure;
   PetscReal     rtol;
   PetscBool     symmetric; /* LDL^T of the symmetric form */
   PetscInt      passes, cuts;

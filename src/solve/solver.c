@@ -210,6 +210,7 @@ PetscErrorCode SolverDestroy(Solver *solver)
   PetscCall(KSPDestroy(&s->refine));
   PetscCall(VecDestroyAll(5, (Vec *[]){&s->lift, &s->rhs, &s->y, &s->hold, &s->balance}));
   PetscCall(PetscFree(s->pass_sets));
+  PetscCall(PetscFree(s->end));
   PetscCall(PetscFree(*solver));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -218,10 +219,12 @@ PetscErrorCode SolverSolve(Solver s, State *state, SolverReport *report)
 {
   PetscFunctionBegin;
   PetscCall(PetscMemzero(report, sizeof(*report)));
-  report->reason = "";
-  s->report      = report;
-  s->pressure    = state->pressure;
-  s->form        = state->form;
+  report->reason  = "";
+  s->report       = report;
+  s->pressure     = state->pressure;
+  s->num_pressure = state->num_pressure;
+  if (s->balance && !s->end) PetscCall(PetscMalloc1(s->num_pressure, &s->end));
+  s->form = state->form;
   PetscCall(ProblemSetState(s->problem, state));
   PetscCall(SNESSolve(s->snes, NULL, state->x));
   state->form = FormPlain(s->form.frozen_segmentation);
