@@ -197,9 +197,11 @@ PetscErrorCode ContactPairGetDonors(ContactPair, const PetscInt **first, const P
    iterations only; the result is kept. Not collective. */
 PetscErrorCode ContactPairSearch(ContactPair, const ContactSurface *nonmortar, const ContactSurface *mortar, PetscInt num, const PetscInt facets[],
                                  PetscReal distance, PetscReal margin);
-/* Do searches from now on go on from the last one, with the same list of facets? Pairs of facets that it found stay as long as their normals oppose at all and
-   none has gone in deeper than the margin: what it takes to be found, which changes by jumps, is asked once. Off to begin with. */
+/* Do searches from now on go on from the one that was kept last, with the same list of facets? Pairs of facets that it found stay as long as their normals
+   oppose at all and none has gone in deeper than the margin: what it takes to be found, which changes by jumps, is asked once. Off to begin with. */
 PetscErrorCode ContactPairGoOn(ContactPair, PetscBool yes);
+/* The last search is that of an iterate, from which those of trial steps go on, however many there are; one that does not go on is kept by itself. */
+PetscErrorCode ContactPairKeepSearch(ContactPair);
 
 /* How deep the last search found sides of another body that it took for far ones, though they are not clearly as deep as both bodies measure: overlaps beyond
    what can be told. 0: none. Not collective. */

@@ -185,8 +185,9 @@ PetscErrorCode InterfaceGetSlipPoints(Interface, PetscInt pair, PetscInt *num, C
 /* ---- residual ----------------------------------------------------------------------------------------------------------------- */
 
 /* The candidate search at the local displacements u. Surfaces that may meet themselves are given their roles there, while they bear nothing by the multipliers
-   of x and on a new mesh. goes_on: from the last search (ContactPairGoOn). Collective. */
+   of x and on a new mesh. goes_on: from the one kept (ContactPairGoOn). Collective. */
 PetscErrorCode InterfaceSearch(Interface, Vec x, const PetscReal u[], PetscBool goes_on);
+PetscErrorCode InterfaceKeepSearch(Interface);
 /* Gaps, weights, activity and facets at the multipliers of x and the displacements u, with derivatives of the gaps, and with Hessians too: then at the
    directions that the form wants. pending: prescribed motion still to come. Views show the last evaluation. *failed stays unless it fails. Collective. */
 PetscErrorCode InterfaceEvaluate(Interface, Vec x, const PetscReal u[], PetscReal pending, PetscBool hessian, PetscBool *failed);

@@ -26,6 +26,11 @@ typedef struct {
   PetscInt   size_x[2], size_z;
 } ContactState;
 
+/* Mortar facets that a search found for each facet of its list: found[start[i] .. start[i+1]). */
+typedef struct {
+  PetscInt num, *start, *found, size_start, size_found; /* owned */
+} Found;
+
 typedef struct _p_RayWork *RayWork;
 
 struct _p_ContactPair {
@@ -43,10 +48,10 @@ struct _p_ContactPair {
   RayWork                   ray;                                                        /* work space; NULL before the first search */
   PetscInt                  num_nodes, num_facets, num_mortar_nodes, num_mortar_facets; /* of the last search */
   /* candidates: mortar facets of listed facet i are candidate[start[i] .. start[i+1]), ascending */
-  PetscInt num_listed, *listed, *start, *candidate, size_candidate; /* owned */
-  /* what the last search found, in the same form: candidates may have been set since */
-  PetscInt        num_searched, *found_start, *found, size_found_start, size_found; /* owned */
-  PetscBool       goes_on;                                                          /* the next search, from there */
+  PetscInt        num_listed, *listed, *start, *candidate, size_candidate; /* owned */
+  Found           base, last;                                              /* of the search that others go on from, of the last one … */
+  PetscBool       is_newer;                                                /* … which is not yet the former */
+  PetscBool       goes_on;                                                 /* the next search, from there */
   PetscReal       distance, margin;
   PetscReal       depth;   /* of overlaps that are looked for */
   ContactHull     hull;    /* borrowed; NULL: thicknesses are not known */

@@ -22,6 +22,14 @@ PetscErrorCode ContactPairCreate(PetscInt dim, PetscBool axisymmetric, const Con
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+static PetscErrorCode FoundDestroy_Private(Found *f)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscFree(f->start));
+  PetscCall(PetscFree(f->found));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode ContactPairDestroy(ContactPair *pair)
 {
   ContactPair p = *pair;
@@ -31,8 +39,8 @@ PetscErrorCode ContactPairDestroy(ContactPair *pair)
   PetscCall(PetscFree(p->listed));
   PetscCall(PetscFree(p->start));
   PetscCall(PetscFree(p->candidate));
-  PetscCall(PetscFree(p->found_start));
-  PetscCall(PetscFree(p->found));
+  PetscCall(FoundDestroy_Private(&p->base));
+  PetscCall(FoundDestroy_Private(&p->last));
   PetscCall(PetscFree(p->normal));
   PetscCall(PetscFree(p->output));
   PetscCall(PetscFree(p->ids));

@@ -98,8 +98,8 @@ static PetscBool IsGrazed_Private(const RayWork w, const ContactSurface *nonmort
 static PetscBool Stays_Private(const ContactPair pair, PetscInt slot, const RayRegion *region, const ContactSurface *mortar, PetscInt facet)
 {
   if (!pair->goes_on) return PETSC_FALSE;
-  for (PetscInt k = pair->found_start[slot]; k < pair->found_start[slot + 1]; k++)
-    if (pair->found[k] == facet) return ContactRayRegionMeets(region, mortar, facet, PETSC_TRUE);
+  for (PetscInt k = pair->base.start[slot]; k < pair->base.start[slot + 1]; k++)
+    if (pair->base.found[k] == facet) return ContactRayRegionMeets(region, mortar, facet, PETSC_TRUE);
   return PETSC_FALSE;
 }
 
@@ -187,17 +187,30 @@ static PetscErrorCode Candidates_Private(ContactPair pair, const ContactSurface 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* For the next search to go on from. */
 static PetscErrorCode Remember_Private(ContactPair pair)
 {
   const PetscInt num = pair->num_listed, total = pair->start[num];
+  Found         *f = &pair->last;
 
   PetscFunctionBegin;
-  PetscCall(ContactGrow(num + 1, sizeof(PetscInt), &pair->size_found_start, &pair->found_start));
-  PetscCall(ContactGrow(total, sizeof(PetscInt), &pair->size_found, &pair->found));
-  PetscCall(PetscArraycpy(pair->found_start, pair->start, num + 1));
-  PetscCall(PetscArraycpy(pair->found, pair->candidate, total));
-  pair->num_searched = num;
+  PetscCall(ContactGrow(num + 1, sizeof(PetscInt), &f->size_start, &f->start));
+  PetscCall(ContactGrow(total, sizeof(PetscInt), &f->size_found, &f->found));
+  PetscCall(PetscArraycpy(f->start, pair->start, num + 1));
+  PetscCall(PetscArraycpy(f->found, pair->candidate, total));
+  f->num         = num;
+  pair->is_newer = PETSC_TRUE;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode ContactPairKeepSearch(ContactPair pair)
+{
+  const Found base = pair->base;
+
+  PetscFunctionBegin;
+  if (!pair->is_newer) PetscFunctionReturn(PETSC_SUCCESS);
+  pair->base     = pair->last;
+  pair->last     = base;
+  pair->is_newer = PETSC_FALSE;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -232,7 +245,7 @@ PetscErrorCode ContactPairSearch(ContactPair pair, const ContactSurface *nonmort
   Tree       tree;
 
   PetscFunctionBegin;
-  PetscCheck(!pair->goes_on || num == pair->num_searched, PETSC_COMM_SELF, PETSC_ERR_ARG_WRONGSTATE, "a search of other facets than the one it goes on from");
+  PetscCheck(!pair->goes_on || num == pair->base.num, PETSC_COMM_SELF, PETSC_ERR_ARG_WRONGSTATE, "a search of other facets than the one it goes on from");
   PetscCall(Prepare_Private(pair, nonmortar, num, facets, distance, margin));
   pair->num_mortar_nodes  = mortar->num_nodes;
   pair->num_mortar_facets = mortar->num_facets;
@@ -241,6 +254,7 @@ PetscErrorCode ContactPairSearch(ContactPair pair, const ContactSurface *nonmort
   PetscCall(MortarTree_Private(mortar, known, &tree));
   PetscCall(Candidates_Private(pair, nonmortar, mortar, &tree, known, found, grazed));
   PetscCall(Remember_Private(pair));
+  if (!pair->goes_on) PetscCall(ContactPairKeepSearch(pair));
   PetscCall(PetscFree3(found, known, grazed));
   PetscCall(ContactTreeDestroy(&tree));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -182,6 +182,13 @@ PetscErrorCode InterfaceSearch(Interface p, Vec x, const PetscReal u[], PetscBoo
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscErrorCode InterfaceKeepSearch(Interface p)
+{
+  PetscFunctionBegin;
+  for (PetscInt i = 0; i < p->num_contacts; ++i) PetscCall(ContactPairKeepSearch(p->contacts[i].pair));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode InterfaceEvaluate(Interface p, Vec x, const PetscReal u[], PetscReal pending, PetscBool hessian, PetscBool *failed)
 {
   PetscFunctionBegin;

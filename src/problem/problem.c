@@ -341,8 +341,8 @@ PetscErrorCode ProblemWork(Problem p, Vec r, Vec dx, PetscReal *work)
 
 PetscErrorCode ProblemStepBegin(Problem p, Vec x, Vec dx)
 {
-
   PetscFunctionBegin;
+  PetscCall(InterfaceKeepSearch(p->interface));
   PetscCall(ProblemIncrement_Private(p, dx, 1.0));
   PetscCall(VecCopy(x, p->start_x));
   PetscCall(PetscArraycpy(p->start_applied, p->applied, p->num_local));

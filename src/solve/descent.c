@@ -253,6 +253,7 @@ PetscErrorCode DescentLinearise_Private(Descent *d, Vec x, PetscBool *done, Pets
 
   PetscFunctionBegin;
   PetscCall(ProblemSearchOn(d->problem, x));
+  PetscCall(InterfaceKeepSearch(ProblemInterface(d->problem)));
   PetscCall(ProblemMerit(d->problem, PENALTY, d->lambda, x, d->gradient, &d->merit, &d->status));
   *ok = (PetscBool)!d->status.bad;
   if (!*ok) PetscFunctionReturn(PETSC_SUCCESS);
