@@ -97,8 +97,8 @@ PetscErrorCode AppRefine(App *, const Estimate *, MarkList *layers, RefineMode, 
 PetscErrorCode AppMoveTo(App *, MarkList *, const char **refused);
 /* coarsen.c: splits of the mesh that the scene asks for. Not collective. */
 PetscErrorCode AppNoteFirstMesh(App *, Forest);
-/* The accepted state on a mesh whose cells that adaptation made have merged with their siblings, one generation, where they are of bodies that deform. The level
-   at hand is the caller's then; *merged false: there are none, it stays. Collective. */
+/* The accepted state on a mesh whose cells that adaptation made have merged with their siblings, one generation, where they are of bodies that deform. The
+   level at hand is the caller's then; *merged false: there are none, it stays. Collective. */
 PetscErrorCode AppCoarsen(App *, PetscBool *merged);
 /* verdict.c: adaptation of the state has ended at app->adapt_stop with this estimated error (absolute) and energy norm; refused: the mesh could not be refined
    as asked. */

@@ -1,5 +1,5 @@
-/* Back to a coarser mesh. On fine cells at a corner a load step may have no equilibrium near by, however short it is, where the coarser mesh it was adapted from
-   has one; adaptation after the step then refines as far as that leads. */
+/* Back to a coarser mesh. On fine cells at a corner a load step may have no equilibrium near by, however short it is, where the coarser mesh it was adapted
+   from has one; adaptation after the step then refines as far as that leads. */
 #include "appimpl.h"
 
 static PetscInt Splits_Private(const ForestTables *t, PetscInt leaf)

@@ -33,8 +33,8 @@ static PathLoop Loop_Private(const App *app)
 /* Once more from the accepted state with cells merged, as often as it takes; where that leads nowhere, the level at hand stays. */
 static PetscErrorCode Coarser_Private(App *app, PathLoop *loop, SolverReport *report)
 {
-  RecoveryCount  *row   = &app->path.recovery[PATH_COARSEN];
-  const PetscReal whole = app->arc_first > 0 ? app->arc_first : app->data->load.step;
+  RecoveryCount      *row   = &app->path.recovery[PATH_COARSEN];
+  const PetscReal     whole = app->arc_first > 0 ? app->arc_first : app->data->load.step;
   const SolverReport  first = *report;
   const ForestTables *t, *coarser;
   Level               fine = app->level;
@@ -47,8 +47,8 @@ static PetscErrorCode Coarser_Private(App *app, PathLoop *loop, SolverReport *re
     if (!more) break;
     if (before.forest != fine.forest) PetscCall(LevelDestroy(&before));
     ++row->tried;
-    *loop       = Loop_Private(app);
-    loop->piece = PetscMax(loop->piece, whole);
+    *loop              = Loop_Private(app);
+    loop->piece        = PetscMax(loop->piece, whole);
     app->path.failures = 0;
     PetscCall(PathFollow(&app->path, loop, report));
   }
@@ -63,8 +63,9 @@ static PetscErrorCode Coarser_Private(App *app, PathLoop *loop, SolverReport *re
   ++row->succeeded;
   PetscCall(ForestGetTables(fine.forest, &t));
   PetscCall(ForestGetTables(app->level.forest, &coarser));
-  PetscCall(PetscPrintf(app->comm, "note: no equilibrium was found from t = %g on the %" PetscInt_FMT " cells of the adapted mesh; on %" PetscInt_FMT " cells there is one\n",
-                        (double)app->level.accepted.t, t->num_leaves, coarser->num_leaves));
+  PetscCall(PetscPrintf(
+      app->comm, "note: no equilibrium was found from t = %g on the %" PetscInt_FMT " cells of the adapted mesh; on %" PetscInt_FMT " cells there is one\n",
+      (double)app->level.accepted.t, t->num_leaves, coarser->num_leaves));
   PetscCall(LevelDestroy(&fine));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -141,8 +141,8 @@ const Recovery PathRecoveries[PATH_RECOVERIES] = {
     {"viscous", "viscous regularisation: bodies creep to an equilibrium that is not near by, as when they snap", 2, Always_Private, Viscous_Private},
     [PATH_UNFOLDED] = {"unfolded", "where a finer mesh has none, cells that would fold there stay as they are and the others are refined", 0, Always_Private,
                        NULL},
-    [PATH_COARSEN] = {"coarsen", "a load step that was not found on an adapted mesh: cells that adaptation made merge, and it begins again", 0, Always_Private,
-                      NULL},
+    [PATH_COARSEN]  = {"coarsen", "a load step that was not found on an adapted mesh: cells that adaptation made merge, and it begins again", 0, Always_Private,
+                       NULL},
 };
 
 /* Is it time for an equilibrium farther off? Bodies in contact snap, or flow far; the end of what a load can be is no such place, and the user is told. A

@@ -196,6 +196,43 @@ static void Grazing(void **state)
   }
 }
 
+/* How many candidates one facet has below another that lies at this angle to it. */
+static PetscInt At(ContactPair pair, const Chain *nonmortar, PetscReal degrees)
+{
+  const PetscReal angle = degrees * PETSC_PI / 180;
+  const PetscInt *start, *candidate;
+  Chain           mortar;
+
+  ChainLine(&mortar, 2, 0.5 - 0.5 * cos(angle), 0.1, 0.5 + 0.5 * cos(angle), 0.1 + sin(angle));
+  SearchAll(pair, nonmortar, &mortar, 2, 0.1);
+  CHECK_CALL(ContactPairGetCandidates(pair, &start, &candidate));
+  ChainDestroy(&mortar);
+  return start[1];
+}
+
+/* What trial steps find depends on the iterate that they start from, not on trials before them: a pair of facets stays beyond 72.5 degrees though it was lost
+   in between, and goes once an iterate without it was kept. */
+static void Trials(void **state)
+{
+  Chain       nonmortar;
+  ContactPair pair;
+
+  ChainLine(&nonmortar, 2, 1, 0, 0, 0);
+  PairCreate(PETSC_FALSE, PETSC_FALSE, &pair);
+  assert_int_equal(At(pair, &nonmortar, 75), 0);
+  assert_int_equal(At(pair, &nonmortar, 70), 1);
+  CHECK_CALL(ContactPairGoOn(pair, PETSC_TRUE));
+  assert_int_equal(At(pair, &nonmortar, 75), 1);
+  assert_int_equal(At(pair, &nonmortar, 100), 0);
+  assert_int_equal(At(pair, &nonmortar, 75), 1);
+  assert_int_equal(At(pair, &nonmortar, 100), 0);
+  CHECK_CALL(ContactPairKeepSearch(pair));
+  CHECK_CALL(ContactPairKeepSearch(pair)); /* nothing was looked for in between */
+  assert_int_equal(At(pair, &nonmortar, 75), 0);
+  CHECK_CALL(ContactPairDestroy(&pair));
+  ChainDestroy(&nonmortar);
+}
+
 /* A groove with flanks at 45 degrees; in it facets of `turn` degrees each, joined to a nose or apart, the first with its normal 50 degrees left of downwards.
    How many of them the right flank has for candidates. */
 static PetscInt InGroove(PetscInt num_facets, PetscReal turn, PetscBool joined)
@@ -506,5 +543,5 @@ static void Strip(void **state)
 }
 
 CONTACT_TEST_MAIN("contact: search", cmocka_unit_test(BruteForce), cmocka_unit_test(Margin), cmocka_unit_test(Near), cmocka_unit_test(Groove),
-                  cmocka_unit_test(Layers), cmocka_unit_test(Behind), cmocka_unit_test(Grazing), cmocka_unit_test(FarSides), cmocka_unit_test(Strip),
-                  cmocka_unit_test(LargeSliding), cmocka_unit_test(Empty), cmocka_unit_test(Time))
+                  cmocka_unit_test(Layers), cmocka_unit_test(Behind), cmocka_unit_test(Grazing), cmocka_unit_test(Trials), cmocka_unit_test(FarSides),
+                  cmocka_unit_test(Strip), cmocka_unit_test(LargeSliding), cmocka_unit_test(Empty), cmocka_unit_test(Time))
