@@ -24,7 +24,7 @@ def factorisations(s):
 
 
 STOPS = None  # the naive method finds no solution: exit 2 before the end
-ALONE = "-path_descent off -path_viscous off"  # what finds the solution elsewise hides what the switch does
+ALONE = "-path_descent off -path_viscous off -path_coarsen off"  # what finds the solution elsewise hides what the switch does
 TANGENT = "-newton_secant_flow off -path_predictor off"
 SLIDE = ("inputs/slide2d.yml -adapt_tolerance 0 -mesh_parameter_n 8 -order 1 -boundary_top_displacement_x 0.9*max(t-1,0) -boundary_top_displacement_y -0.3*min(t,1) "
          "-material_rubber_nu 0.499 -contact_disc_on_block_nonmortar block_top -contact_disc_on_block_mortar disc_surface " + ALONE)
