@@ -123,7 +123,7 @@ Interface ProblemInterface(Problem);
 PetscErrorCode ProblemSetPattern(Problem, PetscInt pair, const PetscInt first[], const PetscInt node[]);
 /* The candidate search at x; between Newton iterations only. */
 PetscErrorCode ProblemSearch(Problem, Vec x);
-/* The same, going on from the last one (ContactPairGoOn): at the iterates of one solve. */
+/* The same, going on from the one that ProblemStepBegin kept (ContactPairGoOn): at the trial steps from one iterate. */
 PetscErrorCode ProblemSearchOn(Problem, Vec x);
 
 /* ---- residual and tangent --------------------------------------------------------------------------------------------------- */

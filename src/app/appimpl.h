@@ -54,12 +54,12 @@ typedef struct {
   char             reason[PETSC_MAX_PATH_LEN + MORTISE_NAME]; /* why it was, or what its solutions lack */
   const char      *adapt_stop;                                /* why the last adaptation ended: tolerance, max_passes, max_cells, … */
   PetscInt         num_missed;
-  Missed          *missed;                           /* owned [num_missed] */
-  PetscBool        inversion_told;                   /* that refinement would invert a cell, once */
-  int8_t          *first_level;                      /* owned [coarse cells]: fewest splits of a leaf, all directions, before adaptation */
-  PetscInt        *subdivided;                       /* owned [num_contacts] by contact.<pair>.subdivide: auto, so often, or tried */
-  FrictionFigures *friction;                         /* owned, by ContactSpec.pair: of the last accepted load step of this run */
-  PetscInt        *touched;                          /* owned, by ContactSpec.pair: load step of this run in which a node was in contact first; 0: none */
+  Missed          *missed;         /* owned [num_missed] */
+  PetscBool        inversion_told; /* that refinement would invert a cell, once */
+  int8_t          *first_level;    /* owned [coarse cells]: fewest splits of a leaf, all directions, before adaptation; NULL: nothing merges */
+  PetscInt        *subdivided;     /* owned [num_contacts] by contact.<pair>.subdivide: auto, so often, or tried */
+  FrictionFigures *friction;       /* owned, by ContactSpec.pair: of the last accepted load step of this run */
+  PetscInt        *touched;        /* owned, by ContactSpec.pair: load step of this run in which a node was in contact first; 0: none */
   PetscReal        rough_error, rough_t, rough_norm; /* largest estimate of an accepted step, its time; largest norm */
   PetscReal        unstable_t;                       /* when a solution was first found unstable … */
   PetscBool        unstable_known, passage_told;     /* … if one was; that a surface passes through itself */
@@ -84,6 +84,8 @@ PetscErrorCode AppInitialize(int argc, char **argv);
 PetscBool AppOptionsLoop(int argc, char **argv, size_t capacity, char told[]);
 /* loadstep.c: all load steps; app->failure is set when the solver gives up. Collective. */
 PetscErrorCode AppRun(App *);
+/* The next step from the accepted state. */
+PathLoop AppNextStep(const App *);
 /* adaptstep.c: after a solution at the current time, refine and solve again until the tolerance or a limit is met. */
 PetscErrorCode AppAdapt(App *);
 /* Layers at contact faces to be subdivided first (subdivide: auto); layers->split NULL: none. Where nothing else is to be adapted, adaptation ends with the
@@ -95,11 +97,11 @@ PetscErrorCode AppLayers(App *, const Estimate *, MarkList *layers);
 PetscErrorCode AppRefine(App *, const Estimate *, MarkList *layers, RefineMode, PetscBool *adapted, PetscBool *refused);
 /* refine.c: to the mesh that the list asks for, states carried over; the level at hand is the caller's then. *refused: why not, else NULL. Collective. */
 PetscErrorCode AppMoveTo(App *, MarkList *, const char **refused);
-/* coarsen.c: splits of the mesh that the scene asks for. Not collective. */
+/* coarsen.c. Before the first load step: how far the mesh that the scene asks for is split, where states are carried over to other meshes. Not collective. */
 PetscErrorCode AppNoteFirstMesh(App *, Forest);
-/* The accepted state on a mesh whose cells that adaptation made have merged with their siblings, one generation, where they are of bodies that deform. The
-   level at hand is the caller's then; *merged false: there are none, it stays. Collective. */
-PetscErrorCode AppCoarsen(App *, PetscBool *merged);
+/* A load step was not found: once more from the accepted state with one generation of the cells that adaptation made merged, those of bodies that deform, and
+   again as long as there are any. converged: the level is the coarser one, loop as it ended there; else level and report are as before. Collective. */
+PetscErrorCode AppCoarsen(App *, PathLoop *loop, SolverReport *);
 /* verdict.c: adaptation of the state has ended at app->adapt_stop with this estimated error (absolute) and energy norm; refused: the mesh could not be refined
    as asked. */
 PetscErrorCode AppJudge(App *, PetscReal error, PetscReal norm, PetscBool refused);

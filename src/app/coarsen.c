@@ -13,6 +13,7 @@ PetscErrorCode AppNoteFirstMesh(App *app, Forest forest)
   const ForestTables *t;
 
   PetscFunctionBegin;
+  if (!AppIsAdaptive(app) || app->data->adapt.repeat != REPEAT_STEP) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(ForestGetCoarse(forest, &coarse));
   PetscCall(ForestGetTables(forest, &t));
   PetscCall(PetscMalloc1(coarse->num_cells, &app->first_level));
@@ -32,32 +33,72 @@ static PetscBool MayMerge_Private(const App *app, const ForestTables *t, PetscIn
   return (PetscBool)(!body->material->law->rigid && Splits_Private(t, leaf) > app->first_level[t->leaf_root[leaf]]);
 }
 
-PetscErrorCode AppCoarsen(App *app, PetscBool *merged)
+/* Merge one generation of cells; *merged false: there are none, or they must stay, and so does the level. Else that at hand before is the caller's. */
+static PetscErrorCode Merge_Private(App *app, PetscBool *merged)
 {
-  const Level         old = app->level;
+  const Level         before = app->level;
   const ForestTables *t, *coarser;
-  const char         *refused;
+  const char         *refused = NULL;
   MarkList            list;
+  PetscInt            num = 0;
 
   PetscFunctionBegin;
-  PetscCall(ForestGetTables(old.forest, &t));
+  PetscCall(ForestGetTables(before.forest, &t));
   PetscCall(PetscCalloc2(t->num_leaves, &list.split, t->num_leaves, &list.coarsen));
-  *merged = PETSC_FALSE;
-  for (PetscInt l = 0; l < t->num_leaves; ++l) {
-    list.coarsen[l] = (int8_t)MayMerge_Private(app, t, l);
-    *merged         = (PetscBool)(*merged || list.coarsen[l]);
-  }
-  if (*merged) PetscCall(AppMoveTo(app, &list, &refused));
+  for (PetscInt l = 0; l < t->num_leaves; ++l) num += list.coarsen[l] = (int8_t)MayMerge_Private(app, t, l);
+  if (num) PetscCall(AppMoveTo(app, &list, &refused));
   PetscCall(PetscFree2(list.split, list.coarsen));
-  if (!*merged) PetscFunctionReturn(PETSC_SUCCESS);
-  if (refused) {
-    *merged = PETSC_FALSE;
-    PetscFunctionReturn(PETSC_SUCCESS);
-  }
   PetscCall(ForestGetTables(app->level.forest, &coarser));
   *merged = (PetscBool)(coarser->num_leaves < t->num_leaves);
-  if (*merged) PetscFunctionReturn(PETSC_SUCCESS);
+  if (*merged || app->level.forest == before.forest) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(LevelDestroy(&app->level)); /* sides that would hang from cells twice as small had them split again */
+  app->level = before;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode Tell_Private(const App *app, Forest fine)
+{
+  const ForestTables *before, *after;
+
+  PetscFunctionBegin;
+  PetscCall(ForestGetTables(fine, &before));
+  PetscCall(ForestGetTables(app->level.forest, &after));
+  PetscCall(PetscPrintf(
+      app->comm, "note: no equilibrium was found from t = %g on the %" PetscInt_FMT " cells of the adapted mesh; on %" PetscInt_FMT " cells there is one\n",
+      (double)app->level.accepted.t, before->num_leaves, after->num_leaves));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode AppCoarsen(App *app, PathLoop *loop, SolverReport *report)
+{
+  RecoveryCount     *row   = &app->path.recovery[PATH_COARSEN];
+  const PetscReal    whole = app->arc_first > 0 ? app->arc_first : app->data->load.step;
+  const SolverReport first = *report;
+  Level              fine  = app->level;
+  PetscBool          more  = (PetscBool)(app->first_level && row->mode != RECOVERY_OFF && !app->path.limit_point);
+
+  PetscFunctionBegin;
+  while (more && !report->converged && !app->path.stopped) {
+    Level before = app->level;
+    PetscCall(Merge_Private(app, &more));
+    if (!more) break;
+    if (before.forest != fine.forest) PetscCall(LevelDestroy(&before));
+    ++row->tried;
+    *loop              = AppNextStep(app);
+    loop->piece        = PetscMax(loop->piece, whole);
+    app->path.failures = 0;
+    PetscCall(PathFollow(&app->path, loop, report));
+  }
+  if (app->level.forest == fine.forest) PetscFunctionReturn(PETSC_SUCCESS);
+  row->succeeded += report->converged;
+  if (report->converged) {
+    PetscCall(Tell_Private(app, fine.forest));
+    PetscCall(LevelDestroy(&fine));
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
   PetscCall(LevelDestroy(&app->level));
-  app->level = old;
+  app->level = fine;
+  *report    = first;
+  PetscCall(PathPrescribe(fine.problem, fine.state.t));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

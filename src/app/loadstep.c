@@ -17,8 +17,7 @@ static PetscBool Loaded_Private(const SceneData *data)
   return PETSC_FALSE;
 }
 
-/* The next step from the accepted state. */
-static PathLoop Loop_Private(const App *app)
+PathLoop AppNextStep(const App *app)
 {
   const LoadSpec *load = &app->data->load;
   const PetscReal t = app->level.accepted.t, unit = app->arc_first / load->step;
@@ -30,49 +29,9 @@ static PathLoop Loop_Private(const App *app)
       .metric = &PathTime, .s = t, .origin = t, .stop = load->end, .piece = app->dt, .least = load->step_min, .most = load->step_max, .step = PETSC_TRUE};
 }
 
-/* Once more from the accepted state with cells merged, as often as it takes; where that leads nowhere, the level at hand stays. */
-static PetscErrorCode Coarser_Private(App *app, PathLoop *loop, SolverReport *report)
-{
-  RecoveryCount      *row   = &app->path.recovery[PATH_COARSEN];
-  const PetscReal     whole = app->arc_first > 0 ? app->arc_first : app->data->load.step;
-  const SolverReport  first = *report;
-  const ForestTables *t, *coarser;
-  Level               fine = app->level;
-  PetscBool           more = (PetscBool)(AppIsAdaptive(app) && app->data->adapt.repeat == REPEAT_STEP && row->mode != RECOVERY_OFF && !app->path.limit_point);
-
-  PetscFunctionBegin;
-  while (more && !report->converged && !app->path.stopped) {
-    Level before = app->level;
-    PetscCall(AppCoarsen(app, &more));
-    if (!more) break;
-    if (before.forest != fine.forest) PetscCall(LevelDestroy(&before));
-    ++row->tried;
-    *loop              = Loop_Private(app);
-    loop->piece        = PetscMax(loop->piece, whole);
-    app->path.failures = 0;
-    PetscCall(PathFollow(&app->path, loop, report));
-  }
-  if (app->level.forest == fine.forest) PetscFunctionReturn(PETSC_SUCCESS);
-  if (!report->converged) {
-    PetscCall(LevelDestroy(&app->level));
-    app->level = fine;
-    *report    = first;
-    PetscCall(PathPrescribe(fine.problem, fine.state.t));
-    PetscFunctionReturn(PETSC_SUCCESS);
-  }
-  ++row->succeeded;
-  PetscCall(ForestGetTables(fine.forest, &t));
-  PetscCall(ForestGetTables(app->level.forest, &coarser));
-  PetscCall(PetscPrintf(
-      app->comm, "note: no equilibrium was found from t = %g on the %" PetscInt_FMT " cells of the adapted mesh; on %" PetscInt_FMT " cells there is one\n",
-      (double)app->level.accepted.t, t->num_leaves, coarser->num_leaves));
-  PetscCall(LevelDestroy(&fine));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 static PetscErrorCode LoadStep_Private(App *app, PetscBool *ok)
 {
-  PathLoop     loop = Loop_Private(app);
+  PathLoop     loop = AppNextStep(app);
   SolverReport report;
 
   PetscFunctionBegin;
@@ -80,7 +39,7 @@ static PetscErrorCode LoadStep_Private(App *app, PetscBool *ok)
   app->passes_in_step   = 0;
   app->path.limit_point = (PetscBool)(loop.metric == &PathTime && app->speed > FAST && Loaded_Private(app->data));
   PetscCall(PathFollow(&app->path, &loop, &report));
-  if (!report.converged) PetscCall(Coarser_Private(app, &loop, &report));
+  if (!report.converged) PetscCall(AppCoarsen(app, &loop, &report));
   *(app->arc_first > 0 ? &app->arc : &app->dt) = loop.piece;
   *ok                                          = report.converged;
   if (*ok) PetscCall(AppAdapt(app));

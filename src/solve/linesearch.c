@@ -36,9 +36,8 @@ static PetscErrorCode Try_Private(Solver s, const Iterate *it, Vec dx, PetscReal
 {
   PetscFunctionBegin;
   PetscCall(ProblemStepMove(s->problem, dx, step, whole, it->x));
-  if (s->balance) PetscCall(Measure_Private(s, it, dx, work, norm));
   PetscCall(SNESComputeFunction(s->snes, it->x, it->r));
-  if (!s->balance) PetscCall(Measure_Private(s, it, dx, work, norm));
+  PetscCall(Measure_Private(s, it, dx, work, norm));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
