@@ -16,8 +16,8 @@ from conftest import PROGRAM, ROOT, Result
 from test_hostile import block
 from test_orderly import refused
 
-MANY = {"load": {"step": 0.00005}, "output": {"fields": False}}  # some seconds in steps of milliseconds
 ENDLESS = {"load": {"step": 0.000005, "max_steps": 200000}, "output": {"fields": False}}  # minutes, however long the machine stands still
+PATIENCE = 300  # seconds: only against waiting for ever
 
 
 def start(path, *options, ranks=1, text=None, env=None, **keywords):
@@ -32,11 +32,20 @@ def start(path, *options, ranks=1, text=None, env=None, **keywords):
                                          "env": {**os.environ, **(env or {})}} | keywords))
 
 
-def wait_for(there, process, seconds=30):
-    end = time.time() + seconds
-    while not there() and process.poll() is None and time.time() < end:
+def becomes(true, process=None, tries=3000):
+    """Whether that comes true in half a minute of this process's own: a clock goes on, or is set, where the machine stands still."""
+    for _ in range(tries):
+        if true() or (process and process.poll() is not None):
+            break
         time.sleep(0.01)
-    assert there(), process.communicate()
+    return true()
+
+
+def wait_for(there, process):
+    if not becomes(there, process):
+        others = subprocess.run(["ps", "-eo", "pid,ppid,stat,comm,args"], capture_output=True, text=True).stdout
+        process.kill()
+        pytest.fail(f"{process.communicate(timeout=PATIENCE)}\n{others}")
 
 
 def rows(directory):
@@ -46,7 +55,7 @@ def rows(directory):
 
 def resumed(path, *options):
     process = start(path, *options, "-restart", "auto")
-    output, errors = process.communicate(timeout=60)
+    output, errors = process.communicate(timeout=PATIENCE)
     return Result([], process.returncode, output, errors, path / "out")
 
 
@@ -55,20 +64,20 @@ def resumed(path, *options):
 
 @pytest.mark.parametrize("ranks", [1, 2])
 def test_the_other_run_is_named(tmp_path, ranks):
-    text = block(tmp_path, **MANY)
+    text = block(tmp_path, **ENDLESS)
     first = start(tmp_path, text=text)
     wait_for(lambda: rows(tmp_path / "out") > 0, first)
     second = start(tmp_path, ranks=ranks)
-    output, errors = second.communicate(timeout=60)
+    output, errors = second.communicate(timeout=PATIENCE)
     assert second.returncode == 1 and f"another run, process {first.pid} on {socket.gethostname()}" in errors, (output, errors)
     first.terminate()
-    output, errors = first.communicate(timeout=60)
+    output, errors = first.communicate(timeout=PATIENCE)
     assert first.returncode == 3 and not (tmp_path / "out" / "lock").exists(), (output, errors)
 
 
 def test_what_a_killed_run_leaves(tmp_path):
     """Its lock is told of and taken, and no word of the run before it stays."""
-    text = block(tmp_path, **MANY)
+    text = block(tmp_path, **ENDLESS)
     (tmp_path / "out").mkdir()
     (tmp_path / "out" / "summary.json").write_text('{\n\t"mortise":\t"0", "status": "converged"}')
     first = start(tmp_path, text=text)
@@ -98,7 +107,7 @@ def foster():
 
 def test_what_is_left_of_a_run(tmp_path, foster):
     """A process that has not noticed that the others are gone keeps the next run away until it has."""
-    text = block(tmp_path, **MANY)
+    text = block(tmp_path, **ENDLESS)
     first = start(tmp_path, text=text, ranks=2, start_new_session=False)
     wait_for(lambda: rows(tmp_path / "out") > 1, first)
     leader = int((tmp_path / "out" / "lock").read_text().split()[1])
@@ -123,16 +132,16 @@ def test_starts_at_the_same_time(tmp_path):
     for _ in range(5):
         processes = [subprocess.Popen([PROGRAM, "--version"], env=env, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) for _ in range(4)]
         for process in processes:
-            assert process.communicate(timeout=60) == ("mortise 0.1.0\n", "") and process.returncode == 0
+            assert process.communicate(timeout=PATIENCE) == ("mortise 0.1.0\n", "") and process.returncode == 0
             assert not os.listdir(tmp_path / "tmp")
 
 
 def test_nothing_is_written_without_the_lock(tmp_path):
-    text = block(tmp_path, **MANY)
+    text = block(tmp_path, **ENDLESS)
     first = start(tmp_path, text=text)
     wait_for(lambda: rows(tmp_path / "out") > 1, first)
     (tmp_path / "out" / "lock").unlink()
-    output, errors = first.communicate(timeout=60)
+    output, errors = first.communicate(timeout=PATIENCE)
     assert first.returncode == 2 and len(errors.splitlines()) == 1 and "Nothing more is written" in errors, (output, errors)
 
 
@@ -165,7 +174,7 @@ def test_links_and_pipes_are_not_written(run, tmp_path, name):
     for place in (lambda path: path.symlink_to(tmp_path / "mine")), os.mkfifo:
         (tmp_path / "out1" / name).unlink(missing_ok=True)
         place(tmp_path / "out1" / name)
-        result = run("s.yml", "-output_directory", tmp_path / "out1", "-output_overwrite", "true", text=block(tmp_path), timeout=20)
+        result = run("s.yml", "-output_directory", tmp_path / "out1", "-output_overwrite", "true", text=block(tmp_path), timeout=PATIENCE)
         assert result.returncode == 0 and (tmp_path / "mine").read_text() == "mine\n", result
 
 
@@ -209,7 +218,7 @@ def test_signals_stop_in_order(tmp_path, number, held):
     process = start(tmp_path, text=block(tmp_path, **ENDLESS), preexec_fn=lambda: signal.pthread_sigmask(signal.SIG_BLOCK if held else signal.SIG_UNBLOCK, {number}))
     wait_for(lambda: rows(tmp_path / "out") > 1, process)
     process.send_signal(number)
-    output, errors = process.communicate(timeout=60)
+    output, errors = process.communicate(timeout=PATIENCE)
     result = Result([], process.returncode, output, errors, tmp_path / "out")
     assert result.returncode == 3 and result.summary["reason"].startswith(number.name) and not errors, result
     assert sorted(os.listdir(tmp_path / "out")) == ["adapt.csv", "checkpoint.h5", "history.csv", "summary.json"]
@@ -222,7 +231,7 @@ def test_nobody_reads(tmp_path):
     process.stdout.readline()
     process.stdout.close()
     process.stdout = None
-    _, errors = process.communicate(timeout=60)
+    _, errors = process.communicate(timeout=PATIENCE)
     result = Result([], process.returncode, "", errors, tmp_path / "out")
     assert result.returncode == 3 and result.summary["reason"].startswith("SIGPIPE"), result
 
@@ -231,7 +240,7 @@ def test_children_that_nobody_waits_for(tmp_path):
     """SIGCHLD ignored by who starts the program: how gmsh has ended is told all the same."""
     (tmp_path / "s.geo").write_text((ROOT / "inputs/cube.geo").read_text())
     process = start(tmp_path, "-check", text=(ROOT / "inputs/cube.yml").read_text().replace("cube.geo", "s.geo"), preexec_fn=lambda: signal.signal(signal.SIGCHLD, signal.SIG_IGN))
-    output, errors = process.communicate(timeout=60)
+    output, errors = process.communicate(timeout=PATIENCE)
     assert process.returncode == 0 and not errors, (output, errors)
 
 
@@ -239,7 +248,7 @@ def test_nohup(tmp_path):
     process = start(tmp_path, text=block(tmp_path, load={"step": 0.01}), preexec_fn=lambda: signal.signal(signal.SIGHUP, signal.SIG_IGN))
     wait_for(lambda: rows(tmp_path / "out") > 1, process)
     process.send_signal(signal.SIGHUP)
-    process.communicate(timeout=60)
+    process.communicate(timeout=PATIENCE)
     assert process.returncode == 0
 
 
@@ -269,11 +278,8 @@ def test_stopped_while_gmsh_meshes(tmp_path, number, ranks):
 
     wait_for(meshing, process)
     process.send_signal(number)
-    process.communicate(timeout=20)
-    end = time.time() + 20  # a busy machine takes its time to end a process
-    while meshing() and time.time() < end:
-        time.sleep(0.05)
-    assert not meshing()
+    process.communicate(timeout=PATIENCE)
+    assert becomes(lambda: not meshing())  # a busy machine takes its time to end a process
     if number == signal.SIGTERM:
         assert not list((tmp_path / "tmp").glob("mortise-*"))
 
@@ -283,7 +289,7 @@ def test_stopped_while_gmsh_meshes(tmp_path, number, ranks):
 
 def test_the_checkpoint_before(tmp_path):
     """A checkpoint that the disk has lost costs a step more."""
-    process = start(tmp_path, text=block(tmp_path, **MANY))
+    process = start(tmp_path, text=block(tmp_path, **ENDLESS))
     checkpoint, before = tmp_path / "out" / "checkpoint.h5", tmp_path / "out" / "checkpoint_before.h5"
     wait_for(lambda: rows(tmp_path / "out") > 3 and before.exists(), process)
     process.kill()
@@ -342,7 +348,7 @@ def test_options_of_the_working_directory(tmp_path):
     text = block(tmp_path)
     (tmp_path / ".petscrc").write_text("# of PETSc\n-snes_max_it 7\n")
     for options, told in ((), True), (("-skip_petscrc",), False):
-        output, errors = start(tmp_path, "-check", *options, text=text).communicate(timeout=60)
+        output, errors = start(tmp_path, "-check", *options, text=text).communicate(timeout=PATIENCE)
         assert ("note: options of .petscrc in the working directory act" in output) == told and not errors, (output, errors)
 
 
@@ -351,7 +357,7 @@ def test_options_of_the_working_directory(tmp_path):
 def test_words_of_petsc_options(tmp_path, options, word, ranks):
     """One without its dash would not act."""
     process = start(tmp_path, "-check", text=block(tmp_path), ranks=ranks, env={"PETSC_OPTIONS": options})
-    output, errors = process.communicate(timeout=60)
+    output, errors = process.communicate(timeout=PATIENCE)
     result = Result([], process.returncode, output, errors, tmp_path / "out")
     if word is None:
         assert result.returncode == 0 and "order 2" in output and not errors, result
@@ -380,7 +386,7 @@ def test_a_closed_screen(tmp_path):
     wait_for(lambda: rows(tmp_path / "out") > 1, process)
     files = [os.readlink(f"/proc/{process.pid}/fd/{k}") for k in range(3)]
     process.terminate()
-    assert process.wait(timeout=60) == 3 and files == ["/dev/null"] * 3, files
+    assert process.wait(timeout=PATIENCE) == 3 and files == ["/dev/null"] * 3, files
 
 
 @pytest.mark.parametrize("words", [["s.yml"], ["s.yml", "-check"], ["-list"]])
@@ -388,7 +394,7 @@ def test_a_full_screen(tmp_path, words):
     """Told, with an exit status; results are whole."""
     (tmp_path / "s.yml").write_text(block(tmp_path))
     with open("/dev/full", "w") as full:
-        done = subprocess.run([PROGRAM, *words], cwd=tmp_path, stdout=full, stderr=subprocess.PIPE, text=True, timeout=60)
+        done = subprocess.run([PROGRAM, *words], cwd=tmp_path, stdout=full, stderr=subprocess.PIPE, text=True, timeout=PATIENCE)
     assert done.returncode == 2 and done.stderr == "mortise: standard output could not be written to its end, as on a full disk\n", done
     assert words != ["s.yml"] or json.loads((tmp_path / "out/s/summary.json").read_text())["status"] == "converged"
 

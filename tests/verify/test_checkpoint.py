@@ -287,7 +287,7 @@ def test_signal_stops(run, tmp_path, number, ranks):
     while rows(tmp_path / "stop") < 2 and process.poll() is None:
         time.sleep(0.01)
     os.kill(process.pid, number)  # of several ranks: mpiexec hands SIGUSR1 on
-    output, _ = process.communicate(timeout=60)
+    output, _ = process.communicate(timeout=300)
     assert process.returncode == 3, output
     assert_stopped(Result([], 3, output, "", tmp_path / "stop"), number.name)
     second = go_on(run, tmp_path / "stop", UNASKED[0], *UNASKED[1])
@@ -496,7 +496,7 @@ def test_batch_job_goes_on_until_done(run, tmp_path):
     jobs = 0
     while jobs == 0 or (tmp_path / "queued").exists():
         (tmp_path / "queued").unlink(missing_ok=True)
-        job = subprocess.run(command, cwd=ROOT, env={**environment, "SLURM_RESTART_COUNT": str(jobs)}, capture_output=True, text=True, timeout=120)
+        job = subprocess.run(command, cwd=ROOT, env={**environment, "SLURM_RESTART_COUNT": str(jobs)}, capture_output=True, text=True, timeout=300)
         assert job.returncode == 0, job
         jobs += 1
         assert jobs < 20

@@ -180,7 +180,7 @@ def test_batch_stops(tmp_path):
     process = subprocess.Popen([ROOT / "scripts/hpc/batch", "a.yml", "b.yml"], cwd=tmp_path, env={**os.environ, "MORTISE": str(PROGRAM)}, stdout=subprocess.PIPE, text=True)
     while not (tmp_path / "out/a/checkpoint.h5").exists() and process.poll() is None: time.sleep(0.01)
     process.terminate()
-    said = process.communicate(timeout=60)[0]
+    said = process.communicate(timeout=300)[0]
     assert process.returncode == 3 and said.split("(")[0].split() == ["a", "stopped"] and not (tmp_path / "out/b").exists() and not (tmp_path / "out/a/lock").exists(), said
 
 
