@@ -22,8 +22,8 @@ static PetscBool Repeats_Private(Solver s, PetscInt num, uint64_t hash)
   return PETSC_FALSE;
 }
 
-/* again: the matrix has been factorised with other rows of this linearisation; settled: the last pass changed no state. */
-static PetscErrorCode Passes_Private(Solver s, PetscBool again, Vec dx, PetscBool *settled)
+/* again: the matrix has been factorised with other rows of this linearisation. */
+static PetscErrorCode Passes_Private(Solver s, PetscBool again, Vec dx)
 {
   PetscInt changed = 1;
 
@@ -43,42 +43,40 @@ static PetscErrorCode Passes_Private(Solver s, PetscBool again, Vec dx, PetscBoo
     s->report->set_changes += changed;
     if (changed) PetscCall(PetscInfo(s->snes, "active-set pass %" PetscInt_FMT ": %" PetscInt_FMT " nodes switched\n", pass, changed));
   }
-  *settled = (PetscBool)(changed == 0);
+  s->settled = (PetscBool)(changed == 0);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode SolverActiveSetSolve_Private(Solver s, Vec dx)
 {
-  PetscBool settled;
-
   PetscFunctionBegin;
-  PetscCall(Passes_Private(s, PETSC_FALSE, dx, &settled));
+  PetscCall(Passes_Private(s, PETSC_FALSE, dx));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* What friction bears is a share of pressures. At first touch there are none: where states go by those of the nodes that happen to be first, they never settle
    on slender bodies. So the nodes that press are found as without friction, and then who sticks and who slips. What nothing but friction holds may not settle
    so: then both at once. */
-static PetscErrorCode PressuresFirst_Private(Solver s, Vec dx, PetscBool *settled)
+static PetscErrorCode PressuresFirst_Private(Solver s, Vec dx, PetscBool *found)
 {
   PetscInt changed;
 
   PetscFunctionBegin;
-  PetscCall(Passes_Private(s, PETSC_FALSE, dx, settled));
+  PetscCall(Passes_Private(s, PETSC_FALSE, dx));
+  *found                  = s->settled;
   s->form.pressures_first = PETSC_FALSE;
-  if (!*settled || s->no_solution) PetscFunctionReturn(PETSC_SUCCESS);
+  if (!s->settled || s->no_solution) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(ProblemSetForm(s->problem, &s->form));
   PetscCall(ProblemSwitchActiveSet(s->problem, dx, s->rhs, &changed));
   s->report->set_changes += changed;
-  if (changed) PetscCall(Passes_Private(s, PETSC_TRUE, dx, settled));
-  *settled = PETSC_TRUE;
+  if (changed) PetscCall(Passes_Private(s, PETSC_TRUE, dx));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* The tangent at an iterate in the form chosen, and the linear step. */
 static PetscErrorCode Linearise_Private(Solver s, const Iterate *it, Vec dx)
 {
-  PetscBool bad, symmetric, settled;
+  PetscBool bad, symmetric, found;
 
   PetscFunctionBegin;
   ++s->report->iterations;
@@ -94,8 +92,8 @@ static PetscErrorCode Linearise_Private(Solver s, const Iterate *it, Vec dx)
     PetscCall(SolverActiveSetSolve_Private(s, dx));
     PetscFunctionReturn(PETSC_SUCCESS);
   }
-  PetscCall(PressuresFirst_Private(s, dx, &settled));
-  if (!settled && !s->report->stopped) PetscCall(Linearise_Private(s, it, dx)); /* anew: the tangent begins with the states that the residual tells */
+  PetscCall(PressuresFirst_Private(s, dx, &found));
+  if (!found && !s->report->stopped) PetscCall(Linearise_Private(s, it, dx)); /* anew: the tangent begins with the states that the residual tells */
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

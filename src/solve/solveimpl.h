@@ -56,6 +56,8 @@ struct _p_Solver {
   PetscBool     single;          /* factors are in single precision */
   PetscBool     test;            /* -snes_test_jacobian was given */
   uint64_t     *pass_sets;       /* owned [passes+1] hashes of the active sets of the passes of one linearisation */
+  PetscBool     settled;         /* the active set agrees with the last linear step */
+  PetscBool     circled;         /* it did not at the iterate before */
   PetscBool     swap;            /* SolverSwapPredictor */
   PetscReal     first_norm;      /* residual after the first iteration */
   PetscReal     best_norm;       /* least residual of this solve … */

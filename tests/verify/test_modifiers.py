@@ -21,6 +21,7 @@ NEEDED = [  # modifier, figure of summary.json, how many times as large it is wi
     ("line_search", "newton_iterations", 2, ("tests/gauntlet/upset.yml", "-load_end", 0.05)),
     ("carried_force", "newton_iterations", 2, ("tests/gauntlet/plate_drawn.yml",)),
     ("frozen_normals", "newton_iterations", 2, ("tests/verify/scenes/pressed_cylinder.yml", "-load_step", 1, "-body_plate_motion_y", 0.13)),
+    ("frozen_normals", None, None, ("tests/gauntlet/coin.yml", "-contact_c_friction", 0.3, "-load_end", 0.4, "-load_step_min", 0.2)),
 ]
 
 
