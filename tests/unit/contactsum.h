@@ -84,12 +84,8 @@ static inline void SumAdd(Sum *s, const ContactFacet *f, const PetscReal z[])
   s->min_gap = PetscMin(s->min_gap, f->min_gap);
 }
 
-/* Evaluate the pair and assemble. */
-static inline void SumSurfaces(Sum *s, ContactPair pair, const ContactSurface *nonmortar, const ContactSurface *mortar, const PetscReal z[],
-                               PetscBool derivatives, PetscBool hessian)
+static inline void SumReset(Sum *s)
 {
-  const ContactFacet *facets;
-
   memset(s->gap, 0, (size_t)s->nn * sizeof(PetscReal));
   memset(s->weight, 0, (size_t)s->nn * sizeof(PetscReal));
   memset(s->dgap, 0, (size_t)(s->nn * s->size) * sizeof(PetscReal));
@@ -99,6 +95,15 @@ static inline void SumSurfaces(Sum *s, ContactPair pair, const ContactSurface *n
   s->area = s->S = 0;
   s->springs     = 0;
   s->min_gap     = PETSC_MAX_REAL;
+}
+
+/* Evaluate the pair and assemble. */
+static inline void SumSurfaces(Sum *s, ContactPair pair, const ContactSurface *nonmortar, const ContactSurface *mortar, const PetscReal z[],
+                               PetscBool derivatives, PetscBool hessian)
+{
+  const ContactFacet *facets;
+
+  SumReset(s);
   CHECK_CALL(ContactPairEvaluate(pair, nonmortar, mortar, z, NULL, derivatives, hessian, &s->num, &facets, &s->failed));
   for (PetscInt i = 0; i < s->num; i++) SumAdd(s, &facets[i], z);
 }

@@ -97,18 +97,14 @@ static inline void CellNorm(const Bulk *b, PetscInt dim, PetscInt order, PetscIn
       for (PetscInt c = 0; c < dim; ++c) K[(dim * i + c) * dim * n + dim * j + c] = sum[i * n + j];
 }
 
-static inline Mat Norm(const Bulk *b, PetscInt n)
+/* Adds the norm to the first rows and columns of A. */
+static inline void Norm(const Bulk *b, Mat A)
 {
   const HPTables *v;
-  PetscInt        order = 1;
-  Assembly        a;
+  Assembly        a = {.A = A};
 
   OK(HPSpaceGetTables(b->space, &v));
   OK(HPSpaceGetGlobalDofs(b->space, &a.global));
-  for (PetscInt c = 0; c < v->num_owned_cells; ++c) order = PetscMax(order, v->cell_order[c]);
-  OK(MatCreateSeqAIJ(PETSC_COMM_SELF, n, n, 2 * ElementNumNodes(v->dim, 2 * order), NULL, &a.A)); /* twice a row of a regular mesh */
-  OK(MatSetOption(a.A, MAT_NEW_NONZERO_ALLOCATION_ERR, PETSC_FALSE));
-  OK(MatSetOption(a.A, MAT_IGNORE_ZERO_ENTRIES, PETSC_TRUE)); /* components do not couple */
   for (PetscInt c = 0; c < v->num_owned_cells; ++c) {
     const PetscInt nodes = PetscMax(ElementNumNodes(v->dim, v->cell_order[c]), v->cell_row[c + 1] - v->cell_row[c]), size = v->dim * nodes;
     PetscReal     *K, *Km;
@@ -119,9 +115,6 @@ static inline Mat Norm(const Bulk *b, PetscInt n)
     OK(Insert(&a, c, num, dofs, Km));
     OK(PetscFree3(K, Km, dofs));
   }
-  OK(MatAssemblyBegin(a.A, MAT_FINAL_ASSEMBLY));
-  OK(MatAssemblyEnd(a.A, MAT_FINAL_ASSEMBLY));
-  return a.A;
 }
 
 static inline PetscErrorCode Ignore(void *context, PetscInt cell, PetscInt num, const PetscInt dofs[], const PetscReal K[])
@@ -151,25 +144,22 @@ static inline void MassFactor(PetscInt dim, PetscInt order, PetscInt m, const Pe
   }
 }
 
-/* Columns L^T M^-1 b of all pressures, [n][num_pressure], from the derivative of the condensed pressure that the tangent leaves behind. */
-static inline Mat Coupling(const Bulk *b, PetscInt n)
+/* Columns L^T M^-1 b of all pressures, behind the n of A, from the derivative of the condensed pressure that the tangent leaves behind; on the diagonal 0. */
+static inline void Coupling(const Bulk *b, PetscInt n, Mat A)
 {
   const Mechanics  mech = b->mechanics;
   const HPTables  *v;
   const PetscInt  *global;
   const PetscReal *dpressure = mech->dpressure;
-  PetscReal       *u, *r, *array, X[3 * MOST_NODES], L[MOST_PRESSURES * MOST_PRESSURES];
-  PetscInt         column = 0;
+  PetscReal       *u, *r, X[3 * MOST_NODES], L[MOST_PRESSURES * MOST_PRESSURES];
+  PetscInt         column = n;
   PetscBool        bad;
-  Mat              B;
 
   OK(HPSpaceGetTables(b->space, &v));
   OK(HPSpaceGetGlobalDofs(b->space, &global));
   OK(PetscCalloc1(v->dim * v->num_nodes, &u));
   OK(PetscMalloc1(v->dim * v->num_nodes, &r));
   OK(MechanicsTangent(mech, u, NULL, Ignore, NULL, &bad));
-  OK(MatCreateSeqDense(PETSC_COMM_SELF, n, mech->num_pressure, NULL, &B));
-  OK(MatDenseGetArray(B, &array));
   for (PetscInt k = 0; k < mech->num_groups; ++k) {
     const CellGroup *g  = &mech->groups[k];
     const PetscInt   nd = v->dim * g->n;
@@ -183,45 +173,61 @@ static inline Mat Coupling(const Bulk *b, PetscInt n)
         OK(PetscArrayzero(r, v->dim * v->num_nodes));
         OK(HPSpaceScatterAdd(b->space, g->cells[c], row, r));
         for (PetscInt i = 0; i < v->dim * v->num_nodes; ++i)
-          if (global[i] >= 0) array[(size_t)column * n + global[i]] = r[i];
+          if (global[i] >= 0 && r[i] != 0) OK(MatSetValue(A, global[i], column, r[i], INSERT_VALUES));
+        OK(MatSetValue(A, column, column, 0, INSERT_VALUES));
       }
     }
   }
-  OK(MatDenseRestoreArray(B, &array));
-  OK(MatAssemblyBegin(B, MAT_FINAL_ASSEMBLY));
-  OK(MatAssemblyEnd(B, MAT_FINAL_ASSEMBLY));
   OK(PetscFree(u));
   OK(PetscFree(r));
-  return B;
 }
 
-/* Ascending eigenvalues of B^T K^-1 B. */
-static inline void Eigenvalues(Mat K, Mat B, PetscInt m, PetscReal *value)
+/* K and B of n displacements and m pressures, the upper triangle of [K B; B^T 0]. */
+static inline Mat Saddle(const Bulk *b, PetscInt n, PetscInt m)
 {
-  Mat           factor, X, S;
-  IS            row, column;
+  const HPTables *v;
+  PetscInt        order = 1;
+  Mat             A;
+
+  OK(HPSpaceGetTables(b->space, &v));
+  for (PetscInt c = 0; c < v->num_owned_cells; ++c) order = PetscMax(order, v->cell_order[c]);
+  OK(MatCreateSeqAIJ(PETSC_COMM_SELF, n + m, n + m, 3 * ElementNumNodes(v->dim, 2 * order), NULL, &A)); /* more than a row of a regular mesh */
+  OK(MatSetOption(A, MAT_NEW_NONZERO_ALLOCATION_ERR, PETSC_FALSE));
+  OK(MatSetOption(A, MAT_IGNORE_ZERO_ENTRIES, PETSC_TRUE)); /* components do not couple */
+  Norm(b, A);
+  OK(MatAssemblyBegin(A, MAT_FLUSH_ASSEMBLY));
+  OK(MatAssemblyEnd(A, MAT_FLUSH_ASSEMBLY));
+  Coupling(b, n, A);
+  OK(MatAssemblyBegin(A, MAT_FINAL_ASSEMBLY));
+  OK(MatAssemblyEnd(A, MAT_FINAL_ASSEMBLY));
+  return A;
+}
+
+/* Ascending eigenvalues of B^T K^-1 B, less the Schur complement of the pressures: MUMPS, which has use for B's zeros, forms it while it factors K. */
+static inline void Eigenvalues(Mat A, PetscInt n, PetscInt m, PetscReal *value)
+{
+  Mat           factor, S;
+  IS            pressures;
   MatFactorInfo info;
   PetscReal    *array, *work;
   PetscBLASInt  size = (PetscBLASInt)m, length = 34 * size, error;
 
-  OK(MatGetOrdering(K, MATORDERINGND, &row, &column));
+  OK(ISCreateStride(PETSC_COMM_SELF, m, n, 1, &pressures));
   OK(MatFactorInfoInitialize(&info));
-  OK(MatGetFactor(K, MATSOLVERMUMPS, MAT_FACTOR_LU, &factor));
-  OK(MatLUFactorSymbolic(factor, K, row, column, &info));
-  OK(MatLUFactorNumeric(factor, K, &info));
-  OK(MatDuplicate(B, MAT_DO_NOT_COPY_VALUES, &X));
-  OK(MatMatSolve(factor, B, X));
-  OK(MatTransposeMatMult(B, X, MAT_INITIAL_MATRIX, PETSC_DEFAULT, &S));
+  OK(MatGetFactor(A, MATSOLVERMUMPS, MAT_FACTOR_CHOLESKY, &factor));
+  OK(MatFactorSetSchurIS(factor, pressures));
+  OK(MatCholeskyFactorSymbolic(factor, A, NULL, &info));
+  OK(MatCholeskyFactorNumeric(factor, A, &info));
+  OK(MatFactorCreateSchurComplement(factor, &S, NULL));
+  OK(MatScale(S, -1));
   OK(MatDenseGetArray(S, &array));
   OK(PetscMalloc1(length, &work));
   LAPACKsyev_("N", "L", &size, array, &size, value, work, &length, &error);
   assert_int_equal(error, 0);
   OK(PetscFree(work));
   OK(MatDenseRestoreArray(S, &array));
-  OK(ISDestroy(&row));
-  OK(ISDestroy(&column));
+  OK(ISDestroy(&pressures));
   OK(MatDestroy(&factor));
-  OK(MatDestroy(&X));
   OK(MatDestroy(&S));
 }
 
@@ -235,9 +241,9 @@ static inline InfSup MeasureOrders(Forest forest, const int8_t orders[], PetscIn
 
   Supported(&b, forest, orders, support);
   const PetscInt dim = b.mechanics->dim, num = NumFree(&b, &global), m = b.mechanics->num_pressure;
-  Mat            K = Norm(&b, num), B = Coupling(&b, num);
+  Mat            A = Saddle(&b, num, m);
   OK(PetscMalloc1(m, &value));
-  Eigenvalues(K, B, m, value);
+  Eigenvalues(A, num, m, value);
   while (result.kernel < m && value[result.kernel] < 1e-10) ++result.kernel;
   result.beta = result.kernel < m ? PetscSqrtReal(value[result.kernel]) : 0;
   assert_true(value[m - 1] <= (support == CLAMPED ? 1 : dim) + 1e-10); /* |grad u|^2 = |div u|^2 + |curl u|^2 if u = 0 all round */
@@ -245,8 +251,7 @@ static inline InfSup MeasureOrders(Forest forest, const int8_t orders[], PetscIn
                 " pressures, kernel %2" PetscInt_FMT ", beta %.4f\n",
                 dim, order, order - 1, support_names[support], what, n, num, m, result.kernel, (double)result.beta);
   OK(PetscFree(value));
-  OK(MatDestroy(&K));
-  OK(MatDestroy(&B));
+  OK(MatDestroy(&A));
   BulkDestroy(&b);
   return result;
 }

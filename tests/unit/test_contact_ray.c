@@ -256,6 +256,8 @@ static void CheckSeed(const Kind *kind, uint64_t seed, PetscInt first, PetscInt 
   CHECK_CALL(ContactPairDestroy(&pair));
 }
 
+static PetscBool slow = PETSC_FALSE; /* all seeds */
+
 static void CheckKind(const Kind *kind, PetscInt seeds, PetscInt stride)
 {
   Errors err = {0};
@@ -289,7 +291,7 @@ static void test_plane(void **state)
                                {2, 3, 3, 0, 1, 0, 1, 0}, {2, 3, 2, 0, 0, 0, 0, 1}, {2, 4, 4, 0, 1, 0, 0, 0}, {2, 4, 1, 0, 1, 0, 1, 1}};
 
   (void)state;
-  for (size_t k = 0; k < sizeof(Kinds) / sizeof(Kinds[0]); k++) CheckKind(&Kinds[k], 50, 3);
+  for (size_t k = 0; k < sizeof(Kinds) / sizeof(Kinds[0]); k++) CheckKind(&Kinds[k], slow ? 50 : 18, 3);
 }
 
 static void test_space(void **state)
@@ -299,8 +301,10 @@ static void test_space(void **state)
                                {3, 2, 2, 0, 0, 0, 2, 0}, {3, 2, 2, 0, 0, 2, 0, 0}, {3, 1, 2, 0, 1, 2, 0, 0}, {3, 2, 3, 0, 1, 2, 0, 0}};
 
   (void)state;
-  for (size_t k = 0; k < sizeof(Kinds) / sizeof(Kinds[0]); k++)
-    CheckKind(&Kinds[k], Kinds[k].order + Kinds[k].mortar > 2 ? 14 : 50, Kinds[k].order + Kinds[k].mortar > 2 ? 151 : 41);
+  for (size_t k = 0; k < sizeof(Kinds) / sizeof(Kinds[0]); k++) {
+    const PetscBool large = (PetscBool)(Kinds[k].order + Kinds[k].mortar > 2);
+    CheckKind(&Kinds[k], (large ? 14 : 50) / (slow ? 1 : 2), large ? 151 : 41);
+  }
 }
 
 int main(int argc, char **argv)
@@ -309,6 +313,7 @@ int main(int argc, char **argv)
   int                     failed;
 
   if (PetscInitialize(&argc, &argv, NULL, NULL)) return 1;
+  slow = (PetscBool)(argc > 1 && !strcmp(argv[1], "-slow"));
   failed = cmocka_run_group_tests(tests, NULL, NULL);
   return PetscFinalize() || failed;
 }

@@ -43,9 +43,10 @@ static void Forces(Sum *s, ContactPair pair, const Patch *a, const Patch *b, con
   PetscInt            num;
   PetscBool           failed;
 
-  SumSurfaces(s, pair, &a->s, &b->s, z, PETSC_TRUE, hessian);
+  SumReset(s);
   CHECK_CALL(ContactPairEvaluate(pair, &a->s, &b->s, z, NULL, PETSC_TRUE, hessian, &num, &facets, &failed));
   assert_false(failed);
+  for (PetscInt i = 0; i < num; i++) SumAdd(s, &facets[i], z);
   for (PetscInt i = 0; i < num; i++)
     for (PetscInt j = 0; j < 2 * facets[i].num_rows; j++) {
       const PetscReal q = traction[s->nn * (j / facets[i].num_rows) + facets[i].nodes[j % facets[i].num_rows]];
@@ -259,6 +260,8 @@ static void Check(const Kind *kind, uint64_t *seed, Errors *e)
   PatchDestroy(&a), PatchDestroy(&b);
 }
 
+static int trials = 1; /* -slow: 2 */
+
 static void test_derivatives(void **state)
 {
   (void)state;
@@ -274,11 +277,11 @@ static void test_derivatives(void **state)
     Errors     e    = {0};
     uint64_t   seed = (uint64_t)kind + 1;
 
-    for (int trial = 0; trial < 2; trial++) Check(&k, &seed, &e);
+    for (int trial = 0; trial < trials; trial++) Check(&k, &seed, &e);
     printf("order %d on %d%s%s%s%s%s%s: tangent %.1e, slip %.1e, force %.1e, moment %.1e, rigid motion %.1e; kinks %d\n", (int)k.order, (int)k.mortar,
            k.standard ? ", standard" : "", k.partly ? ", in part" : "", k.hanging ? ", hanging" : "", k.mirror ? ", symmetry" : "", k.frozen ? ", frozen" : "",
            k.linear ? ", linear" : "", e.tangent, e.slip, e.force, e.moment, e.motion, (int)e.kinks);
-    assert_true(e.kinks <= 1);
+    assert_true(e.kinks <= trials / 2);
     assert_true(e.tangent < 1e-8 && e.slip < 1e-8);
     assert_true(e.force < 1e-12 && e.moment < 1e-12 && e.motion < 1e-13);
   }
@@ -334,6 +337,7 @@ int main(int argc, char **argv)
   int                     failed;
 
   if (PetscInitialize(&argc, &argv, NULL, NULL)) return 1;
+  if (argc > 1 && !strcmp(argv[1], "-slow")) trials = 2;
   failed = cmocka_run_group_tests(tests, NULL, NULL);
   return PetscFinalize() || failed;
 }

@@ -1,6 +1,7 @@
 /* Mortar sides whose end, corner or crease crosses a nonmortar surface: weighted gaps, weights and forces follow their derivatives at every place of it, from
    nothing covered to all, so that nothing jumps. Between two places a value changes by the mean of its derivatives there times the distance, but for what the
-   derivative is curved: where it differs by more the interval is halved, down to a width at which only a jump could be left. */
+   derivative is curved: where it differs by more the derivative in the middle counts, too, and where that does not do the interval is halved, down to a width at
+   which only a jump could be left. */
 #include "rayfixture.h"
 
 #define JUMP 1e-8 /* of the largest value */
@@ -92,7 +93,7 @@ static PetscInt Values(Scene *s, PetscReal t, PetscReal value[], PetscReal slope
   return num;
 }
 
-/* What the values change by besides their derivatives. */
+/* What the values change by besides the mean of their derivatives at both ends. */
 static PetscReal Besides(PetscInt num, PetscReal h, const PetscReal a[][MOST], const PetscReal b[][MOST], PetscReal scale)
 {
   PetscReal worst = 0;
@@ -101,14 +102,31 @@ static PetscReal Besides(PetscInt num, PetscReal h, const PetscReal a[][MOST], c
   return worst / scale;
 }
 
+/* The same, the derivative a parabola through its values at the ends and in the middle: over the interval and over its first half. */
+static PetscReal BesidesParabola(PetscInt num, PetscReal h, const PetscReal a[][MOST], const PetscReal m[][MOST], const PetscReal b[][MOST], PetscReal scale)
+{
+  PetscReal worst = 0;
+
+  for (PetscInt i = 0; i < num; i++) {
+    worst = PetscMax(worst, fabs(b[0][i] - a[0][i] - h * (a[1][i] + 4 * m[1][i] + b[1][i]) / 6));
+    worst = PetscMax(worst, fabs(m[0][i] - a[0][i] - h * (5 * a[1][i] + 8 * m[1][i] - b[1][i]) / 24));
+  }
+  return worst / scale;
+}
+
 static PetscReal Between(Scene *s, PetscReal t, PetscReal h, const PetscReal a[][MOST], const PetscReal b[][MOST], PetscInt num, PetscReal scale)
 {
-  const PetscReal besides = Besides(num, h, a, b, scale);
+  PetscReal besides = Besides(num, h, a, b, scale);
   PetscReal(*middle)[MOST], part[2];
 
   if (besides < JUMP || h < WIDTH) return besides;
   middle = calloc(2, sizeof(*middle));
   Values(s, t + 0.5 * h, middle[0], middle[1]);
+  besides = BesidesParabola(num, h, a, (const PetscReal(*)[MOST])middle, b, scale);
+  if (besides < JUMP) {
+    free(middle);
+    return besides;
+  }
   part[0] = Between(s, t, 0.5 * h, a, (const PetscReal(*)[MOST])middle, num, scale);
   part[1] = Between(s, t + 0.5 * h, 0.5 * h, (const PetscReal(*)[MOST])middle, b, num, scale);
   free(middle);
