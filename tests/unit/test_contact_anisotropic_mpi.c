@@ -1,6 +1,7 @@
 /* Contact surfaces after splits in random sets of directions, several levels deep: nodes that hang on hanging nodes follow their masters, and the contact patch
    is solved exactly on either choice of multipliers. */
 #include "estimate.h"
+#include "share.h"
 #include "solidpatch.h"
 
 static PetscInt deep; /* hanging nodes with more than two masters: they hang on hanging ones */
@@ -40,6 +41,8 @@ static void Surfaces(void **state)
 {
   deep = 0;
   for (PetscInt seed = 0; seed < 12; ++seed) {
+    if (!Share(seed, 4)) continue;
+    box_random_state = 88172645463325252ULL + 97 * (uint64_t)seed;
     Patch              p;
     const ContactView *view;
     PatchScene(&p, 1, KINEMATICS_FINITE, PETSC_FALSE, "0");
@@ -51,12 +54,13 @@ static void Surfaces(void **state)
     Follow(&view->mortar);
     PatchDestroy(&p);
   }
-  assert_true(deep > 10);
+  assert_true(deep > (Whole() ? 10 : 2));
 }
 
 static void PatchTest(void **state)
 {
   for (PetscInt kind = 0; kind < 4; ++kind) {
+    if (!Share(kind + kind / 2, 2)) continue;
     Patch              p;
     Estimate           e;
     const ContactView *view;
@@ -81,6 +85,7 @@ int main(int argc, char **argv)
 {
   const struct CMUnitTest tests[] = {cmocka_unit_test(Surfaces), cmocka_unit_test(PatchTest)};
   if (PetscInitialize(&argc, &argv, NULL, NULL)) return 1;
+  OK(PetscOptionsHasName(NULL, NULL, "-slow", &share_all));
   const int failed = cmocka_run_group_tests(tests, NULL, NULL);
   return PetscFinalize() || failed;
 }

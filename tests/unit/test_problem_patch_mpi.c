@@ -3,6 +3,7 @@
    exactly by orders 2..8. The same with an order for each direction of space. Tolerance 1e-11 of the largest value. With -slow: all masks of the split in
    space with orders to 8, mixed cells to 6, orders of directions to 8. */
 #include "problemfixture.h"
+#include "share.h"
 
 #define MOST 729 /* nodes of a cell of order 8 in space */
 
@@ -125,14 +126,16 @@ static void LinearPlane(void **state)
 {
   for (PetscInt q = 1; q <= 2; ++q)
     for (PetscInt split = 1; split <= 3; ++split)
-      for (uint64_t seed = 0; seed < 4; ++seed) LinearField(2, q, seed < 2 ? 4 : 8, split, (PetscBool)(seed % 2), seed);
+      for (uint64_t seed = 0; seed < 4; ++seed)
+        if (Share(12 * q + 4 * split + (PetscInt)seed, 5)) LinearField(2, q, seed < 2 ? 4 : 8, split, (PetscBool)(seed % 2), seed);
 }
 
 static void LinearSpace(void **state)
 {
   const PetscInt split[] = {7, 7, 1, 6, 3, 4};
-  for (PetscInt i = 0; i < 4; ++i) LinearField(3, 1 + i % 2, 4, split[i], (PetscBool)(i / 2 % 2), (uint64_t)i);
-  LinearField(3, 2, 8, 4, PETSC_FALSE, 6);
+  for (PetscInt i = 0; i < 4; ++i)
+    if (Share(i, 2)) LinearField(3, 1 + i % 2, 4, split[i], (PetscBool)(i / 2 % 2), (uint64_t)i);
+  if (Share(4, 2)) LinearField(3, 2, 8, 4, PETSC_FALSE, 6);
 }
 
 /* b = -mu lap u - (lambda + mu) grad div u, constant. */
@@ -163,10 +166,11 @@ static void QuadraticField(PetscInt dim, PetscInt high, PetscInt split, PetscBoo
 static void QuadraticExact(void **state)
 {
   for (uint64_t seed = 0; seed < 3; ++seed)
-    for (PetscInt split = 1; split <= 3; ++split) QuadraticField(2, seed ? 8 : 4, split, PETSC_FALSE, seed);
-  QuadraticField(3, 4, 7, PETSC_FALSE, 3);
-  QuadraticField(3, 4, 5, PETSC_FALSE, 4);
-  QuadraticField(3, 8, 2, PETSC_FALSE, 5);
+    for (PetscInt split = 1; split <= 3; ++split)
+      if (Share((PetscInt)seed + split, 2)) QuadraticField(2, seed ? 8 : 4, split, PETSC_FALSE, seed);
+  if (Share(0, 2)) QuadraticField(3, 4, 7, PETSC_FALSE, 3);
+  if (Share(1, 2)) QuadraticField(3, 4, 5, PETSC_FALSE, 4);
+  if (Share(1, 2)) QuadraticField(3, 8, 2, PETSC_FALSE, 5);
 }
 
 static void Directions(void **state)
@@ -174,11 +178,13 @@ static void Directions(void **state)
   static const PetscInt linear[][3] = {{1, 4, 2}, {3, 1, 4}, {4, 2, 1}, {1, 1, 4}}, quadratic[][3] = {{2, 4, 3}, {4, 2, 2}};
 
   for (PetscInt i = 0; i < 4; ++i) {
+    if (!Share(i, 2)) continue;
     OK(PetscArraycpy(along, linear[i], 3));
     if (along[0] != along[1]) LinearField(2, 1 + i % 2, 4, 1 + i % 3, PETSC_FALSE, (uint64_t)i);
     LinearField(3, 1 + i % 2, 4, i < 2 ? 7 : 1 + i, PETSC_FALSE, (uint64_t)i);
   }
   for (PetscInt i = 0; i < 2; ++i) {
+    if (!Share(i, 2)) continue;
     OK(PetscArraycpy(along, quadratic[i], 3));
     QuadraticField(2, 4, 3 - i, PETSC_FALSE, (uint64_t)i);
     QuadraticField(3, 4, 7 - 2 * i, PETSC_FALSE, (uint64_t)i);
@@ -223,12 +229,13 @@ int main(int argc, char **argv)
 {
   const struct CMUnitTest tests[] = {cmocka_unit_test(LinearPlane), cmocka_unit_test(LinearSpace), cmocka_unit_test(QuadraticExact),
                                      cmocka_unit_test(Directions)};
-  const struct CMUnitTest slow[]  = {cmocka_unit_test(LinearSpaceHigh), cmocka_unit_test(QuadraticSpaceHigh), cmocka_unit_test(DirectionsHigh)};
-  PetscBool               is_slow;
+  const struct CMUnitTest slow[]  = {cmocka_unit_test(LinearPlane),   cmocka_unit_test(LinearSpace),     cmocka_unit_test(QuadraticExact),
+                                     cmocka_unit_test(Directions),    cmocka_unit_test(LinearSpaceHigh), cmocka_unit_test(QuadraticSpaceHigh),
+                                     cmocka_unit_test(DirectionsHigh)};
   if (PetscInitialize(&argc, &argv, NULL, NULL) || StageRegister()) return 1;
   OK(PetscOptionsSetValue(NULL, "-solve_rtol", "1e-13"));
-  OK(PetscOptionsHasName(NULL, NULL, "-slow", &is_slow));
-  const int failed = is_slow ? cmocka_run_group_tests(slow, NULL, NULL) : cmocka_run_group_tests(tests, NULL, NULL);
+  OK(PetscOptionsHasName(NULL, NULL, "-slow", &share_all));
+  const int failed = share_all ? cmocka_run_group_tests(slow, NULL, NULL) : cmocka_run_group_tests(tests, NULL, NULL);
   print_message("at most |u - HX| %.1e, |P - P(F1)|/|P(F1)| %.1e, quadratic |u_h - u| %.1e\n", (double)worst[0], (double)worst[1], (double)worst[2]);
   return PetscFinalize() || failed;
 }
