@@ -1,6 +1,7 @@
 /* Random refinement of boxes with randomly turned coarse cells: the entity tables agree with the positions, whichever leaf, parent or
    sub-entity they are reached through; neighbours are 1-irregular; marks of boundaries are those of the sides. */
 #include "forest_box.h"
+#include "share.h"
 
 #define TOLERANCE 1e-13
 
@@ -320,6 +321,7 @@ static void RandomHistory(PetscInt dim, const PetscInt n[3], PetscInt q, PetscBo
 static void test_random_2d(void **state)
 {
   for (uint64_t seed = 0; seed < 6; ++seed) {
+    if (!Share((PetscInt)seed, 2)) continue;
     RandomHistory(2, (const PetscInt[3]){3, 2, 1}, 1, PETSC_FALSE, 6, 3, seed);
     RandomHistory(2, (const PetscInt[3]){3, 3, 1}, 2, PETSC_TRUE, 7, 3, seed);
   }
@@ -328,6 +330,7 @@ static void test_random_2d(void **state)
 static void test_random_3d(void **state)
 {
   for (uint64_t seed = 0; seed < 4; ++seed) {
+    if (!Share((PetscInt)seed, 2)) continue;
     RandomHistory(3, (const PetscInt[3]){2, 2, 2}, 1, PETSC_FALSE, 4, 9, seed);
     RandomHistory(3, (const PetscInt[3]){2, 1, 2}, 2, PETSC_TRUE, 6, 4, seed);
   }
@@ -491,6 +494,7 @@ int main(int argc, char **argv)
                                      cmocka_unit_test(test_size),         cmocka_unit_test(test_deepest)};
   PetscCall(PetscInitialize(&argc, &argv, NULL, NULL));
   PetscCall(ErrorHandlerPush());
+  PetscCall(PetscOptionsHasName(NULL, NULL, "-slow", &share_all));
   const int failed = cmocka_run_group_tests(tests, NULL, NULL);
   PetscCall(PetscFinalize());
   return failed;

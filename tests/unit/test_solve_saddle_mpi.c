@@ -1,6 +1,7 @@
 /* The iterative solution of the tangent (saddle.c) where rows of multipliers are compliant (B and C in one row, as where facets are covered in part) among firm
    ones and inactive ones: the direct solution, for compliances over nine decades, of the symmetric and of the exact form. */
 #include "patchfixture.h"
+#include "share.h"
 #include "solveimpl.h"
 
 static PetscReal Solve(Saddle saddle, Mat A, PetscBool symmetric, Vec rhs, Vec x)
@@ -100,6 +101,7 @@ static void CompliantRows(PetscBool symmetric, MultigridKind kind)
   OK(VecSetRandom(rhs, NULL));
   OK(SaddleCreate_Private(p.problem, kind, &saddle));
   for (size_t i = 0; i < sizeof(compliance) / sizeof(compliance[0]); ++i) {
+    if (i > 0 && !Share((PetscInt)i, 2)) continue;
     OK(MatDuplicate(A, MAT_COPY_VALUES, &soft));
     if (compliance[i] > 0) assert_in_range(Soften(&p, symmetric, compliance[i], soft), 4, 100);
     Direct(soft, rhs, exact);
@@ -146,6 +148,7 @@ int main(int argc, char **argv)
   int                     failed;
 
   if (PetscInitialize(&argc, &argv, NULL, NULL)) return 2;
+  OK(PetscOptionsHasName(NULL, NULL, "-slow", &share_all));
   failed = cmocka_run_group_tests(tests, NULL, NULL);
   return PetscFinalize() ? 2 : failed;
 }
