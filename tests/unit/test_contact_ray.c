@@ -313,7 +313,7 @@ int main(int argc, char **argv)
   int                     failed;
 
   if (PetscInitialize(&argc, &argv, NULL, NULL)) return 1;
-  slow = (PetscBool)(argc > 1 && !strcmp(argv[1], "-slow"));
+  slow   = (PetscBool)(argc > 1 && !strcmp(argv[1], "-slow"));
   failed = cmocka_run_group_tests(tests, NULL, NULL);
   return PetscFinalize() || failed;
 }

@@ -1,7 +1,7 @@
 /* Mortar sides whose end, corner or crease crosses a nonmortar surface: weighted gaps, weights and forces follow their derivatives at every place of it, from
    nothing covered to all, so that nothing jumps. Between two places a value changes by the mean of its derivatives there times the distance, but for what the
-   derivative is curved: where it differs by more the derivative in the middle counts, too, and where that does not do the interval is halved, down to a width at
-   which only a jump could be left. */
+   derivative is curved: where it differs by more the derivative in the middle counts, too, and where that does not do the interval is halved, down to a width
+   at which only a jump could be left. */
 #include "rayfixture.h"
 
 #define JUMP 1e-8 /* of the largest value */
