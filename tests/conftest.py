@@ -1,5 +1,6 @@
 """Environment shared by all tests: MPI as root in a container, more ranks than cores, ranks that wait give way to the others (several tests run side by side: otherwise
-most of the processor time of a test on two ranks goes into waiting), one thread per rank; no search for devices other than processors, a fifth of the start on two ranks;
+most of the processor time of a test on two ranks goes into waiting), one thread per rank; no search for devices other than processors, a fifth of the start on two ranks, nor for
+networks, nor files that processes share for what few tell each other, which cost every start as much again;
 signals as a terminal leaves them, where nohup or a script's & had them ignored, which the program would go on with; meshes of gmsh made once."""
 import atexit
 import os
@@ -9,7 +10,7 @@ import signal
 import tempfile
 
 os.environ.update(OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1", OMPI_MCA_rmaps_base_oversubscribe="1",
-                  OMPI_MCA_hwloc_base_binding_policy="none", OMPI_MCA_mpi_yield_when_idle="1", HWLOC_COMPONENTS="-linuxio,-pci,-opencl,-cuda,-nvml,-gl,-x86",
+                  OMPI_MCA_hwloc_base_binding_policy="none", OMPI_MCA_mpi_yield_when_idle="1", OMPI_MCA_pml="ob1", OMPI_MCA_btl="self,vader", PMIX_MCA_gds="hash", HWLOC_COMPONENTS="-linuxio,-pci,-opencl,-cuda,-nvml,-gl,-x86",
                   OPENBLAS_NUM_THREADS="1", OMP_NUM_THREADS="1", ASAN_OPTIONS="detect_leaks=0")
 
 for number in (signal.SIGHUP, signal.SIGQUIT):
