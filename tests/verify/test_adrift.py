@@ -26,8 +26,7 @@ def scene(path, dim):
                        "contact": {"low": {"nonmortar": "bottom_puck", "mortar": "top_block"}, "high": {"nonmortar": "top_puck", "mortar": "bottom_plate"}}})
 
 
-@pytest.mark.parametrize("ranks", [1, 2])
-@pytest.mark.parametrize("dim", [2, 3])
+@pytest.mark.parametrize("dim, ranks", [(2, 1), (2, 2), (3, 1), pytest.param(3, 2, marks=pytest.mark.slow)])
 def test_let_go(run, tmp_path, dim, ranks):
     r = run("s.yml", "-output_fields", "false", text=scene(tmp_path, dim), ranks=ranks)
     told = [w for w in r.summary["warnings"] if "any more, as contact did" in w]

@@ -38,8 +38,7 @@ SPACE = ("inputs/blocks3d.yml", "-mesh_parameter_n1", 1, "-mesh_parameter_n2", 2
          "-solve_condense", "yes", "-log_view")
 
 
-@pytest.mark.parametrize("ranks", [1, 2])
-@pytest.mark.parametrize("order", [3, 4])
+@pytest.mark.parametrize("order, ranks", [(3, 2), (4, 1), pytest.param(3, 1, marks=pytest.mark.slow), pytest.param(4, 2, marks=pytest.mark.slow)])
 def test_iterative(run, order, ranks):
     """Conjugate gradients on what condensation leaves of a scene in space find what a factorisation finds."""
     direct, iterative = (run(*SPACE, "-order", order, "-solve_linear", word, ranks=ranks) for word in ("direct", "iterative"))
@@ -49,8 +48,8 @@ def test_iterative(run, order, ranks):
     same(direct.summary, iterative.summary, "upper_on_lower")
 
 
-@pytest.mark.parametrize("ranks", [2, 3])
-@pytest.mark.parametrize("faces, order", [(1, 3), ("full", 4), pytest.param(1, 4, marks=pytest.mark.slow), pytest.param("full", 3, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("faces, order, ranks", [(1, 3, 3), ("full", 4, 2), *(pytest.param(*words, marks=pytest.mark.slow) for words in ((1, 3, 2), ("full", 4, 3), (1, 4, 2),
+                                                                                                                                  (1, 4, 3), ("full", 3, 2), ("full", 3, 3)))])
 def test_active_set_on_ranks(run, faces, order, ranks):
     """The active set finds its way on several processes as on one, with the unknowns inside cells condensed."""
     command = ("inputs/rubber2d.yml", "-order", order, "-contact_disc_on_block_order", faces, "-adapt_max_passes", 2, "-output_fields", "false", "-solve_condense",

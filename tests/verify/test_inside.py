@@ -6,7 +6,8 @@ import pytest
 
 from boxmesh import linspace, write
 
-RUBBER = {"law": "neo_hookean", "E": 1, "nu": 0.3}
+RUBBER, RIGID = {"law": "neo_hookean", "E": 1, "nu": 0.3}, {"law": "rigid"}
+SLOW = pytest.mark.slow
 GIVE_UP = ("-load_step_min", 0.6, "-path_viscous", "off", "-path_through", "off", "-output_fields", "false")
 
 
@@ -29,9 +30,8 @@ def scene(path, dim, heights, ways, law=RUBBER, across=0):
                        "contact": {name: {"nonmortar": "top_large", "mortar": f"bottom_{name}"} for name in names[1:]}})
 
 
-@pytest.mark.parametrize("ranks", [1, 2])
-@pytest.mark.parametrize("law", [RUBBER, {"law": "rigid"}], ids=["rubber", "rigid"])
-@pytest.mark.parametrize("dim", [2, 3])
+@pytest.mark.parametrize("dim, law, ranks", [(2, RUBBER, 1), (2, RIGID, 1), (3, RUBBER, 1), (3, RIGID, 1), (2, RIGID, 2),
+                                             *(pytest.param(*words, 2, marks=SLOW) for words in ((2, RUBBER), (3, RUBBER), (3, RIGID)))])
 def test_deep_inside(run, tmp_path, dim, law, ranks):
     """Not found where half of the step is too long; without the question no force, with exit 0."""
     text = scene(tmp_path, dim, [1.001], [0.7], law)
@@ -60,7 +60,7 @@ Physical Surface("all") = {1}; Physical Curve("bottom") = {1}; Physical Curve("a
 """
 
 
-@pytest.mark.parametrize("ranks", [1, 2])
+@pytest.mark.parametrize("ranks", [1, pytest.param(2, marks=SLOW)])
 def test_arm_in_its_own_post(run, tmp_path, ranks):
     """The arm of a body is drawn through a post of the same body in one step; a search that is too short sees nothing."""
     (tmp_path / "arm.geo").write_text(ARM)

@@ -5,7 +5,7 @@ import resource
 import subprocess
 
 import pytest
-from conftest import PROGRAM, ROOT
+from conftest import PROGRAM, ROOT, on_two
 from test_hostile import limited
 from test_input import GEO, RUBBER, SCENE, check, refused  # noqa: F401 (check is a fixture)
 from test_orderly import refused as refused_run
@@ -105,8 +105,7 @@ def test_options(check, options, words):
     refused(check((), *options), *words)
 
 
-@pytest.mark.parametrize("files", [{"a": "-options_file a"}, {"a": "-order 2\n-options_file b # which\n", "b": "-load_end 1 -options_file a"}, {"a": "-options_file b\n", "b": "\n-options_file b"}])
-@pytest.mark.parametrize("ranks", [1, 2])
+@on_two("files", [{"a": "-options_file a"}, {"a": "-order 2\n-options_file b # which\n", "b": "-load_end 1 -options_file a"}, {"a": "-options_file b\n", "b": "\n-options_file b"}], also=[1])
 def test_option_files_that_name_themselves(run, tmp_path, files, ranks):
     for name, text in files.items():
         (tmp_path / name).write_text(text.replace("_file ", f"_file {tmp_path}/"))
@@ -117,10 +116,9 @@ def test_option_files_that_name_themselves(run, tmp_path, files, ranks):
     assert run("inputs/patch2d.yml", "-check", "-options_file", tmp_path / "a").returncode == 0
 
 
-@pytest.mark.parametrize("option,words", [(("-ksp_type", "nonsense"), "KSP type nonsense"), (("-pc_type", "nonsense"), "PC type nonsense"),
+@on_two("option,words", [(("-ksp_type", "nonsense"), "KSP type nonsense"), (("-pc_type", "nonsense"), "PC type nonsense"),
                                           (("-pc_factor_mat_solver_type", "nonsense"), "solver type nonsense"), (("-snes_view", "a.b.c"), "viewer a.b.c"),
-                                          (("-log_view", "a\033b"), "viewer a?b"), (("-mat_mumps_icntl_14", "many"), "many"), (("-options_view", "a.b"), "a.b")])
-@pytest.mark.parametrize("ranks", [1, 2])
+                                          (("-log_view", "a\033b"), "viewer a?b"), (("-mat_mumps_icntl_14", "many"), "many"), (("-options_view", "a.b"), "a.b")], also=[2])
 def test_types_that_petsc_does_not_know(run, option, words, ranks):
     result = run("inputs/patch2d.yml", *option, ranks=ranks)
     said = [line for line in result.stderr.splitlines() if line.startswith("mortise: ")]

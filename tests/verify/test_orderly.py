@@ -36,7 +36,8 @@ def thin_ring(path, layers=2, thick=0.06, **scene):
 def test_refined_at_the_start(run, tmp_path, ranks):
     near = {"refine": {"bore": {"boundary": "x0"}}}
     refused(run("ring.yml", text=thin_ring(tmp_path, **near), ranks=ranks), "order 1", "inverted", "mesh")
-    refused(run("ring.yml", "-check", text=thin_ring(tmp_path, **near), ranks=ranks), "order 1", "inverted", "mesh")
+    if ranks > 1: return  # what follows needs no second process
+    refused(run("ring.yml", "-check", text=thin_ring(tmp_path, **near)), "order 1", "inverted", "mesh")
     assert run("ring.yml", "-order", 2, text=thin_ring(tmp_path, **near)).returncode == 0
 
 

@@ -42,8 +42,7 @@ def two(path, dim, up, cells=2, contact=None, rigid=(), scale=1):
     return json.dumps(scene)
 
 
-@pytest.mark.parametrize("ranks", [1, 2])
-@pytest.mark.parametrize("dim", [2, 3])
+@pytest.mark.parametrize("dim, ranks", [(2, 1), (2, 2), (3, 1), pytest.param(3, 2, marks=pytest.mark.slow)])
 def test_no_pair_between_them(run, tmp_path, dim, ranks):
     """Told with a place in both bodies, by a run and before it."""
     text = two(tmp_path, dim, (0.8, 0.3, 0.1))

@@ -20,8 +20,7 @@ def assert_same(single, double, support):
     assert single["factorisations"] > 0
 
 
-@pytest.mark.parametrize("order", [1, 2])
-@pytest.mark.parametrize("ranks", [1, 2])
+@pytest.mark.parametrize("order, ranks", [(1, 1), (1, 2), (2, 1), pytest.param(2, 2, marks=pytest.mark.slow)])
 def test_hertz3d(run, order, ranks):
     assert_same(*both(run, *HERTZ, "-order", order, "-mesh_parameter_n", 4, ranks=ranks), "top")
 
