@@ -82,7 +82,8 @@ ROWS = {
     "singular": ("A singular corner spoils uniform refinement", "error of the energy, fewer unknowns for ours", "adapted", "-adapt_tolerance 0 -mesh_refine 3",
                  "inputs/lshape.yml", lambda s: s["energy"] / 2.0545124437e-4 - 1, 8e-4, 2e-3),
 }
-SLOW = ("stall", "snap", "rim", "cycling", "one_to_eight", "through", "overshoot", "normals")  # seconds each
+# seconds each; soft and overlap are in tests/verify, test_modifiers.py (secant_flow) and test_overlap_start.py, and the die of corner in the gauntlet
+SLOW = ("stall", "snap", "rim", "cycling", "one_to_eight", "through", "overshoot", "normals", "corner", "soft", "overlap")
 
 
 @pytest.mark.parametrize("name", [pytest.param(name, marks=pytest.mark.slow) if name in SLOW else name for name in ROWS])

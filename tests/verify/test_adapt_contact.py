@@ -109,7 +109,7 @@ def test_hp_of_rubber(run, ranks):
 def test_incompressible_cells_of_order_1(run):
     """Their pressures alternate from cell to cell on adapted meshes, with no error in forces: the estimate does not tell them as one, and the tolerance is met."""
     result, *others = (run("inputs/rubber2d.yml", "-order", 1, "-material_rubber_nu", 0.5, "-boundary_top_displacement_y", -0.1, "-adapt_tolerance", 0.12,
-                           "-output_fields", "false", ranks=ranks) for ranks in (1, 2, 3))
+                           "-output_fields", "false", ranks=ranks) for ranks in (1, 3))
     assert result.returncode == 0, result
     estimates = [row["estimated_error"] for row in result.adapt]
     assert all(after < before for before, after in zip(estimates, estimates[1:])), estimates

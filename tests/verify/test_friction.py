@@ -124,9 +124,8 @@ def disc(pair, order, mu):
     return DISC.replace("GEO", str(ROOT / "inputs" / "hertz2d.geo")).replace("ORDER", str(order)).replace("PAIR", PAIRS[pair]).replace("MU", str(mu))
 
 
-@pytest.mark.parametrize("mu", [0.1, 0.3, 0.6, 1.0])
-@pytest.mark.parametrize("order", [1, 2, 3])
-@pytest.mark.parametrize("pair", list(PAIRS))
+@pytest.mark.parametrize("pair, order, mu", [pytest.param(pair, order, mu, marks=() if (i + j + k) % 2 == 0 else pytest.mark.slow)
+                                             for i, pair in enumerate(PAIRS) for j, order in enumerate((1, 2, 3)) for k, mu in enumerate((0.1, 0.3, 0.6, 1.0))])
 def test_pressed_and_slid(run, pair, order, mu):
     """Pressed 0.1, then slid half a radius in one step. What slips obeys the law, forces and moments balance, friction takes energy."""
     result = run("disc.yml", text=disc(pair, order, mu))
@@ -245,7 +244,7 @@ def test_input(run):
 def test_ranks(run):
     """The same on several processes."""
     alone = run("disc.yml", "-solve_rtol", 1e-13, text=disc("disc", 2, 0.3))
-    for ranks in (2, 3):
+    for ranks in (3,):
         result = run("disc.yml", "-solve_rtol", 1e-13, text=disc("disc", 2, 0.3), ranks=ranks)
         assert result.returncode == 0, result
         for name in ("contact.pair.force.x", "contact.pair.force.y", "contact.pair.dissipation", "contact.pair.max_slip"):
@@ -255,7 +254,7 @@ def test_ranks(run):
 def test_adapted(run):
     """Refined where a step ends: slip counts from the same state, so refinement is no slip. Forces within the estimate of those on a fine mesh."""
     text = disc("disc", 2, 0.3)
-    fine = run("fine.yml", "-mesh_refine", 2, text=text)
+    fine = run("fine.yml", "-mesh_refine", 1, text=text)
     result = run("adapted.yml", "-adapt_tolerance", 0.02, text=text)
     assert result.returncode == 0 and fine.returncode == 0, result
     passes = [row for row in result.adapt if row["pass"] > 0]
@@ -509,12 +508,13 @@ def test_far_beyond_the_zone(run, order, n, sides):
         assert result.summary["step_cuts"] == 0 and figures["slipping_nodes"] > 0 and figures["sticking_nodes"] == 0
         force.append(numpy.abs(figures["force"]))
         assert figures["dissipation"] == pytest.approx(3 * force[-1][0], rel=0.05)
+        if (order, pair) not in ((1, "disc"), (2, "block")): continue  # either on several processes once
         there = run("far.yml", text=text, ranks=3).summary["contact"]["pair"]
         assert [*there["force"], there["dissipation"]] == pytest.approx([*figures["force"], figures["dissipation"]], rel=1e-7)
     assert force[0] == pytest.approx(force[1], rel=sides)
 
 
-@pytest.mark.parametrize("scene", [("cork",), ("strip", "-load_step", 0.25)])
+@pytest.mark.parametrize("scene", [("cork", "-load_end", 0.5), ("strip", "-load_step", 0.25, "-order", 1)])
 def test_predictor(run, scene):
     """A cork driven into a neck, a strip drawn from between blocks: the first attempt of a step fails, the one with the other predictor does not."""
     result, without = (run(f"tests/gauntlet/{scene[0]}.yml", *scene[1:], "-output_fields", "false", *words) for words in ((), ("-path_predictor", "off")))
@@ -534,7 +534,7 @@ def test_round_off_decides_nothing(run):
         assert result.summary["contact"]["pair"]["force"] == pytest.approx(results[0].summary["contact"]["pair"]["force"], rel=1e-9)
 
 
-@pytest.mark.parametrize("cells", [9, 10, 12])
+@pytest.mark.parametrize("cells", [9, pytest.param(10, marks=pytest.mark.slow), pytest.param(12, marks=pytest.mark.slow)])
 def test_pressures_first(run, cells):
     """A belt round pulleys whose nodes match its own is tightened: all gaps are round-off at first touch. As many iterations as without friction; none found where states of friction go by pressures of the nodes that happen to be first."""
     words = ("-load_end", 0.25, "-mesh_parameter_n", cells, "-mesh_parameter_k", cells, "-path_viscous", "off", "-path_descent", "off", "-load_step_min", 0.25, "-output_fields", "false")
@@ -551,7 +551,7 @@ def test_an_equilibrium_farther_off_depends_on_the_way(run):
     assert told not in without.stdout, without
 
 
-@pytest.mark.parametrize("mu, order", [(0, 2), (0.2, 1), (0.2, 2), (0.5, 2)])
+@pytest.mark.parametrize("mu, order", [(0, 2), (0.2, 1), pytest.param(0.2, 2, marks=pytest.mark.slow), (0.5, 2)])
 def test_wedge_under_a_load(run, mu, order):
     """Pushed under a block in a guide it takes W (tan(a + phi) + tan(phi)): nodes that a guide or the push holds along the surface bear friction as others do. Without their traction 5 % were missing."""
     words = [word for pair in "cd" for word in (f"-contact_{pair}_friction", mu)]

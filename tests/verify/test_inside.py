@@ -76,3 +76,4 @@ def test_corner_of_a_coil(run):
     """The end of a coil touches the next turn with a corner, within a facet: that far weighted gaps let it, and it is no contact that is lost."""
     result = run("tests/gauntlet/coil.yml", "-output_fields", "false")
     assert result.returncode == 0 and result.summary["refused_solutions"] == 0 and result.summary["newton_iterations"] < 200, result
+    assert result.summary["energy"] == pytest.approx(0.00054735, rel=0.006), result  # that of the gauntlet, which need not run it again

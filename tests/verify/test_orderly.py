@@ -143,7 +143,7 @@ def test_inverted_between_samples(run, tmp_path, shift, fine):
 @pytest.mark.parametrize("ranks", [1, 2])
 def test_mumps_fails_in_the_solve(run, ranks):
     """ICNTL(31) = 1 makes MUMPS throw its factors away: it factorises, and cannot solve (INFOG(1) = -44). Steps are cut and given up like others that fail."""
-    result = run("inputs/patch2d.yml", "-mat_mumps_icntl_31", 1, ranks=ranks)
+    result = run("inputs/patch2d.yml", "-mat_mumps_icntl_31", 1, "-load_step_min", 0.01, ranks=ranks)
     s = result.summary
     assert result.returncode == 2 and s["status"] == "failed" and s["reason"] and s["t"] == 0 and s["step_cuts"] > 5, result
     assert "PETSC ERROR" not in result.stderr and "MPI_ABORT" not in result.stderr, result

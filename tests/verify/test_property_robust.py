@@ -188,7 +188,7 @@ def test_o99_one_step_or_ten(run):
 @pytest.mark.parametrize("ranks", [1, 2])
 def test_o99_impossible_motion_ends_in_order(run, ranks):
     """The upper block is to be pressed through the lower one: exit 2, the last accepted step complete and readable, no number that is none."""
-    result = run(PATCH, "-boundary_top_displacement_y", -2.5, "-load_step", 0.1, ranks=ranks)
+    result = run(PATCH, "-boundary_top_displacement_y", -2.5, "-load_step", 0.1, "-load_step_min", 0.01, ranks=ranks)
     s = result.summary
     assert result.returncode == 2 and s["status"] == "failed" and s["reason"] and 0.3 < s["t"] < 0.8 and s["step_cuts"] > 0
     assert len(result.history) == s["load_steps"] and result.history[-1]["t"] == pytest.approx(s["t"])

@@ -58,18 +58,18 @@ def test_ends_in_the_mirror(run, tmp_path):
     assert without.returncode == 2 and without.summary["t"] < 0.83, without
 
 
-@pytest.mark.parametrize("friction", [0, 0.2])
+@pytest.mark.parametrize("friction", [pytest.param(0, marks=pytest.mark.slow), 0.2])
 def test_bodies_of_one_group(run, tmp_path, friction):
     """Three discs in a pile: one group where everything may touch everything is the two pairs that do touch."""
-    one = run(scene(tmp_path, "discs.geo", DISCS % f"{{all: {{surface: skins, friction: {friction}}}}}"))
+    one = run(scene(tmp_path, "discs.geo", DISCS % f"{{all: {{surface: skins, friction: {friction}}}}}"), "-load_step", 0.5)
     pairs = f"{{below: {{nonmortar: middle_skin, mortar: lower_skin, friction: {friction}}}, above: {{nonmortar: middle_skin, mortar: upper_skin, friction: {friction}}}}}"
-    two = run(scene(tmp_path, "discs.geo", DISCS % pairs))
+    two = run(scene(tmp_path, "discs.geo", DISCS % pairs), "-load_step", 0.5)
     assert one.returncode == 0 and two.returncode == 0, (one, two)
     assert one.summary["energy"] == pytest.approx(two.summary["energy"], rel=1e-9)
     assert one.summary["reaction"]["roof"] == pytest.approx(two.summary["reaction"]["roof"], rel=1e-8, abs=1e-9)
 
 
-@pytest.mark.parametrize("ranks", [2, 3])
+@pytest.mark.parametrize("ranks", [pytest.param(2, marks=pytest.mark.slow), 3])
 def test_ranks(run, tmp_path, ranks):
     results = [run(scene(tmp_path, "notch.geo", NOTCH), ranks=n) for n in (1, ranks)]
     energy = [r.summary["energy"] for r in results]
