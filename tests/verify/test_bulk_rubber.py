@@ -229,7 +229,7 @@ def test_o13_ranks_agree(run, tmp_path):
     scene = torsion(tmp_path)
     scene["material"] = {"m": {"law": "mooney_rivlin", "c1": 0.3, "c2": 0.2, "kappa": 1e4}}
     scene["boundary"]["top"] = {"rotation": {"axis": "z", "angle": math.degrees(1), "point": {"x": 0, "y": 0, "z": 0}}}
-    one, *others = [converged(run, scene, ranks=ranks) for ranks in (1, 2, 3)]
+    one, *others = [converged(run, scene, ranks=ranks) for ranks in (1, 3)]
     for s in others:
         relative(s["energy"], one["energy"], 1e-11)
         relative(s["reaction"]["top"][2], one["reaction"]["top"][2], 1e-8)

@@ -4,6 +4,7 @@ import math
 import numpy
 import pytest
 
+from conftest import half
 from contactkit import PAIRINGS, SIDES, blocks, bulk, components, contact, graded, is_quadratic, spread, steps
 
 ORIGIN = {"origin": {"x": 0, "y": 0}}  # of moments
@@ -127,9 +128,7 @@ FOUNDATION = {"wl": 3, "wu": 1, "xu": 1, "hl": 1, "hu": 1}
 TAYLOR = {"bottom": {"fix": "y"}, "left_lower": {"fix": "x"}, "left_upper": {"fix": "x"}, "top": {"pressure": 1}}
 
 
-@pytest.mark.parametrize("order", [1, 2])
-@pytest.mark.parametrize("nonmortar", list(SIDES))
-@pytest.mark.parametrize("nu", [2, 3, 5])
+@half("nu, nonmortar, order", [2, 3, 5], list(SIDES), [1, 2])
 def test_o43_taylor(run, nonmortar, nu, order):
     """The lower mesh ends cells where the punch does; the faces inside the outline do not match."""
     body = linear(1000, 0.3)

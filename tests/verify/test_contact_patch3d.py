@@ -6,6 +6,7 @@ import numpy
 import pytest
 
 from blockmesh import distorted, linspace, same, turn, write
+from conftest import half
 from contactkit import bulk, contact, is_quadratic, spread, steps, yaml
 
 PRESSURE = 48.2977961996  # of O-41a
@@ -144,7 +145,7 @@ def test_order_4(run, tmp_path, nonmortar):
 
 # ---- ranks, distorted faces -------------------------------------------------------------------------------------------------------------
 
-@pytest.mark.parametrize("ranks", [2, pytest.param(3, marks=pytest.mark.slow), 4])
+@pytest.mark.parametrize("ranks", [pytest.param(2, marks=pytest.mark.slow), pytest.param(3, marks=pytest.mark.slow), 4])
 @pytest.mark.parametrize("pairing, nonmortar", [("hanging_lower", "lower"), pytest.param("hanging_upper", "lower", marks=pytest.mark.slow)])
 def test_ranks(run, tmp_path, pairing, nonmortar, ranks):
     _, error = small_strain(run, tmp_path, pairing, nonmortar, 2, ranks, 0.1)
@@ -157,12 +158,10 @@ def test_ranks(run, tmp_path, pairing, nonmortar, ranks):
 DISTORTION = [(0.1, 1e-11), (0.2, 1e-8), (0.3, 1e-6)]  # share of a cell by which columns move, error of the rule on triangles
 
 
-@pytest.mark.parametrize("multiplier", ["dual", "standard"])
-@pytest.mark.parametrize("distortion, tolerance", DISTORTION)
-@pytest.mark.parametrize("pairing", ["two_to_three", pytest.param("hanging_upper", marks=pytest.mark.slow)])
-@pytest.mark.parametrize("nonmortar", SIDES)
-def test_distorted_faces(run, tmp_path, nonmortar, pairing, distortion, tolerance, multiplier):
+@half("nonmortar, pairing, distorted, multiplier", list(SIDES), ["two_to_three", "hanging_upper"], list(DISTORTION), ["dual", "standard"], slow=["hanging_upper"])
+def test_distorted_faces(run, tmp_path, nonmortar, pairing, distorted, multiplier):
     """Faces that are no parallelograms, on a plane: the only error is that of integrating rational functions."""
+    distortion, tolerance = distorted
     for seed in (1, 2):
         result, error = small_strain(run, tmp_path, pairing, nonmortar, 1, distortion=distortion, seed=seed,
                                      **({"pair": {"multiplier": multiplier}} if multiplier == "standard" else {}))

@@ -3,6 +3,7 @@ import re
 
 import pytest
 
+from conftest import half
 from contactkit import is_quadratic, steps
 
 QUIET = ("-output_fields", "false")
@@ -54,10 +55,7 @@ def test_hertz2d_adaptive_needs_a_fifth_of_the_cells(run):
         assert abs(pull(uniform) / HERTZ - 1) > error, n
 
 
-@ROLES
-@pytest.mark.parametrize("order", [1, 2])
-@pytest.mark.parametrize("n", [4, 8, 16, pytest.param(32, marks=pytest.mark.slow), pytest.param(6, marks=pytest.mark.slow), pytest.param(12, marks=pytest.mark.slow),
-                               pytest.param(24, marks=pytest.mark.slow), pytest.param(48, marks=pytest.mark.slow), pytest.param(64, marks=pytest.mark.slow)])
+@half("n, order, roles", [4, 8, 16, 6, 12, 24, 32, 48, 64], [1, 2], [(), SWAPPED], slow=(6, 12, 24, 32, 48, 64))
 def test_hertz2d_every_mesh(run, n, order, roles):
     result = solve(run, "hertz2d", *UNIFORM, "-mesh_parameter_n", n, "-order", order, "-snes_monitor", *roles)
     solved_in_one_step(result, 5)
@@ -71,8 +69,7 @@ def test_rubber2d_adaptive(run, roles):
     assert abs(pull(solve(run, "rubber2d", *roles)) - RUBBER) < 3e-3 * RUBBER + 6e-4
 
 
-@ROLES
-@pytest.mark.parametrize("n", [n if n in (4, 6, 11, 21) else pytest.param(n, marks=pytest.mark.slow) for n in range(4, 33)])
+@half("n, roles", [4, 11, 6, 21, *(n for n in range(4, 33) if n not in (4, 6, 11, 21))], [(), SWAPPED], slow=[n for n in range(4, 33) if n not in (4, 6, 11, 21)])
 def test_rubber2d_linear_faces(run, n, roles):
     """Order 3 inside, linear contact faces, the cells behind them subdivided twice: the force is right on every mesh. From n = 21 on facets are so small against
     the gaps of the first linear step that its curvature must not enter the second."""
@@ -81,10 +78,7 @@ def test_rubber2d_linear_faces(run, n, roles):
     assert abs(pull(result) / RUBBER - 1) < 3e-3
 
 
-@ROLES
-@pytest.mark.parametrize("order", [1, 2])
-@pytest.mark.parametrize("n", [4, 8, 16, pytest.param(6, marks=pytest.mark.slow), pytest.param(12, marks=pytest.mark.slow),
-                               pytest.param(24, marks=pytest.mark.slow), pytest.param(32, marks=pytest.mark.slow)])
+@half("n, order, roles", [4, 8, 16, 6, 12, 24, 32], [1, 2], [(), SWAPPED], slow=(6, 12, 24, 32))
 def test_rubber2d_every_mesh(run, n, order, roles):
     result = solve(run, "rubber2d", *UNIFORM, "-mesh_parameter_n", n, "-order", order, "-snes_monitor", *roles)
     solved_in_one_step(result, 8)
@@ -93,10 +87,7 @@ def test_rubber2d_every_mesh(run, n, order, roles):
         assert abs(force - RUBBER) < 3e-3 * RUBBER + 6e-4
 
 
-@ROLES
-@pytest.mark.parametrize("order", [1, 2])
-@pytest.mark.parametrize("n", [4, 8, 16, pytest.param(6, marks=pytest.mark.slow), pytest.param(12, marks=pytest.mark.slow),
-                               pytest.param(24, marks=pytest.mark.slow), pytest.param(32, marks=pytest.mark.slow), pytest.param(48, marks=pytest.mark.slow)])
+@half("n, order, roles", [4, 8, 16, 6, 12, 24, 32, 48], [1, 2], [(), SWAPPED], slow=(6, 12, 24, 32, 48))
 def test_slide2d_every_mesh(run, n, order, roles):
     """One load step to press, one to slide over many cells. With the block nonmortar the slide, linearised at the old place, is no small step: it needs the bodies
     taken to the new place first. The count of the history contains the linearisation that this discards."""
@@ -107,8 +98,7 @@ def test_slide2d_every_mesh(run, n, order, roles):
     pull(result)
 
 
-@pytest.mark.parametrize("n", [8, 16, pytest.param(32, marks=pytest.mark.slow)])
-@pytest.mark.parametrize("slide", [0.1, 0.5, 0.8])
+@half("slide, n", [0.1, 0.5, 0.8], [8, 16, 32], slow=[32])
 def test_slide2d_deep_rubber(run, slide, n):
     """Nearly incompressible, pressed by 0.3: the zone is 1.4 wide and moves by a small to a large part of that."""
     motion = ("-boundary_top_displacement_x", f"{slide}*max(t - 1, 0)", "-boundary_top_displacement_y", "-0.3*min(t, 1)")

@@ -6,6 +6,7 @@ import pathlib
 import numpy
 import pytest
 
+from conftest import half
 from contactkit import blocks, contact, spread, steps
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
@@ -45,10 +46,9 @@ def tractions(result):
     return state["contact_pressure"], numpy.linalg.norm(state["tangential_traction"], axis=1)
 
 
-@pytest.mark.parametrize("order", [1, 2, 3])
-@pytest.mark.parametrize("angle, parameter", [(0, {"nl": 4, "nu": 6}), (20, {"nl": 7, "nu": 10}), (110, {"nl": 6, "nu": 4})])
-@pytest.mark.parametrize("nonmortar", ["upper", "lower"])
-def test_patch_that_sticks(run, nonmortar, angle, parameter, order):
+@half("nonmortar, place, order", ["upper", "lower"], [(0, {"nl": 4, "nu": 6}), (20, {"nl": 7, "nu": 10}), (110, {"nl": 6, "nu": 4})], [1, 2, 3])
+def test_patch_that_sticks(run, nonmortar, place, order):
+    angle, parameter = place
     move = turned(angle, [2 * SHEAR, 2 * (HEIGHT - 1)])
     scene = blocks(nonmortar, {"lower": STEEL, "upper": STEEL}, {"bottom": {"fix": "xy"}, "top": {"displacement": dict(zip("xy", move))}, **sides(["lower", "upper"], angle)},
                    {**parameter, "angle": angle}, pair={"friction": 2 * TANGENTIAL / NORMAL}, order=order)
@@ -124,8 +124,7 @@ def disc(pair, order, mu):
     return DISC.replace("GEO", str(ROOT / "inputs" / "hertz2d.geo")).replace("ORDER", str(order)).replace("PAIR", PAIRS[pair]).replace("MU", str(mu))
 
 
-@pytest.mark.parametrize("pair, order, mu", [pytest.param(pair, order, mu, marks=() if (i + j + k) % 2 == 0 else pytest.mark.slow)
-                                             for i, pair in enumerate(PAIRS) for j, order in enumerate((1, 2, 3)) for k, mu in enumerate((0.1, 0.3, 0.6, 1.0))])
+@half("pair, order, mu", list(PAIRS), [1, 2, 3], [0.1, 0.3, 0.6, 1.0])
 def test_pressed_and_slid(run, pair, order, mu):
     """Pressed 0.1, then slid half a radius in one step. What slips obeys the law, forces and moments balance, friction takes energy."""
     result = run("disc.yml", text=disc(pair, order, mu))

@@ -196,14 +196,14 @@ def test_objectivity(run, tmp_path, turns):
 NAMES = ("contact.pair.force.x", "contact.pair.force.z", "contact.pair.dissipation", "contact.pair.max_slip")
 
 
-def test_ranks(run):
+@pytest.mark.parametrize("ranks", [3, pytest.param(2, marks=pytest.mark.slow), pytest.param(4, marks=pytest.mark.slow)])
+def test_ranks(run, ranks):
     """The same on several processes."""
     alone = run("ball.yml", "-solve_rtol", 1e-13, text=ball("ball", 1, 0.3))
-    for ranks in (2, 4):
-        result = run("ball.yml", "-solve_rtol", 1e-13, text=ball("ball", 1, 0.3), ranks=ranks)
-        assert result.returncode == 0, result
-        for name in NAMES:
-            assert column(result, name) == pytest.approx(column(alone, name), rel=1e-8, abs=1e-11), name
+    result = run("ball.yml", "-solve_rtol", 1e-13, text=ball("ball", 1, 0.3), ranks=ranks)
+    assert result.returncode == 0, result
+    for name in NAMES:
+        assert column(result, name) == pytest.approx(column(alone, name), rel=1e-8, abs=1e-11), name
 
 
 def test_adapted(run):

@@ -1,7 +1,10 @@
 """scripts/plot draws what a run left: the curves of adapt.csv and the outlines of cells, not of their sub-cells."""
+import contextlib
 import importlib.machinery
 import importlib.util
+import io
 import pathlib
+import runpy
 import shutil
 import subprocess
 import sys
@@ -76,13 +79,26 @@ def test_colours():
 
 
 def draw(*words):
-    return subprocess.run([sys.executable, "-B", str(SCRIPT), *map(str, words)], capture_output=True, text=True)
+    """The script as it is started, in this process, which has loaded all that it draws with."""
+    said, status = io.StringIO(), 0
+    with pytest.MonkeyPatch.context() as patch, contextlib.redirect_stdout(io.StringIO()), contextlib.redirect_stderr(said):
+        patch.setattr(sys, "argv", [str(SCRIPT), *map(str, words)])
+        try:
+            runpy.run_path(str(SCRIPT), run_name="__main__")
+        except SystemExit as end:
+            status = end.code if isinstance(end.code, int) else int(end.code is not None)
+            if isinstance(end.code, str): said.write(end.code + "\n")
+        plot.plt.close("all")
+    return subprocess.CompletedProcess(words, status, "", said.getvalue())
 
 
 def test_pictures_of_a_run(run, tmp_path):
     """Components, zoom, percentiles, the contact line, an animation, a chart of two runs, units on axes; what is not there is told."""
     options = ("-load_step", 0.5, "-units", "mm, N, MPa", "-adapt_tolerance", 0)
     one, two = (run("inputs/hertz2d.yml", *options, "-material_rubber_E", E).directory for E in (1, 2))
+    alone = subprocess.run([sys.executable, "-B", str(SCRIPT), str(one), "--line"], capture_output=True, text=True)
+    assert alone.returncode == 0 and not alone.stderr and (one / "line.png").stat().st_size > 5000, alone
+    (one / "line.png").unlink()
     for words, file in (((one, "--field", "stress.1", "--percentile", 1, 99, "--zoom", -0.3, 0.3, 0.7, 1.2, "--time", 0.5), one / "mesh.png"), ((one, "--line"), one / "line.png"),
                         ((one, "--field", "displacement.norm", "--animate", tmp_path / "film.gif"), tmp_path / "film.gif"),
                         ((one, two, "--column", "contact_force", "--over", "energy"), one / "chart.png")):

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from boxes import RUBBER, Box, boxes, scene
+from conftest import half
 from contactkit import contact, is_quadratic, steps
 
 slow = pytest.mark.slow
@@ -297,8 +298,7 @@ def test_slivers(solve, order, widths):
 
 
 @SOLVERS
-@pytest.mark.parametrize("carries", ["upper", "lower"])
-@pytest.mark.parametrize("x", [0, 1e-3, -1e-3])
+@half("x, carries", [0, 1e-3, -1e-3], ["upper", "lower"])
 def test_o96_edges_on_edges(solve, x, carries, linear):
     """Faces of the same size whose edges and corners coincide, then shifted by a hair, sides free."""
     result = solve(*QUIET, "-solve_linear", linear, upper=Box((0, 0, 1), (1, 1, 1), (2, 2, 2)), boundary=hold((str(x), str(x), "-0.1")), contact=pairs(carries))
@@ -359,8 +359,7 @@ FIVE = {"low": Box((0, 0, 0), (2, 1, 0.5), (7, 4, 1)), "a": Box((0, 0, 0.5), (1,
 FIVE_PAIRS = {"al": ("a_z0", "low_z1"), "bl": ("b_z0", "low_z1"), "ab": ("a_x1", "b_x0"), "ta": ("top_z0", "a_z1"), "tb": ("top_z0", "b_z1")}
 
 
-@pytest.mark.parametrize("flip", [0, 1])
-@pytest.mark.parametrize("options", [(), ITERATIVE, ("-mesh_refine", 1)])
+@half("options, flip", [(), ITERATIVE, ("-mesh_refine", 1)], [0, 1])
 def test_o98_five_pairs(run, tmp_path, options, flip):
     """Two blocks side by side between two others: nodes in two pairs, edges where three bodies meet, roller planes along all of it, blocks slipping off each other by
     a hair."""
@@ -395,8 +394,8 @@ def test_o99_impossible_motion_ends_in_order(solve, ranks):
 # ---- O-100, O-103: pressure -----------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("low,up", [((8, 8, 2), (1, 1, 2)), ((1, 1, 2), (8, 8, 2)), ((4, 1, 2), (1, 4, 2))])
-@pytest.mark.parametrize("carries", ["upper", "lower"])
+@pytest.mark.parametrize("low,up,carries", [((8, 8, 2), (1, 1, 2), "upper"), ((1, 1, 2), (8, 8, 2), "lower"), ((4, 1, 2), (1, 4, 2), "upper"),
+                                            *(pytest.param(*words, marks=slow) for words in (((8, 8, 2), (1, 1, 2), "lower"), ((1, 1, 2), (8, 8, 2), "upper"), ((4, 1, 2), (1, 4, 2), "lower")))])
 def test_o100_uniform_pressure_of_unequal_meshes(solve, low, up, carries):
     """Faces 8 times finer on one side, with either side nonmortar: the patch is exact, no pressure oscillates."""
     boundary = {**patch(Frame(), lambda side: side[0]), "upper_z1": {"displacement": {"z": -0.1}}}

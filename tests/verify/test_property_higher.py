@@ -35,7 +35,7 @@ def test_o91_exchange_of_sides(higher):
 
 @faces("2-full")
 def test_o92_rigid_rotation(higher):
-    plane.test_o92_rigid_rotation(higher)
+    plane.test_o92_rigid_rotation(lambda scene, *options, **keys: higher(scene, *options, "-mesh_refine", 1, **keys))
 
 
 @faces("2-full")
@@ -189,7 +189,6 @@ def test_on_ranks(higher, tmp_path, name, ranks):
 @faces("2-full")
 @pytest.mark.parametrize("ranks", [2, pytest.param(3, marks=slow)])
 def test_o92_on_ranks(higher, ranks):
-    """A quarter of the cells that one process turns above."""
     plane.test_o92_rigid_rotation(lambda scene, *options, **keys: higher(scene, *options, "-mesh_refine", 1, ranks=ranks, **keys))
 
 
