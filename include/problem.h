@@ -71,10 +71,12 @@ PetscErrorCode ProblemSetForm(Problem, const Form *);
 
 /* Prescribed motion: SetTime fixes the target; Jump applies it at once (no lift); otherwise the part not yet applied enters the next linear solve. */
 PetscErrorCode ProblemSetTime(Problem, PetscReal t);
-/* turn.c. Where all that is prescribed at the time last set is one rotation of what was prescribed at t = from: the state x of that time is turned by it, and
-   nothing of the motion is left to be put in. Collective. */
-PetscErrorCode ProblemTurn(Problem, PetscReal from, Vec x, PetscBool *turned);
+/* turn.c. Where supports go from where they are in x to where they are at the time last set by one rigid motion with a rotation: x is moved by it, and nothing
+   of the motion is left to be put in. Collective. */
+PetscErrorCode ProblemTurn(Problem, Vec x, PetscBool *turned);
 PetscErrorCode ProblemJump(Problem);
+/* Largest change by t of a nodal force of dead loads and follower pressures at x and the time last set; unit: force over t. Collective. */
+PetscErrorCode ProblemLoadRate(Problem, Vec x, PetscReal *largest);
 
 /* Viscous forces against the deformation since x = from, with the prescribed motion as applied now (MechanicsSetViscosity; rate 0: none, from NULL); the energy
    that they dissipate on the way to x. Collective. */

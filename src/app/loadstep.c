@@ -3,18 +3,17 @@
 
 #define FAST 10 /* times as fast as on the way there do displacements grow where the step ends at a limit point: at its distance d like d^(-1/2) */
 
-/* Do loads drive the scene? */
-static PetscBool Loaded_Private(const SceneData *data)
+/* Is a limit point near? Bodies are ever faster on a way on which loads change. Where what is prescribed moves them under loads that stay, one that falls off
+   another one is as fast, and there is an equilibrium farther off. */
+static PetscErrorCode LimitPoint_Private(App *app, const PathLoop *loop, PetscBool *near)
 {
-  for (PetscInt i = 0; i < data->mechanics.num_boundaries; ++i) {
-    const BoundarySpec *b = &data->mechanics.boundaries[i];
-    if (b->pressure || b->traction[0] || b->traction[1] || b->traction[2]) return PETSC_TRUE;
-  }
-  for (PetscInt i = 0; i < data->mechanics.num_bodies; ++i) {
-    const BodySpec *b = &data->mechanics.bodies[i];
-    if (b->force[0] || b->force[1] || b->force[2]) return PETSC_TRUE;
-  }
-  return PETSC_FALSE;
+  PetscReal rate = 0;
+
+  PetscFunctionBegin;
+  *near = (PetscBool)(loop->metric == &PathTime && app->speed > FAST);
+  if (*near) PetscCall(ProblemLoadRate(app->level.problem, app->level.accepted.x, &rate));
+  *near = (PetscBool)(*near && rate > 0);
+  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PathLoop AppNextStep(const App *app)
@@ -36,8 +35,8 @@ static PetscErrorCode LoadStep_Private(App *app, PetscBool *ok)
 
   PetscFunctionBegin;
   PathBegin(&app->path, (PetscBool)(loop.piece < (app->arc_first > 0 ? app->arc_first : app->data->load.step)));
-  app->passes_in_step   = 0;
-  app->path.limit_point = (PetscBool)(loop.metric == &PathTime && app->speed > FAST && Loaded_Private(app->data));
+  app->passes_in_step = 0;
+  PetscCall(LimitPoint_Private(app, &loop, &app->path.limit_point));
   PetscCall(PathFollow(&app->path, &loop, &report));
   if (!report.converged) PetscCall(AppCoarsen(app, &loop, &report));
   *(app->arc_first > 0 ? &app->arc : &app->dt) = loop.piece;

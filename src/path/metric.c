@@ -31,7 +31,7 @@ static PetscErrorCode TimeSet_Private(Path *p, const PathLoop *loop, PetscReal t
   PetscFunctionBegin;
   PetscCall(ProblemHold(p->level->problem));
   PetscCall(ProblemSetTime(p->level->problem, to));
-  PetscCall(ProblemTurn(p->level->problem, p->level->state.t, p->level->state.x, &turned));
+  PetscCall(ProblemTurn(p->level->problem, p->level->state.x, &turned));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

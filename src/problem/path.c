@@ -120,6 +120,29 @@ PetscErrorCode PathResidual_Private(Problem p, Vec x, PetscReal *r)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* For central differences of loads, unit: time. */
+static PetscReal Interval_Private(const Problem p)
+{
+  return PetscPowReal(PETSC_MACHINE_EPSILON, 1. / 3) * p->scene->load.end;
+}
+
+PetscErrorCode ProblemLoadRate(Problem p, Vec x, PetscReal *largest)
+{
+  PetscReal *u, *rate;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(p->num_local, &u));
+  PetscCall(PetscCalloc1(p->num_local, &rate));
+  PetscCall(ProblemLocalDisplacement(p, x, u));
+  PetscCall(MechanicsLoadRate(p->mechanics, u, Interval_Private(p), rate));
+  *largest = 0;
+  for (PetscInt i = 0; i < p->num_local; ++i) *largest = PetscMax(*largest, PetscAbsReal(rate[i]));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, largest, 1, MPIU_REAL, MPI_MAX, p->comm));
+  PetscCall(PetscFree(u));
+  PetscCall(PetscFree(rate));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* The row from what the rank owns, the column from the change of the loads with t. */
 PetscErrorCode PathTangent_Private(Problem p, PetscInt row, const PetscReal u[])
 {
@@ -134,7 +157,7 @@ PetscErrorCode PathTangent_Private(Problem p, PetscInt row, const PetscReal u[])
   } else if (p->rank == p->size - 1)
     PetscCall(MatSetValue(p->matrix, row, row, Unit_Private(p) / p->scene->load.end, ADD_VALUES));
   PetscCall(PetscCalloc1(p->num_local, &rate));
-  PetscCall(MechanicsLoadRate(p->mechanics, u, PetscPowReal(PETSC_MACHINE_EPSILON, 1. / 3) * p->scene->load.end, rate));
+  PetscCall(MechanicsLoadRate(p->mechanics, u, Interval_Private(p), rate));
   PetscCall(ScalarsColumn_Private(p, p->num_controls, rate));
   PetscCall(PetscFree(rate));
   PetscFunctionReturn(PETSC_SUCCESS);

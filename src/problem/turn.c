@@ -1,62 +1,138 @@
-/* Supports that all turn alike turn the bodies with them. From the straight way of a large turn, on which bodies shrink, Newton's method may find another
-   state: one with friction that has slipped. So where the whole of what is prescribed is one rotation, a step starts from the last state turned by it. */
+/* Supports that all move as one rigid body turn the bodies with them. From the straight way of a large turn, on which bodies shrink, Newton's method may find
+   another state: one with friction that has slipped, or a fold. So where the whole of what is prescribed is one rigid motion with a rotation, however it was
+   written, a step starts from the last state moved so. */
 #include "problemimpl.h"
+#include <petscblaslapack.h>
 
-/* The turn from one time to another of the first boundary that has one, radians about its axis; 0: none. */
-static PetscErrorCode Angle_Private(const MechanicsSpec *m, PetscReal from, PetscReal to, const BoundarySpec **by, PetscReal *angle)
+typedef struct {
+  PetscReal from[3], to[3], R[9]; /* x -> to + R (x - from) */
+} Motion;
+
+/* Where node n is with the displacements u. */
+static void Place_Private(const HPTables *v, const PetscReal u[], PetscInt n, PetscReal x[3])
 {
-  PetscReal degrees[2];
+  for (PetscInt c = 0; c < 3; ++c) x[c] = v->X[3 * n + c] + (c < v->dim ? u[v->dim * n + c] : 0);
+}
+
+/* Sums over the nodes all of whose components are prescribed: their number, places before (3) and after (3), and products of both about the origins `about`
+   (9). Nodes that processes share count more than once, which changes nothing where the motion is rigid. */
+static PetscErrorCode Sum_Private(Problem p, const PetscReal u[], const Motion *about, PetscReal sum[16])
+{
+  const HPTables *v   = p->tables;
+  const int8_t    all = (int8_t)((1 << v->dim) - 1);
 
   PetscFunctionBegin;
-  *angle = 0;
-  if (m->model == MODEL_AXISYMMETRIC || m->kinematics == KINEMATICS_SMALL) PetscFunctionReturn(PETSC_SUCCESS);
-  for (PetscInt i = 0; i < m->num_boundaries; ++i) {
-    *by = &m->boundaries[i];
-    if ((*by)->fix_normal) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(PetscArrayzero(sum, 16));
+  for (PetscInt n = 0; n < v->num_nodes; ++n) {
+    PetscReal a[3], b[3];
+
+    if ((p->supports.fixed[n] & all) != all) continue;
+    Place_Private(v, u, n, a);
+    Place_Private(v, p->target, n, b);
+    sum[0] += 1;
+    for (PetscInt i = 0; i < 3; ++i) {
+      sum[1 + i] += a[i];
+      sum[4 + i] += b[i];
+      for (PetscInt j = 0; j < 3; ++j) sum[7 + 3 * i + j] += (a[i] - about->from[i]) * (b[j] - about->to[j]);
+    }
   }
-  for (PetscInt i = 0; i < m->num_boundaries && *angle == 0; ++i) {
-    *by = &m->boundaries[i];
-    if (!(*by)->rotation) continue;
-    PetscCall(MechanicsValue((*by)->rotation_angle, &(*by)->amplitude, (*by)->rotation_point, from, &degrees[0]));
-    PetscCall(MechanicsValue((*by)->rotation_angle, &(*by)->amplitude, (*by)->rotation_point, to, &degrees[1]));
-    *angle = (degrees[1] - degrees[0]) * PETSC_PI / 180;
-  }
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 16, MPIU_REAL, MPI_SUM, p->comm));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* u: displacements, turned with what they have moved to. */
-static void Turn_Private(const HPTables *v, const BoundarySpec *by, PetscReal angle, PetscReal u[])
+/* The unit quaternion of the rotation that takes points nearest to others, S their products about the centroids: the eigenvector of the largest eigenvalue of
+   Horn's matrix (J. Opt. Soc. Am. A 4, 1987, 629); in the plane of the rotations about z. *unique: there is one only. */
+static PetscErrorCode Quaternion_Private(PetscInt dim, const PetscReal S[9], PetscReal q[4], PetscBool *unique)
 {
-  PetscReal phi[3] = {0, 0, 0}, R[9];
+  PetscReal    N[16] = {S[0] + S[4] + S[8], 0, 0,           0,           S[5] - S[7], S[0] - S[4] - S[8], 0, 0, S[6] - S[2], S[1] + S[3],
+                        S[4] - S[0] - S[8], 0, S[1] - S[3], S[6] + S[2], S[5] + S[7], S[8] - S[0] - S[4]};
+  PetscReal    w[4], work[32];
+  PetscBLASInt n = 4, size = 32, info;
 
-  phi[by->rotation_axis] = angle;
-  RotationMatrix(phi, R);
+  PetscFunctionBegin;
+  if (dim == 2) {
+    const PetscReal angle = atan2(S[1] - S[3], S[0] + S[4]);
+
+    *unique = (PetscBool)(PetscSqr(S[1] - S[3]) + PetscSqr(S[0] + S[4]) > 0);
+    q[0]    = PetscCosReal(angle / 2);
+    q[1] = q[2] = 0;
+    q[3]        = PetscSinReal(angle / 2);
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
+  PetscCallBLAS("LAPACKsyev", LAPACKsyev_("V", "U", &n, N, &n, w, work, &size, &info));
+  PetscCheck(!info, PETSC_COMM_SELF, PETSC_ERR_LIB, "eigenvalues of a 4-square matrix: LAPACK says %d", (int)info);
+  *unique = (PetscBool)(w[3] - w[2] > ROUND_LENGTH * (w[3] - w[0]));
+  PetscCall(PetscArraycpy(q, N + 12, 4));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The rigid motion nearest to that of the supports from u to their target. *turns: there is one, and it has a rotation. Collective. */
+static PetscErrorCode Motion_Private(Problem p, const PetscReal u[], Motion *m, PetscBool *turns)
+{
+  PetscReal sum[16], q[4], phi[3], length;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMemzero(m, sizeof(*m)));
+  PetscCall(Sum_Private(p, u, m, sum));
+  *turns = PETSC_FALSE;
+  if (sum[0] == 0) PetscFunctionReturn(PETSC_SUCCESS);
+  for (PetscInt i = 0; i < 3; ++i) {
+    m->from[i] = sum[1 + i] / sum[0];
+    m->to[i]   = sum[4 + i] / sum[0];
+  }
+  PetscCall(Sum_Private(p, u, m, sum));
+  PetscCall(Quaternion_Private(p->tables->dim, sum + 7, q, turns));
+  length = PetscSqrtReal(Dot3(q + 1, q + 1));
+  *turns = (PetscBool)(*turns && length > ROUND_LENGTH);
+  if (!*turns) PetscFunctionReturn(PETSC_SUCCESS);
+  for (PetscInt i = 0; i < 3; ++i) phi[i] = 2 * atan2(length, q[0]) * q[1 + i] / length;
+  RotationMatrix(phi, m->R);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* u: displacements, moved with the places that they lead to. */
+static void Move_Private(const HPTables *v, const Motion *m, PetscReal u[])
+{
   for (PetscInt n = 0; n < v->num_nodes; ++n) {
-    PetscReal x[3] = {0, 0, 0};
+    PetscReal x[3];
 
-    for (PetscInt c = 0; c < 3; ++c) x[c] = v->X[3 * n + c] + (c < v->dim ? u[v->dim * n + c] : 0) - by->rotation_point[c];
-    for (PetscInt c = 0; c < v->dim; ++c) u[v->dim * n + c] = Dot3(R + 3 * c, x) + by->rotation_point[c] - v->X[3 * n + c];
+    Place_Private(v, u, n, x);
+    for (PetscInt c = 0; c < 3; ++c) x[c] -= m->from[c];
+    for (PetscInt c = 0; c < v->dim; ++c) u[v->dim * n + c] = Dot3(m->R + 3 * c, x) + m->to[c] - v->X[3 * n + c];
   }
 }
 
-PetscErrorCode ProblemTurn(Problem p, PetscReal from, Vec x, PetscBool *turned)
+/* Can what is prescribed be one rotation? Not where turning makes no sense, nor with supports along normals. */
+static PetscBool May_Private(const Problem p)
 {
-  const HPTables     *v = p->tables;
-  const BoundarySpec *by;
-  PetscReal           angle, off = 0, *u;
+  const MechanicsSpec *m = &p->scene->mechanics;
+
+  if (m->model == MODEL_AXISYMMETRIC || m->kinematics == KINEMATICS_SMALL || p->num_scalars) return PETSC_FALSE;
+  for (PetscInt i = 0; i < m->num_boundaries; ++i)
+    if (m->boundaries[i].fix_normal) return PETSC_FALSE;
+  return PETSC_TRUE;
+}
+
+PetscErrorCode ProblemTurn(Problem p, Vec x, PetscBool *turned)
+{
+  const HPTables *v = p->tables;
+  Motion          motion;
+  PetscReal       off = 0, *u;
 
   PetscFunctionBegin;
   *turned = PETSC_FALSE;
-  PetscCall(Angle_Private(&p->scene->mechanics, from, p->t, &by, &angle));
-  if (angle == 0 || p->num_scalars) PetscFunctionReturn(PETSC_SUCCESS);
+  if (!May_Private(p)) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(PetscMalloc1(p->num_local, &u));
   PetscCall(ProblemLocalDisplacement(p, x, u));
-  Turn_Private(v, by, angle, u);
-  for (PetscInt i = 0; i < p->num_local; ++i)
-    if (p->supports.fixed[i / v->dim] >> (i % v->dim) & 1) off = PetscMax(off, PetscAbsReal(u[i] - p->target[i]));
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &off, 1, MPIU_REAL, MPI_MAX, p->comm));
-  if (off <= ROUND_LENGTH * p->extent) {
-    *turned = PETSC_TRUE;
+  PetscCall(Motion_Private(p, u, &motion, turned));
+  if (*turned) {
+    Move_Private(v, &motion, u);
+    for (PetscInt i = 0; i < p->num_local; ++i)
+      if (p->supports.fixed[i / v->dim] >> (i % v->dim) & 1) off = PetscMax(off, PetscAbsReal(u[i] - p->target[i]));
+    PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &off, 1, MPIU_REAL, MPI_MAX, p->comm));
+    *turned = (PetscBool)(off <= ROUND_LENGTH * p->extent);
+  }
+  if (*turned) {
     PetscCall(ProblemSetDisplacement(p, u, x));
     PetscCall(ProblemJump(p));
   }

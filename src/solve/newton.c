@@ -13,13 +13,17 @@ static PetscErrorCode LinearSolve_Private(Solver s, PetscBool again, Vec dx)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Was this set there before one that is the last? Sets of passes go in circles where a gap and a pressure vanish
-   together. */
-static PetscBool Repeats_Private(Solver s, PetscInt num, uint64_t hash)
+/* Was the set of pass `last` there before the one before it? Sets of passes go in circles where a gap and a pressure vanish together, and where none agrees
+   with the linear step. A circle goes by the largest of its hashes; 0: there is none. */
+static uint64_t Circle_Private(const Solver s, PetscInt last)
 {
-  for (PetscInt i = 0; i + 1 < num; ++i)
-    if (s->pass_sets[i] == hash) return PETSC_TRUE;
-  return PETSC_FALSE;
+  uint64_t largest = s->pass_sets[last];
+
+  for (PetscInt i = last - 1; i >= 0; --i) {
+    if (i + 1 < last && s->pass_sets[i] == s->pass_sets[last]) return largest;
+    largest = PetscMax(largest, s->pass_sets[i]);
+  }
+  return 0;
 }
 
 /* again: the matrix has been factorised with other rows of this linearisation. */
@@ -28,9 +32,11 @@ static PetscErrorCode Passes_Private(Solver s, PetscBool again, Vec dx)
   PetscInt changed = 1;
 
   PetscFunctionBegin;
+  s->circle = 0;
   for (PetscInt pass = 0; changed; ++pass) {
     PetscCall(InterfaceActiveSetHash(ProblemInterface(s->problem), &s->pass_sets[pass]));
-    if (Repeats_Private(s, pass, s->pass_sets[pass])) {
+    s->circle = Circle_Private(s, pass);
+    if (s->circle) {
       ++s->report->set_cycles;
       PetscCall(PetscInfo(s->snes, "active sets repeat after %" PetscInt_FMT " passes\n", pass));
       break;

@@ -57,7 +57,8 @@ struct _p_Solver {
   PetscBool     test;            /* -snes_test_jacobian was given */
   uint64_t     *pass_sets;       /* owned [passes+1] hashes of the active sets of the passes of one linearisation */
   PetscBool     settled;         /* the active set agrees with the last linear step */
-  PetscBool     circled;         /* it did not at the iterate before */
+  uint64_t      circle;          /* in which its active sets went, 0: none */
+  uint64_t      last_circle;     /* the same at the iterate before */
   PetscBool     swap;            /* SolverSwapPredictor */
   PetscReal     first_norm;      /* residual after the first iteration */
   PetscReal     best_norm;       /* least residual of this solve … */

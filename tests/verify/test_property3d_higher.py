@@ -103,7 +103,7 @@ def test_o92_skew_rollers(solve, options):
     space.test_o92_skew_rollers(solve, options)
 
 
-@faces(kinds=BOTH)
+@faces(*BOTH, kinds=BOTH)
 def test_o92_rigid_rotation(solve):
     space.test_o92_rigid_rotation(solve)
 
