@@ -4,7 +4,7 @@ import math
 import numpy
 import pytest
 
-from conftest import half
+from combinations import half
 from contactkit import PAIRINGS, SIDES, blocks, bulk, components, contact, graded, is_quadratic, spread, steps
 
 ORIGIN = {"origin": {"x": 0, "y": 0}}  # of moments

@@ -6,7 +6,7 @@ import numpy
 import pytest
 
 from blockmesh import distorted, linspace, same, turn, write
-from conftest import half
+from combinations import half
 from contactkit import bulk, contact, is_quadratic, spread, steps, yaml
 
 PRESSURE = 48.2977961996  # of O-41a

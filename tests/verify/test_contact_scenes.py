@@ -3,7 +3,7 @@ import re
 
 import pytest
 
-from conftest import half
+from combinations import half
 from contactkit import is_quadratic, steps
 
 QUIET = ("-output_fields", "false")

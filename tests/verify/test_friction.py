@@ -6,7 +6,7 @@ import pathlib
 import numpy
 import pytest
 
-from conftest import half
+from combinations import half
 from contactkit import blocks, contact, spread, steps
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent

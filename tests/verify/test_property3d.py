@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from boxes import RUBBER, Box, boxes, scene
-from conftest import half
+from combinations import half
 from contactkit import contact, is_quadratic, steps
 
 slow = pytest.mark.slow

@@ -1,7 +1,7 @@
 """Solutions for which a body went right through the other one of a pair that bears nothing are none (src/diagnose/through.c)."""
 import pytest
 
-from conftest import half
+from combinations import half
 from test_inside import RIGID, RUBBER, SLOW, scene
 
 QUIET = ("-output_fields", "false")
