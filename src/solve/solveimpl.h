@@ -59,6 +59,8 @@ struct _p_Solver {
   PetscBool     settled;         /* the active set agrees with the last linear step */
   uint64_t      circle;          /* in which its active sets went, 0: none */
   uint64_t      last_circle;     /* the same at the iterate before */
+  uint64_t      wide;            /* pairs whose gaps are wide, and whose directions are fixed in the tangent */
+  PetscBool     fixed_circle;    /* in this solve active sets went in a circle with all directions fixed, too */
   PetscBool     swap;            /* SolverSwapPredictor */
   PetscReal     first_norm;      /* residual after the first iteration */
   PetscReal     best_norm;       /* least residual of this solve … */
