@@ -75,8 +75,9 @@ PetscErrorCode ProblemSetTime(Problem, PetscReal t);
    of the motion is left to be put in. Collective. */
 PetscErrorCode ProblemTurn(Problem, Vec x, PetscBool *turned);
 PetscErrorCode ProblemJump(Problem);
-/* Largest change by t of a nodal force of dead loads and follower pressures at x and the time last set; unit: force over t. Collective. */
-PetscErrorCode ProblemLoadRate(Problem, Vec x, PetscReal *largest);
+/* How fast dead loads and follower pressures at x change from the time last set on: as a multiple of their mean change by t on the way there, 0 where they
+   stay. Loads on rigid bodies are not looked at. Collective. */
+PetscErrorCode ProblemLoadSpeed(Problem, Vec x, PetscReal *speed);
 
 /* Viscous forces against the deformation since x = from, with the prescribed motion as applied now (MechanicsSetViscosity; rate 0: none, from NULL); the energy
    that they dissipate on the way to x. Collective. */

@@ -3,16 +3,16 @@
 
 #define FAST 10 /* times as fast as on the way there do displacements grow where the step ends at a limit point: at its distance d like d^(-1/2) */
 
-/* Is a limit point near? Bodies are ever faster on a way on which loads change. Where what is prescribed moves them under loads that stay, one that falls off
-   another one is as fast, and there is an equilibrium farther off. */
+/* Is a limit point of loads near? Bodies are ever faster while loads go on growing. Where loads hardly change, something else moves the bodies, as a support
+   that is drawn from under one, and there may be an equilibrium farther off. */
 static PetscErrorCode LimitPoint_Private(App *app, const PathLoop *loop, PetscBool *near)
 {
-  PetscReal rate = 0;
+  PetscReal loads = 0;
 
   PetscFunctionBegin;
   *near = (PetscBool)(loop->metric == &PathTime && app->speed > FAST);
-  if (*near) PetscCall(ProblemLoadRate(app->level.problem, app->level.accepted.x, &rate));
-  *near = (PetscBool)(*near && rate > 0);
+  if (*near) PetscCall(ProblemLoadSpeed(app->level.problem, app->level.accepted.x, &loads));
+  *near = (PetscBool)(*near && loads * FAST > 1);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

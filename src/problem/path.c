@@ -120,26 +120,39 @@ PetscErrorCode PathResidual_Private(Problem p, Vec x, PetscReal *r)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* For central differences of loads, unit: time. */
+/* For differences of loads, unit: time. */
 static PetscReal Interval_Private(const Problem p)
 {
   return PetscPowReal(PETSC_MACHINE_EPSILON, 1. / 3) * p->scene->load.end;
 }
 
-PetscErrorCode ProblemLoadRate(Problem p, Vec x, PetscReal *largest)
+/* Largest change by t of what this process knows of a nodal force, from t0 to t1. */
+static PetscErrorCode LoadRate_Private(Problem p, const PetscReal u[], PetscReal t0, PetscReal t1, PetscReal rate[], PetscReal *largest)
 {
-  PetscReal *u, *rate;
+  PetscFunctionBegin;
+  *largest = 0;
+  PetscCall(PetscArrayzero(rate, p->num_local));
+  PetscCall(MechanicsSetTime(p->mechanics, 0.5 * (t0 + t1)));
+  PetscCall(MechanicsLoadRate(p->mechanics, u, 0.5 * (t1 - t0), rate));
+  PetscCall(MechanicsSetTime(p->mechanics, p->t));
+  for (PetscInt i = 0; i < p->num_local; ++i) *largest = PetscMax(*largest, PetscAbsReal(rate[i]));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode ProblemLoadSpeed(Problem p, Vec x, PetscReal *speed)
+{
+  PetscReal *u, *rate, largest[2]; /* on the way here, from here on */
 
   PetscFunctionBegin;
-  PetscCall(PetscMalloc1(p->num_local, &u));
-  PetscCall(PetscCalloc1(p->num_local, &rate));
+  *speed = 0;
+  if (p->t <= 0) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(PetscMalloc2(p->num_local, &u, p->num_local, &rate));
   PetscCall(ProblemLocalDisplacement(p, x, u));
-  PetscCall(MechanicsLoadRate(p->mechanics, u, Interval_Private(p), rate));
-  *largest = 0;
-  for (PetscInt i = 0; i < p->num_local; ++i) *largest = PetscMax(*largest, PetscAbsReal(rate[i]));
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, largest, 1, MPIU_REAL, MPI_MAX, p->comm));
-  PetscCall(PetscFree(u));
-  PetscCall(PetscFree(rate));
+  PetscCall(LoadRate_Private(p, u, 0, p->t, rate, &largest[0]));
+  PetscCall(LoadRate_Private(p, u, p->t, p->t + Interval_Private(p), rate, &largest[1]));
+  PetscCall(PetscFree2(u, rate));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, largest, 2, MPIU_REAL, MPI_MAX, p->comm));
+  if (largest[1] > 0) *speed = largest[0] > 0 ? largest[1] / largest[0] : PETSC_INFINITY;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -14,15 +14,15 @@ static void Place_Private(const HPTables *v, const PetscReal u[], PetscInt n, Pe
   for (PetscInt c = 0; c < 3; ++c) x[c] = v->X[3 * n + c] + (c < v->dim ? u[v->dim * n + c] : 0);
 }
 
-/* Sums over the nodes all of whose components are prescribed: their number, places before (3) and after (3), and products of both about the origins `about`
-   (9). Nodes that processes share count more than once, which changes nothing where the motion is rigid. */
-static PetscErrorCode Sum_Private(Problem p, const PetscReal u[], const Motion *about, PetscReal sum[16])
+/* Sums over the nodes all of whose components are prescribed: their number, places before (3) and after (3), products of both about the origins `about` (9),
+   and squares of the places before (1). Nodes that processes share count more than once, which changes nothing where the motion is rigid. */
+static PetscErrorCode Sum_Private(Problem p, const PetscReal u[], const Motion *about, PetscReal sum[17])
 {
   const HPTables *v   = p->tables;
   const int8_t    all = (int8_t)((1 << v->dim) - 1);
 
   PetscFunctionBegin;
-  PetscCall(PetscArrayzero(sum, 16));
+  PetscCall(PetscArrayzero(sum, 17));
   for (PetscInt n = 0; n < v->num_nodes; ++n) {
     PetscReal a[3], b[3];
 
@@ -33,10 +33,11 @@ static PetscErrorCode Sum_Private(Problem p, const PetscReal u[], const Motion *
     for (PetscInt i = 0; i < 3; ++i) {
       sum[1 + i] += a[i];
       sum[4 + i] += b[i];
+      sum[16] += PetscSqr(a[i] - about->from[i]);
       for (PetscInt j = 0; j < 3; ++j) sum[7 + 3 * i + j] += (a[i] - about->from[i]) * (b[j] - about->to[j]);
     }
   }
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 16, MPIU_REAL, MPI_SUM, p->comm));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 17, MPIU_REAL, MPI_SUM, p->comm));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -69,7 +70,7 @@ static PetscErrorCode Quaternion_Private(PetscInt dim, const PetscReal S[9], Pet
 /* The rigid motion nearest to that of the supports from u to their target. *turns: there is one, and it has a rotation. Collective. */
 static PetscErrorCode Motion_Private(Problem p, const PetscReal u[], Motion *m, PetscBool *turns)
 {
-  PetscReal sum[16], q[4], phi[3], length;
+  PetscReal sum[17], q[4], phi[3], length;
 
   PetscFunctionBegin;
   PetscCall(PetscMemzero(m, sizeof(*m)));
@@ -83,7 +84,7 @@ static PetscErrorCode Motion_Private(Problem p, const PetscReal u[], Motion *m, 
   PetscCall(Sum_Private(p, u, m, sum));
   PetscCall(Quaternion_Private(p->tables->dim, sum + 7, q, turns));
   length = PetscSqrtReal(Dot3(q + 1, q + 1));
-  *turns = (PetscBool)(*turns && length > ROUND_LENGTH);
+  *turns = (PetscBool)(*turns && length > ROUND_LENGTH && sum[16] > PetscSqr(ROUND_LENGTH * p->extent) * sum[0]); /* nodes at one place tell of none */
   if (!*turns) PetscFunctionReturn(PETSC_SUCCESS);
   for (PetscInt i = 0; i < 3; ++i) phi[i] = 2 * atan2(length, q[0]) * q[1 + i] / length;
   RotationMatrix(phi, m->R);
@@ -102,7 +103,8 @@ static void Move_Private(const HPTables *v, const Motion *m, PetscReal u[])
   }
 }
 
-/* Can what is prescribed be one rotation? Not where turning makes no sense, nor with supports along normals. */
+/* Can what is prescribed be one rigid motion with a rotation? Not where turning makes no sense, nor with supports along normals, whose components are not those
+   of places, nor with rigid bodies that loads move: they are where they are. */
 static PetscBool May_Private(const Problem p)
 {
   const MechanicsSpec *m = &p->scene->mechanics;

@@ -58,7 +58,7 @@ struct _p_Solver {
   uint64_t     *pass_sets;       /* owned [passes+1] hashes of the active sets of the passes of one linearisation */
   PetscBool     settled;         /* the active set agrees with the last linear step */
   uint64_t      circle;          /* in which its active sets went, 0: none */
-  uint64_t      last_circle;     /* the same at the iterate before */
+  uint64_t      last_circle;     /* the same for the linear step before */
   uint64_t      wide;            /* pairs whose gaps are wide, and whose directions are fixed in the tangent */
   PetscBool     fixed_circle;    /* in this solve active sets went in a circle with all directions fixed, too */
   PetscBool     swap;            /* SolverSwapPredictor */
