@@ -2,7 +2,7 @@
    linear steps in a row go in the same circle: pressure times the curvature of the gap (the geometric stiffness of contact) outweighs what holds the bodies
    there, a node that is closed then pulls and, open, overlaps, and no set agrees with the linear step. Without curvature of constraints the system is the one
    of a convex quadratic program, which has such a set (as sequential quadratic programming has its Hessian made convex). Sets also go in circles where gap and
-   pressure vanish together; they do so at fixed directions, too, and the exact tangent is the better one. On: of all pairs at every iterate. */
+   pressure vanish together; they do so at fixed directions, too, which are not tried again in that solve then. On: of all pairs at every iterate. */
 #include "solveimpl.h"
 
 #define ALL_PAIRS (~(uint64_t)0)
@@ -22,17 +22,7 @@ static PetscErrorCode Linearise_Private(Solver s, const Iterate *it, const Form 
     s->form.frozen_normals = ALL_PAIRS;
   else
     PetscCall(InterfaceFindWide(ProblemInterface(s->problem), &s->form.frozen_normals));
-  s->wide = s->form.frozen_normals;
-  *acts   = (PetscBool)(s->wide != 0);
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* Once more with other directions. */
-static PetscErrorCode Again_Private(Solver s, uint64_t frozen, PetscBool *again)
-{
-  PetscFunctionBegin;
-  s->form.frozen_normals = frozen;
-  *again                 = PETSC_TRUE;
+  *acts = (PetscBool)(s->form.frozen_normals != 0);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -42,17 +32,15 @@ static PetscErrorCode Correct_Private(Solver s, const Iterate *it, Vec dx, Petsc
   const PetscBool same = (PetscBool)(s->circle && s->circle == s->last_circle);
 
   PetscFunctionBegin;
-  if (s->fixed_circle) PetscFunctionReturn(PETSC_SUCCESS);
   if (s->form.frozen_normals == ALL_PAIRS) {
-    s->fixed_circle = (PetscBool)(s->circle && s->wide != ALL_PAIRS);
-    if (s->fixed_circle) PetscCall(Again_Private(s, s->wide, again));
+    s->fixed_circle = (PetscBool)(s->circle != 0);
     PetscFunctionReturn(PETSC_SUCCESS);
   }
   s->last_circle = s->circle;
-  if (!same) PetscFunctionReturn(PETSC_SUCCESS);
+  if (!same || s->fixed_circle) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(PetscInfo(s->snes, "active sets go in the same circle as for the last linear step: once more at fixed directions\n"));
-  *acts = PETSC_TRUE;
-  PetscCall(Again_Private(s, ALL_PAIRS, again));
+  s->form.frozen_normals = ALL_PAIRS;
+  *acts = *again = PETSC_TRUE;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -26,8 +26,8 @@ static uint64_t Circle_Private(const Solver s, PetscInt last)
   return 0;
 }
 
-/* again: the matrix has been factorised with other rows of this linearisation. */
-static PetscErrorCode Passes_Private(Solver s, PetscBool again, Vec dx)
+/* again: the matrix has been factorised with other rows of this linearisation; settled: the last pass changed no state. */
+static PetscErrorCode Passes_Private(Solver s, PetscBool again, Vec dx, PetscBool *settled)
 {
   PetscInt changed = 1;
 
@@ -49,40 +49,42 @@ static PetscErrorCode Passes_Private(Solver s, PetscBool again, Vec dx)
     s->report->set_changes += changed;
     if (changed) PetscCall(PetscInfo(s->snes, "active-set pass %" PetscInt_FMT ": %" PetscInt_FMT " nodes switched\n", pass, changed));
   }
-  s->settled = (PetscBool)(changed == 0);
+  *settled = (PetscBool)(changed == 0);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode SolverActiveSetSolve_Private(Solver s, Vec dx)
 {
+  PetscBool settled;
+
   PetscFunctionBegin;
-  PetscCall(Passes_Private(s, PETSC_FALSE, dx));
+  PetscCall(Passes_Private(s, PETSC_FALSE, dx, &settled));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* What friction bears is a share of pressures. At first touch there are none: where states go by those of the nodes that happen to be first, they never settle
    on slender bodies. So the nodes that press are found as without friction, and then who sticks and who slips. What nothing but friction holds may not settle
    so: then both at once. */
-static PetscErrorCode PressuresFirst_Private(Solver s, Vec dx, PetscBool *found)
+static PetscErrorCode PressuresFirst_Private(Solver s, Vec dx, PetscBool *settled)
 {
   PetscInt changed;
 
   PetscFunctionBegin;
-  PetscCall(Passes_Private(s, PETSC_FALSE, dx));
-  *found                  = s->settled;
+  PetscCall(Passes_Private(s, PETSC_FALSE, dx, settled));
   s->form.pressures_first = PETSC_FALSE;
-  if (!s->settled || s->no_solution) PetscFunctionReturn(PETSC_SUCCESS);
+  if (!*settled || s->no_solution) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(ProblemSetForm(s->problem, &s->form));
   PetscCall(ProblemSwitchActiveSet(s->problem, dx, s->rhs, &changed));
   s->report->set_changes += changed;
-  if (changed) PetscCall(Passes_Private(s, PETSC_TRUE, dx));
+  if (changed) PetscCall(Passes_Private(s, PETSC_TRUE, dx, settled));
+  *settled = PETSC_TRUE;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* The tangent at an iterate in the form chosen, and the linear step. */
 static PetscErrorCode Linearise_Private(Solver s, const Iterate *it, Vec dx)
 {
-  PetscBool bad, symmetric, found;
+  PetscBool bad, symmetric, settled;
 
   PetscFunctionBegin;
   ++s->report->iterations;
@@ -98,8 +100,8 @@ static PetscErrorCode Linearise_Private(Solver s, const Iterate *it, Vec dx)
     PetscCall(SolverActiveSetSolve_Private(s, dx));
     PetscFunctionReturn(PETSC_SUCCESS);
   }
-  PetscCall(PressuresFirst_Private(s, dx, &found));
-  if (!found && !s->report->stopped) PetscCall(Linearise_Private(s, it, dx)); /* anew: the tangent begins with the states that the residual tells */
+  PetscCall(PressuresFirst_Private(s, dx, &settled));
+  if (!settled && !s->report->stopped) PetscCall(Linearise_Private(s, it, dx)); /* anew: the tangent begins with the states that the residual tells */
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

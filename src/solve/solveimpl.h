@@ -56,10 +56,8 @@ struct _p_Solver {
   PetscBool     single;          /* factors are in single precision */
   PetscBool     test;            /* -snes_test_jacobian was given */
   uint64_t     *pass_sets;       /* owned [passes+1] hashes of the active sets of the passes of one linearisation */
-  PetscBool     settled;         /* the active set agrees with the last linear step */
-  uint64_t      circle;          /* in which its active sets went, 0: none */
+  uint64_t      circle;          /* in which the active sets of the last linear step went, 0: none */
   uint64_t      last_circle;     /* the same for the linear step before */
-  uint64_t      wide;            /* pairs whose gaps are wide, and whose directions are fixed in the tangent */
   PetscBool     fixed_circle;    /* in this solve active sets went in a circle with all directions fixed, too */
   PetscBool     swap;            /* SolverSwapPredictor */
   PetscReal     first_norm;      /* residual after the first iteration */

@@ -111,15 +111,6 @@ def execute_in(command, timeout, env):
     return process.returncode, stdout, stderr
 
 
-def on_two(names, rows, also):
-    """Rows on one process, those numbered in also on two; the others on two are slow: what is refused there is told by the same lines, and a start on two costs
-    four on one."""
-    def row(values, ranks, quick):
-        return pytest.param(*(values if isinstance(values, tuple) else (values,)), ranks, marks=() if quick else pytest.mark.slow)
-
-    return pytest.mark.parametrize(f"{names},ranks", [row(values, ranks, ranks == 1 or k in also) for ranks in (1, 2) for k, values in enumerate(rows)])
-
-
 @pytest.fixture
 def run(tmp_path):
     """run(scene, *options, ranks=1, timeout=600, text=None) -> Result.

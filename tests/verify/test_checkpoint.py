@@ -16,7 +16,8 @@ import numpy as np
 import pytest
 
 from boxmesh import linspace, write
-from conftest import PROGRAM, ROOT, Result, leaves, on_two
+from combinations import on_two
+from conftest import PROGRAM, ROOT, Result, leaves
 from test_hostile import block
 
 STEPS = ("-load_step", 0.25)

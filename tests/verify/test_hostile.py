@@ -8,7 +8,8 @@ import subprocess
 import pytest
 
 from boxmesh import linspace, write
-from conftest import PROGRAM, ROOT, on_two
+from combinations import on_two
+from conftest import PROGRAM, ROOT
 from test_orderly import refused
 
 MATERIAL = {"law": "neo_hookean", "E": 1, "nu": 0.3}

@@ -5,7 +5,8 @@ import resource
 import subprocess
 
 import pytest
-from conftest import PROGRAM, ROOT, on_two
+from combinations import on_two
+from conftest import PROGRAM, ROOT
 from test_hostile import limited
 from test_input import GEO, RUBBER, SCENE, check, refused  # noqa: F401 (check is a fixture)
 from test_orderly import refused as refused_run
