@@ -87,6 +87,15 @@ PetscErrorCode ThroughFind(Problem, const PetscReal from[], const State *, Petsc
    evaluated last; scale: the largest ProblemStatus.scale of the path, against which forces are round-off. Collective. */
 PetscErrorCode AdriftFind(Problem, PetscReal scale, PetscInt axes[]);
 
+/* Cells of deformable bodies with det F <= 0 at a corner (of the section, where it is plane or axisymmetric). */
+typedef struct {
+  PetscInt  num, body; /* how many; body of the worst */
+  PetscReal det, X[3]; /* least det F at a corner, and where, at the reference position */
+} Folded;
+
+/* folded.c: at a solution x, the same on every rank. Means nothing with small kinematics. Collective. */
+PetscErrorCode FoldedFind(Problem, Vec x, Folded *);
+
 /* Figures of one pass or accepted step, also the rows of adapt.csv and history.csv. */
 typedef struct {
   PetscInt  step, pass, cells, dofs;

@@ -61,6 +61,8 @@ typedef struct {
   FrictionFigures *friction;       /* owned, by ContactSpec.pair: of the last accepted load step of this run */
   PetscInt        *touched;        /* owned, by ContactSpec.pair: load step of this run in which a node was in contact first; 0: none */
   PetscReal        rough_error, rough_t, rough_norm; /* largest estimate of an accepted step, its time; largest norm */
+  Folded           folded;                           /* most cells that an accepted step folded … */
+  PetscReal        folded_t;                         /* … and its time */
   PetscReal        unstable_t;                       /* when a solution was first found unstable … */
   PetscBool        unstable_known, passage_told;     /* … if one was; that a surface passes through itself */
   PetscReal        most_scale;                       /* largest ProblemStatus.scale of an accepted step */

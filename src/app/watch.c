@@ -104,6 +104,21 @@ PetscErrorCode AppRefuseThrough(Problem problem, const PetscReal from[], const S
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* The step with most of them. */
+static PetscErrorCode WatchFolded_Private(App *app)
+{
+  Folded folded;
+
+  PetscFunctionBegin;
+  if (app->load_steps == 1) app->folded.num = 0;
+  if (app->data->mechanics.kinematics == KINEMATICS_SMALL) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(FoldedFind(app->level.problem, app->level.accepted.x, &folded));
+  if (folded.num < PetscMax(1, app->folded.num)) PetscFunctionReturn(PETSC_SUCCESS);
+  app->folded   = folded;
+  app->folded_t = app->level.accepted.t;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode AppWatch(App *app)
 {
   PetscFunctionBegin;
@@ -112,6 +127,7 @@ PetscErrorCode AppWatch(App *app)
   app->unstable_known = (PetscBool)(app->path.unstable > 0);
   PetscCall(WatchPassage_Private(app));
   PetscCall(WatchAdrift_Private(app));
+  PetscCall(WatchFolded_Private(app));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -144,9 +160,27 @@ static PetscErrorCode WarnAdrift_Private(App *app)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+static PetscErrorCode WarnFolded_Private(App *app)
+{
+  const CoarseMesh *mesh;
+  const Folded     *f = &app->folded;
+
+  PetscFunctionBegin;
+  if (!f->num) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(ForestGetCoarse(app->level.forest, &mesh));
+  PetscCall(WarningAdd(app->comm,
+                       "%" PetscInt_FMT
+                       " %s at t = %.6g, the worst at (%.4g, %.4g, %.4g) of body %s, det F = %.3g there: no body does that; take smaller cells "
+                       "or round off what is sharp there, and doubt what depends on that place",
+                       f->num, f->num == 1 ? "cell is turned inside out at a corner" : "cells are turned inside out at a corner", (double)app->folded_t,
+                       (double)f->X[0], (double)f->X[1], (double)f->X[2], mesh->body_name[f->body], (double)f->det));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode AppWarn(App *app)
 {
   PetscFunctionBegin;
+  PetscCall(WarnFolded_Private(app));
   PetscCall(WarnAdrift_Private(app));
   PetscCall(WarnFlow_Private(app));
   if (app->rough_error > ROUGH * app->rough_norm)

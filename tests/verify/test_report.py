@@ -172,6 +172,24 @@ def test_a_body_that_passes_through_itself(run, tmp_path, dim, ranks):
     assert not [text for text in run("s.yml", text=open_ring(tmp_path, 0.12, dim), ranks=ranks).summary["warnings"] if "passes" in text], result
 
 
+def squeezed(path, dim, amount):
+    """A unit block, two cells high, whose surface goes by x = -amount X^2: det F = 1 - 2 amount X, which no integration point sees at X = 1."""
+    write(path / "block.msh", [linspace(0, 1, 1), linspace(0, 1, 2), linspace(0, 1, 1)][:dim])
+    move = {"displacement": {"x": f"-{amount}*t*X*X"} | {axis: 0 for axis in "yz"[:dim - 1]}}
+    return json.dumps({"mesh": {"file": "block.msh"}, "model": "plane_strain" if dim == 2 else "3d", "order": 2, "body": {"body": {"material": "m"}},
+                       "material": {"m": {"law": "neo_hookean", "E": 1, "nu": 0.3}}, "load": {"step": 1},
+                       "boundary": {f"{axis}{end}": move for axis in "xyz"[:dim] for end in "01"}})
+
+
+@pytest.mark.parametrize("dim,ranks", [(2, 1), (2, 2), (3, 1), (3, 2)])
+def test_cells_folded_at_a_corner(run, tmp_path, dim, ranks):
+    """A solution whose cells are turned inside out between integration points and corners is told with the place, the same on any number of ranks."""
+    result = run("s.yml", text=squeezed(tmp_path, dim, 0.52), ranks=ranks)
+    words = warned(result, "2 cells are turned inside out at a corner at t = 1, the worst at (1, ", "of body body, det F = -0.04 there")
+    assert result.summary["min_det"] > 0 and words.endswith("doubt what depends on that place"), result
+    assert run("s.yml", text=squeezed(tmp_path, dim, 0.48), ranks=ranks).summary["warnings"] == []
+
+
 def test_passage_of_a_face_that_a_pair_does_not_name(run):
     """A coil whose end touches the next turn: the pair is there, the end is not in it, and the warning says so; with the end in it there is none."""
     end, without = (run("tests/gauntlet/coil.yml", "-order", 1, "-contact_c_surface", surface, "-output_fields", "false") for surface in ("hull", "flanks"))

@@ -1,0 +1,62 @@
+/* Cells that are turned inside out at a corner: det F is positive at the integration points of every solution, between them and the corners it need not be. */
+#include "diagnoseimpl.h"
+
+/* Least det F at the corners of a cell, and where. On the axis of revolution the third stretch is not asked for: it is positive. */
+static PetscErrorCode Corners_Private(Mechanics mechanics, PetscInt dim, PetscInt cell, const PetscReal u[], PetscReal *least, PetscReal X[3])
+{
+  PetscReal      xi[8 * 3], F[8 * 9], Y[8 * 3];
+  const PetscInt num = 1 << dim;
+
+  PetscFunctionBegin;
+  *least = PETSC_MAX_REAL;
+  for (PetscInt k = 0; k < num; ++k)
+    for (PetscInt d = 0; d < dim; ++d) xi[k * dim + d] = k >> d & 1;
+  PetscCall(MechanicsPoints(mechanics, cell, num, xi, u, &(PointValues){.X = Y, .F = F}));
+  for (PetscInt k = 0; k < num; ++k) {
+    const PetscReal *f = F + 9 * k, det = dim == 2 ? f[0] * f[4] - f[1] * f[3] : Det3(f);
+    if (det >= *least) continue;
+    *least = det;
+    PetscCall(PetscArraycpy(X, Y + 3 * k, 3));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode FoldedFind(Problem problem, Vec x, Folded *folded)
+{
+  const SceneData    *scene;
+  const ForestTables *t;
+  const HPTables     *v;
+  PetscReal          *u, det, X[3];
+  const MPI_Comm      comm = ForestComm(ProblemForest(problem));
+  struct {
+    double det;
+    int    rank;
+  } worst;
+
+  PetscFunctionBegin;
+  PetscCall(ProblemGetScene(problem, &scene));
+  PetscCall(ForestGetTables(ProblemForest(problem), &t));
+  PetscCall(HPSpaceGetTables(ProblemSpace(problem), &v));
+  *folded = (Folded){.det = PETSC_MAX_REAL};
+  PetscCall(PetscMalloc1(v->num_nodes * v->dim, &u));
+  PetscCall(ProblemLocalDisplacement(problem, x, u));
+  for (PetscInt c = 0; c < v->num_owned_cells; ++c) {
+    const PetscInt body = t->leaf_body[v->cell_leaf[c]];
+    if (scene->mechanics.bodies[body].material->law->rigid) continue;
+    PetscCall(Corners_Private(ProblemMechanics(problem), v->dim, c, u, &det, X));
+    folded->num += det <= 0;
+    if (det >= folded->det) continue;
+    folded->det  = det;
+    folded->body = body;
+    PetscCall(PetscArraycpy(folded->X, X, 3));
+  }
+  PetscCall(PetscFree(u));
+  worst.det = folded->det;
+  PetscCallMPI(MPI_Comm_rank(comm, &worst.rank));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &worst, 1, MPI_DOUBLE_INT, MPI_MINLOC, comm));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &folded->num, 1, MPIU_INT, MPI_SUM, comm));
+  folded->det = worst.det;
+  PetscCallMPI(MPI_Bcast(&folded->body, 1, MPIU_INT, worst.rank, comm));
+  PetscCallMPI(MPI_Bcast(folded->X, 3, MPIU_REAL, worst.rank, comm));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
