@@ -293,6 +293,9 @@ PetscErrorCode MechanicsBodyRotation(Mechanics, PetscInt body, PetscReal rotatio
 /* rotation.c. Rotation by the vector phi (radians): matrix, row-major; spin J dphi of a change of phi. */
 void RotationMatrix(const PetscReal phi[3], PetscReal R[9]);
 void RotationSpin(const PetscReal phi[3], PetscReal J[9]);
+/* The unit quaternion of the rotation that takes points nearest to others, S[3 i + j] = sum of x_i before times x_j after, about the centroids: the eigenvector
+   of the largest eigenvalue of Horn's matrix (J. Opt. Soc. Am. A 4, 1987, 629); in the plane of the rotations about z. *unique: there is one only. */
+PetscErrorCode RotationNearest(PetscInt dim, const PetscReal S[9], PetscReal q[4], PetscBool *unique);
 /* Displacement of the material point at X of a rigid body at the time last set. Not collective. */
 PetscErrorCode MechanicsBodyMotion(Mechanics, PetscInt body, const PetscReal X[3], PetscReal u[3]);
 

@@ -74,6 +74,9 @@ PetscErrorCode ProblemSetTime(Problem, PetscReal t);
 /* turn.c. Where supports go from where they are in x to where they are at the time last set by one rigid motion with a rotation: x is moved by it, and nothing
    of the motion is left to be put in. Collective. */
 PetscErrorCode ProblemTurn(Problem, Vec x, PetscBool *turned);
+/* rolling.c: the largest angle (radians) by which bodies that press on each other with friction turned against each other, not about the normal, from
+   displacements `from` (local array) to the solution x evaluated last. 0 with small kinematics, axisymmetric, or without friction. Collective. */
+PetscErrorCode ProblemRolls(Problem, const PetscReal from[], Vec x, PetscReal *angle);
 PetscErrorCode ProblemJump(Problem);
 /* How fast dead loads and follower pressures at x change from the time last set on: as a multiple of their mean change by t on the way there, 0 where they
    stay. Loads on rigid bodies are not looked at. Collective. */

@@ -1,6 +1,7 @@
 /* Finite rotations by a vector phi: by |phi| radians about it.  R = I + s [phi] + a [phi]^2,  s = sin t / t, a = (1 - cos t) / t^2, t = |phi|;  the spin of a
    change of phi is J dphi, J = I + a [phi] + b [phi]^2, b = (t - sin t) / t^3. */
 #include "mechanics.h"
+#include <petscblaslapack.h>
 
 #define SERIES 0.1 /* angle below which the series below are exact to round-off and the closed forms are not */
 
@@ -42,4 +43,28 @@ void RotationSpin(const PetscReal phi[3], PetscReal J[9])
   const Coefficients k = Coefficients_Private(phi);
 
   Polynomial_Private(k.a, k.b, phi, J);
+}
+
+PetscErrorCode RotationNearest(PetscInt dim, const PetscReal S[9], PetscReal q[4], PetscBool *unique)
+{
+  PetscReal    N[16] = {S[0] + S[4] + S[8], 0, 0,           0,           S[5] - S[7], S[0] - S[4] - S[8], 0, 0, S[6] - S[2], S[1] + S[3],
+                        S[4] - S[0] - S[8], 0, S[1] - S[3], S[6] + S[2], S[5] + S[7], S[8] - S[0] - S[4]};
+  PetscReal    w[4], work[32];
+  PetscBLASInt n = 4, size = 32, info;
+
+  PetscFunctionBegin;
+  if (dim == 2) {
+    const PetscReal angle = atan2(S[1] - S[3], S[0] + S[4]);
+
+    *unique = (PetscBool)(PetscSqr(S[1] - S[3]) + PetscSqr(S[0] + S[4]) > 0);
+    q[0]    = PetscCosReal(angle / 2);
+    q[1] = q[2] = 0;
+    q[3]        = PetscSinReal(angle / 2);
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
+  PetscCallBLAS("LAPACKsyev", LAPACKsyev_("V", "U", &n, N, &n, w, work, &size, &info));
+  PetscCheck(!info, PETSC_COMM_SELF, PETSC_ERR_LIB, "eigenvalues of a 4-square matrix: LAPACK says %d", (int)info);
+  *unique = (PetscBool)(w[3] - w[2] > ROUND_LENGTH * (w[3] - w[0]));
+  PetscCall(PetscArraycpy(q, N + 12, 4));
+  PetscFunctionReturn(PETSC_SUCCESS);
 }

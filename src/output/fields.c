@@ -131,6 +131,7 @@ const OutputField OutputSummaryFields[] = {
     {"descent_iterations", "", "iterations of descent on the energy"},
     {"refused_solutions", "", "solutions found that are none: bodies of a pair inside each other that bear nothing (-path_inside)"},
     {"passed_through", "", "and those for which a body went right through the other of such a pair (-path_through)"},
+    {"rolled_too_far", "", "load steps that were made again, shorter, for bodies rolled too far on each other in them (-path_rolling)"},
     {"stabilised", "", "unstable equilibria that gave way to stable ones (load.stable)"},
     {"unstable_equilibria", "", "equilibria kept though unstable; null: not known"},
     {"cells", "", CELLS_HELP},

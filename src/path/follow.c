@@ -1,6 +1,7 @@
 /* The one loop along which equilibria are found: attempt, accept, grow; or go back, recover, cut. What it follows is a PathMetric. */
 #include "path.h"
 
+#define MOST_ROLL 0.2     /* radians by which bodies may roll on each other in a load step: the way is wrong by 0.7 to 1.3 % then */
 #define EASY_ITERATIONS 6 /* a load step that took no more Newton iterations lets the next one grow */
 
 PetscErrorCode PathPrescribe(Problem problem, PetscReal t)
@@ -113,13 +114,39 @@ PetscErrorCode PathAttempt(Path *p, const PathLoop *loop, PetscReal to, SolverRe
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The next piece after one to s = next that was found; at once: not after one that failed. */
-static void Grow_Private(PathLoop *loop, PetscReal next, PetscBool at_once, const SolverReport *report)
+/* The next piece after one to s = next that was found; at once: not after one that failed. rolled: what bodies rolled on each other in it. */
+static void Grow_Private(PathLoop *loop, PetscReal next, PetscBool at_once, PetscReal rolled, const SolverReport *report)
 {
-  const PetscBool easy = (PetscBool)(!loop->metric->load || report->iterations <= EASY_ITERATIONS);
+  const PetscBool easy   = (PetscBool)(!loop->metric->load || report->iterations <= EASY_ITERATIONS);
+  const PetscReal growth = rolled * loop->metric->growth > MOST_ROLL ? 1 : loop->metric->growth;
 
   loop->s = next;
-  if (at_once && easy) loop->piece = PetscMin(loop->metric->growth * loop->piece, loop->most);
+  if (at_once && easy) loop->piece = PetscMin(growth * loop->piece, loop->most);
+}
+
+/* How far did bodies roll from displacements `from` to level->state? */
+static PetscErrorCode Rolled_Private(Path *p, const PathLoop *loop, const PetscReal from[], PetscReal *rolled)
+{
+  PetscFunctionBegin;
+  *rolled = 0;
+  if (loop->metric == &PathTime && p->refusal[PATH_ROLLING].mode != RECOVERY_OFF) PetscCall(ProblemRolls(p->level->problem, from, p->level->state.x, rolled));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* A piece to s = next in which bodies rolled too far on each other is made again, as much shorter as it takes; *again: it is, not where it would be too short.
+   The step is no harder for it: it is not one that failed. */
+static void Shorten_Private(Path *p, PathLoop *loop, PetscReal next, PetscReal rolled, PetscBool *again)
+{
+  PetscReal piece = next - loop->s;
+
+  *again = (PetscBool)(rolled > MOST_ROLL);
+  for (; rolled > MOST_ROLL; rolled *= loop->metric->cut) piece *= loop->metric->cut;
+  if (piece < loop->least) *again = PETSC_FALSE;
+  if (!*again) return;
+  loop->piece = piece;
+  ++p->refusal[PATH_ROLLING].num;
+  ++p->step_cuts;
+  ++p->cuts_in_step;
 }
 
 /* The next piece after one to s = next that was not. */
@@ -129,6 +156,21 @@ static void Cut_Private(Path *p, PathLoop *loop, PetscReal next)
   if (!loop->metric->load) return;
   ++p->step_cuts;
   ++p->cuts_in_step;
+}
+
+/* Attempts and recoveries of one piece, to s = next. On return `from` are the displacements that it set out from, for the caller to free. */
+static PetscErrorCode Piece_Private(Path *p, const PathLoop *loop, PetscReal next, const State *start, PetscReal **from, PetscBool *recovered,
+                                    SolverReport *report)
+{
+  PetscFunctionBegin;
+  *recovered = PETSC_FALSE;
+  PetscCall(PathFrom(p, from));
+  PetscCall(PathAttempt(p, loop, next, report));
+  if (report->converged) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(PathRestore(p, start));
+  if (loop->step && !p->stopped) PetscCall(PathRecover(p, loop, next, NULL, report));
+  *recovered = report->converged;
+  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode PathFollow(Path *p, PathLoop *loop, SolverReport *report)
@@ -142,18 +184,25 @@ PetscErrorCode PathFollow(Path *p, PathLoop *loop, SolverReport *report)
   PetscCall(StateCopy(&l->state, &start));
   while (!done) {
     const PetscReal next = loop->metric->end(p, loop);
-    PetscCall(PathAttempt(p, loop, next, report));
+    PetscReal      *from, rolled     = 0;
+    PetscBool       recovered, again = PETSC_FALSE;
+    PetscCall(Piece_Private(p, loop, next, &start, &from, &recovered, report));
     if (report->converged) {
-      Grow_Private(loop, next, at_once, report);
+      PetscCall(Rolled_Private(p, loop, from, &rolled));
+      Shorten_Private(p, loop, next, rolled, &again);
+      if (again) PetscCall(PathRestore(p, &start));
+    }
+    PetscCall(PetscFree(from));
+    if (again) continue;
+    if (recovered) break;
+    if (report->converged) {
+      Grow_Private(loop, next, at_once, rolled, report);
       at_once = PETSC_TRUE;
       done    = (PetscBool)(loop->step || loop->s >= loop->stop);
       if (!done && loop->metric->load) PetscCall(StateCommit(l->problem, &l->state)); /* the last piece stays open until the step is accepted */
       if (!done) PetscCall(StateCopy(&l->state, &start));
       continue;
     }
-    PetscCall(PathRestore(p, &start));
-    if (loop->step && !p->stopped) PetscCall(PathRecover(p, loop, next, NULL, report));
-    if (report->converged) break;
     if (!p->stopped) Cut_Private(p, loop, next);
     at_once = PETSC_FALSE;
     done    = (PetscBool)(loop->piece < loop->least || p->stopped || --loop->attempts == 0);

@@ -2,7 +2,6 @@
    another state: one with friction that has slipped, or a fold. So where the whole of what is prescribed is one rigid motion with a rotation, however it was
    written, a step starts from the last state moved so. */
 #include "problemimpl.h"
-#include <petscblaslapack.h>
 
 typedef struct {
   PetscReal from[3], to[3], R[9]; /* x -> to + R (x - from) */
@@ -41,32 +40,6 @@ static PetscErrorCode Sum_Private(Problem p, const PetscReal u[], const Motion *
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The unit quaternion of the rotation that takes points nearest to others, S their products about the centroids: the eigenvector of the largest eigenvalue of
-   Horn's matrix (J. Opt. Soc. Am. A 4, 1987, 629); in the plane of the rotations about z. *unique: there is one only. */
-static PetscErrorCode Quaternion_Private(PetscInt dim, const PetscReal S[9], PetscReal q[4], PetscBool *unique)
-{
-  PetscReal    N[16] = {S[0] + S[4] + S[8], 0, 0,           0,           S[5] - S[7], S[0] - S[4] - S[8], 0, 0, S[6] - S[2], S[1] + S[3],
-                        S[4] - S[0] - S[8], 0, S[1] - S[3], S[6] + S[2], S[5] + S[7], S[8] - S[0] - S[4]};
-  PetscReal    w[4], work[32];
-  PetscBLASInt n = 4, size = 32, info;
-
-  PetscFunctionBegin;
-  if (dim == 2) {
-    const PetscReal angle = atan2(S[1] - S[3], S[0] + S[4]);
-
-    *unique = (PetscBool)(PetscSqr(S[1] - S[3]) + PetscSqr(S[0] + S[4]) > 0);
-    q[0]    = PetscCosReal(angle / 2);
-    q[1] = q[2] = 0;
-    q[3]        = PetscSinReal(angle / 2);
-    PetscFunctionReturn(PETSC_SUCCESS);
-  }
-  PetscCallBLAS("LAPACKsyev", LAPACKsyev_("V", "U", &n, N, &n, w, work, &size, &info));
-  PetscCheck(!info, PETSC_COMM_SELF, PETSC_ERR_LIB, "eigenvalues of a 4-square matrix: LAPACK says %d", (int)info);
-  *unique = (PetscBool)(w[3] - w[2] > ROUND_LENGTH * (w[3] - w[0]));
-  PetscCall(PetscArraycpy(q, N + 12, 4));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 /* The rigid motion nearest to that of the supports from u to their target. *turns: there is one, and it has a rotation. Collective. */
 static PetscErrorCode Motion_Private(Problem p, const PetscReal u[], Motion *m, PetscBool *turns)
 {
@@ -82,7 +55,7 @@ static PetscErrorCode Motion_Private(Problem p, const PetscReal u[], Motion *m, 
     m->to[i]   = sum[4 + i] / sum[0];
   }
   PetscCall(Sum_Private(p, u, m, sum));
-  PetscCall(Quaternion_Private(p->tables->dim, sum + 7, q, turns));
+  PetscCall(RotationNearest(p->tables->dim, sum + 7, q, turns));
   length = PetscSqrtReal(Dot3(q + 1, q + 1));
   *turns = (PetscBool)(*turns && length > ROUND_LENGTH && sum[16] > PetscSqr(ROUND_LENGTH * p->extent) * sum[0]); /* nodes at one place tell of none */
   if (!*turns) PetscFunctionReturn(PETSC_SUCCESS);
