@@ -21,6 +21,10 @@ typedef struct {
   PetscReal norm;        /* energy-like norm of the solution: sqrt(2 * strain energy) */
   PetscReal relative;    /* total / sqrt(norm^2 + total^2) */
   PetscReal part[5];     /* squared shares: interior, jumps, boundary, contact, incompressibility */
+  struct {
+    PetscReal share, depth; /* over the size of the facet over its order; absolute. 0: there is none */
+    PetscInt  pair;         /* of ContactSpec.pair */
+  } overlap;                /* the deepest overlap of sides of a pair that bears nothing, at a point: contact that no node has seen */
 } Estimate;
 
 /* Indicators at a converged state whose prescribed motion the problem stands at; evaluates the residual when there is contact. Collective. */

@@ -113,6 +113,8 @@ PetscErrorCode AppReason(App *, const char **reason);
 /* repeat.c: is the mesh to be adapted at all? Is there stress of which an error can be estimated? Not collective. */
 PetscBool AppIsAdaptive(const App *);
 PetscBool AppIsStressed(const App *);
+/* Do the sides of a pair that bears nothing overlap, so little that no node has seen it? By the last estimate. */
+PetscBool AppOverlaps(const App *);
 /* A load step of a path that may be computed again was solved and its error estimated. */
 PetscErrorCode AppRemember(App *);
 /* At the end of the path: begin again, at rest at t = 0 on a finer mesh, where a step was above the tolerance and no limit is met; the results of the path are

@@ -14,7 +14,12 @@ PetscBool AppIsAdaptive(const App *app)
 
 PetscBool AppIsStressed(const App *app)
 {
-  return (PetscBool)(app->path.status.scale > STRESSED * app->path.status.noise);
+  return (PetscBool)(app->path.status.scale > STRESSED * app->path.status.noise || AppOverlaps(app));
+}
+
+PetscBool AppOverlaps(const App *app)
+{
+  return (PetscBool)(app->estimated && app->estimate.overlap.share > ROUND_LENGTH);
 }
 
 PetscErrorCode AppRemember(App *app)

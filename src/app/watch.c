@@ -177,9 +177,28 @@ static PetscErrorCode WarnFolded_Private(App *app)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Contact at the end that cells are too coarse for. */
+static PetscErrorCode WarnOverlap_Private(App *app)
+{
+  const PetscInt pair = app->estimate.overlap.pair;
+  const char    *name = "";
+
+  PetscFunctionBegin;
+  if (!AppOverlaps(app)) PetscFunctionReturn(PETSC_SUCCESS);
+  app->touched[pair] = PetscMax(app->touched[pair], app->load_steps);
+  for (PetscInt i = 0; i < app->data->num_contacts; ++i)
+    if (app->data->contacts[i].pair == pair) name = app->data->contacts[i].name;
+  PetscCall(WarningAdd(app->comm,
+                       "the sides of pair %s overlap by %.3g at the end, between nodes, and bear nothing: cells are too coarse there to see it; take smaller "
+                       "ones, or let them be refined (adapt.tolerance)",
+                       name, (double)app->estimate.overlap.depth));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode AppWarn(App *app)
 {
   PetscFunctionBegin;
+  PetscCall(WarnOverlap_Private(app));
   PetscCall(WarnFolded_Private(app));
   PetscCall(WarnAdrift_Private(app));
   PetscCall(WarnFlow_Private(app));

@@ -156,6 +156,16 @@ static PetscErrorCode KeepSegments_Private(PetscInt num, ContactSegment *all, Co
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Does a pair bear nothing where it could? */
+static PetscErrorCode IsBare_Private(MPI_Comm comm, const ContactView *v, PetscBool *bare)
+{
+  PetscFunctionBegin;
+  *bare = (PetscBool)(v->spec->law != CONTACT_TIED && !v->spec->adjust && v->open == 0);
+  for (PetscInt j = 0; j < v->nonmortar.num_nodes; ++j) *bare = (PetscBool)(*bare && (!v->nonmortar.owned[j] || v->z[j] == 0));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, bare, 1, MPIU_BOOL, MPI_LAND, comm));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode ContactTermsCreate_Private(Problem problem, ContactTerms *terms)
 {
   const SceneData    *scene;
@@ -175,6 +185,7 @@ PetscErrorCode ContactTermsCreate_Private(Problem problem, ContactTerms *terms)
     ContactSegment *all;
     PetscInt        num;
     PetscCall(InterfaceGetContact(ProblemInterface(problem), i, &term->view));
+    PetscCall(IsBare_Private(ForestComm(forest), term->view, &term->bare));
     PetscCall(FacetPlaces_Private(t, &term->view->nonmortar, &term->facet_place[0]));
     PetscCall(FacetPlaces_Private(t, &term->view->mortar, &term->facet_place[1]));
     PetscCall(GatherSegments_Private(ForestComm(forest), t, term->view, &num, &all));

@@ -34,6 +34,7 @@ typedef struct {
 /* Which contact facet a facet of the mesh is, and what presses on this rank's facets; built from the views of the problem. */
 typedef struct {
   const ContactView *view;
+  PetscBool          bare;           /* it bears nothing, and overlap counts as such: it is not tied, and no gap counts as closed */
   PetscReal         *theta;          /* owned [nonmortar num_facets] share of the dual functions, of the facets as below */
   PetscReal         *z, *normal, *x; /* owned [nonmortar num_nodes], [..][dim]: at the nodes of nonmortar facets of this rank, or that its mortar facets face */
   PetscReal         *traction;       /* owned [nonmortar num_nodes][3] friction in space: on the mortar side; else NULL */
@@ -88,6 +89,8 @@ typedef struct {
   PetscReal *eta2;        /* [num_leaves] sums of this rank */
   PetscReal (*along)[3];  /* [num_leaves] sums of this rank: eta2 that can be told to come from each axis; NULL: not wanted */
   PetscReal part[NUM_PARTS], energy;
+  PetscReal overlap[2]; /* of this rank: deepest overlap of a pair that bears nothing, over the size of the facet, and absolute */
+  PetscInt  overlap_pair;
 } EstimateSum;
 
 /* Fill space, mechanics, spec, contact, time, u, eta2 and along (zeroed); get this rank's sums. Collective where there is contact. */

@@ -228,6 +228,26 @@ static PetscErrorCode AddPoint_Private(const EstimateSum *sum, const ContactTerm
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Surfaces that touch at one point first do so at a corner of one of them, where no Gauss point is: while nothing bears, an overlap there counts as an end of
+   the Gauss-Lobatto rule of the next order would. */
+static PetscErrorCode AddCorners_Private(const EstimateSum *sum, const ContactTerm *term, const ContactSegment *segment, const PetscReal mean[2], GapPoints *to)
+{
+  const PetscInt n       = NumPoints_Private(&term->view->nonmortar, segment->facet);
+  PetscReal      measure = segment->num == 2 ? PetscAbsReal(segment->xi[1][0] - segment->xi[0][0]) : 0;
+
+  PetscFunctionBegin;
+  for (PetscInt k = 1; k + 1 < segment->num; ++k) {
+    const PetscReal *p = segment->xi[0], *q = segment->xi[k], *r = segment->xi[k + 1];
+    measure += PetscAbsReal((q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0])) / 2;
+  }
+  measure /= (PetscReal)(n * (n + 1));
+  for (PetscInt k = 0; k < segment->num; ++k) {
+    PetscReal eta[2] = {segment->eta[k][0], segment->eta[k][1]};
+    PetscCall(AddPoint_Private(sum, term, segment, mean, segment->xi[k], eta, measure, to));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* Triangle k of the fan that a polygon is: a square with one side drawn together. */
 static PetscErrorCode AddTriangle_Private(const EstimateSum *sum, const ContactTerm *term, const ContactSegment *segment, PetscInt k, const PetscReal mean[2],
                                           GapPoints *to)
@@ -289,6 +309,7 @@ PetscErrorCode GapPointsFind_Private(const EstimateSum *sum, const ContactTerm *
     }
     if (segments[i].num == 2) PetscCall(AddPart_Private(sum, term, &segments[i], mean, points));
     for (PetscInt k = 1; k + 1 < segments[i].num; ++k) PetscCall(AddTriangle_Private(sum, term, &segments[i], k, mean, points));
+    if (term->bare) PetscCall(AddCorners_Private(sum, term, &segments[i], mean, points));
   }
   if (IsAdjusted_Private(term) && !IsTied_Private(term)) Adjust_Private(points);
   if (IsTied_Private(term) && term->view->spec->close) Close_Private(points);

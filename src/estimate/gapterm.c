@@ -88,12 +88,24 @@ static PetscReal Square_Private(const GapPoint *p, PetscBool ties, PetscReal s)
   return s * PetscSqr(PetscMin(PetscMax(gap - PetscMax(p->nodal, 0), 0), p->pressure / s));
 }
 
+/* Overlap that no node of the pair has seen. */
+static void Overlap_Private(EstimateSum *sum, const ContactTerm *term, PetscReal size, const GapPoints *points)
+{
+  for (PetscInt i = 0; i < points->num && term->bare; ++i) {
+    if (!(-points->points[i].gap > sum->overlap[0] * size)) continue;
+    sum->overlap[0]   = -points->points[i].gap / size;
+    sum->overlap[1]   = -points->points[i].gap;
+    sum->overlap_pair = term->view->spec->pair;
+  }
+}
+
 static void Facet_Private(EstimateSum *sum, const ContactTerm *term, PetscInt facet, const GapPoints *points, BulgeWork *work)
 {
   const PetscInt  leaf = term->view->nonmortar.facet_leaf[facet];
   const PetscReal size = ContactFacetSize_Private(&term->view->nonmortar, facet), bend = Bend_Private(points);
   PetscReal       gaps = 0;
 
+  Overlap_Private(sum, term, size, points);
   for (PetscInt i = 0; i < points->num; ++i) gaps += points->points[i].weight * PetscSqr(points->points[i].gap);
   for (PetscInt i = 0; i < points->num; ++i) {
     const GapPoint *p             = &points->points[i];

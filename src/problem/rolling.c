@@ -82,9 +82,9 @@ static PetscErrorCode Bodies_Private(Problem p, PetscInt pair, PetscInt num, Pet
 static PetscErrorCode Pair_Private(Problem p, PetscInt pair, const PetscReal q[], PetscReal *angle)
 {
   const PetscInt  num = p->scene->mechanics.num_bodies;
-  PetscReal      force[3], moment[3];
+  PetscReal       force[3], moment[3];
   FrictionFigures friction;
-  PetscInt      *has;
+  PetscInt       *has;
 
   PetscFunctionBegin;
   PetscCall(InterfaceFriction(p->interface, pair, &friction));

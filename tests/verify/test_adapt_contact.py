@@ -141,3 +141,26 @@ def test_hp_with_contact_faces_of_full_order(run):
     centre = state["X"][state["cells"]].mean(axis=1)
     inside = (np.abs(centre[:, 1]) < 0.03) & (np.abs(centre[:, 0]) < 0.5 * radius)
     assert order[inside].max() >= 4, order[inside]
+
+
+# An overlap so shallow that no weighted gap of the first mesh is negative: (scene, axis, tolerance, force of order 3 on the same mesh, adapted alike)
+SHALLOW = {2: ("inputs/hertz2d.yml", "y", 0.05, 8.6902e-05), 3: ("inputs/hertz3d.yml", "z", 0.1, 1.8814e-06)}
+
+
+@pytest.mark.parametrize("dim,ranks", [(2, 1), (2, 2), (3, 1)])
+def test_contact_between_nodes(run, dim, ranks):
+    """The estimate sees an overlap that no node does, in bodies that are free of stress: cells there are refined until contact bears."""
+    scene, axis, tolerance, exact = SHALLOW[dim]
+    result = run(scene, "-order", 2, f"-boundary_top_displacement_{axis}", "-0.0005*t", "-adapt_tolerance", tolerance, ranks=ranks)
+    assert result.solved and result.summary["estimated_error"] < tolerance and not result.summary["warnings"], result
+    assert -result.summary["reaction"]["top"][dim - 1] == pytest.approx(exact, rel=0.003)
+    assert result.adapt[0]["active_nodes"] == 0 and result.adapt[0]["estimated_error"] == 1
+
+
+@pytest.mark.parametrize("ranks", [1, 2])
+def test_contact_between_nodes_is_told(run, ranks):
+    """Without adaptation it is told, and nobody says that the sides are apart."""
+    result = run("inputs/hertz2d.yml", "-order", 2, "-boundary_top_displacement_y", "-0.0005*t", "-adapt_tolerance", 0, ranks=ranks)
+    assert any("the sides of pair disc_on_block overlap by 0.0005 at the end, between nodes" in words for words in result.summary["warnings"]), result
+    assert "have not touched" not in result.stdout and "contact" not in result.summary["needs"], result
+
