@@ -228,8 +228,8 @@ static PetscErrorCode AddPoint_Private(const EstimateSum *sum, const ContactTerm
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Surfaces that touch at one point first do so at a corner of one of them, where no Gauss point is: while nothing bears, an overlap there counts as an end of
-   the Gauss-Lobatto rule of the next order would. */
+/* Surfaces that touch at one point first do so at a corner of one of them, where no Gauss point is. While nothing bears, overlap there is as deep as it is, and
+   where Gauss points see none, it counts as an end of the Gauss-Lobatto rule of the next order would. */
 static PetscErrorCode AddCorners_Private(const EstimateSum *sum, const ContactTerm *term, const ContactSegment *segment, const PetscReal mean[2], GapPoints *to)
 {
   const PetscInt n       = NumPoints_Private(&term->view->nonmortar, segment->facet);
@@ -240,7 +240,7 @@ static PetscErrorCode AddCorners_Private(const EstimateSum *sum, const ContactTe
     const PetscReal *p = segment->xi[0], *q = segment->xi[k], *r = segment->xi[k + 1];
     measure += PetscAbsReal((q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0])) / 2;
   }
-  measure /= (PetscReal)(n * (n + 1));
+  measure *= (counts ? 1. : 0.) / (PetscReal)(n * (n + 1));
   for (PetscInt k = 0; k < segment->num; ++k) {
     PetscReal eta[2] = {segment->eta[k][0], segment->eta[k][1]};
     PetscCall(AddPoint_Private(sum, term, segment, mean, segment->xi[k], eta, measure, to));
@@ -299,18 +299,21 @@ static void Adjust_Private(GapPoints *points)
 
 PetscErrorCode GapPointsFind_Private(const EstimateSum *sum, const ContactTerm *term, PetscInt num, const ContactSegment segments[], GapPoints *points)
 {
+  PetscReal mean[2] = {0, 0};
+  PetscBool unseen  = term->bare;
+
   PetscFunctionBegin;
   points->num = 0;
   for (PetscInt i = 0; i < num; ++i) {
-    PetscReal mean[2] = {0, 0};
     if (!IsAdjusted_Private(term)) {
       PetscCall(MeanBulge_Private(sum, &term->view->nonmortar, segments[i].facet, &mean[0]));
       PetscCall(MeanBulge_Private(sum, &term->view->mortar, segments[i].mortar_facet, &mean[1]));
     }
     if (segments[i].num == 2) PetscCall(AddPart_Private(sum, term, &segments[i], mean, points));
     for (PetscInt k = 1; k + 1 < segments[i].num; ++k) PetscCall(AddTriangle_Private(sum, term, &segments[i], k, mean, points));
-    if (term->bare) PetscCall(AddCorners_Private(sum, term, &segments[i], mean, points));
   }
+  for (PetscInt i = 0; i < points->num; ++i) unseen = (PetscBool)(unseen && points->points[i].gap >= 0);
+  for (PetscInt i = 0; i < num && term->bare; ++i) PetscCall(AddCorners_Private(sum, term, &segments[i], unseen, mean, points));
   if (IsAdjusted_Private(term) && !IsTied_Private(term)) Adjust_Private(points);
   if (IsTied_Private(term) && term->view->spec->close) Close_Private(points);
   for (PetscInt i = 0; i < points->num && IsTied_Private(term); ++i)
