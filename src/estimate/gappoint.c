@@ -230,7 +230,8 @@ static PetscErrorCode AddPoint_Private(const EstimateSum *sum, const ContactTerm
 
 /* Surfaces that touch at one point first do so at a corner of one of them, where no Gauss point is. While nothing bears, overlap there is as deep as it is, and
    where Gauss points see none, it counts as an end of the Gauss-Lobatto rule of the next order would. */
-static PetscErrorCode AddCorners_Private(const EstimateSum *sum, const ContactTerm *term, const ContactSegment *segment, const PetscReal mean[2], GapPoints *to)
+static PetscErrorCode AddCorners_Private(const EstimateSum *sum, const ContactTerm *term, const ContactSegment *segment, PetscBool counts,
+                                         const PetscReal mean[2], GapPoints *to)
 {
   const PetscInt n       = NumPoints_Private(&term->view->nonmortar, segment->facet);
   PetscReal      measure = segment->num == 2 ? PetscAbsReal(segment->xi[1][0] - segment->xi[0][0]) : 0;
