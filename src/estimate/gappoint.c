@@ -115,6 +115,16 @@ static PetscBool IsAdjusted_Private(const ContactTerm *term)
   return (PetscBool)(IsTied_Private(term) || term->view->spec->adjust || term->view->open > 0);
 }
 
+/* What of the gap at the start counts as none, as the nodes show it. */
+static PetscReal Start_Private(const ContactView *v, PetscInt facet, const PetscReal N[])
+{
+  const PetscInt *node, num = SurfaceFacetNodes(&v->nonmortar, facet, &node);
+  PetscReal       start = 0;
+
+  for (PetscInt a = 0; a < num; ++a) start += N[a] * v->start[node[a]];
+  return (v->spec->adjust ? 1 : v->open) * start;
+}
+
 /* Gap and height of the mortar side at a point. */
 static void Gap_Private(const EstimateSum *sum, const ContactTerm *term, const ContactSegment *segment, const PetscReal N[], PetscReal eta[2], GapPoint *p)
 {
@@ -132,7 +142,7 @@ static void Gap_Private(const EstimateSum *sum, const ContactTerm *term, const C
   ContactShape_Private(s, segment->facet, center, M);
   ContactNormal_Private(term, finite, segment->facet, center, M, middle);
   p->gap = finite ? Dot3(n, y) - Dot3(n, x) : LinearGap_Private(m, segment->mortar_facet, eta, n, X, x);
-  p->gap -= term->view->interference;
+  p->gap -= term->view->interference + Start_Private(term->view, segment->facet, N);
   p->height = Dot3(middle, y);
 }
 

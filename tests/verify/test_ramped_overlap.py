@@ -90,9 +90,10 @@ def test_half_way_on_other_ranks(run, tmp_path):
     same(solve(run, scene, "-restart", first.directory / "checkpoint.h5", ranks=2), whole)
 
 
-def test_adapted_on_the_way(run, tmp_path):
-    """The estimate knows how much of an overlap counts: blocks pressed flat on each other are as accurate in the middle of the ramp as at its end."""
-    scene = blocks(tmp_path, overlap=0.04)
+@pytest.mark.parametrize("tilt", [0, 0.06])
+def test_adapted_on_the_way(run, tmp_path, tilt):
+    """The estimate knows how much of an overlap counts, at each place: blocks are as accurate in the middle of the ramp as at its end."""
+    scene = blocks(tmp_path, overlap=0.04, tilt=tilt)
     scene |= {"adapt": {"tolerance": 0.5}, "contact": {"c": scene["contact"]["c"] | {"initial_gap": "ramp"}}}
     scene["load"]["step"] = 0.25
     errors = [row["estimated_error"] for row in solve(run, scene).history]
