@@ -8,6 +8,9 @@
 
      r = min(g - gn, z/s)
 
+   Bodies that yield as a whole, as slender ones do, rather move apart by the deepest overlap of a facet: the squares of overlap there are no more than twice
+   the work of the facet's force on it.
+
    A tied pair: r = g is the size of the distance of both surfaces' material points, all of it.
 
    gn: the gap that the nodes show, which EstimateComplementarity_Private has; no gap takes more than the pressure that closes it does.
@@ -78,14 +81,44 @@ static PetscReal MortarShare_Private(const ContactTerm *term, const GapPoint *p,
   return whole > 0 ? (coarser * PetscMax(softer, bend) * gap + bulge[1]) / whole : 0;
 }
 
+/* The gap with exact geometry. */
+static PetscReal Gap_Private(const GapPoint *p)
+{
+  return p->pressure > 0 ? p->gap - (p->bulge[0] - p->mean[0]) - (p->bulge[1] - p->mean[1]) : p->gap;
+}
+
 /* s r^2 at a point, per weight. */
 static PetscReal Square_Private(const GapPoint *p, PetscBool ties, PetscReal s)
 {
   if (ties) return s * PetscSqr(p->gap);
-  const PetscReal gap = p->pressure > 0 ? p->gap - (p->bulge[0] - p->mean[0]) - (p->bulge[1] - p->mean[1]) : p->gap;
+  const PetscReal gap = Gap_Private(p);
 
   if (gap < 0) return s * PetscSqr(gap);
   return s * PetscSqr(PetscMin(PetscMax(gap - PetscMax(p->nodal, 0), 0), p->pressure / s));
+}
+
+/* s at a point, of the cells on either side; 0: both are rigid, there is no energy. compliance[2]: of either. */
+static PetscReal Stiffness_Private(const EstimateSum *sum, const ContactTerm *term, const GapPoint *p, PetscReal size, PetscReal compliance[2])
+{
+  compliance[0] = EstimateCompliance_Private(sum, term->view->nonmortar.facet_leaf[p->segment->facet]);
+  compliance[1] = EstimateCompliance_Private(sum, term->view->mortar.facet_leaf[p->segment->mortar_facet]);
+  return compliance[0] + compliance[1] == 0 ? 0 : PETSC_PI / (size * (compliance[0] + compliance[1]));
+}
+
+/* The share of the squares of overlap on a facet that counts: bodies that yield as a whole, as slender ones do, rather move apart by the deepest overlap, which
+   takes the work of the facet's force on it. */
+static PetscReal Yield_Private(const EstimateSum *sum, const ContactTerm *term, PetscReal size, const GapPoints *points)
+{
+  PetscReal force = 0, deepest = 0, squares = 0, compliance[2];
+
+  for (PetscInt i = 0; i < points->num; ++i) {
+    const GapPoint *p   = &points->points[i];
+    const PetscReal gap = PetscMin(Gap_Private(p), 0);
+    force += p->weight * p->pressure;
+    deepest = PetscMax(deepest, -gap);
+    squares += p->weight * Stiffness_Private(sum, term, p, size, compliance) * PetscSqr(gap);
+  }
+  return force > 0 && squares > 2 * force * deepest ? 2 * force * deepest / squares : 1;
 }
 
 /* Overlap that no node of the pair has seen. */
@@ -103,16 +136,18 @@ static void Facet_Private(EstimateSum *sum, const ContactTerm *term, PetscInt fa
 {
   const PetscInt  leaf = term->view->nonmortar.facet_leaf[facet];
   const PetscReal size = ContactFacetSize_Private(&term->view->nonmortar, facet), bend = Bend_Private(points);
-  PetscReal       gaps = 0;
+  const PetscBool ties  = (PetscBool)(term->view->spec->law == CONTACT_TIED);
+  const PetscReal yield = ties ? 1 : Yield_Private(sum, term, size, points);
+  PetscReal       gaps  = 0, compliance[2];
 
   Overlap_Private(sum, term, size, points);
   for (PetscInt i = 0; i < points->num; ++i) gaps += points->points[i].weight * PetscSqr(points->points[i].gap);
   for (PetscInt i = 0; i < points->num; ++i) {
-    const GapPoint *p             = &points->points[i];
-    const PetscInt  other         = term->view->mortar.facet_leaf[p->segment->mortar_facet];
-    const PetscReal compliance[2] = {EstimateCompliance_Private(sum, leaf), EstimateCompliance_Private(sum, other)}, both = compliance[0] + compliance[1];
-    if (both == 0) continue; /* both rigid: no energy; what is not a number is to show */
-    const PetscReal square = p->weight * Square_Private(p, (PetscBool)(term->view->spec->law == CONTACT_TIED), PETSC_PI / (size * both));
+    const GapPoint *p     = &points->points[i];
+    const PetscInt  other = term->view->mortar.facet_leaf[p->segment->mortar_facet];
+    const PetscReal s     = Stiffness_Private(sum, term, p, size, compliance);
+    if (s == 0) continue; /* what is not a number is to show */
+    const PetscReal square = p->weight * Square_Private(p, ties, s) * (!ties && Gap_Private(p) < 0 ? yield : 1);
     const PetscReal share  = MortarShare_Private(term, p, compliance, gaps > bend ? bend / gaps : 1);
     sum->eta2[leaf] += (1 - share) * square;
     sum->eta2[other] += share * square;

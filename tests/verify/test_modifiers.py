@@ -18,7 +18,7 @@ NEEDED = [  # modifier, figure of summary.json, how many times as large it is wi
     ("first_touch", "factorisations", 1.5, DRIVEN),
     ("yield_edge", "newton_iterations", 1.3, ("inputs/necking.yml", "-load_end", 0.1)),
     ("stall", "factorisations", 2, ("tests/gauntlet/upset_strip.yml", "-adapt_tolerance", 0, "-load_step", 0.1, "-newton_line_search", "off")),
-    ("secant_flow", None, None, ("tests/gauntlet/upset.yml", "-load_end", 0.16, "-load_step", 0.08, "-load_step_min", 0.08, "-path_predictor", "off")),
+    ("secant_flow", None, None, ("tests/gauntlet/upset.yml", "-load_end", 0.2, "-load_step_min", 0.05)),
     ("line_search", "newton_iterations", 2, ("tests/gauntlet/upset.yml", "-load_end", 0.05)),
     ("carried_force", "newton_iterations", 2, ("tests/gauntlet/plate_drawn.yml", *EXACT)),
     ("frozen_normals", "newton_iterations", 2, ("tests/verify/scenes/pressed_cylinder.yml", "-load_step", 1, "-body_plate_motion_y", 0.13)),
