@@ -93,8 +93,9 @@ typedef struct {
   PetscReal det, X[3]; /* least det F at a corner, and where, at the reference position */
 } Folded;
 
-/* folded.c: at a solution x, the same on every rank. Means nothing with small kinematics. Collective. */
-PetscErrorCode FoldedFind(Problem, Vec x, Folded *);
+/* folded.c: at a solution x, the same on every rank; leaf[num_leaves]: those of these cells (NULL: not wanted). Means nothing with small kinematics.
+   Collective. */
+PetscErrorCode FoldedFind(Problem, Vec x, Folded *, int8_t leaf[]);
 
 /* Figures of one pass or accepted step, also the rows of adapt.csv and history.csv. */
 typedef struct {

@@ -177,6 +177,29 @@ PetscErrorCode AppLayers(App *app, const Estimate *e, MarkList *layers)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* A cell that is turned inside out at a corner is at a place where strains grow without bound, as at the end of a bonded edge: smaller ones there are folded
+   even more. It is not split while others are to be. */
+static PetscErrorCode LeaveFolded_Private(App *app, PetscInt num_leaves, MarkList *list)
+{
+  PetscInt others = 0, left = 0;
+  int8_t  *leaf;
+  Folded   folded;
+
+  PetscFunctionBegin;
+  if (app->data->mechanics.kinematics == KINEMATICS_SMALL || app->path.recovery[PATH_UNFOLDED].mode == RECOVERY_OFF) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(PetscMalloc1(num_leaves, &leaf));
+  PetscCall(FoldedFind(app->level.problem, app->level.state.x, &folded, leaf));
+  for (PetscInt l = 0; l < num_leaves; ++l) {
+    others += list->split[l] && !leaf[l];
+    left += list->split[l] && leaf[l];
+  }
+  for (PetscInt l = 0; l < num_leaves && others > 0; ++l)
+    if (leaf[l]) list->split[l] = 0;
+  if (others > 0) app->path.folded_left += left;
+  PetscCall(PetscFree(leaf));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode AppRefine(App *app, const Estimate *e, MarkList *layers, RefineMode mode, PetscBool *adapted, PetscBool *refused)
 {
   const ForestTables *t;
@@ -194,6 +217,7 @@ PetscErrorCode AppRefine(App *app, const Estimate *e, MarkList *layers, RefineMo
     PetscCall(EstimateMark(e, &app->data->adapt, app->level.forest, &list, order, &marked));
   else if (order)
     PetscCall(PetscArraycpy(order, app->level.state.leaf_order, t->num_leaves));
+  if (!layers->split && mode != REFINE_AFRESH) PetscCall(LeaveFolded_Private(app, t->num_leaves, &list));
   for (PetscInt l = 0; order && l < t->num_leaves; ++l) weight[l] = PetscPowInt(order[l], t->dim);
   if (marked == 0) app->adapt_stop = e->num_leaves >= app->data->adapt.max_cells / 2 ? "max_cells" : NOTHING_LEFT;
   while (marked > 0 && more) {

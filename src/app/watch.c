@@ -112,7 +112,7 @@ static PetscErrorCode WatchFolded_Private(App *app)
   PetscFunctionBegin;
   if (app->load_steps == 1) app->folded.num = 0;
   if (app->data->mechanics.kinematics == KINEMATICS_SMALL) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(FoldedFind(app->level.problem, app->level.accepted.x, &folded));
+  PetscCall(FoldedFind(app->level.problem, app->level.accepted.x, &folded, NULL));
   if (folded.num < PetscMax(1, app->folded.num)) PetscFunctionReturn(PETSC_SUCCESS);
   app->folded   = folded;
   app->folded_t = app->level.accepted.t;

@@ -21,7 +21,7 @@ static PetscErrorCode Corners_Private(Mechanics mechanics, PetscInt dim, PetscIn
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode FoldedFind(Problem problem, Vec x, Folded *folded)
+PetscErrorCode FoldedFind(Problem problem, Vec x, Folded *folded, int8_t leaf[])
 {
   const SceneData    *scene;
   const ForestTables *t;
@@ -38,6 +38,7 @@ PetscErrorCode FoldedFind(Problem problem, Vec x, Folded *folded)
   PetscCall(ForestGetTables(ProblemForest(problem), &t));
   PetscCall(HPSpaceGetTables(ProblemSpace(problem), &v));
   *folded = (Folded){.det = PETSC_MAX_REAL};
+  if (leaf) PetscCall(PetscArrayzero(leaf, t->num_leaves));
   PetscCall(PetscMalloc1(v->num_nodes * v->dim, &u));
   PetscCall(ProblemLocalDisplacement(problem, x, u));
   for (PetscInt c = 0; c < v->num_owned_cells; ++c) {
@@ -45,6 +46,7 @@ PetscErrorCode FoldedFind(Problem problem, Vec x, Folded *folded)
     if (scene->mechanics.bodies[body].material->law->rigid) continue;
     PetscCall(Corners_Private(ProblemMechanics(problem), v->dim, c, u, &det, X));
     folded->num += det <= 0;
+    if (leaf) leaf[v->cell_leaf[c]] = det <= 0;
     if (det >= folded->det) continue;
     folded->det  = det;
     folded->body = body;
@@ -54,6 +56,7 @@ PetscErrorCode FoldedFind(Problem problem, Vec x, Folded *folded)
   worst.det = folded->det;
   PetscCallMPI(MPI_Comm_rank(comm, &worst.rank));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &worst, 1, MPI_DOUBLE_INT, MPI_MINLOC, comm));
+  if (leaf) PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, leaf, (PetscMPIInt)t->num_leaves, MPI_INT8_T, MPI_MAX, comm));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &folded->num, 1, MPIU_INT, MPI_SUM, comm));
   folded->det = worst.det;
   PetscCallMPI(MPI_Bcast(&folded->body, 1, MPIU_INT, worst.rank, comm));

@@ -146,12 +146,12 @@ const Recovery PathRecoveries[PATH_RECOVERIES] = {
 };
 
 /* Is it time for an equilibrium farther off? Bodies in contact snap, or flow far; the end of what a load can be is no such place, and the user is told. A
-   descent tells soon whether it helps; for viscosity a shorter step failed too. Then again each time the failures have doubled: what was in vain at a step may
-   not be at a much shorter one. */
+   descent tells soon whether it helps; for viscosity a shorter step failed too, and with friction, where what is found depends on the way, another one. Then
+   again each time the failures have doubled: what was in vain at a step may not be at a much shorter one. */
 static PetscBool FarNow_Private(const Path *p, PetscInt first, const State *guess)
 {
   if (p->data->num_contacts == 0 || p->limit_point) return PETSC_FALSE;
-  return (PetscBool)(guess || (p->failures >= first && !(p->failures & (p->failures - 1))));
+  return (PetscBool)(guess || p->failures == first || (p->failures > first && !(p->failures & (p->failures - 1))));
 }
 
 static PetscBool Applies_Private(const Path *p, PetscInt row, const State *guess)
@@ -160,7 +160,7 @@ static PetscBool Applies_Private(const Path *p, PetscInt row, const State *guess
   const RecoveryMode mode = p->recovery[row].mode;
 
   if (mode == RECOVERY_OFF || !r->run) return PETSC_FALSE;
-  if (mode == RECOVERY_AUTO && r->far && !FarNow_Private(p, r->far, guess)) return PETSC_FALSE;
+  if (mode == RECOVERY_AUTO && r->far && !FarNow_Private(p, r->far + InterfaceSlips(ProblemInterface(p->level->problem)), guess)) return PETSC_FALSE;
   return r->applies(p, guess);
 }
 

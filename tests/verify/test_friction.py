@@ -606,3 +606,12 @@ def test_a_wheel_rolls_in_any_step(run):
     assert wheel(run, "-load_step", 1, ranks=2)[0] == pytest.approx(large[0], rel=1e-8)
     slips, summary = wheel(run, "-load_step", 1, "-path_rolling", "off")
     assert slips < 0.92 * fine[0] and summary["rolled_too_far"] == 0
+
+
+def test_rollers_in_one_step(run):
+    """A plate on two soft rollers, drawn by 0.6 in one step: where the step is not found shorter ones are tried before an equilibrium farther off, in which the
+    rollers are thrown out."""
+    result = run("tests/gauntlet/cart.yml", "-load_step", 1, "-output_fields", "false")
+    assert result.returncode == 0 and not any(row["succeeded"] for name, row in result.summary["recoveries"].items() if name in ("descent", "viscous")), result
+    for roller in "ab":
+        assert result.summary["probe"][roller]["displacement"][0] == pytest.approx(0.3, rel=0.015)

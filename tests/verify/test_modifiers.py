@@ -122,3 +122,12 @@ def test_switches_and_counters(run):
     off = run("inputs/patch2d.yml", *QUIET, *(word for name in names for word in (f"-newton_{name}", "off")))
     assert off.returncode == 0 and not any(off.summary["modifiers"].values())
     assert off.summary["energy"] == pytest.approx(plain.summary["energy"], rel=1e-9)
+
+
+def test_folded_cells_are_not_split(run):
+    """Rubber at bonded edges, whose free face turns over the bonded one: smaller cells there fold even more, and forces are those of another state."""
+    left, split = (run("tests/gauntlet/bonded.yml", *QUIET, "-path_unfolded", word) for word in ("auto", "off"))
+    wall = [abs(result.summary["contact"]["c"]["force"][0]) / 0.1122 - 1 for result in (left, split)]  # of finer meshes: tests/gauntlet/scenes.json
+    assert left.returncode == 0 and left.summary["folded_left"] > 0 == split.summary["folded_left"], left
+    assert abs(wall[0]) < 0.03 < 0.08 < abs(wall[1]), wall
+    assert 2 * left.summary["newton_iterations"] < split.summary["newton_iterations"]
