@@ -19,7 +19,9 @@ PetscBool AppIsStressed(const App *app)
 
 PetscBool AppOverlaps(const App *app)
 {
-  return (PetscBool)(app->estimated && app->estimate.overlap.share > ROUND_LENGTH);
+  const Estimate *e = &app->estimate; /* where contact is the lesser part of it, the rest is round-off, and the overlap less than that */
+
+  return (PetscBool)(app->estimated && e->overlap.share > ROUND_LENGTH && 2 * e->part[3] > PetscSqr(e->total));
 }
 
 PetscErrorCode AppRemember(App *app)
