@@ -8,23 +8,27 @@ enum {
   ESTIMATE_IRREGULAR_CORNER = 4, /* it touches a place where the kind of condition on the boundary changes */
 };
 
+/* The deepest overlap, at a point, of the sides of a pair that bears nothing. */
+typedef struct {
+  double    share; /* over the size of the facet over its order; 0: there is none */
+  PetscReal depth;
+  PetscInt  pair; /* ContactSpec.pair */
+} EstimateOverlap;
+
 typedef struct {
   PetscInt   num_leaves;
-  PetscReal *eta2;       /* owned [num_leaves] squared indicator of each leaf, replicated, unit: energy */
-  PetscReal (*along)[3]; /* owned [num_leaves][3] what of eta2 can be told to come from each axis of the leaf, replicated; NULL: unknown */
-  PetscReal *decay;      /* owned [num_leaves] rate at which the Legendre coefficients of the displacement fall from degree to degree (src/estimate/decay.c),
-                            replicated; NULL: not wanted (strategy h) */
-  int8_t   *order;       /* owned [num_leaves] of the cells, replicated; NULL with decay */
-  int8_t   *lowest;      /* owned [num_leaves] no order below: that of the scene; NULL with decay */
-  int8_t   *irregular;   /* owned [num_leaves] bits ESTIMATE_IRREGULAR_…, where a higher order gains little; NULL with decay */
-  PetscReal total;       /* sqrt of the sum */
-  PetscReal norm;        /* energy-like norm of the solution: sqrt(2 * strain energy) */
-  PetscReal relative;    /* total / sqrt(norm^2 + total^2) */
-  PetscReal part[5];     /* squared shares: interior, jumps, boundary, contact, incompressibility */
-  struct {
-    PetscReal share, depth; /* over the size of the facet over its order; absolute. 0: there is none */
-    PetscInt  pair;         /* of ContactSpec.pair */
-  } overlap;                /* the deepest overlap of sides of a pair that bears nothing, at a point: contact that no node has seen */
+  PetscReal *eta2;        /* owned [num_leaves] squared indicator of each leaf, replicated, unit: energy */
+  PetscReal (*along)[3];  /* owned [num_leaves][3] what of eta2 can be told to come from each axis of the leaf, replicated; NULL: unknown */
+  PetscReal *decay;       /* owned [num_leaves] rate at which the Legendre coefficients of the displacement fall from degree to degree (src/estimate/decay.c),
+                             replicated; NULL: not wanted (strategy h) */
+  int8_t         *order;  /* owned [num_leaves] of the cells, replicated; NULL with decay */
+  int8_t         *lowest; /* owned [num_leaves] no order below: that of the scene; NULL with decay */
+  int8_t         *irregular; /* owned [num_leaves] bits ESTIMATE_IRREGULAR_…, where a higher order gains little; NULL with decay */
+  PetscReal       total;     /* sqrt of the sum */
+  PetscReal       norm;      /* energy-like norm of the solution: sqrt(2 * strain energy) */
+  PetscReal       relative;  /* total / sqrt(norm^2 + total^2) */
+  PetscReal       part[5];   /* squared shares: interior, jumps, boundary, contact, incompressibility */
+  EstimateOverlap overlap;   /* contact that no node has seen; none where contact is the lesser part of the estimate, which is round-off then */
 } Estimate;
 
 /* Indicators at a converged state whose prescribed motion the problem stands at; evaluates the residual when there is contact. Collective. */

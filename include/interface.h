@@ -99,7 +99,7 @@ typedef struct {
   PetscReal        interference;   /* at the time last set */
   PetscReal        friction;       /* the coefficient then */
   PetscReal        open;           /* share of initial overlaps that does not count then (initial_gap: ramp) */
-  const PetscReal *start; /* [nonmortar.num_nodes] initial_gap: the gaps at the start that it closes or opens, means over the functions there; else 0 */
+  const PetscReal *initial_gap;    /* [nonmortar.num_nodes] those that initial_gap closes or opens, means over the functions of the nodes; else 0 */
 } ContactView;
 
 /* fixed[num_nodes]: as in Supports. All that is handed over must outlive the interface. Collective. */

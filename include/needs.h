@@ -10,7 +10,7 @@ typedef struct {
   const Path      *path;
   const Balance   *balance;
   const Estimate  *estimate;       /* NULL: there was none */
-  const PetscInt  *touched;        /* by ContactSpec.pair: load step in which a node was in contact first; 0: none */
+  const PetscInt  *touched;        /* by ContactSpec.pair: load step in which it was in contact first; 0: none */
   const PetscBool *mirror;         /* [3] planes of symmetry that are not used (NeedsFindMirrors) … */
   const PetscReal *mirror_at;      /* [3] … and where they are */
   PetscReal        most_energy;    /* stored at the end of an accepted load step */

@@ -43,7 +43,6 @@ typedef struct {
   PetscInt         descent_iterations;               /* tangents of descents, besides Newton's */
   PetscInt         unstable, judged;                 /* judged: equilibria of which it is known whether they are stable */
   PetscInt         stabilised;                       /* that took the place of unstable ones */
-  PetscInt         folded_left;                      /* cells that were to be split and stayed as they were, for they are folded at a corner */
   PetscBool        unstable_now;                     /* the last equilibrium found is unstable */
   PetscInt         modifiers[SOLVER_MOST_MODIFIERS]; /* interventions of Newton's modifiers */
   PetscInt         modifiers_in_step, iterations_in_step, cuts_in_step;
@@ -118,7 +117,7 @@ PetscReal PathStepEnd(const SceneData *, PetscReal t, PetscReal dt);
 typedef struct {
   const char *name, *help;
   PetscInt    far; /* what it finds may lie on another branch of equilibria: auto tries it where a load step has failed so often, and then each time failures
- have doubled; 0: it does not */
+ have doubled, with friction once more before; 0: it does not */
   PetscBool (*applies)(const Path *, const State *guess);
   /* NULL: the row is not of this mesh; who adapts tries it (app/adaptstep.c), and counts. Look for level->state at `to`; level->state is any, and of no use
    * afterwards where report->converged is false. Collective. */

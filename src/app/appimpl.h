@@ -14,9 +14,6 @@
 #define NOTHING_LEFT "nothing left to refine"
 #define INVERTS "refinement inverts a curved cell"
 
-/* all: what is marked, states carried over; afresh: the same, states at rest; unfolded: all but the cells in which the state is folded. */
-typedef enum { REFINE_ALL, REFINE_AFRESH, REFINE_UNFOLDED } RefineMode;
-
 /* A load step whose estimated error stayed above the tolerance: at t, and why; norm: largest energy norm from it to the step at hand. */
 /* What nothing holds of a body (AdriftFind), axes as bits: those that were free at every accepted step of this path, those of others that became so, first at
    time t. */
@@ -59,7 +56,7 @@ typedef struct {
   int8_t          *first_level;    /* owned [coarse cells]: fewest splits of a leaf, all directions, before adaptation; NULL: nothing merges */
   PetscInt        *subdivided;     /* owned [num_contacts] by contact.<pair>.subdivide: auto, so often, or tried */
   FrictionFigures *friction;       /* owned, by ContactSpec.pair: of the last accepted load step of this run */
-  PetscInt        *touched;        /* owned, by ContactSpec.pair: load step of this run in which a node was in contact first; 0: none */
+  PetscInt        *touched;        /* owned, by ContactSpec.pair: load step of this run in which it was in contact first, at a node or between; 0: none */
   PetscReal        rough_error, rough_t, rough_norm; /* largest estimate of an accepted step, its time; largest norm */
   Folded           folded;                           /* most cells that an accepted step folded … */
   PetscReal        folded_t;                         /* … and its time */
@@ -96,7 +93,7 @@ PetscErrorCode AppLayers(App *, const Estimate *, MarkList *layers);
 /* Adapt to these layers (taken over), if any, else mark and adapt. The level is another one then, its states carried over or (afresh) at rest at t = 0, and the
    old one is the caller's; *adapted false when nothing may or need be refined, or (refused) the mesh could not be made, and app->adapt_stop says why.
    Collective. */
-PetscErrorCode AppRefine(App *, const Estimate *, MarkList *layers, RefineMode, PetscBool *adapted, PetscBool *refused);
+PetscErrorCode AppRefine(App *, const Estimate *, MarkList *layers, PetscBool afresh, PetscBool *adapted, PetscBool *refused);
 /* refine.c: to the mesh that the list asks for, states carried over; the level at hand is the caller's then. *refused: why not, else NULL. Collective. */
 PetscErrorCode AppMoveTo(App *, MarkList *, const char **refused);
 /* coarsen.c. Before the first load step: how far the mesh that the scene asks for is split, where states are carried over to other meshes. Not collective. */
@@ -110,11 +107,11 @@ PetscErrorCode AppJudge(App *, PetscReal error, PetscReal norm, PetscBool refuse
 /* Status of the run as in summary.json, and the words that go with it, "" when there is nothing to say; valid as long as the run. */
 const char    *AppStatus(const App *);
 PetscErrorCode AppReason(App *, const char **reason);
-/* repeat.c: is the mesh to be adapted at all? Is there stress of which an error can be estimated? Not collective. */
+/* repeat.c: is the mesh to be adapted at all? By the last estimate, do the sides of a pair that bears nothing overlap, so little that no node has seen it?
+   Is there something to estimate an error of, stress or such an overlap? Not collective. */
 PetscBool AppIsAdaptive(const App *);
-PetscBool AppIsStressed(const App *);
-/* Do the sides of a pair that bears nothing overlap, so little that no node has seen it? By the last estimate. */
 PetscBool AppOverlaps(const App *);
+PetscBool AppIsStressed(const App *);
 /* A load step of a path that may be computed again was solved and its error estimated. */
 PetscErrorCode AppRemember(App *);
 /* At the end of the path: begin again, at rest at t = 0 on a finer mesh, where a step was above the tolerance and no limit is met; the results of the path are

@@ -12,16 +12,14 @@ PetscBool AppIsAdaptive(const App *app)
   return adaptive;
 }
 
+PetscBool AppOverlaps(const App *app)
+{
+  return (PetscBool)(app->estimated && app->estimate.overlap.share > ROUND_LENGTH);
+}
+
 PetscBool AppIsStressed(const App *app)
 {
   return (PetscBool)(app->path.status.scale > STRESSED * app->path.status.noise || AppOverlaps(app));
-}
-
-PetscBool AppOverlaps(const App *app)
-{
-  const Estimate *e = &app->estimate; /* where contact is the lesser part of it, the rest is round-off, and the overlap less than that */
-
-  return (PetscBool)(app->estimated && e->overlap.share > ROUND_LENGTH && 2 * e->part[3] > PetscSqr(e->total));
 }
 
 PetscErrorCode AppRemember(App *app)
@@ -74,7 +72,7 @@ static PetscErrorCode Refine_Private(App *app, PetscBool *refined)
   if (!app->adapt_stop[0]) PetscCall(AppLayers(app, &app->largest, &layers));
   if (!app->adapt_stop[0]) {
     PetscCall(AppSummary(app, "inaccurate", "a finer path is under way"));
-    PetscCall(AppRefine(app, &app->largest, &layers, REFINE_AFRESH, refined, &refused));
+    PetscCall(AppRefine(app, &app->largest, &layers, PETSC_TRUE, refined, &refused));
   }
   const PetscReal error = app->largest.num_leaves ? app->largest.relative : 0; /* of the step's own norm */
   if (!*refined) PetscCall(AppJudge(app, error, PetscSqrtReal(1 - PetscSqr(error)), refused));

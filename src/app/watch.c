@@ -160,7 +160,7 @@ static PetscErrorCode WarnAdrift_Private(App *app)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode WarnFolded_Private(App *app)
+static PetscErrorCode WarnFolded_Private(const App *app)
 {
   const CoarseMesh *mesh;
   const Folded     *f = &app->folded;
@@ -178,16 +178,14 @@ static PetscErrorCode WarnFolded_Private(App *app)
 }
 
 /* Contact at the end that cells are too coarse for. */
-static PetscErrorCode WarnOverlap_Private(App *app)
+static PetscErrorCode WarnOverlap_Private(const App *app)
 {
-  const PetscInt pair = app->estimate.overlap.pair;
-  const char    *name = "";
+  const char *name = "";
 
   PetscFunctionBegin;
   if (!AppOverlaps(app)) PetscFunctionReturn(PETSC_SUCCESS);
-  app->touched[pair] = PetscMax(app->touched[pair], app->load_steps);
   for (PetscInt i = 0; i < app->data->num_contacts; ++i)
-    if (app->data->contacts[i].pair == pair) name = app->data->contacts[i].name;
+    if (app->data->contacts[i].pair == app->estimate.overlap.pair) name = app->data->contacts[i].name;
   PetscCall(WarningAdd(app->comm,
                        "the sides of pair %s overlap by %.3g at the end, between nodes, and bear nothing: cells are too coarse there to see it; take smaller "
                        "ones, or let them be refined (adapt.tolerance)",

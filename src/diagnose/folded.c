@@ -58,8 +58,6 @@ PetscErrorCode FoldedFind(Problem problem, Vec x, Folded *folded, int8_t leaf[])
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &worst, 1, MPI_DOUBLE_INT, MPI_MINLOC, comm));
   if (leaf) PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, leaf, (PetscMPIInt)t->num_leaves, MPI_INT8_T, MPI_MAX, comm));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &folded->num, 1, MPIU_INT, MPI_SUM, comm));
-  folded->det = worst.det;
-  PetscCallMPI(MPI_Bcast(&folded->body, 1, MPIU_INT, worst.rank, comm));
-  PetscCallMPI(MPI_Bcast(folded->X, 3, MPIU_REAL, worst.rank, comm));
+  PetscCallMPI(MPI_Bcast(folded, (PetscMPIInt)sizeof(*folded), MPI_BYTE, worst.rank, comm));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

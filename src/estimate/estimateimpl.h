@@ -88,9 +88,8 @@ typedef struct {
   PetscReal *compliance;  /* [num_owned_cells] of cells whose pressure is one number: what a unit of it adds to eta2 inside; else -1 */
   PetscReal *eta2;        /* [num_leaves] sums of this rank */
   PetscReal (*along)[3];  /* [num_leaves] sums of this rank: eta2 that can be told to come from each axis; NULL: not wanted */
-  PetscReal part[NUM_PARTS], energy;
-  PetscReal overlap[2]; /* of this rank: deepest overlap of a pair that bears nothing, over the size of the facet, and absolute */
-  PetscInt  overlap_pair;
+  PetscReal       part[NUM_PARTS], energy;
+  EstimateOverlap overlap; /* of this rank */
 } EstimateSum;
 
 /* Fill space, mechanics, spec, contact, time, u, eta2 and along (zeroed); get this rank's sums. Collective where there is contact. */

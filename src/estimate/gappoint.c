@@ -116,13 +116,13 @@ static PetscBool IsAdjusted_Private(const ContactTerm *term)
 }
 
 /* What of the gap at the start counts as none, as the nodes show it. */
-static PetscReal Start_Private(const ContactView *v, PetscInt facet, const PetscReal N[])
+static PetscReal InitialGap_Private(const ContactView *v, PetscInt facet, const PetscReal N[])
 {
   const PetscInt *node, num = SurfaceFacetNodes(&v->nonmortar, facet, &node);
-  PetscReal       start = 0;
+  PetscReal       gap = 0;
 
-  for (PetscInt a = 0; a < num; ++a) start += N[a] * v->start[node[a]];
-  return (v->spec->adjust ? 1 : v->open) * start;
+  for (PetscInt a = 0; a < num; ++a) gap += N[a] * v->initial_gap[node[a]];
+  return (v->spec->adjust ? 1 : v->open) * gap;
 }
 
 /* Gap and height of the mortar side at a point. */
@@ -142,7 +142,7 @@ static void Gap_Private(const EstimateSum *sum, const ContactTerm *term, const C
   ContactShape_Private(s, segment->facet, center, M);
   ContactNormal_Private(term, finite, segment->facet, center, M, middle);
   p->gap = finite ? Dot3(n, y) - Dot3(n, x) : LinearGap_Private(m, segment->mortar_facet, eta, n, X, x);
-  p->gap -= term->view->interference + Start_Private(term->view, segment->facet, N);
+  p->gap -= term->view->interference + InitialGap_Private(term->view, segment->facet, N);
   p->height = Dot3(middle, y);
 }
 

@@ -115,6 +115,7 @@ static PetscReal Yield_Private(const EstimateSum *sum, const ContactTerm *term, 
     const GapPoint *p   = &points->points[i];
     const PetscReal gap = PetscMin(Gap_Private(p), 0);
     force += p->weight * p->pressure;
+    if (gap == 0) continue;
     deepest = PetscMax(deepest, -gap);
     squares += p->weight * Stiffness_Private(sum, term, p, size, compliance) * PetscSqr(gap);
   }
@@ -125,10 +126,8 @@ static PetscReal Yield_Private(const EstimateSum *sum, const ContactTerm *term, 
 static void Overlap_Private(EstimateSum *sum, const ContactTerm *term, PetscReal size, const GapPoints *points)
 {
   for (PetscInt i = 0; i < points->num && term->bare; ++i) {
-    if (!(-points->points[i].gap > sum->overlap[0] * size)) continue;
-    sum->overlap[0]   = -points->points[i].gap / size;
-    sum->overlap[1]   = -points->points[i].gap;
-    sum->overlap_pair = term->view->spec->pair;
+    const PetscReal depth = -points->points[i].gap;
+    if (depth > sum->overlap.share * size) sum->overlap = (EstimateOverlap){depth / size, depth, term->view->spec->pair};
   }
 }
 

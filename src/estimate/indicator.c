@@ -316,7 +316,8 @@ PetscErrorCode EstimateBulk_Private(EstimateSum *sum)
   PetscCall(HPSpaceGetTables(sum->space, &sum->v));
   PetscCall(HPSpaceGetForest(sum->space, &forest));
   PetscCall(ForestGetTables(forest, &sum->t));
-  sum->energy = sum->overlap[0] = 0;
+  sum->energy  = 0;
+  sum->overlap = (EstimateOverlap){0};
   PetscCall(PetscArrayzero(sum->part, NUM_PARTS));
   PetscCall(FacetListCreate_Private(sum, &sum->facets));
   PetscCall(PetscCalloc5(sum->facets.num_points, &sum->defect, sum->facets.num_points, &sum->normal, sum->facets.num_points, &sum->flux, sum->facets.num_points,
@@ -346,21 +347,20 @@ static void Bound_Private(PetscInt num, PetscReal square[])
   for (PetscInt i = 0; i < num; ++i) square[i] = square[i] < UNBOUNDED ? square[i] : UNBOUNDED;
 }
 
-/* The deepest overlap of all ranks. */
+/* The deepest overlap of all ranks; total and parts are known. */
 static PetscErrorCode Overlap_Private(MPI_Comm comm, const EstimateSum *sum, Estimate *e)
 {
   struct {
     double share;
     int    rank;
-  } worst = {.share = sum->overlap[0]};
+  } worst = {.share = sum->overlap.share};
 
   PetscFunctionBegin;
-  e->overlap.share = sum->overlap[0];
-  e->overlap.depth = sum->overlap[1];
-  e->overlap.pair  = sum->overlap_pair;
   PetscCallMPI(MPI_Comm_rank(comm, &worst.rank));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &worst, 1, MPI_DOUBLE_INT, MPI_MAXLOC, comm));
+  e->overlap = sum->overlap;
   PetscCallMPI(MPI_Bcast(&e->overlap, (PetscMPIInt)sizeof(e->overlap), MPI_BYTE, worst.rank, comm));
+  if (2 * e->part[PART_CONTACT] <= PetscSqr(e->total)) e->overlap.share = 0;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -382,7 +382,6 @@ static PetscErrorCode Reduce_Private(MPI_Comm comm, EstimateSum *sum, Estimate *
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, buffer, (PetscMPIInt)(e->num_leaves + NUM_PARTS + 1), MPIU_REAL, MPI_SUM, comm));
   PetscCall(PetscArraycpy(e->eta2, buffer, e->num_leaves));
   PetscCall(PetscArraycpy(e->part, buffer + e->num_leaves, NUM_PARTS));
-  PetscCall(Overlap_Private(comm, sum, e));
   const PetscReal energy = buffer[e->num_leaves + NUM_PARTS];
   PetscCall(PetscFree(buffer));
   e->total = 0;
@@ -390,6 +389,7 @@ static PetscErrorCode Reduce_Private(MPI_Comm comm, EstimateSum *sum, Estimate *
   e->total    = PetscSqrtReal(e->total);
   e->norm     = PetscSqrtReal(2 * PetscMax(energy, 0));
   e->relative = e->total > 0 ? e->total / PetscSqrtReal(PetscSqr(e->norm) + PetscSqr(e->total)) : 0;
+  PetscCall(Overlap_Private(comm, sum, e));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

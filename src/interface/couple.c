@@ -61,7 +61,7 @@ static void View_Private(Contact *c)
   v->z              = c->z;
   v->gap            = c->gap;
   v->weight         = c->weight;
-  v->start          = c->start;
+  v->initial_gap    = c->initial_gap;
   v->active         = c->active;
   v->has_multiplier = c->has_multiplier;
   v->pair           = c->pair;
@@ -160,7 +160,7 @@ PetscErrorCode ContactCreate_Private(Interface p, const ContactSpec *spec, Conta
   PetscCall(PetscCalloc5(n, &c->active, n, &c->has_multiplier, n, &c->lift, n, &c->change, n, &c->near));
   PetscCall(PetscMalloc1(c->side[0].num_facets, &c->result));
   PetscCall(PetscMalloc4(n, &c->zdof, n, &c->zlocal, n, &c->gap0, n, &c->offset));
-  PetscCall(PetscCalloc3(n, &c->reach, n, &c->initial, n, &c->start));
+  PetscCall(PetscCalloc3(n, &c->reach, n, &c->initial, n, &c->initial_gap));
   PetscCall(PetscCalloc4(c->side[0].num_facets, &c->live, n, &c->valued, n, &c->valued_node, 4 * n, &c->pack));
   PetscCall(ContactNodeScales_Private(p, c));
   if (!c->law->ties) PetscCall(ContactCarriers_Private(p, c));
@@ -195,7 +195,7 @@ PetscErrorCode ContactDestroy_Private(Contact *c)
   PetscCall(PetscFree5(c->active, c->has_multiplier, c->lift, c->change, c->near));
   PetscCall(PetscFree(c->result));
   PetscCall(PetscFree4(c->zdof, c->zlocal, c->gap0, c->offset));
-  PetscCall(PetscFree3(c->reach, c->initial, c->start));
+  PetscCall(PetscFree3(c->reach, c->initial, c->initial_gap));
   PetscCall(PetscFree2(c->closed, c->mean_gap));
   for (PetscInt k = 0; k < 2; ++k) PetscCall(PetscFree(c->link[k]));
   PetscCall(PetscFree4(c->live, c->valued, c->valued_node, c->pack));

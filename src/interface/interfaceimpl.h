@@ -184,7 +184,7 @@ typedef struct {
   ContactFacet        *frozen;               /* small kinematics: those at the reference positions */
   PetscReal           *gap0, *mean0;         /* [n] small kinematics: gaps there, over weights; mean0 NULL: not yet, or finite */
   PetscReal           *offset;               /* [n] constant part of gt_j that does not count: initial gaps closed, interference */
-  PetscReal           *start;                /* [n] see ContactView */
+  PetscReal           *initial_gap;          /* [n] see ContactView */
   PetscReal           *reach, *initial;      /* offset.c: [n] what an interference of 1 adds to the offset; initial gap closed or opened at first */
   PetscReal           *closed, *mean_gap;    /* offset.c: [num_facets] length that counts as no gap; initial gap, in the mean; NULL: offsets do all */
   PetscReal            overlap, allowance;   /* overlap.c: the deepest at the start, what of it counts as none … */

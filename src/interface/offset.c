@@ -103,13 +103,13 @@ PetscErrorCode ContactOffset_Private(Interface p, Contact *c)
   PetscCall(ContactNodeSums_Private(p, c));
   Reach_Private(c);
   for (PetscInt i = 0; i < s->num_own; ++i) {
-    const PetscInt j = s->own[i];
-    c->initial[j]    = c->spec->adjust ? c->gap[j] : PetscMin(c->gap[j], 0);
-    c->start[j]      = c->weight[j] > 0 ? c->initial[j] / c->weight[j] : 0;
+    const PetscInt j  = s->own[i];
+    c->initial[j]     = c->spec->adjust ? c->gap[j] : PetscMin(c->gap[j], 0);
+    c->initial_gap[j] = c->weight[j] > 0 ? c->initial[j] / c->weight[j] : 0;
     if (c->spec->adjust && ContactCovered_Private(c, j)) c->view.adjusted = PetscMax(c->view.adjusted, PetscAbsReal(c->gap[j] / c->weight[j]));
   }
-  PetscCall(LinkSpread_Private(p, &c->side[0].values, 1, c->start));
-  SurfaceFollow_Private(&c->side[0], 1, c->start);
+  PetscCall(LinkSpread_Private(p, &c->side[0].values, 1, c->initial_gap));
+  SurfaceFollow_Private(&c->side[0], 1, c->initial_gap);
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &c->view.adjusted, 1, MPIU_REAL, MPI_MAX, p->comm));
   if (p->spec->kinematics == KINEMATICS_FINITE) PetscCall(Means_Private(c));
   c->num_facets = 0;

@@ -124,29 +124,25 @@ static void Grow_Private(PathLoop *loop, PetscReal next, PetscBool at_once, Pets
   if (at_once && easy) loop->piece = PetscMin(growth * loop->piece, loop->most);
 }
 
-/* How far did bodies roll from displacements `from` to level->state? */
-static PetscErrorCode Rolled_Private(Path *p, const PathLoop *loop, const PetscReal from[], PetscReal *rolled)
+/* Is it asked how far bodies rolled in a piece? */
+static PetscBool MayRoll_Private(const Path *p, const PathLoop *loop)
 {
-  PetscFunctionBegin;
-  *rolled = 0;
-  if (loop->metric == &PathTime && p->refusal[PATH_ROLLING].mode != RECOVERY_OFF) PetscCall(ProblemRolls(p->level->problem, from, p->level->state.x, rolled));
-  PetscFunctionReturn(PETSC_SUCCESS);
+  return (PetscBool)(loop->metric == &PathTime && p->refusal[PATH_ROLLING].mode != RECOVERY_OFF && InterfaceSlips(ProblemInterface(p->level->problem)));
 }
 
-/* A piece to s = next in which bodies rolled too far on each other is made again, as much shorter as it takes; *again: it is, not where it would be too short.
+/* Is a piece to s = next to be made again, for bodies rolled too far on each other in it? Then as much shorter as it takes, but not where that is too short.
    The step is no harder for it: it is not one that failed. */
-static void Shorten_Private(Path *p, PathLoop *loop, PetscReal next, PetscReal rolled, PetscBool *again)
+static PetscBool IsTooLong_Private(Path *p, PathLoop *loop, PetscReal next, PetscReal rolled)
 {
   PetscReal piece = next - loop->s;
 
-  *again = (PetscBool)(rolled > MOST_ROLL);
-  for (; rolled > MOST_ROLL; rolled *= loop->metric->cut) piece *= loop->metric->cut;
-  if (piece < loop->least) *again = PETSC_FALSE;
-  if (!*again) return;
+  for (PetscReal left = rolled; left > MOST_ROLL; left *= loop->metric->cut) piece *= loop->metric->cut;
+  if (!(rolled > MOST_ROLL) || piece < loop->least) return PETSC_FALSE;
   loop->piece = piece;
   ++p->refusal[PATH_ROLLING].num;
   ++p->step_cuts;
   ++p->cuts_in_step;
+  return PETSC_TRUE;
 }
 
 /* The next piece after one to s = next that was not. */
@@ -158,18 +154,24 @@ static void Cut_Private(Path *p, PathLoop *loop, PetscReal next)
   ++p->cuts_in_step;
 }
 
-/* Attempts and recoveries of one piece, to s = next. On return `from` are the displacements that it set out from, for the caller to free. */
-static PetscErrorCode Piece_Private(Path *p, const PathLoop *loop, PetscReal next, const State *start, PetscReal **from, PetscBool *recovered,
+/* One piece, to s = next: an attempt, and recoveries where that fails; rolled: by how much bodies rolled on each other in it. */
+static PetscErrorCode Piece_Private(Path *p, const PathLoop *loop, PetscReal next, const State *start, PetscReal *rolled, PetscBool *recovered,
                                     SolverReport *report)
 {
+  PetscReal *from = NULL;
+
   PetscFunctionBegin;
   *recovered = PETSC_FALSE;
-  PetscCall(PathFrom(p, from));
+  *rolled    = 0;
+  if (MayRoll_Private(p, loop)) PetscCall(PathFrom(p, &from));
   PetscCall(PathAttempt(p, loop, next, report));
-  if (report->converged) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(PathRestore(p, start));
-  if (loop->step && !p->stopped) PetscCall(PathRecover(p, loop, next, NULL, report));
-  *recovered = report->converged;
+  if (!report->converged) {
+    PetscCall(PathRestore(p, start));
+    if (loop->step && !p->stopped) PetscCall(PathRecover(p, loop, next, NULL, report));
+    *recovered = report->converged;
+  }
+  if (report->converged && from) PetscCall(ProblemRolls(p->level->problem, from, p->level->state.x, rolled));
+  PetscCall(PetscFree(from));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -184,16 +186,13 @@ PetscErrorCode PathFollow(Path *p, PathLoop *loop, SolverReport *report)
   PetscCall(StateCopy(&l->state, &start));
   while (!done) {
     const PetscReal next = loop->metric->end(p, loop);
-    PetscReal      *from, rolled     = 0;
-    PetscBool       recovered, again = PETSC_FALSE;
-    PetscCall(Piece_Private(p, loop, next, &start, &from, &recovered, report));
-    if (report->converged) {
-      PetscCall(Rolled_Private(p, loop, from, &rolled));
-      Shorten_Private(p, loop, next, rolled, &again);
-      if (again) PetscCall(PathRestore(p, &start));
+    PetscReal       rolled;
+    PetscBool       recovered;
+    PetscCall(Piece_Private(p, loop, next, &start, &rolled, &recovered, report));
+    if (IsTooLong_Private(p, loop, next, rolled)) {
+      PetscCall(PathRestore(p, &start));
+      continue;
     }
-    PetscCall(PetscFree(from));
-    if (again) continue;
     if (recovered) break;
     if (report->converged) {
       Grow_Private(loop, next, at_once, rolled, report);

@@ -139,8 +139,7 @@ const Recovery PathRecoveries[PATH_RECOVERIES] = {
     {"descent", "down on the energy of contact and bodies, each iterate lower than the one before, to an equilibrium that is not near by", 1, PathCanDescend,
      PathDescend},
     {"viscous", "viscous regularisation: bodies creep to an equilibrium that is not near by, as when they snap", 2, Always_Private, Viscous_Private},
-    [PATH_UNFOLDED] = {"unfolded", "where a finer mesh has none, cells that would fold there stay as they are and the others are refined", 0, Always_Private,
-                       NULL},
+    [PATH_UNFOLDED] = {"unfolded", "cells that are turned inside out at a corner are not split while others are to be", 0, Always_Private, NULL},
     [PATH_COARSEN]  = {"coarsen", "a load step that was not found on an adapted mesh: cells that adaptation made merge, and it begins again", 0, Always_Private,
                        NULL},
 };
@@ -156,11 +155,12 @@ static PetscBool FarNow_Private(const Path *p, PetscInt first, const State *gues
 
 static PetscBool Applies_Private(const Path *p, PetscInt row, const State *guess)
 {
-  const Recovery    *r    = &PathRecoveries[row];
-  const RecoveryMode mode = p->recovery[row].mode;
+  const Recovery    *r     = &PathRecoveries[row];
+  const RecoveryMode mode  = p->recovery[row].mode;
+  const PetscBool    slips = InterfaceSlips(ProblemInterface(p->level->problem));
 
   if (mode == RECOVERY_OFF || !r->run) return PETSC_FALSE;
-  if (mode == RECOVERY_AUTO && r->far && !FarNow_Private(p, r->far + InterfaceSlips(ProblemInterface(p->level->problem)), guess)) return PETSC_FALSE;
+  if (mode == RECOVERY_AUTO && r->far && !FarNow_Private(p, r->far + (slips ? 1 : 0), guess)) return PETSC_FALSE;
   return r->applies(p, guess);
 }
 

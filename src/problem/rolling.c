@@ -2,13 +2,6 @@
    an arc: by an angle theta in one step, way and slip are wrong by theta^2 / 6 to theta^2 / 3 of the way. */
 #include "problemimpl.h"
 
-typedef struct {
-  const PetscReal *from;   /* displacements at the start of the step, local array */
-  PetscReal       *now;    /* those at its end */
-  PetscReal       *spread; /* [bodies][9] sum over cells of edges before (rows) times edges after (columns) */
-  PetscReal       *work;
-} Turns;
-
 /* Three (two) edges through the middle of a cell at its corners' positions X + u, e[d][dim]. */
 static PetscErrorCode Edges_Private(Problem p, PetscInt cell, const PetscReal u[], PetscReal work[], PetscReal e[3][3])
 {
@@ -28,22 +21,25 @@ static PetscErrorCode Edges_Private(Problem p, PetscInt cell, const PetscReal u[
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode Spread_Private(Problem p, Turns *t)
+/* spread[body][9]: sums over the cells of a body of edges before (rows) times edges after (columns). Of a body in several parts the rotation is their mean. */
+static PetscErrorCode Spread_Private(Problem p, const PetscReal from[], const PetscReal now[], PetscReal spread[])
 {
   const HPTables     *v = p->tables;
-  const ForestTables *tables;
-  PetscReal           before[3][3], after[3][3];
+  const ForestTables *t;
+  PetscReal           before[3][3], after[3][3], *work;
 
   PetscFunctionBegin;
-  PetscCall(ForestGetTables(p->forest, &tables));
+  PetscCall(ForestGetTables(p->forest, &t));
+  PetscCall(PetscMalloc1(2 * v->dim * ElementNumNodes(v->dim, MORTISE_MAX_ORDER), &work));
   for (PetscInt c = 0; c < v->num_owned_cells; ++c) {
-    PetscReal *s = t->spread + 9 * tables->leaf_body[v->cell_leaf[c]];
-    PetscCall(Edges_Private(p, c, t->from, t->work, before));
-    PetscCall(Edges_Private(p, c, t->now, t->work, after));
+    PetscReal *s = spread + 9 * t->leaf_body[v->cell_leaf[c]];
+    PetscCall(Edges_Private(p, c, from, work, before));
+    PetscCall(Edges_Private(p, c, now, work, after));
     for (PetscInt d = 0; d < v->dim; ++d)
       for (PetscInt i = 0; i < 9; ++i) s[i] += before[d][i / 3] * after[d][i % 3];
   }
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, t->spread, (PetscMPIInt)(9 * p->scene->mechanics.num_bodies), MPIU_REAL, MPI_SUM, p->comm));
+  PetscCall(PetscFree(work));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, spread, (PetscMPIInt)(9 * p->scene->mechanics.num_bodies), MPIU_REAL, MPI_SUM, p->comm));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -102,20 +98,18 @@ static PetscErrorCode Pair_Private(Problem p, PetscInt pair, const PetscReal q[]
 
 PetscErrorCode ProblemRolls(Problem p, const PetscReal from[], Vec x, PetscReal *angle)
 {
-  const MechanicsSpec *m    = &p->scene->mechanics;
-  const PetscInt       most = 2 * 3 * ElementNumNodes(p->tables->dim, MORTISE_MAX_ORDER);
-  Turns                t    = {.from = from};
-  PetscReal           *q;
+  const MechanicsSpec *m = &p->scene->mechanics;
+  PetscReal           *spread, *q, *now;
   PetscBool            unique;
 
   PetscFunctionBegin;
   *angle = 0;
   if (m->kinematics == KINEMATICS_SMALL || m->model == MODEL_AXISYMMETRIC || !InterfaceSlips(p->interface)) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(PetscCalloc4(9 * m->num_bodies, &t.spread, 4 * m->num_bodies, &q, p->num_local, &t.now, most, &t.work));
-  PetscCall(ProblemLocalDisplacement(p, x, t.now));
-  PetscCall(Spread_Private(p, &t));
-  for (PetscInt b = 0; b < m->num_bodies; ++b) PetscCall(RotationNearest(p->tables->dim, t.spread + 9 * b, q + 4 * b, &unique));
+  PetscCall(PetscCalloc3(9 * m->num_bodies, &spread, 4 * m->num_bodies, &q, p->num_local, &now));
+  PetscCall(ProblemLocalDisplacement(p, x, now));
+  PetscCall(Spread_Private(p, from, now, spread));
+  for (PetscInt b = 0; b < m->num_bodies; ++b) PetscCall(RotationNearest(p->tables->dim, spread + 9 * b, q + 4 * b, &unique));
   for (PetscInt i = 0; i < p->scene->num_contacts; ++i) PetscCall(Pair_Private(p, i, q, angle));
-  PetscCall(PetscFree4(t.spread, q, t.now, t.work));
+  PetscCall(PetscFree3(spread, q, now));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
