@@ -109,6 +109,9 @@ PetscErrorCode MechanicsDestroy(Mechanics *);
    none is. Cells are images of the nodes of their order, which hang from coarser neighbours: a valid curved coarse mesh does not rule it out. Forces of such a
    mesh must not be asked for. Not collective. */
 PetscErrorCode MechanicsFindInverted(Mechanics, PetscInt *order, PetscReal X[3], PetscInt *leaf);
+/* folded[leaf] = 1 of this rank's cells that displacements u[] (local array) turn inside out at an integration point: no residual can be had there. Not with
+   small kinematics. Not collective. */
+PetscErrorCode MechanicsFindFolded(Mechanics, const PetscReal u[], int8_t folded[]);
 
 /* Pseudo-time: evaluates dead loads and prescribed values. */
 PetscErrorCode MechanicsSetTime(Mechanics, PetscReal t);

@@ -51,6 +51,8 @@ PetscErrorCode ProblemCreate(const SceneData *, Forest, const int8_t leaf_order[
 PetscErrorCode ProblemDestroy(Problem *);
 /* MechanicsFindInverted over all ranks. Collective. */
 PetscErrorCode ProblemFindInverted(Problem, PetscInt *order, PetscReal X[3], PetscInt *leaf);
+/* MechanicsFindFolded of the displacements of x over all ranks, folded[num_leaves]. Collective. */
+PetscErrorCode ProblemFindFolded(Problem, Vec x, int8_t folded[]);
 /* MechanicsFindConflict over all ranks. Collective. */
 PetscErrorCode ProblemFindConflict(Problem, PetscReal t, size_t size, char words[]);
 

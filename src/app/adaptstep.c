@@ -57,8 +57,23 @@ static PetscErrorCode ReportPass_Private(App *app, PetscInt iterations, PetscBoo
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Equilibrium on the new mesh at the same load (along a path: on the plane across it through the state carried over). */
-static PetscErrorCode Reequilibrate_Private(App *app, PetscInt *iterations, PetscBool *ok)
+/* Does the state carried over to a finer mesh turn cells inside out? */
+static PetscErrorCode IsFolded_Private(Problem problem, const State *carried, PetscBool *yes)
+{
+  int8_t *folded;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(carried->num_leaves, &folded));
+  PetscCall(ProblemFindFolded(problem, carried->x, folded));
+  *yes = PETSC_FALSE;
+  for (PetscInt l = 0; l < carried->num_leaves; ++l) *yes = (PetscBool)(*yes || folded[l]);
+  PetscCall(PetscFree(folded));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Equilibrium on the new mesh at the same load (along a path: on the plane across it through the state carried over). *folded: there is none, and cells where
+   it was carried over are folded. */
+static PetscErrorCode Reequilibrate_Private(App *app, PetscInt *iterations, PetscBool *ok, PetscBool *folded)
 {
   Level         *l      = &app->level;
   const PetscInt before = app->path.newton_iterations;
@@ -78,30 +93,30 @@ static PetscErrorCode Reequilibrate_Private(App *app, PetscInt *iterations, Pets
   PetscCall(StateCopy(&l->state, &carried));
   PetscCall(PathAttempt(&app->path, &load, load.stop, &report));
   if (!report.converged && !app->path.stopped) PetscCall(PathRecover(&app->path, &load, load.stop, &carried, &report));
-  *ok = report.converged;
+  *ok     = report.converged;
+  *folded = PETSC_FALSE;
+  if (!*ok) PetscCall(IsFolded_Private(l->problem, &carried, folded));
   PetscCall(StateDestroy(&carried));
   *iterations += app->path.newton_iterations - before;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Refine and find equilibrium again; where there is none (material that collapses at a singular corner, say), the solution on the mesh at hand stands. *more: a
-   finer mesh was reached; *gave_up: it was not, and no limit is the reason. */
-static PetscErrorCode Pass_Private(App *app, MarkList *layers, PetscInt *iterations, PetscBool *more, PetscBool *gave_up)
+/* Refine in this way and find equilibrium again; where there is none, the solution on the mesh at hand stands. *more: a finer mesh was reached; *gave_up: it
+   was not, and no limit is the reason; *folded: nor where the state carried over was folded. */
+static PetscErrorCode RefineOnce_Private(App *app, RefineMode mode, MarkList *layers, PetscInt *iterations, PetscBool *more, PetscBool *gave_up,
+                                         PetscBool *folded)
 {
-  RecoveryCount *unfolded = &app->path.recovery[PATH_UNFOLDED];
-  const PetscInt before   = unfolded->tried;
-  Level          old      = app->level;
+  Level old = app->level;
 
   PetscFunctionBegin;
-  *iterations = 0;
-  PetscCall(AppRefine(app, &app->estimate, layers, PETSC_FALSE, more, gave_up));
+  *folded = PETSC_FALSE;
+  PetscCall(AppRefine(app, &app->estimate, layers, mode, more, gave_up));
   if (!*more) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(Reequilibrate_Private(app, iterations, more));
+  PetscCall(Reequilibrate_Private(app, iterations, more, folded));
   if (*more) {
     PetscCall(LevelDestroy(&old));
     ++app->passes_in_step;
     ++app->adapt_passes;
-    unfolded->succeeded += unfolded->tried - before;
   } else {
     PetscCall(LevelDestroy(&app->level));
     app->level      = old;
@@ -109,6 +124,24 @@ static PetscErrorCode Pass_Private(App *app, MarkList *layers, PetscInt *iterati
     *gave_up        = PETSC_TRUE;
     PetscCall(PathPrescribe(old.problem, old.state.t));
   }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* A finer mesh. When there is no equilibrium to be found on it (material that collapses at a singular corner, say), one that leaves the cells in which the
+   solution is folded as they are; when there is none on that either, adaptation ends. */
+static PetscErrorCode Pass_Private(App *app, MarkList *layers, PetscInt *iterations, PetscBool *more, PetscBool *gave_up)
+{
+  RecoveryCount *unfolded = &app->path.recovery[PATH_UNFOLDED];
+  MarkList       none     = {0};
+  PetscBool      folded;
+
+  PetscFunctionBegin;
+  *iterations = 0;
+  PetscCall(RefineOnce_Private(app, REFINE_ALL, layers, iterations, more, gave_up, &folded));
+  if (!folded || app->path.stopped || unfolded->mode == RECOVERY_OFF) PetscFunctionReturn(PETSC_SUCCESS);
+  ++unfolded->tried;
+  PetscCall(RefineOnce_Private(app, REFINE_UNFOLDED, &none, iterations, more, gave_up, &folded));
+  unfolded->succeeded += *more;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

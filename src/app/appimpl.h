@@ -14,6 +14,9 @@
 #define NOTHING_LEFT "nothing left to refine"
 #define INVERTS "refinement inverts a curved cell"
 
+/* all: what is marked, states carried over; afresh: the same, states at rest; unfolded: all but the cells in which the state is folded. */
+typedef enum { REFINE_ALL, REFINE_AFRESH, REFINE_UNFOLDED } RefineMode;
+
 /* A load step whose estimated error stayed above the tolerance: at t, and why; norm: largest energy norm from it to the step at hand. */
 /* What nothing holds of a body (AdriftFind), axes as bits: those that were free at every accepted step of this path, those of others that became so, first at
    time t. */
@@ -93,7 +96,7 @@ PetscErrorCode AppLayers(App *, const Estimate *, MarkList *layers);
 /* Adapt to these layers (taken over), if any, else mark and adapt. The level is another one then, its states carried over or (afresh) at rest at t = 0, and the
    old one is the caller's; *adapted false when nothing may or need be refined, or (refused) the mesh could not be made, and app->adapt_stop says why.
    Collective. */
-PetscErrorCode AppRefine(App *, const Estimate *, MarkList *layers, PetscBool afresh, PetscBool *adapted, PetscBool *refused);
+PetscErrorCode AppRefine(App *, const Estimate *, MarkList *layers, RefineMode, PetscBool *adapted, PetscBool *refused);
 /* refine.c: to the mesh that the list asks for, states carried over; the level at hand is the caller's then. *refused: why not, else NULL. Collective. */
 PetscErrorCode AppMoveTo(App *, MarkList *, const char **refused);
 /* coarsen.c. Before the first load step: how far the mesh that the scene asks for is split, where states are carried over to other meshes. Not collective. */

@@ -95,10 +95,37 @@ static PetscErrorCode Carry_Private(const Level *old, const ForestMap *map, Adap
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Between its integration points a solution may be folded (at the end of a bonded edge, say): points of smaller cells see it, and there may be no equilibrium
+   on them. The cells of the list where the state that was carried over is folded stay as they are; *more: there are some. */
+static PetscErrorCode KeepFolded_Private(const Level *old, const ForestMap *map, const Level *next, MarkList *list, int8_t order[], PetscBool *more)
+{
+  int8_t *folded;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(map->num, &folded));
+  PetscCall(ProblemFindFolded(next->problem, next->state.x, folded));
+  for (PetscInt l = 0; l < map->num; ++l) {
+    const PetscInt leaf = map->old_first[l];
+    if (!folded[l] || (!list->split[leaf] && (!order || order[leaf] <= old->state.leaf_order[leaf]))) continue;
+    list->split[leaf] = 0;
+    if (order) order[leaf] = old->state.leaf_order[leaf];
+    *more = PETSC_TRUE;
+  }
+  PetscCall(PetscFree(folded));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Is anything left to refine? */
+static PetscBool IsMarked_Private(const Level *l, PetscInt num_leaves, const MarkList *list, const int8_t order[])
+{
+  for (PetscInt leaf = 0; leaf < num_leaves; ++leaf)
+    if (list->split[leaf] || (order && order[leaf] > l->state.leaf_order[leaf])) return PETSC_TRUE;
+  return PETSC_FALSE;
+}
+
 /* The level on the mesh that the list asks for takes the place of the one at hand, which is the caller's then; refused: it stays. *more: the list has changed.
  */
-static PetscErrorCode MoveTo_Private(App *app, MarkList *list, int8_t order[], const PetscReal weight[], PetscBool afresh, const char **refused,
-                                     PetscBool *more)
+static PetscErrorCode MoveTo_Private(App *app, MarkList *list, int8_t order[], const PetscReal weight[], RefineMode mode, const char **refused, PetscBool *more)
 {
   PetscInt  num_pairs, (*pairs)[2];
   Level     next;
@@ -111,12 +138,17 @@ static PetscErrorCode MoveTo_Private(App *app, MarkList *list, int8_t order[], c
   PetscCall(ForestAdapt(app->level.forest, list, weight, num_pairs, (const PetscInt(*)[2])pairs, &forest, &map));
   PetscCall(StageEnd(STAGE_MESH));
   PetscCall(PetscFree(pairs));
-  PetscCall(Create_Private(app, forest, order ? order : app->level.state.leaf_order, &map, afresh ? 0 : app->level.state.t, list, &next, refused, more));
+  PetscCall(Create_Private(app, forest, order ? order : app->level.state.leaf_order, &map, mode == REFINE_AFRESH ? 0 : app->level.state.t, list, &next, refused,
+                           more));
   if (!*refused) {
     PetscCall(StageBegin(STAGE_TRANSFER));
-    if (!afresh) PetscCall(Carry_Private(&app->level, &map, app->data->adapt.history, &next));
+    if (mode != REFINE_AFRESH) PetscCall(Carry_Private(&app->level, &map, app->data->adapt.history, &next));
+    if (mode == REFINE_UNFOLDED) PetscCall(KeepFolded_Private(&app->level, &map, &next, list, order, more));
     PetscCall(StageEnd(STAGE_TRANSFER));
-    app->level = next;
+    if (*more)
+      PetscCall(LevelDestroy(&next));
+    else
+      app->level = next;
   }
   PetscCall(ForestMapDestroy(&map));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -128,7 +160,7 @@ PetscErrorCode AppMoveTo(App *app, MarkList *list, const char **refused)
 
   PetscFunctionBegin;
   *refused = NULL;
-  PetscCall(MoveTo_Private(app, list, NULL, NULL, PETSC_FALSE, refused, &more));
+  PetscCall(MoveTo_Private(app, list, NULL, NULL, REFINE_ALL, refused, &more));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -145,28 +177,27 @@ PetscErrorCode AppLayers(App *app, const Estimate *e, MarkList *layers)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* A cell that is turned inside out at a corner is at a place where strains grow without bound, as at the end of a bonded edge: smaller ones there fold even
-   more, and on them there may be no equilibrium. It is not split while others are to be. */
+/* A cell that is turned inside out at a corner is at a place where strains grow without bound, as at the end of a bonded edge: smaller ones there are folded
+   even more. It is not split while others are to be. */
 static PetscErrorCode LeaveFolded_Private(App *app, PetscInt num_leaves, MarkList *list)
 {
-  RecoveryCount *unfolded = &app->path.recovery[PATH_UNFOLDED];
-  PetscInt       others = 0, left = 0;
-  int8_t        *leaf;
-  Folded         folded;
+  PetscInt others = 0, left = 0;
+  int8_t  *leaf;
+  Folded   folded;
 
   PetscFunctionBegin;
-  if (app->data->mechanics.kinematics == KINEMATICS_SMALL || unfolded->mode == RECOVERY_OFF) PetscFunctionReturn(PETSC_SUCCESS);
+  if (app->data->mechanics.kinematics == KINEMATICS_SMALL || app->path.recovery[PATH_UNFOLDED].mode == RECOVERY_OFF) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(PetscMalloc1(num_leaves, &leaf));
   PetscCall(FoldedFind(app->level.problem, app->level.state.x, &folded, leaf));
   for (PetscInt l = 0; l < num_leaves; ++l) *(leaf[l] ? &left : &others) += list->split[l] != 0;
   for (PetscInt l = 0; l < num_leaves && others > 0; ++l)
     if (leaf[l]) list->split[l] = 0;
-  unfolded->tried += others > 0 && left > 0;
+  if (others > 0) app->path.folded_left += left;
   PetscCall(PetscFree(leaf));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode AppRefine(App *app, const Estimate *e, MarkList *layers, PetscBool afresh, PetscBool *adapted, PetscBool *refused)
+PetscErrorCode AppRefine(App *app, const Estimate *e, MarkList *layers, RefineMode mode, PetscBool *adapted, PetscBool *refused)
 {
   const ForestTables *t;
   MarkList            list   = *layers;
@@ -183,10 +214,15 @@ PetscErrorCode AppRefine(App *app, const Estimate *e, MarkList *layers, PetscBoo
     PetscCall(EstimateMark(e, &app->data->adapt, app->level.forest, &list, order, &marked));
   else if (order)
     PetscCall(PetscArraycpy(order, app->level.state.leaf_order, t->num_leaves));
-  if (!layers->split && !afresh) PetscCall(LeaveFolded_Private(app, t->num_leaves, &list));
+  if (!layers->split && mode != REFINE_AFRESH) PetscCall(LeaveFolded_Private(app, t->num_leaves, &list));
   for (PetscInt l = 0; order && l < t->num_leaves; ++l) weight[l] = PetscPowInt(order[l], t->dim);
   if (marked == 0) app->adapt_stop = e->num_leaves >= app->data->adapt.max_cells / 2 ? "max_cells" : NOTHING_LEFT;
-  while (marked > 0 && more) PetscCall(MoveTo_Private(app, &list, order, weight, afresh, &words, &more));
+  while (marked > 0 && more) {
+    PetscCall(MoveTo_Private(app, &list, order, weight, mode, &words, &more));
+    if (!more || IsMarked_Private(&app->level, t->num_leaves, &list, order)) continue;
+    words = NONE_FINER;
+    more  = PETSC_FALSE;
+  }
   if (words) app->adapt_stop = words;
   *adapted = (PetscBool)(marked > 0 && !words);
   *refused = (PetscBool)(words != NULL);

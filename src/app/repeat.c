@@ -72,7 +72,7 @@ static PetscErrorCode Refine_Private(App *app, PetscBool *refined)
   if (!app->adapt_stop[0]) PetscCall(AppLayers(app, &app->largest, &layers));
   if (!app->adapt_stop[0]) {
     PetscCall(AppSummary(app, "inaccurate", "a finer path is under way"));
-    PetscCall(AppRefine(app, &app->largest, &layers, PETSC_TRUE, refined, &refused));
+    PetscCall(AppRefine(app, &app->largest, &layers, REFINE_AFRESH, refined, &refused));
   }
   const PetscReal error = app->largest.num_leaves ? app->largest.relative : 0; /* of the step's own norm */
   if (!*refined) PetscCall(AppJudge(app, error, PetscSqrtReal(1 - PetscSqr(error)), refused));

@@ -24,6 +24,7 @@ static const struct {
     {"passed_through", offsetof(App, path.refusal[PATH_THROUGH].num)},
     {"rolled", offsetof(App, path.refusal[PATH_ROLLING].num)},
     {"stabilised", offsetof(App, path.stabilised)},
+    {"folded_left", offsetof(App, path.folded_left)},
     {"descent_iterations", offsetof(App, path.descent_iterations)},
     {"missed", offsetof(App, num_missed)},
 };

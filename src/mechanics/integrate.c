@@ -43,6 +43,28 @@ static PetscReal Growth_Private(Mechanics m, const CellGroup *g, PetscReal stret
   return of_F * sum / E * MechanicsNoiseModulus_Private(g->material, PETSC_TRUE) / MechanicsNoiseModulus_Private(g->material, PETSC_FALSE);
 }
 
+PetscErrorCode MechanicsFindFolded(Mechanics m, const PetscReal u[], int8_t folded[])
+{
+  const HPTables *v;
+
+  PetscFunctionBegin;
+  if (m->spec->kinematics == KINEMATICS_SMALL) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(HPSpaceGetTables(m->space, &v));
+  for (PetscInt g = 0; g < m->num_groups; ++g) {
+    const CellGroup *group = &m->groups[g];
+    const PetscInt   nd    = group->n * m->dim;
+    PetscReal       *x     = CutBuffers_Private(m, group).u;
+    for (PetscInt i = 0; i < group->num_cells; ++i) {
+      PetscInt inverted;
+      PetscCall(GatherBatch_Private(m, group, i, 1, u, x));
+      for (PetscInt k = 0; k < nd; ++k) x[k] += group->X[i * nd + k];
+      PetscCall(CellKernelFindInverted(group->kernel, 1, x, &inverted));
+      if (inverted == 0) folded[v->cell_leaf[group->cells[i]]] = 1;
+    }
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 static PetscErrorCode GroupResidual_Private(Mechanics m, const CellGroup *g, const PetscReal u[], const PetscReal pressure[], PetscReal r[],
                                             MechanicsStatus *status)
 {

@@ -133,6 +133,7 @@ const OutputField OutputSummaryFields[] = {
     {"passed_through", "", "and those for which a body went right through the other of such a pair (-path_through)"},
     {"rolled_too_far", "", "load steps that were made again, shorter, for bodies rolled too far on each other in them (-path_rolling)"},
     {"stabilised", "", "unstable equilibria that gave way to stable ones (load.stable)"},
+    {"folded_left", "", "cells that adaptation was to split and left as they were, for they are turned inside out at a corner (-path_unfolded)"},
     {"unstable_equilibria", "", "equilibria kept though unstable; null: not known"},
     {"cells", "", CELLS_HELP},
     {"dofs", "", DOFS_HELP},

@@ -237,6 +237,7 @@ static void AddRecoveries_Private(cJSON *root, const Path *path)
   AddNumber_Private(root, "passed_through", (PetscReal)path->refusal[PATH_THROUGH].num);
   AddNumber_Private(root, "rolled_too_far", (PetscReal)path->refusal[PATH_ROLLING].num);
   AddNumber_Private(root, "stabilised", (PetscReal)path->stabilised);
+  AddNumber_Private(root, "folded_left", (PetscReal)path->folded_left);
 }
 
 static cJSON *Document_Private(const SceneData *scene, const RunSummary *s, const Gathered *g)

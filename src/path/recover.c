@@ -139,9 +139,11 @@ const Recovery PathRecoveries[PATH_RECOVERIES] = {
     {"descent", "down on the energy of contact and bodies, each iterate lower than the one before, to an equilibrium that is not near by", 1, PathCanDescend,
      PathDescend},
     {"viscous", "viscous regularisation: bodies creep to an equilibrium that is not near by, as when they snap", 2, Always_Private, Viscous_Private},
-    [PATH_UNFOLDED] = {"unfolded", "cells that are turned inside out at a corner are not split while others are to be", 0, Always_Private, NULL},
-    [PATH_COARSEN]  = {"coarsen", "a load step that was not found on an adapted mesh: cells that adaptation made merge, and it begins again", 0, Always_Private,
-                       NULL},
+    [PATH_UNFOLDED] =
+        {"unfolded", "cells that are turned inside out at a corner are not split while others are; where a finer mesh has none, nor are those that fold there",
+         0, Always_Private, NULL},
+    [PATH_COARSEN] = {"coarsen", "a load step that was not found on an adapted mesh: cells that adaptation made merge, and it begins again", 0, Always_Private,
+                      NULL},
 };
 
 /* Is it time for an equilibrium farther off? Bodies in contact snap, or flow far; the end of what a load can be is no such place, and the user is told. A

@@ -402,6 +402,22 @@ PetscErrorCode ProblemFindInverted(Problem p, PetscInt *order, PetscReal X[3], P
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscErrorCode ProblemFindFolded(Problem p, Vec x, int8_t folded[])
+{
+  const ForestTables *t;
+  PetscReal          *u;
+
+  PetscFunctionBegin;
+  PetscCall(ForestGetTables(p->forest, &t));
+  PetscCall(PetscArrayzero(folded, t->num_leaves));
+  PetscCall(VecGetArray(p->u_local, &u));
+  PetscCall(ProblemLocalDisplacement(p, x, u));
+  PetscCall(MechanicsFindFolded(p->mechanics, u, folded));
+  PetscCall(VecRestoreArray(p->u_local, &u));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, folded, (PetscMPIInt)t->num_leaves, MPI_INT8_T, MPI_MAX, p->comm));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode ProblemFindConflict(Problem p, PetscReal t, size_t size, char words[])
 {
   PetscMPIInt first;
