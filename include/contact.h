@@ -166,8 +166,9 @@ PetscErrorCode ContactPairSetSoftness(ContactPair, const PetscReal softness[]);
 /* Nodes of the nonmortar side that other pairs constrain as well (NULL: none): what ContactPairTie and ContactPairKeepPoints find of their facets has a
    compliance from then on, the largest one of a facet that is covered in part. Borrowed. Not collective. */
 PetscErrorCode ContactPairSetShared(ContactPair, const PetscBool shared[]);
-/* Lengths along the rays of nonmortar facets that count as no gap (NULL: 0): gt_j = int psi_j (s - closed / |d|) d.n. Forces and derivatives are those of what
-   is left. closed[nonmortar num_facets], user's units of length; borrowed, and to be set again when a number changes. Not collective. */
+/* Lengths along the rays that count as no gap (NULL: 0): gt_j = int psi_j (s - closed / |d|) d.n, closed linear on each facet between its corners. Forces and
+   derivatives are those of what is left. closed[nonmortar num_nodes], of corners that do not hang, user's units of length; borrowed, and to be set again when a
+   number changes. Not collective. */
 PetscErrorCode ContactPairSetClosed(ContactPair, const PetscReal closed[]);
 /* Mean of z by m on a facet with compliance; (S z)_j = kappa m_j (z_j - mean). */
 static inline PetscReal ContactFacetMean(const ContactFacet *f, const PetscInt node[], const PetscReal z[])

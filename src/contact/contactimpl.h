@@ -43,7 +43,7 @@ struct _p_ContactPair {
   PetscInt                  num_degenerate;                                             /* overlaps of the last evaluation that could not be used */
   struct ContactMultiplier *multiplier;                                                 /* functions of the facets */
   const PetscReal          *softness;                                                   /* borrowed; NULL: no compliance */
-  const PetscReal          *closed;                                                     /* borrowed: of nonmortar facets; NULL: 0 */
+  const PetscReal          *closed;                                                     /* borrowed: of nonmortar corners; NULL: 0 */
   const PetscBool          *shared;                                                     /* borrowed: of nodes; NULL: no node is */
   RayWork                   ray;                                                        /* work space; NULL before the first search */
   PetscInt                  num_nodes, num_facets, num_mortar_nodes, num_mortar_facets; /* of the last search */

@@ -196,7 +196,7 @@ PetscErrorCode ContactDestroy_Private(Contact *c)
   PetscCall(PetscFree(c->result));
   PetscCall(PetscFree4(c->zdof, c->zlocal, c->gap0, c->offset));
   PetscCall(PetscFree3(c->reach, c->initial, c->initial_gap));
-  PetscCall(PetscFree2(c->closed, c->mean_gap));
+  PetscCall(PetscFree2(c->closed, c->corner_gap));
   for (PetscInt k = 0; k < 2; ++k) PetscCall(PetscFree(c->link[k]));
   PetscCall(PetscFree4(c->live, c->valued, c->valued_node, c->pack));
   PetscCall(ContactGatherDestroy_Private(c));

@@ -186,7 +186,7 @@ typedef struct {
   PetscReal           *offset;               /* [n] constant part of gt_j that does not count: initial gaps closed, interference */
   PetscReal           *initial_gap;          /* [n] see ContactView */
   PetscReal           *reach, *initial;      /* offset.c: [n] what an interference of 1 adds to the offset; initial gap closed or opened at first */
-  PetscReal           *closed, *mean_gap;    /* offset.c: [num_facets] length that counts as no gap; initial gap, in the mean; NULL: offsets do all */
+  PetscReal           *closed, *corner_gap;  /* offset.c: [n] length at corners that counts as no gap; initial gap there; NULL: offsets do all */
   PetscReal            overlap, allowance;   /* overlap.c: the deepest at the start, what of it counts as none … */
   PetscInt             shrinks;              /* … for which this side … */
   PetscReal           *inward[2], *moved[2]; /* … lies further in: [n][dim] unit vectors, reference positions then; NULL: not yet made */

@@ -1,9 +1,10 @@
 /* What counts as no gap: initial gaps of this mesh at the reference positions, and an interference, the change of all gaps by as much along their directions
    there. Both may change with time.
 
-   With finite kinematics the facets' means are taken off within the integral (ContactPairSetClosed): forces are then those of what is left, none of which
-   acts where the sides bear. Taken off the integrals as constants they would leave forces z grad gt of the gaps that are closed, which jump by pressure times
-   gap where an end of the mortar side passes one of the nonmortar side. What the means leave, and all of it with small kinematics, are constants. */
+   With finite kinematics lengths that are linear on the facets are taken off within the integral (ContactPairSetClosed): forces are then those of what is
+   left, none of which acts where the sides bear. Taken off the integrals as constants they would leave forces z grad gt of the gaps that are closed, which jump
+   by pressure times gap where an end of the mortar side passes one of the nonmortar side. What such lengths leave, and all of it with small kinematics, are
+   constants. */
 #include "interfaceimpl.h"
 
 /* Initial overlaps that are ramped count by the share t, from t = 1 on whole. */
@@ -47,7 +48,7 @@ static PetscErrorCode Time_Private(Contact *c, PetscReal t)
     const PetscInt j = c->side[0].own[i];
     c->offset[j]     = interference * c->reach[j] + share * c->initial[j];
   }
-  for (PetscInt f = 0; f < c->side[0].num_facets && c->closed; ++f) c->closed[f] = interference + share * c->mean_gap[f];
+  for (PetscInt n = 0; n < c->side[0].num_nodes && c->closed; ++n) c->closed[n] = interference + share * c->corner_gap[n];
   if (c->closed) PetscCall(ContactPairSetClosed(c->pair, c->closed));
   c->view.interference = interference;
   c->view.open         = open;
@@ -65,42 +66,75 @@ static void Reach_Private(Contact *c)
   }
 }
 
-/* Means of the facets' gaps, as lengths along their directions, and what such lengths do not take off of what is to be taken off at the nodes. */
-static PetscErrorCode Means_Private(Contact *c)
+/* At the reference positions: gaps and weights of the nodes of this rank. */
+static PetscErrorCode AtRest_Private(Interface p, Contact *c)
 {
-  PetscFunctionBegin;
-  PetscCall(PetscCalloc2(c->side[0].num_facets, &c->closed, c->side[0].num_facets, &c->mean_gap));
-  for (PetscInt i = 0; i < c->num_facets; ++i) {
-    const ContactFacet *f   = &c->facets[i];
-    PetscReal           gap = 0, length = 0, mean;
-
-    for (PetscInt k = 0; k < f->num_rows; ++k) gap += f->gap[k], length += f->length[k];
-    mean                  = length != 0 ? gap / length : 0;
-    mean                  = c->spec->adjust ? mean : PetscMin(mean, 0);
-    c->mean_gap[f->facet] = mean;
-    for (PetscInt k = 0; k < f->num_rows; ++k) {
-      if (!c->side[0].owned[f->nodes[k]]) continue;
-      c->reach[f->nodes[k]] -= f->length[k];
-      c->initial[f->nodes[k]] -= mean * f->length[k];
-    }
-  }
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode ContactOffset_Private(Interface p, Contact *c)
-{
-  const Surface      *s       = &c->side[0];
   ContactSurface      side[2] = {SurfaceAt_Private(&c->side[0], c->side[0].X), SurfaceAt_Private(&c->side[1], c->side[1].X)};
   const ContactFacet *facets;
   PetscBool           failed;
 
   PetscFunctionBegin;
-  PetscCall(PetscArrayzero(c->offset, s->num_nodes));
-  if (!c->spec->adjust && !c->spec->ramp && !c->spec->interference) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(ContactSearch_Private(p, c, PETSC_TRUE, 0));
   PetscCall(ContactPairEvaluate(c->pair, &side[0], &side[1], NULL, NULL, PETSC_FALSE, PETSC_FALSE, &c->num_facets, &facets, &failed));
   c->facets = facets;
   PetscCall(ContactNodeSums_Private(p, c));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Gaps at the corners, as lengths along the directions: means over what is covered of the facets there. Collective. */
+static PetscErrorCode Corners_Private(Interface p, Contact *c)
+{
+  const Surface *s = &c->side[0];
+  PetscReal     *sum;
+
+  PetscFunctionBegin;
+  PetscCall(PetscCalloc2(s->num_nodes, &c->closed, s->num_nodes, &c->corner_gap));
+  PetscCall(PetscCalloc1(2 * s->num_nodes, &sum));
+  for (PetscInt i = 0; i < c->num_facets; ++i) {
+    const ContactFacet *f      = &c->facets[i];
+    const PetscInt     *corner = s->facets + s->corners * f->facet;
+    PetscReal           gap = 0, length = 0;
+
+    for (PetscInt k = 0; k < f->num_rows; ++k) gap += f->gap[k], length += f->length[k];
+    for (PetscInt v = 0; v < s->corners && c->mine[f->facet]; ++v) sum[2 * corner[v]] += gap, sum[2 * corner[v] + 1] += length;
+  }
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, (PetscMPIInt)(2 * s->num_nodes), MPIU_REAL, MPI_SUM, p->comm));
+  for (PetscInt n = 0; n < s->num_nodes; ++n) {
+    const PetscReal mean = sum[2 * n + 1] != 0 ? sum[2 * n] / sum[2 * n + 1] : 0;
+
+    c->corner_gap[n] = c->spec->adjust ? mean : PetscMin(mean, 0);
+  }
+  PetscCall(PetscFree(sum));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* What lengths on the facets do not take off of what is to be taken off at the nodes: of an interference of 1, and of initial gaps. Collective. */
+static PetscErrorCode Rest_Private(Interface p, Contact *c)
+{
+  const Surface *s = &c->side[0];
+
+  PetscFunctionBegin;
+  for (PetscInt i = 0; i < c->num_facets; ++i) {
+    const ContactFacet *f = &c->facets[i];
+
+    for (PetscInt k = 0; k < f->num_rows; ++k)
+      if (s->owned[f->nodes[k]]) c->reach[f->nodes[k]] -= f->length[k];
+  }
+  for (PetscInt i = 0; i < s->num_own; ++i) c->initial[s->own[i]] -= c->gap[s->own[i]];
+  PetscCall(ContactPairSetClosed(c->pair, c->corner_gap));
+  PetscCall(AtRest_Private(p, c));
+  for (PetscInt i = 0; i < s->num_own; ++i) c->initial[s->own[i]] += c->gap[s->own[i]];
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode ContactOffset_Private(Interface p, Contact *c)
+{
+  const Surface *s = &c->side[0];
+
+  PetscFunctionBegin;
+  PetscCall(PetscArrayzero(c->offset, s->num_nodes));
+  if (!c->spec->adjust && !c->spec->ramp && !c->spec->interference) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(ContactSearch_Private(p, c, PETSC_TRUE, 0));
+  PetscCall(AtRest_Private(p, c));
   Reach_Private(c);
   for (PetscInt i = 0; i < s->num_own; ++i) {
     const PetscInt j  = s->own[i];
@@ -111,7 +145,10 @@ PetscErrorCode ContactOffset_Private(Interface p, Contact *c)
   PetscCall(LinkSpread_Private(p, &c->side[0].values, 1, c->initial_gap));
   SurfaceFollow_Private(&c->side[0], 1, c->initial_gap);
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &c->view.adjusted, 1, MPIU_REAL, MPI_MAX, p->comm));
-  if (p->spec->kinematics == KINEMATICS_FINITE) PetscCall(Means_Private(c));
+  if (p->spec->kinematics == KINEMATICS_FINITE) {
+    PetscCall(Corners_Private(p, c));
+    PetscCall(Rest_Private(p, c));
+  }
   c->num_facets = 0;
   PetscCall(Time_Private(c, 0));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -194,11 +194,11 @@ static void CheckSeed(const Kind *kind, uint64_t seed, PetscInt first, PetscInt 
   uint64_t          lengths = seed;
 
   MakePair(kind, &seed, &nonmortar, &mortar);
-  CHECK_CALL(PetscMalloc3(nonmortar.s.num_nodes, &z, nonmortar.s.num_nodes, &softness, nonmortar.s.num_facets, &closed));
+  CHECK_CALL(PetscMalloc3(nonmortar.s.num_nodes, &z, nonmortar.s.num_nodes, &softness, nonmortar.s.num_nodes, &closed));
   for (int j = 0; j < nonmortar.s.num_nodes; j++) z[j] = Random(&seed);
   for (int j = 0; j < nonmortar.s.num_nodes; j++) softness[j] = 20 + 10 * Random(&seed); /* so that facets covered in part give as much as their gaps */
   CHECK_CALL(ContactPairCreate(kind->dim, kind->ring, &spec, &pair));
-  for (int f = 0; f < nonmortar.s.num_facets; f++) closed[f] = 0.1 * Random(&lengths);
+  for (int j = 0; j < nonmortar.s.num_nodes; j++) closed[j] = 0.1 * Random(&lengths);
   if (closes) CHECK_CALL(ContactPairSetClosed(pair, closed));
   if (!kind->hanging) CHECK_CALL(ContactPairSetSoftness(pair, softness));
   SearchAll(pair, &nonmortar, &mortar, 0.5, 1e-3);

@@ -232,7 +232,7 @@ static void Check(const Kind *kind, uint64_t *seed, Errors *e)
   ContactPair       pair;
   PetscBool         failed;
   Sum               s;
-  PetscReal         closed[256];
+  PetscReal         closed[1024];
   uint64_t          lengths = *seed;
 
   MakePair(kind, seed, &a, &b);
@@ -252,7 +252,7 @@ static void Check(const Kind *kind, uint64_t *seed, Errors *e)
   Forces(&s, pair, &a, &b, z, traction, PETSC_FALSE);
   if (!kind->mirror) CheckBalance(&s, &a, &b, e);
   CheckDerivatives(pair, &a, &b, z, traction, seed, e);
-  for (PetscInt f = 0; f < a.s.num_facets; f++) closed[f] = 0.03 * Random(&lengths);
+  for (PetscInt n = 0; n < a.s.num_nodes; n++) closed[n] = 0.03 * Random(&lengths);
   CHECK_CALL(ContactPairSetClosed(pair, closed));
   CheckDerivatives(pair, &a, &b, z, traction, &lengths, e);
   SumDestroy(&s);

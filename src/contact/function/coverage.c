@@ -205,6 +205,14 @@ static PetscBool IsAcross_Private(const RayWork w, const ContactSurface *mortar)
   return PETSC_FALSE;
 }
 
+/* Of a corner that hangs the mean of its edge's ends. */
+static PetscReal Closed_Private(const ContactPair pair, PetscInt node)
+{
+  const PetscInt *parent = pair->ray->parent + 2 * node;
+
+  return parent[0] < 0 ? pair->closed[node] : (Closed_Private(pair, parent[0]) + Closed_Private(pair, parent[1])) / 2;
+}
+
 PetscErrorCode ContactCover(ContactPair pair, const ContactSurface *nonmortar, const ContactSurface *mortar, PetscInt slot, PetscBool *failed)
 {
   RayWork        w       = pair->ray;
@@ -220,13 +228,14 @@ PetscErrorCode ContactCover(ContactPair pair, const ContactSurface *nonmortar, c
   f->m       = f->D - 1;
   f->nv      = 2 * f->m;
   f->ring    = pair->axisymmetric ? 2 * PETSC_PI : 0;
-  f->closed  = pair->closed ? pair->closed[facet] : 0;
+  f->closes  = (PetscBool)(pair->closed != NULL);
   f->d.order = 1, f->d.num = f->nv;
   ContactRayLatticeGather(nonmortar, facet, &f->s);
   for (PetscInt a = 0; a < f->nv; a++) {
     const PetscInt corner = ContactCorner(f->nv, facet, a);
 
     for (int c = 0; c < 3; c++) f->d.x[a][c] = w->d[3 * corner + c];
+    if (f->closes) f->closed[a] = Closed_Private(pair, nonmortar->facets[corner]);
     if (!ContactDirectionUsable(w, nonmortar, corner)) *failed = PETSC_TRUE;
   }
   if (f->m == 2) ContactRayLatticePolynomial(&f->d);

@@ -2,7 +2,7 @@
 
    Facet. Position x(xi) = sum N_a x_a on the Gauss-Lobatto lattice, tangents t_k = x,k, n = t_1 x t_2 (plane: t_2 = e_z). Directions d_v at corners are means
    of facet vectors (direction.c), d(xi) their multilinear interpolation. Ray: x(xi) + s d(xi) = x_m(eta). Gap density g = s d.n per dxi: (x_m - x).n, so that
-   where both surfaces coincide the forces are z n whatever d is; where a length counts as closed, a number of the facet, g = (s - closed / |d|) d.n.
+   where both surfaces coincide the forces are z n whatever d is; where a length counts as closed, linear on the facet, g = (s - closed / |d|) d.n.
    Axisymmetric: times 2 pi r.
 
    Chart. Integration is over a constant plane picture of the facet, Y(xi) multilinear: corners of the reference facet (plane: the square, Y = xi). Mortar
@@ -83,13 +83,14 @@ typedef struct {
 
 /* Nonmortar facet. */
 typedef struct {
-  PetscInt   D, m, nv; /* dimension of space and facet, corners */
-  RayLattice s, d;     /* d: directions, order 1 */
-  PlaneQuad  chart;    /* counterclockwise */
-  PetscReal  c[4][2];  /* Y = c_0 + c_1 xi_1 + c_2 xi_2 + c_3 xi_1 xi_2 */
-  PetscReal  area;     /* of the chart */
-  PetscReal  ring;     /* 2 pi or 0 */
-  PetscReal  closed;   /* length along the rays that counts as no gap, user's units */
+  PetscInt   D, m, nv;  /* dimension of space and facet, corners */
+  RayLattice s, d;      /* d: directions, order 1 */
+  PlaneQuad  chart;     /* counterclockwise */
+  PetscReal  c[4][2];   /* Y = c_0 + c_1 xi_1 + c_2 xi_2 + c_3 xi_1 xi_2 */
+  PetscReal  area;      /* of the chart */
+  PetscReal  ring;      /* 2 pi or 0 */
+  PetscBool  closes;    /* is not all of s a gap? */
+  PetscReal  closed[4]; /* length along the rays that counts as no gap, of corners in the order of a lattice, user's units */
   RayBeyond  beyond;
   RayFrame   middle;
 } RayFacet;
@@ -109,7 +110,9 @@ typedef struct {
   PetscReal     p[3], t[2][3], tt[3][3], ttt[4][3], d[3], di[2][3], dij[3];
   PetscReal     X[3], Xi[2][3], Xij[3][3];
   PetscReal     xi[2], eta[2], s;
+  PetscBool     closes;
   PetscReal     open, dopen;                       /* of s what counts as a gap, s - closed / |d|; closed / |d|^3, so that d open = ds + dopen d . dd */
+  PetscReal     closing[3];                        /* closed,1 / |d|, closed,2 / |d|, closed,12 / |d| */
   PetscReal     n[3], unit[3], a, beta, rho, turn; /* turn: drho / dr */
   PetscReal     kappa[3], zeta[2][3];              /* ds = kappa . r, deta = zeta . r, r = variation of x + s d - x_m */
 } RayPoint;
@@ -254,11 +257,13 @@ PetscBool ContactRayAgain(const RayFacet *, const RayLattice *mortar, const RayP
 void ContactRayDensities(const RayFacet *, RayPoint *);
 /* K^-1 from the ray and the tangents of the mortar facet. */
 PetscBool ContactRayInverse(RayPoint *);
-/* open and dopen, from s. */
+/* open, dopen and closing, from s. */
 void ContactRayOpen(const RayFacet *, RayPoint *);
 /* R = x_m - x less the length that is closed, and what a change of d changes of it: dR -= closed (I - d d^T / d.d) dd / |d|. */
-void      ContactRayOpening(const RayPoint *, PetscReal R[3]);
-void      ContactRayOpeningTurns(const RayPoint *, const PetscReal dd[3], PetscReal dR[3]);
+void ContactRayOpening(const RayPoint *, PetscReal R[3]);
+void ContactRayOpeningTurns(const RayPoint *, const PetscReal dd[3], PetscReal dR[3]);
+/* dR -= how that length and its direction change along xi_k. */
+void      ContactRayOpeningAlong(const RayPoint *, PetscInt k, PetscReal dR[3]);
 PetscReal ContactRayGap(const RayPoint *);
 PetscReal ContactRayArea(const RayPoint *);
 void      ContactRayFirst(const RayFacet *, const RayLattice *mortar, const RayPoint *, PetscReal gap[], PetscReal area[], PetscReal gap_xi[2],

@@ -74,12 +74,21 @@ static PetscBool Mortar_Private(const RayFacet *f, const RayLattice *mortar, int
 
 void ContactRayOpen(const RayFacet *f, RayPoint *r)
 {
-  r->open  = r->s;
-  r->dopen = 0;
-  if (f->closed == 0) return;
-  const PetscReal square = Dot3(r->d, r->d), over = 1 / PetscSqrtReal(square);
-  r->open -= f->closed * over;
-  r->dopen = f->closed * over / square;
+  r->open   = r->s;
+  r->dopen  = 0;
+  r->closes = f->closes;
+  if (!f->closes) return;
+  const PetscReal square = Dot3(r->d, r->d), over = 1 / PetscSqrtReal(square), *c = f->closed;
+  PetscReal       closed = 0;
+
+  r->closing[0] = r->closing[1] = r->closing[2] = 0;
+  for (PetscInt v = 0; v < f->nv; v++) {
+    closed += r->V.N[v] * c[v];
+    for (PetscInt i = 0; i < f->m; i++) r->closing[i] += over * r->V.d[i][v] * c[v];
+  }
+  if (f->m == 2) r->closing[2] = over * (c[0] - c[1] - c[2] + c[3]) / 4;
+  r->open -= closed * over;
+  r->dopen = closed * over / square;
 }
 
 void ContactRayOpening(const RayPoint *r, PetscReal R[3])
@@ -94,6 +103,12 @@ void ContactRayOpeningTurns(const RayPoint *r, const PetscReal dd[3], PetscReal 
   const PetscReal closed = r->s - r->open, along = r->dopen * Dot3(r->d, dd);
 
   for (int c = 0; c < 3; c++) dR[c] -= closed * dd[c] - along * r->d[c];
+}
+
+void ContactRayOpeningAlong(const RayPoint *r, PetscInt k, PetscReal dR[3])
+{
+  ContactRayOpeningTurns(r, r->di[k], dR);
+  for (int c = 0; c < 3 && r->closes; c++) dR[c] -= r->closing[k] * r->d[c];
 }
 
 /* e = x - x_m, and the length along the ray. Steps zeta . (e + s d) to where they meet do not depend on s: zeta . d = 0, kappa . d = -1. */
@@ -176,7 +191,7 @@ INLINE void First_Private(PetscInt D, PetscInt na, PetscInt nv, PetscInt nb, con
   for (int c = 0; c < 3; c++) {
     A[c] = br * r->kappa[c] + (c == 0 ? r->open * r->beta * r->turn : 0);
     C[c] = br * r->s * r->kappa[c] + sr * r->n[c];
-    if (r->dopen != 0) C[c] += br * r->dopen * r->d[c];
+    if (r->closes) C[c] += br * r->dopen * r->d[c];
     E[c] = -br * r->kappa[c];
     for (int k = 0; k < 2; k++) B[k][c] *= sr, Ba[k][c] *= r->rho;
   }
@@ -185,7 +200,7 @@ INLINE void First_Private(PetscInt D, PetscInt na, PetscInt nv, PetscInt nb, con
   ContactRaySet(D, nb, r->M.N, E, gap + D * (na + nv));
   ContactRaySlopes(D, m, na, r->S.N, Aa, r->S.d, Ba, area);
   for (PetscInt i = 0; i < m; i++) {
-    gap_xi[i]  = Dot3(A, r->t[i]) + Dot3(C, r->di[i]);
+    gap_xi[i]  = Dot3(A, r->t[i]) + Dot3(C, r->di[i]) - (r->closes ? br * r->closing[i] : 0);
     area_xi[i] = Dot3(Aa, r->t[i]);
     for (PetscInt k = 0; k < m; k++) {
       gap_xi[i] += Dot3(B[k], r->tt[i + k]);

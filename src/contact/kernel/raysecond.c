@@ -3,7 +3,7 @@
    With r = P + s V - M (ray.c) half of d2g at fixed xi is
      b rho (ds kappa.V - deta_i kappa.M,i - deta_i deta_j kappa.x_m,ij / 2) + o rho (V.dn + d.(T_1 x T_2)) + rho ds db + (b ds + o db) drho.
    and where a length is closed, o changes with d, too: d o = ds + k d.V, k = closed / |d|^3, whose second derivative adds
-     k (b rho (V.V - 3 (d.V)^2 / d.d) / 2 + d.V (rho db + b drho)).
+     k (b rho (V.V - 3 (d.V)^2 / d.d) / 2 + d.V (rho db + b drho)); along the facet, o,i has - closed,i / |d| besides.
    Products with few left factors: ds, deta_i, drho; V.dn and T_1 x T_2 couple nodes by one vector for each pair. Derivatives by xi follow with P -> P + t_i
    dxi_i and so on: mixed[i] are full rows, xixi full. */
 #include "kernelimpl.h"
@@ -120,7 +120,7 @@ INLINE void Own_Private(const Layout *l, const RayPoint *r, PetscReal phi, Petsc
     Scale_Private(phi * r->open, r->n, v);
     ContactRaySet(D, l->nv, r->V.N, v, right + D * l->na);
   }
-  if (r->dopen != 0) Closed_Private(l, r, phi, weight, o);
+  if (r->closes) Closed_Private(l, r, phi, weight, o);
 }
 
 /* Pairs of nodes. */
@@ -155,7 +155,7 @@ INLINE void Second_Private(const Layout *l, const RayPoint *r, const RayWeight *
   for (int c = 0; c < 3; c++) {
     Ag[c] = br * r->kappa[c] + (c == 0 ? r->open * r->beta * r->turn : 0);
     Cg[c] = br * r->s * r->kappa[c] + sr * r->n[c];
-    if (r->dopen != 0) Cg[c] += br * r->dopen * r->d[c];
+    if (r->closes) Cg[c] += br * r->dopen * r->d[c];
     k[c] = phi->v * sr * r->d[c];
     A[c] = phi->v * Ag[c];
     C[c] = phi->v * Cg[c];
@@ -171,7 +171,7 @@ INLINE void Second_Private(const Layout *l, const RayPoint *r, const RayWeight *
 
     for (int c = 0; c < 3; c++) along[c] = r->t[i][c] + r->s * r->di[i][c];
     sigma[i] = Dot3(r->kappa, along);
-    openi[i] = sigma[i] + r->dopen * Dot3(r->d, r->di[i]);
+    openi[i] = sigma[i] + r->dopen * Dot3(r->d, r->di[i]) - (r->closes ? r->closing[i] : 0);
     for (PetscInt j = 0; j < m; j++) etai[j][i] = Dot3(r->zeta[j], along);
     Cross3(r->tt[i], r->t[1], ni[i]);
     if (m == 2) AddCross_Private(r->t[0], r->tt[i + 1], ni[i]);
@@ -201,10 +201,10 @@ INLINE void Second_Private(const Layout *l, const RayPoint *r, const RayWeight *
     for (PetscInt j = 0; j < m; j++) ContactRayAdd(D, na, r->S.dd[i + j], B[j], row);
     /* V */
     for (int c = 0; c < 3; c++) v[c] = r->s * u[c] + phi->d[i] * Cg[c] + phi->v * (br * sigma[i] * r->kappa[c] + sr * ni[i][c]) + b * r->n[c];
-    if (r->dopen != 0) {
-      const PetscReal along = r->rho * betai[i] + r->beta * rhoi[i] - 3 * br * Dot3(r->d, r->di[i]) / Dot3(r->d, r->d);
+    if (r->closes) {
+      const PetscReal square = Dot3(r->d, r->d), along = r->rho * betai[i] + r->beta * rhoi[i] - 3 * br * Dot3(r->d, r->di[i]) / square;
 
-      for (int c = 0; c < 3; c++) v[c] += phi->v * r->dopen * (br * r->di[i][c] + along * r->d[c]);
+      for (int c = 0; c < 3; c++) v[c] += phi->v * (r->dopen * (br * r->di[i][c] + along * r->d[c]) + br * r->closing[i] / square * r->d[c]);
     }
     ContactRaySet(D, nv, r->V.N, v, row + D * na);
     ContactRayAdd(D, nv, r->V.d[i], C, row + D * na);
@@ -229,7 +229,12 @@ INLINE void Second_Private(const Layout *l, const RayPoint *r, const RayWeight *
         AddCross_Private(r->tt[j], r->tt[i + 1], x);
       }
       sum += Dot3(k, x) + phi->v * ((r->beta * openi[i] + r->open * betai[i]) * rhoi[j] + (r->beta * openi[j] + r->open * betai[j]) * rhoi[i]);
-      if (r->dopen != 0) sum += phi->v * br * r->dopen * (Dot3(r->di[i], r->di[j]) - 3 * Dot3(r->d, r->di[i]) * Dot3(r->d, r->di[j]) / Dot3(r->d, r->d));
+      if (r->closes) {
+        const PetscReal square = Dot3(r->d, r->d), along[2] = {Dot3(r->d, r->di[i]), Dot3(r->d, r->di[j])};
+
+        sum += phi->v * br * r->dopen * (Dot3(r->di[i], r->di[j]) - 3 * along[0] * along[1] / square);
+        sum += phi->v * br * ((r->closing[i] * along[1] + r->closing[j] * along[0]) / square - (i != j ? r->closing[2] : 0));
+      }
       o->xixi[i + j] = sum;
     }
 }

@@ -174,7 +174,7 @@ static void Slope_Private(const Work *o, const RayPoint *r, const Traction *at, 
       Rk[c] = r->Xi[0][c] * eta[0] + r->Xi[1][c] * eta[1] - r->t[k][c];
       Tk[c] = Dot3(at->C[0][c], r->tt[k]) + Dot3(at->C[1][c], r->tt[k + 1]) + at->a * at->along[k][c];
     }
-    ContactRayOpeningTurns(r, r->di[k], Rk);
+    ContactRayOpeningAlong(r, k, Rk);
     for (PetscInt i = 0; i < rows; i++) {
       const PetscInt c = i % 3, a = i / 3, b = a - o->na;
       PetscReal      x = -h[a][c] * r->chart.ddet[k] / r->chart.det;

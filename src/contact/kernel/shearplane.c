@@ -42,7 +42,7 @@ static void Density_Private(const RayFacet *f, const RayLattice *mortar, const R
   for (int c = 0; c < 2; c++) etai += r->zeta[0][c] * (t[c] + r->s * r->di[0][c]);
   ContactRayOpening(r, R);
   for (int c = 0; c < 3; c++) Ri[c] = r->Xi[0][c] * etai - t[c];
-  ContactRayOpeningTurns(r, r->di[0], Ri);
+  ContactRayOpeningAlong(r, 0, Ri);
   for (int c = 0; c < 2; c++) {
     for (PetscInt a = 0; a < f->s.num; a++) {
       h[c][a]     = r->S.d[0][a] * R[c] - r->S.N[a] * t[c];
