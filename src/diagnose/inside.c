@@ -101,8 +101,9 @@ static PetscErrorCode Find_Private(const Pieces *s, MPI_Comm comm, const PetscIn
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The first pair of those that is within, and not so as the mesh has it, with nothing displaced: supports and rigid bodies neither. */
-static PetscErrorCode First_Private(Problem problem, MPI_Comm comm, PetscInt num, PetscInt bare[], const PetscBool within[], PetscInt *pair)
+/* The first pair of those that is within, and not so as the mesh has it, with nothing displaced: supports and rigid bodies neither; and the first that still
+   is. */
+static PetscErrorCode First_Private(Problem problem, MPI_Comm comm, PetscInt num, PetscInt bare[], const PetscBool within[], PetscInt *pair, PetscInt *still)
 {
   const HPTables *v;
   Pieces          s = {0};
@@ -121,7 +122,7 @@ static PetscErrorCode First_Private(Problem problem, MPI_Comm comm, PetscInt num
   PetscCall(PiecesAt_Private(problem, none, PETSC_TRUE, &s));
   PetscCall(Find_Private(&s, comm, bare, before));
   for (PetscInt i = num - 1; i >= 0; --i) {
-    if (within[i] && !before[i]) *pair = i;
+    if (within[i]) *(before[i] ? still : pair) = i;
   }
   PetscCall(PetscFree(s.piece));
   PetscCall(PetscFree(before));
@@ -194,16 +195,17 @@ static PetscErrorCode Own_Private(Problem problem, const State *state, const Pie
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode InsideFind(Problem problem, const State *state, PetscInt *pair)
+PetscErrorCode InsideFind(Problem problem, const State *state, PetscInt *pair, PetscInt *still)
 {
   const SceneData *scene;
   Forest           forest = ProblemForest(problem);
   Pieces           s      = {0};
-  PetscInt        *bare, own;
+  PetscInt        *bare, own, meshed = -1;
   PetscBool        any, *within;
 
   PetscFunctionBegin;
   *pair = -1;
+  if (still) *still = -1;
   PetscCall(ProblemGetScene(problem, &scene));
   if (scene->num_contacts == 0 || scene->mechanics.kinematics == KINEMATICS_SMALL) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(PetscMalloc2(scene->num_contacts, &bare, scene->num_contacts, &within));
@@ -212,9 +214,10 @@ PetscErrorCode InsideFind(Problem problem, const State *state, PetscInt *pair)
     PetscCall(PiecesCollect_Private(problem, state, PETSC_TRUE, &s));
     PetscCall(Find_Private(&s, ForestComm(forest), bare, within));
     PetscCall(Own_Private(problem, state, &s, ForestComm(forest), bare, &own));
-    PetscCall(First_Private(problem, ForestComm(forest), scene->num_contacts, bare, within, pair));
+    PetscCall(First_Private(problem, ForestComm(forest), scene->num_contacts, bare, within, pair, &meshed));
     PetscCall(PetscFree(s.piece));
     if (*pair < 0) *pair = own;
+    if (still) *still = meshed;
   }
   PetscCall(PetscFree2(bare, within));
   PetscFunctionReturn(PETSC_SUCCESS);
