@@ -175,7 +175,7 @@ PetscBool      InterfaceSlips(Interface);
 PetscErrorCode InterfaceSetSlipOrigin(Interface, const PetscReal u[]);
 /* What friction of a pair did from that state to that of the last evaluation; all 0 without friction. Collective. */
 typedef struct {
-  PetscReal dissipation; /* - sum_j q_j s_j */
+  PetscReal dissipation; /* - sum_j q_j w_j (mean slip of node j) */
   PetscReal max_slip;    /* largest |s_j| / w_j of a node that touches */
   PetscInt  sticking, slipping;
 } FrictionFigures;

@@ -295,7 +295,7 @@ PetscErrorCode InterfaceFriction(Interface p, PetscInt pair, FrictionFigures *f)
 
     if (!c->has_multiplier[j] || !c->active[j]) continue;
     for (PetscInt d = 0; d < p->dim - 1; ++d) {
-      sum[0] -= c->z[n * (1 + d) + j] * c->slip->slip[n * d + j];
+      sum[0] -= c->z[n * (1 + d) + j] * c->slip->mean[n * d + j] * c->weight[j];
       square += PetscSqr(c->slip->mean[n * d + j]);
     }
     if (c->slip->weight[j] == 0) continue;

@@ -107,6 +107,27 @@ static PetscBool Always_Private(const Path *p, const State *guess)
   return PETSC_TRUE;
 }
 
+/* Friction counted from each piece of pseudo-time, and what slipped in them is forgotten: the equilibrium once more, with slip from the start of the step.
+   Where none is found, the one at hand stays. */
+static PetscErrorCode Slipped_Private(Path *p, const PathLoop *load, PetscReal to, SolverReport *report)
+{
+  Level       *l = p->level;
+  State        found;
+  SolverReport again;
+
+  PetscFunctionBegin;
+  PetscCall(StateCreate(l->problem, &found));
+  PetscCall(StateCopy(&l->state, &found));
+  PetscCall(PetscArraycpy(l->state.before, l->accepted.before, l->state.num_before));
+  PetscCall(PathAttempt(p, load, to, &again));
+  if (again.converged)
+    *report = again;
+  else
+    PetscCall(PathRestore(p, &found));
+  PetscCall(StateDestroy(&found));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 static PetscErrorCode Viscous_Private(Path *p, const PathLoop *load, PetscReal to, const State *guess, SolverReport *report)
 {
   PathLoop loop = {.metric   = &PathViscous,
@@ -124,7 +145,10 @@ static PetscErrorCode Viscous_Private(Path *p, const PathLoop *load, PetscReal t
   PetscCall(Begin_Private(p, NULL));
   PetscCall(PathFollow(p, &loop, report));
   PetscCall(ProblemSetViscosity(p->level->problem, 0, NULL));
-  if (!report->converged) p->viscous_work = before;
+  if (!report->converged)
+    p->viscous_work = before;
+  else if (InterfaceSlips(ProblemInterface(p->level->problem)))
+    PetscCall(Slipped_Private(p, load, to, report));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -1,6 +1,10 @@
 """A damaged .msh ends in exit status 1 with a sentence, not in a signal."""
+import json
 import subprocess
 
+import pytest
+
+from boxmesh import linspace, write
 from conftest import ROOT
 
 
@@ -25,3 +29,16 @@ def test_lost_separator_is_told(run, tmp_path):
     """A line of $Nodes has lost a number, so that the numbers after it shift: PETSc 3.18 alone would follow a node that does not exist."""
     result = damaged(run, tmp_path, 27, lambda line: line.replace(" ", "", 1))
     assert result.returncode == 1 and "mortise: " in result.stderr, result
+
+
+def test_axis_within_round_off(run, tmp_path):
+    """Nodes on the axis of revolution at the radius that cos(90 degrees) is in floating point: the estimate is that of an axis at 0."""
+    estimates = []
+    for axis in (0, 6e-17):
+        write(tmp_path / "rod.msh", [linspace(0, 1, 3)] * 2, lambda x, y: (x or axis * (2 - y), y))
+        scene = {"mesh": {"file": "rod.msh"}, "model": "axisymmetric", "order": 3, "body": {"body": {"material": "m"}}, "load": {"step": 1},
+                 "material": {"m": {"law": "neo_hookean", "E": 1, "nu": 0.3}}, "boundary": {"y0": {"fix": "xy"}, "y1": {"displacement": {"x": 0, "y": 0.1}}}}
+        result = run("s.yml", "-adapt_tolerance", 0.9, text=json.dumps(scene))
+        assert result.returncode == 0, result
+        estimates.append(result.summary["estimate"]["total"])
+    assert estimates[1] == pytest.approx(estimates[0], rel=1e-6) and estimates[0] > 0
