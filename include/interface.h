@@ -98,8 +98,7 @@ typedef struct {
   PetscReal        adjusted;       /* largest mean initial gap, over or under, that was closed at a node (initial_gap: adjust) */
   PetscReal        interference;   /* at the time last set */
   PetscReal        friction;       /* the coefficient then */
-  PetscReal        open;           /* share of initial overlaps that does not count then (initial_gap: ramp) */
-  const PetscReal *initial_gap;    /* [nonmortar.num_nodes] those that initial_gap closes or opens, means over the functions of the nodes; else 0 */
+  const PetscReal *initial_gap;    /* [nonmortar.num_nodes] those that initial_gap: adjust closes, means over the functions of the nodes; else 0 */
 } ContactView;
 
 /* fixed[num_nodes]: as in Supports. All that is handed over must outlive the interface. Collective. */

@@ -109,10 +109,10 @@ static PetscBool IsTied_Private(const ContactTerm *term)
   return (PetscBool)(term->view->spec->law == CONTACT_TIED);
 }
 
-/* Do gaps of the mesh count as closed, or overlaps in part? */
+/* Do gaps of the mesh count as closed? */
 static PetscBool IsAdjusted_Private(const ContactTerm *term)
 {
-  return (PetscBool)(IsTied_Private(term) || term->view->spec->adjust || term->view->open > 0);
+  return (PetscBool)(IsTied_Private(term) || term->view->spec->adjust);
 }
 
 /* What of the gap at the start counts as none, as the nodes show it. */
@@ -122,7 +122,7 @@ static PetscReal InitialGap_Private(const ContactView *v, PetscInt facet, const 
   PetscReal       gap = 0;
 
   for (PetscInt a = 0; a < num; ++a) gap += N[a] * v->initial_gap[node[a]];
-  return (v->spec->adjust ? 1 : v->open) * gap;
+  return gap;
 }
 
 /* Gap and height of the mortar side at a point. */
@@ -296,7 +296,7 @@ static PetscErrorCode AddPart_Private(const EstimateSum *sum, const ContactTerm 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* initial_gap: adjust counts the gaps of the mesh as closed, ramp a share of overlaps, which leaves what differs from their mean. */
+/* initial_gap: adjust counts the gaps of the mesh as closed, which leaves what differs from their mean. */
 static void Adjust_Private(GapPoints *points)
 {
   PetscReal area = 0, mean = 0;

@@ -181,16 +181,17 @@ typedef struct {
   PetscReal            distance;   /* search distance */
   PetscInt             num_facets; /* results of the last evaluation */
   const ContactFacet  *facets;
-  ContactFacet        *frozen;               /* small kinematics: those at the reference positions */
-  PetscReal           *gap0, *mean0;         /* [n] small kinematics: gaps there, over weights; mean0 NULL: not yet, or finite */
-  PetscReal           *offset;               /* [n] constant part of gt_j that does not count: initial gaps closed, interference */
-  PetscReal           *initial_gap;          /* [n] see ContactView */
-  PetscReal           *reach, *initial;      /* offset.c: [n] what an interference of 1 adds to the offset; initial gap closed or opened at first */
-  PetscReal           *closed, *corner_gap;  /* offset.c: [n] length at corners that counts as no gap; initial gap there; NULL: offsets do all */
-  PetscReal            overlap, allowance;   /* overlap.c: the deepest at the start, what of it counts as none … */
-  PetscInt             shrinks;              /* … for which this side … */
-  PetscReal           *inward[2], *moved[2]; /* … lies further in: [n][dim] unit vectors, reference positions then; NULL: not yet made */
-  int8_t              *link[2];              /* rigid.c: [n] body of each side's nodes among the links; NULL: there are none */
+  ContactFacet        *frozen;              /* small kinematics: those at the reference positions */
+  PetscReal           *gap0, *mean0;        /* [n] small kinematics: gaps there, over weights; mean0 NULL: not yet, or finite */
+  PetscReal           *offset;              /* [n] constant part of gt_j that does not count: initial gaps closed, interference */
+  PetscReal           *initial_gap;         /* [n] see ContactView */
+  PetscReal           *reach, *initial;     /* offset.c: [n] what an interference of 1 adds to the offset; initial gap that is closed */
+  PetscReal           *closed, *corner_gap; /* offset.c: [n] length at corners that counts as no gap; initial gap there; NULL: offsets do all */
+  PetscReal            ramped, ramp_share;  /* overlap.c: the deepest at the reference positions, where the scene ramps it, and the share that counts as none */
+  PetscReal            overlap, overlap_share, allowance; /* the same where a recovery does; what of both counts as none … */
+  PetscInt             shrinks;                           /* … for which this side … */
+  PetscReal           *inward[2], *moved[2];              /* … lies further in: [n][dim] by 1, reference positions then; NULL: not yet made */
+  int8_t              *link[2];                           /* rigid.c: [n] body of each side's nodes among the links; NULL: there are none */
   PetscInt             num_q, q_row[INTERFACE_MOTIONS], q_motion[INTERFACE_MOTIONS]; /* unknowns of the bodies of this pair */
   const RigidLink     *links, *q_link[INTERFACE_MOTIONS];
   PetscReal            seconds;                  /* in searches and evaluations */
@@ -417,7 +418,11 @@ static inline PetscBool ContactPressed_Private(const Contact *c, PetscInt j)
 {
   return (PetscBool)(c->has_multiplier[j] && c->z[j] > SLACK * c->c[j] * c->extent[j]);
 }
-/* overlap.c: the positions that displacements of a side count from. */
+/* overlap.c: the deepest overlap at the gaps of the last evaluation, which is at the reference positions, is ramped. Collective. */
+PetscErrorCode ContactRamp_Private(Interface, Contact *);
+/* The share of it that counts as none. */
+void ContactLeaveRamp_Private(Contact *, PetscReal share);
+/* The positions that displacements of a side count from. */
 const PetscReal *ContactBase_Private(const Contact *, PetscInt side);
 void             ContactRows_Private(const Contact *, PetscInt j, PetscBool lifted, PetscBool symmetric, ContactRow row[]);
 /* Increment of a row of a facet, by its gradient, under nodal increments du of both sides. */

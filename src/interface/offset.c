@@ -1,5 +1,5 @@
-/* What counts as no gap: initial gaps of this mesh at the reference positions, and an interference, the change of all gaps by as much along their directions
-   there. Both may change with time.
+/* What counts as no gap: initial gaps of this mesh at the reference positions, an interference, the change of all gaps by as much along their directions there,
+   and the share of initial overlaps that is ramped (overlap.c). The last two may change with time.
 
    With finite kinematics lengths that are linear on the facets are taken off within the integral (ContactPairSetClosed): forces are then those of what is
    left, none of which acts where the sides bear. Taken off the integrals as constants they would leave forces z grad gt of the gaps that are closed, which jump
@@ -37,21 +37,24 @@ static PetscErrorCode Friction_Private(Contact *c, PetscReal t)
 }
 
 /* To what is closed at time t. */
-static PetscErrorCode Time_Private(Contact *c, PetscReal t)
+static PetscErrorCode Time_Private(Contact *c, PetscBool small, PetscReal t)
 {
-  const PetscReal open = Open_Private(c->spec, t), share = c->spec->adjust ? 1 : open;
+  const PetscReal open = Open_Private(c->spec, t);
   PetscReal       interference;
 
   PetscFunctionBegin;
   PetscCall(Value_Private(c->spec, t, &interference));
+  if (small)
+    interference -= open * c->ramped;
+  else
+    ContactLeaveRamp_Private(c, open);
   for (PetscInt i = 0; i < c->side[0].num_own; ++i) {
     const PetscInt j = c->side[0].own[i];
-    c->offset[j]     = interference * c->reach[j] + share * c->initial[j];
+    c->offset[j]     = interference * c->reach[j] + c->initial[j];
   }
-  for (PetscInt n = 0; n < c->side[0].num_nodes && c->closed; ++n) c->closed[n] = interference + share * c->corner_gap[n];
+  for (PetscInt n = 0; n < c->side[0].num_nodes && c->closed; ++n) c->closed[n] = interference + c->corner_gap[n];
   if (c->closed) PetscCall(ContactPairSetClosed(c->pair, c->closed));
   c->view.interference = interference;
-  c->view.open         = open;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -99,9 +102,7 @@ static PetscErrorCode Corners_Private(Interface p, Contact *c)
   }
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, (PetscMPIInt)(2 * s->num_nodes), MPIU_REAL, MPI_SUM, p->comm));
   for (PetscInt n = 0; n < s->num_nodes; ++n) {
-    const PetscReal mean = sum[2 * n + 1] != 0 ? sum[2 * n] / sum[2 * n + 1] : 0;
-
-    c->corner_gap[n] = c->spec->adjust ? mean : PetscMin(mean, 0);
+    if (c->spec->adjust && sum[2 * n + 1] != 0) c->corner_gap[n] = sum[2 * n] / sum[2 * n + 1];
   }
   PetscCall(PetscFree(sum));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -138,19 +139,20 @@ PetscErrorCode ContactOffset_Private(Interface p, Contact *c)
   Reach_Private(c);
   for (PetscInt i = 0; i < s->num_own; ++i) {
     const PetscInt j  = s->own[i];
-    c->initial[j]     = c->spec->adjust ? c->gap[j] : PetscMin(c->gap[j], 0);
+    c->initial[j]     = c->spec->adjust ? c->gap[j] : 0;
     c->initial_gap[j] = c->weight[j] > 0 ? c->initial[j] / c->weight[j] : 0;
     if (c->spec->adjust && ContactCovered_Private(c, j)) c->view.adjusted = PetscMax(c->view.adjusted, PetscAbsReal(c->gap[j] / c->weight[j]));
   }
   PetscCall(LinkSpread_Private(p, &c->side[0].values, 1, c->initial_gap));
   SurfaceFollow_Private(&c->side[0], 1, c->initial_gap);
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &c->view.adjusted, 1, MPIU_REAL, MPI_MAX, p->comm));
-  if (p->spec->kinematics == KINEMATICS_FINITE) {
+  if (c->spec->ramp) PetscCall(ContactRamp_Private(p, c));
+  if (p->spec->kinematics == KINEMATICS_FINITE && (c->spec->adjust || c->spec->interference)) {
     PetscCall(Corners_Private(p, c));
     PetscCall(Rest_Private(p, c));
   }
   c->num_facets = 0;
-  PetscCall(Time_Private(c, 0));
+  PetscCall(Time_Private(c, (PetscBool)(p->spec->kinematics == KINEMATICS_SMALL), 0));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -158,7 +160,7 @@ PetscErrorCode InterfaceSetTime(Interface p, PetscReal t)
 {
   PetscFunctionBegin;
   for (PetscInt i = 0; i < p->num_contacts; ++i) {
-    PetscCall(Time_Private(&p->contacts[i], t));
+    PetscCall(Time_Private(&p->contacts[i], (PetscBool)(p->spec->kinematics == KINEMATICS_SMALL), t));
     PetscCall(Friction_Private(&p->contacts[i], t));
   }
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -141,7 +141,8 @@ const Option Options[] = {
      PAIR(spec.search)},
     {"contact.<pair>.initial_gap", KEY_WORD, "", "keep", "keep|adjust|ramp|close",
      "adjust: what faces each other at the reference positions counts as touching, so that facets on a curved surface make no gap; ramp: bodies that overlap "
-     "there are pressed apart step by step, overlaps count by the share t and from t = 1 on whole; of a tied pair: keep: gaps stay and turn with the "
+     "there are pressed apart step by step, as if one of them grew from where it just touches at t = 0 to its size at t = 1; of a tied pair: keep: gaps stay "
+     "and turn with the "
      "surface, close: gaps are closed",
      PAIR(initial_gap)},
     {"contact.<pair>.interference", KEY_EXPRESSION, "length", "", ANY,
