@@ -184,10 +184,9 @@ static PetscErrorCode CheckSize_Private(const CoarseMesh *mesh, PetscInt cell)
 }
 
 /* Would a cell be sound with straight sides between its corners? */
-static PetscBool IsSoundStraight_Private(const CoarseMesh *mesh, PetscInt cell)
+static PetscBool IsSoundStraight_Private(const CoarseMesh *mesh, PetscInt cell, PetscReal corner[8][3])
 {
   const PetscInt p = mesh->geometry_order, q = p + 1, n = q * q * (mesh->dim == 3 ? q : 1);
-  PetscReal      corner[8][3];
   CoarseMesh     one = *mesh;
 
   for (PetscInt k = 0; k < 1 << mesh->dim; ++k) {
@@ -199,20 +198,37 @@ static PetscBool IsSoundStraight_Private(const CoarseMesh *mesh, PetscInt cell)
   return (PetscBool)(ForestCoarseJacobianSign(&one, 0) > 0);
 }
 
-static PetscErrorCode CheckCells_Private(const CoarseMesh *mesh)
+/* A quadrilateral out of a triangle two of whose sides lie on one arc has a corner of 180 degrees, unless its sides are straight: those inside a body are. */
+static void Straighten_Private(CoarseMesh *mesh, PetscInt cell, const PetscReal corner[8][3])
 {
-  PetscReal X[3];
+  const PetscInt q  = mesh->geometry_order + 1;
+  PetscReal     *to = mesh->cell_geometry + 3 * q * q * cell;
+
+  for (PetscInt k = 0; k < q * q; ++k) {
+    const PetscReal s = (PetscReal)(k % q) / (PetscReal)(q - 1), t = (PetscReal)(k / q) / (PetscReal)(q - 1);
+    for (PetscInt c = 0; c < 3; ++c) to[3 * k + c] = (1 - t) * ((1 - s) * corner[0][c] + s * corner[1][c]) + t * ((1 - s) * corner[2][c] + s * corner[3][c]);
+  }
+  if (mesh->num_straight++ == 0) mesh->first_straight = cell;
+}
+
+static PetscErrorCode CheckCells_Private(CoarseMesh *mesh)
+{
+  PetscReal X[3], corner[8][3];
 
   PetscFunctionBegin;
   for (PetscInt c = 0; c < mesh->num_cells; ++c) {
     if (ForestCoarseJacobianSign(mesh, c) > 0) continue;
+    const PetscBool straight = (PetscBool)(mesh->geometry_order > 1 && IsSoundStraight_Private(mesh, c, corner));
+    if (straight && mesh->dim == 2) {
+      Straighten_Private(mesh, c, (const PetscReal(*)[3])corner);
+      continue;
+    }
     CellCentre_Private(mesh, c, X);
     PetscCall(CheckSize_Private(mesh, c));
-    return ErrorInput(
-        "mesh cell %" PetscInt_FMT " of %" PetscInt_FMT
-        ", centre (%g, %g, %g), is inverted or degenerate: its Jacobian determinant is not positive everywhere%s",
-        c + 1, mesh->num_cells, (double)X[0], (double)X[1], (double)X[2],
-        mesh->geometry_order > 1 && IsSoundStraight_Private(mesh, c) ? "; with straight sides it would be: smaller cells there, or a lower mesh.order" : "");
+    return ErrorInput("mesh cell %" PetscInt_FMT " of %" PetscInt_FMT
+                      ", centre (%g, %g, %g), is inverted or degenerate: its Jacobian determinant is not positive everywhere%s",
+                      c + 1, mesh->num_cells, (double)X[0], (double)X[1], (double)X[2],
+                      straight ? "; with straight sides it would be: smaller cells there, or a lower mesh.order" : "");
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

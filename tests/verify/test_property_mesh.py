@@ -42,3 +42,19 @@ def test_axis_within_round_off(run, tmp_path):
         assert result.returncode == 0, result
         estimates.append(result.summary["estimate"]["total"])
     assert estimates[1] == pytest.approx(estimates[0], rel=1e-6) and estimates[0] > 0
+
+
+SEGMENT = """Point(1) = {1, 0, 0}; Point(2) = {0, 1, 0}; Point(3) = {0, 0, 0}; Circle(1) = {1, 3, 2}; Line(2) = {2, 1};
+Transfinite Curve {1} = 3; Transfinite Curve {2} = 2; Curve Loop(1) = {1, 2}; Plane Surface(1) = {1};
+Physical Surface("b") = {1}; Physical Curve("arc") = {1}; Physical Curve("flat") = {2};"""
+
+
+@pytest.mark.parametrize("order", [2, 3, 4])
+def test_triangle_with_two_sides_on_one_arc(run, tmp_path, order):
+    """It becomes quadrilaterals of which one has a corner of 180 degrees: inverted with the curved sides of orders 3 and 4, so its sides are straight, which is told."""
+    (tmp_path / "s.geo").write_text(SEGMENT)
+    scene = {"mesh": {"file": "s.geo", "order": order}, "model": "plane_strain", "order": 2, "body": {"b": {"material": "m"}}, "load": {"step": 1},
+             "material": {"m": {"law": "neo_hookean", "E": 1, "nu": 0.3}}, "boundary": {"flat": {"fix": "xy"}, "arc": {"pressure": 0.01}}}
+    result = run("s.yml", text=json.dumps(scene))
+    assert result.returncode == 0 and ("have straight ones" in result.stdout) == (order > 2), result
+    assert result.summary["energy"] == pytest.approx(1.14e-5, rel=0.03)
