@@ -198,6 +198,23 @@ static PetscBool IsSoundStraight_Private(const CoarseMesh *mesh, PetscInt cell, 
   return (PetscBool)(ForestCoarseJacobianSign(&one, 0) > 0);
 }
 
+/* Is each side of a cell in the plane no more curved than half a circle, whose middle is half of the chord away? Else the file is wrong. */
+static PetscBool IsRound_Private(const CoarseMesh *mesh, PetscInt cell)
+{
+  const PetscInt   p = mesh->geometry_order, q = p + 1, start[4] = {0, p * q, 0, p}, step[4] = {1, 1, q, q};
+  const PetscReal *X = mesh->cell_geometry + 3 * q * q * cell;
+
+  for (PetscInt side = 0; side < 4; ++side) {
+    const PetscReal *a = X + 3 * start[side], *b = a + 3 * p * step[side];
+    const PetscReal  chord[2] = {b[0] - a[0], b[1] - a[1]}, square = PetscSqr(chord[0]) + PetscSqr(chord[1]);
+    for (PetscInt k = 1; k < p; ++k) {
+      const PetscReal *x = a + 3 * k * step[side], across = chord[0] * (x[1] - a[1]) - chord[1] * (x[0] - a[0]);
+      if (PetscAbsReal(across) > square / 2) return PETSC_FALSE;
+    }
+  }
+  return PETSC_TRUE;
+}
+
 /* A quadrilateral out of a triangle two of whose sides lie on one arc has a corner of 180 degrees, unless its sides are straight: those inside a body are. */
 static void Straighten_Private(CoarseMesh *mesh, PetscInt cell, const PetscReal corner[8][3])
 {
@@ -219,7 +236,7 @@ static PetscErrorCode CheckCells_Private(CoarseMesh *mesh)
   for (PetscInt c = 0; c < mesh->num_cells; ++c) {
     if (ForestCoarseJacobianSign(mesh, c) > 0) continue;
     const PetscBool straight = (PetscBool)(mesh->geometry_order > 1 && IsSoundStraight_Private(mesh, c, corner));
-    if (straight && mesh->dim == 2) {
+    if (straight && mesh->dim == 2 && IsRound_Private(mesh, c)) {
       Straighten_Private(mesh, c, (const PetscReal(*)[3])corner);
       continue;
     }

@@ -46,7 +46,8 @@ def test_axis_within_round_off(run, tmp_path):
 
 SEGMENT = """Point(1) = {1, 0, 0}; Point(2) = {0, 1, 0}; Point(3) = {0, 0, 0}; Circle(1) = {1, 3, 2}; Line(2) = {2, 1};
 Transfinite Curve {1} = 3; Transfinite Curve {2} = 2; Curve Loop(1) = {1, 2}; Plane Surface(1) = {1};
-Physical Surface("b") = {1}; Physical Curve("arc") = {1}; Physical Curve("flat") = {2};"""
+Physical Surface("b") = {1}; Physical Curve("arc") = {1}; Physical Curve("flat") = {2};
+"""
 
 
 @pytest.mark.parametrize("order", [2, 3, 4])
