@@ -175,6 +175,30 @@ static void Layers(void **state)
   }
 }
 
+/* Mortar: two edges, the near one over 0.6 of the nonmortar edge, the far one behind it over `length` from 0.1 on, however little both cover in sum; or beside
+   it over the rest. What is hidden is not met. */
+static void Shoulder(void **state)
+{
+  for (int k = 0; k < 4; k++) {
+    const PetscReal from = k == 3 ? 0.7 : 0.1, length = (const PetscReal[]){0.2, 0.4, 0.5, 0.2}[k], seen = k == 3 ? length : 0;
+    Chain           nonmortar, mortar;
+    ContactPair     pair;
+    Sum             s;
+
+    ChainLine(&nonmortar, 2, 1, 0, 0, 0);
+    ChainCreate(&mortar, 4, PETSC_FALSE);
+    mortar.s.num_facets = 2;
+    mortar.edges[2] = 2, mortar.edges[3] = 3;
+    mortar.x[2] = 0.6, mortar.x[4] = from, mortar.x[6] = from + length;
+    mortar.x[1] = mortar.x[3] = 0.1, mortar.x[5] = mortar.x[7] = 0.3;
+    ChainReference(&mortar);
+    EvaluateOnce(&nonmortar, &mortar, PETSC_FALSE, PETSC_FALSE, 0.5, NULL, &pair, &s);
+    assert_near(s.area, 0.6 + seen, 1e-14);
+    assert_near(s.gap[0] + s.gap[1], 0.1 * 0.6 + 0.3 * seen, 1e-14);
+    Cleanup(&nonmortar, &mortar, &pair, &s);
+  }
+}
+
 /* Rays that a facet would meet at more than 72.5 degrees from its normal, it does not look for. */
 static void Grazing(void **state)
 {
@@ -543,5 +567,5 @@ static void Strip(void **state)
 }
 
 CONTACT_TEST_MAIN("contact: search", cmocka_unit_test(BruteForce), cmocka_unit_test(Margin), cmocka_unit_test(Near), cmocka_unit_test(Groove),
-                  cmocka_unit_test(Layers), cmocka_unit_test(Behind), cmocka_unit_test(Grazing), cmocka_unit_test(Trials), cmocka_unit_test(FarSides),
+                  cmocka_unit_test(Layers), cmocka_unit_test(Shoulder), cmocka_unit_test(Behind), cmocka_unit_test(Grazing), cmocka_unit_test(Trials), cmocka_unit_test(FarSides),
                   cmocka_unit_test(Strip), cmocka_unit_test(LargeSliding), cmocka_unit_test(Empty), cmocka_unit_test(Time))

@@ -1,6 +1,7 @@
 /* Where mortar facets lie behind one another in a facet's view (folds, thin bodies, layers), the nearest counts: overlaps are taken by growing distance, and
    one is dropped of which those already taken hide more than a millionth of the facet and a tenth of its own area. What is hidden of one that stays counts
-   twice. (Neighbours on curved surfaces may share slivers where nodes hang.) */
+   twice. (Neighbours on curved surfaces may share slivers where nodes hang.) How much all of them cover does not tell: where what is nearest ends within the
+   facet, as one ring of a stack seen from the shoulder of the next, what lies behind it may be hidden although the sum is less than the facet. */
 #include "kernelimpl.h"
 
 enum { MOST = 2 * FACET_VERTICES };
@@ -52,11 +53,8 @@ static PetscReal Shared_Private(const Overlap *a, const Overlap *b)
 
 void ContactUnfold(PetscInt *num, Overlap overlap[], PetscInt order[], PetscReal area)
 {
-  PetscReal covered = 0;
-  PetscInt  kept    = 0;
+  PetscInt kept = 0;
 
-  for (PetscInt i = 0; i < *num; i++) covered += overlap[i].area;
-  if (covered <= (1 + ROUND_LENGTH) * area) return;
   for (PetscInt i = 0; i < *num; i++) { /* insertion sort by distance: few */
     const Overlap   o = overlap[i];
     const PetscInt  n = order[i];
