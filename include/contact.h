@@ -150,8 +150,9 @@ PetscErrorCode ContactPairSetHull(ContactPair, ContactHull, const PetscInt part[
 
 /* A pair of one surface with itself (spec.self): both surfaces are given alike, facet by facet. Of two facets that face each other the one with the lower
    number precedence[num_facets] is the nonmortar one; no two are alike. What a facet sees first and that does not follow it hides what is behind, and covers
-   nothing. NULL (as created): all facets see all that face them, both ways. Borrowed. Not collective. */
-PetscErrorCode ContactPairSetPrecedence(ContactPair, const PetscInt precedence[]);
+   nothing; nor do facets that are not met[num_facets] (NULL: all are). NULL (as created): all facets see all that face them, both ways. Borrowed. Not
+   collective. */
+PetscErrorCode ContactPairSetPrecedence(ContactPair, const PetscInt precedence[], const PetscBool met[]);
 
 /* Facets whose multiplier functions are made together, those that share a corner that hangs: root[num_facets], the first of them. Not collective. */
 PetscErrorCode ContactFacetGroups(const ContactSurface *, PetscInt root[]);

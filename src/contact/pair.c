@@ -102,10 +102,11 @@ PetscErrorCode ContactPairFreezeSegmentation(ContactPair pair, PetscBool frozen)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode ContactPairSetPrecedence(ContactPair pair, const PetscInt precedence[])
+PetscErrorCode ContactPairSetPrecedence(ContactPair pair, const PetscInt precedence[], const PetscBool met[])
 {
   PetscFunctionBegin;
   pair->precedence   = precedence;
+  pair->met          = met;
   pair->state.stands = PETSC_FALSE;
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -138,7 +138,7 @@ static PetscErrorCode Subtract_Private(Interface p, Contact *c)
 PetscErrorCode ContactCreate_Private(Interface p, const ContactSpec *spec, Contact *c)
 {
   const PetscBool     axisymmetric = (PetscBool)(p->spec->model == MODEL_AXISYMMETRIC);
-  const SurfaceFacets own = {.group = spec->nonmortar}, other = {.group = spec->mortar, .colour = spec->part, .face = spec->face};
+  const SurfaceFacets own = {.group = spec->nonmortar}, other = {.group = spec->mortar, .colour = spec->part, .face = spec->face, .whole = spec->self};
 
   PetscFunctionBegin;
   PetscCall(PetscMemzero(c, sizeof(*c)));
@@ -204,7 +204,7 @@ PetscErrorCode ContactDestroy_Private(Contact *c)
   for (PetscInt k = 0; k < 2; ++k) PetscCall(PetscFree2(c->inward[k], c->moved[k]));
   PetscCall(PetscFree(c->pattern_offset));
   PetscCall(PetscFree(c->pattern));
-  PetscCall(PetscFree(c->precedence));
+  if (!c->spec->part) PetscCall(PetscFree(c->precedence)); /* else borrowed from the first part */
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

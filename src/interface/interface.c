@@ -176,7 +176,8 @@ PetscErrorCode InterfaceSearch(Interface p, Vec x, const PetscReal u[], PetscBoo
     PetscCall(ContactPairGoOn(c->pair, goes_on));
     PetscCall(ContactSearch_Private(p, c, PETSC_FALSE, NEAR * c->distance));
     PetscCall(ContactPairGoOn(c->pair, PETSC_FALSE));
-    if (c->spec->self) PetscCall(ContactRoles_Private(p, c, x, u));
+    const PetscBool last = (PetscBool)(i + 1 == p->num_contacts || !p->contacts[i + 1].spec->part); /* of the pair's parts */
+    if (c->spec->self && last) PetscCall(ContactRoles_Private(p, c->spec->part + 1, c - c->spec->part, x, u));
     PetscCall(Took_Private(c, begin));
   }
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -93,6 +93,7 @@ typedef struct {
  hanging corner with it: their multiplier functions are made together */
   PetscInt  *node_first, *node_facet; /* [num_nodes+1] offsets: facets that carry weight to the node, those with it as a true node */
   PetscBool *rim;                     /* [num_nodes] as in ContactSurface; NULL: none */
+  PetscBool *met;                     /* [num_facets] of a whole surface of which one colour is met; NULL: all of it */
   PetscReal *X, *x, *du;              /* [num_nodes][dim] reference and current position; increment under discussion */
   PetscReal *mirror;                  /* normals of symmetry planes as in ContactSurface, else 0 */
   PetscReal *frame;                   /* [num_nodes][dim][dim] rows: directions of the dofs */
@@ -227,10 +228,11 @@ struct _p_Interface {
 };
 
 PetscErrorCode SurfaceFields_Private(Interface, Surface *); /* after the topology */
-/* Facets of a boundary group, with face (ContactSpec): of one colour. */
+/* Facets of a boundary group, with face (ContactSpec): of one colour; whole: of all, and Surface.met tells those of the colour. */
 typedef struct {
   PetscInt      group, colour;
   const int8_t *face;
+  PetscBool     whole;
 } SurfaceFacets;
 PetscErrorCode SurfaceCreate_Private(Interface, const SurfaceFacets *, Surface *);
 /* lattice.c: after the corners: nodes on the lattices of the facets, rows of those that hang. */
@@ -281,8 +283,8 @@ PetscBool      ContactSees_Private(const Contact *, PetscInt node);
 /* nearby.c: search at the positions at hand, X when reference is set, where facets meet over the boundaries of ranks. Collective. */
 PetscErrorCode ContactSearch_Private(Interface, Contact *, PetscBool reference, PetscReal margin);
 /* roles.c: of a surface with itself, after a search: which facet of two that face each other is the nonmortar one. Chosen where none are yet, and as long as
-   the pair bears nothing. x, u: as in InterfaceSearch. Collective. */
-PetscErrorCode ContactRoles_Private(Interface, Contact *, Vec x, const PetscReal u[]);
+   the pair bears nothing; the same for all its parts. x, u: as in InterfaceSearch. Collective. */
+PetscErrorCode ContactRoles_Private(Interface, PetscInt num, Contact part[], Vec x, const PetscReal u[]);
 /* couple.c: multipliers from the vector to the ranks that use them. Collective. */
 PetscErrorCode ContactGatherMultipliers_Private(Interface, Contact *, Vec x);
 /* gather.c */

@@ -5,7 +5,8 @@
    that contradicts shorter ones is a seam, a crease between two walls for instance. Before all of them facets that bear stay nonmortar: multipliers that come
    from another mesh or a checkpoint keep their side.
 
-   A pair that bears nothing has no forces, whatever its roles: they are chosen at every search until it bears, and stay. */
+   A pair that bears nothing has no forces, whatever its roles: they are chosen at every search until it bears, and stay. All parts of a pair (faces.c) have the
+   same: facet f that sees g belongs to the part of g's colour, the other way round to that of f's. */
 #include "interfaceimpl.h"
 
 /* a and b are alike, or differ. */
@@ -65,7 +66,6 @@ static void Pressed_Private(const Contact *c, PetscReal pressed[])
 
   for (PetscInt f = 0; f < s->num_facets; ++f) {
     const PetscInt *node, num = SurfaceNodes_Private(s, f, &node);
-    pressed[f] = 0;
     for (PetscInt k = 0; k < num && c->mine[f]; ++k) pressed[f] += c->has_multiplier[node[k]] ? PetscAbsReal(c->z[node[k]]) : 0;
   }
 }
@@ -101,7 +101,7 @@ static PetscErrorCode Look_Private(Interface p, Contact *c, Facing *to, PetscBoo
   PetscInt              num;
 
   PetscFunctionBegin;
-  PetscCall(ContactPairSetPrecedence(c->pair, NULL));
+  PetscCall(ContactPairSetPrecedence(c->pair, NULL, NULL));
   PetscCall(ContactPairEvaluate(c->pair, &side[0], &side[1], NULL, NULL, PETSC_FALSE, PETSC_FALSE, &num, &facets, failed));
   PetscCall(ContactPairGetSegments(c->pair, &num, &segment));
   for (PetscInt f = 0; f < n; ++f) {
@@ -182,8 +182,9 @@ static PetscErrorCode Order_Private(Interface p, const Contact *c, const PetscBo
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode ContactRoles_Private(Interface p, Contact *c, Vec x, const PetscReal u[])
+PetscErrorCode ContactRoles_Private(Interface p, PetscInt num, Contact part[], Vec x, const PetscReal u[])
 {
+  Contact       *c    = &part[0];
   const PetscInt n    = c->side[0].num_facets;
   PetscReal      most = 0;
   Facing         facing;
@@ -191,8 +192,11 @@ PetscErrorCode ContactRoles_Private(Interface p, Contact *c, Vec x, const PetscR
 
   PetscFunctionBegin;
   PetscCall(PetscMalloc4(n, &facing.partner, n, &facing.distance, n, &facing.pressed, n, &second));
-  PetscCall(ContactGatherMultipliers_Private(p, c, x));
-  Pressed_Private(c, facing.pressed);
+  PetscCall(PetscArrayzero(facing.pressed, n));
+  for (PetscInt i = 0; i < num; ++i) {
+    PetscCall(ContactGatherMultipliers_Private(p, &part[i], x));
+    Pressed_Private(&part[i], facing.pressed);
+  }
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, facing.pressed, (PetscMPIInt)n, MPIU_REAL, MPI_MAX, p->comm));
   for (PetscInt f = 0; f < n; ++f) most = PetscMax(most, facing.pressed[f]);
   if (!c->precedence || most == 0) {
@@ -201,7 +205,10 @@ PetscErrorCode ContactRoles_Private(Interface p, Contact *c, Vec x, const PetscR
     if (!c->precedence) PetscCall(PetscCalloc1(n, &c->precedence));
     PetscCall(Colours_Private(&c->side[0], facing.partner, facing.distance, facing.pressed, second));
     PetscCall(Order_Private(p, c, second));
-    PetscCall(ContactPairSetPrecedence(c->pair, c->precedence));
+    for (PetscInt i = 0; i < num; ++i) {
+      part[i].precedence = c->precedence;
+      PetscCall(ContactPairSetPrecedence(part[i].pair, c->precedence, part[i].side[1].met));
+    }
   }
   PetscCall(PetscFree4(facing.partner, facing.distance, facing.pressed, second));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -76,7 +76,7 @@ static PetscErrorCode SurfaceTopology_Private(const ForestTables *t, const Surfa
     const PetscInt *leaf = t->facet_leaf + 2 * (f - first);
     PetscInt        vertex[4];
     if (!IsOuter_Private(t, of->group, f)) continue;
-    if (of->face && of->face[ForestCoarseSide(t, leaf[0], f)] != of->colour) continue;
+    if (of->face && !of->whole && of->face[ForestCoarseSide(t, leaf[0], f)] != of->colour) continue;
     FacetVertices_Private(t, f, leaf[0], vertex);
     for (PetscInt k = 0; k < s->corners; ++k) {
       if (number[vertex[k]] < 0) {
@@ -183,6 +183,15 @@ static PetscErrorCode Rim_Private(const ForestTables *t, const SurfaceFacets *of
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Facets of the colour. */
+static PetscErrorCode Met_Private(const ForestTables *t, const SurfaceFacets *of, Surface *s)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(s->num_facets, &s->met));
+  for (PetscInt f = 0; f < s->num_facets; ++f) s->met[f] = (PetscBool)(of->face[ForestCoarseSide(t, s->facet_leaf[f], s->facet_entity[f])] == of->colour);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode SurfaceCreate_Private(Interface p, const SurfaceFacets *of, Surface *s)
 {
   const ForestTables *t = p->tables;
@@ -195,6 +204,7 @@ PetscErrorCode SurfaceCreate_Private(Interface p, const SurfaceFacets *of, Surfa
   PetscCall(SurfaceNeighbours_Private(s));
   PetscCall(SurfaceFields_Private(p, s));
   if (of->face) PetscCall(Rim_Private(t, of, s));
+  if (of->face && of->whole) PetscCall(Met_Private(t, of, s));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -214,6 +224,7 @@ PetscErrorCode SurfaceDestroy_Private(Surface *s)
   PetscCall(PetscFree(s->node_first));
   PetscCall(PetscFree(s->node_facet));
   PetscCall(PetscFree(s->rim));
+  PetscCall(PetscFree(s->met));
   PetscCall(PetscFree3(s->local, s->owned, s->dof));
   PetscCall(PetscFree4(s->X, s->x, s->mirror, s->frame));
   PetscCall(PetscFree2(s->du, s->force));

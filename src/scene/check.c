@@ -463,7 +463,7 @@ static PetscErrorCode CheckLoaded_Private(Scene s, const Facets *f)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* A pair for each colour of the mortar side's faces. */
+/* A pair for each colour of the mortar side's faces, of a surface that may meet itself of its own. */
 static PetscErrorCode PartContacts_Private(Scene s, const Facets *f)
 {
   PetscInt    *num, total = 0;
@@ -475,7 +475,7 @@ static PetscErrorCode PartContacts_Private(Scene s, const Facets *f)
   for (PetscInt i = 0; i < s->num_contacts; ++i) {
     const ContactSpec *c = &s->data.contacts[i];
     num[i]               = 1;
-    if (!c->self && c->law != CONTACT_TIED && !c->node_to_segment) PetscCall(SceneColourFaces(f->whole, c->mortar, &num[i], &s->face[i]));
+    if (c->law != CONTACT_TIED && !c->node_to_segment) PetscCall(SceneColourFaces(f->whole, c->mortar, &num[i], &s->face[i]));
     if (total + num[i] + s->num_contacts - i - 1 > FORM_PAIRS) num[i] = 1;
     total += num[i];
   }

@@ -1,6 +1,7 @@
 /* Faces of a contact side. Where the mortar side has an edge, a facet of the other side that lies across it sees two faces, and one multiplier for both
    would hold a mean of their gaps: of one that is closed under a punch and of one that is open beside it. So what lies across an edge is met by multipliers
-   of its own: the pair is made once for each colour, and faces that share an edge or a corner have different ones.
+   of its own: the pair is made once for each colour, and faces that share an edge or a corner have different ones. So is a pair of one surface, of which a node
+   on an edge may touch with one of its faces while the other one sees the far side of a hollow.
 
    A convex edge parts what no facet faces squarely on both sides (CONTACT_OPPOSE): over a blunter one both gaps are those of the facet, and constraints for
    each would be more than it has nodes. In a concave one a corner of the other side is held by both.

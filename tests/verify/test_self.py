@@ -32,8 +32,8 @@ load: {step: 0.25}
 """
 
 
-def scene(tmp_path, geometry, text):
-    shutil.copy(ROOT / "tests" / "gauntlet" / geometry, tmp_path / geometry)
+def scene(tmp_path, geometry, text, folder="gauntlet"):
+    shutil.copy(ROOT / "tests" / folder / geometry, tmp_path / geometry)
     (tmp_path / "scene.yml").write_text(text)
     return tmp_path / "scene.yml"
 
@@ -67,6 +67,49 @@ def test_bodies_of_one_group(run, tmp_path, friction):
     assert one.returncode == 0 and two.returncode == 0, (one, two)
     assert one.summary["energy"] == pytest.approx(two.summary["energy"], rel=1e-9)
     assert one.summary["reaction"]["roof"] == pytest.approx(two.summary["reaction"]["roof"], rel=1e-8, abs=1e-9)
+
+
+ORINGS = """
+mesh: {file: orings.geo, order: 3}
+model: axisymmetric
+order: 2
+body: {o0: {material: m}, o1: {material: m}, o2: {material: m}, floor: {material: r}, piston: {material: r, motion: {y: -0.3*t}}, shaft: {material: r}, bore: {material: r}}
+material: {m: {law: neo_hookean, E: 1, nu: 0.3}, r: {law: rigid}}
+contact:
+  %s
+  low: {nonmortar: o0_o, mortar: floor_t}
+  high: {nonmortar: o2_o, mortar: piston_b}
+  inn: {nonmortar: [o0_o, o1_o, o2_o], mortar: shaft_r}
+  out: {nonmortar: [o0_o, o1_o, o2_o], mortar: bore_l}
+load: {step: 0.1, end: 0.4}
+"""
+RING = """
+mesh: {file: splitring.geo, order: 3}
+model: plane_strain
+order: 2
+body: {c: {material: m}}
+material: {m: {law: neo_hookean, E: 1, nu: 0.3}}
+boundary: {top: {displacement: {x: 0, y: -0.18}}, bot: {displacement: {x: 0, y: 0.18}}}
+contact: {ends: {%s, friction: 0.3}}
+load: {step: 0.25}
+"""
+
+
+def test_what_lies_behind_is_hidden_from_a_shoulder(run, tmp_path):
+    """Of three rings on each other one group is the pairs that do touch: the lowest one's shoulder, which the middle one covers in part, does not see the third through it."""
+    text = {"one": "all: {surface: [o0_o, o1_o, o2_o]}", "two": "ab: {nonmortar: o0_o, mortar: o1_o}\n  bc: {nonmortar: o1_o, mortar: o2_o}"}
+    result = {name: run(scene(tmp_path, "orings.geo", ORINGS % pairs, "verify/scenes")) for name, pairs in text.items()}
+    assert all(r.returncode == 0 for r in result.values()), result
+    assert result["one"].summary["energy"] == pytest.approx(result["two"].summary["energy"], rel=1e-9)
+
+
+@pytest.mark.parametrize("step", [0.0625, 0.25])
+def test_corners_of_ends_that_meet(run, tmp_path, step):
+    """A split ring closes at the inner corners of its ends. The bore beside them sees itself across the ring: that gap has multipliers of its own, and does not hold the corners open."""
+    one = run(scene(tmp_path, "splitring.geo", RING % "surface: [c_s, c_e, inner]", "verify/scenes"), "-load_step", step)
+    pair = run(scene(tmp_path, "splitring.geo", RING % "nonmortar: c_s, mortar: c_e", "verify/scenes"))
+    assert one.returncode == 0 and pair.returncode == 0, (one, pair)
+    assert one.summary["energy"] == pytest.approx(pair.summary["energy"], rel=1e-6)
 
 
 @pytest.mark.parametrize("ranks", [pytest.param(2, marks=pytest.mark.slow), 3])

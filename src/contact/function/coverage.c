@@ -165,14 +165,30 @@ static PetscErrorCode Nodes_Private(RayWork w, const ContactSurface *mortar)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Of a surface with itself: overlaps in which the other facet is the nonmortar one. Only now, since they hide what lies behind them. */
-static void LeaveOutReversed_Private(ContactPair pair, PetscInt facet)
+/* Does the nonmortar facet carry the constraint where it faces the mortar facet? Of a surface with itself not where that one is the nonmortar one, or belongs
+   to another part of the pair. */
+static PetscBool Carries_Private(const ContactPair pair, PetscInt facet, PetscInt mortar)
+{
+  if (!pair->precedence) return PETSC_TRUE;
+  return (PetscBool)(pair->precedence[facet] <= pair->precedence[mortar] && (!pair->met || pair->met[mortar]));
+}
+
+/* Is there a candidate for which it does? */
+static PetscBool CarriesAny_Private(const ContactPair pair, PetscInt slot)
+{
+  for (PetscInt k = pair->start[slot]; k < pair->start[slot + 1]; k++)
+    if (Carries_Private(pair, pair->listed[slot], pair->candidate[k])) return PETSC_TRUE;
+  return PETSC_FALSE;
+}
+
+/* Overlaps for which it does not. Only now, since they hide what lies behind them. */
+static void LeaveOut_Private(ContactPair pair, PetscInt facet)
 {
   RayWork  w    = pair->ray;
   PetscInt kept = 0;
 
   for (PetscInt k = 0; k < w->num_overlaps; k++) {
-    if (pair->precedence[facet] > pair->precedence[w->mortar[k]]) continue;
+    if (!Carries_Private(pair, facet, w->mortar[k])) continue;
     w->overlap[kept] = w->overlap[k], w->mortar[kept++] = w->mortar[k];
   }
   w->num_overlaps = kept;
@@ -223,7 +239,7 @@ PetscErrorCode ContactCover(ContactPair pair, const ContactSurface *nonmortar, c
 
   PetscFunctionBegin;
   w->num_images = w->num_overlaps = w->num_mortar = 0;
-  if (pair->start[slot] == pair->start[slot + 1]) PetscFunctionReturn(PETSC_SUCCESS);
+  if (!CarriesAny_Private(pair, slot)) PetscFunctionReturn(PETSC_SUCCESS);
   f->D       = nonmortar->dim;
   f->m       = f->D - 1;
   f->nv      = 2 * f->m;
@@ -247,7 +263,7 @@ PetscErrorCode ContactCover(ContactPair pair, const ContactSurface *nonmortar, c
   for (PetscInt k = pair->start[slot]; k < pair->start[slot + 1]; k++)
     if (ContactRayBundleMeets(&rays, &w->ball[pair->candidate[k]])) PetscCall(See_Private(pair, mortar, pair->candidate[k]));
   ContactUnfold(&w->num_overlaps, w->overlap, w->mortar, f->area);
-  if (pair->precedence) LeaveOutReversed_Private(pair, facet);
+  LeaveOut_Private(pair, facet);
   if (pair->node_to_segment) ContactNodeHits(w);
   for (PetscInt k = 0; k < w->num_overlaps; k++) covered += w->overlap[k].area;
   w->ends   = (PetscBool)(covered < (1 - CONTACT_ROUND) * f->area);

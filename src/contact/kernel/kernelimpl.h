@@ -43,6 +43,8 @@ typedef struct {
   PetscReal area;
   PetscInt  corner[4]; /* names of the images at the corners of side[1] (pieces.c) */
   int       node;      /* node to segment: the edge's end whose ray meets the mortar edge, else -1 */
+  PetscReal distance;  /* occlusion.c: of the mortar facet at the middle */
+  int8_t    seen;      /* occlusion.c: 0 where it is hidden, -1 as long as that is not known */
 } Overlap;
 
 /* bilinear.c: the four coefficients of four corners; xi at Y from a first guess, False: no such point (degenerate quadrilateral, or far outside). */
@@ -53,8 +55,8 @@ PetscBool ContactQuadIsConvex(const PlaneQuad *);
 /* clip.c. size: root of the area of the whole facet, of which side[0] may be a part. False: no overlap, or (num > FACET_VERTICES) none that could be used. */
 PetscBool ContactClip(Overlap *, PetscReal size);
 
-/* occlusion.c: drop overlaps that lie behind others in the facet's view. */
-void ContactUnfold(PetscInt *num, Overlap overlap[], PetscInt order[], PetscReal area);
+/* occlusion.c: drop overlaps, with their mortar facets, that lie behind others in the view of a facet of this area. */
+void ContactUnfold(PetscInt *num, Overlap overlap[], PetscInt mortar[], PetscReal area);
 
 /* Functions of a lattice at a point of [-1, 1]^m: values and derivatives 1 2, 11 12 22, 111 112 122 222. */
 typedef struct {

@@ -51,25 +51,33 @@ static PetscReal Shared_Private(const Overlap *a, const Overlap *b)
   return sum;
 }
 
-void ContactUnfold(PetscInt *num, Overlap overlap[], PetscInt order[], PetscReal area)
+/* The nearest of those that are not judged yet; -1: all are. */
+static PetscInt Nearest_Private(PetscInt num, const Overlap overlap[])
+{
+  PetscInt nearest = -1;
+
+  for (PetscInt i = 0; i < num; i++)
+    if (overlap[i].seen < 0 && (nearest < 0 || overlap[i].distance < overlap[nearest].distance)) nearest = i;
+  return nearest;
+}
+
+void ContactUnfold(PetscInt *num, Overlap overlap[], PetscInt mortar[], PetscReal area)
 {
   PetscInt kept = 0;
 
-  for (PetscInt i = 0; i < *num; i++) { /* insertion sort by distance: few */
-    const Overlap   o = overlap[i];
-    const PetscInt  n = order[i];
-    const PetscReal d = Distance_Private(&o);
-    PetscInt        k = i;
-
-    for (; k > 0 && Distance_Private(&overlap[k - 1]) > d; k--) overlap[k] = overlap[k - 1], order[k] = order[k - 1];
-    overlap[k] = o, order[k] = n;
-  }
+  if (*num < 2) return;
   for (PetscInt i = 0; i < *num; i++) {
+    overlap[i].seen     = -1;
+    overlap[i].distance = Distance_Private(&overlap[i]);
+  }
+  for (PetscInt i = Nearest_Private(*num, overlap); i >= 0; i = Nearest_Private(*num, overlap)) {
     PetscReal hidden = 0;
 
-    for (PetscInt k = 0; k < kept; k++) hidden += Shared_Private(&overlap[k], &overlap[i]);
-    if (hidden > PetscMax(ROUND_LENGTH * area, CONTACT_SLIVER * overlap[i].area)) continue;
-    overlap[kept] = overlap[i], order[kept++] = order[i];
+    for (PetscInt k = 0; k < *num; k++)
+      if (overlap[k].seen > 0) hidden += Shared_Private(&overlap[k], &overlap[i]);
+    overlap[i].seen = hidden > PetscMax(ROUND_LENGTH * area, CONTACT_SLIVER * overlap[i].area) ? 0 : 1;
   }
+  for (PetscInt i = 0; i < *num; i++)
+    if (overlap[i].seen) overlap[kept] = overlap[i], mortar[kept++] = mortar[i];
   *num = kept;
 }
