@@ -30,16 +30,17 @@ typedef struct {
   PetscReal (
       *support_moment)[3]; /* owned [num_boundaries] its moment about BoundarySpec.about, current positions (small kinematics: reference); space, plane */
   PetscReal (*motion)[6];  /* owned [num_bodies] displacement of BodySpec.about of rigid bodies, and rotation vector, degrees; else 0 */
-  Resultant    *body;      /* owned [num_bodies] force and moment on rigid bodies (MechanicsMoments), else 0 */
-  PetscReal    *pressure, *control; /* owned [num_boundaries] where a pressure is found: it, and what it follows (change of volume, mean advance); else 0 */
-  PairFigures  *pair;               /* owned [num_contacts] as the scene names them, parts (ContactSpec) together */
-  PetscReal     load[3];            /* resultant of dead loads, body forces and follower pressures; axisymmetric: the axial component, others 0 */
-  PetscReal     force_imbalance;    /* largest of the pairs (O-90) */
-  PetscReal     moment_imbalance;   /* largest of the pairs (O-90) */
-  PetscReal     support_imbalance;  /* |supports + loads + contact with rigid bodies| / sum of their magnitudes; axisymmetric: axial component */
-  PetscReal     plastic_strain;     /* largest at an integration point */
-  PetscReal     plastic_work;       /* int int k(alpha) dalpha dV: what plastic flow took so far; 0 without plastic materials, like the strain */
-  PetscReal    *mean_strain;        /* owned [num_bodies] int alpha dV / int dV over the reference volume of each body; 0 where the material does not flow */
+  Resultant   *body;       /* owned [num_bodies] force and moment on rigid bodies (MechanicsMoments), else 0 */
+  PetscReal   *pressure, *control; /* owned [num_boundaries] where a pressure is found: it, and what it follows (change of volume, mean advance); else 0 */
+  PairFigures *pair;               /* owned [num_contacts] as the scene names them, parts (ContactSpec) together */
+  PetscReal    load[3];            /* resultant of dead loads, body forces and follower pressures; axisymmetric: the axial component, others 0 */
+  PetscReal    force_imbalance;    /* largest of the pairs (O-90) */
+  PetscReal    moment_imbalance;   /* largest of the pairs (O-90) */
+  PetscReal    support_imbalance;  /* |supports + loads + contact with rigid bodies| over the sum of their magnitudes, or of those of nodal forces
+                                      (ProblemStatus.scale) where that is more; axisymmetric: axial component */
+  PetscReal     plastic_strain;    /* largest at an integration point */
+  PetscReal     plastic_work;      /* int int k(alpha) dalpha dV: what plastic flow took so far; 0 without plastic materials, like the strain */
+  PetscReal    *mean_strain;       /* owned [num_bodies] int alpha dV / int dV over the reference volume of each body; 0 where the material does not flow */
   ProblemStatus status;
 } Balance;
 

@@ -130,6 +130,7 @@ static void Supports_Private(const MechanicsSpec *spec, const ForestTables *t, c
       for (PetscInt c = first; c < 3; ++c) total[c] += b->pair[i].force[k][c];
     }
   }
+  magnitude            = PetscMax(magnitude, b->status.scale); /* couples have no sum */
   b->support_imbalance = magnitude > 0 ? Norm_Private(total) / magnitude : 0;
 }
 

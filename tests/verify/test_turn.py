@@ -31,3 +31,25 @@ def test_nodes_at_one_place(run, tmp_path: pathlib.Path):
     assert result.returncode == 0 and len(result.history) > 50, result
     for row in result.history:
         assert abs(row["probe.far.displacement.x"] - 0.1 * row["t"]) < 1e-9 and abs(row["probe.far.displacement.y"] - 0.07 * row["t"]) < 1e-9, row
+
+
+RING = """
+Point(1) = {0, 0, 0}; Point(2) = {1, 0, 0}; Point(3) = {0, 1, 0}; Point(4) = {-1, 0, 0}; Point(5) = {0, -1, 0};
+Point(6) = {2, 0, 0}; Point(7) = {0, 2, 0}; Point(8) = {-2, 0, 0}; Point(9) = {0, -2, 0};
+For i In {0:3}
+  Circle(1 + i) = {2 + i, 1, 2 + (i + 1) % 4}; Circle(5 + i) = {6 + i, 1, 6 + (i + 1) % 4}; Line(9 + i) = {2 + i, 6 + i};
+EndFor
+For i In {0:3}
+  Curve Loop(1 + i) = {9 + i, 5 + i, -(9 + (i + 1) % 4), -(1 + i)}; Plane Surface(1 + i) = {1 + i};
+EndFor
+Transfinite Curve {1:12} = 4; Transfinite Surface {1:4}; Recombine Surface {1:4};
+Physical Surface("ring") = {1:4}; Physical Curve("bore") = {1:4}; Physical Curve("rim") = {5:8};
+"""
+
+
+def test_couples_have_no_sum(run, tmp_path: pathlib.Path):
+    """A ring turned at its bore: reactions are couples, which add up to round-off of what they are made of."""
+    (tmp_path / "ring.geo").write_text(RING)
+    scene = SCENE.split("boundary:")[0].replace("pins.geo, order: 1", "ring.geo, order: 2").replace("{a: {material: m}, b: {material: m}, c: {material: m}}", "{ring: {material: m}}")
+    result = run("ring.yml", text=scene + "boundary: {bore: {rotation: {angle: 20*t}}, rim: {fix: xy}}\nload: {step: 1}\n")
+    assert result.returncode == 0 and result.summary["balance"]["supports"] < 1e-9, result.summary["balance"]
