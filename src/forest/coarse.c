@@ -198,11 +198,12 @@ static PetscBool IsSoundStraight_Private(const CoarseMesh *mesh, PetscInt cell, 
   return (PetscBool)(ForestCoarseJacobianSign(&one, 0) > 0);
 }
 
-/* Is each side of a cell in the plane no more curved than half a circle, whose middle is half of the chord away? Else the file is wrong. */
+/* Is a side of a cell in the plane curved, and none more than half a circle, whose middle is half of the chord away? Else the file is wrong. */
 static PetscBool IsRound_Private(const CoarseMesh *mesh, PetscInt cell)
 {
   const PetscInt   p = mesh->geometry_order, q = p + 1, start[4] = {0, p * q, 0, p}, step[4] = {1, 1, q, q};
-  const PetscReal *X = mesh->cell_geometry + 3 * q * q * cell;
+  const PetscReal *X      = mesh->cell_geometry + 3 * q * q * cell;
+  PetscBool        curved = PETSC_FALSE;
 
   for (PetscInt side = 0; side < 4; ++side) {
     const PetscReal *a = X + 3 * start[side], *b = a + 3 * p * step[side];
@@ -210,9 +211,10 @@ static PetscBool IsRound_Private(const CoarseMesh *mesh, PetscInt cell)
     for (PetscInt k = 1; k < p; ++k) {
       const PetscReal *x = a + 3 * k * step[side], across = chord[0] * (x[1] - a[1]) - chord[1] * (x[0] - a[0]);
       if (PetscAbsReal(across) > square / 2) return PETSC_FALSE;
+      curved = (PetscBool)(curved || PetscAbsReal(across) > ROUND_LENGTH * square);
     }
   }
-  return PETSC_TRUE;
+  return curved;
 }
 
 /* A quadrilateral out of a triangle two of whose sides lie on one arc has a corner of 180 degrees, unless its sides are straight: those inside a body are. */

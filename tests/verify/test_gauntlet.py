@@ -33,7 +33,7 @@ def test_scenes():
         settings = [word for word in options if word.startswith("-contact_") and not word.endswith(("_nonmortar", "_mortar", "_friction"))]
         assert not settings, (scene["name"], settings)
     for file in FOLDER.glob("*.yml"):
-        contact = [line for line in file.read_text().splitlines() if line.startswith("contact:")]
+        contact = [line.replace("initial_gap: ramp", "") for line in file.read_text().splitlines() if line.startswith("contact:")]  # a way there, as load steps
         assert all(word not in line for line in contact for word in ("order", "subdivide", "search", "multiplier", "initial_gap")), file
 
 
