@@ -167,6 +167,17 @@ static void Statement_Private(Geo *g, int depth, Found *found)
     Include_Private(g, depth, found);
 }
 
+/* gmsh leaves out statements of a last line that no line break ends. */
+static void LastLine_Private(const char *file, const char *text, Found *found)
+{
+  const char *last = strrchr(text, '\n');
+
+  last = last ? last + 1 : text;
+  last += strspn(last, " \t\r");
+  if (!*last || (last[0] == '/' && last[1] == '/') || found->text[0]) return;
+  (void)snprintf(found->text, found->capacity, "mesh.file %.1000s: its last line, '%.40s', needs a line break at its end: gmsh would leave it out", file, last);
+}
+
 static void File_Private(const char *file, int depth, Found *found)
 {
   Geo    g = {.file = file, .line = 1};
@@ -182,6 +193,7 @@ static void File_Private(const char *file, int depth, Found *found)
     if (token == GEO_END) break;
     if (token == GEO_WORD) Statement_Private(&g, depth, found);
   }
+  if (text) LastLine_Private(file, text, found);
   free(text);
 }
 

@@ -358,6 +358,15 @@ def test_a_geo_is_no_program(run, tmp_path, line, words):
     refused(run("s.yml", text=block(tmp_path, mesh={"file": "s.geo"})), *words)
 
 
+def test_a_geo_whose_last_line_is_not_ended(run, tmp_path):
+    """gmsh drops it: the groups named there would be missing, and no sentence about them would help."""
+    geo = (ROOT / "inputs/patch2d.geo").read_text()
+    (tmp_path / "s.geo").write_text(geo.rstrip("\n"))
+    refused(run("s.yml", text=block(tmp_path, mesh={"file": "s.geo"})), "mesh.file", "last line", "line break")
+    (tmp_path / "s.geo").write_text(geo + "  // a remark")
+    assert "line break" not in run("s.yml", text=block(tmp_path, mesh={"file": "s.geo"})).stderr
+
+
 def test_a_geo_without_end(run, tmp_path):
     """gmsh is ended with the run, and its directory goes."""
     (tmp_path / "s.geo").write_text("For i In {1:2000000000}\nx = i;\nEndFor\n")
