@@ -76,8 +76,8 @@ PetscErrorCode PassageFind(Problem, const State *, PetscInt group, Passage *);
 PetscErrorCode PassageFindApart(Problem, const State *, Passage *);
 
 /* inside.c: the first contact pair that bears nothing though its bodies lie inside each other, deeper than a facet is long and not so at the reference
-   positions, or of one surface that passes through itself so that a facet of it lies wholly inside; -1: there is none. *still (unless NULL): the first one
-   whose bodies do and did so at the reference positions. At the state that was evaluated last. Finite kinematics. Collective. */
+   positions, or of one surface that passes through itself so that a facet of it lies wholly inside; -1: there is none. *still: the first one whose
+   bodies do and did so at the reference positions, -1. At the state that was evaluated last. Finite kinematics. Collective. */
 PetscErrorCode InsideFind(Problem, const State *, PetscInt *pair, PetscInt *still);
 
 /* through.c: the first contact pair that bears nothing of which a body went right through the other one on straight ways from displacements `from` (local

@@ -44,8 +44,8 @@ typedef struct {
   PetscInt  *cell_vertices;            /* [num_cells][2^dim] lexicographic */
   PetscReal *cell_geometry;            /* [num_cells][(q+1)^dim][3] positions at equispaced nodes, lexicographic, q = geometry_order */
   PetscInt  *cell_body;                /* [num_cells] index of the body, -1: in none (input error reported by the scene with the cell's place) */
-  PetscInt   num_straight;             /* in the plane: cells that would be folded with the curved sides of the file, and have straight ones */
-  PetscInt   first_straight;           /* of them */
+  PetscInt   num_straight;             /* in the plane: cells that would be inverted with the curved sides of the file, and have straight ones … */
+  PetscInt   first_straight;           /* … the first of them */
   PetscBool  from_simplices;           /* in space: its cells were made out of tetrahedra */
   PetscInt   num_fields;               /* views $ElementData of three components in the file */
   char (*field_name)[MORTISE_NAME];    /* [num_fields] */

@@ -86,10 +86,10 @@ static PetscErrorCode WatchAdrift_Private(App *app)
 
 PetscErrorCode AppRefuseInside(Problem problem, const PetscReal from[], const State *state, const char **reason)
 {
-  PetscInt pair;
+  PetscInt pair, still;
 
   PetscFunctionBegin;
-  PetscCall(InsideFind(problem, state, &pair, NULL));
+  PetscCall(InsideFind(problem, state, &pair, &still));
   *reason = pair < 0 ? NULL : "bodies of a contact pair lie inside each other, too deep for contact to be seen";
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -200,12 +200,11 @@ PetscErrorCode InsideFind(Problem problem, const State *state, PetscInt *pair, P
   const SceneData *scene;
   Forest           forest = ProblemForest(problem);
   Pieces           s      = {0};
-  PetscInt        *bare, own, meshed = -1;
+  PetscInt        *bare, own;
   PetscBool        any, *within;
 
   PetscFunctionBegin;
-  *pair = -1;
-  if (still) *still = -1;
+  *pair = *still = -1;
   PetscCall(ProblemGetScene(problem, &scene));
   if (scene->num_contacts == 0 || scene->mechanics.kinematics == KINEMATICS_SMALL) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(PetscMalloc2(scene->num_contacts, &bare, scene->num_contacts, &within));
@@ -214,10 +213,9 @@ PetscErrorCode InsideFind(Problem problem, const State *state, PetscInt *pair, P
     PetscCall(PiecesCollect_Private(problem, state, PETSC_TRUE, &s));
     PetscCall(Find_Private(&s, ForestComm(forest), bare, within));
     PetscCall(Own_Private(problem, state, &s, ForestComm(forest), bare, &own));
-    PetscCall(First_Private(problem, ForestComm(forest), scene->num_contacts, bare, within, pair, &meshed));
+    PetscCall(First_Private(problem, ForestComm(forest), scene->num_contacts, bare, within, pair, still));
     PetscCall(PetscFree(s.piece));
     if (*pair < 0) *pair = own;
-    if (still) *still = meshed;
   }
   PetscCall(PetscFree2(bare, within));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -198,21 +198,33 @@ static PetscBool IsSoundStraight_Private(const CoarseMesh *mesh, PetscInt cell, 
   return (PetscBool)(ForestCoarseJacobianSign(&one, 0) > 0);
 }
 
-/* Is a side of a cell in the plane curved, and none more than half a circle, whose middle is half of the chord away? Else the file is wrong. */
-static PetscBool IsRound_Private(const CoarseMesh *mesh, PetscInt cell)
+/* How far a side of a cell in the plane is from its chord, over that one's length; side as the places of closures: 1 3 5 7 (bottom, left, right, top). */
+static PetscReal Bulge_Private(const CoarseMesh *mesh, PetscInt cell, PetscInt side)
 {
-  const PetscInt   p = mesh->geometry_order, q = p + 1, start[4] = {0, p * q, 0, p}, step[4] = {1, 1, q, q};
-  const PetscReal *X      = mesh->cell_geometry + 3 * q * q * cell;
-  PetscBool        curved = PETSC_FALSE;
+  const PetscInt   p = mesh->geometry_order, q = p + 1, step = side == 1 || side == 7 ? 1 : q, start = side == 5 ? p : side == 7 ? p * q : 0;
+  const PetscReal *a = mesh->cell_geometry + 3 * (q * q * cell + start), *b = a + 3 * p * step, chord[2] = {b[0] - a[0], b[1] - a[1]};
+  PetscReal        most = 0;
 
-  for (PetscInt side = 0; side < 4; ++side) {
-    const PetscReal *a = X + 3 * start[side], *b = a + 3 * p * step[side];
-    const PetscReal  chord[2] = {b[0] - a[0], b[1] - a[1]}, square = PetscSqr(chord[0]) + PetscSqr(chord[1]);
-    for (PetscInt k = 1; k < p; ++k) {
-      const PetscReal *x = a + 3 * k * step[side], across = chord[0] * (x[1] - a[1]) - chord[1] * (x[0] - a[0]);
-      if (PetscAbsReal(across) > square / 2) return PETSC_FALSE;
-      curved = (PetscBool)(curved || PetscAbsReal(across) > ROUND_LENGTH * square);
-    }
+  for (PetscInt k = 1; k < p; ++k) {
+    const PetscReal *x = a + 3 * k * step;
+    most               = PetscMax(most, PetscAbsReal(chord[0] * (x[1] - a[1]) - chord[1] * (x[0] - a[0])));
+  }
+  return most / (PetscSqr(chord[0]) + PetscSqr(chord[1]));
+}
+
+/* May the sides of a cell be straight instead? In the plane, where curved ones are outer ones, and arcs: of half a circle the middle is half of the chord away,
+   and a file in which it is further is wrong. */
+static PetscBool IsRound_Private(const Coarse *coarse, PetscInt cell)
+{
+  const PetscInt *closure = coarse->closure + coarse->closure_offset[coarse->first[coarse->mesh.dim] + cell];
+  PetscBool       curved  = PETSC_FALSE;
+
+  for (PetscInt side = 1; side < 9 && coarse->mesh.dim == 2; side += 2) {
+    const PetscReal bulge = Bulge_Private(&coarse->mesh, cell, side);
+
+    if (bulge <= ROUND_LENGTH) continue;
+    if (bulge > 0.5 || coarse->facet_cell[closure[side] - coarse->first[1]][1] >= 0) return PETSC_FALSE;
+    curved = PETSC_TRUE;
   }
   return curved;
 }
@@ -230,15 +242,16 @@ static void Straighten_Private(CoarseMesh *mesh, PetscInt cell, const PetscReal 
   if (mesh->num_straight++ == 0) mesh->first_straight = cell;
 }
 
-static PetscErrorCode CheckCells_Private(CoarseMesh *mesh)
+static PetscErrorCode CheckCells_Private(Coarse *coarse)
 {
-  PetscReal X[3], corner[8][3];
+  CoarseMesh *mesh = &coarse->mesh;
+  PetscReal   X[3], corner[8][3];
 
   PetscFunctionBegin;
   for (PetscInt c = 0; c < mesh->num_cells; ++c) {
     if (ForestCoarseJacobianSign(mesh, c) > 0) continue;
     const PetscBool straight = (PetscBool)(mesh->geometry_order > 1 && IsSoundStraight_Private(mesh, c, corner));
-    if (straight && mesh->dim == 2 && IsRound_Private(mesh, c)) {
+    if (straight && IsRound_Private(coarse, c)) {
       Straighten_Private(mesh, c, (const PetscReal(*)[3])corner);
       continue;
     }
@@ -403,11 +416,11 @@ PetscErrorCode ForestCoarseCreate(CoarseMesh *mesh, PetscInt num_facets, const P
   *mesh              = (CoarseMesh){0};
   *result            = coarse;
   mesh               = &coarse->mesh;
-  PetscCall(CheckCells_Private(mesh));
   PetscCall(BuilderCreate_Private(mesh, &b));
   for (PetscInt c = 0; c < mesh->num_cells; ++c) PetscCall(BuilderAddCell_Private(&b, c, &mesh->cell_vertices[corners * c]));
   PetscCall(BuilderFinish_Private(&b, coarse));
   PetscCall(FacetCells_Private(coarse));
+  PetscCall(CheckCells_Private(coarse));
   PetscCall(CheckShared_Private(coarse));
   PetscCall(MarkFacets_Private(&b, coarse, num_facets, facet_vertices, facet_groups));
   PetscCall(BuilderDestroy_Private(&b));

@@ -37,14 +37,14 @@ static PetscErrorCode Friction_Private(Contact *c, PetscReal t)
 }
 
 /* To what is closed at time t. */
-static PetscErrorCode Time_Private(Contact *c, PetscBool small, PetscReal t)
+static PetscErrorCode Time_Private(Interface p, Contact *c, PetscReal t)
 {
   const PetscReal open = Open_Private(c->spec, t);
   PetscReal       interference;
 
   PetscFunctionBegin;
   PetscCall(Value_Private(c->spec, t, &interference));
-  if (small)
+  if (p->spec->kinematics == KINEMATICS_SMALL)
     interference -= open * c->ramped;
   else
     ContactLeaveRamp_Private(c, open);
@@ -84,13 +84,12 @@ static PetscErrorCode AtRest_Private(Interface p, Contact *c)
 }
 
 /* Gaps at the corners, as lengths along the directions: means over what is covered of the facets there. Collective. */
-static PetscErrorCode Corners_Private(Interface p, Contact *c)
+static PetscErrorCode Corners_Private(Interface p, const Contact *c, PetscReal gaps[])
 {
   const Surface *s = &c->side[0];
   PetscReal     *sum;
 
   PetscFunctionBegin;
-  PetscCall(PetscCalloc2(s->num_nodes, &c->closed, s->num_nodes, &c->corner_gap));
   PetscCall(PetscCalloc1(2 * s->num_nodes, &sum));
   for (PetscInt i = 0; i < c->num_facets; ++i) {
     const ContactFacet *f      = &c->facets[i];
@@ -102,28 +101,30 @@ static PetscErrorCode Corners_Private(Interface p, Contact *c)
   }
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, (PetscMPIInt)(2 * s->num_nodes), MPIU_REAL, MPI_SUM, p->comm));
   for (PetscInt n = 0; n < s->num_nodes; ++n) {
-    if (c->spec->adjust && sum[2 * n + 1] != 0) c->corner_gap[n] = sum[2 * n] / sum[2 * n + 1];
+    if (sum[2 * n + 1] != 0) gaps[n] = sum[2 * n] / sum[2 * n + 1];
   }
   PetscCall(PetscFree(sum));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* What lengths on the facets do not take off of what is to be taken off at the nodes: of an interference of 1, and of initial gaps. Collective. */
-static PetscErrorCode Rest_Private(Interface p, Contact *c)
+/* Lengths on the facets, and what they do not take off of what is to be taken off at the nodes: of an interference of 1, and of initial gaps. Collective. */
+static PetscErrorCode Lengths_Private(Interface p, Contact *c)
 {
   const Surface *s = &c->side[0];
 
   PetscFunctionBegin;
+  PetscCall(PetscCalloc2(s->num_nodes, &c->closed, s->num_nodes, &c->corner_gap));
   for (PetscInt i = 0; i < c->num_facets; ++i) {
     const ContactFacet *f = &c->facets[i];
 
     for (PetscInt k = 0; k < f->num_rows; ++k)
       if (s->owned[f->nodes[k]]) c->reach[f->nodes[k]] -= f->length[k];
   }
-  for (PetscInt i = 0; i < s->num_own; ++i) c->initial[s->own[i]] -= c->gap[s->own[i]];
+  if (!c->spec->adjust) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(Corners_Private(p, c, c->corner_gap));
   PetscCall(ContactPairSetClosed(c->pair, c->corner_gap));
   PetscCall(AtRest_Private(p, c));
-  for (PetscInt i = 0; i < s->num_own; ++i) c->initial[s->own[i]] += c->gap[s->own[i]];
+  for (PetscInt i = 0; i < s->num_own; ++i) c->initial[s->own[i]] = c->gap[s->own[i]];
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -147,12 +148,9 @@ PetscErrorCode ContactOffset_Private(Interface p, Contact *c)
   SurfaceFollow_Private(&c->side[0], 1, c->initial_gap);
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &c->view.adjusted, 1, MPIU_REAL, MPI_MAX, p->comm));
   if (c->spec->ramp) PetscCall(ContactRamp_Private(p, c));
-  if (p->spec->kinematics == KINEMATICS_FINITE && (c->spec->adjust || c->spec->interference)) {
-    PetscCall(Corners_Private(p, c));
-    PetscCall(Rest_Private(p, c));
-  }
+  if (p->spec->kinematics == KINEMATICS_FINITE && (c->spec->adjust || c->spec->interference)) PetscCall(Lengths_Private(p, c));
   c->num_facets = 0;
-  PetscCall(Time_Private(c, (PetscBool)(p->spec->kinematics == KINEMATICS_SMALL), 0));
+  PetscCall(Time_Private(p, c, 0));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -160,7 +158,7 @@ PetscErrorCode InterfaceSetTime(Interface p, PetscReal t)
 {
   PetscFunctionBegin;
   for (PetscInt i = 0; i < p->num_contacts; ++i) {
-    PetscCall(Time_Private(&p->contacts[i], (PetscBool)(p->spec->kinematics == KINEMATICS_SMALL), t));
+    PetscCall(Time_Private(p, &p->contacts[i], t));
     PetscCall(Friction_Private(&p->contacts[i], t));
   }
   PetscFunctionReturn(PETSC_SUCCESS);

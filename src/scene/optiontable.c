@@ -142,8 +142,7 @@ const Option Options[] = {
     {"contact.<pair>.initial_gap", KEY_WORD, "", "keep", "keep|adjust|ramp|close",
      "adjust: what faces each other at the reference positions counts as touching, so that facets on a curved surface make no gap; ramp: bodies that overlap "
      "there are pressed apart step by step, as if one of them grew from where it just touches at t = 0 to its size at t = 1; of a tied pair: keep: gaps stay "
-     "and turn with the "
-     "surface, close: gaps are closed",
+     "and turn with the surface, close: gaps are closed",
      PAIR(initial_gap)},
     {"contact.<pair>.interference", KEY_EXPRESSION, "length", "", ANY,
      "overlap at the reference positions, taken off the gap (shrink fit); an expression in t is brought in step by step, a number is there from the start",

@@ -59,3 +59,14 @@ def test_triangle_with_two_sides_on_one_arc(run, tmp_path, order):
     result = run("s.yml", text=json.dumps(scene))
     assert result.returncode == 0 and ("have straight ones" in result.stdout) == (order > 2), result
     assert result.summary["energy"] == pytest.approx(1.14e-5, rel=0.03)
+
+
+def test_arc_between_two_bodies_stays(run, tmp_path):
+    """The same where another body lies on the arc, whose sides would no longer be those of the first: refused."""
+    (tmp_path / "s.geo").write_text(SEGMENT + """Point(4) = {2, 0, 0}; Point(5) = {0, 2, 0}; Circle(3) = {4, 3, 5}; Line(4) = {1, 4}; Line(5) = {2, 5}; Transfinite Curve {3} = 3;
+Curve Loop(2) = {4, 3, -5, -1}; Plane Surface(2) = {2}; Transfinite Curve {4, 5} = 2; Transfinite Surface {2}; Recombine Surface {2}; Physical Surface("c") = {2};
+""")
+    scene = {"mesh": {"file": "s.geo", "order": 3}, "model": "plane_strain", "body": {name: {"material": "m"} for name in "bc"}, "load": {"step": 1},
+             "material": {"m": {"law": "neo_hookean", "E": 1, "nu": 0.3}}, "boundary": {"flat": {"fix": "xy"}}}
+    result = run("s.yml", text=json.dumps(scene))
+    assert result.returncode == 1 and "is inverted or degenerate" in result.stderr and "with straight sides it would be" in result.stderr, result

@@ -69,15 +69,15 @@ def test_ramped_overlap(run, tmp_path, tilt, steps):
     assert tilt or force[0] == pytest.approx(force[-1] / steps, rel=0.02)
 
 
-@pytest.mark.parametrize("model, tilt, ranks", [("small", 0.06, 1), ("finite", 0.06, 1), ("finite", 0.15, 1), ("finite", 0.15, 2), ("finite", 0.15, 3)])
-def test_on_the_way(run, tmp_path, model, tilt, ranks):
+@pytest.mark.parametrize("kinematics, tilt, ranks", [("small", 0.06, 1), ("finite", 0.06, 1), ("finite", 0.15, 1), ("finite", 0.15, 2), ("finite", 0.15, 3)])
+def test_on_the_way(run, tmp_path, kinematics, tilt, ranks):
     """At half of the ramp forces and estimate are those of bodies drawn with half of the deepest overlap less."""
-    law = {"law": "neo_hookean" if model == "finite" else "linear", "E": 1, "nu": 0.3}
-    scene = blocks(tmp_path, overlap=0.02, tilt=tilt, cells=12) | {"kinematics": model, "material": {"m": law}, "adapt": {"tolerance": 0.9}}
+    law = {"law": "neo_hookean" if kinematics == "finite" else "linear", "E": 1, "nu": 0.3}
+    scene = blocks(tmp_path, overlap=0.02, tilt=tilt, cells=12) | {"kinematics": kinematics, "material": {"m": law}, "adapt": {"tolerance": 0.9}}
     scene["contact"]["c"]["initial_gap"] = "ramp"
     scene["load"]["step"] = 0.5
     half = solve(run, scene, ranks=ranks).history[0]
-    drawn = blocks(tmp_path, overlap=0.02 - 0.5 * (0.02 + tilt), tilt=tilt, cells=12) | {"kinematics": model, "material": {"m": law}, "adapt": {"tolerance": 0.9}}
+    drawn = blocks(tmp_path, overlap=0.02 - 0.5 * (0.02 + tilt), tilt=tilt, cells=12) | {"kinematics": kinematics, "material": {"m": law}, "adapt": {"tolerance": 0.9}}
     less = solve(run, drawn).history[-1]
     assert half["contact.c.force.y"] == pytest.approx(less["contact.c.force.y"], rel=0.12)
     assert half["estimated_error"] == pytest.approx(less["estimated_error"], rel=0.1)
