@@ -23,8 +23,9 @@ PetscErrorCode ErrorInput(const char *format, ...) PETSC_ATTRIBUTE_FORMAT(1, 2);
     if (PetscUnlikely(!(cond))) return ErrorInput(__VA_ARGS__);                                                                                                \
   } while (0)
 
-/* Levenshtein distance of two names of at most 255 characters (1000 beyond), and the nearest of num > 0 names, the first of several. */
-PetscInt    NameDistance(const char *a, const char *b);
+/* Levenshtein distance of what somebody wrote and a name, of at most 255 characters each (1000 beyond); whatever the name goes on with counts 2, for names are
+   cut short. And the nearest of num > 0 names, the first of several. */
+PetscInt    NameDistance(const char *written, const char *name);
 const char *NameNearest(const char *name, PetscInt num, const char *const names[]);
 
 /* Is it without control characters, C1 in UTF-8 included, but for those allowed? They would speak to the terminal. */

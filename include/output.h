@@ -13,6 +13,8 @@ typedef enum { CELL_POLYLINE2, CELL_TRIANGLE3, CELL_QUAD4, CELL_HEX8 } CellShape
  * time. Collective. */
 /* Index and fields_KKKK.h5 of an earlier series in the same directory are removed, so that what is there belongs together. */
 PetscErrorCode WriterCreate(MPI_Comm, const char *directory, Writer *);
+/* They are removed alone: fields of an earlier run beside the tables of one without. Collective. */
+PetscErrorCode OutputForgetFields(MPI_Comm, const char *directory);
 /* Go on with the series in directory: `num` states, the last of a load step; those of later steps are dropped when the next state is written. No index: it
  * begins with the next state, whose number is num. An input error when the index lists other states up to this step. Collective. */
 PetscErrorCode WriterResume(MPI_Comm, const char *directory, PetscInt step, PetscInt num, Writer *);

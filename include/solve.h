@@ -9,6 +9,7 @@ typedef struct _p_Solver *Solver;
 typedef struct {
   PetscBool     converged;
   PetscBool     stopped;    /* given up because somebody asked to (StopAsked) */
+  PetscBool     undefined;  /* a value of the scene is no number there: whatever the way, there is no equilibrium */
   const char   *reason;     /* why not, in words */
   PetscInt      iterations; /* tangent assemblies */
   PetscInt      factorisations;

@@ -67,6 +67,26 @@ static PetscErrorCode Slips_Private(const App *app)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Rigid bodies that nothing held when the run gave up: contact alone bears their loads. */
+static PetscErrorCode Loose_Private(const App *app)
+{
+  const CoarseMesh *mesh;
+  PetscInt         *axes;
+
+  PetscFunctionBegin;
+  PetscCall(ForestGetCoarse(app->level.forest, &mesh));
+  PetscCall(PetscMalloc1(mesh->num_bodies, &axes));
+  PetscCall(AdriftFind(app->level.problem, app->most_scale, axes));
+  for (PetscInt b = 0; b < mesh->num_bodies; ++b)
+    if (axes[b] && BodyIsLoaded(&app->data->mechanics.bodies[b]))
+      PetscCall(PetscPrintf(app->comm,
+                            "note: nothing held rigid body %s along %s when the run gave up: no contact bears on it there, and its load (body.%s.load) has "
+                            "nothing to balance it\n",
+                            mesh->body_name[b], AppAxesName(axes[b]), mesh->body_name[b]));
+  PetscCall(PetscFree(axes));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* Overlaps that the search cannot tell from the far sides of bodies behind. */
 static PetscErrorCode TellOverlap_Private(const App *app, PetscInt pair, PetscBool reference)
 {
@@ -174,6 +194,7 @@ PetscErrorCode AppAdvise(const App *app)
     PetscCall(Untouched_Private(app));
     PetscCall(Needless_Private(app));
   }
+  if (app->failure) PetscCall(Loose_Private(app));
   if (app->failure && app->path.cuts_in_step > 0) PetscCall(Slips_Private(app));
   if (stuck || (app->failure && app->path.cuts_in_step > 0)) PetscCall(Worst_Private(app));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -75,7 +75,7 @@ PetscErrorCode AppCoarsen(App *app, PathLoop *loop, SolverReport *report)
   const PetscReal    whole = app->arc_first > 0 ? app->arc_first : app->data->load.step;
   const SolverReport first = *report;
   Level              fine  = app->level;
-  PetscBool          more  = (PetscBool)(app->first_level && row->mode != RECOVERY_OFF && !app->path.limit_point);
+  PetscBool          more  = (PetscBool)(app->first_level && row->mode != RECOVERY_OFF && !app->path.limit_point && !first.undefined);
 
   PetscFunctionBegin;
   while (more && !report->converged && !app->path.stopped) {

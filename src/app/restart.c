@@ -284,6 +284,7 @@ PetscErrorCode AppForget(App *app)
     PetscCall(PetscSNPrintf(path, sizeof(path), "%s/%s", app->data->output.directory, tables[i]));
     (void)unlink(path);
   }
+  if (!app->data->output.fields) PetscCall(OutputForgetFields(app->comm, app->data->output.directory));
   PetscCall(OutputDropAside(app->comm, app->data->output.directory));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

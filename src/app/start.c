@@ -84,7 +84,7 @@ static void TakeRoom_Private(void)
   BLASsymm_("L", "U", &one, &one, &a, &a, &one, &a, &one, &b, &c, &one);
 }
 
-/* What PETSc says while it starts. Two things wrong then are a user's: a file of -options_file, and more options than it has room for. */
+/* What PETSc says while it starts. Wrong then by a user's doing: a file of -options_file, what is no YAML, and more options than it has room for. */
 static char words[1 << 14];
 
 static PetscErrorCode Keep_Private(const char format[], ...)
@@ -113,6 +113,9 @@ static PetscErrorCode Tell_Private(PetscErrorCode ierr)
     value[strcspn(value, "\n")] = 0;
     (void)ErrorInput("an option of PETSc cannot act: %s", value);
   }
+  if (strstr(words, "YAML"))
+    return ErrorInput(
+        "options in YAML (of -options_file, -options_file_yaml, -options_string_yaml or PETSC_OPTIONS_YAML) must be a mapping of names to values");
   if (!line && !many && !value) {
     fputs(words, stderr);
     return ierr;

@@ -26,25 +26,32 @@ static PetscErrorCode WatchPassage_Private(App *app)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode AppTellOverlap(App *app)
+/* Bodies that no contact pair is between, in the mesh or at an accepted state. */
+static PetscErrorCode WatchApart_Private(App *app, const char *where)
 {
   const CoarseMesh *mesh;
   Passage           p;
 
   PetscFunctionBegin;
-  if (app->restart[0]) PetscFunctionReturn(PETSC_SUCCESS);
+  if (app->apart_told) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(PassageFindApart(app->level.problem, &app->level.accepted, &p));
   if (!(p.depth > 0) && !p.whole) PetscFunctionReturn(PETSC_SUCCESS);
+  app->apart_told = PETSC_TRUE;
   PetscCall(ForestGetCoarse(app->level.forest, &mesh));
-  if (p.whole) {
-    PetscCall(WarningAdd(
-        app->comm, "body %s lies wholly inside body %s in the mesh, at (%.4g, %.4g, %.4g), and no contact pair is between them: each is blind to the other",
-        mesh->body_name[p.body[0]], mesh->body_name[p.body[1]], (double)p.x[0], (double)p.x[1], (double)p.x[2]));
-    PetscFunctionReturn(PETSC_SUCCESS);
-  }
-  PetscCall(WarningAdd(app->comm,
-                       "bodies %s and %s overlap in the mesh, at (%.4g, %.4g, %.4g), and no contact pair is between them: each passes through the other",
-                       mesh->body_name[p.body[0]], mesh->body_name[p.body[1]], (double)p.x[0], (double)p.x[1], (double)p.x[2]));
+  if (p.whole)
+    PetscCall(WarningAdd(app->comm,
+                         "body %s lies wholly inside body %s %s, at (%.4g, %.4g, %.4g), and no contact pair is between them: each is blind to the other",
+                         mesh->body_name[p.body[0]], mesh->body_name[p.body[1]], where, (double)p.x[0], (double)p.x[1], (double)p.x[2]));
+  else
+    PetscCall(WarningAdd(app->comm, "bodies %s and %s overlap %s, at (%.4g, %.4g, %.4g), and no contact pair is between them: each passes through the other",
+                         mesh->body_name[p.body[0]], mesh->body_name[p.body[1]], where, (double)p.x[0], (double)p.x[1], (double)p.x[2]));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode AppTellOverlap(App *app)
+{
+  PetscFunctionBegin;
+  if (!app->restart[0]) PetscCall(WatchApart_Private(app, "in the mesh"));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -121,11 +128,15 @@ static PetscErrorCode WatchFolded_Private(App *app)
 
 PetscErrorCode AppWatch(App *app)
 {
+  char at[32];
+
   PetscFunctionBegin;
   WatchEstimate_Private(app);
   if (app->path.unstable > 0 && !app->unstable_known) app->unstable_t = app->level.accepted.t;
   app->unstable_known = (PetscBool)(app->path.unstable > 0);
   PetscCall(WatchPassage_Private(app));
+  PetscCall(PetscSNPrintf(at, sizeof(at), "at t = %.6g", (double)app->level.accepted.t));
+  if (app->data->mechanics.kinematics == KINEMATICS_FINITE) PetscCall(WatchApart_Private(app, at));
   PetscCall(WatchAdrift_Private(app));
   PetscCall(WatchFolded_Private(app));
   PetscFunctionReturn(PETSC_SUCCESS);

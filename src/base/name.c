@@ -8,9 +8,9 @@ void TextAppend(size_t capacity, char text[], const char *more)
   (void)snprintf(text + used, capacity - used, "%s", more);
 }
 
-PetscInt NameDistance(const char *a, const char *b)
+PetscInt NameDistance(const char *written, const char *name)
 {
-  PetscInt row[256], na = (PetscInt)strlen(a), nb = (PetscInt)strlen(b);
+  PetscInt row[256], na = (PetscInt)strlen(written), nb = (PetscInt)strlen(name), least;
 
   if (na > 255 || nb > 255) return 1000;
   for (PetscInt j = 0; j <= nb; ++j) row[j] = j;
@@ -18,12 +18,14 @@ PetscInt NameDistance(const char *a, const char *b)
     PetscInt corner = row[0];
     row[0]          = i;
     for (PetscInt j = 1; j <= nb; ++j) {
-      PetscInt up = row[j], change = corner + (a[i - 1] != b[j - 1]);
+      PetscInt up = row[j], change = corner + (written[i - 1] != name[j - 1]);
       row[j] = PetscMin(change, PetscMin(up, row[j - 1]) + 1);
       corner = up;
     }
   }
-  return row[nb];
+  least = row[nb];
+  for (PetscInt j = 0; j < nb; ++j) least = PetscMin(least, row[j] + 2);
+  return least;
 }
 
 const char *NameNearest(const char *name, PetscInt num, const char *const names[])

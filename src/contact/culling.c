@@ -8,7 +8,7 @@
    on which they touch. There sides of both bodies that face each other run beside the ray: a to one side of its end, b to the other of its start. Across it the
    bodies overlap by a + b; where that is less than d they have met there.
 
-   A body that may meet itself (a pair of one surface) has facets that face each other through itself: there both thicknesses are the depth. Such facets see
+   A body that may meet itself (both sides of a pair are of it) has facets that face each other through itself: there both thicknesses are the depth. Such facets see
    each other at the reference positions along a straight line that does not leave the body. What met across a void does not: between bore and bore, or limb
    and limb, it does.
 
@@ -247,7 +247,7 @@ PetscBool ContactBehind(ContactPair pair, PetscInt facet, const FacetCorners *s,
   if (!(Dot3(n, N) < -CONTACT_GRAZE) || !(depth > shallow)) return PETSC_FALSE;
   for (int c = 0; c < 3; c++) x[c] -= depth * n[c], r[c] = -n[c];
   Locate_Private(&m, x, eta);
-  if (pair->self && pair->part[0][facet] == pair->part[1][other] && IsThickness_Private(pair->hull, pair->part[0][facet], s, xi, &m, eta)) return PETSC_TRUE;
+  if (pair->part[0][facet] == pair->part[1][other] && IsThickness_Private(pair->hull, pair->part[0][facet], s, xi, &m, eta)) return PETSC_TRUE;
   own = Across_Private(pair->hull, pair->part[0][facet], s, xi, r, 2 * depth);
   if (own < 2 * depth) own += Across_Private(pair->hull, pair->part[1][other], &m, eta, n, 2 * depth - own);
   behind = (PetscBool)(own < 2 * depth);

@@ -42,6 +42,7 @@ static PetscErrorCode Once_Private(Forest forest, const RefineSpec *spec, Forest
 {
   const ForestTables *t     = &forest->tables;
   MarkList            marks = {0};
+  PetscBool           any   = PETSC_FALSE;
   ForestMap           map;
 
   PetscFunctionBegin;
@@ -50,8 +51,10 @@ static PetscErrorCode Once_Private(Forest forest, const RefineSpec *spec, Forest
     PetscReal distance = 0, diagonal = 0;
     if (spec->group >= 0 && !ForestLeafTouches(t, leaf, UINT64_C(1) << spec->group)) continue;
     if (spec->radius >= 0) PetscCall(BoxDistance_Private(forest, leaf, spec->X, &distance, &diagonal));
-    if (spec->radius < 0 || distance <= spec->radius + TOUCH * diagonal) marks.split[leaf] = (int8_t)((1 << t->dim) - 1);
+    if (spec->radius < 0 || distance <= spec->radius + TOUCH * diagonal) marks.split[leaf] = (int8_t)((1 << t->dim) - 1), any = PETSC_TRUE;
   }
+  if (!any) PetscCall(PetscFree(marks.split));
+  PetscCheckInput(any, "refine.%s: no cell is there (its boundary, and within its radius of x, y, z)", spec->name);
   PetscCall(ForestAdapt(forest, &marks, NULL, 0, NULL, refined, &map));
   PetscCall(ForestMapDestroy(&map));
   PetscCall(PetscFree(marks.split));

@@ -99,6 +99,22 @@ static PetscErrorCode Group_Private(const MechanicsSpec *m, PetscInt group, cons
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* What was refined before the first solve. */
+static PetscErrorCode Refines_Private(const SceneData *scene, const CoarseMesh *mesh, OutputText *text)
+{
+  PetscFunctionBegin;
+  PetscCall(OutputTextPrint(text, "mesh.refine: %" PetscInt_FMT "\n", scene->mesh.refine));
+  for (PetscInt i = 0; i < scene->num_refines; ++i) {
+    const RefineSpec *r = &scene->refines[i];
+    PetscCall(OutputTextPrint(text, "refine.%s: levels %" PetscInt_FMT ", ", r->name, r->levels));
+    if (r->group >= 0) PetscCall(OutputTextPrint(text, "boundary %s, ", mesh->boundary_name[r->group]));
+    if (r->radius >= 0)
+      PetscCall(OutputTextPrint(text, "radius %.15g, x %.15g, y %.15g, z %.15g", (double)r->radius, (double)r->X[0], (double)r->X[1], (double)r->X[2]));
+    PetscCall(OutputTextPrint(text, "\n"));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode OutputPhysics(const SceneData *scene, const CoarseMesh *mesh, OutputText *text)
 {
   const MechanicsSpec *m = &scene->mechanics;
@@ -107,13 +123,14 @@ PetscErrorCode OutputPhysics(const SceneData *scene, const CoarseMesh *mesh, Out
   PetscCall(OutputTextPrint(text, "model: %s\nkinematics: %s\n", ModelNames[m->model], KinematicsNames[m->kinematics]));
   PetscCall(OutputTextPrint(text, "load.control: %s\n", scene->load.control == LOAD_TIME ? "time" : "arc_length"));
   PetscCall(Repeat_Private(&scene->adapt, text));
+  PetscCall(Refines_Private(scene, mesh, text));
   for (PetscInt g = 0; g < mesh->num_boundaries - mesh->num_unions; ++g) PetscCall(Group_Private(m, g, mesh->boundary_name[g], text));
   for (PetscInt b = 0; b < m->num_bodies; ++b) {
     const PetscInt *along = m->bodies[b].order_along;
     PetscCall(OutputTextPrint(text, "body.%s: ", mesh->body_name[b]));
+    if (!m->bodies[b].material->law->rigid) PetscCall(OutputTextPrint(text, "order %" PetscInt_FMT ", ", m->bodies[b].order));
     if (along[0] || along[1] || along[2])
-      PetscCall(OutputTextPrint(text, "order %" PetscInt_FMT ", along x, y, z %" PetscInt_FMT " %" PetscInt_FMT " %" PetscInt_FMT ", ", m->bodies[b].order,
-                                along[0], along[1], along[2]));
+      PetscCall(OutputTextPrint(text, "along x, y, z %" PetscInt_FMT " %" PetscInt_FMT " %" PetscInt_FMT ", ", along[0], along[1], along[2]));
     for (PetscInt c = 0; c < 3; ++c) {
       if (m->bodies[b].load[c]) PetscCall(OutputTextPrint(text, "load %c, ", 'x' + (int)c));
       if (m->bodies[b].load_moment[c]) PetscCall(OutputTextPrint(text, "load moment_%c, ", 'x' + (int)c));

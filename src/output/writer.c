@@ -103,6 +103,23 @@ PetscErrorCode WriterCreate(MPI_Comm comm, const char *directory, Writer *writer
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscErrorCode OutputForgetFields(MPI_Comm comm, const char *directory)
+{
+  static const char *const indices[] = {INDEX_TIMES, INDEX_PASSES};
+  PetscMPIInt              rank;
+
+  PetscFunctionBegin;
+  PetscCallMPI(MPI_Comm_rank(comm, &rank));
+  if (rank != 0) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(WriterClear_Private(directory, 0));
+  for (size_t i = 0; i < PETSC_STATIC_ARRAY_LENGTH(indices); ++i) {
+    char path[PETSC_MAX_PATH_LEN];
+    PetscCall(PetscSNPrintf(path, sizeof(path), "%s/%s", directory, indices[i]));
+    (void)unlink(path);
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* The whole file as text; NULL: there is none. */
 static PetscErrorCode Load_Private(const char *path, char **text)
 {

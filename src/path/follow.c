@@ -105,6 +105,7 @@ PetscErrorCode PathAttempt(Path *p, const PathLoop *loop, PetscReal to, SolverRe
   }
   if (words) {
     report->converged = PETSC_FALSE;
+    report->undefined = PETSC_TRUE;
     report->reason    = words;
   }
   PetscCall(PathFound(p, loop, from, to, report));

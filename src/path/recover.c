@@ -215,7 +215,7 @@ PetscErrorCode PathRecover(Path *p, const PathLoop *load, PetscReal to, const St
 {
   PetscFunctionBegin;
   if (!guess) ++p->failures;
-  for (PetscInt row = 0; row < PATH_RECOVERIES && !report->converged && !p->stopped; ++row) {
+  for (PetscInt row = 0; row < PATH_RECOVERIES && !report->converged && !report->undefined && !p->stopped; ++row) {
     if (Applies_Private(p, row, guess)) PetscCall(Try_Private(p, row, load, to, guess, report));
   }
   if (!report->converged && !guess) PetscCall(PathRestore(p, &p->level->accepted));

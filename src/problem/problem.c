@@ -255,7 +255,10 @@ PetscErrorCode ProblemPending(Problem p, PetscReal *remaining)
 
   PetscFunctionBegin;
   *remaining = 0;
-  for (PetscInt i = 0; i < p->num_local; ++i) *remaining = PetscMax(*remaining, PetscAbsReal(p->target[i] - p->applied[i]));
+  for (PetscInt i = 0; i < p->num_local; ++i) {
+    const PetscReal left = PetscAbsReal(p->target[i] - p->applied[i]);
+    if (!(left <= *remaining)) *remaining = PetscIsNanReal(left) ? PETSC_MAX_REAL : left; /* what is no number is never put in */
+  }
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, remaining, 1, MPIU_REAL, MPI_MAX, p->comm));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

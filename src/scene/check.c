@@ -157,10 +157,15 @@ static PetscErrorCode MatchBodies_Private(Scene s, const CoarseMesh *m)
 
 /* ---- boundaries, pairs, supports ------------------------------------------------------------------------------------------------------ */
 
-/* The key that puts a pressure on the boundary. */
-static const char *Pressure_Private(const BoundarySpec *b)
+static PetscBool HasTraction_Private(const BoundarySpec *b)
 {
-  return b->volume ? "volume" : b->advance ? "advance" : "pressure";
+  return (PetscBool)(b->traction[0] || b->traction[1] || b->traction[2]);
+}
+
+/* The key that puts a load on the boundary. */
+static const char *Load_Private(const BoundarySpec *b)
+{
+  return b->volume ? "volume" : b->advance ? "advance" : BoundaryHasPressure(b) ? "pressure" : "traction";
 }
 
 static PetscErrorCode MatchBoundaries_Private(Scene s, const Facets *f)
@@ -173,12 +178,13 @@ static PetscErrorCode MatchBoundaries_Private(Scene s, const Facets *f)
     PetscCheckInput(f->num_facets[b->spec.group] || f->inner[b->spec.group], "%s: no facet of a cell is in group '%s' of the mesh", NodeWhere(b->node),
                     b->spec.name);
     PetscCheckInput(!BoundaryHasPressure(&b->spec) || !f->inner[b->spec.group], "%s.%s: a facet of this group lies between two cells and has no outward normal",
-                    NodeWhere(b->node), Pressure_Private(&b->spec));
+                    NodeWhere(b->node), Load_Private(&b->spec));
     for (PetscInt body = 0; body < f->mesh->num_bodies; ++body) {
-      PetscCheckInput(!BoundaryIsControlled(&b->spec) || !s->data.bodies[body].material->law->rigid ||
-                          !f->body_touches[body * f->mesh->num_boundaries + b->spec.group],
-                      "%s.%s: the boundary is one of the rigid body '%s', which no pressure moves", NodeWhere(b->node), Pressure_Private(&b->spec),
-                      f->mesh->body_name[body]);
+      const PetscBool rigid = s->data.bodies[body].material->law->rigid;
+      if (!rigid || !f->body_touches[body * f->mesh->num_boundaries + b->spec.group]) continue;
+      PetscCheckInput(!BoundaryHasPressure(&b->spec) && !HasTraction_Private(&b->spec),
+                      "%s.%s: the boundary is one of the rigid body '%s', which forces move by body.%s.load alone", NodeWhere(b->node), Load_Private(&b->spec),
+                      f->mesh->body_name[body], f->mesh->body_name[body]);
     }
     s->data.boundaries[i] = b->spec;
   }
@@ -436,6 +442,26 @@ static PetscErrorCode CheckHeld_Private(Scene s, const Facets *f)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+#define FARTHEST 1e10 /* of shear moduli from each other: beyond, round-off of stresses in the stiff body is as large as the forces of the soft one */
+
+static PetscErrorCode CheckStiffness_Private(Scene s, PetscInt num)
+{
+  const MaterialSpec *least = NULL, *most = NULL;
+
+  PetscFunctionBegin;
+  for (PetscInt body = 0; body < num; ++body) {
+    const MaterialSpec *m = s->data.bodies[body].material;
+    if (m->law->rigid) continue;
+    if (!least || m->mu < least->mu) least = m;
+    if (!most || m->mu > most->mu) most = m;
+  }
+  PetscCheckInput(
+      !most || most->mu <= FARTHEST * least->mu,
+      "material.%s: its shear modulus %g is more than 1e10 times that of material %s, %g, whose forces are less than its round-off; take law: rigid",
+      most->name, (double)most->mu, least->name, (double)least->mu);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* A rigid body that forces move: contact alone meets it. */
 static PetscErrorCode CheckLoaded_Private(Scene s, const Facets *f)
 {
@@ -503,6 +529,7 @@ static PetscErrorCode Check_Private(Scene s, const Facets *f)
   PetscCall(MatchRefines_Private(s, f));
   PetscCall(CheckHeld_Private(s, f));
   PetscCall(CheckLoaded_Private(s, f));
+  PetscCall(CheckStiffness_Private(s, f->mesh->num_bodies));
   PetscCall(SceneSetPoints(s, f->mesh, f->body_touches));
   PetscCall(PartContacts_Private(s, f));
   PetscFunctionReturn(PETSC_SUCCESS);

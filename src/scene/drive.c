@@ -29,6 +29,24 @@ PetscErrorCode SceneCheckPath(Scene s, const SceneNode *motion, Expression e)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Loads on a boundary that is prescribed where they act would show in its reaction alone. */
+PetscErrorCode SceneCheckLoaded(Scene s, const SceneNode *boundary, const BoundarySpec *b)
+{
+  PetscBool held[3], whole = PETSC_TRUE, zero;
+
+  PetscFunctionBegin;
+  for (PetscInt c = 0; c < s->data.mesh.dim; ++c) {
+    held[c] = (PetscBool)(b->rotation || b->displacement[c] || b->fix[c]);
+    whole   = (PetscBool)(whole && held[c]);
+    if (!b->traction[c] || !held[c]) continue;
+    PetscCall(IsZero_Private(b->traction[c], &zero));
+    PetscCheckInput(zero, "%s.%c: the displacement of this boundary along %c is prescribed, so no traction moves it; take one of them away",
+                    NodeWhere(NodeFind(boundary, "traction")), 'x' + (int)c, 'x' + (int)c);
+  }
+  PetscCheckInput(!whole || !BoundaryHasPressure(b), "%s: all displacements of this boundary are prescribed, so no pressure moves it", NodeWhere(boundary));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* A pressure that is found: `key` says what it follows. */
 PetscErrorCode SceneCheckControl(Scene s, const SceneNode *boundary, const char *key, Expression e, const BoundarySpec *b)
 {
@@ -40,9 +58,6 @@ PetscErrorCode SceneCheckControl(Scene s, const SceneNode *boundary, const char 
   if (!e) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCheckInput(!b->pressure, "%s: the pressure that leads there is found, not given; take pressure away", NodeWhere(node));
   PetscCheckInput(!b->volume || !b->advance, "%s: one pressure cannot follow both volume and advance; take one away", NodeWhere(boundary));
-  PetscCheckInput(!b->rotation &&
-                      !((b->fix[0] || b->displacement[0]) && (b->fix[1] || b->displacement[1]) && (s->data.mesh.dim == 2 || b->fix[2] || b->displacement[2])),
-                  "%s: all displacements of this boundary are prescribed, so no pressure moves it", NodeWhere(node));
   PetscCheckInput(s->data.mechanics.kinematics == KINEMATICS_FINITE,
                   "%s needs kinematics: finite; with small ones no boundary moves away from its reference position", NodeWhere(node));
   PetscCheckInput(s->data.load.control == LOAD_TIME,

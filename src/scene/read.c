@@ -310,6 +310,7 @@ static PetscErrorCode ReadBoundary_Private(Scene s, SceneNode *node, BoundaryEnt
                   "%s: this boundary holds nothing, so there is no moment; it needs one of displacement, fix, rotation",
                   NodeWhere(NodeFind(node, "moment_about")));
   PetscCall(SceneFindPoint(s, node, b->moment_about, b->spec.about));
+  PetscCall(SceneCheckLoaded(s, node, &b->spec));
   PetscCall(SceneCheckControl(s, node, "volume", b->spec.volume, &b->spec));
   PetscCall(SceneCheckControl(s, node, "advance", b->spec.advance, &b->spec));
   for (int c = 0; c < 3; ++c) PetscCall(SceneCheckPath(s, NodeFind(node, "displacement"), b->spec.displacement[c]));

@@ -158,6 +158,8 @@ PetscInt OptionSplit(const char *pattern, char words[OPTION_DEPTH][MORTISE_NAME]
 PetscErrorCode SceneRead(Scene, int argc, char **argv);
 /* drive.c. A motion (NULL: none) at node `motion` must not change along a path (load.control: arc_length). */
 PetscErrorCode SceneCheckPath(Scene, const SceneNode *motion, Expression);
+/* Tractions and pressures of a boundary's node against what the boundary prescribes. */
+PetscErrorCode SceneCheckLoaded(Scene, const SceneNode *boundary, const BoundarySpec *);
 /* The expression (NULL: not given) under `key` of a boundary's node, which a pressure that is found is to follow, and what else the boundary has. */
 PetscErrorCode SceneCheckControl(Scene, const SceneNode *boundary, const char *key, Expression, const BoundarySpec *);
 /* point.c. A named point; X of the one that moment_about of a node names (not given: X stays); points by default, once bodies and boundaries are matched with

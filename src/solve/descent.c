@@ -12,11 +12,9 @@
 #define FIRST_SHIFT 1e-9   /* over the rows' largest entries */
 #define MORE_SHIFT 16      /* times the last, where the matrix is not positive yet; where it was, as many times smaller in the next iteration */
 #define SHORTER_SHIFT 1e-3 /* at least, and MORE_SHIFT times the last, where that calls for a step shorter than 1 / MORE_SHIFT */
-#define ARMIJO 1e-4        /* least share of the decrease that the slope promises */
 #define HALVINGS 10        /* of a step, in a line search that gives up */
 #define LONGEST 64
-#define DEEPER 1  /* the same, by how much a piece of the prescribed motion may drive a node in */
-#define DEEP 0.25 /* overlap over the extent of a node along the surface: bodies must not pass through each other */
+#define DEEP 1 /* extents of a node along the surface: as deep as that it must not be lost, nor may a piece of the prescribed motion drive it in by more */
 
 PetscErrorCode SolverHasDescent(Solver s, PetscBool *yes)
 {
@@ -231,7 +229,7 @@ PetscErrorCode DescentSearch_Private(Descent *d, Vec x, PetscReal slope, PetscBo
   *ok = PETSC_FALSE;
   for (PetscInt i = 0; i < HALVINGS; ++i, step *= 0.5) {
     PetscCall(DescentTry_Private(d, x, step, &merit));
-    *ok = (PetscBool)(merit <= d->merit + ARMIJO * step * slope);
+    *ok = (PetscBool)(merit < d->merit);
     if (*ok) break;
   }
   while (*ok && d->shift > 0 && step >= 1 && step < LONGEST) {
@@ -320,7 +318,7 @@ static PetscErrorCode Piece_Private(Descent *d, Vec x, PetscBool *ok)
     PetscCall(ProblemStepMove(d->problem, d->dx, step, PETSC_FALSE, x));
     PetscCall(ProblemMerit(d->problem, PENALTY, d->lambda, x, NULL, &d->merit, &d->status));
     PetscCall(Through_Private(d, PETSC_TRUE, &through, &deeper));
-    *ok = (PetscBool)(!d->status.bad && !through && deeper <= DEEPER);
+    *ok = (PetscBool)(!d->status.bad && !through && deeper <= DEEP);
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

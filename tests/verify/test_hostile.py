@@ -56,6 +56,20 @@ def test_not_finite_later(run, tmp_path, value, key, ranks):
     assert 0.5 <= result.summary["t"] < 0.6
 
 
+@pytest.mark.parametrize("moves", ["boundary", "rigid"])
+@pytest.mark.parametrize("ranks", [1, 2])
+def test_not_finite_where_recoveries_are(run, tmp_path, moves, ranks):
+    """No recovery puts in a motion that is no number (a descent took it for nothing left to put in)."""
+    way = "-0.05*t*(t > 0.9 ? 0/0 : 1)"
+    support = {"y1_u": {"displacement": {"x": 0, "y": way}}} if moves == "boundary" else {}
+    upper = {"material": "m"} if moves == "boundary" else {"material": "tool", "motion": {"y": way}}
+    text = block(tmp_path, mesh={"file": "blocks.msh"}, body={"l": {"material": "m"}, "u": upper}, contact={"touch": {"nonmortar": "y1_l", "mortar": "y0_u"}},
+                 boundary={"y0_l": {"fix": "xy"}, **support})
+    result = run("s.yml", "-load_step", 0.25, text=text, ranks=ranks)
+    gave_up(result, "not finite at", "t = ")
+    assert 0.75 <= result.summary["t"] <= 0.9
+
+
 @pytest.mark.parametrize("E", [1e200, 1e308])
 def test_beyond_numbers(run, tmp_path, E):
     gave_up(run("s.yml", text=block(tmp_path, material={"m": MATERIAL | {"E": E}})))

@@ -95,6 +95,7 @@ def test_bytes(check, run, tmp_path, encode, good):
 
 @pytest.mark.parametrize("options,words", [
     (["--", "-order", "2"], ["'--' is neither the scene nor an option"]), (["--order", "2"], ["--order is no key of a scene", "nearest one is -order"]),
+    (["-output_dir", "out"], ["nearest one is -output_directory"]), (["-mesh_parameters_n", "2"], ["nearest one is -mesh_parameter_"]),
     (["-order=2"], ["-order=2 is no key of a scene", "nearest one is -order"]), (["-load.end", "2"], ["-load.end is no key of a scene", "-load_end"]),
     (["-load_end", "-2"], ["command line: load.end is -2"]), (["-max_seconds", "5m"], ["-max_seconds is '5m'"]), (["-restart", "none.h5"], ["-restart none.h5: the file cannot be read"]),
     (["-restart", "."], ["-restart .: .*directory"]), (["-restart", "/dev/zero"], ["this is no checkpoint of mortise"]),
