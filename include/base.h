@@ -169,7 +169,7 @@ PetscErrorCode ExpressionDestroy(Expression *);
 typedef struct {
   PetscInt   num;     /* number of (t, value) pairs */
   PetscReal *pairs;   /* [num][2], owned */
-  PetscBool  endless; /* num = 0: t itself, below 0 and above 1 too */
+  PetscBool  endless; /* the first and the last piece go on (of arc_length, whose t is found) */
 } Amplitude;
 PetscReal AmplitudeEvaluate(const Amplitude *, PetscReal t);
 PetscReal AmplitudeNext(const Amplitude *, PetscReal t); /* the first of its times after t; PETSC_MAX_REAL: none */

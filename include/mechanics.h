@@ -38,6 +38,12 @@ static inline PetscBool BoundaryHasPressure(const BoundarySpec *b)
   return (PetscBool)(b->pressure || BoundaryIsControlled(b));
 }
 
+/* The key of the scene that puts a pressure on it. */
+static inline const char *BoundaryPressureKey(const BoundarySpec *b)
+{
+  return b->volume ? "volume" : b->advance ? "advance" : "pressure";
+}
+
 /* Does the boundary hold something (fix, displacement, rotation)? Then it has a reaction. */
 static inline PetscBool BoundarySupports(const BoundarySpec *b)
 {

@@ -327,6 +327,22 @@ static PetscErrorCode Read_Private(App *app, Forest coarse)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Orders of cells go on as they were: adaptation may have raised them, never below what the scene had asked for. */
+static PetscErrorCode TellOrders_Private(const App *app)
+{
+  const State *s = &app->level.accepted;
+  int8_t      *order;
+  PetscBool    other = PETSC_FALSE;
+
+  PetscFunctionBegin;
+  PetscCall(ProblemInitialOrders(app->data, app->level.forest, &order));
+  for (PetscInt l = 0; l < s->num_leaves; ++l)
+    other = (PetscBool)(other || s->leaf_order[l] < order[l] || (app->data->adapt.strategy == ADAPT_H && s->leaf_order[l] > order[l]));
+  PetscCall(PetscFree(order));
+  if (other) PetscCall(PetscPrintf(app->comm, "note: cells keep the orders that they have in %s, whatever the scene says of order now\n", app->restart));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode AppResume(App *app, Forest *coarse)
 {
   const LoadSpec *load = &app->data->load;
@@ -348,5 +364,6 @@ PetscErrorCode AppResume(App *app, Forest *coarse)
   PetscCall(CheckpointGetNumber(app->snapshot, "seconds", &value));
   app->start -= value;
   app->adapt_stop = CheckpointNote(app->snapshot);
+  PetscCall(TellOrders_Private(app));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

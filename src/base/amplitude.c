@@ -7,11 +7,10 @@ PetscReal AmplitudeEvaluate(const Amplitude *a, PetscReal t)
   const PetscReal       *p       = a->num ? a->pairs : ramp;
   const PetscInt         num     = a->num ? a->num : 2;
 
-  if (!a->num && a->endless) return t;
-  if (t <= p[0]) return p[1];
+  if (t <= p[0] && !a->endless) return p[1];
   for (PetscInt i = 1; i < num; ++i) {
     const PetscReal *lo = p + 2 * (i - 1), *hi = p + 2 * i;
-    if (t <= hi[0]) return lo[1] + (hi[1] - lo[1]) * (t - lo[0]) / (hi[0] - lo[0]);
+    if (t <= hi[0] || (a->endless && i == num - 1)) return lo[1] + (hi[1] - lo[1]) * (t - lo[0]) / (hi[0] - lo[0]);
   }
   return p[2 * num - 1];
 }

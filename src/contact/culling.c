@@ -8,9 +8,9 @@
    on which they touch. There sides of both bodies that face each other run beside the ray: a to one side of its end, b to the other of its start. Across it the
    bodies overlap by a + b; where that is less than d they have met there.
 
-   A body that may meet itself (both sides of a pair are of it) has facets that face each other through itself: there both thicknesses are the depth. Such facets see
-   each other at the reference positions along a straight line that does not leave the body. What met across a void does not: between bore and bore, or limb
-   and limb, it does.
+   A body that may meet itself (both sides of a pair are of it) has facets that face each other through itself: there both thicknesses are the depth. Such
+   facets see each other at the reference positions along a straight line that does not leave the body. What met across a void does not: between bore and bore,
+   or limb and limb, it does.
 
    Thicknesses are those at the reference positions, along directions that turn with the facets. */
 #include "kernelimpl.h"

@@ -128,9 +128,9 @@ PetscErrorCode OutputPhysics(const SceneData *scene, const CoarseMesh *mesh, Out
   for (PetscInt b = 0; b < m->num_bodies; ++b) {
     const PetscInt *along = m->bodies[b].order_along;
     PetscCall(OutputTextPrint(text, "body.%s: ", mesh->body_name[b]));
-    if (!m->bodies[b].material->law->rigid) PetscCall(OutputTextPrint(text, "order %" PetscInt_FMT ", ", m->bodies[b].order));
     if (along[0] || along[1] || along[2])
-      PetscCall(OutputTextPrint(text, "along x, y, z %" PetscInt_FMT " %" PetscInt_FMT " %" PetscInt_FMT ", ", along[0], along[1], along[2]));
+      PetscCall(OutputTextPrint(text, "order %" PetscInt_FMT ", along x, y, z %" PetscInt_FMT " %" PetscInt_FMT " %" PetscInt_FMT ", ", m->bodies[b].order,
+                                along[0], along[1], along[2]));
     for (PetscInt c = 0; c < 3; ++c) {
       if (m->bodies[b].load[c]) PetscCall(OutputTextPrint(text, "load %c, ", 'x' + (int)c));
       if (m->bodies[b].load_moment[c]) PetscCall(OutputTextPrint(text, "load moment_%c, ", 'x' + (int)c));

@@ -162,12 +162,6 @@ static PetscBool HasTraction_Private(const BoundarySpec *b)
   return (PetscBool)(b->traction[0] || b->traction[1] || b->traction[2]);
 }
 
-/* The key that puts a load on the boundary. */
-static const char *Load_Private(const BoundarySpec *b)
-{
-  return b->volume ? "volume" : b->advance ? "advance" : BoundaryHasPressure(b) ? "pressure" : "traction";
-}
-
 static PetscErrorCode MatchBoundaries_Private(Scene s, const Facets *f)
 {
   PetscFunctionBegin;
@@ -178,13 +172,13 @@ static PetscErrorCode MatchBoundaries_Private(Scene s, const Facets *f)
     PetscCheckInput(f->num_facets[b->spec.group] || f->inner[b->spec.group], "%s: no facet of a cell is in group '%s' of the mesh", NodeWhere(b->node),
                     b->spec.name);
     PetscCheckInput(!BoundaryHasPressure(&b->spec) || !f->inner[b->spec.group], "%s.%s: a facet of this group lies between two cells and has no outward normal",
-                    NodeWhere(b->node), Load_Private(&b->spec));
+                    NodeWhere(b->node), BoundaryPressureKey(&b->spec));
     for (PetscInt body = 0; body < f->mesh->num_bodies; ++body) {
       const PetscBool rigid = s->data.bodies[body].material->law->rigid;
       if (!rigid || !f->body_touches[body * f->mesh->num_boundaries + b->spec.group]) continue;
       PetscCheckInput(!BoundaryHasPressure(&b->spec) && !HasTraction_Private(&b->spec),
-                      "%s.%s: the boundary is one of the rigid body '%s', which forces move by body.%s.load alone", NodeWhere(b->node), Load_Private(&b->spec),
-                      f->mesh->body_name[body], f->mesh->body_name[body]);
+                      "%s.%s: the boundary is one of the rigid body '%s', which forces move by body.%s.load alone", NodeWhere(b->node),
+                      BoundaryHasPressure(&b->spec) ? BoundaryPressureKey(&b->spec) : "traction", f->mesh->body_name[body], f->mesh->body_name[body]);
     }
     s->data.boundaries[i] = b->spec;
   }

@@ -43,7 +43,8 @@ PetscErrorCode SceneCheckLoaded(Scene s, const SceneNode *boundary, const Bounda
     PetscCheckInput(zero, "%s.%c: the displacement of this boundary along %c is prescribed, so no traction moves it; take one of them away",
                     NodeWhere(NodeFind(boundary, "traction")), 'x' + (int)c, 'x' + (int)c);
   }
-  PetscCheckInput(!whole || !BoundaryHasPressure(b), "%s: all displacements of this boundary are prescribed, so no pressure moves it", NodeWhere(boundary));
+  PetscCheckInput(!whole || !BoundaryHasPressure(b), "%s.%s: all displacements of this boundary are prescribed, so no pressure moves it", NodeWhere(boundary),
+                  BoundaryPressureKey(b));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

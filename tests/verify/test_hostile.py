@@ -63,8 +63,9 @@ def test_not_finite_where_recoveries_are(run, tmp_path, moves, ranks):
     way = "-0.05*t*(t > 0.9 ? 0/0 : 1)"
     support = {"y1_u": {"displacement": {"x": 0, "y": way}}} if moves == "boundary" else {}
     upper = {"material": "m"} if moves == "boundary" else {"material": "tool", "motion": {"y": way}}
-    text = block(tmp_path, mesh={"file": "blocks.msh"}, body={"l": {"material": "m"}, "u": upper}, contact={"touch": {"nonmortar": "y1_l", "mortar": "y0_u"}},
-                 boundary={"y0_l": {"fix": "xy"}, **support})
+    scene = json.loads(blocks(tmp_path, touch={"nonmortar": "y1_l", "mortar": "y0_u"}))
+    text = json.dumps(scene | {"body": {"l": {"material": "m"}, "u": upper}, "material": {"m": MATERIAL} | ({} if support else {"tool": {"law": "rigid"}}),
+                               "boundary": {"y0_l": {"fix": "xy"}, **support}})
     result = run("s.yml", "-load_step", 0.25, text=text, ranks=ranks)
     gave_up(result, "not finite at", "t = ")
     assert 0.75 <= result.summary["t"] <= 0.9

@@ -247,4 +247,36 @@ def test_orders_after_a_restart_are_told_as_they_are(run, tmp_path):
     first = run("s.yml", "-load_step", 0.5, "-load_max_steps", 1, text=ALONE)
     assert first.returncode == 2 and "1 cells of order 1," in first.stdout, first
     result = run("s.yml", "-order", 2, "-restart", first.directory / "checkpoint.h5", text=ALONE)
-    assert result.returncode == 0 and "1 cells of order 1," in result.stdout, result
+    assert result.returncode == 0 and "1 cells of order 1," in result.stdout and "note: cells keep the orders that they have" in result.stdout, result
+    again = run("s.yml", "-restart", first.directory / "checkpoint.h5", text=ALONE)
+    assert again.returncode == 0 and "cells keep the orders" not in again.stdout, again
+
+
+
+TOP = ("1 2 3 1 1 2", "1 2 4 1 3 4", "3 2 1 1 1 2 3 4")
+
+
+@pytest.mark.parametrize("body,boundary,more,words", [
+    ("rigid", {"top": {"traction": {"y": 1}}}, {}, "boundary.top.traction: the boundary is one of the rigid body 'lower'"),
+    ("rigid", {"top": {"pressure": 1}}, {}, "boundary.top.pressure: the boundary is one of the rigid body 'lower'"),
+    (None, {"top": {"traction": {"y": 1}, "displacement": {"y": 0.1}}}, {}, "boundary.top.traction.y: the displacement of this boundary along y is prescribed"),
+    (None, {"top": {"pressure": 1, "fix": "xy"}}, {}, "boundary.top.pressure: all displacements of this boundary are prescribed"),
+    (None, {}, {"refine": {"a": {"x": 100, "y": 0, "radius": 1}}}, "refine.a: no cell is there"),
+    (None, {"top": {"traction": {"x": 0, "y": 1}, "fix": "x"}}, {}, ""),
+])
+def test_loads_that_cannot_act(run, tmp_path, body, boundary, more, words):
+    (tmp_path / "m.msh").write_text(msh(cells=TOP, names=('1 3 "bottom"', '1 4 "top"', '2 1 "lower"')))
+    law = {"law": "rigid"} if body else {"law": "neo_hookean", "E": 1, "nu": 0.3}
+    scene = {"mesh": {"file": "m.msh"}, "model": "plane_strain", "body": {"lower": {"material": "rubber"}}, "material": {"rubber": law},
+             "boundary": {**({} if body else {"bottom": {"fix": "xy"}}), **boundary}, "load": {"step": 1}} | more
+    result = run("s.yml", "-check", text=json.dumps(scene))
+    assert result.returncode == (1 if words else 0) and words in result.stderr, result
+
+
+def test_stiff_beyond_round_off(run, tmp_path):
+    """Forces of a body that is 1e15 times softer than another one were lost in that one's round-off, 6 % of them, and exit 0."""
+    (tmp_path / "m.msh").write_text(msh([*SQUARE, (2, 0), (2, 1)], ["1 2 3 1 1 2", "3 2 1 1 1 2 3 4", "3 2 2 2 2 5 6 3"], ('1 3 "bottom"', '2 1 "lower"', '2 2 "side"')))
+    for E, status in ((1e15, 1), (1e9, 0)):
+        result = run("s.yml", text=ALONE.replace("{lower: {material: rubber}}", "{lower: {material: rubber}, side: {material: stiff}}")
+                     .replace("{rubber:", f"{{stiff: {{law: neo_hookean, E: {E}, nu: 0.3}}, rubber:"))
+        assert result.returncode == status and (status == 0 or "more than 1e10 times that of material rubber" in result.stderr), result
