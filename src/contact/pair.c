@@ -54,26 +54,20 @@ PetscErrorCode ContactPairDestroy(ContactPair *pair)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode ContactPairGetSegments(ContactPair pair, PetscInt *num, const ContactSegment **segments)
+void ContactPairGetSegments(ContactPair pair, PetscInt *num, const ContactSegment **segments)
 {
-  PetscFunctionBegin;
   *num      = pair->num_segments;
   *segments = pair->output;
-  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode ContactPairGetDegenerate(ContactPair pair, PetscInt *num)
+PetscInt ContactPairGetDegenerate(ContactPair pair)
 {
-  PetscFunctionBegin;
-  *num = pair->num_degenerate;
-  PetscFunctionReturn(PETSC_SUCCESS);
+  return pair->num_degenerate;
 }
 
-PetscErrorCode ContactPairGetNormals(ContactPair pair, const PetscReal **normals)
+const PetscReal *ContactPairGetNormals(ContactPair pair)
 {
-  PetscFunctionBegin;
-  *normals = pair->normal;
-  PetscFunctionReturn(PETSC_SUCCESS);
+  return pair->normal;
 }
 
 /* False when a known position is infinite or not a number: a mortar node without a place would silently see nothing. */
@@ -86,29 +80,23 @@ static PetscBool IsFinite_Private(const ContactSurface *s)
   return sum == 0 ? PETSC_TRUE : PETSC_FALSE;
 }
 
-PetscErrorCode ContactPairFreezeNormals(ContactPair pair, PetscBool frozen)
+void ContactPairFreezeNormals(ContactPair pair, PetscBool frozen)
 {
-  PetscFunctionBegin;
   if (pair->held != frozen) pair->state.stands = PETSC_FALSE; /* other derivatives */
   pair->held = frozen;
-  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode ContactPairFreezeSegmentation(ContactPair pair, PetscBool frozen)
+void ContactPairFreezeSegmentation(ContactPair pair, PetscBool frozen)
 {
-  PetscFunctionBegin;
   if (pair->frozen_segmentation != frozen) pair->state.stands = PETSC_FALSE; /* other forces */
   pair->frozen_segmentation = frozen;
-  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode ContactPairSetPrecedence(ContactPair pair, const PetscInt precedence[], const PetscBool met[])
+void ContactPairSetPrecedence(ContactPair pair, const PetscInt precedence[], const PetscBool met[])
 {
-  PetscFunctionBegin;
   pair->precedence   = precedence;
   pair->met          = met;
   pair->state.stands = PETSC_FALSE;
-  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode ContactPairEvaluate(ContactPair pair, const ContactSurface *nonmortar, const ContactSurface *mortar, const PetscReal z[],

@@ -202,23 +202,19 @@ static PetscErrorCode Remember_Private(ContactPair pair)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode ContactPairKeepSearch(ContactPair pair)
+void ContactPairKeepSearch(ContactPair pair)
 {
   const Found base = pair->base;
 
-  PetscFunctionBegin;
-  if (!pair->is_newer) PetscFunctionReturn(PETSC_SUCCESS);
+  if (!pair->is_newer) return;
   pair->base     = pair->last;
   pair->last     = base;
   pair->is_newer = PETSC_FALSE;
-  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode ContactPairGoOn(ContactPair pair, PetscBool yes)
+void ContactPairGoOn(ContactPair pair, PetscBool yes)
 {
-  PetscFunctionBegin;
   pair->goes_on = yes;
-  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* What a search knows of the nonmortar side: directions, the list. */
@@ -254,18 +250,16 @@ PetscErrorCode ContactPairSearch(ContactPair pair, const ContactSurface *nonmort
   PetscCall(MortarTree_Private(mortar, known, &tree));
   PetscCall(Candidates_Private(pair, nonmortar, mortar, &tree, known, found, grazed));
   PetscCall(Remember_Private(pair));
-  if (!pair->goes_on) PetscCall(ContactPairKeepSearch(pair));
+  if (!pair->goes_on) ContactPairKeepSearch(pair);
   PetscCall(PetscFree3(found, known, grazed));
   PetscCall(ContactTreeDestroy(&tree));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode ContactPairGetCandidates(ContactPair pair, const PetscInt **start, const PetscInt **candidate)
+void ContactPairGetCandidates(ContactPair pair, const PetscInt **start, const PetscInt **candidate)
 {
-  PetscFunctionBegin;
   *start     = pair->start;
   *candidate = pair->candidate;
-  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode ContactPairSetCandidates(ContactPair pair, const ContactSurface *nonmortar, PetscInt num, const PetscInt facets[], const PetscInt start[],

@@ -72,7 +72,6 @@ PetscErrorCode ContactNodeSums_Private(Interface p, Contact *c)
 {
   const Surface *s      = &c->side[0];
   PetscReal      sum[2] = {0, 0};
-  PetscInt       unusable;
 
   PetscFunctionBegin;
   for (PetscInt i = 0; i < s->num_own; ++i) c->gap[s->own[i]] = c->weight[s->own[i]] = c->spring[s->own[i]] = 0;
@@ -86,8 +85,8 @@ PetscErrorCode ContactNodeSums_Private(Interface p, Contact *c)
     }
     if (c->mine[e->facet]) sum[0] += e->area;
   }
-  PetscCall(ContactPairGetDegenerate(c->pair, &unusable));
-  sum[1] = (PetscReal)unusable;
+  const PetscInt unusable = ContactPairGetDegenerate(c->pair);
+  sum[1]                  = (PetscReal)unusable;
   if (p->size > 1) PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 2, MPIU_REAL, MPI_SUM, p->comm));
   c->view.area     = sum[0];
   c->view.unusable = (PetscInt)sum[1];
@@ -152,8 +151,8 @@ PetscErrorCode ContactCreate_Private(Interface p, const ContactSpec *spec, Conta
   PetscCall(ContactPairCreate(p->dim, axisymmetric, spec, &c->pair));
   for (PetscInt k = 0; k < 2; ++k) PetscCall(HullParts_Private(p, &c->side[k], &c->part[k]));
   PetscReal deepest;
-  PetscCall(HullDepth_Private(p, c, &deepest));
-  if (!spec->see_through && !c->law->ties) PetscCall(ContactPairSetHull(c->pair, p->hull, c->part[0], c->part[1], deepest));
+  HullDepth_Private(p, c, &deepest);
+  if (!spec->see_through && !c->law->ties) ContactPairSetHull(c->pair, p->hull, c->part[0], c->part[1], deepest);
   const PetscInt n = c->side[0].num_nodes;
   PetscCall(PetscCalloc6(c->num * n, &c->z, n, &c->gap, n, &c->weight, n, &c->w0, n, &c->extent, n, &c->c));
   PetscCall(PetscCalloc4(n, &c->spring, n, &c->coupled, n, &c->softness, n, &c->before));
@@ -163,12 +162,12 @@ PetscErrorCode ContactCreate_Private(Interface p, const ContactSpec *spec, Conta
   PetscCall(PetscCalloc3(n, &c->reach, n, &c->initial, n, &c->initial_gap));
   PetscCall(PetscCalloc4(c->side[0].num_facets, &c->live, n, &c->valued, n, &c->valued_node, 4 * n, &c->pack));
   PetscCall(ContactNodeScales_Private(p, c));
-  if (!c->law->ties) PetscCall(ContactCarriers_Private(p, c));
+  if (!c->law->ties) ContactCarriers_Private(p, c);
   const ContactSurface nonmortar = SurfaceAt_Private(&c->side[0], c->side[0].X);
   PetscCall(ContactPairSetCarriers(c->pair, &nonmortar, c->has_multiplier));
   for (PetscInt j = 0; j < n; ++j) c->softness[j] = 1 / c->c[j];
   /* With small kinematics what facets cover does not change, and constraints of order 1 stay exact. */
-  if (c->law->ties || higher || p->spec->kinematics != KINEMATICS_SMALL) PetscCall(ContactPairSetSoftness(c->pair, c->softness));
+  if (c->law->ties || higher || p->spec->kinematics != KINEMATICS_SMALL) ContactPairSetSoftness(c->pair, c->softness);
   PetscCall(ListFacets_Private(p, c));
   SearchDistance_Private(c);
   View_Private(c);
@@ -245,7 +244,7 @@ static PetscErrorCode Freeze_Private(Interface p, Contact *c, PetscBool *failed)
 
   PetscFunctionBegin;
   PetscCall(ContactSearch_Private(p, c, PETSC_TRUE, 0));
-  PetscCall(ContactPairFreezeNormals(c->pair, PETSC_TRUE));
+  ContactPairFreezeNormals(c->pair, PETSC_TRUE);
   PetscCall(SlipFreeze_Private(p, c, failed));
   PetscCall(ContactPairEvaluate(c->pair, &side[0], &side[1], NULL, NULL, PETSC_TRUE, PETSC_FALSE, &c->num_facets, &c->facets, failed));
   PetscCall(ContactNodeSums_Private(p, c));
@@ -327,12 +326,11 @@ static void LinearGaps_Private(Interface p, Contact *c)
 
 /* Nodes that may take part in the next linear solve: pressed, or closer (compliances of facets counted in) than half a facet beside what prescribed motion may
    still close. Three dimensions: the others get no row in the matrix, which they would only fill. Every rank that knows the node says the same. */
-static PetscErrorCode Near_Private(Interface p, Contact *c, PetscReal pending)
+static void Near_Private(Interface p, Contact *c, PetscReal pending)
 {
   const Surface *s     = &c->side[0];
   PetscInt       order = 1; /* extents are those of facets over it */
 
-  PetscFunctionBegin;
   for (PetscInt f = 0; f < s->num_facets; ++f) order = PetscMax(order, s->order[f]);
   for (PetscInt i = 0; i < c->num_valued; ++i) {
     const PetscInt  j = c->valued_node[i];
@@ -341,7 +339,6 @@ static PetscErrorCode Near_Private(Interface p, Contact *c, PetscReal pending)
     c->near[j] = (PetscBool)(c->has_multiplier[j] && (c->z[j] != 0 || reach));
     if (p->dim == 2) c->near[j] = PETSC_TRUE;
   }
-  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* The pressure at nodes without multiplier, shown there and used by the estimate. Supports hold them, or they lie on the axis: from the nodes that their
@@ -353,7 +350,7 @@ static PetscErrorCode ShownMultipliers_Private(Interface p, Contact *c)
   const PetscReal *weight;
 
   PetscFunctionBegin;
-  PetscCall(ContactPairGetDonors(c->pair, &first, &donor, &weight));
+  ContactPairGetDonors(c->pair, &first, &donor, &weight);
   for (PetscInt i = 0; i < s->num_own && first; ++i) {
     const PetscInt n = s->own[i];
     PetscReal      z = 0;
@@ -395,13 +392,13 @@ PetscErrorCode ContactEvaluate_Private(Interface p, Contact *c, Vec x, const Pet
       PetscCall(ContactNodeSums_Private(p, c));
       PetscCall(Subtract_Private(p, c));
     }
-    PetscCall(Near_Private(p, c, pending));
+    Near_Private(p, c, pending);
     PetscCall(ContactPairEvaluate(c->pair, &side[0], &side[1], c->z, c->near, derivatives, hessian, &c->num_facets, &c->facets, failed));
     PetscCall(ContactNodeSums_Private(p, c));
   }
   PetscCall(Subtract_Private(p, c));
   PetscCall(SlipEvaluate_Private(p, c));
-  if (small) PetscCall(Near_Private(p, c, pending));
+  if (small) Near_Private(p, c, pending);
   for (PetscInt e = 0; e < c->side[0].num_facets; ++e) c->result[e] = -1;
   for (PetscInt i = 0; i < c->num_facets; ++i) c->result[c->facets[i].facet] = i;
   Activity_Private(p, c);

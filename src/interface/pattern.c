@@ -210,12 +210,10 @@ PetscErrorCode InterfacePattern(Interface p, Mat matrix, PetscInt first_row, Pet
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode InterfaceGetPattern(Interface p, PetscInt pair, const PetscInt **first, const PetscInt **node)
+void InterfaceGetPattern(Interface p, PetscInt pair, const PetscInt **first, const PetscInt **node)
 {
-  PetscFunctionBegin;
   *first = p->contacts[pair].pattern_offset;
   *node  = p->contacts[pair].pattern;
-  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode InterfaceSetPattern(Interface p, PetscInt pair, const PetscInt first[], const PetscInt node[])

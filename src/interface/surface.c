@@ -33,11 +33,10 @@ static void FacetVertices_Private(const ForestTables *t, PetscInt facet, PetscIn
 
 PetscErrorCode SurfaceCorners_Private(Forest forest, PetscInt facet, PetscInt leaf, PetscReal X[])
 {
-  const ForestTables *t;
+  const ForestTables *t = ForestGetTables(forest);
   PetscInt            vertex[4];
 
   PetscFunctionBegin;
-  PetscCall(ForestGetTables(forest, &t));
   const PetscInt *cl = t->closure + t->closure_offset[t->first[t->dim] + leaf];
   FacetVertices_Private(t, facet, leaf, vertex);
   for (PetscInt k = 0; k < (t->dim == 2 ? 2 : 4); ++k) {

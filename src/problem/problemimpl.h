@@ -89,10 +89,10 @@ PetscErrorCode RigidCreate_Private(Problem);
 PetscErrorCode RigidSetRows_Private(Problem, PetscInt first);
 PetscErrorCode RigidSetTime_Private(Problem); /* loads */
 PetscErrorCode RigidRead_Private(Problem, const PetscReal q[]);
-PetscErrorCode RigidMove_Private(Problem, PetscReal local[]);
-PetscErrorCode RigidIncrement_Private(Problem, const PetscReal dq[], PetscReal local[]);
+void           RigidMove_Private(Problem, PetscReal local[]);
+void           RigidIncrement_Private(Problem, const PetscReal dq[], PetscReal local[]);
 PetscErrorCode RigidMeasure_Private(Problem, const PetscReal r[]);
-PetscErrorCode RigidResidual_Private(Problem, PetscReal r[]);
+void           RigidResidual_Private(Problem, PetscReal r[]);
 PetscErrorCode RigidTangent_Private(Problem);
 PetscReal      RigidWork_Private(Problem, const PetscReal r[], const PetscReal dq[]); /* of their rows on changes of these unknowns */
 PetscBool      RigidIsSymmetric_Private(Problem);                                     /* is their part of the tangent? */

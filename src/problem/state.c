@@ -3,11 +3,9 @@
 
 PetscErrorCode StateCreate(Problem p, State *s)
 {
-  const ForestTables *t;
-
   PetscFunctionBegin;
   PetscCall(PetscMemzero(s, sizeof(*s)));
-  PetscCall(ForestGetTables(p->forest, &t));
+  const ForestTables *t = ForestGetTables(p->forest);
   PetscCall(ProblemCreateVector(p, &s->x));
   PetscCall(MechanicsNumPressure(p->mechanics, &s->num_pressure));
   PetscCall(PetscCalloc1(s->num_pressure, &s->pressure));

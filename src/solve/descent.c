@@ -18,12 +18,9 @@
 #define DEEPER 1  /* the same, by how much a piece of the prescribed motion may drive a node in */
 #define DEEP 0.25 /* overlap over the extent of a node along the surface: bodies must not pass through each other */
 
-PetscErrorCode SolverHasDescent(Solver s, PetscBool *yes)
+PetscBool SolverHasDescent(Solver s)
 {
-  PetscFunctionBegin;
-  PetscCall(ProblemHasEnergy(s->problem, yes));
-  if (s->saddle) *yes = PETSC_FALSE;
-  PetscFunctionReturn(PETSC_SUCCESS);
+  return (PetscBool)(!s->saddle && ProblemHasEnergy(s->problem));
 }
 
 /* Options of the factors before they are made: all pivots are counted (inertia.c), more room. Asked for afterwards, they are none that nothing used. */
@@ -55,15 +52,13 @@ static PetscErrorCode Factors_Private(Descent *d)
 
 PetscErrorCode DescentCreate_Private(Solver s, SolverReport *report, Descent *d)
 {
-  PetscInt dofs;
-
   PetscFunctionBegin;
   PetscCall(PetscMemzero(d, sizeof(*d)));
-  PetscCall(ProblemNumDofs(s->problem, &dofs));
-  d->round_off = PETSC_MACHINE_EPSILON * PetscSqrtReal((PetscReal)dofs);
-  d->solver    = s;
-  d->problem   = s->problem;
-  d->report    = report;
+  const PetscInt dofs = ProblemNumDofs(s->problem);
+  d->round_off        = PETSC_MACHINE_EPSILON * PetscSqrtReal((PetscReal)dofs);
+  d->solver           = s;
+  d->problem          = s->problem;
+  d->report           = report;
   PetscCall(ProblemCreateVector(s->problem, &d->trial));
   PetscCall(VecDuplicateAll(d->trial, 5, (Vec *[]){&d->gradient, &d->dx, &d->lambda, &d->depth, &d->next}));
   PetscCall(ProblemCreateRightSide(s->problem, &d->lift));
@@ -91,7 +86,7 @@ static PetscErrorCode Measure_Private(Descent *d, Mat A)
   PetscFunctionBegin;
   if (d->measured) PetscFunctionReturn(PETSC_SUCCESS);
   d->measured = PETSC_TRUE;
-  PetscCall(ProblemGetBlocks(d->problem, &num_u, &num_z, &dim));
+  ProblemGetBlocks(d->problem, &num_u, &num_z, &dim);
   PetscCall(MatGetRowMaxAbs(A, d->diagonal, NULL));
   PetscCall(VecGetLocalSize(d->diagonal, &num));
   PetscCall(VecGetArray(d->diagonal, &array));
@@ -253,7 +248,7 @@ PetscErrorCode DescentLinearise_Private(Descent *d, Vec x, PetscBool *done, Pets
 
   PetscFunctionBegin;
   PetscCall(ProblemSearchOn(d->problem, x));
-  PetscCall(InterfaceKeepSearch(ProblemInterface(d->problem)));
+  InterfaceKeepSearch(ProblemInterface(d->problem));
   PetscCall(ProblemMerit(d->problem, PENALTY, d->lambda, x, d->gradient, &d->merit, &d->status));
   *ok = (PetscBool)!d->status.bad;
   if (!*ok) PetscFunctionReturn(PETSC_SUCCESS);

@@ -27,16 +27,16 @@ static PetscErrorCode Kind_Private(Solver s, PC pc)
 static PetscErrorCode UseSingle_Private(Solver s)
 {
   PetscBool type, package;
-  PetscInt  num_u, num_z, dim, dofs;
+  PetscInt  num_u, num_z, dim;
 
   PetscFunctionBegin;
   PetscCheckInput(s->factor != FACTOR_SINGLE || SingleFactorExists_Private(), "-solve_factor single: this build has no MUMPS in single precision");
   PetscCall(PetscOptionsHasName(NULL, NULL, "-pc_type", &type));
   PetscCall(PetscOptionsHasName(NULL, NULL, "-pc_factor_mat_solver_type", &package));
   PetscCheckInput(s->factor != FACTOR_SINGLE || !(type || package), "-solve_factor single and -pc_type or -pc_factor_mat_solver_type exclude each other");
-  PetscCall(ProblemGetBlocks(s->problem, &num_u, &num_z, &dim));
-  PetscCall(ProblemNumDofs(s->problem, &dofs));
-  s->single = (PetscBool)(s->factor == FACTOR_AUTO && dim == 3 && dofs >= SOLVER_LARGE && SingleFactorExists_Private() && !type && !package);
+  ProblemGetBlocks(s->problem, &num_u, &num_z, &dim);
+  const PetscInt dofs = ProblemNumDofs(s->problem);
+  s->single           = (PetscBool)(s->factor == FACTOR_AUTO && dim == 3 && dofs >= SOLVER_LARGE && SingleFactorExists_Private() && !type && !package);
   if (s->factor == FACTOR_SINGLE) s->single = PETSC_TRUE;
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -67,18 +67,16 @@ static PetscErrorCode End_Private(Solver s)
 }
 
 /* Not for bodies with an energy that nothing touches, glued or not: a load that carries them away, or past a limit point, is told by steps that fail. */
-static PetscErrorCode Applies_Private(Solver s, PetscBool *yes)
+static void Applies_Private(Solver s, PetscBool *yes)
 {
   const SceneData *scene;
   PetscBool        energy, touched = PETSC_FALSE;
 
-  PetscFunctionBegin;
-  PetscCall(ProblemGetScene(s->problem, &scene));
+  scene = ProblemGetScene(s->problem);
   for (PetscInt i = 0; i < scene->num_contacts; ++i) touched = (PetscBool)(touched || scene->contacts[i].law != CONTACT_TIED);
-  PetscCall(ProblemIsSymmetric(s->problem, &energy));
+  energy = ProblemIsSymmetric(s->problem);
   energy = (PetscBool)(energy && !MechanicsIsPlastic(&scene->mechanics));
   *yes   = (PetscBool)(touched || !energy);
-  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 static PetscErrorCode Shorten_Private(Solver s, const Iterate *it, Vec dx, PetscReal *step, PetscBool *acts)
@@ -88,7 +86,7 @@ static PetscErrorCode Shorten_Private(Solver s, const Iterate *it, Vec dx, Petsc
   PetscFunctionBegin;
   PetscCall(VecNorm(it->r, NORM_2, &norm));
   if (norm <= LITTLE * it->norm) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(Applies_Private(s, acts));
+  Applies_Private(s, acts);
   if (!*acts) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(End_Private(s));
   PetscCall(TooFar_Private(s, it, dx, *step, g, acts));

@@ -84,15 +84,14 @@ static PetscErrorCode PressuresFirst_Private(Solver s, Vec dx, PetscBool *settle
 /* The tangent at an iterate in the form chosen, and the linear step. */
 static PetscErrorCode Linearise_Private(Solver s, const Iterate *it, Vec dx)
 {
-  PetscBool bad, symmetric, settled;
+  PetscBool bad, settled;
 
   PetscFunctionBegin;
   ++s->report->iterations;
   PetscCall(VecZeroEntries(s->lift));
   PetscCall(ProblemSetForm(s->problem, &s->form));
   PetscCall(ProblemTangent(s->problem, it->x, s->pressure, s->lift, &bad));
-  PetscCall(ProblemGetSymmetric(s->problem, &symmetric));
-  if (s->symmetric && !symmetric) PetscCall(SolverUnsymmetric_Private(s));
+  if (s->symmetric && !ProblemGetSymmetric(s->problem)) PetscCall(SolverUnsymmetric_Private(s));
   s->no_solution = bad;
   if (bad) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(ProblemRightSide(s->problem, it->r, s->lift, s->rhs));
@@ -143,14 +142,12 @@ static PetscErrorCode Move_Private(Solver s, const Iterate *it, Vec dx)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode Finish_Private(Solver s, SNESConvergedReason reason, const char *words)
+static void Finish_Private(Solver s, SNESConvergedReason reason, const char *words)
 {
-  PetscFunctionBegin;
   s->snes->reason      = reason;
   s->report->converged = (PetscBool)(reason > 0);
   s->report->unstable  = s->negative > 0 ? 1 : s->negative;
   s->report->reason    = words;
-  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* Norm and active set of an iterate whose residual is there. */
@@ -171,18 +168,18 @@ static PetscErrorCode Judge_Private(Solver s, Iterate *it)
   PetscFunctionBegin;
   PetscCall(SolverConverged_Private(s, it, &reason));
   if (reason > 0)
-    PetscCall(Finish_Private(s, reason, ""));
+    Finish_Private(s, reason, "");
   else if (it->trouble)
-    PetscCall(Finish_Private(s, it->reason, SolverWords_Private(s, it->norm, it->trouble)));
+    Finish_Private(s, it->reason, SolverWords_Private(s, it->norm, it->trouble));
   else if (it->number == snes->max_its)
-    PetscCall(Finish_Private(s, SNES_DIVERGED_MAX_IT, SolverWords_Private(s, it->norm, "Newton did not converge within -snes_max_it iterations")));
+    Finish_Private(s, SNES_DIVERGED_MAX_IT, SolverWords_Private(s, it->norm, "Newton did not converge within -snes_max_it iterations"));
   else if (snes->max_funcs >= 0 && snes->nfuncs >= snes->max_funcs)
-    PetscCall(Finish_Private(s, SNES_DIVERGED_FUNCTION_COUNT, "Newton did not converge within -snes_max_funcs residuals"));
+    Finish_Private(s, SNES_DIVERGED_FUNCTION_COUNT, "Newton did not converge within -snes_max_funcs residuals");
   else if (PetscIsInfOrNanReal(it->norm))
-    PetscCall(Finish_Private(s, SNES_DIVERGED_FNORM_NAN, "the Newton residual is no number"));
+    Finish_Private(s, SNES_DIVERGED_FNORM_NAN, "the Newton residual is no number");
   else {
     PetscCall(StopAsked(PetscObjectComm((PetscObject)snes), &s->report->stopped));
-    if (s->report->stopped) PetscCall(Finish_Private(s, SNES_DIVERGED_MAX_IT, "the run was asked to stop"));
+    if (s->report->stopped) Finish_Private(s, SNES_DIVERGED_MAX_IT, "the run was asked to stop");
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -193,9 +190,9 @@ static PetscErrorCode Iterate_Private(Solver s, const Iterate *it, Vec dx)
   PetscCall(Direction_Private(s, it, dx));
   if (!s->no_solution) PetscCall(Move_Private(s, it, dx));
   if (s->no_solution)
-    PetscCall(Finish_Private(s, SNES_DIVERGED_LINEAR_SOLVE, s->no_memory ? "out of memory for a factor of the tangent" : "the tangent is singular"));
+    Finish_Private(s, SNES_DIVERGED_LINEAR_SOLVE, s->no_memory ? "out of memory for a factor of the tangent" : "the tangent is singular");
   else if (s->report->status.bad)
-    PetscCall(Finish_Private(s, SNES_DIVERGED_FUNCTION_DOMAIN, "every step along the Newton direction inverts a cell"));
+    Finish_Private(s, SNES_DIVERGED_FUNCTION_DOMAIN, "every step along the Newton direction inverts a cell");
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -214,7 +211,7 @@ static PetscErrorCode SNESSolve_ContactNewton(SNES snes)
   PetscCall(ModifiersBegin_Private(s));
   PetscCall(ProblemSearch(s->problem, it.x));
   PetscCall(SNESComputeFunction(snes, it.x, it.r));
-  if (s->report->status.bad) PetscCall(Finish_Private(s, SNES_DIVERGED_FUNCTION_DOMAIN, "the start of the step has an inverted cell"));
+  if (s->report->status.bad) Finish_Private(s, SNES_DIVERGED_FUNCTION_DOMAIN, "the start of the step has an inverted cell");
   while (snes->reason == SNES_CONVERGED_ITERATING) {
     snes->iter = it.number;
     PetscCall(SolverLook_Private(s, &it));

@@ -102,7 +102,7 @@ static PetscErrorCode Create_Private(Saddle s, Mat A)
   Vec      x;
 
   PetscFunctionBegin;
-  PetscCall(ProblemGetBlocks(s->problem, &num_u, &num_z, &dim));
+  ProblemGetBlocks(s->problem, &num_u, &num_z, &dim);
   PetscCall(MatGetOwnershipRange(A, &first, &last));
   PetscCall(ISCreateStride(PetscObjectComm((PetscObject)A), num_u, first, 1, &s->is_u));
   PetscCall(ISCreateStride(PetscObjectComm((PetscObject)A), num_z, first + num_u, 1, &s->is_z));

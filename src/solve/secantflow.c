@@ -16,14 +16,12 @@ static PetscErrorCode Begin_Private(Solver s)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode IsPlastic_Private(Solver s, PetscBool *yes)
+static void IsPlastic_Private(Solver s, PetscBool *yes)
 {
   const SceneData *scene;
 
-  PetscFunctionBegin;
-  PetscCall(ProblemGetScene(s->problem, &scene));
-  *yes = MechanicsIsPlastic(&scene->mechanics);
-  PetscFunctionReturn(PETSC_SUCCESS);
+  scene = ProblemGetScene(s->problem);
+  *yes  = MechanicsIsPlastic(&scene->mechanics);
 }
 
 static PetscErrorCode Linearise_Private(Solver s, const Iterate *it, const Form *last, PetscBool always, PetscBool *acts)
@@ -31,7 +29,7 @@ static PetscErrorCode Linearise_Private(Solver s, const Iterate *it, const Form 
   PetscBool plastic;
 
   PetscFunctionBegin;
-  PetscCall(IsPlastic_Private(s, &plastic));
+  IsPlastic_Private(s, &plastic);
   if (plastic && s->swap && it->number == 1) s->flow_start = it->norm;
   if (s->flow_start == 0) PetscFunctionReturn(PETSC_SUCCESS);
   s->form.secant = PetscSqr(PetscSqr(it->norm / s->flow_start));
@@ -47,7 +45,7 @@ static PetscErrorCode Shorten_Private(Solver s, const Iterate *it, Vec dx, Petsc
   PetscBool plastic;
 
   PetscFunctionBegin;
-  PetscCall(IsPlastic_Private(s, &plastic));
+  IsPlastic_Private(s, &plastic);
   if (!plastic || s->flow_start > 0 || *step == 1) PetscFunctionReturn(PETSC_SUCCESS);
   s->flow_start = it->norm;
   *step         = 0;

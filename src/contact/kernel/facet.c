@@ -37,11 +37,9 @@ PetscErrorCode ContactRayMortarTopology(RayWork w, const ContactSurface *mortar)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode ContactPairGetMortarParents(ContactPair pair, const PetscInt **parent)
+const PetscInt *ContactPairGetMortarParents(ContactPair pair)
 {
-  PetscFunctionBegin;
-  *parent = pair->ray->mortar_parent;
-  PetscFunctionReturn(PETSC_SUCCESS);
+  return pair->ray->mortar_parent;
 }
 
 PetscErrorCode ContactPairSetCarriers(ContactPair pair, const ContactSurface *nonmortar, const PetscBool carries[])
@@ -53,12 +51,10 @@ PetscErrorCode ContactPairSetCarriers(ContactPair pair, const ContactSurface *no
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode ContactPairSetSoftness(ContactPair pair, const PetscReal softness[])
+void ContactPairSetSoftness(ContactPair pair, const PetscReal softness[])
 {
-  PetscFunctionBegin;
   pair->softness     = softness;
   pair->state.stands = PETSC_FALSE;
-  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode ContactRayWorkDestroy(RayWork *work)
@@ -231,19 +227,15 @@ static PetscErrorCode Hessian_Private(const EvaluateContext *ctx, PetscInt facet
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode ContactPairSetClosed(ContactPair pair, const PetscReal closed[])
+void ContactPairSetClosed(ContactPair pair, const PetscReal closed[])
 {
-  PetscFunctionBegin;
   pair->closed       = closed;
   pair->state.stands = PETSC_FALSE;
-  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode ContactPairSetShared(ContactPair pair, const PetscBool shared[])
+void ContactPairSetShared(ContactPair pair, const PetscBool shared[])
 {
-  PetscFunctionBegin;
   pair->shared = shared;
-  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* Has the facet whose rows are at hand nodes that other pairs constrain, too, and does its compliance for that matter to the evaluation? */

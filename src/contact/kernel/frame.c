@@ -191,9 +191,7 @@ PetscErrorCode ContactPairGetTangents(ContactPair pair, PetscInt node, PetscReal
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode ContactPairSetAxes(ContactPair pair, const PetscReal axis[])
+void ContactPairSetAxes(ContactPair pair, const PetscReal axis[])
 {
-  PetscFunctionBegin;
   pair->axis = axis;
-  PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -56,12 +56,10 @@ PetscErrorCode ContactSlipDestroy(struct ContactSlip **slip)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode ContactPairSetTraction(ContactPair pair, const PetscReal traction[])
+void ContactPairSetTraction(ContactPair pair, const PetscReal traction[])
 {
-  PetscFunctionBegin;
   pair->traction     = traction;
   pair->state.stands = PETSC_FALSE;
-  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscBool ContactSlipLoads(const EvaluateContext *ctx)
