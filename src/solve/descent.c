@@ -125,26 +125,14 @@ static PetscErrorCode Factor_Private(Descent *d, Mat A, PetscInt *negative)
 
 PetscErrorCode DescentApply_Private(Descent *d, PetscBool *ok)
 {
-  KSPConvergedReason reason;
-  PetscReal          norm;
-  PetscErrorCode     code;
-  PetscBool          failed;
+  PetscBool failed;
 
   PetscFunctionBegin;
-  *ok = PETSC_FALSE;
-  PetscCall(StageBegin(STAGE_SOLVE));
-  PetscCall(ErrorForesee("MUMPS in solve"));
-  code = KSPSolve(d->ksp, d->rhs, d->y);
-  PetscCall(ErrorForeseen(code, &failed));
-  PetscCall(StageEnd(STAGE_SOLVE));
-  if (failed) { /* as in linear.c */
+  PetscCall(SolverFactorSolve_Private(d->ksp, d->rhs, d->y, &failed, ok));
+  if (failed) {
     PetscCall(KSPDestroy(&d->ksp));
     PetscCall(Factors_Private(d));
-    PetscFunctionReturn(PETSC_SUCCESS);
   }
-  PetscCall(KSPGetConvergedReason(d->ksp, &reason));
-  PetscCall(VecNorm(d->y, NORM_2, &norm));
-  *ok = (PetscBool)(reason >= 0 && !PetscIsInfOrNanReal(norm));
   if (*ok) PetscCall(ProblemMeritRecover(d->problem, d->y, d->dx));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -91,7 +91,7 @@ static PetscErrorCode Shorten_Private(Solver s, const Iterate *it, Vec dx, Petsc
   PetscCall(End_Private(s));
   PetscCall(TooFar_Private(s, it, dx, *step, g, acts));
   const PetscReal first = g[0];
-  s->shortened          = *acts;
+  s->course.shortened   = *acts;
   for (PetscInt trial = 0; trial < TRIALS && *acts; ++trial) {
     *step = SolverInside_Private(at, g);
     PetscCall(PetscInfo(s->snes, "step %g goes too far, work %g after %g: %g\n", (double)at[1], (double)g[1], (double)first, (double)*step));

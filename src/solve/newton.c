@@ -26,8 +26,7 @@ static uint64_t Circle_Private(const Solver s, PetscInt last)
   return 0;
 }
 
-/* again: the matrix has been factorised with other rows of this linearisation; settled: the last pass changed no state. */
-static PetscErrorCode Passes_Private(Solver s, PetscBool again, Vec dx, PetscBool *settled)
+PetscErrorCode SolverActiveSetSolve_Private(Solver s, PetscBool again, Vec dx, PetscBool *settled)
 {
   PetscInt changed = 1;
 
@@ -53,15 +52,6 @@ static PetscErrorCode Passes_Private(Solver s, PetscBool again, Vec dx, PetscBoo
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SolverActiveSetSolve_Private(Solver s, Vec dx)
-{
-  PetscBool settled;
-
-  PetscFunctionBegin;
-  PetscCall(Passes_Private(s, PETSC_FALSE, dx, &settled));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 /* What friction bears is a share of pressures. At first touch there are none: where states go by those of the nodes that happen to be first, they never settle
    on slender bodies. So the nodes that press are found as without friction, and then who sticks and who slips. What nothing but friction holds may not settle
    so: then both at once. */
@@ -70,13 +60,13 @@ static PetscErrorCode PressuresFirst_Private(Solver s, Vec dx, PetscBool *settle
   PetscInt changed;
 
   PetscFunctionBegin;
-  PetscCall(Passes_Private(s, PETSC_FALSE, dx, settled));
+  PetscCall(SolverActiveSetSolve_Private(s, PETSC_FALSE, dx, settled));
   s->form.pressures_first = PETSC_FALSE;
   if (!*settled || s->no_solution) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(ProblemSetForm(s->problem, &s->form));
   PetscCall(ProblemSwitchActiveSet(s->problem, dx, s->rhs, &changed));
   s->report->set_changes += changed;
-  if (changed) PetscCall(Passes_Private(s, PETSC_TRUE, dx, settled));
+  if (changed) PetscCall(SolverActiveSetSolve_Private(s, PETSC_TRUE, dx, settled));
   *settled = PETSC_TRUE;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -96,7 +86,7 @@ static PetscErrorCode Linearise_Private(Solver s, const Iterate *it, Vec dx)
   if (bad) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(ProblemRightSide(s->problem, it->r, s->lift, s->rhs));
   if (!s->form.pressures_first) {
-    PetscCall(SolverActiveSetSolve_Private(s, dx));
+    PetscCall(SolverActiveSetSolve_Private(s, PETSC_FALSE, dx, &settled));
     PetscFunctionReturn(PETSC_SUCCESS);
   }
   PetscCall(PressuresFirst_Private(s, dx, &settled));
@@ -132,7 +122,7 @@ static PetscErrorCode Move_Private(Solver s, const Iterate *it, Vec dx)
     PetscCall(ProblemStepMove(s->problem, dx, step, PETSC_FALSE, it->x));
     PetscCall(SNESComputeFunction(s->snes, it->x, it->r));
     if (!s->report->status.bad) break;
-    ++s->halvings;
+    ++s->course.halvings;
     PetscCall(PetscInfo(s->snes, "step %g leaves the domain\n", (double)step));
   }
   if (!s->report->status.bad) PetscCall(ModifiersMoved_Private(s, it, dx, step));
@@ -204,11 +194,9 @@ static PetscErrorCode SNESSolve_ContactNewton(SNES snes)
   PetscFunctionBegin;
   PetscCall(SNESGetApplicationContext(snes, &s));
   snes->reason   = SNES_CONVERGED_ITERATING;
-  s->halvings    = 0;
+  s->course      = (Course){.best_norm = PETSC_MAX_REAL};
   s->negative    = -1;
-  s->first_norm  = 0;
   s->no_solution = PETSC_FALSE;
-  PetscCall(ModifiersBegin_Private(s));
   PetscCall(ProblemSearch(s->problem, it.x));
   PetscCall(SNESComputeFunction(snes, it.x, it.r));
   if (s->report->status.bad) Finish_Private(s, SNES_DIVERGED_FUNCTION_DOMAIN, "the start of the step has an inverted cell");
@@ -216,7 +204,7 @@ static PetscErrorCode SNESSolve_ContactNewton(SNES snes)
     snes->iter = it.number;
     PetscCall(SolverLook_Private(s, &it));
     PetscCall(ModifiersVerdict_Private(s, &it));
-    if (it.number == 1) s->first_norm = it.norm; /* the first iterate carries the whole prescribed motion */
+    if (it.number == 1) s->course.first_norm = it.norm; /* the first iterate carries the whole prescribed motion */
     snes->norm          = it.norm;
     s->report->residual = it.norm;
     s->report->scale    = s->report->status.scale;
