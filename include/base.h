@@ -114,6 +114,8 @@ typedef struct {
 } RowBuffer;
 PetscErrorCode RowBufferGrow(RowBuffer *, PetscInt num); /* what it holds is lost where it grows */
 PetscErrorCode RowBufferDestroy(RowBuffer *);
+/* PetscFree of each of `num` arrays, given by the addresses of the pointers to them. */
+PetscErrorCode FreeAll(PetscInt num, void *const pointer[]);
 
 /* ---- messages between few of many ranks (base/sparse.c) ---------------------------------------------------------- */
 

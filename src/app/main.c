@@ -95,9 +95,7 @@ static PetscErrorCode Close_Private(App *app)
   OutputUnlock();
   PetscCall(NeedsDestroy(&app->needs));
   PetscCall(PetscFree3(app->subdivided, app->touched, app->friction));
-  PetscCall(PetscFree(app->first_level));
-  PetscCall(PetscFree(app->adrift));
-  PetscCall(PetscFree(app->missed));
+  PetscCall(FreeAll(3, (void *[]){&app->first_level, &app->adrift, &app->missed}));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

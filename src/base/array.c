@@ -32,3 +32,10 @@ PetscErrorCode RowBufferDestroy(RowBuffer *b)
   b->size = 0;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
+
+PetscErrorCode FreeAll(PetscInt num, void *const pointer[])
+{
+  PetscFunctionBegin;
+  for (PetscInt i = 0; i < num; i++) PetscCall(PetscFree(*(void **)pointer[i]));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

@@ -22,30 +22,14 @@ PetscErrorCode ContactPairCreate(PetscInt dim, PetscBool axisymmetric, const Con
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode FoundDestroy_Private(Found *f)
-{
-  PetscFunctionBegin;
-  PetscCall(PetscFree(f->start));
-  PetscCall(PetscFree(f->found));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 PetscErrorCode ContactPairDestroy(ContactPair *pair)
 {
   ContactPair p = *pair;
 
   PetscFunctionBegin;
   if (!p) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(PetscFree(p->listed));
-  PetscCall(PetscFree(p->start));
-  PetscCall(PetscFree(p->candidate));
-  PetscCall(FoundDestroy_Private(&p->base));
-  PetscCall(FoundDestroy_Private(&p->last));
-  PetscCall(PetscFree(p->normal));
-  PetscCall(PetscFree(p->output));
-  PetscCall(PetscFree(p->ids));
-  PetscCall(PetscFree(p->result));
-  PetscCall(PetscFree(p->slot));
+  PetscCall(FreeAll(12, (void *[]){&p->listed, &p->start, &p->candidate, &p->base.start, &p->base.found, &p->last.start, &p->last.found, &p->normal, &p->output,
+                                   &p->ids, &p->result, &p->slot}));
   PetscCall(ContactStateDestroy(p));
   PetscCall(ContactSlipDestroy(&p->slip));
   PetscCall(ContactRayWorkDestroy(&p->ray));

@@ -35,10 +35,7 @@ PetscErrorCode ContactResultDestroy(Result *r)
 {
   PetscFunctionBegin;
   PetscCall(StoreDestroy_Private(&r->store));
-  PetscCall(PetscFree(r->node));
-  PetscCall(PetscFree(r->row_first));
-  PetscCall(PetscFree(r->row_node));
-  PetscCall(PetscFree(r->row_weight));
+  PetscCall(FreeAll(4, (void *[]){&r->node, &r->row_first, &r->row_node, &r->row_weight}));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

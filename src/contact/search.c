@@ -55,9 +55,7 @@ static PetscErrorCode MortarTree_Private(const ContactSurface *mortar, PetscInt 
 static PetscErrorCode ListFacets_Private(ContactPair pair, const ContactSurface *nonmortar, PetscInt num, const PetscInt facets[])
 {
   PetscFunctionBegin;
-  PetscCall(PetscFree(pair->listed));
-  PetscCall(PetscFree(pair->start));
-  PetscCall(PetscFree(pair->result));
+  PetscCall(FreeAll(3, (void *[]){&pair->listed, &pair->start, &pair->result}));
   PetscCall(PetscMalloc1(num, &pair->listed));
   PetscCall(PetscMalloc1(num + 1, &pair->start));
   PetscCall(PetscMalloc1(num, &pair->result));

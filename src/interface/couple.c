@@ -96,23 +96,16 @@ PetscErrorCode ContactNodeSums_Private(Interface p, Contact *c)
 /* Gaps, weights and what compliances add from the ranks of the nodes to those that use them. */
 static PetscErrorCode ShareGaps_Private(Interface p, Contact *c)
 {
-  const Surface *s = &c->side[0];
+  const Surface   *s        = &c->side[0];
+  PetscReal *const value[4] = {c->gap, c->weight, c->spring, c->coupled};
 
   PetscFunctionBegin;
   if (p->size == 1) PetscFunctionReturn(PETSC_SUCCESS);
-  for (PetscInt i = 0; i < s->num_own; ++i) {
-    c->pack[4 * s->own[i]]     = c->gap[s->own[i]];
-    c->pack[4 * s->own[i] + 1] = c->weight[s->own[i]];
-    c->pack[4 * s->own[i] + 2] = c->spring[s->own[i]];
-    c->pack[4 * s->own[i] + 3] = c->coupled[s->own[i]];
-  }
+  for (PetscInt i = 0; i < s->num_own; ++i)
+    for (PetscInt k = 0; k < 4; ++k) c->pack[4 * s->own[i] + k] = value[k][s->own[i]];
   PetscCall(LinkSpread_Private(p, &s->values, 4, c->pack));
-  for (PetscInt i = 0; i < s->values.num; ++i) {
-    c->gap[s->values.nodes[i]]     = c->pack[4 * s->values.nodes[i]];
-    c->weight[s->values.nodes[i]]  = c->pack[4 * s->values.nodes[i] + 1];
-    c->spring[s->values.nodes[i]]  = c->pack[4 * s->values.nodes[i] + 2];
-    c->coupled[s->values.nodes[i]] = c->pack[4 * s->values.nodes[i] + 3];
-  }
+  for (PetscInt i = 0; i < s->values.num; ++i)
+    for (PetscInt k = 0; k < 4; ++k) value[k][s->values.nodes[i]] = c->pack[4 * s->values.nodes[i] + k];
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -182,9 +175,7 @@ PetscErrorCode ContactDestroy_Private(Contact *c)
   PetscFunctionBegin;
   PetscCall(TieDestroy_Private(c));
   PetscCall(SlipDestroy_Private(c));
-  PetscCall(PetscFree(c->frozen));
-  PetscCall(PetscFree(c->shared));
-  PetscCall(PetscFree(c->mean0));
+  PetscCall(FreeAll(3, (void *[]){&c->frozen, &c->shared, &c->mean0}));
   PetscCall(ContactPairDestroy(&c->pair));
   for (PetscInt k = 0; k < 2; ++k) PetscCall(PetscFree(c->part[k]));
   PetscCall(SurfaceDestroy_Private(&c->side[0]));

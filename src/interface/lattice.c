@@ -171,9 +171,7 @@ PetscErrorCode SurfaceLattice_Private(HPSpace space, const ForestTables *t, Surf
   for (PetscInt f = 0; f < s->num_facets; ++f) PetscCall(FacetLattice_Private(&l, f));
   PetscCall(Rows_Private(&l));
   PetscCall(PetscHMapIDestroy(&l.number));
-  PetscCall(PetscFree(l.place));
-  PetscCall(PetscFree(l.master));
-  PetscCall(PetscFree(l.weight));
+  PetscCall(FreeAll(3, (void *[]){&l.place, &l.master, &l.weight}));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -211,19 +211,9 @@ PetscErrorCode SurfaceDestroy_Private(Surface *s)
 {
   PetscFunctionBegin;
   PetscCall(PetscFree3(s->facets, s->facet_leaf, s->facet_entity));
-  PetscCall(PetscFree(s->node_entity));
-  PetscCall(PetscFree(s->node_index));
-  PetscCall(PetscFree(s->order));
-  PetscCall(PetscFree(s->first));
-  PetscCall(PetscFree(s->lattice));
-  PetscCall(PetscFree(s->hang));
+  PetscCall(FreeAll(6, (void *[]){&s->node_entity, &s->node_index, &s->order, &s->first, &s->lattice, &s->hang}));
   PetscCall(PetscFree2(s->hang_master, s->hang_weight));
-  PetscCall(PetscFree(s->true_first));
-  PetscCall(PetscFree(s->true_node));
-  PetscCall(PetscFree(s->node_first));
-  PetscCall(PetscFree(s->node_facet));
-  PetscCall(PetscFree(s->rim));
-  PetscCall(PetscFree(s->met));
+  PetscCall(FreeAll(6, (void *[]){&s->true_first, &s->true_node, &s->node_first, &s->node_facet, &s->rim, &s->met}));
   PetscCall(PetscFree3(s->local, s->owned, s->dof));
   PetscCall(PetscFree4(s->X, s->x, s->mirror, s->frame));
   PetscCall(PetscFree2(s->du, s->force));

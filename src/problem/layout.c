@@ -123,9 +123,7 @@ static PetscErrorCode BulkPattern_Private(Problem p, PetscInt diagonal[], PetscI
     }
   }
   PetscCall(PetscFree3(stamp, work, columns));
-  PetscCall(PetscFree(zeros));
-  PetscCall(PetscFree(offset));
-  PetscCall(PetscFree(cells));
+  PetscCall(FreeAll(3, (void *[]){&zeros, &offset, &cells}));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

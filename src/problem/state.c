@@ -107,9 +107,6 @@ PetscErrorCode StateDestroy(State *s)
 {
   PetscFunctionBegin;
   PetscCall(VecDestroy(&s->x));
-  PetscCall(PetscFree(s->pressure));
-  PetscCall(PetscFree(s->history));
-  PetscCall(PetscFree(s->before));
-  PetscCall(PetscFree(s->leaf_order));
+  PetscCall(FreeAll(4, (void *[]){&s->pressure, &s->history, &s->before, &s->leaf_order}));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -65,25 +65,10 @@ PetscErrorCode ContactRayWorkDestroy(RayWork *work)
   if (!w) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(ContactResultDestroy(&w->result));
   PetscCall(ContactFramesDestroy(w));
-  PetscCall(PetscFree(w->along));
   PetscCall(PetscFree7(w->ring_first, w->ring, w->sheet, w->end, w->parent, w->d, w->kept));
   PetscCall(PetscFree2(w->mortar_parent, w->mortar_middle));
-  PetscCall(PetscFree(w->ball));
-  PetscCall(PetscFree(w->image));
-  PetscCall(PetscFree(w->overlap));
-  PetscCall(PetscFree(w->mortar));
-  PetscCall(PetscFree(w->vertex));
-  PetscCall(PetscFree(w->place));
-  PetscCall(PetscFree(w->first_place));
-  PetscCall(PetscFree(w->dq));
-  PetscCall(PetscFree(w->W));
-  PetscCall(PetscFree(w->J));
-  PetscCall(PetscFree(w->R));
-  PetscCall(PetscFree(w->WJ));
-  PetscCall(PetscFree(w->part));
-  PetscCall(PetscFree(w->buffer));
-  PetscCall(PetscFree(w->T));
-  PetscCall(PetscFree(w->rows));
+  PetscCall(FreeAll(17, (void *[]){&w->along, &w->ball, &w->image, &w->overlap, &w->mortar, &w->vertex, &w->place, &w->first_place, &w->dq, &w->W, &w->J, &w->R,
+                                   &w->WJ, &w->part, &w->buffer, &w->T, &w->rows}));
   PetscCall(PetscFree(*work));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

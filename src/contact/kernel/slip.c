@@ -42,16 +42,7 @@ PetscErrorCode ContactSlipDestroy(struct ContactSlip **slip)
   PetscFunctionBegin;
   if (!s) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(ContactResultDestroy(&s->result));
-  PetscCall(PetscFree(s->kept));
-  PetscCall(PetscFree(s->met));
-  PetscCall(PetscFree(s->row));
-  PetscCall(PetscFree(s->weight));
-  PetscCall(PetscFree(s->start));
-  PetscCall(PetscFree(s->point));
-  PetscCall(PetscFree(s->A));
-  PetscCall(PetscFree(s->C));
-  PetscCall(PetscFree(s->facet));
-  PetscCall(PetscFree(s->ids));
+  PetscCall(FreeAll(10, (void *[]){&s->kept, &s->met, &s->row, &s->weight, &s->start, &s->point, &s->A, &s->C, &s->facet, &s->ids}));
   PetscCall(PetscFree(*slip));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
