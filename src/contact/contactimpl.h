@@ -142,7 +142,6 @@ typedef struct {
 PetscBool      ContactStateStands(ContactPair, const ContactSurface *nonmortar, const ContactSurface *mortar);
 PetscBool      ContactStateLoads(ContactPair, const PetscReal z[]);
 PetscErrorCode ContactStateKeep(ContactPair, const ContactSurface *nonmortar, const ContactSurface *mortar, const PetscReal z[]);
-PetscErrorCode ContactStateDestroy(ContactPair);
 
 /* kernel/slip.c */
 PetscErrorCode ContactSlipDestroy(struct ContactSlip **);

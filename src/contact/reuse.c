@@ -40,11 +40,3 @@ PetscErrorCode ContactStateKeep(ContactPair pair, const ContactSurface *nonmorta
   if (z) PetscCall(Copy_Private(pair->num_nodes, z, &s->size_z, &s->z));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
-
-PetscErrorCode ContactStateDestroy(ContactPair pair)
-{
-  PetscFunctionBegin;
-  for (int k = 0; k < 2; k++) PetscCall(PetscFree(pair->state.x[k]));
-  PetscCall(PetscFree(pair->state.z));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}

@@ -175,25 +175,20 @@ PetscErrorCode ContactDestroy_Private(Contact *c)
   PetscFunctionBegin;
   PetscCall(TieDestroy_Private(c));
   PetscCall(SlipDestroy_Private(c));
-  PetscCall(FreeAll(3, (void *[]){&c->frozen, &c->shared, &c->mean0}));
+  PetscCall(FreeAll(13, (void *[]){&c->frozen, &c->shared, &c->mean0, &c->all_real[0], &c->all_real[1], &c->all_active, &c->part[0], &c->part[1], &c->link[0],
+                                   &c->link[1], &c->pattern_offset, &c->pattern, &c->result}));
   PetscCall(ContactPairDestroy(&c->pair));
-  for (PetscInt k = 0; k < 2; ++k) PetscCall(PetscFree(c->part[k]));
   PetscCall(SurfaceDestroy_Private(&c->side[0]));
   PetscCall(SurfaceDestroy_Private(&c->side[1]));
   PetscCall(PetscFree6(c->z, c->gap, c->weight, c->w0, c->extent, c->c));
   PetscCall(PetscFree4(c->spring, c->coupled, c->softness, c->before));
   PetscCall(PetscFree5(c->active, c->has_multiplier, c->lift, c->change, c->near));
-  PetscCall(PetscFree(c->result));
   PetscCall(PetscFree4(c->zdof, c->zlocal, c->gap0, c->offset));
   PetscCall(PetscFree3(c->reach, c->initial, c->initial_gap));
   PetscCall(PetscFree2(c->closed, c->corner_gap));
-  for (PetscInt k = 0; k < 2; ++k) PetscCall(PetscFree(c->link[k]));
   PetscCall(PetscFree4(c->live, c->valued, c->valued_node, c->pack));
-  PetscCall(ContactGatherDestroy_Private(c));
   PetscCall(PetscFree2(c->listed, c->mine));
   for (PetscInt k = 0; k < 2; ++k) PetscCall(PetscFree2(c->inward[k], c->moved[k]));
-  PetscCall(PetscFree(c->pattern_offset));
-  PetscCall(PetscFree(c->pattern));
   if (!c->spec->part) PetscCall(PetscFree(c->precedence)); /* else borrowed from the first part */
   PetscFunctionReturn(PETSC_SUCCESS);
 }

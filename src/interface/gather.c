@@ -3,14 +3,6 @@
 
 #define SIDE_REALS(dim, num) (3 * (dim) + 6 + (num)) /* of a node: position, normal, force, gap, weight, multipliers, slip, tangential traction */
 
-PetscErrorCode ContactGatherDestroy_Private(Contact *c)
-{
-  PetscFunctionBegin;
-  for (PetscInt k = 0; k < 2; ++k) PetscCall(PetscFree(c->all_real[k]));
-  PetscCall(PetscFree(c->all_active));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 /* Space: the tangential traction on the mortar side at a node whose value is known here; of a node that hangs that between its masters. */
 static PetscErrorCode Traction_Private(const Contact *c, PetscInt j, PetscReal traction[3])
 {

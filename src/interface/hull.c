@@ -35,14 +35,6 @@ PetscErrorCode HullCreate_Private(Interface p)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode HullDestroy_Private(Interface p)
-{
-  PetscFunctionBegin;
-  PetscCall(ContactHullDestroy(&p->hull));
-  PetscCall(PetscFree(p->part));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 PetscErrorCode HullParts_Private(Interface p, const Surface *s, PetscInt **part)
 {
   const ForestTables *t = p->tables;

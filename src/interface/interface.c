@@ -43,9 +43,10 @@ PetscErrorCode InterfaceDestroy(Interface *interface)
   for (PetscMPIInt k = 1; k <= MOST_REALS; ++k) PetscCallMPI(MPI_Type_free(&p->unit[k]));
   for (PetscInt i = 0; i < p->num_contacts; ++i) PetscCall(ContactDestroy_Private(&p->contacts[i]));
   PetscCall(PetscFree(p->contacts));
-  PetscCall(HullDestroy_Private(p));
+  PetscCall(ContactHullDestroy(&p->hull));
   PetscCall(RowBufferDestroy(&p->work));
   PetscCall(PetscFree(p->hessian));
+  PetscCall(PetscFree(p->part));
   PetscCall(PetscFree(*interface));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -287,14 +287,11 @@ PetscErrorCode ContactSearch_Private(Interface, Contact *, PetscBool reference, 
 PetscErrorCode ContactRoles_Private(Interface, PetscInt num, Contact part[], Vec x, const PetscReal u[]);
 /* couple.c: multipliers from the vector to the ranks that use them. Collective. */
 PetscErrorCode ContactGatherMultipliers_Private(Interface, Contact *, Vec x);
-/* gather.c */
-PetscErrorCode ContactGatherDestroy_Private(Contact *);
 
 /* Reference positions X[2 or 4][dim] of a facet's corners, in the order of Surface.facets. Not collective. */
 PetscErrorCode SurfaceCorners_Private(Forest, PetscInt facet, PetscInt leaf, PetscReal X[]);
 /* hull.c: p->hull and p->part; parts of a surface's facets, freed by the caller. Not collective. */
 PetscErrorCode HullCreate_Private(Interface);
-PetscErrorCode HullDestroy_Private(Interface);
 PetscErrorCode HullParts_Private(Interface, const Surface *, PetscInt **part);
 /* The deepest overlap of a pair that can be told from a far side: half of what both bodies measure; 0 where the scene limits the search. Not collective. */
 void HullDepth_Private(Interface, const Contact *, PetscReal *deepest);

@@ -116,13 +116,6 @@ PetscErrorCode ProblemSetPressures(Problem p, const PetscReal pressure[], Vec x)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode PressureRows_Private(Problem p, PetscReal r[])
-{
-  PetscFunctionBegin;
-  PetscCall(MechanicsVolumeRows(p->mechanics, r + p->pi_first));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 PetscErrorCode PressureColumns_Private(Problem p, PetscInt cell, PetscInt columns[], PetscInt *num)
 {
   PetscInt first, n;

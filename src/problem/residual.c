@@ -89,7 +89,7 @@ PetscErrorCode ProblemResidual(Problem p, Vec x, const PetscReal pressure[], Vec
   PetscCall(VecGetArray(r, &array));
   PetscCall(ProblemToGlobal_Private(p, array));
   InterfaceRows(p->interface, array);
-  PetscCall(PressureRows_Private(p, array));
+  PetscCall(MechanicsVolumeRows(p->mechanics, array + p->pi_first));
   PetscCall(ScalarsResidual_Private(p, x, array));
   PetscCall(VecRestoreArray(r, &array));
   PetscFunctionReturn(PETSC_SUCCESS);

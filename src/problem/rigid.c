@@ -160,11 +160,6 @@ PetscErrorCode RigidSetTime_Private(Problem p)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-void RigidResidual_Private(Problem p, PetscReal r[])
-{
-  for (PetscInt k = 0; k < p->num_rigid; ++k) r[k] = p->rigid[k].force - p->rigid[k].load;
-}
-
 PetscReal RigidWork_Private(Problem p, const PetscReal r[], const PetscReal dq[])
 {
   PetscReal work = 0;

@@ -134,7 +134,7 @@ PetscErrorCode ScalarsResidual_Private(Problem p, Vec x, PetscReal r[])
     PetscCall(MechanicsValue(b->volume ? b->volume : b->advance, &b->amplitude, origin, p->t, &target));
     r[Local_Private(p, k)] = p->factor[k] * (p->measure[k] - target * p->norm[k]);
   }
-  if (RigidLocal_Private(p) >= 0) RigidResidual_Private(p, r + RigidLocal_Private(p));
+  for (PetscInt k = 0; k < p->num_rigid && RigidLocal_Private(p) >= 0; ++k) r[RigidLocal_Private(p) + k] = p->rigid[k].force - p->rigid[k].load;
   if (HasPath_Private(p)) {
     PetscCall(PathResidual_Private(p, x, &target));
     if (Local_Private(p, num) >= 0) r[Local_Private(p, num)] = target;

@@ -64,7 +64,7 @@ PetscErrorCode ContactRayWorkDestroy(RayWork *work)
   PetscFunctionBegin;
   if (!w) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(ContactResultDestroy(&w->result));
-  PetscCall(ContactFramesDestroy(w));
+  PetscCall(PetscFree3(w->home, w->home_xi, w->frame));
   PetscCall(PetscFree7(w->ring_first, w->ring, w->sheet, w->end, w->parent, w->d, w->kept));
   PetscCall(PetscFree2(w->mortar_parent, w->mortar_middle));
   PetscCall(FreeAll(17, (void *[]){&w->along, &w->ball, &w->image, &w->overlap, &w->mortar, &w->vertex, &w->place, &w->first_place, &w->dq, &w->W, &w->J, &w->R,
