@@ -130,10 +130,7 @@ static PetscErrorCode Number_Private(Numbers *n, const char *prefix, PetscInt in
     PetscFunctionReturn(PETSC_SUCCESS);
   }
   one.value = real ? *real : (PetscReal)*integer;
-  if (n->num == n->room) {
-    n->room = 2 * n->room + 64;
-    PetscCall(PetscRealloc((size_t)n->room * sizeof(one), &n->number));
-  }
+  PetscCall(ArrayGrow(n->num + 1, sizeof(one), &n->room, &n->number));
   n->number[n->num++] = one;
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -90,9 +90,6 @@ static inline PetscBool ContactHas(const ContactSurface *s, PetscInt node)
   return (PetscBool)(!s->has || s->has[node]);
 }
 
-/* Make room for num entries of *array, *size are there; contents are kept. */
-PetscErrorCode ContactGrow(PetscInt num, size_t entry, PetscInt *size, void *array);
-
 /* search.c */
 PetscErrorCode ContactTreeBuild(PetscInt num, PetscReal (*box)[6], Tree *);
 PetscErrorCode ContactTreeDestroy(Tree *);

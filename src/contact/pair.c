@@ -1,15 +1,6 @@
 /* The contact pair: life cycle, what callers ask of it, evaluations. */
 #include "kernelimpl.h"
 
-PetscErrorCode ContactGrow(PetscInt num, size_t entry, PetscInt *size, void *array)
-{
-  PetscFunctionBegin;
-  if (num <= *size) PetscFunctionReturn(PETSC_SUCCESS);
-  *size = num + num / 2 + 16;
-  PetscCall(PetscRealloc((size_t)*size * entry, array));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 PetscErrorCode ContactPairCreate(PetscInt dim, PetscBool axisymmetric, const ContactSpec *spec, ContactPair *pair)
 {
   PetscFunctionBegin;

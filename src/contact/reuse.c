@@ -5,7 +5,7 @@
 static PetscErrorCode Copy_Private(PetscInt num, const PetscReal from[], PetscInt *size, PetscReal **to)
 {
   PetscFunctionBegin;
-  PetscCall(ContactGrow(num, sizeof(PetscReal), size, to));
+  PetscCall(ArrayGrow(num, sizeof(PetscReal), size, to));
   PetscCall(PetscArraycpy(*to, from, num));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -177,7 +177,7 @@ static PetscErrorCode Candidates_Private(ContactPair pair, const ContactSurface 
     for (PetscInt k = 0; k < num; k++)
       if (Meets_Private(pair, nonmortar, i, &region, &corners, mortar, found[k], &grazed[met])) found[met++] = found[k];
     met = Ungrazed_Private(mortar, met, found, grazed);
-    PetscCall(ContactGrow(total + met, sizeof(PetscInt), &pair->size_candidate, &pair->candidate));
+    PetscCall(ArrayGrow(total + met, sizeof(PetscInt), &pair->size_candidate, &pair->candidate));
     PetscCall(PetscArraycpy(pair->candidate + total, found, met));
     total += met;
   }
@@ -191,8 +191,8 @@ static PetscErrorCode Remember_Private(ContactPair pair)
   Found         *f = &pair->last;
 
   PetscFunctionBegin;
-  PetscCall(ContactGrow(num + 1, sizeof(PetscInt), &f->size_start, &f->start));
-  PetscCall(ContactGrow(total, sizeof(PetscInt), &f->size_found, &f->found));
+  PetscCall(ArrayGrow(num + 1, sizeof(PetscInt), &f->size_start, &f->start));
+  PetscCall(ArrayGrow(total, sizeof(PetscInt), &f->size_found, &f->found));
   PetscCall(PetscArraycpy(f->start, pair->start, num + 1));
   PetscCall(PetscArraycpy(f->found, pair->candidate, total));
   f->num         = num;
@@ -265,7 +265,7 @@ PetscErrorCode ContactPairSetCandidates(ContactPair pair, const ContactSurface *
 {
   PetscFunctionBegin;
   PetscCall(ListFacets_Private(pair, nonmortar, num, facets));
-  PetscCall(ContactGrow(start[num], sizeof(PetscInt), &pair->size_candidate, &pair->candidate));
+  PetscCall(ArrayGrow(start[num], sizeof(PetscInt), &pair->size_candidate, &pair->candidate));
   PetscCall(PetscArraycpy(pair->start, start, num + 1));
   PetscCall(PetscArraycpy(pair->candidate, candidate, start[num]));
   PetscFunctionReturn(PETSC_SUCCESS);

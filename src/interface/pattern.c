@@ -62,10 +62,7 @@ static PetscErrorCode Append_Private(PetscInt **list, PetscInt *num, PetscInt *s
 {
   PetscFunctionBegin;
   if (Has_Private(*list + from, *num - from, value)) PetscFunctionReturn(PETSC_SUCCESS);
-  if (*num == *size) {
-    *size = PetscMax(64, 2 * *size);
-    PetscCall(PetscRealloc(*size * sizeof(PetscInt), list));
-  }
+  PetscCall(ArrayGrow(*num + 1, sizeof(PetscInt), size, list));
   (*list)[(*num)++] = value;
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -124,10 +124,7 @@ static PetscErrorCode Look_Private(Interface p, Contact *c, Facing *to, PetscBoo
 static PetscErrorCode Add_Private(Bond **tie, PetscInt *num, PetscInt *room, PetscReal length, PetscInt a, PetscInt b, PetscBool differ)
 {
   PetscFunctionBegin;
-  if (*num == *room) {
-    *room = 2 * *room + 64;
-    PetscCall(PetscRealloc((size_t)*room * sizeof(Bond), tie));
-  }
+  PetscCall(ArrayGrow(*num + 1, sizeof(Bond), room, tie));
   (*tie)[(*num)++] = (Bond){length, a, b, differ};
   PetscFunctionReturn(PETSC_SUCCESS);
 }

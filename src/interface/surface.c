@@ -100,10 +100,7 @@ static PetscErrorCode AddNodes_Private(const Surface *s, PetscInt facet, PetscIn
 
   PetscFunctionBegin;
   for (PetscInt k = 0; k < total; ++k) room += PetscMax(1, s->hang[own[k] + 1] - s->hang[own[k]]);
-  if (room > *size) {
-    *size = 2 * room;
-    PetscCall(PetscRealloc((size_t)*size * sizeof(PetscInt), nodes));
-  }
+  PetscCall(ArrayGrow(room, sizeof(PetscInt), size, nodes));
   for (PetscInt k = 0; k < total; ++k) {
     const PetscReal *weight;
     const PetscInt  *master, num = SurfaceRow_Private(s, &own[k], &master, &weight);
@@ -131,10 +128,7 @@ static PetscErrorCode SurfaceTrue_Private(Surface *s)
     PetscCall(AddNodes_Private(s, f, &count, &size, &nodes));
     for (PetscInt g = next[f]; g != f; g = next[g]) PetscCall(AddNodes_Private(s, g, &count, &size, &nodes));
     PetscCall(PetscSortRemoveDupsInt(&count, nodes));
-    if (num + count > room) {
-      room = 2 * (num + count);
-      PetscCall(PetscRealloc((size_t)room * sizeof(PetscInt), &s->true_node));
-    }
+    PetscCall(ArrayGrow(num + count, sizeof(PetscInt), &room, &s->true_node));
     PetscCall(PetscArraycpy(s->true_node + num, nodes, count));
     s->true_first[f + 1] = num += count;
   }
